@@ -1,0 +1,52 @@
+/* alias.h: draw an index with a given probability in constant time.                       [Walker 1977, Vose 1991]
+ *
+ * The mass of n weights is cut into n bins of equal mass 1/n. Each bin holds at most two elements: its own
+ * index, with probability `threshold`, and one other index, `alias`, with the rest. A uniform number picks the
+ * bin, another (what is left of the first) picks the element. The dissertation's bins of two light sub-paths
+ * are named after this table.
+ *
+ * Used by: light choice, environment maps, light sub-path selection (pool, vertices).
+ * Tests: test_alias.c (exact mass to 1e-12, chi-square, degenerate weights).
+ */
+#ifndef ASBDPT_ALIAS_H
+#define ASBDPT_ALIAS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+struct alias_bin {
+    double threshold; /* probability, within the bin, of the bin's own index; [0,1] */
+    double pmf;       /* probability of the bin's own index over the whole table; [0,1] */
+    uint32_t alias;   /* the other element */
+};
+
+struct alias_table {
+    struct alias_bin *bin; /* [n], owned */
+    uint32_t *work;        /* [n], scratch of alias_build, owned */
+    size_t capacity;       /* bins there is room for */
+    int n;                 /* elements; 0 for a table never built or of zero mass */
+    double total;          /* sum of the weights */
+};
+
+/* alias_build: make the table of n >= 0 weights, each finite and >= 0. O(n), reuses the table's memory.
+ *   t  zero-initialised or built before; afterwards owns its memory until alias_free
+ * Returns false, leaving an empty table (n = 0), when the weights sum to zero, or one is negative or not finite. */
+bool alias_build(struct alias_table *t, const double *weight, int n);
+void alias_free(struct alias_table *t);
+
+/* alias_sample: draw one index with probability proportional to its weight.               [Vose 1991]
+ *   u      uniform number in [0,1)
+ *   pmf    out, may be NULL: probability of the returned index, (0,1]
+ *   u_out  out, may be NULL: what is left of u, again uniform in [0,1)
+ * Returns the index, 0 <= i < t->n, never one of weight 0. t->n >= 1. Cannot fail. O(1). */
+int alias_sample(const struct alias_table *t, double u, double *pmf, double *u_out);
+
+/* alias_sample_bin: the second half of alias_sample alone: choose one of the two elements of the given bin
+ * with the uniform number u. Visiting every bin once draws n elements, stratified. */
+int alias_sample_bin(const struct alias_table *t, int bin, double u, double *pmf, double *u_out);
+
+/* alias_pmf: probability of index i; 0 for an empty table. */
+double alias_pmf(const struct alias_table *t, int i);
+
+#endif

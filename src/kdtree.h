@@ -1,0 +1,43 @@
+/* kdtree.h: which primitive does a ray meet first?
+ *
+ * A kd-tree over triangles and quadrics: surface-area heuristic, O(N log N) build over clipped triangles
+ * [Wald & Havran 2006], 8-byte nodes, iterative front-to-back traversal.
+ *
+ * Precision: nodes hold float planes, traversal and intersection are computed in double from exact float
+ * vertices. A point found on a surface is therefore within about 1e-15 of the scene's size of it, and a ray
+ * leaving it needs only tmin = scene->epsilon (1e-8 of the scene's diagonal) to miss its own surface.
+ *
+ * Used by: scene. Tests: test_kdtree.c (against brute force, degenerate meshes).
+ */
+#ifndef ASBDPT_KDTREE_H
+#define ASBDPT_KDTREE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "shape.h"
+
+struct kd_node; /* 8 bytes, see kdtree.c */
+
+struct kdtree {
+    struct kd_node *node; /* [n_nodes], root first, owned */
+    uint32_t *leaf_prim;  /* [n_leaf_prims] primitive numbers of all leaves, owned */
+    int n_nodes;
+    int n_leaf_prims;
+    float lo[3], hi[3]; /* bounds of everything; lo > hi for an empty tree */
+    int depth;          /* deepest leaf */
+    double cost;        /* expected cost of a ray by the surface-area heuristic */
+};
+
+/* kd_build: build the tree of all primitives; kd_free releases it. Cannot fail (memory: see mem.h).
+ * The result depends on the geometry alone. */
+void kd_build(struct kdtree *kd, const struct geometry *geo);
+void kd_free(struct kdtree *kd);
+
+/* kd_closest: the first hit in (tmin, tmax), honouring alpha. Returns false if there is none. Thread-safe. */
+bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct hit *hit);
+
+/* kd_occluded: is anything (for shadow rays: shadow_alpha counts) hit in (tmin, tmax)? Thread-safe. */
+bool kd_occluded(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray);
+
+#endif

@@ -1,0 +1,49 @@
+/* material.h: from a material and a surface point to a BSDF. Parameters, defaults and formulas are pbrt-v3's.
+ * Used by: path (through scene), parser. Tests: test_bsdf.c.
+ */
+#ifndef ASBDPT_MATERIAL_H
+#define ASBDPT_MATERIAL_H
+
+#include "bsdf.h"
+#include "mem.h"
+#include "surface.h"
+#include "texture.h"
+
+enum material_kind {
+    MATERIAL_MATTE,       /* Kd, sigma */
+    MATERIAL_MIRROR,      /* Kr */
+    MATERIAL_GLASS,       /* Kr, Kt, index, uroughness, vroughness */
+    MATERIAL_METAL,       /* eta, k, roughness */
+    MATERIAL_PLASTIC,     /* Kd, Ks, roughness */
+    MATERIAL_SUBSTRATE,   /* Kd, Ks, roughness */
+    MATERIAL_UBER,        /* Kd, Ks, Kr, Kt, roughness, index, opacity */
+    MATERIAL_TRANSLUCENT, /* Kd, Ks, reflect, transmit, roughness */
+    MATERIAL_MIX          /* mix1, mix2, amount */
+};
+
+/* All parameters are texture numbers; -1 where a kind does not use one. The parser fills in the defaults. */
+struct material {
+    enum material_kind kind;
+    int Kd, Ks, Kr, Kt;
+    int sigma;                  /* degrees */
+    int eta, k;                 /* metal */
+    int index;                  /* dielectric index of refraction */
+    int uroughness, vroughness; /* always both set where used ("roughness" sets both) */
+    bool remap_roughness;
+    int opacity, reflect, transmit, amount;
+    int mix1, mix2; /* material numbers */
+    int bump;       /* float texture of displacement along the normal, in world units */
+};
+
+/* material_bsdf: the BSDF of material `id` at a point.
+ *   materials, textures  the scene's
+ *   at     the surface point; bump mapping tilts the shading frame, `at` itself is not changed
+ *   arena  where the lobes live
+ *   out    filled; n_lobes = 0 for a black surface */
+void material_bsdf(const struct material *materials, int id, const struct texture_set *textures,
+                   const struct surface *at, struct arena *arena, struct bsdf *out);
+
+/* roughness_to_alpha: pbrt's artist-friendly remapping, used when remap_roughness is set. */
+double roughness_to_alpha(double roughness);
+
+#endif

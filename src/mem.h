@@ -1,0 +1,45 @@
+/* mem.h: checked allocation, growing arrays, and the arena that holds what a path needs.
+ *
+ * Running out of memory is handled in one place: one line on stderr and exit status 1. Callers therefore
+ * never test for NULL. Sizes that come from a file must be checked against the file's length before they
+ * reach this module.
+ *
+ * Used by: everything that owns memory.
+ */
+#ifndef ASBDPT_MEM_H
+#define ASBDPT_MEM_H
+
+#include <stddef.h>
+
+/* mem_alloc: room for `count` objects of `size` bytes, filled with zeros.
+ * Returns a pointer to be given to free(); never NULL (a count of 0 gives a valid one-byte block).
+ * Ends the program with a message when count * size overflows or memory is exhausted. */
+void *mem_alloc(size_t count, size_t size);
+
+/* mem_grow: make sure a growing array can hold at least `need` objects; capacity doubles.
+ *   array     the block so far (may be NULL), owned by the caller; invalid after the call
+ *   capacity  in-out, objects the block can hold
+ * Returns the (possibly moved) block. New objects are not cleared. Ends the program like mem_alloc. */
+void *mem_grow(void *array, size_t *capacity, size_t need, size_t size);
+
+/* mem_copy_text: a heap copy of a string, to be given to free(). */
+char *mem_copy_text(const char *text);
+
+/* An arena hands out memory that is all given back at once. Blocks are kept after arena_reset, so a steady
+ * state allocates nothing. One owner, one thread. */
+struct arena_block;
+struct arena {
+    struct arena_block *first;   /* chain of blocks in the order they are filled */
+    struct arena_block *current; /* block being filled, NULL before the first allocation */
+};
+
+/* arena_alloc: `size` bytes, aligned for any type, not cleared. Valid until arena_reset or arena_free. */
+void *arena_alloc(struct arena *a, size_t size);
+
+/* arena_reset: give everything back to the arena (keeps its blocks). */
+void arena_reset(struct arena *a);
+
+/* arena_free: give everything back to the system; the arena is empty and usable again. */
+void arena_free(struct arena *a);
+
+#endif

@@ -1,0 +1,42 @@
+/* stats.h: distribution functions and hypothesis tests, the yardsticks of the test suite and of `compare`.
+ *
+ * Every test returns a p-value: the probability, were the hypothesis true, of data at least as extreme.
+ * Used by: compare, experiment, tests. Tests: test_stats.c (published tables).
+ */
+#ifndef ASBDPT_STATS_H
+#define ASBDPT_STATS_H
+
+#include <stddef.h>
+
+/* stats_gamma_q: regularised upper incomplete gamma function Q(a,x), a > 0, x >= 0. */
+double stats_gamma_q(double a, double x);
+
+/* stats_beta_i: regularised incomplete beta function I_x(a,b), a,b > 0, x in [0,1]. */
+double stats_beta_i(double a, double b, double x);
+
+/* stats_normal_p: two-sided p-value of a standard normal deviate. */
+double stats_normal_p(double z);
+
+/* stats_student_p: two-sided p-value of Student's t with dof > 0 degrees of freedom (need not be an integer). */
+double stats_student_p(double t, double dof);
+
+/* stats_chi2_p: upper tail of the chi-square distribution. */
+double stats_chi2_p(double x, double dof);
+
+/* stats_chi2_test: Pearson's test of observed counts against expected ones.
+ *   observed, expected  [n], counts; the two sums should agree
+ * Cells with an expectation below 5 are pooled, smallest first. A count in a cell of expectation 0 gives p = 0.
+ * Returns 1 when fewer than two cells remain. */
+double stats_chi2_test(const double *observed, const double *expected, size_t n);
+
+/* stats_welch_p: two-sided p-value for equal means of two samples given by mean, variance of one observation
+ * and count [Welch 1947]. Both variances 0: 1 if the means agree, else 0. */
+double stats_welch_p(double mean1, double var1, double n1, double mean2, double var2, double n2);
+
+/* stats_ks_uniform_p: Kolmogorov-Smirnov test that the n numbers are uniform on [0,1]; sorts them. */
+double stats_ks_uniform_p(double *x, size_t n);
+
+/* stats_sidak: the level of one of m independent tests that keeps the family at level alpha. */
+double stats_sidak(double alpha, double m);
+
+#endif

@@ -1,0 +1,64 @@
+/* vec.h: real numbers, points and directions.
+ *
+ * All of light transport is computed in `double`: it is the plain choice for a text that is read, products of
+ * many densities stay in range, and a hit point is so exact that rays need no offset tricks (see kdtree.h).
+ * Bulk data (vertices, triangles, texels) is stored as `float`.
+ *
+ * Points, vectors and normals share one type; what a value is, its name says: p a point, n a normal, w a
+ * direction of length 1. Values are passed by value; nothing here can fail.
+ *
+ * Used by: everything.
+ */
+#ifndef ASBDPT_VEC_H
+#define ASBDPT_VEC_H
+
+#include <math.h>
+#include <stdbool.h>
+
+#define PI 3.14159265358979323846
+#define INV_PI 0.31830988618379067154
+
+typedef struct {
+    double x, y, z;
+} vec3;
+
+static inline vec3 vec(double x, double y, double z)
+{
+    vec3 v = {x, y, z};
+    return v;
+}
+
+static inline vec3 add(vec3 a, vec3 b) { return vec(a.x + b.x, a.y + b.y, a.z + b.z); }
+static inline vec3 sub(vec3 a, vec3 b) { return vec(a.x - b.x, a.y - b.y, a.z - b.z); }
+static inline vec3 mul(vec3 a, double s) { return vec(a.x * s, a.y * s, a.z * s); }
+static inline vec3 neg(vec3 a) { return vec(-a.x, -a.y, -a.z); }
+static inline double dot(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static inline double abs_dot(vec3 a, vec3 b) { return fabs(dot(a, b)); }
+static inline double length2(vec3 a) { return dot(a, a); }
+static inline double length(vec3 a) { return sqrt(dot(a, a)); }
+static inline vec3 lerp3(double t, vec3 a, vec3 b) { return add(mul(a, 1 - t), mul(b, t)); }
+
+static inline vec3 cross(vec3 a, vec3 b)
+{
+    return vec(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
+/* normalize: the unit vector along a; the zero vector stays zero. */
+static inline vec3 normalize(vec3 a)
+{
+    double l = length(a);
+    return l > 0 ? mul(a, 1 / l) : a;
+}
+
+/* faceforward: n or -n, whichever lies on the side of v. */
+static inline vec3 faceforward(vec3 n, vec3 v) { return dot(n, v) < 0 ? neg(n) : n; }
+
+static inline bool is_finite3(vec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
+
+static inline double clamp(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
+static inline double sqr(double x) { return x * x; }
+
+/* safe_sqrt: square root of a number that rounding may have pushed below 0. */
+static inline double safe_sqrt(double x) { return x > 0 ? sqrt(x) : 0; }
+
+#endif

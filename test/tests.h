@@ -1,0 +1,24 @@
+/* tests.h: every test of the suite, one line each; main.c lists them in order. */
+#ifndef ASBDPT_TESTS_H
+#define ASBDPT_TESTS_H
+
+#include "test.h"
+
+void test_alias(struct test *t);
+void test_bsdf(struct test *t);
+void test_camera(struct test *t);
+void test_film(struct test *t);
+void test_image(struct test *t);
+void test_kdtree(struct test *t);
+void test_light(struct test *t);
+void test_mis(struct test *t);
+void test_parser(struct test *t);
+void test_ply(struct test *t);
+void test_render(struct test *t);
+void test_shape(struct test *t);
+void test_stats(struct test *t);
+void test_texture(struct test *t);
+void test_vec(struct test *t);
+void test_warp(struct test *t);
+
+#endif
