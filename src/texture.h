@@ -8,6 +8,8 @@
 #ifndef ASBDPT_TEXTURE_H
 #define ASBDPT_TEXTURE_H
 
+#include <stddef.h>
+
 #include "error.h"
 #include "image.h"
 #include "rgb.h"
