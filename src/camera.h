@@ -26,6 +26,7 @@ struct camera {
     double lens_radius;      /* 0: pinhole */
     double focal_distance;   /* to the plane of focus, > 0 */
     /* filled by camera_prepare */
+    struct transform camera_to_world;
     int width, height;              /* of the full film */
     double x_scale, y_scale;        /* screen units per raster unit at camera z = 1; y_scale < 0 */
     double x_origin, y_origin;      /* screen position at z = 1 of raster (0,0) */

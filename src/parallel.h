@@ -1,0 +1,34 @@
+/* parallel.h: run numbered jobs on several threads and take in their results in order.
+ *
+ * Jobs start in order on whichever thread is free and end in any order; results are committed strictly in the order
+ * of their numbers, one at a time. What a commit does therefore cannot depend on the number of threads: this is
+ * where the promise "same bytes for any -j" is kept. A result waits for its turn in one of a fixed number of slots,
+ * so memory stays bounded.
+ *
+ * Used by: render, kd_build, tests.
+ */
+#ifndef ASBDPT_PARALLEL_H
+#define ASBDPT_PARALLEL_H
+
+#include <stdbool.h>
+
+struct parallel_jobs {
+    long n_jobs;
+    int n_threads; /* >= 1; the calling thread is one of them */
+    int n_slots;   /* results that may wait; >= n_threads */
+    void *context; /* passed to both functions */
+    /* Do job number `job` on thread number `thread` (0 .. n_threads-1), leaving the result in slot `slot`. */
+    void (*work)(void *context, long job, int slot, int thread);
+    /* Take in the result of `job` from `slot`. Called with a lock held: keep it short. Returns false to stop: no
+     * later job is committed and none that has not started yet is begun. */
+    bool (*commit)(void *context, long job, int slot);
+};
+
+/* parallel_run: run all jobs. Returns the number of jobs committed (n_jobs unless a commit said stop). If threads
+ * cannot be created it goes on with those it has. */
+long parallel_run(const struct parallel_jobs *jobs);
+
+/* parallel_cores: processors online, >= 1. */
+int parallel_cores(void);
+
+#endif
