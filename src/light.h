@@ -12,23 +12,13 @@
 #define ASBDPT_LIGHT_H
 
 #include "alias.h"
+#include "envmap.h"
 #include "frame.h"
-#include "image.h"
 #include "rgb.h"
 #include "shape.h"
 #include "transform.h"
 
 enum light_kind { LIGHT_AREA, LIGHT_POINT, LIGHT_SPOT, LIGHT_DISTANT, LIGHT_INFINITE };
-
-/* An environment map prepared for sampling. */
-struct envmap {
-    struct image image;        /* owned; top row is direction +z of light space */
-    bool gamma;                /* 8-bit maps are sRGB */
-    int nu, nv;                /* sampling cells */
-    struct alias_table rows;   /* choice of v cell */
-    struct alias_table *columns; /* [nv], choice of u cell given the row; owned */
-    rgb mean;                  /* average radiance over the sphere */
-};
 
 struct light {
     enum light_kind kind;

@@ -36,3 +36,56 @@ int scene_add_material(struct scene *s, struct material m)
     s->material[s->n_materials] = m;
     return s->n_materials++;
 }
+
+/* --- ready to render --------------------------------------------------------------------------------- */
+
+/* Is the surface there at this hit? Holes are where an alpha texture is exactly 0, as in pbrt-v3. */
+static bool opaque_at(const void *context, const struct geometry *geo, const struct hit *hit, bool shadow)
+{
+    const struct scene *s = context;
+    const struct shape_group *group = shape_group_of(geo, hit->prim);
+    const struct ray anywhere = {vec(0, 0, 0), vec(0, 0, 1), 0, INFINITY};
+    struct surface at;
+    shape_surface(geo, hit, &anywhere, &at);
+    if (group->alpha >= 0 && texture_float(&s->textures, group->alpha, &at) == 0)
+        return false;
+    return !(shadow && group->shadow_alpha >= 0 && texture_float(&s->textures, group->shadow_alpha, &at) == 0);
+}
+
+void scene_prepare(struct scene *s)
+{
+    s->geo.opaque = opaque_at;
+    s->geo.opaque_context = s;
+    kd_build(&s->kd, &s->geo);
+    vec3 lo = vec((double)s->kd.lo[0], (double)s->kd.lo[1], (double)s->kd.lo[2]);
+    vec3 hi = vec((double)s->kd.hi[0], (double)s->kd.hi[1], (double)s->kd.hi[2]);
+    bool empty = geometry_primitives(&s->geo) == 0;
+    double radius = empty ? 1 : length(sub(hi, lo)) / 2;
+    light_prepare(&s->lights, &s->geo, empty ? vec(0, 0, 0) : lerp3(0.5, lo, hi), radius > 0 ? radius : 1);
+    s->epsilon = 1e-8 * 2 * s->lights.radius;
+    camera_prepare(&s->camera, s->width, s->height);
+    filter_prepare(&s->filter);
+}
+
+bool scene_intersect(const struct scene *s, const struct ray *ray, struct surface *out)
+{
+    struct hit hit;
+    if (!kd_closest(&s->kd, &s->geo, ray, &hit))
+        return false;
+    shape_surface(&s->geo, &hit, ray, out);
+    return true;
+}
+
+bool scene_visible(const struct scene *s, vec3 a, vec3 b)
+{
+    vec3 d = sub(b, a);
+    double distance = length(d);
+    struct ray ray = {a, mul(d, 1 / distance), s->epsilon, distance - s->epsilon};
+    return !(ray.tmin < ray.tmax) || !kd_occluded(&s->kd, &s->geo, &ray);
+}
+
+bool scene_visible_ray(const struct scene *s, vec3 a, vec3 w)
+{
+    struct ray ray = {a, w, s->epsilon, INFINITY};
+    return !kd_occluded(&s->kd, &s->geo, &ray);
+}
