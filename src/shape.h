@@ -1,8 +1,8 @@
 /* shape.h: the geometry of a scene: triangles and quadrics in flat arrays, in world space.
  *
- * Primitives are numbered: 0 .. n_triangles-1 are triangles, n_triangles .. n_triangles+n_quadrics-1 quadrics.
- * Every primitive belongs to a group (what one Shape directive made), which carries material, alpha textures
- * and area light. A Shape inside an object instance is copied per instance.
+ * Primitives are numbered: triangle i is primitive i, quadric i is primitive FIRST_QUADRIC + i, so that a number
+ * given out stays valid when more shapes are added. Every primitive belongs to a group (what one Shape directive
+ * made), which carries material, alpha textures and area light. A Shape inside an object instance is copied per instance.
  *
  * Used by: kdtree (intersection, bounds), light (area sampling), scene, parser.
  * Tests: test_shape.c.
@@ -15,22 +15,14 @@
 #include <stdint.h>
 
 #include "error.h"
+#include "quadric.h"
+#include "ray.h"
 #include "surface.h"
 #include "transform.h"
+#include "triangle.h"
 #include "vec.h"
 
-/* A ray segment: the open interval (tmin, tmax) of o + t d. d is unit, so t is a world distance. */
-struct ray {
-    vec3 o, d;
-    double tmin, tmax;
-};
-
-/* Where a ray meets a primitive. */
-struct hit {
-    double t;      /* distance along the ray */
-    double b1, b2; /* triangle: barycentric coordinates of vertices 1 and 2; quadric: unused, 0 */
-    int prim;      /* primitive number */
-};
+enum { FIRST_QUADRIC = 1 << 30 };
 
 /* What the primitives of one Shape directive have in common. */
 struct shape_group {
@@ -40,20 +32,8 @@ struct shape_group {
     int first_light;  /* area light of primitive first_prim, the others follow; -1 if none */
     int first_prim;   /* first primitive of the group */
     bool flip;        /* ReverseOrientation xor transform swaps handedness: normals without N are negated */
-    bool has_n;       /* vertex normals given: they orient ng as well */
+    bool has_n;       /* vertex normals given (already negated under ReverseOrientation): they orient ng as well */
     bool has_uv;
-};
-
-enum quadric_kind { QUADRIC_SPHERE, QUADRIC_DISK, QUADRIC_CYLINDER };
-
-struct quadric {
-    enum quadric_kind kind;
-    struct transform to_world;
-    double radius;       /* > 0 */
-    double inner_radius; /* disk only */
-    double zmin, zmax;   /* sphere and cylinder; a disk lies at z = zmin = zmax ("height") */
-    double phi_max;      /* radians, (0, 2 pi] */
-    int group;
 };
 
 struct geometry {
@@ -90,15 +70,20 @@ void mesh_free(struct mesh *m);
 int shape_add_mesh(struct geometry *geo, const struct mesh *m, const struct transform *to_world,
                    struct shape_group group, bool reverse_orientation, struct error *err);
 
-/* shape_add_quadric: append one quadric as a group of its own (q.group is filled in). Returns the group's number. */
+/* shape_add_quadric: append one quadric as a group of its own (q.group is filled in, the parameters are clamped
+ * as pbrt does). Returns the group's number. */
 int shape_add_quadric(struct geometry *geo, struct quadric q, struct shape_group group, bool reverse_orientation);
 
 void geometry_free(struct geometry *geo);
 
+/* geometry_primitives: how many primitives there are (their numbers are not contiguous, see above). */
 static inline int geometry_primitives(const struct geometry *geo) { return geo->n_triangles + geo->n_quadrics; }
 
 /* shape_group_of: the group a primitive belongs to. */
 const struct shape_group *shape_group_of(const struct geometry *geo, int prim);
+
+/* shape_vertices: the three corners of a triangle, x y z of each. */
+void shape_vertices(const struct geometry *geo, int triangle, float v[9]);
 
 /* shape_bounds: world bounding box of one primitive, never inside out, conservative in float. */
 void shape_bounds(const struct geometry *geo, int prim, float lo[3], float hi[3]);
