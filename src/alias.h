@@ -31,14 +31,17 @@ struct alias_table {
 
 /* alias_build: make the table of n >= 0 weights, each finite and >= 0. O(n), reuses the table's memory.
  *   t  zero-initialised or built before; afterwards owns its memory until alias_free
+ * A weight
+ * below 1e-308 of the largest counts as zero; `total` may overflow to infinity, probabilities do not.
  * Returns false, leaving an empty table (n = 0), when the weights sum to zero, or one is negative or not finite. */
 bool alias_build(struct alias_table *t, const double *weight, int n);
 void alias_free(struct alias_table *t);
 
 /* alias_sample: draw one index with probability proportional to its weight.               [Vose 1991]
- *   u      uniform number in [0,1)
+ *   u      uniform number in [0,1); if it is a multiple of 2^-32, probabilities are met up to 2^-32
  *   pmf    out, may be NULL: probability of the returned index, (0,1]
- *   u_out  out, may be NULL: what is left of u, again uniform in [0,1)
+ *   u_out  out, may be NULL: what is left of u, again uniform in [0,1) and independent of the index; it has
+ *          log2(n) bits fewer than u
  * Returns the index, 0 <= i < t->n, never one of weight 0. t->n >= 1. Cannot fail. O(1). */
 int alias_sample(const struct alias_table *t, double u, double *pmf, double *u_out);
 
