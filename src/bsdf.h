@@ -18,76 +18,33 @@
 #include <stdbool.h>
 
 #include "frame.h"
+#include "lobe.h"
 #include "rgb.h"
 #include "vec.h"
-
-enum transport { RADIANCE, IMPORTANCE };
-
-enum lobe_kind {
-    LOBE_LAMBERT_REFLECTION,
-    LOBE_LAMBERT_TRANSMISSION,
-    LOBE_OREN_NAYAR,
-    LOBE_SPECULAR_REFLECTION,   /* delta; fresnel may be none (mirror) */
-    LOBE_SPECULAR_TRANSMISSION, /* delta; dielectric */
-    LOBE_FRESNEL_SPECULAR,      /* delta; smooth glass: reflection or transmission by Fresnel's share */
-    LOBE_MICROFACET_REFLECTION,
-    LOBE_MICROFACET_TRANSMISSION,
-    LOBE_FRESNEL_BLEND /* pbrt's substrate [Ashikhmin & Shirley 2000] */
-};
-
-enum fresnel_kind { FRESNEL_NONE, FRESNEL_DIELECTRIC, FRESNEL_CONDUCTOR };
-
-/* One lobe; which fields matter depends on kind. */
-struct lobe {
-    enum lobe_kind kind;
-    enum fresnel_kind fresnel;
-    rgb R;                   /* reflectance of a reflecting lobe; diffuse part of FRESNEL_BLEND */
-    rgb T;                   /* transmittance of a transmitting lobe; specular part of FRESNEL_BLEND */
-    rgb eta, k;              /* conductor: complex index relative to the outside */
-    double eta_a, eta_b;     /* dielectric: index above (side of the normal) and below */
-    double alpha_x, alpha_y; /* Trowbridge-Reitz roughness along s and t */
-    double A, B;             /* Oren-Nayar coefficients */
-};
 
 struct bsdf {
     struct frame shading;    /* n is the shading normal */
     vec3 ng;                 /* geometric normal, unit */
     const struct lobe *lobe; /* [n_lobes], in the arena the bsdf was made in */
     int n_lobes;
-    int n_smooth;            /* lobes that are not delta; 0: no connection can end here */
+    int n_smooth; /* lobes that are not delta; 0: no connection can end here */
 };
 
-/* What bsdf_eval knows about a pair of directions. */
-struct bsdf_value {
-    rgb f;          /* 1/sr, without any cosine; delta lobes left out */
-    double pdf;     /* density of bsdf_sample(wo) returning wi, 1/sr; delta lobes left out */
-    double pdf_rev; /* density of bsdf_sample(wi) returning wo, 1/sr */
-};
+/* bsdf_make: a BSDF of n >= 0 lobes in the given shading frame. The array is kept, not copied; its `choice`
+ * fields are filled in: in proportion to lobe_albedo_guess, with an eighth spread evenly so that no lobe starves.
+ * They do not depend on directions, so both directions of a walk choose alike. */
+void bsdf_make(struct bsdf *b, struct frame shading, vec3 ng, struct lobe *lobe, int n);
 
-/* What bsdf_sample drew. */
-struct bsdf_sample {
-    vec3 wi;
-    rgb f;          /* value for wi, 1/sr; of a delta lobe: the coefficient of the delta over |cos(wi, ns)| */
-    double pdf;     /* 1/sr; of a delta lobe: the probability of choosing it */
-    double pdf_rev; /* the same for the reversed pair; delta transmission: times d(wo)/d(wi), see bsdf.c */
-    bool delta;
-    double eta;     /* (index on wi's side)/(index on wo's side) for transmission, else 1 */
-};
-
-/* bsdf_eval: value and both densities for a pair of directions, summed over all smooth lobes. Cannot fail. */
+/* bsdf_eval: value and both densities for a pair of directions, summed over all smooth lobes. Where the value is
+ * black both densities are 0: bsdf_sample never returns such a pair. Swapping wo and wi swaps pdf and pdf_rev, and
+ * f(wo, wi, RADIANCE) = f(wi, wo, IMPORTANCE). Cannot fail. */
 struct bsdf_value bsdf_eval(const struct bsdf *b, vec3 wo, vec3 wi, enum transport mode);
 
 /* bsdf_sample: draw wi given wo.
  *   u  three uniform numbers in [0,1): lobe choice and direction
- * Returns false when the sample is absorbed (black, below the surface, total internal reflection). For a smooth
- * lobe f, pdf and pdf_rev equal bsdf_eval's for the same pair. */
+ * Returns false when the sample is absorbed (black, below the surface, total internal reflection): the integral of
+ * pdf over the sphere is the probability of *not* being absorbed. For a smooth lobe f, pdf and pdf_rev equal
+ * bsdf_eval's for the same pair; for a delta lobe see struct bsdf_sample. */
 bool bsdf_sample(const struct bsdf *b, vec3 wo, const double u[3], enum transport mode, struct bsdf_sample *out);
-
-/* fresnel_dielectric: unpolarised reflectance for a ray meeting the boundary at cos_i (signed: positive on the
- * eta_a side); 1 under total internal reflection. */
-double fresnel_dielectric(double cos_i, double eta_a, double eta_b);
-
-/* fresnel_conductor: unpolarised reflectance of a metal of complex index eta + i k. */
-rgb fresnel_conductor(double cos_i, rgb eta, rgb k);
 
 #endif

@@ -4,6 +4,8 @@
 #ifndef ASBDPT_MATERIAL_H
 #define ASBDPT_MATERIAL_H
 
+#include <stdbool.h>
+
 #include "bsdf.h"
 #include "mem.h"
 #include "surface.h"
@@ -35,11 +37,20 @@ struct material {
     int bump;       /* float texture of displacement along the normal, in world units */
 };
 
+/* The most lobes a BSDF can have, counted over all branches of nested mixes. */
+enum { MATERIAL_MAX_LOBES = 16 };
+
+/* material_fits: whether material `id` keeps to MATERIAL_MAX_LOBES. Always true but for mixes; the parser refuses
+ * the others. Ends even if mixes contain each other. */
+bool material_fits(const struct material *materials, int id);
+
 /* material_bsdf: the BSDF of material `id` at a point.
  *   materials, textures  the scene's
  *   at     the surface point; bump mapping tilts the shading frame, `at` itself is not changed
  *   arena  where the lobes live
- *   out    filled; n_lobes = 0 for a black surface */
+ *   out    filled; n_lobes = 0 for a black surface
+ * Negative colours count as 0. The frame of a mix is its first material's, as in pbrt-v3. Lobes beyond
+ * MATERIAL_MAX_LOBES are left out. */
 void material_bsdf(const struct material *materials, int id, const struct texture_set *textures,
                    const struct surface *at, struct arena *arena, struct bsdf *out);
 
