@@ -1,0 +1,150 @@
+/* oracle.c: see oracle.h. Densities p_i = n_i prod (densities of light vertices) prod (densities of eye vertices), each
+ * per unit area, multiplied out one strategy at a time; nothing is shared with mis.h but the sample counts. [V97 10.2] */
+#include "oracle.h"
+
+#include <float.h>
+
+/* The whole path, light first. */
+struct full_path {
+    const struct scene *scene;
+    const struct mis_counts *counts;
+    const struct vertex *x[64]; /* x[0] on the light, x[n-1] on the lens */
+    bool delta[64];             /* the path passes here by a delta lobe */
+    int n;
+};
+
+static bool at_infinity(const struct full_path *f, int i)
+{
+    const struct vertex *v = f->x[i];
+    return v->kind == VERTEX_ESCAPED || vertex_at_infinity(f->scene, v);
+}
+
+/* Unit direction from vertex i to vertex j, neighbours. */
+static vec3 direction(const struct full_path *f, int i, int j)
+{
+    if (at_infinity(f, j))
+        return f->x[j]->kind == VERTEX_ESCAPED ? neg(f->x[j]->wo) : f->x[j]->wo;
+    if (at_infinity(f, i))
+        return neg(direction(f, j, i));
+    return normalize(sub(f->x[j]->p, f->x[i]->p));
+}
+
+/* Density per area (at infinity: per steradian) of vertex j, reached from its neighbour i with density pdf_w. */
+static double per_area(const struct full_path *f, int i, int j, double pdf_w)
+{
+    if (at_infinity(f, j))
+        return pdf_w;
+    vec3 w = direction(f, i, j);
+    double cosine = f->x[j]->kind == VERTEX_LENS ? 1 : f->x[j]->kind == VERTEX_LIGHT && length2(f->x[j]->ng) == 0
+                                                            ? 1
+                                                            : abs_dot(f->x[j]->ng, w);
+    return at_infinity(f, i) ? pdf_w * cosine : pdf_w * cosine / length2(sub(f->x[j]->p, f->x[i]->p));
+}
+
+/* Mirror and smooth glass: probability with which the lobe is chosen, and the Jacobian of the reverse delta. */
+static double delta_density(const struct full_path *f, int from, int i, int to, bool reverse)
+{
+    const struct vertex *v = f->x[i];
+    const struct lobe *l = &v->bsdf.lobe[0];
+    vec3 wo = direction(f, i, from), wi = direction(f, i, to);
+    double cos_o = dot(wo, v->bsdf.shading.n), cos_i = dot(wi, v->bsdf.shading.n);
+    if (l->kind == LOBE_SPECULAR_REFLECTION)
+        return 1;
+    double F = fresnel_dielectric(cos_o, l->eta_a, l->eta_b);
+    if (cos_o * cos_i > 0)
+        return F;
+    double eta_o = cos_o > 0 ? l->eta_a : l->eta_b, eta_i = cos_o > 0 ? l->eta_b : l->eta_a;
+    /* The reverse walk's delta lives in d(wo); written as a coefficient of the forward one, in d(wi), it gains
+     * d(wo)/d(wi) = eta_i^2 |cos_i| / (eta_o^2 |cos_o|). Forward is the direction of the light's travel. */
+    return reverse ? (1 - F) * eta_i * eta_i * fabs(cos_i) / (eta_o * eta_o * fabs(cos_o)) : 1 - F;
+}
+
+/* Density of x_j when the light walk makes it. */
+static double light_density(const struct full_path *f, int j)
+{
+    struct light_point y0 = vertex_light_point(f->x[0]);
+    y0.w = at_infinity(f, 0) ? direction(f, 1, 0) : y0.w;
+    if (j == 0) {
+        const struct vertex *v = f->x[0];
+        return v->kind == VERTEX_LIGHT ? v->pdf_fwd : v->pdf_origin;
+    }
+    if (j == 1) {
+        double pdf = f->x[0]->kind == VERTEX_ESCAPED ? 1 / (PI * sqr(f->scene->lights.radius))
+                                                     : light_pdf_emission(&f->scene->lights, &y0, direction(f, 0, 1));
+        return per_area(f, 0, 1, pdf);
+    }
+    const struct vertex *v = f->x[j - 1];
+    double pdf = f->delta[j - 1] ? delta_density(f, j - 2, j - 1, j, false)
+                                 : bsdf_eval(&v->bsdf, direction(f, j - 1, j - 2), direction(f, j - 1, j), IMPORTANCE).pdf;
+    return per_area(f, j - 1, j, pdf);
+}
+
+/* Density of x_j when the eye walk makes it. */
+static double eye_density(const struct full_path *f, int j)
+{
+    int last = f->n - 1;
+    if (j == last)
+        return 1;
+    if (j == last - 1) {
+        double px, py;
+        double J = camera_project(&f->scene->camera, f->x[last]->p, direction(f, last, j), &px, &py);
+        return per_area(f, last, j, J);
+    }
+    const struct vertex *v = f->x[j + 1];
+    double pdf = f->delta[j + 1] ? delta_density(f, j, j + 1, j + 2, true) /* as the light walk passes it, reversed */
+                                 : bsdf_eval(&v->bsdf, direction(f, j + 1, j + 2), direction(f, j + 1, j), RADIANCE).pdf;
+    return per_area(f, j + 1, j, pdf);
+}
+
+/* n of the strategy with i light vertices, 0 if it cannot make this path. */
+static double samples(const struct full_path *f, int i)
+{
+    const struct mis_counts *m = f->counts;
+    int t = f->n - i;
+    if (i == 0) {
+        bool delta_light = f->x[0]->kind == VERTEX_LIGHT && light_is_delta(&f->scene->lights.light[f->x[0]->light]);
+        return delta_light ? 0 : m->hit;
+    }
+    if (t < 1 || f->delta[i - 1] || f->delta[i])
+        return 0;
+    return t == 1 ? m->splat : i == 1 ? m->direct : mis_connect_count(m, f->x[i - 1]->p);
+}
+
+/* A vertex whose walk goes on (not the end of a connection) passed by delta if the next vertex says so. */
+static bool join(struct full_path *f, const struct vertex *light, int s, const struct vertex *eye, int t)
+{
+    f->n = s + t;
+    for (int i = 0; i < s; i++) {
+        f->x[i] = &light[i];
+        f->delta[i] = i + 1 < s && light[i + 1].prev_delta;
+    }
+    for (int i = 0; i < t; i++) {
+        f->x[s + t - 1 - i] = &eye[i];
+        f->delta[s + t - 1 - i] = i + 1 < t && eye[i + 1].prev_delta;
+    }
+    for (int i = 0; i < f->n; i++)
+        if (f->delta[i] && (f->x[i]->bsdf.n_lobes != 1 || (f->x[i]->bsdf.lobe[0].kind != LOBE_SPECULAR_REFLECTION &&
+                                                           f->x[i]->bsdf.lobe[0].kind != LOBE_FRESNEL_SPECULAR)))
+            return false;
+    return f->n <= 64;
+}
+
+bool oracle_weights(const struct scene *scene, const struct mis_counts *counts, const struct vertex *light, int s,
+                    const struct vertex *eye, int t, double *weight)
+{
+    struct full_path f = {.scene = scene, .counts = counts};
+    if (!join(&f, light, s, eye, t))
+        return false;
+    long double sum = 0, p[65];
+    for (int i = 0; i < f.n; i++) { /* i light vertices, f.n - i >= 1 eye vertices */
+        p[i] = samples(&f, i);
+        for (int j = 0; j < f.n && p[i] > 0; j++)
+            p[i] *= j < i ? light_density(&f, j) : eye_density(&f, j);
+        if (counts->power)
+            p[i] *= p[i];
+        sum += p[i];
+    }
+    for (int i = 0; i < f.n; i++)
+        weight[i] = sum > 0 ? (double)(p[i] / sum) : 0;
+    return sum > 0;
+}

@@ -1,0 +1,14 @@
+/* oracle.h: the MIS weight computed the slow and plain way, from all p_i of a path. */
+#ifndef ASBDPT_TEST_ORACLE_H
+#define ASBDPT_TEST_ORACLE_H
+
+#include "../src/mis.h"
+#include "../src/path.h"
+
+/* oracle_weights: weights of all strategies of the path that joins light[0..s-1] to eye[0..t-1].
+ *   weight  out, [s + t + 1]: weight[i] belongs to the strategy with i light vertices; 0 where it cannot make the path
+ * Returns false for paths the oracle does not cover: delta vertices other than a mirror or smooth glass. */
+bool oracle_weights(const struct scene *scene, const struct mis_counts *counts, const struct vertex *light, int s,
+                    const struct vertex *eye, int t, double *weight);
+
+#endif

@@ -1,0 +1,157 @@
+/* test_film.c: filters (normalisation, sampling against density), film sums and standard errors. */
+#include <math.h>
+#include <string.h>
+
+#include "../src/film.h"
+#include "../src/mem.h"
+#include "../src/rng.h"
+#include "../src/stats.h"
+#include "../src/vec.h"
+#include "tests.h"
+
+#include <stdlib.h>
+
+static const char *const NAMES[] = {"box", "triangle", "gaussian", "mitchell", "sinc"};
+enum { N_FILTERS = 5 };
+
+static double integral(const struct filter *f)
+{
+    enum { N = 800 };
+    double sum = 0, hx = 2 * f->radius[0] / N, hy = 2 * f->radius[1] / N;
+    for (int j = 0; j < N; j++)
+        for (int i = 0; i < N; i++)
+            sum += filter_eval(f, -f->radius[0] + (i + 0.5) * hx, -f->radius[1] + (j + 0.5) * hy) * hx * hy;
+    return sum;
+}
+
+/* Signed weights of samples, summed per cell, against the filter's integral over the cell: a z-test per cell. The
+ * planted fault samples with one radius 2 % too large. */
+static double sampling_p(const struct filter *f, struct rng *r, double stretch)
+{
+    enum { CELLS = 12, N = 200000, SUB = 40 };
+    double sum[CELLS] = {0}, square[CELLS] = {0}, smallest = 1;
+    double width = 2 * f->radius[0] / CELLS;
+    for (int i = 0; i < N; i++) {
+        double x, y, w = filter_sample(f, rng_uniform(r), rng_uniform(r), &x, &y);
+        int cell = (int)((x * stretch + f->radius[0]) / width);
+        cell = cell < 0 ? 0 : cell >= CELLS ? CELLS - 1 : cell;
+        sum[cell] += w;
+        square[cell] += w * w;
+    }
+    for (int c = 0; c < CELLS; c++) {
+        double expected = 0; /* of one sample: the integral over the cell, all y */
+        for (int i = 0; i < SUB; i++)
+            for (int j = 0; j < 20 * SUB; j++)
+                expected += filter_eval(f, -f->radius[0] + (c + (i + 0.5) / SUB) * width,
+                                        -f->radius[1] + (j + 0.5) * 2 * f->radius[1] / (20 * SUB)) *
+                            width / SUB * 2 * f->radius[1] / (20 * SUB);
+        double mean = sum[c] / N, variance = (square[c] / N - mean * mean) / N;
+        smallest = fmin(smallest, stats_normal_p((mean - expected) / sqrt(variance)));
+    }
+    return 1 - pow(1 - smallest, CELLS);
+}
+
+static void test_filters(struct test *t)
+{
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 2, 0);
+    for (int i = 0; i < N_FILTERS; i++) {
+        struct filter f;
+        CHECK(t, filter_default(NAMES[i], &f), "%s is unknown", NAMES[i]);
+        f.radius[1] *= 1.5;
+        filter_prepare(&f);
+        double one = integral(&f);
+        CHECK(t, fabs(one - 1) < 2e-4, "%s integrates to %g", NAMES[i], one);
+        TEST_ACCEPT(t, sampling_p(&f, &r, 1), "samples of the %s filter", NAMES[i]);
+        TEST_REJECT(t, sampling_p(&f, &r, 1.02), "samples of the %s filter stretched by 2 %%", NAMES[i]);
+    }
+    struct filter f;
+    CHECK(t, !filter_default("tent", &f), "a filter that does not exist was found");
+}
+
+/* A splat of value 1 spread over the film, summed: 1 inside, less at the edges; a box puts it in exactly one pixel. */
+static void test_splats(struct test *t)
+{
+    struct pixel_rect all = {0, 0, 20, 12};
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 3, 0);
+    for (int i = 0; i < N_FILTERS; i++) {
+        struct filter f;
+        filter_default(NAMES[i], &f);
+        filter_prepare(&f);
+        struct tile tile;
+        memset(&tile, 0, sizeof tile);
+        double total = 0;
+        for (int k = 0; k < 2000; k++) {
+            tile_start(&tile, all, all, &f, false);
+            tile_add_splat(&tile, 6 + 8 * rng_uniform(&r), 5 + 2 * rng_uniform(&r), rgb_grey(1));
+            for (size_t j = 0; j < tile.n_splats; j++)
+                total += (double)tile.splat[j].g;
+            CHECK(t, f.kind != FILTER_BOX || tile.n_splats == 1, "a box splat fell on %d pixels", (int)tile.n_splats);
+        }
+        /* Averaged over positions, the sum over pixels is the filter's integral. */
+        CHECK(t, fabs(total / 2000 - 1) < 0.02, "%s: a splat of 1 sums to %g", NAMES[i], total / 2000);
+        tile_start(&tile, all, all, &f, false);
+        tile_add_splat(&tile, 20, 5, rgb_grey(1));
+        tile_add_splat(&tile, -1e30, 5, rgb_grey(1));
+        tile_add_splat(&tile, 1e30, 1e30, rgb_grey(1));
+        CHECK(t, f.kind != FILTER_BOX || tile.n_splats == 0, "a splat beyond the film was kept");
+        tile_add_splat(&tile, 5, 5, rgb_grey(NAN));
+        CHECK(t, tile.nonfinite == 1, "a NaN splat was not counted");
+        tile_free(&tile);
+    }
+}
+
+/* Standard errors of known noise: own values uniform in [0,1) plus rare splats. */
+static void test_errors(struct test *t)
+{
+    struct pixel_rect all = {0, 0, 8, 8};
+    enum { ITERATIONS = 500, SPLATS = 20, PIXELS = 64 };
+    struct filter box;
+    filter_default("box", &box);
+    filter_prepare(&box);
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 4, 0);
+    struct film film;
+    film_init(&film, all, 8, 8);
+    struct tile tile;
+    memset(&tile, 0, sizeof tile);
+    tile_start(&tile, all, all, &box, false);
+    for (int i = 0; i < ITERATIONS; i++) {
+        for (int p = 0; p < PIXELS; p++)
+            tile_add_own(&tile, p % 8, p / 8, rgb_grey(rng_uniform(&r)));
+        for (int k = 0; k < SPLATS; k++)
+            tile_add_splat(&tile, 8 * rng_uniform(&r), 8 * rng_uniform(&r), rgb_grey(1));
+    }
+    film_merge_tile(&film, &tile);
+    film.iterations = ITERATIONS;
+    float error[PIXELS * 3], mean[PIXELS * 3];
+    film_develop(&film, 2, mean);
+    film_standard_error(&film, 2, error);
+    /* Variance of one iteration: 1/12 of the uniform number, SPLATS/64 of the splats' count; scale 2. */
+    double expected = 2 * sqrt((1.0 / 12 + SPLATS / 64.0) / ITERATIONS), chi2 = 0, mean_error = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        mean_error += (double)error[3 * i] / PIXELS;
+        chi2 += sqr(((double)mean[3 * i] - 2 * (0.5 + SPLATS / 64.0)) / (double)error[3 * i]);
+    }
+    CHECK(t, fabs(mean_error / expected - 1) < 0.05, "standard error %g, expected %g", mean_error, expected);
+    TEST_ACCEPT(t, stats_chi2_p(chi2, PIXELS), "pixel means in units of their standard errors");
+    TEST_REJECT(t, stats_chi2_p(chi2 * 4, PIXELS), "the same with errors half as large");
+    tile_free(&tile);
+    film_free(&film);
+}
+
+static void test_strategy_numbers(struct test *t)
+{
+    int next = 0;
+    for (int depth = 0; depth < 6; depth++)
+        for (int s = 0; s <= depth + 1; s++, next++)
+            CHECK(t, strategy_index(s, depth + 2 - s) == next, "strategy (%d,%d) has number %d, not %d", s,
+                  depth + 2 - s, strategy_index(s, depth + 2 - s), next);
+    CHECK(t, strategy_count(5) == next, "%d strategies, not %d", strategy_count(5), next);
+}
+
+void test_film(struct test *t)
+{
+    test_filters(t);
+    test_splats(t);
+    test_errors(t);
+    test_strategy_numbers(t);
+}

@@ -1,0 +1,155 @@
+/* test_light.c: what lights sample against the densities they state: emitted directions, points on lights, directions
+ * of environment maps; the choice among lights; powers. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "../src/image.h"
+#include "../src/mem.h"
+#include "../src/rng.h"
+#include "../src/stats.h"
+#include "helpers.h"
+#include "tests.h"
+
+enum { ROWS = 24, COLUMNS = 32, CELLS = ROWS * COLUMNS, SAMPLES = 60000, SUB = 8 };
+
+static int cell_of(vec3 w)
+{
+    int row = (int)((w.z + 1) / 2 * ROWS);
+    double phi = atan2(w.y, w.x);
+    int column = (int)((phi < 0 ? phi + 2 * PI : phi) / (2 * PI) * COLUMNS);
+    row = row < 0 ? 0 : row >= ROWS ? ROWS - 1 : row;
+    return row * COLUMNS + (column >= COLUMNS ? COLUMNS - 1 : column);
+}
+
+struct direction_source {
+    const struct light_set *set;
+    const struct light_point *y0; /* NULL: infinite lights' directions */
+    const struct geometry *geo;
+    double planted; /* exponent of a cosine wrongly multiplied onto the density: 0 for none */
+};
+
+static double density(const struct direction_source *s, vec3 w)
+{
+    double pdf = s->y0 != NULL ? light_pdf_emission(s->set, s->y0, w) : light_pdf_environment(s->set, w);
+    return s->planted == 0 ? pdf : pdf * (1 + s->planted * w.x);
+}
+
+static vec3 draw(const struct direction_source *s, struct rng *r)
+{
+    double u[3] = {rng_uniform(r), rng_uniform(r), rng_uniform(r)};
+    if (s->y0 != NULL) {
+        struct ray ray;
+        double pdf;
+        light_sample_emission(s->set, s->y0, u, &ray, &pdf);
+        return ray.d;
+    }
+    struct light_point at;
+    return light_sample_point(s->set, s->geo, u, &at) ? at.w : vec(0, 0, 1);
+}
+
+static double directions_p(const struct direction_source *s, struct rng *r, double *integral)
+{
+    static double observed[CELLS], expected[CELLS];
+    double total = 0;
+    for (int i = 0; i < CELLS; i++)
+        observed[i] = expected[i] = 0;
+    for (int row = 0; row < ROWS * SUB; row++)
+        for (int column = 0; column < COLUMNS * SUB; column++) {
+            double z = -1 + 2 * (row + 0.5) / (ROWS * SUB), phi = 2 * PI * (column + 0.5) / (COLUMNS * SUB);
+            vec3 w = vec(sqrt(1 - z * z) * cos(phi), sqrt(1 - z * z) * sin(phi), z);
+            double mass = density(s, w) * 4 * PI / (CELLS * SUB * SUB);
+            expected[row / SUB * COLUMNS + column / SUB] += mass;
+            total += mass;
+        }
+    for (int i = 0; i < SAMPLES; i++)
+        observed[cell_of(draw(s, r))] += 1;
+    for (int i = 0; i < CELLS; i++)
+        expected[i] *= SAMPLES / total;
+    *integral = total;
+    return stats_chi2_test(observed, expected, CELLS);
+}
+
+static void check_directions(struct test *t, struct direction_source s, const char *name)
+{
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 5, (uint64_t)name[0]);
+    double integral;
+    TEST_ACCEPT(t, directions_p(&s, &r, &integral), "directions of %s", name);
+    CHECK(t, fabs(integral - 1) < 0.02, "density of %s integrates to %g", name, integral);
+    s.planted = 0.1;
+    TEST_REJECT(t, directions_p(&s, &r, &integral), "directions of %s against a density 10 %% off", name);
+}
+
+/* Grid aligned with the lights' axes (beams along z), so that cells do not cut densities with edges. */
+static const char LIGHTS[] =
+    "WorldBegin\n"
+    "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [1 2 3]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2] \"point P\" [0 0 1  2 0 1  0 3 1] AttributeEnd\n"
+    "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] \"bool twosided\" \"true\"\n"
+    "Shape \"disk\" \"float radius\" 2 AttributeEnd\n"
+    "LightSource \"point\" \"rgb I\" [1 1 1]\n"
+    "LightSource \"spot\" \"rgb I\" [1 1 1] \"point from\" [0 0 0] \"point to\" [0 0 1] \"float coneangle\" 60\n"
+    "WorldEnd\n";
+
+static void test_emission(struct test *t)
+{
+    struct scene scene;
+    if (!scene_from_text(t, LIGHTS, &scene))
+        return;
+    static const char *const names[] = {"an area light", "two-sided light", "point light", "spot light"};
+    bool seen[4] = {false};
+    double counts[4] = {0}, expected[4], total = 0;
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 6, 0);
+    CHECK(t, scene.lights.n == 4, "%d lights", scene.lights.n);
+    for (int i = 0; i < 20000; i++) {
+        double u[3] = {rng_uniform(&r), rng_uniform(&r), rng_uniform(&r)};
+        struct light_point at;
+        CHECK(t, light_sample_point(&scene.lights, &scene.geo, u, &at), "no light point");
+        counts[at.light]++;
+        if (seen[at.light])
+            continue;
+        seen[at.light] = true;
+        struct direction_source s = {&scene.lights, &at, &scene.geo, 0};
+        check_directions(t, s, names[at.light]);
+    }
+    for (int i = 0; i < 4; i++)
+        total += scene.lights.light[i].power;
+    for (int i = 0; i < 4; i++)
+        expected[i] = 20000 * scene.lights.light[i].power / total;
+    TEST_ACCEPT(t, stats_chi2_test(counts, expected, 4), "choice of lights by power");
+    expected[0] *= 1.2;
+    TEST_REJECT(t, stats_chi2_test(counts, expected, 4), "choice of lights with a wrong power");
+    double area = 3, wanted = PI * area * rgb_luminance(rgb_make(1, 2, 3));
+    CHECK(t, fabs(scene.lights.light[0].power / wanted - 1) < 1e-6, "area light power %g, expected %g",
+          scene.lights.light[0].power, wanted);
+    scene_free(&scene);
+}
+
+/* A map with one bright texel, dark ones and zeros. */
+static void test_environment(struct test *t)
+{
+    enum { W = 16, H = 8 };
+    static float pixels[W * H * 3];
+    char path[256], text[1024];
+    struct error err;
+    for (int i = 0; i < W * H * 3; i++)
+        pixels[i] = (float)(i % 7 == 0 ? 0 : 1 + (i / 3) % 5);
+    pixels[3 * (2 * W + 3)] = 50;
+    snprintf(path, sizeof path, "%s/env.pfm", test_tmp(t));
+    if (!CHECK(t, image_write(path, W, H, pixels, &err), "%s", err.text))
+        return;
+    snprintf(text, sizeof text, "WorldBegin LightSource \"infinite\" \"string mapname\" \"%s\"\n"
+             "LightSource \"infinite\" \"rgb L\" [.3 .3 .3] WorldEnd\n", path);
+    struct scene scene;
+    if (!scene_from_text(t, text, &scene))
+        return;
+    struct direction_source s = {&scene.lights, NULL, &scene.geo, 0};
+    check_directions(t, s, "environment light");
+    scene_free(&scene);
+}
+
+void test_light(struct test *t)
+{
+    test_emission(t);
+    test_environment(t);
+}

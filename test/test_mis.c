@@ -1,0 +1,166 @@
+/* test_mis.c: the O(1) weights of mis.h against all p_i multiplied out (oracle.h), on random paths over every kind of
+ * vertex, light and method. The bound: 1e-9 relative to the weight, plus 1e-12. A path's oracle weights sum to 1 by
+ * construction, so agreement for every strategy is the partition of unity. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../src/connect.h"
+#include "helpers.h"
+#include "oracle.h"
+#include "tests.h"
+
+/* A room with every kind of vertex; %s takes the lights and the camera's lens. */
+static const char ROOM[] =
+    "LookAt 0 1 -3.2  0 1 0  0 1 0\n"
+    "Camera \"perspective\" \"float fov\" 50 %s\n"
+    "Film \"image\" \"integer xresolution\" 32 \"integer yresolution\" 32\n"
+    "WorldBegin\n"
+    "%s\n"
+    "Material \"matte\" \"rgb Kd\" [.7 .6 .5]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  2 0 -2  2 0 2  -2 0 2]\n"
+    "Material \"substrate\" \"rgb Kd\" [.3 .5 .2] \"float uroughness\" .2 \"float vroughness\" .1\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 2  2 0 2  2 3 2  -2 3 2]\n"
+    "  \"normal N\" [.3 0 -1  -.3 0 -1  -.3 .2 -1  .3 .2 -1]\n"
+    "Material \"mirror\"\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  -2 0 2  -2 3 2  -2 3 -2]\n"
+    "Material \"metal\" \"float roughness\" .2\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [2 0 -2  2 0 2  2 3 2  2 3 -2]\n"
+    "Material \"glass\" \"float index\" 1.5\n"
+    "TransformBegin Translate .3 .8 0 Shape \"sphere\" \"float radius\" .6 TransformEnd\n"
+    "Material \"glass\" \"float index\" 1.4 \"float uroughness\" .3 \"float vroughness\" .3\n"
+    "TransformBegin Translate -.8 .5 .5 Shape \"sphere\" \"float radius\" .4 TransformEnd\n"
+    "WorldEnd\n";
+
+struct variant {
+    const char *name, *lens, *lights;
+};
+
+static const struct variant VARIANTS[] = {
+    {"area", "",
+     "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [5 5 5]\n"
+     "Shape \"trianglemesh\" \"integer indices\" [0 1 2] \"point P\" [-1 2.9 -1  1 2.9 -1  0 2.9 1] AttributeEnd"},
+    {"two-sided sphere light, lens", "\"float lensradius\" .1 \"float focaldistance\" 3",
+     "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] \"bool twosided\" \"true\"\n"
+     "Translate 0 2 0 Shape \"sphere\" \"float radius\" .3 AttributeEnd"},
+    {"point and spot", "",
+     "LightSource \"point\" \"rgb I\" [3 3 3] \"point from\" [0 2.5 0]\n"
+     "LightSource \"spot\" \"rgb I\" [9 9 9] \"point from\" [1 2.5 0] \"point to\" [0 0 0]"},
+    {"distant and infinite", "\"float lensradius\" .05 \"float focaldistance\" 2",
+     "LightSource \"distant\" \"rgb L\" [3 3 3] \"point from\" [1 4 -1] \"point to\" [0 0 0]\n"
+     "LightSource \"infinite\" \"rgb L\" [1 1 1]"},
+};
+
+/* A count that varies over space, as `select = vertices` has it. */
+static double uneven(const void *context, vec3 p)
+{
+    (void)context;
+    return 1.5 + sin(3 * p.x + 2 * p.y + p.z);
+}
+
+struct comparison {
+    struct test *t;
+    const char *name;
+    const struct scene *scene;
+    const struct mis_counts *counts;
+    double worst; /* largest relative difference */
+    long compared;
+    double skew; /* the planted fault: production weights are multiplied by it */
+};
+
+static void compare(struct comparison *c, struct connection got, const struct vertex *light, int s,
+                    const struct vertex *eye, int t)
+{
+    double weight[65];
+    if (rgb_is_black(got.value) || !oracle_weights(c->scene, c->counts, light, s, eye, t, weight))
+        return;
+    double difference = fabs(got.weight * c->skew - weight[s]) / (weight[s] + 1e-3);
+    if (!(difference <= c->worst))
+        c->worst = difference;
+    c->compared++;
+}
+
+static void compare_direct(struct comparison *c, const struct vertex *eye, int t, struct sampler *sampler)
+{
+    struct sampler same = *sampler;
+    struct connection got = connect_direct(c->scene, c->counts, &eye[t - 1], sampler);
+    double u[3];
+    struct light_point at;
+    for (int i = 0; i < 3; i++)
+        u[i] = sampler_next(&same);
+    if (!light_sample_point(&c->scene->lights, &c->scene->geo, u, &at))
+        return;
+    struct vertex y;
+    vertex_light_end(c->scene, c->counts, &at, &y);
+    compare(c, got, &y, 1, eye, t);
+}
+
+static void compare_lens(struct comparison *c, const struct vertex *light, int s, struct sampler *sampler)
+{
+    struct sampler same = *sampler;
+    struct connection got = connect_lens(c->scene, c->counts, &light[s - 1], sampler);
+    double u1 = sampler_next(&same), u2 = sampler_next(&same);
+    struct vertex z;
+    memset(&z, 0, sizeof z);
+    z.kind = VERTEX_LENS;
+    z.p = camera_sample_lens(&c->scene->camera, u1, u2);
+    compare(c, got, light, s, &z, 1);
+}
+
+static void compare_paths(struct comparison *c, int n_paths)
+{
+    enum { MAX = 8 };
+    struct vertex eye[MAX], light[MAX];
+    struct arena arena = {NULL, NULL};
+    for (int i = 0; i < n_paths; i++) {
+        arena_reset(&arena);
+        struct sampler a = sampler_start(test_seed(c->t), RNG_EYE, 1, (uint64_t)i);
+        struct sampler b = sampler_start(test_seed(c->t), RNG_LIGHT, 1, (uint64_t)i);
+        struct sampler d = sampler_start(test_seed(c->t), RNG_CONNECT, 1, (uint64_t)i);
+        struct walk we = {c->scene, c->counts, &arena, &a}, wl = {c->scene, c->counts, &arena, &b};
+        int n_eye = path_eye(&we, 32 * sampler_next(&d), 32 * sampler_next(&d), eye, MAX);
+        int n_light = path_light(&wl, light, MAX);
+        for (int t = 2; t <= n_eye; t++) {
+            if (t > 2)
+                compare(c, connect_hit(c->scene, c->counts, &eye[t - 1], t), NULL, 0, eye, t);
+            if (eye[t - 1].kind == VERTEX_SURFACE)
+                compare_direct(c, eye, t, &d);
+            for (int s = 2; s <= n_light; s++)
+                compare(c, connect_pair(c->scene, c->counts, &light[s - 1], &eye[t - 1]), light, s, eye, t);
+        }
+        for (int s = 2; s <= n_light; s++)
+            compare_lens(c, light, s, &d);
+    }
+    arena_free(&arena);
+}
+
+void test_mis(struct test *t)
+{
+    const double bound = 1e-6;
+    const struct mis_counts all = {.hit = 1, .direct = 1, .connect = 1, .splat = 1024};
+    const struct mis_counts pt = {.hit = 1, .direct = 1}, lt = {.splat = 1024};
+    const struct mis_counts power = {.hit = 1, .direct = 1, .connect = 1, .splat = 1024, .power = true};
+    const struct mis_counts resampled = {.hit = 1, .direct = 1, .connect = 4, .splat = 1024, .at = uneven};
+    const struct {
+        const char *name;
+        const struct mis_counts *counts;
+    } sets[] = {{"bdpt", &all}, {"pt", &pt}, {"lt", &lt}, {"power", &power}, {"uneven counts", &resampled}};
+
+    for (size_t v = 0; v < sizeof VARIANTS / sizeof VARIANTS[0]; v++) {
+        char text[8192];
+        snprintf(text, sizeof text, ROOM, VARIANTS[v].lens, VARIANTS[v].lights);
+        struct scene scene;
+        if (!scene_from_text(t, text, &scene))
+            return;
+        for (size_t k = 0; k < sizeof sets / sizeof sets[0]; k++) {
+            struct comparison c = {t, VARIANTS[v].name, &scene, sets[k].counts, 0, 0, 1};
+            compare_paths(&c, 400);
+            CHECK(t, c.worst < bound && c.compared > 100, "%s, %s: %ld weights, largest difference %.3g (bound %g)",
+                  VARIANTS[v].name, sets[k].name, c.compared, c.worst, bound);
+        }
+        struct comparison planted = {t, VARIANTS[v].name, &scene, &all, 0, 0, 1.001};
+        compare_paths(&planted, 50);
+        CHECK(t, planted.worst > bound, "a weight wrong by 0.1 %% was not noticed");
+        scene_free(&scene);
+    }
+}
