@@ -17,20 +17,21 @@
 
 #include "shape.h"
 
-struct kd_node; /* 8 bytes, see kdtree.c */
+struct kd_node; /* 8 bytes, see kd_node.h */
+struct kd_item; /* 40 bytes */
 
 struct kdtree {
     struct kd_node *node; /* [n_nodes], root first, owned */
-    uint32_t *leaf_prim;  /* [n_leaf_prims] primitive numbers of all leaves, owned */
+    struct kd_item *item; /* [n_items] what the leaves refer to, owned; a primitive may occur many times */
     int n_nodes;
-    int n_leaf_prims;
+    int n_items;
     float lo[3], hi[3]; /* bounds of everything; lo > hi for an empty tree */
-    int depth;          /* deepest leaf */
-    double cost;        /* expected cost of a ray by the surface-area heuristic */
+    int depth;          /* deepest leaf, the root being at 0 */
+    double cost;        /* expected cost of a ray by the surface-area heuristic, in node visits */
 };
 
 /* kd_build: build the tree of all primitives; kd_free releases it. Cannot fail (memory: see mem.h).
- * The result depends on the geometry alone. */
+ * The result depends on the geometry alone. The geometry must not change afterwards. */
 void kd_build(struct kdtree *kd, const struct geometry *geo);
 void kd_free(struct kdtree *kd);
 

@@ -1,0 +1,167 @@
+/* kdtree.c: rays through the kd-tree. See kdtree.h; the tree is built in kd_build.c.
+ *
+ * Front to back: of an inner node's two cells the one on the ray's side is visited first, the other waits on
+ * a stack. No hit may be lost to rounding, so a plane is a slab: the ray enters it at t_lo and leaves it at
+ * t_hi, and both cells extend over it. Its half width, 1e-14 of the scene's size, is a hundred times what the
+ * triangle test and the clipping of triangles can be off, and far too small to cost anything.
+ */
+#include "kdtree.h"
+
+#include <stdlib.h>
+
+#include "kd_node.h"
+
+void kd_free(struct kdtree *kd)
+{
+    free(kd->node);
+    free(kd->item);
+    struct kdtree empty = {0};
+    *kd = empty;
+}
+
+/* A cell to visit and the stretch of the ray in it. */
+struct cell {
+    uint32_t node;
+    double tmin, tmax;
+};
+
+/* A ray on its way through a tree. */
+struct walk {
+    double before[3], after[3]; /* origin moved by the slab's half width, so that t_lo = (split - before) inverse */
+    double inverse[3];          /* 1/d, finite */
+    uint32_t near_child[3];     /* 0: the ray goes up the axis, the lower cell comes first; 1: down */
+    struct cell cell;
+    int waiting;
+    struct cell stack[KD_MAX_DEPTH];
+};
+
+/* A component this small moves the ray by nothing within any scene: it stands in for 0 to keep 1/d finite. */
+static double inverse_of(double d)
+{
+    const double least = 1e-30;
+    return 1 / (fabs(d) < least ? copysign(least, d) : d);
+}
+
+/* Prepare the walk; false if the ray misses the bounds. */
+static bool walk_start(struct walk *w, const struct kdtree *kd, const struct ray *ray)
+{
+    double o[3] = {ray->o.x, ray->o.y, ray->o.z}, d[3] = {ray->d.x, ray->d.y, ray->d.z};
+    double size = 0;
+    for (int k = 0; k < 3; k++)
+        size = fmax(size, fmax(fabs(o[k]), fmax(fabs((double)kd->lo[k]), fabs((double)kd->hi[k]))));
+    double tmin = ray->tmin, tmax = ray->tmax;
+    for (int k = 0; k < 3; k++) {
+        double half = copysign(1e-14 * size, d[k]);
+        bool up = half > 0;
+        w->inverse[k] = inverse_of(d[k]);
+        w->before[k] = o[k] + half;
+        w->after[k] = o[k] - half;
+        w->near_child[k] = !up;
+        tmin = fmax(tmin, ((up ? kd->lo[k] : kd->hi[k]) - w->before[k]) * w->inverse[k]);
+        tmax = fmin(tmax, ((up ? kd->hi[k] : kd->lo[k]) - w->after[k]) * w->inverse[k]);
+    }
+    w->cell.node = 0;
+    w->cell.tmin = tmin;
+    w->cell.tmax = tmax;
+    w->waiting = 0;
+    return kd->n_nodes > 0 && tmin <= tmax;
+}
+
+/* Go down to the first leaf of the current cell, leaving the cells behind it on the stack. */
+static inline struct kd_node walk_to_leaf(struct walk *w, const struct kd_node *nodes)
+{
+    struct kd_node n = nodes[w->cell.node];
+    double tmin = w->cell.tmin, tmax = w->cell.tmax;
+    while (!kd_is_leaf(n)) {
+        uint32_t axis = n.word & 3, children = n.word >> 2;
+        uint32_t near_cell = children + w->near_child[axis], far_cell = children + 1 - w->near_child[axis];
+        double t_lo = (n.at.split - w->before[axis]) * w->inverse[axis];
+        double t_hi = (n.at.split - w->after[axis]) * w->inverse[axis];
+        if (t_lo > tmax) {
+            n = nodes[near_cell];
+        } else if (t_hi < tmin) {
+            n = nodes[far_cell];
+        } else {
+            struct cell *far = &w->stack[w->waiting++];
+            far->node = far_cell;
+            far->tmin = t_lo > tmin ? t_lo : tmin;
+            far->tmax = tmax;
+            tmax = t_hi < tmax ? t_hi : tmax;
+            n = nodes[near_cell];
+        }
+    }
+    return n;
+}
+
+/* Take the next waiting cell that begins before t; false if there is none. */
+static inline bool walk_next(struct walk *w, double t)
+{
+    while (w->waiting > 0) {
+        w->cell = w->stack[--w->waiting];
+        if (w->cell.tmin <= t) {
+            w->cell.tmax = fmin(w->cell.tmax, t);
+            return true;
+        }
+    }
+    return false;
+}
+
+/* A quadric, or a triangle with an alpha texture. */
+static bool special_hit(const struct kd_item *item, const struct geometry *geo, const struct ray *ray, double tmax,
+                        bool shadow, struct hit *hit)
+{
+    struct ray shorter = *ray;
+    struct hit h;
+    shorter.tmax = tmax;
+    if (!shape_intersect(geo, (int)(item->prim & ~KD_ALPHA), &shorter, &h))
+        return false;
+    if ((item->prim & KD_ALPHA) && !geo->opaque(geo->opaque_context, geo, &h, shadow))
+        return false;
+    *hit = h;
+    return true;
+}
+
+bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct hit *hit)
+{
+    struct walk w;
+    if (!walk_start(&w, kd, ray))
+        return false;
+    struct triangle_ray r = triangle_ray(ray);
+    double nearest = ray->tmax;
+    bool found = false;
+    do {
+        struct kd_node leaf = walk_to_leaf(&w, kd->node);
+        const struct kd_item *item = kd->item + leaf.at.first, *end = item + (leaf.word >> 2);
+        for (; item < end; item++) {
+            if (item->prim >= FIRST_QUADRIC) {
+                if (!special_hit(item, geo, ray, nearest, false, hit))
+                    continue;
+            } else {
+                if (!triangle_hit(&r, item->v, nearest, hit))
+                    continue;
+                hit->prim = (int)item->prim;
+            }
+            nearest = hit->t;
+            found = true;
+        }
+    } while (walk_next(&w, nearest));
+    return found;
+}
+
+bool kd_occluded(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray)
+{
+    struct walk w;
+    if (!walk_start(&w, kd, ray))
+        return false;
+    struct triangle_ray r = triangle_ray(ray);
+    struct hit hit;
+    do {
+        struct kd_node leaf = walk_to_leaf(&w, kd->node);
+        const struct kd_item *item = kd->item + leaf.at.first, *end = item + (leaf.word >> 2);
+        for (; item < end; item++)
+            if (item->prim >= FIRST_QUADRIC ? special_hit(item, geo, ray, ray->tmax, true, &hit)
+                                            : triangle_hit(&r, item->v, ray->tmax, &hit))
+                return true;
+    } while (walk_next(&w, ray->tmax));
+    return false;
+}
