@@ -9,13 +9,8 @@
 #define ASBDPT_PARSER_H
 
 #include "error.h"
+#include "place.h" /* struct warning_sink */
 #include "scene.h"
-
-/* A function that receives each warning, one line without newline; `context` is passed through. */
-struct warning_sink {
-    void (*warn)(void *context, const char *text);
-    void *context;
-};
 
 /* parse_scene: read a file and everything it includes.
  *   out   initialised by this function; on success to be released with scene_free; not yet prepared

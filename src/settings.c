@@ -61,8 +61,8 @@ bool settings_int(const struct settings *s, const char *name, long fallback, lon
         return error_set(err, "%s: %s = \"%s\": give a whole number from %ld to %ld", item->origin, name,
                          item->value, low, high);
     if (errno == ERANGE || value < low || value > high)
-        return error_set(err, "%s: %s = %s is out of range: give a whole number from %ld to %ld", item->origin, name,
-                         item->value, low, high);
+        return error_set(err, "%s: %s = %s is out of range: give a whole number from %ld to %ld", item->origin,
+                         name, item->value, low, high);
     *out = value;
     return true;
 }
