@@ -11,6 +11,7 @@ void test_film(struct test *t);
 void test_image(struct test *t);
 void test_kdtree(struct test *t);
 void test_light(struct test *t);
+void test_lobe(struct test *t);
 void test_mis(struct test *t);
 void test_parser(struct test *t);
 void test_ply(struct test *t);

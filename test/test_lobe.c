@@ -1,0 +1,289 @@
+/* test_lobe.c: the optics below a BSDF: Fresnel's equations, the facet distribution, delta lobes.
+ * Everything here is exact or a quadrature; the statistics are in test_bsdf.c. */
+#include "../src/lobe.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../src/bsdf.h"
+#include "../src/fresnel.h"
+#include "../src/microfacet.h"
+#include "../src/rng.h"
+#include "tests.h"
+
+static bool near(double a, double b, double tolerance) { return fabs(a - b) <= tolerance; }
+
+static vec3 direction(double cos_theta, double phi)
+{
+    double s = safe_sqrt(1 - cos_theta * cos_theta);
+    return vec(s * cos(phi), s * sin(phi), cos_theta);
+}
+
+/* --- Fresnel ----------------------------------------------------------------------------------------- */
+
+static void fresnel_values(struct test *t)
+{
+    CHECK(t, near(fresnel_dielectric(1, 1, 1.5), 0.04, 1e-15), "glass, normal incidence");
+    CHECK(t, near(fresnel_dielectric(-1, 1, 1.5), 0.04, 1e-15), "glass, from inside");
+    CHECK(t, near(fresnel_dielectric(1e-9, 1, 1.5), 1, 1e-7), "glass, grazing");
+    CHECK(t, near(fresnel_dielectric(0.3, 1, 1), 0, 1e-15), "no boundary, no reflection");
+    double critical = sqrt(1 - sqr(1 / 1.5)); /* 41.8 degrees */
+    CHECK(t, fresnel_dielectric(-critical + 1e-9, 1, 1.5) == 1, "total internal reflection");
+    CHECK(t, fresnel_dielectric(-critical - 1e-3, 1, 1.5) < 0.9, "just not total");
+    /* Brewster's angle, tan = 1.5: the parallel part vanishes. */
+    double perpendicular = (1 - 2.25) / (1 + 2.25);
+    CHECK(t, near(fresnel_dielectric(1 / sqrt(1 + 2.25), 1, 1.5), 0.5 * sqr(perpendicular), 1e-15),
+          "Brewster's angle");
+    for (double c = 0.02; c < 1; c += 0.07) {
+        double cos_t = sqrt(1 - (1 - c * c) / 2.25);
+        CHECK(t, near(fresnel_dielectric(c, 1, 1.5), fresnel_dielectric(-cos_t, 1, 1.5), 1e-14),
+              "same from both sides");
+        rgb metal = fresnel_conductor(c, rgb_grey(1.5), rgb_black());
+        CHECK(t, near(metal.g, fresnel_dielectric(c, 1, 1.5), 1e-13), "a metal that does not absorb is glass");
+    }
+    /* Copper: ((n-1)^2 + k^2) / ((n+1)^2 + k^2) at normal incidence. */
+    rgb n = rgb_make(0.200438, 0.924033, 1.102212), k = rgb_make(3.912949, 2.452848, 2.142188);
+    rgb copper = fresnel_conductor(1, n, k);
+    CHECK(t, near(copper.r, (sqr(n.r - 1) + sqr(k.r)) / (sqr(n.r + 1) + sqr(k.r)), 1e-14), "copper, red: %g",
+          copper.r);
+    CHECK(t, near(copper.r, 0.952, 1e-3) && near(copper.g, 0.620, 1e-3) && near(copper.b, 0.511, 1e-3),
+          "copper: %.6f %.6f %.6f", copper.r, copper.g, copper.b);
+    CHECK(t, near(fresnel_conductor(0, n, k).r, 1, 1e-12), "copper, grazing");
+}
+
+static void snell(struct test *t)
+{
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 20, 0);
+    for (int i = 0; i < 200; i++) {
+        vec3 n = direction(2 * rng_uniform(&r) - 1, 7 * rng_uniform(&r)), wi;
+        vec3 wo = direction(2 * rng_uniform(&r) - 1, 7 * rng_uniform(&r));
+        double eta = 0.6 + rng_uniform(&r);
+        n = faceforward(n, wo);
+        bool through = fresnel_refract(wo, n, eta, &wi);
+        double sin_o = length(cross(n, wo));
+        CHECK(t, through == (eta * sin_o < 1), "total internal reflection when sin would exceed 1");
+        if (!through)
+            continue;
+        CHECK(t, near(length(wi), 1, 1e-12) && dot(wi, n) < 0, "unit, on the other side");
+        CHECK(t, length(add(cross(n, wi), mul(cross(n, wo), eta))) < 1e-12,
+              "Snell's law, in the plane of incidence");
+    }
+}
+
+/* --- facets ------------------------------------------------------------------------------------------ */
+
+/* The two normalisations that define the distribution [Heitz 2014 (1), (13)]: the facets' area projected down is
+ * the surface's, and projected along w the visible ones are what is seen of it: int D (h.n) dh = 1,    int D <w,h>
+ * / (1 + lambda(w)) dh = cos(w). */
+static void facet_areas(struct test *t)
+{
+    static const double ALPHA[][2] = {{1, 1}, {0.5, 0.5}, {0.2, 0.6}, {0.1, 0.1}};
+    static const double COS[] = {0.95, 0.5, 0.15};
+    enum { STEPS = 400 };
+    for (int a = 0; a < 4; a++)
+        for (int c = 0; c < 3; c++) {
+            double ax = ALPHA[a][0], ay = ALPHA[a][1], down = 0, seen = 0;
+            vec3 w = direction(COS[c], 0.6);
+            for (int i = 0; i < STEPS; i++)
+                for (int j = 0; j < STEPS; j++) {
+                    /* tan(theta) = x/(1-x) spreads a narrow peak and the long tail alike */
+                    double x = (i + 0.5) / STEPS, tan_theta = 0.3 * x / (1 - x), phi = 2 * PI * (j + 0.5) / STEPS;
+                    double cos_theta = 1 / sqrt(1 + tan_theta * tan_theta);
+                    double d_omega = tan_theta * cos_theta * cos_theta * cos_theta * 0.3 / sqr(1 - x) * 2 * PI /
+                                     STEPS / STEPS; /* sin d(theta) d(phi) */
+                    vec3 h = direction(cos_theta, phi);
+                    double d = microfacet_d(h, ax, ay);
+                    down += d * h.z * d_omega;
+                    seen += d * fmax(0, dot(w, h)) / (1 + microfacet_lambda(w, ax, ay)) * d_omega;
+                }
+            CHECK(t, near(down, 1, 1e-3), "alpha %g %g: facets project to %g of the surface", ax, ay, down);
+            CHECK(t, near(seen, COS[c], 1e-3), "alpha %g %g: %g seen under cos %g", ax, ay, seen, COS[c]);
+        }
+}
+
+/* --- sampling maps: density = 1 / |Jacobian| --------------------------------------------------------- */
+
+static struct lobe facet_lobe(enum lobe_kind kind, double alpha_x, double alpha_y)
+{
+    struct lobe l;
+    memset(&l, 0, sizeof l);
+    l.kind = kind;
+    l.fresnel = FRESNEL_DIELECTRIC;
+    l.scale = l.R = l.T = rgb_grey(1);
+    l.eta_a = 1;
+    l.eta_b = 1.5;
+    l.alpha_x = alpha_x;
+    l.alpha_y = alpha_y;
+    return l;
+}
+
+/* The area on the sphere that a small square around (u1,u2) is mapped to, per area of the square. Negative if some
+ * corner is absorbed. */
+static double stretch(const struct lobe *l, vec3 wo, double u1, double u2)
+{
+    const double h = 1e-5;
+    vec3 ng = vec(0, 0, 1), corner[4];
+    static const double DU[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    for (int i = 0; i < 4; i++) {
+        double u[3] = {0.3, u1 + h * DU[i][0], u2 + h * DU[i][1]};
+        if (!lobe_sample(l, wo, ng, u, &corner[i]))
+            return -1;
+    }
+    return length(cross(sub(corner[1], corner[0]), sub(corner[3], corner[2]))) / (4 * h * h);
+}
+
+/* The largest relative difference between `claimed`'s pdf and the map of `sampled`; unlike a chi-square test this
+ * works for the narrowest lobes. */
+static double jacobian_error(const struct lobe *sampled, const struct lobe *claimed, vec3 wo)
+{
+    double worst = 0;
+    for (int i = 1; i < 12; i++)
+        for (int j = 1; j < 12; j++) {
+            double u[3] = {0.3, i / 12.0 + 0.003, j / 12.0 + 0.003}, area = stretch(sampled, wo, u[1], u[2]);
+            vec3 wi;
+            if (area < 0 || !lobe_sample(sampled, wo, vec(0, 0, 1), u, &wi))
+                continue;
+            if ((wo.z * wi.z > 0) != (sampled->kind == LOBE_MICROFACET_REFLECTION))
+                continue; /* through the facet but not through the surface: absorbed */
+            double pdf = lobe_eval(claimed, wo, wi, wo.z * wi.z > 0, RADIANCE).pdf;
+            worst = fmax(worst, fabs(pdf * area - 1));
+        }
+    return worst;
+}
+
+static void narrow_lobes(struct test *t)
+{
+    static const double ALPHA[][2] = {{0.001, 0.001}, {0.01, 0.03}, {0.2, 0.1}, {0.7, 0.7}};
+    static const double COS[] = {0.999, 0.6, 0.1, -0.8, -0.2};
+    static const enum lobe_kind KIND[] = {LOBE_MICROFACET_REFLECTION, LOBE_MICROFACET_TRANSMISSION};
+    for (int k = 0; k < 2; k++)
+        for (int a = 0; a < 4; a++)
+            for (int c = 0; c < 5; c++) {
+                struct lobe l = facet_lobe(KIND[k], ALPHA[a][0], ALPHA[a][1]);
+                vec3 wo = direction(COS[c], 0.7);
+                double e = jacobian_error(&l, &l, wo);
+                CHECK(t, e < 1e-3, "kind %d, alpha %g %g, cos %g: pdf off by %g", k, ALPHA[a][0], ALPHA[a][1],
+                      COS[c], e);
+                if (k == 1 && COS[c] == -0.2)
+                    continue; /* (almost) everything is totally reflected */
+                if (ALPHA[a][0] != ALPHA[a][1]) {
+                    struct lobe swapped = facet_lobe(KIND[k], ALPHA[a][1], ALPHA[a][0]);
+                    CHECK(t, jacobian_error(&l, &swapped, wo) > 0.1, "swapped alphas must show");
+                }
+                if (k == 1) {
+                    struct lobe other = l;
+                    other.eta_b = 1.45;
+                    CHECK(t, jacobian_error(&l, &other, wo) > 0.01, "a wrong index must show");
+                }
+            }
+}
+
+/* --- delta lobes ------------------------------------------------------------------------------------- */
+
+/* d(wi)/d(wo) of refraction by differences: two tangents of wo, and the area they span after refraction. */
+static double refraction_stretch(const struct lobe *l, vec3 wo)
+{
+    const double h = 1e-6;
+    struct frame f = frame_from_normal(wo);
+    struct bsdf_sample s[4];
+    vec3 step[4] = {mul(f.s, -h), mul(f.s, h), mul(f.t, -h), mul(f.t, h)};
+    for (int i = 0; i < 4; i++)
+        if (!lobe_sample_delta(l, normalize(add(wo, step[i])), 0.999999, RADIANCE, &s[i]))
+            return -1;
+    return length(cross(sub(s[1].wi, s[0].wi), sub(s[3].wi, s[2].wi))) / (4 * h * h);
+}
+
+/* What must hold of a delta sample and the sample that walks it backwards. */
+static void forth_and_back(struct test *t, const struct lobe *l, vec3 wo, double u)
+{
+    struct bsdf_sample fwd, rev, importance;
+    if (!lobe_sample_delta(l, wo, u, RADIANCE, &fwd))
+        return;
+    bool refracted = wo.z * fwd.wi.z < 0;
+    double u_rev = refracted ? 0.999999 : 0;
+    if (!CHECK(t, lobe_sample_delta(l, fwd.wi, u_rev, RADIANCE, &rev), "the way back exists"))
+        return;
+    CHECK(t, length(sub(rev.wi, wo)) < 1e-9, "the way back leads back");
+    CHECK(t, near(fwd.pdf_rev / fwd.pdf * rev.pdf_rev / rev.pdf, 1, 1e-9), "density ratios are inverse");
+    double jacobian = refracted ? refraction_stretch(l, wo) : 1;
+    CHECK(t, near(fwd.pdf_rev / (rev.pdf * jacobian), 1, 1e-4),
+          "pdf_rev %g, of the way back %g times d(wi)/d(wo) %g", fwd.pdf_rev, rev.pdf, jacobian);
+    CHECK(t, near(fwd.eta * rev.eta, 1, 1e-12), "indices");
+    lobe_sample_delta(l, wo, u, IMPORTANCE, &importance);
+    CHECK(t, near(importance.f.g, fwd.f.g * sqr(fwd.eta), 1e-9 * fwd.f.g), "radiance is compressed by eta^2");
+    lobe_sample_delta(l, fwd.wi, u_rev, IMPORTANCE, &importance);
+    /* The same delta, with respect to d(wi) for radiance one way and to d(wo) for importance the other way. */
+    CHECK(t, near(fwd.f.g / (importance.f.g * jacobian), 1, 1e-4), "adjoint: %g, %g times %g", fwd.f.g,
+          importance.f.g, jacobian);
+}
+
+static void delta_lobes(struct test *t)
+{
+    static const enum lobe_kind KIND[] = {LOBE_SPECULAR_REFLECTION, LOBE_SPECULAR_TRANSMISSION,
+                                          LOBE_FRESNEL_SPECULAR};
+    for (int k = 0; k < 3; k++)
+        for (double c = -0.95; c < 1; c += 0.1)
+            for (int colour = 0; colour < 2; colour++) {
+                struct lobe l = facet_lobe(KIND[k], 0, 0);
+                l.R = colour ? rgb_make(0.9, 0.5, 0.1) : rgb_grey(1);
+                vec3 wo = direction(c, 2.1);
+                forth_and_back(t, &l, wo, 0);
+                forth_and_back(t, &l, wo, 0.999999);
+            }
+    struct lobe l = facet_lobe(LOBE_FRESNEL_SPECULAR, 0, 0);
+    struct bsdf_sample reflected, refracted;
+    for (double c = -0.975; c < 1; c += 0.07) {
+        vec3 wo = direction(c, 1);
+        double F = fresnel_dielectric(c, 1, 1.5);
+        CHECK(t, lobe_sample_delta(&l, wo, 0, IMPORTANCE, &reflected), "reflects");
+        CHECK(t, near(reflected.pdf, F, 1e-12) && near(reflected.f.g * fabs(c), F, 1e-12), "Fresnel's share");
+        CHECK(t, length(sub(reflected.wi, vec(-wo.x, -wo.y, wo.z))) == 0, "mirror direction");
+        if (F == 1) {
+            CHECK(t, lobe_sample_delta(&l, wo, 0.999999, IMPORTANCE, &refracted) && refracted.wi.z * c > 0,
+                  "total reflection leaves no choice");
+            continue;
+        }
+        CHECK(t, lobe_sample_delta(&l, wo, 0.999999, IMPORTANCE, &refracted), "refracts");
+        CHECK(t, near(reflected.pdf + refracted.pdf, 1, 1e-12), "choice probabilities sum to 1");
+        CHECK(t, near(refracted.f.g * fabs(refracted.wi.z), 1 - F, 1e-12), "and the rest");
+    }
+    l.R = rgb_black(); /* all samples go where there is something */
+    CHECK(t,
+          lobe_sample_delta(&l, direction(0.2, 1), 0, RADIANCE, &refracted) && refracted.wi.z < 0 &&
+              refracted.pdf == 1,
+          "glass that does not reflect");
+    CHECK(t, !lobe_sample_delta(&l, direction(-0.2, 1), 0, RADIANCE, &refracted),
+          "and nothing under total reflection");
+    l.R = rgb_grey(1);
+    l.T = rgb_black();
+    CHECK(t, lobe_sample_delta(&l, direction(0.9, 1), 0.99, RADIANCE, &reflected) && reflected.wi.z > 0,
+          "opaque glass");
+}
+
+/* --- closed forms ------------------------------------------------------------------------------------ */
+
+/* Oren-Nayar as printed, with its angles, against the form without them. */
+static void oren_nayar_as_printed(struct test *t)
+{
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 21, 0);
+    struct lobe l = facet_lobe(LOBE_OREN_NAYAR, 0, 0);
+    l.A = 0.8;
+    l.B = 0.3;
+    for (int i = 0; i < 500; i++) {
+        double theta_o = 1.5 * rng_uniform(&r), theta_i = 1.5 * rng_uniform(&r), phi = 7 * rng_uniform(&r);
+        double alpha = fmax(theta_o, theta_i), beta = fmin(theta_o, theta_i);
+        double expected = INV_PI * (l.A + l.B * fmax(0, cos(phi)) * sin(alpha) * tan(beta));
+        rgb f = lobe_eval(&l, direction(cos(theta_o), 0.4), direction(cos(theta_i), 0.4 + phi), true, RADIANCE).f;
+        CHECK(t, near(f.r, expected, 1e-12), "Oren-Nayar: %g, printed form %g", f.r, expected);
+    }
+}
+
+void test_lobe(struct test *t)
+{
+    fresnel_values(t);
+    snell(t);
+    facet_areas(t);
+    narrow_lobes(t);
+    delta_lobes(t);
+    oren_nayar_as_printed(t);
+}
