@@ -43,7 +43,7 @@ struct texture {
             struct uv_mapping map;
         } checker;
         struct {
-            int image; /* index into the scene's images */
+            int image;  /* index into the scene's images */
             bool gamma; /* decode sRGB */
             double scale;
             enum texture_wrap wrap;
@@ -65,6 +65,7 @@ struct texture_set {
     size_t texture_capacity, image_capacity, path_capacity;
 };
 
+/* texture_add: append a texture; returns its number. Textures it names must have been added before. */
 int texture_add(struct texture_set *set, struct texture t);
 int texture_add_constant(struct texture_set *set, rgb value);
 
@@ -72,15 +73,31 @@ int texture_add_constant(struct texture_set *set, rgb value);
 int texture_load_image(struct texture_set *set, const char *path, struct error *err);
 void texture_set_free(struct texture_set *set);
 
-/* texture_rgb / texture_float: the value at a surface point. `id` must be a valid texture number. */
-rgb texture_rgb(const struct texture_set *set, int id, const struct surface *at);
-double texture_float(const struct texture_set *set, int id, const struct surface *at);
+/* texture_rgb / texture_float: the value at a surface point. `id` must be a valid texture number. A float texture
+ * of a colour picture is the luminance of the stored values, decoded afterwards if `gamma` is set, as in pbrt-v3.
+ */
+rgb texture_varying_rgb(const struct texture_set *set, int id, const struct surface *at);
+double texture_varying_float(const struct texture_set *set, int id, const struct surface *at);
 
-/* texture_mean: a rough average, for estimates only (power of a light, albedo in info). */
+/* Every parameter of every material comes through here at every hit, and most are constant. */
+static inline rgb texture_rgb(const struct texture_set *set, int id, const struct surface *at)
+{
+    const struct texture *t = &set->texture[id];
+    return t->kind == TEXTURE_CONSTANT ? t->u.constant : texture_varying_rgb(set, id, at);
+}
+
+static inline double texture_float(const struct texture_set *set, int id, const struct surface *at)
+{
+    const struct texture *t = &set->texture[id];
+    return t->kind == TEXTURE_CONSTANT ? t->u.constant.r : texture_varying_float(set, id, at);
+}
+
+/* texture_mean: a rough average over u, v in [0,1), for estimates only (power of a light, albedo in info). */
 rgb texture_mean(const struct texture_set *set, int id);
 
 /* image_bilinear: the picture at (s,t), (0,0) being the lower left corner, texel centres at half-integers,
- * as pbrt-v3's MIPMap::Lookup at width 0. Also used by environment maps. */
+ * as pbrt-v3's MIPMap::Lookup at width 0; texels are decoded (`gamma`) before they are mixed. Also used by
+ * environment maps. (pbrt-v3 first resamples a picture whose sides are no powers of two; this does not.) */
 rgb image_bilinear(const struct image *img, double s, double t, enum texture_wrap wrap, bool gamma);
 
 #endif
