@@ -137,7 +137,7 @@ static bool sample_microfacet_transmission(const struct lobe *l, vec3 wo, double
 {
     vec3 wh = microfacet_sample(wo, l->alpha_x, l->alpha_y, u1, u2);
     double eta = wo.z > 0 ? l->eta_a / l->eta_b : l->eta_b / l->eta_a;
-    return fresnel_refract(wo, wh, eta, wi);
+    return fresnel_refract(wo, wh, eta, wi) && wo.z * wi->z < 0;
 }
 
 /* --- substrate --------------------------------------------------------------------------------------- */

@@ -87,7 +87,7 @@ struct bsdf_value lobe_eval(const struct lobe *l, vec3 wo, vec3 wi, bool reflect
 /* lobe_sample: draw wi given wo from a lobe that is not delta, with lobe_eval's density.
  *   ng  geometric normal in the shading frame
  *   u   three uniform numbers in [0,1)
- * Returns false when the facet drawn sends nothing on (total internal reflection). */
+ * Returns false when the facet drawn sends nothing on: total internal reflection, or into the surface. */
 bool lobe_sample(const struct lobe *l, vec3 wo, vec3 ng, const double u[3], vec3 *wi);
 
 /* lobe_sample_delta: the direction of a delta lobe, and what goes there; fills *out in the shading frame.
