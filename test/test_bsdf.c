@@ -1,0 +1,397 @@
+/* test_bsdf.c: what bsdf_sample draws is what bsdf_eval says it draws.
+ *
+ * For every kind of lobe and some sums of lobes, from both sides, steep and grazing, with the geometric and the
+ * shading normal together and apart:
+ *   - chi-square of the drawn directions against the pdf integrated over a grid on the sphere, the absorbed samples
+ *     being one more cell, so that the missing part of the integral is tested as well;
+ *   - a sample's numbers equal bsdf_eval's; pdf_rev is the pdf of the swapped pair; radiance and importance are
+ *     adjoint;
+ *   - no more energy comes out than goes in.
+ * The companions that must be rejected: a dropped or doubled cosine, exchanged roughnesses, a wrong index, wrong
+ * lobe choice, lost samples not accounted for.
+ */
+#include "../src/bsdf.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../src/fresnel.h"
+#include "../src/rng.h"
+#include "../src/stats.h"
+#include "tests.h"
+
+enum {
+    ROWS = 20,
+    COLUMNS = 32,
+    CELLS = ROWS * COLUMNS,
+    FINE_Z = 40,
+    FINE_PHI = 10,
+    SAMPLES = 40000,
+    MAX_LOBES = 4
+};
+
+/* --- what is tested ---------------------------------------------------------------------------------- */
+
+static struct lobe lobe(enum lobe_kind kind, double R, double T)
+{
+    struct lobe l;
+    memset(&l, 0, sizeof l);
+    l.kind = kind;
+    l.scale = rgb_grey(1);
+    l.R = rgb_grey(R);
+    l.T = rgb_grey(T);
+    l.A = 0.85;
+    l.B = 0.25;
+    l.alpha_x = l.alpha_y = 0.3;
+    return l;
+}
+
+static struct lobe rough_glass(enum lobe_kind kind, double alpha_x, double alpha_y, double eta)
+{
+    struct lobe l = lobe(kind, kind == LOBE_MICROFACET_REFLECTION, kind == LOBE_MICROFACET_TRANSMISSION);
+    l.fresnel = FRESNEL_DIELECTRIC;
+    l.alpha_x = alpha_x;
+    l.alpha_y = alpha_y;
+    l.eta_a = 1;
+    l.eta_b = eta;
+    return l;
+}
+
+static struct lobe copper(double alpha_x, double alpha_y)
+{
+    struct lobe l = rough_glass(LOBE_MICROFACET_REFLECTION, alpha_x, alpha_y, 1);
+    l.fresnel = FRESNEL_CONDUCTOR;
+    l.eta = rgb_make(0.2, 0.92, 1.1);
+    l.k = rgb_make(3.9, 2.45, 2.14);
+    return l;
+}
+
+struct specimen {
+    const char *name;
+    int n;
+    struct lobe lobe[MAX_LOBES];
+};
+
+enum { N_SPECIMENS = 13 };
+
+static int specimens(struct specimen *s)
+{
+    struct lobe diffuse = lobe(LOBE_LAMBERT_REFLECTION, 0.5, 0), through = lobe(LOBE_LAMBERT_TRANSMISSION, 0, 0.4);
+    struct lobe mirror = lobe(LOBE_SPECULAR_REFLECTION, 0.3, 0);
+    struct lobe reflect = rough_glass(LOBE_MICROFACET_REFLECTION, 0.3, 0.3, 1.5);
+    struct lobe refract = rough_glass(LOBE_MICROFACET_TRANSMISSION, 0.3, 0.3, 1.5);
+    struct lobe coat = rough_glass(LOBE_MICROFACET_REFLECTION, 0.2, 0.2, 1 / 1.5), faint = reflect, weak = refract;
+    coat.R = rgb_grey(0.4);
+    faint.R = weak.T = rgb_grey(0.1);
+    weak.scale = rgb_make(0.5, 0.7, 0.9);
+    struct specimen all[N_SPECIMENS] = {
+        {"lambert", 1, {diffuse}},
+        {"lambert transmission", 1, {through}},
+        {"oren-nayar", 1, {lobe(LOBE_OREN_NAYAR, 0.8, 0)}},
+        {"copper", 1, {copper(0.25, 0.25)}},
+        {"brushed copper", 1, {copper(0.5, 0.15)}},
+        {"rough dielectric, reflection", 1, {reflect}},
+        {"rough dielectric, transmission", 1, {refract}},
+        {"brushed dielectric, transmission", 1, {rough_glass(LOBE_MICROFACET_TRANSMISSION, 0.5, 0.2, 1.3)}},
+        {"substrate", 1, {lobe(LOBE_FRESNEL_BLEND, 0.5, 0.4)}},
+        {"rough glass", 2, {reflect, refract}},
+        {"plastic", 2, {diffuse, coat}},
+        {"translucent", 4, {diffuse, through, faint, weak}},
+        {"half a mirror", 2, {diffuse, mirror}},
+    };
+    memcpy(s, all, sizeof all);
+    return N_SPECIMENS;
+}
+
+/* A BSDF of the specimen with a slanted shading frame; the geometric normal is tilted from it by `tilt` radians. */
+static struct bsdf mount(struct specimen *s, double tilt)
+{
+    vec3 ns = normalize(vec(0.3, -0.5, 0.7));
+    struct frame f = frame_from_tangent(ns, vec(1, 0.2, 0));
+    struct bsdf b;
+    bsdf_make(&b, f, to_world(&f, vec(sin(tilt) * 0.6, sin(tilt) * 0.8, cos(tilt))), s->lobe, s->n);
+    return b;
+}
+
+static vec3 direction(double cos_theta, double phi)
+{
+    double s = safe_sqrt(1 - cos_theta * cos_theta);
+    return vec(s * cos(phi), s * sin(phi), cos_theta);
+}
+
+/* --- counting and integrating ------------------------------------------------------------------------ */
+
+/* Cells of equal solid angle in the shading frame, and one more for samples that are absorbed or delta. */
+struct histogram {
+    double cell[CELLS + 1];
+};
+
+static int cell_of(const struct bsdf *b, vec3 w)
+{
+    vec3 l = to_local(&b->shading, w);
+    int row = (int)((l.z + 1) / 2 * ROWS), column = (int)((atan2(l.y, l.x) / (2 * PI) + 0.5) * COLUMNS);
+    row = row < 0 ? 0 : row >= ROWS ? ROWS - 1 : row;
+    column = column < 0 ? 0 : column >= COLUMNS ? COLUMNS - 1 : column;
+    return row * COLUMNS + column;
+}
+
+static void count_samples(const struct bsdf *b, vec3 wo, enum transport mode, struct rng *r, struct histogram *h,
+                          int *inconsistent)
+{
+    memset(h, 0, sizeof *h);
+    for (int i = 0; i < SAMPLES; i++) {
+        double u[3] = {rng_uniform(r), rng_uniform(r), rng_uniform(r)};
+        struct bsdf_sample s;
+        if (!bsdf_sample(b, wo, u, mode, &s) || s.delta) {
+            h->cell[CELLS]++;
+            continue;
+        }
+        h->cell[cell_of(b, s.wi)]++;
+        struct bsdf_value v = bsdf_eval(b, wo, s.wi, mode);
+        bool same = v.pdf == s.pdf && v.pdf_rev == s.pdf_rev && v.f.r == s.f.r && v.f.b == s.f.b;
+        *inconsistent += !same || !(s.pdf > 0) || !rgb_is_finite(s.f) || fabs(length(s.wi) - 1) > 1e-12;
+    }
+}
+
+/* What a density may be falsified into. */
+enum fault { HONEST, TIMES_COS, PER_COS, NOTHING_LOST };
+
+struct integral {
+    struct histogram expected;
+    double pdf;    /* integral of pdf over the sphere */
+    double energy; /* integral of f |cos| (brightest channel) */
+};
+
+/* Rough refraction ends abruptly where facets stand upright, along a parallel of the sphere: hence the finer steps
+ * in z. */
+static void integrate(const struct bsdf *b, vec3 wo, enum transport mode, enum fault fault, struct integral *out)
+{
+    memset(out, 0, sizeof *out);
+    const double solid_angle = 4 * PI / CELLS / (FINE_Z * FINE_PHI);
+    for (int y = 0; y < ROWS * FINE_Z; y++)
+        for (int x = 0; x < COLUMNS * FINE_PHI; x++) {
+            vec3 l =
+                direction((y + 0.5) / (ROWS * FINE_Z) * 2 - 1, ((x + 0.5) / (COLUMNS * FINE_PHI) - 0.5) * 2 * PI);
+            struct bsdf_value v = bsdf_eval(b, wo, to_world(&b->shading, l), mode);
+            double pdf = v.pdf * solid_angle;
+            if (fault == TIMES_COS)
+                pdf *= 1.5 * fabs(l.z);
+            if (fault == PER_COS)
+                pdf *= 0.5 / fabs(l.z);
+            out->expected.cell[y / FINE_Z * COLUMNS + x / FINE_PHI] += SAMPLES * pdf;
+            out->pdf += pdf;
+            out->energy += rgb_max(v.f) * fabs(l.z) * solid_angle;
+        }
+    out->expected.cell[CELLS] = SAMPLES * (1 - out->pdf);
+    for (int i = 0; i <= CELLS; i++) {
+        if (fault == NOTHING_LOST)
+            out->expected.cell[i] = i < CELLS ? out->expected.cell[i] / out->pdf : 0;
+        /* A cell of which the density covers but a corner may be missed by all steps: nowhere is quite impossible.
+         */
+        out->expected.cell[i] = fmax(out->expected.cell[i], 0.01);
+    }
+}
+
+/* p-value of samples of `drawn` against the density of `claimed`. */
+static double chi2_p(const struct bsdf *drawn, const struct bsdf *claimed, vec3 wo, enum fault fault, struct rng *r)
+{
+    static const struct histogram EMPTY = {{0}};
+    struct histogram h = EMPTY;
+    struct integral in;
+    int inconsistent = 0;
+    count_samples(drawn, wo, RADIANCE, r, &h, &inconsistent);
+    integrate(claimed, wo, RADIANCE, fault, &in);
+    return stats_chi2_test(h.cell, in.expected.cell, CELLS + 1);
+}
+
+static void samples_follow_pdf(struct test *t, struct rng *r)
+{
+    static const double COS[] = {0.95, 0.5, 0.15, -0.7, -0.2};
+    static const double TILT[] = {0, 0.35};
+    struct specimen s[N_SPECIMENS];
+    int n = specimens(s);
+    for (int i = 0; i < n; i++)
+        for (int c = 0; c < 5; c++)
+            for (int k = 0; k < 2; k++) {
+                enum transport mode = (c + k) % 2 ? IMPORTANCE : RADIANCE;
+                struct bsdf b = mount(&s[i], TILT[k]);
+                vec3 wo = to_world(&b.shading, direction(COS[c], 0.9));
+                struct histogram h;
+                struct integral in;
+                int inconsistent = 0;
+                count_samples(&b, wo, mode, r, &h, &inconsistent);
+                integrate(&b, wo, mode, HONEST, &in);
+                TEST_ACCEPT(t, stats_chi2_test(h.cell, in.expected.cell, CELLS + 1),
+                            "%s, cos %g, tilt %g: chi-square", s[i].name, COS[c], TILT[k]);
+                CHECK(t, inconsistent == 0, "%s, cos %g: %d samples differ from bsdf_eval", s[i].name, COS[c],
+                      inconsistent);
+                CHECK(t, in.pdf < 1.003, "%s, cos %g, tilt %g: pdf integrates to %g", s[i].name, COS[c], TILT[k],
+                      in.pdf);
+                CHECK(t, mode == RADIANCE || in.energy < 1.003, "%s, cos %g, tilt %g: albedo %g", s[i].name, COS[c],
+                      TILT[k], in.energy);
+                if (s[i].n == 1 && s[i].lobe[0].kind == LOBE_LAMBERT_REFLECTION)
+                    CHECK(t, fabs(in.energy - 0.5) < 2e-3, "lambert keeps its albedo whatever the normals: %g",
+                          in.energy);
+            }
+}
+
+static void planted_faults(struct test *t, struct rng *r)
+{
+    struct specimen s[N_SPECIMENS];
+    specimens(s);
+    struct bsdf lambert = mount(&s[0], 0), brushed = mount(&s[4], 0), glass = mount(&s[9], 0);
+    vec3 wo = to_world(&lambert.shading, direction(0.5, 0.9)),
+         low = to_world(&lambert.shading, direction(-0.2, 0.9));
+    TEST_REJECT(t, chi2_p(&lambert, &lambert, wo, TIMES_COS, r), "lambert, one cosine too many");
+    TEST_REJECT(t, chi2_p(&lambert, &lambert, wo, PER_COS, r), "lambert, a cosine missing");
+    TEST_REJECT(t, chi2_p(&brushed, &brushed, wo, TIMES_COS, r), "brushed copper, one cosine too many");
+    TEST_REJECT(t, chi2_p(&glass, &glass, low, NOTHING_LOST, r), "rough glass, absorbed samples not accounted for");
+    struct specimen other = s[4];
+    other.lobe[0].alpha_x = s[4].lobe[0].alpha_y;
+    other.lobe[0].alpha_y = s[4].lobe[0].alpha_x;
+    struct bsdf claimed = mount(&other, 0);
+    TEST_REJECT(t, chi2_p(&brushed, &claimed, wo, HONEST, r), "brushed copper, roughnesses exchanged");
+    other = s[9];
+    other.lobe[1].eta_b = 1.4;
+    claimed = mount(&other, 0);
+    TEST_REJECT(t, chi2_p(&glass, &claimed, wo, HONEST, r), "rough glass, wrong index");
+    other = s[9];
+    claimed = mount(&other, 0);
+    other.lobe[0].choice += 0.05;
+    other.lobe[1].choice -= 0.05;
+    TEST_REJECT(t, chi2_p(&glass, &claimed, wo, HONEST, r), "rough glass, wrong lobe choice");
+    claimed = mount(&s[0], 0.35);
+    TEST_REJECT(t, chi2_p(&lambert, &claimed, wo, HONEST, r), "lambert, wrong geometric normal");
+}
+
+/* --- pairs of directions ----------------------------------------------------------------------------- */
+
+static bool agree(double a, double b) { return fabs(a - b) <= 1e-6 * (fabs(a) + fabs(b)); }
+
+/* Random pairs, most of them with a value: half of them are drawn by the BSDF. */
+static void swapped_pairs(struct test *t, struct rng *r)
+{
+    struct specimen s[N_SPECIMENS];
+    int n = specimens(s);
+    for (int i = 0; i < n; i++) {
+        int bad_pdf = 0, bad_f = 0, bad_eta = 0, black_pdf = 0, met = 0;
+        for (int k = 0; k < 3000; k++) {
+            struct bsdf b = mount(&s[i], k % 3 == 0 ? 0.35 : 0);
+            vec3 wo = direction(2 * rng_uniform(r) - 1, 7 * rng_uniform(r)),
+                 wi = direction(2 * rng_uniform(r) - 1, 0.3);
+            double u[3] = {rng_uniform(r), rng_uniform(r), rng_uniform(r)};
+            struct bsdf_sample sample;
+            if (k % 2 == 0 && bsdf_sample(&b, wo, u, RADIANCE, &sample) && !sample.delta)
+                wi = sample.wi;
+            struct bsdf_value there = bsdf_eval(&b, wo, wi, RADIANCE), back = bsdf_eval(&b, wi, wo, RADIANCE);
+            struct bsdf_value there_i = bsdf_eval(&b, wo, wi, IMPORTANCE),
+                              back_i = bsdf_eval(&b, wi, wo, IMPORTANCE);
+            met += !rgb_is_black(there.f);
+            bad_pdf += !agree(there.pdf, back.pdf_rev) || !agree(there.pdf_rev, back.pdf) ||
+                       !agree(there.pdf, there_i.pdf);
+            bad_f += !agree(there.f.r, back_i.f.r) || !agree(there_i.f.b, back.f.b);
+            bool reflected = dot(wo, b.ng) * dot(wi, b.ng) > 0;
+            if (reflected || s[i].lobe[0].kind == LOBE_LAMBERT_TRANSMISSION)
+                bad_eta += !agree(there.f.g, back.f.g) || !agree(there.f.g, there_i.f.g);
+            else if (s[i].lobe[0].kind == LOBE_MICROFACET_TRANSMISSION && there.f.g > 0) {
+                double eta = s[i].lobe[0].eta_b / s[i].lobe[0].eta_a;
+                eta = dot(wo, b.shading.n) > 0 ? eta : 1 / eta;
+                bad_eta += !agree(there_i.f.g, there.f.g * eta * eta);
+            }
+            black_pdf += rgb_is_black(there.f) && (there.pdf != 0 || there.pdf_rev != 0);
+        }
+        CHECK(t, met > 500, "%s: only %d pairs are not black", s[i].name, met);
+        CHECK(t, bad_pdf == 0, "%s: %d pairs whose pdf_rev is not the swapped pair's pdf", s[i].name, bad_pdf);
+        CHECK(t, bad_f == 0, "%s: %d pairs where radiance and importance are not adjoint", s[i].name, bad_f);
+        CHECK(t, bad_eta == 0, "%s: %d pairs not symmetric up to eta^2", s[i].name, bad_eta);
+        CHECK(t, black_pdf == 0, "%s: %d black pairs with a density", s[i].name, black_pdf);
+    }
+}
+
+/* The one-lobe short cut gives what the general sum gives. */
+static void short_cut(struct test *t, struct rng *r)
+{
+    struct specimen one = {"lambert", 1, {lobe(LOBE_LAMBERT_REFLECTION, 0.7, 0)}};
+    struct specimen two = {"lambert in halves", 2, {lobe(LOBE_LAMBERT_REFLECTION, 0.35, 0), one.lobe[0]}};
+    two.lobe[1].scale = rgb_grey(0.5);
+    struct bsdf a = mount(&one, 0.35), b = mount(&two, 0.35);
+    for (int i = 0; i < 300; i++) {
+        vec3 wo = direction(2 * rng_uniform(r) - 1, 1), wi = direction(2 * rng_uniform(r) - 1, 7 * rng_uniform(r));
+        struct bsdf_value x = bsdf_eval(&a, wo, wi, RADIANCE), y = bsdf_eval(&b, wo, wi, RADIANCE);
+        CHECK(t, agree(x.f.g, y.f.g) && agree(x.pdf, y.pdf) && agree(x.pdf_rev, y.pdf_rev),
+              "short cut for one lobe");
+    }
+}
+
+/* --- delta lobes among others ------------------------------------------------------------------------ */
+
+/* Lobe choice of an uber-like material: each delta direction is drawn as often as its pdf says, and f |cos| / pdf
+ * averages to the lobes' shares. */
+static void choice_among_lobes(struct test *t)
+{
+    enum { N = 20000 };
+    struct specimen s = {"uber",
+                         4,
+                         {lobe(LOBE_LAMBERT_REFLECTION, 0.3, 0), lobe(LOBE_SPECULAR_REFLECTION, 0.2, 0),
+                          lobe(LOBE_SPECULAR_TRANSMISSION, 0, 0.4), lobe(LOBE_FRESNEL_SPECULAR, 0.1, 0.1)}};
+    s.lobe[1].fresnel = FRESNEL_NONE;
+    s.lobe[2].eta_a = s.lobe[2].eta_b = s.lobe[3].eta_a = 1;
+    s.lobe[3].eta_b = 1.5;
+    struct bsdf b = mount(&s, 0);
+    CHECK(t, b.n_smooth == 1, "one lobe of four is smooth");
+    double sum = 0;
+    for (int i = 0; i < 4; i++) {
+        sum += s.lobe[i].choice;
+        CHECK(t, s.lobe[i].choice > 0.03, "lobe %d is chosen with %g", i, s.lobe[i].choice);
+    }
+    CHECK(t, fabs(sum - 1) < 1e-12, "choices sum to %g", sum);
+    vec3 wo = to_world(&b.shading, direction(0.6, 1));
+    double mass = 0, energy = 0, last = 0;
+    for (int i = 0; i < N; i++) {
+        double u[3] = {(i + 0.5) / N, 0.4, 0.6};
+        struct bsdf_sample d;
+        if (!CHECK(t, bsdf_sample(&b, wo, u, IMPORTANCE, &d), "nothing is absorbed"))
+            continue;
+        if (d.delta) {
+            energy += d.f.g * abs_dot(d.wi, b.shading.n) / d.pdf / N;
+            mass += fabs(d.pdf - last) > 1e-12 ? d.pdf : 0; /* each branch once, they follow each other in u */
+            last = d.pdf;
+        }
+    }
+    CHECK(t, fabs(mass + s.lobe[0].choice - 1) < 1e-9, "probabilities of all branches sum to %g",
+          mass + s.lobe[0].choice);
+    CHECK(t, fabs(energy - (0.2 + 0.4 + 0.1)) < 1e-3, "delta lobes send on %g", energy);
+    CHECK(t, bsdf_eval(&b, wo, to_world(&b.shading, direction(0.6, 1 + PI)), RADIANCE).f.g == 0.3 * INV_PI,
+          "bsdf_eval leaves delta lobes out");
+}
+
+/* A smooth surface behind a tilted shading frame: bsdf_sample works in the world. */
+static void world_frame(struct test *t)
+{
+    struct specimen s = {"glass", 1, {lobe(LOBE_FRESNEL_SPECULAR, 1, 1)}};
+    s.lobe[0].eta_a = 1;
+    s.lobe[0].eta_b = 1.5;
+    struct bsdf b = mount(&s, 0.2);
+    vec3 n = b.shading.n, wo = normalize(add(n, mul(b.shading.s, 0.8)));
+    double u[3] = {0, 0.5, 0.5};
+    struct bsdf_sample d;
+    CHECK(t, bsdf_sample(&b, wo, u, RADIANCE, &d) && d.delta && d.eta == 1, "reflects");
+    CHECK(t, length(sub(add(d.wi, wo), mul(n, 2 * dot(wo, n)))) < 1e-12, "about the shading normal");
+    u[0] = 0.99;
+    CHECK(t, bsdf_sample(&b, wo, u, RADIANCE, &d) && d.delta && d.eta == 1.5, "refracts");
+    CHECK(t, length(add(cross(n, wo), mul(cross(n, d.wi), 1.5))) < 1e-12, "by Snell's law");
+    CHECK(t, bsdf_eval(&b, wo, d.wi, RADIANCE).pdf == 0 && b.n_smooth == 0, "without a density");
+    bsdf_make(&b, b.shading, b.ng, NULL, 0);
+    CHECK(t, !bsdf_sample(&b, wo, u, RADIANCE, &d) && bsdf_eval(&b, wo, wo, RADIANCE).pdf == 0, "a black surface");
+}
+
+void test_bsdf(struct test *t)
+{
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 22, 0);
+    samples_follow_pdf(t, &r);
+    planted_faults(t, &r);
+    swapped_pairs(t, &r);
+    short_cut(t, &r);
+    choice_among_lobes(t);
+    world_frame(t);
+}
