@@ -4,13 +4,7 @@
 
 #include <stdlib.h>
 
-#include "gather.h"
-
-/* Number of light sub-paths of one iteration over the whole film: one per pixel. */
-static double light_paths(const struct render_job *job)
-{
-    return (double)rect_width(job->film_rect) * rect_height(job->film_rect);
-}
+#include "trace.h"
 
 static bool prepare(const struct render_job *job, void **state, struct mis_counts counts)
 {
@@ -31,38 +25,28 @@ static bool prepare_pt(const struct render_job *job, void **state, int *block, s
 static bool prepare_lt(const struct render_job *job, void **state, int *block, struct error *err)
 {
     (void)block, (void)err;
-    struct mis_counts counts = {.splat = light_paths(job)};
+    struct mis_counts counts = {.splat = trace_light_count(job)};
     return prepare(job, state, counts);
 }
 
 static bool prepare_bdpt(const struct render_job *job, void **state, int *block, struct error *err)
 {
     (void)block, (void)err;
-    struct mis_counts counts = {.hit = 1, .direct = 1, .connect = 1, .splat = light_paths(job)};
+    struct mis_counts counts = {.hit = 1, .direct = 1, .connect = 1, .splat = trace_light_count(job)};
     return prepare(job, state, counts);
 }
 
 /* One iteration of one pixel. Light tracing needs of the eye sub-path only the lights seen directly (s = 0, t = 2). */
 static void render_pixel(const struct tile_pass *pass, const struct mis_counts *counts, int x, int y, long iteration)
 {
-    const struct render_job *job = pass->job;
-    const struct scene *scene = job->scene;
     struct workspace *work = pass->work;
     arena_reset(&work->arena);
-    uint64_t pixel = (uint64_t)y * (uint64_t)scene->width + (uint64_t)x;
-
-    struct gather g = {scene, counts, pass->tile, job->max_depth, x, y, 1, {{0, 0}}};
-    g.sampler = sampler_start(job->seed, RNG_CONNECT, pixel, (uint64_t)iteration);
+    struct gather g = trace_begin(pass, counts, x, y, iteration);
+    bool light_tracing = counts->hit == 0 && counts->direct == 0 && counts->connect == 0;
+    int n_eye = trace_eye(pass, &g, iteration, work->eye, light_tracing ? 2 : g.max_depth + 2);
     int n_light = 0;
-    if (counts->connect > 0 || counts->splat > 0) {
-        struct sampler light_sampler = sampler_start(job->seed, RNG_LIGHT, pixel, (uint64_t)iteration);
-        struct walk w = {scene, counts, &work->arena, &light_sampler};
-        n_light = path_light(&w, work->light, job->max_depth + 1);
-    }
-    struct sampler eye_sampler = sampler_start(job->seed, RNG_EYE, pixel, (uint64_t)iteration);
-    struct walk w = {scene, counts, &work->arena, &eye_sampler};
-    bool only_direct_view = counts->hit == 0 && counts->direct == 0 && counts->connect == 0;
-    int n_eye = path_eye_pixel(&w, x, y, work->eye, only_direct_view ? 2 : job->max_depth + 2, &g.filter_weight);
+    if (counts->connect > 0 || counts->splat > 0)
+        n_light = trace_light(pass, counts, x, y, (uint64_t)iteration, &work->arena, work->light);
 
     rgb sum = gather_eye(&g, work->eye, n_eye);
     if (counts->connect > 0)

@@ -47,7 +47,7 @@ static void print_scene(const struct scene *s, const struct method *m, double se
     print_lights(&s->lights);
     printf("bounds        (%g, %g, %g) to (%g, %g, %g)\n", (double)kd->lo[0], (double)kd->lo[1], (double)kd->lo[2],
            (double)kd->hi[0], (double)kd->hi[1], (double)kd->hi[2]);
-    printf("kd-tree       %d nodes, %d references, depth %d, expected cost %.1f\n", kd->n_nodes, kd->n_leaf_prims,
+    printf("kd-tree       %d nodes, %d references, depth %d, expected cost %.1f\n", kd->n_nodes, kd->n_items,
            kd->depth, kd->cost);
     printf("loaded in     %.2f s\n", seconds);
 }

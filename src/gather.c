@@ -23,15 +23,18 @@ rgb gather_eye(struct gather *g, const struct vertex *eye, int n)
     return sum;
 }
 
+rgb gather_pair(struct gather *g, const struct vertex *y, int s, const struct vertex *z, int t, double scale)
+{
+    return take(g, connect_pair(g->scene, g->counts, y, z), s, t, scale);
+}
+
 rgb gather_pairs(struct gather *g, const struct vertex *eye, int n_eye, const struct vertex *light, int n_light,
                  double scale)
 {
     rgb sum = rgb_black();
     for (int t = 2; t <= n_eye; t++)
-        for (int s = 2; s <= n_light && s + t <= g->max_depth + 2; s++) {
-            struct connection c = connect_pair(g->scene, g->counts, &light[s - 1], &eye[t - 1]);
-            sum = rgb_add(sum, take(g, c, s, t, scale));
-        }
+        for (int s = 2; s <= n_light && s + t <= g->max_depth + 2; s++)
+            sum = rgb_add(sum, gather_pair(g, &light[s - 1], s, &eye[t - 1], t, scale));
     return sum;
 }
 

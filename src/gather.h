@@ -25,6 +25,10 @@ struct gather {
  * times filter_weight. */
 rgb gather_eye(struct gather *g, const struct vertex *eye, int n);
 
+/* gather_pair: one strategy s >= 2, t >= 2, joining the light vertex y = y_{s-1} to the eye vertex z = z_{t-1}; times
+ * `scale` and filter_weight. */
+rgb gather_pair(struct gather *g, const struct vertex *y, int s, const struct vertex *z, int t, double scale);
+
 /* gather_pairs: s >= 2, t >= 2 for every pair of vertices of the two sub-paths, each multiplied by `scale`
  * and filter_weight. */
 rgb gather_pairs(struct gather *g, const struct vertex *eye, int n_eye, const struct vertex *light, int n_light,

@@ -29,6 +29,8 @@ struct render_job {
     bool power_heuristic;
 };
 
+enum { TILE_SIZE = 16 }; /* pixels along the side of a tile */
+
 /* Memory of one thread, made once and reused by all its tile passes. */
 struct workspace {
     struct arena arena;
@@ -55,7 +57,7 @@ struct method {
     void (*render)(const void *state, const struct tile_pass *pass);
     void (*release)(void *state);
     void *(*new_own)(const void *state); /* may be NULL: no memory of its own */
-    void (*free_own)(void *own);
+    void (*free_own)(const void *state, void *own);
 };
 
 /* method_find: by name ("pt", "lt", "bdpt", "asbdpt"; pbrt's "path" is pt). NULL if there is none. */

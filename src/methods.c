@@ -1,10 +1,11 @@
 /* methods.c: the table of rendering methods (method.h). A new method is a new line here. */
 #include <string.h>
 
+#include "asbdpt.h"
 #include "bdpt.h"
 #include "method.h"
 
-static const struct method *const METHODS[] = {&method_pt, &method_lt, &method_bdpt, NULL};
+static const struct method *const METHODS[] = {&method_pt, &method_lt, &method_bdpt, &method_asbdpt, NULL};
 
 const struct method *const *method_list(void) { return METHODS; }
 

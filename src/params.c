@@ -257,15 +257,16 @@ double params_at_least(struct params *p, const char *name, double fallback, doub
     return fallback;
 }
 
-int params_int(struct params *p, const char *name, int fallback)
+int params_int(struct params *p, const char *name, int fallback, int low, int high)
 {
     const struct param *item = find_n(p, name, 1u << PARAM_INTEGER, 1);
     if (item == NULL)
         return fallback;
     double number = p->number[item->first];
-    if (number >= INT_MIN && number <= INT_MAX && number == floor(number))
+    if (number >= low && number <= high && number == floor(number))
         return (int)number;
-    params_fail(p, param_value_place(item, 0), "\"%s\" is %g; it must be a whole number below 2^31", name, number);
+    params_fail(p, param_value_place(item, 0), "\"%s\" is %.12g; it must be a whole number from %d to %d", name,
+                number, low, high);
     return fallback;
 }
 
@@ -287,9 +288,9 @@ const char *params_string(struct params *p, const char *name, const char *fallba
     return item != NULL ? p->string[item->first] : fallback;
 }
 
-const char *params_texture(struct params *p, const char *name, struct place *at)
+const char *params_text(struct params *p, const char *name, enum param_type type, struct place *at)
 {
-    const struct param *item = find_n(p, name, 1u << PARAM_TEXTURE, 1);
+    const struct param *item = find_n(p, name, 1u << type, 1);
     if (item == NULL)
         return NULL;
     *at = param_value_place(item, 0);
@@ -355,8 +356,7 @@ static bool fail_unused(struct params *p, const struct param *item)
                            p->directive, p->type, item->name, near.name);
     bool shape = strcmp(p->directive, "Shape") == 0;
     return params_fail(p, item->place, "%s \"%s\" has no parameter \"%.40s\"; %s", p->directive, p->type,
-                       item->name,
-                       shape ? "parameters of a material belong into a Material before the Shape" : "remove it");
+                       item->name, shape ? "remove it, or set it in a Material before the Shape" : "remove it");
 }
 
 bool params_done(struct params *p)

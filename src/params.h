@@ -84,11 +84,13 @@ bool params_has(const struct params *p, const char *name, enum param_type type);
 
 /* One value, or the default. */
 double params_float(struct params *p, const char *name, double fallback);
-int params_int(struct params *p, const char *name, int fallback);
 bool params_bool(struct params *p, const char *name, bool fallback);
 const char *params_string(struct params *p, const char *name, const char *fallback);
 vec3 params_point(struct params *p, const char *name, vec3 fallback);
 rgb params_rgb(struct params *p, const char *name, rgb fallback); /* rgb, xyz, blackbody or spectrum */
+
+/* params_int: a whole number from low to high. */
+int params_int(struct params *p, const char *name, int fallback, int low, int high);
 
 /* params_positive: params_float that must be > 0. params_at_least: >= low. */
 double params_positive(struct params *p, const char *name, double fallback);
@@ -101,8 +103,8 @@ double params_at_least(struct params *p, const char *name, double fallback, doub
 const double *params_list(struct params *p, const char *name, unsigned types, int group, int *n,
                           const struct param **found);
 
-/* params_texture: the name given as "texture NAME", or NULL; *at is the place of the value. */
-const char *params_texture(struct params *p, const char *name, struct place *at);
+/* params_text: the one value of a parameter of type PARAM_STRING or PARAM_TEXTURE, or NULL; *at is its place. */
+const char *params_text(struct params *p, const char *name, enum param_type type, struct place *at);
 
 /* params_file: a "string NAME" as a path: relative ones start in the main scene file's directory. NULL if absent.
  * The text is to be given to free(); *at is the place of the value. */

@@ -19,21 +19,10 @@ char *path_join(const char *directory, const char *name)
     return path;
 }
 
-/* The one string of a parameter as a path. */
-static char *file_of(const struct params *p, const struct param *item)
-{
-    return path_join(p->directory, p->string[item->first]);
-}
-
 char *params_file(struct params *p, const char *name, struct place *at)
 {
-    if (params_string(p, name, NULL) == NULL)
-        return NULL;
-    int n;
-    const struct param *item;
-    params_list(p, name, 1u << PARAM_STRING, 1, &n, &item);
-    *at = param_value_place(item, 0);
-    return file_of(p, item);
+    const char *file = params_text(p, name, PARAM_STRING, at);
+    return file != NULL ? path_join(p->directory, file) : NULL;
 }
 
 /* Wavelength and value pairs of an .spd file: numbers, with comments from # to the end of the line. Errors in it
@@ -43,7 +32,7 @@ static rgb rgb_from_file(struct params *p, const struct param *item)
     rgb colour = rgb_black();
     struct error inner;
     size_t size;
-    char *path = file_of(p, item), *text = text_read(path, &size, &inner);
+    char *path = path_join(p->directory, p->string[item->first]), *text = text_read(path, &size, &inner);
     if (text == NULL) {
         params_fail(p, param_value_place(item, 0), "%s", inner.text);
         free(path);

@@ -8,8 +8,8 @@ static const char *const KINDS[] = {"matte",     "mirror", "glass",       "metal
 static const char *const REFUSED[] = {"disney", "fourier", "hair", "kdsubsurface", "subsurface", NULL};
 
 /* Complex index of copper in sRGB: pbrt-v3's default metal, its tabulated spectra reduced to RGB. */
-static const rgb COPPER_ETA = {0.200438, 0.924033, 1.102212};
-static const rgb COPPER_K = {3.912949, 2.452848, 2.142188};
+static const rgb COPPER_ETA = {0.199990, 0.922086, 1.099876};
+static const rgb COPPER_K = {3.904638, 2.447633, 2.137651};
 
 static struct material no_parameters(enum material_kind kind)
 {
@@ -74,7 +74,8 @@ static int refraction(struct parser *p)
 static int mixed(struct parser *p, const char *parameter)
 {
     struct params *q = &p->params;
-    const char *name = params_string(q, parameter, NULL);
+    struct place at;
+    const char *name = params_text(q, parameter, PARAM_STRING, &at);
     if (name == NULL) {
         params_fail(q, q->place, "a mix needs \"string namedmaterial1\" and \"string namedmaterial2\"");
         return -1;
@@ -82,11 +83,11 @@ static int mixed(struct parser *p, const char *parameter)
     int value = names_find(&p->materials, name), id = value - 1;
     const char *near = names_near(&p->materials, name);
     if (value < 0 && near != NULL)
-        params_fail(q, q->place, "there is no named material \"%.60s\"; did you mean \"%.60s\"?", name, near);
+        params_fail(q, at, "there is no named material \"%.60s\"; did you mean \"%.60s\"?", name, near);
     else if (value < 0)
-        params_fail(q, q->place, "there is no named material \"%.60s\"; define it with MakeNamedMaterial", name);
+        params_fail(q, at, "there is no named material \"%.60s\"; define it with MakeNamedMaterial", name);
     else if (id == MATERIAL_NONE)
-        params_fail(q, q->place, "the material \"%.60s\" is \"none\"; it cannot be mixed", name);
+        params_fail(q, at, "the material \"%.60s\" is \"none\"; it cannot be mixed", name);
     return id;
 }
 

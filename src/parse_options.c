@@ -42,17 +42,6 @@ bool parse_camera(struct parser *p)
     return params_done(q);
 }
 
-/* A side of the film, in pixels. */
-static int resolution(struct params *q, const char *name, int fallback)
-{
-    int pixels = params_int(q, name, fallback);
-    if (pixels < 1 || pixels > 65536) {
-        params_fail(q, q->place, "\"%s\" is %d; it must be 1 to 65536", name, pixels);
-        return fallback;
-    }
-    return pixels;
-}
-
 static double fraction(double x) { return clamp(x, 0, 1); }
 
 static void crop_window(struct params *q, double crop[4])
@@ -81,8 +70,8 @@ bool parse_film(struct parser *p)
     struct scene *s = p->scene;
     if (parse_name(p, KNOWN, NOTHING) < 0)
         return false;
-    s->width = resolution(q, "xresolution", 1280);
-    s->height = resolution(q, "yresolution", 720);
+    s->width = params_int(q, "xresolution", 1280, 1, 65536);
+    s->height = params_int(q, "yresolution", 720, 1, 65536);
     if ((double)s->width * s->height > 1 << 28)
         params_fail(q, q->place, "a film of %d x %d pixels is too large; at most 2^28 pixels", s->width, s->height);
     static const double WHOLE[4] = {0, 1, 0, 1};
@@ -143,19 +132,13 @@ bool parse_sampler(struct parser *p)
     struct params *q = &p->params;
     if (parse_name(p, KNOWN, NOTHING) < 0)
         return false;
-    int samples;
-    if (strcmp(q->type, "stratified") == 0) {
-        double product = (double)params_int(q, "xsamples", 4) * params_int(q, "ysamples", 4);
-        samples = product >= 1 && product <= 1 << 30 ? (int)product : 0;
-    } else {
-        samples = params_int(q, "pixelsamples", strcmp(q->type, "random") == 0 ? 4 : 16);
-    }
-    if (samples < 1 || samples > 1 << 30)
-        params_fail(q, q->place, "%d samples per pixel make no image; give 1 or more", samples);
+    if (strcmp(q->type, "stratified") == 0)
+        p->scene->spp = params_int(q, "xsamples", 4, 1, 1 << 15) * params_int(q, "ysamples", 4, 1, 1 << 15);
+    else
+        p->scene->spp = params_int(q, "pixelsamples", strcmp(q->type, "random") == 0 ? 4 : 16, 1, 1 << 30);
     no_effect(p, "dimensions");
     no_effect(p, "jitter");
     no_effect(p, "samplepixelcenter");
-    p->scene->spp = samples;
     return params_done(q);
 }
 

@@ -30,7 +30,7 @@ static int named_texture(struct parser *p, const char *name, bool is_float)
     const struct names *table = is_float ? &p->float_textures : &p->spectrum_textures;
     const struct names *other = is_float ? &p->spectrum_textures : &p->float_textures;
     struct place at;
-    const char *texture = params_texture(q, name, &at);
+    const char *texture = params_text(q, name, PARAM_TEXTURE, &at);
     if (texture == NULL)
         return -1;
     int id = names_find(table, texture);
@@ -97,9 +97,10 @@ static rgb constant_value(struct params *q, const char *name, bool is_float, dou
 
 static struct uv_mapping mapping(struct params *q)
 {
-    const char *kind = params_string(q, "mapping", "uv");
-    if (strcmp(kind, "uv") != 0)
-        params_fail(q, q->place, "texture mapping \"%.40s\" is not supported; use \"uv\"", kind);
+    struct place at;
+    const char *kind = params_text(q, "mapping", PARAM_STRING, &at);
+    if (kind != NULL && strcmp(kind, "uv") != 0)
+        params_fail(q, at, "texture mapping \"%.40s\" is not supported; use \"uv\"", kind);
     struct uv_mapping m = {params_float(q, "uscale", 1), params_float(q, "vscale", 1), params_float(q, "udelta", 0),
                            params_float(q, "vdelta", 0)};
     return m;
@@ -109,8 +110,7 @@ static struct texture checkerboard(struct parser *p, bool is_float)
 {
     struct params *q = &p->params;
     struct texture t = {.kind = TEXTURE_CHECKERBOARD};
-    if (params_int(q, "dimension", 2) != 2)
-        params_fail(q, q->place, "only checkerboards of \"dimension\" 2 are supported");
+    params_int(q, "dimension", 2, 2, 2); /* solid ones are not supported */
     t.u.checker.tex1 = operand(p, "tex1", is_float, 1);
     t.u.checker.tex2 = operand(p, "tex2", is_float, 0);
     t.u.checker.map = mapping(q);

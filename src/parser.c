@@ -55,14 +55,11 @@ static bool do_make_named_material(struct parser *p)
     int id;
     if (!parse_string(p, &name, "a name") || !parse_list(p, "Material", &name))
         return false;
-    int n;
-    const struct param *item;
-    params_list(&p->params, "type", 1u << PARAM_STRING, 1, &n, &item);
-    if (item == NULL)
+    const char *type = params_text(&p->params, "type", PARAM_STRING, &p->params.place);
+    if (type == NULL)
         return params_fail(&p->params, name.place,
                            "MakeNamedMaterial needs its kind: add \"string type\" \"matte\"");
-    p->params.type = p->params.string[item->first];
-    p->params.place = param_value_place(item, 0);
+    p->params.type = type;
     if (!parse_material(p, &id))
         return false;
     if (names_find(&p->materials, name.text) >= 0)
@@ -193,6 +190,8 @@ static bool wrong_phase(struct parser *p, const struct directive *d)
     const struct place at = p->directive.place;
     if (p->phase == AFTER_WORLD)
         return place_error(&p->messages, at, "%s after WorldEnd; a file describes one world", d->name);
+    if (d->run == do_world_begin)
+        return place_error(&p->messages, at, "a second WorldBegin; a file describes one world");
     if (d->phase == IN_WORLD)
         return place_error(&p->messages, at, "%s may stand only between WorldBegin and WorldEnd; move it there",
                            d->name);
@@ -296,6 +295,8 @@ static void start(struct parser *p, const char *path, struct scene *s, const str
                   struct error *err)
 {
     p->scene = s;
+    s->width = 1280; /* pbrt-v3's film where there is no Film directive */
+    s->height = 720;
     p->messages.err = err;
     p->messages.sink = sink;
     p->directory = directory_of(path);
@@ -345,7 +346,6 @@ bool parse_scene(const char *path, struct scene *out, const struct warning_sink 
     if (ok && out->spp > 0) {
         char spp[32];
         snprintf(spp, sizeof spp, "%d", out->spp);
-        settings_set(&out->settings, "spp", spp, "Sampler");
     }
     finish(p);
     if (!ok)

@@ -192,6 +192,7 @@ int path_light(const struct walk *w, struct vertex *path, int max_vertices)
     rgb emitted = light_sample_emission(lights, &at, u + 3, &from.ray, &from.pdf);
     if (!(from.pdf > 0) || rgb_is_black(emitted))
         return 0;
+    path[0].beta = light_Le(lights, &at, from.ray.d); /* not a throughput: nothing connects to this y_0 */
     from.beta = rgb_scale(emitted, 1 / (at.pdf * from.pdf));
     from.ray.tmin = w->scene->epsilon;
     return random_walk(w, from, path, max_vertices, IMPORTANCE);

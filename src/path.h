@@ -35,7 +35,7 @@ struct vertex {
     vec3 p;            /* world position (at infinity: unused) */
     vec3 ng;           /* unit geometric normal; y_0 on an area light: of the light; else zero */
     vec3 wo;           /* unit, towards the previous vertex; y_0 at infinity: towards the light; ESCAPED: inwards */
-    rgb beta;          /* throughput on arrival */
+    rgb beta;          /* throughput on arrival; y_0 of a walk: the radiance (or intensity) emitted */
     double pdf_fwd;    /* F of mis.h: density in its own walk, 1/m^2; ESCAPED and y_0 at infinity: 1/sr */
     double pdf_origin; /* eye walk, on a light or ESCAPED: density of light_sample_point making it, like pdf_fwd */
     double mis;        /* mis_e of mis.h */

@@ -10,7 +10,7 @@
 
 #include "mem.h"
 
-enum { SHOWN_COLUMNS = 100, SHOWN_INCLUDES = 4 };
+enum { SHOWN_COLUMNS = 110, SHOWN_INCLUDES = 4 };
 
 /* A growing message in a buffer of fixed size. */
 struct writer {
@@ -36,11 +36,12 @@ static void write_text(struct writer *w, const char *format, ...)
 /* The part of the line around the column, and a caret under it. Tabs and the like become one blank each. */
 static void write_excerpt(struct writer *w, struct place at)
 {
-    const char *begin = at.line_start, *caret = at.line_start + (at.column - 1), *end = begin;
-    while (end < at.input->end && *end != '\n' && *end != '\r' && end - caret < SHOWN_COLUMNS / 2)
-        end++;
-    if (caret - begin > SHOWN_COLUMNS / 2)
+    const char *begin = at.line_start, *caret = at.line_start + (at.column - 1);
+    if (caret - begin > SHOWN_COLUMNS * 3 / 4)
         begin = caret - SHOWN_COLUMNS / 2;
+    const char *end = begin;
+    while (end < at.input->end && *end != '\n' && *end != '\r' && end - begin < SHOWN_COLUMNS)
+        end++;
     write_text(w, "\n  ");
     for (const char *p = begin; p < end; p++)
         write_text(w, "%c", (unsigned char)*p < ' ' ? ' ' : *p);

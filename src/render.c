@@ -142,7 +142,7 @@ static void free_workspaces(struct run *r)
     const struct method *m = r->options->method;
     for (int i = 0; i < r->job.n_threads; i++) {
         if (m->free_own != NULL)
-            m->free_own(r->work[i].own);
+            m->free_own(r->state, r->work[i].own);
         arena_free(&r->work[i].arena);
         free(r->work[i].eye);
         free(r->work[i].light);

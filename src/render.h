@@ -16,8 +16,6 @@
 #include "method.h"
 #include "scene.h"
 
-enum { TILE_SIZE = 16 };
-
 struct render_options {
     const struct method *method;
     uint64_t seed;

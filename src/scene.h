@@ -36,7 +36,7 @@ struct scene {
     char *film_filename;    /* as written in the file; owned, may be NULL */
 
     char *integrator;       /* name in the Integrator directive; owned, NULL if there is none */
-    struct settings settings; /* its parameters, plus "spp" from Sampler's pixelsamples */
+    struct settings settings; /* its parameters, and those of -P */
     int spp;                /* pixelsamples, 0 if the file does not say */
 
     double epsilon;         /* tmin of every secondary ray: 1e-8 of the scene's diagonal */

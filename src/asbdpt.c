@@ -1,0 +1,119 @@
+/* asbdpt.c: see asbdpt.h: reads the parameters, runs the pre-pass if the selection wants one, and calls it. */
+#include "asbdpt.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "select.h"
+#include "trace.h"
+
+static const struct parameter PARAMETERS[] = {
+    {"select", "vertices", "bins (the dissertation, biased), pool, or vertices"},
+    {"metric", "importance", "pool, vertices: constant, throughput or importance"},
+    {"delta", "0.05", "pool, vertices: share of draws that ignore the importance, (0,1]"},
+    {"connections", "8", "vertices: light vertices drawn per eye vertex"},
+    {"grid", "128", "pool, vertices: cells of the importance grid along the scene's diagonal"},
+    {"binpaths", "8", "bins: light sub-paths per pixel, even"},
+    {"maxage", "24", "bins: iterations after which an unused sub-path is replaced, 0: never"},
+    {"restart", "32", "bins: iterations after which all bins are rebuilt, 0: never"},
+    {NULL, NULL, NULL}};
+
+/* The number of `text` among the names, or -1 with a message. */
+static int choice(const struct settings *s, const char *name, const char *fallback, const char *const *names, int n,
+                  struct error *err)
+{
+    const char *text = settings_text(s, name, fallback);
+    for (int i = 0; i < n; i++)
+        if (strcmp(text, names[i]) == 0)
+            return i;
+    error_set(err, "asbdpt: %s \"%s\" is unknown; it is one of %s, %s, %s", name, text, names[0], names[1], names[2]);
+    return -1;
+}
+
+static bool read_parameters(const struct settings *s, struct selection *sel, int *cells, long *restart,
+                            struct error *err)
+{
+    static const char *const selects[] = {"bins", "pool", "vertices"};
+    static const struct selector *const selectors[] = {&select_bins, &select_pool, &select_vertices};
+    static const char *const metrics[] = {"constant", "throughput", "importance"};
+    int which = choice(s, "select", "vertices", selects, 3, err);
+    int metric = which < 0 ? -1 : choice(s, "metric", "importance", metrics, 3, err);
+    long connections, grid, paths, age;
+    if (metric < 0 || !settings_real(s, "delta", 0.05, 1e-6, 1, &sel->delta, err) ||
+        !settings_int(s, "connections", 8, 1, 1024, &connections, err) ||
+        !settings_int(s, "grid", 128, 1, 100000, &grid, err) || !settings_int(s, "binpaths", 8, 2, 4096, &paths, err) ||
+        !settings_int(s, "maxage", 24, 0, LONG_MAX, &age, err) ||
+        !settings_int(s, "restart", 32, 0, INT_MAX, restart, err))
+        return false;
+    if (paths % 2 != 0)
+        return error_set(err, "asbdpt: binpaths %ld is odd; bins hold two sub-paths each", paths);
+    sel->selector = selectors[which];
+    sel->metric = (enum metric)metric;
+    sel->connections = (int)connections;
+    sel->bin_paths = (int)paths;
+    sel->max_age = age;
+    *cells = (int)grid;
+    return true;
+}
+
+/* n(x) of vertices.c over C. */
+static double position_count(const void *context, vec3 p)
+{
+    const struct selection *sel = context;
+    return (1 - sel->delta) * importance_at(&sel->grid, p) / sel->grid.mean + sel->delta;
+}
+
+static bool prepare(const struct render_job *job, void **state, int *block, struct error *err)
+{
+    struct selection *sel = mem_alloc(1, sizeof *sel);
+    int cells = 0;
+    long restart = 0;
+    if (!read_parameters(&job->scene->settings, sel, &cells, &restart, err)) {
+        free(sel);
+        return false;
+    }
+    struct mis_counts counts = {.hit = 1, .direct = 1, .connect = 1, .splat = trace_light_count(job)};
+    counts.power = job->power_heuristic;
+    sel->max_depth = job->max_depth;
+    if (sel->selector == &select_bins)
+        *block = restart > 0 ? (int)restart : INT_MAX;
+    else if (sel->metric == METRIC_IMPORTANCE)
+        importance_build(&sel->grid, job, cells);
+    if (sel->selector == &select_vertices) {
+        counts.connect = sel->connections;
+        if (sel->metric == METRIC_IMPORTANCE && sel->grid.mean > 0) {
+            counts.at = position_count;
+            counts.at_context = sel;
+        }
+    }
+    sel->counts = counts;
+    *state = sel;
+    return true;
+}
+
+static void release(void *state)
+{
+    struct selection *sel = state;
+    importance_free(&sel->grid);
+    free(sel);
+}
+
+static void render(const void *state, const struct tile_pass *pass)
+{
+    ((const struct selection *)state)->selector->render(state, pass);
+}
+
+static void *new_own(const void *state)
+{
+    const struct selection *sel = state;
+    return sel->selector->new_own(sel);
+}
+
+static void free_own(const void *state, void *own)
+{
+    ((const struct selection *)state)->selector->free_own(own);
+}
+
+const struct method method_asbdpt = {"asbdpt", "alias sampled bidirectional path tracing [Silva 2024]", PARAMETERS, 32,
+                                     prepare, render, release, new_own, free_own};
