@@ -4,7 +4,7 @@ set -e
 cd "$(dirname "$0")/.."
 tool=$(mktemp -d)
 trap 'rm -rf "$tool"' EXIT
-for scene in veach-ajar bathroom living-room; do
+for scene in veach-ajar bathroom living-room test; do
     mkdir -p "$scene"
     ${CC:-cc} -std=c99 -O2 -ffp-contract=off -o "$tool/$scene" "generate/$scene.c" generate/model.c -lm
     "$tool/$scene"
