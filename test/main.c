@@ -27,7 +27,8 @@ static const struct entry ENTRIES[] = {
     {"vec", test_vec, false},         {"warp", test_warp, false},     {"stats", test_stats, false},
     {"alias", test_alias, false},     {"image", test_image, false},   {"ply", test_ply, false},
     {"shape", test_shape, false},     {"kdtree", test_kdtree, false}, {"texture", test_texture, false},
-    {"lobe", test_lobe, false},       {"bsdf", test_bsdf, false},       {"light", test_light, false},   {"camera", test_camera, false},
+    {"lobe", test_lobe, false},       {"bsdf", test_bsdf, false},       {"material", test_material, false},
+    {"light", test_light, false},   {"camera", test_camera, false},
     {"film", test_film, false},       {"parser", test_parser, false}, {"mis", test_mis, false},
     {"render", test_render, false},
 };

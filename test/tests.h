@@ -12,6 +12,7 @@ void test_image(struct test *t);
 void test_kdtree(struct test *t);
 void test_light(struct test *t);
 void test_lobe(struct test *t);
+void test_material(struct test *t);
 void test_mis(struct test *t);
 void test_parser(struct test *t);
 void test_ply(struct test *t);
@@ -20,6 +21,7 @@ void test_shape(struct test *t);
 void test_stats(struct test *t);
 void test_texture(struct test *t);
 void test_vec(struct test *t);
+void test_zlib(struct test *t);
 void test_warp(struct test *t);
 
 #endif

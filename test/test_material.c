@@ -1,0 +1,218 @@
+/* test_material.c: which lobes a material makes, mixing, and bump mapping.
+ * The lobes themselves are tested in test_lobe.c and test_bsdf.c. */
+#include "../src/material.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../src/bump.h"
+#include "tests.h"
+
+struct bench {
+    struct texture_set textures;
+    struct arena arena;
+    struct surface at;
+    int grey[11]; /* constant textures 0, 0.1 ... 1 */
+};
+
+static void set_up(struct bench *b)
+{
+    memset(b, 0, sizeof *b);
+    for (int i = 0; i <= 10; i++)
+        b->grey[i] = texture_add_constant(&b->textures, rgb_grey(i / 10.0));
+    b->at.ng = b->at.ns = vec(0, 0, 1);
+    b->at.dpdu = vec(2, 0, 0);
+    b->at.dpdv = vec(0, 1, 0);
+    b->at.u = b->at.v = 0.25;
+}
+
+/* A material whose every parameter is the given texture, and which has no bump map. */
+static struct material all_same(enum material_kind kind, int texture)
+{
+    struct material m;
+    memset(&m, 0, sizeof m);
+    m.kind = kind;
+    m.Kd = m.Ks = m.Kr = m.Kt = m.sigma = m.eta = m.k = m.index = m.uroughness = m.vroughness = texture;
+    m.opacity = m.reflect = m.transmit = m.amount = texture;
+    m.bump = -1;
+    return m;
+}
+
+static struct bsdf make(struct bench *b, const struct material *materials, int id)
+{
+    struct bsdf out;
+    material_bsdf(materials, id, &b->textures, &b->at, &b->arena, &out);
+    return out;
+}
+
+/* The kinds of the lobes as a string, for comparison. */
+static const char *kinds(const struct bsdf *b, char *text)
+{
+    static const char LETTER[] = "LtOMTGrfB"; /* in the order of enum lobe_kind */
+    for (int i = 0; i < b->n_lobes; i++)
+        text[i] = LETTER[b->lobe[i].kind];
+    text[b->n_lobes] = '\0';
+    return text;
+}
+
+static void lobes_of_materials(struct test *t)
+{
+    struct bench b;
+    set_up(&b);
+    static const char *const LOBES[] = {"O", "M", "rf", "r", "Lr", "B", "TLrMT", "Ltrf", ""};
+    static const char *const BLACK[] = {"", "", "", "r", "", "", "T", "", ""};
+    char text[MATERIAL_MAX_LOBES + 1];
+    for (int kind = MATERIAL_MATTE; kind <= MATERIAL_TRANSLUCENT; kind++) {
+        struct material m = all_same((enum material_kind)kind, b.grey[5]), black = all_same(m.kind, b.grey[0]);
+        struct bsdf bsdf = make(&b, &m, 0);
+        CHECK(t, strcmp(kinds(&bsdf, text), LOBES[kind]) == 0, "material %d has lobes %s, not %s", kind, text,
+              LOBES[kind]);
+        black.index = b.grey[5];
+        bsdf = make(&b, &black, 0);
+        CHECK(t, strcmp(kinds(&bsdf, text), BLACK[kind]) == 0, "black material %d has lobes %s", kind, text);
+        CHECK(t, material_fits(&m, 0), "material %d fits", kind);
+    }
+    struct material matte = all_same(MATERIAL_MATTE, b.grey[5]);
+    matte.sigma = b.grey[0];
+    struct bsdf bsdf = make(&b, &matte, 0);
+    CHECK(t, strcmp(kinds(&bsdf, text), "L") == 0 && bsdf.lobe[0].R.g == 0.5, "matte without sigma is Lambert's");
+    struct material glass = all_same(MATERIAL_GLASS, b.grey[8]);
+    glass.uroughness = glass.vroughness = b.grey[0];
+    bsdf = make(&b, &glass, 0);
+    CHECK(t, strcmp(kinds(&bsdf, text), "G") == 0 && bsdf.n_smooth == 0, "smooth glass");
+    glass = all_same(MATERIAL_GLASS, b.grey[3]);
+    glass.index = b.grey[10];
+    bsdf = make(&b, &glass, 0);
+    CHECK(t, strcmp(kinds(&bsdf, text), "G") == 0, "glass of index 1 does not scatter");
+    struct material negative = all_same(MATERIAL_MATTE, texture_add_constant(&b.textures, rgb_make(-1, -2, 0)));
+    bsdf = make(&b, &negative, 0);
+    CHECK(t, bsdf.n_lobes == 0, "negative colours are black");
+    arena_free(&b.arena);
+    texture_set_free(&b.textures);
+}
+
+static void roughness(struct test *t)
+{
+    CHECK(t, fabs(roughness_to_alpha(1) - 1.62142) < 1e-9, "roughness 1");
+    CHECK(t, fabs(roughness_to_alpha(0.1) - 0.46176003) < 1e-7, "roughness 0.1: %.9g", roughness_to_alpha(0.1));
+    CHECK(t, roughness_to_alpha(0) == roughness_to_alpha(1e-3) && roughness_to_alpha(0) > 0, "roughness 0");
+    struct bench b;
+    set_up(&b);
+    struct material m = all_same(MATERIAL_SUBSTRATE, b.grey[1]);
+    m.vroughness = b.grey[0];
+    struct bsdf raw = make(&b, &m, 0);
+    CHECK(t, raw.lobe[0].alpha_x == 0.1 && raw.lobe[0].alpha_y == 1e-3, "roughness as it is, but never 0");
+    m.remap_roughness = true;
+    struct bsdf mapped = make(&b, &m, 0);
+    CHECK(t, mapped.lobe[0].alpha_x == roughness_to_alpha(0.1) && mapped.lobe[0].alpha_y == roughness_to_alpha(0),
+          "roughness remapped");
+    arena_free(&b.arena);
+    texture_set_free(&b.textures);
+}
+
+/* The value of a mix is the mix of the values, however deep. */
+static void mixing(struct test *t)
+{
+    struct bench b;
+    set_up(&b);
+    enum { MATTE, PLASTIC, SUBSTRATE, INNER, OUTER, ONLY_FIRST, N };
+    struct material m[N] = {all_same(MATERIAL_MATTE, b.grey[6]),     all_same(MATERIAL_PLASTIC, b.grey[4]),
+                            all_same(MATERIAL_SUBSTRATE, b.grey[3]), all_same(MATERIAL_MIX, b.grey[2]),
+                            all_same(MATERIAL_MIX, b.grey[7]),       all_same(MATERIAL_MIX, b.grey[10])};
+    m[INNER].mix1 = PLASTIC;
+    m[INNER].mix2 = SUBSTRATE;
+    m[OUTER].mix1 = MATTE;
+    m[OUTER].mix2 = INNER;
+    m[ONLY_FIRST].mix1 = MATTE;
+    m[ONLY_FIRST].mix2 = PLASTIC;
+    vec3 wo = normalize(vec(0.3, 0.2, 0.9)), wi = normalize(vec(-0.5, 0.1, 0.6));
+    double f[N];
+    for (int i = 0; i < N; i++) {
+        struct bsdf bsdf = make(&b, m, i);
+        f[i] = bsdf_eval(&bsdf, wo, wi, RADIANCE).f.g;
+    }
+    double inner = 0.2 * f[PLASTIC] + 0.8 * f[SUBSTRATE], outer = 0.7 * f[MATTE] + 0.3 * inner;
+    CHECK(t, f[PLASTIC] > 0 && f[SUBSTRATE] > 0, "something to mix");
+    CHECK(t, fabs(f[INNER] / inner - 1) < 1e-12, "mix: %g, should be %g", f[INNER], inner);
+    CHECK(t, fabs(f[OUTER] / outer - 1) < 1e-12, "mix in a mix: %g, should be %g", f[OUTER], outer);
+    struct bsdf first = make(&b, m, ONLY_FIRST);
+    CHECK(t, first.n_lobes == 1 && f[ONLY_FIRST] == f[MATTE], "a share of 0 drops the lobes");
+    CHECK(t, material_fits(m, OUTER), "three materials fit");
+    arena_free(&b.arena);
+    texture_set_free(&b.textures);
+}
+
+/* Mixes that are too large, or contain each other: found out, and harmless if not. */
+static void too_many(struct test *t)
+{
+    struct bench b;
+    set_up(&b);
+    struct material ring[2] = {all_same(MATERIAL_MIX, b.grey[5]), all_same(MATERIAL_MIX, b.grey[5])};
+    ring[0].mix1 = ring[0].mix2 = 1;
+    struct bsdf bsdf = make(&b, ring, 0);
+    CHECK(t, !material_fits(ring, 0) && bsdf.n_lobes == 0, "mixes of each other");
+    struct material tower[6];
+    tower[0] = all_same(MATERIAL_UBER, b.grey[5]);
+    for (int i = 1; i < 6; i++) {
+        tower[i] = all_same(MATERIAL_MIX, b.grey[5]);
+        tower[i].mix1 = tower[i].mix2 = i - 1;
+    }
+    CHECK(t, material_fits(tower, 1) && !material_fits(tower, 2) && !material_fits(tower, 5), "10, 20, 160 lobes");
+    bsdf = make(&b, tower, 5);
+    CHECK(t, bsdf.n_lobes <= MATERIAL_MAX_LOBES, "%d lobes", bsdf.n_lobes);
+    arena_free(&b.arena);
+    texture_set_free(&b.textures);
+}
+
+/* A ramp d = 0.6 u + 0.4 v on a plane has a normal that school geometry gives. */
+static void bump(struct test *t)
+{
+    struct bench b;
+    set_up(&b);
+    struct texture ramp;
+    memset(&ramp, 0, sizeof ramp);
+    ramp.kind = TEXTURE_BILERP;
+    ramp.u.bilerp.v01 = rgb_grey(0.4);
+    ramp.u.bilerp.v10 = rgb_grey(0.6);
+    ramp.u.bilerp.v11 = rgb_grey(1);
+    ramp.u.bilerp.map.su = ramp.u.bilerp.map.sv = 1;
+    int id = texture_add(&b.textures, ramp);
+    vec3 tilted = normalize(cross(vec(2, 0, 0.6), vec(0, 1, 0.4)));
+    struct material m = all_same(MATERIAL_MATTE, b.grey[5]);
+    m.bump = id;
+    struct bsdf bsdf = make(&b, &m, 0);
+    CHECK(t, length(sub(bsdf.shading.n, tilted)) < 1e-9, "normal of a ramp");
+    CHECK(t, length(sub(bsdf.shading.s, normalize(vec(2, 0, 0.6)))) < 1e-9, "tangent of a ramp");
+    CHECK(t, bsdf.ng.z == 1, "the geometric normal stays");
+    b.at.ng = vec(0, 0, -1);
+    CHECK(t, length(add(bump_frame(&b.textures, id, &b.at).n, tilted)) < 1e-9,
+          "on the side of the geometric normal");
+    b.at.ng = vec(0, 0, 1);
+    b.at.dndu = vec(1, 0, 0); /* a curved surface: the displacement stretches it by 1 + d/2 */
+    double d = 0.6 * 0.25 + 0.4 * 0.25;
+    vec3 curved = normalize(cross(vec(2 + d, 0, 0.6), vec(0, 1, 0.4)));
+    CHECK(t, length(sub(bump_frame(&b.textures, id, &b.at).n, curved)) < 1e-9, "ramp on a curved surface");
+    b.at.dpdu = b.at.dpdv = b.at.dndu = vec(0, 0, 0);
+    CHECK(t, bump_frame(&b.textures, id, &b.at).n.z == 1, "no partials, no bump");
+    arena_free(&b.arena);
+    texture_set_free(&b.textures);
+    set_up(&b);
+    struct material mix[3] = {all_same(MATERIAL_MATTE, b.grey[5]), all_same(MATERIAL_MATTE, b.grey[5]),
+                              all_same(MATERIAL_MIX, b.grey[5])};
+    id = texture_add(&b.textures, ramp);
+    mix[0].bump = id;
+    mix[2].mix2 = 1;
+    bsdf = make(&b, mix, 2);
+    CHECK(t, length(sub(bsdf.shading.n, tilted)) < 1e-9, "a mix shades like its first material");
+    arena_free(&b.arena);
+    texture_set_free(&b.textures);
+}
+
+void test_material(struct test *t)
+{
+    lobes_of_materials(t);
+    roughness(t);
+    mixing(t);
+    too_many(t);
+    bump(t);
+}
