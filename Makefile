@@ -1,23 +1,22 @@
 # asbdpt: `make help` lists the targets. Needs a C99 compiler, make, libm and POSIX threads.
-CC      ?= cc
-OPT     ?= -O2
+CC       = cc
+BUILD    = build
+OPT      = -O2
 WARN     = -std=c99 -pedantic -Wall -Wextra -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wswitch
-# No fast-math; contraction off, so that one compiler gives one result.
+# No fast-math; contraction off, so that one compiler gives one result. CFLAGS is the user's and comes last.
 FLAGS    = $(WARN) $(OPT) -ffp-contract=off -pthread
 LIBS     = -lm -lpthread
-SRC      = $(wildcard src/*.c)
-OBJ      = $(SRC:src/%.c=$(BUILD)/%.o)
-LIB_OBJ  = $(filter-out $(BUILD)/main.o,$(OBJ))
-TEST_OBJ = $(patsubst test/%.c,$(BUILD)/test_%.o,$(wildcard test/*.c))
-BUILD   ?= build
+OBJ      = $(patsubst src/%.c,$(BUILD)/%.o,$(wildcard src/*.c))
+TEST_OBJ = $(filter-out $(BUILD)/main.o,$(OBJ)) $(patsubst test/%.c,$(BUILD)/test_%.o,$(wildcard test/*.c))
+PROGRAM  = ./asbdpt
 
-all: asbdpt ## build ./asbdpt
+all: asbdpt ## build ./asbdpt (the default)
 
 asbdpt: $(OBJ)
 	$(CC) $(FLAGS) $(CFLAGS) -o $@ $(OBJ) $(LDFLAGS) $(LIBS)
 
-$(BUILD)/test: $(LIB_OBJ) $(TEST_OBJ)
-	$(CC) $(FLAGS) $(CFLAGS) -o $@ $(LIB_OBJ) $(TEST_OBJ) $(LDFLAGS) $(LIBS)
+$(BUILD)/test: $(TEST_OBJ)
+	$(CC) $(FLAGS) $(CFLAGS) -o $@ $(TEST_OBJ) $(LDFLAGS) $(LIBS)
 
 $(BUILD)/%.o: src/%.c | $(BUILD)
 	$(CC) $(FLAGS) -MMD -MP $(CFLAGS) -c -o $@ $<
@@ -25,15 +24,38 @@ $(BUILD)/%.o: src/%.c | $(BUILD)
 $(BUILD)/test_%.o: test/%.c | $(BUILD)
 	$(CC) $(FLAGS) -MMD -MP $(CFLAGS) -c -o $@ $<
 
-$(BUILD):
-	mkdir -p $(BUILD)
+$(BUILD) out:
+	mkdir -p $@
+
+demo: asbdpt | out ## render the Cornell box with bdpt and asbdpt into out/
+	$(PROGRAM) render scenes/cornell-box.pbrt --res 256x256 --spp 64 --integrator bdpt -o out/demo-bdpt.png -o out/demo-bdpt.pfm
+	$(PROGRAM) render scenes/cornell-box.pbrt --res 256x256 --spp 64 --integrator asbdpt -o out/demo-asbdpt.png -o out/demo-asbdpt.pfm
+	@echo "look at out/demo-bdpt.png and out/demo-asbdpt.png, side by side"
+
+test: asbdpt $(BUILD)/test layers ## build and run the test suite (under 3 minutes)
+	sh test/cli.sh $(PROGRAM)
+	$(BUILD)/test
+
+check-long: asbdpt $(BUILD)/test ## the tests that take longer
+	$(BUILD)/test --slow
+
+layers: ## check that every file includes only lower layers, and that headers compile alone
+	@sh test/layers.sh $(CC)
+
+san: ## run the tests under the address and undefined-behaviour sanitizers
+	$(MAKE) BUILD=build-san OPT="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all" build-san/test
+	build-san/test
+
+tsan: ## run the threaded tests under the thread sanitizer
+	$(MAKE) BUILD=build-tsan OPT="-O1 -g -fsanitize=thread" build-tsan/test
+	build-tsan/test threads
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 12
 
 clean: ## remove everything that was built
-	rm -rf build build-* asbdpt
+	rm -rf build build-* out asbdpt
 
 -include $(wildcard $(BUILD)/*.d)
 
-.PHONY: all help clean
+.PHONY: all demo test check-long layers san tsan help clean

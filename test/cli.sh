@@ -1,0 +1,83 @@
+#!/bin/sh
+# cli.sh: the command line as a user meets it: exit codes, one clear line per error, formats, determinism of files.
+# Run from the top: sh test/cli.sh ./asbdpt
+program=$1
+case $program in /*) ;; *) program=$PWD/$program ;; esac
+scenes=$PWD/scenes
+dir=$(mktemp -d) || exit 1
+trap 'rm -rf "$dir"' EXIT
+cd "$dir" || exit 1
+failures=0
+
+# expect STATUS PATTERN COMMAND...: the command ends with STATUS and its stderr matches PATTERN (extended regexp).
+expect() {
+    status=$1 pattern=$2
+    shift 2
+    "$@" >stdout.txt 2>stderr.txt
+    got=$?
+    if [ $got -ne "$status" ] || ! grep -Eq "$pattern" stderr.txt; then
+        echo "FAIL: $* ended with $got (expected $status) saying:"
+        cat stderr.txt
+        failures=$((failures + 1))
+    fi
+}
+check() {
+    if ! "$@"; then
+        echo "FAIL: $*"
+        failures=$((failures + 1))
+    fi
+}
+
+box="$scenes/cornell-box.pbrt"
+small="--res 16x16 --spp 2 --quiet"
+
+expect 0 '' "$program" --help
+check grep -q 'asbdpt render SCENE' stdout.txt
+expect 0 '' "$program" --version
+expect 2 'asbdpt: which command' "$program"
+expect 2 'unknown command' "$program" rendr
+expect 2 'needs a scene' "$program" render
+expect 2 'unknown option --sppp' "$program" render "$box" --sppp 3
+expect 2 'expected an integer' "$program" render "$box" --spp 0
+expect 2 'WIDTHxHEIGHT' "$program" render "$box" --res 10
+expect 2 'window is empty' "$program" render "$box" --cropwindow 0.5 0.5 0 1
+expect 1 'unknown image format' "$program" render "$box" $small -o x.exr
+expect 1 'nothing.pbrt' "$program" render nothing.pbrt
+expect 1 'known are' "$program" render "$box" $small --integrator vcm
+expect 1 'no integrator has a parameter "deltaa"' "$program" render "$box" $small -P deltaa=1 -o x.pfm
+expect 1 'delta' "$program" render "$box" $small -P delta=7 --integrator asbdpt -o x.pfm
+expect 1 'binpaths 7 is odd' "$program" render "$box" $small -P select=bins -P binpaths=7 --integrator asbdpt -o x.pfm
+expect 1 'cannot' "$program" render "$box" $small -o no/such/dir/x.pfm
+if [ -e /dev/full ]; then
+    ln -s /dev/full full.pfm
+    expect 1 'full.pfm' "$program" render "$box" $small -o full.pfm
+fi
+
+# One line with place and caret for what a scene file can get wrong.
+printf 'WorldBegin\nShpae "sphere"\nWorldEnd\n' >typo.pbrt
+expect 1 '^asbdpt: typo.pbrt:2:1: ' "$program" render typo.pbrt
+printf 'WorldBegin\nShape "hyperboloid"\nWorldEnd\n' >shape.pbrt
+expect 1 'shape.pbrt:2:[0-9]+: .*hyperboloid' "$program" render shape.pbrt
+printf 'WorldBegin\nShape "plymesh" "string filename" "cut.ply"\nWorldEnd\n' >ply.pbrt
+printf 'ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\n' >cut.ply
+expect 1 'cut.ply' "$program" render ply.pbrt
+
+# Files: three formats from one run, the same bytes for any number of threads.
+expect 0 '' "$program" render "$box" $small -j 1 -o a.pfm -o a.ppm -o a.png
+expect 0 '' "$program" render "$box" $small -j 3 -o b.pfm
+check cmp -s a.pfm b.pfm
+check [ "$(head -c 2 a.ppm)" = P6 ]
+expect 0 '' "$program" compare a.pfm b.pfm --json
+check grep -q '"rmse": 0, "rmse8": 0, "relmse": 0, "mean_ratio": 1, "nonfinite": 0' stdout.txt
+expect 0 '' "$program" compare a.png a.ppm --heatmap heat.png
+check [ -s heat.png ]
+expect 0 '' "$program" render "$box" --res 8x8 --spp 1 --quiet -o c.pfm
+expect 1 'equal size' "$program" compare a.pfm c.pfm
+expect 1 'stdout.txt' "$program" compare stdout.txt a.pfm
+expect 0 '' "$program" render "$box" $small --maxdepth 2 --strategies s -o a.pfm
+check [ -s s/d02_s02_t02_weighted.pfm ]
+expect 0 '' "$program" info "$box"
+check grep -q triangles stdout.txt
+
+[ $failures -eq 0 ] && echo "command line: all as expected"
+exit $((failures > 0))

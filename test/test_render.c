@@ -1,0 +1,269 @@
+/* test_render.c: whole renders: radiance known on paper, agreement of the methods, reproducibility, crop, filters. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../src/mem.h"
+#include "../src/parallel.h"
+#include "../src/render.h"
+#include "../src/stats.h"
+#include "helpers.h"
+#include "tests.h"
+
+/* --- radiance known on paper ------------------------------------------------------------------------- */
+
+/* A closed sphere of albedo a that emits Le everywhere: every ray sees Le (1 + a + a^2 + ...), cut at the depth. */
+static void test_furnace(struct test *t, const char *method)
+{
+    static const char text[] =
+        "Camera \"perspective\" \"float fov\" 60 Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16\n"
+        "WorldBegin Material \"matte\" \"rgb Kd\" [.5 .5 .5] AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\n"
+        "ReverseOrientation Shape \"sphere\" \"float radius\" 2 WorldEnd\n";
+    struct scene scene;
+    if (!scene_from_text(t, text, &scene))
+        return;
+    double expected = 1.9375, error; /* depth 4: 1 + .5 + .25 + .125 + .0625 */
+    struct batches b = render_batches(t, &scene, method, 4, 16, 8, 16, 11);
+    double mean = batches_mean(&b, &error);
+    TEST_ACCEPT(t, mean_p(&b, expected), "%s in a furnace: %.5f +- %.5f, expected %.5f", method, mean, error, expected);
+    TEST_REJECT(t, mean_p(&b, expected * 1.05), "%s in a furnace 5 %% brighter than it is", method);
+    batches_free(&b);
+    scene_free(&scene);
+}
+
+/* No shapes at all: every ray sees the sky. */
+static void test_empty(struct test *t)
+{
+    static const char text[] =
+        "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8\n"
+        "WorldBegin LightSource \"infinite\" \"rgb L\" [.25 .5 .75] WorldEnd\n";
+    struct scene scene;
+    if (!scene_from_text(t, text, &scene))
+        return;
+    for (const struct method *const *m = method_list(); *m != NULL; m++) {
+        struct batches b = render_batches(t, &scene, (*m)->name, 3, 2, 2, 8, 12);
+        CHECK(t, fabs(b.value[0] - 0.25) < 1e-6 && fabs(b.value[2] - 0.75) < 1e-6, "%s: the sky is %g %g %g",
+              (*m)->name, b.value[0], b.value[1], b.value[2]);
+        batches_free(&b);
+    }
+    scene_free(&scene);
+}
+
+/* Direct light of a disk of radius R at height h on the floor's centre: E = pi L R^2 / (R^2 + h^2), radiance kd E / pi. */
+static void test_disk(struct test *t, const char *method)
+{
+    static const char text[] =
+        "LookAt 0 0.2 -1  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" .2\n"
+        "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4\n"
+        "WorldBegin Material \"matte\" \"rgb Kd\" [.6 .6 .6]\n"
+        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-5 0 -5  5 0 -5  5 0 5  -5 0 5]\n"
+        "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [4 4 4] Translate 0 2 0 Rotate 90 1 0 0\n"
+        "Shape \"disk\" \"float radius\" 1.5 AttributeEnd WorldEnd\n";
+    struct scene scene;
+    if (!scene_from_text(t, text, &scene))
+        return;
+    double expected = 0.6 * 4 * 1.5 * 1.5 / (1.5 * 1.5 + 4), error;
+    struct batches b = render_batches(t, &scene, method, 1, 512, 8, 4, 13);
+    double mean = batches_mean(&b, &error);
+    TEST_ACCEPT(t, mean_p(&b, expected), "%s under a disk: %.5f +- %.5f, expected %.5f", method, mean, error, expected);
+    TEST_REJECT(t, mean_p(&b, expected * 1.1), "%s under a disk 10 %% brighter than it is", method);
+    batches_free(&b);
+    scene_free(&scene);
+}
+
+/* --- methods agree ----------------------------------------------------------------------------------- */
+
+static void agree(struct test *t, const struct scene *scene, const char *name, const char *a, int spp_a, const char *b,
+                  int spp_b, int depth)
+{
+    double ratio;
+    struct batches x = render_batches(t, scene, a, depth, spp_a, 12, 8, 21);
+    struct batches y = render_batches(t, scene, b, depth, spp_b, 12, 8, 22);
+    double p = batches_p(&x, &y, &ratio);
+    TEST_ACCEPT(t, p, "%s: %s against %s, ratio of the means %.4f", name, a, b, ratio);
+    for (long i = 0; i < x.n * x.n_batches; i++)
+        x.value[i] *= 1.1;
+    TEST_REJECT(t, batches_p(&x, &y, &ratio), "%s: %s made 10 %% brighter against %s", name, a, b);
+    batches_free(&x);
+    batches_free(&y);
+}
+
+/* Everything at once: glass, mirror, rough metal, a lens and five kinds of light. Caustics of delta lights through glass
+ * are invisible to pt and, seen on diffuse surfaces, visible to bdpt: glass casts its shadow only on mirrors here. */
+static const char EVERYTHING[] =
+    "LookAt 0 1.5 -4  0 1 0  0 1 0\n"
+    "Camera \"perspective\" \"float fov\" 50 \"float lensradius\" .05 \"float focaldistance\" 4\n"
+    "Film \"image\" \"integer xresolution\" 24 \"integer yresolution\" 24\n"
+    "WorldBegin\n"
+    "%s\n"
+    "Material \"matte\" \"rgb Kd\" [.7 .6 .5]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  2 0 -2  2 0 2  -2 0 2]\n"
+    "Material \"metal\" \"float roughness\" .3\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 2  2 0 2  2 3 2  -2 3 2]\n"
+    "Material \"plastic\" \"rgb Kd\" [.2 .4 .2] \"float roughness\" .2\n"
+    "TransformBegin Translate .8 .6 .5 Shape \"sphere\" \"float radius\" .6 TransformEnd\n"
+    "%s\n"
+    "WorldEnd\n";
+
+static const char AREA[] =
+    "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [6 6 6]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 3 -1  1 3 -1  1 3 1  -1 3 1] AttributeEnd\n";
+static const char DELTAS[] =
+    "LightSource \"point\" \"rgb I\" [3 3 3] \"point from\" [-1 2.5 0]\n"
+    "LightSource \"spot\" \"rgb I\" [9 9 9] \"point from\" [1 2.5 -1] \"point to\" [0 0 0]\n"
+    "LightSource \"distant\" \"rgb L\" [1 1 1] \"point from\" [1 4 -1] \"point to\" [0 0 0]\n";
+static const char SKY[] = "LightSource \"infinite\" \"rgb L\" [.4 .5 .6]\n";
+static const char SPECULAR[] =
+    "Material \"mirror\"\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  -2 0 2  -2 3 2  -2 3 -2]\n"
+    "Material \"glass\"\n"
+    "TransformBegin Translate -.7 .7 0 Shape \"sphere\" \"float radius\" .5 TransformEnd\n";
+
+static void test_agreement(struct test *t)
+{
+    static const struct {
+        const char *name, *light1, *light2, *light3, *objects;
+        bool light_tracing; /* all paths are within reach of lt */
+    } cases[] = {
+        {"area light, diffuse and glossy", AREA, "", "", "", true},
+        {"point, spot, distant", DELTAS, "", "", "", true},
+        {"area and sky, mirror and glass", AREA, SKY, "", SPECULAR, false},
+        {"all lights together", AREA, DELTAS, SKY, "", true},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char lights[2048], text[8192];
+        snprintf(lights, sizeof lights, "%s%s%s", cases[i].light1, cases[i].light2, cases[i].light3);
+        snprintf(text, sizeof text, EVERYTHING, lights, cases[i].objects);
+        struct scene scene;
+        if (!scene_from_text(t, text, &scene))
+            return;
+        agree(t, &scene, cases[i].name, "bdpt", 24, "pt", 64, 4);
+        if (cases[i].light_tracing)
+            agree(t, &scene, cases[i].name, "bdpt", 24, "lt", 64, 3);
+        scene_free(&scene);
+    }
+}
+
+/* --- reproducibility --------------------------------------------------------------------------------- */
+
+static float *render_pixels(struct test *t, const struct scene *scene, const char *method, int threads, uint64_t seed,
+                            long first, long middle, long end)
+{
+    struct pixel_rect crop = render_crop(scene);
+    struct film film;
+    struct error err;
+    film_init(&film, crop, scene->width, scene->height);
+    struct render_options o = {.method = method_find(method), .seed = seed, .first = first, .end = middle};
+    o.n_threads = threads;
+    o.max_depth = 4;
+    CHECK(t, render_scene(scene, &o, &film, &err), "%s", err.text);
+    o.first = middle;
+    o.end = end;
+    CHECK(t, render_scene(scene, &o, &film, &err), "%s", err.text);
+    float *pixels = mem_alloc((size_t)rect_width(crop) * (size_t)rect_height(crop) * 3, sizeof *pixels);
+    film_develop(&film, 1, pixels);
+    film_free(&film);
+    return pixels;
+}
+
+static void test_threads(struct test *t)
+{
+    char text[8192];
+    struct scene scene;
+    snprintf(text, sizeof text, EVERYTHING, AREA, SPECULAR);
+    if (!scene_from_text(t, text, &scene))
+        return;
+    size_t bytes = (size_t)scene.width * (size_t)scene.height * 3 * sizeof(float);
+    for (const struct method *const *m = method_list(); *m != NULL; m++) {
+        const char *name = (*m)->name;
+        float *one = render_pixels(t, &scene, name, 1, 5, 0, 0, 40);
+        float *two = render_pixels(t, &scene, name, 2, 5, 0, 0, 40), *seven = render_pixels(t, &scene, name, 7, 5, 0, 0, 40);
+        float *split = render_pixels(t, &scene, name, 3, 5, 0, 32, 40), *other = render_pixels(t, &scene, name, 2, 6, 0, 0, 40);
+        CHECK(t, memcmp(one, two, bytes) == 0 && memcmp(one, seven, bytes) == 0, "%s depends on the number of threads", name);
+        CHECK(t, memcmp(one, split, bytes) == 0, "%s: a render in two parts differs", name);
+        CHECK(t, memcmp(one, other, bytes) != 0, "%s: the seed has no effect", name);
+        free(one);
+        free(two);
+        free(seven);
+        free(split);
+        free(other);
+    }
+    scene_free(&scene);
+}
+
+/* --- crop and filter --------------------------------------------------------------------------------- */
+
+/* Means of the lower right quarter, once cut out of the full frame, once rendered as a crop window. */
+static void test_crop(struct test *t)
+{
+    char text[8192];
+    struct scene scene;
+    snprintf(text, sizeof text, EVERYTHING, AREA, "");
+    if (!scene_from_text(t, text, &scene))
+        return;
+    double ratio;
+    struct batches full = render_batches(t, &scene, "bdpt", 3, 16, 12, 12, 31), lt = render_batches(t, &scene, "lt", 3, 32, 12, 12, 32);
+    scene.crop[0] = scene.crop[2] = 0.5;
+    struct batches part = render_batches(t, &scene, "bdpt", 3, 48, 12, 12, 33), lt_part = render_batches(t, &scene, "lt", 3, 96, 12, 12, 34);
+    for (int i = 0; i < full.n_batches; i++) /* keep only the last of the 2x2 tiles of the full frame */
+        for (int c = 0; c < 3; c++) {
+            full.value[3 * i + c] = full.value[12 * i + 9 + c];
+            lt.value[3 * i + c] = lt.value[12 * i + 9 + c];
+        }
+    full.n = lt.n = 3;
+    double p = batches_p(&part, &full, &ratio);
+    TEST_ACCEPT(t, p, "a crop window against the full frame, bdpt: ratio %.4f", ratio);
+    p = batches_p(&lt_part, &lt, &ratio);
+    TEST_ACCEPT(t, p, "a crop window against the full frame, lt: ratio %.4f", ratio);
+    batches_free(&full);
+    batches_free(&part);
+    batches_free(&lt);
+    batches_free(&lt_part);
+    scene_free(&scene);
+}
+
+/* A flat field (the camera in a furnace of directly seen light is constant) must stay flat up to the frame's edge under
+ * every filter, and a scene's mean must not depend on the filter; t = 1 alone, as lt, is the severe case. */
+static void test_filters(struct test *t)
+{
+    static const char flat[] =
+        "LookAt 0 0 3  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 30\n"
+        "Film \"image\" \"integer xresolution\" 12 \"integer yresolution\" 12 PixelFilter \"%s\"\n"
+        "WorldBegin LightSource \"infinite\" \"rgb L\" [1 1 1] Material \"matte\" \"rgb Kd\" [.5 .5 .5]\n"
+        "Shape \"disk\" \"float radius\" 1.5 WorldEnd\n";
+    static const char *const names[] = {"box", "triangle", "gaussian", "mitchell", "sinc"};
+    for (int i = 0; i < 5; i++) {
+        char text[2048];
+        struct scene scene;
+        snprintf(text, sizeof text, flat, names[i]);
+        if (!scene_from_text(t, text, &scene))
+            return;
+        /* A disk of albedo 1/2 under a sky of 1 has radiance 1/2, in every pixel: tiles of one pixel show edges. */
+        struct batches b = render_batches(t, &scene, "lt", 1, 800, 8, 3, 41);
+        struct batches expected = {b.n_batches, b.n, mem_alloc((size_t)(b.n * b.n_batches), sizeof(double))};
+        for (long k = 0; k < b.n * b.n_batches; k++)
+            expected.value[k] = 0.5;
+        double ratio, p = batches_p(&b, &expected, &ratio);
+        TEST_ACCEPT(t, p, "flat field by light tracing under the %s filter: ratio %.4f", names[i], ratio);
+        for (long k = 0; k < b.n * b.n_batches; k++)
+            expected.value[k] = 0.5 * 1.15;
+        TEST_REJECT(t, batches_p(&b, &expected, &ratio), "the same 15 %% too dark, %s filter", names[i]);
+        batches_free(&b);
+        batches_free(&expected);
+        scene_free(&scene);
+    }
+}
+
+void test_render(struct test *t)
+{
+    test_furnace(t, "pt");
+    test_furnace(t, "bdpt");
+    test_disk(t, "pt");
+    test_disk(t, "bdpt");
+    test_empty(t);
+    test_agreement(t);
+    test_threads(t);
+    test_crop(t);
+    test_filters(t);
+}
