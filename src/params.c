@@ -265,6 +265,8 @@ int params_int(struct params *p, const char *name, int fallback, int low, int hi
     double number = p->number[item->first];
     if (number >= low && number <= high && number == floor(number))
         return (int)number;
+    if (low == high)
+        params_fail(p, param_value_place(item, 0), "\"%s\" is %.12g; only %d is supported", name, number, low);
     params_fail(p, param_value_place(item, 0), "\"%s\" is %.12g; it must be a whole number from %d to %d", name,
                 number, low, high);
     return fallback;

@@ -3,7 +3,6 @@
  */
 #include "parser.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -343,10 +342,6 @@ bool parse_scene(const char *path, struct scene *out, const struct warning_sink 
     if (ok && p->phase != AFTER_WORLD)
         ok = place_error(&p->messages, p->directive.place, "the file ends without %s; add it",
                          p->phase == BEFORE_WORLD ? "WorldBegin" : "WorldEnd");
-    if (ok && out->spp > 0) {
-        char spp[32];
-        snprintf(spp, sizeof spp, "%d", out->spp);
-    }
     finish(p);
     if (!ok)
         scene_free(out);
