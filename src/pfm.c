@@ -30,12 +30,13 @@ static bool next_word(const uint8_t *data, size_t size, size_t *at, char *word, 
     return true;
 }
 
-/* A whole word as a decimal count; 0 if it is none. */
+/* A whole word as a decimal count; 0 if it is none. Beyond 2^28 the value is not exact. */
 static unsigned long to_count(const char *word)
 {
     unsigned long value = 0;
-    for (; *word >= '0' && *word <= '9' && value <= PICTURE_MAX_PIXELS; word++)
-        value = value * 10 + (unsigned long)(*word - '0');
+    for (; *word >= '0' && *word <= '9'; word++)
+        if (value <= PICTURE_MAX_PIXELS)
+            value = value * 10 + (unsigned long)(*word - '0');
     return *word == '\0' ? value : 0;
 }
 

@@ -262,7 +262,27 @@ static bool read_pass(const struct png *p, const struct pass *s, uint8_t *bytes,
     return true;
 }
 
-/* Unpack the rows and put their pixels in place. */
+/* Put all unpacked pixels in place. */
+static bool place_pixels(const struct png *p, const struct pass *pass, int passes, uint8_t *bytes,
+                         struct image *out)
+{
+    int channels = p->colour == GREY || p->colour == GREY_ALPHA ? 1 : 3;
+    if (p->depth == 16)
+        picture_alloc_f32(out, (int)p->width, (int)p->height, channels);
+    else
+        picture_alloc_u8(out, (int)p->width, (int)p->height, channels);
+    out->linear = false;
+    for (int i = 0; i < passes; i++) {
+        size_t n = pass_bytes(p, &pass[i]);
+        if (n > 0 && !read_pass(p, &pass[i], bytes, out)) {
+            image_free(out);
+            return false;
+        }
+        bytes += n;
+    }
+    return true;
+}
+
 static bool read_pixels(const struct png *p, struct image *out)
 {
     const struct pass *pass = p->interlaced ? ADAM7 : WHOLE;
@@ -273,21 +293,9 @@ static bool read_pixels(const struct png *p, struct image *out)
     if (total / INFLATE_MAX_RATIO > p->n_packed)
         return error_set(p->err, "the file is truncated: %lu x %lu pixels do not fit in it",
                          (unsigned long)p->width, (unsigned long)p->height);
-    uint8_t *bytes = mem_alloc(total, 1), *at = bytes;
-    bool ok = inflate_zlib(p->packed, p->n_packed, bytes, total, p->err);
-    if (ok) {
-        int channels = p->colour == GREY || p->colour == GREY_ALPHA ? 1 : 3;
-        if (p->depth == 16)
-            picture_alloc_f32(out, (int)p->width, (int)p->height, channels);
-        else
-            picture_alloc_u8(out, (int)p->width, (int)p->height, channels);
-        out->linear = false;
-    }
-    for (int i = 0; i < passes && ok; i++) {
-        if (pass_bytes(p, &pass[i]) > 0)
-            ok = read_pass(p, &pass[i], at, out);
-        at += pass_bytes(p, &pass[i]);
-    }
+    uint8_t *bytes = mem_alloc(total, 1);
+    bool ok =
+        inflate_zlib(p->packed, p->n_packed, bytes, total, p->err) && place_pixels(p, pass, passes, bytes, out);
     free(bytes);
     return ok;
 }
@@ -299,8 +307,6 @@ bool png_read(const uint8_t *data, size_t size, struct image *out, struct error 
     struct png p = {.data = data, .size = size, .at = sizeof SIGNATURE, .err = err};
     bool ok = read_header(&p) && read_chunks(&p) && read_pixels(&p, out);
     free(p.packed);
-    if (!ok)
-        image_free(out);
     return ok;
 }
 
@@ -323,43 +329,47 @@ static void put_chunk(FILE *f, const char *name, const uint8_t *data, size_t siz
     fwrite(tail, 1, sizeof tail, f);
 }
 
-/* Write the filtered row to out[0..n]; returns the sum of its bytes' sizes, taken as signed numbers. */
-static uint64_t filter_row(enum filter f, const uint8_t *row, const uint8_t *above, size_t n, uint8_t *out)
+/* The filter whose residuals, taken as signed numbers, have the least sum of sizes. */
+static enum filter best_filter(const uint8_t *row, const uint8_t *above, size_t n)
 {
-    uint64_t sum = 0;
+    uint64_t sum[FILTERS] = {0};
+    for (size_t i = 0; i < n; i++) {
+        uint8_t a = i >= 3 ? row[i - 3] : 0, c = i >= 3 ? above[i - 3] : 0;
+        for (int f = 0; f < FILTERS; f++) {
+            uint8_t residual = (uint8_t)(row[i] - predict((enum filter)f, a, above[i], c));
+            sum[f] += residual < 128 ? residual : 256u - residual;
+        }
+    }
+    int best = FILTER_NONE;
+    for (int f = FILTER_SUB; f < FILTERS; f++)
+        best = sum[f] < sum[best] ? f : best;
+    return (enum filter)best;
+}
+
+/* Write the filter's number and the filtered row to out[0..n]. */
+static void filter_row(enum filter f, const uint8_t *row, const uint8_t *above, size_t n, uint8_t *out)
+{
     out[0] = (uint8_t)f;
     for (size_t i = 0; i < n; i++) {
         uint8_t a = i >= 3 ? row[i - 3] : 0, c = i >= 3 ? above[i - 3] : 0;
-        uint8_t residual = (uint8_t)(row[i] - predict(f, a, above[i], c));
-        out[1 + i] = residual;
-        sum += residual < 128 ? residual : 256u - residual;
+        out[1 + i] = (uint8_t)(row[i] - predict(f, a, above[i], c));
     }
-    return sum;
 }
 
-/* All rows with the filter whose residuals are smallest: a rule of thumb for what packs best [12.8]. */
+/* All rows filtered, each with what probably packs best [12.8]. */
 static uint8_t *filter_rows(int width, int height, const float *pixels)
 {
     size_t n = 3 * (size_t)width;
-    uint8_t *all = mem_alloc((size_t)height, n + 1), *trial = mem_alloc(n + 1, 1);
+    uint8_t *all = mem_alloc((size_t)height, n + 1);
     uint8_t *row = mem_alloc(n, 1), *above = mem_alloc(n, 1);
     for (size_t y = 0; y < (size_t)height; y++) {
         for (size_t i = 0; i < n; i++)
             row[i] = srgb_byte(pixels[y * n + i]);
-        uint8_t *best = all + y * (n + 1);
-        uint64_t least = filter_row(FILTER_NONE, row, above, n, best);
-        for (int f = FILTER_SUB; f < FILTERS; f++) {
-            uint64_t sum = filter_row((enum filter)f, row, above, n, trial);
-            if (sum < least) {
-                least = sum;
-                memcpy(best, trial, n + 1);
-            }
-        }
+        filter_row(best_filter(row, above, n), row, above, n, all + y * (n + 1));
         uint8_t *swap = above;
         above = row;
         row = swap;
     }
-    free(trial);
     free(row);
     free(above);
     return all;

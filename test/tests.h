@@ -7,6 +7,7 @@
 void test_alias(struct test *t);
 void test_bsdf(struct test *t);
 void test_camera(struct test *t);
+void test_file(struct test *t);
 void test_film(struct test *t);
 void test_image(struct test *t);
 void test_kdtree(struct test *t);

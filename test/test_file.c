@@ -1,0 +1,228 @@
+/* test_file.c: pictures as files: written, read back, and every way in which that fails.
+ *
+ * Facts: what is written is read back, and is byte for byte what other programs expect. Faults: missing
+ * directories, devices that are full, names without a known extension; nothing half-written is ever left behind. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "../src/file.h"
+#include "../src/image.h"
+#include "../src/mem.h"
+#include "../src/rng.h"
+#include "tests.h"
+
+/* A path in the directory for temporary files; valid until the next call with the same buffer. */
+static const char *in_tmp(const struct test *t, const char *name, char *buffer, size_t size)
+{
+    snprintf(buffer, size, "%s/%s", test_tmp(t), name);
+    return buffer;
+}
+
+static void write_bytes(const char *path, const void *data, size_t n)
+{
+    FILE *f = fopen(path, "wb");
+    if (f == NULL)
+        return;
+    fwrite(data, 1, n, f);
+    fclose(f);
+}
+
+/* A picture with a smooth part, noise, black, and numbers outside [0,1]. */
+static float *make_pixels(const struct test *t, int width, int height)
+{
+    float *p = mem_alloc((size_t)width * (size_t)height * 3, sizeof *p);
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 20, 0);
+    for (int i = 0; i < width * height * 3; i++) {
+        int x = i / 3 % width, y = i / 3 / width;
+        double noise = rng_uniform(&r);
+        p[i] = (float)(y % 4 == 0 ? noise * 1.2 - 0.1 : y % 4 == 1 ? 0 : (x + 0.2 * (i % 3)) / width);
+    }
+    return p;
+}
+
+static void check_written(struct test *t, const char *name, int width, int height)
+{
+    char path[256];
+    struct image img;
+    struct error err = {""};
+    float *p = make_pixels(t, width, height);
+    in_tmp(t, name, path, sizeof path);
+    write_bytes(path, "old", 3); /* is to be replaced */
+    CHECK(t, image_write(path, width, height, p, &err), "%s", err.text);
+    if (CHECK(t, image_read(path, &img, &err), "%s", err.text)) {
+        CHECK(t, img.width == width && img.height == height && img.channels == 3, "%s: shape", name);
+        int wrong = 0;
+        for (int i = 0; i < width * height * 3; i++) {
+            bool same = img.u8 != NULL ? img.u8[i] == srgb_byte(p[i]) : img.f32[i] == p[i];
+            wrong += !same;
+        }
+        CHECK(t, wrong == 0, "%s, %d x %d: %d samples differ", name, width, height, wrong);
+        CHECK(t, img.linear == (img.f32 != NULL), "%s: linear", name);
+        image_free(&img);
+    }
+    CHECK(t, remove(path) == 0, "%s was there", path);
+    free(p);
+}
+
+static void test_written(struct test *t)
+{
+    static const char *const NAMES[] = {"a.pfm", "a.ppm", "a.png", "UPPER.PNG"};
+    for (size_t i = 0; i < sizeof NAMES / sizeof NAMES[0]; i++) {
+        check_written(t, NAMES[i], 1, 1);
+        check_written(t, NAMES[i], 7, 1);
+        check_written(t, NAMES[i], 1, 9);
+        check_written(t, NAMES[i], 61, 47);
+        check_written(t, NAMES[i], 300, 200);
+    }
+}
+
+/* The very bytes that another program's reader expects. */
+static void test_written_bytes(struct test *t)
+{
+    static const float PIXEL[6] = {1, 0, 2, -1, 0.5f, 0.25f};
+    static const uint8_t PFM[] =
+        "PF\n1 2\n-1.000000\n\0\0\x80\xbf\0\0\0\x3f\0\0\x80\x3e\0\0\x80\x3f\0\0\0\0\0\0\0\x40";
+    static const uint8_t PPM[] = "P6\n1 2\n255\n\xff\0\xff\0\xbc\x89";
+    static const struct {
+        const char *name;
+        const uint8_t *bytes;
+        size_t n;
+    } CASES[] = {{"b.pfm", PFM, sizeof PFM - 1}, {"b.ppm", PPM, sizeof PPM - 1}};
+    for (size_t i = 0; i < 2; i++) {
+        char path[256];
+        uint8_t *data = NULL;
+        size_t n = 0;
+        struct error err = {""};
+        in_tmp(t, CASES[i].name, path, sizeof path);
+        CHECK(t, image_write(path, 1, 2, PIXEL, &err) && file_read(path, &data, &n, &err), "%s", err.text);
+        CHECK(t, data != NULL && n == CASES[i].n && memcmp(data, CASES[i].bytes, n) == 0,
+              "%s: other bytes than expected", CASES[i].name);
+        free(data);
+        remove(path);
+    }
+}
+
+static void check_no_write(struct test *t, const char *path, int size, const char *message)
+{
+    struct error err = {""};
+    float *p = make_pixels(t, size, size);
+    CHECK(t,
+          !image_write(path, size, size, p, &err) && strstr(err.text, message) != NULL &&
+              strncmp(err.text, path, strlen(path)) == 0,
+          "%s: \"%s\" expected, got \"%s\"", path, message, err.text);
+    free(p);
+}
+
+static void test_unwritable(struct test *t)
+{
+    char path[256];
+    struct stat info;
+    check_no_write(t, in_tmp(t, "none/a.png", path, sizeof path), 2, "cannot be created");
+    check_no_write(t, in_tmp(t, "a.jpg", path, sizeof path), 2, "written as .pfm, .ppm or .png");
+    check_no_write(t, in_tmp(t, "a.tga", path, sizeof path), 2, "written as .pfm, .ppm or .png");
+    check_no_write(t, in_tmp(t, "png", path, sizeof path), 2, "written as .pfm, .ppm or .png");
+    in_tmp(t, "dir.png", path, sizeof path);
+    if (mkdir(path, 0777) == 0)
+        check_no_write(t, path, 2, "cannot be");
+    rmdir(path);
+    CHECK(t,
+          image_writable("x.PFM") && image_writable("x.y.png") && !image_writable("x.tga") && !image_writable(""),
+          "image_writable");
+    if (stat("/dev/full", &info) != 0)
+        return; /* a device of some systems only: accepts nothing */
+    static const char *const NAMES[] = {"full.pfm", "full.ppm", "full.png"};
+    for (size_t i = 0; i < 3; i++) {
+        in_tmp(t, NAMES[i], path, sizeof path);
+        if (!CHECK(t, symlink("/dev/full", path) == 0, "%s cannot be linked", path))
+            continue;
+        check_no_write(t, path, 2, "cannot be written");   /* found when the buffer is flushed */
+        check_no_write(t, path, 200, "cannot be written"); /* found before */
+        CHECK(t, lstat(path, &info) == 0 && S_ISLNK(info.st_mode), "a link to a device is not replaced");
+        remove(path);
+    }
+}
+
+/* A failure after the file was begun removes the temporary file and keeps the old one. */
+static void test_commit(struct test *t)
+{
+    char path[256];
+    struct error err = {""};
+    struct file_output f;
+    struct stat info;
+    in_tmp(t, "kept", path, sizeof path);
+    write_bytes(path, "old", 3);
+    for (int abandon = 0; abandon < 2; abandon++) {
+        if (!CHECK(t, file_create(path, &f, &err), "%s", err.text))
+            return;
+        char temporary[300];
+        snprintf(temporary, sizeof temporary, "%s", f.temporary);
+        CHECK(t, stat(temporary, &info) == 0, "%s exists while writing", temporary);
+        fputs("new", f.stream);
+        if (abandon) {
+            file_abandon(&f);
+        } else {
+            remove(temporary); /* so that the last step fails */
+            CHECK(t, !file_commit(&f, &err) && strstr(err.text, "cannot be written") != NULL, "%s", err.text);
+        }
+        CHECK(t, stat(temporary, &info) != 0, "%s is left behind", temporary);
+        CHECK(t, stat(path, &info) == 0 && info.st_size == 3, "the old file is gone");
+    }
+    remove(path);
+}
+
+static void check_no_read(struct test *t, const char *path, const char *message)
+{
+    struct image img;
+    struct error err = {""};
+    CHECK(t,
+          !image_read(path, &img, &err) && strstr(err.text, message) != NULL &&
+              strncmp(err.text, path, strlen(path)) == 0,
+          "%s: \"%s\" expected, got \"%s\"", path, message, err.text);
+    CHECK(t, img.u8 == NULL && img.f32 == NULL, "%s: something is left in the image", path);
+}
+
+static void test_unreadable(struct test *t)
+{
+    char path[256];
+    struct image img;
+    struct error err = {""};
+    check_no_read(t, in_tmp(t, "absent.png", path, sizeof path), "cannot be opened");
+    check_no_read(t, test_tmp(t), "cannot be read");
+    static const struct {
+        const char *name, *content, *message;
+    } CASES[] = {
+        {"empty.png", "", "signature"},          {"empty.pfm", "", "not a PFM"},
+        {"empty.ppm", "", "not a PPM"},          {"empty.tga", "", "truncated"},
+        {"what.jpg", "JFIF", "unknown picture"}, {"env.exr", "v/1\1", "convert it to PFM"},
+        {"p.png", "P3 1 1 7 ", "do not fit"},
+    };
+    for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
+        in_tmp(t, CASES[i].name, path, sizeof path);
+        write_bytes(path, CASES[i].content, strlen(CASES[i].content));
+        check_no_read(t, path, CASES[i].message);
+        remove(path);
+    }
+    static const uint8_t TGA[18 + 3] = {[2] = 2, [12] = 1, [14] = 1, [16] = 24, [18] = 1, [19] = 2, [20] = 200};
+    in_tmp(t, "red.TGA", path, sizeof path);
+    write_bytes(path, TGA, sizeof TGA);
+    if (CHECK(t, image_read(path, &img, &err), "%s", err.text)) {
+        CHECK(t, img.decode[img.u8[0]] == (float)srgb_decode(200 / 255.0), "the table decodes bytes");
+        image_free(&img);
+    }
+    remove(path);
+}
+
+void test_file(struct test *t)
+{
+    test_written(t);
+    test_written_bytes(t);
+    test_unwritable(t);
+    test_commit(t);
+    test_unreadable(t);
+}
