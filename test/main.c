@@ -31,7 +31,7 @@ static const struct entry ENTRIES[] = {
     {"lobe", test_lobe, false},       {"bsdf", test_bsdf, false},       {"material", test_material, false},
     {"light", test_light, false},   {"camera", test_camera, false},
     {"film", test_film, false},       {"parser", test_parser, false}, {"mis", test_mis, false},
-    {"render", test_render, false},
+    {"render", test_render, false}, {"asbdpt", test_asbdpt, false},
 };
 enum { N_ENTRIES = sizeof ENTRIES / sizeof ENTRIES[0] };
 
