@@ -176,6 +176,23 @@ static void test_commit(struct test *t)
     remove(path);
 }
 
+/* The target has become a directory when the file is finished: the temporary file must go. */
+static void test_failed_rename(struct test *t)
+{
+    char path[256], temporary[300];
+    struct error err = {""};
+    struct file_output f;
+    struct stat info;
+    in_tmp(t, "taken.png", path, sizeof path);
+    if (!CHECK(t, file_create(path, &f, &err), "%s", err.text))
+        return;
+    snprintf(temporary, sizeof temporary, "%s", f.temporary);
+    mkdir(path, 0777);
+    CHECK(t, !file_commit(&f, &err) && strstr(err.text, "cannot be written") != NULL, "%s", err.text);
+    CHECK(t, stat(temporary, &info) != 0, "%s is left behind", temporary);
+    rmdir(path);
+}
+
 static void check_no_read(struct test *t, const char *path, const char *message)
 {
     struct image img;
@@ -224,5 +241,6 @@ void test_file(struct test *t)
     test_written_bytes(t);
     test_unwritable(t);
     test_commit(t);
+    test_failed_rename(t);
     test_unreadable(t);
 }

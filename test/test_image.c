@@ -119,8 +119,6 @@ static void test_srgb(struct test *t)
 
 /* --- PNG --------------------------------------------------------------------------------------------- */
 
-enum { SAMPLE_WIDTH = 5, SAMPLE_HEIGHT = 7 };
-
 /* What samples.h promises for a pixel's channel, after reading: 0..255, or 0..65535 for 16 bits. */
 static unsigned expected_sample(const struct png_sample *s, int x, int y, int c)
 {
@@ -144,13 +142,13 @@ static void check_png_sample(struct test *t, const struct png_sample *s)
     if (!CHECK(t, read_exactly(png_read, file.data, file.n, &img, &err), "%s: %s", what, err.text))
         return;
     int channels = s->colour == 0 || s->colour == 4 ? 1 : 3;
-    CHECK(t, img.width == SAMPLE_WIDTH && img.height == SAMPLE_HEIGHT && img.channels == channels && !img.linear,
+    CHECK(t, img.width == s->width && img.height == s->height && img.channels == channels && !img.linear,
           "%s: %d x %d x %d", what, img.width, img.height, img.channels);
     CHECK(t, (img.f32 != NULL) == (s->depth == 16) && (img.u8 != NULL) == (s->depth != 16), "%s: storage", what);
-    for (int y = 0; y < SAMPLE_HEIGHT; y++)
-        for (int x = 0; x < SAMPLE_WIDTH; x++)
+    for (int y = 0; y < s->height; y++)
+        for (int x = 0; x < s->width; x++)
             for (int c = 0; c < channels; c++) {
-                int i = (y * SAMPLE_WIDTH + x) * channels + c;
+                int i = (y * s->width + x) * channels + c;
                 unsigned expected = expected_sample(s, x, y, c);
                 bool same = img.u8 != NULL ? img.u8[i] == expected : img.f32[i] == (float)(expected / 65535.0);
                 CHECK(t, same, "%s: pixel %d,%d channel %d is not %u", what, x, y, c, expected);
@@ -158,6 +156,20 @@ static void check_png_sample(struct test *t, const struct png_sample *s)
     image_free(&img);
     check_truncations(t, what, png_read, &file);
     CHECK(t, count_accepted_mutants(png_read, &file) == 0, "%s: a changed byte goes unnoticed", what);
+}
+
+/* Ties of the Paeth filter: left goes before above, above before above left. */
+static void test_paeth_ties(struct test *t)
+{
+    static const uint8_t EXPECTED[8] = {10, 11, 10, 8, 8, 13, 11, 99};
+    struct bytes file = {.n = 0};
+    struct image img;
+    struct error err = {""};
+    put_hex(&file, PNG_PAETH_TIES);
+    if (!CHECK(t, read_exactly(png_read, file.data, file.n, &img, &err), "%s", err.text))
+        return;
+    CHECK(t, memcmp(img.u8, EXPECTED, sizeof EXPECTED) == 0, "a tie of the Paeth filter is decided wrongly");
+    image_free(&img);
 }
 
 /* Correct all chunk checksums, so that a changed byte reaches the code behind them. */
@@ -484,6 +496,7 @@ void test_image(struct test *t)
     test_srgb(t);
     for (int i = 0; i < N_PNG_SAMPLES; i++)
         check_png_sample(t, &PNG_SAMPLES[i]);
+    test_paeth_ties(t);
     test_png_mutants(t);
     test_png_refusals(t);
     test_tga(t);
