@@ -1,5 +1,5 @@
 /* bump.h: a surface displaced by a texture, for shading only.                                      [Blinn 1978]
- * Used by: material. Tests: test_bsdf.c.
+ * Used by: material. Tests: test_material.c.
  */
 #ifndef ASBDPT_BUMP_H
 #define ASBDPT_BUMP_H

@@ -101,11 +101,14 @@ static bool sample_microfacet_reflection(const struct lobe *l, vec3 wo, double u
 
 /* --- rough transmission ------------------------------------------------------------------------------ */
 
-/* The facet normal half way between the two directions is wh ~ wo + eta wi with eta = eta_i/eta_o [Walter 2007
- * (16)], and with n = wo.wh + eta wi.wh the density of wi is eta^2 |wi.wh| / n^2 times that of wh (17). Written
- * with J = D |wo.wh| |wi.wh| / n^2 all three numbers become short, and the pair's symmetry shows: reversing it
- * replaces eta by 1/eta and n by n/eta. pdf     = eta^2 J / ((1 + lambda_o) |cos_o|) pdf_rev =       J / ((1 +
- * lambda_i) |cos_i|) f       = eta^2 J (1-F) T / ((1 + lambda_o + lambda_i) |cos_o cos_i|)     for importance;
+/* The facet normal half way between the two directions is wh ~ wo + eta wi with eta = eta_i/eta_o
+ * [Walter 2007 (16)]. With n = wo.wh + eta wi.wh the density of wi is eta^2 |wi.wh| / n^2 times that of wh (17).
+ * Written with
+ *     J = D |wo.wh| |wi.wh| / n^2
+ * all three numbers become short, and the symmetry shows: reversing the pair replaces eta by 1/eta, n by n/eta.
+ *     pdf     = eta^2 J / ((1 + lambda_o) |cos_o|)
+ *     pdf_rev = J / ((1 + lambda_i) |cos_i|)
+ *     f       = eta^2 J (1-F) T / ((1 + lambda_o + lambda_i) |cos_o cos_i|)    for importance;
  * radiance is compressed by 1/eta^2 [V97 5.2]. */
 static struct bsdf_value microfacet_transmission(const struct lobe *l, vec3 wo, vec3 wi, bool reflect,
                                                  enum transport mode)
@@ -230,11 +233,12 @@ static bool sample_mirror(const struct lobe *l, vec3 wo, rgb share, double proba
  *
  * Forwards, wi is drawn with density P delta(wi - r(wo)) with respect to d(wi), where r refracts and P is the
  * probability of choosing to. Backwards, wo is drawn with P' delta(wo - r^-1(wi)) with respect to d(wo). MIS
- * divides one by the other, so both must be multiples of the *same* delta. Changing its variable, delta(wo -
- * r^-1(wi)) = |d(wi)/d(wo)| delta(wi - r(wo)), hence pdf_rev = P' d(wi)/d(wo). Refraction keeps eta^2 cos d(w)
- * [V97 5.2], so with eta = eta_i/eta_o d(wi)/d(wo) = eta_o^2 cos_o / (eta_i^2 cos_i) = cos_o / (eta^2 cos_i). For
- * the reversed walk eta, cos_o and cos_i change places and the ratio pdf_rev/pdf turns into its inverse, as it
- * must. P' = P: both depend on Fresnel's share only, which is the same from both sides. */
+ * divides one by the other, so both must be multiples of the *same* delta. Changing its variable,
+ *     delta(wo - r^-1(wi)) = |d(wi)/d(wo)| delta(wi - r(wo)),
+ * hence pdf_rev = P' d(wi)/d(wo). Refraction keeps eta^2 cos d(w) [V97 5.2], so with eta = eta_i/eta_o
+ *     d(wi)/d(wo) = eta_o^2 cos_o / (eta_i^2 cos_i) = cos_o / (eta^2 cos_i).
+ * For the reversed walk eta, cos_o and cos_i change places and the ratio pdf_rev/pdf turns into its inverse, as
+ * it must. P' = P: both depend on Fresnel's share only, which is the same from both sides. */
 static bool sample_refraction(const struct lobe *l, vec3 wo, double share, double probability, enum transport mode,
                               struct bsdf_sample *out)
 {

@@ -10,10 +10,10 @@
  *     geometric plane is turned round to -wi: that keeps its density |cos|/pi, loses no energy and reaches
  *     every direction in which the lobe is not black;
  *   - facets are only met by pairs that lie on the right sides of the shading plane too, and whose facet faces
- *     both directions; other pairs are black. (pbrt-v3 evaluates its formula there although it never samples it,
- *     so that its integrators disagree about such pairs.)
+ *     both directions; other pairs are black. (pbrt-v3 evaluates its formulas there although it never samples
+ *     such pairs, so that its own integrators disagree: by 1 % on glass of alpha 0.7, not visibly below 0.1.)
  *
- * Used by: bsdf, material. Tests: test_bsdf.c.
+ * Used by: bsdf, material. Tests: test_lobe.c, test_bsdf.c.
  */
 #ifndef ASBDPT_LOBE_H
 #define ASBDPT_LOBE_H

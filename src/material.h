@@ -1,5 +1,5 @@
 /* material.h: from a material and a surface point to a BSDF. Parameters, defaults and formulas are pbrt-v3's.
- * Used by: path (through scene), parser. Tests: test_bsdf.c.
+ * Used by: path (through scene), parser. Tests: test_material.c.
  */
 #ifndef ASBDPT_MATERIAL_H
 #define ASBDPT_MATERIAL_H

@@ -72,9 +72,10 @@ static void snell(struct test *t)
 
 /* --- facets ------------------------------------------------------------------------------------------ */
 
-/* The two normalisations that define the distribution [Heitz 2014 (1), (13)]: the facets' area projected down is
- * the surface's, and projected along w the visible ones are what is seen of it: int D (h.n) dh = 1,    int D <w,h>
- * / (1 + lambda(w)) dh = cos(w). */
+/* The two normalisations that define the distribution [Heitz 2014 (1), (13)]. Projected down, the facets' area is
+ * the surface's; projected along w, the visible ones are what is seen of it:
+ *     int D (h.n) dh = 1
+ *     int D <w,h> / (1 + lambda(w)) dh = cos(w) */
 static void facet_areas(struct test *t)
 {
     static const double ALPHA[][2] = {{1, 1}, {0.5, 0.5}, {0.2, 0.6}, {0.1, 0.1}};
