@@ -24,9 +24,9 @@ enum {
     ROWS = 20,
     COLUMNS = 32,
     CELLS = ROWS * COLUMNS,
-    FINE_Z = 40,
-    FINE_PHI = 10,
-    SAMPLES = 40000,
+    FINE_Z = 30,
+    FINE_PHI = 8,
+    SAMPLES = 30000,
     MAX_LOBES = 4
 };
 
