@@ -24,8 +24,8 @@ enum {
     ROWS = 20,
     COLUMNS = 32,
     CELLS = ROWS * COLUMNS,
-    FINE_Z = 30,
-    FINE_PHI = 8,
+    FINE_Z = 96,
+    FINE_PHI = 5,
     SAMPLES = 30000,
     MAX_LOBES = 4
 };
