@@ -7,6 +7,8 @@
  * axis. They are sorted once: a primitive on one side of the plane keeps its events and their order; only one
  * that the plane cuts is clipped to each side, and its few new events are sorted and merged in.
  *
+ * The costs are in units of one triangle test; TRAVERSE stands for a node's visit with its share of cache misses.
+ *
  * An event is one 64-bit number whose order is the order wanted: the position's bits, made monotonic, then the
  * type, then the item (triangles first, then quadrics, numbered without a gap).
  */
@@ -19,12 +21,7 @@
 #include "mem.h"
 
 /* Costs relative to each other, found by measurement, and what cutting off empty space is worth. */
-#ifndef KT
-#define KT 1.0
-#define KI 1.5
-#define KE 0.8
-#endif
-static const double TRAVERSE = KT, TEST = KI, EMPTY_FACTOR = KE;
+static const double TRAVERSE = 3, TEST = 1, EMPTY_FACTOR = 0.8;
 
 enum event_type { EVENT_END, EVENT_FLAT, EVENT_START }; /* in the order in which a sweep must meet them */
 
@@ -60,7 +57,7 @@ struct span {
     size_t at[3], n[3];
 };
 
-enum side { SIDE_BOTH, SIDE_LOWER, SIDE_UPPER };
+enum side { SIDE_LOWER, SIDE_UPPER, SIDE_BOTH };
 
 struct builder {
     const struct geometry *geo;
@@ -78,38 +75,41 @@ struct builder {
 
 static void push(struct list *l, uint64_t e)
 {
-    l->e = mem_grow(l->e, &l->capacity, l->n + 1, sizeof *l->e);
+    if (l->n == l->capacity)
+        l->e = mem_grow(l->e, &l->capacity, l->n + 1, sizeof *l->e);
     l->e[l->n++] = e;
 }
 
-/* Merge sort that starts from short runs sorted by insertion. */
+/* Sort by position and type (the order of items does not matter): short lists by insertion, long ones by four
+ * stable passes over 9 of the upper 34 bits each. */
 static void sort_events(struct list *l, struct list *spare)
 {
-    enum { RUN = 12 };
-    size_t n = l->n;
-    spare->e = mem_grow(spare->e, &spare->capacity, n, sizeof *spare->e);
-    for (size_t start = 0; start < n; start += RUN)
-        for (size_t i = start + 1; i < n && i < start + RUN; i++) {
+    enum { SHORT = 48, BITS = 9, BUCKETS = 1 << BITS, FIRST_BIT = 64 - 4 * BITS };
+    if (l->n <= SHORT) {
+        for (size_t i = 1; i < l->n; i++) {
             uint64_t x = l->e[i];
             size_t k = i;
-            for (; k > start && l->e[k - 1] > x; k--)
+            for (; k > 0 && l->e[k - 1] > x; k--)
                 l->e[k] = l->e[k - 1];
             l->e[k] = x;
         }
-    uint64_t *from = l->e, *to = spare->e;
-    for (size_t run = RUN; run < n; run *= 2) {
-        for (size_t start = 0; start < n; start += 2 * run) {
-            size_t middle = start + run < n ? start + run : n, end = middle + run < n ? middle + run : n;
-            size_t a = start, b = middle;
-            for (size_t k = start; k < end; k++)
-                to[k] = b == end || (a < middle && from[a] < from[b]) ? from[a++] : from[b++];
-        }
-        uint64_t *swap = from;
-        from = to;
-        to = swap;
+        return;
     }
-    if (from != l->e)
-        memcpy(l->e, from, n * sizeof *from);
+    spare->e = mem_grow(spare->e, &spare->capacity, l->n, sizeof *spare->e);
+    for (int shift = FIRST_BIT; shift < 64; shift += BITS) {
+        size_t start[BUCKETS + 1] = {0};
+        for (size_t i = 0; i < l->n; i++)
+            start[(l->e[i] >> shift & (BUCKETS - 1)) + 1]++;
+        for (int k = 0; k < BUCKETS; k++)
+            start[k + 1] += start[k];
+        for (size_t i = 0; i < l->n; i++)
+            spare->e[start[l->e[i] >> shift & (BUCKETS - 1)]++] = l->e[i];
+        struct list swap = *l;
+        l->e = spare->e;
+        l->capacity = spare->capacity;
+        spare->e = swap.e;
+        spare->capacity = swap.capacity;
+    }
 }
 
 /* --- which plane -------------------------------------------------------------------------------------- */
@@ -127,91 +127,133 @@ static double half_area(const struct box *b)
     return x * y + y * z + z * x;
 }
 
-/* Cost of a cut, times S. */
-static double cut_cost(double s, double s0, double s1, size_t n0, size_t n1)
-{
-    double cost = TRAVERSE * s + TEST * (s0 * (double)n0 + s1 * (double)n1);
-    return n0 == 0 || n1 == 0 ? EMPTY_FACTOR * cost : cost;
-}
+/* Cost of a cut, times the cell's area, as a function of its position and the items on both sides. */
+struct cost {
+    double fixed;         /* TRAVERSE times the cell's half area */
+    double below0, slope; /* TEST times the half area below x is below0 + slope x */
+    double above0;        /* and above it above0 - slope x */
+};
 
-/* Sweep one axis; n items lie in the cell. */
-static void sweep(const uint64_t *e, size_t n_events, size_t n, const struct box *cell, int axis, struct plane *best)
+static struct cost cost_along(const struct box *cell, int axis)
 {
-    double lo = cell->lo[axis], hi = cell->hi[axis];
     double a = (double)cell->hi[(axis + 1) % 3] - cell->lo[(axis + 1) % 3];
     double b = (double)cell->hi[(axis + 2) % 3] - cell->lo[(axis + 2) % 3];
-    double s = a * b + (a + b) * (hi - lo);
-    if (!(hi > lo))
-        return;
-    size_t below = 0, above = n; /* items not entirely above, not entirely below the plane; without flat ones */
-    for (size_t i = 0; i < n_events;) {
-        uint32_t place = event_place(e[i]);
-        size_t count[3] = {0, 0, 0};
-        for (; i < n_events && event_place(e[i]) == place; i++)
-            count[event_type(e[i])]++;
-        size_t flat = count[EVENT_FLAT];
-        above -= count[EVENT_END] + flat;
-        double x = place_position(place);
-        double s0 = a * b + (a + b) * (x - lo), s1 = a * b + (a + b) * (hi - x);
-        /* A plane on the cell's own face is of use only to put what lies flat in it into a cell of its own. */
-        bool inside = x > lo && x < hi;
-        if (inside || (flat > 0 && x <= lo)) {
-            double c = cut_cost(s, s0, s1, below + flat, above);
-            if (c < best->cost) {
-                struct plane p = {axis, place, true, c};
-                *best = p;
-            }
-        }
-        if (flat > 0 && (inside || x >= hi)) {
-            double c = cut_cost(s, s0, s1, below, above + flat);
-            if (c < best->cost) {
-                struct plane p = {axis, place, false, c};
-                *best = p;
-            }
-        }
-        below += count[EVENT_START] + flat;
+    double slope = TEST * (a + b), face = TEST * a * b;
+    struct cost c = {TRAVERSE * half_area(cell), face - slope * cell->lo[axis], slope,
+                     face + slope * cell->hi[axis]};
+    return c;
+}
+
+static inline double cut_cost(const struct cost *c, double x, double below, double above)
+{
+    double cost = c->fixed + (c->below0 + c->slope * x) * below + (c->above0 - c->slope * x) * above;
+    return below * above == 0 ? EMPTY_FACTOR * cost : cost;
+}
+
+static inline void consider(struct plane *best, double cost, int axis, uint32_t place, bool flat_below)
+{
+    if (cost < best->cost) {
+        best->cost = cost;
+        best->axis = axis;
+        best->place = place;
+        best->flat_below = flat_below;
     }
+}
+
+/* Count the flat items at the position of e[*i] and move *i behind them. */
+static double skip_flat(const uint64_t *e, size_t n, size_t *i)
+{
+    size_t start = *i;
+    while (*i < n && e[*i] >> 30 == e[start] >> 30)
+        ++*i;
+    return (double)(*i - start);
+}
+
+/* Sweep one axis of a cell of n_items for a plane cheaper than *best. Where several items begin or end at one
+ * position, all but one of the costs computed there are too high, which does no harm and saves looking ahead. A
+ * plane on the cell's own face is of use only to put what lies flat in it into a cell of its own. */
+static void sweep(const uint64_t *e, size_t n, double n_items, const struct box *cell, int axis, struct plane *best)
+{
+    const struct cost c = cost_along(cell, axis);
+    const uint32_t first = event_place(event(cell->lo[axis], EVENT_END, 0));
+    const uint32_t last = event_place(event(cell->hi[axis], EVENT_END, 0));
+    double below = 0, above = n_items; /* items with a part below, above the plane */
+    size_t i = 0;
+    if (first == last)
+        return;
+    while (i < n && event_place(e[i]) < last) {
+        enum event_type type = event_type(e[i]);
+        uint32_t place = event_place(e[i]);
+        double x = place_position(place);
+        if (type == EVENT_FLAT) {
+            double flat = skip_flat(e, n, &i);
+            above -= flat;
+            consider(best, cut_cost(&c, x, below + flat, above), axis, place, true);
+            if (place > first)
+                consider(best, cut_cost(&c, x, below, above + flat), axis, place, false);
+            below += flat;
+        } else {
+            above -= type == EVENT_END;
+            if (place > first)
+                consider(best, cut_cost(&c, x, below, above), axis, place, true);
+            below += type == EVENT_START;
+            i++;
+        }
+    }
+    while (i < n && event_type(e[i]) == EVENT_END)
+        i++;
+    if (i < n)
+        consider(best, cut_cost(&c, cell->hi[axis], below, skip_flat(e, n, &i)), axis, last, false);
 }
 
 /* --- cutting ------------------------------------------------------------------------------------------ */
 
-/* Mark every item of the cell as lower, upper or both, and list the last. */
-static void classify(struct builder *b, const uint64_t *e, size_t n, const struct plane *p)
+/* Mark every item of the cell as lower, upper or both, and list the last; n[side] counts the others. */
+static void classify(struct builder *b, const uint64_t *e, size_t n_events, const struct plane *p, size_t n[2])
 {
-    b->cut.n = 0;
-    for (size_t i = 0; i < n; i++) {
+    b->cut.n = n[SIDE_LOWER] = n[SIDE_UPPER] = 0;
+    for (size_t i = 0; i < n_events; i++) {
         uint32_t place = event_place(e[i]), item = event_item(e[i]);
         switch (event_type(e[i])) {
-        case EVENT_START: b->side[item] = place < p->place ? SIDE_BOTH : SIDE_UPPER; break;
+        case EVENT_START:
+            b->side[item] = place < p->place ? SIDE_BOTH : SIDE_UPPER;
+            n[SIDE_UPPER] += place >= p->place;
+            break;
         case EVENT_FLAT:
             b->side[item] = place < p->place || (place == p->place && p->flat_below) ? SIDE_LOWER : SIDE_UPPER;
+            n[b->side[item]]++;
             break;
         case EVENT_END:
-            if (place <= p->place)
+            if (place <= p->place) {
                 b->side[item] = SIDE_LOWER;
-            else if (b->side[item] == SIDE_BOTH)
+                n[SIDE_LOWER]++;
+            } else if (b->side[item] == SIDE_BOTH) {
                 push(&b->cut, item);
+            }
             break;
         }
     }
 }
 
-/* Bounds of the part of an item that lies in a cell. */
-static bool clip_item(const struct geometry *geo, uint32_t item, const struct box *cell, struct box *out)
+/* Bounds of the two parts of an item that the plane cuts; a quadric is represented by its bounding box. */
+static void split_item(const struct geometry *geo, uint32_t item, const struct box *cell, int axis, float split,
+                       struct box part[2], bool filled[2])
 {
     if (item < (uint32_t)geo->n_triangles) {
         float v[9];
         shape_vertices(geo, (int)item, v);
-        return kd_clip_triangle(v, cell, out);
+        kd_split_triangle(v, cell, axis, split, part, filled);
+        return;
     }
-    shape_bounds(geo, FIRST_QUADRIC + (int)item - geo->n_triangles, out->lo, out->hi);
+    struct box box;
+    shape_bounds(geo, FIRST_QUADRIC + (int)item - geo->n_triangles, box.lo, box.hi);
     for (int k = 0; k < 3; k++) {
-        out->lo[k] = fmaxf(out->lo[k], cell->lo[k]);
-        out->hi[k] = fminf(out->hi[k], cell->hi[k]);
-        if (out->lo[k] > out->hi[k])
-            return false;
+        box.lo[k] = fmaxf(box.lo[k], cell->lo[k]);
+        box.hi[k] = fminf(box.hi[k], cell->hi[k]);
     }
-    return true;
+    filled[0] = filled[1] = true;
+    part[0] = part[1] = box;
+    part[0].hi[axis] = part[1].lo[axis] = split;
 }
 
 static void push_item(struct list lists[3], uint32_t item, const struct box *bounds)
@@ -226,66 +268,78 @@ static void push_item(struct list lists[3], uint32_t item, const struct box *bou
     }
 }
 
-/* New events of all items that are cut, in builder.fresh. */
-static void clip_cut_items(struct builder *b, const struct box cell[2])
+/* New events of all items that are cut, in builder.fresh; counts the items of the two parts in n. */
+static void split_cut_items(struct builder *b, const struct box *cell, int axis, float split, size_t n[2])
 {
-    for (int s = 0; s < 2; s++) {
-        for (int k = 0; k < 3; k++)
-            b->fresh[s][k].n = 0;
-        for (size_t i = 0; i < b->cut.n; i++) {
-            struct box part;
-            if (clip_item(b->geo, (uint32_t)b->cut.e[i], &cell[s], &part))
-                push_item(b->fresh[s], (uint32_t)b->cut.e[i], &part);
-        }
-        for (int k = 0; k < 3; k++)
-            sort_events(&b->fresh[s][k], &b->spare);
+    for (int i = 0; i < 6; i++)
+        b->fresh[i / 3][i % 3].n = 0;
+    for (size_t i = 0; i < b->cut.n; i++) {
+        struct box part[2];
+        bool filled[2];
+        split_item(b->geo, (uint32_t)b->cut.e[i], cell, axis, split, part, filled);
+        for (int s = 0; s < 2; s++)
+            if (filled[s]) {
+                push_item(b->fresh[s], (uint32_t)b->cut.e[i], &part[s]);
+                n[s]++;
+            }
     }
+    for (int i = 0; i < 6; i++)
+        sort_events(&b->fresh[i / 3][i % 3], &b->spare);
 }
 
-/* Append to builder.work what one side inherits from e[0..n), merged with its fresh events. */
-static size_t inherit(struct builder *b, size_t at, size_t n, enum side side, const struct list *fresh)
+/* Merge fresh events into the sorted e[0..n), from the back; the room is there. Returns the new length. */
+static size_t merge(uint64_t *e, size_t n, const struct list *fresh)
+{
+    size_t total = n + fresh->n, to = total;
+    for (size_t f = fresh->n; f > 0;)
+        e[--to] = n > 0 && e[n - 1] > fresh->e[f - 1] ? e[--n] : fresh->e[--f];
+    return total;
+}
+
+/* Deal the events e[0..n) of uncut items out to the two sides, and add the fresh ones. out[s] is moved to the end
+ * of what was written; the place it points to may be written to as well. */
+static void deal(const struct builder *b, int axis, const uint64_t *e, size_t n, uint64_t *out[2])
+{
+    uint64_t *lower = out[0], *upper = out[1];
+    for (size_t i = 0; i < n; i++) {
+        int side = b->side[event_item(e[i])];
+        *lower = *upper = e[i];
+        lower += side == SIDE_LOWER;
+        upper += side == SIDE_UPPER;
+    }
+    out[0] += merge(out[0], (size_t)(lower - out[0]), &b->fresh[0][axis]);
+    out[1] += merge(out[1], (size_t)(upper - out[1]), &b->fresh[1][axis]);
+}
+
+/* Replace the cell's events, the top of the stack, by the upper part's and, on top, the lower part's; n[s] items
+ * are in part s, so it has at most twice as many events on each axis. */
+static void distribute(struct builder *b, const struct span *whole, const size_t n[2], struct span part[2])
 {
     struct list *w = &b->work;
-    size_t start = w->n, f = 0;
-    w->e = mem_grow(w->e, &w->capacity, w->n + n + fresh->n, sizeof *w->e);
-    uint64_t *out = w->e + start;
-    for (const uint64_t *e = w->e + at, *end = e + n; e < end; e++) {
-        if (b->side[event_item(*e)] != side)
-            continue;
-        while (f < fresh->n && fresh->e[f] < *e)
-            *out++ = fresh->e[f++];
-        *out++ = *e;
-    }
-    while (f < fresh->n)
-        *out++ = fresh->e[f++];
-    w->n = (size_t)(out - w->e);
-    return w->n - start;
-}
-
-/* Replace the cell's events, the top of the stack, by the upper part's and, on top, the lower part's. */
-static void distribute(struct builder *b, const struct span *whole, struct span part[2])
-{
-    size_t base = whole->at[0], top = b->work.n;
-    for (int s = 1; s >= 0; s--)
-        for (int k = 0; k < 3; k++) {
-            part[s].at[k] = b->work.n - (top - base);
-            part[s].n[k] = inherit(b, whole->at[k], whole->n[k], s == 0 ? SIDE_LOWER : SIDE_UPPER, &b->fresh[s][k]);
+    size_t base = whole->at[0], top = w->n, room[2] = {6 * n[0] + 1, 6 * n[1] + 1};
+    w->e = mem_grow(w->e, &w->capacity, top + room[0] + room[1], sizeof *w->e);
+    uint64_t *out[2] = {w->e + top + room[1], w->e + top};
+    for (int k = 0; k < 3; k++) {
+        const uint64_t *start[2] = {out[0], out[1]};
+        deal(b, k, w->e + whole->at[k], whole->n[k], out);
+        for (int s = 0; s < 2; s++) {
+            part[s].at[k] = (size_t)(start[s] - w->e);
+            part[s].n[k] = (size_t)(out[s] - start[s]);
         }
-    memmove(b->work.e + base, b->work.e + top, (b->work.n - top) * sizeof *b->work.e);
-    b->work.n -= top - base;
+    }
+    for (int s = 1; s >= 0; s--) {
+        size_t from = part[s].at[0], size = (size_t)(out[s] - w->e) - from;
+        memmove(w->e + base, w->e + from, size * sizeof *w->e);
+        for (int k = 0; k < 3; k++)
+            part[s].at[k] -= from - base;
+        base += size;
+    }
+    w->n = base;
 }
 
 /* --- the tree ----------------------------------------------------------------------------------------- */
 
-/* Items of a cell: each has one START or FLAT event on every axis. */
-static size_t count_items(const uint64_t *e, size_t n)
-{
-    size_t items = 0;
-    for (size_t i = 0; i < n; i++)
-        items += event_type(e[i]) != EVENT_END;
-    return items;
-}
-
+/* Each item has one START or FLAT event on every axis. */
 static void make_leaf(struct builder *b, uint32_t node, const uint64_t *e, size_t n_events, size_t n)
 {
     struct kdtree *kd = b->kd;
@@ -309,34 +363,41 @@ static uint32_t add_children(struct builder *b, uint32_t parent, const struct pl
     return first;
 }
 
-/* Build the cell whose events are on top of the stack; they are gone afterwards. */
-static void build_cell(struct builder *b, uint32_t node, struct box cell, struct span span, int depth)
+/* The cheapest way to cut a cell of n items, or axis -1 if a leaf is cheaper. */
+static struct plane best_plane(const struct builder *b, const struct box *cell, const struct span *span, size_t n)
 {
-    const uint64_t *e = b->work.e;
-    size_t n = count_items(e + span.at[0], span.n[0]);
-    double s = half_area(&cell), share = b->root_area > 0 ? s / b->root_area : 1;
-    struct plane p = {-1, 0, false, TEST * (double)n * s};
-    if (depth < b->max_depth)
-        for (int k = 0; k < 3; k++)
-            sweep(e + span.at[k], span.n[k], n, &cell, k, &p);
+    struct plane best = {-1, 0, false, TEST * (double)n * half_area(cell)};
+    for (int k = 0; k < 3; k++)
+        sweep(b->work.e + span->at[k], span->n[k], (double)n, cell, k, &best);
+    return best;
+}
+
+/* Build the cell whose n items' events are on top of the stack; they are gone afterwards. */
+static void build_cell(struct builder *b, uint32_t node, struct box cell, struct span span, size_t n, int depth)
+{
+    struct plane p = {-1, 0, false, 0};
+    double share = b->root_area > 0 ? half_area(&cell) / b->root_area : 1;
+    if (depth < b->max_depth && n > 0)
+        p = best_plane(b, &cell, &span, n);
     if (depth > b->kd->depth)
         b->kd->depth = depth;
     if (p.axis < 0) {
-        make_leaf(b, node, e + span.at[0], span.n[0], n);
+        make_leaf(b, node, b->work.e + span.at[0], span.n[0], n);
         b->kd->cost += share * TEST * (double)n;
         b->work.n = span.at[0];
         return;
     }
     struct box part[2] = {cell, cell};
     struct span events[2];
-    part[0].hi[p.axis] = part[1].lo[p.axis] = place_position(p.place);
-    classify(b, e + span.at[p.axis], span.n[p.axis], &p);
-    clip_cut_items(b, part);
-    distribute(b, &span, events);
+    size_t items[2];
+    float split = part[0].hi[p.axis] = part[1].lo[p.axis] = place_position(p.place);
+    classify(b, b->work.e + span.at[p.axis], span.n[p.axis], &p, items);
+    split_cut_items(b, &cell, p.axis, split, items);
+    distribute(b, &span, items, events);
     b->kd->cost += share * TRAVERSE;
     uint32_t child = add_children(b, node, &p);
-    build_cell(b, child, part[0], events[0], depth + 1);
-    build_cell(b, child + 1, part[1], events[1], depth + 1);
+    build_cell(b, child, part[0], events[0], items[0], depth + 1);
+    build_cell(b, child + 1, part[1], events[1], items[1], depth + 1);
 }
 
 static int prim_of_item(const struct geometry *geo, uint32_t item)
@@ -412,7 +473,7 @@ void kd_build(struct kdtree *kd, const struct geometry *geo)
         b.max_depth = (int)fmin(KD_MAX_DEPTH, 8 + 2.0 * log2(n));
         kd->node = mem_grow(NULL, &b.node_capacity, 1, sizeof *kd->node);
         kd->n_nodes = 1;
-        build_cell(&b, 0, bounds, span, 0);
+        build_cell(&b, 0, bounds, span, (size_t)n, 0);
         kd->item = mem_alloc((size_t)kd->n_items, sizeof *kd->item);
         for (int i = 0; i < kd->n_items; i++)
             kd->item[i] = make_item(geo, b.leaf_item[i]);

@@ -12,8 +12,10 @@ struct box {
     float lo[3], hi[3];
 };
 
-/* kd_clip_triangle: bounds of the triangle v (three corners) within the closed box; the true bounds are
- * rounded outwards to float, but not beyond the box. Returns false where nothing of the triangle is inside. */
-bool kd_clip_triangle(const float v[9], const struct box *cell, struct box *out);
+/* kd_split_triangle: bounds of the two parts into which the plane at `split` of `axis` cuts the triangle v (three
+ * corners) within the closed box `cell`: part[0] below, part[1] above. The true bounds are rounded outwards to
+ * float, but not beyond the half of the box. filled[i] tells whether there is anything of the triangle in it. */
+void kd_split_triangle(const float v[9], const struct box *cell, int axis, float split, struct box part[2],
+                       bool filled[2]);
 
 #endif

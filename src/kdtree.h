@@ -27,7 +27,7 @@ struct kdtree {
     int n_items;
     float lo[3], hi[3]; /* bounds of everything; lo > hi for an empty tree */
     int depth;          /* deepest leaf, the root being at 0 */
-    double cost;        /* expected cost of a ray by the surface-area heuristic, in node visits */
+    double cost;        /* expected cost of a ray by the surface-area heuristic, in triangle tests */
 };
 
 /* kd_build: build the tree of all primitives; kd_free releases it. Cannot fail (memory: see mem.h).
