@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "file.h"
 #include "mem.h"
 
 enum encoding { ENCODING_ASCII, ENCODING_LITTLE, ENCODING_BIG };
@@ -33,7 +34,7 @@ struct element {
 
 struct reader {
     const char *path;
-    char *data; /* the whole file and a 0 */
+    uint8_t *data; /* [size] the whole file */
     size_t size, pos;
     enum encoding encoding;
     struct element *element; /* [n_elements] */
@@ -70,25 +71,6 @@ static bool fail_row(struct reader *r, const char *element, int row, const char 
     return error_set(r->err, "%s: %s %d: %s", r->path, element, row, what);
 }
 
-/* --- file --------------------------------------------------------------------------------------------- */
-
-static bool load(struct reader *r)
-{
-    FILE *f = fopen(r->path, "rb");
-    if (f == NULL)
-        return error_set(r->err, "%s: cannot open: %s", r->path, strerror(errno));
-    size_t capacity = 0, got;
-    do {
-        r->data = mem_grow(r->data, &capacity, r->size + 65537, 1);
-        got = fread(r->data + r->size, 1, capacity - r->size - 1, f);
-        r->size += got;
-    } while (got > 0);
-    r->data[r->size] = 0;
-    bool failed = ferror(f) != 0;
-    fclose(f);
-    return failed ? error_set(r->err, "%s: cannot read", r->path) : true;
-}
-
 /* --- header ------------------------------------------------------------------------------------------- */
 
 enum { MAX_WORDS = 5, WORD_SIZE = 64 };
@@ -99,7 +81,7 @@ static int next_line(struct reader *r, char word[MAX_WORDS][WORD_SIZE])
     char line[512];
     if (r->pos >= r->size)
         return -1;
-    const char *start = r->data + r->pos, *end = memchr(start, '\n', r->size - r->pos);
+    const uint8_t *start = r->data + r->pos, *end = memchr(start, '\n', r->size - r->pos);
     if (end == NULL)
         return -1;
     size_t length = (size_t)(end - start), kept = length < sizeof line ? length : sizeof line - 1;
@@ -224,15 +206,23 @@ static bool check_counts(struct reader *r)
 
 /* --- numbers ------------------------------------------------------------------------------------------ */
 
+static bool is_blank(int c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }
+
 static bool next_ascii(struct reader *r, double *out)
 {
-    const char *start = r->data + r->pos;
-    char *end;
-    *out = strtod(start, &end);
-    bool whole = *end == 0 || *end == ' ' || *end == '\n' || *end == '\r' || *end == '\t';
-    if (end == start || !whole)
+    char word[64], *end;
+    size_t n = 0;
+    while (r->pos < r->size && is_blank(r->data[r->pos]))
+        r->pos++;
+    while (r->pos + n < r->size && !is_blank(r->data[r->pos + n]) && n < sizeof word - 1) {
+        word[n] = (char)r->data[r->pos + n];
+        n++;
+    }
+    word[n] = 0;
+    *out = strtod(word, &end);
+    if (n == 0 || end != word + n)
         return false;
-    r->pos = (size_t)(end - r->data);
+    r->pos += n;
     return true;
 }
 
@@ -263,7 +253,7 @@ static bool next_number(struct reader *r, enum scalar type, double *out)
     size_t size = (size_t)SCALAR_SIZE[type];
     if (size > r->size - r->pos)
         return false;
-    const unsigned char *b = (const unsigned char *)r->data + r->pos;
+    const uint8_t *b = r->data + r->pos;
     uint64_t bits = 0;
     for (size_t i = 0; i < size; i++)
         bits = bits << 8 | b[r->encoding == ENCODING_BIG ? i : size - 1 - i];
@@ -472,7 +462,8 @@ bool ply_read(const char *path, struct mesh *out, struct error *err)
     r.path = path;
     r.mesh = out;
     r.err = err;
-    bool ok = load(&r) && read_header(&r) && check_counts(&r) && read_body(&r) && check_mesh(&r);
+    bool ok = file_read(path, &r.data, &r.size, err) && read_header(&r) && check_counts(&r) && read_body(&r) &&
+              check_mesh(&r);
     free(r.data);
     free(r.element);
     free(r.property);

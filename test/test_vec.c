@@ -1,0 +1,163 @@
+/* test_vec.c: the foundations: vectors, frames, transforms, and the random numbers' exact values. */
+#include "../src/vec.h"
+
+#include "../src/frame.h"
+#include "../src/rng.h"
+#include "../src/transform.h"
+#include "../src/warp.h"
+#include "tests.h"
+
+static bool near3(vec3 a, vec3 b, double tolerance) { return length(sub(a, b)) <= tolerance; }
+
+static vec3 random_direction(struct rng *r)
+{
+    double u1 = rng_uniform(r), u2 = rng_uniform(r);
+    return warp_sphere(u1, u2);
+}
+
+/* The values are those of the generator's published demonstration. */
+static void check_rng(struct test *t)
+{
+    static const uint32_t golden[] = {0xa15c02b7u, 0x7b47f409u, 0xba1d3330u, 0x83d2f293u};
+    struct rng r;
+    rng_seed(&r, 42, 54);
+    for (int i = 0; i < 4; i++) {
+        uint32_t x = rng_u32(&r);
+        CHECK(t, x == golden[i], "number %d is %08lx", i, (unsigned long)x);
+    }
+    struct rng a = rng_stream(1, RNG_EYE, 7, 3), b = rng_stream(1, RNG_EYE, 7, 3),
+               c = rng_stream(1, RNG_LIGHT, 7, 3);
+    uint32_t first = rng_u32(&a);
+    CHECK(t, first == rng_u32(&b), "one name, two streams");
+    CHECK(t, first != rng_u32(&c), "purposes share their numbers");
+    for (int i = 0; i < 1000; i++) {
+        uint32_t below = rng_below(&a, 7);
+        double u = rng_uniform(&a);
+        CHECK(t, below < 7 && u >= 0 && u < 1, "out of range: %lu %g", (unsigned long)below, u);
+    }
+}
+
+static void check_vectors(struct test *t)
+{
+    vec3 x = vec(1, 0, 0), y = vec(0, 1, 0), z = vec(0, 0, 1);
+    CHECK(t, near3(cross(x, y), z, 0), "x cross y is not z");
+    CHECK(t, near3(normalize(vec(0, 0, 0)), vec(0, 0, 0), 0), "the zero vector does not stay");
+    CHECK(t, dot(faceforward(neg(z), vec(1, 2, 3)), z) == 1, "faceforward");
+    CHECK(t, safe_sqrt(-1e-20) == 0 && safe_sqrt(4) == 2, "safe_sqrt");
+    CHECK(t, clamp(5, 0, 1) == 1 && clamp(-5, 0, 1) == 0 && clamp(0.5, 0, 1) == 0.5, "clamp");
+    CHECK(t, !is_finite3(vec(0, HUGE_VAL, 0)) && is_finite3(x), "is_finite3");
+    CHECK(t, near3(lerp3(0.25, x, y), vec(0.75, 0.25, 0), 1e-15), "lerp3");
+}
+
+static void check_frame(struct test *t, struct frame f, vec3 n)
+{
+    double worst = fabs(dot(f.s, f.t)) + fabs(dot(f.s, f.n)) + fabs(dot(f.t, f.n));
+    worst +=
+        fabs(length(f.s) - 1) + fabs(length(f.t) - 1) + length(sub(cross(f.s, f.t), f.n)) + length(sub(f.n, n));
+    CHECK(t, worst < 1e-13, "frame around (%g, %g, %g) is off by %g", n.x, n.y, n.z, worst);
+    vec3 w = vec(0.36, 0.48, -0.8);
+    CHECK(t, near3(to_local(&f, to_world(&f, w)), w, 1e-14), "there and back differs");
+}
+
+static void check_frames(struct test *t, struct rng *r)
+{
+    vec3 special[] = {{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, -1, 0}, {1e-9, 0, -1}, {0, 1e-160, -1}};
+    for (int i = 0; i < 6; i++)
+        check_frame(t, frame_from_normal(normalize(special[i])), normalize(special[i]));
+    for (int i = 0; i < 200; i++) {
+        vec3 n = random_direction(r), tangent = random_direction(r);
+        check_frame(t, frame_from_normal(n), n);
+        struct frame f = frame_from_tangent(n, tangent);
+        check_frame(t, f, n);
+        CHECK(t, fabs(dot(f.t, tangent)) < 1e-12 && dot(f.s, tangent) > 0, "s is not the nearest to the tangent");
+        check_frame(t, frame_from_tangent(n, mul(n, 3)), n);
+        check_frame(t, frame_from_tangent(n, vec(0, 0, 0)), n);
+    }
+}
+
+static double inverse_error(const struct transform *t)
+{
+    double worst = 0;
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) {
+            double sum = i == j ? -1 : 0;
+            for (int k = 0; k < 4; k++)
+                sum += t->m[i][k] * t->inv[k][j];
+            worst = fmax(worst, fabs(sum));
+        }
+    return worst;
+}
+
+static struct transform random_affine(struct rng *r)
+{
+    double m[16];
+    struct transform t = transform_identity();
+    do {
+        for (int i = 0; i < 16; i++)
+            m[i] = i % 4 == 3 ? i == 15 : 4 * rng_uniform(r) - 2;
+    } while (!transform_from_matrix(m, &t) || fabs(transform_determinant(&t)) < 0.1);
+    return t;
+}
+
+/* What each transform does, on points whose image is plain. */
+static void check_transforms_known(struct test *t)
+{
+    struct transform move = transform_translate(vec(1, 2, 3)), turn = transform_rotate(90, vec(0, 0, 5));
+    struct transform scale = transform_scale(2, -3, 4), both = transform_compose(move, turn), view;
+    CHECK(t, near3(transform_point(&move, vec(1, 1, 1)), vec(2, 3, 4), 0), "translate a point");
+    CHECK(t, near3(transform_vector(&move, vec(1, 1, 1)), vec(1, 1, 1), 0), "translate a vector");
+    CHECK(t, near3(transform_point(&turn, vec(1, 0, 0)), vec(0, 1, 0), 1e-15), "rotate x by 90 degrees around z");
+    CHECK(t, near3(transform_point(&both, vec(1, 0, 0)), vec(1, 3, 3), 1e-15), "compose applies the second first");
+    CHECK(t, transform_swaps_handedness(&scale) && !transform_swaps_handedness(&turn), "handedness");
+    CHECK(t, fabs(transform_determinant(&scale) + 24) < 1e-12, "determinant");
+    CHECK(t, transform_look_at(vec(3, 4, 5), vec(3, 4, 9), vec(0, 1, 0), &view), "look_at");
+    CHECK(t, near3(transform_point(&view, vec(3, 4, 7)), vec(0, 0, 2), 1e-12), "the view looks along +z");
+    CHECK(t, near3(transform_point(&view, vec(4, 4, 5)), vec(1, 0, 0), 1e-12), "right is +x: left-handed");
+    CHECK(t, !transform_look_at(vec(0, 0, 0), vec(0, 1, 0), vec(0, 2, 0), &view), "up along the view is refused");
+}
+
+static void check_matrices(struct test *t)
+{
+    double listed[16] = {2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 4, 0, 5, 6, 7, 1},
+           flat[16] = {1, 2, 3, 0, 4, 5, 6, 0, 7, 8, 9, 0, 0, 0, 0, 1};
+    double tiny[16] = {1e-10, 0, 0, 0, 0, 1e10, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    struct transform m = transform_identity();
+    CHECK(t, transform_from_matrix(listed, &m), "a plain matrix");
+    CHECK(t, near3(transform_point(&m, vec(1, 1, 1)), vec(7, 9, 11), 0), "columns first");
+    CHECK(t, !transform_from_matrix(flat, &m), "a singular matrix is refused");
+    CHECK(t, near3(transform_point(&m, vec(1, 1, 1)), vec(7, 9, 11), 0),
+          "a refused matrix leaves the output alone");
+    CHECK(t, transform_from_matrix(tiny, &m), "very different scales are no reason to refuse");
+    listed[3] = NAN;
+    CHECK(t, !transform_from_matrix(listed, &m), "NaN is refused");
+    double projective[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 1};
+    CHECK(t, transform_from_matrix(projective, &m), "a projective matrix");
+    CHECK(t, near3(transform_point(&m, vec(2, 4, 1)), vec(1, 2, 0.5), 1e-15), "points are divided by w");
+}
+
+static void check_transforms_random(struct test *t, struct rng *r)
+{
+    for (int i = 0; i < 200; i++) {
+        struct transform a = random_affine(r), b = random_affine(r), ab = transform_compose(a, b);
+        struct transform back = transform_inverse(ab),
+                         turn = transform_rotate(360 * rng_uniform(r), random_direction(r));
+        vec3 p = random_direction(r), q = random_direction(r);
+        CHECK(t, inverse_error(&a) < 1e-11 && inverse_error(&ab) < 1e-10, "inverse off by %g", inverse_error(&ab));
+        CHECK(t, inverse_error(&turn) < 1e-14, "a rotation's inverse");
+        CHECK(t, near3(transform_point(&ab, p), transform_point(&a, transform_point(&b, p)), 1e-12), "product");
+        CHECK(t, near3(transform_point(&back, transform_point(&ab, p)), p, 1e-10), "there and back differs");
+        double angle = dot(transform_normal(&a, cross(p, q)), transform_vector(&a, p));
+        CHECK(t, fabs(angle) < 1e-10, "a normal is no longer orthogonal to its plane: %g", angle);
+    }
+}
+
+void test_vec(struct test *t)
+{
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 100, 0);
+    check_rng(t);
+    check_vectors(t);
+    check_frames(t, &r);
+    check_transforms_known(t);
+    check_matrices(t);
+    check_transforms_random(t, &r);
+}
