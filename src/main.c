@@ -12,6 +12,7 @@ static const struct {
 } COMMANDS[] = {
     {"render", "render a scene: asbdpt render SCENE.pbrt [-o FILE.{pfm,ppm,png}]... [options]", command_render},
     {"compare", "compare pictures: asbdpt compare IMAGE REFERENCE [--heatmap FILE.png] [--json]", command_compare},
+    {"experiment", "measure methods: asbdpt experiment [--quick|--full] [SCENE...] -o DIR [options]", command_experiment},
     {"info", "describe a scene: asbdpt info SCENE.pbrt [options]", command_info},
 };
 enum { N_COMMANDS = sizeof COMMANDS / sizeof COMMANDS[0] };
