@@ -1,4 +1,6 @@
-/* triangle.c: see triangle.h. The rules are those of [PBRT3 3.6]. */
+/* triangle.c: see triangle.h. The rules are those of [PBRT3 3.6], but for the tangents under vertex normals:
+ * pbrt-v3 turns them by 180 degrees and makes them unit vectors, so that its bump maps come out inverted and scaled
+ * there. */
 #include "triangle.h"
 
 double triangle_area(const struct triangle *tri)
@@ -17,6 +19,9 @@ static void tangents_of(vec3 v, vec3 *s, vec3 *t)
     *s = normalize(fabs(v.x) > fabs(v.y) ? vec(-v.z, 0, v.x) : vec(0, v.z, -v.y));
     *t = cross(normalize(v), *s);
 }
+
+/* The part of v that is orthogonal to the unit vector n. */
+static vec3 reject(vec3 v, vec3 n) { return sub(v, mul(n, dot(v, n))); }
 
 /* Derivatives by (u,v) of a quantity linear over the triangle, from its values at the vertices; false where
  * (u,v) are degenerate. */
@@ -40,10 +45,10 @@ static void shade_by_vertex_normals(const struct triangle *tri, double b1, doubl
     if (length2(ns) > 0)
         out->ns = normalize(ns);
     out->ng = faceforward(out->ng, out->ns);
-    vec3 t = cross(normalize(out->dpdu), out->ns);
-    if (length2(t) > 0) {
-        out->dpdv = normalize(t);
-        out->dpdu = cross(out->dpdv, out->ns);
+    vec3 du = reject(out->dpdu, out->ns), dv = reject(out->dpdv, out->ns);
+    if (length2(cross(du, dv)) > 0) {
+        out->dpdu = du;
+        out->dpdv = dv;
     } else {
         tangents_of(out->ns, &out->dpdu, &out->dpdv);
     }

@@ -75,9 +75,9 @@ struct triangle {
 };
 
 /* triangle_surface: position, normals, texture coordinates and partial derivatives at barycentric coordinates
- * (1-b1-b2, b1, b2); material and light are left alone. As pbrt-v3 has it: with vertex normals ns is their
- * normalised mean, ng lies on its side, and dpdu, dpdv become unit vectors orthogonal to ns; without, ns = ng
- * and dpdu, dpdv are the derivatives by (u,v), or any tangents where (u,v) do not span the triangle. */
+ * (1-b1-b2, b1, b2); material and light are left alone. With vertex normals, ns is their normalised mean, ng lies on
+ * its side, and dpdu, dpdv are the derivatives by (u,v) projected to be orthogonal to ns; without, ns = ng and they are
+ * the derivatives as they are. Where (u,v) do not span the triangle they are any unit tangents. */
 void triangle_surface(const struct triangle *tri, double b1, double b2, struct surface *out);
 
 double triangle_area(const struct triangle *tri); /* m^2 */

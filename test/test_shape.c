@@ -1,0 +1,406 @@
+/* test_shape.c: triangles and quadrics: where rays meet them, what the surface there is like, how points are
+ * sampled.
+ *
+ * Derivatives are compared with differences of neighbouring points, areas with known values and with the mean of
+ * 1/pdf, samples with their density by chi-square. A density that forgets the transform must be rejected.
+ */
+#include "../src/shape.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "../src/mem.h"
+#include "../src/rng.h"
+#include "../src/stats.h"
+#include "../src/warp.h"
+#include "tests.h"
+
+static struct shape_group group_of(int material, int first_light)
+{
+    struct shape_group g = {0};
+    g.material = material;
+    g.alpha = g.shadow_alpha = -1;
+    g.first_light = first_light;
+    return g;
+}
+
+static bool near3(vec3 a, vec3 b, double tolerance) { return length(sub(a, b)) <= tolerance; }
+
+static vec3 on_sphere(struct rng *r)
+{
+    double u1 = rng_uniform(r), u2 = rng_uniform(r);
+    return warp_sphere(u1, u2);
+}
+
+/* --- triangles ---------------------------------------------------------------------------------------- */
+
+static float corner[] = {0, 0, 0, 2, 0, 0, 0, 1, 0};
+static float corner_normal[] = {0, 0, 1, 0.6f, 0, 0.8f, 0, -0.6f, 0.8f};
+static float corner_uv[] = {0.5f, 0, 1, 0.25f, 0.25f, 1};
+static uint32_t corner_index[] = {0, 1, 2};
+
+/* One right triangle in the plane z = 0, sides 2 and 1. */
+static int add_triangle(struct test *t, struct geometry *geo, bool with_n, bool with_uv, struct transform to_world,
+                        bool reverse)
+{
+    struct mesh m = {corner, with_n ? corner_normal : NULL, with_uv ? corner_uv : NULL, corner_index, 3, 1};
+    struct error err = {""};
+    int group = shape_add_mesh(geo, &m, &to_world, group_of(7, 40), reverse, &err);
+    CHECK(t, group == geo->n_groups - 1, "%s", err.text);
+    return geo->group[group].first_prim;
+}
+
+static void check_triangle_hits(struct test *t)
+{
+    struct geometry geo = {0};
+    add_triangle(t, &geo, false, false, transform_identity(), false);
+    struct ray ray = {vec(0.5, 0.25, 3), vec(0, 0, -1), 0, HUGE_VAL};
+    struct hit hit;
+    CHECK(t, shape_intersect(&geo, 0, &ray, &hit) && hit.t == 3 && hit.prim == 0, "straight down");
+    CHECK(t, fabs(hit.b1 - 0.25) < 1e-15 && fabs(hit.b2 - 0.25) < 1e-15, "barycentric %g %g", hit.b1, hit.b2);
+    ray.tmax = 3;
+    CHECK(t, !shape_intersect(&geo, 0, &ray, &hit), "the interval is open at tmax");
+    ray.tmax = 4;
+    ray.tmin = 3;
+    CHECK(t, !shape_intersect(&geo, 0, &ray, &hit), "the interval is open at tmin");
+    ray.tmin = 0;
+    ray.o = vec(1.01, 0.5, 3);
+    CHECK(t, !shape_intersect(&geo, 0, &ray, &hit), "past the long side");
+    ray.o = vec(1, 0.5, 3);
+    CHECK(t, shape_intersect(&geo, 0, &ray, &hit), "a point of an edge belongs to the triangle");
+    ray.o = vec(-1, 0.2, 0);
+    ray.d = vec(1, 0, 0);
+    CHECK(t, !shape_intersect(&geo, 0, &ray, &hit), "edge-on it cannot be seen");
+    geometry_free(&geo);
+}
+
+/* Hits from everywhere lie where the barycentric coordinates say, in the plane, at distance t. */
+static void check_triangle_random(struct test *t, struct rng *r)
+{
+    int hits = 0;
+    for (int i = 0; i < 500; i++) {
+        struct geometry geo = {0};
+        double size = pow(10, 6 * rng_uniform(r) - 3);
+        struct transform place = transform_compose(
+            transform_translate(mul(on_sphere(r), 10 * size)),
+            transform_compose(transform_rotate(77, on_sphere(r)), transform_scale(size, size * rng_uniform(r), 1)));
+        add_triangle(t, &geo, false, false, place, false);
+        struct surface target, at;
+        double pdf, u1 = rng_uniform(r), u2 = rng_uniform(r);
+        shape_sample(&geo, 0, u1, u2, &target, &pdf);
+        vec3 o = add(target.p, mul(on_sphere(r), 20 * size));
+        struct ray ray = {o, normalize(sub(target.p, o)), 0, HUGE_VAL};
+        struct hit hit;
+        if (!CHECK(t, shape_intersect(&geo, 0, &ray, &hit), "triangle %d is missed", i))
+            continue;
+        shape_surface(&geo, &hit, &ray, &at);
+        CHECK(t, near3(at.p, target.p, 1e-9 * size), "triangle %d: %g from the target", i,
+              length(sub(at.p, target.p)));
+        CHECK(t, fabs(pdf * shape_area(&geo, 0) - 1) < 1e-12 && shape_pdf_a(&geo, 0, &at) == pdf, "pdf_a");
+        /* a ray that leaves this point must not find the triangle again beyond 1e-8 of the scene's size */
+        struct ray leave = {at.p, on_sphere(r), 1e-8 * 20 * size, HUGE_VAL};
+        CHECK(t, fabs(dot(leave.d, at.ng)) < 1e-4 || !shape_intersect(&geo, 0, &leave, &hit), "it meets itself");
+        hits++;
+        geometry_free(&geo);
+    }
+    CHECK(t, hits == 500, "%d hits", hits);
+}
+
+static struct surface surface_at(const struct geometry *geo, int prim, double b1, double b2)
+{
+    struct hit hit = {0, b1, b2, prim};
+    struct ray ray = {vec(0, 0, 0), vec(0, 0, 1), 0, 1};
+    struct surface at;
+    shape_surface(geo, &hit, &ray, &at);
+    return at;
+}
+
+/* p and n are linear in (u,v): their values at two points must differ by the partials times the difference. */
+static void check_triangle_partials(struct test *t)
+{
+    struct geometry geo = {0};
+    int flat = add_triangle(t, &geo, false, true, transform_identity(), false);
+    int plain = add_triangle(t, &geo, false, false, transform_identity(), false);
+    int smooth = add_triangle(t, &geo, true, true, transform_identity(), false);
+    struct surface a = surface_at(&geo, flat, 0.1, 0.2), b = surface_at(&geo, flat, 0.6, 0.3);
+    vec3 moved = add(mul(a.dpdu, b.u - a.u), mul(a.dpdv, b.v - a.v));
+    CHECK(t, near3(sub(b.p, a.p), moved, 1e-14), "dp/du, dp/dv of a flat triangle");
+    CHECK(t, fabs(a.u - (0.7 * 0.5 + 0.1 + 0.2 * 0.25)) < 1e-12 && near3(a.ns, a.ng, 0), "u, ns");
+    CHECK(t, a.material == 7 && a.light == 40 && length(a.dndu) == 0, "material, light, no curvature");
+    a = surface_at(&geo, plain, 0.5, 0.25);
+    CHECK(t, fabs(a.u - 0.75) < 1e-15 && fabs(a.v - 0.25) < 1e-15, "default (u,v) are (0,0), (1,0), (1,1)");
+    CHECK(t, near3(a.dpdu, vec(2, 0, 0), 1e-15) && near3(a.dpdv, vec(-2, 1, 0), 1e-15), "default partials");
+    a = surface_at(&geo, smooth, 0.2, 0.3);
+    vec3 n = vec(0.2 * 0.6, -0.3 * 0.6, 0.5 + 0.5 * 0.8);
+    CHECK(t, near3(a.ns, normalize(n), 1e-7) && near3(a.ng, vec(0, 0, 1), 1e-15), "interpolated normal");
+    CHECK(t, fabs(dot(a.dpdu, a.ns)) < 1e-14 && fabs(dot(a.dpdv, a.ns)) < 1e-14, "tangents orthogonal to ns");
+    b = surface_at(&geo, flat, 0.2, 0.3);
+    CHECK(t, length(cross(sub(a.dpdu, b.dpdu), a.ns)) < 1e-14, "dp/du moves along ns only");
+    CHECK(t, length(cross(sub(a.dpdv, b.dpdv), a.ns)) < 1e-14, "dp/dv moves along ns only");
+    vec3 dn = add(mul(a.dndu, 0.5), mul(a.dndv, 0.25)), want = vec(0.6, 0, -0.2); /* n1 - n0, uv1 - uv0 */
+    CHECK(t, near3(dn, want, 1e-6), "dn/du, dn/dv");
+    geometry_free(&geo);
+}
+
+static void check_degenerate_uv(struct test *t)
+{
+    struct geometry geo = {0};
+    struct transform id = transform_identity();
+    struct error err;
+    float same[] = {0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f};
+    struct mesh m = {corner, corner_normal, same, corner_index, 3, 1};
+    shape_add_mesh(&geo, &m, &id, group_of(0, -1), false, &err);
+    m.N = NULL;
+    shape_add_mesh(&geo, &m, &id, group_of(0, -1), false, &err);
+    for (int i = 0; i < 2; i++) {
+        struct surface at = surface_at(&geo, i, 0.3, 0.3);
+        CHECK(t, length(cross(at.dpdu, at.dpdv)) > 0.5 && fabs(dot(at.dpdu, at.ns)) < 1e-12, "degenerate (u,v)");
+        CHECK(t, is_finite3(at.dndu) && is_finite3(at.dndv) && at.light == -1, "finite derivatives");
+    }
+    geometry_free(&geo);
+}
+
+/* The one rule of orientation: the side stays with the object under any transform; ReverseOrientation turns it;
+ * normals given by the mesh decide where there are any. */
+static void check_triangle_orientation(struct test *t)
+{
+    struct transform plain = transform_identity(), mirror = transform_scale(-1, 1, 1);
+    for (int i = 0; i < 8; i++) {
+        struct geometry geo = {0};
+        bool with_n = i & 1, mirrored = i & 2, reverse = i & 4;
+        add_triangle(t, &geo, with_n, true, mirrored ? mirror : plain, reverse);
+        struct surface at = surface_at(&geo, 0, 0.3, 0.3), sample;
+        double pdf, up = reverse ? -1 : 1;
+        CHECK(t, at.ng.z == up && at.ns.z * up > 0, "case %d: ng.z = %g, ns.z = %g", i, at.ng.z, at.ns.z);
+        shape_sample(&geo, 0, 0.3, 0.3, &sample, &pdf);
+        CHECK(t, sample.ng.z == at.ng.z, "case %d: sampled and hit points face different ways", i);
+        geometry_free(&geo);
+    }
+}
+
+static void check_mesh_refused(struct test *t)
+{
+    struct geometry geo = {0};
+    struct mesh m = {corner, NULL, NULL, corner_index, 3, 1};
+    struct error err = {""};
+    struct transform far = transform_translate(vec(1e30, 0, 0));
+    CHECK(t, shape_add_mesh(&geo, &m, &far, group_of(0, -1), false, &err) == -1, "a vertex at 1e30");
+    CHECK(t, geo.n_triangles == 0 && geo.n_groups == 0 && strstr(err.text, "vertex 0") != NULL, "%s", err.text);
+    geometry_free(&geo);
+}
+
+/* --- quadrics ----------------------------------------------------------------------------------------- */
+
+/* Seven quadrics, whole and cut; the last in a crooked space. */
+enum { N_QUADRICS = 7 };
+
+static struct quadric quadric_number(int i)
+{
+    struct transform id = transform_identity();
+    struct transform turn =
+        transform_compose(transform_translate(vec(1, 2, 3)), transform_rotate(50, vec(1, 2, -1)));
+    struct transform skew = transform_compose(turn, transform_scale(1, 2, -0.5));
+    struct quadric q[N_QUADRICS] = {
+        {QUADRIC_SPHERE, id, 2, 0, -2, 2, 2 * PI, 0},        {QUADRIC_SPHERE, turn, 2, 0, -1, 1.5, 5, 0},
+        {QUADRIC_DISK, turn, 1.5, 0, 0.25, 0.25, 2 * PI, 0}, {QUADRIC_DISK, id, 1.5, 0.5, -1, -1, 4, 0},
+        {QUADRIC_CYLINDER, turn, 0.5, 0, -1, 2, 2 * PI, 0},  {QUADRIC_CYLINDER, skew, 0.5, 0, -1, 2, 3, 0},
+        {QUADRIC_SPHERE, skew, 1, 0, -1, 1, 2 * PI, 0},
+    };
+    return q[i];
+}
+
+static vec3 to_object(const struct quadric *q, vec3 p)
+{
+    struct transform back = transform_inverse(q->to_world);
+    return transform_point(&back, p);
+}
+
+/* How far an object-space point is from the uncut quadric. */
+static double distance_from(const struct quadric *q, vec3 p)
+{
+    switch (q->kind) {
+    case QUADRIC_SPHERE: return fabs(length(p) - q->radius);
+    case QUADRIC_DISK: return fabs(p.z - q->zmin);
+    case QUADRIC_CYLINDER: return fabs(sqrt(p.x * p.x + p.y * p.y) - q->radius);
+    }
+    return 1;
+}
+
+/* The point with parameters (u,v), written down independently of the module. */
+static vec3 point_of(const struct quadric *q, double u, double v)
+{
+    double phi = u * q->phi_max, r = q->radius, z = q->zmin + v * (q->zmax - q->zmin);
+    if (q->kind == QUADRIC_SPHERE) {
+        double theta0 = acos(q->zmin / r), theta1 = acos(q->zmax / r), theta = theta0 + v * (theta1 - theta0);
+        z = r * cos(theta);
+        r = r * sin(theta);
+    } else if (q->kind == QUADRIC_DISK) {
+        r = r + v * (q->inner_radius - r);
+    }
+    return transform_point(&q->to_world, vec(r * cos(phi), r * sin(phi), z));
+}
+
+/* Aim at a known point from a random place: the first hit is on the quadric, no farther than the target. */
+static void check_quadric_hits(struct test *t, const struct geometry *geo, int i, struct rng *r)
+{
+    const struct quadric *q = &geo->quadric[i];
+    int prim = FIRST_QUADRIC + i;
+    float lo[3], hi[3];
+    shape_bounds(geo, prim, lo, hi);
+    for (int k = 0; k < 300; k++) {
+        vec3 target = point_of(q, rng_uniform(r), rng_uniform(r)), o = add(target, mul(on_sphere(r), 8));
+        struct ray ray = {o, normalize(sub(target, o)), 0, HUGE_VAL};
+        struct hit hit;
+        struct surface at;
+        if (!CHECK(t, shape_intersect(geo, prim, &ray, &hit), "quadric %d is missed", i))
+            continue;
+        CHECK(t, hit.t <= 8 + 1e-6 && hit.prim == prim, "quadric %d: hit at %g, behind the target", i, hit.t);
+        shape_surface(geo, &hit, &ray, &at);
+        CHECK(t, distance_from(q, to_object(q, at.p)) < 1e-14, "quadric %d: off the surface", i);
+        CHECK(t, near3(at.p, add(ray.o, mul(ray.d, hit.t)), 1e-10), "quadric %d: off the ray", i);
+        CHECK(t, near3(at.p, point_of(q, at.u, at.v), 1e-7), "quadric %d: (%g, %g) is another point", i, at.u,
+              at.v);
+        CHECK(t, at.u >= 0 && at.u <= 1 && at.v >= -1e-9 && at.v <= 1 + 1e-9, "quadric %d: cut off", i);
+        bool boxed = at.p.x >= lo[0] && at.p.x <= hi[0] && at.p.y >= lo[1] && at.p.y <= hi[1] && at.p.z >= lo[2] &&
+                     at.p.z <= hi[2];
+        CHECK(t, boxed, "quadric %d: outside its bounds", i);
+        struct ray leave = {at.p, on_sphere(r), 1e-7, 1e-3};
+        CHECK(t, fabs(dot(leave.d, at.ng)) < 0.05 || !shape_intersect(geo, prim, &leave, &hit), "it meets itself");
+    }
+}
+
+/* Derivatives against central differences. */
+static void check_quadric_partials(struct test *t, const struct geometry *geo, int i, struct rng *r)
+{
+    const struct quadric *q = &geo->quadric[i];
+    const double h = 1e-5;
+    for (int k = 0; k < 50; k++) {
+        double u = 0.1 + 0.8 * rng_uniform(r), v = 0.1 + 0.8 * rng_uniform(r);
+        struct surface at, step[4];
+        for (int m = 0; m < 5; m++) {
+            double du = m == 0 ? h : m == 1 ? -h : 0, dv = m == 2 ? h : m == 3 ? -h : 0;
+            quadric_surface_at(q, false, to_object(q, point_of(q, u + du, v + dv)), m < 4 ? &step[m] : &at);
+        }
+        vec3 dpdu = mul(sub(step[0].p, step[1].p), 0.5 / h), dpdv = mul(sub(step[2].p, step[3].p), 0.5 / h);
+        vec3 dndu = mul(sub(step[0].ns, step[1].ns), 0.5 / h), dndv = mul(sub(step[2].ns, step[3].ns), 0.5 / h);
+        CHECK(t, near3(at.dpdu, dpdu, 1e-5 * (1 + length(dpdu))), "quadric %d: dp/du", i);
+        CHECK(t, near3(at.dpdv, dpdv, 1e-5 * (1 + length(dpdv))), "quadric %d: dp/dv", i);
+        CHECK(t, near3(at.dndu, dndu, 1e-4 * (1 + length(dndu))), "quadric %d: dn/du", i);
+        CHECK(t, near3(at.dndv, dndv, 1e-4 * (1 + length(dndv))), "quadric %d: dn/dv", i);
+        CHECK(t, fabs(dot(at.ng, dpdu)) < 1e-4 && fabs(dot(at.ng, dpdv)) < 1e-4, "quadric %d: normal", i);
+    }
+}
+
+/* Outwards, whatever the transform; ReverseOrientation inwards. */
+static void check_quadric_orientation(struct test *t)
+{
+    for (int i = 0; i < 4; i++) {
+        struct geometry geo = {0};
+        struct quadric q = {QUADRIC_SPHERE, transform_scale(i & 1 ? -1 : 1, 1, 1), 1, 0, -1, 1, 2 * PI, 0};
+        shape_add_quadric(&geo, q, group_of(3, 9), i & 2);
+        struct ray ray = {vec(0, 0, 5), vec(0, 0, -1), 0, HUGE_VAL};
+        struct hit hit;
+        struct surface at, sample;
+        double pdf, out = i & 2 ? -1 : 1;
+        CHECK(t, shape_intersect(&geo, FIRST_QUADRIC, &ray, &hit) && fabs(hit.t - 4) < 1e-14, "sphere from above");
+        shape_surface(&geo, &hit, &ray, &at);
+        shape_sample(&geo, FIRST_QUADRIC, 0.2, 0.3, &sample, &pdf);
+        CHECK(t, near3(at.ng, vec(0, 0, out), 1e-12), "case %d: normal", i);
+        CHECK(t, dot(sample.ng, sample.p) * out > 0.999, "case %d: normal of a sampled point", i);
+        CHECK(t, at.material == 3 && at.light == 9 && is_finite3(at.dpdu),
+              "material and light; the pole's tangent");
+        geometry_free(&geo);
+    }
+}
+
+/* --- sampling ----------------------------------------------------------------------------------------- */
+
+/* Chi-square over equal steps of u and v: expected counts from the area of each patch, in object space or, weighed
+ * with the density, in the world. `forget` leaves the transform out of the density, which must be noticed. */
+static double sample_p(const struct geometry *geo, int prim, bool forget, struct rng *r, double *area)
+{
+    enum { N = 12, DRAWS = 40000, FINE = 6 };
+    const struct quadric *q = &geo->quadric[prim - FIRST_QUADRIC];
+    double observed[N * N] = {0}, expected[N * N] = {0}, inverse_sum = 0, whole = shape_area(geo, prim);
+    for (int i = 0; i < DRAWS; i++) {
+        struct surface at;
+        double pdf, u1 = rng_uniform(r), u2 = rng_uniform(r);
+        shape_sample(geo, prim, u1, u2, &at, &pdf);
+        int a = (int)clamp(at.u * N, 0, N - 1), b = (int)clamp(at.v * N, 0, N - 1);
+        observed[a * N + b]++;
+        inverse_sum += 1 / pdf;
+    }
+    *area = inverse_sum / DRAWS;
+    for (int i = 0; i < N * FINE; i++)
+        for (int k = 0; k < N * FINE; k++) {
+            struct surface at;
+            double u = (i + 0.5) / (N * FINE), v = (k + 0.5) / (N * FINE);
+            quadric_surface_at(q, false, to_object(q, point_of(q, u, v)), &at);
+            double patch = length(cross(at.dpdu, at.dpdv)) / (N * FINE * N * FINE);
+            double pdf = forget ? 1 / whole : shape_pdf_a(geo, prim, &at);
+            expected[i / FINE * N + k / FINE] += DRAWS * patch * pdf;
+        }
+    return stats_chi2_test(observed, expected, N * N);
+}
+
+static void check_sampling(struct test *t, const struct geometry *geo, struct rng *r)
+{
+    for (int i = 0; i < N_QUADRICS; i++) {
+        double area;
+        double p = sample_p(geo, FIRST_QUADRIC + i, false, r, &area);
+        TEST_ACCEPT(t, p, "samples of quadric %d follow shape_pdf_a", i);
+        double want = shape_area(geo, FIRST_QUADRIC + i);
+        CHECK(t, fabs(area / want - 1) < 0.01, "quadric %d: area %g, mean of 1/pdf %g", i, want, area);
+    }
+    double ignored;
+    TEST_REJECT(t, sample_p(geo, FIRST_QUADRIC + 6, true, r, &ignored),
+                "a density without the transform's stretch");
+    CHECK(t, fabs(shape_area(geo, FIRST_QUADRIC) - 16 * PI) < 1e-9, "area of a sphere");
+    CHECK(t, fabs(shape_area(geo, FIRST_QUADRIC + 2) - PI * 2.25) < 1e-9, "area of a disk");
+    CHECK(t, fabs(shape_area(geo, FIRST_QUADRIC + 4) - 3 * PI) < 1e-9, "area of a cylinder");
+}
+
+/* A triangle's samples, in barycentric coordinates: uniform over the 45-degree triangle, by quarters of its area.
+ */
+static void check_triangle_sampling(struct test *t, struct rng *r)
+{
+    struct geometry geo = {0};
+    double count[4] = {0}, expected[4] = {10000, 10000, 10000, 10000}, skewed[4] = {0};
+    add_triangle(t, &geo, false, false, transform_identity(), false);
+    CHECK(t, shape_area(&geo, 0) == 1, "area %g", shape_area(&geo, 0));
+    for (int i = 0; i < 40000; i++) {
+        struct surface at;
+        double pdf, u1 = rng_uniform(r), u2 = rng_uniform(r);
+        shape_sample(&geo, 0, u1, u2, &at, &pdf);
+        double b1 = at.p.x / 2, b2 = at.p.y;
+        count[b1 > 0.5 ? 0 : b2 > 0.5 ? 1 : b1 + b2 < 0.5 ? 2 : 3]++;
+        b1 = 1 - u1;
+        b2 = u2 * u1; /* without the square root */
+        skewed[b1 > 0.5 ? 0 : b2 > 0.5 ? 1 : b1 + b2 < 0.5 ? 2 : 3]++;
+    }
+    TEST_ACCEPT(t, stats_chi2_test(count, expected, 4), "samples of a triangle are uniform");
+    TEST_REJECT(t, stats_chi2_test(skewed, expected, 4), "samples crowded into a corner");
+    geometry_free(&geo);
+}
+
+void test_shape(struct test *t)
+{
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 102, 0);
+    struct geometry quadrics = {0};
+    check_triangle_hits(t);
+    check_triangle_random(t, &r);
+    check_triangle_partials(t);
+    check_degenerate_uv(t);
+    check_triangle_orientation(t);
+    check_mesh_refused(t);
+    check_triangle_sampling(t, &r);
+    for (int i = 0; i < N_QUADRICS; i++)
+        shape_add_quadric(&quadrics, quadric_number(i), group_of(0, -1), false);
+    for (int i = 0; i < N_QUADRICS; i++) {
+        check_quadric_hits(t, &quadrics, i, &r);
+        check_quadric_partials(t, &quadrics, i, &r);
+    }
+    check_quadric_orientation(t);
+    check_sampling(t, &quadrics, &r);
+    geometry_free(&quadrics);
+}
