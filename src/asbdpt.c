@@ -5,8 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "prepass.h"
 #include "select.h"
 #include "trace.h"
+
+enum { GUIDE_CELLS = 12 }; /* regions of guide.h along the scene's diameter */
 
 static const struct parameter PARAMETERS[] = {
     {"select", "vertices", "bins (the dissertation, biased), pool, or vertices"},
@@ -14,6 +17,7 @@ static const struct parameter PARAMETERS[] = {
     {"delta", "0.05", "pool, vertices: share of draws that ignore the importance, (0,1]"},
     {"connections", "8", "vertices: light vertices drawn per eye vertex"},
     {"grid", "128", "pool, vertices: cells of the importance grid along the scene's diagonal"},
+    {"lightsamplestrategy", "spatial", "pool, vertices: s = 1 picks lights by power, or spatial: by what is seen"},
     {"binpaths", "8", "bins: light sub-paths per pixel, even"},
     {"maxage", "24", "bins: iterations after which an unused sub-path is replaced, 0: never"},
     {"restart", "32", "bins: iterations after which all bins are rebuilt, 0: never"},
@@ -32,7 +36,7 @@ static int choice(const struct settings *s, const char *name, const char *fallba
 }
 
 static bool read_parameters(const struct settings *s, struct selection *sel, int *cells, long *restart,
-                            struct error *err)
+                            bool *spatial, struct error *err)
 {
     static const char *const selects[] = {"bins", "pool", "vertices"};
     static const struct selector *const selectors[] = {&select_bins, &select_pool, &select_vertices};
@@ -46,6 +50,8 @@ static bool read_parameters(const struct settings *s, struct selection *sel, int
         !settings_int(s, "maxage", 24, 0, LONG_MAX, &age, err) ||
         !settings_int(s, "restart", 32, 0, INT_MAX, restart, err))
         return false;
+    const char *strategy = settings_text(s, "lightsamplestrategy", "spatial");
+    *spatial = strcmp(strategy, "power") != 0; /* pbrt's "uniform" is not offered */
     if (paths % 2 != 0)
         return error_set(err, "asbdpt: binpaths %ld is odd; bins hold two sub-paths each", paths);
     sel->selector = selectors[which];
@@ -64,30 +70,44 @@ static double position_count(const void *context, vec3 p)
     return (1 - sel->delta) * importance_at(&sel->grid, p) / sel->grid.mean + sel->delta;
 }
 
+/* Learn what the selection needs and set the sample counts accordingly. */
+static void learn(struct selection *sel, const struct render_job *job, int cells, bool spatial)
+{
+    const struct light_set *lights = &job->scene->lights;
+    bool importance = sel->metric == METRIC_IMPORTANCE;
+    importance_init(&sel->grid, lights, cells);
+    guide_init(&sel->guide, lights, GUIDE_CELLS);
+    if (importance || spatial)
+        prepass_run(job, importance ? &sel->grid : NULL, spatial ? &sel->guide : NULL);
+    if (spatial)
+        sel->counts.guide = &sel->guide;
+    if (sel->selector != &select_vertices)
+        return;
+    sel->counts.connect = sel->connections;
+    if (importance && sel->grid.mean > 0) {
+        sel->counts.at = position_count;
+        sel->counts.at_context = sel;
+    }
+}
+
 static bool prepare(const struct render_job *job, void **state, int *block, struct error *err)
 {
     struct selection *sel = mem_alloc(1, sizeof *sel);
     int cells = 0;
     long restart = 0;
-    if (!read_parameters(&job->scene->settings, sel, &cells, &restart, err)) {
+    bool spatial = false;
+    if (!read_parameters(&job->scene->settings, sel, &cells, &restart, &spatial, err)) {
         free(sel);
         return false;
     }
     struct mis_counts counts = {.hit = 1, .direct = 1, .connect = 1, .splat = trace_light_count(job)};
     counts.power = job->power_heuristic;
+    sel->counts = counts;
     sel->max_depth = job->max_depth;
     if (sel->selector == &select_bins)
         *block = restart > 0 ? (int)restart : INT_MAX;
-    else if (sel->metric == METRIC_IMPORTANCE)
-        importance_build(&sel->grid, job, cells);
-    if (sel->selector == &select_vertices) {
-        counts.connect = sel->connections;
-        if (sel->metric == METRIC_IMPORTANCE && sel->grid.mean > 0) {
-            counts.at = position_count;
-            counts.at_context = sel;
-        }
-    }
-    sel->counts = counts;
+    else
+        learn(sel, job, cells, spatial);
     *state = sel;
     return true;
 }
@@ -96,6 +116,7 @@ static void release(void *state)
 {
     struct selection *sel = state;
     importance_free(&sel->grid);
+    guide_free(&sel->guide);
     free(sel);
 }
 

@@ -48,37 +48,49 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
     }
     /* The strategy one shorter on the eye side is s = 1, so c_e is its count, whatever the vertex would have as a
      * surface. */
-    double before = z->prev_delta ? 0 : counts->direct;
+    const struct vertex *previous = z - 1;
+    double before = z->prev_delta ? 0
+                                  : mis_direct_count(counts, lights, previous->p, previous->ng, z->cell, neg(z->wo));
     double eye = mis_side(counts, z->pdf_origin, z->pdf_fwd, before, pdf_emit, z->mis);
     c.weight = mis_weight(counts, counts->hit, 0, eye);
     return c;
 }
 
 struct connection connect_direct(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
-                                 struct sampler *sampler)
+                                 struct sampler *sampler, int *cell_out)
 {
     double u[3];
     for (int i = 0; i < 3; i++)
         u[i] = sampler_next(sampler);
-    struct light_point at;
-    if (!vertex_connectible(z) || !light_sample_point(&scene->lights, &scene->geo, u, &at))
+    const struct light_set *lights = &scene->lights;
+    if (cell_out != NULL)
+        *cell_out = -1;
+    if (!vertex_connectible(z) || lights->choice.n == 0)
         return nothing();
-    bool parallel = light_at_infinity(&scene->lights.light[at.light]);
-    bool area = scene->lights.light[at.light].kind == LIGHT_AREA;
+    struct light_point at;
+    const struct alias_table *choice = guide_table(counts->guide, lights, z->p, z->ng);
+    double pmf;
+    int cell = alias_sample(choice, u[0], &pmf, NULL);
+    if (cell_out != NULL)
+        *cell_out = cell;
+    if (!light_sample_cell(lights, &scene->geo, cell, u[1], u[2], &at) || !(at.pdf > 0))
+        return nothing();
+    bool parallel = light_at_infinity(&lights->light[at.light]);
+    bool area = lights->light[at.light].kind == LIGHT_AREA;
     vec3 d = parallel ? at.w : sub(at.p, z->p);
     double d2 = length2(d);
     if (!(d2 > 0))
         return nothing();
     vec3 w = mul(d, 1 / sqrt(d2));
 
-    rgb Le = light_Le(&scene->lights, &at, neg(w));
+    rgb Le = light_Le(lights, &at, neg(w));
     if (rgb_is_black(Le))
         return nothing();
     struct scatter at_z = scatter_towards(z, w, RADIANCE);
     double spread = parallel ? 1 : 1 / d2;
     double at_light = area ? abs_dot(at.n, w) * spread : spread; /* area or solid angle at y_0 per steradian at z */
     struct connection c = nothing();
-    c.value = rgb_mul(rgb_mul(z->beta, at_z.factor), rgb_scale(Le, at_light / at.pdf));
+    c.value = rgb_mul(rgb_mul(z->beta, at_z.factor), rgb_scale(Le, at_light / (pmf * at.pdf_cell)));
     if (rgb_is_black(c.value))
         return nothing();
     if (parallel ? !scene_visible_ray(scene, z->p, w) : !scene_visible(scene, z->p, at.p))
@@ -87,9 +99,10 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
     struct vertex y;
     vertex_light_end(scene, counts, &at, &y);
     double light = mis_side(counts, at_z.pdf * at_light, y.pdf_fwd, y.mis_c, 0, 0);
-    double pdf_z = light_pdf_emission(&scene->lights, &at, neg(w)) * abs_dot(z->ng, w) * spread;
+    double pdf_z = light_pdf_emission(lights, &at, neg(w)) * abs_dot(z->ng, w) * spread;
     double eye = mis_side(counts, pdf_z, z->pdf_fwd, z->mis_c, at_z.pdf_rev, z->mis);
-    c.weight = mis_weight(counts, counts->direct, light, eye);
+    double count = counts->direct * guide_ratio(lights, choice, cell, at.w);
+    c.weight = mis_weight(counts, count, light, eye);
     return c;
 }
 

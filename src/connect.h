@@ -23,14 +23,15 @@ struct connection {
     double px, py;  /* connect_lens: the raster point it arrives at */
 };
 
-/* connect_hit: z = eye[t-1], the last of t >= 2 vertices. A light seen directly (t = 2) has weight 1: no other
+/* connect_hit: z = &eye[t-1], the last of t >= 2 vertices of an array that holds the others before it. A light seen directly (t = 2) has weight 1: no other
  * strategy is used for paths of two vertices. */
 struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
                               int t);
 
-/* connect_direct: z is an eye vertex, t >= 2; the light point is drawn from `sampler` (three numbers). */
+/* connect_direct: z is an eye vertex, t >= 2; the light point is drawn from `sampler` (three numbers).
+ *   cell  out, may be NULL: the light cell it was drawn from, -1 if none was */
 struct connection connect_direct(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
-                                 struct sampler *sampler);
+                                 struct sampler *sampler, int *cell);
 
 /* connect_pair: y is a light vertex (s >= 2), z an eye vertex (t >= 2). */
 struct connection connect_pair(const struct scene *scene, const struct mis_counts *counts, const struct vertex *y,

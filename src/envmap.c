@@ -27,33 +27,54 @@ static double cell_weight(const double *luminance, int width, int height, int x,
     return sum;
 }
 
+/* Texels of block b: [x0,x1) x [y0,y1). */
+static void block_range(const struct envmap *e, int b, int *x0, int *x1, int *y0, int *y1)
+{
+    *x0 = b % e->blocks_u * e->block_width;
+    *y0 = b / e->blocks_u * e->block_height;
+    *x1 = *x0 + e->block_width < e->image.width ? *x0 + e->block_width : e->image.width;
+    *y1 = *y0 + e->block_height < e->image.height ? *y0 + e->block_height : e->image.height;
+}
+
+static void build_blocks(struct envmap *e, const double *luminance)
+{
+    enum { ACROSS = 32, DOWN = 16 };
+    int width = e->image.width, height = e->image.height;
+    e->block_width = (width + ACROSS - 1) / ACROSS;
+    e->block_height = (height + DOWN - 1) / DOWN;
+    e->blocks_u = (width + e->block_width - 1) / e->block_width;
+    e->blocks_v = (height + e->block_height - 1) / e->block_height;
+    e->block = mem_alloc((size_t)envmap_blocks(e), sizeof *e->block);
+    double *weight = mem_alloc((size_t)e->block_width * (size_t)e->block_height, sizeof *weight);
+    for (int b = 0; b < envmap_blocks(e); b++) {
+        int x0, x1, y0, y1, n = 0;
+        block_range(e, b, &x0, &x1, &y0, &y1);
+        for (int y = y0; y < y1; y++)
+            for (int x = x0; x < x1; x++)
+                weight[n++] = cell_weight(luminance, width, height, x, y) * sin(PI * (y + 0.5) / height);
+        alias_build(&e->block[b], weight, n);
+    }
+    free(weight);
+}
+
 static void build_tables(struct envmap *e)
 {
     int width = e->image.width, height = e->image.height;
     double *luminance = mem_alloc((size_t)width * (size_t)height, sizeof *luminance);
-    double *row = mem_alloc((size_t)width, sizeof *row), *row_total = mem_alloc((size_t)height, sizeof *row_total);
     rgb sum = rgb_black();
     double solid_angle = 0;
     for (int y = 0; y < height; y++) {
         double sin_theta = sin(PI * (y + 0.5) / height);
         for (int x = 0; x < width; x++) {
             rgb c = texel(e, x, y);
-            luminance[(size_t)y * (size_t)width + (size_t)x] = fmax(0, rgb_luminance(c));
+            double l = rgb_luminance(c);
+            luminance[(size_t)y * (size_t)width + (size_t)x] = l > 0 ? l : 0;
             sum = rgb_add(sum, rgb_scale(c, sin_theta));
         }
         solid_angle += sin_theta * width;
     }
     e->mean = rgb_scale(sum, 1 / solid_angle);
-    e->columns = mem_alloc((size_t)height, sizeof *e->columns);
-    for (int y = 0; y < height; y++) {
-        for (int x = 0; x < width; x++)
-            row[x] = cell_weight(luminance, width, height, x, y);
-        alias_build(&e->columns[y], row, width);
-        row_total[y] = e->columns[y].total * sin(PI * (y + 0.5) / height);
-    }
-    alias_build(&e->rows, row_total, height);
-    free(row_total);
-    free(row);
+    build_blocks(e, luminance);
     free(luminance);
 }
 
@@ -72,10 +93,9 @@ void envmap_free(struct envmap *e)
 {
     if (e == NULL)
         return;
-    alias_free(&e->rows);
-    for (int y = 0; e->columns != NULL && y < e->image.height; y++)
-        alias_free(&e->columns[y]);
-    free(e->columns);
+    for (int b = 0; b < envmap_blocks(e); b++)
+        alias_free(&e->block[b]);
+    free(e->block);
     image_free(&e->image);
     free(e);
 }
@@ -94,35 +114,34 @@ rgb envmap_lookup(const struct envmap *e, vec3 w)
     return image_bilinear(&e->image, s, 1 - v, WRAP_REPEAT, !e->image.linear);
 }
 
-/* Uniform density over the cells' (s,v) square, carried to the sphere: dw = 2 pi^2 sin(theta) ds dv. */
-static double cell_pdf(const struct envmap *e, double pmf, double sin_theta)
+/* Uniform density over a texel's square of (s,v), carried to the sphere: dw = 2 pi^2 sin(theta) ds dv. */
+static double texel_pdf(const struct envmap *e, double pmf, double sin_theta)
 {
     return sin_theta > 0 ? pmf * e->image.width * e->image.height / (2 * PI * PI * sin_theta) : 0;
 }
 
-vec3 envmap_sample(const struct envmap *e, double u1, double u2, double *pdf_w)
+vec3 envmap_sample(const struct envmap *e, int block, double u1, double u2, double *pdf_w)
 {
-    *pdf_w = 0;
-    if (e->rows.n == 0)
-        return vec(0, 0, 1);
-    double pmf_row, pmf_column, dx, dy;
-    int y = alias_sample(&e->rows, u1, &pmf_row, &dy);
-    int x = alias_sample(&e->columns[y], u2, &pmf_column, &dx);
-    double phi = 2 * PI * (x + dx) / e->image.width, theta = PI * (y + dy) / e->image.height;
+    double pmf, du;
+    int x0, x1, y0, y1, i = alias_sample(&e->block[block], u1, &pmf, &du);
+    block_range(e, block, &x0, &x1, &y0, &y1);
+    int x = x0 + i % (x1 - x0), y = y0 + i / (x1 - x0);
+    double phi = 2 * PI * (x + du) / e->image.width, theta = PI * (y + u2) / e->image.height;
     double sin_theta = sin(theta);
-    *pdf_w = cell_pdf(e, pmf_row * pmf_column, sin_theta);
+    *pdf_w = texel_pdf(e, pmf, sin_theta);
     return vec(sin_theta * cos(phi), sin_theta * sin(phi), cos(theta));
 }
 
-double envmap_pdf(const struct envmap *e, vec3 w)
+double envmap_pdf(const struct envmap *e, vec3 w, int *block)
 {
-    if (e->rows.n == 0)
-        return 0;
     double s, v;
     direction_to_map(w, &s, &v);
     int x = (int)(s * e->image.width), y = (int)(v * e->image.height);
     x = x >= e->image.width ? e->image.width - 1 : x;
     y = y >= e->image.height ? e->image.height - 1 : y;
-    double pmf = alias_pmf(&e->rows, y) * alias_pmf(&e->columns[y], x);
-    return cell_pdf(e, pmf, safe_sqrt(1 - w.z * w.z));
+    *block = y / e->block_height * e->blocks_u + x / e->block_width;
+    int x0, x1, y0, y1;
+    block_range(e, *block, &x0, &x1, &y0, &y1);
+    double pmf = alias_pmf(&e->block[*block], (y - y0) * (x1 - x0) + x - x0);
+    return texel_pdf(e, pmf, safe_sqrt(1 - w.z * w.z));
 }

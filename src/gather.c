@@ -18,7 +18,7 @@ rgb gather_eye(struct gather *g, const struct vertex *eye, int n)
         if (t == 2 || g->counts->hit > 0)
             sum = rgb_add(sum, take(g, connect_hit(g->scene, g->counts, z, t), 0, t, 1));
         if (g->counts->direct > 0 && t <= g->max_depth + 1 && z->kind == VERTEX_SURFACE)
-            sum = rgb_add(sum, take(g, connect_direct(g->scene, g->counts, z, &g->sampler), 1, t, 1));
+            sum = rgb_add(sum, take(g, connect_direct(g->scene, g->counts, z, &g->sampler, NULL), 1, t, 1));
     }
     return sum;
 }

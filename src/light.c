@@ -26,6 +26,7 @@ void light_set_free(struct light_set *set)
         envmap_free(set->light[i].env);
     free(set->light);
     alias_free(&set->choice);
+    free(set->light_of_cell);
     memset(set, 0, sizeof *set);
 }
 
@@ -57,30 +58,59 @@ static double light_power(const struct light *l, const struct geometry *geo, dou
     return 0;
 }
 
+/* A constant sky is cut into SKY_BANDS x SKY_SECTORS cells of equal solid angle, by z and by azimuth. */
+enum { SKY_BANDS = 8, SKY_SECTORS = 16, SKY_CELLS = SKY_BANDS * SKY_SECTORS };
+
+static int cells_of(const struct light *l)
+{
+    return l->kind != LIGHT_INFINITE ? 1 : l->env != NULL ? envmap_blocks(l->env) : SKY_CELLS;
+}
+
+/* A cell's share of its light's power. */
+static double cell_share(const struct light *l, int cell)
+{
+    if (l->kind != LIGHT_INFINITE || l->env == NULL)
+        return 1.0 / l->n_cells;
+    double all = 0;
+    for (int b = 0; b < l->n_cells; b++)
+        all += l->env->block[b].total;
+    return all > 0 ? l->env->block[cell].total / all : 0;
+}
+
 void light_prepare(struct light_set *set, const struct geometry *geo, vec3 center, double radius)
 {
     set->center = center;
     set->radius = radius;
     set->any_infinite = false;
-    double *power = mem_alloc((size_t)set->n, sizeof *power);
+    set->n_cells = 0;
     for (int i = 0; i < set->n; i++) {
         struct light *l = &set->light[i];
-        power[i] = l->power = light_power(l, geo, radius);
+        l->power = light_power(l, geo, radius);
+        l->first_cell = set->n_cells;
+        l->n_cells = cells_of(l);
+        set->n_cells += l->n_cells;
         set->any_infinite |= l->kind == LIGHT_INFINITE;
     }
-    alias_build(&set->choice, power, set->n);
+    double *power = mem_alloc((size_t)set->n_cells, sizeof *power);
+    set->light_of_cell = mem_alloc((size_t)set->n_cells, sizeof *set->light_of_cell);
+    for (int i = 0; i < set->n; i++)
+        for (int c = 0; c < set->light[i].n_cells; c++) {
+            power[set->light[i].first_cell + c] = set->light[i].power * cell_share(&set->light[i], c);
+            set->light_of_cell[set->light[i].first_cell + c] = i;
+        }
+    alias_build(&set->choice, power, set->n_cells);
     free(power);
 }
 
 /* --- the end point y0 -------------------------------------------------------------------------------- */
 
-static vec3 infinite_sample(const struct light *l, double u1, double u2, double *pdf_w)
+static vec3 infinite_sample(const struct light *l, int cell, double u1, double u2, double *pdf_w)
 {
     if (l->env == NULL) {
-        *pdf_w = warp_sphere_pdf();
-        return warp_sphere(u1, u2);
+        *pdf_w = warp_sphere_pdf() * SKY_CELLS;
+        return warp_sphere((cell / SKY_SECTORS + u1) / SKY_BANDS, (cell % SKY_SECTORS + u2) / SKY_SECTORS);
     }
-    return normalize(transform_vector(&l->to_world, envmap_sample(l->env, u1, u2, pdf_w)));
+    return normalize(transform_vector(&l->to_world, envmap_sample(l->env, cell, u1, u2, pdf_w)));
 }
 
 static vec3 to_light_space(const struct light *l, vec3 w)
@@ -89,9 +119,15 @@ static vec3 to_light_space(const struct light *l, vec3 w)
     return normalize(transform_vector(&inverse, w));
 }
 
-static double infinite_pdf(const struct light *l, vec3 w)
+/* Density of w within its cell; *cell is that cell's number within the light. */
+static double infinite_pdf(const struct light *l, vec3 w, int *cell)
 {
-    return l->env == NULL ? warp_sphere_pdf() : envmap_pdf(l->env, to_light_space(l, w));
+    if (l->env != NULL)
+        return envmap_pdf(l->env, to_light_space(l, w), cell);
+    double u1, u2;
+    warp_sphere_inverse(w, &u1, &u2);
+    *cell = (int)(u1 * SKY_BANDS) * SKY_SECTORS + (int)(u2 * SKY_SECTORS);
+    return warp_sphere_pdf() * SKY_CELLS;
 }
 
 static rgb infinite_Le(const struct light *l, vec3 w)
@@ -99,19 +135,18 @@ static rgb infinite_Le(const struct light *l, vec3 w)
     return l->env == NULL ? l->L : rgb_mul(l->L, envmap_lookup(l->env, to_light_space(l, w)));
 }
 
-bool light_sample_point(const struct light_set *set, const struct geometry *geo, const double u[3],
-                        struct light_point *out)
+bool light_sample_cell(const struct light_set *set, const struct geometry *geo, int cell, double u1, double u2,
+                       struct light_point *out)
 {
-    if (set->choice.n == 0)
-        return false;
-    double choice, pdf = 1;
+    double pdf = 1;
     memset(out, 0, sizeof *out);
-    out->light = alias_sample(&set->choice, u[0], &choice, NULL);
+    out->cell = cell;
+    out->light = set->light_of_cell[cell];
     const struct light *l = &set->light[out->light];
     switch (l->kind) {
     case LIGHT_AREA: {
         struct surface at;
-        shape_sample(geo, l->prim, u[1], u[2], &at, &pdf);
+        shape_sample(geo, l->prim, u1, u2, &at, &pdf);
         out->p = at.p;
         out->n = at.ng;
         break;
@@ -119,10 +154,19 @@ bool light_sample_point(const struct light_set *set, const struct geometry *geo,
     case LIGHT_POINT:
     case LIGHT_SPOT: out->p = l->position; break;
     case LIGHT_DISTANT: out->w = l->direction; break;
-    case LIGHT_INFINITE: out->w = infinite_sample(l, u[1], u[2], &pdf); break;
+    case LIGHT_INFINITE: out->w = infinite_sample(l, cell - l->first_cell, u1, u2, &pdf); break;
     }
-    out->pdf = choice * pdf;
-    return out->pdf > 0;
+    out->pdf_cell = pdf;
+    out->pdf = alias_pmf(&set->choice, cell) * pdf;
+    return pdf > 0;
+}
+
+bool light_sample_point(const struct light_set *set, const struct geometry *geo, const double u[3],
+                        struct light_point *out)
+{
+    if (set->choice.n == 0)
+        return false;
+    return light_sample_cell(set, geo, alias_sample(&set->choice, u[0], NULL, NULL), u[1], u[2], out);
 }
 
 /* --- emission ---------------------------------------------------------------------------------------- */
@@ -216,7 +260,8 @@ double light_pdf_surface(const struct light_set *set, const struct geometry *geo
 {
     if (at->light < 0)
         return 0;
-    return alias_pmf(&set->choice, at->light) * shape_pdf_a(geo, set->light[at->light].prim, at);
+    const struct light *l = &set->light[at->light];
+    return alias_pmf(&set->choice, l->first_cell) * shape_pdf_a(geo, l->prim, at);
 }
 
 rgb light_Le_environment(const struct light_set *set, vec3 w)
@@ -228,11 +273,14 @@ rgb light_Le_environment(const struct light_set *set, vec3 w)
     return sum;
 }
 
-double light_pdf_environment(const struct light_set *set, vec3 w)
+double light_pdf_environment(const struct light_set *set, const struct alias_table *choice, vec3 w)
 {
     double sum = 0;
     for (int i = 0; set->any_infinite && i < set->n; i++)
-        if (set->light[i].kind == LIGHT_INFINITE)
-            sum += alias_pmf(&set->choice, i) * infinite_pdf(&set->light[i], w);
+        if (set->light[i].kind == LIGHT_INFINITE) {
+            int cell;
+            double pdf = infinite_pdf(&set->light[i], w, &cell);
+            sum += alias_pmf(choice, set->light[i].first_cell + cell) * pdf;
+        }
     return sum;
 }

@@ -33,14 +33,18 @@ struct light {
     vec3 direction;      /* distant: unit, from the scene towards the light */
     struct envmap *env;  /* infinite: NULL for constant radiance; owned */
     double power;        /* estimate, W, luminance; set by light_prepare */
+    int first_cell, n_cells; /* its cells, see below; set by light_prepare */
 };
 
-/* All lights of a scene and what sampling them needs. */
+/* All lights of a scene and what sampling them needs. Sampling is done in cells: an infinite light is cut into cells of
+ * directions, every other light is one cell. A cell is chosen first, then a point within it. */
 struct light_set {
     struct light *light; /* [n], owned */
     int n;
     size_t capacity;
-    struct alias_table choice; /* by power */
+    int n_cells;
+    int *light_of_cell;        /* [n_cells], owned */
+    struct alias_table choice; /* of a cell, by power */
     vec3 center;               /* bounding sphere of the scene */
     double radius;             /* > 0 */
     bool any_infinite;         /* some light of kind LIGHT_INFINITE */
@@ -69,16 +73,21 @@ static inline bool light_at_infinity(const struct light *l)
 
 /* A light's end point y0. */
 struct light_point {
-    int light;
+    int light, cell;
     vec3 p;          /* position; for lights at infinity: unused */
     vec3 n;          /* area light: unit normal of the emitting side; else zero */
     vec3 w;          /* lights at infinity: unit direction from the scene towards the light */
-    double pdf;      /* choice probability times density: 1/m^2, or 1/sr at infinity; of a delta: the choice alone */
+    double pdf_cell; /* density within the cell: 1/m^2, or 1/sr at infinity; 1 for a delta */
+    double pdf;      /* that times the probability of the cell under `choice` */
 };
 
 /* light_sample_point: choose a light and a point (or direction) on it. False if the scene has no light. */
 bool light_sample_point(const struct light_set *set, const struct geometry *geo, const double u[3],
                         struct light_point *out);
+
+/* light_sample_cell: the same from a given cell. False where nothing can be drawn. */
+bool light_sample_cell(const struct light_set *set, const struct geometry *geo, int cell, double u1, double u2,
+                       struct light_point *out);
 
 /* light_sample_emission: given y0, draw the direction (or, at infinity, the origin on a disk) of an emitted ray.
  *   ray    out: origin and unit direction of travel
@@ -102,8 +111,9 @@ rgb light_Le_surface(const struct light_set *set, const struct surface *at, vec3
 rgb light_Le_environment(const struct light_set *set, vec3 w);
 
 /* light_pdf_environment: density with which light_sample_point returns direction w (from the scene towards the
- * light) by any infinite light: the sum over them of choice times density, 1/sr. */
-double light_pdf_environment(const struct light_set *set, vec3 w);
+ * light) by any infinite light: the sum over them of the cell's probability times the density within it, 1/sr.
+ *   choice  probabilities of the cells: &set->choice, or another table over the same cells */
+double light_pdf_environment(const struct light_set *set, const struct alias_table *choice, vec3 w);
 
 /* light_pdf_surface: density with which light_sample_point returns this point of an area light, 1/m^2. */
 double light_pdf_surface(const struct light_set *set, const struct geometry *geo, const struct surface *at);

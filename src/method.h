@@ -38,6 +38,10 @@ struct workspace {
     void *own;                  /* the method's, from new_own; may be NULL */
 };
 
+/* workspaces_new: arenas and sub-paths for n threads; `own` is left NULL. */
+struct workspace *workspaces_new(int n, int max_depth);
+void workspaces_free(struct workspace *work, int n);
+
 /* One tile, iterations [first, end). */
 struct tile_pass {
     const struct render_job *job;

@@ -34,18 +34,20 @@
 
 #include <stdbool.h>
 
+#include "guide.h"
 #include "vec.h"
 
 /* How many samples each kind of strategy takes per pixel and iteration; 0: the method does not use it. */
 struct mis_counts {
     double hit;     /* s = 0, t >= 3: the eye walk finds a light. (t = 2, a light seen directly, has weight 1) */
-    double direct;  /* s = 1, t >= 2: connection to a fresh point on a light */
+    double direct;  /* s = 1, t >= 2: connection to a fresh point on a light; times guide_ratio with a guide */
     double connect; /* s >= 2, t >= 2: connection to a light sub-path's vertex */
     double splat;   /* s >= 2, t = 1: light sub-paths connected to the lens: how many are traced per iteration */
     /* If set, multiplies `connect` by a function of the light vertex that ends the light sub-path (design of
      * `select = vertices`): it must depend on nothing but the position. */
     double (*at)(const void *context, vec3 p);
     const void *at_context;
+    const struct guide *guide; /* how s = 1 chooses lights (guide.h); NULL: by power */
     bool power; /* power heuristic instead of the balance heuristic */
 };
 
@@ -53,6 +55,17 @@ struct mis_counts {
 static inline double mis_connect_count(const struct mis_counts *c, vec3 p)
 {
     return c->at == 0 || c->connect == 0 ? c->connect : c->connect * c->at(c->at_context, p);
+}
+
+/* mis_direct_count: n of strategies s = 1, t >= 2 that join a surface point to the end point y0.
+ *   p, ng    the surface point and its unit geometric normal
+ *   cell, w  of y0, as guide_ratio takes them */
+static inline double mis_direct_count(const struct mis_counts *c, const struct light_set *lights, vec3 p, vec3 ng,
+                                      int cell, vec3 w)
+{
+    if (c->guide == 0 || c->direct == 0)
+        return c->direct;
+    return c->direct * guide_ratio(lights, guide_table(c->guide, lights, p, ng), cell, w);
 }
 
 /* mis_raise: the heuristic's power of a density or count. */

@@ -5,7 +5,7 @@
 
 struct light_point vertex_light_point(const struct vertex *v)
 {
-    struct light_point at = {v->light, v->p, v->ng, v->wo, 0};
+    struct light_point at = {v->light, v->cell, v->p, v->ng, v->wo, 0, 0};
     return at;
 }
 
@@ -25,13 +25,16 @@ double scatter_cosine(const struct vertex *v, vec3 wi, enum transport mode)
 
 /* c_e of mis.h for the vertex just reached: samples of the strategy whose sub-path of this side ends at `prev`. On the
  * light side that is a connection from prev; on the eye side one whose light sub-path ends here. */
-static double count_before(const struct mis_counts *m, const struct vertex *v, const struct vertex *prev,
+static double count_before(const struct walk *w, const struct vertex *v, const struct vertex *prev,
                            enum transport mode)
 {
+    const struct mis_counts *m = w->counts;
     if (v->prev_delta)
         return 0;
+    if (mode == IMPORTANCE && prev->kind == VERTEX_LIGHT)
+        return mis_direct_count(m, &w->scene->lights, v->p, v->ng, prev->cell, prev->wo);
     if (mode == IMPORTANCE)
-        return prev->kind == VERTEX_LIGHT ? m->direct : prev->count;
+        return prev->count;
     return prev->kind == VERTEX_LENS ? m->splat : v->count;
 }
 
@@ -63,12 +66,12 @@ static bool escape(const struct walk *w, struct vertex *v, const struct vertex *
         return false;
     memset(v, 0, sizeof *v);
     v->kind = VERTEX_ESCAPED;
-    v->light = -1;
+    v->light = v->cell = -1;
     v->prev_delta = from->delta;
     v->wo = neg(from->ray.d);
     v->beta = from->beta;
     v->pdf_fwd = from->pdf;
-    v->pdf_origin = light_pdf_environment(&w->scene->lights, from->ray.d);
+    v->pdf_origin = light_pdf_environment(&w->scene->lights, &w->scene->lights.choice, from->ray.d);
     double at_prev = prev->kind == VERTEX_LENS ? 1 : abs_dot(prev->ng, from->ray.d);
     v->mis = mis_step(w->counts, from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, at_prev);
     return true;
@@ -84,6 +87,7 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
     v->kind = VERTEX_SURFACE;
     v->prev_delta = from->delta;
     v->light = at->light;
+    v->cell = at->light < 0 ? -1 : w->scene->lights.light[at->light].first_cell;
     v->p = at->p;
     v->ng = at->ng;
     v->wo = neg(from->ray.d);
@@ -91,7 +95,7 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
     v->pdf_origin = mode == RADIANCE && at->light >= 0 ? light_pdf_surface(&w->scene->lights, &w->scene->geo, at) : 0;
     measure(w, v, prev, from, d2);
     v->count = mis_connect_count(w->counts, v->p);
-    v->mis_c = count_before(w->counts, v, prev, mode);
+    v->mis_c = count_before(w, v, prev, mode);
     material_bsdf(w->scene->material, at->material, &w->scene->textures, at, w->arena, &v->bsdf);
     return true;
 }
@@ -144,7 +148,7 @@ int path_eye(const struct walk *w, double px, double py, struct vertex *path, in
     struct departure from = {.ray = camera_ray(camera, px, py, u1, u2), .beta = rgb_grey(1)};
     memset(&path[0], 0, sizeof path[0]);
     path[0].kind = VERTEX_LENS;
-    path[0].light = -1;
+    path[0].light = path[0].cell = -1;
     path[0].p = from.ray.o;
     path[0].beta = rgb_grey(1);
     path[0].pdf_fwd = 1; /* never enters a weight: no strategy samples the lens from the light */
@@ -169,12 +173,13 @@ void vertex_light_end(const struct scene *scene, const struct mis_counts *counts
     memset(out, 0, sizeof *out);
     out->kind = VERTEX_LIGHT;
     out->light = at->light;
+    out->cell = at->cell;
     out->p = at->p;
     out->ng = at->n;
     out->wo = at->w;
     out->beta = rgb_grey(1 / at->pdf);
     /* An escaping eye ray cannot tell infinite lights apart, so their densities are added up for the weight. */
-    out->pdf_fwd = l->kind == LIGHT_INFINITE ? light_pdf_environment(&scene->lights, at->w) : at->pdf;
+    out->pdf_fwd = l->kind == LIGHT_INFINITE ? light_pdf_environment(&scene->lights, &scene->lights.choice, at->w) : at->pdf;
     out->mis_c = light_is_delta(l) ? 0 : counts->hit;
 }
 

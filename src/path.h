@@ -32,6 +32,7 @@ struct vertex {
     enum vertex_kind kind;
     bool prev_delta;   /* the walk left the previous vertex by a delta lobe */
     int light;         /* y_0: its light; a surface: the area light there, or -1 */
+    int cell;          /* y_0: its light cell; a surface on an area light: ditto; else -1 */
     vec3 p;            /* world position (at infinity: unused) */
     vec3 ng;           /* unit geometric normal; y_0 on an area light: of the light; else zero */
     vec3 wo;           /* unit, towards the previous vertex; y_0 at infinity: towards the light; ESCAPED: inwards */

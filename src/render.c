@@ -127,27 +127,17 @@ static bool merge_pass(void *context, long job, int slot)
 static void make_workspaces(struct run *r)
 {
     const struct method *m = r->options->method;
-    r->work = mem_alloc((size_t)r->job.n_threads, sizeof *r->work);
-    for (int i = 0; i < r->job.n_threads; i++) {
-        size_t n = (size_t)r->job.max_depth + 2;
-        r->work[i].eye = mem_alloc(n, sizeof *r->work[i].eye);
-        r->work[i].light = mem_alloc(n, sizeof *r->work[i].light);
-        if (m->new_own != NULL)
-            r->work[i].own = m->new_own(r->state);
-    }
+    r->work = workspaces_new(r->job.n_threads, r->job.max_depth);
+    for (int i = 0; m->new_own != NULL && i < r->job.n_threads; i++)
+        r->work[i].own = m->new_own(r->state);
 }
 
 static void free_workspaces(struct run *r)
 {
     const struct method *m = r->options->method;
-    for (int i = 0; i < r->job.n_threads; i++) {
-        if (m->free_own != NULL)
-            m->free_own(r->state, r->work[i].own);
-        arena_free(&r->work[i].arena);
-        free(r->work[i].eye);
-        free(r->work[i].light);
-    }
-    free(r->work);
+    for (int i = 0; m->free_own != NULL && i < r->job.n_threads; i++)
+        m->free_own(r->state, r->work[i].own);
+    workspaces_free(r->work, r->job.n_threads);
 }
 
 static void run_all(struct run *r)

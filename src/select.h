@@ -11,6 +11,7 @@
 #ifndef ASBDPT_SELECT_H
 #define ASBDPT_SELECT_H
 
+#include "guide.h"
 #include "importance.h"
 #include "method.h"
 #include "mis.h"
@@ -32,6 +33,7 @@ struct selection {
     int bin_paths;          /* bins: sub-paths per pixel */
     long max_age;           /* bins: iterations until an unused one is replaced */
     struct importance grid; /* pool, vertices with METRIC_IMPORTANCE */
+    struct guide guide;     /* pool, vertices: lights as the regions of space see them */
 };
 
 struct selector {

@@ -46,6 +46,15 @@ static inline vec3 warp_sphere(double u1, double u2)
     return vec(r * cos(phi), r * sin(phi), z);
 }
 
+/* warp_sphere_inverse: the (u1,u2), in [0,1), that warp_sphere maps to w. */
+static inline void warp_sphere_inverse(vec3 w, double *u1, double *u2)
+{
+    const double below_one = 1 - 1e-15;
+    double phi = atan2(w.y, w.x) / (2 * PI);
+    *u1 = clamp((1 - w.z) / 2, 0, below_one);
+    *u2 = clamp(phi < 0 ? phi + 1 : phi, 0, below_one);
+}
+
 static inline double warp_sphere_pdf(void) { return INV_PI / 4; }
 
 /* warp_cone: uniform over the cone around +z with half angle acos(cos_max). */

@@ -31,7 +31,7 @@ struct direction_source {
 
 static double density(const struct direction_source *s, vec3 w)
 {
-    double pdf = s->y0 != NULL ? light_pdf_emission(s->set, s->y0, w) : light_pdf_environment(s->set, w);
+    double pdf = s->y0 != NULL ? light_pdf_emission(s->set, s->y0, w) : light_pdf_environment(s->set, &s->set->choice, w);
     return s->planted == 0 ? pdf : pdf * (1 + s->planted * w.x);
 }
 

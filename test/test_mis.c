@@ -83,7 +83,7 @@ static void compare(struct comparison *c, struct connection got, const struct ve
 static void compare_direct(struct comparison *c, const struct vertex *eye, int t, struct sampler *sampler)
 {
     struct sampler same = *sampler;
-    struct connection got = connect_direct(c->scene, c->counts, &eye[t - 1], sampler);
+    struct connection got = connect_direct(c->scene, c->counts, &eye[t - 1], sampler, NULL);
     double u[3];
     struct light_point at;
     for (int i = 0; i < 3; i++)

@@ -1,0 +1,151 @@
+/* prepass.c: see prepass.h. The sub-paths are cut into chunks; each chunk lists what it found, and the lists are taken in
+ * in order (parallel.h), so sums and cell numbers are the same for any number of threads. */
+#include "prepass.h"
+
+#include <stdlib.h>
+
+#include "connect.h"
+#include "parallel.h"
+
+enum {
+    CHUNK = 512,          /* sub-paths per chunk */
+    EYE_PER_PIXEL = 2,    /* eye sub-paths, at most MAX_EYE of them */
+    MAX_EYE = 128 * 1024,
+    MAX_LIGHT = 32 * 1024, /* light sub-paths for importance.mean, no more than eye sub-paths */
+    LIGHTS_PER_VERTEX = 8 /* light points tried from each eye vertex for the guide */
+};
+
+static const double GUIDE_DELTA = 0.2; /* share of s = 1 samples that choose lights by power */
+
+/* Something an eye vertex found. */
+struct found {
+    uint64_t key;
+    int cell; /* light cell for the guide; -1: a deposit of importance */
+    double value;
+};
+
+struct chunk {
+    struct found *found; /* [n], owned */
+    size_t n, capacity;
+    double sum; /* light sub-paths: of E */
+};
+
+struct prepass {
+    const struct render_job *job;
+    struct importance *importance;
+    struct guide *guide;
+    struct mis_counts counts; /* weights are not used here; any will do */
+    struct workspace *work;   /* [n_threads] */
+    struct chunk *chunk;      /* [n_slots] */
+    long n_paths;
+    double light_sum;
+};
+
+static void note(struct chunk *c, uint64_t key, int cell, double value)
+{
+    if (!(value > 0) || !isfinite(value))
+        return;
+    struct found f = {key, cell, value};
+    c->found = mem_grow(c->found, &c->capacity, c->n + 1, sizeof *c->found);
+    c->found[c->n++] = f;
+}
+
+static void study_vertex(const struct prepass *p, struct chunk *c, const struct vertex *z, struct sampler *sampler)
+{
+    if (z->kind != VERTEX_SURFACE || !vertex_connectible(z))
+        return;
+    if (p->importance != NULL)
+        note(c, importance_key(p->importance, z->p), -1, rgb_luminance(z->beta));
+    for (int i = 0; p->guide != NULL && i < LIGHTS_PER_VERTEX; i++) {
+        int cell;
+        struct connection found = connect_direct(p->job->scene, &p->counts, z, sampler, &cell);
+        note(c, guide_key(p->guide, z->p, z->ng), cell, rgb_luminance(found.value));
+    }
+}
+
+/* Sub-path number i goes through point i of the sequence R2 [Roberts 2018], which fills the film evenly. */
+static void trace_eye_chunk(void *context, long job, int slot, int thread)
+{
+    struct prepass *p = context;
+    struct workspace *work = &p->work[thread];
+    struct pixel_rect film = p->job->film_rect;
+    p->chunk[slot].n = 0;
+    for (long i = job * CHUNK; i < (job + 1) * CHUNK && i < p->n_paths; i++) {
+        arena_reset(&work->arena);
+        struct sampler sampler = sampler_start(p->job->seed, RNG_PREPASS, (uint64_t)i, 0);
+        struct walk w = {p->job->scene, &p->counts, &work->arena, &sampler};
+        double u = 0.5 + 0.7548776662466927 * (double)i, v = 0.5 + 0.5698402909980532 * (double)i;
+        double px = film.x0 + (u - floor(u)) * rect_width(film), py = film.y0 + (v - floor(v)) * rect_height(film);
+        int n = path_eye(&w, px, py, work->eye, p->job->max_depth + 1);
+        for (int k = 1; k < n; k++)
+            study_vertex(p, &p->chunk[slot], &work->eye[k], &sampler);
+    }
+}
+
+static bool merge_eye_chunk(void *context, long job, int slot)
+{
+    (void)job;
+    struct prepass *p = context;
+    for (size_t i = 0; i < p->chunk[slot].n; i++) {
+        const struct found *f = &p->chunk[slot].found[i];
+        if (f->cell < 0)
+            importance_add(p->importance, f->key, f->value);
+        else
+            guide_add(p->guide, f->key, f->cell, f->value);
+    }
+    return true;
+}
+
+static void trace_light_chunk(void *context, long job, int slot, int thread)
+{
+    struct prepass *p = context;
+    struct workspace *work = &p->work[thread];
+    p->chunk[slot].sum = 0;
+    for (long i = job * CHUNK; i < (job + 1) * CHUNK && i < p->n_paths; i++) {
+        arena_reset(&work->arena);
+        struct sampler sampler = sampler_start(p->job->seed, RNG_PREPASS, (uint64_t)i, 1);
+        struct walk w = {p->job->scene, &p->counts, &work->arena, &sampler};
+        int n = path_light(&w, work->light, p->job->max_depth + 1);
+        for (int k = 1; k < n; k++)
+            if (vertex_connectible(&work->light[k]))
+                p->chunk[slot].sum += importance_at(p->importance, work->light[k].p);
+    }
+}
+
+static bool merge_light_chunk(void *context, long job, int slot)
+{
+    (void)job;
+    struct prepass *p = context;
+    p->light_sum += p->chunk[slot].sum;
+    return true;
+}
+
+/* Run `work` over the sub-paths 0 .. n_paths-1. */
+static void run_chunks(struct prepass *p, void (*work)(void *, long, int, int), bool (*merge)(void *, long, int))
+{
+    int n_threads = p->job->n_threads, n_slots = 4 * n_threads;
+    struct parallel_jobs jobs = {(p->n_paths + CHUNK - 1) / CHUNK, n_threads, n_slots, p, work, merge};
+    p->chunk = mem_alloc((size_t)n_slots, sizeof *p->chunk);
+    p->work = workspaces_new(n_threads, p->job->max_depth);
+    parallel_run(&jobs);
+    workspaces_free(p->work, n_threads);
+    for (int i = 0; i < n_slots; i++)
+        free(p->chunk[i].found);
+    free(p->chunk);
+}
+
+void prepass_run(const struct render_job *job, struct importance *importance, struct guide *guide)
+{
+    struct prepass p = {.job = job, .importance = importance, .guide = guide};
+    p.counts.direct = 1;
+    long wanted = (long)rect_width(job->film_rect) * rect_height(job->film_rect) * EYE_PER_PIXEL;
+    p.n_paths = wanted < MAX_EYE ? wanted : MAX_EYE;
+    run_chunks(&p, trace_eye_chunk, merge_eye_chunk);
+    if (guide != NULL)
+        guide_finish(guide, GUIDE_DELTA);
+    if (importance == NULL)
+        return;
+    p.n_paths = p.n_paths < MAX_LIGHT ? p.n_paths : MAX_LIGHT;
+    run_chunks(&p, trace_light_chunk, merge_light_chunk);
+    importance->mean = p.light_sum / (double)p.n_paths;
+}
