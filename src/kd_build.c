@@ -23,6 +23,9 @@
 /* Costs relative to each other, found by measurement, and what cutting off empty space is worth. */
 static const double TRAVERSE = 3, TEST = 1, EMPTY_FACTOR = 0.8;
 
+/* References per item at most. Meshes need 2 to 4; a heap of long needles would ask for ever more. */
+static const double MAX_REFERENCES = 32;
+
 enum event_type { EVENT_END, EVENT_FLAT, EVENT_START }; /* in the order in which a sweep must meet them */
 
 static uint64_t event(float position, enum event_type type, uint32_t item)
@@ -363,41 +366,66 @@ static uint32_t add_children(struct builder *b, uint32_t parent, const struct pl
     return first;
 }
 
-/* The cheapest way to cut a cell of n items, or axis -1 if a leaf is cheaper. */
-static struct plane best_plane(const struct builder *b, const struct box *cell, const struct span *span, size_t n)
+/* A cell still to be built; its events are on top of the stack. */
+struct cell {
+    struct box box;
+    struct span span;
+    size_t n;    /* items */
+    double room; /* how many references its leaves may hold together */
+    int depth;
+};
+
+/* The cheapest way to cut a cell, or axis -1 if a leaf is cheaper. */
+static struct plane best_plane(const struct builder *b, const struct cell *cell)
 {
-    struct plane best = {-1, 0, false, TEST * (double)n * half_area(cell)};
-    for (int k = 0; k < 3; k++)
-        sweep(b->work.e + span->at[k], span->n[k], (double)n, cell, k, &best);
+    struct plane best = {-1, 0, false, TEST * (double)cell->n * half_area(&cell->box)};
+    for (int k = 0; k < 3 && cell->depth < b->max_depth; k++)
+        sweep(b->work.e + cell->span.at[k], cell->span.n[k], (double)cell->n, &cell->box, k, &best);
     return best;
 }
 
-/* Build the cell whose n items' events are on top of the stack; they are gone afterwards. */
-static void build_cell(struct builder *b, uint32_t node, struct box cell, struct span span, size_t n, int depth)
+/* Cut a cell in two, and its room in proportion; false, with nothing changed, where it is to be a leaf. */
+static bool cut_cell(struct builder *b, const struct cell *cell, struct plane *p, struct cell part[2])
 {
-    struct plane p = {-1, 0, false, 0};
-    double share = b->root_area > 0 ? half_area(&cell) / b->root_area : 1;
-    if (depth < b->max_depth && n > 0)
-        p = best_plane(b, &cell, &span, n);
-    if (depth > b->kd->depth)
-        b->kd->depth = depth;
-    if (p.axis < 0) {
-        make_leaf(b, node, b->work.e + span.at[0], span.n[0], n);
-        b->kd->cost += share * TEST * (double)n;
-        b->work.n = span.at[0];
+    size_t n[2];
+    struct span span[2];
+    *p = best_plane(b, cell);
+    if (p->axis < 0)
+        return false;
+    classify(b, b->work.e + cell->span.at[p->axis], cell->span.n[p->axis], p, n);
+    if ((double)(n[0] + n[1] + 2 * b->cut.n) > cell->room)
+        return false;
+    part[0] = part[1] = *cell;
+    float split = part[0].box.hi[p->axis] = part[1].box.lo[p->axis] = place_position(p->place);
+    split_cut_items(b, &cell->box, p->axis, split, n);
+    distribute(b, &cell->span, n, span);
+    for (int s = 0; s < 2; s++) {
+        part[s].span = span[s];
+        part[s].n = n[s];
+        part[s].room = cell->room * (double)n[s] / (double)(n[0] + n[1]);
+        part[s].depth = cell->depth + 1;
+    }
+    return true;
+}
+
+/* Build what is below a node, taking the cell's events from the stack. */
+static void build_cell(struct builder *b, uint32_t node, const struct cell *cell)
+{
+    struct plane p;
+    struct cell part[2];
+    double share = b->root_area > 0 ? half_area(&cell->box) / b->root_area : 1;
+    if (cell->depth > b->kd->depth)
+        b->kd->depth = cell->depth;
+    if (!cut_cell(b, cell, &p, part)) {
+        make_leaf(b, node, b->work.e + cell->span.at[0], cell->span.n[0], cell->n);
+        b->kd->cost += share * TEST * (double)cell->n;
+        b->work.n = cell->span.at[0];
         return;
     }
-    struct box part[2] = {cell, cell};
-    struct span events[2];
-    size_t items[2];
-    float split = part[0].hi[p.axis] = part[1].lo[p.axis] = place_position(p.place);
-    classify(b, b->work.e + span.at[p.axis], span.n[p.axis], &p, items);
-    split_cut_items(b, &cell, p.axis, split, items);
-    distribute(b, &span, items, events);
     b->kd->cost += share * TRAVERSE;
     uint32_t child = add_children(b, node, &p);
-    build_cell(b, child, part[0], events[0], items[0], depth + 1);
-    build_cell(b, child + 1, part[1], events[1], items[1], depth + 1);
+    build_cell(b, child, &part[0]);
+    build_cell(b, child + 1, &part[1]);
 }
 
 static int prim_of_item(const struct geometry *geo, uint32_t item)
@@ -473,7 +501,8 @@ void kd_build(struct kdtree *kd, const struct geometry *geo)
         b.max_depth = (int)fmin(KD_MAX_DEPTH, 8 + 2.0 * log2(n));
         kd->node = mem_grow(NULL, &b.node_capacity, 1, sizeof *kd->node);
         kd->n_nodes = 1;
-        build_cell(&b, 0, bounds, span, (size_t)n, 0);
+        struct cell root = {bounds, span, (size_t)n, MAX_REFERENCES * n, 0};
+        build_cell(&b, 0, &root);
         kd->item = mem_alloc((size_t)kd->n_items, sizeof *kd->item);
         for (int i = 0; i < kd->n_items; i++)
             kd->item[i] = make_item(geo, b.leaf_item[i]);
