@@ -6,6 +6,7 @@
 #include "command.h"
 #include "experiment.h"
 #include "mem.h"
+#include "output.h"
 #include "parallel.h"
 
 /* The five scenes measured when none is named; the program is run from the top of its tree. */
@@ -34,11 +35,12 @@ static bool number_of(const char *option, const char *text, long low, long high,
 
 static bool resolution_of(const char *text, struct arguments *a)
 {
-    char end;
-    if (sscanf(text, "%dx%d%c", &a->width, &a->height, &end) == 2 && a->width >= 1 && a->height >= 1 &&
-        a->width <= 8192 && a->height <= 8192)
+    int n = 0;
+    bool both = sscanf(text, "%dx%d%n", &a->width, &a->height, &n) == 2 && text[n] == '\0';
+    bool width = !both && (a->height = 0, sscanf(text, "%d%n", &a->width, &n) == 1) && text[n] == '\0';
+    if ((both || width) && a->width >= 1 && a->width <= 8192 && a->height >= (both ? 1 : 0) && a->height <= 8192)
         return true;
-    return usage_error("--res %s: expected WIDTHxHEIGHT, each from 1 to 8192", text) == EXIT_OK;
+    return usage_error("--res %s: expected WIDTHxHEIGHT or WIDTH, each from 1 to 8192", text) == EXIT_OK;
 }
 
 /* An option that has a value. */
@@ -118,7 +120,9 @@ static int carry_out(const struct plan *plan)
 {
     struct error err;
     struct results results = {0};
-    bool ok = experiment_run(plan, &results, &err);
+    bool ok = experiment_run(plan, &results, &err) && output_write(&results, &err);
+    if (ok && !plan->quiet)
+        printf("%s/report.html\n", plan->directory);
     results_free(&results);
     return ok ? EXIT_OK : fail(&err);
 }

@@ -17,18 +17,16 @@ const struct variant VARIANTS[N_VARIANTS] = {
     {"bins-restart-16", "bins, restart every 16", "asbdpt", "bins", 8, 16, false},
 };
 
-bool sweep_has(enum sweep s, int variant)
-{
-    const struct variant *v = &VARIANTS[variant], *bins = &VARIANTS[VARIANT_BINS];
-    if (v->bin_paths == 0)
-        return false;
-    return s == SWEEP_PATHS ? v->restart == bins->restart : v->bin_paths == bins->bin_paths;
-}
+static const struct {
+    int variant;
+    const char *label;
+} SWEEPS[N_SWEEPS][SWEEP_LENGTH] = {
+    {{4, "4 paths per set"}, {VARIANT_BINS, "8 paths per set"}, {5, "16 paths per set"}, {6, "32 paths per set"}},
+    {{7, "no restart"}, {8, "restart every 8"}, {9, "restart every 16"}, {VARIANT_BINS, "restart every 32"}},
+};
 
-int sweep_value(enum sweep s, int variant)
-{
-    return s == SWEEP_PATHS ? VARIANTS[variant].bin_paths : VARIANTS[variant].restart;
-}
+int sweep_variant(enum sweep s, int i) { return SWEEPS[s][i].variant; }
+const char *sweep_label(enum sweep s, int i) { return SWEEPS[s][i].label; }
 
 void plan_preset(struct plan *p, bool quick)
 {

@@ -32,12 +32,13 @@ enum {
 };
 extern const struct variant VARIANTS[N_VARIANTS];
 
-/* The two sweeps: variants that differ in one parameter only, `bins` itself among them. */
+/* The two sweeps: variants that differ in one parameter only, `bins` itself among them, by rising value. */
 enum sweep { SWEEP_PATHS, SWEEP_RESTART, N_SWEEPS };
+enum { SWEEP_LENGTH = 4 };
 
-/* sweep_has: is the variant part of the sweep?  sweep_value: its value of the swept parameter. */
-bool sweep_has(enum sweep s, int variant);
-int sweep_value(enum sweep s, int variant);
+/* sweep_variant: number i of a sweep, 0 <= i < SWEEP_LENGTH.  sweep_label: what readers call it there. */
+int sweep_variant(enum sweep s, int i);
+const char *sweep_label(enum sweep s, int i);
 
 enum { PLAN_MAX_STEPS = 16, PLAN_MAX_SEEDS = 16 };
 

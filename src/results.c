@@ -114,3 +114,14 @@ struct interval results_equal_time(const struct results *r, const struct scene_r
         b[i] = cost(s, &s->run[VARIANT_BDPT][i].step[step]);
     return results_ratio(a, na, b, nb);
 }
+
+double results_bias_p(const struct results *r, const struct scene_results *s, int variant, int step)
+{
+    struct estimate e = results_mean(s, plan_seeds(r->plan, variant), variant, step, Q_MEAN_ERROR);
+    double reference = isfinite(s->reference.mean_error) ? s->reference.mean_error : 0;
+    double own = e.error * e.error, total = own + reference * reference;
+    if (e.n < 2 || !(own > 0))
+        return NAN;
+    /* Welch's degrees of freedom; the reference's error is known from thousands of pixels. */
+    return stats_student_p(e.mean / sqrt(total), total * total / (own * own / (e.n - 1)));
+}
