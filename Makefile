@@ -3,8 +3,8 @@ CC       = cc
 BUILD    = build
 OPT      = -O2
 WARN     = -std=c99 -pedantic -Wall -Wextra -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wswitch
-# No fast-math; contraction off, so that one compiler gives one result. CFLAGS is the user's and comes last.
-FLAGS    = $(WARN) $(OPT) -ffp-contract=off -pthread
+# No fast-math; contraction off, so that one compiler gives one result. Nobody reads errno after sqrt. CFLAGS is the user's and comes last.
+FLAGS    = $(WARN) $(OPT) -ffp-contract=off -fno-math-errno -pthread
 LIBS     = -lm -lpthread
 OBJ      = $(patsubst src/%.c,$(BUILD)/%.o,$(wildcard src/*.c))
 TEST_OBJ = $(filter-out $(BUILD)/main.o,$(OBJ)) $(patsubst test/%.c,$(BUILD)/test_%.o,$(wildcard test/*.c))

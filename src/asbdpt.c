@@ -9,8 +9,6 @@
 #include "select.h"
 #include "trace.h"
 
-enum { GUIDE_CELLS = 12 }; /* regions of guide.h along the scene's diameter */
-
 static const struct parameter PARAMETERS[] = {
     {"select", "vertices", "bins (the dissertation, biased), pool, or vertices"},
     {"metric", "importance", "pool, vertices: constant, throughput or importance"},
@@ -76,7 +74,6 @@ static void learn(struct selection *sel, const struct render_job *job, int cells
     const struct light_set *lights = &job->scene->lights;
     bool importance = sel->metric == METRIC_IMPORTANCE;
     importance_init(&sel->grid, lights, cells);
-    guide_init(&sel->guide, lights, GUIDE_CELLS);
     if (importance || spatial)
         prepass_run(job, importance ? &sel->grid : NULL, spatial ? &sel->guide : NULL);
     if (spatial)
