@@ -183,8 +183,8 @@ double stats_welch_p(double mean1, double var1, double n1, double mean2, double 
     return stats_student_p(t, dof);
 }
 
-/* The limit distribution of Kolmogorov: probability of sqrt(n) D > x. Two series, each fast where it is used. */
-static double kolmogorov_q(double x)
+/* Two series, each fast where it is used. */
+double stats_kolmogorov_p(double x)
 {
     double sum = 0;
     if (x < 0.1)
@@ -221,7 +221,7 @@ double stats_ks_uniform_p(double *x, size_t n)
     if (n == 0)
         return 1;
     double root = sqrt((double)n); /* the bracket is Stephens's correction for small n [Stephens 1970] */
-    return kolmogorov_q(stats_ks_distance(x, n) * (root + 0.12 + 0.11 / root));
+    return stats_kolmogorov_p(stats_ks_distance(x, n) * (root + 0.12 + 0.11 / root));
 }
 
 double stats_sidak(double alpha, double m) { return -expm1(log1p(-alpha) / m); }

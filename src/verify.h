@@ -9,8 +9,9 @@
  *     uniform     Kolmogorov-Smirnov distance of the p-values from uniformity: many small errors
  *
  * Tiles that share light sub-paths, and channels of one tile, are not independent, so the distance is not judged by its
- * textbook distribution but by what it comes to when the hypothesis is true and all dependences are as they are: the
- * deviations of the batches from their mean, each batch multiplied by a random sign ("wild bootstrap" [Liu 1988]).
+ * textbook distribution alone but by what it comes to when the hypothesis is true and all dependences are as they are:
+ * the deviations of the batches from their mean, each batch multiplied by a random sign ("wild bootstrap" [Liu 1988]).
+ * Kolmogorov's distribution is stretched until its 90 % quantile is the one found that way.
  *
  * Used by: cmd_verify, tests. Tests: test_verify.c.
  */
