@@ -17,7 +17,9 @@ struct importance {
     struct grid grid;
     double *E; /* [grid.n], owned */
     size_t capacity;
-    double mean; /* expectation over light sub-paths of the sum of E over their connectible vertices y_1, y_2 ... */
+    /* About the connectible vertices y_1, y_2 ... of light sub-paths, from the pre-pass: */
+    double mean;   /* expectation over sub-paths of the sum of E over their vertices */
+    double useful; /* share of vertices that carries the importance I = luminance(beta) E: (mean I)^2 / mean(I^2), (0,1] */
 };
 
 /* importance_init: `cells` along the scene's diameter, e.g. 128. */
