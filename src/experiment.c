@@ -139,7 +139,10 @@ static void measure(const struct stage *s, const struct film *film, long spp, do
     film_develop(film, s->scene.film_scale, pixels);
     struct difference d =
         compare_pixels(pixels, s->out->reference.pixels, (long)s->out->width * s->out->height * 3);
-    struct run_step step = {spp, seconds, d.rmse, d.rmse8, d.relmse, d.mean_ratio - 1, d.nonfinite + film->nonfinite};
+    struct run_step step = {.spp = spp, .seconds = seconds, .rmse = d.rmse, .rmse8 = d.rmse8, .relmse = d.relmse};
+    step.mean_error = d.mean_ratio - 1;
+    step.mean_noise = picture_mean_error(film);
+    step.nonfinite = d.nonfinite + film->nonfinite;
     *out = step;
 }
 

@@ -115,13 +115,11 @@ static void tell_bias(const struct results *r, const struct scene_results *s, st
 {
     int last = r->plan->n_steps - 1;
     for (int v = 0; v < N_METHODS; v++) {
-        struct estimate e = results_mean(s, plan_seeds(r->plan, v), v, last, Q_MEAN_ERROR);
-        double p = results_bias_p(r, s, v, last);
-        if (!isfinite(p))
-            continue;
-        say(f, "The mean of %s is off by %+.3f %% with a standard error of %.2g %% over seeds (reference: %.2g %%), p = %.2g: %s.",
-            VARIANTS[v].label, 100 * e.mean, 100 * e.error, 100 * s->reference.mean_error, p,
-            p < 0.01 ? "a bias" : "no bias seen");
+        struct bias b = results_bias(r, s, v, last);
+        if (isfinite(b.p))
+            say(f, "The mean of %s is off by %+.3f %% with a standard error of %.2g %% (of which the reference %.2g %%), p = %.2g: %s.",
+                VARIANTS[v].label, 100 * b.mean, 100 * b.error, 100 * s->reference.mean_error, b.p,
+                b.p < 0.01 ? "a bias" : "no bias seen");
     }
 }
 
@@ -196,7 +194,7 @@ static void count_biases(const struct results *r, struct findings *f)
         return;
     for (int i = 0; i < r->plan->n_scenes; i++)
         for (int v = 0; v < N_METHODS; v++)
-            biased[v] += results_bias_p(r, &r->scene[i], v, r->plan->n_steps - 1) < 0.01;
+            biased[v] += results_bias(r, &r->scene[i], v, r->plan->n_steps - 1).p < 0.01;
     say(f, "The mean of the picture is off (p < 0.01) in %d of %d scenes for BDPT, %d for bins, %d for pool and %d for vertices.",
         biased[VARIANT_BDPT], r->plan->n_scenes, biased[VARIANT_BINS], biased[VARIANT_POOL], biased[VARIANT_VERTICES]);
 }

@@ -58,7 +58,7 @@ struct plan {
     const char *reference; /* file or directory of stored references; NULL: ref/ beside the scene */
 };
 
-/* plan_preset: quick: 64 pixels wide, 8 to 64 spp, 2 seeds; full: 320 pixels wide, 32 to 512 spp, 3 seeds. */
+/* plan_preset: quick: 48 pixels wide, 8 to 64 spp, some of the sweeps; full: 320 pixels wide, 32 to 512 spp. */
 void plan_preset(struct plan *p, bool quick);
 
 /* plan_set_spp: measure at first, 2 first, 4 first ... up to `last`, which is always the last step. Returns false with

@@ -24,7 +24,8 @@ struct plot {
     const char *title, *description; /* the description is for those who cannot see the picture */
     const char *x_label, *y_label;
     bool log_x, log_y;
-    bool zero_line; /* draw y = 0; linear y only */
+    bool zero_line;  /* draw y = 0; linear y only */
+    bool data_ticks; /* ticks of the x axis at the first line's points */
     int n;
     struct plot_line line[PLOT_MAX_LINES];
 };

@@ -45,6 +45,10 @@ bool reference_write(const struct reference *r, const char *directory, const cha
 bool reference_read(const char *directory, const char *name, const char *key, int width, int height,
                     struct reference *out);
 
+/* picture_mean_error: relative standard error of the mean of a film's picture, were its pixels independent (for methods
+ * that share light sub-paths between pixels it is too small). NaN for a black one. */
+double picture_mean_error(const struct film *film);
+
 void reference_free(struct reference *r);
 
 #endif

@@ -68,13 +68,15 @@ static void csv_run(FILE *f, const struct scene_results *s, int v, int seed)
         csv_number(f, p->relmse);
         fputc(',', f);
         csv_number(f, p->mean_error);
+        fputc(',', f);
+        csv_number(f, p->mean_noise);
         fprintf(f, ",%ld\n", p->nonfinite);
     }
 }
 
 void results_runs_csv(FILE *f, const struct results *r)
 {
-    fputs("scene,variant,seed,spp,seconds,rmse,rmse8,relmse,mean_error,nonfinite\n", f);
+    fputs("scene,variant,seed,spp,seconds,rmse,rmse8,relmse,mean_error,mean_noise,nonfinite\n", f);
     for (int i = 0; i < r->plan->n_scenes; i++)
         for (int v = 0; v < N_VARIANTS; v++)
             for (int seed = 1; seed <= plan_seeds(r->plan, v); seed++)

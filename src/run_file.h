@@ -22,6 +22,7 @@ struct run_step {
     double rmse8;      /* 8-bit sRGB */
     double relmse;     /* relative squared error */
     double mean_error; /* mean of image over mean of reference, less 1 */
+    double mean_noise; /* its standard error, were pixels independent; NaN if unknown */
     long nonfinite;    /* values that could not be compared */
 };
 

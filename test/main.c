@@ -32,6 +32,7 @@ static const struct entry ENTRIES[] = {
     {"light", test_light, false},   {"camera", test_camera, false},
     {"film", test_film, false},       {"parser", test_parser, false}, {"mis", test_mis, false},
     {"render", test_render, false}, {"asbdpt", test_asbdpt, false},
+    {"report", test_report, false},
 };
 enum { N_ENTRIES = sizeof ENTRIES / sizeof ENTRIES[0] };
 
