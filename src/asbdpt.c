@@ -64,10 +64,10 @@ static bool read_parameters(const struct settings *s, struct selection *sel, int
 }
 
 /* n(x) of vertices.c over 2 C. */
-static double position_count(const void *context, vec3 p)
+static double position_count(const void *context, vec3 p, vec3 ng)
 {
     const struct selection *sel = context;
-    return (1 - sel->delta) * importance_at(&sel->grid, p) / sel->grid.mean + sel->delta;
+    return (1 - sel->delta) * importance_at(&sel->grid, p, ng) / sel->grid.mean + sel->delta;
 }
 
 /* As many draws as are needed, on average, to meet one light vertex that the camera can make use of; between 2, below

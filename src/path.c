@@ -94,7 +94,7 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
     v->beta = from->beta;
     v->pdf_origin = mode == RADIANCE && at->light >= 0 ? light_pdf_surface(&w->scene->lights, &w->scene->geo, at) : 0;
     measure(w, v, prev, from, d2);
-    v->count = mis_connect_count(w->counts, v->p);
+    v->count = mis_connect_count(w->counts, v->p, v->ng);
     v->mis_c = count_before(w, v, prev, mode);
     material_bsdf(w->scene->material, at->material, &w->scene->textures, at, w->arena, &v->bsdf);
     return true;

@@ -63,7 +63,7 @@ static void study_vertex(const struct prepass *p, struct chunk *c, const struct 
     if (z->kind != VERTEX_SURFACE || !vertex_connectible(z))
         return;
     if (p->importance != NULL)
-        note(c, importance_key(p->importance, z->p), -1, rgb_luminance(z->beta));
+        note(c, importance_key(p->importance, z->p, z->ng), -1, rgb_luminance(z->beta));
     for (int i = 0; p->lessons != NULL && i < LIGHTS_PER_VERTEX; i++) {
         int cell;
         struct connection found = connect_direct(p->job->scene, &p->counts, z, sampler, &cell);
@@ -106,7 +106,7 @@ static bool merge_eye_chunk(void *context, long job, int slot)
 
 static void study_light_vertex(const struct prepass *p, struct light_sums *s, const struct vertex *y)
 {
-    double E = importance_at(p->importance, y->p), I = rgb_luminance(y->beta) * E;
+    double E = importance_at(p->importance, y->p, y->ng), I = rgb_luminance(y->beta) * E;
     s->vertices++;
     s->E += E;
     s->I += I;

@@ -56,10 +56,10 @@ static const struct variant VARIANTS[] = {
 };
 
 /* A count that varies over space, as `select = vertices` has it. */
-static double uneven(const void *context, vec3 p)
+static double uneven(const void *context, vec3 p, vec3 ng)
 {
     (void)context;
-    return 1.5 + sin(3 * p.x + 2 * p.y + p.z);
+    return 2.5 + ng.y + sin(3 * p.x + 2 * p.y + p.z);
 }
 
 /* A guide that prefers some cells in every region, learnt from nothing but their numbers. */
