@@ -36,8 +36,21 @@ test: asbdpt $(BUILD)/test layers ## build and run the test suite (under 3 minut
 	sh test/cli.sh $(PROGRAM)
 	$(BUILD)/test
 
-check-long: asbdpt $(BUILD)/test ## the tests that take longer
+check-long: asbdpt $(BUILD)/test experiments ## the tests that take longer
 	$(BUILD)/test --slow
+
+experiments: asbdpt | out ## measure all methods on the five scenes, quickly, into out/experiments/report.html
+	$(PROGRAM) experiment --quick -o out/experiments
+	sh test/report_browser.sh out/experiments/report.html
+
+mutants: ## apply small faults one by one; the tests must catch every one
+	sh test/mutants/run.sh 2
+
+ref: asbdpt ## render the stored references of ref/ again (an hour; goes on where it stopped)
+	sh ref/make-ref.sh $(PROGRAM)
+
+check-ref: asbdpt ## are the stored references still what the program converges to?
+	sh ref/check-ref.sh $(PROGRAM)
 
 layers: ## check that every file includes only lower layers, and that headers compile alone
 	@sh test/layers.sh $(CC)
@@ -58,4 +71,4 @@ clean: ## remove everything that was built
 
 -include $(wildcard $(BUILD)/*.d)
 
-.PHONY: all demo test check-long layers san tsan help clean
+.PHONY: all demo test check-long mutants ref check-ref experiments layers san tsan help clean

@@ -1,7 +1,7 @@
 /* plot.h: line plots as SVG text.
  *
- * Axes are linear or logarithmic, with ticks at round numbers; lines have markers of their own shape, so that they can
- * be told apart without colour, and error bars. Colours follow the reader's light or dark setting.
+ * Axes are linear or logarithmic, with ticks at round numbers; lines have markers of their own shape, so that they
+ * can be told apart without colour, and error bars. Colours follow the reader's light or dark setting.
  *
  * Used by: figures. Tests: test_report.c.
  */

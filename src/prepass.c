@@ -27,10 +27,15 @@ struct found {
     double value;
 };
 
+/* Sums over the connectible vertices of light sub-paths; I = luminance(beta) E. */
+struct light_sums {
+    double vertices, E, I, square; /* square: of I */
+};
+
 struct chunk {
     struct found *found; /* [n], owned */
     size_t n, capacity;
-    double sum; /* light sub-paths: of E */
+    struct light_sums light;
 };
 
 struct prepass {
@@ -41,7 +46,7 @@ struct prepass {
     struct workspace *work;   /* [n_threads] */
     struct chunk *chunk;      /* [n_slots] */
     long first_path, n_paths; /* sub-paths of this round: [first_path, n_paths) */
-    double light_sum;
+    struct light_sums light;
 };
 
 static void note(struct chunk *c, uint64_t key, int cell, double value)
@@ -58,7 +63,7 @@ static void study_vertex(const struct prepass *p, struct chunk *c, const struct 
     if (z->kind != VERTEX_SURFACE || !vertex_connectible(z))
         return;
     if (p->importance != NULL)
-        note(c, importance_key(p->importance, z->p), -1, rgb_luminance(z->beta));
+        note(c, importance_key(p->importance, z->p, z->ng), -1, rgb_luminance(z->beta));
     for (int i = 0; p->lessons != NULL && i < LIGHTS_PER_VERTEX; i++) {
         int cell;
         struct connection found = connect_direct(p->job->scene, &p->counts, z, sampler, &cell);
@@ -99,11 +104,21 @@ static bool merge_eye_chunk(void *context, long job, int slot)
     return true;
 }
 
+static void study_light_vertex(const struct prepass *p, struct light_sums *s, const struct vertex *y)
+{
+    double E = importance_at(p->importance, y->p, y->ng), I = rgb_luminance(y->beta) * E;
+    s->vertices++;
+    s->E += E;
+    s->I += I;
+    s->square += I * I;
+}
+
 static void trace_light_chunk(void *context, long job, int slot, int thread)
 {
     struct prepass *p = context;
     struct workspace *work = &p->work[thread];
-    p->chunk[slot].sum = 0;
+    struct light_sums zero = {0, 0, 0, 0};
+    p->chunk[slot].light = zero;
     for (long i = p->first_path + job * CHUNK; i < p->first_path + (job + 1) * CHUNK && i < p->n_paths; i++) {
         arena_reset(&work->arena);
         struct sampler sampler = sampler_start(p->job->seed, RNG_PREPASS, (uint64_t)i, 1);
@@ -111,7 +126,7 @@ static void trace_light_chunk(void *context, long job, int slot, int thread)
         int n = path_light(&w, work->light, p->job->max_depth + 1);
         for (int k = 1; k < n; k++)
             if (vertex_connectible(&work->light[k]))
-                p->chunk[slot].sum += importance_at(p->importance, work->light[k].p);
+                study_light_vertex(p, &p->chunk[slot].light, &work->light[k]);
     }
 }
 
@@ -119,7 +134,11 @@ static bool merge_light_chunk(void *context, long job, int slot)
 {
     (void)job;
     struct prepass *p = context;
-    p->light_sum += p->chunk[slot].sum;
+    const struct light_sums *s = &p->chunk[slot].light;
+    p->light.vertices += s->vertices;
+    p->light.E += s->E;
+    p->light.I += s->I;
+    p->light.square += s->square;
     return true;
 }
 
@@ -167,5 +186,6 @@ void prepass_run(const struct render_job *job, struct importance *importance, st
     p.first_path = 0;
     p.n_paths = n_eye < MAX_LIGHT ? n_eye : MAX_LIGHT;
     run_chunks(&p, trace_light_chunk, merge_light_chunk);
-    importance->mean = p.light_sum / (double)p.n_paths;
+    importance->mean = p.light.E / (double)p.n_paths;
+    importance->useful = p.light.square > 0 ? p.light.I * p.light.I / (p.light.square * p.light.vertices) : 1;
 }

@@ -68,8 +68,8 @@ static float *shrink(const float *pixels, int width, int height, int k)
                 double sum = 0;
                 for (int j = 0; j < k; j++)
                     for (int i = 0; i < k; i++)
-                        sum += (double)pixels[3 * ((size_t)(y * k + j) * (size_t)width + (size_t)(x * k + i)) +
-                                              (size_t)c];
+                        sum += (double)
+                            pixels[3 * ((size_t)(y * k + j) * (size_t)width + (size_t)(x * k + i)) + (size_t)c];
                 out[3 * ((size_t)y * (size_t)w + (size_t)x) + (size_t)c] = (float)(sum / (k * k));
             }
     return out;
@@ -111,8 +111,8 @@ static bool readable(const char *path)
     return f != NULL;
 }
 
-int reference_find(const char *given, const char *scene_path, const char *name, int width, int height, int max_depth,
-                   struct reference *out, struct error *err)
+int reference_find(const char *given, const char *scene_path, const char *name, int width, int height,
+                   int max_depth, struct reference *out, struct error *err)
 {
     char path[4096];
     if (given != NULL) {
@@ -199,8 +199,9 @@ bool reference_render(const struct scene *scene, const struct render_options *op
         out->mean_error = 0.5 * sqrt(error[0] * error[0] + error[1] * error[1]);
         for (size_t i = 0; i < n; i++)
             a[i] = 0.5f * (a[i] + b[i]);
-        snprintf(out->origin, sizeof out->origin, "rendered by this program: %s, two halves of %ld spp, seeds %lu and %lu",
-                 options->method->name, half, (unsigned long)options->seed, (unsigned long)options->seed + 1);
+        snprintf(out->origin, sizeof out->origin,
+                 "rendered by this program: %s, two halves of %ld spp, seeds %lu and %lu", options->method->name,
+                 half, (unsigned long)options->seed, (unsigned long)options->seed + 1);
         out->pixels = a;
     } else {
         free(a);
@@ -220,8 +221,8 @@ bool reference_write(const struct reference *r, const char *directory, const cha
     snprintf(path, sizeof path, "%s/%s.txt", directory, name);
     if (!file_create(path, &f, err))
         return false;
-    fprintf(f.stream, "key %s\nresolution %dx%d\nmaxdepth %d\nnoise8 %.9g\nmean_error %.9g\norigin %s\n", key, width,
-            height, max_depth, r->noise8, r->mean_error, r->origin);
+    fprintf(f.stream, "key %s\nresolution %dx%d\nmaxdepth %d\nnoise8 %.9g\nmean_error %.9g\norigin %s\n", key,
+            width, height, max_depth, r->noise8, r->mean_error, r->origin);
     return file_commit(&f, err);
 }
 

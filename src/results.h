@@ -42,14 +42,14 @@ struct interval {
     double value, low, high;
 };
 
-/* results_ratio: mean of a[na] over mean of b[nb], both samples independent and positive on average. The interval is
- * Welch's, on the logarithm of the ratio. */
+/* results_ratio: mean of a[na] over mean of b[nb], both samples independent and positive on average. The interval
+ * is Welch's, on the logarithm of the ratio. */
 struct interval results_ratio(const double *a, int na, const double *b, int nb);
 
-/* results_rmse_ratio: rmse8 of a variant over bdpt's after the same number of samples, the dissertation's comparison.
- * results_equal_time: squared error of a variant over bdpt's after the same CPU time,
- *     (MSE_m - noise^2) T_m / ((MSE_b - noise^2) T_b),
- * for bdpt's squared error is inversely proportional to its time; noise8 of the reference is subtracted if known. */
+/* results_rmse_ratio: rmse8 of a variant over bdpt's after the same number of samples, the dissertation's
+ * comparison. results_equal_time: squared error of a variant over bdpt's after the same CPU time, (MSE_m - noise^2)
+ * T_m / ((MSE_b - noise^2) T_b), for bdpt's squared error is inversely proportional to its time; noise8 of the
+ * reference is subtracted if known. */
 struct interval results_rmse_ratio(const struct results *r, const struct scene_results *s, int variant, int step);
 struct interval results_equal_time(const struct results *r, const struct scene_results *s, int variant, int step);
 

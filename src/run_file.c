@@ -19,8 +19,8 @@ bool run_write(const char *path, const char *key, const struct run *run, struct 
     fprintf(f.stream, "# %s\n%s\n", key, COLUMNS);
     for (int i = 0; i < run->n; i++) {
         const struct run_step *s = &run->step[i];
-        fprintf(f.stream, "%ld,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%ld\n", s->spp, s->seconds, s->rmse, s->rmse8, s->relmse,
-                s->mean_error, s->mean_noise, s->nonfinite);
+        fprintf(f.stream, "%ld,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%ld\n", s->spp, s->seconds, s->rmse, s->rmse8,
+                s->relmse, s->mean_error, s->mean_noise, s->nonfinite);
     }
     return file_commit(&f, err);
 }

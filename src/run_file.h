@@ -1,7 +1,7 @@
 /* run_file.h: the measurements of one run (scene, variant, seed) and the small file that keeps them.
  *
- * An experiment writes one such file per finished run and reads it back when it is started again, so that nothing is
- * computed twice. The file's first line is a key that says everything the numbers depend on; another key means
+ * An experiment writes one such file per finished run and reads it back when it is started again, so that nothing
+ * is computed twice. The file's first line is a key that says everything the numbers depend on; another key means
  * another experiment, and the file is not used.
  *
  * Used by: experiment, results. Tests: test_report.c.

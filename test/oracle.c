@@ -109,7 +109,7 @@ static double samples(const struct full_path *f, int i)
         return 0;
     if (i == 1 && t > 1)
         return mis_direct_count(m, &f->scene->lights, f->x[1]->p, f->x[1]->ng, f->x[0]->cell, direction(f, 1, 0));
-    return t == 1 ? m->splat : mis_connect_count(m, f->x[i - 1]->p);
+    return t == 1 ? m->splat : mis_connect_count(m, f->x[i - 1]->p, f->x[i - 1]->ng);
 }
 
 /* A vertex whose walk goes on (not the end of a connection) passed by delta if the next vertex says so. */

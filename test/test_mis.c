@@ -56,10 +56,10 @@ static const struct variant VARIANTS[] = {
 };
 
 /* A count that varies over space, as `select = vertices` has it. */
-static double uneven(const void *context, vec3 p)
+static double uneven(const void *context, vec3 p, vec3 ng)
 {
     (void)context;
-    return 1.5 + sin(3 * p.x + 2 * p.y + p.z);
+    return 2.5 + ng.y + sin(3 * p.x + 2 * p.y + p.z);
 }
 
 /* A guide that prefers some cells in every region, learnt from nothing but their numbers. */
@@ -106,8 +106,7 @@ static void compare_direct(struct comparison *c, const struct vertex *eye, int t
     struct connection got = connect_direct(c->scene, c->counts, &eye[t - 1], sampler, NULL);
     double u[3];
     struct light_point at;
-    for (int i = 0; i < 3; i++)
-        u[i] = sampler_next(&same);
+    sampler_next3(&same, u);
     const struct light_set *lights = &c->scene->lights;
     const struct alias_table *choice = guide_table(c->counts->guide, lights, eye[t - 1].p, eye[t - 1].ng);
     if (!light_sample_cell(lights, &c->scene->geo, alias_sample(choice, u[0], NULL, NULL), u[1], u[2], &at))

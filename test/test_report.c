@@ -1,4 +1,5 @@
-/* test_report.c: experiments: statistics, plots, a tiny experiment carried out, resumed and written, its files read. */
+/* test_report.c: experiments: statistics, plots, a tiny experiment carried out, resumed and written, its files
+ * read. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -78,7 +79,8 @@ static void test_statistics(struct test *t)
     CHECK(t, fabs(i.value - 2) < 1e-12, "ratio of means: %g", i.value);
     CHECK(t, fabs(log(i.high / 2) - student_quantile(0.05, dof) * sqrt(va + vb)) < 1e-9, "upper end %g", i.high);
     CHECK(t, fabs(i.low * i.high - 4) < 1e-9, "the interval is symmetric in the logarithm: %g %g", i.low, i.high);
-    CHECK(t, isnan(results_ratio(a, 1, b, 2).low) && isfinite(results_ratio(a, 1, b, 2).value), "one seed has no interval");
+    CHECK(t, isnan(results_ratio(a, 1, b, 2).low) && isfinite(results_ratio(a, 1, b, 2).value),
+          "one seed has no interval");
     const double below[2] = {-1, -2};
     CHECK(t, isnan(results_ratio(below, 2, b, 2).value), "error below the reference's noise has no ratio");
     TEST_ACCEPT(t, coverage_p(t, 1), "95 %% intervals of a ratio hold it 95 times of 100");
@@ -101,17 +103,19 @@ static void check_axis(struct test *t, const struct axis *a)
         majors += major[i];
         double at = axis_position(a, tick[i]);
         CHECK(t, at > -1e-9 && at < 1 + 1e-9, "tick %g lies on the axis [%g, %g]", tick[i], a->low, a->high);
-        CHECK(t, i == 0 || tick[i] > tick[i - 1], "ticks rise: %g after %g", tick[i], tick[i - 1]);
+        CHECK(t, i == 0 || tick[i] > tick[i - (i > 0)], "ticks rise: number %d is %g", i, tick[i]);
         char digits[32]; /* round numbers need few digits */
         snprintf(digits, sizeof digits, "%.3g", tick[i]);
-        CHECK(t, fabs(atof(digits) - tick[i]) <= 1e-9 * fmax(fabs(tick[i]), a->high - a->low), "tick %.12g is round", tick[i]);
+        CHECK(t, fabs(atof(digits) - tick[i]) <= 1e-9 * fmax(fabs(tick[i]), a->high - a->low),
+              "tick %.12g is round", tick[i]);
     }
     CHECK(t, majors >= (a->logarithmic ? 1 : 3) && majors <= 14, "%d numbers on [%g, %g]", majors, a->low, a->high);
 }
 
 static void test_axes(struct test *t)
 {
-    static const double range[][2] = {{0.01, 0.02}, {1, 1}, {3, 700}, {0.0004, 12}, {2e-9, 3e9}, {8, 64}, {0.99, 1.01}};
+    static const double range[][2] = {{0.01, 0.02}, {1, 1},  {3, 700},    {0.0004, 12},
+                                      {2e-9, 3e9},  {8, 64}, {0.99, 1.01}};
     for (size_t i = 0; i < sizeof range / sizeof range[0]; i++) {
         struct axis log_axis = axis_make(true, range[i][0], range[i][1]);
         struct axis linear = axis_make(false, -range[i][0], range[i][1]);
@@ -270,7 +274,7 @@ static const char ROOM[] =
     "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 12\nPixelFilter \"gaussian\"\n"
     "Integrator \"asbdpt\" \"integer maxdepth\" 4\nWorldBegin\n"
     "Material \"matte\" \"rgb Kd\" [.7 .5 .3]\nReverseOrientation\nShape \"sphere\" \"float radius\" 1\n"
-    "ReverseOrientation\nTranslate .4 .4 .3\nAreaLightSource \"diffuse\" \"rgb L\" [6 6 6]\n"
+    "ReverseOrientation\nTranslate .4 .4 .3\nAreaLightSource \"diffuse\" \"rgb L\" %s\n"
     "Shape \"sphere\" \"float radius\" .1\nWorldEnd\n";
 
 struct setup {
@@ -279,15 +283,22 @@ struct setup {
     struct plan plan;
 };
 
+/* The scene with this emission. */
+static void write_scene(const char *path, const char *emission)
+{
+    FILE *f = fopen(path, "w");
+    fprintf(f, ROOM, emission);
+    fclose(f);
+}
+
 /* A plan of one scene in a directory of its own. */
 static void set_up(struct test *t, const char *name, struct setup *s)
 {
     memset(s, 0, sizeof *s);
-    snprintf(s->scene_path, sizeof s->scene_path, "%s/cornell-box.pbrt", test_tmp(t)); /* a scene with printed numbers */
+    snprintf(s->scene_path, sizeof s->scene_path, "%s/cornell-box.pbrt",
+             test_tmp(t)); /* a scene with printed numbers */
     snprintf(s->directory, sizeof s->directory, "%s/%s", test_tmp(t), name);
-    FILE *f = fopen(s->scene_path, "w");
-    fputs(ROOM, f);
-    fclose(f);
+    write_scene(s->scene_path, "[6 6 6]");
     plan_preset(&s->plan, true);
     plan_set_spp(&s->plan, 16, 64, NULL);
     s->scene[0] = s->scene_path;
@@ -314,9 +325,11 @@ static bool same_results(const struct results *a, const struct results *b, bool 
     for (int v = 0; v < N_VARIANTS; v++)
         for (int seed = 0; seed < plan_seeds(a->plan, v); seed++)
             for (int i = 0; i < a->plan->n_steps; i++) {
-                const struct run_step *p = &a->scene[0].run[v][seed].step[i], *q = &b->scene[0].run[v][seed].step[i];
+                const struct run_step *p = &a->scene[0].run[v][seed].step[i],
+                                      *q = &b->scene[0].run[v][seed].step[i];
                 if (p->spp != q->spp || p->rmse != q->rmse || p->rmse8 != q->rmse8 || p->relmse != q->relmse ||
-                    p->mean_error != q->mean_error || p->mean_noise != q->mean_noise || (times && p->seconds != q->seconds))
+                    p->mean_error != q->mean_error || p->mean_noise != q->mean_noise ||
+                    (times && p->seconds != q->seconds))
                     return false;
             }
     for (int v = 0; v < N_METHODS; v++)
@@ -350,13 +363,14 @@ static double direct_rmse8(struct test *t, const struct results *r, int variant,
 static void check_runs(struct test *t, const struct results *r)
 {
     const struct scene_results *s = &r->scene[0];
-    CHECK(t, s->width == 8 && s->height == 6 && s->max_depth == 4, "%dx%d, depth %d", s->width, s->height, s->max_depth);
+    CHECK(t, s->width == 8 && s->height == 6 && s->max_depth == 4, "%dx%d, depth %d", s->width, s->height,
+          s->max_depth);
     CHECK(t, strcmp(s->name, "cornell-box") == 0, "scene name %s", s->name);
     for (int v = 0; v < N_VARIANTS; v++)
         for (int i = 0; i < r->plan->n_steps && plan_seeds(r->plan, v) > 0; i++) {
             double direct = direct_rmse8(t, r, v, i), ours = s->run[v][0].step[i].rmse8;
-            CHECK(t, fabs(direct - ours) < 1e-9, "%s after %ld spp: rmse8 %g, rendered in one go %g", VARIANTS[v].name,
-                  r->plan->spp[i], ours, direct);
+            CHECK(t, fabs(direct - ours) < 1e-9, "%s after %ld spp: rmse8 %g, rendered in one go %g",
+                  VARIANTS[v].name, r->plan->spp[i], ours, direct);
         }
     double seconds[2] = {s->run[0][0].step[0].seconds, s->run[0][0].step[r->plan->n_steps - 1].seconds};
     CHECK(t, seconds[0] > 0 && seconds[1] > seconds[0], "time rises: %g, %g s", seconds[0], seconds[1]);
@@ -371,7 +385,8 @@ static void check_tables(struct test *t, const struct results *r)
     tables_scene(r, s, TABLE_RMSE, &table);
     size_t cell = (size_t)(last * table.columns + 1 + VARIANT_POOL);
     double mean = 0.5 * (a->rmse8 + b->rmse8), error = 0.5 * fabs(a->rmse8 - b->rmse8);
-    CHECK(t, table.cell[cell].value == mean, "RMSE of pool in the table: %g, computed: %g", table.cell[cell].value, mean);
+    CHECK(t, table.cell[cell].value == mean, "RMSE of pool in the table: %g, computed: %g", table.cell[cell].value,
+          mean);
     struct estimate e = results_mean(s, 2, VARIANT_POOL, last, Q_RMSE8);
     CHECK(t, fabs(e.error - error) < 1e-12, "standard error of two values: %g, %g", e.error, error);
     table_free(&table);
@@ -391,7 +406,8 @@ static void check_tables(struct test *t, const struct results *r)
     CHECK(t, tables_scene(r, s, TABLE_PUBLISHED, &table), "the scene has printed numbers");
     const struct published *p = published_find("cornell-box");
     cell = table_rows(&table) * (size_t)table.columns - 1;
-    CHECK(t, table.cell[cell].value == p->asbdpt[4] / p->bdpt[4], "the last printed ratio: %g", table.cell[cell].value);
+    CHECK(t, table.cell[cell].value == p->asbdpt[4] / p->bdpt[4], "the last printed ratio: %g",
+          table.cell[cell].value);
     table_free(&table);
 }
 
@@ -433,9 +449,10 @@ static void check_output(struct test *t, const struct results *r)
         images++;
         with_text += strncmp(p, "<img alt=\"", 10) == 0 && p[10] != '"';
     }
-    CHECK(t, images == (2 * N_METHODS + 1) * (1 + N_DETAILS) && with_text == images, "%d images, %d described", images,
-          with_text);
-    CHECK(t, strstr(html, "src=\"http") == NULL && strstr(html, "href=\"http") == NULL && strstr(html, "url(") == NULL,
+    CHECK(t, images == (2 * N_METHODS + 1) * (1 + N_DETAILS) && with_text == images, "%d images, %d described",
+          images, with_text);
+    CHECK(t,
+          strstr(html, "src=\"http") == NULL && strstr(html, "href=\"http") == NULL && strstr(html, "url(") == NULL,
           "the page asks for nothing from elsewhere");
     CHECK(t, strstr(html, "</html>") != NULL && strstr(html, ">nan") == NULL, "the page is whole");
     free(html);
@@ -477,6 +494,17 @@ static void test_experiment(struct test *t)
     again.scene[0].run[VARIANT_POOL][0] = again.scene[0].run[VARIANT_POOL][1];
     CHECK(t, !same_results(&first, &again, false), "two seeds have different results");
     results_free(&again);
+    /* A scene that has changed begins anew. */
+    f = fopen(s.scene_path, "a");
+    fputs("# nothing\n", f);
+    fclose(f);
+    carry_out(t, &s, &again);
+    CHECK(t, same_results(&first, &again, false), "a comment in the scene changes nothing");
+    results_free(&again);
+    write_scene(s.scene_path, "[9 9 9]");
+    carry_out(t, &s, &again);
+    CHECK(t, !same_results(&first, &again, false), "a brighter light does");
+    results_free(&again);
     results_free(&first);
 }
 
@@ -493,7 +521,8 @@ static void test_plan(struct test *t)
           "bins continues a film only at a restart");
     plan_preset(&p, false);
     CHECK(t, p.n_steps == 5 && p.spp[0] == 32 && p.spp[4] == 512, "full steps are the dissertation's");
-    CHECK(t, plan_set_spp(&p, 32, 100, NULL) && p.n_steps == 3 && p.spp[2] == 100, "the last step is what was asked for");
+    CHECK(t, plan_set_spp(&p, 32, 100, NULL) && p.n_steps == 3 && p.spp[2] == 100,
+          "the last step is what was asked for");
     CHECK(t, !plan_set_spp(&p, 1, 1L << 24, NULL), "too many steps are refused");
     for (int i = 0; i < SWEEP_LENGTH; i++) {
         CHECK(t, VARIANTS[sweep_variant(SWEEP_PATHS, i)].bin_paths == 4 << i, "paths %d", 4 << i);

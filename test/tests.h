@@ -27,6 +27,7 @@ void test_scenes_long(struct test *t);
 void test_strategies(struct test *t);
 void test_threads(struct test *t);
 void test_verify(struct test *t);
+void test_sampler(struct test *t);
 void test_shape(struct test *t);
 void test_stats(struct test *t);
 void test_texture(struct test *t);
