@@ -3,7 +3,7 @@
 # Each is rendered again by pt and by bdpt, with fewer samples and other seeds, and tested tile by tile.
 #   sh ref/check-ref.sh [PROGRAM [SPP]]
 program=${1:-./asbdpt}
-spp=${2:-64}
+spp=${2:-256}
 failures=0
 for text in ref/*.txt; do
     name=$(basename "$text" .txt)

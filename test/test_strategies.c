@@ -34,7 +34,7 @@ static const char PLAIN[] = HEAD
 
 static const char LEANING[] = HEAD
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 1 2.5  2 1 2.5  2 3.4 2.5  -2 3.4 2.5]\n"
-    "  \"normal N\" [-.5 -.4 -1  .5 -.4 -1  .5 .4 -1  -.5 .4 -1]\n"
+    "  \"normal N\" [-.2 -1 -1  .2 -1 -1  .2 -.8 -1  -.2 -.8 -1]\n"
     "WorldEnd\n";
 
 /* Mean of the unweighted image of each strategy. */
