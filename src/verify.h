@@ -6,7 +6,8 @@
  *
  *     smallest    the smallest p-value, corrected for their number by Sidak's formula: one wrong spot
  *     mean        Welch's test of the mean of the whole picture: a faint error everywhere
- *     uniform     Kolmogorov-Smirnov distance of the p-values from uniformity: many small errors
+ *     uniform     Kolmogorov-Smirnov distance of the p-values from uniformity: many small errors; it also rejects
+ *                 pictures that are too alike to be independent, such as renders that share a seed
  *
  * Tiles that share light sub-paths, and channels of one tile, are not independent, so the distance is not judged by its
  * textbook distribution alone but by what it comes to when the hypothesis is true and all dependences are as they are:
