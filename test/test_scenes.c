@@ -48,6 +48,118 @@ static void test_analytic(struct test *t)
     }
 }
 
+/* A one-sided light shows nothing behind, neither to the eye nor to a surface; a two-sided one shows the same there. */
+static void test_sides(struct test *t)
+{
+    static const char text[] =
+        "LookAt 0 0 %d  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 10\n"
+        "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4 WorldBegin\n"
+        "AreaLightSource \"diffuse\" \"rgb L\" [3 3 3] \"bool twosided\" \"%s\" Material \"matte\" \"rgb Kd\" [0 0 0]\n"
+        "Shape \"disk\" \"float radius\" 2 WorldEnd\n";
+    for (int i = 0; i < 4; i++) { /* the disk's normal is +z */
+        char filled[1024];
+        struct scene scene;
+        bool both = i >= 2, front = i % 2 == 0;
+        snprintf(filled, sizeof filled, text, front ? 5 : -5, both ? "true" : "false");
+        if (!scene_from_text(t, filled, &scene))
+            continue;
+        static const char *const methods[] = {"pt", "lt", "bdpt", "asbdpt"};
+        for (int m = 0; m < 4; m++) {
+            struct batches b = render_batches(t, &scene, methods[m], 2, 4, 2, 4, 825);
+            double expected = front || both ? 3 : 0;
+            CHECK(t, fabs(b.value[0] - expected) < 1e-9, "%s: a light seen from %s, %s-sided, shows %g", methods[m],
+                  front ? "the front" : "behind", both ? "two" : "one", b.value[0]);
+            batches_free(&b);
+        }
+        scene_free(&scene);
+    }
+}
+
+/* Alpha 0 is a hole, to the eye and to light; shadow alpha 0 lets light through only; any other alpha is solid, as in pbrt. */
+static void test_holes(struct test *t)
+{
+    static const char text[] =
+        "LookAt 0 0 -4  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 10\n"
+        "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4 WorldBegin\n"
+        "Texture \"a\" \"float\" \"checkerboard\" \"float tex1\" %s \"float tex2\" %s LightSource \"point\" \"point from\" [0 0 -3] \"rgb I\" [9 9 9]\n"
+        "Material \"matte\" \"rgb Kd\" [1 1 1]\n"
+        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-3 -3 0  3 -3 0  3 3 0  -3 3 0]\n"
+        "Material \"matte\" \"rgb Kd\" [0 0 0] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
+        "  \"point P\" [-3 -3 %s  3 -3 %s  3 3 %s  -3 3 %s] \"texture %s\" \"a\" WorldEnd\n";
+    static const struct {
+        const char *value, *z, *name;
+        bool lit;
+    } cases[] = {{"0", "-1", "alpha", true},  {"0.5", "-1", "alpha", false}, {"1", "-1", "alpha", false},
+                 {"0", "-1", "shadowalpha", false}, {"1", "-1", "shadowalpha", false}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char filled[2048];
+        struct scene scene;
+        const char *z = cases[i].z;
+        snprintf(filled, sizeof filled, text, cases[i].value, cases[i].value, z, z, z, z, cases[i].name);
+        if (!scene_from_text(t, filled, &scene))
+            continue;
+        struct batches b = render_batches(t, &scene, "bdpt", 2, 4, 2, 4, 829);
+        CHECK(t, (b.value[0] > 0.1) == cases[i].lit, "behind %s %s the wall shows %g", cases[i].name, cases[i].value, b.value[0]);
+        batches_free(&b);
+        scene_free(&scene);
+    }
+}
+
+/* A spot of half angle 40 degrees with a soft edge of 20: full inside 20 degrees, nothing outside 40, between them
+ * ((cos a - cos 40) / (cos 20 - cos 40))^4, as in pbrt. */
+static void test_spot(struct test *t)
+{
+    static const char text[] =
+        "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4 WorldBegin\n"
+        "LightSource \"spot\" \"rgb I\" [2 2 2] \"point from\" [0 0 0] \"point to\" [0 0 1]\n"
+        "  \"float coneangle\" 40 \"float conedeltaangle\" 20 Shape \"sphere\" WorldEnd\n";
+    struct scene scene;
+    if (!scene_from_text(t, text, &scene))
+        return;
+    struct light_point at = {.light = 0};
+    for (int degrees = 0; degrees < 60; degrees += 3) {
+        double a = degrees * PI / 180, inner = cos(20 * PI / 180), outer = cos(40 * PI / 180);
+        double share = fmin(1, fmax(0, (cos(a) - outer) / (inner - outer)));
+        double expected = 2 * share * share * share * share;
+        double found = light_Le(&scene.lights, &at, vec(sin(a), 0, cos(a))).g;
+        CHECK(t, fabs(found - expected) < 1e-6, "a spot at %d degrees has %g, not %g", degrees, found, expected);
+    }
+    scene_free(&scene);
+}
+
+/* The edge of a lit plane through filters with negative parts: eye paths draw from the filter and carry its weight, light
+ * paths are spread by it; pixel by pixel they agree. */
+static void test_filter_edge(struct test *t)
+{
+    static const char text[] =
+        "LookAt 0 0 -4  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 20\n"
+        "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 PixelFilter \"%s\"\n"
+        "WorldBegin LightSource \"point\" \"point from\" [0 0 -3] \"rgb I\" [9 9 9] Material \"matte\" \"rgb Kd\" [.8 .8 .8]\n"
+        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-3 -3 0  .03 -3 0  .03 3 0  -3 3 0]\n"
+        "WorldEnd\n";
+    static const char *const filters[] = {"mitchell", "sinc"};
+    for (int i = 0; i < 2; i++) {
+        char filled[1024];
+        struct scene scene;
+        snprintf(filled, sizeof filled, text, filters[i]);
+        if (!scene_from_text(t, filled, &scene))
+            continue;
+        double ratio;
+        struct batches pt = render_batches(t, &scene, "pt", 1, 200, 16, 1, 826);
+        struct batches lt = render_batches(t, &scene, "lt", 1, 2000, 16, 1, 827);
+        double p = batches_p(&pt, &lt, &ratio);
+        TEST_ACCEPT(t, p, "an edge through the %s filter: pt against lt, ratio %.4f", filters[i], ratio);
+        filter_default("triangle", &scene.filter);
+        filter_prepare(&scene.filter);
+        struct batches other = render_batches(t, &scene, "pt", 1, 200, 16, 1, 828);
+        TEST_REJECT(t, batches_p(&other, &lt, &ratio), "an edge through the triangle instead of the %s filter", filters[i]);
+        batches_free(&pt);
+        batches_free(&lt);
+        batches_free(&other);
+        scene_free(&scene);
+    }
+}
+
 static struct batches render(struct test *t, const char *name, const char *method, int size, int spp, uint64_t seed)
 {
     char path[256];
@@ -117,6 +229,10 @@ static void test_agreement(struct test *t, int spp)
 void test_scenes(struct test *t)
 {
     test_analytic(t);
+    test_sides(t);
+    test_holes(t);
+    test_spot(t);
+    test_filter_edge(t);
     test_light_pairs(t, 8);
     test_mirrored(t, 16);
     test_agreement(t, 8);

@@ -30,6 +30,10 @@ static void check_rng(struct test *t)
     uint32_t first = rng_u32(&a);
     CHECK(t, first == rng_u32(&b), "one name, two streams");
     CHECK(t, first != rng_u32(&c), "purposes share their numbers");
+    struct rng seed = rng_stream(2, RNG_EYE, 7, 3), index = rng_stream(1, RNG_EYE, 8, 3), next = rng_stream(1, RNG_EYE, 7, 4);
+    CHECK(t, first != rng_u32(&seed), "seeds share their numbers");
+    CHECK(t, first != rng_u32(&index), "pixels share their numbers");
+    CHECK(t, first != rng_u32(&next), "iterations share their numbers");
     for (int i = 0; i < 1000; i++) {
         uint32_t below = rng_below(&a, 7);
         double u = rng_uniform(&a);

@@ -2,8 +2,10 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "../src/compare.h"
 #include "../src/mem.h"
 #include "../src/rng.h"
+#include "../src/srgb.h"
 #include "../src/stats.h"
 #include "../src/verify.h"
 #include "helpers.h"
@@ -119,6 +121,21 @@ static void test_tiles(struct test *t)
     sample_free(&tiles);
 }
 
+/* The figures of `compare` for differences chosen by hand. */
+static void test_compare(struct test *t)
+{
+    const float r[4] = {0, 1, 0.5f, 0.25f}, x[4] = {0, 1, 0.75f, 0.5f};
+    struct difference d = compare_pixels(x, r, 4);
+    double e8[2] = {srgb_byte(0.75) - srgb_byte(0.5), srgb_byte(0.5) - srgb_byte(0.25)};
+    CHECK(t, fabs(d.rmse - sqrt(2 * 0.0625 / 4)) < 1e-12, "rmse is %g", d.rmse);
+    CHECK(t, fabs(d.rmse8 - sqrt((e8[0] * e8[0] + e8[1] * e8[1]) / 4)) < 1e-12, "rmse8 is %g", d.rmse8);
+    CHECK(t, fabs(d.relmse - (0.0625 / 0.26 + 0.0625 / 0.0725) / 4) < 1e-12, "relmse is %g", d.relmse);
+    CHECK(t, fabs(d.mean_ratio - 2.25 / 1.75) < 1e-12, "mean_ratio is %g", d.mean_ratio);
+    const float broken[2] = {NAN, 1}, whole[2] = {1, 1};
+    d = compare_pixels(broken, whole, 2);
+    CHECK(t, d.nonfinite == 1 && d.rmse == 0, "a NaN is counted %ld times and changes rmse to %g", d.nonfinite, d.rmse);
+}
+
 /* bdpt and pt agree on the Cornell box; bins, with the same samples, does not agree with either. */
 static void test_methods(struct test *t)
 {
@@ -146,6 +163,7 @@ static void test_methods(struct test *t)
 void test_verify(struct test *t)
 {
     test_tiles(t);
+    test_compare(t);
     test_level(t, 0);
     test_level(t, 0.5);
     test_power(t);
