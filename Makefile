@@ -9,6 +9,7 @@ LIBS     = -lm -lpthread
 OBJ      = $(patsubst src/%.c,$(BUILD)/%.o,$(wildcard src/*.c))
 TEST_OBJ = $(filter-out $(BUILD)/main.o,$(OBJ)) $(patsubst test/%.c,$(BUILD)/test_%.o,$(wildcard test/*.c))
 PROGRAM  = ./asbdpt
+SCENES   = $(addprefix scenes/,$(addsuffix .pbrt,cornell-box cornell-box-modified veach-ajar bathroom living-room))
 
 all: asbdpt ## build ./asbdpt (the default)
 
@@ -39,6 +40,9 @@ test: asbdpt $(BUILD)/test layers ## build and run the test suite (under 3 minut
 check-long: asbdpt $(BUILD)/test ## the tests that take longer
 	$(BUILD)/test --slow
 
+bench: asbdpt | out ## measure speed and memory on the scenes (or SCENES="..."), beside doc/bench-baseline.json
+	$(PROGRAM) bench $(SCENES) --json out/bench.json --baseline doc/bench-baseline.json
+
 layers: ## check that every file includes only lower layers, and that headers compile alone
 	@sh test/layers.sh $(CC)
 
@@ -58,4 +62,4 @@ clean: ## remove everything that was built
 
 -include $(wildcard $(BUILD)/*.d)
 
-.PHONY: all demo test check-long layers san tsan help clean
+.PHONY: all demo test bench check-long layers san tsan help clean
