@@ -1,7 +1,7 @@
 # asbdpt: `make help` lists the targets. Needs a C99 compiler, make, libm and POSIX threads.
 CC       = cc
 BUILD    = build
-OPT      = -O2
+OPT      = -O3
 WARN     = -std=c99 -pedantic -Wall -Wextra -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wswitch
 # No fast-math; contraction off, so that one compiler gives one result. CFLAGS is the user's and comes last.
 FLAGS    = $(WARN) $(OPT) -ffp-contract=off -pthread
