@@ -3,8 +3,8 @@ CC       = cc
 BUILD    = build
 OPT      = -O3
 WARN     = -std=c99 -pedantic -Wall -Wextra -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wswitch
-# No fast-math; contraction off, so that one compiler gives one result. CFLAGS is the user's and comes last.
-FLAGS    = $(WARN) $(OPT) -ffp-contract=off -pthread
+# No fast-math; contraction off, so that one compiler gives one result. Nobody reads errno after sqrt. CFLAGS is the user's and comes last.
+FLAGS    = $(WARN) $(OPT) -ffp-contract=off -fno-math-errno -pthread
 LIBS     = -lm -lpthread
 OBJ      = $(patsubst src/%.c,$(BUILD)/%.o,$(wildcard src/*.c))
 TEST_OBJ = $(filter-out $(BUILD)/main.o,$(OBJ)) $(patsubst test/%.c,$(BUILD)/test_%.o,$(wildcard test/*.c))
@@ -37,11 +37,15 @@ test: asbdpt $(BUILD)/test layers ## build and run the test suite (under 3 minut
 	sh test/cli.sh $(PROGRAM)
 	$(BUILD)/test
 
-check-long: asbdpt $(BUILD)/test ## the tests that take longer
+check-long: asbdpt $(BUILD)/test experiments ## the tests that take longer
 	$(BUILD)/test --slow
 
 bench: asbdpt | out ## measure speed and memory on the scenes (or SCENES="..."), beside doc/bench-baseline.json
 	$(PROGRAM) bench $(SCENES) --json out/bench.json --baseline doc/bench-baseline.json
+
+experiments: asbdpt | out ## measure all methods on the five scenes, quickly, into out/experiments/report.html
+	$(PROGRAM) experiment --quick -o out/experiments
+	sh test/report_browser.sh out/experiments/report.html
 
 layers: ## check that every file includes only lower layers, and that headers compile alone
 	@sh test/layers.sh $(CC)
@@ -62,4 +66,4 @@ clean: ## remove everything that was built
 
 -include $(wildcard $(BUILD)/*.d)
 
-.PHONY: all demo test bench check-long layers san tsan help clean
+.PHONY: all demo test bench check-long experiments layers san tsan help clean

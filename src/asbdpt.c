@@ -9,14 +9,14 @@
 #include "select.h"
 #include "trace.h"
 
-enum { GUIDE_CELLS = 12 }; /* regions of guide.h along the scene's diameter */
+enum { MIN_GUIDED_CELLS = 4 }; /* with fewer there is nothing to choose among */
 
 static const struct parameter PARAMETERS[] = {
     {"select", "vertices", "bins (the dissertation, biased), pool, or vertices"},
     {"metric", "importance", "pool, vertices: constant, throughput or importance"},
-    {"delta", "0.05", "pool, vertices: share of draws that ignore the importance, (0,1]"},
-    {"connections", "8", "vertices: light vertices drawn per eye vertex"},
-    {"grid", "128", "pool, vertices: cells of the importance grid along the scene's diagonal"},
+    {"delta", "0.1", "pool, vertices: share of draws that ignore the importance, (0,1]"},
+    {"connections", "0", "vertices: light vertices drawn per eye vertex; 0: chosen from the pre-pass"},
+    {"grid", "64", "pool, vertices: cells of the importance grid along the scene's diagonal"},
     {"lightsamplestrategy", "spatial", "pool, vertices: s = 1 picks lights by power, or spatial: by what is seen"},
     {"binpaths", "8", "bins: light sub-paths per pixel, even"},
     {"maxage", "24", "bins: iterations after which an unused sub-path is replaced, 0: never"},
@@ -44,9 +44,9 @@ static bool read_parameters(const struct settings *s, struct selection *sel, int
     int which = choice(s, "select", "vertices", selects, 3, err);
     int metric = which < 0 ? -1 : choice(s, "metric", "importance", metrics, 3, err);
     long connections, grid, paths, age;
-    if (metric < 0 || !settings_real(s, "delta", 0.05, 1e-6, 1, &sel->delta, err) ||
-        !settings_int(s, "connections", 8, 1, 1024, &connections, err) ||
-        !settings_int(s, "grid", 128, 1, 100000, &grid, err) || !settings_int(s, "binpaths", 8, 2, 4096, &paths, err) ||
+    if (metric < 0 || !settings_real(s, "delta", 0.1, 1e-6, 1, &sel->delta, err) ||
+        !settings_int(s, "connections", 0, 0, 1024, &connections, err) ||
+        !settings_int(s, "grid", 64, 1, 100000, &grid, err) || !settings_int(s, "binpaths", 8, 2, 4096, &paths, err) ||
         !settings_int(s, "maxage", 24, 0, LONG_MAX, &age, err) ||
         !settings_int(s, "restart", 32, 0, INT_MAX, restart, err))
         return false;
@@ -63,11 +63,18 @@ static bool read_parameters(const struct settings *s, struct selection *sel, int
     return true;
 }
 
-/* n(x) of vertices.c over C. */
-static double position_count(const void *context, vec3 p)
+/* n(x) of vertices.c over 2 C. */
+static double position_count(const void *context, vec3 p, vec3 ng)
 {
     const struct selection *sel = context;
-    return (1 - sel->delta) * importance_at(&sel->grid, p) / sel->grid.mean + sel->delta;
+    return (1 - sel->delta) * importance_at(&sel->grid, p, ng) / sel->grid.mean + sel->delta;
+}
+
+/* As many draws as are needed, on average, to meet one light vertex that the camera can make use of; between 2, below
+ * which tracing the sub-paths costs more than connecting them, and 8, where shadow rays begin to dominate. */
+static int choose_connections(const struct importance *grid)
+{
+    return (int)clamp(1 / grid->useful + 0.5, 2, 8);
 }
 
 /* Learn what the selection needs and set the sample counts accordingly. */
@@ -76,14 +83,16 @@ static void learn(struct selection *sel, const struct render_job *job, int cells
     const struct light_set *lights = &job->scene->lights;
     bool importance = sel->metric == METRIC_IMPORTANCE;
     importance_init(&sel->grid, lights, cells);
-    guide_init(&sel->guide, lights, GUIDE_CELLS);
+    spatial = spatial && lights->n_cells >= MIN_GUIDED_CELLS;
     if (importance || spatial)
         prepass_run(job, importance ? &sel->grid : NULL, spatial ? &sel->guide : NULL);
     if (spatial)
         sel->counts.guide = &sel->guide;
     if (sel->selector != &select_vertices)
         return;
-    sel->counts.connect = sel->connections;
+    if (sel->connections == 0)
+        sel->connections = importance ? choose_connections(&sel->grid) : 4;
+    sel->counts.connect = 2 * sel->connections; /* see vertices.c */
     if (importance && sel->grid.mean > 0) {
         sel->counts.at = position_count;
         sel->counts.at_context = sel;

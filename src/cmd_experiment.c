@@ -1,4 +1,5 @@
-/* cmd_experiment.c: asbdpt experiment [--quick|--full] [SCENE...] -o DIR: the dissertation's measurements, repeated. */
+/* cmd_experiment.c: asbdpt experiment [--quick|--full] [SCENE...] -o DIR: the dissertation's measurements,
+ * repeated. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

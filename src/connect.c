@@ -60,8 +60,7 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
                                  struct sampler *sampler, int *cell_out)
 {
     double u[3];
-    for (int i = 0; i < 3; i++)
-        u[i] = sampler_next(sampler);
+    sampler_next3(sampler, u);
     const struct light_set *lights = &scene->lights;
     if (cell_out != NULL)
         *cell_out = -1;

@@ -12,7 +12,6 @@
 
 #include "checksum.h"
 #include "compare.h"
-#include "file.h"
 #include "image.h"
 #include "mem.h"
 #include "parser.h"
@@ -34,7 +33,7 @@ struct stage {
     struct desk *desk;
     struct scene scene;
     struct scene_results *out;
-    unsigned long scene_crc;
+    unsigned long probe[N_VARIANTS]; /* what the program makes of the scene, see probe_variant; 0: not asked yet */
 };
 
 static bool show_progress(void *context, double done)
@@ -91,27 +90,44 @@ static bool make_directories(const struct plan *p, struct error *err)
     return true;
 }
 
-static unsigned long crc_of_file(const char *path)
+static unsigned long crc_of(const float *pixels, const struct scene_results *r)
 {
-    uint8_t *data;
-    size_t size;
-    if (!file_read(path, &data, &size, NULL))
-        return 0;
-    unsigned long crc = checksum_crc32(0, data, size);
-    free(data);
-    return crc;
+    return checksum_crc32(0, (const uint8_t *)pixels, (size_t)r->width * (size_t)r->height * 3 * sizeof *pixels);
 }
 
-/* The key of a run: everything its numbers depend on but the program itself. */
-static void run_key(const struct stage *s, int variant, int seed, char *out)
+/* Checksum of a picture of one sample per pixel: it changes when the scene, its files or the program do, so that
+ * results of another scene or another version of a method are not taken for this one's. 0 when it cannot be
+ * rendered, which the run itself will report. */
+static unsigned long probe_variant(struct stage *s, int variant)
+{
+    const struct plan *p = s->desk->plan;
+    struct render_options o = {
+        .method = method_find(VARIANTS[variant].method), .end = 1, .n_threads = p->n_threads};
+    struct film film;
+    if (s->probe[variant] != 0)
+        return s->probe[variant];
+    o.max_depth = s->out->max_depth;
+    film_init(&film, render_crop(&s->scene), s->scene.width, s->scene.height);
+    variant_settings(&VARIANTS[variant], &s->scene.settings);
+    if (render_scene(&s->scene, &o, &film, NULL)) {
+        float *pixels = mem_alloc((size_t)s->out->width * (size_t)s->out->height * 3, sizeof *pixels);
+        film_develop(&film, s->scene.film_scale, pixels);
+        s->probe[variant] = crc_of(pixels, s->out);
+        free(pixels);
+    }
+    film_free(&film);
+    return s->probe[variant];
+}
+
+/* The key of a run: everything its numbers depend on. */
+static void run_key(struct stage *s, int variant, int seed, char *out)
 {
     const struct variant *v = &VARIANTS[variant];
     const struct scene_results *r = s->out;
-    size_t bytes = (size_t)r->width * (size_t)r->height * 3 * sizeof(float);
-    unsigned long reference = checksum_crc32(0, (const uint8_t *)r->reference.pixels, bytes);
-    int n = snprintf(out, KEY_SIZE, "%s %08lx %dx%d maxdepth=%d reference=%08lx %s paths=%d restart=%d seed=%ld spp=",
-                     r->name, s->scene_crc, r->width, r->height, r->max_depth, reference, v->name, v->bin_paths,
-                     v->restart, plan_seed(variant, seed));
+    int n = snprintf(out, KEY_SIZE,
+                     "%s %08lx %dx%d maxdepth=%d reference=%08lx %s paths=%d restart=%d seed=%ld spp=", r->name,
+                     probe_variant(s, variant), r->width, r->height, r->max_depth, crc_of(r->reference.pixels, r),
+                     v->name, v->bin_paths, v->restart, plan_seed(variant, seed));
     for (int i = 0; i < s->desk->plan->n_steps && n < KEY_SIZE; i++)
         n += snprintf(out + n, (size_t)(KEY_SIZE - n), "%s%ld", i > 0 ? "," : "", s->desk->plan->spp[i]);
 }
@@ -139,7 +155,10 @@ static void measure(const struct stage *s, const struct film *film, long spp, do
     film_develop(film, s->scene.film_scale, pixels);
     struct difference d =
         compare_pixels(pixels, s->out->reference.pixels, (long)s->out->width * s->out->height * 3);
-    struct run_step step = {spp, seconds, d.rmse, d.rmse8, d.relmse, d.mean_ratio - 1, d.nonfinite + film->nonfinite};
+    struct run_step step = {.spp = spp, .seconds = seconds, .rmse = d.rmse, .rmse8 = d.rmse8, .relmse = d.relmse};
+    step.mean_error = d.mean_ratio - 1;
+    step.mean_noise = picture_mean_error(film);
+    step.nonfinite = d.nonfinite + film->nonfinite;
     *out = step;
 }
 
@@ -149,7 +168,8 @@ static void measure(const struct stage *s, const struct film *film, long spp, do
 static bool render_steps(struct stage *s, int variant, int seed, struct film *film, struct run *run, float *pixels)
 {
     const struct plan *p = s->desk->plan;
-    struct render_options o = {.method = method_find(VARIANTS[variant].method), .seed = (uint64_t)plan_seed(variant, seed)};
+    struct render_options o = {.method = method_find(VARIANTS[variant].method),
+                               .seed = (uint64_t)plan_seed(variant, seed)};
     o.n_threads = p->n_threads;
     o.max_depth = s->out->max_depth;
     o.progress = show_progress;
@@ -240,8 +260,8 @@ static bool make_reference(struct stage *s)
     struct scene_results *r = s->out;
     char key[KEY_SIZE], directory[PATH_SIZE];
     snprintf(directory, sizeof directory, "%s/reference", p->directory);
-    snprintf(key, sizeof key, "%s %08lx %dx%d maxdepth=%d bdpt spp=%ld", r->name, s->scene_crc, r->width, r->height,
-             r->max_depth, p->reference_spp);
+    snprintf(key, sizeof key, "%s %08lx %dx%d maxdepth=%d bdpt spp=%ld", r->name, probe_variant(s, VARIANT_BDPT),
+             r->width, r->height, r->max_depth, p->reference_spp);
     if (reference_read(directory, r->name, key, r->width, r->height, &r->reference)) {
         skip_work(s->desk, (double)p->reference_spp);
         return true;
@@ -282,7 +302,6 @@ static bool load_scene(struct stage *s)
     scene->width = s->out->width = p->width;
     scene->height = s->out->height = p->height > 0 ? p->height : height > 1 ? height : 1;
     filter_default("box", &scene->filter);
-    s->scene_crc = crc_of_file(s->out->path);
     if (!render_max_depth(scene, p->max_depth, &s->out->max_depth, err)) {
         scene_free(scene);
         return false;
@@ -321,8 +340,8 @@ static bool name_scenes(const struct plan *p, struct results *r, struct error *e
         plan_scene_name(s->path, s->name, sizeof s->name);
         for (int k = 0; k < i; k++)
             if (strcmp(s->name, r->scene[k].name) == 0)
-                return error_set(err, "%s and %s have the same name, %s; experiment with them one at a time", s->path,
-                                 r->scene[k].path, s->name);
+                return error_set(err, "%s and %s have the same name, %s; experiment with them one at a time",
+                                 s->path, r->scene[k].path, s->name);
     }
     return true;
 }

@@ -78,6 +78,7 @@ bool figure_make(const struct results *r, const struct scene_results *s, enum fi
     bool shown = true;
     memset(out, 0, sizeof *out);
     out->log_x = out->log_y = true;
+    out->data_ticks = f != FIGURE_CONVERGENCE; /* numbers of samples */
     switch (f) {
     case FIGURE_CONVERGENCE:
         set_text(text, "error against time", "seconds of CPU", rmse);

@@ -84,7 +84,8 @@ static void compare_with_printed(const struct results *r, const struct scene_res
         interval_text(ours, text), verdict_text(verdict_of(ours)));
     if (!isfinite(printed))
         return;
-    say(f, "The dissertation prints %.3f after %ld samples, %s: %s.", printed, at, printed < 1 ? "a gain" : "a loss",
+    say(f, "The dissertation prints %.3f after %ld samples, %s: %s.", printed, at,
+        printed < 1 ? "a gain" : "a loss",
         same == VERDICT_UNDECIDED ? "neither confirmed nor refuted here"
         : same == VERDICT_GAIN    ? "found again here"
                                   : "not found here");
@@ -103,9 +104,11 @@ static void tell_convergence(const struct results *r, const struct scene_results
         return;
     double more = (double)r->plan->spp[last] / (double)r->plan->spp[last - 1];
     say(f,
-        "From %ld to %ld samples the RMSE falls by a factor of %.3f for BDPT, %.3f for bins, %.3f for pool and %.3f for "
+        "From %ld to %ld samples the RMSE falls by a factor of %.3f for BDPT, %.3f for bins, %.3f for pool and "
+        "%.3f for "
         "vertices; without bias and with a perfect reference it would be %.3f.",
-        r->plan->spp[last - 1], r->plan->spp[last], mean_rmse(r, s, VARIANT_BDPT, last - 1) / mean_rmse(r, s, VARIANT_BDPT, last),
+        r->plan->spp[last - 1], r->plan->spp[last],
+        mean_rmse(r, s, VARIANT_BDPT, last - 1) / mean_rmse(r, s, VARIANT_BDPT, last),
         mean_rmse(r, s, VARIANT_BINS, last - 1) / mean_rmse(r, s, VARIANT_BINS, last),
         mean_rmse(r, s, VARIANT_POOL, last - 1) / mean_rmse(r, s, VARIANT_POOL, last),
         mean_rmse(r, s, VARIANT_VERTICES, last - 1) / mean_rmse(r, s, VARIANT_VERTICES, last), sqrt(more));
@@ -115,13 +118,13 @@ static void tell_bias(const struct results *r, const struct scene_results *s, st
 {
     int last = r->plan->n_steps - 1;
     for (int v = 0; v < N_METHODS; v++) {
-        struct estimate e = results_mean(s, plan_seeds(r->plan, v), v, last, Q_MEAN_ERROR);
-        double p = results_bias_p(r, s, v, last);
-        if (!isfinite(p))
-            continue;
-        say(f, "The mean of %s is off by %+.3f %% with a standard error of %.2g %% over seeds (reference: %.2g %%), p = %.2g: %s.",
-            VARIANTS[v].label, 100 * e.mean, 100 * e.error, 100 * s->reference.mean_error, p,
-            p < 0.01 ? "a bias" : "no bias seen");
+        struct bias b = results_bias(r, s, v, last);
+        if (isfinite(b.p))
+            say(f,
+                "The mean of %s is off by %+.3f %% with a standard error of %.2g %% (of which the reference %.2g "
+                "%%), p = %.2g: %s.",
+                VARIANTS[v].label, 100 * b.mean, 100 * b.error, 100 * s->reference.mean_error, b.p,
+                b.p < 0.01 ? "a bias" : "no bias seen");
     }
 }
 
@@ -185,8 +188,8 @@ static void count_gains(const struct results *r, int variant, struct findings *f
     say(f,
         "At equal time %s has less squared error than BDPT in %d of %d scenes, more in %d, undecided in %d; the "
         "geometric mean of the ratios is %.3f.",
-        VARIANTS[variant].label, count[VERDICT_GAIN], r->plan->n_scenes, count[VERDICT_LOSS], count[VERDICT_UNDECIDED],
-        known > 0 ? exp(log_sum / known) : NAN);
+        VARIANTS[variant].label, count[VERDICT_GAIN], r->plan->n_scenes, count[VERDICT_LOSS],
+        count[VERDICT_UNDECIDED], known > 0 ? exp(log_sum / known) : NAN);
 }
 
 static void count_biases(const struct results *r, struct findings *f)
@@ -196,9 +199,12 @@ static void count_biases(const struct results *r, struct findings *f)
         return;
     for (int i = 0; i < r->plan->n_scenes; i++)
         for (int v = 0; v < N_METHODS; v++)
-            biased[v] += results_bias_p(r, &r->scene[i], v, r->plan->n_steps - 1) < 0.01;
-    say(f, "The mean of the picture is off (p < 0.01) in %d of %d scenes for BDPT, %d for bins, %d for pool and %d for vertices.",
-        biased[VARIANT_BDPT], r->plan->n_scenes, biased[VARIANT_BINS], biased[VARIANT_POOL], biased[VARIANT_VERTICES]);
+            biased[v] += results_bias(r, &r->scene[i], v, r->plan->n_steps - 1).p < 0.01;
+    say(f,
+        "The mean of the picture is off (p < 0.01) in %d of %d scenes for BDPT, %d for bins, %d for pool and %d "
+        "for vertices.",
+        biased[VARIANT_BDPT], r->plan->n_scenes, biased[VARIANT_BINS], biased[VARIANT_POOL],
+        biased[VARIANT_VERTICES]);
 }
 
 void findings_total(const struct results *r, struct findings *out)

@@ -20,6 +20,14 @@ void grid_free(struct grid *g)
     memset(g, 0, sizeof *g);
 }
 
+void grid_copy(struct grid *to, const struct grid *from)
+{
+    *to = *from;
+    to->slot = mem_alloc(from->n_slots, sizeof *to->slot);
+    if (from->n_slots > 0)
+        memcpy(to->slot, from->slot, from->n_slots * sizeof *to->slot);
+}
+
 uint64_t grid_key(const struct grid *g, vec3 p, int face)
 {
     const double top = 1048575; /* 20 bits per axis */

@@ -30,6 +30,9 @@ struct grid {
 void grid_init(struct grid *g, vec3 center, double radius, int cells);
 void grid_free(struct grid *g);
 
+/* grid_copy: make *to, which must be empty, the same grid with memory of its own. */
+void grid_copy(struct grid *to, const struct grid *from);
+
 /* grid_key: the cell of a point; `face` 0..7 splits it further (0 if unused). Points outside share the border cells. */
 uint64_t grid_key(const struct grid *g, vec3 p, int face);
 

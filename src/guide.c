@@ -6,69 +6,93 @@
 
 #include "mem.h"
 
-void guide_init(struct guide *g, const struct light_set *lights, int cells)
+void guide_lessons_init(struct guide_lessons *l, const struct light_set *lights, int cells)
 {
-    memset(g, 0, sizeof *g);
-    g->lights = lights;
-    grid_init(&g->grid, lights->center, lights->radius, cells);
+    memset(l, 0, sizeof *l);
+    l->lights = lights;
+    grid_init(&l->grid, lights->center, lights->radius, cells);
 }
+
+void guide_lessons_free(struct guide_lessons *l)
+{
+    grid_free(&l->grid);
+    free(l->arrived);
+    free(l->samples);
+    memset(l, 0, sizeof *l);
+}
+
+uint64_t guide_key(const struct grid *grid, vec3 p, vec3 ng) { return grid_key(grid, p, grid_face(ng)); }
+
+static double *arrived_in(const struct guide_lessons *l, int region)
+{
+    return &l->arrived[(size_t)region * (size_t)l->lights->n_cells];
+}
+
+void guide_lessons_add(struct guide_lessons *l, uint64_t key, int cell, double value)
+{
+    if (!(value > 0))
+        return;
+    size_t cells = (size_t)l->lights->n_cells, known = (size_t)l->grid.n;
+    int i = grid_insert(&l->grid, key);
+    if ((size_t)l->grid.n > known) {
+        l->arrived = mem_grow(l->arrived, &l->arrived_capacity, (known + 1) * cells, sizeof *l->arrived);
+        l->samples = mem_grow(l->samples, &l->samples_capacity, known + 1, sizeof *l->samples);
+        memset(arrived_in(l, i), 0, cells * sizeof *l->arrived);
+        l->samples[i] = 0;
+    }
+    arrived_in(l, i)[cell] += value;
+    l->samples[i]++;
+}
+
+/* --- the tables -------------------------------------------------------------------------------------- */
 
 void guide_free(struct guide *g)
 {
-    for (int i = 0; i < g->grid.n; i++) {
-        free(g->region[i].arrived);
-        alias_free(&g->region[i].table);
-    }
-    free(g->region);
+    for (int i = 0; g->table != NULL && i < g->grid.n; i++)
+        alias_free(&g->table[i]);
+    free(g->table);
     grid_free(&g->grid);
     memset(g, 0, sizeof *g);
 }
 
-uint64_t guide_key(const struct guide *g, vec3 p, vec3 ng) { return grid_key(&g->grid, p, grid_face(ng)); }
-
-void guide_add(struct guide *g, uint64_t key, int cell, double value)
-{
-    if (!(value > 0))
-        return;
-    int known = g->grid.n, i = grid_insert(&g->grid, key);
-    if (i == known) {
-        g->region = mem_grow(g->region, &g->capacity, (size_t)i + 1, sizeof *g->region);
-        memset(&g->region[i], 0, sizeof g->region[i]);
-        g->region[i].arrived = mem_alloc((size_t)g->lights->n_cells, sizeof(double));
-    }
-    g->region[i].arrived[cell] += value;
-    g->region[i].samples++;
-}
-
-/* Scale an array to sum to 1; zeros stay. */
-static void normalise(double *x, int n)
+static double sum_of(const double *x, int n)
 {
     double sum = 0;
     for (int i = 0; i < n; i++)
         sum += x[i];
-    for (int i = 0; i < n && sum > 0; i++)
-        x[i] /= sum;
+    return sum;
 }
 
-void guide_finish(struct guide *g, double delta)
+/* Shares of the cells over all regions, times the number of samples: a region counts by its samples, not by how bright
+ * it is. Returns that number. */
+static double all_regions(const struct guide_lessons *l, double *all)
+{
+    int n = l->lights->n_cells;
+    double total = 0;
+    for (int i = 0; i < l->grid.n; i++) {
+        double share = l->samples[i] / sum_of(arrived_in(l, i), n);
+        for (int c = 0; c < n; c++)
+            all[c] += arrived_in(l, i)[c] * share;
+        total += l->samples[i];
+    }
+    return total;
+}
+
+void guide_build(struct guide *g, const struct guide_lessons *l, double delta)
 {
     const double K = 32; /* contributions after which a region's own shares count half */
-    int n = g->lights->n_cells;
+    int n = l->lights->n_cells;
     double *all = mem_alloc((size_t)n, sizeof *all), *q = mem_alloc((size_t)n, sizeof *q);
-    for (int i = 0; i < g->grid.n; i++) {
-        normalise(g->region[i].arrived, n);
+    double total = all_regions(l, all);
+    guide_free(g);
+    grid_copy(&g->grid, &l->grid);
+    g->table = mem_alloc((size_t)l->grid.n, sizeof *g->table);
+    for (int i = 0; i < l->grid.n; i++) {
+        const double *arrived = arrived_in(l, i), samples = l->samples[i];
+        double own = samples / (samples + K) / sum_of(arrived, n), others = K / (samples + K) / total;
         for (int c = 0; c < n; c++)
-            all[c] += g->region[i].arrived[c] * g->region[i].samples;
-    }
-    normalise(all, n);
-    for (int i = 0; i < g->grid.n; i++) {
-        struct guide_region *r = &g->region[i];
-        for (int c = 0; c < n; c++)
-            q[c] = delta * alias_pmf(&g->lights->choice, c) +
-                   (1 - delta) * (r->samples * r->arrived[c] + K * all[c]) / (r->samples + K);
-        alias_build(&r->table, q, n);
-        free(r->arrived);
-        r->arrived = NULL;
+            q[c] = delta * alias_pmf(&l->lights->choice, c) + (1 - delta) * (own * arrived[c] + others * all[c]);
+        alias_build(&g->table[i], q, n);
     }
     free(q);
     free(all);
@@ -76,8 +100,8 @@ void guide_finish(struct guide *g, double delta)
 
 const struct alias_table *guide_table(const struct guide *g, const struct light_set *lights, vec3 p, vec3 ng)
 {
-    int i = g == NULL ? -1 : grid_find(&g->grid, guide_key(g, p, ng));
-    return i < 0 ? &lights->choice : &g->region[i].table;
+    int i = g == NULL ? -1 : grid_find(&g->grid, guide_key(&g->grid, p, ng));
+    return i < 0 ? &lights->choice : &g->table[i];
 }
 
 double guide_ratio(const struct light_set *lights, const struct alias_table *table, int cell, vec3 w)

@@ -20,31 +20,35 @@
 #include "grid.h"
 #include "light.h"
 
-struct guide_region {
-    double *arrived; /* [n_cells] sums of contributions; freed by guide_finish */
-    double samples;  /* contributions other than zero */
-    struct alias_table table;
-};
-
-struct guide {
+/* What the pre-pass has found so far, per region. */
+struct guide_lessons {
     const struct light_set *lights;
     struct grid grid;
-    struct guide_region *region; /* [grid.n], owned */
-    size_t capacity;
+    double *arrived; /* [grid.n * n_cells] sums of contributions (luminance), owned */
+    double *samples; /* [grid.n] number of contributions other than zero, owned */
+    size_t arrived_capacity, samples_capacity;
 };
 
-/* guide_init: `cells` regions along the scene's diameter. */
-void guide_init(struct guide *g, const struct light_set *lights, int cells);
-void guide_free(struct guide *g);
+/* guide_lessons_init: `cells` regions along the scene's diameter. */
+void guide_lessons_init(struct guide_lessons *l, const struct light_set *lights, int cells);
+void guide_lessons_free(struct guide_lessons *l);
+
+/* guide_lessons_add: a light point of `cell` brought `value` >= 0 to a vertex of the region. */
+void guide_lessons_add(struct guide_lessons *l, uint64_t key, int cell, double value);
 
 /* guide_key: the region of a surface point with unit geometric normal ng. */
-uint64_t guide_key(const struct guide *g, vec3 p, vec3 ng);
+uint64_t guide_key(const struct grid *grid, vec3 p, vec3 ng);
 
-/* guide_add: a light point of `cell` brought `value` (luminance, >= 0) to a vertex of the region. */
-void guide_add(struct guide *g, uint64_t key, int cell, double value);
+/* The frozen tables. */
+struct guide {
+    struct grid grid;
+    struct alias_table *table; /* [grid.n], over all light cells; owned */
+};
 
-/* guide_finish: make the tables, with `delta` in (0,1]; nothing may be added afterwards. */
-void guide_finish(struct guide *g, double delta);
+/* guide_build: make the tables from the lessons, with `delta` in (0,1].
+ *   g  zero-initialised or built before; guide_free releases it */
+void guide_build(struct guide *g, const struct guide_lessons *l, double delta);
+void guide_free(struct guide *g);
 
 /* guide_table: the choice of light cells at a surface point; the lights' own where nothing is known or g is NULL. */
 const struct alias_table *guide_table(const struct guide *g, const struct light_set *lights, vec3 p, vec3 ng);

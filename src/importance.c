@@ -17,7 +17,10 @@ void importance_free(struct importance *g)
     memset(g, 0, sizeof *g);
 }
 
-uint64_t importance_key(const struct importance *g, vec3 p) { return grid_key(&g->grid, p, 0); }
+uint64_t importance_key(const struct importance *g, vec3 p, vec3 ng)
+{
+    return grid_key(&g->grid, p, grid_face(ng));
+}
 
 void importance_add(struct importance *g, uint64_t key, double luminance)
 {
@@ -29,9 +32,9 @@ void importance_add(struct importance *g, uint64_t key, double luminance)
     g->E[i] += luminance;
 }
 
-double importance_at(const struct importance *g, vec3 p)
+double importance_at(const struct importance *g, vec3 p, vec3 ng)
 {
-    int i = grid_find(&g->grid, importance_key(g, p));
+    int i = grid_find(&g->grid, importance_key(g, p, ng));
     return i < 0 ? 0 : g->E[i];
 }
 
@@ -40,6 +43,6 @@ double importance_of_path(const struct importance *g, const struct vertex *light
     double sum = 0;
     for (int i = 1; i < n; i++)
         if (vertex_connectible(&light[i]))
-            sum += rgb_luminance(light[i].beta) * importance_at(g, light[i].p);
+            sum += rgb_luminance(light[i].beta) * importance_at(g, light[i].p, light[i].ng);
     return sum;
 }

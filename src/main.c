@@ -48,6 +48,13 @@ static void print_help(void)
            "    --seed N             another set of random numbers (default 0)\n"
            "    --strategies DIR     write every strategy (s,t) as pictures of its own, unweighted and weighted\n"
            "    --quiet              no progress, no warnings\n");
+    printf("\noptions of experiment (scenes: the five of scenes/ unless named):\n"
+           "    -o DIR               where results go; started again with the same, it goes on where it stopped\n"
+           "    --quick, --full      48 pixels wide, 8 to 64 spp; or 320 wide, 32 to 512 spp and all parameter sweeps\n"
+           "    --spp N, --seeds N, --maxdepth N, --nthreads N, --quiet   as above; --seeds: renders per method\n"
+           "    --res WxH, --res W   size, or width alone with the scene's aspect ratio\n"
+           "    --reference PATH     picture, or directory of NAME.pfm (default: ref/ beside the scene, else rendered)\n"
+           "    --reference-spp N    samples of a reference rendered here\n");
     print_methods();
     printf("\nexit status: 0 success, 1 the job failed, 2 wrong usage\n");
 }

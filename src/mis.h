@@ -44,17 +44,17 @@ struct mis_counts {
     double connect; /* s >= 2, t >= 2: connection to a light sub-path's vertex */
     double splat;   /* s >= 2, t = 1: light sub-paths connected to the lens: how many are traced per iteration */
     /* If set, multiplies `connect` by a function of the light vertex that ends the light sub-path (design of
-     * `select = vertices`): it must depend on nothing but the position. */
-    double (*at)(const void *context, vec3 p);
+     * `select = vertices`): it must depend on nothing but the surface point. */
+    double (*at)(const void *context, vec3 p, vec3 ng);
     const void *at_context;
     const struct guide *guide; /* how s = 1 chooses lights (guide.h); NULL: by power */
     bool power; /* power heuristic instead of the balance heuristic */
 };
 
-/* mis_connect_count: n of strategies s >= 2, t >= 2 whose light sub-path ends at p. */
-static inline double mis_connect_count(const struct mis_counts *c, vec3 p)
+/* mis_connect_count: n of strategies s >= 2, t >= 2 whose light sub-path ends at p, with normal ng. */
+static inline double mis_connect_count(const struct mis_counts *c, vec3 p, vec3 ng)
 {
-    return c->at == 0 || c->connect == 0 ? c->connect : c->connect * c->at(c->at_context, p);
+    return c->at == 0 || c->connect == 0 ? c->connect : c->connect * c->at(c->at_context, p, ng);
 }
 
 /* mis_direct_count: n of strategies s = 1, t >= 2 that join a surface point to the end point y0.

@@ -129,6 +129,7 @@ static struct material make(struct parser *p, enum material_kind kind)
         m.index = refraction(p);
         m.opacity = grey(p, "opacity", 1);
         roughness(p, &m, 0.1, true);
+        m.vroughness = parse_float_texture_or(p, "vroughness", m.uroughness); /* pbrt's uber differs from its metal */
         break;
     case MATERIAL_TRANSLUCENT:
         m.Kd = grey(p, "Kd", 0.25);
@@ -163,5 +164,8 @@ bool parse_material(struct parser *p, int *out)
     if (!params_done(q))
         return false;
     *out = scene_add_material(p->scene, m);
+    if (!material_fits(p->scene->material, *out))
+        return place_error(&p->messages, q->place, "this mix has more than %d lobes in all; mix fewer materials",
+                           MATERIAL_MAX_LOBES);
     return true;
 }

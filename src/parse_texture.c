@@ -208,6 +208,10 @@ bool parse_texture(struct parser *p, const char *name, const char *type, struct 
     struct texture t = make(p, kind, is_float);
     if (!params_done(&p->params))
         return false;
-    names_add(is_float ? &p->float_textures : &p->spectrum_textures, name, texture_add(&p->scene->textures, t));
+    int id = texture_add(&p->scene->textures, t);
+    if (p->scene->textures.texture[id].cost > TEXTURE_MAX_COST)
+        return place_error(&p->messages, p->params.place, "this texture is built from more than %d others; use fewer",
+                           TEXTURE_MAX_COST);
+    names_add(is_float ? &p->float_textures : &p->spectrum_textures, name, id);
     return true;
 }

@@ -94,7 +94,7 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
     v->beta = from->beta;
     v->pdf_origin = mode == RADIANCE && at->light >= 0 ? light_pdf_surface(&w->scene->lights, &w->scene->geo, at) : 0;
     measure(w, v, prev, from, d2);
-    v->count = mis_connect_count(w->counts, v->p);
+    v->count = mis_connect_count(w->counts, v->p, v->ng);
     v->mis_c = count_before(w, v, prev, mode);
     material_bsdf(w->scene->material, at->material, &w->scene->textures, at, w->arena, &v->bsdf);
     return true;
@@ -104,8 +104,7 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
 static bool depart(const struct walk *w, const struct vertex *v, enum transport mode, struct departure *out)
 {
     double u[3];
-    for (int i = 0; i < 3; i++)
-        u[i] = sampler_next(w->sampler);
+    sampler_next3(w->sampler, u);
     struct bsdf_sample s;
     if (v->bsdf.n_lobes == 0 || !bsdf_sample(&v->bsdf, v->wo, u, mode, &s))
         return false;
@@ -186,15 +185,16 @@ void vertex_light_end(const struct scene *scene, const struct mis_counts *counts
 int path_light(const struct walk *w, struct vertex *path, int max_vertices)
 {
     const struct light_set *lights = &w->scene->lights;
-    double u[5];
-    for (int i = 0; i < 5; i++)
-        u[i] = sampler_next(w->sampler);
+    double u[3], direction[2];
+    sampler_next3(w->sampler, u);
+    direction[0] = sampler_next(w->sampler);
+    direction[1] = sampler_next(w->sampler);
     struct light_point at;
     if (max_vertices < 1 || !light_sample_point(lights, &w->scene->geo, u, &at))
         return 0;
     vertex_light_end(w->scene, w->counts, &at, &path[0]);
     struct departure from = {.pdf = 0};
-    rgb emitted = light_sample_emission(lights, &at, u + 3, &from.ray, &from.pdf);
+    rgb emitted = light_sample_emission(lights, &at, direction, &from.ray, &from.pdf);
     if (!(from.pdf > 0) || rgb_is_black(emitted))
         return 0;
     path[0].beta = light_Le(lights, &at, from.ray.d); /* not a throughput: nothing connects to this y_0 */

@@ -1,9 +1,9 @@
-/* pictures.h: the pictures of an experiment as PNG files: what each method made of a scene, its errors as a heat map,
- * and enlarged details of both.
+/* pictures.h: the pictures of an experiment as PNG files: what each method made of a scene, its errors as a heat
+ * map, and enlarged details of both.
  *
- * Heat maps go from blue (no error) to green (the largest error of any method in this scene), so that the maps of one
- * scene can be compared; errors are those of the displayed 8-bit values, as in the tables. The details are the two
- * windows, a fifth of the width wide, in which BDPT errs most.
+ * Heat maps go from blue (no error) to green (the largest error of any method in this scene), so that the maps of
+ * one scene can be compared; errors are those of the displayed 8-bit values, as in the tables. The details are the
+ * two windows, a fifth of the width wide, in which BDPT errs most.
  *
  * Used by: report, output. Tests: test_report.c.
  */

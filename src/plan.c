@@ -9,11 +9,11 @@ const struct variant VARIANTS[N_VARIANTS] = {
     {"bins", "ASBDPT bins", "asbdpt", "bins", 8, 32, true},
     {"pool", "ASBDPT pool", "asbdpt", "pool", 0, 0, true},
     {"vertices", "ASBDPT vertices", "asbdpt", "vertices", 0, 0, true},
-    {"bins-paths-4", "bins, 4 paths per set", "asbdpt", "bins", 4, 32, true},
-    {"bins-paths-16", "bins, 16 paths per set", "asbdpt", "bins", 16, 32, true},
-    {"bins-paths-32", "bins, 32 paths per set", "asbdpt", "bins", 32, 32, false},
+    {"bins-paths-4", "bins, 4 paths per set", "asbdpt", "bins", 4, 32, false},
+    {"bins-paths-16", "bins, 16 paths per set", "asbdpt", "bins", 16, 32, false},
+    {"bins-paths-32", "bins, 32 paths per set", "asbdpt", "bins", 32, 32, true},
     {"bins-restart-0", "bins, never restarted", "asbdpt", "bins", 8, 0, true},
-    {"bins-restart-8", "bins, restart every 8", "asbdpt", "bins", 8, 8, true},
+    {"bins-restart-8", "bins, restart every 8", "asbdpt", "bins", 8, 8, false},
     {"bins-restart-16", "bins, restart every 16", "asbdpt", "bins", 8, 16, false},
 };
 
@@ -31,9 +31,9 @@ const char *sweep_label(enum sweep s, int i) { return SWEEPS[s][i].label; }
 void plan_preset(struct plan *p, bool quick)
 {
     p->quick = quick;
-    p->width = quick ? 64 : 320;
+    p->width = quick ? 48 : 320;
     p->height = 0;
-    p->n_seeds = quick ? 2 : 3;
+    p->n_seeds = 3;
     p->sweep_seeds = 1;
     p->reference_spp = quick ? 256 : 4096;
     plan_set_spp(p, quick ? 8 : 32, quick ? 64 : 512, NULL);
@@ -44,8 +44,8 @@ bool plan_set_spp(struct plan *p, long first, long last, struct error *err)
     p->n_steps = 0;
     for (long n = first; n < last; n *= 2) {
         if (p->n_steps >= PLAN_MAX_STEPS - 1)
-            return error_set(err, "more than %d doublings of the samples from %ld to %ld", PLAN_MAX_STEPS - 1, first,
-                             last);
+            return error_set(err, "more than %d doublings of the samples from %ld to %ld", PLAN_MAX_STEPS - 1,
+                             first, last);
         p->spp[p->n_steps++] = n;
     }
     p->spp[p->n_steps++] = last;

@@ -1,7 +1,8 @@
 /* plan.h: what an experiment consists of: scenes x variants x seeds, each rendered to a rising number of samples.
  *
- * A variant is a method with its parameters. The first four are compared everywhere; the others move one parameter of
- * `bins` at a time, as the dissertation's appendix A does.                                         [S24 4, appendix A]
+ * A variant is a method with its parameters. The first four are compared everywhere; the others move one parameter
+ * of `bins` at a time, as the dissertation's appendix A does.                                         [S24 4,
+ * appendix A]
  *
  * Used by: run_file, reference, experiment, results and what shows them. Tests: test_report.c.
  */
@@ -58,28 +59,29 @@ struct plan {
     const char *reference; /* file or directory of stored references; NULL: ref/ beside the scene */
 };
 
-/* plan_preset: quick: 64 pixels wide, 8 to 64 spp, 2 seeds; full: 320 pixels wide, 32 to 512 spp, 3 seeds. */
+/* plan_preset: quick: 48 pixels wide, 8 to 64 spp, some of the sweeps; full: 320 pixels wide, 32 to 512 spp. */
 void plan_preset(struct plan *p, bool quick);
 
-/* plan_set_spp: measure at first, 2 first, 4 first ... up to `last`, which is always the last step. Returns false with
- * a message when that is too many steps. */
+/* plan_set_spp: measure at first, 2 first, 4 first ... up to `last`, which is always the last step. Returns false
+ * with a message when that is too many steps. */
 bool plan_set_spp(struct plan *p, long first, long last, struct error *err);
 
 /* plan_seeds: how often the plan renders a variant; 0 when it is left out. */
 int plan_seeds(const struct plan *p, int variant);
 
-/* plan_seed: the seed of repetition i = 1, 2, ... of a variant. Variants have seeds of their own, so that their errors
- * are independent. */
+/* plan_seed: the seed of repetition i = 1, 2, ... of a variant. Variants have seeds of their own, so that their
+ * errors are independent. */
 long plan_seed(int variant, int i);
 
-/* plan_first_sample: where the render of step i begins: at the samples of step i - 1, whose film it continues, or at 0
- * where that would not be the same as rendering in one go: bins must not be cut between two restarts. */
+/* plan_first_sample: where the render of step i begins: at the samples of step i - 1, whose film it continues, or
+ * at 0 where that would not be the same as rendering in one go: bins must not be cut between two restarts. */
 long plan_first_sample(const struct plan *p, int variant, int i);
 
 /* plan_run_spp: samples per pixel rendered for one run of a variant, over all steps. */
 long plan_run_spp(const struct plan *p, int variant);
 
-/* plan_scene_name: the file's name without .pbrt; for .../NAME/scene.pbrt the directory's. At most size - 1 bytes. */
+/* plan_scene_name: the file's name without .pbrt; for .../NAME/scene.pbrt the directory's. At most size - 1 bytes.
+ */
 void plan_scene_name(const char *path, char *out, int size);
 
 /* variant_settings: replace an integrator's settings by the variant's. */

@@ -45,18 +45,20 @@ static int linear_ticks(const struct axis *a, double tick[], bool major[])
     return n;
 }
 
-/* Numbers stand at powers of ten; on an axis with few of them also at 2 and 5, on a short one at every digit. */
+/* Numbers stand at powers of ten, not all of them on a very long axis; on one of few powers also at 2 and 5, on a
+ * short one at every digit. */
 static int log_ticks(const struct axis *a, double tick[], bool major[])
 {
     double decades = log10(a->high / a->low);
-    int n = 0;
-    for (double power = pow(10, floor(log10(a->low))); power <= a->high; power *= 10)
+    int n = 0, every = 1 + (int)(decades / 10);
+    for (int power = (int)floor(log10(a->low)); pow(10, power) <= a->high; power++)
         for (int digit = 1; digit <= 9; digit++) {
-            double value = digit * power;
+            double value = digit * pow(10, power);
             if (value < a->low || value > a->high || n >= PLOT_MAX_TICKS || (decades > 6 && digit != 1))
                 continue;
             tick[n] = value;
-            major[n] = digit == 1 || (decades < 2.2 && (digit == 2 || digit == 5)) || decades < 0.7;
+            major[n] = decades < 0.7 || (digit == 1 && power % every == 0) ||
+                       (decades < 2.2 && (digit == 2 || digit == 5));
             n++;
         }
     return n;
@@ -116,17 +118,26 @@ static double screen_y(const struct axis *a, double v) { return BOTTOM - (BOTTOM
 
 /* --- drawing ----------------------------------------------------------------------------------------- */
 
+static int data_ticks(const struct plot *p, double tick[], bool major[])
+{
+    for (int i = 0; i < p->line[0].n; i++) {
+        tick[i] = p->line[0].x[i];
+        major[i] = true;
+    }
+    return p->line[0].n;
+}
+
 static void write_x_axis(FILE *f, const struct plot *p, const struct axis *a)
 {
     double tick[PLOT_MAX_TICKS];
     bool major[PLOT_MAX_TICKS];
-    int n = axis_ticks(a, tick, major);
+    int n = p->data_ticks && p->n > 0 ? data_ticks(p, tick, major) : axis_ticks(a, tick, major);
     for (int i = 0; i < n; i++) {
         double x = screen_x(a, tick[i]);
         fprintf(f, "<path class=\"%s\" d=\"M%.1f %dV%d\"/>\n", major[i] ? "pg" : "pm", x, TOP, BOTTOM);
         if (major[i])
-            fprintf(f, "<text class=\"pt\" text-anchor=\"middle\" x=\"%.1f\" y=\"%d\">%.6g</text>\n", x, BOTTOM + 18,
-                    tick[i]);
+            fprintf(f, "<text class=\"pt\" text-anchor=\"middle\" x=\"%.1f\" y=\"%d\">%.6g</text>\n", x,
+                    BOTTOM + 18, tick[i]);
     }
     fprintf(f, "<text class=\"pt\" text-anchor=\"middle\" x=\"%d\" y=\"%d\">", (LEFT + RIGHT) / 2, BOTTOM + 38);
     xml_text(f, p->x_label);
@@ -181,7 +192,8 @@ static void write_line(FILE *f, const struct plot *p, int k, const struct axis *
         bar_ends(p, l, i, &low, &high);
         if (high > l->y[i]) {
             double a = screen_y(ya, low), b = screen_y(ya, high);
-            fprintf(f, "<path class=\"pl%d pe\" d=\"M%.1f %.1fV%.1fm-3 0h6M%.1f %.1fh6\"/>\n", k, x, a, b, x - 3, a);
+            fprintf(f, "<path class=\"pl%d pe\" d=\"M%.1f %.1fV%.1fm-3 0h6M%.1f %.1fh6\"/>\n", k, x, a, b, x - 3,
+                    a);
         }
         write_marker(f, k, x, screen_y(ya, l->y[i]));
     }
@@ -229,10 +241,11 @@ void plot_write(FILE *f, const struct plot *p, const char *id, bool standalone)
     struct axis xa, ya;
     int height = BOTTOM + 50 + 20 * ((p->n + 2) / 3);
     find_axes(p, &xa, &ya);
-    fprintf(f,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" viewBox=\"0 0 %d %d\" width=\"%d\" height=\"%d\" "
-            "role=\"img\" aria-labelledby=\"%s-t %s-d\">\n<title id=\"%s-t\">",
-            WIDTH, height, WIDTH, height, id, id, id);
+    fprintf(
+        f,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" viewBox=\"0 0 %d %d\" width=\"%d\" height=\"%d\" "
+        "role=\"img\" aria-labelledby=\"%s-t %s-d\">\n<title id=\"%s-t\">",
+        WIDTH, height, WIDTH, height, id, id, id);
     xml_text(f, p->title);
     fprintf(f, "</title>\n<desc id=\"%s-d\">", id);
     xml_text(f, p->description);

@@ -1,7 +1,7 @@
 /* plot.h: line plots as SVG text.
  *
- * Axes are linear or logarithmic, with ticks at round numbers; lines have markers of their own shape, so that they can
- * be told apart without colour, and error bars. Colours follow the reader's light or dark setting.
+ * Axes are linear or logarithmic, with ticks at round numbers; lines have markers of their own shape, so that they
+ * can be told apart without colour, and error bars. Colours follow the reader's light or dark setting.
  *
  * Used by: figures. Tests: test_report.c.
  */
@@ -24,7 +24,8 @@ struct plot {
     const char *title, *description; /* the description is for those who cannot see the picture */
     const char *x_label, *y_label;
     bool log_x, log_y;
-    bool zero_line; /* draw y = 0; linear y only */
+    bool zero_line;  /* draw y = 0; linear y only */
+    bool data_ticks; /* ticks of the x axis at the first line's points */
     int n;
     struct plot_line line[PLOT_MAX_LINES];
 };

@@ -12,10 +12,13 @@ enum {
     EYE_PER_PIXEL = 2,    /* eye sub-paths, at most MAX_EYE of them */
     MAX_EYE = 128 * 1024,
     MAX_LIGHT = 32 * 1024, /* light sub-paths for importance.mean, no more than eye sub-paths */
-    LIGHTS_PER_VERTEX = 8 /* light points tried from each eye vertex for the guide */
+    GUIDE_CELLS = 8,      /* regions of the guide along the scene's diameter */
+    ROUNDS = 3,            /* of learning the guide: each finds light with what the ones before have learnt */
+    LIGHTS_PER_VERTEX = 4  /* light points tried from each eye vertex for the guide */
 };
 
 static const double GUIDE_DELTA = 0.2; /* share of s = 1 samples that choose lights by power */
+static const double LEARN_DELTA = 0.5; /* the same while learning */
 
 /* Something an eye vertex found. */
 struct found {
@@ -24,21 +27,26 @@ struct found {
     double value;
 };
 
+/* Sums over the connectible vertices of light sub-paths; I = luminance(beta) E. */
+struct light_sums {
+    double vertices, E, I, square; /* square: of I */
+};
+
 struct chunk {
     struct found *found; /* [n], owned */
     size_t n, capacity;
-    double sum; /* light sub-paths: of E */
+    struct light_sums light;
 };
 
 struct prepass {
     const struct render_job *job;
     struct importance *importance;
-    struct guide *guide;
+    struct guide_lessons *lessons; /* NULL: no guide wanted */
     struct mis_counts counts; /* weights are not used here; any will do */
     struct workspace *work;   /* [n_threads] */
     struct chunk *chunk;      /* [n_slots] */
-    long n_paths;
-    double light_sum;
+    long first_path, n_paths; /* sub-paths of this round: [first_path, n_paths) */
+    struct light_sums light;
 };
 
 static void note(struct chunk *c, uint64_t key, int cell, double value)
@@ -55,11 +63,11 @@ static void study_vertex(const struct prepass *p, struct chunk *c, const struct 
     if (z->kind != VERTEX_SURFACE || !vertex_connectible(z))
         return;
     if (p->importance != NULL)
-        note(c, importance_key(p->importance, z->p), -1, rgb_luminance(z->beta));
-    for (int i = 0; p->guide != NULL && i < LIGHTS_PER_VERTEX; i++) {
+        note(c, importance_key(p->importance, z->p, z->ng), -1, rgb_luminance(z->beta));
+    for (int i = 0; p->lessons != NULL && i < LIGHTS_PER_VERTEX; i++) {
         int cell;
         struct connection found = connect_direct(p->job->scene, &p->counts, z, sampler, &cell);
-        note(c, guide_key(p->guide, z->p, z->ng), cell, rgb_luminance(found.value));
+        note(c, guide_key(&p->lessons->grid, z->p, z->ng), cell, rgb_luminance(found.value));
     }
 }
 
@@ -70,7 +78,7 @@ static void trace_eye_chunk(void *context, long job, int slot, int thread)
     struct workspace *work = &p->work[thread];
     struct pixel_rect film = p->job->film_rect;
     p->chunk[slot].n = 0;
-    for (long i = job * CHUNK; i < (job + 1) * CHUNK && i < p->n_paths; i++) {
+    for (long i = p->first_path + job * CHUNK; i < p->first_path + (job + 1) * CHUNK && i < p->n_paths; i++) {
         arena_reset(&work->arena);
         struct sampler sampler = sampler_start(p->job->seed, RNG_PREPASS, (uint64_t)i, 0);
         struct walk w = {p->job->scene, &p->counts, &work->arena, &sampler};
@@ -91,24 +99,34 @@ static bool merge_eye_chunk(void *context, long job, int slot)
         if (f->cell < 0)
             importance_add(p->importance, f->key, f->value);
         else
-            guide_add(p->guide, f->key, f->cell, f->value);
+            guide_lessons_add(p->lessons, f->key, f->cell, f->value);
     }
     return true;
+}
+
+static void study_light_vertex(const struct prepass *p, struct light_sums *s, const struct vertex *y)
+{
+    double E = importance_at(p->importance, y->p, y->ng), I = rgb_luminance(y->beta) * E;
+    s->vertices++;
+    s->E += E;
+    s->I += I;
+    s->square += I * I;
 }
 
 static void trace_light_chunk(void *context, long job, int slot, int thread)
 {
     struct prepass *p = context;
     struct workspace *work = &p->work[thread];
-    p->chunk[slot].sum = 0;
-    for (long i = job * CHUNK; i < (job + 1) * CHUNK && i < p->n_paths; i++) {
+    struct light_sums zero = {0, 0, 0, 0};
+    p->chunk[slot].light = zero;
+    for (long i = p->first_path + job * CHUNK; i < p->first_path + (job + 1) * CHUNK && i < p->n_paths; i++) {
         arena_reset(&work->arena);
         struct sampler sampler = sampler_start(p->job->seed, RNG_PREPASS, (uint64_t)i, 1);
         struct walk w = {p->job->scene, &p->counts, &work->arena, &sampler};
         int n = path_light(&w, work->light, p->job->max_depth + 1);
         for (int k = 1; k < n; k++)
             if (vertex_connectible(&work->light[k]))
-                p->chunk[slot].sum += importance_at(p->importance, work->light[k].p);
+                study_light_vertex(p, &p->chunk[slot].light, &work->light[k]);
     }
 }
 
@@ -116,7 +134,11 @@ static bool merge_light_chunk(void *context, long job, int slot)
 {
     (void)job;
     struct prepass *p = context;
-    p->light_sum += p->chunk[slot].sum;
+    const struct light_sums *s = &p->chunk[slot].light;
+    p->light.vertices += s->vertices;
+    p->light.E += s->E;
+    p->light.I += s->I;
+    p->light.square += s->square;
     return true;
 }
 
@@ -124,7 +146,7 @@ static bool merge_light_chunk(void *context, long job, int slot)
 static void run_chunks(struct prepass *p, void (*work)(void *, long, int, int), bool (*merge)(void *, long, int))
 {
     int n_threads = p->job->n_threads, n_slots = 4 * n_threads;
-    struct parallel_jobs jobs = {(p->n_paths + CHUNK - 1) / CHUNK, n_threads, n_slots, p, work, merge};
+    struct parallel_jobs jobs = {(p->n_paths - p->first_path + CHUNK - 1) / CHUNK, n_threads, n_slots, p, work, merge};
     p->chunk = mem_alloc((size_t)n_slots, sizeof *p->chunk);
     p->work = workspaces_new(n_threads, p->job->max_depth);
     parallel_run(&jobs);
@@ -134,18 +156,36 @@ static void run_chunks(struct prepass *p, void (*work)(void *, long, int, int), 
     free(p->chunk);
 }
 
+/* Each round looks for light with what the rounds before have learnt; the guide is rebuilt between rounds only, while no
+ * thread reads it. */
+static void learn_in_rounds(struct prepass *p, long n_eye, struct guide *guide)
+{
+    for (int round = 0; round < ROUNDS; round++) {
+        p->first_path = n_eye * round / ROUNDS;
+        p->n_paths = n_eye * (round + 1) / ROUNDS;
+        run_chunks(p, trace_eye_chunk, merge_eye_chunk);
+        if (guide != NULL)
+            guide_build(guide, p->lessons, round + 1 < ROUNDS ? LEARN_DELTA : GUIDE_DELTA);
+        p->counts.guide = guide;
+    }
+}
+
 void prepass_run(const struct render_job *job, struct importance *importance, struct guide *guide)
 {
-    struct prepass p = {.job = job, .importance = importance, .guide = guide};
+    struct prepass p = {.job = job, .importance = importance};
+    struct guide_lessons lessons;
+    guide_lessons_init(&lessons, &job->scene->lights, GUIDE_CELLS);
+    p.lessons = guide != NULL ? &lessons : NULL;
     p.counts.direct = 1;
     long wanted = (long)rect_width(job->film_rect) * rect_height(job->film_rect) * EYE_PER_PIXEL;
-    p.n_paths = wanted < MAX_EYE ? wanted : MAX_EYE;
-    run_chunks(&p, trace_eye_chunk, merge_eye_chunk);
-    if (guide != NULL)
-        guide_finish(guide, GUIDE_DELTA);
+    long n_eye = wanted < MAX_EYE ? wanted : MAX_EYE;
+    learn_in_rounds(&p, n_eye, guide);
+    guide_lessons_free(&lessons);
     if (importance == NULL)
         return;
-    p.n_paths = p.n_paths < MAX_LIGHT ? p.n_paths : MAX_LIGHT;
+    p.first_path = 0;
+    p.n_paths = n_eye < MAX_LIGHT ? n_eye : MAX_LIGHT;
     run_chunks(&p, trace_light_chunk, merge_light_chunk);
-    importance->mean = p.light_sum / (double)p.n_paths;
+    importance->mean = p.light.E / (double)p.n_paths;
+    importance->useful = p.light.square > 0 ? p.light.I * p.light.I / (p.light.square * p.light.vertices) : 1;
 }

@@ -11,7 +11,8 @@
 #include "method.h"
 
 /* prepass_run: trace eye sub-paths through the whole film, then light sub-paths for importance.mean.
- *   importance, guide  initialised; either may be NULL
+ *   importance  initialised, or NULL
+ *   guide       zero-initialised, or NULL
  * The result depends on job's scene, film, seed and depth, not on its threads. */
 void prepass_run(const struct render_job *job, struct importance *importance, struct guide *guide);
 

@@ -1,4 +1,5 @@
-/* published.h: the root mean square errors that the dissertation printed, to be laid beside ours.     [S24 chapter 4]
+/* published.h: the root mean square errors that the dissertation printed, to be laid beside ours.     [S24 chapter
+ * 4]
  *
  * Used by: tables, findings. Tests: test_report.c.
  */

@@ -68,8 +68,8 @@ static float *shrink(const float *pixels, int width, int height, int k)
                 double sum = 0;
                 for (int j = 0; j < k; j++)
                     for (int i = 0; i < k; i++)
-                        sum += (double)pixels[3 * ((size_t)(y * k + j) * (size_t)width + (size_t)(x * k + i)) +
-                                              (size_t)c];
+                        sum += (double)
+                            pixels[3 * ((size_t)(y * k + j) * (size_t)width + (size_t)(x * k + i)) + (size_t)c];
                 out[3 * ((size_t)y * (size_t)w + (size_t)x) + (size_t)c] = (float)(sum / (k * k));
             }
     return out;
@@ -111,8 +111,8 @@ static bool readable(const char *path)
     return f != NULL;
 }
 
-int reference_find(const char *given, const char *scene_path, const char *name, int width, int height, int max_depth,
-                   struct reference *out, struct error *err)
+int reference_find(const char *given, const char *scene_path, const char *name, int width, int height,
+                   int max_depth, struct reference *out, struct error *err)
 {
     char path[4096];
     if (given != NULL) {
@@ -148,9 +148,24 @@ static bool half_progress(void *context, double done)
            h->options->progress(h->options->progress_context, 0.5 * (h->number + done));
 }
 
-/* Render half number i into `out`; `variance` is that of the sum of all its values. */
+double picture_mean_error(const struct film *film)
+{
+    size_t n = (size_t)rect_width(film->rect) * (size_t)rect_height(film->rect) * 3;
+    float *error = mem_alloc(n, sizeof *error);
+    double square[3] = {0, 0, 0}, total = 0;
+    film_standard_error(film, 1, error);
+    for (size_t i = 0; i < n; i++) {
+        square[i % 3] += (double)error[i] * (double)error[i];
+        total += (film->own[i] + film->splat[i]) / (double)film->iterations;
+    }
+    free(error);
+    /* The channels of a pixel are not independent: take them as fully dependent, the worst case. */
+    return total > 0 ? (sqrt(square[0]) + sqrt(square[1]) + sqrt(square[2])) / total : NAN;
+}
+
+/* Render half number i into `out`; `mean_error` as picture_mean_error has it. */
 static bool render_half(const struct scene *scene, const struct render_options *options, long spp, int i,
-                        float *out, double *variance, struct error *err)
+                        float *out, double *mean_error, struct error *err)
 {
     struct halves context = {options, i};
     struct render_options o = *options;
@@ -163,17 +178,8 @@ static bool render_half(const struct scene *scene, const struct render_options *
     film_init(&film, render_crop(scene), scene->width, scene->height);
     bool ok = render_scene(scene, &o, &film, err);
     if (ok) {
-        size_t n = (size_t)scene->width * (size_t)scene->height * 3;
-        float *error = mem_alloc(n, sizeof *error);
-        double sum[3] = {0, 0, 0};
         film_develop(&film, scene->film_scale, out);
-        film_standard_error(&film, scene->film_scale, error);
-        for (size_t k = 0; k < n; k++)
-            sum[k % 3] += (double)error[k] * (double)error[k];
-        /* Pixels are independent; the channels of one are not: take them as fully dependent, the worst case. */
-        double deviation = sqrt(sum[0]) + sqrt(sum[1]) + sqrt(sum[2]);
-        *variance = deviation * deviation;
-        free(error);
+        *mean_error = picture_mean_error(&film);
     }
     film_free(&film);
     return ok;
@@ -185,18 +191,17 @@ bool reference_render(const struct scene *scene, const struct render_options *op
     size_t n = (size_t)scene->width * (size_t)scene->height * 3;
     long half = spp / 2 > 1 ? spp / 2 : 2;
     float *a = mem_alloc(n, sizeof *a), *b = mem_alloc(n, sizeof *b);
-    double variance[2] = {0, 0}, total = 0;
-    bool ok = render_half(scene, options, half, 0, a, &variance[0], err) &&
-              render_half(scene, options, half, 1, b, &variance[1], err);
+    double error[2] = {NAN, NAN};
+    bool ok = render_half(scene, options, half, 0, a, &error[0], err) &&
+              render_half(scene, options, half, 1, b, &error[1], err);
     if (ok) {
         out->noise8 = compare_pixels(a, b, (long)n).rmse8 / 2;
-        for (size_t i = 0; i < n; i++) {
+        out->mean_error = 0.5 * sqrt(error[0] * error[0] + error[1] * error[1]);
+        for (size_t i = 0; i < n; i++)
             a[i] = 0.5f * (a[i] + b[i]);
-            total += (double)a[i];
-        }
-        out->mean_error = total > 0 ? 0.5 * sqrt(variance[0] + variance[1]) / total : NAN;
-        snprintf(out->origin, sizeof out->origin, "rendered by this program: %s, two halves of %ld spp, seeds %lu and %lu",
-                 options->method->name, half, (unsigned long)options->seed, (unsigned long)options->seed + 1);
+        snprintf(out->origin, sizeof out->origin,
+                 "rendered by this program: %s, two halves of %ld spp, seeds %lu and %lu", options->method->name,
+                 half, (unsigned long)options->seed, (unsigned long)options->seed + 1);
         out->pixels = a;
     } else {
         free(a);
@@ -216,8 +221,8 @@ bool reference_write(const struct reference *r, const char *directory, const cha
     snprintf(path, sizeof path, "%s/%s.txt", directory, name);
     if (!file_create(path, &f, err))
         return false;
-    fprintf(f.stream, "key %s\nresolution %dx%d\nmaxdepth %d\nnoise8 %.9g\nmean_error %.9g\norigin %s\n", key, width,
-            height, max_depth, r->noise8, r->mean_error, r->origin);
+    fprintf(f.stream, "key %s\nresolution %dx%d\nmaxdepth %d\nnoise8 %.9g\nmean_error %.9g\norigin %s\n", key,
+            width, height, max_depth, r->noise8, r->mean_error, r->origin);
     return file_commit(&f, err);
 }
 

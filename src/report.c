@@ -52,7 +52,10 @@ static void write_command(FILE *f, const struct results *r, void (*text)(FILE *,
     fputs("\n", f);
 }
 
-static const char *subject(int variant) { return variant == PICTURE_REFERENCE ? "reference" : VARIANTS[variant].label; }
+static const char *subject(int variant)
+{
+    return variant == PICTURE_REFERENCE ? "reference" : VARIANTS[variant].label;
+}
 
 /* The first seed's error after all samples: the one of the picture shown. */
 static double shown_rmse(const struct results *r, const struct scene_results *s, int variant)
@@ -71,7 +74,8 @@ static void write_alt(FILE *f, const struct results *r, const struct scene_resul
     else
         fprintf(f, " rendered by %s", variant == PICTURE_REFERENCE ? "the reference" : subject(variant));
     if (variant != PICTURE_REFERENCE)
-        fprintf(f, ", %ld samples per pixel, RMSE %.3g", r->plan->spp[r->plan->n_steps - 1], shown_rmse(r, s, variant));
+        fprintf(f, ", %ld samples per pixel, RMSE %.3g", r->plan->spp[r->plan->n_steps - 1],
+                shown_rmse(r, s, variant));
 }
 
 /* One picture as a figure, its file inside the page. Whole pictures are also offered to the viewer. */
@@ -116,8 +120,10 @@ static bool write_row(FILE *f, const struct results *r, const struct scene_resul
 
 static void write_scale(FILE *f, const struct scene_results *s)
 {
-    fprintf(f, "<p class=\"scale\"><span>0</span><i></i><span>%.4g of 255: the largest error of any method</span></p>\n",
-            pictures_largest_error(s));
+    fprintf(
+        f,
+        "<p class=\"scale\"><span>0</span><i></i><span>%.4g of 255: the largest error of any method</span></p>\n",
+        pictures_largest_error(s));
 }
 
 /* --- a scene ----------------------------------------------------------------------------------------- */
@@ -138,8 +144,8 @@ static bool write_pictures(FILE *f, const struct results *r, const struct scene_
         return false;
     for (int i = 1; i <= N_DETAILS; i++) {
         const struct detail *d = &detail[i - 1];
-        fprintf(f, "<p class=\"note\">Detail %d: %d x %d pixels at (%d, %d), where BDPT errs %smost.</p>\n", i, d->width,
-                d->height, d->x, d->y, i == 1 ? "" : "next ");
+        fprintf(f, "<p class=\"note\">Detail %d: %d x %d pixels at (%d, %d), where BDPT errs %smost.</p>\n", i,
+                d->width, d->height, d->x, d->y, i == 1 ? "" : "next ");
         if (!write_row(f, r, s, false, i, err) || !write_row(f, r, s, true, i, err))
             return false;
     }
@@ -182,7 +188,8 @@ static bool write_scene(FILE *f, const struct results *r, const struct scene_res
     xml_text(f, s->name);
     fputs("\">\n", f);
     paragraph(f, "h2", s->name);
-    fprintf(f, "<p class=\"note\">%d x %d pixels, paths up to maxdepth %d. Reference: ", s->width, s->height, s->max_depth);
+    fprintf(f, "<p class=\"note\">%d x %d pixels, paths up to maxdepth %d. Reference: ", s->width, s->height,
+            s->max_depth);
     xml_text(f, s->reference.origin);
     fputs(".</p>\n", f);
     findings_scene(r, s, &findings);
@@ -203,8 +210,10 @@ static void write_lead(FILE *f, const struct results *r, void (*text)(FILE *, co
     const struct plan *p = r->plan;
     char line[600];
     snprintf(line, sizeof line,
-             "BDPT and three ways in which ASBDPT chooses light sub-paths (bins, the dissertation's; pool and vertices, its "
-             "repairs) in %d scene%s, each rendered to %ld, doubled up to %ld, samples per pixel with %d seed%s per method "
+             "BDPT and three ways in which ASBDPT chooses light sub-paths (bins, the dissertation's; pool and "
+             "vertices, its "
+             "repairs) in %d scene%s, each rendered to %ld, doubled up to %ld, samples per pixel with %d seed%s "
+             "per method "
              "(%d for the parameter sweeps) and compared with a reference. Box filter, balance heuristic.",
              p->n_scenes, p->n_scenes == 1 ? "" : "s", p->spp[0], p->spp[p->n_steps - 1], p->n_seeds,
              p->n_seeds == 1 ? "" : "s", p->sweep_seeds < p->n_seeds ? p->sweep_seeds : p->n_seeds);
@@ -251,15 +260,20 @@ static void write_total(FILE *f, const struct results *r)
 
 /* What the numbers mean; nothing here depends on the results. */
 static const char *const NOTES[] = {
-    "RMSE is the root mean square difference to the reference of all 8-bit sRGB values, 0 to 255, the dissertation's scale; "
+    "RMSE is the root mean square difference to the reference of all 8-bit sRGB values, 0 to 255, the "
+    "dissertation's scale; "
     "results.csv also has it on linear values, and the relative squared error.",
-    "Seconds are CPU seconds of all threads together, with the method's own preparation, without loading the scene.",
-    "Equal time: BDPT's squared error falls as one over its time, so (MSE - noise^2) x seconds, divided by the same of BDPT, "
-    "is the ratio of squared errors when both are given the same time. noise^2 is the squared error of the reference "
+    "Seconds are CPU seconds of all threads together, with the method's own preparation, without loading the "
+    "scene.",
+    "Equal time: BDPT's squared error falls as one over its time, so (MSE - noise^2) x seconds, divided by the "
+    "same of BDPT, "
+    "is the ratio of squared errors when both are given the same time. noise^2 is the squared error of the "
+    "reference "
     "itself, where known.",
     "Intervals are Welch's, at 95 %, on the logarithm of the ratio, over seeds. Few seeds give wide intervals.",
     "Signed mean error: mean of the picture over mean of the reference, less 1. Without bias it scatters around 0.",
-    "The printed numbers are from the dissertation's own models and its own pbrt-v3, against 16384 samples of BDPT; "
+    "The printed numbers are from the dissertation's own models and its own pbrt-v3, against 16384 samples of "
+    "BDPT; "
     "absolute values cannot agree with ours, the direction and shape of the ratios can.",
 };
 
@@ -270,16 +284,19 @@ static void write_how(FILE *f, const struct results *r)
     for (size_t i = 0; i < sizeof NOTES / sizeof NOTES[0]; i++)
         paragraph(f, "li", NOTES[i]);
     fprintf(f,
-            "<li>The printed Bathroom errors fall only from %.2f to %.2f between %ld and %ld samples for BDPT, where an "
+            "<li>The printed Bathroom errors fall only from %.2f to %.2f between %ld and %ld samples for BDPT, "
+            "where an "
             "unbiased method's fall to %.2f: that reference does not match its pictures.</li>\n</ul>\n",
-            bathroom->bdpt[0], bathroom->bdpt[PUBLISHED_STEPS - 1], published_spp(0), published_spp(PUBLISHED_STEPS - 1),
+            bathroom->bdpt[0], bathroom->bdpt[PUBLISHED_STEPS - 1], published_spp(0),
+            published_spp(PUBLISHED_STEPS - 1),
             bathroom->bdpt[0] / sqrt((double)published_spp(PUBLISHED_STEPS - 1) / (double)published_spp(0)));
     fputs("<p>The same results, up to the times:</p>\n<pre>", f);
     write_command(f, r, xml_text);
-    fputs("</pre>\n<p>Beside this page: <code>results.csv</code>, <code>runs.csv</code>, <code>results.json</code>, "
-          "<code>results.md</code>, the pictures in <code>images/</code>, the plots in <code>plots/</code>.</p>\n"
-          "</section>\n",
-          f);
+    fputs(
+        "</pre>\n<p>Beside this page: <code>results.csv</code>, <code>runs.csv</code>, <code>results.json</code>, "
+        "<code>results.md</code>, the pictures in <code>images/</code>, the plots in <code>plots/</code>.</p>\n"
+        "</section>\n",
+        f);
 }
 
 bool report_html(FILE *f, const struct results *r, struct error *err)

@@ -13,7 +13,8 @@
 
 #include "results.h"
 
-/* report_html: the pictures must have been written (pictures.h). Returns false with a message when one is missing. */
+/* report_html: the pictures must have been written (pictures.h). Returns false with a message when one is missing.
+ */
 bool report_html(FILE *f, const struct results *r, struct error *err);
 
 /* report_markdown: sentences and tables only. */

@@ -14,11 +14,10 @@ static const char *const STYLE[] = {
     "pre{background:var(--panel);padding:.7rem;overflow-x:auto;border:1px solid var(--line);border-radius:6px}",
     "li{margin:.25rem 0}",
     /* Tables scroll sideways on narrow screens. */
-    ".scroll{overflow-x:auto;margin:1rem 0}table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.9rem}",
-    "caption{text-align:left;color:var(--soft);padding-bottom:.3rem}",
+    ".scroll{overflow-x:auto}figure.table{margin:1.2rem 0}table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.9rem}",
     "th,td{padding:.25rem .6rem;border-bottom:1px solid var(--line);text-align:right;white-space:nowrap}",
     "thead th{background:var(--panel);vertical-align:bottom}tbody th{font-weight:600}",
-    "th:first-child{text-align:left}td.long{white-space:normal;text-align:left;min-width:14rem}",
+    "th:first-child{text-align:left;position:sticky;left:0;background:var(--page)}thead th:first-child{background:var(--panel)}",
     "th button{all:unset;cursor:pointer;white-space:normal}th button:focus-visible{outline:2px solid var(--accent)}",
     "th[aria-sort=ascending] button::after{content:' \\25B2'}th[aria-sort=descending] button::after{content:' \\25BC'}",
     /* Pictures. */

@@ -115,13 +115,19 @@ struct interval results_equal_time(const struct results *r, const struct scene_r
     return results_ratio(a, na, b, nb);
 }
 
-double results_bias_p(const struct results *r, const struct scene_results *s, int variant, int step)
+struct bias results_bias(const struct results *r, const struct scene_results *s, int variant, int step)
 {
     struct estimate e = results_mean(s, plan_seeds(r->plan, variant), variant, step, Q_MEAN_ERROR);
-    double reference = isfinite(s->reference.mean_error) ? s->reference.mean_error : 0;
-    double own = e.error * e.error, total = own + reference * reference;
+    struct bias out = {e.mean, NAN, NAN};
+    double pixels = 0;
+    for (int i = 0; i < e.n; i++)
+        pixels += sqr(s->run[variant][i].step[step].mean_noise / e.n);
+    double own = fmax(sqr(e.error), isfinite(pixels) ? pixels : 0);
+    double total = own + (isfinite(s->reference.mean_error) ? sqr(s->reference.mean_error) : 0);
     if (e.n < 2 || !(own > 0))
-        return NAN;
+        return out;
+    out.error = sqrt(total);
     /* Welch's degrees of freedom; the reference's error is known from thousands of pixels. */
-    return stats_student_p(e.mean / sqrt(total), total * total / (own * own / (e.n - 1)));
+    out.p = stats_student_p(out.mean / out.error, sqr(total) / (sqr(own) / (e.n - 1)));
+    return out;
 }

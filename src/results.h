@@ -42,20 +42,24 @@ struct interval {
     double value, low, high;
 };
 
-/* results_ratio: mean of a[na] over mean of b[nb], both samples independent and positive on average. The interval is
- * Welch's, on the logarithm of the ratio. */
+/* results_ratio: mean of a[na] over mean of b[nb], both samples independent and positive on average. The interval
+ * is Welch's, on the logarithm of the ratio. */
 struct interval results_ratio(const double *a, int na, const double *b, int nb);
 
-/* results_rmse_ratio: rmse8 of a variant over bdpt's after the same number of samples, the dissertation's comparison.
- * results_equal_time: squared error of a variant over bdpt's after the same CPU time,
- *     (MSE_m - noise^2) T_m / ((MSE_b - noise^2) T_b),
- * for bdpt's squared error is inversely proportional to its time; noise8 of the reference is subtracted if known. */
+/* results_rmse_ratio: rmse8 of a variant over bdpt's after the same number of samples, the dissertation's
+ * comparison. results_equal_time: squared error of a variant over bdpt's after the same CPU time, (MSE_m - noise^2)
+ * T_m / ((MSE_b - noise^2) T_b), for bdpt's squared error is inversely proportional to its time; noise8 of the
+ * reference is subtracted if known. */
 struct interval results_rmse_ratio(const struct results *r, const struct scene_results *s, int variant, int step);
 struct interval results_equal_time(const struct results *r, const struct scene_results *s, int variant, int step);
 
-/* results_bias_p: p-value of "the expectation of the picture's mean is the reference's", by Student's t over the seeds;
- * the reference's own error, where known, counts too. NaN for fewer than two seeds. */
-double results_bias_p(const struct results *r, const struct scene_results *s, int variant, int step);
+/* results_bias: the signed mean error with its whole standard error, and the p-value of "it is 0" by Student's t.
+ * The method's share of the standard error is the larger of two: that over seeds, which are few, and that from the
+ * variances of pixels, which takes them as independent. The reference's share is added. NaN for one seed. */
+struct bias {
+    double mean, error, p;
+};
+struct bias results_bias(const struct results *r, const struct scene_results *s, int variant, int step);
 
 /* student_quantile: x with P(|t| > x) = p for Student's t, 0 < p < 1. */
 double student_quantile(double p, double dof);

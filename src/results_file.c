@@ -46,7 +46,8 @@ void results_csv(FILE *f, const struct results *r)
     fputs("scene,variant,spp,seeds", f);
     for (int q = 0; q < N_QUANTITIES; q++)
         fprintf(f, ",%s,%s_error", QUANTITIES[q].name, QUANTITIES[q].name);
-    fputs(",rmse8_ratio,rmse8_ratio_low,rmse8_ratio_high,equal_time_mse,equal_time_mse_low,equal_time_mse_high\n", f);
+    fputs(",rmse8_ratio,rmse8_ratio_low,rmse8_ratio_high,equal_time_mse,equal_time_mse_low,equal_time_mse_high\n",
+          f);
     for (int i = 0; i < r->plan->n_scenes; i++)
         for (int v = 0; v < N_VARIANTS; v++)
             for (int k = 0; k < r->plan->n_steps && plan_seeds(r->plan, v) > 0; k++)
@@ -68,13 +69,15 @@ static void csv_run(FILE *f, const struct scene_results *s, int v, int seed)
         csv_number(f, p->relmse);
         fputc(',', f);
         csv_number(f, p->mean_error);
+        fputc(',', f);
+        csv_number(f, p->mean_noise);
         fprintf(f, ",%ld\n", p->nonfinite);
     }
 }
 
 void results_runs_csv(FILE *f, const struct results *r)
 {
-    fputs("scene,variant,seed,spp,seconds,rmse,rmse8,relmse,mean_error,nonfinite\n", f);
+    fputs("scene,variant,seed,spp,seconds,rmse,rmse8,relmse,mean_error,mean_noise,nonfinite\n", f);
     for (int i = 0; i < r->plan->n_scenes; i++)
         for (int v = 0; v < N_VARIANTS; v++)
             for (int seed = 1; seed <= plan_seeds(r->plan, v); seed++)

@@ -9,7 +9,7 @@
 #include "file.h"
 #include "mem.h"
 
-static const char COLUMNS[] = "spp,seconds,rmse,rmse8,relmse,mean_error,nonfinite";
+static const char COLUMNS[] = "spp,seconds,rmse,rmse8,relmse,mean_error,mean_noise,nonfinite";
 
 bool run_write(const char *path, const char *key, const struct run *run, struct error *err)
 {
@@ -19,8 +19,8 @@ bool run_write(const char *path, const char *key, const struct run *run, struct 
     fprintf(f.stream, "# %s\n%s\n", key, COLUMNS);
     for (int i = 0; i < run->n; i++) {
         const struct run_step *s = &run->step[i];
-        fprintf(f.stream, "%ld,%.17g,%.17g,%.17g,%.17g,%.17g,%ld\n", s->spp, s->seconds, s->rmse, s->rmse8, s->relmse,
-                s->mean_error, s->nonfinite);
+        fprintf(f.stream, "%ld,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%ld\n", s->spp, s->seconds, s->rmse, s->rmse8,
+                s->relmse, s->mean_error, s->mean_noise, s->nonfinite);
     }
     return file_commit(&f, err);
 }
@@ -35,8 +35,8 @@ static const char *after(const char *text, const char *prefix)
 static bool read_step(const char **text, struct run_step *s)
 {
     int used = 0;
-    if (sscanf(*text, "%ld,%lf,%lf,%lf,%lf,%lf,%ld%n", &s->spp, &s->seconds, &s->rmse, &s->rmse8, &s->relmse,
-               &s->mean_error, &s->nonfinite, &used) != 7 ||
+    if (sscanf(*text, "%ld,%lf,%lf,%lf,%lf,%lf,%lf,%ld%n", &s->spp, &s->seconds, &s->rmse, &s->rmse8, &s->relmse,
+               &s->mean_error, &s->mean_noise, &s->nonfinite, &used) != 8 ||
         (*text)[used] != '\n')
         return false;
     *text += used + 1;

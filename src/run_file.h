@@ -1,7 +1,7 @@
 /* run_file.h: the measurements of one run (scene, variant, seed) and the small file that keeps them.
  *
- * An experiment writes one such file per finished run and reads it back when it is started again, so that nothing is
- * computed twice. The file's first line is a key that says everything the numbers depend on; another key means
+ * An experiment writes one such file per finished run and reads it back when it is started again, so that nothing
+ * is computed twice. The file's first line is a key that says everything the numbers depend on; another key means
  * another experiment, and the file is not used.
  *
  * Used by: experiment, results. Tests: test_report.c.
@@ -22,6 +22,7 @@ struct run_step {
     double rmse8;      /* 8-bit sRGB */
     double relmse;     /* relative squared error */
     double mean_error; /* mean of image over mean of reference, less 1 */
+    double mean_noise; /* its standard error, were pixels independent; NaN if unknown */
     long nonfinite;    /* values that could not be compared */
 };
 

@@ -67,11 +67,11 @@ size_t table_rows(const struct table *t) { return t->columns > 0 ? t->n_cells / 
 
 void table_html(FILE *f, const struct table *t)
 {
-    fputs("<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"", f);
+    fputs("<figure class=\"table\"><figcaption>", f);
     xml_text(f, t->caption);
-    fputs("\"><table>\n<caption>", f);
+    fputs("</figcaption>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"", f);
     xml_text(f, t->caption);
-    fputs("</caption>\n<thead><tr>", f);
+    fputs("\"><table>\n<thead><tr>", f);
     for (int c = 0; c < t->columns; c++) {
         fputs("<th scope=\"col\">", f);
         xml_text(f, t->head[c]);
@@ -91,7 +91,7 @@ void table_html(FILE *f, const struct table *t)
         }
         fputs("</tr>\n", f);
     }
-    fputs("</tbody></table></div>\n", f);
+    fputs("</tbody></table></div></figure>\n", f);
 }
 
 void table_markdown(FILE *f, const struct table *t)

@@ -80,8 +80,9 @@ static void add_theirs(struct table *t, const struct published *p, int i)
 
 static bool published_table(const struct results *r, const struct scene_results *s, struct table *t)
 {
-    static const char *const heads[] = {"spp",          "BDPT, here",    "bins, here",          "bins/BDPT, here [95 %]",
-                                        "BDPT, printed", "ASBDPT, printed", "ASBDPT/BDPT, printed"};
+    static const char *const heads[] = {
+        "spp",           "BDPT, here",      "bins, here",          "bins/BDPT, here [95 %]",
+        "BDPT, printed", "ASBDPT, printed", "ASBDPT/BDPT, printed"};
     const struct published *p = published_find(s->name);
     if (p == NULL)
         return false;
@@ -105,7 +106,8 @@ static bool published_table(const struct results *r, const struct scene_results 
 
 static void equal_time_table(const struct results *r, const struct scene_results *s, struct table *t)
 {
-    table_begin(t, "Seconds of CPU, and squared error over BDPT's at equal time with its 95 % interval; below 1 is a gain");
+    table_begin(
+        t, "Seconds of CPU, and squared error over BDPT's at equal time with its 95 % interval; below 1 is a gain");
     table_column(t, "spp");
     for (int v = 0; v < N_METHODS; v++) {
         char head[TABLE_CELL];
@@ -127,8 +129,8 @@ static void bias_table(const struct results *r, const struct scene_results *s, s
 {
     char caption[512];
     snprintf(caption, sizeof caption,
-             "Signed error of the picture's mean in percent, mean over seeds and its standard error (the reference's own "
-             "standard error: %.2g %%)",
+             "Signed error of the picture's mean in percent, mean over seeds and its standard error "
+             "(the reference's own standard error: %.2g %%)",
              100 * s->reference.mean_error);
     table_begin(t, caption);
     table_column(t, "method");

@@ -9,8 +9,16 @@
 
 /* --- the set ----------------------------------------------------------------------------------------- */
 
+/* Number of textures a look-up of `id` visits; -1 stands for none. */
+static int cost_of(const struct texture_set *set, int id) { return id < 0 ? 0 : set->texture[id].cost; }
+
 int texture_add(struct texture_set *set, struct texture t)
 {
+    t.cost = 1;
+    if (t.kind == TEXTURE_SCALE || t.kind == TEXTURE_MIX)
+        t.cost += cost_of(set, t.u.pair.tex1) + cost_of(set, t.u.pair.tex2) + cost_of(set, t.u.pair.amount);
+    else if (t.kind == TEXTURE_CHECKERBOARD)
+        t.cost += cost_of(set, t.u.checker.tex1) + cost_of(set, t.u.checker.tex2);
     set->texture =
         mem_grow(set->texture, &set->texture_capacity, (size_t)set->n_textures + 1, sizeof *set->texture);
     set->texture[set->n_textures] = t;

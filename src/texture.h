@@ -31,8 +31,11 @@ struct uv_mapping {
     double su, sv, du, dv;
 };
 
+enum { TEXTURE_MAX_COST = 256 }; /* the parser refuses textures built from more than that */
+
 struct texture {
     enum texture_kind kind;
+    int cost; /* textures that one look-up visits, itself included; set by texture_add */
     union {
         rgb constant;
         struct {

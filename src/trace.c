@@ -9,8 +9,8 @@ static uint64_t pixel_number(const struct scene *scene, int x, int y)
 struct gather trace_begin(const struct tile_pass *pass, const struct mis_counts *counts, int x, int y, long iteration)
 {
     const struct render_job *job = pass->job;
-    struct gather g = {job->scene, counts, pass->tile, job->max_depth, x, y, 1, {{0, 0}}};
-    g.sampler = sampler_start(job->seed, RNG_CONNECT, pixel_number(job->scene, x, y), (uint64_t)iteration);
+    struct sampler points = sampler_start(job->seed, RNG_CONNECT, pixel_number(job->scene, x, y), (uint64_t)iteration);
+    struct gather g = {job->scene, counts, pass->tile, job->max_depth, x, y, 1, points};
     return g;
 }
 

@@ -2,15 +2,16 @@
  *
  * A light vertex y_{s-1} *is* the sub-path y_0 ... y_{s-1} that leads to it. All connectible ones of the K sub-paths of a
  * tile and iteration go into one alias table with
- *     q_v = (1 - delta) I_v / sum I + delta L_v / sum L,      L_v = luminance(beta_v),  I_v = L_v E(x_v),
- * and each eye vertex (t >= 2) draws C of them. The sum over all vertices of all K sub-paths, divided by K, is what BDPT
- * estimates with one sub-path; drawing v with probability q_v and weighting with 1/q_v estimates the same sum, so
+ *     q_v ~ L_v n(x_v),      L_v = luminance(beta_v),      n(x) = 2 C ((1 - delta) E(x) / mean + delta),
+ * E being the importance of the place (importance.h) and `mean` its expectation over a light sub-path, and each eye
+ * vertex (t >= 2) draws C of them. The sum over all vertices of all K sub-paths, divided by K, is what BDPT estimates
+ * with one sub-path; drawing v with probability q_v and weighting with 1/q_v estimates the same sum, so
  *     (1/C) sum over draws of F(v) / (K q_v)
  * has BDPT's expectation. s = 0, s = 1 and t = 1 stay as they are, every pooled sub-path being splat once.
  *
- * The MIS weights know about it: strategies s >= 2, t >= 2 ending at light position x take about
- *     n(x) = C ((1 - delta) E(x) / mean + delta)
- * samples per pixel, a function of the position alone, so all strategies of a path agree on it (mis.h).
+ * The MIS weights know about it: strategies s >= 2, t >= 2 ending at light position x take about n(x) samples per pixel,
+ * a function of the position alone, so all strategies of a path agree on it (mis.h). They are counted twice, having been
+ * measured to deserve it: draws stratified over a table vary less than independent ones.
  *
  * Used by: asbdpt. Tests: test_asbdpt.c.
  */
@@ -25,8 +26,7 @@ struct vertices {
     const struct vertex **candidate; /* [n], connectible light vertices; owned */
     int *s;                          /* [n], vertices of the light sub-path ending there; owned */
     double *q;                       /* [n], weights of the table; owned */
-    double *luminance;               /* [n], L_v; owned */
-    size_t candidate_capacity, s_capacity, q_capacity, luminance_capacity;
+    size_t candidate_capacity, s_capacity, q_capacity;
     struct alias_table table;
 };
 
@@ -45,16 +45,14 @@ static void free_own(void *own)
     free(v->candidate);
     free(v->s);
     free(v->q);
-    free(v->luminance);
     alias_free(&v->table);
     free(v);
 }
 
-/* List the pool's connectible vertices y_1, y_2 ... with I_v in q and L_v in luminance. */
-static int list_candidates(struct vertices *v, const struct selection *sel, double *sum_I, double *sum_L)
+/* The table over the pool's connectible vertices y_1, y_2 ... */
+static void build_table(struct vertices *v)
 {
     size_t n = 0;
-    *sum_I = *sum_L = 0;
     for (int k = 0; k < v->pool->n; k++) {
         const struct vertex *path = light_pool_path(v->pool, k);
         for (int i = 1; i < v->pool->length[k]; i++) {
@@ -63,26 +61,12 @@ static int list_candidates(struct vertices *v, const struct selection *sel, doub
             v->candidate = mem_grow(v->candidate, &v->candidate_capacity, n + 1, sizeof *v->candidate);
             v->s = mem_grow(v->s, &v->s_capacity, n + 1, sizeof *v->s);
             v->q = mem_grow(v->q, &v->q_capacity, n + 1, sizeof *v->q);
-            v->luminance = mem_grow(v->luminance, &v->luminance_capacity, n + 1, sizeof *v->luminance);
             v->candidate[n] = &path[i];
             v->s[n] = i + 1;
-            v->luminance[n] = rgb_luminance(path[i].beta);
-            v->q[n] = v->luminance[n] * (sel->metric == METRIC_IMPORTANCE ? importance_at(&sel->grid, path[i].p) : 1);
-            *sum_L += v->luminance[n];
-            *sum_I += v->q[n++];
+            v->q[n++] = rgb_luminance(path[i].beta) * path[i].count;
         }
     }
-    return (int)n;
-}
-
-static void build_table(struct vertices *v, const struct selection *sel)
-{
-    double sum_I, sum_L;
-    int n = list_candidates(v, sel, &sum_I, &sum_L);
-    double delta = sum_I > 0 ? sel->delta : 1;
-    for (int i = 0; i < n; i++)
-        v->q[i] = (delta < 1 ? (1 - delta) * v->q[i] / sum_I : 0) + delta * v->luminance[i] / sum_L;
-    alias_build(&v->table, v->q, n);
+    alias_build(&v->table, v->q, (int)n);
 }
 
 /* C draws for one eye vertex, stratified over the table. */
@@ -122,7 +106,7 @@ static void render(const void *selection, const struct tile_pass *pass)
     struct vertices *v = pass->work->own;
     for (long i = pass->first; i < pass->end; i++) {
         light_pool_fill(v->pool, pass, &sel->counts, i);
-        build_table(v, sel);
+        build_table(v);
         int path = 0;
         for (int y = pass->rect.y0; y < pass->rect.y1; y++)
             for (int x = pass->rect.x0; x < pass->rect.x1; x++)

@@ -30,8 +30,9 @@ static const struct entry ENTRIES[] = {
     {"shape", test_shape, false},     {"kdtree", test_kdtree, false}, {"texture", test_texture, false},
     {"lobe", test_lobe, false},       {"bsdf", test_bsdf, false},       {"material", test_material, false},
     {"light", test_light, false},   {"camera", test_camera, false},
-    {"film", test_film, false},       {"parser", test_parser, false}, {"mis", test_mis, false},
+    {"film", test_film, false},       {"parser", test_parser, false}, {"sampler", test_sampler, false}, {"mis", test_mis, false},
     {"render", test_render, false}, {"asbdpt", test_asbdpt, false},
+    {"report", test_report, false},
 };
 enum { N_ENTRIES = sizeof ENTRIES / sizeof ENTRIES[0] };
 

@@ -55,8 +55,8 @@ static double delta_density(const struct full_path *f, int from, int i, int to, 
         return F;
     double eta_o = cos_o > 0 ? l->eta_a : l->eta_b, eta_i = cos_o > 0 ? l->eta_b : l->eta_a;
     /* The reverse walk's delta lives in d(wo); written as a coefficient of the forward one, in d(wi), it gains
-     * d(wo)/d(wi) = eta_i^2 |cos_i| / (eta_o^2 |cos_o|). Forward is the direction of the light's travel. */
-    return reverse ? (1 - F) * eta_i * eta_i * fabs(cos_i) / (eta_o * eta_o * fabs(cos_o)) : 1 - F;
+     * d(wi)/d(wo) = eta_o^2 |cos_o| / (eta_i^2 |cos_i|). Forward is the direction of the light's travel. */
+    return reverse ? (1 - F) * eta_o * eta_o * fabs(cos_o) / (eta_i * eta_i * fabs(cos_i)) : 1 - F;
 }
 
 /* Density of x_j when the light walk makes it. */
@@ -107,7 +107,9 @@ static double samples(const struct full_path *f, int i)
     }
     if (t < 1 || f->delta[i - 1] || f->delta[i])
         return 0;
-    return t == 1 ? m->splat : i == 1 ? m->direct : mis_connect_count(m, f->x[i - 1]->p);
+    if (i == 1 && t > 1)
+        return mis_direct_count(m, &f->scene->lights, f->x[1]->p, f->x[1]->ng, f->x[0]->cell, direction(f, 1, 0));
+    return t == 1 ? m->splat : mis_connect_count(m, f->x[i - 1]->p, f->x[i - 1]->ng);
 }
 
 /* A vertex whose walk goes on (not the end of a connection) passed by delta if the next vertex says so. */

@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include "../src/connect.h"
+#include "../src/guide.h"
+#include "../src/warp.h"
 #include "helpers.h"
 #include "oracle.h"
 #include "tests.h"
@@ -26,6 +28,8 @@ static const char ROOM[] =
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  -2 0 2  -2 3 2  -2 3 -2]\n"
     "Material \"metal\" \"float roughness\" .2\n"
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [2 0 -2  2 0 2  2 3 2  2 3 -2]\n"
+    "Material \"glass\" \"float index\" 1.3\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 .2 -2  0 .2 -2  0 .2 2  -2 .2 2]\n"
     "Material \"glass\" \"float index\" 1.5\n"
     "TransformBegin Translate .3 .8 0 Shape \"sphere\" \"float radius\" .6 TransformEnd\n"
     "Material \"glass\" \"float index\" 1.4 \"float uroughness\" .3 \"float vroughness\" .3\n"
@@ -52,10 +56,26 @@ static const struct variant VARIANTS[] = {
 };
 
 /* A count that varies over space, as `select = vertices` has it. */
-static double uneven(const void *context, vec3 p)
+static double uneven(const void *context, vec3 p, vec3 ng)
 {
     (void)context;
-    return 1.5 + sin(3 * p.x + 2 * p.y + p.z);
+    return 2.5 + ng.y + sin(3 * p.x + 2 * p.y + p.z);
+}
+
+/* A guide that prefers some cells in every region, learnt from nothing but their numbers. */
+static void uneven_guide(const struct scene *scene, struct guide *guide)
+{
+    struct guide_lessons lessons;
+    struct rng r = rng_stream(7, RNG_TEST, 0, 0);
+    guide_lessons_init(&lessons, &scene->lights, 3);
+    for (int i = 0; i < 2000; i++) {
+        vec3 p = vec(4 * rng_uniform(&r) - 2, 3 * rng_uniform(&r), 4 * rng_uniform(&r) - 2);
+        vec3 n = warp_sphere(rng_uniform(&r), rng_uniform(&r));
+        int cell = (int)rng_below(&r, (uint32_t)scene->lights.n_cells);
+        guide_lessons_add(&lessons, guide_key(&lessons.grid, p, n), cell, 1 + cell % 3 + i % 5);
+    }
+    guide_build(guide, &lessons, 0.1);
+    guide_lessons_free(&lessons);
 }
 
 struct comparison {
@@ -86,9 +106,10 @@ static void compare_direct(struct comparison *c, const struct vertex *eye, int t
     struct connection got = connect_direct(c->scene, c->counts, &eye[t - 1], sampler, NULL);
     double u[3];
     struct light_point at;
-    for (int i = 0; i < 3; i++)
-        u[i] = sampler_next(&same);
-    if (!light_sample_point(&c->scene->lights, &c->scene->geo, u, &at))
+    sampler_next3(&same, u);
+    const struct light_set *lights = &c->scene->lights;
+    const struct alias_table *choice = guide_table(c->counts->guide, lights, eye[t - 1].p, eye[t - 1].ng);
+    if (!light_sample_cell(lights, &c->scene->geo, alias_sample(choice, u[0], NULL, NULL), u[1], u[2], &at))
         return;
     struct vertex y;
     vertex_light_end(c->scene, c->counts, &at, &y);
@@ -152,15 +173,20 @@ void test_mis(struct test *t)
         struct scene scene;
         if (!scene_from_text(t, text, &scene))
             return;
-        for (size_t k = 0; k < sizeof sets / sizeof sets[0]; k++) {
-            struct comparison c = {t, VARIANTS[v].name, &scene, sets[k].counts, 0, 0, 1};
+        struct guide guide = {.table = NULL};
+        uneven_guide(&scene, &guide);
+        for (size_t k = 0; k < 2 * (sizeof sets / sizeof sets[0]); k++) {
+            struct mis_counts counts = *sets[k / 2].counts;
+            counts.guide = k % 2 == 1 ? &guide : NULL;
+            struct comparison c = {t, VARIANTS[v].name, &scene, &counts, 0, 0, 1};
             compare_paths(&c, 400);
             CHECK(t, c.worst < bound && c.compared > 100, "%s, %s: %ld weights, largest difference %.3g (bound %g)",
-                  VARIANTS[v].name, sets[k].name, c.compared, c.worst, bound);
+                  VARIANTS[v].name, sets[k / 2].name, c.compared, c.worst, bound);
         }
         struct comparison planted = {t, VARIANTS[v].name, &scene, &all, 0, 0, 1.001};
         compare_paths(&planted, 50);
         CHECK(t, planted.worst > bound, "a weight wrong by 0.1 %% was not noticed");
+        guide_free(&guide);
         scene_free(&scene);
     }
 }

@@ -19,6 +19,8 @@ void test_mis(struct test *t);
 void test_parser(struct test *t);
 void test_ply(struct test *t);
 void test_render(struct test *t);
+void test_report(struct test *t);
+void test_sampler(struct test *t);
 void test_shape(struct test *t);
 void test_stats(struct test *t);
 void test_texture(struct test *t);

@@ -1,0 +1,573 @@
+/* test_report.c: experiments: statistics, plots, a tiny experiment carried out, resumed and written, its files
+ * read. */
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../src/compare.h"
+#include "../src/experiment.h"
+#include "../src/figures.h"
+#include "../src/file.h"
+#include "../src/findings.h"
+#include "../src/image.h"
+#include "../src/markup.h"
+#include "../src/mem.h"
+#include "../src/output.h"
+#include "../src/parser.h"
+#include "../src/pictures.h"
+#include "../src/published.h"
+#include "../src/rng.h"
+#include "../src/stats.h"
+#include "../src/tables.h"
+#include "helpers.h"
+#include "tests.h"
+
+/* The content of a file as text, to be freed; an empty text after a failed check. */
+static char *text_of(struct test *t, const char *path)
+{
+    uint8_t *data = NULL;
+    size_t size = 0;
+    struct error err;
+    if (!CHECK(t, file_read(path, &data, &size, &err), "%s", err.text))
+        size = 0;
+    char *text = mem_alloc(size + 1, 1);
+    if (size > 0)
+        memcpy(text, data, size);
+    free(data);
+    return text;
+}
+
+/* --- statistics -------------------------------------------------------------------------------------- */
+
+static double normal(struct rng *r)
+{
+    double u = 1 - rng_uniform(r), v = rng_uniform(r);
+    return sqrt(-2 * log(u)) * cos(2 * PI * v);
+}
+
+/* p-value of "a 95 % interval whose ends are drawn in by `shrink` holds the true ratio 95 times of 100". */
+static double coverage_p(struct test *t, double shrink)
+{
+    enum { TRIALS = 4000, SEEDS = 4 };
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 77, 0);
+    int inside = 0;
+    for (int i = 0; i < TRIALS; i++) {
+        double a[SEEDS], b[SEEDS];
+        for (int k = 0; k < SEEDS; k++) {
+            a[k] = 3 + 0.1 * normal(&r);
+            b[k] = 2 + 0.066667 * normal(&r);
+        }
+        struct interval ratio = results_ratio(a, SEEDS, b, SEEDS);
+        double low = ratio.value + shrink * (ratio.low - ratio.value);
+        double high = ratio.value + shrink * (ratio.high - ratio.value);
+        inside += low <= 1.5 && 1.5 <= high;
+    }
+    double observed[2] = {inside, TRIALS - inside}, expected[2] = {0.95 * TRIALS, 0.05 * TRIALS};
+    return stats_chi2_test(observed, expected, 2);
+}
+
+static void test_statistics(struct test *t)
+{
+    CHECK(t, fabs(student_quantile(0.05, 2) - 4.302653) < 1e-5, "t(2) at 5 %%: %g", student_quantile(0.05, 2));
+    CHECK(t, fabs(student_quantile(0.05, 10) - 2.228139) < 1e-5, "t(10) at 5 %%: %g", student_quantile(0.05, 10));
+    const double a[3] = {2.0, 2.2, 2.4}, b[2] = {1.0, 1.2};
+    struct interval i = results_ratio(a, 3, b, 2);
+    double va = 0.04 / 3 / (2.2 * 2.2), vb = 0.02 / 2 / (1.1 * 1.1);
+    double dof = (va + vb) * (va + vb) / (va * va / 2 + vb * vb / 1);
+    CHECK(t, fabs(i.value - 2) < 1e-12, "ratio of means: %g", i.value);
+    CHECK(t, fabs(log(i.high / 2) - student_quantile(0.05, dof) * sqrt(va + vb)) < 1e-9, "upper end %g", i.high);
+    CHECK(t, fabs(i.low * i.high - 4) < 1e-9, "the interval is symmetric in the logarithm: %g %g", i.low, i.high);
+    CHECK(t, isnan(results_ratio(a, 1, b, 2).low) && isfinite(results_ratio(a, 1, b, 2).value),
+          "one seed has no interval");
+    const double below[2] = {-1, -2};
+    CHECK(t, isnan(results_ratio(below, 2, b, 2).value), "error below the reference's noise has no ratio");
+    TEST_ACCEPT(t, coverage_p(t, 1), "95 %% intervals of a ratio hold it 95 times of 100");
+    TEST_REJECT(t, coverage_p(t, 0.7), "intervals drawn in to 0.7 hold it as often");
+
+    struct interval gain = {0.5, 0.4, 0.9}, loss = {2, 1.1, 3}, open = {0.9, 0.7, 1.2}, single = {0.5, NAN, NAN};
+    CHECK(t, verdict_of(gain) == VERDICT_GAIN && verdict_of(loss) == VERDICT_LOSS, "verdicts of clear intervals");
+    CHECK(t, verdict_of(open) == VERDICT_UNDECIDED && verdict_of(single) == VERDICT_UNDECIDED,
+          "an interval that holds 1, or none, decides nothing");
+}
+
+/* --- plots ------------------------------------------------------------------------------------------- */
+
+static void check_axis(struct test *t, const struct axis *a)
+{
+    double tick[PLOT_MAX_TICKS];
+    bool major[PLOT_MAX_TICKS];
+    int n = axis_ticks(a, tick, major), majors = 0;
+    for (int i = 0; i < n; i++) {
+        majors += major[i];
+        double at = axis_position(a, tick[i]);
+        CHECK(t, at > -1e-9 && at < 1 + 1e-9, "tick %g lies on the axis [%g, %g]", tick[i], a->low, a->high);
+        CHECK(t, i == 0 || tick[i] > tick[i - (i > 0)], "ticks rise: number %d is %g", i, tick[i]);
+        char digits[32]; /* round numbers need few digits */
+        snprintf(digits, sizeof digits, "%.3g", tick[i]);
+        CHECK(t, fabs(atof(digits) - tick[i]) <= 1e-9 * fmax(fabs(tick[i]), a->high - a->low),
+              "tick %.12g is round", tick[i]);
+    }
+    CHECK(t, majors >= (a->logarithmic ? 1 : 3) && majors <= 14, "%d numbers on [%g, %g]", majors, a->low, a->high);
+}
+
+static void test_axes(struct test *t)
+{
+    static const double range[][2] = {{0.01, 0.02}, {1, 1},  {3, 700},    {0.0004, 12},
+                                      {2e-9, 3e9},  {8, 64}, {0.99, 1.01}};
+    for (size_t i = 0; i < sizeof range / sizeof range[0]; i++) {
+        struct axis log_axis = axis_make(true, range[i][0], range[i][1]);
+        struct axis linear = axis_make(false, -range[i][0], range[i][1]);
+        check_axis(t, &log_axis);
+        check_axis(t, &linear);
+    }
+    struct axis a = axis_make(true, 1, 100);
+    double middle = 0.5 * (axis_position(&a, 1) + axis_position(&a, 100));
+    CHECK(t, fabs(axis_position(&a, 10) - middle) < 1e-12, "10 lies half way between 1 and 100");
+    a = axis_make(false, 1, 3);
+    middle = 0.5 * (axis_position(&a, 1) + axis_position(&a, 3));
+    CHECK(t, fabs(axis_position(&a, 2) - middle) < 1e-12, "2 lies half way between 1 and 3");
+}
+
+/* --- well-formedness --------------------------------------------------------------------------------- */
+
+/* Skip one JSON value [RFC 8259] and the space after it; NULL when it is none. */
+static const char *skip_json(const char *p);
+
+static const char *skip_space(const char *p)
+{
+    while (p != NULL && *p != '\0' && strchr(" \n\r\t", *p) != NULL)
+        p++;
+    return p;
+}
+
+static const char *skip_json_text(const char *p)
+{
+    if (p == NULL || *p++ != '"')
+        return NULL;
+    for (; *p != '"'; p++)
+        if ((unsigned char)*p < 0x20 || (*p == '\\' && *++p == '\0'))
+            return NULL;
+    return skip_space(p + 1);
+}
+
+/* The members of an array or object, up to its closing bracket. */
+static const char *skip_json_list(const char *p, char close, bool named)
+{
+    p = skip_space(p + 1);
+    if (*p == close)
+        return skip_space(p + 1);
+    for (;; p = skip_space(p + 1)) {
+        if (named) {
+            p = skip_json_text(p);
+            if (p == NULL || *p != ':')
+                return NULL;
+            p = skip_space(p + 1);
+        }
+        p = skip_json(p);
+        if (p == NULL || (*p != ',' && *p != close))
+            return NULL;
+        if (*p == close)
+            return skip_space(p + 1);
+    }
+}
+
+static const char *skip_json(const char *p)
+{
+    static const char *const words[] = {"true", "false", "null"};
+    p = skip_space(p);
+    if (*p == '{' || *p == '[')
+        return skip_json_list(p, *p == '{' ? '}' : ']', *p == '{');
+    if (*p == '"')
+        return skip_json_text(p);
+    for (size_t i = 0; i < 3; i++)
+        if (strncmp(p, words[i], strlen(words[i])) == 0)
+            return skip_space(p + strlen(words[i]));
+    char *end;
+    strtod(p, &end);
+    return end != p && *p != '+' && *p != '.' && !isalpha((unsigned char)*p) ? skip_space(end) : NULL;
+}
+
+static bool json_ok(const char *text)
+{
+    const char *end = skip_json(text);
+    return end != NULL && *end == '\0';
+}
+
+/* Does every tag close in order? Enough for what this program writes: no comments, no CDATA. */
+static bool xml_ok(const char *p)
+{
+    enum { DEPTH = 32, NAME = 32 };
+    char open[DEPTH][NAME];
+    int depth = 0;
+    while ((p = strchr(p, '<')) != NULL) {
+        const char *end = strchr(p, '>');
+        size_t n = strcspn(p + 1 + (p[1] == '/'), " \n/>");
+        if (end == NULL || n == 0 || n >= NAME || depth >= DEPTH - 1)
+            return false;
+        if (p[1] == '/') {
+            if (depth == 0 || strlen(open[--depth]) != n || strncmp(open[depth], p + 2, n) != 0)
+                return false;
+        } else if (end[-1] != '/') {
+            memcpy(open[depth], p + 1, n);
+            open[depth++][n] = '\0';
+        }
+        p = end;
+    }
+    return depth == 0;
+}
+
+/* Do all lines have as many fields as the first? No quoted fields. Returns the number of lines, 0 if not. */
+static int csv_lines(const char *p)
+{
+    int lines = 0, first = 0, commas = 0;
+    for (; *p != '\0'; p++) {
+        commas += *p == ',';
+        if (*p != '\n')
+            continue;
+        if (lines++ == 0)
+            first = commas;
+        if (commas != first)
+            return 0;
+        commas = 0;
+    }
+    return lines;
+}
+
+static void test_markup(struct test *t)
+{
+    static const char *const plain[] = {"", "f", "fo", "foo", "foob", "fooba", "foobar"}; /* [RFC 4648 10] */
+    static const char *const coded[] = {"", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"};
+    char path[256];
+    snprintf(path, sizeof path, "%s/markup", test_tmp(t));
+    for (size_t i = 0; i < 7; i++) {
+        FILE *f = fopen(path, "w");
+        base64(f, (const uint8_t *)plain[i], strlen(plain[i]));
+        fclose(f);
+        char *text = text_of(t, path);
+        CHECK(t, strcmp(text, coded[i]) == 0, "base64 of %s is %s", plain[i], text);
+        free(text);
+    }
+    FILE *f = fopen(path, "w");
+    fputs("[", f);
+    json_text(f, "a \"quoted\" back\\slash\nline");
+    fputs(", ", f);
+    json_number(f, NAN);
+    fputs(", ", f);
+    json_number(f, -1.5e-7);
+    fputs("]", f);
+    fclose(f);
+    char *text = text_of(t, path);
+    CHECK(t, json_ok(text), "JSON: %s", text);
+    free(text);
+    CHECK(t, !json_ok("{\"a\": nan}") && !json_ok("[1, 2") && !json_ok("[1 2]") && !json_ok("{\"a\"}"),
+          "what is no JSON is refused by the checker");
+    CHECK(t, xml_ok("<a><b/>x</a>") && !xml_ok("<a><b></a></b>") && !xml_ok("<a>"), "so are tags out of order");
+    CHECK(t, csv_lines("a,b\n1,2\n") == 2 && csv_lines("a,b\n1\n") == 0, "and lines of unequal fields");
+}
+
+/* --- a tiny experiment ------------------------------------------------------------------------------- */
+
+static const char ROOM[] =
+    "LookAt 0 0 -.9 0 0 0 0 1 0\nCamera \"perspective\" \"float fov\" 80\n"
+    "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 12\nPixelFilter \"gaussian\"\n"
+    "Integrator \"asbdpt\" \"integer maxdepth\" 4\nWorldBegin\n"
+    "Material \"matte\" \"rgb Kd\" [.7 .5 .3]\nReverseOrientation\nShape \"sphere\" \"float radius\" 1\n"
+    "ReverseOrientation\nTranslate .4 .4 .3\nAreaLightSource \"diffuse\" \"rgb L\" %s\n"
+    "Shape \"sphere\" \"float radius\" .1\nWorldEnd\n";
+
+struct setup {
+    char scene_path[300], directory[300];
+    const char *scene[1];
+    struct plan plan;
+};
+
+/* The scene with this emission. */
+static void write_scene(const char *path, const char *emission)
+{
+    FILE *f = fopen(path, "w");
+    fprintf(f, ROOM, emission);
+    fclose(f);
+}
+
+/* A plan of one scene in a directory of its own. */
+static void set_up(struct test *t, const char *name, struct setup *s)
+{
+    memset(s, 0, sizeof *s);
+    snprintf(s->scene_path, sizeof s->scene_path, "%s/cornell-box.pbrt",
+             test_tmp(t)); /* a scene with printed numbers */
+    snprintf(s->directory, sizeof s->directory, "%s/%s", test_tmp(t), name);
+    write_scene(s->scene_path, "[6 6 6]");
+    plan_preset(&s->plan, true);
+    plan_set_spp(&s->plan, 16, 64, NULL);
+    s->scene[0] = s->scene_path;
+    s->plan.scene = s->scene;
+    s->plan.n_scenes = 1;
+    s->plan.n_seeds = 2;
+    s->plan.width = 8;
+    s->plan.reference_spp = 64;
+    s->plan.n_threads = 1;
+    s->plan.quiet = true;
+    s->plan.directory = s->directory;
+}
+
+static bool carry_out(struct test *t, struct setup *s, struct results *out)
+{
+    struct error err = {""};
+    memset(out, 0, sizeof *out);
+    return CHECK(t, experiment_run(&s->plan, out, &err), "experiment: %s", err.text);
+}
+
+/* Are all measurements but the times the same, and the times too if `times`? */
+static bool same_results(const struct results *a, const struct results *b, bool times)
+{
+    for (int v = 0; v < N_VARIANTS; v++)
+        for (int seed = 0; seed < plan_seeds(a->plan, v); seed++)
+            for (int i = 0; i < a->plan->n_steps; i++) {
+                const struct run_step *p = &a->scene[0].run[v][seed].step[i],
+                                      *q = &b->scene[0].run[v][seed].step[i];
+                if (p->spp != q->spp || p->rmse != q->rmse || p->rmse8 != q->rmse8 || p->relmse != q->relmse ||
+                    p->mean_error != q->mean_error || p->mean_noise != q->mean_noise ||
+                    (times && p->seconds != q->seconds))
+                    return false;
+            }
+    for (int v = 0; v < N_METHODS; v++)
+        if (memcmp(a->scene[0].image[v], b->scene[0].image[v], 8 * 6 * 3 * sizeof(float)) != 0)
+            return false;
+    return true;
+}
+
+/* The step's picture rendered in one go, without the experiment. */
+static double direct_rmse8(struct test *t, const struct results *r, int variant, int step)
+{
+    struct scene scene;
+    struct film film;
+    struct error err = {""};
+    float pixels[8 * 6 * 3];
+    if (!scene_from_file(t, r->scene[0].path, 8, 6, &scene))
+        return NAN;
+    variant_settings(&VARIANTS[variant], &scene.settings);
+    struct render_options o = {.method = method_find(VARIANTS[variant].method), .n_threads = 2, .max_depth = 4};
+    o.seed = (uint64_t)plan_seed(variant, 1);
+    o.end = r->plan->spp[step];
+    film_init(&film, render_crop(&scene), 8, 6);
+    CHECK(t, render_scene(&scene, &o, &film, &err), "%s", err.text);
+    film_develop(&film, scene.film_scale, pixels);
+    double rmse8 = compare_pixels(pixels, r->scene[0].reference.pixels, 8 * 6 * 3).rmse8;
+    film_free(&film);
+    scene_free(&scene);
+    return rmse8;
+}
+
+static void check_runs(struct test *t, const struct results *r)
+{
+    const struct scene_results *s = &r->scene[0];
+    CHECK(t, s->width == 8 && s->height == 6 && s->max_depth == 4, "%dx%d, depth %d", s->width, s->height,
+          s->max_depth);
+    CHECK(t, strcmp(s->name, "cornell-box") == 0, "scene name %s", s->name);
+    for (int v = 0; v < N_VARIANTS; v++)
+        for (int i = 0; i < r->plan->n_steps && plan_seeds(r->plan, v) > 0; i++) {
+            double direct = direct_rmse8(t, r, v, i), ours = s->run[v][0].step[i].rmse8;
+            CHECK(t, fabs(direct - ours) < 1e-9, "%s after %ld spp: rmse8 %g, rendered in one go %g",
+                  VARIANTS[v].name, r->plan->spp[i], ours, direct);
+        }
+    double seconds[2] = {s->run[0][0].step[0].seconds, s->run[0][0].step[r->plan->n_steps - 1].seconds};
+    CHECK(t, seconds[0] > 0 && seconds[1] > seconds[0], "time rises: %g, %g s", seconds[0], seconds[1]);
+}
+
+static void check_tables(struct test *t, const struct results *r)
+{
+    const struct scene_results *s = &r->scene[0];
+    struct table table;
+    int last = r->plan->n_steps - 1;
+    const struct run_step *a = &s->run[VARIANT_POOL][0].step[last], *b = &s->run[VARIANT_POOL][1].step[last];
+    tables_scene(r, s, TABLE_RMSE, &table);
+    size_t cell = (size_t)(last * table.columns + 1 + VARIANT_POOL);
+    double mean = 0.5 * (a->rmse8 + b->rmse8), error = 0.5 * fabs(a->rmse8 - b->rmse8);
+    CHECK(t, table.cell[cell].value == mean, "RMSE of pool in the table: %g, computed: %g", table.cell[cell].value,
+          mean);
+    struct estimate e = results_mean(s, 2, VARIANT_POOL, last, Q_RMSE8);
+    CHECK(t, fabs(e.error - error) < 1e-12, "standard error of two values: %g, %g", e.error, error);
+    table_free(&table);
+
+    double n2 = s->reference.noise8 * s->reference.noise8, cost[2] = {0, 0};
+    for (int v = 0; v < 2; v++)
+        for (int i = 0; i < 2; i++) {
+            const struct run_step *p = &s->run[v == 0 ? VARIANT_BDPT : VARIANT_POOL][i].step[last];
+            cost[v] += 0.5 * (p->rmse8 * p->rmse8 - n2) * p->seconds;
+        }
+    tables_scene(r, s, TABLE_EQUAL_TIME, &table);
+    cell = (size_t)(last * table.columns + 1 + N_METHODS + VARIANT_POOL - 1);
+    CHECK(t, !(cost[0] > 0 && cost[1] > 0) || fabs(table.cell[cell].value * cost[0] / cost[1] - 1) < 1e-9,
+          "equal-time ratio of pool in the table: %g, computed: %g", table.cell[cell].value, cost[1] / cost[0]);
+    table_free(&table);
+
+    CHECK(t, tables_scene(r, s, TABLE_PUBLISHED, &table), "the scene has printed numbers");
+    const struct published *p = published_find("cornell-box");
+    cell = table_rows(&table) * (size_t)table.columns - 1;
+    CHECK(t, table.cell[cell].value == p->asbdpt[4] / p->bdpt[4], "the last printed ratio: %g",
+          table.cell[cell].value);
+    table_free(&table);
+}
+
+/* Every file the experiment leaves is well-formed, and the page needs nothing but itself. */
+static void check_output(struct test *t, const struct results *r)
+{
+    static const char *const plots[] = {"convergence", "bias", "paths-per-set", "restart-limit"};
+    struct error err = {""};
+    char path[512];
+    CHECK(t, output_write(r, &err), "output: %s", err.text);
+    for (size_t i = 0; i < 4; i++) {
+        snprintf(path, sizeof path, "%s/plots/cornell-box-%s.svg", r->plan->directory, plots[i]);
+        char *svg = text_of(t, path);
+        CHECK(t, xml_ok(svg) && strstr(svg, "nan") == NULL && strstr(svg, "inf\"") == NULL, "%s", path);
+        free(svg);
+    }
+    snprintf(path, sizeof path, "%s/results.json", r->plan->directory);
+    char *json = text_of(t, path);
+    CHECK(t, json_ok(json) && strstr(json, "\"equal_time_mse\"") != NULL, "%s", path);
+    free(json);
+    int variants = 0, runs = 0;
+    for (int v = 0; v < N_VARIANTS; v++) {
+        variants += plan_seeds(r->plan, v) > 0;
+        runs += plan_seeds(r->plan, v);
+    }
+    snprintf(path, sizeof path, "%s/results.csv", r->plan->directory);
+    char *csv = text_of(t, path);
+    CHECK(t, csv_lines(csv) == 1 + variants * r->plan->n_steps, "%s has %d lines", path, csv_lines(csv));
+    free(csv);
+    snprintf(path, sizeof path, "%s/runs.csv", r->plan->directory);
+    csv = text_of(t, path);
+    CHECK(t, csv_lines(csv) == 1 + runs * r->plan->n_steps, "%s has %d lines", path, csv_lines(csv));
+    free(csv);
+
+    snprintf(path, sizeof path, "%s/report.html", r->plan->directory);
+    char *html = text_of(t, path);
+    int images = 0, with_text = 0;
+    for (const char *p = html; (p = strstr(p, "<img ")) != NULL; p++) {
+        images++;
+        with_text += strncmp(p, "<img alt=\"", 10) == 0 && p[10] != '"';
+    }
+    CHECK(t, images == (2 * N_METHODS + 1) * (1 + N_DETAILS) && with_text == images, "%d images, %d described",
+          images, with_text);
+    CHECK(t,
+          strstr(html, "src=\"http") == NULL && strstr(html, "href=\"http") == NULL && strstr(html, "url(") == NULL,
+          "the page asks for nothing from elsewhere");
+    CHECK(t, strstr(html, "</html>") != NULL && strstr(html, ">nan") == NULL, "the page is whole");
+    free(html);
+}
+
+static void test_experiment(struct test *t)
+{
+    struct setup s, other;
+    struct results first, again;
+    char path[512];
+    set_up(t, "experiment", &s);
+    if (!carry_out(t, &s, &first)) {
+        results_free(&first);
+        return;
+    }
+    check_runs(t, &first);
+    check_tables(t, &first);
+    check_output(t, &first);
+
+    /* Started again, nothing is done twice: even the times are the old ones. */
+    carry_out(t, &s, &again);
+    CHECK(t, same_results(&first, &again, true), "an experiment started again has the same results");
+    results_free(&again);
+    /* Interrupted: one run is lost, one is damaged. */
+    snprintf(path, sizeof path, "%s/runs/cornell-box--bins--seed1.csv", s.directory);
+    CHECK(t, remove(path) == 0, "%s exists", path);
+    snprintf(path, sizeof path, "%s/runs/cornell-box--pool--seed2.csv", s.directory);
+    FILE *f = fopen(path, "a");
+    fputs("64,1", f);
+    fclose(f);
+    carry_out(t, &s, &again);
+    CHECK(t, same_results(&first, &again, false), "an interrupted experiment ends with the same results");
+    results_free(&again);
+    /* Another directory and other threads give the same measurements; another seed would not. */
+    set_up(t, "elsewhere", &other);
+    other.plan.n_threads = 3;
+    carry_out(t, &other, &again);
+    CHECK(t, same_results(&first, &again, false), "the results do not depend on threads");
+    again.scene[0].run[VARIANT_POOL][0] = again.scene[0].run[VARIANT_POOL][1];
+    CHECK(t, !same_results(&first, &again, false), "two seeds have different results");
+    results_free(&again);
+    /* A scene that has changed begins anew. */
+    f = fopen(s.scene_path, "a");
+    fputs("# nothing\n", f);
+    fclose(f);
+    carry_out(t, &s, &again);
+    CHECK(t, same_results(&first, &again, false), "a comment in the scene changes nothing");
+    results_free(&again);
+    write_scene(s.scene_path, "[9 9 9]");
+    carry_out(t, &s, &again);
+    CHECK(t, !same_results(&first, &again, false), "a brighter light does");
+    results_free(&again);
+    results_free(&first);
+}
+
+/* --- the plan and the reference ---------------------------------------------------------------------- */
+
+static void test_plan(struct test *t)
+{
+    struct plan p = {0};
+    char name[64];
+    plan_preset(&p, true);
+    CHECK(t, p.n_steps == 4 && p.spp[0] == 8 && p.spp[3] == 64, "quick steps");
+    CHECK(t, plan_first_sample(&p, VARIANT_BDPT, 1) == 8, "bdpt continues any film");
+    CHECK(t, plan_first_sample(&p, VARIANT_BINS, 1) == 0 && plan_first_sample(&p, VARIANT_BINS, 3) == 32,
+          "bins continues a film only at a restart");
+    plan_preset(&p, false);
+    CHECK(t, p.n_steps == 5 && p.spp[0] == 32 && p.spp[4] == 512, "full steps are the dissertation's");
+    CHECK(t, plan_set_spp(&p, 32, 100, NULL) && p.n_steps == 3 && p.spp[2] == 100,
+          "the last step is what was asked for");
+    CHECK(t, !plan_set_spp(&p, 1, 1L << 24, NULL), "too many steps are refused");
+    for (int i = 0; i < SWEEP_LENGTH; i++) {
+        CHECK(t, VARIANTS[sweep_variant(SWEEP_PATHS, i)].bin_paths == 4 << i, "paths %d", 4 << i);
+        CHECK(t, VARIANTS[sweep_variant(SWEEP_PATHS, i)].restart == 32, "only the paths move");
+        CHECK(t, VARIANTS[sweep_variant(SWEEP_RESTART, i)].restart == (i > 0 ? 4 << i : 0), "restart %d", i);
+        CHECK(t, VARIANTS[sweep_variant(SWEEP_RESTART, i)].bin_paths == 8, "only the restart moves");
+    }
+    plan_scene_name("a/b/veach-ajar/scene.pbrt", name, sizeof name);
+    CHECK(t, strcmp(name, "veach-ajar") == 0, "name of a directory's scene: %s", name);
+    plan_scene_name("scenes/bathroom.pbrt", name, sizeof name);
+    CHECK(t, strcmp(name, "bathroom") == 0, "name of a file: %s", name);
+}
+
+static void test_reference(struct test *t)
+{
+    char path[300];
+    float pixels[4 * 4 * 3];
+    struct reference r = {0};
+    struct error err = {""};
+    for (int i = 0; i < 48; i++)
+        pixels[i] = (float)(i / 12 * 4 + i / 3 % 4); /* row * 4 + column */
+    snprintf(path, sizeof path, "%s/room.txt", test_tmp(t));
+    FILE *f = fopen(path, "w");
+    fputs("comment\nmaxdepth 5\nnoise8 0.5\nmean_error 0.001\n", f);
+    fclose(f);
+    snprintf(path, sizeof path, "%s/room.pfm", test_tmp(t));
+    image_write(path, 4, 4, pixels, &err);
+    CHECK(t, reference_find(test_tmp(t), "x/room.pbrt", "room", 2, 2, 5, &r, &err) == 1, "%s", err.text);
+    CHECK(t, r.pixels != NULL && fabs((double)r.pixels[0] - 2.5) < 1e-6 && fabs((double)r.pixels[9] - 12.5) < 1e-6,
+          "means of 2 x 2 pixels");
+    CHECK(t, r.noise8 == 0.25 && r.mean_error == 0.001, "noise %g, %g", r.noise8, r.mean_error);
+    reference_free(&r);
+    CHECK(t, reference_find(path, "", "room", 2, 2, 6, &r, &err) == -1 && strstr(err.text, "maxdepth 5") != NULL,
+          "another depth is refused: %s", err.text);
+    CHECK(t, reference_find(path, "", "room", 3, 3, 5, &r, &err) == -1 && strstr(err.text, "multiple") != NULL,
+          "another size is refused: %s", err.text);
+    CHECK(t, reference_find(NULL, "nowhere/room.pbrt", "no-such-room", 2, 2, 5, &r, &err) == 0, "none is found");
+}
+
+void test_report(struct test *t)
+{
+    test_statistics(t);
+    test_axes(t);
+    test_markup(t);
+    test_plan(t);
+    test_reference(t);
+    test_experiment(t);
+}
