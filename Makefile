@@ -47,6 +47,15 @@ experiments: asbdpt | out ## measure all methods on the five scenes, quickly, in
 	$(PROGRAM) experiment --quick -o out/experiments
 	sh test/report_browser.sh out/experiments/report.html
 
+mutants: ## apply small faults one by one; the tests must catch every one
+	sh test/mutants/run.sh 2
+
+ref: asbdpt ## render the stored references of ref/ again (an hour; goes on where it stopped)
+	sh ref/make-ref.sh $(PROGRAM)
+
+check-ref: asbdpt ## are the stored references still what the program converges to?
+	sh ref/check-ref.sh $(PROGRAM)
+
 layers: ## check that every file includes only lower layers, and that headers compile alone
 	@sh test/layers.sh $(CC)
 
@@ -66,4 +75,4 @@ clean: ## remove everything that was built
 
 -include $(wildcard $(BUILD)/*.d)
 
-.PHONY: all demo test bench check-long experiments layers san tsan help clean
+.PHONY: all demo test bench check-long mutants ref check-ref experiments layers san tsan help clean

@@ -15,6 +15,8 @@ static const struct {
     {"experiment", "measure methods: asbdpt experiment [--quick|--full] [SCENE...] -o DIR [options]", command_experiment},
     {"bench", "measure speed: asbdpt bench SCENE... [--json FILE] [--baseline FILE] [--spp N] [--maxdepth N] [-j N]",
      command_bench},
+    {"verify", "test that methods agree: asbdpt verify SCENE [--methods A,B] [--batches N] [--tile N] [options]",
+     command_verify},
     {"info", "describe a scene: asbdpt info SCENE.pbrt [options]", command_info},
 };
 enum { N_COMMANDS = sizeof COMMANDS / sizeof COMMANDS[0] };
