@@ -183,8 +183,8 @@ double stats_welch_p(double mean1, double var1, double n1, double mean2, double 
     return stats_student_p(t, dof);
 }
 
-/* The limit distribution of Kolmogorov: probability of sqrt(n) D > x. Two series, each fast where it is used. */
-static double kolmogorov_q(double x)
+/* Two series, each fast where it is used. */
+double stats_kolmogorov_p(double x)
 {
     double sum = 0;
     if (x < 0.1)
@@ -205,18 +205,23 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-double stats_ks_uniform_p(double *x, size_t n)
+double stats_ks_distance(double *x, size_t n)
 {
-    if (n == 0)
-        return 1;
-    qsort(x, n, sizeof *x, by_value);
     double d = 0, count = (double)n;
+    qsort(x, n, sizeof *x, by_value);
     for (size_t i = 0; i < n; i++) {
         d = fmax(d, x[i] - (double)i / count);
         d = fmax(d, (double)(i + 1) / count - x[i]);
     }
-    double root = sqrt(count); /* the bracket is Stephens's correction for small n [Stephens 1970] */
-    return kolmogorov_q(d * (root + 0.12 + 0.11 / root));
+    return d;
+}
+
+double stats_ks_uniform_p(double *x, size_t n)
+{
+    if (n == 0)
+        return 1;
+    double root = sqrt((double)n); /* the bracket is Stephens's correction for small n [Stephens 1970] */
+    return stats_kolmogorov_p(stats_ks_distance(x, n) * (root + 0.12 + 0.11 / root));
 }
 
 double stats_sidak(double alpha, double m) { return -expm1(log1p(-alpha) / m); }

@@ -33,6 +33,13 @@ double stats_chi2_test(const double *observed, const double *expected, size_t n)
  * and count [Welch 1947]. Both variances 0: 1 if the means agree, else 0. */
 double stats_welch_p(double mean1, double var1, double n1, double mean2, double var2, double n2);
 
+/* stats_kolmogorov_p: Kolmogorov's limit distribution: the probability that sqrt(n) times the distance exceeds x. */
+double stats_kolmogorov_p(double x);
+
+/* stats_ks_distance: largest distance of the empirical distribution of n numbers from the uniform one on [0,1]; sorts
+ * them. */
+double stats_ks_distance(double *x, size_t n);
+
 /* stats_ks_uniform_p: Kolmogorov-Smirnov test that the n numbers are uniform on [0,1]; sorts them. */
 double stats_ks_uniform_p(double *x, size_t n);
 

@@ -15,7 +15,7 @@ expect() {
     shift 2
     "$@" >stdout.txt 2>stderr.txt
     got=$?
-    if [ $got -ne "$status" ] || ! grep -Eq "$pattern" stderr.txt; then
+    if [ $got -ne "$status" ] || { [ -n "$pattern" ] && ! grep -Eq "$pattern" stderr.txt; }; then
         echo "FAIL: $* ended with $got (expected $status) saying:"
         cat stderr.txt
         failures=$((failures + 1))
@@ -78,6 +78,17 @@ expect 0 '' "$program" render "$box" $small --maxdepth 2 --strategies s -o a.pfm
 check [ -s s/d02_s02_t02_weighted.pfm ]
 expect 0 '' "$program" info "$box"
 check grep -q triangles stdout.txt
+
+# verify: agreement is status 0, a difference status 1.
+expect 0 '' "$program" verify "$box" --methods pt,bdpt --res 12x12 --spp 8 --maxdepth 2 --quiet
+check grep -q 'verdict: agree' stdout.txt
+expect 1 '' "$program" verify "$box" --methods bdpt --spp 4 --quiet --reference "$scenes/../ref/veach-ajar.pfm"
+check grep -q 'verdict: DIFFER' stdout.txt
+# A picture against itself is too alike to be independent.
+expect 1 '' "$program" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm"
+expect 1 'same size' "$program" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" a.pfm a.pfm
+expect 2 'usage: asbdpt verify' "$program" verify --images a.pfm
+expect 2 'no method nonsense' "$program" verify "$box" --methods nonsense
 
 [ $failures -eq 0 ] && echo "command line: all as expected"
 exit $((failures > 0))

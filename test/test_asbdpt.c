@@ -102,7 +102,7 @@ static void test_constant_pool(struct test *t)
 
 /* --- every kind of scene ----------------------------------------------------------------------------- */
 
-static void test_scenes(struct test *t)
+static void test_every_scene(struct test *t)
 {
     static const char *const scenes[] = {"light-kinds", "mirror-glass", "thin-lens", "all-materials", "smooth-normals",
                                          "negative-scale", "alpha", "instances"};
@@ -158,6 +158,6 @@ void test_asbdpt(struct test *t)
 {
     test_bias(t);
     test_constant_pool(t);
-    test_scenes(t);
+    test_every_scene(t);
     test_selection_threads(t);
 }

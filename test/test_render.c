@@ -167,7 +167,7 @@ static float *render_pixels(struct test *t, const struct scene *scene, const cha
     return pixels;
 }
 
-static void test_threads(struct test *t)
+static void test_thread_counts(struct test *t)
 {
     char text[8192];
     struct scene scene;
@@ -263,7 +263,7 @@ void test_render(struct test *t)
     test_disk(t, "bdpt");
     test_empty(t);
     test_agreement(t);
-    test_threads(t);
+    test_thread_counts(t);
     test_crop(t);
     test_filters(t);
 }

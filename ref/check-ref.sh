@@ -1,0 +1,22 @@
+#!/bin/sh
+# check-ref.sh: are the stored references still what the program converges to? `make check-ref` calls it.
+# Each is rendered again by pt and by bdpt, with fewer samples and other seeds, and tested tile by tile.
+#   sh ref/check-ref.sh [PROGRAM [SPP]]
+program=${1:-./asbdpt}
+spp=${2:-256}
+failures=0
+for text in ref/*.txt; do
+    name=$(basename "$text" .txt)
+    for method in pt bdpt; do
+        if "$program" verify "scenes/$name.pbrt" --methods $method --reference "ref/$name.pfm" --filter box --spp "$spp" \
+            --batches 16 --seed 777000 --quiet >"/tmp/check-ref.$$"; then
+            echo "ok      $name by $method: $(grep 'ratio of' "/tmp/check-ref.$$")"
+        else
+            echo "FAILED  $name by $method"
+            cat "/tmp/check-ref.$$"
+            failures=$((failures + 1))
+        fi
+    done
+done
+rm -f "/tmp/check-ref.$$"
+[ $failures -eq 0 ]

@@ -1,0 +1,109 @@
+#!/bin/sh
+# run.sh: apply the faults of list.txt one by one to a copy of the tree; every one must be caught by the test suite.
+#   sh test/mutants/run.sh [WORKERS [NAME...]]      `make mutants` calls it; results in build-mutants/table.txt
+# A fault is caught when a test fails or crashes; one that keeps a test running for TIMEOUT seconds is reported as an
+# error. With WHOLE=no only the named tests are run. Exit status 0 only if all faults are caught.
+set -u
+list=test/mutants/list.txt
+work=build-mutants
+workers=${1:-2}
+[ $# -gt 0 ] && shift
+only=" $* "
+TIMEOUT=900
+rest=all
+[ "${WHOLE:-yes}" = no ] && rest=
+
+# names: the mutants to run, one a line.
+names() {
+    awk -v only="$only" '/^[^-+# \t]/ && NF > 3 && (only == "  " || index(only, " " $1 " ")) { print $1 }' $list
+}
+
+# apply NAME TREE: replace the text in the tree's file. Prints an error unless the old text occurs exactly once.
+apply() {
+    awk -v name="$1" -v tree="$2" '
+        /^#/ { next }
+        /^[^-+ \t]/ && NF > 3 { here = ($1 == name); if (here) file = $2; next }
+        !here || /^$/ { next }
+        /^-/ { old = old (old == "" ? "" : "\n") substr($0, 3) }
+        /^\+/ { new = new (new == "" ? "" : "\n") substr($0, 3) }
+        END {
+            if (file == "") { print name ": no such mutant"; exit 1 }
+            path = tree "/" file
+            while ((getline line < path) > 0)
+                text = text line "\n"
+            close(path)
+            at = index(text, old)
+            if (old == "" || at == 0) { print name ": " file " does not hold the text to be replaced"; exit 1 }
+            rest = substr(text, at + length(old))
+            if (index(rest, old)) { print name ": " file " holds the text to be replaced more than once"; exit 1 }
+            printf "%s%s%s", substr(text, 1, at - 1), new, rest > path
+        }' $list
+}
+
+# field NAME N: the N-th word of the mutant's first line; the description is the rest.
+field() { awk -v name="$1" -v n="$2" '/^[^-+# \t]/ && $1 == name { print $n }' $list; }
+
+# try TREE TEST: does the test notice? Prints what it says.
+try() {
+    if [ "$2" = cli ]; then
+        (cd "$1" && make -s asbdpt >/dev/null 2>&1 && sh test/cli.sh ./asbdpt)
+    elif [ "$2" = all ]; then
+        (cd "$1" && timeout $TIMEOUT build/test)
+    else
+        (cd "$1" && timeout $TIMEOUT build/test "$2")
+    fi >"$1/output.txt" 2>&1
+}
+
+# one NAME TREE: the mutant's line of the table.
+one() {
+    file=$(field "$1" 2)
+    cp "$2/$file" "$2/saved"
+    verdict=SURVIVED
+    if ! message=$(apply "$1" "$2"); then
+        verdict="ERROR $message"
+    elif ! (cd "$2" && make -s build/test) >"$2/output.txt" 2>&1; then
+        verdict="ERROR does not compile"
+    else
+        for test in $(field "$1" 3 | tr , ' ') $rest; do
+            try "$2" "$test"
+            status=$?
+            [ $status -eq 124 ] && verdict="ERROR $test does not end" && break
+            if [ $status -ne 0 ]; then
+                verdict=$test
+                [ "$test" = all ] && verdict="all: $(sed -n 's/.*repeat with: .* //p' "$2/output.txt" | sort -u | tr '\n' ' ')"
+                break
+            fi
+        done
+    fi
+    cp "$2/saved" "$2/$file"
+    printf '%-18s %s\n' "$1" "$verdict"
+}
+
+# worker NUMBER: every WORKERS-th mutant in a tree of its own.
+worker() {
+    tree=$work/tree$1
+    mkdir -p "$tree"
+    cp -R Makefile src test scenes ref doc "$tree/" 2>/dev/null
+    (cd "$tree" && make -s asbdpt build/test) || exit 1
+    n=0
+    for name in $(names); do
+        [ $((n % workers)) -eq "$1" ] && one "$name" "$tree"
+        n=$((n + 1))
+    done >"$work/part$1.txt"
+}
+
+rm -rf $work/part*.txt
+mkdir -p $work
+w=0
+while [ $w -lt "$workers" ]; do
+    worker $w &
+    w=$((w + 1))
+done
+wait
+for name in $(names); do
+    cat $work/part*.txt | awk -v name="$name" '$1 == name'
+done >$work/table.txt
+cat $work/table.txt
+awk -v wanted="$(names | wc -l)" '
+    $2 == "SURVIVED" || $2 == "ERROR" { bad++ }
+    END { printf "%d mutants, %d caught\n", wanted, NR - bad; exit (bad > 0 || NR != wanted) }' $work/table.txt

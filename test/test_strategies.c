@@ -1,0 +1,104 @@
+/* test_strategies.c: every strategy (s,t) alone, unweighted, has the expectation of all the others of its path length.
+ *
+ * Only then may their weights be chosen freely. Two scenes without delta lobes or delta lights, so that every strategy
+ * can make every path; surfaces do not touch, so that no connection is short and its geometry factor has a variance. In
+ * the second, shading normals lean: without the adjoint factor [V97 5.3.2] strategies would differ.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../src/mem.h"
+#include "../src/parallel.h"
+#include "../src/render.h"
+#include "../src/stats.h"
+#include "helpers.h"
+#include "tests.h"
+
+enum { DEPTH = 3, BATCHES = 16, SPP = 400 };
+
+#define HEAD                                                                                                      \
+    "LookAt 0 1.6 -4.5  0 .9 0  0 1 0 Camera \"perspective\" \"float fov\" 42\n"                                    \
+    "Film \"image\" \"integer xresolution\" 12 \"integer yresolution\" 12 PixelFilter \"triangle\"\n"                 \
+    "WorldBegin\n"                                                                                                \
+    "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] Material \"matte\" \"rgb Kd\" [.5 .5 .5]\n"           \
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 4 -2  2 4 -2  2 4 2  -2 4 2]\n"           \
+    "AttributeEnd\n"                                                                                              \
+    "Material \"matte\" \"rgb Kd\" [.8 .7 .6]\n"                                                                    \
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1.5 0 -1.5  1.5 0 -1.5  1.5 0 1.5  -1.5 0 1.5]\n"
+
+static const char PLAIN[] = HEAD
+    "Material \"plastic\" \"rgb Kd\" [.5 .6 .7] \"float roughness\" .4\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 1 2.5  2 1 2.5  2 3.4 2.5  -2 3.4 2.5]\n"
+    "WorldEnd\n";
+
+static const char LEANING[] = HEAD
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 1 2.5  2 1 2.5  2 3.4 2.5  -2 3.4 2.5]\n"
+    "  \"normal N\" [-.2 -1 -1  .2 -1 -1  .2 -.8 -1  -.2 -.8 -1]\n"
+    "WorldEnd\n";
+
+/* Mean of the unweighted image of each strategy. */
+static void strategy_means(const struct film *film, double *out)
+{
+    size_t pixels = (size_t)rect_width(film->rect) * (size_t)rect_height(film->rect) * 3;
+    for (int i = 0; i < strategy_count(DEPTH); i++) {
+        double sum = 0;
+        for (size_t k = 0; k < pixels; k++)
+            sum += film->strategies->unweighted[pixels * (size_t)i + k];
+        out[i] = sum / ((double)pixels * (double)film->iterations);
+    }
+}
+
+/* Differences between two strategies of the same renders: by Student's t over the batches. */
+static double paired_p(double (*mean)[64], int a, int b, double factor)
+{
+    double sum = 0, square = 0;
+    for (int k = 0; k < BATCHES; k++) {
+        double d = factor * mean[k][a] - mean[k][b];
+        sum += d;
+        square += d * d;
+    }
+    double variance = (square - sum * sum / BATCHES) / (BATCHES - 1);
+    return stats_student_p(sum / BATCHES / sqrt(variance / BATCHES), BATCHES - 1);
+}
+
+static void test_scene(struct test *t, const char *name, const char *text)
+{
+    struct scene scene;
+    static double mean[BATCHES][64];
+    if (!scene_from_text(t, text, &scene) || !CHECK(t, strategy_count(DEPTH) <= 64, "too many strategies"))
+        return;
+    for (int k = 0; k < BATCHES; k++) {
+        struct film film;
+        struct error err;
+        struct render_options o = {.method = method_find("bdpt"), .end = SPP, .max_depth = DEPTH};
+        o.n_threads = parallel_cores();
+        o.seed = test_seed(t) * 7919 + (uint64_t)k;
+        film_init(&film, render_crop(&scene), scene.width, scene.height);
+        film_keep_strategies(&film, DEPTH);
+        CHECK(t, render_scene(&scene, &o, &film, &err), "%s", err.text);
+        strategy_means(&film, mean[k]);
+        film_free(&film);
+    }
+    for (int depth = 1; depth <= DEPTH; depth++)
+        for (int s = 1; s <= depth + 1; s++)
+            for (int r = 0; r < s; r++) {
+                int a = strategy_index(r, depth + 2 - r), b = strategy_index(s, depth + 2 - s);
+                double ratio = 0;
+                for (int k = 0; k < BATCHES; k++)
+                    ratio += mean[k][a] / mean[k][b] / BATCHES;
+                CHECK(t, mean[0][a] > 0, "%s: strategy (%d,%d) makes no path", name, r, depth + 2 - r);
+                TEST_ACCEPT(t, paired_p(mean, a, b, 1), "%s: strategies (%d,%d) and (%d,%d), ratio %.4f", name, r,
+                            depth + 2 - r, s, depth + 2 - s, ratio);
+                if (depth == 2)
+                    TEST_REJECT(t, paired_p(mean, a, b, 1.25), "%s: (%d,%d) made 25 %% brighter against (%d,%d)", name, r,
+                                depth + 2 - r, s, depth + 2 - s);
+            }
+    scene_free(&scene);
+}
+
+void test_strategies(struct test *t)
+{
+    test_scene(t, "plain normals", PLAIN);
+    test_scene(t, "leaning normals", LEANING);
+}
