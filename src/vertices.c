@@ -10,7 +10,7 @@
  * has BDPT's expectation. s = 0, s = 1 and t = 1 stay as they are, every pooled sub-path being splat once.
  *
  * The MIS weights know about it: strategies s >= 2, t >= 2 ending at light position x take about n(x) samples per pixel,
- * a function of the position alone, so all strategies of a path agree on it (mis.h). They are counted twice, having been
+ * a function of the surface point alone, so all strategies of a path agree on it (mis.h). They are counted twice, having been
  * measured to deserve it: draws stratified over a table vary less than independent ones.
  *
  * Used by: asbdpt. Tests: test_asbdpt.c.
