@@ -1,7 +1,7 @@
 # asbdpt: `make help` lists the targets. Needs a C99 compiler, make, libm and POSIX threads.
 CC       = cc
 BUILD    = build
-OPT      = -O2
+OPT      = -O3
 WARN     = -std=c99 -pedantic -Wall -Wextra -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wswitch
 # No fast-math; contraction off, so that one compiler gives one result. Nobody reads errno after sqrt. CFLAGS is the user's and comes last.
 FLAGS    = $(WARN) $(OPT) -ffp-contract=off -fno-math-errno -pthread
@@ -9,6 +9,7 @@ LIBS     = -lm -lpthread
 OBJ      = $(patsubst src/%.c,$(BUILD)/%.o,$(wildcard src/*.c))
 TEST_OBJ = $(filter-out $(BUILD)/main.o,$(OBJ)) $(patsubst test/%.c,$(BUILD)/test_%.o,$(wildcard test/*.c))
 PROGRAM  = ./asbdpt
+SCENES   = $(addprefix scenes/,$(addsuffix .pbrt,cornell-box cornell-box-modified veach-ajar bathroom living-room))
 
 all: asbdpt ## build ./asbdpt (the default)
 
@@ -38,6 +39,9 @@ test: asbdpt $(BUILD)/test layers ## build and run the test suite (under 3 minut
 
 check-long: asbdpt $(BUILD)/test experiments ## the tests that take longer
 	$(BUILD)/test --slow
+
+bench: asbdpt | out ## measure speed and memory on the scenes (or SCENES="..."), beside doc/bench-baseline.json
+	$(PROGRAM) bench $(SCENES) --json out/bench.json --baseline doc/bench-baseline.json
 
 experiments: asbdpt | out ## measure all methods on the five scenes, quickly, into out/experiments/report.html
 	$(PROGRAM) experiment --quick -o out/experiments
@@ -71,4 +75,4 @@ clean: ## remove everything that was built
 
 -include $(wildcard $(BUILD)/*.d)
 
-.PHONY: all demo test check-long mutants ref check-ref experiments layers san tsan help clean
+.PHONY: all demo test bench check-long mutants ref check-ref experiments layers san tsan help clean

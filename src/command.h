@@ -22,6 +22,7 @@ int command_compare(int argc, char **argv);
 int command_verify(int argc, char **argv);
 int command_info(int argc, char **argv);
 int command_experiment(int argc, char **argv);
+int command_bench(int argc, char **argv);
 
 /* fail / usage_error: print "asbdpt: message" and return EXIT_JOB / EXIT_USAGE. */
 int fail(const struct error *err);

@@ -21,7 +21,7 @@
 #include "mem.h"
 
 /* Costs relative to each other, found by measurement, and what cutting off empty space is worth. */
-static const double TRAVERSE = 3, TEST = 1, EMPTY_FACTOR = 0.8;
+static const double TRAVERSE = 1, TEST = 1, EMPTY_FACTOR = 0.8;
 
 /* References per item at most. Meshes need 2 to 4; a heap of long needles would ask for ever more. */
 static const double MAX_REFERENCES = 32;
@@ -509,5 +509,7 @@ void kd_build(struct kdtree *kd, const struct geometry *geo)
     }
     memcpy(kd->lo, bounds.lo, sizeof kd->lo);
     memcpy(kd->hi, bounds.hi, sizeof kd->hi);
+    for (int k = 0; k < 3; k++)
+        kd->reach = fmax(kd->reach, fmax(fabs((double)kd->lo[k]), fabs((double)kd->hi[k])));
     free_builder(&b);
 }

@@ -42,13 +42,15 @@ static double inverse_of(double d)
     return 1 / (fabs(d) < least ? copysign(least, d) : d);
 }
 
+/* What fmax and fmin do, but for NaN, without a call. */
+static inline double larger(double a, double b) { return a > b ? a : b; }
+static inline double smaller(double a, double b) { return a < b ? a : b; }
+
 /* Prepare the walk; false if the ray misses the bounds. */
 static bool walk_start(struct walk *w, const struct kdtree *kd, const struct ray *ray)
 {
     double o[3] = {ray->o.x, ray->o.y, ray->o.z}, d[3] = {ray->d.x, ray->d.y, ray->d.z};
-    double size = 0;
-    for (int k = 0; k < 3; k++)
-        size = fmax(size, fmax(fabs(o[k]), fmax(fabs((double)kd->lo[k]), fabs((double)kd->hi[k]))));
+    double size = larger(larger(kd->reach, fabs(o[0])), larger(fabs(o[1]), fabs(o[2])));
     double tmin = ray->tmin, tmax = ray->tmax;
     for (int k = 0; k < 3; k++) {
         double half = copysign(1e-14 * size, d[k]);
@@ -57,8 +59,8 @@ static bool walk_start(struct walk *w, const struct kdtree *kd, const struct ray
         w->before[k] = o[k] + half;
         w->after[k] = o[k] - half;
         w->near_child[k] = !up;
-        tmin = fmax(tmin, ((up ? kd->lo[k] : kd->hi[k]) - w->before[k]) * w->inverse[k]);
-        tmax = fmin(tmax, ((up ? kd->hi[k] : kd->lo[k]) - w->after[k]) * w->inverse[k]);
+        tmin = larger(tmin, ((up ? kd->lo[k] : kd->hi[k]) - w->before[k]) * w->inverse[k]);
+        tmax = smaller(tmax, ((up ? kd->hi[k] : kd->lo[k]) - w->after[k]) * w->inverse[k]);
     }
     w->cell.node = 0;
     w->cell.tmin = tmin;
@@ -84,9 +86,9 @@ static inline struct kd_node walk_to_leaf(struct walk *w, const struct kd_node *
         } else {
             struct cell *far = &w->stack[w->waiting++];
             far->node = far_cell;
-            far->tmin = t_lo > tmin ? t_lo : tmin;
+            far->tmin = larger(t_lo, tmin);
             far->tmax = tmax;
-            tmax = t_hi < tmax ? t_hi : tmax;
+            tmax = smaller(t_hi, tmax);
             n = nodes[near_cell];
         }
     }
@@ -99,7 +101,7 @@ static inline bool walk_next(struct walk *w, double t)
     while (w->waiting > 0) {
         w->cell = w->stack[--w->waiting];
         if (w->cell.tmin <= t) {
-            w->cell.tmax = fmin(w->cell.tmax, t);
+            w->cell.tmax = smaller(w->cell.tmax, t);
             return true;
         }
     }

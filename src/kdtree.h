@@ -26,6 +26,7 @@ struct kdtree {
     int n_nodes;
     int n_items;
     float lo[3], hi[3]; /* bounds of everything; lo > hi for an empty tree */
+    double reach;       /* largest absolute coordinate of the bounds */
     int depth;          /* deepest leaf, the root being at 0 */
     double cost;        /* expected cost of a ray by the surface-area heuristic, in triangle tests */
 };

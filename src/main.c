@@ -13,6 +13,8 @@ static const struct {
     {"render", "render a scene: asbdpt render SCENE.pbrt [-o FILE.{pfm,ppm,png}]... [options]", command_render},
     {"compare", "compare pictures: asbdpt compare IMAGE REFERENCE [--heatmap FILE.png] [--json]", command_compare},
     {"experiment", "measure methods: asbdpt experiment [--quick|--full] [SCENE...] -o DIR [options]", command_experiment},
+    {"bench", "measure speed: asbdpt bench SCENE... [--json FILE] [--baseline FILE] [--spp N] [--maxdepth N] [-j N]",
+     command_bench},
     {"verify", "test that methods agree: asbdpt verify SCENE [--methods A,B] [--batches N] [--tile N] [options]",
      command_verify},
     {"info", "describe a scene: asbdpt info SCENE.pbrt [options]", command_info},

@@ -62,7 +62,7 @@ struct arena_block {
     union most_aligned data[1]; /* really `size` bytes */
 };
 
-enum { BLOCK_BYTES = 64 * 1024, HEADER_BYTES = offsetof(struct arena_block, data) };
+enum { BLOCK_BYTES = 16 * 1024, HEADER_BYTES = offsetof(struct arena_block, data) };
 
 static struct arena_block *new_block(size_t size)
 {

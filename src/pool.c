@@ -18,7 +18,7 @@
 #include "trace.h"
 
 struct pool {
-    struct light_pool *paths;
+    struct light_pool paths;
     double q[TILE_SIZE * TILE_SIZE];
     int order[TILE_SIZE * TILE_SIZE]; /* bin visited by each pixel */
     struct alias_table table;
@@ -26,16 +26,14 @@ struct pool {
 
 static void *new_own(const void *selection)
 {
-    const struct selection *sel = selection;
-    struct pool *p = mem_alloc(1, sizeof *p);
-    p->paths = light_pool_new(sel->max_depth);
-    return p;
+    (void)selection;
+    return mem_alloc(1, sizeof(struct pool));
 }
 
 static void free_own(void *own)
 {
     struct pool *p = own;
-    light_pool_free(p->paths);
+    light_pool_free(&p->paths);
     alias_free(&p->table);
     free(p);
 }
@@ -52,10 +50,10 @@ static double path_importance(const struct selection *sel, const struct vertex *
 
 static void build_table(struct pool *p, const struct selection *sel)
 {
-    int K = p->paths->n;
+    int K = p->paths.n;
     double sum = 0;
     for (int k = 0; k < K; k++)
-        sum += p->q[k] = path_importance(sel, light_pool_path(p->paths, k), p->paths->length[k]);
+        sum += p->q[k] = path_importance(sel, light_pool_path(&p->paths, k), p->paths.length[k]);
     double delta = sum > 0 ? sel->delta : 1;
     for (int k = 0; k < K; k++)
         p->q[k] = (delta < 1 ? (1 - delta) * p->q[k] / sum : 0) + delta / K;
@@ -65,7 +63,7 @@ static void build_table(struct pool *p, const struct selection *sel)
 /* A random permutation: Fisher and Yates. */
 static void shuffle(struct pool *p, struct sampler *sampler)
 {
-    for (int i = 0; i < p->paths->n; i++) {
+    for (int i = 0; i < p->paths.n; i++) {
         int j = (int)(sampler_next(sampler) * (i + 1));
         p->order[i] = p->order[j];
         p->order[j] = i;
@@ -84,9 +82,9 @@ static void render_pixel(const struct tile_pass *pass, const struct selection *s
     int k = alias_sample_bin(&p->table, p->order[number], sampler_next(&draw), &q, NULL);
 
     rgb sum = gather_eye(&g, eye, n);
-    double W = 1 / (p->paths->n * q);
-    sum = rgb_add(sum, gather_pairs(&g, eye, n, light_pool_path(p->paths, k), p->paths->length[k], W));
-    gather_splats(&g, light_pool_path(p->paths, number), p->paths->length[number]);
+    double W = 1 / (p->paths.n * q);
+    sum = rgb_add(sum, gather_pairs(&g, eye, n, light_pool_path(&p->paths, k), p->paths.length[k], W));
+    gather_splats(&g, light_pool_path(&p->paths, number), p->paths.length[number]);
     tile_add_own(pass->tile, x, y, sum);
 }
 
@@ -95,7 +93,7 @@ static void render(const void *selection, const struct tile_pass *pass)
     const struct selection *sel = selection;
     struct pool *p = pass->work->own;
     for (long i = pass->first; i < pass->end; i++) {
-        light_pool_fill(p->paths, pass, &sel->counts, i);
+        light_pool_fill(&p->paths, pass, &sel->counts, i);
         build_table(p, sel);
         struct sampler order = trace_sampler(pass, RNG_SHUFFLE, pass->rect.x0, pass->rect.y0, i);
         shuffle(p, &order);

@@ -8,8 +8,9 @@
 #include "parallel.h"
 
 enum {
-    CHUNK = 512,          /* sub-paths per chunk */
-    EYE_PER_PIXEL = 2,    /* eye sub-paths, at most MAX_EYE of them */
+    CHUNK = 512,           /* sub-paths per chunk */
+    EYE_PER_PIXEL = 2,     /* eye sub-paths, but at least MIN_EYE and at most MAX_EYE */
+    MIN_EYE = 8 * 1024,
     MAX_EYE = 128 * 1024,
     MAX_LIGHT = 32 * 1024, /* light sub-paths for importance.mean, no more than eye sub-paths */
     GUIDE_CELLS = 8,      /* regions of the guide along the scene's diameter */
@@ -178,7 +179,7 @@ void prepass_run(const struct render_job *job, struct importance *importance, st
     p.lessons = guide != NULL ? &lessons : NULL;
     p.counts.direct = 1;
     long wanted = (long)rect_width(job->film_rect) * rect_height(job->film_rect) * EYE_PER_PIXEL;
-    long n_eye = wanted < MAX_EYE ? wanted : MAX_EYE;
+    long n_eye = wanted < MIN_EYE ? MIN_EYE : wanted > MAX_EYE ? MAX_EYE : wanted;
     learn_in_rounds(&p, n_eye, guide);
     guide_lessons_free(&lessons);
     if (importance == NULL)

@@ -1,10 +1,11 @@
 /* reference.h: the picture that errors are measured against, and how far it may itself be off.
  *
- * A stored reference is a picture NAME.pfm with, beside it, an optional text NAME.txt of lines "key value", of
- * which maxdepth    N   it holds paths up to this length noise8      X   root mean square of the standard errors of
- * its 8-bit values mean_error  X   standard error of its mean, relative to the mean are read and the others kept
- * for people. It fits a wanted size when its own is the same or a whole multiple: with a box filter the mean of k x
- * k pixels is exactly the pixel of the smaller picture.
+ * A stored reference is a picture NAME.pfm with, beside it, an optional text NAME.txt of lines "key value", of which
+ *     maxdepth    N   it holds paths up to this length
+ *     noise8      X   root mean square of the standard errors of its 8-bit values
+ *     mean_error  X   standard error of its mean, relative to the mean
+ * are read and the others kept for people. It fits a wanted size when its own is the same or a whole multiple: with a
+ * box filter the mean of k x k pixels is exactly the pixel of the smaller picture.
  *
  * Where none is stored, one is rendered by bdpt in two independent halves A and B. Their mean is the reference, and
  *     E (A - B)^2 = 2 var A = 4 var (A + B)/2,   so that   noise8 = rmse8(A, B) / 2.
@@ -26,8 +27,9 @@ struct reference {
 };
 
 /* reference_find: read a stored reference that fits.
- *   given  a file, a directory that holds NAME.pfm, or NULL to look for ref/NAME.pfm beside the scene, one
- * directory up and in the current one Returns 1 when found; 0 when there is none that fits; -1 with a message when
+ *   given  a file, a directory that holds NAME.pfm, or NULL to look for ref/NAME.pfm beside the scene, one directory
+ *          up and in the current one
+ * Returns 1 when found; 0 when there is none that fits; -1 with a message when
  * `given` is unusable. */
 int reference_find(const char *given, const char *scene_path, const char *name, int width, int height,
                    int max_depth, struct reference *out, struct error *err);

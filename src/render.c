@@ -148,7 +148,7 @@ static void run_all(struct run *r)
     r->tiles_y = (rect_height(r->job.film_rect) + TILE_SIZE - 1) / TILE_SIZE;
     r->n_jobs = tiles_per_block(r) * (end_block - first_block);
 
-    struct parallel_jobs jobs = {r->n_jobs, r->job.n_threads, 4 * r->job.n_threads, r, run_pass, merge_pass};
+    struct parallel_jobs jobs = {r->n_jobs, r->job.n_threads, 2 * r->job.n_threads, r, run_pass, merge_pass};
     r->tile = mem_alloc((size_t)jobs.n_slots, sizeof *r->tile);
     make_workspaces(r);
     parallel_run(&jobs);

@@ -49,15 +49,17 @@ extern const struct selector select_bins, select_pool, select_vertices;
  * alone, which met no surface, has the emitted radiance there, as in pbrt-v3, where [S24] was implemented. */
 double select_throughput(const struct vertex *light, int n);
 
-/* The light sub-paths of one tile and iteration, one per pixel in row order. */
+/* The light sub-paths of one tile and iteration, one per pixel in row order, packed one behind the other. */
 struct light_pool {
-    struct arena arena;    /* their lobes */
-    struct vertex *vertex; /* [capacity * (max_depth + 1)], path k starts at k * stride; owned */
-    int *length;           /* [capacity] vertices of path k; owned */
-    int n, stride;
+    struct arena arena;                  /* their lobes */
+    struct vertex *vertex;               /* [used], grows to the longest need; owned */
+    size_t used, capacity;
+    size_t start[TILE_SIZE * TILE_SIZE]; /* first vertex of path k */
+    int length[TILE_SIZE * TILE_SIZE];   /* vertices of path k */
+    int n;
 };
 
-struct light_pool *light_pool_new(int max_depth);
+/* light_pool_free: release what the pool owns. A pool starts as zeros. */
 void light_pool_free(struct light_pool *pool);
 
 /* light_pool_fill: trace the sub-paths of the tile's pixels for one iteration. */
@@ -66,7 +68,7 @@ void light_pool_fill(struct light_pool *pool, const struct tile_pass *pass, cons
 
 static inline const struct vertex *light_pool_path(const struct light_pool *pool, int k)
 {
-    return &pool->vertex[(size_t)k * (size_t)pool->stride];
+    return &pool->vertex[pool->start[k]];
 }
 
 #endif

@@ -158,7 +158,8 @@ static struct triangle triangle_of(const struct geometry *geo, int prim)
     for (int i = 0; i < 3; i++) {
         size_t vertex = geo->index[3 * (size_t)prim + (size_t)i];
         tri.p[i] = load3(geo->P, vertex);
-        tri.n[i] = load3(geo->N, vertex);
+        if (group->has_n)
+            tri.n[i] = load3(geo->N, vertex);
         for (int k = 0; k < 2; k++)
             tri.uv[i][k] = group->has_uv ? geo->UV[2 * vertex + (size_t)k] : default_uv[i][k];
     }

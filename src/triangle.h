@@ -34,6 +34,10 @@ static inline struct triangle_ray triangle_ray(const struct ray *ray)
     return r;
 }
 
+/* triangle_distance: t where the ray meets the plane of the triangle v. The edges, differences of floats, are exact in
+ * double, so t is good to the last digits even for needles and grazing rays. */
+double triangle_distance(const struct triangle_ray *r, const float v[9]);
+
 /* triangle_hit: does the ray meet the triangle v[0..8] (three vertices) at tmin < t < tmax?
  * On true hit->t, b1 and b2 are set. A triangle of zero area, or seen exactly edge-on, is never hit. */
 static inline bool triangle_hit(const struct triangle_ray *r, const float v[9], double tmax, struct hit *hit)
@@ -43,20 +47,16 @@ static inline bool triangle_hit(const struct triangle_ray *r, const float v[9], 
     double bx = (v[3 + r->kx] - r->ox) - r->sx * bz, by = (v[3 + r->ky] - r->oy) - r->sy * bz;
     double cx = (v[6 + r->kx] - r->ox) - r->sx * cz, cy = (v[6 + r->ky] - r->oy) - r->sy * cz;
     double ea = cx * by - cy * bx, eb = ax * cy - ay * cx, ec = bx * ay - by * ax;
-    if ((ea < 0 || eb < 0 || ec < 0) && (ea > 0 || eb > 0 || ec > 0))
+    /* Which edge has the wrong sign is a matter of chance, so one test of the extremes beats one of each. */
+    double least = ea < eb ? ea : eb, most = ea < eb ? eb : ea;
+    least = ec < least ? ec : least;
+    most = ec > most ? ec : most;
+    if ((least < 0) & (most > 0))
         return false;
     double sum = ea + eb + ec;
     if (sum == 0)
         return false;
-    /* t from the plane's equation: the edges, differences of floats, are exact in double, so t is good to the
-     * last digits even for needles and grazing rays. */
-    vec3 v0 = vec(v[0], v[1], v[2]);
-    vec3 n = cross(sub(vec(v[3], v[4], v[5]), v0), sub(vec(v[6], v[7], v[8]), v0));
-    double origin[3];
-    origin[r->kx] = r->ox;
-    origin[r->ky] = r->oy;
-    origin[r->kz] = r->oz;
-    double t = dot(n, sub(v0, vec(origin[0], origin[1], origin[2]))) / dot(n, r->d);
+    double t = triangle_distance(r, v);
     if (!(t > r->tmin && t < tmax))
         return false;
     hit->t = t;

@@ -10,7 +10,7 @@
  * has BDPT's expectation. s = 0, s = 1 and t = 1 stay as they are, every pooled sub-path being splat once.
  *
  * The MIS weights know about it: strategies s >= 2, t >= 2 ending at light position x take about n(x) samples per pixel,
- * a function of the position alone, so all strategies of a path agree on it (mis.h). They are counted twice, having been
+ * a function of the surface point alone, so all strategies of a path agree on it (mis.h). They are counted twice, having been
  * measured to deserve it: draws stratified over a table vary less than independent ones.
  *
  * Used by: asbdpt. Tests: test_asbdpt.c.
@@ -22,7 +22,7 @@
 #include "trace.h"
 
 struct vertices {
-    struct light_pool *pool;
+    struct light_pool pool;
     const struct vertex **candidate; /* [n], connectible light vertices; owned */
     int *s;                          /* [n], vertices of the light sub-path ending there; owned */
     double *q;                       /* [n], weights of the table; owned */
@@ -32,16 +32,14 @@ struct vertices {
 
 static void *new_own(const void *selection)
 {
-    const struct selection *sel = selection;
-    struct vertices *v = mem_alloc(1, sizeof *v);
-    v->pool = light_pool_new(sel->max_depth);
-    return v;
+    (void)selection;
+    return mem_alloc(1, sizeof(struct vertices));
 }
 
 static void free_own(void *own)
 {
     struct vertices *v = own;
-    light_pool_free(v->pool);
+    light_pool_free(&v->pool);
     free(v->candidate);
     free(v->s);
     free(v->q);
@@ -53,9 +51,9 @@ static void free_own(void *own)
 static void build_table(struct vertices *v)
 {
     size_t n = 0;
-    for (int k = 0; k < v->pool->n; k++) {
-        const struct vertex *path = light_pool_path(v->pool, k);
-        for (int i = 1; i < v->pool->length[k]; i++) {
+    for (int k = 0; k < v->pool.n; k++) {
+        const struct vertex *path = light_pool_path(&v->pool, k);
+        for (int i = 1; i < v->pool.length[k]; i++) {
             if (!vertex_connectible(&path[i]))
                 continue;
             v->candidate = mem_grow(v->candidate, &v->candidate_capacity, n + 1, sizeof *v->candidate);
@@ -79,7 +77,7 @@ static rgb connect_drawn(const struct vertices *v, const struct selection *sel, 
         double q, u = (c + sampler_next(sampler)) / C;
         int i = alias_sample(&v->table, u, &q, NULL);
         if (v->s[i] + t <= g->max_depth + 2)
-            sum = rgb_add(sum, gather_pair(g, v->candidate[i], v->s[i], z, t, 1 / (C * q * v->pool->n)));
+            sum = rgb_add(sum, gather_pair(g, v->candidate[i], v->s[i], z, t, 1 / (C * q * v->pool.n)));
     }
     return sum;
 }
@@ -96,7 +94,7 @@ static void render_pixel(const struct tile_pass *pass, const struct selection *s
     for (int t = 2; t <= n && t <= g.max_depth && v->table.n > 0; t++)
         if (eye[t - 1].kind == VERTEX_SURFACE && vertex_connectible(&eye[t - 1]))
             sum = rgb_add(sum, connect_drawn(v, sel, &g, &eye[t - 1], t, &draws));
-    gather_splats(&g, light_pool_path(v->pool, path), v->pool->length[path]);
+    gather_splats(&g, light_pool_path(&v->pool, path), v->pool.length[path]);
     tile_add_own(pass->tile, x, y, sum);
 }
 
@@ -105,7 +103,7 @@ static void render(const void *selection, const struct tile_pass *pass)
     const struct selection *sel = selection;
     struct vertices *v = pass->work->own;
     for (long i = pass->first; i < pass->end; i++) {
-        light_pool_fill(v->pool, pass, &sel->counts, i);
+        light_pool_fill(&v->pool, pass, &sel->counts, i);
         build_table(v);
         int path = 0;
         for (int y = pass->rect.y0; y < pass->rect.y1; y++)
