@@ -1,9 +1,10 @@
 /* sampler.h: the random numbers one sub-path consumes, drawn in order.
  *
  * The first numbers of every stream, those that decide most, form a low-discrepancy sequence over the iterations of a
- * pixel: pairs of Sobol' points, Owen-scrambled by hashing and each pair visited in an order of its own, so that pairs
- * are independent of each other [Burley 2020]. The rest comes from the pixel's generator. Each number alone is exactly
- * uniform, so nothing is biased; the iterations of a pixel are no longer independent but better spread.
+ * pixel: pairs of Sobol' points, Owen-scrambled by hashing, each pair visited in an order of its own [Burley 2020]. The
+ * rest comes from the pixel's generator. Each number alone is exactly uniform, and over pixels and seeds all are
+ * independent, so nothing is biased. Within one pixel the iterations are better spread than independent ones, and a weak
+ * correlation between two pairs may remain, since the order is a hash.
  *
  * Used by: path, connect, the methods. Tests: test_sampler.c.
  */
