@@ -37,8 +37,6 @@ void camera_prepare(struct camera *c, int width, int height)
     c->forward = normalize(transform_vector(&c->camera_to_world, vec(0, 0, 1)));
 }
 
-double camera_lens_area(const struct camera *c) { return c->lens_radius > 0 ? PI * sqr(c->lens_radius) : 1; }
-
 static vec3 lens_point(const struct camera *c, double u1, double u2)
 {
     double x = 0, y = 0;

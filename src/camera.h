@@ -44,9 +44,6 @@ void camera_prepare(struct camera *c, int width, int height);
  * tmax = infinity. */
 struct ray camera_ray(const struct camera *c, double px, double py, double u1, double u2);
 
-/* camera_lens_area: m^2; 1 for a pinhole, whose position is a delta. */
-double camera_lens_area(const struct camera *c);
-
 /* camera_sample_lens: a lens point in world space, uniform by area (the pinhole itself without a lens). */
 vec3 camera_sample_lens(const struct camera *c, double u1, double u2);
 
