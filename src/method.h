@@ -27,6 +27,7 @@ struct render_job {
     int max_depth;
     int n_threads;
     bool power_heuristic;
+    double rr_threshold; /* of Russian roulette, see path.h */
 };
 
 enum { TILE_SIZE = 16 }; /* pixels along the side of a tile */

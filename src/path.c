@@ -100,6 +100,16 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
     return true;
 }
 
+/* Russian roulette: `kept` is the fraction of the walk's first throughput that is left. False if the walk ends. */
+static bool survives(const struct walk *w, double kept, rgb *beta)
+{
+    if (kept >= w->rr_threshold)
+        return true;
+    double q = sqrt(kept / w->rr_threshold);
+    *beta = rgb_scale(*beta, 1 / q);
+    return sampler_next(w->sampler) < q;
+}
+
 /* Leave the surface vertex by sampling its BSDF. False if the walk is absorbed. */
 static bool depart(const struct walk *w, const struct vertex *v, enum transport mode, struct departure *out)
 {
@@ -124,6 +134,7 @@ static int random_walk(const struct walk *w, struct departure from, struct verte
                        enum transport mode)
 {
     int n = 1;
+    double first = rgb_max(from.beta);
     while (n < max_vertices) {
         struct surface at;
         if (!scene_intersect(w->scene, &from.ray, &at)) {
@@ -135,6 +146,8 @@ static int random_walk(const struct walk *w, struct departure from, struct verte
             break;
         n++;
         if (n < max_vertices && !depart(w, &path[n - 1], mode, &from))
+            break;
+        if (n > 2 && n < max_vertices && !survives(w, rgb_max(from.beta) / first, &from.beta))
             break;
     }
     return n;

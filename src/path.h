@@ -7,6 +7,12 @@
  * The throughput beta of a vertex is the product of the factors of the measurement up to the *arrival* at the vertex,
  * divided by the density of having sampled it [V97 10.1, alpha]; the vertex' own BSDF is not in it.
  *
+ * From their second bounce on, walks end early by Russian roulette where little throughput is left: a walk that has kept
+ * the fraction r of its first throughput survives with probability sqrt(r / rr_threshold), and its throughput is divided
+ * by that. The probability depends on all of the walk, so no other strategy could know it for the same path, and MIS
+ * leaves it out: any weights that add up to 1 are unbiased, and these are close to the best as long as roulette is mild.
+ * The square root is milder than the usual probability r / rr_threshold: a weak sub-path still meets many others.
+ *
  * Used by: connect, the methods. Tests: test_mis.c, test_render.c.
  */
 #ifndef ASBDPT_PATH_H
@@ -51,6 +57,7 @@ struct walk {
     const struct mis_counts *counts;
     struct arena *arena; /* holds the lobes of the vertices */
     struct sampler *sampler;
+    double rr_threshold; /* relative throughput below which Russian roulette begins; 0: never */
 };
 
 /* path_eye: walk from the lens through raster point (px,py).

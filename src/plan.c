@@ -97,6 +97,7 @@ void variant_settings(const struct variant *v, struct settings *out)
 {
     char number[32];
     settings_clear(out);
+    settings_set(out, "rrthreshold", "0", "experiment"); /* what is compared is the choice of sub-paths alone */
     if (v->select != NULL)
         settings_set(out, "select", v->select, "experiment");
     if (v->bin_paths > 0) {

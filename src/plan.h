@@ -1,6 +1,6 @@
 /* plan.h: what an experiment consists of: scenes x variants x seeds, each rendered to a rising number of samples.
  *
- * A variant is a method with its parameters. The first four are compared everywhere; the others move one parameter
+ * A variant is a method with its parameters, without Russian roulette. The first four are compared everywhere; the others move one parameter
  * of `bins` at a time, as the dissertation's appendix A does.                                         [S24 4,
  * appendix A]
  *

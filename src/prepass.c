@@ -82,7 +82,7 @@ static void trace_eye_chunk(void *context, long job, int slot, int thread)
     for (long i = p->first_path + job * CHUNK; i < p->first_path + (job + 1) * CHUNK && i < p->n_paths; i++) {
         arena_reset(&work->arena);
         struct sampler sampler = sampler_start(p->job->seed, RNG_PREPASS, (uint64_t)i, 0);
-        struct walk w = {p->job->scene, &p->counts, &work->arena, &sampler};
+        struct walk w = {p->job->scene, &p->counts, &work->arena, &sampler, p->job->rr_threshold};
         double u = 0.5 + 0.7548776662466927 * (double)i, v = 0.5 + 0.5698402909980532 * (double)i;
         double px = film.x0 + (u - floor(u)) * rect_width(film), py = film.y0 + (v - floor(v)) * rect_height(film);
         int n = path_eye(&w, px, py, work->eye, p->job->max_depth + 1);
@@ -123,7 +123,7 @@ static void trace_light_chunk(void *context, long job, int slot, int thread)
     for (long i = p->first_path + job * CHUNK; i < p->first_path + (job + 1) * CHUNK && i < p->n_paths; i++) {
         arena_reset(&work->arena);
         struct sampler sampler = sampler_start(p->job->seed, RNG_PREPASS, (uint64_t)i, 1);
-        struct walk w = {p->job->scene, &p->counts, &work->arena, &sampler};
+        struct walk w = {p->job->scene, &p->counts, &work->arena, &sampler, p->job->rr_threshold};
         int n = path_light(&w, work->light, p->job->max_depth + 1);
         for (int k = 1; k < n; k++)
             if (vertex_connectible(&work->light[k]))

@@ -272,6 +272,8 @@ static const char *const NOTES[] = {
     "itself, where known.",
     "Intervals are Welch's, at 95 %, on the logarithm of the ratio, over seeds. Few seeds give wide intervals.",
     "Signed mean error: mean of the picture over mean of the reference, less 1. Without bias it scatters around 0.",
+    "No walk is ended by Russian roulette here (rrthreshold 0), as in the dissertation; by default all methods use "
+    "it and are faster.",
     "The printed numbers are from the dissertation's own models and its own pbrt-v3, against 16384 samples of "
     "BDPT; "
     "absolute values cannot agree with ours, the direction and shape of the ratios can.",

@@ -18,7 +18,7 @@ int trace_eye(const struct tile_pass *pass, struct gather *g, long iteration, st
 {
     uint64_t pixel = pixel_number(g->scene, g->x, g->y);
     struct sampler sampler = sampler_start(pass->job->seed, RNG_EYE, pixel, (uint64_t)iteration);
-    struct walk w = {g->scene, g->counts, &pass->work->arena, &sampler};
+    struct walk w = {g->scene, g->counts, &pass->work->arena, &sampler, pass->job->rr_threshold};
     return path_eye_pixel(&w, g->x, g->y, path, max_vertices, &g->filter_weight);
 }
 
@@ -34,7 +34,7 @@ int trace_light(const struct tile_pass *pass, const struct mis_counts *counts, i
     const struct render_job *job = pass->job;
     uint64_t pixel = pixel_number(job->scene, x, y);
     struct sampler sampler = sampler_start(job->seed, RNG_LIGHT, pixel, number);
-    struct walk w = {job->scene, counts, arena, &sampler};
+    struct walk w = {job->scene, counts, arena, &sampler, job->rr_threshold};
     return path_light(&w, path, job->max_depth + 1);
 }
 

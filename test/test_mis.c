@@ -138,7 +138,7 @@ static void compare_paths(struct comparison *c, int n_paths)
         struct sampler a = sampler_start(test_seed(c->t), RNG_EYE, 1, (uint64_t)i);
         struct sampler b = sampler_start(test_seed(c->t), RNG_LIGHT, 1, (uint64_t)i);
         struct sampler d = sampler_start(test_seed(c->t), RNG_CONNECT, 1, (uint64_t)i);
-        struct walk we = {c->scene, c->counts, &arena, &a}, wl = {c->scene, c->counts, &arena, &b};
+        struct walk we = {c->scene, c->counts, &arena, &a, 0}, wl = {c->scene, c->counts, &arena, &b, 0};
         int n_eye = path_eye(&we, 32 * sampler_next(&d), 32 * sampler_next(&d), eye, MAX);
         int n_light = path_light(&wl, light, MAX);
         for (int t = 2; t <= n_eye; t++) {
