@@ -355,9 +355,10 @@ void model_pillow(struct model *m, const double h[3], double power, int nu, int 
 
 /* ---- files ---- */
 
-static void put32(FILE *f, uint32_t x)
+/* `bytes` bytes of x, the lowest first. */
+static void put(FILE *f, uint32_t x, int bytes)
 {
-    for (int i = 0; i < 4; i++) putc((int)(x >> (8 * i) & 255), f);
+    for (int i = 0; i < bytes; i++) putc((int)(x >> (8 * i) & 255), f);
 }
 
 static void put_rounded(FILE *f, double x)
@@ -366,7 +367,7 @@ static void put_rounded(FILE *f, double x)
     uint32_t bits;
     memcpy(&bits, &v, 4);
     if (v == 0) bits = 0; /* no negative zeros */
-    put32(f, bits);
+    put(f, bits, 4);
 }
 
 static FILE *open_for_writing(const char *path)
@@ -392,11 +393,13 @@ void model_write(struct model *m, const char *path)
     fprintf(f, "ply\nformat binary_little_endian 1.0\nelement vertex %lu\n", (unsigned long)m->n_vertices);
     fputs("property float x\nproperty float y\nproperty float z\nproperty float nx\nproperty float ny\n"
           "property float nz\nproperty float u\nproperty float v\n", f);
-    fprintf(f, "element face %lu\nproperty list uint8 int vertex_indices\nend_header\n", (unsigned long)m->n_faces);
+    int small = m->n_vertices <= 65536; /* two bytes do for an index */
+    fprintf(f, "element face %lu\nproperty list uint8 %s vertex_indices\nend_header\n", (unsigned long)m->n_faces,
+            small ? "uint16" : "int");
     for (size_t i = 0; i < 8 * m->n_vertices; i++) put_rounded(f, m->vertex[i]);
     for (size_t i = 0; i < m->n_faces; i++) {
         putc(3, f);
-        for (size_t k = 0; k < 3; k++) put32(f, (uint32_t)m->face[3 * i + k]);
+        for (size_t k = 0; k < 3; k++) put(f, (uint32_t)m->face[3 * i + k], small ? 2 : 4);
     }
     finish(f, path);
     free(m->vertex);
