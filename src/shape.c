@@ -246,8 +246,8 @@ static void triangle_point(const struct geometry *geo, int prim, double b1, doub
 void shape_surface(const struct geometry *geo, const struct hit *hit, const struct ray *ray, struct surface *out)
 {
     if (is_quadric(hit->prim)) {
-        struct transform to_object = transform_inverse(geo->quadric[hit->prim - FIRST_QUADRIC].to_world);
-        vec3 p = transform_point(&to_object, add(ray->o, mul(ray->d, hit->t)));
+        const struct quadric *q = &geo->quadric[hit->prim - FIRST_QUADRIC];
+        vec3 p = transform_point_back(&q->to_world, add(ray->o, mul(ray->d, hit->t)));
         quadric_point(geo, hit->prim, p, out);
     } else {
         triangle_point(geo, hit->prim, hit->b1, hit->b2, out);
