@@ -49,7 +49,8 @@ static const struct lobe *choose_lobe(const struct bsdf *b, double *u)
         *u -= l->choice;
         l++;
     }
-    *u = fmin(*u / l->choice, ALMOST_ONE);
+    if (b->n_lobes > 1)
+        *u = fmin(*u / l->choice, ALMOST_ONE);
     return l;
 }
 
