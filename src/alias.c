@@ -15,6 +15,9 @@
 
 static const double ALMOST_ONE = 1 - 1.0 / 9007199254740992.0; /* the largest double below 1 */
 
+/* What rounding has carried to 1 is brought back into [0,1). */
+static double below_one(double u) { return u < 1 ? u : ALMOST_ONE; }
+
 /* The largest weight, or -1 if there is none above 0 or one of them is no weight at all. */
 static double largest_weight(const double *weight, int n)
 {
@@ -66,6 +69,7 @@ static void pair_up(struct alias_table *t)
         uint32_t rich_index = *(large - n_large);
         struct alias_bin *rich = &t->bin[rich_index];
         poor->alias = rich_index;
+        poor->alias_pmf = rich->pmf;
         rich->threshold = (rich->threshold + poor->threshold) - 1;
         if (rich->threshold < 1) {
             n_large--;
@@ -92,6 +96,7 @@ bool alias_build(struct alias_table *t, const double *weight, int n)
     for (int i = 0; i < n; i++) {
         t->bin[i].pmf = weight[i] / unit / sum;
         t->bin[i].threshold = weight[i] / unit * n / sum;
+        t->bin[i].alias_pmf = t->bin[i].pmf;
         t->bin[i].alias = (uint32_t)i;
     }
     pair_up(t);
@@ -113,13 +118,12 @@ int alias_sample_bin(const struct alias_table *t, int bin, double u, double *pmf
 {
     const struct alias_bin *b = &t->bin[bin];
     bool own = u < b->threshold;
-    int index = own ? bin : (int)b->alias;
     if (pmf != NULL)
-        *pmf = t->bin[index].pmf;
+        *pmf = own ? b->pmf : b->alias_pmf;
     /* Within the part of [0,1) that chose the element u is uniform: stretch that part to [0,1). */
     if (u_out != NULL)
-        *u_out = fmin(own ? u / b->threshold : (u - b->threshold) / (1 - b->threshold), ALMOST_ONE);
-    return index;
+        *u_out = below_one(own ? u / b->threshold : (u - b->threshold) / (1 - b->threshold));
+    return own ? bin : (int)b->alias;
 }
 
 int alias_sample(const struct alias_table *t, double u, double *pmf, double *u_out)
@@ -128,7 +132,7 @@ int alias_sample(const struct alias_table *t, double u, double *pmf, double *u_o
     int bin = (int)x;
     if (bin >= t->n) /* u close to 1 and n no power of two: the product may round up */
         bin = t->n - 1;
-    return alias_sample_bin(t, bin, fmin(x - bin, ALMOST_ONE), pmf, u_out);
+    return alias_sample_bin(t, bin, below_one(x - bin), pmf, u_out);
 }
 
 double alias_pmf(const struct alias_table *t, int i) { return t->n > 0 ? t->bin[i].pmf : 0; }

@@ -18,6 +18,7 @@
 struct alias_bin {
     double threshold; /* probability, within the bin, of the bin's own index; [0,1] */
     double pmf;       /* probability of the bin's own index over the whole table; [0,1] */
+    double alias_pmf; /* of the other element; here, so that a draw reads one bin only */
     uint32_t alias;   /* the other element */
 };
 

@@ -12,31 +12,22 @@ void bsdf_make(struct bsdf *b, struct frame shading, vec3 ng, struct lobe *lobe,
     b->lobe = lobe;
     b->n_lobes = n;
     b->n_smooth = 0;
+    b->transmits = false;
     double total = 0;
     for (int i = 0; i < n; i++) {
         total += lobe_albedo_guess(&lobe[i]);
         b->n_smooth += !lobe_is_delta(lobe[i].kind);
+        b->transmits |= lobe[i].kind == LOBE_LAMBERT_TRANSMISSION || lobe[i].kind == LOBE_MICROFACET_TRANSMISSION;
     }
     for (int i = 0; i < n; i++)
         lobe[i].choice = n == 1 ? 1 : even / n + (1 - even) * lobe_albedo_guess(&lobe[i]) / total;
 }
 
-/* The commonest BSDF by far is one Lambert lobe: nothing but two cosines. */
-static struct bsdf_value eval_lambert(const struct bsdf *b, vec3 wo, vec3 wi)
-{
-    const struct lobe *l = &b->lobe[0];
-    struct bsdf_value v = {rgb_scale(rgb_mul(l->R, l->scale), INV_PI), abs_dot(wi, b->shading.n) * INV_PI,
-                           abs_dot(wo, b->shading.n) * INV_PI};
-    return v;
-}
-
-struct bsdf_value bsdf_eval(const struct bsdf *b, vec3 wo, vec3 wi, enum transport mode)
+struct bsdf_value bsdf_eval_lobes(const struct bsdf *b, vec3 wo, vec3 wi, enum transport mode)
 {
     if (b->n_smooth == 0)
         return NOTHING;
     bool reflect = dot(wi, b->ng) * dot(wo, b->ng) > 0;
-    if (b->n_lobes == 1 && b->lobe[0].kind == LOBE_LAMBERT_REFLECTION)
-        return reflect ? eval_lambert(b, wo, wi) : NOTHING;
     vec3 o = to_local(&b->shading, wo), i = to_local(&b->shading, wi);
     if (o.z == 0 || i.z == 0)
         return NOTHING;
@@ -58,7 +49,8 @@ static const struct lobe *choose_lobe(const struct bsdf *b, double *u)
         *u -= l->choice;
         l++;
     }
-    *u = fmin(*u / l->choice, ALMOST_ONE);
+    if (b->n_lobes > 1)
+        *u = fmin(*u / l->choice, ALMOST_ONE);
     return l;
 }
 

@@ -78,7 +78,7 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
     bool area = lights->light[at.light].kind == LIGHT_AREA;
     vec3 d = parallel ? at.w : sub(at.p, z->p);
     double d2 = length2(d);
-    if (!(d2 > 0))
+    if (!(d2 > 0) || !bsdf_may_scatter(&z->bsdf, z->wo, d))
         return nothing();
     vec3 w = mul(d, 1 / sqrt(d2));
 
@@ -112,6 +112,8 @@ struct connection connect_pair(const struct scene *scene, const struct mis_count
     double d2 = length2(d);
     if (!vertex_connectible(y) || !vertex_connectible(z) || !(d2 > 0))
         return nothing();
+    if (!bsdf_may_scatter(&z->bsdf, z->wo, d) || !bsdf_may_scatter(&y->bsdf, y->wo, neg(d)))
+        return nothing();
     vec3 w = mul(d, 1 / sqrt(d2));
     struct scatter at_z = scatter_towards(z, w, RADIANCE);
     if (rgb_is_black(at_z.factor))
@@ -137,7 +139,7 @@ struct connection connect_lens(const struct scene *scene, const struct mis_count
     vec3 lens = camera_sample_lens(&scene->camera, u1, u2);
     vec3 d = sub(y->p, lens);
     double d2 = length2(d);
-    if (!(d2 > 0))
+    if (!(d2 > 0) || !bsdf_may_scatter(&y->bsdf, y->wo, neg(d)))
         return nothing();
     vec3 w = mul(d, 1 / sqrt(d2));
     struct connection c = nothing();

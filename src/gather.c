@@ -6,7 +6,8 @@ static rgb take(struct gather *g, struct connection c, int s, int t, double scal
     if (rgb_is_black(c.value))
         return rgb_black();
     rgb value = rgb_scale(c.value, scale * g->filter_weight);
-    tile_record_own(g->tile, g->x, g->y, s, t, value, c.weight);
+    if (g->tile->keep_records)
+        tile_record_own(g->tile, g->x, g->y, s, t, value, c.weight);
     return rgb_scale(value, c.weight);
 }
 
@@ -54,7 +55,8 @@ void gather_splats(struct gather *g, const struct vertex *light, int n_light)
         struct connection c = connect_lens(g->scene, g->counts, &light[s - 1], &g->sampler);
         if (rgb_is_black(c.value))
             continue;
-        tile_record_splat(g->tile, c.px, c.py, s, 1, rgb_scale(c.value, each), c.weight);
+        if (g->tile->keep_records)
+            tile_record_splat(g->tile, c.px, c.py, s, 1, rgb_scale(c.value, each), c.weight);
         tile_add_splat(g->tile, c.px, c.py, rgb_scale(c.value, each * c.weight));
     }
 }

@@ -108,11 +108,9 @@ double guide_ratio(const struct light_set *lights, const struct alias_table *tab
 {
     if (table == &lights->choice)
         return 1;
-    if (cell >= 0 && lights->light[lights->light_of_cell[cell]].kind != LIGHT_INFINITE) {
-        double e = alias_pmf(&lights->choice, cell);
-        return e > 0 ? alias_pmf(table, cell) / e : 0;
-    }
     /* Infinite lights are told apart by nobody who meets them: their densities are added (light.h). */
-    double e = light_pdf_environment(lights, &lights->choice, w);
-    return e > 0 ? light_pdf_environment(lights, table, w) / e : 0;
+    if (cell < 0 || (lights->several_infinite && lights->light[lights->light_of_cell[cell]].kind == LIGHT_INFINITE))
+        return light_choice_ratio(lights, table, w);
+    double e = alias_pmf(&lights->choice, cell);
+    return e > 0 ? alias_pmf(table, cell) / e : 0;
 }

@@ -81,7 +81,7 @@ void light_prepare(struct light_set *set, const struct geometry *geo, vec3 cente
 {
     set->center = center;
     set->radius = radius;
-    set->any_infinite = false;
+    set->any_infinite = set->several_infinite = false;
     set->n_cells = 0;
     for (int i = 0; i < set->n; i++) {
         struct light *l = &set->light[i];
@@ -89,6 +89,7 @@ void light_prepare(struct light_set *set, const struct geometry *geo, vec3 cente
         l->first_cell = set->n_cells;
         l->n_cells = cells_of(l);
         set->n_cells += l->n_cells;
+        set->several_infinite |= set->any_infinite && l->kind == LIGHT_INFINITE;
         set->any_infinite |= l->kind == LIGHT_INFINITE;
     }
     double *power = mem_alloc((size_t)set->n_cells, sizeof *power);
@@ -115,8 +116,7 @@ static vec3 infinite_sample(const struct light *l, int cell, double u1, double u
 
 static vec3 to_light_space(const struct light *l, vec3 w)
 {
-    struct transform inverse = transform_inverse(l->to_world);
-    return normalize(transform_vector(&inverse, w));
+    return normalize(transform_vector_back(&l->to_world, w));
 }
 
 /* Density of w within its cell; *cell is that cell's number within the light. */
@@ -273,14 +273,28 @@ rgb light_Le_environment(const struct light_set *set, vec3 w)
     return sum;
 }
 
-double light_pdf_environment(const struct light_set *set, const struct alias_table *choice, vec3 w)
+/* Also its density by power, at the cost of one more look-up. */
+static double pdf_environment(const struct light_set *set, const struct alias_table *choice, vec3 w, double *by_power)
 {
-    double sum = 0;
+    double sum = *by_power = 0;
     for (int i = 0; set->any_infinite && i < set->n; i++)
         if (set->light[i].kind == LIGHT_INFINITE) {
             int cell;
             double pdf = infinite_pdf(&set->light[i], w, &cell);
             sum += alias_pmf(choice, set->light[i].first_cell + cell) * pdf;
+            *by_power += alias_pmf(&set->choice, set->light[i].first_cell + cell) * pdf;
         }
     return sum;
+}
+
+double light_pdf_environment(const struct light_set *set, const struct alias_table *choice, vec3 w)
+{
+    double by_power;
+    return pdf_environment(set, choice, w, &by_power);
+}
+
+double light_choice_ratio(const struct light_set *set, const struct alias_table *choice, vec3 w)
+{
+    double by_power, pdf = pdf_environment(set, choice, w, &by_power);
+    return by_power > 0 ? pdf / by_power : 0;
 }

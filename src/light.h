@@ -48,6 +48,7 @@ struct light_set {
     vec3 center;               /* bounding sphere of the scene */
     double radius;             /* > 0 */
     bool any_infinite;         /* some light of kind LIGHT_INFINITE */
+    bool several_infinite;     /* two or more of them */
 };
 
 int light_add(struct light_set *set, struct light l);
@@ -114,6 +115,10 @@ rgb light_Le_environment(const struct light_set *set, vec3 w);
  * light) by any infinite light: the sum over them of the cell's probability times the density within it, 1/sr.
  *   choice  probabilities of the cells: &set->choice, or another table over the same cells */
 double light_pdf_environment(const struct light_set *set, const struct alias_table *choice, vec3 w);
+
+/* light_choice_ratio: density with which light_sample_point returns that direction under `choice`, over its density by
+ * power; 0 where the latter is 0. */
+double light_choice_ratio(const struct light_set *set, const struct alias_table *choice, vec3 w);
 
 /* light_pdf_surface: density with which light_sample_point returns this point of an area light, 1/m^2. */
 double light_pdf_surface(const struct light_set *set, const struct geometry *geo, const struct surface *at);

@@ -220,8 +220,8 @@ static int bump_of(const struct material *materials, int id)
     return materials[id].bump;
 }
 
-void material_bsdf(const struct material *materials, int id, const struct texture_set *textures,
-                   const struct surface *at, struct arena *arena, struct bsdf *out)
+static void make_bsdf(const struct material *materials, int id, const struct texture_set *textures,
+                      const struct surface *at, struct frame shading, struct arena *arena, struct bsdf *out)
 {
     struct recipe r;
     r.materials = materials;
@@ -229,9 +229,45 @@ void material_bsdf(const struct material *materials, int id, const struct textur
     r.at = at;
     r.n = r.visits = 0;
     put_material(&r, id);
-    int bump = bump_of(materials, id);
-    struct frame shading = bump >= 0 ? bump_frame(textures, bump, at) : frame_from_tangent(at->ns, at->dpdu);
     size_t size = (size_t)r.n * sizeof r.lobe[0];
     struct lobe *lobe = r.n > 0 ? memcpy(arena_alloc(arena, size), r.lobe, size) : NULL;
     bsdf_make(out, shading, at->ng, lobe, r.n);
+}
+
+/* Are all parameters the same everywhere? Of a mix the materials must be known to be. */
+static bool is_uniform(const struct material *materials, int id, const struct texture_set *textures)
+{
+    const struct material *m = &materials[id];
+    const int used[] = {m->Kd,         m->Ks,         m->Kr,      m->Kt,      m->sigma,    m->eta,   m->k, m->index,
+                        m->uroughness, m->vroughness, m->opacity, m->reflect, m->transmit, m->amount};
+    for (size_t i = 0; i < sizeof used / sizeof used[0]; i++)
+        if (used[i] >= 0 && textures->texture[used[i]].kind != TEXTURE_CONSTANT)
+            return false;
+    return m->kind != MATERIAL_MIX || (materials[m->mix1].uniform != NULL && materials[m->mix2].uniform != NULL);
+}
+
+void material_prepare(struct material *materials, int n, const struct texture_set *textures, struct arena *arena)
+{
+    const struct surface anywhere = {.u = 0};
+    const struct frame any = frame_from_normal(vec(0, 0, 1));
+    for (int i = 0; i < n; i++)
+        if (is_uniform(materials, i, textures)) {
+            struct bsdf *b = arena_alloc(arena, sizeof *b);
+            make_bsdf(materials, i, textures, &anywhere, any, arena, b);
+            materials[i].uniform = b;
+        }
+}
+
+void material_bsdf(const struct material *materials, int id, const struct texture_set *textures,
+                   const struct surface *at, struct arena *arena, struct bsdf *out)
+{
+    int bump = bump_of(materials, id);
+    struct frame shading = bump >= 0 ? bump_frame(textures, bump, at) : frame_from_tangent(at->ns, at->dpdu);
+    if (materials[id].uniform == NULL) {
+        make_bsdf(materials, id, textures, at, shading, arena, out);
+        return;
+    }
+    *out = *materials[id].uniform;
+    out->shading = shading;
+    out->ng = at->ng;
 }

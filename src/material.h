@@ -35,6 +35,8 @@ struct material {
     int opacity, reflect, transmit, amount;
     int mix1, mix2; /* material numbers */
     int bump;       /* float texture of displacement along the normal, in world units */
+    const struct bsdf *uniform; /* its BSDF but for the frame, the same everywhere; NULL where a texture varies it or
+                                 * material_prepare was not called */
 };
 
 /* The most lobes a BSDF can have, counted over all branches of nested mixes. */
@@ -43,6 +45,10 @@ enum { MATERIAL_MAX_LOBES = 16 };
 /* material_fits: whether material `id` keeps to MATERIAL_MAX_LOBES. Always true but for mixes; the parser refuses
  * the others. Ends even if mixes contain each other. */
 bool material_fits(const struct material *materials, int id);
+
+/* material_prepare: make the BSDFs of those materials that are alike everywhere, as most are, once for all.
+ *   arena  where they live: as long as the materials are used */
+void material_prepare(struct material *materials, int n, const struct texture_set *textures, struct arena *arena);
 
 /* material_bsdf: the BSDF of material `id` at a point.
  *   materials, textures  the scene's

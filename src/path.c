@@ -191,7 +191,9 @@ void vertex_light_end(const struct scene *scene, const struct mis_counts *counts
     out->wo = at->w;
     out->beta = rgb_grey(1 / at->pdf);
     /* An escaping eye ray cannot tell infinite lights apart, so their densities are added up for the weight. */
-    out->pdf_fwd = l->kind == LIGHT_INFINITE ? light_pdf_environment(&scene->lights, &scene->lights.choice, at->w) : at->pdf;
+    out->pdf_fwd = scene->lights.several_infinite && l->kind == LIGHT_INFINITE
+                       ? light_pdf_environment(&scene->lights, &scene->lights.choice, at->w)
+                       : at->pdf;
     out->mis_c = light_is_delta(l) ? 0 : counts->hit;
 }
 

@@ -23,14 +23,16 @@ static uint32_t scramble_digits(uint32_t x, uint32_t seed)
     return x;
 }
 
-/* Second dimension of Sobol's sequence, first digit in bit 31: generator matrix of Pascal's triangle mod 2. */
+/* Second dimension of Sobol's sequence, first digit in bit 0. Its generator matrix is Pascal's triangle mod 2, where
+ * entry (row, column) is 1 if and only if every bit of `row` is set in `column` [Lucas 1878]: digit i is the sum mod 2
+ * of the bits of `index` whose numbers contain i, and these are summed one bit of i after the other. */
 static uint32_t sobol_second(uint32_t index)
 {
-    uint32_t value = 0;
-    for (uint32_t column = 1u << 31; index != 0; index >>= 1, column ^= column >> 1)
-        if (index & 1)
-            value ^= column;
-    return value;
+    index ^= (index >> 1) & 0x55555555u;
+    index ^= (index >> 2) & 0x33333333u;
+    index ^= (index >> 4) & 0x0f0f0f0fu;
+    index ^= (index >> 8) & 0x00ff00ffu;
+    return index ^ (index >> 16);
 }
 
 struct sampler sampler_start(uint64_t seed, enum rng_purpose purpose, uint64_t pixel, uint64_t iteration)
@@ -48,7 +50,7 @@ double sampler_pair(struct sampler *s)
     uint32_t within = s->iteration & 0xffffu, block = s->iteration & 0xffff0000u;
     uint32_t index = block | reverse_bits(scramble_digits(reverse_bits(within), (uint32_t)h) & 0xffff0000u);
     uint32_t x = scramble_digits(index, (uint32_t)(h >> 32));
-    uint32_t y = scramble_digits(reverse_bits(sobol_second(index)), (uint32_t)h2);
+    uint32_t y = scramble_digits(sobol_second(index), (uint32_t)h2);
     s->second = reverse_bits(y) * unit;
     return reverse_bits(x) * unit;
 }

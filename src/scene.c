@@ -23,6 +23,7 @@ void scene_free(struct scene *s)
     geometry_free(&s->geo);
     texture_set_free(&s->textures);
     free(s->material);
+    arena_free(&s->arena);
     light_set_free(&s->lights);
     free(s->film_filename);
     free(s->integrator);
@@ -56,6 +57,7 @@ void scene_prepare(struct scene *s)
 {
     s->geo.opaque = opaque_at;
     s->geo.opaque_context = s;
+    material_prepare(s->material, s->n_materials, &s->textures, &s->arena);
     kd_build(&s->kd, &s->geo);
     vec3 lo = vec((double)s->kd.lo[0], (double)s->kd.lo[1], (double)s->kd.lo[2]);
     vec3 hi = vec((double)s->kd.hi[0], (double)s->kd.hi[1], (double)s->kd.hi[2]);

@@ -26,6 +26,7 @@ struct scene {
     struct material *material; /* [n_materials], owned */
     int n_materials;
     size_t material_capacity;
+    struct arena arena; /* what scene_prepare makes of the materials */
     struct light_set lights;
 
     struct camera camera;

@@ -150,19 +150,25 @@ void shape_vertices(const struct geometry *geo, int triangle, float v[9])
     }
 }
 
+/* Positions or normals at the corners of a triangle. */
+static void load_corners(const float *v, const uint32_t index[3], vec3 corner[3])
+{
+    for (size_t i = 0; i < 3; i++)
+        corner[i] = load3(v, index[i]);
+}
+
 static struct triangle triangle_of(const struct geometry *geo, int prim)
 {
     static const double default_uv[3][2] = {{0, 0}, {1, 0}, {1, 1}};
     const struct shape_group *group = shape_group_of(geo, prim);
+    const uint32_t *index = &geo->index[3 * (size_t)prim];
     struct triangle tri;
-    for (int i = 0; i < 3; i++) {
-        size_t vertex = geo->index[3 * (size_t)prim + (size_t)i];
-        tri.p[i] = load3(geo->P, vertex);
-        if (group->has_n)
-            tri.n[i] = load3(geo->N, vertex);
-        for (int k = 0; k < 2; k++)
-            tri.uv[i][k] = group->has_uv ? geo->UV[2 * vertex + (size_t)k] : default_uv[i][k];
-    }
+    load_corners(geo->P, index, tri.p);
+    if (group->has_n)
+        load_corners(geo->N, index, tri.n);
+    for (size_t i = 0; i < 3; i++)
+        for (size_t k = 0; k < 2; k++)
+            tri.uv[i][k] = group->has_uv ? geo->UV[2 * (size_t)index[i] + k] : default_uv[i][k];
     tri.has_n = group->has_n;
     tri.flip = group->flip;
     return tri;
@@ -240,8 +246,8 @@ static void triangle_point(const struct geometry *geo, int prim, double b1, doub
 void shape_surface(const struct geometry *geo, const struct hit *hit, const struct ray *ray, struct surface *out)
 {
     if (is_quadric(hit->prim)) {
-        struct transform to_object = transform_inverse(geo->quadric[hit->prim - FIRST_QUADRIC].to_world);
-        vec3 p = transform_point(&to_object, add(ray->o, mul(ray->d, hit->t)));
+        const struct quadric *q = &geo->quadric[hit->prim - FIRST_QUADRIC];
+        vec3 p = transform_point_back(&q->to_world, add(ray->o, mul(ray->d, hit->t)));
         quadric_point(geo, hit->prim, p, out);
     } else {
         triangle_point(geo, hit->prim, hit->b1, hit->b2, out);
@@ -256,15 +262,38 @@ double shape_area(const struct geometry *geo, int prim)
     return triangle_area(&tri);
 }
 
+static vec3 mean_of(const vec3 corner[3], double b1, double b2)
+{
+    return add(add(mul(corner[0], 1 - b1 - b2), mul(corner[1], b1)), mul(corner[2], b2));
+}
+
+/* Position and normal as triangle_surface has them, and no more: every light sampled comes through here. */
+static void sample_triangle(const struct geometry *geo, int prim, double u1, double u2, struct surface *out,
+                            double *pdf_a)
+{
+    const struct shape_group *group = shape_group_of(geo, prim);
+    const uint32_t *index = &geo->index[3 * (size_t)prim];
+    vec3 p[3], n[3];
+    double b1, b2;
+    load_corners(geo->P, index, p);
+    warp_triangle(u1, u2, &b1, &b2);
+    out->p = mean_of(p, b1, b2);
+    vec3 normal = cross(sub(p[1], p[0]), sub(p[2], p[0]));
+    out->ng = normalize(group->flip ? neg(normal) : normal);
+    if (group->has_n) {
+        load_corners(geo->N, index, n);
+        out->ng = faceforward(out->ng, mean_of(n, b1, b2));
+    }
+    *pdf_a = 1 / (0.5 * length(normal));
+}
+
 void shape_sample(const struct geometry *geo, int prim, double u1, double u2, struct surface *out, double *pdf_a)
 {
-    if (is_quadric(prim)) {
-        quadric_point(geo, prim, quadric_sample(&geo->quadric[prim - FIRST_QUADRIC], u1, u2), out);
-    } else {
-        double b1, b2;
-        warp_triangle(u1, u2, &b1, &b2);
-        triangle_point(geo, prim, b1, b2, out);
+    if (!is_quadric(prim)) {
+        sample_triangle(geo, prim, u1, u2, out, pdf_a);
+        return;
     }
+    quadric_point(geo, prim, quadric_sample(&geo->quadric[prim - FIRST_QUADRIC], u1, u2), out);
     *pdf_a = shape_pdf_a(geo, prim, out);
 }
 

@@ -101,7 +101,7 @@ void shape_surface(const struct geometry *geo, const struct hit *hit, const stru
 double shape_area(const struct geometry *geo, int prim);
 
 /* shape_sample: a point of the primitive, uniform by area (triangles; quadrics: uniform in object space).
- *   out    position, ng, ns, uv, material, light are filled
+ *   out    p and ng are filled in, of a triangle nothing else
  *   pdf_a  out: density per m^2 of world area at that point */
 void shape_sample(const struct geometry *geo, int prim, double u1, double u2, struct surface *out, double *pdf_a);
 

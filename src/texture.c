@@ -64,9 +64,11 @@ void texture_set_free(struct texture_set *set)
 /* Column or row number `i`, a whole number of any size, after wrapping: 0 <= result < n, or -1 for black. */
 static int wrap_index(double i, int n, enum texture_wrap wrap)
 {
+    if (i >= 0 && i < n)
+        return (int)i;
     switch (wrap) {
     case WRAP_REPEAT: i -= n * floor(i / n); break;
-    case WRAP_BLACK: return i >= 0 && i < n ? (int)i : -1;
+    case WRAP_BLACK: return -1;
     case WRAP_CLAMP: break;
     }
     return (int)clamp(i, 0, n - 1);
@@ -86,8 +88,10 @@ static struct corners find_corners(const struct image *img, double s, double t, 
     if (!isfinite(x) || !isfinite(y))
         return c;
     double x0 = floor(x), y0 = floor(y), dx = x - x0, dy = y - y0;
+    const int column[2] = {wrap_index(x0, img->width, wrap), wrap_index(x0 + 1, img->width, wrap)};
+    const int row[2] = {wrap_index(y0, img->height, wrap), wrap_index(y0 + 1, img->height, wrap)};
     for (int k = 0; k < 4; k++) {
-        int i = wrap_index(x0 + k % 2, img->width, wrap), j = wrap_index(y0 + k / 2, img->height, wrap);
+        int i = column[k % 2], j = row[k / 2];
         if (i >= 0 && j >= 0)
             c.texel[k] = (ptrdiff_t)(img->height - 1 - j) * img->width + i; /* rows are stored from the top */
         c.weight[k] = (k % 2 ? dx : 1 - dx) * (k / 2 ? dy : 1 - dy);

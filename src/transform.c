@@ -161,9 +161,14 @@ struct transform transform_inverse(struct transform t)
     return r;
 }
 
-vec3 transform_point(const struct transform *t, vec3 p)
+static vec3 matrix_times_vector(const double (*m)[4], vec3 v)
 {
-    const double(*m)[4] = t->m;
+    return vec(m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z, m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
+               m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z);
+}
+
+static vec3 matrix_times_point(const double (*m)[4], vec3 p)
+{
     vec3 q = vec(m[0][0] * p.x + m[0][1] * p.y + m[0][2] * p.z + m[0][3],
                  m[1][0] * p.x + m[1][1] * p.y + m[1][2] * p.z + m[1][3],
                  m[2][0] * p.x + m[2][1] * p.y + m[2][2] * p.z + m[2][3]);
@@ -171,12 +176,10 @@ vec3 transform_point(const struct transform *t, vec3 p)
     return w == 1 ? q : mul(q, 1 / w);
 }
 
-vec3 transform_vector(const struct transform *t, vec3 v)
-{
-    const double(*m)[4] = t->m;
-    return vec(m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z, m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
-               m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z);
-}
+vec3 transform_point(const struct transform *t, vec3 p) { return matrix_times_point(t->m, p); }
+vec3 transform_vector(const struct transform *t, vec3 v) { return matrix_times_vector(t->m, v); }
+vec3 transform_point_back(const struct transform *t, vec3 p) { return matrix_times_point(t->inv, p); }
+vec3 transform_vector_back(const struct transform *t, vec3 v) { return matrix_times_vector(t->inv, v); }
 
 vec3 transform_normal(const struct transform *t, vec3 n)
 {

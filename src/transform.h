@@ -37,6 +37,10 @@ struct transform transform_inverse(struct transform t);
 vec3 transform_point(const struct transform *t, vec3 p);
 vec3 transform_vector(const struct transform *t, vec3 v);
 
+/* transform_point_back, transform_vector_back: the same by the inverse. */
+vec3 transform_point_back(const struct transform *t, vec3 p);
+vec3 transform_vector_back(const struct transform *t, vec3 v);
+
 /* transform_normal: by the inverse transpose; not normalised. */
 vec3 transform_normal(const struct transform *t, vec3 n);
 

@@ -142,6 +142,52 @@ static void mixing(struct test *t)
     texture_set_free(&b.textures);
 }
 
+static bool same_lobes(const struct bsdf *a, const struct bsdf *b)
+{
+    bool same = a->n_lobes == b->n_lobes && a->n_smooth == b->n_smooth;
+    for (int i = 0; same && i < a->n_lobes; i++) {
+        const struct lobe *p = &a->lobe[i], *q = &b->lobe[i];
+        same = p->kind == q->kind && p->R.g == q->R.g && p->T.g == q->T.g && p->choice == q->choice &&
+               p->scale.g == q->scale.g && p->alpha_x == q->alpha_x && p->eta_b == q->eta_b;
+    }
+    return same;
+}
+
+/* BSDFs made in advance are those made at every hit; what varies is not made in advance. */
+static void in_advance(struct test *t)
+{
+    struct bench b;
+    set_up(&b);
+    struct texture checks = {.kind = TEXTURE_CHECKERBOARD};
+    checks.u.checker.tex1 = b.grey[2];
+    checks.u.checker.tex2 = b.grey[8];
+    checks.u.checker.map.su = checks.u.checker.map.sv = 1;
+    int varying = texture_add(&b.textures, checks);
+    enum { KINDS = MATERIAL_MIX + 1, N = KINDS + 3 };
+    struct material m[N];
+    struct bsdf each[N];
+    for (int kind = 0; kind < KINDS; kind++)
+        m[kind] = all_same((enum material_kind)kind, b.grey[3]);
+    m[MATERIAL_MIX].mix1 = MATERIAL_PLASTIC;
+    m[MATERIAL_MIX].mix2 = MATERIAL_GLASS;
+    m[KINDS] = all_same(MATERIAL_MATTE, b.grey[3]);
+    m[KINDS].Kd = varying;
+    m[KINDS + 1] = m[MATERIAL_MIX];
+    m[KINDS + 1].mix2 = KINDS;
+    m[KINDS + 2] = m[MATERIAL_MIX];
+    m[KINDS + 2].amount = varying;
+    for (int i = 0; i < N; i++)
+        each[i] = make(&b, m, i);
+    material_prepare(m, N, &b.textures, &b.arena);
+    for (int i = 0; i < N; i++) {
+        struct bsdf bsdf = make(&b, m, i);
+        CHECK(t, same_lobes(&bsdf, &each[i]) && bsdf.shading.n.z == 1 && bsdf.ng.z == 1, "material %d in advance", i);
+        CHECK(t, (m[i].uniform != NULL) == (i < KINDS), "material %d is%s uniform", i, i < KINDS ? "" : " not");
+    }
+    arena_free(&b.arena);
+    texture_set_free(&b.textures);
+}
+
 /* Mixes that are too large, or contain each other: found out, and harmless if not. */
 static void too_many(struct test *t)
 {
@@ -213,6 +259,7 @@ void test_material(struct test *t)
     lobes_of_materials(t);
     roughness(t);
     mixing(t);
+    in_advance(t);
     too_many(t);
     bump(t);
 }

@@ -53,6 +53,8 @@ static const struct variant VARIANTS[] = {
     {"distant and infinite", "\"float lensradius\" .05 \"float focaldistance\" 2",
      "LightSource \"distant\" \"rgb L\" [3 3 3] \"point from\" [1 4 -1] \"point to\" [0 0 0]\n"
      "LightSource \"infinite\" \"rgb L\" [1 1 1]"},
+    {"two infinite lights", "",
+     "LightSource \"infinite\" \"rgb L\" [3 3 3] LightSource \"infinite\" \"rgb L\" [1 1 1]"},
 };
 
 /* A count that varies over space, as `select = vertices` has it. */
@@ -113,6 +115,9 @@ static void compare_direct(struct comparison *c, const struct vertex *eye, int t
         return;
     struct vertex y;
     vertex_light_end(c->scene, c->counts, &at, &y);
+    /* An escaping ray meets all infinite lights at once, so a direction has one density, whichever light it is from. */
+    double met = light_pdf_environment(lights, &lights->choice, at.w);
+    CHECK(c->t, lights->light[at.light].kind != LIGHT_INFINITE || fabs(y.pdf_fwd / met - 1) < 1e-9, "density at infinity");
     compare(c, got, &y, 1, eye, t);
 }
 

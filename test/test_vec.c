@@ -109,6 +109,8 @@ static void check_transforms_known(struct test *t)
     struct transform move = transform_translate(vec(1, 2, 3)), turn = transform_rotate(90, vec(0, 0, 5));
     struct transform scale = transform_scale(2, -3, 4), both = transform_compose(move, turn), view;
     CHECK(t, near3(transform_point(&move, vec(1, 1, 1)), vec(2, 3, 4), 0), "translate a point");
+    CHECK(t, near3(transform_point_back(&move, vec(2, 3, 4)), vec(1, 1, 1), 0), "move a point back");
+    CHECK(t, near3(transform_vector_back(&turn, vec(0, 1, 0)), vec(1, 0, 0), 1e-15), "turn a vector back");
     CHECK(t, near3(transform_vector(&move, vec(1, 1, 1)), vec(1, 1, 1), 0), "translate a vector");
     CHECK(t, near3(transform_point(&turn, vec(1, 0, 0)), vec(0, 1, 0), 1e-15), "rotate x by 90 degrees around z");
     CHECK(t, near3(transform_point(&both, vec(1, 0, 0)), vec(1, 3, 3), 1e-15), "compose applies the second first");
