@@ -42,6 +42,9 @@ double triangle_distance(const struct triangle_ray *r, const float v[9]);
  * On true hit->t, b1 and b2 are set. A triangle of zero area, or seen exactly edge-on, is never hit. */
 static inline bool triangle_hit(const struct triangle_ray *r, const float v[9], double tmax, struct hit *hit)
 {
+    double t = triangle_distance(r, v);
+    if (!(t > r->tmin && t < tmax))
+        return false;
     double az = v[r->kz] - r->oz, bz = v[3 + r->kz] - r->oz, cz = v[6 + r->kz] - r->oz;
     double ax = (v[r->kx] - r->ox) - r->sx * az, ay = (v[r->ky] - r->oy) - r->sy * az;
     double bx = (v[3 + r->kx] - r->ox) - r->sx * bz, by = (v[3 + r->ky] - r->oy) - r->sy * bz;
@@ -55,9 +58,6 @@ static inline bool triangle_hit(const struct triangle_ray *r, const float v[9], 
         return false;
     double sum = ea + eb + ec;
     if (sum == 0)
-        return false;
-    double t = triangle_distance(r, v);
-    if (!(t > r->tmin && t < tmax))
         return false;
     hit->t = t;
     hit->b1 = eb / sum;

@@ -437,7 +437,7 @@ static void check_repeatable(struct test *t, struct rng *r)
     kd_build(&b, &geo);
     CHECK(t, a.n_nodes == b.n_nodes && a.n_items == b.n_items && a.cost == b.cost && a.depth == b.depth,
           "trees differ");
-    CHECK(t, a.cost < 200 && a.n_nodes > 500, "a cost of %g with %d nodes is no good tree", a.cost, a.n_nodes);
+    CHECK(t, a.cost < 200 && a.n_nodes > 100, "a cost of %g with %d nodes is no good tree", a.cost, a.n_nodes);
     kd_free(&a);
     kd_free(&b);
     geometry_free(&geo);
