@@ -16,7 +16,7 @@
 
 /* A visit of an inner node in units of the test of a block, with its share of cache misses and wrong guesses of the
  * processor; found by measurement. */
-static const double VISIT = 2;
+static const double VISIT = 1.5;
 
 enum { FEW = 64, BINS_OF_FEW = 32, BINS = 128 };
 
