@@ -1,20 +1,24 @@
 /* kdtree.c: rays through the kd-tree. See kdtree.h; the tree is built in kd_build.c.
  *
- * Front to back: of an inner node's two cells the one on the ray's side is visited first, the other waits on
- * a stack. No hit may be lost to rounding, so a plane is a slab: the ray enters it at t_lo and leaves it at
- * t_hi, and both cells extend over it. Its half width, 1e-14 of the scene's size, is a hundred times what the
- * triangle test and the clipping of triangles can be off, and far too small to cost anything.
+ * A ray that asks for the first hit goes front to back: of an inner node's two cells the one on the ray's side is
+ * visited first, the other waits on a stack. A shadow ray takes any hit: it visits first the cell that the builder
+ * found more likely to stop it at little cost.
+ *
+ * No hit may be lost to rounding, so a plane is a slab: the ray enters it at t_lo and leaves it at t_hi, and both
+ * cells extend over it. Its half width, 1e-14 of the scene's size, is a hundred times what the triangle test and
+ * the clipping of triangles can be off, and far too small to cost anything.
  */
 #include "kdtree.h"
 
 #include <stdlib.h>
 
+#include "kd_block.h"
 #include "kd_node.h"
 
 void kd_free(struct kdtree *kd)
 {
     free(kd->node);
-    free(kd->item);
+    free(kd->block);
     struct kdtree empty = {0};
     *kd = empty;
 }
@@ -30,6 +34,7 @@ struct walk {
     double before[3], after[3]; /* origin moved by the slab's half width, so that t_lo = (split - before) inverse */
     double inverse[3];          /* 1/d, finite */
     uint32_t near_child[3];     /* 0: the ray goes up the axis, the lower cell comes first; 1: down */
+    struct kd_block_ray ray;
     struct cell cell;
     int waiting;
     struct cell stack[KD_MAX_DEPTH];
@@ -66,22 +71,33 @@ static bool walk_start(struct walk *w, const struct kdtree *kd, const struct ray
     w->cell.tmin = tmin;
     w->cell.tmax = tmax;
     w->waiting = 0;
-    return kd->n_nodes > 0 && tmin <= tmax;
+    if (kd->n_nodes == 0 || !(tmin <= tmax))
+        return false;
+    w->ray = kd_block_ray(ray, size);
+    return true;
 }
 
-/* Go down to the first leaf of the current cell, leaving the cells behind it on the stack. */
-static inline struct kd_node walk_to_leaf(struct walk *w, const struct kd_node *nodes)
+/* Go down to a leaf of the current cell, leaving the cells to be visited later on the stack: to the first leaf the
+ * ray comes to, or, for shadow rays, to the one that most likely stops it. */
+static inline struct kd_node walk_to_leaf(struct walk *w, const struct kd_node *nodes, bool shadow)
 {
     struct kd_node n = nodes[w->cell.node];
     double tmin = w->cell.tmin, tmax = w->cell.tmax;
     while (!kd_is_leaf(n)) {
-        uint32_t axis = n.word & 3, children = n.word >> 2;
+        uint32_t axis = n.word & 3, children = kd_children(n);
         uint32_t near_cell = children + w->near_child[axis], far_cell = children + 1 - w->near_child[axis];
         double t_lo = (n.at.split - w->before[axis]) * w->inverse[axis];
         double t_hi = (n.at.split - w->after[axis]) * w->inverse[axis];
         if (t_lo > tmax) {
             n = nodes[near_cell];
         } else if (t_hi < tmin) {
+            n = nodes[far_cell];
+        } else if (shadow && kd_upper_first(n) != w->near_child[axis]) {
+            struct cell *near = &w->stack[w->waiting++];
+            near->node = near_cell;
+            near->tmin = tmin;
+            near->tmax = smaller(t_hi, tmax);
+            tmin = larger(t_lo, tmin);
             n = nodes[far_cell];
         } else {
             struct cell *far = &w->stack[w->waiting++];
@@ -108,44 +124,21 @@ static inline bool walk_next(struct walk *w, double t)
     return false;
 }
 
-/* A quadric, or a triangle with an alpha texture. */
-static bool special_hit(const struct kd_item *item, const struct geometry *geo, const struct ray *ray, double tmax,
-                        bool shadow, struct hit *hit)
-{
-    struct ray shorter = *ray;
-    struct hit h;
-    shorter.tmax = tmax;
-    if (!shape_intersect(geo, (int)(item->prim & ~KD_ALPHA), &shorter, &h))
-        return false;
-    if ((item->prim & KD_ALPHA) && !geo->opaque(geo->opaque_context, geo, &h, shadow))
-        return false;
-    *hit = h;
-    return true;
-}
-
 bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct hit *hit)
 {
     struct walk w;
     if (!walk_start(&w, kd, ray))
         return false;
-    struct triangle_ray r = triangle_ray(ray);
     double nearest = ray->tmax;
     bool found = false;
     do {
-        struct kd_node leaf = walk_to_leaf(&w, kd->node);
-        const struct kd_item *item = kd->item + leaf.at.first, *end = item + (leaf.word >> 2);
-        for (; item < end; item++) {
-            if (item->prim >= FIRST_QUADRIC) {
-                if (!special_hit(item, geo, ray, nearest, false, hit))
-                    continue;
-            } else {
-                if (!triangle_hit(&r, item->v, nearest, hit))
-                    continue;
-                hit->prim = (int)item->prim;
+        struct kd_node leaf = walk_to_leaf(&w, kd->node, false);
+        const struct kd_block *block = kd->block + leaf.at.first, *end = block + kd_blocks(leaf);
+        for (; block < end; block++)
+            if (kd_block_hit(block, geo, &w.ray, nearest, false, hit)) {
+                nearest = hit->t;
+                found = true;
             }
-            nearest = hit->t;
-            found = true;
-        }
     } while (walk_next(&w, nearest));
     return found;
 }
@@ -153,16 +146,14 @@ bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struc
 bool kd_occluded(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray)
 {
     struct walk w;
+    struct hit hit;
     if (!walk_start(&w, kd, ray))
         return false;
-    struct triangle_ray r = triangle_ray(ray);
-    struct hit hit;
     do {
-        struct kd_node leaf = walk_to_leaf(&w, kd->node);
-        const struct kd_item *item = kd->item + leaf.at.first, *end = item + (leaf.word >> 2);
-        for (; item < end; item++)
-            if (item->prim >= FIRST_QUADRIC ? special_hit(item, geo, ray, ray->tmax, true, &hit)
-                                            : triangle_hit(&r, item->v, ray->tmax, &hit))
+        struct kd_node leaf = walk_to_leaf(&w, kd->node, true);
+        const struct kd_block *block = kd->block + leaf.at.first, *end = block + kd_blocks(leaf);
+        for (; block < end; block++)
+            if (kd_block_hit(block, geo, &w.ray, ray->tmax, true, &hit))
                 return true;
     } while (walk_next(&w, ray->tmax));
     return false;

@@ -1,7 +1,7 @@
 /* kdtree.h: which primitive does a ray meet first?
  *
- * A kd-tree over triangles and quadrics: surface-area heuristic, O(N log N) build over clipped triangles
- * [Wald & Havran 2006], 8-byte nodes, iterative front-to-back traversal.
+ * A kd-tree over triangles and quadrics: surface-area heuristic over clipped triangles [Wald & Havran 2006], 8-byte
+ * nodes, leaves of triangles in blocks of four, iterative traversal.
  *
  * Precision: nodes hold float planes, traversal and intersection are computed in double from exact float
  * vertices. A point found on a surface is therefore within about 1e-15 of the scene's size of it, and a ray
@@ -17,18 +17,18 @@
 
 #include "shape.h"
 
-struct kd_node; /* 8 bytes, see kd_node.h */
-struct kd_item; /* 40 bytes */
+struct kd_node;  /* 8 bytes, see kd_node.h */
+struct kd_block; /* up to four triangles, see kd_block.h */
 
 struct kdtree {
-    struct kd_node *node; /* [n_nodes], root first, owned */
-    struct kd_item *item; /* [n_items] what the leaves refer to, owned; a primitive may occur many times */
-    int n_nodes;
-    int n_items;
+    struct kd_node *node;   /* [n_nodes], root first, owned */
+    struct kd_block *block; /* [n_blocks] what the leaves refer to, owned */
+    int n_nodes, n_blocks;
+    int n_items;        /* references to primitives in all leaves */
     float lo[3], hi[3]; /* bounds of everything; lo > hi for an empty tree */
     double reach;       /* largest absolute coordinate of the bounds */
     int depth;          /* deepest leaf, the root being at 0 */
-    double cost;        /* expected cost of a ray by the surface-area heuristic, in triangle tests */
+    double cost;        /* expected cost of a ray by the surface-area heuristic, in tests of a block of triangles */
 };
 
 /* kd_build: build the tree of all primitives; kd_free releases it. Cannot fail (memory: see mem.h).

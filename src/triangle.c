@@ -3,17 +3,6 @@
  * there. */
 #include "triangle.h"
 
-double triangle_distance(const struct triangle_ray *r, const float v[9])
-{
-    vec3 v0 = vec(v[0], v[1], v[2]);
-    vec3 n = cross(sub(vec(v[3], v[4], v[5]), v0), sub(vec(v[6], v[7], v[8]), v0));
-    double origin[3];
-    origin[r->kx] = r->ox;
-    origin[r->ky] = r->oy;
-    origin[r->kz] = r->oz;
-    return dot(n, sub(v0, vec(origin[0], origin[1], origin[2]))) / dot(n, r->d);
-}
-
 double triangle_area(const struct triangle *tri)
 {
     return 0.5 * length(cross(sub(tri->p[1], tri->p[0]), sub(tri->p[2], tri->p[0])));

@@ -19,7 +19,7 @@
 struct triangle_ray {
     double ox, oy, oz; /* origin, axes permuted so that z is the ray's longest */
     double sx, sy;     /* shear: d[kx]/d[kz], d[ky]/d[kz] */
-    vec3 d;
+    vec3 o, d;
     double tmin;
     int kx, ky, kz; /* the permutation */
 };
@@ -30,18 +30,27 @@ static inline struct triangle_ray triangle_ray(const struct ray *ray)
     int kz = fabs(d[0]) > fabs(d[1]) ? 0 : 1;
     kz = fabs(d[2]) > fabs(d[kz]) ? 2 : kz;
     int kx = kz == 2 ? 0 : kz + 1, ky = kx == 2 ? 0 : kx + 1;
-    struct triangle_ray r = {o[kx], o[ky], o[kz], d[kx] / d[kz], d[ky] / d[kz], ray->d, ray->tmin, kx, ky, kz};
+    struct triangle_ray r = {o[kx], o[ky], o[kz], d[kx] / d[kz], d[ky] / d[kz], ray->o, ray->d, ray->tmin,
+                             kx,    ky,    kz};
     return r;
 }
 
 /* triangle_distance: t where the ray meets the plane of the triangle v. The edges, differences of floats, are exact in
  * double, so t is good to the last digits even for needles and grazing rays. */
-double triangle_distance(const struct triangle_ray *r, const float v[9]);
+static inline double triangle_distance(const struct triangle_ray *r, const float v[9])
+{
+    vec3 v0 = vec(v[0], v[1], v[2]);
+    vec3 n = cross(sub(vec(v[3], v[4], v[5]), v0), sub(vec(v[6], v[7], v[8]), v0));
+    return dot(n, sub(v0, r->o)) / dot(n, r->d);
+}
 
 /* triangle_hit: does the ray meet the triangle v[0..8] (three vertices) at tmin < t < tmax?
  * On true hit->t, b1 and b2 are set. A triangle of zero area, or seen exactly edge-on, is never hit. */
 static inline bool triangle_hit(const struct triangle_ray *r, const float v[9], double tmax, struct hit *hit)
 {
+    double t = triangle_distance(r, v);
+    if (!(t > r->tmin && t < tmax))
+        return false;
     double az = v[r->kz] - r->oz, bz = v[3 + r->kz] - r->oz, cz = v[6 + r->kz] - r->oz;
     double ax = (v[r->kx] - r->ox) - r->sx * az, ay = (v[r->ky] - r->oy) - r->sy * az;
     double bx = (v[3 + r->kx] - r->ox) - r->sx * bz, by = (v[3 + r->ky] - r->oy) - r->sy * bz;
@@ -55,9 +64,6 @@ static inline bool triangle_hit(const struct triangle_ray *r, const float v[9], 
         return false;
     double sum = ea + eb + ec;
     if (sum == 0)
-        return false;
-    double t = triangle_distance(r, v);
-    if (!(t > r->tmin && t < tmax))
         return false;
     hit->t = t;
     hit->b1 = eb / sum;
