@@ -1,14 +1,16 @@
 /* kd_block.c: see kd_block.h. */
 #include "kd_block.h"
 
-#include <float.h>
-
-struct kd_block_ray kd_block_ray(const struct ray *ray, double size)
+void kd_block_ray(struct kd_block_ray *r, const struct ray *ray, double size)
 {
-    struct triangle_ray e = triangle_ray(ray);
-    struct kd_block_ray r = {ray,         e,           (float)e.ox, (float)e.oy,
-                             (float)e.oz, (float)e.sx, (float)e.sy, (float)(64 * 0x1p-24 * size)};
-    return r;
+    r->ray = ray;
+    r->exact = triangle_ray(ray);
+    r->ox = (float)r->exact.ox;
+    r->oy = (float)r->exact.oy;
+    r->oz = (float)r->exact.oz;
+    r->sx = (float)r->exact.sx;
+    r->sy = (float)r->exact.sy;
+    r->slack = (float)(64 * 0x1p-24 * size);
 }
 
 void kd_block_fill(struct kd_block *b, const struct geometry *geo, const int *prim, int n)
@@ -27,32 +29,6 @@ void kd_block_fill(struct kd_block *b, const struct geometry *geo, const int *pr
         for (int i = 0; i < 9; i++)
             b->v[i / 3][i % 3][lane] = v[i];
     }
-}
-
-/* Which lanes may the ray hit? Returns whether there are any. The names are those of triangle_hit. */
-static inline bool lanes_near(const struct kd_block *b, const struct kd_block_ray *r, int near[KD_LANES])
-{
-    const float *a_x = b->v[0][r->exact.kx], *a_y = b->v[0][r->exact.ky], *a_z = b->v[0][r->exact.kz];
-    const float *b_x = b->v[1][r->exact.kx], *b_y = b->v[1][r->exact.ky], *b_z = b->v[1][r->exact.kz];
-    const float *c_x = b->v[2][r->exact.kx], *c_y = b->v[2][r->exact.ky], *c_z = b->v[2][r->exact.kz];
-    const float ox = r->ox, oy = r->oy, oz = r->oz, sx = r->sx, sy = r->sy, factor = r->slack;
-    const uint32_t *prim = b->prim;
-    int any = 0;
-    for (int i = 0; i < KD_LANES; i++) {
-        float az = a_z[i] - oz, bz = b_z[i] - oz, cz = c_z[i] - oz;
-        float ax = (a_x[i] - ox) - sx * az, ay = (a_y[i] - oy) - sy * az;
-        float bx = (b_x[i] - ox) - sx * bz, by = (b_y[i] - oy) - sy * bz;
-        float cx = (c_x[i] - ox) - sx * cz, cy = (c_y[i] - oy) - sy * cz;
-        float ea = cx * by - cy * bx, eb = ax * cy - ay * cx, ec = bx * ay - by * ax;
-        float sum = fabsf(ax) + fabsf(ay) + fabsf(bx) + fabsf(by) + fabsf(cx) + fabsf(cy);
-        float slack = factor * sum + FLT_MIN;
-        float least = ea < eb ? ea : eb, most = ea < eb ? eb : ea;
-        least = ec < least ? ec : least;
-        most = ec > most ? ec : most;
-        near[i] = (prim[i] != KD_NONE) & !((least < -slack) & (most > slack));
-        any |= near[i];
-    }
-    return any != 0;
 }
 
 static bool lane_hit(const struct kd_block *b, int lane, const struct geometry *geo, const struct kd_block_ray *r,
@@ -87,15 +63,12 @@ static bool quadrics_hit(const struct kd_block *b, const struct geometry *geo, c
     return found;
 }
 
-bool kd_block_hit(const struct kd_block *b, const struct geometry *geo, const struct kd_block_ray *r, double tmax,
-                  bool shadow, struct hit *hit)
+bool kd_block_hit(const struct kd_block *b, const int near[KD_LANES], const struct geometry *geo,
+                  const struct kd_block_ray *r, double tmax, bool shadow, struct hit *hit)
 {
-    int near[KD_LANES];
     bool found = false;
     if ((b->prim[0] & ~KD_ALPHA) >= FIRST_QUADRIC)
         return quadrics_hit(b, geo, r->ray, tmax, hit);
-    if (!lanes_near(b, r, near))
-        return false;
     for (int i = 0; i < KD_LANES; i++)
         if (near[i] && lane_hit(b, i, geo, r, tmax, shadow, hit)) {
             tmax = hit->t;

@@ -12,6 +12,8 @@
 #ifndef ASBDPT_KD_BLOCK_H
 #define ASBDPT_KD_BLOCK_H
 
+#include <float.h>
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -36,14 +38,43 @@ struct kd_block_ray {
     float slack;              /* 64 u s */
 };
 
-/* kd_block_ray: prepare for the scene whose largest absolute coordinate, or the ray's origin's, is `size`. */
-struct kd_block_ray kd_block_ray(const struct ray *ray, double size);
+/* kd_block_ray: prepare *r for the scene whose largest absolute coordinate, or the ray's origin's, is `size`. */
+void kd_block_ray(struct kd_block_ray *r, const struct ray *ray, double size);
 
 /* kd_block_fill: a block of n <= KD_LANES primitives, all triangles or all quadrics. */
 void kd_block_fill(struct kd_block *b, const struct geometry *geo, const int *prim, int n);
 
-/* kd_block_hit: the first hit within (ray->tmin, tmax), honouring alpha; false, with *hit untouched, if none. */
-bool kd_block_hit(const struct kd_block *b, const struct geometry *geo, const struct kd_block_ray *r, double tmax,
-                  bool shadow, struct hit *hit);
+/* kd_block_near: which lanes may the ray hit? Sets near[i] to 1 or 0 and returns whether any is 1. A quadric's zeros
+ * always may. Here rather than in kd_block.c, so that a loop over blocks keeps the ray in registers. The names are those
+ * of triangle_hit. */
+static inline bool kd_block_near(const struct kd_block *b, const struct kd_block_ray *r, int near[KD_LANES])
+{
+    const float *a_x = b->v[0][r->exact.kx], *a_y = b->v[0][r->exact.ky], *a_z = b->v[0][r->exact.kz];
+    const float *b_x = b->v[1][r->exact.kx], *b_y = b->v[1][r->exact.ky], *b_z = b->v[1][r->exact.kz];
+    const float *c_x = b->v[2][r->exact.kx], *c_y = b->v[2][r->exact.ky], *c_z = b->v[2][r->exact.kz];
+    const float ox = r->ox, oy = r->oy, oz = r->oz, sx = r->sx, sy = r->sy, factor = r->slack;
+    const uint32_t *prim = b->prim;
+    int any = 0;
+    for (int i = 0; i < KD_LANES; i++) {
+        float az = a_z[i] - oz, bz = b_z[i] - oz, cz = c_z[i] - oz;
+        float ax = (a_x[i] - ox) - sx * az, ay = (a_y[i] - oy) - sy * az;
+        float bx = (b_x[i] - ox) - sx * bz, by = (b_y[i] - oy) - sy * bz;
+        float cx = (c_x[i] - ox) - sx * cz, cy = (c_y[i] - oy) - sy * cz;
+        float ea = cx * by - cy * bx, eb = ax * cy - ay * cx, ec = bx * ay - by * ax;
+        float sum = fabsf(ax) + fabsf(ay) + fabsf(bx) + fabsf(by) + fabsf(cx) + fabsf(cy);
+        float slack = factor * sum + FLT_MIN;
+        float least = ea < eb ? ea : eb, most = ea > eb ? ea : eb;
+        least = ec < least ? ec : least;
+        most = ec > most ? ec : most;
+        near[i] = (prim[i] != KD_NONE) & !((least < -slack) & (most > slack));
+        any |= near[i];
+    }
+    return any != 0;
+}
+
+/* kd_block_hit: the first hit within (ray->tmin, tmax) among the near lanes, honouring alpha; false, with *hit
+ * untouched, if none. */
+bool kd_block_hit(const struct kd_block *b, const int near[KD_LANES], const struct geometry *geo,
+                  const struct kd_block_ray *r, double tmax, bool shadow, struct hit *hit);
 
 #endif

@@ -73,7 +73,7 @@ static bool walk_start(struct walk *w, const struct kdtree *kd, const struct ray
     w->waiting = 0;
     if (kd->n_nodes == 0 || !(tmin <= tmax))
         return false;
-    w->ray = kd_block_ray(ray, size);
+    kd_block_ray(&w->ray, ray, size);
     return true;
 }
 
@@ -130,12 +130,14 @@ bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struc
     if (!walk_start(&w, kd, ray))
         return false;
     double nearest = ray->tmax;
+    int near[KD_LANES];
     bool found = false;
     do {
         struct kd_node leaf = walk_to_leaf(&w, kd->node, false);
         const struct kd_block *block = kd->block + leaf.at.first, *end = block + kd_blocks(leaf);
         for (; block < end; block++)
-            if (kd_block_hit(block, geo, &w.ray, nearest, false, hit)) {
+            if (kd_block_near(block, &w.ray, near) &&
+                kd_block_hit(block, near, geo, &w.ray, nearest, false, hit)) {
                 nearest = hit->t;
                 found = true;
             }
@@ -147,13 +149,15 @@ bool kd_occluded(const struct kdtree *kd, const struct geometry *geo, const stru
 {
     struct walk w;
     struct hit hit;
+    int near[KD_LANES];
     if (!walk_start(&w, kd, ray))
         return false;
     do {
         struct kd_node leaf = walk_to_leaf(&w, kd->node, true);
         const struct kd_block *block = kd->block + leaf.at.first, *end = block + kd_blocks(leaf);
         for (; block < end; block++)
-            if (kd_block_hit(block, geo, &w.ray, ray->tmax, true, &hit))
+            if (kd_block_near(block, &w.ray, near) &&
+                kd_block_hit(block, near, geo, &w.ray, ray->tmax, true, &hit))
                 return true;
     } while (walk_next(&w, ray->tmax));
     return false;

@@ -246,6 +246,17 @@ static bool is_uniform(const struct material *materials, int id, const struct te
     return m->kind != MATERIAL_MIX || (materials[m->mix1].uniform != NULL && materials[m->mix2].uniform != NULL);
 }
 
+bool material_reads_partials(const struct material *materials, int id, const struct texture_set *textures)
+{
+    const struct material *m = &materials[id];
+    if (m->kind == MATERIAL_MIX || m->bump >= 0)
+        return true;
+    if (m->uroughness == m->vroughness)
+        return false;
+    const struct texture *u = &textures->texture[m->uroughness], *v = &textures->texture[m->vroughness];
+    return u->kind != TEXTURE_CONSTANT || v->kind != TEXTURE_CONSTANT || u->u.constant.r != v->u.constant.r;
+}
+
 void material_prepare(struct material *materials, int n, const struct texture_set *textures, struct arena *arena)
 {
     const struct surface anywhere = {.u = 0};

@@ -50,6 +50,10 @@ bool material_fits(const struct material *materials, int id);
  *   arena  where they live: as long as the materials are used */
 void material_prepare(struct material *materials, int n, const struct texture_set *textures, struct arena *arena);
 
+/* material_reads_partials: whether the BSDFs of material `id` depend on dpdu, dpdv, dndu or dndv: by a bump map, or by a
+ * roughness that differs between u and v. May say so of one that does not. */
+bool material_reads_partials(const struct material *materials, int id, const struct texture_set *textures);
+
 /* material_bsdf: the BSDF of material `id` at a point.
  *   materials, textures  the scene's
  *   at     the surface point; bump mapping tilts the shading frame, `at` itself is not changed

@@ -59,7 +59,7 @@ static bool is_kept(const struct quadric *q, vec3 p)
  * quantities of the same sign are added: no cancellation for far or touching rays. */
 static bool sphere_roots(vec3 o, vec3 d, double r, double t[2])
 {
-    double a = length2(d), b = -dot(o, d), l = length(o);
+    double a = length2(d), b = -dot(o, d);
     if (a == 0)
         return false;
     vec3 closest = add(o, mul(d, b / a));
@@ -67,10 +67,10 @@ static bool sphere_roots(vec3 o, vec3 d, double r, double t[2])
     if (discriminant < 0)
         return false;
     double q = b + copysign(sqrt(discriminant), b);
-    double c = (l - r) * (l + r);
+    double l = length(o), c = (l - r) * (l + r);
     double t0 = q / a, t1 = q != 0 ? c / q : t0;
-    t[0] = fmin(t0, t1);
-    t[1] = fmax(t0, t1);
+    t[0] = t0 < t1 ? t0 : t1;
+    t[1] = t0 < t1 ? t1 : t0;
     return true;
 }
 

@@ -171,6 +171,7 @@ static struct triangle triangle_of(const struct geometry *geo, int prim)
             tri.uv[i][k] = group->has_uv ? geo->UV[2 * (size_t)index[i] + k] : default_uv[i][k];
     tri.has_n = group->has_n;
     tri.flip = group->flip;
+    tri.plain = group->plain;
     return tri;
 }
 

@@ -34,6 +34,7 @@ struct shape_group {
     bool flip;        /* ReverseOrientation xor transform swaps handedness: normals without N are negated */
     bool has_n;       /* vertex normals given (already negated under ReverseOrientation): they orient ng as well */
     bool has_uv;
+    bool plain; /* nobody reads the partial derivatives of its surface: zeros will do (scene_prepare finds out) */
 };
 
 struct geometry {

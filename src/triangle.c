@@ -38,13 +38,9 @@ static bool linear_partials(const struct triangle *tri, const vec3 *value, vec3 
     return true;
 }
 
-/* Shading normal, its derivatives, and tangents orthogonal to it, from vertex normals. */
-static void shade_by_vertex_normals(const struct triangle *tri, double b1, double b2, struct surface *out)
+/* Tangents orthogonal to a shading normal from vertex normals, and how that normal changes. */
+static void partials_by_vertex_normals(const struct triangle *tri, struct surface *out)
 {
-    vec3 ns = mix3(tri->n, b1, b2);
-    if (length2(ns) > 0)
-        out->ns = normalize(ns);
-    out->ng = faceforward(out->ng, out->ns);
     vec3 du = reject(out->dpdu, out->ns), dv = reject(out->dpdv, out->ns);
     if (length2(cross(du, dv)) > 0) {
         out->dpdu = du;
@@ -67,9 +63,17 @@ void triangle_surface(const struct triangle *tri, double b1, double b2, struct s
     out->ns = out->ng;
     out->u = (1 - b1 - b2) * tri->uv[0][0] + b1 * tri->uv[1][0] + b2 * tri->uv[2][0];
     out->v = (1 - b1 - b2) * tri->uv[0][1] + b1 * tri->uv[1][1] + b2 * tri->uv[2][1];
+    out->dpdu = out->dpdv = out->dndu = out->dndv = vec(0, 0, 0);
+    if (tri->has_n) {
+        vec3 ns = mix3(tri->n, b1, b2);
+        if (length2(ns) > 0)
+            out->ns = normalize(ns);
+        out->ng = faceforward(out->ng, out->ns);
+    }
+    if (tri->plain)
+        return;
     if (!linear_partials(tri, tri->p, &out->dpdu, &out->dpdv) || !(length2(cross(out->dpdu, out->dpdv)) > 0))
         tangents_of(neg(normal), &out->dpdu, &out->dpdv);
-    out->dndu = out->dndv = vec(0, 0, 0);
     if (tri->has_n)
-        shade_by_vertex_normals(tri, b1, b2, out);
+        partials_by_vertex_normals(tri, out);
 }

@@ -57,7 +57,7 @@ static inline bool triangle_hit(const struct triangle_ray *r, const float v[9], 
     double cx = (v[6 + r->kx] - r->ox) - r->sx * cz, cy = (v[6 + r->ky] - r->oy) - r->sy * cz;
     double ea = cx * by - cy * bx, eb = ax * cy - ay * cx, ec = bx * ay - by * ax;
     /* Which edge has the wrong sign is a matter of chance, so one test of the extremes beats one of each. */
-    double least = ea < eb ? ea : eb, most = ea < eb ? eb : ea;
+    double least = ea < eb ? ea : eb, most = ea > eb ? ea : eb;
     least = ec < least ? ec : least;
     most = ec > most ? ec : most;
     if ((least < 0) & (most > 0))
@@ -77,13 +77,15 @@ struct triangle {
     vec3 n[3];       /* vertex normals; read only if has_n */
     double uv[3][2]; /* (0,0) (1,0) (1,1) where the mesh has none */
     bool has_n;
-    bool flip; /* turns the normal of a triangle without vertex normals */
+    bool flip;  /* turns the normal of a triangle without vertex normals */
+    bool plain; /* the partial derivatives may be left zero */
 };
 
 /* triangle_surface: position, normals, texture coordinates and partial derivatives at barycentric coordinates
  * (1-b1-b2, b1, b2); material and light are left alone. With vertex normals, ns is their normalised mean, ng lies on
  * its side, and dpdu, dpdv are the derivatives by (u,v) projected to be orthogonal to ns; without, ns = ng and they are
- * the derivatives as they are. Where (u,v) do not span the triangle they are any unit tangents. */
+ * the derivatives as they are. Where (u,v) do not span the triangle they are any unit tangents. All are zero if the
+ * triangle is plain. */
 void triangle_surface(const struct triangle *tri, double b1, double b2, struct surface *out);
 
 double triangle_area(const struct triangle *tri); /* m^2 */
