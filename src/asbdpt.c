@@ -11,6 +11,11 @@
 
 enum { MIN_GUIDED_CELLS = 4 }; /* with fewer there is nothing to choose among */
 
+/* vertices: what the one sample of s = 1 counts for in the weights (mis.h); its point on the light comes from a
+ * low-discrepancy sequence. Measured: from 1 to 1.5 the squared error of the Cornell boxes falls by up to 15 %, that of
+ * the other scenes stays; at 2 it rises where light comes through windows. */
+static const double DIRECT_CREDIT = 1.5;
+
 static const struct parameter PARAMETERS[] = {
     {"select", "vertices", "bins (the dissertation, biased), pool, or vertices"},
     {"metric", "importance", "pool, vertices: constant, throughput or importance"},
@@ -93,6 +98,7 @@ static void learn(struct selection *sel, const struct render_job *job, int cells
     if (sel->connections == 0)
         sel->connections = importance ? choose_connections(&sel->grid) : 4;
     sel->counts.connect = 2 * sel->connections; /* see vertices.c */
+    sel->counts.direct = DIRECT_CREDIT;
     if (importance && sel->grid.mean > 0) {
         sel->counts.at = position_count;
         sel->counts.at_context = sel;

@@ -11,15 +11,6 @@ static rgb take(struct gather *g, struct connection c, int s, int t, double scal
     return rgb_scale(value, c.weight);
 }
 
-/* s = 1 with as many light points as the counts say. */
-static rgb gather_direct(struct gather *g, const struct vertex *z, int t)
-{
-    rgb sum = rgb_black();
-    for (int i = 0; i < g->counts->direct; i++)
-        sum = rgb_add(sum, take(g, connect_direct(g->scene, g->counts, z, &g->sampler, NULL), 1, t, 1 / g->counts->direct));
-    return sum;
-}
-
 rgb gather_eye(struct gather *g, const struct vertex *eye, int n)
 {
     rgb sum = rgb_black();
@@ -28,7 +19,7 @@ rgb gather_eye(struct gather *g, const struct vertex *eye, int n)
         if (t == 2 || g->counts->hit > 0)
             sum = rgb_add(sum, take(g, connect_hit(g->scene, g->counts, z, t), 0, t, 1));
         if (g->counts->direct > 0 && t <= g->max_depth + 1 && z->kind == VERTEX_SURFACE)
-            sum = rgb_add(sum, gather_direct(g, z, t));
+            sum = rgb_add(sum, take(g, connect_direct(g->scene, g->counts, z, &g->sampler, NULL), 1, t, 1));
     }
     return sum;
 }

@@ -37,10 +37,13 @@
 #include "guide.h"
 #include "vec.h"
 
-/* How many samples each kind of strategy takes per pixel and iteration; 0: the method does not use it. */
+/* How many samples each kind of strategy takes per pixel and iteration; 0: the method does not use it. A method may count
+ * a strategy for more than it takes: the weights still add up to 1. The balance heuristic goes by second moments, so a
+ * strategy whose samples are better spread than independent ones, and whose variance is therefore smaller, deserves
+ * it [Grittmann et al. 2019]. */
 struct mis_counts {
     double hit;     /* s = 0, t >= 3: the eye walk finds a light. (t = 2, a light seen directly, has weight 1) */
-    double direct;  /* s = 1, t >= 2: connection to a fresh point on a light; times guide_ratio with a guide */
+    double direct;  /* s = 1, t >= 2: connection to one fresh point on a light; times guide_ratio with a guide */
     double connect; /* s >= 2, t >= 2: connection to a light sub-path's vertex */
     double splat;   /* s >= 2, t = 1: light sub-paths connected to the lens: how many are traced per iteration */
     /* If set, multiplies `connect` by a function of the light vertex that ends the light sub-path (design of
