@@ -1,4 +1,5 @@
 /* main.c: asbdpt's command line: pick the subcommand, print the help. */
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -61,11 +62,13 @@ static void print_help(void)
     printf("\nexit status: 0 success, 1 the job failed, 2 wrong usage\n");
 }
 
+static bool asks_for_help(const char *word) { return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0; }
+
 int main(int argc, char **argv)
 {
     if (argc < 2)
         return usage_error("which command?");
-    if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "help") == 0) {
+    if (asks_for_help(argv[1]) || strcmp(argv[1], "help") == 0 || (argc == 3 && asks_for_help(argv[2]))) {
         print_help();
         return EXIT_OK;
     }

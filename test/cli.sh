@@ -33,6 +33,8 @@ small="--res 16x16 --spp 2 --quiet"
 
 expect 0 '' "$program" --help
 check grep -q 'asbdpt render SCENE' stdout.txt
+expect 0 '' "$program" experiment --help
+check grep -q 'asbdpt render SCENE' stdout.txt
 expect 0 '' "$program" --version
 expect 2 'asbdpt: which command' "$program"
 expect 2 'unknown command' "$program" rendr

@@ -166,7 +166,7 @@ void test_mis(struct test *t)
     const struct mis_counts all = {.hit = 1, .direct = 1, .connect = 1, .splat = 1024};
     const struct mis_counts pt = {.hit = 1, .direct = 1}, lt = {.splat = 1024};
     const struct mis_counts power = {.hit = 1, .direct = 1, .connect = 1, .splat = 1024, .power = true};
-    const struct mis_counts resampled = {.hit = 1, .direct = 1, .connect = 4, .splat = 1024, .at = uneven};
+    const struct mis_counts resampled = {.hit = 1, .direct = 1.5, .connect = 4, .splat = 1024, .at = uneven};
     const struct {
         const char *name;
         const struct mis_counts *counts;

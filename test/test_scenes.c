@@ -105,6 +105,48 @@ static void test_holes(struct test *t)
     }
 }
 
+/* Partial derivatives are there where a material may read them, and left out elsewhere: a row of triangles along x, with
+ * and without vertex normals. */
+static void test_partials(struct test *t)
+{
+    static const char start[] = "Camera \"perspective\" WorldBegin Texture \"b\" \"float\" \"constant\" \"float value\" 1\n"
+                                "MakeNamedMaterial \"m\" \"string type\" \"matte\" MakeNamedMaterial \"n\" \"string type\" \"matte\"\n";
+    static const struct {
+        const char *material;
+        bool read;
+    } cases[] = {
+        {"\"matte\"", false},
+        {"\"matte\" \"texture bumpmap\" \"b\"", true},
+        {"\"plastic\" \"float roughness\" 0.2", false},
+        {"\"metal\" \"float uroughness\" 0.1 \"float vroughness\" 0.3", true},
+        {"\"glass\" \"float uroughness\" 0.2 \"float vroughness\" 0.2", false},
+        {"\"glass\" \"float uroughness\" 0.2 \"texture vroughness\" \"b\"", true},
+        {"\"mix\" \"string namedmaterial1\" \"m\" \"string namedmaterial2\" \"n\"", true},
+    };
+    enum { N = sizeof cases / sizeof cases[0] };
+    char text[8192];
+    int used = snprintf(text, sizeof text, "%s", start);
+    for (int i = 0; i < 2 * N; i++)
+        used += snprintf(text + used, sizeof text - (size_t)used,
+                         "Material %s Shape \"trianglemesh\" \"integer indices\" [0 1 2] \"point P\" [%d 0 0  %d 0 0  %d 1 0]%s\n",
+                         cases[i % N].material, 2 * i, 2 * i + 1, 2 * i, i < N ? "" : " \"normal N\" [0 0 1  0.1 0 1  0 0.1 1]");
+    snprintf(text + used, sizeof text - (size_t)used, "WorldEnd");
+    struct scene scene;
+    if (!scene_from_text(t, text, &scene))
+        return;
+    for (int i = 0; i < 2 * N; i++) {
+        struct ray ray = {vec(2 * i + 0.25, 0.25, 1), vec(0, 0, -1), 0, INFINITY};
+        struct surface at;
+        bool read = cases[i % N].read;
+        if (!CHECK(t, scene_intersect(&scene, &ray, &at), "triangle %d is there", i))
+            continue;
+        CHECK(t, read == (length(at.dpdu) > 0.5 && length(at.dpdv) > 0.5), "%s: partials %g %g", cases[i % N].material,
+              length(at.dpdu), length(at.dpdv));
+        CHECK(t, (read && i >= N) == (length(at.dndu) > 0), "%s: change of normal %g", cases[i % N].material, length(at.dndu));
+    }
+    scene_free(&scene);
+}
+
 /* A spot of half angle 40 degrees with a soft edge of 20: full inside 20 degrees, nothing outside 40, between them
  * ((cos a - cos 40) / (cos 20 - cos 40))^4, as in pbrt. */
 static void test_spot(struct test *t)
@@ -231,6 +273,7 @@ void test_scenes(struct test *t)
     test_analytic(t);
     test_sides(t);
     test_holes(t);
+    test_partials(t);
     test_spot(t);
     test_filter_edge(t);
     test_light_pairs(t, 8);
