@@ -79,7 +79,7 @@ static bool bounce(const struct scene *s, struct ray *ray, struct sampler *sampl
     struct surface at;
     if (!scene_intersect(s, ray, &at))
         return false;
-    struct ray next = {at.p, cosine_direction(sampler, faceforward(at.ng, neg(ray->d))), s->epsilon, INFINITY};
+    struct ray next = {at.p, cosine_direction(sampler, faceforward(at.ng, neg(ray->d))), s->epsilon, INFINITY, 0, 0};
     *ray = next;
     return true;
 }

@@ -3,7 +3,6 @@
 
 void kd_block_ray(struct kd_block_ray *r, const struct ray *ray, double size)
 {
-    r->ray = ray;
     r->exact = triangle_ray(ray);
     r->ox = (float)r->exact.ox;
     r->oy = (float)r->exact.oy;
@@ -11,6 +10,8 @@ void kd_block_ray(struct kd_block_ray *r, const struct ray *ray, double size)
     r->sx = (float)r->exact.sx;
     r->sy = (float)r->exact.sy;
     r->slack = (float)(64 * 0x1p-24 * size);
+    r->from = ray->from - 1; /* 0 becomes KD_NONE */
+    r->to = ray->to - 1;
 }
 
 void kd_block_fill(struct kd_block *b, const struct geometry *geo, const int *prim, int n)
@@ -68,7 +69,7 @@ bool kd_block_hit(const struct kd_block *b, const int near[KD_LANES], const stru
 {
     bool found = false;
     if ((b->prim[0] & ~KD_ALPHA) >= FIRST_QUADRIC)
-        return quadrics_hit(b, geo, r->ray, tmax, hit);
+        return quadrics_hit(b, geo, r->exact.ray, tmax, hit);
     for (int i = 0; i < KD_LANES; i++)
         if (near[i] && lane_hit(b, i, geo, r, tmax, shadow, hit)) {
             tmax = hit->t;

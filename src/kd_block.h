@@ -32,10 +32,10 @@ struct kd_block {
 
 /* A ray and what the test needs of it. */
 struct kd_block_ray {
-    const struct ray *ray;
     struct triangle_ray exact;
     float ox, oy, oz, sx, sy; /* of exact, in float */
     float slack;              /* 64 u s */
+    uint32_t from, to;        /* primitive numbers of the ray's own triangles, KD_NONE if it has none */
 };
 
 /* kd_block_ray: prepare *r for the scene whose largest absolute coordinate, or the ray's origin's, is `size`. */
@@ -53,7 +53,7 @@ static inline bool kd_block_near(const struct kd_block *b, const struct kd_block
     const float *b_x = b->v[1][r->exact.kx], *b_y = b->v[1][r->exact.ky], *b_z = b->v[1][r->exact.kz];
     const float *c_x = b->v[2][r->exact.kx], *c_y = b->v[2][r->exact.ky], *c_z = b->v[2][r->exact.kz];
     const float ox = r->ox, oy = r->oy, oz = r->oz, sx = r->sx, sy = r->sy, factor = r->slack;
-    const uint32_t *prim = b->prim;
+    const uint32_t *prim = b->prim, from = r->from, to = r->to;
     int any = 0;
     for (int i = 0; i < KD_LANES; i++) {
         float az = a_z[i] - oz, bz = b_z[i] - oz, cz = c_z[i] - oz;
@@ -66,7 +66,7 @@ static inline bool kd_block_near(const struct kd_block *b, const struct kd_block
         float least = ea < eb ? ea : eb, most = ea > eb ? ea : eb;
         least = ec < least ? ec : least;
         most = ec > most ? ec : most;
-        near[i] = (prim[i] != KD_NONE) & !((least < -slack) & (most > slack));
+        near[i] = (prim[i] != KD_NONE) & (prim[i] != from) & (prim[i] != to) & !((least < -slack) & (most > slack));
         any |= near[i];
     }
     return any != 0;

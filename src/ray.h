@@ -4,12 +4,16 @@
 #ifndef ASBDPT_RAY_H
 #define ASBDPT_RAY_H
 
+#include <stdint.h>
+
 #include "vec.h"
 
 /* A ray segment: the open interval (tmin, tmax) of o + t d. d is unit, so t is a world distance. */
 struct ray {
     vec3 o, d;
     double tmin, tmax; /* tmin >= 0; tmax may be HUGE_VAL */
+    uint32_t from, to; /* triangles that the segment begins and ends on, as shape_flat numbers them; 0: none known. A line
+                        * meets a plane only once, so they need not be tested again; they may be left 0. */
 };
 
 /* Where a ray meets a primitive. */

@@ -45,7 +45,7 @@ static bool opaque_at(const void *context, const struct geometry *geo, const str
 {
     const struct scene *s = context;
     const struct shape_group *group = shape_group_of(geo, hit->prim);
-    const struct ray anywhere = {vec(0, 0, 0), vec(0, 0, 1), 0, INFINITY};
+    const struct ray anywhere = {vec(0, 0, 0), vec(0, 0, 1), 0, INFINITY, 0, 0};
     struct surface at;
     shape_surface(geo, hit, &anywhere, &at);
     if (group->alpha >= 0 && texture_float(&s->textures, group->alpha, &at) == 0)
@@ -80,16 +80,16 @@ bool scene_intersect(const struct scene *s, const struct ray *ray, struct surfac
     return true;
 }
 
-bool scene_visible(const struct scene *s, vec3 a, vec3 b)
+bool scene_visible(const struct scene *s, vec3 a, uint32_t from, vec3 b, uint32_t to)
 {
     vec3 d = sub(b, a);
     double distance = length(d);
-    struct ray ray = {a, mul(d, 1 / distance), s->epsilon, distance - s->epsilon};
+    struct ray ray = {a, mul(d, 1 / distance), s->epsilon, distance - s->epsilon, from, to};
     return !(ray.tmin < ray.tmax) || !kd_occluded(&s->kd, &s->geo, &ray);
 }
 
-bool scene_visible_ray(const struct scene *s, vec3 a, vec3 w)
+bool scene_visible_ray(const struct scene *s, vec3 a, uint32_t from, vec3 w)
 {
-    struct ray ray = {a, w, s->epsilon, INFINITY};
+    struct ray ray = {a, w, s->epsilon, INFINITY, from, 0};
     return !kd_occluded(&s->kd, &s->geo, &ray);
 }

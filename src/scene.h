@@ -54,10 +54,11 @@ void scene_prepare(struct scene *s);
 /* scene_intersect: first surface along the ray; false if it leaves the scene. */
 bool scene_intersect(const struct scene *s, const struct ray *ray, struct surface *out);
 
-/* scene_visible: is the open segment between two points free? */
-bool scene_visible(const struct scene *s, vec3 a, vec3 b);
+/* scene_visible: is the open segment between two points free?
+ *   from, to  the triangles a and b are on, see shape_flat; 0: none */
+bool scene_visible(const struct scene *s, vec3 a, uint32_t from, vec3 b, uint32_t to);
 
 /* scene_visible_ray: is the half line from a in unit direction w free? */
-bool scene_visible_ray(const struct scene *s, vec3 a, vec3 w);
+bool scene_visible_ray(const struct scene *s, vec3 a, uint32_t from, vec3 w);
 
 #endif

@@ -225,6 +225,7 @@ static void set_material_and_light(const struct geometry *geo, int prim, struct 
 {
     const struct shape_group *group = shape_group_of(geo, prim);
     out->material = group->material;
+    out->flat = shape_flat(prim);
     out->light = group->first_light >= 0 ? group->first_light + prim - group->first_prim : -1;
 }
 

@@ -4,6 +4,8 @@
 #ifndef ASBDPT_SURFACE_H
 #define ASBDPT_SURFACE_H
 
+#include <stdint.h>
+
 #include "vec.h"
 
 struct surface {
@@ -14,6 +16,7 @@ struct surface {
     vec3 dndu, dndv; /* partial derivatives of ns; zero where the shape does not define them */
     double u, v;     /* texture coordinates */
     int material;    /* index into scene->materials, or -1 */
+    uint32_t flat;   /* the triangle it is on, see shape_flat; 0: none */
     int light;       /* index into scene->lights of the area light that sits here, or -1 */
 };
 

@@ -17,11 +17,10 @@
 
 /* What the test needs of a ray, computed once per ray. */
 struct triangle_ray {
+    const struct ray *ray;
     double ox, oy, oz; /* origin, axes permuted so that z is the ray's longest */
     double sx, sy;     /* shear: d[kx]/d[kz], d[ky]/d[kz] */
-    vec3 o, d;
-    double tmin;
-    int kx, ky, kz; /* the permutation */
+    int kx, ky, kz;    /* the permutation */
 };
 
 static inline struct triangle_ray triangle_ray(const struct ray *ray)
@@ -30,8 +29,7 @@ static inline struct triangle_ray triangle_ray(const struct ray *ray)
     int kz = fabs(d[0]) > fabs(d[1]) ? 0 : 1;
     kz = fabs(d[2]) > fabs(d[kz]) ? 2 : kz;
     int kx = kz == 2 ? 0 : kz + 1, ky = kx == 2 ? 0 : kx + 1;
-    struct triangle_ray r = {o[kx], o[ky], o[kz], d[kx] / d[kz], d[ky] / d[kz], ray->o, ray->d, ray->tmin,
-                             kx,    ky,    kz};
+    struct triangle_ray r = {ray, o[kx], o[ky], o[kz], d[kx] / d[kz], d[ky] / d[kz], kx, ky, kz};
     return r;
 }
 
@@ -41,7 +39,7 @@ static inline double triangle_distance(const struct triangle_ray *r, const float
 {
     vec3 v0 = vec(v[0], v[1], v[2]);
     vec3 n = cross(sub(vec(v[3], v[4], v[5]), v0), sub(vec(v[6], v[7], v[8]), v0));
-    return dot(n, sub(v0, r->o)) / dot(n, r->d);
+    return dot(n, sub(v0, r->ray->o)) / dot(n, r->ray->d);
 }
 
 /* triangle_hit: does the ray meet the triangle v[0..8] (three vertices) at tmin < t < tmax?
@@ -49,7 +47,7 @@ static inline double triangle_distance(const struct triangle_ray *r, const float
 static inline bool triangle_hit(const struct triangle_ray *r, const float v[9], double tmax, struct hit *hit)
 {
     double t = triangle_distance(r, v);
-    if (!(t > r->tmin && t < tmax))
+    if (!(t > r->ray->tmin && t < tmax))
         return false;
     double az = v[r->kz] - r->oz, bz = v[3 + r->kz] - r->oz, cz = v[6 + r->kz] - r->oz;
     double ax = (v[r->kx] - r->ox) - r->sx * az, ay = (v[r->ky] - r->oy) - r->sy * az;

@@ -54,7 +54,7 @@ static void check_triangle_hits(struct test *t)
 {
     struct geometry geo = {0};
     add_triangle(t, &geo, false, false, transform_identity(), false);
-    struct ray ray = {vec(0.5, 0.25, 3), vec(0, 0, -1), 0, HUGE_VAL};
+    struct ray ray = {vec(0.5, 0.25, 3), vec(0, 0, -1), 0, HUGE_VAL, 0, 0};
     struct hit hit;
     CHECK(t, shape_intersect(&geo, 0, &ray, &hit) && hit.t == 3 && hit.prim == 0, "straight down");
     CHECK(t, fabs(hit.b1 - 0.25) < 1e-15 && fabs(hit.b2 - 0.25) < 1e-15, "barycentric %g %g", hit.b1, hit.b2);
@@ -89,7 +89,7 @@ static void check_triangle_random(struct test *t, struct rng *r)
         double pdf, u1 = rng_uniform(r), u2 = rng_uniform(r);
         shape_sample(&geo, 0, u1, u2, &target, &pdf);
         vec3 o = add(target.p, mul(on_sphere(r), 20 * size));
-        struct ray ray = {o, normalize(sub(target.p, o)), 0, HUGE_VAL};
+        struct ray ray = {o, normalize(sub(target.p, o)), 0, HUGE_VAL, 0, 0};
         struct hit hit;
         if (!CHECK(t, shape_intersect(&geo, 0, &ray, &hit), "triangle %d is missed", i))
             continue;
@@ -98,7 +98,7 @@ static void check_triangle_random(struct test *t, struct rng *r)
               length(sub(at.p, target.p)));
         CHECK(t, fabs(pdf * shape_area(&geo, 0) - 1) < 1e-12 && shape_pdf_a(&geo, 0, &at) == pdf, "pdf_a");
         /* a ray that leaves this point must not find the triangle again beyond 1e-8 of the scene's size */
-        struct ray leave = {at.p, on_sphere(r), 1e-8 * 20 * size, HUGE_VAL};
+        struct ray leave = {at.p, on_sphere(r), 1e-8 * 20 * size, HUGE_VAL, 0, 0};
         CHECK(t, fabs(dot(leave.d, at.ng)) < 1e-4 || !shape_intersect(&geo, 0, &leave, &hit), "it meets itself");
         hits++;
         geometry_free(&geo);
@@ -109,7 +109,7 @@ static void check_triangle_random(struct test *t, struct rng *r)
 static struct surface surface_at(const struct geometry *geo, int prim, double b1, double b2)
 {
     struct hit hit = {0, b1, b2, prim};
-    struct ray ray = {vec(0, 0, 0), vec(0, 0, 1), 0, 1};
+    struct ray ray = {vec(0, 0, 0), vec(0, 0, 1), 0, 1, 0, 0};
     struct surface at;
     shape_surface(geo, &hit, &ray, &at);
     return at;
@@ -249,7 +249,7 @@ static void check_quadric_hits(struct test *t, const struct geometry *geo, int i
     shape_bounds(geo, prim, lo, hi);
     for (int k = 0; k < 300; k++) {
         vec3 target = point_of(q, rng_uniform(r), rng_uniform(r)), o = add(target, mul(on_sphere(r), 8));
-        struct ray ray = {o, normalize(sub(target, o)), 0, HUGE_VAL};
+        struct ray ray = {o, normalize(sub(target, o)), 0, HUGE_VAL, 0, 0};
         struct hit hit;
         struct surface at;
         if (!CHECK(t, shape_intersect(geo, prim, &ray, &hit), "quadric %d is missed", i))
@@ -264,7 +264,7 @@ static void check_quadric_hits(struct test *t, const struct geometry *geo, int i
         bool boxed = at.p.x >= lo[0] && at.p.x <= hi[0] && at.p.y >= lo[1] && at.p.y <= hi[1] && at.p.z >= lo[2] &&
                      at.p.z <= hi[2];
         CHECK(t, boxed, "quadric %d: outside its bounds", i);
-        struct ray leave = {at.p, on_sphere(r), 1e-7, 1e-3};
+        struct ray leave = {at.p, on_sphere(r), 1e-7, 1e-3, 0, 0};
         CHECK(t, fabs(dot(leave.d, at.ng)) < 0.05 || !shape_intersect(geo, prim, &leave, &hit), "it meets itself");
     }
 }
@@ -298,7 +298,7 @@ static void check_quadric_orientation(struct test *t)
         struct geometry geo = {0};
         struct quadric q = {QUADRIC_SPHERE, transform_scale(i & 1 ? -1 : 1, 1, 1), 1, 0, -1, 1, 2 * PI, 0};
         shape_add_quadric(&geo, q, group_of(3, 9), i & 2);
-        struct ray ray = {vec(0, 0, 5), vec(0, 0, -1), 0, HUGE_VAL};
+        struct ray ray = {vec(0, 0, 5), vec(0, 0, -1), 0, HUGE_VAL, 0, 0};
         struct hit hit;
         struct surface at, sample;
         double pdf, out = i & 2 ? -1 : 1;
