@@ -297,6 +297,11 @@ static bool parse(int argc, char **argv, struct arguments *a)
             a->scene[a->n_scenes++] = name;
             continue;
         }
+        if (strncmp(name, "-j", 2) == 0 && name[2] != '\0') {
+            if (!number_option("-j", name + 2, &a->n_threads))
+                return false;
+            continue;
+        }
         if (value == NULL)
             return usage_error("%s is unknown or needs a value", name) == EXIT_OK;
         if (strcmp(name, "--json") == 0)
