@@ -45,8 +45,8 @@ void kd_block_ray(struct kd_block_ray *r, const struct ray *ray, double size);
 void kd_block_fill(struct kd_block *b, const struct geometry *geo, const int *prim, int n);
 
 /* kd_block_near: which lanes may the ray hit? Sets near[i] to 1 or 0 and returns whether any is 1. A quadric's zeros
- * always may. Here rather than in kd_block.c, so that a loop over blocks keeps the ray in registers. The names are those
- * of triangle_hit. */
+ * always may. Here rather than in kd_block.c, since most blocks of a leaf need nothing more, and no call. The names are
+ * those of triangle_hit. */
 static inline bool kd_block_near(const struct kd_block *b, const struct kd_block_ray *r, int near[KD_LANES])
 {
     const float *a_x = b->v[0][r->exact.kx], *a_y = b->v[0][r->exact.ky], *a_z = b->v[0][r->exact.kz];

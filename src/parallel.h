@@ -5,7 +5,7 @@
  * where the promise "same bytes for any -j" is kept. A result waits for its turn in one of a fixed number of slots,
  * so memory stays bounded.
  *
- * Used by: render, kd_build, tests.
+ * Used by: render, prepass, tests.
  */
 #ifndef ASBDPT_PARALLEL_H
 #define ASBDPT_PARALLEL_H
