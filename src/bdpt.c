@@ -52,7 +52,7 @@ static void render_pixel(const struct tile_pass *pass, const struct mis_counts *
     if (counts->connect > 0)
         sum = rgb_add(sum, gather_pairs(&g, work->eye, n_eye, work->light, n_light, 1));
     if (counts->splat > 0)
-        gather_splats(&g, work->light, n_light);
+        gather_splats(&g, work->light, n_light, 1);
     tile_add_own(pass->tile, x, y, sum);
 }
 

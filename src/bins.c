@@ -115,7 +115,7 @@ static void render_iteration(struct pixel *p, double shift, long iteration)
 
     rgb sum = gather_eye(&g, work->eye, n);
     sum = rgb_add(sum, gather_pairs(&g, work->eye, n, e->vertex, e->length, 1));
-    gather_splats(&g, e->vertex, e->length);
+    gather_splats(&g, e->vertex, e->length, 1);
     tile_add_own(p->pass->tile, p->x, p->y, sum);
     replace(p, e, iteration);
 }

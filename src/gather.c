@@ -39,9 +39,9 @@ rgb gather_pairs(struct gather *g, const struct vertex *eye, int n_eye, const st
     return sum;
 }
 
-void gather_splats(struct gather *g, const struct vertex *light, int n_light)
+void gather_splats(struct gather *g, const struct vertex *light, int n_light, double scale)
 {
-    double each = 1 / g->counts->splat;
+    double each = scale / g->counts->splat;
     for (int s = 2; s <= n_light && s <= g->max_depth + 1; s++) {
         struct connection c = connect_lens(g->scene, g->counts, &light[s - 1], &g->sampler);
         if (rgb_is_black(c.value))

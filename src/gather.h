@@ -34,7 +34,8 @@ rgb gather_pair(struct gather *g, const struct vertex *y, int s, const struct ve
 rgb gather_pairs(struct gather *g, const struct vertex *eye, int n_eye, const struct vertex *light, int n_light,
                  double scale);
 
-/* gather_splats: s >= 2, t = 1 for every vertex of a light sub-path; the sums go to the tile's splats. */
-void gather_splats(struct gather *g, const struct vertex *light, int n_light);
+/* gather_splats: s >= 2, t = 1 for every vertex of a light sub-path, each multiplied by `scale`; the sums go to the
+ * tile's splats. */
+void gather_splats(struct gather *g, const struct vertex *light, int n_light, double scale);
 
 #endif

@@ -11,19 +11,23 @@ void light_pool_free(struct light_pool *pool)
 }
 
 void light_pool_fill(struct light_pool *pool, const struct tile_pass *pass, const struct mis_counts *counts,
-                     long iteration)
+                     int path_pixels, long iteration)
 {
     size_t longest = (size_t)pass->job->max_depth + 1;
+    int number = 0;
     arena_reset(&pool->arena);
     pool->n = 0;
     pool->used = 0;
     for (int y = pass->rect.y0; y < pass->rect.y1; y++)
-        for (int x = pass->rect.x0; x < pass->rect.x1; x++, pool->n++) {
+        for (int x = pass->rect.x0; x < pass->rect.x1; x++, number++) {
+            if (number % path_pixels != 0)
+                continue;
             pool->vertex = mem_grow(pool->vertex, &pool->capacity, pool->used + longest, sizeof *pool->vertex);
             struct vertex *path = &pool->vertex[pool->used];
             pool->start[pool->n] = pool->used;
             pool->length[pool->n] = trace_light(pass, counts, x, y, (uint64_t)iteration, &pool->arena, path);
             pool->used += (size_t)pool->length[pool->n];
+            pool->n++;
         }
 }
 

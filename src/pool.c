@@ -84,7 +84,7 @@ static void render_pixel(const struct tile_pass *pass, const struct selection *s
     rgb sum = gather_eye(&g, eye, n);
     double W = 1 / (p->paths.n * q);
     sum = rgb_add(sum, gather_pairs(&g, eye, n, light_pool_path(&p->paths, k), p->paths.length[k], W));
-    gather_splats(&g, light_pool_path(&p->paths, number), p->paths.length[number]);
+    gather_splats(&g, light_pool_path(&p->paths, number), p->paths.length[number], 1);
     tile_add_own(pass->tile, x, y, sum);
 }
 
@@ -93,7 +93,7 @@ static void render(const void *selection, const struct tile_pass *pass)
     const struct selection *sel = selection;
     struct pool *p = pass->work->own;
     for (long i = pass->first; i < pass->end; i++) {
-        light_pool_fill(&p->paths, pass, &sel->counts, i);
+        light_pool_fill(&p->paths, pass, &sel->counts, 1, i);
         build_table(p, sel);
         struct sampler order = trace_sampler(pass, RNG_SHUFFLE, pass->rect.x0, pass->rect.y0, i);
         shuffle(p, &order);

@@ -30,6 +30,7 @@ struct selection {
     enum metric metric;     /* pool, vertices */
     double delta;           /* pool, vertices: share of draws that ignore the importance, (0,1] */
     int connections;        /* vertices: C, draws per eye vertex */
+    int path_pixels;        /* vertices: pixels for each light sub-path */
     int bin_paths;          /* bins: sub-paths per pixel */
     long max_age;           /* bins: iterations until an unused one is replaced */
     struct importance grid; /* pool, vertices with METRIC_IMPORTANCE */
@@ -49,7 +50,7 @@ extern const struct selector select_bins, select_pool, select_vertices;
  * alone, which met no surface, has the emitted radiance there, as in pbrt-v3, where [S24] was implemented. */
 double select_throughput(const struct vertex *light, int n);
 
-/* The light sub-paths of one tile and iteration, one per pixel in row order, packed one behind the other. */
+/* The light sub-paths of one tile and iteration, those of every p-th pixel in row order, packed one behind the other. */
 struct light_pool {
     struct arena arena;                  /* their lobes */
     struct vertex *vertex;               /* [used], grows to the longest need; owned */
@@ -62,9 +63,9 @@ struct light_pool {
 /* light_pool_free: release what the pool owns. A pool starts as zeros. */
 void light_pool_free(struct light_pool *pool);
 
-/* light_pool_fill: trace the sub-paths of the tile's pixels for one iteration. */
+/* light_pool_fill: trace the sub-paths of the tile's pixels number 0, path_pixels, 2 path_pixels... for one iteration. */
 void light_pool_fill(struct light_pool *pool, const struct tile_pass *pass, const struct mis_counts *counts,
-                     long iteration);
+                     int path_pixels, long iteration);
 
 static inline const struct vertex *light_pool_path(const struct light_pool *pool, int k)
 {

@@ -1,7 +1,7 @@
 /* vertices.c: `select = vertices`: every eye vertex draws light vertices from one table over a tile's pool.
  *
  * A light vertex y_{s-1} *is* the sub-path y_0 ... y_{s-1} that leads to it. All connectible ones of the K sub-paths of a
- * tile and iteration go into one alias table with
+ * tile and iteration, one for every `path_pixels` pixels, go into one alias table with
  *     q_v ~ L_v n(x_v),      L_v = luminance(beta_v),      n(x) = 2 C ((1 - delta) E(x) / mean + delta),
  * E being the importance of the place (importance.h) and `mean` its expectation over a light sub-path, and each eye
  * vertex (t >= 2) draws C of them. The sum over all vertices of all K sub-paths, divided by K, is what BDPT estimates
@@ -82,8 +82,17 @@ static rgb connect_drawn(const struct vertices *v, const struct selection *sel, 
     return sum;
 }
 
+/* Splat sub-path k. The weights count one in path_pixels for the whole film; the tile has K, rounded up. */
+static void splat_path(const struct tile_pass *pass, const struct selection *sel, const struct vertices *v,
+                       struct gather *g, int k)
+{
+    double pixels = (double)rect_width(pass->rect) * rect_height(pass->rect);
+    double scale = pixels / ((double)v->pool.n * sel->path_pixels);
+    gather_splats(g, light_pool_path(&v->pool, k), v->pool.length[k], scale);
+}
+
 static void render_pixel(const struct tile_pass *pass, const struct selection *sel, struct vertices *v, int x, int y,
-                         int path, long iteration)
+                         int number, long iteration)
 {
     arena_reset(&pass->work->arena);
     struct vertex *eye = pass->work->eye;
@@ -94,7 +103,8 @@ static void render_pixel(const struct tile_pass *pass, const struct selection *s
     for (int t = 2; t <= n && t <= g.max_depth && v->table.n > 0; t++)
         if (eye[t - 1].kind == VERTEX_SURFACE && vertex_connectible(&eye[t - 1]))
             sum = rgb_add(sum, connect_drawn(v, sel, &g, &eye[t - 1], t, &draws));
-    gather_splats(&g, light_pool_path(&v->pool, path), v->pool.length[path]);
+    if (number % sel->path_pixels == 0)
+        splat_path(pass, sel, v, &g, number / sel->path_pixels);
     tile_add_own(pass->tile, x, y, sum);
 }
 
@@ -103,12 +113,12 @@ static void render(const void *selection, const struct tile_pass *pass)
     const struct selection *sel = selection;
     struct vertices *v = pass->work->own;
     for (long i = pass->first; i < pass->end; i++) {
-        light_pool_fill(&v->pool, pass, &sel->counts, i);
+        light_pool_fill(&v->pool, pass, &sel->counts, sel->path_pixels, i);
         build_table(v);
-        int path = 0;
+        int number = 0;
         for (int y = pass->rect.y0; y < pass->rect.y1; y++)
             for (int x = pass->rect.x0; x < pass->rect.x1; x++)
-                render_pixel(pass, sel, v, x, y, path++, i);
+                render_pixel(pass, sel, v, x, y, number++, i);
     }
 }
 

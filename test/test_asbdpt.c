@@ -100,6 +100,27 @@ static void test_constant_pool(struct test *t)
     scene_free(&scene);
 }
 
+/* --- light sub-paths for a share of the pixels -------------------------------------------------------- */
+
+/* One tile of 3x3 pixels, whose light sub-paths are one for every 1, 2, 5 or 8 of them: 9, 5, 2 and 2. */
+static void test_few_light_paths(struct test *t)
+{
+    static const char *const cases[] = {"pathpixels=1", "pathpixels=2", "pathpixels=5", "pathpixels=8"};
+    struct scene scene;
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 3, 3, &scene))
+        return;
+    set(&scene, "select=vertices connections=2");
+    struct batches pt = render_batches(t, &scene, "pt", 4, 1024, 32, 3, 63);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct batches x = batches_of(t, &scene, cases[i], 512, 32, 64);
+        double ratio, p = batches_p(&x, &pt, &ratio);
+        TEST_ACCEPT(t, p, "Cornell box in 9 pixels, %s against pt: ratio %.4f", cases[i], ratio);
+        batches_free(&x);
+    }
+    batches_free(&pt);
+    scene_free(&scene);
+}
+
 /* --- every kind of scene ----------------------------------------------------------------------------- */
 
 static void test_every_scene(struct test *t)
@@ -158,6 +179,7 @@ void test_asbdpt(struct test *t)
 {
     test_bias(t);
     test_constant_pool(t);
+    test_few_light_paths(t);
     test_every_scene(t);
     test_selection_threads(t);
 }
