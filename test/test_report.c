@@ -47,7 +47,8 @@ static double normal(struct rng *r)
     return sqrt(-2 * log(u)) * cos(2 * PI * v);
 }
 
-/* p-value of "a 95 % interval whose ends are drawn in by `shrink` holds the true ratio 95 times of 100". */
+/* p-value of "a 95 % interval whose ends are drawn in by `shrink` holds the true ratio at least 95 times of 100". Not
+ * "exactly": with Welch's degrees of freedom for few values it does so 96 times. */
 static double coverage_p(struct test *t, double shrink)
 {
     enum { TRIALS = 4000, SEEDS = 4 };
@@ -65,7 +66,8 @@ static double coverage_p(struct test *t, double shrink)
         inside += low <= 1.5 && 1.5 <= high;
     }
     double observed[2] = {inside, TRIALS - inside}, expected[2] = {0.95 * TRIALS, 0.05 * TRIALS};
-    return stats_chi2_test(observed, expected, 2);
+    double both_sides = stats_chi2_test(observed, expected, 2);
+    return observed[0] < expected[0] ? both_sides / 2 : 1 - both_sides / 2;
 }
 
 static void test_statistics(struct test *t)
@@ -83,7 +85,7 @@ static void test_statistics(struct test *t)
           "one seed has no interval");
     const double below[2] = {-1, -2};
     CHECK(t, isnan(results_ratio(below, 2, b, 2).value), "error below the reference's noise has no ratio");
-    TEST_ACCEPT(t, coverage_p(t, 1), "95 %% intervals of a ratio hold it 95 times of 100");
+    TEST_ACCEPT(t, coverage_p(t, 1), "95 %% intervals of a ratio hold it at least 95 times of 100");
     TEST_REJECT(t, coverage_p(t, 0.7), "intervals drawn in to 0.7 hold it as often");
 
     struct interval gain = {0.5, 0.4, 0.9}, loss = {2, 1.1, 3}, open = {0.9, 0.7, 1.2}, single = {0.5, NAN, NAN};
