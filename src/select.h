@@ -50,7 +50,7 @@ extern const struct selector select_bins, select_pool, select_vertices;
  * alone, which met no surface, has the emitted radiance there, as in pbrt-v3, where [S24] was implemented. */
 double select_throughput(const struct vertex *light, int n);
 
-/* The light sub-paths of one tile and iteration, those of every p-th pixel in row order, packed one behind the other. */
+/* The light sub-paths of one tile and iteration, one for every few pixels in row order, packed one behind the other. */
 struct light_pool {
     struct arena arena;                  /* their lobes */
     struct vertex *vertex;               /* [used], grows to the longest need; owned */
