@@ -21,7 +21,7 @@ static const struct parameter PARAMETERS[] = {
     {"metric", "importance", "pool, vertices: constant, throughput or importance"},
     {"delta", "0.1", "pool, vertices: share of draws that ignore the importance, (0,1]"},
     {"connections", "0", "vertices: light vertices drawn per eye vertex; 0: chosen from the pre-pass"},
-    {"pathpixels", "2", "vertices: pixels for each light sub-path traced"},
+    {"pathpixels", "2", "vertices: pixels per light sub-path"},
     {"grid", "64", "pool, vertices: cells of the importance grid along the scene's diagonal"},
     {"lightsamplestrategy", "spatial", "pool, vertices: s = 1 picks lights by power, or spatial: by what is seen"},
     {"binpaths", "8", "bins: light sub-paths per pixel, even"},
