@@ -280,10 +280,9 @@ static bool write_json(const struct arguments *a, const double *values, struct e
 
 static bool number_option(const char *name, const char *text, int *out)
 {
-    char *end;
-    long v = strtol(text, &end, 10);
-    if (end == text || *end != '\0' || v < 1 || v > 1000)
-        return usage_error("%s %s: expected an integer from 1 to 1000", name, text) == EXIT_OK;
+    long v;
+    if (!integer_option(name, text, 1, 1000, &v))
+        return false;
     *out = (int)v;
     return true;
 }

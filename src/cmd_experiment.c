@@ -25,15 +25,6 @@ struct arguments {
     int width, height;
 };
 
-static bool number_of(const char *option, const char *text, long low, long high, long *out)
-{
-    char *end;
-    *out = strtol(text, &end, 10);
-    if (end != text && *end == '\0' && *out >= low && *out <= high)
-        return true;
-    return usage_error("%s %s: expected an integer from %ld to %ld", option, text, low, high) == EXIT_OK;
-}
-
 static bool resolution_of(const char *text, struct arguments *a)
 {
     int n = 0;
@@ -54,15 +45,15 @@ static bool option_with_value(const char *name, const char *value, struct argume
     else if (strcmp(name, "--res") == 0)
         return resolution_of(value, a);
     else if (strcmp(name, "--spp") == 0)
-        return number_of(name, value, 1, 1L << 20, &a->spp);
+        return integer_option(name, value, 1, 1L << 20, &a->spp);
     else if (strcmp(name, "--reference-spp") == 0)
-        return number_of(name, value, 4, 1L << 24, &a->reference_spp);
+        return integer_option(name, value, 4, 1L << 24, &a->reference_spp);
     else if (strcmp(name, "--seeds") == 0)
-        return number_of(name, value, 1, PLAN_MAX_SEEDS, &a->seeds);
+        return integer_option(name, value, 1, PLAN_MAX_SEEDS, &a->seeds);
     else if (strcmp(name, "--maxdepth") == 0)
-        return number_of(name, value, 1, PATH_MAX_DEPTH, &a->max_depth);
+        return integer_option(name, value, 1, PATH_MAX_DEPTH, &a->max_depth);
     else if (strcmp(name, "--nthreads") == 0 || strcmp(name, "-j") == 0)
-        return number_of(name, value, 1, 1024, &a->threads);
+        return integer_option(name, value, 1, 1024, &a->threads);
     else
         return usage_error("unknown option %s", name) == EXIT_OK;
     return true;
@@ -79,7 +70,7 @@ static bool parse(int argc, char **argv, struct arguments *a)
         else if (name[0] != '-')
             a->scene[a->n_scenes++] = name;
         else if (strncmp(name, "-j", 2) == 0 && name[2] != '\0') {
-            if (!number_of("-j", name + 2, 1, 1024, &a->threads))
+            if (!integer_option("-j", name + 2, 1, 1024, &a->threads))
                 return false;
         } else if (i + 1 >= argc)
             return usage_error("%s is unknown or needs a value", name) == EXIT_OK;

@@ -28,6 +28,9 @@ int command_bench(int argc, char **argv);
 int fail(const struct error *err);
 int usage_error(const char *format, ...);
 
+/* integer_option: the whole number that `text`, the value of `option`, is; a usage error outside [low, high]. */
+bool integer_option(const char *option, const char *text, long low, long high, long *out);
+
 /* The options that render, trace and info share. */
 struct job_options {
     const char *scene_path;

@@ -27,6 +27,18 @@ int usage_error(const char *format, ...)
     return EXIT_USAGE;
 }
 
+bool integer_option(const char *option, const char *text, long low, long high, long *out)
+{
+    char *end;
+    long v = strtol(text, &end, 10);
+    if (end == text || *end != '\0' || v < low || v > high) {
+        usage_error("%s %s: expected an integer from %ld to %ld", option, text, low, high);
+        return false;
+    }
+    *out = v;
+    return true;
+}
+
 /* --- reading the arguments --------------------------------------------------------------------------- */
 
 struct argument_list {
@@ -47,16 +59,7 @@ static const char *value_of(struct argument_list *a, const char *option)
 static bool integer_of(struct argument_list *a, const char *option, long low, long high, long *out)
 {
     const char *text = value_of(a, option);
-    if (text == NULL)
-        return false;
-    char *end;
-    long v = strtol(text, &end, 10);
-    if (end == text || *end != '\0' || v < low || v > high) {
-        usage_error("%s %s: expected an integer from %ld to %ld", option, text, low, high);
-        return false;
-    }
-    *out = v;
-    return true;
+    return text != NULL && integer_option(option, text, low, high, out);
 }
 
 static bool seed_of(struct argument_list *a, uint64_t *out)

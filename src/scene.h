@@ -58,7 +58,7 @@ bool scene_intersect(const struct scene *s, const struct ray *ray, struct surfac
  *   from, to  the triangles a and b are on, see shape_flat; 0: none */
 bool scene_visible(const struct scene *s, vec3 a, uint32_t from, vec3 b, uint32_t to);
 
-/* scene_visible_ray: is the half line from a in unit direction w free? */
+/* scene_visible_ray: is the half line from a in unit direction w free? `from` as above. */
 bool scene_visible_ray(const struct scene *s, vec3 a, uint32_t from, vec3 w);
 
 #endif

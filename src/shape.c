@@ -221,7 +221,8 @@ bool shape_intersect(const struct geometry *geo, int prim, const struct ray *ray
     return true;
 }
 
-static void set_material_and_light(const struct geometry *geo, int prim, struct surface *out)
+/* What a surface point has from its primitive, wherever it is on it. */
+static void set_primitive(const struct geometry *geo, int prim, struct surface *out)
 {
     const struct shape_group *group = shape_group_of(geo, prim);
     out->material = group->material;
@@ -235,14 +236,14 @@ static void quadric_point(const struct geometry *geo, int prim, vec3 p, struct s
     const struct quadric *q = &geo->quadric[prim - FIRST_QUADRIC];
     bool reverse = geo->group[q->group].flip != transform_swaps_handedness(&q->to_world);
     quadric_surface_at(q, reverse, p, out);
-    set_material_and_light(geo, prim, out);
+    set_primitive(geo, prim, out);
 }
 
 static void triangle_point(const struct geometry *geo, int prim, double b1, double b2, struct surface *out)
 {
     struct triangle tri = triangle_of(geo, prim);
     triangle_surface(&tri, b1, b2, out);
-    set_material_and_light(geo, prim, out);
+    set_primitive(geo, prim, out);
 }
 
 void shape_surface(const struct geometry *geo, const struct hit *hit, const struct ray *ray, struct surface *out)
