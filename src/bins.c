@@ -34,7 +34,7 @@ struct element {
 /* The set of bins of the pixel being rendered; bin b holds elements 2b and 2b+1. */
 struct bins {
     int n_elements;
-    long traced; /* sub-paths traced for this pixel and block */
+    uint64_t traced; /* sub-paths traced for this pixel and block */
     struct element element[];
 };
 
@@ -65,10 +65,11 @@ struct pixel {
     int x, y;
 };
 
-/* Put a fresh sub-path into element e. Streams are numbered by block and, within it, by the order of tracing. */
+/* Put a fresh sub-path into element e. Streams are numbered by block and, within it, by the order of tracing: an iteration
+ * traces at most binpaths + 1 <= 2^13 sub-paths, so a block that begins at iteration i stays below the names of the next. */
 static void replace(struct pixel *p, struct element *e, long iteration)
 {
-    uint64_t number = (uint64_t)p->pass->first << 24 | (uint64_t)p->bins->traced++;
+    uint64_t number = ((uint64_t)p->pass->first << 32) + p->bins->traced++;
     arena_reset(&e->arena);
     e->length = trace_light(p->pass, &p->sel->counts, p->x, p->y, number, &e->arena, e->vertex);
     e->beta = select_throughput(e->vertex, e->length);

@@ -10,13 +10,13 @@
 #include "image.h"
 #include "mem.h"
 #include "progress.h"
+#include "rng.h"
 #include "verify.h"
 
 enum {
     PIXELS = 1024,      /* of the pictures, unless --res says otherwise */
     MOST_TILES = 196,   /* of a picture, unless --tile says otherwise */
-    PILOT_SPP = 4,
-    SEED_STEP = 100000 /* between the two methods' seeds */
+    PILOT_SPP = 4
 };
 static const double SECONDS = 40; /* of rendering, unless --spp says otherwise */
 
@@ -211,6 +211,13 @@ static bool render_one(const struct scene *scene, const struct method *m, const 
     return ok;
 }
 
+/* Seeds of the batches: hashes, so that neither the two sides nor a picture rendered with a seed that somebody typed, such
+ * as a stored reference, shares random numbers with a batch. */
+static uint64_t batch_seed(uint64_t seed, int side, int batch)
+{
+    return hash_combine(hash_combine(hash_mix(seed ^ 0xbb67ae8584caa73bu), (uint64_t)side), (uint64_t)batch);
+}
+
 /* The samples per pixel that `renders` renders by each of the two methods need to take about `SECONDS`. */
 static long choose_spp(const struct scene *scene, const struct method *const *m, const struct verify_options *o,
                        struct error *err)
@@ -226,7 +233,7 @@ static long choose_spp(const struct scene *scene, const struct method *const *m,
 }
 
 static bool render_side(const struct scene *scene, const struct method *m, const struct verify_options *o, long spp,
-                        uint64_t seed, struct side *out, struct error *err)
+                        int side, struct side *out, struct error *err)
 {
     long n = 3L * rect_width(render_crop(scene)) * rect_height(render_crop(scene));
     out->name = m->name;
@@ -235,7 +242,7 @@ static bool render_side(const struct scene *scene, const struct method *m, const
     progress_start(&bar, o->job.quiet);
     bool ok = true;
     for (int k = 0; ok && k < o->batches; k++) {
-        ok = render_one(scene, m, &o->job, spp, seed + (uint64_t)k, out->pixels.value + n * k, err);
+        ok = render_one(scene, m, &o->job, spp, batch_seed(o->job.seed, side, k), out->pixels.value + n * k, err);
         progress_update(&bar, (k + 1.0) / o->batches);
     }
     progress_end(&bar);
@@ -296,10 +303,9 @@ static bool render_sides(struct scene *scene, const struct method *scenes, const
         return false;
     size->width = rect_width(render_crop(scene));
     size->height = rect_height(render_crop(scene));
-    printf("%dx%d pixels, %d batches of %ld spp, seeds from %lu\n", size->width, size->height, o->batches, spp,
-           (unsigned long)o->job.seed);
-    return render_side(scene, m[0], o, spp, o->job.seed, a, err) &&
-           (m[1] == NULL || render_side(scene, m[1], o, spp, o->job.seed + SEED_STEP, b, err));
+    printf("%dx%d pixels, %d batches of %ld spp, seed %llu\n", size->width, size->height, o->batches, spp,
+           (unsigned long long)o->job.seed);
+    return render_side(scene, m[0], o, spp, 0, a, err) && (m[1] == NULL || render_side(scene, m[1], o, spp, 1, b, err));
 }
 
 /* --- results ----------------------------------------------------------------------------------------- */

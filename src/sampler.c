@@ -37,8 +37,10 @@ static uint32_t sobol_second(uint32_t index)
 
 struct sampler sampler_start(uint64_t seed, enum rng_purpose purpose, uint64_t pixel, uint64_t iteration)
 {
-    struct sampler s = {rng_stream(seed, purpose, pixel, iteration), 0, (uint32_t)iteration, 0, 0};
-    s.scramble = hash_combine(hash_combine(hash_mix(seed ^ 0x6a09e667f3bcc908u), (uint64_t)purpose), pixel);
+    struct sampler s = {rng_stream(seed, purpose, pixel, iteration), 0, (uint32_t)(iteration & (SAMPLER_POINTS - 1)), 0, 0};
+    /* hash_mix is a bijection with hash_mix(0) = 0: every run of 2^16 iterations has a scramble of its own. */
+    s.scramble = hash_combine(hash_combine(hash_mix(seed ^ 0x6a09e667f3bcc908u), (uint64_t)purpose), pixel) ^
+                 hash_mix(iteration >> SAMPLER_LOG2_POINTS);
     return s;
 }
 
@@ -46,9 +48,9 @@ double sampler_pair(struct sampler *s)
 {
     const double unit = 1.0 / 4294967296.0;
     uint64_t h = hash_combine(s->scramble, (uint64_t)s->dimension), h2 = hash_mix(h);
-    /* Visit blocks of 2^16 points in a scrambled order; a prefix of 2^k iterations is still a prefix of the sequence. */
-    uint32_t within = s->iteration & 0xffffu, block = s->iteration & 0xffff0000u;
-    uint32_t index = block | reverse_bits(scramble_digits(reverse_bits(within), (uint32_t)h) & 0xffff0000u);
+    /* Visit the points in a scrambled order; the first 2^k iterations still visit 2^k points that form a net. */
+    const uint32_t kept = ~(uint32_t)0 << (32 - SAMPLER_LOG2_POINTS);
+    uint32_t index = reverse_bits(scramble_digits(reverse_bits(s->index), (uint32_t)h) & kept);
     uint32_t x = scramble_digits(index, (uint32_t)(h >> 32));
     uint32_t y = scramble_digits(sobol_second(index), (uint32_t)h2);
     s->second = reverse_bits(y) * unit;

@@ -13,17 +13,24 @@
 
 #include "rng.h"
 
-enum { SAMPLER_DIMENSIONS = 6 }; /* numbers of low discrepancy at the start of a stream; even */
+enum {
+    SAMPLER_DIMENSIONS = 6, /* numbers of low discrepancy at the start of a stream; even */
+    SAMPLER_LOG2_POINTS = 16,
+    SAMPLER_POINTS = 1 << SAMPLER_LOG2_POINTS /* iterations that share one scrambled sequence */
+};
 
 struct sampler {
     struct rng rng;
-    uint64_t scramble;  /* hash of (seed, purpose, pixel): the same for all iterations */
-    uint32_t iteration; /* index into the sequence */
-    int dimension;      /* numbers drawn so far, counted up to SAMPLER_DIMENSIONS */
-    double second;      /* the other number of the current pair */
+    uint64_t scramble; /* hash of (seed, purpose, pixel, iteration / SAMPLER_POINTS) */
+    uint32_t index;    /* iteration % SAMPLER_POINTS: where in the sequence */
+    int dimension;     /* numbers drawn so far, counted up to SAMPLER_DIMENSIONS */
+    double second;     /* the other number of the current pair */
 };
 
-/* sampler_start: the numbers of (seed, purpose, pixel, iteration); see rng_stream. */
+/* sampler_start: the numbers of (seed, purpose, pixel, iteration); see rng_stream. All 64 bits of each of them count: names
+ * that differ give streams that differ. What lies above the sequence's index enters its scramble, so iterations i and
+ * i + SAMPLER_POINTS have nothing in common. (A longer sequence would repeat there the first digits of all its first
+ * coordinates, and with them whatever depends on no others.) */
 struct sampler sampler_start(uint64_t seed, enum rng_purpose purpose, uint64_t pixel, uint64_t iteration);
 
 /* sampler_pair: the next pair of the low-discrepancy part; for sampler_next only. */

@@ -25,6 +25,7 @@ void test_report(struct test *t);
 void test_scenes(struct test *t);
 void test_scenes_long(struct test *t);
 void test_strategies(struct test *t);
+void test_streams(struct test *t);
 void test_threads(struct test *t);
 void test_verify(struct test *t);
 void test_sampler(struct test *t);

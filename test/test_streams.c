@@ -1,0 +1,352 @@
+/* test_streams.c: random numbers have names (seed, purpose, pixel, iteration), and no two names may meet. Tested from three
+ * sides: the numbers of a sampler, the sub-paths that the methods trace, and the error of long renders, which falls only as
+ * long as new iterations bring something new. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../src/mem.h"
+#include "../src/render.h"
+#include "../src/sampler.h"
+#include "../src/stats.h"
+#include "helpers.h"
+#include "tests.h"
+
+/* Every way of rendering; restarts make bins number its light sub-paths by blocks. */
+static const struct way {
+    const char *name, *method, *select, *restart;
+} WAYS[] = {
+    {"pt", "pt", NULL, NULL},
+    {"lt", "lt", NULL, NULL},
+    {"bdpt", "bdpt", NULL, NULL},
+    {"pool", "asbdpt", "pool", "32"},
+    {"vertices", "asbdpt", "vertices", "32"},
+    {"bins", "asbdpt", "bins", "32"},
+    {"bins, restart 8", "asbdpt", "bins", "8"},
+    {"bins, never restarted", "asbdpt", "bins", "0"},
+};
+enum { N_WAYS = sizeof WAYS / sizeof WAYS[0] };
+
+static void choose_way(struct scene *scene, const struct way *w)
+{
+    if (w->select != NULL) {
+        settings_set(&scene->settings, "select", w->select, "test");
+        settings_set(&scene->settings, "restart", w->restart, "test");
+    }
+}
+
+/* --- pairs of equal keys ----------------------------------------------------------------------------- */
+
+struct keys {
+    uint64_t *key; /* [n], owned */
+    size_t n, capacity;
+};
+
+static void add_key(struct keys *k, uint64_t key)
+{
+    k->key = mem_grow(k->key, &k->capacity, k->n + 1, sizeof *k->key);
+    k->key[k->n++] = key;
+}
+
+static int compare_keys(const void *a, const void *b)
+{
+    uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+    return (x > y) - (x < y);
+}
+
+/* How many keys equal another one. Empties the list. */
+static long count_equal(struct keys *k)
+{
+    long equal = 0;
+    if (k->n > 1)
+        qsort(k->key, k->n, sizeof *k->key, compare_keys);
+    for (size_t i = 1; i < k->n; i++)
+        equal += k->key[i] == k->key[i - 1];
+    free(k->key);
+    memset(k, 0, sizeof *k);
+    return equal;
+}
+
+/* --- the sampler ------------------------------------------------------------------------------------- */
+
+/* The first 16 binary digits of one number of each of the first three pairs. */
+static uint64_t digits_of(struct sampler s, int second)
+{
+    uint64_t key = 0;
+    for (int i = 0; i < SAMPLER_DIMENSIONS; i++) {
+        double u = sampler_next(&s);
+        if (i % 2 == second)
+            key = key << 16 | (uint64_t)(u * 65536);
+    }
+    return key;
+}
+
+/* Names as they occur: iterations in a row, of later blocks, of numberings that use the upper bits; neighbouring pixels of
+ * small and of the largest films; seeds in a row; all purposes. */
+static void add_names(struct keys *k, uint64_t seed, int second, uint64_t mask)
+{
+    static const uint64_t far[] = {0, 1u << 8, 1u << 16, 1u << 24, (uint64_t)1 << 32, (uint64_t)1 << 40, (uint64_t)1 << 63};
+    for (int purpose = RNG_EYE; purpose < RNG_TEST; purpose++)
+        for (uint64_t other = 0; other < 6; other++)
+            for (size_t f = 0; f < sizeof far / sizeof far[0]; f++)
+                for (uint64_t i = 0; i < 32; i++) {
+                    uint64_t pixel = other == 3 ? 1 : other == 4 ? 1u << 28 : other == 5 ? (1u << 28) - 1 : 0;
+                    uint64_t the_seed = seed + (other < 3 ? other : 0);
+                    struct sampler s = sampler_start(the_seed, (enum rng_purpose)purpose, pixel, (far[f] + i) & mask);
+                    add_key(k, digits_of(s, second));
+                }
+}
+
+static void test_names(struct test *t)
+{
+    for (int second = 0; second < 2; second++) {
+        struct keys k = {NULL, 0, 0};
+        add_names(&k, test_seed(t), second, UINT64_MAX);
+        long equal = count_equal(&k);
+        CHECK(t, equal == 0, "%ld names share the first digits of their numbers %d, %d and %d", equal, second, second + 2,
+              second + 4);
+        add_names(&k, test_seed(t), second, UINT32_MAX);
+        CHECK(t, count_equal(&k) > 0, "an iteration cut to 32 bits passes for a name");
+    }
+    struct keys k = {NULL, 0, 0};
+    for (uint64_t i = 0; i < 1u << 17; i++)
+        add_key(&k, digits_of(sampler_start(test_seed(t), RNG_EYE, 7, i), 0));
+    CHECK(t, count_equal(&k) == 0, "a pixel's first 2^17 iterations repeat themselves");
+}
+
+/* --- sub-paths --------------------------------------------------------------------------------------- */
+
+/* A tilted floor before a lamp outside the picture. Its red and green tell where a sub-path met it. */
+static const char FLOOR[] = "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 2 PixelFilter \"box\"\n"
+                            "LookAt 0 0 5  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 60\n"
+                            "WorldBegin\n"
+                            "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [1 2 3]\n"
+                            "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
+                            "\"point P\" [-1 1.5 3  -1 2.5 3  1 2.5 3  1 1.5 3] AttributeEnd\n"
+                            "Texture \"place\" \"spectrum\" \"bilerp\" \"rgb v00\" [.1 .1 .5] \"rgb v01\" [.1 .9 .5]\n"
+                            "\"rgb v10\" [.9 .1 .5] \"rgb v11\" [.9 .9 .5]\n"
+                            "Material \"matte\" \"texture Kd\" \"place\" Rotate -30 1 0 0\n"
+                            "Shape \"trianglemesh\" \"integer indices\" [0 2 1 0 3 2] \"float uv\" [0 0  0 1  1 1  1 0]\n"
+                            "\"point P\" [-5 -5 0  -5 5 0  5 5 0  5 -5 0]\n"
+                            "WorldEnd\n";
+
+enum { ITERATIONS = 2048 };
+
+/* One key per sub-path: red and green of what it brings by the strategy that joins it to the lens (light) or the lamp (eye). */
+static void add_records(const struct tile *tile, struct keys *eye, struct keys *light)
+{
+    for (size_t i = 0; i < tile->n_records; i++) {
+        const struct strategy_record *r = &tile->record[i];
+        uint32_t part[2];
+        memcpy(&part[0], &r->unweighted[0], sizeof part[0]);
+        memcpy(&part[1], &r->unweighted[1], sizeof part[1]);
+        if ((r->s == 2 && r->t == 1) || (r->s == 1 && r->t == 2))
+            add_key(r->s == 2 ? light : eye, (uint64_t)part[0] << 32 | part[1]);
+    }
+}
+
+/* Render by hand, block by block, as render.c does, but look at the records of each tile pass. */
+static void trace_all(struct test *t, const struct scene *scene, const char *method, uint64_t seed, struct keys *eye,
+                      struct keys *light)
+{
+    const struct method *m = method_find(method);
+    struct render_job job = {.scene = scene, .film_rect = render_crop(scene), .seed = seed, .max_depth = 1, .n_threads = 1};
+    struct error err;
+    void *state;
+    int block = m->block;
+    if (!CHECK(t, m->prepare(&job, &state, &block, &err), "%s", err.text))
+        return;
+    block = block < ITERATIONS ? block : ITERATIONS;
+    struct tile tile = {.rect = job.film_rect};
+    struct workspace *work = workspaces_new(1, job.max_depth);
+    work->own = m->new_own != NULL ? m->new_own(state) : NULL;
+    for (long first = 0; first < ITERATIONS; first += block) {
+        struct tile_pass pass = {&job, job.film_rect, first, first + block, &tile, work};
+        tile_start(&tile, job.film_rect, job.film_rect, &scene->filter, true);
+        m->render(state, &pass);
+        add_records(&tile, eye, light);
+    }
+    tile_free(&tile);
+    if (m->free_own != NULL)
+        m->free_own(state, work->own);
+    workspaces_free(work, 1);
+    m->release(state);
+}
+
+/* Four pixels, two seeds in a row: no sub-path comes twice. */
+static void test_sub_paths(struct test *t)
+{
+    struct scene scene;
+    if (!scene_from_text(t, FLOOR, &scene))
+        return;
+    for (int i = 0; i < N_WAYS; i++) {
+        struct keys eye = {NULL, 0, 0}, light = {NULL, 0, 0};
+        choose_way(&scene, &WAYS[i]);
+        for (uint64_t seed = 0; seed < 2; seed++)
+            trace_all(t, &scene, WAYS[i].method, test_seed(t) + seed, &eye, &light);
+        CHECK(t, eye.n + light.n > ITERATIONS, "%s: only %lu sub-paths seen", WAYS[i].name,
+              (unsigned long)(eye.n + light.n));
+        long n_eye = (long)eye.n, n_light = (long)light.n, eyes = count_equal(&eye), lights = count_equal(&light);
+        CHECK(t, eyes == 0, "%s: %ld of %ld eye sub-paths come twice", WAYS[i].name, eyes, n_eye);
+        CHECK(t, lights == 0, "%s: %ld of %ld light sub-paths come twice", WAYS[i].name, lights, n_light);
+    }
+    scene_free(&scene);
+}
+
+/* --- long renders ------------------------------------------------------------------------------------ */
+
+enum { FIRST = 64, STEPS = 5, LAST = FIRST << (STEPS - 1), SIDE = 5, VALUES = SIDE * SIDE * 3, PAIRS = 12 };
+
+/* Sums of one render after 64, 128 ... 1024 iterations. */
+struct history {
+    const struct film *film;
+    double sum[STEPS][VALUES];
+};
+
+static bool note_sums(void *context, double done)
+{
+    struct history *h = context;
+    for (int k = 0; k < STEPS; k++)
+        if (lround(done * LAST) == FIRST << k)
+            for (int i = 0; i < VALUES; i++)
+                h->sum[k][i] = h->film->own[i] + h->film->splat[i];
+    return true;
+}
+
+static void render_history(struct test *t, const struct scene *scene, const char *method, uint64_t seed,
+                           struct history *out)
+{
+    struct film film;
+    struct error err;
+    struct render_options o = {.method = method_find(method), .seed = seed, .end = LAST, .n_threads = 2, .max_depth = 4};
+    o.progress = note_sums;
+    o.progress_context = out;
+    out->film = &film;
+    film_init(&film, render_crop(scene), scene->width, scene->height);
+    CHECK(t, render_scene(scene, &o, &film, &err), "%s", err.text);
+    film_free(&film);
+}
+
+/* P-value of "the expectation is at most 0", by Student's t over PAIRS values. */
+static double not_positive_p(const double *x)
+{
+    double sum = 0, square = 0;
+    for (int i = 0; i < PAIRS; i++)
+        sum += x[i];
+    for (int i = 0; i < PAIRS; i++)
+        square += (x[i] - sum / PAIRS) * (x[i] - sum / PAIRS);
+    double t = sum / PAIRS / sqrt(square / (PAIRS - 1) / PAIRS), two_sided = stats_student_p(t, PAIRS - 1);
+    return t > 0 ? two_sided / 2 : 1 - two_sided / 2;
+}
+
+/* Renders 2k and 2k+1 with seeds of their own: their difference is free of the expectation, biased or not, and as likely as
+ * its negative. */
+struct difference {
+    double sum[STEPS][VALUES];
+};
+
+/* What is compared of pair k and value i: the first n iterations, and the n after them or all. */
+struct two {
+    double a, b;
+};
+
+/* Correlation of the first n iterations and the n after them in what the renders of a pair differ by. `repeated` is the share
+ * of the second half that is planted to be the first half again. */
+static struct two halves(const struct difference *d, int i, int step, double repeated)
+{
+    double a = d->sum[step][i];
+    struct two x = {a, (1 - repeated) * (d->sum[step + 1][i] - a) + repeated * a};
+    return x;
+}
+
+/* Mean over k of a^2 or b^2. */
+static struct two mean_squares(const struct difference *d, int i, struct two (*of)(const struct difference *, int, int, double),
+                               int step, double repeated)
+{
+    struct two mean = {0, 0};
+    for (int k = 0; k < PAIRS; k++) {
+        struct two x = of(&d[k], i, step, repeated);
+        mean.a += x.a * x.a / PAIRS;
+        mean.b += x.b * x.b / PAIRS;
+    }
+    return mean;
+}
+
+/* Every value is divided by its standard deviation, lest the few pixels at edges of the light decide everything. */
+static double halves_p(const struct difference *d, int step, double repeated)
+{
+    double correlation[PAIRS] = {0};
+    for (int i = 0; i < VALUES; i++) {
+        struct two square = mean_squares(d, i, halves, step, repeated);
+        for (int k = 0; k < PAIRS && square.a > 0 && square.b > 0; k++) {
+            struct two x = halves(&d[k], i, step, repeated);
+            correlation[k] += x.a * x.b / sqrt(square.a * square.b);
+        }
+    }
+    return not_positive_p(correlation);
+}
+
+/* Errors after the first and after all iterations, scaled so that they are alike if the error falls as 1/sqrt(n). */
+static struct two ends(const struct difference *d, int i, int step, double repeated)
+{
+    double a = d->sum[step][i] / sqrt(FIRST);
+    struct two x = {a, (1 - repeated) * d->sum[STEPS - 1][i] / sqrt(LAST) + repeated * a * sqrt((double)LAST / FIRST)};
+    return x;
+}
+
+/* n times the squared error after n iterations does not rise from the first step to the last. */
+static double falls_p(const struct difference *d, double repeated)
+{
+    double rise[PAIRS] = {0};
+    for (int i = 0; i < VALUES; i++) {
+        struct two square = mean_squares(d, i, ends, 0, repeated);
+        for (int k = 0; k < PAIRS && square.a + square.b > 0; k++) {
+            struct two x = ends(&d[k], i, 0, repeated);
+            rise[k] += (x.b * x.b - x.a * x.a) / (square.a + square.b);
+        }
+    }
+    return not_positive_p(rise);
+}
+
+/* Low-discrepancy points may make the halves complement each other, so correlations below 0 and errors that fall faster
+ * than 1/n are welcome; only the other side is tested. */
+static void test_way_falls(struct test *t, const struct scene *scene, const struct way *w)
+{
+    struct difference *d = mem_alloc(PAIRS, sizeof *d);
+    struct history *h = mem_alloc(2, sizeof *h);
+    for (int k = 0; k < PAIRS; k++) {
+        for (uint64_t i = 0; i < 2; i++)
+            render_history(t, scene, w->method, test_seed(t) * 1000 + 2 * (uint64_t)k + i, &h[i]);
+        for (int step = 0; step < STEPS; step++)
+            for (int i = 0; i < VALUES; i++)
+                d[k].sum[step][i] = h[0].sum[step][i] - h[1].sum[step][i];
+    }
+    for (int step = 0; step + 1 < STEPS; step++)
+        TEST_ACCEPT(t, halves_p(d, step, 0), "%s: iterations before and after %d are correlated", w->name, FIRST << step);
+    TEST_ACCEPT(t, falls_p(d, 0), "%s: the squared error falls more slowly than 1/n", w->name);
+    TEST_REJECT(t, halves_p(d, STEPS - 2, 0.5), "%s: half of the second half is the first", w->name);
+    TEST_REJECT(t, falls_p(d, 0.5), "%s: half of all iterations repeat the first %d", w->name, FIRST);
+    free(h);
+    free(d);
+}
+
+static void test_falls(struct test *t)
+{
+    struct scene scene;
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", SIDE, SIDE, &scene))
+        return;
+    for (int i = 0; i < N_WAYS; i++) {
+        if (WAYS[i].restart != NULL && strcmp(WAYS[i].restart, "0") == 0)
+            continue; /* one block: there is nothing to see before its end */
+        choose_way(&scene, &WAYS[i]);
+        test_way_falls(t, &scene, &WAYS[i]);
+    }
+    scene_free(&scene);
+}
+
+void test_streams(struct test *t)
+{
+    test_names(t);
+    test_sub_paths(t);
+    test_falls(t);
+}
