@@ -1,41 +1,59 @@
-# asbdpt: `make help` lists the targets. Needs a C99 compiler, make, libm and POSIX threads.
-CC       = cc
-BUILD    = build
-OPT      = -O3 $(LTO)
-# Link-time optimisation, where compiler and linker can do it, makes small scenes 10 % faster. `make LTO=` leaves it out.
-LTO      := $(shell d=$$(mktemp -d) && echo 'int main(void) { return 0; }' > $$d/a.c && \
-              $(CC) -flto=auto -o $$d/a $$d/a.c >/dev/null 2>&1 && $$d/a && echo -flto=auto; rm -rf "$$d")
-WARN     = -std=c99 -pedantic -Wall -Wextra -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wswitch
-# No fast-math; contraction off, so that one compiler gives one result. Nobody reads errno after sqrt. CFLAGS is the user's and comes last.
-FLAGS    = $(WARN) $(OPT) -ffp-contract=off -fno-math-errno -pthread
-LIBS     = -lm -lpthread
-OBJ      = $(patsubst src/%.c,$(BUILD)/%.o,$(wildcard src/*.c))
-TEST_OBJ = $(filter-out $(BUILD)/main.o,$(OBJ)) $(patsubst test/%.c,$(BUILD)/test_%.o,$(wildcard test/*.c))
-PROGRAM  = ./asbdpt
-SCENES   = $(addprefix scenes/,$(addsuffix .pbrt,cornell-box cornell-box-modified veach-ajar bathroom living-room))
+# asbdpt: `make help` lists the targets. Needs a C99 compiler, GNU make (3.81 will do), libm and POSIX threads.
+CC      = cc
+BUILD   = build
+PROGRAM = ./asbdpt
+SCENES  = $(addprefix scenes/,$(addsuffix .pbrt,cornell-box cornell-box-modified veach-ajar bathroom living-room))
+
+# No fast-math; contraction off, so that one compiler gives one result. Nobody reads errno after sqrt.
+# Link-time optimisation makes small scenes 10 % faster; `make LTO=` leaves it out. CFLAGS is the user's and comes last.
+WARN    = -std=c99 -pedantic -Wall -Wextra -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wswitch
+OPT     = -O3 $(LTO)
+FLAGS   = $(WARN) $(OPT) -Isrc -ffp-contract=off -fno-math-errno -pthread
+LIBS    = -lm -lpthread
+LTO     = $(eval LTO := $$(shell sh test/lto.sh $$(CC)))$(LTO)# asked of the compiler at the first use, once
+
+SOURCES  = $(wildcard src/*/*.c)
+OBJECTS  = $(SOURCES:src/%.c=$(BUILD)/obj/%.o)
+TESTS    = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/*.c)) $(filter-out %/main.o,$(OBJECTS))
 
 all: asbdpt ## build ./asbdpt (the default)
 
-asbdpt: $(OBJ)
-	$(CC) $(FLAGS) $(CFLAGS) -o $@ $(OBJ) $(LDFLAGS) $(LIBS)
+# ---- what is built ----
+asbdpt: $(OBJECTS)
+	$(CC) $(FLAGS) $(CFLAGS) -o $@ $(OBJECTS) $(LDFLAGS) $(LIBS)
 
-$(BUILD)/test: $(TEST_OBJ)
-	$(CC) $(FLAGS) $(CFLAGS) -o $@ $(TEST_OBJ) $(LDFLAGS) $(LIBS)
+$(BUILD)/test: $(TESTS)
+	$(CC) $(FLAGS) $(CFLAGS) -o $@ $(TESTS) $(LDFLAGS) $(LIBS)
 
-$(BUILD)/%.o: src/%.c | $(BUILD)
+$(BUILD)/obj/test/%.o: test/%.c
+	@mkdir -p $(@D)
 	$(CC) $(FLAGS) -MMD -MP $(CFLAGS) -c -o $@ $<
 
-$(BUILD)/test_%.o: test/%.c | $(BUILD)
+$(BUILD)/obj/%.o: src/%.c
+	@mkdir -p $(@D)
 	$(CC) $(FLAGS) -MMD -MP $(CFLAGS) -c -o $@ $<
 
-$(BUILD) out:
-	mkdir -p $@
+-include $(wildcard $(BUILD)/obj/*/*.d)
 
-demo: asbdpt | out ## render the Cornell box with bdpt and asbdpt into out/
+# ---- what it is for ----
+demo: asbdpt ## render the Cornell box with bdpt and asbdpt into out/
+	@mkdir -p out
 	$(PROGRAM) render scenes/cornell-box.pbrt --res 256x256 --spp 64 --integrator bdpt -o out/demo-bdpt.png -o out/demo-bdpt.pfm
 	$(PROGRAM) render scenes/cornell-box.pbrt --res 256x256 --spp 64 --integrator asbdpt -o out/demo-asbdpt.png -o out/demo-asbdpt.pfm
 	@echo "look at out/demo-bdpt.png and out/demo-asbdpt.png, side by side"
 
+experiments: asbdpt ## measure all integrators on the five scenes, quickly, into out/experiments/report.html
+	$(PROGRAM) experiment --quick -o out/experiments
+	sh test/report_browser.sh out/experiments/report.html
+
+bench: asbdpt ## measure speed and memory on the scenes (or SCENES="..."), beside doc/bench-baseline.json
+	@mkdir -p out
+	$(PROGRAM) bench $(SCENES) --json out/bench.json --baseline doc/bench-baseline.json
+
+ref: asbdpt ## render the stored references of ref/ again (an hour; goes on where it stopped)
+	sh ref/make-ref.sh $(PROGRAM)
+
+# ---- what proves it ----
 test: asbdpt $(BUILD)/test layers ## build and run the test suite (under 3 minutes)
 	sh test/cli.sh $(PROGRAM)
 	$(BUILD)/test
@@ -43,24 +61,15 @@ test: asbdpt $(BUILD)/test layers ## build and run the test suite (under 3 minut
 check-long: asbdpt $(BUILD)/test experiments ## the tests that take longer
 	$(BUILD)/test --slow
 
-bench: asbdpt | out ## measure speed and memory on the scenes (or SCENES="..."), beside doc/bench-baseline.json
-	$(PROGRAM) bench $(SCENES) --json out/bench.json --baseline doc/bench-baseline.json
-
-experiments: asbdpt | out ## measure all methods on the five scenes, quickly, into out/experiments/report.html
-	$(PROGRAM) experiment --quick -o out/experiments
-	sh test/report_browser.sh out/experiments/report.html
+check-ref: asbdpt ## are the stored references still what the program converges to?
+	sh ref/check-ref.sh $(PROGRAM)
 
 mutants: ## apply small faults one by one; the tests must catch every one
 	sh test/mutants/run.sh 2
 
-ref: asbdpt ## render the stored references of ref/ again (an hour; goes on where it stopped)
-	sh ref/make-ref.sh $(PROGRAM)
-
-check-ref: asbdpt ## are the stored references still what the program converges to?
-	sh ref/check-ref.sh $(PROGRAM)
-
-layers: ## check that every file includes only lower layers, and that headers compile alone
-	@sh test/layers.sh $(CC)
+layers: ## check that no file includes a higher room, that no room holds a circle, that headers compile alone
+	@sh test/layers.sh src $(CC)
+	@sh test/layers_test.sh $(CC)
 
 san: ## run the tests under the address and undefined-behaviour sanitizers
 	$(MAKE) BUILD=build-san OPT="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all" build-san/test
@@ -70,12 +79,14 @@ tsan: ## run the threaded tests under the thread sanitizer
 	$(MAKE) BUILD=build-tsan OPT="-O1 -g -fsanitize=thread" build-tsan/test
 	build-tsan/test threads
 
+# ---- about the tree ----
+stats: ## files, lines of code and comment, and the longest functions of every room
+	@sh test/tree_stats.sh
+
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 12
 
 clean: ## remove everything that was built
 	rm -rf build build-* out asbdpt
 
--include $(wildcard $(BUILD)/*.d)
-
-.PHONY: all demo test bench check-long mutants ref check-ref experiments layers san tsan help clean
+.PHONY: all demo experiments bench ref test check-long check-ref mutants layers san tsan stats help clean

@@ -1,16 +1,43 @@
 #!/bin/sh
-# layers.sh: src/LAYERS lists the modules bottom up; a file may include only its own header and earlier modules.
-# Then every header must compile alone. Run from the top: sh test/layers.sh [CC]
-awk 'NR == FNR { rank[$1] = NR; next }
-     FNR == 1 { me = FILENAME; sub(/.*\//, "", me); sub(/\.[ch]$/, "", me)
-                if (!(me in rank)) { print FILENAME ": not listed in src/LAYERS"; bad = 1 } }
-     /^[ \t]*#[ \t]*include[ \t]*"/ {
-                dep = $0; sub(/^[^"]*"/, "", dep); sub(/\.h".*/, "", dep)
-                if (dep != me && !(dep in rank && rank[dep] < rank[me])) {
-                    print FILENAME ":" FNR ": " me " may not include " dep; bad = 1 } }
-     END { exit bad }' src/LAYERS src/*.[ch] || exit 1
-for header in src/*.h; do
-    printf '#include "%s"\n' "$header" | ${1:-cc} -std=c99 -pedantic -I. -fsyntax-only -x c - || {
+# layers.sh [SRC [CC...]]: the folders of SRC are rooms; SRC/LAYERS lists them, bottom up. Checked:
+#   1. every file lies in a room that is listed, and includes only files of its own room and of rooms below;
+#   2. inside a room there is no circle, a .c and its .h counting as one;
+#   3. every header compiles alone.
+# Prints what is wrong; exit status 0 only if nothing is.
+src=${1:-src}
+[ $# -gt 0 ] && shift
+[ $# -gt 0 ] || set -- cc
+pairs=$(mktemp) || exit 1
+trap 'rm -f "$pairs" "$pairs.circle"' EXIT
+
+awk -v pairs="$pairs" -v top="$src/" '
+    NR == FNR { rank[$1] = NR; next }
+    FNR == 1 {
+        me = substr(FILENAME, length(top) + 1)
+        sub(/\.[ch]$/, "", me)
+        room = me
+        if (!sub(/\/.*/, "", room) || !(room in rank)) { print FILENAME ": not in a room of LAYERS"; bad = 1 }
+        print me, me > pairs
+    }
+    /^[ \t]*#[ \t]*include[ \t]*"/ {
+        dep = $0
+        sub(/^[^"]*"/, "", dep)
+        sub(/\.h".*/, "", dep)
+        other = dep
+        if (!sub(/\/.*/, "", other) || !(other in rank)) { print FILENAME ":" FNR ": " dep ".h is in no room"; bad = 1; next }
+        if (rank[other] > rank[room]) { print FILENAME ":" FNR ": " room " is below " other " and may not include " dep ".h"; bad = 1 }
+        if (other == room && dep != me) print me, dep > pairs
+    }
+    END { exit bad }' "$src/LAYERS" $(find "$src" -name '*.[ch]' | sort) || exit 1
+
+if ! tsort "$pairs" >/dev/null 2>"$pairs.circle" || [ -s "$pairs.circle" ]; then
+    echo "$src: files of a room include each other in a circle:"
+    cat "$pairs.circle"
+    exit 1
+fi
+
+for header in "$src"/*/*.h; do
+    printf '#include "%s"\n' "${header#"$src/"}" | "$@" -std=c99 -pedantic "-I$src" -fsyntax-only -x c - || {
         echo "$header does not compile alone"
         exit 1
     }

@@ -4,10 +4,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "../src/image.h"
-#include "../src/mem.h"
-#include "../src/rng.h"
-#include "../src/stats.h"
+#include "image/image.h"
+#include "base/mem.h"
+#include "base/rng.h"
+#include "base/stats.h"
 #include "helpers.h"
 #include "tests.h"
 

@@ -1,0 +1,63 @@
+/* pixel_sample.h: what one pixel sample (one pixel, one iteration) consists of: an eye sub-path, light sub-paths, and sums of
+ * connections over the strategies that a whole sub-path, or a pair of them, can take part in.
+ *
+ * An integrator is a choice of which of these sums to take, with which light sub-path, and of the counts of mis.h.
+ * Random streams belong to (seed, purpose, pixel, iteration), so a sub-path does not depend on which integrator, tile or
+ * thread asks for it.
+ */
+#ifndef ASBDPT_TRANSPORT_PIXEL_SAMPLE_H
+#define ASBDPT_TRANSPORT_PIXEL_SAMPLE_H
+
+#include "transport/connect.h"
+#include "transport/tile_pass.h"
+
+/* One pixel of one iteration. */
+struct pixel_sample {
+    const struct scene *scene;
+    const struct mis_counts *counts;
+    struct tile *tile;
+    int max_depth;          /* longest path: s + t <= max_depth + 2 */
+    int x, y;               /* the pixel */
+    double filter_weight;   /* of its eye sample, see path_eye_pixel */
+    struct sampler sampler; /* for light and lens points */
+};
+
+/* --- sub-paths --------------------------------------------------------------------------------------- */
+
+/* pixel_sample_begin: what pixel_sample.h needs for pixel (x,y): counts, tile, a fresh stream for end points. */
+struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struct mis_counts *counts, int x, int y, long iteration);
+
+/* pixel_eye_path: the eye sub-path of g's pixel into path [max_vertices]; sets g->filter_weight. Returns its length. */
+int pixel_eye_path(const struct tile_pass *pass, struct pixel_sample *g, long iteration, struct vertex *path, int max_vertices);
+
+/* pixel_sampler: the stream of a pixel and iteration for a purpose of the method's own. */
+struct sampler pixel_sampler(const struct tile_pass *pass, enum rng_purpose purpose, int x, int y, long iteration);
+
+/* pixel_light_path: the light sub-path that belongs to pixel (x,y) and `number` into path [max_depth + 1]; its lobes go to
+ * `arena`. Returns its length. */
+int pixel_light_path(const struct tile_pass *pass, const struct mis_counts *counts, int x, int y,
+                uint64_t number, struct arena *arena, struct vertex *path);
+
+/* pixel_light_count: light sub-paths per iteration over the whole film, one per pixel: n of t = 1. */
+double pixel_light_count(const struct render_job *job);
+
+/* --- sums of connections ----------------------------------------------------------------------------- */
+
+/* pixel_sum_eye: s = 0 and s = 1 for every vertex of the eye sub-path of n vertices. Returns the weighted sum
+ * times filter_weight. */
+rgb pixel_sum_eye(struct pixel_sample *g, const struct vertex *eye, int n);
+
+/* pixel_sum_pair: one strategy s >= 2, t >= 2, joining the light vertex y = y_{s-1} to the eye vertex z = z_{t-1}; times
+ * `scale` and filter_weight. */
+rgb pixel_sum_pair(struct pixel_sample *g, const struct vertex *y, int s, const struct vertex *z, int t, double scale);
+
+/* pixel_sum_pairs: s >= 2, t >= 2 for every pair of vertices of the two sub-paths, each multiplied by `scale`
+ * and filter_weight. */
+rgb pixel_sum_pairs(struct pixel_sample *g, const struct vertex *eye, int n_eye, const struct vertex *light, int n_light,
+                 double scale);
+
+/* pixel_splat_path: s >= 2, t = 1 for every vertex of a light sub-path, each multiplied by `scale`; the sums go to the
+ * tile's splats. */
+void pixel_splat_path(struct pixel_sample *g, const struct vertex *light, int n_light, double scale);
+
+#endif

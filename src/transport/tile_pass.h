@@ -1,0 +1,44 @@
+/* tile_pass.h: the unit of work of a render: one tile of pixels, a block of consecutive iterations.
+ *
+ * A tile pass depends on nothing but what stands here, so passes may run on any thread, in any order.
+ */
+#ifndef ASBDPT_TRANSPORT_TILE_PASS_H
+#define ASBDPT_TRANSPORT_TILE_PASS_H
+
+#include "scene/film.h"
+#include "transport/path.h"
+
+/* What does not change during a render. */
+struct render_job {
+    const struct scene *scene;
+    struct pixel_rect film_rect; /* the crop in pixels */
+    uint64_t seed;
+    int max_depth;
+    int n_threads;
+    bool power_heuristic;
+    double rr_threshold; /* of Russian roulette, see path.h */
+};
+
+enum { TILE_SIZE = 16 }; /* pixels along the side of a tile */
+
+/* Memory of one thread, made once and reused by all its tile passes. */
+struct workspace {
+    struct arena arena;
+    struct vertex *eye, *light; /* [max_depth + 2] each; owned */
+    void *own;                  /* the method's, from new_own; may be NULL */
+};
+
+/* workspaces_new: arenas and sub-paths for n threads; `own` is left NULL. */
+struct workspace *workspaces_new(int n, int max_depth);
+void workspaces_free(struct workspace *work, int n);
+
+/* One tile, iterations [first, end). */
+struct tile_pass {
+    const struct render_job *job;
+    struct pixel_rect rect;
+    long first, end;
+    struct tile *tile; /* started; receives the result */
+    struct workspace *work;
+};
+
+#endif
