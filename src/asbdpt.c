@@ -155,5 +155,12 @@ static void free_own(const void *state, void *own)
     ((const struct selection *)state)->selector->free_own(own);
 }
 
+/* The dissertation has no roulette, and its selection reads the throughput at a sub-path's far end, which roulette would
+ * level: there it is off unless asked for. */
+static double rr_threshold(const struct settings *s)
+{
+    return strcmp(settings_text(s, "select", ""), "bins") == 0 ? 0 : DEFAULT_RR_THRESHOLD;
+}
+
 const struct method method_asbdpt = {"asbdpt", "alias sampled bidirectional path tracing [Silva 2024]", PARAMETERS, 32,
-                                     prepare, render, release, new_own, free_own};
+                                     prepare, render, release, new_own, free_own, rr_threshold};

@@ -31,6 +31,7 @@ struct render_job {
 };
 
 enum { TILE_SIZE = 16 }; /* pixels along the side of a tile */
+#define DEFAULT_RR_THRESHOLD 0.5 /* rr_threshold where neither the user nor the method says otherwise */
 
 /* Memory of one thread, made once and reused by all its tile passes. */
 struct workspace {
@@ -63,6 +64,8 @@ struct method {
     void (*release)(void *state);
     void *(*new_own)(const void *state); /* may be NULL: no memory of its own */
     void (*free_own)(const void *state, void *own);
+    /* rr_threshold unless the user gives one; may be NULL: DEFAULT_RR_THRESHOLD. */
+    double (*rr_threshold)(const struct settings *settings);
 };
 
 /* method_find: by name ("pt", "lt", "bdpt", "asbdpt"; pbrt's "path" is pt). NULL if there is none. */

@@ -63,12 +63,10 @@ static bool read_heuristic(const struct scene *scene, bool *power, struct error 
     return true;
 }
 
-/* The dissertation has no roulette, and its selection reads the throughput at a sub-path's far end, which roulette would
- * level: there it is off unless asked for. */
-static bool read_roulette(const struct scene *scene, double *threshold, struct error *err)
+static bool read_roulette(const struct scene *scene, const struct method *m, double *threshold, struct error *err)
 {
-    bool bins = strcmp(settings_text(&scene->settings, "select", ""), "bins") == 0;
-    return settings_real(&scene->settings, "rrthreshold", bins ? 0 : 0.5, 0, 1e6, threshold, err);
+    double fallback = m->rr_threshold != NULL ? m->rr_threshold(&scene->settings) : DEFAULT_RR_THRESHOLD;
+    return settings_real(&scene->settings, "rrthreshold", fallback, 0, 1e6, threshold, err);
 }
 
 /* --- tile passes ------------------------------------------------------------------------------------- */
@@ -176,7 +174,7 @@ bool render_scene(const struct scene *scene, const struct render_options *option
     r.job.n_threads = options->n_threads < 1 ? 1 : options->n_threads;
     int block = options->method->block;
     if (!check_settings(scene, err) || !read_heuristic(scene, &r.job.power_heuristic, err) ||
-        !read_roulette(scene, &r.job.rr_threshold, err) ||
+        !read_roulette(scene, options->method, &r.job.rr_threshold, err) ||
         !render_max_depth(scene, options->max_depth, &r.job.max_depth, err) ||
         !options->method->prepare(&r.job, &r.state, &block, err))
         return false;
