@@ -254,6 +254,17 @@ static const struct method *choose_method(const struct job_options *o, const str
     return NULL;
 }
 
+/* pbrt has three strategies, and scenes name all of them; picking lights uniformly only adds noise. */
+static void warn_of_uniform(const struct scene *scene)
+{
+    const struct setting *item = settings_find(&scene->settings, "lightsamplestrategy");
+    struct error text;
+    if (item == NULL || strcmp(item->value, "uniform") != 0)
+        return;
+    error_set(&text, "%s: lights are not picked uniformly here; \"power\" is used instead", item->origin);
+    print_warning(NULL, text.text);
+}
+
 int job_load(const struct job_options *o, struct scene *scene, const struct method **method)
 {
     struct error err;
@@ -265,6 +276,8 @@ int job_load(const struct job_options *o, struct scene *scene, const struct meth
         scene_free(scene);
         return fail(&err);
     }
+    if (!o->quiet)
+        warn_of_uniform(scene);
     scene_prepare(scene);
     return EXIT_OK;
 }

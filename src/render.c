@@ -38,8 +38,7 @@ static bool parameter_known(const struct method *m, const char *name)
 static bool check_settings(const struct scene *scene, struct error *err)
 {
     static const char *const harmless[] = {"maxdepth",    "heuristic",           "rrthreshold",
-                                           "pixelbounds", "lightsamplestrategy", "visualizestrategies",
-                                           "visualizeweights"};
+                                           "pixelbounds", "visualizestrategies", "visualizeweights"};
     for (int i = 0; i < scene->settings.n; i++) {
         const struct setting *item = &scene->settings.item[i];
         bool known = false;
@@ -56,11 +55,21 @@ static bool check_settings(const struct scene *scene, struct error *err)
 
 static bool read_heuristic(const struct scene *scene, bool *power, struct error *err)
 {
-    const char *name = settings_text(&scene->settings, "heuristic", "balance");
-    *power = strcmp(name, "power") == 0;
-    if (!*power && strcmp(name, "balance") != 0)
-        return error_set(err, "heuristic \"%s\" is unknown; it is \"balance\" or \"power\"", name);
-    return true;
+    static const char *const names[] = {"balance", "power", NULL};
+    int which;
+    bool ok = settings_choice(&scene->settings, "heuristic", 0, names, &which, err);
+    *power = which == 1;
+    return ok;
+}
+
+/* Checked for all methods, as scenes of pbrt have it for several integrators; "uniform" is replaced by "power". */
+static bool read_light_strategy(const struct scene *scene, bool *spatial, struct error *err)
+{
+    static const char *const names[] = {"spatial", "power", "uniform", NULL};
+    int which;
+    bool ok = settings_choice(&scene->settings, "lightsamplestrategy", 0, names, &which, err);
+    *spatial = which == 0;
+    return ok;
 }
 
 static bool read_roulette(const struct scene *scene, const struct method *m, double *threshold, struct error *err)
@@ -175,6 +184,7 @@ bool render_scene(const struct scene *scene, const struct render_options *option
     int block = options->method->block;
     if (!check_settings(scene, err) || !read_heuristic(scene, &r.job.power_heuristic, err) ||
         !read_roulette(scene, options->method, &r.job.rr_threshold, err) ||
+        !read_light_strategy(scene, &r.job.spatial_lights, err) ||
         !render_max_depth(scene, options->max_depth, &r.job.max_depth, err) ||
         !options->method->prepare(&r.job, &r.state, &block, err))
         return false;

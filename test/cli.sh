@@ -50,6 +50,25 @@ expect 1 'no integrator has a parameter "deltaa"' "$program" render "$box" $smal
 expect 1 'delta' "$program" render "$box" $small -P delta=7 --integrator asbdpt -o x.pfm
 expect 1 'binpaths 7 is odd' "$program" render "$box" $small -P select=bins -P binpaths=7 --integrator asbdpt -o x.pfm
 expect 1 'cannot' "$program" render "$box" $small -o no/such/dir/x.pfm
+expect 1 '^asbdpt: -P: select = "bin" is unknown: give "bins", "pool" or "vertices"' "$program" render "$box" $small -P select=bin --integrator asbdpt -o x.pfm
+expect 1 '^asbdpt: -P: heuristic = "max" is unknown: give "balance" or "power"' "$program" render "$box" $small -P heuristic=max -o x.pfm
+
+# pbrt's lightsamplestrategy: its three names are taken by every integrator, a misspelling by none.
+for method in path bdpt asbdpt; do
+    printf 'Integrator "%s" "string lightsamplestrategy" "spacial"\nWorldBegin\nWorldEnd\n' $method >strategy.pbrt
+    expect 1 '^asbdpt: strategy.pbrt:1:[0-9]+: lightsamplestrategy = "spacial" is unknown: give "spatial", "power" or "uniform"' \
+        "$program" render strategy.pbrt $small -o x.pfm
+    for strategy in spatial power uniform; do
+        sed s/spacial/$strategy/ strategy.pbrt >known.pbrt
+        expect 0 '' "$program" render known.pbrt $small -o x.pfm
+    done
+done
+expect 0 '^asbdpt: warning: known.pbrt:1:[0-9]+: lights are not picked uniformly here; "power" is used' "$program" info known.pbrt
+for strategy in spatial power uniform; do
+    expect 0 '' "$program" render "$scenes/living-room.pbrt" $small --integrator asbdpt -P lightsamplestrategy=$strategy -o $strategy.pfm
+done
+check cmp -s power.pfm uniform.pfm
+check test -n "$(cmp power.pfm spatial.pfm 2>&1)"
 if [ -e /dev/full ]; then
     ln -s /dev/full full.pfm
     expect 1 'full.pfm' "$program" render "$box" $small -o full.pfm
