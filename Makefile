@@ -40,8 +40,11 @@ test: asbdpt $(BUILD)/test layers ## build and run the test suite (under 3 minut
 	sh test/cli.sh $(PROGRAM)
 	$(BUILD)/test
 
-check-long: asbdpt $(BUILD)/test experiments ## the tests that take longer
+check-long: asbdpt $(BUILD)/test experiments builds ## the tests that take longer
 	$(BUILD)/test --slow
+
+builds: asbdpt ## build by every compiler at hand, for 32 bits and with fused multiply-add; the pictures must be the same
+	sh test/builds.sh $(PROGRAM)
 
 bench: asbdpt | out ## measure speed and memory on the scenes (or SCENES="..."), beside doc/bench-baseline.json
 	$(PROGRAM) bench $(SCENES) --json out/bench.json --baseline doc/bench-baseline.json
@@ -78,4 +81,4 @@ clean: ## remove everything that was built
 
 -include $(wildcard $(BUILD)/*.d)
 
-.PHONY: all demo test bench check-long mutants ref check-ref experiments layers san tsan help clean
+.PHONY: all demo test bench check-long builds mutants ref check-ref experiments layers san tsan help clean

@@ -86,24 +86,24 @@ struct run {
     void *state;
     struct film *film;
     int tiles_x, tiles_y;
-    long block;              /* iterations per tile pass; blocks begin at its multiples */
-    long n_jobs, n_done;
+    int64_t block; /* iterations per tile pass; blocks begin at its multiples. All in 64 bits: it may be INT_MAX */
+    int64_t n_jobs, n_done;
     bool stopping; /* progress said so: stop when the block is complete */
     struct workspace *work; /* [n_threads] */
     struct tile *tile;      /* [n_slots] */
 };
 
-static long tiles_per_block(const struct run *r) { return (long)r->tiles_x * r->tiles_y; }
+static int64_t tiles_per_block(const struct run *r) { return (int64_t)r->tiles_x * r->tiles_y; }
 
 /* The iterations of block number b of this run. */
-static void block_range(const struct run *r, long b, long *first, long *end)
+static void block_range(const struct run *r, int64_t b, long *first, long *end)
 {
-    long number = r->options->first / r->block + b;
-    *first = number * r->block > r->options->first ? number * r->block : r->options->first;
-    *end = (number + 1) * r->block < r->options->end ? (number + 1) * r->block : r->options->end;
+    int64_t begin = (r->options->first / r->block + b) * r->block;
+    *first = begin > r->options->first ? (long)begin : r->options->first;
+    *end = begin + r->block < r->options->end ? (long)(begin + r->block) : r->options->end;
 }
 
-static struct pixel_rect tile_rect(const struct run *r, long tile)
+static struct pixel_rect tile_rect(const struct run *r, int64_t tile)
 {
     struct pixel_rect all = r->job.film_rect, rect;
     rect.x0 = all.x0 + (int)(tile % r->tiles_x) * TILE_SIZE;
@@ -113,7 +113,7 @@ static struct pixel_rect tile_rect(const struct run *r, long tile)
     return rect;
 }
 
-static void run_pass(void *context, long job, int slot, int thread)
+static void run_pass(void *context, int64_t job, int slot, int thread)
 {
     struct run *r = context;
     struct tile_pass pass = {.job = &r->job, .tile = &r->tile[slot], .work = &r->work[thread]};
@@ -123,7 +123,7 @@ static void run_pass(void *context, long job, int slot, int thread)
     r->options->method->render(r->state, &pass);
 }
 
-static bool merge_pass(void *context, long job, int slot)
+static bool merge_pass(void *context, int64_t job, int slot)
 {
     struct run *r = context;
     film_merge_tile(r->film, &r->tile[slot]);
@@ -158,7 +158,7 @@ static void free_workspaces(struct run *r)
 static void run_all(struct run *r)
 {
     const struct render_options *o = r->options;
-    long first_block = o->first / r->block, end_block = (o->end + r->block - 1) / r->block;
+    int64_t first_block = o->first / r->block, end_block = (o->end + r->block - 1) / r->block;
     r->tiles_x = (rect_width(r->job.film_rect) + TILE_SIZE - 1) / TILE_SIZE;
     r->tiles_y = (rect_height(r->job.film_rect) + TILE_SIZE - 1) / TILE_SIZE;
     r->n_jobs = tiles_per_block(r) * (end_block - first_block);
