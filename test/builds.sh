@@ -1,11 +1,11 @@
 #!/bin/sh
 # builds.sh: README's one-line build gives the pictures of `make`, byte for byte, by whichever compilers and for whichever
 # processors are at hand: with fused multiply-add, which compilers like to contract a * b + c to, and with a 32-bit long.
-# Run from the top: sh test/builds.sh ./asbdpt
+# Run from the top: [COMPILERS="gcc clang"] sh test/builds.sh ./asbdpt
 program=$1
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
-line=$(sed -n 's/^Without make: `cc \(.*\)-o asbdpt \(.*\)`\.$/\1-o "$dir\/other" \2/p' README.md)
+line=$(sed -n 's/^Without make: `cc \([^`]*\)-o asbdpt \([^`]*\)`.*/\1-o "$dir\/other" \2/p' README.md)
 [ -n "$line" ] || { echo "FAIL: README.md has no line \"Without make\""; exit 1; }
 failures=0
 
@@ -33,7 +33,7 @@ try() {
 }
 
 pictures "$program" make || exit 1
-for compiler in gcc clang; do
+for compiler in ${COMPILERS:-gcc clang}; do
     try $compiler
     try $compiler -march=haswell
     try $compiler -m32 -msse2 -mfpmath=sse
