@@ -9,6 +9,7 @@
 #include "mem.h"
 #include "parallel.h"
 #include "parser.h"
+#include "picture.h"
 
 int fail(const struct error *err)
 {
@@ -85,6 +86,11 @@ static bool resolution_of(struct argument_list *a, struct job_options *o)
     if (sscanf(text, "%dx%d%c", &o->width, &o->height, &end) != 2 || o->width < 1 || o->height < 1 ||
         o->width > 65536 || o->height > 65536) {
         usage_error("--res %s: expected WIDTHxHEIGHT, each from 1 to 65536", text);
+        return false;
+    }
+    struct error why;
+    if (!picture_size_ok((unsigned long)o->width, (unsigned long)o->height, &why)) {
+        usage_error("--res %s: %s", text, why.text);
         return false;
     }
     return true;

@@ -42,6 +42,7 @@ expect 2 'needs a scene' "$program" render
 expect 2 'unknown option --sppp' "$program" render "$box" --sppp 3
 expect 2 'expected an integer' "$program" render "$box" --spp 0
 expect 2 'WIDTHxHEIGHT' "$program" render "$box" --res 10
+expect 2 '60000 x 60000 pixels are too many \(at most 268435456\)' "$program" render "$box" --spp 1 --cropwindow 0 0.0001 0 0.0001 --res 60000x60000
 expect 2 'window is empty' "$program" render "$box" --cropwindow 0.5 0.5 0 1
 expect 1 'unknown image format' "$program" render "$box" $small -o x.exr
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt
