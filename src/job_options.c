@@ -250,7 +250,8 @@ static const struct method *choose_method(const struct job_options *o, const str
     if (m != NULL)
         return m;
     if (o->integrator == NULL) {
-        fprintf(stderr, "asbdpt: warning: integrator \"%s\" does not exist here; using bdpt\n", name);
+        error_set(err, "integrator \"%s\" does not exist here; using bdpt", name);
+        print_warning(NULL, err->text);
         return method_find("bdpt");
     }
     char known[256] = "";

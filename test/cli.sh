@@ -84,6 +84,11 @@ printf 'WorldBegin\nShape "plymesh" "string filename" "cut.ply"\nWorldEnd\n' >pl
 printf 'ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\n' >cut.ply
 expect 1 'cut.ply' "$program" render ply.pbrt
 
+# Bytes of a scene that mean something to a terminal do not reach it.
+printf 'Integrator "\033[31mx" "string maxdepth" "\033[31m"\nWorldBegin\nWorldEnd\n' >escape.pbrt
+expect 0 'integrator "[?]\[31mx" does not exist here' "$program" info escape.pbrt
+check test -z "$(cat stdout.txt stderr.txt | tr -d '\n -~')"
+
 # Files: three formats from one run, the same bytes for any number of threads.
 expect 0 '' "$program" render "$box" $small -j 1 -o a.pfm -o a.ppm -o a.png
 expect 0 '' "$program" render "$box" $small -j 3 -o b.pfm
