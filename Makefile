@@ -58,11 +58,14 @@ test: asbdpt $(BUILD)/test layers ## build and run the test suite (under 3 minut
 	sh test/cli.sh $(PROGRAM)
 	$(BUILD)/test
 
-check-long: asbdpt $(BUILD)/test experiments ## the tests that take longer
+check-long: asbdpt $(BUILD)/test experiments builds ## the tests that take longer
 	$(BUILD)/test --slow
 
 check-ref: asbdpt ## are the stored references still what the program converges to?
 	sh ref/check-ref.sh $(PROGRAM)
+
+builds: asbdpt ## build by every compiler at hand, for 32 bits and with fused multiply-add; the pictures must be the same
+	sh test/builds.sh $(PROGRAM)
 
 mutants: ## apply small faults one by one; the tests must catch every one
 	sh test/mutants/run.sh 2
@@ -89,4 +92,4 @@ help: ## list the targets
 clean: ## remove everything that was built
 	rm -rf build build-* out asbdpt
 
-.PHONY: all demo experiments bench ref test check-long check-ref mutants layers san tsan stats help clean
+.PHONY: all demo experiments bench ref test check-long check-ref builds mutants layers san tsan stats help clean

@@ -42,6 +42,7 @@ expect 2 'needs a scene' "$program" render
 expect 2 'unknown option --sppp' "$program" render "$box" --sppp 3
 expect 2 'expected an integer' "$program" render "$box" --spp 0
 expect 2 'WIDTHxHEIGHT' "$program" render "$box" --res 10
+expect 2 '60000 x 60000 pixels are too many \(at most 268435456\)' "$program" render "$box" --spp 1 --cropwindow 0 0.0001 0 0.0001 --res 60000x60000
 expect 2 'window is empty' "$program" render "$box" --cropwindow 0.5 0.5 0 1
 expect 1 'unknown image format' "$program" render "$box" $small -o x.exr
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt
@@ -50,6 +51,25 @@ expect 1 'no integrator has a parameter "deltaa"' "$program" render "$box" $smal
 expect 1 'delta' "$program" render "$box" $small -P delta=7 --integrator asbdpt -o x.pfm
 expect 1 'binpaths 7 is odd' "$program" render "$box" $small -P select=bins -P binpaths=7 --integrator asbdpt -o x.pfm
 expect 1 'cannot' "$program" render "$box" $small -o no/such/dir/x.pfm
+expect 1 '^asbdpt: -P: select = "bin" is unknown: give "bins", "pool" or "vertices"' "$program" render "$box" $small -P select=bin --integrator asbdpt -o x.pfm
+expect 1 '^asbdpt: -P: heuristic = "max" is unknown: give "balance" or "power"' "$program" render "$box" $small -P heuristic=max -o x.pfm
+
+# pbrt's lightsamplestrategy: its three names are taken by every integrator, a misspelling by none.
+for method in path bdpt asbdpt; do
+    printf 'Integrator "%s" "string lightsamplestrategy" "spacial"\nWorldBegin\nWorldEnd\n' $method >strategy.pbrt
+    expect 1 '^asbdpt: strategy.pbrt:1:[0-9]+: lightsamplestrategy = "spacial" is unknown: give "spatial", "power" or "uniform"' \
+        "$program" render strategy.pbrt $small -o x.pfm
+    for strategy in spatial power uniform; do
+        sed s/spacial/$strategy/ strategy.pbrt >known.pbrt
+        expect 0 '' "$program" render known.pbrt $small -o x.pfm
+    done
+done
+expect 0 '^asbdpt: warning: known.pbrt:1:[0-9]+: lights are not picked uniformly here; "power" is used' "$program" info known.pbrt
+for strategy in spatial power uniform; do
+    expect 0 '' "$program" render "$scenes/living-room.pbrt" $small --integrator asbdpt -P lightsamplestrategy=$strategy -o $strategy.pfm
+done
+check cmp -s power.pfm uniform.pfm
+check test -n "$(cmp power.pfm spatial.pfm 2>&1)"
 if [ -e /dev/full ]; then
     ln -s /dev/full full.pfm
     expect 1 'full.pfm' "$program" render "$box" $small -o full.pfm
@@ -63,6 +83,11 @@ expect 1 'shape.pbrt:2:[0-9]+: .*hyperboloid' "$program" render shape.pbrt
 printf 'WorldBegin\nShape "plymesh" "string filename" "cut.ply"\nWorldEnd\n' >ply.pbrt
 printf 'ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\n' >cut.ply
 expect 1 'cut.ply' "$program" render ply.pbrt
+
+# Bytes of a scene that mean something to a terminal do not reach it.
+printf 'Integrator "\033[31mx" "string maxdepth" "\033[31m"\nWorldBegin\nWorldEnd\n' >escape.pbrt
+expect 0 'integrator "[?]\[31mx" does not exist here' "$program" info escape.pbrt
+check test -z "$(cat stdout.txt stderr.txt | tr -d '\n -~')"
 
 # Files: three formats from one run, the same bytes for any number of threads.
 expect 0 '' "$program" render "$box" $small -j 1 -o a.pfm -o a.ppm -o a.png

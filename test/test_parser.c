@@ -503,6 +503,46 @@ static void check_suggestions(struct test *t)
     CHECK(t, suggest_from("colour", KNOWN) == NULL && suggest_from("", KNOWN) == NULL, "nothing near");
 }
 
+/* --- what reaches the terminal ------------------------------------------------------------------------- */
+
+static void check_cleaning(struct test *t)
+{
+    static const char *const TEXTS[][2] = {
+        {"plain ~", "plain ~"},
+        {"\x1b[31m\x7f\a\n\r", "?[31m????"},
+        {"gr\xc3\xbcn \xe2\x82\xac \xf0\x9f\x98\x80", "gr\xc3\xbcn \xe2\x82\xac \xf0\x9f\x98\x80"},
+        {"latin gr\xfcn", "latin gr?n"},
+        {"control \xc2\x9b" "1m, cut \xe2\x82", "control ??1m, cut ??"},
+        {"overlong \xc0\x9b \xe0\x82\x9b, surrogate \xed\xa0\x80", "overlong ?? ???, surrogate ???"},
+        {"beyond \xf4\x90\x80\x80 \xf8\x88\x80\x80\x80", "beyond ???? ?????"}};
+    for (size_t i = 0; i < sizeof TEXTS / sizeof TEXTS[0]; i++) {
+        struct error err;
+        error_set(&err, "%s", TEXTS[i][0]);
+        CHECK(t, strcmp(err.text, TEXTS[i][1]) == 0, "text %d is cleaned to \"%s\"", (int)i, err.text);
+    }
+}
+
+/* A name in UTF-8 is quoted as it is, an escape sequence is not; in the excerpt a byte is a column. */
+static void check_odd_bytes(struct test *t)
+{
+    static const char TEXT_OF[] = "WorldBegin\nMaterial \"gr\xc3\xbcn\x1b[31m\\n\xff\" # \xc3\xa9\nWorldEnd\n";
+    char path[TEXT], want[2 * TEXT];
+    snprintf(path, sizeof path, "%s/odd.pbrt", test_tmp(t));
+    FILE *f = fopen(path, "wb");
+    if (!CHECK(t, f != NULL, "cannot write %s", path))
+        return;
+    fwrite(TEXT_OF, 1, sizeof TEXT_OF - 1, f);
+    fclose(f);
+    struct error err;
+    struct scene s;
+    CHECK(t, !parse_scene(path, &s, NULL, &err), "an odd name is accepted");
+    snprintf(want, sizeof want, "%s:2:10: unknown Material \"gr\xc3\xbcn?[31m??\"; use one of ", path);
+    CHECK(t, strncmp(err.text, want, strlen(want)) == 0, "a name of odd bytes, expected %s, got\n%s", want, err.text);
+    const char *excerpt = strchr(err.text, '\n');
+    snprintf(want, sizeof want, "\n  Material \"gr??n [31m\\n?\" # ??\n           ^");
+    CHECK(t, excerpt != NULL && strcmp(excerpt, want) == 0, "a line of odd bytes, expected %s, got %s", want, excerpt);
+}
+
 /* --- damaged files -------------------------------------------------------------------------------------- */
 
 static void copy_file(const char *from, const char *to)
@@ -589,6 +629,12 @@ static void check_damaged(struct test *t, const struct fixtures *f, int rounds)
         } else {
             refused++;
             CHECK(t, strchr(err.text, ':') != NULL, "a refusal without a place: %s", err.text);
+            struct error clean = err;
+            error_clean(clean.text);
+            size_t k = 0;
+            while (err.text[k] != '\0' && (err.text[k] == clean.text[k] || err.text[k] == '\n'))
+                k++;
+            CHECK(t, err.text[k] == '\0', "a refusal holds the byte %02x", (unsigned)(unsigned char)err.text[k]);
         }
     }
     CHECK(t, accepted > rounds / 100 && refused > rounds / 2, "%d accepted, %d refused", accepted, refused);
@@ -614,6 +660,8 @@ void test_parser(struct test *t)
     check_numbers(t);
     check_spectra(t);
     check_suggestions(t);
+    check_cleaning(t);
+    check_odd_bytes(t);
     struct error err;
     struct scene s;
     CHECK(t,

@@ -192,6 +192,40 @@ static void test_thread_counts(struct test *t)
     scene_free(&scene);
 }
 
+/* --- Russian roulette -------------------------------------------------------------------------------- */
+
+/* Each method has its own default threshold, whatever parameters of other methods are set; the user's wins. */
+static void test_roulette_defaults(struct test *t)
+{
+    static const struct {
+        const char *method, *select, *threshold, *as; /* threshold NULL: the default, which is to be `as` */
+    } cases[] = {{"pt", "bins", NULL, "0.5"},     {"bdpt", "bins", NULL, "0.5"},   {"asbdpt", "vertices", NULL, "0.5"},
+                 {"asbdpt", "bins", NULL, "0"},   {"bdpt", "bins", "0.5", "0.5"},  {"bdpt", "bins", "0", "0"},
+                 {"asbdpt", "bins", "0.5", "0.5"}};
+    char text[8192];
+    snprintf(text, sizeof text, EVERYTHING, AREA, SPECULAR);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct scene scene;
+        if (!scene_from_text(t, text, &scene))
+            return;
+        size_t bytes = (size_t)scene.width * (size_t)scene.height * 3 * sizeof(float);
+        settings_set(&scene.settings, "select", cases[i].select, "test");
+        if (cases[i].threshold != NULL)
+            settings_set(&scene.settings, "rrthreshold", cases[i].threshold, "test");
+        float *got = render_pixels(t, &scene, cases[i].method, 2, 7, 0, 0, 4);
+        settings_set(&scene.settings, "rrthreshold", cases[i].as, "test");
+        float *same = render_pixels(t, &scene, cases[i].method, 2, 7, 0, 0, 4);
+        settings_set(&scene.settings, "rrthreshold", cases[i].as[1] == '\0' ? "0.5" : "0", "test");
+        float *other = render_pixels(t, &scene, cases[i].method, 2, 7, 0, 0, 4);
+        CHECK(t, memcmp(got, same, bytes) == 0 && memcmp(got, other, bytes) != 0, "%s with select %s, rrthreshold %s: not as with %s",
+              cases[i].method, cases[i].select, cases[i].threshold == NULL ? "not set" : cases[i].threshold, cases[i].as);
+        free(got);
+        free(same);
+        free(other);
+        scene_free(&scene);
+    }
+}
+
 /* --- crop and filter --------------------------------------------------------------------------------- */
 
 /* Means of the lower right quarter, once cut out of the full frame, once rendered as a crop window. */
@@ -264,6 +298,7 @@ void test_render(struct test *t)
     test_empty(t);
     test_agreement(t);
     test_thread_counts(t);
+    test_roulette_defaults(t);
     test_crop(t);
     test_filters(t);
 }

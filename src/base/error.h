@@ -17,9 +17,13 @@ struct error {
     char text[ERROR_TEXT_SIZE]; /* the whole message without the leading "asbdpt: "; may hold several lines */
 };
 
-/* error_set: write a message, printf style, cutting it at the buffer's end.
+/* error_set: write a message of one line, printf style, cleaned (see below), cutting it at the buffer's end.
  *   err  out, may be NULL (then nothing is written)
  * Returns false, always, so that a failing function can `return error_set(err, ...)`. */
 bool error_set(struct error *err, const char *format, ...);
+
+/* error_clean: make text that may come from a damaged or hostile file fit for a terminal, in place: every byte that is
+ * neither printable ASCII nor part of a printable character in UTF-8 becomes '?'. */
+void error_clean(char *text);
 
 #endif

@@ -14,8 +14,8 @@ struct pool {
     const struct parallel_jobs *jobs;
     pthread_mutex_t lock;
     pthread_cond_t moved; /* `committed` or `stopped` changed */
-    long next;            /* first job not started */
-    long committed;       /* jobs committed; those below next - committed <= n_slots are under way or waiting */
+    int64_t next;         /* first job not started */
+    int64_t committed;    /* jobs committed; those below next - committed <= n_slots are under way or waiting */
     bool stopped;
     bool *done; /* [n_slots]: the job in this slot is finished */
 };
@@ -50,7 +50,7 @@ static void *run_worker(void *argument)
             pthread_cond_wait(&p->moved, &p->lock);
             continue;
         }
-        long job = p->next++;
+        int64_t job = p->next++;
         int slot = (int)(job % jobs->n_slots);
         pthread_mutex_unlock(&p->lock);
         jobs->work(jobs->context, job, slot, w->thread);
@@ -62,7 +62,7 @@ static void *run_worker(void *argument)
     return NULL;
 }
 
-long parallel_run(const struct parallel_jobs *jobs)
+int64_t parallel_run(const struct parallel_jobs *jobs)
 {
     struct pool p = {.jobs = jobs};
     p.done = mem_alloc((size_t)jobs->n_slots, sizeof *p.done);

@@ -11,22 +11,23 @@
 #define ASBDPT_PARALLEL_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 struct parallel_jobs {
-    long n_jobs;
+    int64_t n_jobs;
     int n_threads; /* >= 1; the calling thread is one of them */
     int n_slots;   /* results that may wait; >= n_threads */
     void *context; /* passed to both functions */
     /* Do job number `job` on thread number `thread` (0 .. n_threads-1), leaving the result in slot `slot`. */
-    void (*work)(void *context, long job, int slot, int thread);
+    void (*work)(void *context, int64_t job, int slot, int thread);
     /* Take in the result of `job` from `slot`. Called with a lock held: keep it short. Returns false to stop: no
      * later job is committed and none that has not started yet is begun. */
-    bool (*commit)(void *context, long job, int slot);
+    bool (*commit)(void *context, int64_t job, int slot);
 };
 
 /* parallel_run: run all jobs. Returns the number of jobs committed (n_jobs unless a commit said stop). If threads
  * cannot be created it goes on with those it has. */
-long parallel_run(const struct parallel_jobs *jobs);
+int64_t parallel_run(const struct parallel_jobs *jobs);
 
 /* parallel_cores: processors online, >= 1. */
 int parallel_cores(void);

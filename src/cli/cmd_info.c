@@ -38,8 +38,11 @@ static void print_scene(const struct scene *s, const struct method *m, double se
     printf("camera        fov %g degrees, lens radius %g, at (%g, %g, %g)\n", s->camera.fov, s->camera.lens_radius,
            s->camera.position.x, s->camera.position.y, s->camera.position.z);
     printf("integrator    %s\n", m->name);
-    for (int i = 0; i < s->settings.n; i++)
-        printf("  %-11s %s\n", s->settings.item[i].name, s->settings.item[i].value);
+    for (int i = 0; i < s->settings.n; i++) {
+        struct error line; /* cleaned, as the file's words are */
+        error_set(&line, "  %-11s %s", s->settings.item[i].name, s->settings.item[i].value);
+        printf("%s\n", line.text);
+    }
     printf("triangles     %d (%d vertices)\nquadrics      %d\nshapes        %d\n", s->geo.n_triangles,
            s->geo.n_vertices, s->geo.n_quadrics, s->geo.n_groups);
     printf("materials     %d\ntextures      %d (%d images)\n", s->n_materials, s->textures.n_textures,

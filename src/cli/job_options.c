@@ -5,9 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/command.h"
 #include "base/mem.h"
 #include "base/parallel.h"
+#include "cli/command.h"
+#include "image/picture.h"
 #include "parser/parser.h"
 
 int fail(const struct error *err)
@@ -85,6 +86,11 @@ static bool resolution_of(struct argument_list *a, struct job_options *o)
     if (sscanf(text, "%dx%d%c", &o->width, &o->height, &end) != 2 || o->width < 1 || o->height < 1 ||
         o->width > 65536 || o->height > 65536) {
         usage_error("--res %s: expected WIDTHxHEIGHT, each from 1 to 65536", text);
+        return false;
+    }
+    struct error why;
+    if (!picture_size_ok((unsigned long)o->width, (unsigned long)o->height, &why)) {
+        usage_error("--res %s: %s", text, why.text);
         return false;
     }
     return true;
@@ -244,7 +250,8 @@ static const struct method *choose_method(const struct job_options *o, const str
     if (m != NULL)
         return m;
     if (o->integrator == NULL) {
-        fprintf(stderr, "asbdpt: warning: integrator \"%s\" does not exist here; using bdpt\n", name);
+        error_set(err, "integrator \"%s\" does not exist here; using bdpt", name);
+        print_warning(NULL, err->text);
         return method_find("bdpt");
     }
     char known[256] = "";
@@ -252,6 +259,17 @@ static const struct method *choose_method(const struct job_options *o, const str
         snprintf(known + strlen(known), sizeof known - strlen(known), " %s", (*k)->name);
     error_set(err, "--integrator %s does not exist; known are:%s", name, known);
     return NULL;
+}
+
+/* pbrt has three strategies, and scenes name all of them; picking lights uniformly only adds noise. */
+static void warn_of_uniform(const struct scene *scene)
+{
+    const struct setting *item = settings_find(&scene->settings, "lightsamplestrategy");
+    struct error text;
+    if (item == NULL || strcmp(item->value, "uniform") != 0)
+        return;
+    error_set(&text, "%s: lights are not picked uniformly here; \"power\" is used instead", item->origin);
+    print_warning(NULL, text.text);
 }
 
 int job_load(const struct job_options *o, struct scene *scene, const struct method **method)
@@ -265,6 +283,8 @@ int job_load(const struct job_options *o, struct scene *scene, const struct meth
         scene_free(scene);
         return fail(&err);
     }
+    if (!o->quiet)
+        warn_of_uniform(scene);
     scene_prepare(scene);
     return EXIT_OK;
 }

@@ -25,7 +25,7 @@ enum { N_COMMANDS = sizeof COMMANDS / sizeof COMMANDS[0] };
 static void print_methods(void)
 {
     printf("\nintegrators and their parameters (-P NAME=VALUE, or in the scene's Integrator directive):\n");
-    printf("    all: maxdepth 5, heuristic balance|power, rrthreshold 0.5 (0: no Russian roulette)\n");
+    printf("    all: maxdepth 5, heuristic balance|power, rrthreshold 0.5, for select=bins 0 (0: no Russian roulette)\n");
     for (const struct method *const *m = method_list(); *m != NULL; m++) {
         printf("    %-8s %s\n", (*m)->name, (*m)->help);
         for (const struct parameter *p = (*m)->parameters; p->name != NULL; p++)

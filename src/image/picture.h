@@ -1,6 +1,6 @@
 /* picture.h: pixels in memory, as the image formats fill and texture reads them.
  *
- * Used by: pfm, ppm, png, tga, image. Tests: test_image.c.
+ * Used by: pfm, ppm, png, tga, image, parse_options, job_options. Tests: test_image.c.
  */
 #ifndef ASBDPT_PICTURE_H
 #define ASBDPT_PICTURE_H
@@ -23,7 +23,7 @@ struct image {
 /* More pixels than this are taken for a damaged or hostile header: 16384 x 16384. */
 enum { PICTURE_MAX_PIXELS = 1 << 28 };
 
-/* picture_size_ok: may a picture be this large? Returns false with a message for 0 and for too many pixels. */
+/* picture_size_ok: may a picture, or a film, be this large? Returns false with a message for 0 and for too many pixels. */
 bool picture_size_ok(unsigned long width, unsigned long height, struct error *err);
 
 /* picture_alloc_u8 / picture_alloc_f32: black pixels of a size that picture_size_ok accepts, to be released with

@@ -29,36 +29,23 @@ static const struct parameter PARAMETERS[] = {
     {"restart", "32", "bins: iterations after which all bins are rebuilt, 0: never"},
     {NULL, NULL, NULL}};
 
-/* The number of `text` among the names, or -1 with a message. */
-static int choice(const struct settings *s, const char *name, const char *fallback, const char *const *names, int n,
-                  struct error *err)
-{
-    const char *text = settings_text(s, name, fallback);
-    for (int i = 0; i < n; i++)
-        if (strcmp(text, names[i]) == 0)
-            return i;
-    error_set(err, "asbdpt: %s \"%s\" is unknown; it is one of %s, %s, %s", name, text, names[0], names[1], names[2]);
-    return -1;
-}
-
 static bool read_parameters(const struct settings *s, struct selection *sel, int *cells, long *restart,
-                            bool *spatial, struct error *err)
+                            struct error *err)
 {
-    static const char *const selects[] = {"bins", "pool", "vertices"};
+    static const char *const selects[] = {"bins", "pool", "vertices", NULL};
     static const struct selector *const selectors[] = {&select_bins, &select_pool, &select_vertices};
-    static const char *const metrics[] = {"constant", "throughput", "importance"};
-    int which = choice(s, "select", "vertices", selects, 3, err);
-    int metric = which < 0 ? -1 : choice(s, "metric", "importance", metrics, 3, err);
+    static const char *const metrics[] = {"constant", "throughput", "importance", NULL};
+    int which, metric;
     long connections, pixels, grid, paths, age;
-    if (metric < 0 || !settings_real(s, "delta", 0.1, 1e-6, 1, &sel->delta, err) ||
+    if (!settings_choice(s, "select", 2, selects, &which, err) ||
+        !settings_choice(s, "metric", METRIC_IMPORTANCE, metrics, &metric, err) ||
+        !settings_real(s, "delta", 0.1, 1e-6, 1, &sel->delta, err) ||
         !settings_int(s, "connections", 0, 0, 1024, &connections, err) ||
         !settings_int(s, "pathpixels", 2, 1, TILE_SIZE * TILE_SIZE, &pixels, err) ||
         !settings_int(s, "grid", 64, 1, 100000, &grid, err) || !settings_int(s, "binpaths", 8, 2, 4096, &paths, err) ||
         !settings_int(s, "maxage", 24, 0, LONG_MAX, &age, err) ||
         !settings_int(s, "restart", 32, 0, INT_MAX, restart, err))
         return false;
-    const char *strategy = settings_text(s, "lightsamplestrategy", "spatial");
-    *spatial = strcmp(strategy, "power") != 0; /* pbrt's "uniform" is not offered */
     if (paths % 2 != 0)
         return error_set(err, "asbdpt: binpaths %ld is odd; bins hold two sub-paths each", paths);
     sel->selector = selectors[which];
@@ -86,12 +73,12 @@ static int choose_connections(const struct importance *grid)
 }
 
 /* Learn what the selection needs and set the sample counts accordingly. */
-static void learn(struct selection *sel, const struct render_job *job, int cells, bool spatial)
+static void learn(struct selection *sel, const struct render_job *job, int cells)
 {
     const struct light_set *lights = &job->scene->lights;
     bool importance = sel->metric == METRIC_IMPORTANCE;
     importance_init(&sel->grid, lights, cells);
-    spatial = spatial && lights->n_cells >= MIN_GUIDED_CELLS;
+    bool spatial = job->spatial_lights && lights->n_cells >= MIN_GUIDED_CELLS;
     if (importance || spatial)
         prepass_run(job, importance ? &sel->grid : NULL, spatial ? &sel->guide : NULL);
     if (spatial)
@@ -114,8 +101,7 @@ static bool prepare(const struct render_job *job, void **state, int *block, stru
     struct selection *sel = mem_alloc(1, sizeof *sel);
     int cells = 0;
     long restart = 0;
-    bool spatial = false;
-    if (!read_parameters(&job->scene->settings, sel, &cells, &restart, &spatial, err)) {
+    if (!read_parameters(&job->scene->settings, sel, &cells, &restart, err)) {
         free(sel);
         return false;
     }
@@ -126,7 +112,7 @@ static bool prepare(const struct render_job *job, void **state, int *block, stru
     if (sel->selector == &select_bins)
         *block = restart > 0 ? (int)restart : INT_MAX;
     else
-        learn(sel, job, cells, spatial);
+        learn(sel, job, cells);
     *state = sel;
     return true;
 }
@@ -155,5 +141,12 @@ static void free_own(const void *state, void *own)
     ((const struct selection *)state)->selector->free_own(own);
 }
 
+/* The dissertation has no roulette, and its selection reads the throughput at a sub-path's far end, which roulette would
+ * level: there it is off unless asked for. */
+static double rr_threshold(const struct settings *s)
+{
+    return strcmp(settings_text(s, "select", ""), "bins") == 0 ? 0 : DEFAULT_RR_THRESHOLD;
+}
+
 const struct method method_asbdpt = {"asbdpt", "alias sampled bidirectional path tracing [Silva 2024]", PARAMETERS, 32,
-                                     prepare, render, release, new_own, free_own};
+                                     prepare, render, release, new_own, free_own, rr_threshold};

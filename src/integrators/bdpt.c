@@ -69,12 +69,12 @@ static const struct parameter no_parameters[] = {{NULL, NULL, NULL}};
 
 const struct method method_pt = {
     "pt", "path tracing: light found by chance (s = 0) or sampled (s = 1)",
-    no_parameters, 32, prepare_pt, render, free, NULL, NULL};
+    no_parameters, 32, prepare_pt, render, free, NULL, NULL, NULL};
 
 const struct method method_lt = {
     "lt", "light tracing: light sub-paths connected to the lens (t = 1); cannot see mirrors",
-    no_parameters, 32, prepare_lt, render, free, NULL, NULL};
+    no_parameters, 32, prepare_lt, render, free, NULL, NULL, NULL};
 
 const struct method method_bdpt = {
     "bdpt", "bidirectional path tracing [Veach 1997]: all strategies",
-    no_parameters, 32, prepare_bdpt, render, free, NULL, NULL};
+    no_parameters, 32, prepare_bdpt, render, free, NULL, NULL, NULL};

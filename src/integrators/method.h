@@ -17,6 +17,8 @@ struct parameter {
     const char *name, *fallback, *help;
 };
 
+#define DEFAULT_RR_THRESHOLD 0.5 /* rr_threshold where neither the user nor the method says otherwise */
+
 struct method {
     const char *name, *help;
     const struct parameter *parameters; /* ended by a NULL name */
@@ -28,6 +30,8 @@ struct method {
     void (*release)(void *state);
     void *(*new_own)(const void *state); /* may be NULL: no memory of its own */
     void (*free_own)(const void *state, void *own);
+    /* rr_threshold unless the user gives one; may be NULL: DEFAULT_RR_THRESHOLD. */
+    double (*rr_threshold)(const struct settings *settings);
 };
 
 /* method_find: by name ("pt", "lt", "bdpt", "asbdpt"; pbrt's "path" is pt). NULL if there is none. */

@@ -46,7 +46,7 @@ struct prepass {
     struct mis_counts counts; /* weights are not used here; any will do */
     struct workspace *work;   /* [n_threads] */
     struct chunk *chunk;      /* [n_slots] */
-    long first_path, n_paths; /* sub-paths of this round: [first_path, n_paths) */
+    int64_t first_path, n_paths; /* sub-paths of this round: [first_path, n_paths) */
     struct light_sums light;
 };
 
@@ -73,13 +73,13 @@ static void study_vertex(const struct prepass *p, struct chunk *c, const struct 
 }
 
 /* Sub-path number i goes through point i of the sequence R2 [Roberts 2018], which fills the film evenly. */
-static void trace_eye_chunk(void *context, long job, int slot, int thread)
+static void trace_eye_chunk(void *context, int64_t job, int slot, int thread)
 {
     struct prepass *p = context;
     struct workspace *work = &p->work[thread];
     struct pixel_rect film = p->job->film_rect;
     p->chunk[slot].n = 0;
-    for (long i = p->first_path + job * CHUNK; i < p->first_path + (job + 1) * CHUNK && i < p->n_paths; i++) {
+    for (int64_t i = p->first_path + job * CHUNK; i < p->first_path + (job + 1) * CHUNK && i < p->n_paths; i++) {
         arena_reset(&work->arena);
         struct sampler sampler = sampler_start(p->job->seed, RNG_PREPASS, (uint64_t)i, 0);
         struct walk w = {p->job->scene, &p->counts, &work->arena, &sampler, p->job->rr_threshold};
@@ -91,7 +91,7 @@ static void trace_eye_chunk(void *context, long job, int slot, int thread)
     }
 }
 
-static bool merge_eye_chunk(void *context, long job, int slot)
+static bool merge_eye_chunk(void *context, int64_t job, int slot)
 {
     (void)job;
     struct prepass *p = context;
@@ -114,13 +114,13 @@ static void study_light_vertex(const struct prepass *p, struct light_sums *s, co
     s->square += I * I;
 }
 
-static void trace_light_chunk(void *context, long job, int slot, int thread)
+static void trace_light_chunk(void *context, int64_t job, int slot, int thread)
 {
     struct prepass *p = context;
     struct workspace *work = &p->work[thread];
     struct light_sums zero = {0, 0, 0, 0};
     p->chunk[slot].light = zero;
-    for (long i = p->first_path + job * CHUNK; i < p->first_path + (job + 1) * CHUNK && i < p->n_paths; i++) {
+    for (int64_t i = p->first_path + job * CHUNK; i < p->first_path + (job + 1) * CHUNK && i < p->n_paths; i++) {
         arena_reset(&work->arena);
         struct sampler sampler = sampler_start(p->job->seed, RNG_PREPASS, (uint64_t)i, 1);
         struct walk w = {p->job->scene, &p->counts, &work->arena, &sampler, p->job->rr_threshold};
@@ -131,7 +131,7 @@ static void trace_light_chunk(void *context, long job, int slot, int thread)
     }
 }
 
-static bool merge_light_chunk(void *context, long job, int slot)
+static bool merge_light_chunk(void *context, int64_t job, int slot)
 {
     (void)job;
     struct prepass *p = context;
@@ -144,7 +144,7 @@ static bool merge_light_chunk(void *context, long job, int slot)
 }
 
 /* Run `work` over the sub-paths 0 .. n_paths-1. */
-static void run_chunks(struct prepass *p, void (*work)(void *, long, int, int), bool (*merge)(void *, long, int))
+static void run_chunks(struct prepass *p, void (*work)(void *, int64_t, int, int), bool (*merge)(void *, int64_t, int))
 {
     int n_threads = p->job->n_threads, n_slots = 4 * n_threads;
     struct parallel_jobs jobs = {(p->n_paths - p->first_path + CHUNK - 1) / CHUNK, n_threads, n_slots, p, work, merge};

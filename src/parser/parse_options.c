@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/picture.h"
+
 static const char *const NOTHING[] = {NULL};
 
 bool parse_camera(struct parser *p)
@@ -72,8 +74,9 @@ bool parse_film(struct parser *p)
         return false;
     s->width = params_int(q, "xresolution", 1280, 1, 65536);
     s->height = params_int(q, "yresolution", 720, 1, 65536);
-    if ((double)s->width * s->height > 1 << 28)
-        params_fail(q, q->place, "a film of %d x %d pixels is too large; at most 2^28 pixels", s->width, s->height);
+    struct error why;
+    if (!picture_size_ok((unsigned long)s->width, (unsigned long)s->height, &why))
+        params_fail(q, q->place, "%s", why.text);
     static const double WHOLE[4] = {0, 1, 0, 1};
     memcpy(s->crop, WHOLE, sizeof s->crop);
     crop_window(q, s->crop);

@@ -21,6 +21,7 @@ struct writer {
 static void write_args(struct writer *w, const char *format, va_list args)
 {
     int n = vsnprintf(w->text + w->used, w->size - w->used, format, args);
+    error_clean(w->text + w->used);
     if (n > 0)
         w->used += (size_t)n < w->size - w->used ? (size_t)n : w->size - w->used - 1;
 }
@@ -33,7 +34,16 @@ static void write_text(struct writer *w, const char *format, ...)
     va_end(args);
 }
 
-/* The part of the line around the column, and a caret under it. Tabs and the like become one blank each. */
+/* The only line breaks of a message are these: error_clean takes all others. */
+static void write_line_break(struct writer *w)
+{
+    for (const char *p = "\n  "; *p != '\0' && w->used + 1 < w->size; p++)
+        w->text[w->used++] = *p;
+    w->text[w->used] = '\0';
+}
+
+/* The part of the line around the column, and a caret under it. Tabs and the like become one blank each; bytes outside
+ * ASCII are written, and so cleaned, one by one, whereby one byte stays one column. */
 static void write_excerpt(struct writer *w, struct place at)
 {
     const char *begin = at.line_start, *caret = at.line_start + (at.column - 1);
@@ -42,20 +52,22 @@ static void write_excerpt(struct writer *w, struct place at)
     const char *end = begin;
     while (end < at.input->end && *end != '\n' && *end != '\r' && end - begin < SHOWN_COLUMNS)
         end++;
-    write_text(w, "\n  ");
+    write_line_break(w);
     for (const char *p = begin; p < end; p++)
         write_text(w, "%c", (unsigned char)*p < ' ' ? ' ' : *p);
-    write_text(w, "\n  %*s^", (int)(caret - begin), "");
+    write_line_break(w);
+    write_text(w, "%*s^", (int)(caret - begin), "");
 }
 
 static void write_includes(struct writer *w, const struct input *input)
 {
     for (int i = 0; input->included_at.input != NULL; i++, input = input->included_at.input) {
+        write_line_break(w);
         if (i == SHOWN_INCLUDES) {
-            write_text(w, "\n  ...");
+            write_text(w, "...");
             return;
         }
-        write_text(w, "\n  included from %s:%d", input->included_at.input->path, input->included_at.line);
+        write_text(w, "included from %s:%d", input->included_at.input->path, input->included_at.line);
     }
 }
 

@@ -38,8 +38,7 @@ static bool parameter_known(const struct method *m, const char *name)
 static bool check_settings(const struct scene *scene, struct error *err)
 {
     static const char *const harmless[] = {"maxdepth",    "heuristic",           "rrthreshold",
-                                           "pixelbounds", "lightsamplestrategy", "visualizestrategies",
-                                           "visualizeweights"};
+                                           "pixelbounds", "visualizestrategies", "visualizeweights"};
     for (int i = 0; i < scene->settings.n; i++) {
         const struct setting *item = &scene->settings.item[i];
         bool known = false;
@@ -56,19 +55,27 @@ static bool check_settings(const struct scene *scene, struct error *err)
 
 static bool read_heuristic(const struct scene *scene, bool *power, struct error *err)
 {
-    const char *name = settings_text(&scene->settings, "heuristic", "balance");
-    *power = strcmp(name, "power") == 0;
-    if (!*power && strcmp(name, "balance") != 0)
-        return error_set(err, "heuristic \"%s\" is unknown; it is \"balance\" or \"power\"", name);
-    return true;
+    static const char *const names[] = {"balance", "power", NULL};
+    int which;
+    bool ok = settings_choice(&scene->settings, "heuristic", 0, names, &which, err);
+    *power = which == 1;
+    return ok;
 }
 
-/* The dissertation has no roulette, and its selection reads the throughput at a sub-path's far end, which roulette would
- * level: there it is off unless asked for. */
-static bool read_roulette(const struct scene *scene, double *threshold, struct error *err)
+/* Checked for all methods, as scenes of pbrt have it for several integrators; "uniform" is replaced by "power". */
+static bool read_light_strategy(const struct scene *scene, bool *spatial, struct error *err)
 {
-    bool bins = strcmp(settings_text(&scene->settings, "select", ""), "bins") == 0;
-    return settings_real(&scene->settings, "rrthreshold", bins ? 0 : 0.5, 0, 1e6, threshold, err);
+    static const char *const names[] = {"spatial", "power", "uniform", NULL};
+    int which;
+    bool ok = settings_choice(&scene->settings, "lightsamplestrategy", 0, names, &which, err);
+    *spatial = which == 0;
+    return ok;
+}
+
+static bool read_roulette(const struct scene *scene, const struct method *m, double *threshold, struct error *err)
+{
+    double fallback = m->rr_threshold != NULL ? m->rr_threshold(&scene->settings) : DEFAULT_RR_THRESHOLD;
+    return settings_real(&scene->settings, "rrthreshold", fallback, 0, 1e6, threshold, err);
 }
 
 /* --- tile passes ------------------------------------------------------------------------------------- */
@@ -79,24 +86,24 @@ struct run {
     void *state;
     struct film *film;
     int tiles_x, tiles_y;
-    long block;              /* iterations per tile pass; blocks begin at its multiples */
-    long n_jobs, n_done;
+    int64_t block; /* iterations per tile pass; blocks begin at its multiples. All in 64 bits: it may be INT_MAX */
+    int64_t n_jobs, n_done;
     bool stopping; /* progress said so: stop when the block is complete */
     struct workspace *work; /* [n_threads] */
     struct tile *tile;      /* [n_slots] */
 };
 
-static long tiles_per_block(const struct run *r) { return (long)r->tiles_x * r->tiles_y; }
+static int64_t tiles_per_block(const struct run *r) { return (int64_t)r->tiles_x * r->tiles_y; }
 
 /* The iterations of block number b of this run. */
-static void block_range(const struct run *r, long b, long *first, long *end)
+static void block_range(const struct run *r, int64_t b, long *first, long *end)
 {
-    long number = r->options->first / r->block + b;
-    *first = number * r->block > r->options->first ? number * r->block : r->options->first;
-    *end = (number + 1) * r->block < r->options->end ? (number + 1) * r->block : r->options->end;
+    int64_t begin = (r->options->first / r->block + b) * r->block;
+    *first = begin > r->options->first ? (long)begin : r->options->first;
+    *end = begin + r->block < r->options->end ? (long)(begin + r->block) : r->options->end;
 }
 
-static struct pixel_rect tile_rect(const struct run *r, long tile)
+static struct pixel_rect tile_rect(const struct run *r, int64_t tile)
 {
     struct pixel_rect all = r->job.film_rect, rect;
     rect.x0 = all.x0 + (int)(tile % r->tiles_x) * TILE_SIZE;
@@ -106,7 +113,7 @@ static struct pixel_rect tile_rect(const struct run *r, long tile)
     return rect;
 }
 
-static void run_pass(void *context, long job, int slot, int thread)
+static void run_pass(void *context, int64_t job, int slot, int thread)
 {
     struct run *r = context;
     struct tile_pass pass = {.job = &r->job, .tile = &r->tile[slot], .work = &r->work[thread]};
@@ -116,7 +123,7 @@ static void run_pass(void *context, long job, int slot, int thread)
     r->options->method->render(r->state, &pass);
 }
 
-static bool merge_pass(void *context, long job, int slot)
+static bool merge_pass(void *context, int64_t job, int slot)
 {
     struct run *r = context;
     film_merge_tile(r->film, &r->tile[slot]);
@@ -151,7 +158,7 @@ static void free_workspaces(struct run *r)
 static void run_all(struct run *r)
 {
     const struct render_options *o = r->options;
-    long first_block = o->first / r->block, end_block = (o->end + r->block - 1) / r->block;
+    int64_t first_block = o->first / r->block, end_block = (o->end + r->block - 1) / r->block;
     r->tiles_x = (rect_width(r->job.film_rect) + TILE_SIZE - 1) / TILE_SIZE;
     r->tiles_y = (rect_height(r->job.film_rect) + TILE_SIZE - 1) / TILE_SIZE;
     r->n_jobs = tiles_per_block(r) * (end_block - first_block);
@@ -176,7 +183,8 @@ bool render_scene(const struct scene *scene, const struct render_options *option
     r.job.n_threads = options->n_threads < 1 ? 1 : options->n_threads;
     int block = options->method->block;
     if (!check_settings(scene, err) || !read_heuristic(scene, &r.job.power_heuristic, err) ||
-        !read_roulette(scene, &r.job.rr_threshold, err) ||
+        !read_roulette(scene, options->method, &r.job.rr_threshold, err) ||
+        !read_light_strategy(scene, &r.job.spatial_lights, err) ||
         !render_max_depth(scene, options->max_depth, &r.job.max_depth, err) ||
         !options->method->prepare(&r.job, &r.state, &block, err))
         return false;

@@ -2,6 +2,7 @@
 #include "scene/settings.h"
 
 #include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -40,6 +41,8 @@ void settings_clear(struct settings *s)
     free(s->item);
     memset(s, 0, sizeof *s);
 }
+
+const struct setting *settings_find(const struct settings *s, const char *name) { return find(s, name); }
 
 const char *settings_text(const struct settings *s, const char *name, const char *fallback)
 {
@@ -84,4 +87,22 @@ bool settings_real(const struct settings *s, const char *name, double fallback, 
                          item->value, low, high);
     *out = value;
     return true;
+}
+
+bool settings_choice(const struct settings *s, const char *name, int fallback, const char *const *names, int *out,
+                     struct error *err)
+{
+    *out = fallback;
+    const struct setting *item = find(s, name);
+    if (item == NULL)
+        return true;
+    char list[256] = "";
+    for (int i = 0; names[i] != NULL; i++) {
+        *out = i;
+        if (strcmp(item->value, names[i]) == 0)
+            return true;
+        size_t used = strlen(list);
+        snprintf(list + used, sizeof list - used, "%s\"%s\"", i == 0 ? "" : names[i + 1] == NULL ? " or " : ", ", names[i]);
+    }
+    return error_set(err, "%s: %s = \"%s\" is unknown: give %s", item->origin, name, item->value, list);
 }

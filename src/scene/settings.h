@@ -26,6 +26,9 @@ struct settings {
 void settings_set(struct settings *s, const char *name, const char *value, const char *origin);
 void settings_clear(struct settings *s); /* forget and free everything */
 
+/* settings_find: the setting of this name, or NULL. */
+const struct setting *settings_find(const struct settings *s, const char *name);
+
 /* settings_text: the value, or `fallback` when the name is not set. */
 const char *settings_text(const struct settings *s, const char *name, const char *fallback);
 
@@ -35,5 +38,10 @@ bool settings_int(const struct settings *s, const char *name, long fallback, lon
                   struct error *err);
 bool settings_real(const struct settings *s, const char *name, double fallback, double low, double high,
                    double *out, struct error *err);
+
+/* settings_choice: which of the names, ended by NULL, the value is; *out = fallback when not set. Returns false with a
+ * message naming origin, name, value and the names. */
+bool settings_choice(const struct settings *s, const char *name, int fallback, const char *const *names, int *out,
+                     struct error *err);
 
 #endif

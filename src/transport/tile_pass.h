@@ -17,6 +17,7 @@ struct render_job {
     int n_threads;
     bool power_heuristic;
     double rr_threshold; /* of Russian roulette, see path.h */
+    bool spatial_lights; /* pbrt's lightsamplestrategy asks for lights by what is seen; else they are picked by power */
 };
 
 enum { TILE_SIZE = 16 }; /* pixels along the side of a tile */
