@@ -103,6 +103,7 @@ static void test_written_bytes(struct test *t)
         CHECK(t, image_write(path, 1, 2, PIXEL, &err) && file_read(path, &data, &n, &err), "%s", err.text);
         CHECK(t, data != NULL && n == CASES[i].n && memcmp(data, CASES[i].bytes, n) == 0,
               "%s: other bytes than expected", CASES[i].name);
+        CHECK(t, data != NULL && data[n] == 0, "%s: no zero byte behind the last", CASES[i].name);
         free(data);
         remove(path);
     }

@@ -46,8 +46,10 @@ bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err
     bool ok = read_stream(f, expected, regular ? SIZE_MAX / 2 : PIPE_LIMIT, data, size);
     int reason = errno;
     fclose(f);
-    if (ok)
+    if (ok) {
+        (*data)[*size] = 0; /* read_stream left room */
         return true;
+    }
     free(*data);
     *data = NULL;
     return error_set(err, "%s: cannot be read: %s", path, reason != 0 ? strerror(reason) : "endless or too long");
