@@ -180,7 +180,7 @@ bool render_scene(const struct scene *scene, const struct render_options *option
     r.job.scene = scene;
     r.job.film_rect = film->rect;
     r.job.seed = options->seed;
-    r.job.n_threads = options->n_threads < 1 ? 1 : options->n_threads;
+    r.job.n_threads = options->n_threads < 1 ? parallel_cores() : options->n_threads;
     int block = options->method->block;
     if (!check_settings(scene, err) || !read_heuristic(scene, &r.job.power_heuristic, err) ||
         !read_roulette(scene, options->method, &r.job.rr_threshold, err) ||

@@ -20,7 +20,7 @@ struct render_options {
     const struct method *method;
     uint64_t seed;
     long first, end; /* iterations [first, end) of every pixel */
-    int n_threads;
+    int n_threads; /* 0: one per processor */
     int max_depth; /* 0: what the scene says, else 5 */
     /* Called after each tile pass with the share of the work done, in [0,1], one call at a time. NULL: not called.
      * Returns false to stop when the current block of iterations is complete. */
