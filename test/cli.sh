@@ -33,20 +33,45 @@ small="--res 16x16 --spp 2 --quiet"
 
 expect 0 '' "$program" --help
 check grep -q 'asbdpt render SCENE' stdout.txt
-expect 0 '' "$program" experiment --help
-check grep -q 'asbdpt render SCENE' stdout.txt
+check grep -q 'asbdpt experiment \[--quick' stdout.txt
+check grep -q -e '--reference-spp' stdout.txt
+check grep -q 'lightsamplestrategy' stdout.txt
+for command in render compare experiment bench verify info; do # a subcommand's help is its own alone
+    expect 0 '' "$program" $command --help
+    check grep -q "usage: asbdpt $command" stdout.txt
+    check [ "$(grep -c 'usage: asbdpt' stdout.txt)" = 1 ]
+done
+check grep -q -e '--cropwindow' stdout.txt
+expect 0 '' "$program" compare a.pfm -h
 expect 0 '' "$program" --version
 expect 2 'asbdpt: which command' "$program"
-expect 2 'unknown command' "$program" rendr
+expect 2 'unknown command rendr \(did you mean render\?\); try asbdpt --help' "$program" rendr
 expect 2 'needs a scene' "$program" render
-expect 2 'unknown option --sppp' "$program" render "$box" --sppp 3
+expect 2 'unknown option --sppp \(did you mean --spp\?\); try asbdpt render --help' "$program" render "$box" --sppp 3
+expect 2 'one argument too many' "$program" render "$box" "$box"
 expect 2 'expected an integer' "$program" render "$box" --spp 0
 expect 2 'WIDTHxHEIGHT' "$program" render "$box" --res 10
 expect 2 '60000 x 60000 pixels are too many \(at most 268435456\)' "$program" render "$box" --spp 1 --cropwindow 0 0.0001 0 0.0001 --res 60000x60000
+for size in 4294967297x4 4x4294967300 18446744073709551617x4 10x0; do
+    expect 2 '[-]-res .*: expected WIDTHxHEIGHT' "$program" render "$box" --res $size
+    expect 2 '[-]-res .*: expected WIDTHxHEIGHT or WIDTH' "$program" experiment -o x --res $size
+done
+expect 2 'expected an integer from 1 to' "$program" render "$box" --spp 99999999999999999999
+expect 2 'expected an integer from 0 to' "$program" render "$box" --seed 12345678901234567890123
+expect 2 'expected an integer from 1 to 1024' "$program" render "$box" -j4294967297
+for number in nan inf 1e999 -1; do
+    expect 2 'expected four numbers' "$program" render "$box" --cropwindow 0 $number 0 1
+    expect 2 'expected a number from 1e-12 to 0.5' "$program" verify "$box" --alpha $number
+done
+expect 2 'expected an integer' "$program" bench "$box" --spp 1e3
+expect 2 'experiment needs a directory for its results' "$program" experiment --quick
+expect 2 'compare needs a picture of the same size' "$program" compare a.pfm
+expect 2 'verify' "$program" verify
 expect 2 'window is empty' "$program" render "$box" --cropwindow 0.5 0.5 0 1
 expect 1 'unknown image format' "$program" render "$box" $small -o x.exr
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt
 expect 1 'known are' "$program" render "$box" $small --integrator vcm
+expect 1 'did you mean asbdpt\? known are' "$program" render "$box" $small --integrator=asbdtp
 expect 1 'no integrator has a parameter "deltaa"' "$program" render "$box" $small -P deltaa=1 -o x.pfm
 expect 1 'delta' "$program" render "$box" $small -P delta=7 --integrator asbdpt -o x.pfm
 expect 1 'binpaths 7 is odd' "$program" render "$box" $small -P select=bins -P binpaths=7 --integrator asbdpt -o x.pfm
@@ -93,6 +118,11 @@ check test -z "$(cat stdout.txt stderr.txt | tr -d '\n -~')"
 expect 0 '' "$program" render "$box" $small -j 1 -o a.pfm -o a.ppm -o a.png
 expect 0 '' "$program" render "$box" $small -j 3 -o b.pfm
 check cmp -s a.pfm b.pfm
+expect 0 '' "$program" render "$box" --res=16x16 --spp=2 --quiet -j3 --outfile b.pfm # other ways to write the same
+check cmp -s a.pfm b.pfm
+expect 0 '' "$program" render "$box" $small --cropwindow 0 0.5 0.25 1 -o crop.pfm
+expect 0 '' "$program" render "$box" $small --cropwindow 0,0.5,0.25,1 -o comma.pfm
+check cmp -s crop.pfm comma.pfm
 check [ "$(head -c 2 a.ppm)" = P6 ]
 expect 0 '' "$program" compare a.pfm b.pfm --json
 check grep -q '"rmse": 0, "rmse8": 0, "relmse": 0, "mean_ratio": 1, "nonfinite": 0' stdout.txt

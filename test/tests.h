@@ -16,6 +16,7 @@ void test_light(struct test *t);
 void test_lobe(struct test *t);
 void test_material(struct test *t);
 void test_mis(struct test *t);
+void test_options(struct test *t);
 void test_parser(struct test *t);
 void test_ply(struct test *t);
 void test_render(struct test *t);

@@ -16,14 +16,15 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "cli/command.h"
 #include "base/file.h"
 #include "base/frame.h"
 #include "base/mem.h"
-#include "parser/parser.h"
 #include "base/progress.h"
 #include "base/sampler.h"
 #include "base/warp.h"
+#include "cli/command.h"
+#include "parser/parser.h"
+#include "render/render.h"
 
 enum measure {
     LOAD, BUILD, TRIANGLES, NODES, REFERENCES, COST, CLOSEST_COHERENT, ANY_COHERENT, CLOSEST_INCOHERENT,
@@ -53,11 +54,21 @@ static const struct {
     {"peak_mib", "peak memory, MiB"},
 };
 
-struct arguments {
-    const char **scene; /* [n_scenes], owned array of borrowed strings */
-    int n_scenes;
+struct bench_options {
+    struct texts scenes;
     const char *json, *baseline; /* or NULL */
     int spp, max_depth, n_threads;
+};
+
+#define AT(member) offsetof(struct bench_options, member)
+static const struct option OPTIONS[] = {
+    {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes), 1, .help = "at least one scene"},
+    {"--json", "FILE", OPTION_TEXT, AT(json), .help = "write the figures"},
+    {"--baseline", "FILE", OPTION_TEXT, AT(baseline), .help = "such a file, to print what has changed since"},
+    {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1000, .fallback = "8", .help = "samples per pixel"},
+    {"--maxdepth", "N", OPTION_INTEGER, AT(max_depth), 1, 1000, .fallback = "8", .help = "longest path"},
+    {"--nthreads", "N", OPTION_INTEGER, AT(n_threads), 1, 1000, .alias = "-j", .fallback = "2", .help = "all threads"},
+    {.name = NULL},
 };
 
 static double cpu_seconds(void) { return (double)clock() / CLOCKS_PER_SEC; }
@@ -132,34 +143,34 @@ static void measure_rays(const struct scene *s, double *value)
 
 /* --- whole renders ------------------------------------------------------------------------------------ */
 
-static bool render_once(const struct scene *s, const struct arguments *a, const char *method, int n_threads,
+static bool render_once(const struct scene *s, const struct bench_options *o, const char *method, int n_threads,
                         double *wall, double *cpu, struct error *err)
 {
-    struct render_options o = {.method = method_find(method), .end = a->spp, .max_depth = a->max_depth};
+    struct render_options options = {.method = method_find(method), .end = o->spp, .max_depth = o->max_depth};
     struct film film;
-    o.n_threads = n_threads;
+    options.n_threads = n_threads;
     film_init(&film, render_crop(s), s->width, s->height);
     *wall = clock_seconds();
     *cpu = cpu_seconds();
-    bool ok = render_scene(s, &o, &film, err);
+    bool ok = render_scene(s, &options, &film, err);
     *wall = clock_seconds() - *wall;
     *cpu = cpu_seconds() - *cpu;
     film_free(&film);
     return ok;
 }
 
-static bool measure_renders(const struct scene *s, const struct arguments *a, double *value, struct error *err)
+static bool measure_renders(const struct scene *s, const struct bench_options *o, double *value, struct error *err)
 {
     static const char *const NAMES[] = {"pt", "bdpt", "asbdpt"};
-    double paths = (double)a->spp * rect_width(render_crop(s)) * rect_height(render_crop(s));
+    double paths = (double)o->spp * rect_width(render_crop(s)) * rect_height(render_crop(s));
     for (int i = 0; i < 3; i++) {
         double wall, cpu;
-        if (!render_once(s, a, NAMES[i], 1, &wall, &cpu, err))
+        if (!render_once(s, o, NAMES[i], 1, &wall, &cpu, err))
             return false;
         value[PT + i] = cpu > 0 ? paths / cpu : 0;
     }
-    return render_once(s, a, "bdpt", 1, &value[WALL_1], &value[CPU_1], err) &&
-           render_once(s, a, "bdpt", a->n_threads, &value[WALL_N], &value[CPU_N], err);
+    return render_once(s, o, "bdpt", 1, &value[WALL_1], &value[CPU_1], err) &&
+           render_once(s, o, "bdpt", o->n_threads, &value[WALL_N], &value[CPU_N], err);
 }
 
 /* --- one scene ---------------------------------------------------------------------------------------- */
@@ -172,16 +183,8 @@ static void shrink_film(struct scene *s)
     s->height = (int)fmax(1, floor(s->height * scale + 0.5));
 }
 
-static void measure_tree(const struct scene *s, double *value)
-{
-    value[TRIANGLES] = s->geo.n_triangles;
-    value[NODES] = s->kd.n_nodes;
-    value[REFERENCES] = s->kd.n_items;
-    value[COST] = s->kd.cost;
-}
-
 /* scene_prepare does little besides building the tree; its time is what a user waits for. */
-static bool measure_scene(const char *path, const struct arguments *a, double *value, struct error *err)
+static bool measure_scene(const char *path, const struct bench_options *o, double *value, struct error *err)
 {
     struct scene scene;
     double start = cpu_seconds();
@@ -192,9 +195,12 @@ static bool measure_scene(const char *path, const struct arguments *a, double *v
     start = cpu_seconds();
     scene_prepare(&scene);
     value[BUILD] = cpu_seconds() - start;
-    measure_tree(&scene, value);
+    value[TRIANGLES] = scene.geo.n_triangles;
+    value[NODES] = scene.kd.n_nodes;
+    value[REFERENCES] = scene.kd.n_items;
+    value[COST] = scene.kd.cost;
     measure_rays(&scene, value);
-    bool ok = measure_renders(&scene, a, value, err);
+    bool ok = measure_renders(&scene, o, value, err);
     scene_free(&scene);
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
@@ -203,25 +209,25 @@ static bool measure_scene(const char *path, const struct arguments *a, double *v
 }
 
 /* The child's part: measure, send the values, end. */
-static void measure_and_send(const char *path, const struct arguments *a, int pipe_end)
+static void measure_and_send(const char *path, const struct bench_options *o, int pipe_end)
 {
     double value[N_MEASURES] = {0};
     struct error err;
-    bool ok = measure_scene(path, a, value, &err);
+    bool ok = measure_scene(path, o, value, &err);
     if (!ok)
         fail(&err);
     ok = ok && write(pipe_end, value, sizeof value) == (ssize_t)sizeof value;
     _exit(ok ? EXIT_OK : EXIT_JOB);
 }
 
-static bool measure_in_child(const char *path, const struct arguments *a, double *value, struct error *err)
+static bool measure_in_child(const char *path, const struct bench_options *o, double *value, struct error *err)
 {
     int ends[2];
     if (pipe(ends) != 0)
         return error_set(err, "bench: no pipe");
     pid_t child = fork();
     if (child == 0)
-        measure_and_send(path, a, ends[1]);
+        measure_and_send(path, o, ends[1]);
     close(ends[1]);
     bool ok = child > 0 && read(ends[0], value, N_MEASURES * sizeof *value) == (ssize_t)(N_MEASURES * sizeof *value);
     close(ends[0]);
@@ -244,30 +250,30 @@ static double baseline_value(const char *text, const char *scene, const char *ke
     return at != NULL && (end == NULL || at < end) ? strtod(at + strlen(field), NULL) : 0;
 }
 
-static void print_table(const struct arguments *a, const double *values, const char *baseline)
+static void print_table(const struct bench_options *o, const double *values, const char *baseline)
 {
-    for (int i = 0; i < a->n_scenes; i++) {
+    for (int i = 0; i < o->scenes.n; i++) {
         const double *value = values + (size_t)i * N_MEASURES;
-        printf("%s\n", a->scene[i]);
+        printf("%s\n", o->scenes.item[i]);
         for (int m = 0; m < N_MEASURES; m++) {
-            double before = baseline_value(baseline, a->scene[i], MEASURES[m].key);
+            double before = baseline_value(baseline, o->scenes.item[i], MEASURES[m].key);
             printf("    %-40s %12.4g", MEASURES[m].text, value[m]);
             printf(before > 0 ? "   %5.2f of the baseline's\n" : "\n", value[m] / (before > 0 ? before : 1));
         }
         printf("    %-40s %12.3g\n", "scaling: threads x CPU at 1 / CPU at all",
-               value[CPU_N] > 0 ? a->n_threads * value[CPU_1] / value[CPU_N] : 0);
+               value[CPU_N] > 0 ? o->n_threads * value[CPU_1] / value[CPU_N] : 0);
     }
 }
 
-static bool write_json(const struct arguments *a, const double *values, struct error *err)
+static bool write_json(const struct bench_options *o, const double *values, struct error *err)
 {
     struct file_output out;
-    if (!file_create(a->json, &out, err))
+    if (!file_create(o->json, &out, err))
         return false;
-    fprintf(out.stream, "{\"threads\": %d, \"spp\": %d, \"maxdepth\": %d, \"scenes\": [", a->n_threads, a->spp,
-            a->max_depth);
-    for (int i = 0; i < a->n_scenes; i++) {
-        fprintf(out.stream, "%s\n  {\"scene\": \"%s\"", i > 0 ? "," : "", a->scene[i]);
+    fprintf(out.stream, "{\"threads\": %d, \"spp\": %d, \"maxdepth\": %d, \"scenes\": [", o->n_threads, o->spp,
+            o->max_depth);
+    for (int i = 0; i < o->scenes.n; i++) {
+        fprintf(out.stream, "%s\n  {\"scene\": \"%s\"", i > 0 ? "," : "", o->scenes.item[i]);
         for (int m = 0; m < N_MEASURES; m++)
             fprintf(out.stream, ",\n   \"%s\": %.6g", MEASURES[m].key, values[(size_t)i * N_MEASURES + (size_t)m]);
         fprintf(out.stream, "}");
@@ -276,87 +282,29 @@ static bool write_json(const struct arguments *a, const double *values, struct e
     return file_commit(&out, err);
 }
 
-/* --- command line ------------------------------------------------------------------------------------- */
+/* --- the command ------------------------------------------------------------------------------------- */
 
-static bool number_option(const char *name, const char *text, int *out)
+static bool measure(const struct bench_options *o, struct error *err)
 {
-    long v;
-    if (!integer_option(name, text, 1, 1000, &v))
-        return false;
-    *out = (int)v;
-    return true;
-}
-
-static bool parse(int argc, char **argv, struct arguments *a)
-{
-    for (int i = 1; i < argc; i++) {
-        const char *name = argv[i], *value = i + 1 < argc ? argv[i + 1] : NULL;
-        bool ok = true;
-        if (name[0] != '-') {
-            a->scene[a->n_scenes++] = name;
-            continue;
-        }
-        if (strncmp(name, "-j", 2) == 0 && name[2] != '\0') {
-            if (!number_option("-j", name + 2, &a->n_threads))
-                return false;
-            continue;
-        }
-        if (value == NULL)
-            return usage_error("%s is unknown or needs a value", name) == EXIT_OK;
-        if (strcmp(name, "--json") == 0)
-            a->json = value;
-        else if (strcmp(name, "--baseline") == 0)
-            a->baseline = value;
-        else if (strcmp(name, "--spp") == 0)
-            ok = number_option(name, value, &a->spp);
-        else if (strcmp(name, "--maxdepth") == 0)
-            ok = number_option(name, value, &a->max_depth);
-        else if (strcmp(name, "--nthreads") == 0 || strcmp(name, "-j") == 0)
-            ok = number_option(name, value, &a->n_threads);
-        else
-            ok = usage_error("unknown option %s", name) == EXIT_OK;
-        if (!ok)
-            return false;
-        i++;
-    }
-    return a->n_scenes > 0 || usage_error("bench needs at least one scene") == EXIT_OK;
-}
-
-static bool read_baseline(const char *path, char **text, struct error *err)
-{
-    uint8_t *data;
+    uint8_t *baseline = NULL;
     size_t size;
-    if (!file_read(path, &data, &size, err))
-        return false;
-    *text = mem_alloc(size + 1, 1); /* ends with a zero */
-    memcpy(*text, data, size);
-    free(data);
-    return true;
-}
-
-static bool run(const struct arguments *a, struct error *err)
-{
-    char *baseline = NULL;
-    double *values = mem_alloc((size_t)a->n_scenes * N_MEASURES, sizeof *values);
-    bool ok = a->baseline == NULL || read_baseline(a->baseline, &baseline, err);
-    for (int i = 0; ok && i < a->n_scenes; i++)
-        ok = measure_in_child(a->scene[i], a, values + (size_t)i * N_MEASURES, err);
+    double *values = mem_alloc((size_t)o->scenes.n * N_MEASURES, sizeof *values);
+    bool ok = o->baseline == NULL || file_read(o->baseline, &baseline, &size, err);
+    for (int i = 0; ok && i < o->scenes.n; i++)
+        ok = measure_in_child(o->scenes.item[i], o, values + (size_t)i * N_MEASURES, err);
     if (ok)
-        print_table(a, values, baseline);
-    ok = ok && (a->json == NULL || write_json(a, values, err));
+        print_table(o, values, (const char *)baseline);
+    ok = ok && (o->json == NULL || write_json(o, values, err));
     free(baseline);
     free(values);
     return ok;
 }
 
-int command_bench(int argc, char **argv)
+static int run(void *options)
 {
-    struct arguments a = {.spp = 8, .max_depth = 8, .n_threads = 2};
     struct error err;
-    a.scene = mem_alloc((size_t)argc, sizeof *a.scene);
-    int status = parse(argc, argv, &a) ? EXIT_OK : EXIT_USAGE;
-    if (status == EXIT_OK && !run(&a, &err))
-        status = fail(&err);
-    free(a.scene);
-    return status;
+    return measure(options, &err) ? EXIT_OK : fail(&err);
 }
+
+const struct command command_bench = {
+    "bench", "measure speed and memory", {"SCENE.pbrt... [options]"}, OPTIONS, sizeof(struct bench_options), run};

@@ -1,7 +1,7 @@
 /* cmd_compare.c: asbdpt compare IMAGE REFERENCE: how far apart two pictures are. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "cli/command.h"
 #include "lab/compare.h"
@@ -13,25 +13,14 @@ struct compare_options {
     bool json;
 };
 
-static bool parse(int argc, char **argv, struct compare_options *o)
-{
-    memset(o, 0, sizeof *o);
-    for (int i = 1; i < argc; i++) {
-        if (strcmp(argv[i], "--json") == 0)
-            o->json = true;
-        else if (strcmp(argv[i], "--heatmap") == 0 && i + 1 < argc)
-            o->heatmap = argv[++i];
-        else if (argv[i][0] == '-' && argv[i][1] != '\0')
-            return false;
-        else if (o->image == NULL)
-            o->image = argv[i];
-        else if (o->reference == NULL)
-            o->reference = argv[i];
-        else
-            return false;
-    }
-    return o->reference != NULL;
-}
+#define AT(member) offsetof(struct compare_options, member)
+static const struct option OPTIONS[] = {
+    {"IMAGE", NULL, OPTION_TEXT, AT(image), 1, .help = "a picture"},
+    {"REFERENCE", NULL, OPTION_TEXT, AT(reference), 1, .help = "a picture of the same size"},
+    {"--heatmap", "FILE.png", OPTION_TEXT, AT(heatmap), .help = "write where they differ"},
+    {"--json", NULL, OPTION_ON, AT(json), .help = "print an object of JSON"},
+    {.name = NULL},
+};
 
 /* JSON has no infinity or NaN. */
 static void print_json_number(const char *name, double v, const char *end)
@@ -84,11 +73,12 @@ static bool compare_files(const struct compare_options *o, struct error *err)
     return ok;
 }
 
-int command_compare(int argc, char **argv)
+static int run(void *options)
 {
-    struct compare_options o;
-    if (!parse(argc, argv, &o))
-        return usage_error("usage: asbdpt compare IMAGE REFERENCE [--heatmap FILE.png] [--json]");
     struct error err;
-    return compare_files(&o, &err) ? EXIT_OK : fail(&err);
+    return compare_files(options, &err) ? EXIT_OK : fail(&err);
 }
+
+const struct command command_compare = {
+    "compare", "how far apart two pictures are", {"IMAGE REFERENCE [--heatmap FILE.png] [--json]"}, OPTIONS,
+    sizeof(struct compare_options), run};

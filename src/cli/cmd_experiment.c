@@ -1,111 +1,65 @@
-/* cmd_experiment.c: asbdpt experiment [--quick|--full] [SCENE...] -o DIR: the dissertation's measurements,
- * repeated. */
+/* cmd_experiment.c: asbdpt experiment: the dissertation's measurements, repeated. */
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "cli/command.h"
 #include "lab/experiment.h"
-#include "base/mem.h"
 #include "lab/output.h"
-#include "base/parallel.h"
+#include "transport/path.h"
 
 /* The five scenes measured when none is named; the program is run from the top of its tree. */
 static const char *const SCENES[] = {"scenes/cornell-box.pbrt", "scenes/cornell-box-modified.pbrt",
                                      "scenes/veach-ajar.pbrt", "scenes/bathroom.pbrt", "scenes/living-room.pbrt"};
 enum { N_SCENES = sizeof SCENES / sizeof SCENES[0] };
 
-/* What the arguments say; 0 and NULL: what the preset says. */
-struct arguments {
-    bool full, quiet;
-    const char **scene; /* [n_scenes], owned array of borrowed strings */
-    int n_scenes;
+/* What the options say; 0 and NULL: what the preset says. */
+struct experiment_options {
+    struct texts scenes;
     const char *directory, *reference;
-    long spp, reference_spp, seeds, max_depth, threads;
-    int width, height;
+    bool full, quiet;
+    int spp, reference_spp, seeds, max_depth, n_threads, res[2];
 };
 
-static bool resolution_of(const char *text, struct arguments *a)
-{
-    int n = 0;
-    bool both = sscanf(text, "%dx%d%n", &a->width, &a->height, &n) == 2 && text[n] == '\0';
-    bool width = !both && (a->height = 0, sscanf(text, "%d%n", &a->width, &n) == 1) && text[n] == '\0';
-    if ((both || width) && a->width >= 1 && a->width <= 8192 && a->height >= (both ? 1 : 0) && a->height <= 8192)
-        return true;
-    return usage_error("--res %s: expected WIDTHxHEIGHT or WIDTH, each from 1 to 8192", text) == EXIT_OK;
-}
+#define AT(member) offsetof(struct experiment_options, member)
+static const struct option OPTIONS[] = {
+    {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes), .help = "scene files (default: the five of scenes/)"},
+    {"-o", "DIR", OPTION_TEXT, AT(directory), 1,
+     .help = "a directory for its results; started again with the same, it goes on where it stopped"},
+    {"--quick", NULL, OPTION_OFF, AT(full), .help = "48 pixels wide, 8 to 64 spp (default)"},
+    {"--full", NULL, OPTION_ON, AT(full), .help = "320 pixels wide, 32 to 512 spp, and all parameter sweeps"},
+    {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20, .help = "most samples per pixel"},
+    {"--seeds", "N", OPTION_INTEGER, AT(seeds), 1, PLAN_MAX_SEEDS, .help = "renders per method"},
+    {"--maxdepth", "N", OPTION_INTEGER, AT(max_depth), 1, PATH_MAX_DEPTH, .help = "longest path, 1 = direct light"},
+    {"--nthreads", "N", OPTION_INTEGER, AT(n_threads), 1, 1024, .alias = "-j", .help = "threads (default: all)"},
+    {"--res", "WxH or W", OPTION_WIDTH, AT(res), 1, 8192, .help = "size, or width alone"},
+    {"--reference", "PATH", OPTION_TEXT, AT(reference),
+     .help = "picture, or directory of NAME.pfm (default: ref/ beside the scene, else rendered)"},
+    {"--reference-spp", "N", OPTION_INTEGER, AT(reference_spp), 4, 1 << 24, .help = "samples of one rendered here"},
+    {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "no progress, no warnings"},
+    {.name = NULL},
+};
 
-/* An option that has a value. */
-static bool option_with_value(const char *name, const char *value, struct arguments *a)
+/* The steps of the samples stay doublings of the preset's first, up to --spp. */
+static bool make_plan(const struct experiment_options *o, struct plan *p, struct error *err)
 {
-    if (strcmp(name, "-o") == 0)
-        a->directory = value;
-    else if (strcmp(name, "--reference") == 0)
-        a->reference = value;
-    else if (strcmp(name, "--res") == 0)
-        return resolution_of(value, a);
-    else if (strcmp(name, "--spp") == 0)
-        return integer_option(name, value, 1, 1L << 20, &a->spp);
-    else if (strcmp(name, "--reference-spp") == 0)
-        return integer_option(name, value, 4, 1L << 24, &a->reference_spp);
-    else if (strcmp(name, "--seeds") == 0)
-        return integer_option(name, value, 1, PLAN_MAX_SEEDS, &a->seeds);
-    else if (strcmp(name, "--maxdepth") == 0)
-        return integer_option(name, value, 1, PATH_MAX_DEPTH, &a->max_depth);
-    else if (strcmp(name, "--nthreads") == 0 || strcmp(name, "-j") == 0)
-        return integer_option(name, value, 1, 1024, &a->threads);
-    else
-        return usage_error("unknown option %s", name) == EXIT_OK;
-    return true;
-}
-
-static bool parse(int argc, char **argv, struct arguments *a)
-{
-    for (int i = 1; i < argc; i++) {
-        const char *name = argv[i];
-        if (strcmp(name, "--quick") == 0 || strcmp(name, "--full") == 0)
-            a->full = strcmp(name, "--full") == 0;
-        else if (strcmp(name, "--quiet") == 0)
-            a->quiet = true;
-        else if (name[0] != '-')
-            a->scene[a->n_scenes++] = name;
-        else if (strncmp(name, "-j", 2) == 0 && name[2] != '\0') {
-            if (!integer_option("-j", name + 2, 1, 1024, &a->threads))
-                return false;
-        } else if (i + 1 >= argc)
-            return usage_error("%s is unknown or needs a value", name) == EXIT_OK;
-        else if (!option_with_value(name, argv[++i], a))
-            return false;
-    }
-    if (a->directory == NULL)
-        return usage_error("experiment needs a directory for its results: -o DIR") == EXIT_OK;
-    return true;
-}
-
-/* From arguments to a plan. The steps of the samples stay doublings of the preset's first, up to --spp. */
-static bool make_plan(const struct arguments *a, struct plan *p)
-{
-    struct error err;
     memset(p, 0, sizeof *p);
-    plan_preset(p, !a->full);
-    p->scene = a->scene;
-    p->n_scenes = a->n_scenes;
-    p->directory = a->directory;
-    p->reference = a->reference;
-    p->quiet = a->quiet;
-    p->max_depth = (int)a->max_depth;
-    p->n_threads = a->threads > 0 ? (int)a->threads : parallel_cores();
-    if (a->width > 0) {
-        p->width = a->width;
-        p->height = a->height;
+    plan_preset(p, !o->full);
+    p->scene = o->scenes.item;
+    p->n_scenes = o->scenes.n;
+    p->directory = o->directory;
+    p->reference = o->reference;
+    p->quiet = o->quiet;
+    p->max_depth = o->max_depth;
+    p->n_threads = o->n_threads;
+    if (o->res[0] > 0) {
+        p->width = o->res[0];
+        p->height = o->res[1];
     }
-    if (a->seeds > 0)
-        p->n_seeds = (int)a->seeds;
-    if (a->reference_spp > 0)
-        p->reference_spp = a->reference_spp;
-    if (a->spp > 0 && !plan_set_spp(p, a->spp < p->spp[0] ? a->spp : p->spp[0], a->spp, &err))
-        return usage_error("--spp %ld: %s", a->spp, err.text) == EXIT_OK;
-    return true;
+    if (o->seeds > 0)
+        p->n_seeds = o->seeds;
+    if (o->reference_spp > 0)
+        p->reference_spp = o->reference_spp;
+    return o->spp == 0 || plan_set_spp(p, o->spp < p->spp[0] ? o->spp : p->spp[0], o->spp, err);
 }
 
 static int carry_out(const struct plan *plan)
@@ -119,20 +73,19 @@ static int carry_out(const struct plan *plan)
     return ok ? EXIT_OK : fail(&err);
 }
 
-int command_experiment(int argc, char **argv)
+static int run(void *options)
 {
-    struct arguments a = {0};
+    struct experiment_options *o = options;
     struct plan plan;
-    a.scene = mem_alloc((size_t)(argc + N_SCENES), sizeof *a.scene);
-    int status = parse(argc, argv, &a) ? EXIT_OK : EXIT_USAGE;
-    if (a.n_scenes == 0) {
-        memcpy(a.scene, SCENES, sizeof SCENES);
-        a.n_scenes = N_SCENES;
-    }
-    if (status == EXIT_OK && !make_plan(&a, &plan))
-        status = EXIT_USAGE;
-    if (status == EXIT_OK)
-        status = carry_out(&plan);
-    free(a.scene);
-    return status;
+    struct error err;
+    bool named = o->scenes.n > 0;
+    for (int i = 0; !named && i < N_SCENES; i++)
+        texts_add(&o->scenes, SCENES[i]);
+    if (!make_plan(o, &plan, &err))
+        return usage_error(&command_experiment, "--spp %d: %s", o->spp, err.text);
+    return carry_out(&plan);
 }
+
+const struct command command_experiment = {
+    "experiment", "measure methods as the dissertation does", {"[--quick | --full] [SCENE.pbrt...] -o DIR [options]"},
+    OPTIONS, sizeof(struct experiment_options), run};

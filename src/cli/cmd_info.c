@@ -1,20 +1,14 @@
 /* cmd_info.c: asbdpt info SCENE: what is in a scene and how it was prepared. */
 #include <stdio.h>
 
-#include "cli/command.h"
 #include "base/progress.h"
+#include "cli/command.h"
+#include "cli/job_options.h"
 
-static const char *light_name(enum light_kind kind)
-{
-    switch (kind) {
-    case LIGHT_AREA: return "area";
-    case LIGHT_POINT: return "point";
-    case LIGHT_SPOT: return "spot";
-    case LIGHT_DISTANT: return "distant";
-    case LIGHT_INFINITE: return "infinite";
-    }
-    return "?";
-}
+static const char *const LIGHT_NAMES[] = {
+    [LIGHT_AREA] = "area", [LIGHT_POINT] = "point", [LIGHT_SPOT] = "spot",
+    [LIGHT_DISTANT] = "distant", [LIGHT_INFINITE] = "infinite",
+};
 
 static void print_lights(const struct light_set *lights)
 {
@@ -24,7 +18,7 @@ static void print_lights(const struct light_set *lights)
         total += lights->light[i].power;
     printf("lights        %d\n", lights->n);
     for (int i = 0; i < lights->n && i < SHOWN; i++)
-        printf("  %-9s   power %.4g W (%.1f %%)\n", light_name(lights->light[i].kind), lights->light[i].power,
+        printf("  %-9s   power %.4g W (%.1f %%)\n", LIGHT_NAMES[lights->light[i].kind], lights->light[i].power,
                total > 0 ? 100 * lights->light[i].power / total : 0);
     if (lights->n > SHOWN)
         printf("  and %d more\n", lights->n - SHOWN);
@@ -55,20 +49,18 @@ static void print_scene(const struct scene *s, const struct method *m, double se
     printf("loaded in     %.2f s\n", seconds);
 }
 
-int command_info(int argc, char **argv)
+static int run(void *options)
 {
-    struct job_options o;
-    int status = job_options_parse(argc, argv, &o);
-    if (status != EXIT_OK)
-        return status;
     struct scene scene;
     const struct method *method;
     double start = clock_seconds();
-    status = job_load(&o, &scene, &method);
+    int status = job_load(options, &scene, &method);
     if (status == EXIT_OK) {
         print_scene(&scene, method, clock_seconds() - start);
         scene_free(&scene);
     }
-    job_options_free(&o);
     return status;
 }
+
+const struct command command_info = {
+    "info", "describe a scene", {"SCENE.pbrt [options]"}, SCENE_OPTIONS, sizeof(struct job_options), run};

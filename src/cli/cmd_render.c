@@ -7,17 +7,18 @@
 #include <sys/stat.h>
 #include <time.h>
 
-#include "cli/command.h"
-#include "image/image.h"
 #include "base/mem.h"
 #include "base/progress.h"
+#include "cli/command.h"
+#include "cli/job_options.h"
+#include "image/image.h"
 
 /* Every output must be writable in principle before hours are spent. */
 static bool check_outputs(const struct job_options *o, struct error *err)
 {
-    for (int i = 0; i < o->n_outputs; i++)
-        if (!image_writable(o->output[i]))
-            return error_set(err, "%s: unknown image format; use .pfm, .ppm or .png", o->output[i]);
+    for (int i = 0; i < o->output.n; i++)
+        if (!image_writable(o->output.item[i]))
+            return error_set(err, "%s: unknown image format; use .pfm, .ppm or .png", o->output.item[i]);
     return true;
 }
 
@@ -44,9 +45,9 @@ static bool write_outputs(const struct job_options *o, const struct scene *scene
     float *pixels = mem_alloc((size_t)width * (size_t)height * 3, sizeof *pixels);
     film_develop(film, scene->film_scale, pixels);
     bool ok = true;
-    for (int i = 0; i < o->n_outputs; i++) /* a failing file does not keep the others from being written */
-        ok = image_write(o->output[i], width, height, pixels, ok ? err : NULL) && ok;
-    if (o->n_outputs == 0) {
+    for (int i = 0; i < o->output.n; i++) /* a failing file does not keep the others from being written */
+        ok = image_write(o->output.item[i], width, height, pixels, ok ? err : NULL) && ok;
+    if (o->output.n == 0) {
         char *name = default_output(scene);
         ok = image_write(name, width, height, pixels, err);
         free(name);
@@ -121,22 +122,22 @@ static bool render_and_write(const struct job_options *o, const struct scene *sc
     return ok;
 }
 
-int command_render(int argc, char **argv)
+static int run(void *options)
 {
-    struct job_options o;
-    int status = job_options_parse(argc, argv, &o);
-    if (status != EXIT_OK)
-        return status;
+    const struct job_options *o = options;
     struct error err;
     struct scene scene;
     const struct method *method;
-    if (!check_outputs(&o, &err)) {
-        status = fail(&err);
-    } else if ((status = job_load(&o, &scene, &method)) == EXIT_OK) {
-        if (!render_and_write(&o, &scene, method, &err))
-            status = fail(&err);
-        scene_free(&scene);
-    }
-    job_options_free(&o);
-    return status;
+    if (!check_outputs(o, &err))
+        return fail(&err);
+    int status = job_load(o, &scene, &method);
+    if (status != EXIT_OK)
+        return status;
+    bool ok = render_and_write(o, &scene, method, &err);
+    scene_free(&scene);
+    return ok ? EXIT_OK : fail(&err);
 }
+
+const struct command command_render = {
+    "render", "render a scene", {"SCENE.pbrt [-o FILE.{pfm,ppm,png}]... [options]"}, SCENE_OPTIONS,
+    sizeof(struct job_options), run};

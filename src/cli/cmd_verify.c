@@ -4,13 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/command.h"
-#include "lab/compare.h"
 #include "base/file.h"
-#include "image/image.h"
 #include "base/mem.h"
 #include "base/progress.h"
 #include "base/rng.h"
+#include "cli/command.h"
+#include "cli/job_options.h"
+#include "image/image.h"
+#include "lab/compare.h"
 #include "lab/verify.h"
 
 enum {
@@ -22,127 +23,68 @@ static const double SECONDS = 40; /* of rendering, unless --spp says otherwise *
 
 struct verify_options {
     struct job_options job;
-    bool has_scene;
-    char first[64], second[64]; /* methods; "": the default */
-    const char *reference;      /* a stored picture instead of the second method, or NULL */
-    const char *store;          /* write the mean of both sides as STORE.pfm ..., or NULL */
+    const char *methods;   /* A or A,B; or NULL */
+    const char *reference; /* a stored picture instead of the second method, or NULL */
+    const char *store;     /* write the mean of both sides as STORE.pfm ..., or NULL */
     const char *note;
-    char **files, **against; /* pictures; borrowed */
-    int n_files, n_against;
-    bool with_errors; /* files[0..1] and against[0..1] are a picture and its standard errors */
+    struct texts files, against; /* pictures */
+    struct texts images;         /* of both sides, each picture followed by its standard errors */
     int batches, tile;
     double alpha;
+    /* What follows from the above: */
+    bool has_scene, with_errors; /* with errors, files[0..1] and against[0..1] are a picture and its standard errors */
+    char first[64], second[64];  /* methods; "": the default */
 };
 
-/* --- arguments --------------------------------------------------------------------------------------- */
+/* --- options ----------------------------------------------------------------------------------------- */
 
-static bool number_of(const char *option, const char *text, double low, double high, double *out)
+#define AT(member) offsetof(struct verify_options, member)
+static const struct option OPTIONS[] = {
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), .help = "a scene file"},
+    {"--methods", "A,B", OPTION_TEXT, AT(methods), .help = "integrators (default: bdpt and the scene's, or asbdpt)"},
+    {"--reference", "R.pfm", OPTION_TEXT, AT(reference), .help = "a picture, beside R.error.pfm, instead of B"},
+    {"--images", "FILE...", OPTION_LIST, AT(images), .help = "pictures, each followed by its standard errors"},
+    {"--files", "FILE...", OPTION_LIST, AT(files), .help = "pictures that differ in nothing but their seeds"},
+    {"--against", "FILE...", OPTION_LIST, AT(against), .help = "the pictures of the other side"},
+    {"--store", "NAME", OPTION_TEXT, AT(store), .help = "write the mean of both sides as NAME.pfm, .error.pfm, .txt"},
+    {"--note", "TEXT", OPTION_TEXT, AT(note), .fallback = "", .help = "where a stored reference comes from"},
+    {"--batches", "N", OPTION_INTEGER, AT(batches), 4, 10000, .fallback = "12", .help = "renders of each side"},
+    {"--tile", "N", OPTION_INTEGER, AT(tile), 1, 10000, .help = "side of the squares of pixels that are compared"},
+    {"--alpha", "P", OPTION_NUMBER, AT(alpha), 1e-12, 0.5, .fallback = "0.001", .help = "share of false alarms"},
+    {.others = JOB_OPTIONS},
+};
+
+static bool choose_sides(struct verify_options *o)
 {
-    char *end;
-    *out = strtod(text, &end);
-    if (end != text && *end == '\0' && *out >= low && *out <= high)
+    struct error known;
+    if (o->methods != NULL)
+        sscanf(o->methods, "%63[^,],%63s", o->first, o->second);
+    const char *wrong = o->first[0] != '\0' && method_find(o->first) == NULL ? o->first : o->second;
+    if (wrong[0] == '\0' || method_find(wrong) != NULL)
         return true;
-    usage_error("%s %s: expected a number from %g to %g", option, text, low, high);
+    method_unknown(wrong, &known);
+    return usage_error(&command_verify, "--methods: there is no method %s; %s", wrong, known.text) == EXIT_OK;
+}
+
+/* One side is --files, the other --against; --images has both, or one, each with its errors. */
+static bool choose_pictures(struct verify_options *o)
+{
+    o->with_errors = o->images.n > 0;
+    for (int i = 0; i < o->images.n; i++)
+        texts_add(i < 2 ? &o->files : &o->against, o->images.item[i]);
+    return o->with_errors ? o->files.n == 2 && o->against.n == 2 : o->files.n > 1 && o->against.n > 1;
+}
+
+static bool complete(struct verify_options *o)
+{
+    bool pictures = o->files.n + o->images.n > 0;
+    o->has_scene = o->job.scene_path != NULL;
+    bool good = pictures ? choose_pictures(o) && (o->store == NULL || o->has_scene) : o->has_scene && o->store == NULL;
+    if (good)
+        return choose_sides(o);
+    const char *const *usage = command_verify.usage;
+    usage_error(&command_verify, "usage: asbdpt verify %s, or %s, or %s", usage[0], usage[1], usage[2]);
     return false;
-}
-
-/* Arguments up to the next option. */
-static int list_of(int argc, char **argv, int at)
-{
-    int n = 0;
-    while (at + n < argc && argv[at + n][0] != '-')
-        n++;
-    return n;
-}
-
-static bool methods_of(const char *text, struct verify_options *o)
-{
-    sscanf(text, "%63[^,],%63s", o->first, o->second);
-    for (int i = 0; i < 2; i++) {
-        const char *name = i == 0 ? o->first : o->second;
-        if (name[0] != '\0' && method_find(name) == NULL) {
-            usage_error("--methods: there is no method %s", name);
-            return false;
-        }
-    }
-    return true;
-}
-
-/* The option at argv[i], if it is one of verify's own: how many arguments it takes up. 0: not one of them, -1: wrong. */
-static int own_option(int argc, char **argv, int i, struct verify_options *o)
-{
-    const char *name = argv[i];
-    double x = 0;
-    if (strcmp(name, "--files") == 0 || strcmp(name, "--images") == 0) {
-        o->files = argv + i + 1;
-        o->n_files = list_of(argc, argv, i + 1);
-        o->with_errors = strcmp(name, "--images") == 0;
-        return 1 + o->n_files;
-    }
-    if (strcmp(name, "--against") == 0) {
-        o->against = argv + i + 1;
-        o->n_against = list_of(argc, argv, i + 1);
-        return 1 + o->n_against;
-    }
-    static const char *const with_value[] = {"--methods", "--reference", "--store", "--note", "--batches", "--tile", "--alpha"};
-    size_t k = 0;
-    while (k < 7 && strcmp(name, with_value[k]) != 0)
-        k++;
-    if (k == 7)
-        return 0;
-    if (i + 1 >= argc)
-        return usage_error("%s needs a value", name) == EXIT_OK ? 0 : -1;
-    const char *value = argv[i + 1];
-    bool ok = true;
-    switch (k) {
-    case 0: ok = methods_of(value, o); break;
-    case 1: o->reference = value; break;
-    case 2: o->store = value; break;
-    case 3: o->note = value; break;
-    case 4: ok = number_of(name, value, 4, 10000, &x), o->batches = (int)x; break;
-    case 5: ok = number_of(name, value, 1, 10000, &x), o->tile = (int)x; break;
-    case 6: ok = number_of(name, value, 1e-12, 0.5, &o->alpha); break;
-    }
-    return ok ? 2 : -1;
-}
-
-static int parse(int argc, char **argv, struct verify_options *o)
-{
-    memset(o, 0, sizeof *o);
-    o->batches = 12;
-    o->alpha = 0.001;
-    o->note = "";
-    char **rest = mem_alloc((size_t)argc, sizeof *rest);
-    int n_rest = 0, status = EXIT_OK, step;
-    for (int i = 0; i < argc && status == EXIT_OK; i += step) {
-        step = i == 0 ? 0 : own_option(argc, argv, i, o);
-        if (step < 0)
-            status = EXIT_USAGE;
-        if (step == 0) {
-            rest[n_rest++] = argv[i];
-            step = 1;
-        }
-    }
-    if (o->with_errors && o->n_files == 4) { /* picture, error, picture, error */
-        o->against = o->files + 2;
-        o->n_files = o->n_against = 2;
-    }
-    o->has_scene = n_rest > 1;
-    if (status == EXIT_OK && (o->has_scene || o->n_files == 0))
-        status = job_options_parse(n_rest, rest, &o->job);
-    free(rest);
-    if (status != EXIT_OK)
-        return status;
-    bool pictures = o->n_files > 0;
-    bool good = !pictures || (o->n_against > 0 && (o->with_errors ? o->n_files == 2 && o->n_against == 2
-                                                                  : o->n_files > 1 && o->n_against > 1));
-    if (good && (pictures || o->store == NULL) && (o->store == NULL || o->has_scene))
-        return EXIT_OK;
-    if (o->has_scene)
-        job_options_free(&o->job);
-    return usage_error("usage: asbdpt verify SCENE [--methods A,B | --methods A --reference R.pfm] [--batches N] [--tile N], "
-                       "or verify --images A.pfm A.error.pfm B.pfm B.error.pfm, "
-                       "or verify SCENE --files A.pfm... --against B.pfm... [--store NAME]");
 }
 
 /* --- samples ----------------------------------------------------------------------------------------- */
@@ -178,7 +120,8 @@ static bool read_into(const char *path, struct sizes *size, double **out, struct
     return fits;
 }
 
-static bool read_side(char **file, int n, bool with_errors, struct sizes *size, struct side *out, struct error *err)
+static bool read_side(const char *const *file, int n, bool with_errors, struct sizes *size, struct side *out,
+                      struct error *err)
 {
     int batches = with_errors ? 1 : n;
     memset(&out->pixels, 0, sizeof out->pixels);
@@ -256,7 +199,7 @@ static void choose_resolution(struct scene *scene, const struct verify_options *
     if (o->reference != NULL) {
         scene->width = size->width;
         scene->height = size->height;
-    } else if (o->job.width == 0) {
+    } else if (o->job.res[0] == 0) {
         scene->width = (int)fmax(1, sqrt(PIXELS) * aspect + 0.5);
         scene->height = (int)fmax(1, sqrt(PIXELS) / aspect + 0.5);
     }
@@ -274,7 +217,8 @@ static void choose_methods(const struct verify_options *o, const struct method *
 /* A stored reference NAME.pfm comes with NAME.error.pfm. */
 static bool read_reference(const char *path, struct sizes *size, struct side *out, struct error *err)
 {
-    char picture[4096], error[4096], *both[2] = {picture, error};
+    char picture[4096], error[4096];
+    const char *both[2] = {picture, error};
     int stem = (int)strlen(path) - 4;
     if (stem < 1 || strcmp(path + stem, ".pfm") != 0)
         return error_set(err, "%s: a reference is a .pfm file", path);
@@ -292,7 +236,7 @@ static bool render_sides(struct scene *scene, const struct method *scenes, const
     choose_methods(o, scenes, m);
     if (o->reference != NULL && !read_reference(o->reference, size, b, err))
         return false;
-    if (o->reference != NULL || o->job.width == 0) {
+    if (o->reference != NULL || o->job.res[0] == 0) {
         int width = scene->width, height = scene->height;
         choose_resolution(scene, o, size);
         if (width != scene->width || height != scene->height)
@@ -449,9 +393,9 @@ static int verify(const struct verify_options *o)
     if (o->has_scene && (status = job_load(&o->job, &scene, &method)) != EXIT_OK)
         return status;
     bool ok = !o->has_scene || render_max_depth(&scene, o->job.max_depth, &max_depth, &err);
-    if (ok && o->n_files > 0)
-        ok = read_side(o->files, o->n_files, o->with_errors, &size, &a, &err) &&
-             read_side(o->against, o->n_against, o->with_errors, &size, &b, &err);
+    if (ok && o->files.n > 0)
+        ok = read_side(o->files.item, o->files.n, o->with_errors, &size, &a, &err) &&
+             read_side(o->against.item, o->against.n, o->with_errors, &size, &b, &err);
     else if (ok)
         ok = render_sides(&scene, method, o, &size, &a, &b, &err);
     status = ok ? judge(o, &size, max_depth, &a, &b, &err) : fail(&err);
@@ -462,14 +406,11 @@ static int verify(const struct verify_options *o)
     return status;
 }
 
-int command_verify(int argc, char **argv)
-{
-    struct verify_options o;
-    int status = parse(argc, argv, &o);
-    if (status != EXIT_OK)
-        return status;
-    status = verify(&o);
-    if (o.has_scene)
-        job_options_free(&o.job);
-    return status;
-}
+static int run(void *options) { return complete(options) ? verify(options) : EXIT_USAGE; }
+
+const struct command command_verify = {
+    "verify", "test that two methods, or two pictures, agree",
+    {"SCENE.pbrt [--methods A,B | --methods A --reference R.pfm] [options]",
+     "--images A.pfm A.error.pfm B.pfm B.error.pfm",
+     "SCENE.pbrt --files A.pfm... --against B.pfm... [--store NAME]"},
+    OPTIONS, sizeof(struct verify_options), run};

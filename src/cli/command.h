@@ -1,64 +1,38 @@
-/* command.h: the subcommands of the command line.
+/* command.h: what a subcommand of the command line is, and the table of all.
  *
- * Each reads its own arguments (argv[0] is the subcommand's name) and returns the program's exit status: 0 success,
- * 1 failure of the job, 2 wrong usage. Messages go to stderr through the helpers here.
- *
- * Used by: main.
+ * A subcommand names its options (options.h) and does its work on the struct that they fill. Its exit status is the
+ * program's. Messages go to stderr through the helpers here.
  */
 #ifndef ASBDPT_COMMAND_H
 #define ASBDPT_COMMAND_H
 
-#include <stdbool.h>
-#include <stdint.h>
+#include <stddef.h>
 
 #include "base/error.h"
-#include "render/render.h"
-#include "scene/scene.h"
+#include "cli/options.h"
 
-enum { EXIT_OK = 0, EXIT_JOB = 1, EXIT_USAGE = 2 };
+enum { EXIT_OK = 0, EXIT_JOB = 1, EXIT_USAGE = 2 }; /* success, failure of the job, wrong usage */
 
-int command_render(int argc, char **argv);
-int command_compare(int argc, char **argv);
-int command_verify(int argc, char **argv);
-int command_info(int argc, char **argv);
-int command_experiment(int argc, char **argv);
-int command_bench(int argc, char **argv);
-
-/* fail / usage_error: print "asbdpt: message" and return EXIT_JOB / EXIT_USAGE. */
-int fail(const struct error *err);
-int usage_error(const char *format, ...);
-
-/* integer_option: the whole number that `text`, the value of `option`, is; a usage error outside [low, high]. */
-bool integer_option(const char *option, const char *text, long low, long high, long *out);
-
-/* The options that render, trace and info share. */
-struct job_options {
-    const char *scene_path;
-    const char **output; /* [n_outputs], owned array of borrowed strings */
-    int n_outputs;
-    const char *integrator;    /* NULL: the scene's */
-    struct settings overrides; /* -P */
-    long spp;                  /* 0: the scene's */
-    int max_depth;             /* 0: the scene's */
-    int width, height;         /* 0: the scene's */
-    const char *filter;        /* NULL: the scene's */
-    bool has_crop;
-    double crop[4];
-    int n_threads;
-    uint64_t seed;
-    const char *strategies; /* directory or NULL */
-    bool quiet;
+struct command {
+    const char *name, *help;
+    const char *usage[4];         /* its forms after "asbdpt NAME", ended by NULL */
+    const struct option *options; /* table */
+    size_t size;                  /* of the struct that the options fill */
+    int (*run)(void *options);    /* returns the exit status */
 };
 
-/* job_options_parse: read the arguments after the subcommand. Returns EXIT_OK, or EXIT_USAGE after printing why. */
-int job_options_parse(int argc, char **argv, struct job_options *out);
-void job_options_free(struct job_options *o);
+extern const struct command command_render, command_compare, command_experiment, command_bench, command_verify,
+    command_info;
 
-/* job_load: parse the scene, apply the overrides, prepare it, and find the method. Returns EXIT_OK, or EXIT_JOB after
- * printing why (then nothing needs release). */
-int job_load(const struct job_options *o, struct scene *scene, const struct method **method);
+/* command_list: all subcommands, ended by NULL. */
+const struct command *const *command_list(void);
 
-/* job_spp: samples per pixel in force: option, scene, else 16. */
-long job_spp(const struct job_options *o, const struct scene *scene);
+/* command_line: what the program does with its arguments, argv[0] being its own name. Returns the exit status. */
+int command_line(int argc, char **argv);
+
+/* fail / usage_error: print "asbdpt: message" and return EXIT_JOB / EXIT_USAGE.
+ *   command  whose help the message points to; NULL: everybody's */
+int fail(const struct error *err);
+int usage_error(const struct command *command, const char *format, ...);
 
 #endif

@@ -1,0 +1,120 @@
+/* command.c: see command.h. A new subcommand is a new word in COMMANDS. */
+#include "cli/command.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "integrators/method.h"
+#include "parser/suggest.h"
+
+static const char VERSION[] = "asbdpt 0.1";
+
+static const struct command *const COMMANDS[] = {&command_render, &command_compare, &command_experiment,
+                                                 &command_bench, &command_verify, &command_info, NULL};
+
+const struct command *const *command_list(void) { return COMMANDS; }
+
+/* --- messages ----------------------------------------------------------------------------------------- */
+
+int fail(const struct error *err)
+{
+    fprintf(stderr, "asbdpt: %s\n", err->text);
+    return EXIT_JOB;
+}
+
+int usage_error(const struct command *command, const char *format, ...)
+{
+    struct error err;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(err.text, sizeof err.text, format, args);
+    va_end(args);
+    error_clean(err.text);
+    fprintf(stderr, "asbdpt: %s; try asbdpt %s%s--help\n", err.text, command != NULL ? command->name : "",
+            command != NULL ? " " : "");
+    return EXIT_USAGE;
+}
+
+/* --- help --------------------------------------------------------------------------------------------- */
+
+/* The options that subcommands share are the first one's. */
+static void print_command(const struct command *c, bool alone)
+{
+    printf("asbdpt %s: %s\n", c->name, c->help);
+    for (int i = 0; c->usage[i] != NULL; i++)
+        printf("%s asbdpt %s %s\n", i == 0 ? "usage:" : "   or:", c->name, c->usage[i]);
+    const struct option *shared = options_print(c->options);
+    if (shared != NULL && (alone || c == COMMANDS[0]))
+        options_print(shared);
+    else if (shared != NULL)
+        printf("    and the options of %s\n", COMMANDS[0]->name);
+}
+
+static void print_methods(void)
+{
+    printf("integrators and their parameters (-P NAME=VALUE, or in the scene's Integrator directive):\n");
+    printf("    all: maxdepth 5, heuristic balance|power, rrthreshold 0.5, for select=bins 0 "
+           "(0: no Russian roulette)\n");
+    for (const struct method *const *m = method_list(); *m != NULL; m++) {
+        printf("    %-8s %s\n", (*m)->name, (*m)->help);
+        for (const struct parameter *p = (*m)->parameters; p->name != NULL; p++)
+            printf("             %-12s %-10s %s\n", p->name, p->fallback, p->help);
+    }
+}
+
+static void print_help(void)
+{
+    printf("%s: Alias Sampled Bidirectional Path Tracing, a reference implementation\n\n", VERSION);
+    for (int i = 0; COMMANDS[i] != NULL; i++) {
+        print_command(COMMANDS[i], false);
+        printf("\n");
+    }
+    print_methods();
+    printf("\nexit status: 0 success, 1 the job failed, 2 wrong usage\n");
+}
+
+static bool asks_for_help(const char *word) { return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0; }
+
+/* --- the command line --------------------------------------------------------------------------------- */
+
+static int run(const struct command *c, int argc, char **argv)
+{
+    for (int i = 1; i < argc; i++)
+        if (asks_for_help(argv[i])) {
+            print_command(c, true);
+            return EXIT_OK;
+        }
+    struct error err;
+    void *options = mem_alloc(1, c->size);
+    bool ok = options_read(c->options, argc, argv, options, &err);
+    int status = ok ? c->run(options) : usage_error(c, "%s", err.text);
+    options_free(c->options, options);
+    free(options);
+    return status;
+}
+
+int command_line(int argc, char **argv)
+{
+    if (argc < 2)
+        return usage_error(NULL, "which command?");
+    if (asks_for_help(argv[1]) || strcmp(argv[1], "help") == 0) {
+        print_help();
+        return EXIT_OK;
+    }
+    if (strcmp(argv[1], "--version") == 0) {
+        printf("%s\n", VERSION);
+        return EXIT_OK;
+    }
+    struct suggestion s = suggest_start(argv[1]);
+    for (int i = 0; COMMANDS[i] != NULL; i++) {
+        if (strcmp(argv[1], COMMANDS[i]->name) == 0)
+            return run(COMMANDS[i], argc - 1, argv + 1);
+        suggest_offer(&s, COMMANDS[i]->name);
+    }
+    if (s.name == NULL)
+        return usage_error(NULL, "unknown command %s", argv[1]);
+    return usage_error(NULL, "unknown command %s (did you mean %s?)", argv[1], s.name);
+}

@@ -1,0 +1,40 @@
+/* job_options.h: the options that the subcommands which load a scene share, and the loading. */
+#ifndef ASBDPT_JOB_OPTIONS_H
+#define ASBDPT_JOB_OPTIONS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "cli/options.h"
+#include "render/render.h"
+#include "scene/scene.h"
+
+/* A subcommand with options of its own has this as the first member of its struct: offsets count from there. */
+struct job_options {
+    const char *scene_path;
+    struct texts output;
+    const char *integrator; /* NULL: the scene's */
+    struct texts overrides; /* NAME=VALUE of -P */
+    int spp;                /* 0: the scene's */
+    int max_depth;          /* 0: the scene's */
+    int res[2];             /* width, height; 0: the scene's */
+    const char *filter;     /* NULL: the scene's */
+    double crop[4];         /* x0, x1, y0, y1; x1 = 0: the scene's */
+    int n_threads;
+    uint64_t seed;
+    const char *strategies; /* directory or NULL */
+    bool quiet;
+};
+extern const struct option JOB_OPTIONS[], SCENE_OPTIONS[]; /* the second have the scene itself too, which they need */
+
+/* job_load: parse the scene, apply the options, prepare it, and find the method. Returns EXIT_OK, or EXIT_JOB after
+ * printing why (then nothing needs release). */
+int job_load(const struct job_options *o, struct scene *scene, const struct method **method);
+
+/* job_spp: samples per pixel in force: option, scene, else 16. */
+long job_spp(const struct job_options *o, const struct scene *scene);
+
+/* method_unknown: the rest of a message about a method that does not exist: the nearest and all. */
+void method_unknown(const char *wanted, struct error *out);
+
+#endif

@@ -1,0 +1,69 @@
+/* options.h: one reader for the options of every subcommand, driven by tables.
+ *
+ * A table is an array of rows: what an option is called, which kind of value it takes, within which range, where in the
+ * subcommand's struct the value goes, and a line of help. The reader, the help and the tests go by the same rows. The
+ * row that ends a table, without a name, may lead on to a table that several subcommands share.
+ *
+ *     --name VALUE, --name=VALUE, -n VALUE, -nVALUE    an option; given twice, the later one counts
+ *     WORD                                             an operand: a row whose name has no dash in front
+ *
+ * Tests: test_options.c, test/cli.sh.
+ */
+#ifndef ASBDPT_OPTIONS_H
+#define ASBDPT_OPTIONS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/error.h"
+
+enum option_kind {           /* type of the target, and what is read into it */
+    OPTION_ON, OPTION_OFF,   /* bool: becomes true, false; no value */
+    OPTION_INTEGER,          /* int from low to high */
+    OPTION_SEED,             /* uint64_t, any */
+    OPTION_NUMBER,           /* double from low to high */
+    OPTION_WINDOW,           /* double[4]: X0 X1 Y0 Y1 or X0,X1,Y0,Y1 from low to high, X0 < X1, Y0 < Y1 */
+    OPTION_SIZE,             /* int[2]: WIDTHxHEIGHT, each from low to high */
+    OPTION_WIDTH,            /* the same, or WIDTH alone, then the height becomes 0 */
+    OPTION_TEXT,             /* const char *, borrowed from the arguments */
+    OPTION_TEXTS,            /* struct texts: one more each time */
+    OPTION_PAIRS,            /* the same, each NAME=VALUE */
+    OPTION_LIST              /* struct texts: all arguments up to the next option */
+};
+
+/* What an option that may be repeated collects. */
+struct texts {
+    const char **item; /* [n], owned array of borrowed strings */
+    int n;
+    size_t capacity;
+};
+
+struct option {
+    const char *name;            /* "--spp"; without a dash an operand, then of kind OPTION_TEXT or OPTION_TEXTS */
+    const char *value;           /* what the help calls its value; NULL: it has none */
+    enum option_kind kind;
+    size_t offset;               /* of the target in the subcommand's struct */
+    double low, high;            /* range of numbers; of texts: low 1 if one must be given */
+    const char *alias;           /* another name, or NULL */
+    const char *fallback;        /* text of the default; NULL: the target stays zero */
+    const char *help;            /* where one must be given: what it is, with an article */
+    const struct option *others; /* in the row without a name: the table that goes on, or NULL */
+};
+
+/* options_next: the row after this one, also in the tables that follow; NULL after the last. */
+const struct option *options_next(const struct option *option);
+
+/* options_read: set every fallback, then read the arguments.
+ *   table   not empty
+ *   argv    [argc]; argv[0] is the subcommand's name
+ *   target  the subcommand's struct, all zeros
+ * Returns false with a message on wrong usage. Either way options_free releases what the target's lists hold. */
+bool options_read(const struct option *table, int argc, char **argv, void *target, struct error *err);
+void options_free(const struct option *table, void *target);
+
+/* options_print: one line of help for every row of this table alone. Returns the table that goes on, or NULL. */
+const struct option *options_print(const struct option *table);
+
+void texts_add(struct texts *texts, const char *text);
+
+#endif
