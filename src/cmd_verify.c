@@ -205,6 +205,7 @@ static bool render_one(const struct scene *scene, const struct method *m, const 
     struct film film;
     film_init(&film, render_crop(scene), scene->width, scene->height);
     bool ok = render_scene(scene, &options, &film, err);
+    report_left_out(&film);
     for (long i = 0; ok && out != NULL && i < 3L * rect_width(film.rect) * rect_height(film.rect); i++)
         out[i] = (film.own[i] + film.splat[i]) / (double)film.iterations * scene->film_scale;
     film_free(&film);
@@ -250,6 +251,7 @@ static void choose_resolution(struct scene *scene, const struct verify_options *
         scene->width = size->width;
         scene->height = size->height;
     } else if (o->job.width == 0) {
+        /* A film has at most 65536 pixels a side, so aspect is 1/256 to 256. */
         scene->width = (int)fmax(1, sqrt(PIXELS) * aspect + 0.5);
         scene->height = (int)fmax(1, sqrt(PIXELS) / aspect + 0.5);
     }
