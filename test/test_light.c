@@ -148,8 +148,36 @@ static void test_environment(struct test *t)
     scene_free(&scene);
 }
 
+/* A map with numbers that are none, and directions that are none: every answer is a number, every cell exists. */
+static void test_damaged_map(struct test *t)
+{
+    enum { W = 40, H = 20 };
+    static float pixels[W * H * 3];
+    static const float bad[4] = {NAN, INFINITY, -INFINITY, -3};
+    char path[256], text[512];
+    struct error err = {""};
+    for (int i = 0; i < W * H * 3; i++)
+        pixels[i] = i % 5 == 0 ? bad[i / 5 % 4] : 1;
+    snprintf(path, sizeof path, "%s/damaged.pfm", test_tmp(t));
+    if (!CHECK(t, image_write(path, W, H, pixels, &err), "%s", err.text))
+        return;
+    snprintf(text, sizeof text, "WorldBegin LightSource \"infinite\" \"string mapname\" \"%s\"\n"
+             "LightSource \"infinite\" \"rgb L\" [.3 .3 .3] WorldEnd\n", path);
+    struct scene scene;
+    if (!scene_from_text(t, text, &scene))
+        return;
+    struct direction_source s = {&scene.lights, NULL, &scene.geo, 0};
+    CHECK(t, scene.lights.choice.n == scene.lights.n_cells, "there is no table of choices");
+    check_directions(t, s, "damaged environment light");
+    const vec3 none[] = {vec(NAN, NAN, NAN), vec(0, 0, 0), vec(INFINITY, 0, -INFINITY), vec(0, 0, NAN)};
+    for (size_t i = 0; i < sizeof none / sizeof none[0]; i++)
+        light_pdf_environment(&scene.lights, &scene.lights.choice, none[i]); /* under sanitizers: stays in its tables */
+    scene_free(&scene);
+}
+
 void test_light(struct test *t)
 {
     test_emission(t);
     test_environment(t);
+    test_damaged_map(t);
 }
