@@ -44,8 +44,7 @@ static bool write_outputs(const struct job_options *o, const struct scene *scene
     int width = rect_width(film->rect), height = rect_height(film->rect);
     float *pixels = mem_alloc((size_t)width * (size_t)height * 3, sizeof *pixels);
     long cut = film_develop(film, scene->film_scale, pixels);
-    if (cut > 0)
-        fprintf(stderr, "asbdpt: warning: %ld pixel values were beyond 3.4e38 and were cut to it\n", cut);
+    film_warn(film, cut);
     bool ok = true;
     for (int i = 0; i < o->n_outputs; i++) /* a failing file does not keep the others from being written */
         ok = image_write(o->output[i], width, height, pixels, ok ? err : NULL) && ok;
@@ -87,7 +86,6 @@ static void report(const struct job_options *o, const struct method *m, const st
                    double cpu)
 {
     double paths = (double)film->iterations * rect_width(film->rect) * rect_height(film->rect);
-    report_left_out(film);
     if (!o->quiet)
         fprintf(stderr, "%s: %dx%d, %ld spp, %s; %.2f s, %.2f s of CPU, %.2f us per sample path\n", o->scene_path,
                 rect_width(film->rect), rect_height(film->rect), film->iterations, m->name, wall, cpu,

@@ -35,9 +35,6 @@ bool integer_option(const char *option, const char *text, long low, long high, l
  * *height is left alone where it is not given. */
 int size_option(const char *text, int high, int *width, int *height);
 
-/* report_left_out: say on stderr how many contributions to a film could not be used, if any. */
-void report_left_out(const struct film *film);
-
 /* The options that render, trace and info share. */
 struct job_options {
     const char *scene_path;

@@ -2,6 +2,7 @@
 #include "film.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -232,6 +233,15 @@ long film_develop(const struct film *f, double scale, float *out)
         out[i] = float_within(value);
     }
     return cut;
+}
+
+void film_warn(const struct film *f, long cut)
+{
+    if (f->nonfinite > 0)
+        fprintf(stderr, "asbdpt: warning: %ld contributions were not finite, or too large, and were left out\n",
+                f->nonfinite);
+    if (cut > 0)
+        fprintf(stderr, "asbdpt: warning: %ld pixel values were beyond 3.4e38 and were cut to it\n", cut);
 }
 
 void film_standard_error(const struct film *f, double scale, float *out)

@@ -104,6 +104,9 @@ void film_merge_tile(struct film *f, const struct tile *t);
  * float holds are cut to FLT_MAX; returns how many. */
 long film_develop(const struct film *f, double scale, float *out);
 
+/* film_warn: say on stderr how many contributions were left out and how many values film_develop cut, if any. */
+void film_warn(const struct film *f, long cut);
+
 /* film_standard_error: of each value of film_develop; infinite with fewer than two iterations. */
 void film_standard_error(const struct film *f, double scale, float *out);
 

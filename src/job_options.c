@@ -67,13 +67,6 @@ int size_option(const char *text, int high, int *width, int *height)
     return 2;
 }
 
-void report_left_out(const struct film *film)
-{
-    if (film->nonfinite > 0)
-        fprintf(stderr, "asbdpt: warning: %ld contributions were not finite, or too large, and were left out\n",
-                film->nonfinite);
-}
-
 /* --- reading the arguments --------------------------------------------------------------------------- */
 
 struct argument_list {
