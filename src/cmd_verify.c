@@ -40,9 +40,11 @@ struct verify_options {
 static bool number_of(const char *option, const char *text, double low, double high, double *out)
 {
     char *end;
-    *out = strtod(text, &end);
-    if (end != text && *end == '\0' && *out >= low && *out <= high)
+    double x = strtod(text, &end);
+    if (end != text && *end == '\0' && x >= low && x <= high) {
+        *out = x;
         return true;
+    }
     usage_error("%s %s: expected a number from %g to %g", option, text, low, high);
     return false;
 }

@@ -54,6 +54,8 @@ expect 2 'expected an integer' "$program" render "$box" --spp 999999999999999999
 expect 2 'expected a number of threads' "$program" render "$box" -j99999999999999999999
 expect 2 'not a number from 0 to 1' "$program" render "$box" --cropwindow 0 nan 0 1
 expect 2 'expected a number' "$program" verify "$box" --alpha nan
+expect 2 'expected a number' "$program" verify "$box" --batches nan
+expect 2 'expected a number' "$program" verify "$box" --tile 1e300
 expect 2 'window is empty' "$program" render "$box" --cropwindow 0.5 0.5 0 1
 expect 1 'unknown image format' "$program" render "$box" $small -o x.exr
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt

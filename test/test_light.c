@@ -8,6 +8,7 @@
 #include "../src/mem.h"
 #include "../src/rng.h"
 #include "../src/stats.h"
+#include "../src/warp.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -169,6 +170,10 @@ static void test_damaged_map(struct test *t)
     struct direction_source s = {&scene.lights, NULL, &scene.geo, 0};
     CHECK(t, scene.lights.choice.n == scene.lights.n_cells, "there is no table of choices");
     check_directions(t, s, "damaged environment light");
+    for (int i = 0; i < 500; i++) {
+        rgb L = light_Le_environment(&scene.lights, warp_sphere((i + 0.5) / 500, i * 0.618 - floor(i * 0.618)));
+        CHECK(t, L.r >= 0.3 && L.g >= 0.3 && L.b >= 0.3 && rgb_is_finite(L), "light of (%g %g %g)", L.r, L.g, L.b);
+    }
     const vec3 none[] = {vec(NAN, NAN, NAN), vec(0, 0, 0), vec(INFINITY, 0, -INFINITY), vec(0, 0, NAN)};
     for (size_t i = 0; i < sizeof none / sizeof none[0]; i++)
         light_pdf_environment(&scene.lights, &scene.lights.choice, none[i]); /* under sanitizers: stays in its tables */

@@ -296,6 +296,7 @@ static void check_quadric_refused(struct test *t)
 {
     struct quadric q[] = {{QUADRIC_DISK, transform_identity(), 2e38, 0, 0, 0, 2 * PI, 0},
                           {QUADRIC_CYLINDER, transform_identity(), 1, 0, -1, 1e39, 2 * PI, 0},
+                          {QUADRIC_CYLINDER, transform_identity(), 1, 0, -1, 3e18, 2 * PI, 0},
                           {QUADRIC_SPHERE, transform_translate(vec(0, 1e51, 0)), 1, 0, -1, 1, 2 * PI, 0},
                           {QUADRIC_SPHERE, transform_scale(1, 1, 1e19), 1, 0, -1, 1, 2 * PI, 0},
                           {QUADRIC_SPHERE, transform_translate(vec(NAN, 0, 0)), 1, 0, -1, 1, 2 * PI, 0}};
