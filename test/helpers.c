@@ -5,11 +5,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "../src/mem.h"
-#include "../src/parallel.h"
-#include "../src/parser.h"
-#include "../src/render.h"
-#include "../src/stats.h"
+#include "base/mem.h"
+#include "base/parallel.h"
+#include "parser/parser.h"
+#include "render/render.h"
+#include "base/stats.h"
 
 bool file_exists(const char *path)
 {

@@ -2,8 +2,8 @@
 #ifndef ASBDPT_TEST_HELPERS_H
 #define ASBDPT_TEST_HELPERS_H
 
-#include "../src/method.h"
-#include "../src/scene.h"
+#include "integrators/method.h"
+#include "scene/scene.h"
 #include "test.h"
 
 /* scene_from_text: parse and prepare a scene given as text. A failure is a failed check; returns false. */

@@ -11,8 +11,8 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "../src/mem.h"
-#include "../src/stats.h"
+#include "base/mem.h"
+#include "base/stats.h"
 #include "tests.h"
 
 static const double SUITE_ALPHA = 0.001;

@@ -2,7 +2,7 @@
  * per unit area, multiplied out one strategy at a time; nothing is shared with mis.h but the sample counts. [V97 10.2] */
 #include "oracle.h"
 
-#include "../src/fresnel.h"
+#include "material/fresnel.h"
 
 /* The whole path, light first. */
 struct full_path {

@@ -2,8 +2,8 @@
 #ifndef ASBDPT_TEST_ORACLE_H
 #define ASBDPT_TEST_ORACLE_H
 
-#include "../src/mis.h"
-#include "../src/path.h"
+#include "transport/mis.h"
+#include "transport/path.h"
 
 /* oracle_weights: weights of all strategies of the path that joins light[0..s-1] to eye[0..t-1].
  *   weight  out, [s + t + 1]: weight[i] belongs to the strategy with i light vertices; 0 where it cannot make the path

@@ -4,15 +4,15 @@
  * statistical ones are then about alias_sample: right counts, and a left-over u that is uniform and tells nothing
  * about the index. Tables with a planted fault must be found out.
  */
-#include "../src/alias.h"
+#include "base/alias.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
-#include "../src/mem.h"
-#include "../src/rng.h"
-#include "../src/stats.h"
+#include "base/mem.h"
+#include "base/rng.h"
+#include "base/stats.h"
 #include "tests.h"
 
 /* 52 random bits: with the 32 of rng_uniform a table of a million bins would leave 12 for the choice within. */

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../src/mem.h"
-#include "../src/render.h"
-#include "../src/stats.h"
+#include "base/mem.h"
+#include "render/render.h"
+#include "base/stats.h"
 #include "helpers.h"
 #include "tests.h"
 

@@ -10,14 +10,14 @@
  * The companions that must be rejected: a dropped or doubled cosine, exchanged roughnesses, a wrong index, wrong
  * lobe choice, lost samples not accounted for.
  */
-#include "../src/bsdf.h"
+#include "material/bsdf.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "../src/fresnel.h"
-#include "../src/rng.h"
-#include "../src/stats.h"
+#include "material/fresnel.h"
+#include "base/rng.h"
+#include "base/stats.h"
 #include "tests.h"
 
 enum {

@@ -2,8 +2,8 @@
  * angle, and importance integrates as it must. */
 #include <math.h>
 
-#include "../src/camera.h"
-#include "../src/rng.h"
+#include "scene/camera.h"
+#include "base/rng.h"
 #include "tests.h"
 
 static struct camera make_camera(double lens_radius, double aspect_width)

@@ -11,10 +11,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "../src/file.h"
-#include "../src/image.h"
-#include "../src/mem.h"
-#include "../src/rng.h"
+#include "base/file.h"
+#include "image/image.h"
+#include "base/mem.h"
+#include "base/rng.h"
 #include "tests.h"
 
 /* A path in the directory for temporary files; valid until the next call with the same buffer. */

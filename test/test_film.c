@@ -3,11 +3,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "../src/film.h"
-#include "../src/mem.h"
-#include "../src/rng.h"
-#include "../src/stats.h"
-#include "../src/vec.h"
+#include "scene/film.h"
+#include "base/mem.h"
+#include "base/rng.h"
+#include "base/stats.h"
+#include "base/vec.h"
 #include "tests.h"
 
 #include <stdlib.h>

@@ -8,14 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../src/checksum.h"
-#include "../src/mem.h"
-#include "../src/pfm.h"
-#include "../src/png.h"
-#include "../src/ppm.h"
-#include "../src/rng.h"
-#include "../src/srgb.h"
-#include "../src/tga.h"
+#include "image/checksum.h"
+#include "base/mem.h"
+#include "image/pfm.h"
+#include "image/png.h"
+#include "image/ppm.h"
+#include "base/rng.h"
+#include "image/srgb.h"
+#include "image/tga.h"
 #include "samples.h"
 #include "tests.h"
 

@@ -5,14 +5,14 @@
  * splits, through vertices and edges. The distance must be that of brute force to the last bit. Closed surfaces
  * must let no ray out; with one triangle taken away they must.
  */
-#include "../src/kdtree.h"
+#include "geometry/kdtree.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "../src/mem.h"
-#include "../src/rng.h"
-#include "../src/warp.h"
+#include "base/mem.h"
+#include "base/rng.h"
+#include "base/warp.h"
 #include "tests.h"
 
 /* --- geometry ----------------------------------------------------------------------------------------- */

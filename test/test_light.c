@@ -4,11 +4,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "../src/image.h"
-#include "../src/mem.h"
-#include "../src/rng.h"
-#include "../src/stats.h"
-#include "../src/warp.h"
+#include "image/image.h"
+#include "base/mem.h"
+#include "base/rng.h"
+#include "base/stats.h"
+#include "base/warp.h"
 #include "helpers.h"
 #include "tests.h"
 

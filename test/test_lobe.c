@@ -1,14 +1,14 @@
 /* test_lobe.c: the optics below a BSDF: Fresnel's equations, the facet distribution, delta lobes.
  * Everything here is exact or a quadrature; the statistics are in test_bsdf.c. */
-#include "../src/lobe.h"
+#include "material/lobe.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "../src/bsdf.h"
-#include "../src/fresnel.h"
-#include "../src/microfacet.h"
-#include "../src/rng.h"
+#include "material/bsdf.h"
+#include "material/fresnel.h"
+#include "material/microfacet.h"
+#include "base/rng.h"
 #include "tests.h"
 
 static bool near(double a, double b, double tolerance) { return fabs(a - b) <= tolerance; }

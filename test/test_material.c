@@ -1,11 +1,11 @@
 /* test_material.c: which lobes a material makes, mixing, and bump mapping.
  * The lobes themselves are tested in test_lobe.c and test_bsdf.c. */
-#include "../src/material.h"
+#include "material/material.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "../src/bump.h"
+#include "material/bump.h"
 #include "tests.h"
 
 struct bench {

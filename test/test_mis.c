@@ -5,9 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../src/connect.h"
-#include "../src/guide.h"
-#include "../src/warp.h"
+#include "transport/connect.h"
+#include "transport/guide.h"
+#include "base/warp.h"
 #include "helpers.h"
 #include "oracle.h"
 #include "tests.h"

@@ -13,11 +13,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../src/lexer.h"
-#include "../src/parser.h"
-#include "../src/rng.h"
-#include "../src/spectrum.h"
-#include "../src/suggest.h"
+#include "parser/lexer.h"
+#include "parser/parser.h"
+#include "base/rng.h"
+#include "parser/spectrum.h"
+#include "parser/suggest.h"
 #include "tests.h"
 
 static const char FIXTURES[] = "test/fixtures";

@@ -3,13 +3,13 @@
  * One mesh, a square with normals and texture coordinates cut from a quad, is written in many dialects and compared
  * with itself number by number. Each broken file must be refused with the words that say why.
  */
-#include "../src/ply.h"
+#include "geometry/ply.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "../src/mem.h"
+#include "base/mem.h"
 #include "tests.h"
 
 /* --- writing ------------------------------------------------------------------------------------------ */

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../src/compare.h"
-#include "../src/mem.h"
-#include "../src/verify.h"
+#include "lab/compare.h"
+#include "base/mem.h"
+#include "lab/verify.h"
 #include "helpers.h"
 #include "tests.h"
 

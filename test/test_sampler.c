@@ -2,8 +2,8 @@
  * the rest: plain random numbers. */
 #include <string.h>
 
-#include "../src/sampler.h"
-#include "../src/stats.h"
+#include "base/sampler.h"
+#include "base/stats.h"
 #include "tests.h"
 
 enum { N = 64 };

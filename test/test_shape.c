@@ -4,15 +4,15 @@
  * Derivatives are compared with differences of neighbouring points, areas with known values and with the mean of
  * 1/pdf, samples with their density by chi-square. A density that forgets the transform must be rejected.
  */
-#include "../src/shape.h"
+#include "geometry/shape.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "../src/mem.h"
-#include "../src/rng.h"
-#include "../src/stats.h"
-#include "../src/warp.h"
+#include "base/mem.h"
+#include "base/rng.h"
+#include "base/stats.h"
+#include "base/warp.h"
 #include "tests.h"
 
 static struct shape_group group_of(int material, int first_light)

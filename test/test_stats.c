@@ -1,13 +1,13 @@
 /* test_stats.c: the yardsticks against published tables and closed forms.
  * Tables: critical values of chi-square, Student's t and Kolmogorov-Smirnov as printed in any statistics book
  * [Abramowitz & Stegun 26.7-26.10; Massey 1951]. */
-#include "../src/stats.h"
+#include "base/stats.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "../src/mem.h"
-#include "../src/rng.h"
+#include "base/mem.h"
+#include "base/rng.h"
 #include "tests.h"
 
 static bool near(double a, double b, double relative) { return fabs(a - b) <= relative * fabs(b); }

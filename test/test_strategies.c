@@ -8,10 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../src/mem.h"
-#include "../src/parallel.h"
-#include "../src/render.h"
-#include "../src/stats.h"
+#include "base/mem.h"
+#include "base/parallel.h"
+#include "render/render.h"
+#include "base/stats.h"
 #include "helpers.h"
 #include "tests.h"
 

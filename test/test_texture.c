@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../src/srgb.h"
-#include "../src/texture.h"
+#include "image/srgb.h"
+#include "material/texture.h"
 #include "tests.h"
 
 static bool near(double a, double b) { return fabs(a - b) <= 1e-6 * (1 + fabs(b)); }

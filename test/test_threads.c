@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../src/mem.h"
-#include "../src/render.h"
+#include "base/mem.h"
+#include "render/render.h"
 #include "helpers.h"
 #include "tests.h"
 

@@ -1,11 +1,11 @@
 /* test_vec.c: the foundations: vectors, frames, transforms, and the random numbers' exact values. */
-#include "../src/vec.h"
+#include "base/vec.h"
 
-#include "../src/frame.h"
-#include "../src/number.h"
-#include "../src/rng.h"
-#include "../src/transform.h"
-#include "../src/warp.h"
+#include "base/frame.h"
+#include "base/number.h"
+#include "base/rng.h"
+#include "base/transform.h"
+#include "base/warp.h"
 #include "tests.h"
 
 static bool near3(vec3 a, vec3 b, double tolerance) { return length(sub(a, b)) <= tolerance; }

@@ -2,12 +2,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "../src/compare.h"
-#include "../src/mem.h"
-#include "../src/rng.h"
-#include "../src/srgb.h"
-#include "../src/stats.h"
-#include "../src/verify.h"
+#include "lab/compare.h"
+#include "base/mem.h"
+#include "base/rng.h"
+#include "image/srgb.h"
+#include "base/stats.h"
+#include "lab/verify.h"
 #include "helpers.h"
 #include "tests.h"
 

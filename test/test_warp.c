@@ -1,11 +1,11 @@
 /* test_warp.c: every map of warp.h lands where its density says.
  * Each sample is turned into two coordinates in which the density is known in closed form per cell of a grid. */
-#include "../src/warp.h"
+#include "base/warp.h"
 
 #include <math.h>
 
-#include "../src/rng.h"
-#include "../src/stats.h"
+#include "base/rng.h"
+#include "base/stats.h"
 #include "tests.h"
 
 enum { ROWS = 10, COLUMNS = 20, SAMPLES = 100000 };

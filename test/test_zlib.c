@@ -8,11 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../src/checksum.h"
-#include "../src/deflate.h"
-#include "../src/inflate.h"
-#include "../src/mem.h"
-#include "../src/rng.h"
+#include "image/checksum.h"
+#include "image/deflate.h"
+#include "image/inflate.h"
+#include "base/mem.h"
+#include "base/rng.h"
 #include "samples.h"
 #include "tests.h"
 

@@ -1,0 +1,43 @@
+/* file.h: whole files in, whole files out.
+ *
+ * Reading takes a file into memory at once, so that a format's parser knows the file's length before it believes
+ * any size written in it. Writing goes to a temporary file beside the target that takes the target's name only when
+ * every byte has been accepted: a full disk or an interrupted run leaves the old file, never half a new one.
+ *
+ * Used by: image. Tests: test_image.c.
+ */
+#ifndef ASBDPT_FILE_H
+#define ASBDPT_FILE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "base/error.h"
+
+/* file_read: the content of a file.
+ *   data, size  out; data to be given to free(), NULL on failure
+ * Pipes are read to their end, up to 256 MiB. Returns false with a message "PATH: ..." when the file is missing, a
+ * directory or unreadable. */
+bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err);
+
+/* A file being written. */
+struct file_output {
+    FILE *stream;    /* where to write, binary; write errors stick to it and are found by file_commit */
+    char *path;      /* the target; owned */
+    char *temporary; /* what is really written, or NULL where the target is a device or pipe; owned */
+};
+
+/* file_create: begin to write `path`. Returns false with a message when that is impossible; *out is then empty.
+ * After success exactly one of file_commit and file_abandon must follow. */
+bool file_create(const char *path, struct file_output *out, struct error *err);
+
+/* file_commit: flush, check, close, rename. Returns false with a message, leaving no file behind, when any write
+ * since file_create has failed. */
+bool file_commit(struct file_output *out, struct error *err);
+
+/* file_abandon: close and remove what was written. */
+void file_abandon(struct file_output *out);
+
+#endif

@@ -1,0 +1,106 @@
+/* mem.c: see mem.h. */
+#include "base/mem.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void die(size_t count, size_t size)
+{
+    fprintf(stderr, "asbdpt: out of memory (%lu x %lu bytes wanted); use a smaller scene or image\n",
+            (unsigned long)count, (unsigned long)size);
+    exit(1);
+}
+
+void *mem_alloc(size_t count, size_t size)
+{
+    if (size != 0 && count > SIZE_MAX / size)
+        die(count, size);
+    void *p = calloc(count * size != 0 ? count : 1, count * size != 0 ? size : 1);
+    if (p == NULL)
+        die(count, size);
+    return p;
+}
+
+void *mem_grow(void *array, size_t *capacity, size_t need, size_t size)
+{
+    if (need <= *capacity)
+        return array;
+    size_t larger = *capacity < 16 ? 16 : *capacity;
+    while (larger < need) {
+        if (larger > SIZE_MAX / 2)
+            die(need, size);
+        larger *= 2;
+    }
+    if (size != 0 && larger > SIZE_MAX / size)
+        die(larger, size);
+    void *p = realloc(array, larger * size);
+    if (p == NULL)
+        die(larger, size);
+    *capacity = larger;
+    return p;
+}
+
+char *mem_copy_text(const char *text)
+{
+    size_t size = strlen(text) + 1;
+    return memcpy(mem_alloc(size, 1), text, size);
+}
+
+/* --- arena ------------------------------------------------------------------------------------------- */
+
+union most_aligned { /* C99 has no max_align_t */
+    long double number;
+    void *pointer;
+    long long integer;
+};
+
+struct arena_block {
+    struct arena_block *next;
+    size_t used, size;          /* bytes of data[] */
+    union most_aligned data[1]; /* really `size` bytes */
+};
+
+enum { BLOCK_BYTES = 16 * 1024, HEADER_BYTES = offsetof(struct arena_block, data) };
+
+static struct arena_block *new_block(size_t size)
+{
+    size_t room = size > BLOCK_BYTES ? size : BLOCK_BYTES;
+    struct arena_block *b = mem_alloc(1, HEADER_BYTES + room);
+    b->size = room;
+    return b;
+}
+
+void *arena_alloc(struct arena *a, size_t size)
+{
+    const size_t align = sizeof(union most_aligned);
+    size = (size + align - 1) / align * align;
+    if (a->current == NULL)
+        a->first = a->current = new_block(size);
+    while (a->current->used + size > a->current->size) {
+        if (a->current->next == NULL)
+            a->current->next = new_block(size);
+        a->current = a->current->next;
+    }
+    void *p = (char *)a->current->data + a->current->used;
+    a->current->used += size;
+    return p;
+}
+
+void arena_reset(struct arena *a)
+{
+    for (struct arena_block *b = a->first; b != NULL; b = b->next)
+        b->used = 0;
+    a->current = a->first;
+}
+
+void arena_free(struct arena *a)
+{
+    for (struct arena_block *b = a->first; b != NULL;) {
+        struct arena_block *next = b->next;
+        free(b);
+        b = next;
+    }
+    a->first = a->current = NULL;
+}

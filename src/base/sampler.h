@@ -1,0 +1,48 @@
+/* sampler.h: the random numbers one sub-path consumes, drawn in order.
+ *
+ * The first numbers of every stream, those that decide most, form a low-discrepancy sequence over the iterations of a
+ * pixel: pairs of Sobol' points, Owen-scrambled by hashing, each pair visited in an order of its own [Burley 2020]. The
+ * rest comes from the pixel's generator. Each number alone is exactly uniform, and over pixels and seeds all are
+ * independent, so nothing is biased. Within one pixel the iterations are better spread than independent ones, and a weak
+ * correlation between two pairs may remain, since the order is a hash.
+ *
+ * Used by: path, connect, the methods. Tests: test_sampler.c.
+ */
+#ifndef ASBDPT_SAMPLER_H
+#define ASBDPT_SAMPLER_H
+
+#include "base/rng.h"
+
+enum { SAMPLER_DIMENSIONS = 6 }; /* numbers of low discrepancy at the start of a stream; even */
+
+struct sampler {
+    struct rng rng;
+    uint64_t scramble;  /* hash of (seed, purpose, pixel): the same for all iterations */
+    uint32_t iteration; /* index into the sequence */
+    int dimension;      /* numbers drawn so far, counted up to SAMPLER_DIMENSIONS */
+    double second;      /* the other number of the current pair */
+};
+
+/* sampler_start: the numbers of (seed, purpose, pixel, iteration); see rng_stream. */
+struct sampler sampler_start(uint64_t seed, enum rng_purpose purpose, uint64_t pixel, uint64_t iteration);
+
+/* sampler_pair: the next pair of the low-discrepancy part; for sampler_next only. */
+double sampler_pair(struct sampler *s);
+
+/* sampler_next: the next number in [0,1). */
+static inline double sampler_next(struct sampler *s)
+{
+    if (s->dimension >= SAMPLER_DIMENSIONS)
+        return rng_uniform(&s->rng);
+    return s->dimension++ % 2 == 0 ? sampler_pair(s) : s->second;
+}
+
+/* sampler_next3: a discrete choice u[0] and a point of the unit square (u[1], u[2]), which is a pair where possible. */
+static inline void sampler_next3(struct sampler *s, double u[3])
+{
+    u[1] = sampler_next(s);
+    u[2] = sampler_next(s);
+    u[0] = sampler_next(s);
+}
+
+#endif

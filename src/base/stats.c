@@ -1,0 +1,227 @@
+/* stats.c: distribution functions and hypothesis tests, see stats.h.
+ *
+ * The incomplete gamma and beta functions are a power series on one side of their mean and a continued fraction on
+ * the other, the latter evaluated with Lentz's method [Lentz 1976, Thompson & Barnett 1986]. Everything else is
+ * one of these two functions.
+ */
+#include "base/stats.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+
+#include "base/mem.h"
+#include "base/vec.h"
+
+static const double TINY = 1e-300; /* stands in for a zero denominator in Lentz's method */
+enum { MAX_TERMS = 1000000 };      /* sqrt(a) times a few are needed: enough for 10^10 degrees of freedom */
+
+/* --- special functions ------------------------------------------------------------------------------- */
+
+/* log Gamma(a) for a > 0. The library's lgamma writes a global sign, so it may not be called by two threads:
+ * Stirling's series above 12 is as exact as a double, the recurrence Gamma(a+1) = a Gamma(a) leads there. */
+static double log_gamma(double a)
+{
+    double product = 1;
+    for (; a < 12; a++)
+        product *= a;
+    double r = 1 / (a * a);
+    double series = (1.0 / 12 - r * (1.0 / 360 - r * (1.0 / 1260 - r * (1.0 / 1680 - r / 1188)))) / a;
+    return (a - 0.5) * log(a) - a + 0.5 * log(2 * PI) + series - log(product);
+}
+
+/* P(a,x) for x < a + 1: x^a e^-x / Gamma(a+1) * sum of x^k / ((a+1)...(a+k)). */
+static double gamma_p_series(double a, double x)
+{
+    double term = 1, sum = 1;
+    for (int k = 1; k < MAX_TERMS && term > sum * DBL_EPSILON; k++) {
+        term *= x / (a + k);
+        sum += term;
+    }
+    return sum * exp(a * log(x) - x - log_gamma(a + 1));
+}
+
+/* Q(a,x) for x >= a + 1, by the continued fraction 1/(x+1-a - 1(1-a)/(x+3-a - 2(2-a)/(x+5-a - ...))). */
+static double gamma_q_fraction(double a, double x)
+{
+    double b = x + 1 - a, c = 1 / TINY, d = 1 / b, value = d;
+    for (int k = 1; k < MAX_TERMS; k++) {
+        double numerator = -k * (k - a);
+        b += 2;
+        d = numerator * d + b;
+        c = b + numerator / c;
+        d = 1 / (fabs(d) < TINY ? TINY : d);
+        c = fabs(c) < TINY ? TINY : c;
+        value *= d * c;
+        if (fabs(d * c - 1) < DBL_EPSILON)
+            break;
+    }
+    return value * exp(a * log(x) - x - log_gamma(a));
+}
+
+double stats_gamma_q(double a, double x)
+{
+    if (x <= 0)
+        return 1;
+    if (isinf(x))
+        return 0;
+    return x < a + 1 ? 1 - gamma_p_series(a, x) : gamma_q_fraction(a, x);
+}
+
+/* The continued fraction of I_x(a,b) without its factor x^a (1-x)^b / (a B(a,b)); converges fast for
+ * x < (a+1)/(a+b+2). */
+static double beta_fraction(double a, double b, double x)
+{
+    double c = 1, d = 1 - (a + b) * x / (a + 1);
+    d = 1 / (fabs(d) < TINY ? TINY : d);
+    double value = d;
+    for (int k = 1; k < MAX_TERMS; k++) {
+        double even = k * (b - k) * x / ((a + 2 * k - 1) * (a + 2 * k));
+        double odd = -(a + k) * (a + b + k) * x / ((a + 2 * k) * (a + 2 * k + 1));
+        double step = 1;
+        for (int half = 0; half < 2; half++) {
+            double numerator = half == 0 ? even : odd;
+            d = 1 + numerator * d;
+            c = 1 + numerator / c;
+            d = 1 / (fabs(d) < TINY ? TINY : d);
+            c = fabs(c) < TINY ? TINY : c;
+            step = d * c;
+            value *= step;
+        }
+        if (fabs(step - 1) < DBL_EPSILON)
+            break;
+    }
+    return value;
+}
+
+double stats_beta_i(double a, double b, double x)
+{
+    if (x <= 0)
+        return 0;
+    if (x >= 1)
+        return 1;
+    double front = exp(log_gamma(a + b) - log_gamma(a) - log_gamma(b) + a * log(x) + b * log1p(-x));
+    if (x < (a + 1) / (a + b + 2))
+        return front * beta_fraction(a, b, x) / a;
+    return 1 - front * beta_fraction(b, a, 1 - x) / b;
+}
+
+/* --- p-values ---------------------------------------------------------------------------------------- */
+
+double stats_normal_p(double z) { return erfc(fabs(z) / sqrt(2.0)); }
+
+double stats_student_p(double t, double dof)
+{
+    if (isinf(t))
+        return 0;
+    return stats_beta_i(dof / 2, 0.5, dof / (dof + t * t));
+}
+
+double stats_chi2_p(double x, double dof) { return stats_gamma_q(dof / 2, x / 2); }
+
+struct cell {
+    double observed, expected;
+};
+
+static int by_expectation(const void *a, const void *b)
+{
+    double x = ((const struct cell *)a)->expected, y = ((const struct cell *)b)->expected;
+    return (x > y) - (x < y);
+}
+
+/* Pearson's sum over the cells, sorted by expectation, after pooling; *n_pooled receives the number of pools. */
+static double pearson(const struct cell *cell, size_t n, size_t *n_pooled)
+{
+    const double least = 5; /* expectation below which a cell's share is far from chi-square distributed */
+    double sum = 0;
+    *n_pooled = 0;
+    for (size_t i = 0; i < n;) {
+        struct cell pool = cell[i++];
+        while (i < n && pool.expected < least) {
+            pool.observed += cell[i].observed;
+            pool.expected += cell[i++].expected;
+        }
+        double d = pool.observed - pool.expected;
+        sum += d * d / pool.expected;
+        ++*n_pooled;
+    }
+    return sum;
+}
+
+double stats_chi2_test(const double *observed, const double *expected, size_t n)
+{
+    struct cell *cell = mem_alloc(n, sizeof *cell);
+    size_t used = 0;
+    bool impossible = false;
+    for (size_t i = 0; i < n; i++) {
+        if (expected[i] > 0) {
+            cell[used].observed = observed[i];
+            cell[used++].expected = expected[i];
+        } else if (observed[i] != 0) {
+            impossible = true;
+        }
+    }
+    qsort(cell, used, sizeof *cell, by_expectation);
+    size_t pools;
+    double sum = pearson(cell, used, &pools);
+    free(cell);
+    if (impossible)
+        return 0;
+    return pools < 2 ? 1 : stats_chi2_p(sum, (double)(pools - 1));
+}
+
+double stats_welch_p(double mean1, double var1, double n1, double mean2, double var2, double n2)
+{
+    double e1 = var1 / n1, e2 = var2 / n2; /* squared standard errors of the two means */
+    if (e1 + e2 == 0)
+        return mean1 == mean2 ? 1 : 0;
+    double t = (mean1 - mean2) / sqrt(e1 + e2);
+    /* Welch-Satterthwaite, with the shares of the error so that tiny variances do not underflow. */
+    double s1 = e1 / (e1 + e2), s2 = e2 / (e1 + e2);
+    double dof = 1 / (s1 * s1 / (n1 - 1) + s2 * s2 / (n2 - 1));
+    return stats_student_p(t, dof);
+}
+
+/* Two series, each fast where it is used. */
+double stats_kolmogorov_p(double x)
+{
+    double sum = 0;
+    if (x < 0.1)
+        return 1;
+    if (x < 1.18) {
+        for (int j = 1; j <= 5; j += 2)
+            sum += exp(-(j * j) * PI * PI / (8 * x * x));
+        return 1 - sqrt(2 * PI) / x * sum;
+    }
+    for (int j = 1; j <= 8; j++)
+        sum += (j % 2 == 1 ? 2 : -2) * exp(-2.0 * j * j * x * x);
+    return sum;
+}
+
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+double stats_ks_distance(double *x, size_t n)
+{
+    double d = 0, count = (double)n;
+    qsort(x, n, sizeof *x, by_value);
+    for (size_t i = 0; i < n; i++) {
+        d = fmax(d, x[i] - (double)i / count);
+        d = fmax(d, (double)(i + 1) / count - x[i]);
+    }
+    return d;
+}
+
+double stats_ks_uniform_p(double *x, size_t n)
+{
+    if (n == 0)
+        return 1;
+    double root = sqrt((double)n); /* the bracket is Stephens's correction for small n [Stephens 1970] */
+    return stats_kolmogorov_p(stats_ks_distance(x, n) * (root + 0.12 + 0.11 / root));
+}
+
+double stats_sidak(double alpha, double m) { return -expm1(log1p(-alpha) / m); }

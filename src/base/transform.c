@@ -1,0 +1,215 @@
+/* transform.c: see transform.h. Matrices multiply column vectors, as in [PBRT3 2.7]. */
+#include "base/transform.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "base/number.h"
+
+struct transform transform_identity(void)
+{
+    struct transform t = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}},
+                          {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+    return t;
+}
+
+/* The row at or below `column` whose entry in that column is largest. */
+static int pivot_row(double a[4][4], int column)
+{
+    int best = column;
+    for (int r = column + 1; r < 4; r++)
+        if (fabs(a[r][column]) > fabs(a[best][column]))
+            best = r;
+    return best;
+}
+
+static void swap_rows(double a[4][4], int r, int s)
+{
+    for (int c = 0; c < 4; c++) {
+        double keep = a[r][c];
+        a[r][c] = a[s][c];
+        a[s][c] = keep;
+    }
+}
+
+static void multiply(const double a[4][4], const double b[4][4], double out[4][4])
+{
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++)
+            out[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j] + a[i][3] * b[3][j];
+}
+
+/* A singular matrix whose last pivot is not quite 0 shows by its product with the "inverse". */
+static bool is_inverse(const double m[4][4], double inv[4][4])
+{
+    double product[4][4];
+    multiply(m, (const double(*)[4])inv, product);
+    for (int i = 0; i < 16; i++)
+        if (!(fabs(product[i / 4][i % 4] - (i / 4 == i % 4)) < 1e-3))
+            return false;
+    return true;
+}
+
+/* Gauss-Jordan elimination with partial pivoting; false for a singular matrix. */
+static bool invert(const double m[4][4], double inv[4][4])
+{
+    double a[4][4];
+    memcpy(a, m, sizeof a);
+    struct transform id = transform_identity();
+    memcpy(inv, id.m, sizeof a);
+    for (int c = 0; c < 4; c++) {
+        int p = pivot_row(a, c);
+        if (a[p][c] == 0)
+            return false;
+        swap_rows(a, p, c);
+        swap_rows(inv, p, c);
+        double scale = 1 / a[c][c];
+        for (int k = 0; k < 4; k++) {
+            a[c][k] *= scale;
+            inv[c][k] *= scale;
+        }
+        for (int r = 0; r < 4; r++) {
+            double factor = r == c ? 0 : a[r][c];
+            for (int k = 0; k < 4; k++) {
+                a[r][k] -= factor * a[c][k];
+                inv[r][k] -= factor * inv[c][k];
+            }
+        }
+    }
+    return is_inverse(m, inv);
+}
+
+bool transform_is_usable(const struct transform *t)
+{
+    double product[4][4];
+    multiply((const double(*)[4])t->m, (const double(*)[4])t->inv, product);
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) {
+            double limit = j < 3 ? NUMBER_MAX : DBL_MAX;
+            bool exact = j == 3 || fabs(product[i][j] - (i == j)) <= 1e-3;
+            if (!(fabs(t->m[i][j]) <= limit && fabs(t->inv[i][j]) <= limit && exact))
+                return false;
+        }
+    return true;
+}
+
+bool transform_from_matrix(const double columns[16], struct transform *out)
+{
+    struct transform t;
+    for (int i = 0; i < 16; i++) {
+        if (!isfinite(columns[i]))
+            return false;
+        t.m[i % 4][i / 4] = columns[i];
+    }
+    if (!invert((const double(*)[4])t.m, t.inv))
+        return false;
+    *out = t;
+    return true;
+}
+
+struct transform transform_translate(vec3 delta)
+{
+    struct transform t = transform_identity();
+    t.m[0][3] = delta.x;
+    t.m[1][3] = delta.y;
+    t.m[2][3] = delta.z;
+    t.inv[0][3] = -delta.x;
+    t.inv[1][3] = -delta.y;
+    t.inv[2][3] = -delta.z;
+    return t;
+}
+
+struct transform transform_scale(double x, double y, double z)
+{
+    struct transform t = transform_identity();
+    t.m[0][0] = x;
+    t.m[1][1] = y;
+    t.m[2][2] = z;
+    t.inv[0][0] = 1 / x;
+    t.inv[1][1] = 1 / y;
+    t.inv[2][2] = 1 / z;
+    return t;
+}
+
+struct transform transform_rotate(double degrees, vec3 axis)
+{
+    /* Rodrigues: R = cos I + (1 - cos) a a^T + sin [a]_x; the inverse of a rotation is its transpose. */
+    vec3 n = normalize(axis);
+    double a[3] = {n.x, n.y, n.z};
+    double s = sin(degrees * PI / 180), c = cos(degrees * PI / 180);
+    double skew[3][3] = {{0, -n.z, n.y}, {n.z, 0, -n.x}, {-n.y, n.x, 0}};
+    struct transform t = transform_identity();
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            t.m[i][j] = t.inv[j][i] = (i == j ? c : 0) + (1 - c) * a[i] * a[j] + s * skew[i][j];
+    return t;
+}
+
+bool transform_look_at(vec3 eye, vec3 look, vec3 up, struct transform *out)
+{
+    vec3 forward = normalize(sub(look, eye));
+    vec3 right = cross(normalize(up), forward);
+    if (!(length(right) > 0))
+        return false;
+    right = normalize(right);
+    vec3 above = cross(forward, right);
+    double camera_to_world[16] = {right.x,   right.y,   right.z,   0, above.x, above.y, above.z, 0,
+                                  forward.x, forward.y, forward.z, 0, eye.x,   eye.y,   eye.z,   1};
+    struct transform t;
+    if (!transform_from_matrix(camera_to_world, &t))
+        return false;
+    *out = transform_inverse(t);
+    return true;
+}
+
+struct transform transform_compose(struct transform a, struct transform b)
+{
+    struct transform t;
+    multiply((const double(*)[4])a.m, (const double(*)[4])b.m, t.m);
+    multiply((const double(*)[4])b.inv, (const double(*)[4])a.inv, t.inv);
+    return t;
+}
+
+struct transform transform_inverse(struct transform t)
+{
+    struct transform r;
+    memcpy(r.m, t.inv, sizeof r.m);
+    memcpy(r.inv, t.m, sizeof r.inv);
+    return r;
+}
+
+static vec3 matrix_times_vector(const double (*m)[4], vec3 v)
+{
+    return vec(m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z, m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
+               m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z);
+}
+
+static vec3 matrix_times_point(const double (*m)[4], vec3 p)
+{
+    vec3 q = vec(m[0][0] * p.x + m[0][1] * p.y + m[0][2] * p.z + m[0][3],
+                 m[1][0] * p.x + m[1][1] * p.y + m[1][2] * p.z + m[1][3],
+                 m[2][0] * p.x + m[2][1] * p.y + m[2][2] * p.z + m[2][3]);
+    double w = m[3][0] * p.x + m[3][1] * p.y + m[3][2] * p.z + m[3][3];
+    return w == 1 ? q : mul(q, 1 / w);
+}
+
+vec3 transform_point(const struct transform *t, vec3 p) { return matrix_times_point(t->m, p); }
+vec3 transform_vector(const struct transform *t, vec3 v) { return matrix_times_vector(t->m, v); }
+vec3 transform_point_back(const struct transform *t, vec3 p) { return matrix_times_point(t->inv, p); }
+vec3 transform_vector_back(const struct transform *t, vec3 v) { return matrix_times_vector(t->inv, v); }
+
+vec3 transform_normal(const struct transform *t, vec3 n)
+{
+    const double(*m)[4] = t->inv;
+    return vec(m[0][0] * n.x + m[1][0] * n.y + m[2][0] * n.z, m[0][1] * n.x + m[1][1] * n.y + m[2][1] * n.z,
+               m[0][2] * n.x + m[1][2] * n.y + m[2][2] * n.z);
+}
+
+double transform_determinant(const struct transform *t)
+{
+    const double(*m)[4] = t->m;
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
+bool transform_swaps_handedness(const struct transform *t) { return transform_determinant(t) < 0; }

@@ -1,0 +1,362 @@
+/* cmd_bench.c: asbdpt bench: how fast is each part of the program on given scenes?
+ *
+ * Every scene is measured in a process of its own, so that its peak memory is its own. Rates are per second of CPU
+ * time of one thread: other programs on the machine disturb them less than wall time. Rays are either coherent, the
+ * camera's through neighbouring pixels, or incoherent: cosine-distributed directions from points all over the scene,
+ * found by following a camera ray one bounce.
+ */
+#define _POSIX_C_SOURCE 200809L
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/time.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "cli/command.h"
+#include "base/file.h"
+#include "base/frame.h"
+#include "base/mem.h"
+#include "parser/parser.h"
+#include "base/progress.h"
+#include "base/sampler.h"
+#include "base/warp.h"
+
+enum measure {
+    LOAD, BUILD, TRIANGLES, NODES, REFERENCES, COST, CLOSEST_COHERENT, ANY_COHERENT, CLOSEST_INCOHERENT,
+    ANY_INCOHERENT, PT, BDPT, ASBDPT, WALL_1, CPU_1, WALL_N, CPU_N, MEMORY, N_MEASURES
+};
+
+static const struct {
+    const char *key, *text;
+} MEASURES[N_MEASURES] = {
+    {"load_s", "reading the scene, s of CPU"},
+    {"build_s", "building the kd-tree, s of CPU"},
+    {"triangles", "triangles"},
+    {"nodes", "kd-tree nodes"},
+    {"references", "kd-tree references"},
+    {"sah_cost", "kd-tree cost, triangle tests per ray"},
+    {"closest_coherent", "closest hit, coherent, Mray/s"},
+    {"any_coherent", "any hit, coherent, Mray/s"},
+    {"closest_incoherent", "closest hit, incoherent, Mray/s"},
+    {"any_incoherent", "any hit, incoherent, Mray/s"},
+    {"pt_paths", "pt, sample paths per s of CPU"},
+    {"bdpt_paths", "bdpt, sample paths per s of CPU"},
+    {"asbdpt_paths", "asbdpt, sample paths per s of CPU"},
+    {"wall_1", "bdpt, 1 thread, s"},
+    {"cpu_1", "bdpt, 1 thread, s of CPU"},
+    {"wall_n", "bdpt, all threads, s"},
+    {"cpu_n", "bdpt, all threads, s of CPU"},
+    {"peak_mib", "peak memory, MiB"},
+};
+
+struct arguments {
+    const char **scene; /* [n_scenes], owned array of borrowed strings */
+    int n_scenes;
+    const char *json, *baseline; /* or NULL */
+    int spp, max_depth, n_threads;
+};
+
+static double cpu_seconds(void) { return (double)clock() / CLOCKS_PER_SEC; }
+
+/* --- rays --------------------------------------------------------------------------------------------- */
+
+enum { N_RAYS = 1 << 17, FRAME = 128 /* pixels along the square root of the frame's area */ };
+
+static vec3 cosine_direction(struct sampler *sampler, vec3 n)
+{
+    struct frame f = frame_from_normal(n);
+    double u1 = sampler_next(sampler), u2 = sampler_next(sampler);
+    return to_world(&f, warp_cos_hemisphere(u1, u2));
+}
+
+/* Replace the ray by one leaving the surface it meets. False if it meets none. */
+static bool bounce(const struct scene *s, struct ray *ray, struct sampler *sampler)
+{
+    struct surface at;
+    if (!scene_intersect(s, ray, &at))
+        return false;
+    struct ray next = {at.p, cosine_direction(sampler, faceforward(at.ng, neg(ray->d))), s->epsilon, INFINITY, 0, 0};
+    *ray = next;
+    return true;
+}
+
+/* N_RAYS rays; returns fewer if the camera sees hardly anything. */
+static int make_rays(const struct scene *s, bool coherent, struct ray *out)
+{
+    int n = 0;
+    for (int i = 0; n < N_RAYS && i < 8 * N_RAYS; i++) {
+        struct sampler sampler = sampler_start(0, RNG_TEST, (uint64_t)i, 0);
+        double x = sampler_next(&sampler) * s->width, y = sampler_next(&sampler) * s->height;
+        if (coherent) { /* row by row, as often as needed */
+            x = i % s->width + 0.5;
+            y = i / s->width % s->height + 0.5;
+        }
+        out[n] = camera_ray(&s->camera, x, y, 0.5, 0.5);
+        n += coherent || (bounce(s, &out[n], &sampler) && bounce(s, &out[n], &sampler));
+    }
+    return n;
+}
+
+/* Million rays per second of CPU time. */
+static double ray_rate(const struct scene *s, const struct ray *rays, int n, bool any)
+{
+    const double enough = 0.4;
+    double start = cpu_seconds(), seconds = 0, done = 0;
+    long hits = 0;
+    while (n > 0 && seconds < enough) {
+        for (int i = 0; i < n; i++) {
+            struct hit hit;
+            hits += any ? kd_occluded(&s->kd, &s->geo, &rays[i]) : kd_closest(&s->kd, &s->geo, &rays[i], &hit);
+        }
+        done += n;
+        seconds = cpu_seconds() - start;
+    }
+    return hits >= 0 && seconds > 0 ? 1e-6 * done / seconds : 0;
+}
+
+static void measure_rays(const struct scene *s, double *value)
+{
+    struct ray *rays = mem_alloc(N_RAYS, sizeof *rays);
+    int n = make_rays(s, true, rays);
+    value[CLOSEST_COHERENT] = ray_rate(s, rays, n, false);
+    value[ANY_COHERENT] = ray_rate(s, rays, n, true);
+    n = make_rays(s, false, rays);
+    value[CLOSEST_INCOHERENT] = ray_rate(s, rays, n, false);
+    value[ANY_INCOHERENT] = ray_rate(s, rays, n, true);
+    free(rays);
+}
+
+/* --- whole renders ------------------------------------------------------------------------------------ */
+
+static bool render_once(const struct scene *s, const struct arguments *a, const char *method, int n_threads,
+                        double *wall, double *cpu, struct error *err)
+{
+    struct render_options o = {.method = method_find(method), .end = a->spp, .max_depth = a->max_depth};
+    struct film film;
+    o.n_threads = n_threads;
+    film_init(&film, render_crop(s), s->width, s->height);
+    *wall = clock_seconds();
+    *cpu = cpu_seconds();
+    bool ok = render_scene(s, &o, &film, err);
+    *wall = clock_seconds() - *wall;
+    *cpu = cpu_seconds() - *cpu;
+    film_free(&film);
+    return ok;
+}
+
+static bool measure_renders(const struct scene *s, const struct arguments *a, double *value, struct error *err)
+{
+    static const char *const NAMES[] = {"pt", "bdpt", "asbdpt"};
+    double paths = (double)a->spp * rect_width(render_crop(s)) * rect_height(render_crop(s));
+    for (int i = 0; i < 3; i++) {
+        double wall, cpu;
+        if (!render_once(s, a, NAMES[i], 1, &wall, &cpu, err))
+            return false;
+        value[PT + i] = cpu > 0 ? paths / cpu : 0;
+    }
+    return render_once(s, a, "bdpt", 1, &value[WALL_1], &value[CPU_1], err) &&
+           render_once(s, a, "bdpt", a->n_threads, &value[WALL_N], &value[CPU_N], err);
+}
+
+/* --- one scene ---------------------------------------------------------------------------------------- */
+
+/* Same framing, about FRAME^2 pixels; at most 65536 FRAME a side. */
+static void shrink_film(struct scene *s)
+{
+    double scale = FRAME / sqrt((double)s->width * s->height);
+    s->width = (int)fmax(1, floor(s->width * scale + 0.5));
+    s->height = (int)fmax(1, floor(s->height * scale + 0.5));
+}
+
+static void measure_tree(const struct scene *s, double *value)
+{
+    value[TRIANGLES] = s->geo.n_triangles;
+    value[NODES] = s->kd.n_nodes;
+    value[REFERENCES] = s->kd.n_items;
+    value[COST] = s->kd.cost;
+}
+
+/* scene_prepare does little besides building the tree; its time is what a user waits for. */
+static bool measure_scene(const char *path, const struct arguments *a, double *value, struct error *err)
+{
+    struct scene scene;
+    double start = cpu_seconds();
+    if (!parse_scene(path, &scene, NULL, err))
+        return false;
+    value[LOAD] = cpu_seconds() - start;
+    shrink_film(&scene);
+    start = cpu_seconds();
+    scene_prepare(&scene);
+    value[BUILD] = cpu_seconds() - start;
+    measure_tree(&scene, value);
+    measure_rays(&scene, value);
+    bool ok = measure_renders(&scene, a, value, err);
+    scene_free(&scene);
+    struct rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    value[MEMORY] = (double)usage.ru_maxrss / 1024; /* KiB on Linux */
+    return ok;
+}
+
+/* The child's part: measure, send the values, end. */
+static void measure_and_send(const char *path, const struct arguments *a, int pipe_end)
+{
+    double value[N_MEASURES] = {0};
+    struct error err;
+    bool ok = measure_scene(path, a, value, &err);
+    if (!ok)
+        fail(&err);
+    ok = ok && write(pipe_end, value, sizeof value) == (ssize_t)sizeof value;
+    _exit(ok ? EXIT_OK : EXIT_JOB);
+}
+
+static bool measure_in_child(const char *path, const struct arguments *a, double *value, struct error *err)
+{
+    int ends[2];
+    if (pipe(ends) != 0)
+        return error_set(err, "bench: no pipe");
+    pid_t child = fork();
+    if (child == 0)
+        measure_and_send(path, a, ends[1]);
+    close(ends[1]);
+    bool ok = child > 0 && read(ends[0], value, N_MEASURES * sizeof *value) == (ssize_t)(N_MEASURES * sizeof *value);
+    close(ends[0]);
+    if (child > 0)
+        waitpid(child, NULL, 0);
+    return ok || error_set(err, "bench: %s could not be measured", path);
+}
+
+/* --- output ------------------------------------------------------------------------------------------- */
+
+/* The number after "key" in the baseline's object of a scene, or 0: the file is one that write_json wrote. */
+static double baseline_value(const char *text, const char *scene, const char *key)
+{
+    char name[1024], field[64];
+    snprintf(name, sizeof name, "\"scene\": \"%s\"", scene);
+    snprintf(field, sizeof field, "\"%s\": ", key);
+    const char *object = text != NULL ? strstr(text, name) : NULL;
+    const char *at = object != NULL ? strstr(object, field) : NULL;
+    const char *end = object != NULL ? strchr(object, '}') : NULL;
+    return at != NULL && (end == NULL || at < end) ? strtod(at + strlen(field), NULL) : 0;
+}
+
+static void print_table(const struct arguments *a, const double *values, const char *baseline)
+{
+    for (int i = 0; i < a->n_scenes; i++) {
+        const double *value = values + (size_t)i * N_MEASURES;
+        printf("%s\n", a->scene[i]);
+        for (int m = 0; m < N_MEASURES; m++) {
+            double before = baseline_value(baseline, a->scene[i], MEASURES[m].key);
+            printf("    %-40s %12.4g", MEASURES[m].text, value[m]);
+            printf(before > 0 ? "   %5.2f of the baseline's\n" : "\n", value[m] / (before > 0 ? before : 1));
+        }
+        printf("    %-40s %12.3g\n", "scaling: threads x CPU at 1 / CPU at all",
+               value[CPU_N] > 0 ? a->n_threads * value[CPU_1] / value[CPU_N] : 0);
+    }
+}
+
+static bool write_json(const struct arguments *a, const double *values, struct error *err)
+{
+    struct file_output out;
+    if (!file_create(a->json, &out, err))
+        return false;
+    fprintf(out.stream, "{\"threads\": %d, \"spp\": %d, \"maxdepth\": %d, \"scenes\": [", a->n_threads, a->spp,
+            a->max_depth);
+    for (int i = 0; i < a->n_scenes; i++) {
+        fprintf(out.stream, "%s\n  {\"scene\": \"%s\"", i > 0 ? "," : "", a->scene[i]);
+        for (int m = 0; m < N_MEASURES; m++)
+            fprintf(out.stream, ",\n   \"%s\": %.6g", MEASURES[m].key, values[(size_t)i * N_MEASURES + (size_t)m]);
+        fprintf(out.stream, "}");
+    }
+    fprintf(out.stream, "\n]}\n");
+    return file_commit(&out, err);
+}
+
+/* --- command line ------------------------------------------------------------------------------------- */
+
+static bool number_option(const char *name, const char *text, int *out)
+{
+    long v;
+    if (!integer_option(name, text, 1, 1000, &v))
+        return false;
+    *out = (int)v;
+    return true;
+}
+
+static bool parse(int argc, char **argv, struct arguments *a)
+{
+    for (int i = 1; i < argc; i++) {
+        const char *name = argv[i], *value = i + 1 < argc ? argv[i + 1] : NULL;
+        bool ok = true;
+        if (name[0] != '-') {
+            a->scene[a->n_scenes++] = name;
+            continue;
+        }
+        if (strncmp(name, "-j", 2) == 0 && name[2] != '\0') {
+            if (!number_option("-j", name + 2, &a->n_threads))
+                return false;
+            continue;
+        }
+        if (value == NULL)
+            return usage_error("%s is unknown or needs a value", name) == EXIT_OK;
+        if (strcmp(name, "--json") == 0)
+            a->json = value;
+        else if (strcmp(name, "--baseline") == 0)
+            a->baseline = value;
+        else if (strcmp(name, "--spp") == 0)
+            ok = number_option(name, value, &a->spp);
+        else if (strcmp(name, "--maxdepth") == 0)
+            ok = number_option(name, value, &a->max_depth);
+        else if (strcmp(name, "--nthreads") == 0 || strcmp(name, "-j") == 0)
+            ok = number_option(name, value, &a->n_threads);
+        else
+            ok = usage_error("unknown option %s", name) == EXIT_OK;
+        if (!ok)
+            return false;
+        i++;
+    }
+    return a->n_scenes > 0 || usage_error("bench needs at least one scene") == EXIT_OK;
+}
+
+static bool read_baseline(const char *path, char **text, struct error *err)
+{
+    uint8_t *data;
+    size_t size;
+    if (!file_read(path, &data, &size, err))
+        return false;
+    *text = mem_alloc(size + 1, 1); /* ends with a zero */
+    memcpy(*text, data, size);
+    free(data);
+    return true;
+}
+
+static bool run(const struct arguments *a, struct error *err)
+{
+    char *baseline = NULL;
+    double *values = mem_alloc((size_t)a->n_scenes * N_MEASURES, sizeof *values);
+    bool ok = a->baseline == NULL || read_baseline(a->baseline, &baseline, err);
+    for (int i = 0; ok && i < a->n_scenes; i++)
+        ok = measure_in_child(a->scene[i], a, values + (size_t)i * N_MEASURES, err);
+    if (ok)
+        print_table(a, values, baseline);
+    ok = ok && (a->json == NULL || write_json(a, values, err));
+    free(baseline);
+    free(values);
+    return ok;
+}
+
+int command_bench(int argc, char **argv)
+{
+    struct arguments a = {.spp = 8, .max_depth = 8, .n_threads = 2};
+    struct error err;
+    a.scene = mem_alloc((size_t)argc, sizeof *a.scene);
+    int status = parse(argc, argv, &a) ? EXIT_OK : EXIT_USAGE;
+    if (status == EXIT_OK && !run(&a, &err))
+        status = fail(&err);
+    free(a.scene);
+    return status;
+}

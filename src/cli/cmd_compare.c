@@ -1,0 +1,94 @@
+/* cmd_compare.c: asbdpt compare IMAGE REFERENCE: how far apart two pictures are. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/command.h"
+#include "lab/compare.h"
+#include "image/image.h"
+#include "base/mem.h"
+
+struct compare_options {
+    const char *image, *reference, *heatmap;
+    bool json;
+};
+
+static bool parse(int argc, char **argv, struct compare_options *o)
+{
+    memset(o, 0, sizeof *o);
+    for (int i = 1; i < argc; i++) {
+        if (strcmp(argv[i], "--json") == 0)
+            o->json = true;
+        else if (strcmp(argv[i], "--heatmap") == 0 && i + 1 < argc)
+            o->heatmap = argv[++i];
+        else if (argv[i][0] == '-' && argv[i][1] != '\0')
+            return false;
+        else if (o->image == NULL)
+            o->image = argv[i];
+        else if (o->reference == NULL)
+            o->reference = argv[i];
+        else
+            return false;
+    }
+    return o->reference != NULL;
+}
+
+/* JSON has no infinity or NaN. */
+static void print_json_number(const char *name, double v, const char *end)
+{
+    if (isfinite(v))
+        printf("\"%s\": %.9g%s", name, v, end);
+    else
+        printf("\"%s\": null%s", name, end);
+}
+
+static void print(const struct difference *d, bool json)
+{
+    if (!json) {
+        printf("rmse       %.6g\nrmse8      %.6g\nrelmse     %.6g\nmean_ratio %.6g\nnonfinite  %ld\n", d->rmse,
+               d->rmse8, d->relmse, d->mean_ratio, d->nonfinite);
+        return;
+    }
+    printf("{");
+    print_json_number("rmse", d->rmse, ", ");
+    print_json_number("rmse8", d->rmse8, ", ");
+    print_json_number("relmse", d->relmse, ", ");
+    print_json_number("mean_ratio", d->mean_ratio, ", ");
+    printf("\"nonfinite\": %ld}\n", d->nonfinite);
+}
+
+static bool write_heatmap(const char *path, const float *x, const float *r, int width, int height, struct error *err)
+{
+    float *map = mem_alloc((size_t)width * (size_t)height * 3, sizeof *map);
+    compare_heatmap(x, r, (long)width * height, map);
+    bool ok = image_write(path, width, height, map, err);
+    free(map);
+    return ok;
+}
+
+static bool compare_files(const struct compare_options *o, struct error *err)
+{
+    int w1, h1, w2, h2;
+    float *x = load_linear(o->image, &w1, &h1, err), *r = NULL;
+    bool ok = x != NULL && (r = load_linear(o->reference, &w2, &h2, err)) != NULL;
+    if (ok && (w1 != w2 || h1 != h2))
+        ok = error_set(err, "%s is %dx%d but %s is %dx%d; only images of equal size can be compared", o->image, w1, h1,
+                       o->reference, w2, h2);
+    if (ok) {
+        struct difference d = compare_pixels(x, r, (long)w1 * h1 * 3);
+        print(&d, o->json);
+        ok = o->heatmap == NULL || write_heatmap(o->heatmap, x, r, w1, h1, err);
+    }
+    free(x);
+    free(r);
+    return ok;
+}
+
+int command_compare(int argc, char **argv)
+{
+    struct compare_options o;
+    if (!parse(argc, argv, &o))
+        return usage_error("usage: asbdpt compare IMAGE REFERENCE [--heatmap FILE.png] [--json]");
+    struct error err;
+    return compare_files(&o, &err) ? EXIT_OK : fail(&err);
+}

@@ -1,0 +1,71 @@
+/* cmd_info.c: asbdpt info SCENE: what is in a scene and how it was prepared. */
+#include <stdio.h>
+
+#include "cli/command.h"
+#include "base/progress.h"
+
+static const char *light_name(enum light_kind kind)
+{
+    switch (kind) {
+    case LIGHT_AREA: return "area";
+    case LIGHT_POINT: return "point";
+    case LIGHT_SPOT: return "spot";
+    case LIGHT_DISTANT: return "distant";
+    case LIGHT_INFINITE: return "infinite";
+    }
+    return "?";
+}
+
+static void print_lights(const struct light_set *lights)
+{
+    enum { SHOWN = 16 };
+    double total = 0;
+    for (int i = 0; i < lights->n; i++)
+        total += lights->light[i].power;
+    printf("lights        %d\n", lights->n);
+    for (int i = 0; i < lights->n && i < SHOWN; i++)
+        printf("  %-9s   power %.4g W (%.1f %%)\n", light_name(lights->light[i].kind), lights->light[i].power,
+               total > 0 ? 100 * lights->light[i].power / total : 0);
+    if (lights->n > SHOWN)
+        printf("  and %d more\n", lights->n - SHOWN);
+}
+
+static void print_scene(const struct scene *s, const struct method *m, double seconds)
+{
+    const struct kdtree *kd = &s->kd;
+    struct pixel_rect crop = render_crop(s);
+    printf("film          %dx%d, crop [%d,%d) x [%d,%d)\n", s->width, s->height, crop.x0, crop.x1, crop.y0, crop.y1);
+    printf("camera        fov %g degrees, lens radius %g, at (%g, %g, %g)\n", s->camera.fov, s->camera.lens_radius,
+           s->camera.position.x, s->camera.position.y, s->camera.position.z);
+    printf("integrator    %s\n", m->name);
+    for (int i = 0; i < s->settings.n; i++)
+        printf("  %-11s %s\n", s->settings.item[i].name, s->settings.item[i].value);
+    printf("triangles     %d (%d vertices)\nquadrics      %d\nshapes        %d\n", s->geo.n_triangles,
+           s->geo.n_vertices, s->geo.n_quadrics, s->geo.n_groups);
+    printf("materials     %d\ntextures      %d (%d images)\n", s->n_materials, s->textures.n_textures,
+           s->textures.n_images);
+    print_lights(&s->lights);
+    printf("bounds        (%g, %g, %g) to (%g, %g, %g)\n", (double)kd->lo[0], (double)kd->lo[1], (double)kd->lo[2],
+           (double)kd->hi[0], (double)kd->hi[1], (double)kd->hi[2]);
+    printf("kd-tree       %d nodes, %d references, depth %d, expected cost %.1f\n", kd->n_nodes, kd->n_items,
+           kd->depth, kd->cost);
+    printf("loaded in     %.2f s\n", seconds);
+}
+
+int command_info(int argc, char **argv)
+{
+    struct job_options o;
+    int status = job_options_parse(argc, argv, &o);
+    if (status != EXIT_OK)
+        return status;
+    struct scene scene;
+    const struct method *method;
+    double start = clock_seconds();
+    status = job_load(&o, &scene, &method);
+    if (status == EXIT_OK) {
+        print_scene(&scene, method, clock_seconds() - start);
+        scene_free(&scene);
+    }
+    job_options_free(&o);
+    return status;
+}

@@ -1,0 +1,142 @@
+/* cmd_render.c: asbdpt render: a scene to pictures. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+
+#include "cli/command.h"
+#include "image/image.h"
+#include "base/mem.h"
+#include "base/number.h"
+#include "base/progress.h"
+
+/* Every output must be writable in principle before hours are spent. */
+static bool check_outputs(const struct job_options *o, struct error *err)
+{
+    for (int i = 0; i < o->n_outputs; i++)
+        if (!image_writable(o->output[i]))
+            return error_set(err, "%s: unknown image format; use .pfm, .ppm or .png", o->output[i]);
+    return true;
+}
+
+/* The scene's Film filename, with .png in place of an extension this program does not write. */
+static char *default_output(const struct scene *scene)
+{
+    const char *name = scene->film_filename != NULL ? scene->film_filename : "asbdpt.png";
+    size_t size = strlen(name) + 5;
+    char *out = mem_alloc(size, 1);
+    strcpy(out, name);
+    if (!image_writable(out)) {
+        char *dot = strrchr(out, '.'), *slash = strrchr(out, '/');
+        if (dot != NULL && (slash == NULL || dot > slash))
+            *dot = '\0';
+        strcat(out, ".png");
+    }
+    return out;
+}
+
+static bool write_outputs(const struct job_options *o, const struct scene *scene, const struct film *film,
+                          struct error *err)
+{
+    int width = rect_width(film->rect), height = rect_height(film->rect);
+    float *pixels = mem_alloc((size_t)width * (size_t)height * 3, sizeof *pixels);
+    long cut = film_develop(film, scene->film_scale, pixels);
+    film_warn(film, cut);
+    bool ok = true;
+    for (int i = 0; i < o->n_outputs; i++) /* a failing file does not keep the others from being written */
+        ok = image_write(o->output[i], width, height, pixels, ok ? err : NULL) && ok;
+    if (o->n_outputs == 0) {
+        char *name = default_output(scene);
+        ok = image_write(name, width, height, pixels, err);
+        free(name);
+    }
+    free(pixels);
+    return ok;
+}
+
+/* Two pictures per strategy: its whole estimate and its weighted share. */
+static bool write_strategies(const char *directory, const struct film *film, struct error *err)
+{
+    int width = rect_width(film->rect), height = rect_height(film->rect);
+    size_t n = (size_t)width * (size_t)height * 3;
+    float *pixels = mem_alloc(n, sizeof *pixels);
+    char path[4096];
+    mkdir(directory, 0777); /* if that fails, writing says why */
+    bool ok = true;
+    for (int depth = 0; ok && depth <= film->strategies->max_depth; depth++)
+        for (int s = 0; ok && s <= depth + 1; s++)
+            for (int weighted = 0; ok && weighted < 2; weighted++) {
+                int t = depth + 2 - s;
+                const double *sum = weighted ? film->strategies->weighted : film->strategies->unweighted;
+                sum += n * (size_t)strategy_index(s, t);
+                for (size_t i = 0; i < n; i++)
+                    pixels[i] = float_within(sum[i] / (double)film->iterations);
+                snprintf(path, sizeof path, "%s/d%02d_s%02d_t%02d_%s.pfm", directory, depth, s, t,
+                         weighted ? "weighted" : "unweighted");
+                ok = image_write(path, width, height, pixels, err);
+            }
+    free(pixels);
+    return ok;
+}
+
+static void report(const struct job_options *o, const struct method *m, const struct film *film, double wall,
+                   double cpu)
+{
+    double paths = (double)film->iterations * rect_width(film->rect) * rect_height(film->rect);
+    if (!o->quiet)
+        fprintf(stderr, "%s: %dx%d, %ld spp, %s; %.2f s, %.2f s of CPU, %.2f us per sample path\n", o->scene_path,
+                rect_width(film->rect), rect_height(film->rect), film->iterations, m->name, wall, cpu,
+                paths > 0 ? 1e6 * cpu / paths : 0);
+}
+
+static bool render_and_write(const struct job_options *o, const struct scene *scene, const struct method *m,
+                             struct error *err)
+{
+    struct render_options options = {.method = m, .seed = o->seed, .end = job_spp(o, scene)};
+    options.n_threads = o->n_threads;
+    struct progress bar;
+    struct film film;
+    if (!render_max_depth(scene, o->max_depth, &options.max_depth, err))
+        return false;
+    film_init(&film, render_crop(scene), scene->width, scene->height);
+    if (o->strategies != NULL)
+        film_keep_strategies(&film, options.max_depth);
+    options.progress = progress_update;
+    options.progress_context = &bar;
+    progress_start(&bar, o->quiet);
+    clock_t cpu = clock();
+    bool ok = render_scene(scene, &options, &film, err);
+    double cpu_seconds = (double)(clock() - cpu) / CLOCKS_PER_SEC;
+    progress_end(&bar);
+    if (ok) {
+        report(o, m, &film, clock_seconds() - bar.start, cpu_seconds);
+        ok = write_outputs(o, scene, &film, err);
+        if (ok && o->strategies != NULL)
+            ok = write_strategies(o->strategies, &film, err);
+    }
+    film_free(&film);
+    return ok;
+}
+
+int command_render(int argc, char **argv)
+{
+    struct job_options o;
+    int status = job_options_parse(argc, argv, &o);
+    if (status != EXIT_OK)
+        return status;
+    struct error err;
+    struct scene scene;
+    const struct method *method;
+    if (!check_outputs(&o, &err)) {
+        status = fail(&err);
+    } else if ((status = job_load(&o, &scene, &method)) == EXIT_OK) {
+        if (!render_and_write(&o, &scene, method, &err))
+            status = fail(&err);
+        scene_free(&scene);
+    }
+    job_options_free(&o);
+    return status;
+}

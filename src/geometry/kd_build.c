@@ -1,0 +1,252 @@
+/* kd_build.c: the kd-tree's builder: cells are cut where the surface-area heuristic says so (see kd_plane.h), until a
+ * leaf is cheaper. A triangle that the plane cuts is clipped to both parts [Wald & Havran 2006, 2.3], so that a cell
+ * holds only what really passes through it.
+ *
+ * The cells still to be cut are kept on a stack, each with the list of its items. Of the two parts of a cell the one
+ * with fewer items is moved to the top of the stack and built first; the other stays where the whole was.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "geometry/kd_block.h"
+#include "geometry/kd_clip.h"
+#include "geometry/kd_node.h"
+#include "geometry/kd_plane.h"
+#include "geometry/kdtree.h"
+#include "base/mem.h"
+
+/* References per item at most. Meshes need 2 to 4; a heap of long needles would ask for ever more. */
+static const double MAX_REFERENCES = 32;
+
+/* Items are the triangles, then the quadrics, numbered without a gap. */
+struct builder {
+    const struct geometry *geo;
+    struct kdtree *kd;
+    struct kd_ref *ref;  /* the items of the cells still to be cut, a stack */
+    uint32_t *leaf_item; /* the items of the leaves in blocks of KD_LANES, filled up with KD_NONE */
+    size_t n_leaf_items, ref_capacity, node_capacity, leaf_capacity;
+    int max_depth;
+};
+
+/* A cell still to be built. */
+struct cell {
+    struct box box;
+    size_t at, n; /* items: builder.ref[at .. at+n) */
+    double room;  /* how many references its leaves may hold together */
+    int depth;
+};
+
+/* What a shadow ray that crosses a cell may expect of it. */
+struct prospect {
+    double cost; /* of going through all of it, in tests of a block */
+    double hit;  /* probability of being stopped */
+};
+
+/* Bounds of the two parts of an item that the plane cuts; a quadric is represented by its bounding box. */
+static void split_item(const struct geometry *geo, const struct kd_ref *ref, const struct box *cell,
+                       const struct kd_plane *p, struct box part[2], bool filled[2])
+{
+    if (ref->item < (uint32_t)geo->n_triangles) {
+        float v[9];
+        shape_vertices(geo, (int)ref->item, v);
+        kd_split_triangle(v, cell, p->axis, p->at, part, filled);
+        return;
+    }
+    filled[0] = filled[1] = true;
+    part[0] = part[1] = ref->box;
+    part[0].hi[p->axis] = part[1].lo[p->axis] = p->at;
+}
+
+/* Deal the items of a cell out to its parts; those of part[moved] go to the top of the stack. */
+static void deal(struct builder *b, const struct cell *cell, const struct kd_plane *p, int moved,
+                 struct cell part[2])
+{
+    size_t top = cell->at + cell->n;
+    b->ref = mem_grow(b->ref, &b->ref_capacity, top + cell->n, sizeof *b->ref);
+    struct kd_ref *start[2], *out[2];
+    start[moved] = out[moved] = b->ref + top;
+    start[1 - moved] = out[1 - moved] = b->ref + cell->at;
+    for (size_t i = cell->at; i < top; i++) {
+        const struct kd_ref whole = b->ref[i];
+        bool in[2] = {kd_is_below(&whole, p), kd_is_above(&whole, p)};
+        if (in[0] && in[1]) {
+            struct box half[2];
+            split_item(b->geo, &whole, &cell->box, p, half, in);
+            for (int s = 0; s < 2; s++)
+                if (in[s]) {
+                    out[s]->box = half[s];
+                    out[s]++->item = whole.item;
+                }
+        } else {
+            *out[in[1]]++ = whole;
+        }
+    }
+    for (int s = 0; s < 2; s++) {
+        part[s].at = (size_t)(start[s] - b->ref);
+        part[s].n = (size_t)(out[s] - start[s]);
+    }
+}
+
+/* The blocks of a leaf: first those of triangles, then those of quadrics. */
+static void make_leaf(struct builder *b, uint32_t node, const struct cell *cell)
+{
+    struct kdtree *kd = b->kd;
+    const struct kd_ref *ref = b->ref + cell->at;
+    size_t first = b->n_leaf_items, n = 0;
+    b->leaf_item = mem_grow(b->leaf_item, &b->leaf_capacity, first + cell->n + 2 * KD_LANES, sizeof *b->leaf_item);
+    for (int quadrics = 0; quadrics < 2; quadrics++) {
+        for (size_t i = 0; i < cell->n; i++)
+            if ((ref[i].item >= (uint32_t)b->geo->n_triangles) == quadrics)
+                b->leaf_item[first + n++] = ref[i].item;
+        while (n % KD_LANES != 0)
+            b->leaf_item[first + n++] = KD_NONE;
+    }
+    kd->node[node].word = (uint32_t)(n / KD_LANES) << 2 | KD_LEAF;
+    kd->node[node].at.first = (uint32_t)(first / KD_LANES);
+    b->n_leaf_items += n;
+    kd->n_items += (int)cell->n;
+}
+
+/* A line that crosses a cell of surface S meets a triangle of area A in it with probability 2 A / S. A quarter of the
+ * surface of its bounds is good enough for A here. */
+static struct prospect leaf_prospect(const struct builder *b, const struct cell *cell)
+{
+    double area = kd_half_area(&cell->box), sum = 0;
+    for (size_t i = cell->at; i < cell->at + cell->n; i++)
+        sum += kd_half_area(&b->ref[i].box) / 2;
+    struct prospect p = {kd_leaf_cost(cell->n), area > 0 ? 1 - exp(-sum / area) : 1};
+    return p;
+}
+
+/* Decide which child shadow rays visit first: as with any two chances, that with the better relation of probability to
+ * cost. Returns the prospect of both together. */
+static struct prospect order_children(struct kd_node *node, const struct cell *cell, const struct cell part[2],
+                                      const struct prospect child[2])
+{
+    double area = kd_half_area(&cell->box), share[2];
+    for (int s = 0; s < 2; s++)
+        share[s] = area > 0 ? kd_half_area(&part[s].box) / area : 1;
+    if (child[1].hit * child[0].cost > child[0].hit * child[1].cost)
+        node->word |= KD_UPPER_FIRST;
+    struct prospect both = {kd_visit_cost() + share[0] * child[0].cost + share[1] * child[1].cost,
+                            1 - (1 - share[0] * child[0].hit) * (1 - share[1] * child[1].hit)};
+    return both;
+}
+
+/* Two neighbouring nodes; returns the first. */
+static uint32_t add_children(struct builder *b, uint32_t parent, const struct kd_plane *p)
+{
+    struct kdtree *kd = b->kd;
+    uint32_t first = (uint32_t)kd->n_nodes;
+    kd->node = mem_grow(kd->node, &b->node_capacity, (size_t)kd->n_nodes + 2, sizeof *kd->node);
+    kd->n_nodes += 2;
+    kd->node[parent].word = (first >> 1) << 3 | (uint32_t)p->axis;
+    kd->node[parent].at.split = p->at;
+    return first;
+}
+
+/* Cut a cell in two, and its room in proportion; false, with nothing changed, where it is to be a leaf. */
+static bool cut_cell(struct builder *b, const struct cell *cell, struct kd_plane *p, struct cell part[2])
+{
+    size_t n[2] = {0, 0};
+    if (cell->depth >= b->max_depth)
+        return false;
+    *p = kd_best_plane(b->ref + cell->at, cell->n, &cell->box);
+    if (p->axis < 0)
+        return false;
+    for (size_t i = cell->at; i < cell->at + cell->n; i++) {
+        n[0] += kd_is_below(&b->ref[i], p);
+        n[1] += kd_is_above(&b->ref[i], p);
+    }
+    if ((double)(n[0] + n[1]) > cell->room)
+        return false;
+    part[0] = part[1] = *cell;
+    part[0].box.hi[p->axis] = part[1].box.lo[p->axis] = p->at;
+    deal(b, cell, p, n[0] <= n[1] ? 0 : 1, part);
+    for (int s = 0; s < 2; s++) {
+        part[s].room = cell->room * (double)n[s] / (double)(n[0] + n[1]);
+        part[s].depth = cell->depth + 1;
+    }
+    return true;
+}
+
+/* Build what is below a node, taking the cell's items from the stack. */
+static struct prospect build_cell(struct builder *b, uint32_t node, const struct cell *cell)
+{
+    struct kd_plane p;
+    struct cell part[2];
+    struct prospect prospect[2];
+    if (cell->depth > b->kd->depth)
+        b->kd->depth = cell->depth;
+    if (!cut_cell(b, cell, &p, part)) {
+        make_leaf(b, node, cell);
+        return leaf_prospect(b, cell);
+    }
+    uint32_t child = add_children(b, node, &p);
+    int top = part[0].at > part[1].at ? 0 : 1;
+    prospect[top] = build_cell(b, child + (uint32_t)top, &part[top]);
+    prospect[1 - top] = build_cell(b, child + 1 - (uint32_t)top, &part[1 - top]);
+    return order_children(&b->kd->node[node], cell, part, prospect);
+}
+
+static int prim_of_item(const struct geometry *geo, uint32_t item)
+{
+    return item < (uint32_t)geo->n_triangles ? (int)item : FIRST_QUADRIC + (int)item - geo->n_triangles;
+}
+
+/* The items with their bounds, and the bounds of everything. */
+static void start_items(struct builder *b, size_t n, struct box *bounds)
+{
+    b->ref = mem_grow(NULL, &b->ref_capacity, n + n / 2, sizeof *b->ref);
+    for (size_t i = 0; i < n; i++) {
+        struct box *box = &b->ref[i].box;
+        b->ref[i].item = (uint32_t)i;
+        shape_bounds(b->geo, prim_of_item(b->geo, (uint32_t)i), box->lo, box->hi);
+        for (int k = 0; k < 3; k++) {
+            bounds->lo[k] = i == 0 || box->lo[k] < bounds->lo[k] ? box->lo[k] : bounds->lo[k];
+            bounds->hi[k] = i == 0 || box->hi[k] > bounds->hi[k] ? box->hi[k] : bounds->hi[k];
+        }
+    }
+}
+
+static void fill_blocks(struct builder *b)
+{
+    struct kdtree *kd = b->kd;
+    kd->n_blocks = (int)(b->n_leaf_items / KD_LANES);
+    kd->block = mem_alloc((size_t)kd->n_blocks, sizeof *kd->block);
+    for (size_t i = 0; i < b->n_leaf_items; i += KD_LANES) {
+        int prim[KD_LANES], n = 0;
+        while (n < KD_LANES && b->leaf_item[i + (size_t)n] != KD_NONE) {
+            prim[n] = prim_of_item(b->geo, b->leaf_item[i + (size_t)n]);
+            n++;
+        }
+        kd_block_fill(&kd->block[i / KD_LANES], b->geo, prim, n);
+    }
+}
+
+void kd_build(struct kdtree *kd, const struct geometry *geo)
+{
+    struct kdtree empty = {0};
+    struct builder b = {0};
+    struct box bounds = {{1, 1, 1}, {-1, -1, -1}};
+    int n = geometry_primitives(geo);
+    *kd = empty;
+    b.geo = geo;
+    b.kd = kd;
+    if (n > 0) {
+        start_items(&b, (size_t)n, &bounds);
+        /* n is 1 to 2^31, so this is 8 to KD_MAX_DEPTH. */
+        b.max_depth = (int)fmin(KD_MAX_DEPTH, 8 + 2.0 * log2(n));
+        kd->node = mem_grow(NULL, &b.node_capacity, 2, sizeof *kd->node);
+        kd->n_nodes = 2;
+        struct cell root = {bounds, 0, (size_t)n, MAX_REFERENCES * n, 0};
+        kd->cost = build_cell(&b, 0, &root).cost;
+        free(b.ref);
+        fill_blocks(&b);
+        free(b.leaf_item);
+    }
+    memcpy(kd->lo, bounds.lo, sizeof kd->lo);
+    memcpy(kd->hi, bounds.hi, sizeof kd->hi);
+    for (int k = 0; k < 3; k++)
+        kd->reach = fmax(kd->reach, fmax(fabs((double)kd->lo[k]), fabs((double)kd->hi[k])));
+}

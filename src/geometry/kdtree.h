@@ -1,0 +1,45 @@
+/* kdtree.h: which primitive does a ray meet first?
+ *
+ * A kd-tree over triangles and quadrics: surface-area heuristic over clipped triangles [Wald & Havran 2006], 8-byte
+ * nodes, leaves of triangles in blocks of four, iterative traversal.
+ *
+ * Precision: nodes hold float planes, traversal and intersection are computed in double from exact float
+ * vertices. A point found on a surface is therefore within about 1e-15 of the scene's size of it, and a ray
+ * leaving it needs only tmin = scene->epsilon (1e-8 of the scene's diagonal) to miss its own surface.
+ *
+ * Used by: scene. Tests: test_kdtree.c (against brute force, degenerate meshes).
+ */
+#ifndef ASBDPT_KDTREE_H
+#define ASBDPT_KDTREE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "geometry/shape.h"
+
+struct kd_node;  /* 8 bytes, see kd_node.h */
+struct kd_block; /* up to four triangles, see kd_block.h */
+
+struct kdtree {
+    struct kd_node *node;   /* [n_nodes], root first, owned */
+    struct kd_block *block; /* [n_blocks] what the leaves refer to, owned */
+    int n_nodes, n_blocks;
+    int n_items;        /* references to primitives in all leaves */
+    float lo[3], hi[3]; /* bounds of everything; lo > hi for an empty tree */
+    double reach;       /* largest absolute coordinate of the bounds */
+    int depth;          /* deepest leaf, the root being at 0 */
+    double cost;        /* expected cost of a ray by the surface-area heuristic, in tests of a block of triangles */
+};
+
+/* kd_build: build the tree of all primitives; kd_free releases it. Cannot fail (memory: see mem.h).
+ * The result depends on the geometry alone. The geometry must not change afterwards. */
+void kd_build(struct kdtree *kd, const struct geometry *geo);
+void kd_free(struct kdtree *kd);
+
+/* kd_closest: the first hit in (tmin, tmax), honouring alpha. Returns false if there is none. Thread-safe. */
+bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct hit *hit);
+
+/* kd_occluded: is anything (for shadow rays: shadow_alpha counts) hit in (tmin, tmax)? Thread-safe. */
+bool kd_occluded(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray);
+
+#endif

@@ -1,0 +1,473 @@
+/* ply.c: see ply.h. The file is read whole; the header becomes a list of elements with their properties, and
+ * one function, next_number, reads a number of any type in any of the three encodings.
+ */
+#include "geometry/ply.h"
+
+#include <errno.h>
+#include <float.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/mem.h"
+
+enum encoding { ENCODING_ASCII, ENCODING_LITTLE, ENCODING_BIG };
+enum scalar { INT8, UINT8, INT16, UINT16, INT32, UINT32, FLOAT32, FLOAT64, N_SCALARS };
+
+/* What a vertex property means to us; the alternatives of a texture coordinate follow each other by two. */
+enum role { X, Y, Z, NX, NY, NZ, U, V, N_ROLES, NO_ROLE = N_ROLES };
+
+struct property {
+    char name[64];
+    enum scalar type;
+    bool is_list;
+    enum scalar count_type; /* lists only */
+    enum role role;         /* of a scalar of element vertex */
+};
+
+struct element {
+    char name[64];
+    int count;
+    int first, n; /* its properties */
+};
+
+struct reader {
+    const char *path;
+    uint8_t *data; /* [size] the whole file */
+    size_t size, pos;
+    enum encoding encoding;
+    struct element *element; /* [n_elements] */
+    struct property *property;
+    size_t n_elements, n_properties, element_capacity, property_capacity;
+    struct mesh *mesh;
+    size_t n_indices, index_capacity;
+    struct error *err;
+};
+
+static const int SCALAR_SIZE[N_SCALARS] = {1, 1, 2, 2, 4, 4, 4, 8};
+
+/* --- messages ----------------------------------------------------------------------------------------- */
+
+static int line_at(const struct reader *r, size_t pos)
+{
+    int line = 1;
+    for (size_t i = 0; i < pos && i < r->size; i++)
+        line += r->data[i] == '\n';
+    return line;
+}
+
+static bool fail(struct reader *r, const char *what) { return error_set(r->err, "%s: %s", r->path, what); }
+
+static bool fail_line(struct reader *r, size_t pos, const char *what, const char *detail)
+{
+    return error_set(r->err, "%s:%d: %s%s", r->path, line_at(r, pos), what, detail);
+}
+
+static bool fail_row(struct reader *r, const char *element, int row, const char *what)
+{
+    if (r->encoding == ENCODING_ASCII)
+        return error_set(r->err, "%s:%d: %s %d: %s", r->path, line_at(r, r->pos), element, row, what);
+    return error_set(r->err, "%s: %s %d: %s", r->path, element, row, what);
+}
+
+/* --- header ------------------------------------------------------------------------------------------- */
+
+enum { MAX_WORDS = 5, WORD_SIZE = 64 };
+
+/* The next line, cut into at most five words; returns how many, -1 at the end of the file. */
+static int next_line(struct reader *r, char word[MAX_WORDS][WORD_SIZE])
+{
+    char line[512];
+    if (r->pos >= r->size)
+        return -1;
+    const uint8_t *start = r->data + r->pos, *end = memchr(start, '\n', r->size - r->pos);
+    if (end == NULL)
+        return -1;
+    size_t length = (size_t)(end - start), kept = length < sizeof line ? length : sizeof line - 1;
+    memcpy(line, start, kept);
+    line[kept] = 0;
+    r->pos += length + 1;
+    int n = sscanf(line, "%63s %63s %63s %63s %63s", word[0], word[1], word[2], word[3], word[4]);
+    return n < 0 ? 0 : n;
+}
+
+static bool scalar_of(const char *name, enum scalar *out)
+{
+    static const char *const names[2][N_SCALARS] = {
+        {"char", "uchar", "short", "ushort", "int", "uint", "float", "double"},
+        {"int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"}};
+    for (int i = 0; i < N_SCALARS; i++)
+        if (strcmp(name, names[0][i]) == 0 || strcmp(name, names[1][i]) == 0) {
+            *out = (enum scalar)i;
+            return true;
+        }
+    return false;
+}
+
+static bool header_format(struct reader *r, size_t line, const char *name, const char *version)
+{
+    static const char *const names[] = {"ascii", "binary_little_endian", "binary_big_endian"};
+    for (int i = 0; i < 3; i++)
+        if (strcmp(name, names[i]) == 0 && strcmp(version, "1.0") == 0) {
+            r->encoding = (enum encoding)i;
+            return true;
+        }
+    return fail_line(r, line, "not a format of PLY 1.0: ", name);
+}
+
+static bool header_element(struct reader *r, size_t line, const char *name, const char *count)
+{
+    char *end;
+    errno = 0;
+    long n = strtol(count, &end, 10);
+    if (*end != 0 || end == count || n < 0 || n > FIRST_QUADRIC || errno != 0)
+        return fail_line(r, line, "not a usable element count: ", count);
+    for (size_t i = 0; i < r->n_elements; i++)
+        if (strcmp(r->element[i].name, name) == 0)
+            return fail_line(r, line, "a second element named ", name);
+    r->element = mem_grow(r->element, &r->element_capacity, r->n_elements + 1, sizeof *r->element);
+    struct element *e = &r->element[r->n_elements++];
+    strcpy(e->name, name);
+    e->count = (int)n;
+    e->first = (int)r->n_properties;
+    e->n = 0;
+    return true;
+}
+
+static bool header_property(struct reader *r, size_t line, char word[MAX_WORDS][WORD_SIZE], int n)
+{
+    struct property p;
+    p.is_list = n == 5 && strcmp(word[1], "list") == 0;
+    p.count_type = UINT8;
+    p.role = NO_ROLE;
+    if (r->n_elements == 0)
+        return fail_line(r, line, "a property before any element", "");
+    if (n != (p.is_list ? 5 : 3))
+        return fail_line(r, line, "expected 'property TYPE NAME' or 'property list TYPE TYPE NAME'", "");
+    if (p.is_list && (!scalar_of(word[2], &p.count_type) || p.count_type >= FLOAT32))
+        return fail_line(r, line, "a list cannot be counted by the type ", word[2]);
+    if (!scalar_of(word[p.is_list ? 3 : 1], &p.type))
+        return fail_line(r, line, "unknown type ", word[p.is_list ? 3 : 1]);
+    strcpy(p.name, word[n - 1]);
+    r->property = mem_grow(r->property, &r->property_capacity, r->n_properties + 1, sizeof *r->property);
+    r->property[r->n_properties++] = p;
+    r->element[r->n_elements - 1].n++;
+    return true;
+}
+
+static bool read_header(struct reader *r)
+{
+    char word[MAX_WORDS][WORD_SIZE];
+    bool has_format = false;
+    if (next_line(r, word) != 1 || strcmp(word[0], "ply") != 0)
+        return fail(r, "not a PLY file (its first line is not 'ply')");
+    for (;;) {
+        size_t line = r->pos;
+        int n = next_line(r, word);
+        bool ok = true;
+        if (n < 0)
+            return fail(r, "the header has no end_header");
+        if (n == 0 || strcmp(word[0], "comment") == 0 || strcmp(word[0], "obj_info") == 0)
+            continue;
+        if (strcmp(word[0], "end_header") == 0)
+            break;
+        if (strcmp(word[0], "format") == 0 && n == 3)
+            ok = has_format = header_format(r, line, word[1], word[2]);
+        else if (strcmp(word[0], "element") == 0 && n == 3)
+            ok = header_element(r, line, word[1], word[2]);
+        else if (strcmp(word[0], "property") == 0)
+            ok = header_property(r, line, word, n);
+        else
+            return fail_line(r, line, "not a line of a PLY header: ", word[0]);
+        if (!ok)
+            return false;
+    }
+    return has_format ? true : fail(r, "the header has no format line");
+}
+
+/* Counts are promises; hold them against the bytes that are there before allocating anything. */
+static bool check_counts(struct reader *r)
+{
+    double need = 0;
+    for (size_t i = 0; i < r->n_elements; i++) {
+        const struct element *e = &r->element[i];
+        double row = 0;
+        for (int k = 0; k < e->n; k++) {
+            const struct property *p = &r->property[e->first + k];
+            row += r->encoding == ENCODING_ASCII ? 2 : SCALAR_SIZE[p->is_list ? p->count_type : p->type];
+        }
+        need += row * e->count;
+    }
+    if (need > (double)(r->size - r->pos) + 1) /* the last number of an ascii file may lack its newline */
+        return fail(r, "truncated: the header announces more than the file holds");
+    return true;
+}
+
+/* --- numbers ------------------------------------------------------------------------------------------ */
+
+static bool is_blank(int c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }
+
+static bool next_ascii(struct reader *r, double *out)
+{
+    char word[64], *end;
+    size_t n = 0;
+    while (r->pos < r->size && is_blank(r->data[r->pos]))
+        r->pos++;
+    while (r->pos + n < r->size && !is_blank(r->data[r->pos + n]) && n < sizeof word - 1) {
+        word[n] = (char)r->data[r->pos + n];
+        n++;
+    }
+    word[n] = 0;
+    *out = strtod(word, &end);
+    if (n == 0 || end != word + n)
+        return false;
+    r->pos += n;
+    return true;
+}
+
+static double decode(uint64_t bits, enum scalar type)
+{
+    float f;
+    double d;
+    uint32_t low = (uint32_t)bits;
+    switch (type) {
+    case INT8: return (double)bits - (bits >= 0x80 ? 0x100 : 0);
+    case INT16: return (double)bits - (bits >= 0x8000 ? 0x10000 : 0);
+    case INT32: return (double)bits - (bits >= 0x80000000u ? 4294967296.0 : 0);
+    case UINT8:
+    case UINT16:
+    case UINT32: return (double)bits;
+    case FLOAT32: memcpy(&f, &low, sizeof f); return f;
+    case FLOAT64: memcpy(&d, &bits, sizeof d); return d;
+    case N_SCALARS: break;
+    }
+    return 0;
+}
+
+/* One number of the given type; false at the end of the file or, in ascii, on something that is no number. */
+static bool next_number(struct reader *r, enum scalar type, double *out)
+{
+    if (r->encoding == ENCODING_ASCII)
+        return next_ascii(r, out);
+    size_t size = (size_t)SCALAR_SIZE[type];
+    if (size > r->size - r->pos)
+        return false;
+    const uint8_t *b = r->data + r->pos;
+    uint64_t bits = 0;
+    for (size_t i = 0; i < size; i++)
+        bits = bits << 8 | b[r->encoding == ENCODING_BIG ? i : size - 1 - i];
+    r->pos += size;
+    *out = decode(bits, type);
+    return true;
+}
+
+/* A list's length: a whole number, 0 or more. */
+static bool next_count(struct reader *r, const struct property *p, const char *element, int row, double *count)
+{
+    if (!next_number(r, p->count_type, count))
+        return fail_row(r, element, row, "the file ends or has no number here");
+    if (!(*count >= 0 && *count <= FIRST_QUADRIC) || *count != floor(*count))
+        return fail_row(r, element, row, "not a list length");
+    return true;
+}
+
+/* --- elements ----------------------------------------------------------------------------------------- */
+
+static bool skip_property(struct reader *r, const struct property *p, const char *element, int row)
+{
+    double count = 1, ignored;
+    if (p->is_list && !next_count(r, p, element, row, &count))
+        return false;
+    for (double k = 0; k < count; k++)
+        if (!next_number(r, p->type, &ignored))
+            return fail_row(r, element, row, "the file ends or has no number here");
+    return true;
+}
+
+static bool skip_element(struct reader *r, const struct element *e)
+{
+    for (int row = 0; e->n > 0 && row < e->count; row++)
+        for (int k = 0; k < e->n; k++)
+            if (!skip_property(r, &r->property[e->first + k], e->name, row))
+                return false;
+    return true;
+}
+
+static struct property *scalar_named(struct reader *r, const struct element *e, const char *name)
+{
+    for (int k = 0; k < e->n; k++)
+        if (!r->property[e->first + k].is_list && strcmp(r->property[e->first + k].name, name) == 0)
+            return &r->property[e->first + k];
+    return NULL;
+}
+
+/* Give the n properties of these names the roles from `role` on, if all of them are there. */
+static bool assign_roles(struct reader *r, const struct element *e, const char *const *names, int n, enum role role)
+{
+    for (int i = 0; i < n; i++)
+        if (scalar_named(r, e, names[i]) == NULL)
+            return false;
+    for (int i = 0; i < n; i++)
+        scalar_named(r, e, names[i])->role = (enum role)((int)role + i);
+    return true;
+}
+
+static bool assign_uv(struct reader *r, const struct element *e)
+{
+    static const char *const names[4][2] = {
+        {"u", "v"}, {"s", "t"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}};
+    for (int i = 0; i < 4; i++)
+        if (assign_roles(r, e, names[i], 2, U))
+            return true;
+    return false;
+}
+
+static bool store_vertex(struct reader *r, int i, const double value[N_ROLES])
+{
+    struct mesh *m = r->mesh;
+    for (int k = 0; k < N_ROLES; k++) {
+        bool good = fabs(value[k]) <= FLT_MAX; /* false for NaN */
+        float f = good ? (float)value[k] : 0;
+        if (k <= Z && !good)
+            return fail_row(r, "vertex", i, "the position is not a finite number");
+        if (k <= Z)
+            m->P[3 * (size_t)i + (size_t)k] = f;
+        else if (k <= NZ && m->N != NULL)
+            m->N[3 * (size_t)i + (size_t)(k - NX)] = f;
+        else if (k > NZ && m->UV != NULL)
+            m->UV[2 * (size_t)i + (size_t)(k - U)] = f;
+    }
+    return true;
+}
+
+static bool read_vertices(struct reader *r, const struct element *e)
+{
+    static const char *const xyz[] = {"x", "y", "z"}, *const normal[] = {"nx", "ny", "nz"};
+    struct mesh *m = r->mesh;
+    size_t count = (size_t)e->count;
+    if (!assign_roles(r, e, xyz, 3, X))
+        return fail(r, "vertices have no x, y, z");
+    m->P = mem_alloc(count * 3, sizeof *m->P);
+    if (assign_roles(r, e, normal, 3, NX))
+        m->N = mem_alloc(count * 3, sizeof *m->N);
+    if (assign_uv(r, e))
+        m->UV = mem_alloc(count * 2, sizeof *m->UV);
+    m->n_vertices = e->count;
+    for (int i = 0; i < e->count; i++) {
+        double value[N_ROLES + 1] = {0}; /* the last takes what we do not use */
+        for (int k = 0; k < e->n; k++) {
+            const struct property *p = &r->property[e->first + k];
+            if (p->is_list && !skip_property(r, p, "vertex", i))
+                return false;
+            if (!p->is_list && !next_number(r, p->type, &value[p->role]))
+                return fail_row(r, "vertex", i, "the file ends or has no number here");
+        }
+        if (!store_vertex(r, i, value))
+            return false;
+    }
+    return true;
+}
+
+static void add_triangle(struct reader *r, uint32_t a, uint32_t b, uint32_t c)
+{
+    struct mesh *m = r->mesh;
+    m->index = mem_grow(m->index, &r->index_capacity, r->n_indices + 3, sizeof *m->index);
+    m->index[r->n_indices++] = a;
+    m->index[r->n_indices++] = b;
+    m->index[r->n_indices++] = c;
+}
+
+/* One polygon, cut into a fan around its first corner. */
+static bool read_polygon(struct reader *r, const struct property *p, int row)
+{
+    double count, value;
+    uint32_t first = 0, previous = 0;
+    if (!next_count(r, p, "face", row, &count))
+        return false;
+    if (count < 3)
+        return fail_row(r, "face", row, "fewer than 3 vertices");
+    for (double k = 0; k < count; k++) {
+        if (!next_number(r, p->type, &value))
+            return fail_row(r, "face", row, "the file ends or has no number here");
+        if (!(value >= 0 && value < FIRST_QUADRIC) || value != floor(value))
+            return fail_row(r, "face", row, "not a vertex index");
+        uint32_t index = (uint32_t)value;
+        if (k >= 2)
+            add_triangle(r, first, previous, index);
+        first = k == 0 ? index : first;
+        previous = index;
+    }
+    return true;
+}
+
+static bool read_faces(struct reader *r, const struct element *e)
+{
+    int indices = -1;
+    for (int k = 0; k < e->n; k++) {
+        const struct property *p = &r->property[e->first + k];
+        bool named = strcmp(p->name, "vertex_indices") == 0 || strcmp(p->name, "vertex_index") == 0;
+        if (named && p->is_list && p->type < FLOAT32)
+            indices = k;
+    }
+    if (indices < 0)
+        return fail(r, "faces have no integer list vertex_indices (or vertex_index)");
+    for (int row = 0; row < e->count; row++)
+        for (int k = 0; k < e->n; k++) {
+            const struct property *p = &r->property[e->first + k];
+            if (!(k == indices ? read_polygon(r, p, row) : skip_property(r, p, "face", row)))
+                return false;
+        }
+    if (r->n_indices / 3 > FIRST_QUADRIC)
+        return fail(r, "more than 2^30 triangles");
+    r->mesh->n_triangles = (int)(r->n_indices / 3);
+    return true;
+}
+
+static bool read_body(struct reader *r)
+{
+    for (size_t i = 0; i < r->n_elements; i++) {
+        const struct element *e = &r->element[i];
+        bool ok;
+        if (strcmp(e->name, "vertex") == 0)
+            ok = read_vertices(r, e);
+        else if (strcmp(e->name, "face") == 0)
+            ok = read_faces(r, e);
+        else
+            ok = skip_element(r, e);
+        if (!ok)
+            return false;
+    }
+    return true;
+}
+
+/* Done at the end because faces may stand before the vertices. */
+static bool check_mesh(struct reader *r)
+{
+    const struct mesh *m = r->mesh;
+    if (m->n_triangles == 0)
+        return fail(r, "no faces");
+    for (size_t i = 0; i < r->n_indices; i++)
+        if (m->index[i] >= (uint32_t)m->n_vertices)
+            return error_set(r->err, "%s: a face refers to vertex %lu, but there are only %d", r->path,
+                             (unsigned long)m->index[i], m->n_vertices);
+    return true;
+}
+
+bool ply_read(const char *path, struct mesh *out, struct error *err)
+{
+    struct mesh empty = {0};
+    struct reader r = {0};
+    *out = empty;
+    r.path = path;
+    r.mesh = out;
+    r.err = err;
+    bool ok = file_read(path, &r.data, &r.size, err) && read_header(&r) && check_counts(&r) && read_body(&r) &&
+              check_mesh(&r);
+    free(r.data);
+    free(r.element);
+    free(r.property);
+    if (!ok)
+        mesh_free(out);
+    return ok;
+}

@@ -1,0 +1,254 @@
+/* quadric.c: see quadric.h. Parametrisations and partial derivatives as in [PBRT3 3.2-3.4]. */
+#include "geometry/quadric.h"
+
+void quadric_normalise(struct quadric *q)
+{
+    double low = fmin(q->zmin, q->zmax), high = fmax(q->zmin, q->zmax);
+    q->zmin = q->kind == QUADRIC_SPHERE ? clamp(low, -q->radius, q->radius) : low;
+    q->zmax = q->kind == QUADRIC_SPHERE ? clamp(high, -q->radius, q->radius) : high;
+    q->phi_max = clamp(q->phi_max, 0, 2 * PI);
+}
+
+void quadric_bounds(const struct quadric *q, vec3 *lo, vec3 *hi)
+{
+    /* Row i of the matrix maps the circle of radius r at height z to m3 + m2 z +- r |(m0, m1)|; a sphere is
+     * also within m3 +- r |(m0, m1, m2)|. */
+    double low[3], high[3];
+    for (int i = 0; i < 3; i++) {
+        const double *m = q->to_world.m[i];
+        double disk = q->radius * sqrt(sqr(m[0]) + sqr(m[1]));
+        double ball = q->radius * sqrt(sqr(m[0]) + sqr(m[1]) + sqr(m[2]));
+        double z0 = m[2] * q->zmin, z1 = m[2] * q->zmax;
+        low[i] = fmin(z0, z1) - disk;
+        high[i] = fmax(z0, z1) + disk;
+        if (q->kind == QUADRIC_SPHERE) {
+            low[i] = fmax(low[i], -ball);
+            high[i] = fmin(high[i], ball);
+        }
+        double slack = 1e-14 * (fabs(m[3]) + fabs(low[i]) + fabs(high[i]));
+        low[i] += m[3] - slack;
+        high[i] += m[3] + slack;
+    }
+    *lo = vec(low[0], low[1], low[2]);
+    *hi = vec(high[0], high[1], high[2]);
+}
+
+static double azimuth(vec3 p)
+{
+    double phi = atan2(p.y, p.x);
+    return phi < 0 ? phi + 2 * PI : phi;
+}
+
+/* Is a point of the full surface in the part that z and phi leave over? */
+static bool is_kept(const struct quadric *q, vec3 p)
+{
+    if (q->phi_max < 2 * PI && azimuth(p) > q->phi_max)
+        return false;
+    switch (q->kind) {
+    case QUADRIC_SPHERE: return !(q->zmin > -q->radius && p.z < q->zmin) && !(q->zmax < q->radius && p.z > q->zmax);
+    case QUADRIC_DISK: {
+        double r2 = sqr(p.x) + sqr(p.y);
+        return r2 <= sqr(q->radius) && r2 >= sqr(q->inner_radius);
+    }
+    case QUADRIC_CYLINDER: return p.z >= q->zmin && p.z <= q->zmax;
+    }
+    return false;
+}
+
+/* Roots t[0] <= t[1] of |o + t d| = r. The discriminant is taken at the point of closest approach, and only
+ * quantities of the same sign are added: no cancellation for far or touching rays. */
+static bool sphere_roots(vec3 o, vec3 d, double r, double t[2])
+{
+    double a = length2(d), b = -dot(o, d);
+    if (a == 0)
+        return false;
+    vec3 closest = add(o, mul(d, b / a));
+    double discriminant = a * (sqr(r) - length2(closest));
+    if (discriminant < 0)
+        return false;
+    double q = b + copysign(sqrt(discriminant), b);
+    double l = length(o), c = (l - r) * (l + r);
+    double t0 = q / a, t1 = q != 0 ? c / q : t0;
+    t[0] = t0 < t1 ? t0 : t1;
+    t[1] = t0 < t1 ? t1 : t0;
+    return true;
+}
+
+/* All parameters t at which the line meets the uncut quadric, ascending; returns how many. */
+static int line_roots(const struct quadric *q, vec3 o, vec3 d, double t[2])
+{
+    switch (q->kind) {
+    case QUADRIC_SPHERE: return sphere_roots(o, d, q->radius, t) ? 2 : 0;
+    case QUADRIC_DISK: t[0] = d.z != 0 ? (q->zmin - o.z) / d.z : 0; return d.z != 0;
+    case QUADRIC_CYLINDER: return sphere_roots(vec(o.x, o.y, 0), vec(d.x, d.y, 0), q->radius, t) ? 2 : 0;
+    }
+    return 0;
+}
+
+/* The nearest point of the uncut quadric. */
+static vec3 onto(const struct quadric *q, vec3 p)
+{
+    double r = sqrt(sqr(p.x) + sqr(p.y)), l = length(p);
+    switch (q->kind) {
+    case QUADRIC_SPHERE: return l > 0 ? mul(p, q->radius / l) : vec(q->radius, 0, 0);
+    case QUADRIC_DISK: return vec(p.x, p.y, q->zmin);
+    case QUADRIC_CYLINDER:
+        return r > 0 ? vec(p.x * q->radius / r, p.y * q->radius / r, p.z) : vec(q->radius, 0, p.z);
+    }
+    return p;
+}
+
+static vec3 to_object_vector(const struct quadric *q, vec3 v)
+{
+    const double(*m)[4] = q->to_world.inv;
+    return vec(m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z, m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
+               m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z);
+}
+
+static vec3 to_object_point(const struct quadric *q, vec3 p)
+{
+    const double(*m)[4] = q->to_world.inv;
+    return add(to_object_vector(q, p), vec(m[0][3], m[1][3], m[2][3]));
+}
+
+bool quadric_intersect(const struct quadric *q, const struct ray *ray, double *t)
+{
+    vec3 o = to_object_point(q, ray->o), d = to_object_vector(q, ray->d);
+    double root[2];
+    int n = line_roots(q, o, d, root);
+    for (int i = 0; i < n; i++)
+        if (root[i] > ray->tmin && root[i] < ray->tmax && is_kept(q, onto(q, add(o, mul(d, root[i]))))) {
+            *t = root[i];
+            return true;
+        }
+    return false;
+}
+
+/* Everything of a surface point in object space. */
+struct local {
+    vec3 n, dpdu, dpdv, dndu, dndv;
+    double u, v;
+};
+
+/* theta runs from acos(zmin/r), where v = 0, to acos(zmax/r). On the axis phi is taken as 0. */
+static void local_sphere(const struct quadric *q, vec3 p, struct local *at)
+{
+    double r = q->radius, ring = sqrt(sqr(p.x) + sqr(p.y));
+    double theta0 = acos(clamp(q->zmin / r, -1, 1)), theta1 = acos(clamp(q->zmax / r, -1, 1));
+    vec3 axis = ring > 0 ? vec(p.x / ring, p.y / ring, 0) : vec(1, 0, 0);
+    ring = fmax(ring, 1e-5 * r);
+    at->v = (acos(clamp(p.z / r, -1, 1)) - theta0) / (theta1 - theta0);
+    at->n = mul(p, 1 / r);
+    at->dpdu = mul(vec(-axis.y, axis.x, 0), q->phi_max * ring);
+    at->dpdv = mul(vec(p.z * axis.x, p.z * axis.y, -ring), theta1 - theta0);
+    at->dndu = mul(at->dpdu, 1 / r);
+    at->dndv = mul(at->dpdv, 1 / r);
+}
+
+static void local_disk(const struct quadric *q, vec3 p, struct local *at)
+{
+    double r = sqrt(sqr(p.x) + sqr(p.y)), width = q->radius - q->inner_radius;
+    vec3 axis = r > 0 ? vec(p.x / r, p.y / r, 0) : vec(1, 0, 0);
+    r = fmax(r, 1e-5 * q->radius);
+    at->v = (q->radius - r) / width;
+    at->n = vec(0, 0, 1);
+    at->dpdu = mul(vec(-axis.y, axis.x, 0), q->phi_max * r);
+    at->dpdv = mul(axis, -width);
+    at->dndu = at->dndv = vec(0, 0, 0);
+}
+
+static void local_cylinder(const struct quadric *q, vec3 p, struct local *at)
+{
+    at->v = (p.z - q->zmin) / (q->zmax - q->zmin);
+    at->n = vec(p.x / q->radius, p.y / q->radius, 0);
+    at->dpdu = mul(vec(-p.y, p.x, 0), q->phi_max);
+    at->dpdv = vec(0, 0, q->zmax - q->zmin);
+    at->dndu = mul(at->dpdu, 1 / q->radius);
+    at->dndv = vec(0, 0, 0);
+}
+
+/* Derivative of the unit world normal from that of the object-space normal: the map is linear up to the
+ * final normalisation, which leaves only what is orthogonal to n. */
+static vec3 normal_derivative(const struct quadric *q, vec3 d, vec3 n, double scale)
+{
+    vec3 w = mul(transform_normal(&q->to_world, d), scale);
+    return sub(w, mul(n, dot(n, w)));
+}
+
+void quadric_surface_at(const struct quadric *q, bool reverse_orientation, vec3 p, struct surface *out)
+{
+    struct local at = {0};
+    p = onto(q, p);
+    at.u = azimuth(p) / q->phi_max;
+    switch (q->kind) {
+    case QUADRIC_SPHERE: local_sphere(q, p, &at); break;
+    case QUADRIC_DISK: local_disk(q, p, &at); break;
+    case QUADRIC_CYLINDER: local_cylinder(q, p, &at); break;
+    }
+    vec3 normal = transform_normal(&q->to_world, at.n);
+    double scale = (reverse_orientation ? -1 : 1) / length(normal);
+    out->p = transform_point(&q->to_world, p);
+    out->ng = out->ns = mul(normal, scale);
+    out->dpdu = transform_vector(&q->to_world, at.dpdu);
+    out->dpdv = transform_vector(&q->to_world, at.dpdv);
+    out->dndu = normal_derivative(q, at.dndu, out->ng, scale);
+    out->dndv = normal_derivative(q, at.dndv, out->ng, scale);
+    out->u = at.u;
+    out->v = at.v;
+}
+
+vec3 quadric_sample(const struct quadric *q, double u1, double u2)
+{
+    /* Archimedes: on a sphere, as on a cylinder, equal slices of z have equal area. */
+    double phi = u2 * q->phi_max, z = q->zmin + u1 * (q->zmax - q->zmin), r = q->radius;
+    if (q->kind == QUADRIC_SPHERE)
+        r = safe_sqrt(sqr(q->radius) - sqr(z));
+    else if (q->kind == QUADRIC_DISK)
+        r = sqrt(sqr(q->inner_radius) + u1 * (sqr(q->radius) - sqr(q->inner_radius)));
+    return vec(r * cos(phi), r * sin(phi), z);
+}
+
+static double object_area(const struct quadric *q)
+{
+    switch (q->kind) {
+    case QUADRIC_SPHERE:
+    case QUADRIC_CYLINDER: return q->phi_max * q->radius * (q->zmax - q->zmin);
+    case QUADRIC_DISK: return q->phi_max * 0.5 * (sqr(q->radius) - sqr(q->inner_radius));
+    }
+    return 0;
+}
+
+/* World area per object area where the unit world normal is ng: |det M| / |M^T ng|. */
+static double stretch(const struct quadric *q, vec3 ng)
+{
+    const double(*m)[4] = q->to_world.m;
+    vec3 n = vec(m[0][0] * ng.x + m[1][0] * ng.y + m[2][0] * ng.z, m[0][1] * ng.x + m[1][1] * ng.y + m[2][1] * ng.z,
+                 m[0][2] * ng.x + m[1][2] * ng.y + m[2][2] * ng.z);
+    return fabs(transform_determinant(&q->to_world)) / length(n);
+}
+
+double quadric_pdf_a(const struct quadric *q, vec3 ng) { return 1 / (object_area(q) * stretch(q, ng)); }
+
+/* Columns orthogonal and of one length, to rounding. */
+static bool is_similarity(const struct transform *t)
+{
+    vec3 c[3];
+    for (int i = 0; i < 3; i++)
+        c[i] = vec(t->m[0][i], t->m[1][i], t->m[2][i]);
+    double size = length2(c[0]), slack = 1e-9 * size;
+    return fabs(length2(c[1]) - size) < slack && fabs(length2(c[2]) - size) < slack &&
+           fabs(dot(c[0], c[1])) < slack && fabs(dot(c[1], c[2])) < slack && fabs(dot(c[2], c[0])) < slack;
+}
+
+double quadric_area(const struct quadric *q)
+{
+    int n = q->kind == QUADRIC_DISK || is_similarity(&q->to_world) ? 1 : 64;
+    double sum = 0;
+    for (int i = 0; i < n * n; i++) {
+        struct surface at;
+        vec3 p = quadric_sample(q, (i / n + 0.5) / n, (i % n + 0.5) / n);
+        quadric_surface_at(q, false, p, &at);
+        sum += stretch(q, at.ng);
+    }
+    return object_area(q) * sum / (n * n);
+}

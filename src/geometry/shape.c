@@ -1,0 +1,309 @@
+/* shape.c: see shape.h. Keeps the flat arrays and hands each question to triangle.c or quadric.c. */
+#include "geometry/shape.h"
+
+#include <float.h>
+#include <stdlib.h>
+
+#include "base/mem.h"
+#include "base/warp.h"
+
+static bool is_quadric(int prim) { return prim >= FIRST_QUADRIC; }
+
+void mesh_free(struct mesh *m)
+{
+    free(m->P);
+    free(m->N);
+    free(m->UV);
+    free(m->index);
+    struct mesh empty = {0};
+    *m = empty;
+}
+
+void geometry_free(struct geometry *geo)
+{
+    free(geo->P);
+    free(geo->N);
+    free(geo->UV);
+    free(geo->index);
+    free(geo->group_of_triangle);
+    free(geo->quadric);
+    free(geo->group);
+    struct geometry empty = {0};
+    *geo = empty;
+}
+
+static int add_group(struct geometry *geo, struct shape_group group)
+{
+    geo->group = mem_grow(geo->group, &geo->group_capacity, (size_t)geo->n_groups + 1, sizeof *geo->group);
+    geo->group[geo->n_groups] = group;
+    return geo->n_groups++;
+}
+
+/* Room for more vertices in the three arrays that share one capacity. */
+static void reserve_vertices(struct geometry *geo, size_t need)
+{
+    size_t cap_p = geo->vertex_capacity, cap_n = cap_p, cap_uv = cap_p;
+    geo->P = mem_grow(geo->P, &cap_p, need, 3 * sizeof *geo->P);
+    geo->N = mem_grow(geo->N, &cap_n, need, 3 * sizeof *geo->N);
+    geo->UV = mem_grow(geo->UV, &cap_uv, need, 2 * sizeof *geo->UV);
+    geo->vertex_capacity = cap_p;
+}
+
+static void reserve_triangles(struct geometry *geo, size_t need)
+{
+    size_t cap_index = geo->triangle_capacity, cap_group = cap_index;
+    geo->index = mem_grow(geo->index, &cap_index, need, 3 * sizeof *geo->index);
+    geo->group_of_triangle = mem_grow(geo->group_of_triangle, &cap_group, need, sizeof *geo->group_of_triangle);
+    geo->triangle_capacity = cap_index;
+}
+
+static vec3 load3(const float *v, size_t i) { return vec(v[3 * i], v[3 * i + 1], v[3 * i + 2]); }
+
+static void store3(float *v, size_t i, vec3 p)
+{
+    v[3 * i] = (float)p.x;
+    v[3 * i + 1] = (float)p.y;
+    v[3 * i + 2] = (float)p.z;
+}
+
+static bool add_vertices(struct geometry *geo, const struct mesh *m, const struct transform *to_world, bool reverse,
+                         struct error *err)
+{
+    size_t base = (size_t)geo->n_vertices;
+    reserve_vertices(geo, base + (size_t)m->n_vertices);
+    for (size_t i = 0; i < (size_t)m->n_vertices; i++) {
+        vec3 p = transform_point(to_world, load3(m->P, i));
+        if (!is_place(p))
+            return error_set(err, "vertex %lu of the mesh lies at (%g, %g, %g) in the world: not a usable position",
+                             (unsigned long)i, p.x, p.y, p.z);
+        vec3 n = m->N != NULL ? normalize(transform_normal(to_world, load3(m->N, i))) : vec(0, 0, 0);
+        if (!is_finite3(n))
+            n = vec(0, 0, 0);
+        store3(geo->P, base + i, p);
+        store3(geo->N, base + i, reverse ? neg(n) : n);
+        for (size_t k = 0; k < 2; k++)
+            geo->UV[2 * (base + i) + k] = m->UV != NULL ? m->UV[2 * i + k] : 0;
+    }
+    return true;
+}
+
+int shape_add_mesh(struct geometry *geo, const struct mesh *m, const struct transform *to_world,
+                   struct shape_group group, bool reverse_orientation, struct error *err)
+{
+    if (m->n_triangles > FIRST_QUADRIC - geo->n_triangles || m->n_vertices > INT32_MAX - geo->n_vertices) {
+        error_set(err, "the scene has more than 2^30 triangles");
+        return -1;
+    }
+    if (!add_vertices(geo, m, to_world, reverse_orientation, err))
+        return -1;
+    reserve_triangles(geo, (size_t)geo->n_triangles + (size_t)m->n_triangles);
+    for (int i = 0; i < 3 * m->n_triangles; i++)
+        geo->index[3 * (size_t)geo->n_triangles + (size_t)i] = m->index[i] + (uint32_t)geo->n_vertices;
+    for (int i = 0; i < m->n_triangles; i++)
+        geo->group_of_triangle[geo->n_triangles + i] = geo->n_groups;
+    group.first_prim = geo->n_triangles;
+    group.flip = reverse_orientation != transform_swaps_handedness(to_world);
+    group.has_n = m->N != NULL;
+    group.has_uv = m->UV != NULL;
+    geo->n_vertices += m->n_vertices;
+    geo->n_triangles += m->n_triangles;
+    return add_group(geo, group);
+}
+
+int shape_add_quadric(struct geometry *geo, struct quadric q, struct shape_group group, bool reverse_orientation,
+                      struct error *err)
+{
+    vec3 lo, hi;
+    quadric_normalise(&q);
+    quadric_bounds(&q, &lo, &hi);
+    if (!is_place(lo) || !is_place(hi)) {
+        error_set(err, "this shape reaches from (%g, %g, %g) to (%g, %g, %g) in the world: not a usable position", lo.x,
+                  lo.y, lo.z, hi.x, hi.y, hi.z);
+        return -1;
+    }
+    q.group = geo->n_groups;
+    group.first_prim = FIRST_QUADRIC + geo->n_quadrics;
+    group.flip = reverse_orientation != transform_swaps_handedness(&q.to_world);
+    group.has_n = false;
+    group.has_uv = true;
+    geo->quadric =
+        mem_grow(geo->quadric, &geo->quadric_capacity, (size_t)geo->n_quadrics + 1, sizeof *geo->quadric);
+    geo->quadric[geo->n_quadrics++] = q;
+    return add_group(geo, group);
+}
+
+static int group_of(const struct geometry *geo, int prim)
+{
+    return is_quadric(prim) ? geo->quadric[prim - FIRST_QUADRIC].group : geo->group_of_triangle[prim];
+}
+
+const struct shape_group *shape_group_of(const struct geometry *geo, int prim)
+{
+    return &geo->group[group_of(geo, prim)];
+}
+
+void shape_vertices(const struct geometry *geo, int triangle, float v[9])
+{
+    for (int i = 0; i < 3; i++) {
+        const float *p = geo->P + 3 * (size_t)geo->index[3 * (size_t)triangle + (size_t)i];
+        for (int k = 0; k < 3; k++)
+            v[3 * i + k] = p[k];
+    }
+}
+
+/* Positions or normals at the corners of a triangle. */
+static void load_corners(const float *v, const uint32_t index[3], vec3 corner[3])
+{
+    for (size_t i = 0; i < 3; i++)
+        corner[i] = load3(v, index[i]);
+}
+
+static struct triangle triangle_of(const struct geometry *geo, int prim)
+{
+    static const double default_uv[3][2] = {{0, 0}, {1, 0}, {1, 1}};
+    const struct shape_group *group = shape_group_of(geo, prim);
+    const uint32_t *index = &geo->index[3 * (size_t)prim];
+    struct triangle tri;
+    load_corners(geo->P, index, tri.p);
+    if (group->has_n)
+        load_corners(geo->N, index, tri.n);
+    for (size_t i = 0; i < 3; i++)
+        for (size_t k = 0; k < 2; k++)
+            tri.uv[i][k] = group->has_uv ? geo->UV[2 * (size_t)index[i] + k] : default_uv[i][k];
+    tri.has_n = group->has_n;
+    tri.flip = group->flip;
+    tri.plain = group->plain;
+    return tri;
+}
+
+/* The nearest float not above (below) a double; the smallest normal number stands for tinier ones. */
+static float float_below(double x)
+{
+    float f = (float)x;
+    return (double)f > x ? nextafterf(f, -FLT_MAX) : f;
+}
+
+static float float_above(double x) { return -float_below(-x); }
+
+void shape_bounds(const struct geometry *geo, int prim, float lo[3], float hi[3])
+{
+    if (is_quadric(prim)) {
+        vec3 low, high;
+        quadric_bounds(&geo->quadric[prim - FIRST_QUADRIC], &low, &high);
+        double l[3] = {low.x, low.y, low.z}, h[3] = {high.x, high.y, high.z};
+        for (int k = 0; k < 3; k++) {
+            lo[k] = float_below(l[k]);
+            hi[k] = float_above(h[k]);
+        }
+        return;
+    }
+    float v[9];
+    shape_vertices(geo, prim, v);
+    for (int k = 0; k < 3; k++) {
+        lo[k] = fminf(v[k], fminf(v[3 + k], v[6 + k]));
+        hi[k] = fmaxf(v[k], fmaxf(v[3 + k], v[6 + k]));
+    }
+}
+
+bool shape_intersect(const struct geometry *geo, int prim, const struct ray *ray, struct hit *hit)
+{
+    if (is_quadric(prim)) {
+        if (!quadric_intersect(&geo->quadric[prim - FIRST_QUADRIC], ray, &hit->t))
+            return false;
+        hit->b1 = hit->b2 = 0;
+    } else {
+        float v[9];
+        shape_vertices(geo, prim, v);
+        struct triangle_ray r = triangle_ray(ray);
+        if (!triangle_hit(&r, v, ray->tmax, hit))
+            return false;
+    }
+    hit->prim = prim;
+    return true;
+}
+
+/* What a surface point has from its primitive, wherever it is on it. */
+static void set_primitive(const struct geometry *geo, int prim, struct surface *out)
+{
+    const struct shape_group *group = shape_group_of(geo, prim);
+    out->material = group->material;
+    out->flat = shape_flat(prim);
+    out->light = group->first_light >= 0 ? group->first_light + prim - group->first_prim : -1;
+}
+
+/* Surface point of a quadric at an object-space position. */
+static void quadric_point(const struct geometry *geo, int prim, vec3 p, struct surface *out)
+{
+    const struct quadric *q = &geo->quadric[prim - FIRST_QUADRIC];
+    bool reverse = geo->group[q->group].flip != transform_swaps_handedness(&q->to_world);
+    quadric_surface_at(q, reverse, p, out);
+    set_primitive(geo, prim, out);
+}
+
+static void triangle_point(const struct geometry *geo, int prim, double b1, double b2, struct surface *out)
+{
+    struct triangle tri = triangle_of(geo, prim);
+    triangle_surface(&tri, b1, b2, out);
+    set_primitive(geo, prim, out);
+}
+
+void shape_surface(const struct geometry *geo, const struct hit *hit, const struct ray *ray, struct surface *out)
+{
+    if (is_quadric(hit->prim)) {
+        const struct quadric *q = &geo->quadric[hit->prim - FIRST_QUADRIC];
+        vec3 p = transform_point_back(&q->to_world, add(ray->o, mul(ray->d, hit->t)));
+        quadric_point(geo, hit->prim, p, out);
+    } else {
+        triangle_point(geo, hit->prim, hit->b1, hit->b2, out);
+    }
+}
+
+double shape_area(const struct geometry *geo, int prim)
+{
+    if (is_quadric(prim))
+        return quadric_area(&geo->quadric[prim - FIRST_QUADRIC]);
+    struct triangle tri = triangle_of(geo, prim);
+    return triangle_area(&tri);
+}
+
+static vec3 mean_of(const vec3 corner[3], double b1, double b2)
+{
+    return add(add(mul(corner[0], 1 - b1 - b2), mul(corner[1], b1)), mul(corner[2], b2));
+}
+
+/* Position and normal as triangle_surface has them, and no more: every light sampled comes through here. */
+static void sample_triangle(const struct geometry *geo, int prim, double u1, double u2, struct surface *out,
+                            double *pdf_a)
+{
+    const struct shape_group *group = shape_group_of(geo, prim);
+    const uint32_t *index = &geo->index[3 * (size_t)prim];
+    vec3 p[3], n[3];
+    double b1, b2;
+    load_corners(geo->P, index, p);
+    warp_triangle(u1, u2, &b1, &b2);
+    out->p = mean_of(p, b1, b2);
+    vec3 normal = cross(sub(p[1], p[0]), sub(p[2], p[0]));
+    out->ng = normalize(group->flip ? neg(normal) : normal);
+    if (group->has_n) {
+        load_corners(geo->N, index, n);
+        out->ng = faceforward(out->ng, mean_of(n, b1, b2));
+    }
+    *pdf_a = 1 / (0.5 * length(normal));
+}
+
+void shape_sample(const struct geometry *geo, int prim, double u1, double u2, struct surface *out, double *pdf_a)
+{
+    if (!is_quadric(prim)) {
+        sample_triangle(geo, prim, u1, u2, out, pdf_a);
+        return;
+    }
+    quadric_point(geo, prim, quadric_sample(&geo->quadric[prim - FIRST_QUADRIC], u1, u2), out);
+    *pdf_a = shape_pdf_a(geo, prim, out);
+}
+
+double shape_pdf_a(const struct geometry *geo, int prim, const struct surface *at)
+{
+    if (is_quadric(prim))
+        return quadric_pdf_a(&geo->quadric[prim - FIRST_QUADRIC], at->ng);
+    return 1 / shape_area(geo, prim);
+}

@@ -1,0 +1,116 @@
+/* shape.h: the geometry of a scene: triangles and quadrics in flat arrays, in world space.
+ *
+ * Primitives are numbered: triangle i is primitive i, quadric i is primitive FIRST_QUADRIC + i, so that a number
+ * given out stays valid when more shapes are added. Every primitive belongs to a group (what one Shape directive
+ * made), which carries material, alpha textures and area light. A Shape inside an object instance is copied per instance.
+ *
+ * Used by: kdtree (intersection, bounds), light (area sampling), scene, parser.
+ * Tests: test_shape.c.
+ */
+#ifndef ASBDPT_SHAPE_H
+#define ASBDPT_SHAPE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/error.h"
+#include "geometry/quadric.h"
+#include "geometry/ray.h"
+#include "geometry/surface.h"
+#include "base/transform.h"
+#include "geometry/triangle.h"
+#include "base/vec.h"
+
+enum { FIRST_QUADRIC = 1 << 30 };
+
+/* What the primitives of one Shape directive have in common. */
+struct shape_group {
+    int material;     /* index into scene->materials */
+    int alpha;        /* float texture, -1 if none: a hole where it is 0 (for all rays) */
+    int shadow_alpha; /* the same for shadow rays only */
+    int first_light;  /* area light of primitive first_prim, the others follow; -1 if none */
+    int first_prim;   /* first primitive of the group */
+    bool flip;        /* ReverseOrientation xor transform swaps handedness: normals without N are negated */
+    bool has_n;       /* vertex normals given (already negated under ReverseOrientation): they orient ng as well */
+    bool has_uv;
+    bool plain; /* nobody reads the partial derivatives of its surface: zeros will do (scene_prepare finds out) */
+};
+
+struct geometry {
+    /* Triangle meshes, all concatenated. Vertex arrays share one numbering. */
+    float *P;         /* [n_vertices*3] world positions */
+    float *N;         /* [n_vertices*3] unit world normals; zeros where a group has none */
+    float *UV;        /* [n_vertices*2] */
+    uint32_t *index;  /* [n_triangles*3] */
+    int32_t *group_of_triangle; /* [n_triangles] */
+    struct quadric *quadric;    /* [n_quadrics] */
+    struct shape_group *group;  /* [n_groups] */
+    int n_vertices, n_triangles, n_quadrics, n_groups;
+    size_t vertex_capacity, triangle_capacity, quadric_capacity, group_capacity;
+
+    /* Alpha textures: asked at a hit of a group with alpha or shadow_alpha >= 0. Returns true where the
+     * surface is there. Set by scene.c; NULL means everything is opaque. */
+    bool (*opaque)(const void *context, const struct geometry *geo, const struct hit *hit, bool shadow);
+    const void *opaque_context;
+};
+
+/* A mesh as a Shape directive or a PLY file describes it, in object space. Owned arrays; see mesh_free. */
+struct mesh {
+    float *P, *N, *UV;  /* [n_vertices * 3, 3, 2]; N and UV may be NULL */
+    uint32_t *index;    /* [n_triangles*3], every entry < n_vertices */
+    int n_vertices, n_triangles;
+};
+void mesh_free(struct mesh *m);
+
+/* shape_add_mesh: transform a mesh to world space and append it as one group.
+ *   group  material, alpha and light fields to use; first_prim, flip (from reverse_orientation), has_n and
+ *          has_uv are filled in here
+ * Degenerate triangles (zero area) are kept: they are never hit. Returns the group's number, or -1 with a
+ * message when a world position is no place (vec.h) or there would be more than 2^30 triangles. */
+int shape_add_mesh(struct geometry *geo, const struct mesh *m, const struct transform *to_world,
+                   struct shape_group group, bool reverse_orientation, struct error *err);
+
+/* shape_add_quadric: append one quadric as a group of its own (q.group is filled in, the parameters are clamped
+ * as pbrt does). Returns the group's number, or -1 with a message when its bounds are no places (vec.h). */
+int shape_add_quadric(struct geometry *geo, struct quadric q, struct shape_group group, bool reverse_orientation,
+                      struct error *err);
+
+void geometry_free(struct geometry *geo);
+
+/* geometry_primitives: how many primitives there are (their numbers are not contiguous, see above). */
+static inline int geometry_primitives(const struct geometry *geo) { return geo->n_triangles + geo->n_quadrics; }
+
+/* shape_group_of: the group a primitive belongs to. */
+const struct shape_group *shape_group_of(const struct geometry *geo, int prim);
+
+/* shape_vertices: the three corners of a triangle, x y z of each. */
+void shape_vertices(const struct geometry *geo, int triangle, float v[9]);
+
+/* shape_bounds: world bounding box of one primitive, never inside out, conservative in float. */
+void shape_bounds(const struct geometry *geo, int prim, float lo[3], float hi[3]);
+
+/* shape_intersect: does the ray meet this primitive within (tmin, tmax)? Fills *hit if so. Double precision,
+ * edges shared by two triangles leave no gap. Alpha is not looked at here. */
+bool shape_intersect(const struct geometry *geo, int prim, const struct ray *ray, struct hit *hit);
+
+/* shape_flat: the number by which rays and points name the triangle they begin, end or lie on; 0 for a quadric. */
+static inline uint32_t shape_flat(int prim) { return prim < FIRST_QUADRIC ? (uint32_t)prim + 1 : 0; }
+
+/* shape_surface: the full surface point of a hit (position from the barycentric coordinates for triangles,
+ * refined onto the surface for quadrics). Shading normal and partials as pbrt-v3 defines them. */
+void shape_surface(const struct geometry *geo, const struct hit *hit, const struct ray *ray, struct surface *out);
+
+/* shape_area: world area of a primitive in m^2 (quadrics: exact under similarity transforms, otherwise by
+ * numerical integration). */
+double shape_area(const struct geometry *geo, int prim);
+
+/* shape_sample: a point of the primitive, uniform by area (triangles; quadrics: uniform in object space).
+ *   out    p and ng are filled in, of a triangle nothing else
+ *   pdf_a  out: density per m^2 of world area at that point */
+void shape_sample(const struct geometry *geo, int prim, double u1, double u2, struct surface *out, double *pdf_a);
+
+/* shape_pdf_a: the density with which shape_sample returns the given point of the primitive, 1/m^2. */
+double shape_pdf_a(const struct geometry *geo, int prim, const struct surface *at);
+
+#endif

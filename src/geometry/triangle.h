@@ -1,0 +1,91 @@
+/* triangle.h: the ray-triangle test, inline because it is the innermost loop of the whole program, and the
+ * differential geometry of a triangle.
+ *
+ * The test is the watertight one of [Woop, Benthin, Wald 2013], in double. The ray is turned into the axis
+ * (0,0) by a shear that depends on the ray alone, so every vertex has one projection (ax, ay), whichever
+ * triangle it belongs to. The edge function of a shared edge is then the same number with opposite sign in
+ * both triangles; a rounded difference of two products never has the wrong sign (at worst it is 0), and 0
+ * counts as inside: no ray slips between two triangles.
+ *
+ * Used by: shape (one primitive at a time), kdtree. Tests: test_shape.c, test_kdtree.c (closed surfaces).
+ */
+#ifndef ASBDPT_TRIANGLE_H
+#define ASBDPT_TRIANGLE_H
+
+#include "geometry/ray.h"
+#include "geometry/surface.h"
+
+/* What the test needs of a ray, computed once per ray. */
+struct triangle_ray {
+    const struct ray *ray;
+    double ox, oy, oz; /* origin, axes permuted so that z is the ray's longest */
+    double sx, sy;     /* shear: d[kx]/d[kz], d[ky]/d[kz] */
+    int kx, ky, kz;    /* the permutation */
+};
+
+static inline struct triangle_ray triangle_ray(const struct ray *ray)
+{
+    double o[3] = {ray->o.x, ray->o.y, ray->o.z}, d[3] = {ray->d.x, ray->d.y, ray->d.z};
+    int kz = fabs(d[0]) > fabs(d[1]) ? 0 : 1;
+    kz = fabs(d[2]) > fabs(d[kz]) ? 2 : kz;
+    int kx = kz == 2 ? 0 : kz + 1, ky = kx == 2 ? 0 : kx + 1;
+    struct triangle_ray r = {ray, o[kx], o[ky], o[kz], d[kx] / d[kz], d[ky] / d[kz], kx, ky, kz};
+    return r;
+}
+
+/* triangle_distance: t where the ray meets the plane of the triangle v. The edges, differences of floats, are exact in
+ * double, so t is good to the last digits even for needles and grazing rays. */
+static inline double triangle_distance(const struct triangle_ray *r, const float v[9])
+{
+    vec3 v0 = vec(v[0], v[1], v[2]);
+    vec3 n = cross(sub(vec(v[3], v[4], v[5]), v0), sub(vec(v[6], v[7], v[8]), v0));
+    return dot(n, sub(v0, r->ray->o)) / dot(n, r->ray->d);
+}
+
+/* triangle_hit: does the ray meet the triangle v[0..8] (three vertices) at tmin < t < tmax?
+ * On true hit->t, b1 and b2 are set. A triangle of zero area, or seen exactly edge-on, is never hit. */
+static inline bool triangle_hit(const struct triangle_ray *r, const float v[9], double tmax, struct hit *hit)
+{
+    double t = triangle_distance(r, v);
+    if (!(t > r->ray->tmin && t < tmax))
+        return false;
+    double az = v[r->kz] - r->oz, bz = v[3 + r->kz] - r->oz, cz = v[6 + r->kz] - r->oz;
+    double ax = (v[r->kx] - r->ox) - r->sx * az, ay = (v[r->ky] - r->oy) - r->sy * az;
+    double bx = (v[3 + r->kx] - r->ox) - r->sx * bz, by = (v[3 + r->ky] - r->oy) - r->sy * bz;
+    double cx = (v[6 + r->kx] - r->ox) - r->sx * cz, cy = (v[6 + r->ky] - r->oy) - r->sy * cz;
+    double ea = cx * by - cy * bx, eb = ax * cy - ay * cx, ec = bx * ay - by * ax;
+    /* Which edge has the wrong sign is a matter of chance, so one test of the extremes beats one of each. */
+    double least = ea < eb ? ea : eb, most = ea > eb ? ea : eb;
+    least = ec < least ? ec : least;
+    most = ec > most ? ec : most;
+    if ((least < 0) & (most > 0))
+        return false;
+    double sum = ea + eb + ec;
+    if (sum == 0)
+        return false;
+    hit->t = t;
+    hit->b1 = eb / sum;
+    hit->b2 = ec / sum;
+    return true;
+}
+
+/* What the shading of a triangle is computed from. */
+struct triangle {
+    vec3 p[3];       /* world positions */
+    vec3 n[3];       /* vertex normals; read only if has_n */
+    double uv[3][2]; /* (0,0) (1,0) (1,1) where the mesh has none */
+    bool has_n;
+    bool flip;  /* turns the normal of a triangle without vertex normals */
+    bool plain; /* the partial derivatives may be left zero */
+};
+
+/* triangle_surface: position, normals, texture coordinates and partial derivatives at barycentric coordinates
+ * (1-b1-b2, b1, b2); material and light are left alone. With vertex normals, ns is their normalised mean, ng lies on
+ * its side, and dpdu, dpdv are the derivatives by (u,v) projected to be orthogonal to ns; without, ns = ng and they are
+ * the derivatives as they are. Where (u,v) do not span the triangle they are any unit tangents. All are zero if the
+ * triangle is plain. */
+void triangle_surface(const struct triangle *tri, double b1, double b2, struct surface *out);
+
+double triangle_area(const struct triangle *tri); /* m^2 */
+
+#endif

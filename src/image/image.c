@@ -1,0 +1,109 @@
+/* image.c: see image.h. */
+#include "image/image.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <string.h>
+#include <stdlib.h>
+
+#include "base/file.h"
+#include "image/pfm.h"
+#include "image/png.h"
+#include "image/ppm.h"
+#include "image/tga.h"
+
+struct format {
+    const char *extension;
+    bool (*matches)(const uint8_t *data, size_t size); /* by content; NULL where the format has no signature */
+    bool (*read)(const uint8_t *data, size_t size, struct image *out, struct error *err);
+    void (*write)(FILE *f, int width, int height, const float *pixels); /* NULL where it is not written */
+};
+
+static const struct format FORMATS[] = {
+    {".pfm", pfm_matches, pfm_read, pfm_write},
+    {".ppm", ppm_matches, ppm_read, ppm_write},
+    {".pgm", ppm_matches, ppm_read, NULL},
+    {".png", png_matches, png_read, png_write},
+    {".tga", NULL, tga_read, NULL},
+};
+enum { N_FORMATS = sizeof FORMATS / sizeof FORMATS[0] };
+
+static bool ends_in(const char *path, const char *extension)
+{
+    size_t n = strlen(path), e = strlen(extension);
+    if (n < e)
+        return false;
+    for (size_t i = 0; i < e; i++)
+        if (tolower((unsigned char)path[n - e + i]) != extension[i])
+            return false;
+    return true;
+}
+
+static const struct format *format_by_name(const char *path)
+{
+    for (int i = 0; i < N_FORMATS; i++)
+        if (ends_in(path, FORMATS[i].extension))
+            return &FORMATS[i];
+    return NULL;
+}
+
+static const struct format *format_by_content(const uint8_t *data, size_t size)
+{
+    for (int i = 0; i < N_FORMATS; i++)
+        if (FORMATS[i].matches != NULL && FORMATS[i].matches(data, size))
+            return &FORMATS[i];
+    return NULL;
+}
+
+static bool read_bytes(const char *path, const uint8_t *data, size_t size, struct image *out, struct error *err)
+{
+    static const uint8_t EXR[4] = {0x76, 0x2f, 0x31, 0x01};
+    if (size >= sizeof EXR && memcmp(data, EXR, sizeof EXR) == 0)
+        return error_set(err, "OpenEXR is not read; convert it to PFM, e.g. with pbrt's `imgtool convert`");
+    const struct format *format = format_by_content(data, size);
+    if (format == NULL)
+        format = format_by_name(path);
+    if (format == NULL)
+        return error_set(err, "unknown picture format; convert it to PNG, TGA, PPM or PFM");
+    return format->read(data, size, out, err);
+}
+
+bool image_read(const char *path, struct image *out, struct error *err)
+{
+    uint8_t *data;
+    size_t size;
+    memset(out, 0, sizeof *out);
+    if (!file_read(path, &data, &size, err))
+        return false;
+    struct error reason;
+    bool ok = read_bytes(path, data, size, out, &reason);
+    free(data);
+    return ok || error_set(err, "%s: %s", path, reason.text);
+}
+
+void image_mend(struct image *img, bool negative_too)
+{
+    size_t n = img->f32 != NULL ? (size_t)img->width * (size_t)img->height * (size_t)img->channels : 0;
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(img->f32[i]) || (negative_too && img->f32[i] < 0)) {
+            img->f32[i] = 0;
+            img->replaced++;
+        }
+}
+
+bool image_writable(const char *path)
+{
+    const struct format *format = format_by_name(path);
+    return format != NULL && format->write != NULL;
+}
+
+bool image_write(const char *path, int width, int height, const float *pixels, struct error *err)
+{
+    if (!image_writable(path))
+        return error_set(err, "%s: pictures are written as .pfm, .ppm or .png; end the name in one of these", path);
+    struct file_output f;
+    if (!file_create(path, &f, err))
+        return false;
+    format_by_name(path)->write(f.stream, width, height, pixels);
+    return file_commit(&f, err);
+}

@@ -1,0 +1,36 @@
+/* image.h: pictures in memory and their files.
+ *
+ * Formats are one table {extension, read, write}: PFM (linear float RGB), PPM and PNG (8-bit sRGB when
+ * written; read as stored), TGA (read only). Each format lives in a file of its own; the pixels in memory are
+ * picture.h's, the transfer function of sRGB is srgb.h's.
+ *
+ * Used by: texture, light (environment maps), film output, compare. Tests: test_image.c.
+ */
+#ifndef ASBDPT_IMAGE_H
+#define ASBDPT_IMAGE_H
+
+#include <stdbool.h>
+
+#include "base/error.h"
+#include "image/picture.h"
+#include "image/srgb.h"
+
+/* image_read: read a picture; the format is recognised by content where it has a signature, else by the
+ * name's extension (upper or lower case).
+ *   out  filled on success, to be released with image_free (picture.h); empty on failure
+ * Returns false with a message "PATH: what is wrong" on a missing, truncated, absurdly large or unknown file. */
+bool image_read(const char *path, struct image *out, struct error *err);
+
+/* image_write: write linear RGB as the format named by the extension (.pfm, .ppm, .png).
+ *   pixels  [height*width*3] floats, top row first, linear; .ppm and .png are clamped to [0,1] and sRGB encoded
+ * The file appears whole or not at all: it is written beside its name and renamed. Returns false with a
+ * message on an unknown extension or any I/O error (full disk), leaving no file behind. */
+bool image_write(const char *path, int width, int height, const float *pixels, struct error *err);
+
+/* image_mend: make samples that are NaN or infinite 0, and negative ones too if asked; `replaced` counts them. */
+void image_mend(struct image *img, bool negative_too);
+
+/* image_writable: does `path` end in an extension image_write knows? */
+bool image_writable(const char *path);
+
+#endif

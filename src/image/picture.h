@@ -1,0 +1,37 @@
+/* picture.h: pixels in memory, as the image formats fill and texture reads them.
+ *
+ * Used by: pfm, ppm, png, tga, image. Tests: test_image.c.
+ */
+#ifndef ASBDPT_PICTURE_H
+#define ASBDPT_PICTURE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/error.h"
+
+/* A picture, top row first, channels interleaved. Exactly one of u8 and f32 is set. */
+struct image {
+    int width, height;
+    int channels;      /* 1 grey or 3 RGB; an alpha channel is dropped on reading */
+    uint8_t *u8;       /* [height*width*channels], as stored in the file (usually sRGB encoded); owned */
+    float *f32;        /* [height*width*channels]; PFM as stored; 16-bit files as value/65535; owned */
+    bool linear;       /* true for PFM: values are linear light already */
+    long replaced;     /* samples that image_mend found and made 0 */
+    float decode[256]; /* sRGB byte -> linear light, for whoever reads u8 */
+};
+
+/* More pixels than this are taken for a damaged or hostile header: 16384 x 16384. */
+enum { PICTURE_MAX_PIXELS = 1 << 28 };
+
+/* picture_size_ok: may a picture be this large? Returns false with a message for 0 and for too many pixels. */
+bool picture_size_ok(unsigned long width, unsigned long height, struct error *err);
+
+/* picture_alloc_u8 / picture_alloc_f32: black pixels of a size that picture_size_ok accepts, to be released with
+ * image_free. Fills every field; `linear` is set for f32. */
+void picture_alloc_u8(struct image *out, int width, int height, int channels);
+void picture_alloc_f32(struct image *out, int width, int height, int channels);
+
+void image_free(struct image *img);
+
+#endif

@@ -1,0 +1,396 @@
+/* png.c: see png.h. The numbers in brackets are sections of [PNG].
+ *
+ * A file is a signature and chunks (length, name, data, CRC). The data of all IDAT chunks together are a zlib
+ * stream of rows, each a filter's number and the row's bytes less what a filter predicts from their neighbours [9].
+ */
+#include "image/png.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/checksum.h"
+#include "image/deflate.h"
+#include "image/inflate.h"
+#include "base/mem.h"
+#include "image/srgb.h"
+
+static const uint8_t SIGNATURE[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+
+enum colour { GREY = 0, RGB = 2, PALETTE = 3, GREY_ALPHA = 4, RGB_ALPHA = 6 };             /* [11.2.2] */
+enum filter { FILTER_NONE, FILTER_SUB, FILTER_UP, FILTER_AVERAGE, FILTER_PAETH, FILTERS }; /* [9.2] */
+
+bool png_matches(const uint8_t *data, size_t size)
+{
+    return size >= sizeof SIGNATURE && memcmp(data, SIGNATURE, sizeof SIGNATURE) == 0;
+}
+
+/* --- filters ----------------------------------------------------------------------------------------- */
+
+/* The neighbour (left a, above b, above left c) nearest to a + b - c [9.4]. */
+static uint8_t paeth(int a, int b, int c)
+{
+    int pa = abs(b - c), pb = abs(a - c), pc = abs(a + b - 2 * c);
+    return (uint8_t)(pa <= pb && pa <= pc ? a : pb <= pc ? b : c);
+}
+
+/* What a filter predicts for a byte from its neighbours; bytes outside the picture are 0. */
+static uint8_t predict(enum filter f, uint8_t left, uint8_t above, uint8_t above_left)
+{
+    switch (f) {
+    case FILTER_NONE: return 0;
+    case FILTER_SUB: return left;
+    case FILTER_UP: return above;
+    case FILTER_AVERAGE: return (uint8_t)((left + above) / 2);
+    case FILTER_PAETH: return paeth(left, above, above_left);
+    case FILTERS: break;
+    }
+    return 0;
+}
+
+/* --- reading ----------------------------------------------------------------------------------------- */
+
+struct png {
+    const uint8_t *data;
+    size_t size, at;
+    size_t width, height;
+    unsigned depth; /* bits of a sample */
+    enum colour colour;
+    unsigned samples; /* of a pixel as stored */
+    bool interlaced;
+    const uint8_t *palette; /* [n_palette][3], or NULL */
+    size_t n_palette;
+    uint8_t *packed; /* [n_packed] the zlib stream; owned */
+    size_t n_packed, packed_capacity;
+    struct error *err;
+};
+
+struct chunk {
+    char name[5];
+    const uint8_t *data; /* [size] */
+    size_t size;
+};
+
+/* A picture, or one of the seven reduced pictures of an interlaced one: the pixels x0 + i dx, y0 + j dy [8.2]. */
+struct pass {
+    size_t x0, y0, dx, dy;
+};
+static const struct pass WHOLE[1] = {{0, 0, 1, 1}};
+static const struct pass ADAM7[7] = {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},
+                                     {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}};
+
+static uint32_t u32(const uint8_t *p)
+{
+    return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | (uint32_t)p[3];
+}
+
+static bool next_chunk(struct png *p, struct chunk *c)
+{
+    size_t left = p->size - p->at;
+    if (left < 12 || u32(p->data + p->at) > left - 12)
+        return error_set(p->err, "the file is truncated or a chunk's length is wrong");
+    const uint8_t *start = p->data + p->at;
+    c->size = u32(start);
+    c->data = start + 8;
+    for (int i = 0; i < 4; i++) {
+        int letter = start[4 + i];
+        if (!((letter >= 'A' && letter <= 'Z') || (letter >= 'a' && letter <= 'z')))
+            return error_set(p->err, "the file is damaged: a chunk has no valid name");
+        c->name[i] = (char)letter;
+    }
+    c->name[4] = '\0';
+    if (checksum_crc32(0, start + 4, c->size + 4) != u32(c->data + c->size))
+        return error_set(p->err, "the file is damaged: wrong checksum in chunk %s", c->name);
+    p->at += c->size + 12;
+    return true;
+}
+
+/* Samples of a pixel; 0 for a colour type or depth that does not exist [11.2.2]. */
+static unsigned samples_of(unsigned colour, unsigned depth)
+{
+    bool whole = depth == 8 || depth == 16, part = depth == 1 || depth == 2 || depth == 4;
+    switch (colour) {
+    case GREY: return whole || part ? 1 : 0;
+    case RGB: return whole ? 3 : 0;
+    case PALETTE: return depth == 8 || part ? 1 : 0;
+    case GREY_ALPHA: return whole ? 2 : 0;
+    case RGB_ALPHA: return whole ? 4 : 0;
+    default: return 0; /* a number from the file, not one of a closed set */
+    }
+}
+
+static bool read_header(struct png *p)
+{
+    struct chunk c;
+    if (!next_chunk(p, &c))
+        return false;
+    if (strcmp(c.name, "IHDR") != 0 || c.size != 13)
+        return error_set(p->err, "the file is damaged: it does not begin with a header");
+    p->width = u32(c.data);
+    p->height = u32(c.data + 4);
+    p->depth = c.data[8];
+    p->samples = samples_of(c.data[9], p->depth);
+    if (p->samples == 0)
+        return error_set(p->err, "PNG has no colour type %u with %u bits", (unsigned)c.data[9], p->depth);
+    p->colour = (enum colour)c.data[9];
+    if (c.data[10] != 0 || c.data[11] != 0 || c.data[12] > 1)
+        return error_set(p->err, "unknown compression, filter or interlace method");
+    p->interlaced = c.data[12] == 1;
+    return picture_size_ok(p->width, p->height, p->err);
+}
+
+static bool read_palette(struct png *p, const struct chunk *c)
+{
+    if (p->palette != NULL || p->n_packed > 0 || c->size == 0 || c->size % 3 != 0 || c->size > 3 * 256)
+        return error_set(p->err, "the file is damaged: impossible palette");
+    p->palette = c->data;
+    p->n_palette = c->size / 3;
+    return true;
+}
+
+/* Collect what the chunks say until IEND. */
+static bool read_chunks(struct png *p)
+{
+    struct chunk c;
+    bool data_ended = false;
+    for (;;) {
+        if (!next_chunk(p, &c))
+            return false;
+        if (strcmp(c.name, "IEND") == 0)
+            break;
+        if (strcmp(c.name, "IDAT") == 0) {
+            if (data_ended)
+                return error_set(p->err, "the file is damaged: its IDAT chunks are not in one piece");
+            p->packed = mem_grow(p->packed, &p->packed_capacity, p->n_packed + c.size, 1);
+            if (c.size > 0)
+                memcpy(p->packed + p->n_packed, c.data, c.size);
+            p->n_packed += c.size;
+            continue;
+        }
+        data_ended = p->n_packed > 0;
+        if (strcmp(c.name, "PLTE") == 0) {
+            if (!read_palette(p, &c))
+                return false;
+        } else if (c.name[0] <= 'Z') { /* a capital: cannot be ignored [5.4] */
+            return error_set(p->err, "unknown or misplaced chunk %s", c.name);
+        }
+    }
+    if (p->colour == PALETTE && p->palette == NULL)
+        return error_set(p->err, "the file is damaged: it has no palette");
+    return true;
+}
+
+static size_t pass_width(const struct png *p, const struct pass *s)
+{
+    return p->width > s->x0 ? (p->width - s->x0 + s->dx - 1) / s->dx : 0;
+}
+
+static size_t pass_height(const struct png *p, const struct pass *s)
+{
+    return p->height > s->y0 ? (p->height - s->y0 + s->dy - 1) / s->dy : 0;
+}
+
+/* Bytes of a row of a pass, without the filter's number. */
+static size_t row_bytes(const struct png *p, size_t width)
+{
+    return (size_t)(((uint64_t)width * p->samples * p->depth + 7) / 8);
+}
+
+static size_t pass_bytes(const struct png *p, const struct pass *s)
+{
+    size_t width = pass_width(p, s);
+    return width > 0 ? pass_height(p, s) * (1 + row_bytes(p, width)) : 0;
+}
+
+/* Undo a filter. `step`: bytes of a pixel, at least 1; `above`: the row before, or NULL. */
+static void unfilter(enum filter f, uint8_t *row, const uint8_t *above, size_t n, size_t step)
+{
+    for (size_t i = 0; i < n; i++) {
+        uint8_t a = i >= step ? row[i - step] : 0, b = above != NULL ? above[i] : 0;
+        uint8_t c = above != NULL && i >= step ? above[i - step] : 0;
+        row[i] = (uint8_t)(row[i] + predict(f, a, b, c));
+    }
+}
+
+/* Sample number `i` of a row. */
+static unsigned sample(const uint8_t *row, size_t i, unsigned depth)
+{
+    if (depth == 8)
+        return row[i];
+    if (depth == 16)
+        return (unsigned)row[2 * i] << 8 | row[2 * i + 1];
+    size_t bit = i * depth; /* the first sample in the highest bits [7.2] */
+    return (unsigned)row[bit / 8] >> (8 - depth - bit % 8) & ((1u << depth) - 1);
+}
+
+/* Put pixel `i` of a row at its place, dropping alpha. */
+static bool put_pixel(const struct png *p, const uint8_t *row, size_t i, struct image *out, size_t place)
+{
+    size_t to = place * (size_t)out->channels;
+    if (p->colour == PALETTE) {
+        unsigned index = sample(row, i, p->depth);
+        if (index >= p->n_palette)
+            return error_set(p->err, "the file is damaged: a pixel names colour %u of %u", index,
+                             (unsigned)p->n_palette);
+        memcpy(out->u8 + to, p->palette + 3 * (size_t)index, 3);
+        return true;
+    }
+    for (size_t k = 0; k < (size_t)out->channels; k++) {
+        unsigned value = sample(row, i * p->samples + k, p->depth);
+        if (p->depth == 16)
+            out->f32[to + k] = (float)(value / 65535.0);
+        else
+            out->u8[to + k] = (uint8_t)(value * 255 / ((1u << p->depth) - 1));
+    }
+    return true;
+}
+
+static bool read_pass(const struct png *p, const struct pass *s, uint8_t *bytes, struct image *out)
+{
+    size_t width = pass_width(p, s), height = pass_height(p, s), n = row_bytes(p, width);
+    size_t step = p->samples * p->depth < 8 ? 1 : p->samples * p->depth / 8;
+    const uint8_t *above = NULL;
+    for (size_t y = 0; y < height; y++) {
+        uint8_t *row = bytes + y * (n + 1);
+        if (row[0] >= FILTERS)
+            return error_set(p->err, "the file is damaged: no such filter");
+        unfilter((enum filter)row[0], row + 1, above, n, step);
+        above = row + 1;
+        for (size_t x = 0; x < width; x++)
+            if (!put_pixel(p, row + 1, x, out, (s->y0 + y * s->dy) * p->width + s->x0 + x * s->dx))
+                return false;
+    }
+    return true;
+}
+
+/* Put all unpacked pixels in place. */
+static bool place_pixels(const struct png *p, const struct pass *pass, int passes, uint8_t *bytes,
+                         struct image *out)
+{
+    int channels = p->colour == GREY || p->colour == GREY_ALPHA ? 1 : 3;
+    if (p->depth == 16)
+        picture_alloc_f32(out, (int)p->width, (int)p->height, channels);
+    else
+        picture_alloc_u8(out, (int)p->width, (int)p->height, channels);
+    out->linear = false;
+    for (int i = 0; i < passes; i++) {
+        size_t n = pass_bytes(p, &pass[i]);
+        if (n > 0 && !read_pass(p, &pass[i], bytes, out)) {
+            image_free(out);
+            return false;
+        }
+        bytes += n;
+    }
+    return true;
+}
+
+static bool read_pixels(const struct png *p, struct image *out)
+{
+    const struct pass *pass = p->interlaced ? ADAM7 : WHOLE;
+    int passes = p->interlaced ? 7 : 1;
+    size_t total = 0;
+    for (int i = 0; i < passes; i++)
+        total += pass_bytes(p, &pass[i]);
+    if (total / INFLATE_MAX_RATIO > p->n_packed)
+        return error_set(p->err, "the file is truncated: %lu x %lu pixels do not fit in it",
+                         (unsigned long)p->width, (unsigned long)p->height);
+    uint8_t *bytes = mem_alloc(total, 1);
+    bool ok =
+        inflate_zlib(p->packed, p->n_packed, bytes, total, p->err) && place_pixels(p, pass, passes, bytes, out);
+    free(bytes);
+    return ok;
+}
+
+bool png_read(const uint8_t *data, size_t size, struct image *out, struct error *err)
+{
+    if (!png_matches(data, size))
+        return error_set(err, "not a PNG file: its signature is missing");
+    struct png p = {.data = data, .size = size, .at = sizeof SIGNATURE, .err = err};
+    bool ok = read_header(&p) && read_chunks(&p) && read_pixels(&p, out);
+    free(p.packed);
+    return ok;
+}
+
+/* --- writing ----------------------------------------------------------------------------------------- */
+
+static void put_u32(uint8_t *p, uint32_t value)
+{
+    for (int i = 0; i < 4; i++)
+        p[i] = (uint8_t)(value >> (24 - 8 * i) & 255);
+}
+
+static void put_chunk(FILE *f, const char *name, const uint8_t *data, size_t size)
+{
+    uint8_t head[8], tail[4];
+    put_u32(head, (uint32_t)size);
+    memcpy(head + 4, name, 4);
+    put_u32(tail, checksum_crc32(checksum_crc32(0, head + 4, 4), data, size));
+    fwrite(head, 1, sizeof head, f);
+    fwrite(data, 1, size, f);
+    fwrite(tail, 1, sizeof tail, f);
+}
+
+/* The filter whose residuals, taken as signed numbers, have the least sum of sizes. */
+static enum filter best_filter(const uint8_t *row, const uint8_t *above, size_t n)
+{
+    uint64_t sum[FILTERS] = {0};
+    for (size_t i = 0; i < n; i++) {
+        uint8_t a = i >= 3 ? row[i - 3] : 0, c = i >= 3 ? above[i - 3] : 0;
+        for (int f = 0; f < FILTERS; f++) {
+            uint8_t residual = (uint8_t)(row[i] - predict((enum filter)f, a, above[i], c));
+            sum[f] += residual < 128 ? residual : 256u - residual;
+        }
+    }
+    int best = FILTER_NONE;
+    for (int f = FILTER_SUB; f < FILTERS; f++)
+        best = sum[f] < sum[best] ? f : best;
+    return (enum filter)best;
+}
+
+/* Write the filter's number and the filtered row to out[0..n]. */
+static void filter_row(enum filter f, const uint8_t *row, const uint8_t *above, size_t n, uint8_t *out)
+{
+    out[0] = (uint8_t)f;
+    for (size_t i = 0; i < n; i++) {
+        uint8_t a = i >= 3 ? row[i - 3] : 0, c = i >= 3 ? above[i - 3] : 0;
+        out[1 + i] = (uint8_t)(row[i] - predict(f, a, above[i], c));
+    }
+}
+
+/* All rows filtered, each with what probably packs best [12.8]. */
+static uint8_t *filter_rows(int width, int height, const float *pixels)
+{
+    size_t n = 3 * (size_t)width;
+    uint8_t *all = mem_alloc((size_t)height, n + 1);
+    uint8_t *row = mem_alloc(n, 1), *above = mem_alloc(n, 1);
+    for (size_t y = 0; y < (size_t)height; y++) {
+        for (size_t i = 0; i < n; i++)
+            row[i] = srgb_byte(pixels[y * n + i]);
+        filter_row(best_filter(row, above, n), row, above, n, all + y * (n + 1));
+        uint8_t *swap = above;
+        above = row;
+        row = swap;
+    }
+    free(row);
+    free(above);
+    return all;
+}
+
+void png_write(FILE *f, int width, int height, const float *pixels)
+{
+    static const uint8_t INTENT[1] = {0}; /* of chunk sRGB: perceptual */
+    uint8_t header[13] = {0};
+    put_u32(header, (uint32_t)width);
+    put_u32(header + 4, (uint32_t)height);
+    header[8] = 8;
+    header[9] = RGB;
+    uint8_t *rows = filter_rows(width, height, pixels);
+    size_t packed_size;
+    uint8_t *packed = deflate_zlib(rows, (size_t)height * (3 * (size_t)width + 1), &packed_size);
+    free(rows);
+    fwrite(SIGNATURE, 1, sizeof SIGNATURE, f);
+    put_chunk(f, "IHDR", header, sizeof header);
+    put_chunk(f, "sRGB", INTENT, sizeof INTENT);
+    put_chunk(f, "IDAT", packed, packed_size);
+    put_chunk(f, "IEND", header, 0);
+    free(packed);
+}

@@ -1,0 +1,80 @@
+/* bdpt.c: see bdpt.h. One iteration of one pixel: an eye sub-path, a light sub-path, all their connections.
+ * [V97 10.3] */
+#include "integrators/bdpt.h"
+
+#include <stdlib.h>
+
+#include "transport/trace.h"
+
+static bool prepare(const struct render_job *job, void **state, struct mis_counts counts)
+{
+    struct mis_counts *own = mem_alloc(1, sizeof *own);
+    counts.power = job->power_heuristic;
+    *own = counts;
+    *state = own;
+    return true;
+}
+
+static bool prepare_pt(const struct render_job *job, void **state, int *block, struct error *err)
+{
+    (void)block, (void)err;
+    struct mis_counts counts = {.hit = 1, .direct = 1};
+    return prepare(job, state, counts);
+}
+
+static bool prepare_lt(const struct render_job *job, void **state, int *block, struct error *err)
+{
+    (void)block, (void)err;
+    struct mis_counts counts = {.splat = trace_light_count(job)};
+    return prepare(job, state, counts);
+}
+
+static bool prepare_bdpt(const struct render_job *job, void **state, int *block, struct error *err)
+{
+    (void)block, (void)err;
+    struct mis_counts counts = {.hit = 1, .direct = 1, .connect = 1, .splat = trace_light_count(job)};
+    return prepare(job, state, counts);
+}
+
+/* One iteration of one pixel. Light tracing needs of the eye sub-path only the lights seen directly (s = 0, t = 2). */
+static void render_pixel(const struct tile_pass *pass, const struct mis_counts *counts, int x, int y, long iteration)
+{
+    struct workspace *work = pass->work;
+    arena_reset(&work->arena);
+    struct gather g = trace_begin(pass, counts, x, y, iteration);
+    bool light_tracing = counts->hit == 0 && counts->direct == 0 && counts->connect == 0;
+    int n_eye = trace_eye(pass, &g, iteration, work->eye, light_tracing ? 2 : g.max_depth + 2);
+    int n_light = 0;
+    if (counts->connect > 0 || counts->splat > 0)
+        n_light = trace_light(pass, counts, x, y, (uint64_t)iteration, &work->arena, work->light);
+
+    rgb sum = gather_eye(&g, work->eye, n_eye);
+    if (counts->connect > 0)
+        sum = rgb_add(sum, gather_pairs(&g, work->eye, n_eye, work->light, n_light, 1));
+    if (counts->splat > 0)
+        gather_splats(&g, work->light, n_light, 1);
+    tile_add_own(pass->tile, x, y, sum);
+}
+
+static void render(const void *state, const struct tile_pass *pass)
+{
+    const struct mis_counts *counts = state;
+    for (long i = pass->first; i < pass->end; i++)
+        for (int y = pass->rect.y0; y < pass->rect.y1; y++)
+            for (int x = pass->rect.x0; x < pass->rect.x1; x++)
+                render_pixel(pass, counts, x, y, i);
+}
+
+static const struct parameter no_parameters[] = {{NULL, NULL, NULL}};
+
+const struct method method_pt = {
+    "pt", "path tracing: light found by chance (s = 0) or sampled (s = 1)",
+    no_parameters, 32, prepare_pt, render, free, NULL, NULL};
+
+const struct method method_lt = {
+    "lt", "light tracing: light sub-paths connected to the lens (t = 1); cannot see mirrors",
+    no_parameters, 32, prepare_lt, render, free, NULL, NULL};
+
+const struct method method_bdpt = {
+    "bdpt", "bidirectional path tracing [Veach 1997]: all strategies",
+    no_parameters, 32, prepare_bdpt, render, free, NULL, NULL};

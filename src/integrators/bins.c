@@ -1,0 +1,138 @@
+/* bins.c: `select = bins`: the dissertation's estimator, kept as it was written.           [S24 3, Algorithms 1 and 2]
+ *
+ * Every pixel owns `binpaths` light sub-paths, split into bins of two. In each iteration one bin is chosen and one of its
+ * two elements taken with probability
+ *     p_e0 = beta_0^2 / (beta_0^2 + beta_1^2),                                                        [S24 eq. 3.1]
+ * beta being the mean over RGB of the throughput at the sub-path's furthest vertex. It is connected with the pixel's eye
+ * sub-path exactly as in BDPT, without any further weight, and replaced by a fresh one. Elements older than `maxage`
+ * iterations are replaced unused; after `restart` iterations (a block, see asbdpt.c) all bins are discarded.
+ *
+ * Where the text leaves a choice: Algorithm 2 prints the comparison of the random number with p_e0 the other way round;
+ * the text's reading (take e0 if u < p_e0) is implemented. An empty sub-path has beta 0; two zeros give 1/2. Bins are
+ * visited in the order of the van der Corput sequence, started at a random point per pixel and block.
+ *
+ * This estimator is BIASED. A sub-path that is traced and used counts once, whatever its chance of being used was. Those
+ * that age, are discarded at a restart, or are left over at the end are mostly the ones with low beta, so the sub-paths
+ * used are not distributed like the sub-paths traced: where high beta means "escaped after one bounce", the image
+ * darkens. doc/selection.md measures it; select = pool is the smallest repair.
+ *
+ * Used by: asbdpt. Tests: test_asbdpt.c (must be rejected by the test that accepts BDPT).
+ */
+#include <stdlib.h>
+
+#include "integrators/select.h"
+#include "transport/trace.h"
+
+struct element {
+    struct arena arena;    /* its lobes */
+    struct vertex *vertex; /* [max_depth + 1], owned */
+    int length;            /* 0: nothing was emitted */
+    double beta;           /* of [S24 eq. 3.1] */
+    long born;             /* iteration in which it was traced */
+};
+
+/* The set of bins of the pixel being rendered; bin b holds elements 2b and 2b+1. */
+struct bins {
+    int n_elements;
+    long traced; /* sub-paths traced for this pixel and block */
+    struct element element[];
+};
+
+static void *new_own(const void *selection)
+{
+    const struct selection *sel = selection;
+    struct bins *b = mem_alloc(1, sizeof *b + (size_t)sel->bin_paths * sizeof b->element[0]);
+    b->n_elements = sel->bin_paths;
+    for (int i = 0; i < b->n_elements; i++)
+        b->element[i].vertex = mem_alloc((size_t)sel->max_depth + 1, sizeof *b->element[i].vertex);
+    return b;
+}
+
+static void free_own(void *own)
+{
+    struct bins *b = own;
+    for (int i = 0; i < b->n_elements; i++) {
+        arena_free(&b->element[i].arena);
+        free(b->element[i].vertex);
+    }
+    free(b);
+}
+
+struct pixel {
+    const struct tile_pass *pass;
+    const struct selection *sel;
+    struct bins *bins;
+    int x, y;
+};
+
+/* Put a fresh sub-path into element e. Streams are numbered by block and, within it, by the order of tracing. */
+static void replace(struct pixel *p, struct element *e, long iteration)
+{
+    uint64_t number = (uint64_t)p->pass->first << 24 | (uint64_t)p->bins->traced++;
+    arena_reset(&e->arena);
+    e->length = trace_light(p->pass, &p->sel->counts, p->x, p->y, number, &e->arena, e->vertex);
+    e->beta = select_throughput(e->vertex, e->length);
+    e->born = iteration;
+}
+
+static void replace_aged(struct pixel *p, long iteration)
+{
+    for (int i = 0; p->sel->max_age > 0 && i < p->bins->n_elements; i++)
+        if (iteration - p->bins->element[i].born > p->sel->max_age)
+            replace(p, &p->bins->element[i], iteration);
+}
+
+/* Van der Corput's sequence: the bits of i mirrored about the binary point. */
+static double van_der_corput(uint64_t i)
+{
+    double value = 0, digit = 0.5;
+    for (; i > 0; i >>= 1, digit /= 2)
+        if (i & 1)
+            value += digit;
+    return value;
+}
+
+/* Algorithm 2, lines "choose a bin" and "choose an element". */
+static struct element *choose(struct pixel *p, double shift, uint64_t step, double u)
+{
+    double position = van_der_corput(step) + shift;
+    int bin = (int)((position - floor(position)) * (p->bins->n_elements / 2));
+    struct element *e = &p->bins->element[2 * bin];
+    double b0 = sqr(e[0].beta), b1 = sqr(e[1].beta);
+    double p_e0 = b0 + b1 > 0 ? b0 / (b0 + b1) : 0.5;
+    return u < p_e0 ? &e[0] : &e[1];
+}
+
+static void render_iteration(struct pixel *p, double shift, long iteration)
+{
+    struct workspace *work = p->pass->work;
+    arena_reset(&work->arena);
+    struct gather g = trace_begin(p->pass, &p->sel->counts, p->x, p->y, iteration);
+    int n = trace_eye(p->pass, &g, iteration, work->eye, g.max_depth + 2);
+    struct sampler draw = trace_sampler(p->pass, RNG_SELECT, p->x, p->y, iteration);
+    replace_aged(p, iteration);
+    struct element *e = choose(p, shift, (uint64_t)(iteration - p->pass->first), sampler_next(&draw));
+
+    rgb sum = gather_eye(&g, work->eye, n);
+    sum = rgb_add(sum, gather_pairs(&g, work->eye, n, e->vertex, e->length, 1));
+    gather_splats(&g, e->vertex, e->length, 1);
+    tile_add_own(p->pass->tile, p->x, p->y, sum);
+    replace(p, e, iteration);
+}
+
+static void render(const void *selection, const struct tile_pass *pass)
+{
+    struct pixel p = {pass, selection, pass->work->own, 0, 0};
+    for (p.y = pass->rect.y0; p.y < pass->rect.y1; p.y++)
+        for (p.x = pass->rect.x0; p.x < pass->rect.x1; p.x++) {
+            struct sampler shift = trace_sampler(pass, RNG_SHUFFLE, p.x, p.y, pass->first);
+            double start = sampler_next(&shift);
+            p.bins->traced = 0;
+            for (int i = 0; i < p.bins->n_elements; i++)
+                replace(&p, &p.bins->element[i], pass->first);
+            for (long i = pass->first; i < pass->end; i++)
+                render_iteration(&p, start, i);
+        }
+}
+
+const struct selector select_bins = {"bins", render, new_own, free_own};

@@ -1,0 +1,139 @@
+/* vertices.c: `select = vertices`: every eye vertex draws light vertices from one table over a tile's pool.
+ *
+ * A light vertex y_{s-1} *is* the sub-path y_0 ... y_{s-1} that leads to it. All connectible ones of the K sub-paths of a
+ * tile and iteration, one for every `path_pixels` pixels, go into one alias table with
+ *     q_v ~ L_v n(x_v),      L_v = luminance(beta_v),      n(x) = 2 C ((1 - delta) E(x) / mean + delta),
+ * E being the importance of the place (importance.h) and `mean` its expectation over a light sub-path, and each eye
+ * vertex (t >= 2) draws C of them. The sum over all vertices of all K sub-paths, divided by K, is what BDPT estimates
+ * with one sub-path; drawing v with probability q_v and weighting with 1/q_v estimates the same sum, so
+ *     (1/C) sum over draws of F(v) / (K q_v)
+ * has BDPT's expectation. s = 0, s = 1 and t = 1 stay as they are, every pooled sub-path being splat once.
+ *
+ * The MIS weights know about it: strategies s >= 2, t >= 2 ending at light position x take about n(x) samples per pixel,
+ * a function of the surface point alone, so all strategies of a path agree on it (mis.h). They are counted twice, having been
+ * measured to deserve it: draws stratified over a table vary less than independent ones.
+ *
+ * Used by: asbdpt. Tests: test_asbdpt.c.
+ */
+#include <stdlib.h>
+
+#include "base/alias.h"
+#include "base/number.h"
+#include "integrators/select.h"
+#include "transport/trace.h"
+
+struct vertices {
+    struct light_pool pool;
+    const struct vertex **candidate; /* [n], connectible light vertices; owned */
+    int *s;                          /* [n], vertices of the light sub-path ending there; owned */
+    double *q;                       /* [n], weights of the table; owned */
+    size_t candidate_capacity, s_capacity, q_capacity;
+    struct alias_table table;
+    long lost; /* vertices of the table that could not be given a weight */
+};
+
+static void *new_own(const void *selection)
+{
+    (void)selection;
+    return mem_alloc(1, sizeof(struct vertices));
+}
+
+static void free_own(void *own)
+{
+    struct vertices *v = own;
+    light_pool_free(&v->pool);
+    free(v->candidate);
+    free(v->s);
+    free(v->q);
+    alias_free(&v->table);
+    free(v);
+}
+
+/* The weight of a vertex in the table. One that carries no usable amount of light is never drawn. */
+static double weight_of(struct vertices *v, const struct vertex *y)
+{
+    double q = rgb_luminance(y->beta) * y->count;
+    if (q >= 0 && fits_float(q))
+        return q;
+    v->lost++;
+    return 0;
+}
+
+/* The table over the pool's connectible vertices y_1, y_2 ... */
+static void build_table(struct vertices *v)
+{
+    size_t n = 0;
+    for (int k = 0; k < v->pool.n; k++) {
+        const struct vertex *path = light_pool_path(&v->pool, k);
+        for (int i = 1; i < v->pool.length[k]; i++) {
+            if (!vertex_connectible(&path[i]))
+                continue;
+            v->candidate = mem_grow(v->candidate, &v->candidate_capacity, n + 1, sizeof *v->candidate);
+            v->s = mem_grow(v->s, &v->s_capacity, n + 1, sizeof *v->s);
+            v->q = mem_grow(v->q, &v->q_capacity, n + 1, sizeof *v->q);
+            v->candidate[n] = &path[i];
+            v->s[n] = i + 1;
+            v->q[n++] = weight_of(v, &path[i]);
+        }
+    }
+    alias_build(&v->table, v->q, (int)n);
+}
+
+/* C draws for one eye vertex, stratified over the table. */
+static rgb connect_drawn(const struct vertices *v, const struct selection *sel, struct gather *g,
+                         const struct vertex *z, int t, struct sampler *sampler)
+{
+    rgb sum = rgb_black();
+    int C = sel->connections;
+    for (int c = 0; c < C; c++) {
+        double q, u = (c + sampler_next(sampler)) / C;
+        int i = alias_sample(&v->table, u, &q, NULL);
+        if (v->s[i] + t <= g->max_depth + 2)
+            sum = rgb_add(sum, gather_pair(g, v->candidate[i], v->s[i], z, t, 1 / (C * q * v->pool.n)));
+    }
+    return sum;
+}
+
+/* Splat sub-path k. The weights count one in path_pixels for the whole film; the tile has K, rounded up. */
+static void splat_path(const struct tile_pass *pass, const struct selection *sel, const struct vertices *v,
+                       struct gather *g, int k)
+{
+    double pixels = (double)rect_width(pass->rect) * rect_height(pass->rect);
+    double scale = pixels / ((double)v->pool.n * sel->path_pixels);
+    gather_splats(g, light_pool_path(&v->pool, k), v->pool.length[k], scale);
+}
+
+static void render_pixel(const struct tile_pass *pass, const struct selection *sel, struct vertices *v, int x, int y,
+                         int number, long iteration)
+{
+    arena_reset(&pass->work->arena);
+    struct vertex *eye = pass->work->eye;
+    struct gather g = trace_begin(pass, &sel->counts, x, y, iteration);
+    int n = trace_eye(pass, &g, iteration, eye, g.max_depth + 2);
+    struct sampler draws = trace_sampler(pass, RNG_SELECT, x, y, iteration);
+    rgb sum = gather_eye(&g, eye, n);
+    for (int t = 2; t <= n && t <= g.max_depth && v->table.n > 0; t++)
+        if (eye[t - 1].kind == VERTEX_SURFACE && vertex_connectible(&eye[t - 1]))
+            sum = rgb_add(sum, connect_drawn(v, sel, &g, &eye[t - 1], t, &draws));
+    if (number % sel->path_pixels == 0)
+        splat_path(pass, sel, v, &g, number / sel->path_pixels);
+    tile_add_own(pass->tile, x, y, sum);
+}
+
+static void render(const void *selection, const struct tile_pass *pass)
+{
+    const struct selection *sel = selection;
+    struct vertices *v = pass->work->own;
+    for (long i = pass->first; i < pass->end; i++) {
+        light_pool_fill(&v->pool, pass, &sel->counts, sel->path_pixels, i);
+        v->lost = 0;
+        build_table(v);
+        pass->tile->nonfinite += v->lost;
+        int number = 0;
+        for (int y = pass->rect.y0; y < pass->rect.y1; y++)
+            for (int x = pass->rect.x0; x < pass->rect.x1; x++)
+                render_pixel(pass, sel, v, x, y, number++, i);
+    }
+}
+
+const struct selector select_vertices = {"vertices", render, new_own, free_own};

@@ -1,0 +1,143 @@
+/* pictures.c: see pictures.h. */
+#include "lab/pictures.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lab/compare.h"
+#include "image/image.h"
+#include "base/mem.h"
+
+void picture_path(const struct results *r, const struct scene_results *s, int variant, bool error, int detail,
+                  char *out, size_t size)
+{
+    char suffix[32] = "";
+    if (detail > 0)
+        snprintf(suffix, sizeof suffix, "-detail%d", detail);
+    snprintf(out, size, "%s/images/%s-%s%s%s.png", r->plan->directory, s->name,
+             variant == PICTURE_REFERENCE ? "reference" : VARIANTS[variant].name, error ? "-error" : "", suffix);
+}
+
+static size_t values(const struct scene_results *s) { return (size_t)s->width * (size_t)s->height * 3; }
+
+/* --- where to look closer ---------------------------------------------------------------------------- */
+
+/* Sum of squares of BDPT's errors in a window. */
+static double window_error(const struct scene_results *s, const struct detail *w)
+{
+    const float *x = s->image[VARIANT_BDPT], *r = s->reference.pixels;
+    double sum = 0;
+    for (int j = w->y; j < w->y + w->height; j++)
+        for (int i = 3 * w->x; i < 3 * (w->x + w->width); i++) {
+            size_t k = (size_t)j * (size_t)s->width * 3 + (size_t)i;
+            double e = srgb_byte((double)x[k]) - srgb_byte((double)r[k]);
+            sum += e * e;
+        }
+    return sum;
+}
+
+static bool overlap(const struct detail *a, const struct detail *b)
+{
+    return a->x < b->x + b->width && b->x < a->x + a->width && a->y < b->y + b->height && b->y < a->y + a->height;
+}
+
+void pictures_find_details(const struct scene_results *s, struct detail out[N_DETAILS])
+{
+    int w = s->width >= 5 ? s->width / 5 : 1, h = w < s->height ? w : s->height;
+    int step = w >= 4 ? w / 4 : 1, enlargement = w < 256 ? 256 / w : 1;
+    for (int n = 0; n < N_DETAILS; n++) {
+        double largest = -1;
+        struct detail best = {0, 0, w, h, enlargement};
+        for (int y = 0; y + h <= s->height; y += step)
+            for (int x = 0; x + w <= s->width; x += step) {
+                struct detail d = {x, y, w, h, enlargement};
+                double e = n > 0 && overlap(&d, &out[0]) ? -1 : window_error(s, &d);
+                if (e > largest) {
+                    largest = e;
+                    best = d;
+                }
+            }
+        out[n] = best;
+    }
+}
+
+/* --- writing ----------------------------------------------------------------------------------------- */
+
+/* A window of a picture, each pixel as a square. */
+static bool write_detail(const char *path, const struct scene_results *s, const float *pixels,
+                         const struct detail *d, struct error *err)
+{
+    int w = d->width * d->enlargement, h = d->height * d->enlargement;
+    float *out = mem_alloc((size_t)w * (size_t)h * 3, sizeof *out);
+    for (int y = 0; y < h; y++)
+        for (int x = 0; x < w; x++) {
+            size_t from =
+                (size_t)(d->y + y / d->enlargement) * (size_t)s->width + (size_t)(d->x + x / d->enlargement);
+            memcpy(out + 3 * ((size_t)y * (size_t)w + (size_t)x), pixels + 3 * from, 3 * sizeof *out);
+        }
+    bool ok = image_write(path, w, h, out, err);
+    free(out);
+    return ok;
+}
+
+/* A picture and its details. */
+static bool write_all(const struct results *r, const struct scene_results *s, int variant, bool error,
+                      const float *pixels, const struct detail *detail, struct error *err)
+{
+    char path[4096];
+    picture_path(r, s, variant, error, 0, path, sizeof path);
+    bool ok = image_write(path, s->width, s->height, pixels, err);
+    for (int i = 0; ok && i < N_DETAILS; i++) {
+        picture_path(r, s, variant, error, i + 1, path, sizeof path);
+        ok = write_detail(path, s, pixels, &detail[i], err);
+    }
+    return ok;
+}
+
+/* Linear values to those of the 8-bit picture, in [0,1]. */
+static void to_display(const float *pixels, size_t n, float *out)
+{
+    for (size_t i = 0; i < n; i++)
+        out[i] = (float)(srgb_byte((double)pixels[i]) / 255.0);
+}
+
+/* Heat maps of all methods as one tall picture, so that they share their maximum. [N_METHODS * values]; to be
+ * freed. */
+static float *make_heatmaps(const struct scene_results *s)
+{
+    size_t n = values(s);
+    float *x = mem_alloc(n * N_METHODS, sizeof *x), *ref = mem_alloc(n * N_METHODS, sizeof *ref);
+    float *out = mem_alloc(n * N_METHODS, sizeof *out);
+    for (size_t v = 0; v < N_METHODS; v++) {
+        to_display(s->image[v], n, x + v * n);
+        to_display(s->reference.pixels, n, ref + v * n);
+    }
+    compare_heatmap(x, ref, (long)(n / 3 * N_METHODS), out);
+    free(x);
+    free(ref);
+    return out;
+}
+
+double pictures_largest_error(const struct scene_results *s)
+{
+    double largest = 0;
+    for (int v = 0; v < N_METHODS; v++)
+        for (size_t i = 0; i < values(s); i += 3)
+            largest = fmax(largest, compare_pixels(s->image[v] + i, s->reference.pixels + i, 3).rmse8);
+    return largest;
+}
+
+bool pictures_write(const struct results *r, const struct scene_results *s, struct error *err)
+{
+    struct detail detail[N_DETAILS];
+    pictures_find_details(s, detail);
+    float *heat = make_heatmaps(s);
+    bool ok = write_all(r, s, PICTURE_REFERENCE, false, s->reference.pixels, detail, err);
+    for (int v = 0; ok && v < N_METHODS; v++)
+        ok = write_all(r, s, v, false, s->image[v], detail, err) &&
+             write_all(r, s, v, true, heat + (size_t)v * values(s), detail, err);
+    free(heat);
+    return ok;
+}

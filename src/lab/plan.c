@@ -1,0 +1,109 @@
+/* plan.c: see plan.h. */
+#include "lab/plan.h"
+
+#include <stdio.h>
+#include <string.h>
+
+const struct variant VARIANTS[N_VARIANTS] = {
+    {"bdpt", "BDPT", "bdpt", NULL, 0, 0, true},
+    {"bins", "ASBDPT bins", "asbdpt", "bins", 8, 32, true},
+    {"pool", "ASBDPT pool", "asbdpt", "pool", 0, 0, true},
+    {"vertices", "ASBDPT vertices", "asbdpt", "vertices", 0, 0, true},
+    {"bins-paths-4", "bins, 4 paths per set", "asbdpt", "bins", 4, 32, false},
+    {"bins-paths-16", "bins, 16 paths per set", "asbdpt", "bins", 16, 32, false},
+    {"bins-paths-32", "bins, 32 paths per set", "asbdpt", "bins", 32, 32, true},
+    {"bins-restart-0", "bins, never restarted", "asbdpt", "bins", 8, 0, true},
+    {"bins-restart-8", "bins, restart every 8", "asbdpt", "bins", 8, 8, false},
+    {"bins-restart-16", "bins, restart every 16", "asbdpt", "bins", 8, 16, false},
+};
+
+static const struct {
+    int variant;
+    const char *label;
+} SWEEPS[N_SWEEPS][SWEEP_LENGTH] = {
+    {{4, "4 paths per set"}, {VARIANT_BINS, "8 paths per set"}, {5, "16 paths per set"}, {6, "32 paths per set"}},
+    {{7, "no restart"}, {8, "restart every 8"}, {9, "restart every 16"}, {VARIANT_BINS, "restart every 32"}},
+};
+
+int sweep_variant(enum sweep s, int i) { return SWEEPS[s][i].variant; }
+const char *sweep_label(enum sweep s, int i) { return SWEEPS[s][i].label; }
+
+void plan_preset(struct plan *p, bool quick)
+{
+    p->quick = quick;
+    p->width = quick ? 48 : 320;
+    p->height = 0;
+    p->n_seeds = 3;
+    p->sweep_seeds = 1;
+    p->reference_spp = quick ? 256 : 4096;
+    plan_set_spp(p, quick ? 8 : 32, quick ? 64 : 512, NULL);
+}
+
+bool plan_set_spp(struct plan *p, long first, long last, struct error *err)
+{
+    p->n_steps = 0;
+    for (long n = first; n < last; n *= 2) {
+        if (p->n_steps >= PLAN_MAX_STEPS - 1)
+            return error_set(err, "more than %d doublings of the samples from %ld to %ld", PLAN_MAX_STEPS - 1,
+                             first, last);
+        p->spp[p->n_steps++] = n;
+    }
+    p->spp[p->n_steps++] = last;
+    return true;
+}
+
+int plan_seeds(const struct plan *p, int variant)
+{
+    if (variant < N_METHODS)
+        return p->n_seeds;
+    return p->quick && !VARIANTS[variant].quick ? 0 : p->sweep_seeds < p->n_seeds ? p->sweep_seeds : p->n_seeds;
+}
+
+long plan_seed(int variant, int i) { return 100L * variant + i; }
+
+long plan_first_sample(const struct plan *p, int variant, int i)
+{
+    const struct variant *v = &VARIANTS[variant];
+    if (i == 0)
+        return 0;
+    bool whole = v->bin_paths == 0 || (v->restart > 0 && p->spp[i - 1] % v->restart == 0);
+    return whole ? p->spp[i - 1] : 0;
+}
+
+long plan_run_spp(const struct plan *p, int variant)
+{
+    long sum = 0;
+    for (int i = 0; i < p->n_steps; i++)
+        sum += p->spp[i] - plan_first_sample(p, variant, i);
+    return sum;
+}
+
+void plan_scene_name(const char *path, char *out, int size)
+{
+    const char *slash = strrchr(path, '/'), *start = slash != NULL ? slash + 1 : path;
+    const char *end = strrchr(start, '.');
+    if (end == NULL || strcmp(end, ".pbrt") != 0)
+        end = start + strlen(start);
+    if (slash != NULL && strcmp(start, "scene.pbrt") == 0) { /* NAME/scene.pbrt */
+        end = slash;
+        start = end;
+        while (start > path && start[-1] != '/')
+            start--;
+    }
+    snprintf(out, (size_t)size, "%.*s", (int)(end - start), start);
+}
+
+void variant_settings(const struct variant *v, struct settings *out)
+{
+    char number[32];
+    settings_clear(out);
+    settings_set(out, "rrthreshold", "0", "experiment"); /* what is compared is the choice of sub-paths alone */
+    if (v->select != NULL)
+        settings_set(out, "select", v->select, "experiment");
+    if (v->bin_paths > 0) {
+        snprintf(number, sizeof number, "%d", v->bin_paths);
+        settings_set(out, "binpaths", number, "experiment");
+        snprintf(number, sizeof number, "%d", v->restart);
+        settings_set(out, "restart", number, "experiment");
+    }
+}

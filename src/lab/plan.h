@@ -1,0 +1,90 @@
+/* plan.h: what an experiment consists of: scenes x variants x seeds, each rendered to a rising number of samples.
+ *
+ * A variant is a method with its parameters, without Russian roulette. The first four are compared everywhere; the others move one parameter
+ * of `bins` at a time, as the dissertation's appendix A does.                                         [S24 4,
+ * appendix A]
+ *
+ * Used by: run_file, reference, experiment, results and what shows them. Tests: test_report.c.
+ */
+#ifndef ASBDPT_PLAN_H
+#define ASBDPT_PLAN_H
+
+#include <stdbool.h>
+
+#include "base/error.h"
+#include "scene/settings.h"
+
+struct variant {
+    const char *name;       /* in files and tables of numbers */
+    const char *label;      /* for readers */
+    const char *method;     /* of methods.c */
+    const char *select;     /* asbdpt's; NULL for bdpt */
+    int bin_paths, restart; /* bins only, else 0 */
+    bool quick;             /* part of a quick experiment */
+};
+
+enum {
+    VARIANT_BDPT,
+    VARIANT_BINS,
+    VARIANT_POOL,
+    VARIANT_VERTICES,
+    N_METHODS,      /* the variants above are compared everywhere */
+    N_VARIANTS = 10 /* the others are the sweeps over the parameters of bins */
+};
+extern const struct variant VARIANTS[N_VARIANTS];
+
+/* The two sweeps: variants that differ in one parameter only, `bins` itself among them, by rising value. */
+enum sweep { SWEEP_PATHS, SWEEP_RESTART, N_SWEEPS };
+enum { SWEEP_LENGTH = 4 };
+
+/* sweep_variant: number i of a sweep, 0 <= i < SWEEP_LENGTH.  sweep_label: what readers call it there. */
+int sweep_variant(enum sweep s, int i);
+const char *sweep_label(enum sweep s, int i);
+
+enum { PLAN_MAX_STEPS = 16, PLAN_MAX_SEEDS = 16 };
+
+struct plan {
+    const char **scene; /* [n_scenes] paths, borrowed */
+    int n_scenes;
+    bool quick;               /* which preset, which sweeps */
+    long spp[PLAN_MAX_STEPS]; /* [n_steps] rising; errors are measured at each */
+    int n_steps;
+    int n_seeds, sweep_seeds; /* repetitions of the methods and of the sweeps */
+    int width, height;        /* height 0: from the scene's aspect ratio */
+    int max_depth;            /* 0: the scene's */
+    long reference_spp;       /* of a reference made here */
+    int n_threads;
+    bool quiet;
+    const char *directory; /* where everything is written */
+    const char *reference; /* file or directory of stored references; NULL: ref/ beside the scene */
+};
+
+/* plan_preset: quick: 48 pixels wide, 8 to 64 spp, some of the sweeps; full: 320 pixels wide, 32 to 512 spp. */
+void plan_preset(struct plan *p, bool quick);
+
+/* plan_set_spp: measure at first, 2 first, 4 first ... up to `last`, which is always the last step. Returns false
+ * with a message when that is too many steps. */
+bool plan_set_spp(struct plan *p, long first, long last, struct error *err);
+
+/* plan_seeds: how often the plan renders a variant; 0 when it is left out. */
+int plan_seeds(const struct plan *p, int variant);
+
+/* plan_seed: the seed of repetition i = 1, 2, ... of a variant. Variants have seeds of their own, so that their
+ * errors are independent. */
+long plan_seed(int variant, int i);
+
+/* plan_first_sample: where the render of step i begins: at the samples of step i - 1, whose film it continues, or
+ * at 0 where that would not be the same as rendering in one go: bins must not be cut between two restarts. */
+long plan_first_sample(const struct plan *p, int variant, int i);
+
+/* plan_run_spp: samples per pixel rendered for one run of a variant, over all steps. */
+long plan_run_spp(const struct plan *p, int variant);
+
+/* plan_scene_name: the file's name without .pbrt; for .../NAME/scene.pbrt the directory's. At most size - 1 bytes.
+ */
+void plan_scene_name(const char *path, char *out, int size);
+
+/* variant_settings: replace an integrator's settings by the variant's. */
+void variant_settings(const struct variant *v, struct settings *out);
+
+#endif

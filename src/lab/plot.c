@@ -1,0 +1,269 @@
+/* plot.c: see plot.h. */
+#include "lab/plot.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "lab/markup.h"
+#include "base/number.h"
+
+/* The picture's size and the frame of the data in it, in SVG units. */
+enum { WIDTH = 640, HEIGHT = 420, LEFT = 68, RIGHT = 624, TOP = 40, BOTTOM = 330 };
+
+/* --- axes -------------------------------------------------------------------------------------------- */
+
+struct axis axis_make(bool logarithmic, double low, double high)
+{
+    struct axis a = {logarithmic, low, high};
+    if (logarithmic) {
+        double margin = high > low ? pow(high / low, 0.06) : 1.5;
+        a.low = low / margin;
+        a.high = high * margin;
+    } else {
+        double margin = high > low ? 0.06 * (high - low) : fmax(fabs(high), 1) * 0.1;
+        a.low = low - margin;
+        a.high = high + margin;
+    }
+    return a;
+}
+
+double axis_position(const struct axis *a, double value)
+{
+    if (a->logarithmic)
+        return log(value / a->low) / log(a->high / a->low);
+    return (value - a->low) / (a->high - a->low);
+}
+
+static int linear_ticks(const struct axis *a, double tick[], bool major[])
+{
+    double raw = (a->high - a->low) / 8, power = pow(10, floor(log10(raw))), scaled = raw / power;
+    double step = power * (scaled <= 1 ? 1 : scaled <= 2 ? 2 : scaled <= 5 ? 5 : 10);
+    int n = 0;
+    for (double i = ceil(a->low / step); i * step <= a->high && n < PLOT_MAX_TICKS; i++, n++) {
+        tick[n] = i * step;
+        major[n] = true;
+    }
+    return n;
+}
+
+/* Numbers stand at powers of ten, not all of them on a very long axis; on one of few powers also at 2 and 5, on a
+ * short one at every digit. */
+static int log_ticks(const struct axis *a, double tick[], bool major[])
+{
+    double decades = log10(a->high / a->low);
+    int n = 0, every = 1 + int_within(decades / 10, 0, 100);
+    for (int power = int_within(floor(log10(a->low)), -324, 308); pow(10, power) <= a->high; power++)
+        for (int digit = 1; digit <= 9; digit++) {
+            double value = digit * pow(10, power);
+            if (value < a->low || value > a->high || n >= PLOT_MAX_TICKS || (decades > 6 && digit != 1))
+                continue;
+            tick[n] = value;
+            major[n] = decades < 0.7 || (digit == 1 && power % every == 0) ||
+                       (decades < 2.2 && (digit == 2 || digit == 5));
+            n++;
+        }
+    return n;
+}
+
+int axis_ticks(const struct axis *a, double tick[PLOT_MAX_TICKS], bool major[PLOT_MAX_TICKS])
+{
+    return a->logarithmic ? log_ticks(a, tick, major) : linear_ticks(a, tick, major);
+}
+
+/* --- data -------------------------------------------------------------------------------------------- */
+
+static bool drawable(const struct plot *p, double x, double y)
+{
+    return isfinite(x) && isfinite(y) && (!p->log_x || x > 0) && (!p->log_y || y > 0);
+}
+
+/* Half length of an error bar below and above; below it must not reach 0 on a logarithmic axis. */
+static void bar_ends(const struct plot *p, const struct plot_line *l, int i, double *low, double *high)
+{
+    double e = isfinite(l->error[i]) ? l->error[i] : 0;
+    *high = l->y[i] + e;
+    *low = l->y[i] - e;
+    if (p->log_y && *low < 0.2 * l->y[i])
+        *low = 0.2 * l->y[i];
+}
+
+static void find_axes(const struct plot *p, struct axis *x_axis, struct axis *y_axis)
+{
+    double x0 = HUGE_VAL, x1 = -HUGE_VAL, y0 = HUGE_VAL, y1 = -HUGE_VAL;
+    for (int k = 0; k < p->n; k++)
+        for (int i = 0; i < p->line[k].n; i++) {
+            const struct plot_line *l = &p->line[k];
+            double low, high;
+            if (!drawable(p, l->x[i], l->y[i]))
+                continue;
+            bar_ends(p, l, i, &low, &high);
+            x0 = fmin(x0, l->x[i]);
+            x1 = fmax(x1, l->x[i]);
+            y0 = fmin(y0, low);
+            y1 = fmax(y1, high);
+        }
+    if (x0 > x1) { /* nothing to draw */
+        x0 = y0 = 1;
+        x1 = y1 = 10;
+    }
+    if (p->zero_line) {
+        y0 = fmin(y0, 0);
+        y1 = fmax(y1, 0);
+    }
+    *x_axis = axis_make(p->log_x, x0, x1);
+    *y_axis = axis_make(p->log_y, y0, y1);
+}
+
+static double screen_x(const struct axis *a, double v) { return LEFT + (RIGHT - LEFT) * axis_position(a, v); }
+static double screen_y(const struct axis *a, double v) { return BOTTOM - (BOTTOM - TOP) * axis_position(a, v); }
+
+/* --- drawing ----------------------------------------------------------------------------------------- */
+
+static int data_ticks(const struct plot *p, double tick[], bool major[])
+{
+    for (int i = 0; i < p->line[0].n; i++) {
+        tick[i] = p->line[0].x[i];
+        major[i] = true;
+    }
+    return p->line[0].n;
+}
+
+static void write_x_axis(FILE *f, const struct plot *p, const struct axis *a)
+{
+    double tick[PLOT_MAX_TICKS];
+    bool major[PLOT_MAX_TICKS];
+    int n = p->data_ticks && p->n > 0 ? data_ticks(p, tick, major) : axis_ticks(a, tick, major);
+    for (int i = 0; i < n; i++) {
+        double x = screen_x(a, tick[i]);
+        fprintf(f, "<path class=\"%s\" d=\"M%.1f %dV%d\"/>\n", major[i] ? "pg" : "pm", x, TOP, BOTTOM);
+        if (major[i])
+            fprintf(f, "<text class=\"pt\" text-anchor=\"middle\" x=\"%.1f\" y=\"%d\">%.6g</text>\n", x,
+                    BOTTOM + 18, tick[i]);
+    }
+    fprintf(f, "<text class=\"pt\" text-anchor=\"middle\" x=\"%d\" y=\"%d\">", (LEFT + RIGHT) / 2, BOTTOM + 38);
+    xml_text(f, p->x_label);
+    fputs("</text>\n", f);
+}
+
+static void write_y_axis(FILE *f, const struct plot *p, const struct axis *a)
+{
+    double tick[PLOT_MAX_TICKS];
+    bool major[PLOT_MAX_TICKS];
+    int n = axis_ticks(a, tick, major);
+    for (int i = 0; i < n; i++) {
+        double y = screen_y(a, tick[i]);
+        fprintf(f, "<path class=\"%s\" d=\"M%d %.1fH%d\"/>\n", major[i] ? "pg" : "pm", LEFT, y, RIGHT);
+        if (major[i])
+            fprintf(f, "<text class=\"pt\" text-anchor=\"end\" x=\"%d\" y=\"%.1f\">%.6g</text>\n", LEFT - 6, y + 4,
+                    fabs(tick[i]) < 1e-12 ? 0 : tick[i]);
+    }
+    fprintf(f, "<text class=\"pt\" text-anchor=\"middle\" transform=\"translate(16 %d) rotate(-90)\">",
+            (TOP + BOTTOM) / 2);
+    xml_text(f, p->y_label);
+    fputs("</text>\n", f);
+    if (p->zero_line)
+        fprintf(f, "<path class=\"pz\" d=\"M%d %.1fH%d\"/>\n", LEFT, screen_y(a, 0), RIGHT);
+}
+
+/* Marker number k about (x,y): circle, square, triangle, diamond, and then all again, hollow. */
+static void write_marker(FILE *f, int k, double x, double y)
+{
+    static const char *const shape[] = {"m-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0z", "m-3.6 -3.6h7.2v7.2h-7.2z",
+                                        "m0 -4.8l4.6 8h-9.2z", "m0 -5l5 5l-5 5l-5 -5z"};
+    fprintf(f, "<path class=\"pk%d%s\" d=\"M%.1f %.1f%s\"/>\n", k, k >= 4 ? " ph" : "", x, y, shape[k % 4]);
+}
+
+static void write_line(FILE *f, const struct plot *p, int k, const struct axis *xa, const struct axis *ya)
+{
+    const struct plot_line *l = &p->line[k];
+    char step = 'M';
+    fprintf(f, "<g><title>");
+    xml_text(f, l->label);
+    fprintf(f, "</title>\n<path class=\"pl%d\" d=\"", k);
+    for (int i = 0; i < l->n; i++)
+        if (drawable(p, l->x[i], l->y[i])) {
+            fprintf(f, "%c%.1f %.1f", step, screen_x(xa, l->x[i]), screen_y(ya, l->y[i]));
+            step = 'L';
+        }
+    fputs(step == 'M' ? "M0 0\"/>\n" : "\"/>\n", f);
+    for (int i = 0; i < l->n; i++) {
+        if (!drawable(p, l->x[i], l->y[i]))
+            continue;
+        double low, high, x = screen_x(xa, l->x[i]);
+        bar_ends(p, l, i, &low, &high);
+        if (high > l->y[i]) {
+            double a = screen_y(ya, low), b = screen_y(ya, high);
+            fprintf(f, "<path class=\"pl%d pe\" d=\"M%.1f %.1fV%.1fm-3 0h6M%.1f %.1fh6\"/>\n", k, x, a, b, x - 3,
+                    a);
+        }
+        write_marker(f, k, x, screen_y(ya, l->y[i]));
+    }
+    fputs("</g>\n", f);
+}
+
+/* The legend fills rows below the plot. */
+static void write_legend(FILE *f, const struct plot *p)
+{
+    for (int k = 0; k < p->n; k++) {
+        int x = LEFT + (k % 3) * 190, y = BOTTOM + 60 + (k / 3) * 20;
+        fprintf(f, "<path class=\"pl%d\" d=\"M%d %dh24\"/>\n", k, x, y - 4);
+        write_marker(f, k, x + 12, y - 4);
+        fprintf(f, "<text class=\"pt\" x=\"%d\" y=\"%d\">", x + 30, y);
+        xml_text(f, p->line[k].label);
+        fputs("</text>\n", f);
+    }
+}
+
+void plot_style(FILE *f)
+{
+    static const char *const lines[] = {
+        ".plot{color:#1b1f24;background:#fff;font:13px system-ui,sans-serif;max-width:100%;height:auto}",
+        ".plot .pt{fill:currentColor}.plot .ptitle{fill:currentColor;font-weight:600;font-size:15px}",
+        ".plot .pg{stroke:currentColor;stroke-opacity:.22;fill:none}",
+        ".plot .pm{stroke:currentColor;stroke-opacity:.08;fill:none}",
+        ".plot .pz{stroke:currentColor;stroke-opacity:.7;stroke-dasharray:2 3;fill:none}",
+        ".plot .pf{stroke:currentColor;stroke-opacity:.6;fill:none}",
+        ".plot [class^=pl]{fill:none;stroke-width:2}.plot .pe{stroke-width:1.3}.plot .ph{fill:none!important}",
+        ".plot{--c0:#3d444d;--c1:#b3400a;--c2:#0b62a8;--c3:#12733a;--c4:#7a2bb5;--c5:#8a6a00}",
+        "@media (prefers-color-scheme:dark){.plot{color:#e6e9ed;background:#15191f;",
+        "--c0:#c3cad3;--c1:#ff9052;--c2:#5cb6ff;--c3:#4fd68a;--c4:#cf9bff;--c5:#e6c34a}}",
+        "@media print{.plot{color:#000;background:#fff;",
+        "--c0:#3d444d;--c1:#b3400a;--c2:#0b62a8;--c3:#12733a;--c4:#7a2bb5;--c5:#8a6a00}}",
+    };
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
+        fprintf(f, "%s\n", lines[i]);
+    for (int k = 0; k < PLOT_MAX_LINES; k++)
+        fprintf(f, ".plot .pl%d{stroke:var(--c%d)}.plot .pk%d{fill:var(--c%d);stroke:var(--c%d)}\n", k, k % 6, k,
+                k % 6, k % 6);
+}
+
+void plot_write(FILE *f, const struct plot *p, const char *id, bool standalone)
+{
+    struct axis xa, ya;
+    int height = BOTTOM + 50 + 20 * ((p->n + 2) / 3);
+    find_axes(p, &xa, &ya);
+    fprintf(
+        f,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" viewBox=\"0 0 %d %d\" width=\"%d\" height=\"%d\" "
+        "role=\"img\" aria-labelledby=\"%s-t %s-d\">\n<title id=\"%s-t\">",
+        WIDTH, height, WIDTH, height, id, id, id);
+    xml_text(f, p->title);
+    fprintf(f, "</title>\n<desc id=\"%s-d\">", id);
+    xml_text(f, p->description);
+    fputs("</desc>\n", f);
+    if (standalone) {
+        fputs("<style>\n", f);
+        plot_style(f);
+        fputs("</style>\n", f);
+    }
+    fprintf(f, "<text class=\"ptitle\" x=\"%d\" y=\"24\">", LEFT);
+    xml_text(f, p->title);
+    fputs("</text>\n", f);
+    write_x_axis(f, p, &xa);
+    write_y_axis(f, p, &ya);
+    fprintf(f, "<path class=\"pf\" d=\"M%d %dV%dH%d\"/>\n", LEFT, TOP, BOTTOM, RIGHT);
+    for (int k = 0; k < p->n; k++)
+        write_line(f, p, k, &xa, &ya);
+    write_legend(f, p);
+    fputs("</svg>\n", f);
+}

@@ -1,0 +1,247 @@
+/* reference.c: see reference.h. */
+#include "lab/reference.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lab/compare.h"
+#include "base/file.h"
+#include "image/image.h"
+#include "base/mem.h"
+
+void reference_free(struct reference *r)
+{
+    free(r->pixels);
+    r->pixels = NULL;
+}
+
+/* --- the text beside the picture --------------------------------------------------------------------- */
+
+struct side_text {
+    char key[512];
+    long max_depth; /* 0: not said */
+    double noise8, mean_error;
+    char origin[1200];
+};
+
+static void read_line(char *line, struct side_text *s)
+{
+    sscanf(line, "maxdepth %ld", &s->max_depth);
+    sscanf(line, "noise8 %lf", &s->noise8);
+    sscanf(line, "mean_error %lf", &s->mean_error);
+    if (strncmp(line, "key ", 4) == 0)
+        snprintf(s->key, sizeof s->key, "%.511s", line + 4);
+    if (strncmp(line, "origin ", 7) == 0)
+        snprintf(s->origin, sizeof s->origin, "%.1199s", line + 7);
+}
+
+/* Read NAME.txt beside NAME.pfm; a missing file says nothing. */
+static void read_side_text(const char *picture, struct side_text *s)
+{
+    char path[4096], line[2048];
+    memset(s, 0, sizeof *s);
+    s->noise8 = s->mean_error = NAN;
+    const char *dot = strrchr(picture, '.');
+    snprintf(path, sizeof path, "%.*s.txt", (int)(dot != NULL ? dot - picture : (long)strlen(picture)), picture);
+    FILE *f = fopen(path, "r");
+    if (f == NULL)
+        return;
+    while (fgets(line, sizeof line, f) != NULL) {
+        line[strcspn(line, "\r\n")] = '\0';
+        read_line(line, s);
+    }
+    fclose(f);
+}
+
+/* --- stored references ------------------------------------------------------------------------------- */
+
+/* Average blocks of k x k pixels. */
+static float *shrink(const float *pixels, int width, int height, int k)
+{
+    int w = width / k, h = height / k;
+    float *out = mem_alloc((size_t)w * (size_t)h * 3, sizeof *out);
+    for (int y = 0; y < h; y++)
+        for (int x = 0; x < w; x++)
+            for (int c = 0; c < 3; c++) {
+                double sum = 0;
+                for (int j = 0; j < k; j++)
+                    for (int i = 0; i < k; i++)
+                        sum += (double)
+                            pixels[3 * ((size_t)(y * k + j) * (size_t)width + (size_t)(x * k + i)) + (size_t)c];
+                out[3 * ((size_t)y * (size_t)w + (size_t)x) + (size_t)c] = (float)(sum / (k * k));
+            }
+    return out;
+}
+
+/* Take one file, if it fits. Returns as reference_find does. */
+static int take(const char *path, int width, int height, int max_depth, struct reference *out, struct error *err)
+{
+    int w, h;
+    struct side_text side;
+    float *pixels = load_linear(path, &w, &h, err);
+    if (pixels == NULL)
+        return -1;
+    read_side_text(path, &side);
+    int k = w / width;
+    bool fits = k >= 1 && w == k * width && h == k * height;
+    if (!fits || (side.max_depth > 0 && side.max_depth != max_depth)) {
+        if (fits)
+            error_set(err, "%s holds paths up to maxdepth %ld, not %d", path, side.max_depth, max_depth);
+        else
+            error_set(err, "%s is %dx%d, which is no whole multiple of %dx%d", path, w, h, width, height);
+        free(pixels);
+        return -1;
+    }
+    out->pixels = shrink(pixels, w, h, k);
+    free(pixels);
+    out->noise8 = side.noise8 / k;
+    out->mean_error = side.mean_error;
+    snprintf(out->origin, sizeof out->origin, "stored picture %s of %dx%d pixels%s", path, w, h,
+             k > 1 ? ", averaged to this size" : "");
+    return 1;
+}
+
+static bool readable(const char *path)
+{
+    FILE *f = fopen(path, "rb");
+    if (f != NULL)
+        fclose(f);
+    return f != NULL;
+}
+
+int reference_find(const char *given, const char *scene_path, const char *name, int width, int height,
+                   int max_depth, struct reference *out, struct error *err)
+{
+    char path[4096];
+    if (given != NULL) {
+        snprintf(path, sizeof path, "%s/%s.pfm", given, name);
+        return take(readable(path) ? path : given, width, height, max_depth, out, err);
+    }
+    const char *slash = strrchr(scene_path, '/');
+    int n = slash != NULL ? (int)(slash - scene_path) + 1 : 0;
+    static const char *const places[] = {"ref", "../ref"};
+    for (size_t i = 0; i <= sizeof places / sizeof places[0]; i++) {
+        if (i < sizeof places / sizeof places[0])
+            snprintf(path, sizeof path, "%.*s%s/%s.pfm", n, scene_path, places[i], name);
+        else
+            snprintf(path, sizeof path, "ref/%s.pfm", name);
+        if (readable(path) && take(path, width, height, max_depth, out, NULL) == 1)
+            return 1;
+    }
+    return 0;
+}
+
+/* --- references made here ---------------------------------------------------------------------------- */
+
+/* The share of both halves that is done. */
+struct halves {
+    const struct render_options *options;
+    int number;
+};
+
+static bool half_progress(void *context, double done)
+{
+    const struct halves *h = context;
+    return h->options->progress == NULL ||
+           h->options->progress(h->options->progress_context, 0.5 * (h->number + done));
+}
+
+double picture_mean_error(const struct film *film)
+{
+    size_t n = (size_t)rect_width(film->rect) * (size_t)rect_height(film->rect) * 3;
+    float *error = mem_alloc(n, sizeof *error);
+    double square[3] = {0, 0, 0}, total = 0;
+    film_standard_error(film, 1, error);
+    for (size_t i = 0; i < n; i++) {
+        square[i % 3] += (double)error[i] * (double)error[i];
+        total += (film->own[i] + film->splat[i]) / (double)film->iterations;
+    }
+    free(error);
+    /* The channels of a pixel are not independent: take them as fully dependent, the worst case. */
+    return total > 0 ? (sqrt(square[0]) + sqrt(square[1]) + sqrt(square[2])) / total : NAN;
+}
+
+/* Render half number i into `out`; `mean_error` as picture_mean_error has it. */
+static bool render_half(const struct scene *scene, const struct render_options *options, long spp, int i,
+                        float *out, double *mean_error, struct error *err)
+{
+    struct halves context = {options, i};
+    struct render_options o = *options;
+    struct film film;
+    o.seed = options->seed + (unsigned)i;
+    o.first = 0;
+    o.end = spp;
+    o.progress = half_progress;
+    o.progress_context = &context;
+    film_init(&film, render_crop(scene), scene->width, scene->height);
+    bool ok = render_scene(scene, &o, &film, err);
+    if (ok) {
+        film_warn(&film, film_develop(&film, scene->film_scale, out));
+        *mean_error = picture_mean_error(&film);
+    }
+    film_free(&film);
+    return ok;
+}
+
+bool reference_render(const struct scene *scene, const struct render_options *options, long spp,
+                      struct reference *out, struct error *err)
+{
+    size_t n = (size_t)scene->width * (size_t)scene->height * 3;
+    long half = spp / 2 > 1 ? spp / 2 : 2;
+    float *a = mem_alloc(n, sizeof *a), *b = mem_alloc(n, sizeof *b);
+    double error[2] = {NAN, NAN};
+    bool ok = render_half(scene, options, half, 0, a, &error[0], err) &&
+              render_half(scene, options, half, 1, b, &error[1], err);
+    if (ok) {
+        out->noise8 = compare_pixels(a, b, (long)n).rmse8 / 2;
+        out->mean_error = 0.5 * sqrt(error[0] * error[0] + error[1] * error[1]);
+        for (size_t i = 0; i < n; i++)
+            a[i] = 0.5f * (a[i] + b[i]);
+        snprintf(out->origin, sizeof out->origin,
+                 "rendered by this program: %s, two halves of %ld spp, seeds %lu and %lu", options->method->name,
+                 half, (unsigned long)options->seed, (unsigned long)options->seed + 1);
+        out->pixels = a;
+    } else {
+        free(a);
+    }
+    free(b);
+    return ok;
+}
+
+bool reference_write(const struct reference *r, const char *directory, const char *name, const char *key, int width,
+                     int height, int max_depth, struct error *err)
+{
+    char path[4096];
+    struct file_output f;
+    snprintf(path, sizeof path, "%s/%s.pfm", directory, name);
+    if (!image_write(path, width, height, r->pixels, err))
+        return false;
+    snprintf(path, sizeof path, "%s/%s.txt", directory, name);
+    if (!file_create(path, &f, err))
+        return false;
+    fprintf(f.stream, "key %s\nresolution %dx%d\nmaxdepth %d\nnoise8 %.9g\nmean_error %.9g\norigin %s\n", key,
+            width, height, max_depth, r->noise8, r->mean_error, r->origin);
+    return file_commit(&f, err);
+}
+
+bool reference_read(const char *directory, const char *name, const char *key, int width, int height,
+                    struct reference *out)
+{
+    char path[4096];
+    struct side_text side;
+    int w, h;
+    snprintf(path, sizeof path, "%s/%s.pfm", directory, name);
+    read_side_text(path, &side);
+    if (strcmp(side.key, key) != 0 || (out->pixels = load_linear(path, &w, &h, NULL)) == NULL)
+        return false;
+    if (w != width || h != height) {
+        reference_free(out);
+        return false;
+    }
+    out->noise8 = side.noise8;
+    out->mean_error = side.mean_error;
+    snprintf(out->origin, sizeof out->origin, "%s", side.origin);
+    return true;
+}

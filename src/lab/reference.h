@@ -1,0 +1,55 @@
+/* reference.h: the picture that errors are measured against, and how far it may itself be off.
+ *
+ * A stored reference is a picture NAME.pfm with, beside it, an optional text NAME.txt of lines "key value", of which
+ *     maxdepth    N   it holds paths up to this length
+ *     noise8      X   root mean square of the standard errors of its 8-bit values
+ *     mean_error  X   standard error of its mean, relative to the mean
+ * are read and the others kept for people. It fits a wanted size when its own is the same or a whole multiple: with a
+ * box filter the mean of k x k pixels is exactly the pixel of the smaller picture.
+ *
+ * Where none is stored, one is rendered by bdpt in two independent halves A and B. Their mean is the reference, and
+ *     E (A - B)^2 = 2 var A = 4 var (A + B)/2,   so that   noise8 = rmse8(A, B) / 2.
+ *
+ * Used by: experiment, results, tables. Tests: test_report.c.
+ */
+#ifndef ASBDPT_REFERENCE_H
+#define ASBDPT_REFERENCE_H
+
+#include "base/error.h"
+#include "lab/plan.h"
+#include "render/render.h"
+
+struct reference {
+    float *pixels;     /* [height*width*3] linear; owned */
+    double noise8;     /* of its 8-bit values; NaN when unknown */
+    double mean_error; /* relative standard error of its mean; NaN when unknown */
+    char origin[1200]; /* one sentence for readers */
+};
+
+/* reference_find: read a stored reference that fits.
+ *   given  a file, a directory that holds NAME.pfm, or NULL to look for ref/NAME.pfm beside the scene, one directory
+ *          up and in the current one
+ * Returns 1 when found; 0 when there is none that fits; -1 with a message when
+ * `given` is unusable. */
+int reference_find(const char *given, const char *scene_path, const char *name, int width, int height,
+                   int max_depth, struct reference *out, struct error *err);
+
+/* reference_render: render one of `spp` samples per pixel; progress as render_options has it, over both halves.
+ * Returns false with a message. */
+bool reference_render(const struct scene *scene, const struct render_options *options, long spp,
+                      struct reference *out, struct error *err);
+
+/* reference_write / reference_read: keep it as DIRECTORY/NAME.pfm and .txt; the key says what it depends on, and
+ * only a reference with the same key is read back. */
+bool reference_write(const struct reference *r, const char *directory, const char *name, const char *key, int width,
+                     int height, int max_depth, struct error *err);
+bool reference_read(const char *directory, const char *name, const char *key, int width, int height,
+                    struct reference *out);
+
+/* picture_mean_error: relative standard error of the mean of a film's picture, were its pixels independent (for
+ * methods that share light sub-paths between pixels it is too small). NaN for a black one. */
+double picture_mean_error(const struct film *film);
+
+void reference_free(struct reference *r);
+
+#endif

@@ -1,0 +1,84 @@
+/* bsdf.c: sums over lobes, see bsdf.h. One lobe's formulas are in lobe.c. */
+#include "material/bsdf.h"
+
+static const struct bsdf_value NOTHING = {{0, 0, 0}, 0, 0};
+static const double ALMOST_ONE = 1 - 1.0 / 9007199254740992.0; /* the largest double below 1 */
+
+void bsdf_make(struct bsdf *b, struct frame shading, vec3 ng, struct lobe *lobe, int n)
+{
+    const double even = 0.125;
+    b->shading = shading;
+    b->ng = ng;
+    b->lobe = lobe;
+    b->n_lobes = n;
+    b->n_smooth = 0;
+    b->transmits = false;
+    double total = 0;
+    for (int i = 0; i < n; i++) {
+        total += lobe_albedo_guess(&lobe[i]);
+        b->n_smooth += !lobe_is_delta(lobe[i].kind);
+        b->transmits |= lobe[i].kind == LOBE_LAMBERT_TRANSMISSION || lobe[i].kind == LOBE_MICROFACET_TRANSMISSION;
+    }
+    for (int i = 0; i < n; i++)
+        lobe[i].choice = n == 1 ? 1 : even / n + (1 - even) * lobe_albedo_guess(&lobe[i]) / total;
+}
+
+struct bsdf_value bsdf_eval_lobes(const struct bsdf *b, vec3 wo, vec3 wi, enum transport mode)
+{
+    if (b->n_smooth == 0)
+        return NOTHING;
+    bool reflect = dot(wi, b->ng) * dot(wo, b->ng) > 0;
+    vec3 o = to_local(&b->shading, wo), i = to_local(&b->shading, wi);
+    if (o.z == 0 || i.z == 0)
+        return NOTHING;
+    struct bsdf_value sum = NOTHING;
+    for (const struct lobe *l = b->lobe; l < b->lobe + b->n_lobes; l++) {
+        struct bsdf_value v = lobe_eval(l, o, i, reflect, mode);
+        sum.f = rgb_add(sum.f, v.f);
+        sum.pdf += l->choice * v.pdf;
+        sum.pdf_rev += l->choice * v.pdf_rev;
+    }
+    return rgb_is_black(sum.f) ? NOTHING : sum;
+}
+
+/* Choose a lobe with *u and replace *u by what is left of it, uniform again. */
+static const struct lobe *choose_lobe(const struct bsdf *b, double *u)
+{
+    const struct lobe *l = b->lobe, *last = b->lobe + b->n_lobes - 1;
+    while (l < last && *u >= l->choice) {
+        *u -= l->choice;
+        l++;
+    }
+    if (b->n_lobes > 1)
+        *u = fmin(*u / l->choice, ALMOST_ONE);
+    return l;
+}
+
+bool bsdf_sample(const struct bsdf *b, vec3 wo, const double u[3], enum transport mode, struct bsdf_sample *out)
+{
+    vec3 o = to_local(&b->shading, wo), i;
+    if (b->n_lobes == 0 || o.z == 0)
+        return false;
+    double rest[3] = {u[0], u[1], u[2]};
+    const struct lobe *l = choose_lobe(b, &rest[0]);
+    if (lobe_is_delta(l->kind)) {
+        if (!lobe_sample_delta(l, o, rest[0], mode, out) || rgb_is_black(out->f))
+            return false;
+        out->wi = to_world(&b->shading, out->wi);
+        out->pdf *= l->choice;
+        out->pdf_rev *= l->choice;
+        return true;
+    }
+    if (!lobe_sample(l, o, to_local(&b->shading, b->ng), rest, &i))
+        return false;
+    out->wi = to_world(&b->shading, i);
+    struct bsdf_value v = bsdf_eval(b, wo, out->wi, mode);
+    out->f = v.f;
+    out->pdf = v.pdf;
+    out->pdf_rev = v.pdf_rev;
+    out->delta = false;
+    out->eta = 1;
+    if (l->kind == LOBE_MICROFACET_TRANSMISSION)
+        out->eta = o.z > 0 ? l->eta_b / l->eta_a : l->eta_a / l->eta_b;
+    return v.pdf > 0;
+}

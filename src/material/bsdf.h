@@ -1,0 +1,73 @@
+/* bsdf.h: how a surface point scatters light, and how to sample that.
+ *
+ * A BSDF is a sum of lobes in a shading frame. wo and wi are unit vectors pointing away from the surface; wo is
+ * the direction the walk came from, wi the one it goes to. As in pbrt-v3, the *geometric* normal decides
+ * whether a pair is reflection or transmission, the *shading* normal enters the lobes' formulas.
+ *
+ * Transport mode: refraction compresses radiance by (eta_i/eta_t)^2 but not importance [V97 5.2], so lobes
+ * that transmit need to know which of the two is carried. RADIANCE: walking from the eye; IMPORTANCE: walking
+ * from a light. The factor for shading normals is applied in path.c, not here.
+ *
+ * Delta lobes (mirror, smooth glass) have no density: bsdf_eval leaves them out and bsdf_sample marks them.
+ *
+ * Used by: material (makes them), path and connect. Tests: test_bsdf.c.
+ */
+#ifndef ASBDPT_BSDF_H
+#define ASBDPT_BSDF_H
+
+#include <stdbool.h>
+
+#include "base/frame.h"
+#include "material/lobe.h"
+#include "base/rgb.h"
+#include "base/vec.h"
+
+struct bsdf {
+    struct frame shading;    /* n is the shading normal */
+    vec3 ng;                 /* geometric normal, unit */
+    const struct lobe *lobe; /* [n_lobes], in the arena the bsdf was made in */
+    int n_lobes;
+    int n_smooth;            /* lobes that are not delta; 0: no connection can end here */
+    bool transmits;          /* one of these lets light through */
+};
+
+/* bsdf_make: a BSDF of n >= 0 lobes in the given shading frame. The array is kept, not copied; its `choice`
+ * fields are filled in: in proportion to lobe_albedo_guess, with an eighth spread evenly so that no lobe starves.
+ * They do not depend on directions, so both directions of a walk choose alike. */
+void bsdf_make(struct bsdf *b, struct frame shading, vec3 ng, struct lobe *lobe, int n);
+
+/* bsdf_may_scatter: false where bsdf_eval is black for no other reason than that wo and wi lie on different sides of a
+ * surface that lets nothing through. It is asked before anything that costs more. wi may have any length. */
+static inline bool bsdf_may_scatter(const struct bsdf *b, vec3 wo, vec3 wi)
+{
+    return b->transmits || dot(wi, b->ng) * dot(wo, b->ng) > 0;
+}
+
+/* bsdf_eval_lobes: the general case of bsdf_eval; for that only. */
+struct bsdf_value bsdf_eval_lobes(const struct bsdf *b, vec3 wo, vec3 wi, enum transport mode);
+
+/* bsdf_eval: value and both densities for a pair of directions, summed over all smooth lobes. Where the value is
+ * black both densities are 0: bsdf_sample never returns such a pair. Swapping wo and wi swaps pdf and pdf_rev, and
+ * f(wo, wi, RADIANCE) = f(wi, wo, IMPORTANCE). Cannot fail. */
+static inline struct bsdf_value bsdf_eval(const struct bsdf *b, vec3 wo, vec3 wi, enum transport mode)
+{
+    struct bsdf_value v = {{0, 0, 0}, 0, 0};
+    if (!bsdf_may_scatter(b, wo, wi))
+        return v;
+    if (b->n_lobes != 1 || b->lobe->kind != LOBE_LAMBERT_REFLECTION)
+        return bsdf_eval_lobes(b, wo, wi, mode);
+    /* The commonest BSDF by far is one Lambert lobe: nothing but two cosines. */
+    v.f = rgb_scale(rgb_mul(b->lobe->R, b->lobe->scale), INV_PI);
+    v.pdf = abs_dot(wi, b->shading.n) * INV_PI;
+    v.pdf_rev = abs_dot(wo, b->shading.n) * INV_PI;
+    return v;
+}
+
+/* bsdf_sample: draw wi given wo.
+ *   u  three uniform numbers in [0,1): lobe choice and direction
+ * Returns false when the sample is absorbed (black, below the surface, total internal reflection): the integral of
+ * pdf over the sphere is the probability of *not* being absorbed. For a smooth lobe f, pdf and pdf_rev equal
+ * bsdf_eval's for the same pair; for a delta lobe see struct bsdf_sample. */
+bool bsdf_sample(const struct bsdf *b, vec3 wo, const double u[3], enum transport mode, struct bsdf_sample *out);
+
+#endif

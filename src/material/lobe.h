@@ -1,0 +1,98 @@
+/* lobe.h: one way of scattering, in the shading frame (the normal is z, on the eta_a side).
+ *
+ * A BSDF is a sum of lobes. wo and wi are unit vectors pointing away from the surface; wo is the direction the
+ * walk came from, wi the one it goes to. Formulas are pbrt-v3's, so that images agree; sampling is our own where
+ * it can be better.
+ *
+ * Two planes decide on which side a direction is. The *geometric* one says whether a pair (wo, wi) is reflection
+ * or transmission (`reflect` below, found by bsdf.c); the *shading* one enters the formulas. Where they disagree
+ *   - diffuse lobes have the value they have everywhere, and a sample that falls on the wrong side of the
+ *     geometric plane is turned round to -wi: that keeps its density |cos|/pi, loses no energy and reaches
+ *     every direction in which the lobe is not black;
+ *   - facets are only met by pairs that lie on the right sides of the shading plane too, and whose facet faces
+ *     both directions; other pairs are black. (pbrt-v3 evaluates its formulas there although it never samples
+ *     such pairs, so that its own integrators disagree: by 1 % on glass of alpha 0.7, not visibly below 0.1.)
+ *
+ * Used by: bsdf, material. Tests: test_lobe.c, test_bsdf.c.
+ */
+#ifndef ASBDPT_LOBE_H
+#define ASBDPT_LOBE_H
+
+#include <stdbool.h>
+
+#include "base/rgb.h"
+#include "base/vec.h"
+
+/* What is being carried against the walk's direction: radiance when walking from the eye, importance when
+ * walking from a light. Refraction compresses radiance by (eta_i/eta_t)^2 but not importance [V97 5.2]. */
+enum transport { RADIANCE, IMPORTANCE };
+
+enum lobe_kind {
+    LOBE_LAMBERT_REFLECTION,
+    LOBE_LAMBERT_TRANSMISSION,
+    LOBE_OREN_NAYAR,
+    LOBE_SPECULAR_REFLECTION,   /* delta; fresnel may be none (mirror) */
+    LOBE_SPECULAR_TRANSMISSION, /* delta; dielectric */
+    LOBE_FRESNEL_SPECULAR,      /* delta; smooth glass: reflection or transmission by Fresnel's share */
+    LOBE_MICROFACET_REFLECTION,
+    LOBE_MICROFACET_TRANSMISSION,
+    LOBE_FRESNEL_BLEND /* pbrt's substrate [Ashikhmin & Shirley 2000] */
+};
+
+enum fresnel_kind { FRESNEL_NONE, FRESNEL_DIELECTRIC, FRESNEL_CONDUCTOR };
+
+/* One lobe; which fields matter depends on kind. */
+struct lobe {
+    enum lobe_kind kind;
+    enum fresnel_kind fresnel;
+    rgb scale;               /* multiplies the lobe's value: shares of mix materials; 1 otherwise */
+    rgb R;                   /* reflectance of a reflecting lobe; diffuse part of FRESNEL_BLEND */
+    rgb T;                   /* transmittance of a transmitting lobe; specular part of FRESNEL_BLEND */
+    rgb eta, k;              /* conductor: complex index relative to the outside */
+    double eta_a, eta_b;     /* dielectric: index above (side of the normal) and below */
+    double alpha_x, alpha_y; /* Trowbridge-Reitz roughness along s and t, > 0 */
+    double A, B;             /* Oren-Nayar coefficients */
+    double choice;           /* probability with which bsdf_sample takes this lobe; set by bsdf_make */
+};
+
+/* What is known about a pair of directions. */
+struct bsdf_value {
+    rgb f;          /* 1/sr, without any cosine; delta lobes left out */
+    double pdf;     /* density of sampling wi given wo, 1/sr; delta lobes left out */
+    double pdf_rev; /* density of sampling wo given wi, 1/sr */
+};
+
+/* A drawn direction. The walk's throughput is to be multiplied by f |cos(wi, ns)| / pdf in all cases. */
+struct bsdf_sample {
+    vec3 wi;
+    rgb f;      /* value for wi, 1/sr; of a delta lobe: the coefficient of the delta over |cos(wi, ns)| */
+    double pdf; /* 1/sr; of a delta lobe: the probability of choosing it (and, of a FRESNEL_SPECULAR, the branch) */
+    double pdf_rev; /* the same for the reversed pair, 1/sr; of a delta lobe: the probability of choosing it from
+                     * wi, times d(wi)/d(wo) = cos_o / (eta^2 cos_i) when it transmits, see lobe.c */
+    bool delta;
+    double eta; /* (index on wi's side)/(index on wo's side) for refraction, else 1 */
+};
+
+bool lobe_is_delta(enum lobe_kind kind);
+
+/* lobe_albedo_guess: about how much of the light it gets the lobe sends on, in every direction the same, so that it
+ * can be a choice probability for both directions of a walk. > 0 unless the lobe is black. */
+double lobe_albedo_guess(const struct lobe *l);
+
+/* lobe_eval: value and densities of a lobe that is not delta; all zero for a delta lobe. wo.z, wi.z != 0.
+ *   reflect  whether wo and wi lie on the same side of the geometric plane
+ * A pdf may be positive where f is 0: such samples are drawn and then absorbed. */
+struct bsdf_value lobe_eval(const struct lobe *l, vec3 wo, vec3 wi, bool reflect, enum transport mode);
+
+/* lobe_sample: draw wi given wo from a lobe that is not delta, with lobe_eval's density.
+ *   ng  geometric normal in the shading frame
+ *   u   three uniform numbers in [0,1)
+ * Returns false when the facet drawn sends nothing on: total internal reflection, or into the surface. */
+bool lobe_sample(const struct lobe *l, vec3 wo, vec3 ng, const double u[3], vec3 *wi);
+
+/* lobe_sample_delta: the direction of a delta lobe, and what goes there; fills *out in the shading frame.
+ *   u  uniform in [0,1), chooses between reflection and transmission of FRESNEL_SPECULAR
+ * Returns false when nothing is sent on. */
+bool lobe_sample_delta(const struct lobe *l, vec3 wo, double u, enum transport mode, struct bsdf_sample *out);
+
+#endif

@@ -1,0 +1,297 @@
+/* material.c: the recipes, see material.h: which lobes make which material [PBRT3 9.2]. */
+#include "material/material.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "material/bump.h"
+
+/* A BSDF in the making. */
+struct recipe {
+    const struct material *materials;
+    const struct texture_set *textures;
+    const struct surface *at;
+    struct lobe lobe[MATERIAL_MAX_LOBES];
+    int n;
+    int visits; /* materials looked at: bounds the work even if mixes contain each other */
+};
+
+/* Every mix has at least as many branches as materials less one, so a material that fits has fewer than these. */
+enum { MAX_VISITS = 2 * MATERIAL_MAX_LOBES };
+
+/* --- parameters -------------------------------------------------------------------------------------- */
+
+/* NaN, which textures multiplied often enough can become, counts as 0. */
+static double cut(double x, double low, double high) { return x > low ? (x < high ? x : high) : low; }
+
+static rgb clamped(rgb c)
+{
+    return rgb_make(cut(c.r, 0, MATERIAL_MAX_COLOUR), cut(c.g, 0, MATERIAL_MAX_COLOUR), cut(c.b, 0, MATERIAL_MAX_COLOUR));
+}
+
+static rgb colour(const struct recipe *r, int texture) { return clamped(texture_rgb(r->textures, texture, r->at)); }
+static double number(const struct recipe *r, int texture) { return texture_float(r->textures, texture, r->at); }
+
+static double refraction(const struct recipe *r, const struct material *m)
+{
+    return cut(number(r, m->index), MATERIAL_MIN_INDEX, MATERIAL_MAX_INDEX);
+}
+
+/* The polynomial is pbrt's fit in x = ln(roughness). */
+double roughness_to_alpha(double roughness)
+{
+    double x = log(fmax(roughness, 1e-3));
+    return 1.62142 + x * (0.819955 + x * (0.1734 + x * (0.0171201 + x * 0.000640711)));
+}
+
+/* --- lobes ------------------------------------------------------------------------------------------- */
+
+static struct lobe lobe_of(enum lobe_kind kind, rgb R, rgb T)
+{
+    struct lobe l;
+    memset(&l, 0, sizeof l);
+    l.kind = kind;
+    l.fresnel = FRESNEL_NONE;
+    l.scale = rgb_grey(1);
+    l.R = R;
+    l.T = T;
+    return l;
+}
+
+static struct lobe dielectric(struct lobe l, double eta_a, double eta_b)
+{
+    l.fresnel = FRESNEL_DIELECTRIC;
+    l.eta_a = eta_a;
+    l.eta_b = eta_b;
+    return l;
+}
+
+static struct lobe rough(const struct recipe *r, const struct material *m, struct lobe l)
+{
+    const double least = 1e-3; /* below, facets are a mirror to any purpose and their density overflows squares */
+    double u = cut(number(r, m->uroughness), 0, MATERIAL_MAX_ROUGHNESS);
+    double v = cut(number(r, m->vroughness), 0, MATERIAL_MAX_ROUGHNESS);
+    l.alpha_x = fmax(least, m->remap_roughness ? roughness_to_alpha(u) : u);
+    l.alpha_y = fmax(least, m->remap_roughness ? roughness_to_alpha(v) : v);
+    return l;
+}
+
+/* Append a lobe; a black one is dropped. */
+static void put(struct recipe *r, struct lobe l)
+{
+    if (r->n < MATERIAL_MAX_LOBES && lobe_albedo_guess(&l) > 0)
+        r->lobe[r->n++] = l;
+}
+
+/* --- materials --------------------------------------------------------------------------------------- */
+
+static void put_matte(struct recipe *r, const struct material *m)
+{
+    double sigma = cut(number(r, m->sigma), 0, 90) * (PI / 180), sigma2 = sigma * sigma;
+    struct lobe l = lobe_of(sigma == 0 ? LOBE_LAMBERT_REFLECTION : LOBE_OREN_NAYAR, colour(r, m->Kd), rgb_black());
+    l.A = 1 - sigma2 / (2 * (sigma2 + 0.33));
+    l.B = 0.45 * sigma2 / (sigma2 + 0.09);
+    put(r, l);
+}
+
+static void put_glass(struct recipe *r, const struct material *m)
+{
+    rgb R = colour(r, m->Kr), T = colour(r, m->Kt), none = rgb_black();
+    double eta = refraction(r, m);
+    bool smooth = number(r, m->uroughness) == 0 && number(r, m->vroughness) == 0;
+    if (smooth || eta == 1) { /* where nothing refracts, facets do not scatter either, however rough */
+        put(r, dielectric(lobe_of(LOBE_FRESNEL_SPECULAR, R, T), 1, eta));
+        return;
+    }
+    put(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_REFLECTION, R, none), 1, eta)));
+    put(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_TRANSMISSION, none, T), 1, eta)));
+}
+
+static void put_metal(struct recipe *r, const struct material *m)
+{
+    struct lobe l = rough(r, m, lobe_of(LOBE_MICROFACET_REFLECTION, rgb_grey(1), rgb_black()));
+    l.fresnel = FRESNEL_CONDUCTOR;
+    l.eta = colour(r, m->eta);
+    l.k = colour(r, m->k);
+    put(r, l);
+}
+
+/* pbrt-v3 has the two indices of the coat the wrong way round: from outside its light seems to leave glass of 1.5
+ * and is totally reflected from 41.8 degrees on. Its images of plastic are what its users know, so we do the same.
+ */
+static void put_plastic(struct recipe *r, const struct material *m)
+{
+    put(r, lobe_of(LOBE_LAMBERT_REFLECTION, colour(r, m->Kd), rgb_black()));
+    put(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_REFLECTION, colour(r, m->Ks), rgb_black()), 1.5, 1)));
+}
+
+static void put_uber(struct recipe *r, const struct material *m)
+{
+    rgb opacity = colour(r, m->opacity), clear = clamped(rgb_sub(rgb_grey(1), opacity)), none = rgb_black();
+    double eta = refraction(r, m);
+    put(r, dielectric(lobe_of(LOBE_SPECULAR_TRANSMISSION, none, clear), 1, 1));
+    put(r, lobe_of(LOBE_LAMBERT_REFLECTION, rgb_mul(opacity, colour(r, m->Kd)), none));
+    rgb Ks = rgb_mul(opacity, colour(r, m->Ks));
+    put(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_REFLECTION, Ks, none), 1, eta)));
+    rgb Kr = rgb_mul(opacity, colour(r, m->Kr)), Kt = rgb_mul(opacity, colour(r, m->Kt));
+    put(r, dielectric(lobe_of(LOBE_SPECULAR_REFLECTION, Kr, none), 1, eta));
+    put(r, dielectric(lobe_of(LOBE_SPECULAR_TRANSMISSION, none, Kt), 1, eta));
+}
+
+static void put_translucent(struct recipe *r, const struct material *m)
+{
+    const double eta = 1.5;
+    rgb up = colour(r, m->reflect), down = colour(r, m->transmit), none = rgb_black();
+    rgb Kd = colour(r, m->Kd), Ks = colour(r, m->Ks);
+    put(r, lobe_of(LOBE_LAMBERT_REFLECTION, rgb_mul(up, Kd), none));
+    put(r, lobe_of(LOBE_LAMBERT_TRANSMISSION, none, rgb_mul(down, Kd)));
+    put(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_REFLECTION, rgb_mul(up, Ks), none), 1, eta)));
+    put(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_TRANSMISSION, none, rgb_mul(down, Ks)), 1, eta)));
+}
+
+static void put_material(struct recipe *r, int id);
+
+/* The lobes of both materials, those of the first times `amount`, those of the second times the rest. */
+static void put_mix(struct recipe *r, const struct material *m)
+{
+    rgb share = colour(r, m->amount);
+    for (int branch = 0; branch < 2; branch++) {
+        int first = r->n;
+        put_material(r, branch == 0 ? m->mix1 : m->mix2);
+        int end = r->n;
+        r->n = first;
+        for (int i = first; i < end; i++) { /* put again, scaled: what is now black is dropped */
+            struct lobe l = r->lobe[i];
+            l.scale = rgb_mul(l.scale, share);
+            put(r, l);
+        }
+        share = clamped(rgb_sub(rgb_grey(1), share));
+    }
+}
+
+static void put_material(struct recipe *r, int id)
+{
+    const struct material *m = &r->materials[id];
+    if (++r->visits > MAX_VISITS)
+        return;
+    switch (m->kind) {
+    case MATERIAL_MATTE: put_matte(r, m); break;
+    case MATERIAL_MIRROR: put(r, lobe_of(LOBE_SPECULAR_REFLECTION, colour(r, m->Kr), rgb_black())); break;
+    case MATERIAL_GLASS: put_glass(r, m); break;
+    case MATERIAL_METAL: put_metal(r, m); break;
+    case MATERIAL_PLASTIC: put_plastic(r, m); break;
+    case MATERIAL_SUBSTRATE:
+        put(r, rough(r, m, lobe_of(LOBE_FRESNEL_BLEND, colour(r, m->Kd), colour(r, m->Ks))));
+        break;
+    case MATERIAL_UBER: put_uber(r, m); break;
+    case MATERIAL_TRANSLUCENT: put_translucent(r, m); break;
+    case MATERIAL_MIX: put_mix(r, m); break;
+    }
+}
+
+/* The most lobes a material of this kind has by itself. */
+static int lobes_of_kind(enum material_kind kind)
+{
+    switch (kind) {
+    case MATERIAL_MATTE:
+    case MATERIAL_MIRROR:
+    case MATERIAL_METAL:
+    case MATERIAL_SUBSTRATE: return 1;
+    case MATERIAL_GLASS:
+    case MATERIAL_PLASTIC: return 2;
+    case MATERIAL_TRANSLUCENT: return 4;
+    case MATERIAL_UBER: return 5;
+    case MATERIAL_MIX: break;
+    }
+    return 0;
+}
+
+/* Count the lobes of a material into *n, and the materials looked at into *visits; stop when there are too many. */
+static void count_lobes(const struct material *materials, int id, int *n, int *visits)
+{
+    if (++*visits > MAX_VISITS)
+        return;
+    *n += lobes_of_kind(materials[id].kind);
+    if (materials[id].kind == MATERIAL_MIX) {
+        count_lobes(materials, materials[id].mix1, n, visits);
+        count_lobes(materials, materials[id].mix2, n, visits);
+    }
+}
+
+bool material_fits(const struct material *materials, int id)
+{
+    int n = 0, visits = 0;
+    count_lobes(materials, id, &n, &visits);
+    return n <= MATERIAL_MAX_LOBES && visits <= MAX_VISITS;
+}
+
+/* The bump map that counts: a mix shades with the frame of its first material. */
+static int bump_of(const struct material *materials, int id)
+{
+    for (int visits = 0; visits < MAX_VISITS && materials[id].kind == MATERIAL_MIX; visits++)
+        id = materials[id].mix1;
+    return materials[id].bump;
+}
+
+static void make_bsdf(const struct material *materials, int id, const struct texture_set *textures,
+                      const struct surface *at, struct frame shading, struct arena *arena, struct bsdf *out)
+{
+    struct recipe r;
+    r.materials = materials;
+    r.textures = textures;
+    r.at = at;
+    r.n = r.visits = 0;
+    put_material(&r, id);
+    size_t size = (size_t)r.n * sizeof r.lobe[0];
+    struct lobe *lobe = r.n > 0 ? memcpy(arena_alloc(arena, size), r.lobe, size) : NULL;
+    bsdf_make(out, shading, at->ng, lobe, r.n);
+}
+
+/* Are all parameters the same everywhere? Of a mix the materials must be known to be. */
+static bool is_uniform(const struct material *materials, int id, const struct texture_set *textures)
+{
+    const struct material *m = &materials[id];
+    const int used[] = {m->Kd,         m->Ks,         m->Kr,      m->Kt,      m->sigma,    m->eta,   m->k, m->index,
+                        m->uroughness, m->vroughness, m->opacity, m->reflect, m->transmit, m->amount};
+    for (size_t i = 0; i < sizeof used / sizeof used[0]; i++)
+        if (used[i] >= 0 && textures->texture[used[i]].kind != TEXTURE_CONSTANT)
+            return false;
+    return m->kind != MATERIAL_MIX || (materials[m->mix1].uniform != NULL && materials[m->mix2].uniform != NULL);
+}
+
+bool material_reads_partials(const struct material *materials, int id, const struct texture_set *textures)
+{
+    const struct material *m = &materials[id];
+    if (m->kind == MATERIAL_MIX || m->bump >= 0)
+        return true;
+    if (m->uroughness == m->vroughness)
+        return false;
+    const struct texture *u = &textures->texture[m->uroughness], *v = &textures->texture[m->vroughness];
+    return u->kind != TEXTURE_CONSTANT || v->kind != TEXTURE_CONSTANT || u->u.constant.r != v->u.constant.r;
+}
+
+void material_prepare(struct material *materials, int n, const struct texture_set *textures, struct arena *arena)
+{
+    const struct surface anywhere = {.u = 0};
+    const struct frame any = frame_from_normal(vec(0, 0, 1));
+    for (int i = 0; i < n; i++)
+        if (is_uniform(materials, i, textures)) {
+            struct bsdf *b = arena_alloc(arena, sizeof *b);
+            make_bsdf(materials, i, textures, &anywhere, any, arena, b);
+            materials[i].uniform = b;
+        }
+}
+
+void material_bsdf(const struct material *materials, int id, const struct texture_set *textures,
+                   const struct surface *at, struct arena *arena, struct bsdf *out)
+{
+    int bump = bump_of(materials, id);
+    struct frame shading = bump >= 0 ? bump_frame(textures, bump, at) : frame_from_tangent(at->ns, at->dpdu);
+    if (materials[id].uniform == NULL) {
+        make_bsdf(materials, id, textures, at, shading, arena, out);
+        return;
+    }
+    *out = *materials[id].uniform;
+    out->shading = shading;
+    out->ng = at->ng;
+}

@@ -1,0 +1,76 @@
+/* material.h: from a material and a surface point to a BSDF. Parameters, defaults and formulas are pbrt-v3's.
+ * Used by: path (through scene), parser. Tests: test_material.c.
+ */
+#ifndef ASBDPT_MATERIAL_H
+#define ASBDPT_MATERIAL_H
+
+#include <stdbool.h>
+
+#include "material/bsdf.h"
+#include "base/mem.h"
+#include "geometry/surface.h"
+#include "material/texture.h"
+
+enum material_kind {
+    MATERIAL_MATTE,       /* Kd, sigma */
+    MATERIAL_MIRROR,      /* Kr */
+    MATERIAL_GLASS,       /* Kr, Kt, index, uroughness, vroughness */
+    MATERIAL_METAL,       /* eta, k, roughness */
+    MATERIAL_PLASTIC,     /* Kd, Ks, roughness */
+    MATERIAL_SUBSTRATE,   /* Kd, Ks, roughness */
+    MATERIAL_UBER,        /* Kd, Ks, Kr, Kt, roughness, index, opacity */
+    MATERIAL_TRANSLUCENT, /* Kd, Ks, reflect, transmit, roughness */
+    MATERIAL_MIX          /* mix1, mix2, amount */
+};
+
+/* All parameters are texture numbers; -1 where a kind does not use one. The parser fills in the defaults. */
+struct material {
+    enum material_kind kind;
+    int Kd, Ks, Kr, Kt;
+    int sigma;                  /* degrees */
+    int eta, k;                 /* metal */
+    int index;                  /* dielectric index of refraction */
+    int uroughness, vroughness; /* always both set where used ("roughness" sets both) */
+    bool remap_roughness;
+    int opacity, reflect, transmit, amount;
+    int mix1, mix2; /* material numbers */
+    int bump;       /* float texture of displacement along the normal, in world units */
+    const struct bsdf *uniform; /* its BSDF but for the frame, the same everywhere; NULL where a texture varies it or
+                                 * material_prepare was not called */
+};
+
+/* The most lobes a BSDF can have, counted over all branches of nested mixes. */
+enum { MATERIAL_MAX_LOBES = 16 };
+
+/* What parameters may be. The parser refuses what is the same everywhere and beyond; what textures vary is cut to it. */
+#define MATERIAL_MAX_COLOUR 1e6 /* reflectances, eta and k of metals */
+#define MATERIAL_MIN_INDEX 0.01
+#define MATERIAL_MAX_INDEX 100.0
+#define MATERIAL_MAX_ROUGHNESS 1e3
+
+/* material_fits: whether material `id` keeps to MATERIAL_MAX_LOBES. Always true but for mixes; the parser refuses
+ * the others. Ends even if mixes contain each other. */
+bool material_fits(const struct material *materials, int id);
+
+/* material_prepare: make the BSDFs of those materials that are alike everywhere, as most are, once for all.
+ *   arena  where they live: as long as the materials are used */
+void material_prepare(struct material *materials, int n, const struct texture_set *textures, struct arena *arena);
+
+/* material_reads_partials: whether the BSDFs of material `id` depend on dpdu, dpdv, dndu or dndv: by a bump map, or by a
+ * roughness that differs between u and v. May say so of one that does not. */
+bool material_reads_partials(const struct material *materials, int id, const struct texture_set *textures);
+
+/* material_bsdf: the BSDF of material `id` at a point.
+ *   materials, textures  the scene's
+ *   at     the surface point; bump mapping tilts the shading frame, `at` itself is not changed
+ *   arena  where the lobes live
+ *   out    filled; n_lobes = 0 for a black surface
+ * Negative colours count as 0. The frame of a mix is its first material's, as in pbrt-v3. Lobes beyond
+ * MATERIAL_MAX_LOBES are left out. */
+void material_bsdf(const struct material *materials, int id, const struct texture_set *textures,
+                   const struct surface *at, struct arena *arena, struct bsdf *out);
+
+/* roughness_to_alpha: pbrt's artist-friendly remapping, used when remap_roughness is set. */
+double roughness_to_alpha(double roughness);
+
+#endif

@@ -1,0 +1,259 @@
+/* texture.c: see texture.h. The kinds and their parameters are those of pbrt-v3 [PBRT3 10.3-10.5]. */
+#include "material/texture.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+
+/* --- the set ----------------------------------------------------------------------------------------- */
+
+/* Number of textures a look-up of `id` visits; -1 stands for none. */
+static int cost_of(const struct texture_set *set, int id) { return id < 0 ? 0 : set->texture[id].cost; }
+
+int texture_add(struct texture_set *set, struct texture t)
+{
+    t.cost = 1;
+    if (t.kind == TEXTURE_SCALE || t.kind == TEXTURE_MIX)
+        t.cost += cost_of(set, t.u.pair.tex1) + cost_of(set, t.u.pair.tex2) + cost_of(set, t.u.pair.amount);
+    else if (t.kind == TEXTURE_CHECKERBOARD)
+        t.cost += cost_of(set, t.u.checker.tex1) + cost_of(set, t.u.checker.tex2);
+    set->texture =
+        mem_grow(set->texture, &set->texture_capacity, (size_t)set->n_textures + 1, sizeof *set->texture);
+    set->texture[set->n_textures] = t;
+    return set->n_textures++;
+}
+
+int texture_add_constant(struct texture_set *set, rgb value)
+{
+    struct texture t = {.kind = TEXTURE_CONSTANT, .u = {.constant = value}};
+    return texture_add(set, t);
+}
+
+int texture_load_image(struct texture_set *set, const char *path, struct error *err)
+{
+    for (int i = 0; i < set->n_images; i++)
+        if (strcmp(set->image_path[i], path) == 0)
+            return i;
+    struct image img;
+    if (!image_read(path, &img, err))
+        return -1;
+    image_mend(&img, false);
+    size_t need = (size_t)set->n_images + 1;
+    set->image = mem_grow(set->image, &set->image_capacity, need, sizeof *set->image);
+    set->image_path = mem_grow(set->image_path, &set->path_capacity, need, sizeof *set->image_path);
+    set->image[set->n_images] = img;
+    set->image_path[set->n_images] = mem_copy_text(path);
+    return set->n_images++;
+}
+
+void texture_set_free(struct texture_set *set)
+{
+    for (int i = 0; i < set->n_images; i++) {
+        image_free(&set->image[i]);
+        free(set->image_path[i]);
+    }
+    free(set->texture);
+    free(set->image);
+    free(set->image_path);
+    memset(set, 0, sizeof *set);
+}
+
+/* --- pictures ---------------------------------------------------------------------------------------- */
+
+/* Column or row number `i`, a whole number of any size but finite, after wrapping: 0 <= result < n, or -1 for black. */
+static int wrap_index(double i, int n, enum texture_wrap wrap)
+{
+    if (i >= 0 && i < n)
+        return (int)i;
+    switch (wrap) {
+    case WRAP_REPEAT: i -= n * floor(i / n); break;
+    case WRAP_BLACK: return -1;
+    case WRAP_CLAMP: break;
+    }
+    return (int)clamp(i, 0, n - 1);
+}
+
+/* The texels around a point of a picture: index of each, or -1 for black, and its weight. */
+struct corners {
+    ptrdiff_t texel[4];
+    double weight[4];
+};
+
+/* Find them. A point that is not finite has no texels. */
+static struct corners find_corners(const struct image *img, double s, double t, enum texture_wrap wrap)
+{
+    struct corners c = {{-1, -1, -1, -1}, {0, 0, 0, 0}};
+    double x = s * img->width - 0.5, y = t * img->height - 0.5;
+    if (!isfinite(x) || !isfinite(y))
+        return c;
+    double x0 = floor(x), y0 = floor(y), dx = x - x0, dy = y - y0;
+    const int column[2] = {wrap_index(x0, img->width, wrap), wrap_index(x0 + 1, img->width, wrap)};
+    const int row[2] = {wrap_index(y0, img->height, wrap), wrap_index(y0 + 1, img->height, wrap)};
+    for (int k = 0; k < 4; k++) {
+        int i = column[k % 2], j = row[k / 2];
+        if (i >= 0 && j >= 0)
+            c.texel[k] = (ptrdiff_t)(img->height - 1 - j) * img->width + i; /* rows are stored from the top */
+        c.weight[k] = (k % 2 ? dx : 1 - dx) * (k / 2 ? dy : 1 - dy);
+    }
+    return c;
+}
+
+/* One stored sample as a number, 0..1 for bytes. */
+static double stored(const struct image *img, ptrdiff_t i)
+{
+    return img->u8 != NULL ? img->u8[i] / 255.0 : img->f32[i];
+}
+
+static double decoded(const struct image *img, ptrdiff_t i, bool gamma)
+{
+    if (!gamma)
+        return stored(img, i);
+    return img->u8 != NULL ? img->decode[img->u8[i]] : srgb_decode(img->f32[i]);
+}
+
+static rgb texel_rgb(const struct image *img, ptrdiff_t texel, bool gamma)
+{
+    if (img->channels == 1)
+        return rgb_grey(decoded(img, texel, gamma));
+    ptrdiff_t i = texel * 3;
+    return rgb_make(decoded(img, i, gamma), decoded(img, i + 1, gamma), decoded(img, i + 2, gamma));
+}
+
+/* The number a float texture sees: luminance first, then decoding. */
+static double texel_grey(const struct image *img, ptrdiff_t texel, bool gamma)
+{
+    if (img->channels == 1)
+        return decoded(img, texel, gamma);
+    double y = rgb_luminance(texel_rgb(img, texel, false));
+    return gamma ? srgb_decode(y) : y;
+}
+
+rgb image_bilinear(const struct image *img, double s, double t, enum texture_wrap wrap, bool gamma)
+{
+    struct corners c = find_corners(img, s, t, wrap);
+    rgb sum = rgb_black();
+    for (int k = 0; k < 4; k++)
+        if (c.texel[k] >= 0)
+            sum = rgb_add(sum, rgb_scale(texel_rgb(img, c.texel[k], gamma), c.weight[k]));
+    return sum;
+}
+
+static double image_bilinear_grey(const struct image *img, double s, double t, enum texture_wrap wrap, bool gamma)
+{
+    struct corners c = find_corners(img, s, t, wrap);
+    double sum = 0;
+    for (int k = 0; k < 4; k++)
+        if (c.texel[k] >= 0)
+            sum += c.weight[k] * texel_grey(img, c.texel[k], gamma);
+    return sum;
+}
+
+/* --- values ------------------------------------------------------------------------------------------ */
+
+struct st {
+    double s, t;
+};
+
+static struct st map_uv(struct uv_mapping m, double u, double v)
+{
+    struct st st = {m.su * u + m.du, m.sv * v + m.dv};
+    return st;
+}
+
+/* The texture whose turn it is in the cell of a checkerboard. */
+static int checker_choice(const struct texture *t, const struct surface *at)
+{
+    struct st st = map_uv(t->u.checker.map, at->u, at->v);
+    return fmod(floor(st.s) + floor(st.t), 2) == 0 ? t->u.checker.tex1 : t->u.checker.tex2;
+}
+
+static rgb bilerp(const struct texture *t, double u, double v)
+{
+    struct st st = map_uv(t->u.bilerp.map, u, v);
+    rgb low = rgb_add(rgb_scale(t->u.bilerp.v00, 1 - st.s), rgb_scale(t->u.bilerp.v10, st.s));
+    rgb high = rgb_add(rgb_scale(t->u.bilerp.v01, 1 - st.s), rgb_scale(t->u.bilerp.v11, st.s));
+    return rgb_add(rgb_scale(low, 1 - st.t), rgb_scale(high, st.t));
+}
+
+static rgb mix(rgb a, rgb b, double amount) { return rgb_add(rgb_scale(a, 1 - amount), rgb_scale(b, amount)); }
+
+rgb texture_varying_rgb(const struct texture_set *set, int id, const struct surface *at)
+{
+    assert(id >= 0 && id < set->n_textures);
+    const struct texture *t = &set->texture[id];
+    switch (t->kind) {
+    case TEXTURE_CONSTANT: return t->u.constant;
+    case TEXTURE_SCALE: return rgb_mul(texture_rgb(set, t->u.pair.tex1, at), texture_rgb(set, t->u.pair.tex2, at));
+    case TEXTURE_MIX:
+        return mix(texture_rgb(set, t->u.pair.tex1, at), texture_rgb(set, t->u.pair.tex2, at),
+                   texture_float(set, t->u.pair.amount, at));
+    case TEXTURE_CHECKERBOARD: return texture_rgb(set, checker_choice(t, at), at);
+    case TEXTURE_IMAGEMAP: {
+        struct st st = map_uv(t->u.imagemap.map, at->u, at->v);
+        const struct image *img = &set->image[t->u.imagemap.image];
+        return rgb_scale(image_bilinear(img, st.s, st.t, t->u.imagemap.wrap, t->u.imagemap.gamma),
+                         t->u.imagemap.scale);
+    }
+    case TEXTURE_BILERP: return bilerp(t, at->u, at->v);
+    }
+    return rgb_black();
+}
+
+double texture_varying_float(const struct texture_set *set, int id, const struct surface *at)
+{
+    assert(id >= 0 && id < set->n_textures);
+    const struct texture *t = &set->texture[id];
+    switch (t->kind) {
+    case TEXTURE_CONSTANT: return t->u.constant.r;
+    case TEXTURE_SCALE: return texture_float(set, t->u.pair.tex1, at) * texture_float(set, t->u.pair.tex2, at);
+    case TEXTURE_MIX: {
+        double amount = texture_float(set, t->u.pair.amount, at);
+        return (1 - amount) * texture_float(set, t->u.pair.tex1, at) +
+               amount * texture_float(set, t->u.pair.tex2, at);
+    }
+    case TEXTURE_CHECKERBOARD: return texture_float(set, checker_choice(t, at), at);
+    case TEXTURE_IMAGEMAP: {
+        struct st st = map_uv(t->u.imagemap.map, at->u, at->v);
+        const struct image *img = &set->image[t->u.imagemap.image];
+        return t->u.imagemap.scale * image_bilinear_grey(img, st.s, st.t, t->u.imagemap.wrap, t->u.imagemap.gamma);
+    }
+    case TEXTURE_BILERP: return bilerp(t, at->u, at->v).r;
+    }
+    return 0;
+}
+
+/* The mean over at most 64 x 64 texels spread over the picture. */
+static rgb image_mean(const struct image *img, bool gamma)
+{
+    enum { MOST = 64 };
+    int nx = img->width < MOST ? img->width : MOST, ny = img->height < MOST ? img->height : MOST;
+    rgb sum = rgb_black();
+    for (int j = 0; j < ny; j++)
+        for (int i = 0; i < nx; i++) {
+            ptrdiff_t x = (2 * i + 1) * (ptrdiff_t)img->width / (2 * nx);
+            ptrdiff_t y = (2 * j + 1) * (ptrdiff_t)img->height / (2 * ny);
+            sum = rgb_add(sum, texel_rgb(img, y * img->width + x, gamma));
+        }
+    return rgb_scale(sum, 1.0 / (nx * ny));
+}
+
+rgb texture_mean(const struct texture_set *set, int id)
+{
+    assert(id >= 0 && id < set->n_textures);
+    const struct texture *t = &set->texture[id];
+    switch (t->kind) {
+    case TEXTURE_CONSTANT: return t->u.constant;
+    case TEXTURE_SCALE: return rgb_mul(texture_mean(set, t->u.pair.tex1), texture_mean(set, t->u.pair.tex2));
+    case TEXTURE_MIX:
+        return mix(texture_mean(set, t->u.pair.tex1), texture_mean(set, t->u.pair.tex2),
+                   texture_mean(set, t->u.pair.amount).r);
+    case TEXTURE_CHECKERBOARD:
+        return mix(texture_mean(set, t->u.checker.tex1), texture_mean(set, t->u.checker.tex2), 0.5);
+    case TEXTURE_IMAGEMAP:
+        return rgb_scale(image_mean(&set->image[t->u.imagemap.image], t->u.imagemap.gamma), t->u.imagemap.scale);
+    case TEXTURE_BILERP: return bilerp(t, 0.5, 0.5); /* the mean of a bilinear function is its middle */
+    }
+    return rgb_black();
+}

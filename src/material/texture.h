@@ -1,0 +1,106 @@
+/* texture.h: numbers and colours that vary over a surface.
+ *
+ * Every material parameter is a texture, most of them constant. Float textures use the red channel of the same
+ * struct. Image maps are looked up bilinearly in the finest level: pixel samples do the filtering.
+ *
+ * Used by: material, scene (alpha), parser. Tests: test_texture.c.
+ */
+#ifndef ASBDPT_TEXTURE_H
+#define ASBDPT_TEXTURE_H
+
+#include <stddef.h>
+
+#include "base/error.h"
+#include "image/image.h"
+#include "base/rgb.h"
+#include "geometry/surface.h"
+
+enum texture_kind {
+    TEXTURE_CONSTANT,
+    TEXTURE_SCALE,        /* tex1 * tex2 */
+    TEXTURE_MIX,          /* (1-amount) tex1 + amount tex2 */
+    TEXTURE_CHECKERBOARD, /* tex1 on even, tex2 on odd cells of floor(s), floor(t) */
+    TEXTURE_IMAGEMAP,
+    TEXTURE_BILERP
+};
+
+enum texture_wrap { WRAP_REPEAT, WRAP_BLACK, WRAP_CLAMP };
+
+/* (s,t) = (su u + du, sv v + dv) */
+struct uv_mapping {
+    double su, sv, du, dv;
+};
+
+enum { TEXTURE_MAX_COST = 256 }; /* the parser refuses textures built from more than that */
+
+struct texture {
+    enum texture_kind kind;
+    int cost; /* textures that one look-up visits, itself included; set by texture_add */
+    union {
+        rgb constant;
+        struct {
+            int tex1, tex2, amount; /* texture numbers; amount for mix only */
+        } pair;                     /* scale, mix */
+        struct {
+            int tex1, tex2;
+            struct uv_mapping map;
+        } checker;
+        struct {
+            int image;  /* index into the scene's images */
+            bool gamma; /* decode sRGB */
+            double scale;
+            enum texture_wrap wrap;
+            struct uv_mapping map;
+        } imagemap;
+        struct {
+            rgb v00, v01, v10, v11;
+            struct uv_mapping map;
+        } bilerp;
+    } u;
+};
+
+/* Textures and the images they use. The images are shared between textures that name the same file. */
+struct texture_set {
+    struct texture *texture; /* [n_textures], owned */
+    struct image *image;     /* [n_images], owned */
+    char **image_path;       /* [n_images], owned */
+    int n_textures, n_images;
+    size_t texture_capacity, image_capacity, path_capacity;
+};
+
+/* texture_add: append a texture; returns its number. Textures it names must have been added before. */
+int texture_add(struct texture_set *set, struct texture t);
+int texture_add_constant(struct texture_set *set, rgb value);
+
+/* texture_load_image: the number of the image with this path, reading it if it is new; -1 with a message. */
+int texture_load_image(struct texture_set *set, const char *path, struct error *err);
+void texture_set_free(struct texture_set *set);
+
+/* texture_rgb / texture_float: the value at a surface point. `id` must be a valid texture number. A float texture
+ * of a colour picture is the luminance of the stored values, decoded afterwards if `gamma` is set, as in pbrt-v3.
+ */
+rgb texture_varying_rgb(const struct texture_set *set, int id, const struct surface *at);
+double texture_varying_float(const struct texture_set *set, int id, const struct surface *at);
+
+/* Every parameter of every material comes through here at every hit, and most are constant. */
+static inline rgb texture_rgb(const struct texture_set *set, int id, const struct surface *at)
+{
+    const struct texture *t = &set->texture[id];
+    return t->kind == TEXTURE_CONSTANT ? t->u.constant : texture_varying_rgb(set, id, at);
+}
+
+static inline double texture_float(const struct texture_set *set, int id, const struct surface *at)
+{
+    const struct texture *t = &set->texture[id];
+    return t->kind == TEXTURE_CONSTANT ? t->u.constant.r : texture_varying_float(set, id, at);
+}
+
+/* texture_mean: a rough average over u, v in [0,1), for estimates only (power of a light, albedo in info). */
+rgb texture_mean(const struct texture_set *set, int id);
+
+/* image_bilinear: the picture at (s,t), (0,0) being the lower left corner, texel centres at half-integers,
+ * as pbrt-v3's MIPMap::Lookup at width 0; texels are decoded (`gamma`) before they are mixed. Also used by
+ * environment maps. (pbrt-v3 first resamples a picture whose sides are no powers of two; this does not.) */
+rgb image_bilinear(const struct image *img, double s, double t, enum texture_wrap wrap, bool gamma);
+
+#endif

@@ -1,0 +1,226 @@
+/* lexer.c: see lexer.h. */
+#include "parser/lexer.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct lexer lexer_start(const struct input *input, struct arena *arena, struct messages *messages)
+{
+    struct lexer l = {input, input->text, input->text, 1, arena, messages};
+    return l;
+}
+
+static struct place here(const struct lexer *l, const char *at)
+{
+    struct place p = {l->input, l->line_start, l->line, (int)(at - l->line_start) + 1};
+    return p;
+}
+
+/* To the first character of the next token. Every file text ends in a zero byte, which stops all loops. */
+static void skip_blanks(struct lexer *l)
+{
+    const char *p = l->at;
+    for (;; p++) {
+        if (*p == '\n') {
+            l->line++;
+            l->line_start = p + 1;
+        } else if (*p == '#') {
+            while (p[1] != '\n' && p + 1 < l->input->end)
+                p++;
+        } else if (*p != ' ' && *p != '\t' && *p != '\r') {
+            break;
+        }
+    }
+    l->at = p;
+}
+
+static bool is_digit(char c) { return c >= '0' && c <= '9'; }
+static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+
+/* Characters that may follow a number or a word. */
+static bool is_separator(char c)
+{
+    return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\0' || c == '[' || c == ']' || c == '"' ||
+           c == '#';
+}
+
+/* Powers of ten that a double holds exactly. */
+static const double EXACT_POWER[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
+/* Read [+-] digits [. digits] [e [+-] digits] at p; returns the end of the number, or NULL if there is none.
+ * Digits and power of ten that are both exact in a double give a correctly rounded quotient or product in one
+ * operation [Clinger 1990]; all others go to strtod. */
+static const char *scan_number(const char *p, double *out)
+{
+    const char *begin = p;
+    bool negative = *p == '-';
+    if (*p == '-' || *p == '+')
+        p++;
+    uint64_t digits = 0;
+    int n_digits = 0, scale = 0, power = 0;
+    const char *first = p;
+    for (; is_digit(*p); p++, n_digits += digits != 0)
+        digits = n_digits < 19 ? digits * 10 + (uint64_t)(*p - '0') : digits;
+    const char *whole_end = p;
+    if (*p == '.')
+        for (p++; is_digit(*p); p++, scale--, n_digits += digits != 0)
+            digits = n_digits < 19 ? digits * 10 + (uint64_t)(*p - '0') : digits;
+    if (whole_end == first && p - whole_end <= 1)
+        return NULL;
+    if (*p == 'e' || *p == 'E') {
+        p++;
+        bool down = *p == '-';
+        if (*p == '-' || *p == '+')
+            p++;
+        if (!is_digit(*p))
+            return NULL;
+        for (; is_digit(*p); p++)
+            power = power < 10000 ? power * 10 + (*p - '0') : power;
+        scale += down ? -power : power;
+    }
+    if (n_digits > 18 || digits > ((uint64_t)1 << 53) || scale < -22 || scale > 22)
+        *out = strtod(begin, NULL);
+    else {
+        double value = scale < 0 ? (double)digits / EXACT_POWER[-scale] : (double)digits * EXACT_POWER[scale];
+        *out = negative ? -value : value;
+    }
+    return p;
+}
+
+bool lexer_number(struct lexer *l, double *out)
+{
+    skip_blanks(l);
+    const char *end = scan_number(l->at, out);
+    if (end == NULL || !is_separator(*end) || !(*out - *out == 0))
+        return false;
+    l->at = end;
+    return true;
+}
+
+static bool next_number(struct lexer *l, struct token *out)
+{
+    if (lexer_number(l, &out->number))
+        return true;
+    const char *end = l->at;
+    while (!is_separator(*end))
+        end++;
+    int shown = end - l->at < 40 ? (int)(end - l->at) : 40;
+    const char *scanned = scan_number(l->at, &out->number);
+    if (scanned == end)
+        return place_error(l->messages, out->place, "the number %.*s is too large; numbers go up to 1.7e308", shown,
+                           l->at);
+    return place_error(l->messages, out->place, "'%.*s' is not a number; write it like 12, -0.5 or 1.5e-3", shown,
+                       l->at);
+}
+
+static char *copy(struct lexer *l, const char *begin, const char *end)
+{
+    size_t n = (size_t)(end - begin);
+    char *text = arena_alloc(l->arena, n + 1);
+    memcpy(text, begin, n);
+    text[n] = '\0';
+    return text;
+}
+
+/* What stands after a backslash, or 0 if pbrt does not know it. */
+static char unescape(char c)
+{
+    switch (c) {
+    case 'b': return '\b';
+    case 'f': return '\f';
+    case 'n': return '\n';
+    case 'r': return '\r';
+    case 't': return '\t';
+    case '\\':
+    case '\'':
+    case '"': return c;
+    default: return 0;
+    }
+}
+
+static bool next_string(struct lexer *l, struct token *out)
+{
+    const char *begin = l->at + 1, *p = begin;
+    bool escaped = false;
+    for (; *p != '"'; p++) {
+        if (*p == '\n' || *p == '\0')
+            return place_error(l->messages, out->place, "this string does not end on its line; close it with \"");
+        if (*p == '\\') {
+            escaped = true;
+            p++;
+            if (unescape(*p) == 0)
+                return place_error(l->messages, here(l, p - 1),
+                                   "unknown escape; after \\ only b f n r t \\ ' \" may stand");
+        }
+    }
+    char *text = copy(l, begin, p);
+    if (escaped) {
+        char *to = text;
+        for (const char *from = text; *from != '\0'; from++)
+            *to++ = *from == '\\' ? unescape(*++from) : *from;
+        *to = '\0';
+    }
+    out->text = text;
+    l->at = p + 1;
+    return true;
+}
+
+enum token_kind lexer_peek(struct lexer *l)
+{
+    skip_blanks(l);
+    char c = *l->at;
+    if (c == '\0' && l->at >= l->input->end)
+        return TOKEN_END;
+    if (c == '"')
+        return TOKEN_STRING;
+    if (c == '[')
+        return TOKEN_OPEN;
+    if (c == ']')
+        return TOKEN_CLOSE;
+    return is_digit(c) || c == '-' || c == '+' || c == '.' ? TOKEN_NUMBER : TOKEN_WORD;
+}
+
+static bool next_word(struct lexer *l, struct token *out)
+{
+    const char *end = l->at;
+    while (is_letter(*end) || is_digit(*end))
+        end++;
+    if (end == l->at || !is_separator(*end))
+        return place_error(l->messages, here(l, end), "a character that has no meaning here; remove it");
+    out->text = copy(l, l->at, end);
+    l->at = end;
+    return true;
+}
+
+bool lexer_next(struct lexer *l, struct token *out)
+{
+    out->kind = lexer_peek(l);
+    out->text = "";
+    out->number = 0;
+    out->place = here(l, l->at);
+    switch (out->kind) {
+    case TOKEN_END: return true;
+    case TOKEN_OPEN:
+    case TOKEN_CLOSE: l->at++; return true;
+    case TOKEN_STRING: return next_string(l, out);
+    case TOKEN_NUMBER: return next_number(l, out);
+    case TOKEN_WORD: return next_word(l, out);
+    }
+    return false;
+}
+
+const char *token_text(const struct token *t, char *buffer, size_t size)
+{
+    switch (t->kind) {
+    case TOKEN_END: snprintf(buffer, size, "the end of the file"); break;
+    case TOKEN_OPEN: snprintf(buffer, size, "["); break;
+    case TOKEN_CLOSE: snprintf(buffer, size, "]"); break;
+    case TOKEN_STRING: snprintf(buffer, size, "\"%.40s\"", t->text); break;
+    case TOKEN_NUMBER: snprintf(buffer, size, "%.9g", t->number); break;
+    case TOKEN_WORD: snprintf(buffer, size, "%.40s", t->text); break;
+    }
+    return buffer;
+}

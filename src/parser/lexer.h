@@ -1,0 +1,53 @@
+/* lexer.h: a scene file as a row of tokens: words, quoted strings, numbers and brackets.
+ *
+ * Blanks and comments (from # to the end of the line) separate tokens; brackets and quotes may touch their
+ * neighbours. Speed matters here: a large scene is millions of numbers. They are read by an exact short path and
+ * by strtod where that does not apply.
+ *
+ * Used by: params, parser. Tests: test_parser.c.
+ */
+#ifndef ASBDPT_LEXER_H
+#define ASBDPT_LEXER_H
+
+#include <stdbool.h>
+
+#include "base/mem.h"
+#include "parser/place.h"
+
+enum token_kind { TOKEN_END, TOKEN_WORD, TOKEN_STRING, TOKEN_NUMBER, TOKEN_OPEN, TOKEN_CLOSE };
+
+struct token {
+    enum token_kind kind;
+    const char *text;   /* word or string (without quotes, escapes resolved), zero-terminated; else "" */
+    double number;      /* of TOKEN_NUMBER, finite */
+    struct place place; /* of its first character */
+};
+
+/* A position in an input. Copy it to look ahead. */
+struct lexer {
+    const struct input *input;
+    const char *at;         /* next character */
+    const char *line_start; /* of the line `at` is in */
+    int line;
+    struct arena *arena;        /* where texts of tokens live */
+    struct messages *messages;
+};
+
+struct lexer lexer_start(const struct input *input, struct arena *arena, struct messages *messages);
+
+/* lexer_next: take one token. False with a message on an unterminated string, an unknown escape or character, or a
+ * malformed or too large number. At the end of the file: TOKEN_END, again and again. */
+bool lexer_next(struct lexer *l, struct token *out);
+
+/* lexer_peek: the kind of the next token, judged by its first character, without taking it. */
+enum token_kind lexer_peek(struct lexer *l);
+
+/* lexer_number: a fast path for long lists: if a number comes next, take it and return true; otherwise (also where
+ * it is malformed) take nothing and return false. */
+bool lexer_number(struct lexer *l, double *out);
+
+/* token_text: what the user wrote, for messages: a number, word or string in quotes, a bracket or "the end of the
+ * file". The buffer should have 64 bytes; long ones are cut. */
+const char *token_text(const struct token *t, char *buffer, size_t size);
+
+#endif

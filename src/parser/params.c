@@ -1,0 +1,396 @@
+/* params.c: see params.h. This file reads lists and answers questions; values with a meaning of their own (colours,
+ * files) are in params_value.c. */
+#include "parser/params.h"
+
+#include <limits.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "parser/suggest.h"
+
+/* One row per spelling; the first of a type is its name in messages. */
+static const struct {
+    const char *name;
+    enum param_type type;
+} TYPES[] = {{"integer", PARAM_INTEGER},  {"float", PARAM_FLOAT},
+             {"bool", PARAM_BOOL},        {"string", PARAM_STRING},
+             {"texture", PARAM_TEXTURE},  {"point2", PARAM_POINT2},
+             {"vector2", PARAM_VECTOR2},  {"point", PARAM_POINT},
+             {"point3", PARAM_POINT},     {"vector", PARAM_VECTOR},
+             {"vector3", PARAM_VECTOR},   {"normal", PARAM_NORMAL},
+             {"rgb", PARAM_RGB},          {"color", PARAM_RGB},
+             {"xyz", PARAM_XYZ},          {"blackbody", PARAM_BLACKBODY},
+             {"spectrum", PARAM_SPECTRUM}};
+enum { N_TYPES = sizeof TYPES / sizeof TYPES[0] };
+
+static const char *type_name(enum param_type type)
+{
+    for (int i = 0; i < N_TYPES; i++)
+        if (TYPES[i].type == type)
+            return TYPES[i].name;
+    return "";
+}
+
+bool params_fail(struct params *p, struct place at, const char *format, ...)
+{
+    if (p->failed)
+        return false;
+    p->failed = true;
+    char text[ERROR_TEXT_SIZE / 2];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    return place_error(p->messages, at, "%s", text);
+}
+
+/* --- reading ------------------------------------------------------------------------------------------ */
+
+/* Split "type name" in place. */
+static bool declaration(struct params *p, const struct token *t, struct param *item)
+{
+    char *text = arena_alloc(item->values.arena, strlen(t->text) + 1);
+    strcpy(text, t->text);
+    const char *type = strtok(text, " \t"), *name = strtok(NULL, " \t");
+    if (type == NULL || name == NULL || strtok(NULL, " \t") != NULL)
+        return params_fail(p, t->place, "a parameter is declared by its type and its name, like \"float radius\"");
+    struct suggestion near = suggest_start(type);
+    for (int i = 0; i < N_TYPES; i++) {
+        suggest_offer(&near, TYPES[i].name);
+        if (strcmp(TYPES[i].name, type) == 0) {
+            item->type = TYPES[i].type;
+            item->name = name;
+            return true;
+        }
+    }
+    if (near.name != NULL)
+        return params_fail(p, t->place, "unknown type \"%.40s\"; did you mean \"%s\"?", type, near.name);
+    return params_fail(p, t->place,
+                       "unknown type \"%.40s\"; types are integer, float, bool, string, texture, point2, vector2, "
+                       "point, vector, normal, rgb, xyz, blackbody and spectrum",
+                       type);
+}
+
+static bool wants_text(enum param_type type)
+{
+    return type == PARAM_BOOL || type == PARAM_STRING || type == PARAM_TEXTURE;
+}
+
+/* One value that is not a plain number: a string, a bare true or false, or a mistake. */
+static bool text_value(struct params *p, struct lexer *l, struct param *item)
+{
+    struct token t;
+    char buffer[64];
+    if (!lexer_next(l, &t)) {
+        p->failed = true;
+        return false;
+    }
+    bool bare_bool = t.kind == TOKEN_WORD && (strcmp(t.text, "true") == 0 || strcmp(t.text, "false") == 0);
+    bool text = t.kind == TOKEN_STRING || (item->type == PARAM_BOOL && bare_bool);
+    bool fits = text && (wants_text(item->type) || item->type == PARAM_SPECTRUM);
+    if (!fits || (item->n > 0 && !item->is_text))
+        return params_fail(p, t.place, "\"%s %s\" wants %s here, not %s", type_name(item->type), item->name,
+                           wants_text(item->type) ? "a quoted string" : "a number",
+                           token_text(&t, buffer, sizeof buffer));
+    item->is_text = true;
+    p->string = mem_grow(p->string, &p->string_capacity, p->n_string + 1, sizeof *p->string);
+    p->string[p->n_string++] = t.text;
+    item->n++;
+    return true;
+}
+
+static bool value(struct params *p, struct lexer *l, struct param *item)
+{
+    double number;
+    if (wants_text(item->type) || item->is_text || !lexer_number(l, &number))
+        return text_value(p, l, item);
+    p->number = mem_grow(p->number, &p->number_capacity, p->n_number + 1, sizeof *p->number);
+    p->number[p->n_number++] = number;
+    item->n++;
+    return true;
+}
+
+static bool values(struct params *p, struct lexer *l, struct param *item)
+{
+    item->values = *l;
+    if (lexer_peek(l) != TOKEN_OPEN)
+        return value(p, l, item);
+    struct token open;
+    lexer_next(l, &open);
+    item->values = *l;
+    for (;;) {
+        enum token_kind next = lexer_peek(l);
+        if (next == TOKEN_CLOSE)
+            return lexer_next(l, &open);
+        if (next == TOKEN_END || item->n == INT_MAX)
+            return params_fail(p, open.place, "this [ has no ]; close the list of values");
+        if (!value(p, l, item))
+            return false;
+    }
+}
+
+bool params_read(struct params *p, struct lexer *l)
+{
+    p->n = p->n_asked = 0;
+    p->n_number = p->n_string = 0;
+    p->failed = false;
+    while (lexer_peek(l) == TOKEN_STRING) {
+        struct token t;
+        if (!lexer_next(l, &t))
+            return false;
+        struct param item = {.place = t.place, .values = *l};
+        if (!declaration(p, &t, &item))
+            return false;
+        item.first = wants_text(item.type) ? p->n_string : p->n_number;
+        size_t first_string = p->n_string;
+        if (!values(p, l, &item))
+            return false;
+        if (item.is_text)
+            item.first = first_string;
+        p->item = mem_grow(p->item, &p->capacity, (size_t)p->n + 1, sizeof *p->item);
+        p->item[p->n++] = item;
+    }
+    return true;
+}
+
+void params_free(struct params *p)
+{
+    free(p->item);
+    free(p->number);
+    free(p->string);
+    memset(p, 0, sizeof *p);
+}
+
+/* --- asking ------------------------------------------------------------------------------------------- */
+
+struct place param_value_place(const struct param *item, int k)
+{
+    struct messages silent = {0};
+    struct lexer l = item->values;
+    l.messages = &silent;
+    struct token t = {.place = item->place};
+    for (int i = 0; i <= k; i++)
+        if (!lexer_next(&l, &t))
+            break;
+    return t.place;
+}
+
+static void ask(struct params *p, const char *name)
+{
+    for (int i = 0; i < p->n_asked; i++)
+        if (strcmp(p->asked[i], name) == 0)
+            return;
+    if (p->n_asked < MAX_ASKED)
+        p->asked[p->n_asked++] = name;
+}
+
+/* The last parameter of this name and one of the types; like pbrt, a later one replaces an earlier one. */
+static struct param *find(struct params *p, const char *name, unsigned types)
+{
+    ask(p, name);
+    struct param *found = NULL;
+    for (int i = 0; i < p->n; i++) {
+        struct param *item = &p->item[i];
+        if ((types & 1u << item->type) == 0 || strcmp(item->name, name) != 0)
+            continue;
+        if (found != NULL)
+            place_warn(p->messages, item->place, "twice", "parameter \"%s\" is given twice; the last one counts",
+                       name);
+        item->used = true;
+        found = item;
+    }
+    return found;
+}
+
+/* Whole numbers have ranges of their own, which params_int checks. */
+static bool numbers_usable(struct params *p, const struct param *item)
+{
+    for (int i = 0; !item->is_text && item->type != PARAM_INTEGER && i < item->n; i++) {
+        double number = p->number[item->first + (size_t)i];
+        if (!(fabs(number) <= NUMBER_MAX))
+            return params_fail(p, param_value_place(item, i), "%g is too large for \"%s\"; numbers go up to %g here",
+                               number, item->name, NUMBER_MAX);
+    }
+    return true;
+}
+
+/* A parameter that must have exactly n values (0: any number, but at least one), all of them usable. */
+static struct param *find_n(struct params *p, const char *name, unsigned types, int n)
+{
+    struct param *item = find(p, name, types);
+    if (item == NULL || p->failed)
+        return NULL;
+    if (n == 0 ? item->n > 0 : item->n == n)
+        return numbers_usable(p, item) ? item : NULL;
+    params_fail(p, item->place, "parameter \"%s %s\" of %s \"%s\" wants %s%d value%s, not %d", type_name(item->type),
+                name, p->directive, p->type, n == 0 ? "at least " : "", n == 0 ? 1 : n, n > 1 ? "s" : "", item->n);
+    return NULL;
+}
+
+const struct param *params_ignore(struct params *p, const char *name) { return find(p, name, ~0u); }
+
+bool params_has(const struct params *p, const char *name, enum param_type type)
+{
+    for (int i = 0; i < p->n; i++)
+        if (p->item[i].type == type && strcmp(p->item[i].name, name) == 0)
+            return true;
+    return false;
+}
+
+double params_float(struct params *p, const char *name, double fallback)
+{
+    const struct param *item = find_n(p, name, 1u << PARAM_FLOAT, 1);
+    return item != NULL ? p->number[item->first] : fallback;
+}
+
+double params_positive(struct params *p, const char *name, double fallback)
+{
+    const struct param *item = find_n(p, name, 1u << PARAM_FLOAT, 1);
+    if (item == NULL)
+        return fallback;
+    double number = p->number[item->first];
+    if (number >= NUMBER_MIN)
+        return number;
+    params_fail(p, param_value_place(item, 0), "\"%s\" is %g; it must be greater than 0, and at least %g", name,
+                number, NUMBER_MIN);
+    return fallback;
+}
+
+double params_at_least(struct params *p, const char *name, double fallback, double low)
+{
+    const struct param *item = find_n(p, name, 1u << PARAM_FLOAT, 1);
+    if (item == NULL)
+        return fallback;
+    double number = p->number[item->first];
+    if (number >= low)
+        return number;
+    params_fail(p, param_value_place(item, 0), "\"%s\" is %g; it must be at least %g", name, number, low);
+    return fallback;
+}
+
+double params_range(struct params *p, const char *name, double fallback, double low, double high)
+{
+    const struct param *item = find_n(p, name, 1u << PARAM_FLOAT, 1);
+    if (item == NULL)
+        return fallback;
+    double number = p->number[item->first];
+    if (number >= low && number <= high)
+        return number;
+    params_fail(p, param_value_place(item, 0), "\"%s\" is %g; it must be from %g to %g", name, number, low, high);
+    return fallback;
+}
+
+int params_int(struct params *p, const char *name, int fallback, int low, int high)
+{
+    const struct param *item = find_n(p, name, 1u << PARAM_INTEGER, 1);
+    if (item == NULL)
+        return fallback;
+    double number = p->number[item->first];
+    if (number >= low && number <= high && number == floor(number))
+        return (int)number;
+    if (low == high)
+        params_fail(p, param_value_place(item, 0), "\"%s\" is %.12g; only %d is supported", name, number, low);
+    params_fail(p, param_value_place(item, 0), "\"%s\" is %.12g; it must be a whole number from %d to %d", name,
+                number, low, high);
+    return fallback;
+}
+
+bool params_bool(struct params *p, const char *name, bool fallback)
+{
+    const struct param *item = find_n(p, name, 1u << PARAM_BOOL, 1);
+    if (item == NULL)
+        return fallback;
+    const char *text = p->string[item->first];
+    if (strcmp(text, "true") == 0 || strcmp(text, "false") == 0)
+        return text[0] == 't';
+    params_fail(p, param_value_place(item, 0), "\"%s\" is \"%.40s\"; it must be \"true\" or \"false\"", name, text);
+    return fallback;
+}
+
+const char *params_string(struct params *p, const char *name, const char *fallback)
+{
+    const struct param *item = find_n(p, name, 1u << PARAM_STRING, 1);
+    return item != NULL ? p->string[item->first] : fallback;
+}
+
+const char *params_text(struct params *p, const char *name, enum param_type type, struct place *at)
+{
+    const struct param *item = find_n(p, name, 1u << type, 1);
+    if (item == NULL)
+        return NULL;
+    *at = param_value_place(item, 0);
+    return p->string[item->first];
+}
+
+vec3 params_point(struct params *p, const char *name, vec3 fallback)
+{
+    const struct param *item = find_n(p, name, 1u << PARAM_POINT, 3);
+    if (item == NULL)
+        return fallback;
+    const double *x = p->number + item->first;
+    return vec(x[0], x[1], x[2]);
+}
+
+int params_choice(struct params *p, const char *name, const char *const *choices)
+{
+    const struct param *item = find_n(p, name, 1u << PARAM_STRING, 1);
+    if (item == NULL)
+        return 0;
+    const char *text = p->string[item->first];
+    for (int i = 0; choices[i] != NULL; i++)
+        if (strcmp(choices[i], text) == 0)
+            return i;
+    const char *near = suggest_from(text, choices);
+    params_fail(p, param_value_place(item, 0), "\"%s\" cannot be \"%.40s\"; %s \"%s\"%s", name, text,
+                near != NULL ? "did you mean" : "the default is", near != NULL ? near : choices[0],
+                near != NULL ? "?" : "");
+    return 0;
+}
+
+const double *params_list(struct params *p, const char *name, unsigned types, int group, int *n,
+                          const struct param **found)
+{
+    const struct param *item = find_n(p, name, types, 0);
+    *n = 0;
+    if (found != NULL)
+        *found = item;
+    if (item == NULL || item->is_text)
+        return NULL;
+    if (item->n % group != 0) {
+        params_fail(p, item->place, "parameter \"%s %s\" wants its numbers in groups of %d, but there are %d",
+                    type_name(item->type), name, group, item->n);
+        return NULL;
+    }
+    *n = item->n / group;
+    return p->number + item->first;
+}
+
+/* A parameter nobody asked for: does the name exist with another type, or is another name near? */
+static bool fail_unused(struct params *p, const struct param *item)
+{
+    struct suggestion near = suggest_start(item->name);
+    for (int i = 0; i < p->n_asked; i++) {
+        if (strcmp(p->asked[i], item->name) == 0)
+            return params_fail(p, item->place, "parameter \"%s\" of %s \"%s\" cannot be of type \"%s\"; %s",
+                               item->name, p->directive, p->type, type_name(item->type),
+                               "see doc/scene-format.md for its type");
+        suggest_offer(&near, p->asked[i]);
+    }
+    if (near.name != NULL)
+        return params_fail(p, item->place, "%s \"%s\" has no parameter \"%.40s\"; did you mean \"%s\"?",
+                           p->directive, p->type, item->name, near.name);
+    bool shape = strcmp(p->directive, "Shape") == 0;
+    return params_fail(p, item->place, "%s \"%s\" has no parameter \"%.40s\"; %s", p->directive, p->type,
+                       item->name, shape ? "remove it, or set it in a Material before the Shape" : "remove it");
+}
+
+bool params_done(struct params *p)
+{
+    for (int i = 0; i < p->n && !p->failed; i++)
+        if (!p->item[i].used)
+            fail_unused(p, &p->item[i]);
+    return !p->failed;
+}

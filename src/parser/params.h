@@ -1,0 +1,124 @@
+/* params.h: the typed parameter list of one directive, e.g.  "float radius" 2  "rgb Kd" [.5 .5 .5].
+ *
+ * The list is read whole, then asked for by name. Each question has a default, so the code that makes a sphere
+ * reads like its documentation. Nothing is passed over in silence: the first wrong thing (a type that does not
+ * fit, a wrong count, a parameter nobody asked for) is kept as the error, later questions are answered with
+ * defaults, and params_done reports it.
+ *
+ * Used by: parse_*, parser. Tests: test_parser.c.
+ */
+#ifndef ASBDPT_PARAMS_H
+#define ASBDPT_PARAMS_H
+
+#include "parser/lexer.h"
+#include "base/rgb.h"
+#include "base/vec.h"
+
+enum param_type {
+    PARAM_INTEGER,
+    PARAM_FLOAT,
+    PARAM_BOOL,
+    PARAM_STRING,
+    PARAM_TEXTURE,
+    PARAM_POINT2,
+    PARAM_VECTOR2,
+    PARAM_POINT, /* point or point3 */
+    PARAM_VECTOR,
+    PARAM_NORMAL,
+    PARAM_RGB, /* rgb or color */
+    PARAM_XYZ,
+    PARAM_BLACKBODY,
+    PARAM_SPECTRUM, /* numbers, or the name of an .spd file */
+    PARAM_TYPES
+};
+
+struct param {
+    enum param_type type;
+    const char *name;
+    struct place place;  /* of the quoted declaration */
+    struct lexer values; /* where the values begin, to find the place of one of them again */
+    size_t first;        /* index into params->number or params->string */
+    int n;               /* values: numbers or strings */
+    bool is_text;        /* strings (also bools), else numbers */
+    bool used;
+};
+
+enum { MAX_ASKED = 48 }; /* more names than any type of object has parameters */
+
+struct params {
+    /* What the list belongs to, for messages: directive "Shape", type "sphere". */
+    const char *directive, *type;
+    struct place place; /* of the type */
+    struct messages *messages;
+    const char *directory; /* of the main scene file: relative names of files start there */
+    bool failed;           /* an error has been kept */
+
+    struct param *item; /* [n], owned */
+    int n;
+    double *number;      /* all numbers of all items, owned */
+    const char **string; /* all strings, owned array of texts in the lexer's arena */
+    size_t n_number, n_string;
+    const char *asked[MAX_ASKED]; /* names asked for so far, for suggestions */
+    int n_asked;
+    size_t capacity, number_capacity, string_capacity;
+};
+
+/* params_read: read the list that starts at the lexer's position, up to the first token that is not a declaration.
+ *   p  directive, type, place, messages and directory set; reused from list to list; zero-initialised before
+ *      the first and released by params_free after the last
+ * Returns false with a message. */
+bool params_read(struct params *p, struct lexer *l);
+void params_free(struct params *p);
+
+/* params_fail: keep an error, unless there is one already. Returns false. */
+bool params_fail(struct params *p, struct place at, const char *format, ...);
+
+/* params_done: false if anything failed or a parameter was never asked for (its message is then set). */
+bool params_done(struct params *p);
+
+/* params_ignore: accept a parameter of any type without using it. Returns it, or NULL. */
+const struct param *params_ignore(struct params *p, const char *name);
+
+/* params_has: is there a parameter of this name and of this type? Does not count as asking. */
+bool params_has(const struct params *p, const char *name, enum param_type type);
+
+/* One value, or the default. All questions refuse numbers beyond NUMBER_MAX (number.h). */
+double params_float(struct params *p, const char *name, double fallback);
+bool params_bool(struct params *p, const char *name, bool fallback);
+const char *params_string(struct params *p, const char *name, const char *fallback);
+vec3 params_point(struct params *p, const char *name, vec3 fallback);
+rgb params_rgb(struct params *p, const char *name, rgb fallback); /* rgb, xyz, blackbody or spectrum */
+
+/* params_int: a whole number from low to high. */
+int params_int(struct params *p, const char *name, int fallback, int low, int high);
+
+/* params_positive: params_float that must be > 0, in fact at least NUMBER_MIN. params_at_least: >= low. params_range: from
+ * low to high. */
+double params_positive(struct params *p, const char *name, double fallback);
+double params_at_least(struct params *p, const char *name, double fallback, double low);
+double params_range(struct params *p, const char *name, double fallback, double low, double high);
+
+/* params_list: numbers of a parameter of one of the types in the mask (1u << PARAM_FLOAT | ...), in groups of
+ * `group`; NULL if there is none.
+ *   n      out: number of groups
+ *   found  out, may be NULL: the parameter */
+const double *params_list(struct params *p, const char *name, unsigned types, int group, int *n,
+                          const struct param **found);
+
+/* params_text: the one value of a parameter of type PARAM_STRING or PARAM_TEXTURE, or NULL; *at is its place. */
+const char *params_text(struct params *p, const char *name, enum param_type type, struct place *at);
+
+/* params_file: a "string NAME" as a path: relative ones start in the main scene file's directory. NULL if absent.
+ * The text is to be given to free(); *at is the place of the value. */
+char *params_file(struct params *p, const char *name, struct place *at);
+
+/* params_choice: a string that must be one of a NULL-terminated list; returns its index (0 = default if absent). */
+int params_choice(struct params *p, const char *name, const char *const *choices);
+
+/* param_value_place: where the k-th value of a parameter stands. */
+struct place param_value_place(const struct param *item, int k);
+
+/* path_join: directory/name, or name alone where it is absolute. To be given to free(). */
+char *path_join(const char *directory, const char *name);
+
+#endif

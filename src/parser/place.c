@@ -1,0 +1,133 @@
+/* place.c: see place.h. */
+#include "parser/place.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+
+enum { SHOWN_COLUMNS = 110, SHOWN_INCLUDES = 4 };
+
+/* A growing message in a buffer of fixed size. */
+struct writer {
+    char *text;
+    size_t used, size;
+};
+
+static void write_args(struct writer *w, const char *format, va_list args)
+{
+    int n = vsnprintf(w->text + w->used, w->size - w->used, format, args);
+    if (n > 0)
+        w->used += (size_t)n < w->size - w->used ? (size_t)n : w->size - w->used - 1;
+}
+
+static void write_text(struct writer *w, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    write_args(w, format, args);
+    va_end(args);
+}
+
+/* The part of the line around the column, and a caret under it. Tabs and the like become one blank each. */
+static void write_excerpt(struct writer *w, struct place at)
+{
+    const char *begin = at.line_start, *caret = at.line_start + (at.column - 1);
+    if (caret - begin > SHOWN_COLUMNS * 3 / 4)
+        begin = caret - SHOWN_COLUMNS / 2;
+    const char *end = begin;
+    while (end < at.input->end && *end != '\n' && *end != '\r' && end - begin < SHOWN_COLUMNS)
+        end++;
+    write_text(w, "\n  ");
+    for (const char *p = begin; p < end; p++)
+        write_text(w, "%c", (unsigned char)*p < ' ' ? ' ' : *p);
+    write_text(w, "\n  %*s^", (int)(caret - begin), "");
+}
+
+static void write_includes(struct writer *w, const struct input *input)
+{
+    for (int i = 0; input->included_at.input != NULL; i++, input = input->included_at.input) {
+        if (i == SHOWN_INCLUDES) {
+            write_text(w, "\n  ...");
+            return;
+        }
+        write_text(w, "\n  included from %s:%d", input->included_at.input->path, input->included_at.line);
+    }
+}
+
+bool place_error(struct messages *m, struct place at, const char *format, ...)
+{
+    if (m->err == NULL)
+        return false;
+    struct writer w = {m->err->text, 0, sizeof m->err->text};
+    write_text(&w, "%s:%d:%d: ", at.input->path, at.line, at.column);
+    va_list args;
+    va_start(args, format);
+    write_args(&w, format, args);
+    va_end(args);
+    write_excerpt(&w, at);
+    write_includes(&w, at.input);
+    return false;
+}
+
+void place_warn(struct messages *m, struct place at, const char *kind, const char *format, ...)
+{
+    for (size_t i = 0; i < m->n_given; i++)
+        if (strcmp(m->given[i], kind) == 0)
+            return;
+    m->given = mem_grow(m->given, &m->capacity, m->n_given + 1, sizeof *m->given);
+    m->given[m->n_given++] = kind;
+    if (m->sink == NULL)
+        return;
+    char text[ERROR_TEXT_SIZE];
+    struct writer w = {text, 0, sizeof text};
+    write_text(&w, "%s:%d:%d: ", at.input->path, at.line, at.column);
+    va_list args;
+    va_start(args, format);
+    write_args(&w, format, args);
+    va_end(args);
+    m->sink->warn(m->sink->context, text);
+}
+
+void place_text(struct place at, char *buffer, size_t size)
+{
+    snprintf(buffer, size, "%s:%d:%d", at.input->path, at.line, at.column);
+}
+
+void messages_free(struct messages *m)
+{
+    free(m->given);
+    m->given = NULL;
+    m->n_given = m->capacity = 0;
+}
+
+char *text_read(const char *path, size_t *size, struct error *err)
+{
+    FILE *f = fopen(path, "rb");
+    if (f == NULL) {
+        error_set(err, "%s: cannot open the file: %s", path, strerror(errno));
+        return NULL;
+    }
+    char *text = NULL;
+    size_t used = 0, capacity = 0, got;
+    do {
+        text = mem_grow(text, &capacity, used + (1 << 16), 1);
+        got = fread(text + used, 1, capacity - used - 1, f);
+        used += got;
+    } while (got > 0 && used < INT32_MAX);
+    bool bad = ferror(f) != 0, large = used >= INT32_MAX;
+    int reason = errno;
+    fclose(f);
+    if (bad || large) {
+        free(text);
+        error_set(err, "%s: cannot read the file: %s", path, bad ? strerror(reason) : "it is larger than 2 GiB");
+        return NULL;
+    }
+    text[used] = '\0';
+    *size = used;
+    return text;
+}

@@ -1,0 +1,27 @@
+/* spectrum.h: colours given by wavelength, as linear RGB.
+ *
+ * The renderer works in RGB; spectra of a scene file are reduced to it once, as pbrt-v3 does when it is built for
+ * RGB: integrate against the CIE 1931 matching functions, then the matrix of sRGB's primaries. The matching
+ * functions are sums of a few Gaussians with unequal flanks [Wyman 2013, table 1, multi-lobe fit], within
+ * about 1 % of the tables.
+ *
+ * Used by: params, parse_material. Tests: test_parser.c.
+ */
+#ifndef ASBDPT_SPECTRUM_H
+#define ASBDPT_SPECTRUM_H
+
+#include "base/rgb.h"
+
+/* spectrum_from_xyz: CIE XYZ to linear RGB with the primaries and white point of sRGB (may be negative). */
+rgb spectrum_from_xyz(double x, double y, double z);
+
+/* spectrum_from_samples: the colour of a spectrum given at some wavelengths, linear in between and constant beyond.
+ *   sample  [n][2]: wavelength in nm, value; sorted by this function; n >= 1
+ * A constant spectrum of value v gives Y = v (not grey in RGB: sRGB's white is D65, not the equal-energy one). */
+rgb spectrum_from_samples(double (*sample)[2], int n);
+
+/* spectrum_blackbody: Planck's radiator of that temperature in kelvin, its spectrum scaled to a peak of `scale`;
+ * black for a temperature <= 0. */
+rgb spectrum_blackbody(double kelvin, double scale);
+
+#endif

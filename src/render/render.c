@@ -1,0 +1,189 @@
+/* render.c: see render.h. */
+#include "render/render.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/parallel.h"
+
+/* Fractions lie within [0,1]: readers of scenes and options see to it. */
+struct pixel_rect render_crop(const struct scene *scene)
+{
+    const double *c = scene->crop;
+    struct pixel_rect r = {(int)ceil(scene->width * c[0]), (int)ceil(scene->height * c[2]),
+                           (int)ceil(scene->width * c[1]), (int)ceil(scene->height * c[3])};
+    return r;
+}
+
+bool render_max_depth(const struct scene *scene, int wanted, int *out, struct error *err)
+{
+    long depth = wanted;
+    if (wanted <= 0 && !settings_int(&scene->settings, "maxdepth", 5, 0, PATH_MAX_DEPTH, &depth, err))
+        return false;
+    *out = (int)depth;
+    return true;
+}
+
+/* --- parameters -------------------------------------------------------------------------------------- */
+
+static bool parameter_known(const struct method *m, const char *name)
+{
+    for (const struct parameter *p = m->parameters; p->name != NULL; p++)
+        if (strcmp(p->name, name) == 0)
+            return true;
+    return false;
+}
+
+/* Parameters of any method are accepted (--integrator may have replaced the scene's), and pbrt's that cannot change
+ * the expected image; anything else is a typo. */
+static bool check_settings(const struct scene *scene, struct error *err)
+{
+    static const char *const harmless[] = {"maxdepth",    "heuristic",           "rrthreshold",
+                                           "pixelbounds", "lightsamplestrategy", "visualizestrategies",
+                                           "visualizeweights"};
+    for (int i = 0; i < scene->settings.n; i++) {
+        const struct setting *item = &scene->settings.item[i];
+        bool known = false;
+        for (size_t k = 0; k < sizeof harmless / sizeof harmless[0]; k++)
+            known |= strcmp(item->name, harmless[k]) == 0;
+        for (const struct method *const *m = method_list(); *m != NULL; m++)
+            known |= parameter_known(*m, item->name);
+        if (!known)
+            return error_set(err, "%s: no integrator has a parameter \"%s\"; asbdpt --help lists them", item->origin,
+                             item->name);
+    }
+    return true;
+}
+
+static bool read_heuristic(const struct scene *scene, bool *power, struct error *err)
+{
+    const char *name = settings_text(&scene->settings, "heuristic", "balance");
+    *power = strcmp(name, "power") == 0;
+    if (!*power && strcmp(name, "balance") != 0)
+        return error_set(err, "heuristic \"%s\" is unknown; it is \"balance\" or \"power\"", name);
+    return true;
+}
+
+/* The dissertation has no roulette, and its selection reads the throughput at a sub-path's far end, which roulette would
+ * level: there it is off unless asked for. */
+static bool read_roulette(const struct scene *scene, double *threshold, struct error *err)
+{
+    bool bins = strcmp(settings_text(&scene->settings, "select", ""), "bins") == 0;
+    return settings_real(&scene->settings, "rrthreshold", bins ? 0 : 0.5, 0, 1e6, threshold, err);
+}
+
+/* --- tile passes ------------------------------------------------------------------------------------- */
+
+struct run {
+    const struct render_options *options;
+    struct render_job job;
+    void *state;
+    struct film *film;
+    int tiles_x, tiles_y;
+    long block;              /* iterations per tile pass; blocks begin at its multiples */
+    long n_jobs, n_done;
+    bool stopping; /* progress said so: stop when the block is complete */
+    struct workspace *work; /* [n_threads] */
+    struct tile *tile;      /* [n_slots] */
+};
+
+static long tiles_per_block(const struct run *r) { return (long)r->tiles_x * r->tiles_y; }
+
+/* The iterations of block number b of this run. */
+static void block_range(const struct run *r, long b, long *first, long *end)
+{
+    long number = r->options->first / r->block + b;
+    *first = number * r->block > r->options->first ? number * r->block : r->options->first;
+    *end = (number + 1) * r->block < r->options->end ? (number + 1) * r->block : r->options->end;
+}
+
+static struct pixel_rect tile_rect(const struct run *r, long tile)
+{
+    struct pixel_rect all = r->job.film_rect, rect;
+    rect.x0 = all.x0 + (int)(tile % r->tiles_x) * TILE_SIZE;
+    rect.y0 = all.y0 + (int)(tile / r->tiles_x) * TILE_SIZE;
+    rect.x1 = rect.x0 + TILE_SIZE < all.x1 ? rect.x0 + TILE_SIZE : all.x1;
+    rect.y1 = rect.y0 + TILE_SIZE < all.y1 ? rect.y0 + TILE_SIZE : all.y1;
+    return rect;
+}
+
+static void run_pass(void *context, long job, int slot, int thread)
+{
+    struct run *r = context;
+    struct tile_pass pass = {.job = &r->job, .tile = &r->tile[slot], .work = &r->work[thread]};
+    pass.rect = tile_rect(r, job % tiles_per_block(r));
+    block_range(r, job / tiles_per_block(r), &pass.first, &pass.end);
+    tile_start(pass.tile, pass.rect, r->job.film_rect, &r->job.scene->filter, r->film->strategies != NULL);
+    r->options->method->render(r->state, &pass);
+}
+
+static bool merge_pass(void *context, long job, int slot)
+{
+    struct run *r = context;
+    film_merge_tile(r->film, &r->tile[slot]);
+    r->n_done++;
+    const struct render_options *o = r->options;
+    if (o->progress != NULL && !o->progress(o->progress_context, (double)r->n_done / (double)r->n_jobs))
+        r->stopping = true;
+    if ((job + 1) % tiles_per_block(r) != 0)
+        return true;
+    long first, end;
+    block_range(r, job / tiles_per_block(r), &first, &end);
+    r->film->iterations += end - first;
+    return !r->stopping;
+}
+
+static void make_workspaces(struct run *r)
+{
+    const struct method *m = r->options->method;
+    r->work = workspaces_new(r->job.n_threads, r->job.max_depth);
+    for (int i = 0; m->new_own != NULL && i < r->job.n_threads; i++)
+        r->work[i].own = m->new_own(r->state);
+}
+
+static void free_workspaces(struct run *r)
+{
+    const struct method *m = r->options->method;
+    for (int i = 0; m->free_own != NULL && i < r->job.n_threads; i++)
+        m->free_own(r->state, r->work[i].own);
+    workspaces_free(r->work, r->job.n_threads);
+}
+
+static void run_all(struct run *r)
+{
+    const struct render_options *o = r->options;
+    long first_block = o->first / r->block, end_block = (o->end + r->block - 1) / r->block;
+    r->tiles_x = (rect_width(r->job.film_rect) + TILE_SIZE - 1) / TILE_SIZE;
+    r->tiles_y = (rect_height(r->job.film_rect) + TILE_SIZE - 1) / TILE_SIZE;
+    r->n_jobs = tiles_per_block(r) * (end_block - first_block);
+
+    struct parallel_jobs jobs = {r->n_jobs, r->job.n_threads, 2 * r->job.n_threads, r, run_pass, merge_pass};
+    r->tile = mem_alloc((size_t)jobs.n_slots, sizeof *r->tile);
+    make_workspaces(r);
+    parallel_run(&jobs);
+    free_workspaces(r);
+    for (int i = 0; i < jobs.n_slots; i++)
+        tile_free(&r->tile[i]);
+    free(r->tile);
+}
+
+bool render_scene(const struct scene *scene, const struct render_options *options, struct film *film,
+                  struct error *err)
+{
+    struct run r = {.options = options, .film = film, .block = options->method->block};
+    r.job.scene = scene;
+    r.job.film_rect = film->rect;
+    r.job.seed = options->seed;
+    r.job.n_threads = options->n_threads < 1 ? 1 : options->n_threads;
+    int block = options->method->block;
+    if (!check_settings(scene, err) || !read_heuristic(scene, &r.job.power_heuristic, err) ||
+        !read_roulette(scene, &r.job.rr_threshold, err) ||
+        !render_max_depth(scene, options->max_depth, &r.job.max_depth, err) ||
+        !options->method->prepare(&r.job, &r.state, &block, err))
+        return false;
+    r.block = block;
+    if (options->end > options->first)
+        run_all(&r);
+    options->method->release(r.state);
+    return true;
+}

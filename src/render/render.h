@@ -1,0 +1,44 @@
+/* render.h: from a prepared scene to a film: cut the work into tile passes and run them on threads.
+ *
+ * The frame (or its crop) is cut into tiles of 16x16 pixels, the iterations into blocks. Tile passes are started in the
+ * order block by block, tile by tile, and merged into the film in that order (parallel.h), so the same scene, seed
+ * and range of iterations give the same bytes for any number of threads.
+ *
+ * Used by: the commands of the command line. Tests: test_render.c.
+ */
+#ifndef ASBDPT_RENDER_H
+#define ASBDPT_RENDER_H
+
+#include <stdint.h>
+
+#include "base/error.h"
+#include "scene/film.h"
+#include "integrators/method.h"
+#include "scene/scene.h"
+
+struct render_options {
+    const struct method *method;
+    uint64_t seed;
+    long first, end; /* iterations [first, end) of every pixel */
+    int n_threads;
+    int max_depth; /* 0: what the scene says, else 5 */
+    /* Called after each tile pass with the share of the work done, in [0,1], one call at a time. NULL: not called.
+     * Returns false to stop when the current block of iterations is complete. */
+    bool (*progress)(void *context, double done);
+    void *progress_context;
+};
+
+/* render_crop: the pixels of the scene's crop window, as pbrt rounds it. */
+struct pixel_rect render_crop(const struct scene *scene);
+
+/* render_scene: render into a film.
+ *   scene  prepared
+ *   film   initialised by film_init for render_crop(scene), possibly holding earlier iterations already
+ * Returns false with a message when a parameter is bad. */
+bool render_scene(const struct scene *scene, const struct render_options *options, struct film *film,
+                  struct error *err);
+
+/* render_max_depth: the depth limit in force: options, else the setting "maxdepth", else 5. False with a message. */
+bool render_max_depth(const struct scene *scene, int wanted, int *out, struct error *err);
+
+#endif

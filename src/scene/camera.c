@@ -1,0 +1,94 @@
+/* camera.c: see camera.h. Framing rules are those of [PBRT3 6.2]. */
+#include "scene/camera.h"
+
+#include "base/warp.h"
+
+struct camera camera_default(void)
+{
+    struct camera c = {.fov = 90, .focal_distance = 1e6};
+    c.world_to_camera = transform_identity();
+    return c;
+}
+
+void camera_prepare(struct camera *c, int width, int height)
+{
+    c->width = width;
+    c->height = height;
+    double aspect = c->frame_aspect_ratio > 0 ? c->frame_aspect_ratio : (double)width / height;
+    double window[4]; /* xmin, xmax, ymin, ymax; the shorter side spans [-1,1] */
+    if (c->has_screen_window) {
+        for (int i = 0; i < 4; i++)
+            window[i] = c->screen_window[i];
+    } else {
+        double x = aspect > 1 ? aspect : 1, y = aspect > 1 ? 1 : 1 / aspect;
+        window[0] = -x;
+        window[1] = x;
+        window[2] = -y;
+        window[3] = y;
+    }
+    double half = tan(c->fov * PI / 360); /* screen unit 1 lies at this height at z = 1 */
+    c->x_scale = (window[1] - window[0]) * half / width;
+    c->y_scale = -(window[3] - window[2]) * half / height;
+    c->x_origin = window[0] * half;
+    c->y_origin = window[3] * half;
+    c->pixel_area = fabs(c->x_scale * c->y_scale);
+    c->camera_to_world = transform_inverse(c->world_to_camera);
+    c->position = transform_point(&c->camera_to_world, vec(0, 0, 0));
+    c->forward = normalize(transform_vector(&c->camera_to_world, vec(0, 0, 1)));
+}
+
+bool camera_is_usable(const struct camera *c)
+{
+    const double least = 1e-12, most = 1e12; /* of the screen at distance 1; the film has at most 65536 pixels a side */
+    double w = fabs(c->x_scale) * c->width, h = fabs(c->y_scale) * c->height;
+    return w >= least && w <= most && h >= least && h <= most && fabs(c->x_origin) <= most &&
+           fabs(c->y_origin) <= most && is_place(c->position) && fabs(length2(c->forward) - 1) < 1e-6 &&
+           is_place(transform_point(&c->camera_to_world, vec(c->lens_radius, 0, 0))) &&
+           is_place(transform_point(&c->camera_to_world, vec(0, c->lens_radius, 0)));
+}
+
+static vec3 lens_point(const struct camera *c, double u1, double u2)
+{
+    double x = 0, y = 0;
+    if (c->lens_radius > 0)
+        warp_disk(u1, u2, &x, &y);
+    return vec(x * c->lens_radius, y * c->lens_radius, 0);
+}
+
+vec3 camera_sample_lens(const struct camera *c, double u1, double u2)
+{
+    return c->lens_radius > 0 ? transform_point(&c->camera_to_world, lens_point(c, u1, u2)) : c->position;
+}
+
+struct ray camera_ray(const struct camera *c, double px, double py, double u1, double u2)
+{
+    vec3 on_screen = vec(c->x_origin + px * c->x_scale, c->y_origin + py * c->y_scale, 1);
+    vec3 lens = vec(0, 0, 0);
+    if (c->lens_radius > 0) {
+        /* All lens points see the same point of the plane of focus. */
+        lens = lens_point(c, u1, u2);
+        on_screen = sub(mul(on_screen, c->focal_distance), lens);
+    }
+    const struct transform *m = &c->camera_to_world;
+    struct ray r = {transform_point(m, lens), normalize(transform_vector(m, on_screen)), 0, INFINITY, 0, 0};
+    return r;
+}
+
+double camera_project(const struct camera *c, vec3 lens, vec3 w, double *px, double *py)
+{
+    vec3 d = transform_vector(&c->world_to_camera, w);
+    if (!(d.z > 0))
+        return 0;
+    vec3 at = vec(d.x / d.z, d.y / d.z, 1); /* where the parallel ray through the lens centre meets z = 1 */
+    if (c->lens_radius > 0) {
+        vec3 l = transform_point(&c->world_to_camera, lens);
+        at.x += l.x / c->focal_distance;
+        at.y += l.y / c->focal_distance;
+    }
+    *px = (at.x - c->x_origin) / c->x_scale;
+    *py = (at.y - c->y_origin) / c->y_scale;
+    /* A raster unit covers pixel_area cos^3 steradians at distance 1/cos from the lens: J = 1/(area cos^3). The
+     * plane of focus is the image plane scaled about the lens, so a lens does not change J. */
+    double cos_theta = d.z / length(d);
+    return 1 / (c->pixel_area * cos_theta * cos_theta * cos_theta);
+}

@@ -1,0 +1,255 @@
+/* film.c: see film.h. */
+#include "scene/film.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "base/number.h"
+
+static size_t rect_pixels(struct pixel_rect r) { return (size_t)rect_width(r) * (size_t)rect_height(r); }
+
+/* What a float cannot hold is no part of a picture; squares of the rest stay far from overflow. */
+static bool fits(rgb c) { return fits_float(c.r) && fits_float(c.g) && fits_float(c.b); }
+
+/* --- tiles ------------------------------------------------------------------------------------------- */
+
+void tile_start(struct tile *t, struct pixel_rect rect, struct pixel_rect film_rect, const struct filter *filter,
+                bool keep_records)
+{
+    size_t n = rect_pixels(rect) * 3;
+    t->rect = rect;
+    t->film_rect = film_rect;
+    t->filter = filter;
+    t->own = mem_grow(t->own, &t->capacity, n, sizeof *t->own);
+    t->square = mem_grow(t->square, &t->square_capacity, n, sizeof *t->square);
+    memset(t->own, 0, n * sizeof *t->own);
+    memset(t->square, 0, n * sizeof *t->square);
+    t->n_splats = t->n_records = 0;
+    t->keep_records = keep_records;
+    t->nonfinite = 0;
+}
+
+void tile_free(struct tile *t)
+{
+    free(t->own);
+    free(t->square);
+    free(t->splat);
+    free(t->record);
+    memset(t, 0, sizeof *t);
+}
+
+void tile_add_own(struct tile *t, int x, int y, rgb value)
+{
+    if (!fits(value)) {
+        t->nonfinite++;
+        return;
+    }
+    size_t i = 3 * ((size_t)(y - t->rect.y0) * (size_t)rect_width(t->rect) + (size_t)(x - t->rect.x0));
+    const double v[3] = {value.r, value.g, value.b};
+    for (size_t c = 0; c < 3; c++) {
+        t->own[i + c] += v[c];
+        t->square[i + c] += v[c] * v[c];
+    }
+}
+
+static int32_t film_pixel(const struct tile *t, int x, int y)
+{
+    return (int32_t)((y - t->film_rect.y0) * rect_width(t->film_rect) + (x - t->film_rect.x0));
+}
+
+/* First and last pixel whose filter covers the raster coordinate p on one axis. */
+static void filter_span(double p, double radius, int low, int high, int *first, int *last)
+{
+    double a = floor(p - radius + 0.5), b = floor(p + radius - 0.5); /* |p - (i + 0.5)| <= radius */
+    if (2 * radius == 1) /* half-open cell: a point belongs to exactly one pixel */
+        a = b = floor(p);
+    *first = int_within(a, low, high); /* a NaN covers nothing: low to low - 1 */
+    *last = int_within(b, low - 1, high - 1);
+}
+
+struct spread {
+    int x0, x1, y0, y1; /* inclusive range of pixels; empty when x1 < x0 */
+};
+
+static struct spread spread_of(const struct tile *t, double px, double py)
+{
+    struct spread s;
+    filter_span(px, t->filter->radius[0], t->film_rect.x0, t->film_rect.x1, &s.x0, &s.x1);
+    filter_span(py, t->filter->radius[1], t->film_rect.y0, t->film_rect.y1, &s.y0, &s.y1);
+    return s;
+}
+
+void tile_add_splat(struct tile *t, double px, double py, rgb value)
+{
+    if (!fits(value)) {
+        t->nonfinite++;
+        return;
+    }
+    struct spread range = spread_of(t, px, py);
+    for (int y = range.y0; y <= range.y1; y++) {
+        for (int x = range.x0; x <= range.x1; x++) {
+            double h = filter_eval(t->filter, px - (x + 0.5), py - (y + 0.5));
+            if (h == 0)
+                continue;
+            rgb part = rgb_scale(value, h);
+            if (!fits(part)) {
+                t->nonfinite++;
+                continue;
+            }
+            t->splat = mem_grow(t->splat, &t->splat_capacity, t->n_splats + 1, sizeof *t->splat);
+            struct splat *s = &t->splat[t->n_splats++];
+            s->pixel = film_pixel(t, x, y);
+            s->r = (float)part.r;
+            s->g = (float)part.g;
+            s->b = (float)part.b;
+        }
+    }
+}
+
+static void add_record(struct tile *t, int x, int y, int s, int th, rgb unweighted, double weight)
+{
+    if (!t->keep_records || !fits(unweighted) || !fits_float(weight))
+        return;
+    t->record = mem_grow(t->record, &t->record_capacity, t->n_records + 1, sizeof *t->record);
+    struct strategy_record *r = &t->record[t->n_records++];
+    r->pixel = film_pixel(t, x, y);
+    r->s = (int16_t)s;
+    r->t = (int16_t)th;
+    r->unweighted[0] = (float)unweighted.r;
+    r->unweighted[1] = (float)unweighted.g;
+    r->unweighted[2] = (float)unweighted.b;
+    r->weight = (float)weight;
+}
+
+void tile_record_own(struct tile *t, int x, int y, int s, int th, rgb unweighted, double weight)
+{
+    add_record(t, x, y, s, th, unweighted, weight);
+}
+
+void tile_record_splat(struct tile *t, double px, double py, int s, int th, rgb unweighted, double weight)
+{
+    if (!t->keep_records)
+        return;
+    struct spread range = spread_of(t, px, py);
+    for (int y = range.y0; y <= range.y1; y++)
+        for (int x = range.x0; x <= range.x1; x++) {
+            double h = filter_eval(t->filter, px - (x + 0.5), py - (y + 0.5));
+            add_record(t, x, y, s, th, rgb_scale(unweighted, h), weight);
+        }
+}
+
+/* --- the film ---------------------------------------------------------------------------------------- */
+
+void film_init(struct film *f, struct pixel_rect rect, int full_width, int full_height)
+{
+    memset(f, 0, sizeof *f);
+    f->rect = rect;
+    f->full_width = full_width;
+    f->full_height = full_height;
+    f->own = mem_alloc(rect_pixels(rect) * 3, sizeof *f->own);
+    f->splat = mem_alloc(rect_pixels(rect) * 3, sizeof *f->splat);
+    f->square = mem_alloc(rect_pixels(rect) * 3, sizeof *f->square);
+}
+
+void film_free(struct film *f)
+{
+    free(f->own);
+    free(f->splat);
+    free(f->square);
+    if (f->strategies != NULL) {
+        free(f->strategies->unweighted);
+        free(f->strategies->weighted);
+        free(f->strategies);
+    }
+    memset(f, 0, sizeof *f);
+}
+
+int strategy_count(int max_depth) { return strategy_index(0, max_depth + 3); }
+
+/* Paths of n = s + t vertices have n strategies (t = 1 .. n) and come after the 2 + ... + (n-1) of shorter ones. */
+int strategy_index(int s, int t)
+{
+    int n = s + t;
+    return n * (n - 1) / 2 - 1 + s;
+}
+
+void film_keep_strategies(struct film *f, int max_depth)
+{
+    size_t n = rect_pixels(f->rect) * 3 * (size_t)strategy_count(max_depth);
+    f->strategies = mem_alloc(1, sizeof *f->strategies);
+    f->strategies->max_depth = max_depth;
+    f->strategies->unweighted = mem_alloc(n, sizeof(double));
+    f->strategies->weighted = mem_alloc(n, sizeof(double));
+}
+
+static void merge_records(struct film *f, const struct tile *t)
+{
+    size_t pixels = rect_pixels(f->rect);
+    for (size_t i = 0; i < t->n_records; i++) {
+        const struct strategy_record *r = &t->record[i];
+        size_t at = 3 * ((size_t)strategy_index(r->s, r->t) * pixels + (size_t)r->pixel);
+        for (size_t c = 0; c < 3; c++) {
+            f->strategies->unweighted[at + c] += (double)r->unweighted[c];
+            f->strategies->weighted[at + c] += (double)r->unweighted[c] * (double)r->weight;
+        }
+    }
+}
+
+void film_merge_tile(struct film *f, const struct tile *t)
+{
+    size_t width = (size_t)rect_width(t->rect) * 3, height = (size_t)rect_height(t->rect);
+    for (size_t y = 0; y < height; y++) {
+        size_t row = (size_t)(t->rect.y0 - f->rect.y0) + y;
+        size_t to = 3 * (row * (size_t)rect_width(f->rect) + (size_t)(t->rect.x0 - f->rect.x0));
+        for (size_t x = 0; x < width; x++) {
+            f->own[to + x] += t->own[y * width + x];
+            f->square[to + x] += t->square[y * width + x];
+        }
+    }
+    for (size_t i = 0; i < t->n_splats; i++) {
+        const struct splat *s = &t->splat[i];
+        const double v[3] = {(double)s->r, (double)s->g, (double)s->b};
+        for (size_t c = 0; c < 3; c++) {
+            f->splat[3 * (size_t)s->pixel + c] += v[c];
+            f->square[3 * (size_t)s->pixel + c] += v[c] * v[c];
+        }
+    }
+    f->nonfinite += t->nonfinite;
+    if (f->strategies != NULL)
+        merge_records(f, t);
+}
+
+long film_develop(const struct film *f, double scale, float *out)
+{
+    long cut = 0;
+    size_t n = rect_pixels(f->rect) * 3;
+    double per_iteration = f->iterations > 0 ? scale / (double)f->iterations : 0;
+    for (size_t i = 0; i < n; i++) {
+        double value = (f->own[i] + f->splat[i]) * per_iteration;
+        cut += !fits_float(value);
+        out[i] = float_within(value);
+    }
+    return cut;
+}
+
+void film_warn(const struct film *f, long cut)
+{
+    if (f->nonfinite > 0)
+        fprintf(stderr, "asbdpt: warning: %ld contributions were not finite, or too large, and were left out\n",
+                f->nonfinite);
+    if (cut > 0)
+        fprintf(stderr, "asbdpt: warning: %ld pixel values were beyond 3.4e38 and were cut to it\n", cut);
+}
+
+void film_standard_error(const struct film *f, double scale, float *out)
+{
+    size_t n = rect_pixels(f->rect) * 3;
+    double k = (double)f->iterations;
+    for (size_t i = 0; i < n; i++) {
+        double variance = (f->square[i] - f->own[i] * f->own[i] / k) / (k * (k - 1));
+        out[i] = f->iterations < 2 ? INFINITY : float_within(scale * sqrt(fmax(variance, 0)));
+    }
+}

@@ -1,0 +1,113 @@
+/* film.h: where estimates of pixels are summed.
+ *
+ * A pixel's estimate has two parts. `own`: per iteration, what its own eye sub-path brought (all strategies with
+ * t >= 2). `splat`: what light sub-paths of any pixel sent straight to the lens (t = 1), spread by the pixel filter.
+ * A tile pass (one tile, a block of iterations) fills a struct tile; the film takes tiles in, in a fixed order, so the
+ * sums do not depend on the number of threads.
+ *
+ * Standard errors: own values of different iterations are independent draws; splats are many rare events, whose
+ * variance is the sum of their squares.
+ *
+ * Used by: the methods (tiles), render (film). Tests: test_film.c.
+ */
+#ifndef ASBDPT_FILM_H
+#define ASBDPT_FILM_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "scene/filter.h"
+#include "base/rgb.h"
+
+/* Pixels [x0,x1) x [y0,y1). */
+struct pixel_rect {
+    int x0, y0, x1, y1;
+};
+
+static inline int rect_width(struct pixel_rect r) { return r.x1 - r.x0; }
+static inline int rect_height(struct pixel_rect r) { return r.y1 - r.y0; }
+
+struct splat {
+    int32_t pixel; /* number within the film's rectangle, row by row */
+    float r, g, b;
+};
+
+/* One contribution of one strategy, kept only for per-strategy images. */
+struct strategy_record {
+    int32_t pixel;
+    int16_t s, t;
+    float unweighted[3];
+    float weight; /* its MIS weight, [0,1] */
+};
+
+/* What a tile pass produces. Reused from pass to pass. */
+struct tile {
+    struct pixel_rect rect;
+    struct pixel_rect film_rect; /* of the film: splats land anywhere in it */
+    const struct filter *filter;
+    double *own;    /* [pixels of rect * 3], sum over the iterations of the pass; owned */
+    double *square; /* [pixels of rect * 3], sum of squares of the per-iteration values; owned */
+    size_t capacity, square_capacity;
+    struct splat *splat; /* [n_splats], owned */
+    size_t n_splats, splat_capacity;
+    struct strategy_record *record; /* [n_records], owned */
+    size_t n_records, record_capacity;
+    bool keep_records;
+    long nonfinite; /* contributions that were NaN, infinite or beyond FLT_MAX, and were left out */
+};
+
+/* tile_start: begin a pass: clear the sums. */
+void tile_start(struct tile *t, struct pixel_rect rect, struct pixel_rect film_rect, const struct filter *filter,
+                bool keep_records);
+void tile_free(struct tile *t);
+
+/* tile_add_own: the whole value of pixel (x,y) of the tile for one iteration. Call once per pixel and iteration. */
+void tile_add_own(struct tile *t, int x, int y, rgb value);
+
+/* tile_add_splat: a value arriving at raster point (px,py), spread over pixels by the filter. */
+void tile_add_splat(struct tile *t, double px, double py, rgb value);
+
+/* tile_record: note a strategy's contribution, at a pixel of the tile or at a raster point. */
+void tile_record_own(struct tile *t, int x, int y, int s, int th, rgb unweighted, double weight);
+void tile_record_splat(struct tile *t, double px, double py, int s, int th, rgb unweighted, double weight);
+
+/* Images of single strategies, [n_strategies][pixels*3], numbered by strategy_index. */
+struct strategy_images {
+    int max_depth;
+    double *unweighted, *weighted; /* owned */
+};
+
+struct film {
+    struct pixel_rect rect;      /* the rendered part (crop) of the full frame */
+    int full_width, full_height;
+    long iterations;             /* samples per pixel taken so far */
+    double *own, *splat, *square; /* [pixels*3] sums; owned */
+    long nonfinite;
+    struct strategy_images *strategies; /* NULL unless asked for; owned */
+};
+
+void film_init(struct film *f, struct pixel_rect rect, int full_width, int full_height);
+void film_free(struct film *f);
+
+/* film_keep_strategies: from now on sum every strategy on its own, for paths up to max_depth. */
+void film_keep_strategies(struct film *f, int max_depth);
+
+/* strategy_index: number of strategy (s,t), s >= 0, t >= 1, among those with s + t <= max_depth + 2; strategies are
+ * ordered by path length. strategy_count: how many there are. */
+int strategy_index(int s, int t);
+int strategy_count(int max_depth);
+
+/* film_merge_tile: add a tile's sums. Iterations are counted by the caller once all tiles of a block are in. */
+void film_merge_tile(struct film *f, const struct tile *t);
+
+/* film_develop: the image so far: [height*width*3] linear floats, top row first, each pixel times `scale`. Values that no
+ * float holds are cut to FLT_MAX; returns how many. */
+long film_develop(const struct film *f, double scale, float *out);
+
+/* film_warn: say on stderr how many contributions were left out and how many values film_develop cut, if any. */
+void film_warn(const struct film *f, long cut);
+
+/* film_standard_error: of each value of film_develop; infinite with fewer than two iterations. */
+void film_standard_error(const struct film *f, double scale, float *out);
+
+#endif

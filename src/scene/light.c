@@ -1,0 +1,302 @@
+/* light.c: see light.h. Intensities and fall-offs are those of [PBRT3 12]. */
+#include "scene/light.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "base/number.h"
+#include "base/warp.h"
+
+int light_add(struct light_set *set, struct light l)
+{
+    set->light = mem_grow(set->light, &set->capacity, (size_t)set->n + 1, sizeof *set->light);
+    set->light[set->n] = l;
+    return set->n++;
+}
+
+bool light_load_env(struct light *l, const char *path, struct error *err)
+{
+    l->env = envmap_load(path, err);
+    return l->env != NULL;
+}
+
+void light_set_free(struct light_set *set)
+{
+    for (int i = 0; i < set->n; i++)
+        envmap_free(set->light[i].env);
+    free(set->light);
+    alias_free(&set->choice);
+    free(set->light_of_cell);
+    memset(set, 0, sizeof *set);
+}
+
+/* --- power and choice -------------------------------------------------------------------------------- */
+
+/* Smooth step from 1 inside the inner cone to 0 outside the outer one. */
+static double spot_falloff(const struct light *l, vec3 w)
+{
+    double c = dot(l->axis.n, w);
+    if (c < l->cos_total)
+        return 0;
+    if (c >= l->cos_falloff)
+        return 1;
+    double delta = (c - l->cos_total) / (l->cos_falloff - l->cos_total);
+    return sqr(sqr(delta));
+}
+
+static double light_power(const struct light *l, const struct geometry *geo, double scene_radius)
+{
+    double disk = PI * sqr(scene_radius);
+    double lum = rgb_luminance(l->L);
+    switch (l->kind) {
+    case LIGHT_AREA: return lum * PI * shape_area(geo, l->prim) * (l->two_sided ? 2 : 1);
+    case LIGHT_POINT: return lum * 4 * PI;
+    case LIGHT_SPOT: return lum * 2 * PI * (1 - 0.5 * (l->cos_falloff + l->cos_total));
+    case LIGHT_DISTANT: return lum * disk;
+    case LIGHT_INFINITE: return disk * PI * rgb_luminance(l->env ? rgb_mul(l->L, l->env->mean) : l->L);
+    }
+    return 0;
+}
+
+/* A constant sky is cut into SKY_BANDS x SKY_SECTORS cells of equal solid angle, by z and by azimuth. */
+enum { SKY_BANDS = 8, SKY_SECTORS = 16, SKY_CELLS = SKY_BANDS * SKY_SECTORS };
+
+static int cells_of(const struct light *l)
+{
+    return l->kind != LIGHT_INFINITE ? 1 : l->env != NULL ? envmap_blocks(l->env) : SKY_CELLS;
+}
+
+/* A cell's share of its light's power. */
+static double cell_share(const struct light *l, int cell)
+{
+    if (l->kind != LIGHT_INFINITE || l->env == NULL)
+        return 1.0 / l->n_cells;
+    double all = 0;
+    for (int b = 0; b < l->n_cells; b++)
+        all += l->env->block[b].total;
+    return all > 0 ? l->env->block[cell].total / all : 0;
+}
+
+void light_prepare(struct light_set *set, const struct geometry *geo, vec3 center, double radius)
+{
+    set->center = center;
+    set->radius = radius;
+    set->any_infinite = set->several_infinite = false;
+    set->n_cells = 0;
+    for (int i = 0; i < set->n; i++) {
+        struct light *l = &set->light[i];
+        l->power = light_power(l, geo, radius);
+        l->first_cell = set->n_cells;
+        l->n_cells = cells_of(l);
+        set->n_cells += l->n_cells;
+        set->several_infinite |= set->any_infinite && l->kind == LIGHT_INFINITE;
+        set->any_infinite |= l->kind == LIGHT_INFINITE;
+    }
+    double *power = mem_alloc((size_t)set->n_cells, sizeof *power);
+    set->light_of_cell = mem_alloc((size_t)set->n_cells, sizeof *set->light_of_cell);
+    for (int i = 0; i < set->n; i++)
+        for (int c = 0; c < set->light[i].n_cells; c++) {
+            power[set->light[i].first_cell + c] = set->light[i].power * cell_share(&set->light[i], c);
+            set->light_of_cell[set->light[i].first_cell + c] = i;
+        }
+    alias_build(&set->choice, power, set->n_cells);
+    free(power);
+}
+
+/* --- the end point y0 -------------------------------------------------------------------------------- */
+
+static vec3 infinite_sample(const struct light *l, int cell, double u1, double u2, double *pdf_w)
+{
+    if (l->env == NULL) {
+        *pdf_w = warp_sphere_pdf() * SKY_CELLS;
+        return warp_sphere((cell / SKY_SECTORS + u1) / SKY_BANDS, (cell % SKY_SECTORS + u2) / SKY_SECTORS);
+    }
+    return normalize(transform_vector(&l->to_world, envmap_sample(l->env, cell, u1, u2, pdf_w)));
+}
+
+static vec3 to_light_space(const struct light *l, vec3 w)
+{
+    return normalize(transform_vector_back(&l->to_world, w));
+}
+
+/* Density of w within its cell; *cell is that cell's number within the light. */
+static double infinite_pdf(const struct light *l, vec3 w, int *cell)
+{
+    if (l->env != NULL)
+        return envmap_pdf(l->env, to_light_space(l, w), cell);
+    double u1, u2;
+    warp_sphere_inverse(w, &u1, &u2);
+    *cell = int_within(u1 * SKY_BANDS, 0, SKY_BANDS - 1) * SKY_SECTORS + int_within(u2 * SKY_SECTORS, 0, SKY_SECTORS - 1);
+    return warp_sphere_pdf() * SKY_CELLS;
+}
+
+static rgb infinite_Le(const struct light *l, vec3 w)
+{
+    return l->env == NULL ? l->L : rgb_mul(l->L, envmap_lookup(l->env, to_light_space(l, w)));
+}
+
+bool light_sample_cell(const struct light_set *set, const struct geometry *geo, int cell, double u1, double u2,
+                       struct light_point *out)
+{
+    double pdf = 1;
+    memset(out, 0, sizeof *out);
+    out->cell = cell;
+    out->light = set->light_of_cell[cell];
+    const struct light *l = &set->light[out->light];
+    switch (l->kind) {
+    case LIGHT_AREA: {
+        struct surface at;
+        shape_sample(geo, l->prim, u1, u2, &at, &pdf);
+        out->p = at.p;
+        out->n = at.ng;
+        out->flat = shape_flat(l->prim);
+        break;
+    }
+    case LIGHT_POINT:
+    case LIGHT_SPOT: out->p = l->position; break;
+    case LIGHT_DISTANT: out->w = l->direction; break;
+    case LIGHT_INFINITE: out->w = infinite_sample(l, cell - l->first_cell, u1, u2, &pdf); break;
+    }
+    out->pdf_cell = pdf;
+    out->pdf = alias_pmf(&set->choice, cell) * pdf;
+    return pdf > 0;
+}
+
+bool light_sample_point(const struct light_set *set, const struct geometry *geo, const double u[3],
+                        struct light_point *out)
+{
+    if (set->choice.n == 0)
+        return false;
+    return light_sample_cell(set, geo, alias_sample(&set->choice, u[0], NULL, NULL), u[1], u[2], out);
+}
+
+/* --- emission ---------------------------------------------------------------------------------------- */
+
+static rgb area_Le(const struct light *l, vec3 n, vec3 w)
+{
+    return l->two_sided || dot(n, w) > 0 ? l->L : rgb_black();
+}
+
+/* Parallel rays enter through a disk as wide as the scene, placed before it. */
+static struct ray ray_from_infinity(const struct light_set *set, vec3 towards_light, const double u[2])
+{
+    double x, y;
+    warp_disk(u[0], u[1], &x, &y);
+    struct frame f = frame_from_normal(towards_light);
+    vec3 o = add(set->center, mul(to_world(&f, vec(x, y, 1)), set->radius));
+    struct ray r = {o, neg(towards_light), 0, INFINITY, 0, 0};
+    return r;
+}
+
+rgb light_sample_emission(const struct light_set *set, const struct light_point *y0, const double u[2],
+                          struct ray *ray, double *pdf)
+{
+    const struct light *l = &set->light[y0->light];
+    vec3 w = vec(0, 0, 1);
+    double cosine = 1;
+    switch (l->kind) {
+    case LIGHT_AREA: {
+        double u1 = u[0], side = 1;
+        if (l->two_sided) {
+            side = u1 < 0.5 ? 1 : -1;
+            u1 = u1 < 0.5 ? 2 * u1 : 2 * u1 - 1;
+        }
+        struct frame f = frame_from_normal(mul(y0->n, side));
+        vec3 local = warp_cos_hemisphere(u1, u[1]);
+        cosine = local.z;
+        w = to_world(&f, local);
+        break;
+    }
+    case LIGHT_POINT: w = warp_sphere(u[0], u[1]); break;
+    case LIGHT_SPOT: w = to_world(&l->axis, warp_cone(u[0], u[1], l->cos_total)); break;
+    case LIGHT_DISTANT:
+    case LIGHT_INFINITE:
+        *ray = ray_from_infinity(set, y0->w, u);
+        *pdf = light_pdf_emission(set, y0, ray->d);
+        return light_Le(set, y0, ray->d);
+    }
+    struct ray r = {y0->p, w, 0, INFINITY, y0->flat, 0};
+    *ray = r;
+    *pdf = light_pdf_emission(set, y0, w);
+    return *pdf > 0 ? rgb_scale(light_Le(set, y0, w), cosine) : rgb_black();
+}
+
+double light_pdf_emission(const struct light_set *set, const struct light_point *y0, vec3 w)
+{
+    const struct light *l = &set->light[y0->light];
+    switch (l->kind) {
+    case LIGHT_AREA: {
+        double c = dot(y0->n, w);
+        return l->two_sided ? 0.5 * warp_cos_hemisphere_pdf(fabs(c)) : warp_cos_hemisphere_pdf(c);
+    }
+    case LIGHT_POINT: return warp_sphere_pdf();
+    case LIGHT_SPOT: return dot(l->axis.n, w) >= l->cos_total ? warp_cone_pdf(l->cos_total) : 0;
+    case LIGHT_DISTANT:
+    case LIGHT_INFINITE: return 1 / (PI * sqr(set->radius));
+    }
+    return 0;
+}
+
+rgb light_Le(const struct light_set *set, const struct light_point *y0, vec3 w)
+{
+    const struct light *l = &set->light[y0->light];
+    switch (l->kind) {
+    case LIGHT_AREA: return area_Le(l, y0->n, w);
+    case LIGHT_POINT: return l->L;
+    case LIGHT_SPOT: return rgb_scale(l->L, spot_falloff(l, w));
+    case LIGHT_DISTANT: return l->L;
+    case LIGHT_INFINITE: return infinite_Le(l, neg(w));
+    }
+    return rgb_black();
+}
+
+/* --- lights met by eye sub-paths --------------------------------------------------------------------- */
+
+rgb light_Le_surface(const struct light_set *set, const struct surface *at, vec3 w)
+{
+    return at->light < 0 ? rgb_black() : area_Le(&set->light[at->light], at->ng, w);
+}
+
+double light_pdf_surface(const struct light_set *set, const struct geometry *geo, const struct surface *at)
+{
+    if (at->light < 0)
+        return 0;
+    const struct light *l = &set->light[at->light];
+    return alias_pmf(&set->choice, l->first_cell) * shape_pdf_a(geo, l->prim, at);
+}
+
+rgb light_Le_environment(const struct light_set *set, vec3 w)
+{
+    rgb sum = rgb_black();
+    for (int i = 0; set->any_infinite && i < set->n; i++)
+        if (set->light[i].kind == LIGHT_INFINITE)
+            sum = rgb_add(sum, infinite_Le(&set->light[i], w));
+    return sum;
+}
+
+/* Also its density by power, at the cost of one more look-up. */
+static double pdf_environment(const struct light_set *set, const struct alias_table *choice, vec3 w, double *by_power)
+{
+    double sum = *by_power = 0;
+    for (int i = 0; set->any_infinite && i < set->n; i++)
+        if (set->light[i].kind == LIGHT_INFINITE) {
+            int cell;
+            double pdf = infinite_pdf(&set->light[i], w, &cell);
+            sum += alias_pmf(choice, set->light[i].first_cell + cell) * pdf;
+            *by_power += alias_pmf(&set->choice, set->light[i].first_cell + cell) * pdf;
+        }
+    return sum;
+}
+
+double light_pdf_environment(const struct light_set *set, const struct alias_table *choice, vec3 w)
+{
+    double by_power;
+    return pdf_environment(set, choice, w, &by_power);
+}
+
+double light_choice_ratio(const struct light_set *set, const struct alias_table *choice, vec3 w)
+{
+    double by_power, pdf = pdf_environment(set, choice, w, &by_power);
+    return by_power > 0 ? pdf / by_power : 0;
+}

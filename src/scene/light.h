@@ -1,0 +1,127 @@
+/* light.h: the emitters and how to sample them: emission for light sub-paths, and a fresh end point for s = 1.
+ *
+ * Five kinds. Area lights are one per primitive. A light's end point y0 is a point in space (area, point, spot) or a
+ * direction (distant, infinite): then y0 lies "at infinity" and its density is per steradian.
+ *
+ * Lights are chosen in proportion to their power by an alias table; s = 1 and emission use the same choice and the
+ * same density of y0, so one number serves both in the MIS weights.
+ *
+ * Used by: scene, path, connect. Tests: test_light.c.
+ */
+#ifndef ASBDPT_LIGHT_H
+#define ASBDPT_LIGHT_H
+
+#include "base/alias.h"
+#include "scene/envmap.h"
+#include "base/frame.h"
+#include "base/rgb.h"
+#include "geometry/shape.h"
+#include "base/transform.h"
+
+enum light_kind { LIGHT_AREA, LIGHT_POINT, LIGHT_SPOT, LIGHT_DISTANT, LIGHT_INFINITE };
+
+struct light {
+    enum light_kind kind;
+    rgb L; /* area: radiance; point, spot: intensity W/sr; distant: irradiance on a facing surface; infinite: scale */
+    struct transform to_world;
+    int prim;            /* area */
+    bool two_sided;      /* area */
+    double cos_total;    /* spot: beyond it darkness */
+    double cos_falloff;  /* spot: full intensity inside it */
+    vec3 position;       /* point, spot */
+    struct frame axis;   /* spot: n is the beam's axis */
+    vec3 direction;      /* distant: unit, from the scene towards the light */
+    struct envmap *env;  /* infinite: NULL for constant radiance; owned */
+    double power;        /* estimate, W, luminance; set by light_prepare */
+    int first_cell, n_cells; /* its cells, see below; set by light_prepare */
+};
+
+/* All lights of a scene and what sampling them needs. Sampling is done in cells: an infinite light is cut into cells of
+ * directions, every other light is one cell. A cell is chosen first, then a point within it. */
+struct light_set {
+    struct light *light; /* [n], owned */
+    int n;
+    size_t capacity;
+    int n_cells;
+    int *light_of_cell;        /* [n_cells], owned */
+    struct alias_table choice; /* of a cell, by power */
+    vec3 center;               /* bounding sphere of the scene */
+    double radius;             /* > 0 */
+    bool any_infinite;         /* some light of kind LIGHT_INFINITE */
+    bool several_infinite;     /* two or more of them */
+};
+
+int light_add(struct light_set *set, struct light l);
+
+/* light_load_env: read the environment map of an infinite light. False with a message. */
+bool light_load_env(struct light *l, const char *path, struct error *err);
+
+/* light_prepare: powers, the choice table, the scene's sphere. Call once the geometry is complete. */
+void light_prepare(struct light_set *set, const struct geometry *geo, vec3 center, double radius);
+void light_set_free(struct light_set *set);
+
+/* Delta lights cannot be hit (s = 0 is impossible). */
+static inline bool light_is_delta(const struct light *l)
+{
+    return l->kind == LIGHT_POINT || l->kind == LIGHT_SPOT || l->kind == LIGHT_DISTANT;
+}
+
+/* Lights whose end point is a direction. */
+static inline bool light_at_infinity(const struct light *l)
+{
+    return l->kind == LIGHT_DISTANT || l->kind == LIGHT_INFINITE;
+}
+
+/* A light's end point y0. */
+struct light_point {
+    int light, cell;
+    vec3 p;          /* position; for lights at infinity: unused */
+    vec3 n;          /* area light: unit normal of the emitting side; else zero */
+    vec3 w;          /* lights at infinity: unit direction from the scene towards the light */
+    uint32_t flat;   /* area light: the triangle it is, see shape_flat; else 0 */
+    double pdf_cell; /* density within the cell: 1/m^2, or 1/sr at infinity; 1 for a delta */
+    double pdf;      /* that times the probability of the cell under `choice` */
+};
+
+/* light_sample_point: choose a light and a point (or direction) on it. False if the scene has no light. */
+bool light_sample_point(const struct light_set *set, const struct geometry *geo, const double u[3],
+                        struct light_point *out);
+
+/* light_sample_cell: the same from a given cell. False where nothing can be drawn. */
+bool light_sample_cell(const struct light_set *set, const struct geometry *geo, int cell, double u1, double u2,
+                       struct light_point *out);
+
+/* light_sample_emission: given y0, draw the direction (or, at infinity, the origin on a disk) of an emitted ray.
+ *   ray    out: origin and unit direction of travel
+ *   pdf    out: density of the second draw: 1/sr, or at infinity 1/m^2 on the disk
+ * Returns emitted radiance times cosine at the light (1/sr-free: area: Le |cos|; point, spot: intensity; at
+ * infinity: Le), so beta_1 = returned / (y0.pdf * pdf); black when nothing is emitted. */
+rgb light_sample_emission(const struct light_set *set, const struct light_point *y0, const double u[2],
+                          struct ray *ray, double *pdf);
+
+/* light_pdf_emission: density of that second draw for a given direction w of travel, 1/sr; at infinity 1/m^2. */
+double light_pdf_emission(const struct light_set *set, const struct light_point *y0, vec3 w);
+
+/* light_Le: what y0 sends in the unit direction w of travel: area, infinite: radiance; point, spot: intensity
+ * (its inverse square law is the connection's G); distant: irradiance. */
+rgb light_Le(const struct light_set *set, const struct light_point *y0, vec3 w);
+
+/* light_Le_surface: radiance an area light's surface point sends in direction w. */
+rgb light_Le_surface(const struct light_set *set, const struct surface *at, vec3 w);
+
+/* light_Le_environment: radiance of all infinite lights for a ray leaving the scene in unit direction w. */
+rgb light_Le_environment(const struct light_set *set, vec3 w);
+
+/* light_pdf_environment: density with which light_sample_point returns direction w (from the scene towards the
+ * light) by any infinite light: the sum over them of the cell's probability times the density within it, 1/sr.
+ *   choice  probabilities of the cells: &set->choice, or another table over the same cells */
+double light_pdf_environment(const struct light_set *set, const struct alias_table *choice, vec3 w);
+
+/* light_choice_ratio: density with which light_sample_point returns that direction under `choice`, over its density by
+ * power; 0 where the latter is 0. */
+double light_choice_ratio(const struct light_set *set, const struct alias_table *choice, vec3 w);
+
+/* light_pdf_surface: density with which light_sample_point returns this point of an area light, 1/m^2. */
+double light_pdf_surface(const struct light_set *set, const struct geometry *geo, const struct surface *at);
+
+#endif

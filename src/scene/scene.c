@@ -1,0 +1,95 @@
+/* scene.c: see scene.h. */
+#include "scene/scene.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+
+void scene_init(struct scene *s)
+{
+    memset(s, 0, sizeof *s);
+    s->camera = camera_default();
+    filter_default("box", &s->filter);
+    s->width = 640;
+    s->height = 480;
+    s->crop[1] = s->crop[3] = 1;
+    s->film_scale = 1;
+}
+
+void scene_free(struct scene *s)
+{
+    kd_free(&s->kd);
+    geometry_free(&s->geo);
+    texture_set_free(&s->textures);
+    free(s->material);
+    arena_free(&s->arena);
+    light_set_free(&s->lights);
+    free(s->film_filename);
+    free(s->integrator);
+    settings_clear(&s->settings);
+    memset(s, 0, sizeof *s);
+}
+
+int scene_add_material(struct scene *s, struct material m)
+{
+    s->material = mem_grow(s->material, &s->material_capacity, (size_t)s->n_materials + 1, sizeof *s->material);
+    s->material[s->n_materials] = m;
+    return s->n_materials++;
+}
+
+/* --- ready to render --------------------------------------------------------------------------------- */
+
+/* Is the surface there at this hit? Holes are where an alpha texture is exactly 0, as in pbrt-v3. */
+static bool opaque_at(const void *context, const struct geometry *geo, const struct hit *hit, bool shadow)
+{
+    const struct scene *s = context;
+    const struct shape_group *group = shape_group_of(geo, hit->prim);
+    const struct ray anywhere = {vec(0, 0, 0), vec(0, 0, 1), 0, INFINITY, 0, 0};
+    struct surface at;
+    shape_surface(geo, hit, &anywhere, &at);
+    if (group->alpha >= 0 && texture_float(&s->textures, group->alpha, &at) == 0)
+        return false;
+    return !(shadow && group->shadow_alpha >= 0 && texture_float(&s->textures, group->shadow_alpha, &at) == 0);
+}
+
+void scene_prepare(struct scene *s)
+{
+    s->geo.opaque = opaque_at;
+    s->geo.opaque_context = s;
+    material_prepare(s->material, s->n_materials, &s->textures, &s->arena);
+    for (int i = 0; i < s->geo.n_groups; i++)
+        s->geo.group[i].plain = !material_reads_partials(s->material, s->geo.group[i].material, &s->textures);
+    kd_build(&s->kd, &s->geo);
+    vec3 lo = vec((double)s->kd.lo[0], (double)s->kd.lo[1], (double)s->kd.lo[2]);
+    vec3 hi = vec((double)s->kd.hi[0], (double)s->kd.hi[1], (double)s->kd.hi[2]);
+    bool empty = geometry_primitives(&s->geo) == 0;
+    double radius = empty ? 1 : length(sub(hi, lo)) / 2;
+    light_prepare(&s->lights, &s->geo, empty ? vec(0, 0, 0) : lerp3(0.5, lo, hi), radius > 0 ? radius : 1);
+    s->epsilon = 1e-8 * 2 * s->lights.radius;
+    camera_prepare(&s->camera, s->width, s->height);
+    filter_prepare(&s->filter);
+}
+
+bool scene_intersect(const struct scene *s, const struct ray *ray, struct surface *out)
+{
+    struct hit hit;
+    if (!kd_closest(&s->kd, &s->geo, ray, &hit))
+        return false;
+    shape_surface(&s->geo, &hit, ray, out);
+    return true;
+}
+
+bool scene_visible(const struct scene *s, vec3 a, uint32_t from, vec3 b, uint32_t to)
+{
+    vec3 d = sub(b, a);
+    double distance = length(d);
+    struct ray ray = {a, mul(d, 1 / distance), s->epsilon, distance - s->epsilon, from, to};
+    return !(ray.tmin < ray.tmax) || !kd_occluded(&s->kd, &s->geo, &ray);
+}
+
+bool scene_visible_ray(const struct scene *s, vec3 a, uint32_t from, vec3 w)
+{
+    struct ray ray = {a, w, s->epsilon, INFINITY, from, 0};
+    return !kd_occluded(&s->kd, &s->geo, &ray);
+}

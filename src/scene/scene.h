@@ -1,0 +1,64 @@
+/* scene.h: everything a scene file describes; it owns all of it.
+ *
+ * Objects refer to each other by index. The parser fills a scene in, scene_prepare makes it ready to render,
+ * scene_free releases everything. After scene_prepare a scene is read-only and shared by all threads.
+ *
+ * Used by: parser (fills it), path and connect (read it), render, info.
+ */
+#ifndef ASBDPT_SCENE_H
+#define ASBDPT_SCENE_H
+
+#include <stdbool.h>
+
+#include "scene/camera.h"
+#include "scene/filter.h"
+#include "geometry/kdtree.h"
+#include "scene/light.h"
+#include "material/material.h"
+#include "scene/settings.h"
+#include "geometry/shape.h"
+#include "material/texture.h"
+
+struct scene {
+    struct geometry geo;
+    struct kdtree kd;
+    struct texture_set textures;
+    struct material *material; /* [n_materials], owned */
+    int n_materials;
+    size_t material_capacity;
+    struct arena arena; /* what scene_prepare makes of the materials */
+    struct light_set lights;
+
+    struct camera camera;
+    struct filter filter;
+    int width, height;      /* full film resolution */
+    double crop[4];         /* x0 x1 y0 y1 as fractions of the film, pbrt's "cropwindow" */
+    double film_scale;      /* every pixel is multiplied by it when written */
+    char *film_filename;    /* as written in the file; owned, may be NULL */
+
+    char *integrator;       /* name in the Integrator directive; owned, NULL if there is none */
+    struct settings settings; /* its parameters, and those of -P */
+    int spp;                /* pixelsamples, 0 if the file does not say */
+
+    double epsilon;         /* tmin of every secondary ray: 1e-8 of the scene's diagonal */
+};
+
+/* scene_init: an empty scene with pbrt's defaults (640x480 film, box filter of radius 0.5, fov 90). */
+void scene_init(struct scene *s);
+void scene_free(struct scene *s);
+int scene_add_material(struct scene *s, struct material m);
+
+/* scene_prepare: build the kd-tree, light tables, camera and filter for the final resolution. Call once. */
+void scene_prepare(struct scene *s);
+
+/* scene_intersect: first surface along the ray; false if it leaves the scene. */
+bool scene_intersect(const struct scene *s, const struct ray *ray, struct surface *out);
+
+/* scene_visible: is the open segment between two points free?
+ *   from, to  the triangles a and b are on, see shape_flat; 0: none */
+bool scene_visible(const struct scene *s, vec3 a, uint32_t from, vec3 b, uint32_t to);
+
+/* scene_visible_ray: is the half line from a in unit direction w free? `from` as above. */
+bool scene_visible_ray(const struct scene *s, vec3 a, uint32_t from, vec3 w);
+
+#endif

@@ -1,0 +1,87 @@
+/* settings.c: see settings.h. */
+#include "scene/settings.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+
+static struct setting *find(const struct settings *s, const char *name)
+{
+    for (int i = 0; i < s->n; i++)
+        if (strcmp(s->item[i].name, name) == 0)
+            return &s->item[i];
+    return NULL;
+}
+
+void settings_set(struct settings *s, const char *name, const char *value, const char *origin)
+{
+    struct setting *item = find(s, name);
+    if (item == NULL) {
+        s->item = mem_grow(s->item, &s->capacity, (size_t)s->n + 1, sizeof *s->item);
+        item = &s->item[s->n++];
+        item->name = mem_copy_text(name);
+    } else {
+        free(item->value);
+        free(item->origin);
+    }
+    item->value = mem_copy_text(value);
+    item->origin = mem_copy_text(origin);
+}
+
+void settings_clear(struct settings *s)
+{
+    for (int i = 0; i < s->n; i++) {
+        free(s->item[i].name);
+        free(s->item[i].value);
+        free(s->item[i].origin);
+    }
+    free(s->item);
+    memset(s, 0, sizeof *s);
+}
+
+const char *settings_text(const struct settings *s, const char *name, const char *fallback)
+{
+    const struct setting *item = find(s, name);
+    return item != NULL ? item->value : fallback;
+}
+
+bool settings_int(const struct settings *s, const char *name, long fallback, long low, long high, long *out,
+                  struct error *err)
+{
+    *out = fallback;
+    const struct setting *item = find(s, name);
+    if (item == NULL)
+        return true;
+    char *end;
+    errno = 0;
+    long value = strtol(item->value, &end, 10);
+    if (end == item->value || *end != '\0')
+        return error_set(err, "%s: %s = \"%s\": give a whole number from %ld to %ld", item->origin, name,
+                         item->value, low, high);
+    if (errno == ERANGE || value < low || value > high)
+        return error_set(err, "%s: %s = %s is out of range: give a whole number from %ld to %ld", item->origin,
+                         name, item->value, low, high);
+    *out = value;
+    return true;
+}
+
+bool settings_real(const struct settings *s, const char *name, double fallback, double low, double high,
+                   double *out, struct error *err)
+{
+    *out = fallback;
+    const struct setting *item = find(s, name);
+    if (item == NULL)
+        return true;
+    char *end;
+    double value = strtod(item->value, &end);
+    if (end == item->value || *end != '\0')
+        return error_set(err, "%s: %s = \"%s\": give a number from %g to %g", item->origin, name, item->value, low,
+                         high);
+    if (!(value >= low && value <= high))
+        return error_set(err, "%s: %s = %s is out of range: give a number from %g to %g", item->origin, name,
+                         item->value, low, high);
+    *out = value;
+    return true;
+}

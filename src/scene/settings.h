@@ -1,0 +1,39 @@
+/* settings.h: the named parameters of an integrator, as the scene file and -P give them.
+ *
+ * Values are kept as text; a method reads them by name with a default. Later ones override earlier ones.
+ * Used by: parser, main, the methods.
+ */
+#ifndef ASBDPT_SETTINGS_H
+#define ASBDPT_SETTINGS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/error.h"
+
+struct setting {
+    char *name, *value; /* owned */
+    char *origin;       /* "FILE:LINE:COL" or "-P", for messages; owned */
+};
+
+struct settings {
+    struct setting *item; /* [n], owned */
+    int n;
+    size_t capacity;
+};
+
+/* settings_set: add or replace. */
+void settings_set(struct settings *s, const char *name, const char *value, const char *origin);
+void settings_clear(struct settings *s); /* forget and free everything */
+
+/* settings_text: the value, or `fallback` when the name is not set. */
+const char *settings_text(const struct settings *s, const char *name, const char *fallback);
+
+/* settings_int / settings_real: the value as a number within [low, high]; *out = fallback when not set.
+ * Return false with a message naming origin, name, value and the allowed range. */
+bool settings_int(const struct settings *s, const char *name, long fallback, long low, long high, long *out,
+                  struct error *err);
+bool settings_real(const struct settings *s, const char *name, double fallback, double low, double high,
+                   double *out, struct error *err);
+
+#endif

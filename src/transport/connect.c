@@ -1,0 +1,158 @@
+/* connect.c: see connect.h. */
+#include "transport/connect.h"
+
+static struct connection nothing(void)
+{
+    struct connection c = {{0, 0, 0}, 0, 0, 0};
+    return c;
+}
+
+/* A surface vertex scattering towards wi: throughput factor and both densities (1/sr). */
+struct scatter {
+    rgb factor; /* f times scatter_cosine */
+    double pdf, pdf_rev;
+};
+
+static struct scatter scatter_towards(const struct vertex *v, vec3 wi, enum transport mode)
+{
+    struct bsdf_value b = bsdf_eval(&v->bsdf, v->wo, wi, mode);
+    struct scatter s = {{0, 0, 0}, b.pdf, b.pdf_rev};
+    if (!rgb_is_black(b.f))
+        s.factor = rgb_scale(b.f, scatter_cosine(v, wi, mode));
+    return s;
+}
+
+struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
+                              int t)
+{
+    const struct light_set *lights = &scene->lights;
+    rgb Le;
+    double pdf_emit; /* density of the light sub-path's direction (or origin, at infinity) from here */
+    if (z->kind == VERTEX_ESCAPED) {
+        Le = light_Le_environment(lights, neg(z->wo));
+        pdf_emit = 1 / (PI * sqr(lights->radius));
+    } else if (z->kind == VERTEX_SURFACE && z->light >= 0) {
+        struct light_point at = vertex_light_point(z);
+        Le = light_Le(lights, &at, z->wo);
+        pdf_emit = light_pdf_emission(lights, &at, z->wo);
+    } else {
+        return nothing();
+    }
+    struct connection c = nothing();
+    c.value = rgb_mul(z->beta, Le);
+    if (rgb_is_black(c.value))
+        return nothing();
+    if (t == 2) {
+        c.weight = 1;
+        return c;
+    }
+    /* The strategy one shorter on the eye side is s = 1, so c_e is its count, whatever the vertex would have as a
+     * surface. */
+    const struct vertex *previous = z - 1;
+    double before = z->prev_delta ? 0
+                                  : mis_direct_count(counts, lights, previous->p, previous->ng, z->cell, neg(z->wo));
+    double eye = mis_side(counts, z->pdf_origin, z->pdf_fwd, before, pdf_emit, z->mis);
+    c.weight = mis_weight(counts, counts->hit, 0, eye);
+    return c;
+}
+
+struct connection connect_direct(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
+                                 struct sampler *sampler, int *cell_out)
+{
+    double u[3];
+    sampler_next3(sampler, u);
+    const struct light_set *lights = &scene->lights;
+    if (cell_out != NULL)
+        *cell_out = -1;
+    if (!vertex_connectible(z) || lights->choice.n == 0)
+        return nothing();
+    struct light_point at;
+    const struct alias_table *choice = guide_table(counts->guide, lights, z->p, z->ng);
+    double pmf;
+    int cell = alias_sample(choice, u[0], &pmf, NULL);
+    if (cell_out != NULL)
+        *cell_out = cell;
+    if (!light_sample_cell(lights, &scene->geo, cell, u[1], u[2], &at) || !(at.pdf > 0))
+        return nothing();
+    bool parallel = light_at_infinity(&lights->light[at.light]);
+    bool area = lights->light[at.light].kind == LIGHT_AREA;
+    vec3 d = parallel ? at.w : sub(at.p, z->p);
+    double d2 = length2(d);
+    if (!(d2 > 0) || !bsdf_may_scatter(&z->bsdf, z->wo, d))
+        return nothing();
+    vec3 w = mul(d, 1 / sqrt(d2));
+
+    rgb Le = light_Le(lights, &at, neg(w));
+    if (rgb_is_black(Le))
+        return nothing();
+    struct scatter at_z = scatter_towards(z, w, RADIANCE);
+    double spread = parallel ? 1 : 1 / d2;
+    double at_light = area ? abs_dot(at.n, w) * spread : spread; /* area or solid angle at y_0 per steradian at z */
+    struct connection c = nothing();
+    c.value = rgb_mul(rgb_mul(z->beta, at_z.factor), rgb_scale(Le, at_light / (pmf * at.pdf_cell)));
+    if (rgb_is_black(c.value))
+        return nothing();
+    if (parallel ? !scene_visible_ray(scene, z->p, z->flat, w) : !scene_visible(scene, z->p, z->flat, at.p, at.flat))
+        return nothing();
+
+    struct vertex y;
+    vertex_light_end(scene, counts, &at, &y);
+    double light = mis_side(counts, at_z.pdf * at_light, y.pdf_fwd, y.mis_c, 0, 0);
+    double pdf_z = light_pdf_emission(lights, &at, neg(w)) * abs_dot(z->ng, w) * spread;
+    double eye = mis_side(counts, pdf_z, z->pdf_fwd, z->mis_c, at_z.pdf_rev, z->mis);
+    double count = counts->direct * guide_ratio(lights, choice, cell, at.w);
+    c.weight = mis_weight(counts, count, light, eye);
+    return c;
+}
+
+struct connection connect_pair(const struct scene *scene, const struct mis_counts *counts, const struct vertex *y,
+                               const struct vertex *z)
+{
+    vec3 d = sub(y->p, z->p);
+    double d2 = length2(d);
+    if (!vertex_connectible(y) || !vertex_connectible(z) || !(d2 > 0))
+        return nothing();
+    if (!bsdf_may_scatter(&z->bsdf, z->wo, d) || !bsdf_may_scatter(&y->bsdf, y->wo, neg(d)))
+        return nothing();
+    vec3 w = mul(d, 1 / sqrt(d2));
+    struct scatter at_z = scatter_towards(z, w, RADIANCE);
+    if (rgb_is_black(at_z.factor))
+        return nothing();
+    struct scatter at_y = scatter_towards(y, neg(w), IMPORTANCE);
+    struct connection c = nothing();
+    c.value = rgb_mul(rgb_mul(y->beta, at_y.factor), rgb_scale(rgb_mul(z->beta, at_z.factor), 1 / d2));
+    if (rgb_is_black(c.value) || !scene_visible(scene, z->p, z->flat, y->p, y->flat))
+        return nothing();
+
+    double light = mis_side(counts, at_z.pdf * abs_dot(y->ng, w) / d2, y->pdf_fwd, y->mis_c, at_y.pdf_rev, y->mis);
+    double eye = mis_side(counts, at_y.pdf * abs_dot(z->ng, w) / d2, z->pdf_fwd, z->mis_c, at_z.pdf_rev, z->mis);
+    c.weight = mis_weight(counts, y->count, light, eye);
+    return c;
+}
+
+struct connection connect_lens(const struct scene *scene, const struct mis_counts *counts, const struct vertex *y,
+                               struct sampler *sampler)
+{
+    double u1 = sampler_next(sampler), u2 = sampler_next(sampler);
+    if (!vertex_connectible(y))
+        return nothing();
+    vec3 lens = camera_sample_lens(&scene->camera, u1, u2);
+    vec3 d = sub(y->p, lens);
+    double d2 = length2(d);
+    if (!(d2 > 0) || !bsdf_may_scatter(&y->bsdf, y->wo, neg(d)))
+        return nothing();
+    vec3 w = mul(d, 1 / sqrt(d2));
+    struct connection c = nothing();
+    double J = camera_project(&scene->camera, lens, w, &c.px, &c.py);
+    const double rx = scene->filter.radius[0], ry = scene->filter.radius[1];
+    if (J == 0 || c.px < -rx || c.py < -ry || c.px > scene->width + rx || c.py > scene->height + ry)
+        return nothing();
+    struct scatter at_y = scatter_towards(y, neg(w), IMPORTANCE);
+    /* We cos / (lens density) = J, see camera.h. */
+    c.value = rgb_mul(y->beta, rgb_scale(at_y.factor, J / d2));
+    if (rgb_is_black(c.value) || !scene_visible(scene, lens, 0, y->p, y->flat))
+        return nothing();
+    double light = mis_side(counts, J * abs_dot(y->ng, w) / d2, y->pdf_fwd, y->mis_c, at_y.pdf_rev, y->mis);
+    c.weight = mis_weight(counts, counts->splat, light, 0);
+    return c;
+}

@@ -1,0 +1,45 @@
+/* connect.h: the contribution of one strategy (s,t): a light sub-path of s vertices joined to an eye sub-path of t.
+ *
+ *   s = 0           the eye sub-path's last vertex is itself on a light        connect_hit
+ *   s = 1, t >= 2   joined to a fresh point on a light                         connect_direct
+ *   s >= 2, t >= 2  two surface vertices joined                                connect_pair
+ *   s >= 2, t = 1   joined to a fresh point on the lens                        connect_lens
+ *
+ * A connection's value is the unweighted contribution C* of [V97 10.1.2]: throughputs, both BSDFs, geometry factor
+ * and visibility, for *one* sample of its strategy; the weight is its share in the heuristic (mis.h).
+ *
+ * Used by: gather. Tests: test_mis.c.
+ */
+#ifndef ASBDPT_CONNECT_H
+#define ASBDPT_CONNECT_H
+
+#include "transport/mis.h"
+#include "transport/path.h"
+#include "base/rgb.h"
+
+struct connection {
+    rgb value;      /* W/(sr m^2), a pixel's radiance; black if the vertices cannot see each other */
+    double weight;  /* [0,1]; meaningless when value is black */
+    double px, py;  /* connect_lens: the raster point it arrives at */
+};
+
+/* connect_hit: z = &eye[t-1], the last of t >= 2 vertices of an array that holds the others before it. A light seen directly (t = 2) has weight 1: no other
+ * strategy is used for paths of two vertices. */
+struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
+                              int t);
+
+/* connect_direct: z is an eye vertex, t >= 2; the light point is drawn from `sampler` (three numbers).
+ *   cell  out, may be NULL: the light cell it was drawn from, -1 if none was */
+struct connection connect_direct(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
+                                 struct sampler *sampler, int *cell);
+
+/* connect_pair: y is a light vertex (s >= 2), z an eye vertex (t >= 2). */
+struct connection connect_pair(const struct scene *scene, const struct mis_counts *counts, const struct vertex *y,
+                               const struct vertex *z);
+
+/* connect_lens: y is a light vertex (s >= 2); the lens point is drawn from `sampler` (two numbers). The value is for
+ * the whole frame: tile_add_splat gives each pixel its part, and the caller divides by counts->splat. */
+struct connection connect_lens(const struct scene *scene, const struct mis_counts *counts, const struct vertex *y,
+                               struct sampler *sampler);
+
+#endif

@@ -1,0 +1,101 @@
+/* mis.h: multiple importance sampling weights of bidirectional path tracing in O(1) per connection.
+ *
+ * The problem. A path x_0 ... x_k (x_0 on a light, x_k on the lens) can be made by strategies (s,t), s + t = k + 1: its
+ * first s vertices come from a light sub-path, the rest from an eye sub-path. With p_s the density of strategy s times
+ * the number of samples it takes, the balance heuristic weighs it with w_s = p_s / sum_i p_i           [V97 9.2.2]
+ *
+ * Ratios. p_i and p_{i+1} differ in one vertex: x_i is sampled from the eye in p_i and from the light in p_{i+1}. So
+ *     p_i / p_s = (n_i / n_s) prod_{j=i}^{s-1} R_j / F_j        for i < s,                             [V97 10.2.1]
+ * where F_j is the density of x_j in its own (light) walk, R_j the density the other (eye) walk would have, both per
+ * area, and n_i the number of samples of strategy i (0 if it cannot make the path, because it would have to connect
+ * at a delta vertex). The eye side, i > s, is the same with the roles exchanged. The sum over one side obeys
+ *     A_e = R_e/F_e (c_e + A_{e-1}),   A_{-1} = 0,
+ * c_e being the n of the strategy whose sub-path of this side ends just *before* vertex e.
+ *
+ * Accumulation. When a walk arrives at vertex e, F_e is known but R_e and R_{e-1} depend on what e is connected to. All
+ * older terms are known, so a vertex stores
+ *     mis_e = g (c_{e-1} + A_{e-2}) / F_{e-1},   g: turns a density per steradian at e into one per area at e-1,
+ * and a connection to vertex e, with pdf_rev the density per steradian of continuing from e to e-1, needs only
+ *     A_e = R_e/F_e (c_e + pdf_rev mis_e).
+ * With A_{e-1} = pdf_rev mis_e the walk's own recursion is
+ *     mis_{e+1} = g (c_e + pdf_rev mis_e) / F_e,   c_e = 0 if the walk scattered at e by a delta lobe.
+ *
+ * Delta lobes have, instead of densities, coefficients of the same delta; they cancel in R/F as densities do (bsdf.h).
+ *
+ * Every method is described by its sample counts n; see struct mis_counts. The counts may vary from path to path as
+ * long as every strategy computes the same number for the same path.
+ *
+ * The power heuristic with exponent 2 squares every factor.                                           [V97 9.2.2]
+ *
+ * Used by: path (recursion), connect (weights). Tests: test_mis.c compares with all p_i computed one by one.
+ */
+#ifndef ASBDPT_MIS_H
+#define ASBDPT_MIS_H
+
+#include <stdbool.h>
+
+#include "transport/guide.h"
+#include "base/vec.h"
+
+/* How many samples each kind of strategy takes per pixel and iteration; 0: the method does not use it. A method may count
+ * a strategy for more than it takes: the weights still add up to 1. The balance heuristic goes by second moments, so a
+ * strategy whose samples are better spread than independent ones, and whose variance is therefore smaller, deserves
+ * it [Grittmann et al. 2019]. */
+struct mis_counts {
+    double hit;     /* s = 0, t >= 3: the eye walk finds a light. (t = 2, a light seen directly, has weight 1) */
+    double direct;  /* s = 1, t >= 2: connection to one fresh point on a light; times guide_ratio with a guide */
+    double connect; /* s >= 2, t >= 2: connection to a light sub-path's vertex */
+    double splat;   /* s >= 2, t = 1: light sub-paths connected to the lens: how many are traced per iteration */
+    /* If set, multiplies `connect` by a function of the light vertex that ends the light sub-path (design of
+     * `select = vertices`): it must depend on nothing but the surface point. */
+    double (*at)(const void *context, vec3 p, vec3 ng);
+    const void *at_context;
+    const struct guide *guide; /* how s = 1 chooses lights (guide.h); NULL: by power */
+    bool power; /* power heuristic instead of the balance heuristic */
+};
+
+/* mis_connect_count: n of strategies s >= 2, t >= 2 whose light sub-path ends at p, with normal ng. */
+static inline double mis_connect_count(const struct mis_counts *c, vec3 p, vec3 ng)
+{
+    return c->at == 0 || c->connect == 0 ? c->connect : c->connect * c->at(c->at_context, p, ng);
+}
+
+/* mis_direct_count: n of strategies s = 1, t >= 2 that join a surface point to the end point y0.
+ *   p, ng    the surface point and its unit geometric normal
+ *   cell, w  of y0, as guide_ratio takes them */
+static inline double mis_direct_count(const struct mis_counts *c, const struct light_set *lights, vec3 p, vec3 ng,
+                                      int cell, vec3 w)
+{
+    if (c->guide == 0 || c->direct == 0)
+        return c->direct;
+    return c->direct * guide_ratio(lights, guide_table(c->guide, lights, p, ng), cell, w);
+}
+
+/* mis_raise: the heuristic's power of a density or count. */
+static inline double mis_raise(const struct mis_counts *c, double x) { return c->power ? x * x : x; }
+
+/* mis_step: the recursion above, from vertex e to e+1.
+ *   c        c_e, or 0 after a delta lobe
+ *   pdf_rev  1/sr, continuing from e to e-1
+ *   mis, F   of vertex e
+ *   g        1/m^2 times cosine: measure conversion at e as seen from e+1 */
+static inline double mis_step(const struct mis_counts *m, double c, double pdf_rev, double mis, double F, double g)
+{
+    return mis_raise(m, g) * (mis_raise(m, c) + mis_raise(m, pdf_rev) * mis) / mis_raise(m, F);
+}
+
+/* mis_side: A_e, the sum over the strategies of one side, each relative to strategy s.
+ *   R        density of vertex e in the other walk, same measure as F */
+static inline double mis_side(const struct mis_counts *m, double R, double F, double c, double pdf_rev, double mis)
+{
+    return mis_raise(m, R) / mis_raise(m, F) * (mis_raise(m, c) + mis_raise(m, pdf_rev) * mis);
+}
+
+/* mis_weight: w_s from the two sides' sums and the strategy's own count n. */
+static inline double mis_weight(const struct mis_counts *m, double n, double light_side, double eye_side)
+{
+    double own = mis_raise(m, n);
+    return own / (own + light_side + eye_side);
+}
+
+#endif

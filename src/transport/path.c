@@ -1,0 +1,221 @@
+/* path.c: see path.h. */
+#include "transport/path.h"
+
+#include <string.h>
+
+struct light_point vertex_light_point(const struct vertex *v)
+{
+    struct light_point at = {v->light, v->cell, v->p, v->ng, v->wo, v->flat, 0, 0};
+    return at;
+}
+
+bool vertex_at_infinity(const struct scene *scene, const struct vertex *v)
+{
+    return v->kind == VERTEX_LIGHT && light_at_infinity(&scene->lights.light[v->light]);
+}
+
+double scatter_cosine(const struct vertex *v, vec3 wi, enum transport mode)
+{
+    vec3 ns = v->bsdf.shading.n;
+    if (mode == RADIANCE)
+        return abs_dot(wi, ns);
+    double wo_ng = abs_dot(v->wo, v->ng);
+    return wo_ng > 0 ? abs_dot(v->wo, ns) * abs_dot(wi, v->ng) / wo_ng : 0;
+}
+
+/* c_e of mis.h for the vertex just reached: samples of the strategy whose sub-path of this side ends at `prev`. On the
+ * light side that is a connection from prev; on the eye side one whose light sub-path ends here. */
+static double count_before(const struct walk *w, const struct vertex *v, const struct vertex *prev,
+                           enum transport mode)
+{
+    const struct mis_counts *m = w->counts;
+    if (v->prev_delta)
+        return 0;
+    if (mode == IMPORTANCE && prev->kind == VERTEX_LIGHT)
+        return mis_direct_count(m, &w->scene->lights, v->p, v->ng, prev->cell, prev->wo);
+    if (mode == IMPORTANCE)
+        return prev->count;
+    return prev->kind == VERTEX_LENS ? m->splat : v->count;
+}
+
+/* How the walk left its last vertex. */
+struct departure {
+    struct ray ray;
+    rgb beta;
+    double pdf;     /* of the direction, 1/sr; of a light at infinity: of the origin, 1/m^2 */
+    double pdf_rev; /* 1/sr, of going from that vertex to the one before it */
+    bool delta;
+};
+
+/* Density per area of the vertex at distance^2 d2, and the mis recursion; `prev` is where the walk came from. */
+static void measure(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
+                    double d2)
+{
+    bool parallel = vertex_at_infinity(w->scene, prev); /* rays of a light at infinity do not spread */
+    double spread = parallel ? 1 : 1 / d2;
+    double at_prev = parallel || prev->kind == VERTEX_LENS ? 1 : abs_dot(prev->ng, from->ray.d) * spread;
+    v->pdf_fwd = from->pdf * abs_dot(v->ng, from->ray.d) * spread;
+    v->mis = mis_step(w->counts, from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, at_prev);
+}
+
+/* The ray met nothing: if there are infinite lights, the eye sub-path ends on them. Density of the direction, and, to
+ * go on from there, parallel light through the scene's disk. */
+static bool escape(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from)
+{
+    if (!w->scene->lights.any_infinite)
+        return false;
+    memset(v, 0, sizeof *v);
+    v->kind = VERTEX_ESCAPED;
+    v->light = v->cell = -1;
+    v->prev_delta = from->delta;
+    v->wo = neg(from->ray.d);
+    v->beta = from->beta;
+    v->pdf_fwd = from->pdf;
+    v->pdf_origin = light_pdf_environment(&w->scene->lights, &w->scene->lights.choice, from->ray.d);
+    double at_prev = prev->kind == VERTEX_LENS ? 1 : abs_dot(prev->ng, from->ray.d);
+    v->mis = mis_step(w->counts, from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, at_prev);
+    return true;
+}
+
+/* Make the vertex where the ray met a surface. False if it is met edge-on. */
+static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
+                   const struct surface *at, enum transport mode)
+{
+    double d2 = length2(sub(at->p, from->ray.o));
+    if (dot(at->ng, from->ray.d) == 0 || d2 == 0)
+        return false;
+    v->kind = VERTEX_SURFACE;
+    v->prev_delta = from->delta;
+    v->light = at->light;
+    v->cell = at->light < 0 ? -1 : w->scene->lights.light[at->light].first_cell;
+    v->p = at->p;
+    v->ng = at->ng;
+    v->flat = at->flat;
+    v->wo = neg(from->ray.d);
+    v->beta = from->beta;
+    v->pdf_origin = mode == RADIANCE && at->light >= 0 ? light_pdf_surface(&w->scene->lights, &w->scene->geo, at) : 0;
+    measure(w, v, prev, from, d2);
+    v->count = mis_connect_count(w->counts, v->p, v->ng);
+    v->mis_c = count_before(w, v, prev, mode);
+    material_bsdf(w->scene->material, at->material, &w->scene->textures, at, w->arena, &v->bsdf);
+    return true;
+}
+
+/* Russian roulette: `kept` is the fraction of the walk's first throughput that is left. False if the walk ends. */
+static bool survives(const struct walk *w, double kept, rgb *beta)
+{
+    if (kept >= w->rr_threshold)
+        return true;
+    double q = sqrt(kept / w->rr_threshold);
+    *beta = rgb_scale(*beta, 1 / q);
+    return sampler_next(w->sampler) < q;
+}
+
+/* Leave the surface vertex by sampling its BSDF. False if the walk is absorbed. */
+static bool depart(const struct walk *w, const struct vertex *v, enum transport mode, struct departure *out)
+{
+    double u[3];
+    sampler_next3(w->sampler, u);
+    struct bsdf_sample s;
+    if (v->bsdf.n_lobes == 0 || !bsdf_sample(&v->bsdf, v->wo, u, mode, &s))
+        return false;
+    out->beta = rgb_mul(v->beta, rgb_scale(s.f, scatter_cosine(v, s.wi, mode) / s.pdf));
+    if (rgb_is_black(out->beta) || !rgb_is_finite(out->beta))
+        return false;
+    struct ray ray = {v->p, s.wi, w->scene->epsilon, INFINITY, v->flat, 0};
+    out->ray = ray;
+    out->pdf = s.pdf;
+    out->pdf_rev = s.pdf_rev;
+    out->delta = s.delta;
+    return true;
+}
+
+/* The random walk: path[0] is made, `from` says how it was left. Returns the number of vertices. */
+static int random_walk(const struct walk *w, struct departure from, struct vertex *path, int max_vertices,
+                       enum transport mode)
+{
+    int n = 1;
+    double first = rgb_max(from.beta);
+    while (n < max_vertices) {
+        struct surface at;
+        if (!scene_intersect(w->scene, &from.ray, &at)) {
+            if (mode == RADIANCE && escape(w, &path[n], &path[n - 1], &from))
+                n++;
+            break;
+        }
+        if (!arrive(w, &path[n], &path[n - 1], &from, &at, mode))
+            break;
+        n++;
+        if (n < max_vertices && !depart(w, &path[n - 1], mode, &from))
+            break;
+        if (n > 2 && n < max_vertices && !survives(w, rgb_max(from.beta) / first, &from.beta))
+            break;
+    }
+    return n;
+}
+
+int path_eye(const struct walk *w, double px, double py, struct vertex *path, int max_vertices)
+{
+    const struct camera *camera = &w->scene->camera;
+    double u1 = sampler_next(w->sampler), u2 = sampler_next(w->sampler);
+    struct departure from = {.ray = camera_ray(camera, px, py, u1, u2), .beta = rgb_grey(1)};
+    memset(&path[0], 0, sizeof path[0]);
+    path[0].kind = VERTEX_LENS;
+    path[0].light = path[0].cell = -1;
+    path[0].p = from.ray.o;
+    path[0].beta = rgb_grey(1);
+    path[0].pdf_fwd = 1; /* never enters a weight: no strategy samples the lens from the light */
+    /* Eye rays have density 1 per raster area, J per steradian; We J^-1 = 1, so beta stays 1 (camera.h). */
+    double x, y;
+    from.pdf = camera_project(camera, from.ray.o, from.ray.d, &x, &y);
+    return random_walk(w, from, path, max_vertices, RADIANCE);
+}
+
+int path_eye_pixel(const struct walk *w, int x, int y, struct vertex *path, int max_vertices,
+                   double *filter_weight)
+{
+    double u1 = sampler_next(w->sampler), u2 = sampler_next(w->sampler), dx, dy;
+    *filter_weight = filter_sample(&w->scene->filter, u1, u2, &dx, &dy);
+    return path_eye(w, x + 0.5 + dx, y + 0.5 + dy, path, max_vertices);
+}
+
+void vertex_light_end(const struct scene *scene, const struct mis_counts *counts, const struct light_point *at,
+                      struct vertex *out)
+{
+    const struct light *l = &scene->lights.light[at->light];
+    memset(out, 0, sizeof *out);
+    out->kind = VERTEX_LIGHT;
+    out->light = at->light;
+    out->cell = at->cell;
+    out->p = at->p;
+    out->ng = at->n;
+    out->flat = at->flat;
+    out->wo = at->w;
+    out->beta = rgb_grey(1 / at->pdf);
+    /* An escaping eye ray cannot tell infinite lights apart, so their densities are added up for the weight. */
+    out->pdf_fwd = scene->lights.several_infinite && l->kind == LIGHT_INFINITE
+                       ? light_pdf_environment(&scene->lights, &scene->lights.choice, at->w)
+                       : at->pdf;
+    out->mis_c = light_is_delta(l) ? 0 : counts->hit;
+}
+
+int path_light(const struct walk *w, struct vertex *path, int max_vertices)
+{
+    const struct light_set *lights = &w->scene->lights;
+    double u[3], direction[2];
+    sampler_next3(w->sampler, u);
+    direction[0] = sampler_next(w->sampler);
+    direction[1] = sampler_next(w->sampler);
+    struct light_point at;
+    if (max_vertices < 1 || !light_sample_point(lights, &w->scene->geo, u, &at))
+        return 0;
+    vertex_light_end(w->scene, w->counts, &at, &path[0]);
+    struct departure from = {.pdf = 0};
+    rgb emitted = light_sample_emission(lights, &at, direction, &from.ray, &from.pdf);
+    if (!(from.pdf > 0) || rgb_is_black(emitted))
+        return 0;
+    path[0].beta = light_Le(lights, &at, from.ray.d); /* not a throughput: nothing connects to this y_0 */
+    from.beta = rgb_scale(emitted, 1 / (at.pdf * from.pdf));
+    from.ray.tmin = w->scene->epsilon;
+    return random_walk(w, from, path, max_vertices, IMPORTANCE);
+}
