@@ -27,10 +27,8 @@ struct arguments {
 
 static bool resolution_of(const char *text, struct arguments *a)
 {
-    int n = 0;
-    bool both = sscanf(text, "%dx%d%n", &a->width, &a->height, &n) == 2 && text[n] == '\0';
-    bool width = !both && (a->height = 0, sscanf(text, "%d%n", &a->width, &n) == 1) && text[n] == '\0';
-    if ((both || width) && a->width >= 1 && a->width <= 8192 && a->height >= (both ? 1 : 0) && a->height <= 8192)
+    a->height = 0;
+    if (size_option(text, 8192, &a->width, &a->height) > 0)
         return true;
     return usage_error("--res %s: expected WIDTHxHEIGHT or WIDTH, each from 1 to 8192", text) == EXIT_OK;
 }

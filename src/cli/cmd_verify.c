@@ -11,6 +11,7 @@
 #include "base/mem.h"
 #include "base/progress.h"
 #include "base/rng.h"
+#include "base/number.h"
 #include "lab/verify.h"
 
 enum {
@@ -39,9 +40,11 @@ struct verify_options {
 static bool number_of(const char *option, const char *text, double low, double high, double *out)
 {
     char *end;
-    *out = strtod(text, &end);
-    if (end != text && *end == '\0' && *out >= low && *out <= high)
+    double x = strtod(text, &end);
+    if (end != text && *end == '\0' && x >= low && x <= high) {
+        *out = x;
         return true;
+    }
     usage_error("%s %s: expected a number from %g to %g", option, text, low, high);
     return false;
 }
@@ -205,6 +208,7 @@ static bool render_one(const struct scene *scene, const struct method *m, const 
     struct film film;
     film_init(&film, render_crop(scene), scene->width, scene->height);
     bool ok = render_scene(scene, &options, &film, err);
+    film_warn(&film, 0);
     for (long i = 0; ok && out != NULL && i < 3L * rect_width(film.rect) * rect_height(film.rect); i++)
         out[i] = (film.own[i] + film.splat[i]) / (double)film.iterations * scene->film_scale;
     film_free(&film);
@@ -257,6 +261,7 @@ static void choose_resolution(struct scene *scene, const struct verify_options *
         scene->width = size->width;
         scene->height = size->height;
     } else if (o->job.width == 0) {
+        /* A film has at most 65536 pixels a side, so aspect is 1/256 to 256. */
         scene->width = (int)fmax(1, sqrt(PIXELS) * aspect + 0.5);
         scene->height = (int)fmax(1, sqrt(PIXELS) / aspect + 0.5);
     }
@@ -402,10 +407,10 @@ static bool store(const struct verify_options *o, const struct verdict *v, const
     for (int i = 0; i < 4; i++)
         part[i] = mem_alloc(n, sizeof *part[i]);
     double variance_a = mean_image(&a->pixels, part[0], part[1]), variance_b = mean_image(&b->pixels, part[2], part[3]);
-    double weight = variance_b / (variance_a + variance_b);
+    double both = variance_a + variance_b, weight = both > 0 ? variance_b / both : 0.5;
     for (size_t i = 0; i < n; i++) {
-        mean[i] = (float)(weight * part[0][i] + (1 - weight) * part[2][i]);
-        error[i] = (float)sqrt(weight * weight * part[1][i] + (1 - weight) * (1 - weight) * part[3][i]);
+        mean[i] = float_within(weight * part[0][i] + (1 - weight) * part[2][i]);
+        error[i] = float_within(sqrt(weight * weight * part[1][i] + (1 - weight) * (1 - weight) * part[3][i]));
     }
     char path[4096];
     snprintf(path, sizeof path, "%s.pfm", o->store);

@@ -31,6 +31,10 @@ int usage_error(const char *format, ...);
 /* integer_option: the whole number that `text`, the value of `option`, is; a usage error outside [low, high]. */
 bool integer_option(const char *option, const char *text, long low, long high, long *out);
 
+/* size_option: "WIDTHxHEIGHT" or "WIDTH", each from 1 to `high`. Returns how many numbers there are; 0: it is neither.
+ * *height is left alone where it is not given. */
+int size_option(const char *text, int high, int *width, int *height);
+
 /* The options that render, trace and info share. */
 struct job_options {
     const char *scene_path;

@@ -1,4 +1,6 @@
 /* job_options.c: the options that the subcommands which load a scene share; see command.h. */
+#include <ctype.h>
+#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -40,6 +42,32 @@ bool integer_option(const char *option, const char *text, long low, long high, l
     return true;
 }
 
+/* The whole number at the head of *text, which is moved behind it; 0 if there is none from 1 to `high`. */
+static int count_at(const char **text, int high)
+{
+    char *end;
+    if (!isdigit((unsigned char)**text))
+        return 0;
+    long v = strtol(*text, &end, 10); /* what a long cannot hold becomes its largest */
+    *text = end;
+    return v <= high ? (int)v : 0;
+}
+
+int size_option(const char *text, int high, int *width, int *height)
+{
+    int w = count_at(&text, high);
+    if (w > 0 && *text == '\0') {
+        *width = w;
+        return 1;
+    }
+    int h = w > 0 && *text++ == 'x' ? count_at(&text, high) : 0;
+    if (h == 0 || *text != '\0')
+        return 0;
+    *width = w;
+    *height = h;
+    return 2;
+}
+
 /* --- reading the arguments --------------------------------------------------------------------------- */
 
 struct argument_list {
@@ -69,9 +97,11 @@ static bool seed_of(struct argument_list *a, uint64_t *out)
     if (text == NULL)
         return false;
     char *end;
-    *out = strtoull(text, &end, 10);
-    if (end == text || *end != '\0' || *text == '-') {
-        usage_error("--seed %s: expected a non-negative integer", text);
+    errno = 0;
+    unsigned long long v = strtoull(text, &end, 10);
+    *out = v;
+    if (!isdigit((unsigned char)text[0]) || *end != '\0' || errno != 0 || *out != v) {
+        usage_error("--seed %s: expected a whole number from 0 to 18446744073709551615", text);
         return false;
     }
     return true;
@@ -82,9 +112,7 @@ static bool resolution_of(struct argument_list *a, struct job_options *o)
     const char *text = value_of(a, "--res");
     if (text == NULL)
         return false;
-    char end;
-    if (sscanf(text, "%dx%d%c", &o->width, &o->height, &end) != 2 || o->width < 1 || o->height < 1 ||
-        o->width > 65536 || o->height > 65536) {
+    if (size_option(text, 65536, &o->width, &o->height) != 2) {
         usage_error("--res %s: expected WIDTHxHEIGHT, each from 1 to 65536", text);
         return false;
     }
