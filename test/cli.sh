@@ -57,8 +57,8 @@ for size in 4294967297x4 4x4294967300 18446744073709551617x4 10x0; do
     expect 2 '[-]-res .*: expected WIDTHxHEIGHT or WIDTH' "$program" experiment -o x --res $size
 done
 expect 2 'expected an integer from 1 to' "$program" render "$box" --spp 99999999999999999999
-expect 2 'expected an integer from 0 to' "$program" render "$box" --seed 12345678901234567890123
-expect 2 'expected an integer from 1 to 1024' "$program" render "$box" -j4294967297
+expect 2 'whole number from 0 to' "$program" render "$box" --seed 12345678901234567890123
+expect 2 'expected an integer from 1 to 1024' "$program" render "$box" -j99999999999999999999
 for number in nan inf 1e999 -1; do
     expect 2 'expected four numbers' "$program" render "$box" --cropwindow 0 $number 0 1
     expect 2 'expected a number from 1e-12 to 0.5' "$program" verify "$box" --alpha $number
@@ -67,6 +67,12 @@ expect 2 'expected an integer' "$program" bench "$box" --spp 1e3
 expect 2 'experiment needs a directory for its results' "$program" experiment --quick
 expect 2 'compare needs a picture of the same size' "$program" compare a.pfm
 expect 2 'verify' "$program" verify
+expect 2 'WIDTHxHEIGHT' "$program" render "$box" --res 4x4x4
+expect 2 'WIDTHxHEIGHT' "$program" experiment "$box" --res -4 -o e
+expect 2 'whole number from 0 to' "$program" render "$box" --seed -1
+expect 2 'whole number from 0 to' "$program" render "$box" --seed ' -1'
+expect 2 'expected an integer' "$program" verify "$box" --batches nan
+expect 2 'expected an integer' "$program" verify "$box" --tile 1e300
 expect 2 'window is empty' "$program" render "$box" --cropwindow 0.5 0.5 0 1
 expect 1 'unknown image format' "$program" render "$box" $small -o x.exr
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt
@@ -113,6 +119,25 @@ expect 1 'cut.ply' "$program" render ply.pbrt
 printf 'Integrator "\033[31mx" "string maxdepth" "\033[31m"\nWorldBegin\nWorldEnd\n' >escape.pbrt
 expect 0 'integrator "[?]\[31mx" does not exist here' "$program" info escape.pbrt
 check test -z "$(cat stdout.txt stderr.txt | tr -d '\n -~')"
+# What overflows on the way is said, and no picture holds anything but numbers.
+printf 'Film "image" "float scale" 1e20\nWorldBegin LightSource "infinite" "rgb L" [ 1e30 1 1e30 ]\nWorldEnd\n' >bright.pbrt
+expect 0 'warning: 512 pixel values were beyond' "$program" render bright.pbrt $small -o bright.pfm
+expect 0 '' "$program" compare bright.pfm bright.pfm --json
+check grep -q '"nonfinite": 0' stdout.txt
+cat >mirrors.pbrt <<'END'
+Camera "perspective" "float fov" 5
+WorldBegin
+LightSource "infinite" "rgb L" [ 1e30 1 1 ]
+Material "mirror" "rgb Kr" [ 1e6 1e6 1e6 ]
+Translate 0 0 3
+Shape "sphere"
+Translate 0 0 -6
+Shape "sphere"
+WorldEnd
+END
+expect 0 'warning: [0-9]+ contributions were not finite, or too large' "$program" render mirrors.pbrt $small -o mirrors.pfm
+expect 0 '' "$program" compare mirrors.pfm mirrors.pfm --json
+check grep -q '"nonfinite": 0' stdout.txt
 
 # Files: three formats from one run, the same bytes for any number of threads.
 expect 0 '' "$program" render "$box" $small -j 1 -o a.pfm -o a.ppm -o a.png

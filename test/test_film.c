@@ -1,4 +1,5 @@
 /* test_film.c: filters (normalisation, sampling against density), film sums and standard errors. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -138,6 +139,39 @@ static void test_errors(struct test *t)
     film_free(&film);
 }
 
+/* What no float holds is left out and counted, or cut and counted; a raster point that is no number covers nothing. */
+static void test_overflow(struct test *t)
+{
+    struct pixel_rect all = {0, 0, 4, 4};
+    struct filter f;
+    filter_default("gaussian", &f);
+    filter_prepare(&f);
+    struct tile tile;
+    struct film film;
+    memset(&tile, 0, sizeof tile);
+    film_init(&film, all, 4, 4);
+    tile_start(&tile, all, all, &f, false);
+    tile_add_own(&tile, 0, 0, rgb_grey(1e39));
+    tile_add_own(&tile, 1, 0, rgb_grey(NAN));
+    tile_add_splat(&tile, 2, 2, rgb_grey(-1e39));
+    CHECK(t, tile.nonfinite == 3 && tile.n_splats == 0, "%ld of 3 contributions were left out", tile.nonfinite);
+    tile_add_splat(&tile, NAN, 2, rgb_grey(1));
+    tile_add_splat(&tile, 2, INFINITY, rgb_grey(1));
+    CHECK(t, tile.n_splats == 0, "a splat that is nowhere fell on %d pixels", (int)tile.n_splats);
+    tile_add_own(&tile, 2, 0, rgb_make(3e38, 1, -3e38));
+    film_merge_tile(&film, &tile);
+    film.iterations = 1;
+    float pixels[4 * 4 * 3], errors[4 * 4 * 3];
+    CHECK(t, film_develop(&film, 1, pixels) == 0 && film.nonfinite == 3, "nothing to cut");
+    CHECK(t, film_develop(&film, 10, pixels) == 2, "two values to cut");
+    CHECK(t, pixels[6] == FLT_MAX && pixels[7] == 10 && pixels[8] == -FLT_MAX, "cut to %g", (double)pixels[6]);
+    film.iterations = 2;
+    film_standard_error(&film, 10, errors);
+    CHECK(t, isfinite(errors[6]) && errors[6] > 1e38f, "the error of a huge value is %g", (double)errors[6]);
+    tile_free(&tile);
+    film_free(&film);
+}
+
 static void test_strategy_numbers(struct test *t)
 {
     int next = 0;
@@ -153,5 +187,6 @@ void test_film(struct test *t)
     test_filters(t);
     test_splats(t);
     test_errors(t);
+    test_overflow(t);
     test_strategy_numbers(t);
 }

@@ -169,7 +169,7 @@ static void add_quadrics(struct geometry *geo, struct rng *r, int n)
                             0};
         if (q.kind == QUADRIC_DISK)
             q.zmin = q.zmax = 0.1;
-        shape_add_quadric(geo, q, plain_group(), false);
+        shape_add_quadric(geo, q, plain_group(), false, NULL);
     }
 }
 

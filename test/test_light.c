@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "base/rng.h"
 #include "base/stats.h"
+#include "base/warp.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -148,8 +149,40 @@ static void test_environment(struct test *t)
     scene_free(&scene);
 }
 
+/* A map with numbers that are none, and directions that are none: every answer is a number, every cell exists. */
+static void test_damaged_map(struct test *t)
+{
+    enum { W = 40, H = 20 };
+    static float pixels[W * H * 3];
+    static const float bad[4] = {NAN, INFINITY, -INFINITY, -3};
+    char path[256], text[512];
+    struct error err = {""};
+    for (int i = 0; i < W * H * 3; i++)
+        pixels[i] = i % 5 == 0 ? bad[i / 5 % 4] : 1;
+    snprintf(path, sizeof path, "%s/damaged.pfm", test_tmp(t));
+    if (!CHECK(t, image_write(path, W, H, pixels, &err), "%s", err.text))
+        return;
+    snprintf(text, sizeof text, "WorldBegin LightSource \"infinite\" \"string mapname\" \"%s\"\n"
+             "LightSource \"infinite\" \"rgb L\" [.3 .3 .3] WorldEnd\n", path);
+    struct scene scene;
+    if (!scene_from_text(t, text, &scene))
+        return;
+    struct direction_source s = {&scene.lights, NULL, &scene.geo, 0};
+    CHECK(t, scene.lights.choice.n == scene.lights.n_cells, "there is no table of choices");
+    check_directions(t, s, "damaged environment light");
+    for (int i = 0; i < 500; i++) {
+        rgb L = light_Le_environment(&scene.lights, warp_sphere((i + 0.5) / 500, i * 0.618 - floor(i * 0.618)));
+        CHECK(t, L.r >= 0.3 && L.g >= 0.3 && L.b >= 0.3 && rgb_is_finite(L), "light of (%g %g %g)", L.r, L.g, L.b);
+    }
+    const vec3 none[] = {vec(NAN, NAN, NAN), vec(0, 0, 0), vec(INFINITY, 0, -INFINITY), vec(0, 0, NAN)};
+    for (size_t i = 0; i < sizeof none / sizeof none[0]; i++)
+        light_pdf_environment(&scene.lights, &scene.lights.choice, none[i]); /* under sanitizers: stays in its tables */
+    scene_free(&scene);
+}
+
 void test_light(struct test *t)
 {
     test_emission(t);
     test_environment(t);
+    test_damaged_map(t);
 }

@@ -291,13 +291,32 @@ static void check_quadric_partials(struct test *t, const struct geometry *geo, i
     }
 }
 
+/* Bounds beyond what a box can hold are refused, by whatever they get there. */
+static void check_quadric_refused(struct test *t)
+{
+    struct quadric q[] = {{QUADRIC_DISK, transform_identity(), 2e38, 0, 0, 0, 2 * PI, 0},
+                          {QUADRIC_CYLINDER, transform_identity(), 1, 0, -1, 1e39, 2 * PI, 0},
+                          {QUADRIC_CYLINDER, transform_identity(), 1, 0, -1, 3e18, 2 * PI, 0},
+                          {QUADRIC_SPHERE, transform_translate(vec(0, 1e51, 0)), 1, 0, -1, 1, 2 * PI, 0},
+                          {QUADRIC_SPHERE, transform_scale(1, 1, 1e19), 1, 0, -1, 1, 2 * PI, 0},
+                          {QUADRIC_SPHERE, transform_translate(vec(NAN, 0, 0)), 1, 0, -1, 1, 2 * PI, 0}};
+    for (size_t i = 0; i < sizeof q / sizeof q[0]; i++) {
+        struct geometry geo = {0};
+        struct error err = {""};
+        CHECK(t, shape_add_quadric(&geo, q[i], group_of(0, -1), false, &err) == -1 && geo.n_quadrics == 0,
+              "quadric %d was taken", (int)i);
+        CHECK(t, strstr(err.text, "not a usable position") != NULL, "\"%s\"", err.text);
+        geometry_free(&geo);
+    }
+}
+
 /* Outwards, whatever the transform; ReverseOrientation inwards. */
 static void check_quadric_orientation(struct test *t)
 {
     for (int i = 0; i < 4; i++) {
         struct geometry geo = {0};
         struct quadric q = {QUADRIC_SPHERE, transform_scale(i & 1 ? -1 : 1, 1, 1), 1, 0, -1, 1, 2 * PI, 0};
-        shape_add_quadric(&geo, q, group_of(3, 9), i & 2);
+        shape_add_quadric(&geo, q, group_of(3, 9), i & 2, NULL);
         struct ray ray = {vec(0, 0, 5), vec(0, 0, -1), 0, HUGE_VAL, 0, 0};
         struct hit hit;
         struct surface at, sample;
@@ -393,9 +412,10 @@ void test_shape(struct test *t)
     check_degenerate_uv(t);
     check_triangle_orientation(t);
     check_mesh_refused(t);
+    check_quadric_refused(t);
     check_triangle_sampling(t, &r);
     for (int i = 0; i < N_QUADRICS; i++)
-        shape_add_quadric(&quadrics, quadric_number(i), group_of(0, -1), false);
+        shape_add_quadric(&quadrics, quadric_number(i), group_of(0, -1), false, NULL);
     for (int i = 0; i < N_QUADRICS; i++) {
         check_quadric_hits(t, &quadrics, i, &r);
         check_quadric_partials(t, &quadrics, i, &r);

@@ -209,6 +209,25 @@ static void test_decoding_order(struct test *t)
 }
 
 /* The mean of a picture larger than its grid of samples, and the mapping of an image map. */
+/* Numbers of a picture that are none become 0 and are counted; a look-up meets finite numbers only. */
+static void test_mending(struct test *t)
+{
+    static const float samples[6] = {1, NAN, -2, INFINITY, -INFINITY, 3};
+    struct image img;
+    picture_alloc_f32(&img, 2, 1, 3);
+    memcpy(img.f32, samples, sizeof samples);
+    image_mend(&img, false);
+    CHECK(t, img.replaced == 3 && img.f32[1] == 0 && img.f32[2] == -2 && img.f32[3] == 0 && img.f32[5] == 3,
+          "%ld numbers mended", img.replaced);
+    image_mend(&img, true);
+    CHECK(t, img.replaced == 4 && img.f32[2] == 0 && img.f32[0] == 1, "%ld with the negative one", img.replaced);
+    image_free(&img);
+    picture_alloc_u8(&img, 2, 1, 3);
+    image_mend(&img, true);
+    CHECK(t, img.replaced == 0, "bytes need no mending");
+    image_free(&img);
+}
+
 static void test_large_picture(struct test *t)
 {
     enum { W = 320, H = 130 };
@@ -240,5 +259,6 @@ void test_texture(struct test *t)
     test_lookup(t);
     test_decoding(t);
     test_decoding_order(t);
+    test_mending(t);
     test_large_picture(t);
 }

@@ -2,6 +2,7 @@
 #include "base/vec.h"
 
 #include "base/frame.h"
+#include "base/number.h"
 #include "base/rng.h"
 #include "base/transform.h"
 #include "base/warp.h"
@@ -157,6 +158,43 @@ static void check_transforms_random(struct test *t, struct rng *r)
     }
 }
 
+/* Every double becomes an index or a float, and those that are none are known. */
+static void check_conversions(struct test *t)
+{
+    static const struct {
+        double x;
+        int index; /* within [2, 9] */
+    } cases[] = {{NAN, 2}, {-INFINITY, 2}, {INFINITY, 9}, {-1e308, 2}, {1e308, 9},   {4294967296.0 * 65536, 9},
+                 {2, 2},   {1.999, 2},     {2.999, 2},    {3, 3},      {8.9999, 8},  {9, 9},
+                 {0, 2},   {5e-324, 2}};
+    for (int i = 0; i < (int)(sizeof cases / sizeof cases[0]); i++)
+        CHECK(t, int_within(cases[i].x, 2, 9) == cases[i].index, "%g becomes %d", cases[i].x, int_within(cases[i].x, 2, 9));
+    CHECK(t, float_within(NAN) == 0 && float_within(0.1) == 0.1f, "NaN or 0.1 as a float");
+    CHECK(t, float_within(1e39) == FLT_MAX && float_within(-INFINITY) == -FLT_MAX, "large numbers as floats");
+    CHECK(t, fits_float(FLT_MAX) && fits_float(-1) && !fits_float(3.5e38) && !fits_float(NAN), "what a float holds");
+}
+
+static void check_usable(struct test *t, struct rng *r)
+{
+    const double sheared[16] = {1, 0, 0, 0, 1e20, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    struct transform m = transform_scale(1e29, 1e-29, 1), far = transform_translate(vec(1e17, 0, 0));
+    CHECK(t, transform_is_usable(&m), "a scale of 1e29");
+    m = transform_compose(m, m);
+    CHECK(t, !transform_is_usable(&m), "a scale of 1e58");
+    m = transform_scale(1e-309, 1, 1);
+    CHECK(t, !transform_is_usable(&m), "an infinite inverse");
+    m = transform_rotate(30, vec(1e200, 0, 0));
+    CHECK(t, !transform_is_usable(&m), "an axis whose length is infinite");
+    if (CHECK(t, transform_from_matrix(sheared, &m), "a shear has an inverse")) {
+        struct transform twice = transform_compose(m, transform_compose(transform_rotate(90, vec(0, 0, 1)), m));
+        CHECK(t, transform_is_usable(&m) && !transform_is_usable(&twice), "shears that cancel each other's digits");
+    }
+    for (int i = 0; i < 200; i++) {
+        m = transform_compose(far, random_affine(r));
+        CHECK(t, transform_is_usable(&m), "an ordinary transform, far away");
+    }
+}
+
 void test_vec(struct test *t)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 100, 0);
@@ -166,4 +204,6 @@ void test_vec(struct test *t)
     check_transforms_known(t);
     check_matrices(t);
     check_transforms_random(t, &r);
+    check_conversions(t);
+    check_usable(t, &r);
 }

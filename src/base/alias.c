@@ -129,7 +129,7 @@ int alias_sample_bin(const struct alias_table *t, int bin, double u, double *pmf
 int alias_sample(const struct alias_table *t, double u, double *pmf, double *u_out)
 {
     double x = u * t->n;
-    int bin = (int)x;
+    int bin = (int)x; /* u is in [0,1) */
     if (bin >= t->n) /* u close to 1 and n no power of two: the product may round up */
         bin = t->n - 1;
     return alias_sample_bin(t, bin, below_one(x - bin), pmf, u_out);

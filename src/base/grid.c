@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/number.h"
 #include "base/rng.h"
 
 void grid_init(struct grid *g, vec3 center, double radius, int cells)
@@ -30,9 +31,10 @@ void grid_copy(struct grid *to, const struct grid *from)
 
 uint64_t grid_key(const struct grid *g, vec3 p, int face)
 {
-    const double top = 1048575; /* 20 bits per axis */
+    const int top = 1048575; /* 20 bits per axis */
     vec3 c = mul(sub(p, g->origin), g->per_metre);
-    uint64_t x = (uint64_t)clamp(c.x, 0, top), y = (uint64_t)clamp(c.y, 0, top), z = (uint64_t)clamp(c.z, 0, top);
+    uint64_t x = (uint64_t)int_within(c.x, 0, top), y = (uint64_t)int_within(c.y, 0, top);
+    uint64_t z = (uint64_t)int_within(c.z, 0, top);
     return ((x << 43) | (y << 23) | (z << 3) | (uint64_t)face) + 1;
 }
 

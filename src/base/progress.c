@@ -21,6 +21,7 @@ void progress_start(struct progress *p, bool quiet)
     p->last = p->start;
 }
 
+/* `done` is a count over a count, 0 to 1. */
 bool progress_update(void *progress, double done)
 {
     enum { WIDTH = 40 };

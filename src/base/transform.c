@@ -1,7 +1,10 @@
 /* transform.c: see transform.h. Matrices multiply column vectors, as in [PBRT3 2.7]. */
 #include "base/transform.h"
 
+#include <float.h>
 #include <string.h>
+
+#include "base/number.h"
 
 struct transform transform_identity(void)
 {
@@ -74,6 +77,20 @@ static bool invert(const double m[4][4], double inv[4][4])
         }
     }
     return is_inverse(m, inv);
+}
+
+bool transform_is_usable(const struct transform *t)
+{
+    double product[4][4];
+    multiply((const double(*)[4])t->m, (const double(*)[4])t->inv, product);
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) {
+            double limit = j < 3 ? NUMBER_MAX : DBL_MAX;
+            bool exact = j == 3 || fabs(product[i][j] - (i == j)) <= 1e-3;
+            if (!(fabs(t->m[i][j]) <= limit && fabs(t->inv[i][j]) <= limit && exact))
+                return false;
+        }
+    return true;
 }
 
 bool transform_from_matrix(const double columns[16], struct transform *out)

@@ -47,6 +47,11 @@ vec3 transform_normal(const struct transform *t, vec3 n);
 /* transform_determinant: of the upper left 3x3 part. */
 double transform_determinant(const struct transform *t);
 
+/* transform_is_usable: are all numbers finite, those that directions meet at most NUMBER_MAX, and is `inv` the inverse in
+ * fact and not only in name? Then a direction stays a direction, both ways. Where points come to lie, whoever places
+ * them has to look at (is_place). */
+bool transform_is_usable(const struct transform *t);
+
 /* transform_swaps_handedness: true where that determinant is negative. */
 bool transform_swaps_handedness(const struct transform *t);
 

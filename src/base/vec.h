@@ -53,6 +53,14 @@ static inline vec3 normalize(vec3 a)
 /* faceforward: n or -n, whichever lies on the side of v. */
 static inline vec3 faceforward(vec3 n, vec3 v) { return dot(n, v) < 0 ? neg(n) : n; }
 
+/* is_place: can something of the scene be at p? Coordinates beyond 1e18 could overflow float arithmetic such as a box's
+ * extent. */
+static inline bool is_place(vec3 p)
+{
+    const double limit = 1e18;
+    return fabs(p.x) <= limit && fabs(p.y) <= limit && fabs(p.z) <= limit;
+}
+
 static inline bool is_finite3(vec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
 
 static inline double clamp(double x, double low, double high) { return x < low ? low : x > high ? high : x; }

@@ -175,7 +175,7 @@ static bool measure_renders(const struct scene *s, const struct bench_options *o
 
 /* --- one scene ---------------------------------------------------------------------------------------- */
 
-/* Same framing, about FRAME^2 pixels. */
+/* Same framing, about FRAME^2 pixels; at most 65536 FRAME a side. */
 static void shrink_film(struct scene *s)
 {
     double scale = FRAME / sqrt((double)s->width * s->height);

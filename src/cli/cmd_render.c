@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include "base/mem.h"
+#include "base/number.h"
 #include "base/progress.h"
 #include "cli/command.h"
 #include "cli/job_options.h"
@@ -43,7 +44,8 @@ static bool write_outputs(const struct job_options *o, const struct scene *scene
 {
     int width = rect_width(film->rect), height = rect_height(film->rect);
     float *pixels = mem_alloc((size_t)width * (size_t)height * 3, sizeof *pixels);
-    film_develop(film, scene->film_scale, pixels);
+    long cut = film_develop(film, scene->film_scale, pixels);
+    film_warn(film, cut);
     bool ok = true;
     for (int i = 0; i < o->output.n; i++) /* a failing file does not keep the others from being written */
         ok = image_write(o->output.item[i], width, height, pixels, ok ? err : NULL) && ok;
@@ -72,7 +74,7 @@ static bool write_strategies(const char *directory, const struct film *film, str
                 const double *sum = weighted ? film->strategies->weighted : film->strategies->unweighted;
                 sum += n * (size_t)strategy_index(s, t);
                 for (size_t i = 0; i < n; i++)
-                    pixels[i] = (float)(sum[i] / (double)film->iterations);
+                    pixels[i] = float_within(sum[i] / (double)film->iterations);
                 snprintf(path, sizeof path, "%s/d%02d_s%02d_t%02d_%s.pfm", directory, depth, s, t,
                          weighted ? "weighted" : "unweighted");
                 ok = image_write(path, width, height, pixels, err);
@@ -85,8 +87,6 @@ static void report(const struct job_options *o, const struct method *m, const st
                    double cpu)
 {
     double paths = (double)film->iterations * rect_width(film->rect) * rect_height(film->rect);
-    if (film->nonfinite > 0)
-        fprintf(stderr, "asbdpt: warning: %ld contributions were not finite and were left out\n", film->nonfinite);
     if (!o->quiet)
         fprintf(stderr, "%s: %dx%d, %ld spp, %s; %.2f s, %.2f s of CPU, %.2f us per sample path\n", o->scene_path,
                 rect_width(film->rect), rect_height(film->rect), film->iterations, m->name, wall, cpu,

@@ -6,6 +6,7 @@
 
 #include "base/file.h"
 #include "base/mem.h"
+#include "base/number.h"
 #include "base/progress.h"
 #include "base/rng.h"
 #include "cli/command.h"
@@ -148,6 +149,7 @@ static bool render_one(const struct scene *scene, const struct method *m, const 
     struct film film;
     film_init(&film, render_crop(scene), scene->width, scene->height);
     bool ok = render_scene(scene, &options, &film, err);
+    film_warn(&film, 0);
     for (long i = 0; ok && out != NULL && i < 3L * rect_width(film.rect) * rect_height(film.rect); i++)
         out[i] = (film.own[i] + film.splat[i]) / (double)film.iterations * scene->film_scale;
     film_free(&film);
@@ -346,10 +348,10 @@ static bool store(const struct verify_options *o, const struct verdict *v, const
     for (int i = 0; i < 4; i++)
         part[i] = mem_alloc(n, sizeof *part[i]);
     double variance_a = mean_image(&a->pixels, part[0], part[1]), variance_b = mean_image(&b->pixels, part[2], part[3]);
-    double weight = variance_b / (variance_a + variance_b);
+    double both = variance_a + variance_b, weight = both > 0 ? variance_b / both : 0.5;
     for (size_t i = 0; i < n; i++) {
-        mean[i] = (float)(weight * part[0][i] + (1 - weight) * part[2][i]);
-        error[i] = (float)sqrt(weight * weight * part[1][i] + (1 - weight) * (1 - weight) * part[3][i]);
+        mean[i] = float_within(weight * part[0][i] + (1 - weight) * part[2][i]);
+        error[i] = float_within(sqrt(weight * weight * part[1][i] + (1 - weight) * (1 - weight) * part[3][i]));
     }
     char path[4096];
     snprintf(path, sizeof path, "%s.pfm", o->store);

@@ -121,7 +121,7 @@ static bool read_seed(struct reader *r, uint64_t *out)
     errno = 0;
     *out = strtoull(text, &end, 10);
     return (isdigit((unsigned char)*text) && *end == '\0' && errno == 0) ||
-           error_set(r->err, "%s %s: expected an integer from 0 to 18446744073709551615", r->option->name, text);
+           error_set(r->err, "%s %s: expected a whole number from 0 to 18446744073709551615", r->option->name, text);
 }
 
 static bool read_texts(struct reader *r, struct texts *texts)

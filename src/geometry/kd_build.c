@@ -235,6 +235,7 @@ void kd_build(struct kdtree *kd, const struct geometry *geo)
     b.kd = kd;
     if (n > 0) {
         start_items(&b, (size_t)n, &bounds);
+        /* n is 1 to 2^31, so this is 8 to KD_MAX_DEPTH. */
         b.max_depth = (int)fmin(KD_MAX_DEPTH, 8 + 2.0 * log2(n));
         kd->node = mem_grow(NULL, &b.node_capacity, 2, sizeof *kd->node);
         kd->n_nodes = 2;

@@ -73,6 +73,8 @@ static void find_bounds(struct axis *a, const struct kd_ref *ref, size_t n)
     a->scale = 0.999999f * (float)a->n_bins / (hi - lo); /* so that hi itself is in the last bin */
 }
 
+/* lo - a->lo is within [0, hi - lo], finite because shapes lie within 1e18 (shape.c), and scale is below 1e30: a bin's
+ * number is 0 to n_bins - 1. */
 static void fill_bins(struct axis *a, const struct kd_ref *ref, size_t n)
 {
     int k = a->number;

@@ -66,13 +66,6 @@ static void store3(float *v, size_t i, vec3 p)
     v[3 * i + 2] = (float)p.z;
 }
 
-/* Coordinates beyond this could overflow float arithmetic such as a box's extent. */
-static bool is_usable(vec3 p)
-{
-    const double limit = 1e18;
-    return fabs(p.x) <= limit && fabs(p.y) <= limit && fabs(p.z) <= limit;
-}
-
 static bool add_vertices(struct geometry *geo, const struct mesh *m, const struct transform *to_world, bool reverse,
                          struct error *err)
 {
@@ -80,7 +73,7 @@ static bool add_vertices(struct geometry *geo, const struct mesh *m, const struc
     reserve_vertices(geo, base + (size_t)m->n_vertices);
     for (size_t i = 0; i < (size_t)m->n_vertices; i++) {
         vec3 p = transform_point(to_world, load3(m->P, i));
-        if (!is_usable(p))
+        if (!is_place(p))
             return error_set(err, "vertex %lu of the mesh lies at (%g, %g, %g) in the world: not a usable position",
                              (unsigned long)i, p.x, p.y, p.z);
         vec3 n = m->N != NULL ? normalize(transform_normal(to_world, load3(m->N, i))) : vec(0, 0, 0);
@@ -117,9 +110,17 @@ int shape_add_mesh(struct geometry *geo, const struct mesh *m, const struct tran
     return add_group(geo, group);
 }
 
-int shape_add_quadric(struct geometry *geo, struct quadric q, struct shape_group group, bool reverse_orientation)
+int shape_add_quadric(struct geometry *geo, struct quadric q, struct shape_group group, bool reverse_orientation,
+                      struct error *err)
 {
+    vec3 lo, hi;
     quadric_normalise(&q);
+    quadric_bounds(&q, &lo, &hi);
+    if (!is_place(lo) || !is_place(hi)) {
+        error_set(err, "this shape reaches from (%g, %g, %g) to (%g, %g, %g) in the world: not a usable position", lo.x,
+                  lo.y, lo.z, hi.x, hi.y, hi.z);
+        return -1;
+    }
     q.group = geo->n_groups;
     group.first_prim = FIRST_QUADRIC + geo->n_quadrics;
     group.flip = reverse_orientation != transform_swaps_handedness(&q.to_world);

@@ -67,13 +67,14 @@ void mesh_free(struct mesh *m);
  *   group  material, alpha and light fields to use; first_prim, flip (from reverse_orientation), has_n and
  *          has_uv are filled in here
  * Degenerate triangles (zero area) are kept: they are never hit. Returns the group's number, or -1 with a
- * message when a world position is not finite or there would be more than 2^30 triangles. */
+ * message when a world position is no place (vec.h) or there would be more than 2^30 triangles. */
 int shape_add_mesh(struct geometry *geo, const struct mesh *m, const struct transform *to_world,
                    struct shape_group group, bool reverse_orientation, struct error *err);
 
 /* shape_add_quadric: append one quadric as a group of its own (q.group is filled in, the parameters are clamped
- * as pbrt does). Returns the group's number. */
-int shape_add_quadric(struct geometry *geo, struct quadric q, struct shape_group group, bool reverse_orientation);
+ * as pbrt does). Returns the group's number, or -1 with a message when its bounds are no places (vec.h). */
+int shape_add_quadric(struct geometry *geo, struct quadric q, struct shape_group group, bool reverse_orientation,
+                      struct error *err);
 
 void geometry_free(struct geometry *geo);
 

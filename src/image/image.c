@@ -2,6 +2,7 @@
 #include "image/image.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <string.h>
 #include <stdlib.h>
 
@@ -78,6 +79,16 @@ bool image_read(const char *path, struct image *out, struct error *err)
     bool ok = read_bytes(path, data, size, out, &reason);
     free(data);
     return ok || error_set(err, "%s: %s", path, reason.text);
+}
+
+void image_mend(struct image *img, bool negative_too)
+{
+    size_t n = img->f32 != NULL ? (size_t)img->width * (size_t)img->height * (size_t)img->channels : 0;
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(img->f32[i]) || (negative_too && img->f32[i] < 0)) {
+            img->f32[i] = 0;
+            img->replaced++;
+        }
 }
 
 bool image_writable(const char *path)

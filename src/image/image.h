@@ -27,6 +27,9 @@ bool image_read(const char *path, struct image *out, struct error *err);
  * message on an unknown extension or any I/O error (full disk), leaving no file behind. */
 bool image_write(const char *path, int width, int height, const float *pixels, struct error *err);
 
+/* image_mend: make samples that are NaN or infinite 0, and negative ones too if asked; `replaced` counts them. */
+void image_mend(struct image *img, bool negative_too);
+
 /* image_writable: does `path` end in an extension image_write knows? */
 bool image_writable(const char *path);
 

@@ -17,6 +17,7 @@ struct image {
     uint8_t *u8;       /* [height*width*channels], as stored in the file (usually sRGB encoded); owned */
     float *f32;        /* [height*width*channels]; PFM as stored; 16-bit files as value/65535; owned */
     bool linear;       /* true for PFM: values are linear light already */
+    long replaced;     /* samples that image_mend found and made 0 */
     float decode[256]; /* sRGB byte -> linear light, for whoever reads u8 */
 };
 

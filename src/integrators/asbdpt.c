@@ -8,6 +8,7 @@
 #include "integrators/prepass.h"
 #include "integrators/select.h"
 #include "transport/pixel_sample.h"
+#include "base/number.h"
 
 enum { MIN_GUIDED_CELLS = 4 }; /* with fewer there is nothing to choose among */
 
@@ -69,7 +70,7 @@ static double position_count(const void *context, vec3 p, vec3 ng)
  * which tracing the sub-paths costs more than connecting them, and 8, where shadow rays begin to dominate. */
 static int choose_connections(const struct importance *grid)
 {
-    return (int)clamp(1 / grid->useful + 0.5, 2, 8);
+    return int_within(1 / grid->useful + 0.5, 2, 8); /* `useful` of a scene in which nothing arrives is 0 */
 }
 
 /* Learn what the selection needs and set the sample counts accordingly. */

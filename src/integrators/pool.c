@@ -16,6 +16,7 @@
 #include "base/alias.h"
 #include "integrators/select.h"
 #include "transport/pixel_sample.h"
+#include "base/number.h"
 
 struct pool {
     struct light_pool paths;
@@ -52,8 +53,10 @@ static void build_table(struct pool *p, const struct selection *sel)
 {
     int K = p->paths.n;
     double sum = 0;
-    for (int k = 0; k < K; k++)
-        sum += p->q[k] = path_importance(sel, light_pool_path(&p->paths, k), p->paths.length[k]);
+    for (int k = 0; k < K; k++) {
+        double q = path_importance(sel, light_pool_path(&p->paths, k), p->paths.length[k]);
+        sum += p->q[k] = q >= 0 && fits_float(q) ? q : 0; /* what delta leaves to all is enough to choose it by */
+    }
     double delta = sum > 0 ? sel->delta : 1;
     for (int k = 0; k < K; k++)
         p->q[k] = (delta < 1 ? (1 - delta) * p->q[k] / sum : 0) + delta / K;
@@ -64,7 +67,7 @@ static void build_table(struct pool *p, const struct selection *sel)
 static void shuffle(struct pool *p, struct sampler *sampler)
 {
     for (int i = 0; i < p->paths.n; i++) {
-        int j = (int)(sampler_next(sampler) * (i + 1));
+        int j = (int)(sampler_next(sampler) * (i + 1)); /* a sample is below 1 by more than rounding can add */
         p->order[i] = p->order[j];
         p->order[j] = i;
     }

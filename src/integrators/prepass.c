@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "transport/connect.h"
+#include "base/number.h"
 #include "base/parallel.h"
 
 enum {
@@ -52,7 +53,7 @@ struct prepass {
 
 static void note(struct chunk *c, uint64_t key, int cell, double value)
 {
-    if (!(value > 0) || !isfinite(value))
+    if (!(value > 1e-290) || !fits_float(value)) /* sums of them, and their shares of sums, stay finite */
         return;
     struct found f = {key, cell, value};
     c->found = mem_grow(c->found, &c->capacity, c->n + 1, sizeof *c->found);

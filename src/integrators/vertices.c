@@ -20,6 +20,7 @@
 #include "base/alias.h"
 #include "integrators/select.h"
 #include "transport/pixel_sample.h"
+#include "base/number.h"
 
 struct vertices {
     struct light_pool pool;
@@ -28,6 +29,7 @@ struct vertices {
     double *q;                       /* [n], weights of the table; owned */
     size_t candidate_capacity, s_capacity, q_capacity;
     struct alias_table table;
+    long lost; /* vertices of the table that could not be given a weight */
 };
 
 static void *new_own(const void *selection)
@@ -47,6 +49,16 @@ static void free_own(void *own)
     free(v);
 }
 
+/* The weight of a vertex in the table. One that carries no usable amount of light is never drawn. */
+static double weight_of(struct vertices *v, const struct vertex *y)
+{
+    double q = rgb_luminance(y->beta) * y->count;
+    if (q >= 0 && fits_float(q))
+        return q;
+    v->lost++;
+    return 0;
+}
+
 /* The table over the pool's connectible vertices y_1, y_2 ... */
 static void build_table(struct vertices *v)
 {
@@ -61,7 +73,7 @@ static void build_table(struct vertices *v)
             v->q = mem_grow(v->q, &v->q_capacity, n + 1, sizeof *v->q);
             v->candidate[n] = &path[i];
             v->s[n] = i + 1;
-            v->q[n++] = rgb_luminance(path[i].beta) * path[i].count;
+            v->q[n++] = weight_of(v, &path[i]);
         }
     }
     alias_build(&v->table, v->q, (int)n);
@@ -114,7 +126,9 @@ static void render(const void *selection, const struct tile_pass *pass)
     struct vertices *v = pass->work->own;
     for (long i = pass->first; i < pass->end; i++) {
         light_pool_fill(&v->pool, pass, &sel->counts, sel->path_pixels, i);
+        v->lost = 0;
         build_table(v);
+        pass->tile->nonfinite += v->lost;
         int number = 0;
         for (int y = pass->rect.y0; y < pass->rect.y1; y++)
             for (int x = pass->rect.x0; x < pass->rect.x1; x++)

@@ -297,6 +297,7 @@ static bool load_scene(struct stage *s)
         return false;
     struct scene *scene = &s->scene;
     static const double whole[4] = {0, 1, 0, 1};
+    /* Widths of plans go up to 8192 and films up to 65536 a side: below 2^30. */
     int height = (int)(0.5 + (double)p->width * scene->height / scene->width);
     memcpy(scene->crop, whole, sizeof whole);
     scene->width = s->out->width = p->width;

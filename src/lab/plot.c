@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "lab/markup.h"
+#include "base/number.h"
 
 /* The picture's size and the frame of the data in it, in SVG units. */
 enum { WIDTH = 640, HEIGHT = 420, LEFT = 68, RIGHT = 624, TOP = 40, BOTTOM = 330 };
@@ -50,8 +51,8 @@ static int linear_ticks(const struct axis *a, double tick[], bool major[])
 static int log_ticks(const struct axis *a, double tick[], bool major[])
 {
     double decades = log10(a->high / a->low);
-    int n = 0, every = 1 + (int)(decades / 10);
-    for (int power = (int)floor(log10(a->low)); pow(10, power) <= a->high; power++)
+    int n = 0, every = 1 + int_within(decades / 10, 0, 100);
+    for (int power = int_within(floor(log10(a->low)), -324, 308); pow(10, power) <= a->high; power++)
         for (int digit = 1; digit <= 9; digit++) {
             double value = digit * pow(10, power);
             if (value < a->low || value > a->high || n >= PLOT_MAX_TICKS || (decades > 6 && digit != 1))

@@ -178,7 +178,7 @@ static bool render_half(const struct scene *scene, const struct render_options *
     film_init(&film, render_crop(scene), scene->width, scene->height);
     bool ok = render_scene(scene, &o, &film, err);
     if (ok) {
-        film_develop(&film, scene->film_scale, out);
+        film_warn(&film, film_develop(&film, scene->film_scale, out));
         *mean_error = picture_mean_error(&film);
     }
     film_free(&film);

@@ -34,7 +34,8 @@ void table_add(struct table *t, double value, const char *format, ...)
     va_end(args);
 }
 
-/* Digits after the point so that `unit` shows two digits; at least `low`. */
+/* The logarithm of a double is -324 to 308.
+ * Digits after the point so that `unit` shows two digits; at least `low`. */
 static int digits_for(double unit, int low)
 {
     int n = unit > 0 && isfinite(unit) ? 1 - (int)floor(log10(unit)) : 3;

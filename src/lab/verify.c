@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/number.h"
 #include "base/rng.h"
 #include "base/stats.h"
 #include "base/vec.h"
@@ -198,8 +199,7 @@ struct verdict verify_samples(const struct sample *a, const struct sample *b, ui
     long *where = mem_alloc((size_t)a->n, sizeof *where);
     v.n = all_p(a, b, p, where);
     for (long i = 0; i < v.n; i++) {
-        int bar = (int)(p[i] * VERIFY_BARS);
-        v.bar[bar < VERIFY_BARS ? bar : VERIFY_BARS - 1]++;
+        v.bar[int_within(p[i] * VERIFY_BARS, 0, VERIFY_BARS - 1)]++;
         if (p[i] < v.smallest) {
             v.smallest = p[i];
             v.where = where[i];

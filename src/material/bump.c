@@ -26,7 +26,7 @@ struct frame bump_frame(const struct texture_set *textures, int displacement, co
     vec3 dpdu = partial(at->dpdu, at->dndu, at->ns, d, displaced(textures, displacement, at, STEP, 0));
     vec3 dpdv = partial(at->dpdv, at->dndv, at->ns, d, displaced(textures, displacement, at, 0, STEP));
     vec3 n = normalize(cross(dpdu, dpdv));
-    if (!is_finite3(n) || length2(n) == 0)
+    if (!(fabs(length2(n) - 1) < 1e-6)) /* zero, NaN, or lost in under- or overflow */
         return frame_from_tangent(at->ns, at->dpdu);
     return frame_from_tangent(faceforward(n, at->ng), dpdu);
 }

@@ -21,9 +21,21 @@ enum { MAX_VISITS = 2 * MATERIAL_MAX_LOBES };
 
 /* --- parameters -------------------------------------------------------------------------------------- */
 
-static rgb clamped(rgb c) { return rgb_make(c.r > 0 ? c.r : 0, c.g > 0 ? c.g : 0, c.b > 0 ? c.b : 0); }
+/* NaN, which textures multiplied often enough can become, counts as 0. */
+static double cut(double x, double low, double high) { return x > low ? (x < high ? x : high) : low; }
+
+static rgb clamped(rgb c)
+{
+    return rgb_make(cut(c.r, 0, MATERIAL_MAX_COLOUR), cut(c.g, 0, MATERIAL_MAX_COLOUR), cut(c.b, 0, MATERIAL_MAX_COLOUR));
+}
+
 static rgb colour(const struct recipe *r, int texture) { return clamped(texture_rgb(r->textures, texture, r->at)); }
 static double number(const struct recipe *r, int texture) { return texture_float(r->textures, texture, r->at); }
+
+static double refraction(const struct recipe *r, const struct material *m)
+{
+    return cut(number(r, m->index), MATERIAL_MIN_INDEX, MATERIAL_MAX_INDEX);
+}
 
 /* The polynomial is pbrt's fit in x = ln(roughness). */
 double roughness_to_alpha(double roughness)
@@ -57,7 +69,8 @@ static struct lobe dielectric(struct lobe l, double eta_a, double eta_b)
 static struct lobe rough(const struct recipe *r, const struct material *m, struct lobe l)
 {
     const double least = 1e-3; /* below, facets are a mirror to any purpose and their density overflows squares */
-    double u = number(r, m->uroughness), v = number(r, m->vroughness);
+    double u = cut(number(r, m->uroughness), 0, MATERIAL_MAX_ROUGHNESS);
+    double v = cut(number(r, m->vroughness), 0, MATERIAL_MAX_ROUGHNESS);
     l.alpha_x = fmax(least, m->remap_roughness ? roughness_to_alpha(u) : u);
     l.alpha_y = fmax(least, m->remap_roughness ? roughness_to_alpha(v) : v);
     return l;
@@ -74,7 +87,7 @@ static void put(struct recipe *r, struct lobe l)
 
 static void put_matte(struct recipe *r, const struct material *m)
 {
-    double sigma = clamp(number(r, m->sigma), 0, 90) * (PI / 180), sigma2 = sigma * sigma;
+    double sigma = cut(number(r, m->sigma), 0, 90) * (PI / 180), sigma2 = sigma * sigma;
     struct lobe l = lobe_of(sigma == 0 ? LOBE_LAMBERT_REFLECTION : LOBE_OREN_NAYAR, colour(r, m->Kd), rgb_black());
     l.A = 1 - sigma2 / (2 * (sigma2 + 0.33));
     l.B = 0.45 * sigma2 / (sigma2 + 0.09);
@@ -84,7 +97,7 @@ static void put_matte(struct recipe *r, const struct material *m)
 static void put_glass(struct recipe *r, const struct material *m)
 {
     rgb R = colour(r, m->Kr), T = colour(r, m->Kt), none = rgb_black();
-    double eta = number(r, m->index);
+    double eta = refraction(r, m);
     bool smooth = number(r, m->uroughness) == 0 && number(r, m->vroughness) == 0;
     if (smooth || eta == 1) { /* where nothing refracts, facets do not scatter either, however rough */
         put(r, dielectric(lobe_of(LOBE_FRESNEL_SPECULAR, R, T), 1, eta));
@@ -98,8 +111,8 @@ static void put_metal(struct recipe *r, const struct material *m)
 {
     struct lobe l = rough(r, m, lobe_of(LOBE_MICROFACET_REFLECTION, rgb_grey(1), rgb_black()));
     l.fresnel = FRESNEL_CONDUCTOR;
-    l.eta = texture_rgb(r->textures, m->eta, r->at);
-    l.k = texture_rgb(r->textures, m->k, r->at);
+    l.eta = colour(r, m->eta);
+    l.k = colour(r, m->k);
     put(r, l);
 }
 
@@ -115,7 +128,7 @@ static void put_plastic(struct recipe *r, const struct material *m)
 static void put_uber(struct recipe *r, const struct material *m)
 {
     rgb opacity = colour(r, m->opacity), clear = clamped(rgb_sub(rgb_grey(1), opacity)), none = rgb_black();
-    double eta = number(r, m->index);
+    double eta = refraction(r, m);
     put(r, dielectric(lobe_of(LOBE_SPECULAR_TRANSMISSION, none, clear), 1, 1));
     put(r, lobe_of(LOBE_LAMBERT_REFLECTION, rgb_mul(opacity, colour(r, m->Kd)), none));
     rgb Ks = rgb_mul(opacity, colour(r, m->Ks));

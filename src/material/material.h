@@ -42,6 +42,12 @@ struct material {
 /* The most lobes a BSDF can have, counted over all branches of nested mixes. */
 enum { MATERIAL_MAX_LOBES = 16 };
 
+/* What parameters may be. The parser refuses what is the same everywhere and beyond; what textures vary is cut to it. */
+#define MATERIAL_MAX_COLOUR 1e6 /* reflectances, eta and k of metals */
+#define MATERIAL_MIN_INDEX 0.01
+#define MATERIAL_MAX_INDEX 100.0
+#define MATERIAL_MAX_ROUGHNESS 1e3
+
 /* material_fits: whether material `id` keeps to MATERIAL_MAX_LOBES. Always true but for mixes; the parser refuses
  * the others. Ends even if mixes contain each other. */
 bool material_fits(const struct material *materials, int id);

@@ -39,6 +39,7 @@ int texture_load_image(struct texture_set *set, const char *path, struct error *
     struct image img;
     if (!image_read(path, &img, err))
         return -1;
+    image_mend(&img, false);
     size_t need = (size_t)set->n_images + 1;
     set->image = mem_grow(set->image, &set->image_capacity, need, sizeof *set->image);
     set->image_path = mem_grow(set->image_path, &set->path_capacity, need, sizeof *set->image_path);
@@ -61,7 +62,7 @@ void texture_set_free(struct texture_set *set)
 
 /* --- pictures ---------------------------------------------------------------------------------------- */
 
-/* Column or row number `i`, a whole number of any size, after wrapping: 0 <= result < n, or -1 for black. */
+/* Column or row number `i`, a whole number of any size but finite, after wrapping: 0 <= result < n, or -1 for black. */
 static int wrap_index(double i, int n, enum texture_wrap wrap)
 {
     if (i >= 0 && i < n)

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "parser/suggest.h"
 
 /* One row per spelling; the first of a type is its name in messages. */
@@ -204,16 +205,28 @@ static struct param *find(struct params *p, const char *name, unsigned types)
     return found;
 }
 
-/* A parameter that must have exactly n values (0: any number, but at least one). */
+/* Whole numbers have ranges of their own, which params_int checks. */
+static bool numbers_usable(struct params *p, const struct param *item)
+{
+    for (int i = 0; !item->is_text && item->type != PARAM_INTEGER && i < item->n; i++) {
+        double number = p->number[item->first + (size_t)i];
+        if (!(fabs(number) <= NUMBER_MAX))
+            return params_fail(p, param_value_place(item, i), "%g is too large for \"%s\"; numbers go up to %g here",
+                               number, item->name, NUMBER_MAX);
+    }
+    return true;
+}
+
+/* A parameter that must have exactly n values (0: any number, but at least one), all of them usable. */
 static struct param *find_n(struct params *p, const char *name, unsigned types, int n)
 {
     struct param *item = find(p, name, types);
     if (item == NULL || p->failed)
         return NULL;
-    if (item->n == n || (n == 0 && item->n > 0))
-        return item;
-    params_fail(p, item->place, "parameter \"%s %s\" of %s \"%s\" wants %d value%s, not %d", type_name(item->type),
-                name, p->directive, p->type, n == 0 ? 1 : n, n > 1 ? "s" : "", item->n);
+    if (n == 0 ? item->n > 0 : item->n == n)
+        return numbers_usable(p, item) ? item : NULL;
+    params_fail(p, item->place, "parameter \"%s %s\" of %s \"%s\" wants %s%d value%s, not %d", type_name(item->type),
+                name, p->directive, p->type, n == 0 ? "at least " : "", n == 0 ? 1 : n, n > 1 ? "s" : "", item->n);
     return NULL;
 }
 
@@ -239,9 +252,10 @@ double params_positive(struct params *p, const char *name, double fallback)
     if (item == NULL)
         return fallback;
     double number = p->number[item->first];
-    if (number > 0)
+    if (number >= NUMBER_MIN)
         return number;
-    params_fail(p, param_value_place(item, 0), "\"%s\" is %g; it must be greater than 0", name, number);
+    params_fail(p, param_value_place(item, 0), "\"%s\" is %g; it must be greater than 0, and at least %g", name,
+                number, NUMBER_MIN);
     return fallback;
 }
 
@@ -254,6 +268,18 @@ double params_at_least(struct params *p, const char *name, double fallback, doub
     if (number >= low)
         return number;
     params_fail(p, param_value_place(item, 0), "\"%s\" is %g; it must be at least %g", name, number, low);
+    return fallback;
+}
+
+double params_range(struct params *p, const char *name, double fallback, double low, double high)
+{
+    const struct param *item = find_n(p, name, 1u << PARAM_FLOAT, 1);
+    if (item == NULL)
+        return fallback;
+    double number = p->number[item->first];
+    if (number >= low && number <= high)
+        return number;
+    params_fail(p, param_value_place(item, 0), "\"%s\" is %g; it must be from %g to %g", name, number, low, high);
     return fallback;
 }
 

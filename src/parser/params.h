@@ -82,7 +82,7 @@ const struct param *params_ignore(struct params *p, const char *name);
 /* params_has: is there a parameter of this name and of this type? Does not count as asking. */
 bool params_has(const struct params *p, const char *name, enum param_type type);
 
-/* One value, or the default. */
+/* One value, or the default. All questions refuse numbers beyond NUMBER_MAX (number.h). */
 double params_float(struct params *p, const char *name, double fallback);
 bool params_bool(struct params *p, const char *name, bool fallback);
 const char *params_string(struct params *p, const char *name, const char *fallback);
@@ -92,9 +92,11 @@ rgb params_rgb(struct params *p, const char *name, rgb fallback); /* rgb, xyz, b
 /* params_int: a whole number from low to high. */
 int params_int(struct params *p, const char *name, int fallback, int low, int high);
 
-/* params_positive: params_float that must be > 0. params_at_least: >= low. */
+/* params_positive: params_float that must be > 0, in fact at least NUMBER_MIN. params_at_least: >= low. params_range: from
+ * low to high. */
 double params_positive(struct params *p, const char *name, double fallback);
 double params_at_least(struct params *p, const char *name, double fallback, double low);
+double params_range(struct params *p, const char *name, double fallback, double low, double high);
 
 /* params_list: numbers of a parameter of one of the types in the mask (1u << PARAM_FLOAT | ...), in groups of
  * `group`; NULL if there is none.

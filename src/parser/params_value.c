@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "parser/spectrum.h"
 
 char *path_join(const char *directory, const char *name)
@@ -81,6 +82,12 @@ static rgb rgb_from_numbers(enum param_type type, double *x, int n)
     }
 }
 
+/* Numbers of a colour can be summed, and those of a file are not checked one by one, so what comes out is. */
+static bool colour_usable(rgb c)
+{
+    return fabs(c.r) <= NUMBER_MAX && fabs(c.g) <= NUMBER_MAX && fabs(c.b) <= NUMBER_MAX;
+}
+
 rgb params_rgb(struct params *p, const char *name, rgb fallback)
 {
     const unsigned types = 1u << PARAM_RGB | 1u << PARAM_XYZ | 1u << PARAM_BLACKBODY | 1u << PARAM_SPECTRUM;
@@ -89,18 +96,21 @@ rgb params_rgb(struct params *p, const char *name, rgb fallback)
     params_list(p, name, types, 1, &n, &item);
     if (item == NULL)
         return fallback;
-    if (item->is_text && item->n == 1)
-        return rgb_from_file(p, item);
+    rgb colour;
     int want = colour_numbers(item->type);
-    if (item->is_text || (want > 0 && item->n != want) || (want == 0 && item->n % 2 != 0)) {
+    if (item->is_text ? item->n != 1 : (want > 0 && item->n != want) || (want == 0 && item->n % 2 != 0)) {
         static const char *const WANTED[] = {"pairs of wavelength and value, or one file name", "",
                                              "two values, temperature and scale", "three values"};
         params_fail(p, item->place, "parameter \"%s\" wants %s, but there are %d", name, WANTED[want], item->n);
         return fallback;
     }
-    rgb colour = rgb_from_numbers(item->type, p->number + item->first, item->n);
-    if (rgb_is_finite(colour))
+    if (item->is_text)
+        colour = rgb_from_file(p, item);
+    else
+        colour = rgb_from_numbers(item->type, p->number + item->first, item->n);
+    if (colour_usable(colour))
         return colour;
-    params_fail(p, item->place, "parameter \"%s\" gives a colour that is not finite", name);
+    params_fail(p, item->place, "parameter \"%s\" gives the colour (%g %g %g); its numbers go up to %g here", name,
+                colour.r, colour.g, colour.b, NUMBER_MAX);
     return fallback;
 }

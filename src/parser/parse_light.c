@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
+
 /* "L" or "I" times "scale". */
 static rgb emitted(struct params *q, const char *name)
 {
@@ -11,6 +13,9 @@ static rgb emitted(struct params *q, const char *name)
     if (!rgb_is_finite(value) || rgb_luminance(value) < 0)
         params_fail(q, q->place, "this light's %s times its scale is (%g %g %g); a light must not take light away",
                     name, value.r, value.g, value.b);
+    if (!(rgb_max(value) <= NUMBER_MAX)) /* its green may be negative, but not the sum that luminance is */
+        params_fail(q, q->place, "this light's %s times its scale is (%g %g %g); light goes up to %g here", name, value.r,
+                    value.g, value.b, NUMBER_MAX);
     return value;
 }
 
@@ -63,6 +68,8 @@ static void spot_light(struct params *q, struct light *l)
         params_fail(q, q->place, "\"coneangle\" is %g degrees; the whole sphere is 180", cone);
     l->cos_total = cos(cone * PI / 180);
     l->cos_falloff = cos(fmax(cone - delta, 0) * PI / 180);
+    if (!(l->cos_total < 1))
+        params_fail(q, q->place, "\"coneangle\" is %g degrees: a cone without inside", cone);
     vec3 from = params_point(q, "from", vec(0, 0, 0)), to = params_point(q, "to", vec(0, 0, 1));
     l->position = transform_point(&l->to_world, from);
     l->axis = frame_from_normal(direction(q, l, from, to));
@@ -91,6 +98,9 @@ static void infinite_light(struct params *q, struct light *l)
         params_fail(q, at, "OpenEXR pictures are not read; convert it to PFM (magick map.exr map.pfm)");
     else if (!q->failed && !light_load_env(l, path, &inner))
         params_fail(q, at, "%s", inner.text);
+    else if (!q->failed && l->env->image.replaced > 0)
+        place_warn(q->messages, at, "environment", "%ld numbers of this picture are negative or not finite; 0 instead",
+                   l->env->image.replaced);
     free(path);
 }
 
@@ -108,8 +118,9 @@ bool parse_light(struct parser *p)
     case 4: infinite_light(q, &l); break;
     default: return false;
     }
-    if (!is_finite3(l.position))
-        params_fail(q, q->place, "the position of this light is not finite");
+    if (!is_place(l.position))
+        params_fail(q, q->place, "this light would stand at (%g %g %g); places go up to 1e18", l.position.x,
+                    l.position.y, l.position.z);
     light_add(&p->scene->lights, l); /* even where it failed: the scene releases its map */
     return params_done(q);
 }

@@ -35,18 +35,44 @@ static struct material no_parameters(enum material_kind kind)
     return m;
 }
 
-static int grey(struct parser *p, const char *name, double fallback)
+/* Refuse a texture that is the same everywhere and outside [low, high]. Returns it. */
+static int within(struct parser *p, const char *name, int texture, double low, double high)
 {
-    return parse_rgb_texture(p, name, rgb_grey(fallback));
+    const struct texture *t = texture < 0 ? NULL : &p->scene->textures.texture[texture];
+    if (t == NULL || t->kind != TEXTURE_CONSTANT || p->params.failed)
+        return texture;
+    const double value[3] = {t->u.constant.r, t->u.constant.g, t->u.constant.b};
+    for (int i = 0; i < 3; i++)
+        if (!(value[i] >= low && value[i] <= high)) {
+            const struct param *item = params_ignore(&p->params, name);
+            params_fail(&p->params, item != NULL ? item->place : p->params.place,
+                        "\"%s\" is %g; it must be from %g to %g", name, value[i], low, high);
+            break;
+        }
+    return texture;
+}
+
+/* Negative numbers of a colour count as 0: colours of the file that sRGB has not got have some. */
+static int coloured(struct parser *p, const char *name, rgb fallback)
+{
+    return within(p, name, parse_rgb_texture(p, name, fallback), -MATERIAL_MAX_COLOUR, MATERIAL_MAX_COLOUR);
+}
+
+static int grey(struct parser *p, const char *name, double fallback) { return coloured(p, name, rgb_grey(fallback)); }
+
+/* A roughness, or `otherwise` where the parameter is absent. */
+static int rough(struct parser *p, const char *name, int otherwise)
+{
+    return within(p, name, parse_float_texture_or(p, name, otherwise), 0, MATERIAL_MAX_ROUGHNESS);
 }
 
 /* "roughness" for both directions, unless one of them has its own. */
 static void roughness(struct parser *p, struct material *m, double fallback, bool anisotropic)
 {
-    m->uroughness = m->vroughness = parse_float_texture(p, "roughness", fallback);
+    m->uroughness = m->vroughness = rough(p, "roughness", parse_constant(p, rgb_grey(fallback)));
     if (anisotropic) {
-        m->uroughness = parse_float_texture_or(p, "uroughness", m->uroughness);
-        m->vroughness = parse_float_texture_or(p, "vroughness", m->vroughness);
+        m->uroughness = rough(p, "uroughness", m->uroughness);
+        m->vroughness = rough(p, "vroughness", m->vroughness);
     }
     m->remap_roughness = params_bool(&p->params, "remaproughness", true);
 }
@@ -54,8 +80,9 @@ static void roughness(struct parser *p, struct material *m, double fallback, boo
 /* Glass and substrate have only the two directions in pbrt-v3; it passes over "roughness" there, and so do we. */
 static void two_roughnesses(struct parser *p, struct material *m, double fallback)
 {
-    m->uroughness = parse_float_texture(p, "uroughness", fallback);
-    m->vroughness = parse_float_texture(p, "vroughness", fallback);
+    int smooth = parse_constant(p, rgb_grey(fallback));
+    m->uroughness = rough(p, "uroughness", smooth);
+    m->vroughness = rough(p, "vroughness", smooth);
     m->remap_roughness = params_bool(&p->params, "remaproughness", true);
     const struct param *both = params_ignore(&p->params, "roughness");
     if (both != NULL)
@@ -67,8 +94,9 @@ static void two_roughnesses(struct parser *p, struct material *m, double fallbac
 /* The index of refraction, "eta" or "index". */
 static int refraction(struct parser *p)
 {
-    int index = parse_float_texture(p, "index", 1.5);
-    return parse_float_texture_or(p, "eta", index);
+    int index = parse_float_texture(p, "index", 1.5), eta = parse_float_texture_or(p, "eta", -1);
+    within(p, "index", index, MATERIAL_MIN_INDEX, MATERIAL_MAX_INDEX);
+    return eta < 0 ? index : within(p, "eta", eta, MATERIAL_MIN_INDEX, MATERIAL_MAX_INDEX);
 }
 
 static int mixed(struct parser *p, const char *parameter)
@@ -107,8 +135,8 @@ static struct material make(struct parser *p, enum material_kind kind)
         two_roughnesses(p, &m, 0);
         break;
     case MATERIAL_METAL:
-        m.eta = parse_rgb_texture(p, "eta", COPPER_ETA);
-        m.k = parse_rgb_texture(p, "k", COPPER_K);
+        m.eta = coloured(p, "eta", COPPER_ETA);
+        m.k = coloured(p, "k", COPPER_K);
         roughness(p, &m, 0.01, true);
         break;
     case MATERIAL_PLASTIC:
@@ -129,7 +157,7 @@ static struct material make(struct parser *p, enum material_kind kind)
         m.index = refraction(p);
         m.opacity = grey(p, "opacity", 1);
         roughness(p, &m, 0.1, true);
-        m.vroughness = parse_float_texture_or(p, "vroughness", m.uroughness); /* pbrt's uber differs from its metal */
+        m.vroughness = rough(p, "vroughness", m.uroughness); /* pbrt's uber differs from its metal */
         break;
     case MATERIAL_TRANSLUCENT:
         m.Kd = grey(p, "Kd", 0.25);

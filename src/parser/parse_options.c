@@ -10,6 +10,16 @@
 
 static const char *const NOTHING[] = {NULL};
 
+/* The resolution may still change, which shifts the scale by a few powers of ten: the limits are far from where numbers
+ * end. */
+static void check_camera(struct params *q, struct camera c)
+{
+    camera_prepare(&c, 1, 1);
+    if (!q->failed && !camera_is_usable(&c))
+        params_fail(q, q->place, "this camera is not usable: its place must be within 1e18, and its view at distance 1 %s",
+                    "from 1e-12 to 1e12 wide and high; change transform, field of view or window");
+}
+
 bool parse_camera(struct parser *p)
 {
     static const char *const KNOWN[] = {"perspective", NULL};
@@ -40,6 +50,7 @@ bool parse_camera(struct parser *p)
     }
     params_ignore(q, "shutteropen"); /* nothing moves */
     params_ignore(q, "shutterclose");
+    check_camera(q, c);
     p->scene->camera = c;
     return params_done(q);
 }
@@ -80,7 +91,7 @@ bool parse_film(struct parser *p)
     static const double WHOLE[4] = {0, 1, 0, 1};
     memcpy(s->crop, WHOLE, sizeof s->crop);
     crop_window(q, s->crop);
-    s->film_scale = params_float(q, "scale", 1);
+    s->film_scale = params_at_least(q, "scale", 1, 0);
     free(s->film_filename);
     const char *name = params_string(q, "filename", NULL);
     s->film_filename = name != NULL ? mem_copy_text(name) : NULL;
@@ -101,20 +112,23 @@ bool parse_filter(struct parser *p)
         return false;
     struct filter f;
     filter_default(q->type, &f);
+    /* Within these limits the table of a profile (filter.c) is fine enough for it, and its integral is far from 0. */
     f.radius[0] = params_positive(q, "xwidth", f.radius[0]);
     f.radius[1] = params_positive(q, "ywidth", f.radius[1]);
     switch (f.kind) {
     case FILTER_BOX:
     case FILTER_TRIANGLE: break;
-    case FILTER_GAUSSIAN: f.alpha = params_positive(q, "alpha", f.alpha); break;
+    case FILTER_GAUSSIAN: f.alpha = params_range(q, "alpha", f.alpha, 1e-6, 1e3); break;
     case FILTER_MITCHELL:
-        f.B = params_float(q, "B", f.B);
-        f.C = params_float(q, "C", f.C);
+        f.B = params_range(q, "B", f.B, -100, 100);
+        f.C = params_range(q, "C", f.C, -100, 100);
         break;
-    case FILTER_SINC: f.tau = params_positive(q, "tau", f.tau); break;
+    case FILTER_SINC: f.tau = params_range(q, "tau", f.tau, 0.1, 1e6); break;
     }
     if (f.radius[0] > 64 || f.radius[1] > 64)
         params_fail(q, q->place, "a filter radius above 64 pixels is too wide; pbrt's own are 0.5 to 4");
+    if (f.radius[0] < 1e-3 || f.radius[1] < 1e-3)
+        params_fail(q, q->place, "a filter radius below 0.001 pixels is too narrow; pbrt's own are 0.5 to 4");
     p->scene->filter = f;
     return params_done(q);
 }

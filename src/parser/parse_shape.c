@@ -11,17 +11,11 @@
 /* --- meshes ------------------------------------------------------------------------------------------- */
 
 /* A list of numbers as floats. */
-static float *floats(struct params *q, const struct param *item, const double *number, int n)
+static float *floats(const double *number, int n)
 {
     float *out = mem_alloc((size_t)n, sizeof *out);
-    for (int i = 0; i < n; i++) {
-        if (!(fabs(number[i]) <= FLT_MAX)) {
-            params_fail(q, param_value_place(item, i), "%g is too large for \"%s\"; numbers go up to 3.4e38 here",
-                        number[i], item->name);
-            break;
-        }
-        out[i] = (float)number[i];
-    }
+    for (int i = 0; i < n; i++)
+        out[i] = (float)number[i]; /* within NUMBER_MAX */
     return out;
 }
 
@@ -38,7 +32,7 @@ static float *vertex_data(struct params *q, const char *name, unsigned types, in
                     n_vertices);
         return NULL;
     }
-    return floats(q, item, number, n * width);
+    return floats(number, n * width);
 }
 
 static uint32_t *indices(struct params *q, int n_vertices, int *n_triangles)
@@ -69,14 +63,13 @@ static void trianglemesh(struct parser *p, struct mesh *m)
     const unsigned uv_types = 1u << PARAM_FLOAT | 1u << PARAM_POINT2;
     struct params *q = &p->params;
     int n;
-    const struct param *item;
-    const double *P = params_list(q, "P", 1u << PARAM_POINT, 3, &n, &item);
+    const double *P = params_list(q, "P", 1u << PARAM_POINT, 3, &n, NULL);
     if (P == NULL) {
         params_fail(q, q->place, "a trianglemesh needs \"point P\" [...]");
         return;
     }
     m->n_vertices = n;
-    m->P = floats(q, item, P, 3 * n);
+    m->P = floats(P, 3 * n);
     m->N = vertex_data(q, "N", 1u << PARAM_NORMAL, 3, n);
     m->UV = vertex_data(q, "uv", uv_types, 2, n);
     if (m->UV == NULL)
@@ -166,18 +159,18 @@ bool parse_shape_add(struct parser *p, const struct shape_item *item, struct tra
     struct scene *s = p->scene;
     struct shape_group group = item->group;
     group.first_light = item->area.on ? s->lights.n : -1;
+    struct error inner;
     int id, n = 1;
     if (item->is_mesh) {
-        struct error inner;
         n = item->mesh.n_triangles;
         id = shape_add_mesh(&s->geo, &item->mesh, &to_world, group, item->reverse, &inner);
-        if (id < 0)
-            return place_error(&p->messages, at, "%s", inner.text);
     } else {
         struct quadric q = item->quadric;
         q.to_world = to_world;
-        id = shape_add_quadric(&s->geo, q, group, item->reverse);
+        id = shape_add_quadric(&s->geo, q, group, item->reverse, &inner);
     }
+    if (id < 0)
+        return place_error(&p->messages, at, "%s", inner.text);
     if (item->area.on)
         add_lights(s, id, n, &item->area, &to_world);
     return true;

@@ -71,10 +71,10 @@ static bool set_ctm(struct parser *p, struct transform t)
 {
     if (!p->state.start_active)
         return true;
-    for (int i = 0; i < 16; i++)
-        if (!isfinite(t.m[i / 4][i % 4]) || !isfinite(t.inv[i / 4][i % 4]))
-            return place_error(&p->messages, p->directive.place,
-                               "this makes the current transform infinite or singular");
+    if (!transform_is_usable(&t))
+        return place_error(&p->messages, p->directive.place,
+                           "this makes the current transform infinite or singular, or nearly so; %s",
+                           "its numbers and its inverse's go up to 1e30");
     p->state.ctm = t;
     return true;
 }
@@ -282,9 +282,13 @@ bool parse_object_instance(struct parser *p)
     if (i < 0)
         return parse_no_such(p, &name, &p->objects, "object");
     const struct shape_list *list = &p->object[i];
-    for (int k = 0; k < list->n; k++)
-        if (!parse_shape_add(p, &list->item[k], transform_compose(p->state.ctm, list->item[k].to_world),
-                             name.place))
+    for (int k = 0; k < list->n; k++) {
+        struct transform to_world = transform_compose(p->state.ctm, list->item[k].to_world);
+        if (!transform_is_usable(&to_world))
+            return place_error(&p->messages, name.place,
+                               "the object's transform and this instance's together are infinite or singular");
+        if (!parse_shape_add(p, &list->item[k], to_world, name.place))
             return false;
+    }
     return true;
 }

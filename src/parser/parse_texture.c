@@ -155,6 +155,10 @@ static struct texture imagemap(struct parser *p)
         params_fail(q, at, "OpenEXR pictures are not read; convert it to PFM (magick picture.exr picture.pfm)");
     else if (!q->failed && (t.u.imagemap.image = texture_load_image(&p->scene->textures, path, &inner)) < 0)
         params_fail(q, at, "%s", inner.text);
+    else if (!q->failed && p->scene->textures.image[t.u.imagemap.image].replaced > 0)
+        place_warn(&p->messages, at, p->scene->textures.image_path[t.u.imagemap.image],
+                   "%ld numbers of this picture are not finite; 0 instead",
+                   p->scene->textures.image[t.u.imagemap.image].replaced);
     free(path);
     return t;
 }

@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 
+/* Fractions lie within [0,1]: readers of scenes and options see to it. */
 struct pixel_rect render_crop(const struct scene *scene)
 {
     const double *c = scene->crop;

@@ -37,6 +37,16 @@ void camera_prepare(struct camera *c, int width, int height)
     c->forward = normalize(transform_vector(&c->camera_to_world, vec(0, 0, 1)));
 }
 
+bool camera_is_usable(const struct camera *c)
+{
+    const double least = 1e-12, most = 1e12; /* of the screen at distance 1; the film has at most 65536 pixels a side */
+    double w = fabs(c->x_scale) * c->width, h = fabs(c->y_scale) * c->height;
+    return w >= least && w <= most && h >= least && h <= most && fabs(c->x_origin) <= most &&
+           fabs(c->y_origin) <= most && is_place(c->position) && fabs(length2(c->forward) - 1) < 1e-6 &&
+           is_place(transform_point(&c->camera_to_world, vec(c->lens_radius, 0, 0))) &&
+           is_place(transform_point(&c->camera_to_world, vec(0, c->lens_radius, 0)));
+}
+
 static vec3 lens_point(const struct camera *c, double u1, double u2)
 {
     double x = 0, y = 0;

@@ -40,6 +40,9 @@ struct camera camera_default(void);
 /* camera_prepare: derive the rest for a film of width x height pixels. */
 void camera_prepare(struct camera *c, int width, int height);
 
+/* camera_is_usable: once prepared: can rays start at it and tell their pixels apart? */
+bool camera_is_usable(const struct camera *c);
+
 /* camera_ray: the ray through raster point (px,py) and lens point from (u1,u2); unit direction, tmin = 0,
  * tmax = infinity. */
 struct ray camera_ray(const struct camera *c, double px, double py, double u1, double u2);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/mem.h"
+#include "base/number.h"
 #include "material/texture.h"
 
 /* Light of texel (x,y), at its own area of the sphere up to a constant. */
@@ -85,6 +86,7 @@ struct envmap *envmap_load(const char *path, struct error *err)
         free(e);
         return NULL;
     }
+    image_mend(&e->image, true); /* light that is negative or not finite has no place in a table of choices */
     build_tables(e);
     return e;
 }
@@ -136,9 +138,8 @@ double envmap_pdf(const struct envmap *e, vec3 w, int *block)
 {
     double s, v;
     direction_to_map(w, &s, &v);
-    int x = (int)(s * e->image.width), y = (int)(v * e->image.height);
-    x = x >= e->image.width ? e->image.width - 1 : x;
-    y = y >= e->image.height ? e->image.height - 1 : y;
+    int x = int_within(s * e->image.width, 0, e->image.width - 1);
+    int y = int_within(v * e->image.height, 0, e->image.height - 1);
     *block = y / e->block_height * e->blocks_u + x / e->block_width;
     int x0, x1, y0, y1;
     block_range(e, *block, &x0, &x1, &y0, &y1);

@@ -2,12 +2,17 @@
 #include "scene/film.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/number.h"
 
 static size_t rect_pixels(struct pixel_rect r) { return (size_t)rect_width(r) * (size_t)rect_height(r); }
+
+/* What a float cannot hold is no part of a picture; squares of the rest stay far from overflow. */
+static bool fits(rgb c) { return fits_float(c.r) && fits_float(c.g) && fits_float(c.b); }
 
 /* --- tiles ------------------------------------------------------------------------------------------- */
 
@@ -38,7 +43,7 @@ void tile_free(struct tile *t)
 
 void tile_add_own(struct tile *t, int x, int y, rgb value)
 {
-    if (!rgb_is_finite(value)) {
+    if (!fits(value)) {
         t->nonfinite++;
         return;
     }
@@ -61,8 +66,8 @@ static void filter_span(double p, double radius, int low, int high, int *first, 
     double a = floor(p - radius + 0.5), b = floor(p + radius - 0.5); /* |p - (i + 0.5)| <= radius */
     if (2 * radius == 1) /* half-open cell: a point belongs to exactly one pixel */
         a = b = floor(p);
-    *first = a < low ? low : a > high ? high : (int)a;
-    *last = b > high - 1 ? high - 1 : b < low - 1 ? low - 1 : (int)b;
+    *first = int_within(a, low, high); /* a NaN covers nothing: low to low - 1 */
+    *last = int_within(b, low - 1, high - 1);
 }
 
 struct spread {
@@ -79,7 +84,7 @@ static struct spread spread_of(const struct tile *t, double px, double py)
 
 void tile_add_splat(struct tile *t, double px, double py, rgb value)
 {
-    if (!rgb_is_finite(value)) {
+    if (!fits(value)) {
         t->nonfinite++;
         return;
     }
@@ -89,19 +94,24 @@ void tile_add_splat(struct tile *t, double px, double py, rgb value)
             double h = filter_eval(t->filter, px - (x + 0.5), py - (y + 0.5));
             if (h == 0)
                 continue;
+            rgb part = rgb_scale(value, h);
+            if (!fits(part)) {
+                t->nonfinite++;
+                continue;
+            }
             t->splat = mem_grow(t->splat, &t->splat_capacity, t->n_splats + 1, sizeof *t->splat);
             struct splat *s = &t->splat[t->n_splats++];
             s->pixel = film_pixel(t, x, y);
-            s->r = (float)(value.r * h);
-            s->g = (float)(value.g * h);
-            s->b = (float)(value.b * h);
+            s->r = (float)part.r;
+            s->g = (float)part.g;
+            s->b = (float)part.b;
         }
     }
 }
 
 static void add_record(struct tile *t, int x, int y, int s, int th, rgb unweighted, double weight)
 {
-    if (!t->keep_records || !rgb_is_finite(unweighted) || !isfinite(weight))
+    if (!t->keep_records || !fits(unweighted) || !fits_float(weight))
         return;
     t->record = mem_grow(t->record, &t->record_capacity, t->n_records + 1, sizeof *t->record);
     struct strategy_record *r = &t->record[t->n_records++];
@@ -212,12 +222,26 @@ void film_merge_tile(struct film *f, const struct tile *t)
         merge_records(f, t);
 }
 
-void film_develop(const struct film *f, double scale, float *out)
+long film_develop(const struct film *f, double scale, float *out)
 {
+    long cut = 0;
     size_t n = rect_pixels(f->rect) * 3;
     double per_iteration = f->iterations > 0 ? scale / (double)f->iterations : 0;
-    for (size_t i = 0; i < n; i++)
-        out[i] = (float)((f->own[i] + f->splat[i]) * per_iteration);
+    for (size_t i = 0; i < n; i++) {
+        double value = (f->own[i] + f->splat[i]) * per_iteration;
+        cut += !fits_float(value);
+        out[i] = float_within(value);
+    }
+    return cut;
+}
+
+void film_warn(const struct film *f, long cut)
+{
+    if (f->nonfinite > 0)
+        fprintf(stderr, "asbdpt: warning: %ld contributions were not finite, or too large, and were left out\n",
+                f->nonfinite);
+    if (cut > 0)
+        fprintf(stderr, "asbdpt: warning: %ld pixel values were beyond 3.4e38 and were cut to it\n", cut);
 }
 
 void film_standard_error(const struct film *f, double scale, float *out)
@@ -226,6 +250,6 @@ void film_standard_error(const struct film *f, double scale, float *out)
     double k = (double)f->iterations;
     for (size_t i = 0; i < n; i++) {
         double variance = (f->square[i] - f->own[i] * f->own[i] / k) / (k * (k - 1));
-        out[i] = f->iterations < 2 ? INFINITY : (float)(scale * sqrt(fmax(variance, 0)));
+        out[i] = f->iterations < 2 ? INFINITY : float_within(scale * sqrt(fmax(variance, 0)));
     }
 }

@@ -53,7 +53,7 @@ struct tile {
     struct strategy_record *record; /* [n_records], owned */
     size_t n_records, record_capacity;
     bool keep_records;
-    long nonfinite; /* contributions that were NaN or infinite and were left out */
+    long nonfinite; /* contributions that were NaN, infinite or beyond FLT_MAX, and were left out */
 };
 
 /* tile_start: begin a pass: clear the sums. */
@@ -100,8 +100,12 @@ int strategy_count(int max_depth);
 /* film_merge_tile: add a tile's sums. Iterations are counted by the caller once all tiles of a block are in. */
 void film_merge_tile(struct film *f, const struct tile *t);
 
-/* film_develop: the image so far: [height*width*3] linear floats, top row first, each pixel times `scale`. */
-void film_develop(const struct film *f, double scale, float *out);
+/* film_develop: the image so far: [height*width*3] linear floats, top row first, each pixel times `scale`. Values that no
+ * float holds are cut to FLT_MAX; returns how many. */
+long film_develop(const struct film *f, double scale, float *out);
+
+/* film_warn: say on stderr how many contributions were left out and how many values film_develop cut, if any. */
+void film_warn(const struct film *f, long cut);
 
 /* film_standard_error: of each value of film_develop; infinite with fewer than two iterations. */
 void film_standard_error(const struct film *f, double scale, float *out);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/number.h"
 #include "base/warp.h"
 
 int light_add(struct light_set *set, struct light l)
@@ -126,7 +127,7 @@ static double infinite_pdf(const struct light *l, vec3 w, int *cell)
         return envmap_pdf(l->env, to_light_space(l, w), cell);
     double u1, u2;
     warp_sphere_inverse(w, &u1, &u2);
-    *cell = (int)(u1 * SKY_BANDS) * SKY_SECTORS + (int)(u2 * SKY_SECTORS);
+    *cell = int_within(u1 * SKY_BANDS, 0, SKY_BANDS - 1) * SKY_SECTORS + int_within(u2 * SKY_SECTORS, 0, SKY_SECTORS - 1);
     return warp_sphere_pdf() * SKY_CELLS;
 }
 

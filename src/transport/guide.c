@@ -92,7 +92,7 @@ void guide_build(struct guide *g, const struct guide_lessons *l, double delta)
         double own = samples / (samples + K) / sum_of(arrived, n), others = K / (samples + K) / total;
         for (int c = 0; c < n; c++)
             q[c] = delta * alias_pmf(&l->lights->choice, c) + (1 - delta) * (own * arrived[c] + others * all[c]);
-        alias_build(&g->table[i], q, n);
+        alias_build(&g->table[i], q, n); /* lessons are positive and finite, so are the shares */
     }
     free(q);
     free(all);
