@@ -103,18 +103,18 @@ static void to_display(const float *pixels, size_t n, float *out)
         out[i] = (float)(srgb_byte((double)pixels[i]) / 255.0);
 }
 
-/* Heat maps of all methods as one tall picture, so that they share their maximum. [N_METHODS * values]; to be
+/* Heat maps of all methods as one tall picture, so that they share their maximum. [N_COMPARED * values]; to be
  * freed. */
 static float *make_heatmaps(const struct scene_results *s)
 {
     size_t n = values(s);
-    float *x = mem_alloc(n * N_METHODS, sizeof *x), *ref = mem_alloc(n * N_METHODS, sizeof *ref);
-    float *out = mem_alloc(n * N_METHODS, sizeof *out);
-    for (size_t v = 0; v < N_METHODS; v++) {
+    float *x = mem_alloc(n * N_COMPARED, sizeof *x), *ref = mem_alloc(n * N_COMPARED, sizeof *ref);
+    float *out = mem_alloc(n * N_COMPARED, sizeof *out);
+    for (size_t v = 0; v < N_COMPARED; v++) {
         to_display(s->image[v], n, x + v * n);
         to_display(s->reference.pixels, n, ref + v * n);
     }
-    compare_heatmap(x, ref, (long)(n / 3 * N_METHODS), out);
+    compare_heatmap(x, ref, (long)(n / 3 * N_COMPARED), out);
     free(x);
     free(ref);
     return out;
@@ -123,7 +123,7 @@ static float *make_heatmaps(const struct scene_results *s)
 double pictures_largest_error(const struct scene_results *s)
 {
     double largest = 0;
-    for (int v = 0; v < N_METHODS; v++)
+    for (int v = 0; v < N_COMPARED; v++)
         for (size_t i = 0; i < values(s); i += 3)
             largest = fmax(largest, compare_pixels(s->image[v] + i, s->reference.pixels + i, 3).rmse8);
     return largest;
@@ -135,7 +135,7 @@ bool pictures_write(const struct results *r, const struct scene_results *s, stru
     pictures_find_details(s, detail);
     float *heat = make_heatmaps(s);
     bool ok = write_all(r, s, PICTURE_REFERENCE, false, s->reference.pixels, detail, err);
-    for (int v = 0; ok && v < N_METHODS; v++)
+    for (int v = 0; ok && v < N_COMPARED; v++)
         ok = write_all(r, s, v, false, s->image[v], detail, err) &&
              write_all(r, s, v, true, heat + (size_t)v * values(s), detail, err);
     free(heat);

@@ -5,7 +5,7 @@
  * one scene can be compared; errors are those of the displayed 8-bit values, as in the tables. The details are the
  * two windows, a fifth of the width wide, in which BDPT errs most.
  *
- * Used by: report, output. Tests: test_report.c.
+ * Tests: test_report.c.
  */
 #ifndef ASBDPT_PICTURES_H
 #define ASBDPT_PICTURES_H

@@ -75,32 +75,30 @@ static float *shrink(const float *pixels, int width, int height, int k)
     return out;
 }
 
-/* Take one file, if it fits. Returns as reference_find does. */
-static int take(const char *path, int width, int height, int max_depth, struct reference *out, struct error *err)
+/* Read one picture, shrink it if it fits. Returns as reference_find does; *text is what is written beside it. */
+static int load_fitting(const char *path, int width, int height, int max_depth, struct reference *out,
+                        struct side_text *text, struct error *err)
 {
     int w, h;
-    struct side_text side;
     float *pixels = load_linear(path, &w, &h, err);
     if (pixels == NULL)
         return -1;
-    read_side_text(path, &side);
+    read_side_text(path, text);
     int k = w / width;
     bool fits = k >= 1 && w == k * width && h == k * height;
-    if (!fits || (side.max_depth > 0 && side.max_depth != max_depth)) {
-        if (fits)
-            error_set(err, "%s holds paths up to maxdepth %ld, not %d", path, side.max_depth, max_depth);
-        else
-            error_set(err, "%s is %dx%d, which is no whole multiple of %dx%d", path, w, h, width, height);
-        free(pixels);
-        return -1;
-    }
-    out->pixels = shrink(pixels, w, h, k);
+    bool deep = text->max_depth == 0 || text->max_depth == max_depth;
+    if (!fits)
+        error_set(err, "%s is %dx%d, which is no whole multiple of %dx%d", path, w, h, width, height);
+    else if (!deep)
+        error_set(err, "%s holds paths up to maxdepth %ld, not %d", path, text->max_depth, max_depth);
+    else
+        out->pixels = shrink(pixels, w, h, k);
     free(pixels);
-    out->noise8 = side.noise8 / k;
-    out->mean_error = side.mean_error;
+    out->noise8 = text->noise8 / k;
+    out->mean_error = text->mean_error;
     snprintf(out->origin, sizeof out->origin, "stored picture %s of %dx%d pixels%s", path, w, h,
              k > 1 ? ", averaged to this size" : "");
-    return 1;
+    return fits && deep ? 1 : -1;
 }
 
 static bool readable(const char *path)
@@ -115,9 +113,10 @@ int reference_find(const char *given, const char *scene_path, const char *name, 
                    int max_depth, struct reference *out, struct error *err)
 {
     char path[4096];
+    struct side_text text;
     if (given != NULL) {
         snprintf(path, sizeof path, "%s/%s.pfm", given, name);
-        return take(readable(path) ? path : given, width, height, max_depth, out, err);
+        return load_fitting(readable(path) ? path : given, width, height, max_depth, out, &text, err);
     }
     const char *slash = strrchr(scene_path, '/');
     int n = slash != NULL ? (int)(slash - scene_path) + 1 : 0;
@@ -127,7 +126,7 @@ int reference_find(const char *given, const char *scene_path, const char *name, 
             snprintf(path, sizeof path, "%.*s%s/%s.pfm", n, scene_path, places[i], name);
         else
             snprintf(path, sizeof path, "ref/%s.pfm", name);
-        if (readable(path) && take(path, width, height, max_depth, out, NULL) == 1)
+        if (readable(path) && load_fitting(path, width, height, max_depth, out, &text, NULL) == 1)
             return 1;
     }
     return 0;
@@ -226,22 +225,15 @@ bool reference_write(const struct reference *r, const char *directory, const cha
     return file_commit(&f, err);
 }
 
-bool reference_read(const char *directory, const char *name, const char *key, int width, int height,
+bool reference_read(const char *directory, const char *name, const char *key, int width, int height, int max_depth,
                     struct reference *out)
 {
     char path[4096];
-    struct side_text side;
-    int w, h;
+    struct side_text text;
     snprintf(path, sizeof path, "%s/%s.pfm", directory, name);
-    read_side_text(path, &side);
-    if (strcmp(side.key, key) != 0 || (out->pixels = load_linear(path, &w, &h, NULL)) == NULL)
+    read_side_text(path, &text);
+    if (strcmp(text.key, key) != 0 || load_fitting(path, width, height, max_depth, out, &text, NULL) != 1)
         return false;
-    if (w != width || h != height) {
-        reference_free(out);
-        return false;
-    }
-    out->noise8 = side.noise8;
-    out->mean_error = side.mean_error;
-    snprintf(out->origin, sizeof out->origin, "%s", side.origin);
+    snprintf(out->origin, sizeof out->origin, "%s", text.origin);
     return true;
 }

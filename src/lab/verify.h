@@ -14,7 +14,7 @@
  * the deviations of the batches from their mean, each batch multiplied by a random sign ("wild bootstrap" [Liu 1988]).
  * Kolmogorov's distribution is stretched until its 90 % quantile is the one found that way.
  *
- * Used by: cmd_verify, tests. Tests: test_verify.c.
+ * Tests: test_verify.c.
  */
 #ifndef ASBDPT_VERIFY_H
 #define ASBDPT_VERIFY_H
