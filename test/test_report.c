@@ -5,21 +5,21 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
+#include "base/mem.h"
+#include "base/rng.h"
+#include "base/stats.h"
+#include "image/image.h"
 #include "lab/compare.h"
 #include "lab/experiment.h"
 #include "lab/figures.h"
-#include "base/file.h"
 #include "lab/findings.h"
-#include "image/image.h"
 #include "lab/markup.h"
-#include "base/mem.h"
-#include "lab/report.h"
-#include "parser/parser.h"
 #include "lab/pictures.h"
 #include "lab/published.h"
-#include "base/rng.h"
-#include "base/stats.h"
+#include "lab/report.h"
 #include "lab/tables.h"
+#include "parser/parser.h"
 #include "helpers.h"
 #include "tests.h"
 

@@ -3,10 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/command.h"
-#include "lab/compare.h"
-#include "image/image.h"
 #include "base/mem.h"
+#include "cli/command.h"
+#include "image/image.h"
+#include "lab/compare.h"
 
 struct compare_options {
     const char *image, *reference, *heatmap;

@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/mem.h"
+#include "base/parallel.h"
 #include "cli/command.h"
 #include "lab/experiment.h"
-#include "base/mem.h"
 #include "lab/report.h"
-#include "base/parallel.h"
 
 /* The five scenes measured when none is named; the program is run from the top of its tree. */
 static const char *const SCENES[] = {"scenes/cornell-box.pbrt", "scenes/cornell-box-modified.pbrt",

@@ -10,12 +10,12 @@
 #include <sys/stat.h>
 #include <time.h>
 
-#include "image/checksum.h"
-#include "lab/compare.h"
-#include "image/image.h"
 #include "base/mem.h"
-#include "parser/parser.h"
 #include "base/progress.h"
+#include "image/checksum.h"
+#include "image/image.h"
+#include "lab/compare.h"
+#include "parser/parser.h"
 
 enum { PATH_SIZE = 4096, KEY_SIZE = 1024, REFERENCE_SEED = 100001 };
 

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lab/compare.h"
-#include "image/image.h"
 #include "base/mem.h"
+#include "image/image.h"
+#include "lab/compare.h"
 
 void picture_path(const struct results *r, const struct scene_results *s, int variant, bool error, int detail,
                   char *out, size_t size)

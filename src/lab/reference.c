@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lab/compare.h"
 #include "base/file.h"
-#include "image/image.h"
 #include "base/mem.h"
+#include "image/image.h"
+#include "lab/compare.h"
 
 void reference_free(struct reference *r)
 {
