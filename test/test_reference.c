@@ -63,8 +63,8 @@ static void test_integrator(struct test *t, const struct integrator_case *c, con
     struct verdict v = verify_batches(&b, reference, seed);
     if (must_hold) {
         TEST_ACCEPT(t, v.smallest, "%s by %s against its reference, worst tile %ld", name, c->name, v.where / 3);
-        TEST_ACCEPT(t, v.mean, "%s by %s against its reference, ratio of the means %.4f +- %.4f", name, c->name, v.ratio,
-                    v.ratio_error);
+        TEST_ACCEPT(t, v.mean, "%s by %s against its reference, ratio of the means %.4f +- %.4f", name, c->name,
+                    v.ratio, v.ratio_error);
         TEST_ACCEPT(t, v.uniform, "%s by %s against its reference, p-values of all tiles", name, c->name);
     } else {
         TEST_REJECT(t, v.p, "%s by %s against its reference, ratio of the means %.4f +- %.4f", name, c->name, v.ratio,
@@ -73,7 +73,8 @@ static void test_integrator(struct test *t, const struct integrator_case *c, con
     batches_free(&b);
 }
 
-static void test_scene(struct test *t, const char *name, const char *integrators, int spp, int n_batches, bool bins_rejected)
+static void test_scene(struct test *t, const char *name, const char *integrators, int spp, int n_batches,
+                       bool bins_rejected)
 {
     char path[256];
     struct scene scene;
@@ -93,7 +94,8 @@ static void test_scene(struct test *t, const char *name, const char *integrators
     batches_free(&reference);
 }
 
-/* The few samples of the quick version are enough where a tile's mean is nearly normal: not for pt where light is rare. */
+/* The few samples of the quick version are enough where a tile's mean is nearly normal: not for pt where light is
+ * rare. */
 void test_references(struct test *t)
 {
     test_scene(t, "cornell-box", "pt lt bdpt pool vertices bins", 16, 16, true);

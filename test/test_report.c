@@ -38,6 +38,14 @@ static char *text_of(struct test *t, const char *path)
     return text;
 }
 
+/* The content of a file that the experiment left. */
+static char *output_of(struct test *t, const struct results *r, const char *name)
+{
+    char path[512];
+    snprintf(path, sizeof path, "%s/%s", r->plan->directory, name);
+    return text_of(t, path);
+}
+
 /* --- statistics -------------------------------------------------------------------------------------- */
 
 static double normal(struct rng *r)
@@ -193,7 +201,8 @@ static void test_markup(struct test *t)
     char *text = text_of(t, path);
     CHECK(t, strcmp(text, "<p>a&lt;b &amp; &quot;c&quot; %d</p> 3 0014 0.2 x|") == 0, "markup printed: %s", text);
     free(text);
-    CHECK(t, xml_ok("<a><b/>x</a>") && !xml_ok("<a><b></a></b>") && !xml_ok("<a>"), "tags out of order are refused by the checker");
+    CHECK(t, xml_ok("<a><b/>x</a>") && !xml_ok("<a><b></a></b>") && !xml_ok("<a>"),
+          "tags out of order are refused by the checker");
     CHECK(t, csv_lines("a,b\n1,2\n") == 2 && csv_lines("a,b\n1\n") == 0, "and lines of unequal fields");
 }
 
@@ -303,7 +312,8 @@ static void check_runs(struct test *t, const struct results *r)
             CHECK(t, fabs(direct - ours) < 1e-9, "%s after %ld spp: rmse8 %g, rendered in one go %g",
                   VARIANTS[v].name, r->plan->spp[i], ours, direct);
         }
-    double seconds[2] = {s->run[0][0].step[0].value[Q_SECONDS], s->run[0][0].step[r->plan->n_steps - 1].value[Q_SECONDS]};
+    const struct run_step *step = s->run[0][0].step;
+    double seconds[2] = {step[0].value[Q_SECONDS], step[r->plan->n_steps - 1].value[Q_SECONDS]};
     CHECK(t, seconds[0] > 0 && seconds[1] > seconds[0], "time rises: %g, %g s", seconds[0], seconds[1]);
 }
 
@@ -315,7 +325,7 @@ static void check_tables(struct test *t, const struct results *r)
     const struct run_step *a = &s->run[VARIANT_POOL][0].step[last], *b = &s->run[VARIANT_POOL][1].step[last];
     table_make(r, s, TABLE_RMSE, &table);
     size_t cell = (size_t)(last * table.columns + 1 + VARIANT_POOL);
-    double mean = 0.5 * (a->value[Q_RMSE8] + b->value[Q_RMSE8]), error = 0.5 * fabs(a->value[Q_RMSE8] - b->value[Q_RMSE8]);
+    double x = a->value[Q_RMSE8], y = b->value[Q_RMSE8], mean = 0.5 * (x + y), error = 0.5 * fabs(x - y);
     CHECK(t, table.cell[cell].value == mean, "RMSE of pool in the table: %g, computed: %g", table.cell[cell].value,
           mean);
     struct estimate e = results_mean(r, s, VARIANT_POOL, last, Q_RMSE8);
@@ -347,12 +357,12 @@ static void check_output(struct test *t, const struct results *r)
 {
     static const char *const plots[] = {"convergence", "bias", "paths-per-set", "restart-limit"};
     struct error err = {""};
-    char path[512];
     CHECK(t, report_write(r, &err), "output: %s", err.text);
     for (size_t i = 0; i < 4; i++) {
-        snprintf(path, sizeof path, "%s/plots/cornell-box-%s.svg", r->plan->directory, plots[i]);
-        char *svg = text_of(t, path);
-        CHECK(t, xml_ok(svg) && strstr(svg, "nan") == NULL && strstr(svg, "inf\"") == NULL, "%s", path);
+        char name[128];
+        snprintf(name, sizeof name, "plots/cornell-box-%s.svg", plots[i]);
+        char *svg = output_of(t, r, name);
+        CHECK(t, xml_ok(svg) && strstr(svg, "nan") == NULL && strstr(svg, "inf\"") == NULL, "%s", name);
         free(svg);
     }
     int variants = 0, runs = 0;
@@ -360,17 +370,13 @@ static void check_output(struct test *t, const struct results *r)
         variants += plan_seeds(r->plan, v) > 0;
         runs += plan_seeds(r->plan, v);
     }
-    snprintf(path, sizeof path, "%s/results.csv", r->plan->directory);
-    char *csv = text_of(t, path);
-    CHECK(t, csv_lines(csv) == 1 + variants * r->plan->n_steps, "%s has %d lines", path, csv_lines(csv));
-    free(csv);
-    snprintf(path, sizeof path, "%s/runs.csv", r->plan->directory);
-    csv = text_of(t, path);
-    CHECK(t, csv_lines(csv) == 1 + runs * r->plan->n_steps, "%s has %d lines", path, csv_lines(csv));
-    free(csv);
+    char *means = output_of(t, r, "results.csv"), *each = output_of(t, r, "runs.csv");
+    CHECK(t, csv_lines(means) == 1 + variants * r->plan->n_steps, "results.csv has %d lines", csv_lines(means));
+    CHECK(t, csv_lines(each) == 1 + runs * r->plan->n_steps, "runs.csv has %d lines", csv_lines(each));
+    free(means);
+    free(each);
 
-    snprintf(path, sizeof path, "%s/report.html", r->plan->directory);
-    char *html = text_of(t, path);
+    char *html = output_of(t, r, "report.html");
     int images = 0, with_text = 0;
     for (const char *p = html; (p = strstr(p, "<img ")) != NULL; p++) {
         images++;

@@ -141,8 +141,8 @@ static void choose_methods(const struct verify_options *o, const struct method *
     m[1] = o->reference != NULL ? NULL : method_find(o->second[0] != '\0' ? o->second : partner);
 }
 
-static bool render_sides(struct scene *scene, const struct method *scenes, const struct verify_options *o, struct side *a,
-                         struct side *b, struct error *err)
+static bool render_sides(struct scene *scene, const struct method *scenes, const struct verify_options *o,
+                         struct side *a, struct side *b, struct error *err)
 {
     const struct method *m[2];
     struct render_options options = {.seed = o->job.seed, .n_threads = o->job.n_threads, .max_depth = o->job.max_depth};
@@ -172,7 +172,8 @@ static void print_verdict(const struct verdict *v, const struct side *a, const s
     double error_a, error_b;
     double mean_a = batches_mean(&a->pixels, &error_a), mean_b = batches_mean(&b->pixels, &error_b);
     long most = 1, across = (a->width + tile - 1) / tile;
-    printf("A  %-24s mean %.6g +- %.2g\nB  %-24s mean %.6g +- %.2g\n", a->name, mean_a, error_a, b->name, mean_b, error_b);
+    printf("A  %-24s mean %.6g +- %.2g\n", a->name, mean_a, error_a);
+    printf("B  %-24s mean %.6g +- %.2g\n", b->name, mean_b, error_b);
     printf("p-values of A = B, %ld tiles and channels (uniform if all are equal)\n", v->n);
     for (int i = 0; i < VERIFY_BARS; i++)
         most = v->bar[i] > most ? v->bar[i] : most;

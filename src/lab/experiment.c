@@ -276,8 +276,8 @@ static bool find_or_make_reference(struct scene_experiment *s)
 {
     const struct plan *p = s->whole->plan;
     struct scene_results *r = s->out;
-    int found = reference_find(p->reference, r->path, r->name, r->width, r->height, r->max_depth, &r->reference,
-                               s->whole->err);
+    int found =
+        reference_find(p->reference, r->path, r->name, r->width, r->height, r->max_depth, &r->reference, s->whole->err);
     if (found == 1)
         skip_work(s->whole, (double)p->reference_spp);
     return found == 1 || (found == 0 && make_reference(s));
@@ -334,8 +334,8 @@ static bool name_scenes(const struct plan *p, struct results *r, struct error *e
         plan_scene_name(s->path, s->name, sizeof s->name);
         for (int k = 0; k < i; k++)
             if (strcmp(s->name, r->scene[k].name) == 0)
-                return error_set(err, "%s and %s have the same name, %s; experiment with them one at a time",
-                                 s->path, r->scene[k].path, s->name);
+                return error_set(err, "%s and %s have the same name, %s; experiment with them one at a time", s->path,
+                                 r->scene[k].path, s->name);
     }
     return true;
 }

@@ -121,8 +121,8 @@ static int log_ticks(const struct plot_axis *a, double tick[], bool major[])
             if (value < a->low || value > a->high || n >= AXIS_MAX_TICKS || (decades > 6 && digit != 1))
                 continue;
             tick[n] = value;
-            major[n] = decades < 0.7 || (digit == 1 && power % every == 0) ||
-                       (decades < 2.2 && (digit == 2 || digit == 5));
+            major[n] =
+                decades < 0.7 || (digit == 1 && power % every == 0) || (decades < 2.2 && (digit == 2 || digit == 5));
             n++;
         }
     return n;
@@ -289,8 +289,8 @@ void figure_style(FILE *f)
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
         fprintf(f, "%s\n", lines[i]);
     for (int k = 0; k < MAX_LINES; k++)
-        fprintf(f, ".plot .pl%d{stroke:var(--c%d)}.plot .pk%d{fill:var(--c%d);stroke:var(--c%d)}\n", k, k % 6, k,
-                k % 6, k % 6);
+        fprintf(f, ".plot .pl%d{stroke:var(--c%d)}.plot .pk%d{fill:var(--c%d);stroke:var(--c%d)}\n", k, k % 6, k, k % 6,
+                k % 6);
 }
 
 /* What the plot shows at its right end, in words, for those who cannot see it. */
@@ -311,10 +311,11 @@ void figure_write(FILE *f, const struct results *r, const struct scene_results *
     make_plot(r, s, which, &p);
     find_axes(&p, &xa, &ya);
     int height = BOTTOM + 50 + 20 * ((p.n + 2) / 3);
-    xml_print(f,
-              "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" viewBox=\"0 0 %d %d\" width=\"%d\" "
-              "height=\"%d\" role=\"img\" aria-labelledby=\"%s-t %s-d\">\n<title id=\"%s-t\">%s</title>\n<desc id=\"%s-d\">",
-              WIDTH, height, WIDTH, height, id, id, id, p.title, id);
+    xml_print(
+        f,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" viewBox=\"0 0 %d %d\" width=\"%d\" "
+        "height=\"%d\" role=\"img\" aria-labelledby=\"%s-t %s-d\">\n<title id=\"%s-t\">%s</title>\n<desc id=\"%s-d\">",
+        WIDTH, height, WIDTH, height, id, id, id, p.title, id);
     write_description(f, &p);
     fputs("</desc>\n", f);
     if (standalone) {

@@ -25,15 +25,7 @@ enum outcome outcome_of(struct interval ratio)
     return ratio.low > 1 ? OUTCOME_LOSS : OUTCOME_UNDECIDED;
 }
 
-static const char *outcome_text(enum outcome v)
-{
-    switch (v) {
-    case OUTCOME_GAIN: return "a gain";
-    case OUTCOME_LOSS: return "a loss";
-    case OUTCOME_UNDECIDED: return "undecided, the interval holds 1";
-    }
-    return "";
-}
+static const char *const OUTCOMES[] = {"a gain", "a loss", "undecided, the interval holds 1"}; /* by enum outcome */
 
 static int last_step(const struct results *r) { return r->plan->n_steps - 1; }
 
@@ -83,14 +75,14 @@ static void add_comparison_with_printed(const struct results *r, const struct sc
     struct interval ours = results_rmse_ratio(r, s, VARIANT_BINS, last);
     enum outcome same = agreement(r, s, &printed, &at);
     add_finding(f, "After %ld samples per pixel the RMSE of bins is that of BDPT times %s: %s.", r->plan->spp[last],
-        interval_text(ours, text), outcome_text(outcome_of(ours)));
+                interval_text(ours, text), OUTCOMES[outcome_of(ours)]);
     if (!isfinite(printed))
         return;
     add_finding(f, "The dissertation prints %.3f after %ld samples, %s: %s.", printed, at,
-        printed < 1 ? "a gain" : "a loss",
-        same == OUTCOME_UNDECIDED ? "neither confirmed nor refuted here"
-        : same == OUTCOME_GAIN    ? "found again here"
-                                  : "not found here");
+                printed < 1 ? "a gain" : "a loss",
+                same == OUTCOME_UNDECIDED ? "neither confirmed nor refuted here"
+                : same == OUTCOME_GAIN    ? "found again here"
+                                          : "not found here");
 }
 
 /* How much the error still falls over the last doubling. */
@@ -116,7 +108,8 @@ static void add_biases(const struct results *r, const struct scene_results *s, s
     for (int v = 0; v < N_COMPARED; v++) {
         struct bias b = results_bias(r, s, v, last);
         if (isfinite(b.p))
-            add_finding(f,
+            add_finding(
+                f,
                 "The mean of %s is off by %+.3f %% with a standard error of %.2g %% (of which the reference %.2g "
                 "%%), p = %.2g: %s.",
                 VARIANTS[v].label, 100 * b.mean, 100 * b.error, 100 * s->reference.mean_error, b.p,
@@ -132,10 +125,10 @@ static void add_equal_times(const struct results *r, const struct scene_results 
         struct interval i = results_equal_time(r, s, v, last);
         if (isfinite(i.value))
             add_finding(f, "At equal time the squared error of %s is that of BDPT times %s: %s.", VARIANTS[v].label,
-                interval_text(i, text), outcome_text(outcome_of(i)));
+                        interval_text(i, text), OUTCOMES[outcome_of(i)]);
         else
             add_finding(f, "At equal time %s cannot be compared: its error is below the noise of the reference.",
-                VARIANTS[v].label);
+                        VARIANTS[v].label);
     }
 }
 
@@ -155,9 +148,9 @@ static void add_agreement(const struct results *r, struct findings *f)
     }
     if (scenes > 0)
         add_finding(f,
-            "Whether bins has a lower or a higher RMSE than BDPT at the same number of samples agrees with the "
-            "dissertation in %d of %d scenes, differs in %d and is undecided in %d.",
-            count[OUTCOME_GAIN], scenes, count[OUTCOME_LOSS], count[OUTCOME_UNDECIDED]);
+                    "Whether bins has a lower or a higher RMSE than BDPT at the same number of samples agrees with the "
+                    "dissertation in %d of %d scenes, differs in %d and is undecided in %d.",
+                    count[OUTCOME_GAIN], scenes, count[OUTCOME_LOSS], count[OUTCOME_UNDECIDED]);
 }
 
 static void add_gains(const struct results *r, int variant, struct findings *f)
@@ -172,11 +165,12 @@ static void add_gains(const struct results *r, int variant, struct findings *f)
             log_sum += log(ratio.value);
         }
     }
-    add_finding(f,
+    add_finding(
+        f,
         "At equal time %s has less squared error than BDPT in %d of %d scenes, more in %d, undecided in %d; the "
         "geometric mean of the ratios is %.3f.",
-        VARIANTS[variant].label, count[OUTCOME_GAIN], r->plan->n_scenes, count[OUTCOME_LOSS],
-        count[OUTCOME_UNDECIDED], known > 0 ? exp(log_sum / known) : NAN);
+        VARIANTS[variant].label, count[OUTCOME_GAIN], r->plan->n_scenes, count[OUTCOME_LOSS], count[OUTCOME_UNDECIDED],
+        known > 0 ? exp(log_sum / known) : NAN);
 }
 
 static void add_bias_counts(const struct results *r, struct findings *f)
@@ -187,11 +181,11 @@ static void add_bias_counts(const struct results *r, struct findings *f)
     for (int i = 0; i < r->plan->n_scenes; i++)
         for (int v = 0; v < N_COMPARED; v++)
             biased[v] += results_bias(r, &r->scene[i], v, last_step(r)).p < 0.01;
-    add_finding(f,
+    add_finding(
+        f,
         "The mean of the picture is off (p < 0.01) in %d of %d scenes for BDPT, %d for bins, %d for pool and %d "
         "for vertices.",
-        biased[VARIANT_BDPT], r->plan->n_scenes, biased[VARIANT_BINS], biased[VARIANT_POOL],
-        biased[VARIANT_VERTICES]);
+        biased[VARIANT_BDPT], r->plan->n_scenes, biased[VARIANT_BINS], biased[VARIANT_POOL], biased[VARIANT_VERTICES]);
 }
 
 void findings_make(const struct results *r, const struct scene_results *s, struct findings *out)

@@ -66,15 +66,14 @@ void pictures_find_details(const struct scene_results *s, struct detail out[N_DE
 /* --- writing ----------------------------------------------------------------------------------------- */
 
 /* A window of a picture, each pixel as a square. */
-static bool write_detail(const char *path, const struct scene_results *s, const float *pixels,
-                         const struct detail *d, struct error *err)
+static bool write_detail(const char *path, const struct scene_results *s, const float *pixels, const struct detail *d,
+                         struct error *err)
 {
     int w = d->width * d->enlargement, h = d->height * d->enlargement;
     float *out = mem_alloc((size_t)w * (size_t)h * 3, sizeof *out);
     for (int y = 0; y < h; y++)
         for (int x = 0; x < w; x++) {
-            size_t from =
-                (size_t)(d->y + y / d->enlargement) * (size_t)s->width + (size_t)(d->x + x / d->enlargement);
+            size_t from = (size_t)(d->y + y / d->enlargement) * (size_t)s->width + (size_t)(d->x + x / d->enlargement);
             memcpy(out + 3 * ((size_t)y * (size_t)w + (size_t)x), pixels + 3 * from, 3 * sizeof *out);
         }
     bool ok = image_write(path, w, h, out, err);
@@ -103,7 +102,7 @@ static void to_display(const float *pixels, size_t n, float *out)
         out[i] = (float)(srgb_byte((double)pixels[i]) / 255.0);
 }
 
-/* Heat maps of all methods as one tall picture, so that they share their maximum. [N_COMPARED * values]; to be
+/* Heat maps of all variants as one tall picture, so that they share their maximum. [N_COMPARED * values]; to be
  * freed. */
 static float *make_heatmaps(const struct scene_results *s)
 {

@@ -38,8 +38,8 @@ bool plan_set_spp(struct plan *p, long first, long last, struct error *err)
     p->n_steps = 0;
     for (long n = first; n < last; n *= 2) {
         if (p->n_steps >= PLAN_MAX_STEPS - 1)
-            return error_set(err, "more than %d doublings of the samples from %ld to %ld", PLAN_MAX_STEPS - 1,
-                             first, last);
+            return error_set(err, "more than %d doublings of the samples from %ld to %ld", PLAN_MAX_STEPS - 1, first,
+                             last);
         p->spp[p->n_steps++] = n;
     }
     p->spp[p->n_steps++] = last;

@@ -30,13 +30,13 @@ struct reference {
  *   given  a file, a directory that holds NAME.pfm, or NULL to look for ref/NAME.pfm beside the scene, one directory
  *          up and in the current one
  * Returns 1 when found; 0 when there is none that fits; -1 with a message when `given` is unusable. */
-int reference_find(const char *given, const char *scene_path, const char *name, int width, int height,
-                   int max_depth, struct reference *out, struct error *err);
+int reference_find(const char *given, const char *scene_path, const char *name, int width, int height, int max_depth,
+                   struct reference *out, struct error *err);
 
 /* reference_render: render one of `spp` samples per pixel; progress as render_options has it, over both halves.
  * Returns false with a message. */
-bool reference_render(const struct scene *scene, const struct render_options *options, long spp,
-                      struct reference *out, struct error *err);
+bool reference_render(const struct scene *scene, const struct render_options *options, long spp, struct reference *out,
+                      struct error *err);
 
 /* reference_write / reference_read: keep it as DIRECTORY/NAME.pfm and .txt; the key says what it depends on, and
  * only a reference with the same key is read back. */

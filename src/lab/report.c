@@ -83,10 +83,7 @@ static const char *const NOTES[] = {
 
 /* --- pictures ---------------------------------------------------------------------------------------- */
 
-static const char *subject(int variant)
-{
-    return variant == PICTURE_REFERENCE ? "reference" : VARIANTS[variant].label;
-}
+static const char *subject(int variant) { return variant == PICTURE_REFERENCE ? "reference" : VARIANTS[variant].label; }
 
 /* The first seed's error after all samples: the one of the picture shown. */
 static double shown_rmse(const struct results *r, const struct scene_results *s, int variant)

@@ -195,42 +195,32 @@ struct interval results_ratio(const double *a, int na, const double *b, int nb)
     return out;
 }
 
-/* Squared error times seconds: what a variant pays for the inverse of its variance. */
-static double cost(const struct scene_results *s, const struct run_step *step)
-{
-    double noise = isfinite(s->reference.noise8) ? s->reference.noise8 : 0;
-    return (step->value[Q_RMSE8] * step->value[Q_RMSE8] - noise * noise) * step->value[Q_SECONDS];
-}
-
-static double rmse8(const struct scene_results *s, const struct run_step *step)
-{
-    (void)s;
-    return step->value[Q_RMSE8];
-}
-
-/* The ratio of a variant's mean to bdpt's. */
+/* The ratio of a variant's mean to bdpt's: of its errors, or of squared error times seconds, which is what a variant
+ * pays for the inverse of its variance. */
 static struct interval over_bdpt(const struct results *r, const struct scene_results *s, int variant, int step,
-                                 double (*measure)(const struct scene_results *, const struct run_step *))
+                                 bool paid)
 {
-    double x[2][PLAN_MAX_SEEDS];
-    int n[2];
+    double x[2][PLAN_MAX_SEEDS], noise = isfinite(s->reference.noise8) ? s->reference.noise8 : 0;
+    int compared[2] = {variant, VARIANT_BDPT}, n[2];
     for (int k = 0; k < 2; k++) {
-        int v = k == 0 ? variant : VARIANT_BDPT;
-        n[k] = plan_seeds(r->plan, v);
-        for (int i = 0; i < n[k]; i++)
-            x[k][i] = measure(s, &s->run[v][i].step[step]);
+        n[k] = plan_seeds(r->plan, compared[k]);
+        for (int i = 0; i < n[k]; i++) {
+            const double *value = s->run[compared[k]][i].step[step].value;
+            double square = value[Q_RMSE8] * value[Q_RMSE8] - noise * noise;
+            x[k][i] = paid ? square * value[Q_SECONDS] : value[Q_RMSE8];
+        }
     }
     return results_ratio(x[0], n[0], x[1], n[1]);
 }
 
 struct interval results_rmse_ratio(const struct results *r, const struct scene_results *s, int variant, int step)
 {
-    return over_bdpt(r, s, variant, step, rmse8);
+    return over_bdpt(r, s, variant, step, false);
 }
 
 struct interval results_equal_time(const struct results *r, const struct scene_results *s, int variant, int step)
 {
-    return over_bdpt(r, s, variant, step, cost);
+    return over_bdpt(r, s, variant, step, true);
 }
 
 struct bias results_bias(const struct results *r, const struct scene_results *s, int variant, int step)

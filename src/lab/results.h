@@ -1,8 +1,9 @@
 /* results.h: the measurements of an experiment in memory and in files, and the statistics over its seeds.
  *
  * Every number shown anywhere (tables, plots, CSV, sentences) comes from the functions here. On disk there are
- *     runs/SCENE--VARIANT--seedN.csv   one run, written when it is finished, read back when the experiment is started again;
- *                                      its first line is a key that says everything the numbers depend on
+ *     runs/SCENE--VARIANT--seedN.csv
+ *                   one run, written when it is finished, read back when the experiment is started again; its first
+ *                   line is a key that says everything the numbers depend on
  *     results.csv   one line per scene, variant and number of samples: means over seeds with standard errors, ratios
  *                   to BDPT with 95 % intervals; empty where unknown
  *     runs.csv      one line per scene, variant, seed and number of samples: what was measured

@@ -24,7 +24,8 @@ static const double SECONDS = 40; /* of rendering */
 
 bool side_read(char **file, int n, bool with_errors, const struct side *like, struct side *out, struct error *err)
 {
-    struct side side = {.name = file[0], .width = like != NULL ? like->width : 0, .height = like != NULL ? like->height : 0};
+    struct side side = {
+        .name = file[0], .width = like != NULL ? like->width : 0, .height = like != NULL ? like->height : 0};
     bool ok = true;
     for (int k = 0; ok && k < n; k++) {
         int w, h;
@@ -75,8 +76,8 @@ static bool render_batch(const struct scene *scene, const struct render_options 
     return ok;
 }
 
-/* Seeds of the batches: hashes, so that neither the two sides nor a picture rendered with a seed that somebody typed, such
- * as a stored reference, shares random numbers with a batch. */
+/* Seeds of the batches: hashes, so that neither the two sides nor a picture rendered with a seed that somebody typed,
+ * such as a stored reference, shares random numbers with a batch. */
 static uint64_t batch_seed(uint64_t seed, int side, int batch)
 {
     return hash_combine(hash_combine(hash_mix(seed ^ 0xbb67ae8584caa73bu), (uint64_t)side), (uint64_t)batch);
@@ -93,7 +94,8 @@ bool side_render(const struct scene *scene, const struct render_options *options
     progress_start(&bar, quiet);
     bool ok = true;
     for (int k = 0; ok && k < n_batches; k++) {
-        ok = render_batch(scene, options, batch_seed(options->seed, number, k), out->pixels.value + out->pixels.n * k, err);
+        ok = render_batch(scene, options, batch_seed(options->seed, number, k), out->pixels.value + out->pixels.n * k,
+                          err);
         progress_update(&bar, (k + 1.0) / n_batches);
     }
     progress_end(&bar);
@@ -110,8 +112,8 @@ void side_choose_resolution(struct scene *scene, const struct side *like)
         camera_prepare(&scene->camera, scene->width, scene->height);
 }
 
-long side_choose_spp(const struct scene *scene, const struct render_options *options, const struct method *const method[2],
-                     int n_batches, struct error *err)
+long side_choose_spp(const struct scene *scene, const struct render_options *options,
+                     const struct method *const method[2], int n_batches, struct error *err)
 {
     struct render_options pilot = *options;
     double start = clock_seconds();

@@ -33,10 +33,10 @@ bool side_render(const struct scene *scene, const struct render_options *options
 /* side_choose_resolution: the scene becomes as large as `like`, or for NULL keeps its shape with about 1000 pixels. */
 void side_choose_resolution(struct scene *scene, const struct side *like);
 
-/* side_choose_spp: samples per pixel so that the batches of one or two integrators (then method[1] is not NULL) take about
- * 40 seconds; 0 with a message when they cannot be rendered. */
-long side_choose_spp(const struct scene *scene, const struct render_options *options, const struct method *const method[2],
-                     int n_batches, struct error *err);
+/* side_choose_spp: samples per pixel so that the batches of one or two integrators (then method[1] is not NULL) take
+ * about 40 seconds; 0 with a message when they cannot be rendered. */
+long side_choose_spp(const struct scene *scene, const struct render_options *options,
+                     const struct method *const method[2], int n_batches, struct error *err);
 
 /* side_choose_tile: side of tiles that are large enough for means that are nearly normal, and not too many. */
 int side_choose_tile(const struct side *s);
@@ -48,8 +48,8 @@ struct provenance {
     const struct verdict *verdict;
 };
 
-/* sides_store: the mean of both sides as NAME.pfm, its standard errors as NAME.error.pfm, and NAME.txt, which reference.h
- * reads. Returns false with a message. */
+/* sides_store: the mean of both sides as NAME.pfm, its standard errors as NAME.error.pfm, and NAME.txt, which
+ * reference.h reads. Returns false with a message. */
 bool sides_store(const char *name, const struct side *a, const struct side *b, const struct provenance *from,
                  struct error *err);
 

@@ -154,8 +154,9 @@ static void add_published(struct table *t, const struct results *r, const struct
 
 static bool published_table(const struct results *r, const struct scene_results *s, struct table *t)
 {
-    static const char *const heads[] = {"spp", "BDPT, here", "bins, here", "bins/BDPT, here [95 %]", "BDPT, printed",
-                                        "ASBDPT, printed", "ASBDPT/BDPT, printed"};
+    static const char *const heads[] = {
+        "spp",           "BDPT, here",      "bins, here",          "bins/BDPT, here [95 %]",
+        "BDPT, printed", "ASBDPT, printed", "ASBDPT/BDPT, printed"};
     const struct published *p = published_find(s->name);
     if (p == NULL)
         return false;
@@ -187,8 +188,10 @@ static void equal_time_table(const struct results *r, const struct scene_results
 
 static void bias_table(const struct results *r, const struct scene_results *s, struct table *t)
 {
-    begin(t, "Signed error of the picture's mean in percent, mean over seeds and its standard error "
-             "(the reference's own standard error: %.2g %%)", 100 * s->reference.mean_error);
+    begin(t,
+          "Signed error of the picture's mean in percent, mean over seeds and its standard error "
+          "(the reference's own standard error: %.2g %%)",
+          100 * s->reference.mean_error);
     add_column(t, "method");
     add_spp_columns(t, r);
     for (int v = 0; v < N_COMPARED; v++) {
@@ -220,8 +223,8 @@ static void add_scene(struct table *t, const struct scene_results *s) { add_cell
 
 static void setup_table(const struct results *r, struct table *t)
 {
-    static const char *const heads[] = {"scene", "pixels", "maxdepth", "reference", "its noise, 8-bit",
-                                        "error of its mean, %"};
+    static const char *const heads[] = {"scene",     "pixels",           "maxdepth",
+                                        "reference", "its noise, 8-bit", "error of its mean, %"};
     begin(t, "What was measured, against what");
     for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++)
         add_column(t, "%s", heads[i]);
@@ -295,8 +298,9 @@ size_t table_rows(const struct table *t) { return t->n_cells / (size_t)t->column
 
 static void write_html(FILE *f, const struct table *t)
 {
-    xml_print(f, "<figure class=\"table\"><figcaption>%s</figcaption>\n"
-                 "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"%s\"><table>\n<thead><tr>",
+    xml_print(f,
+              "<figure class=\"table\"><figcaption>%s</figcaption>\n"
+              "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"%s\"><table>\n<thead><tr>",
               t->caption, t->caption);
     for (int c = 0; c < t->columns; c++)
         xml_print(f, "<th scope=\"col\">%s</th>", t->head[c]);

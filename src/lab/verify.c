@@ -140,9 +140,6 @@ double batches_p(const struct batches *a, const struct batches *b, double *ratio
     return n > 0 ? sidak_p(smallest, (double)n) : 1;
 }
 
-/* Largest distance between the p-values' distribution and the uniform one; sorts them. */
-static double uniform_distance(double *p, long n) { return n == 0 ? 0 : stats_ks_distance(p, (size_t)n); }
-
 static double random_normal(struct rng *r)
 {
     double u = 1 - rng_uniform(r), v = rng_uniform(r);
@@ -159,7 +156,8 @@ static void resample(const struct batches *b, struct rng *r, struct batches *out
         }
         return;
     }
-    double stretch = sqrt(b->n_batches / (b->n_batches - 1.0)); /* deviations from the batches' own mean are too small */
+    double stretch =
+        sqrt(b->n_batches / (b->n_batches - 1.0)); /* deviations from the batches' own mean are too small */
     double *mean = mem_alloc((size_t)b->n, sizeof *mean);
     for (long i = 0; i < b->n; i++)
         mean[i] = batches_moments(b, i).mean;
@@ -188,7 +186,7 @@ static double uniform_p(const struct batches *a, const struct batches *b, double
     for (int i = 0; i < RESAMPLINGS; i++) {
         resample(a, &r, &x);
         resample(b, &r, &y);
-        found[i] = uniform_distance(p, all_p(&x, &y, p, NULL));
+        found[i] = stats_ks_distance(p, (size_t)all_p(&x, &y, p, NULL));
     }
     batches_free(&x);
     batches_free(&y);
@@ -212,7 +210,7 @@ struct verdict verify_batches(const struct batches *a, const struct batches *b, 
         }
     }
     v.smallest = v.n > 0 ? sidak_p(v.smallest, (double)v.n) : 1;
-    v.uniform = v.n > 0 ? uniform_p(a, b, uniform_distance(p, v.n), seed) : 1;
+    v.uniform = v.n > 0 ? uniform_p(a, b, stats_ks_distance(p, (size_t)v.n), seed) : 1;
     struct moments x = total_moments(a), y = total_moments(b);
     v.mean = welch(x, y);
     v.ratio = x.mean / y.mean;
