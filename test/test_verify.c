@@ -1,10 +1,12 @@
 /* test_verify.c: `verify` accepts what is equal, rejects what is not, and its p-values are uniform. */
 #include <math.h>
+#include <stdio.h>
 
 #include "base/rng.h"
 #include "base/stats.h"
 #include "image/srgb.h"
 #include "lab/compare.h"
+#include "lab/sides.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -118,6 +120,33 @@ static void test_tiles(struct test *t)
     batches_free(&tiles);
 }
 
+/* What is stored is the mean of both sides, each weighted by the other's variance, with its standard error; one side a
+ * picture whose errors are known. */
+static void test_store(struct test *t)
+{
+    char name[256], path[280];
+    struct error err = {""};
+    struct side a = {"a", 2, 1, batches_new(2, 6, false)}, b = {"b", 2, 1, batches_new(1, 6, true)}, stored = {0};
+    for (int i = 0; i < 6; i++) {
+        a.pixels.value[i] = 1 + i; /* 1 + i +- 1: the mean's variance is 1 */
+        a.pixels.value[6 + i] = 3 + i;
+        b.pixels.value[i] = 6 + i;
+        b.pixels.error[i] = 2;
+    }
+    struct verdict v = verify_batches(&a.pixels, &b.pixels, 1);
+    struct provenance from = {"a note", "a scene", 5, &v};
+    snprintf(name, sizeof name, "%s/stored", test_tmp(t));
+    snprintf(path, sizeof path, "%s.pfm", name);
+    bool ok = CHECK(t, sides_store(name, &a, &b, &from, &err), "%s", err.text) &&
+              CHECK(t, side_read_reference(path, &stored, &err), "%s", err.text);
+    for (int i = 0; ok && i < 6; i++) /* weights 4/5 and 1/5 */
+        CHECK(t, fabs(stored.pixels.value[i] - 2.8 - i) < 1e-6 && fabs(stored.pixels.error[i] - sqrt(0.8)) < 1e-6,
+              "value %d is stored as %g +- %g", i, stored.pixels.value[i], stored.pixels.error[i]);
+    batches_free(&a.pixels);
+    batches_free(&b.pixels);
+    batches_free(&stored.pixels);
+}
+
 /* The figures of `compare` for differences chosen by hand. */
 static void test_compare(struct test *t)
 {
@@ -155,6 +184,7 @@ static void test_methods(struct test *t)
 void test_verify(struct test *t)
 {
     test_tiles(t);
+    test_store(t);
     test_compare(t);
     test_level(t, 0);
     test_level(t, 0.5);

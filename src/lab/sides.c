@@ -38,9 +38,11 @@ bool side_read(char **file, int n, bool with_errors, const struct side *like, st
             side.height = h;
             side.pixels = batches_new(with_errors ? 1 : n, 3L * w * h, with_errors);
         }
-        double *to = with_errors && k == 1 ? side.pixels.error : side.pixels.value + side.pixels.n * k;
         for (long i = 0; ok && i < side.pixels.n; i++)
-            to[i] = (double)pixels[i];
+            if (with_errors && k == 1)
+                side.pixels.error[i] = (double)pixels[i];
+            else
+                side.pixels.value[side.pixels.n * k + i] = (double)pixels[i];
         free(pixels);
     }
     *out = side;
