@@ -391,10 +391,22 @@ static void check_output(struct test *t, const struct results *r)
     free(html);
 }
 
+/* The experiment once more: are its results those of the first time? */
+static void check_again(struct test *t, struct setup *s, const struct results *first, bool same, bool times,
+                        const char *what)
+{
+    struct results again;
+    carry_out(t, s, &again);
+    CHECK(t, same_results(first, &again, times) == same, "%s", what);
+    again.scene[0].run[VARIANT_POOL][0] = again.scene[0].run[VARIANT_POOL][1];
+    CHECK(t, !same_results(first, &again, false), "two seeds have different results");
+    results_free(&again);
+}
+
 static void test_experiment(struct test *t)
 {
     struct setup s, other;
-    struct results first, again;
+    struct results first;
     char path[512];
     set_up(t, "experiment", &s);
     if (!carry_out(t, &s, &first)) {
@@ -406,9 +418,7 @@ static void test_experiment(struct test *t)
     check_output(t, &first);
 
     /* Started again, nothing is done twice: even the times are the old ones. */
-    carry_out(t, &s, &again);
-    CHECK(t, same_results(&first, &again, true), "an experiment started again has the same results");
-    results_free(&again);
+    check_again(t, &s, &first, true, true, "an experiment started again has the same results");
     /* Interrupted: one run is lost, one is damaged. */
     snprintf(path, sizeof path, "%s/runs/cornell-box--bins--seed1.csv", s.directory);
     CHECK(t, remove(path) == 0, "%s exists", path);
@@ -416,28 +426,18 @@ static void test_experiment(struct test *t)
     FILE *f = fopen(path, "a");
     fputs("64,1", f);
     fclose(f);
-    carry_out(t, &s, &again);
-    CHECK(t, same_results(&first, &again, false), "an interrupted experiment ends with the same results");
-    results_free(&again);
-    /* Another directory and other threads give the same measurements; another seed would not. */
+    check_again(t, &s, &first, true, false, "an interrupted experiment ends with the same results");
+    /* Another directory and other threads give the same measurements. */
     set_up(t, "elsewhere", &other);
     other.plan.n_threads = 3;
-    carry_out(t, &other, &again);
-    CHECK(t, same_results(&first, &again, false), "the results do not depend on threads");
-    again.scene[0].run[VARIANT_POOL][0] = again.scene[0].run[VARIANT_POOL][1];
-    CHECK(t, !same_results(&first, &again, false), "two seeds have different results");
-    results_free(&again);
+    check_again(t, &other, &first, true, false, "the results do not depend on threads");
     /* A scene that has changed begins anew. */
     f = fopen(s.scene_path, "a");
     fputs("# nothing\n", f);
     fclose(f);
-    carry_out(t, &s, &again);
-    CHECK(t, same_results(&first, &again, false), "a comment in the scene changes nothing");
-    results_free(&again);
+    check_again(t, &s, &first, true, false, "a comment in the scene changes nothing");
     write_scene(s.scene_path, "[9 9 9]");
-    carry_out(t, &s, &again);
-    CHECK(t, !same_results(&first, &again, false), "a brighter light does");
-    results_free(&again);
+    check_again(t, &s, &first, false, false, "a brighter light does");
     results_free(&first);
 }
 
