@@ -275,7 +275,7 @@ static void test_filters(struct test *t)
             return;
         /* A disk of albedo 1/2 under a sky of 1 has radiance 1/2, in every pixel: tiles of one pixel show edges. */
         struct batches b = render_batches(t, &scene, "lt", 1, 400, 16, 3, 41);
-        struct batches expected = {b.n_batches, b.n, mem_alloc((size_t)(b.n * b.n_batches), sizeof(double))};
+        struct batches expected = batches_new(b.n_batches, b.n, false);
         for (long k = 0; k < b.n * b.n_batches; k++)
             expected.value[k] = 0.5;
         double ratio, p = batches_p(&b, &expected, &ratio);

@@ -1,26 +1,25 @@
 /* test_report.c: experiments: statistics, plots, a tiny experiment carried out, resumed and written, its files
  * read. */
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
+#include "base/mem.h"
+#include "base/rng.h"
+#include "base/stats.h"
+#include "image/image.h"
 #include "lab/compare.h"
 #include "lab/experiment.h"
 #include "lab/figures.h"
-#include "base/file.h"
 #include "lab/findings.h"
-#include "image/image.h"
 #include "lab/markup.h"
-#include "base/mem.h"
-#include "lab/output.h"
-#include "parser/parser.h"
 #include "lab/pictures.h"
 #include "lab/published.h"
-#include "base/rng.h"
-#include "base/stats.h"
+#include "lab/report.h"
 #include "lab/tables.h"
+#include "parser/parser.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -37,6 +36,14 @@ static char *text_of(struct test *t, const char *path)
         memcpy(text, data, size);
     free(data);
     return text;
+}
+
+/* The content of a file that the experiment left. */
+static char *output_of(struct test *t, const struct results *r, const char *name)
+{
+    char path[512];
+    snprintf(path, sizeof path, "%s/%s", r->plan->directory, name);
+    return text_of(t, path);
 }
 
 /* --- statistics -------------------------------------------------------------------------------------- */
@@ -89,17 +96,17 @@ static void test_statistics(struct test *t)
     TEST_REJECT(t, coverage_p(t, 0.7), "intervals drawn in to 0.7 hold it as often");
 
     struct interval gain = {0.5, 0.4, 0.9}, loss = {2, 1.1, 3}, open = {0.9, 0.7, 1.2}, single = {0.5, NAN, NAN};
-    CHECK(t, verdict_of(gain) == VERDICT_GAIN && verdict_of(loss) == VERDICT_LOSS, "verdicts of clear intervals");
-    CHECK(t, verdict_of(open) == VERDICT_UNDECIDED && verdict_of(single) == VERDICT_UNDECIDED,
+    CHECK(t, outcome_of(gain) == OUTCOME_GAIN && outcome_of(loss) == OUTCOME_LOSS, "outcomes of clear intervals");
+    CHECK(t, outcome_of(open) == OUTCOME_UNDECIDED && outcome_of(single) == OUTCOME_UNDECIDED,
           "an interval that holds 1, or none, decides nothing");
 }
 
 /* --- plots ------------------------------------------------------------------------------------------- */
 
-static void check_axis(struct test *t, const struct axis *a)
+static void check_axis(struct test *t, const struct plot_axis *a)
 {
-    double tick[PLOT_MAX_TICKS];
-    bool major[PLOT_MAX_TICKS];
+    double tick[AXIS_MAX_TICKS];
+    bool major[AXIS_MAX_TICKS];
     int n = axis_ticks(a, tick, major), majors = 0;
     for (int i = 0; i < n; i++) {
         majors += major[i];
@@ -119,12 +126,12 @@ static void test_axes(struct test *t)
     static const double range[][2] = {{0.01, 0.02}, {1, 1},  {3, 700},    {0.0004, 12},
                                       {2e-9, 3e9},  {8, 64}, {0.99, 1.01}};
     for (size_t i = 0; i < sizeof range / sizeof range[0]; i++) {
-        struct axis log_axis = axis_make(true, range[i][0], range[i][1]);
-        struct axis linear = axis_make(false, -range[i][0], range[i][1]);
+        struct plot_axis log_axis = axis_make(true, range[i][0], range[i][1]);
+        struct plot_axis linear = axis_make(false, -range[i][0], range[i][1]);
         check_axis(t, &log_axis);
         check_axis(t, &linear);
     }
-    struct axis a = axis_make(true, 1, 100);
+    struct plot_axis a = axis_make(true, 1, 100);
     double middle = 0.5 * (axis_position(&a, 1) + axis_position(&a, 100));
     CHECK(t, fabs(axis_position(&a, 10) - middle) < 1e-12, "10 lies half way between 1 and 100");
     a = axis_make(false, 1, 3);
@@ -133,69 +140,6 @@ static void test_axes(struct test *t)
 }
 
 /* --- well-formedness --------------------------------------------------------------------------------- */
-
-/* Skip one JSON value [RFC 8259] and the space after it; NULL when it is none. */
-static const char *skip_json(const char *p);
-
-static const char *skip_space(const char *p)
-{
-    while (p != NULL && *p != '\0' && strchr(" \n\r\t", *p) != NULL)
-        p++;
-    return p;
-}
-
-static const char *skip_json_text(const char *p)
-{
-    if (p == NULL || *p++ != '"')
-        return NULL;
-    for (; *p != '"'; p++)
-        if ((unsigned char)*p < 0x20 || (*p == '\\' && *++p == '\0'))
-            return NULL;
-    return skip_space(p + 1);
-}
-
-/* The members of an array or object, up to its closing bracket. */
-static const char *skip_json_list(const char *p, char close, bool named)
-{
-    p = skip_space(p + 1);
-    if (*p == close)
-        return skip_space(p + 1);
-    for (;; p = skip_space(p + 1)) {
-        if (named) {
-            p = skip_json_text(p);
-            if (p == NULL || *p != ':')
-                return NULL;
-            p = skip_space(p + 1);
-        }
-        p = skip_json(p);
-        if (p == NULL || (*p != ',' && *p != close))
-            return NULL;
-        if (*p == close)
-            return skip_space(p + 1);
-    }
-}
-
-static const char *skip_json(const char *p)
-{
-    static const char *const words[] = {"true", "false", "null"};
-    p = skip_space(p);
-    if (*p == '{' || *p == '[')
-        return skip_json_list(p, *p == '{' ? '}' : ']', *p == '{');
-    if (*p == '"')
-        return skip_json_text(p);
-    for (size_t i = 0; i < 3; i++)
-        if (strncmp(p, words[i], strlen(words[i])) == 0)
-            return skip_space(p + strlen(words[i]));
-    char *end;
-    strtod(p, &end);
-    return end != p && *p != '+' && *p != '.' && !isalpha((unsigned char)*p) ? skip_space(end) : NULL;
-}
-
-static bool json_ok(const char *text)
-{
-    const char *end = skip_json(text);
-    return end != NULL && *end == '\0';
-}
 
 /* Does every tag close in order? Enough for what this program writes: no comments, no CDATA. */
 static bool xml_ok(const char *p)
@@ -252,20 +196,13 @@ static void test_markup(struct test *t)
         free(text);
     }
     FILE *f = fopen(path, "w");
-    fputs("[", f);
-    json_text(f, "a \"quoted\" back\\slash\nline");
-    fputs(", ", f);
-    json_number(f, NAN);
-    fputs(", ", f);
-    json_number(f, -1.5e-7);
-    fputs("]", f);
+    xml_print(f, "<%s>%s</p> %d %04ld %.1f %s|", "p", "a<b & \"c\" %d", 3, 14L, 0.25, "x");
     fclose(f);
     char *text = text_of(t, path);
-    CHECK(t, json_ok(text), "JSON: %s", text);
+    CHECK(t, strcmp(text, "<p>a&lt;b &amp; &quot;c&quot; %d</p> 3 0014 0.2 x|") == 0, "markup printed: %s", text);
     free(text);
-    CHECK(t, !json_ok("{\"a\": nan}") && !json_ok("[1, 2") && !json_ok("[1 2]") && !json_ok("{\"a\"}"),
-          "what is no JSON is refused by the checker");
-    CHECK(t, xml_ok("<a><b/>x</a>") && !xml_ok("<a><b></a></b>") && !xml_ok("<a>"), "so are tags out of order");
+    CHECK(t, xml_ok("<a><b/>x</a>") && !xml_ok("<a><b></a></b>") && !xml_ok("<a>"),
+          "tags out of order are refused by the checker");
     CHECK(t, csv_lines("a,b\n1,2\n") == 2 && csv_lines("a,b\n1\n") == 0, "and lines of unequal fields");
 }
 
@@ -329,12 +266,13 @@ static bool same_results(const struct results *a, const struct results *b, bool 
             for (int i = 0; i < a->plan->n_steps; i++) {
                 const struct run_step *p = &a->scene[0].run[v][seed].step[i],
                                       *q = &b->scene[0].run[v][seed].step[i];
-                if (p->spp != q->spp || p->rmse != q->rmse || p->rmse8 != q->rmse8 || p->relmse != q->relmse ||
-                    p->mean_error != q->mean_error || p->mean_noise != q->mean_noise ||
-                    (times && p->seconds != q->seconds))
+                bool same = p->spp == q->spp;
+                for (int k = times ? 0 : Q_SECONDS + 1; k < N_QUANTITIES; k++)
+                    same = same && p->value[k] == q->value[k];
+                if (!same)
                     return false;
             }
-    for (int v = 0; v < N_METHODS; v++)
+    for (int v = 0; v < N_COMPARED; v++)
         if (memcmp(a->scene[0].image[v], b->scene[0].image[v], 8 * 6 * 3 * sizeof(float)) != 0)
             return false;
     return true;
@@ -350,7 +288,7 @@ static double direct_rmse8(struct test *t, const struct results *r, int variant,
     if (!scene_from_file(t, r->scene[0].path, 8, 6, &scene))
         return NAN;
     variant_settings(&VARIANTS[variant], &scene.settings);
-    struct render_options o = {.method = method_find(VARIANTS[variant].method), .n_threads = 2, .max_depth = 4};
+    struct render_options o = {.method = method_find(VARIANTS[variant].integrator), .n_threads = 2, .max_depth = 4};
     o.seed = (uint64_t)plan_seed(variant, 1);
     o.end = r->plan->spp[step];
     film_init(&film, render_crop(&scene), 8, 6);
@@ -370,11 +308,12 @@ static void check_runs(struct test *t, const struct results *r)
     CHECK(t, strcmp(s->name, "cornell-box") == 0, "scene name %s", s->name);
     for (int v = 0; v < N_VARIANTS; v++)
         for (int i = 0; i < r->plan->n_steps && plan_seeds(r->plan, v) > 0; i++) {
-            double direct = direct_rmse8(t, r, v, i), ours = s->run[v][0].step[i].rmse8;
+            double direct = direct_rmse8(t, r, v, i), ours = s->run[v][0].step[i].value[Q_RMSE8];
             CHECK(t, fabs(direct - ours) < 1e-9, "%s after %ld spp: rmse8 %g, rendered in one go %g",
                   VARIANTS[v].name, r->plan->spp[i], ours, direct);
         }
-    double seconds[2] = {s->run[0][0].step[0].seconds, s->run[0][0].step[r->plan->n_steps - 1].seconds};
+    const struct run_step *step = s->run[0][0].step;
+    double seconds[2] = {step[0].value[Q_SECONDS], step[r->plan->n_steps - 1].value[Q_SECONDS]};
     CHECK(t, seconds[0] > 0 && seconds[1] > seconds[0], "time rises: %g, %g s", seconds[0], seconds[1]);
 }
 
@@ -384,12 +323,12 @@ static void check_tables(struct test *t, const struct results *r)
     struct table table;
     int last = r->plan->n_steps - 1;
     const struct run_step *a = &s->run[VARIANT_POOL][0].step[last], *b = &s->run[VARIANT_POOL][1].step[last];
-    tables_scene(r, s, TABLE_RMSE, &table);
+    table_make(r, s, TABLE_RMSE, &table);
     size_t cell = (size_t)(last * table.columns + 1 + VARIANT_POOL);
-    double mean = 0.5 * (a->rmse8 + b->rmse8), error = 0.5 * fabs(a->rmse8 - b->rmse8);
+    double x = a->value[Q_RMSE8], y = b->value[Q_RMSE8], mean = 0.5 * (x + y), error = 0.5 * fabs(x - y);
     CHECK(t, table.cell[cell].value == mean, "RMSE of pool in the table: %g, computed: %g", table.cell[cell].value,
           mean);
-    struct estimate e = results_mean(s, 2, VARIANT_POOL, last, Q_RMSE8);
+    struct estimate e = results_mean(r, s, VARIANT_POOL, last, Q_RMSE8);
     CHECK(t, fabs(e.error - error) < 1e-12, "standard error of two values: %g, %g", e.error, error);
     table_free(&table);
 
@@ -397,15 +336,15 @@ static void check_tables(struct test *t, const struct results *r)
     for (int v = 0; v < 2; v++)
         for (int i = 0; i < 2; i++) {
             const struct run_step *p = &s->run[v == 0 ? VARIANT_BDPT : VARIANT_POOL][i].step[last];
-            cost[v] += 0.5 * (p->rmse8 * p->rmse8 - n2) * p->seconds;
+            cost[v] += 0.5 * (p->value[Q_RMSE8] * p->value[Q_RMSE8] - n2) * p->value[Q_SECONDS];
         }
-    tables_scene(r, s, TABLE_EQUAL_TIME, &table);
-    cell = (size_t)(last * table.columns + 1 + N_METHODS + VARIANT_POOL - 1);
+    table_make(r, s, TABLE_EQUAL_TIME, &table);
+    cell = (size_t)(last * table.columns + 1 + N_COMPARED + VARIANT_POOL - 1);
     CHECK(t, !(cost[0] > 0 && cost[1] > 0) || fabs(table.cell[cell].value * cost[0] / cost[1] - 1) < 1e-9,
           "equal-time ratio of pool in the table: %g, computed: %g", table.cell[cell].value, cost[1] / cost[0]);
     table_free(&table);
 
-    CHECK(t, tables_scene(r, s, TABLE_PUBLISHED, &table), "the scene has printed numbers");
+    CHECK(t, table_make(r, s, TABLE_PUBLISHED, &table), "the scene has printed numbers");
     const struct published *p = published_find("cornell-box");
     cell = table_rows(&table) * (size_t)table.columns - 1;
     CHECK(t, table.cell[cell].value == p->asbdpt[4] / p->bdpt[4], "the last printed ratio: %g",
@@ -418,40 +357,32 @@ static void check_output(struct test *t, const struct results *r)
 {
     static const char *const plots[] = {"convergence", "bias", "paths-per-set", "restart-limit"};
     struct error err = {""};
-    char path[512];
-    CHECK(t, output_write(r, &err), "output: %s", err.text);
+    CHECK(t, report_write(r, &err), "output: %s", err.text);
     for (size_t i = 0; i < 4; i++) {
-        snprintf(path, sizeof path, "%s/plots/cornell-box-%s.svg", r->plan->directory, plots[i]);
-        char *svg = text_of(t, path);
-        CHECK(t, xml_ok(svg) && strstr(svg, "nan") == NULL && strstr(svg, "inf\"") == NULL, "%s", path);
+        char name[128];
+        snprintf(name, sizeof name, "plots/cornell-box-%s.svg", plots[i]);
+        char *svg = output_of(t, r, name);
+        CHECK(t, xml_ok(svg) && strstr(svg, "nan") == NULL && strstr(svg, "inf\"") == NULL, "%s", name);
         free(svg);
     }
-    snprintf(path, sizeof path, "%s/results.json", r->plan->directory);
-    char *json = text_of(t, path);
-    CHECK(t, json_ok(json) && strstr(json, "\"equal_time_mse\"") != NULL, "%s", path);
-    free(json);
     int variants = 0, runs = 0;
     for (int v = 0; v < N_VARIANTS; v++) {
         variants += plan_seeds(r->plan, v) > 0;
         runs += plan_seeds(r->plan, v);
     }
-    snprintf(path, sizeof path, "%s/results.csv", r->plan->directory);
-    char *csv = text_of(t, path);
-    CHECK(t, csv_lines(csv) == 1 + variants * r->plan->n_steps, "%s has %d lines", path, csv_lines(csv));
-    free(csv);
-    snprintf(path, sizeof path, "%s/runs.csv", r->plan->directory);
-    csv = text_of(t, path);
-    CHECK(t, csv_lines(csv) == 1 + runs * r->plan->n_steps, "%s has %d lines", path, csv_lines(csv));
-    free(csv);
+    char *means = output_of(t, r, "results.csv"), *each = output_of(t, r, "runs.csv");
+    CHECK(t, csv_lines(means) == 1 + variants * r->plan->n_steps, "results.csv has %d lines", csv_lines(means));
+    CHECK(t, csv_lines(each) == 1 + runs * r->plan->n_steps, "runs.csv has %d lines", csv_lines(each));
+    free(means);
+    free(each);
 
-    snprintf(path, sizeof path, "%s/report.html", r->plan->directory);
-    char *html = text_of(t, path);
+    char *html = output_of(t, r, "report.html");
     int images = 0, with_text = 0;
     for (const char *p = html; (p = strstr(p, "<img ")) != NULL; p++) {
         images++;
         with_text += strncmp(p, "<img alt=\"", 10) == 0 && p[10] != '"';
     }
-    CHECK(t, images == (2 * N_METHODS + 1) * (1 + N_DETAILS) && with_text == images, "%d images, %d described",
+    CHECK(t, images == (2 * N_COMPARED + 1) * (1 + N_DETAILS) && with_text == images, "%d images, %d described",
           images, with_text);
     CHECK(t,
           strstr(html, "src=\"http") == NULL && strstr(html, "href=\"http") == NULL && strstr(html, "url(") == NULL,
@@ -460,10 +391,22 @@ static void check_output(struct test *t, const struct results *r)
     free(html);
 }
 
+/* The experiment once more: are its results those of the first time? */
+static void check_again(struct test *t, struct setup *s, const struct results *first, bool same, bool times,
+                        const char *what)
+{
+    struct results again;
+    carry_out(t, s, &again);
+    CHECK(t, same_results(first, &again, times) == same, "%s", what);
+    again.scene[0].run[VARIANT_POOL][0] = again.scene[0].run[VARIANT_POOL][1];
+    CHECK(t, !same_results(first, &again, false), "two seeds have different results");
+    results_free(&again);
+}
+
 static void test_experiment(struct test *t)
 {
     struct setup s, other;
-    struct results first, again;
+    struct results first;
     char path[512];
     set_up(t, "experiment", &s);
     if (!carry_out(t, &s, &first)) {
@@ -475,9 +418,7 @@ static void test_experiment(struct test *t)
     check_output(t, &first);
 
     /* Started again, nothing is done twice: even the times are the old ones. */
-    carry_out(t, &s, &again);
-    CHECK(t, same_results(&first, &again, true), "an experiment started again has the same results");
-    results_free(&again);
+    check_again(t, &s, &first, true, true, "an experiment started again has the same results");
     /* Interrupted: one run is lost, one is damaged. */
     snprintf(path, sizeof path, "%s/runs/cornell-box--bins--seed1.csv", s.directory);
     CHECK(t, remove(path) == 0, "%s exists", path);
@@ -485,28 +426,18 @@ static void test_experiment(struct test *t)
     FILE *f = fopen(path, "a");
     fputs("64,1", f);
     fclose(f);
-    carry_out(t, &s, &again);
-    CHECK(t, same_results(&first, &again, false), "an interrupted experiment ends with the same results");
-    results_free(&again);
-    /* Another directory and other threads give the same measurements; another seed would not. */
+    check_again(t, &s, &first, true, false, "an interrupted experiment ends with the same results");
+    /* Another directory and other threads give the same measurements. */
     set_up(t, "elsewhere", &other);
     other.plan.n_threads = 3;
-    carry_out(t, &other, &again);
-    CHECK(t, same_results(&first, &again, false), "the results do not depend on threads");
-    again.scene[0].run[VARIANT_POOL][0] = again.scene[0].run[VARIANT_POOL][1];
-    CHECK(t, !same_results(&first, &again, false), "two seeds have different results");
-    results_free(&again);
+    check_again(t, &other, &first, true, false, "the results do not depend on threads");
     /* A scene that has changed begins anew. */
     f = fopen(s.scene_path, "a");
     fputs("# nothing\n", f);
     fclose(f);
-    carry_out(t, &s, &again);
-    CHECK(t, same_results(&first, &again, false), "a comment in the scene changes nothing");
-    results_free(&again);
+    check_again(t, &s, &first, true, false, "a comment in the scene changes nothing");
     write_scene(s.scene_path, "[9 9 9]");
-    carry_out(t, &s, &again);
-    CHECK(t, !same_results(&first, &again, false), "a brighter light does");
-    results_free(&again);
+    check_again(t, &s, &first, false, false, "a brighter light does");
     results_free(&first);
 }
 
@@ -527,10 +458,10 @@ static void test_plan(struct test *t)
           "the last step is what was asked for");
     CHECK(t, !plan_set_spp(&p, 1, 1L << 24, NULL), "too many steps are refused");
     for (int i = 0; i < SWEEP_LENGTH; i++) {
-        CHECK(t, VARIANTS[sweep_variant(SWEEP_PATHS, i)].bin_paths == 4 << i, "paths %d", 4 << i);
-        CHECK(t, VARIANTS[sweep_variant(SWEEP_PATHS, i)].restart == 32, "only the paths move");
-        CHECK(t, VARIANTS[sweep_variant(SWEEP_RESTART, i)].restart == (i > 0 ? 4 << i : 0), "restart %d", i);
-        CHECK(t, VARIANTS[sweep_variant(SWEEP_RESTART, i)].bin_paths == 8, "only the restart moves");
+        CHECK(t, VARIANTS[SWEEPS[SWEEP_PATHS][i].variant].bin_paths == 4 << i, "paths %d", 4 << i);
+        CHECK(t, VARIANTS[SWEEPS[SWEEP_PATHS][i].variant].restart == 32, "only the paths move");
+        CHECK(t, VARIANTS[SWEEPS[SWEEP_RESTART][i].variant].restart == (i > 0 ? 4 << i : 0), "restart %d", i);
+        CHECK(t, VARIANTS[SWEEPS[SWEEP_RESTART][i].variant].bin_paths == 8, "only the restart moves");
     }
     plan_scene_name("a/b/veach-ajar/scene.pbrt", name, sizeof name);
     CHECK(t, strcmp(name, "veach-ajar") == 0, "name of a directory's scene: %s", name);

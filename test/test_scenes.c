@@ -207,7 +207,7 @@ static struct batches render(struct test *t, const char *name, const char *metho
 {
     char path[256];
     struct scene scene;
-    struct batches b = {0, 0, NULL};
+    struct batches b = {0};
     snprintf(path, sizeof path, "scenes/test/%s.pbrt", name);
     if (!scene_from_file(t, path, size, size, &scene))
         return b;

@@ -1,20 +1,19 @@
 /* test_verify.c: `verify` accepts what is equal, rejects what is not, and its p-values are uniform. */
 #include <math.h>
-#include <stdlib.h>
+#include <stdio.h>
 
-#include "lab/compare.h"
-#include "base/mem.h"
 #include "base/rng.h"
-#include "image/srgb.h"
 #include "base/stats.h"
-#include "lab/verify.h"
+#include "image/srgb.h"
+#include "lab/compare.h"
+#include "lab/sides.h"
 #include "helpers.h"
 #include "tests.h"
 
 /* Batches of uniform noise around 1, the noise of neighbouring values shared to the degree `share`. */
-static struct sample noise(struct rng *r, int n_batches, long n, double share, double shift)
+static struct batches noise(struct rng *r, int n_batches, long n, double share, double shift)
 {
-    struct sample s = sample_new(n_batches, n, false);
+    struct batches s = batches_new(n_batches, n, false);
     for (int k = 0; k < n_batches; k++) {
         double common = 0;
         for (long i = 0; i < n; i++) {
@@ -26,21 +25,21 @@ static struct sample noise(struct rng *r, int n_batches, long n, double share, d
     return s;
 }
 
-/* Many comparisons of equal samples: each of the three p-values must be uniform or, by Sidak's bound, too large. */
+/* Many comparisons of equal batches: each of the three p-values must be uniform or, by Sidak's bound, too large. */
 static void test_level(struct test *t, double share)
 {
     enum { TRIALS = 100, BATCHES = 12, VALUES = 60 };
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 801, 0);
     double mean[TRIALS], uniform[TRIALS], low_smallest = 0, low_uniform = 0;
     for (int i = 0; i < TRIALS; i++) {
-        struct sample a = noise(&r, BATCHES, VALUES, share, 0), b = noise(&r, BATCHES, VALUES, share, 0);
-        struct verdict v = verify_samples(&a, &b, (uint64_t)i, NULL);
+        struct batches a = noise(&r, BATCHES, VALUES, share, 0), b = noise(&r, BATCHES, VALUES, share, 0);
+        struct verdict v = verify_batches(&a, &b, (uint64_t)i);
         mean[i] = v.mean;
         uniform[i] = v.uniform;
         low_smallest += v.smallest < 0.1;
         low_uniform += v.uniform < 0.1;
-        sample_free(&a);
-        sample_free(&b);
+        batches_free(&a);
+        batches_free(&b);
     }
     TEST_ACCEPT(t, stats_ks_uniform_p(mean, TRIALS), "p-values of equal means, noise shared by %g", share);
     /* The share of p-values below 0.1 may not exceed 0.1. */
@@ -60,7 +59,7 @@ static void test_power(struct test *t)
     enum { BATCHES = 16, VALUES = 120 };
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 802, 0);
     for (int kind = 0; kind < 3; kind++) {
-        struct sample a = noise(&r, BATCHES, VALUES, 0, 0), b = noise(&r, BATCHES, VALUES, 0, kind == 1 ? 0.15 : 0);
+        struct batches a = noise(&r, BATCHES, VALUES, 0, 0), b = noise(&r, BATCHES, VALUES, 0, kind == 1 ? 0.15 : 0);
         for (int k = 0; k < BATCHES; k++)
             for (long i = 0; i < VALUES; i++) {
                 if (kind == 0 && i == 77)
@@ -68,14 +67,14 @@ static void test_power(struct test *t)
                 if (kind == 2)
                     b.value[VALUES * k + i] += i % 2 == 0 ? 0.25 : -0.25;
             }
-        struct verdict v = verify_samples(&a, &b, 1, NULL);
+        struct verdict v = verify_batches(&a, &b, 1);
         static const char *const what[] = {"one value", "all values", "values up and down"};
         TEST_REJECT(t, v.p, "%s shifted", what[kind]);
         TEST_REJECT(t, kind == 0 ? v.smallest : kind == 1 ? v.mean : v.uniform, "%s shifted, the test made for it",
                     what[kind]);
         CHECK(t, kind != 0 || v.where == 77, "the worst value is %ld, not 77", v.where);
-        sample_free(&a);
-        sample_free(&b);
+        batches_free(&a);
+        batches_free(&b);
     }
 }
 
@@ -83,7 +82,7 @@ static void test_power(struct test *t)
 static void test_errors(struct test *t)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 803, 0);
-    struct sample a = noise(&r, 16, 300, 0, 0), b = sample_new(1, 300, true);
+    struct batches a = noise(&r, 16, 300, 0, 0), b = batches_new(1, 300, true);
     for (int far = 0; far < 2; far++) {
         for (long i = 0; i < b.n; i++) {
             double u = 0;
@@ -92,33 +91,60 @@ static void test_errors(struct test *t)
             b.error[i] = 0.05;
             b.value[i] = 1 + 0.05 * u * (far ? 4 : 1); /* four times the error it claims */
         }
-        double p = verify_samples(&a, &b, 2, NULL).p;
+        double p = verify_batches(&a, &b, 2).p;
         if (far)
             TEST_REJECT(t, p, "batches against a picture that understates its errors");
         else
             TEST_ACCEPT(t, p, "batches against a picture with standard errors");
     }
-    sample_free(&a);
-    sample_free(&b);
+    batches_free(&a);
+    batches_free(&b);
 }
 
 static void test_tiles(struct test *t)
 {
-    struct sample s = sample_new(1, 5 * 3 * 3, true);
+    struct batches s = batches_new(1, 5 * 3 * 3, true);
     for (long i = 0; i < s.n; i++) {
         s.value[i] = (double)(i / 3 % 5) + 10 * (double)(i % 3);
         s.error[i] = 2;
     }
-    struct sample tiles = sample_tiles(&s, 5, 3, 2);
+    struct batches tiles = batches_tiles(&s, 5, 3, 2);
     CHECK(t, tiles.n == 3 * 2 * 3, "5x3 pixels make %ld values of 2x2 tiles", tiles.n);
     CHECK(t, fabs(tiles.value[3 * 1 + 2] - 22.5) < 1e-12, "mean of a tile is %g", tiles.value[5]);
     CHECK(t, fabs(tiles.value[3 * 2] - 4) < 1e-12, "mean of a cut tile is %g", tiles.value[6]);
     CHECK(t, fabs(tiles.error[0] - 1) < 1e-12, "error of the mean of 4 values of error 2 is %g", tiles.error[0]);
     double error;
-    CHECK(t, fabs(sample_mean(&s, &error) - 12) < 1e-12, "mean of everything");
+    CHECK(t, fabs(batches_mean(&s, &error) - 12) < 1e-12, "mean of everything");
     CHECK(t, fabs(error - 3 * sqrt(15 * 4.0) / 45) < 1e-12, "error of the mean, dependent channels: %g", error);
-    sample_free(&s);
-    sample_free(&tiles);
+    batches_free(&s);
+    batches_free(&tiles);
+}
+
+/* What is stored is the mean of both sides, each weighted by the other's variance, with its standard error; one side a
+ * picture whose errors are known. */
+static void test_store(struct test *t)
+{
+    char name[256], path[280];
+    struct error err = {""};
+    struct side a = {"a", 2, 1, batches_new(2, 6, false)}, b = {"b", 2, 1, batches_new(1, 6, true)}, stored = {0};
+    for (int i = 0; i < 6; i++) {
+        a.pixels.value[i] = 1 + i; /* 1 + i +- 1: the mean's variance is 1 */
+        a.pixels.value[6 + i] = 3 + i;
+        b.pixels.value[i] = 6 + i;
+        b.pixels.error[i] = 2;
+    }
+    struct verdict v = verify_batches(&a.pixels, &b.pixels, 1);
+    struct provenance from = {"a note", "a scene", 5, &v};
+    snprintf(name, sizeof name, "%s/stored", test_tmp(t));
+    snprintf(path, sizeof path, "%s.pfm", name);
+    bool ok = CHECK(t, sides_store(name, &a, &b, &from, &err), "%s", err.text) &&
+              CHECK(t, side_read_reference(path, &stored, &err), "%s", err.text);
+    for (int i = 0; ok && i < 6; i++) /* weights 4/5 and 1/5 */
+        CHECK(t, fabs(stored.pixels.value[i] - 2.8 - i) < 1e-6 && fabs(stored.pixels.error[i] - sqrt(0.8)) < 1e-6,
+              "value %d is stored as %g +- %g", i, stored.pixels.value[i], stored.pixels.error[i]);
+    batches_free(&a.pixels);
+    batches_free(&b.pixels);
+    batches_free(&stored.pixels);
 }
 
 /* The figures of `compare` for differences chosen by hand. */
@@ -147,14 +173,9 @@ static void test_methods(struct test *t)
     b[1] = render_batches(t, &scene, "bdpt", 4, 32, 16, 4, 812);
     settings_set(&scene.settings, "select", "bins", "test");
     b[2] = render_batches(t, &scene, "asbdpt", 4, 32, 16, 4, 813);
-    struct sample s[3];
-    for (int i = 0; i < 3; i++) {
-        struct sample x = {b[i].n_batches, b[i].n, b[i].value, NULL};
-        s[i] = x;
-    }
-    TEST_ACCEPT(t, verify_samples(&s[0], &s[1], 3, NULL).p, "verify: pt and bdpt on the Cornell box");
-    TEST_REJECT(t, verify_samples(&s[0], &s[2], 3, NULL).p, "verify: pt and bins on the Cornell box");
-    TEST_REJECT(t, verify_samples(&s[1], &s[2], 3, NULL).p, "verify: bdpt and bins on the Cornell box");
+    TEST_ACCEPT(t, verify_batches(&b[0], &b[1], 3).p, "verify: pt and bdpt on the Cornell box");
+    TEST_REJECT(t, verify_batches(&b[0], &b[2], 3).p, "verify: pt and bins on the Cornell box");
+    TEST_REJECT(t, verify_batches(&b[1], &b[2], 3).p, "verify: bdpt and bins on the Cornell box");
     for (int i = 0; i < 3; i++)
         batches_free(&b[i]);
     scene_free(&scene);
@@ -163,6 +184,7 @@ static void test_methods(struct test *t)
 void test_verify(struct test *t)
 {
     test_tiles(t);
+    test_store(t);
     test_compare(t);
     test_level(t, 0);
     test_level(t, 0.5);

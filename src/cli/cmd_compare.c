@@ -3,10 +3,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "cli/command.h"
-#include "lab/compare.h"
-#include "image/image.h"
 #include "base/mem.h"
+#include "cli/command.h"
+#include "image/image.h"
+#include "lab/compare.h"
 
 struct compare_options {
     const char *image, *reference, *heatmap;
@@ -22,28 +22,18 @@ static const struct option OPTIONS[] = {
     {.name = NULL},
 };
 
-/* JSON has no infinity or NaN. */
-static void print_json_number(const char *name, double v, const char *end)
-{
-    if (isfinite(v))
-        printf("\"%s\": %.9g%s", name, v, end);
-    else
-        printf("\"%s\": null%s", name, end);
-}
-
 static void print(const struct difference *d, bool json)
 {
-    if (!json) {
-        printf("rmse       %.6g\nrmse8      %.6g\nrelmse     %.6g\nmean_ratio %.6g\nnonfinite  %ld\n", d->rmse,
-               d->rmse8, d->relmse, d->mean_ratio, d->nonfinite);
-        return;
-    }
-    printf("{");
-    print_json_number("rmse", d->rmse, ", ");
-    print_json_number("rmse8", d->rmse8, ", ");
-    print_json_number("relmse", d->relmse, ", ");
-    print_json_number("mean_ratio", d->mean_ratio, ", ");
-    printf("\"nonfinite\": %ld}\n", d->nonfinite);
+    static const char *const names[] = {"rmse", "rmse8", "relmse", "mean_ratio"};
+    const double values[] = {d->rmse, d->rmse8, d->relmse, d->mean_ratio};
+    for (int i = 0; i < 4; i++)
+        if (!json)
+            printf("%-10s %.6g\n", names[i], values[i]);
+        else if (isfinite(values[i]))
+            printf("%s\"%s\": %.9g", i == 0 ? "{" : ", ", names[i], values[i]);
+        else /* JSON has no infinity or NaN */
+            printf("%s\"%s\": null", i == 0 ? "{" : ", ", names[i]);
+    printf(json ? ", \"nonfinite\": %ld}\n" : "nonfinite  %ld\n", d->nonfinite);
 }
 
 static bool write_heatmap(const char *path, const float *x, const float *r, int width, int height, struct error *err)

@@ -2,9 +2,11 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/mem.h"
+#include "base/parallel.h"
 #include "cli/command.h"
 #include "lab/experiment.h"
-#include "lab/output.h"
+#include "lab/report.h"
 #include "transport/path.h"
 
 /* The five scenes measured when none is named; the program is run from the top of its tree. */
@@ -66,7 +68,7 @@ static int carry_out(const struct plan *plan)
 {
     struct error err;
     struct results results = {0};
-    bool ok = experiment_run(plan, &results, &err) && output_write(&results, &err);
+    bool ok = experiment_run(plan, &results, &err) && report_write(&results, &err);
     if (ok && !plan->quiet)
         printf("%s/report.html\n", plan->directory);
     results_free(&results);

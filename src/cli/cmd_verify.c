@@ -1,26 +1,10 @@
 /* cmd_verify.c: asbdpt verify: have two methods, or two pictures, the same expectation? See verify.h for the tests. */
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/file.h"
-#include "base/mem.h"
-#include "base/number.h"
-#include "base/progress.h"
-#include "base/rng.h"
 #include "cli/command.h"
 #include "cli/job_options.h"
-#include "image/image.h"
-#include "lab/compare.h"
-#include "lab/verify.h"
-
-enum {
-    PIXELS = 1024,      /* of the pictures, unless --res says otherwise */
-    MOST_TILES = 196,   /* of a picture, unless --tile says otherwise */
-    PILOT_SPP = 4
-};
-static const double SECONDS = 40; /* of rendering, unless --spp says otherwise */
+#include "lab/sides.h"
 
 struct verify_options {
     struct job_options job;
@@ -88,126 +72,7 @@ static bool complete(struct verify_options *o)
     return false;
 }
 
-/* --- samples ----------------------------------------------------------------------------------------- */
-
-/* The pictures to compare: one side's pixels and the size, which all pictures must share. */
-struct side {
-    const char *name;
-    struct sample pixels;
-};
-
-struct sizes {
-    int width, height; /* 0: not known yet */
-};
-
-static bool read_into(const char *path, struct sizes *size, double **out, struct error *err)
-{
-    int w, h;
-    float *pixels = load_linear(path, &w, &h, err);
-    if (pixels == NULL)
-        return false;
-    bool fits = size->width == 0 || (size->width == w && size->height == h);
-    if (!fits) {
-        error_set(err, "%s is %dx%d, the picture before it %dx%d; all must have the same size", path, w, h, size->width,
-                  size->height);
-    } else {
-        *out = mem_alloc((size_t)w * (size_t)h * 3, sizeof **out);
-        for (long i = 0; i < 3L * w * h; i++)
-            (*out)[i] = (double)pixels[i];
-        size->width = w;
-        size->height = h;
-    }
-    free(pixels);
-    return fits;
-}
-
-static bool read_side(const char *const *file, int n, bool with_errors, struct sizes *size, struct side *out,
-                      struct error *err)
-{
-    int batches = with_errors ? 1 : n;
-    memset(&out->pixels, 0, sizeof out->pixels);
-    for (int k = 0; k < n; k++) {
-        double *pixels;
-        if (!read_into(file[k], size, &pixels, err))
-            return false;
-        long values = 3L * size->width * size->height;
-        if (k == 0)
-            out->pixels = sample_new(batches, values, with_errors);
-        double *to = with_errors && k == 1 ? out->pixels.error : out->pixels.value + values * k;
-        memcpy(to, pixels, (size_t)values * sizeof *to);
-        free(pixels);
-    }
-    out->name = file[0];
-    return true;
-}
-
-static bool render_one(const struct scene *scene, const struct method *m, const struct job_options *o, long spp,
-                       uint64_t seed, double *out, struct error *err)
-{
-    struct render_options options = {.method = m, .seed = seed, .end = spp, .n_threads = o->n_threads};
-    options.max_depth = o->max_depth;
-    struct film film;
-    film_init(&film, render_crop(scene), scene->width, scene->height);
-    bool ok = render_scene(scene, &options, &film, err);
-    film_warn(&film, 0);
-    for (long i = 0; ok && out != NULL && i < 3L * rect_width(film.rect) * rect_height(film.rect); i++)
-        out[i] = (film.own[i] + film.splat[i]) / (double)film.iterations * scene->film_scale;
-    film_free(&film);
-    return ok;
-}
-
-/* Seeds of the batches: hashes, so that neither the two sides nor a picture rendered with a seed that somebody typed, such
- * as a stored reference, shares random numbers with a batch. */
-static uint64_t batch_seed(uint64_t seed, int side, int batch)
-{
-    return hash_combine(hash_combine(hash_mix(seed ^ 0xbb67ae8584caa73bu), (uint64_t)side), (uint64_t)batch);
-}
-
-/* The samples per pixel that `renders` renders by each of the two methods need to take about `SECONDS`. */
-static long choose_spp(const struct scene *scene, const struct method *const *m, const struct verify_options *o,
-                       struct error *err)
-{
-    double start = clock_seconds();
-    int sides = m[1] != NULL ? 2 : 1;
-    for (int i = 0; i < sides; i++)
-        if (!render_one(scene, m[i], &o->job, PILOT_SPP, 1, NULL, err))
-            return 0;
-    double per_spp = (clock_seconds() - start) / PILOT_SPP;
-    double spp = SECONDS / (per_spp * o->batches);
-    return spp < PILOT_SPP ? PILOT_SPP : spp > 1e6 ? 1000000 : (long)spp;
-}
-
-static bool render_side(const struct scene *scene, const struct method *m, const struct verify_options *o, long spp,
-                        int side, struct side *out, struct error *err)
-{
-    long n = 3L * rect_width(render_crop(scene)) * rect_height(render_crop(scene));
-    out->name = m->name;
-    out->pixels = sample_new(o->batches, n, false);
-    struct progress bar;
-    progress_start(&bar, o->job.quiet);
-    bool ok = true;
-    for (int k = 0; ok && k < o->batches; k++) {
-        ok = render_one(scene, m, &o->job, spp, batch_seed(o->job.seed, side, k), out->pixels.value + n * k, err);
-        progress_update(&bar, (k + 1.0) / o->batches);
-    }
-    progress_end(&bar);
-    return ok;
-}
-
-/* Without --res: the scene's shape with about PIXELS pixels. */
-static void choose_resolution(struct scene *scene, const struct verify_options *o, const struct sizes *size)
-{
-    double aspect = sqrt((double)scene->width / scene->height);
-    if (o->reference != NULL) {
-        scene->width = size->width;
-        scene->height = size->height;
-    } else if (o->job.res[0] == 0) {
-        scene->width = (int)fmax(1, sqrt(PIXELS) * aspect + 0.5);
-        scene->height = (int)fmax(1, sqrt(PIXELS) / aspect + 0.5);
-    }
-}
-
-/* --- rendering both sides ---------------------------------------------------------------------------- */
+/* --- both sides -------------------------------------------------------------------------------------- */
 
 static void choose_methods(const struct verify_options *o, const struct method *scenes, const struct method **m)
 {
@@ -216,61 +81,45 @@ static void choose_methods(const struct verify_options *o, const struct method *
     m[1] = o->reference != NULL ? NULL : method_find(o->second[0] != '\0' ? o->second : partner);
 }
 
-/* A stored reference NAME.pfm comes with NAME.error.pfm. */
-static bool read_reference(const char *path, struct sizes *size, struct side *out, struct error *err)
+static bool render_sides(struct scene *scene, const struct method *scenes, const struct verify_options *o,
+                         struct side *a, struct side *b, struct error *err)
 {
-    char picture[4096], error[4096];
-    const char *both[2] = {picture, error};
-    int stem = (int)strlen(path) - 4;
-    if (stem < 1 || strcmp(path + stem, ".pfm") != 0)
-        return error_set(err, "%s: a reference is a .pfm file", path);
-    snprintf(picture, sizeof picture, "%s", path);
-    snprintf(error, sizeof error, "%.*s.error.pfm", stem, path);
-    bool ok = read_side(both, 2, true, size, out, err);
-    out->name = path;
+    const struct method *m[2];
+    struct render_options options = {.seed = o->job.seed, .n_threads = o->job.n_threads, .max_depth = o->job.max_depth};
+    bool ok = true;
+    choose_methods(o, scenes, m);
+    if (o->reference != NULL && !side_read_reference(o->reference, b, err))
+        return false;
+    if (o->reference != NULL || o->job.res[0] == 0)
+        side_choose_resolution(scene, o->reference != NULL ? b : NULL);
+    options.end = o->job.spp > 0 ? o->job.spp : side_choose_spp(scene, &options, m, o->batches, err);
+    if (options.end == 0)
+        return false;
+    printf("%dx%d pixels, %d batches of %ld spp, seed %llu\n", rect_width(render_crop(scene)),
+           rect_height(render_crop(scene)), o->batches, options.end, (unsigned long long)o->job.seed);
+    for (int i = 0; ok && i < 2 && m[i] != NULL; i++) {
+        options.method = m[i];
+        ok = side_render(scene, &options, i, o->batches, o->job.quiet, i == 0 ? a : b, err);
+    }
     return ok;
 }
 
-static bool render_sides(struct scene *scene, const struct method *scenes, const struct verify_options *o,
-                         struct sizes *size, struct side *a, struct side *b, struct error *err)
-{
-    const struct method *m[2];
-    choose_methods(o, scenes, m);
-    if (o->reference != NULL && !read_reference(o->reference, size, b, err))
-        return false;
-    if (o->reference != NULL || o->job.res[0] == 0) {
-        int width = scene->width, height = scene->height;
-        choose_resolution(scene, o, size);
-        if (width != scene->width || height != scene->height)
-            camera_prepare(&scene->camera, scene->width, scene->height);
-    }
-    long spp = o->job.spp > 0 ? o->job.spp : choose_spp(scene, m, o, err);
-    if (spp == 0)
-        return false;
-    size->width = rect_width(render_crop(scene));
-    size->height = rect_height(render_crop(scene));
-    printf("%dx%d pixels, %d batches of %ld spp, seed %llu\n", size->width, size->height, o->batches, spp,
-           (unsigned long long)o->job.seed);
-    return render_side(scene, m[0], o, spp, 0, a, err) && (m[1] == NULL || render_side(scene, m[1], o, spp, 1, b, err));
-}
+/* --- the verdict ------------------------------------------------------------------------------------- */
 
-/* --- results ----------------------------------------------------------------------------------------- */
-
-static void print_verdict(const struct verdict *v, const struct side *a, const struct side *b, int width, int tile,
-                          double alpha)
+static void print_verdict(const struct verdict *v, const struct side *a, const struct side *b, int tile, double alpha)
 {
+    static const char bars[] = "##################################################";
     double error_a, error_b;
-    double mean_a = sample_mean(&a->pixels, &error_a), mean_b = sample_mean(&b->pixels, &error_b);
-    long most = 1, across = (width + tile - 1) / tile;
-    printf("A  %-24s mean %.6g +- %.2g\nB  %-24s mean %.6g +- %.2g\n", a->name, mean_a, error_a, b->name, mean_b, error_b);
+    double mean_a = batches_mean(&a->pixels, &error_a), mean_b = batches_mean(&b->pixels, &error_b);
+    long most = 1, across = (a->width + tile - 1) / tile;
+    printf("A  %-24s mean %.6g +- %.2g\n", a->name, mean_a, error_a);
+    printf("B  %-24s mean %.6g +- %.2g\n", b->name, mean_b, error_b);
     printf("p-values of A = B, %ld tiles and channels (uniform if all are equal)\n", v->n);
     for (int i = 0; i < VERIFY_BARS; i++)
         most = v->bar[i] > most ? v->bar[i] : most;
-    for (int i = 0; i < VERIFY_BARS; i++) {
-        static const char bars[] = "##################################################";
+    for (int i = 0; i < VERIFY_BARS; i++)
         printf("  %.1f-%.1f %6ld %.*s\n", i / 10.0, (i + 1) / 10.0, v->bar[i],
                (int)((double)v->bar[i] / (double)most * (double)(sizeof bars - 1)), bars);
-    }
     printf("ratio of the means   %.5f +- %.5f\n", v->ratio, v->ratio_error);
     printf("p, means equal       %.3g\n", v->mean);
     printf("p, smallest (Sidak)  %.3g   tile of %d pixels at (%ld, %ld), channel %ld\n", v->smallest, tile,
@@ -279,116 +128,27 @@ static void print_verdict(const struct verdict *v, const struct side *a, const s
     printf("verdict: %s (p = %.3g at level %g)\n", v->p >= alpha ? "agree" : "DIFFER", v->p, alpha);
 }
 
-static int choose_tile(const struct verify_options *o, const struct sizes *size)
-{
-    int tile = o->tile > 0 ? o->tile : 4;
-    while (o->tile == 0 && ((size->width + tile - 1) / tile) * ((size->height + tile - 1) / tile) > MOST_TILES)
-        tile++;
-    return tile;
-}
-
-/* --- storing a reference ----------------------------------------------------------------------------- */
-
-/* Per pixel: mean over the batches, and the variance of that mean. Returns the sum of the variances. */
-static double mean_image(const struct sample *s, double *mean, double *variance)
-{
-    double total = 0;
-    for (long i = 0; i < s->n; i++) {
-        mean[i] = variance[i] = 0;
-        for (int k = 0; k < s->n_batches; k++)
-            mean[i] += s->value[s->n * k + i] / s->n_batches;
-        for (int k = 0; k < s->n_batches; k++) {
-            double d = s->value[s->n * k + i] - mean[i];
-            variance[i] += d * d / ((s->n_batches - 1.0) * s->n_batches);
-        }
-        total += variance[i];
-    }
-    return total;
-}
-
-static bool write_text(const struct verify_options *o, const struct verdict *v, const struct sizes *size, int max_depth,
-                       double weight, const float *mean, const float *error, const struct side *a, const struct side *b,
-                       struct error *err)
-{
-    char path[4096];
-    struct file_output f;
-    long n = 3L * size->width * size->height;
-    double sum = 0, error_a, error_b;
-    float *shifted = mem_alloc((size_t)n, sizeof *shifted);
-    for (long i = 0; i < n; i++) {
-        shifted[i] = mean[i] + error[i];
-        sum += (double)mean[i];
-    }
-    double noise8 = compare_pixels(shifted, mean, n).rmse8;
-    free(shifted);
-    sample_mean(&a->pixels, &error_a);
-    sample_mean(&b->pixels, &error_b);
-    double mean_error = hypot(weight * error_a, (1 - weight) * error_b);
-    snprintf(path, sizeof path, "%s.txt", o->store);
-    if (!file_create(path, &f, err))
-        return false;
-    fprintf(f.stream, "origin %s\nscene %s\nresolution %dx%d\nmaxdepth %d\nnoise8 %.6g\nmean %.9g\nmean_error %.6g\n",
-            o->note, o->job.scene_path, size->width, size->height, max_depth, noise8, sum / (double)n,
-            mean_error / (sum / (double)n));
-    fprintf(f.stream, "weights %.6f %.6f of the two methods, by the inverse of the sum of all pixels' variances\n",
-            weight, 1 - weight);
-    fprintf(f.stream, "agreement p %.3g: smallest of the tiles %.3g, means %.3g, uniform %.3g; ratio of the means %.6f +- %.6f\n",
-            v->p, v->smallest, v->mean, v->uniform, v->ratio, v->ratio_error);
-    return file_commit(&f, err);
-}
-
-/* One weight for the whole picture: weights that follow each pixel's own variance would favour pixels that happen to be
- * dark, for they happen to scatter less. */
-static bool store(const struct verify_options *o, const struct verdict *v, const struct sizes *size, int max_depth,
-                  const struct side *a, const struct side *b, struct error *err)
-{
-    size_t n = 3 * (size_t)size->width * (size_t)size->height;
-    double *part[4];
-    float *mean = mem_alloc(n, sizeof *mean), *error = mem_alloc(n, sizeof *error);
-    for (int i = 0; i < 4; i++)
-        part[i] = mem_alloc(n, sizeof *part[i]);
-    double variance_a = mean_image(&a->pixels, part[0], part[1]), variance_b = mean_image(&b->pixels, part[2], part[3]);
-    double both = variance_a + variance_b, weight = both > 0 ? variance_b / both : 0.5;
-    for (size_t i = 0; i < n; i++) {
-        mean[i] = float_within(weight * part[0][i] + (1 - weight) * part[2][i]);
-        error[i] = float_within(sqrt(weight * weight * part[1][i] + (1 - weight) * (1 - weight) * part[3][i]));
-    }
-    char path[4096];
-    snprintf(path, sizeof path, "%s.pfm", o->store);
-    bool ok = image_write(path, size->width, size->height, mean, err);
-    snprintf(path, sizeof path, "%s.error.pfm", o->store);
-    ok = ok && image_write(path, size->width, size->height, error, err) &&
-         write_text(o, v, size, max_depth, weight, mean, error, a, b, err);
-    for (int i = 0; i < 4; i++)
-        free(part[i]);
-    free(mean);
-    free(error);
-    return ok;
-}
-
-/* --- the command ------------------------------------------------------------------------------------- */
-
 /* Test, print, store. */
-static int judge(const struct verify_options *o, const struct sizes *size, int max_depth, const struct side *a,
-                 const struct side *b, struct error *err)
+static int judge(const struct verify_options *o, int max_depth, const struct side *a, const struct side *b,
+                 struct error *err)
 {
-    int tile = choose_tile(o, size);
-    struct sample x = sample_tiles(&a->pixels, size->width, size->height, tile);
-    struct sample y = sample_tiles(&b->pixels, size->width, size->height, tile);
-    struct verdict v = verify_samples(&x, &y, o->job.seed, NULL);
-    sample_free(&x);
-    sample_free(&y);
-    print_verdict(&v, a, b, size->width, tile, o->alpha);
+    int tile = o->tile > 0 ? o->tile : side_choose_tile(a);
+    struct batches x = batches_tiles(&a->pixels, a->width, a->height, tile);
+    struct batches y = batches_tiles(&b->pixels, b->width, b->height, tile);
+    struct verdict v = verify_batches(&x, &y, o->job.seed);
+    struct provenance from = {o->note, o->job.scene_path, max_depth, &v};
+    batches_free(&x);
+    batches_free(&y);
+    print_verdict(&v, a, b, tile, o->alpha);
     if (!(v.p >= o->alpha))
         return EXIT_JOB;
-    return o->store == NULL || store(o, &v, size, max_depth, a, b, err) ? EXIT_OK : fail(err);
+    return o->store == NULL || sides_store(o->store, a, b, &from, err) ? EXIT_OK : fail(err);
 }
 
 static int verify(const struct verify_options *o)
 {
     struct error err;
     struct scene scene;
-    struct sizes size = {0, 0};
     struct side a = {0}, b = {0};
     const struct method *method;
     int status = EXIT_OK, max_depth = 0;
@@ -396,13 +156,13 @@ static int verify(const struct verify_options *o)
         return status;
     bool ok = !o->has_scene || render_max_depth(&scene, o->job.max_depth, &max_depth, &err);
     if (ok && o->files.n > 0)
-        ok = read_side(o->files.item, o->files.n, o->with_errors, &size, &a, &err) &&
-             read_side(o->against.item, o->against.n, o->with_errors, &size, &b, &err);
+        ok = side_read(o->files.item, o->files.n, o->with_errors, NULL, &a, &err) &&
+             side_read(o->against.item, o->against.n, o->with_errors, &a, &b, &err);
     else if (ok)
-        ok = render_sides(&scene, method, o, &size, &a, &b, &err);
-    status = ok ? judge(o, &size, max_depth, &a, &b, &err) : fail(&err);
-    sample_free(&a.pixels);
-    sample_free(&b.pixels);
+        ok = render_sides(&scene, method, o, &a, &b, &err);
+    status = ok ? judge(o, max_depth, &a, &b, &err) : fail(&err);
+    batches_free(&a.pixels);
+    batches_free(&b.pixels);
     if (o->has_scene)
         scene_free(&scene);
     return status;

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "image/image.h"
 #include "base/mem.h"
+#include "image/image.h"
 
 struct difference compare_pixels(const float *x, const float *r, long n)
 {

@@ -1,6 +1,6 @@
 /* compare.h: how far an image is from a reference.
  *
- * Used by: the compare command, experiment, tests. Tests: test_render.c.
+ * Tests: test_render.c.
  */
 #ifndef ASBDPT_COMPARE_H
 #define ASBDPT_COMPARE_H

@@ -2,111 +2,334 @@
 #include "lab/figures.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
-const char *figure_name(enum figure f)
-{
-    switch (f) {
-    case FIGURE_CONVERGENCE: return "convergence";
-    case FIGURE_BIAS: return "bias";
-    case FIGURE_PATHS: return "paths-per-set";
-    case FIGURE_RESTART: return "restart-limit";
-    case N_FIGURES: break;
-    }
-    return "";
-}
+#include "base/number.h"
+#include "lab/markup.h"
 
-/* One line: a variant's quantity against seconds or samples. */
-static void add_line(const struct results *r, const struct scene_results *s, int variant, bool over_seconds,
-                     enum quantity q, double scale, struct plot *out)
+/* The picture's size and the frame of the data in it, in SVG units. */
+enum { WIDTH = 640, LEFT = 68, RIGHT = 624, TOP = 40, BOTTOM = 330 };
+enum { MAX_LINES = 8 };
+
+/* One line of a plot: a variant after a rising number of samples. */
+struct plot_line {
+    const char *label;
+    int n;
+    double x[PLAN_MAX_STEPS], y[PLAN_MAX_STEPS];
+    double error[PLAN_MAX_STEPS]; /* half length of the error bar; NaN or 0: none */
+};
+
+/* The x axis is logarithmic, with ticks at numbers of samples or at round seconds; the y axis too, unless the quantity
+ * has a sign. */
+struct plot {
+    char title[400];
+    const char *x_label, *y_label;
+    bool over_seconds, signed_y;
+    int n;
+    struct plot_line line[MAX_LINES];
+};
+
+/* --- what is shown ----------------------------------------------------------------------------------- */
+
+static const struct {
+    const char *name, *title, *x_label, *y_label;
+} TEXTS[N_FIGURES] = {
+    {"convergence", "error against time", "seconds of CPU", "RMSE, 8-bit scale"},
+    {"bias", "signed mean error against samples", "samples per pixel", "mean error, percent"},
+    {"paths-per-set", "paths per bin set", "samples per pixel", "RMSE, 8-bit scale"},
+    {"restart-limit", "restart limit", "samples per pixel", "RMSE, 8-bit scale"},
+};
+
+const char *figure_name(enum figure f) { return TEXTS[f].name; }
+
+static void add_line(const struct results *r, const struct scene_results *s, int variant, const char *label,
+                     struct plot *out)
 {
     struct plot_line *l = &out->line[out->n++];
-    int seeds = plan_seeds(r->plan, variant);
-    l->label = VARIANTS[variant].label;
+    double scale = out->signed_y ? 100 : 1; /* percent */
+    l->label = label;
     l->n = r->plan->n_steps;
     for (int i = 0; i < l->n; i++) {
-        struct estimate e = results_mean(s, seeds, variant, i, q);
-        l->x[i] = over_seconds ? results_mean(s, seeds, variant, i, Q_SECONDS).mean : (double)r->plan->spp[i];
+        struct estimate e = results_mean(r, s, variant, i, out->signed_y ? Q_MEAN_ERROR : Q_RMSE8);
+        l->x[i] = out->over_seconds ? results_mean(r, s, variant, i, Q_SECONDS).mean : (double)r->plan->spp[i];
         l->y[i] = scale * e.mean;
         l->error[i] = scale * e.error;
     }
 }
 
-static void add_methods(const struct results *r, const struct scene_results *s, bool over_seconds, enum quantity q,
-                        double scale, struct plot *out)
+static void make_plot(const struct results *r, const struct scene_results *s, enum figure f, struct plot *out)
 {
-    for (int v = 0; v < N_METHODS; v++)
-        add_line(r, s, v, over_seconds, q, scale, out);
-}
-
-static bool add_sweep(const struct results *r, const struct scene_results *s, enum sweep sweep, struct plot *out)
-{
-    add_line(r, s, VARIANT_BDPT, false, Q_RMSE8, 1, out);
-    for (int i = 0; i < SWEEP_LENGTH; i++) {
-        int v = sweep_variant(sweep, i);
-        if (plan_seeds(r->plan, v) == 0)
-            continue;
-        add_line(r, s, v, false, Q_RMSE8, 1, out);
-        out->line[out->n - 1].label = sweep_label(sweep, i);
-    }
-    return out->n > 2;
-}
-
-static void set_text(struct figure_text *t, const char *title, const char *x, const char *y)
-{
-    snprintf(t->title, sizeof t->title, "%s", title);
-    snprintf(t->x_label, sizeof t->x_label, "%s", x);
-    snprintf(t->y_label, sizeof t->y_label, "%s", y);
-}
-
-/* What the plot shows at its right end, in words. */
-static void describe(const struct plot *p, struct figure_text *t)
-{
-    int n = snprintf(t->description, sizeof t->description, "%s against %s. Last points:", t->y_label, t->x_label);
-    for (int k = 0; k < p->n && n < (int)sizeof t->description; k++) {
-        const struct plot_line *l = &p->line[k];
-        n += snprintf(t->description + n, sizeof t->description - (size_t)n, "%s %s %.4g at %.4g", k > 0 ? "," : "",
-                      l->label, l->y[l->n - 1], l->x[l->n - 1]);
-    }
-}
-
-bool figure_make(const struct results *r, const struct scene_results *s, enum figure f, struct plot *out,
-                 struct figure_text *text)
-{
-    static const char rmse[] = "RMSE, 8-bit scale";
-    bool shown = true;
+    const struct sweep_point *sweep = SWEEPS[f == FIGURE_PATHS ? SWEEP_PATHS : SWEEP_RESTART];
+    bool is_sweep = f == FIGURE_PATHS || f == FIGURE_RESTART;
     memset(out, 0, sizeof *out);
-    out->log_x = out->log_y = true;
-    out->data_ticks = f != FIGURE_CONVERGENCE; /* numbers of samples */
-    switch (f) {
-    case FIGURE_CONVERGENCE:
-        set_text(text, "error against time", "seconds of CPU", rmse);
-        add_methods(r, s, true, Q_RMSE8, 1, out);
-        break;
-    case FIGURE_BIAS:
-        set_text(text, "signed mean error against samples", "samples per pixel", "mean error, percent");
-        out->log_y = false;
-        out->zero_line = true;
-        add_methods(r, s, false, Q_MEAN_ERROR, 100, out);
-        break;
-    case FIGURE_PATHS:
-        set_text(text, "paths per bin set", "samples per pixel", rmse);
-        shown = add_sweep(r, s, SWEEP_PATHS, out);
-        break;
-    case FIGURE_RESTART:
-        set_text(text, "restart limit", "samples per pixel", rmse);
-        shown = add_sweep(r, s, SWEEP_RESTART, out);
-        break;
-    case N_FIGURES: return false;
+    snprintf(out->title, sizeof out->title, "%.255s: %.99s", s->name, TEXTS[f].title);
+    out->x_label = TEXTS[f].x_label;
+    out->y_label = TEXTS[f].y_label;
+    out->over_seconds = f == FIGURE_CONVERGENCE;
+    out->signed_y = f == FIGURE_BIAS;
+    for (int v = 0; v < (is_sweep ? 1 : N_COMPARED); v++)
+        add_line(r, s, v, VARIANTS[v].label, out);
+    for (int i = 0; is_sweep && i < SWEEP_LENGTH; i++)
+        if (plan_seeds(r->plan, sweep[i].variant) > 0)
+            add_line(r, s, sweep[i].variant, sweep[i].label, out);
+}
+
+/* --- axes -------------------------------------------------------------------------------------------- */
+
+struct plot_axis axis_make(bool logarithmic, double low, double high)
+{
+    struct plot_axis a = {logarithmic, low, high};
+    if (logarithmic) {
+        double margin = high > low ? pow(high / low, 0.06) : 1.5;
+        a.low = low / margin;
+        a.high = high * margin;
+    } else {
+        double margin = high > low ? 0.06 * (high - low) : fmax(fabs(high), 1) * 0.1;
+        a.low = low - margin;
+        a.high = high + margin;
     }
-    char title[400];
-    snprintf(title, sizeof title, "%.255s: %.99s", s->name, text->title);
-    snprintf(text->title, sizeof text->title, "%s", title);
-    describe(out, text);
-    out->title = text->title;
-    out->description = text->description;
-    out->x_label = text->x_label;
-    out->y_label = text->y_label;
-    return shown;
+    return a;
+}
+
+double axis_position(const struct plot_axis *a, double value)
+{
+    if (a->logarithmic)
+        return log(value / a->low) / log(a->high / a->low);
+    return (value - a->low) / (a->high - a->low);
+}
+
+static int linear_ticks(const struct plot_axis *a, double tick[], bool major[])
+{
+    double raw = (a->high - a->low) / 8, power = pow(10, floor(log10(raw))), scaled = raw / power;
+    double step = power * (scaled <= 1 ? 1 : scaled <= 2 ? 2 : scaled <= 5 ? 5 : 10);
+    int n = 0;
+    for (double i = ceil(a->low / step); i * step <= a->high && n < AXIS_MAX_TICKS; i++, n++) {
+        tick[n] = i * step;
+        major[n] = true;
+    }
+    return n;
+}
+
+/* Numbers stand at powers of ten, not all of them on a very long axis; on one of few powers also at 2 and 5, on a
+ * short one at every digit. */
+static int log_ticks(const struct plot_axis *a, double tick[], bool major[])
+{
+    double decades = log10(a->high / a->low);
+    int n = 0, every = 1 + int_within(decades / 10, 0, 100);
+    for (int power = int_within(floor(log10(a->low)), -324, 308); pow(10, power) <= a->high; power++)
+        for (int digit = 1; digit <= 9; digit++) {
+            double value = digit * pow(10, power);
+            if (value < a->low || value > a->high || n >= AXIS_MAX_TICKS || (decades > 6 && digit != 1))
+                continue;
+            tick[n] = value;
+            major[n] =
+                decades < 0.7 || (digit == 1 && power % every == 0) || (decades < 2.2 && (digit == 2 || digit == 5));
+            n++;
+        }
+    return n;
+}
+
+int axis_ticks(const struct plot_axis *a, double tick[AXIS_MAX_TICKS], bool major[AXIS_MAX_TICKS])
+{
+    return a->logarithmic ? log_ticks(a, tick, major) : linear_ticks(a, tick, major);
+}
+
+/* --- the frame --------------------------------------------------------------------------------------- */
+
+static bool drawable(const struct plot *p, double x, double y)
+{
+    return isfinite(x) && isfinite(y) && x > 0 && (p->signed_y || y > 0);
+}
+
+/* The ends of an error bar; on a logarithmic axis the lower must not reach 0. */
+static void bar_ends(const struct plot *p, const struct plot_line *l, int i, double *low, double *high)
+{
+    double e = isfinite(l->error[i]) ? l->error[i] : 0;
+    *high = l->y[i] + e;
+    *low = p->signed_y ? l->y[i] - e : fmax(l->y[i] - e, 0.2 * l->y[i]);
+}
+
+static void find_axes(const struct plot *p, struct plot_axis *x_axis, struct plot_axis *y_axis)
+{
+    double x0 = HUGE_VAL, x1 = -HUGE_VAL, y0 = HUGE_VAL, y1 = -HUGE_VAL;
+    for (const struct plot_line *l = p->line; l < p->line + p->n; l++)
+        for (int i = 0; i < l->n; i++) {
+            double low, high;
+            if (!drawable(p, l->x[i], l->y[i]))
+                continue;
+            bar_ends(p, l, i, &low, &high);
+            x0 = fmin(x0, l->x[i]);
+            x1 = fmax(x1, l->x[i]);
+            y0 = fmin(y0, low);
+            y1 = fmax(y1, high);
+        }
+    if (x0 > x1) { /* nothing to draw */
+        x0 = y0 = 1;
+        x1 = y1 = 10;
+    }
+    if (p->signed_y) { /* show 0 */
+        y0 = fmin(y0, 0);
+        y1 = fmax(y1, 0);
+    }
+    *x_axis = axis_make(true, x0, x1);
+    *y_axis = axis_make(!p->signed_y, y0, y1);
+}
+
+static double screen_x(const struct plot_axis *a, double v) { return LEFT + (RIGHT - LEFT) * axis_position(a, v); }
+static double screen_y(const struct plot_axis *a, double v) { return BOTTOM - (BOTTOM - TOP) * axis_position(a, v); }
+
+static int x_ticks(const struct plot *p, const struct plot_axis *a, double tick[], bool major[])
+{
+    if (p->over_seconds)
+        return axis_ticks(a, tick, major);
+    for (int i = 0; i < p->line[0].n; i++) {
+        tick[i] = p->line[0].x[i];
+        major[i] = true;
+    }
+    return p->line[0].n;
+}
+
+static void write_x_axis(FILE *f, const struct plot *p, const struct plot_axis *a)
+{
+    double tick[AXIS_MAX_TICKS];
+    bool major[AXIS_MAX_TICKS];
+    int n = x_ticks(p, a, tick, major);
+    for (int i = 0; i < n; i++) {
+        double x = screen_x(a, tick[i]);
+        fprintf(f, "<path class=\"%s\" d=\"M%.1f %dV%d\"/>\n", major[i] ? "pg" : "pm", x, TOP, BOTTOM);
+        if (major[i])
+            fprintf(f, "<text class=\"pt\" text-anchor=\"middle\" x=\"%.1f\" y=\"%d\">%.6g</text>\n", x, BOTTOM + 18,
+                    tick[i]);
+    }
+    xml_print(f, "<text class=\"pt\" text-anchor=\"middle\" x=\"%d\" y=\"%d\">%s</text>\n", (LEFT + RIGHT) / 2,
+              BOTTOM + 38, p->x_label);
+}
+
+static void write_y_axis(FILE *f, const struct plot *p, const struct plot_axis *a)
+{
+    double tick[AXIS_MAX_TICKS];
+    bool major[AXIS_MAX_TICKS];
+    int n = axis_ticks(a, tick, major);
+    for (int i = 0; i < n; i++) {
+        double y = screen_y(a, tick[i]);
+        fprintf(f, "<path class=\"%s\" d=\"M%d %.1fH%d\"/>\n", major[i] ? "pg" : "pm", LEFT, y, RIGHT);
+        if (major[i])
+            fprintf(f, "<text class=\"pt\" text-anchor=\"end\" x=\"%d\" y=\"%.1f\">%.6g</text>\n", LEFT - 6, y + 4,
+                    fabs(tick[i]) < 1e-12 ? 0 : tick[i]);
+    }
+    xml_print(f, "<text class=\"pt\" text-anchor=\"middle\" transform=\"translate(16 %d) rotate(-90)\">%s</text>\n",
+              (TOP + BOTTOM) / 2, p->y_label);
+    if (p->signed_y)
+        fprintf(f, "<path class=\"pz\" d=\"M%d %.1fH%d\"/>\n", LEFT, screen_y(a, 0), RIGHT);
+}
+
+/* --- lines ------------------------------------------------------------------------------------------- */
+
+/* Marker number k about (x,y): circle, square, triangle, diamond, and then all again, hollow. */
+static void write_marker(FILE *f, int k, double x, double y)
+{
+    static const char *const shape[] = {"m-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0z", "m-3.6 -3.6h7.2v7.2h-7.2z",
+                                        "m0 -4.8l4.6 8h-9.2z", "m0 -5l5 5l-5 5l-5 -5z"};
+    fprintf(f, "<path class=\"pk%d%s\" d=\"M%.1f %.1f%s\"/>\n", k, k >= 4 ? " ph" : "", x, y, shape[k % 4]);
+}
+
+static void write_line(FILE *f, const struct plot *p, int k, const struct plot_axis *xa, const struct plot_axis *ya)
+{
+    const struct plot_line *l = &p->line[k];
+    char step = 'M';
+    xml_print(f, "<g><title>%s</title>\n<path class=\"pl%d\" d=\"", l->label, k);
+    for (int i = 0; i < l->n; i++)
+        if (drawable(p, l->x[i], l->y[i])) {
+            fprintf(f, "%c%.1f %.1f", step, screen_x(xa, l->x[i]), screen_y(ya, l->y[i]));
+            step = 'L';
+        }
+    fputs(step == 'M' ? "M0 0\"/>\n" : "\"/>\n", f);
+    for (int i = 0; i < l->n; i++) {
+        if (!drawable(p, l->x[i], l->y[i]))
+            continue;
+        double low, high, x = screen_x(xa, l->x[i]);
+        bar_ends(p, l, i, &low, &high);
+        if (high > l->y[i]) {
+            double a = screen_y(ya, low), b = screen_y(ya, high);
+            fprintf(f, "<path class=\"pl%d pe\" d=\"M%.1f %.1fV%.1fm-3 0h6M%.1f %.1fh6\"/>\n", k, x, a, b, x - 3, a);
+        }
+        write_marker(f, k, x, screen_y(ya, l->y[i]));
+    }
+    fputs("</g>\n", f);
+}
+
+/* The legend fills rows below the plot. */
+static void write_legend(FILE *f, const struct plot *p)
+{
+    for (int k = 0; k < p->n; k++) {
+        int x = LEFT + (k % 3) * 190, y = BOTTOM + 60 + (k / 3) * 20;
+        fprintf(f, "<path class=\"pl%d\" d=\"M%d %dh24\"/>\n", k, x, y - 4);
+        write_marker(f, k, x + 12, y - 4);
+        xml_print(f, "<text class=\"pt\" x=\"%d\" y=\"%d\">%s</text>\n", x + 30, y, p->line[k].label);
+    }
+}
+
+/* --- the whole --------------------------------------------------------------------------------------- */
+
+void figure_style(FILE *f)
+{
+    static const char *const lines[] = {
+        ".plot{color:#1b1f24;background:#fff;font:13px system-ui,sans-serif;max-width:100%;height:auto}",
+        ".plot .pt{fill:currentColor}.plot .ptitle{fill:currentColor;font-weight:600;font-size:15px}",
+        ".plot .pg{stroke:currentColor;stroke-opacity:.22;fill:none}",
+        ".plot .pm{stroke:currentColor;stroke-opacity:.08;fill:none}",
+        ".plot .pz{stroke:currentColor;stroke-opacity:.7;stroke-dasharray:2 3;fill:none}",
+        ".plot .pf{stroke:currentColor;stroke-opacity:.6;fill:none}",
+        ".plot [class^=pl]{fill:none;stroke-width:2}.plot .pe{stroke-width:1.3}.plot .ph{fill:none!important}",
+        ".plot{--c0:#3d444d;--c1:#b3400a;--c2:#0b62a8;--c3:#12733a;--c4:#7a2bb5;--c5:#8a6a00}",
+        "@media (prefers-color-scheme:dark){.plot{color:#e6e9ed;background:#15191f;",
+        "--c0:#c3cad3;--c1:#ff9052;--c2:#5cb6ff;--c3:#4fd68a;--c4:#cf9bff;--c5:#e6c34a}}",
+        "@media print{.plot{color:#000;background:#fff;",
+        "--c0:#3d444d;--c1:#b3400a;--c2:#0b62a8;--c3:#12733a;--c4:#7a2bb5;--c5:#8a6a00}}",
+    };
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
+        fprintf(f, "%s\n", lines[i]);
+    for (int k = 0; k < MAX_LINES; k++)
+        fprintf(f, ".plot .pl%d{stroke:var(--c%d)}.plot .pk%d{fill:var(--c%d);stroke:var(--c%d)}\n", k, k % 6, k, k % 6,
+                k % 6);
+}
+
+/* What the plot shows at its right end, in words, for those who cannot see it. */
+static void write_description(FILE *f, const struct plot *p)
+{
+    xml_print(f, "%s against %s. Last points:", p->y_label, p->x_label);
+    for (int k = 0; k < p->n; k++) {
+        const struct plot_line *l = &p->line[k];
+        xml_print(f, "%s %s %.4g at %.4g", k > 0 ? "," : "", l->label, l->y[l->n - 1], l->x[l->n - 1]);
+    }
+}
+
+void figure_write(FILE *f, const struct results *r, const struct scene_results *s, enum figure which, const char *id,
+                  bool standalone)
+{
+    struct plot p;
+    struct plot_axis xa, ya;
+    make_plot(r, s, which, &p);
+    find_axes(&p, &xa, &ya);
+    int height = BOTTOM + 50 + 20 * ((p.n + 2) / 3);
+    xml_print(
+        f,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" viewBox=\"0 0 %d %d\" width=\"%d\" "
+        "height=\"%d\" role=\"img\" aria-labelledby=\"%s-t %s-d\">\n<title id=\"%s-t\">%s</title>\n<desc id=\"%s-d\">",
+        WIDTH, height, WIDTH, height, id, id, id, p.title, id);
+    write_description(f, &p);
+    fputs("</desc>\n", f);
+    if (standalone) {
+        fputs("<style>\n", f);
+        figure_style(f);
+        fputs("</style>\n", f);
+    }
+    xml_print(f, "<text class=\"ptitle\" x=\"%d\" y=\"24\">%s</text>\n", LEFT, p.title);
+    write_x_axis(f, &p, &xa);
+    write_y_axis(f, &p, &ya);
+    fprintf(f, "<path class=\"pf\" d=\"M%d %dV%dH%d\"/>\n", LEFT, TOP, BOTTOM, RIGHT);
+    for (int k = 0; k < p.n; k++)
+        write_line(f, &p, k, &xa, &ya);
+    write_legend(f, &p);
+    fputs("</svg>\n", f);
 }

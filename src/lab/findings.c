@@ -8,7 +8,7 @@
 
 #include "lab/published.h"
 
-static void say(struct findings *f, const char *format, ...)
+static void add_finding(struct findings *f, const char *format, ...)
 {
     va_list args;
     if (f->n >= FINDINGS_MAX)
@@ -18,22 +18,16 @@ static void say(struct findings *f, const char *format, ...)
     va_end(args);
 }
 
-enum verdict verdict_of(struct interval ratio)
+enum outcome outcome_of(struct interval ratio)
 {
     if (ratio.high < 1)
-        return VERDICT_GAIN;
-    return ratio.low > 1 ? VERDICT_LOSS : VERDICT_UNDECIDED;
+        return OUTCOME_GAIN;
+    return ratio.low > 1 ? OUTCOME_LOSS : OUTCOME_UNDECIDED;
 }
 
-static const char *verdict_text(enum verdict v)
-{
-    switch (v) {
-    case VERDICT_GAIN: return "a gain";
-    case VERDICT_LOSS: return "a loss";
-    case VERDICT_UNDECIDED: return "undecided, the interval holds 1";
-    }
-    return "";
-}
+static const char *const OUTCOMES[] = {"a gain", "a loss", "undecided, the interval holds 1"}; /* by enum outcome */
+
+static int last_step(const struct results *r) { return r->plan->n_steps - 1; }
 
 static const char *interval_text(struct interval i, char out[64])
 {
@@ -58,69 +52,64 @@ static double printed_ratio(const struct published *p, long spp, long *at)
 
 /* Is the dissertation's direction found again at the last step? The printed table has no errors, so its ratio is
  * taken as it stands. */
-static enum verdict agreement(const struct results *r, const struct scene_results *s, double *printed, long *at)
+static enum outcome agreement(const struct results *r, const struct scene_results *s, double *printed, long *at)
 {
-    int last = r->plan->n_steps - 1;
+    int last = last_step(r);
     const struct published *p = published_find(s->name);
-    enum verdict ours = verdict_of(results_rmse_ratio(r, s, VARIANT_BINS, last));
+    enum outcome ours = outcome_of(results_rmse_ratio(r, s, VARIANT_BINS, last));
     *printed = NAN;
     if (p == NULL)
-        return VERDICT_UNDECIDED;
+        return OUTCOME_UNDECIDED;
     *printed = printed_ratio(p, r->plan->spp[last], at);
-    if (ours == VERDICT_UNDECIDED)
+    if (ours == OUTCOME_UNDECIDED)
         return ours;
-    return (ours == VERDICT_GAIN) == (*printed < 1) ? VERDICT_GAIN : VERDICT_LOSS;
+    return (ours == OUTCOME_GAIN) == (*printed < 1) ? OUTCOME_GAIN : OUTCOME_LOSS;
 }
 
-static void compare_with_printed(const struct results *r, const struct scene_results *s, struct findings *f)
+static void add_comparison_with_printed(const struct results *r, const struct scene_results *s, struct findings *f)
 {
     char text[64];
-    int last = r->plan->n_steps - 1;
+    int last = last_step(r);
     long at = 0;
     double printed;
     struct interval ours = results_rmse_ratio(r, s, VARIANT_BINS, last);
-    enum verdict same = agreement(r, s, &printed, &at);
-    say(f, "After %ld samples per pixel the RMSE of bins is that of BDPT times %s: %s.", r->plan->spp[last],
-        interval_text(ours, text), verdict_text(verdict_of(ours)));
+    enum outcome same = agreement(r, s, &printed, &at);
+    add_finding(f, "After %ld samples per pixel the RMSE of bins is that of BDPT times %s: %s.", r->plan->spp[last],
+                interval_text(ours, text), OUTCOMES[outcome_of(ours)]);
     if (!isfinite(printed))
         return;
-    say(f, "The dissertation prints %.3f after %ld samples, %s: %s.", printed, at,
-        printed < 1 ? "a gain" : "a loss",
-        same == VERDICT_UNDECIDED ? "neither confirmed nor refuted here"
-        : same == VERDICT_GAIN    ? "found again here"
-                                  : "not found here");
+    add_finding(f, "The dissertation prints %.3f after %ld samples, %s: %s.", printed, at,
+                printed < 1 ? "a gain" : "a loss",
+                same == OUTCOME_UNDECIDED ? "neither confirmed nor refuted here"
+                : same == OUTCOME_GAIN    ? "found again here"
+                                          : "not found here");
 }
 
-static double mean_rmse(const struct results *r, const struct scene_results *s, int variant, int step)
+/* How much the error still falls over the last doubling. */
+static void add_convergence(const struct results *r, const struct scene_results *s, struct findings *f)
 {
-    return results_mean(s, plan_seeds(r->plan, variant), variant, step, Q_RMSE8).mean;
-}
-
-/* How fast the error still falls over the last doubling. */
-static void tell_convergence(const struct results *r, const struct scene_results *s, struct findings *f)
-{
-    int last = r->plan->n_steps - 1;
+    int last = last_step(r);
+    double factor[N_COMPARED];
     if (last < 1)
         return;
-    double more = (double)r->plan->spp[last] / (double)r->plan->spp[last - 1];
-    say(f,
-        "From %ld to %ld samples the RMSE falls by a factor of %.3f for BDPT, %.3f for bins, %.3f for pool and "
-        "%.3f for "
-        "vertices; without bias and with a perfect reference it would be %.3f.",
-        r->plan->spp[last - 1], r->plan->spp[last],
-        mean_rmse(r, s, VARIANT_BDPT, last - 1) / mean_rmse(r, s, VARIANT_BDPT, last),
-        mean_rmse(r, s, VARIANT_BINS, last - 1) / mean_rmse(r, s, VARIANT_BINS, last),
-        mean_rmse(r, s, VARIANT_POOL, last - 1) / mean_rmse(r, s, VARIANT_POOL, last),
-        mean_rmse(r, s, VARIANT_VERTICES, last - 1) / mean_rmse(r, s, VARIANT_VERTICES, last), sqrt(more));
+    for (int v = 0; v < N_COMPARED; v++)
+        factor[v] = results_mean(r, s, v, last - 1, Q_RMSE8).mean / results_mean(r, s, v, last, Q_RMSE8).mean;
+    add_finding(f,
+                "From %ld to %ld samples the RMSE falls by a factor of %.3f for BDPT, %.3f for bins, %.3f for pool and "
+                "%.3f for vertices; without bias and with a perfect reference it would be %.3f.",
+                r->plan->spp[last - 1], r->plan->spp[last], factor[VARIANT_BDPT], factor[VARIANT_BINS],
+                factor[VARIANT_POOL], factor[VARIANT_VERTICES],
+                sqrt((double)r->plan->spp[last] / (double)r->plan->spp[last - 1]));
 }
 
-static void tell_bias(const struct results *r, const struct scene_results *s, struct findings *f)
+static void add_biases(const struct results *r, const struct scene_results *s, struct findings *f)
 {
-    int last = r->plan->n_steps - 1;
-    for (int v = 0; v < N_METHODS; v++) {
+    int last = last_step(r);
+    for (int v = 0; v < N_COMPARED; v++) {
         struct bias b = results_bias(r, s, v, last);
         if (isfinite(b.p))
-            say(f,
+            add_finding(
+                f,
                 "The mean of %s is off by %+.3f %% with a standard error of %.2g %% (of which the reference %.2g "
                 "%%), p = %.2g: %s.",
                 VARIANTS[v].label, 100 * b.mean, 100 * b.error, 100 * s->reference.mean_error, b.p,
@@ -128,92 +117,91 @@ static void tell_bias(const struct results *r, const struct scene_results *s, st
     }
 }
 
-static void tell_equal_time(const struct results *r, const struct scene_results *s, struct findings *f)
+static void add_equal_times(const struct results *r, const struct scene_results *s, struct findings *f)
 {
     char text[64];
-    int last = r->plan->n_steps - 1;
-    for (int v = VARIANT_BDPT + 1; v < N_METHODS; v++) {
+    int last = last_step(r);
+    for (int v = VARIANT_BDPT + 1; v < N_COMPARED; v++) {
         struct interval i = results_equal_time(r, s, v, last);
         if (isfinite(i.value))
-            say(f, "At equal time the squared error of %s is that of BDPT times %s: %s.", VARIANTS[v].label,
-                interval_text(i, text), verdict_text(verdict_of(i)));
+            add_finding(f, "At equal time the squared error of %s is that of BDPT times %s: %s.", VARIANTS[v].label,
+                        interval_text(i, text), OUTCOMES[outcome_of(i)]);
         else
-            say(f, "At equal time %s cannot be compared: its error is below the noise of the reference.",
-                VARIANTS[v].label);
+            add_finding(f, "At equal time %s cannot be compared: its error is below the noise of the reference.",
+                        VARIANTS[v].label);
     }
-}
-
-void findings_scene(const struct results *r, const struct scene_results *s, struct findings *out)
-{
-    out->n = 0;
-    compare_with_printed(r, s, out);
-    tell_equal_time(r, s, out);
-    tell_convergence(r, s, out);
-    tell_bias(r, s, out);
 }
 
 /* --- all scenes -------------------------------------------------------------------------------------- */
 
-static void count_agreement(const struct results *r, struct findings *f)
+static void add_agreement(const struct results *r, struct findings *f)
 {
     int count[3] = {0, 0, 0}, scenes = 0;
     for (int i = 0; i < r->plan->n_scenes; i++) {
         double printed;
         long at;
-        enum verdict v = agreement(r, &r->scene[i], &printed, &at);
+        enum outcome v = agreement(r, &r->scene[i], &printed, &at);
         if (!isfinite(printed))
             continue;
         scenes++;
         count[v]++;
     }
     if (scenes > 0)
-        say(f,
-            "Whether bins has a lower or a higher RMSE than BDPT at the same number of samples agrees with the "
-            "dissertation in %d of %d scenes, differs in %d and is undecided in %d.",
-            count[VERDICT_GAIN], scenes, count[VERDICT_LOSS], count[VERDICT_UNDECIDED]);
+        add_finding(f,
+                    "Whether bins has a lower or a higher RMSE than BDPT at the same number of samples agrees with the "
+                    "dissertation in %d of %d scenes, differs in %d and is undecided in %d.",
+                    count[OUTCOME_GAIN], scenes, count[OUTCOME_LOSS], count[OUTCOME_UNDECIDED]);
 }
 
-static void count_gains(const struct results *r, int variant, struct findings *f)
+static void add_gains(const struct results *r, int variant, struct findings *f)
 {
     int count[3] = {0, 0, 0}, known = 0;
     double log_sum = 0;
     for (int i = 0; i < r->plan->n_scenes; i++) {
-        struct interval ratio = results_equal_time(r, &r->scene[i], variant, r->plan->n_steps - 1);
-        count[verdict_of(ratio)]++;
+        struct interval ratio = results_equal_time(r, &r->scene[i], variant, last_step(r));
+        count[outcome_of(ratio)]++;
         if (isfinite(ratio.value)) {
             known++;
             log_sum += log(ratio.value);
         }
     }
-    say(f,
+    add_finding(
+        f,
         "At equal time %s has less squared error than BDPT in %d of %d scenes, more in %d, undecided in %d; the "
         "geometric mean of the ratios is %.3f.",
-        VARIANTS[variant].label, count[VERDICT_GAIN], r->plan->n_scenes, count[VERDICT_LOSS],
-        count[VERDICT_UNDECIDED], known > 0 ? exp(log_sum / known) : NAN);
+        VARIANTS[variant].label, count[OUTCOME_GAIN], r->plan->n_scenes, count[OUTCOME_LOSS], count[OUTCOME_UNDECIDED],
+        known > 0 ? exp(log_sum / known) : NAN);
 }
 
-static void count_biases(const struct results *r, struct findings *f)
+static void add_bias_counts(const struct results *r, struct findings *f)
 {
-    int biased[N_METHODS] = {0};
+    int biased[N_COMPARED] = {0};
     if (r->plan->n_seeds < 2)
         return;
     for (int i = 0; i < r->plan->n_scenes; i++)
-        for (int v = 0; v < N_METHODS; v++)
-            biased[v] += results_bias(r, &r->scene[i], v, r->plan->n_steps - 1).p < 0.01;
-    say(f,
+        for (int v = 0; v < N_COMPARED; v++)
+            biased[v] += results_bias(r, &r->scene[i], v, last_step(r)).p < 0.01;
+    add_finding(
+        f,
         "The mean of the picture is off (p < 0.01) in %d of %d scenes for BDPT, %d for bins, %d for pool and %d "
         "for vertices.",
-        biased[VARIANT_BDPT], r->plan->n_scenes, biased[VARIANT_BINS], biased[VARIANT_POOL],
-        biased[VARIANT_VERTICES]);
+        biased[VARIANT_BDPT], r->plan->n_scenes, biased[VARIANT_BINS], biased[VARIANT_POOL], biased[VARIANT_VERTICES]);
 }
 
-void findings_total(const struct results *r, struct findings *out)
+void findings_make(const struct results *r, const struct scene_results *s, struct findings *out)
 {
     out->n = 0;
-    count_agreement(r, out);
-    for (int v = VARIANT_BDPT + 1; v < N_METHODS; v++)
-        count_gains(r, v, out);
-    count_biases(r, out);
+    if (s != NULL) {
+        add_comparison_with_printed(r, s, out);
+        add_equal_times(r, s, out);
+        add_convergence(r, s, out);
+        add_biases(r, s, out);
+        return;
+    }
+    add_agreement(r, out);
+    for (int v = VARIANT_BDPT + 1; v < N_COMPARED; v++)
+        add_gains(r, v, out);
+    add_bias_counts(r, out);
     if (r->plan->n_seeds < 2)
-        say(out, "One seed gives no confidence intervals: every comparison stays undecided.");
+        add_finding(out, "One seed gives no confidence intervals: every comparison stays undecided.");
 }

@@ -1,8 +1,8 @@
-/* findings.h: what the results say, in sentences. Every number and every verdict in them is computed.
+/* findings.h: what the results say, in sentences. Every number and every outcome in them is computed.
  *
- * A verdict needs a 95 % confidence interval that does not hold 1; else the sentence says that it is undecided.
+ * An outcome needs a 95 % confidence interval that does not hold 1; else the sentence says that it is undecided.
  *
- * Used by: report, summary. Tests: test_report.c.
+ * Tests: test_report.c.
  */
 #ifndef ASBDPT_FINDINGS_H
 #define ASBDPT_FINDINGS_H
@@ -16,12 +16,12 @@ struct findings {
     int n;
 };
 
-enum verdict { VERDICT_GAIN, VERDICT_LOSS, VERDICT_UNDECIDED };
+enum outcome { OUTCOME_GAIN, OUTCOME_LOSS, OUTCOME_UNDECIDED };
 
-/* verdict_of: does the interval of a ratio of errors lie below 1, above 1, or around it? */
-enum verdict verdict_of(struct interval ratio);
+/* outcome_of: does the interval of a ratio of errors lie below 1, above 1, or around it? */
+enum outcome outcome_of(struct interval ratio);
 
-void findings_scene(const struct results *r, const struct scene_results *s, struct findings *out);
-void findings_total(const struct results *r, struct findings *out);
+/* findings_make: about a scene, or about all scenes for NULL. */
+void findings_make(const struct results *r, const struct scene_results *s, struct findings *out);
 
 #endif

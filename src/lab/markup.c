@@ -1,7 +1,8 @@
 /* markup.c: see markup.h. */
 #include "lab/markup.h"
 
-#include <math.h>
+#include <stdarg.h>
+#include <string.h>
 
 void xml_text(FILE *f, const char *text)
 {
@@ -15,33 +16,27 @@ void xml_text(FILE *f, const char *text)
         }
 }
 
-void json_text(FILE *f, const char *text)
+void xml_print(FILE *f, const char *format, ...)
 {
-    fputc('"', f);
-    for (; *text != '\0'; text++) {
-        unsigned char c = (unsigned char)*text;
-        if (c == '"' || c == '\\')
-            fprintf(f, "\\%c", c);
-        else if (c < 0x20)
-            fprintf(f, "\\u%04x", c);
+    va_list args;
+    va_start(args, format);
+    for (const char *p = format; *p != '\0'; p++) {
+        char one[32];
+        size_t n = *p == '%' ? strcspn(p, "dfgs") + 1 : 0;
+        snprintf(one, sizeof one, "%.*s", (int)n, p);
+        if (n == 0)
+            fputc(*p, f);
+        else if (p[n - 1] == 's')
+            xml_text(f, va_arg(args, const char *));
+        else if (p[n - 1] != 'd')
+            fprintf(f, one, va_arg(args, double));
+        else if (p[n - 2] == 'l')
+            fprintf(f, one, va_arg(args, long));
         else
-            fputc(c, f);
+            fprintf(f, one, va_arg(args, int));
+        p += n > 0 ? n - 1 : 0;
     }
-    fputc('"', f);
-}
-
-void json_number(FILE *f, double v)
-{
-    if (isfinite(v))
-        fprintf(f, "%.9g", v);
-    else
-        fputs("null", f);
-}
-
-void csv_number(FILE *f, double v)
-{
-    if (isfinite(v))
-        fprintf(f, "%.9g", v);
+    va_end(args);
 }
 
 void base64(FILE *f, const uint8_t *data, size_t size)

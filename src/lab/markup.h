@@ -1,6 +1,6 @@
-/* markup.h: text and numbers as XML, HTML, JSON and CSV want them.
+/* markup.h: text and pictures as XML and HTML want them.
  *
- * Used by: plot, table, results_file, report. Tests: test_report.c.
+ * Tests: test_report.c.
  */
 #ifndef ASBDPT_MARKUP_H
 #define ASBDPT_MARKUP_H
@@ -12,12 +12,9 @@
 /* xml_text: text with the characters that XML and HTML reserve escaped. */
 void xml_text(FILE *f, const char *text);
 
-/* json_text: a JSON string with its quotes. */
-void json_text(FILE *f, const char *text);
-
-/* json_number: nine digits; null for what is not finite.  csv_number: the same, an empty field instead of null. */
-void json_number(FILE *f, double v);
-void csv_number(FILE *f, double v);
+/* xml_print: printf for markup: what stands for %s is escaped, the format is not. Beside %s it knows %d, %ld, %f, %g
+ * with flags, width and precision, and no %%. */
+void xml_print(FILE *f, const char *format, ...);
 
 /* base64: bytes as text [RFC 4648 4]. */
 void base64(FILE *f, const uint8_t *data, size_t size);

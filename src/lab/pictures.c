@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lab/compare.h"
-#include "image/image.h"
 #include "base/mem.h"
+#include "image/image.h"
+#include "lab/compare.h"
 
 void picture_path(const struct results *r, const struct scene_results *s, int variant, bool error, int detail,
                   char *out, size_t size)
@@ -66,15 +66,14 @@ void pictures_find_details(const struct scene_results *s, struct detail out[N_DE
 /* --- writing ----------------------------------------------------------------------------------------- */
 
 /* A window of a picture, each pixel as a square. */
-static bool write_detail(const char *path, const struct scene_results *s, const float *pixels,
-                         const struct detail *d, struct error *err)
+static bool write_detail(const char *path, const struct scene_results *s, const float *pixels, const struct detail *d,
+                         struct error *err)
 {
     int w = d->width * d->enlargement, h = d->height * d->enlargement;
     float *out = mem_alloc((size_t)w * (size_t)h * 3, sizeof *out);
     for (int y = 0; y < h; y++)
         for (int x = 0; x < w; x++) {
-            size_t from =
-                (size_t)(d->y + y / d->enlargement) * (size_t)s->width + (size_t)(d->x + x / d->enlargement);
+            size_t from = (size_t)(d->y + y / d->enlargement) * (size_t)s->width + (size_t)(d->x + x / d->enlargement);
             memcpy(out + 3 * ((size_t)y * (size_t)w + (size_t)x), pixels + 3 * from, 3 * sizeof *out);
         }
     bool ok = image_write(path, w, h, out, err);
@@ -103,18 +102,18 @@ static void to_display(const float *pixels, size_t n, float *out)
         out[i] = (float)(srgb_byte((double)pixels[i]) / 255.0);
 }
 
-/* Heat maps of all methods as one tall picture, so that they share their maximum. [N_METHODS * values]; to be
+/* Heat maps of all variants as one tall picture, so that they share their maximum. [N_COMPARED * values]; to be
  * freed. */
 static float *make_heatmaps(const struct scene_results *s)
 {
     size_t n = values(s);
-    float *x = mem_alloc(n * N_METHODS, sizeof *x), *ref = mem_alloc(n * N_METHODS, sizeof *ref);
-    float *out = mem_alloc(n * N_METHODS, sizeof *out);
-    for (size_t v = 0; v < N_METHODS; v++) {
+    float *x = mem_alloc(n * N_COMPARED, sizeof *x), *ref = mem_alloc(n * N_COMPARED, sizeof *ref);
+    float *out = mem_alloc(n * N_COMPARED, sizeof *out);
+    for (size_t v = 0; v < N_COMPARED; v++) {
         to_display(s->image[v], n, x + v * n);
         to_display(s->reference.pixels, n, ref + v * n);
     }
-    compare_heatmap(x, ref, (long)(n / 3 * N_METHODS), out);
+    compare_heatmap(x, ref, (long)(n / 3 * N_COMPARED), out);
     free(x);
     free(ref);
     return out;
@@ -123,7 +122,7 @@ static float *make_heatmaps(const struct scene_results *s)
 double pictures_largest_error(const struct scene_results *s)
 {
     double largest = 0;
-    for (int v = 0; v < N_METHODS; v++)
+    for (int v = 0; v < N_COMPARED; v++)
         for (size_t i = 0; i < values(s); i += 3)
             largest = fmax(largest, compare_pixels(s->image[v] + i, s->reference.pixels + i, 3).rmse8);
     return largest;
@@ -135,7 +134,7 @@ bool pictures_write(const struct results *r, const struct scene_results *s, stru
     pictures_find_details(s, detail);
     float *heat = make_heatmaps(s);
     bool ok = write_all(r, s, PICTURE_REFERENCE, false, s->reference.pixels, detail, err);
-    for (int v = 0; ok && v < N_METHODS; v++)
+    for (int v = 0; ok && v < N_COMPARED; v++)
         ok = write_all(r, s, v, false, s->image[v], detail, err) &&
              write_all(r, s, v, true, heat + (size_t)v * values(s), detail, err);
     free(heat);

@@ -1,11 +1,11 @@
-/* pictures.h: the pictures of an experiment as PNG files: what each method made of a scene, its errors as a heat
+/* pictures.h: the pictures of an experiment as PNG files: what each variant made of a scene, its errors as a heat
  * map, and enlarged details of both.
  *
- * Heat maps go from blue (no error) to green (the largest error of any method in this scene), so that the maps of
+ * Heat maps go from blue (no error) to green (the largest error of any variant in this scene), so that the maps of
  * one scene can be compared; errors are those of the displayed 8-bit values, as in the tables. The details are the
  * two windows, a fifth of the width wide, in which BDPT errs most.
  *
- * Used by: report, output. Tests: test_report.c.
+ * Tests: test_report.c.
  */
 #ifndef ASBDPT_PICTURES_H
 #define ASBDPT_PICTURES_H
@@ -28,7 +28,7 @@ void picture_path(const struct results *r, const struct scene_results *s, int va
 void pictures_find_details(const struct scene_results *s, struct detail out[N_DETAILS]);
 
 /* pictures_largest_error: what green stands for: the largest root mean square over the channels of a pixel's 8-bit
- * errors, over all pixels and methods. */
+ * errors, over all pixels and variants. */
 double pictures_largest_error(const struct scene_results *s);
 
 /* pictures_write: all of a scene. Returns false with a message. */

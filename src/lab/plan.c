@@ -17,16 +17,10 @@ const struct variant VARIANTS[N_VARIANTS] = {
     {"bins-restart-16", "bins, restart every 16", "asbdpt", "bins", 8, 16, false},
 };
 
-static const struct {
-    int variant;
-    const char *label;
-} SWEEPS[N_SWEEPS][SWEEP_LENGTH] = {
+const struct sweep_point SWEEPS[N_SWEEPS][SWEEP_LENGTH] = {
     {{4, "4 paths per set"}, {VARIANT_BINS, "8 paths per set"}, {5, "16 paths per set"}, {6, "32 paths per set"}},
     {{7, "no restart"}, {8, "restart every 8"}, {9, "restart every 16"}, {VARIANT_BINS, "restart every 32"}},
 };
-
-int sweep_variant(enum sweep s, int i) { return SWEEPS[s][i].variant; }
-const char *sweep_label(enum sweep s, int i) { return SWEEPS[s][i].label; }
 
 void plan_preset(struct plan *p, bool quick)
 {
@@ -44,8 +38,8 @@ bool plan_set_spp(struct plan *p, long first, long last, struct error *err)
     p->n_steps = 0;
     for (long n = first; n < last; n *= 2) {
         if (p->n_steps >= PLAN_MAX_STEPS - 1)
-            return error_set(err, "more than %d doublings of the samples from %ld to %ld", PLAN_MAX_STEPS - 1,
-                             first, last);
+            return error_set(err, "more than %d doublings of the samples from %ld to %ld", PLAN_MAX_STEPS - 1, first,
+                             last);
         p->spp[p->n_steps++] = n;
     }
     p->spp[p->n_steps++] = last;
@@ -54,7 +48,7 @@ bool plan_set_spp(struct plan *p, long first, long last, struct error *err)
 
 int plan_seeds(const struct plan *p, int variant)
 {
-    if (variant < N_METHODS)
+    if (variant < N_COMPARED)
         return p->n_seeds;
     return p->quick && !VARIANTS[variant].quick ? 0 : p->sweep_seeds < p->n_seeds ? p->sweep_seeds : p->n_seeds;
 }
@@ -95,15 +89,15 @@ void plan_scene_name(const char *path, char *out, int size)
 
 void variant_settings(const struct variant *v, struct settings *out)
 {
-    char number[32];
+    char paths[32], restart[32];
+    snprintf(paths, sizeof paths, "%d", v->bin_paths);
+    snprintf(restart, sizeof restart, "%d", v->restart);
     settings_clear(out);
     settings_set(out, "rrthreshold", "0", "experiment"); /* what is compared is the choice of sub-paths alone */
     if (v->select != NULL)
         settings_set(out, "select", v->select, "experiment");
     if (v->bin_paths > 0) {
-        snprintf(number, sizeof number, "%d", v->bin_paths);
-        settings_set(out, "binpaths", number, "experiment");
-        snprintf(number, sizeof number, "%d", v->restart);
-        settings_set(out, "restart", number, "experiment");
+        settings_set(out, "binpaths", paths, "experiment");
+        settings_set(out, "restart", restart, "experiment");
     }
 }

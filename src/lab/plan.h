@@ -1,10 +1,9 @@
 /* plan.h: what an experiment consists of: scenes x variants x seeds, each rendered to a rising number of samples.
  *
- * A variant is a method with its parameters, without Russian roulette. The first four are compared everywhere; the others move one parameter
- * of `bins` at a time, as the dissertation's appendix A does.                                         [S24 4,
- * appendix A]
+ * A variant is an integrator with its parameters, without Russian roulette. The first four are compared everywhere;
+ * the others move one parameter of `bins` at a time, as the dissertation's appendix A does.     [S24 4, appendix A]
  *
- * Used by: run_file, reference, experiment, results and what shows them. Tests: test_report.c.
+ * Tests: test_report.c.
  */
 #ifndef ASBDPT_PLAN_H
 #define ASBDPT_PLAN_H
@@ -17,7 +16,7 @@
 struct variant {
     const char *name;       /* in files and tables of numbers */
     const char *label;      /* for readers */
-    const char *method;     /* of methods.c */
+    const char *integrator; /* as method_find knows it */
     const char *select;     /* asbdpt's; NULL for bdpt */
     int bin_paths, restart; /* bins only, else 0 */
     bool quick;             /* part of a quick experiment */
@@ -28,7 +27,7 @@ enum {
     VARIANT_BINS,
     VARIANT_POOL,
     VARIANT_VERTICES,
-    N_METHODS,      /* the variants above are compared everywhere */
+    N_COMPARED,     /* the variants above are compared everywhere */
     N_VARIANTS = 10 /* the others are the sweeps over the parameters of bins */
 };
 extern const struct variant VARIANTS[N_VARIANTS];
@@ -36,10 +35,11 @@ extern const struct variant VARIANTS[N_VARIANTS];
 /* The two sweeps: variants that differ in one parameter only, `bins` itself among them, by rising value. */
 enum sweep { SWEEP_PATHS, SWEEP_RESTART, N_SWEEPS };
 enum { SWEEP_LENGTH = 4 };
-
-/* sweep_variant: number i of a sweep, 0 <= i < SWEEP_LENGTH.  sweep_label: what readers call it there. */
-int sweep_variant(enum sweep s, int i);
-const char *sweep_label(enum sweep s, int i);
+struct sweep_point {
+    int variant;
+    const char *label; /* what readers call it there */
+};
+extern const struct sweep_point SWEEPS[N_SWEEPS][SWEEP_LENGTH];
 
 enum { PLAN_MAX_STEPS = 16, PLAN_MAX_SEEDS = 16 };
 
@@ -49,7 +49,7 @@ struct plan {
     bool quick;               /* which preset, which sweeps */
     long spp[PLAN_MAX_STEPS]; /* [n_steps] rising; errors are measured at each */
     int n_steps;
-    int n_seeds, sweep_seeds; /* repetitions of the methods and of the sweeps */
+    int n_seeds, sweep_seeds; /* repetitions of what is compared everywhere and of the sweeps */
     int width, height;        /* height 0: from the scene's aspect ratio */
     int max_depth;            /* 0: the scene's */
     long reference_spp;       /* of a reference made here */
@@ -80,8 +80,8 @@ long plan_first_sample(const struct plan *p, int variant, int i);
 /* plan_run_spp: samples per pixel rendered for one run of a variant, over all steps. */
 long plan_run_spp(const struct plan *p, int variant);
 
-/* plan_scene_name: the file's name without .pbrt; for .../NAME/scene.pbrt the directory's. At most size - 1 bytes.
- */
+/* plan_scene_name: the file's name without .pbrt; for .../NAME/scene.pbrt the directory's. At most size - 1
+ * bytes. */
 void plan_scene_name(const char *path, char *out, int size);
 
 /* variant_settings: replace an integrator's settings by the variant's. */

@@ -1,7 +1,7 @@
 /* published.h: the root mean square errors that the dissertation printed, to be laid beside ours.     [S24 chapter
  * 4]
  *
- * Used by: tables, findings. Tests: test_report.c.
+ * Tests: test_report.c.
  */
 #ifndef ASBDPT_PUBLISHED_H
 #define ASBDPT_PUBLISHED_H

@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lab/compare.h"
 #include "base/file.h"
-#include "image/image.h"
 #include "base/mem.h"
+#include "image/image.h"
+#include "lab/compare.h"
 
 void reference_free(struct reference *r)
 {
@@ -19,14 +19,14 @@ void reference_free(struct reference *r)
 
 /* --- the text beside the picture --------------------------------------------------------------------- */
 
-struct side_text {
+struct reference_text {
     char key[512];
     long max_depth; /* 0: not said */
     double noise8, mean_error;
     char origin[1200];
 };
 
-static void read_line(char *line, struct side_text *s)
+static void read_line(char *line, struct reference_text *s)
 {
     sscanf(line, "maxdepth %ld", &s->max_depth);
     sscanf(line, "noise8 %lf", &s->noise8);
@@ -38,7 +38,7 @@ static void read_line(char *line, struct side_text *s)
 }
 
 /* Read NAME.txt beside NAME.pfm; a missing file says nothing. */
-static void read_side_text(const char *picture, struct side_text *s)
+static void read_text(const char *picture, struct reference_text *s)
 {
     char path[4096], line[2048];
     memset(s, 0, sizeof *s);
@@ -68,39 +68,37 @@ static float *shrink(const float *pixels, int width, int height, int k)
                 double sum = 0;
                 for (int j = 0; j < k; j++)
                     for (int i = 0; i < k; i++)
-                        sum += (double)
-                            pixels[3 * ((size_t)(y * k + j) * (size_t)width + (size_t)(x * k + i)) + (size_t)c];
+                        sum +=
+                            (double)pixels[3 * ((size_t)(y * k + j) * (size_t)width + (size_t)(x * k + i)) + (size_t)c];
                 out[3 * ((size_t)y * (size_t)w + (size_t)x) + (size_t)c] = (float)(sum / (k * k));
             }
     return out;
 }
 
-/* Take one file, if it fits. Returns as reference_find does. */
-static int take(const char *path, int width, int height, int max_depth, struct reference *out, struct error *err)
+/* Read one picture, shrink it if it fits. Returns as reference_find does; *text is what is written beside it. */
+static int load_fitting(const char *path, int width, int height, int max_depth, struct reference *out,
+                        struct reference_text *text, struct error *err)
 {
     int w, h;
-    struct side_text side;
     float *pixels = load_linear(path, &w, &h, err);
     if (pixels == NULL)
         return -1;
-    read_side_text(path, &side);
+    read_text(path, text);
     int k = w / width;
     bool fits = k >= 1 && w == k * width && h == k * height;
-    if (!fits || (side.max_depth > 0 && side.max_depth != max_depth)) {
-        if (fits)
-            error_set(err, "%s holds paths up to maxdepth %ld, not %d", path, side.max_depth, max_depth);
-        else
-            error_set(err, "%s is %dx%d, which is no whole multiple of %dx%d", path, w, h, width, height);
-        free(pixels);
-        return -1;
-    }
-    out->pixels = shrink(pixels, w, h, k);
+    bool deep = text->max_depth == 0 || text->max_depth == max_depth;
+    if (!fits)
+        error_set(err, "%s is %dx%d, which is no whole multiple of %dx%d", path, w, h, width, height);
+    else if (!deep)
+        error_set(err, "%s holds paths up to maxdepth %ld, not %d", path, text->max_depth, max_depth);
+    else
+        out->pixels = shrink(pixels, w, h, k);
     free(pixels);
-    out->noise8 = side.noise8 / k;
-    out->mean_error = side.mean_error;
+    out->noise8 = text->noise8 / k;
+    out->mean_error = text->mean_error;
     snprintf(out->origin, sizeof out->origin, "stored picture %s of %dx%d pixels%s", path, w, h,
              k > 1 ? ", averaged to this size" : "");
-    return 1;
+    return fits && deep ? 1 : -1;
 }
 
 static bool readable(const char *path)
@@ -111,13 +109,14 @@ static bool readable(const char *path)
     return f != NULL;
 }
 
-int reference_find(const char *given, const char *scene_path, const char *name, int width, int height,
-                   int max_depth, struct reference *out, struct error *err)
+int reference_find(const char *given, const char *scene_path, const char *name, int width, int height, int max_depth,
+                   struct reference *out, struct error *err)
 {
     char path[4096];
+    struct reference_text text;
     if (given != NULL) {
         snprintf(path, sizeof path, "%s/%s.pfm", given, name);
-        return take(readable(path) ? path : given, width, height, max_depth, out, err);
+        return load_fitting(readable(path) ? path : given, width, height, max_depth, out, &text, err);
     }
     const char *slash = strrchr(scene_path, '/');
     int n = slash != NULL ? (int)(slash - scene_path) + 1 : 0;
@@ -127,7 +126,7 @@ int reference_find(const char *given, const char *scene_path, const char *name, 
             snprintf(path, sizeof path, "%.*s%s/%s.pfm", n, scene_path, places[i], name);
         else
             snprintf(path, sizeof path, "ref/%s.pfm", name);
-        if (readable(path) && take(path, width, height, max_depth, out, NULL) == 1)
+        if (readable(path) && load_fitting(path, width, height, max_depth, out, &text, NULL) == 1)
             return 1;
     }
     return 0;
@@ -144,8 +143,7 @@ struct halves {
 static bool half_progress(void *context, double done)
 {
     const struct halves *h = context;
-    return h->options->progress == NULL ||
-           h->options->progress(h->options->progress_context, 0.5 * (h->number + done));
+    return h->options->progress == NULL || h->options->progress(h->options->progress_context, 0.5 * (h->number + done));
 }
 
 double picture_mean_error(const struct film *film)
@@ -164,8 +162,8 @@ double picture_mean_error(const struct film *film)
 }
 
 /* Render half number i into `out`; `mean_error` as picture_mean_error has it. */
-static bool render_half(const struct scene *scene, const struct render_options *options, long spp, int i,
-                        float *out, double *mean_error, struct error *err)
+static bool render_half(const struct scene *scene, const struct render_options *options, long spp, int i, float *out,
+                        double *mean_error, struct error *err)
 {
     struct halves context = {options, i};
     struct render_options o = *options;
@@ -185,8 +183,8 @@ static bool render_half(const struct scene *scene, const struct render_options *
     return ok;
 }
 
-bool reference_render(const struct scene *scene, const struct render_options *options, long spp,
-                      struct reference *out, struct error *err)
+bool reference_render(const struct scene *scene, const struct render_options *options, long spp, struct reference *out,
+                      struct error *err)
 {
     size_t n = (size_t)scene->width * (size_t)scene->height * 3;
     long half = spp / 2 > 1 ? spp / 2 : 2;
@@ -200,8 +198,8 @@ bool reference_render(const struct scene *scene, const struct render_options *op
         for (size_t i = 0; i < n; i++)
             a[i] = 0.5f * (a[i] + b[i]);
         snprintf(out->origin, sizeof out->origin,
-                 "rendered by this program: %s, two halves of %ld spp, seeds %lu and %lu", options->method->name,
-                 half, (unsigned long)options->seed, (unsigned long)options->seed + 1);
+                 "rendered by this program: %s, two halves of %ld spp, seeds %lu and %lu", options->method->name, half,
+                 (unsigned long)options->seed, (unsigned long)options->seed + 1);
         out->pixels = a;
     } else {
         free(a);
@@ -221,27 +219,20 @@ bool reference_write(const struct reference *r, const char *directory, const cha
     snprintf(path, sizeof path, "%s/%s.txt", directory, name);
     if (!file_create(path, &f, err))
         return false;
-    fprintf(f.stream, "key %s\nresolution %dx%d\nmaxdepth %d\nnoise8 %.9g\nmean_error %.9g\norigin %s\n", key,
-            width, height, max_depth, r->noise8, r->mean_error, r->origin);
+    fprintf(f.stream, "key %s\nresolution %dx%d\nmaxdepth %d\nnoise8 %.9g\nmean_error %.9g\norigin %s\n", key, width,
+            height, max_depth, r->noise8, r->mean_error, r->origin);
     return file_commit(&f, err);
 }
 
-bool reference_read(const char *directory, const char *name, const char *key, int width, int height,
+bool reference_read(const char *directory, const char *name, const char *key, int width, int height, int max_depth,
                     struct reference *out)
 {
     char path[4096];
-    struct side_text side;
-    int w, h;
+    struct reference_text text;
     snprintf(path, sizeof path, "%s/%s.pfm", directory, name);
-    read_side_text(path, &side);
-    if (strcmp(side.key, key) != 0 || (out->pixels = load_linear(path, &w, &h, NULL)) == NULL)
+    read_text(path, &text);
+    if (strcmp(text.key, key) != 0 || load_fitting(path, width, height, max_depth, out, &text, NULL) != 1)
         return false;
-    if (w != width || h != height) {
-        reference_free(out);
-        return false;
-    }
-    out->noise8 = side.noise8;
-    out->mean_error = side.mean_error;
-    snprintf(out->origin, sizeof out->origin, "%s", side.origin);
+    snprintf(out->origin, sizeof out->origin, "%s", text.origin);
     return true;
 }

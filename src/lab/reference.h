@@ -10,7 +10,7 @@
  * Where none is stored, one is rendered by bdpt in two independent halves A and B. Their mean is the reference, and
  *     E (A - B)^2 = 2 var A = 4 var (A + B)/2,   so that   noise8 = rmse8(A, B) / 2.
  *
- * Used by: experiment, results, tables. Tests: test_report.c.
+ * Tests: test_report.c.
  */
 #ifndef ASBDPT_REFERENCE_H
 #define ASBDPT_REFERENCE_H
@@ -29,25 +29,24 @@ struct reference {
 /* reference_find: read a stored reference that fits.
  *   given  a file, a directory that holds NAME.pfm, or NULL to look for ref/NAME.pfm beside the scene, one directory
  *          up and in the current one
- * Returns 1 when found; 0 when there is none that fits; -1 with a message when
- * `given` is unusable. */
-int reference_find(const char *given, const char *scene_path, const char *name, int width, int height,
-                   int max_depth, struct reference *out, struct error *err);
+ * Returns 1 when found; 0 when there is none that fits; -1 with a message when `given` is unusable. */
+int reference_find(const char *given, const char *scene_path, const char *name, int width, int height, int max_depth,
+                   struct reference *out, struct error *err);
 
 /* reference_render: render one of `spp` samples per pixel; progress as render_options has it, over both halves.
  * Returns false with a message. */
-bool reference_render(const struct scene *scene, const struct render_options *options, long spp,
-                      struct reference *out, struct error *err);
+bool reference_render(const struct scene *scene, const struct render_options *options, long spp, struct reference *out,
+                      struct error *err);
 
 /* reference_write / reference_read: keep it as DIRECTORY/NAME.pfm and .txt; the key says what it depends on, and
  * only a reference with the same key is read back. */
 bool reference_write(const struct reference *r, const char *directory, const char *name, const char *key, int width,
                      int height, int max_depth, struct error *err);
-bool reference_read(const char *directory, const char *name, const char *key, int width, int height,
+bool reference_read(const char *directory, const char *name, const char *key, int width, int height, int max_depth,
                     struct reference *out);
 
 /* picture_mean_error: relative standard error of the mean of a film's picture, were its pixels independent (for
- * methods that share light sub-paths between pixels it is too small). NaN for a black one. */
+ * integrators that share light sub-paths between pixels it is too small). NaN for a black one. */
 double picture_mean_error(const struct film *film);
 
 void reference_free(struct reference *r);

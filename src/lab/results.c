@@ -3,31 +3,138 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "base/file.h"
 #include "base/stats.h"
+
+enum { N_AVERAGED = Q_MEAN_NOISE /* the quantities that results.csv has */ };
+static const char *const NAMES[N_QUANTITIES] = {"seconds", "rmse", "rmse8", "relmse", "mean_error", "mean_noise"};
 
 void results_free(struct results *r)
 {
     for (int i = 0; r->scene != NULL && i < r->plan->n_scenes; i++) {
         reference_free(&r->scene[i].reference);
-        for (int v = 0; v < N_METHODS; v++)
+        for (int v = 0; v < N_COMPARED; v++)
             free(r->scene[i].image[v]);
     }
     free(r->scene);
     r->scene = NULL;
 }
 
-static double step_value(const struct run_step *s, enum quantity q)
+/* --- files ------------------------------------------------------------------------------------------- */
+
+/* The head of a file of steps, after `first`. */
+static void step_columns(char out[256], const char *first)
 {
-    switch (q) {
-    case Q_SECONDS: return s->seconds;
-    case Q_RMSE: return s->rmse;
-    case Q_RMSE8: return s->rmse8;
-    case Q_RELMSE: return s->relmse;
-    case Q_MEAN_ERROR: return s->mean_error;
-    }
-    return NAN;
+    int n = snprintf(out, 256, "%sspp", first);
+    for (int q = 0; q < N_QUANTITIES; q++)
+        n += snprintf(out + n, 256 - (size_t)n, ",%s", NAMES[q]);
+    snprintf(out + n, 256 - (size_t)n, ",nonfinite\n");
 }
+
+static void write_number(FILE *f, double v, int digits, const char *missing)
+{
+    if (isfinite(v))
+        fprintf(f, ",%.*g", digits, v);
+    else
+        fprintf(f, ",%s", missing);
+}
+
+static void write_step(FILE *f, const struct run_step *s, int digits, const char *missing)
+{
+    fprintf(f, "%ld", s->spp);
+    for (int q = 0; q < N_QUANTITIES; q++)
+        write_number(f, s->value[q], digits, missing);
+    fprintf(f, ",%ld\n", s->nonfinite);
+}
+
+bool run_write(const char *path, const char *key, const struct seed_run *run, struct error *err)
+{
+    struct file_output f;
+    char columns[256];
+    if (!file_create(path, &f, err))
+        return false;
+    step_columns(columns, "");
+    fprintf(f.stream, "# %s\n%s", key, columns);
+    for (int i = 0; i < run->n; i++)
+        write_step(f.stream, &run->step[i], 17, "nan");
+    return file_commit(&f, err);
+}
+
+static bool read_step(const char *line, struct run_step *s)
+{
+    int at = 0, used = 0;
+    if (sscanf(line, "%ld%n", &s->spp, &at) != 1)
+        return false;
+    for (int q = 0; q < N_QUANTITIES; q++, at += used)
+        if (sscanf(line + at, ",%lf%n", &s->value[q], &used) != 1)
+            return false;
+    return sscanf(line + at, ",%ld%n", &s->nonfinite, &used) == 1 && line[at + used] == '\n';
+}
+
+bool run_read(const char *path, const char *key, int n_steps, struct seed_run *out)
+{
+    char line[4096], columns[256];
+    memset(out, 0, sizeof *out);
+    FILE *f = fopen(path, "r");
+    if (f == NULL)
+        return false;
+    step_columns(columns, "");
+    size_t n = strlen(key);
+    bool ok = fgets(line, sizeof line, f) != NULL && strncmp(line, "# ", 2) == 0 && strncmp(line + 2, key, n) == 0 &&
+              strcmp(line + 2 + n, "\n") == 0 && fgets(line, sizeof line, f) != NULL && strcmp(line, columns) == 0;
+    while (ok && fgets(line, sizeof line, f) != NULL)
+        ok = out->n < n_steps && read_step(line, &out->step[out->n++]);
+    fclose(f);
+    if (!ok || out->n != n_steps)
+        out->n = 0;
+    return out->n > 0;
+}
+
+static void write_interval(FILE *f, struct interval i)
+{
+    write_number(f, i.value, 9, "");
+    write_number(f, i.low, 9, "");
+    write_number(f, i.high, 9, "");
+}
+
+void results_csv(FILE *f, const struct results *r)
+{
+    fputs("scene,variant,spp,seeds", f);
+    for (int q = 0; q < N_AVERAGED; q++)
+        fprintf(f, ",%s,%s_error", NAMES[q], NAMES[q]);
+    fputs(",rmse8_ratio,rmse8_ratio_low,rmse8_ratio_high,equal_time_mse,equal_time_mse_low,equal_time_mse_high\n", f);
+    for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++)
+        for (int v = 0; v < N_VARIANTS; v++)
+            for (int step = 0; step < r->plan->n_steps && plan_seeds(r->plan, v) > 0; step++) {
+                fprintf(f, "%s,%s,%ld,%d", s->name, VARIANTS[v].name, r->plan->spp[step], plan_seeds(r->plan, v));
+                for (int q = 0; q < N_AVERAGED; q++) {
+                    struct estimate e = results_mean(r, s, v, step, (enum quantity)q);
+                    write_number(f, e.mean, 9, "");
+                    write_number(f, e.error, 9, "");
+                }
+                write_interval(f, results_rmse_ratio(r, s, v, step));
+                write_interval(f, results_equal_time(r, s, v, step));
+                fputc('\n', f);
+            }
+}
+
+void results_runs_csv(FILE *f, const struct results *r)
+{
+    char columns[256];
+    step_columns(columns, "scene,variant,seed,");
+    fputs(columns, f);
+    for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++)
+        for (int v = 0; v < N_VARIANTS; v++)
+            for (int i = 0; i < plan_seeds(r->plan, v); i++)
+                for (int step = 0; step < s->run[v][i].n; step++) {
+                    fprintf(f, "%s,%s,%ld,", s->name, VARIANTS[v].name, plan_seed(v, i + 1));
+                    write_step(f, &s->run[v][i].step[step], 9, "");
+                }
+}
+
+/* --- statistics over seeds --------------------------------------------------------------------------- */
 
 static struct estimate mean_of(const double *x, int n)
 {
@@ -44,12 +151,14 @@ static struct estimate mean_of(const double *x, int n)
     return e;
 }
 
-struct estimate results_mean(const struct scene_results *s, int n_seeds, int variant, int step, enum quantity q)
+struct estimate results_mean(const struct results *r, const struct scene_results *s, int variant, int step,
+                             enum quantity q)
 {
     double x[PLAN_MAX_SEEDS];
-    for (int i = 0; i < n_seeds; i++)
-        x[i] = step_value(&s->run[variant][i].step[step], q);
-    return mean_of(x, n_seeds);
+    int n = plan_seeds(r->plan, variant);
+    for (int i = 0; i < n; i++)
+        x[i] = s->run[variant][i].step[step].value[q];
+    return mean_of(x, n);
 }
 
 double student_quantile(double p, double dof)
@@ -86,48 +195,47 @@ struct interval results_ratio(const double *a, int na, const double *b, int nb)
     return out;
 }
 
-struct interval results_rmse_ratio(const struct results *r, const struct scene_results *s, int variant, int step)
+/* The ratio of a variant's mean to bdpt's: of its errors, or of squared error times seconds, which is what a variant
+ * pays for the inverse of its variance. */
+static struct interval over_bdpt(const struct results *r, const struct scene_results *s, int variant, int step,
+                                 bool paid)
 {
-    double a[PLAN_MAX_SEEDS], b[PLAN_MAX_SEEDS];
-    int na = plan_seeds(r->plan, variant), nb = plan_seeds(r->plan, VARIANT_BDPT);
-    for (int i = 0; i < na; i++)
-        a[i] = s->run[variant][i].step[step].rmse8;
-    for (int i = 0; i < nb; i++)
-        b[i] = s->run[VARIANT_BDPT][i].step[step].rmse8;
-    return results_ratio(a, na, b, nb);
+    double x[2][PLAN_MAX_SEEDS], noise = isfinite(s->reference.noise8) ? s->reference.noise8 : 0;
+    int compared[2] = {variant, VARIANT_BDPT}, n[2];
+    for (int k = 0; k < 2; k++) {
+        n[k] = plan_seeds(r->plan, compared[k]);
+        for (int i = 0; i < n[k]; i++) {
+            const double *value = s->run[compared[k]][i].step[step].value;
+            double square = value[Q_RMSE8] * value[Q_RMSE8] - noise * noise;
+            x[k][i] = paid ? square * value[Q_SECONDS] : value[Q_RMSE8];
+        }
+    }
+    return results_ratio(x[0], n[0], x[1], n[1]);
 }
 
-/* Squared error times seconds: what a method pays for the inverse of its variance. */
-static double cost(const struct scene_results *s, const struct run_step *step)
+struct interval results_rmse_ratio(const struct results *r, const struct scene_results *s, int variant, int step)
 {
-    double noise = isfinite(s->reference.noise8) ? s->reference.noise8 : 0;
-    return (step->rmse8 * step->rmse8 - noise * noise) * step->seconds;
+    return over_bdpt(r, s, variant, step, false);
 }
 
 struct interval results_equal_time(const struct results *r, const struct scene_results *s, int variant, int step)
 {
-    double a[PLAN_MAX_SEEDS], b[PLAN_MAX_SEEDS];
-    int na = plan_seeds(r->plan, variant), nb = plan_seeds(r->plan, VARIANT_BDPT);
-    for (int i = 0; i < na; i++)
-        a[i] = cost(s, &s->run[variant][i].step[step]);
-    for (int i = 0; i < nb; i++)
-        b[i] = cost(s, &s->run[VARIANT_BDPT][i].step[step]);
-    return results_ratio(a, na, b, nb);
+    return over_bdpt(r, s, variant, step, true);
 }
 
 struct bias results_bias(const struct results *r, const struct scene_results *s, int variant, int step)
 {
-    struct estimate e = results_mean(s, plan_seeds(r->plan, variant), variant, step, Q_MEAN_ERROR);
+    struct estimate e = results_mean(r, s, variant, step, Q_MEAN_ERROR);
     struct bias out = {e.mean, NAN, NAN};
     double pixels = 0;
     for (int i = 0; i < e.n; i++)
-        pixels += sqr(s->run[variant][i].step[step].mean_noise / e.n);
-    double own = fmax(sqr(e.error), isfinite(pixels) ? pixels : 0);
-    double total = own + (isfinite(s->reference.mean_error) ? sqr(s->reference.mean_error) : 0);
-    if (e.n < 2 || !(own > 0))
+        pixels += sqr(s->run[variant][i].step[step].value[Q_MEAN_NOISE] / e.n);
+    double variance = fmax(sqr(e.error), isfinite(pixels) ? pixels : 0);
+    double total = variance + (isfinite(s->reference.mean_error) ? sqr(s->reference.mean_error) : 0);
+    if (e.n < 2 || !(variance > 0))
         return out;
     out.error = sqrt(total);
     /* Welch's degrees of freedom; the reference's error is known from thousands of pixels. */
-    out.p = stats_student_p(out.mean / out.error, sqr(total) / (sqr(own) / (e.n - 1)));
+    out.p = stats_student_p(out.mean / out.error, sqr(total) / (sqr(variance) / (e.n - 1)));
     return out;
 }

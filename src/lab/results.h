@@ -1,23 +1,53 @@
-/* results.h: the measurements of an experiment in memory, and the statistics over its seeds.
+/* results.h: the measurements of an experiment in memory and in files, and the statistics over its seeds.
  *
- * Every number shown anywhere (tables, plots, CSV, JSON, sentences) comes from the functions here.
+ * Every number shown anywhere (tables, plots, CSV, sentences) comes from the functions here. On disk there are
+ *     runs/SCENE--VARIANT--seedN.csv
+ *                   one run, written when it is finished, read back when the experiment is started again; its first
+ *                   line is a key that says everything the numbers depend on
+ *     results.csv   one line per scene, variant and number of samples: means over seeds with standard errors, ratios
+ *                   to BDPT with 95 % intervals; empty where unknown
+ *     runs.csv      one line per scene, variant, seed and number of samples: what was measured
  *
- * Used by: experiment (fills it), results_file, figures, tables, findings. Tests: test_report.c.
+ * Tests: test_report.c.
  */
 #ifndef ASBDPT_RESULTS_H
 #define ASBDPT_RESULTS_H
 
+#include <stdio.h>
+
 #include "lab/plan.h"
 #include "lab/reference.h"
-#include "lab/run_file.h"
+
+enum quantity {
+    Q_SECONDS,    /* of CPU so far, pre-pass included, scene loading not */
+    Q_RMSE,       /* linear */
+    Q_RMSE8,      /* 8-bit sRGB */
+    Q_RELMSE,     /* relative squared error */
+    Q_MEAN_ERROR, /* mean of image over mean of reference, less 1 */
+    Q_MEAN_NOISE, /* its standard error, were pixels independent; NaN if unknown; of one run, not to be averaged */
+    N_QUANTITIES
+};
+
+/* Measured after `spp` samples per pixel, against the reference. */
+struct run_step {
+    long spp;
+    double value[N_QUANTITIES];
+    long nonfinite; /* values that could not be compared */
+};
+
+/* What one seed of a variant brought: a whole convergence curve. */
+struct seed_run {
+    struct run_step step[PLAN_MAX_STEPS]; /* [n] */
+    int n;                                /* 0: not done */
+};
 
 struct scene_results {
     const char *path;
     char name[256];
     int width, height, max_depth;
     struct reference reference;
-    struct run run[N_VARIANTS][PLAN_MAX_SEEDS]; /* the first plan_seeds() of each */
-    float *image[N_METHODS];                    /* first seed, all samples; owned */
+    struct seed_run run[N_VARIANTS][PLAN_MAX_SEEDS]; /* the first plan_seeds() of each */
+    float *image[N_COMPARED];                        /* first seed, all samples; owned */
 };
 
 struct results {
@@ -27,34 +57,43 @@ struct results {
 
 void results_free(struct results *r);
 
+/* run_write: all or nothing. Returns false with a message. */
+bool run_write(const char *path, const char *key, const struct seed_run *run, struct error *err);
+
+/* run_read: returns false, without a message, when there is no such file, its key differs or it is damaged; the run
+ * must then be done again. */
+bool run_read(const char *path, const char *key, int n_steps, struct seed_run *out);
+
+void results_csv(FILE *f, const struct results *r);
+void results_runs_csv(FILE *f, const struct results *r);
+
 /* A mean over seeds. */
 struct estimate {
     double mean, error; /* standard error of the mean; NaN for fewer than two seeds */
     int n;              /* seeds; 0: mean is NaN */
 };
 
-enum quantity { Q_SECONDS, Q_RMSE, Q_RMSE8, Q_RELMSE, Q_MEAN_ERROR };
-
-struct estimate results_mean(const struct scene_results *s, int n_seeds, int variant, int step, enum quantity q);
+struct estimate results_mean(const struct results *r, const struct scene_results *s, int variant, int step,
+                             enum quantity q);
 
 /* A ratio of two means with its 95 % confidence interval; NaN where it cannot be told. */
 struct interval {
     double value, low, high;
 };
 
-/* results_ratio: mean of a[na] over mean of b[nb], both samples independent and positive on average. The interval
- * is Welch's, on the logarithm of the ratio. */
+/* results_ratio: mean of a[na] over mean of b[nb], both independent and positive on average. The interval is Welch's,
+ * on the logarithm of the ratio. */
 struct interval results_ratio(const double *a, int na, const double *b, int nb);
 
 /* results_rmse_ratio: rmse8 of a variant over bdpt's after the same number of samples, the dissertation's
- * comparison. results_equal_time: squared error of a variant over bdpt's after the same CPU time, (MSE_m - noise^2)
- * T_m / ((MSE_b - noise^2) T_b), for bdpt's squared error is inversely proportional to its time; noise8 of the
+ * comparison. results_equal_time: squared error of a variant over bdpt's after the same CPU time, (MSE_v - noise^2)
+ * T_v / ((MSE_b - noise^2) T_b), for bdpt's squared error is inversely proportional to its time; noise8 of the
  * reference is subtracted if known. */
 struct interval results_rmse_ratio(const struct results *r, const struct scene_results *s, int variant, int step);
 struct interval results_equal_time(const struct results *r, const struct scene_results *s, int variant, int step);
 
 /* results_bias: the signed mean error with its whole standard error, and the p-value of "it is 0" by Student's t.
- * The method's share of the standard error is the larger of two: that over seeds, which are few, and that from the
+ * The variant's share of the standard error is the larger of two: that over seeds, which are few, and that from the
  * variances of pixels, which takes them as independent. The reference's share is added. NaN for one seed. */
 struct bias {
     double mean, error, p;

@@ -11,22 +11,25 @@
 #include "base/stats.h"
 #include "base/vec.h"
 
-enum { RESAMPLINGS = 299, MANY = 1000 /* stands in for the size of a sample whose error is known */ };
+enum {
+    RESAMPLINGS = 299,
+    MANY = 1000 /* stands in for the number of batches of a picture whose error is known */
+};
 
-struct sample sample_new(int n_batches, long n, bool with_error)
+struct batches batches_new(int n_batches, long n, bool with_error)
 {
-    struct sample s = {n_batches, n, NULL, NULL};
-    s.value = mem_alloc((size_t)n * (size_t)n_batches, sizeof *s.value);
+    struct batches b = {n_batches, n, NULL, NULL};
+    b.value = mem_alloc((size_t)n * (size_t)n_batches, sizeof *b.value);
     if (with_error)
-        s.error = mem_alloc((size_t)n, sizeof *s.error);
-    return s;
+        b.error = mem_alloc((size_t)n, sizeof *b.error);
+    return b;
 }
 
-void sample_free(struct sample *s)
+void batches_free(struct batches *b)
 {
-    free(s->value);
-    free(s->error);
-    memset(s, 0, sizeof *s);
+    free(b->value);
+    free(b->error);
+    memset(b, 0, sizeof *b);
 }
 
 /* Average one batch over one tile; with `squares` the values are errors, which add up by their squares. */
@@ -41,60 +44,54 @@ static double tile_value(const double *pixel, int width, int x0, int y0, int x1,
     return squares ? sqrt(sum) / count : sum / count;
 }
 
-struct sample sample_tiles(const struct sample *s, int width, int height, int side)
+struct batches batches_tiles(const struct batches *b, int width, int height, int side)
 {
     long across = (width + side - 1) / side, down = (height + side - 1) / side;
-    struct sample out = sample_new(s->n_batches, 3 * across * down, s->error != NULL);
+    struct batches out = batches_new(b->n_batches, 3 * across * down, b->error != NULL);
     for (long i = 0; i < out.n; i++) {
         int c = (int)(i % 3), x0 = (int)(i / 3 % across) * side, y0 = (int)(i / 3 / across) * side;
         int x1 = x0 + side < width ? x0 + side : width, y1 = y0 + side < height ? y0 + side : height;
-        for (int k = 0; k < s->n_batches; k++)
-            out.value[out.n * k + i] = tile_value(s->value + s->n * k, width, x0, y0, x1, y1, c, false);
-        if (s->error != NULL)
-            out.error[i] = tile_value(s->error, width, x0, y0, x1, y1, c, true);
+        for (int k = 0; k < b->n_batches; k++)
+            out.value[out.n * k + i] = tile_value(b->value + b->n * k, width, x0, y0, x1, y1, c, false);
+        if (b->error != NULL)
+            out.error[i] = tile_value(b->error, width, x0, y0, x1, y1, c, true);
     }
     return out;
 }
 
 /* --- one hypothesis ---------------------------------------------------------------------------------- */
 
-/* Mean, variance and number as Welch's test wants them. */
-struct moments {
-    double mean, variance, n;
-};
-
-/* Of value i. */
-static struct moments moments_of(const struct sample *s, long i)
+struct moments batches_moments(const struct batches *b, long i)
 {
-    struct moments m = {0, 0, s->n_batches};
-    for (int k = 0; k < s->n_batches; k++)
-        m.mean += s->value[s->n * k + i] / s->n_batches;
-    for (int k = 0; k < s->n_batches; k++) {
-        double d = s->value[s->n * k + i] - m.mean;
-        m.variance += s->n_batches > 1 ? d * d / (s->n_batches - 1) : 0;
+    struct moments m = {0, 0, b->n_batches};
+    for (int k = 0; k < b->n_batches; k++)
+        m.mean += b->value[b->n * k + i] / b->n_batches;
+    for (int k = 0; k < b->n_batches; k++) {
+        double d = b->value[b->n * k + i] - m.mean;
+        m.variance += b->n_batches > 1 ? d * d / (b->n_batches - 1) : 0;
     }
-    if (s->error != NULL) {
+    if (b->error != NULL) {
         m.n = MANY;
-        m.variance = s->error[i] * s->error[i] * MANY;
+        m.variance = b->error[i] * b->error[i] * MANY;
     }
     return m;
 }
 
 /* Of the mean of all values. Errors of pixels are independent, those of a pixel's channels are not: they add up. */
-static struct moments total_moments(const struct sample *s)
+static struct moments total_moments(const struct batches *b)
 {
-    struct sample total = sample_new(s->n_batches, 1, s->error != NULL);
-    for (int k = 0; k < s->n_batches; k++)
-        for (long i = 0; i < s->n; i++)
-            total.value[k] += s->value[s->n * k + i] / (double)s->n;
-    if (s->error != NULL) {
+    struct batches total = batches_new(b->n_batches, 1, b->error != NULL);
+    for (int k = 0; k < b->n_batches; k++)
+        for (long i = 0; i < b->n; i++)
+            total.value[k] += b->value[b->n * k + i] / (double)b->n;
+    if (b->error != NULL) {
         double sum[3] = {0, 0, 0};
-        for (long i = 0; i < s->n; i++)
-            sum[i % 3] += s->error[i] * s->error[i];
-        total.error[0] = (sqrt(sum[0]) + sqrt(sum[1]) + sqrt(sum[2])) / (double)s->n;
+        for (long i = 0; i < b->n; i++)
+            sum[i % 3] += b->error[i] * b->error[i];
+        total.error[0] = (sqrt(sum[0]) + sqrt(sum[1]) + sqrt(sum[2])) / (double)b->n;
     }
-    struct moments m = moments_of(&total, 0);
-    sample_free(&total);
+    struct moments m = batches_moments(&total, 0);
+    batches_free(&total);
     return m;
 }
 
@@ -103,9 +100,9 @@ static double welch(struct moments a, struct moments b)
     return stats_welch_p(a.mean, a.variance, a.n, b.mean, b.variance, b.n);
 }
 
-double sample_mean(const struct sample *s, double *error)
+double batches_mean(const struct batches *b, double *error)
 {
-    struct moments m = total_moments(s);
+    struct moments m = total_moments(b);
     if (error != NULL)
         *error = sqrt(m.variance / m.n);
     return m.mean;
@@ -115,11 +112,11 @@ double sample_mean(const struct sample *s, double *error)
 
 /* p-values of all n hypotheses; those between two exact, equal values say nothing and are left out. Returns how many
  * were written; where[j] (may be NULL) is the index of the j-th. */
-static long all_p(const struct sample *a, const struct sample *b, double *p, long *where)
+static long all_p(const struct batches *a, const struct batches *b, double *p, long *where)
 {
     long n = 0;
     for (long i = 0; i < a->n; i++) {
-        struct moments x = moments_of(a, i), y = moments_of(b, i);
+        struct moments x = batches_moments(a, i), y = batches_moments(b, i);
         if (x.variance + y.variance == 0 && x.mean == y.mean)
             continue;
         if (where != NULL)
@@ -129,10 +126,19 @@ static long all_p(const struct sample *a, const struct sample *b, double *p, lon
     return n;
 }
 
-/* Largest distance between the p-values' distribution and the uniform one; sorts them. */
-static double uniform_distance(double *p, long n)
+/* The smallest of n p-values of hypotheses that all hold is as small as p with this probability, or less: 1 - (1-p)^n,
+ * Sidak's formula for a family of 1/n. */
+static double sidak_p(double p, double n) { return stats_sidak(p, 1 / n); }
+
+double batches_p(const struct batches *a, const struct batches *b, double *ratio)
 {
-    return n == 0 ? 0 : stats_ks_distance(p, (size_t)n);
+    double smallest = 1, *p = mem_alloc((size_t)a->n, sizeof *p);
+    long n = all_p(a, b, p, NULL);
+    for (long i = 0; i < n; i++)
+        smallest = fmin(smallest, p[i]);
+    free(p);
+    *ratio = batches_mean(a, NULL) / batches_mean(b, NULL);
+    return n > 0 ? sidak_p(smallest, (double)n) : 1;
 }
 
 static double random_normal(struct rng *r)
@@ -141,24 +147,25 @@ static double random_normal(struct rng *r)
     return sqrt(-2 * log(u)) * cos(2 * PI * v);
 }
 
-/* A sample with expectation 0 that scatters like s does. */
-static void resample(const struct sample *s, struct rng *r, struct sample *out)
+/* Batches with expectation 0 that scatter like b does. */
+static void resample(const struct batches *b, struct rng *r, struct batches *out)
 {
-    if (s->error != NULL) {
-        for (long i = 0; i < s->n; i++) {
-            out->value[i] = s->error[i] * random_normal(r);
-            out->error[i] = s->error[i];
+    if (b->error != NULL) {
+        for (long i = 0; i < b->n; i++) {
+            out->value[i] = b->error[i] * random_normal(r);
+            out->error[i] = b->error[i];
         }
         return;
     }
-    double stretch = sqrt(s->n_batches / (s->n_batches - 1.0)); /* deviations from the sample's own mean are too small */
-    double *mean = mem_alloc((size_t)s->n, sizeof *mean);
-    for (long i = 0; i < s->n; i++)
-        mean[i] = moments_of(s, i).mean;
-    for (int k = 0; k < s->n_batches; k++) {
+    double stretch =
+        sqrt(b->n_batches / (b->n_batches - 1.0)); /* deviations from the batches' own mean are too small */
+    double *mean = mem_alloc((size_t)b->n, sizeof *mean);
+    for (long i = 0; i < b->n; i++)
+        mean[i] = batches_moments(b, i).mean;
+    for (int k = 0; k < b->n_batches; k++) {
         double sign = rng_u32(r) & 1 ? stretch : -stretch;
-        for (long i = 0; i < s->n; i++)
-            out->value[s->n * k + i] = sign * (s->value[s->n * k + i] - mean[i]);
+        for (long i = 0; i < b->n; i++)
+            out->value[b->n * k + i] = sign * (b->value[b->n * k + i] - mean[i]);
     }
     free(mean);
 }
@@ -170,29 +177,26 @@ static int by_value(const void *a, const void *b)
 }
 
 /* p-value of a distance: Kolmogorov's, with the scale on which the resamplings' distances have its 90 % quantile. */
-static double uniform_p(const struct sample *a, const struct sample *b, double distance, uint64_t seed)
+static double uniform_p(const struct batches *a, const struct batches *b, double distance, uint64_t seed)
 {
     const double quantile = 1.2238; /* stats_kolmogorov_p(1.2238) = 0.1 */
     double found[RESAMPLINGS], *p = mem_alloc((size_t)a->n, sizeof *p);
     struct rng r = rng_stream(seed, RNG_TEST, 0, 0);
-    struct sample x = sample_new(a->n_batches, a->n, a->error != NULL);
-    struct sample y = sample_new(b->n_batches, b->n, b->error != NULL);
+    struct batches x = batches_new(a->n_batches, a->n, a->error != NULL);
+    struct batches y = batches_new(b->n_batches, b->n, b->error != NULL);
     for (int i = 0; i < RESAMPLINGS; i++) {
         resample(a, &r, &x);
         resample(b, &r, &y);
-        found[i] = uniform_distance(p, all_p(&x, &y, p, NULL));
+        found[i] = stats_ks_distance(p, (size_t)all_p(&x, &y, p, NULL));
     }
-    sample_free(&x);
-    sample_free(&y);
+    batches_free(&x);
+    batches_free(&y);
     free(p);
     qsort(found, RESAMPLINGS, sizeof *found, by_value);
     return stats_kolmogorov_p(quantile * distance / found[RESAMPLINGS * 9 / 10]);
 }
 
-/* The smallest of n p-values of hypotheses that all hold is as small as p with this probability, or less. */
-static double sidak_p(double p, double n) { return -expm1(n * log1p(-p)); }
-
-struct verdict verify_samples(const struct sample *a, const struct sample *b, uint64_t seed, double *p_out)
+struct verdict verify_batches(const struct batches *a, const struct batches *b, uint64_t seed)
 {
     struct verdict v = {.smallest = 1};
     double *p = mem_alloc((size_t)a->n, sizeof *p);
@@ -205,10 +209,8 @@ struct verdict verify_samples(const struct sample *a, const struct sample *b, ui
             v.where = where[i];
         }
     }
-    if (p_out != NULL)
-        memcpy(p_out, p, (size_t)v.n * sizeof *p);
     v.smallest = v.n > 0 ? sidak_p(v.smallest, (double)v.n) : 1;
-    v.uniform = v.n > 0 ? uniform_p(a, b, uniform_distance(p, v.n), seed) : 1;
+    v.uniform = v.n > 0 ? uniform_p(a, b, stats_ks_distance(p, (size_t)v.n), seed) : 1;
     struct moments x = total_moments(a), y = total_moments(b);
     v.mean = welch(x, y);
     v.ratio = x.mean / y.mean;

@@ -14,7 +14,7 @@
  * the deviations of the batches from their mean, each batch multiplied by a random sign ("wild bootstrap" [Liu 1988]).
  * Kolmogorov's distribution is stretched until its 90 % quantile is the one found that way.
  *
- * Used by: cmd_verify, tests. Tests: test_verify.c.
+ * Tests: test_verify.c.
  */
 #ifndef ASBDPT_VERIFY_H
 #define ASBDPT_VERIFY_H
@@ -23,22 +23,34 @@
 #include <stdint.h>
 
 /* One side: n values (tiles * 3 channels, or pixels * 3). */
-struct sample {
+struct batches {
     int n_batches; /* 1: `error` says how far the values may be off */
     long n;
     double *value; /* [n_batches * n], batch by batch */
     double *error; /* [n] standard errors of a single picture's values, else NULL */
 };
 
-struct sample sample_new(int n_batches, long n, bool with_error);
-void sample_free(struct sample *s);
+struct batches batches_new(int n_batches, long n, bool with_error);
+void batches_free(struct batches *b);
 
-/* sample_tiles: average pixels over square tiles of `side` pixels (smaller at the right and lower edge).
- *   s  [height*width*3] values; errors are taken as independent from pixel to pixel */
-struct sample sample_tiles(const struct sample *s, int width, int height, int side);
+/* batches_tiles: average pixels over square tiles of `side` pixels (smaller at the right and lower edge).
+ *   b  [height*width*3] values; errors are taken as independent from pixel to pixel */
+struct batches batches_tiles(const struct batches *b, int width, int height, int side);
 
-/* sample_mean: mean over all values, with its standard error (may be NULL). */
-double sample_mean(const struct sample *s, double *error);
+/* Mean, variance and number as Welch's test wants them: the standard error is the root of variance / n. */
+struct moments {
+    double mean, variance, n;
+};
+
+/* batches_moments: of value i. */
+struct moments batches_moments(const struct batches *b, long i);
+
+/* batches_mean: mean over all values, with its standard error (may be NULL). */
+double batches_mean(const struct batches *b, double *error);
+
+/* batches_p: one p-value for "all expectations are equal": the smallest of Welch's tests of all values, corrected by
+ * Sidak's formula for their number. *ratio: total mean of a over total mean of b. */
+double batches_p(const struct batches *a, const struct batches *b, double *ratio);
 
 enum { VERIFY_BARS = 10 };
 
@@ -51,9 +63,7 @@ struct verdict {
     long bar[VERIFY_BARS];          /* how many p-values fall into each tenth of [0,1] */
 };
 
-/* verify_samples: a and b have the same n.
- *   p     out, [n], may be NULL: the p-values
- *   seed  of the random signs */
-struct verdict verify_samples(const struct sample *a, const struct sample *b, uint64_t seed, double *p);
+/* verify_batches: a and b have the same n; the seed is that of the random signs. */
+struct verdict verify_batches(const struct batches *a, const struct batches *b, uint64_t seed);
 
 #endif

@@ -1,10 +1,66 @@
-/* report_script.c: the JavaScript of the report (report.h): the viewer that compares pictures, and sortable tables.
+/* page.c: see page.h. The program is the viewer that compares pictures, and sortable tables.
  *
  * The viewer finds the pictures of its scene among the page's img elements, so the page is complete without it. All
  * canvases of a viewer share one view (zoom, centre) and one cursor; the values it reads out are those of the 8-bit
  * pictures.
  */
-#include "lab/report.h"
+#include "lab/page.h"
+
+static const char *const STYLE[] = {
+    ":root{color-scheme:light "
+    "dark;--ink:#1b1f24;--soft:#57606a;--page:#fff;--panel:#f5f7f9;--line:#d0d7de;--accent:#0b62a8}",
+    "@media (prefers-color-scheme:dark){",
+    ":root{--ink:#e6e9ed;--soft:#a3adb8;--page:#0f1317;--panel:#15191f;--line:#39424d;--accent:#79bfff}}",
+    "*{box-sizing:border-box}",
+    "body{margin:0 auto;max-width:72rem;padding:1rem;background:var(--page);color:var(--ink);",
+    "font:1rem/1.5 system-ui,sans-serif;overflow-wrap:break-word}",
+    "h1{font-size:1.7rem;line-height:1.2}h2{margin-top:3rem;border-bottom:1px solid var(--line)}"
+    "h3{margin:2rem 0 .5rem}",
+    "a{color:var(--accent)}nav ul{display:flex;flex-wrap:wrap;gap:.3rem 1.2rem;padding:0;list-style:none}",
+    ".lead,.note{color:var(--soft)}code,pre{font:.85rem/1.4 ui-monospace,monospace}",
+    "pre{background:var(--panel);padding:.7rem;overflow-x:auto;border:1px solid var(--line);border-radius:6px}",
+    "li{margin:.25rem 0}",
+    /* Tables scroll sideways on narrow screens. */
+    ".scroll{overflow-x:auto}figure.table{margin:1.2rem 0}"
+    "table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.9rem}",
+    "th,td{padding:.25rem .6rem;border-bottom:1px solid var(--line);text-align:right;white-space:nowrap}",
+    "thead th{background:var(--panel);vertical-align:bottom}tbody th{font-weight:600}",
+    "th:first-child{text-align:left;position:sticky;left:0;background:var(--page)}"
+    "thead th:first-child{background:var(--panel)}",
+    "th button{all:unset;cursor:pointer;white-space:normal}th button:focus-visible{outline:2px solid var(--accent)}",
+    "th[aria-sort=ascending] button::after{content:' \\25B2'}th[aria-sort=descending] button::after{content:' \\25BC'}",
+    /* Pictures. */
+    ".grid{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,12rem),1fr));gap:.8rem;margin:1rem 0}",
+    ".grid figure,.plots figure{margin:0}.grid img{width:100%;height:auto;image-rendering:pixelated;display:block}",
+    "figcaption{font-size:.85rem;color:var(--soft)}",
+    ".plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,26rem),1fr));gap:1rem}",
+    ".plots .plot{width:100%;border:1px solid var(--line);border-radius:6px}",
+    ".scale{display:flex;gap:.6rem;align-items:center;font-size:.85rem;color:var(--soft)}",
+    ".scale i{flex:0 1 14rem;height:.8rem;background:linear-gradient(90deg,#00f,#0f0);print-color-adjust:exact}",
+    /* The viewer. */
+    ".viewer{background:var(--panel);border:1px solid var(--line);border-radius:6px;padding:.7rem;margin:1rem 0}",
+    ".viewer fieldset{border:0;margin:0;padding:0;display:inline-flex;flex-wrap:wrap;gap:.2rem 1rem}",
+    ".viewer .bar{display:flex;flex-wrap:wrap;gap:.5rem 1rem;align-items:center;margin-bottom:.6rem}",
+    ".viewer select,.viewer .bar button{font:inherit;color:inherit;background:var(--page);border:1px solid "
+    "var(--line);",
+    "border-radius:4px;min-height:2.2rem;padding:.1rem .6rem}.viewer .bar button{min-width:2.4rem;cursor:pointer}",
+    ".viewer label{display:inline-flex;gap:.3rem;align-items:center;min-height:2.2rem}",
+    ".viewer .views{display:grid;gap:.5rem;grid-template-columns:1fr}",
+    ".viewer .views.side{grid-template-columns:repeat(auto-fit,minmax(min(100%,18rem),1fr))}",
+    ".viewer .views div{min-width:0}.viewer .views b{font-size:.85rem;font-weight:600}",
+    ".viewer canvas{width:100%;display:block;touch-action:pan-y;cursor:crosshair;background:#000}",
+    ".viewer canvas:focus-visible,.viewer :focus-visible{outline:2px solid var(--accent);outline-offset:1px}",
+    ".viewer input[type=range]{width:100%;accent-color:var(--accent)}",
+    ".viewer output{display:block;white-space:pre-wrap;font:.85rem/1.4 "
+    "ui-monospace,monospace;min-height:5.6em;margin-top:.4rem}",
+    "[hidden]{display:none!important}",
+    "@media print{body{max-width:none;padding:0;font-size:10pt;color:#000;background:#fff}"
+    ".viewer,nav{display:none!important}",
+    ":root{--ink:#000;--soft:#444;--page:#fff;--panel:#f5f7f9;--line:#bbb;--accent:#000}",
+    "figure,table,li,pre{break-inside:avoid}h2,h3{break-after:avoid}.scroll{overflow:visible}",
+    "table{font-size:7.5pt}th,td{padding:.1rem .3rem;white-space:normal}",
+    ".grid{grid-template-columns:repeat(5,1fr)}.plots{grid-template-columns:1fr 1fr}}",
+};
 
 static const char *const SCRIPT[] = {
     "'use strict';",
@@ -31,7 +87,8 @@ static const char *const SCRIPT[] = {
     "        ({img, label: img.dataset.label, method: img.dataset.kind === 'picture', pixels: pixelsOf(img)}));",
     "      this.width = this.pictures[0].img.naturalWidth;",
     "      this.height = this.pictures[0].img.naturalHeight;",
-    "      Object.assign(this, {mode: 'side', zoom: 1, x: this.width / 2, y: this.height / 2, split: 0.5, flipped: false,",
+    "      Object.assign(this, {mode: 'side', zoom: 1, x: this.width / 2, y: this.height / 2, split: 0.5, "
+    "flipped: false,",
     "        cursor: null, drag: null, timer: 0});",
     "      this.build();",
     "      root.hidden = false;",
@@ -44,7 +101,8 @@ static const char *const SCRIPT[] = {
     "      const name = this.root.dataset.scene;",
     "      const modes = make('fieldset', {}, make('legend', {textContent: 'Compare', className: 'note'}));",
     "      for (const [mode, label] of [['side', 'side by side'], ['slider', 'slider'], ['flip', 'flip']]) {",
-    "        const radio = make('input', {type: 'radio', name: 'mode-' + name, value: mode, checked: mode === this.mode});",
+    "        const radio = make('input', {type: 'radio', name: 'mode-' + name, value: mode, checked: mode === "
+    "this.mode});",
     "        radio.addEventListener('change', () => { this.mode = mode; this.update(); });",
     "        modes.append(make('label', {}, radio, label));",
     "      }",
@@ -56,7 +114,8 @@ static const char *const SCRIPT[] = {
     "        b.addEventListener('click', action);",
     "        return b;",
     "      };",
-    "      this.flipButton = button('flip', 'show the other picture', () => { this.flipped = !this.flipped; this.update(); });",
+    "      this.flipButton = button('flip', 'show the other picture', () => { this.flipped = !this.flipped; "
+    "this.update(); });",
     "      this.flipButton.className = 'flip';",
     "      this.auto = make('input', {type: 'checkbox'});",
     "      this.auto.addEventListener('change', () => this.update());",
@@ -179,7 +238,8 @@ static const char *const SCRIPT[] = {
     "",
     "    draw() {",
     "      this.clampView();",
-    "      const left = this.chosen(0), right = this.chosen(1), one = this.mode === 'flip' && this.flipped ? right : left;",
+    "      const left = this.chosen(0), right = this.chosen(1), one = this.mode === 'flip' && this.flipped ? "
+    "right : left;",
     "      this.drawView(this.views[0], one, this.mode === 'slider' ? right : null);",
     "      if (this.mode === 'side') this.drawView(this.views[1], right, null);",
     "      this.tell();",
@@ -192,7 +252,8 @@ static const char *const SCRIPT[] = {
     "      c.height = Math.round(wide * this.height / this.width);",
     "      const text = picture.label + (beyond ? ' | ' + beyond.label : '');",
     "      view.title.textContent = text;",
-    "      c.setAttribute('aria-label', this.root.dataset.scene + ': ' + text + '. Arrow keys move the pixel that is read ' +",
+    "      c.setAttribute('aria-label', this.root.dataset.scene + ': ' + text + '. Arrow keys move the pixel "
+    "that is read ' +",
     "        'out, plus and minus zoom, 0 shows the whole.');",
     "      const g = c.getContext('2d'), k = c.width / this.width * this.zoom;",
     "      const paint = p => {",
@@ -231,7 +292,8 @@ static const char *const SCRIPT[] = {
     "    // Values of the pixel under the cursor in every picture, and how far they are from the reference.",
     "    tell() {",
     "      if (!this.cursor) {",
-    "        this.readout.textContent = 'Point at a pixel (or focus the picture and use the arrow keys) to read its values.';",
+    "        this.readout.textContent = 'Point at a pixel (or focus the picture and use the arrow keys) to read "
+    "its values.';",
     "        return;",
     "      }",
     "      const {x, y} = this.cursor, at = 4 * (y * this.width + x);",
@@ -241,7 +303,8 @@ static const char *const SCRIPT[] = {
     "        const v = value(p), error = v.map((n, i) => n - reference[i]);",
     "        return p.label.padEnd(16) + column(v) + (p === this.pictures[0] ? '' : '   error' + column(error));",
     "      });",
-    "      this.readout.textContent = `pixel ${x}, ${y} of ${this.width} x ${this.height}, zoom ${this.zoom.toFixed(1)}\\n` +",
+    "      this.readout.textContent = `pixel ${x}, ${y} of ${this.width} x ${this.height}, zoom "
+    "${this.zoom.toFixed(1)}\\n` +",
     "        lines.join('\\n');",
     "    }",
     "  }",
@@ -272,8 +335,11 @@ static const char *const SCRIPT[] = {
     "})();",
 };
 
-void report_script(FILE *f)
+static void write_lines(FILE *f, const char *const *line, size_t n)
 {
-    for (size_t i = 0; i < sizeof SCRIPT / sizeof SCRIPT[0]; i++)
-        fprintf(f, "%s\n", SCRIPT[i]);
+    for (size_t i = 0; i < n; i++)
+        fprintf(f, "%s\n", line[i]);
 }
+
+void page_style(FILE *f) { write_lines(f, STYLE, sizeof STYLE / sizeof STYLE[0]); }
+void page_script(FILE *f) { write_lines(f, SCRIPT, sizeof SCRIPT / sizeof SCRIPT[0]); }

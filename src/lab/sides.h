@@ -1,0 +1,56 @@
+/* sides.h: the two sides of a verification, rendered in batches or read from pictures, and the reference that is stored
+ * once they agree.
+ *
+ * Tests: test_verify.c, test_reference.c, test/cli.sh.
+ */
+#ifndef ASBDPT_SIDES_H
+#define ASBDPT_SIDES_H
+
+#include "lab/verify.h"
+#include "render/render.h"
+
+struct side {
+    const char *name; /* borrowed */
+    int width, height;
+    struct batches pixels; /* [height*width*3] values; owned, to be released also when reading or rendering failed */
+};
+
+/* side_read: n pictures of one size as batches; with_errors: a picture and its standard errors.
+ *   like  they must also have its size; NULL: any
+ * Returns false with a message. */
+bool side_read(const char *const *file, int n, bool with_errors, const struct side *like, struct side *out, struct error *err);
+
+/* side_read_reference: NAME.pfm with the standard errors beside it, NAME.error.pfm. Returns false with a message. */
+bool side_read_reference(const char *path, struct side *out, struct error *err);
+
+/* side_render: independent batches of options->end samples per pixel.
+ *   number  0 or 1: which side; the batches' seeds are hashes of it, of the batch and of options->seed
+ *   quiet   show no progress
+ * Returns false with a message. */
+bool side_render(const struct scene *scene, const struct render_options *options, int number, int n_batches, bool quiet,
+                 struct side *out, struct error *err);
+
+/* side_choose_resolution: the scene becomes as large as `like`, or for NULL keeps its shape with about 1000 pixels. */
+void side_choose_resolution(struct scene *scene, const struct side *like);
+
+/* side_choose_spp: samples per pixel so that the batches of one or two integrators (then method[1] is not NULL) take
+ * about 40 seconds; 0 with a message when they cannot be rendered. */
+long side_choose_spp(const struct scene *scene, const struct render_options *options,
+                     const struct method *const method[2], int n_batches, struct error *err);
+
+/* side_choose_tile: side of tiles that are large enough for means that are nearly normal, and not too many. */
+int side_choose_tile(const struct side *s);
+
+/* What is told of a stored reference beside its pixels. */
+struct provenance {
+    const char *note, *scene_path;
+    int max_depth;
+    const struct verdict *verdict;
+};
+
+/* sides_store: the mean of both sides as NAME.pfm, its standard errors as NAME.error.pfm, and NAME.txt, which
+ * reference.h reads. Returns false with a message. */
+bool sides_store(const char *name, const struct side *a, const struct side *b, const struct provenance *from,
+                 struct error *err);
+
+#endif
