@@ -57,7 +57,7 @@ static void tile_means(const struct film *film, int tile, double *out)
                 int count = 0;
                 for (int j = y; j < y + tile && j < h; j++)
                     for (int i = x; i < x + tile && i < w; i++, count++)
-                        sum += film->own[3 * (j * w + i) + c] + film->splat[3 * (j * w + i) + c];
+                        sum += film->eye[3 * (j * w + i) + c] + film->splat[3 * (j * w + i) + c];
                 out[n] = sum / ((double)count * (double)film->iterations);
             }
 }

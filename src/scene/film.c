@@ -23,9 +23,9 @@ void tile_start(struct tile *t, struct pixel_rect rect, struct pixel_rect film_r
     t->rect = rect;
     t->film_rect = film_rect;
     t->filter = filter;
-    t->own = mem_grow(t->own, &t->capacity, n, sizeof *t->own);
+    t->eye = mem_grow(t->eye, &t->capacity, n, sizeof *t->eye);
     t->square = mem_grow(t->square, &t->square_capacity, n, sizeof *t->square);
-    memset(t->own, 0, n * sizeof *t->own);
+    memset(t->eye, 0, n * sizeof *t->eye);
     memset(t->square, 0, n * sizeof *t->square);
     t->n_splats = t->n_records = 0;
     t->keep_records = keep_records;
@@ -34,14 +34,14 @@ void tile_start(struct tile *t, struct pixel_rect rect, struct pixel_rect film_r
 
 void tile_free(struct tile *t)
 {
-    free(t->own);
+    free(t->eye);
     free(t->square);
     free(t->splat);
     free(t->record);
     memset(t, 0, sizeof *t);
 }
 
-void tile_add_own(struct tile *t, int x, int y, rgb value)
+void tile_add_eye(struct tile *t, int x, int y, rgb value)
 {
     if (!fits(value)) {
         t->nonfinite++;
@@ -50,7 +50,7 @@ void tile_add_own(struct tile *t, int x, int y, rgb value)
     size_t i = 3 * ((size_t)(y - t->rect.y0) * (size_t)rect_width(t->rect) + (size_t)(x - t->rect.x0));
     const double v[3] = {value.r, value.g, value.b};
     for (size_t c = 0; c < 3; c++) {
-        t->own[i + c] += v[c];
+        t->eye[i + c] += v[c];
         t->square[i + c] += v[c] * v[c];
     }
 }
@@ -124,7 +124,7 @@ static void add_record(struct tile *t, int x, int y, int s, int th, rgb unweight
     r->weight = (float)weight;
 }
 
-void tile_record_own(struct tile *t, int x, int y, int s, int th, rgb unweighted, double weight)
+void tile_record_eye(struct tile *t, int x, int y, int s, int th, rgb unweighted, double weight)
 {
     add_record(t, x, y, s, th, unweighted, weight);
 }
@@ -149,14 +149,14 @@ void film_init(struct film *f, struct pixel_rect rect, int full_width, int full_
     f->rect = rect;
     f->full_width = full_width;
     f->full_height = full_height;
-    f->own = mem_alloc(rect_pixels(rect) * 3, sizeof *f->own);
+    f->eye = mem_alloc(rect_pixels(rect) * 3, sizeof *f->eye);
     f->splat = mem_alloc(rect_pixels(rect) * 3, sizeof *f->splat);
     f->square = mem_alloc(rect_pixels(rect) * 3, sizeof *f->square);
 }
 
 void film_free(struct film *f)
 {
-    free(f->own);
+    free(f->eye);
     free(f->splat);
     free(f->square);
     if (f->strategies != NULL) {
@@ -205,7 +205,7 @@ void film_merge_tile(struct film *f, const struct tile *t)
         size_t row = (size_t)(t->rect.y0 - f->rect.y0) + y;
         size_t to = 3 * (row * (size_t)rect_width(f->rect) + (size_t)(t->rect.x0 - f->rect.x0));
         for (size_t x = 0; x < width; x++) {
-            f->own[to + x] += t->own[y * width + x];
+            f->eye[to + x] += t->eye[y * width + x];
             f->square[to + x] += t->square[y * width + x];
         }
     }
@@ -228,7 +228,7 @@ long film_develop(const struct film *f, double scale, float *out)
     size_t n = rect_pixels(f->rect) * 3;
     double per_iteration = f->iterations > 0 ? scale / (double)f->iterations : 0;
     for (size_t i = 0; i < n; i++) {
-        double value = (f->own[i] + f->splat[i]) * per_iteration;
+        double value = (f->eye[i] + f->splat[i]) * per_iteration;
         cut += !fits_float(value);
         out[i] = float_within(value);
     }
@@ -249,7 +249,7 @@ void film_standard_error(const struct film *f, double scale, float *out)
     size_t n = rect_pixels(f->rect) * 3;
     double k = (double)f->iterations;
     for (size_t i = 0; i < n; i++) {
-        double variance = (f->square[i] - f->own[i] * f->own[i] / k) / (k * (k - 1));
+        double variance = (f->square[i] - f->eye[i] * f->eye[i] / k) / (k * (k - 1));
         out[i] = f->iterations < 2 ? INFINITY : float_within(scale * sqrt(fmax(variance, 0)));
     }
 }
