@@ -4,8 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "material/bump.h"
-
 /* A BSDF in the making. */
 struct recipe {
     const struct material *materials;
@@ -18,6 +16,14 @@ struct recipe {
 
 /* Every mix has at least as many branches as materials less one, so a material that fits has fewer than these. */
 enum { MAX_VISITS = 2 * MATERIAL_MAX_LOBES };
+
+struct material material_blank(enum material_kind kind)
+{
+    struct material m = {.kind = kind, .remap_roughness = true};
+    m.Kd = m.Ks = m.Kr = m.Kt = m.sigma = m.eta = m.k = m.index = m.uroughness = m.vroughness = -1;
+    m.opacity = m.reflect = m.transmit = m.amount = m.mix1 = m.mix2 = m.bump = -1;
+    return m;
+}
 
 /* --- parameters -------------------------------------------------------------------------------------- */
 
@@ -223,6 +229,38 @@ bool material_fits(const struct material *materials, int id)
     int n = 0, visits = 0;
     count_lobes(materials, id, &n, &visits);
     return n <= MATERIAL_MAX_LOBES && visits <= MAX_VISITS;
+}
+
+/* --- bump maps --------------------------------------------------------------------------------------- */
+
+/* Texture coordinates by which the displacement is differenced: pbrt-v3's choice for rays without differentials. */
+static const double BUMP_STEP = 0.0005;
+
+/* The displacement a step away from the point. */
+static double displaced(const struct texture_set *textures, int id, const struct surface *at, double du, double dv)
+{
+    struct surface shifted = *at;
+    shifted.p = add(at->p, add(mul(at->dpdu, du), mul(at->dpdv, dv)));
+    shifted.u = at->u + du;
+    shifted.v = at->v + dv;
+    return texture_float(textures, id, &shifted);
+}
+
+/* Partial derivative of the displaced point p + d ns: dp + (dd) ns + d (dns). */
+static vec3 partial(vec3 dp, vec3 dn, vec3 ns, double d, double d_shifted)
+{
+    return add(add(dp, mul(ns, (d_shifted - d) / BUMP_STEP)), mul(dn, d));
+}
+
+struct frame bump_frame(const struct texture_set *textures, int displacement, const struct surface *at)
+{
+    double d = texture_float(textures, displacement, at);
+    vec3 dpdu = partial(at->dpdu, at->dndu, at->ns, d, displaced(textures, displacement, at, BUMP_STEP, 0));
+    vec3 dpdv = partial(at->dpdv, at->dndv, at->ns, d, displaced(textures, displacement, at, 0, BUMP_STEP));
+    vec3 n = normalize(cross(dpdu, dpdv));
+    if (!(fabs(length2(n) - 1) < 1e-6)) /* zero, NaN, or lost in under- or overflow */
+        return frame_from_tangent(at->ns, at->dpdu);
+    return frame_from_tangent(faceforward(n, at->ng), dpdu);
 }
 
 /* The bump map that counts: a mix shades with the frame of its first material. */

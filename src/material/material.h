@@ -1,5 +1,5 @@
 /* material.h: from a material and a surface point to a BSDF. Parameters, defaults and formulas are pbrt-v3's.
- * Used by: path (through scene), parser. Tests: test_material.c.
+ * Tests: test_material.c.
  */
 #ifndef ASBDPT_MATERIAL_H
 #define ASBDPT_MATERIAL_H
@@ -39,6 +39,9 @@ struct material {
                                  * material_prepare was not called */
 };
 
+/* material_blank: a material without parameters. */
+struct material material_blank(enum material_kind kind);
+
 /* The most lobes a BSDF can have, counted over all branches of nested mixes. */
 enum { MATERIAL_MAX_LOBES = 16 };
 
@@ -69,6 +72,12 @@ bool material_reads_partials(const struct material *materials, int id, const str
  * MATERIAL_MAX_LOBES are left out. */
 void material_bsdf(const struct material *materials, int id, const struct texture_set *textures,
                    const struct surface *at, struct arena *arena, struct bsdf *out);
+
+/* bump_frame: the shading frame of the surface p + d(u,v) ns [Blinn 1978], as pbrt-v3 finds it [PBRT3 9.3].
+ *   displacement  float texture number, world units
+ *   at            its dpdu, dpdv are the partials that shading uses
+ * The normal lies on ng's side. Falls back to the smooth frame where the displaced surface has no normal. */
+struct frame bump_frame(const struct texture_set *textures, int displacement, const struct surface *at);
 
 /* roughness_to_alpha: pbrt's artist-friendly remapping, used when remap_roughness is set. */
 double roughness_to_alpha(double roughness);

@@ -16,8 +16,10 @@ int texture_add(struct texture_set *set, struct texture t)
 {
     t.cost = 1;
     if (t.kind == TEXTURE_SCALE || t.kind == TEXTURE_MIX)
-        t.cost += cost_of(set, t.u.pair.tex1) + cost_of(set, t.u.pair.tex2) + cost_of(set, t.u.pair.amount);
-    else if (t.kind == TEXTURE_CHECKERBOARD)
+        t.cost += cost_of(set, t.u.pair.tex1) + cost_of(set, t.u.pair.tex2);
+    if (t.kind == TEXTURE_MIX)
+        t.cost += cost_of(set, t.u.pair.amount);
+    if (t.kind == TEXTURE_CHECKERBOARD)
         t.cost += cost_of(set, t.u.checker.tex1) + cost_of(set, t.u.checker.tex2);
     set->texture =
         mem_grow(set->texture, &set->texture_capacity, (size_t)set->n_textures + 1, sizeof *set->texture);

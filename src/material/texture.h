@@ -3,7 +3,7 @@
  * Every material parameter is a texture, most of them constant. Float textures use the red channel of the same
  * struct. Image maps are looked up bilinearly in the finest level: pixel samples do the filtering.
  *
- * Used by: material, scene (alpha), parser. Tests: test_texture.c.
+ * Tests: test_texture.c.
  */
 #ifndef ASBDPT_TEXTURE_H
 #define ASBDPT_TEXTURE_H

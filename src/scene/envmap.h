@@ -6,7 +6,7 @@
  * The picture is cut into blocks of texels. Choosing a block is the caller's business (by the blocks' light, or by what
  * can be seen, see guide.h); within a block a texel is chosen by its light from an alias table.
  *
- * Used by: light. Tests: test_light.c.
+ * Tests: test_light.c.
  */
 #ifndef ASBDPT_ENVMAP_H
 #define ASBDPT_ENVMAP_H

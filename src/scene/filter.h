@@ -4,7 +4,7 @@
  * samples draw p from |h| (filter importance sampling), so a sample counts for its own pixel only; a light-image
  * splat (t = 1) adds h(p) times its value to each pixel it reaches. Both estimate the same integral.
  *
- * Used by: film, path (eye ray), parser. Tests: test_film.c.
+ * Tests: test_film.c.
  */
 #ifndef ASBDPT_FILTER_H
 #define ASBDPT_FILTER_H

@@ -6,7 +6,7 @@
  * Lights are chosen in proportion to their power by an alias table; s = 1 and emission use the same choice and the
  * same density of y0, so one number serves both in the MIS weights.
  *
- * Used by: scene, path, connect. Tests: test_light.c.
+ * Tests: test_light.c.
  */
 #ifndef ASBDPT_LIGHT_H
 #define ASBDPT_LIGHT_H
