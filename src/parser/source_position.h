@@ -1,32 +1,32 @@
-/* place.h: where something stands in a scene file, and messages that point there.
+/* source_position.h: where something stands in a scene file, and messages that point there.
  *
- * Every token knows its place, so every message can say FILE:LINE:COL, show the line and put a caret under the
- * column. Texts of files are kept until the parse is over; places point into them.
+ * Every token knows its position, so every message can say FILE:LINE:COL, show the line and put a caret under the
+ * column. Texts of files are kept until the parse is over; positions point into them.
  *
- * Used by: lexer, params, parse_*, parser. Tests: test_parser.c.
+ * Tests: test_parser.c.
  */
-#ifndef ASBDPT_PLACE_H
-#define ASBDPT_PLACE_H
+#ifndef ASBDPT_SOURCE_POSITION_H
+#define ASBDPT_SOURCE_POSITION_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
 #include "base/error.h"
 
-struct input;
+struct source_file;
 
 /* A column of a line of a file. */
-struct place {
-    const struct input *input;
-    const char *line_start; /* first character of the line, inside input->text */
+struct source_position {
+    const struct source_file *file;
+    const char *line_start; /* first character of the line, inside file->text */
     int line, column;       /* from 1; a tab counts as one column */
 };
 
-/* One reading of a file. A file included twice is two inputs that share a text. */
-struct input {
+/* One reading of a file. A file included twice is two of these that share a text. */
+struct source_file {
     const char *path;
     const char *text, *end;  /* end[0] is a zero byte that does not belong to the file */
-    struct place included_at; /* the Include directive; included_at.input is NULL for the main file */
+    struct source_position included_at; /* the Include directive; included_at.file is NULL for the main file */
 };
 
 /* A function that receives each warning, one line without newline; `context` is passed through. */
@@ -43,15 +43,15 @@ struct messages {
     size_t n_given, capacity;
 };
 
-/* place_error: "FILE:LINE:COL: message", the line, a caret under the column, and from where the file was included.
+/* source_error: "FILE:LINE:COL: message", the line, a caret under the column, and from where the file was included.
  * Returns false, always. */
-bool place_error(struct messages *m, struct place at, const char *format, ...);
+bool source_error(struct messages *m, struct source_position at, const char *format, ...);
 
-/* place_warn: the same on one line, to the sink, once per kind. `kind` must be a string constant. */
-void place_warn(struct messages *m, struct place at, const char *kind, const char *format, ...);
+/* source_warn: the same on one line, to the sink, once per kind. `kind` must be a string constant. */
+void source_warn(struct messages *m, struct source_position at, const char *kind, const char *format, ...);
 
-/* place_text: "FILE:LINE:COL" into the buffer, cut at its end. */
-void place_text(struct place at, char *buffer, size_t size);
+/* source_position_text: "FILE:LINE:COL" into the buffer, cut at its end. */
+void source_position_text(struct source_position at, char *buffer, size_t size);
 
 void messages_free(struct messages *m);
 

@@ -1,32 +1,89 @@
-/* names.c: see names.h. */
-#include "parser/names.h"
+/* symbols.c: see symbols.h. */
+#include "parser/symbols.h"
 
-#include <stdint.h>
+#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/mem.h"
-#include "parser/suggest.h"
 
-/* Which chain a name is in: the FNV-1a hash [Fowler, Noll, Vo]. */
-static uint32_t chain(const char *name)
+/* --- the nearest known name --------------------------------------------------------------------------- */
+
+enum { LONGEST = 48 }; /* longer names are not compared */
+
+static int smaller(int a, int b) { return a < b ? a : b; }
+static int lower(const char *text, int i) { return tolower((unsigned char)text[i]); }
+
+/* Three rows of the dynamic-programming table suffice: a swap looks two rows back. */
+static int distance(const char *a, const char *b)
 {
-    uint32_t h = 2166136261u;
-    for (; *name != '\0'; name++)
-        h = (h ^ (unsigned char)*name) * 16777619u;
-    return h % NAME_CHAINS;
+    int row[3][LONGEST + 1];
+    int m = (int)strlen(a), n = (int)strlen(b);
+    for (int j = 0; j <= n; j++)
+        row[0][j] = j;
+    for (int i = 1; i <= m; i++) {
+        int *now = row[i % 3];
+        const int *above = row[(i + 2) % 3], *above2 = row[(i + 1) % 3];
+        now[0] = i;
+        for (int j = 1; j <= n; j++) {
+            int differ = lower(a, i - 1) != lower(b, j - 1);
+            now[j] = smaller(smaller(above[j], now[j - 1]) + 1, above[j - 1] + differ);
+            if (i > 1 && j > 1 && lower(a, i - 1) == lower(b, j - 2) && lower(a, i - 2) == lower(b, j - 1))
+                now[j] = smaller(now[j], above2[j - 2] + 1);
+        }
+    }
+    return row[m % 3][n];
 }
 
-void names_add(struct names *t, const char *name, int value)
+struct suggestion suggest_start(const char *wanted)
+{
+    struct suggestion s = {wanted, NULL, (int)(smaller((int)strlen(wanted), LONGEST) + 5) / 3};
+    return s;
+}
+
+void suggest_offer(struct suggestion *s, const char *known)
+{
+    size_t m = strlen(s->wanted), n = strlen(known);
+    if (m > LONGEST || n > LONGEST || abs((int)m - (int)n) >= s->distance)
+        return;
+    int d = distance(s->wanted, known);
+    if (d < s->distance && (size_t)d < n) {
+        s->distance = d;
+        s->name = known;
+    }
+}
+
+const char *suggest_from(const char *wanted, const char *const *known)
+{
+    struct suggestion s = suggest_start(wanted);
+    for (; *known != NULL; known++)
+        suggest_offer(&s, *known);
+    return s.name;
+}
+
+/* --- the table ---------------------------------------------------------------------------------------- */
+
+uint32_t symbols_hash(const void *bytes, size_t n)
+{
+    uint32_t h = 2166136261u;
+    for (const unsigned char *b = bytes, *end = b + n; b < end; b++)
+        h = (h ^ *b) * 16777619u;
+    return h;
+}
+
+/* Which chain a name is in. */
+static uint32_t chain(const char *name) { return symbols_hash(name, strlen(name)) % SYMBOL_CHAINS; }
+
+void symbols_add(struct symbols *t, const char *name, int value)
 {
     t->entry = mem_grow(t->entry, &t->capacity, (size_t)t->n + 1, sizeof *t->entry);
     int *newest = &t->newest[chain(name)];
-    struct name_entry e = {mem_copy_text(name), value, *newest - 1};
+    struct symbol e = {mem_copy_text(name), value, *newest - 1};
     t->entry[t->n++] = e;
     *newest = t->n;
 }
 
-int names_find(const struct names *t, const char *name)
+int symbols_find(const struct symbols *t, const char *name)
 {
     for (int i = t->newest[chain(name)] - 1; i >= 0; i = t->entry[i].older)
         if (strcmp(t->entry[i].name, name) == 0)
@@ -34,16 +91,16 @@ int names_find(const struct names *t, const char *name)
     return -1;
 }
 
-void names_forget(struct names *t, int n)
+void symbols_forget(struct symbols *t, int n)
 {
     while (t->n > n) {
-        struct name_entry *e = &t->entry[--t->n];
+        struct symbol *e = &t->entry[--t->n];
         t->newest[chain(e->name)] = e->older + 1;
         free(e->name);
     }
 }
 
-const char *names_near(const struct names *t, const char *name)
+const char *symbols_near(const struct symbols *t, const char *name)
 {
     struct suggestion s = suggest_start(name);
     for (int i = 0; i < t->n; i++)
@@ -51,9 +108,9 @@ const char *names_near(const struct names *t, const char *name)
     return s.name;
 }
 
-void names_free(struct names *t)
+void symbols_free(struct symbols *t)
 {
-    names_forget(t, 0);
+    symbols_forget(t, 0);
     free(t->entry);
     memset(t, 0, sizeof *t);
 }
