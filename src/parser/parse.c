@@ -27,15 +27,13 @@ bool parse_type(struct parser *p, const struct object_type *types)
         if (wanted && t->parameter != NULL)
             return true;
         if (wanted)
-            return params_fail(q, q->position, "%s \"%s\" of pbrt-v3 is not supported; use one of %s", q->directive,
-                               q->type, list);
+            return type_error(q, "%s \"%s\" of pbrt-v3 is not supported; use one of %s", q->directive, q->type, list);
         if (t->parameter != NULL)
             suggest_offer(&near, t->name);
     }
     if (near.name != NULL)
-        return params_fail(q, q->position, "unknown %s \"%.40s\"; did you mean \"%s\"?", q->directive, q->type,
-                           near.name);
-    return params_fail(q, q->position, "unknown %s \"%.40s\"; use one of %s", q->directive, q->type, list);
+        return type_error(q, "unknown %s \"%.40s\"; did you mean \"%s\"?", q->directive, q->type, near.name);
+    return type_error(q, "unknown %s \"%.40s\"; use one of %s", q->directive, q->type, list);
 }
 
 bool parse_object(struct parser *p, void *object)

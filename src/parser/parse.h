@@ -159,6 +159,10 @@ void parse_rgb_texture(struct parser *p, const struct parameter *row, void *fiel
 void parse_ignored(struct parser *p, const struct parameter *row, void *field);
 void parse_no_effect(struct parser *p, const struct parameter *row, void *field);
 
+/* A message at the directive, or at the type of the list. Both return false. */
+#define directive_error(p, ...) source_error(&(p)->messages, (p)->directive.position, __VA_ARGS__)
+#define type_error(q, ...) params_fail(q, (q)->position, __VA_ARGS__)
+
 /* --- what stands in a directive ------------------------------------------------------------------------- */
 
 /* The arguments of the current directive. parse_string: one quoted string, `what` says which. parse_numbers: n
@@ -184,25 +188,19 @@ int parse_named_float(struct parser *p, const char *name);
 
 /* --- directives ----------------------------------------------------------------------------------------- */
 
-extern const struct object_type CAMERA_TYPES[], FILM_TYPES[], FILTER_TYPES[], SAMPLER_TYPES[], ACCELERATOR_TYPES[],
-    TEXTURE_TYPES[], MATERIAL_TYPES[], LIGHT_TYPES[], AREA_LIGHT_TYPES[], SHAPE_TYPES[];
+/* One directive. A table of them ends with one without a name. */
+struct directive {
+    const char *name;
+    enum phase phase;
+    bool (*run)(struct parser *p);
+    const struct object_type *types; /* of a directive "type" parameters: in p->type when run is called. NULL: run reads
+                                      * all of it */
+};
 
-/* Those whose type is in p->type when they are called. */
-bool parse_camera(struct parser *p);
-bool parse_film(struct parser *p);
-bool parse_filter(struct parser *p);
-bool parse_sampler(struct parser *p);
-bool parse_accelerator(struct parser *p);
-bool parse_light(struct parser *p);
-bool parse_area_light(struct parser *p);
-bool parse_shape(struct parser *p);
+#define END_OF_DIRECTIVES {NULL, ANYWHERE, NULL, NULL}
 
-/* Those that read all of it themselves. */
-bool parse_integrator(struct parser *p);
-bool parse_texture(struct parser *p);
-bool parse_material(struct parser *p);
-bool parse_make_named_material(struct parser *p);
-bool parse_named_material(struct parser *p);
+extern const struct directive STATE_DIRECTIVES[], OPTION_DIRECTIVES[], TEXTURE_DIRECTIVES[], MATERIAL_DIRECTIVES[],
+    LIGHT_DIRECTIVES[], SHAPE_DIRECTIVES[];
 
 /* parse_make_material: make a material of kind params.type. *out is its number or MATERIAL_NONE. */
 bool parse_make_material(struct parser *p, int *out);
@@ -212,27 +210,10 @@ bool parse_shape_add(struct parser *p, const struct shape_item *item, struct tra
                      struct source_position at);
 void shape_list_free(struct shape_list *list);
 
-/* The directives that change the graphics state; parse_state.c. */
-bool parse_identity(struct parser *p);
-bool parse_translate(struct parser *p);
-bool parse_scale(struct parser *p);
-bool parse_rotate(struct parser *p);
-bool parse_look_at(struct parser *p);
-bool parse_transform(struct parser *p);
-bool parse_concat_transform(struct parser *p);
-bool parse_coordinate_system(struct parser *p);
-bool parse_coord_sys_transform(struct parser *p);
-bool parse_active_transform(struct parser *p);
-bool parse_transform_times(struct parser *p);
-bool parse_attribute_begin(struct parser *p);
-bool parse_attribute_end(struct parser *p);
-bool parse_transform_begin(struct parser *p);
-bool parse_transform_end(struct parser *p);
-bool parse_reverse_orientation(struct parser *p);
-bool parse_object_begin(struct parser *p);
-bool parse_object_end(struct parser *p);
-bool parse_object_instance(struct parser *p);
+/* parse_state_reset: as a file or its world begins. parse_name_system: name a coordinate system. parse_all_closed:
+ * false, with a message, if a block is still open. */
+void parse_state_reset(struct parser *p);
 void parse_name_system(struct parser *p, const char *name, struct transform t);
-bool parse_all_closed(struct parser *p); /* false, with a message, if a block is still open */
+bool parse_all_closed(struct parser *p);
 
 #endif

@@ -18,10 +18,10 @@ static void emitted(struct parser *p, const struct parameter *row, void *field)
     struct params *q = &p->params;
     rgb value = rgb_mul(params_rgb(q, row->name, row->fallback), params_rgb(q, "scale", rgb_grey(1)));
     if (!rgb_is_finite(value) || rgb_luminance(value) < 0)
-        params_fail(q, q->position, "this light's %s times its scale is (%g %g %g); a light must not take light away",
+        type_error(q, "this light's %s times its scale is (%g %g %g); a light must not take light away",
                     row->name, value.r, value.g, value.b);
     if (!(rgb_max(value) <= NUMBER_MAX)) /* its green may be negative, but not the sum that luminance is */
-        params_fail(q, q->position, "this light's %s times its scale is (%g %g %g); light goes up to %g here", row->name,
+        type_error(q, "this light's %s times its scale is (%g %g %g); light goes up to %g here", row->name,
                     value.r, value.g, value.b, NUMBER_MAX);
     *(rgb *)field = value;
 }
@@ -39,7 +39,7 @@ static vec3 direction(struct params *q, const struct light *l, vec3 from, vec3 t
 {
     vec3 w = normalize(transform_vector(&l->to_world, sub(to, from)));
     if (!(fabs(length2(w) - 1) < 1e-6)) {
-        params_fail(q, q->position, "\"from\" and \"to\" give no direction; move them apart");
+        type_error(q, "\"from\" and \"to\" give no direction; move them apart");
         return vec(0, 0, 1);
     }
     return w;
@@ -51,11 +51,11 @@ static void spot_light(struct parser *p, void *object)
     struct light *l = &item->light;
     struct params *q = &p->params;
     if (item->cone > 180)
-        params_fail(q, q->position, "\"coneangle\" is %g degrees; the whole sphere is 180", item->cone);
+        type_error(q, "\"coneangle\" is %g degrees; the whole sphere is 180", item->cone);
     l->cos_total = cos(item->cone * PI / 180);
     l->cos_falloff = cos(fmax(item->cone - item->edge, 0) * PI / 180);
     if (!(l->cos_total < 1))
-        params_fail(q, q->position, "\"coneangle\" is %g degrees: a cone without inside", item->cone);
+        type_error(q, "\"coneangle\" is %g degrees: a cone without inside", item->cone);
     l->position = transform_point(&l->to_world, item->from);
     l->axis = frame_from_normal(direction(q, l, item->from, item->to));
 }
@@ -103,25 +103,22 @@ static const struct parameter DISTANT_LIGHT[] = {
 static const struct parameter INFINITE_LIGHT[] = {
     EMITTED("L"), BY_BUILD("scale"), SAMPLES, BY_BUILD("mapname"), END_OF_PARAMETERS};
 
-const struct object_type LIGHT_TYPES[] = {
+static const struct object_type LIGHTS[] = {
     {"point", POINT_LIGHT, LIGHT_POINT, point_light},
     {"spot", SPOT_LIGHT, LIGHT_SPOT, spot_light},
     {"distant", DISTANT_LIGHT, LIGHT_DISTANT, distant_light},
     {"infinite", INFINITE_LIGHT, LIGHT_INFINITE, infinite_light},
     {"exinfinite", INFINITE_LIGHT, LIGHT_INFINITE, infinite_light},
-    REFUSED("goniometric"),
-    REFUSED("projection"),
-    END_OF_TYPES};
+    REFUSED("goniometric"), REFUSED("projection"), END_OF_TYPES};
 
-bool parse_light(struct parser *p)
+static bool light(struct parser *p)
 {
     struct params *q = &p->params;
     struct light_item item = {.light = {.kind = (enum light_kind)p->type->kind, .to_world = p->state.ctm, .prim = -1}};
     parse_object(p, &item);
     vec3 position = item.light.position;
     if (!is_place(position))
-        params_fail(q, q->position, "this light would stand at (%g %g %g); places go up to 1e18", position.x,
-                    position.y, position.z);
+        type_error(q, "this light would stand at (%g %g %g); places go up to 1e18", position.x, position.y, position.z);
     light_add(&p->scene->lights, item.light); /* even where it failed: the scene releases its map */
     return params_done(q);
 }
@@ -133,11 +130,15 @@ static const struct parameter AREA_LIGHT[] = {
     SAMPLES,
     END_OF_PARAMETERS};
 
-const struct object_type AREA_LIGHT_TYPES[] = {
+static const struct object_type AREA_LIGHTS[] = {
     {"diffuse", AREA_LIGHT, LIGHT_AREA, NULL}, {"area", AREA_LIGHT, LIGHT_AREA, NULL}, END_OF_TYPES};
 
-bool parse_area_light(struct parser *p)
+static bool area_light(struct parser *p)
 {
     p->state.area.on = true;
     return parse_object(p, &p->state.area);
 }
+
+const struct directive LIGHT_DIRECTIVES[] = {{"AreaLightSource", IN_WORLD, area_light, AREA_LIGHTS},
+                                             {"LightSource", IN_WORLD, light, LIGHTS},
+                                             END_OF_DIRECTIVES};

@@ -4,13 +4,13 @@
 #include <stddef.h>
 #include <string.h>
 
-static void named_material(struct parser *p, const struct parameter *row, void *field)
+static void mixed_material(struct parser *p, const struct parameter *row, void *field)
 {
     struct params *q = &p->params;
     struct source_position at;
     const char *name = params_text(q, row->name, PARAM_STRING, &at);
     if (name == NULL) {
-        params_fail(q, q->position, "a mix needs \"string namedmaterial1\" and \"string namedmaterial2\"");
+        type_error(q, "a mix needs \"string namedmaterial1\" and \"string namedmaterial2\"");
         return;
     }
     int value = symbols_find(&p->materials, name);
@@ -38,7 +38,7 @@ static void named_material(struct parser *p, const struct parameter *row, void *
      "pbrt-v3 does not read \"roughness\" of this material, so it is ignored; " \
      "use \"uroughness\" and \"vroughness\""}
 #define BUMP TEXTURE("bumpmap", bump, KEPT, 0, 0), END_OF_PARAMETERS
-#define MIXED(name, f) {name, named_material, offsetof(struct material, f), GREY(0), 0, 0, NULL}
+#define MIXED(name, f) {name, mixed_material, offsetof(struct material, f), GREY(0), 0, 0, NULL}
 
 static const struct parameter MATTE[] = {COLOUR(Kd, 0.5), TEXTURE("sigma", sigma, 0, 0, 0), BUMP};
 static const struct parameter MIRROR[] = {COLOUR(Kr, 0.9), BUMP};
@@ -75,7 +75,7 @@ static const struct parameter TRANSLUCENT[] = {
 static const struct parameter MIX[] = {
     MIXED("namedmaterial1", mix1), MIXED("namedmaterial2", mix2), COLOUR(amount, 0.5), END_OF_PARAMETERS};
 
-const struct object_type MATERIAL_TYPES[] = {
+static const struct object_type TYPES[] = {
     {"matte", MATTE, MATERIAL_MATTE, NULL},
     {"mirror", MIRROR, MATERIAL_MIRROR, NULL},
     {"glass", GLASS, MATERIAL_GLASS, NULL},
@@ -85,11 +85,7 @@ const struct object_type MATERIAL_TYPES[] = {
     {"uber", UBER, MATERIAL_UBER, NULL},
     {"translucent", TRANSLUCENT, MATERIAL_TRANSLUCENT, NULL},
     {"mix", MIX, MATERIAL_MIX, NULL},
-    REFUSED("disney"),
-    REFUSED("fourier"),
-    REFUSED("hair"),
-    REFUSED("kdsubsurface"),
-    REFUSED("subsurface"),
+    REFUSED("disney"), REFUSED("fourier"), REFUSED("hair"), REFUSED("kdsubsurface"), REFUSED("subsurface"),
     END_OF_TYPES};
 
 bool parse_make_material(struct parser *p, int *out)
@@ -101,7 +97,7 @@ bool parse_make_material(struct parser *p, int *out)
             q->item[i].used = true; /* nothing is left to use them */
         return params_done(q);
     }
-    if (!parse_type(p, MATERIAL_TYPES))
+    if (!parse_type(p, TYPES))
         return false;
     struct material m = material_blank((enum material_kind)p->type->kind);
     if (!parse_object(p, &m))
@@ -115,9 +111,9 @@ bool parse_make_material(struct parser *p, int *out)
     return true;
 }
 
-bool parse_material(struct parser *p) { return parse_typed(p) && parse_make_material(p, &p->state.material); }
+static bool material(struct parser *p) { return parse_typed(p) && parse_make_material(p, &p->state.material); }
 
-bool parse_make_named_material(struct parser *p)
+static bool make_named_material(struct parser *p)
 {
     struct token name;
     int id;
@@ -137,7 +133,7 @@ bool parse_make_named_material(struct parser *p)
     return true;
 }
 
-bool parse_named_material(struct parser *p)
+static bool named_material(struct parser *p)
 {
     struct token name;
     int id = parse_named(p, &name, &p->materials, "named material");
@@ -145,3 +141,8 @@ bool parse_named_material(struct parser *p)
         p->state.material = id - 1;
     return id >= 0;
 }
+
+const struct directive MATERIAL_DIRECTIVES[] = {{"NamedMaterial", IN_WORLD, named_material, NULL},
+                                                {"Material", IN_WORLD, material, NULL},
+                                                {"MakeNamedMaterial", IN_WORLD, make_named_material, NULL},
+                                                END_OF_DIRECTIVES};

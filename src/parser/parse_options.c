@@ -15,7 +15,7 @@ static void check_camera(struct params *q, struct camera c)
 {
     camera_prepare(&c, 1, 1);
     if (!q->failed && !camera_is_usable(&c))
-        params_fail(q, q->position, "this camera is not usable: its place must be within 1e18, and its view at distance 1 %s",
+        type_error(q, "this camera is not usable: its place must be within 1e18, and its view at distance 1 %s",
                     "from 1e-12 to 1e12 wide and high; change transform, field of view or window");
 }
 
@@ -27,7 +27,7 @@ static void perspective(struct parser *p, void *object)
     if (half > 0)
         c->fov = 2 * half;
     if (!(c->fov < 180))
-        params_fail(q, q->position, "a field of view of %g degrees is too wide; it must be less than 180", c->fov);
+        type_error(q, "a field of view of %g degrees is too wide; it must be less than 180", c->fov);
     int n;
     const struct param *item;
     const double *window = params_list(q, "screenwindow", 1u << PARAM_FLOAT, 1, &n, &item);
@@ -54,13 +54,11 @@ static const struct parameter PERSPECTIVE[] = {
     IGNORED("shutterclose"),
     END_OF_PARAMETERS};
 
-const struct object_type CAMERA_TYPES[] = {{"perspective", PERSPECTIVE, 0, perspective},
-                                           REFUSED("orthographic"),
-                                           REFUSED("environment"),
-                                           REFUSED("realistic"),
-                                           END_OF_TYPES};
+static const struct object_type CAMERA_TYPES[] = {
+    {"perspective", PERSPECTIVE, 0, perspective},
+    REFUSED("orthographic"), REFUSED("environment"), REFUSED("realistic"), END_OF_TYPES};
 
-bool parse_camera(struct parser *p)
+static bool camera(struct parser *p)
 {
     struct camera c = camera_default();
     c.world_to_camera = p->state.ctm;
@@ -98,7 +96,7 @@ static void image_film(struct parser *p, void *object)
     struct scene *s = object;
     struct error why;
     if (!picture_size_ok((unsigned long)s->width, (unsigned long)s->height, &why))
-        params_fail(q, q->position, "%s", why.text);
+        type_error(q, "%s", why.text);
     static const double WHOLE[4] = {0, 1, 0, 1};
     memcpy(s->crop, WHOLE, sizeof s->crop);
     crop_window(q, s->crop);
@@ -121,18 +119,16 @@ static const struct parameter IMAGE_FILM[] = {
      "\"maxsampleluminance\" is ignored: clamping samples would make the image darker than the truth"},
     END_OF_PARAMETERS};
 
-const struct object_type FILM_TYPES[] = {{"image", IMAGE_FILM, 0, image_film}, END_OF_TYPES};
-
-bool parse_film(struct parser *p) { return parse_object(p, p->scene); }
+static const struct object_type FILM_TYPES[] = {{"image", IMAGE_FILM, 0, image_film}, END_OF_TYPES};
 
 static void check_radii(struct parser *p, void *object)
 {
     const double *radius = ((struct filter *)object)->radius;
     struct params *q = &p->params;
     if (radius[0] > 64 || radius[1] > 64)
-        params_fail(q, q->position, "a filter radius above 64 pixels is too wide; pbrt's own are 0.5 to 4");
+        type_error(q, "a filter radius above 64 pixels is too wide; pbrt's own are 0.5 to 4");
     if (radius[0] < 1e-3 || radius[1] < 1e-3)
-        params_fail(q, q->position, "a filter radius below 0.001 pixels is too narrow; pbrt's own are 0.5 to 4");
+        type_error(q, "a filter radius below 0.001 pixels is too narrow; pbrt's own are 0.5 to 4");
 }
 
 /* Within these limits the table of a profile (filter.c) is fine enough for it, and its integral is far from 0. */
@@ -146,14 +142,15 @@ static const struct parameter MITCHELL[] = {
     RADII, FILTER("B", B, -100, 100), FILTER("C", C, -100, 100), END_OF_PARAMETERS};
 static const struct parameter SINC[] = {RADII, FILTER("tau", tau, 0.1, 1e6), END_OF_PARAMETERS};
 
-const struct object_type FILTER_TYPES[] = {{"box", BOX, FILTER_BOX, check_radii},
-                                           {"triangle", BOX, FILTER_TRIANGLE, check_radii},
-                                           {"gaussian", GAUSSIAN, FILTER_GAUSSIAN, check_radii},
-                                           {"mitchell", MITCHELL, FILTER_MITCHELL, check_radii},
-                                           {"sinc", SINC, FILTER_SINC, check_radii},
-                                           END_OF_TYPES};
+static const struct object_type FILTER_TYPES[] = {
+    {"box", BOX, FILTER_BOX, check_radii},
+    {"triangle", BOX, FILTER_TRIANGLE, check_radii},
+    {"gaussian", GAUSSIAN, FILTER_GAUSSIAN, check_radii},
+    {"mitchell", MITCHELL, FILTER_MITCHELL, check_radii},
+    {"sinc", SINC, FILTER_SINC, check_radii},
+    END_OF_TYPES};
 
-bool parse_filter(struct parser *p)
+static bool filter(struct parser *p)
 {
     filter_default(p->params.type, &p->scene->filter);
     return parse_object(p, &p->scene->filter);
@@ -172,24 +169,26 @@ static const struct parameter RANDOM[] = {SAMPLES(4), UNUSED_CHOICES};
 static const struct parameter STRATIFIED[] = {BY_BUILD("xsamples"), BY_BUILD("ysamples"), UNUSED_CHOICES};
 static const struct parameter SEQUENCE[] = {SAMPLES(16), UNUSED_CHOICES};
 
-const struct object_type SAMPLER_TYPES[] = {{"sobol", SEQUENCE, 0, NULL},
-                                            {"halton", SEQUENCE, 0, NULL},
-                                            {"random", RANDOM, 0, NULL},
-                                            {"stratified", STRATIFIED, 0, stratified},
-                                            {"02sequence", SEQUENCE, 0, NULL},
-                                            {"lowdiscrepancy", SEQUENCE, 0, NULL},
-                                            {"maxmindist", SEQUENCE, 0, NULL},
-                                            END_OF_TYPES};
+static const struct object_type SAMPLER_TYPES[] = {
+    {"sobol", SEQUENCE, 0, NULL},
+    {"halton", SEQUENCE, 0, NULL},
+    {"random", RANDOM, 0, NULL},
+    {"stratified", STRATIFIED, 0, stratified},
+    {"02sequence", SEQUENCE, 0, NULL},
+    {"lowdiscrepancy", SEQUENCE, 0, NULL},
+    {"maxmindist", SEQUENCE, 0, NULL},
+    END_OF_TYPES};
 
-bool parse_sampler(struct parser *p) { return parse_object(p, p->scene); }
+/* Film and sampler are fields of the scene itself. */
+static bool of_scene(struct parser *p) { return parse_object(p, p->scene); }
 
 static const struct parameter TREE[] = {
     NO_EFFECT("splitmethod"), NO_EFFECT("maxnodeprims"), NO_EFFECT("intersectcost"), NO_EFFECT("traversalcost"),
     NO_EFFECT("emptybonus"),  NO_EFFECT("maxprims"),     NO_EFFECT("maxdepth"),      END_OF_PARAMETERS};
 
-const struct object_type ACCELERATOR_TYPES[] = {{"kdtree", TREE, 0, NULL}, {"bvh", TREE, 0, NULL}, END_OF_TYPES};
+static const struct object_type ACCELERATOR_TYPES[] = {{"kdtree", TREE, 0, NULL}, {"bvh", TREE, 0, NULL}, END_OF_TYPES};
 
-bool parse_accelerator(struct parser *p) { return parse_object(p, NULL); }
+static bool accelerator(struct parser *p) { return parse_object(p, NULL); }
 
 /* How many digits tell this number from all others. */
 static int digits(double x)
@@ -218,7 +217,7 @@ static char *value_text(const struct params *q, const struct param *item)
 }
 
 /* Which parameters an integrator has is its own affair: all are kept as text with their place. */
-bool parse_integrator(struct parser *p)
+static bool integrator(struct parser *p)
 {
     if (!parse_typed(p))
         return false;
@@ -237,3 +236,11 @@ bool parse_integrator(struct parser *p)
     }
     return params_done(q);
 }
+
+const struct directive OPTION_DIRECTIVES[] = {{"Camera", BEFORE_WORLD, camera, CAMERA_TYPES},
+                                              {"Film", BEFORE_WORLD, of_scene, FILM_TYPES},
+                                              {"PixelFilter", BEFORE_WORLD, filter, FILTER_TYPES},
+                                              {"Sampler", BEFORE_WORLD, of_scene, SAMPLER_TYPES},
+                                              {"Accelerator", BEFORE_WORLD, accelerator, ACCELERATOR_TYPES},
+                                              {"Integrator", BEFORE_WORLD, integrator, NULL},
+                                              END_OF_DIRECTIVES};

@@ -44,7 +44,7 @@ static uint32_t *vertex_indices(struct params *q, int n_vertices, int *n_triangl
     const struct param *item;
     const double *number = params_list(q, "indices", 1u << PARAM_INTEGER, 3, &n, &item);
     if (number == NULL) {
-        params_fail(q, q->position, "a trianglemesh needs \"integer indices\" [...]");
+        type_error(q, "a trianglemesh needs \"integer indices\" [...]");
         return NULL;
     }
     uint32_t *out = mem_alloc((size_t)n, 3 * sizeof *out);
@@ -67,7 +67,7 @@ static void trianglemesh(struct params *q, struct mesh *m)
     int n;
     const double *P = params_list(q, "P", 1u << PARAM_POINT, 3, &n, NULL);
     if (P == NULL) {
-        params_fail(q, q->position, "a trianglemesh needs \"point P\" [...]");
+        type_error(q, "a trianglemesh needs \"point P\" [...]");
         return;
     }
     m->n_vertices = n;
@@ -85,7 +85,7 @@ static void plymesh(struct params *q, struct mesh *m)
     struct error inner;
     char *path = params_file(q, "filename", &at);
     if (path == NULL)
-        params_fail(q, q->position, "a plymesh needs its file: add \"string filename\" \"...\"");
+        type_error(q, "a plymesh needs its file: add \"string filename\" \"...\"");
     else if (!ply_read(path, m, &inner))
         params_fail(q, at, "%s", inner.text);
     free(path);
@@ -138,7 +138,7 @@ static void heights(struct params *q, struct quadric *s, double low, double high
     s->zmin = clamp(fmin(a, b), -limit, limit);
     s->zmax = clamp(fmax(a, b), -limit, limit);
     if (!(s->zmin < s->zmax))
-        params_fail(q, q->position, "\"zmin\" %g and \"zmax\" %g leave nothing of this %s", a, b, q->type);
+        type_error(q, "\"zmin\" %g and \"zmax\" %g leave nothing of this %s", a, b, q->type);
 }
 
 static void sphere(struct parser *p, void *object)
@@ -178,19 +178,14 @@ static const struct parameter SPHERE[] = {ROUND, BY_BUILD("zmin"), BY_BUILD("zma
 static const struct parameter DISK[] = {ROUND, QUADRIC("innerradius", parse_number, inner_radius, 0, AT_LEAST_0),
                                         QUADRIC("height", parse_number, zmin, 0, ANY_NUMBER), END_OF_PARAMETERS};
 
-const struct object_type SHAPE_TYPES[] = {{"trianglemesh", TRIANGLEMESH_ROWS, TRIANGLEMESH, mesh_shape},
-                                          {"plymesh", PLYMESH_ROWS, PLYMESH, mesh_shape},
-                                          {"sphere", SPHERE, QUADRIC_SPHERE, sphere},
-                                          {"disk", DISK, QUADRIC_DISK, disk},
-                                          {"cylinder", SPHERE, QUADRIC_CYLINDER, cylinder},
-                                          REFUSED("cone"),
-                                          REFUSED("curve"),
-                                          REFUSED("heightfield"),
-                                          REFUSED("hyperboloid"),
-                                          REFUSED("loopsubdiv"),
-                                          REFUSED("nurbs"),
-                                          REFUSED("paraboloid"),
-                                          END_OF_TYPES};
+static const struct object_type TYPES[] = {
+    {"trianglemesh", TRIANGLEMESH_ROWS, TRIANGLEMESH, mesh_shape},
+    {"plymesh", PLYMESH_ROWS, PLYMESH, mesh_shape},
+    {"sphere", SPHERE, QUADRIC_SPHERE, sphere},
+    {"disk", DISK, QUADRIC_DISK, disk},
+    {"cylinder", SPHERE, QUADRIC_CYLINDER, cylinder},
+    REFUSED("cone"), REFUSED("curve"), REFUSED("heightfield"), REFUSED("hyperboloid"), REFUSED("loopsubdiv"),
+    REFUSED("nurbs"), REFUSED("paraboloid"), END_OF_TYPES};
 
 /* --- adding ------------------------------------------------------------------------------------------- */
 
@@ -272,7 +267,7 @@ static bool complete_shape(struct parser *p, struct shape_item *item)
 }
 
 /* Add a shape to the scene or to the current object. */
-bool parse_shape(struct parser *p)
+static bool shape(struct parser *p)
 {
     struct shape_item item = {
         .to_world = p->state.ctm, .reverse = p->state.reverse, .area = p->state.area, .position = p->params.position};
@@ -291,3 +286,5 @@ bool parse_shape(struct parser *p)
         mesh_free(&item.mesh);
     return ok;
 }
+
+const struct directive SHAPE_DIRECTIVES[] = {{"Shape", IN_WORLD, shape, TYPES}, END_OF_DIRECTIVES};

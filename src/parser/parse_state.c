@@ -78,54 +78,56 @@ static bool set_ctm(struct parser *p, struct transform t)
     if (!p->state.start_active)
         return true;
     if (!transform_is_usable(&t))
-        return source_error(&p->messages, p->directive.position,
-                           "this makes the current transform infinite or singular, or nearly so; %s",
+        return directive_error(p, "this makes the current transform infinite or singular, or nearly so; %s",
                            "its numbers and its inverse's go up to 1e30");
     p->state.ctm = t;
     return true;
 }
 
+void parse_state_reset(struct parser *p)
+{
+    p->state.ctm = transform_identity();
+    p->state.start_active = true;
+}
+
 static bool apply(struct parser *p, struct transform t) { return set_ctm(p, transform_compose(p->state.ctm, t)); }
 
-bool parse_identity(struct parser *p) { return set_ctm(p, transform_identity()); }
+static bool identity(struct parser *p) { return set_ctm(p, transform_identity()); }
 
-bool parse_translate(struct parser *p)
+static bool translate(struct parser *p)
 {
     double x[3];
     return parse_numbers(p, x, 3) && apply(p, transform_translate(vec(x[0], x[1], x[2])));
 }
 
-bool parse_scale(struct parser *p)
+static bool scale(struct parser *p)
 {
     double x[3];
     if (!parse_numbers(p, x, 3))
         return false;
     if (x[0] == 0 || x[1] == 0 || x[2] == 0)
-        return source_error(&p->messages, p->directive.position,
-                           "Scale by 0 flattens everything; all three factors must differ from 0");
+        return directive_error(p, "Scale by 0 flattens everything; all three factors must differ from 0");
     return apply(p, transform_scale(x[0], x[1], x[2]));
 }
 
-bool parse_rotate(struct parser *p)
+static bool rotate(struct parser *p)
 {
     double x[4];
     if (!parse_numbers(p, x, 4))
         return false;
     if (x[1] == 0 && x[2] == 0 && x[3] == 0)
-        return source_error(&p->messages, p->directive.position,
-                           "Rotate around the axis 0 0 0; write Rotate degrees x y z");
+        return directive_error(p, "Rotate around the axis 0 0 0; write Rotate degrees x y z");
     return apply(p, transform_rotate(x[0], vec(x[1], x[2], x[3])));
 }
 
-bool parse_look_at(struct parser *p)
+static bool look_at(struct parser *p)
 {
     double x[9];
     struct transform t;
     if (!parse_numbers(p, x, 9))
         return false;
     if (!transform_look_at(vec(x[0], x[1], x[2]), vec(x[3], x[4], x[5]), vec(x[6], x[7], x[8]), &t))
-        return source_error(&p->messages, p->directive.position,
-                           "LookAt needs two different points and an up vector across the view");
+        return directive_error(p, "LookAt needs two different points and an up vector across the view");
     return apply(p, t);
 }
 
@@ -135,17 +137,17 @@ static bool parse_matrix(struct parser *p, struct transform *out)
     if (!parse_numbers(p, x, 16))
         return false;
     if (!transform_from_matrix(x, out))
-        return source_error(&p->messages, p->directive.position, "this matrix is singular: it has no inverse");
+        return directive_error(p, "this matrix is singular: it has no inverse");
     return true;
 }
 
-bool parse_transform(struct parser *p)
+static bool transform(struct parser *p)
 {
     struct transform t;
     return parse_matrix(p, &t) && set_ctm(p, t);
 }
 
-bool parse_concat_transform(struct parser *p)
+static bool concat_transform(struct parser *p)
 {
     struct transform t;
     return parse_matrix(p, &t) && apply(p, t);
@@ -158,7 +160,7 @@ void parse_name_system(struct parser *p, const char *name, struct transform t)
     symbols_add(&p->systems, name, p->n_systems++);
 }
 
-bool parse_coordinate_system(struct parser *p)
+static bool coordinate_system(struct parser *p)
 {
     struct token name;
     if (!parse_string(p, &name, "a name"))
@@ -167,14 +169,14 @@ bool parse_coordinate_system(struct parser *p)
     return true;
 }
 
-bool parse_coord_sys_transform(struct parser *p)
+static bool coord_sys_transform(struct parser *p)
 {
     struct token name;
     int i = parse_named(p, &name, &p->systems, "coordinate system");
     return i >= 0 && set_ctm(p, p->system[i]);
 }
 
-bool parse_active_transform(struct parser *p)
+static bool active_transform(struct parser *p)
 {
     struct token t;
     if (!lexer_next(&p->lexer, &t))
@@ -188,7 +190,7 @@ bool parse_active_transform(struct parser *p)
     return true;
 }
 
-bool parse_transform_times(struct parser *p)
+static bool transform_times(struct parser *p)
 {
     double x[2];
     source_warn(&p->messages, p->directive.position, "motion", "nothing moves here: TransformTimes is ignored");
@@ -221,11 +223,10 @@ static bool open_block(struct parser *p, enum block_kind kind)
 static bool close_block(struct parser *p, enum block_kind kind)
 {
     if (p->n_blocks == 0)
-        return source_error(&p->messages, p->directive.position, "%s without %s; remove it or open the block",
-                           END[kind], BEGIN[kind]);
+        return directive_error(p, "%s without %s; remove it or open the block", END[kind], BEGIN[kind]);
     const struct block *b = &p->block[p->n_blocks - 1];
     if (b->kind != kind)
-        return source_error(&p->messages, p->directive.position, "%s does not match the %s of line %d; %s comes first",
+        return directive_error(p, "%s does not match the %s of line %d; %s comes first",
                            END[kind], BEGIN[b->kind], b->position.line, END[b->kind]);
     p->n_blocks--;
     if (kind == BLOCK_TRANSFORM) {
@@ -240,25 +241,24 @@ static bool close_block(struct parser *p, enum block_kind kind)
     return true;
 }
 
-bool parse_attribute_begin(struct parser *p) { return open_block(p, BLOCK_ATTRIBUTE); }
-bool parse_attribute_end(struct parser *p) { return close_block(p, BLOCK_ATTRIBUTE); }
-bool parse_transform_begin(struct parser *p) { return open_block(p, BLOCK_TRANSFORM); }
-bool parse_transform_end(struct parser *p) { return close_block(p, BLOCK_TRANSFORM); }
+static bool attribute_begin(struct parser *p) { return open_block(p, BLOCK_ATTRIBUTE); }
+static bool attribute_end(struct parser *p) { return close_block(p, BLOCK_ATTRIBUTE); }
+static bool transform_begin(struct parser *p) { return open_block(p, BLOCK_TRANSFORM); }
+static bool transform_end(struct parser *p) { return close_block(p, BLOCK_TRANSFORM); }
 
-bool parse_reverse_orientation(struct parser *p)
+static bool reverse_orientation(struct parser *p)
 {
     p->state.reverse = !p->state.reverse;
     return true;
 }
 
-bool parse_object_begin(struct parser *p)
+static bool object_begin(struct parser *p)
 {
     struct token name;
     if (!parse_string(p, &name, "a name"))
         return false;
     if (p->current_object >= 0)
-        return source_error(&p->messages, p->directive.position,
-                           "ObjectBegin inside an object; end the outer one with ObjectEnd first");
+        return directive_error(p, "ObjectBegin inside an object; end the outer one with ObjectEnd first");
     p->object = mem_grow(p->object, &p->object_capacity, (size_t)p->n_objects + 1, sizeof *p->object);
     memset(&p->object[p->n_objects], 0, sizeof *p->object);
     p->current_object = p->n_objects++;
@@ -266,7 +266,7 @@ bool parse_object_begin(struct parser *p)
     return open_block(p, BLOCK_OBJECT);
 }
 
-bool parse_object_end(struct parser *p)
+static bool object_end(struct parser *p)
 {
     if (!close_block(p, BLOCK_OBJECT))
         return false;
@@ -274,12 +274,11 @@ bool parse_object_end(struct parser *p)
     return true;
 }
 
-bool parse_object_instance(struct parser *p)
+static bool object_instance(struct parser *p)
 {
     struct token name;
     if (p->current_object >= 0)
-        return source_error(&p->messages, p->directive.position,
-                            "ObjectInstance inside an object; objects do not nest");
+        return directive_error(p, "ObjectInstance inside an object; objects do not nest");
     int i = parse_named(p, &name, &p->objects, "object");
     if (i < 0)
         return false;
@@ -294,3 +293,25 @@ bool parse_object_instance(struct parser *p)
     }
     return true;
 }
+
+const struct directive STATE_DIRECTIVES[] = {
+    {"Transform", ANYWHERE, transform, NULL},
+    {"AttributeBegin", IN_WORLD, attribute_begin, NULL},
+    {"AttributeEnd", IN_WORLD, attribute_end, NULL},
+    {"TransformBegin", IN_WORLD, transform_begin, NULL},
+    {"TransformEnd", IN_WORLD, transform_end, NULL},
+    {"ObjectInstance", IN_WORLD, object_instance, NULL},
+    {"Translate", ANYWHERE, translate, NULL},
+    {"Scale", ANYWHERE, scale, NULL},
+    {"Rotate", ANYWHERE, rotate, NULL},
+    {"LookAt", ANYWHERE, look_at, NULL},
+    {"Identity", ANYWHERE, identity, NULL},
+    {"ConcatTransform", ANYWHERE, concat_transform, NULL},
+    {"CoordinateSystem", ANYWHERE, coordinate_system, NULL},
+    {"CoordSysTransform", ANYWHERE, coord_sys_transform, NULL},
+    {"ActiveTransform", ANYWHERE, active_transform, NULL},
+    {"TransformTimes", BEFORE_WORLD, transform_times, NULL},
+    {"ReverseOrientation", IN_WORLD, reverse_orientation, NULL},
+    {"ObjectBegin", IN_WORLD, object_begin, NULL},
+    {"ObjectEnd", IN_WORLD, object_end, NULL},
+    END_OF_DIRECTIVES};

@@ -52,7 +52,7 @@ static void imagemap(struct parser *p, void *object)
     struct source_position at = q->position;
     char *path = params_file(q, "filename", &at);
     if (path == NULL) {
-        params_fail(q, q->position, "an imagemap needs its picture: add \"string filename\" \"...\"");
+        type_error(q, "an imagemap needs its picture: add \"string filename\" \"...\"");
         return;
     }
     t->u.imagemap.gamma = params_bool(q, "gamma", path_ends_in(path, ".tga") || path_ends_in(path, ".png"));
@@ -104,24 +104,18 @@ static const struct parameter BILERP[] = {
     MAPPING(bilerp), VALUE("v00", bilerp.v00, 0), VALUE("v01", bilerp.v01, 1),
     VALUE("v10", bilerp.v10, 0), VALUE("v11", bilerp.v11, 1), END_OF_PARAMETERS};
 
-const struct object_type TEXTURE_TYPES[] = {
+static const struct object_type TYPES[] = {
     {"constant", CONSTANT, TEXTURE_CONSTANT, NULL},
     {"scale", SCALE, TEXTURE_SCALE, NULL},
     {"mix", MIX, TEXTURE_MIX, NULL},
     {"checkerboard", CHECKERBOARD, TEXTURE_CHECKERBOARD, NULL},
     {"imagemap", IMAGEMAP, TEXTURE_IMAGEMAP, imagemap},
     {"bilerp", BILERP, TEXTURE_BILERP, NULL},
-    REFUSED("uv"),
-    REFUSED("dots"),
-    REFUSED("fbm"),
-    REFUSED("wrinkled"),
-    REFUSED("marble"),
-    REFUSED("windy"),
-    REFUSED("ptex"),
-    END_OF_TYPES};
+    REFUSED("uv"), REFUSED("dots"), REFUSED("fbm"), REFUSED("wrinkled"), REFUSED("marble"), REFUSED("windy"),
+    REFUSED("ptex"), END_OF_TYPES};
 
 /* Texture "name" "float or spectrum or color" "class". */
-bool parse_texture(struct parser *p)
+static bool texture(struct parser *p)
 {
     struct token name, type, class;
     if (!parse_string(p, &name, "a name") || !parse_string(p, &type, "float or spectrum") ||
@@ -131,7 +125,7 @@ bool parse_texture(struct parser *p)
     if (!p->texture_is_float && strcmp(type.text, "spectrum") != 0 && strcmp(type.text, "color") != 0)
         return params_fail(&p->params, type.position, "unknown texture type \"%.40s\"; use \"float\" or \"spectrum\"",
                            type.text);
-    if (!parse_type(p, TEXTURE_TYPES))
+    if (!parse_type(p, TYPES))
         return false;
     struct texture t = {.kind = (enum texture_kind)p->type->kind};
     if (!parse_object(p, &t))
@@ -143,3 +137,5 @@ bool parse_texture(struct parser *p)
     symbols_add(p->texture_is_float ? &p->float_textures : &p->spectrum_textures, name.text, id);
     return true;
 }
+
+const struct directive TEXTURE_DIRECTIVES[] = {{"Texture", IN_WORLD, texture, NULL}, END_OF_DIRECTIVES};

@@ -15,8 +15,7 @@ enum { MAX_INCLUDES = 65536 };
 static bool world_begin(struct parser *p)
 {
     p->phase = IN_WORLD;
-    p->state.ctm = transform_identity();
-    p->state.start_active = true;
+    parse_state_reset(p);
     parse_name_system(p, "world", transform_identity());
     return true;
 }
@@ -45,8 +44,7 @@ static bool medium_interface(struct parser *p)
 
 static bool make_named_medium(struct parser *p)
 {
-    return source_error(&p->messages, p->directive.position,
-                       "participating media are not supported; remove MakeNamedMedium");
+    return directive_error(p, "participating media are not supported; remove MakeNamedMedium");
 }
 
 static bool color_space(struct parser *p)
@@ -62,52 +60,31 @@ static bool color_space(struct parser *p)
 
 static bool include(struct parser *p);
 
-static const struct directive {
-    const char *name;
-    enum phase phase;
-    bool (*run)(struct parser *p);
-    const struct object_type *types; /* of a directive "type" parameters; NULL: run reads all of it */
-} DIRECTIVES[] = {
-    {"Shape", IN_WORLD, parse_shape, SHAPE_TYPES},
-    {"NamedMaterial", IN_WORLD, parse_named_material, NULL},
-    {"Transform", ANYWHERE, parse_transform, NULL},
-    {"AttributeBegin", IN_WORLD, parse_attribute_begin, NULL},
-    {"AttributeEnd", IN_WORLD, parse_attribute_end, NULL},
-    {"TransformBegin", IN_WORLD, parse_transform_begin, NULL},
-    {"TransformEnd", IN_WORLD, parse_transform_end, NULL},
-    {"Material", IN_WORLD, parse_material, NULL},
-    {"ObjectInstance", IN_WORLD, parse_object_instance, NULL},
-    {"Translate", ANYWHERE, parse_translate, NULL},
-    {"Scale", ANYWHERE, parse_scale, NULL},
-    {"Rotate", ANYWHERE, parse_rotate, NULL},
-    {"LookAt", ANYWHERE, parse_look_at, NULL},
-    {"Identity", ANYWHERE, parse_identity, NULL},
-    {"ConcatTransform", ANYWHERE, parse_concat_transform, NULL},
-    {"CoordinateSystem", ANYWHERE, parse_coordinate_system, NULL},
-    {"CoordSysTransform", ANYWHERE, parse_coord_sys_transform, NULL},
-    {"ActiveTransform", ANYWHERE, parse_active_transform, NULL},
-    {"TransformTimes", BEFORE_WORLD, parse_transform_times, NULL},
-    {"ReverseOrientation", IN_WORLD, parse_reverse_orientation, NULL},
-    {"AreaLightSource", IN_WORLD, parse_area_light, AREA_LIGHT_TYPES},
-    {"LightSource", IN_WORLD, parse_light, LIGHT_TYPES},
-    {"Texture", IN_WORLD, parse_texture, NULL},
-    {"MakeNamedMaterial", IN_WORLD, parse_make_named_material, NULL},
-    {"ObjectBegin", IN_WORLD, parse_object_begin, NULL},
-    {"ObjectEnd", IN_WORLD, parse_object_end, NULL},
-    {"Include", ANYWHERE, include, NULL},
-    {"Camera", BEFORE_WORLD, parse_camera, CAMERA_TYPES},
-    {"Film", BEFORE_WORLD, parse_film, FILM_TYPES},
-    {"PixelFilter", BEFORE_WORLD, parse_filter, FILTER_TYPES},
-    {"Sampler", BEFORE_WORLD, parse_sampler, SAMPLER_TYPES},
-    {"Accelerator", BEFORE_WORLD, parse_accelerator, ACCELERATOR_TYPES},
-    {"Integrator", BEFORE_WORLD, parse_integrator, NULL},
-    {"MediumInterface", ANYWHERE, medium_interface, NULL},
-    {"MakeNamedMedium", ANYWHERE, make_named_medium, NULL},
-    {"ColorSpace", BEFORE_WORLD, color_space, NULL},
-    {"WorldBegin", BEFORE_WORLD, world_begin, NULL},
-    {"WorldEnd", IN_WORLD, world_end, NULL},
-};
-enum { N_DIRECTIVES = sizeof DIRECTIVES / sizeof DIRECTIVES[0] };
+static const struct directive FILE_DIRECTIVES[] = {{"Include", ANYWHERE, include, NULL},
+                                                   {"MediumInterface", ANYWHERE, medium_interface, NULL},
+                                                   {"MakeNamedMedium", ANYWHERE, make_named_medium, NULL},
+                                                   {"ColorSpace", BEFORE_WORLD, color_space, NULL},
+                                                   {"WorldBegin", BEFORE_WORLD, world_begin, NULL},
+                                                   {"WorldEnd", IN_WORLD, world_end, NULL},
+                                                   END_OF_DIRECTIVES};
+
+/* All directives, the commonest first. */
+static const struct directive *const TABLES[] = {SHAPE_DIRECTIVES,  MATERIAL_DIRECTIVES, STATE_DIRECTIVES,
+                                                 LIGHT_DIRECTIVES,  TEXTURE_DIRECTIVES,  FILE_DIRECTIVES,
+                                                 OPTION_DIRECTIVES, NULL};
+
+/* The directive of this name, or NULL. Every name passed on the way is offered to *near, unless that is NULL. */
+static const struct directive *find_directive(const char *name, struct suggestion *near)
+{
+    for (const struct directive *const *table = TABLES; *table != NULL; table++)
+        for (const struct directive *d = *table; d->name != NULL; d++) {
+            if (strcmp(d->name, name) == 0)
+                return d;
+            if (near != NULL)
+                suggest_offer(near, d->name);
+        }
+    return NULL;
+}
 
 static bool unknown_directive(struct parser *p)
 {
@@ -117,8 +94,7 @@ static bool unknown_directive(struct parser *p)
     if (t->kind != TOKEN_WORD)
         return source_error(&p->messages, t->position, "here should be a directive like Shape, not %s", found);
     struct suggestion near = suggest_start(t->text);
-    for (int i = 0; i < N_DIRECTIVES; i++)
-        suggest_offer(&near, DIRECTIVES[i].name);
+    find_directive(t->text, &near);
     if (near.name != NULL)
         return source_error(&p->messages, t->position, "unknown directive %s; did you mean %s?", found, near.name);
     return source_error(&p->messages, t->position, "unknown directive %s; doc/scene-format.md lists them", found);
@@ -126,19 +102,16 @@ static bool unknown_directive(struct parser *p)
 
 static bool wrong_phase(struct parser *p, const struct directive *d)
 {
-    const struct source_position at = p->directive.position;
     if (p->phase == AFTER_WORLD)
-        return source_error(&p->messages, at, "%s after WorldEnd; a file describes one world", d->name);
+        return directive_error(p, "%s after WorldEnd; a file describes one world", d->name);
     if (d->run == world_begin)
-        return source_error(&p->messages, at, "a second WorldBegin; a file describes one world");
-    if (d->phase == IN_WORLD)
-        return source_error(&p->messages, at, "%s may stand only between WorldBegin and WorldEnd; move it there",
-                           d->name);
-    return source_error(&p->messages, at, "%s may stand only before WorldBegin; move it there", d->name);
+        return directive_error(p, "a second WorldBegin; a file describes one world");
+    return directive_error(p, "%s may stand only %s WorldBegin%s; move it there", d->name,
+                           d->phase == IN_WORLD ? "between" : "before", d->phase == IN_WORLD ? " and WorldEnd" : "");
 }
 
-/* All directives of the current input. */
-static bool run_input(struct parser *p)
+/* All directives of the current file. */
+static bool run_source(struct parser *p)
 {
     struct token *t = &p->directive;
     for (;;) {
@@ -146,17 +119,14 @@ static bool run_input(struct parser *p)
             return false;
         if (t->kind == TOKEN_END)
             return true;
-        int i = 0;
-        while (i < N_DIRECTIVES && (t->kind != TOKEN_WORD || strcmp(DIRECTIVES[i].name, t->text) != 0))
-            i++;
-        if (i == N_DIRECTIVES)
+        const struct directive *d = t->kind == TOKEN_WORD ? find_directive(t->text, NULL) : NULL;
+        if (d == NULL)
             return unknown_directive(p);
-        if ((DIRECTIVES[i].phase & p->phase) == 0)
-            return wrong_phase(p, &DIRECTIVES[i]);
-        const struct object_type *types = DIRECTIVES[i].types;
-        if (types != NULL && !(parse_typed(p) && parse_type(p, types)))
+        if ((d->phase & p->phase) == 0)
+            return wrong_phase(p, d);
+        if (d->types != NULL && !(parse_typed(p) && parse_type(p, d->types)))
             return false;
-        if (!DIRECTIVES[i].run(p))
+        if (!d->run(p))
             return false;
     }
 }
@@ -192,7 +162,7 @@ static bool run_file(struct parser *p, int file, const char *path, struct source
     struct lexer outer = p->lexer;
     p->lexer = lexer_start(source, &p->arena, &p->messages);
     p->source[p->n_sources++] = source;
-    bool ok = run_input(p);
+    bool ok = run_source(p);
     p->n_sources--;
     p->lexer = outer;
     return ok;
@@ -245,8 +215,7 @@ static void start(struct parser *p, const char *path, struct scene *s, const str
     p->params.messages = &p->messages;
     p->params.directory = p->directory;
     p->phase = BEFORE_WORLD;
-    p->state.ctm = transform_identity();
-    p->state.start_active = true;
+    parse_state_reset(p);
     p->current_object = p->black_matte = -1;
     p->params.directive = "Material";
     p->params.type = "matte";
@@ -283,7 +252,7 @@ bool parse_scene(const char *path, struct scene *out, const struct warning_sink 
     int file = load(p, path, err);
     bool ok = file >= 0 && run_file(p, file, path, NOWHERE);
     if (ok && p->phase != AFTER_WORLD)
-        ok = source_error(&p->messages, p->directive.position, "the file ends without %s; add it",
+        ok = directive_error(p, "the file ends without %s; add it",
                          p->phase == BEFORE_WORLD ? "WorldBegin" : "WorldEnd");
     finish(p);
     if (!ok)
