@@ -19,7 +19,7 @@ enum texture_kind {
     TEXTURE_CONSTANT,
     TEXTURE_SCALE,        /* tex1 * tex2 */
     TEXTURE_MIX,          /* (1-amount) tex1 + amount tex2 */
-    TEXTURE_CHECKERBOARD, /* tex1 on even, tex2 on odd cells of floor(s), floor(t) */
+    TEXTURE_CHECKERBOARD, /* tex1 on even, tex2 on odd squares of floor(s), floor(t) */
     TEXTURE_IMAGEMAP,
     TEXTURE_BILERP
 };

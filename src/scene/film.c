@@ -60,26 +60,23 @@ static int32_t film_pixel(const struct tile *t, int x, int y)
     return (int32_t)((y - t->film_rect.y0) * rect_width(t->film_rect) + (x - t->film_rect.x0));
 }
 
-/* First and last pixel whose filter covers the raster coordinate p on one axis. */
-static void filter_span(double p, double radius, int low, int high, int *first, int *last)
+/* First pixel whose filter covers the raster coordinate p on one axis, and the one after the last. */
+static void filter_span(double p, double radius, int low, int high, int *first, int *end)
 {
     double a = floor(p - radius + 0.5), b = floor(p + radius - 0.5); /* |p - (i + 0.5)| <= radius */
-    if (2 * radius == 1) /* half-open cell: a point belongs to exactly one pixel */
+    if (2 * radius == 1) /* half-open: a point belongs to exactly one pixel */
         a = b = floor(p);
-    *first = int_within(a, low, high); /* a NaN covers nothing: low to low - 1 */
-    *last = int_within(b, low - 1, high - 1);
+    *first = int_within(a, low, high); /* a NaN covers nothing */
+    *end = int_within(b + 1, low, high);
 }
 
-struct spread {
-    int x0, x1, y0, y1; /* inclusive range of pixels; empty when x1 < x0 */
-};
-
-static struct spread spread_of(const struct tile *t, double px, double py)
+/* The pixels whose filter covers a raster point; none when x1 <= x0 or y1 <= y0. */
+static struct pixel_rect covered(const struct tile *t, double px, double py)
 {
-    struct spread s;
-    filter_span(px, t->filter->radius[0], t->film_rect.x0, t->film_rect.x1, &s.x0, &s.x1);
-    filter_span(py, t->filter->radius[1], t->film_rect.y0, t->film_rect.y1, &s.y0, &s.y1);
-    return s;
+    struct pixel_rect r;
+    filter_span(px, t->filter->radius[0], t->film_rect.x0, t->film_rect.x1, &r.x0, &r.x1);
+    filter_span(py, t->filter->radius[1], t->film_rect.y0, t->film_rect.y1, &r.y0, &r.y1);
+    return r;
 }
 
 void tile_add_splat(struct tile *t, double px, double py, rgb value)
@@ -88,9 +85,9 @@ void tile_add_splat(struct tile *t, double px, double py, rgb value)
         t->nonfinite++;
         return;
     }
-    struct spread range = spread_of(t, px, py);
-    for (int y = range.y0; y <= range.y1; y++) {
-        for (int x = range.x0; x <= range.x1; x++) {
+    struct pixel_rect range = covered(t, px, py);
+    for (int y = range.y0; y < range.y1; y++) {
+        for (int x = range.x0; x < range.x1; x++) {
             double h = filter_eval(t->filter, px - (x + 0.5), py - (y + 0.5));
             if (h == 0)
                 continue;
@@ -109,7 +106,7 @@ void tile_add_splat(struct tile *t, double px, double py, rgb value)
     }
 }
 
-static void add_record(struct tile *t, int x, int y, int s, int th, rgb unweighted, double weight)
+void tile_record_eye(struct tile *t, int x, int y, int s, int th, rgb unweighted, double weight)
 {
     if (!t->keep_records || !fits(unweighted) || !fits_float(weight))
         return;
@@ -124,20 +121,15 @@ static void add_record(struct tile *t, int x, int y, int s, int th, rgb unweight
     r->weight = (float)weight;
 }
 
-void tile_record_eye(struct tile *t, int x, int y, int s, int th, rgb unweighted, double weight)
-{
-    add_record(t, x, y, s, th, unweighted, weight);
-}
-
 void tile_record_splat(struct tile *t, double px, double py, int s, int th, rgb unweighted, double weight)
 {
     if (!t->keep_records)
         return;
-    struct spread range = spread_of(t, px, py);
-    for (int y = range.y0; y <= range.y1; y++)
-        for (int x = range.x0; x <= range.x1; x++) {
+    struct pixel_rect range = covered(t, px, py);
+    for (int y = range.y0; y < range.y1; y++)
+        for (int x = range.x0; x < range.x1; x++) {
             double h = filter_eval(t->filter, px - (x + 0.5), py - (y + 0.5));
-            add_record(t, x, y, s, th, rgb_scale(unweighted, h), weight);
+            tile_record_eye(t, x, y, s, th, rgb_scale(unweighted, h), weight);
         }
 }
 

@@ -62,7 +62,7 @@ static double light_power(const struct light *l, const struct geometry *geo, dou
 /* A constant sky is cut into SKY_BANDS x SKY_SECTORS cells of equal solid angle, by z and by azimuth. */
 enum { SKY_BANDS = 8, SKY_SECTORS = 16, SKY_CELLS = SKY_BANDS * SKY_SECTORS };
 
-static int cells_of(const struct light *l)
+static int cell_count(const struct light *l)
 {
     return l->kind != LIGHT_INFINITE ? 1 : l->env != NULL ? envmap_blocks(l->env) : SKY_CELLS;
 }
@@ -88,7 +88,7 @@ void light_prepare(struct light_set *set, const struct geometry *geo, vec3 cente
         struct light *l = &set->light[i];
         l->power = light_power(l, geo, radius);
         l->first_cell = set->n_cells;
-        l->n_cells = cells_of(l);
+        l->n_cells = cell_count(l);
         set->n_cells += l->n_cells;
         set->several_infinite |= set->any_infinite && l->kind == LIGHT_INFINITE;
         set->any_infinite |= l->kind == LIGHT_INFINITE;
@@ -106,13 +106,13 @@ void light_prepare(struct light_set *set, const struct geometry *geo, vec3 cente
 
 /* --- the end point y0 -------------------------------------------------------------------------------- */
 
-static vec3 infinite_sample(const struct light *l, int cell, double u1, double u2, double *pdf_w)
+static vec3 infinite_sample(const struct light *l, int cell, double u1, double u2, double *pdf_dir)
 {
     if (l->env == NULL) {
-        *pdf_w = warp_sphere_pdf() * SKY_CELLS;
+        *pdf_dir = warp_sphere_pdf() * SKY_CELLS;
         return warp_sphere((cell / SKY_SECTORS + u1) / SKY_BANDS, (cell % SKY_SECTORS + u2) / SKY_SECTORS);
     }
-    return normalize(transform_vector(&l->to_world, envmap_sample(l->env, cell, u1, u2, pdf_w)));
+    return normalize(transform_vector(&l->to_world, envmap_sample(l->env, cell, u1, u2, pdf_dir)));
 }
 
 static vec3 to_light_space(const struct light *l, vec3 w)
@@ -150,7 +150,7 @@ bool light_sample_cell(const struct light_set *set, const struct geometry *geo, 
         shape_sample(geo, l->prim, u1, u2, &at, &pdf);
         out->p = at.p;
         out->n = at.ng;
-        out->flat = shape_flat(l->prim);
+        out->triangle = shape_flat(l->prim);
         break;
     }
     case LIGHT_POINT:
@@ -216,7 +216,7 @@ rgb light_sample_emission(const struct light_set *set, const struct light_point 
         *pdf = light_pdf_emission(set, y0, ray->d);
         return light_Le(set, y0, ray->d);
     }
-    struct ray r = {y0->p, w, 0, INFINITY, y0->flat, 0};
+    struct ray r = {y0->p, w, 0, INFINITY, y0->triangle, 0};
     *ray = r;
     *pdf = light_pdf_emission(set, y0, w);
     return *pdf > 0 ? rgb_scale(light_Le(set, y0, w), cosine) : rgb_black();

@@ -18,7 +18,7 @@
 #include "material/texture.h"
 
 struct scene {
-    struct geometry geo;
+    struct geometry geo; /* first: see opaque_at in scene.c */
     struct kdtree kd;
     struct texture_set textures;
     struct material *material; /* [n_materials], owned */
