@@ -45,7 +45,8 @@ struct material material_blank(enum material_kind kind);
 /* The most lobes a BSDF can have, counted over all branches of nested mixes. */
 enum { MATERIAL_MAX_LOBES = 16 };
 
-/* What parameters may be. The parser refuses what is the same everywhere and beyond; what textures vary is cut to it. */
+/* What parameters may be. The parser refuses what is the same everywhere and beyond; what textures vary is limited
+ * to it. */
 #define MATERIAL_MAX_COLOUR 1e6 /* reflectances, eta and k of metals */
 #define MATERIAL_MIN_INDEX 0.01
 #define MATERIAL_MAX_INDEX 100.0
@@ -59,8 +60,8 @@ bool material_fits(const struct material *materials, int id);
  *   arena  where they live: as long as the materials are used */
 void material_prepare(struct material *materials, int n, const struct texture_set *textures, struct arena *arena);
 
-/* material_reads_partials: whether the BSDFs of material `id` depend on dpdu, dpdv, dndu or dndv: by a bump map, or by a
- * roughness that differs between u and v. May say so of one that does not. */
+/* material_reads_partials: whether the BSDFs of material `id` depend on dpdu, dpdv, dndu or dndv: by a bump map, or by
+ * a roughness that differs between u and v. May say so of one that does not. */
 bool material_reads_partials(const struct material *materials, int id, const struct texture_set *textures);
 
 /* material_bsdf: the BSDF of material `id` at a point.

@@ -12,7 +12,7 @@ struct lexer lexer_start(const struct source_file *file, struct arena *arena, st
     return l;
 }
 
-static struct source_position here(const struct lexer *l, const char *at)
+static struct source_position position_of(const struct lexer *l, const char *at)
 {
     struct source_position p = {l->file, l->line_start, l->line, (int)(at - l->line_start) + 1};
     return p;
@@ -152,7 +152,7 @@ static bool next_string(struct lexer *l, struct token *out)
             escaped = true;
             p++;
             if (unescape(*p) == 0)
-                return source_error(l->messages, here(l, p - 1),
+                return source_error(l->messages, position_of(l, p - 1),
                                    "unknown escape; after \\ only b f n r t \\ ' \" may stand");
         }
     }
@@ -189,7 +189,7 @@ static bool next_word(struct lexer *l, struct token *out)
     while (is_letter(*end) || is_digit(*end))
         end++;
     if (end == l->at || !is_separator(*end))
-        return source_error(l->messages, here(l, end), "a character that has no meaning here; remove it");
+        return source_error(l->messages, position_of(l, end), "a character that has no meaning here; remove it");
     out->text = copy(l, l->at, end);
     l->at = end;
     return true;
@@ -200,7 +200,7 @@ bool lexer_next(struct lexer *l, struct token *out)
     out->kind = lexer_peek(l);
     out->text = "";
     out->number = 0;
-    out->position = here(l, l->at);
+    out->position = position_of(l, l->at);
     switch (out->kind) {
     case TOKEN_END: return true;
     case TOKEN_OPEN:

@@ -50,8 +50,8 @@ bool params_fail(struct params *p, struct source_position at, const char *format
 
 /* --- reading ------------------------------------------------------------------------------------------ */
 
-/* Split "type name" in place. */
-static bool declaration(struct params *p, const struct token *t, struct param *item)
+/* Split a copy of "type name". */
+static bool read_declaration(struct params *p, const struct token *t, struct param *item)
 {
     char *text = arena_alloc(item->values.arena, strlen(t->text) + 1);
     strcpy(text, t->text);
@@ -81,7 +81,7 @@ static bool wants_text(enum param_type type)
 }
 
 /* One value that is not a plain number: a string, a bare true or false, or a mistake. */
-static bool text_value(struct params *p, struct lexer *l, struct param *item)
+static bool read_text(struct params *p, struct lexer *l, struct param *item)
 {
     struct token t;
     char buffer[64];
@@ -103,22 +103,22 @@ static bool text_value(struct params *p, struct lexer *l, struct param *item)
     return true;
 }
 
-static bool value(struct params *p, struct lexer *l, struct param *item)
+static bool read_value(struct params *p, struct lexer *l, struct param *item)
 {
     double number;
     if (wants_text(item->type) || item->is_text || !lexer_number(l, &number))
-        return text_value(p, l, item);
+        return read_text(p, l, item);
     p->number = mem_grow(p->number, &p->number_capacity, p->n_number + 1, sizeof *p->number);
     p->number[p->n_number++] = number;
     item->n++;
     return true;
 }
 
-static bool values(struct params *p, struct lexer *l, struct param *item)
+static bool read_values(struct params *p, struct lexer *l, struct param *item)
 {
     item->values = *l;
     if (lexer_peek(l) != TOKEN_OPEN)
-        return value(p, l, item);
+        return read_value(p, l, item);
     struct token open;
     lexer_next(l, &open);
     item->values = *l;
@@ -128,7 +128,7 @@ static bool values(struct params *p, struct lexer *l, struct param *item)
             return lexer_next(l, &open);
         if (next == TOKEN_END || item->n == INT_MAX)
             return params_fail(p, open.position, "this [ has no ]; close the list of values");
-        if (!value(p, l, item))
+        if (!read_value(p, l, item))
             return false;
     }
 }
@@ -143,11 +143,11 @@ bool params_read(struct params *p, struct lexer *l)
         if (!lexer_next(l, &t))
             return false;
         struct param item = {.position = t.position, .values = *l};
-        if (!declaration(p, &t, &item))
+        if (!read_declaration(p, &t, &item))
             return false;
         item.first = wants_text(item.type) ? p->n_string : p->n_number;
         size_t first_string = p->n_string;
-        if (!values(p, l, &item))
+        if (!read_values(p, l, &item))
             return false;
         if (item.is_text)
             item.first = first_string;
@@ -179,7 +179,7 @@ struct source_position param_value_position(const struct param *item, int k)
     return t.position;
 }
 
-static void ask(struct params *p, const char *name)
+static void remember_name(struct params *p, const char *name)
 {
     for (int i = 0; i < p->n_asked; i++)
         if (strcmp(p->asked[i], name) == 0)
@@ -191,7 +191,7 @@ static void ask(struct params *p, const char *name)
 /* The last parameter of this name and one of the types; like pbrt, a later one replaces an earlier one. */
 static struct param *find(struct params *p, const char *name, unsigned types)
 {
-    ask(p, name);
+    remember_name(p, name);
     struct param *found = NULL;
     for (int i = 0; i < p->n; i++) {
         struct param *item = &p->item[i];
@@ -291,12 +291,6 @@ bool params_bool(struct params *p, const char *name, bool fallback)
     return fallback;
 }
 
-const char *params_string(struct params *p, const char *name, const char *fallback)
-{
-    const struct param *item = find_one(p, name, PARAM_STRING);
-    return item != NULL ? p->string[item->first] : fallback;
-}
-
 const char *params_text(struct params *p, const char *name, enum param_type type, struct source_position *at)
 {
     const struct param *item = find_one(p, name, type);
@@ -380,7 +374,7 @@ char *params_file(struct params *p, const char *name, struct source_position *at
 }
 
 /* Wavelength and value pairs of an .spd file: numbers, with comments from # to the end of the line. Errors in it
- * are shown at the place in that file. */
+ * are shown at their position in that file. */
 static rgb rgb_from_file(struct params *p, const struct param *item)
 {
     rgb colour = rgb_black();

@@ -36,7 +36,7 @@ struct param {
     enum param_type type;
     const char *name;
     struct source_position position;  /* of the quoted declaration */
-    struct lexer values; /* where the values begin, to find the place of one of them again */
+    struct lexer values; /* where the values begin, to find the position of one of them again */
     size_t first;        /* index into params->number or params->string */
     int n;               /* values: numbers or strings */
     bool is_text;        /* strings (also bools), else numbers */
@@ -64,7 +64,7 @@ struct params {
 };
 
 /* params_read: read the list that starts at the lexer's position, up to the first token that is not a declaration.
- *   p  directive, type, place, messages and directory set; reused from list to list; zero-initialised before
+ *   p  directive, type, position, messages and directory set; reused from list to list; zero-initialised before
  *      the first and released by params_free after the last
  * Returns false with a message. */
 bool params_read(struct params *p, struct lexer *l);
@@ -84,7 +84,6 @@ bool params_has(const struct params *p, const char *name, enum param_type type);
 
 /* One value, or the default. All questions refuse numbers beyond NUMBER_MAX (number.h). */
 bool params_bool(struct params *p, const char *name, bool fallback);
-const char *params_string(struct params *p, const char *name, const char *fallback);
 vec3 params_point(struct params *p, const char *name, vec3 fallback);
 rgb params_rgb(struct params *p, const char *name, rgb fallback); /* rgb, xyz, blackbody or spectrum */
 
@@ -102,11 +101,11 @@ double params_number(struct params *p, const char *name, double fallback, double
 const double *params_list(struct params *p, const char *name, unsigned types, int group, int *n,
                           const struct param **found);
 
-/* params_text: the one value of a parameter of type PARAM_STRING or PARAM_TEXTURE, or NULL; *at is its place. */
+/* params_text: the one value of a parameter of type PARAM_STRING or PARAM_TEXTURE, or NULL; *at is its position. */
 const char *params_text(struct params *p, const char *name, enum param_type type, struct source_position *at);
 
 /* params_file: a "string NAME" as a path: relative ones start in the main scene file's directory. NULL if absent.
- * The text is to be given to free(); *at is the place of the value. */
+ * The text is to be given to free(); *at is the position of the value. */
 char *params_file(struct params *p, const char *name, struct source_position *at);
 
 /* params_choice: a string that must be one of a NULL-terminated list; returns its index (0 = default if absent). */

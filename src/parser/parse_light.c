@@ -89,7 +89,8 @@ static void infinite_light(struct parser *p, void *object)
 #define POINT(f, x, y, z) {#f, parse_point, offsetof(struct light_item, f), {x, y, z}, 0, 0, NULL}
 #define SAMPLES IGNORED("samples"), IGNORED("nsamples") /* how often pbrt-v3 samples a light per hit: no matter here */
 
-static const struct parameter POINT_LIGHT[] = {EMITTED("I"), BY_BUILD("scale"), POINT(from, 0, 0, 0), END_OF_PARAMETERS};
+static const struct parameter POINT_LIGHT[] = {
+    EMITTED("I"), BY_BUILD("scale"), POINT(from, 0, 0, 0), END_OF_PARAMETERS};
 static const struct parameter SPOT_LIGHT[] = {
     EMITTED("I"),
     BY_BUILD("scale"),

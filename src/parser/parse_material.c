@@ -66,7 +66,7 @@ static const struct parameter UBER[] = {
     COLOUR(opacity, 1),
     ROUGH("roughness", uroughness, 0.1),
     ROUGH("uroughness", uroughness, KEPT),
-    ROUGH("vroughness", vroughness, KEPT), /* as wide as "uroughness" where absent: pbrt's uber differs from its metal */
+    ROUGH("vroughness", vroughness, KEPT), /* else as "uroughness": pbrt's uber differs from its metal */
     REMAP,
     BUMP};
 static const struct parameter TRANSLUCENT[] = {

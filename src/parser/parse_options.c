@@ -101,7 +101,8 @@ static void image_film(struct parser *p, void *object)
     memcpy(s->crop, WHOLE, sizeof s->crop);
     crop_window(q, s->crop);
     free(s->film_filename);
-    const char *name = params_string(q, "filename", NULL);
+    struct source_position at;
+    const char *name = params_text(q, "filename", PARAM_STRING, &at);
     s->film_filename = name != NULL ? mem_copy_text(name) : NULL;
 }
 
@@ -216,7 +217,7 @@ static char *value_text(const struct params *q, const struct param *item)
     return text;
 }
 
-/* Which parameters an integrator has is its own affair: all are kept as text with their place. */
+/* Which parameters an integrator has is its own affair: all are kept as text with their position. */
 static bool integrator(struct parser *p)
 {
     if (!parse_typed(p))

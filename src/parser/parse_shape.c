@@ -163,7 +163,8 @@ static void disk(struct parser *p, void *object)
 
 /* --- the table ---------------------------------------------------------------------------------------- */
 
-#define QUADRIC(name, read, f, value, range) {name, read, offsetof(struct shape_item, quadric.f), GREY(value), range, NULL}
+#define QUADRIC(name, read, f, value, range) \
+    {name, read, offsetof(struct shape_item, quadric.f), GREY(value), range, NULL}
 #define ROUND QUADRIC("radius", parse_number, radius, 1, POSITIVE), QUADRIC("phimax", phi_max, phi_max, 360, POSITIVE)
 #define ALPHA BY_BUILD("alpha"), BY_BUILD("shadowalpha"), END_OF_PARAMETERS
 
@@ -199,7 +200,8 @@ static void add_lights(struct scene *s, int group, int n, const struct area_ligh
     }
 }
 
-bool parse_shape_add(struct parser *p, const struct shape_item *item, struct transform to_world, struct source_position at)
+bool parse_shape_add(struct parser *p, const struct shape_item *item, struct transform to_world,
+                     struct source_position at)
 {
     struct scene *s = p->scene;
     struct shape_group group = item->group;

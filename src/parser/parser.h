@@ -1,7 +1,7 @@
 /* parser.h: from a pbrt-v3 scene file to a scene.
  *
  * The subset is listed in doc/scene-format.md. What is outside it is refused with "FILE:LINE:COL: ..." and the
- * line with a caret under the place, or, where the image cannot suffer, warned about once.
+ * line with a caret under the column, or, where the image cannot suffer, warned about once.
  *
  * Tests: test_parser.c, whose fixtures carry the error they expect.
  */

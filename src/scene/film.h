@@ -100,8 +100,8 @@ int strategy_count(int max_depth);
 /* film_merge_tile: add a tile's sums. Iterations are counted by the caller once all tiles of a block are in. */
 void film_merge_tile(struct film *f, const struct tile *t);
 
-/* film_develop: the image so far: [height*width*3] linear floats, top row first, each pixel times `scale`. Values that no
- * float holds are cut to FLT_MAX; returns how many. */
+/* film_develop: the image so far: [height*width*3] linear floats, top row first, each pixel times `scale`. Values that
+ * no float holds are cut to FLT_MAX; returns how many. */
 long film_develop(const struct film *f, double scale, float *out);
 
 /* film_warn: say on stderr how many contributions were left out and how many values film_develop cut, if any. */

@@ -25,7 +25,7 @@ struct filter {
     /* filled by filter_prepare, per axis */
     double norm[2];                   /* 1 / integral of f1 */
     double sign_scale[2];             /* integral of |f1| / integral of f1, >= 1 */
-    double cdf[2][FILTER_STEPS + 1];  /* running integral of |f1| at the ends of steps, normalised; box, triangle: unused */
+    double cdf[2][FILTER_STEPS + 1];  /* running integral of |f1|, normalised; box, triangle: unused */
 };
 
 /* filter_default: the filter of that name ("box", "triangle", "gaussian", "mitchell", "sinc") at pbrt's default

@@ -127,7 +127,8 @@ static double infinite_pdf(const struct light *l, vec3 w, int *cell)
         return envmap_pdf(l->env, to_light_space(l, w), cell);
     double u1, u2;
     warp_sphere_inverse(w, &u1, &u2);
-    *cell = int_within(u1 * SKY_BANDS, 0, SKY_BANDS - 1) * SKY_SECTORS + int_within(u2 * SKY_SECTORS, 0, SKY_SECTORS - 1);
+    int band = int_within(u1 * SKY_BANDS, 0, SKY_BANDS - 1), sector = int_within(u2 * SKY_SECTORS, 0, SKY_SECTORS - 1);
+    *cell = band * SKY_SECTORS + sector;
     return warp_sphere_pdf() * SKY_CELLS;
 }
 

@@ -23,8 +23,8 @@ enum light_kind { LIGHT_AREA, LIGHT_POINT, LIGHT_SPOT, LIGHT_DISTANT, LIGHT_INFI
 /* A light. What its fields mean depends on its kind; a dash: not used.
  *
  *              area                point              spot                  distant                infinite
- *   L          radiance,           intensity, W/sr    intensity, W/sr       irradiance on a        factor of the map, or
- *              W/(m^2 sr)                                                   facing surface, W/m^2  radiance without one
+ *   L          radiance,           intensity, W/sr    intensity, W/sr       irradiance on a        factor of the map,
+ *              W/(m^2 sr)                                                   facing surface, W/m^2  else radiance
  *   to_world   -                   -                  -                     -                      light space to world
  *   prim       the surface         -                  -                     -                      -
  *   two_sided  emits on both       -                  -                     -                      -
