@@ -44,7 +44,7 @@ static double refraction(const struct lobe_list *r, const struct material *m)
     return limited(number(r, m->index), MATERIAL_MIN_INDEX, MATERIAL_MAX_INDEX);
 }
 
-/* The polynomial is pbrt's fit in x = ln(roughness). */
+/* The polynomial is pbrt's fit in x = ln(roughness). [PBRT3 8.4.2] */
 double roughness_to_alpha(double roughness)
 {
     double x = log(fmax(roughness, 1e-3));

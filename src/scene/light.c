@@ -15,12 +15,6 @@ int light_add(struct light_set *set, struct light l)
     return set->n++;
 }
 
-bool light_load_env(struct light *l, const char *path, struct error *err)
-{
-    l->env = envmap_load(path, err);
-    return l->env != NULL;
-}
-
 void light_set_free(struct light_set *set)
 {
     for (int i = 0; i < set->n; i++)
@@ -33,7 +27,7 @@ void light_set_free(struct light_set *set)
 
 /* --- power and choice -------------------------------------------------------------------------------- */
 
-/* Smooth step from 1 inside the inner cone to 0 outside the outer one. */
+/* Smooth step from 1 inside the inner cone to 0 outside the outer one. [PBRT3 12.2.1] */
 static double spot_falloff(const struct light *l, vec3 w)
 {
     double c = dot(l->axis.n, w);
@@ -45,6 +39,7 @@ static double spot_falloff(const struct light *l, vec3 w)
     return sqr(sqr(delta));
 }
 
+/* Powers are those of [PBRT3 12.1-12.6]; of lights at infinity, what meets the disk of the scene's sphere. */
 static double light_power(const struct light *l, const struct geometry *geo, double scene_radius)
 {
     double disk = PI * sqr(scene_radius);
@@ -179,7 +174,7 @@ static rgb area_Le(const struct light *l, vec3 n, vec3 w)
     return l->two_sided || dot(n, w) > 0 ? l->L : rgb_black();
 }
 
-/* Parallel rays enter through a disk as wide as the scene, placed before it. */
+/* Parallel rays enter through a disk as wide as the scene, placed before it. [PBRT3 16.1.2] */
 static struct ray ray_from_infinity(const struct light_set *set, vec3 towards_light, const double u[2])
 {
     double x, y;

@@ -79,9 +79,6 @@ struct light_set {
 
 int light_add(struct light_set *set, struct light l);
 
-/* light_load_env: read the environment map of an infinite light. False with a message. */
-bool light_load_env(struct light *l, const char *path, struct error *err);
-
 /* light_prepare: powers, the choice table, the scene's sphere. Call once the geometry is complete. */
 void light_prepare(struct light_set *set, const struct geometry *geo, vec3 center, double radius);
 void light_set_free(struct light_set *set);
