@@ -116,7 +116,8 @@ rgb envmap_lookup(const struct envmap *e, vec3 w)
     return image_bilinear(&e->image, s, 1 - v, WRAP_REPEAT, !e->image.linear);
 }
 
-/* Uniform density over a texel's square of (s,v), carried to the sphere: dw = 2 pi^2 sin(theta) ds dv. [PBRT3 14.2.4] */
+/* Uniform density over a texel's square of (s,v), carried to the sphere: dw = 2 pi^2 sin(theta) ds dv.
+ * [PBRT3 14.2.4] */
 static double texel_pdf(const struct envmap *e, double pmf, double sin_theta)
 {
     return sin_theta > 0 ? pmf * e->image.width * e->image.height / (2 * PI * PI * sin_theta) : 0;
