@@ -149,7 +149,7 @@ bool parse_type(struct parser *p, const struct object_type *types);
 /* parse_object: read the parameters of p->type into *object, in the table's order, and build the rest of it. */
 bool parse_object(struct parser *p, void *object);
 
-/* Readers of one parameter into a field. parse_texture_of_* fill in texture numbers (int). */
+/* Readers of one parameter into a field. The textures are numbers of the scene. */
 void parse_number(struct parser *p, const struct parameter *row, void *field);        /* double */
 void parse_integer(struct parser *p, const struct parameter *row, void *field);       /* int */
 void parse_bool(struct parser *p, const struct parameter *row, void *field);          /* bool, false by default */
