@@ -61,6 +61,7 @@ void test_camera(struct test *t)
     c.fov = 60;
     camera_prepare(&c, 200, 100);
     struct ray top = camera_ray(&c, 100, 0, 0, 0), right = camera_ray(&c, 200, 50, 0, 0);
-    CHECK(t, fabs(atan2(top.d.y, top.d.z) - PI / 6) < 1e-12, "upper edge at %g degrees", atan2(top.d.y, top.d.z) * 180 / PI);
+    double edge = atan2(top.d.y, top.d.z);
+    CHECK(t, fabs(edge - PI / 6) < 1e-12, "upper edge at %g degrees", edge * 180 / PI);
     CHECK(t, fabs(right.d.x / right.d.z - 2 * tan(PI / 6)) < 1e-12, "right edge at slope %g", right.d.x / right.d.z);
 }

@@ -117,7 +117,7 @@ static void test_errors(struct test *t)
     tile_start(&tile, all, all, &box, false);
     for (int i = 0; i < ITERATIONS; i++) {
         for (int p = 0; p < PIXELS; p++)
-            tile_add_own(&tile, p % 8, p / 8, rgb_grey(rng_uniform(&r)));
+            tile_add_eye(&tile, p % 8, p / 8, rgb_grey(rng_uniform(&r)));
         for (int k = 0; k < SPLATS; k++)
             tile_add_splat(&tile, 8 * rng_uniform(&r), 8 * rng_uniform(&r), rgb_grey(1));
     }
@@ -151,14 +151,14 @@ static void test_overflow(struct test *t)
     memset(&tile, 0, sizeof tile);
     film_init(&film, all, 4, 4);
     tile_start(&tile, all, all, &f, false);
-    tile_add_own(&tile, 0, 0, rgb_grey(1e39));
-    tile_add_own(&tile, 1, 0, rgb_grey(NAN));
+    tile_add_eye(&tile, 0, 0, rgb_grey(1e39));
+    tile_add_eye(&tile, 1, 0, rgb_grey(NAN));
     tile_add_splat(&tile, 2, 2, rgb_grey(-1e39));
     CHECK(t, tile.nonfinite == 3 && tile.n_splats == 0, "%ld of 3 contributions were left out", tile.nonfinite);
     tile_add_splat(&tile, NAN, 2, rgb_grey(1));
     tile_add_splat(&tile, 2, INFINITY, rgb_grey(1));
     CHECK(t, tile.n_splats == 0, "a splat that is nowhere fell on %d pixels", (int)tile.n_splats);
-    tile_add_own(&tile, 2, 0, rgb_make(3e38, 1, -3e38));
+    tile_add_eye(&tile, 2, 0, rgb_make(3e38, 1, -3e38));
     film_merge_tile(&film, &tile);
     film.iterations = 1;
     float pixels[4 * 4 * 3], errors[4 * 4 * 3];

@@ -32,7 +32,8 @@ struct direction_source {
 
 static double density(const struct direction_source *s, vec3 w)
 {
-    double pdf = s->y0 != NULL ? light_pdf_emission(s->set, s->y0, w) : light_pdf_environment(s->set, &s->set->choice, w);
+    double pdf = s->y0 != NULL ? light_pdf_emission(s->set, s->y0, w)
+                               : light_pdf_environment(s->set, &s->set->choice, w);
     return s->planted == 0 ? pdf : pdf * (1 + s->planted * w.x);
 }
 
@@ -126,23 +127,29 @@ static void test_emission(struct test *t)
     scene_free(&scene);
 }
 
+/* A scene of nothing but two infinite lights: a map and a constant one. */
+static bool scene_with_map(struct test *t, int width, int height, const float *pixels, struct scene *out)
+{
+    char path[256], text[1024];
+    struct error err = {""};
+    snprintf(path, sizeof path, "%s/map.pfm", test_tmp(t));
+    if (!CHECK(t, image_write(path, width, height, pixels, &err), "%s", err.text))
+        return false;
+    snprintf(text, sizeof text, "WorldBegin LightSource \"infinite\" \"string mapname\" \"%s\"\n"
+             "LightSource \"infinite\" \"rgb L\" [.3 .3 .3] WorldEnd\n", path);
+    return scene_from_text(t, text, out);
+}
+
 /* A map with one bright texel, dark ones and zeros. */
 static void test_environment(struct test *t)
 {
     enum { W = 16, H = 8 };
     static float pixels[W * H * 3];
-    char path[256], text[1024];
-    struct error err;
     for (int i = 0; i < W * H * 3; i++)
         pixels[i] = (float)(i % 7 == 0 ? 0 : 1 + (i / 3) % 5);
     pixels[3 * (2 * W + 3)] = 50;
-    snprintf(path, sizeof path, "%s/env.pfm", test_tmp(t));
-    if (!CHECK(t, image_write(path, W, H, pixels, &err), "%s", err.text))
-        return;
-    snprintf(text, sizeof text, "WorldBegin LightSource \"infinite\" \"string mapname\" \"%s\"\n"
-             "LightSource \"infinite\" \"rgb L\" [.3 .3 .3] WorldEnd\n", path);
     struct scene scene;
-    if (!scene_from_text(t, text, &scene))
+    if (!scene_with_map(t, W, H, pixels, &scene))
         return;
     struct direction_source s = {&scene.lights, NULL, &scene.geo, 0};
     check_directions(t, s, "environment light");
@@ -155,17 +162,10 @@ static void test_damaged_map(struct test *t)
     enum { W = 40, H = 20 };
     static float pixels[W * H * 3];
     static const float bad[4] = {NAN, INFINITY, -INFINITY, -3};
-    char path[256], text[512];
-    struct error err = {""};
     for (int i = 0; i < W * H * 3; i++)
         pixels[i] = i % 5 == 0 ? bad[i / 5 % 4] : 1;
-    snprintf(path, sizeof path, "%s/damaged.pfm", test_tmp(t));
-    if (!CHECK(t, image_write(path, W, H, pixels, &err), "%s", err.text))
-        return;
-    snprintf(text, sizeof text, "WorldBegin LightSource \"infinite\" \"string mapname\" \"%s\"\n"
-             "LightSource \"infinite\" \"rgb L\" [.3 .3 .3] WorldEnd\n", path);
     struct scene scene;
-    if (!scene_from_text(t, text, &scene))
+    if (!scene_with_map(t, W, H, pixels, &scene))
         return;
     struct direction_source s = {&scene.lights, NULL, &scene.geo, 0};
     CHECK(t, scene.lights.choice.n == scene.lights.n_cells, "there is no table of choices");

@@ -5,7 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "material/bump.h"
 #include "tests.h"
 
 struct bench {

@@ -17,7 +17,7 @@
 #include "parser/parser.h"
 #include "base/rng.h"
 #include "parser/spectrum.h"
-#include "parser/suggest.h"
+#include "parser/symbols.h"
 #include "tests.h"
 
 static const char FIXTURES[] = "test/fixtures";
@@ -446,8 +446,8 @@ static bool lex_number(const char *text, double *out)
 {
     struct arena arena = {NULL, NULL};
     struct messages messages = {0};
-    struct input input = {"number", text, text + strlen(text), {0}};
-    struct lexer l = lexer_start(&input, &arena, &messages);
+    struct source_file file = {"number", text, text + strlen(text), {0}};
+    struct lexer l = lexer_start(&file, &arena, &messages);
     return lexer_number(&l, out) && lexer_peek(&l) == TOKEN_END;
 }
 

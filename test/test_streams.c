@@ -209,7 +209,7 @@ static bool note_sums(void *context, double done)
     for (int k = 0; k < STEPS; k++)
         if (lround(done * LAST) == FIRST << k)
             for (int i = 0; i < VALUES; i++)
-                h->sum[k][i] = h->film->own[i] + h->film->splat[i];
+                h->sum[k][i] = h->film->eye[i] + h->film->splat[i];
     return true;
 }
 

@@ -8,7 +8,7 @@
 
 #include "base/mem.h"
 #include "integrators/method.h"
-#include "parser/suggest.h"
+#include "parser/symbols.h"
 
 static const char VERSION[] = "asbdpt 0.1";
 

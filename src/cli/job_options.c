@@ -8,7 +8,7 @@
 #include "base/mem.h"
 #include "cli/command.h"
 #include "parser/parser.h"
-#include "parser/suggest.h"
+#include "parser/symbols.h"
 
 #define AT(member) offsetof(struct job_options, member)
 const struct option SCENE_OPTIONS[] = {

@@ -10,7 +10,7 @@
 
 #include "base/mem.h"
 #include "image/picture.h"
-#include "parser/suggest.h"
+#include "parser/symbols.h"
 
 /* How far the arguments are read, and the option being read. */
 struct reader {

@@ -53,7 +53,7 @@ static void render_pixel(const struct tile_pass *pass, const struct mis_counts *
         sum = rgb_add(sum, pixel_sum_pairs(&g, work->eye, n_eye, work->light, n_light, 1));
     if (counts->splat > 0)
         pixel_splat_path(&g, work->light, n_light, 1);
-    tile_add_own(pass->tile, x, y, sum);
+    tile_add_eye(pass->tile, x, y, sum);
 }
 
 static void render(const void *state, const struct tile_pass *pass)

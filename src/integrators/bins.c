@@ -117,7 +117,7 @@ static void render_iteration(struct pixel *p, double shift, long iteration)
     rgb sum = pixel_sum_eye(&g, work->eye, n);
     sum = rgb_add(sum, pixel_sum_pairs(&g, work->eye, n, e->vertex, e->length, 1));
     pixel_splat_path(&g, e->vertex, e->length, 1);
-    tile_add_own(p->pass->tile, p->x, p->y, sum);
+    tile_add_eye(p->pass->tile, p->x, p->y, sum);
     replace(p, e, iteration);
 }
 

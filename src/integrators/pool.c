@@ -88,7 +88,7 @@ static void render_pixel(const struct tile_pass *pass, const struct selection *s
     double W = 1 / (p->paths.n * q);
     sum = rgb_add(sum, pixel_sum_pairs(&g, eye, n, light_pool_path(&p->paths, k), p->paths.length[k], W));
     pixel_splat_path(&g, light_pool_path(&p->paths, number), p->paths.length[number], 1);
-    tile_add_own(pass->tile, x, y, sum);
+    tile_add_eye(pass->tile, x, y, sum);
 }
 
 static void render(const void *selection, const struct tile_pass *pass)

@@ -117,7 +117,7 @@ static void render_pixel(const struct tile_pass *pass, const struct selection *s
             sum = rgb_add(sum, connect_drawn(v, sel, &g, &eye[t - 1], t, &draws));
     if (number % sel->path_pixels == 0)
         splat_path(pass, sel, v, &g, number / sel->path_pixels);
-    tile_add_own(pass->tile, x, y, sum);
+    tile_add_eye(pass->tile, x, y, sum);
 }
 
 static void render(const void *selection, const struct tile_pass *pass)

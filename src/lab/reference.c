@@ -154,7 +154,7 @@ double picture_mean_error(const struct film *film)
     film_standard_error(film, 1, error);
     for (size_t i = 0; i < n; i++) {
         square[i % 3] += (double)error[i] * (double)error[i];
-        total += (film->own[i] + film->splat[i]) / (double)film->iterations;
+        total += (film->eye[i] + film->splat[i]) / (double)film->iterations;
     }
     free(error);
     /* The channels of a pixel are not independent: take them as fully dependent, the worst case. */

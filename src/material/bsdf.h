@@ -10,7 +10,7 @@
  *
  * Delta lobes (mirror, smooth glass) have no density: bsdf_eval leaves them out and bsdf_sample marks them.
  *
- * Used by: material (makes them), path and connect. Tests: test_bsdf.c.
+ * Tests: test_bsdf.c.
  */
 #ifndef ASBDPT_BSDF_H
 #define ASBDPT_BSDF_H

@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+/* [PBRT3 8.2.1] */
 double fresnel_dielectric(double cos_i, double eta_a, double eta_b)
 {
     double eta_i = cos_i > 0 ? eta_a : eta_b, eta_t = cos_i > 0 ? eta_b : eta_a;
@@ -17,6 +18,7 @@ double fresnel_dielectric(double cos_i, double eta_a, double eta_b)
     return 0.5 * (sqr(parallel) + sqr(perpendicular));
 }
 
+/* [Lagarde 2013] */
 static double conductor_channel(double cos_i, double eta, double k)
 {
     double cos2 = cos_i * cos_i, sin2 = 1 - cos2;

@@ -1,6 +1,6 @@
 /* fresnel.h: what happens at a smooth boundary: how much is reflected, and where the rest goes.
  *
- * Used by: lobe. Tests: test_lobe.c (normal incidence, total internal reflection, copper, Snell's law).
+ * Tests: test_lobe.c (normal incidence, total internal reflection, copper, Snell's law).
  */
 #ifndef ASBDPT_FRESNEL_H
 #define ASBDPT_FRESNEL_H

@@ -1,4 +1,4 @@
-/* lobe.c: see lobe.h. Values [PBRT3 8.2-8.4], sampling [PBRT3 14.1]; Oren-Nayar [Oren & Nayar 1994]; rough
+/* lobe.c: see lobe.h. Values [PBRT3 8.2-8.5], sampling [PBRT3 14.1]; Oren-Nayar [Oren & Nayar 1994]; rough
  * dielectrics [Walter 2007]; substrate [Ashikhmin & Shirley 2000]. */
 #include "material/lobe.h"
 
@@ -43,7 +43,7 @@ static struct bsdf_value diffuse(rgb f, vec3 wo, vec3 wi)
 }
 
 /* The original has sin(alpha) tan(beta) with alpha the larger and beta the smaller of the two angles, and the
- * cosine of the difference of azimuths; the two sines cancel against those of the azimuths. */
+ * cosine of the difference of azimuths; the two sines cancel against those of the azimuths. [Oren & Nayar 1994] */
 static rgb oren_nayar(const struct lobe *l, vec3 wo, vec3 wi)
 {
     double azimuth = fmax(0, wo.x * wi.x + wo.y * wi.y); /* sin_o sin_i cos(phi_o - phi_i) */
@@ -72,7 +72,7 @@ static rgb facet_fresnel(const struct lobe *l, double cos_h)
 }
 
 /* f = R F D G / (4 cos_o cos_i). The density of wh given wo is D |wo.wh| / ((1 + lambda_o) |cos_o|), and
- * reflection spreads d(wi) = 4 |wo.wh| d(wh), so that |wo.wh| drops out of both pdfs. */
+ * reflection spreads d(wi) = 4 |wo.wh| d(wh), so that |wo.wh| drops out of both pdfs. [PBRT3 8.4.4, 14.1.1] */
 static struct bsdf_value microfacet_reflection(const struct lobe *l, vec3 wo, vec3 wi, bool reflect)
 {
     if (!(wo.z * wi.z > 0))
@@ -145,6 +145,7 @@ static bool sample_microfacet_transmission(const struct lobe *l, vec3 wo, double
 
 /* --- substrate --------------------------------------------------------------------------------------- */
 
+/* A diffuse base under a glossy coat, by Schlick's form of Fresnel's share. [Ashikhmin & Shirley 2000; PBRT3 8.5] */
 static double pow5(double x) { return sqr(sqr(x)) * x; }
 
 static rgb fresnel_blend(const struct lobe *l, vec3 wo, vec3 wi, vec3 wh)

@@ -13,7 +13,7 @@
  *     both directions; other pairs are black. (pbrt-v3 evaluates its formulas there although it never samples
  *     such pairs, so that its own integrators disagree: by 1 % on glass of alpha 0.7, not visibly below 0.1.)
  *
- * Used by: bsdf, material. Tests: test_lobe.c, test_bsdf.c.
+ * Tests: test_lobe.c, test_bsdf.c.
  */
 #ifndef ASBDPT_LOBE_H
 #define ASBDPT_LOBE_H

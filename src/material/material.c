@@ -1,13 +1,11 @@
-/* material.c: the recipes, see material.h: which lobes make which material [PBRT3 9.2]. */
+/* material.c: see material.h: which lobes make which material [PBRT3 9.2]. */
 #include "material/material.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "material/bump.h"
-
-/* A BSDF in the making. */
-struct recipe {
+/* The lobes of a BSDF in the making, and what they are made from. */
+struct lobe_list {
     const struct material *materials;
     const struct texture_set *textures;
     const struct surface *at;
@@ -19,25 +17,34 @@ struct recipe {
 /* Every mix has at least as many branches as materials less one, so a material that fits has fewer than these. */
 enum { MAX_VISITS = 2 * MATERIAL_MAX_LOBES };
 
+struct material material_blank(enum material_kind kind)
+{
+    struct material m = {.kind = kind, .remap_roughness = true};
+    m.Kd = m.Ks = m.Kr = m.Kt = m.sigma = m.eta = m.k = m.index = m.uroughness = m.vroughness = -1;
+    m.opacity = m.reflect = m.transmit = m.amount = m.mix1 = m.mix2 = m.bump = -1;
+    return m;
+}
+
 /* --- parameters -------------------------------------------------------------------------------------- */
 
 /* NaN, which textures multiplied often enough can become, counts as 0. */
-static double cut(double x, double low, double high) { return x > low ? (x < high ? x : high) : low; }
+static double limited(double x, double low, double high) { return x > low ? (x < high ? x : high) : low; }
 
 static rgb clamped(rgb c)
 {
-    return rgb_make(cut(c.r, 0, MATERIAL_MAX_COLOUR), cut(c.g, 0, MATERIAL_MAX_COLOUR), cut(c.b, 0, MATERIAL_MAX_COLOUR));
+    const double most = MATERIAL_MAX_COLOUR;
+    return rgb_make(limited(c.r, 0, most), limited(c.g, 0, most), limited(c.b, 0, most));
 }
 
-static rgb colour(const struct recipe *r, int texture) { return clamped(texture_rgb(r->textures, texture, r->at)); }
-static double number(const struct recipe *r, int texture) { return texture_float(r->textures, texture, r->at); }
+static rgb colour(const struct lobe_list *r, int texture) { return clamped(texture_rgb(r->textures, texture, r->at)); }
+static double number(const struct lobe_list *r, int texture) { return texture_float(r->textures, texture, r->at); }
 
-static double refraction(const struct recipe *r, const struct material *m)
+static double refraction(const struct lobe_list *r, const struct material *m)
 {
-    return cut(number(r, m->index), MATERIAL_MIN_INDEX, MATERIAL_MAX_INDEX);
+    return limited(number(r, m->index), MATERIAL_MIN_INDEX, MATERIAL_MAX_INDEX);
 }
 
-/* The polynomial is pbrt's fit in x = ln(roughness). */
+/* The polynomial is pbrt's fit in x = ln(roughness). [PBRT3 8.4.2] */
 double roughness_to_alpha(double roughness)
 {
     double x = log(fmax(roughness, 1e-3));
@@ -66,18 +73,18 @@ static struct lobe dielectric(struct lobe l, double eta_a, double eta_b)
     return l;
 }
 
-static struct lobe rough(const struct recipe *r, const struct material *m, struct lobe l)
+static struct lobe rough(const struct lobe_list *r, const struct material *m, struct lobe l)
 {
     const double least = 1e-3; /* below, facets are a mirror to any purpose and their density overflows squares */
-    double u = cut(number(r, m->uroughness), 0, MATERIAL_MAX_ROUGHNESS);
-    double v = cut(number(r, m->vroughness), 0, MATERIAL_MAX_ROUGHNESS);
+    double u = limited(number(r, m->uroughness), 0, MATERIAL_MAX_ROUGHNESS);
+    double v = limited(number(r, m->vroughness), 0, MATERIAL_MAX_ROUGHNESS);
     l.alpha_x = fmax(least, m->remap_roughness ? roughness_to_alpha(u) : u);
     l.alpha_y = fmax(least, m->remap_roughness ? roughness_to_alpha(v) : v);
     return l;
 }
 
 /* Append a lobe; a black one is dropped. */
-static void put(struct recipe *r, struct lobe l)
+static void add_lobe(struct lobe_list *r, struct lobe l)
 {
     if (r->n < MATERIAL_MAX_LOBES && lobe_albedo_guess(&l) > 0)
         r->lobe[r->n++] = l;
@@ -85,107 +92,107 @@ static void put(struct recipe *r, struct lobe l)
 
 /* --- materials --------------------------------------------------------------------------------------- */
 
-static void put_matte(struct recipe *r, const struct material *m)
+static void add_matte(struct lobe_list *r, const struct material *m)
 {
-    double sigma = cut(number(r, m->sigma), 0, 90) * (PI / 180), sigma2 = sigma * sigma;
+    double sigma = limited(number(r, m->sigma), 0, 90) * (PI / 180), sigma2 = sigma * sigma;
     struct lobe l = lobe_of(sigma == 0 ? LOBE_LAMBERT_REFLECTION : LOBE_OREN_NAYAR, colour(r, m->Kd), rgb_black());
     l.A = 1 - sigma2 / (2 * (sigma2 + 0.33));
     l.B = 0.45 * sigma2 / (sigma2 + 0.09);
-    put(r, l);
+    add_lobe(r, l);
 }
 
-static void put_glass(struct recipe *r, const struct material *m)
+static void add_glass(struct lobe_list *r, const struct material *m)
 {
     rgb R = colour(r, m->Kr), T = colour(r, m->Kt), none = rgb_black();
     double eta = refraction(r, m);
     bool smooth = number(r, m->uroughness) == 0 && number(r, m->vroughness) == 0;
     if (smooth || eta == 1) { /* where nothing refracts, facets do not scatter either, however rough */
-        put(r, dielectric(lobe_of(LOBE_FRESNEL_SPECULAR, R, T), 1, eta));
+        add_lobe(r, dielectric(lobe_of(LOBE_FRESNEL_SPECULAR, R, T), 1, eta));
         return;
     }
-    put(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_REFLECTION, R, none), 1, eta)));
-    put(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_TRANSMISSION, none, T), 1, eta)));
+    add_lobe(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_REFLECTION, R, none), 1, eta)));
+    add_lobe(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_TRANSMISSION, none, T), 1, eta)));
 }
 
-static void put_metal(struct recipe *r, const struct material *m)
+static void add_metal(struct lobe_list *r, const struct material *m)
 {
     struct lobe l = rough(r, m, lobe_of(LOBE_MICROFACET_REFLECTION, rgb_grey(1), rgb_black()));
     l.fresnel = FRESNEL_CONDUCTOR;
     l.eta = colour(r, m->eta);
     l.k = colour(r, m->k);
-    put(r, l);
+    add_lobe(r, l);
 }
 
 /* pbrt-v3 has the two indices of the coat the wrong way round: from outside its light seems to leave glass of 1.5
  * and is totally reflected from 41.8 degrees on. Its images of plastic are what its users know, so we do the same.
  */
-static void put_plastic(struct recipe *r, const struct material *m)
+static void add_plastic(struct lobe_list *r, const struct material *m)
 {
-    put(r, lobe_of(LOBE_LAMBERT_REFLECTION, colour(r, m->Kd), rgb_black()));
-    put(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_REFLECTION, colour(r, m->Ks), rgb_black()), 1.5, 1)));
+    add_lobe(r, lobe_of(LOBE_LAMBERT_REFLECTION, colour(r, m->Kd), rgb_black()));
+    add_lobe(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_REFLECTION, colour(r, m->Ks), rgb_black()), 1.5, 1)));
 }
 
-static void put_uber(struct recipe *r, const struct material *m)
+static void add_uber(struct lobe_list *r, const struct material *m)
 {
     rgb opacity = colour(r, m->opacity), clear = clamped(rgb_sub(rgb_grey(1), opacity)), none = rgb_black();
     double eta = refraction(r, m);
-    put(r, dielectric(lobe_of(LOBE_SPECULAR_TRANSMISSION, none, clear), 1, 1));
-    put(r, lobe_of(LOBE_LAMBERT_REFLECTION, rgb_mul(opacity, colour(r, m->Kd)), none));
+    add_lobe(r, dielectric(lobe_of(LOBE_SPECULAR_TRANSMISSION, none, clear), 1, 1));
+    add_lobe(r, lobe_of(LOBE_LAMBERT_REFLECTION, rgb_mul(opacity, colour(r, m->Kd)), none));
     rgb Ks = rgb_mul(opacity, colour(r, m->Ks));
-    put(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_REFLECTION, Ks, none), 1, eta)));
+    add_lobe(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_REFLECTION, Ks, none), 1, eta)));
     rgb Kr = rgb_mul(opacity, colour(r, m->Kr)), Kt = rgb_mul(opacity, colour(r, m->Kt));
-    put(r, dielectric(lobe_of(LOBE_SPECULAR_REFLECTION, Kr, none), 1, eta));
-    put(r, dielectric(lobe_of(LOBE_SPECULAR_TRANSMISSION, none, Kt), 1, eta));
+    add_lobe(r, dielectric(lobe_of(LOBE_SPECULAR_REFLECTION, Kr, none), 1, eta));
+    add_lobe(r, dielectric(lobe_of(LOBE_SPECULAR_TRANSMISSION, none, Kt), 1, eta));
 }
 
-static void put_translucent(struct recipe *r, const struct material *m)
+static void add_translucent(struct lobe_list *r, const struct material *m)
 {
     const double eta = 1.5;
     rgb up = colour(r, m->reflect), down = colour(r, m->transmit), none = rgb_black();
     rgb Kd = colour(r, m->Kd), Ks = colour(r, m->Ks);
-    put(r, lobe_of(LOBE_LAMBERT_REFLECTION, rgb_mul(up, Kd), none));
-    put(r, lobe_of(LOBE_LAMBERT_TRANSMISSION, none, rgb_mul(down, Kd)));
-    put(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_REFLECTION, rgb_mul(up, Ks), none), 1, eta)));
-    put(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_TRANSMISSION, none, rgb_mul(down, Ks)), 1, eta)));
+    add_lobe(r, lobe_of(LOBE_LAMBERT_REFLECTION, rgb_mul(up, Kd), none));
+    add_lobe(r, lobe_of(LOBE_LAMBERT_TRANSMISSION, none, rgb_mul(down, Kd)));
+    add_lobe(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_REFLECTION, rgb_mul(up, Ks), none), 1, eta)));
+    add_lobe(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_TRANSMISSION, none, rgb_mul(down, Ks)), 1, eta)));
 }
 
-static void put_material(struct recipe *r, int id);
+static void add_material(struct lobe_list *r, int id);
 
 /* The lobes of both materials, those of the first times `amount`, those of the second times the rest. */
-static void put_mix(struct recipe *r, const struct material *m)
+static void add_mix(struct lobe_list *r, const struct material *m)
 {
     rgb share = colour(r, m->amount);
     for (int branch = 0; branch < 2; branch++) {
         int first = r->n;
-        put_material(r, branch == 0 ? m->mix1 : m->mix2);
+        add_material(r, branch == 0 ? m->mix1 : m->mix2);
         int end = r->n;
         r->n = first;
-        for (int i = first; i < end; i++) { /* put again, scaled: what is now black is dropped */
+        for (int i = first; i < end; i++) { /* added again, scaled: what is now black is dropped */
             struct lobe l = r->lobe[i];
             l.scale = rgb_mul(l.scale, share);
-            put(r, l);
+            add_lobe(r, l);
         }
         share = clamped(rgb_sub(rgb_grey(1), share));
     }
 }
 
-static void put_material(struct recipe *r, int id)
+static void add_material(struct lobe_list *r, int id)
 {
     const struct material *m = &r->materials[id];
     if (++r->visits > MAX_VISITS)
         return;
     switch (m->kind) {
-    case MATERIAL_MATTE: put_matte(r, m); break;
-    case MATERIAL_MIRROR: put(r, lobe_of(LOBE_SPECULAR_REFLECTION, colour(r, m->Kr), rgb_black())); break;
-    case MATERIAL_GLASS: put_glass(r, m); break;
-    case MATERIAL_METAL: put_metal(r, m); break;
-    case MATERIAL_PLASTIC: put_plastic(r, m); break;
+    case MATERIAL_MATTE: add_matte(r, m); break;
+    case MATERIAL_MIRROR: add_lobe(r, lobe_of(LOBE_SPECULAR_REFLECTION, colour(r, m->Kr), rgb_black())); break;
+    case MATERIAL_GLASS: add_glass(r, m); break;
+    case MATERIAL_METAL: add_metal(r, m); break;
+    case MATERIAL_PLASTIC: add_plastic(r, m); break;
     case MATERIAL_SUBSTRATE:
-        put(r, rough(r, m, lobe_of(LOBE_FRESNEL_BLEND, colour(r, m->Kd), colour(r, m->Ks))));
+        add_lobe(r, rough(r, m, lobe_of(LOBE_FRESNEL_BLEND, colour(r, m->Kd), colour(r, m->Ks))));
         break;
-    case MATERIAL_UBER: put_uber(r, m); break;
-    case MATERIAL_TRANSLUCENT: put_translucent(r, m); break;
-    case MATERIAL_MIX: put_mix(r, m); break;
+    case MATERIAL_UBER: add_uber(r, m); break;
+    case MATERIAL_TRANSLUCENT: add_translucent(r, m); break;
+    case MATERIAL_MIX: add_mix(r, m); break;
     }
 }
 
@@ -225,6 +232,38 @@ bool material_fits(const struct material *materials, int id)
     return n <= MATERIAL_MAX_LOBES && visits <= MAX_VISITS;
 }
 
+/* --- bump maps --------------------------------------------------------------------------------------- */
+
+/* Texture coordinates by which the displacement is differenced: pbrt-v3's choice for rays without differentials. */
+static const double BUMP_STEP = 0.0005;
+
+/* The displacement a step away from the point. */
+static double displaced(const struct texture_set *textures, int id, const struct surface *at, double du, double dv)
+{
+    struct surface shifted = *at;
+    shifted.p = add(at->p, add(mul(at->dpdu, du), mul(at->dpdv, dv)));
+    shifted.u = at->u + du;
+    shifted.v = at->v + dv;
+    return texture_float(textures, id, &shifted);
+}
+
+/* Partial derivative of the displaced point p + d ns: dp + (dd) ns + d (dns). */
+static vec3 partial(vec3 dp, vec3 dn, vec3 ns, double d, double d_shifted)
+{
+    return add(add(dp, mul(ns, (d_shifted - d) / BUMP_STEP)), mul(dn, d));
+}
+
+struct frame bump_frame(const struct texture_set *textures, int displacement, const struct surface *at)
+{
+    double d = texture_float(textures, displacement, at);
+    vec3 dpdu = partial(at->dpdu, at->dndu, at->ns, d, displaced(textures, displacement, at, BUMP_STEP, 0));
+    vec3 dpdv = partial(at->dpdv, at->dndv, at->ns, d, displaced(textures, displacement, at, 0, BUMP_STEP));
+    vec3 n = normalize(cross(dpdu, dpdv));
+    if (!(fabs(length2(n) - 1) < 1e-6)) /* zero, NaN, or lost in under- or overflow */
+        return frame_from_tangent(at->ns, at->dpdu);
+    return frame_from_tangent(faceforward(n, at->ng), dpdu);
+}
+
 /* The bump map that counts: a mix shades with the frame of its first material. */
 static int bump_of(const struct material *materials, int id)
 {
@@ -236,12 +275,12 @@ static int bump_of(const struct material *materials, int id)
 static void make_bsdf(const struct material *materials, int id, const struct texture_set *textures,
                       const struct surface *at, struct frame shading, struct arena *arena, struct bsdf *out)
 {
-    struct recipe r;
+    struct lobe_list r;
     r.materials = materials;
     r.textures = textures;
     r.at = at;
     r.n = r.visits = 0;
-    put_material(&r, id);
+    add_material(&r, id);
     size_t size = (size_t)r.n * sizeof r.lobe[0];
     struct lobe *lobe = r.n > 0 ? memcpy(arena_alloc(arena, size), r.lobe, size) : NULL;
     bsdf_make(out, shading, at->ng, lobe, r.n);

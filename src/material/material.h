@@ -1,5 +1,5 @@
 /* material.h: from a material and a surface point to a BSDF. Parameters, defaults and formulas are pbrt-v3's.
- * Used by: path (through scene), parser. Tests: test_material.c.
+ * Tests: test_material.c.
  */
 #ifndef ASBDPT_MATERIAL_H
 #define ASBDPT_MATERIAL_H
@@ -39,10 +39,14 @@ struct material {
                                  * material_prepare was not called */
 };
 
+/* material_blank: a material without parameters. */
+struct material material_blank(enum material_kind kind);
+
 /* The most lobes a BSDF can have, counted over all branches of nested mixes. */
 enum { MATERIAL_MAX_LOBES = 16 };
 
-/* What parameters may be. The parser refuses what is the same everywhere and beyond; what textures vary is cut to it. */
+/* What parameters may be. The parser refuses what is the same everywhere and beyond; what textures vary is limited
+ * to it. */
 #define MATERIAL_MAX_COLOUR 1e6 /* reflectances, eta and k of metals */
 #define MATERIAL_MIN_INDEX 0.01
 #define MATERIAL_MAX_INDEX 100.0
@@ -56,8 +60,8 @@ bool material_fits(const struct material *materials, int id);
  *   arena  where they live: as long as the materials are used */
 void material_prepare(struct material *materials, int n, const struct texture_set *textures, struct arena *arena);
 
-/* material_reads_partials: whether the BSDFs of material `id` depend on dpdu, dpdv, dndu or dndv: by a bump map, or by a
- * roughness that differs between u and v. May say so of one that does not. */
+/* material_reads_partials: whether the BSDFs of material `id` depend on dpdu, dpdv, dndu or dndv: by a bump map, or by
+ * a roughness that differs between u and v. May say so of one that does not. */
 bool material_reads_partials(const struct material *materials, int id, const struct texture_set *textures);
 
 /* material_bsdf: the BSDF of material `id` at a point.
@@ -69,6 +73,12 @@ bool material_reads_partials(const struct material *materials, int id, const str
  * MATERIAL_MAX_LOBES are left out. */
 void material_bsdf(const struct material *materials, int id, const struct texture_set *textures,
                    const struct surface *at, struct arena *arena, struct bsdf *out);
+
+/* bump_frame: the shading frame of the surface p + d(u,v) ns [Blinn 1978], as pbrt-v3 finds it [PBRT3 9.3].
+ *   displacement  float texture number, world units
+ *   at            its dpdu, dpdv are the partials that shading uses
+ * The normal lies on ng's side. Falls back to the smooth frame where the displaced surface has no normal. */
+struct frame bump_frame(const struct texture_set *textures, int displacement, const struct surface *at);
 
 /* roughness_to_alpha: pbrt's artist-friendly remapping, used when remap_roughness is set. */
 double roughness_to_alpha(double roughness);

@@ -1,13 +1,14 @@
 /* microfacet.c: see microfacet.h. */
 #include "material/microfacet.h"
 
-/* The usual form has tan(theta), cos(phi) and sin(phi); multiplied out only the components are left. */
+/* The usual form has tan(theta), cos(phi) and sin(phi); multiplied out only the components are left. [PBRT3 8.4.2] */
 double microfacet_d(vec3 wh, double alpha_x, double alpha_y)
 {
     double stretched = sqr(wh.x / alpha_x) + sqr(wh.y / alpha_y) + sqr(wh.z);
     return 1 / (PI * alpha_x * alpha_y * sqr(stretched));
 }
 
+/* [PBRT3 8.4.3] */
 double microfacet_lambda(vec3 w, double alpha_x, double alpha_y)
 {
     double alpha2_tan2 = (sqr(alpha_x * w.x) + sqr(alpha_y * w.y)) / sqr(w.z);

@@ -3,7 +3,7 @@
  * All directions are unit and in the shading frame. Everything is even in w -> -w, so both sides of the surface
  * are served. alpha_x and alpha_y are the roughnesses along x and y, > 0.
  *
- * Used by: lobe. Tests: test_lobe.c.
+ * Tests: test_lobe.c.
  */
 #ifndef ASBDPT_MICROFACET_H
 #define ASBDPT_MICROFACET_H

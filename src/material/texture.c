@@ -16,8 +16,10 @@ int texture_add(struct texture_set *set, struct texture t)
 {
     t.cost = 1;
     if (t.kind == TEXTURE_SCALE || t.kind == TEXTURE_MIX)
-        t.cost += cost_of(set, t.u.pair.tex1) + cost_of(set, t.u.pair.tex2) + cost_of(set, t.u.pair.amount);
-    else if (t.kind == TEXTURE_CHECKERBOARD)
+        t.cost += cost_of(set, t.u.pair.tex1) + cost_of(set, t.u.pair.tex2);
+    if (t.kind == TEXTURE_MIX)
+        t.cost += cost_of(set, t.u.pair.amount);
+    if (t.kind == TEXTURE_CHECKERBOARD)
         t.cost += cost_of(set, t.u.checker.tex1) + cost_of(set, t.u.checker.tex2);
     set->texture =
         mem_grow(set->texture, &set->texture_capacity, (size_t)set->n_textures + 1, sizeof *set->texture);
@@ -122,32 +124,29 @@ static rgb texel_rgb(const struct image *img, ptrdiff_t texel, bool gamma)
 }
 
 /* The number a float texture sees: luminance first, then decoding. */
-static double texel_grey(const struct image *img, ptrdiff_t texel, bool gamma)
+static rgb texel_grey(const struct image *img, ptrdiff_t texel, bool gamma)
 {
     if (img->channels == 1)
-        return decoded(img, texel, gamma);
+        return rgb_grey(decoded(img, texel, gamma));
     double y = rgb_luminance(texel_rgb(img, texel, false));
-    return gamma ? srgb_decode(y) : y;
+    return rgb_grey(gamma ? srgb_decode(y) : y);
 }
 
-rgb image_bilinear(const struct image *img, double s, double t, enum texture_wrap wrap, bool gamma)
+typedef rgb texel_reader(const struct image *img, ptrdiff_t texel, bool gamma);
+
+static rgb bilinear(const struct image *img, double s, double t, enum texture_wrap wrap, bool gamma, texel_reader *read)
 {
     struct corners c = find_corners(img, s, t, wrap);
     rgb sum = rgb_black();
     for (int k = 0; k < 4; k++)
         if (c.texel[k] >= 0)
-            sum = rgb_add(sum, rgb_scale(texel_rgb(img, c.texel[k], gamma), c.weight[k]));
+            sum = rgb_add(sum, rgb_scale(read(img, c.texel[k], gamma), c.weight[k]));
     return sum;
 }
 
-static double image_bilinear_grey(const struct image *img, double s, double t, enum texture_wrap wrap, bool gamma)
+rgb image_bilinear(const struct image *img, double s, double t, enum texture_wrap wrap, bool gamma)
 {
-    struct corners c = find_corners(img, s, t, wrap);
-    double sum = 0;
-    for (int k = 0; k < 4; k++)
-        if (c.texel[k] >= 0)
-            sum += c.weight[k] * texel_grey(img, c.texel[k], gamma);
-    return sum;
+    return bilinear(img, s, t, wrap, gamma, texel_rgb);
 }
 
 /* --- values ------------------------------------------------------------------------------------------ */
@@ -162,7 +161,7 @@ static struct st map_uv(struct uv_mapping m, double u, double v)
     return st;
 }
 
-/* The texture whose turn it is in the cell of a checkerboard. */
+/* The texture whose turn it is in the square of a checkerboard. */
 static int checker_choice(const struct texture *t, const struct surface *at)
 {
     struct st st = map_uv(t->u.checker.map, at->u, at->v);
@@ -179,49 +178,37 @@ static rgb bilerp(const struct texture *t, double u, double v)
 
 static rgb mix(rgb a, rgb b, double amount) { return rgb_add(rgb_scale(a, 1 - amount), rgb_scale(b, amount)); }
 
-rgb texture_varying_rgb(const struct texture_set *set, int id, const struct surface *at)
+/* A float texture is a grey one, but for the way in which it reads pictures. */
+static rgb evaluate(const struct texture_set *set, int id, const struct surface *at, texel_reader *read)
 {
     assert(id >= 0 && id < set->n_textures);
     const struct texture *t = &set->texture[id];
     switch (t->kind) {
     case TEXTURE_CONSTANT: return t->u.constant;
-    case TEXTURE_SCALE: return rgb_mul(texture_rgb(set, t->u.pair.tex1, at), texture_rgb(set, t->u.pair.tex2, at));
+    case TEXTURE_SCALE:
+        return rgb_mul(evaluate(set, t->u.pair.tex1, at, read), evaluate(set, t->u.pair.tex2, at, read));
     case TEXTURE_MIX:
-        return mix(texture_rgb(set, t->u.pair.tex1, at), texture_rgb(set, t->u.pair.tex2, at),
+        return mix(evaluate(set, t->u.pair.tex1, at, read), evaluate(set, t->u.pair.tex2, at, read),
                    texture_float(set, t->u.pair.amount, at));
-    case TEXTURE_CHECKERBOARD: return texture_rgb(set, checker_choice(t, at), at);
+    case TEXTURE_CHECKERBOARD: return evaluate(set, checker_choice(t, at), at, read);
     case TEXTURE_IMAGEMAP: {
         struct st st = map_uv(t->u.imagemap.map, at->u, at->v);
         const struct image *img = &set->image[t->u.imagemap.image];
-        return rgb_scale(image_bilinear(img, st.s, st.t, t->u.imagemap.wrap, t->u.imagemap.gamma),
-                         t->u.imagemap.scale);
+        return rgb_scale(bilinear(img, st.s, st.t, t->u.imagemap.wrap, t->u.imagemap.gamma, read), t->u.imagemap.scale);
     }
     case TEXTURE_BILERP: return bilerp(t, at->u, at->v);
     }
     return rgb_black();
 }
 
+rgb texture_varying_rgb(const struct texture_set *set, int id, const struct surface *at)
+{
+    return evaluate(set, id, at, texel_rgb);
+}
+
 double texture_varying_float(const struct texture_set *set, int id, const struct surface *at)
 {
-    assert(id >= 0 && id < set->n_textures);
-    const struct texture *t = &set->texture[id];
-    switch (t->kind) {
-    case TEXTURE_CONSTANT: return t->u.constant.r;
-    case TEXTURE_SCALE: return texture_float(set, t->u.pair.tex1, at) * texture_float(set, t->u.pair.tex2, at);
-    case TEXTURE_MIX: {
-        double amount = texture_float(set, t->u.pair.amount, at);
-        return (1 - amount) * texture_float(set, t->u.pair.tex1, at) +
-               amount * texture_float(set, t->u.pair.tex2, at);
-    }
-    case TEXTURE_CHECKERBOARD: return texture_float(set, checker_choice(t, at), at);
-    case TEXTURE_IMAGEMAP: {
-        struct st st = map_uv(t->u.imagemap.map, at->u, at->v);
-        const struct image *img = &set->image[t->u.imagemap.image];
-        return t->u.imagemap.scale * image_bilinear_grey(img, st.s, st.t, t->u.imagemap.wrap, t->u.imagemap.gamma);
-    }
-    case TEXTURE_BILERP: return bilerp(t, at->u, at->v).r;
-    }
-    return 0;
+    return evaluate(set, id, at, texel_grey).r;
 }
 
 /* The mean over at most 64 x 64 texels spread over the picture. */

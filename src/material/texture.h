@@ -3,7 +3,7 @@
  * Every material parameter is a texture, most of them constant. Float textures use the red channel of the same
  * struct. Image maps are looked up bilinearly in the finest level: pixel samples do the filtering.
  *
- * Used by: material, scene (alpha), parser. Tests: test_texture.c.
+ * Tests: test_texture.c.
  */
 #ifndef ASBDPT_TEXTURE_H
 #define ASBDPT_TEXTURE_H
@@ -19,7 +19,7 @@ enum texture_kind {
     TEXTURE_CONSTANT,
     TEXTURE_SCALE,        /* tex1 * tex2 */
     TEXTURE_MIX,          /* (1-amount) tex1 + amount tex2 */
-    TEXTURE_CHECKERBOARD, /* tex1 on even, tex2 on odd cells of floor(s), floor(t) */
+    TEXTURE_CHECKERBOARD, /* tex1 on even, tex2 on odd squares of floor(s), floor(t) */
     TEXTURE_IMAGEMAP,
     TEXTURE_BILERP
 };

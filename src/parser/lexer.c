@@ -6,15 +6,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct lexer lexer_start(const struct input *input, struct arena *arena, struct messages *messages)
+struct lexer lexer_start(const struct source_file *file, struct arena *arena, struct messages *messages)
 {
-    struct lexer l = {input, input->text, input->text, 1, arena, messages};
+    struct lexer l = {file, file->text, file->text, 1, arena, messages};
     return l;
 }
 
-static struct place here(const struct lexer *l, const char *at)
+static struct source_position position_of(const struct lexer *l, const char *at)
 {
-    struct place p = {l->input, l->line_start, l->line, (int)(at - l->line_start) + 1};
+    struct source_position p = {l->file, l->line_start, l->line, (int)(at - l->line_start) + 1};
     return p;
 }
 
@@ -27,7 +27,7 @@ static void skip_blanks(struct lexer *l)
             l->line++;
             l->line_start = p + 1;
         } else if (*p == '#') {
-            while (p[1] != '\n' && p + 1 < l->input->end)
+            while (p[1] != '\n' && p + 1 < l->file->end)
                 p++;
         } else if (*p != ' ' && *p != '\t' && *p != '\r') {
             break;
@@ -110,9 +110,9 @@ static bool next_number(struct lexer *l, struct token *out)
     int shown = end - l->at < 40 ? (int)(end - l->at) : 40;
     const char *scanned = scan_number(l->at, &out->number);
     if (scanned == end)
-        return place_error(l->messages, out->place, "the number %.*s is too large; numbers go up to 1.7e308", shown,
+        return source_error(l->messages, out->position, "the number %.*s is too large; numbers go up to 1.7e308", shown,
                            l->at);
-    return place_error(l->messages, out->place, "'%.*s' is not a number; write it like 12, -0.5 or 1.5e-3", shown,
+    return source_error(l->messages, out->position, "'%.*s' is not a number; write it like 12, -0.5 or 1.5e-3", shown,
                        l->at);
 }
 
@@ -147,12 +147,12 @@ static bool next_string(struct lexer *l, struct token *out)
     bool escaped = false;
     for (; *p != '"'; p++) {
         if (*p == '\n' || *p == '\0')
-            return place_error(l->messages, out->place, "this string does not end on its line; close it with \"");
+            return source_error(l->messages, out->position, "this string does not end on its line; close it with \"");
         if (*p == '\\') {
             escaped = true;
             p++;
             if (unescape(*p) == 0)
-                return place_error(l->messages, here(l, p - 1),
+                return source_error(l->messages, position_of(l, p - 1),
                                    "unknown escape; after \\ only b f n r t \\ ' \" may stand");
         }
     }
@@ -172,7 +172,7 @@ enum token_kind lexer_peek(struct lexer *l)
 {
     skip_blanks(l);
     char c = *l->at;
-    if (c == '\0' && l->at >= l->input->end)
+    if (c == '\0' && l->at >= l->file->end)
         return TOKEN_END;
     if (c == '"')
         return TOKEN_STRING;
@@ -189,7 +189,7 @@ static bool next_word(struct lexer *l, struct token *out)
     while (is_letter(*end) || is_digit(*end))
         end++;
     if (end == l->at || !is_separator(*end))
-        return place_error(l->messages, here(l, end), "a character that has no meaning here; remove it");
+        return source_error(l->messages, position_of(l, end), "a character that has no meaning here; remove it");
     out->text = copy(l, l->at, end);
     l->at = end;
     return true;
@@ -200,7 +200,7 @@ bool lexer_next(struct lexer *l, struct token *out)
     out->kind = lexer_peek(l);
     out->text = "";
     out->number = 0;
-    out->place = here(l, l->at);
+    out->position = position_of(l, l->at);
     switch (out->kind) {
     case TOKEN_END: return true;
     case TOKEN_OPEN:

@@ -4,7 +4,7 @@
  * neighbours. Speed matters here: a large scene is millions of numbers. They are read by an exact short path and
  * by strtod where that does not apply.
  *
- * Used by: params, parser. Tests: test_parser.c.
+ * Tests: test_parser.c.
  */
 #ifndef ASBDPT_LEXER_H
 #define ASBDPT_LEXER_H
@@ -12,7 +12,7 @@
 #include <stdbool.h>
 
 #include "base/mem.h"
-#include "parser/place.h"
+#include "parser/source_position.h"
 
 enum token_kind { TOKEN_END, TOKEN_WORD, TOKEN_STRING, TOKEN_NUMBER, TOKEN_OPEN, TOKEN_CLOSE };
 
@@ -20,12 +20,12 @@ struct token {
     enum token_kind kind;
     const char *text;   /* word or string (without quotes, escapes resolved), zero-terminated; else "" */
     double number;      /* of TOKEN_NUMBER, finite */
-    struct place place; /* of its first character */
+    struct source_position position; /* of its first character */
 };
 
-/* A position in an input. Copy it to look ahead. */
+/* A position in a file. Copy it to look ahead. */
 struct lexer {
-    const struct input *input;
+    const struct source_file *file;
     const char *at;         /* next character */
     const char *line_start; /* of the line `at` is in */
     int line;
@@ -33,7 +33,7 @@ struct lexer {
     struct messages *messages;
 };
 
-struct lexer lexer_start(const struct input *input, struct arena *arena, struct messages *messages);
+struct lexer lexer_start(const struct source_file *file, struct arena *arena, struct messages *messages);
 
 /* lexer_next: take one token. False with a message on an unterminated string, an unknown escape or character, or a
  * malformed or too large number. At the end of the file: TOKEN_END, again and again. */

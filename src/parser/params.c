@@ -1,7 +1,7 @@
-/* params.c: see params.h. This file reads lists and answers questions; values with a meaning of their own (colours,
- * files) are in params_value.c. */
+/* params.c: see params.h. */
 #include "parser/params.h"
 
+#include <ctype.h>
 #include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -9,7 +9,8 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "parser/suggest.h"
+#include "parser/spectrum.h"
+#include "parser/symbols.h"
 
 /* One row per spelling; the first of a type is its name in messages. */
 static const struct {
@@ -34,7 +35,7 @@ static const char *type_name(enum param_type type)
     return "";
 }
 
-bool params_fail(struct params *p, struct place at, const char *format, ...)
+bool params_fail(struct params *p, struct source_position at, const char *format, ...)
 {
     if (p->failed)
         return false;
@@ -44,19 +45,19 @@ bool params_fail(struct params *p, struct place at, const char *format, ...)
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    return place_error(p->messages, at, "%s", text);
+    return source_error(p->messages, at, "%s", text);
 }
 
 /* --- reading ------------------------------------------------------------------------------------------ */
 
-/* Split "type name" in place. */
-static bool declaration(struct params *p, const struct token *t, struct param *item)
+/* Split a copy of "type name". */
+static bool read_declaration(struct params *p, const struct token *t, struct param *item)
 {
     char *text = arena_alloc(item->values.arena, strlen(t->text) + 1);
     strcpy(text, t->text);
     const char *type = strtok(text, " \t"), *name = strtok(NULL, " \t");
     if (type == NULL || name == NULL || strtok(NULL, " \t") != NULL)
-        return params_fail(p, t->place, "a parameter is declared by its type and its name, like \"float radius\"");
+        return params_fail(p, t->position, "a parameter is declared by its type and its name, like \"float radius\"");
     struct suggestion near = suggest_start(type);
     for (int i = 0; i < N_TYPES; i++) {
         suggest_offer(&near, TYPES[i].name);
@@ -67,8 +68,8 @@ static bool declaration(struct params *p, const struct token *t, struct param *i
         }
     }
     if (near.name != NULL)
-        return params_fail(p, t->place, "unknown type \"%.40s\"; did you mean \"%s\"?", type, near.name);
-    return params_fail(p, t->place,
+        return params_fail(p, t->position, "unknown type \"%.40s\"; did you mean \"%s\"?", type, near.name);
+    return params_fail(p, t->position,
                        "unknown type \"%.40s\"; types are integer, float, bool, string, texture, point2, vector2, "
                        "point, vector, normal, rgb, xyz, blackbody and spectrum",
                        type);
@@ -80,7 +81,7 @@ static bool wants_text(enum param_type type)
 }
 
 /* One value that is not a plain number: a string, a bare true or false, or a mistake. */
-static bool text_value(struct params *p, struct lexer *l, struct param *item)
+static bool read_text(struct params *p, struct lexer *l, struct param *item)
 {
     struct token t;
     char buffer[64];
@@ -92,7 +93,7 @@ static bool text_value(struct params *p, struct lexer *l, struct param *item)
     bool text = t.kind == TOKEN_STRING || (item->type == PARAM_BOOL && bare_bool);
     bool fits = text && (wants_text(item->type) || item->type == PARAM_SPECTRUM);
     if (!fits || (item->n > 0 && !item->is_text))
-        return params_fail(p, t.place, "\"%s %s\" wants %s here, not %s", type_name(item->type), item->name,
+        return params_fail(p, t.position, "\"%s %s\" wants %s here, not %s", type_name(item->type), item->name,
                            wants_text(item->type) ? "a quoted string" : "a number",
                            token_text(&t, buffer, sizeof buffer));
     item->is_text = true;
@@ -102,22 +103,22 @@ static bool text_value(struct params *p, struct lexer *l, struct param *item)
     return true;
 }
 
-static bool value(struct params *p, struct lexer *l, struct param *item)
+static bool read_value(struct params *p, struct lexer *l, struct param *item)
 {
     double number;
     if (wants_text(item->type) || item->is_text || !lexer_number(l, &number))
-        return text_value(p, l, item);
+        return read_text(p, l, item);
     p->number = mem_grow(p->number, &p->number_capacity, p->n_number + 1, sizeof *p->number);
     p->number[p->n_number++] = number;
     item->n++;
     return true;
 }
 
-static bool values(struct params *p, struct lexer *l, struct param *item)
+static bool read_values(struct params *p, struct lexer *l, struct param *item)
 {
     item->values = *l;
     if (lexer_peek(l) != TOKEN_OPEN)
-        return value(p, l, item);
+        return read_value(p, l, item);
     struct token open;
     lexer_next(l, &open);
     item->values = *l;
@@ -126,8 +127,8 @@ static bool values(struct params *p, struct lexer *l, struct param *item)
         if (next == TOKEN_CLOSE)
             return lexer_next(l, &open);
         if (next == TOKEN_END || item->n == INT_MAX)
-            return params_fail(p, open.place, "this [ has no ]; close the list of values");
-        if (!value(p, l, item))
+            return params_fail(p, open.position, "this [ has no ]; close the list of values");
+        if (!read_value(p, l, item))
             return false;
     }
 }
@@ -141,12 +142,12 @@ bool params_read(struct params *p, struct lexer *l)
         struct token t;
         if (!lexer_next(l, &t))
             return false;
-        struct param item = {.place = t.place, .values = *l};
-        if (!declaration(p, &t, &item))
+        struct param item = {.position = t.position, .values = *l};
+        if (!read_declaration(p, &t, &item))
             return false;
         item.first = wants_text(item.type) ? p->n_string : p->n_number;
         size_t first_string = p->n_string;
-        if (!values(p, l, &item))
+        if (!read_values(p, l, &item))
             return false;
         if (item.is_text)
             item.first = first_string;
@@ -166,19 +167,19 @@ void params_free(struct params *p)
 
 /* --- asking ------------------------------------------------------------------------------------------- */
 
-struct place param_value_place(const struct param *item, int k)
+struct source_position param_value_position(const struct param *item, int k)
 {
     struct messages silent = {0};
     struct lexer l = item->values;
     l.messages = &silent;
-    struct token t = {.place = item->place};
+    struct token t = {.position = item->position};
     for (int i = 0; i <= k; i++)
         if (!lexer_next(&l, &t))
             break;
-    return t.place;
+    return t.position;
 }
 
-static void ask(struct params *p, const char *name)
+static void remember_name(struct params *p, const char *name)
 {
     for (int i = 0; i < p->n_asked; i++)
         if (strcmp(p->asked[i], name) == 0)
@@ -190,14 +191,14 @@ static void ask(struct params *p, const char *name)
 /* The last parameter of this name and one of the types; like pbrt, a later one replaces an earlier one. */
 static struct param *find(struct params *p, const char *name, unsigned types)
 {
-    ask(p, name);
+    remember_name(p, name);
     struct param *found = NULL;
     for (int i = 0; i < p->n; i++) {
         struct param *item = &p->item[i];
         if ((types & 1u << item->type) == 0 || strcmp(item->name, name) != 0)
             continue;
         if (found != NULL)
-            place_warn(p->messages, item->place, "twice", "parameter \"%s\" is given twice; the last one counts",
+            source_warn(p->messages, item->position, "twice", "parameter \"%s\" is given twice; the last one counts",
                        name);
         item->used = true;
         found = item;
@@ -211,7 +212,7 @@ static bool numbers_usable(struct params *p, const struct param *item)
     for (int i = 0; !item->is_text && item->type != PARAM_INTEGER && i < item->n; i++) {
         double number = p->number[item->first + (size_t)i];
         if (!(fabs(number) <= NUMBER_MAX))
-            return params_fail(p, param_value_place(item, i), "%g is too large for \"%s\"; numbers go up to %g here",
+            return params_fail(p, param_value_position(item, i), "%g is too large for \"%s\"; numbers go up to %g here",
                                number, item->name, NUMBER_MAX);
     }
     return true;
@@ -225,7 +226,7 @@ static struct param *find_n(struct params *p, const char *name, unsigned types, 
         return NULL;
     if (n == 0 ? item->n > 0 : item->n == n)
         return numbers_usable(p, item) ? item : NULL;
-    params_fail(p, item->place, "parameter \"%s %s\" of %s \"%s\" wants %s%d value%s, not %d", type_name(item->type),
+    params_fail(p, item->position, "parameter \"%s %s\" of %s \"%s\" wants %s%d value%s, not %d", type_name(item->type),
                 name, p->directive, p->type, n == 0 ? "at least " : "", n == 0 ? 1 : n, n > 1 ? "s" : "", item->n);
     return NULL;
 }
@@ -240,88 +241,62 @@ bool params_has(const struct params *p, const char *name, enum param_type type)
     return false;
 }
 
-double params_float(struct params *p, const char *name, double fallback)
+/* The one value of a parameter of this type, or NULL. */
+static const struct param *find_one(struct params *p, const char *name, enum param_type type)
 {
-    const struct param *item = find_n(p, name, 1u << PARAM_FLOAT, 1);
-    return item != NULL ? p->number[item->first] : fallback;
+    return find_n(p, name, 1u << type, 1);
 }
 
-double params_positive(struct params *p, const char *name, double fallback)
+double params_number(struct params *p, const char *name, double fallback, double low, double high)
 {
-    const struct param *item = find_n(p, name, 1u << PARAM_FLOAT, 1);
-    if (item == NULL)
-        return fallback;
-    double number = p->number[item->first];
-    if (number >= NUMBER_MIN)
-        return number;
-    params_fail(p, param_value_place(item, 0), "\"%s\" is %g; it must be greater than 0, and at least %g", name,
-                number, NUMBER_MIN);
-    return fallback;
-}
-
-double params_at_least(struct params *p, const char *name, double fallback, double low)
-{
-    const struct param *item = find_n(p, name, 1u << PARAM_FLOAT, 1);
-    if (item == NULL)
-        return fallback;
-    double number = p->number[item->first];
-    if (number >= low)
-        return number;
-    params_fail(p, param_value_place(item, 0), "\"%s\" is %g; it must be at least %g", name, number, low);
-    return fallback;
-}
-
-double params_range(struct params *p, const char *name, double fallback, double low, double high)
-{
-    const struct param *item = find_n(p, name, 1u << PARAM_FLOAT, 1);
+    const struct param *item = find_one(p, name, PARAM_FLOAT);
     if (item == NULL)
         return fallback;
     double number = p->number[item->first];
     if (number >= low && number <= high)
         return number;
-    params_fail(p, param_value_place(item, 0), "\"%s\" is %g; it must be from %g to %g", name, number, low, high);
+    struct source_position at = param_value_position(item, 0);
+    if (high <= NUMBER_MAX)
+        params_fail(p, at, "\"%s\" is %g; it must be from %g to %g", name, number, low, high);
+    else
+        params_fail(p, at, "\"%s\" is %g; it must be %sat least %g", name, number,
+                    low == NUMBER_MIN ? "greater than 0, and " : "", low);
     return fallback;
 }
 
 int params_int(struct params *p, const char *name, int fallback, int low, int high)
 {
-    const struct param *item = find_n(p, name, 1u << PARAM_INTEGER, 1);
+    const struct param *item = find_one(p, name, PARAM_INTEGER);
     if (item == NULL)
         return fallback;
     double number = p->number[item->first];
     if (number >= low && number <= high && number == floor(number))
         return (int)number;
     if (low == high)
-        params_fail(p, param_value_place(item, 0), "\"%s\" is %.12g; only %d is supported", name, number, low);
-    params_fail(p, param_value_place(item, 0), "\"%s\" is %.12g; it must be a whole number from %d to %d", name,
+        params_fail(p, param_value_position(item, 0), "\"%s\" is %.12g; only %d is supported", name, number, low);
+    params_fail(p, param_value_position(item, 0), "\"%s\" is %.12g; it must be a whole number from %d to %d", name,
                 number, low, high);
     return fallback;
 }
 
 bool params_bool(struct params *p, const char *name, bool fallback)
 {
-    const struct param *item = find_n(p, name, 1u << PARAM_BOOL, 1);
+    const struct param *item = find_one(p, name, PARAM_BOOL);
     if (item == NULL)
         return fallback;
     const char *text = p->string[item->first];
     if (strcmp(text, "true") == 0 || strcmp(text, "false") == 0)
         return text[0] == 't';
-    params_fail(p, param_value_place(item, 0), "\"%s\" is \"%.40s\"; it must be \"true\" or \"false\"", name, text);
+    params_fail(p, param_value_position(item, 0), "\"%s\" is \"%.40s\"; it must be \"true\" or \"false\"", name, text);
     return fallback;
 }
 
-const char *params_string(struct params *p, const char *name, const char *fallback)
+const char *params_text(struct params *p, const char *name, enum param_type type, struct source_position *at)
 {
-    const struct param *item = find_n(p, name, 1u << PARAM_STRING, 1);
-    return item != NULL ? p->string[item->first] : fallback;
-}
-
-const char *params_text(struct params *p, const char *name, enum param_type type, struct place *at)
-{
-    const struct param *item = find_n(p, name, 1u << type, 1);
+    const struct param *item = find_one(p, name, type);
     if (item == NULL)
         return NULL;
-    *at = param_value_place(item, 0);
+    *at = param_value_position(item, 0);
     return p->string[item->first];
 }
 
@@ -336,7 +311,7 @@ vec3 params_point(struct params *p, const char *name, vec3 fallback)
 
 int params_choice(struct params *p, const char *name, const char *const *choices)
 {
-    const struct param *item = find_n(p, name, 1u << PARAM_STRING, 1);
+    const struct param *item = find_one(p, name, PARAM_STRING);
     if (item == NULL)
         return 0;
     const char *text = p->string[item->first];
@@ -344,7 +319,7 @@ int params_choice(struct params *p, const char *name, const char *const *choices
         if (strcmp(choices[i], text) == 0)
             return i;
     const char *near = suggest_from(text, choices);
-    params_fail(p, param_value_place(item, 0), "\"%s\" cannot be \"%.40s\"; %s \"%s\"%s", name, text,
+    params_fail(p, param_value_position(item, 0), "\"%s\" cannot be \"%.40s\"; %s \"%s\"%s", name, text,
                 near != NULL ? "did you mean" : "the default is", near != NULL ? near : choices[0],
                 near != NULL ? "?" : "");
     return 0;
@@ -360,7 +335,7 @@ const double *params_list(struct params *p, const char *name, unsigned types, in
     if (item == NULL || item->is_text)
         return NULL;
     if (item->n % group != 0) {
-        params_fail(p, item->place, "parameter \"%s %s\" wants its numbers in groups of %d, but there are %d",
+        params_fail(p, item->position, "parameter \"%s %s\" wants its numbers in groups of %d, but there are %d",
                     type_name(item->type), name, group, item->n);
         return NULL;
     }
@@ -368,22 +343,143 @@ const double *params_list(struct params *p, const char *name, unsigned types, in
     return p->number + item->first;
 }
 
+/* --- files and colours -------------------------------------------------------------------------------- */
+
+char *path_join(const char *directory, const char *name)
+{
+    if (name[0] == '/' || directory[0] == '\0')
+        return mem_copy_text(name);
+    size_t n = strlen(directory);
+    char *path = mem_alloc(n + strlen(name) + 2, 1);
+    memcpy(path, directory, n);
+    if (directory[n - 1] != '/')
+        path[n++] = '/';
+    strcpy(path + n, name);
+    return path;
+}
+
+bool path_ends_in(const char *path, const char *extension)
+{
+    size_t n = strlen(path), m = strlen(extension);
+    for (size_t i = 0; i < m && n >= m; i++)
+        if (tolower((unsigned char)path[n - m + i]) != extension[i])
+            return false;
+    return n >= m;
+}
+
+char *params_file(struct params *p, const char *name, struct source_position *at)
+{
+    const char *file = params_text(p, name, PARAM_STRING, at);
+    return file != NULL ? path_join(p->directory, file) : NULL;
+}
+
+/* Wavelength and value pairs of an .spd file: numbers, with comments from # to the end of the line. Errors in it
+ * are shown at their position in that file. */
+static rgb rgb_from_file(struct params *p, const struct param *item)
+{
+    rgb colour = rgb_black();
+    struct error inner;
+    size_t size;
+    char *path = path_join(p->directory, p->string[item->first]), *text = text_read(path, &size, &inner);
+    if (text == NULL) {
+        params_fail(p, param_value_position(item, 0), "%s", inner.text);
+        free(path);
+        return colour;
+    }
+    struct arena arena = {NULL, NULL};
+    struct source_file file = {path, text, text + size, item->position};
+    struct lexer l = lexer_start(&file, &arena, p->messages);
+    double *number = NULL;
+    size_t n = 0, capacity = 0;
+    struct token t = {0};
+    bool ok = lexer_next(&l, &t);
+    for (; ok && t.kind == TOKEN_NUMBER; ok = lexer_next(&l, &t)) {
+        number = mem_grow(number, &capacity, n + 1, sizeof *number);
+        number[n++] = t.number;
+    }
+    if (!ok)
+        p->failed = true;
+    else if (t.kind != TOKEN_END || n < 2 || n % 2 != 0)
+        params_fail(p, t.position,
+                    "a spectrum file holds pairs of numbers, wavelength in nm and value, and nothing else");
+    else
+        colour = spectrum_from_samples((double(*)[2])number, (int)(n / 2));
+    free(number);
+    arena_free(&arena);
+    free(text);
+    free(path);
+    return colour;
+}
+
+/* How many numbers a colour of this type has; 0: pairs. */
+static int colour_numbers(enum param_type type)
+{
+    if (type == PARAM_RGB || type == PARAM_XYZ)
+        return 3;
+    return type == PARAM_BLACKBODY ? 2 : 0;
+}
+
+static rgb rgb_from_numbers(enum param_type type, double *x, int n)
+{
+    switch ((int)type) {
+    case PARAM_RGB: return rgb_make(x[0], x[1], x[2]);
+    case PARAM_XYZ: return spectrum_from_xyz(x[0], x[1], x[2]);
+    case PARAM_BLACKBODY: return spectrum_blackbody(x[0], x[1]);
+    default: return spectrum_from_samples((double(*)[2])x, n / 2);
+    }
+}
+
+/* Numbers of a colour can be summed, and those of a file are not checked one by one, so what comes out is. */
+static bool colour_usable(rgb c)
+{
+    return fabs(c.r) <= NUMBER_MAX && fabs(c.g) <= NUMBER_MAX && fabs(c.b) <= NUMBER_MAX;
+}
+
+rgb params_rgb(struct params *p, const char *name, rgb fallback)
+{
+    const unsigned types = 1u << PARAM_RGB | 1u << PARAM_XYZ | 1u << PARAM_BLACKBODY | 1u << PARAM_SPECTRUM;
+    int n;
+    const struct param *item;
+    params_list(p, name, types, 1, &n, &item);
+    if (item == NULL)
+        return fallback;
+    rgb colour;
+    int want = colour_numbers(item->type);
+    if (item->is_text ? item->n != 1 : (want > 0 && item->n != want) || (want == 0 && item->n % 2 != 0)) {
+        static const char *const WANTED[] = {"pairs of wavelength and value, or one file name", "",
+                                             "two values, temperature and scale", "three values"};
+        params_fail(p, item->position, "parameter \"%s\" wants %s, but there are %d", name, WANTED[want], item->n);
+        return fallback;
+    }
+    if (item->is_text)
+        colour = rgb_from_file(p, item);
+    else
+        colour = rgb_from_numbers(item->type, p->number + item->first, item->n);
+    if (colour_usable(colour))
+        return colour;
+    params_fail(p, item->position, "parameter \"%s\" gives the colour (%g %g %g); its numbers go up to %g here", name,
+                colour.r, colour.g, colour.b, NUMBER_MAX);
+    return fallback;
+}
+
+/* --- the end ------------------------------------------------------------------------------------------ */
+
 /* A parameter nobody asked for: does the name exist with another type, or is another name near? */
 static bool fail_unused(struct params *p, const struct param *item)
 {
     struct suggestion near = suggest_start(item->name);
     for (int i = 0; i < p->n_asked; i++) {
         if (strcmp(p->asked[i], item->name) == 0)
-            return params_fail(p, item->place, "parameter \"%s\" of %s \"%s\" cannot be of type \"%s\"; %s",
+            return params_fail(p, item->position, "parameter \"%s\" of %s \"%s\" cannot be of type \"%s\"; %s",
                                item->name, p->directive, p->type, type_name(item->type),
                                "see doc/scene-format.md for its type");
         suggest_offer(&near, p->asked[i]);
     }
     if (near.name != NULL)
-        return params_fail(p, item->place, "%s \"%s\" has no parameter \"%.40s\"; did you mean \"%s\"?",
+        return params_fail(p, item->position, "%s \"%s\" has no parameter \"%.40s\"; did you mean \"%s\"?",
                            p->directive, p->type, item->name, near.name);
     bool shape = strcmp(p->directive, "Shape") == 0;
-    return params_fail(p, item->place, "%s \"%s\" has no parameter \"%.40s\"; %s", p->directive, p->type,
+    return params_fail(p, item->position, "%s \"%s\" has no parameter \"%.40s\"; %s", p->directive, p->type,
                        item->name, shape ? "remove it, or set it in a Material before the Shape" : "remove it");
 }
 

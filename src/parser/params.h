@@ -5,7 +5,7 @@
  * fit, a wrong count, a parameter nobody asked for) is kept as the error, later questions are answered with
  * defaults, and params_done reports it.
  *
- * Used by: parse_*, parser. Tests: test_parser.c.
+ * Tests: test_parser.c.
  */
 #ifndef ASBDPT_PARAMS_H
 #define ASBDPT_PARAMS_H
@@ -35,8 +35,8 @@ enum param_type {
 struct param {
     enum param_type type;
     const char *name;
-    struct place place;  /* of the quoted declaration */
-    struct lexer values; /* where the values begin, to find the place of one of them again */
+    struct source_position position;  /* of the quoted declaration */
+    struct lexer values; /* where the values begin, to find the position of one of them again */
     size_t first;        /* index into params->number or params->string */
     int n;               /* values: numbers or strings */
     bool is_text;        /* strings (also bools), else numbers */
@@ -48,7 +48,7 @@ enum { MAX_ASKED = 48 }; /* more names than any type of object has parameters */
 struct params {
     /* What the list belongs to, for messages: directive "Shape", type "sphere". */
     const char *directive, *type;
-    struct place place; /* of the type */
+    struct source_position position; /* of the type */
     struct messages *messages;
     const char *directory; /* of the main scene file: relative names of files start there */
     bool failed;           /* an error has been kept */
@@ -64,14 +64,14 @@ struct params {
 };
 
 /* params_read: read the list that starts at the lexer's position, up to the first token that is not a declaration.
- *   p  directive, type, place, messages and directory set; reused from list to list; zero-initialised before
+ *   p  directive, type, position, messages and directory set; reused from list to list; zero-initialised before
  *      the first and released by params_free after the last
  * Returns false with a message. */
 bool params_read(struct params *p, struct lexer *l);
 void params_free(struct params *p);
 
 /* params_fail: keep an error, unless there is one already. Returns false. */
-bool params_fail(struct params *p, struct place at, const char *format, ...);
+bool params_fail(struct params *p, struct source_position at, const char *format, ...);
 
 /* params_done: false if anything failed or a parameter was never asked for (its message is then set). */
 bool params_done(struct params *p);
@@ -83,20 +83,16 @@ const struct param *params_ignore(struct params *p, const char *name);
 bool params_has(const struct params *p, const char *name, enum param_type type);
 
 /* One value, or the default. All questions refuse numbers beyond NUMBER_MAX (number.h). */
-double params_float(struct params *p, const char *name, double fallback);
 bool params_bool(struct params *p, const char *name, bool fallback);
-const char *params_string(struct params *p, const char *name, const char *fallback);
 vec3 params_point(struct params *p, const char *name, vec3 fallback);
 rgb params_rgb(struct params *p, const char *name, rgb fallback); /* rgb, xyz, blackbody or spectrum */
 
 /* params_int: a whole number from low to high. */
 int params_int(struct params *p, const char *name, int fallback, int low, int high);
 
-/* params_positive: params_float that must be > 0, in fact at least NUMBER_MIN. params_at_least: >= low. params_range: from
- * low to high. */
-double params_positive(struct params *p, const char *name, double fallback);
-double params_at_least(struct params *p, const char *name, double fallback, double low);
-double params_range(struct params *p, const char *name, double fallback, double low, double high);
+/* params_number: a number from low to high, each of which may be infinite; low = NUMBER_MIN means greater than 0. The
+ * default need not lie within. */
+double params_number(struct params *p, const char *name, double fallback, double low, double high);
 
 /* params_list: numbers of a parameter of one of the types in the mask (1u << PARAM_FLOAT | ...), in groups of
  * `group`; NULL if there is none.
@@ -105,20 +101,23 @@ double params_range(struct params *p, const char *name, double fallback, double 
 const double *params_list(struct params *p, const char *name, unsigned types, int group, int *n,
                           const struct param **found);
 
-/* params_text: the one value of a parameter of type PARAM_STRING or PARAM_TEXTURE, or NULL; *at is its place. */
-const char *params_text(struct params *p, const char *name, enum param_type type, struct place *at);
+/* params_text: the one value of a parameter of type PARAM_STRING or PARAM_TEXTURE, or NULL; *at is its position. */
+const char *params_text(struct params *p, const char *name, enum param_type type, struct source_position *at);
 
 /* params_file: a "string NAME" as a path: relative ones start in the main scene file's directory. NULL if absent.
- * The text is to be given to free(); *at is the place of the value. */
-char *params_file(struct params *p, const char *name, struct place *at);
+ * The text is to be given to free(); *at is the position of the value. */
+char *params_file(struct params *p, const char *name, struct source_position *at);
 
 /* params_choice: a string that must be one of a NULL-terminated list; returns its index (0 = default if absent). */
 int params_choice(struct params *p, const char *name, const char *const *choices);
 
-/* param_value_place: where the k-th value of a parameter stands. */
-struct place param_value_place(const struct param *item, int k);
+/* param_value_position: where the k-th value of a parameter stands. */
+struct source_position param_value_position(const struct param *item, int k);
 
 /* path_join: directory/name, or name alone where it is absolute. To be given to free(). */
 char *path_join(const char *directory, const char *name);
+
+/* path_ends_in: does a path end in this extension (lower case, with its dot), in whatever case? */
+bool path_ends_in(const char *path, const char *extension);
 
 #endif

@@ -1,39 +1,164 @@
-/* parse.c: choosing a kind by its name. See parse.h. */
+/* parse.c: what all directives with a type have in common: choosing the type by its name, and reading its parameters by
+ * a table. See parse.h. */
 #include "parser/parse.h"
 
 #include <string.h>
 
-#include "parser/suggest.h"
-
-/* "a, b, c" of a NULL-terminated list, cut at the buffer's end. */
-static void join(const char *const *names, char *buffer, size_t size)
+/* "a, b, c": the types of a table that are supported, cut at the buffer's end. */
+static void list_types(const struct object_type *types, char *buffer, size_t size)
 {
     buffer[0] = '\0';
-    for (int i = 0; names[i] != NULL; i++) {
-        if (i > 0)
-            strncat(buffer, ", ", size - strlen(buffer) - 1);
-        strncat(buffer, names[i], size - strlen(buffer) - 1);
-    }
+    for (const struct object_type *t = types; t->name != NULL; t++)
+        if (t->parameter != NULL) {
+            strncat(buffer, buffer[0] != '\0' ? ", " : "", size - strlen(buffer) - 1);
+            strncat(buffer, t->name, size - strlen(buffer) - 1);
+        }
 }
 
-int parse_name(struct parser *p, const char *const *known, const char *const *refused)
+bool parse_type(struct parser *p, const struct object_type *types)
 {
     struct params *q = &p->params;
     char list[256];
-    for (int i = 0; known[i] != NULL; i++)
-        if (strcmp(known[i], q->type) == 0)
-            return i;
-    join(known, list, sizeof list);
-    for (int i = 0; refused[i] != NULL; i++)
-        if (strcmp(refused[i], q->type) == 0) {
-            params_fail(q, q->place, "%s \"%s\" of pbrt-v3 is not supported; use one of %s", q->directive, q->type,
-                        list);
-            return -1;
+    list_types(types, list, sizeof list);
+    struct suggestion near = suggest_start(q->type);
+    for (const struct object_type *t = types; t->name != NULL; t++) {
+        bool wanted = strcmp(t->name, q->type) == 0;
+        p->type = t;
+        if (wanted && t->parameter != NULL)
+            return true;
+        if (wanted)
+            return type_error(q, "%s \"%s\" of pbrt-v3 is not supported; use one of %s", q->directive, q->type, list);
+        if (t->parameter != NULL)
+            suggest_offer(&near, t->name);
+    }
+    if (near.name != NULL)
+        return type_error(q, "unknown %s \"%.40s\"; did you mean \"%s\"?", q->directive, q->type, near.name);
+    return type_error(q, "unknown %s \"%.40s\"; use one of %s", q->directive, q->type, list);
+}
+
+bool parse_object(struct parser *p, void *object)
+{
+    for (const struct parameter *row = p->type->parameter; row->name != NULL; row++)
+        if (row->read != NULL)
+            row->read(p, row, (char *)object + row->field);
+    if (p->type->build != NULL)
+        p->type->build(p, object);
+    return params_done(&p->params);
+}
+
+/* --- readers of one parameter --------------------------------------------------------------------------- */
+
+void parse_number(struct parser *p, const struct parameter *row, void *field)
+{
+    double *x = field;
+    *x = params_number(&p->params, row->name, isnan(row->fallback.r) ? *x : row->fallback.r, row->low, row->high);
+}
+
+void parse_integer(struct parser *p, const struct parameter *row, void *field)
+{
+    *(int *)field = params_int(&p->params, row->name, (int)row->fallback.r, (int)row->low, (int)row->high);
+}
+
+void parse_bool(struct parser *p, const struct parameter *row, void *field)
+{
+    *(bool *)field = params_bool(&p->params, row->name, row->fallback.r != 0);
+}
+
+void parse_point(struct parser *p, const struct parameter *row, void *field)
+{
+    *(vec3 *)field = params_point(&p->params, row->name, vec(row->fallback.r, row->fallback.g, row->fallback.b));
+}
+
+void parse_ignored(struct parser *p, const struct parameter *row, void *field)
+{
+    const struct param *item = params_ignore(&p->params, row->name);
+    (void)field;
+    if (item != NULL && row->warning != NULL)
+        source_warn(&p->messages, item->position, row->name, "%s", row->warning);
+}
+
+void parse_no_effect(struct parser *p, const struct parameter *row, void *field)
+{
+    const struct param *item = params_ignore(&p->params, row->name);
+    (void)field;
+    if (item != NULL)
+        source_warn(&p->messages, item->position, p->params.directive, "%s \"%s\": \"%s\" has no effect here",
+                    p->params.directive, p->params.type, row->name);
+}
+
+/* --- textures ------------------------------------------------------------------------------------------- */
+
+int parse_constant(struct parser *p, rgb value)
+{
+    uint32_t h = symbols_hash(&value, sizeof value);
+    int *slot = &p->constant[(h ^ h >> 16) % CONSTANTS];
+    const struct texture *known = *slot > 0 ? &p->scene->textures.texture[*slot - 1] : NULL;
+    if (known == NULL || memcmp(&known->u.constant, &value, sizeof value) != 0)
+        *slot = texture_add_constant(&p->scene->textures, value) + 1;
+    return *slot - 1;
+}
+
+/* The texture named by "texture NAME"; -1 if there is no such parameter (or, with a message, no such texture). */
+static int named_texture(struct parser *p, const char *name, bool is_float)
+{
+    struct params *q = &p->params;
+    const struct symbols *table = is_float ? &p->float_textures : &p->spectrum_textures;
+    const struct symbols *other = is_float ? &p->spectrum_textures : &p->float_textures;
+    struct source_position at;
+    const char *texture = params_text(q, name, PARAM_TEXTURE, &at);
+    if (texture == NULL)
+        return -1;
+    int id = symbols_find(table, texture);
+    if (id < 0 && symbols_find(other, texture) >= 0)
+        params_fail(q, at, "\"%s\" wants a texture of type %s, but \"%.60s\" is of type %s", name,
+                    is_float ? "float" : "spectrum", texture, is_float ? "spectrum" : "float");
+    else if (id < 0)
+        parse_no_such(p, at, texture, table, is_float ? "float texture" : "spectrum texture",
+                      "define it with Texture before it is used");
+    const struct param *value = id < 0 ? NULL : params_ignore(q, name);
+    if (value != NULL && value->type != PARAM_TEXTURE) /* a texture wins over a value of the same name, as in pbrt */
+        source_warn(&p->messages, value->position, "texture and value",
+                    "\"%s\" is given as a texture and as a value; the texture counts", name);
+    return id;
+}
+
+int parse_named_float(struct parser *p, const char *name)
+{
+    int id = named_texture(p, name, true);
+    if (id < 0 && params_has(&p->params, name, PARAM_FLOAT))
+        id = parse_constant(p, rgb_grey(params_number(&p->params, name, 0, ANY_NUMBER)));
+    return id;
+}
+
+/* Refuse a texture that is the same everywhere and outside the row's range. */
+static void check_range(struct parser *p, const struct parameter *row, int texture)
+{
+    const struct texture *t = texture < 0 ? NULL : &p->scene->textures.texture[texture];
+    if (t == NULL || t->kind != TEXTURE_CONSTANT || row->low == row->high)
+        return;
+    const double value[3] = {t->u.constant.r, t->u.constant.g, t->u.constant.b};
+    for (int i = 0; i < 3 && !p->params.failed; i++)
+        if (!(value[i] >= row->low && value[i] <= row->high)) {
+            const struct param *item = params_ignore(&p->params, row->name);
+            params_fail(&p->params, item != NULL ? item->position : p->params.position,
+                        "\"%s\" is %g; it must be from %g to %g", row->name, value[i], row->low, row->high);
         }
-    const char *near = suggest_from(q->type, known);
-    if (near != NULL)
-        params_fail(q, q->place, "unknown %s \"%.40s\"; did you mean \"%s\"?", q->directive, q->type, near);
-    else
-        params_fail(q, q->place, "unknown %s \"%.40s\"; use one of %s", q->directive, q->type, list);
-    return -1;
+}
+
+void parse_float_texture(struct parser *p, const struct parameter *row, void *field)
+{
+    int *texture = field, id = parse_named_float(p, row->name);
+    if (id < 0)
+        id = isnan(row->fallback.r) ? *texture : parse_constant(p, row->fallback);
+    *texture = id;
+    check_range(p, row, id);
+}
+
+void parse_rgb_texture(struct parser *p, const struct parameter *row, void *field)
+{
+    int id = named_texture(p, row->name, false);
+    if (id < 0)
+        id = parse_constant(p, params_rgb(&p->params, row->name, row->fallback));
+    *(int *)field = id;
+    check_range(p, row, id);
 }

@@ -1,18 +1,17 @@
-/* parse.h: what the files of the parser share: the state between two directives, and one function per directive
- * that makes something.
+/* parse.h: what the files of the parser share: the state between two directives, the tables that say what each type of
+ * object is made of, and one function per directive.
  *
- * parser.c reads files and directives; parse_state.c keeps the graphics state; parse_options.c makes camera, film,
- * filter and settings; parse_texture.c, parse_material.c, parse_light.c and parse_shape.c what the world is made
- * of. Each function finds its parameter list in p->params, type included, and returns false with a message in
- * p->messages.
- *
- * Used by: parser alone; private to it.
+ * parser.c reads files and directives; parse.c reads objects by their tables; parse_state.c keeps the graphics state;
+ * parse_options.c makes camera, film, filter and settings; parse_texture.c, parse_material.c, parse_light.c and
+ * parse_shape.c what the world is made of. Each function finds its parameter list in p->params, type included, and
+ * returns false with a message in p->messages. Private to this room.
  */
 #ifndef ASBDPT_PARSE_H
 #define ASBDPT_PARSE_H
 
-#include "parser/names.h"
+#include "base/number.h"
 #include "parser/params.h"
+#include "parser/symbols.h"
 #include "scene/scene.h"
 
 enum { MATERIAL_NONE = -1 }; /* Material "none": the shape only separates media, so it is left out */
@@ -37,21 +36,22 @@ enum block_kind { BLOCK_ATTRIBUTE, BLOCK_TRANSFORM, BLOCK_OBJECT };
 /* An open AttributeBegin, TransformBegin or ObjectBegin. */
 struct block {
     enum block_kind kind;
-    struct place place;
+    struct source_position position;
     struct graphics_state saved;
     int n_float_textures, n_spectrum_textures, n_materials; /* named so far */
 };
 
-/* One Shape directive; kept where it belongs to an object, to be added once per instance. */
+/* One Shape directive; stored where it belongs to an object, to be added once per instance. */
 struct shape_item {
     bool is_mesh;
+    bool absent;            /* alpha 0: nothing of it is there */
     struct mesh mesh;       /* owned */
     struct quadric quadric; /* to_world not yet set */
     struct shape_group group;
     struct transform to_world;
     bool reverse;
     struct area_light area;
-    struct place place;
+    struct source_position position;
 };
 
 struct shape_list {
@@ -74,17 +74,18 @@ struct loaded {
 struct parser {
     struct scene *scene;
     struct messages messages;
-    struct arena arena; /* texts of tokens, inputs */
+    struct arena arena; /* texts of tokens, source files */
     char *directory;    /* of the main file; owned */
     struct lexer lexer;
     struct params params;
     enum phase phase;
-    struct token directive; /* the one being carried out */
+    struct token directive;         /* the one being carried out */
+    const struct object_type *type; /* what its params.type stands for */
 
-    const struct input *input[MAX_INCLUDE_DEPTH]; /* files being read, main file first */
-    int n_inputs, n_includes;
-    struct names files;  /* path -> file[]: a file included twice is read once */
-    struct loaded *file; /* [n_files], owned */
+    const struct source_file *source[MAX_INCLUDE_DEPTH]; /* files being read, main file first */
+    int n_sources, n_includes;
+    struct symbols files; /* path -> file[]: a file included twice is read once */
+    struct loaded *file;  /* [n_files], owned */
     int n_files;
     size_t file_capacity;
 
@@ -93,20 +94,76 @@ struct parser {
     int n_blocks;
     size_t block_capacity;
 
-    struct names float_textures, spectrum_textures, materials; /* scoped */
-    struct names systems;                                      /* -> system[] */
-    struct transform *system;                                  /* [n_systems], owned */
+    struct symbols float_textures, spectrum_textures, materials; /* scoped */
+    struct symbols systems;                                      /* -> system[] */
+    struct transform *system;                                    /* [n_systems], owned */
     int n_systems;
     size_t system_capacity;
-    struct names objects;      /* -> object[] */
+    struct symbols objects;    /* -> object[] */
     struct shape_list *object; /* [n_objects], owned */
     int n_objects;
     size_t object_capacity;
     int current_object; /* between ObjectBegin and ObjectEnd, else -1 */
 
+    bool texture_is_float;   /* of the Texture directive being carried out */
     int constant[CONSTANTS]; /* textures made for numbers, by hash, plus 1: equal ones are shared */
     int black_matte;         /* material of a light without material; -1 before the first */
 };
+
+/* --- tables: which types a directive knows, and which parameters each has ------------------------------- */
+
+/* One parameter: how it is read, and into which field of the object. */
+struct parameter {
+    const char *name;
+    void (*read)(struct parser *p, const struct parameter *row, void *field); /* NULL: the type's build reads it */
+    size_t field;    /* offset within the object */
+    rgb fallback;    /* of a number: r. NaN: what the object holds already */
+    double low, high; /* the numbers it may be; both 0: any that are usable */
+    const char *warning; /* parse_ignored: what to say where it is given; NULL: nothing */
+};
+
+/* One type of object of a directive. A table of them ends with one without a name. */
+struct object_type {
+    const char *name;
+    const struct parameter *parameter; /* ended by one without a name. NULL: of pbrt-v3 but refused here */
+    int kind;                          /* LIGHT_POINT, MATERIAL_MATTE and so on */
+    void (*build)(struct parser *p, void *object); /* what the table cannot say, once it is read; or NULL */
+};
+
+#define GREY(x) {x, x, x}
+#define KEPT (double)NAN /* the object's own default */
+#define ANY_NUMBER (double)-INFINITY, (double)INFINITY
+#define POSITIVE NUMBER_MIN, (double)INFINITY
+#define AT_LEAST_0 0, (double)INFINITY
+#define IGNORED(name) {name, parse_ignored, 0, GREY(0), 0, 0, NULL}     /* nothing here depends on it */
+#define NO_EFFECT(name) {name, parse_no_effect, 0, GREY(0), 0, 0, NULL} /* the same, and worth a warning */
+#define BY_BUILD(name) {name, NULL, 0, GREY(0), 0, 0, NULL}
+#define END_OF_PARAMETERS {NULL, NULL, 0, GREY(0), 0, 0, NULL}
+#define REFUSED(name) {name, NULL, 0, NULL}
+#define END_OF_TYPES {NULL, NULL, 0, NULL}
+
+/* parse_type: find params.type in a table and set p->type. Returns false with a message, which differs for the types of
+ * pbrt-v3 that are left out here and for typos. */
+bool parse_type(struct parser *p, const struct object_type *types);
+
+/* parse_object: read the parameters of p->type into *object, in the table's order, and build the rest of it. */
+bool parse_object(struct parser *p, void *object);
+
+/* Readers of one parameter into a field. The textures are numbers of the scene. */
+void parse_number(struct parser *p, const struct parameter *row, void *field);        /* double */
+void parse_integer(struct parser *p, const struct parameter *row, void *field);       /* int */
+void parse_bool(struct parser *p, const struct parameter *row, void *field);          /* bool, false by default */
+void parse_point(struct parser *p, const struct parameter *row, void *field);         /* vec3 */
+void parse_float_texture(struct parser *p, const struct parameter *row, void *field); /* int: a texture number */
+void parse_rgb_texture(struct parser *p, const struct parameter *row, void *field);   /* int: a texture number */
+void parse_ignored(struct parser *p, const struct parameter *row, void *field);
+void parse_no_effect(struct parser *p, const struct parameter *row, void *field);
+
+/* A message at the directive, or at the type of the list. Both return false. */
+#define directive_error(p, ...) source_error(&(p)->messages, (p)->directive.position, __VA_ARGS__)
+#define type_error(q, ...) params_fail(q, (q)->position, __VA_ARGS__)
+
+/* --- what stands in a directive ------------------------------------------------------------------------- */
 
 /* The arguments of the current directive. parse_string: one quoted string, `what` says which. parse_numbers: n
  * numbers, with or without brackets around them. parse_list: the parameter list of an object of the given type,
@@ -116,66 +173,47 @@ bool parse_numbers(struct parser *p, double *out, int n);
 bool parse_list(struct parser *p, const char *directive, const struct token *type);
 bool parse_typed(struct parser *p);
 
-/* parse_no_such: "there is no WHAT "NAME"; ..." with the nearest known one. Returns false. */
-bool parse_no_such(struct parser *p, const struct token *name, const struct names *table, const char *what);
+/* parse_no_such: "there is no WHAT "NAME"; ..." with the nearest known one, or else the advice. Returns false. */
+bool parse_no_such(struct parser *p, struct source_position at, const char *name, const struct symbols *table,
+                   const char *what, const char *advice);
 
-/* parse_name: the index of params.type in a NULL-terminated list, or -1 with a message, which differs for the
- * names of pbrt-v3 that are left out here and for typos. */
-int parse_name(struct parser *p, const char *const *known, const char *const *refused);
+/* parse_named: the number of what the directive's one argument names; *name is that argument. -1 with a message. */
+int parse_named(struct parser *p, struct token *name, const struct symbols *table, const char *what);
 
 /* parse_constant: a constant texture. */
 int parse_constant(struct parser *p, rgb value);
 
-/* parse_float_texture, parse_rgb_texture: the texture number of a parameter given as a number, a colour or the name
- * of a texture; of the default where it is absent. The _or form returns `otherwise` then. */
-int parse_float_texture(struct parser *p, const char *name, double fallback);
-int parse_float_texture_or(struct parser *p, const char *name, int otherwise);
-int parse_rgb_texture(struct parser *p, const char *name, rgb fallback);
+/* parse_named_float: the texture of "texture NAME" or the constant of "float NAME"; -1 where both are absent. */
+int parse_named_float(struct parser *p, const char *name);
 
-/* parse_texture: Texture "name" "type" "class". `type` is float, spectrum or color, the class is params.type. */
-bool parse_texture(struct parser *p, const char *name, const char *type, struct place type_place);
+/* --- directives ----------------------------------------------------------------------------------------- */
 
-/* parse_material: make a material of kind params.type. *out is its number or MATERIAL_NONE. */
-bool parse_material(struct parser *p, int *out);
+/* One directive. A table of them ends with one without a name. */
+struct directive {
+    const char *name;
+    enum phase phase;
+    bool (*run)(struct parser *p);
+    const struct object_type *types; /* of a directive "type" parameters: in p->type when run is called. NULL: run reads
+                                      * all of it */
+};
 
-/* The directives that change the graphics state; parse_state.c. */
-bool parse_identity(struct parser *p);
-bool parse_translate(struct parser *p);
-bool parse_scale(struct parser *p);
-bool parse_rotate(struct parser *p);
-bool parse_look_at(struct parser *p);
-bool parse_transform(struct parser *p);
-bool parse_concat_transform(struct parser *p);
-bool parse_coordinate_system(struct parser *p);
-bool parse_coord_sys_transform(struct parser *p);
-bool parse_active_transform(struct parser *p);
-bool parse_transform_times(struct parser *p);
-bool parse_attribute_begin(struct parser *p);
-bool parse_attribute_end(struct parser *p);
-bool parse_transform_begin(struct parser *p);
-bool parse_transform_end(struct parser *p);
-bool parse_reverse_orientation(struct parser *p);
-bool parse_object_begin(struct parser *p);
-bool parse_object_end(struct parser *p);
-bool parse_object_instance(struct parser *p);
-void parse_name_system(struct parser *p, const char *name, struct transform t);
-bool parse_all_closed(struct parser *p); /* false, with a message, if a block is still open */
+#define END_OF_DIRECTIVES {NULL, ANYWHERE, NULL, NULL}
 
-bool parse_light(struct parser *p);
-bool parse_area_light(struct parser *p, struct area_light *out);
+extern const struct directive STATE_DIRECTIVES[], OPTION_DIRECTIVES[], TEXTURE_DIRECTIVES[], MATERIAL_DIRECTIVES[],
+    LIGHT_DIRECTIVES[], SHAPE_DIRECTIVES[];
 
-/* parse_shape: add a shape to the scene or to the current object. */
-bool parse_shape(struct parser *p);
+/* parse_make_material: make a material of kind params.type. *out is its number or MATERIAL_NONE. */
+bool parse_make_material(struct parser *p, int *out);
 
 /* parse_shape_add: add one shape to the scene. A mesh inside the item stays the caller's. */
-bool parse_shape_add(struct parser *p, const struct shape_item *item, struct transform to_world, struct place at);
+bool parse_shape_add(struct parser *p, const struct shape_item *item, struct transform to_world,
+                     struct source_position at);
 void shape_list_free(struct shape_list *list);
 
-bool parse_camera(struct parser *p);
-bool parse_film(struct parser *p);
-bool parse_filter(struct parser *p);
-bool parse_sampler(struct parser *p);
-bool parse_accelerator(struct parser *p);
-bool parse_integrator(struct parser *p);
+/* parse_state_reset: as a file or its world begins. parse_name_system: name a coordinate system. parse_all_closed:
+ * false, with a message, if a block is still open. */
+void parse_state_reset(struct parser *p);
+void parse_name_system(struct parser *p, const char *name, struct transform t);
+bool parse_all_closed(struct parser *p);
 
 #endif

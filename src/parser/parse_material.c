@@ -1,182 +1,94 @@
 /* parse_material.c: the parameters of each material, with pbrt-v3's defaults [PBRT3 materials/]. See parse.h. */
 #include "parser/parse.h"
 
+#include <stddef.h>
 #include <string.h>
 
-static const char *const KINDS[] = {"matte",     "mirror", "glass",       "metal", "plastic",
-                                    "substrate", "uber",   "translucent", "mix",   NULL};
-static const char *const REFUSED[] = {"disney", "fourier", "hair", "kdsubsurface", "subsurface", NULL};
-
-/* Complex index of copper in sRGB: pbrt-v3's default metal, its tabulated spectra reduced to RGB. */
-static const rgb COPPER_ETA = {0.199990, 0.922086, 1.099876};
-static const rgb COPPER_K = {3.904638, 2.447633, 2.137651};
-
-static struct material no_parameters(enum material_kind kind)
+static void mixed_material(struct parser *p, const struct parameter *row, void *field)
 {
-    struct material m = {.kind = kind,
-                         .Kd = -1,
-                         .Ks = -1,
-                         .Kr = -1,
-                         .Kt = -1,
-                         .sigma = -1,
-                         .eta = -1,
-                         .k = -1,
-                         .index = -1,
-                         .uroughness = -1,
-                         .vroughness = -1,
-                         .remap_roughness = true,
-                         .opacity = -1,
-                         .reflect = -1,
-                         .transmit = -1,
-                         .amount = -1,
-                         .mix1 = -1,
-                         .mix2 = -1,
-                         .bump = -1};
-    return m;
-}
-
-/* Refuse a texture that is the same everywhere and outside [low, high]. Returns it. */
-static int within(struct parser *p, const char *name, int texture, double low, double high)
-{
-    const struct texture *t = texture < 0 ? NULL : &p->scene->textures.texture[texture];
-    if (t == NULL || t->kind != TEXTURE_CONSTANT || p->params.failed)
-        return texture;
-    const double value[3] = {t->u.constant.r, t->u.constant.g, t->u.constant.b};
-    for (int i = 0; i < 3; i++)
-        if (!(value[i] >= low && value[i] <= high)) {
-            const struct param *item = params_ignore(&p->params, name);
-            params_fail(&p->params, item != NULL ? item->place : p->params.place,
-                        "\"%s\" is %g; it must be from %g to %g", name, value[i], low, high);
-            break;
-        }
-    return texture;
+    struct params *q = &p->params;
+    struct source_position at;
+    const char *name = params_text(q, row->name, PARAM_STRING, &at);
+    if (name == NULL) {
+        type_error(q, "a mix needs \"string namedmaterial1\" and \"string namedmaterial2\"");
+        return;
+    }
+    int value = symbols_find(&p->materials, name);
+    if (value < 0)
+        parse_no_such(p, at, name, &p->materials, "named material", "define it with MakeNamedMaterial");
+    else if (value - 1 == MATERIAL_NONE)
+        params_fail(q, at, "the material \"%.60s\" is \"none\"; it cannot be mixed", name);
+    *(int *)field = value - 1;
 }
 
 /* Negative numbers of a colour count as 0: colours of the file that sRGB has not got have some. */
-static int coloured(struct parser *p, const char *name, rgb fallback)
-{
-    return within(p, name, parse_rgb_texture(p, name, fallback), -MATERIAL_MAX_COLOUR, MATERIAL_MAX_COLOUR);
-}
+#define RGB(f, r, g, b) \
+    {#f, parse_rgb_texture, offsetof(struct material, f), {r, g, b}, -MATERIAL_MAX_COLOUR, MATERIAL_MAX_COLOUR, NULL}
+#define COLOUR(f, value) RGB(f, value, value, value)
+#define TEXTURE(name, f, value, low, high) \
+    {name, parse_float_texture, offsetof(struct material, f), GREY(value), low, high, NULL}
+#define ROUGH(name, f, value) TEXTURE(name, f, value, 0, MATERIAL_MAX_ROUGHNESS)
+#define REMAP {"remaproughness", parse_bool, offsetof(struct material, remap_roughness), GREY(1), 0, 0, NULL}
+#define INDEX /* of refraction; "eta" wins */ \
+    TEXTURE("index", index, 1.5, MATERIAL_MIN_INDEX, MATERIAL_MAX_INDEX), \
+    TEXTURE("eta", index, KEPT, MATERIAL_MIN_INDEX, MATERIAL_MAX_INDEX)
+#define TWO_ROUGHNESSES(value) /* glass and substrate have no "roughness" in pbrt-v3: it passes over that, so do we */ \
+    ROUGH("uroughness", uroughness, value), ROUGH("vroughness", vroughness, value), REMAP, \
+    {"roughness", parse_ignored, 0, GREY(0), 0, 0, \
+     "pbrt-v3 does not read \"roughness\" of this material, so it is ignored; " \
+     "use \"uroughness\" and \"vroughness\""}
+#define BUMP TEXTURE("bumpmap", bump, KEPT, 0, 0), END_OF_PARAMETERS
+#define MIXED(name, f) {name, mixed_material, offsetof(struct material, f), GREY(0), 0, 0, NULL}
 
-static int grey(struct parser *p, const char *name, double fallback) { return coloured(p, name, rgb_grey(fallback)); }
+static const struct parameter MATTE[] = {COLOUR(Kd, 0.5), TEXTURE("sigma", sigma, 0, 0, 0), BUMP};
+static const struct parameter MIRROR[] = {COLOUR(Kr, 0.9), BUMP};
+static const struct parameter GLASS[] = {COLOUR(Kr, 1), COLOUR(Kt, 1), INDEX, TWO_ROUGHNESSES(0), BUMP};
+static const struct parameter METAL[] = {
+    /* Complex index of copper in sRGB: pbrt-v3's default, its tabulated spectra reduced to RGB. */
+    RGB(eta, 0.199990, 0.922086, 1.099876),
+    RGB(k, 3.904638, 2.447633, 2.137651),
+    ROUGH("roughness", uroughness, 0.01),
+    ROUGH("roughness", vroughness, 0.01),
+    ROUGH("uroughness", uroughness, KEPT),
+    ROUGH("vroughness", vroughness, KEPT),
+    REMAP,
+    BUMP};
+static const struct parameter PLASTIC[] = {
+    COLOUR(Kd, 0.25), COLOUR(Ks, 0.25), ROUGH("roughness", uroughness, 0.1), REMAP, BUMP};
+static const struct parameter SUBSTRATE[] = {
+    COLOUR(Kd, 0.5), COLOUR(Ks, 0.5), TWO_ROUGHNESSES(0.1), BUMP};
+static const struct parameter UBER[] = {
+    COLOUR(Kd, 0.25),
+    COLOUR(Ks, 0.25),
+    COLOUR(Kr, 0),
+    COLOUR(Kt, 0),
+    INDEX,
+    COLOUR(opacity, 1),
+    ROUGH("roughness", uroughness, 0.1),
+    ROUGH("uroughness", uroughness, KEPT),
+    ROUGH("vroughness", vroughness, KEPT), /* else as "uroughness": pbrt's uber differs from its metal */
+    REMAP,
+    BUMP};
+static const struct parameter TRANSLUCENT[] = {
+    COLOUR(Kd, 0.25),       COLOUR(Ks, 0.25), COLOUR(reflect, 0.5),
+    COLOUR(transmit, 0.5), ROUGH("roughness", uroughness, 0.1), REMAP, BUMP};
+static const struct parameter MIX[] = {
+    MIXED("namedmaterial1", mix1), MIXED("namedmaterial2", mix2), COLOUR(amount, 0.5), END_OF_PARAMETERS};
 
-/* A roughness, or `otherwise` where the parameter is absent. */
-static int rough(struct parser *p, const char *name, int otherwise)
-{
-    return within(p, name, parse_float_texture_or(p, name, otherwise), 0, MATERIAL_MAX_ROUGHNESS);
-}
+static const struct object_type TYPES[] = {
+    {"matte", MATTE, MATERIAL_MATTE, NULL},
+    {"mirror", MIRROR, MATERIAL_MIRROR, NULL},
+    {"glass", GLASS, MATERIAL_GLASS, NULL},
+    {"metal", METAL, MATERIAL_METAL, NULL},
+    {"plastic", PLASTIC, MATERIAL_PLASTIC, NULL},
+    {"substrate", SUBSTRATE, MATERIAL_SUBSTRATE, NULL},
+    {"uber", UBER, MATERIAL_UBER, NULL},
+    {"translucent", TRANSLUCENT, MATERIAL_TRANSLUCENT, NULL},
+    {"mix", MIX, MATERIAL_MIX, NULL},
+    REFUSED("disney"), REFUSED("fourier"), REFUSED("hair"), REFUSED("kdsubsurface"), REFUSED("subsurface"),
+    END_OF_TYPES};
 
-/* "roughness" for both directions, unless one of them has its own. */
-static void roughness(struct parser *p, struct material *m, double fallback, bool anisotropic)
-{
-    m->uroughness = m->vroughness = rough(p, "roughness", parse_constant(p, rgb_grey(fallback)));
-    if (anisotropic) {
-        m->uroughness = rough(p, "uroughness", m->uroughness);
-        m->vroughness = rough(p, "vroughness", m->vroughness);
-    }
-    m->remap_roughness = params_bool(&p->params, "remaproughness", true);
-}
-
-/* Glass and substrate have only the two directions in pbrt-v3; it passes over "roughness" there, and so do we. */
-static void two_roughnesses(struct parser *p, struct material *m, double fallback)
-{
-    int smooth = parse_constant(p, rgb_grey(fallback));
-    m->uroughness = rough(p, "uroughness", smooth);
-    m->vroughness = rough(p, "vroughness", smooth);
-    m->remap_roughness = params_bool(&p->params, "remaproughness", true);
-    const struct param *both = params_ignore(&p->params, "roughness");
-    if (both != NULL)
-        place_warn(&p->messages, both->place, "roughness",
-                   "pbrt-v3 does not read \"roughness\" of this material, so it is ignored; "
-                   "use \"uroughness\" and \"vroughness\"");
-}
-
-/* The index of refraction, "eta" or "index". */
-static int refraction(struct parser *p)
-{
-    int index = parse_float_texture(p, "index", 1.5), eta = parse_float_texture_or(p, "eta", -1);
-    within(p, "index", index, MATERIAL_MIN_INDEX, MATERIAL_MAX_INDEX);
-    return eta < 0 ? index : within(p, "eta", eta, MATERIAL_MIN_INDEX, MATERIAL_MAX_INDEX);
-}
-
-static int mixed(struct parser *p, const char *parameter)
-{
-    struct params *q = &p->params;
-    struct place at;
-    const char *name = params_text(q, parameter, PARAM_STRING, &at);
-    if (name == NULL) {
-        params_fail(q, q->place, "a mix needs \"string namedmaterial1\" and \"string namedmaterial2\"");
-        return -1;
-    }
-    int value = names_find(&p->materials, name), id = value - 1;
-    const char *near = names_near(&p->materials, name);
-    if (value < 0 && near != NULL)
-        params_fail(q, at, "there is no named material \"%.60s\"; did you mean \"%.60s\"?", name, near);
-    else if (value < 0)
-        params_fail(q, at, "there is no named material \"%.60s\"; define it with MakeNamedMaterial", name);
-    else if (id == MATERIAL_NONE)
-        params_fail(q, at, "the material \"%.60s\" is \"none\"; it cannot be mixed", name);
-    return id;
-}
-
-static struct material make(struct parser *p, enum material_kind kind)
-{
-    struct material m = no_parameters(kind);
-    switch (kind) {
-    case MATERIAL_MATTE:
-        m.Kd = grey(p, "Kd", 0.5);
-        m.sigma = parse_float_texture(p, "sigma", 0);
-        break;
-    case MATERIAL_MIRROR: m.Kr = grey(p, "Kr", 0.9); break;
-    case MATERIAL_GLASS:
-        m.Kr = grey(p, "Kr", 1);
-        m.Kt = grey(p, "Kt", 1);
-        m.index = refraction(p);
-        two_roughnesses(p, &m, 0);
-        break;
-    case MATERIAL_METAL:
-        m.eta = coloured(p, "eta", COPPER_ETA);
-        m.k = coloured(p, "k", COPPER_K);
-        roughness(p, &m, 0.01, true);
-        break;
-    case MATERIAL_PLASTIC:
-        m.Kd = grey(p, "Kd", 0.25);
-        m.Ks = grey(p, "Ks", 0.25);
-        roughness(p, &m, 0.1, false);
-        break;
-    case MATERIAL_SUBSTRATE:
-        m.Kd = grey(p, "Kd", 0.5);
-        m.Ks = grey(p, "Ks", 0.5);
-        two_roughnesses(p, &m, 0.1);
-        break;
-    case MATERIAL_UBER:
-        m.Kd = grey(p, "Kd", 0.25);
-        m.Ks = grey(p, "Ks", 0.25);
-        m.Kr = grey(p, "Kr", 0);
-        m.Kt = grey(p, "Kt", 0);
-        m.index = refraction(p);
-        m.opacity = grey(p, "opacity", 1);
-        roughness(p, &m, 0.1, true);
-        m.vroughness = rough(p, "vroughness", m.uroughness); /* pbrt's uber differs from its metal */
-        break;
-    case MATERIAL_TRANSLUCENT:
-        m.Kd = grey(p, "Kd", 0.25);
-        m.Ks = grey(p, "Ks", 0.25);
-        m.reflect = grey(p, "reflect", 0.5);
-        m.transmit = grey(p, "transmit", 0.5);
-        roughness(p, &m, 0.1, false);
-        break;
-    case MATERIAL_MIX:
-        m.mix1 = mixed(p, "namedmaterial1");
-        m.mix2 = mixed(p, "namedmaterial2");
-        m.amount = grey(p, "amount", 0.5);
-        return m;
-    }
-    m.bump = parse_float_texture_or(p, "bumpmap", -1);
-    return m;
-}
-
-bool parse_material(struct parser *p, int *out)
+bool parse_make_material(struct parser *p, int *out)
 {
     struct params *q = &p->params;
     *out = MATERIAL_NONE;
@@ -185,15 +97,52 @@ bool parse_material(struct parser *p, int *out)
             q->item[i].used = true; /* nothing is left to use them */
         return params_done(q);
     }
-    int kind = parse_name(p, KINDS, REFUSED);
-    if (kind < 0)
+    if (!parse_type(p, TYPES))
         return false;
-    struct material m = make(p, (enum material_kind)kind);
-    if (!params_done(q))
+    struct material m = material_blank((enum material_kind)p->type->kind);
+    if (!parse_object(p, &m))
         return false;
+    if (m.vroughness < 0)
+        m.vroughness = m.uroughness;
     *out = scene_add_material(p->scene, m);
     if (!material_fits(p->scene->material, *out))
-        return place_error(&p->messages, q->place, "this mix has more than %d lobes in all; mix fewer materials",
-                           MATERIAL_MAX_LOBES);
+        return source_error(&p->messages, q->position,
+                            "this mix has more than %d lobes in all; mix fewer materials", MATERIAL_MAX_LOBES);
     return true;
 }
+
+static bool material(struct parser *p) { return parse_typed(p) && parse_make_material(p, &p->state.material); }
+
+static bool make_named_material(struct parser *p)
+{
+    struct token name;
+    int id;
+    if (!parse_string(p, &name, "a name") || !parse_list(p, "Material", &name))
+        return false;
+    const char *type = params_text(&p->params, "type", PARAM_STRING, &p->params.position);
+    if (type == NULL)
+        return params_fail(&p->params, name.position,
+                           "MakeNamedMaterial needs its kind: add \"string type\" \"matte\"");
+    p->params.type = type;
+    if (!parse_make_material(p, &id))
+        return false;
+    if (symbols_find(&p->materials, name.text) >= 0)
+        source_warn(&p->messages, name.position, "material again", "the material \"%.60s\" is defined again",
+                    name.text);
+    symbols_add(&p->materials, name.text, id + 1); /* 0 stands for "none" */
+    return true;
+}
+
+static bool named_material(struct parser *p)
+{
+    struct token name;
+    int id = parse_named(p, &name, &p->materials, "named material");
+    if (id >= 0)
+        p->state.material = id - 1;
+    return id >= 0;
+}
+
+const struct directive MATERIAL_DIRECTIVES[] = {{"NamedMaterial", IN_WORLD, named_material, NULL},
+                                                {"Material", IN_WORLD, material, NULL},
+                                                {"MakeNamedMaterial", IN_WORLD, make_named_material, NULL},
+                                                END_OF_DIRECTIVES};

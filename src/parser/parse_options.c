@@ -2,13 +2,12 @@
  * [PBRT3 perspective.cpp, film.cpp, filters/]. See parse.h. */
 #include "parser/parse.h"
 
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "image/picture.h"
-
-static const char *const NOTHING[] = {NULL};
 
 /* The resolution may still change, which shifts the scale by a few powers of ten: the limits are far from where numbers
  * end. */
@@ -16,43 +15,58 @@ static void check_camera(struct params *q, struct camera c)
 {
     camera_prepare(&c, 1, 1);
     if (!q->failed && !camera_is_usable(&c))
-        params_fail(q, q->place, "this camera is not usable: its place must be within 1e18, and its view at distance 1 %s",
+        type_error(q, "this camera is not usable: its place must be within 1e18, and its view at distance 1 %s",
                     "from 1e-12 to 1e12 wide and high; change transform, field of view or window");
 }
 
-bool parse_camera(struct parser *p)
+static void perspective(struct parser *p, void *object)
 {
-    static const char *const KNOWN[] = {"perspective", NULL};
-    static const char *const REFUSED[] = {"orthographic", "environment", "realistic", NULL};
     struct params *q = &p->params;
-    if (parse_name(p, KNOWN, REFUSED) < 0)
-        return false;
-    struct camera c = camera_default();
-    c.world_to_camera = p->state.ctm;
-    c.fov = params_positive(q, "fov", c.fov);
-    double half = params_float(q, "halffov", -1);
+    struct camera *c = object;
+    double half = params_number(q, "halffov", -1, ANY_NUMBER);
     if (half > 0)
-        c.fov = 2 * half;
-    if (!(c.fov < 180))
-        params_fail(q, q->place, "a field of view of %g degrees is too wide; it must be less than 180", c.fov);
-    c.frame_aspect_ratio = params_positive(q, "frameaspectratio", 0);
-    c.lens_radius = params_at_least(q, "lensradius", 0, 0);
-    c.focal_distance = params_positive(q, "focaldistance", 1e6);
+        c->fov = 2 * half;
+    if (!(c->fov < 180))
+        type_error(q, "a field of view of %g degrees is too wide; it must be less than 180", c->fov);
     int n;
     const struct param *item;
     const double *window = params_list(q, "screenwindow", 1u << PARAM_FLOAT, 1, &n, &item);
     if (window != NULL) {
         if (n != 4 || !(window[0] < window[1] && window[2] < window[3]))
-            params_fail(q, item->place, "\"screenwindow\" wants four numbers: xmin < xmax, ymin < ymax");
-        c.has_screen_window = true;
+            params_fail(q, item->position, "\"screenwindow\" wants four numbers: xmin < xmax, ymin < ymax");
+        c->has_screen_window = true;
         for (int i = 0; i < 4 && !q->failed; i++)
-            c.screen_window[i] = window[i];
+            c->screen_window[i] = window[i];
     }
-    params_ignore(q, "shutteropen"); /* nothing moves */
-    params_ignore(q, "shutterclose");
-    check_camera(q, c);
+    check_camera(q, *c);
+}
+
+#define CAMERA(name, f, value, range) {name, parse_number, offsetof(struct camera, f), GREY(value), range, NULL}
+
+static const struct parameter PERSPECTIVE[] = {
+    CAMERA("fov", fov, KEPT, POSITIVE),
+    BY_BUILD("halffov"),
+    CAMERA("frameaspectratio", frame_aspect_ratio, 0, POSITIVE),
+    CAMERA("lensradius", lens_radius, 0, AT_LEAST_0),
+    CAMERA("focaldistance", focal_distance, 1e6, POSITIVE),
+    BY_BUILD("screenwindow"),
+    IGNORED("shutteropen"), /* nothing moves */
+    IGNORED("shutterclose"),
+    END_OF_PARAMETERS};
+
+static const struct object_type CAMERA_TYPES[] = {
+    {"perspective", PERSPECTIVE, 0, perspective},
+    REFUSED("orthographic"), REFUSED("environment"), REFUSED("realistic"), END_OF_TYPES};
+
+static bool camera(struct parser *p)
+{
+    struct camera c = camera_default();
+    c.world_to_camera = p->state.ctm;
+    if (!parse_object(p, &c))
+        return false;
     p->scene->camera = c;
-    return params_done(q);
+    parse_name_system(p, "camera", transform_inverse(p->state.ctm));
+    return true;
 }
 
 static double fraction(double x) { return clamp(x, 0, 1); }
@@ -65,7 +79,7 @@ static void crop_window(struct params *q, double crop[4])
     if (x == NULL)
         return;
     if (n != 4) {
-        params_fail(q, item->place, "\"cropwindow\" wants four numbers, x0 x1 y0 y1, not %d", n);
+        params_fail(q, item->position, "\"cropwindow\" wants four numbers, x0 x1 y0 y1, not %d", n);
         return;
     }
     crop[0] = fraction(fmin(x[0], x[1]));
@@ -73,103 +87,109 @@ static void crop_window(struct params *q, double crop[4])
     crop[2] = fraction(fmin(x[2], x[3]));
     crop[3] = fraction(fmax(x[2], x[3]));
     if (!(crop[0] < crop[1] && crop[2] < crop[3]))
-        params_fail(q, item->place, "\"cropwindow\" leaves no pixel; give x0 < x1 and y0 < y1 within 0 and 1");
+        params_fail(q, item->position, "\"cropwindow\" leaves no pixel; give x0 < x1 and y0 < y1 within 0 and 1");
 }
 
-bool parse_film(struct parser *p)
+static void image_film(struct parser *p, void *object)
 {
-    static const char *const KNOWN[] = {"image", NULL};
     struct params *q = &p->params;
-    struct scene *s = p->scene;
-    if (parse_name(p, KNOWN, NOTHING) < 0)
-        return false;
-    s->width = params_int(q, "xresolution", 1280, 1, 65536);
-    s->height = params_int(q, "yresolution", 720, 1, 65536);
+    struct scene *s = object;
     struct error why;
     if (!picture_size_ok((unsigned long)s->width, (unsigned long)s->height, &why))
-        params_fail(q, q->place, "%s", why.text);
+        type_error(q, "%s", why.text);
     static const double WHOLE[4] = {0, 1, 0, 1};
     memcpy(s->crop, WHOLE, sizeof s->crop);
     crop_window(q, s->crop);
-    s->film_scale = params_at_least(q, "scale", 1, 0);
     free(s->film_filename);
-    const char *name = params_string(q, "filename", NULL);
+    struct source_position at;
+    const char *name = params_text(q, "filename", PARAM_STRING, &at);
     s->film_filename = name != NULL ? mem_copy_text(name) : NULL;
-    params_ignore(q, "diagonal"); /* for realistic cameras only */
-    const struct param *clamped = params_ignore(q, "maxsampleluminance");
-    if (clamped != NULL)
-        place_warn(
-            &p->messages, clamped->place, "maxsampleluminance",
-            "\"maxsampleluminance\" is ignored: clamping samples would make the image darker than the truth");
-    return params_done(q);
 }
 
-bool parse_filter(struct parser *p)
+#define SCENE(name, read, f, value, range) {name, read, offsetof(struct scene, f), GREY(value), range, NULL}
+#define PIXELS 1, 65536
+
+static const struct parameter IMAGE_FILM[] = {
+    SCENE("xresolution", parse_integer, width, 1280, PIXELS),
+    SCENE("yresolution", parse_integer, height, 720, PIXELS),
+    BY_BUILD("cropwindow"),
+    SCENE("scale", parse_number, film_scale, 1, AT_LEAST_0),
+    BY_BUILD("filename"),
+    IGNORED("diagonal"), /* for realistic cameras only */
+    {"maxsampleluminance", parse_ignored, 0, GREY(0), 0, 0,
+     "\"maxsampleluminance\" is ignored: clamping samples would make the image darker than the truth"},
+    END_OF_PARAMETERS};
+
+static const struct object_type FILM_TYPES[] = {{"image", IMAGE_FILM, 0, image_film}, END_OF_TYPES};
+
+static void check_radii(struct parser *p, void *object)
 {
-    static const char *const KNOWN[] = {"box", "triangle", "gaussian", "mitchell", "sinc", NULL};
+    const double *radius = ((struct filter *)object)->radius;
     struct params *q = &p->params;
-    if (parse_name(p, KNOWN, NOTHING) < 0)
-        return false;
-    struct filter f;
-    filter_default(q->type, &f);
-    /* Within these limits the table of a profile (filter.c) is fine enough for it, and its integral is far from 0. */
-    f.radius[0] = params_positive(q, "xwidth", f.radius[0]);
-    f.radius[1] = params_positive(q, "ywidth", f.radius[1]);
-    switch (f.kind) {
-    case FILTER_BOX:
-    case FILTER_TRIANGLE: break;
-    case FILTER_GAUSSIAN: f.alpha = params_range(q, "alpha", f.alpha, 1e-6, 1e3); break;
-    case FILTER_MITCHELL:
-        f.B = params_range(q, "B", f.B, -100, 100);
-        f.C = params_range(q, "C", f.C, -100, 100);
-        break;
-    case FILTER_SINC: f.tau = params_range(q, "tau", f.tau, 0.1, 1e6); break;
-    }
-    if (f.radius[0] > 64 || f.radius[1] > 64)
-        params_fail(q, q->place, "a filter radius above 64 pixels is too wide; pbrt's own are 0.5 to 4");
-    if (f.radius[0] < 1e-3 || f.radius[1] < 1e-3)
-        params_fail(q, q->place, "a filter radius below 0.001 pixels is too narrow; pbrt's own are 0.5 to 4");
-    p->scene->filter = f;
-    return params_done(q);
+    if (radius[0] > 64 || radius[1] > 64)
+        type_error(q, "a filter radius above 64 pixels is too wide; pbrt's own are 0.5 to 4");
+    if (radius[0] < 1e-3 || radius[1] < 1e-3)
+        type_error(q, "a filter radius below 0.001 pixels is too narrow; pbrt's own are 0.5 to 4");
 }
 
-/* Accept a parameter that changes noise or speed, not the image. */
-static void no_effect(struct parser *p, const char *name)
+/* Within these limits the table of a profile (filter.c) is fine enough for it, and its integral is far from 0. */
+#define FILTER(name, f, low, high) {name, parse_number, offsetof(struct filter, f), GREY(KEPT), low, high, NULL}
+#define RADII FILTER("xwidth", radius[0], NUMBER_MIN, (double)INFINITY), \
+              FILTER("ywidth", radius[1], NUMBER_MIN, (double)INFINITY)
+
+static const struct parameter BOX[] = {RADII, END_OF_PARAMETERS};
+static const struct parameter GAUSSIAN[] = {RADII, FILTER("alpha", alpha, 1e-6, 1e3), END_OF_PARAMETERS};
+static const struct parameter MITCHELL[] = {
+    RADII, FILTER("B", B, -100, 100), FILTER("C", C, -100, 100), END_OF_PARAMETERS};
+static const struct parameter SINC[] = {RADII, FILTER("tau", tau, 0.1, 1e6), END_OF_PARAMETERS};
+
+static const struct object_type FILTER_TYPES[] = {
+    {"box", BOX, FILTER_BOX, check_radii},
+    {"triangle", BOX, FILTER_TRIANGLE, check_radii},
+    {"gaussian", GAUSSIAN, FILTER_GAUSSIAN, check_radii},
+    {"mitchell", MITCHELL, FILTER_MITCHELL, check_radii},
+    {"sinc", SINC, FILTER_SINC, check_radii},
+    END_OF_TYPES};
+
+static bool filter(struct parser *p)
 {
-    const struct param *item = params_ignore(&p->params, name);
-    if (item != NULL)
-        place_warn(&p->messages, item->place, p->params.directive, "%s \"%s\": \"%s\" has no effect here",
-                   p->params.directive, p->params.type, name);
+    filter_default(p->params.type, &p->scene->filter);
+    return parse_object(p, &p->scene->filter);
 }
 
-bool parse_sampler(struct parser *p)
+static void stratified(struct parser *p, void *object)
 {
-    static const char *const KNOWN[] = {"sobol",      "halton",         "random",     "stratified",
-                                        "02sequence", "lowdiscrepancy", "maxmindist", NULL};
-    struct params *q = &p->params;
-    if (parse_name(p, KNOWN, NOTHING) < 0)
-        return false;
-    if (strcmp(q->type, "stratified") == 0)
-        p->scene->spp = params_int(q, "xsamples", 4, 1, 1 << 15) * params_int(q, "ysamples", 4, 1, 1 << 15);
-    else
-        p->scene->spp = params_int(q, "pixelsamples", strcmp(q->type, "random") == 0 ? 4 : 16, 1, 1 << 30);
-    no_effect(p, "dimensions");
-    no_effect(p, "jitter");
-    no_effect(p, "samplepixelcenter");
-    return params_done(q);
+    struct scene *s = object;
+    s->spp = params_int(&p->params, "xsamples", 4, 1, 1 << 15) * params_int(&p->params, "ysamples", 4, 1, 1 << 15);
 }
 
-bool parse_accelerator(struct parser *p)
-{
-    static const char *const KNOWN[] = {"kdtree", "bvh", NULL};
-    static const char *const NAMES[] = {"splitmethod", "maxnodeprims", "intersectcost", "traversalcost",
-                                        "emptybonus",  "maxprims",     "maxdepth",      NULL};
-    if (parse_name(p, KNOWN, NOTHING) < 0)
-        return false;
-    for (int i = 0; NAMES[i] != NULL; i++)
-        no_effect(p, NAMES[i]);
-    return params_done(&p->params);
-}
+#define SAMPLES(value) {"pixelsamples", parse_integer, offsetof(struct scene, spp), GREY(value), 1, 1 << 30, NULL}
+#define UNUSED_CHOICES NO_EFFECT("dimensions"), NO_EFFECT("jitter"), NO_EFFECT("samplepixelcenter"), END_OF_PARAMETERS
+
+static const struct parameter RANDOM[] = {SAMPLES(4), UNUSED_CHOICES};
+static const struct parameter STRATIFIED[] = {BY_BUILD("xsamples"), BY_BUILD("ysamples"), UNUSED_CHOICES};
+static const struct parameter SEQUENCE[] = {SAMPLES(16), UNUSED_CHOICES};
+
+static const struct object_type SAMPLER_TYPES[] = {
+    {"sobol", SEQUENCE, 0, NULL},
+    {"halton", SEQUENCE, 0, NULL},
+    {"random", RANDOM, 0, NULL},
+    {"stratified", STRATIFIED, 0, stratified},
+    {"02sequence", SEQUENCE, 0, NULL},
+    {"lowdiscrepancy", SEQUENCE, 0, NULL},
+    {"maxmindist", SEQUENCE, 0, NULL},
+    END_OF_TYPES};
+
+/* Film and sampler are fields of the scene itself. */
+static bool of_scene(struct parser *p) { return parse_object(p, p->scene); }
+
+static const struct parameter TREE[] = {
+    NO_EFFECT("splitmethod"), NO_EFFECT("maxnodeprims"), NO_EFFECT("intersectcost"), NO_EFFECT("traversalcost"),
+    NO_EFFECT("emptybonus"),  NO_EFFECT("maxprims"),     NO_EFFECT("maxdepth"),      END_OF_PARAMETERS};
+
+static const struct object_type ACCELERATOR_TYPES[] = {{"kdtree", TREE, 0, NULL}, {"bvh", TREE, 0, NULL}, END_OF_TYPES};
+
+static bool accelerator(struct parser *p) { return parse_object(p, NULL); }
 
 /* How many digits tell this number from all others. */
 static int digits(double x)
@@ -197,9 +217,11 @@ static char *value_text(const struct params *q, const struct param *item)
     return text;
 }
 
-/* Which parameters an integrator has is its own affair: all are kept as text with their place. */
-bool parse_integrator(struct parser *p)
+/* Which parameters an integrator has is its own affair: all are kept as text with their position. */
+static bool integrator(struct parser *p)
 {
+    if (!parse_typed(p))
+        return false;
     struct params *q = &p->params;
     struct scene *s = p->scene;
     free(s->integrator);
@@ -207,7 +229,7 @@ bool parse_integrator(struct parser *p)
     settings_clear(&s->settings);
     for (int i = 0; i < q->n; i++) {
         char origin[512];
-        place_text(q->item[i].place, origin, sizeof origin);
+        source_position_text(q->item[i].position, origin, sizeof origin);
         char *text = value_text(q, &q->item[i]);
         settings_set(&s->settings, q->item[i].name, text, origin);
         free(text);
@@ -215,3 +237,11 @@ bool parse_integrator(struct parser *p)
     }
     return params_done(q);
 }
+
+const struct directive OPTION_DIRECTIVES[] = {{"Camera", BEFORE_WORLD, camera, CAMERA_TYPES},
+                                              {"Film", BEFORE_WORLD, of_scene, FILM_TYPES},
+                                              {"PixelFilter", BEFORE_WORLD, filter, FILTER_TYPES},
+                                              {"Sampler", BEFORE_WORLD, of_scene, SAMPLER_TYPES},
+                                              {"Accelerator", BEFORE_WORLD, accelerator, ACCELERATOR_TYPES},
+                                              {"Integrator", BEFORE_WORLD, integrator, NULL},
+                                              END_OF_DIRECTIVES};

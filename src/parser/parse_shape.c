@@ -3,10 +3,13 @@
 #include "parser/parse.h"
 
 #include <float.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "geometry/ply.h"
+
+enum { TRIANGLEMESH, PLYMESH };
 
 /* --- meshes ------------------------------------------------------------------------------------------- */
 
@@ -28,26 +31,26 @@ static float *vertex_data(struct params *q, const char *name, unsigned types, in
     if (number == NULL)
         return NULL;
     if (n != n_vertices) {
-        params_fail(q, item->place, "\"%s\" has %d entries but \"P\" has %d points; give one for each", name, n,
+        params_fail(q, item->position, "\"%s\" has %d entries but \"P\" has %d points; give one for each", name, n,
                     n_vertices);
         return NULL;
     }
     return floats(number, n * width);
 }
 
-static uint32_t *indices(struct params *q, int n_vertices, int *n_triangles)
+static uint32_t *vertex_indices(struct params *q, int n_vertices, int *n_triangles)
 {
     int n;
     const struct param *item;
     const double *number = params_list(q, "indices", 1u << PARAM_INTEGER, 3, &n, &item);
     if (number == NULL) {
-        params_fail(q, q->place, "a trianglemesh needs \"integer indices\" [...]");
+        type_error(q, "a trianglemesh needs \"integer indices\" [...]");
         return NULL;
     }
     uint32_t *out = mem_alloc((size_t)n, 3 * sizeof *out);
     for (int i = 0; i < 3 * n; i++) {
         if (!(number[i] >= 0 && number[i] < n_vertices && number[i] == floor(number[i]))) {
-            params_fail(q, param_value_place(item, i),
+            params_fail(q, param_value_position(item, i),
                         "%g is not the index of a point; \"P\" has %d points, 0 to %d", number[i], n_vertices,
                         n_vertices - 1);
             break;
@@ -58,14 +61,13 @@ static uint32_t *indices(struct params *q, int n_vertices, int *n_triangles)
     return out;
 }
 
-static void trianglemesh(struct parser *p, struct mesh *m)
+static void trianglemesh(struct params *q, struct mesh *m)
 {
     const unsigned uv_types = 1u << PARAM_FLOAT | 1u << PARAM_POINT2;
-    struct params *q = &p->params;
     int n;
     const double *P = params_list(q, "P", 1u << PARAM_POINT, 3, &n, NULL);
     if (P == NULL) {
-        params_fail(q, q->place, "a trianglemesh needs \"point P\" [...]");
+        type_error(q, "a trianglemesh needs \"point P\" [...]");
         return;
     }
     m->n_vertices = n;
@@ -74,21 +76,16 @@ static void trianglemesh(struct parser *p, struct mesh *m)
     m->UV = vertex_data(q, "uv", uv_types, 2, n);
     if (m->UV == NULL)
         m->UV = vertex_data(q, "st", uv_types, 2, n);
-    m->index = indices(q, n, &m->n_triangles);
-    params_ignore(q, "faceIndices"); /* for Ptex only */
-    const struct param *tangents = params_ignore(q, "S");
-    if (tangents != NULL)
-        place_warn(&p->messages, tangents->place, "tangents",
-                   "tangents \"S\" are ignored: anisotropic materials follow the texture coordinates");
+    m->index = vertex_indices(q, n, &m->n_triangles);
 }
 
 static void plymesh(struct params *q, struct mesh *m)
 {
-    struct place at;
+    struct source_position at;
     struct error inner;
     char *path = params_file(q, "filename", &at);
     if (path == NULL)
-        params_fail(q, q->place, "a plymesh needs its file: add \"string filename\" \"...\"");
+        type_error(q, "a plymesh needs its file: add \"string filename\" \"...\"");
     else if (!ply_read(path, m, &inner))
         params_fail(q, at, "%s", inner.text);
     free(path);
@@ -99,48 +96,97 @@ static int alpha(struct parser *p, const char *name, bool *absent)
 {
     *absent = false;
     if (params_has(&p->params, name, PARAM_TEXTURE))
-        return parse_float_texture_or(p, name, -1);
-    *absent = params_float(&p->params, name, 1) == 0;
+        return parse_named_float(p, name);
+    *absent = params_number(&p->params, name, 1, ANY_NUMBER) == 0;
     return -1;
+}
+
+static void mesh_shape(struct parser *p, void *object)
+{
+    struct shape_item *item = object;
+    bool no_shadow;
+    item->is_mesh = true;
+    if (p->type->kind == TRIANGLEMESH)
+        trianglemesh(&p->params, &item->mesh);
+    else
+        plymesh(&p->params, &item->mesh);
+    item->group.alpha = alpha(p, "alpha", &item->absent);
+    item->group.shadow_alpha = alpha(p, "shadowalpha", &no_shadow);
+    if (no_shadow)
+        item->group.shadow_alpha = parse_constant(p, rgb_black());
 }
 
 /* --- quadrics ----------------------------------------------------------------------------------------- */
 
-static double phi_max(struct params *q) { return fmin(params_positive(q, "phimax", 360), 360) * PI / 180; }
+static void phi_max(struct parser *p, const struct parameter *row, void *field)
+{
+    double degrees = params_number(&p->params, row->name, row->fallback.r, row->low, row->high);
+    *(double *)field = fmin(degrees, 360) * PI / 180;
+}
+
+static struct quadric *quadric_of(struct parser *p, void *object)
+{
+    struct quadric *s = &((struct shape_item *)object)->quadric;
+    s->kind = (enum quadric_kind)p->type->kind;
+    return s;
+}
 
 /* The part of a sphere or cylinder between two heights. */
 static void heights(struct params *q, struct quadric *s, double low, double high, double limit)
 {
-    double a = params_float(q, "zmin", low), b = params_float(q, "zmax", high);
+    double a = params_number(q, "zmin", low, ANY_NUMBER), b = params_number(q, "zmax", high, ANY_NUMBER);
     s->zmin = clamp(fmin(a, b), -limit, limit);
     s->zmax = clamp(fmax(a, b), -limit, limit);
     if (!(s->zmin < s->zmax))
-        params_fail(q, q->place, "\"zmin\" %g and \"zmax\" %g leave nothing of this %s", a, b, q->type);
+        type_error(q, "\"zmin\" %g and \"zmax\" %g leave nothing of this %s", a, b, q->type);
 }
 
-static struct quadric sphere(struct params *q)
+static void sphere(struct parser *p, void *object)
 {
-    struct quadric s = {.kind = QUADRIC_SPHERE, .radius = params_positive(q, "radius", 1), .phi_max = phi_max(q)};
-    heights(q, &s, -s.radius, s.radius, s.radius);
-    return s;
+    struct quadric *s = quadric_of(p, object);
+    heights(&p->params, s, -s->radius, s->radius, s->radius);
 }
 
-static struct quadric cylinder(struct params *q)
+static void cylinder(struct parser *p, void *object)
 {
-    struct quadric s = {.kind = QUADRIC_CYLINDER, .radius = params_positive(q, "radius", 1), .phi_max = phi_max(q)};
-    heights(q, &s, -1, 1, DBL_MAX);
-    return s;
+    heights(&p->params, quadric_of(p, object), -1, 1, DBL_MAX);
 }
 
-static struct quadric disk(struct params *q)
+static void disk(struct parser *p, void *object)
 {
-    struct quadric s = {.kind = QUADRIC_DISK, .radius = params_positive(q, "radius", 1), .phi_max = phi_max(q)};
-    s.inner_radius = params_at_least(q, "innerradius", 0, 0);
-    s.zmin = s.zmax = params_float(q, "height", 0);
-    if (!(s.inner_radius < s.radius))
-        params_fail(q, q->place, "\"innerradius\" %g must be less than \"radius\" %g", s.inner_radius, s.radius);
-    return s;
+    struct quadric *s = quadric_of(p, object);
+    s->zmax = s->zmin;
+    if (!(s->inner_radius < s->radius))
+        params_fail(&p->params, p->params.position, "\"innerradius\" %g must be less than \"radius\" %g",
+                    s->inner_radius, s->radius);
 }
+
+/* --- the table ---------------------------------------------------------------------------------------- */
+
+#define QUADRIC(name, read, f, value, range) \
+    {name, read, offsetof(struct shape_item, quadric.f), GREY(value), range, NULL}
+#define ROUND QUADRIC("radius", parse_number, radius, 1, POSITIVE), QUADRIC("phimax", phi_max, phi_max, 360, POSITIVE)
+#define ALPHA BY_BUILD("alpha"), BY_BUILD("shadowalpha"), END_OF_PARAMETERS
+
+static const struct parameter TRIANGLEMESH_ROWS[] = {
+    BY_BUILD("P"), BY_BUILD("N"), BY_BUILD("uv"), BY_BUILD("st"), BY_BUILD("indices"),
+    IGNORED("faceIndices"), /* for Ptex only */
+    {"S", parse_ignored, 0, GREY(0), 0, 0,
+     "tangents \"S\" are ignored: anisotropic materials follow the texture coordinates"},
+    ALPHA};
+static const struct parameter PLYMESH_ROWS[] = {BY_BUILD("filename"), ALPHA};
+static const struct parameter SPHERE[] = {ROUND, BY_BUILD("zmin"), BY_BUILD("zmax"), END_OF_PARAMETERS};
+static const struct parameter DISK[] = {ROUND, QUADRIC("innerradius", parse_number, inner_radius, 0, AT_LEAST_0),
+                                        QUADRIC("height", parse_number, zmin, 0, ANY_NUMBER), END_OF_PARAMETERS};
+
+static const struct object_type TYPES[] = {
+    {"trianglemesh", TRIANGLEMESH_ROWS, TRIANGLEMESH, mesh_shape},
+    {"plymesh", PLYMESH_ROWS, PLYMESH, mesh_shape},
+    {"sphere", SPHERE, QUADRIC_SPHERE, sphere},
+    {"disk", DISK, QUADRIC_DISK, disk},
+    {"cylinder", SPHERE, QUADRIC_CYLINDER, cylinder},
+    REFUSED("cone"), REFUSED("curve"), REFUSED("heightfield"), REFUSED("hyperboloid"), REFUSED("loopsubdiv"),
+    REFUSED("nurbs"), REFUSED("paraboloid"), END_OF_TYPES};
 
 /* --- adding ------------------------------------------------------------------------------------------- */
 
@@ -154,7 +200,8 @@ static void add_lights(struct scene *s, int group, int n, const struct area_ligh
     }
 }
 
-bool parse_shape_add(struct parser *p, const struct shape_item *item, struct transform to_world, struct place at)
+bool parse_shape_add(struct parser *p, const struct shape_item *item, struct transform to_world,
+                     struct source_position at)
 {
     struct scene *s = p->scene;
     struct shape_group group = item->group;
@@ -170,13 +217,13 @@ bool parse_shape_add(struct parser *p, const struct shape_item *item, struct tra
         id = shape_add_quadric(&s->geo, q, group, item->reverse, &inner);
     }
     if (id < 0)
-        return place_error(&p->messages, at, "%s", inner.text);
+        return source_error(&p->messages, at, "%s", inner.text);
     if (item->area.on)
         add_lights(s, id, n, &item->area, &to_world);
     return true;
 }
 
-static void keep(struct shape_list *list, const struct shape_item *item)
+static void shape_list_add(struct shape_list *list, const struct shape_item *item)
 {
     list->item = mem_grow(list->item, &list->capacity, (size_t)list->n + 1, sizeof *list->item);
     list->item[list->n++] = *item;
@@ -194,94 +241,52 @@ void shape_list_free(struct shape_list *list)
 static int black_matte(struct parser *p)
 {
     if (p->black_matte < 0) {
-        int black = parse_constant(p, rgb_black());
-        struct material m = {.kind = MATERIAL_MATTE,
-                             .Kd = black,
-                             .Ks = -1,
-                             .Kr = -1,
-                             .Kt = -1,
-                             .sigma = black,
-                             .eta = -1,
-                             .k = -1,
-                             .index = -1,
-                             .uroughness = -1,
-                             .vroughness = -1,
-                             .remap_roughness = true,
-                             .opacity = -1,
-                             .reflect = -1,
-                             .transmit = -1,
-                             .amount = -1,
-                             .mix1 = -1,
-                             .mix2 = -1,
-                             .bump = -1};
+        struct material m = material_blank(MATERIAL_MATTE);
+        m.Kd = m.sigma = parse_constant(p, rgb_black());
         p->black_matte = scene_add_material(p->scene, m);
     }
     return p->black_matte;
 }
 
-/* Settle which light and material the shape has. Returns false if nothing of it would be seen. */
-static bool settle(struct parser *p, struct shape_item *item, bool absent)
+/* Give the shape its light and its material. Returns false if nothing of it would be seen. */
+static bool complete_shape(struct parser *p, struct shape_item *item)
 {
     if (p->current_object >= 0 && item->area.on) {
-        place_warn(&p->messages, item->place, "light in object",
-                   "area lights inside ObjectBegin are ignored, as in pbrt-v3");
+        source_warn(&p->messages, item->position, "light in object",
+                    "area lights inside ObjectBegin are ignored, as in pbrt-v3");
         item->area.on = false;
     }
-    if (absent && item->area.on)
-        place_warn(&p->messages, item->place, "absent light", "a light of alpha 0 is left out, with its shape");
-    if (absent)
+    if (item->absent && item->area.on)
+        source_warn(&p->messages, item->position, "absent light", "a light of alpha 0 is left out, with its shape");
+    if (item->absent)
         return false;
     if (item->group.material == MATERIAL_NONE && item->area.on) {
-        place_warn(&p->messages, item->place, "light without material",
-                   "a light without material is given a black one");
+        source_warn(&p->messages, item->position, "light without material",
+                    "a light without material is given a black one");
         item->group.material = black_matte(p);
     }
     return item->group.material != MATERIAL_NONE;
 }
 
-/* Fill in what the directive says. */
-static bool read_shape(struct parser *p, struct shape_item *item, bool *absent)
-{
-    static const char *const KNOWN[] = {"trianglemesh", "plymesh", "sphere", "disk", "cylinder", NULL};
-    static const char *const REFUSED[] = {"cone",       "curve", "heightfield", "hyperboloid",
-                                          "loopsubdiv", "nurbs", "paraboloid",  NULL};
-    struct params *q = &p->params;
-    int kind = parse_name(p, KNOWN, REFUSED);
-    item->is_mesh = kind == 0 || kind == 1;
-    switch (kind) {
-    case 0: trianglemesh(p, &item->mesh); break;
-    case 1: plymesh(q, &item->mesh); break;
-    case 2: item->quadric = sphere(q); break;
-    case 3: item->quadric = disk(q); break;
-    case 4: item->quadric = cylinder(q); break;
-    default: return false;
-    }
-    if (item->is_mesh) {
-        bool no_shadow;
-        item->group.alpha = alpha(p, "alpha", absent);
-        item->group.shadow_alpha = alpha(p, "shadowalpha", &no_shadow);
-        if (no_shadow)
-            item->group.shadow_alpha = parse_constant(p, rgb_black());
-    }
-    return params_done(q);
-}
-
-bool parse_shape(struct parser *p)
+/* Add a shape to the scene or to the current object. */
+static bool shape(struct parser *p)
 {
     struct shape_item item = {
-        .to_world = p->state.ctm, .reverse = p->state.reverse, .area = p->state.area, .place = p->params.place};
+        .to_world = p->state.ctm, .reverse = p->state.reverse, .area = p->state.area, .position = p->params.position};
     item.group.material = p->state.material;
     item.group.alpha = item.group.shadow_alpha = item.group.first_light = -1;
-    bool absent = false, ok = read_shape(p, &item, &absent);
-    bool kept = false;
-    if (ok && settle(p, &item, absent)) {
-        kept = p->current_object >= 0;
-        if (kept)
-            keep(&p->object[p->current_object], &item);
+    bool ok = parse_object(p, &item);
+    bool stored = false;
+    if (ok && complete_shape(p, &item)) {
+        stored = p->current_object >= 0;
+        if (stored)
+            shape_list_add(&p->object[p->current_object], &item);
         else
-            ok = parse_shape_add(p, &item, item.to_world, item.place);
+            ok = parse_shape_add(p, &item, item.to_world, item.position);
     }
-    if (!kept)
+    if (!stored)
         mesh_free(&item.mesh);
     return ok;
 }
+
+const struct directive SHAPE_DIRECTIVES[] = {{"Shape", IN_WORLD, shape, TYPES}, END_OF_DIRECTIVES};

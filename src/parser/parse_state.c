@@ -13,11 +13,10 @@ bool parse_string(struct parser *p, struct token *out, const char *what)
         return false;
     if (out->kind == TOKEN_STRING)
         return true;
-    return place_error(&p->messages, out->place, "%s wants %s in quotes here, not %s", p->directive.text, what,
+    return source_error(&p->messages, out->position, "%s wants %s in quotes here, not %s", p->directive.text, what,
                        token_text(out, found, sizeof found));
 }
 
-/* n numbers, with or without brackets around them. */
 bool parse_numbers(struct parser *p, double *out, int n)
 {
     struct lexer *l = &p->lexer;
@@ -30,7 +29,7 @@ bool parse_numbers(struct parser *p, double *out, int n)
         if (!lexer_next(l, &t))
             return false;
         if (t.kind != (i < n ? TOKEN_NUMBER : TOKEN_CLOSE))
-            return place_error(&p->messages, t.place, "%s wants %d numbers; here should be %s, not %s",
+            return source_error(&p->messages, t.position, "%s wants %d numbers; here should be %s, not %s",
                                p->directive.text, n, i < n ? "the next" : "]", token_text(&t, found, sizeof found));
         if (i < n)
             out[i] = t.number;
@@ -38,13 +37,12 @@ bool parse_numbers(struct parser *p, double *out, int n)
     return true;
 }
 
-/* The rest of a directive "type" parameters. */
 bool parse_list(struct parser *p, const char *directive, const struct token *type)
 {
     struct params *q = &p->params;
     q->directive = directive;
     q->type = type->text;
-    q->place = type->place;
+    q->position = type->position;
     return params_read(q, &p->lexer);
 }
 
@@ -54,15 +52,23 @@ bool parse_typed(struct parser *p)
     return parse_string(p, &type, "a type") && parse_list(p, p->directive.text, &type);
 }
 
-/* "there is no WHAT "NAME"; ..." with the nearest known one. Returns false. */
-bool parse_no_such(struct parser *p, const struct token *name, const struct names *table, const char *what)
+bool parse_no_such(struct parser *p, struct source_position at, const char *name, const struct symbols *table,
+                   const char *what, const char *advice)
 {
-    const char *near = names_near(table, name->text);
+    const char *near = symbols_near(table, name);
     if (near != NULL)
-        return place_error(&p->messages, name->place, "there is no %s \"%.60s\"; did you mean \"%.60s\"?", what,
-                           name->text, near);
-    return place_error(&p->messages, name->place, "there is no %s \"%.60s\"; define it before it is used", what,
-                       name->text);
+        return params_fail(&p->params, at, "there is no %s \"%.60s\"; did you mean \"%.60s\"?", what, name, near);
+    return params_fail(&p->params, at, "there is no %s \"%.60s\"; %s", what, name, advice);
+}
+
+int parse_named(struct parser *p, struct token *name, const struct symbols *table, const char *what)
+{
+    if (!parse_string(p, name, "a name"))
+        return -1;
+    int i = symbols_find(table, name->text);
+    if (i < 0)
+        parse_no_such(p, name->position, name->text, table, what, "define it before it is used");
+    return i;
 }
 
 /* --- transforms --------------------------------------------------------------------------------------- */
@@ -72,87 +78,89 @@ static bool set_ctm(struct parser *p, struct transform t)
     if (!p->state.start_active)
         return true;
     if (!transform_is_usable(&t))
-        return place_error(&p->messages, p->directive.place,
-                           "this makes the current transform infinite or singular, or nearly so; %s",
+        return directive_error(p, "this makes the current transform infinite or singular, or nearly so; %s",
                            "its numbers and its inverse's go up to 1e30");
     p->state.ctm = t;
     return true;
 }
 
+void parse_state_reset(struct parser *p)
+{
+    p->state.ctm = transform_identity();
+    p->state.start_active = true;
+}
+
 static bool apply(struct parser *p, struct transform t) { return set_ctm(p, transform_compose(p->state.ctm, t)); }
 
-bool parse_identity(struct parser *p) { return set_ctm(p, transform_identity()); }
+static bool identity(struct parser *p) { return set_ctm(p, transform_identity()); }
 
-bool parse_translate(struct parser *p)
+static bool translate(struct parser *p)
 {
     double x[3];
     return parse_numbers(p, x, 3) && apply(p, transform_translate(vec(x[0], x[1], x[2])));
 }
 
-bool parse_scale(struct parser *p)
+static bool scale(struct parser *p)
 {
     double x[3];
     if (!parse_numbers(p, x, 3))
         return false;
     if (x[0] == 0 || x[1] == 0 || x[2] == 0)
-        return place_error(&p->messages, p->directive.place,
-                           "Scale by 0 flattens everything; all three factors must differ from 0");
+        return directive_error(p, "Scale by 0 flattens everything; all three factors must differ from 0");
     return apply(p, transform_scale(x[0], x[1], x[2]));
 }
 
-bool parse_rotate(struct parser *p)
+static bool rotate(struct parser *p)
 {
     double x[4];
     if (!parse_numbers(p, x, 4))
         return false;
     if (x[1] == 0 && x[2] == 0 && x[3] == 0)
-        return place_error(&p->messages, p->directive.place,
-                           "Rotate around the axis 0 0 0; write Rotate degrees x y z");
+        return directive_error(p, "Rotate around the axis 0 0 0; write Rotate degrees x y z");
     return apply(p, transform_rotate(x[0], vec(x[1], x[2], x[3])));
 }
 
-bool parse_look_at(struct parser *p)
+static bool look_at(struct parser *p)
 {
     double x[9];
     struct transform t;
     if (!parse_numbers(p, x, 9))
         return false;
     if (!transform_look_at(vec(x[0], x[1], x[2]), vec(x[3], x[4], x[5]), vec(x[6], x[7], x[8]), &t))
-        return place_error(&p->messages, p->directive.place,
-                           "LookAt needs two different points and an up vector across the view");
+        return directive_error(p, "LookAt needs two different points and an up vector across the view");
     return apply(p, t);
 }
 
-static bool take_matrix(struct parser *p, struct transform *out)
+static bool parse_matrix(struct parser *p, struct transform *out)
 {
     double x[16];
     if (!parse_numbers(p, x, 16))
         return false;
     if (!transform_from_matrix(x, out))
-        return place_error(&p->messages, p->directive.place, "this matrix is singular: it has no inverse");
+        return directive_error(p, "this matrix is singular: it has no inverse");
     return true;
 }
 
-bool parse_transform(struct parser *p)
+static bool transform(struct parser *p)
 {
     struct transform t;
-    return take_matrix(p, &t) && set_ctm(p, t);
+    return parse_matrix(p, &t) && set_ctm(p, t);
 }
 
-bool parse_concat_transform(struct parser *p)
+static bool concat_transform(struct parser *p)
 {
     struct transform t;
-    return take_matrix(p, &t) && apply(p, t);
+    return parse_matrix(p, &t) && apply(p, t);
 }
 
 void parse_name_system(struct parser *p, const char *name, struct transform t)
 {
     p->system = mem_grow(p->system, &p->system_capacity, (size_t)p->n_systems + 1, sizeof *p->system);
     p->system[p->n_systems] = t;
-    names_add(&p->systems, name, p->n_systems++);
+    symbols_add(&p->systems, name, p->n_systems++);
 }
 
-bool parse_coordinate_system(struct parser *p)
+static bool coordinate_system(struct parser *p)
 {
     struct token name;
     if (!parse_string(p, &name, "a name"))
@@ -161,33 +169,31 @@ bool parse_coordinate_system(struct parser *p)
     return true;
 }
 
-bool parse_coord_sys_transform(struct parser *p)
+static bool coord_sys_transform(struct parser *p)
 {
     struct token name;
-    if (!parse_string(p, &name, "a name"))
-        return false;
-    int i = names_find(&p->systems, name.text);
-    return i < 0 ? parse_no_such(p, &name, &p->systems, "coordinate system") : set_ctm(p, p->system[i]);
+    int i = parse_named(p, &name, &p->systems, "coordinate system");
+    return i >= 0 && set_ctm(p, p->system[i]);
 }
 
-bool parse_active_transform(struct parser *p)
+static bool active_transform(struct parser *p)
 {
     struct token t;
     if (!lexer_next(&p->lexer, &t))
         return false;
     bool end = strcmp(t.text, "EndTime") == 0;
     if (t.kind != TOKEN_WORD || !(end || strcmp(t.text, "StartTime") == 0 || strcmp(t.text, "All") == 0))
-        return place_error(&p->messages, t.place, "ActiveTransform wants StartTime, EndTime or All");
+        return source_error(&p->messages, t.position, "ActiveTransform wants StartTime, EndTime or All");
     if (end)
-        place_warn(&p->messages, t.place, "motion", "nothing moves here: transforms of the end time are ignored");
+        source_warn(&p->messages, t.position, "motion", "nothing moves here: transforms of the end time are ignored");
     p->state.start_active = !end;
     return true;
 }
 
-bool parse_transform_times(struct parser *p)
+static bool transform_times(struct parser *p)
 {
     double x[2];
-    place_warn(&p->messages, p->directive.place, "motion", "nothing moves here: TransformTimes is ignored");
+    source_warn(&p->messages, p->directive.position, "motion", "nothing moves here: TransformTimes is ignored");
     return parse_numbers(p, x, 2);
 }
 
@@ -201,13 +207,13 @@ bool parse_all_closed(struct parser *p)
     if (p->n_blocks == 0)
         return true;
     const struct block *b = &p->block[p->n_blocks - 1];
-    return place_error(&p->messages, b->place, "%s is still open at WorldEnd; close it with %s", BEGIN[b->kind],
+    return source_error(&p->messages, b->position, "%s is still open at WorldEnd; close it with %s", BEGIN[b->kind],
                        END[b->kind]);
 }
 
 static bool open_block(struct parser *p, enum block_kind kind)
 {
-    struct block b = {kind,          p->directive.place, p->state, p->float_textures.n, p->spectrum_textures.n,
+    struct block b = {kind,          p->directive.position, p->state, p->float_textures.n, p->spectrum_textures.n,
                       p->materials.n};
     p->block = mem_grow(p->block, &p->block_capacity, (size_t)p->n_blocks + 1, sizeof *p->block);
     p->block[p->n_blocks++] = b;
@@ -217,12 +223,11 @@ static bool open_block(struct parser *p, enum block_kind kind)
 static bool close_block(struct parser *p, enum block_kind kind)
 {
     if (p->n_blocks == 0)
-        return place_error(&p->messages, p->directive.place, "%s without %s; remove it or open the block",
-                           END[kind], BEGIN[kind]);
+        return directive_error(p, "%s without %s; remove it or open the block", END[kind], BEGIN[kind]);
     const struct block *b = &p->block[p->n_blocks - 1];
     if (b->kind != kind)
-        return place_error(&p->messages, p->directive.place, "%s does not match the %s of line %d; %s comes first",
-                           END[kind], BEGIN[b->kind], b->place.line, END[b->kind]);
+        return directive_error(p, "%s does not match the %s of line %d; %s comes first",
+                           END[kind], BEGIN[b->kind], b->position.line, END[b->kind]);
     p->n_blocks--;
     if (kind == BLOCK_TRANSFORM) {
         p->state.ctm = b->saved.ctm;
@@ -230,39 +235,38 @@ static bool close_block(struct parser *p, enum block_kind kind)
         return true;
     }
     p->state = b->saved;
-    names_forget(&p->float_textures, b->n_float_textures);
-    names_forget(&p->spectrum_textures, b->n_spectrum_textures);
-    names_forget(&p->materials, b->n_materials);
+    symbols_forget(&p->float_textures, b->n_float_textures);
+    symbols_forget(&p->spectrum_textures, b->n_spectrum_textures);
+    symbols_forget(&p->materials, b->n_materials);
     return true;
 }
 
-bool parse_attribute_begin(struct parser *p) { return open_block(p, BLOCK_ATTRIBUTE); }
-bool parse_attribute_end(struct parser *p) { return close_block(p, BLOCK_ATTRIBUTE); }
-bool parse_transform_begin(struct parser *p) { return open_block(p, BLOCK_TRANSFORM); }
-bool parse_transform_end(struct parser *p) { return close_block(p, BLOCK_TRANSFORM); }
+static bool attribute_begin(struct parser *p) { return open_block(p, BLOCK_ATTRIBUTE); }
+static bool attribute_end(struct parser *p) { return close_block(p, BLOCK_ATTRIBUTE); }
+static bool transform_begin(struct parser *p) { return open_block(p, BLOCK_TRANSFORM); }
+static bool transform_end(struct parser *p) { return close_block(p, BLOCK_TRANSFORM); }
 
-bool parse_reverse_orientation(struct parser *p)
+static bool reverse_orientation(struct parser *p)
 {
     p->state.reverse = !p->state.reverse;
     return true;
 }
 
-bool parse_object_begin(struct parser *p)
+static bool object_begin(struct parser *p)
 {
     struct token name;
     if (!parse_string(p, &name, "a name"))
         return false;
     if (p->current_object >= 0)
-        return place_error(&p->messages, p->directive.place,
-                           "ObjectBegin inside an object; end the outer one with ObjectEnd first");
+        return directive_error(p, "ObjectBegin inside an object; end the outer one with ObjectEnd first");
     p->object = mem_grow(p->object, &p->object_capacity, (size_t)p->n_objects + 1, sizeof *p->object);
     memset(&p->object[p->n_objects], 0, sizeof *p->object);
     p->current_object = p->n_objects++;
-    names_add(&p->objects, name.text, p->current_object);
+    symbols_add(&p->objects, name.text, p->current_object);
     return open_block(p, BLOCK_OBJECT);
 }
 
-bool parse_object_end(struct parser *p)
+static bool object_end(struct parser *p)
 {
     if (!close_block(p, BLOCK_OBJECT))
         return false;
@@ -270,25 +274,44 @@ bool parse_object_end(struct parser *p)
     return true;
 }
 
-bool parse_object_instance(struct parser *p)
+static bool object_instance(struct parser *p)
 {
     struct token name;
-    if (!parse_string(p, &name, "a name"))
-        return false;
     if (p->current_object >= 0)
-        return place_error(&p->messages, p->directive.place,
-                           "ObjectInstance inside an object; objects do not nest");
-    int i = names_find(&p->objects, name.text);
+        return directive_error(p, "ObjectInstance inside an object; objects do not nest");
+    int i = parse_named(p, &name, &p->objects, "object");
     if (i < 0)
-        return parse_no_such(p, &name, &p->objects, "object");
+        return false;
     const struct shape_list *list = &p->object[i];
     for (int k = 0; k < list->n; k++) {
         struct transform to_world = transform_compose(p->state.ctm, list->item[k].to_world);
         if (!transform_is_usable(&to_world))
-            return place_error(&p->messages, name.place,
+            return source_error(&p->messages, name.position,
                                "the object's transform and this instance's together are infinite or singular");
-        if (!parse_shape_add(p, &list->item[k], to_world, name.place))
+        if (!parse_shape_add(p, &list->item[k], to_world, name.position))
             return false;
     }
     return true;
 }
+
+const struct directive STATE_DIRECTIVES[] = {
+    {"Transform", ANYWHERE, transform, NULL},
+    {"AttributeBegin", IN_WORLD, attribute_begin, NULL},
+    {"AttributeEnd", IN_WORLD, attribute_end, NULL},
+    {"TransformBegin", IN_WORLD, transform_begin, NULL},
+    {"TransformEnd", IN_WORLD, transform_end, NULL},
+    {"ObjectInstance", IN_WORLD, object_instance, NULL},
+    {"Translate", ANYWHERE, translate, NULL},
+    {"Scale", ANYWHERE, scale, NULL},
+    {"Rotate", ANYWHERE, rotate, NULL},
+    {"LookAt", ANYWHERE, look_at, NULL},
+    {"Identity", ANYWHERE, identity, NULL},
+    {"ConcatTransform", ANYWHERE, concat_transform, NULL},
+    {"CoordinateSystem", ANYWHERE, coordinate_system, NULL},
+    {"CoordSysTransform", ANYWHERE, coord_sys_transform, NULL},
+    {"ActiveTransform", ANYWHERE, active_transform, NULL},
+    {"TransformTimes", BEFORE_WORLD, transform_times, NULL},
+    {"ReverseOrientation", IN_WORLD, reverse_orientation, NULL},
+    {"ObjectBegin", IN_WORLD, object_begin, NULL},
+    {"ObjectEnd", IN_WORLD, object_end, NULL},
+    END_OF_DIRECTIVES};

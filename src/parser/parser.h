@@ -1,15 +1,15 @@
 /* parser.h: from a pbrt-v3 scene file to a scene.
  *
  * The subset is listed in doc/scene-format.md. What is outside it is refused with "FILE:LINE:COL: ..." and the
- * line with a caret under the place, or, where the image cannot suffer, warned about once.
+ * line with a caret under the column, or, where the image cannot suffer, warned about once.
  *
- * Used by: main. Tests: test_parser.c, whose fixtures carry the error they expect.
+ * Tests: test_parser.c, whose fixtures carry the error they expect.
  */
 #ifndef ASBDPT_PARSER_H
 #define ASBDPT_PARSER_H
 
 #include "base/error.h"
-#include "parser/place.h" /* struct warning_sink */
+#include "parser/source_position.h" /* struct warning_sink */
 #include "scene/scene.h"
 
 /* parse_scene: read a file and everything it includes.

@@ -75,7 +75,8 @@ rgb spectrum_from_samples(double (*sample)[2], int n)
     return integral_rgb(&sum);
 }
 
-/* Planck's law up to a constant factor: with x = h c / (lambda k T) it is x^5 / (e^x - 1) for a given T. */
+/* Planck's law up to a constant factor: with x = h c / (lambda k T) it is x^5 / (e^x - 1) for a given T.
+ * [PBRT3 12.1.1] */
 static double planck(double x) { return x < 700 ? x * x * x * x * x / expm1(x) : 0; }
 
 rgb spectrum_blackbody(double kelvin, double scale)

@@ -5,7 +5,7 @@
  * functions are sums of a few Gaussians with unequal flanks [Wyman 2013, table 1, multi-lobe fit], within
  * about 1 % of the tables.
  *
- * Used by: params, parse_material. Tests: test_parser.c.
+ * Tests: test_parser.c.
  */
 #ifndef ASBDPT_SPECTRUM_H
 #define ASBDPT_SPECTRUM_H

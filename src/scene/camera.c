@@ -15,17 +15,8 @@ void camera_prepare(struct camera *c, int width, int height)
     c->width = width;
     c->height = height;
     double aspect = c->frame_aspect_ratio > 0 ? c->frame_aspect_ratio : (double)width / height;
-    double window[4]; /* xmin, xmax, ymin, ymax; the shorter side spans [-1,1] */
-    if (c->has_screen_window) {
-        for (int i = 0; i < 4; i++)
-            window[i] = c->screen_window[i];
-    } else {
-        double x = aspect > 1 ? aspect : 1, y = aspect > 1 ? 1 : 1 / aspect;
-        window[0] = -x;
-        window[1] = x;
-        window[2] = -y;
-        window[3] = y;
-    }
+    double x = aspect > 1 ? aspect : 1, y = aspect > 1 ? 1 : 1 / aspect; /* the shorter side spans [-1,1] */
+    const double whole[4] = {-x, x, -y, y}, *window = c->has_screen_window ? c->screen_window : whole;
     double half = tan(c->fov * PI / 360); /* screen unit 1 lies at this height at z = 1 */
     c->x_scale = (window[1] - window[0]) * half / width;
     c->y_scale = -(window[3] - window[2]) * half / height;
@@ -88,7 +79,7 @@ double camera_project(const struct camera *c, vec3 lens, vec3 w, double *px, dou
     *px = (at.x - c->x_origin) / c->x_scale;
     *py = (at.y - c->y_origin) / c->y_scale;
     /* A raster unit covers pixel_area cos^3 steradians at distance 1/cos from the lens: J = 1/(area cos^3). The
-     * plane of focus is the image plane scaled about the lens, so a lens does not change J. */
+     * plane of focus is the image plane scaled about the lens, so a lens does not change J. [PBRT3 16.1.1] */
     double cos_theta = d.z / length(d);
     return 1 / (c->pixel_area * cos_theta * cos_theta * cos_theta);
 }

@@ -5,7 +5,7 @@
  * eye rays is 1 per unit of raster area, that is J(w) per steradian; We = h J / (lens area cos) [V97 8.3.2 in
  * raster units]. Nothing here depends on crop or on the number of samples.
  *
- * Used by: path, connect, scene. Tests: test_camera.c.
+ * Tests: test_camera.c.
  */
 #ifndef ASBDPT_CAMERA_H
 #define ASBDPT_CAMERA_H

@@ -14,9 +14,9 @@ static rgb texel(const struct envmap *e, int x, int y)
     return image_bilinear(&e->image, s, 1 - v, WRAP_REPEAT, !e->image.linear);
 }
 
-/* The lookup interpolates between texels, so a texel's cell holds light of its eight neighbours too. Its weight is the
- * integral of the interpolated luminance over the cell: the kernel (1 6 1)/8 on both axes. */
-static double cell_weight(const double *luminance, int width, int height, int x, int y)
+/* The lookup interpolates between texels, so a texel holds light of its eight neighbours too. Its weight is the
+ * integral of the interpolated luminance over it: the kernel (1 6 1)/8 on both axes. */
+static double texel_weight(const double *luminance, int width, int height, int x, int y)
 {
     static const double kernel[3] = {0.125, 0.75, 0.125};
     double sum = 0;
@@ -52,7 +52,7 @@ static void build_blocks(struct envmap *e, const double *luminance)
         block_range(e, b, &x0, &x1, &y0, &y1);
         for (int y = y0; y < y1; y++)
             for (int x = x0; x < x1; x++)
-                weight[n++] = cell_weight(luminance, width, height, x, y) * sin(PI * (y + 0.5) / height);
+                weight[n++] = texel_weight(luminance, width, height, x, y) * sin(PI * (y + 0.5) / height);
         alias_build(&e->block[b], weight, n);
     }
     free(weight);
@@ -116,13 +116,14 @@ rgb envmap_lookup(const struct envmap *e, vec3 w)
     return image_bilinear(&e->image, s, 1 - v, WRAP_REPEAT, !e->image.linear);
 }
 
-/* Uniform density over a texel's square of (s,v), carried to the sphere: dw = 2 pi^2 sin(theta) ds dv. */
+/* Uniform density over a texel's square of (s,v), carried to the sphere: dw = 2 pi^2 sin(theta) ds dv.
+ * [PBRT3 14.2.4] */
 static double texel_pdf(const struct envmap *e, double pmf, double sin_theta)
 {
     return sin_theta > 0 ? pmf * e->image.width * e->image.height / (2 * PI * PI * sin_theta) : 0;
 }
 
-vec3 envmap_sample(const struct envmap *e, int block, double u1, double u2, double *pdf_w)
+vec3 envmap_sample(const struct envmap *e, int block, double u1, double u2, double *pdf_dir)
 {
     double pmf, du;
     int x0, x1, y0, y1, i = alias_sample(&e->block[block], u1, &pmf, &du);
@@ -130,7 +131,7 @@ vec3 envmap_sample(const struct envmap *e, int block, double u1, double u2, doub
     int x = x0 + i % (x1 - x0), y = y0 + i / (x1 - x0);
     double phi = 2 * PI * (x + du) / e->image.width, theta = PI * (y + u2) / e->image.height;
     double sin_theta = sin(theta);
-    *pdf_w = texel_pdf(e, pmf, sin_theta);
+    *pdf_dir = texel_pdf(e, pmf, sin_theta);
     return vec(sin_theta * cos(phi), sin_theta * sin(phi), cos(theta));
 }
 

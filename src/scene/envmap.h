@@ -6,7 +6,7 @@
  * The picture is cut into blocks of texels. Choosing a block is the caller's business (by the blocks' light, or by what
  * can be seen, see guide.h); within a block a texel is chosen by its light from an alias table.
  *
- * Used by: light. Tests: test_light.c.
+ * Tests: test_light.c.
  */
 #ifndef ASBDPT_ENVMAP_H
 #define ASBDPT_ENVMAP_H
@@ -36,8 +36,8 @@ rgb envmap_lookup(const struct envmap *e, vec3 w);
 static inline int envmap_blocks(const struct envmap *e) { return e->blocks_u * e->blocks_v; }
 
 /* envmap_sample: draw a direction of light space from a block.
- *   pdf_w  out: its density within the block, 1/sr; 0 at the exact poles, where the sample is useless */
-vec3 envmap_sample(const struct envmap *e, int block, double u1, double u2, double *pdf_w);
+ *   pdf_dir  out: its density within the block, 1/sr; 0 at the exact poles, where the sample is useless */
+vec3 envmap_sample(const struct envmap *e, int block, double u1, double u2, double *pdf_dir);
 
 /* envmap_pdf: the block that w belongs to and the density with which envmap_sample returns w from it, 1/sr. */
 double envmap_pdf(const struct envmap *e, vec3 w, int *block);

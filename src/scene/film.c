@@ -23,9 +23,9 @@ void tile_start(struct tile *t, struct pixel_rect rect, struct pixel_rect film_r
     t->rect = rect;
     t->film_rect = film_rect;
     t->filter = filter;
-    t->own = mem_grow(t->own, &t->capacity, n, sizeof *t->own);
+    t->eye = mem_grow(t->eye, &t->capacity, n, sizeof *t->eye);
     t->square = mem_grow(t->square, &t->square_capacity, n, sizeof *t->square);
-    memset(t->own, 0, n * sizeof *t->own);
+    memset(t->eye, 0, n * sizeof *t->eye);
     memset(t->square, 0, n * sizeof *t->square);
     t->n_splats = t->n_records = 0;
     t->keep_records = keep_records;
@@ -34,14 +34,14 @@ void tile_start(struct tile *t, struct pixel_rect rect, struct pixel_rect film_r
 
 void tile_free(struct tile *t)
 {
-    free(t->own);
+    free(t->eye);
     free(t->square);
     free(t->splat);
     free(t->record);
     memset(t, 0, sizeof *t);
 }
 
-void tile_add_own(struct tile *t, int x, int y, rgb value)
+void tile_add_eye(struct tile *t, int x, int y, rgb value)
 {
     if (!fits(value)) {
         t->nonfinite++;
@@ -50,7 +50,7 @@ void tile_add_own(struct tile *t, int x, int y, rgb value)
     size_t i = 3 * ((size_t)(y - t->rect.y0) * (size_t)rect_width(t->rect) + (size_t)(x - t->rect.x0));
     const double v[3] = {value.r, value.g, value.b};
     for (size_t c = 0; c < 3; c++) {
-        t->own[i + c] += v[c];
+        t->eye[i + c] += v[c];
         t->square[i + c] += v[c] * v[c];
     }
 }
@@ -60,26 +60,23 @@ static int32_t film_pixel(const struct tile *t, int x, int y)
     return (int32_t)((y - t->film_rect.y0) * rect_width(t->film_rect) + (x - t->film_rect.x0));
 }
 
-/* First and last pixel whose filter covers the raster coordinate p on one axis. */
-static void filter_span(double p, double radius, int low, int high, int *first, int *last)
+/* First pixel whose filter covers the raster coordinate p on one axis, and the one after the last. */
+static void filter_span(double p, double radius, int low, int high, int *first, int *end)
 {
     double a = floor(p - radius + 0.5), b = floor(p + radius - 0.5); /* |p - (i + 0.5)| <= radius */
-    if (2 * radius == 1) /* half-open cell: a point belongs to exactly one pixel */
+    if (2 * radius == 1) /* half-open: a point belongs to exactly one pixel */
         a = b = floor(p);
-    *first = int_within(a, low, high); /* a NaN covers nothing: low to low - 1 */
-    *last = int_within(b, low - 1, high - 1);
+    *first = int_within(a, low, high); /* a NaN covers nothing */
+    *end = int_within(b + 1, low, high);
 }
 
-struct spread {
-    int x0, x1, y0, y1; /* inclusive range of pixels; empty when x1 < x0 */
-};
-
-static struct spread spread_of(const struct tile *t, double px, double py)
+/* The pixels whose filter covers a raster point; none when x1 <= x0 or y1 <= y0. */
+static struct pixel_rect covered(const struct tile *t, double px, double py)
 {
-    struct spread s;
-    filter_span(px, t->filter->radius[0], t->film_rect.x0, t->film_rect.x1, &s.x0, &s.x1);
-    filter_span(py, t->filter->radius[1], t->film_rect.y0, t->film_rect.y1, &s.y0, &s.y1);
-    return s;
+    struct pixel_rect r;
+    filter_span(px, t->filter->radius[0], t->film_rect.x0, t->film_rect.x1, &r.x0, &r.x1);
+    filter_span(py, t->filter->radius[1], t->film_rect.y0, t->film_rect.y1, &r.y0, &r.y1);
+    return r;
 }
 
 void tile_add_splat(struct tile *t, double px, double py, rgb value)
@@ -88,9 +85,9 @@ void tile_add_splat(struct tile *t, double px, double py, rgb value)
         t->nonfinite++;
         return;
     }
-    struct spread range = spread_of(t, px, py);
-    for (int y = range.y0; y <= range.y1; y++) {
-        for (int x = range.x0; x <= range.x1; x++) {
+    struct pixel_rect range = covered(t, px, py);
+    for (int y = range.y0; y < range.y1; y++) {
+        for (int x = range.x0; x < range.x1; x++) {
             double h = filter_eval(t->filter, px - (x + 0.5), py - (y + 0.5));
             if (h == 0)
                 continue;
@@ -109,7 +106,7 @@ void tile_add_splat(struct tile *t, double px, double py, rgb value)
     }
 }
 
-static void add_record(struct tile *t, int x, int y, int s, int th, rgb unweighted, double weight)
+void tile_record_eye(struct tile *t, int x, int y, int s, int th, rgb unweighted, double weight)
 {
     if (!t->keep_records || !fits(unweighted) || !fits_float(weight))
         return;
@@ -124,20 +121,15 @@ static void add_record(struct tile *t, int x, int y, int s, int th, rgb unweight
     r->weight = (float)weight;
 }
 
-void tile_record_own(struct tile *t, int x, int y, int s, int th, rgb unweighted, double weight)
-{
-    add_record(t, x, y, s, th, unweighted, weight);
-}
-
 void tile_record_splat(struct tile *t, double px, double py, int s, int th, rgb unweighted, double weight)
 {
     if (!t->keep_records)
         return;
-    struct spread range = spread_of(t, px, py);
-    for (int y = range.y0; y <= range.y1; y++)
-        for (int x = range.x0; x <= range.x1; x++) {
+    struct pixel_rect range = covered(t, px, py);
+    for (int y = range.y0; y < range.y1; y++)
+        for (int x = range.x0; x < range.x1; x++) {
             double h = filter_eval(t->filter, px - (x + 0.5), py - (y + 0.5));
-            add_record(t, x, y, s, th, rgb_scale(unweighted, h), weight);
+            tile_record_eye(t, x, y, s, th, rgb_scale(unweighted, h), weight);
         }
 }
 
@@ -149,14 +141,14 @@ void film_init(struct film *f, struct pixel_rect rect, int full_width, int full_
     f->rect = rect;
     f->full_width = full_width;
     f->full_height = full_height;
-    f->own = mem_alloc(rect_pixels(rect) * 3, sizeof *f->own);
+    f->eye = mem_alloc(rect_pixels(rect) * 3, sizeof *f->eye);
     f->splat = mem_alloc(rect_pixels(rect) * 3, sizeof *f->splat);
     f->square = mem_alloc(rect_pixels(rect) * 3, sizeof *f->square);
 }
 
 void film_free(struct film *f)
 {
-    free(f->own);
+    free(f->eye);
     free(f->splat);
     free(f->square);
     if (f->strategies != NULL) {
@@ -205,7 +197,7 @@ void film_merge_tile(struct film *f, const struct tile *t)
         size_t row = (size_t)(t->rect.y0 - f->rect.y0) + y;
         size_t to = 3 * (row * (size_t)rect_width(f->rect) + (size_t)(t->rect.x0 - f->rect.x0));
         for (size_t x = 0; x < width; x++) {
-            f->own[to + x] += t->own[y * width + x];
+            f->eye[to + x] += t->eye[y * width + x];
             f->square[to + x] += t->square[y * width + x];
         }
     }
@@ -228,7 +220,7 @@ long film_develop(const struct film *f, double scale, float *out)
     size_t n = rect_pixels(f->rect) * 3;
     double per_iteration = f->iterations > 0 ? scale / (double)f->iterations : 0;
     for (size_t i = 0; i < n; i++) {
-        double value = (f->own[i] + f->splat[i]) * per_iteration;
+        double value = (f->eye[i] + f->splat[i]) * per_iteration;
         cut += !fits_float(value);
         out[i] = float_within(value);
     }
@@ -249,7 +241,7 @@ void film_standard_error(const struct film *f, double scale, float *out)
     size_t n = rect_pixels(f->rect) * 3;
     double k = (double)f->iterations;
     for (size_t i = 0; i < n; i++) {
-        double variance = (f->square[i] - f->own[i] * f->own[i] / k) / (k * (k - 1));
+        double variance = (f->square[i] - f->eye[i] * f->eye[i] / k) / (k * (k - 1));
         out[i] = f->iterations < 2 ? INFINITY : float_within(scale * sqrt(fmax(variance, 0)));
     }
 }

@@ -1,14 +1,14 @@
 /* film.h: where estimates of pixels are summed.
  *
- * A pixel's estimate has two parts. `own`: per iteration, what its own eye sub-path brought (all strategies with
+ * A pixel's estimate has two parts. `eye`: per iteration, what its own eye sub-path brought (all strategies with
  * t >= 2). `splat`: what light sub-paths of any pixel sent straight to the lens (t = 1), spread by the pixel filter.
  * A tile pass (one tile, a block of iterations) fills a struct tile; the film takes tiles in, in a fixed order, so the
  * sums do not depend on the number of threads.
  *
- * Standard errors: own values of different iterations are independent draws; splats are many rare events, whose
+ * Standard errors: eye values of different iterations are independent draws; splats are many rare events, whose
  * variance is the sum of their squares.
  *
- * Used by: the methods (tiles), render (film). Tests: test_film.c.
+ * Tests: test_film.c.
  */
 #ifndef ASBDPT_FILM_H
 #define ASBDPT_FILM_H
@@ -45,7 +45,7 @@ struct tile {
     struct pixel_rect rect;
     struct pixel_rect film_rect; /* of the film: splats land anywhere in it */
     const struct filter *filter;
-    double *own;    /* [pixels of rect * 3], sum over the iterations of the pass; owned */
+    double *eye;    /* [pixels of rect * 3], sum over the iterations of the pass; owned */
     double *square; /* [pixels of rect * 3], sum of squares of the per-iteration values; owned */
     size_t capacity, square_capacity;
     struct splat *splat; /* [n_splats], owned */
@@ -61,14 +61,14 @@ void tile_start(struct tile *t, struct pixel_rect rect, struct pixel_rect film_r
                 bool keep_records);
 void tile_free(struct tile *t);
 
-/* tile_add_own: the whole value of pixel (x,y) of the tile for one iteration. Call once per pixel and iteration. */
-void tile_add_own(struct tile *t, int x, int y, rgb value);
+/* tile_add_eye: the whole value of pixel (x,y) of the tile for one iteration. Call once per pixel and iteration. */
+void tile_add_eye(struct tile *t, int x, int y, rgb value);
 
 /* tile_add_splat: a value arriving at raster point (px,py), spread over pixels by the filter. */
 void tile_add_splat(struct tile *t, double px, double py, rgb value);
 
 /* tile_record: note a strategy's contribution, at a pixel of the tile or at a raster point. */
-void tile_record_own(struct tile *t, int x, int y, int s, int th, rgb unweighted, double weight);
+void tile_record_eye(struct tile *t, int x, int y, int s, int th, rgb unweighted, double weight);
 void tile_record_splat(struct tile *t, double px, double py, int s, int th, rgb unweighted, double weight);
 
 /* Images of single strategies, [n_strategies][pixels*3], numbered by strategy_index. */
@@ -81,7 +81,7 @@ struct film {
     struct pixel_rect rect;      /* the rendered part (crop) of the full frame */
     int full_width, full_height;
     long iterations;             /* samples per pixel taken so far */
-    double *own, *splat, *square; /* [pixels*3] sums; owned */
+    double *eye, *splat, *square; /* [pixels*3] sums; owned */
     long nonfinite;
     struct strategy_images *strategies; /* NULL unless asked for; owned */
 };
@@ -100,8 +100,8 @@ int strategy_count(int max_depth);
 /* film_merge_tile: add a tile's sums. Iterations are counted by the caller once all tiles of a block are in. */
 void film_merge_tile(struct film *f, const struct tile *t);
 
-/* film_develop: the image so far: [height*width*3] linear floats, top row first, each pixel times `scale`. Values that no
- * float holds are cut to FLT_MAX; returns how many. */
+/* film_develop: the image so far: [height*width*3] linear floats, top row first, each pixel times `scale`. Values that
+ * no float holds are cut to FLT_MAX; returns how many. */
 long film_develop(const struct film *f, double scale, float *out);
 
 /* film_warn: say on stderr how many contributions were left out and how many values film_develop cut, if any. */

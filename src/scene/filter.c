@@ -6,6 +6,7 @@
 
 #include "base/vec.h"
 
+/* [Mitchell & Netravali 1988; PBRT3 7.8.1] */
 static double mitchell(double x, double B, double C)
 {
     x = fabs(2 * x);
@@ -56,25 +57,25 @@ bool filter_default(const char *name, struct filter *out)
     return false;
 }
 
-/* The table's cells are fine enough that the midpoint rule's error does not matter: filter_sample corrects for it,
+/* The table's steps are fine enough that the midpoint rule's error does not matter: filter_sample corrects for it,
  * and the norm is integrated on a grid 16 times as fine. */
 static void prepare_axis(struct filter *f, int axis)
 {
     enum { FINE = 16 };
-    double r = f->radius[axis], cell = 2 * r / FILTER_CELLS, fine = cell / FINE;
+    double r = f->radius[axis], step = 2 * r / FILTER_STEPS, fine = step / FINE;
     double integral = 0, absolute = 0;
     f->cdf[axis][0] = 0;
-    for (int i = 0; i < FILTER_CELLS; i++) {
+    for (int i = 0; i < FILTER_STEPS; i++) {
         double sum_abs = 0;
         for (int k = 0; k < FINE; k++) {
-            double y = profile(f, axis, -r + i * cell + (k + 0.5) * fine);
+            double y = profile(f, axis, -r + i * step + (k + 0.5) * fine);
             integral += y * fine;
             sum_abs += fabs(y) * fine;
         }
         absolute += sum_abs;
         f->cdf[axis][i + 1] = absolute;
     }
-    for (int i = 0; i <= FILTER_CELLS; i++)
+    for (int i = 0; i <= FILTER_STEPS; i++)
         f->cdf[axis][i] /= absolute;
     f->norm[axis] = 1 / integral;
     f->sign_scale[axis] = absolute / integral;
@@ -95,7 +96,7 @@ double filter_eval(const struct filter *f, double dx, double dy)
 static double sample_table(const struct filter *f, int axis, double u, double *x)
 {
     const double *cdf = f->cdf[axis];
-    int lo = 0, hi = FILTER_CELLS; /* cdf[lo] <= u < cdf[hi] */
+    int lo = 0, hi = FILTER_STEPS; /* cdf[lo] <= u < cdf[hi] */
     while (hi - lo > 1) {
         int mid = (lo + hi) / 2;
         if (cdf[mid] <= u)
@@ -103,9 +104,9 @@ static double sample_table(const struct filter *f, int axis, double u, double *x
         else
             hi = mid;
     }
-    double r = f->radius[axis], cell = 2 * r / FILTER_CELLS, mass = cdf[hi] - cdf[lo];
-    *x = -r + (lo + (u - cdf[lo]) / mass) * cell;
-    return profile(f, axis, *x) * f->norm[axis] * cell / mass;
+    double r = f->radius[axis], step = 2 * r / FILTER_STEPS, mass = cdf[hi] - cdf[lo];
+    *x = -r + (lo + (u - cdf[lo]) / mass) * step;
+    return profile(f, axis, *x) * f->norm[axis] * step / mass;
 }
 
 static double sample_axis(const struct filter *f, int axis, double u, double *x)

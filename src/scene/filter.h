@@ -4,7 +4,7 @@
  * samples draw p from |h| (filter importance sampling), so a sample counts for its own pixel only; a light-image
  * splat (t = 1) adds h(p) times its value to each pixel it reaches. Both estimate the same integral.
  *
- * Used by: film, path (eye ray), parser. Tests: test_film.c.
+ * Tests: test_film.c.
  */
 #ifndef ASBDPT_FILTER_H
 #define ASBDPT_FILTER_H
@@ -13,7 +13,7 @@
 
 enum filter_kind { FILTER_BOX, FILTER_TRIANGLE, FILTER_GAUSSIAN, FILTER_MITCHELL, FILTER_SINC };
 
-enum { FILTER_CELLS = 256 }; /* of the sampling table, over [-radius, radius] */
+enum { FILTER_STEPS = 256 }; /* of the sampling table, over [-radius, radius] */
 
 /* Separable: f(x,y) = f1(x) f1(y), each with its own radius. */
 struct filter {
@@ -25,7 +25,7 @@ struct filter {
     /* filled by filter_prepare, per axis */
     double norm[2];                   /* 1 / integral of f1 */
     double sign_scale[2];             /* integral of |f1| / integral of f1, >= 1 */
-    double cdf[2][FILTER_CELLS + 1];  /* running integral of |f1| at cell ends, normalised; box, triangle: unused */
+    double cdf[2][FILTER_STEPS + 1];  /* running integral of |f1|, normalised; box, triangle: unused */
 };
 
 /* filter_default: the filter of that name ("box", "triangle", "gaussian", "mitchell", "sinc") at pbrt's default

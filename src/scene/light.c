@@ -15,12 +15,6 @@ int light_add(struct light_set *set, struct light l)
     return set->n++;
 }
 
-bool light_load_env(struct light *l, const char *path, struct error *err)
-{
-    l->env = envmap_load(path, err);
-    return l->env != NULL;
-}
-
 void light_set_free(struct light_set *set)
 {
     for (int i = 0; i < set->n; i++)
@@ -33,7 +27,7 @@ void light_set_free(struct light_set *set)
 
 /* --- power and choice -------------------------------------------------------------------------------- */
 
-/* Smooth step from 1 inside the inner cone to 0 outside the outer one. */
+/* Smooth step from 1 inside the inner cone to 0 outside the outer one. [PBRT3 12.2.1] */
 static double spot_falloff(const struct light *l, vec3 w)
 {
     double c = dot(l->axis.n, w);
@@ -45,6 +39,7 @@ static double spot_falloff(const struct light *l, vec3 w)
     return sqr(sqr(delta));
 }
 
+/* Powers are those of [PBRT3 12.1-12.6]; of lights at infinity, what meets the disk of the scene's sphere. */
 static double light_power(const struct light *l, const struct geometry *geo, double scene_radius)
 {
     double disk = PI * sqr(scene_radius);
@@ -62,7 +57,7 @@ static double light_power(const struct light *l, const struct geometry *geo, dou
 /* A constant sky is cut into SKY_BANDS x SKY_SECTORS cells of equal solid angle, by z and by azimuth. */
 enum { SKY_BANDS = 8, SKY_SECTORS = 16, SKY_CELLS = SKY_BANDS * SKY_SECTORS };
 
-static int cells_of(const struct light *l)
+static int cell_count(const struct light *l)
 {
     return l->kind != LIGHT_INFINITE ? 1 : l->env != NULL ? envmap_blocks(l->env) : SKY_CELLS;
 }
@@ -88,7 +83,7 @@ void light_prepare(struct light_set *set, const struct geometry *geo, vec3 cente
         struct light *l = &set->light[i];
         l->power = light_power(l, geo, radius);
         l->first_cell = set->n_cells;
-        l->n_cells = cells_of(l);
+        l->n_cells = cell_count(l);
         set->n_cells += l->n_cells;
         set->several_infinite |= set->any_infinite && l->kind == LIGHT_INFINITE;
         set->any_infinite |= l->kind == LIGHT_INFINITE;
@@ -106,13 +101,13 @@ void light_prepare(struct light_set *set, const struct geometry *geo, vec3 cente
 
 /* --- the end point y0 -------------------------------------------------------------------------------- */
 
-static vec3 infinite_sample(const struct light *l, int cell, double u1, double u2, double *pdf_w)
+static vec3 infinite_sample(const struct light *l, int cell, double u1, double u2, double *pdf_dir)
 {
     if (l->env == NULL) {
-        *pdf_w = warp_sphere_pdf() * SKY_CELLS;
+        *pdf_dir = warp_sphere_pdf() * SKY_CELLS;
         return warp_sphere((cell / SKY_SECTORS + u1) / SKY_BANDS, (cell % SKY_SECTORS + u2) / SKY_SECTORS);
     }
-    return normalize(transform_vector(&l->to_world, envmap_sample(l->env, cell, u1, u2, pdf_w)));
+    return normalize(transform_vector(&l->to_world, envmap_sample(l->env, cell, u1, u2, pdf_dir)));
 }
 
 static vec3 to_light_space(const struct light *l, vec3 w)
@@ -127,7 +122,8 @@ static double infinite_pdf(const struct light *l, vec3 w, int *cell)
         return envmap_pdf(l->env, to_light_space(l, w), cell);
     double u1, u2;
     warp_sphere_inverse(w, &u1, &u2);
-    *cell = int_within(u1 * SKY_BANDS, 0, SKY_BANDS - 1) * SKY_SECTORS + int_within(u2 * SKY_SECTORS, 0, SKY_SECTORS - 1);
+    int band = int_within(u1 * SKY_BANDS, 0, SKY_BANDS - 1), sector = int_within(u2 * SKY_SECTORS, 0, SKY_SECTORS - 1);
+    *cell = band * SKY_SECTORS + sector;
     return warp_sphere_pdf() * SKY_CELLS;
 }
 
@@ -150,7 +146,7 @@ bool light_sample_cell(const struct light_set *set, const struct geometry *geo, 
         shape_sample(geo, l->prim, u1, u2, &at, &pdf);
         out->p = at.p;
         out->n = at.ng;
-        out->flat = shape_flat(l->prim);
+        out->triangle = shape_flat(l->prim);
         break;
     }
     case LIGHT_POINT:
@@ -178,7 +174,7 @@ static rgb area_Le(const struct light *l, vec3 n, vec3 w)
     return l->two_sided || dot(n, w) > 0 ? l->L : rgb_black();
 }
 
-/* Parallel rays enter through a disk as wide as the scene, placed before it. */
+/* Parallel rays enter through a disk as wide as the scene, placed before it. [PBRT3 16.1.2] */
 static struct ray ray_from_infinity(const struct light_set *set, vec3 towards_light, const double u[2])
 {
     double x, y;
@@ -216,7 +212,7 @@ rgb light_sample_emission(const struct light_set *set, const struct light_point 
         *pdf = light_pdf_emission(set, y0, ray->d);
         return light_Le(set, y0, ray->d);
     }
-    struct ray r = {y0->p, w, 0, INFINITY, y0->flat, 0};
+    struct ray r = {y0->p, w, 0, INFINITY, y0->triangle, 0};
     *ray = r;
     *pdf = light_pdf_emission(set, y0, w);
     return *pdf > 0 ? rgb_scale(light_Le(set, y0, w), cosine) : rgb_black();

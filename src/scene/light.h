@@ -6,7 +6,7 @@
  * Lights are chosen in proportion to their power by an alias table; s = 1 and emission use the same choice and the
  * same density of y0, so one number serves both in the MIS weights.
  *
- * Used by: scene, path, connect. Tests: test_light.c.
+ * Tests: test_light.c.
  */
 #ifndef ASBDPT_LIGHT_H
 #define ASBDPT_LIGHT_H
@@ -20,19 +20,45 @@
 
 enum light_kind { LIGHT_AREA, LIGHT_POINT, LIGHT_SPOT, LIGHT_DISTANT, LIGHT_INFINITE };
 
+/* A light. What its fields mean depends on its kind; a dash: not used.
+ *
+ *              area                point              spot                  distant                infinite
+ *   L          radiance,           intensity, W/sr    intensity, W/sr       irradiance on a        factor of the map,
+ *              W/(m^2 sr)                                                   facing surface, W/m^2  else radiance
+ *   to_world   -                   -                  -                     -                      light space to world
+ *   prim       the surface         -                  -                     -                      -
+ *   two_sided  emits on both       -                  -                     -                      -
+ *   position   -                   where it is        where it is           -                      -
+ *   axis       -                   -                  n: the beam's axis    -                      -
+ *   cos_total  -                   -                  dark beyond it        -                      -
+ *   cos_falloff  -                 -                  full within it        -                      -
+ *   direction  -                   -                  -                     unit, towards it       -
+ *   env        -                   -                  -                     -                      map, NULL: constant
+ *
+ * A light point (struct light_point) is a position (area, point, spot) or a direction (distant, infinite), and its
+ * densities are per measure of that, which is why their names carry none:
+ *
+ *              area                point              spot                  distant                infinite
+ *   p          on the surface      position           position              -                      -
+ *   n          emitting side       0                  0                     0                      0
+ *   w          -                   -                  -                     unit, towards it       unit, towards it
+ *   triangle   shape_flat(prim)    0                  0                     0                      0
+ *   pdf_cell   1/m^2               1                  1                     1                      1/sr
+ *   pdf        pdf_cell times the probability of the cell under `choice`, in all kinds
+ *   emission's second draw is      a direction, 1/sr (area, point, spot)    an origin on a disk, 1/m^2
+ */
 struct light {
     enum light_kind kind;
-    rgb L; /* area: radiance; point, spot: intensity W/sr; distant: irradiance on a facing surface; infinite: scale */
+    rgb L;
     struct transform to_world;
-    int prim;            /* area */
-    bool two_sided;      /* area */
-    double cos_total;    /* spot: beyond it darkness */
-    double cos_falloff;  /* spot: full intensity inside it */
-    vec3 position;       /* point, spot */
-    struct frame axis;   /* spot: n is the beam's axis */
-    vec3 direction;      /* distant: unit, from the scene towards the light */
-    struct envmap *env;  /* infinite: NULL for constant radiance; owned */
-    double power;        /* estimate, W, luminance; set by light_prepare */
+    int prim;
+    bool two_sided;
+    double cos_total, cos_falloff;
+    vec3 position;
+    struct frame axis;
+    vec3 direction;
+    struct envmap *env;      /* owned */
+    double power;            /* estimate, W, luminance; set by light_prepare */
     int first_cell, n_cells; /* its cells, see below; set by light_prepare */
 };
 
@@ -53,9 +79,6 @@ struct light_set {
 
 int light_add(struct light_set *set, struct light l);
 
-/* light_load_env: read the environment map of an infinite light. False with a message. */
-bool light_load_env(struct light *l, const char *path, struct error *err);
-
 /* light_prepare: powers, the choice table, the scene's sphere. Call once the geometry is complete. */
 void light_prepare(struct light_set *set, const struct geometry *geo, vec3 center, double radius);
 void light_set_free(struct light_set *set);
@@ -72,15 +95,12 @@ static inline bool light_at_infinity(const struct light *l)
     return l->kind == LIGHT_DISTANT || l->kind == LIGHT_INFINITE;
 }
 
-/* A light's end point y0. */
+/* A light's end point y0; see the table above. */
 struct light_point {
     int light, cell;
-    vec3 p;          /* position; for lights at infinity: unused */
-    vec3 n;          /* area light: unit normal of the emitting side; else zero */
-    vec3 w;          /* lights at infinity: unit direction from the scene towards the light */
-    uint32_t flat;   /* area light: the triangle it is, see shape_flat; else 0 */
-    double pdf_cell; /* density within the cell: 1/m^2, or 1/sr at infinity; 1 for a delta */
-    double pdf;      /* that times the probability of the cell under `choice` */
+    vec3 p, n, w;
+    uint32_t triangle;
+    double pdf_cell, pdf;
 };
 
 /* light_sample_point: choose a light and a point (or direction) on it. False if the scene has no light. */

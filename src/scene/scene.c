@@ -40,10 +40,12 @@ int scene_add_material(struct scene *s, struct material m)
 
 /* --- ready to render --------------------------------------------------------------------------------- */
 
-/* Is the surface there at this hit? Holes are where an alpha texture is exactly 0, as in pbrt-v3. */
+/* Is the surface there at this hit? Holes are where an alpha texture is exactly 0, as in pbrt-v3. The geometry is the
+ * scene's first member, so its address is the scene's too [C99 6.7.2.1 (13)]. */
 static bool opaque_at(const void *context, const struct geometry *geo, const struct hit *hit, bool shadow)
 {
-    const struct scene *s = context;
+    const struct scene *s = (const struct scene *)geo;
+    (void)context;
     const struct shape_group *group = shape_group_of(geo, hit->prim);
     const struct ray anywhere = {vec(0, 0, 0), vec(0, 0, 1), 0, INFINITY, 0, 0};
     struct surface at;
@@ -56,7 +58,6 @@ static bool opaque_at(const void *context, const struct geometry *geo, const str
 void scene_prepare(struct scene *s)
 {
     s->geo.opaque = opaque_at;
-    s->geo.opaque_context = s;
     material_prepare(s->material, s->n_materials, &s->textures, &s->arena);
     for (int i = 0; i < s->geo.n_groups; i++)
         s->geo.group[i].plain = !material_reads_partials(s->material, s->geo.group[i].material, &s->textures);

@@ -2,8 +2,6 @@
  *
  * Objects refer to each other by index. The parser fills a scene in, scene_prepare makes it ready to render,
  * scene_free releases everything. After scene_prepare a scene is read-only and shared by all threads.
- *
- * Used by: parser (fills it), path and connect (read it), render, info.
  */
 #ifndef ASBDPT_SCENE_H
 #define ASBDPT_SCENE_H
@@ -20,7 +18,7 @@
 #include "material/texture.h"
 
 struct scene {
-    struct geometry geo;
+    struct geometry geo; /* first: see opaque_at in scene.c */
     struct kdtree kd;
     struct texture_set textures;
     struct material *material; /* [n_materials], owned */

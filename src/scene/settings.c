@@ -60,14 +60,13 @@ bool settings_int(const struct settings *s, const char *name, long fallback, lon
     char *end;
     errno = 0;
     long value = strtol(item->value, &end, 10);
-    if (end == item->value || *end != '\0')
-        return error_set(err, "%s: %s = \"%s\": give a whole number from %ld to %ld", item->origin, name,
-                         item->value, low, high);
-    if (errno == ERANGE || value < low || value > high)
-        return error_set(err, "%s: %s = %s is out of range: give a whole number from %ld to %ld", item->origin,
-                         name, item->value, low, high);
+    bool number = end != item->value && *end == '\0';
     *out = value;
-    return true;
+    if (number && errno != ERANGE && value >= low && value <= high)
+        return true;
+    return error_set(err, number ? "%s: %s = %s is out of range: give a whole number from %ld to %ld"
+                                 : "%s: %s = \"%s\": give a whole number from %ld to %ld",
+                     item->origin, name, item->value, low, high);
 }
 
 bool settings_real(const struct settings *s, const char *name, double fallback, double low, double high,
@@ -79,14 +78,13 @@ bool settings_real(const struct settings *s, const char *name, double fallback, 
         return true;
     char *end;
     double value = strtod(item->value, &end);
-    if (end == item->value || *end != '\0')
-        return error_set(err, "%s: %s = \"%s\": give a number from %g to %g", item->origin, name, item->value, low,
-                         high);
-    if (!(value >= low && value <= high))
-        return error_set(err, "%s: %s = %s is out of range: give a number from %g to %g", item->origin, name,
-                         item->value, low, high);
+    bool number = end != item->value && *end == '\0';
     *out = value;
-    return true;
+    if (number && value >= low && value <= high)
+        return true;
+    return error_set(err, number ? "%s: %s = %s is out of range: give a number from %g to %g"
+                                 : "%s: %s = \"%s\": give a number from %g to %g",
+                     item->origin, name, item->value, low, high);
 }
 
 bool settings_choice(const struct settings *s, const char *name, int fallback, const char *const *names, int *out,
@@ -102,7 +100,8 @@ bool settings_choice(const struct settings *s, const char *name, int fallback, c
         if (strcmp(item->value, names[i]) == 0)
             return true;
         size_t used = strlen(list);
-        snprintf(list + used, sizeof list - used, "%s\"%s\"", i == 0 ? "" : names[i + 1] == NULL ? " or " : ", ", names[i]);
+        const char *join = i == 0 ? "" : names[i + 1] == NULL ? " or " : ", ";
+        snprintf(list + used, sizeof list - used, "%s\"%s\"", join, names[i]);
     }
     return error_set(err, "%s: %s = \"%s\" is unknown: give %s", item->origin, name, item->value, list);
 }

@@ -1,7 +1,6 @@
 /* settings.h: the named parameters of an integrator, as the scene file and -P give them.
  *
  * Values are kept as text; a method reads them by name with a default. Later ones override earlier ones.
- * Used by: parser, main, the methods.
  */
 #ifndef ASBDPT_SETTINGS_H
 #define ASBDPT_SETTINGS_H

@@ -92,7 +92,7 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
     c.value = rgb_mul(rgb_mul(z->beta, at_z.factor), rgb_scale(Le, at_light / (pmf * at.pdf_cell)));
     if (rgb_is_black(c.value))
         return nothing();
-    if (parallel ? !scene_visible_ray(scene, z->p, z->flat, w) : !scene_visible(scene, z->p, z->flat, at.p, at.flat))
+    if (parallel ? !scene_visible_ray(scene, z->p, z->flat, w) : !scene_visible(scene, z->p, z->flat, at.p, at.triangle))
         return nothing();
 
     struct vertex y;

@@ -189,7 +189,7 @@ void vertex_light_end(const struct scene *scene, const struct mis_counts *counts
     out->cell = at->cell;
     out->p = at->p;
     out->ng = at->n;
-    out->flat = at->flat;
+    out->flat = at->triangle;
     out->wo = at->w;
     out->beta = rgb_grey(1 / at->pdf);
     /* An escaping eye ray cannot tell infinite lights apart, so their densities are added up for the weight. */

@@ -53,7 +53,7 @@ static rgb take(struct pixel_sample *g, struct connection c, int s, int t, doubl
         return rgb_black();
     rgb value = rgb_scale(c.value, scale * g->filter_weight);
     if (g->tile->keep_records)
-        tile_record_own(g->tile, g->x, g->y, s, t, value, c.weight);
+        tile_record_eye(g->tile, g->x, g->y, s, t, value, c.weight);
     return rgb_scale(value, c.weight);
 }
 

@@ -1,9 +1,13 @@
-/* suggest.c: see suggest.h. */
-#include "parser/suggest.h"
+/* symbols.c: see symbols.h. */
+#include "parser/symbols.h"
 
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/mem.h"
+
+/* --- the nearest known name --------------------------------------------------------------------------- */
 
 enum { LONGEST = 48 }; /* longer names are not compared */
 
@@ -55,4 +59,58 @@ const char *suggest_from(const char *wanted, const char *const *known)
     for (; *known != NULL; known++)
         suggest_offer(&s, *known);
     return s.name;
+}
+
+/* --- the table ---------------------------------------------------------------------------------------- */
+
+uint32_t symbols_hash(const void *bytes, size_t n)
+{
+    uint32_t h = 2166136261u;
+    for (const unsigned char *b = bytes, *end = b + n; b < end; b++)
+        h = (h ^ *b) * 16777619u;
+    return h;
+}
+
+/* Which chain a name is in. */
+static uint32_t chain(const char *name) { return symbols_hash(name, strlen(name)) % SYMBOL_CHAINS; }
+
+void symbols_add(struct symbols *t, const char *name, int value)
+{
+    t->entry = mem_grow(t->entry, &t->capacity, (size_t)t->n + 1, sizeof *t->entry);
+    int *newest = &t->newest[chain(name)];
+    struct symbol e = {mem_copy_text(name), value, *newest - 1};
+    t->entry[t->n++] = e;
+    *newest = t->n;
+}
+
+int symbols_find(const struct symbols *t, const char *name)
+{
+    for (int i = t->newest[chain(name)] - 1; i >= 0; i = t->entry[i].older)
+        if (strcmp(t->entry[i].name, name) == 0)
+            return t->entry[i].value;
+    return -1;
+}
+
+void symbols_forget(struct symbols *t, int n)
+{
+    while (t->n > n) {
+        struct symbol *e = &t->entry[--t->n];
+        t->newest[chain(e->name)] = e->older + 1;
+        free(e->name);
+    }
+}
+
+const char *symbols_near(const struct symbols *t, const char *name)
+{
+    struct suggestion s = suggest_start(name);
+    for (int i = 0; i < t->n; i++)
+        suggest_offer(&s, t->entry[i].name);
+    return s.name;
+}
+
+void symbols_free(struct symbols *t)
+{
+    symbols_forget(t, 0);
+    free(t->entry);
+    memset(t, 0, sizeof *t);
 }

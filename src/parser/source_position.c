@@ -1,5 +1,5 @@
-/* place.c: see place.h. */
-#include "parser/place.h"
+/* source_position.c: see source_position.h. */
+#include "parser/source_position.h"
 
 #include <errno.h>
 #include <stdarg.h>
@@ -44,13 +44,13 @@ static void write_line_break(struct writer *w)
 
 /* The part of the line around the column, and a caret under it. Tabs and the like become one blank each; bytes outside
  * ASCII are written, and so cleaned, one by one, whereby one byte stays one column. */
-static void write_excerpt(struct writer *w, struct place at)
+static void write_excerpt(struct writer *w, struct source_position at)
 {
     const char *begin = at.line_start, *caret = at.line_start + (at.column - 1);
     if (caret - begin > SHOWN_COLUMNS * 3 / 4)
         begin = caret - SHOWN_COLUMNS / 2;
     const char *end = begin;
-    while (end < at.input->end && *end != '\n' && *end != '\r' && end - begin < SHOWN_COLUMNS)
+    while (end < at.file->end && *end != '\n' && *end != '\r' && end - begin < SHOWN_COLUMNS)
         end++;
     write_line_break(w);
     for (const char *p = begin; p < end; p++)
@@ -59,34 +59,34 @@ static void write_excerpt(struct writer *w, struct place at)
     write_text(w, "%*s^", (int)(caret - begin), "");
 }
 
-static void write_includes(struct writer *w, const struct input *input)
+static void write_includes(struct writer *w, const struct source_file *file)
 {
-    for (int i = 0; input->included_at.input != NULL; i++, input = input->included_at.input) {
+    for (int i = 0; file->included_at.file != NULL; i++, file = file->included_at.file) {
         write_line_break(w);
         if (i == SHOWN_INCLUDES) {
             write_text(w, "...");
             return;
         }
-        write_text(w, "included from %s:%d", input->included_at.input->path, input->included_at.line);
+        write_text(w, "included from %s:%d", file->included_at.file->path, file->included_at.line);
     }
 }
 
-bool place_error(struct messages *m, struct place at, const char *format, ...)
+bool source_error(struct messages *m, struct source_position at, const char *format, ...)
 {
     if (m->err == NULL)
         return false;
     struct writer w = {m->err->text, 0, sizeof m->err->text};
-    write_text(&w, "%s:%d:%d: ", at.input->path, at.line, at.column);
+    write_text(&w, "%s:%d:%d: ", at.file->path, at.line, at.column);
     va_list args;
     va_start(args, format);
     write_args(&w, format, args);
     va_end(args);
     write_excerpt(&w, at);
-    write_includes(&w, at.input);
+    write_includes(&w, at.file);
     return false;
 }
 
-void place_warn(struct messages *m, struct place at, const char *kind, const char *format, ...)
+void source_warn(struct messages *m, struct source_position at, const char *kind, const char *format, ...)
 {
     for (size_t i = 0; i < m->n_given; i++)
         if (strcmp(m->given[i], kind) == 0)
@@ -97,7 +97,7 @@ void place_warn(struct messages *m, struct place at, const char *kind, const cha
         return;
     char text[ERROR_TEXT_SIZE];
     struct writer w = {text, 0, sizeof text};
-    write_text(&w, "%s:%d:%d: ", at.input->path, at.line, at.column);
+    write_text(&w, "%s:%d:%d: ", at.file->path, at.line, at.column);
     va_list args;
     va_start(args, format);
     write_args(&w, format, args);
@@ -105,9 +105,9 @@ void place_warn(struct messages *m, struct place at, const char *kind, const cha
     m->sink->warn(m->sink->context, text);
 }
 
-void place_text(struct place at, char *buffer, size_t size)
+void source_position_text(struct source_position at, char *buffer, size_t size)
 {
-    snprintf(buffer, size, "%s:%d:%d", at.input->path, at.line, at.column);
+    snprintf(buffer, size, "%s:%d:%d", at.file->path, at.line, at.column);
 }
 
 void messages_free(struct messages *m)

@@ -1,0 +1,69 @@
+/* symbols.h: the names of a scene file: a table from names to numbers with scopes, and the nearest known name to one
+ * that is not known, for "did you mean".
+ *
+ * AttributeEnd forgets the textures and materials named since its AttributeBegin: what was added after a mark can be
+ * forgotten again. A later name hides an earlier equal one. Hash chains are kept newest first, so that forgetting is
+ * popping.
+ *
+ * Tests: test_parser.c.
+ */
+#ifndef ASBDPT_SYMBOLS_H
+#define ASBDPT_SYMBOLS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* --- the nearest known name --------------------------------------------------------------------------- */
+
+/* The best candidate so far, by the fewest insertions, deletions, substitutions and swaps of neighbours, each counted
+ * once and letter case ignored [Damerau 1964, "optimal string alignment"]. Start with suggest_start, offer every known
+ * name, then read `name`. */
+struct suggestion {
+    const char *wanted; /* what the user wrote */
+    const char *name;   /* nearest name offered so far; NULL: none is near */
+    int distance;       /* its distance; before the first near one: one more than may be called near */
+};
+
+/* suggest_start: a name of n letters may be off by about a third of them. */
+struct suggestion suggest_start(const char *wanted);
+
+/* suggest_offer: consider one known name; the string must outlive the suggestion. */
+void suggest_offer(struct suggestion *s, const char *known);
+
+/* suggest_from: the nearest of a NULL-terminated list, or NULL. */
+const char *suggest_from(const char *wanted, const char *const *known);
+
+/* --- the table ---------------------------------------------------------------------------------------- */
+
+enum { SYMBOL_CHAINS = 1024 };
+
+/* One name. */
+struct symbol {
+    char *name; /* owned */
+    int value;
+    int older; /* next entry of the chain, -1 at its end */
+};
+
+struct symbols {
+    struct symbol *entry; /* [n], in the order they were added, owned */
+    int n;
+    size_t capacity;
+    int newest[SYMBOL_CHAINS]; /* first entry of each chain plus 1; 0: empty. So all zeros is an empty table. */
+};
+
+void symbols_add(struct symbols *t, const char *name, int value);
+
+/* symbols_find: the value of the newest entry of this name, or -1. Values must not be negative. */
+int symbols_find(const struct symbols *t, const char *name);
+
+/* symbols_forget: remove all entries but the first n. */
+void symbols_forget(struct symbols *t, int n);
+
+/* symbols_near: the known name nearest to an unknown one, or NULL. */
+const char *symbols_near(const struct symbols *t, const char *name);
+void symbols_free(struct symbols *t);
+
+/* symbols_hash: the FNV-1a hash of n bytes [Fowler, Noll & Vo]. */
+uint32_t symbols_hash(const void *bytes, size_t n);
+
+#endif
