@@ -227,7 +227,7 @@ static void set_primitive(const struct geometry *geo, int prim, struct surface *
 {
     const struct shape_group *group = shape_group_of(geo, prim);
     out->material = group->material;
-    out->flat = shape_flat(prim);
+    out->triangle_id = shape_triangle_id(prim);
     out->light = group->first_light >= 0 ? group->first_light + prim - group->first_prim : -1;
 }
 

@@ -94,8 +94,8 @@ void shape_bounds(const struct geometry *geo, int prim, float lo[3], float hi[3]
  * edges shared by two triangles leave no gap. Alpha is not looked at here. */
 bool shape_intersect(const struct geometry *geo, int prim, const struct ray *ray, struct hit *hit);
 
-/* shape_flat: the number by which rays and points name the triangle they begin, end or lie on; 0 for a quadric. */
-static inline uint32_t shape_flat(int prim) { return prim < FIRST_QUADRIC ? (uint32_t)prim + 1 : 0; }
+/* shape_triangle_id: the number by which rays and points name the triangle they begin, end or lie on; 0 for a quadric. */
+static inline uint32_t shape_triangle_id(int prim) { return prim < FIRST_QUADRIC ? (uint32_t)prim + 1 : 0; }
 
 /* shape_surface: the full surface point of a hit (position from the barycentric coordinates for triangles,
  * refined onto the surface for quadrics). Shading normal and partials as pbrt-v3 defines them. */

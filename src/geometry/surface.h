@@ -16,7 +16,7 @@ struct surface {
     vec3 dndu, dndv; /* partial derivatives of ns; zero where the shape does not define them */
     double u, v;     /* texture coordinates */
     int material;    /* index into scene->materials, or -1 */
-    uint32_t flat;   /* the triangle it is on, see shape_flat; 0: none */
+    uint32_t triangle_id; /* the triangle it is on, see shape_triangle_id; 0: none */
     int light;       /* index into scene->lights of the area light that sits here, or -1 */
 };
 

@@ -78,7 +78,7 @@ struct light_point {
     vec3 p;          /* position; for lights at infinity: unused */
     vec3 n;          /* area light: unit normal of the emitting side; else zero */
     vec3 w;          /* lights at infinity: unit direction from the scene towards the light */
-    uint32_t flat;   /* area light: the triangle it is, see shape_flat; else 0 */
+    uint32_t triangle_id; /* area light: the triangle it is, see shape_triangle_id; else 0 */
     double pdf_cell; /* density within the cell: 1/m^2, or 1/sr at infinity; 1 for a delta */
     double pdf;      /* that times the probability of the cell under `choice` */
 };
