@@ -4,7 +4,7 @@
  * any size written in it. Writing goes to a temporary file beside the target that takes the target's name only when
  * every byte has been accepted: a full disk or an interrupted run leaves the old file, never half a new one.
  *
- * Used by: image. Tests: test_image.c.
+ * Tests: test_image.c.
  */
 #ifndef ASBDPT_FILE_H
 #define ASBDPT_FILE_H

@@ -1,8 +1,6 @@
 /* rgb.h: a colour or any three-channel quantity, linear, with the primaries of sRGB.
  *
  * Radiance in W/(sr m^2), power in W, reflectance dimensionless: the name of the variable says which.
- *
- * Used by: everything that carries light.
  */
 #ifndef ASBDPT_RGB_H
 #define ASBDPT_RGB_H

@@ -1,15 +1,6 @@
 /* sampler.c: see sampler.h. */
 #include "base/sampler.h"
 
-static uint32_t reverse_bits(uint32_t x)
-{
-    x = (x >> 16) | (x << 16);
-    x = ((x & 0xff00ff00u) >> 8) | ((x & 0x00ff00ffu) << 8);
-    x = ((x & 0xf0f0f0f0u) >> 4) | ((x & 0x0f0f0f0fu) << 4);
-    x = ((x & 0xccccccccu) >> 2) | ((x & 0x33333333u) << 2);
-    return ((x & 0xaaaaaaaau) >> 1) | ((x & 0x55555555u) << 1);
-}
-
 /* Owen scrambling of a binary fraction given with its first digit in bit 0: every digit is flipped or not depending on a
  * hash of the digits before it. Multiplications by even numbers carry upwards only, which is what makes this hash do
  * that [Laine & Karras 2011; constants of Burley 2020]. */

@@ -6,7 +6,7 @@
  * independent, so nothing is biased. Within one pixel the iterations are better spread than independent ones, and a weak
  * correlation between two pairs may remain, since the order is a hash.
  *
- * Used by: path, connect, the methods. Tests: test_sampler.c.
+ * Tests: test_sampler.c.
  */
 #ifndef ASBDPT_SAMPLER_H
 #define ASBDPT_SAMPLER_H

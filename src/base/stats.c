@@ -120,24 +120,24 @@ double stats_student_p(double t, double dof)
 
 double stats_chi2_p(double x, double dof) { return stats_gamma_q(dof / 2, x / 2); }
 
-struct cell {
+struct count_pair {
     double observed, expected;
 };
 
 static int by_expectation(const void *a, const void *b)
 {
-    double x = ((const struct cell *)a)->expected, y = ((const struct cell *)b)->expected;
+    double x = ((const struct count_pair *)a)->expected, y = ((const struct count_pair *)b)->expected;
     return (x > y) - (x < y);
 }
 
 /* Pearson's sum over the cells, sorted by expectation, after pooling; *n_pooled receives the number of pools. */
-static double pearson(const struct cell *cell, size_t n, size_t *n_pooled)
+static double pearson(const struct count_pair *cell, size_t n, size_t *n_pooled)
 {
     const double least = 5; /* expectation below which a cell's share is far from chi-square distributed */
     double sum = 0;
     *n_pooled = 0;
     for (size_t i = 0; i < n;) {
-        struct cell pool = cell[i++];
+        struct count_pair pool = cell[i++];
         while (i < n && pool.expected < least) {
             pool.observed += cell[i].observed;
             pool.expected += cell[i++].expected;
@@ -151,7 +151,7 @@ static double pearson(const struct cell *cell, size_t n, size_t *n_pooled)
 
 double stats_chi2_test(const double *observed, const double *expected, size_t n)
 {
-    struct cell *cell = mem_alloc(n, sizeof *cell);
+    struct count_pair *cell = mem_alloc(n, sizeof *cell);
     size_t used = 0;
     bool impossible = false;
     for (size_t i = 0; i < n; i++) {
@@ -205,10 +205,12 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+void stats_sort(double *x, size_t n) { qsort(x, n, sizeof *x, by_value); }
+
 double stats_ks_distance(double *x, size_t n)
 {
     double d = 0, count = (double)n;
-    qsort(x, n, sizeof *x, by_value);
+    stats_sort(x, n);
     for (size_t i = 0; i < n; i++) {
         d = fmax(d, x[i] - (double)i / count);
         d = fmax(d, (double)(i + 1) / count - x[i]);
@@ -224,4 +226,4 @@ double stats_ks_uniform_p(double *x, size_t n)
     return stats_kolmogorov_p(stats_ks_distance(x, n) * (root + 0.12 + 0.11 / root));
 }
 
-double stats_sidak(double alpha, double m) { return -expm1(log1p(-alpha) / m); }
+double stats_sidak(double p, double m) { return -expm1(m * log1p(-p)); }

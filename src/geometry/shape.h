@@ -4,7 +4,6 @@
  * given out stays valid when more shapes are added. Every primitive belongs to a group (what one Shape directive
  * made), which carries material, alpha textures and area light. A Shape inside an object instance is copied per instance.
  *
- * Used by: kdtree (intersection, bounds), light (area sampling), scene, parser.
  * Tests: test_shape.c.
  */
 #ifndef ASBDPT_SHAPE_H
@@ -16,7 +15,6 @@
 
 #include "base/error.h"
 #include "geometry/quadric.h"
-#include "geometry/ray.h"
 #include "geometry/surface.h"
 #include "base/transform.h"
 #include "geometry/triangle.h"
@@ -34,7 +32,7 @@ struct shape_group {
     bool flip;        /* ReverseOrientation xor transform swaps handedness: normals without N are negated */
     bool has_n;       /* vertex normals given (already negated under ReverseOrientation): they orient ng as well */
     bool has_uv;
-    bool plain; /* nobody reads the partial derivatives of its surface: zeros will do (scene_prepare finds out) */
+    bool skip_partials; /* nobody reads the partial derivatives of its surface (scene_prepare finds out): leave them zero */
 };
 
 struct geometry {

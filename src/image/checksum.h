@@ -1,6 +1,6 @@
 /* checksum.h: the two checksums inside a PNG file.
  *
- * Used by: inflate, deflate, png. Tests: test_image.c (published check values).
+ * Tests: test_image.c (published check values).
  */
 #ifndef ASBDPT_CHECKSUM_H
 #define ASBDPT_CHECKSUM_H

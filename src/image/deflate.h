@@ -1,6 +1,6 @@
 /* deflate.h: packs bytes as zlib data [RFC 1950, RFC 1951].
  *
- * Used by: png. Tests: test_image.c.
+ * Tests: test_image.c.
  */
 #ifndef ASBDPT_DEFLATE_H
 #define ASBDPT_DEFLATE_H

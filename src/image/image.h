@@ -4,7 +4,7 @@
  * written; read as stored), TGA (read only). Each format lives in a file of its own; the pixels in memory are
  * picture.h's, the transfer function of sRGB is srgb.h's.
  *
- * Used by: texture, light (environment maps), film output, compare. Tests: test_image.c.
+ * Tests: test_image.c.
  */
 #ifndef ASBDPT_IMAGE_H
 #define ASBDPT_IMAGE_H

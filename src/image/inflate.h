@@ -1,6 +1,6 @@
 /* inflate.h: unpacks zlib data [RFC 1950, RFC 1951].
  *
- * Used by: png. Tests: test_image.c.
+ * Tests: test_image.c.
  */
 #ifndef ASBDPT_INFLATE_H
 #define ASBDPT_INFLATE_H

@@ -4,7 +4,7 @@
  *     width height
  *     scale     (negative: little-endian, positive: big-endian; samples are multiplied by its size)
  *
- * Used by: image. Tests: test_image.c.
+ * Tests: test_image.c.
  */
 #ifndef ASBDPT_PFM_H
 #define ASBDPT_PFM_H

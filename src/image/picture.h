@@ -1,6 +1,6 @@
 /* picture.h: pixels in memory, as the image formats fill and texture reads them.
  *
- * Used by: pfm, ppm, png, tga, image, parse_options, job_options. Tests: test_image.c.
+ * Tests: test_image.c.
  */
 #ifndef ASBDPT_PICTURE_H
 #define ASBDPT_PICTURE_H

@@ -3,7 +3,7 @@
  * Read: every colour type and depth, interlaced or not. Alpha, transparency and colour profiles are not used;
  * checksums are checked. Written: 8-bit RGB.
  *
- * Used by: image. Tests: test_image.c.
+ * Tests: test_image.c.
  */
 #ifndef ASBDPT_PNG_H
 #define ASBDPT_PNG_H

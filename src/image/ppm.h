@@ -2,7 +2,7 @@
  *
  *     P6  width height  maxval  samples     (a # begins a comment that ends with its line)
  *
- * Used by: image. Tests: test_image.c.
+ * Tests: test_image.c.
  */
 #ifndef ASBDPT_PPM_H
 #define ASBDPT_PPM_H

@@ -1,6 +1,6 @@
 /* srgb.h: the transfer function of sRGB [IEC 61966-2-1], between linear light and the numbers of 8-bit pictures.
  *
- * Used by: picture, ppm, png, texture, compare. Tests: test_image.c.
+ * Tests: test_image.c.
  */
 #ifndef ASBDPT_SRGB_H
 #define ASBDPT_SRGB_H

@@ -3,7 +3,7 @@
  * TGA has no signature: the file's name decides. Pixels of 24 or 32 bits (blue, green, red, alpha), grey and map
  * indices of 8 bits; 15 and 16-bit pixels are refused.
  *
- * Used by: image. Tests: test_image.c.
+ * Tests: test_image.c.
  */
 #ifndef ASBDPT_TGA_H
 #define ASBDPT_TGA_H

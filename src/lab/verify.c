@@ -163,12 +163,6 @@ static void resample(const struct sample *s, struct rng *r, struct sample *out)
     free(mean);
 }
 
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* p-value of a distance: Kolmogorov's, with the scale on which the resamplings' distances have its 90 % quantile. */
 static double uniform_p(const struct sample *a, const struct sample *b, double distance, uint64_t seed)
 {
@@ -185,12 +179,9 @@ static double uniform_p(const struct sample *a, const struct sample *b, double d
     sample_free(&x);
     sample_free(&y);
     free(p);
-    qsort(found, RESAMPLINGS, sizeof *found, by_value);
+    stats_sort(found, RESAMPLINGS);
     return stats_kolmogorov_p(quantile * distance / found[RESAMPLINGS * 9 / 10]);
 }
-
-/* The smallest of n p-values of hypotheses that all hold is as small as p with this probability, or less. */
-static double sidak_p(double p, double n) { return -expm1(n * log1p(-p)); }
 
 struct verdict verify_samples(const struct sample *a, const struct sample *b, uint64_t seed, double *p_out)
 {
@@ -207,13 +198,13 @@ struct verdict verify_samples(const struct sample *a, const struct sample *b, ui
     }
     if (p_out != NULL)
         memcpy(p_out, p, (size_t)v.n * sizeof *p);
-    v.smallest = v.n > 0 ? sidak_p(v.smallest, (double)v.n) : 1;
+    v.smallest = v.n > 0 ? stats_sidak(v.smallest, (double)v.n) : 1;
     v.uniform = v.n > 0 ? uniform_p(a, b, uniform_distance(p, v.n), seed) : 1;
     struct moments x = total_moments(a), y = total_moments(b);
     v.mean = welch(x, y);
     v.ratio = x.mean / y.mean;
     v.ratio_error = fabs(v.ratio) * sqrt(x.variance / (x.n * x.mean * x.mean) + y.variance / (y.n * y.mean * y.mean));
-    v.p = sidak_p(fmin(v.smallest, fmin(v.mean, v.uniform)), 3);
+    v.p = stats_sidak(fmin(v.smallest, fmin(v.mean, v.uniform)), 3);
     free(p);
     free(where);
     return v;

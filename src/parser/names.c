@@ -5,16 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/bits.h"
 #include "base/mem.h"
 #include "parser/suggest.h"
 
-/* Which chain a name is in: the FNV-1a hash [Fowler, Noll, Vo]. */
+/* Which chain a name is in. */
 static uint32_t chain(const char *name)
 {
-    uint32_t h = 2166136261u;
-    for (; *name != '\0'; name++)
-        h = (h ^ (unsigned char)*name) * 16777619u;
-    return h % NAME_CHAINS;
+    return hash_bytes(name, strlen(name)) % NAME_CHAINS;
 }
 
 void names_add(struct names *t, const char *name, int value)

@@ -7,13 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/bits.h"
+
 int parse_constant(struct parser *p, rgb value)
 {
-    uint32_t h = 2166136261u;
-    unsigned char bytes[sizeof value];
-    memcpy(bytes, &value, sizeof value);
-    for (size_t i = 0; i < sizeof value; i++)
-        h = (h ^ bytes[i]) * 16777619u;
+    uint32_t h = hash_bytes(&value, sizeof value);
     int *slot = &p->constant[(h ^ h >> 16) % CONSTANTS];
     const struct texture *known = *slot > 0 ? &p->scene->textures.texture[*slot - 1] : NULL;
     if (known == NULL || memcmp(&known->u.constant, &value, sizeof value) != 0)

@@ -109,7 +109,7 @@ void light_prepare(struct light_set *set, const struct geometry *geo, vec3 cente
 static vec3 infinite_sample(const struct light *l, int cell, double u1, double u2, double *pdf_w)
 {
     if (l->env == NULL) {
-        *pdf_w = warp_sphere_pdf() * SKY_CELLS;
+        *pdf_w = warp_sphere_pdf_w() * SKY_CELLS;
         return warp_sphere((cell / SKY_SECTORS + u1) / SKY_BANDS, (cell % SKY_SECTORS + u2) / SKY_SECTORS);
     }
     return normalize(transform_vector(&l->to_world, envmap_sample(l->env, cell, u1, u2, pdf_w)));
@@ -128,7 +128,7 @@ static double infinite_pdf(const struct light *l, vec3 w, int *cell)
     double u1, u2;
     warp_sphere_inverse(w, &u1, &u2);
     *cell = int_within(u1 * SKY_BANDS, 0, SKY_BANDS - 1) * SKY_SECTORS + int_within(u2 * SKY_SECTORS, 0, SKY_SECTORS - 1);
-    return warp_sphere_pdf() * SKY_CELLS;
+    return warp_sphere_pdf_w() * SKY_CELLS;
 }
 
 static rgb infinite_Le(const struct light *l, vec3 w)
@@ -228,10 +228,10 @@ double light_pdf_emission(const struct light_set *set, const struct light_point 
     switch (l->kind) {
     case LIGHT_AREA: {
         double c = dot(y0->n, w);
-        return l->two_sided ? 0.5 * warp_cos_hemisphere_pdf(fabs(c)) : warp_cos_hemisphere_pdf(c);
+        return l->two_sided ? 0.5 * warp_cos_hemisphere_pdf_w(fabs(c)) : warp_cos_hemisphere_pdf_w(c);
     }
-    case LIGHT_POINT: return warp_sphere_pdf();
-    case LIGHT_SPOT: return dot(l->axis.n, w) >= l->cos_total ? warp_cone_pdf(l->cos_total) : 0;
+    case LIGHT_POINT: return warp_sphere_pdf_w();
+    case LIGHT_SPOT: return dot(l->axis.n, w) >= l->cos_total ? warp_cone_pdf_w(l->cos_total) : 0;
     case LIGHT_DISTANT:
     case LIGHT_INFINITE: return 1 / (PI * sqr(set->radius));
     }
