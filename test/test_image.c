@@ -8,14 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/checksum.h"
+#include "image/zlib.h"
 #include "base/mem.h"
-#include "image/pfm.h"
-#include "image/png.h"
-#include "image/ppm.h"
+#include "image/formats.h"
 #include "base/rng.h"
-#include "image/srgb.h"
-#include "image/tga.h"
 #include "samples.h"
 #include "tests.h"
 

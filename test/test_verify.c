@@ -5,7 +5,7 @@
 #include "lab/compare.h"
 #include "base/mem.h"
 #include "base/rng.h"
-#include "image/srgb.h"
+#include "image/picture.h"
 #include "base/stats.h"
 #include "lab/verify.h"
 #include "helpers.h"

@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <time.h>
 
-#include "image/checksum.h"
+#include "image/zlib.h"
 #include "lab/compare.h"
 #include "image/image.h"
 #include "base/mem.h"
