@@ -326,12 +326,9 @@ static bool read_baseline(const char *path, char **text, struct error *err)
 {
     uint8_t *data;
     size_t size;
-    if (!file_read(path, &data, &size, err))
-        return false;
-    *text = mem_alloc(size + 1, 1); /* ends with a zero */
-    memcpy(*text, data, size);
-    free(data);
-    return true;
+    bool ok = file_read(path, &data, &size, err);
+    *text = (char *)data;
+    return ok;
 }
 
 static bool run(const struct arguments *a, struct error *err)

@@ -46,14 +46,11 @@ static bool read_step(const char **text, struct run_step *s)
 bool run_read(const char *path, const char *key, int n_steps, struct run *out)
 {
     memset(out, 0, sizeof *out);
-    uint8_t *data;
+    uint8_t *content;
     size_t size;
-    if (!file_read(path, &data, &size, NULL))
+    if (!file_read(path, &content, &size, NULL))
         return false;
-    char *content = mem_alloc(size + 1, 1); /* ended by a zero byte */
-    memcpy(content, data, size);
-    free(data);
-    const char *text = after(after(after(after(after(content, "# "), key), "\n"), COLUMNS), "\n");
+    const char *text = after(after(after(after(after((const char *)content, "# "), key), "\n"), COLUMNS), "\n");
     while (text != NULL && out->n < n_steps && read_step(&text, &out->step[out->n]))
         out->n++;
     bool ok = text != NULL && out->n == n_steps && *text == '\0';
