@@ -42,19 +42,25 @@ static double gamma_p_series(double a, double x)
     return sum * exp(a * log(x) - x - log_gamma(a + 1));
 }
 
+/* One more term of a continued fraction ... b + numerator / (...): the factor by which its value changes. */
+static double lentz_step(double numerator, double b, double *c, double *d)
+{
+    *d = numerator * *d + b;
+    *c = b + numerator / *c;
+    *d = 1 / (fabs(*d) < TINY ? TINY : *d);
+    *c = fabs(*c) < TINY ? TINY : *c;
+    return *d * *c;
+}
+
 /* Q(a,x) for x >= a + 1, by the continued fraction 1/(x+1-a - 1(1-a)/(x+3-a - 2(2-a)/(x+5-a - ...))). */
 static double gamma_q_fraction(double a, double x)
 {
     double b = x + 1 - a, c = 1 / TINY, d = 1 / b, value = d;
     for (int k = 1; k < MAX_TERMS; k++) {
-        double numerator = -k * (k - a);
         b += 2;
-        d = numerator * d + b;
-        c = b + numerator / c;
-        d = 1 / (fabs(d) < TINY ? TINY : d);
-        c = fabs(c) < TINY ? TINY : c;
-        value *= d * c;
-        if (fabs(d * c - 1) < DBL_EPSILON)
+        double step = lentz_step(-k * (k - a), b, &c, &d);
+        value *= step;
+        if (fabs(step - 1) < DBL_EPSILON)
             break;
     }
     return value * exp(a * log(x) - x - log_gamma(a));
@@ -79,16 +85,9 @@ static double beta_fraction(double a, double b, double x)
     for (int k = 1; k < MAX_TERMS; k++) {
         double even = k * (b - k) * x / ((a + 2 * k - 1) * (a + 2 * k));
         double odd = -(a + k) * (a + b + k) * x / ((a + 2 * k) * (a + 2 * k + 1));
-        double step = 1;
-        for (int half = 0; half < 2; half++) {
-            double numerator = half == 0 ? even : odd;
-            d = 1 + numerator * d;
-            c = 1 + numerator / c;
-            d = 1 / (fabs(d) < TINY ? TINY : d);
-            c = fabs(c) < TINY ? TINY : c;
-            step = d * c;
-            value *= step;
-        }
+        value *= lentz_step(even, 1, &c, &d);
+        double step = lentz_step(odd, 1, &c, &d);
+        value *= step;
         if (fabs(step - 1) < DBL_EPSILON)
             break;
     }

@@ -123,7 +123,9 @@ static inline bool traversal_next(struct traversal *w, double t)
     return false;
 }
 
-bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct hit *hit)
+/* Both kinds of rays; `shadow` is a constant where this is inlined, so that neither pays for the other. */
+static inline bool traverse(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, bool shadow,
+                            struct hit *hit)
 {
     struct traversal w;
     if (!traversal_start(&w, kd, ray))
@@ -132,11 +134,13 @@ bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struc
     int near[KD_LANES];
     bool found = false;
     do {
-        struct kd_node leaf = traversal_to_leaf(&w, kd->node, false);
+        struct kd_node leaf = traversal_to_leaf(&w, kd->node, shadow);
         const struct kd_block *block = kd->block + leaf.at.first, *end = block + kd_blocks(leaf);
         for (; block < end; block++)
             if (kd_block_near(block, &w.ray, near) &&
-                kd_block_hit(block, near, geo, &w.ray, nearest, false, hit)) {
+                kd_block_hit(block, near, geo, &w.ray, nearest, shadow, hit)) {
+                if (shadow)
+                    return true;
                 nearest = hit->t;
                 found = true;
             }
@@ -144,20 +148,13 @@ bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struc
     return found;
 }
 
+bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct hit *hit)
+{
+    return traverse(kd, geo, ray, false, hit);
+}
+
 bool kd_occluded(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray)
 {
-    struct traversal w;
     struct hit hit;
-    int near[KD_LANES];
-    if (!traversal_start(&w, kd, ray))
-        return false;
-    do {
-        struct kd_node leaf = traversal_to_leaf(&w, kd->node, true);
-        const struct kd_block *block = kd->block + leaf.at.first, *end = block + kd_blocks(leaf);
-        for (; block < end; block++)
-            if (kd_block_near(block, &w.ray, near) &&
-                kd_block_hit(block, near, geo, &w.ray, ray->tmax, true, &hit))
-                return true;
-    } while (traversal_next(&w, ray->tmax));
-    return false;
+    return traverse(kd, geo, ray, true, &hit);
 }

@@ -44,6 +44,13 @@ static uint8_t predict(enum row_filter f, uint8_t left, uint8_t above, uint8_t a
     return 0;
 }
 
+
+/* The same for byte i of a row, `step` being the bytes of a pixel, at least 1. */
+static inline uint8_t predict_at(enum row_filter f, const uint8_t *row, const uint8_t *above, size_t i, size_t step)
+{
+    return i < step ? predict(f, 0, above[i], 0) : predict(f, row[i - step], above[i], above[i - step]);
+}
+
 /* --- reading ----------------------------------------------------------------------------------------- */
 
 struct png {
@@ -195,16 +202,6 @@ static size_t pass_bytes(const struct png *p, const struct adam7_pass *s)
     return width > 0 ? pass_height(p, s) * (1 + row_bytes(p, width)) : 0;
 }
 
-/* Undo a filter. `step`: bytes of a pixel, at least 1; `above`: the row before, or NULL. */
-static void unfilter(enum row_filter f, uint8_t *row, const uint8_t *above, size_t n, size_t step)
-{
-    for (size_t i = 0; i < n; i++) {
-        uint8_t a = i >= step ? row[i - step] : 0, b = above != NULL ? above[i] : 0;
-        uint8_t c = above != NULL && i >= step ? above[i - step] : 0;
-        row[i] = (uint8_t)(row[i] + predict(f, a, b, c));
-    }
-}
-
 /* Sample number `i` of a row. */
 static unsigned sample(const uint8_t *row, size_t i, unsigned depth)
 {
@@ -238,26 +235,29 @@ static bool put_pixel(const struct png *p, const uint8_t *row, size_t i, struct 
     return true;
 }
 
-static bool read_pass(const struct png *p, const struct adam7_pass *s, uint8_t *bytes, struct image *out)
+/* Undo the filters of a pass and put its pixels in place. `above`: a row of zeros. */
+static bool read_pass(const struct png *p, const struct adam7_pass *s, const uint8_t *above, uint8_t *bytes,
+                      struct image *out)
 {
     size_t width = pass_width(p, s), height = pass_height(p, s), n = row_bytes(p, width);
     size_t step = p->samples * p->depth < 8 ? 1 : p->samples * p->depth / 8;
-    const uint8_t *above = NULL;
     for (size_t y = 0; y < height; y++) {
         uint8_t *row = bytes + y * (n + 1);
         if (row[0] >= FILTERS)
             return error_set(p->err, "the file is damaged: no such filter");
-        unfilter((enum row_filter)row[0], row + 1, above, n, step);
-        above = row + 1;
+        enum row_filter f = (enum row_filter)*row++;
+        for (size_t i = 0; i < n; i++)
+            row[i] = (uint8_t)(row[i] + predict_at(f, row, above, i, step));
+        above = row;
         for (size_t x = 0; x < width; x++)
-            if (!put_pixel(p, row + 1, x, out, (s->y0 + y * s->dy) * p->width + s->x0 + x * s->dx))
+            if (!put_pixel(p, row, x, out, (s->y0 + y * s->dy) * p->width + s->x0 + x * s->dx))
                 return false;
     }
     return true;
 }
 
 /* Put all unpacked pixels in place. */
-static bool place_pixels(const struct png *p, const struct adam7_pass *pass, int passes, uint8_t *bytes,
+static bool place_pixels(const struct png *p, const struct adam7_pass *pass, int passes, const uint8_t *zeros, uint8_t *bytes,
                          struct image *out)
 {
     int channels = p->colour == GREY || p->colour == GREY_ALPHA ? 1 : 3;
@@ -268,7 +268,7 @@ static bool place_pixels(const struct png *p, const struct adam7_pass *pass, int
     out->linear = false;
     for (int i = 0; i < passes; i++) {
         size_t n = pass_bytes(p, &pass[i]);
-        if (n > 0 && !read_pass(p, &pass[i], bytes, out)) {
+        if (n > 0 && !read_pass(p, &pass[i], zeros, bytes, out)) {
             image_free(out);
             return false;
         }
@@ -286,9 +286,10 @@ static bool read_pixels(const struct png *p, struct image *out)
         total += pass_bytes(p, &pass[i]);
     if (total / INFLATE_MAX_RATIO > p->n_packed)
         return picture_truncated(p->width, p->height, p->err);
-    uint8_t *bytes = mem_alloc(total, 1);
-    bool ok =
-        inflate_zlib(p->packed, p->n_packed, bytes, total, p->err) && place_pixels(p, pass, passes, bytes, out);
+    uint8_t *bytes = mem_alloc(total, 1), *zeros = mem_alloc(row_bytes(p, p->width), 1);
+    bool ok = inflate_zlib(p->packed, p->n_packed, bytes, total, p->err) &&
+              place_pixels(p, pass, passes, zeros, bytes, out);
+    free(zeros);
     free(bytes);
     return ok;
 }
@@ -322,49 +323,42 @@ static void put_chunk(FILE *f, const char *name, const uint8_t *data, size_t siz
     fwrite(tail, 1, sizeof tail, f);
 }
 
-/* The filter whose residuals, taken as signed numbers, have the least sum of sizes. */
-static enum row_filter best_filter(const uint8_t *row, const uint8_t *above, size_t n)
+/* Write the filter's number and the filtered row to out[0..n]; returns the sum of the sizes of the residuals, taken as
+ * signed numbers. */
+static uint64_t filter_row(enum row_filter f, const uint8_t *row, const uint8_t *above, size_t n, uint8_t *out)
 {
-    uint64_t sum[FILTERS] = {0};
+    uint64_t sum = 0;
+    *out++ = (uint8_t)f;
     for (size_t i = 0; i < n; i++) {
-        uint8_t a = i >= 3 ? row[i - 3] : 0, c = i >= 3 ? above[i - 3] : 0;
-        for (int f = 0; f < FILTERS; f++) {
-            uint8_t residual = (uint8_t)(row[i] - predict((enum row_filter)f, a, above[i], c));
-            sum[f] += residual < 128 ? residual : 256u - residual;
-        }
+        out[i] = (uint8_t)(row[i] - predict_at(f, row, above, i, 3));
+        sum += out[i] < 128 ? out[i] : 256u - out[i];
     }
-    int best = FILTER_NONE;
-    for (int f = FILTER_SUB; f < FILTERS; f++)
-        best = sum[f] < sum[best] ? f : best;
-    return (enum row_filter)best;
+    return sum;
 }
 
-/* Write the filter's number and the filtered row to out[0..n]. */
-static void filter_row(enum row_filter f, const uint8_t *row, const uint8_t *above, size_t n, uint8_t *out)
-{
-    out[0] = (uint8_t)f;
-    for (size_t i = 0; i < n; i++) {
-        uint8_t a = i >= 3 ? row[i - 3] : 0, c = i >= 3 ? above[i - 3] : 0;
-        out[1 + i] = (uint8_t)(row[i] - predict(f, a, above[i], c));
-    }
-}
-
-/* All rows filtered, each with what probably packs best [12.8]. */
+/* All rows filtered, each with what probably packs best: what leaves the least residuals [12.8]. */
 static uint8_t *filter_rows(int width, int height, const float *pixels)
 {
     size_t n = 3 * (size_t)width;
     uint8_t *all = mem_alloc((size_t)height, n + 1);
-    uint8_t *row = mem_alloc(n, 1), *above = mem_alloc(n, 1);
+    uint8_t *row = mem_alloc(n, 1), *above = mem_alloc(n, 1), *trial = mem_alloc(n + 1, 1);
     for (size_t y = 0; y < (size_t)height; y++) {
         for (size_t i = 0; i < n; i++)
             row[i] = srgb_byte(pixels[y * n + i]);
-        filter_row(best_filter(row, above, n), row, above, n, all + y * (n + 1));
+        uint64_t least = UINT64_MAX;
+        for (int f = FILTER_NONE; f < FILTERS; f++) {
+            uint64_t sum = filter_row((enum row_filter)f, row, above, n, trial);
+            if (sum < least)
+                memcpy(all + y * (n + 1), trial, n + 1);
+            least = sum < least ? sum : least;
+        }
         uint8_t *swap = above;
         above = row;
         row = swap;
     }
     free(row);
     free(above);
+    free(trial);
     return all;
 }
 
