@@ -31,7 +31,8 @@ static void check_rng(struct test *t)
     uint32_t first = rng_u32(&a);
     CHECK(t, first == rng_u32(&b), "one name, two streams");
     CHECK(t, first != rng_u32(&c), "purposes share their numbers");
-    struct rng seed = rng_stream(2, RNG_EYE, 7, 3), index = rng_stream(1, RNG_EYE, 8, 3), next = rng_stream(1, RNG_EYE, 7, 4);
+    struct rng seed = rng_stream(2, RNG_EYE, 7, 3), index = rng_stream(1, RNG_EYE, 8, 3),
+               next = rng_stream(1, RNG_EYE, 7, 4);
     CHECK(t, first != rng_u32(&seed), "seeds share their numbers");
     CHECK(t, first != rng_u32(&index), "pixels share their numbers");
     CHECK(t, first != rng_u32(&next), "iterations share their numbers");
@@ -168,7 +169,8 @@ static void check_conversions(struct test *t)
                  {2, 2},   {1.999, 2},     {2.999, 2},    {3, 3},      {8.9999, 8},  {9, 9},
                  {0, 2},   {5e-324, 2}};
     for (int i = 0; i < (int)(sizeof cases / sizeof cases[0]); i++)
-        CHECK(t, int_within(cases[i].x, 2, 9) == cases[i].index, "%g becomes %d", cases[i].x, int_within(cases[i].x, 2, 9));
+        CHECK(t, int_within(cases[i].x, 2, 9) == cases[i].index, "%g becomes %d", cases[i].x,
+              int_within(cases[i].x, 2, 9));
     CHECK(t, float_within(NAN) == 0 && float_within(0.1) == 0.1f, "NaN or 0.1 as a float");
     CHECK(t, float_within(1e39) == FLT_MAX && float_within(-INFINITY) == -FLT_MAX, "large numbers as floats");
     CHECK(t, fits_float(FLT_MAX) && fits_float(-1) && !fits_float(3.5e38) && !fits_float(NAN), "what a float holds");

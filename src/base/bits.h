@@ -18,7 +18,10 @@ static inline uint64_t hash_mix(uint64_t x)
     return x ^ (x >> 31);
 }
 
-static inline uint64_t hash_combine(uint64_t h, uint64_t value) { return hash_mix(h * 0x9e3779b97f4a7c15u + value + 1); }
+static inline uint64_t hash_combine(uint64_t h, uint64_t value)
+{
+    return hash_mix(h * 0x9e3779b97f4a7c15u + value + 1);
+}
 
 /* hash_bytes: the hash FNV-1a of n bytes [Fowler 1991]. */
 static inline uint32_t hash_bytes(const void *data, size_t n)

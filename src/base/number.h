@@ -15,8 +15,8 @@
 #define PI 3.14159265358979323846
 #define INV_PI 0.31830988618379067154
 
-/* Numbers in scene files lie within +-NUMBER_MAX, those that must be greater than 0 are at least NUMBER_MIN: a product of
- * ten of them is still far from the ends of what a double holds. */
+/* Numbers in scene files lie within +-NUMBER_MAX, those that must be greater than 0 are at least NUMBER_MIN: a product
+ * of ten of them is still far from the ends of what a double holds. */
 #define NUMBER_MAX 1e30
 #define NUMBER_MIN 1e-30
 
@@ -26,7 +26,7 @@ static inline double sqr(double x) { return x * x; }
 /* safe_sqrt: square root of a number that rounding may have pushed below 0. */
 static inline double safe_sqrt(double x) { return x > 0 ? sqrt(x) : 0; }
 
-/* below_one: u, or the largest double below 1 where rounding has carried u to 1: numbers said to be in [0,1) stay so. */
+/* below_one: u, or the largest double below 1 where rounding has carried u to 1: what is said to be in [0,1) is. */
 static inline double below_one(double u) { return u < 1 ? u : 1 - DBL_EPSILON / 2; }
 
 /* int_within: x without its fraction, brought into [low, high]; low for NaN. low >= 0, or x a whole number. */

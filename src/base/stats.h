@@ -43,8 +43,8 @@ double stats_ks_distance(double *x, size_t n);
 /* stats_ks_uniform_p: Kolmogorov-Smirnov test that the n numbers are uniform on [0,1]; sorts them. */
 double stats_ks_uniform_p(double *x, size_t n);
 
-/* stats_sidak: the probability that the least of m independent p-values is p or less [Sidak 1967]. With 1 / m instead of
- * m: the level of one of m tests that keeps the family at level p. */
+/* stats_sidak: the probability that the least of m independent p-values is p or less [Sidak 1967]. With 1 / m instead
+ * of m: the level of one of m tests that keeps the family at level p. */
 double stats_sidak(double p, double m);
 
 /* stats_sort: by rising value. */

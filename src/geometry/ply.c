@@ -249,7 +249,7 @@ static double decode(uint64_t bits, enum scalar type)
     return 0;
 }
 
-/* One number of the given type; false, with a message, at the end of the file or, in ascii, on something that is none. */
+/* One number of the given type; false, with a message, at the end of the file or, in ascii, on what is none. */
 static bool next_number(struct ply *r, enum scalar type, const char *element, int row, double *out)
 {
     size_t size = (size_t)SCALAR_SIZE[type];

@@ -10,8 +10,8 @@
 struct ray {
     vec3 o, d;
     double tmin, tmax; /* tmin >= 0; tmax may be HUGE_VAL */
-    uint32_t from, to; /* triangles that the segment begins and ends on, as shape_triangle_id numbers them; 0: none known. A
-                        * line meets a plane only once, so they need not be tested again; they may be left 0. */
+    uint32_t from, to; /* triangles that the segment begins and ends on, as shape_triangle_id numbers them; 0: none
+                        * known. A line meets a plane only once, so they need not be tested again; they may be 0. */
 };
 
 /* Where a ray meets a primitive. */

@@ -179,7 +179,8 @@ static void put_codes(struct deflater *d, const struct encoder *literal, const s
     }
 }
 
-static void put_phrase(struct deflater *d, struct phrase t, const struct encoder *literal, const struct encoder *distance)
+static void put_phrase(struct deflater *d, struct phrase t, const struct encoder *literal,
+                       const struct encoder *distance)
 {
     if (t.distance == 0) {
         put_symbol(d, literal, t.value);

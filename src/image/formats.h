@@ -1,8 +1,8 @@
 /* formats.h: the picture formats, each of which image.c names in its table.
  *
- * Readers take a file that is in memory. X_matches tells by the content whether it is one of theirs. X_read fills *out, to
- * be released with image_free; on failure it returns false with a message and *out holds nothing to be released. Writers
- * take linear RGB, top row first; errors stick to the stream.
+ * Readers take a file that is in memory. X_matches tells by the content whether it is one of theirs. X_read fills
+ * *out, to be released with image_free; on failure it returns false with a message and *out holds nothing to be
+ * released. Writers take linear RGB, top row first; errors stick to the stream.
  *
  * Tests: test_image.c (pictures of other programs, truncations, changed bytes, absurd sizes).
  */
@@ -24,8 +24,8 @@ bool pfm_matches(const uint8_t *data, size_t size);
 bool pfm_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
 void pfm_write(FILE *f, int width, int height, const float *pixels);
 
-/* PPM and PGM, portable pix maps and grey maps: P6 and P5 binary, P3 and P2 as text; 8 or 16 bits a sample. Written: P6, 8
- * bits, sRGB encoded.
+/* PPM and PGM, portable pix maps and grey maps: P6 and P5 binary, P3 and P2 as text; 8 or 16 bits a sample. Written:
+ * P6, 8 bits, sRGB encoded.
  *
  *     P6  width height  maxval  samples     (a # begins a comment that ends with its line) */
 bool ppm_matches(const uint8_t *data, size_t size);
@@ -39,8 +39,8 @@ bool png_read(const uint8_t *data, size_t size, struct image *out, struct error 
 void png_write(FILE *f, int width, int height, const float *pixels);
 
 /* TGA, Truevision's Targa files: colour, grey and colour-mapped, run-length coded or not. Reading only. TGA has no
- * signature: the file's name decides. Pixels of 24 or 32 bits (blue, green, red, alpha), grey and map indices of 8 bits;
- * 15 and 16-bit pixels are refused. */
+ * signature: the file's name decides. Pixels of 24 or 32 bits (blue, green, red, alpha), grey and map indices of 8
+ * bits; 15 and 16-bit pixels are refused. */
 bool tga_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
 
 #endif

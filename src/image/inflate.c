@@ -196,7 +196,8 @@ static bool read_lengths(struct inflater *z, const struct decoder *meta, uint8_t
 
 static bool stated_codes(struct inflater *z)
 {
-    unsigned n_literals = 257 + read_bits(&z->in, 5), n_distances = 1 + read_bits(&z->in, 5), n_meta = 4 + read_bits(&z->in, 4);
+    unsigned n_literals = 257 + read_bits(&z->in, 5), n_distances = 1 + read_bits(&z->in, 5);
+    unsigned n_meta = 4 + read_bits(&z->in, 4);
     if (n_literals > 286 || n_distances > DEFLATE_DISTANCES)
         return error_set(z->err, "compressed data are damaged: too many codes");
     uint8_t length[286 + DEFLATE_DISTANCES] = {0};

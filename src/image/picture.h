@@ -1,5 +1,5 @@
-/* picture.h: pixels in memory, as the image formats fill and textures read them, and the transfer function of sRGB between
- * linear light and the numbers of 8-bit pictures.
+/* picture.h: pixels in memory, as the image formats fill and textures read them, and the transfer function of sRGB
+ * between linear light and the numbers of 8-bit pictures.
  *
  * Tests: test_image.c.
  */
@@ -26,7 +26,8 @@ struct image {
 /* More pixels than this are taken for a damaged or hostile header: 16384 x 16384. */
 enum { PICTURE_MAX_PIXELS = 1 << 28 };
 
-/* picture_size_ok: may a picture, or a film, be this large? Returns false with a message for 0 and for too many pixels. */
+/* picture_size_ok: may a picture, or a film, be this large? Returns false with a message for 0 and for too many
+ * pixels. */
 bool picture_size_ok(unsigned long width, unsigned long height, struct error *err);
 
 /* picture_truncated: the message that a file is too short for the pixels it announces. Returns false, always. */

@@ -257,8 +257,8 @@ static bool read_pass(const struct png *p, const struct adam7_pass *s, const uin
 }
 
 /* Put all unpacked pixels in place. */
-static bool place_pixels(const struct png *p, const struct adam7_pass *pass, int passes, const uint8_t *zeros, uint8_t *bytes,
-                         struct image *out)
+static bool place_pixels(const struct png *p, const struct adam7_pass *pass, int passes, const uint8_t *zeros,
+                         uint8_t *bytes, struct image *out)
 {
     int channels = p->colour == GREY || p->colour == GREY_ALPHA ? 1 : 3;
     if (p->depth == 16)

@@ -103,7 +103,8 @@ static bool put_pixel(const struct tga *t, struct image *out, size_t i, const ui
     return true;
 }
 
-/* One packet: a count, then one pixel for all of them or each its own. Files without run-length coding are one long packet. */
+/* One packet: a count, then one pixel for all of them or each its own. Files without run-length coding are one long
+ * packet. */
 static bool read_packet(struct tga *t, struct image *out, size_t *done, size_t count, bool same)
 {
     size_t stored = same ? 1 : count;
