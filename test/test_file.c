@@ -101,8 +101,8 @@ static void test_written_bytes(struct test *t)
         struct error err = {""};
         in_tmp(t, CASES[i].name, path, sizeof path);
         CHECK(t, image_write(path, 1, 2, PIXEL, &err) && file_read(path, &data, &n, &err), "%s", err.text);
-        CHECK(t, data != NULL && n == CASES[i].n && memcmp(data, CASES[i].bytes, n) == 0,
-              "%s: other bytes than expected", CASES[i].name);
+        CHECK(t, data != NULL && n == CASES[i].n && memcmp(data, CASES[i].bytes, n) == 0 && data[n] == 0,
+              "%s: other bytes than expected, or no zero after them", CASES[i].name);
         free(data);
         remove(path);
     }

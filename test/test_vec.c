@@ -1,6 +1,7 @@
 /* test_vec.c: the foundations: vectors, frames, transforms, and the random numbers' exact values. */
 #include "base/vec.h"
 
+#include "base/bits.h"
 #include "base/frame.h"
 #include "base/number.h"
 #include "base/rng.h"
@@ -41,6 +42,16 @@ static void check_rng(struct test *t)
         double u = rng_uniform(&a);
         CHECK(t, below < 7 && u >= 0 && u < 1, "out of range: %lu %g", (unsigned long)below, u);
     }
+}
+
+static void check_bits(struct test *t)
+{
+    static const uint8_t bytes[] = {0x12, 0x34, 0x56, 0x78};
+    CHECK(t, hash_bytes("", 0) == 0x811c9dc5u && hash_bytes("foobar", 6) == 0xbf9cf968u, "published values of FNV-1a");
+    CHECK(t, reverse_bits(1) == 0x80000000u && reverse_bits(0x12345678u) == 0x1e6a2c48u, "reversed bits");
+    CHECK(t, bits_of_bytes(bytes, 4, true) == 0x12345678u && bits_of_bytes(bytes, 4, false) == 0x78563412u, "bytes");
+    CHECK(t, below_one(1) < 1 && below_one(1) == nextafter(1, 0) && below_one(0.5) == 0.5, "below_one");
+    CHECK(t, float_below(0.1) < 0.1 && float_above(0.1) > 0.1 && float_below(0.5) == 0.5f, "float_below, float_above");
 }
 
 static void check_vectors(struct test *t)
@@ -201,6 +212,7 @@ void test_vec(struct test *t)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 100, 0);
     check_rng(t);
+    check_bits(t);
     check_vectors(t);
     check_frames(t, &r);
     check_transforms_known(t);

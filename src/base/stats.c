@@ -182,7 +182,7 @@ double stats_welch_p(double mean1, double var1, double n1, double mean2, double 
     return stats_student_p(t, dof);
 }
 
-/* Two series, each fast where it is used. */
+/* Two series, each fast where it is used [Marsaglia, Tsang & Wang 2003]. */
 double stats_kolmogorov_p(double x)
 {
     double sum = 0;

@@ -133,7 +133,7 @@ struct transform transform_scale(double x, double y, double z)
 
 struct transform transform_rotate(double degrees, vec3 axis)
 {
-    /* Rodrigues: R = cos I + (1 - cos) a a^T + sin [a]_x; the inverse of a rotation is its transpose. */
+    /* Rodrigues [PBRT3 2.7.6]: R = cos I + (1 - cos) a a^T + sin [a]_x; the inverse of a rotation is its transpose. */
     vec3 n = normalize(axis);
     double a[3] = {n.x, n.y, n.z};
     double s = sin(degrees * PI / 180), c = cos(degrees * PI / 180);

@@ -27,7 +27,7 @@ static inline void warp_disk(double u1, double u2, double *x, double *y)
     *y = r * sin(phi);
 }
 
-/* warp_cos_hemisphere: direction around +z with density cos(theta)/pi. */
+/* warp_cos_hemisphere: direction around +z with density cos(theta)/pi [PBRT3 13.6.3]. */
 static inline vec3 warp_cos_hemisphere(double u1, double u2)
 {
     double x, y;
@@ -37,7 +37,7 @@ static inline vec3 warp_cos_hemisphere(double u1, double u2)
 
 static inline double warp_cos_hemisphere_pdf_w(double cos_theta) { return cos_theta > 0 ? cos_theta * INV_PI : 0; }
 
-/* warp_sphere: uniform over the unit sphere, density 1/(4 pi). */
+/* warp_sphere: uniform over the unit sphere, density 1/(4 pi) [PBRT3 13.6.1]. */
 static inline vec3 warp_sphere(double u1, double u2)
 {
     double z = 1 - 2 * u1, r = safe_sqrt(1 - z * z), phi = 2 * PI * u2;
@@ -54,7 +54,7 @@ static inline void warp_sphere_inverse(vec3 w, double *u1, double *u2)
 
 static inline double warp_sphere_pdf_w(void) { return INV_PI / 4; }
 
-/* warp_cone: uniform over the cone around +z with half angle acos(cos_max). */
+/* warp_cone: uniform over the cone around +z with half angle acos(cos_max) [PBRT3 13.6.4]. */
 static inline vec3 warp_cone(double u1, double u2, double cos_max)
 {
     double z = 1 - u1 * (1 - cos_max), r = safe_sqrt(1 - z * z), phi = 2 * PI * u2;
