@@ -94,7 +94,7 @@ static void judge(struct test *t)
 {
     if (t->n == 0)
         return;
-    double level = stats_sidak(SUITE_ALPHA, (double)t->n);
+    double level = stats_sidak(SUITE_ALPHA, 1 / (double)t->n);
     double smallest = 1;
     for (size_t i = 0; i < t->n; i++) {
         const struct hypothesis *h = &t->hypothesis[i];

@@ -8,14 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/checksum.h"
+#include "image/zlib.h"
 #include "base/mem.h"
-#include "image/pfm.h"
-#include "image/png.h"
-#include "image/ppm.h"
+#include "image/formats.h"
 #include "base/rng.h"
-#include "image/srgb.h"
-#include "image/tga.h"
 #include "samples.h"
 #include "tests.h"
 
@@ -79,6 +75,20 @@ static void check_refused(struct test *t, reader *read, const struct bytes *b, c
     struct error err = refusal(read, b);
     CHECK(t, strstr(err.text, message) != NULL, "\"%s\" expected, got \"%s\"", message, err.text);
     CHECK(t, strchr(err.text, '\n') == NULL, "the message is one line: %s", err.text);
+}
+
+/* A text and what is said when it is refused as a picture. */
+struct refusal {
+    const char *text, *message;
+};
+
+static void check_texts_refused(struct test *t, reader *read, const struct refusal *c, size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        struct bytes b = {.n = 0};
+        put_text(&b, c[i].text);
+        check_refused(t, read, &b, c[i].message);
+    }
 }
 
 /* Every proper beginning of a file is refused. */
@@ -398,9 +408,7 @@ static void test_pfm(struct test *t)
         check_pfm(t, channels, "-0.5", -0.5);
         check_pfm(t, channels, "2e0", 2);
     }
-    static const struct {
-        const char *text, *message;
-    } CASES[] = {
+    static const struct refusal CASES[] = {
         {"PX\n2 2\n-1\n", "not a PFM"},
         {"PF\n2\n", "incomplete"},
         {"PF\n0 2\n-1\n", "empty"},
@@ -415,11 +423,7 @@ static void test_pfm(struct test *t)
         {"PF\n99999999999999999999999999999999 1\n-1\n", "too many"},
         {"PF\n18446744073709551617 1\n-1\n", "too many"},
     };
-    for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
-        struct bytes b = {.n = 0};
-        put_text(&b, CASES[i].text);
-        check_refused(t, pfm_read, &b, CASES[i].message);
-    }
+    check_texts_refused(t, pfm_read, CASES, sizeof CASES / sizeof CASES[0]);
 }
 
 /* A 2 x 2 picture with samples 0, 1, 2, ... of maxval `most`. */
@@ -465,9 +469,7 @@ static void test_ppm(struct test *t)
         check_ppm(t, kind, 256);
         check_ppm(t, kind, 65535);
     }
-    static const struct {
-        const char *text, *message;
-    } CASES[] = {
+    static const struct refusal CASES[] = {
         {"P4\n1 1\n1\n0", "not a PPM"},
         {"P6\n", "incomplete"},
         {"P6 1 1", "incomplete"},
@@ -484,11 +486,7 @@ static void test_ppm(struct test *t)
         {"P6 99999 99999 255\n", "too many"},
         {"P6 16384 16384 255\n", "do not fit"},
     };
-    for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
-        struct bytes b = {.n = 0};
-        put_text(&b, CASES[i].text);
-        check_refused(t, ppm_read, &b, CASES[i].message);
-    }
+    check_texts_refused(t, ppm_read, CASES, sizeof CASES / sizeof CASES[0]);
 }
 
 void test_image(struct test *t)

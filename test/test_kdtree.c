@@ -239,8 +239,8 @@ static bool brute_closest(const struct geometry *geo, const struct ray *ray, str
     bool found = false;
     for (int i = 0; i < geometry_primitives(geo); i++) {
         struct hit h;
-        uint32_t flat = shape_flat(prim_number(geo, i));
-        if ((flat != 0 && (flat == ray->from || flat == ray->to)) ||
+        uint32_t id = shape_triangle_id(prim_number(geo, i));
+        if ((id != 0 && (id == ray->from || id == ray->to)) ||
             !shape_intersect(geo, prim_number(geo, i), &shorter, &h))
             continue;
         if (geo->opaque != NULL && !geo->opaque(geo->opaque_context, geo, &h, false))
@@ -276,11 +276,11 @@ static void compare(struct test *t, const char *name, const struct geometry *geo
         bool want, next = false, same = same_as_brute(&kd, geo, &ray, &want, &a, &b);
         hits += want;
         if (same && want && geo->opaque == NULL) {
-            ray.from = shape_flat(a.prim);
+            ray.from = shape_triangle_id(a.prim);
             same = same_as_brute(&kd, geo, &ray, &next, &a, &b);
         }
         if (same && next) {
-            ray.to = shape_flat(a.prim);
+            ray.to = shape_triangle_id(a.prim);
             same = same_as_brute(&kd, geo, &ray, &next, &a, &b);
         }
         wrong += !same;

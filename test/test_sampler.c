@@ -1,5 +1,5 @@
-/* test_sampler.c: the low-discrepancy part of a stream: exactly one point per stratum, uniform and independent over pixels;
- * the rest: plain random numbers. */
+/* test_sampler.c: the low-discrepancy part of a stream: exactly one point per stratum, uniform and independent over
+ * pixels; the rest: plain random numbers. */
 #include <string.h>
 
 #include "base/sampler.h"
@@ -50,7 +50,8 @@ void test_sampler(struct test *t)
     uint64_t seed = test_seed(t);
     for (uint64_t pixel = 0; pixel < 20; pixel++)
         for (int pair = 0; pair < SAMPLER_DIMENSIONS / 2; pair++)
-            CHECK(t, is_net(seed, pixel, pair, false), "pixel %d, pair %d: not one point per stratum", (int)pixel, pair);
+            CHECK(t, is_net(seed, pixel, pair, false), "pixel %d, pair %d: not one point per stratum",
+                  (int)pixel, pair);
     CHECK(t, !is_net(seed, 1, 0, true), "a sequence with holes passes for a net");
     for (int a = 0; a < 8; a++)
         for (int b = a + 1; b < 8; b++)

@@ -91,8 +91,8 @@ static void tests_of_hypotheses(struct test *t)
         p = stats_ks_uniform_p(x, (size_t)KS[k].n);
         CHECK(t, near(p, KS[k].p, 0.02), "Kolmogorov-Smirnov, n %d, D %g: %g", KS[k].n, KS[k].d, p);
     }
-    CHECK(t, near(stats_sidak(0.05, 2), 1 - sqrt(0.95), 1e-12), "Sidak of two");
-    CHECK(t, near(stats_sidak(0.001, 1e6), 1.0005e-9, 1e-4), "Sidak of a million keeps its digits");
+    CHECK(t, near(stats_sidak(0.05, 0.5), 1 - sqrt(0.95), 1e-12), "Sidak of two");
+    CHECK(t, near(stats_sidak(0.001, 1e-6), 1.0005e-9, 1e-4), "Sidak of a million keeps its digits");
 }
 
 /* p-values of true hypotheses are uniform: each test is run on data made to be true and judged by the KS test. */

@@ -1,6 +1,6 @@
-/* test_streams.c: random numbers have names (seed, purpose, pixel, iteration), and no two names may meet. Tested from three
- * sides: the numbers of a sampler, the sub-paths that the methods trace, and the error of long renders, which falls only as
- * long as new iterations bring something new. */
+/* test_streams.c: random numbers have names (seed, purpose, pixel, iteration), and no two names may meet. Tested from
+ * three sides: the numbers of a sampler, the sub-paths that the methods trace, and the error of long renders, which
+ * falls only as long as new iterations bring something new. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -81,11 +81,12 @@ static uint64_t digits_of(struct sampler s, int second)
     return key;
 }
 
-/* Names as they occur: iterations in a row, of later blocks, of numberings that use the upper bits; neighbouring pixels of
- * small and of the largest films; seeds in a row; all purposes. */
+/* Names as they occur: iterations in a row, of later blocks, of numberings that use the upper bits; neighbouring
+ * pixels of small and of the largest films; seeds in a row; all purposes. */
 static void add_names(struct keys *k, uint64_t seed, int second, uint64_t mask)
 {
-    static const uint64_t far[] = {0, 1u << 8, 1u << 16, 1u << 24, (uint64_t)1 << 32, (uint64_t)1 << 40, (uint64_t)1 << 63};
+    static const uint64_t far[] = {0, 1u << 8, 1u << 16, 1u << 24, UINT64_C(1) << 32,
+                                   UINT64_C(1) << 40, UINT64_C(1) << 63};
     for (int purpose = RNG_EYE; purpose < RNG_TEST; purpose++)
         for (uint64_t other = 0; other < 6; other++)
             for (size_t f = 0; f < sizeof far / sizeof far[0]; f++)
@@ -103,8 +104,8 @@ static void test_names(struct test *t)
         struct keys k = {NULL, 0, 0};
         add_names(&k, test_seed(t), second, UINT64_MAX);
         long equal = count_equal(&k);
-        CHECK(t, equal == 0, "%ld names share the first digits of their numbers %d, %d and %d", equal, second, second + 2,
-              second + 4);
+        CHECK(t, equal == 0, "%ld names share the first digits of their numbers %d, %d and %d", equal, second,
+              second + 2, second + 4);
         add_names(&k, test_seed(t), second, UINT32_MAX);
         CHECK(t, count_equal(&k) > 0, "an iteration cut to 32 bits passes for a name");
     }
@@ -126,13 +127,15 @@ static const char FLOOR[] = "Film \"image\" \"integer xresolution\" 2 \"integer 
                             "Texture \"place\" \"spectrum\" \"bilerp\" \"rgb v00\" [.1 .1 .5] \"rgb v01\" [.1 .9 .5]\n"
                             "\"rgb v10\" [.9 .1 .5] \"rgb v11\" [.9 .9 .5]\n"
                             "Material \"matte\" \"texture Kd\" \"place\" Rotate -30 1 0 0\n"
-                            "Shape \"trianglemesh\" \"integer indices\" [0 2 1 0 3 2] \"float uv\" [0 0  0 1  1 1  1 0]\n"
+                            "Shape \"trianglemesh\" \"integer indices\" [0 2 1 0 3 2]\n"
+                            "\"float uv\" [0 0  0 1  1 1  1 0]\n"
                             "\"point P\" [-5 -5 0  -5 5 0  5 5 0  5 -5 0]\n"
                             "WorldEnd\n";
 
 enum { ITERATIONS = 2048 };
 
-/* One key per sub-path: red and green of what it brings by the strategy that joins it to the lens (light) or the lamp (eye). */
+/* One key per sub-path: red and green of what it brings by the strategy that joins it to the lens (light) or the lamp
+ * (eye). */
 static void add_records(const struct tile *tile, struct keys *eye, struct keys *light)
 {
     for (size_t i = 0; i < tile->n_records; i++) {
@@ -150,7 +153,8 @@ static void trace_all(struct test *t, const struct scene *scene, const char *met
                       struct keys *light)
 {
     const struct method *m = method_find(method);
-    struct render_job job = {.scene = scene, .film_rect = render_crop(scene), .seed = seed, .max_depth = 1, .n_threads = 1};
+    struct render_job job = {.scene = scene, .film_rect = render_crop(scene), .seed = seed, .max_depth = 1,
+                             .n_threads = 1};
     struct error err;
     void *state;
     int block = m->block;
@@ -218,7 +222,8 @@ static void render_history(struct test *t, const struct scene *scene, const char
 {
     struct film film;
     struct error err;
-    struct render_options o = {.method = method_find(method), .seed = seed, .end = LAST, .n_threads = 2, .max_depth = 4};
+    struct render_options o = {.method = method_find(method), .seed = seed, .end = LAST, .n_threads = 2,
+                               .max_depth = 4};
     o.progress = note_sums;
     o.progress_context = out;
     out->film = &film;
@@ -239,8 +244,8 @@ static double not_positive_p(const double *x)
     return t > 0 ? two_sided / 2 : 1 - two_sided / 2;
 }
 
-/* Renders 2k and 2k+1 with seeds of their own: their difference is free of the expectation, biased or not, and as likely as
- * its negative. */
+/* Renders 2k and 2k+1 with seeds of their own: their difference is free of the expectation, biased or not, and as
+ * likely as its negative. */
 struct difference {
     double sum[STEPS][VALUES];
 };
@@ -250,8 +255,8 @@ struct two {
     double a, b;
 };
 
-/* Correlation of the first n iterations and the n after them in what the renders of a pair differ by. `repeated` is the share
- * of the second half that is planted to be the first half again. */
+/* Correlation of the first n iterations and the n after them in what the renders of a pair differ by. `repeated` is
+ * the share of the second half that is planted to be the first half again. */
 static struct two halves(const struct difference *d, int i, int step, double repeated)
 {
     double a = d->sum[step][i];
@@ -260,7 +265,8 @@ static struct two halves(const struct difference *d, int i, int step, double rep
 }
 
 /* Mean over k of a^2 or b^2. */
-static struct two mean_squares(const struct difference *d, int i, struct two (*of)(const struct difference *, int, int, double),
+static struct two mean_squares(const struct difference *d, int i,
+                               struct two (*of)(const struct difference *, int, int, double),
                                int step, double repeated)
 {
     struct two mean = {0, 0};
@@ -322,7 +328,8 @@ static void test_way_falls(struct test *t, const struct scene *scene, const stru
                 d[k].sum[step][i] = h[0].sum[step][i] - h[1].sum[step][i];
     }
     for (int step = 0; step + 1 < STEPS; step++)
-        TEST_ACCEPT(t, halves_p(d, step, 0), "%s: iterations before and after %d are correlated", w->name, FIRST << step);
+        TEST_ACCEPT(t, halves_p(d, step, 0), "%s: iterations before and after %d are correlated", w->name,
+                    FIRST << step);
     TEST_ACCEPT(t, falls_p(d, 0), "%s: the squared error falls more slowly than 1/n", w->name);
     TEST_REJECT(t, halves_p(d, STEPS - 2, 0.5), "%s: half of the second half is the first", w->name);
     TEST_REJECT(t, falls_p(d, 0.5), "%s: half of all iterations repeat the first %d", w->name, FIRST);

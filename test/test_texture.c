@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "image/srgb.h"
+#include "image/picture.h"
 #include "material/texture.h"
 #include "tests.h"
 

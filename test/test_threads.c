@@ -1,5 +1,5 @@
-/* test_threads.c: small renders by every method on four threads, meant for the thread sanitizer (make tsan); the bytes must
- * be those of one thread. */
+/* test_threads.c: small renders by every method on four threads, meant for the thread sanitizer (make tsan); the bytes
+ * must be those of one thread. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,7 +15,8 @@ static void test_way(struct test *t, const struct scene *scene, const char *meth
     for (int i = 0; i < 2; i++) {
         struct film film;
         struct error err;
-        struct render_options o = {.method = method_find(method), .end = 40, .n_threads = i == 0 ? 1 : 4, .seed = test_seed(t)};
+        struct render_options o = {.method = method_find(method), .end = 40, .n_threads = i == 0 ? 1 : 4,
+                                   .seed = test_seed(t)};
         film_init(&film, render_crop(scene), scene->width, scene->height);
         film_keep_strategies(&film, 4);
         o.max_depth = 4;

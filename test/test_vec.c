@@ -1,6 +1,7 @@
 /* test_vec.c: the foundations: vectors, frames, transforms, and the random numbers' exact values. */
 #include "base/vec.h"
 
+#include "base/bits.h"
 #include "base/frame.h"
 #include "base/number.h"
 #include "base/rng.h"
@@ -31,7 +32,8 @@ static void check_rng(struct test *t)
     uint32_t first = rng_u32(&a);
     CHECK(t, first == rng_u32(&b), "one name, two streams");
     CHECK(t, first != rng_u32(&c), "purposes share their numbers");
-    struct rng seed = rng_stream(2, RNG_EYE, 7, 3), index = rng_stream(1, RNG_EYE, 8, 3), next = rng_stream(1, RNG_EYE, 7, 4);
+    struct rng seed = rng_stream(2, RNG_EYE, 7, 3), index = rng_stream(1, RNG_EYE, 8, 3),
+               next = rng_stream(1, RNG_EYE, 7, 4);
     CHECK(t, first != rng_u32(&seed), "seeds share their numbers");
     CHECK(t, first != rng_u32(&index), "pixels share their numbers");
     CHECK(t, first != rng_u32(&next), "iterations share their numbers");
@@ -40,6 +42,16 @@ static void check_rng(struct test *t)
         double u = rng_uniform(&a);
         CHECK(t, below < 7 && u >= 0 && u < 1, "out of range: %lu %g", (unsigned long)below, u);
     }
+}
+
+static void check_bits(struct test *t)
+{
+    static const uint8_t bytes[] = {0x12, 0x34, 0x56, 0x78};
+    CHECK(t, hash_bytes("", 0) == 0x811c9dc5u && hash_bytes("foobar", 6) == 0xbf9cf968u, "published values of FNV-1a");
+    CHECK(t, reverse_bits(1) == 0x80000000u && reverse_bits(0x12345678u) == 0x1e6a2c48u, "reversed bits");
+    CHECK(t, bits_of_bytes(bytes, 4, true) == 0x12345678u && bits_of_bytes(bytes, 4, false) == 0x78563412u, "bytes");
+    CHECK(t, below_one(1) < 1 && below_one(1) == nextafter(1, 0) && below_one(0.5) == 0.5, "below_one");
+    CHECK(t, float_below(0.1) < 0.1 && float_above(0.1) > 0.1 && float_below(0.5) == 0.5f, "float_below, float_above");
 }
 
 static void check_vectors(struct test *t)
@@ -168,7 +180,8 @@ static void check_conversions(struct test *t)
                  {2, 2},   {1.999, 2},     {2.999, 2},    {3, 3},      {8.9999, 8},  {9, 9},
                  {0, 2},   {5e-324, 2}};
     for (int i = 0; i < (int)(sizeof cases / sizeof cases[0]); i++)
-        CHECK(t, int_within(cases[i].x, 2, 9) == cases[i].index, "%g becomes %d", cases[i].x, int_within(cases[i].x, 2, 9));
+        CHECK(t, int_within(cases[i].x, 2, 9) == cases[i].index, "%g becomes %d", cases[i].x,
+              int_within(cases[i].x, 2, 9));
     CHECK(t, float_within(NAN) == 0 && float_within(0.1) == 0.1f, "NaN or 0.1 as a float");
     CHECK(t, float_within(1e39) == FLT_MAX && float_within(-INFINITY) == -FLT_MAX, "large numbers as floats");
     CHECK(t, fits_float(FLT_MAX) && fits_float(-1) && !fits_float(3.5e38) && !fits_float(NAN), "what a float holds");
@@ -199,6 +212,7 @@ void test_vec(struct test *t)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 100, 0);
     check_rng(t);
+    check_bits(t);
     check_vectors(t);
     check_frames(t, &r);
     check_transforms_known(t);

@@ -3,8 +3,9 @@
 #include <stdio.h>
 
 #include "base/rng.h"
+#include "image/picture.h"
 #include "base/stats.h"
-#include "image/srgb.h"
+#include "image/picture.h"
 #include "lab/compare.h"
 #include "lab/sides.h"
 #include "helpers.h"

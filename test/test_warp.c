@@ -56,9 +56,9 @@ static double ring(enum warp_kind kind, double a0, double a1)
 {
     switch (kind) {
     case DISK: return a1 * a1 - a0 * a0;
-    case COS_HEMISPHERE: return 2 * PI * (a1 - a0) * warp_cos_hemisphere_pdf(0.5 * (a0 + a1));
-    case SPHERE: return 2 * PI * 2 * (a1 - a0) * warp_sphere_pdf();
-    case CONE: return 2 * PI * (1 - CONE_COS) * (a1 - a0) * warp_cone_pdf(CONE_COS);
+    case COS_HEMISPHERE: return 2 * PI * (a1 - a0) * warp_cos_hemisphere_pdf_w(0.5 * (a0 + a1));
+    case SPHERE: return 2 * PI * 2 * (a1 - a0) * warp_sphere_pdf_w();
+    case CONE: return 2 * PI * (1 - CONE_COS) * (a1 - a0) * warp_cone_pdf_w(CONE_COS);
     case TRIANGLE: return a1 * a1 - a0 * a0;
     case N_WARPS: break;
     }
@@ -99,7 +99,7 @@ static void facts(struct test *t)
             warp_triangle(u1, u2, &x, &y);
             CHECK(t, x >= 0 && y >= 0 && x + y <= 1 + 1e-15, "triangle at %g %g", u1, u2);
         }
-    CHECK(t, warp_cos_hemisphere_pdf(-0.5) == 0, "nothing below the horizon");
+    CHECK(t, warp_cos_hemisphere_pdf_w(-0.5) == 0, "nothing below the horizon");
 }
 
 void test_warp(struct test *t)

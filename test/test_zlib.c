@@ -8,9 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/checksum.h"
-#include "image/deflate.h"
-#include "image/inflate.h"
+#include "image/zlib.h"
 #include "base/mem.h"
 #include "base/rng.h"
 #include "samples.h"
@@ -177,13 +175,13 @@ static void test_round_trips(struct test *t)
     enum { N = 300000 };
     uint8_t *data = mem_alloc(N, 1);
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 2, 0);
-    for (size_t n = 0; n < 300; n++) /* zeros of every short length */
-        check_round_trip(t, "zeros", data, n, 40);
+    for (size_t n = 0; n < 300; n++) /* zeros of every short length; 165 bytes of each block state its codes */
+        check_round_trip(t, "zeros", data, n, 185);
     check_round_trip(t, "many zeros", data, N, N / 500);
     for (size_t i = 0; i < N; i++)
         data[i] = (uint8_t)(rng_u32(&r) >> 24);
     for (size_t n = 0; n < 300; n++)
-        check_round_trip(t, "noise", data, n, n + 160);
+        check_round_trip(t, "noise", data, n, n + 185);
     check_round_trip(t, "much noise", data, N, N + N / 100);
     memcpy(data + 32768, data, 1000); /* just beyond and just within the window */
     memcpy(data + 70000, data + 70000 - 32767, 1000);

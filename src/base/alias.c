@@ -8,15 +8,10 @@
  */
 #include "base/alias.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "base/mem.h"
-
-static const double ALMOST_ONE = 1 - 1.0 / 9007199254740992.0; /* the largest double below 1 */
-
-/* What rounding has carried to 1 is brought back into [0,1). */
-static double below_one(double u) { return u < 1 ? u : ALMOST_ONE; }
+#include "base/number.h"
 
 /* The largest weight, or -1 if there is none above 0 or one of them is no weight at all. */
 static double largest_weight(const double *weight, int n)
@@ -43,7 +38,7 @@ static double sum_in_units(const double *weight, int n, double unit)
     return sum + lost;
 }
 
-static void reserve(struct alias_table *t, size_t n)
+static void make_room(struct alias_table *t, size_t n)
 {
     if (n <= t->capacity)
         return;
@@ -89,7 +84,7 @@ bool alias_build(struct alias_table *t, const double *weight, int n)
     double unit = largest_weight(weight, n);
     if (unit < 0)
         return false;
-    reserve(t, (size_t)n);
+    make_room(t, (size_t)n);
     double sum = sum_in_units(weight, n, unit); /* in [1,n]: neither overflows nor loses digits */
     t->n = n;
     t->total = sum * unit;
@@ -117,13 +112,13 @@ void alias_free(struct alias_table *t)
 int alias_sample_bin(const struct alias_table *t, int bin, double u, double *pmf, double *u_out)
 {
     const struct alias_bin *b = &t->bin[bin];
-    bool own = u < b->threshold;
+    bool is_alias = u >= b->threshold;
     if (pmf != NULL)
-        *pmf = own ? b->pmf : b->alias_pmf;
+        *pmf = is_alias ? b->alias_pmf : b->pmf;
     /* Within the part of [0,1) that chose the element u is uniform: stretch that part to [0,1). */
     if (u_out != NULL)
-        *u_out = below_one(own ? u / b->threshold : (u - b->threshold) / (1 - b->threshold));
-    return own ? bin : (int)b->alias;
+        *u_out = below_one(is_alias ? (u - b->threshold) / (1 - b->threshold) : u / b->threshold);
+    return is_alias ? (int)b->alias : bin;
 }
 
 int alias_sample(const struct alias_table *t, double u, double *pmf, double *u_out)

@@ -5,7 +5,6 @@
  * bin, another (what is left of the first) picks the element. The dissertation's bins of two light sub-paths
  * are named after this table.
  *
- * Used by: light choice, environment maps, light sub-path selection (pool, vertices).
  * Tests: test_alias.c (exact mass to 1e-12, chi-square, degenerate weights).
  */
 #ifndef ASBDPT_ALIAS_H

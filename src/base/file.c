@@ -22,8 +22,12 @@ static bool read_stream(FILE *f, size_t expected, size_t limit, uint8_t **data, 
     for (;;) {
         size_t got = fread(*data + *size, 1, capacity - *size, f);
         *size += got;
-        if (*size < capacity || *size > limit)
-            return ferror(f) == 0 && *size <= limit;
+        if (*size > limit)
+            return false;
+        if (*size < capacity) {
+            (*data)[*size] = 0;
+            return ferror(f) == 0;
+        }
         *data = mem_grow(*data, &capacity, capacity + 65536, 1);
     }
 }
@@ -39,6 +43,7 @@ bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err
     bool regular = fstat(fileno(f), &info) == 0 && S_ISREG(info.st_mode);
     if (regular && (uintmax_t)info.st_size >= SIZE_MAX / 2) {
         fclose(f);
+        errno = 0;
         return error_set(err, "%s: the file is too large for this machine's memory", path);
     }
     size_t expected = regular ? (size_t)info.st_size : 0;
@@ -52,6 +57,7 @@ bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err
     }
     free(*data);
     *data = NULL;
+    errno = reason;
     return error_set(err, "%s: cannot be read: %s", path, reason != 0 ? strerror(reason) : "endless or too long");
 }
 

@@ -4,7 +4,7 @@
  * any size written in it. Writing goes to a temporary file beside the target that takes the target's name only when
  * every byte has been accepted: a full disk or an interrupted run leaves the old file, never half a new one.
  *
- * Used by: image. Tests: test_image.c.
+ * Tests: test_file.c.
  */
 #ifndef ASBDPT_FILE_H
 #define ASBDPT_FILE_H
@@ -19,7 +19,7 @@
 /* file_read: the content of a file.
  *   data, size  out; data to be given to free(), NULL on failure; a zero byte follows the last that size counts
  * Pipes are read to their end, up to 256 MiB. Returns false with a message "PATH: ..." when the file is missing, a
- * directory or unreadable. */
+ * directory or unreadable; errno then says why, 0 for a file that is too long. */
 bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err);
 
 /* A file being written. */

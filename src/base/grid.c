@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/bits.h"
 #include "base/mem.h"
 #include "base/number.h"
-#include "base/rng.h"
 
 void grid_init(struct grid *g, vec3 center, double radius, int cells)
 {

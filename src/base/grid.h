@@ -2,8 +2,6 @@
  *
  * Space is cut into cubes; a cell may be split further by the side a surface faces. Only cells met so far exist, in a
  * hash table with open addressing, and get numbers 0, 1, 2 ... in the order they were met.
- *
- * Used by: importance, guide.
  */
 #ifndef ASBDPT_GRID_H
 #define ASBDPT_GRID_H

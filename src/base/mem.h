@@ -3,8 +3,6 @@
  * Running out of memory is handled in one place: one line on stderr and exit status 1. Callers therefore
  * never test for NULL. Sizes that come from a file must be checked against the file's length before they
  * reach this module.
- *
- * Used by: everything that owns memory.
  */
 #ifndef ASBDPT_MEM_H
 #define ASBDPT_MEM_H

@@ -1,19 +1,33 @@
-/* number.h: which numbers are usable, and conversions that are defined for all of them.
+/* number.h: real numbers: which are usable, and roundings and conversions that are defined for all of them.
  *
  * C leaves open what becomes of a double that does not fit where it is converted to, and a NaN fits nowhere. Numbers of
  * scene files are checked where they are read; these conversions are for those that are computed.
  *
- * Used by: everything that turns a computed number into an index or a pixel. Tests: test_vec.c.
+ * Tests: test_vec.c.
  */
 #ifndef ASBDPT_NUMBER_H
 #define ASBDPT_NUMBER_H
 
 #include <float.h>
+#include <math.h>
+#include <stdbool.h>
 
-/* Numbers in scene files lie within +-NUMBER_MAX, those that must be greater than 0 are at least NUMBER_MIN: a product of
- * ten of them is still far from the ends of what a double holds. */
+#define PI 3.14159265358979323846
+#define INV_PI 0.31830988618379067154
+
+/* Numbers in scene files lie within +-NUMBER_MAX, those that must be greater than 0 are at least NUMBER_MIN: a product
+ * of ten of them is still far from the ends of what a double holds. */
 #define NUMBER_MAX 1e30
 #define NUMBER_MIN 1e-30
+
+static inline double clamp(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
+static inline double sqr(double x) { return x * x; }
+
+/* safe_sqrt: square root of a number that rounding may have pushed below 0. */
+static inline double safe_sqrt(double x) { return x > 0 ? sqrt(x) : 0; }
+
+/* below_one: u, or the largest double below 1 where rounding has carried u to 1: what is said to be in [0,1) is. */
+static inline double below_one(double u) { return u < 1 ? u : 1 - DBL_EPSILON / 2; }
 
 /* int_within: x without its fraction, brought into [low, high]; low for NaN. low >= 0, or x a whole number. */
 static inline int int_within(double x, int low, int high)
@@ -22,7 +36,7 @@ static inline int int_within(double x, int low, int high)
 }
 
 /* fits_float: whether a float can hold x; false for NaN and infinities. */
-static inline int fits_float(double x) { return x >= -(double)FLT_MAX && x <= (double)FLT_MAX; }
+static inline bool fits_float(double x) { return x >= -(double)FLT_MAX && x <= (double)FLT_MAX; }
 
 /* float_within: the nearest float, at most FLT_MAX in magnitude; 0 for NaN. */
 static inline float float_within(double x)
@@ -31,5 +45,13 @@ static inline float float_within(double x)
         return (float)x;
     return x > 0 ? FLT_MAX : x < 0 ? -FLT_MAX : 0;
 }
+
+/* float_below, float_above: the nearest float not above, not below x; x fits a float. */
+static inline float float_below(double x)
+{
+    float f = (float)x;
+    return (double)f > x ? nextafterf(f, -FLT_MAX) : f;
+}
+static inline float float_above(double x) { return -float_below(-x); }
 
 #endif

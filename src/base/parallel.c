@@ -4,13 +4,12 @@
 #include "base/parallel.h"
 
 #include <pthread.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #include "base/mem.h"
 
-#include <stdlib.h>
-
-struct pool {
+struct job_queue {
     const struct parallel_jobs *jobs;
     pthread_mutex_t lock;
     pthread_cond_t moved; /* `committed` or `stopped` changed */
@@ -21,75 +20,75 @@ struct pool {
 };
 
 struct worker {
-    struct pool *pool;
+    struct job_queue *queue;
     int thread;
 };
 
 /* Commit every finished job whose turn it is. The lock is held. */
-static void commit_ready(struct pool *p)
+static void commit_ready(struct job_queue *q)
 {
-    int n_slots = p->jobs->n_slots;
-    while (!p->stopped && p->committed < p->next && p->done[p->committed % n_slots]) {
-        int slot = (int)(p->committed % n_slots);
-        p->done[slot] = false;
-        if (!p->jobs->commit(p->jobs->context, p->committed, slot))
-            p->stopped = true;
-        p->committed++;
+    int n_slots = q->jobs->n_slots;
+    while (!q->stopped && q->committed < q->next && q->done[q->committed % n_slots]) {
+        int slot = (int)(q->committed % n_slots);
+        q->done[slot] = false;
+        if (!q->jobs->commit(q->jobs->context, q->committed, slot))
+            q->stopped = true;
+        q->committed++;
     }
-    pthread_cond_broadcast(&p->moved);
+    pthread_cond_broadcast(&q->moved);
 }
 
 static void *run_worker(void *argument)
 {
     const struct worker *w = argument;
-    struct pool *p = w->pool;
-    const struct parallel_jobs *jobs = p->jobs;
-    pthread_mutex_lock(&p->lock);
-    while (!p->stopped && p->next < jobs->n_jobs) {
-        if (p->next - p->committed >= jobs->n_slots) { /* every slot is taken: wait for a commit */
-            pthread_cond_wait(&p->moved, &p->lock);
+    struct job_queue *q = w->queue;
+    const struct parallel_jobs *jobs = q->jobs;
+    pthread_mutex_lock(&q->lock);
+    while (!q->stopped && q->next < jobs->n_jobs) {
+        if (q->next - q->committed >= jobs->n_slots) { /* every slot is taken: wait for a commit */
+            pthread_cond_wait(&q->moved, &q->lock);
             continue;
         }
-        int64_t job = p->next++;
+        int64_t job = q->next++;
         int slot = (int)(job % jobs->n_slots);
-        pthread_mutex_unlock(&p->lock);
+        pthread_mutex_unlock(&q->lock);
         jobs->work(jobs->context, job, slot, w->thread);
-        pthread_mutex_lock(&p->lock);
-        p->done[slot] = true;
-        commit_ready(p);
+        pthread_mutex_lock(&q->lock);
+        q->done[slot] = true;
+        commit_ready(q);
     }
-    pthread_mutex_unlock(&p->lock);
+    pthread_mutex_unlock(&q->lock);
     return NULL;
 }
 
 int64_t parallel_run(const struct parallel_jobs *jobs)
 {
-    struct pool p = {.jobs = jobs};
-    p.done = mem_alloc((size_t)jobs->n_slots, sizeof *p.done);
-    pthread_mutex_init(&p.lock, NULL);
-    pthread_cond_init(&p.moved, NULL);
+    struct job_queue q = {.jobs = jobs};
+    q.done = mem_alloc((size_t)jobs->n_slots, sizeof *q.done);
+    pthread_mutex_init(&q.lock, NULL);
+    pthread_cond_init(&q.moved, NULL);
 
     int extra = jobs->n_threads - 1;
     pthread_t *thread = mem_alloc((size_t)extra, sizeof *thread);
     struct worker *worker = mem_alloc((size_t)jobs->n_threads, sizeof *worker);
     int started = 0;
     for (; started < extra; started++) {
-        worker[started + 1].pool = &p;
+        worker[started + 1].queue = &q;
         worker[started + 1].thread = started + 1;
         if (pthread_create(&thread[started], NULL, run_worker, &worker[started + 1]) != 0)
             break;
     }
-    worker[0].pool = &p;
+    worker[0].queue = &q;
     run_worker(&worker[0]);
     for (int i = 0; i < started; i++)
         pthread_join(thread[i], NULL);
 
     free(worker);
     free(thread);
-    pthread_cond_destroy(&p.moved);
-    pthread_mutex_destroy(&p.lock);
-    free(p.done);
-    return p.committed;
+    pthread_cond_destroy(&q.moved);
+    pthread_mutex_destroy(&q.lock);
+    free(q.done);
+    return q.committed;
 }
 
 int parallel_cores(void)

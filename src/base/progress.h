@@ -1,5 +1,4 @@
-/* progress.h: a progress bar with the time left, on stderr when that is a terminal.
- * Used by: the commands. */
+/* progress.h: a progress bar with the time left, on stderr when that is a terminal; and the clock it reads. */
 #ifndef ASBDPT_PROGRESS_H
 #define ASBDPT_PROGRESS_H
 

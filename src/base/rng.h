@@ -4,12 +4,14 @@
  * thread draws them and in whatever order, which is what makes an image reproducible to the byte. The
  * generator is PCG-XSH-RR 64/32 [O'Neill 2014]; names are mixed into its state by SplitMix64 [Steele 2014].
  *
- * Used by: path, light selection, the methods, tests.
+ * Tests: test_vec.c (published numbers), test_streams.c (no two streams meet).
  */
 #ifndef ASBDPT_RNG_H
 #define ASBDPT_RNG_H
 
 #include <stdint.h>
+
+#include "base/bits.h"
 
 struct rng {
     uint64_t state, increment; /* increment is odd and selects the sequence */
@@ -36,16 +38,6 @@ static inline void rng_seed(struct rng *r, uint64_t state, uint64_t sequence)
     r->state += state;
     rng_u32(r);
 }
-
-/* hash_mix: a bijection of 64-bit words in which every input bit moves every output bit. */
-static inline uint64_t hash_mix(uint64_t x)
-{
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return x ^ (x >> 31);
-}
-
-static inline uint64_t hash_combine(uint64_t h, uint64_t value) { return hash_mix(h * 0x9e3779b97f4a7c15u + value + 1); }
 
 /* rng_stream: the stream named by its four keys.
  *   seed       the user's --seed

@@ -1,17 +1,8 @@
 /* sampler.c: see sampler.h. */
 #include "base/sampler.h"
 
-static uint32_t reverse_bits(uint32_t x)
-{
-    x = (x >> 16) | (x << 16);
-    x = ((x & 0xff00ff00u) >> 8) | ((x & 0x00ff00ffu) << 8);
-    x = ((x & 0xf0f0f0f0u) >> 4) | ((x & 0x0f0f0f0fu) << 4);
-    x = ((x & 0xccccccccu) >> 2) | ((x & 0x33333333u) << 2);
-    return ((x & 0xaaaaaaaau) >> 1) | ((x & 0x55555555u) << 1);
-}
-
-/* Owen scrambling of a binary fraction given with its first digit in bit 0: every digit is flipped or not depending on a
- * hash of the digits before it. Multiplications by even numbers carry upwards only, which is what makes this hash do
+/* Owen scrambling of a binary fraction given with its first digit in bit 0: every digit is flipped or not depending on
+ * a hash of the digits before it. Multiplications by even numbers carry upwards only, which is what makes this hash do
  * that [Laine & Karras 2011; constants of Burley 2020]. */
 static uint32_t scramble_digits(uint32_t x, uint32_t seed)
 {
@@ -37,7 +28,8 @@ static uint32_t sobol_second(uint32_t index)
 
 struct sampler sampler_start(uint64_t seed, enum rng_purpose purpose, uint64_t pixel, uint64_t iteration)
 {
-    struct sampler s = {rng_stream(seed, purpose, pixel, iteration), 0, (uint32_t)(iteration & (SAMPLER_POINTS - 1)), 0, 0};
+    struct sampler s = {.rng = rng_stream(seed, purpose, pixel, iteration),
+                        .index = (uint32_t)(iteration & (SAMPLER_POINTS - 1))};
     /* hash_mix is a bijection with hash_mix(0) = 0: every run of 2^16 iterations has a scramble of its own. */
     s.scramble = hash_combine(hash_combine(hash_mix(seed ^ 0x6a09e667f3bcc908u), (uint64_t)purpose), pixel) ^
                  hash_mix(iteration >> SAMPLER_LOG2_POINTS);

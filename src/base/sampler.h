@@ -1,12 +1,12 @@
 /* sampler.h: the random numbers one sub-path consumes, drawn in order.
  *
  * The first numbers of every stream, those that decide most, form a low-discrepancy sequence over the iterations of a
- * pixel: pairs of Sobol' points, Owen-scrambled by hashing, each pair visited in an order of its own [Burley 2020]. The
- * rest comes from the pixel's generator. Each number alone is exactly uniform, and over pixels and seeds all are
- * independent, so nothing is biased. Within one pixel the iterations are better spread than independent ones, and a weak
- * correlation between two pairs may remain, since the order is a hash.
+ * pixel: pairs of Sobol' points, Owen-scrambled by hashing, each pair visited in an order of its own [Burley 2020].
+ * The rest comes from the pixel's generator. Each number alone is exactly uniform, and over pixels and seeds all are
+ * independent, so nothing is biased. Within one pixel the iterations are better spread than independent ones, and a
+ * weak correlation between two pairs may remain, since the order is a hash.
  *
- * Used by: path, connect, the methods. Tests: test_sampler.c.
+ * Tests: test_sampler.c.
  */
 #ifndef ASBDPT_SAMPLER_H
 #define ASBDPT_SAMPLER_H
@@ -27,10 +27,10 @@ struct sampler {
     double second;     /* the other number of the current pair */
 };
 
-/* sampler_start: the numbers of (seed, purpose, pixel, iteration); see rng_stream. All 64 bits of each of them count: names
- * that differ give streams that differ. What lies above the sequence's index enters its scramble, so iterations i and
- * i + SAMPLER_POINTS have nothing in common. (A longer sequence would repeat there the first digits of all its first
- * coordinates, and with them whatever depends on no others.) */
+/* sampler_start: the numbers of (seed, purpose, pixel, iteration); see rng_stream. All 64 bits of each of them count:
+ * names that differ give streams that differ. What lies above the sequence's index enters its scramble, so iterations
+ * i and i + SAMPLER_POINTS have nothing in common. (A longer sequence would repeat there the first digits of all its
+ * first coordinates, and with them whatever depends on no others.) */
 struct sampler sampler_start(uint64_t seed, enum rng_purpose purpose, uint64_t pixel, uint64_t iteration);
 
 /* sampler_pair: the next pair of the low-discrepancy part; for sampler_next only. */

@@ -42,19 +42,25 @@ static double gamma_p_series(double a, double x)
     return sum * exp(a * log(x) - x - log_gamma(a + 1));
 }
 
+/* One more term of a continued fraction ... b + numerator / (...): the factor by which its value changes. */
+static double lentz_step(double numerator, double b, double *c, double *d)
+{
+    *d = numerator * *d + b;
+    *c = b + numerator / *c;
+    *d = 1 / (fabs(*d) < TINY ? TINY : *d);
+    *c = fabs(*c) < TINY ? TINY : *c;
+    return *d * *c;
+}
+
 /* Q(a,x) for x >= a + 1, by the continued fraction 1/(x+1-a - 1(1-a)/(x+3-a - 2(2-a)/(x+5-a - ...))). */
 static double gamma_q_fraction(double a, double x)
 {
     double b = x + 1 - a, c = 1 / TINY, d = 1 / b, value = d;
     for (int k = 1; k < MAX_TERMS; k++) {
-        double numerator = -k * (k - a);
         b += 2;
-        d = numerator * d + b;
-        c = b + numerator / c;
-        d = 1 / (fabs(d) < TINY ? TINY : d);
-        c = fabs(c) < TINY ? TINY : c;
-        value *= d * c;
-        if (fabs(d * c - 1) < DBL_EPSILON)
+        double step = lentz_step(-k * (k - a), b, &c, &d);
+        value *= step;
+        if (fabs(step - 1) < DBL_EPSILON)
             break;
     }
     return value * exp(a * log(x) - x - log_gamma(a));
@@ -79,16 +85,9 @@ static double beta_fraction(double a, double b, double x)
     for (int k = 1; k < MAX_TERMS; k++) {
         double even = k * (b - k) * x / ((a + 2 * k - 1) * (a + 2 * k));
         double odd = -(a + k) * (a + b + k) * x / ((a + 2 * k) * (a + 2 * k + 1));
-        double step = 1;
-        for (int half = 0; half < 2; half++) {
-            double numerator = half == 0 ? even : odd;
-            d = 1 + numerator * d;
-            c = 1 + numerator / c;
-            d = 1 / (fabs(d) < TINY ? TINY : d);
-            c = fabs(c) < TINY ? TINY : c;
-            step = d * c;
-            value *= step;
-        }
+        value *= lentz_step(even, 1, &c, &d);
+        double step = lentz_step(odd, 1, &c, &d);
+        value *= step;
         if (fabs(step - 1) < DBL_EPSILON)
             break;
     }
@@ -120,24 +119,24 @@ double stats_student_p(double t, double dof)
 
 double stats_chi2_p(double x, double dof) { return stats_gamma_q(dof / 2, x / 2); }
 
-struct cell {
+struct count_pair {
     double observed, expected;
 };
 
 static int by_expectation(const void *a, const void *b)
 {
-    double x = ((const struct cell *)a)->expected, y = ((const struct cell *)b)->expected;
+    double x = ((const struct count_pair *)a)->expected, y = ((const struct count_pair *)b)->expected;
     return (x > y) - (x < y);
 }
 
 /* Pearson's sum over the cells, sorted by expectation, after pooling; *n_pooled receives the number of pools. */
-static double pearson(const struct cell *cell, size_t n, size_t *n_pooled)
+static double pearson(const struct count_pair *cell, size_t n, size_t *n_pooled)
 {
     const double least = 5; /* expectation below which a cell's share is far from chi-square distributed */
     double sum = 0;
     *n_pooled = 0;
     for (size_t i = 0; i < n;) {
-        struct cell pool = cell[i++];
+        struct count_pair pool = cell[i++];
         while (i < n && pool.expected < least) {
             pool.observed += cell[i].observed;
             pool.expected += cell[i++].expected;
@@ -151,7 +150,7 @@ static double pearson(const struct cell *cell, size_t n, size_t *n_pooled)
 
 double stats_chi2_test(const double *observed, const double *expected, size_t n)
 {
-    struct cell *cell = mem_alloc(n, sizeof *cell);
+    struct count_pair *cell = mem_alloc(n, sizeof *cell);
     size_t used = 0;
     bool impossible = false;
     for (size_t i = 0; i < n; i++) {
@@ -183,7 +182,7 @@ double stats_welch_p(double mean1, double var1, double n1, double mean2, double 
     return stats_student_p(t, dof);
 }
 
-/* Two series, each fast where it is used. */
+/* Two series, each fast where it is used [Marsaglia, Tsang & Wang 2003]. */
 double stats_kolmogorov_p(double x)
 {
     double sum = 0;
@@ -205,10 +204,12 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+void stats_sort(double *x, size_t n) { qsort(x, n, sizeof *x, by_value); }
+
 double stats_ks_distance(double *x, size_t n)
 {
     double d = 0, count = (double)n;
-    qsort(x, n, sizeof *x, by_value);
+    stats_sort(x, n);
     for (size_t i = 0; i < n; i++) {
         d = fmax(d, x[i] - (double)i / count);
         d = fmax(d, (double)(i + 1) / count - x[i]);
@@ -224,4 +225,4 @@ double stats_ks_uniform_p(double *x, size_t n)
     return stats_kolmogorov_p(stats_ks_distance(x, n) * (root + 0.12 + 0.11 / root));
 }
 
-double stats_sidak(double alpha, double m) { return -expm1(log1p(-alpha) / m); }
+double stats_sidak(double p, double m) { return -expm1(m * log1p(-p)); }

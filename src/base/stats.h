@@ -1,7 +1,7 @@
 /* stats.h: distribution functions and hypothesis tests, the yardsticks of the test suite and of `compare`.
  *
  * Every test returns a p-value: the probability, were the hypothesis true, of data at least as extreme.
- * Used by: compare, experiment, tests. Tests: test_stats.c (published tables).
+ * Tests: test_stats.c (published tables).
  */
 #ifndef ASBDPT_STATS_H
 #define ASBDPT_STATS_H
@@ -43,7 +43,11 @@ double stats_ks_distance(double *x, size_t n);
 /* stats_ks_uniform_p: Kolmogorov-Smirnov test that the n numbers are uniform on [0,1]; sorts them. */
 double stats_ks_uniform_p(double *x, size_t n);
 
-/* stats_sidak: the level of one of m independent tests that keeps the family at level alpha. */
-double stats_sidak(double alpha, double m);
+/* stats_sidak: the probability that the least of m independent p-values is p or less [Sidak 1967]. With 1 / m instead
+ * of m: the level of one of m tests that keeps the family at level p. */
+double stats_sidak(double p, double m);
+
+/* stats_sort: by rising value. */
+void stats_sort(double *x, size_t n);
 
 #endif

@@ -133,7 +133,7 @@ struct transform transform_scale(double x, double y, double z)
 
 struct transform transform_rotate(double degrees, vec3 axis)
 {
-    /* Rodrigues: R = cos I + (1 - cos) a a^T + sin [a]_x; the inverse of a rotation is its transpose. */
+    /* Rodrigues [PBRT3 2.7.6]: R = cos I + (1 - cos) a a^T + sin [a]_x; the inverse of a rotation is its transpose. */
     vec3 n = normalize(axis);
     double a[3] = {n.x, n.y, n.z};
     double s = sin(degrees * PI / 180), c = cos(degrees * PI / 180);
@@ -198,12 +198,14 @@ vec3 transform_vector(const struct transform *t, vec3 v) { return matrix_times_v
 vec3 transform_point_back(const struct transform *t, vec3 p) { return matrix_times_point(t->inv, p); }
 vec3 transform_vector_back(const struct transform *t, vec3 v) { return matrix_times_vector(t->inv, v); }
 
-vec3 transform_normal(const struct transform *t, vec3 n)
+static vec3 transpose_times_vector(const double (*m)[4], vec3 n)
 {
-    const double(*m)[4] = t->inv;
     return vec(m[0][0] * n.x + m[1][0] * n.y + m[2][0] * n.z, m[0][1] * n.x + m[1][1] * n.y + m[2][1] * n.z,
                m[0][2] * n.x + m[1][2] * n.y + m[2][2] * n.z);
 }
+
+vec3 transform_normal(const struct transform *t, vec3 n) { return transpose_times_vector(t->inv, n); }
+vec3 transform_normal_back(const struct transform *t, vec3 n) { return transpose_times_vector(t->m, n); }
 
 double transform_determinant(const struct transform *t)
 {

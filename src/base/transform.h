@@ -1,7 +1,5 @@
 /* transform.h: affine and projective 4x4 transforms with their inverses, in pbrt's conventions
- * (left-handed world, column vectors, angles in degrees).
- *
- * Used by: shape, camera, light, parser.
+ * (left-handed world, column vectors, angles in degrees). Tests: test_vec.c.
  */
 #ifndef ASBDPT_TRANSFORM_H
 #define ASBDPT_TRANSFORM_H
@@ -41,15 +39,16 @@ vec3 transform_vector(const struct transform *t, vec3 v);
 vec3 transform_point_back(const struct transform *t, vec3 p);
 vec3 transform_vector_back(const struct transform *t, vec3 v);
 
-/* transform_normal: by the inverse transpose; not normalised. */
+/* transform_normal, transform_normal_back: by the inverse transpose, by the transpose; not normalised. */
 vec3 transform_normal(const struct transform *t, vec3 n);
+vec3 transform_normal_back(const struct transform *t, vec3 n);
 
 /* transform_determinant: of the upper left 3x3 part. */
 double transform_determinant(const struct transform *t);
 
-/* transform_is_usable: are all numbers finite, those that directions meet at most NUMBER_MAX, and is `inv` the inverse in
- * fact and not only in name? Then a direction stays a direction, both ways. Where points come to lie, whoever places
- * them has to look at (is_place). */
+/* transform_is_usable: are all numbers finite, those that directions meet at most NUMBER_MAX, and is `inv` the inverse
+ * in fact and not only in name? Then a direction stays a direction, both ways. Where points come to lie, whoever
+ * places them has to look at (is_place). */
 bool transform_is_usable(const struct transform *t);
 
 /* transform_swaps_handedness: true where that determinant is negative. */

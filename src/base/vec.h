@@ -1,22 +1,18 @@
-/* vec.h: real numbers, points and directions.
+/* vec.h: points, directions and normals.
  *
- * All of light transport is computed in `double`: it is the plain choice for a text that is read, products of
- * many densities stay in range, and a hit point is so exact that rays need no offset tricks (see kdtree.h).
+ * All of light transport is computed in `double`: no reader has to follow roundings, products of many densities stay
+ * in range, and a hit point is so exact that rays need no offset tricks (see kdtree.h).
  * Bulk data (vertices, triangles, texels) is stored as `float`.
  *
  * Points, vectors and normals share one type; what a value is, its name says: p a point, n a normal, w a
  * direction of length 1. Values are passed by value; nothing here can fail.
  *
- * Used by: everything.
+ * Tests: test_vec.c.
  */
 #ifndef ASBDPT_VEC_H
 #define ASBDPT_VEC_H
 
-#include <math.h>
-#include <stdbool.h>
-
-#define PI 3.14159265358979323846
-#define INV_PI 0.31830988618379067154
+#include "base/number.h"
 
 typedef struct {
     double x, y, z;
@@ -37,6 +33,12 @@ static inline double abs_dot(vec3 a, vec3 b) { return fabs(dot(a, b)); }
 static inline double length2(vec3 a) { return dot(a, a); }
 static inline double length(vec3 a) { return sqrt(dot(a, a)); }
 static inline vec3 lerp3(double t, vec3 a, vec3 b) { return add(mul(a, 1 - t), mul(b, t)); }
+
+/* barycentric3: the mean of three values with the weights 1 - b1 - b2, b1 and b2. */
+static inline vec3 barycentric3(const vec3 v[3], double b1, double b2)
+{
+    return add(add(mul(v[0], 1 - b1 - b2), mul(v[1], b1)), mul(v[2], b2));
+}
 
 static inline vec3 cross(vec3 a, vec3 b)
 {
@@ -62,11 +64,5 @@ static inline bool is_place(vec3 p)
 }
 
 static inline bool is_finite3(vec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
-
-static inline double clamp(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
-static inline double sqr(double x) { return x * x; }
-
-/* safe_sqrt: square root of a number that rounding may have pushed below 0. */
-static inline double safe_sqrt(double x) { return x > 0 ? sqrt(x) : 0; }
 
 #endif

@@ -2,8 +2,6 @@
  *
  * Every warp takes (u1,u2) uniform in [0,1)^2. pdf_w is a density per steradian, pdf_a per unit area.
  * Tests: test_warp.c, chi-square of each map against its density.
- *
- * Used by: bsdf, light, camera.
  */
 #ifndef ASBDPT_WARP_H
 #define ASBDPT_WARP_H
@@ -29,7 +27,7 @@ static inline void warp_disk(double u1, double u2, double *x, double *y)
     *y = r * sin(phi);
 }
 
-/* warp_cos_hemisphere: direction around +z with density cos(theta)/pi. */
+/* warp_cos_hemisphere: direction around +z with density cos(theta)/pi [PBRT3 13.6.3]. */
 static inline vec3 warp_cos_hemisphere(double u1, double u2)
 {
     double x, y;
@@ -37,9 +35,9 @@ static inline vec3 warp_cos_hemisphere(double u1, double u2)
     return vec(x, y, safe_sqrt(1 - x * x - y * y));
 }
 
-static inline double warp_cos_hemisphere_pdf(double cos_theta) { return cos_theta > 0 ? cos_theta * INV_PI : 0; }
+static inline double warp_cos_hemisphere_pdf_w(double cos_theta) { return cos_theta > 0 ? cos_theta * INV_PI : 0; }
 
-/* warp_sphere: uniform over the unit sphere, density 1/(4 pi). */
+/* warp_sphere: uniform over the unit sphere, density 1/(4 pi) [PBRT3 13.6.1]. */
 static inline vec3 warp_sphere(double u1, double u2)
 {
     double z = 1 - 2 * u1, r = safe_sqrt(1 - z * z), phi = 2 * PI * u2;
@@ -49,22 +47,21 @@ static inline vec3 warp_sphere(double u1, double u2)
 /* warp_sphere_inverse: the (u1,u2), in [0,1), that warp_sphere maps to w. */
 static inline void warp_sphere_inverse(vec3 w, double *u1, double *u2)
 {
-    const double below_one = 1 - 1e-15;
     double phi = atan2(w.y, w.x) / (2 * PI);
-    *u1 = clamp((1 - w.z) / 2, 0, below_one);
-    *u2 = clamp(phi < 0 ? phi + 1 : phi, 0, below_one);
+    *u1 = below_one(fmax((1 - w.z) / 2, 0));
+    *u2 = below_one(phi < 0 ? phi + 1 : phi);
 }
 
-static inline double warp_sphere_pdf(void) { return INV_PI / 4; }
+static inline double warp_sphere_pdf_w(void) { return INV_PI / 4; }
 
-/* warp_cone: uniform over the cone around +z with half angle acos(cos_max). */
+/* warp_cone: uniform over the cone around +z with half angle acos(cos_max) [PBRT3 13.6.4]. */
 static inline vec3 warp_cone(double u1, double u2, double cos_max)
 {
     double z = 1 - u1 * (1 - cos_max), r = safe_sqrt(1 - z * z), phi = 2 * PI * u2;
     return vec(r * cos(phi), r * sin(phi), z);
 }
 
-static inline double warp_cone_pdf(double cos_max) { return 1 / (2 * PI * (1 - cos_max)); }
+static inline double warp_cone_pdf_w(double cos_max) { return 1 / (2 * PI * (1 - cos_max)); }
 
 /* warp_triangle: barycentric coordinates (b1,b2) of a uniform point of a triangle [Heitz 2019 keeps
  * strata together; this is the older square-root map]; density 1/area. */

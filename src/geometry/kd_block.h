@@ -1,13 +1,14 @@
-/* kd_block.h: what the leaves of the kd-tree refer to, and a ray's test of it: up to four triangles in one loop.
+/* kd_block.h: the kd-tree in memory, shared by its builder and its traversal and nobody else's business: its nodes, the
+ * blocks that its leaves refer to, and a ray's test of a block: up to four triangles in one loop.
  *
- * The block keeps its triangles lane by lane, so that a compiler can do the loop's arithmetic on all four at once. It
+ * A block keeps its triangles lane by lane, so that a compiler can do the loop's arithmetic on all four at once. It
  * is done in float and only sorts out: a triangle stays in unless the ray certainly misses it, and those that stay
  * are tested in double by triangle_hit, which alone decides. With s the largest coordinate of scene and origin and
  * u = 2^-24, a sheared coordinate in float is off by at most 14 u s, and an edge function by at most 64 u s times the
  * sum S of the six coordinates' absolute values (were S itself below 16 u s, the edge function would be smaller
  * than that). This is the slack an edge function is given; FLT_MIN covers what underflows.
  *
- * Used by: kd_build (fills blocks), kdtree. Tests: test_kdtree.c.
+ * Tests: test_kdtree.c.
  */
 #ifndef ASBDPT_KD_BLOCK_H
 #define ASBDPT_KD_BLOCK_H
@@ -18,6 +19,31 @@
 #include <stdint.h>
 
 #include "geometry/shape.h"
+
+/* --- nodes -------------------------------------------------------------------------------------------- */
+
+/* Eight bytes. The two children of an inner node are neighbours, the lower side first: pair p is nodes 2p and 2p + 1.
+ * The root is node 0, and node 1 is not used. */
+struct kd_node {
+    uint32_t word; /* low 2 bits: axis, or 3 for a leaf. Above them: blocks of a leaf; or 1 bit, whether shadow rays
+                      visit the upper child first, and the number of the pair of children */
+    union {
+        float split;    /* inner: position of the plane */
+        uint32_t first; /* leaf: its first block in kdtree.block */
+    } at;
+};
+
+enum { KD_LEAF = 3, KD_UPPER_FIRST = 4 };
+
+/* The longest way from the root to a leaf, hence the size of the traversal's stack. */
+enum { KD_MAX_DEPTH = 60 };
+
+static inline bool kd_is_leaf(struct kd_node n) { return (n.word & 3) == KD_LEAF; }
+static inline uint32_t kd_blocks(struct kd_node leaf) { return leaf.word >> 2; }
+static inline uint32_t kd_upper_first(struct kd_node n) { return n.word >> 2 & 1; }
+static inline uint32_t kd_children(struct kd_node n) { return n.word >> 3 << 1; }
+
+/* --- blocks ------------------------------------------------------------------------------------------- */
 
 enum { KD_LANES = 4 };
 

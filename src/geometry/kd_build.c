@@ -9,8 +9,6 @@
 #include <string.h>
 
 #include "geometry/kd_block.h"
-#include "geometry/kd_clip.h"
-#include "geometry/kd_node.h"
 #include "geometry/kd_plane.h"
 #include "geometry/kdtree.h"
 #include "base/mem.h"
@@ -29,7 +27,7 @@ struct builder {
 };
 
 /* A cell still to be built. */
-struct cell {
+struct kd_cell {
     struct box box;
     size_t at, n; /* items: builder.ref[at .. at+n) */
     double room;  /* how many references its leaves may hold together */
@@ -57,9 +55,9 @@ static void split_item(const struct geometry *geo, const struct kd_ref *ref, con
     part[0].hi[p->axis] = part[1].lo[p->axis] = p->at;
 }
 
-/* Deal the items of a cell out to its parts; those of part[moved] go to the top of the stack. */
-static void deal(struct builder *b, const struct cell *cell, const struct kd_plane *p, int moved,
-                 struct cell part[2])
+/* Split the items of a cell between its parts; those of part[moved] go to the top of the stack. */
+static void split_items(struct builder *b, const struct kd_cell *cell, const struct kd_plane *p, int moved,
+                        struct kd_cell part[2])
 {
     size_t top = cell->at + cell->n;
     b->ref = mem_grow(b->ref, &b->ref_capacity, top + cell->n, sizeof *b->ref);
@@ -88,7 +86,7 @@ static void deal(struct builder *b, const struct cell *cell, const struct kd_pla
 }
 
 /* The blocks of a leaf: first those of triangles, then those of quadrics. */
-static void make_leaf(struct builder *b, uint32_t node, const struct cell *cell)
+static void make_leaf(struct builder *b, uint32_t node, const struct kd_cell *cell)
 {
     struct kdtree *kd = b->kd;
     const struct kd_ref *ref = b->ref + cell->at;
@@ -109,7 +107,7 @@ static void make_leaf(struct builder *b, uint32_t node, const struct cell *cell)
 
 /* A line that crosses a cell of surface S meets a triangle of area A in it with probability 2 A / S. A quarter of the
  * surface of its bounds is good enough for A here. */
-static struct prospect leaf_prospect(const struct builder *b, const struct cell *cell)
+static struct prospect leaf_prospect(const struct builder *b, const struct kd_cell *cell)
 {
     double area = kd_half_area(&cell->box), sum = 0;
     for (size_t i = cell->at; i < cell->at + cell->n; i++)
@@ -120,7 +118,7 @@ static struct prospect leaf_prospect(const struct builder *b, const struct cell 
 
 /* Decide which child shadow rays visit first: as with any two chances, that with the better relation of probability to
  * cost. Returns the prospect of both together. */
-static struct prospect order_children(struct kd_node *node, const struct cell *cell, const struct cell part[2],
+static struct prospect order_children(struct kd_node *node, const struct kd_cell *cell, const struct kd_cell part[2],
                                       const struct prospect child[2])
 {
     double area = kd_half_area(&cell->box), share[2];
@@ -146,7 +144,7 @@ static uint32_t add_children(struct builder *b, uint32_t parent, const struct kd
 }
 
 /* Cut a cell in two, and its room in proportion; false, with nothing changed, where it is to be a leaf. */
-static bool cut_cell(struct builder *b, const struct cell *cell, struct kd_plane *p, struct cell part[2])
+static bool cut_cell(struct builder *b, const struct kd_cell *cell, struct kd_plane *p, struct kd_cell part[2])
 {
     size_t n[2] = {0, 0};
     if (cell->depth >= b->max_depth)
@@ -162,7 +160,7 @@ static bool cut_cell(struct builder *b, const struct cell *cell, struct kd_plane
         return false;
     part[0] = part[1] = *cell;
     part[0].box.hi[p->axis] = part[1].box.lo[p->axis] = p->at;
-    deal(b, cell, p, n[0] <= n[1] ? 0 : 1, part);
+    split_items(b, cell, p, n[0] <= n[1] ? 0 : 1, part);
     for (int s = 0; s < 2; s++) {
         part[s].room = cell->room * (double)n[s] / (double)(n[0] + n[1]);
         part[s].depth = cell->depth + 1;
@@ -171,10 +169,10 @@ static bool cut_cell(struct builder *b, const struct cell *cell, struct kd_plane
 }
 
 /* Build what is below a node, taking the cell's items from the stack. */
-static struct prospect build_cell(struct builder *b, uint32_t node, const struct cell *cell)
+static struct prospect build_cell(struct builder *b, uint32_t node, const struct kd_cell *cell)
 {
     struct kd_plane p;
-    struct cell part[2];
+    struct kd_cell part[2];
     struct prospect prospect[2];
     if (cell->depth > b->kd->depth)
         b->kd->depth = cell->depth;
@@ -239,7 +237,7 @@ void kd_build(struct kdtree *kd, const struct geometry *geo)
         b.max_depth = (int)fmin(KD_MAX_DEPTH, 8 + 2.0 * log2(n));
         kd->node = mem_grow(NULL, &b.node_capacity, 2, sizeof *kd->node);
         kd->n_nodes = 2;
-        struct cell root = {bounds, 0, (size_t)n, MAX_REFERENCES * n, 0};
+        struct kd_cell root = {bounds, 0, (size_t)n, MAX_REFERENCES * n, 0};
         kd->cost = build_cell(&b, 0, &root).cost;
         free(b.ref);
         fill_blocks(&b);

@@ -1,6 +1,9 @@
-/* kd_plane.h: where is a cell of the kd-tree best cut? The surface-area heuristic.
+/* kd_plane.h: where is a cell of the kd-tree best cut, and what of a triangle lies on each side of the cut?
  *
- * Used by: kd_build.
+ * The plane is chosen by the surface-area heuristic. Triangles that it cuts are clipped, "perfect splits" of [Wald &
+ * Havran 2006, 2.3]: a triangle belongs to a cell only where it really passes, not where merely its bounding box does.
+ *
+ * Tests: test_kdtree.c.
  */
 #ifndef ASBDPT_KD_PLANE_H
 #define ASBDPT_KD_PLANE_H
@@ -9,7 +12,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "geometry/kd_clip.h"
+struct box {
+    float lo[3], hi[3];
+};
 
 /* An item and the bounds of its part within a cell. */
 struct kd_ref {
@@ -20,7 +25,7 @@ struct kd_ref {
 struct kd_plane {
     int axis; /* -1: none */
     float at;
-    bool flat_below; /* items lying in the plane go to the lower cell */
+    bool planar_below; /* items lying in the plane go to the lower cell */
     double cost;     /* times the cell's half area */
 };
 
@@ -28,12 +33,12 @@ struct kd_plane {
 static inline bool kd_is_below(const struct kd_ref *r, const struct kd_plane *p)
 {
     float lo = r->box.lo[p->axis], hi = r->box.hi[p->axis];
-    return (lo < p->at) | ((hi <= p->at) & p->flat_below);
+    return (lo < p->at) | ((hi <= p->at) & p->planar_below);
 }
 static inline bool kd_is_above(const struct kd_ref *r, const struct kd_plane *p)
 {
     float lo = r->box.lo[p->axis], hi = r->box.hi[p->axis];
-    return (hi > p->at) | ((lo >= p->at) & !p->flat_below);
+    return (hi > p->at) | ((lo >= p->at) & !p->planar_below);
 }
 
 /* Half of the surface of a box. */
@@ -45,5 +50,11 @@ double kd_visit_cost(void);
 
 /* kd_best_plane: the cheapest cut of a cell with n items, axis -1 if none is cheaper than a leaf. */
 struct kd_plane kd_best_plane(const struct kd_ref *ref, size_t n, const struct box *cell);
+
+/* kd_split_triangle: bounds of the two parts into which the plane at `split` of `axis` cuts the triangle v (three
+ * corners) within the closed box `cell`: part[0] below, part[1] above. The true bounds are rounded outwards to
+ * float, but not beyond the half of the box. filled[i] tells whether there is anything of the triangle in it. */
+void kd_split_triangle(const float v[9], const struct box *cell, int axis, float split, struct box part[2],
+                       bool filled[2]);
 
 #endif

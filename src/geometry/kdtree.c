@@ -13,7 +13,6 @@
 #include <stdlib.h>
 
 #include "geometry/kd_block.h"
-#include "geometry/kd_node.h"
 
 void kd_free(struct kdtree *kd)
 {
@@ -24,20 +23,20 @@ void kd_free(struct kdtree *kd)
 }
 
 /* A cell to visit and the stretch of the ray in it. */
-struct cell {
+struct kd_visit {
     uint32_t node;
     double tmin, tmax;
 };
 
 /* A ray on its way through a tree. */
-struct walk {
+struct traversal {
     double before[3], after[3]; /* origin moved by the slab's half width, so that t_lo = (split - before) inverse */
     double inverse[3];          /* 1/d, finite */
     uint32_t near_child[3];     /* 0: the ray goes up the axis, the lower cell comes first; 1: down */
     struct kd_block_ray ray;
-    struct cell cell;
+    struct kd_visit cell;
     int waiting;
-    struct cell stack[KD_MAX_DEPTH];
+    struct kd_visit stack[KD_MAX_DEPTH];
 };
 
 /* A component this small moves the ray by nothing within any scene: it stands in for 0 to keep 1/d finite. */
@@ -51,8 +50,8 @@ static double inverse_of(double d)
 static inline double larger(double a, double b) { return a > b ? a : b; }
 static inline double smaller(double a, double b) { return a < b ? a : b; }
 
-/* Prepare the walk; false if the ray misses the bounds. */
-static bool walk_start(struct walk *w, const struct kdtree *kd, const struct ray *ray)
+/* Prepare the traversal; false if the ray misses the bounds. */
+static bool traversal_start(struct traversal *w, const struct kdtree *kd, const struct ray *ray)
 {
     double o[3] = {ray->o.x, ray->o.y, ray->o.z}, d[3] = {ray->d.x, ray->d.y, ray->d.z};
     double size = larger(larger(kd->reach, fabs(o[0])), larger(fabs(o[1]), fabs(o[2])));
@@ -79,7 +78,7 @@ static bool walk_start(struct walk *w, const struct kdtree *kd, const struct ray
 
 /* Go down to a leaf of the current cell, leaving the cells to be visited later on the stack: to the first leaf the
  * ray comes to, or, for shadow rays, to the one that most likely stops it. */
-static inline struct kd_node walk_to_leaf(struct walk *w, const struct kd_node *nodes, bool shadow)
+static inline struct kd_node traversal_to_leaf(struct traversal *w, const struct kd_node *nodes, bool shadow)
 {
     struct kd_node n = nodes[w->cell.node];
     double tmin = w->cell.tmin, tmax = w->cell.tmax;
@@ -93,14 +92,14 @@ static inline struct kd_node walk_to_leaf(struct walk *w, const struct kd_node *
         } else if (t_hi < tmin) {
             n = nodes[far_cell];
         } else if (shadow && kd_upper_first(n) != w->near_child[axis]) {
-            struct cell *near = &w->stack[w->waiting++];
+            struct kd_visit *near = &w->stack[w->waiting++];
             near->node = near_cell;
             near->tmin = tmin;
             near->tmax = smaller(t_hi, tmax);
             tmin = larger(t_lo, tmin);
             n = nodes[far_cell];
         } else {
-            struct cell *far = &w->stack[w->waiting++];
+            struct kd_visit *far = &w->stack[w->waiting++];
             far->node = far_cell;
             far->tmin = larger(t_lo, tmin);
             far->tmax = tmax;
@@ -112,7 +111,7 @@ static inline struct kd_node walk_to_leaf(struct walk *w, const struct kd_node *
 }
 
 /* Take the next waiting cell that begins before t; false if there is none. */
-static inline bool walk_next(struct walk *w, double t)
+static inline bool traversal_next(struct traversal *w, double t)
 {
     while (w->waiting > 0) {
         w->cell = w->stack[--w->waiting];
@@ -124,41 +123,38 @@ static inline bool walk_next(struct walk *w, double t)
     return false;
 }
 
-bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct hit *hit)
+/* Both kinds of rays; `shadow` is a constant where this is inlined, so that neither pays for the other. */
+static inline bool traverse(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, bool shadow,
+                            struct hit *hit)
 {
-    struct walk w;
-    if (!walk_start(&w, kd, ray))
+    struct traversal w;
+    if (!traversal_start(&w, kd, ray))
         return false;
     double nearest = ray->tmax;
     int near[KD_LANES];
     bool found = false;
     do {
-        struct kd_node leaf = walk_to_leaf(&w, kd->node, false);
+        struct kd_node leaf = traversal_to_leaf(&w, kd->node, shadow);
         const struct kd_block *block = kd->block + leaf.at.first, *end = block + kd_blocks(leaf);
         for (; block < end; block++)
             if (kd_block_near(block, &w.ray, near) &&
-                kd_block_hit(block, near, geo, &w.ray, nearest, false, hit)) {
+                kd_block_hit(block, near, geo, &w.ray, nearest, shadow, hit)) {
+                if (shadow)
+                    return true;
                 nearest = hit->t;
                 found = true;
             }
-    } while (walk_next(&w, nearest));
+    } while (traversal_next(&w, nearest));
     return found;
+}
+
+bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct hit *hit)
+{
+    return traverse(kd, geo, ray, false, hit);
 }
 
 bool kd_occluded(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray)
 {
-    struct walk w;
     struct hit hit;
-    int near[KD_LANES];
-    if (!walk_start(&w, kd, ray))
-        return false;
-    do {
-        struct kd_node leaf = walk_to_leaf(&w, kd->node, true);
-        const struct kd_block *block = kd->block + leaf.at.first, *end = block + kd_blocks(leaf);
-        for (; block < end; block++)
-            if (kd_block_near(block, &w.ray, near) &&
-                kd_block_hit(block, near, geo, &w.ray, ray->tmax, true, &hit))
-                return true;
-    } while (walk_next(&w, ray->tmax));
-    return false;
+    return traverse(kd, geo, ray, true, &hit);
 }

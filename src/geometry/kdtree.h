@@ -7,7 +7,7 @@
  * vertices. A point found on a surface is therefore within about 1e-15 of the scene's size of it, and a ray
  * leaving it needs only tmin = scene->epsilon (1e-8 of the scene's diagonal) to miss its own surface.
  *
- * Used by: scene. Tests: test_kdtree.c (against brute force, degenerate meshes).
+ * Tests: test_kdtree.c (against brute force, degenerate meshes).
  */
 #ifndef ASBDPT_KDTREE_H
 #define ASBDPT_KDTREE_H
@@ -17,7 +17,7 @@
 
 #include "geometry/shape.h"
 
-struct kd_node;  /* 8 bytes, see kd_node.h */
+struct kd_node;  /* 8 bytes, see kd_block.h */
 struct kd_block; /* up to four triangles, see kd_block.h */
 
 struct kdtree {

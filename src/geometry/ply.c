@@ -3,12 +3,13 @@
  */
 #include "geometry/ply.h"
 
+#include <ctype.h>
 #include <errno.h>
-#include <float.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/bits.h"
 #include "base/file.h"
 #include "base/mem.h"
 
@@ -18,7 +19,7 @@ enum scalar { INT8, UINT8, INT16, UINT16, INT32, UINT32, FLOAT32, FLOAT64, N_SCA
 /* What a vertex property means to us; the alternatives of a texture coordinate follow each other by two. */
 enum role { X, Y, Z, NX, NY, NZ, U, V, N_ROLES, NO_ROLE = N_ROLES };
 
-struct property {
+struct ply_property {
     char name[64];
     enum scalar type;
     bool is_list;
@@ -26,19 +27,19 @@ struct property {
     enum role role;         /* of a scalar of element vertex */
 };
 
-struct element {
+struct ply_element {
     char name[64];
     int count;
     int first, n; /* its properties */
 };
 
-struct reader {
+struct ply {
     const char *path;
     uint8_t *data; /* [size] the whole file */
     size_t size, pos;
     enum encoding encoding;
-    struct element *element; /* [n_elements] */
-    struct property *property;
+    struct ply_element *element; /* [n_elements] */
+    struct ply_property *property;
     size_t n_elements, n_properties, element_capacity, property_capacity;
     struct mesh *mesh;
     size_t n_indices, index_capacity;
@@ -49,7 +50,7 @@ static const int SCALAR_SIZE[N_SCALARS] = {1, 1, 2, 2, 4, 4, 4, 8};
 
 /* --- messages ----------------------------------------------------------------------------------------- */
 
-static int line_at(const struct reader *r, size_t pos)
+static int line_at(const struct ply *r, size_t pos)
 {
     int line = 1;
     for (size_t i = 0; i < pos && i < r->size; i++)
@@ -57,14 +58,14 @@ static int line_at(const struct reader *r, size_t pos)
     return line;
 }
 
-static bool fail(struct reader *r, const char *what) { return error_set(r->err, "%s: %s", r->path, what); }
+static bool fail(struct ply *r, const char *what) { return error_set(r->err, "%s: %s", r->path, what); }
 
-static bool fail_line(struct reader *r, size_t pos, const char *what, const char *detail)
+static bool fail_line(struct ply *r, size_t pos, const char *what, const char *detail)
 {
     return error_set(r->err, "%s:%d: %s%s", r->path, line_at(r, pos), what, detail);
 }
 
-static bool fail_row(struct reader *r, const char *element, int row, const char *what)
+static bool fail_row(struct ply *r, const char *element, int row, const char *what)
 {
     if (r->encoding == ENCODING_ASCII)
         return error_set(r->err, "%s:%d: %s %d: %s", r->path, line_at(r, r->pos), element, row, what);
@@ -76,7 +77,7 @@ static bool fail_row(struct reader *r, const char *element, int row, const char 
 enum { MAX_WORDS = 5, WORD_SIZE = 64 };
 
 /* The next line, cut into at most five words; returns how many, -1 at the end of the file. */
-static int next_line(struct reader *r, char word[MAX_WORDS][WORD_SIZE])
+static int next_line(struct ply *r, char word[MAX_WORDS][WORD_SIZE])
 {
     char line[512];
     if (r->pos >= r->size)
@@ -92,31 +93,36 @@ static int next_line(struct reader *r, char word[MAX_WORDS][WORD_SIZE])
     return n < 0 ? 0 : n;
 }
 
+/* The number of a name in a list of n; -1 if it is not there. */
+static int index_of(const char *name, const char *const *names, int n)
+{
+    for (int i = 0; i < n; i++)
+        if (strcmp(name, names[i]) == 0)
+            return i;
+    return -1;
+}
+
 static bool scalar_of(const char *name, enum scalar *out)
 {
-    static const char *const names[2][N_SCALARS] = {
-        {"char", "uchar", "short", "ushort", "int", "uint", "float", "double"},
-        {"int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"}};
-    for (int i = 0; i < N_SCALARS; i++)
-        if (strcmp(name, names[0][i]) == 0 || strcmp(name, names[1][i]) == 0) {
-            *out = (enum scalar)i;
-            return true;
-        }
-    return false;
+    static const char *const names[2 * N_SCALARS] = {
+        "char", "uchar", "short", "ushort", "int", "uint", "float", "double",
+        "int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"};
+    int i = index_of(name, names, 2 * N_SCALARS);
+    *out = (enum scalar)(i % N_SCALARS);
+    return i >= 0;
 }
 
-static bool header_format(struct reader *r, size_t line, const char *name, const char *version)
+static bool header_format(struct ply *r, size_t line, const char *name, const char *version)
 {
     static const char *const names[] = {"ascii", "binary_little_endian", "binary_big_endian"};
-    for (int i = 0; i < 3; i++)
-        if (strcmp(name, names[i]) == 0 && strcmp(version, "1.0") == 0) {
-            r->encoding = (enum encoding)i;
-            return true;
-        }
-    return fail_line(r, line, "not a format of PLY 1.0: ", name);
+    int i = strcmp(version, "1.0") == 0 ? index_of(name, names, 3) : -1;
+    if (i < 0)
+        return fail_line(r, line, "not a format of PLY 1.0: ", name);
+    r->encoding = (enum encoding)i;
+    return true;
 }
 
-static bool header_element(struct reader *r, size_t line, const char *name, const char *count)
+static bool header_element(struct ply *r, size_t line, const char *name, const char *count)
 {
     char *end;
     errno = 0;
@@ -127,7 +133,7 @@ static bool header_element(struct reader *r, size_t line, const char *name, cons
         if (strcmp(r->element[i].name, name) == 0)
             return fail_line(r, line, "a second element named ", name);
     r->element = mem_grow(r->element, &r->element_capacity, r->n_elements + 1, sizeof *r->element);
-    struct element *e = &r->element[r->n_elements++];
+    struct ply_element *e = &r->element[r->n_elements++];
     strcpy(e->name, name);
     e->count = (int)n;
     e->first = (int)r->n_properties;
@@ -135,9 +141,9 @@ static bool header_element(struct reader *r, size_t line, const char *name, cons
     return true;
 }
 
-static bool header_property(struct reader *r, size_t line, char word[MAX_WORDS][WORD_SIZE], int n)
+static bool header_property(struct ply *r, size_t line, char word[MAX_WORDS][WORD_SIZE], int n)
 {
-    struct property p;
+    struct ply_property p;
     p.is_list = n == 5 && strcmp(word[1], "list") == 0;
     p.count_type = UINT8;
     p.role = NO_ROLE;
@@ -156,7 +162,7 @@ static bool header_property(struct reader *r, size_t line, char word[MAX_WORDS][
     return true;
 }
 
-static bool read_header(struct reader *r)
+static bool read_header(struct ply *r)
 {
     char word[MAX_WORDS][WORD_SIZE];
     bool has_format = false;
@@ -187,14 +193,14 @@ static bool read_header(struct reader *r)
 }
 
 /* Counts are promises; hold them against the bytes that are there before allocating anything. */
-static bool check_counts(struct reader *r)
+static bool check_counts(struct ply *r)
 {
     double need = 0;
     for (size_t i = 0; i < r->n_elements; i++) {
-        const struct element *e = &r->element[i];
+        const struct ply_element *e = &r->element[i];
         double row = 0;
         for (int k = 0; k < e->n; k++) {
-            const struct property *p = &r->property[e->first + k];
+            const struct ply_property *p = &r->property[e->first + k];
             row += r->encoding == ENCODING_ASCII ? 2 : SCALAR_SIZE[p->is_list ? p->count_type : p->type];
         }
         need += row * e->count;
@@ -206,15 +212,13 @@ static bool check_counts(struct reader *r)
 
 /* --- numbers ------------------------------------------------------------------------------------------ */
 
-static bool is_blank(int c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }
-
-static bool next_ascii(struct reader *r, double *out)
+static bool next_ascii(struct ply *r, double *out)
 {
     char word[64], *end;
     size_t n = 0;
-    while (r->pos < r->size && is_blank(r->data[r->pos]))
+    while (r->pos < r->size && isspace(r->data[r->pos]))
         r->pos++;
-    while (r->pos + n < r->size && !is_blank(r->data[r->pos + n]) && n < sizeof word - 1) {
+    while (r->pos + n < r->size && !isspace(r->data[r->pos + n]) && n < sizeof word - 1) {
         word[n] = (char)r->data[r->pos + n];
         n++;
     }
@@ -245,28 +249,24 @@ static double decode(uint64_t bits, enum scalar type)
     return 0;
 }
 
-/* One number of the given type; false at the end of the file or, in ascii, on something that is no number. */
-static bool next_number(struct reader *r, enum scalar type, double *out)
+/* One number of the given type; false, with a message, at the end of the file or, in ascii, on what is none. */
+static bool next_number(struct ply *r, enum scalar type, const char *element, int row, double *out)
 {
-    if (r->encoding == ENCODING_ASCII)
-        return next_ascii(r, out);
     size_t size = (size_t)SCALAR_SIZE[type];
-    if (size > r->size - r->pos)
-        return false;
-    const uint8_t *b = r->data + r->pos;
-    uint64_t bits = 0;
-    for (size_t i = 0; i < size; i++)
-        bits = bits << 8 | b[r->encoding == ENCODING_BIG ? i : size - 1 - i];
-    r->pos += size;
-    *out = decode(bits, type);
+    if (r->encoding == ENCODING_ASCII ? !next_ascii(r, out) : size > r->size - r->pos)
+        return fail_row(r, element, row, "the file ends or has no number here");
+    if (r->encoding != ENCODING_ASCII) {
+        *out = decode(bits_of_bytes(r->data + r->pos, size, r->encoding == ENCODING_BIG), type);
+        r->pos += size;
+    }
     return true;
 }
 
 /* A list's length: a whole number, 0 or more. */
-static bool next_count(struct reader *r, const struct property *p, const char *element, int row, double *count)
+static bool next_count(struct ply *r, const struct ply_property *p, const char *element, int row, double *count)
 {
-    if (!next_number(r, p->count_type, count))
-        return fail_row(r, element, row, "the file ends or has no number here");
+    if (!next_number(r, p->count_type, element, row, count))
+        return false;
     if (!(*count >= 0 && *count <= FIRST_QUADRIC) || *count != floor(*count))
         return fail_row(r, element, row, "not a list length");
     return true;
@@ -274,27 +274,18 @@ static bool next_count(struct reader *r, const struct property *p, const char *e
 
 /* --- elements ----------------------------------------------------------------------------------------- */
 
-static bool skip_property(struct reader *r, const struct property *p, const char *element, int row)
+static bool skip_list(struct ply *r, const struct ply_property *p, const char *element, int row)
 {
-    double count = 1, ignored;
-    if (p->is_list && !next_count(r, p, element, row, &count))
+    double count, ignored;
+    if (!next_count(r, p, element, row, &count))
         return false;
     for (double k = 0; k < count; k++)
-        if (!next_number(r, p->type, &ignored))
-            return fail_row(r, element, row, "the file ends or has no number here");
+        if (!next_number(r, p->type, element, row, &ignored))
+            return false;
     return true;
 }
 
-static bool skip_element(struct reader *r, const struct element *e)
-{
-    for (int row = 0; e->n > 0 && row < e->count; row++)
-        for (int k = 0; k < e->n; k++)
-            if (!skip_property(r, &r->property[e->first + k], e->name, row))
-                return false;
-    return true;
-}
-
-static struct property *scalar_named(struct reader *r, const struct element *e, const char *name)
+static struct ply_property *scalar_named(struct ply *r, const struct ply_element *e, const char *name)
 {
     for (int k = 0; k < e->n; k++)
         if (!r->property[e->first + k].is_list && strcmp(r->property[e->first + k].name, name) == 0)
@@ -303,7 +294,7 @@ static struct property *scalar_named(struct reader *r, const struct element *e, 
 }
 
 /* Give the n properties of these names the roles from `role` on, if all of them are there. */
-static bool assign_roles(struct reader *r, const struct element *e, const char *const *names, int n, enum role role)
+static bool assign_roles(struct ply *r, const struct ply_element *e, const char *const *names, int n, enum role role)
 {
     for (int i = 0; i < n; i++)
         if (scalar_named(r, e, names[i]) == NULL)
@@ -313,7 +304,7 @@ static bool assign_roles(struct reader *r, const struct element *e, const char *
     return true;
 }
 
-static bool assign_uv(struct reader *r, const struct element *e)
+static bool assign_uv(struct ply *r, const struct ply_element *e)
 {
     static const char *const names[4][2] = {
         {"u", "v"}, {"s", "t"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}};
@@ -323,11 +314,43 @@ static bool assign_uv(struct reader *r, const struct element *e)
     return false;
 }
 
-static bool store_vertex(struct reader *r, int i, const double value[N_ROLES])
+static void add_triangle(struct ply *r, uint32_t a, uint32_t b, uint32_t c)
+{
+    struct mesh *m = r->mesh;
+    m->index = mem_grow(m->index, &r->index_capacity, r->n_indices + 3, sizeof *m->index);
+    m->index[r->n_indices++] = a;
+    m->index[r->n_indices++] = b;
+    m->index[r->n_indices++] = c;
+}
+
+/* One polygon, cut into a fan around its first corner. */
+static bool read_polygon(struct ply *r, const struct ply_property *p, int row)
+{
+    double count, value;
+    uint32_t first = 0, previous = 0;
+    if (!next_count(r, p, "face", row, &count))
+        return false;
+    if (count < 3)
+        return fail_row(r, "face", row, "fewer than 3 vertices");
+    for (double k = 0; k < count; k++) {
+        if (!next_number(r, p->type, "face", row, &value))
+            return false;
+        if (!(value >= 0 && value < FIRST_QUADRIC) || value != floor(value))
+            return fail_row(r, "face", row, "not a vertex index");
+        uint32_t index = (uint32_t)value;
+        if (k >= 2)
+            add_triangle(r, first, previous, index);
+        first = k == 0 ? index : first;
+        previous = index;
+    }
+    return true;
+}
+
+static bool store_vertex(struct ply *r, int i, const double value[N_ROLES])
 {
     struct mesh *m = r->mesh;
     for (int k = 0; k < N_ROLES; k++) {
-        bool good = fabs(value[k]) <= FLT_MAX; /* false for NaN */
+        bool good = fits_float(value[k]);
         float f = good ? (float)value[k] : 0;
         if (k <= Z && !good)
             return fail_row(r, "vertex", i, "the position is not a finite number");
@@ -341,7 +364,27 @@ static bool store_vertex(struct reader *r, int i, const double value[N_ROLES])
     return true;
 }
 
-static bool read_vertices(struct reader *r, const struct element *e)
+/* All rows of an element. Of lists only the polygons are used, of numbers those that have a role. */
+static bool read_rows(struct ply *r, const struct ply_element *e, const struct ply_property *polygon)
+{
+    bool is_vertex = strcmp(e->name, "vertex") == 0;
+    for (int row = 0; e->n > 0 && row < e->count; row++) {
+        double value[N_ROLES + 1] = {0}; /* the last takes what we do not use */
+        for (int k = 0; k < e->n; k++) {
+            const struct ply_property *p = &r->property[e->first + k];
+            bool ok = p == polygon ? read_polygon(r, p, row)
+                      : p->is_list ? skip_list(r, p, e->name, row)
+                                   : next_number(r, p->type, e->name, row, &value[p->role]);
+            if (!ok)
+                return false;
+        }
+        if (is_vertex && !store_vertex(r, row, value))
+            return false;
+    }
+    return true;
+}
+
+static bool read_vertices(struct ply *r, const struct ply_element *e)
 {
     static const char *const xyz[] = {"x", "y", "z"}, *const normal[] = {"nx", "ny", "nz"};
     struct mesh *m = r->mesh;
@@ -354,87 +397,39 @@ static bool read_vertices(struct reader *r, const struct element *e)
     if (assign_uv(r, e))
         m->UV = mem_alloc(count * 2, sizeof *m->UV);
     m->n_vertices = e->count;
-    for (int i = 0; i < e->count; i++) {
-        double value[N_ROLES + 1] = {0}; /* the last takes what we do not use */
-        for (int k = 0; k < e->n; k++) {
-            const struct property *p = &r->property[e->first + k];
-            if (p->is_list && !skip_property(r, p, "vertex", i))
-                return false;
-            if (!p->is_list && !next_number(r, p->type, &value[p->role]))
-                return fail_row(r, "vertex", i, "the file ends or has no number here");
-        }
-        if (!store_vertex(r, i, value))
-            return false;
-    }
-    return true;
+    return read_rows(r, e, NULL);
 }
 
-static void add_triangle(struct reader *r, uint32_t a, uint32_t b, uint32_t c)
+static bool read_faces(struct ply *r, const struct ply_element *e)
 {
-    struct mesh *m = r->mesh;
-    m->index = mem_grow(m->index, &r->index_capacity, r->n_indices + 3, sizeof *m->index);
-    m->index[r->n_indices++] = a;
-    m->index[r->n_indices++] = b;
-    m->index[r->n_indices++] = c;
-}
-
-/* One polygon, cut into a fan around its first corner. */
-static bool read_polygon(struct reader *r, const struct property *p, int row)
-{
-    double count, value;
-    uint32_t first = 0, previous = 0;
-    if (!next_count(r, p, "face", row, &count))
-        return false;
-    if (count < 3)
-        return fail_row(r, "face", row, "fewer than 3 vertices");
-    for (double k = 0; k < count; k++) {
-        if (!next_number(r, p->type, &value))
-            return fail_row(r, "face", row, "the file ends or has no number here");
-        if (!(value >= 0 && value < FIRST_QUADRIC) || value != floor(value))
-            return fail_row(r, "face", row, "not a vertex index");
-        uint32_t index = (uint32_t)value;
-        if (k >= 2)
-            add_triangle(r, first, previous, index);
-        first = k == 0 ? index : first;
-        previous = index;
-    }
-    return true;
-}
-
-static bool read_faces(struct reader *r, const struct element *e)
-{
-    int indices = -1;
+    const struct ply_property *polygon = NULL;
     for (int k = 0; k < e->n; k++) {
-        const struct property *p = &r->property[e->first + k];
+        const struct ply_property *p = &r->property[e->first + k];
         bool named = strcmp(p->name, "vertex_indices") == 0 || strcmp(p->name, "vertex_index") == 0;
         if (named && p->is_list && p->type < FLOAT32)
-            indices = k;
+            polygon = p;
     }
-    if (indices < 0)
+    if (polygon == NULL)
         return fail(r, "faces have no integer list vertex_indices (or vertex_index)");
-    for (int row = 0; row < e->count; row++)
-        for (int k = 0; k < e->n; k++) {
-            const struct property *p = &r->property[e->first + k];
-            if (!(k == indices ? read_polygon(r, p, row) : skip_property(r, p, "face", row)))
-                return false;
-        }
+    if (!read_rows(r, e, polygon))
+        return false;
     if (r->n_indices / 3 > FIRST_QUADRIC)
         return fail(r, "more than 2^30 triangles");
     r->mesh->n_triangles = (int)(r->n_indices / 3);
     return true;
 }
 
-static bool read_body(struct reader *r)
+static bool read_body(struct ply *r)
 {
     for (size_t i = 0; i < r->n_elements; i++) {
-        const struct element *e = &r->element[i];
+        const struct ply_element *e = &r->element[i];
         bool ok;
         if (strcmp(e->name, "vertex") == 0)
             ok = read_vertices(r, e);
         else if (strcmp(e->name, "face") == 0)
             ok = read_faces(r, e);
         else
-            ok = skip_element(r, e);
+            ok = read_rows(r, e, NULL);
         if (!ok)
             return false;
     }
@@ -442,7 +437,7 @@ static bool read_body(struct reader *r)
 }
 
 /* Done at the end because faces may stand before the vertices. */
-static bool check_mesh(struct reader *r)
+static bool check_mesh(struct ply *r)
 {
     const struct mesh *m = r->mesh;
     if (m->n_triangles == 0)
@@ -457,7 +452,7 @@ static bool check_mesh(struct reader *r)
 bool ply_read(const char *path, struct mesh *out, struct error *err)
 {
     struct mesh empty = {0};
-    struct reader r = {0};
+    struct ply r = {0};
     *out = empty;
     r.path = path;
     r.mesh = out;

@@ -4,7 +4,7 @@
  * a list property vertex_indices (or vertex_index) of any integer types; polygons are cut into fans. Other
  * properties and elements are read over. Normals and texture coordinates that are not finite become 0.
  *
- * Used by: parser (Shape "plymesh"). Tests: test_ply.c.
+ * Tests: test_ply.c.
  */
 #ifndef ASBDPT_PLY_H
 #define ASBDPT_PLY_H

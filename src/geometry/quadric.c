@@ -86,7 +86,7 @@ static int line_roots(const struct quadric *q, vec3 o, vec3 d, double t[2])
 }
 
 /* The nearest point of the uncut quadric. */
-static vec3 onto(const struct quadric *q, vec3 p)
+static vec3 project(const struct quadric *q, vec3 p)
 {
     double r = sqrt(sqr(p.x) + sqr(p.y)), l = length(p);
     switch (q->kind) {
@@ -98,26 +98,15 @@ static vec3 onto(const struct quadric *q, vec3 p)
     return p;
 }
 
-static vec3 to_object_vector(const struct quadric *q, vec3 v)
-{
-    const double(*m)[4] = q->to_world.inv;
-    return vec(m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z, m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
-               m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z);
-}
-
-static vec3 to_object_point(const struct quadric *q, vec3 p)
-{
-    const double(*m)[4] = q->to_world.inv;
-    return add(to_object_vector(q, p), vec(m[0][3], m[1][3], m[2][3]));
-}
-
 bool quadric_intersect(const struct quadric *q, const struct ray *ray, double *t)
 {
-    vec3 o = to_object_point(q, ray->o), d = to_object_vector(q, ray->d);
+    const double(*m)[4] = q->to_world.inv;
+    vec3 o = add(transform_vector_back(&q->to_world, ray->o), vec(m[0][3], m[1][3], m[2][3]));
+    vec3 d = transform_vector_back(&q->to_world, ray->d);
     double root[2];
     int n = line_roots(q, o, d, root);
     for (int i = 0; i < n; i++)
-        if (root[i] > ray->tmin && root[i] < ray->tmax && is_kept(q, onto(q, add(o, mul(d, root[i]))))) {
+        if (root[i] > ray->tmin && root[i] < ray->tmax && is_kept(q, project(q, add(o, mul(d, root[i]))))) {
             *t = root[i];
             return true;
         }
@@ -125,13 +114,13 @@ bool quadric_intersect(const struct quadric *q, const struct ray *ray, double *t
 }
 
 /* Everything of a surface point in object space. */
-struct local {
+struct object_point {
     vec3 n, dpdu, dpdv, dndu, dndv;
     double u, v;
 };
 
 /* theta runs from acos(zmin/r), where v = 0, to acos(zmax/r). On the axis phi is taken as 0. */
-static void local_sphere(const struct quadric *q, vec3 p, struct local *at)
+static void sphere_point(const struct quadric *q, vec3 p, struct object_point *at)
 {
     double r = q->radius, ring = sqrt(sqr(p.x) + sqr(p.y));
     double theta0 = acos(clamp(q->zmin / r, -1, 1)), theta1 = acos(clamp(q->zmax / r, -1, 1));
@@ -145,7 +134,7 @@ static void local_sphere(const struct quadric *q, vec3 p, struct local *at)
     at->dndv = mul(at->dpdv, 1 / r);
 }
 
-static void local_disk(const struct quadric *q, vec3 p, struct local *at)
+static void disk_point(const struct quadric *q, vec3 p, struct object_point *at)
 {
     double r = sqrt(sqr(p.x) + sqr(p.y)), width = q->radius - q->inner_radius;
     vec3 axis = r > 0 ? vec(p.x / r, p.y / r, 0) : vec(1, 0, 0);
@@ -157,7 +146,7 @@ static void local_disk(const struct quadric *q, vec3 p, struct local *at)
     at->dndu = at->dndv = vec(0, 0, 0);
 }
 
-static void local_cylinder(const struct quadric *q, vec3 p, struct local *at)
+static void cylinder_point(const struct quadric *q, vec3 p, struct object_point *at)
 {
     at->v = (p.z - q->zmin) / (q->zmax - q->zmin);
     at->n = vec(p.x / q->radius, p.y / q->radius, 0);
@@ -177,13 +166,13 @@ static vec3 normal_derivative(const struct quadric *q, vec3 d, vec3 n, double sc
 
 void quadric_surface_at(const struct quadric *q, bool reverse_orientation, vec3 p, struct surface *out)
 {
-    struct local at = {0};
-    p = onto(q, p);
+    struct object_point at = {0};
+    p = project(q, p);
     at.u = azimuth(p) / q->phi_max;
     switch (q->kind) {
-    case QUADRIC_SPHERE: local_sphere(q, p, &at); break;
-    case QUADRIC_DISK: local_disk(q, p, &at); break;
-    case QUADRIC_CYLINDER: local_cylinder(q, p, &at); break;
+    case QUADRIC_SPHERE: sphere_point(q, p, &at); break;
+    case QUADRIC_DISK: disk_point(q, p, &at); break;
+    case QUADRIC_CYLINDER: cylinder_point(q, p, &at); break;
     }
     vec3 normal = transform_normal(&q->to_world, at.n);
     double scale = (reverse_orientation ? -1 : 1) / length(normal);
@@ -219,15 +208,12 @@ static double object_area(const struct quadric *q)
 }
 
 /* World area per object area where the unit world normal is ng: |det M| / |M^T ng|. */
-static double stretch(const struct quadric *q, vec3 ng)
+static double area_ratio(const struct quadric *q, vec3 ng)
 {
-    const double(*m)[4] = q->to_world.m;
-    vec3 n = vec(m[0][0] * ng.x + m[1][0] * ng.y + m[2][0] * ng.z, m[0][1] * ng.x + m[1][1] * ng.y + m[2][1] * ng.z,
-                 m[0][2] * ng.x + m[1][2] * ng.y + m[2][2] * ng.z);
-    return fabs(transform_determinant(&q->to_world)) / length(n);
+    return fabs(transform_determinant(&q->to_world)) / length(transform_normal_back(&q->to_world, ng));
 }
 
-double quadric_pdf_a(const struct quadric *q, vec3 ng) { return 1 / (object_area(q) * stretch(q, ng)); }
+double quadric_pdf_a(const struct quadric *q, vec3 ng) { return 1 / (object_area(q) * area_ratio(q, ng)); }
 
 /* Columns orthogonal and of one length, to rounding. */
 static bool is_similarity(const struct transform *t)
@@ -248,7 +234,7 @@ double quadric_area(const struct quadric *q)
         struct surface at;
         vec3 p = quadric_sample(q, (i / n + 0.5) / n, (i % n + 0.5) / n);
         quadric_surface_at(q, false, p, &at);
-        sum += stretch(q, at.ng);
+        sum += area_ratio(q, at.ng);
     }
     return object_area(q) * sum / (n * n);
 }

@@ -4,12 +4,11 @@
  * without rescaling t. The outside of a sphere or cylinder, and the +z side of a disk, is where the normal
  * points; ReverseOrientation turns it. A mirroring transform does not: emitters and hits follow the one rule.
  *
- * Used by: shape. Tests: test_shape.c.
+ * Tests: test_shape.c.
  */
 #ifndef ASBDPT_QUADRIC_H
 #define ASBDPT_QUADRIC_H
 
-#include "geometry/ray.h"
 #include "geometry/surface.h"
 #include "base/transform.h"
 

@@ -1,13 +1,16 @@
 /* shape.c: see shape.h. Keeps the flat arrays and hands each question to triangle.c or quadric.c. */
 #include "geometry/shape.h"
 
-#include <float.h>
 #include <stdlib.h>
 
 #include "base/mem.h"
 #include "base/warp.h"
 
 static bool is_quadric(int prim) { return prim >= FIRST_QUADRIC; }
+static const struct quadric *quadric_of(const struct geometry *geo, int prim)
+{
+    return &geo->quadric[prim - FIRST_QUADRIC];
+}
 
 void mesh_free(struct mesh *m)
 {
@@ -132,14 +135,9 @@ int shape_add_quadric(struct geometry *geo, struct quadric q, struct shape_group
     return add_group(geo, group);
 }
 
-static int group_of(const struct geometry *geo, int prim)
-{
-    return is_quadric(prim) ? geo->quadric[prim - FIRST_QUADRIC].group : geo->group_of_triangle[prim];
-}
-
 const struct shape_group *shape_group_of(const struct geometry *geo, int prim)
 {
-    return &geo->group[group_of(geo, prim)];
+    return &geo->group[is_quadric(prim) ? quadric_of(geo, prim)->group : geo->group_of_triangle[prim]];
 }
 
 void shape_vertices(const struct geometry *geo, int triangle, float v[9])
@@ -172,24 +170,15 @@ static struct triangle triangle_of(const struct geometry *geo, int prim)
             tri.uv[i][k] = group->has_uv ? geo->UV[2 * (size_t)index[i] + k] : default_uv[i][k];
     tri.has_n = group->has_n;
     tri.flip = group->flip;
-    tri.plain = group->plain;
+    tri.skip_partials = group->skip_partials;
     return tri;
 }
-
-/* The nearest float not above (below) a double; the smallest normal number stands for tinier ones. */
-static float float_below(double x)
-{
-    float f = (float)x;
-    return (double)f > x ? nextafterf(f, -FLT_MAX) : f;
-}
-
-static float float_above(double x) { return -float_below(-x); }
 
 void shape_bounds(const struct geometry *geo, int prim, float lo[3], float hi[3])
 {
     if (is_quadric(prim)) {
         vec3 low, high;
-        quadric_bounds(&geo->quadric[prim - FIRST_QUADRIC], &low, &high);
+        quadric_bounds(quadric_of(geo, prim), &low, &high);
         double l[3] = {low.x, low.y, low.z}, h[3] = {high.x, high.y, high.z};
         for (int k = 0; k < 3; k++) {
             lo[k] = float_below(l[k]);
@@ -208,7 +197,7 @@ void shape_bounds(const struct geometry *geo, int prim, float lo[3], float hi[3]
 bool shape_intersect(const struct geometry *geo, int prim, const struct ray *ray, struct hit *hit)
 {
     if (is_quadric(prim)) {
-        if (!quadric_intersect(&geo->quadric[prim - FIRST_QUADRIC], ray, &hit->t))
+        if (!quadric_intersect(quadric_of(geo, prim), ray, &hit->t))
             return false;
         hit->b1 = hit->b2 = 0;
     } else {
@@ -227,14 +216,14 @@ static void set_primitive(const struct geometry *geo, int prim, struct surface *
 {
     const struct shape_group *group = shape_group_of(geo, prim);
     out->material = group->material;
-    out->flat = shape_flat(prim);
+    out->triangle_id = shape_triangle_id(prim);
     out->light = group->first_light >= 0 ? group->first_light + prim - group->first_prim : -1;
 }
 
 /* Surface point of a quadric at an object-space position. */
 static void quadric_point(const struct geometry *geo, int prim, vec3 p, struct surface *out)
 {
-    const struct quadric *q = &geo->quadric[prim - FIRST_QUADRIC];
+    const struct quadric *q = quadric_of(geo, prim);
     bool reverse = geo->group[q->group].flip != transform_swaps_handedness(&q->to_world);
     quadric_surface_at(q, reverse, p, out);
     set_primitive(geo, prim, out);
@@ -250,7 +239,7 @@ static void triangle_point(const struct geometry *geo, int prim, double b1, doub
 void shape_surface(const struct geometry *geo, const struct hit *hit, const struct ray *ray, struct surface *out)
 {
     if (is_quadric(hit->prim)) {
-        const struct quadric *q = &geo->quadric[hit->prim - FIRST_QUADRIC];
+        const struct quadric *q = quadric_of(geo, hit->prim);
         vec3 p = transform_point_back(&q->to_world, add(ray->o, mul(ray->d, hit->t)));
         quadric_point(geo, hit->prim, p, out);
     } else {
@@ -261,14 +250,9 @@ void shape_surface(const struct geometry *geo, const struct hit *hit, const stru
 double shape_area(const struct geometry *geo, int prim)
 {
     if (is_quadric(prim))
-        return quadric_area(&geo->quadric[prim - FIRST_QUADRIC]);
+        return quadric_area(quadric_of(geo, prim));
     struct triangle tri = triangle_of(geo, prim);
     return triangle_area(&tri);
-}
-
-static vec3 mean_of(const vec3 corner[3], double b1, double b2)
-{
-    return add(add(mul(corner[0], 1 - b1 - b2), mul(corner[1], b1)), mul(corner[2], b2));
 }
 
 /* Position and normal as triangle_surface has them, and no more: every light sampled comes through here. */
@@ -281,12 +265,12 @@ static void sample_triangle(const struct geometry *geo, int prim, double u1, dou
     double b1, b2;
     load_corners(geo->P, index, p);
     warp_triangle(u1, u2, &b1, &b2);
-    out->p = mean_of(p, b1, b2);
+    out->p = barycentric3(p, b1, b2);
     vec3 normal = cross(sub(p[1], p[0]), sub(p[2], p[0]));
     out->ng = normalize(group->flip ? neg(normal) : normal);
     if (group->has_n) {
         load_corners(geo->N, index, n);
-        out->ng = faceforward(out->ng, mean_of(n, b1, b2));
+        out->ng = faceforward(out->ng, barycentric3(n, b1, b2));
     }
     *pdf_a = 1 / (0.5 * length(normal));
 }
@@ -297,13 +281,13 @@ void shape_sample(const struct geometry *geo, int prim, double u1, double u2, st
         sample_triangle(geo, prim, u1, u2, out, pdf_a);
         return;
     }
-    quadric_point(geo, prim, quadric_sample(&geo->quadric[prim - FIRST_QUADRIC], u1, u2), out);
+    quadric_point(geo, prim, quadric_sample(quadric_of(geo, prim), u1, u2), out);
     *pdf_a = shape_pdf_a(geo, prim, out);
 }
 
 double shape_pdf_a(const struct geometry *geo, int prim, const struct surface *at)
 {
     if (is_quadric(prim))
-        return quadric_pdf_a(&geo->quadric[prim - FIRST_QUADRIC], at->ng);
+        return quadric_pdf_a(quadric_of(geo, prim), at->ng);
     return 1 / shape_area(geo, prim);
 }

@@ -1,10 +1,9 @@
 /* shape.h: the geometry of a scene: triangles and quadrics in flat arrays, in world space.
  *
- * Primitives are numbered: triangle i is primitive i, quadric i is primitive FIRST_QUADRIC + i, so that a number
- * given out stays valid when more shapes are added. Every primitive belongs to a group (what one Shape directive
- * made), which carries material, alpha textures and area light. A Shape inside an object instance is copied per instance.
+ * Primitives are numbered: triangle i is primitive i, quadric i is primitive FIRST_QUADRIC + i, so that a number given
+ * out stays valid when more shapes are added. Every primitive belongs to a group (what one Shape directive made),
+ * which carries material, alpha textures and area light. A Shape inside an object instance is copied per instance.
  *
- * Used by: kdtree (intersection, bounds), light (area sampling), scene, parser.
  * Tests: test_shape.c.
  */
 #ifndef ASBDPT_SHAPE_H
@@ -16,7 +15,6 @@
 
 #include "base/error.h"
 #include "geometry/quadric.h"
-#include "geometry/ray.h"
 #include "geometry/surface.h"
 #include "base/transform.h"
 #include "geometry/triangle.h"
@@ -34,7 +32,7 @@ struct shape_group {
     bool flip;        /* ReverseOrientation xor transform swaps handedness: normals without N are negated */
     bool has_n;       /* vertex normals given (already negated under ReverseOrientation): they orient ng as well */
     bool has_uv;
-    bool plain; /* nobody reads the partial derivatives of its surface: zeros will do (scene_prepare finds out) */
+    bool skip_partials; /* leave partial derivatives zero: nobody reads them (scene_prepare finds out) */
 };
 
 struct geometry {
@@ -94,8 +92,8 @@ void shape_bounds(const struct geometry *geo, int prim, float lo[3], float hi[3]
  * edges shared by two triangles leave no gap. Alpha is not looked at here. */
 bool shape_intersect(const struct geometry *geo, int prim, const struct ray *ray, struct hit *hit);
 
-/* shape_flat: the number by which rays and points name the triangle they begin, end or lie on; 0 for a quadric. */
-static inline uint32_t shape_flat(int prim) { return prim < FIRST_QUADRIC ? (uint32_t)prim + 1 : 0; }
+/* shape_triangle_id: the number by which rays and points name the triangle they begin, end or lie on; 0: a quadric. */
+static inline uint32_t shape_triangle_id(int prim) { return prim < FIRST_QUADRIC ? (uint32_t)prim + 1 : 0; }
 
 /* shape_surface: the full surface point of a hit (position from the barycentric coordinates for triangles,
  * refined onto the surface for quadrics). Shading normal and partials as pbrt-v3 defines them. */

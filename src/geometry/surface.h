@@ -1,6 +1,4 @@
-/* surface.h: a point on a surface with everything shading needs to know about it.
- * Filled by: shape. Read by: texture, material, light, path.
- */
+/* surface.h: a segment of a straight line, where it meets a primitive, and the point of the surface found there. */
 #ifndef ASBDPT_SURFACE_H
 #define ASBDPT_SURFACE_H
 
@@ -8,6 +6,22 @@
 
 #include "base/vec.h"
 
+/* A ray segment: the open interval (tmin, tmax) of o + t d. d is unit, so t is a world distance. */
+struct ray {
+    vec3 o, d;
+    double tmin, tmax; /* tmin >= 0; tmax may be HUGE_VAL */
+    uint32_t from, to; /* triangles that the segment begins and ends on, as shape_triangle_id numbers them; 0: none
+                        * known. A line meets a plane only once, so they need not be tested again; they may be 0. */
+};
+
+/* Where a ray meets a primitive. */
+struct hit {
+    double t;      /* distance along the ray */
+    double b1, b2; /* triangle: barycentric coordinates of vertices 1 and 2; quadric: unused, 0 */
+    int prim;      /* primitive number */
+};
+
+/* A point on a surface with everything that shading needs to know about it. */
 struct surface {
     vec3 p;          /* world position */
     vec3 ng;         /* unit geometric normal; on the side of ns wherever the shape defines normals of its own */
@@ -16,7 +30,7 @@ struct surface {
     vec3 dndu, dndv; /* partial derivatives of ns; zero where the shape does not define them */
     double u, v;     /* texture coordinates */
     int material;    /* index into scene->materials, or -1 */
-    uint32_t flat;   /* the triangle it is on, see shape_flat; 0: none */
+    uint32_t triangle_id; /* the triangle it is on, see shape_triangle_id; 0: none */
     int light;       /* index into scene->lights of the area light that sits here, or -1 */
 };
 

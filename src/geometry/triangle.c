@@ -8,11 +8,6 @@ double triangle_area(const struct triangle *tri)
     return 0.5 * length(cross(sub(tri->p[1], tri->p[0]), sub(tri->p[2], tri->p[0])));
 }
 
-static vec3 mix3(const vec3 *v, double b1, double b2)
-{
-    return add(add(mul(v[0], 1 - b1 - b2), mul(v[1], b1)), mul(v[2], b2));
-}
-
 /* Two unit vectors that make an orthogonal system with v (any length but 0). */
 static void tangents_of(vec3 v, vec3 *s, vec3 *t)
 {
@@ -58,19 +53,19 @@ static void partials_by_vertex_normals(const struct triangle *tri, struct surfac
 void triangle_surface(const struct triangle *tri, double b1, double b2, struct surface *out)
 {
     vec3 normal = cross(sub(tri->p[1], tri->p[0]), sub(tri->p[2], tri->p[0]));
-    out->p = mix3(tri->p, b1, b2);
+    out->p = barycentric3(tri->p, b1, b2);
     out->ng = normalize(tri->flip ? neg(normal) : normal);
     out->ns = out->ng;
     out->u = (1 - b1 - b2) * tri->uv[0][0] + b1 * tri->uv[1][0] + b2 * tri->uv[2][0];
     out->v = (1 - b1 - b2) * tri->uv[0][1] + b1 * tri->uv[1][1] + b2 * tri->uv[2][1];
     out->dpdu = out->dpdv = out->dndu = out->dndv = vec(0, 0, 0);
     if (tri->has_n) {
-        vec3 ns = mix3(tri->n, b1, b2);
+        vec3 ns = barycentric3(tri->n, b1, b2);
         if (length2(ns) > 0)
             out->ns = normalize(ns);
         out->ng = faceforward(out->ng, out->ns);
     }
-    if (tri->plain)
+    if (tri->skip_partials)
         return;
     if (!linear_partials(tri, tri->p, &out->dpdu, &out->dpdv) || !(length2(cross(out->dpdu, out->dpdv)) > 0))
         tangents_of(neg(normal), &out->dpdu, &out->dpdv);

@@ -7,12 +7,11 @@
  * both triangles; a rounded difference of two products never has the wrong sign (at worst it is 0), and 0
  * counts as inside: no ray slips between two triangles.
  *
- * Used by: shape (one primitive at a time), kdtree. Tests: test_shape.c, test_kdtree.c (closed surfaces).
+ * Tests: test_shape.c, test_kdtree.c (closed surfaces).
  */
 #ifndef ASBDPT_TRIANGLE_H
 #define ASBDPT_TRIANGLE_H
 
-#include "geometry/ray.h"
 #include "geometry/surface.h"
 
 /* What the test needs of a ray, computed once per ray. */
@@ -75,15 +74,15 @@ struct triangle {
     vec3 n[3];       /* vertex normals; read only if has_n */
     double uv[3][2]; /* (0,0) (1,0) (1,1) where the mesh has none */
     bool has_n;
-    bool flip;  /* turns the normal of a triangle without vertex normals */
-    bool plain; /* the partial derivatives may be left zero */
+    bool flip;          /* turns the normal of a triangle without vertex normals */
+    bool skip_partials; /* leave the partial derivatives zero */
 };
 
 /* triangle_surface: position, normals, texture coordinates and partial derivatives at barycentric coordinates
  * (1-b1-b2, b1, b2); material and light are left alone. With vertex normals, ns is their normalised mean, ng lies on
  * its side, and dpdu, dpdv are the derivatives by (u,v) projected to be orthogonal to ns; without, ns = ng and they are
- * the derivatives as they are. Where (u,v) do not span the triangle they are any unit tangents. All are zero if the
- * triangle is plain. */
+ * the derivatives as they are. Where (u,v) do not span the triangle they are any unit tangents. All are zero if
+ * skip_partials is set. */
 void triangle_surface(const struct triangle *tri, double b1, double b2, struct surface *out);
 
 double triangle_area(const struct triangle *tri); /* m^2 */

@@ -1,19 +1,18 @@
-/* deflate.c: see deflate.h.
+/* deflate.c: packs zlib data, see zlib.h.
  *
  * Two steps, block by block [RFC 1951]. First the bytes become symbols: wherever the coming bytes occurred within
  * the last 32 KiB, a (length, distance) pair stands for them [Ziv and Lempel 1977]; earlier places are found
  * through hash chains over three bytes. Then the symbols are written in Huffman codes made for the block
- * [Huffman 1952].
+ * [Huffman 1952]. (With the format's fixed codes instead, pictures would be 15 to 30 % larger.)
  */
-#include "image/deflate.h"
+#include "image/zlib.h"
 
 #include <assert.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/checksum.h"
-#include "image/inflate.h"
+#include "base/bits.h"
 #include "base/mem.h"
 
 enum {
@@ -24,11 +23,12 @@ enum {
     NEAR = 4096, /* a copy of 3 bytes from farther away costs more than the bytes */
     CHAIN = 8,   /* places tried for one match */
     GOOD = 32,   /* a match this long is taken without looking for a better one one byte later */
-    BLOCK_TOKENS = 32768
+    BLOCK_PHRASES = 32768,
+    STATED_LITERALS = 286 /* symbols of the literal code that a block may use */
 };
 
-/* A literal byte (distance 0) or a copy. */
-struct token {
+/* A literal byte (distance 0) or a copy: what Ziv and Lempel call a phrase. */
+struct phrase {
     uint16_t value; /* the byte, or the length */
     uint16_t distance;
 };
@@ -39,8 +39,8 @@ struct deflater {
     size_t hashed;             /* positions before this one are in the chains */
     uint32_t head[HASH_SIZE];  /* last position with this hash, plus 1; 0 for none */
     uint32_t previous[WINDOW]; /* by position modulo WINDOW: the one before it in its chain, plus 1 */
-    struct token token[BLOCK_TOKENS];
-    int n_tokens;
+    struct phrase phrase[BLOCK_PHRASES];
+    int n_phrases;
     uint8_t *out;
     size_t size, capacity;
     uint64_t bits; /* bits not yet in out, the first one lowest */
@@ -66,9 +66,9 @@ static void put(struct deflater *d, unsigned value, unsigned count)
 
 /* --- Huffman codes ----------------------------------------------------------------------------------- */
 
-struct code {
-    uint8_t length[INFLATE_LITERALS]; /* bits of each symbol's code, 0 for an unused symbol */
-    uint16_t bits[INFLATE_LITERALS];  /* the code, first bit lowest */
+struct encoder {
+    uint8_t length[DEFLATE_LITERALS]; /* bits of each symbol's code, 0 for an unused symbol */
+    uint16_t bits[DEFLATE_LITERALS];  /* the code, first bit lowest */
 };
 
 /* Sort the symbols that occur by rising frequency; returns their number. */
@@ -91,8 +91,8 @@ static int sort_symbols(const unsigned *frequency, int n, int *symbol)
  * bits of each leaf to depth[used]; returns the greatest. */
 static int tree_depths(const unsigned *weight_of_leaf, int used, int *depth)
 {
-    unsigned weight[2 * INFLATE_LITERALS];
-    int parent[2 * INFLATE_LITERALS], level[2 * INFLATE_LITERALS];
+    unsigned weight[2 * DEFLATE_LITERALS];
+    int parent[2 * DEFLATE_LITERALS], level[2 * DEFLATE_LITERALS];
     memcpy(weight, weight_of_leaf, (size_t)used * sizeof *weight);
     int leaf = 0, inner = used, end = used;
     while (end < 2 * used - 1) {
@@ -113,40 +113,32 @@ static int tree_depths(const unsigned *weight_of_leaf, int used, int *depth)
 }
 
 /* Number the codes: shorter ones first, equal lengths in order of the symbols [RFC 1951 3.2.2]. */
-static void assign_bits(struct code *c, int n)
+static void assign_bits(struct encoder *c, int n)
 {
     unsigned next = 0;
-    for (unsigned length = 1; length <= INFLATE_MAX_BITS; length++) {
-        for (int i = 0; i < n; i++) {
-            if (c->length[i] != length)
-                continue;
-            unsigned reversed = 0;
-            for (unsigned b = 0; b < length; b++)
-                reversed |= (next >> b & 1) << (length - 1 - b);
-            c->bits[i] = (uint16_t)reversed;
-            next++;
-        }
+    for (unsigned length = 1; length <= DEFLATE_MAX_BITS; length++) {
+        for (int i = 0; i < n; i++)
+            if (c->length[i] == length)
+                c->bits[i] = (uint16_t)(reverse_bits(next++) >> (32 - length));
         next *= 2;
     }
 }
 
-/* The code for these frequencies with no length above `limit`. Where Huffman's tree is too deep, the frequencies
- * are flattened and the tree is built again: no longer optimal, but close, and rare. */
-static void code_build(struct code *c, const unsigned *frequency, int n, int limit)
+/* The code for these frequencies. Where Huffman's tree is too deep, the frequencies are flattened and the tree is built
+ * again: no longer optimal, but close, and rare. */
+static void encoder_build(struct encoder *c, unsigned *f, int n)
 {
     memset(c, 0, sizeof *c);
-    unsigned f[INFLATE_LITERALS];
-    memcpy(f, frequency, (size_t)n * sizeof *f);
-    int symbol[INFLATE_LITERALS], depth[INFLATE_LITERALS], used = sort_symbols(f, n, symbol);
+    int symbol[DEFLATE_LITERALS], depth[DEFLATE_LITERALS], used = sort_symbols(f, n, symbol);
     for (int i = 0; used < 2; i++) /* every code gets two symbols: then it has no unused bit patterns */
         if (f[i] == 0) {
             f[i] = 1;
             used = sort_symbols(f, n, symbol);
         }
-    unsigned weight[INFLATE_LITERALS];
+    unsigned weight[DEFLATE_LITERALS];
     for (int i = 0; i < used; i++)
         weight[i] = f[symbol[i]];
-    while (tree_depths(weight, used, depth) > limit)
+    while (tree_depths(weight, used, depth) > DEFLATE_MAX_BITS)
         for (int i = 0; i < used; i++)
             weight[i] = weight[i] / 2 + 1;
     for (int i = 0; i < used; i++)
@@ -159,85 +151,36 @@ static void code_build(struct code *c, const unsigned *frequency, int n, int lim
 /* The last of the ascending base values that is not above `value`. */
 static unsigned class_of(const uint16_t *base, unsigned n, unsigned value)
 {
-    unsigned low = 0, high = n; /* base[low] <= value < base[high] */
-    while (high - low > 1) {
-        unsigned middle = (low + high) / 2;
-        if (base[middle] <= value)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
+    while (base[n - 1] > value)
+        n--;
+    return n - 1;
 }
 
-static unsigned length_class(unsigned length) { return class_of(inflate_length_base, INFLATE_LENGTHS, length); }
-static unsigned distance_class(unsigned d) { return class_of(inflate_distance_base, INFLATE_DISTANCES, d); }
+static unsigned length_class(unsigned length) { return class_of(deflate_length_base, DEFLATE_LENGTHS, length); }
+static unsigned distance_class(unsigned d) { return class_of(deflate_distance_base, DEFLATE_DISTANCES, d); }
 
-static void put_symbol(struct deflater *d, const struct code *c, unsigned symbol)
+static void put_symbol(struct deflater *d, const struct encoder *c, unsigned symbol)
 {
     put(d, c->bits[symbol], c->length[symbol]);
 }
 
-/* Code lengths as symbols of the meta alphabet: itself, or a run (16: the last again, 17 and 18: zeros). */
-struct meta {
-    uint8_t symbol, extra; /* extra: the run's length, less its least */
-};
-
-static int describe_lengths(const uint8_t *length, int n, struct meta *out)
+/* State both codes at the block's head [RFC 1951 3.2.7]. The lengths, 0 to 15, are written as they are, in a code that
+ * gives each of them four bits; the symbols for repetitions would save a hundred bytes a block, and are not used. */
+static void put_codes(struct deflater *d, const struct encoder *literal, const struct encoder *distance)
 {
-    int used = 0;
-    for (int i = 0; i < n;) {
-        int run = 1;
-        while (i + run < n && run < 138 && length[i + run] == length[i])
-            run++;
-        bool again = i > 0 && length[i] == length[i - 1];
-        if (length[i] == 0 && run >= 3) {
-            out[used].symbol = run > 10 ? 18 : 17;
-            out[used++].extra = (uint8_t)(run - (run > 10 ? 11 : 3));
-        } else if (again && run >= 3) {
-            run = run > 6 ? 6 : run;
-            out[used].symbol = 16;
-            out[used++].extra = (uint8_t)(run - 3);
-        } else {
-            run = 1;
-            out[used].symbol = length[i];
-            out[used++].extra = 0;
-        }
-        i += run;
-    }
-    return used;
-}
-
-/* State both codes at the block's head [RFC 1951 3.2.7]. */
-static void put_codes(struct deflater *d, const struct code *literal, const struct code *distance)
-{
-    enum { N_LITERALS = 286, N = N_LITERALS + INFLATE_DISTANCES };
-    uint8_t length[N];
-    struct meta meta[N];
-    memcpy(length, literal->length, N_LITERALS);
-    memcpy(length + N_LITERALS, distance->length, INFLATE_DISTANCES);
-    int used = describe_lengths(length, N, meta);
-    unsigned frequency[INFLATE_META] = {0};
-    for (int i = 0; i < used; i++)
-        frequency[meta[i].symbol]++;
-    struct code code;
-    code_build(&code, frequency, INFLATE_META, 7);
-    unsigned n_meta = INFLATE_META;
-    while (n_meta > 4 && code.length[inflate_meta_order[n_meta - 1]] == 0)
-        n_meta--;
-    put(d, N_LITERALS - 257, 5);
-    put(d, INFLATE_DISTANCES - 1, 5);
-    put(d, n_meta - 4, 4);
-    for (unsigned i = 0; i < n_meta; i++)
-        put(d, code.length[inflate_meta_order[i]], 3);
-    static const uint8_t EXTRA[INFLATE_META] = {[16] = 2, [17] = 3, [18] = 7};
-    for (int i = 0; i < used; i++) {
-        put_symbol(d, &code, meta[i].symbol);
-        put(d, meta[i].extra, EXTRA[meta[i].symbol]);
+    put(d, STATED_LITERALS - 257, 5);
+    put(d, DEFLATE_DISTANCES - 1, 5);
+    put(d, DEFLATE_META - 4, 4);
+    for (int i = 0; i < DEFLATE_META; i++)
+        put(d, deflate_meta_order[i] <= DEFLATE_MAX_BITS ? 4 : 0, 3);
+    for (int i = 0; i < STATED_LITERALS + DEFLATE_DISTANCES; i++) {
+        uint32_t length = i < STATED_LITERALS ? literal->length[i] : distance->length[i - STATED_LITERALS];
+        put(d, reverse_bits(length) >> 28, 4);
     }
 }
 
-static void put_token(struct deflater *d, struct token t, const struct code *literal, const struct code *distance)
+static void put_phrase(struct deflater *d, struct phrase t, const struct encoder *literal,
+                       const struct encoder *distance)
 {
     if (t.distance == 0) {
         put_symbol(d, literal, t.value);
@@ -245,17 +188,17 @@ static void put_token(struct deflater *d, struct token t, const struct code *lit
     }
     unsigned l = length_class(t.value), s = distance_class(t.distance);
     put_symbol(d, literal, 257 + l);
-    put(d, t.value - (unsigned)inflate_length_base[l], inflate_length_extra[l]);
+    put(d, t.value - (unsigned)deflate_length_base[l], deflate_length_extra[l]);
     put_symbol(d, distance, s);
-    put(d, t.distance - (unsigned)inflate_distance_base[s], inflate_distance_extra[s]);
+    put(d, t.distance - (unsigned)deflate_distance_base[s], deflate_distance_extra[s]);
 }
 
 static void put_block(struct deflater *d, bool last)
 {
-    unsigned literals[INFLATE_LITERALS] = {0}, distances[INFLATE_DISTANCES] = {0};
-    literals[INFLATE_END] = 1;
-    for (int i = 0; i < d->n_tokens; i++) {
-        struct token t = d->token[i];
+    unsigned literals[DEFLATE_LITERALS] = {0}, distances[DEFLATE_DISTANCES] = {0};
+    literals[DEFLATE_END] = 1;
+    for (int i = 0; i < d->n_phrases; i++) {
+        struct phrase t = d->phrase[i];
         if (t.distance == 0) {
             literals[t.value]++;
         } else {
@@ -263,16 +206,16 @@ static void put_block(struct deflater *d, bool last)
             distances[distance_class(t.distance)]++;
         }
     }
-    struct code literal, distance;
-    code_build(&literal, literals, 286, INFLATE_MAX_BITS);
-    code_build(&distance, distances, INFLATE_DISTANCES, INFLATE_MAX_BITS);
+    struct encoder literal, distance;
+    encoder_build(&literal, literals, STATED_LITERALS);
+    encoder_build(&distance, distances, DEFLATE_DISTANCES);
     put(d, last, 1);
     put(d, 2, 2); /* codes are stated */
     put_codes(d, &literal, &distance);
-    for (int i = 0; i < d->n_tokens; i++)
-        put_token(d, d->token[i], &literal, &distance);
-    put_symbol(d, &literal, INFLATE_END);
-    d->n_tokens = 0;
+    for (int i = 0; i < d->n_phrases; i++)
+        put_phrase(d, d->phrase[i], &literal, &distance);
+    put_symbol(d, &literal, DEFLATE_END);
+    d->n_phrases = 0;
 }
 
 /* --- finding copies ---------------------------------------------------------------------------------- */
@@ -302,9 +245,9 @@ static size_t common_length(const uint8_t *a, const uint8_t *b, size_t limit)
 }
 
 /* The longest copy for the bytes at `at`, the nearest of equals; length 0 if none is worth it. */
-static struct token find_copy(struct deflater *d, size_t at)
+static struct phrase find_copy(struct deflater *d, size_t at)
 {
-    struct token best = {0, 0};
+    struct phrase best = {0, 0};
     if (at + SHORTEST > d->n)
         return best;
     hash_until(d, at);
@@ -323,23 +266,23 @@ static struct token find_copy(struct deflater *d, size_t at)
         place = d->previous[(place - 1) % WINDOW];
     }
     bool worth = best.value > SHORTEST || (best.value == SHORTEST && best.distance <= NEAR);
-    struct token none = {0, 0};
+    struct phrase none = {0, 0};
     return worth ? best : none;
 }
 
-static void put_in_block(struct deflater *d, struct token t)
+static void put_in_block(struct deflater *d, struct phrase t)
 {
-    if (d->n_tokens == BLOCK_TOKENS)
+    if (d->n_phrases == BLOCK_PHRASES)
         put_block(d, false);
-    d->token[d->n_tokens++] = t;
+    d->phrase[d->n_phrases++] = t;
 }
 
-/* Cut the input into tokens. A copy is put off by one byte when a longer one begins there. */
+/* Cut the input into phrases. A copy is put off by one byte when a longer one begins there. */
 static void put_data(struct deflater *d)
 {
-    struct token copy = find_copy(d, 0);
+    struct phrase copy = find_copy(d, 0);
     for (size_t at = 0; at < d->n;) {
-        struct token next = {0, 0}, literal = {d->in[at], 0};
+        struct phrase next = {0, 0}, literal = {d->in[at], 0};
         bool may_wait = copy.value < GOOD;
         if (may_wait)
             next = find_copy(d, at + 1);

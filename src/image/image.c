@@ -7,10 +7,7 @@
 #include <stdlib.h>
 
 #include "base/file.h"
-#include "image/pfm.h"
-#include "image/png.h"
-#include "image/ppm.h"
-#include "image/tga.h"
+#include "image/formats.h"
 
 struct format {
     const char *extension;

@@ -1,10 +1,9 @@
 /* image.h: pictures in memory and their files.
  *
  * Formats are one table {extension, read, write}: PFM (linear float RGB), PPM and PNG (8-bit sRGB when
- * written; read as stored), TGA (read only). Each format lives in a file of its own; the pixels in memory are
- * picture.h's, the transfer function of sRGB is srgb.h's.
+ * written; read as stored), TGA (read only). The pixels in memory are picture.h's, the formats formats.h's.
  *
- * Used by: texture, light (environment maps), film output, compare. Tests: test_image.c.
+ * Tests: test_image.c.
  */
 #ifndef ASBDPT_IMAGE_H
 #define ASBDPT_IMAGE_H
@@ -13,7 +12,6 @@
 
 #include "base/error.h"
 #include "image/picture.h"
-#include "image/srgb.h"
 
 /* image_read: read a picture; the format is recognised by content where it has a signature, else by the
  * name's extension (upper or lower case).

@@ -1,11 +1,11 @@
 /* picture.c: see picture.h. */
 #include "image/picture.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/mem.h"
-#include "image/srgb.h"
 
 bool picture_size_ok(unsigned long width, unsigned long height, struct error *err)
 {
@@ -16,29 +16,32 @@ bool picture_size_ok(unsigned long width, unsigned long height, struct error *er
     return true;
 }
 
+bool picture_truncated(unsigned long width, unsigned long height, struct error *err)
+{
+    return error_set(err, "the file is truncated: %lu x %lu pixels do not fit in it", width, height);
+}
+
 /* Everything but the pixels; returns the number of samples. */
-static size_t describe(struct image *out, int width, int height, int channels, bool linear)
+static size_t picture_start(struct image *out, size_t width, size_t height, int channels, bool linear)
 {
     memset(out, 0, sizeof *out);
-    out->width = width;
-    out->height = height;
+    out->width = (int)width;
+    out->height = (int)height;
     out->channels = channels;
     out->linear = linear;
     for (int i = 0; i < 256; i++)
         out->decode[i] = (float)srgb_decode(i / 255.0);
-    return (size_t)width * (size_t)height * (size_t)channels;
+    return width * height * (size_t)channels;
 }
 
-void picture_alloc_u8(struct image *out, int width, int height, int channels)
+void picture_alloc_u8(struct image *out, size_t width, size_t height, int channels)
 {
-    size_t n = describe(out, width, height, channels, false);
-    out->u8 = mem_alloc(n, sizeof *out->u8);
+    out->u8 = mem_alloc(picture_start(out, width, height, channels, false), sizeof *out->u8);
 }
 
-void picture_alloc_f32(struct image *out, int width, int height, int channels)
+void picture_alloc_f32(struct image *out, size_t width, size_t height, int channels)
 {
-    size_t n = describe(out, width, height, channels, true);
-    out->f32 = mem_alloc(n, sizeof *out->f32);
+    out->f32 = mem_alloc(picture_start(out, width, height, channels, true), sizeof *out->f32);
 }
 
 void image_free(struct image *img)
@@ -48,4 +51,21 @@ void image_free(struct image *img)
     img->u8 = NULL;
     img->f32 = NULL;
     img->width = img->height = img->channels = 0;
+}
+
+double srgb_encode(double linear)
+{
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
+}
+
+double srgb_decode(double encoded)
+{
+    return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+uint8_t srgb_byte(double linear)
+{
+    if (!(linear > 0)) /* NaN too */
+        return 0;
+    return linear >= 1 ? 255 : (uint8_t)(255 * srgb_encode(linear) + 0.5);
 }

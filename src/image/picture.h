@@ -1,11 +1,13 @@
-/* picture.h: pixels in memory, as the image formats fill and texture reads them.
+/* picture.h: pixels in memory, as the image formats fill and textures read them, and the transfer function of sRGB
+ * between linear light and the numbers of 8-bit pictures.
  *
- * Used by: pfm, ppm, png, tga, image, parse_options, job_options. Tests: test_image.c.
+ * Tests: test_image.c.
  */
 #ifndef ASBDPT_PICTURE_H
 #define ASBDPT_PICTURE_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "base/error.h"
@@ -24,14 +26,25 @@ struct image {
 /* More pixels than this are taken for a damaged or hostile header: 16384 x 16384. */
 enum { PICTURE_MAX_PIXELS = 1 << 28 };
 
-/* picture_size_ok: may a picture, or a film, be this large? Returns false with a message for 0 and for too many pixels. */
+/* picture_size_ok: may a picture, or a film, be this large? Returns false with a message for 0 and for too many
+ * pixels. */
 bool picture_size_ok(unsigned long width, unsigned long height, struct error *err);
+
+/* picture_truncated: the message that a file is too short for the pixels it announces. Returns false, always. */
+bool picture_truncated(unsigned long width, unsigned long height, struct error *err);
 
 /* picture_alloc_u8 / picture_alloc_f32: black pixels of a size that picture_size_ok accepts, to be released with
  * image_free. Fills every field; `linear` is set for f32. */
-void picture_alloc_u8(struct image *out, int width, int height, int channels);
-void picture_alloc_f32(struct image *out, int width, int height, int channels);
+void picture_alloc_u8(struct image *out, size_t width, size_t height, int channels);
+void picture_alloc_f32(struct image *out, size_t width, size_t height, int channels);
 
 void image_free(struct image *img);
+
+/* srgb_encode: linear [0,1] -> sRGB [0,1];  srgb_decode: its inverse [IEC 61966-2-1]. Negative numbers stay linear. */
+double srgb_encode(double linear);
+double srgb_decode(double encoded);
+
+/* srgb_byte: the 8-bit value written for a linear number: clamp(255 encode(x) + 0.5); NaN gives 0. */
+uint8_t srgb_byte(double linear);
 
 #endif

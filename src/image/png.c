@@ -1,23 +1,20 @@
-/* png.c: see png.h. The numbers in brackets are sections of [PNG].
+/* png.c: PNG files, see formats.h. The numbers in brackets are sections of [PNG].
  *
  * A file is a signature and chunks (length, name, data, CRC). The data of all IDAT chunks together are a zlib
  * stream of rows, each a filter's number and the row's bytes less what a filter predicts from their neighbours [9].
  */
-#include "image/png.h"
-
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/checksum.h"
-#include "image/deflate.h"
-#include "image/inflate.h"
+#include "base/bits.h"
 #include "base/mem.h"
-#include "image/srgb.h"
+#include "image/formats.h"
+#include "image/zlib.h"
 
 static const uint8_t SIGNATURE[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 
 enum colour { GREY = 0, RGB = 2, PALETTE = 3, GREY_ALPHA = 4, RGB_ALPHA = 6 };             /* [11.2.2] */
-enum filter { FILTER_NONE, FILTER_SUB, FILTER_UP, FILTER_AVERAGE, FILTER_PAETH, FILTERS }; /* [9.2] */
+enum row_filter { FILTER_NONE, FILTER_SUB, FILTER_UP, FILTER_AVERAGE, FILTER_PAETH, FILTERS }; /* [9.2] */
 
 bool png_matches(const uint8_t *data, size_t size)
 {
@@ -34,7 +31,7 @@ static uint8_t paeth(int a, int b, int c)
 }
 
 /* What a filter predicts for a byte from its neighbours; bytes outside the picture are 0. */
-static uint8_t predict(enum filter f, uint8_t left, uint8_t above, uint8_t above_left)
+static uint8_t predict(enum row_filter f, uint8_t left, uint8_t above, uint8_t above_left)
 {
     switch (f) {
     case FILTER_NONE: return 0;
@@ -45,6 +42,13 @@ static uint8_t predict(enum filter f, uint8_t left, uint8_t above, uint8_t above
     case FILTERS: break;
     }
     return 0;
+}
+
+
+/* The same for byte i of a row, `step` being the bytes of a pixel, at least 1. */
+static inline uint8_t predict_at(enum row_filter f, const uint8_t *row, const uint8_t *above, size_t i, size_t step)
+{
+    return i < step ? predict(f, 0, above[i], 0) : predict(f, row[i - step], above[i], above[i - step]);
 }
 
 /* --- reading ----------------------------------------------------------------------------------------- */
@@ -64,26 +68,23 @@ struct png {
     struct error *err;
 };
 
-struct chunk {
+struct png_chunk {
     char name[5];
     const uint8_t *data; /* [size] */
     size_t size;
 };
 
 /* A picture, or one of the seven reduced pictures of an interlaced one: the pixels x0 + i dx, y0 + j dy [8.2]. */
-struct pass {
+struct adam7_pass {
     size_t x0, y0, dx, dy;
 };
-static const struct pass WHOLE[1] = {{0, 0, 1, 1}};
-static const struct pass ADAM7[7] = {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},
+static const struct adam7_pass WHOLE[1] = {{0, 0, 1, 1}};
+static const struct adam7_pass ADAM7[7] = {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},
                                      {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}};
 
-static uint32_t u32(const uint8_t *p)
-{
-    return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | (uint32_t)p[3];
-}
+static uint32_t u32(const uint8_t *p) { return (uint32_t)bits_of_bytes(p, 4, true); }
 
-static bool next_chunk(struct png *p, struct chunk *c)
+static bool next_chunk(struct png *p, struct png_chunk *c)
 {
     size_t left = p->size - p->at;
     if (left < 12 || u32(p->data + p->at) > left - 12)
@@ -120,7 +121,7 @@ static unsigned samples_of(unsigned colour, unsigned depth)
 
 static bool read_header(struct png *p)
 {
-    struct chunk c;
+    struct png_chunk c;
     if (!next_chunk(p, &c))
         return false;
     if (strcmp(c.name, "IHDR") != 0 || c.size != 13)
@@ -138,7 +139,7 @@ static bool read_header(struct png *p)
     return picture_size_ok(p->width, p->height, p->err);
 }
 
-static bool read_palette(struct png *p, const struct chunk *c)
+static bool read_palette(struct png *p, const struct png_chunk *c)
 {
     if (p->palette != NULL || p->n_packed > 0 || c->size == 0 || c->size % 3 != 0 || c->size > 3 * 256)
         return error_set(p->err, "the file is damaged: impossible palette");
@@ -150,7 +151,7 @@ static bool read_palette(struct png *p, const struct chunk *c)
 /* Collect what the chunks say until IEND. */
 static bool read_chunks(struct png *p)
 {
-    struct chunk c;
+    struct png_chunk c;
     bool data_ended = false;
     for (;;) {
         if (!next_chunk(p, &c))
@@ -179,12 +180,12 @@ static bool read_chunks(struct png *p)
     return true;
 }
 
-static size_t pass_width(const struct png *p, const struct pass *s)
+static size_t pass_width(const struct png *p, const struct adam7_pass *s)
 {
     return p->width > s->x0 ? (p->width - s->x0 + s->dx - 1) / s->dx : 0;
 }
 
-static size_t pass_height(const struct png *p, const struct pass *s)
+static size_t pass_height(const struct png *p, const struct adam7_pass *s)
 {
     return p->height > s->y0 ? (p->height - s->y0 + s->dy - 1) / s->dy : 0;
 }
@@ -195,20 +196,10 @@ static size_t row_bytes(const struct png *p, size_t width)
     return (size_t)(((uint64_t)width * p->samples * p->depth + 7) / 8);
 }
 
-static size_t pass_bytes(const struct png *p, const struct pass *s)
+static size_t pass_bytes(const struct png *p, const struct adam7_pass *s)
 {
     size_t width = pass_width(p, s);
     return width > 0 ? pass_height(p, s) * (1 + row_bytes(p, width)) : 0;
-}
-
-/* Undo a filter. `step`: bytes of a pixel, at least 1; `above`: the row before, or NULL. */
-static void unfilter(enum filter f, uint8_t *row, const uint8_t *above, size_t n, size_t step)
-{
-    for (size_t i = 0; i < n; i++) {
-        uint8_t a = i >= step ? row[i - step] : 0, b = above != NULL ? above[i] : 0;
-        uint8_t c = above != NULL && i >= step ? above[i - step] : 0;
-        row[i] = (uint8_t)(row[i] + predict(f, a, b, c));
-    }
 }
 
 /* Sample number `i` of a row. */
@@ -244,37 +235,40 @@ static bool put_pixel(const struct png *p, const uint8_t *row, size_t i, struct 
     return true;
 }
 
-static bool read_pass(const struct png *p, const struct pass *s, uint8_t *bytes, struct image *out)
+/* Undo the filters of a pass and put its pixels in place. `above`: a row of zeros. */
+static bool read_pass(const struct png *p, const struct adam7_pass *s, const uint8_t *above, uint8_t *bytes,
+                      struct image *out)
 {
     size_t width = pass_width(p, s), height = pass_height(p, s), n = row_bytes(p, width);
     size_t step = p->samples * p->depth < 8 ? 1 : p->samples * p->depth / 8;
-    const uint8_t *above = NULL;
     for (size_t y = 0; y < height; y++) {
         uint8_t *row = bytes + y * (n + 1);
         if (row[0] >= FILTERS)
             return error_set(p->err, "the file is damaged: no such filter");
-        unfilter((enum filter)row[0], row + 1, above, n, step);
-        above = row + 1;
+        enum row_filter f = (enum row_filter)*row++;
+        for (size_t i = 0; i < n; i++)
+            row[i] = (uint8_t)(row[i] + predict_at(f, row, above, i, step));
+        above = row;
         for (size_t x = 0; x < width; x++)
-            if (!put_pixel(p, row + 1, x, out, (s->y0 + y * s->dy) * p->width + s->x0 + x * s->dx))
+            if (!put_pixel(p, row, x, out, (s->y0 + y * s->dy) * p->width + s->x0 + x * s->dx))
                 return false;
     }
     return true;
 }
 
 /* Put all unpacked pixels in place. */
-static bool place_pixels(const struct png *p, const struct pass *pass, int passes, uint8_t *bytes,
-                         struct image *out)
+static bool place_pixels(const struct png *p, const struct adam7_pass *pass, int passes, const uint8_t *zeros,
+                         uint8_t *bytes, struct image *out)
 {
     int channels = p->colour == GREY || p->colour == GREY_ALPHA ? 1 : 3;
     if (p->depth == 16)
-        picture_alloc_f32(out, (int)p->width, (int)p->height, channels);
+        picture_alloc_f32(out, p->width, p->height, channels);
     else
-        picture_alloc_u8(out, (int)p->width, (int)p->height, channels);
+        picture_alloc_u8(out, p->width, p->height, channels);
     out->linear = false;
     for (int i = 0; i < passes; i++) {
         size_t n = pass_bytes(p, &pass[i]);
-        if (n > 0 && !read_pass(p, &pass[i], bytes, out)) {
+        if (n > 0 && !read_pass(p, &pass[i], zeros, bytes, out)) {
             image_free(out);
             return false;
         }
@@ -285,17 +279,17 @@ static bool place_pixels(const struct png *p, const struct pass *pass, int passe
 
 static bool read_pixels(const struct png *p, struct image *out)
 {
-    const struct pass *pass = p->interlaced ? ADAM7 : WHOLE;
+    const struct adam7_pass *pass = p->interlaced ? ADAM7 : WHOLE;
     int passes = p->interlaced ? 7 : 1;
     size_t total = 0;
     for (int i = 0; i < passes; i++)
         total += pass_bytes(p, &pass[i]);
     if (total / INFLATE_MAX_RATIO > p->n_packed)
-        return error_set(p->err, "the file is truncated: %lu x %lu pixels do not fit in it",
-                         (unsigned long)p->width, (unsigned long)p->height);
-    uint8_t *bytes = mem_alloc(total, 1);
-    bool ok =
-        inflate_zlib(p->packed, p->n_packed, bytes, total, p->err) && place_pixels(p, pass, passes, bytes, out);
+        return picture_truncated(p->width, p->height, p->err);
+    uint8_t *bytes = mem_alloc(total, 1), *zeros = mem_alloc(row_bytes(p, p->width), 1);
+    bool ok = inflate_zlib(p->packed, p->n_packed, bytes, total, p->err) &&
+              place_pixels(p, pass, passes, zeros, bytes, out);
+    free(zeros);
     free(bytes);
     return ok;
 }
@@ -329,49 +323,42 @@ static void put_chunk(FILE *f, const char *name, const uint8_t *data, size_t siz
     fwrite(tail, 1, sizeof tail, f);
 }
 
-/* The filter whose residuals, taken as signed numbers, have the least sum of sizes. */
-static enum filter best_filter(const uint8_t *row, const uint8_t *above, size_t n)
+/* Write the filter's number and the filtered row to out[0..n]; returns the sum of the sizes of the residuals, taken as
+ * signed numbers. */
+static uint64_t filter_row(enum row_filter f, const uint8_t *row, const uint8_t *above, size_t n, uint8_t *out)
 {
-    uint64_t sum[FILTERS] = {0};
+    uint64_t sum = 0;
+    *out++ = (uint8_t)f;
     for (size_t i = 0; i < n; i++) {
-        uint8_t a = i >= 3 ? row[i - 3] : 0, c = i >= 3 ? above[i - 3] : 0;
-        for (int f = 0; f < FILTERS; f++) {
-            uint8_t residual = (uint8_t)(row[i] - predict((enum filter)f, a, above[i], c));
-            sum[f] += residual < 128 ? residual : 256u - residual;
-        }
+        out[i] = (uint8_t)(row[i] - predict_at(f, row, above, i, 3));
+        sum += out[i] < 128 ? out[i] : 256u - out[i];
     }
-    int best = FILTER_NONE;
-    for (int f = FILTER_SUB; f < FILTERS; f++)
-        best = sum[f] < sum[best] ? f : best;
-    return (enum filter)best;
+    return sum;
 }
 
-/* Write the filter's number and the filtered row to out[0..n]. */
-static void filter_row(enum filter f, const uint8_t *row, const uint8_t *above, size_t n, uint8_t *out)
-{
-    out[0] = (uint8_t)f;
-    for (size_t i = 0; i < n; i++) {
-        uint8_t a = i >= 3 ? row[i - 3] : 0, c = i >= 3 ? above[i - 3] : 0;
-        out[1 + i] = (uint8_t)(row[i] - predict(f, a, above[i], c));
-    }
-}
-
-/* All rows filtered, each with what probably packs best [12.8]. */
+/* All rows filtered, each with what probably packs best: what leaves the least residuals [12.8]. */
 static uint8_t *filter_rows(int width, int height, const float *pixels)
 {
     size_t n = 3 * (size_t)width;
     uint8_t *all = mem_alloc((size_t)height, n + 1);
-    uint8_t *row = mem_alloc(n, 1), *above = mem_alloc(n, 1);
+    uint8_t *row = mem_alloc(n, 1), *above = mem_alloc(n, 1), *trial = mem_alloc(n + 1, 1);
     for (size_t y = 0; y < (size_t)height; y++) {
         for (size_t i = 0; i < n; i++)
             row[i] = srgb_byte(pixels[y * n + i]);
-        filter_row(best_filter(row, above, n), row, above, n, all + y * (n + 1));
+        uint64_t least = UINT64_MAX;
+        for (int f = FILTER_NONE; f < FILTERS; f++) {
+            uint64_t sum = filter_row((enum row_filter)f, row, above, n, trial);
+            if (sum < least)
+                memcpy(all + y * (n + 1), trial, n + 1);
+            least = sum < least ? sum : least;
+        }
         uint8_t *swap = above;
         above = row;
         row = swap;
     }
     free(row);
     free(above);
+    free(trial);
     return all;
 }
 

@@ -1,9 +1,6 @@
-/* tga.c: see tga.h. [Truevision TGA File Format Specification 2.0] */
-#include "image/tga.h"
-
-#include <stdlib.h>
-
-#include "base/mem.h"
+/* tga.c: TGA files, see formats.h. [Truevision TGA File Format Specification 2.0] */
+#include "base/bits.h"
+#include "image/formats.h"
 
 enum tga_kind { TGA_MAPPED = 1, TGA_COLOUR = 2, TGA_GREY = 3 };
 enum { HEADER = 18, RUN_LENGTH = 8, RIGHT_TO_LEFT = 0x10, TOP_TO_BOTTOM = 0x20 };
@@ -20,7 +17,7 @@ struct tga {
     struct error *err;
 };
 
-static size_t u16(const uint8_t *p) { return (size_t)p[0] | (size_t)p[1] << 8; }
+static size_t u16(const uint8_t *p) { return (size_t)bits_of_bytes(p, 2, false); }
 
 /* Check that a stored pixel has a size this reader knows. */
 static bool check_depth(struct tga *t, unsigned bits)
@@ -106,7 +103,8 @@ static bool put_pixel(const struct tga *t, struct image *out, size_t i, const ui
     return true;
 }
 
-/* One packet: a count, then one pixel for all of them or each its own. Plain files are one long packet. */
+/* One packet: a count, then one pixel for all of them or each its own. Files without run-length coding are one long
+ * packet. */
 static bool read_packet(struct tga *t, struct image *out, size_t *done, size_t count, bool same)
 {
     size_t stored = same ? 1 : count;
@@ -143,9 +141,8 @@ bool tga_read(const uint8_t *data, size_t size, struct image *out, struct error 
         return false;
     size_t left = t.size - t.at, most = t.run_length ? left / (1 + t.depth) * 128 + 128 : left / t.depth;
     if (most < t.width * t.height)
-        return error_set(err, "the file is truncated: %lu x %lu pixels do not fit in it", (unsigned long)t.width,
-                         (unsigned long)t.height);
-    picture_alloc_u8(out, (int)t.width, (int)t.height, t.kind == TGA_GREY ? 1 : 3);
+        return picture_truncated(t.width, t.height, err);
+    picture_alloc_u8(out, t.width, t.height, t.kind == TGA_GREY ? 1 : 3);
     if (read_pixels(&t, out))
         return true;
     image_free(out);

@@ -10,9 +10,11 @@
 #include <sys/stat.h>
 #include <time.h>
 
+#include "image/zlib.h"
+#include "lab/compare.h"
+#include "image/image.h"
 #include "base/mem.h"
 #include "base/progress.h"
-#include "image/checksum.h"
 #include "image/image.h"
 #include "lab/compare.h"
 #include "parser/parser.h"

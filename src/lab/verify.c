@@ -170,12 +170,6 @@ static void resample(const struct batches *b, struct rng *r, struct batches *out
     free(mean);
 }
 
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* p-value of a distance: Kolmogorov's, with the scale on which the resamplings' distances have its 90 % quantile. */
 static double uniform_p(const struct batches *a, const struct batches *b, double distance, uint64_t seed)
 {
@@ -192,7 +186,7 @@ static double uniform_p(const struct batches *a, const struct batches *b, double
     batches_free(&x);
     batches_free(&y);
     free(p);
-    qsort(found, RESAMPLINGS, sizeof *found, by_value);
+    stats_sort(found, RESAMPLINGS);
     return stats_kolmogorov_p(quantile * distance / found[RESAMPLINGS * 9 / 10]);
 }
 
@@ -209,13 +203,13 @@ struct verdict verify_batches(const struct batches *a, const struct batches *b, 
             v.where = where[i];
         }
     }
-    v.smallest = v.n > 0 ? sidak_p(v.smallest, (double)v.n) : 1;
+    v.smallest = v.n > 0 ? stats_sidak(v.smallest, (double)v.n) : 1;
     v.uniform = v.n > 0 ? uniform_p(a, b, stats_ks_distance(p, (size_t)v.n), seed) : 1;
     struct moments x = total_moments(a), y = total_moments(b);
     v.mean = welch(x, y);
     v.ratio = x.mean / y.mean;
     v.ratio_error = fabs(v.ratio) * sqrt(x.variance / (x.n * x.mean * x.mean) + y.variance / (y.n * y.mean * y.mean));
-    v.p = sidak_p(fmin(v.smallest, fmin(v.mean, v.uniform)), 3);
+    v.p = stats_sidak(fmin(v.smallest, fmin(v.mean, v.uniform)), 3);
     free(p);
     free(where);
     return v;

@@ -2,7 +2,6 @@
 #include "material/bsdf.h"
 
 static const struct bsdf_value NOTHING = {{0, 0, 0}, 0, 0};
-static const double ALMOST_ONE = 1 - 1.0 / 9007199254740992.0; /* the largest double below 1 */
 
 void bsdf_make(struct bsdf *b, struct frame shading, vec3 ng, struct lobe *lobe, int n)
 {
@@ -50,7 +49,7 @@ static const struct lobe *choose_lobe(const struct bsdf *b, double *u)
         l++;
     }
     if (b->n_lobes > 1)
-        *u = fmin(*u / l->choice, ALMOST_ONE);
+        *u = below_one(*u / l->choice);
     return l;
 }
 

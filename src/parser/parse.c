@@ -2,6 +2,8 @@
  * a table. See parse.h. */
 #include "parser/parse.h"
 
+#include "base/bits.h"
+
 #include <string.h>
 
 /* "a, b, c": the types of a table that are supported, cut at the buffer's end. */
@@ -90,7 +92,7 @@ void parse_no_effect(struct parser *p, const struct parameter *row, void *field)
 
 int parse_constant(struct parser *p, rgb value)
 {
-    uint32_t h = symbols_hash(&value, sizeof value);
+    uint32_t h = hash_bytes(&value, sizeof value);
     int *slot = &p->constant[(h ^ h >> 16) % CONSTANTS];
     const struct texture *known = *slot > 0 ? &p->scene->textures.texture[*slot - 1] : NULL;
     if (known == NULL || memcmp(&known->u.constant, &value, sizeof value) != 0)

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/mem.h"
 
 enum { SHOWN_COLUMNS = 110, SHOWN_INCLUDES = 4 };
@@ -119,27 +120,13 @@ void messages_free(struct messages *m)
 
 char *text_read(const char *path, size_t *size, struct error *err)
 {
-    FILE *f = fopen(path, "rb");
-    if (f == NULL) {
-        error_set(err, "%s: cannot open the file: %s", path, strerror(errno));
-        return NULL;
-    }
-    char *text = NULL;
-    size_t used = 0, capacity = 0, got;
-    do {
-        text = mem_grow(text, &capacity, used + (1 << 16), 1);
-        got = fread(text + used, 1, capacity - used - 1, f);
-        used += got;
-    } while (got > 0 && used < INT32_MAX);
-    bool bad = ferror(f) != 0, large = used >= INT32_MAX;
-    int reason = errno;
-    fclose(f);
-    if (bad || large) {
-        free(text);
-        error_set(err, "%s: cannot read the file: %s", path, bad ? strerror(reason) : "it is larger than 2 GiB");
-        return NULL;
-    }
-    text[used] = '\0';
-    *size = used;
-    return text;
+    uint8_t *data;
+    bool ok = file_read(path, &data, size, NULL);
+    int reason = ok ? 0 : errno;
+    if (ok && *size < INT32_MAX)
+        return (char *)data;
+    free(data);
+    error_set(err, "%s: cannot %s the file: %s", path, reason != 0 && reason != EISDIR ? "open" : "read",
+              reason != 0 ? strerror(reason) : "it is larger than 2 GiB");
+    return NULL;
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/bits.h"
 #include "base/mem.h"
 
 /* --- the nearest known name --------------------------------------------------------------------------- */
@@ -63,16 +64,8 @@ const char *suggest_from(const char *wanted, const char *const *known)
 
 /* --- the table ---------------------------------------------------------------------------------------- */
 
-uint32_t symbols_hash(const void *bytes, size_t n)
-{
-    uint32_t h = 2166136261u;
-    for (const unsigned char *b = bytes, *end = b + n; b < end; b++)
-        h = (h ^ *b) * 16777619u;
-    return h;
-}
-
 /* Which chain a name is in. */
-static uint32_t chain(const char *name) { return symbols_hash(name, strlen(name)) % SYMBOL_CHAINS; }
+static uint32_t chain(const char *name) { return hash_bytes(name, strlen(name)) % SYMBOL_CHAINS; }
 
 void symbols_add(struct symbols *t, const char *name, int value)
 {

@@ -63,7 +63,4 @@ void symbols_forget(struct symbols *t, int n);
 const char *symbols_near(const struct symbols *t, const char *name);
 void symbols_free(struct symbols *t);
 
-/* symbols_hash: the FNV-1a hash of n bytes [Fowler, Noll & Vo]. */
-uint32_t symbols_hash(const void *bytes, size_t n);
-
 #endif

@@ -104,7 +104,7 @@ void light_prepare(struct light_set *set, const struct geometry *geo, vec3 cente
 static vec3 infinite_sample(const struct light *l, int cell, double u1, double u2, double *pdf_dir)
 {
     if (l->env == NULL) {
-        *pdf_dir = warp_sphere_pdf() * SKY_CELLS;
+        *pdf_dir = warp_sphere_pdf_w() * SKY_CELLS;
         return warp_sphere((cell / SKY_SECTORS + u1) / SKY_BANDS, (cell % SKY_SECTORS + u2) / SKY_SECTORS);
     }
     return normalize(transform_vector(&l->to_world, envmap_sample(l->env, cell, u1, u2, pdf_dir)));
@@ -124,7 +124,7 @@ static double infinite_pdf(const struct light *l, vec3 w, int *cell)
     warp_sphere_inverse(w, &u1, &u2);
     int band = int_within(u1 * SKY_BANDS, 0, SKY_BANDS - 1), sector = int_within(u2 * SKY_SECTORS, 0, SKY_SECTORS - 1);
     *cell = band * SKY_SECTORS + sector;
-    return warp_sphere_pdf() * SKY_CELLS;
+    return warp_sphere_pdf_w() * SKY_CELLS;
 }
 
 static rgb infinite_Le(const struct light *l, vec3 w)
@@ -146,7 +146,7 @@ bool light_sample_cell(const struct light_set *set, const struct geometry *geo, 
         shape_sample(geo, l->prim, u1, u2, &at, &pdf);
         out->p = at.p;
         out->n = at.ng;
-        out->triangle = shape_flat(l->prim);
+        out->triangle_id = shape_triangle_id(l->prim);
         break;
     }
     case LIGHT_POINT:
@@ -212,7 +212,7 @@ rgb light_sample_emission(const struct light_set *set, const struct light_point 
         *pdf = light_pdf_emission(set, y0, ray->d);
         return light_Le(set, y0, ray->d);
     }
-    struct ray r = {y0->p, w, 0, INFINITY, y0->triangle, 0};
+    struct ray r = {y0->p, w, 0, INFINITY, y0->triangle_id, 0};
     *ray = r;
     *pdf = light_pdf_emission(set, y0, w);
     return *pdf > 0 ? rgb_scale(light_Le(set, y0, w), cosine) : rgb_black();
@@ -224,10 +224,10 @@ double light_pdf_emission(const struct light_set *set, const struct light_point 
     switch (l->kind) {
     case LIGHT_AREA: {
         double c = dot(y0->n, w);
-        return l->two_sided ? 0.5 * warp_cos_hemisphere_pdf(fabs(c)) : warp_cos_hemisphere_pdf(c);
+        return l->two_sided ? 0.5 * warp_cos_hemisphere_pdf_w(fabs(c)) : warp_cos_hemisphere_pdf_w(c);
     }
-    case LIGHT_POINT: return warp_sphere_pdf();
-    case LIGHT_SPOT: return dot(l->axis.n, w) >= l->cos_total ? warp_cone_pdf(l->cos_total) : 0;
+    case LIGHT_POINT: return warp_sphere_pdf_w();
+    case LIGHT_SPOT: return dot(l->axis.n, w) >= l->cos_total ? warp_cone_pdf_w(l->cos_total) : 0;
     case LIGHT_DISTANT:
     case LIGHT_INFINITE: return 1 / (PI * sqr(set->radius));
     }

@@ -60,7 +60,8 @@ void scene_prepare(struct scene *s)
     s->geo.opaque = opaque_at;
     material_prepare(s->material, s->n_materials, &s->textures, &s->arena);
     for (int i = 0; i < s->geo.n_groups; i++)
-        s->geo.group[i].plain = !material_reads_partials(s->material, s->geo.group[i].material, &s->textures);
+        s->geo.group[i].skip_partials =
+            !material_reads_partials(s->material, s->geo.group[i].material, &s->textures);
     kd_build(&s->kd, &s->geo);
     vec3 lo = vec((double)s->kd.lo[0], (double)s->kd.lo[1], (double)s->kd.lo[2]);
     vec3 hi = vec((double)s->kd.hi[0], (double)s->kd.hi[1], (double)s->kd.hi[2]);

@@ -53,7 +53,7 @@ void scene_prepare(struct scene *s);
 bool scene_intersect(const struct scene *s, const struct ray *ray, struct surface *out);
 
 /* scene_visible: is the open segment between two points free?
- *   from, to  the triangles a and b are on, see shape_flat; 0: none */
+ *   from, to  the triangles a and b are on, see shape_triangle_id; 0: none */
 bool scene_visible(const struct scene *s, vec3 a, uint32_t from, vec3 b, uint32_t to);
 
 /* scene_visible_ray: is the half line from a in unit direction w free? `from` as above. */

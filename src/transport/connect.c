@@ -92,7 +92,8 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
     c.value = rgb_mul(rgb_mul(z->beta, at_z.factor), rgb_scale(Le, at_light / (pmf * at.pdf_cell)));
     if (rgb_is_black(c.value))
         return nothing();
-    if (parallel ? !scene_visible_ray(scene, z->p, z->flat, w) : !scene_visible(scene, z->p, z->flat, at.p, at.triangle))
+    if (parallel ? !scene_visible_ray(scene, z->p, z->triangle_id, w)
+                 : !scene_visible(scene, z->p, z->triangle_id, at.p, at.triangle_id))
         return nothing();
 
     struct vertex y;
@@ -121,7 +122,7 @@ struct connection connect_pair(const struct scene *scene, const struct mis_count
     struct scatter at_y = scatter_towards(y, neg(w), IMPORTANCE);
     struct connection c = nothing();
     c.value = rgb_mul(rgb_mul(y->beta, at_y.factor), rgb_scale(rgb_mul(z->beta, at_z.factor), 1 / d2));
-    if (rgb_is_black(c.value) || !scene_visible(scene, z->p, z->flat, y->p, y->flat))
+    if (rgb_is_black(c.value) || !scene_visible(scene, z->p, z->triangle_id, y->p, y->triangle_id))
         return nothing();
 
     double light = mis_side(counts, at_z.pdf * abs_dot(y->ng, w) / d2, y->pdf_fwd, y->mis_c, at_y.pdf_rev, y->mis);
@@ -150,7 +151,7 @@ struct connection connect_lens(const struct scene *scene, const struct mis_count
     struct scatter at_y = scatter_towards(y, neg(w), IMPORTANCE);
     /* We cos / (lens density) = J, see camera.h. */
     c.value = rgb_mul(y->beta, rgb_scale(at_y.factor, J / d2));
-    if (rgb_is_black(c.value) || !scene_visible(scene, lens, 0, y->p, y->flat))
+    if (rgb_is_black(c.value) || !scene_visible(scene, lens, 0, y->p, y->triangle_id))
         return nothing();
     double light = mis_side(counts, J * abs_dot(y->ng, w) / d2, y->pdf_fwd, y->mis_c, at_y.pdf_rev, y->mis);
     c.weight = mis_weight(counts, counts->splat, light, 0);

@@ -41,7 +41,7 @@ struct vertex {
     int cell;          /* y_0: its light cell; a surface on an area light: ditto; else -1 */
     vec3 p;            /* world position (at infinity: unused) */
     vec3 ng;           /* unit geometric normal; y_0 on an area light: of the light; else zero */
-    uint32_t flat;     /* the triangle it is on, see shape_flat; 0: none */
+    uint32_t triangle_id; /* the triangle it is on, see shape_triangle_id; 0: none */
     vec3 wo;           /* unit, towards the previous vertex; y_0 at infinity: towards the light; ESCAPED: inwards */
     rgb beta;          /* throughput on arrival; y_0 of a walk: the radiance (or intensity) emitted */
     double pdf_fwd;    /* F of mis.h: density in its own walk, 1/m^2; ESCAPED and y_0 at infinity: 1/sr */

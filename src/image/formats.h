@@ -1,0 +1,46 @@
+/* formats.h: the picture formats, each of which image.c names in its table.
+ *
+ * Readers take a file that is in memory. X_matches tells by the content whether it is one of theirs. X_read fills
+ * *out, to be released with image_free; on failure it returns false with a message and *out holds nothing to be
+ * released. Writers take linear RGB, top row first; errors stick to the stream.
+ *
+ * Tests: test_image.c (pictures of other programs, truncations, changed bytes, absurd sizes).
+ */
+#ifndef ASBDPT_FORMATS_H
+#define ASBDPT_FORMATS_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+#include "image/picture.h"
+
+/* PFM, portable float maps: a text header, then 32-bit floats, bottom row first. Read: RGB and grey, either byte order.
+ * Written: RGB, little-endian whatever the machine, scale -1, as pbrt-v3 writes it.
+ *
+ *     PF        (RGB; Pf: grey)
+ *     width height
+ *     scale     (negative: little-endian, positive: big-endian; samples are multiplied by its size) */
+bool pfm_matches(const uint8_t *data, size_t size);
+bool pfm_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
+void pfm_write(FILE *f, int width, int height, const float *pixels);
+
+/* PPM and PGM, portable pix maps and grey maps: P6 and P5 binary, P3 and P2 as text; 8 or 16 bits a sample. Written:
+ * P6, 8 bits, sRGB encoded.
+ *
+ *     P6  width height  maxval  samples     (a # begins a comment that ends with its line) */
+bool ppm_matches(const uint8_t *data, size_t size);
+bool ppm_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
+void ppm_write(FILE *f, int width, int height, const float *pixels);
+
+/* PNG [PNG: ISO/IEC 15948, W3C Portable Network Graphics]. Read: every colour type and depth, interlaced or not. Alpha,
+ * transparency and colour profiles are not used; checksums are checked. Written: 8-bit RGB, sRGB encoded. */
+bool png_matches(const uint8_t *data, size_t size);
+bool png_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
+void png_write(FILE *f, int width, int height, const float *pixels);
+
+/* TGA, Truevision's Targa files: colour, grey and colour-mapped, run-length coded or not. Reading only. TGA has no
+ * signature: the file's name decides. Pixels of 24 or 32 bits (blue, green, red, alpha), grey and map indices of 8
+ * bits; 15 and 16-bit pixels are refused. */
+bool tga_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
+
+#endif

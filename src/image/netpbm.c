@@ -1,0 +1,208 @@
+/* netpbm.c: the formats with a header of words, PFM and PPM, see formats.h. isspace is that of the C locale, the only
+ * one this program knows. */
+#include <ctype.h>
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/bits.h"
+#include "base/mem.h"
+#include "image/formats.h"
+
+/* --- PFM ---------------------------------------------------------------------------------------------- */
+
+bool pfm_matches(const uint8_t *data, size_t size)
+{
+    return size >= 3 && data[0] == 'P' && (data[1] == 'F' || data[1] == 'f') && isspace(data[2]);
+}
+
+/* The next word of the header and the one blank after it. Returns false if it is missing or does not fit. */
+static bool next_word(const uint8_t *data, size_t size, size_t *at, char *word, size_t room)
+{
+    while (*at < size && isspace(data[*at]))
+        ++*at;
+    size_t n = 0;
+    while (*at < size && !isspace(data[*at]) && n + 1 < room)
+        word[n++] = (char)data[(*at)++];
+    word[n] = '\0';
+    if (n == 0 || *at >= size || !isspace(data[*at]))
+        return false;
+    ++*at;
+    return true;
+}
+
+/* A whole word as a decimal count; 0 if it is none. Beyond 2^28 the value is not exact. */
+static unsigned long to_count(const char *word)
+{
+    unsigned long value = 0;
+    for (; *word >= '0' && *word <= '9'; word++)
+        if (value <= PICTURE_MAX_PIXELS)
+            value = value * 10 + (unsigned long)(*word - '0');
+    return *word == '\0' ? value : 0;
+}
+
+static float to_float(const uint8_t *byte, bool big_endian)
+{
+    uint32_t bits = (uint32_t)bits_of_bytes(byte, 4, big_endian);
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+bool pfm_read(const uint8_t *data, size_t size, struct image *out, struct error *err)
+{
+    if (!pfm_matches(data, size))
+        return error_set(err, "not a PFM file: it does not begin with PF or Pf");
+    char word[3][64];
+    size_t at = 2;
+    for (int i = 0; i < 3; i++)
+        if (!next_word(data, size, &at, word[i], sizeof word[i]))
+            return error_set(err, "the PFM header (PF, width height, scale) is incomplete");
+    unsigned long width = to_count(word[0]), height = to_count(word[1]);
+    char *end;
+    double scale = strtod(word[2], &end);
+    if (*end != '\0' || !(fabs(scale) > 0 && fabs(scale) <= FLT_MAX))
+        return error_set(err, "the scale in the PFM header is \"%s\"; it must be a number other than 0", word[2]);
+    if (!picture_size_ok(width, height, err))
+        return false;
+    int channels = data[1] == 'F' ? 3 : 1;
+    size_t row = (size_t)width * (size_t)channels; /* samples */
+    if ((size - at) / 4 / row < height)
+        return picture_truncated(width, height, err);
+    picture_alloc_f32(out, width, height, channels);
+    float factor = (float)fabs(scale);
+    for (size_t y = 0; y < height; y++)
+        for (size_t i = 0; i < row; i++)
+            out->f32[(height - 1 - y) * row + i] = factor * to_float(data + at + (y * row + i) * 4, scale > 0);
+    return true;
+}
+
+void pfm_write(FILE *f, int width, int height, const float *pixels)
+{
+    size_t row = 3 * (size_t)width;
+    uint8_t *bytes = mem_alloc(row, 4);
+    fprintf(f, "PF\n%d %d\n-1.000000\n", width, height);
+    for (int y = height - 1; y >= 0; y--) {
+        for (size_t i = 0; i < row; i++) {
+            uint32_t bits;
+            memcpy(&bits, &pixels[(size_t)y * row + i], sizeof bits);
+            for (int k = 0; k < 4; k++)
+                bytes[4 * i + (size_t)k] = (uint8_t)(bits >> 8 * k & 255);
+        }
+        fwrite(bytes, 4, row, f);
+    }
+    free(bytes);
+}
+
+/* --- PPM ---------------------------------------------------------------------------------------------- */
+
+struct netpbm {
+    const uint8_t *data;
+    size_t size, at;
+};
+
+bool ppm_matches(const uint8_t *data, size_t size)
+{
+    return size >= 3 && data[0] == 'P' && (data[1] == '2' || data[1] == '3' || data[1] == '5' || data[1] == '6') &&
+           (isspace(data[2]) || data[2] == '#');
+}
+
+/* Read over blanks and comments. */
+static void skip(struct netpbm *r)
+{
+    bool comment = false;
+    for (; r->at < r->size; r->at++) {
+        int c = r->data[r->at];
+        comment = comment ? c != '\n' && c != '\r' : c == '#';
+        if (!comment && !isspace(c))
+            return;
+    }
+}
+
+/* The next decimal number. Returns false if there is none; beyond 2^28 its value is not exact. */
+static bool next_number(struct netpbm *r, unsigned long *value)
+{
+    skip(r);
+    size_t start = r->at;
+    *value = 0;
+    for (; r->at < r->size && r->data[r->at] >= '0' && r->data[r->at] <= '9'; r->at++)
+        if (*value <= PICTURE_MAX_PIXELS)
+            *value = *value * 10 + (unsigned long)(r->data[r->at] - '0');
+    return r->at > start;
+}
+
+static bool next_sample(struct netpbm *r, bool text, bool wide, unsigned long *value)
+{
+    if (text)
+        return next_number(r, value);
+    if (r->size - r->at < (wide ? 2u : 1u))
+        return false;
+    *value = r->data[r->at++];
+    if (wide)
+        *value = *value << 8 | r->data[r->at++];
+    return true;
+}
+
+static bool read_samples(struct netpbm *r, bool text, unsigned long most, struct image *out, struct error *err)
+{
+    size_t n = (size_t)out->width * (size_t)out->height * (size_t)out->channels;
+    for (size_t i = 0; i < n; i++) {
+        unsigned long value;
+        if (!next_sample(r, text, most > 255, &value))
+            return error_set(err, "the file is truncated or holds something that is no number: sample %lu of %lu",
+                             (unsigned long)i + 1, (unsigned long)n);
+        if (value > most)
+            return error_set(err, "sample %lu is %lu; the header promises at most %lu", (unsigned long)i + 1, value,
+                             most);
+        if (out->u8 != NULL)
+            out->u8[i] = (uint8_t)((value * 255 + most / 2) / most);
+        else
+            out->f32[i] = (float)((double)value / (double)most);
+    }
+    return true;
+}
+
+bool ppm_read(const uint8_t *data, size_t size, struct image *out, struct error *err)
+{
+    if (!ppm_matches(data, size))
+        return error_set(err, "not a PPM file: it does not begin with P2, P3, P5 or P6");
+    struct netpbm r = {data, size, 2};
+    unsigned long width, height, most;
+    if (!next_number(&r, &width) || !next_number(&r, &height) || !next_number(&r, &most) || r.at >= size ||
+        !isspace(data[r.at]))
+        return error_set(err, "the PPM header (width, height, largest value) is incomplete");
+    r.at++;
+    if (!picture_size_ok(width, height, err))
+        return false;
+    if (most == 0 || most > 65535)
+        return error_set(err, "the largest value in the PPM header is %lu; it must be 1 to 65535", most);
+    bool text = data[1] <= '3';
+    int channels = data[1] == '3' || data[1] == '6' ? 3 : 1;
+    size_t n = (size_t)width * (size_t)height * (size_t)channels, left = size - r.at;
+    bool fits = text ? (left + 1) / 2 >= n : left / (most > 255 ? 2 : 1) >= n; /* text: a digit and a blank each */
+    if (!fits)
+        return picture_truncated(width, height, err);
+    if (most > 255)
+        picture_alloc_f32(out, width, height, channels);
+    else
+        picture_alloc_u8(out, width, height, channels);
+    out->linear = false;
+    if (read_samples(&r, text, most, out, err))
+        return true;
+    image_free(out);
+    return false;
+}
+
+void ppm_write(FILE *f, int width, int height, const float *pixels)
+{
+    size_t row = 3 * (size_t)width;
+    uint8_t *bytes = mem_alloc(row, 1);
+    fprintf(f, "P6\n%d %d\n255\n", width, height);
+    for (size_t y = 0; y < (size_t)height; y++) {
+        for (size_t i = 0; i < row; i++)
+            bytes[i] = srgb_byte(pixels[y * row + i]);
+        fwrite(bytes, 1, row, f);
+    }
+    free(bytes);
+}
