@@ -72,7 +72,7 @@ static void snell(struct test *t)
 
 /* --- facets ------------------------------------------------------------------------------------------ */
 
-/* The two normalisations that define the distribution [Heitz 2014 (1), (13)]. Projected down, the facets' area is
+/* The two normalisations that define the distribution [Heitz 2014]. Projected down, the facets' area is
  * the surface's; projected along w, the visible ones are what is seen of it:
  *     int D (h.n) dh = 1
  *     int D <w,h> / (1 + lambda(w)) dh = cos(w) */

@@ -50,7 +50,8 @@ static void test_empty(struct test *t)
     scene_free(&scene);
 }
 
-/* Direct light of a disk of radius R at height h on the floor's centre: E = pi L R^2 / (R^2 + h^2), radiance kd E / pi. */
+/* Direct light of a disk of radius R at height h on the floor's centre: E = pi L R^2 / (R^2 + h^2), radiance kd E / pi.
+ * */
 static void test_disk(struct test *t, const char *method)
 {
     static const char text[] =
@@ -89,8 +90,9 @@ static void agree(struct test *t, const struct scene *scene, const char *name, c
     batches_free(&y);
 }
 
-/* Everything at once: glass, mirror, rough metal, a lens and five kinds of light. Caustics of delta lights through glass
- * are invisible to pt and, seen on diffuse surfaces, visible to bdpt: glass casts its shadow only on mirrors here. */
+/* Everything at once: glass, mirror, rough metal, a lens and five kinds of light. Caustics of delta lights through
+ * glass are invisible to pt and, seen on diffuse surfaces, visible to bdpt: glass casts its shadow only on mirrors
+ * here. */
 static const char EVERYTHING[] =
     "LookAt 0 1.5 -4  0 1 0  0 1 0\n"
     "Camera \"perspective\" \"float fov\" 50 \"float lensradius\" .05 \"float focaldistance\" 4\n"

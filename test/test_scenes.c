@@ -14,7 +14,8 @@ static double within_p(const struct batches *b, double low, double high)
     return mean < low ? mean_p(b, low) : mean > high ? mean_p(b, high) : 1;
 }
 
-/* Expected radiance, as the comments of the scene files derive it; `low` to `high` where the depth limit cuts a little off. */
+/* Expected radiance, as the comments of the scene files derive it; `low` to `high` where the depth limit cuts a little
+ * off. */
 static void test_analytic(struct test *t)
 {
     static const struct {
@@ -75,7 +76,8 @@ static void test_sides(struct test *t)
     }
 }
 
-/* Alpha 0 is a hole, to the eye and to light; shadow alpha 0 lets light through only; any other alpha is solid, as in pbrt. */
+/* Alpha 0 is a hole, to the eye and to light; shadow alpha 0 lets light through only; any other alpha is solid, as in
+ * pbrt. */
 static void test_holes(struct test *t)
 {
     static const char text[] =
@@ -105,8 +107,8 @@ static void test_holes(struct test *t)
     }
 }
 
-/* Partial derivatives are there where a material may read them, and left out elsewhere: a row of triangles along x, with
- * and without vertex normals. */
+/* Partial derivatives are there where a material may read them, and left out elsewhere: a row of triangles along x,
+ * with and without vertex normals. */
 static void test_partials(struct test *t)
 {
     static const char start[] = "Camera \"perspective\" WorldBegin Texture \"b\" \"float\" \"constant\" \"float value\" 1\n"
@@ -170,8 +172,8 @@ static void test_spot(struct test *t)
 }
 
 /* A spot of light two pixels wide through filters with negative parts: eye paths draw from the filter and carry its
- * weight, light paths are spread by it; pixel by pixel they agree. (At an edge a pixel's mean would count a few samples:
- * batches that count alike seem to have no variance, and Welch's test raises false alarms.) */
+ * weight, light paths are spread by it; pixel by pixel they agree. (At an edge a pixel's mean would count a few
+ * samples: batches that count alike seem to have no variance, and Welch's test raises false alarms.) */
 static void test_filter_spot(struct test *t)
 {
     static const char text[] =

@@ -1,4 +1,4 @@
-/* alias.h: draw an index with a given probability in constant time.                       [Walker 1977, Vose 1991]
+/* alias.h: draw an index with a given probability in constant time.                      [Walker 1977] [Vose 1991]
  *
  * The mass of n weights is cut into n bins of equal mass 1/n. Each bin holds at most two elements: its own
  * index, with probability `threshold`, and one other index, `alias`, with the rest. A uniform number picks the

@@ -3,7 +3,7 @@
 
 /* Owen scrambling of a binary fraction given with its first digit in bit 0: every digit is flipped or not depending on
  * a hash of the digits before it. Multiplications by even numbers carry upwards only, which is what makes this hash do
- * that [Laine & Karras 2011; constants of Burley 2020]. */
+ * that [Laine & Karras 2011]; constants of [Burley 2020]. */
 static uint32_t scramble_digits(uint32_t x, uint32_t seed)
 {
     x ^= x * 0x3d20adeau;

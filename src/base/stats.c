@@ -1,7 +1,7 @@
 /* stats.c: distribution functions and hypothesis tests, see stats.h.
  *
  * The incomplete gamma and beta functions are a power series on one side of their mean and a continued fraction on
- * the other, the latter evaluated with Lentz's method [Lentz 1976, Thompson & Barnett 1986]. Everything else is
+ * the other, the latter evaluated with Lentz's method [Lentz 1976] [Thompson & Barnett 1986]. Everything else is
  * one of these two functions.
  */
 #include "base/stats.h"
@@ -182,7 +182,7 @@ double stats_welch_p(double mean1, double var1, double n1, double mean2, double 
     return stats_student_p(t, dof);
 }
 
-/* Two series, each fast where it is used [Marsaglia, Tsang & Wang 2003]. */
+/* Two series, each fast where it is used [Marsaglia 2003]. */
 double stats_kolmogorov_p(double x)
 {
     double sum = 0;

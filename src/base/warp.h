@@ -63,8 +63,8 @@ static inline vec3 warp_cone(double u1, double u2, double cos_max)
 
 static inline double warp_cone_pdf_w(double cos_max) { return 1 / (2 * PI * (1 - cos_max)); }
 
-/* warp_triangle: barycentric coordinates (b1,b2) of a uniform point of a triangle [Heitz 2019 keeps
- * strata together; this is the older square-root map]; density 1/area. */
+/* warp_triangle: barycentric coordinates (b1,b2) of a uniform point of a triangle, by the square-root map
+ * [PBRT3 13.6.5]; density 1/area. */
 static inline void warp_triangle(double u1, double u2, double *b1, double *b2)
 {
     double s = sqrt(u1);

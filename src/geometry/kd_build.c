@@ -1,5 +1,5 @@
 /* kd_build.c: the kd-tree's builder: cells are cut where the surface-area heuristic says so (see kd_plane.h), until a
- * leaf is cheaper. A triangle that the plane cuts is clipped to both parts [Wald & Havran 2006, 2.3], so that a cell
+ * leaf is cheaper. A triangle that the plane cuts is clipped to both parts [Wald & Havran 2006], so that a cell
  * holds only what really passes through it.
  *
  * The cells still to be cut are kept on a stack, each with the list of its items. Of the two parts of a cell the one

@@ -1,9 +1,9 @@
-/* kd_plane.c: see kd_plane.h. The heuristic is that of [Wald & Havran 2006, 2.2], with bins; polygons are clipped as
+/* kd_plane.c: see kd_plane.h. The heuristic is that of [Wald & Havran 2006], with bins; polygons are clipped as
  * in [Sutherland & Hodgman 1974], one plane of the box after the other.
  *
  * Where a ray that crosses a cell of surface S meets a part of it of surface S' with probability S'/S, a cell cut
  * into parts that cost C0 and C1 to test costs
- *     C = VISIT + (C0 S0 + C1 S1) / S,        against its own test if it stays a leaf  [Wald & Havran 2006, eq. 2]
+ *     C = VISIT + (C0 S0 + C1 S1) / S,        against its own test if it stays a leaf  [Wald & Havran 2006]
  * A leaf is tested in blocks of KD_LANES items, so its cost is the number of blocks. Counting the items that begin and
  * that end in each of BINS equal parts of an axis gives C at the bins' ends, in one pass and without sorting. The ends
  * of the items' common bounds are tried as well: they cut off empty space, and there the planes must be exact.

@@ -1,7 +1,7 @@
-/* png.c: PNG files, see formats.h. The numbers in brackets are sections of [PNG].
+/* png.c: PNG files, see formats.h. Format: [PNG].
  *
  * A file is a signature and chunks (length, name, data, CRC). The data of all IDAT chunks together are a zlib
- * stream of rows, each a filter's number and the row's bytes less what a filter predicts from their neighbours [9].
+ * stream of rows, each a filter's number and the row's bytes less what a filter predicts from their neighbours [PNG 9].
  */
 #include <stdlib.h>
 #include <string.h>
@@ -13,8 +13,8 @@
 
 static const uint8_t SIGNATURE[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 
-enum colour { GREY = 0, RGB = 2, PALETTE = 3, GREY_ALPHA = 4, RGB_ALPHA = 6 };             /* [11.2.2] */
-enum row_filter { FILTER_NONE, FILTER_SUB, FILTER_UP, FILTER_AVERAGE, FILTER_PAETH, FILTERS }; /* [9.2] */
+enum colour { GREY = 0, RGB = 2, PALETTE = 3, GREY_ALPHA = 4, RGB_ALPHA = 6 };             /* [PNG 11.2.2] */
+enum row_filter { FILTER_NONE, FILTER_SUB, FILTER_UP, FILTER_AVERAGE, FILTER_PAETH, FILTERS }; /* [PNG 9.2] */
 
 bool png_matches(const uint8_t *data, size_t size)
 {
@@ -23,7 +23,7 @@ bool png_matches(const uint8_t *data, size_t size)
 
 /* --- filters ----------------------------------------------------------------------------------------- */
 
-/* The neighbour (left a, above b, above left c) nearest to a + b - c [9.4]. */
+/* The neighbour (left a, above b, above left c) nearest to a + b - c [PNG 9.4]. */
 static uint8_t paeth(int a, int b, int c)
 {
     int pa = abs(b - c), pb = abs(a - c), pc = abs(a + b - 2 * c);
@@ -74,7 +74,7 @@ struct png_chunk {
     size_t size;
 };
 
-/* A picture, or one of the seven reduced pictures of an interlaced one: the pixels x0 + i dx, y0 + j dy [8.2]. */
+/* A picture, or one of the seven reduced pictures of an interlaced one: the pixels x0 + i dx, y0 + j dy [PNG 8.2]. */
 struct adam7_pass {
     size_t x0, y0, dx, dy;
 };
@@ -105,7 +105,7 @@ static bool next_chunk(struct png *p, struct png_chunk *c)
     return true;
 }
 
-/* Samples of a pixel; 0 for a colour type or depth that does not exist [11.2.2]. */
+/* Samples of a pixel; 0 for a colour type or depth that does not exist [PNG 11.2.2]. */
 static unsigned samples_of(unsigned colour, unsigned depth)
 {
     bool whole = depth == 8 || depth == 16, part = depth == 1 || depth == 2 || depth == 4;
@@ -171,7 +171,7 @@ static bool read_chunks(struct png *p)
         if (strcmp(c.name, "PLTE") == 0) {
             if (!read_palette(p, &c))
                 return false;
-        } else if (c.name[0] <= 'Z') { /* a capital: cannot be ignored [5.4] */
+        } else if (c.name[0] <= 'Z') { /* a capital: cannot be ignored [PNG 5.4] */
             return error_set(p->err, "unknown or misplaced chunk %s", c.name);
         }
     }
@@ -209,7 +209,7 @@ static unsigned sample(const uint8_t *row, size_t i, unsigned depth)
         return row[i];
     if (depth == 16)
         return (unsigned)row[2 * i] << 8 | row[2 * i + 1];
-    size_t bit = i * depth; /* the first sample in the highest bits [7.2] */
+    size_t bit = i * depth; /* the first sample in the highest bits [PNG 7.2] */
     return (unsigned)row[bit / 8] >> (8 - depth - bit % 8) & ((1u << depth) - 1);
 }
 
@@ -336,7 +336,7 @@ static uint64_t filter_row(enum row_filter f, const uint8_t *row, const uint8_t 
     return sum;
 }
 
-/* All rows filtered, each with what probably packs best: what leaves the least residuals [12.8]. */
+/* All rows filtered, each with what probably packs best: what leaves the least residuals [PNG 12.8]. */
 static uint8_t *filter_rows(int width, int height, const float *pixels)
 {
     size_t n = 3 * (size_t)width;

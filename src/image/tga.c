@@ -1,4 +1,4 @@
-/* tga.c: TGA files, see formats.h. [Truevision TGA File Format Specification 2.0] */
+/* tga.c: TGA files, see formats.h. [TGA] */
 #include "base/bits.h"
 #include "image/formats.h"
 

@@ -29,14 +29,14 @@ bool inflate_zlib(const uint8_t *in, size_t n, uint8_t *out, size_t out_size, st
  * Cannot fail. The same input gives the same output everywhere. Thread-safe. */
 uint8_t *deflate_zlib(const uint8_t *in, size_t n, size_t *size);
 
-/* checksum_crc32: CRC-32 of a chunk of a PNG file [PNG Annex D]. Start with crc = 0; feed pieces by passing the
+/* checksum_crc32: CRC-32 of a chunk of a PNG file [PNG annex D]. Start with crc = 0; feed pieces by passing the
  * result on. "123456789" gives cbf43926. */
 uint32_t checksum_crc32(uint32_t crc, const uint8_t *data, size_t n);
 
 /* checksum_adler32: Adler-32 at the end of a zlib stream [RFC 1950]. "Wikipedia" gives 11e60398. */
 uint32_t checksum_adler32(const uint8_t *data, size_t n);
 
-/* The alphabets of deflate, for inflate.c and deflate.c alone [RFC 1951 3.2.5, 3.2.7]. */
+/* The alphabets of deflate, for inflate.c and deflate.c alone [RFC 1951 3.2.5] [RFC 1951 3.2.7]. */
 enum {
     DEFLATE_LITERALS = 288, /* literal bytes 0..255, end of block 256, lengths 257..285, two unused */
     DEFLATE_DISTANCES = 30,

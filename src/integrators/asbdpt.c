@@ -13,8 +13,8 @@
 enum { MIN_GUIDED_CELLS = 4 }; /* with fewer there is nothing to choose among */
 
 /* vertices: what the one sample of s = 1 counts for in the weights (mis.h); its point on the light comes from a
- * low-discrepancy sequence. Measured: from 1 to 2 the squared error of the Cornell box falls by a fifth, that of the other
- * scenes stays or, where light comes through windows, rises by 1 to 3 %. */
+ * low-discrepancy sequence. Measured: from 1 to 2 the squared error of the Cornell box falls by a fifth, that of the
+ * other scenes stays or, where light comes through windows, rises by 1 to 3 %. */
 static const double DIRECT_CREDIT = 2;
 
 static const struct parameter PARAMETERS[] = {
@@ -66,7 +66,8 @@ static double position_count(const void *context, vec3 p, vec3 ng)
     return (1 - sel->delta) * importance_at(&sel->grid, p, ng) / sel->grid.mean + sel->delta;
 }
 
-/* As many draws as are needed, on average, to meet one light vertex that the camera can make use of; between 2, below
+/* As many draws as are needed, on average, to meet one light vertex that the camera can make use of (no paper's, but
+ * [Kish 1965] for `useful`); between 2, below
  * which tracing the sub-paths costs more than connecting them, and 8, where shadow rays begin to dominate. */
 static int choose_connections(const struct importance *grid)
 {
@@ -142,8 +143,8 @@ static void free_own(const void *state, void *own)
     ((const struct selection *)state)->selector->free_own(own);
 }
 
-/* The dissertation has no roulette, and its selection reads the throughput at a sub-path's far end, which roulette would
- * level: there it is off unless asked for. */
+/* The dissertation has no roulette, and its selection reads the throughput at a sub-path's far end, which roulette
+ * would level: there it is off unless asked for. */
 static double rr_threshold(const struct settings *s)
 {
     return strcmp(settings_text(s, "select", ""), "bins") == 0 ? 0 : DEFAULT_RR_THRESHOLD;

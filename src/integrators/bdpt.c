@@ -1,5 +1,5 @@
 /* bdpt.c: see bdpt.h. One iteration of one pixel: an eye sub-path, a light sub-path, all their connections.
- * [V97 10.3] */
+ * [V97 10] */
 #include "integrators/bdpt.h"
 
 #include <stdlib.h>

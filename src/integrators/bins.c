@@ -1,20 +1,20 @@
-/* bins.c: `select = bins`: the dissertation's estimator, kept as it was written.           [S24 3, Algorithms 1 and 2]
+/* bins.c: `select = bins`: the dissertation's estimator, kept as it was written.              [S24 Algorithms 1 and 2]
  *
- * Every pixel owns `binpaths` light sub-paths, split into bins of two. In each iteration one bin is chosen and one of its
- * two elements taken with probability
+ * Every pixel owns `binpaths` light sub-paths, split into bins of two. In each iteration one bin is chosen and one of
+ * its two elements taken with probability
  *     p_e0 = beta_0^2 / (beta_0^2 + beta_1^2),                                                        [S24 eq. 3.1]
- * beta being the mean over RGB of the throughput at the sub-path's furthest vertex. It is connected with the pixel's eye
- * sub-path exactly as in BDPT, without any further weight, and replaced by a fresh one. Elements older than `maxage`
- * iterations are replaced unused; after `restart` iterations (a block, see asbdpt.c) all bins are discarded.
+ * beta being the mean over RGB of the throughput at the sub-path's furthest vertex. It is connected with the pixel's
+ * eye sub-path exactly as in BDPT, without any further weight, and replaced by a fresh one. Elements older than
+ * `maxage` iterations are replaced unused; after `restart` iterations (a block, see asbdpt.c) all bins are discarded.
  *
  * Where the text leaves a choice: Algorithm 2 prints the comparison of the random number with p_e0 the other way round;
  * the text's reading (take e0 if u < p_e0) is implemented. An empty sub-path has beta 0; two zeros give 1/2. Bins are
  * visited in the order of the van der Corput sequence, started at a random point per pixel and block.
  *
- * This estimator is BIASED. A sub-path that is traced and used counts once, whatever its chance of being used was. Those
- * that age, are discarded at a restart, or are left over at the end are mostly the ones with low beta, so the sub-paths
- * used are not distributed like the sub-paths traced: where high beta means "escaped after one bounce", the image
- * darkens. doc/selection.md measures it; select = pool is the smallest repair.
+ * This estimator is BIASED. A sub-path that is traced and used counts once, whatever its chance of being used was.
+ * Those that age, are discarded at a restart, or are left over at the end are mostly the ones with low beta, so the
+ * sub-paths used are not distributed like the sub-paths traced: where high beta means "escaped after one bounce", the
+ * image darkens. doc/selection.md measures it; select = pool is the smallest repair.
  *
  * Used by: asbdpt. Tests: test_asbdpt.c (must be rejected by the test that accepts BDPT).
  */
@@ -65,8 +65,9 @@ struct pixel {
     int x, y;
 };
 
-/* Put a fresh sub-path into element e. Streams are numbered by block and, within it, by the order of tracing: an iteration
- * traces at most binpaths + 1 <= 2^13 sub-paths, so a block that begins at iteration i stays below the names of the next. */
+/* Put a fresh sub-path into element e. Streams are numbered by block and, within it, by the order of tracing: an
+ * iteration traces at most binpaths + 1 <= 2^13 sub-paths, so a block that begins at iteration i stays below the names
+ * of the next. */
 static void replace(struct pixel *p, struct element *e, long iteration)
 {
     uint64_t number = ((uint64_t)p->pass->first << 32) + p->bins->traced++;
@@ -83,7 +84,7 @@ static void replace_aged(struct pixel *p, long iteration)
             replace(p, &p->bins->element[i], iteration);
 }
 
-/* Van der Corput's sequence: the bits of i mirrored about the binary point. */
+/* Van der Corput's sequence: the bits of i mirrored about the binary point. [Corput 1935] */
 static double van_der_corput(uint64_t i)
 {
     double value = 0, digit = 0.5;
@@ -93,7 +94,7 @@ static double van_der_corput(uint64_t i)
     return value;
 }
 
-/* Algorithm 2, lines "choose a bin" and "choose an element". */
+/* Choose a bin, then an element of it. [S24 Algorithm 2] */
 static struct element *choose(struct pixel *p, double shift, uint64_t step, double u)
 {
     double position = van_der_corput(step) + shift;

@@ -1,9 +1,10 @@
 /* pool.c: `select = pool`: the smallest unbiased repair of the dissertation's estimator.
  *
  * The K light sub-paths of a tile and iteration (as many as BDPT would trace) get importances I_k and probabilities
- *     q_k = (1 - delta) I_k / sum I + delta / K.
- * Vose's alias table over q has K bins of at most two sub-paths, the dissertation's bins. Every bin is visited by
- * exactly one pixel, in random order; a threshold picks one of its two, which is connected as in BDPT with
+ *     q_k = (1 - delta) I_k / sum I + delta / K,                                               [Hesterberg 1995]
+ * a defensive mixture: nothing that can contribute is out of reach.
+ * Vose's alias table [Vose 1991] over q has K bins of at most two sub-paths, the dissertation's bins. Every bin is
+ * visited by exactly one pixel, in random order; a threshold picks one of its two, which is connected as in BDPT with
  *     W = 1 / (K q_k)
  * on the strategies s >= 2, t >= 2. Over the draw, given the pool, a pixel's expectation is the pool's mean,
  * sum_k q_k F(k) / (K q_k): unbiased for any I that does not look at the eye sub-path. Sub-paths are splat (t = 1)
@@ -63,7 +64,7 @@ static void build_table(struct pool *p, const struct selection *sel)
     alias_build(&p->table, p->q, K);
 }
 
-/* A random permutation: Fisher and Yates. */
+/* A random permutation: Fisher and Yates, from the inside out. [Durstenfeld 1964] */
 static void shuffle(struct pool *p, struct sampler *sampler)
 {
     for (int i = 0; i < p->paths.n; i++) {

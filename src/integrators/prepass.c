@@ -1,5 +1,5 @@
-/* prepass.c: see prepass.h. The sub-paths are cut into chunks; each chunk lists what it found, and the lists are taken in
- * in order (parallel.h), so sums and cell numbers are the same for any number of threads. */
+/* prepass.c: see prepass.h. The sub-paths are cut into chunks; each chunk lists what it found, and the lists are taken
+ * in in order (parallel.h), so sums and cell numbers are the same for any number of threads. */
 #include "integrators/prepass.h"
 
 #include <stdlib.h>
@@ -158,8 +158,8 @@ static void run_chunks(struct prepass *p, void (*work)(void *, int64_t, int, int
     free(p->chunk);
 }
 
-/* Each round looks for light with what the rounds before have learnt; the guide is rebuilt between rounds only, while no
- * thread reads it. */
+/* Each round looks for light with what the rounds before have learnt; the guide is rebuilt between rounds only, while
+ * no thread reads it. */
 static void learn_in_rounds(struct prepass *p, long n_eye, struct guide *guide)
 {
     for (int round = 0; round < ROUNDS; round++) {

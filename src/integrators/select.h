@@ -1,6 +1,6 @@
 /* select.h: the ways in which ASBDPT chooses the light sub-path of an eye sub-path.
  *
- *   bins      the dissertation: bins of two sub-paths per pixel, one used and replaced     [S24 3, Algorithms 1 and 2]
+ *   bins      the dissertation: bins of two sub-paths per pixel, one used and replaced     [S24 Algorithms 1 and 2]
  *   pool      one alias table over the sub-paths of a tile, one bin per pixel, weighted: unbiased
  *   vertices  one alias table over the light *vertices* of a tile, C draws per eye vertex, known to the MIS weights
  *
@@ -63,7 +63,7 @@ struct light_pool {
 /* light_pool_free: release what the pool owns. A pool starts as zeros. */
 void light_pool_free(struct light_pool *pool);
 
-/* light_pool_fill: trace the sub-paths of the tile's pixels number 0, path_pixels, 2 path_pixels... for one iteration. */
+/* light_pool_fill: trace the sub-paths of the tile's pixels 0, path_pixels, 2 path_pixels... for one iteration. */
 void light_pool_fill(struct light_pool *pool, const struct tile_pass *pass, const struct mis_counts *counts,
                      int path_pixels, long iteration);
 

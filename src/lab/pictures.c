@@ -102,7 +102,7 @@ static void to_display(const float *pixels, size_t n, float *out)
         out[i] = (float)(srgb_byte((double)pixels[i]) / 255.0);
 }
 
-/* Heat maps of all variants as one tall picture, so that they share their maximum. [N_COMPARED * values]; to be
+/* Heat maps of all variants as one tall picture, so that they share their maximum. [N_COMPARED][values]; to be
  * freed. */
 static float *make_heatmaps(const struct scene_results *s)
 {

@@ -1,7 +1,8 @@
 /* plan.h: what an experiment consists of: scenes x variants x seeds, each rendered to a rising number of samples.
  *
  * A variant is an integrator with its parameters, without Russian roulette. The first four are compared everywhere;
- * the others move one parameter of `bins` at a time, as the dissertation's appendix A does.     [S24 4, appendix A]
+ * the others move one parameter of `bins` at a time, as the dissertation's appendix A does.     [S24 4]
+ * [S24 appendix A]
  *
  * Tests: test_report.c.
  */

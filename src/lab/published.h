@@ -1,5 +1,4 @@
-/* published.h: the root mean square errors that the dissertation printed, to be laid beside ours.     [S24 chapter
- * 4]
+/* published.h: the root mean square errors that the dissertation printed, to be laid beside ours.             [S24 4]
  *
  * Tests: test_report.c.
  */

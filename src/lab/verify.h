@@ -2,7 +2,7 @@
  *
  * Each side is a set of independent batches (renders with seeds of their own), or one picture with its standard errors.
  * Pixels are averaged over square tiles, and Welch's test is made for every tile and channel. Were the expectations
- * equal, the p-values would be uniform on [0,1] [Jung, Hanika, Dachsbacher 2020]. Three numbers are drawn from them:
+ * equal, the p-values would be uniform on [0,1] [Jung 2020]. Three numbers are drawn from them:
  *
  *     smallest    the smallest p-value, corrected for their number by Sidak's formula: one wrong spot
  *     mean        Welch's test of the mean of the whole picture: a faint error everywhere

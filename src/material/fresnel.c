@@ -1,4 +1,4 @@
-/* fresnel.c: see fresnel.h. The equations are in every optics book [Born & Wolf 1.5]; the conductor's are in the
+/* fresnel.c: see fresnel.h. The equations are in every optics book [Born & Wolf 1999 1.5]; the conductor's are in the
  * form that avoids complex numbers [Lagarde 2013]. */
 #include "material/fresnel.h"
 

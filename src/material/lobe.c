@@ -72,7 +72,7 @@ static rgb facet_fresnel(const struct lobe *l, double cos_h)
 }
 
 /* f = R F D G / (4 cos_o cos_i). The density of wh given wo is D |wo.wh| / ((1 + lambda_o) |cos_o|), and
- * reflection spreads d(wi) = 4 |wo.wh| d(wh), so that |wo.wh| drops out of both pdfs. [PBRT3 8.4.4, 14.1.1] */
+ * reflection spreads d(wi) = 4 |wo.wh| d(wh), so that |wo.wh| drops out of both pdfs. [PBRT3 8.4.4] [PBRT3 14.1.1] */
 static struct bsdf_value microfacet_reflection(const struct lobe *l, vec3 wo, vec3 wi, bool reflect)
 {
     if (!(wo.z * wi.z > 0))
@@ -102,8 +102,8 @@ static bool sample_microfacet_reflection(const struct lobe *l, vec3 wo, double u
 /* --- rough transmission ------------------------------------------------------------------------------ */
 
 /* The facet normal half way between the two directions is wh ~ wo + eta wi with eta = eta_i/eta_o
- * [Walter 2007 (16)]. With n = wo.wh + eta wi.wh the density of wi is eta^2 |wi.wh| / n^2 times that of wh (17).
- * Written with
+ * [Walter 2007 eq. 16]. With n = wo.wh + eta wi.wh the density of wi is eta^2 |wi.wh| / n^2 times that of wh
+ * [Walter 2007 eq. 17]. Written with
  *     J = D |wo.wh| |wi.wh| / n^2
  * all three numbers become short, and the symmetry shows: reversing the pair replaces eta by 1/eta, n by n/eta.
  *     pdf     = eta^2 J / ((1 + lambda_o) |cos_o|)
@@ -145,7 +145,7 @@ static bool sample_microfacet_transmission(const struct lobe *l, vec3 wo, double
 
 /* --- substrate --------------------------------------------------------------------------------------- */
 
-/* A diffuse base under a glossy coat, by Schlick's form of Fresnel's share. [Ashikhmin & Shirley 2000; PBRT3 8.5] */
+/* A diffuse base under a glossy coat, by Schlick's form of Fresnel's share. [Ashikhmin & Shirley 2000] [PBRT3 8.5] */
 static double pow5(double x) { return sqr(sqr(x)) * x; }
 
 static rgb fresnel_blend(const struct lobe *l, vec3 wo, vec3 wi, vec3 wh)

@@ -14,12 +14,12 @@
  * The integral of D(wh) |cos(wh)| over a hemisphere is 1. */
 double microfacet_d(vec3 wh, double alpha_x, double alpha_y);
 
-/* microfacet_lambda: area of the facets hidden from w per area of visible ones [Smith 1967, Heitz 2014].
+/* microfacet_lambda: area of the facets hidden from w per area of visible ones [Smith 1967] [Heitz 2014].
  * Seen from w a share 1/(1 + lambda(w)) is visible; from wo and wi together 1/(1 + lambda(wo) + lambda(wi)). */
 double microfacet_lambda(vec3 w, double alpha_x, double alpha_y);
 
 /* microfacet_sample: the normal, on wo's side, of a facet drawn from those that wo sees, by the area it sees of
- * them [Heitz 2018, in the form of Dupuy & Benyoub 2023]. wo.z != 0, (u1,u2) uniform in [0,1)^2.
+ * them [Heitz 2018], in the form of [Dupuy & Benyoub 2023]. wo.z != 0, (u1,u2) uniform in [0,1)^2.
  * microfacet_sample_pdf: its density, 1/sr, for a wh on wo's side with dot(wo,wh) > 0. */
 vec3 microfacet_sample(vec3 wo, double alpha_x, double alpha_y, double u1, double u2);
 double microfacet_sample_pdf(vec3 wo, vec3 wh, double alpha_x, double alpha_y);

@@ -1,4 +1,4 @@
-/* parse_light.c: light sources, with pbrt-v3's parameters and defaults [PBRT3 lights/]. See parse.h. */
+/* parse_light.c: light sources, with pbrt-v3's parameters and defaults [pbrt-v3 lights/]. See parse.h. */
 #include "parser/parse.h"
 
 #include <stddef.h>

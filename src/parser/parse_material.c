@@ -1,4 +1,4 @@
-/* parse_material.c: the parameters of each material, with pbrt-v3's defaults [PBRT3 materials/]. See parse.h. */
+/* parse_material.c: the parameters of each material, with pbrt-v3's defaults [pbrt-v3 materials/]. See parse.h. */
 #include "parser/parse.h"
 
 #include <stddef.h>

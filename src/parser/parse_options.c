@@ -1,5 +1,5 @@
 /* parse_options.c: what stands before WorldBegin: camera, film, filter, sampler, integrator. Defaults are pbrt-v3's
- * [PBRT3 perspective.cpp, film.cpp, filters/]. See parse.h. */
+ * [pbrt-v3 cameras/, core/film.cpp, filters/]. See parse.h. */
 #include "parser/parse.h"
 
 #include <stddef.h>

@@ -1,4 +1,4 @@
-/* parse_shape.c: shapes, with pbrt-v3's parameters and defaults [PBRT3 shapes/], the area lights on them, and their
+/* parse_shape.c: shapes, with pbrt-v3's parameters and defaults [pbrt-v3 shapes/], the area lights on them, and their
  * copies in object instances. See parse.h. */
 #include "parser/parse.h"
 

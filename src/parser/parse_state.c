@@ -1,5 +1,5 @@
 /* parse_state.c: arguments of directives, and the directives that change the graphics state: transforms, blocks and
- * object instances [PBRT3 api.cpp]. See parse.h. */
+ * object instances [pbrt-v3 core/api.cpp]. See parse.h. */
 #include "parser/parse.h"
 
 #include <string.h>

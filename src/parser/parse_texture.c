@@ -1,4 +1,4 @@
-/* parse_texture.c: named textures. Defaults are pbrt-v3's [PBRT3 textures/, paramset.cpp]. See parse.h. */
+/* parse_texture.c: named textures. Defaults are pbrt-v3's [pbrt-v3 textures/, core/paramset.cpp]. See parse.h. */
 #include "parser/parse.h"
 
 #include <stddef.h>

@@ -16,7 +16,7 @@
 /* --- the nearest known name --------------------------------------------------------------------------- */
 
 /* The best candidate so far, by the fewest insertions, deletions, substitutions and swaps of neighbours, each counted
- * once and letter case ignored [Damerau 1964, "optimal string alignment"]. Start with suggest_start, offer every known
+ * once and letter case ignored ("optimal string alignment") [Damerau 1964]. Start with suggest_start, offer every known
  * name, then read `name`. */
 struct suggestion {
     const char *wanted; /* what the user wrote */

@@ -2,8 +2,8 @@
  *
  * Raster coordinates: (0,0) is the upper left corner of the film, pixel (i,j) covers [i,i+1) x [j,j+1).
  * Importance convention: a pixel's value is the integral over the raster of h(p) L(p) (filter.h), so the density of
- * eye rays is 1 per unit of raster area, that is J(w) per steradian; We = h J / (lens area cos) [V97 8.3.2 in
- * raster units]. Nothing here depends on crop or on the number of samples.
+ * eye rays is 1 per unit of raster area, that is J(w) per steradian; We = h J / (lens area cos) [PBRT3 16.1.1]. Nothing
+ * here depends on crop or on the number of samples.
  *
  * Tests: test_camera.c.
  */

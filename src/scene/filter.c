@@ -6,7 +6,7 @@
 
 #include "base/vec.h"
 
-/* [Mitchell & Netravali 1988; PBRT3 7.8.1] */
+/* [Mitchell & Netravali 1988] [PBRT3 7.8.1] */
 static double mitchell(double x, double B, double C)
 {
     x = fabs(2 * x);

@@ -27,7 +27,7 @@ void light_set_free(struct light_set *set)
 
 /* --- power and choice -------------------------------------------------------------------------------- */
 
-/* Smooth step from 1 inside the inner cone to 0 outside the outer one. [PBRT3 12.2.1] */
+/* Smooth step from 1 inside the inner cone to 0 outside the outer one. [PBRT3 12.3.1] */
 static double spot_falloff(const struct light *l, vec3 w)
 {
     double c = dot(l->axis.n, w);

@@ -5,8 +5,8 @@
  *   s >= 2, t >= 2  two surface vertices joined                                connect_pair
  *   s >= 2, t = 1   joined to a fresh point on the lens                        connect_lens
  *
- * A connection's value is the unweighted contribution C* of [V97 10.1.2]: throughputs, both BSDFs, geometry factor
- * and visibility, for *one* sample of its strategy; the weight is its share in the heuristic (mis.h).
+ * A connection's value is the unweighted contribution C* of [V97 10.2]: throughputs, both BSDFs, geometry factor
+ * and visibility, for *one* sample of its strategy [PBRT3 16.3.3]; the weight is its share in the heuristic (mis.h).
  *
  * Used by: gather. Tests: test_mis.c.
  */
@@ -23,8 +23,8 @@ struct connection {
     double px, py;  /* connect_lens: the raster point it arrives at */
 };
 
-/* connect_hit: z = &eye[t-1], the last of t >= 2 vertices of an array that holds the others before it. A light seen directly (t = 2) has weight 1: no other
- * strategy is used for paths of two vertices. */
+/* connect_hit: z = &eye[t-1], the last of t >= 2 vertices of an array that holds the others before it. A light seen
+ * directly (t = 2) has weight 1: no other strategy is used for paths of two vertices. */
 struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
                               int t);
 

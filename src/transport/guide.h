@@ -6,7 +6,8 @@
  * Each region then has an alias table over all light cells,
  *     q(c) = delta e(c) + (1 - delta) (N t(c) + K t_all(c)) / (N + K),
  * e being the choice by power, t the region's shares after N contributions, t_all those of the whole scene (a region
- * seldom visited relies on it).
+ * seldom visited relies on it). The first term, a defensive mixture [Hesterberg 1995], keeps every light within reach;
+ * how N and K share the second is ours.
  *
  * Frozen after the pre-pass, so any choice is unbiased; MIS needs the ratio of the two choices, guide_ratio, as the
  * count of strategy s = 1 (mis.h): its samples are that many times denser than those of emission.

@@ -5,10 +5,11 @@
  * the number of samples it takes, the balance heuristic weighs it with w_s = p_s / sum_i p_i           [V97 9.2.2]
  *
  * Ratios. p_i and p_{i+1} differ in one vertex: x_i is sampled from the eye in p_i and from the light in p_{i+1}. So
- *     p_i / p_s = (n_i / n_s) prod_{j=i}^{s-1} R_j / F_j        for i < s,                             [V97 10.2.1]
+ *     p_i / p_s = (n_i / n_s) prod_{j=i}^{s-1} R_j / F_j        for i < s,                           [V97 eq. 10.9]
  * where F_j is the density of x_j in its own (light) walk, R_j the density the other (eye) walk would have, both per
  * area, and n_i the number of samples of strategy i (0 if it cannot make the path, because it would have to connect
- * at a delta vertex). The eye side, i > s, is the same with the roles exchanged. The sum over one side obeys
+ * at a delta vertex [V97 10.3.5]). The eye side, i > s, is the same with the roles exchanged. The sum over one side
+ * obeys
  *     A_e = R_e/F_e (c_e + A_{e-1}),   A_{-1} = 0,
  * c_e being the n of the strategy whose sub-path of this side ends just *before* vertex e.
  *
@@ -25,7 +26,14 @@
  * Every method is described by its sample counts n; see struct mis_counts. The counts may vary from path to path as
  * long as every strategy computes the same number for the same path.
  *
- * The power heuristic with exponent 2 squares every factor.                                           [V97 9.2.2]
+ * For readers of VCM [Georgiev 2012] and of its program SmallVCM: at vertex e, on either side, its quantities are ours
+ * divided by F_e,
+ *     dVCM = c_e / F_e,   dVC = mis_e / F_e,   so that A_e = R_e (dVCM + pdf_rev dVC);
+ * where c_e is 1 (s, t >= 2), dVCM is 1/F_e. Like ours, its dVCM starts at e = 1 with the count of light sub-paths (eye
+ * side) or the ratio of the two densities of y_0 (light side, guide_ratio) and is 0 after a delta lobe. dVM, for the
+ * merging of vertices, has no counterpart here.
+ *
+ * The power heuristic with exponent 2 squares every factor.                                           [V97 9.2.3]
  *
  * Used by: path (recursion), connect (weights). Tests: test_mis.c compares with all p_i computed one by one.
  */
@@ -37,10 +45,10 @@
 #include "transport/guide.h"
 #include "base/vec.h"
 
-/* How many samples each kind of strategy takes per pixel and iteration; 0: the method does not use it. A method may count
- * a strategy for more than it takes: the weights still add up to 1. The balance heuristic goes by second moments, so a
- * strategy whose samples are better spread than independent ones, and whose variance is therefore smaller, deserves
- * it [Grittmann et al. 2019]. */
+/* How many samples each kind of strategy takes per pixel and iteration; 0: the method does not use it. A method may
+ * count a strategy for more than it takes: the weights still add up to 1. The balance heuristic goes by second moments,
+ * so a strategy whose samples are better spread than independent ones, and whose variance is therefore smaller,
+ * deserves it [Grittmann 2019]. */
 struct mis_counts {
     double hit;     /* s = 0, t >= 3: the eye walk finds a light. (t = 2, a light seen directly, has weight 1) */
     double direct;  /* s = 1, t >= 2: connection to one fresh point on a light; times guide_ratio with a guide */

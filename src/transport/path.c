@@ -47,7 +47,8 @@ struct departure {
     bool delta;
 };
 
-/* Density per area of the vertex at distance^2 d2, and the mis recursion; `prev` is where the walk came from. */
+/* Density per area of the vertex at distance^2 d2 [PBRT3 5.5.3], and the mis recursion; `prev` is where the walk came
+ * from. */
 static void measure(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
                     double d2)
 {
@@ -59,7 +60,7 @@ static void measure(const struct walk *w, struct vertex *v, const struct vertex 
 }
 
 /* The ray met nothing: if there are infinite lights, the eye sub-path ends on them. Density of the direction, and, to
- * go on from there, parallel light through the scene's disk. */
+ * go on from there, parallel light through the scene's disk. [PBRT3 16.3.5] */
 static bool escape(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from)
 {
     if (!w->scene->lights.any_infinite)
@@ -111,7 +112,8 @@ static bool survives(const struct walk *w, double kept, rgb *beta)
     return sampler_next(w->sampler) < q;
 }
 
-/* Leave the surface vertex by sampling its BSDF. False if the walk is absorbed. */
+/* Leave the surface vertex by sampling its BSDF: beta takes up f cos / pdf [V97 10.2]. False if the walk is absorbed.
+ * */
 static bool depart(const struct walk *w, const struct vertex *v, enum transport mode, struct departure *out)
 {
     double u[3];
@@ -165,7 +167,8 @@ int path_eye(const struct walk *w, double px, double py, struct vertex *path, in
     path[0].p = from.ray.o;
     path[0].beta = rgb_grey(1);
     path[0].pdf_fwd = 1; /* never enters a weight: no strategy samples the lens from the light */
-    /* Eye rays have density 1 per raster area, J per steradian; We J^-1 = 1, so beta stays 1 (camera.h). */
+    /* Eye rays have density 1 per raster area, J per steradian; We J^-1 = 1, so beta stays 1 (camera.h).
+     * [PBRT3 16.1.1] */
     double x, y;
     from.pdf = camera_project(camera, from.ray.o, from.ray.d, &x, &y);
     return random_walk(w, from, path, max_vertices, RADIANCE);
@@ -192,7 +195,8 @@ void vertex_light_end(const struct scene *scene, const struct mis_counts *counts
     out->triangle_id = at->triangle_id;
     out->wo = at->w;
     out->beta = rgb_grey(1 / at->pdf);
-    /* An escaping eye ray cannot tell infinite lights apart, so their densities are added up for the weight. */
+    /* An escaping eye ray cannot tell infinite lights apart, so their densities are added up for the weight.
+     * [PBRT3 16.3.5] */
     out->pdf_fwd = scene->lights.several_infinite && l->kind == LIGHT_INFINITE
                        ? light_pdf_environment(&scene->lights, &scene->lights.choice, at->w)
                        : at->pdf;
@@ -215,7 +219,7 @@ int path_light(const struct walk *w, struct vertex *path, int max_vertices)
     if (!(from.pdf > 0) || rgb_is_black(emitted))
         return 0;
     path[0].beta = light_Le(lights, &at, from.ray.d); /* not a throughput: nothing connects to this y_0 */
-    from.beta = rgb_scale(emitted, 1 / (at.pdf * from.pdf));
+    from.beta = rgb_scale(emitted, 1 / (at.pdf * from.pdf)); /* alpha_2 of [V97 eq. 10.6] */
     from.ray.tmin = w->scene->epsilon;
     return random_walk(w, from, path, max_vertices, IMPORTANCE);
 }

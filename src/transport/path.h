@@ -5,13 +5,15 @@
  * Vertices are read-only once walked, so any number of connections may share them.
  *
  * The throughput beta of a vertex is the product of the factors of the measurement up to the *arrival* at the vertex,
- * divided by the density of having sampled it [V97 10.1, alpha]; the vertex' own BSDF is not in it.
+ * divided by the density of having sampled it, alpha of [V97 eq. 10.6] [V97 eq. 10.7]; the vertex' own BSDF is not in
+ * it.
  *
- * From their second bounce on, walks end early by Russian roulette where little throughput is left: a walk that has kept
- * the fraction r of its first throughput survives with probability sqrt(r / rr_threshold), and its throughput is divided
- * by that. The probability depends on all of the walk, so no other strategy could know it for the same path, and MIS
- * leaves it out: any weights that add up to 1 are unbiased, and these are close to the best as long as roulette is mild.
- * The square root is milder than the usual probability r / rr_threshold: a weak sub-path still meets many others.
+ * From their second bounce on, walks end early by Russian roulette where little throughput is left: a walk that has
+ * kept the fraction r of its first throughput survives with probability sqrt(r / rr_threshold), and its throughput is
+ * divided by that [Arvo & Kirk 1990]. The probability depends on all of the walk, so no other strategy could know it
+ * for the same path, and MIS leaves it out: any weights that add up to 1 are unbiased, and these are close to the best
+ * as long as roulette is mild. The square root is milder than the usual probability r / rr_threshold: a weak sub-path
+ * still meets many others.
  *
  * Used by: connect, the methods. Tests: test_mis.c, test_render.c.
  */
@@ -92,7 +94,7 @@ static inline bool vertex_connectible(const struct vertex *v)
 
 /* scatter_cosine: the factor that turns a BSDF's f into throughput for leaving v in direction wi. Walking from the eye
  * it is |cos(wi, ns)|; from a light the adjoint BSDF of shading normals makes it
- * |cos(wo, ns)| |cos(wi, ng)| / |cos(wo, ng)|                                                        [V97 5.3.2] */
+ * |cos(wo, ns)| |cos(wi, ng)| / |cos(wo, ng)|                                                          [V97 5.3] */
 double scatter_cosine(const struct vertex *v, vec3 wi, enum transport mode);
 
 #endif

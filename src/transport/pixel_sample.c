@@ -8,7 +8,8 @@ static uint64_t pixel_number(const struct scene *scene, int x, int y)
     return (uint64_t)y * (uint64_t)scene->width + (uint64_t)x;
 }
 
-struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struct mis_counts *counts, int x, int y, long iteration)
+struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struct mis_counts *counts, int x, int y,
+                                       long iteration)
 {
     const struct render_job *job = pass->job;
     struct sampler points = sampler_start(job->seed, RNG_CONNECT, pixel_number(job->scene, x, y), (uint64_t)iteration);
@@ -16,7 +17,8 @@ struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struc
     return g;
 }
 
-int pixel_eye_path(const struct tile_pass *pass, struct pixel_sample *g, long iteration, struct vertex *path, int max_vertices)
+int pixel_eye_path(const struct tile_pass *pass, struct pixel_sample *g, long iteration, struct vertex *path,
+                   int max_vertices)
 {
     uint64_t pixel = pixel_number(g->scene, g->x, g->y);
     struct sampler sampler = sampler_start(pass->job->seed, RNG_EYE, pixel, (uint64_t)iteration);
@@ -75,8 +77,8 @@ rgb pixel_sum_pair(struct pixel_sample *g, const struct vertex *y, int s, const 
     return take(g, connect_pair(g->scene, g->counts, y, z), s, t, scale);
 }
 
-rgb pixel_sum_pairs(struct pixel_sample *g, const struct vertex *eye, int n_eye, const struct vertex *light, int n_light,
-                 double scale)
+rgb pixel_sum_pairs(struct pixel_sample *g, const struct vertex *eye, int n_eye, const struct vertex *light,
+                    int n_light, double scale)
 {
     rgb sum = rgb_black();
     for (int t = 2; t <= n_eye; t++)

@@ -1,9 +1,10 @@
-/* pixel_sample.h: what one pixel sample (one pixel, one iteration) consists of: an eye sub-path, light sub-paths, and sums of
- * connections over the strategies that a whole sub-path, or a pair of them, can take part in.
+/* pixel_sample.h: what one pixel sample (one pixel, one iteration) consists of: an eye sub-path, light sub-paths, and
+ * sums of connections, weight times C* [V97 10.2], over the strategies that a whole sub-path, or a pair of them, can
+ * take part in.
  *
  * An integrator is a choice of which of these sums to take, with which light sub-path, and of the counts of mis.h.
- * Random streams belong to (seed, purpose, pixel, iteration), so a sub-path does not depend on which integrator, tile or
- * thread asks for it.
+ * Random streams belong to (seed, purpose, pixel, iteration), so a sub-path does not depend on which integrator,
+ * tile or thread asks for it.
  */
 #ifndef ASBDPT_TRANSPORT_PIXEL_SAMPLE_H
 #define ASBDPT_TRANSPORT_PIXEL_SAMPLE_H
@@ -25,16 +26,18 @@ struct pixel_sample {
 /* --- sub-paths --------------------------------------------------------------------------------------- */
 
 /* pixel_sample_begin: what pixel_sample.h needs for pixel (x,y): counts, tile, a fresh stream for end points. */
-struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struct mis_counts *counts, int x, int y, long iteration);
+struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struct mis_counts *counts, int x, int y,
+                                       long iteration);
 
 /* pixel_eye_path: the eye sub-path of g's pixel into path [max_vertices]; sets g->filter_weight. Returns its length. */
-int pixel_eye_path(const struct tile_pass *pass, struct pixel_sample *g, long iteration, struct vertex *path, int max_vertices);
+int pixel_eye_path(const struct tile_pass *pass, struct pixel_sample *g, long iteration, struct vertex *path,
+                   int max_vertices);
 
 /* pixel_sampler: the stream of a pixel and iteration for a purpose of the method's own. */
 struct sampler pixel_sampler(const struct tile_pass *pass, enum rng_purpose purpose, int x, int y, long iteration);
 
-/* pixel_light_path: the light sub-path that belongs to pixel (x,y) and `number` into path [max_depth + 1]; its lobes go to
- * `arena`. Returns its length. */
+/* pixel_light_path: the light sub-path that belongs to pixel (x,y) and `number` into path [max_depth + 1]; its lobes go
+ * to `arena`. Returns its length. */
 int pixel_light_path(const struct tile_pass *pass, const struct mis_counts *counts, int x, int y,
                 uint64_t number, struct arena *arena, struct vertex *path);
 
@@ -47,8 +50,8 @@ double pixel_light_count(const struct render_job *job);
  * times filter_weight. */
 rgb pixel_sum_eye(struct pixel_sample *g, const struct vertex *eye, int n);
 
-/* pixel_sum_pair: one strategy s >= 2, t >= 2, joining the light vertex y = y_{s-1} to the eye vertex z = z_{t-1}; times
- * `scale` and filter_weight. */
+/* pixel_sum_pair: one strategy s >= 2, t >= 2, joining the light vertex y = y_{s-1} to the eye vertex z = z_{t-1};
+ * times `scale` and filter_weight. */
 rgb pixel_sum_pair(struct pixel_sample *g, const struct vertex *y, int s, const struct vertex *z, int t, double scale);
 
 /* pixel_sum_pairs: s >= 2, t >= 2 for every pair of vertices of the two sub-paths, each multiplied by `scale`
