@@ -1,6 +1,7 @@
 #!/bin/sh
-# builds.sh: README's one-line build gives the pictures of `make`, byte for byte, by whichever compilers and for whichever
-# processors are at hand: with fused multiply-add, which compilers like to contract a * b + c to, and with a 32-bit long.
+# builds.sh: README's one-line build gives the pictures of `make`, byte for byte, by whichever compilers and for
+# whichever processors are at hand: with fused multiply-add, which compilers like to contract a * b + c to, and with a
+# 32-bit long.
 # Run from the top: [COMPILERS="gcc clang"] sh test/builds.sh ./asbdpt
 program=$1
 dir=$(mktemp -d) || exit 1
@@ -12,8 +13,8 @@ failures=0
 # pictures PROGRAM NAME: a scene of many textures and shapes, and one block without an end.
 pictures() {
     "$1" render scenes/living-room.pbrt --res 32x24 --spp 2 --quiet -o "$dir/$2-room.pfm" &&
-        "$1" render scenes/cornell-box.pbrt --res 24x24 --spp 4 --quiet --integrator asbdpt -P select=bins -P restart=0 \
-            -o "$dir/$2-bins.pfm"
+        "$1" render scenes/cornell-box.pbrt --res 24x24 --spp 4 --quiet --integrator asbdpt \
+            -P select=bins -P restart=0 -o "$dir/$2-bins.pfm"
 }
 
 # try COMPILER FLAG...: passed over where the compiler cannot make such programs, or the machine not run them.

@@ -51,7 +51,8 @@ expect 2 'unknown option --sppp \(did you mean --spp\?\); try asbdpt render --he
 expect 2 'one argument too many' "$program" render "$box" "$box"
 expect 2 'expected an integer' "$program" render "$box" --spp 0
 expect 2 'WIDTHxHEIGHT' "$program" render "$box" --res 10
-expect 2 '60000 x 60000 pixels are too many \(at most 268435456\)' "$program" render "$box" --spp 1 --cropwindow 0 0.0001 0 0.0001 --res 60000x60000
+expect 2 '60000 x 60000 pixels are too many \(at most 268435456\)' \
+    "$program" render "$box" --spp 1 --cropwindow 0 0.0001 0 0.0001 --res 60000x60000
 for size in 4294967297x4 4x4294967300 18446744073709551617x4 10x0; do
     expect 2 '[-]-res .*: expected WIDTHxHEIGHT' "$program" render "$box" --res $size
     expect 2 '[-]-res .*: expected WIDTHxHEIGHT or WIDTH' "$program" experiment -o x --res $size
@@ -82,22 +83,26 @@ expect 1 'no integrator has a parameter "deltaa"' "$program" render "$box" $smal
 expect 1 'delta' "$program" render "$box" $small -P delta=7 --integrator asbdpt -o x.pfm
 expect 1 'binpaths 7 is odd' "$program" render "$box" $small -P select=bins -P binpaths=7 --integrator asbdpt -o x.pfm
 expect 1 'cannot' "$program" render "$box" $small -o no/such/dir/x.pfm
-expect 1 '^asbdpt: -P: select = "bin" is unknown: give "bins", "pool" or "vertices"' "$program" render "$box" $small -P select=bin --integrator asbdpt -o x.pfm
-expect 1 '^asbdpt: -P: heuristic = "max" is unknown: give "balance" or "power"' "$program" render "$box" $small -P heuristic=max -o x.pfm
+expect 1 '^asbdpt: -P: select = "bin" is unknown: give "bins", "pool" or "vertices"' \
+    "$program" render "$box" $small -P select=bin --integrator asbdpt -o x.pfm
+expect 1 '^asbdpt: -P: heuristic = "max" is unknown: give "balance" or "power"' \
+    "$program" render "$box" $small -P heuristic=max -o x.pfm
 
 # pbrt's lightsamplestrategy: its three names are taken by every integrator, a misspelling by none.
 for method in path bdpt asbdpt; do
     printf 'Integrator "%s" "string lightsamplestrategy" "spacial"\nWorldBegin\nWorldEnd\n' $method >strategy.pbrt
-    expect 1 '^asbdpt: strategy.pbrt:1:[0-9]+: lightsamplestrategy = "spacial" is unknown: give "spatial", "power" or "uniform"' \
+    expect 1 '^asbdpt: strategy.pbrt:1:[0-9]+: lightsamplestrategy = "spacial" is unknown: give "spatial", "power" or' \
         "$program" render strategy.pbrt $small -o x.pfm
     for strategy in spatial power uniform; do
         sed s/spacial/$strategy/ strategy.pbrt >known.pbrt
         expect 0 '' "$program" render known.pbrt $small -o x.pfm
     done
 done
-expect 0 '^asbdpt: warning: known.pbrt:1:[0-9]+: lights are not picked uniformly here; "power" is used' "$program" info known.pbrt
+expect 0 '^asbdpt: warning: known.pbrt:1:[0-9]+: lights are not picked uniformly here; "power" is used' \
+    "$program" info known.pbrt
 for strategy in spatial power uniform; do
-    expect 0 '' "$program" render "$scenes/living-room.pbrt" $small --integrator asbdpt -P lightsamplestrategy=$strategy -o $strategy.pfm
+    expect 0 '' "$program" render "$scenes/living-room.pbrt" $small --integrator asbdpt \
+        -P lightsamplestrategy=$strategy -o $strategy.pfm
 done
 check cmp -s power.pfm uniform.pfm
 check test -n "$(cmp power.pfm spatial.pfm 2>&1)"
@@ -120,7 +125,8 @@ printf 'Integrator "\033[31mx" "string maxdepth" "\033[31m"\nWorldBegin\nWorldEn
 expect 0 'integrator "[?]\[31mx" does not exist here' "$program" info escape.pbrt
 check test -z "$(cat stdout.txt stderr.txt | tr -d '\n -~')"
 # What overflows on the way is said, and no picture holds anything but numbers.
-printf 'Film "image" "float scale" 1e20\nWorldBegin LightSource "infinite" "rgb L" [ 1e30 1 1e30 ]\nWorldEnd\n' >bright.pbrt
+printf 'Film "image" "float scale" 1e20\nWorldBegin LightSource "infinite" "rgb L" [ 1e30 1 1e30 ]\nWorldEnd\n' \
+    >bright.pbrt
 expect 0 'warning: 512 pixel values were beyond' "$program" render bright.pbrt $small -o bright.pfm
 expect 0 '' "$program" compare bright.pfm bright.pfm --json
 check grep -q '"nonfinite": 0' stdout.txt
@@ -135,7 +141,8 @@ Translate 0 0 -6
 Shape "sphere"
 WorldEnd
 END
-expect 0 'warning: [0-9]+ contributions were not finite, or too large' "$program" render mirrors.pbrt $small -o mirrors.pfm
+expect 0 'warning: [0-9]+ contributions were not finite, or too large' \
+    "$program" render mirrors.pbrt $small -o mirrors.pfm
 expect 0 '' "$program" compare mirrors.pfm mirrors.pfm --json
 check grep -q '"nonfinite": 0' stdout.txt
 
@@ -169,8 +176,10 @@ check grep -q 'verdict: agree' stdout.txt
 expect 1 '' "$program" verify "$box" --methods bdpt --spp 4 --quiet --reference "$scenes/../ref/veach-ajar.pfm"
 check grep -q 'verdict: DIFFER' stdout.txt
 # A picture against itself is too alike to be independent.
-expect 1 '' "$program" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm"
-expect 1 'same size' "$program" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" a.pfm a.pfm
+expect 1 '' "$program" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" \
+    "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm"
+expect 1 'same size' "$program" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" \
+    a.pfm a.pfm
 expect 2 'usage: asbdpt verify' "$program" verify --images a.pfm
 expect 2 'no method nonsense' "$program" verify "$box" --methods nonsense
 

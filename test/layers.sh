@@ -24,8 +24,15 @@ awk -v pairs="$pairs" -v top="$src/" '
         sub(/^[^"]*"/, "", dep)
         sub(/\.h".*/, "", dep)
         other = dep
-        if (!sub(/\/.*/, "", other) || !(other in rank)) { print FILENAME ":" FNR ": " dep ".h is in no room"; bad = 1; next }
-        if (rank[other] > rank[room]) { print FILENAME ":" FNR ": " room " is below " other " and may not include " dep ".h"; bad = 1 }
+        if (!sub(/\/.*/, "", other) || !(other in rank)) {
+            print FILENAME ":" FNR ": " dep ".h is in no room"
+            bad = 1
+            next
+        }
+        if (rank[other] > rank[room]) {
+            print FILENAME ":" FNR ": " room " is below " other " and may not include " dep ".h"
+            bad = 1
+        }
         if (other == room && dep != me) print me, dep > pairs
     }
     END { exit bad }' "$src/LAYERS" $(find "$src" -name '*.[ch]' | sort) || exit 1

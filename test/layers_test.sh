@@ -1,6 +1,6 @@
 #!/bin/sh
-# layers_test.sh [CC...]: does layers.sh notice? Plants an include upwards, a circle, a homeless file and a header that needs
-# another one into copies of src.
+# layers_test.sh [CC...]: does layers.sh notice? Plants an include upwards, a circle, a homeless file and a header that
+# needs another one into copies of src.
 [ $# -gt 0 ] || set -- cc
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT

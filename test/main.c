@@ -30,10 +30,12 @@ static const struct entry ENTRIES[] = {
     {"shape", test_shape, false},     {"kdtree", test_kdtree, false}, {"texture", test_texture, false},
     {"lobe", test_lobe, false},       {"bsdf", test_bsdf, false},       {"material", test_material, false},
     {"light", test_light, false},   {"camera", test_camera, false},
-    {"film", test_film, false},       {"parser", test_parser, false}, {"sampler", test_sampler, false}, {"mis", test_mis, false},
+    {"film", test_film, false},       {"parser", test_parser, false}, {"sampler", test_sampler, false},
+    {"mis", test_mis, false},
     {"options", test_options, false}, {"render", test_render, false}, {"asbdpt", test_asbdpt, false},
     {"report", test_report, false},
-    {"threads", test_threads, false}, {"verify", test_verify, false}, {"strategies", test_strategies, false}, {"streams", test_streams, false},
+    {"threads", test_threads, false}, {"verify", test_verify, false},
+    {"strategies", test_strategies, false}, {"streams", test_streams, false},
     {"scenes", test_scenes, false},   {"reference", test_references, false},
     {"scenes-long", test_scenes_long, true}, {"reference-long", test_references_long, true},
 };
@@ -104,8 +106,8 @@ static void judge(struct test *t)
         if (ok)
             continue;
         t->failures[h->entry]++;
-        printf("  FAIL %s\n       p = %.3g, must be %s %.3g\n       repeat with: build/test --seed %llu %s\n", h->text, h->p,
-               h->must_hold ? ">=" : "<", level, (unsigned long long)t->seed, ENTRIES[h->entry].name);
+        printf("  FAIL %s\n       p = %.3g, must be %s %.3g\n       repeat with: build/test --seed %llu %s\n", h->text,
+               h->p, h->must_hold ? ">=" : "<", level, (unsigned long long)t->seed, ENTRIES[h->entry].name);
     }
     printf("%lu hypotheses at suite level %g: each at %.3g; smallest p of a true one %.3g\n", (unsigned long)t->n,
            SUITE_ALPHA, level, smallest);

@@ -75,8 +75,9 @@ static double light_density(const struct full_path *f, int j)
         return per_area(f, 0, 1, pdf);
     }
     const struct vertex *v = f->x[j - 1];
-    double pdf = f->delta[j - 1] ? delta_density(f, j - 2, j - 1, j, false)
-                                 : bsdf_eval(&v->bsdf, direction(f, j - 1, j - 2), direction(f, j - 1, j), IMPORTANCE).pdf;
+    double pdf = f->delta[j - 1]
+                     ? delta_density(f, j - 2, j - 1, j, false)
+                     : bsdf_eval(&v->bsdf, direction(f, j - 1, j - 2), direction(f, j - 1, j), IMPORTANCE).pdf;
     return per_area(f, j - 1, j, pdf);
 }
 
@@ -92,8 +93,9 @@ static double eye_density(const struct full_path *f, int j)
         return per_area(f, last, j, J);
     }
     const struct vertex *v = f->x[j + 1];
-    double pdf = f->delta[j + 1] ? delta_density(f, j, j + 1, j + 2, true) /* as the light walk passes it, reversed */
-                                 : bsdf_eval(&v->bsdf, direction(f, j + 1, j + 2), direction(f, j + 1, j), RADIANCE).pdf;
+    double pdf = f->delta[j + 1]
+                     ? delta_density(f, j, j + 1, j + 2, true) /* as the light walk passes it, reversed */
+                     : bsdf_eval(&v->bsdf, direction(f, j + 1, j + 2), direction(f, j + 1, j), RADIANCE).pdf;
     return per_area(f, j + 1, j, pdf);
 }
 

@@ -1,7 +1,7 @@
 #!/bin/sh
-# report_browser.sh: the experiment's report as a reader meets it, in a headless Chromium: every picture and plot is there,
-# the viewer's controls do what they say, tables sort, nothing is asked from the network, a phone's width needs no
-# sideways scrolling. Skipped with a line where no Chromium is installed.
+# report_browser.sh: the experiment's report as a reader meets it, in a headless Chromium: every picture and plot is
+# there, the viewer's controls do what they say, tables sort, nothing is asked from the network, a phone's width needs
+# no sideways scrolling. Skipped with a line where no Chromium is installed.
 # Run from the top: sh test/report_browser.sh REPORT.html [DIRECTORY for screenshots]
 report=$1
 shots=$2
@@ -80,7 +80,8 @@ window.addEventListener('load', () => setTimeout(() => {
       const img = document.querySelector(`img[data-scene="${v.dataset.scene}"]`), c = document.createElement('canvas');
       c.getContext('2d').drawImage(img, 0, 0);
       const rgb = [...c.getContext('2d').getImageData(0, 0, 1, 1).data].slice(0, 3);
-      check(new RegExp('reference +' + rgb.join(' +') + '\\n').test(out.textContent), name + 'the values of that pixel');
+      check(new RegExp('reference +' + rgb.join(' +') + '\\n').test(out.textContent),
+            name + 'the values of that pixel');
 
       mode('slider');
       check(visible(range) && !visible(views[1]), name + 'the slider has one picture and a handle');
@@ -105,7 +106,8 @@ window.addEventListener('load', () => setTimeout(() => {
     heads[1].click();
     check(rises(column(1).reverse()), 'a second click turns round: ' + column(1));
     check(all('th[aria-sort=descending]', scene).length === 1, 'the order is announced');
-    check(all('button, select, canvas, input, a').every(e => e.tabIndex >= 0), 'a control cannot be reached by keyboard');
+    check(all('button, select, canvas, input, a').every(e => e.tabIndex >= 0),
+          'a control cannot be reached by keyboard');
   } catch (e) { wrong.push(String(e)); }
   document.title = wrong.length ? 'WRONG: ' + wrong.join('; ').replace(/\s+/g, ' ') : 'ALL RIGHT';
 }, 300));

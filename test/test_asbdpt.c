@@ -128,7 +128,8 @@ static void test_every_scene(struct test *t)
 {
     static const char *const scenes[] = {"light-kinds", "mirror-glass", "thin-lens", "all-materials", "smooth-normals",
                                          "negative-scale", "alpha", "instances"};
-    static const char *const ways[] = {"select=pool metric=importance", "select=vertices metric=importance connections=3"};
+    static const char *const ways[] = {"select=pool metric=importance",
+                                       "select=vertices metric=importance connections=3"};
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         char path[256];
         struct scene scene;

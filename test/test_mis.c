@@ -117,7 +117,8 @@ static void compare_direct(struct comparison *c, const struct vertex *eye, int t
     vertex_light_end(c->scene, c->counts, &at, &y);
     /* An escaping ray meets all infinite lights at once, so a direction has one density, whichever light it is from. */
     double met = light_pdf_environment(lights, &lights->choice, at.w);
-    CHECK(c->t, lights->light[at.light].kind != LIGHT_INFINITE || fabs(y.pdf_fwd / met - 1) < 1e-9, "density at infinity");
+    CHECK(c->t, lights->light[at.light].kind != LIGHT_INFINITE || fabs(y.pdf_fwd / met - 1) < 1e-9,
+          "density at infinity");
     compare(c, got, &y, 1, eye, t);
 }
 

@@ -110,7 +110,8 @@ static const char EVERYTHING[] =
 
 static const char AREA[] =
     "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [6 6 6]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 3 -1  1 3 -1  1 3 1  -1 3 1] AttributeEnd\n";
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 3 -1  1 3 -1  1 3 1  -1 3 1]\n"
+    "AttributeEnd\n";
 static const char DELTAS[] =
     "LightSource \"point\" \"rgb I\" [3 3 3] \"point from\" [-1 2.5 0]\n"
     "LightSource \"spot\" \"rgb I\" [9 9 9] \"point from\" [1 2.5 -1] \"point to\" [0 0 0]\n"
@@ -180,9 +181,12 @@ static void test_thread_counts(struct test *t)
     for (const struct method *const *m = method_list(); *m != NULL; m++) {
         const char *name = (*m)->name;
         float *one = render_pixels(t, &scene, name, 1, 5, 0, 0, 40);
-        float *two = render_pixels(t, &scene, name, 2, 5, 0, 0, 40), *seven = render_pixels(t, &scene, name, 7, 5, 0, 0, 40);
-        float *split = render_pixels(t, &scene, name, 3, 5, 0, 32, 40), *other = render_pixels(t, &scene, name, 2, 6, 0, 0, 40);
-        CHECK(t, memcmp(one, two, bytes) == 0 && memcmp(one, seven, bytes) == 0, "%s depends on the number of threads", name);
+        float *two = render_pixels(t, &scene, name, 2, 5, 0, 0, 40),
+              *seven = render_pixels(t, &scene, name, 7, 5, 0, 0, 40);
+        float *split = render_pixels(t, &scene, name, 3, 5, 0, 32, 40),
+              *other = render_pixels(t, &scene, name, 2, 6, 0, 0, 40);
+        CHECK(t, memcmp(one, two, bytes) == 0 && memcmp(one, seven, bytes) == 0, "%s depends on the number of threads",
+              name);
         CHECK(t, memcmp(one, split, bytes) == 0, "%s: a render in two parts differs", name);
         CHECK(t, memcmp(one, other, bytes) != 0, "%s: the seed has no effect", name);
         free(one);
@@ -219,8 +223,9 @@ static void test_roulette_defaults(struct test *t)
         float *same = render_pixels(t, &scene, cases[i].method, 2, 7, 0, 0, 4);
         settings_set(&scene.settings, "rrthreshold", cases[i].as[1] == '\0' ? "0.5" : "0", "test");
         float *other = render_pixels(t, &scene, cases[i].method, 2, 7, 0, 0, 4);
-        CHECK(t, memcmp(got, same, bytes) == 0 && memcmp(got, other, bytes) != 0, "%s with select %s, rrthreshold %s: not as with %s",
-              cases[i].method, cases[i].select, cases[i].threshold == NULL ? "not set" : cases[i].threshold, cases[i].as);
+        CHECK(t, memcmp(got, same, bytes) == 0 && memcmp(got, other, bytes) != 0,
+              "%s with select %s, rrthreshold %s: not as with %s", cases[i].method, cases[i].select,
+              cases[i].threshold == NULL ? "not set" : cases[i].threshold, cases[i].as);
         free(got);
         free(same);
         free(other);
@@ -239,9 +244,11 @@ static void test_crop(struct test *t)
     if (!scene_from_text(t, text, &scene))
         return;
     double ratio;
-    struct batches full = render_batches(t, &scene, "bdpt", 3, 16, 12, 12, 31), lt = render_batches(t, &scene, "lt", 3, 32, 12, 12, 32);
+    struct batches full = render_batches(t, &scene, "bdpt", 3, 16, 12, 12, 31),
+                   lt = render_batches(t, &scene, "lt", 3, 32, 12, 12, 32);
     scene.crop[0] = scene.crop[2] = 0.5;
-    struct batches part = render_batches(t, &scene, "bdpt", 3, 48, 12, 12, 33), lt_part = render_batches(t, &scene, "lt", 3, 96, 12, 12, 34);
+    struct batches part = render_batches(t, &scene, "bdpt", 3, 48, 12, 12, 33),
+                   lt_part = render_batches(t, &scene, "lt", 3, 96, 12, 12, 34);
     for (int i = 0; i < full.n_batches; i++) /* keep only the last of the 2x2 tiles of the full frame */
         for (int c = 0; c < 3; c++) {
             full.value[3 * i + c] = full.value[12 * i + 9 + c];

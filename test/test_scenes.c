@@ -38,11 +38,12 @@ static void test_analytic(struct test *t)
         for (int m = 0; m < 3; m++) {
             struct batches b = render_batches(t, &scene, methods[m], 0, cases[i].spp, 8, 64, 820 + (uint64_t)m);
             double error, mean = batches_mean(&b, &error);
-            TEST_ACCEPT(t, within_p(&b, cases[i].low, cases[i].high), "%s by %s: %.5f +- %.5f, expected %.5f", cases[i].name,
-                        methods[m], mean, error, cases[i].high);
+            TEST_ACCEPT(t, within_p(&b, cases[i].low, cases[i].high), "%s by %s: %.5f +- %.5f, expected %.5f",
+                        cases[i].name, methods[m], mean, error, cases[i].high);
             for (long k = 0; k < b.n * b.n_batches; k++)
                 b.value[k] *= 1.15;
-            TEST_REJECT(t, within_p(&b, cases[i].low, cases[i].high), "%s by %s made 15 %% brighter", cases[i].name, methods[m]);
+            TEST_REJECT(t, within_p(&b, cases[i].low, cases[i].high), "%s by %s made 15 %% brighter", cases[i].name,
+                        methods[m]);
             batches_free(&b);
         }
         scene_free(&scene);
@@ -83,7 +84,8 @@ static void test_holes(struct test *t)
     static const char text[] =
         "LookAt 0 0 -4  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 10\n"
         "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4 WorldBegin\n"
-        "Texture \"a\" \"float\" \"checkerboard\" \"float tex1\" %s \"float tex2\" %s LightSource \"point\" \"point from\" [0 0 -3] \"rgb I\" [9 9 9]\n"
+        "Texture \"a\" \"float\" \"checkerboard\" \"float tex1\" %s \"float tex2\" %s\n"
+        "LightSource \"point\" \"point from\" [0 0 -3] \"rgb I\" [9 9 9]\n"
         "Material \"matte\" \"rgb Kd\" [1 1 1]\n"
         "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-3 -3 0  3 -3 0  3 3 0  -3 3 0]\n"
         "Material \"matte\" \"rgb Kd\" [0 0 0] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
@@ -101,7 +103,8 @@ static void test_holes(struct test *t)
         if (!scene_from_text(t, filled, &scene))
             continue;
         struct batches b = render_batches(t, &scene, "bdpt", 2, 4, 2, 4, 829);
-        CHECK(t, (b.value[0] > 0.1) == cases[i].lit, "behind %s %s the wall shows %g", cases[i].name, cases[i].value, b.value[0]);
+        CHECK(t, (b.value[0] > 0.1) == cases[i].lit, "behind %s %s the wall shows %g", cases[i].name, cases[i].value,
+              b.value[0]);
         batches_free(&b);
         scene_free(&scene);
     }
@@ -111,8 +114,9 @@ static void test_holes(struct test *t)
  * with and without vertex normals. */
 static void test_partials(struct test *t)
 {
-    static const char start[] = "Camera \"perspective\" WorldBegin Texture \"b\" \"float\" \"constant\" \"float value\" 1\n"
-                                "MakeNamedMaterial \"m\" \"string type\" \"matte\" MakeNamedMaterial \"n\" \"string type\" \"matte\"\n";
+    static const char start[] =
+        "Camera \"perspective\" WorldBegin Texture \"b\" \"float\" \"constant\" \"float value\" 1\n"
+        "MakeNamedMaterial \"m\" \"string type\" \"matte\" MakeNamedMaterial \"n\" \"string type\" \"matte\"\n";
     static const struct {
         const char *material;
         bool read;
@@ -129,9 +133,10 @@ static void test_partials(struct test *t)
     char text[8192];
     int used = snprintf(text, sizeof text, "%s", start);
     for (int i = 0; i < 2 * N; i++)
-        used += snprintf(text + used, sizeof text - (size_t)used,
-                         "Material %s Shape \"trianglemesh\" \"integer indices\" [0 1 2] \"point P\" [%d 0 0  %d 0 0  %d 1 0]%s\n",
-                         cases[i % N].material, 2 * i, 2 * i + 1, 2 * i, i < N ? "" : " \"normal N\" [0 0 1  0.1 0 1  0 0.1 1]");
+        used += snprintf(
+            text + used, sizeof text - (size_t)used,
+            "Material %s Shape \"trianglemesh\" \"integer indices\" [0 1 2] \"point P\" [%d 0 0  %d 0 0  %d 1 0]%s\n",
+            cases[i % N].material, 2 * i, 2 * i + 1, 2 * i, i < N ? "" : " \"normal N\" [0 0 1  0.1 0 1  0 0.1 1]");
     snprintf(text + used, sizeof text - (size_t)used, "WorldEnd");
     struct scene scene;
     if (!scene_from_text(t, text, &scene))
@@ -144,7 +149,8 @@ static void test_partials(struct test *t)
             continue;
         CHECK(t, read == (length(at.dpdu) > 0.5 && length(at.dpdv) > 0.5), "%s: partials %g %g", cases[i % N].material,
               length(at.dpdu), length(at.dpdv));
-        CHECK(t, (read && i >= N) == (length(at.dndu) > 0), "%s: change of normal %g", cases[i % N].material, length(at.dndu));
+        CHECK(t, (read && i >= N) == (length(at.dndu) > 0), "%s: change of normal %g", cases[i % N].material,
+              length(at.dndu));
     }
     scene_free(&scene);
 }
@@ -179,7 +185,8 @@ static void test_filter_spot(struct test *t)
     static const char text[] =
         "LookAt 0 0 -4  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 20\n"
         "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 PixelFilter \"%s\"\n"
-        "WorldBegin LightSource \"point\" \"point from\" [.03 .05 -.25] \"rgb I\" [.1 .1 .1] Material \"matte\" \"rgb Kd\" [.8 .8 .8]\n"
+        "WorldBegin LightSource \"point\" \"point from\" [.03 .05 -.25] \"rgb I\" [.1 .1 .1]\n"
+        "Material \"matte\" \"rgb Kd\" [.8 .8 .8]\n"
         "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-3 -3 0  3 -3 0  3 3 0  -3 3 0]\n"
         "WorldEnd\n";
     static const char *const filters[] = {"mitchell", "sinc"};
@@ -197,7 +204,8 @@ static void test_filter_spot(struct test *t)
         filter_default("triangle", &scene.filter);
         filter_prepare(&scene.filter);
         struct batches other = render_batches(t, &scene, "pt", 1, 200, 16, 1, 828);
-        TEST_REJECT(t, batches_p(&other, &lt, &ratio), "a spot through the triangle instead of the %s filter", filters[i]);
+        TEST_REJECT(t, batches_p(&other, &lt, &ratio), "a spot through the triangle instead of the %s filter",
+                    filters[i]);
         batches_free(&pt);
         batches_free(&lt);
         batches_free(&other);
@@ -221,8 +229,9 @@ static struct batches render(struct test *t, const char *name, const char *metho
 /* Two kinds of light in one room: the density with which a light is chosen is where methods differ. */
 static void test_light_pairs(struct test *t, int spp)
 {
-    static const char *const pairs[] = {"area-infinite",  "area-point", "distant-area", "distant-infinite", "distant-point",
-                                        "point-infinite", "spot-area",  "spot-distant", "spot-infinite",    "spot-point"};
+    static const char *const pairs[] = {"area-infinite", "area-point",     "distant-area", "distant-infinite",
+                                        "distant-point", "point-infinite", "spot-area",    "spot-distant",
+                                        "spot-infinite", "spot-point"};
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         char name[64];
         double ratio;
@@ -263,7 +272,8 @@ static void test_agreement(struct test *t, int spp)
                                          "negative-scale", "quadrics", "smooth-normals", "thin-lens"};
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         double ratio;
-        struct batches pt = render(t, scenes[i], "pt", 24, 2 * spp, 851), bdpt = render(t, scenes[i], "bdpt", 24, spp, 852);
+        struct batches pt = render(t, scenes[i], "pt", 24, 2 * spp, 851),
+                       bdpt = render(t, scenes[i], "bdpt", 24, spp, 852);
         double p = batches_p(&pt, &bdpt, &ratio);
         TEST_ACCEPT(t, p, "%s: pt against bdpt, ratio %.4f", scenes[i], ratio);
         batches_free(&pt);

@@ -2,7 +2,7 @@
  *
  * Only then may their weights be chosen freely. Two scenes without delta lobes or delta lights, so that every strategy
  * can make every path; surfaces do not touch, so that no connection is short and its geometry factor has a variance. In
- * the second, shading normals lean: without the adjoint factor [V97 5.3.2] strategies would differ.
+ * the second, shading normals lean: without the adjoint factor [V97 5.3] strategies would differ.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -17,15 +17,16 @@
 
 enum { DEPTH = 3, BATCHES = 16, SPP = 400 };
 
-#define HEAD                                                                                                      \
-    "LookAt 0 1.6 -4.5  0 .9 0  0 1 0 Camera \"perspective\" \"float fov\" 42\n"                                    \
-    "Film \"image\" \"integer xresolution\" 12 \"integer yresolution\" 12 PixelFilter \"triangle\"\n"                 \
-    "WorldBegin\n"                                                                                                \
-    "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] Material \"matte\" \"rgb Kd\" [.5 .5 .5]\n"           \
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 4 -2  2 4 -2  2 4 2  -2 4 2]\n"           \
-    "AttributeEnd\n"                                                                                              \
-    "Material \"matte\" \"rgb Kd\" [.8 .7 .6]\n"                                                                    \
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1.5 0 -1.5  1.5 0 -1.5  1.5 0 1.5  -1.5 0 1.5]\n"
+#define HEAD                                                                                                           \
+    "LookAt 0 1.6 -4.5  0 .9 0  0 1 0 Camera \"perspective\" \"float fov\" 42\n"                                       \
+    "Film \"image\" \"integer xresolution\" 12 \"integer yresolution\" 12 PixelFilter \"triangle\"\n"                  \
+    "WorldBegin\n"                                                                                                     \
+    "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] Material \"matte\" \"rgb Kd\" [.5 .5 .5]\n"          \
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 4 -2  2 4 -2  2 4 2  -2 4 2]\n"          \
+    "AttributeEnd\n"                                                                                                   \
+    "Material \"matte\" \"rgb Kd\" [.8 .7 .6]\n"                                                                       \
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"                                                       \
+    "  \"point P\" [-1.5 0 -1.5  1.5 0 -1.5  1.5 0 1.5  -1.5 0 1.5]\n"
 
 static const char PLAIN[] = HEAD
     "Material \"plastic\" \"rgb Kd\" [.5 .6 .7] \"float roughness\" .4\n"
@@ -91,8 +92,8 @@ static void test_scene(struct test *t, const char *name, const char *text)
                 TEST_ACCEPT(t, paired_p(mean, a, b, 1), "%s: strategies (%d,%d) and (%d,%d), ratio %.4f", name, r,
                             depth + 2 - r, s, depth + 2 - s, ratio);
                 if (depth == 2)
-                    TEST_REJECT(t, paired_p(mean, a, b, 1.25), "%s: (%d,%d) made 25 %% brighter against (%d,%d)", name, r,
-                                depth + 2 - r, s, depth + 2 - s);
+                    TEST_REJECT(t, paired_p(mean, a, b, 1.25), "%s: (%d,%d) made 25 %% brighter against (%d,%d)", name,
+                                r, depth + 2 - r, s, depth + 2 - s);
             }
     scene_free(&scene);
 }

@@ -27,7 +27,8 @@ for room in $(cat src/LAYERS) total; do
         /^}$/ && start { length_of[name] = FNR - start + 1; start = 0 }
         /^};?$|;$/ && /^[a-z]/ { start = 0 }
         END {
-            printf "%-12s %4d files %6d lines of code %3d %% comment  ", room, n_files, code, 100 * comments / (code + comments)
+            printf "%-12s %4d files %6d lines of code %3d %% comment  ",
+                room, n_files, code, 100 * comments / (code + comments)
             for (k = 0; k < 5; k++) {
                 best = ""
                 for (f in length_of) if (best == "" || length_of[f] > length_of[best]) best = f

@@ -45,7 +45,8 @@ static void sofa(void)
 {
     static const double seat[3] = {0.47, 0.075, 0.38}, back[3] = {0.46, 0.085, 0.25};
     static const double foot[][2] = {{0.014, 0}, {0.024, 0.12}};
-    static const double throw_at[2][3] = {{-0.76, 0.66, -0.34}, {0.70, 0.655, -0.36}}, throw_size[3] = {0.21, 0.20, 0.075};
+    static const double throw_at[2][3] = {{-0.76, 0.66, -0.34}, {0.70, 0.655, -0.36}},
+                        throw_size[3] = {0.21, 0.20, 0.075};
     struct model m;
     model_begin(&m);
     box(&m, -1.10, 0.12, -0.90, 1.10, 0.32, -0.02, 0.03);
@@ -74,8 +75,8 @@ static void sofa(void)
 
 static void coffee_table(void)
 {
-    static const double top[][2] = {{0, 0},  {0.466, 0},     {0.466, 0},     {0.472, 0.003}, {0.472, 0.011}, {0.466, 0.014},
-                                    {0.466, 0.014}, {0, 0.014}};
+    static const double top[][2] = {{0, 0},         {0.466, 0},     {0.466, 0},     {0.472, 0.003},
+                                    {0.472, 0.011}, {0.466, 0.014}, {0.466, 0.014}, {0, 0.014}};
     struct model m;
     model_begin(&m);
     model_lathe(&m, top, 8, 2, 48);
@@ -117,8 +118,9 @@ static void vessels(void)
 
 static void lamp(void)
 {
-    static const double stand[][2] = {{0.15, 0},      {0.15, 0.012},  {0.145, 0.02}, {0.03, 0.03}, {0.012, 0.05},
-                                      {0.012, 0.05},  {0.012, 1.50},  {0.012, 1.50}, {0.02, 1.505}, {0.02, 1.56}, {0, 1.565}};
+    static const double stand[][2] = {{0.15, 0},     {0.15, 0.012}, {0.145, 0.02}, {0.03, 0.03},
+                                      {0.012, 0.05}, {0.012, 0.05}, {0.012, 1.50}, {0.012, 1.50},
+                                      {0.02, 1.505}, {0.02, 1.56},  {0, 1.565}};
     static const double shade[][2] = {{0.235, 1.36}, {0.165, 1.70}};
     struct model m;
     model_begin(&m);

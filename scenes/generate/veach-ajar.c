@@ -119,8 +119,9 @@ static void door(void)
 static void door_handle(void)
 {
     static const double rosette[][2] = {{0.026, 0}, {0.026, 0.004}, {0.022, 0.008}, {0, 0.008}};
-    static const double lever[][4] = {{0, 0, 0, 0.009},       {0, 0, -0.04, 0.009},   {-0.012, 0, -0.054, 0.009},
-                                      {-0.04, 0, -0.057, 0.010}, {-0.08, 0.003, -0.055, 0.009}, {-0.125, 0, -0.052, 0.007}};
+    static const double lever[][4] = {
+        {0, 0, 0, 0.009},          {0, 0, -0.04, 0.009},          {-0.012, 0, -0.054, 0.009},
+        {-0.04, 0, -0.057, 0.010}, {-0.08, 0.003, -0.055, 0.009}, {-0.125, 0, -0.052, 0.007}};
     struct model m;
     model_begin(&m);
     model_tube(&m, lever, 6, 3, 12);
@@ -180,7 +181,8 @@ static void landscape(void)
             double u = (x + 0.5) / w, v = 1 - (y + 0.5) / h, horizon = 0.36, c[3];
             double depth = horizon - v, above = depth > 0 ? depth * 1.25 : -depth;
             if (depth > 0) u += 0.03 * (noise(u * 6, 90 * sqrt(depth), 997, 9) - 0.5) * (0.3 + 4 * depth);
-            double ridge1 = 0.10 + 0.20 * fractal(u * 4 + 1.3, 0.5, 64, 3), ridge2 = 0.01 + 0.22 * fractal(u * 3, 7.5, 64, 5) * u;
+            double ridge1 = 0.10 + 0.20 * fractal(u * 4 + 1.3, 0.5, 64, 3),
+                   ridge2 = 0.01 + 0.22 * fractal(u * 3, 7.5, 64, 5) * u;
             mix3(low, high, smooth(0, 0.55, above), c);
             double dx = u - 0.33, dy = above - 0.27;
             mix3(c, sun, exp(-(dx * dx + dy * dy) * 160) * 0.9 + (dx * dx + dy * dy < 0.0018 ? 0.6 : 0), c);

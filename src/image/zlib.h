@@ -1,4 +1,4 @@
-/* zlib.h: packs and unpacks zlib data [RFC 1950, RFC 1951], and the checksums inside a PNG file.
+/* zlib.h: packs and unpacks zlib data [RFC 1950] [RFC 1951], and the checksums inside a PNG file.
  *
  * zlib.c holds the checksums and the tables of the format, inflate.c unpacks, deflate.c packs.
  * Tests: test_zlib.c (published check values, streams of another program, round trips, damaged streams).

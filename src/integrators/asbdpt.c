@@ -66,9 +66,9 @@ static double position_count(const void *context, vec3 p, vec3 ng)
     return (1 - sel->delta) * importance_at(&sel->grid, p, ng) / sel->grid.mean + sel->delta;
 }
 
-/* As many draws as are needed, on average, to meet one light vertex that the camera can make use of (no paper's, but
- * [Kish 1965] for `useful`); between 2, below
- * which tracing the sub-paths costs more than connecting them, and 8, where shadow rays begin to dominate. */
+/* As many draws as are needed, on average, to meet one light vertex that the camera can make use of (importance.h);
+ * between 2, below which tracing the sub-paths costs more than connecting them, and 8, where shadow rays begin to
+ * dominate. Measured, no paper's. */
 static int choose_connections(const struct importance *grid)
 {
     return int_within(1 / grid->useful + 0.5, 2, 8); /* `useful` of a scene in which nothing arrives is 0 */

@@ -22,7 +22,8 @@ static const double SECONDS = 40; /* of rendering */
 
 /* --- reading ----------------------------------------------------------------------------------------- */
 
-bool side_read(const char *const *file, int n, bool with_errors, const struct side *like, struct side *out, struct error *err)
+bool side_read(const char *const *file, int n, bool with_errors, const struct side *like, struct side *out,
+               struct error *err)
 {
     struct side side = {
         .name = file[0], .width = like != NULL ? like->width : 0, .height = like != NULL ? like->height : 0};

@@ -18,7 +18,8 @@ struct side {
 /* side_read: n pictures of one size as batches; with_errors: a picture and its standard errors.
  *   like  they must also have its size; NULL: any
  * Returns false with a message. */
-bool side_read(const char *const *file, int n, bool with_errors, const struct side *like, struct side *out, struct error *err);
+bool side_read(const char *const *file, int n, bool with_errors, const struct side *like, struct side *out,
+               struct error *err);
 
 /* side_read_reference: NAME.pfm with the standard errors beside it, NAME.error.pfm. Returns false with a message. */
 bool side_read_reference(const char *path, struct side *out, struct error *err);

@@ -112,8 +112,8 @@ static bool survives(const struct walk *w, double kept, rgb *beta)
     return sampler_next(w->sampler) < q;
 }
 
-/* Leave the surface vertex by sampling its BSDF: beta takes up f cos / pdf [V97 10.2]. False if the walk is absorbed.
- * */
+/* Leave the surface vertex by sampling its BSDF: beta takes up f cos / pdf. [V97 10.2]
+ * False if the walk is absorbed. */
 static bool depart(const struct walk *w, const struct vertex *v, enum transport mode, struct departure *out)
 {
     double u[3];

@@ -56,8 +56,8 @@ rgb pixel_sum_pair(struct pixel_sample *g, const struct vertex *y, int s, const 
 
 /* pixel_sum_pairs: s >= 2, t >= 2 for every pair of vertices of the two sub-paths, each multiplied by `scale`
  * and filter_weight. */
-rgb pixel_sum_pairs(struct pixel_sample *g, const struct vertex *eye, int n_eye, const struct vertex *light, int n_light,
-                 double scale);
+rgb pixel_sum_pairs(struct pixel_sample *g, const struct vertex *eye, int n_eye, const struct vertex *light,
+                    int n_light, double scale);
 
 /* pixel_splat_path: s >= 2, t = 1 for every vertex of a light sub-path, each multiplied by `scale`; the sums go to the
  * tile's splats. */

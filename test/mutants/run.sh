@@ -70,7 +70,8 @@ one() {
             [ $status -eq 124 ] && verdict="ERROR $test does not end" && break
             if [ $status -ne 0 ]; then
                 verdict=$test
-                [ "$test" = all ] && verdict="all: $(sed -n 's/.*repeat with: .* //p' "$2/output.txt" | sort -u | tr '\n' ' ')"
+                [ "$test" = all ] &&
+                    verdict="all: $(sed -n 's/.*repeat with: .* //p' "$2/output.txt" | sort -u | tr '\n' ' ')"
                 break
             fi
         done
