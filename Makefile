@@ -54,7 +54,7 @@ ref: asbdpt ## render the stored references of ref/ again (an hour; goes on wher
 	sh ref/make-ref.sh $(PROGRAM)
 
 # ---- what proves it ----
-test: asbdpt $(BUILD)/test layers ## build and run the test suite (under 3 minutes)
+test: asbdpt $(BUILD)/test layers references columns ## build and run the test suite (under 3 minutes)
 	sh test/cli.sh $(PROGRAM)
 	$(BUILD)/test
 
@@ -74,11 +74,25 @@ layers: ## check that no file includes a higher room, that no room holds a circl
 	@sh test/layers.sh src $(CC)
 	@sh test/layers_test.sh $(CC)
 
+references: ## check that every source named in a comment is in doc/references.md, and that all there are used
+	@sh test/references.sh
+	@sh test/references_test.sh
+
+columns: ## check that no line is longer than .clang-format allows, and that all are ASCII
+	@sh test/columns.sh
+
 san: ## run the tests under the address and undefined-behaviour sanitizers
 	$(MAKE) BUILD=build-san OPT="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all" build-san/test
 	build-san/test
 
-tsan: ## run the threaded tests under the thread sanitizer
+treferences: ## check that every source named in a comment is in doc/references.md, and that all there are used
+	@sh test/references.sh
+	@sh test/references_test.sh
+
+columns: ## check that no line is longer than .clang-format allows, and that all are ASCII
+	@sh test/columns.sh
+
+san: ## run the threaded tests under the thread sanitizer
 	$(MAKE) BUILD=build-tsan OPT="-O1 -g -fsanitize=thread" build-tsan/test
 	build-tsan/test threads
 
@@ -92,4 +106,4 @@ help: ## list the targets
 clean: ## remove everything that was built
 	rm -rf build build-* out asbdpt
 
-.PHONY: all demo experiments bench ref test check-long check-ref builds mutants layers san tsan stats help clean
+.PHONY: all demo experiments bench ref test check-long check-ref builds mutants layers references columns san tsan stats help clean
