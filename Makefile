@@ -85,14 +85,7 @@ san: ## run the tests under the address and undefined-behaviour sanitizers
 	$(MAKE) BUILD=build-san OPT="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all" build-san/test
 	build-san/test
 
-treferences: ## check that every source named in a comment is in doc/references.md, and that all there are used
-	@sh test/references.sh
-	@sh test/references_test.sh
-
-columns: ## check that no line is longer than .clang-format allows, and that all are ASCII
-	@sh test/columns.sh
-
-san: ## run the threaded tests under the thread sanitizer
+tsan: ## run the threaded tests under the thread sanitizer
 	$(MAKE) BUILD=build-tsan OPT="-O1 -g -fsanitize=thread" build-tsan/test
 	build-tsan/test threads
 

@@ -1,6 +1,6 @@
 /* oracle.c: see oracle.h. Densities p_i = n_i prod (densities of light vertices) prod (densities of eye vertices), each
- * per unit area, multiplied out one strategy at a time; nothing is shared with mis.h but the sample counts. [V97 10.2]
- * */
+ * per unit area, multiplied out one strategy at a time; nothing is shared with mis.h but the sample counts.
+ * [V97 10.2] */
 #include "oracle.h"
 
 #include "material/fresnel.h"

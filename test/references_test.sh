@@ -1,7 +1,7 @@
 #!/bin/sh
-# references_test.sh: do references.sh and columns.sh notice? Plants an unknown key, a key across two lines, a place that
-# is none, entries that nobody uses, out of order or twice, a long line and a character beyond ASCII into copies of the
-# tree.
+# references_test.sh: do references.sh and columns.sh notice? Plants an unknown key, a key across two lines, a place
+# that is none, entries that nobody uses, out of order or twice, a long line and a character beyond ASCII into copies of
+# the tree.
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
 failures=0

@@ -50,8 +50,8 @@ static void test_empty(struct test *t)
     scene_free(&scene);
 }
 
-/* Direct light of a disk of radius R at height h on the floor's centre: E = pi L R^2 / (R^2 + h^2), radiance kd E / pi.
- * */
+/* Direct light of a disk of radius R at height h on the floor's centre: E = pi L R^2 / (R^2 + h^2), radiance kd E /
+ * pi. */
 static void test_disk(struct test *t, const char *method)
 {
     static const char text[] =

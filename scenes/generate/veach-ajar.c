@@ -1,6 +1,6 @@
 /* veach-ajar.c: meshes and pictures of scenes/veach-ajar.pbrt, written to scenes/veach-ajar/. Metres, y up, the
- * camera looks along +z. The room is x -2.3 .. 2.3, y 0 .. 2.6, z -4.8 .. 0; its back wall, 0.12 thick, has the door.
- * */
+ * camera looks along +z. The room is x -2.3 .. 2.3, y 0 .. 2.6, z -4.8 .. 0; its back wall, 0.12 thick, has the
+ * door. */
 #include <math.h>
 
 #include "model.h"

@@ -68,7 +68,7 @@ static double position_count(const void *context, vec3 p, vec3 ng)
 
 /* As many draws as are needed, on average, to meet one light vertex that the camera can make use of (importance.h);
  * between 2, below which tracing the sub-paths costs more than connecting them, and 8, where shadow rays begin to
- * dominate. Measured, no paper's. */
+ * dominate. A rule of our own. */
 static int choose_connections(const struct importance *grid)
 {
     return int_within(1 / grid->useful + 0.5, 2, 8); /* `useful` of a scene in which nothing arrives is 0 */

@@ -8,8 +8,8 @@
  *     p_i / p_s = (n_i / n_s) prod_{j=i}^{s-1} R_j / F_j        for i < s,                           [V97 eq. 10.9]
  * where F_j is the density of x_j in its own (light) walk, R_j the density the other (eye) walk would have, both per
  * area, and n_i the number of samples of strategy i (0 if it cannot make the path, because it would have to connect
- * at a delta vertex [V97 10.3.5]). The eye side, i > s, is the same with the roles exchanged. The sum over one
- * side obeys
+ * at a delta vertex [V97 10.3.5]). The eye side, i > s, is the same with the roles exchanged. Over one side the
+ * sum obeys
  *     A_e = R_e/F_e (c_e + A_{e-1}),   A_{-1} = 0,
  * c_e being the n of the strategy whose sub-path of this side ends just *before* vertex e.
  *
@@ -26,7 +26,8 @@
  * Every method is described by its sample counts n; see struct mis_counts. The counts may vary from path to path as
  * long as every strategy computes the same number for the same path.
  *
- * Readers of VCM know two of its three partial sums, those of SmallVCM [Georgiev 2012], as ours divided by F_e:
+ * Readers of VCM know two of its three partial sums, those of SmallVCM [Georgiev 2012], as ours divided by F_e (in struct
+ * vertex: mis_c / pdf_fwd and mis / pdf_fwd):
  *     dVCM = c_e / F_e,   dVC = mis_e / F_e,   hence A_e = R_e (dVCM + pdf_rev dVC).
  * For s, t >= 2 and n = 1 dVCM is 1/F_e; at e = 1 its numerator is the number of light sub-paths (c_1 of the eye side)
  * or the ratio of the two densities of y_0 (c_1 of the light side); after a delta lobe it is 0.
