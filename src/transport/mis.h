@@ -26,8 +26,8 @@
  * Every method is described by its sample counts n; see struct mis_counts. The counts may vary from path to path as
  * long as every strategy computes the same number for the same path.
  *
- * Readers of VCM know two of its three partial sums, those of SmallVCM [Georgiev 2012], as ours divided by F_e (in struct
- * vertex: mis_c / pdf_fwd and mis / pdf_fwd):
+ * Readers of VCM [Georgiev 2012] and SmallVCM know two of its three partial sums, which are ours divided by F_e (in
+ * struct vertex: mis_c / pdf_fwd and mis / pdf_fwd):
  *     dVCM = c_e / F_e,   dVC = mis_e / F_e,   hence A_e = R_e (dVCM + pdf_rev dVC).
  * For s, t >= 2 and n = 1 dVCM is 1/F_e; at e = 1 its numerator is the number of light sub-paths (c_1 of the eye side)
  * or the ratio of the two densities of y_0 (c_1 of the light side); after a delta lobe it is 0.
