@@ -128,8 +128,6 @@ static long all_p(const struct batches *a, const struct batches *b, double *p, l
 
 /* The smallest of n p-values of hypotheses that all hold is as small as p with this probability, or less: 1 - (1-p)^n,
  * Sidak's formula for a family of 1/n. */
-static double sidak_p(double p, double n) { return stats_sidak(p, 1 / n); }
-
 double batches_p(const struct batches *a, const struct batches *b, double *ratio)
 {
     double smallest = 1, *p = mem_alloc((size_t)a->n, sizeof *p);
@@ -138,7 +136,7 @@ double batches_p(const struct batches *a, const struct batches *b, double *ratio
         smallest = fmin(smallest, p[i]);
     free(p);
     *ratio = batches_mean(a, NULL) / batches_mean(b, NULL);
-    return n > 0 ? sidak_p(smallest, (double)n) : 1;
+    return n > 0 ? stats_sidak(smallest, (double)n) : 1;
 }
 
 static double random_normal(struct rng *r)
