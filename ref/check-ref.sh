@@ -1,13 +1,14 @@
 #!/bin/sh
 # check-ref.sh: are the stored references still what the program converges to? `make check-ref` calls it.
-# Each is rendered again by pt and by bdpt, with fewer samples and other seeds, and tested tile by tile.
+# Each is rendered again by the two methods it was made with (its text names them), with fewer samples and other seeds,
+# and tested tile by tile.
 #   sh ref/check-ref.sh [PROGRAM [SPP]]
 program=${1:-./asbdpt}
 spp=${2:-256}
 failures=0
 for text in ref/*.txt; do
     name=$(basename "$text" .txt)
-    for method in pt bdpt; do
+    for method in $(sed -n 's/^origin .*: \([a-z]*\) with seeds .* and \([a-z]*\) with seeds .*/\1 \2/p' "$text"); do
         if "$program" verify "scenes/$name.pbrt" --methods $method --reference "ref/$name.pfm" --filter box --spp "$spp" \
             --batches 16 --seed 777000 --quiet >"/tmp/check-ref.$$"; then
             echo "ok      $name by $method: $(grep 'ratio of' "/tmp/check-ref.$$")"

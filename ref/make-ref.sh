@@ -1,25 +1,42 @@
 #!/bin/sh
 # make-ref.sh: render the stored references again; `make ref` calls it.  sh ref/make-ref.sh [PROGRAM [WORK [SCENE...]]]
 #
-# Every scene is rendered by pt and by bdpt, each in 16 independent batches of 1024 samples per pixel (16384 in all) with
-# seeds of their own. `asbdpt verify --files` tests that the two agree, tile by tile, and only then stores
+# Every scene is rendered by two methods, pt and bdpt where pt can, each in 16 independent batches of 256 to 1024 samples
+# per pixel (4096 to 16384 in all) with seeds of their own. `asbdpt verify --files` tests that the two agree, tile by tile, and only then stores
 #     ref/NAME.pfm        the mean of both methods, weighted by the inverse of their variances
 #     ref/NAME.error.pfm  its standard errors
 #     ref/NAME.txt        how it was made: commands, seeds, version, mean, p-values
-# Batches are kept in WORK: a run that was interrupted goes on where it stopped. One thread takes about an hour.
+# Batches are kept in WORK: a run that was interrupted goes on where it stopped. One thread takes about an hour and a quarter.
 set -e
 program=${1:-./asbdpt}
 work=${2:-build/ref}
-[ $# -gt 2 ] && shift 2 || set -- cornell-box cornell-box-modified living-room veach-ajar bathroom
+[ $# -gt 2 ] && shift 2 || set -- cornell-box cornell-box-modified living-room veach-ajar bathroom \
+    caustic-glass sky spot corridor many-lights forest
 batches=16
-spp=1024
 
 # The resolution of a scene's reference: a tenth of its own, or thereabouts.
 resolution() {
     case $1 in
         cornell-box*) echo 32x32 ;;
-        bathroom) echo 36x24 ;;
-        *) echo 48x27 ;;
+        living-room | veach-ajar) echo 48x27 ;;
+        *) echo 36x24 ;;
+    esac
+}
+
+# Samples per pixel and batch: fewer where they are dear or err little.
+samples() {
+    case $1 in
+        forest) echo 256 ;;
+        corridor | many-lights) echo 512 ;;
+        *) echo 1024 ;;
+    esac
+}
+
+# The two methods. A spot light's caustic through glass is beyond pt, and beyond lt what is seen by way of glass.
+methods() {
+    case $1 in
+        caustic-glass) echo bdpt asbdpt ;;
+        *) echo pt bdpt ;;
     esac
 }
 
@@ -29,8 +46,8 @@ render() {
     while [ $i -lt $batches ]; do
         file=$work/$1-$2-$i.pfm
         if [ ! -f "$file" ]; then
-            "$program" render "scenes/$1.pbrt" --integrator "$2" --res "$(resolution "$1")" --filter box --spp $spp \
-                --seed $(($3 + i)) --nthreads 1 --quiet -o "$work/part.pfm"
+            "$program" render "scenes/$1.pbrt" --integrator "$2" --res "$(resolution "$1")" --filter box \
+                --spp "$(samples "$1")" --seed $(($3 + i)) --nthreads 1 --quiet -o "$work/part.pfm"
             mv "$work/part.pfm" "$file"
         fi
         i=$((i + 1))
@@ -39,10 +56,12 @@ render() {
 
 mkdir -p "$work"
 for scene; do
-    render "$scene" pt 1000
-    render "$scene" bdpt 2000
-    note="$("$program" --version), ref/make-ref.sh: pt with seeds 1000 to $((999 + batches)) and bdpt with seeds 2000"
-    note="$note to $((1999 + batches)), each with $spp samples per pixel, $(resolution "$scene") pixels, box filter"
-    "$program" verify "scenes/$scene.pbrt" --files "$work/$scene-pt-"*.pfm --against "$work/$scene-bdpt-"*.pfm \
+    pair=$(methods "$scene")
+    a=${pair% *} b=${pair#* }
+    render "$scene" "$a" 1000
+    render "$scene" "$b" 2000
+    note="$("$program" --version), ref/make-ref.sh: $a with seeds 1000 to $((999 + batches)) and $b with seeds 2000"
+    note="$note to $((1999 + batches)), each with $(samples "$scene") samples per pixel, $(resolution "$scene") pixels, box filter"
+    "$program" verify "scenes/$scene.pbrt" --files "$work/$scene-$a-"*.pfm --against "$work/$scene-$b-"*.pfm \
         --store "ref/$scene" --note "$note"
 done

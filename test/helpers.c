@@ -43,12 +43,12 @@ bool scene_from_text(struct test *t, const char *text, struct scene *out)
     return scene_from_file(t, path, 0, 0, out);
 }
 
-struct batches render_batches(struct test *t, const struct scene *scene, const char *method, int max_depth, int spp,
+struct batches render_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth, int spp,
                               int n_batches, int tile, uint64_t seed)
 {
     struct pixel_rect crop = render_crop(scene);
     struct batches pixels = batches_new(n_batches, 3L * rect_width(crop) * rect_height(crop), false);
-    struct render_options o = {.method = method_find(method), .end = spp, .max_depth = max_depth};
+    struct render_options o = {.integrator = integrator_find(integrator), .end = spp, .max_depth = max_depth};
     o.n_threads = parallel_cores();
     for (int k = 0; k < n_batches; k++) {
         struct film film;
@@ -56,7 +56,7 @@ struct batches render_batches(struct test *t, const struct scene *scene, const c
         o.seed = (test_seed(t) * 1000003 + seed) * 1009 + (uint64_t)k;
         film_init(&film, crop, scene->width, scene->height);
         CHECK(t, render_scene(scene, &o, &film, &err), "%s", err.text);
-        CHECK(t, film.nonfinite == 0, "%s: %ld contributions are not finite", method, film.nonfinite);
+        CHECK(t, film.nonfinite == 0, "%s: %ld contributions are not finite", integrator, film.nonfinite);
         for (long i = 0; i < pixels.n; i++)
             pixels.value[pixels.n * k + i] = (film.eye[i] + film.splat[i]) / (double)film.iterations;
         film_free(&film);

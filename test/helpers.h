@@ -2,7 +2,7 @@
 #ifndef ASBDPT_TEST_HELPERS_H
 #define ASBDPT_TEST_HELPERS_H
 
-#include "integrators/method.h"
+#include "integrators/integrator.h"
 #include "lab/verify.h"
 #include "scene/scene.h"
 #include "test.h"
@@ -15,7 +15,7 @@ bool scene_from_file(struct test *t, const char *path, int width, int height, st
 
 /* render_batches: render `n_batches` times with `spp` samples and seeds of their own, and average over square tiles of
  * `tile` pixels. */
-struct batches render_batches(struct test *t, const struct scene *scene, const char *method, int max_depth, int spp,
+struct batches render_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth, int spp,
                               int n_batches, int tile, uint64_t seed);
 
 /* mean_p: two-sided p-value of "the expectation is `expected`" for the batches' overall mean, by Student's t. */

@@ -31,7 +31,7 @@ static const struct entry ENTRIES[] = {
     {"lobe", test_lobe, false},       {"bsdf", test_bsdf, false},       {"material", test_material, false},
     {"light", test_light, false},   {"camera", test_camera, false},
     {"film", test_film, false},       {"parser", test_parser, false}, {"sampler", test_sampler, false},
-    {"mis", test_mis, false},
+    {"mis", test_mis, false}, {"pairs", test_pairs, false},
     {"options", test_options, false}, {"render", test_render, false}, {"asbdpt", test_asbdpt, false},
     {"report", test_report, false},
     {"threads", test_threads, false}, {"verify", test_verify, false},

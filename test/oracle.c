@@ -110,9 +110,14 @@ static double samples(const struct full_path *f, int i)
     }
     if (t < 1 || f->delta[i - 1] || f->delta[i])
         return 0;
-    if (i == 1 && t > 1)
-        return mis_direct_count(m, &f->scene->lights, f->x[1]->p, f->x[1]->ng, f->x[0]->cell, direction(f, 1, 0));
-    return t == 1 ? m->splat : mis_connect_count(m, f->x[i - 1]->p, f->x[i - 1]->ng);
+    if (t == 1)
+        return m->splat;
+    /* Regions are looked up anew, from the surface points at both ends of the edge. */
+    int e = m->learnt == NULL ? 0 : region_at(&m->learnt->eye, f->x[i]->p, f->x[i]->ng);
+    if (i == 1)
+        return mis_direct_count(m, &f->scene->lights, e, t == 2, f->x[0]->cell, direction(f, 1, 0));
+    int y = m->learnt == NULL ? 0 : region_at(&m->learnt->light, f->x[i - 1]->p, f->x[i - 1]->ng);
+    return mis_connect_count(m, y, e, t == 2);
 }
 
 /* A vertex whose walk goes on (not the end of a connection) passed by delta if the next vertex says so. */

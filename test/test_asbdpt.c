@@ -43,7 +43,8 @@ static void test_bias(struct test *t)
         bool unbiased;
     } cases[] = {{"select=pool metric=constant", true}, {"select=pool metric=throughput", true},
                  {"select=pool metric=importance", true}, {"select=vertices metric=importance connections=2", true},
-                 {"select=vertices metric=constant connections=2", true}, {"select=bins", false}};
+                 {"select=vertices metric=constant connections=2", true}, {"select=subspaces", true},
+                 {"select=subspaces connections=2", true}, {"select=bins", false}};
     struct scene scene;
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 32, 32, &scene))
         return;
@@ -106,7 +107,8 @@ static void test_constant_pool(struct test *t)
 /* One tile of 3x3 pixels, whose light sub-paths are one for every 1, 2, 5 or 8 of them: 9, 5, 2 and 2. */
 static void test_few_light_paths(struct test *t)
 {
-    static const char *const cases[] = {"pathpixels=1", "pathpixels=2", "pathpixels=5", "pathpixels=8"};
+    static const char *const cases[] = {"pathpixels=1", "pathpixels=2", "pathpixels=5", "pathpixels=8",
+                                        "select=subspaces pathpixels=2", "pathpixels=5", "pathpixels=9"};
     struct scene scene;
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 3, 3, &scene))
         return;
@@ -129,7 +131,8 @@ static void test_every_scene(struct test *t)
     static const char *const scenes[] = {"light-kinds", "mirror-glass", "thin-lens", "all-materials", "smooth-normals",
                                          "negative-scale", "alpha", "instances"};
     static const char *const ways[] = {"select=pool metric=importance",
-                                       "select=vertices metric=importance connections=3"};
+                                       "select=vertices metric=importance connections=3",
+                                       "select=subspaces connections=0"};
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         char path[256];
         struct scene scene;
@@ -137,7 +140,7 @@ static void test_every_scene(struct test *t)
         if (!scene_from_file(t, path, 24, 24, &scene))
             continue;
         struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 8, 12, 12, 71);
-        for (int k = 0; k < 2; k++) {
+        for (int k = 0; k < 3; k++) {
             set(&scene, ways[k]);
             struct batches x = render_batches(t, &scene, "asbdpt", 4, 8, 12, 12, 72);
             double ratio, p = batches_p(&x, &bdpt, &ratio);
@@ -153,11 +156,11 @@ static void test_every_scene(struct test *t)
 
 static void test_selection_threads(struct test *t)
 {
-    static const char *const ways[] = {"select=bins restart=16", "select=pool", "select=vertices"};
+    static const char *const ways[] = {"select=bins restart=16", "select=pool", "select=vertices", "select=subspaces"};
     struct scene scene;
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 40, 24, &scene))
         return;
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 4; k++) {
         set(&scene, ways[k]);
         static float image[3][40 * 24 * 3];
         static const int threads[] = {1, 2, 7};
@@ -165,7 +168,7 @@ static void test_selection_threads(struct test *t)
             struct film film;
             struct error err;
             film_init(&film, render_crop(&scene), scene.width, scene.height);
-            struct render_options o = {.method = method_find("asbdpt"), .end = 40, .n_threads = threads[i]};
+            struct render_options o = {.integrator = integrator_find("asbdpt"), .end = 40, .n_threads = threads[i]};
             o.max_depth = 4;
             CHECK(t, render_scene(&scene, &o, &film, &err), "%s", err.text);
             film_develop(&film, 1, image[i]);

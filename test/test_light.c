@@ -33,7 +33,7 @@ struct direction_source {
 static double density(const struct direction_source *s, vec3 w)
 {
     double pdf = s->y0 != NULL ? light_pdf_emission(s->set, s->y0, w)
-                               : light_pdf_environment(s->set, &s->set->choice, w);
+                               : light_pdf_environment(s->set, w);
     return s->planted == 0 ? pdf : pdf * (1 + s->planted * w.x);
 }
 
@@ -176,7 +176,7 @@ static void test_damaged_map(struct test *t)
     }
     const vec3 none[] = {vec(NAN, NAN, NAN), vec(0, 0, 0), vec(INFINITY, 0, -INFINITY), vec(0, 0, NAN)};
     for (size_t i = 0; i < sizeof none / sizeof none[0]; i++)
-        light_pdf_environment(&scene.lights, &scene.lights.choice, none[i]); /* under sanitizers: stays in its tables */
+        light_pdf_environment(&scene.lights, none[i]); /* under sanitizers: stays in its tables */
     scene_free(&scene);
 }
 

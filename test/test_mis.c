@@ -1,12 +1,13 @@
 /* test_mis.c: the O(1) weights of mis.h against all p_i multiplied out (oracle.h), on random paths over every kind of
- * vertex, light and method. The bound: 1e-9 relative to the weight, plus 1e-12. A path's oracle weights sum to 1 by
+ * vertex, light and integrator. The bound: 1e-9 relative to the weight, plus 1e-12. A path's oracle weights sum to 1 by
  * construction, so agreement for every strategy is the partition of unity. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "transport/connect.h"
-#include "transport/guide.h"
+#include "base/mem.h"
+#include "transport/learnt.h"
 #include "base/warp.h"
 #include "helpers.h"
 #include "oracle.h"
@@ -57,27 +58,31 @@ static const struct variant VARIANTS[] = {
      "LightSource \"infinite\" \"rgb L\" [3 3 3] LightSource \"infinite\" \"rgb L\" [1 1 1]"},
 };
 
-/* A count that varies over space, as `select = vertices` has it. */
-static double uneven(const void *context, vec3 p, vec3 ng)
-{
-    (void)context;
-    return 2.5 + ng.y + sin(3 * p.x + 2 * p.y + p.z);
-}
-
-/* A guide that prefers some cells in every region, learnt from nothing but their numbers. */
-static void uneven_guide(const struct scene *scene, struct guide *guide)
+/* Regions met at random, a guide that prefers some cells in every one of them and pairs of random worth: learnt from
+ * nothing. */
+static void learn_nothing(const struct scene *scene, struct learnt *l)
 {
     struct guide_lessons lessons;
     struct rng r = rng_stream(7, RNG_TEST, 0, 0);
-    guide_lessons_init(&lessons, &scene->lights, 3);
+    const struct light_set *lights = &scene->lights;
+    regions_init(&l->eye, lights->center, lights->radius, 4, 2, 1000);
+    regions_init(&l->light, lights->center, lights->radius, 9, REGION_LEVELS, 1000);
+    guide_lessons_init(&lessons, lights);
     for (int i = 0; i < 2000; i++) {
         vec3 p = vec(4 * rng_uniform(&r) - 2, 3 * rng_uniform(&r), 4 * rng_uniform(&r) - 2);
         vec3 n = warp_sphere(rng_uniform(&r), rng_uniform(&r));
-        int cell = (int)rng_below(&r, (uint32_t)scene->lights.n_cells);
-        guide_lessons_add(&lessons, guide_key(&lessons.grid, p, n), cell, 1 + cell % 3 + i % 5);
+        int cell = (int)rng_below(&r, (uint32_t)lights->n_cells);
+        regions_add(&l->light, regions_key(&l->light, p, n));
+        int region = regions_add(&l->eye, regions_key(&l->eye, p, n));
+        guide_lessons_add(&lessons, &l->eye, region, cell, 1 + cell % 3 + i % 5);
     }
-    guide_build(guide, &lessons, 0.1);
+    guide_build(&l->guide, &lessons, &l->eye, lights, 0.1);
     guide_lessons_free(&lessons);
+    l->pairs.n_eye = l->eye.n;
+    l->pairs.n_light = l->light.n;
+    l->pairs.h = mem_alloc((size_t)l->eye.n * (size_t)l->light.n, sizeof *l->pairs.h);
+    for (int i = 0; i < l->eye.n * l->light.n; i++)
+        l->pairs.h[i] = exp(4 * rng_uniform(&r) - 2);
 }
 
 struct comparison {
@@ -110,13 +115,15 @@ static void compare_direct(struct comparison *c, const struct vertex *eye, int t
     struct light_point at;
     sampler_next3(&same, u);
     const struct light_set *lights = &c->scene->lights;
-    const struct alias_table *choice = guide_table(c->counts->guide, lights, eye[t - 1].p, eye[t - 1].ng);
-    if (!light_sample_cell(lights, &c->scene->geo, alias_sample(choice, u[0], NULL, NULL), u[1], u[2], &at))
+    const struct learnt *l = c->counts->learnt;
+    double pmf;
+    int cell = guide_choose(l != NULL && l->guided ? &l->guide : NULL, lights, eye[t - 1].eye_region, u[0], &pmf);
+    if (!light_sample_cell(lights, &c->scene->geo, cell, u[1], u[2], &at))
         return;
     struct vertex y;
     vertex_light_end(c->scene, c->counts, &at, &y);
     /* An escaping ray meets all infinite lights at once, so a direction has one density, whichever light it is from. */
-    double met = light_pdf_environment(lights, &lights->choice, at.w);
+    double met = light_pdf_environment(lights, at.w);
     CHECK(c->t, lights->light[at.light].kind != LIGHT_INFINITE || fabs(y.pdf_fwd / met - 1) < 1e-9,
           "density at infinity");
     compare(c, got, &y, 1, eye, t);
@@ -164,14 +171,14 @@ static void compare_paths(struct comparison *c, int n_paths)
 void test_mis(struct test *t)
 {
     const double bound = 1e-6;
-    const struct mis_counts all = {.hit = 1, .direct = 1, .connect = 1, .splat = 1024};
-    const struct mis_counts pt = {.hit = 1, .direct = 1}, lt = {.splat = 1024};
-    const struct mis_counts power = {.hit = 1, .direct = 1, .connect = 1, .splat = 1024, .power = true};
-    const struct mis_counts resampled = {.hit = 1, .direct = 1.5, .connect = 4, .splat = 1024, .at = uneven};
+    const struct mis_counts all = {.hit = 1, .direct = {1, 1}, .connect = {1, 1}, .splat = 1024};
+    const struct mis_counts pt = {.hit = 1, .direct = {1, 1}}, lt = {.splat = 1024};
+    const struct mis_counts power = {.hit = 1, .direct = {1, 1}, .connect = {1, 1}, .splat = 1024, .power = true};
+    const struct mis_counts uneven = {.hit = 1, .direct = {6, 1.5}, .connect = {8, 0.7}, .splat = 300};
     const struct {
         const char *name;
         const struct mis_counts *counts;
-    } sets[] = {{"bdpt", &all}, {"pt", &pt}, {"lt", &lt}, {"power", &power}, {"uneven counts", &resampled}};
+    } sets[] = {{"bdpt", &all}, {"pt", &pt}, {"lt", &lt}, {"power", &power}, {"uneven counts", &uneven}};
 
     for (size_t v = 0; v < sizeof VARIANTS / sizeof VARIANTS[0]; v++) {
         char text[8192];
@@ -179,20 +186,23 @@ void test_mis(struct test *t)
         struct scene scene;
         if (!scene_from_text(t, text, &scene))
             return;
-        struct guide guide = {.table = NULL};
-        uneven_guide(&scene, &guide);
-        for (size_t k = 0; k < 2 * (sizeof sets / sizeof sets[0]); k++) {
-            struct mis_counts counts = *sets[k / 2].counts;
-            counts.guide = k % 2 == 1 ? &guide : NULL;
+        struct learnt learnt = {.guided = false};
+        learn_nothing(&scene, &learnt);
+        for (size_t k = 0; k < 4 * (sizeof sets / sizeof sets[0]); k++) {
+            struct mis_counts counts = *sets[k / 4].counts;
+            learnt.guided = k % 2 == 1;
+            learnt.paired = k / 2 % 2 == 1;
+            counts.learnt = k % 4 > 0 ? &learnt : NULL;
             struct comparison c = {t, VARIANTS[v].name, &scene, &counts, 0, 0, 1};
             compare_paths(&c, 400);
-            CHECK(t, c.worst < bound && c.compared > 100, "%s, %s: %ld weights, largest difference %.3g (bound %g)",
-                  VARIANTS[v].name, sets[k / 2].name, c.compared, c.worst, bound);
+            CHECK(t, c.worst < bound && c.compared > 100, "%s, %s%s%s: %ld weights, largest difference %.3g (bound %g)",
+                  VARIANTS[v].name, sets[k / 4].name, learnt.guided ? ", guide" : "", learnt.paired ? ", pairs" : "",
+                  c.compared, c.worst, bound);
         }
         struct comparison planted = {t, VARIANTS[v].name, &scene, &all, 0, 0, 1.001};
         compare_paths(&planted, 50);
         CHECK(t, planted.worst > bound, "a weight wrong by 0.1 %% was not noticed");
-        guide_free(&guide);
+        learnt_free(&learnt);
         scene_free(&scene);
     }
 }

@@ -1,4 +1,5 @@
-/* test_render.c: whole renders: radiance known on paper, agreement of the methods, reproducibility, crop, filters. */
+/* test_render.c: whole renders: radiance known on paper, agreement of the integrators, reproducibility, crop, filters.
+ * */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +15,7 @@
 /* --- radiance known on paper ------------------------------------------------------------------------- */
 
 /* A closed sphere of albedo a that emits Le everywhere: every ray sees Le (1 + a + a^2 + ...), cut at the depth. */
-static void test_furnace(struct test *t, const char *method)
+static void test_furnace(struct test *t, const char *integrator)
 {
     static const char text[] =
         "Camera \"perspective\" \"float fov\" 60 Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16\n"
@@ -24,10 +25,11 @@ static void test_furnace(struct test *t, const char *method)
     if (!scene_from_text(t, text, &scene))
         return;
     double expected = 1.9375, error; /* depth 4: 1 + .5 + .25 + .125 + .0625 */
-    struct batches b = render_batches(t, &scene, method, 4, 16, 8, 16, 11);
+    struct batches b = render_batches(t, &scene, integrator, 4, 16, 8, 16, 11);
     double mean = batches_mean(&b, &error);
-    TEST_ACCEPT(t, mean_p(&b, expected), "%s in a furnace: %.5f +- %.5f, expected %.5f", method, mean, error, expected);
-    TEST_REJECT(t, mean_p(&b, expected * 1.05), "%s in a furnace 5 %% brighter than it is", method);
+    TEST_ACCEPT(t, mean_p(&b, expected), "%s in a furnace: %.5f +- %.5f, expected %.5f", integrator, mean, error,
+                expected);
+    TEST_REJECT(t, mean_p(&b, expected * 1.05), "%s in a furnace 5 %% brighter than it is", integrator);
     batches_free(&b);
     scene_free(&scene);
 }
@@ -41,7 +43,7 @@ static void test_empty(struct test *t)
     struct scene scene;
     if (!scene_from_text(t, text, &scene))
         return;
-    for (const struct method *const *m = method_list(); *m != NULL; m++) {
+    for (const struct integrator *const *m = integrator_list(); *m != NULL; m++) {
         struct batches b = render_batches(t, &scene, (*m)->name, 3, 2, 2, 8, 12);
         CHECK(t, fabs(b.value[0] - 0.25) < 1e-6 && fabs(b.value[2] - 0.75) < 1e-6, "%s: the sky is %g %g %g",
               (*m)->name, b.value[0], b.value[1], b.value[2]);
@@ -52,7 +54,7 @@ static void test_empty(struct test *t)
 
 /* Direct light of a disk of radius R at height h on the floor's centre: E = pi L R^2 / (R^2 + h^2), radiance kd E /
  * pi. */
-static void test_disk(struct test *t, const char *method)
+static void test_disk(struct test *t, const char *integrator)
 {
     static const char text[] =
         "LookAt 0 0.2 -1  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" .2\n"
@@ -65,15 +67,16 @@ static void test_disk(struct test *t, const char *method)
     if (!scene_from_text(t, text, &scene))
         return;
     double expected = 0.6 * 4 * 1.5 * 1.5 / (1.5 * 1.5 + 4), error;
-    struct batches b = render_batches(t, &scene, method, 1, 512, 8, 4, 13);
+    struct batches b = render_batches(t, &scene, integrator, 1, 512, 8, 4, 13);
     double mean = batches_mean(&b, &error);
-    TEST_ACCEPT(t, mean_p(&b, expected), "%s under a disk: %.5f +- %.5f, expected %.5f", method, mean, error, expected);
-    TEST_REJECT(t, mean_p(&b, expected * 1.1), "%s under a disk 10 %% brighter than it is", method);
+    TEST_ACCEPT(t, mean_p(&b, expected), "%s under a disk: %.5f +- %.5f, expected %.5f", integrator, mean, error,
+                expected);
+    TEST_REJECT(t, mean_p(&b, expected * 1.1), "%s under a disk 10 %% brighter than it is", integrator);
     batches_free(&b);
     scene_free(&scene);
 }
 
-/* --- methods agree ----------------------------------------------------------------------------------- */
+/* --- integrators agree ----------------------------------------------------------------------------------- */
 
 static void agree(struct test *t, const struct scene *scene, const char *name, const char *a, int spp_a, const char *b,
                   int spp_b, int depth)
@@ -150,16 +153,17 @@ static void test_agreement(struct test *t)
 
 /* --- reproducibility --------------------------------------------------------------------------------- */
 
-static float *render_pixels(struct test *t, const struct scene *scene, const char *method, int threads, uint64_t seed,
-                            long first, long middle, long end)
+static float *render_pixels(struct test *t, const struct scene *scene, const char *integrator, int threads,
+                            uint64_t seed, long first, long middle, long end)
 {
     struct pixel_rect crop = render_crop(scene);
     struct film film;
     struct error err;
     film_init(&film, crop, scene->width, scene->height);
-    struct render_options o = {.method = method_find(method), .seed = seed, .first = first, .end = middle};
+    struct render_options o = {.integrator = integrator_find(integrator), .seed = seed, .first = first, .end = middle};
     o.n_threads = threads;
     o.max_depth = 4;
+    o.planned = end;
     CHECK(t, render_scene(scene, &o, &film, &err), "%s", err.text);
     o.first = middle;
     o.end = end;
@@ -178,7 +182,7 @@ static void test_thread_counts(struct test *t)
     if (!scene_from_text(t, text, &scene))
         return;
     size_t bytes = (size_t)scene.width * (size_t)scene.height * 3 * sizeof(float);
-    for (const struct method *const *m = method_list(); *m != NULL; m++) {
+    for (const struct integrator *const *m = integrator_list(); *m != NULL; m++) {
         const char *name = (*m)->name;
         float *one = render_pixels(t, &scene, name, 1, 5, 0, 0, 40);
         float *two = render_pixels(t, &scene, name, 2, 5, 0, 0, 40),
@@ -200,11 +204,11 @@ static void test_thread_counts(struct test *t)
 
 /* --- Russian roulette -------------------------------------------------------------------------------- */
 
-/* Each method has its own default threshold, whatever parameters of other methods are set; the user's wins. */
+/* Each integrator has its own default threshold, whatever parameters of other integrators are set; the user's wins. */
 static void test_roulette_defaults(struct test *t)
 {
     static const struct {
-        const char *method, *select, *threshold, *as; /* threshold NULL: the default, which is to be `as` */
+        const char *integrator, *select, *threshold, *as; /* threshold NULL: the default, which is to be `as` */
     } cases[] = {{"pt", "bins", NULL, "0.5"},     {"bdpt", "bins", NULL, "0.5"},   {"asbdpt", "vertices", NULL, "0.5"},
                  {"asbdpt", "bins", NULL, "0"},   {"bdpt", "bins", "0.5", "0.5"},  {"bdpt", "bins", "0", "0"},
                  {"asbdpt", "bins", "0.5", "0.5"}};
@@ -218,13 +222,13 @@ static void test_roulette_defaults(struct test *t)
         settings_set(&scene.settings, "select", cases[i].select, "test");
         if (cases[i].threshold != NULL)
             settings_set(&scene.settings, "rrthreshold", cases[i].threshold, "test");
-        float *got = render_pixels(t, &scene, cases[i].method, 2, 7, 0, 0, 4);
+        float *got = render_pixels(t, &scene, cases[i].integrator, 2, 7, 0, 0, 4);
         settings_set(&scene.settings, "rrthreshold", cases[i].as, "test");
-        float *same = render_pixels(t, &scene, cases[i].method, 2, 7, 0, 0, 4);
+        float *same = render_pixels(t, &scene, cases[i].integrator, 2, 7, 0, 0, 4);
         settings_set(&scene.settings, "rrthreshold", cases[i].as[1] == '\0' ? "0.5" : "0", "test");
-        float *other = render_pixels(t, &scene, cases[i].method, 2, 7, 0, 0, 4);
+        float *other = render_pixels(t, &scene, cases[i].integrator, 2, 7, 0, 0, 4);
         CHECK(t, memcmp(got, same, bytes) == 0 && memcmp(got, other, bytes) != 0,
-              "%s with select %s, rrthreshold %s: not as with %s", cases[i].method, cases[i].select,
+              "%s with select %s, rrthreshold %s: not as with %s", cases[i].integrator, cases[i].select,
               cases[i].threshold == NULL ? "not set" : cases[i].threshold, cases[i].as);
         free(got);
         free(same);

@@ -288,7 +288,8 @@ static double direct_rmse8(struct test *t, const struct results *r, int variant,
     if (!scene_from_file(t, r->scene[0].path, 8, 6, &scene))
         return NAN;
     variant_settings(&VARIANTS[variant], &scene.settings);
-    struct render_options o = {.method = method_find(VARIANTS[variant].integrator), .n_threads = 2, .max_depth = 4};
+    struct render_options o = {
+        .integrator = integrator_find(VARIANTS[variant].integrator), .n_threads = 2, .max_depth = 4};
     o.seed = (uint64_t)plan_seed(variant, 1);
     o.end = r->plan->spp[step];
     film_init(&film, render_crop(&scene), 8, 6);

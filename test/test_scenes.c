@@ -1,4 +1,4 @@
-/* test_scenes.c: the scenes of scenes/test: known radiance, pairs of light kinds, mirrored worlds, all methods. */
+/* test_scenes.c: the scenes of scenes/test: known radiance, pairs of light kinds, mirrored worlds, all integrators. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -213,7 +213,7 @@ static void test_filter_spot(struct test *t)
     }
 }
 
-static struct batches render(struct test *t, const char *name, const char *method, int size, int spp, uint64_t seed)
+static struct batches render(struct test *t, const char *name, const char *integrator, int size, int spp, uint64_t seed)
 {
     char path[256];
     struct scene scene;
@@ -221,12 +221,12 @@ static struct batches render(struct test *t, const char *name, const char *metho
     snprintf(path, sizeof path, "scenes/test/%s.pbrt", name);
     if (!scene_from_file(t, path, size, size, &scene))
         return b;
-    b = render_batches(t, &scene, method, 4, spp, 12, size / 2, seed);
+    b = render_batches(t, &scene, integrator, 4, spp, 12, size / 2, seed);
     scene_free(&scene);
     return b;
 }
 
-/* Two kinds of light in one room: the density with which a light is chosen is where methods differ. */
+/* Two kinds of light in one room: the density with which a light is chosen is where integrators differ. */
 static void test_light_pairs(struct test *t, int spp)
 {
     static const char *const pairs[] = {"area-infinite", "area-point",     "distant-area", "distant-infinite",

@@ -1,5 +1,5 @@
 /* test_streams.c: random numbers have names (seed, purpose, pixel, iteration), and no two names may meet. Tested from
- * three sides: the numbers of a sampler, the sub-paths that the methods trace, and the error of long renders, which
+ * three sides: the numbers of a sampler, the sub-paths that the integrators trace, and the error of long renders, which
  * falls only as long as new iterations bring something new. */
 #include <math.h>
 #include <stdlib.h>
@@ -14,13 +14,14 @@
 
 /* Every way of rendering; restarts make bins number its light sub-paths by blocks. */
 static const struct way {
-    const char *name, *method, *select, *restart;
+    const char *name, *integrator, *select, *restart;
 } WAYS[] = {
     {"pt", "pt", NULL, NULL},
     {"lt", "lt", NULL, NULL},
     {"bdpt", "bdpt", NULL, NULL},
     {"pool", "asbdpt", "pool", "32"},
     {"vertices", "asbdpt", "vertices", "32"},
+    {"subspaces", "asbdpt", "subspaces", "32"},
     {"bins", "asbdpt", "bins", "32"},
     {"bins, restart 8", "asbdpt", "bins", "8"},
     {"bins, never restarted", "asbdpt", "bins", "0"},
@@ -149,32 +150,32 @@ static void add_records(const struct tile *tile, struct keys *eye, struct keys *
 }
 
 /* Render by hand, block by block, as render.c does, but look at the records of each tile pass. */
-static void trace_all(struct test *t, const struct scene *scene, const char *method, uint64_t seed, struct keys *eye,
-                      struct keys *light)
+static void trace_all(struct test *t, const struct scene *scene, const char *integrator, uint64_t seed,
+                      struct keys *eye, struct keys *light)
 {
-    const struct method *m = method_find(method);
-    struct render_job job = {.scene = scene, .film_rect = render_crop(scene), .seed = seed, .max_depth = 1,
-                             .n_threads = 1};
+    const struct integrator *m = integrator_find(integrator);
+    struct render_job job = {.scene = scene, .film_rect = render_crop(scene), .seed = seed, .eye_seed = seed,
+                             .max_depth = 1, .n_threads = 1};
     struct error err;
-    void *state;
-    int block = m->block;
-    if (!CHECK(t, m->prepare(&job, &state, &block, &err), "%s", err.text))
+    struct preparation prepared = {.size = {DEFAULT_BLOCK, DEFAULT_TILE_SIZE}};
+    if (!CHECK(t, m->prepare(&job, &prepared, &err), "%s", err.text))
         return;
-    block = block < ITERATIONS ? block : ITERATIONS;
+    int block = prepared.size.block < ITERATIONS ? prepared.size.block : ITERATIONS;
+    const struct tile_renderer *renderer = prepared.renderer;
     struct tile tile = {.rect = job.film_rect};
     struct workspace *work = workspaces_new(1, job.max_depth);
-    work->own = m->new_own != NULL ? m->new_own(state) : NULL;
+    work->scratch = renderer->new_scratch != NULL ? renderer->new_scratch(prepared.state) : NULL;
     for (long first = 0; first < ITERATIONS; first += block) {
         struct tile_pass pass = {&job, job.film_rect, first, first + block, &tile, work};
         tile_start(&tile, job.film_rect, job.film_rect, &scene->filter, true);
-        m->render(state, &pass);
+        renderer->render(prepared.state, &pass);
         add_records(&tile, eye, light);
     }
     tile_free(&tile);
-    if (m->free_own != NULL)
-        m->free_own(state, work->own);
+    if (renderer->free_scratch != NULL)
+        renderer->free_scratch(work->scratch);
     workspaces_free(work, 1);
-    m->release(state);
+    m->release(prepared.state);
 }
 
 /* Four pixels, two seeds in a row: no sub-path comes twice. */
@@ -187,7 +188,7 @@ static void test_sub_paths(struct test *t)
         struct keys eye = {NULL, 0, 0}, light = {NULL, 0, 0};
         choose_way(&scene, &WAYS[i]);
         for (uint64_t seed = 0; seed < 2; seed++)
-            trace_all(t, &scene, WAYS[i].method, test_seed(t) + seed, &eye, &light);
+            trace_all(t, &scene, WAYS[i].integrator, test_seed(t) + seed, &eye, &light);
         CHECK(t, eye.n + light.n > ITERATIONS, "%s: only %lu sub-paths seen", WAYS[i].name,
               (unsigned long)(eye.n + light.n));
         long n_eye = (long)eye.n, n_light = (long)light.n, eyes = count_equal(&eye), lights = count_equal(&light);
@@ -217,12 +218,12 @@ static bool note_sums(void *context, double done)
     return true;
 }
 
-static void render_history(struct test *t, const struct scene *scene, const char *method, uint64_t seed,
+static void render_history(struct test *t, const struct scene *scene, const char *integrator, uint64_t seed,
                            struct history *out)
 {
     struct film film;
     struct error err;
-    struct render_options o = {.method = method_find(method), .seed = seed, .end = LAST, .n_threads = 2,
+    struct render_options o = {.integrator = integrator_find(integrator), .seed = seed, .end = LAST, .n_threads = 2,
                                .max_depth = 4};
     o.progress = note_sums;
     o.progress_context = out;
@@ -322,7 +323,7 @@ static void test_way_falls(struct test *t, const struct scene *scene, const stru
     struct history *h = mem_alloc(2, sizeof *h);
     for (int k = 0; k < PAIRS; k++) {
         for (uint64_t i = 0; i < 2; i++)
-            render_history(t, scene, w->method, test_seed(t) * 1000 + 2 * (uint64_t)k + i, &h[i]);
+            render_history(t, scene, w->integrator, test_seed(t) * 1000 + 2 * (uint64_t)k + i, &h[i]);
         for (int step = 0; step < STEPS; step++)
             for (int i = 0; i < VALUES; i++)
                 d[k].sum[step][i] = h[0].sum[step][i] - h[1].sum[step][i];

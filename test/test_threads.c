@@ -1,5 +1,5 @@
-/* test_threads.c: small renders by every method on four threads, meant for the thread sanitizer (make tsan); the bytes
- * must be those of one thread. */
+/* test_threads.c: small renders by every integrator on four threads, meant for the thread sanitizer (make tsan); the
+ * bytes must be those of one thread. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,14 +8,14 @@
 #include "helpers.h"
 #include "tests.h"
 
-static void test_way(struct test *t, const struct scene *scene, const char *method, const char *what)
+static void test_way(struct test *t, const struct scene *scene, const char *integrator, const char *what)
 {
     size_t n = (size_t)scene->width * (size_t)scene->height * 3;
     float *image[2];
     for (int i = 0; i < 2; i++) {
         struct film film;
         struct error err;
-        struct render_options o = {.method = method_find(method), .end = 40, .n_threads = i == 0 ? 1 : 4,
+        struct render_options o = {.integrator = integrator_find(integrator), .end = 40, .n_threads = i == 0 ? 1 : 4,
                                    .seed = test_seed(t)};
         film_init(&film, render_crop(scene), scene->width, scene->height);
         film_keep_strategies(&film, 4);
@@ -32,14 +32,14 @@ static void test_way(struct test *t, const struct scene *scene, const char *meth
 
 void test_threads(struct test *t)
 {
-    static const char *const selections[] = {"bins", "pool", "vertices"};
+    static const char *const selections[] = {"bins", "pool", "vertices", "subspaces"};
     struct scene scene;
     if (!scene_from_file(t, "scenes/test/light-kinds.pbrt", 40, 24, &scene))
         return;
     test_way(t, &scene, "pt", "pt");
     test_way(t, &scene, "lt", "lt");
     test_way(t, &scene, "bdpt", "bdpt");
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 4; i++) {
         settings_set(&scene.settings, "select", selections[i], "test");
         test_way(t, &scene, "asbdpt", selections[i]);
     }

@@ -109,7 +109,7 @@ static void test_impossible_streams(struct test *t)
         {"", "truncated"},
         {"78", "truncated"},
         {"789d03000000000001", "header"}, /* wrong check bits */
-        {"799c03000000000001", "header"}, /* wrong method */
+        {"799c03000000000001", "header"}, /* wrong integrator */
         {"78bb03000000000001", "header"}, /* preset dictionary */
         {"789c0700000001", "no such block"},
         {"789c010500faff68656c6c6f062c0214", "wrong checksum"}, /* stored "hello"; ..15 would be right */

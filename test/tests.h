@@ -17,6 +17,7 @@ void test_lobe(struct test *t);
 void test_material(struct test *t);
 void test_mis(struct test *t);
 void test_options(struct test *t);
+void test_pairs(struct test *t);
 void test_parser(struct test *t);
 void test_ply(struct test *t);
 void test_render(struct test *t);

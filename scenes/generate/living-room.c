@@ -1,10 +1,6 @@
 /* living-room.c: meshes, pictures and the sky of scenes/living-room.pbrt, written to scenes/living-room/. Metres, y
  * up, the camera looks along +z. The room is x -3 .. 3, y 0 .. 2.7, z -5 .. 0, its windows in the left wall. */
 #include <math.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "model.h"
 
@@ -341,29 +337,6 @@ static void sky_colour(const double d[3], double out[3])
     mix3(out, ground, smooth(0.0, -0.05, d[1]), out);
 }
 
-static void sky(void)
-{
-    const int w = 128, h = 64;
-    FILE *f = fopen(DIR "sky.pfm", "wb");
-    if (f == NULL) exit(1);
-    fprintf(f, "PF\n%d %d\n-1\n", w, h);
-    for (int y = h - 1; y >= 0; y--) {
-        for (int x = 0; x < w; x++) {
-            double phi = TAU * (x + 0.5) / w, theta = TAU / 2 * (y + 0.5) / h, c[3];
-            /* the light's z points up in the scene, its y to the scene's -z */
-            double d[3] = {cos(phi) * sin(theta), cos(theta), -sin(phi) * sin(theta)};
-            sky_colour(d, c);
-            for (int i = 0; i < 3; i++) {
-                float v = (float)(floor(c[i] * 256 + 0.5) / 256); /* the same on every machine */
-                uint32_t bits;
-                memcpy(&bits, &v, 4);
-                for (int k = 0; k < 4; k++) putc((int)(bits >> (8 * k) & 255), f);
-            }
-        }
-    }
-    if (fclose(f) != 0) exit(1);
-}
-
 int main(void)
 {
     sofa();
@@ -377,6 +350,6 @@ int main(void)
     planks();
     painting();
     rug();
-    sky();
+    sky_write(DIR "sky.pfm", 128, 64, sky_colour);
     return 0;
 }

@@ -445,6 +445,26 @@ void picture_write(struct picture *p, const char *path)
     p->rgb = NULL;
 }
 
+void sky_write(const char *path, int width, int height, sky_function *f)
+{
+    FILE *out = open_for_writing(path);
+    fprintf(out, "PF\n%d %d\n-1\n", width, height);
+    for (int y = height - 1; y >= 0; y--) {
+        for (int x = 0; x < width; x++) {
+            double phi = TAU * (x + 0.5) / width, theta = TAU / 2 * (y + 0.5) / height, c[3];
+            double d[3] = {cos(phi) * sin(theta), cos(theta), -sin(phi) * sin(theta)};
+            f(d, c);
+            for (int i = 0; i < 3; i++) {
+                float v = (float)(floor(c[i] * 256 + 0.5) / 256); /* the same on every machine */
+                uint32_t bits;
+                memcpy(&bits, &v, 4);
+                put(out, bits, 4);
+            }
+        }
+    }
+    finish(out, path);
+}
+
 /* ---- noise ---- */
 
 double scatter(unsigned i, unsigned seed)

@@ -2,8 +2,8 @@
  *
  * Pieces (boxes with rounded edges, surfaces of revolution, tubes, any parametric surface) are appended to one
  * mesh per material under a current placement, then written as a PLY file with normals and texture coordinates.
- * Pictures are written as TGA. Numbers are rounded before they are written, so that every machine writes the same
- * files. Build and run everything with scenes/generate/make-all.sh.
+ * Pictures are written as TGA, skies as PFM. Numbers are rounded before they are written, so that every machine writes
+ * the same files. Build and run everything with scenes/generate/make-all.sh.
  */
 #ifndef SCENES_MODEL_H
 #define SCENES_MODEL_H
@@ -65,6 +65,11 @@ struct picture {
 void picture_begin(struct picture *p, int width, int height);
 void picture_set(struct picture *p, int x, int y, const double rgb[3]); /* sRGB encoded, 0..1 */
 void picture_write(struct picture *p, const char *path);
+
+/* A sky as PFM: light by direction (unit, y up), the zenith in the top row. The scene's infinite light is to be turned
+ * by -90 degrees about x, so that the map's z points up. */
+typedef void sky_function(const double d[3], double rgb[3]);
+void sky_write(const char *path, int width, int height, sky_function *f);
 
 /* Noise in [0,1], smooth, repeating every `period` units in x and y; fractal sum of four octaves. */
 double noise(double x, double y, int period, unsigned seed);

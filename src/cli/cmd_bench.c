@@ -143,10 +143,11 @@ static void measure_rays(const struct scene *s, double *value)
 
 /* --- whole renders ------------------------------------------------------------------------------------ */
 
-static bool render_once(const struct scene *s, const struct bench_options *o, const char *method, int n_threads,
+static bool render_once(const struct scene *s, const struct bench_options *o, const char *integrator, int n_threads,
                         double *wall, double *cpu, struct error *err)
 {
-    struct render_options options = {.method = method_find(method), .end = o->spp, .max_depth = o->max_depth};
+    struct render_options options = {
+        .integrator = integrator_find(integrator), .end = o->spp, .max_depth = o->max_depth};
     struct film film;
     options.n_threads = n_threads;
     film_init(&film, render_crop(s), s->width, s->height);

@@ -24,7 +24,7 @@ static void print_lights(const struct light_set *lights)
         printf("  and %d more\n", lights->n - SHOWN);
 }
 
-static void print_scene(const struct scene *s, const struct method *m, double seconds)
+static void print_scene(const struct scene *s, const struct integrator *m, double seconds)
 {
     const struct kdtree *kd = &s->kd;
     struct pixel_rect crop = render_crop(s);
@@ -52,11 +52,11 @@ static void print_scene(const struct scene *s, const struct method *m, double se
 static int run(void *options)
 {
     struct scene scene;
-    const struct method *method;
+    const struct integrator *integrator;
     double start = clock_seconds();
-    int status = job_load(options, &scene, &method);
+    int status = job_load(options, &scene, &integrator);
     if (status == EXIT_OK) {
-        print_scene(&scene, method, clock_seconds() - start);
+        print_scene(&scene, integrator, clock_seconds() - start);
         scene_free(&scene);
     }
     return status;

@@ -83,7 +83,7 @@ static bool write_strategies(const char *directory, const struct film *film, str
     return ok;
 }
 
-static void report(const struct job_options *o, const struct method *m, const struct film *film, double wall,
+static void report(const struct job_options *o, const struct integrator *m, const struct film *film, double wall,
                    double cpu)
 {
     double paths = (double)film->iterations * rect_width(film->rect) * rect_height(film->rect);
@@ -91,12 +91,14 @@ static void report(const struct job_options *o, const struct method *m, const st
         fprintf(stderr, "%s: %dx%d, %ld spp, %s; %.2f s, %.2f s of CPU, %.2f us per sample path\n", o->scene_path,
                 rect_width(film->rect), rect_height(film->rect), film->iterations, m->name, wall, cpu,
                 paths > 0 ? 1e6 * cpu / paths : 0);
+    if (!o->quiet && film->note[0] != '\0')
+        fprintf(stderr, "%s: %s\n", m->name, film->note);
 }
 
-static bool render_and_write(const struct job_options *o, const struct scene *scene, const struct method *m,
+static bool render_and_write(const struct job_options *o, const struct scene *scene, const struct integrator *m,
                              struct error *err)
 {
-    struct render_options options = {.method = m, .seed = o->seed, .end = job_spp(o, scene)};
+    struct render_options options = {.integrator = m, .seed = o->seed, .end = job_spp(o, scene)};
     options.n_threads = o->n_threads;
     struct progress bar;
     struct film film;
@@ -127,13 +129,13 @@ static int run(void *options)
     const struct job_options *o = options;
     struct error err;
     struct scene scene;
-    const struct method *method;
+    const struct integrator *integrator;
     if (!check_outputs(o, &err))
         return fail(&err);
-    int status = job_load(o, &scene, &method);
+    int status = job_load(o, &scene, &integrator);
     if (status != EXIT_OK)
         return status;
-    bool ok = render_and_write(o, &scene, method, &err);
+    bool ok = render_and_write(o, &scene, integrator, &err);
     scene_free(&scene);
     return ok ? EXIT_OK : fail(&err);
 }

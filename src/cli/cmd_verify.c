@@ -1,4 +1,5 @@
-/* cmd_verify.c: asbdpt verify: have two methods, or two pictures, the same expectation? See verify.h for the tests. */
+/* cmd_verify.c: asbdpt verify: have two integrators, or two pictures, the same expectation? See verify.h for the tests.
+ * */
 #include <stdio.h>
 #include <string.h>
 
@@ -9,7 +10,7 @@
 struct verify_options {
     struct job_options job;
     const char *methods;   /* A or A,B; or NULL */
-    const char *reference; /* a stored picture instead of the second method, or NULL */
+    const char *reference; /* a stored picture instead of the second integrator, or NULL */
     const char *store;     /* write the mean of both sides as STORE.pfm ..., or NULL */
     const char *note;
     struct texts files, against; /* pictures */
@@ -18,7 +19,7 @@ struct verify_options {
     double alpha;
     /* What follows from the above: */
     bool has_scene, with_errors; /* with errors, files[0..1] and against[0..1] are a picture and its standard errors */
-    char first[64], second[64];  /* methods; "": the default */
+    char first[64], second[64];  /* integrators; "": the default */
 };
 
 /* --- options ----------------------------------------------------------------------------------------- */
@@ -44,10 +45,10 @@ static bool choose_sides(struct verify_options *o)
     struct error known;
     if (o->methods != NULL)
         sscanf(o->methods, "%63[^,],%63s", o->first, o->second);
-    const char *wrong = o->first[0] != '\0' && method_find(o->first) == NULL ? o->first : o->second;
-    if (wrong[0] == '\0' || method_find(wrong) != NULL)
+    const char *wrong = o->first[0] != '\0' && integrator_find(o->first) == NULL ? o->first : o->second;
+    if (wrong[0] == '\0' || integrator_find(wrong) != NULL)
         return true;
-    method_unknown(wrong, &known);
+    integrator_unknown(wrong, &known);
     return usage_error(&command_verify, "--methods: there is no method %s; %s", wrong, known.text) == EXIT_OK;
 }
 
@@ -74,20 +75,21 @@ static bool complete(struct verify_options *o)
 
 /* --- both sides -------------------------------------------------------------------------------------- */
 
-static void choose_methods(const struct verify_options *o, const struct method *scenes, const struct method **m)
+static void choose_integrators(const struct verify_options *o, const struct integrator *scenes,
+                               const struct integrator **m)
 {
     const char *partner = strcmp(scenes->name, "bdpt") == 0 ? "asbdpt" : scenes->name;
-    m[0] = method_find(o->first[0] != '\0' ? o->first : o->reference != NULL ? scenes->name : "bdpt");
-    m[1] = o->reference != NULL ? NULL : method_find(o->second[0] != '\0' ? o->second : partner);
+    m[0] = integrator_find(o->first[0] != '\0' ? o->first : o->reference != NULL ? scenes->name : "bdpt");
+    m[1] = o->reference != NULL ? NULL : integrator_find(o->second[0] != '\0' ? o->second : partner);
 }
 
-static bool render_sides(struct scene *scene, const struct method *scenes, const struct verify_options *o,
+static bool render_sides(struct scene *scene, const struct integrator *scenes, const struct verify_options *o,
                          struct side *a, struct side *b, struct error *err)
 {
-    const struct method *m[2];
+    const struct integrator *m[2];
     struct render_options options = {.seed = o->job.seed, .n_threads = o->job.n_threads, .max_depth = o->job.max_depth};
     bool ok = true;
-    choose_methods(o, scenes, m);
+    choose_integrators(o, scenes, m);
     if (o->reference != NULL && !side_read_reference(o->reference, b, err))
         return false;
     if (o->reference != NULL || o->job.res[0] == 0)
@@ -98,7 +100,7 @@ static bool render_sides(struct scene *scene, const struct method *scenes, const
     printf("%dx%d pixels, %d batches of %ld spp, seed %llu\n", rect_width(render_crop(scene)),
            rect_height(render_crop(scene)), o->batches, options.end, (unsigned long long)o->job.seed);
     for (int i = 0; ok && i < 2 && m[i] != NULL; i++) {
-        options.method = m[i];
+        options.integrator = m[i];
         ok = side_render(scene, &options, i, o->batches, o->job.quiet, i == 0 ? a : b, err);
     }
     return ok;
@@ -150,16 +152,16 @@ static int verify(const struct verify_options *o)
     struct error err;
     struct scene scene;
     struct side a = {0}, b = {0};
-    const struct method *method;
+    const struct integrator *integrator;
     int status = EXIT_OK, max_depth = 0;
-    if (o->has_scene && (status = job_load(&o->job, &scene, &method)) != EXIT_OK)
+    if (o->has_scene && (status = job_load(&o->job, &scene, &integrator)) != EXIT_OK)
         return status;
     bool ok = !o->has_scene || render_max_depth(&scene, o->job.max_depth, &max_depth, &err);
     if (ok && o->files.n > 0)
         ok = side_read(o->files.item, o->files.n, o->with_errors, NULL, &a, &err) &&
              side_read(o->against.item, o->against.n, o->with_errors, &a, &b, &err);
     else if (ok)
-        ok = render_sides(&scene, method, o, &a, &b, &err);
+        ok = render_sides(&scene, integrator, o, &a, &b, &err);
     status = ok ? judge(o, max_depth, &a, &b, &err) : fail(&err);
     batches_free(&a.pixels);
     batches_free(&b.pixels);

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "integrators/method.h"
+#include "integrators/integrator.h"
 #include "parser/symbols.h"
 
 static const char VERSION[] = "asbdpt 0.1";
@@ -58,7 +58,7 @@ static void print_methods(void)
     printf("integrators and their parameters (-P NAME=VALUE, or in the scene's Integrator directive):\n");
     printf("    all: maxdepth 5, heuristic balance|power, rrthreshold 0.5, for select=bins 0 "
            "(0: no Russian roulette)\n");
-    for (const struct method *const *m = method_list(); *m != NULL; m++) {
+    for (const struct integrator *const *m = integrator_list(); *m != NULL; m++) {
         printf("    %-8s %s\n", (*m)->name, (*m)->help);
         for (const struct parameter *p = (*m)->parameters; p->name != NULL; p++)
             printf("             %-12s %-10s %s\n", p->name, p->fallback, p->help);

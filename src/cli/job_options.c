@@ -64,11 +64,11 @@ static bool apply(const struct job_options *o, struct scene *scene, struct error
     return true;
 }
 
-void method_unknown(const char *wanted, struct error *out)
+void integrator_unknown(const char *wanted, struct error *out)
 {
     struct suggestion s = suggest_start(wanted);
     char known[256] = "";
-    for (const struct method *const *m = method_list(); *m != NULL; m++) {
+    for (const struct integrator *const *m = integrator_list(); *m != NULL; m++) {
         suggest_offer(&s, (*m)->name);
         snprintf(known + strlen(known), sizeof known - strlen(known), " %s", (*m)->name);
     }
@@ -76,20 +76,21 @@ void method_unknown(const char *wanted, struct error *out)
               s.name != NULL ? "? " : "", known);
 }
 
-/* The method asked for; pbrt's integrators that do not exist here are replaced by the default. */
-static const struct method *choose_method(const struct job_options *o, const struct scene *scene, struct error *err)
+/* The integrator asked for; pbrt's integrators that do not exist here are replaced by the default. */
+static const struct integrator *choose_integrator(const struct job_options *o, const struct scene *scene,
+                                                  struct error *err)
 {
     const char *name = o->integrator != NULL ? o->integrator : scene->integrator;
-    const struct method *m = method_find(name != NULL ? name : "bdpt");
+    const struct integrator *m = integrator_find(name != NULL ? name : "bdpt");
     if (m != NULL)
         return m;
     if (o->integrator == NULL) {
         error_set(err, "integrator \"%s\" does not exist here; using bdpt", name);
         print_warning(NULL, err->text);
-        return method_find("bdpt");
+        return integrator_find("bdpt");
     }
     struct error known;
-    method_unknown(name, &known);
+    integrator_unknown(name, &known);
     error_set(err, "--integrator %s does not exist; %s", name, known.text);
     return NULL;
 }
@@ -105,14 +106,14 @@ static void warn_of_uniform(const struct scene *scene)
     print_warning(NULL, text.text);
 }
 
-int job_load(const struct job_options *o, struct scene *scene, const struct method **method)
+int job_load(const struct job_options *o, struct scene *scene, const struct integrator **integrator)
 {
     struct error err;
     struct warning_sink sink = {print_warning, NULL};
     if (!parse_scene(o->scene_path, scene, o->quiet ? NULL : &sink, &err))
         return fail(&err);
-    *method = NULL;
-    if (!apply(o, scene, &err) || (*method = choose_method(o, scene, &err)) == NULL) {
+    *integrator = NULL;
+    if (!apply(o, scene, &err) || (*integrator = choose_integrator(o, scene, &err)) == NULL) {
         scene_free(scene);
         return fail(&err);
     }

@@ -27,14 +27,14 @@ struct job_options {
 };
 extern const struct option JOB_OPTIONS[], SCENE_OPTIONS[]; /* the second have the scene itself too, which they need */
 
-/* job_load: parse the scene, apply the options, prepare it, and find the method. Returns EXIT_OK, or EXIT_JOB after
+/* job_load: parse the scene, apply the options, prepare it, and find the integrator. Returns EXIT_OK, or EXIT_JOB after
  * printing why (then nothing needs release). */
-int job_load(const struct job_options *o, struct scene *scene, const struct method **method);
+int job_load(const struct job_options *o, struct scene *scene, const struct integrator **integrator);
 
 /* job_spp: samples per pixel in force: option, scene, else 16. */
 long job_spp(const struct job_options *o, const struct scene *scene);
 
-/* method_unknown: the rest of a message about a method that does not exist: the nearest and all. */
-void method_unknown(const char *wanted, struct error *out);
+/* integrator_unknown: the rest of a message about an integrator that does not exist: the nearest and all. */
+void integrator_unknown(const char *wanted, struct error *out);
 
 #endif

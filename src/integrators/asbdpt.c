@@ -1,104 +1,147 @@
-/* asbdpt.c: see asbdpt.h: reads the parameters, runs the pre-pass if the selection wants one, and calls it. */
+/* asbdpt.c: see asbdpt.h: reads the parameters and runs what the selection wants to have learnt. */
 #include "integrators/asbdpt.h"
 
 #include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
+#include "integrators/pilot.h"
 #include "integrators/prepass.h"
 #include "integrators/select.h"
 #include "transport/pixel_sample.h"
-#include "base/number.h"
-
-enum { MIN_GUIDED_CELLS = 4 }; /* with fewer there is nothing to choose among */
-
-/* vertices: what the one sample of s = 1 counts for in the weights (mis.h); its point on the light comes from a
- * low-discrepancy sequence. Measured: from 1 to 2 the squared error of the Cornell box falls by a fifth, that of the
- * other scenes stays or, where light comes through windows, rises by 1 to 3 %. */
-static const double DIRECT_CREDIT = 2;
 
 static const struct parameter PARAMETERS[] = {
-    {"select", "vertices", "bins (the dissertation, biased), pool, or vertices"},
+    {"select", "subspaces", "bins (the dissertation, biased), pool, vertices, or subspaces"},
     {"metric", "importance", "pool, vertices: constant, throughput or importance"},
-    {"delta", "0.1", "pool, vertices: share of draws that ignore the importance, (0,1]"},
-    {"connections", "0", "vertices: light vertices drawn per eye vertex; 0: chosen from the pre-pass"},
-    {"pathpixels", "2", "vertices: pixels per light sub-path"},
-    {"grid", "64", "pool, vertices: cells of the importance grid along the scene's diagonal"},
-    {"lightsamplestrategy", "spatial", "pool, vertices: s = 1 picks lights by power, or spatial: by what is seen"},
+    {"delta", "0.1", "all but bins: share of draws that ignore what was learnt, (0,1]"},
+    {"connections", "0", "vertices, subspaces: light vertices drawn per eye vertex; 0: chosen"},
+    {"pathpixels", "0", "vertices, subspaces: pixels per light sub-path; 0: chosen (vertices: 2)"},
+    {"grid", "64", "pool, vertices: cells of the importance along the scene's diagonal"},
+    {"lightsamplestrategy", "spatial", "all but bins: s = 1 picks lights by power, or spatial: by what is seen"},
     {"binpaths", "8", "bins: light sub-paths per pixel, even"},
     {"maxage", "24", "bins: iterations after which an unused sub-path is replaced, 0: never"},
     {"restart", "32", "bins: iterations after which all bins are rebuilt, 0: never"},
     {NULL, NULL, NULL}};
 
+static const char *const SELECTS[] = {"bins", "pool", "vertices", "subspaces", NULL};
+static const struct tile_renderer *const RENDERERS[] = {&render_bins, &render_pool, &render_vertices,
+                                                        &render_subspaces};
+
+/* Numbers that are heuristics of our own; doc/selection.md says what they were chosen on. */
+enum {
+    MIN_GUIDED_CELLS = 4, /* with fewer there is nothing to choose among */
+    GUIDE_CELLS = 8,      /* eye regions along the scene's diameter */
+    PAIR_CELLS = 16,      /* subspaces: light regions */
+    MIN_EYE = 8 * 1024,   /* pool, vertices: eye sub-paths of the pre-pass, two per pixel between these */
+    MAX_EYE = 128 * 1024,
+    MIN_TRAINING = 256 /* subspaces: the same, but TRAINING_SHARE of the samples */
+};
+static const double TRAINING_SHARE = 0.06, PILOT_SHARE = 0.02;
+
+/* vertices: what draws, and the one sample of s = 1, count for in the weights (mis.h): draws are stratified over a
+ * table, and the point on the light comes from a low-discrepancy sequence. */
+static const double VERTICES_CREDIT = 2;
+
 static bool read_parameters(const struct settings *s, struct selection *sel, int *cells, long *restart,
                             struct error *err)
 {
-    static const char *const selects[] = {"bins", "pool", "vertices", NULL};
-    static const struct selector *const selectors[] = {&select_bins, &select_pool, &select_vertices};
     static const char *const metrics[] = {"constant", "throughput", "importance", NULL};
     int which, metric;
     long connections, pixels, grid, paths, age;
-    if (!settings_choice(s, "select", 2, selects, &which, err) ||
+    if (!settings_choice(s, "select", SELECT_SUBSPACES, SELECTS, &which, err) ||
         !settings_choice(s, "metric", METRIC_IMPORTANCE, metrics, &metric, err) ||
         !settings_real(s, "delta", 0.1, 1e-6, 1, &sel->delta, err) ||
         !settings_int(s, "connections", 0, 0, 1024, &connections, err) ||
-        !settings_int(s, "pathpixels", 2, 1, TILE_SIZE * TILE_SIZE, &pixels, err) ||
+        !settings_int(s, "pathpixels", 0, 0, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE, &pixels, err) ||
         !settings_int(s, "grid", 64, 1, 100000, &grid, err) || !settings_int(s, "binpaths", 8, 2, 4096, &paths, err) ||
         !settings_int(s, "maxage", 24, 0, LONG_MAX, &age, err) ||
         !settings_int(s, "restart", 32, 0, INT_MAX, restart, err))
         return false;
     if (paths % 2 != 0)
         return error_set(err, "asbdpt: binpaths %ld is odd; bins hold two sub-paths each", paths);
-    sel->selector = selectors[which];
+    sel->select = (enum select)which;
     sel->metric = (enum metric)metric;
-    sel->connections = (int)connections;
+    sel->connections[0] = sel->connections[1] = (double)connections;
     sel->path_pixels = (int)pixels;
+    sel->lights = 1;
     sel->bin_paths = (int)paths;
     sel->max_age = age;
     *cells = (int)grid;
     return true;
 }
 
-/* n(x) of vertices.c over 2 C. */
-static double position_count(const void *context, vec3 p, vec3 ng)
+/* As many draws as are needed, on average, to meet one light vertex that the camera can make use of; between 2, below
+ * which tracing the sub-paths costs more than connecting them, and 8, where shadow rays begin to dominate. A rule of
+ * our own. */
+static int choose_connections(const struct importance *g)
 {
-    const struct selection *sel = context;
-    return (1 - sel->delta) * importance_at(&sel->grid, p, ng) / sel->grid.mean + sel->delta;
+    return int_within(1 / g->useful + 0.5, 2, 8); /* `useful` of a scene in which nothing arrives is 0 */
 }
 
-/* As many draws as are needed, on average, to meet one light vertex that the camera can make use of (importance.h);
- * between 2, below which tracing the sub-paths costs more than connecting them, and 8, where shadow rays begin to
- * dominate. A rule of our own. */
-static int choose_connections(const struct importance *grid)
+/* vertices: h(l) = (1 - delta) E(l) / mean + delta, for every eye vertex alike. */
+static void pairs_from_importance(struct selection *sel)
 {
-    return int_within(1 / grid->useful + 0.5, 2, 8); /* `useful` of a scene in which nothing arrives is 0 */
+    int n = sel->learnt.light.n;
+    double *row = mem_alloc((size_t)n, sizeof *row);
+    for (int y = 0; y < n; y++)
+        row[y] = (1 - sel->delta) * importance_in(&sel->importance, y) / sel->importance.mean + sel->delta;
+    pairs_from_row(&sel->learnt.pairs, row, n);
+    sel->learnt.paired = true;
+    free(row);
 }
 
-/* Learn what the selection needs and set the sample counts accordingly. */
-static void learn(struct selection *sel, const struct render_job *job, int cells)
+static double pixels_of(const struct render_job *job)
 {
-    const struct light_set *lights = &job->scene->lights;
-    bool importance = sel->metric == METRIC_IMPORTANCE;
-    importance_init(&sel->grid, lights, cells);
-    bool spatial = job->spatial_lights && lights->n_cells >= MIN_GUIDED_CELLS;
-    if (importance || spatial)
-        prepass_run(job, importance ? &sel->grid : NULL, spatial ? &sel->guide : NULL);
-    if (spatial)
-        sel->counts.guide = &sel->guide;
-    if (sel->selector != &select_vertices)
+    return (double)rect_width(job->film_rect) * rect_height(job->film_rect);
+}
+
+static void learn_vertices(struct selection *sel, const struct render_job *job, int cells)
+{
+    struct prepass_wish wish = {.importance = sel->metric == METRIC_IMPORTANCE, .eye_cells = GUIDE_CELLS};
+    wish.light_cells = cells;
+    wish.levels = 1;
+    wish.n_eye = (long)clamp(2 * pixels_of(job), MIN_EYE, MAX_EYE);
+    wish.guide = job->spatial_lights && job->scene->lights.n_cells >= MIN_GUIDED_CELLS;
+    if (wish.importance || wish.guide)
+        prepass_run(job, &wish, &sel->importance, &sel->learnt);
+    if (sel->select == SELECT_POOL)
         return;
-    if (sel->connections == 0)
-        sel->connections = importance ? choose_connections(&sel->grid) : 4;
-    sel->counts.connect = 2 * sel->connections; /* see vertices.c */
-    sel->counts.direct = DIRECT_CREDIT;
-    sel->counts.splat /= sel->path_pixels;
-    if (importance && sel->grid.mean > 0) {
-        sel->counts.at = position_count;
-        sel->counts.at_context = sel;
+    if (sel->connections[0] == 0)
+        sel->connections[0] = wish.importance ? choose_connections(&sel->importance) : 4;
+    if (sel->path_pixels == 0)
+        sel->path_pixels = 2;
+    for (int i = 0; i < 2; i++) {
+        sel->counts.connect[i] = VERTICES_CREDIT * sel->connections[0];
+        sel->counts.direct[i] = VERTICES_CREDIT;
     }
+    sel->counts.splat /= sel->path_pixels;
+    if (wish.importance && sel->importance.mean > 0)
+        pairs_from_importance(sel);
 }
 
-static bool prepare(const struct render_job *job, void **state, int *block, struct error *err)
+/* What the user gave is kept; the pilot chooses the rest. */
+static void learn_subspaces(struct selection *sel, const struct render_job *job)
+{
+    double samples = pixels_of(job) * job->spp, drawn = sel->connections[0];
+    int path_pixels = sel->path_pixels;
+    struct prepass_wish wish = {.importance = true, .pairs = true, .eye_cells = GUIDE_CELLS};
+    wish.light_cells = PAIR_CELLS;
+    wish.levels = REGION_LEVELS;
+    wish.delta = sel->delta;
+    wish.n_eye = (long)clamp(TRAINING_SHARE * samples, MIN_TRAINING, MAX_EYE);
+    wish.guide = job->spatial_lights && job->scene->lights.n_cells >= MIN_GUIDED_CELLS;
+    prepass_run(job, &wish, &sel->importance, &sel->learnt);
+    pilot_run(job, sel, PILOT_SHARE * samples);
+    if (drawn > 0)
+        pilot_set_draws(sel, drawn);
+    if (path_pixels > 0)
+        sel->path_pixels = path_pixels;
+    sel->counts.splat = pixel_light_count(job) / sel->path_pixels;
+}
+
+static bool prepare(const struct render_job *job, struct preparation *out, struct error *err)
 {
     struct selection *sel = mem_alloc(1, sizeof *sel);
     int cells = 0;
@@ -107,40 +150,35 @@ static bool prepare(const struct render_job *job, void **state, int *block, stru
         free(sel);
         return false;
     }
-    struct mis_counts counts = {.hit = 1, .direct = 1, .connect = 1, .splat = pixel_light_count(job)};
+    struct mis_counts counts = {.hit = 1, .direct = {1, 1}, .connect = {1, 1}, .splat = pixel_light_count(job)};
     counts.power = job->power_heuristic;
+    counts.learnt = sel->select == SELECT_BINS ? NULL : &sel->learnt;
     sel->counts = counts;
     sel->max_depth = job->max_depth;
-    if (sel->selector == &select_bins)
-        *block = restart > 0 ? (int)restart : INT_MAX;
-    else
-        learn(sel, job, cells);
-    *state = sel;
+    switch (sel->select) {
+    case SELECT_BINS: out->size.block = restart > 0 ? (int)restart : INT_MAX; break;
+    case SELECT_POOL:
+    case SELECT_VERTICES: learn_vertices(sel, job, cells); break;
+    case SELECT_SUBSPACES:
+        out->size.tile = MAX_TILE_SIZE; /* a larger pool */
+        learn_subspaces(sel, job);
+        snprintf(out->note, sizeof out->note,
+                 "per eye vertex %.2f draws at the first hit, %.2f after; %d light point%s at the first hit; a light "
+                 "sub-path per %d pixels",
+                 sel->connections[0], sel->connections[1], sel->lights, sel->lights == 1 ? "" : "s", sel->path_pixels);
+        break;
+    }
+    out->state = sel;
+    out->renderer = RENDERERS[sel->select];
     return true;
 }
 
 static void release(void *state)
 {
     struct selection *sel = state;
-    importance_free(&sel->grid);
-    guide_free(&sel->guide);
+    importance_free(&sel->importance);
+    learnt_free(&sel->learnt);
     free(sel);
-}
-
-static void render(const void *state, const struct tile_pass *pass)
-{
-    ((const struct selection *)state)->selector->render(state, pass);
-}
-
-static void *new_own(const void *state)
-{
-    const struct selection *sel = state;
-    return sel->selector->new_own(sel);
-}
-
-static void free_own(const void *state, void *own)
-{
-    ((const struct selection *)state)->selector->free_own(own);
 }
 
 /* The dissertation has no roulette, and its selection reads the throughput at a sub-path's far end, which roulette
@@ -150,5 +188,5 @@ static double rr_threshold(const struct settings *s)
     return strcmp(settings_text(s, "select", ""), "bins") == 0 ? 0 : DEFAULT_RR_THRESHOLD;
 }
 
-const struct method method_asbdpt = {"asbdpt", "alias sampled bidirectional path tracing [Silva 2024]", PARAMETERS, 32,
-                                     prepare, render, release, new_own, free_own, rr_threshold};
+const struct integrator integrator_asbdpt = {"asbdpt", "alias sampled bidirectional path tracing [Silva 2024]",
+                                             PARAMETERS, prepare, release, rr_threshold};

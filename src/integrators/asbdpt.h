@@ -1,10 +1,10 @@
-/* asbdpt.h: Alias Sampled Bidirectional Path Tracing, the method; its ways of selection are in select.h.
- * Used by: methods. Tests: test_asbdpt.c. */
+/* asbdpt.h: Alias Sampled Bidirectional Path Tracing, the integrator; its ways of selection are in select.h.
+ * Tests: test_asbdpt.c. */
 #ifndef ASBDPT_ASBDPT_H
 #define ASBDPT_ASBDPT_H
 
-#include "integrators/method.h"
+#include "integrators/integrator.h"
 
-extern const struct method method_asbdpt;
+extern const struct integrator integrator_asbdpt;
 
 #endif

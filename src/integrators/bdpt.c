@@ -6,50 +6,20 @@
 
 #include "transport/pixel_sample.h"
 
-static bool prepare(const struct render_job *job, void **state, struct mis_counts counts)
-{
-    struct mis_counts *own = mem_alloc(1, sizeof *own);
-    counts.power = job->power_heuristic;
-    *own = counts;
-    *state = own;
-    return true;
-}
-
-static bool prepare_pt(const struct render_job *job, void **state, int *block, struct error *err)
-{
-    (void)block, (void)err;
-    struct mis_counts counts = {.hit = 1, .direct = 1};
-    return prepare(job, state, counts);
-}
-
-static bool prepare_lt(const struct render_job *job, void **state, int *block, struct error *err)
-{
-    (void)block, (void)err;
-    struct mis_counts counts = {.splat = pixel_light_count(job)};
-    return prepare(job, state, counts);
-}
-
-static bool prepare_bdpt(const struct render_job *job, void **state, int *block, struct error *err)
-{
-    (void)block, (void)err;
-    struct mis_counts counts = {.hit = 1, .direct = 1, .connect = 1, .splat = pixel_light_count(job)};
-    return prepare(job, state, counts);
-}
-
 /* One iteration of one pixel. Light tracing needs of the eye sub-path only the lights seen directly (s = 0, t = 2). */
 static void render_pixel(const struct tile_pass *pass, const struct mis_counts *counts, int x, int y, long iteration)
 {
     struct workspace *work = pass->work;
     arena_reset(&work->arena);
     struct pixel_sample g = pixel_sample_begin(pass, counts, x, y, iteration);
-    bool light_tracing = counts->hit == 0 && counts->direct == 0 && counts->connect == 0;
+    bool light_tracing = counts->hit == 0 && counts->direct[0] == 0 && counts->connect[0] == 0;
     int n_eye = pixel_eye_path(pass, &g, iteration, work->eye, light_tracing ? 2 : g.max_depth + 2);
     int n_light = 0;
-    if (counts->connect > 0 || counts->splat > 0)
+    if (counts->connect[0] > 0 || counts->splat > 0)
         n_light = pixel_light_path(pass, counts, x, y, (uint64_t)iteration, &work->arena, work->light);
 
     rgb sum = pixel_sum_eye(&g, work->eye, n_eye);
-    if (counts->connect > 0)
+    if (counts->connect[0] > 0)
         sum = rgb_add(sum, pixel_sum_pairs(&g, work->eye, n_eye, work->light, n_light, 1));
     if (counts->splat > 0)
         pixel_splat_path(&g, work->light, n_light, 1);
@@ -65,16 +35,46 @@ static void render(const void *state, const struct tile_pass *pass)
                 render_pixel(pass, counts, x, y, i);
 }
 
-static const struct parameter no_parameters[] = {{NULL, NULL, NULL}};
+static const struct tile_renderer RENDERER = {render, NULL, NULL};
+static const struct parameter NO_PARAMETERS[] = {{NULL, NULL, NULL}};
 
-const struct method method_pt = {
-    "pt", "path tracing: light found by chance (s = 0) or sampled (s = 1)",
-    no_parameters, 32, prepare_pt, render, free, NULL, NULL, NULL};
+static bool prepare(const struct render_job *job, struct mis_counts counts, struct preparation *out)
+{
+    struct mis_counts *state = mem_alloc(1, sizeof *state);
+    counts.power = job->power_heuristic;
+    *state = counts;
+    out->state = state;
+    out->renderer = &RENDERER;
+    return true;
+}
 
-const struct method method_lt = {
+static bool prepare_pt(const struct render_job *job, struct preparation *out, struct error *err)
+{
+    (void)err;
+    struct mis_counts counts = {.hit = 1, .direct = {1, 1}};
+    return prepare(job, counts, out);
+}
+
+static bool prepare_lt(const struct render_job *job, struct preparation *out, struct error *err)
+{
+    (void)err;
+    struct mis_counts counts = {.splat = pixel_light_count(job)};
+    return prepare(job, counts, out);
+}
+
+static bool prepare_bdpt(const struct render_job *job, struct preparation *out, struct error *err)
+{
+    (void)err;
+    struct mis_counts counts = {.hit = 1, .direct = {1, 1}, .connect = {1, 1}, .splat = pixel_light_count(job)};
+    return prepare(job, counts, out);
+}
+
+const struct integrator integrator_pt = {"pt", "path tracing: light found by chance (s = 0) or sampled (s = 1)",
+                                         NO_PARAMETERS, prepare_pt, free, NULL};
+
+const struct integrator integrator_lt = {
     "lt", "light tracing: light sub-paths connected to the lens (t = 1); cannot see mirrors",
-    no_parameters, 32, prepare_lt, render, free, NULL, NULL, NULL};
+    NO_PARAMETERS, prepare_lt, free, NULL};
 
-const struct method method_bdpt = {
-    "bdpt", "bidirectional path tracing [Veach 1997]: all strategies",
-    no_parameters, 32, prepare_bdpt, render, free, NULL, NULL, NULL};
+const struct integrator integrator_bdpt = {"bdpt", "bidirectional path tracing [Veach 1997]: all strategies",
+                                           NO_PARAMETERS, prepare_bdpt, free, NULL};

@@ -16,7 +16,7 @@
  * sub-paths used are not distributed like the sub-paths traced: where high beta means "escaped after one bounce", the
  * image darkens. doc/selection.md measures it; select = pool is the smallest repair.
  *
- * Used by: asbdpt. Tests: test_asbdpt.c (must be rejected by the test that accepts BDPT).
+ * Tests: test_asbdpt.c (must be rejected by the test that accepts BDPT).
  */
 #include <stdlib.h>
 
@@ -38,7 +38,7 @@ struct bins {
     struct element element[];
 };
 
-static void *new_own(const void *selection)
+static void *new_scratch(const void *selection)
 {
     const struct selection *sel = selection;
     struct bins *b = mem_alloc(1, sizeof *b + (size_t)sel->bin_paths * sizeof b->element[0]);
@@ -48,9 +48,9 @@ static void *new_own(const void *selection)
     return b;
 }
 
-static void free_own(void *own)
+static void free_scratch(void *scratch)
 {
-    struct bins *b = own;
+    struct bins *b = scratch;
     for (int i = 0; i < b->n_elements; i++) {
         arena_free(&b->element[i].arena);
         free(b->element[i].vertex);
@@ -124,7 +124,7 @@ static void render_iteration(struct pixel *p, double shift, long iteration)
 
 static void render(const void *selection, const struct tile_pass *pass)
 {
-    struct pixel p = {pass, selection, pass->work->own, 0, 0};
+    struct pixel p = {pass, selection, pass->work->scratch, 0, 0};
     for (p.y = pass->rect.y0; p.y < pass->rect.y1; p.y++)
         for (p.x = pass->rect.x0; p.x < pass->rect.x1; p.x++) {
             struct sampler shift = pixel_sampler(pass, RNG_SHUFFLE, p.x, p.y, pass->first);
@@ -137,4 +137,4 @@ static void render(const void *selection, const struct tile_pass *pass)
         }
 }
 
-const struct selector select_bins = {"bins", render, new_own, free_own};
+const struct tile_renderer render_bins = {render, new_scratch, free_scratch};

@@ -1,4 +1,4 @@
-/* light_pool.c: the light sub-paths of a tile, shared by all its pixels; see select.h. Used by: pool, vertices. */
+/* light_pool.c: the light sub-paths of a tile, shared by all its pixels; see select.h. */
 #include <stdlib.h>
 
 #include "integrators/select.h"
@@ -29,6 +29,13 @@ void light_pool_fill(struct light_pool *pool, const struct tile_pass *pass, cons
             pool->used += (size_t)pool->length[pool->n];
             pool->n++;
         }
+}
+
+void light_pool_splat(const struct light_pool *pool, const struct tile_pass *pass, struct pixel_sample *g,
+                      int path_pixels, int k)
+{
+    double pixels = (double)rect_width(pass->rect) * rect_height(pass->rect);
+    pixel_splat_path(g, light_pool_path(pool, k), pool->length[k], pixels / ((double)pool->n * path_pixels));
 }
 
 double select_throughput(const struct vertex *light, int n) { return n < 1 ? 0 : rgb_mean(light[n - 1].beta); }

@@ -10,7 +10,7 @@
  * sum_k q_k F(k) / (K q_k): unbiased for any I that does not look at the eye sub-path. Sub-paths are splat (t = 1)
  * once each, chosen or not. With I constant every bin holds one sub-path: BDPT with the pixels' sub-paths permuted.
  *
- * Used by: asbdpt. Tests: test_asbdpt.c.
+ * Tests: test_asbdpt.c.
  */
 #include <stdlib.h>
 
@@ -21,20 +21,20 @@
 
 struct pool {
     struct light_pool paths;
-    double q[TILE_SIZE * TILE_SIZE];
-    int order[TILE_SIZE * TILE_SIZE]; /* bin visited by each pixel */
+    double q[MAX_TILE_SIZE * MAX_TILE_SIZE];
+    int order[MAX_TILE_SIZE * MAX_TILE_SIZE]; /* bin visited by each pixel */
     struct alias_table table;
 };
 
-static void *new_own(const void *selection)
+static void *new_scratch(const void *selection)
 {
     (void)selection;
     return mem_alloc(1, sizeof(struct pool));
 }
 
-static void free_own(void *own)
+static void free_scratch(void *scratch)
 {
-    struct pool *p = own;
+    struct pool *p = scratch;
     light_pool_free(&p->paths);
     alias_free(&p->table);
     free(p);
@@ -45,7 +45,7 @@ static double path_importance(const struct selection *sel, const struct vertex *
     switch (sel->metric) {
     case METRIC_CONSTANT: return 1;
     case METRIC_THROUGHPUT: return select_throughput(path, n);
-    case METRIC_IMPORTANCE: return importance_of_path(&sel->grid, path, n);
+    case METRIC_IMPORTANCE: return importance_of_path(&sel->importance, path, n);
     }
     return 1;
 }
@@ -95,7 +95,7 @@ static void render_pixel(const struct tile_pass *pass, const struct selection *s
 static void render(const void *selection, const struct tile_pass *pass)
 {
     const struct selection *sel = selection;
-    struct pool *p = pass->work->own;
+    struct pool *p = pass->work->scratch;
     for (long i = pass->first; i < pass->end; i++) {
         light_pool_fill(&p->paths, pass, &sel->counts, 1, i);
         build_table(p, sel);
@@ -108,4 +108,4 @@ static void render(const void *selection, const struct tile_pass *pass)
     }
 }
 
-const struct selector select_pool = {"pool", render, new_own, free_own};
+const struct tile_renderer render_pool = {render, new_scratch, free_scratch};

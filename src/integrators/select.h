@@ -1,20 +1,19 @@
 /* select.h: the ways in which ASBDPT chooses the light sub-path of an eye sub-path.
  *
- *   bins      the dissertation: bins of two sub-paths per pixel, one used and replaced     [S24 Algorithms 1 and 2]
- *   pool      one alias table over the sub-paths of a tile, one bin per pixel, weighted: unbiased
- *   vertices  one alias table over the light *vertices* of a tile, C draws per eye vertex, known to the MIS weights
+ *   bins       the dissertation: bins of two sub-paths per pixel, one used and replaced    [S24 Algorithms 1 and 2]
+ *   pool       one alias table over the sub-paths of a tile, one bin per pixel, weighted: unbiased
+ *   vertices   one alias table over the light *vertices* of a tile, C draws per eye vertex, known to the MIS weights
+ *   subspaces  the same, but what is drawn depends on where the eye vertex is too
  *
- * Each is one file and one entry here; asbdpt.c reads the parameters and calls them.
- *
- * Used by: asbdpt.
+ * Each is one file and one line in the table of asbdpt.c.
  */
-#ifndef ASBDPT_SELECT_H
-#define ASBDPT_SELECT_H
+#ifndef ASBDPT_INTEGRATORS_SELECT_H
+#define ASBDPT_INTEGRATORS_SELECT_H
 
-#include "transport/guide.h"
 #include "integrators/importance.h"
-#include "integrators/method.h"
-#include "transport/mis.h"
+#include "integrators/integrator.h"
+#include "transport/learnt.h"
+#include "transport/pixel_sample.h"
 
 enum metric {
     METRIC_CONSTANT,   /* every sub-path alike: `pool` is BDPT then */
@@ -22,29 +21,25 @@ enum metric {
     METRIC_IMPORTANCE  /* what the camera can use of it, importance.h */
 };
 
+enum select { SELECT_BINS, SELECT_POOL, SELECT_VERTICES, SELECT_SUBSPACES };
+
 /* Parameters and frozen data of a render. */
 struct selection {
-    const struct selector *selector;
+    enum select select;
     struct mis_counts counts;
     int max_depth;
-    enum metric metric;     /* pool, vertices */
-    double delta;           /* pool, vertices: share of draws that ignore the importance, (0,1] */
-    int connections;        /* vertices: C, draws per eye vertex */
-    int path_pixels;        /* vertices: pixels for each light sub-path */
-    int bin_paths;          /* bins: sub-paths per pixel */
-    long max_age;           /* bins: iterations until an unused one is replaced */
-    struct importance grid; /* pool, vertices with METRIC_IMPORTANCE */
-    struct guide guide;     /* pool, vertices: lights as the regions of space see them */
+    enum metric metric;           /* pool, vertices */
+    double delta;                 /* pool, vertices, subspaces: share of draws that ignore what was learnt, (0,1] */
+    double connections[2];        /* vertices, subspaces: C, draws per eye vertex, for t = 2 and t > 2 */
+    int lights;                   /* subspaces: samples of s = 1 for t = 2 */
+    int path_pixels;              /* vertices, subspaces: pixels for each light sub-path */
+    int bin_paths;                /* bins: sub-paths per pixel */
+    long max_age;                 /* bins: iterations until an unused one is replaced */
+    struct importance importance; /* all but bins */
+    struct learnt learnt;         /* all but bins */
 };
 
-struct selector {
-    const char *name;
-    void (*render)(const void *selection, const struct tile_pass *pass);
-    void *(*new_own)(const void *selection);
-    void (*free_own)(void *own);
-};
-
-extern const struct selector select_bins, select_pool, select_vertices;
+extern const struct tile_renderer render_bins, render_pool, render_vertices, render_subspaces;
 
 /* select_throughput: beta of [S24]: mean over RGB at the furthest vertex; 0 for an empty sub-path. A sub-path of y_0
  * alone, which met no surface, has the emitted radiance there, as in pbrt-v3, where [S24] was implemented. */
@@ -55,8 +50,8 @@ struct light_pool {
     struct arena arena;                  /* their lobes */
     struct vertex *vertex;               /* [used], grows to the longest need; owned */
     size_t used, capacity;
-    size_t start[TILE_SIZE * TILE_SIZE]; /* first vertex of path k */
-    int length[TILE_SIZE * TILE_SIZE];   /* vertices of path k */
+    size_t start[MAX_TILE_SIZE * MAX_TILE_SIZE]; /* first vertex of path k */
+    int length[MAX_TILE_SIZE * MAX_TILE_SIZE];   /* vertices of path k */
     int n;
 };
 
@@ -66,6 +61,11 @@ void light_pool_free(struct light_pool *pool);
 /* light_pool_fill: trace the sub-paths of the tile's pixels 0, path_pixels, 2 path_pixels... for one iteration. */
 void light_pool_fill(struct light_pool *pool, const struct tile_pass *pass, const struct mis_counts *counts,
                      int path_pixels, long iteration);
+
+/* light_pool_splat: t = 1 for sub-path k. The weights count one in path_pixels for the whole film; the tile has `n`,
+ * rounded up. */
+void light_pool_splat(const struct light_pool *pool, const struct tile_pass *pass, struct pixel_sample *g,
+                      int path_pixels, int k);
 
 static inline const struct vertex *light_pool_path(const struct light_pool *pool, int k)
 {

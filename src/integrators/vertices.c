@@ -15,7 +15,7 @@
  * pixel, a function of the surface point alone, so all strategies of a path agree on it (mis.h). They are counted
  * twice, having been measured to deserve it: draws stratified over a table vary less than independent ones.
  *
- * Used by: asbdpt. Tests: test_asbdpt.c.
+ * Tests: test_asbdpt.c.
  */
 #include <stdlib.h>
 
@@ -34,15 +34,15 @@ struct vertices {
     long lost; /* vertices of the table that could not be given a weight */
 };
 
-static void *new_own(const void *selection)
+static void *new_scratch(const void *selection)
 {
     (void)selection;
     return mem_alloc(1, sizeof(struct vertices));
 }
 
-static void free_own(void *own)
+static void free_scratch(void *scratch)
 {
-    struct vertices *v = own;
+    struct vertices *v = scratch;
     light_pool_free(&v->pool);
     free(v->candidate);
     free(v->s);
@@ -52,9 +52,9 @@ static void free_own(void *own)
 }
 
 /* The weight of a vertex in the table. One that carries no usable amount of light is never drawn. */
-static double weight_of(struct vertices *v, const struct vertex *y)
+static double weight_of(struct vertices *v, const struct mis_counts *counts, const struct vertex *y)
 {
-    double q = rgb_luminance(y->beta) * y->count;
+    double q = rgb_luminance(y->beta) * mis_connect_count(counts, y->light_region, 0, true);
     if (q >= 0 && fits_float(q))
         return q;
     v->lost++;
@@ -62,7 +62,7 @@ static double weight_of(struct vertices *v, const struct vertex *y)
 }
 
 /* The table over the pool's connectible vertices y_1, y_2 ... */
-static void build_table(struct vertices *v)
+static void build_table(struct vertices *v, const struct mis_counts *counts)
 {
     size_t n = 0;
     for (int k = 0; k < v->pool.n; k++) {
@@ -75,7 +75,7 @@ static void build_table(struct vertices *v)
             v->q = mem_grow(v->q, &v->q_capacity, n + 1, sizeof *v->q);
             v->candidate[n] = &path[i];
             v->s[n] = i + 1;
-            v->q[n++] = weight_of(v, &path[i]);
+            v->q[n++] = weight_of(v, counts, &path[i]);
         }
     }
     alias_build(&v->table, v->q, (int)n);
@@ -86,7 +86,7 @@ static rgb connect_drawn(const struct vertices *v, const struct selection *sel, 
                          const struct vertex *z, int t, struct sampler *sampler)
 {
     rgb sum = rgb_black();
-    int C = sel->connections;
+    int C = (int)sel->connections[0];
     for (int c = 0; c < C; c++) {
         double q, u = (c + sampler_next(sampler)) / C;
         int i = alias_sample(&v->table, u, &q, NULL);
@@ -94,15 +94,6 @@ static rgb connect_drawn(const struct vertices *v, const struct selection *sel, 
             sum = rgb_add(sum, pixel_sum_pair(g, v->candidate[i], v->s[i], z, t, 1 / (C * q * v->pool.n)));
     }
     return sum;
-}
-
-/* Splat sub-path k. The weights count one in path_pixels for the whole film; the tile has K, rounded up. */
-static void splat_path(const struct tile_pass *pass, const struct selection *sel, const struct vertices *v,
-                       struct pixel_sample *g, int k)
-{
-    double pixels = (double)rect_width(pass->rect) * rect_height(pass->rect);
-    double scale = pixels / ((double)v->pool.n * sel->path_pixels);
-    pixel_splat_path(g, light_pool_path(&v->pool, k), v->pool.length[k], scale);
 }
 
 static void render_pixel(const struct tile_pass *pass, const struct selection *sel, struct vertices *v, int x, int y,
@@ -118,18 +109,18 @@ static void render_pixel(const struct tile_pass *pass, const struct selection *s
         if (eye[t - 1].kind == VERTEX_SURFACE && vertex_connectible(&eye[t - 1]))
             sum = rgb_add(sum, connect_drawn(v, sel, &g, &eye[t - 1], t, &draws));
     if (number % sel->path_pixels == 0)
-        splat_path(pass, sel, v, &g, number / sel->path_pixels);
+        light_pool_splat(&v->pool, pass, &g, sel->path_pixels, number / sel->path_pixels);
     tile_add_eye(pass->tile, x, y, sum);
 }
 
 static void render(const void *selection, const struct tile_pass *pass)
 {
     const struct selection *sel = selection;
-    struct vertices *v = pass->work->own;
+    struct vertices *v = pass->work->scratch;
     for (long i = pass->first; i < pass->end; i++) {
         light_pool_fill(&v->pool, pass, &sel->counts, sel->path_pixels, i);
         v->lost = 0;
-        build_table(v);
+        build_table(v, &sel->counts);
         pass->tile->nonfinite += v->lost;
         int number = 0;
         for (int y = pass->rect.y0; y < pass->rect.y1; y++)
@@ -138,4 +129,4 @@ static void render(const void *selection, const struct tile_pass *pass)
     }
 }
 
-const struct selector select_vertices = {"vertices", render, new_own, free_own};
+const struct tile_renderer render_vertices = {render, new_scratch, free_scratch};

@@ -92,7 +92,7 @@ bool side_render(const struct scene *scene, const struct render_options *options
                  struct side *out, struct error *err)
 {
     struct progress bar;
-    out->name = options->method->name;
+    out->name = options->integrator->name;
     out->width = rect_width(render_crop(scene));
     out->height = rect_height(render_crop(scene));
     out->pixels = batches_new(n_batches, 3L * out->width * out->height, false);
@@ -118,13 +118,13 @@ void side_choose_resolution(struct scene *scene, const struct side *like)
 }
 
 long side_choose_spp(const struct scene *scene, const struct render_options *options,
-                     const struct method *const method[2], int n_batches, struct error *err)
+                     const struct integrator *const integrator[2], int n_batches, struct error *err)
 {
     struct render_options pilot = *options;
     double start = clock_seconds();
     pilot.end = PILOT_SPP;
-    for (int i = 0; i < 2 && method[i] != NULL; i++) {
-        pilot.method = method[i];
+    for (int i = 0; i < 2 && integrator[i] != NULL; i++) {
+        pilot.integrator = integrator[i];
         if (!render_batch(scene, &pilot, 1, NULL, err))
             return 0;
     }

@@ -26,7 +26,7 @@ bool render_max_depth(const struct scene *scene, int wanted, int *out, struct er
 
 /* --- parameters -------------------------------------------------------------------------------------- */
 
-static bool parameter_known(const struct method *m, const char *name)
+static bool parameter_known(const struct integrator *m, const char *name)
 {
     for (const struct parameter *p = m->parameters; p->name != NULL; p++)
         if (strcmp(p->name, name) == 0)
@@ -34,7 +34,7 @@ static bool parameter_known(const struct method *m, const char *name)
     return false;
 }
 
-/* Parameters of any method are accepted (--integrator may have replaced the scene's), and pbrt's that cannot change
+/* Parameters of any integrator are accepted (--integrator may have replaced the scene's), and pbrt's that cannot change
  * the expected image; anything else is a typo. */
 static bool check_settings(const struct scene *scene, struct error *err)
 {
@@ -45,7 +45,7 @@ static bool check_settings(const struct scene *scene, struct error *err)
         bool known = false;
         for (size_t k = 0; k < sizeof harmless / sizeof harmless[0]; k++)
             known |= strcmp(item->name, harmless[k]) == 0;
-        for (const struct method *const *m = method_list(); *m != NULL; m++)
+        for (const struct integrator *const *m = integrator_list(); *m != NULL; m++)
             known |= parameter_known(*m, item->name);
         if (!known)
             return error_set(err, "%s: no integrator has a parameter \"%s\"; asbdpt --help lists them", item->origin,
@@ -63,7 +63,7 @@ static bool read_heuristic(const struct scene *scene, bool *power, struct error 
     return ok;
 }
 
-/* Checked for all methods, as scenes of pbrt have it for several integrators; "uniform" is replaced by "power". */
+/* Checked for all integrators, as scenes of pbrt have it for several integrators; "uniform" is replaced by "power". */
 static bool read_light_strategy(const struct scene *scene, bool *spatial, struct error *err)
 {
     static const char *const names[] = {"spatial", "power", "uniform", NULL};
@@ -73,7 +73,7 @@ static bool read_light_strategy(const struct scene *scene, bool *spatial, struct
     return ok;
 }
 
-static bool read_roulette(const struct scene *scene, const struct method *m, double *threshold, struct error *err)
+static bool read_roulette(const struct scene *scene, const struct integrator *m, double *threshold, struct error *err)
 {
     double fallback = m->rr_threshold != NULL ? m->rr_threshold(&scene->settings) : DEFAULT_RR_THRESHOLD;
     return settings_real(&scene->settings, "rrthreshold", fallback, 0, 1e6, threshold, err);
@@ -84,10 +84,9 @@ static bool read_roulette(const struct scene *scene, const struct method *m, dou
 struct run {
     const struct render_options *options;
     struct render_job job;
-    void *state;
     struct film *film;
     int tiles_x, tiles_y;
-    int64_t block; /* iterations per tile pass; blocks begin at its multiples. All in 64 bits: it may be INT_MAX */
+    struct preparation prepared; /* blocks begin at multiples of their length, maybe INT_MAX: counted in 64 bits */
     int64_t n_jobs, n_done;
     bool stopping; /* progress said so: stop when the block is complete */
     struct workspace *work; /* [n_threads] */
@@ -99,18 +98,18 @@ static int64_t tiles_per_block(const struct run *r) { return (int64_t)r->tiles_x
 /* The iterations of block number b of this run. */
 static void block_range(const struct run *r, int64_t b, long *first, long *end)
 {
-    int64_t begin = (r->options->first / r->block + b) * r->block;
+    int64_t begin = ((int64_t)r->options->first / r->prepared.size.block + b) * r->prepared.size.block;
     *first = begin > r->options->first ? (long)begin : r->options->first;
-    *end = begin + r->block < r->options->end ? (long)(begin + r->block) : r->options->end;
+    *end = begin + r->prepared.size.block < r->options->end ? (long)(begin + r->prepared.size.block) : r->options->end;
 }
 
 static struct pixel_rect tile_rect(const struct run *r, int64_t tile)
 {
     struct pixel_rect all = r->job.film_rect, rect;
-    rect.x0 = all.x0 + (int)(tile % r->tiles_x) * TILE_SIZE;
-    rect.y0 = all.y0 + (int)(tile / r->tiles_x) * TILE_SIZE;
-    rect.x1 = rect.x0 + TILE_SIZE < all.x1 ? rect.x0 + TILE_SIZE : all.x1;
-    rect.y1 = rect.y0 + TILE_SIZE < all.y1 ? rect.y0 + TILE_SIZE : all.y1;
+    rect.x0 = all.x0 + (int)(tile % r->tiles_x) * r->prepared.size.tile;
+    rect.y0 = all.y0 + (int)(tile / r->tiles_x) * r->prepared.size.tile;
+    rect.x1 = rect.x0 + r->prepared.size.tile < all.x1 ? rect.x0 + r->prepared.size.tile : all.x1;
+    rect.y1 = rect.y0 + r->prepared.size.tile < all.y1 ? rect.y0 + r->prepared.size.tile : all.y1;
     return rect;
 }
 
@@ -121,7 +120,7 @@ static void run_pass(void *context, int64_t job, int slot, int thread)
     pass.rect = tile_rect(r, job % tiles_per_block(r));
     block_range(r, job / tiles_per_block(r), &pass.first, &pass.end);
     tile_start(pass.tile, pass.rect, r->job.film_rect, &r->job.scene->filter, r->film->strategies != NULL);
-    r->options->method->render(r->state, &pass);
+    r->prepared.renderer->render(r->prepared.state, &pass);
 }
 
 static bool merge_pass(void *context, int64_t job, int slot)
@@ -142,26 +141,27 @@ static bool merge_pass(void *context, int64_t job, int slot)
 
 static void make_workspaces(struct run *r)
 {
-    const struct method *m = r->options->method;
+    const struct tile_renderer *renderer = r->prepared.renderer;
     r->work = workspaces_new(r->job.n_threads, r->job.max_depth);
-    for (int i = 0; m->new_own != NULL && i < r->job.n_threads; i++)
-        r->work[i].own = m->new_own(r->state);
+    for (int i = 0; renderer->new_scratch != NULL && i < r->job.n_threads; i++)
+        r->work[i].scratch = renderer->new_scratch(r->prepared.state);
 }
 
 static void free_workspaces(struct run *r)
 {
-    const struct method *m = r->options->method;
-    for (int i = 0; m->free_own != NULL && i < r->job.n_threads; i++)
-        m->free_own(r->state, r->work[i].own);
+    const struct tile_renderer *renderer = r->prepared.renderer;
+    for (int i = 0; renderer->free_scratch != NULL && i < r->job.n_threads; i++)
+        renderer->free_scratch(r->work[i].scratch);
     workspaces_free(r->work, r->job.n_threads);
 }
 
 static void run_all(struct run *r)
 {
     const struct render_options *o = r->options;
-    int64_t first_block = o->first / r->block, end_block = (o->end + r->block - 1) / r->block;
-    r->tiles_x = (rect_width(r->job.film_rect) + TILE_SIZE - 1) / TILE_SIZE;
-    r->tiles_y = (rect_height(r->job.film_rect) + TILE_SIZE - 1) / TILE_SIZE;
+    int64_t first_block = o->first / r->prepared.size.block,
+            end_block = ((int64_t)o->end + r->prepared.size.block - 1) / r->prepared.size.block;
+    r->tiles_x = (rect_width(r->job.film_rect) + r->prepared.size.tile - 1) / r->prepared.size.tile;
+    r->tiles_y = (rect_height(r->job.film_rect) + r->prepared.size.tile - 1) / r->prepared.size.tile;
     r->n_jobs = tiles_per_block(r) * (end_block - first_block);
 
     struct parallel_jobs jobs = {r->n_jobs, r->job.n_threads, 2 * r->job.n_threads, r, run_pass, merge_pass};
@@ -177,21 +177,21 @@ static void run_all(struct run *r)
 bool render_scene(const struct scene *scene, const struct render_options *options, struct film *film,
                   struct error *err)
 {
-    struct run r = {.options = options, .film = film, .block = options->method->block};
+    struct run r = {.options = options, .film = film, .prepared = {.size = {DEFAULT_BLOCK, DEFAULT_TILE_SIZE}}};
     r.job.scene = scene;
     r.job.film_rect = film->rect;
-    r.job.seed = options->seed;
+    r.job.seed = r.job.eye_seed = options->seed;
+    r.job.spp = (double)(options->planned > options->end ? options->planned : options->end);
     r.job.n_threads = options->n_threads < 1 ? parallel_cores() : options->n_threads;
-    int block = options->method->block;
     if (!check_settings(scene, err) || !read_heuristic(scene, &r.job.power_heuristic, err) ||
-        !read_roulette(scene, options->method, &r.job.rr_threshold, err) ||
+        !read_roulette(scene, options->integrator, &r.job.rr_threshold, err) ||
         !read_light_strategy(scene, &r.job.spatial_lights, err) ||
         !render_max_depth(scene, options->max_depth, &r.job.max_depth, err) ||
-        !options->method->prepare(&r.job, &r.state, &block, err))
+        !options->integrator->prepare(&r.job, &r.prepared, err))
         return false;
-    r.block = block;
+    memcpy(film->note, r.prepared.note, sizeof film->note);
     if (options->end > options->first)
         run_all(&r);
-    options->method->release(r.state);
+    options->integrator->release(r.prepared.state);
     return true;
 }

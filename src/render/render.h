@@ -4,7 +4,7 @@
  * order block by block, tile by tile, and merged into the film in that order (parallel.h), so the same scene, seed
  * and range of iterations give the same bytes for any number of threads.
  *
- * Used by: the commands of the command line. Tests: test_render.c.
+ * Tests: test_render.c.
  */
 #ifndef ASBDPT_RENDER_H
 #define ASBDPT_RENDER_H
@@ -13,13 +13,14 @@
 
 #include "base/error.h"
 #include "scene/film.h"
-#include "integrators/method.h"
+#include "integrators/integrator.h"
 #include "scene/scene.h"
 
 struct render_options {
-    const struct method *method;
+    const struct integrator *integrator;
     uint64_t seed;
     long first, end; /* iterations [first, end) of every pixel */
+    long planned;    /* samples per pixel of the whole picture if these are a part of it; 0: `end` */
     int n_threads; /* 0: one per processor */
     int max_depth; /* 0: what the scene says, else 5 */
     /* Called after each tile pass with the share of the work done, in [0,1], one call at a time. NULL: not called.

@@ -77,12 +77,15 @@ struct strategy_images {
     double *unweighted, *weighted; /* owned */
 };
 
+enum { FILM_NOTE_SIZE = 200 };
+
 struct film {
     struct pixel_rect rect;      /* the rendered part (crop) of the full frame */
     int full_width, full_height;
     long iterations;             /* samples per pixel taken so far */
     double *eye, *splat, *square; /* [pixels*3] sums; owned */
     long nonfinite;
+    char note[FILM_NOTE_SIZE]; /* what the integrator chose for itself, for people */
     struct strategy_images *strategies; /* NULL unless asked for; owned */
 };
 

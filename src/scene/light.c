@@ -271,28 +271,19 @@ rgb light_Le_environment(const struct light_set *set, vec3 w)
     return sum;
 }
 
-/* Also its density by power, at the cost of one more look-up. */
-static double pdf_environment(const struct light_set *set, const struct alias_table *choice, vec3 w, double *by_power)
+double light_pdf_towards(const struct light_set *set, int i, vec3 w, int *cell)
 {
-    double sum = *by_power = 0;
+    double pdf = infinite_pdf(&set->light[i], w, cell);
+    *cell += set->light[i].first_cell;
+    return alias_pmf(&set->choice, *cell) * pdf;
+}
+
+double light_pdf_environment(const struct light_set *set, vec3 w)
+{
+    double sum = 0;
+    int cell;
     for (int i = 0; set->any_infinite && i < set->n; i++)
-        if (set->light[i].kind == LIGHT_INFINITE) {
-            int cell;
-            double pdf = infinite_pdf(&set->light[i], w, &cell);
-            sum += alias_pmf(choice, set->light[i].first_cell + cell) * pdf;
-            *by_power += alias_pmf(&set->choice, set->light[i].first_cell + cell) * pdf;
-        }
+        if (set->light[i].kind == LIGHT_INFINITE)
+            sum += light_pdf_towards(set, i, w, &cell);
     return sum;
-}
-
-double light_pdf_environment(const struct light_set *set, const struct alias_table *choice, vec3 w)
-{
-    double by_power;
-    return pdf_environment(set, choice, w, &by_power);
-}
-
-double light_choice_ratio(const struct light_set *set, const struct alias_table *choice, vec3 w)
-{
-    double by_power, pdf = pdf_environment(set, choice, w, &by_power);
-    return by_power > 0 ? pdf / by_power : 0;
 }

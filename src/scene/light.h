@@ -132,14 +132,12 @@ rgb light_Le_surface(const struct light_set *set, const struct surface *at, vec3
 /* light_Le_environment: radiance of all infinite lights for a ray leaving the scene in unit direction w. */
 rgb light_Le_environment(const struct light_set *set, vec3 w);
 
-/* light_pdf_environment: density with which light_sample_point returns direction w (from the scene towards the
- * light) by any infinite light: the sum over them of the cell's probability times the density within it, 1/sr.
- *   choice  probabilities of the cells: &set->choice, or another table over the same cells */
-double light_pdf_environment(const struct light_set *set, const struct alias_table *choice, vec3 w);
+/* light_pdf_towards: density with which light_sample_point returns infinite light number i and direction w (from the
+ * scene towards the light), 1/sr.  cell: out, the one it lies in */
+double light_pdf_towards(const struct light_set *set, int i, vec3 w, int *cell);
 
-/* light_choice_ratio: density with which light_sample_point returns that direction under `choice`, over its density by
- * power; 0 where the latter is 0. */
-double light_choice_ratio(const struct light_set *set, const struct alias_table *choice, vec3 w);
+/* light_pdf_environment: the same by any infinite light: the sum over them. */
+double light_pdf_environment(const struct light_set *set, vec3 w);
 
 /* light_pdf_surface: density with which light_sample_point returns this point of an area light, 1/m^2. */
 double light_pdf_surface(const struct light_set *set, const struct geometry *geo, const struct surface *at);

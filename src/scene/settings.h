@@ -1,6 +1,6 @@
 /* settings.h: the named parameters of an integrator, as the scene file and -P give them.
  *
- * Values are kept as text; a method reads them by name with a default. Later ones override earlier ones.
+ * Values are kept as text; an integrator reads them by name with a default. Later ones override earlier ones.
  */
 #ifndef ASBDPT_SETTINGS_H
 #define ASBDPT_SETTINGS_H

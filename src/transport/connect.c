@@ -50,7 +50,7 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
      * surface. */
     const struct vertex *previous = z - 1;
     double before = z->prev_delta ? 0
-                                  : mis_direct_count(counts, lights, previous->p, previous->ng, z->cell, neg(z->wo));
+                                  : mis_direct_count(counts, lights, previous->eye_region, t == 3, z->cell, neg(z->wo));
     double eye = mis_side(counts, z->pdf_origin, z->pdf_fwd, before, pdf_emit, z->mis);
     c.weight = mis_weight(counts, counts->hit, 0, eye);
     return c;
@@ -67,9 +67,9 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
     if (!vertex_connectible(z) || lights->choice.n == 0)
         return nothing();
     struct light_point at;
-    const struct alias_table *choice = guide_table(counts->guide, lights, z->p, z->ng);
+    const struct guide *guide = counts->learnt != NULL && counts->learnt->guided ? &counts->learnt->guide : NULL;
     double pmf;
-    int cell = alias_sample(choice, u[0], &pmf, NULL);
+    int cell = guide_choose(guide, lights, z->eye_region, u[0], &pmf);
     if (cell_out != NULL)
         *cell_out = cell;
     if (!light_sample_cell(lights, &scene->geo, cell, u[1], u[2], &at) || !(at.pdf > 0))
@@ -101,7 +101,7 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
     double light = mis_side(counts, at_z.pdf * at_light, y.pdf_fwd, y.mis_c, 0, 0);
     double pdf_z = light_pdf_emission(lights, &at, neg(w)) * abs_dot(z->ng, w) * spread;
     double eye = mis_side(counts, pdf_z, z->pdf_fwd, z->mis_c, at_z.pdf_rev, z->mis);
-    double count = counts->direct * guide_ratio(lights, choice, cell, at.w);
+    double count = mis_direct_count(counts, lights, z->eye_region, z->first, cell, at.w);
     c.weight = mis_weight(counts, count, light, eye);
     return c;
 }
@@ -127,7 +127,7 @@ struct connection connect_pair(const struct scene *scene, const struct mis_count
 
     double light = mis_side(counts, at_z.pdf * abs_dot(y->ng, w) / d2, y->pdf_fwd, y->mis_c, at_y.pdf_rev, y->mis);
     double eye = mis_side(counts, at_y.pdf * abs_dot(z->ng, w) / d2, z->pdf_fwd, z->mis_c, at_z.pdf_rev, z->mis);
-    c.weight = mis_weight(counts, y->count, light, eye);
+    c.weight = mis_weight(counts, mis_connect_count(counts, y->light_region, z->eye_region, z->first), light, eye);
     return c;
 }
 
@@ -153,7 +153,9 @@ struct connection connect_lens(const struct scene *scene, const struct mis_count
     c.value = rgb_mul(y->beta, rgb_scale(at_y.factor, J / d2));
     if (rgb_is_black(c.value) || !scene_visible(scene, lens, 0, y->p, y->triangle_id))
         return nothing();
-    double light = mis_side(counts, J * abs_dot(y->ng, w) / d2, y->pdf_fwd, y->mis_c, at_y.pdf_rev, y->mis);
+    /* The strategy one shorter on the light side has t = 2, which the light walk could not know. */
+    double before = vertex_count_before(scene, counts, y, true);
+    double light = mis_side(counts, J * abs_dot(y->ng, w) / d2, y->pdf_fwd, before, at_y.pdf_rev, y->mis);
     c.weight = mis_weight(counts, counts->splat, light, 0);
     return c;
 }

@@ -8,7 +8,7 @@
  * A connection's value is the unweighted contribution C* of [V97 10.2]: throughputs, both BSDFs, geometry factor
  * and visibility, for *one* sample of its strategy [PBRT3 16.3.3]; the weight is its share in the heuristic (mis.h).
  *
- * Used by: gather. Tests: test_mis.c.
+ * Tests: test_mis.c.
  */
 #ifndef ASBDPT_CONNECT_H
 #define ASBDPT_CONNECT_H
@@ -37,8 +37,9 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
 struct connection connect_pair(const struct scene *scene, const struct mis_counts *counts, const struct vertex *y,
                                const struct vertex *z);
 
-/* connect_lens: y is a light vertex (s >= 2); the lens point is drawn from `sampler` (two numbers). The value is for
- * the whole frame: tile_add_splat gives each pixel its part, and the caller divides by counts->splat. */
+/* connect_lens: y is a light vertex (s >= 2) in the array of its sub-path; the lens point is drawn from `sampler` (two
+ * numbers). The value is for the whole frame: tile_add_splat gives each pixel its part, and the caller divides by
+ * counts->splat. */
 struct connection connect_lens(const struct scene *scene, const struct mis_counts *counts, const struct vertex *y,
                                struct sampler *sampler);
 

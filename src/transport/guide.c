@@ -6,52 +6,93 @@
 
 #include "base/mem.h"
 
-void guide_lessons_init(struct guide_lessons *l, const struct light_set *lights, int cells)
+/* --- columns ----------------------------------------------------------------------------------------- */
+
+static struct guide_columns columns_new(const struct light_set *lights)
+{
+    struct guide_columns c = {0};
+    c.cells_each = (lights->n_cells + GUIDE_COLUMNS - 1) / GUIDE_COLUMNS;
+    c.n = c.cells_each > 0 ? (lights->n_cells + c.cells_each - 1) / c.cells_each : 0;
+    c.power = mem_alloc((size_t)c.n, sizeof *c.power);
+    c.before = mem_alloc((size_t)lights->n_cells, sizeof *c.before);
+    for (int i = 0; i < lights->n_cells; i++) {
+        c.before[i] = c.power[i / c.cells_each];
+        c.power[i / c.cells_each] += alias_pmf(&lights->choice, i);
+    }
+    return c;
+}
+
+static void columns_free(struct guide_columns *c)
+{
+    free(c->power);
+    free(c->before);
+}
+
+/* The cell within a column, by power: the last one that begins at or before u times the column's probability. */
+static int cell_of_column(const struct guide_columns *c, const struct light_set *lights, int column, double u)
+{
+    int low = column * c->cells_each, high = low + c->cells_each;
+    high = high < lights->n_cells ? high : lights->n_cells;
+    double target = u * c->power[column];
+    while (high - low > 1) {
+        int middle = low + (high - low) / 2;
+        *(c->before[middle] <= target ? &low : &high) = middle;
+    }
+    while (low > column * c->cells_each && alias_pmf(&lights->choice, low) == 0)
+        low--; /* rounding at the end of the column */
+    return low;
+}
+
+/* --- lessons ----------------------------------------------------------------------------------------- */
+
+void guide_lessons_init(struct guide_lessons *l, const struct light_set *lights)
 {
     memset(l, 0, sizeof *l);
-    l->lights = lights;
-    grid_init(&l->grid, lights->center, lights->radius, cells);
+    l->columns = columns_new(lights);
 }
 
 void guide_lessons_free(struct guide_lessons *l)
 {
-    grid_free(&l->grid);
+    columns_free(&l->columns);
     free(l->arrived);
     free(l->samples);
     memset(l, 0, sizeof *l);
 }
 
-uint64_t guide_key(const struct grid *grid, vec3 p, vec3 ng) { return grid_key(grid, p, grid_face(ng)); }
-
 static double *arrived_in(const struct guide_lessons *l, int region)
 {
-    return &l->arrived[(size_t)region * (size_t)l->lights->n_cells];
+    return &l->arrived[(size_t)region * (size_t)l->columns.n];
 }
 
-void guide_lessons_add(struct guide_lessons *l, uint64_t key, int cell, double value)
+/* Room for all regions met so far. */
+static void make_room(struct guide_lessons *l, int n)
 {
-    if (!(value > 0))
-        return;
-    size_t cells = (size_t)l->lights->n_cells, known = (size_t)l->grid.n;
-    int i = grid_insert(&l->grid, key);
-    if ((size_t)l->grid.n > known) {
-        l->arrived = mem_grow(l->arrived, &l->arrived_capacity, (known + 1) * cells, sizeof *l->arrived);
-        l->samples = mem_grow(l->samples, &l->samples_capacity, known + 1, sizeof *l->samples);
-        memset(arrived_in(l, i), 0, cells * sizeof *l->arrived);
-        l->samples[i] = 0;
+    size_t columns = (size_t)l->columns.n;
+    l->arrived = mem_grow(l->arrived, &l->arrived_capacity, (size_t)n * columns, sizeof *l->arrived);
+    l->samples = mem_grow(l->samples, &l->samples_capacity, (size_t)n, sizeof *l->samples);
+    for (; l->n < n; l->n++) {
+        memset(arrived_in(l, l->n), 0, columns * sizeof *l->arrived);
+        l->samples[l->n] = 0;
     }
-    arrived_in(l, i)[cell] += value;
-    l->samples[i]++;
+}
+
+void guide_lessons_add(struct guide_lessons *l, const struct regions *regions, int region, int cell, double value)
+{
+    make_room(l, regions->n);
+    for (int r = region; r >= 0; r = regions->region[r].above) {
+        arrived_in(l, r)[cell / l->columns.cells_each] += value;
+        l->samples[r]++;
+    }
 }
 
 /* --- the tables -------------------------------------------------------------------------------------- */
 
 void guide_free(struct guide *g)
 {
-    for (int i = 0; g->table != NULL && i < g->grid.n; i++)
+    for (int i = 0; i < g->n; i++)
         alias_free(&g->table[i]);
     free(g->table);
-    grid_free(&g->grid);
+    columns_free(&g->columns);
     memset(g, 0, sizeof *g);
 }
 
@@ -63,54 +104,107 @@ static double sum_of(const double *x, int n)
     return sum;
 }
 
-/* Shares of the cells over all regions, times the number of samples: a region counts by its samples, not by how bright
- * it is. Returns that number. */
-static double all_regions(const struct guide_lessons *l, double *all)
+/* t of region 0: every region right below it counts by its samples, not by how bright it is. */
+static void shares_of_scene(const struct guide_lessons *l, const struct regions *regions, double *t)
 {
-    int n = l->lights->n_cells;
     double total = 0;
-    for (int i = 0; i < l->grid.n; i++) {
-        double share = l->samples[i] / sum_of(arrived_in(l, i), n);
-        for (int c = 0; c < n; c++)
-            all[c] += arrived_in(l, i)[c] * share;
+    for (int i = 1; i < l->n; i++) {
+        double sum = sum_of(arrived_in(l, i), l->columns.n);
+        if (regions->region[i].above != 0 || !(sum > 0))
+            continue;
+        for (int c = 0; c < l->columns.n; c++)
+            t[c] += arrived_in(l, i)[c] * l->samples[i] / sum;
         total += l->samples[i];
     }
-    return total;
+    for (int c = 0; c < l->columns.n; c++)
+        t[c] = total > 0 ? t[c] / total : l->columns.power[c];
 }
 
-void guide_build(struct guide *g, const struct guide_lessons *l, double delta)
+/* t of every region, each from that of the region above it. K is SMOOTHING times the number of columns that the region
+ * above effectively has [Kish 1965]: the more there are, the more contributions it takes to tell them apart. */
+static double *shares_of_regions(const struct guide_lessons *l, const struct regions *regions)
 {
-    const double K = 32; /* contributions after which a region's own shares count half */
-    int n = l->lights->n_cells;
-    double *all = mem_alloc((size_t)n, sizeof *all), *q = mem_alloc((size_t)n, sizeof *q);
-    double total = all_regions(l, all);
+    const double SMOOTHING = 16;
+    size_t n = (size_t)l->columns.n;
+    double *t = mem_alloc((size_t)l->n * n, sizeof *t);
+    shares_of_scene(l, regions, t);
+    for (int i = 1; i < l->n; i++) {
+        const double *above = &t[(size_t)regions->region[i].above * n], *arrived = arrived_in(l, i);
+        double samples = l->samples[i], sum = sum_of(arrived, l->columns.n), square = 0;
+        for (size_t c = 0; c < n; c++)
+            square += above[c] * above[c];
+        double K = SMOOTHING / square;
+        double own = sum > 0 ? samples / (samples + K) / sum : 0, others = K / (samples + K);
+        for (size_t c = 0; c < n; c++)
+            t[(size_t)i * n + c] = own * arrived[c] + others * above[c];
+    }
+    return t;
+}
+
+void guide_build(struct guide *g, struct guide_lessons *l, const struct regions *regions,
+                 const struct light_set *lights, double delta)
+{
+    make_room(l, regions->n);
+    int n = l->columns.n;
+    double *t = shares_of_regions(l, regions), *q = mem_alloc((size_t)n, sizeof *q);
     guide_free(g);
-    grid_copy(&g->grid, &l->grid);
-    g->table = mem_alloc((size_t)l->grid.n, sizeof *g->table);
-    for (int i = 0; i < l->grid.n; i++) {
-        const double *arrived = arrived_in(l, i), samples = l->samples[i];
-        double own = samples / (samples + K) / sum_of(arrived, n), others = K / (samples + K) / total;
+    g->columns = columns_new(lights);
+    g->n = l->n;
+    g->table = mem_alloc((size_t)l->n, sizeof *g->table);
+    for (int i = 0; i < l->n; i++) {
         for (int c = 0; c < n; c++)
-            q[c] = delta * alias_pmf(&l->lights->choice, c) + (1 - delta) * (own * arrived[c] + others * all[c]);
-        alias_build(&g->table[i], q, n); /* lessons are positive and finite, so are the shares */
+            q[c] = delta * l->columns.power[c] + (1 - delta) * t[(size_t)i * (size_t)n + (size_t)c];
+        alias_build(&g->table[i], q, n);
     }
     free(q);
-    free(all);
+    free(t);
 }
 
-const struct alias_table *guide_table(const struct guide *g, const struct light_set *lights, vec3 p, vec3 ng)
+/* --- use --------------------------------------------------------------------------------------------- */
+
+static const struct alias_table *table_of(const struct guide *g, int region)
 {
-    int i = g == NULL ? -1 : grid_find(&g->grid, guide_key(&g->grid, p, ng));
-    return i < 0 ? &lights->choice : &g->table[i];
+    return g == NULL || region >= g->n || g->table[region].n == 0 ? NULL : &g->table[region];
 }
 
-double guide_ratio(const struct light_set *lights, const struct alias_table *table, int cell, vec3 w)
+int guide_choose(const struct guide *g, const struct light_set *lights, int region, double u, double *pmf)
 {
-    if (table == &lights->choice)
+    const struct alias_table *table = table_of(g, region);
+    if (lights->choice.n == 0)
+        return -1;
+    if (table == NULL)
+        return alias_sample(&lights->choice, u, pmf, NULL);
+    double q, rest;
+    int column = alias_sample(table, u, &q, &rest);
+    if (g->columns.cells_each == 1) {
+        *pmf = q;
+        return column;
+    }
+    int cell = cell_of_column(&g->columns, lights, column, rest);
+    *pmf = q * alias_pmf(&lights->choice, cell) / g->columns.power[column];
+    return cell;
+}
+
+static double ratio_of_cell(const struct guide *g, const struct alias_table *table, int cell)
+{
+    double e = g->columns.power[cell / g->columns.cells_each];
+    return e > 0 ? alias_pmf(table, cell / g->columns.cells_each) / e : 0;
+}
+
+double guide_ratio(const struct guide *g, const struct light_set *lights, int region, int cell, vec3 w)
+{
+    const struct alias_table *table = table_of(g, region);
+    if (table == NULL)
         return 1;
+    if (cell >= 0 && !(lights->several_infinite && lights->light[lights->light_of_cell[cell]].kind == LIGHT_INFINITE))
+        return ratio_of_cell(g, table, cell);
     /* Infinite lights are told apart by nobody who meets them: their densities are added (light.h). */
-    if (cell < 0 || (lights->several_infinite && lights->light[lights->light_of_cell[cell]].kind == LIGHT_INFINITE))
-        return light_choice_ratio(lights, table, w);
-    double e = alias_pmf(&lights->choice, cell);
-    return e > 0 ? alias_pmf(table, cell) / e : 0;
+    double guided = 0, by_power = 0;
+    for (int i = 0; i < lights->n; i++)
+        if (lights->light[i].kind == LIGHT_INFINITE) {
+            double pdf = light_pdf_towards(lights, i, w, &cell);
+            by_power += pdf;
+            guided += pdf * ratio_of_cell(g, table, cell);
+        }
+    return by_power > 0 ? guided / by_power : 0;
 }

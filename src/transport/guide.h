@@ -2,63 +2,75 @@
  *
  * s = 1 connects an eye vertex to a point on a light. Choosing the light by power alone wastes most shadow rays where
  * walls stand between, and an environment map seen through a window is mostly hidden. The pre-pass tries light points
- * from eye vertices and adds up, per region of space and per light cell (light.h), the contributions that arrived.
+ * from eye vertices and adds up, per region (regions.h) and per light cell (light.h), the contributions that arrived.
  * Each region then has an alias table over all light cells,
- *     q(c) = delta e(c) + (1 - delta) (N t(c) + K t_all(c)) / (N + K),
- * e being the choice by power, t the region's shares after N contributions, t_all those of the whole scene (a region
- * seldom visited relies on it). The first term, a defensive mixture [Hesterberg 1995], keeps every light within reach;
- * how N and K share the second is ours.
+ *     q(c) = delta e(c) + (1 - delta) t(c),      t(c) = (N own(c) + K above(c)) / (N + K),
+ * e being the choice by power, own the region's shares after N contributions, and above the t of the region that holds
+ * it (at the top: the shares of the whole scene), on which a region seldom visited relies.
+ *
+ * A scene with more than GUIDE_COLUMNS light cells is learnt in groups of consecutive cells; within a group the choice
+ * is by power. So the memory is bounded, by 44 bytes for each of GUIDE_COLUMNS columns of each region.
  *
  * Frozen after the pre-pass, so any choice is unbiased; MIS needs the ratio of the two choices, guide_ratio, as the
  * count of strategy s = 1 (mis.h): its samples are that many times denser than those of emission.
  *
- * Used by: connect, path, prepass. Tests: test_asbdpt.c, test_mis.c.
+ * Tests: test_asbdpt.c, test_mis.c.
  */
-#ifndef ASBDPT_GUIDE_H
-#define ASBDPT_GUIDE_H
+#ifndef ASBDPT_TRANSPORT_GUIDE_H
+#define ASBDPT_TRANSPORT_GUIDE_H
 
 #include "base/alias.h"
-#include "base/grid.h"
 #include "scene/light.h"
+#include "transport/regions.h"
+
+enum { GUIDE_COLUMNS = 512 };
+
+/* The cells of a light set in columns of equal length, the last one perhaps shorter. */
+struct guide_columns {
+    int n, cells_each;
+    double *power;  /* [n], probability of the column when cells are chosen by power; owned */
+    double *before; /* [cells], probability by power of the cells before this one in its column; owned */
+};
 
 /* What the pre-pass has found so far, per region. */
 struct guide_lessons {
-    const struct light_set *lights;
-    struct grid grid;
-    double *arrived; /* [grid.n * n_cells] sums of contributions (luminance), owned */
-    double *samples; /* [grid.n] number of contributions other than zero, owned */
+    struct guide_columns columns;
+    double *arrived; /* [regions * columns.n] sums of contributions (luminance), owned */
+    double *samples; /* [regions] number of contributions other than zero, owned */
+    int n;           /* regions */
     size_t arrived_capacity, samples_capacity;
 };
 
-/* guide_lessons_init: `cells` regions along the scene's diameter. */
-void guide_lessons_init(struct guide_lessons *l, const struct light_set *lights, int cells);
+void guide_lessons_init(struct guide_lessons *l, const struct light_set *lights);
 void guide_lessons_free(struct guide_lessons *l);
 
-/* guide_lessons_add: a light point of `cell` brought `value` >= 0 to a vertex of the region. */
-void guide_lessons_add(struct guide_lessons *l, uint64_t key, int cell, double value);
-
-/* guide_key: the region of a surface point with unit geometric normal ng. */
-uint64_t guide_key(const struct grid *grid, vec3 p, vec3 ng);
+/* guide_lessons_add: a light point of `cell` brought `value` > 0 to a vertex of the region (and to those that hold it).
+ * */
+void guide_lessons_add(struct guide_lessons *l, const struct regions *regions, int region, int cell, double value);
 
 /* The frozen tables. */
 struct guide {
-    struct grid grid;
-    struct alias_table *table; /* [grid.n], over all light cells; owned */
+    struct guide_columns columns;
+    struct alias_table *table; /* [n], over the columns; owned */
+    int n;                     /* regions */
 };
 
 /* guide_build: make the tables from the lessons, with `delta` in (0,1].
  *   g  zero-initialised or built before; guide_free releases it */
-void guide_build(struct guide *g, const struct guide_lessons *l, double delta);
+void guide_build(struct guide *g, struct guide_lessons *l, const struct regions *regions,
+                 const struct light_set *lights, double delta);
 void guide_free(struct guide *g);
 
-/* guide_table: the choice of light cells at a surface point; the lights' own where nothing is known or g is NULL. */
-const struct alias_table *guide_table(const struct guide *g, const struct light_set *lights, vec3 p, vec3 ng);
+/* guide_choose: draw a light cell for an eye vertex of `region` with the uniform number u.
+ *   g       NULL: by power
+ *   pmf     out: its probability
+ * Returns -1 if the scene has no light. */
+int guide_choose(const struct guide *g, const struct light_set *lights, int region, double u, double *pmf);
 
-/* guide_ratio: density of y0 under guided choice over that under the choice by power.
- *   table  from guide_table for the surface point that y0 is connected to
- *   cell   of y0; -1 for a direction met by an escaping ray
- *   w      lights at infinity: unit direction towards the light
- * Returns 0 when the choice by power could not draw y0. */
-double guide_ratio(const struct light_set *lights, const struct alias_table *table, int cell, vec3 w);
+/* guide_ratio: density of y0 under guided choice over that under the choice by power; 0 where the latter is 0.
+ *   region  of the surface point that y0 is connected to
+ *   cell    of y0; -1 for a direction met by an escaping ray
+ *   w       lights at infinity: unit direction towards the light */
+double guide_ratio(const struct guide *g, const struct light_set *lights, int region, int cell, vec3 w);
 
 #endif

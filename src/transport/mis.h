@@ -23,7 +23,7 @@
  *
  * Delta lobes have, instead of densities, coefficients of the same delta; they cancel in R/F as densities do (bsdf.h).
  *
- * Every method is described by its sample counts n; see struct mis_counts. The counts may vary from path to path as
+ * Every integrator is described by its sample counts n; see struct mis_counts. The counts may vary from path to path as
  * long as every strategy computes the same number for the same path.
  *
  * Readers of VCM [Georgiev 2012] and SmallVCM know two of its three partial sums, which are ours divided by F_e (in
@@ -34,48 +34,49 @@
  *
  * The power heuristic with exponent 2 squares every factor.                                           [V97 9.2.3]
  *
- * Used by: path (recursion), connect (weights). Tests: test_mis.c compares with all p_i computed one by one.
+ * Tests: test_mis.c compares with all p_i computed one by one.
  */
 #ifndef ASBDPT_MIS_H
 #define ASBDPT_MIS_H
 
 #include <stdbool.h>
 
-#include "transport/guide.h"
+#include "transport/learnt.h"
 #include "base/vec.h"
 
-/* How many samples each kind of strategy takes per pixel and iteration; 0: the method does not use it. A method may
- * count a strategy for more than it takes: the weights still add up to 1. The balance heuristic goes by second moments,
- * so a strategy whose samples are better spread than independent ones, and whose variance is therefore smaller,
- * deserves it [Grittmann 2019]. */
+/* How many samples each kind of strategy takes per pixel and iteration; 0: the integrator does not use it. An
+ * integrator may count a strategy for more than it takes: the weights still add up to 1. The balance heuristic goes by
+ * second moments, so a strategy whose samples are better spread than independent ones, and whose variance is therefore
+ * smaller, deserves it [Grittmann 2019].
+ *
+ * A count may depend on the surface points at both ends of the strategy's connecting edge, since both are known when a
+ * walk has arrived at the second; and on whether the eye end is the first hit (t = 2), which the eye walk knows, and
+ * which is never so on the light side of a connection but for its last vertex when the lens is next (connect_lens). */
 struct mis_counts {
-    double hit;     /* s = 0, t >= 3: the eye walk finds a light. (t = 2, a light seen directly, has weight 1) */
-    double direct;  /* s = 1, t >= 2: connection to one fresh point on a light; times guide_ratio with a guide */
-    double connect; /* s >= 2, t >= 2: connection to a light sub-path's vertex */
-    double splat;   /* s >= 2, t = 1: light sub-paths connected to the lens: how many are traced per iteration */
-    /* If set, multiplies `connect` by a function of the light vertex that ends the light sub-path (design of
-     * `select = vertices`): it must depend on nothing but the surface point. */
-    double (*at)(const void *context, vec3 p, vec3 ng);
-    const void *at_context;
-    const struct guide *guide; /* how s = 1 chooses lights (guide.h); NULL: by power */
-    bool power; /* power heuristic instead of the balance heuristic */
+    double hit;        /* s = 0, t >= 3: the eye walk finds a light. (t = 2, a light seen directly, has weight 1) */
+    double direct[2];  /* s = 1: connection to fresh points on a light, for t = 2 and t > 2; times guide_ratio */
+    double connect[2]; /* s >= 2: connection to light vertices, for t = 2 and t > 2; times h of pairs.h */
+    double splat;      /* s >= 2, t = 1: light sub-paths connected to the lens: how many are traced per iteration */
+    const struct learnt *learnt; /* guide and pairs; NULL: neither */
+    bool power;                  /* power heuristic instead of the balance heuristic */
 };
 
-/* mis_connect_count: n of strategies s >= 2, t >= 2 whose light sub-path ends at p, with normal ng. */
-static inline double mis_connect_count(const struct mis_counts *c, vec3 p, vec3 ng)
+/* mis_connect_count: n of the strategy s >= 2, t >= 2 whose light end lies in region y and whose eye end lies in region
+ * e.
+ *   first  t = 2 */
+static inline double mis_connect_count(const struct mis_counts *c, int y, int e, bool first)
 {
-    return c->at == 0 || c->connect == 0 ? c->connect : c->connect * c->at(c->at_context, p, ng);
+    double n = c->connect[!first];
+    return c->learnt != 0 && c->learnt->paired ? n * pairs_row(&c->learnt->pairs, e)[y] : n;
 }
 
-/* mis_direct_count: n of strategies s = 1, t >= 2 that join a surface point to the end point y0.
- *   p, ng    the surface point and its unit geometric normal
+/* mis_direct_count: n of the strategy s = 1, t >= 2 that joins a surface point in region e to the end point y0.
  *   cell, w  of y0, as guide_ratio takes them */
-static inline double mis_direct_count(const struct mis_counts *c, const struct light_set *lights, vec3 p, vec3 ng,
+static inline double mis_direct_count(const struct mis_counts *c, const struct light_set *lights, int e, bool first,
                                       int cell, vec3 w)
 {
-    if (c->guide == 0 || c->direct == 0)
-        return c->direct;
-    return c->direct * guide_ratio(lights, guide_table(c->guide, lights, p, ng), cell, w);
+    double n = c->direct[!first];
+    return c->learnt != 0 && c->learnt->guided && n > 0 ? n * guide_ratio(&c->learnt->guide, lights, e, cell, w) : n;
 }
 
 /* mis_raise: the heuristic's power of a density or count. */

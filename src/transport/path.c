@@ -23,19 +23,26 @@ double scatter_cosine(const struct vertex *v, vec3 wi, enum transport mode)
     return wo_ng > 0 ? abs_dot(v->wo, ns) * abs_dot(wi, v->ng) / wo_ng : 0;
 }
 
-/* c_e of mis.h for the vertex just reached: samples of the strategy whose sub-path of this side ends at `prev`. On the
- * light side that is a connection from prev; on the eye side one whose light sub-path ends here. */
-static double count_before(const struct walk *w, const struct vertex *v, const struct vertex *prev,
-                           enum transport mode)
+double vertex_count_before(const struct scene *scene, const struct mis_counts *m, const struct vertex *y, bool first)
 {
-    const struct mis_counts *m = w->counts;
+    const struct vertex *prev = y - 1;
+    if (y->prev_delta)
+        return 0;
+    return prev->kind == VERTEX_LIGHT ? mis_direct_count(m, &scene->lights, y->eye_region, first, prev->cell, prev->wo)
+                                      : mis_connect_count(m, prev->light_region, y->eye_region, first);
+}
+
+/* c_e of mis.h for the vertex just reached: samples of the strategy whose sub-path of this side ends at the vertex
+ * before. On the light side that is a connection from there to here; on the eye side one from here to there. */
+static double count_before(const struct walk *w, const struct vertex *v, enum transport mode)
+{
+    const struct vertex *prev = v - 1;
+    if (mode == IMPORTANCE)
+        return vertex_count_before(w->scene, w->counts, v, false);
     if (v->prev_delta)
         return 0;
-    if (mode == IMPORTANCE && prev->kind == VERTEX_LIGHT)
-        return mis_direct_count(m, &w->scene->lights, v->p, v->ng, prev->cell, prev->wo);
-    if (mode == IMPORTANCE)
-        return prev->count;
-    return prev->kind == VERTEX_LENS ? m->splat : v->count;
+    return prev->kind == VERTEX_LENS ? w->counts->splat
+                                     : mis_connect_count(w->counts, v->light_region, prev->eye_region, prev->first);
 }
 
 /* How the walk left its last vertex. */
@@ -72,7 +79,7 @@ static bool escape(const struct walk *w, struct vertex *v, const struct vertex *
     v->wo = neg(from->ray.d);
     v->beta = from->beta;
     v->pdf_fwd = from->pdf;
-    v->pdf_origin = light_pdf_environment(&w->scene->lights, &w->scene->lights.choice, from->ray.d);
+    v->pdf_origin = light_pdf_environment(&w->scene->lights, from->ray.d);
     double at_prev = prev->kind == VERTEX_LENS ? 1 : abs_dot(prev->ng, from->ray.d);
     v->mis = mis_step(w->counts, from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, at_prev);
     return true;
@@ -96,8 +103,13 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
     v->beta = from->beta;
     v->pdf_origin = mode == RADIANCE && at->light >= 0 ? light_pdf_surface(&w->scene->lights, &w->scene->geo, at) : 0;
     measure(w, v, prev, from, d2);
-    v->count = mis_connect_count(w->counts, v->p, v->ng);
-    v->mis_c = count_before(w, v, prev, mode);
+    v->first = prev->kind == VERTEX_LENS;
+    v->eye_region = v->light_region = 0;
+    if (w->counts->learnt != NULL) {
+        v->eye_region = region_at(&w->counts->learnt->eye, v->p, v->ng);
+        v->light_region = region_at(&w->counts->learnt->light, v->p, v->ng);
+    }
+    v->mis_c = count_before(w, v, mode);
     material_bsdf(w->scene->material, at->material, &w->scene->textures, at, w->arena, &v->bsdf);
     return true;
 }
@@ -198,7 +210,7 @@ void vertex_light_end(const struct scene *scene, const struct mis_counts *counts
     /* An escaping eye ray cannot tell infinite lights apart, so their densities are added up for the weight.
      * [PBRT3 16.3.5] */
     out->pdf_fwd = scene->lights.several_infinite && l->kind == LIGHT_INFINITE
-                       ? light_pdf_environment(&scene->lights, &scene->lights.choice, at->w)
+                       ? light_pdf_environment(&scene->lights, at->w)
                        : at->pdf;
     out->mis_c = light_is_delta(l) ? 0 : counts->hit;
 }

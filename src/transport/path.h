@@ -15,7 +15,7 @@
  * as long as roulette is mild. The square root is milder than the usual probability r / rr_threshold: a weak sub-path
  * still meets many others.
  *
- * Used by: connect, the methods. Tests: test_mis.c, test_render.c.
+ * Tests: test_mis.c, test_render.c.
  */
 #ifndef ASBDPT_PATH_H
 #define ASBDPT_PATH_H
@@ -39,6 +39,7 @@ enum vertex_kind {
 struct vertex {
     enum vertex_kind kind;
     bool prev_delta;   /* the walk left the previous vertex by a delta lobe */
+    bool first;        /* z_1: what the camera sees */
     int light;         /* y_0: its light; a surface: the area light there, or -1 */
     int cell;          /* y_0: its light cell; a surface on an area light: ditto; else -1 */
     vec3 p;            /* world position (at infinity: unused) */
@@ -50,7 +51,8 @@ struct vertex {
     double pdf_origin; /* eye walk, on a light or ESCAPED: density of light_sample_point making it, like pdf_fwd */
     double mis;        /* mis_e of mis.h */
     double mis_c;      /* c_e of mis.h, supposing this vertex is not left by a delta lobe */
-    double count;      /* samples taken by connections whose light sub-path ends here */
+    /* SURFACE: where it lies as an eye end and as a light end of a connection (learnt.h) */
+    int eye_region, light_region;
     struct bsdf bsdf;  /* SURFACE */
 };
 
@@ -75,6 +77,11 @@ int path_eye_pixel(const struct walk *w, int x, int y, struct vertex *path, int 
 
 /* path_light: choose a light, emit, and walk. Returns the number of vertices; 0 when nothing is emitted. */
 int path_light(const struct walk *w, struct vertex *path, int max_vertices);
+
+/* vertex_count_before: samples taken by the strategy that joins the light vertex before y, in y's array, to y as its
+ * eye end.
+ *   first  y would be the first hit, t = 2 */
+double vertex_count_before(const struct scene *scene, const struct mis_counts *m, const struct vertex *y, bool first);
 
 /* vertex_light_end: fill in a y_0 for a point drawn by light_sample_point; its beta is 1/density. */
 void vertex_light_end(const struct scene *scene, const struct mis_counts *counts, const struct light_point *at,

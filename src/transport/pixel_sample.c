@@ -13,7 +13,7 @@ struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struc
 {
     const struct render_job *job = pass->job;
     struct sampler points = sampler_start(job->seed, RNG_CONNECT, pixel_number(job->scene, x, y), (uint64_t)iteration);
-    struct pixel_sample g = {job->scene, counts, pass->tile, job->max_depth, x, y, 1, points};
+    struct pixel_sample g = {job->scene, counts, pass->tile, job->max_depth, x, y, 1, 1, points};
     return g;
 }
 
@@ -21,7 +21,7 @@ int pixel_eye_path(const struct tile_pass *pass, struct pixel_sample *g, long it
                    int max_vertices)
 {
     uint64_t pixel = pixel_number(g->scene, g->x, g->y);
-    struct sampler sampler = sampler_start(pass->job->seed, RNG_EYE, pixel, (uint64_t)iteration);
+    struct sampler sampler = sampler_start(pass->job->eye_seed, RNG_EYE, pixel, (uint64_t)iteration);
     struct walk w = {g->scene, g->counts, &pass->work->arena, &sampler, pass->job->rr_threshold};
     return path_eye_pixel(&w, g->x, g->y, path, max_vertices, &g->filter_weight);
 }
@@ -59,6 +59,15 @@ static rgb take(struct pixel_sample *g, struct connection c, int s, int t, doubl
     return rgb_scale(value, c.weight);
 }
 
+static rgb sum_direct(struct pixel_sample *g, const struct vertex *z, int t)
+{
+    rgb sum = rgb_black();
+    int n = t == 2 ? g->lights : 1;
+    for (int i = 0; i < n; i++)
+        sum = rgb_add(sum, take(g, connect_direct(g->scene, g->counts, z, &g->sampler, NULL), 1, t, 1.0 / n));
+    return sum;
+}
+
 rgb pixel_sum_eye(struct pixel_sample *g, const struct vertex *eye, int n)
 {
     rgb sum = rgb_black();
@@ -66,8 +75,8 @@ rgb pixel_sum_eye(struct pixel_sample *g, const struct vertex *eye, int n)
         const struct vertex *z = &eye[t - 1];
         if (t == 2 || g->counts->hit > 0)
             sum = rgb_add(sum, take(g, connect_hit(g->scene, g->counts, z, t), 0, t, 1));
-        if (g->counts->direct > 0 && t <= g->max_depth + 1 && z->kind == VERTEX_SURFACE)
-            sum = rgb_add(sum, take(g, connect_direct(g->scene, g->counts, z, &g->sampler, NULL), 1, t, 1));
+        if (g->counts->direct[0] > 0 && t <= g->max_depth + 1 && z->kind == VERTEX_SURFACE)
+            sum = rgb_add(sum, sum_direct(g, z, t));
     }
     return sum;
 }

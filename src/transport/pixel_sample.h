@@ -20,6 +20,7 @@ struct pixel_sample {
     int max_depth;          /* longest path: s + t <= max_depth + 2 */
     int x, y;               /* the pixel */
     double filter_weight;   /* of its eye sample, see path_eye_pixel */
+    int lights;             /* samples of s = 1 for t = 2; 1 for t > 2 */
     struct sampler sampler; /* for light and lens points */
 };
 
@@ -33,7 +34,7 @@ struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struc
 int pixel_eye_path(const struct tile_pass *pass, struct pixel_sample *g, long iteration, struct vertex *path,
                    int max_vertices);
 
-/* pixel_sampler: the stream of a pixel and iteration for a purpose of the method's own. */
+/* pixel_sampler: the stream of a pixel and iteration for a purpose of the integrator's own. */
 struct sampler pixel_sampler(const struct tile_pass *pass, enum rng_purpose purpose, int x, int y, long iteration);
 
 /* pixel_light_path: the light sub-path that belongs to pixel (x,y) and `number` into path [max_depth + 1]; its lobes go

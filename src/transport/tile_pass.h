@@ -13,23 +13,30 @@ struct render_job {
     const struct scene *scene;
     struct pixel_rect film_rect; /* the crop in pixels */
     uint64_t seed;
+    uint64_t eye_seed; /* of eye sub-paths alone; else the same */
     int max_depth;
     int n_threads;
     bool power_heuristic;
     double rr_threshold; /* of Russian roulette, see path.h */
+    double spp;          /* samples per pixel of the whole picture, of which this render may be a part */
     bool spatial_lights; /* pbrt's lightsamplestrategy asks for lights by what is seen; else they are picked by power */
 };
 
-enum { TILE_SIZE = 16 }; /* pixels along the side of a tile */
+/* How an integrator wants its work cut. */
+struct pass_size {
+    int block; /* iterations */
+    int tile;  /* pixels along the side, at most MAX_TILE_SIZE */
+};
+enum { DEFAULT_BLOCK = 32, DEFAULT_TILE_SIZE = 16, MAX_TILE_SIZE = 32 };
 
 /* Memory of one thread, made once and reused by all its tile passes. */
 struct workspace {
     struct arena arena;
     struct vertex *eye, *light; /* [max_depth + 2] each; owned */
-    void *own;                  /* the method's, from new_own; may be NULL */
+    void *scratch;              /* the integrator's; may be NULL */
 };
 
-/* workspaces_new: arenas and sub-paths for n threads; `own` is left NULL. */
+/* workspaces_new: arenas and sub-paths for n threads; `scratch` is left NULL. */
 struct workspace *workspaces_new(int n, int max_depth);
 void workspaces_free(struct workspace *work, int n);
 

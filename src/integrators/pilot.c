@@ -1,0 +1,268 @@
+/* pilot.c: see pilot.h. */
+#include "integrators/pilot.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/parallel.h"
+
+/* What a pixel's variance given its eye sub-path is made of. */
+enum kind { DRAW_FIRST, DRAW_LATER, LIGHT_FIRST, LIGHT_PATH, N_KINDS };
+
+/* Samples per eye vertex (per pixel) of each kind while the pilot runs, and in its absence. The choice moves from the
+ * latter by BOLDNESS of the way, on a logarithmic scale: more samples of a kind also take over weight from others, so
+ * its variance falls more slowly than 1/n. */
+static const double TRIED[N_KINDS] = {4, 4, 4, 0.25}, USUAL[N_KINDS] = {3, 1, 2, 0.25};
+static const double BOLDNESS = 2.0 / 3;
+static const double USUAL_CREDIT = 1.5, MOST_CREDIT = 4;
+
+/* Renders of a tile: the second shares nothing with the first, the third its eye sub-paths. */
+enum { RENDERS = 3 };
+
+static const double OUTLIER = 25; /* no squared relative deviation counts for more: a picture's white is not far off */
+
+struct sums {
+    double total, given_eye;               /* variances relative to the squared brightness */
+    double spread[N_KINDS], square[N_KINDS]; /* of the samples of one eye vertex: variance and squares of their sum */
+};
+
+struct pilot {
+    struct render_job job;
+    const struct selection *sel;
+    struct workspace *work;       /* [n_threads] */
+    struct tile (*tile)[RENDERS]; /* [n_slots] */
+    struct sums *found;           /* [n_slots] */
+    struct sums sums;
+};
+
+static double luminance_of(float r, float g, float b)
+{
+    return rgb_luminance(rgb_make((double)r, (double)g, (double)b));
+}
+
+/* Where a pixel of the film lies in the tile, or -1. */
+static long place_in_tile(const struct tile *tile, int32_t pixel)
+{
+    int film_width = rect_width(tile->film_rect);
+    int x = pixel % film_width + tile->film_rect.x0, y = pixel / film_width + tile->film_rect.y0;
+    struct pixel_rect r = tile->rect;
+    bool inside = x >= r.x0 && y >= r.y0 && x < r.x1 && y < r.y1;
+    return inside ? (long)(y - r.y0) * rect_width(r) + (x - r.x0) : -1;
+}
+
+/* Luminance of every pixel of the tile, splats included. */
+static void pixel_values(const struct tile *tile, double *out)
+{
+    int n = rect_width(tile->rect) * rect_height(tile->rect);
+    for (int i = 0; i < n; i++)
+        out[i] = rgb_luminance(rgb_make(tile->eye[3 * i], tile->eye[3 * i + 1], tile->eye[3 * i + 2]));
+    for (size_t k = 0; k < tile->n_splats; k++) {
+        long i = place_in_tile(tile, tile->splat[k].pixel);
+        if (i >= 0)
+            out[i] += luminance_of(tile->splat[k].r, tile->splat[k].g, tile->splat[k].b);
+    }
+}
+
+/* Squared brightness around every pixel: mostly of a small block, partly of the tile, where the block is dark by
+ * chance. */
+static void brightness(struct pixel_rect rect, const double *a, const double *b, double *out)
+{
+    enum { BLOCK = 4 };
+    int width = rect_width(rect), height = rect_height(rect);
+    double all = 0;
+    for (int i = 0; i < width * height; i++)
+        all += (a[i] + b[i]) / (2.0 * width * height);
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            int x0 = x / BLOCK * BLOCK, y0 = y / BLOCK * BLOCK, n = 0;
+            double sum = 0;
+            for (int j = y0; j < height && j < y0 + BLOCK; j++)
+                for (int i = x0; i < width && i < x0 + BLOCK; i++, n += 2)
+                    sum += a[j * width + i] + b[j * width + i];
+            out[y * width + x] = sqr(0.75 * sum / n + 0.25 * all) + 1e-30;
+        }
+}
+
+/* -1: a strategy whose number of samples is not free, or whose samples are not those of one eye vertex. */
+static int kind_of(const struct strategy_record *r)
+{
+    if (r->s == 1)
+        return r->t == 2 ? LIGHT_FIRST : -1;
+    return r->s < 2 || r->t == 1 ? -1 : r->t == 2 ? DRAW_FIRST : DRAW_LATER;
+}
+
+/* Records of one eye vertex and kind stand in a row; samples that brought nothing have none. */
+static void add_records(const struct tile *tile, const double *scale, struct sums *out)
+{
+    for (size_t i = 0; i < tile->n_records;) {
+        const struct strategy_record *first = &tile->record[i];
+        int kind = kind_of(first);
+        double x = 0, x2 = 0, n = kind >= 0 ? TRIED[kind] : 1;
+        for (; i < tile->n_records; i++) {
+            const struct strategy_record *r = &tile->record[i];
+            if (r->pixel != first->pixel || r->t != first->t || kind_of(r) != kind)
+                break;
+            double one = luminance_of(r->unweighted[0], r->unweighted[1], r->unweighted[2]) * (double)r->weight;
+            x += one;
+            x2 += one * one;
+        }
+        long at = place_in_tile(tile, first->pixel);
+        if (kind < 0 || at < 0)
+            continue;
+        out->spread[kind] += fmin((x2 - x * x / n) * n / (n - 1) / scale[at], OUTLIER);
+        out->square[kind] += fmin(x2 / scale[at], OUTLIER);
+    }
+}
+
+/* Tile k lies around point k of the sequence R2 [Roberts 2018]. */
+static struct pixel_rect rect_of(const struct pilot *p, int64_t k)
+{
+    struct pixel_rect all = p->job.film_rect, r;
+    double u = 0.5 + 0.7548776662466927 * (double)k, v = 0.5 + 0.5698402909980532 * (double)k;
+    int w = rect_width(all) < MAX_TILE_SIZE ? rect_width(all) : MAX_TILE_SIZE;
+    int h = rect_height(all) < MAX_TILE_SIZE ? rect_height(all) : MAX_TILE_SIZE;
+    r.x0 = all.x0 + (int)((u - floor(u)) * (rect_width(all) - w + 1)); /* the fractions are in [0,1) */
+    r.y0 = all.y0 + (int)((v - floor(v)) * (rect_height(all) - h + 1));
+    r.x1 = r.x0 + w;
+    r.y1 = r.y0 + h;
+    return r;
+}
+
+static void render_tile(void *context, int64_t job, int slot, int thread)
+{
+    struct pilot *p = context;
+    struct pixel_rect rect = rect_of(p, job);
+    size_t n = (size_t)rect_width(rect) * (size_t)rect_height(rect);
+    double *value = mem_alloc((RENDERS + 1) * n, sizeof *value), *scale = value + RENDERS * n;
+    struct sums *found = &p->found[slot];
+    memset(found, 0, sizeof *found);
+    for (int i = 0; i < RENDERS; i++) {
+        struct tile *tile = &p->tile[slot][i];
+        struct render_job this = p->job;
+        this.seed = hash_combine(p->job.seed, (uint64_t)i);
+        this.eye_seed = hash_combine(p->job.seed, RENDERS + (i == 1));
+        struct tile_pass pass = {&this, rect, (long)job, (long)job + 1, tile, &p->work[thread]};
+        tile_start(tile, rect, p->job.film_rect, &p->job.scene->filter, true);
+        render_subspaces.render(p->sel, &pass);
+        pixel_values(tile, value + (size_t)i * n);
+    }
+    brightness(rect, value, value + n, scale);
+    for (int i = 0; i < RENDERS; i++)
+        add_records(&p->tile[slot][i], scale, found);
+    for (size_t i = 0; i < n; i++) {
+        found->total += fmin(sqr(value[i] - value[n + i]) / 2 / scale[i], OUTLIER);
+        found->given_eye += fmin(sqr(value[i] - value[2 * n + i]) / 2 / scale[i], OUTLIER);
+    }
+    free(value);
+}
+
+static bool add_tile(void *context, int64_t job, int slot)
+{
+    (void)job;
+    struct pilot *p = context;
+    const struct sums *s = &p->found[slot];
+    p->sums.total += s->total;
+    p->sums.given_eye += s->given_eye;
+    for (int k = 0; k < N_KINDS; k++) {
+        p->sums.spread[k] += s->spread[k] / RENDERS;
+        p->sums.square[k] += s->square[k] / RENDERS;
+    }
+    return true;
+}
+
+/* --- the choice -------------------------------------------------------------------------------------- */
+
+static void set_numbers(struct selection *sel, const double *n, const double *credit)
+{
+    sel->connections[0] = clamp(n[DRAW_FIRST], 0.25, 16);
+    sel->connections[1] = clamp(n[DRAW_LATER], 0.125, 8);
+    sel->lights = (int)clamp(n[LIGHT_FIRST] + 0.5, 1, 8);
+    sel->path_pixels = (int)clamp(1 / n[LIGHT_PATH] + 0.5, 1, 64);
+    sel->counts.connect[0] = credit[DRAW_FIRST] * sel->connections[0];
+    sel->counts.connect[1] = credit[DRAW_LATER] * sel->connections[1];
+    sel->counts.direct[0] = credit[LIGHT_FIRST] * sel->lights;
+    sel->counts.direct[1] = 1;
+}
+
+void pilot_set_draws(struct selection *sel, double C)
+{
+    for (int i = 0; i < 2; i++) {
+        sel->counts.connect[i] *= C / sel->connections[i];
+        sel->connections[i] = C;
+    }
+}
+
+/* In units of a ray that looks for the closest hit; the factors were measured. */
+static void costs(const struct selection *sel, double *fixed, double *cost)
+{
+    const double CONNECTION = 0.6, POINT = 0.8;
+    double n_eye = sel->importance.eye_vertices, n_first = sel->importance.first_vertices, n_light = 0;
+    for (int i = 0; i < sel->learnt.light.n; i++)
+        n_light += sel->importance.vertices[i];
+    *fixed = 1 + n_eye;
+    cost[DRAW_FIRST] = CONNECTION * n_first;
+    cost[DRAW_LATER] = CONNECTION * (n_eye - n_first);
+    cost[LIGHT_FIRST] = POINT * n_first;
+    cost[LIGHT_PATH] = 1 + (1 + CONNECTION) * n_light;
+}
+
+static void choose_numbers(struct selection *sel, const struct sums *s)
+{
+    const double LEAST = 0.2, LEAST_PATH = 0.02; /* shares of the variance that A and light sub-paths have at least */
+    double fixed, cost[N_KINDS], b[N_KINDS], n[N_KINDS], credit[N_KINDS], rest = s->given_eye;
+    double A = fmax(s->total - s->given_eye, LEAST * s->total);
+    for (int k = 0; k < LIGHT_PATH; k++)
+        rest -= b[k] = s->spread[k];
+    b[LIGHT_PATH] = fmax(rest, LEAST_PATH * s->total);
+    costs(sel, &fixed, cost);
+    for (int k = 0; k < N_KINDS; k++) {
+        double best = cost[k] > 0 ? sqrt(b[k] * TRIED[k] / cost[k] * fixed / A) : USUAL[k];
+        n[k] = USUAL[k] * pow(fmax(best, 1e-3) / USUAL[k], BOLDNESS);
+        credit[k] = s->spread[k] > 0 ? clamp(s->square[k] / s->spread[k], 1, MOST_CREDIT) : 1;
+    }
+    set_numbers(sel, n, credit);
+}
+
+static void make_memory(struct pilot *p, int n_slots)
+{
+    p->work = workspaces_new(p->job.n_threads, p->job.max_depth);
+    for (int i = 0; i < p->job.n_threads; i++)
+        p->work[i].scratch = render_subspaces.new_scratch(p->sel);
+    p->tile = mem_alloc((size_t)n_slots, sizeof *p->tile);
+    p->found = mem_alloc((size_t)n_slots, sizeof *p->found);
+}
+
+static void free_memory(struct pilot *p, int n_slots)
+{
+    for (int i = 0; i < n_slots; i++)
+        for (int k = 0; k < RENDERS; k++)
+            tile_free(&p->tile[i][k]);
+    for (int i = 0; i < p->job.n_threads; i++)
+        render_subspaces.free_scratch(p->work[i].scratch);
+    workspaces_free(p->work, p->job.n_threads);
+    free(p->tile);
+    free(p->found);
+}
+
+void pilot_run(const struct render_job *job, struct selection *sel, double samples)
+{
+    const double credit[N_KINDS] = {USUAL_CREDIT, USUAL_CREDIT, USUAL_CREDIT, USUAL_CREDIT};
+    struct pilot p = {.job = *job, .sel = sel};
+    struct pixel_rect rect = rect_of(&p, 0);
+    double tiles = samples / (RENDERS * (double)rect_width(rect) * rect_height(rect)) + 0.75;
+    int n_slots = 2 * job->n_threads;
+    set_numbers(sel, USUAL, credit);
+    sel->counts.splat = pixel_light_count(job) / sel->path_pixels;
+    if (tiles < 1)
+        return;
+    set_numbers(sel, TRIED, credit);
+    p.job.seed = hash_combine(job->seed, 0x3c6ef372fe94f82bu); /* unlike the render's */
+    struct parallel_jobs jobs = {(int64_t)fmin(tiles, 1 << 20), job->n_threads, n_slots, &p, render_tile, add_tile};
+    make_memory(&p, n_slots);
+    parallel_run(&jobs);
+    free_memory(&p, n_slots);
+    if (p.sums.total > 0)
+        choose_numbers(sel, &p.sums);
+    else
+        set_numbers(sel, USUAL, credit);
+}

@@ -1,0 +1,32 @@
+/* pilot.h: how many samples should each kind of strategy take? Measured on a few tiles before the render.
+ *
+ * Let a pixel's estimate have the variance A + sum_c b_c / n_c and the cost k + sum_c n_c k_c, where c are the kinds of
+ * samples whose number is free (draws for t = 2, draws for t > 2, light points for t = 2, light sub-paths), b_c is the
+ * variance that one sample of the kind has given the eye sub-path, and A is what the eye sub-path brings. The product
+ * of both, which is the squared error at equal time, is smallest for
+ *     n_c = sqrt(b_c / k_c) sqrt(k / A).
+ * The pilot renders some tiles three times with random numbers of their own, two of them with the same eye sub-paths. A
+ * is what the variance of independent renders has above that of renders which share eye sub-paths; b_c for draws and
+ * light points is their spread at one eye vertex, for light sub-paths it is the rest. All are relative to the
+ * brightness around the pixel. Costs are counted in rays, not measured in seconds: the choice must be the same on every
+ * machine. [Grittmann 2022] chooses among given candidates by the same product.
+ *
+ * It also finds how much more a sample is worth to the weights than an independent one, the ratio of its second moment
+ * to its variance [Grittmann 2019].
+ *
+ * Tests: test_asbdpt.c.
+ */
+#ifndef ASBDPT_INTEGRATORS_PILOT_H
+#define ASBDPT_INTEGRATORS_PILOT_H
+
+#include "integrators/select.h"
+
+/* pilot_run: choose connections, lights, path_pixels and the counts that go with them.
+ *   sel      all else complete
+ *   samples  pixel samples that may be spent; too few for one tile: a usual choice is made */
+void pilot_run(const struct render_job *job, struct selection *sel, double samples);
+
+/* pilot_set_draws: C draws per eye vertex, whatever was chosen. */
+void pilot_set_draws(struct selection *sel, double C);
+
+#endif

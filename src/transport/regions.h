@@ -1,0 +1,62 @@
+/* regions.h: surface points sorted into regions of the scene, so that something can be learnt about each.
+ *
+ * Space is cut into cubes, and a cube is split by the side that surfaces in it face (the two sides of a wall have
+ * nothing in common). Cubes come in levels, each twice as wide as the one below; a region that was never met is
+ * represented by the finest known one that holds it, at last by the whole scene, which is region 0. Only regions met so
+ * far exist, in a hash table with open addressing; they are numbered in the order they were met, those of all levels
+ * together, a region after those that hold it.
+ */
+#ifndef ASBDPT_TRANSPORT_REGIONS_H
+#define ASBDPT_TRANSPORT_REGIONS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/vec.h"
+
+struct region_slot {
+    uint64_t key; /* level, coordinates of the cube and face, packed; 0: free */
+    int32_t number;
+};
+
+struct region {
+    int above; /* the region of the next level that holds it; -1 for region 0 */
+    int level; /* 0: the finest; n_levels: region 0 */
+};
+
+struct regions {
+    vec3 origin;              /* corner of cube (0,0,0) */
+    double per_metre;         /* cubes of level 0 per unit of length */
+    int n_levels;             /* 1 .. REGION_LEVELS */
+    int limit;                /* no more regions than these */
+    struct region_slot *slot; /* [n_slots], owned */
+    size_t n_slots;           /* a power of 2, or 0 */
+    struct region *region;    /* [n], owned */
+    size_t capacity;
+    int n; /* regions known, of all levels, >= 1 */
+};
+
+enum { REGION_LEVELS = 4 };
+
+/* regions_init: the whole scene only; `cells` cubes of level 0 along the diameter of a sphere that holds everything. */
+void regions_init(struct regions *r, vec3 center, double radius, int cells, int n_levels, int limit);
+void regions_free(struct regions *r);
+
+/* regions_copy: make *to, initialised before, the same with memory of its own. */
+void regions_copy(struct regions *to, const struct regions *from);
+
+/* regions_key: names the region of level 0 of a surface point with unit geometric normal ng. Points outside share the
+ * cubes at the border. */
+uint64_t regions_key(const struct regions *r, vec3 p, vec3 ng);
+
+/* regions_add: the number of a region of level 0, a new one, with those that hold it, if it was never met; beyond the
+ * limit that of the finest known region that holds it. */
+int regions_add(struct regions *r, uint64_t key);
+
+/* regions_find: the number of the finest known region that holds it. */
+int regions_find(const struct regions *r, uint64_t key);
+
+/* region_at: the same for a surface point. */
+static inline int region_at(const struct regions *r, vec3 p, vec3 ng) { return regions_find(r, regions_key(r, p, ng)); }
+
+#endif
