@@ -132,7 +132,7 @@ static void compare_direct(struct comparison *c, const struct vertex *eye, int t
 static void compare_lens(struct comparison *c, const struct vertex *light, int s, struct sampler *sampler)
 {
     struct sampler same = *sampler;
-    struct connection got = connect_lens(c->scene, c->counts, &light[s - 1], sampler);
+    struct connection got = connect_lens(c->scene, c->counts, light, s, sampler);
     double u1 = sampler_next(&same), u2 = sampler_next(&same);
     struct vertex z;
     memset(&z, 0, sizeof z);
@@ -156,7 +156,7 @@ static void compare_paths(struct comparison *c, int n_paths)
         int n_light = path_light(&wl, light, MAX);
         for (int t = 2; t <= n_eye; t++) {
             if (t > 2)
-                compare(c, connect_hit(c->scene, c->counts, &eye[t - 1], t), NULL, 0, eye, t);
+                compare(c, connect_hit(c->scene, c->counts, eye, t), NULL, 0, eye, t);
             if (eye[t - 1].kind == VERTEX_SURFACE)
                 compare_direct(c, eye, t, &d);
             for (int s = 2; s <= n_light; s++)

@@ -60,7 +60,7 @@ static void print_methods(void)
            "(0: no Russian roulette)\n");
     for (const struct integrator *const *m = integrator_list(); *m != NULL; m++) {
         printf("    %-8s %s\n", (*m)->name, (*m)->help);
-        for (const struct parameter *p = (*m)->parameters; p->name != NULL; p++)
+        for (const struct setting_help *p = (*m)->parameters; p->name != NULL; p++)
             printf("             %-12s %-10s %s\n", p->name, p->fallback, p->help);
     }
 }

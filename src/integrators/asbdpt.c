@@ -12,7 +12,7 @@
 #include "integrators/select.h"
 #include "transport/pixel_sample.h"
 
-static const struct parameter PARAMETERS[] = {
+static const struct setting_help PARAMETERS[] = {
     {"select", "subspaces", "bins (the dissertation, biased), pool, vertices, or subspaces"},
     {"metric", "importance", "pool, vertices: constant, throughput or importance"},
     {"delta", "0.1", "all but bins: share of draws that ignore what was learnt, (0,1]"},

@@ -10,7 +10,7 @@
 #include "transport/tile_pass.h"
 
 /* A parameter as --help lists it and a scene file or -P sets it. */
-struct parameter {
+struct setting_help {
     const char *name, *fallback, *help;
 };
 
@@ -33,7 +33,7 @@ struct preparation {
 
 struct integrator {
     const char *name, *help;
-    const struct parameter *parameters; /* ended by a NULL name */
+    const struct setting_help *parameters; /* ended by a NULL name */
     /* Read parameters from job->scene->settings and do what must be done once. False with a message on a bad one. */
     bool (*prepare)(const struct render_job *job, struct preparation *out, struct error *err);
     void (*release)(void *state);

@@ -42,7 +42,7 @@ struct chunk {
 };
 
 /* A light vertex that trials may choose. */
-struct candidate {
+struct trial_vertex {
     const struct vertex *y;
     double L, useful; /* luminance(beta), n_E */
     double before;    /* sum of L useful of the candidates before it */
@@ -52,7 +52,7 @@ struct candidate {
 struct light_stock {
     struct arena arena;
     struct vertex *vertex; /* POOL times max_depth + 1 of them; owned */
-    struct candidate *candidate;
+    struct trial_vertex *candidate;
     int n;
     double total;
 };
@@ -116,14 +116,14 @@ static void fill_stock(const struct prepass *p, struct light_stock *s, long chun
                 (1 - p->wish->delta) * (p->importance->mean > 0 ? E / p->importance->mean : 0) + p->wish->delta;
             if (!vertex_connectible(&path[i]) || !(L * useful > 1e-290) || !fits_float(L * useful))
                 continue;
-            struct candidate c = {&path[i], L, useful, s->total};
+            struct trial_vertex c = {&path[i], L, useful, s->total};
             s->candidate[s->n++] = c;
             s->total += L * useful;
         }
     }
 }
 
-static const struct candidate *choose(const struct light_stock *s, double u)
+static const struct trial_vertex *choose(const struct light_stock *s, double u)
 {
     int low = 0, high = s->n;
     while (high - low > 1) {
@@ -140,7 +140,7 @@ static void try_pairs(const struct prepass *p, struct chunk *c, const struct lig
 {
     double near2 = sqr(0.25 / p->learnt->eye.per_metre), beta = rgb_luminance(z->beta);
     for (int i = 0; i < TRIALS && s->n > 0 && beta > 0; i++) {
-        const struct candidate *y = choose(s, (i + sampler_next(sampler)) / TRIALS);
+        const struct trial_vertex *y = choose(s, (i + sampler_next(sampler)) / TRIALS);
         struct connection found = connect_pair(p->job->scene, &p->counts, y->y, z);
         double d2 = length2(sub(y->y->p, z->p));
         struct found f = {.kind = TRIAL, .eye = regions_key(&p->learnt->eye, z->p, z->ng)};

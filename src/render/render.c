@@ -28,7 +28,7 @@ bool render_max_depth(const struct scene *scene, int wanted, int *out, struct er
 
 static bool parameter_known(const struct integrator *m, const char *name)
 {
-    for (const struct parameter *p = m->parameters; p->name != NULL; p++)
+    for (const struct setting_help *p = m->parameters; p->name != NULL; p++)
         if (strcmp(p->name, name) == 0)
             return true;
     return false;

@@ -22,9 +22,10 @@ static struct scatter scatter_towards(const struct vertex *v, vec3 wi, enum tran
     return s;
 }
 
-struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
+struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *eye,
                               int t)
 {
+    const struct vertex *z = &eye[t - 1];
     const struct light_set *lights = &scene->lights;
     rgb Le;
     double pdf_emit; /* density of the light sub-path's direction (or origin, at infinity) from here */
@@ -48,11 +49,11 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
     }
     /* The strategy one shorter on the eye side is s = 1, so c_e is its count, whatever the vertex would have as a
      * surface. */
-    const struct vertex *previous = z - 1;
-    double before = z->prev_delta ? 0
-                                  : mis_direct_count(counts, lights, previous->eye_region, t == 3, z->cell, neg(z->wo));
-    double eye = mis_side(counts, z->pdf_origin, z->pdf_fwd, before, pdf_emit, z->mis);
-    c.weight = mis_weight(counts, counts->hit, 0, eye);
+    double before = 0;
+    if (!z->prev_delta)
+        before = mis_direct_count(counts, lights, eye[t - 2].eye_region, t == 3, z->cell, neg(z->wo));
+    double eye_side = mis_side(counts, z->pdf_origin, z->pdf_fwd, before, pdf_emit, z->mis);
+    c.weight = mis_weight(counts, counts->hit, 0, eye_side);
     return c;
 }
 
@@ -131,9 +132,10 @@ struct connection connect_pair(const struct scene *scene, const struct mis_count
     return c;
 }
 
-struct connection connect_lens(const struct scene *scene, const struct mis_counts *counts, const struct vertex *y,
-                               struct sampler *sampler)
+struct connection connect_lens(const struct scene *scene, const struct mis_counts *counts, const struct vertex *light,
+                               int s, struct sampler *sampler)
 {
+    const struct vertex *y = &light[s - 1];
     double u1 = sampler_next(sampler), u2 = sampler_next(sampler);
     if (!vertex_connectible(y))
         return nothing();
@@ -154,8 +156,8 @@ struct connection connect_lens(const struct scene *scene, const struct mis_count
     if (rgb_is_black(c.value) || !scene_visible(scene, lens, 0, y->p, y->triangle_id))
         return nothing();
     /* The strategy one shorter on the light side has t = 2, which the light walk could not know. */
-    double before = vertex_count_before(scene, counts, y, true);
-    double light = mis_side(counts, J * abs_dot(y->ng, w) / d2, y->pdf_fwd, before, at_y.pdf_rev, y->mis);
-    c.weight = mis_weight(counts, counts->splat, light, 0);
+    double before = vertex_count_before(scene, counts, &light[s - 2], y, true);
+    double light_side = mis_side(counts, J * abs_dot(y->ng, w) / d2, y->pdf_fwd, before, at_y.pdf_rev, y->mis);
+    c.weight = mis_weight(counts, counts->splat, light_side, 0);
     return c;
 }

@@ -23,9 +23,9 @@ struct connection {
     double px, py;  /* connect_lens: the raster point it arrives at */
 };
 
-/* connect_hit: z = &eye[t-1], the last of t >= 2 vertices of an array that holds the others before it. A light seen
- * directly (t = 2) has weight 1: no other strategy is used for paths of two vertices. */
-struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
+/* connect_hit: the last of t >= 2 vertices of an eye sub-path, eye[t-1], is on a light. A light seen directly (t = 2) has
+ * weight 1: no other strategy is used for paths of two vertices. */
+struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *eye,
                               int t);
 
 /* connect_direct: z is an eye vertex, t >= 2; the light point is drawn from `sampler` (three numbers).
@@ -37,10 +37,10 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
 struct connection connect_pair(const struct scene *scene, const struct mis_counts *counts, const struct vertex *y,
                                const struct vertex *z);
 
-/* connect_lens: y is a light vertex (s >= 2) in the array of its sub-path; the lens point is drawn from `sampler` (two
+/* connect_lens: the last of s >= 2 vertices of a light sub-path, light[s-1]; the lens point is drawn from `sampler` (two
  * numbers). The value is for the whole frame: tile_add_splat gives each pixel its part, and the caller divides by
  * counts->splat. */
-struct connection connect_lens(const struct scene *scene, const struct mis_counts *counts, const struct vertex *y,
-                               struct sampler *sampler);
+struct connection connect_lens(const struct scene *scene, const struct mis_counts *counts, const struct vertex *light,
+                               int s, struct sampler *sampler);
 
 #endif

@@ -23,9 +23,9 @@ double scatter_cosine(const struct vertex *v, vec3 wi, enum transport mode)
     return wo_ng > 0 ? abs_dot(v->wo, ns) * abs_dot(wi, v->ng) / wo_ng : 0;
 }
 
-double vertex_count_before(const struct scene *scene, const struct mis_counts *m, const struct vertex *y, bool first)
+double vertex_count_before(const struct scene *scene, const struct mis_counts *m, const struct vertex *prev,
+                           const struct vertex *y, bool first)
 {
-    const struct vertex *prev = y - 1;
     if (y->prev_delta)
         return 0;
     return prev->kind == VERTEX_LIGHT ? mis_direct_count(m, &scene->lights, y->eye_region, first, prev->cell, prev->wo)
@@ -34,11 +34,11 @@ double vertex_count_before(const struct scene *scene, const struct mis_counts *m
 
 /* c_e of mis.h for the vertex just reached: samples of the strategy whose sub-path of this side ends at the vertex
  * before. On the light side that is a connection from there to here; on the eye side one from here to there. */
-static double count_before(const struct walk *w, const struct vertex *v, enum transport mode)
+static double count_before(const struct walk *w, const struct vertex *prev, const struct vertex *v,
+                           enum transport mode)
 {
-    const struct vertex *prev = v - 1;
     if (mode == IMPORTANCE)
-        return vertex_count_before(w->scene, w->counts, v, false);
+        return vertex_count_before(w->scene, w->counts, prev, v, false);
     if (v->prev_delta)
         return 0;
     return prev->kind == VERTEX_LENS ? w->counts->splat
@@ -109,7 +109,7 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
         v->eye_region = region_at(&w->counts->learnt->eye, v->p, v->ng);
         v->light_region = region_at(&w->counts->learnt->light, v->p, v->ng);
     }
-    v->mis_c = count_before(w, v, mode);
+    v->mis_c = count_before(w, prev, v, mode);
     material_bsdf(w->scene->material, at->material, &w->scene->textures, at, w->arena, &v->bsdf);
     return true;
 }

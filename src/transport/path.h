@@ -36,24 +36,37 @@ enum vertex_kind {
     VERTEX_ESCAPED  /* end of an eye sub-path that left the scene: a direction, where infinite lights are */
 };
 
+/* What the fields mean depends on the kind; a dash: not used. Densities are those of the vertex in its own walk, per area
+ * unless it is a direction: where light comes from infinity, per solid angle.
+ *
+ *                LENS         LIGHT (y_0)                       SURFACE                      ESCAPED
+ *   light, cell  -1           its light and light cell          of the area light, or -1     -1
+ *   p            on the lens  on the light; at infinity -       the point                    -
+ *   ng           0            area light: its normal; else 0    geometric normal             0
+ *   triangle_id  0            area light: see shape.h; else 0   see shape.h; 0: a quadric    0
+ *   wo           0            at infinity: towards the light    towards the previous vertex  inwards
+ *   beta         1            radiance or intensity emitted;    throughput on arrival        throughput on arrival
+ *                             as a connection's end 1/density
+ *   pdf_fwd      1, unused    1/m^2; at infinity 1/sr           1/m^2                        1/sr
+ *   pdf_origin   -            -                                 eye walk, on a light: of     1/sr, likewise
+ *                                                               light_sample_point, 1/m^2
+ *   regions      -            -                                 as learnt.h numbers them     -
+ *   bsdf         -            -                                 its scattering               -
+ */
 struct vertex {
     enum vertex_kind kind;
-    bool prev_delta;   /* the walk left the previous vertex by a delta lobe */
-    bool first;        /* z_1: what the camera sees */
-    int light;         /* y_0: its light; a surface: the area light there, or -1 */
-    int cell;          /* y_0: its light cell; a surface on an area light: ditto; else -1 */
-    vec3 p;            /* world position (at infinity: unused) */
-    vec3 ng;           /* unit geometric normal; y_0 on an area light: of the light; else zero */
-    uint32_t triangle_id; /* the triangle it is on, see shape_triangle_id; 0: none */
-    vec3 wo;           /* unit, towards the previous vertex; y_0 at infinity: towards the light; ESCAPED: inwards */
-    rgb beta;          /* throughput on arrival; y_0 of a walk: the radiance (or intensity) emitted */
-    double pdf_fwd;    /* F of mis.h: density in its own walk, 1/m^2; ESCAPED and y_0 at infinity: 1/sr */
-    double pdf_origin; /* eye walk, on a light or ESCAPED: density of light_sample_point making it, like pdf_fwd */
-    double mis;        /* mis_e of mis.h */
-    double mis_c;      /* c_e of mis.h, supposing this vertex is not left by a delta lobe */
-    /* SURFACE: where it lies as an eye end and as a light end of a connection (learnt.h) */
+    bool prev_delta; /* the walk left the previous vertex by a delta lobe */
+    bool first;      /* z_1: what the camera sees */
+    int light, cell;
+    vec3 p, ng;
+    uint32_t triangle_id;
+    vec3 wo; /* unit */
+    rgb beta;
+    double pdf_fwd, pdf_origin;
+    double mis;   /* mis_e of mis.h */
+    double mis_c; /* c_e of mis.h, supposing this vertex is not left by a delta lobe */
     int eye_region, light_region;
-    struct bsdf bsdf;  /* SURFACE */
+    struct bsdf bsdf;
 };
 
 /* What a walk needs besides its start. */
@@ -78,10 +91,11 @@ int path_eye_pixel(const struct walk *w, int x, int y, struct vertex *path, int 
 /* path_light: choose a light, emit, and walk. Returns the number of vertices; 0 when nothing is emitted. */
 int path_light(const struct walk *w, struct vertex *path, int max_vertices);
 
-/* vertex_count_before: samples taken by the strategy that joins the light vertex before y, in y's array, to y as its
- * eye end.
+/* vertex_count_before: samples taken by the strategy that joins `prev` of a light sub-path to y, the vertex after it, as
+ * its eye end.
  *   first  y would be the first hit, t = 2 */
-double vertex_count_before(const struct scene *scene, const struct mis_counts *m, const struct vertex *y, bool first);
+double vertex_count_before(const struct scene *scene, const struct mis_counts *m, const struct vertex *prev,
+                           const struct vertex *y, bool first);
 
 /* vertex_light_end: fill in a y_0 for a point drawn by light_sample_point; its beta is 1/density. */
 void vertex_light_end(const struct scene *scene, const struct mis_counts *counts, const struct light_point *at,

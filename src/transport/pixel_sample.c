@@ -74,7 +74,7 @@ rgb pixel_sum_eye(struct pixel_sample *g, const struct vertex *eye, int n)
     for (int t = 2; t <= n; t++) {
         const struct vertex *z = &eye[t - 1];
         if (t == 2 || g->counts->hit > 0)
-            sum = rgb_add(sum, take(g, connect_hit(g->scene, g->counts, z, t), 0, t, 1));
+            sum = rgb_add(sum, take(g, connect_hit(g->scene, g->counts, eye, t), 0, t, 1));
         if (g->counts->direct[0] > 0 && t <= g->max_depth + 1 && z->kind == VERTEX_SURFACE)
             sum = rgb_add(sum, sum_direct(g, z, t));
     }
@@ -100,7 +100,7 @@ void pixel_splat_path(struct pixel_sample *g, const struct vertex *light, int n_
 {
     double each = scale / g->counts->splat;
     for (int s = 2; s <= n_light && s <= g->max_depth + 1; s++) {
-        struct connection c = connect_lens(g->scene, g->counts, &light[s - 1], &g->sampler);
+        struct connection c = connect_lens(g->scene, g->counts, light, s, &g->sampler);
         if (rgb_is_black(c.value))
             continue;
         if (g->tile->keep_records)
