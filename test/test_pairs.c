@@ -84,7 +84,8 @@ static void test_learning(struct test *t, struct rng *r)
             sum += vertices[y] * pairs_row(&p, e)[y];
         CHECK(t, fabs(sum - 1) < 1e-9, "worth of region %d over a light sub-path is %.12f", e, sum);
     }
-    /* Of 64 x 512 pairs some 60 trials each, of relative deviation 1.7: 22 %. The worth must show the four values, and not those of others. */
+    /* Of 64 x 512 pairs some 60 trials each, of relative deviation 1.7: 22 %. The worth must show the four values, and
+     * not those of others. */
     double square = 0, planted = 0;
     for (int i = 0; i < POINTS; i++) {
         vec3 e = random_point(r), y = random_point(r), other = vec(-e.x, e.y, e.z);

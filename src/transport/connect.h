@@ -23,8 +23,8 @@ struct connection {
     double px, py;  /* connect_lens: the raster point it arrives at */
 };
 
-/* connect_hit: the last of t >= 2 vertices of an eye sub-path, eye[t-1], is on a light. A light seen directly (t = 2) has
- * weight 1: no other strategy is used for paths of two vertices. */
+/* connect_hit: the last of t >= 2 vertices of an eye sub-path, eye[t-1], is on a light. A light seen directly (t = 2)
+ * has weight 1: no other strategy is used for paths of two vertices. */
 struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *eye,
                               int t);
 
@@ -37,8 +37,8 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
 struct connection connect_pair(const struct scene *scene, const struct mis_counts *counts, const struct vertex *y,
                                const struct vertex *z);
 
-/* connect_lens: the last of s >= 2 vertices of a light sub-path, light[s-1]; the lens point is drawn from `sampler` (two
- * numbers). The value is for the whole frame: tile_add_splat gives each pixel its part, and the caller divides by
+/* connect_lens: the last of s >= 2 vertices of a light sub-path, light[s-1]; the lens point is drawn from `sampler`
+ * (two numbers). The value is for the whole frame: tile_add_splat gives each pixel its part, and the caller divides by
  * counts->splat. */
 struct connection connect_lens(const struct scene *scene, const struct mis_counts *counts, const struct vertex *light,
                                int s, struct sampler *sampler);

@@ -36,8 +36,8 @@ enum vertex_kind {
     VERTEX_ESCAPED  /* end of an eye sub-path that left the scene: a direction, where infinite lights are */
 };
 
-/* What the fields mean depends on the kind; a dash: not used. Densities are those of the vertex in its own walk, per area
- * unless it is a direction: where light comes from infinity, per solid angle.
+/* What the fields mean depends on the kind; a dash: not used. Densities are those of the vertex in its own walk, per
+ * area unless it is a direction: where light comes from infinity, per solid angle.
  *
  *                LENS         LIGHT (y_0)                       SURFACE                      ESCAPED
  *   light, cell  -1           its light and light cell          of the area light, or -1     -1
@@ -91,8 +91,8 @@ int path_eye_pixel(const struct walk *w, int x, int y, struct vertex *path, int 
 /* path_light: choose a light, emit, and walk. Returns the number of vertices; 0 when nothing is emitted. */
 int path_light(const struct walk *w, struct vertex *path, int max_vertices);
 
-/* vertex_count_before: samples taken by the strategy that joins `prev` of a light sub-path to y, the vertex after it, as
- * its eye end.
+/* vertex_count_before: samples taken by the strategy that joins `prev` of a light sub-path to y, the vertex after it,
+ * as its eye end.
  *   first  y would be the first hit, t = 2 */
 double vertex_count_before(const struct scene *scene, const struct mis_counts *m, const struct vertex *prev,
                            const struct vertex *y, bool first);
