@@ -67,6 +67,9 @@ void light_pool_fill(struct light_pool *pool, const struct tile_pass *pass, cons
 void light_pool_splat(const struct light_pool *pool, const struct tile_pass *pass, struct pixel_sample *g,
                       int path_pixels, int k);
 
+/* light_pool_shuffle: a random permutation of the sub-paths' numbers for one iteration into order [pool->n]. */
+void light_pool_shuffle(const struct light_pool *pool, const struct tile_pass *pass, long iteration, int *order);
+
 static inline const struct vertex *light_pool_path(const struct light_pool *pool, int k)
 {
     return &pool->vertex[pool->start[k]];
