@@ -83,7 +83,7 @@ expect 1 'no integrator has a parameter "deltaa"' "$program" render "$box" $smal
 expect 1 'delta' "$program" render "$box" $small -P delta=7 --integrator asbdpt -o x.pfm
 expect 1 'binpaths 7 is odd' "$program" render "$box" $small -P select=bins -P binpaths=7 --integrator asbdpt -o x.pfm
 expect 1 'cannot' "$program" render "$box" $small -o no/such/dir/x.pfm
-expect 1 '^asbdpt: -P: select = "bin" is unknown: give "bins", "pool", "vertices" or "subspaces"' \
+expect 1 'select = "bin" is unknown: give "bins", "pool", "vertices", "subspaces", "lvc" or "combinatorial"' \
     "$program" render "$box" $small -P select=bin --integrator asbdpt -o x.pfm
 expect 1 '^asbdpt: -P: heuristic = "max" is unknown: give "balance" or "power"' \
     "$program" render "$box" $small -P heuristic=max -o x.pfm

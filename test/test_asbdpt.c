@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "integrators/select.h"
 #include "render/render.h"
 #include "base/stats.h"
 #include "helpers.h"
@@ -35,7 +36,7 @@ static struct batches batches_of(struct test *t, struct scene *scene, const char
 
 /* --- bias -------------------------------------------------------------------------------------------- */
 
-/* The same test, the same number of samples: bdpt, pool and vertices pass, bins does not. */
+/* The same test, the same number of samples: bdpt and all other selections pass, bins does not. */
 static void test_bias(struct test *t)
 {
     static const struct {
@@ -44,7 +45,8 @@ static void test_bias(struct test *t)
     } cases[] = {{"select=pool metric=constant", true}, {"select=pool metric=throughput", true},
                  {"select=pool metric=importance", true}, {"select=vertices metric=importance connections=2", true},
                  {"select=vertices metric=constant connections=2", true}, {"select=subspaces", true},
-                 {"select=subspaces connections=2", true}, {"select=bins", false}};
+                 {"select=subspaces connections=2", true}, {"select=lvc connections=1", true},
+                 {"select=combinatorial connections=3", true}, {"select=bins", false}};
     struct scene scene;
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 32, 32, &scene))
         return;
@@ -108,7 +110,10 @@ static void test_constant_pool(struct test *t)
 static void test_few_light_paths(struct test *t)
 {
     static const char *const cases[] = {"pathpixels=1", "pathpixels=2", "pathpixels=5", "pathpixels=8",
-                                        "select=subspaces pathpixels=2", "pathpixels=5", "pathpixels=9"};
+                                        "select=subspaces pathpixels=2", "pathpixels=5", "pathpixels=9",
+                                        "select=lvc connections=1 pathpixels=5", "pathpixels=9",
+                                        "select=combinatorial connections=3 pathpixels=2",
+                                        "connections=3 pathpixels=5", "connections=1 pathpixels=9"};
     struct scene scene;
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 3, 3, &scene))
         return;
@@ -124,6 +129,88 @@ static void test_few_light_paths(struct test *t)
     scene_free(&scene);
 }
 
+/* --- combinatorial with one light sub-path is BDPT --------------------------------------------------- */
+
+enum { WIDTH = 40, HEIGHT = 24 };
+
+static void render_image(struct test *t, const struct scene *scene, const char *integrator, int spp, int n_threads,
+                         float *image)
+{
+    struct film film;
+    struct error err;
+    struct render_options o = {.integrator = integrator_find(integrator), .end = spp, .n_threads = n_threads};
+    film_init(&film, render_crop(scene), scene->width, scene->height);
+    o.max_depth = 4;
+    CHECK(t, render_scene(scene, &o, &film, &err), "%s", err.text);
+    film_develop(&film, 1, image);
+    film_free(&film);
+}
+
+/* Whatever the choice of lights by what is seen would be; and with two sub-paths it is something else. */
+static void test_one_path(struct test *t)
+{
+    static const char *const strategies[] = {"lightsamplestrategy=power", "lightsamplestrategy=spatial"};
+    static float bdpt[WIDTH * HEIGHT * 3], image[WIDTH * HEIGHT * 3];
+    struct scene scene;
+    if (!scene_from_file(t, "scenes/test/light-kinds.pbrt", WIDTH, HEIGHT, &scene))
+        return;
+    render_image(t, &scene, "bdpt", 20, 2, bdpt);
+    set(&scene, "select=combinatorial connections=1");
+    for (int i = 0; i < 2; i++) {
+        set(&scene, strategies[i]);
+        render_image(t, &scene, "asbdpt", 20, 2, image);
+        CHECK(t, memcmp(bdpt, image, sizeof bdpt) == 0, "combinatorial with M = 1 is not bdpt; %s", strategies[i]);
+    }
+    set(&scene, "connections=2");
+    render_image(t, &scene, "asbdpt", 20, 2, image);
+    CHECK(t, memcmp(bdpt, image, sizeof bdpt) != 0, "combinatorial with M = 2 is bdpt");
+    scene_free(&scene);
+}
+
+/* --- how many light vertices the cache expects -------------------------------------------------------- */
+
+/* A light in a closed white ball: all vertices but the light point are to be connected to. */
+static const char BALL[] = "Camera \"perspective\" WorldBegin LightSource \"point\"\n"
+                           "Material \"matte\" \"rgb Kd\" [1 1 1] Shape \"sphere\" \"float radius\" 2 WorldEnd\n";
+
+/* A spot light on a mirror, which throws all of it onto a ceiling; from there it meets the mirror again or leaves. */
+static const char MIRROR[] =
+    "Camera \"perspective\" WorldBegin\n"
+    "LightSource \"spot\" \"point from\" [0 1 0] \"point to\" [0 0 0] \"float coneangle\" 10\n"
+    "Material \"mirror\" Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
+    "  \"point P\" [-2 0 -2  2 0 -2  2 0 2  -2 0 2]\n"
+    "Material \"matte\" Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
+    "  \"point P\" [-2 3 -2  2 3 -2  2 3 2  -2 3 2] WorldEnd\n";
+
+/* The count of lvc is C / l, known here exactly. A scene without any light vertex must not make it infinite. */
+static void test_expected_vertices(struct test *t)
+{
+    static const struct {
+        const char *name, *text;
+        int depth;
+        double count;
+    } cases[] = {{"ball", BALL, 4, 3.0 / 4}, {"ball", BALL, 1, 3}, {"mirror", MIRROR, 3, 3}, {"mirror", MIRROR, 1, 3}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct scene scene;
+        struct error err;
+        if (!scene_from_text(t, cases[i].text, &scene))
+            return;
+        set(&scene, "select=lvc connections=3");
+        const struct integrator *m = integrator_find("asbdpt");
+        struct render_job job = {.scene = &scene, .film_rect = render_crop(&scene), .max_depth = cases[i].depth,
+                                 .n_threads = 2};
+        struct preparation prepared = {.size = {DEFAULT_BLOCK, DEFAULT_TILE_SIZE}};
+        if (CHECK(t, m->prepare(&job, &prepared, &err), "%s", err.text)) {
+            const struct selection *sel = prepared.state;
+            CHECK(t, sel->counts.connect[0] == cases[i].count && sel->counts.connect[1] == cases[i].count,
+                  "%s, maxdepth %d: lvc counts %g and %g draws, not %g", cases[i].name, cases[i].depth,
+                  sel->counts.connect[0], sel->counts.connect[1], cases[i].count);
+            m->release(prepared.state);
+        }
+        scene_free(&scene);
+    }
+}
+
 /* --- every kind of scene ----------------------------------------------------------------------------- */
 
 static void test_every_scene(struct test *t)
@@ -132,7 +219,8 @@ static void test_every_scene(struct test *t)
                                          "negative-scale", "alpha", "instances"};
     static const char *const ways[] = {"select=pool metric=importance",
                                        "select=vertices metric=importance connections=3",
-                                       "select=subspaces connections=0"};
+                                       "select=subspaces connections=0", "select=lvc connections=2",
+                                       "select=combinatorial connections=2"};
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         char path[256];
         struct scene scene;
@@ -140,7 +228,7 @@ static void test_every_scene(struct test *t)
         if (!scene_from_file(t, path, 24, 24, &scene))
             continue;
         struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 8, 12, 12, 71);
-        for (int k = 0; k < 3; k++) {
+        for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++) {
             set(&scene, ways[k]);
             struct batches x = render_batches(t, &scene, "asbdpt", 4, 8, 12, 12, 72);
             double ratio, p = batches_p(&x, &bdpt, &ratio);
@@ -156,24 +244,17 @@ static void test_every_scene(struct test *t)
 
 static void test_selection_threads(struct test *t)
 {
-    static const char *const ways[] = {"select=bins restart=16", "select=pool", "select=vertices", "select=subspaces"};
+    static const char *const ways[] = {"select=bins restart=16", "select=pool", "select=vertices", "select=subspaces",
+                                       "select=lvc", "select=combinatorial"};
     struct scene scene;
-    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 40, 24, &scene))
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", WIDTH, HEIGHT, &scene))
         return;
-    for (int k = 0; k < 4; k++) {
+    for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++) {
         set(&scene, ways[k]);
-        static float image[3][40 * 24 * 3];
+        static float image[3][WIDTH * HEIGHT * 3];
         static const int threads[] = {1, 2, 7};
-        for (int i = 0; i < 3; i++) {
-            struct film film;
-            struct error err;
-            film_init(&film, render_crop(&scene), scene.width, scene.height);
-            struct render_options o = {.integrator = integrator_find("asbdpt"), .end = 40, .n_threads = threads[i]};
-            o.max_depth = 4;
-            CHECK(t, render_scene(&scene, &o, &film, &err), "%s", err.text);
-            film_develop(&film, 1, image[i]);
-            film_free(&film);
-        }
+        for (int i = 0; i < 3; i++)
+            render_image(t, &scene, "asbdpt", 40, threads[i], image[i]);
         CHECK(t, memcmp(image[0], image[1], sizeof image[0]) == 0 && memcmp(image[0], image[2], sizeof image[0]) == 0,
               "%s depends on the number of threads", ways[k]);
     }
@@ -185,6 +266,8 @@ void test_asbdpt(struct test *t)
     test_bias(t);
     test_constant_pool(t);
     test_few_light_paths(t);
+    test_one_path(t);
+    test_expected_vertices(t);
     test_every_scene(t);
     test_selection_threads(t);
 }

@@ -14,17 +14,19 @@
 
 /* Every way of rendering; restarts make bins number its light sub-paths by blocks. */
 static const struct way {
-    const char *name, *integrator, *select, *restart;
+    const char *name, *integrator, *select, *restart, *connections;
 } WAYS[] = {
-    {"pt", "pt", NULL, NULL},
-    {"lt", "lt", NULL, NULL},
-    {"bdpt", "bdpt", NULL, NULL},
-    {"pool", "asbdpt", "pool", "32"},
-    {"vertices", "asbdpt", "vertices", "32"},
-    {"subspaces", "asbdpt", "subspaces", "32"},
-    {"bins", "asbdpt", "bins", "32"},
-    {"bins, restart 8", "asbdpt", "bins", "8"},
-    {"bins, never restarted", "asbdpt", "bins", "0"},
+    {"pt", "pt", NULL, NULL, NULL},
+    {"lt", "lt", NULL, NULL, NULL},
+    {"bdpt", "bdpt", NULL, NULL, NULL},
+    {"pool", "asbdpt", "pool", "32", "0"},
+    {"vertices", "asbdpt", "vertices", "32", "0"},
+    {"subspaces", "asbdpt", "subspaces", "32", "0"},
+    {"lvc", "asbdpt", "lvc", "32", "0"},
+    {"combinatorial", "asbdpt", "combinatorial", "32", "2"},
+    {"bins", "asbdpt", "bins", "32", "0"},
+    {"bins, restart 8", "asbdpt", "bins", "8", "0"},
+    {"bins, never restarted", "asbdpt", "bins", "0", "0"},
 };
 enum { N_WAYS = sizeof WAYS / sizeof WAYS[0] };
 
@@ -33,6 +35,7 @@ static void choose_way(struct scene *scene, const struct way *w)
     if (w->select != NULL) {
         settings_set(&scene->settings, "select", w->select, "test");
         settings_set(&scene->settings, "restart", w->restart, "test");
+        settings_set(&scene->settings, "connections", w->connections, "test");
     }
 }
 

@@ -32,14 +32,14 @@ static void test_way(struct test *t, const struct scene *scene, const char *inte
 
 void test_threads(struct test *t)
 {
-    static const char *const selections[] = {"bins", "pool", "vertices", "subspaces"};
+    static const char *const selections[] = {"bins", "pool", "vertices", "subspaces", "lvc", "combinatorial"};
     struct scene scene;
     if (!scene_from_file(t, "scenes/test/light-kinds.pbrt", 40, 24, &scene))
         return;
     test_way(t, &scene, "pt", "pt");
     test_way(t, &scene, "lt", "lt");
     test_way(t, &scene, "bdpt", "bdpt");
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < (int)(sizeof selections / sizeof selections[0]); i++) {
         settings_set(&scene.settings, "select", selections[i], "test");
         test_way(t, &scene, "asbdpt", selections[i]);
     }

@@ -13,21 +13,25 @@
 #include "transport/pixel_sample.h"
 
 static const struct setting_help PARAMETERS[] = {
-    {"select", "subspaces", "bins (the dissertation, biased), pool, vertices, or subspaces"},
+    {"select", "subspaces", "bins (the dissertation, biased), pool, vertices, subspaces, lvc or combinatorial"},
     {"metric", "importance", "pool, vertices: constant, throughput or importance"},
-    {"delta", "0.1", "all but bins: share of draws that ignore what was learnt, (0,1]"},
-    {"connections", "0", "vertices, subspaces: light vertices drawn per eye vertex; 0: chosen"},
-    {"pathpixels", "0", "vertices, subspaces: pixels per light sub-path; 0: chosen (vertices: 2)"},
+    {"delta", "0.1", "pool, vertices, subspaces: share of draws that ignore what was learnt, (0,1]"},
+    {"connections", "0",
+     "vertices, subspaces: light vertices drawn per eye vertex; 0: chosen; lvc: the same, 1; combinatorial: light "
+     "sub-paths per pixel, 8"},
+    {"pathpixels", "0",
+     "all but bins, pool: pixels per light sub-path; 0: chosen (vertices: 2; lvc, combinatorial: 1)"},
     {"grid", "64", "pool, vertices: cells of the importance along the scene's diagonal"},
-    {"lightsamplestrategy", "spatial", "all but bins: s = 1 picks lights by power, or spatial: by what is seen"},
+    {"lightsamplestrategy", "spatial",
+     "pool, vertices, subspaces: s = 1 picks lights by power, or spatial: by what is seen"},
     {"binpaths", "8", "bins: light sub-paths per pixel, even"},
     {"maxage", "24", "bins: iterations after which an unused sub-path is replaced, 0: never"},
     {"restart", "32", "bins: iterations after which all bins are rebuilt, 0: never"},
     {NULL, NULL, NULL}};
 
-static const char *const SELECTS[] = {"bins", "pool", "vertices", "subspaces", NULL};
+static const char *const SELECTS[] = {"bins", "pool", "vertices", "subspaces", "lvc", "combinatorial", NULL};
 static const struct tile_renderer *const RENDERERS[] = {&render_bins, &render_pool, &render_vertices,
-                                                        &render_subspaces};
+                                                        &render_subspaces, &render_vertices, &render_combinatorial};
 
 /* Numbers that are heuristics of our own; doc/selection.md says what they were chosen on. */
 enum {
@@ -36,6 +40,7 @@ enum {
     PAIR_CELLS = 16,      /* subspaces: light regions */
     MIN_EYE = 8 * 1024,   /* pool, vertices: eye sub-paths of the pre-pass, two per pixel between these */
     MAX_EYE = 128 * 1024,
+    COUNTED = 4 * 1024,   /* lvc: light sub-paths whose vertices are counted */
     MIN_TRAINING = 256 /* subspaces: the same, but TRAINING_SHARE of the samples */
 };
 static const double TRAINING_SHARE = 0.06, PILOT_SHARE = 0.02;
@@ -141,6 +146,31 @@ static void learn_subspaces(struct selection *sel, const struct render_job *job)
     sel->counts.splat = pixel_light_count(job) / sel->path_pixels;
 }
 
+/* lvc, combinatorial: BDPT but for C or M, for which `usual` stands in. */
+static void set_plain(struct selection *sel, double usual)
+{
+    if (sel->connections[0] == 0)
+        sel->connections[0] = sel->connections[1] = usual;
+    if (sel->path_pixels == 0)
+        sel->path_pixels = 1;
+    sel->counts.connect[0] = sel->counts.connect[1] = sel->connections[0];
+    sel->counts.splat /= sel->path_pixels;
+}
+
+/* lvc: the count C / l. Where light sub-paths have no vertex to connect to there is nothing to be counted. */
+static void count_light_vertices(struct selection *sel, const struct render_job *job)
+{
+    struct prepass_wish wish = {.light_vertices = true, .eye_cells = 1, .light_cells = 1, .levels = 1};
+    wish.n_eye = COUNTED;
+    prepass_run(job, &wish, &sel->importance, &sel->learnt);
+    double l = sel->importance.light_vertices;
+    for (int i = 0; i < 2 && l > 0; i++)
+        sel->counts.connect[i] = sel->connections[i] / l;
+}
+
+/* Do the MIS weights ask what was learnt? */
+static bool learns(enum select s) { return s == SELECT_POOL || s == SELECT_VERTICES || s == SELECT_SUBSPACES; }
+
 static bool prepare(const struct render_job *job, struct preparation *out, struct error *err)
 {
     struct selection *sel = mem_alloc(1, sizeof *sel);
@@ -152,7 +182,7 @@ static bool prepare(const struct render_job *job, struct preparation *out, struc
     }
     struct mis_counts counts = {.hit = 1, .direct = {1, 1}, .connect = {1, 1}, .splat = pixel_light_count(job)};
     counts.power = job->power_heuristic;
-    counts.learnt = sel->select == SELECT_BINS ? NULL : &sel->learnt;
+    counts.learnt = learns(sel->select) ? &sel->learnt : NULL;
     sel->counts = counts;
     sel->max_depth = job->max_depth;
     switch (sel->select) {
@@ -167,6 +197,11 @@ static bool prepare(const struct render_job *job, struct preparation *out, struc
                  "sub-path per %d pixels",
                  sel->connections[0], sel->connections[1], sel->lights, sel->lights == 1 ? "" : "s", sel->path_pixels);
         break;
+    case SELECT_LVC:
+        set_plain(sel, 1);
+        count_light_vertices(sel, job);
+        break;
+    case SELECT_COMBINATORIAL: set_plain(sel, 8); break;
     }
     out->state = sel;
     out->renderer = RENDERERS[sel->select];

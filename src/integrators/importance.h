@@ -17,6 +17,7 @@ struct importance {
     size_t capacity;
     /* About the connectible vertices y_1, y_2 ... of light sub-paths: */
     double *vertices; /* [light regions], how many a sub-path has there on average; owned */
+    double light_vertices; /* how many it has altogether on average */
     /* connectible vertices of an eye sub-path on average, and first hits among them */
     double eye_vertices, first_vertices;
     double mean;      /* expectation over sub-paths of the sum of E over their vertices */

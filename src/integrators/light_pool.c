@@ -38,4 +38,15 @@ void light_pool_splat(const struct light_pool *pool, const struct tile_pass *pas
     pixel_splat_path(g, light_pool_path(pool, k), pool->length[k], pixels / ((double)pool->n * path_pixels));
 }
 
+/* Fisher and Yates, from the inside out. [Durstenfeld 1964] */
+void light_pool_shuffle(const struct light_pool *pool, const struct tile_pass *pass, long iteration, int *order)
+{
+    struct sampler sampler = pixel_sampler(pass, RNG_SHUFFLE, pass->rect.x0, pass->rect.y0, iteration);
+    for (int i = 0; i < pool->n; i++) {
+        int j = (int)(sampler_next(&sampler) * (i + 1)); /* a sample is below 1 by more than rounding can add */
+        order[i] = order[j];
+        order[j] = i;
+    }
+}
+
 double select_throughput(const struct vertex *light, int n) { return n < 1 ? 0 : rgb_mean(light[n - 1].beta); }

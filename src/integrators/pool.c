@@ -64,16 +64,6 @@ static void build_table(struct pool *p, const struct selection *sel)
     alias_build(&p->table, p->q, K);
 }
 
-/* A random permutation: Fisher and Yates, from the inside out. [Durstenfeld 1964] */
-static void shuffle(struct pool *p, struct sampler *sampler)
-{
-    for (int i = 0; i < p->paths.n; i++) {
-        int j = (int)(sampler_next(sampler) * (i + 1)); /* a sample is below 1 by more than rounding can add */
-        p->order[i] = p->order[j];
-        p->order[j] = i;
-    }
-}
-
 static void render_pixel(const struct tile_pass *pass, const struct selection *sel, struct pool *p, int x, int y,
                          int number, long iteration)
 {
@@ -99,8 +89,7 @@ static void render(const void *selection, const struct tile_pass *pass)
     for (long i = pass->first; i < pass->end; i++) {
         light_pool_fill(&p->paths, pass, &sel->counts, 1, i);
         build_table(p, sel);
-        struct sampler order = pixel_sampler(pass, RNG_SHUFFLE, pass->rect.x0, pass->rect.y0, i);
-        shuffle(p, &order);
+        light_pool_shuffle(&p->paths, pass, i, p->order);
         int number = 0;
         for (int y = pass->rect.y0; y < pass->rect.y1; y++)
             for (int x = pass->rect.x0; x < pass->rect.x1; x++)

@@ -307,6 +307,7 @@ static void trace_light(struct prepass *p)
     p->n_paths = p->wish->n_eye < MAX_LIGHT ? p->wish->n_eye : MAX_LIGHT;
     g->vertices = mem_alloc(MAX_PAIR_REGIONS, sizeof *g->vertices);
     run_chunks(p, trace_light_chunk, merge_light_chunk);
+    g->light_vertices = p->light_sums.vertices / (double)p->n_paths;
     g->mean = p->light_sums.E / (double)p->n_paths;
     g->useful = p->light_sums.square > 0
                     ? p->light_sums.I * p->light_sums.I / (p->light_sums.square * p->light_sums.vertices)
@@ -357,12 +358,13 @@ void prepass_run(const struct render_job *job, const struct prepass_wish *wish, 
     make_stock(&p);
     if (wish->guide)
         guide_lessons_init(&p.lights, lights);
-    learn_in_rounds(&p);
+    if (wish->importance || wish->guide || wish->pairs)
+        learn_in_rounds(&p);
     if (wish->pairs) {
         pairs_build(&learnt->pairs, &p.pairs, &p.eye, &p.light, importance->vertices, wish->delta);
         learnt->paired = true;
         pair_lessons_free(&p.pairs);
-    } else if (wish->importance) {
+    } else if (wish->importance || wish->light_vertices) {
         trace_light(&p);
     }
     guide_lessons_free(&p.lights);

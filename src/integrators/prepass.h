@@ -12,6 +12,7 @@
 
 struct prepass_wish {
     bool importance, guide, pairs;
+    bool light_vertices;        /* importance.light_vertices at least */
     int eye_cells, light_cells; /* regions along the scene's diameter */
     int levels;                 /* of regions */
     double delta;               /* of the pairs, and of what guides their trials */

@@ -1,11 +1,15 @@
 /* select.h: the ways in which ASBDPT chooses the light sub-path of an eye sub-path.
  *
- *   bins       the dissertation: bins of two sub-paths per pixel, one used and replaced    [S24 Algorithms 1 and 2]
- *   pool       one alias table over the sub-paths of a tile, one bin per pixel, weighted: unbiased
- *   vertices   one alias table over the light *vertices* of a tile, C draws per eye vertex, known to the MIS weights
- *   subspaces  the same, but what is drawn depends on where the eye vertex is too
+ *   bins           the dissertation: bins of two sub-paths per pixel, one used and replaced  [S24 Algorithms 1 and 2]
+ *   pool           one alias table over the sub-paths of a tile, one bin per pixel, weighted: unbiased
+ *   vertices       one alias table over a tile's light *vertices*, C draws per eye vertex, known to the MIS weights
+ *   subspaces      the same, but what is drawn depends on where the eye vertex is too
+ *   lvc            vertices, but all of them equally likely: the light vertex cache                  [Davidovic 2014]
+ *   combinatorial  no choice: an eye sub-path is connected with M light sub-paths in all pairs           [Pajot 2011]
  *
- * Each is one file and one line in the table of asbdpt.c.
+ * The last two are rivals to measure the others by: but for their connections they are plain BDPT, with lights by power
+ * and nothing learnt about places. Each is one file, `lvc` a variant of vertices.c, and one line in the table of
+ * asbdpt.c.
  */
 #ifndef ASBDPT_INTEGRATORS_SELECT_H
 #define ASBDPT_INTEGRATORS_SELECT_H
@@ -21,7 +25,7 @@ enum metric {
     METRIC_IMPORTANCE  /* what the camera can use of it, importance.h */
 };
 
-enum select { SELECT_BINS, SELECT_POOL, SELECT_VERTICES, SELECT_SUBSPACES };
+enum select { SELECT_BINS, SELECT_POOL, SELECT_VERTICES, SELECT_SUBSPACES, SELECT_LVC, SELECT_COMBINATORIAL };
 
 /* Parameters and frozen data of a render. */
 struct selection {
@@ -30,16 +34,16 @@ struct selection {
     int max_depth;
     enum metric metric;           /* pool, vertices */
     double delta;                 /* pool, vertices, subspaces: share of draws that ignore what was learnt, (0,1] */
-    double connections[2];        /* vertices, subspaces: C, draws per eye vertex, for t = 2 and t > 2 */
+    double connections[2];        /* all but bins, pool: C, draws per eye vertex, for t = 2 and t > 2, or M */
     int lights;                   /* subspaces: samples of s = 1 for t = 2 */
-    int path_pixels;              /* vertices, subspaces: pixels for each light sub-path */
+    int path_pixels;              /* all but bins, pool: pixels for each light sub-path */
     int bin_paths;                /* bins: sub-paths per pixel */
     long max_age;                 /* bins: iterations until an unused one is replaced */
-    struct importance importance; /* all but bins */
-    struct learnt learnt;         /* all but bins */
+    struct importance importance; /* all but bins, combinatorial; of it lvc has light_vertices alone */
+    struct learnt learnt;         /* pool, vertices, subspaces */
 };
 
-extern const struct tile_renderer render_bins, render_pool, render_vertices, render_subspaces;
+extern const struct tile_renderer render_bins, render_pool, render_vertices, render_subspaces, render_combinatorial;
 
 /* select_throughput: beta of [S24]: mean over RGB at the furthest vertex; 0 for an empty sub-path. A sub-path of y_0
  * alone, which met no surface, has the emitted radiance there, as in pbrt-v3, where [S24] was implemented. */
@@ -66,6 +70,9 @@ void light_pool_fill(struct light_pool *pool, const struct tile_pass *pass, cons
  * rounded up. */
 void light_pool_splat(const struct light_pool *pool, const struct tile_pass *pass, struct pixel_sample *g,
                       int path_pixels, int k);
+
+/* light_pool_shuffle: a random permutation of the sub-paths' numbers for one iteration into order [pool->n]. */
+void light_pool_shuffle(const struct light_pool *pool, const struct tile_pass *pass, long iteration, int *order);
 
 static inline const struct vertex *light_pool_path(const struct light_pool *pool, int k)
 {

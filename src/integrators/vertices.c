@@ -1,4 +1,4 @@
-/* vertices.c: `select = vertices`: every eye vertex draws light vertices from one table over a tile's pool.
+/* vertices.c: `select = vertices`, `lvc`: every eye vertex draws light vertices from one table over a tile's pool.
  *
  * A light vertex y_{s-1} *is* the sub-path y_0 ... y_{s-1} that leads to it: a pool of vertices to draw from, as the
  * light vertex cache [Davidovic 2014], which draws uniformly. All connectible ones of the K sub-paths of a tile and
@@ -14,6 +14,12 @@
  * The MIS weights know about it: strategies s >= 2, t >= 2 ending at light position x take about n(x) samples per
  * pixel, a function of the surface point alone, so all strategies of a path agree on it (mis.h). They are counted
  * twice, having been measured to deserve it: draws stratified over a table vary less than independent ones.
+ *
+ * `select = lvc` is the light vertex cache itself, a rival: all V vertices are equally likely, q_v = 1/V. An eye vertex
+ * takes each of them C/V times, where BDPT, with one of K sub-paths, takes it 1/K times: C K/V times as often, about
+ * C/l, l being the expected number of connectible vertices of a light sub-path. That is the count, with no credit. l is
+ * frozen by a pre-pass: the pool's own V/K would make a vertex' weight depend on what else is in the pool, which biases
+ * small pools.
  *
  * Tests: test_asbdpt.c.
  */
@@ -52,9 +58,11 @@ static void free_scratch(void *scratch)
 }
 
 /* The weight of a vertex in the table. One that carries no usable amount of light is never drawn. */
-static double weight_of(struct vertices *v, const struct mis_counts *counts, const struct vertex *y)
+static double weight_of(struct vertices *v, const struct selection *sel, const struct vertex *y)
 {
-    double q = rgb_luminance(y->beta) * mis_connect_count(counts, y->light_region, 0, true);
+    if (sel->select == SELECT_LVC)
+        return 1;
+    double q = rgb_luminance(y->beta) * mis_connect_count(&sel->counts, y->light_region, 0, true);
     if (q >= 0 && fits_float(q))
         return q;
     v->lost++;
@@ -62,7 +70,7 @@ static double weight_of(struct vertices *v, const struct mis_counts *counts, con
 }
 
 /* The table over the pool's connectible vertices y_1, y_2 ... */
-static void build_table(struct vertices *v, const struct mis_counts *counts)
+static void build_table(struct vertices *v, const struct selection *sel)
 {
     size_t n = 0;
     for (int k = 0; k < v->pool.n; k++) {
@@ -75,7 +83,7 @@ static void build_table(struct vertices *v, const struct mis_counts *counts)
             v->q = mem_grow(v->q, &v->q_capacity, n + 1, sizeof *v->q);
             v->candidate[n] = &path[i];
             v->s[n] = i + 1;
-            v->q[n++] = weight_of(v, counts, &path[i]);
+            v->q[n++] = weight_of(v, sel, &path[i]);
         }
     }
     alias_build(&v->table, v->q, (int)n);
@@ -120,7 +128,7 @@ static void render(const void *selection, const struct tile_pass *pass)
     for (long i = pass->first; i < pass->end; i++) {
         light_pool_fill(&v->pool, pass, &sel->counts, sel->path_pixels, i);
         v->lost = 0;
-        build_table(v, &sel->counts);
+        build_table(v, sel);
         pass->tile->nonfinite += v->lost;
         int number = 0;
         for (int y = pass->rect.y0; y < pass->rect.y1; y++)

@@ -1,0 +1,84 @@
+/* combinatorial.c: `select = combinatorial`: every eye sub-path is connected with M light sub-paths in all pairs.
+ *
+ * Combinatorial BDPT [Pajot 2011] traces sets of eye and of light sub-paths and connects every one of the first to
+ * every one of the second. Here the sets are those of a tile and iteration with its K light sub-paths, of which the eye
+ * sub-path of pixel p, in row order, takes M:
+ *     pi(p M + m mod K),   m = 0 .. M-1,   pi a random permutation,
+ * so that all are used equally often, none twice by one pixel, and pixels that share some, and err alike, lie anywhere
+ * in the tile. The mean over the M of BDPT's sum of pairs,
+ *     (1/M) sum_m sum_{s,t} w F(y_{s-1} of sub-path m, z_{t-1}),
+ * has BDPT's expectation, since each is. The strategies s >= 2, t >= 2 take M samples per pixel, their count, though
+ * these share the eye sub-path. s = 0, s = 1 and t = 1 stay as they are, every pooled sub-path being splat once.
+ *
+ * With more connections than sub-paths M is K, which is all there is to connect. With M = 1 pi is the identity, and the
+ * method is BDPT to the byte.
+ *
+ * Tests: test_asbdpt.c.
+ */
+#include <stdlib.h>
+
+#include "integrators/select.h"
+#include "transport/pixel_sample.h"
+
+struct combinatorial {
+    struct light_pool pool;
+    int M;
+    int order[MAX_TILE_SIZE * MAX_TILE_SIZE]; /* pi */
+};
+
+static void *new_scratch(const void *selection)
+{
+    (void)selection;
+    return mem_alloc(1, sizeof(struct combinatorial));
+}
+
+static void free_scratch(void *scratch)
+{
+    struct combinatorial *c = scratch;
+    light_pool_free(&c->pool);
+    free(c);
+}
+
+static void choose_order(struct combinatorial *c, const struct selection *sel, const struct tile_pass *pass,
+                         long iteration)
+{
+    int M = (int)sel->connections[0], K = c->pool.n;
+    c->M = M < K ? M : K;
+    light_pool_shuffle(&c->pool, pass, iteration, c->order);
+    for (int k = 0; M == 1 && k < K; k++)
+        c->order[k] = k;
+}
+
+static void render_pixel(const struct tile_pass *pass, const struct selection *sel, struct combinatorial *c, int x,
+                         int y, int number, long iteration)
+{
+    arena_reset(&pass->work->arena);
+    struct vertex *eye = pass->work->eye;
+    struct pixel_sample g = pixel_sample_begin(pass, &sel->counts, x, y, iteration);
+    int n = pixel_eye_path(pass, &g, iteration, eye, g.max_depth + 2);
+    rgb sum = pixel_sum_eye(&g, eye, n);
+    for (int m = 0; m < c->M; m++) {
+        int k = c->order[(number * c->M + m) % c->pool.n];
+        const struct vertex *light = light_pool_path(&c->pool, k);
+        sum = rgb_add(sum, pixel_sum_pairs(&g, eye, n, light, c->pool.length[k], 1.0 / c->M));
+    }
+    if (number % sel->path_pixels == 0)
+        light_pool_splat(&c->pool, pass, &g, sel->path_pixels, number / sel->path_pixels);
+    tile_add_eye(pass->tile, x, y, sum);
+}
+
+static void render(const void *selection, const struct tile_pass *pass)
+{
+    const struct selection *sel = selection;
+    struct combinatorial *c = pass->work->scratch;
+    for (long i = pass->first; i < pass->end; i++) {
+        light_pool_fill(&c->pool, pass, &sel->counts, sel->path_pixels, i);
+        choose_order(c, sel, pass, i);
+        int number = 0;
+        for (int y = pass->rect.y0; y < pass->rect.y1; y++)
+            for (int x = pass->rect.x0; x < pass->rect.x1; x++)
+                render_pixel(pass, sel, c, x, y, number++, i);
+    }
+}
+
+const struct tile_renderer render_combinatorial = {render, new_scratch, free_scratch};
