@@ -507,4 +507,5 @@ void test_report(struct test *t)
     test_plan(t);
     test_reference(t);
     test_experiment(t);
+    test_equal_time(t);
 }
