@@ -13,7 +13,7 @@
 #include "lab/experiment.h"
 #include "render/render.h"
 
-enum { CALIBRATION_SPP = 4, WIDTH_WITHOUT_REFERENCE = 48, REFERENCE_SEED = 100001 };
+enum { CALIBRATION_SPP = 4, CORRECTIONS = 3, WIDTH_WITHOUT_REFERENCE = 48, REFERENCE_SEED = 100001 };
 static const double NEAR = 0.03; /* a time this near needs no correction */
 
 /* A scene being measured. */
@@ -69,20 +69,24 @@ static bool render_samples(struct subject *s, int variant, long spp, struct equa
 
 /* --- one variant and seed ---------------------------------------------------------------------------- */
 
-/* The samples that take r->target: by the calibration's time, then once more by the time they took. */
+static double off(const struct equal_render *r) { return fabs(r->seconds / r->target - 1); }
+
+/* The samples that take r->target: by the calibration's time, then by the times they took. The nearest counts. */
 static bool render_in_time(struct subject *s, int variant, const struct equal_render *calibration,
                            struct equal_render *r)
 {
-    double from = calibration->seconds;
-    if (!render_samples(s, variant, equal_samples(calibration->spp, from, 1, r->target), r))
-        return false;
-    r->growth = equal_growth(calibration->spp, from, r->spp, r->seconds);
-    long corrected = equal_samples(r->spp, r->seconds, r->growth, r->target);
-    if (fabs(r->seconds / r->target - 1) <= NEAR || corrected == r->spp)
-        return true;
-    if (!render_samples(s, variant, corrected, r))
-        return false;
-    r->growth = equal_growth(calibration->spp, from, r->spp, r->seconds);
+    struct equal_render trial = *r;
+    long spp = equal_samples(calibration->spp, calibration->seconds, 1, r->target);
+    for (int i = 0; i <= CORRECTIONS && spp != trial.spp; i++) {
+        if (!render_samples(s, variant, spp, &trial))
+            return false;
+        trial.growth = equal_growth(calibration->spp, calibration->seconds, trial.spp, trial.seconds);
+        if (i == 0 || off(&trial) < off(r))
+            *r = trial;
+        if (off(r) <= NEAR)
+            break;
+        spp = equal_samples(trial.spp, trial.seconds, trial.growth, trial.target);
+    }
     return true;
 }
 

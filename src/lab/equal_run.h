@@ -2,8 +2,8 @@
  *
  * Per scene and seed bdpt comes first and its time is what the others are given, or all are given as many seconds as
  * were asked for. A variant renders 4 samples per pixel, by which its samples are chosen; it renders them, and unless
- * that took the given time within 3 %, it renders once more with the samples corrected. The last render counts. No
- * choice looks at an error. One thread; times are CPU times of the process.
+ * that took the given time within 3 %, it renders again with the samples corrected, at most three times. The render
+ * whose time is nearest counts. No choice looks at an error. One thread; times are CPU times of the process.
  *
  * Tests: test_equal_time.c, test/cli.sh.
  */

@@ -44,7 +44,7 @@ double equal_growth(long spp0, double seconds0, long spp1, double seconds1)
 
 long equal_samples(long spp, double seconds, double growth, double target)
 {
-    double wanted = (double)spp * pow(target / seconds, growth);
+    double wanted = (double)spp * (1 + growth * (target / seconds - 1));
     return isfinite(wanted) ? (long)clamp(floor(wanted + 0.5), 1, MOST_SAMPLES) : spp;
 }
 

@@ -54,7 +54,8 @@ long equal_seed(int variant, int i);
  * 1 where it cannot be told. */
 double equal_growth(long spp0, double seconds0, long spp1, double seconds1);
 
-/* equal_samples: how many samples per pixel take `target`, at least 1, if spp of them take `seconds`. */
+/* equal_samples: how many samples per pixel take `target`, at least 1, if spp of them take `seconds`, by the line that
+ * has this growth there: farther away the law of powers would overshoot. */
 long equal_samples(long spp, double seconds, double growth, double target);
 
 enum equal_error { EQUAL_RMSE8, EQUAL_RELMSE, N_EQUAL_ERRORS };
