@@ -183,5 +183,17 @@ expect 1 'same size' "$program" verify --images "$scenes/../ref/bathroom.pfm" "$
 expect 2 'usage: asbdpt verify' "$program" verify --images a.pfm
 expect 2 'no method nonsense' "$program" verify "$box" --methods nonsense
 
+# experiment --equal-time: a table, a line for every variant and seed, and a number that may be left out.
+tiny="--res 8x8 --seeds 2 --quiet"
+expect 0 '' "$program" experiment --equal-time "$box" $tiny --spp 2 -o equal
+check grep -q 'geometric mean' stdout.txt
+check cmp -s stdout.txt equal/equal-time.md
+check [ "$(grep -c '^cornell-box,' equal/equal-time.csv)" = 6 ]
+check grep -q '^cornell-box,bdpt,5002,2,' equal/equal-time.csv
+expect 0 '' "$program" experiment "$box" --equal-time 0.01 $tiny -o equal
+check grep -q -e '--equal-time 0.01 --seeds 2' stdout.txt
+expect 2 'equal times are those of one thread' "$program" experiment "$box" --equal-time -j 2 $tiny -o equal
+expect 2 '[-]-equal-time 0: expected a number from 0.001' "$program" experiment "$box" --equal-time 0 $tiny -o equal
+
 [ $failures -eq 0 ] && echo "command line: all as expected"
 exit $((failures > 0))

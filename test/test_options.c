@@ -14,6 +14,7 @@ struct target {
     int integer, size[2], width[2];
     uint64_t seed;
     double number, window[4];
+    struct perhaps perhaps;
     const char *text, *image;
     struct texts texts, pairs, list, rest;
 };
@@ -31,6 +32,7 @@ static const struct option TABLE[] = {
     {"--off", NULL, OPTION_OFF, offsetof(struct target, on), .help = "off"},
     {"--integer", "N", OPTION_INTEGER, offsetof(struct target, integer), 2, 1 << 30, .alias = "-i", .help = "integer"},
     {"--number", "X", OPTION_NUMBER, offsetof(struct target, number), -0.5, 2, .fallback = "1.5", .help = "a number"},
+    {"--perhaps", "[X]", OPTION_PERHAPS, offsetof(struct target, perhaps), 0.5, 2, .help = "perhaps a number"},
     {"--window", "X0 X1 Y0 Y1", OPTION_WINDOW, offsetof(struct target, window), 0, 1, .help = "a window"},
     {"--size", "WxH", OPTION_SIZE, offsetof(struct target, size), 1, 65536, .help = "a size"},
     {"--width", "WxH or W", OPTION_WIDTH, offsetof(struct target, width), 1, 65536, .help = "a width"},
@@ -88,6 +90,26 @@ static void check_accepted(struct test *t)
     options_free(TABLE, &o);
 }
 
+/* A number that may be left out is taken only where a number stands. */
+static void check_perhaps(struct test *t)
+{
+    static const struct {
+        const char *line;
+        double number;
+        int operands;
+    } CASES[] = {{"--perhaps", 0, 0},        {"--perhaps 2", 2, 0},  {"--perhaps=.5", 0.5, 0},
+                 {"--perhaps a.png b", 0, 1}, {"--perhaps 2b c", 0, 1}, {"--perhaps --on", 0, 0}};
+    for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
+        struct target o = {0};
+        struct error err = {""};
+        char words[1024];
+        CHECK(t, read_line(TABLE, CASES[i].line, words, &o, &err), "%s: %s", CASES[i].line, err.text);
+        CHECK(t, o.perhaps.given && o.perhaps.number == CASES[i].number, "%s: %g", CASES[i].line, o.perhaps.number);
+        CHECK(t, o.rest.n == CASES[i].operands, "%s: %d operands", CASES[i].line, o.rest.n);
+        options_free(TABLE, &o);
+    }
+}
+
 static void check_refused(struct test *t)
 {
     static const struct {
@@ -107,6 +129,8 @@ static void check_refused(struct test *t)
         {"--number -0.6", "--number -0.6: expected a number from -0.5 to 2"},
         {"--number 2.0000001", "expected a number"},
         {"--number nan", "expected a number"},
+        {"--perhaps 3", "--perhaps 3: expected a number from 0.5 to 2"},
+        {"--perhaps=x", "--perhaps x: expected a number"},
         {"--number inf", "expected a number"},
         {"--number -inf", "expected a number"},
         {"--number 1e999", "expected a number"},
@@ -187,6 +211,7 @@ static size_t target_size(const struct option *o, char *value, size_t size)
     case OPTION_INTEGER: return sizeof(int);
     case OPTION_SEED: strcpy(value, "5"); return sizeof(uint64_t);
     case OPTION_NUMBER: return sizeof(double);
+    case OPTION_PERHAPS: return sizeof(struct perhaps);
     case OPTION_WINDOW: strcpy(value, "0 1 0 1"); return 4 * sizeof(double);
     case OPTION_SIZE:
     case OPTION_WIDTH: strcpy(value, "4x3"); return 2 * sizeof(int);
@@ -227,6 +252,7 @@ void test_options(struct test *t)
 {
     int rows = 0;
     check_accepted(t);
+    check_perhaps(t);
     check_refused(t);
     check_required(t);
     for (const struct command *const *c = command_list(); *c != NULL; c++)

@@ -453,6 +453,9 @@ static void test_plan(struct test *t)
     CHECK(t, plan_first_sample(&p, VARIANT_BDPT, 1) == 8, "bdpt continues any film");
     CHECK(t, plan_first_sample(&p, VARIANT_BINS, 1) == 0 && plan_first_sample(&p, VARIANT_BINS, 3) == 32,
           "bins continues a film only at a restart");
+    for (int i = 0; i < p.n_steps; i++)
+        CHECK(t, plan_first_sample(&p, VARIANT_SUBSPACES, i) == 0, "subspaces renders step %d on its own", i);
+    CHECK(t, plan_run_spp(&p, VARIANT_SUBSPACES) == 8 + 16 + 32 + 64, "and pays for every sample of every step");
     plan_preset(&p, false);
     CHECK(t, p.n_steps == 5 && p.spp[0] == 32 && p.spp[4] == 512, "full steps are the dissertation's");
     CHECK(t, plan_set_spp(&p, 32, 100, NULL) && p.n_steps == 3 && p.spp[2] == 100,
@@ -504,4 +507,5 @@ void test_report(struct test *t)
     test_plan(t);
     test_reference(t);
     test_experiment(t);
+    test_equal_time(t);
 }

@@ -8,6 +8,7 @@ void test_asbdpt(struct test *t);
 void test_alias(struct test *t);
 void test_bsdf(struct test *t);
 void test_camera(struct test *t);
+void test_equal_time(struct test *t); /* part of test_report */
 void test_file(struct test *t);
 void test_film(struct test *t);
 void test_image(struct test *t);

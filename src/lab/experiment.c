@@ -78,8 +78,7 @@ static float *new_pixels(const struct scene_results *r)
 
 /* --- files ------------------------------------------------------------------------------------------- */
 
-/* Make a directory and those above it. */
-static bool make_directory(const char *wanted, struct error *err)
+bool experiment_directory(const char *wanted, struct error *err)
 {
     char path[PATH_SIZE];
     struct stat s;
@@ -102,7 +101,7 @@ static bool make_directories(const struct plan *p, struct error *err)
     bool ok = true;
     for (size_t i = 0; ok && i < sizeof names / sizeof names[0]; i++) {
         snprintf(path, sizeof path, "%s/%s", p->directory, names[i]);
-        ok = make_directory(path, err);
+        ok = experiment_directory(path, err);
     }
     return ok;
 }
@@ -286,25 +285,34 @@ static bool find_or_make_reference(struct scene_experiment *s)
     return found == 1 || (found == 0 && make_reference(s));
 }
 
-static bool load_scene(struct scene_experiment *s)
+bool experiment_scene(const char *path, int width, int height, int max_depth, struct scene *scene, int *depth,
+                      struct error *err)
 {
-    const struct plan *p = s->whole->plan;
-    struct error *err = s->whole->err;
-    if (!parse_scene(s->out->path, &s->scene, NULL, err))
-        return false;
-    struct scene *scene = &s->scene;
     static const double whole[4] = {0, 1, 0, 1};
+    if (!parse_scene(path, scene, NULL, err))
+        return false;
     /* Widths of plans go up to 8192 and films up to 65536 a side: below 2^30. */
-    int height = (int)(0.5 + (double)p->width * scene->height / scene->width);
+    int by_aspect = (int)(0.5 + (double)width * scene->height / scene->width);
     memcpy(scene->crop, whole, sizeof whole);
-    scene->width = s->out->width = p->width;
-    scene->height = s->out->height = p->height > 0 ? p->height : height > 1 ? height : 1;
+    scene->width = width;
+    scene->height = height > 0 ? height : by_aspect > 1 ? by_aspect : 1;
     filter_default("box", &scene->filter);
-    if (!render_max_depth(scene, p->max_depth, &s->out->max_depth, err)) {
+    if (!render_max_depth(scene, max_depth, depth, err)) {
         scene_free(scene);
         return false;
     }
     scene_prepare(scene);
+    return true;
+}
+
+static bool load_scene(struct scene_experiment *s)
+{
+    const struct plan *p = s->whole->plan;
+    struct scene_results *r = s->out;
+    if (!experiment_scene(r->path, p->width, p->height, p->max_depth, &s->scene, &r->max_depth, s->whole->err))
+        return false;
+    r->width = s->scene.width;
+    r->height = s->scene.height;
     return true;
 }
 

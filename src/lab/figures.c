@@ -281,11 +281,11 @@ void figure_style(FILE *f)
         ".plot .pz{stroke:currentColor;stroke-opacity:.7;stroke-dasharray:2 3;fill:none}",
         ".plot .pf{stroke:currentColor;stroke-opacity:.6;fill:none}",
         ".plot [class^=pl]{fill:none;stroke-width:2}.plot .pe{stroke-width:1.3}.plot .ph{fill:none!important}",
-        ".plot{--c0:#3d444d;--c1:#b3400a;--c2:#0b62a8;--c3:#12733a;--c4:#7a2bb5;--c5:#8a6a00}",
+        ".plot{--c0:#3d444d;--c1:#b3400a;--c2:#0b62a8;--c3:#12733a;--c4:#8b00e0;--c5:#8a6a00}",
         "@media (prefers-color-scheme:dark){.plot{color:#e6e9ed;background:#15191f;",
-        "--c0:#c3cad3;--c1:#ff9052;--c2:#5cb6ff;--c3:#4fd68a;--c4:#cf9bff;--c5:#e6c34a}}",
+        "--c0:#c3cad3;--c1:#ff9052;--c2:#5cb6ff;--c3:#4fd68a;--c4:#a64dff;--c5:#e6c34a}}",
         "@media print{.plot{color:#000;background:#fff;",
-        "--c0:#3d444d;--c1:#b3400a;--c2:#0b62a8;--c3:#12733a;--c4:#7a2bb5;--c5:#8a6a00}}",
+        "--c0:#3d444d;--c1:#b3400a;--c2:#0b62a8;--c3:#12733a;--c4:#8b00e0;--c5:#8a6a00}}",
     };
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
         fprintf(f, "%s\n", lines[i]);

@@ -1,7 +1,8 @@
 /* figures.h: the plots of an experiment as SVG text, and which results each shows.
  *
  * Axes are linear or logarithmic, with ticks at round numbers; lines have markers of their own shape, so that they
- * can be told apart without colour, and error bars. Colours follow the reader's light or dark setting.
+ * can be told apart without colour, and error bars. Colours follow the reader's light or dark setting; those of the
+ * compared variants were chosen to stay apart for readers who lack one kind of cone.
  *
  * Tests: test_report.c.
  */

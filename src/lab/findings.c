@@ -95,10 +95,10 @@ static void add_convergence(const struct results *r, const struct scene_results 
     for (int v = 0; v < N_COMPARED; v++)
         factor[v] = results_mean(r, s, v, last - 1, Q_RMSE8).mean / results_mean(r, s, v, last, Q_RMSE8).mean;
     add_finding(f,
-                "From %ld to %ld samples the RMSE falls by a factor of %.3f for BDPT, %.3f for bins, %.3f for pool and "
-                "%.3f for vertices; without bias and with a perfect reference it would be %.3f.",
+                "From %ld to %ld samples the RMSE falls by a factor of %.3f for BDPT, %.3f for bins, %.3f for pool, "
+                "%.3f for vertices and %.3f for subspaces; without bias and with a perfect reference it would be %.3f.",
                 r->plan->spp[last - 1], r->plan->spp[last], factor[VARIANT_BDPT], factor[VARIANT_BINS],
-                factor[VARIANT_POOL], factor[VARIANT_VERTICES],
+                factor[VARIANT_POOL], factor[VARIANT_VERTICES], factor[VARIANT_SUBSPACES],
                 sqrt((double)r->plan->spp[last] / (double)r->plan->spp[last - 1]));
 }
 
@@ -183,9 +183,10 @@ static void add_bias_counts(const struct results *r, struct findings *f)
             biased[v] += results_bias(r, &r->scene[i], v, last_step(r)).p < 0.01;
     add_finding(
         f,
-        "The mean of the picture is off (p < 0.01) in %d of %d scenes for BDPT, %d for bins, %d for pool and %d "
-        "for vertices.",
-        biased[VARIANT_BDPT], r->plan->n_scenes, biased[VARIANT_BINS], biased[VARIANT_POOL], biased[VARIANT_VERTICES]);
+        "The mean of the picture is off (p < 0.01) in %d of %d scenes for BDPT, %d for bins, %d for pool, %d for "
+        "vertices and %d for subspaces.",
+        biased[VARIANT_BDPT], r->plan->n_scenes, biased[VARIANT_BINS], biased[VARIANT_POOL], biased[VARIANT_VERTICES],
+        biased[VARIANT_SUBSPACES]);
 }
 
 void findings_make(const struct results *r, const struct scene_results *s, struct findings *out)

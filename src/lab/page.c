@@ -59,7 +59,7 @@ static const char *const STYLE[] = {
     ":root{--ink:#000;--soft:#444;--page:#fff;--panel:#f5f7f9;--line:#bbb;--accent:#000}",
     "figure,table,li,pre{break-inside:avoid}h2,h3{break-after:avoid}.scroll{overflow:visible}",
     "table{font-size:7.5pt}th,td{padding:.1rem .3rem;white-space:normal}",
-    ".grid{grid-template-columns:repeat(5,1fr)}.plots{grid-template-columns:1fr 1fr}}",
+    ".grid{grid-template-columns:repeat(6,1fr)}.plots{grid-template-columns:1fr 1fr}}",
 };
 
 static const char *const SCRIPT[] = {

@@ -5,21 +5,22 @@
 #include <string.h>
 
 const struct variant VARIANTS[N_VARIANTS] = {
-    {"bdpt", "BDPT", "bdpt", NULL, 0, 0, true},
-    {"bins", "ASBDPT bins", "asbdpt", "bins", 8, 32, true},
-    {"pool", "ASBDPT pool", "asbdpt", "pool", 0, 0, true},
-    {"vertices", "ASBDPT vertices", "asbdpt", "vertices", 0, 0, true},
-    {"bins-paths-4", "bins, 4 paths per set", "asbdpt", "bins", 4, 32, false},
-    {"bins-paths-16", "bins, 16 paths per set", "asbdpt", "bins", 16, 32, false},
-    {"bins-paths-32", "bins, 32 paths per set", "asbdpt", "bins", 32, 32, true},
-    {"bins-restart-0", "bins, never restarted", "asbdpt", "bins", 8, 0, true},
-    {"bins-restart-8", "bins, restart every 8", "asbdpt", "bins", 8, 8, false},
-    {"bins-restart-16", "bins, restart every 16", "asbdpt", "bins", 8, 16, false},
+    {"bdpt", "BDPT", "bdpt", NULL, 0, 0, true, false},
+    {"bins", "ASBDPT bins", "asbdpt", "bins", 8, 32, true, false},
+    {"pool", "ASBDPT pool", "asbdpt", "pool", 0, 0, true, false},
+    {"vertices", "ASBDPT vertices", "asbdpt", "vertices", 0, 0, true, false},
+    {"subspaces", "ASBDPT subspaces", "asbdpt", "subspaces", 0, 0, true, true},
+    {"bins-paths-4", "bins, 4 paths per set", "asbdpt", "bins", 4, 32, false, false},
+    {"bins-paths-16", "bins, 16 paths per set", "asbdpt", "bins", 16, 32, false, false},
+    {"bins-paths-32", "bins, 32 paths per set", "asbdpt", "bins", 32, 32, true, false},
+    {"bins-restart-0", "bins, never restarted", "asbdpt", "bins", 8, 0, true, false},
+    {"bins-restart-8", "bins, restart every 8", "asbdpt", "bins", 8, 8, false, false},
+    {"bins-restart-16", "bins, restart every 16", "asbdpt", "bins", 8, 16, false, false},
 };
 
 const struct sweep_point SWEEPS[N_SWEEPS][SWEEP_LENGTH] = {
-    {{4, "4 paths per set"}, {VARIANT_BINS, "8 paths per set"}, {5, "16 paths per set"}, {6, "32 paths per set"}},
-    {{7, "no restart"}, {8, "restart every 8"}, {9, "restart every 16"}, {VARIANT_BINS, "restart every 32"}},
+    {{5, "4 paths per set"}, {VARIANT_BINS, "8 paths per set"}, {6, "16 paths per set"}, {7, "32 paths per set"}},
+    {{8, "no restart"}, {9, "restart every 8"}, {10, "restart every 16"}, {VARIANT_BINS, "restart every 32"}},
 };
 
 void plan_preset(struct plan *p, bool quick)
@@ -58,7 +59,7 @@ long plan_seed(int variant, int i) { return 100L * variant + i; }
 long plan_first_sample(const struct plan *p, int variant, int i)
 {
     const struct variant *v = &VARIANTS[variant];
-    if (i == 0)
+    if (i == 0 || v->planned)
         return 0;
     bool whole = v->bin_paths == 0 || (v->restart > 0 && p->spp[i - 1] % v->restart == 0);
     return whole ? p->spp[i - 1] : 0;

@@ -1,6 +1,6 @@
 /* plan.h: what an experiment consists of: scenes x variants x seeds, each rendered to a rising number of samples.
  *
- * A variant is an integrator with its parameters, without Russian roulette. The first four are compared everywhere;
+ * A variant is an integrator with its parameters, without Russian roulette. The first five are compared everywhere;
  * the others move one parameter of `bins` at a time, as the dissertation's appendix A does.     [S24 4]
  * [S24 appendix A]
  *
@@ -21,6 +21,7 @@ struct variant {
     const char *select;     /* asbdpt's; NULL for bdpt */
     int bin_paths, restart; /* bins only, else 0 */
     bool quick;             /* part of a quick experiment */
+    bool planned;           /* what it prepares depends on the samples of the whole picture */
 };
 
 enum {
@@ -28,8 +29,9 @@ enum {
     VARIANT_BINS,
     VARIANT_POOL,
     VARIANT_VERTICES,
-    N_COMPARED,     /* the variants above are compared everywhere */
-    N_VARIANTS = 10 /* the others are the sweeps over the parameters of bins */
+    VARIANT_SUBSPACES, /* the default of asbdpt */
+    N_COMPARED,        /* the variants above are compared everywhere */
+    N_VARIANTS = 11    /* the others are the sweeps over the parameters of bins */
 };
 extern const struct variant VARIANTS[N_VARIANTS];
 
@@ -75,7 +77,8 @@ int plan_seeds(const struct plan *p, int variant);
 long plan_seed(int variant, int i);
 
 /* plan_first_sample: where the render of step i begins: at the samples of step i - 1, whose film it continues, or
- * at 0 where that would not be the same as rendering in one go: bins must not be cut between two restarts. */
+ * at 0 where that would not be the same as rendering in one go: bins must not be cut between two restarts, and
+ * subspaces learns and chooses by the samples of the whole picture. */
 long plan_first_sample(const struct plan *p, int variant, int i);
 
 /* plan_run_spp: samples per pixel rendered for one run of a variant, over all steps. */

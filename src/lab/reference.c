@@ -109,27 +109,61 @@ static bool readable(const char *path)
     return f != NULL;
 }
 
+enum { PATH_SIZE = 4096, N_PLACES = 3 };
+
+/* Where a reference may be without being given: beside the scene, one directory up, in the current one. */
+static void place_path(int i, const char *scene_path, const char *name, char path[PATH_SIZE])
+{
+    static const char *const places[N_PLACES] = {"ref", "../ref", "ref"};
+    const char *slash = strrchr(scene_path, '/');
+    int n = slash != NULL && i < N_PLACES - 1 ? (int)(slash - scene_path) + 1 : 0;
+    snprintf(path, PATH_SIZE, "%.*s%s/%s.pfm", n, scene_path, places[i], name);
+}
+
+/* What was given: a directory that holds NAME.pfm, or else the picture itself. */
+static void given_path(const char *given, const char *name, char path[PATH_SIZE])
+{
+    snprintf(path, PATH_SIZE, "%s/%s.pfm", given, name);
+    if (!readable(path))
+        snprintf(path, PATH_SIZE, "%s", given);
+}
+
 int reference_find(const char *given, const char *scene_path, const char *name, int width, int height, int max_depth,
                    struct reference *out, struct error *err)
 {
-    char path[4096];
+    char path[PATH_SIZE];
     struct reference_text text;
     if (given != NULL) {
-        snprintf(path, sizeof path, "%s/%s.pfm", given, name);
-        return load_fitting(readable(path) ? path : given, width, height, max_depth, out, &text, err);
+        given_path(given, name, path);
+        return load_fitting(path, width, height, max_depth, out, &text, err);
     }
-    const char *slash = strrchr(scene_path, '/');
-    int n = slash != NULL ? (int)(slash - scene_path) + 1 : 0;
-    static const char *const places[] = {"ref", "../ref"};
-    for (size_t i = 0; i <= sizeof places / sizeof places[0]; i++) {
-        if (i < sizeof places / sizeof places[0])
-            snprintf(path, sizeof path, "%.*s%s/%s.pfm", n, scene_path, places[i], name);
-        else
-            snprintf(path, sizeof path, "ref/%s.pfm", name);
+    for (int i = 0; i < N_PLACES; i++) {
+        place_path(i, scene_path, name, path);
         if (readable(path) && load_fitting(path, width, height, max_depth, out, &text, NULL) == 1)
             return 1;
     }
     return 0;
+}
+
+bool reference_shape(const char *given, const char *scene_path, const char *name, int out[3])
+{
+    char path[PATH_SIZE];
+    struct reference_text text;
+    float *pixels = NULL;
+    for (int i = 0; pixels == NULL && i < (given != NULL ? 1 : N_PLACES); i++) {
+        if (given != NULL)
+            given_path(given, name, path);
+        else
+            place_path(i, scene_path, name, path);
+        if (readable(path))
+            pixels = load_linear(path, &out[0], &out[1], NULL);
+    }
+    if (pixels == NULL)
+        return false;
+    read_text(path, &text);
+    out[2] = (int)text.max_depth;
+    free(pixels);
+    return true;
 }
 
 /* --- references made here ---------------------------------------------------------------------------- */

@@ -33,6 +33,10 @@ struct reference {
 int reference_find(const char *given, const char *scene_path, const char *name, int width, int height, int max_depth,
                    struct reference *out, struct error *err);
 
+/* reference_shape: width, height and maxdepth (0: not said) of the stored reference that reference_find meets first,
+ * whatever fits. Returns false when there is none. */
+bool reference_shape(const char *given, const char *scene_path, const char *name, int out[3]);
+
 /* reference_render: render one of `spp` samples per pixel; progress as render_options has it, over both halves.
  * Returns false with a message. */
 bool reference_render(const struct scene *scene, const struct render_options *options, long spp, struct reference *out,

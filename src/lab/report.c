@@ -58,9 +58,10 @@ static void write_lead(FILE *f, const struct results *r)
 {
     const struct plan *p = r->plan;
     fprintf(f,
-            "BDPT and three ways in which ASBDPT chooses light sub-paths (bins, the dissertation's; pool and vertices, "
-            "its repairs) in %d scene%s, each rendered to %ld, doubled up to %ld, samples per pixel with %d seed%s per "
-            "method (%d for the parameter sweeps) and compared with a reference. Box filter, balance heuristic.",
+            "BDPT and four ways in which ASBDPT chooses light sub-paths (bins, the dissertation's; pool and vertices, "
+            "its repairs; subspaces, the default) in %d scene%s, each rendered to %ld, doubled up to %ld, samples per "
+            "pixel with %d seed%s per method (%d for the parameter sweeps) and compared with a reference. Box filter, "
+            "balance heuristic.",
             p->n_scenes, p->n_scenes == 1 ? "" : "s", p->spp[0], p->spp[p->n_steps - 1], p->n_seeds,
             p->n_seeds == 1 ? "" : "s", p->sweep_seeds < p->n_seeds ? p->sweep_seeds : p->n_seeds);
 }

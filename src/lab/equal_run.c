@@ -1,0 +1,184 @@
+/* equal_run.c: see equal_run.h. */
+#include "lab/equal_run.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/mem.h"
+#include "base/progress.h"
+#include "lab/compare.h"
+#include "lab/experiment.h"
+#include "render/render.h"
+
+enum { CALIBRATION_SPP = 4, CORRECTIONS = 3, WIDTH_WITHOUT_REFERENCE = 48, REFERENCE_SEED = 100001 };
+static const double NEAR = 0.03; /* a time this near needs no correction */
+
+/* A scene being measured. */
+struct subject {
+    struct equal_time *whole;
+    struct equal_scene *out;
+    struct scene scene;
+    struct reference reference;
+    struct progress *bar;
+    struct error *err;
+};
+
+/* --- one render -------------------------------------------------------------------------------------- */
+
+static struct render_options options_of(struct subject *s, int variant, long seed)
+{
+    const struct variant *v = &EQUAL_VARIANTS[variant];
+    struct render_options o = {.integrator = integrator_find(v->integrator), .seed = (uint64_t)seed, .n_threads = 1};
+    settings_clear(&s->scene.settings); /* defaults: what is compared is what a user gets */
+    if (v->select != NULL)
+        settings_set(&s->scene.settings, "select", v->select, "experiment");
+    o.max_depth = s->out->max_depth;
+    return o;
+}
+
+static void compare_film(const struct subject *s, const struct film *film, struct equal_render *out)
+{
+    size_t n = (size_t)s->out->width * (size_t)s->out->height * 3;
+    float *pixels = mem_alloc(n, sizeof *pixels);
+    film_develop(film, s->scene.film_scale, pixels);
+    struct difference d = compare_pixels(pixels, s->reference.pixels, (long)n);
+    out->rmse8 = d.rmse8;
+    out->relmse = d.relmse;
+    out->nonfinite = d.nonfinite + film->nonfinite;
+    free(pixels);
+}
+
+/* Render so many samples, take the time, compare. */
+static bool render_samples(struct subject *s, int variant, long spp, struct equal_render *out)
+{
+    struct film film;
+    struct render_options o = options_of(s, variant, out->seed);
+    o.end = out->spp = spp;
+    film_init(&film, render_crop(&s->scene), s->scene.width, s->scene.height);
+    clock_t start = clock();
+    bool ok = render_scene(&s->scene, &o, &film, s->err);
+    out->seconds = fmax((double)(clock() - start), 1) / CLOCKS_PER_SEC;
+    if (ok)
+        compare_film(s, &film, out);
+    film_free(&film);
+    return ok;
+}
+
+/* --- one variant and seed ---------------------------------------------------------------------------- */
+
+static double off(const struct equal_render *r) { return fabs(r->seconds / r->target - 1); }
+
+/* The samples that take r->target: by the calibration's time, then by the times they took. The nearest counts. */
+static bool render_in_time(struct subject *s, int variant, const struct equal_render *calibration,
+                           struct equal_render *r)
+{
+    struct equal_render trial = *r;
+    long spp = equal_samples(calibration->spp, calibration->seconds, 1, r->target);
+    for (int i = 0; i <= CORRECTIONS && spp != trial.spp; i++) {
+        if (!render_samples(s, variant, spp, &trial))
+            return false;
+        trial.growth = equal_growth(calibration->spp, calibration->seconds, trial.spp, trial.seconds);
+        if (i == 0 || off(&trial) < off(r))
+            *r = trial;
+        if (off(r) <= NEAR)
+            break;
+        spp = equal_samples(trial.spp, trial.seconds, trial.growth, trial.target);
+    }
+    return true;
+}
+
+/* bdpt's samples are given unless its time is; what it takes for them is the time of this seed. */
+static bool measure_variant(struct subject *s, int variant, int seed)
+{
+    const struct plan *p = s->whole->plan;
+    struct equal_render *r = &s->out->render[variant][seed - 1], calibration = {.seed = equal_seed(variant, seed)};
+    if (!render_samples(s, variant, CALIBRATION_SPP, &calibration)) /* also warms up what the next will use */
+        return false;
+    r->seed = calibration.seed;
+    r->target = s->whole->seconds > 0 ? s->whole->seconds : s->out->render[0][seed - 1].target;
+    bool ok;
+    if (variant == 0 && s->whole->seconds == 0) {
+        ok = render_samples(s, variant, p->spp[p->n_steps - 1], r);
+        r->target = r->seconds;
+        r->growth = 1;
+    } else {
+        ok = render_in_time(s, variant, &calibration, r);
+    }
+    progress_end(s->bar);
+    if (ok && !p->quiet)
+        fprintf(stderr, "%s, %s, seed %ld: %ld spp in %.3f s of CPU for %.3f s, rmse8 %.3f, relmse %.4f\n",
+                s->out->name, EQUAL_VARIANTS[variant].label, r->seed, r->spp, r->seconds, r->target, r->rmse8,
+                r->relmse);
+    return ok;
+}
+
+/* --- scenes ------------------------------------------------------------------------------------------ */
+
+/* The size and depth of the stored reference where the plan leaves them open. */
+static bool load_scene(struct subject *s)
+{
+    const struct plan *p = s->whole->plan;
+    struct equal_scene *out = s->out;
+    int width = p->width, height = p->height, depth = p->max_depth, stored[3];
+    if (reference_shape(p->reference, out->path, out->name, stored)) {
+        width = width > 0 ? width : stored[0];
+        height = p->width > 0 ? height : stored[1];
+        depth = depth > 0 ? depth : stored[2];
+    }
+    if (!experiment_scene(out->path, width > 0 ? width : WIDTH_WITHOUT_REFERENCE, height, depth, &s->scene,
+                          &out->max_depth, s->err))
+        return false;
+    out->width = s->scene.width;
+    out->height = s->scene.height;
+    return true;
+}
+
+static bool find_reference(struct subject *s)
+{
+    const struct plan *p = s->whole->plan;
+    struct equal_scene *out = s->out;
+    int found = reference_find(p->reference, out->path, out->name, out->width, out->height, out->max_depth,
+                               &s->reference, s->err);
+    if (found == 0) {
+        struct render_options o = options_of(s, 0, REFERENCE_SEED);
+        found = reference_render(&s->scene, &o, p->reference_spp, &s->reference, s->err);
+    }
+    out->noise8 = s->reference.noise8;
+    return found == 1;
+}
+
+/* Seeds come before variants, so that a machine that slows down slows down all alike. */
+static bool measure_scene(struct subject *s, double done)
+{
+    int n = s->whole->plan->n_seeds * equal_variants(), scenes = s->whole->plan->n_scenes;
+    bool ok = find_reference(s);
+    for (int i = 0; ok && i < n; i++) {
+        progress_update(s->bar, (done + (double)i / n) / scenes);
+        ok = measure_variant(s, i % equal_variants(), i / equal_variants() + 1);
+    }
+    reference_free(&s->reference);
+    scene_free(&s->scene);
+    return ok;
+}
+
+bool equal_run(struct equal_time *out, struct error *err)
+{
+    const struct plan *p = out->plan;
+    struct progress bar;
+    bool ok = experiment_directory(p->directory, err);
+    out->scene = mem_alloc((size_t)p->n_scenes, sizeof *out->scene);
+    progress_start(&bar, p->quiet);
+    for (out->n_scenes = 0; ok && out->n_scenes < p->n_scenes;) {
+        struct subject s = {.whole = out, .out = &out->scene[out->n_scenes], .bar = &bar, .err = err};
+        s.out->path = p->scene[out->n_scenes];
+        plan_scene_name(s.out->path, s.out->name, sizeof s.out->name);
+        ok = load_scene(&s) && measure_scene(&s, out->n_scenes);
+        out->n_scenes += ok;
+        ok = ok && equal_write(out, err);
+    }
+    progress_end(&bar);
+    return ok;
+}

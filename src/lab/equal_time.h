@@ -1,0 +1,87 @@
+/* equal_time.h: integrators that were given the same CPU time: what came of it, its statistics and its files.
+ *
+ * bdpt renders N samples per pixel, which takes T seconds; each of the others is given the samples that take it T, what
+ * it learns beforehand included. Samples are whole and clocks restless, so the time t that was really taken differs a
+ * little. The squared error is brought from t to T by the law of its surroundings,
+ *     error^2 ~ 1 / samples   and   samples ~ time^growth,   hence   error^2(T) = error^2(t) (t / T)^growth,
+ * where growth is measured between two renders: 1 where every sample costs the same, more where something has to be
+ * paid before the first.
+ *
+ * Files: equal-time.csv has one line per scene, variant and seed; equal-time.md the table.
+ *
+ * Tests: test_equal_time.c.
+ */
+#ifndef ASBDPT_EQUAL_TIME_H
+#define ASBDPT_EQUAL_TIME_H
+
+#include "lab/results.h"
+
+/* What is compared, with its default parameters: the first is what the others are compared with; ended by a row
+ * without a name. */
+enum { EQUAL_MAX = 8 };
+extern const struct variant EQUAL_VARIANTS[EQUAL_MAX];
+int equal_variants(void); /* how many there are */
+
+/* One render in about the time that was given. */
+struct equal_render {
+    long seed, spp;
+    double seconds;       /* t: of CPU, preparation included, scene loading not */
+    double target;        /* T */
+    double growth;        /* d ln samples / d ln time nearby */
+    double rmse8, relmse; /* measured after `seconds` */
+    long nonfinite;       /* values that could not be compared */
+};
+
+struct equal_scene {
+    const char *path;
+    char name[256];
+    int width, height, max_depth;
+    double noise8; /* of the reference; NaN when unknown */
+    struct equal_render render[EQUAL_MAX][PLAN_MAX_SEEDS];
+};
+
+struct equal_time {
+    const struct plan *plan;   /* borrowed; the last of its steps is bdpt's samples */
+    double seconds;            /* T; 0: what bdpt takes for its samples */
+    struct equal_scene *scene; /* [n_scenes], owned */
+    int n_scenes;              /* done so far */
+};
+
+/* equal_seed: of repetition i = 1, 2, ... of a variant: those of no other experiment, and of no other variant. */
+long equal_seed(int variant, int i);
+
+/* equal_growth: d ln samples / d ln time at the second of two renders, by the line through both, kept between 1 and 4;
+ * 1 where it cannot be told. */
+double equal_growth(long spp0, double seconds0, long spp1, double seconds1);
+
+/* equal_samples: how many samples per pixel take `target`, at least 1, if spp of them take `seconds`, by the line that
+ * has this growth there: farther away the law of powers would overshoot. */
+long equal_samples(long spp, double seconds, double growth, double target);
+
+enum equal_error { EQUAL_RMSE8, EQUAL_RELMSE, N_EQUAL_ERRORS };
+
+/* equal_square: the squared error of a render at T: rmse8^2 - noise8^2, the reference's own error being no fault of
+ * the render; relmse as it is. */
+double equal_square(const struct equal_render *r, double noise8, enum equal_error which);
+
+/* equal_ratio: mean over seeds of a variant's squared error over that of bdpt, with the interval of results_ratio. */
+struct interval equal_ratio(const struct equal_time *e, const struct equal_scene *s, int variant,
+                            enum equal_error which);
+
+/* equal_summarize: a variant in all scenes together; those without a ratio are left out. */
+struct equal_summary {
+    double mean, best, worst;             /* geometric mean; smallest and largest ratio */
+    const char *best_scene, *worst_scene; /* "-" if there is none */
+    int n;                                /* scenes with a ratio */
+};
+struct equal_summary equal_summarize(const struct equal_time *e, int variant, enum equal_error which);
+
+void equal_csv(FILE *f, const struct equal_time *e);
+void equal_table(FILE *f, const struct equal_time *e); /* Markdown */
+
+/* equal_write: both files, into plan->directory. Returns false with a message. */
+bool equal_write(const struct equal_time *e, struct error *err);
+
+void equal_free(struct equal_time *e);
+
+#endif

@@ -1,0 +1,199 @@
+/* test_equal_time.c: integrators given equal time: the arithmetic and the table on planted numbers, and a tiny
+ * experiment carried out. A part of the test `report`. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "lab/equal_run.h"
+#include "tests.h"
+
+/* --- bringing an error from the time taken to the time given ------------------------------------------ */
+
+/* A renderer as one imagines it: so many seconds before the first sample and for each, squared error 1 / samples. */
+static const double BEFORE = 0.3, EACH = 0.1;
+static double seconds_of(double spp) { return BEFORE + EACH * spp; }
+static double samples_in(double seconds) { return (seconds - BEFORE) / EACH; }
+
+static struct equal_render imagined(long spp, double target)
+{
+    struct equal_render r = {.seed = 1, .spp = spp, .seconds = seconds_of((double)spp), .target = target};
+    r.growth = equal_growth(4, seconds_of(4), spp, r.seconds);
+    r.rmse8 = sqrt(1 / (double)spp);
+    r.relmse = 1 / (double)spp;
+    return r;
+}
+
+/* Within 3 % of the time the law leaves a thousandth. Without it, three percent and more would be left; with the wrong
+ * sign, twice as much. */
+static void check_law(struct test *t, double off)
+{
+    double target = seconds_of(20) * (1 + off), truth = 1 / samples_in(target);
+    struct equal_render r = imagined(20, target), wrong = r;
+    wrong.growth = -r.growth;
+    double right = equal_square(&r, NAN, EQUAL_RELMSE) / truth - 1;
+    double sign = equal_square(&wrong, NAN, EQUAL_RELMSE) / truth - 1, none = r.relmse / truth - 1;
+    CHECK(t, fabs(right) < 0.001, "time off by %g: the error at T is off by %g", off, right);
+    CHECK(t, fabs(none) > 0.03 && fabs(sign) > 0.06, "without the law by %g, with the wrong sign by %g", none, sign);
+    CHECK(t, fabs(equal_square(&r, NAN, EQUAL_RMSE8) - equal_square(&r, NAN, EQUAL_RELMSE)) < 1e-12,
+          "both errors follow the same law");
+    CHECK(t, (equal_square(&r, NAN, EQUAL_RELMSE) < r.relmse) == (off > 0), "more time, less error");
+}
+
+static void check_samples(struct test *t)
+{
+    double target = 7.3;                                     /* 70 samples */
+    long first = equal_samples(4, seconds_of(4), 1, target); /* too few, as if nothing were paid before */
+    double growth = equal_growth(4, seconds_of(4), first, seconds_of((double)first));
+    long second = equal_samples(first, seconds_of((double)first), growth, target);
+    CHECK(t, first < 60 && second == 70, "70 samples take the time, %ld and then %ld are given", first, second);
+    CHECK(t, equal_samples(4, 1, 1, 1e-9) == 1, "at least one sample");
+    CHECK(t, equal_samples(4, 1, 1, 2) == 8 && equal_samples(10, 1, 1, 0.76) == 8, "the nearest number of samples");
+    CHECK(t, fabs(equal_growth(4, 1, 16, 4) - 1) < 1e-12, "time in proportion to samples: growth 1");
+    CHECK(t, equal_growth(4, 1, 4, 1.1) == 1 && equal_growth(4, 1, 5, 1) == 1 && equal_growth(4, 1, 5, 0.9) == 1,
+          "growth that cannot be told is 1");
+}
+
+/* --- the table ----------------------------------------------------------------------------------------- */
+
+enum { SCENES = 3, SEEDS = 2 };
+
+/* Planted: squared errors over bdpt's are 0.5, 4 and 1 for vertices, 0.25 for subspaces; rmse8 has twice the
+ * ratios of relmse, and noise 3 on top of it. */
+static void plant(struct plan *p, struct equal_time *e)
+{
+    static const double ratio[3][SCENES] = {{1, 1, 1}, {0.5, 4, 1}, {0.25, 0.25, 0.25}};
+    static const char *const paths[SCENES] = {"a.pbrt", "b.pbrt", "c.pbrt"};
+    memset(p, 0, sizeof *p);
+    memset(e, 0, sizeof *e);
+    p->n_scenes = SCENES;
+    p->n_seeds = SEEDS;
+    p->scene = mem_alloc(SCENES, sizeof *p->scene);
+    p->directory = "results";
+    plan_set_spp(p, 32, 32, NULL);
+    e->plan = p;
+    e->n_scenes = SCENES;
+    e->scene = mem_alloc(SCENES, sizeof *e->scene);
+    for (int i = 0; i < SCENES; i++) {
+        struct equal_scene *s = &e->scene[i];
+        s->path = p->scene[i] = paths[i];
+        s->name[0] = (char)('a' + i);
+        s->noise8 = 3;
+        for (int v = 0; v < 3; v++)
+            for (int k = 0; k < SEEDS; k++) {
+                double square = ratio[v][i] * (1 + 0.1 * k);
+                struct equal_render r = {equal_seed(v, k + 1), 32 - 8 * v, 2, 2, 1, 0, square, 0};
+                r.rmse8 = sqrt((v > 0 ? 2 : 1) * square + 9);
+                s->render[v][k] = r;
+            }
+    }
+}
+
+static bool near(double a, double b) { return fabs(a - b) < 1e-9 * fabs(b); }
+
+static void check_ratios(struct test *t, const struct equal_time *e)
+{
+    struct interval i = equal_ratio(e, &e->scene[1], 1, EQUAL_RELMSE), j = equal_ratio(e, &e->scene[1], 1, EQUAL_RMSE8);
+    double v = 2 * pow(0.05 / 1.05, 2); /* of the logarithm: both have two values of this relative distance */
+    CHECK(t, near(i.value, 4) && near(j.value, 8), "planted ratios 4 and 8, found %g and %g", i.value, j.value);
+    CHECK(t, near(log(i.high / 4), student_quantile(0.05, 2) * sqrt(v)) && near(i.low * i.high, 16),
+          "Welch's interval of two seeds each: %g to %g", i.low, i.high);
+    struct equal_summary s = equal_summarize(e, 1, EQUAL_RELMSE), all = equal_summarize(e, 2, EQUAL_RMSE8);
+    CHECK(t, near(s.mean, cbrt(2)) && near(s.best, 0.5) && near(s.worst, 4) && s.n == 3, "mean %g, best %g, worst %g",
+          s.mean, s.best, s.worst);
+    CHECK(t, strcmp(s.best_scene, "a") == 0 && strcmp(s.worst_scene, "b") == 0, "in their scenes");
+    CHECK(t, near(all.mean, 0.5) && near(all.best, 0.5) && near(all.worst, 0.5), "one ratio everywhere: %g", all.mean);
+    /* Half the time is worth twice the error; the wrong sign would make it a half. */
+    e->scene[0].render[1][0].seconds = e->scene[0].render[1][1].seconds = 4;
+    CHECK(t, near(equal_ratio(e, &e->scene[0], 1, EQUAL_RELMSE).value, 1), "an error reached in twice the time");
+    e->scene[0].render[1][0].seconds = e->scene[0].render[1][1].seconds = 2;
+    e->scene[0].render[2][0].rmse8 = e->scene[0].render[2][1].rmse8 = 2; /* below the noise */
+    all = equal_summarize(e, 2, EQUAL_RMSE8);
+    CHECK(t, all.n == 2 && near(all.mean, 0.5), "a scene whose ratio cannot be told is left out");
+}
+
+/* What the writer puts into a file, as text to be freed. */
+static char *written(struct test *t, const struct equal_time *e, void (*write)(FILE *, const struct equal_time *))
+{
+    char path[512];
+    snprintf(path, sizeof path, "%s/equal", test_tmp(t));
+    char *text = mem_alloc(1 << 16, 1);
+    FILE *f = fopen(path, "w+");
+    if (!CHECK(t, f != NULL, "%s", path))
+        return text;
+    write(f, e);
+    rewind(f);
+    text[fread(text, 1, (1 << 16) - 1, f)] = '\0';
+    fclose(f);
+    return text;
+}
+
+static void check_files(struct test *t, const struct equal_time *e)
+{
+    static const char *const lines[] = {
+        "| scene | seconds | spp: bdpt, vertices, subspaces | ASBDPT vertices, rmse8 | ASBDPT vertices, relmse |",
+        "| b | 2 | 32, 24, 16 | 8.000 [",
+        "| **geometric mean** | | | **2.520** of 3 | **1.260** of 3 |",
+        "| **best** | | | **1.000** a | **0.500** a |",
+        "| **WORST** | | | **8.000** b | **4.000** b |",
+        "- ASBDPT vertices: 6 of 6 renders took the given time within 3 %",
+        "./asbdpt experiment --equal-time --spp 32 --seeds 2 --reference-spp 0 -o results \\\n",
+        "\n        a.pbrt b.pbrt c.pbrt\n"};
+    char *table = written(t, e, equal_table), *csv = written(t, e, equal_csv);
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
+        CHECK(t, strstr(table, lines[i]) != NULL, "the table lacks %s:\n%s", lines[i], table);
+    CHECK(t, strncmp(csv, "scene,variant,seed,spp,seconds,rmse8,relmse,", 44) == 0, "head of the CSV: %.60s", csv);
+    CHECK(t, strstr(csv, "\nb,vertices,5102,24,2,") != NULL, "a line of the CSV:\n%s", csv);
+    free(table);
+    free(csv);
+}
+
+/* --- carried out --------------------------------------------------------------------------------------- */
+
+static void check_run(struct test *t)
+{
+    const char *scene[1] = {"scenes/cornell-box.pbrt"};
+    char directory[300];
+    struct error err = {""};
+    struct plan p = {.scene = scene, .n_scenes = 1, .n_seeds = 2, .width = 8, .height = 8, .n_threads = 1};
+    struct equal_time e = {.plan = &p, .seconds = 0.02};
+    snprintf(directory, sizeof directory, "%s/equal-time", test_tmp(t));
+    p.directory = directory;
+    p.quiet = true;
+    plan_set_spp(&p, 32, 32, NULL);
+    for (int bdpt = 0; bdpt < 2; bdpt++) { /* so many seconds; the time of bdpt */
+        e.seconds = bdpt ? 0 : 0.02;
+        if (!CHECK(t, equal_run(&e, &err), "%s", err.text))
+            break;
+        const struct equal_scene *s = &e.scene[0];
+        CHECK(t, e.n_scenes == 1 && s->width == 8 && s->max_depth == 6, "width %d, depth %d", s->width, s->max_depth);
+        CHECK(t, isfinite(s->noise8) && s->noise8 > 0, "the stored reference's noise: %g", s->noise8);
+        for (int v = 0; v < equal_variants(); v++)
+            for (int i = 0; i < 2; i++) {
+                const struct equal_render *r = &s->render[v][i];
+                CHECK(t, r->seed == 5000 + 100 * v + i + 1 && r->spp >= 1 && r->rmse8 > 0 && r->relmse > 0,
+                      "seed %ld, %ld spp, rmse8 %g, relmse %g", r->seed, r->spp, r->rmse8, r->relmse);
+                CHECK(t, r->target == (bdpt ? s->render[0][i].seconds : 0.02), "time given: %g", r->target);
+            }
+        CHECK(t, !bdpt || s->render[0][0].spp == 32, "bdpt's samples: %ld", s->render[0][0].spp);
+        equal_free(&e);
+    }
+    equal_free(&e);
+}
+
+void test_equal_time(struct test *t)
+{
+    struct plan p;
+    struct equal_time e;
+    check_law(t, 0.03);
+    check_law(t, -0.03);
+    check_samples(t);
+    CHECK(t, strcmp(EQUAL_VARIANTS[0].name, "bdpt") == 0 && equal_variants() < EQUAL_MAX, "bdpt is the first variant");
+    plant(&p, &e);
+    check_files(t, &e);
+    check_ratios(t, &e);
+    equal_free(&e);
+    free(p.scene);
+    check_run(t);
+}
