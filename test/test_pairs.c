@@ -69,35 +69,42 @@ static void learn(struct rng *r, struct regions *eye, struct regions *light, int
     pair_lessons_free(&l);
 }
 
-static void test_learning(struct test *t, struct rng *r)
+/* Root mean square of the relative error of h, and, in *planted, of h as seen from the other side. */
+static double error_of(struct rng *r, const struct regions *eye, const struct regions *light, const struct pairs *p,
+                       double *planted)
+{
+    double square = 0, other_square = 0;
+    const vec3 up = vec(0, 0, 1);
+    for (int i = 0; i < POINTS; i++) {
+        vec3 e = random_point(r), y = random_point(r), other = vec(-e.x, e.y, e.z);
+        double mean = 3 * (true_worth(e, vec(-1, 0, 0)) + true_worth(e, vec(1, 0, 0))) / 2; /* over a sub-path */
+        double h = pairs_row(p, region_at(eye, e, up))[region_at(light, y, up)];
+        double h_other = pairs_row(p, region_at(eye, other, up))[region_at(light, y, up)];
+        double truth = 0.9 * true_worth(e, y) / mean + 0.1 / 3;
+        square += (h / truth - 1) * (h / truth - 1) / POINTS;
+        other_square += (h_other / truth - 1) * (h_other / truth - 1) / POINTS;
+    }
+    *planted = sqrt(other_square);
+    return sqrt(square);
+}
+
+static void test_learning(struct test *t, struct rng *r, int trials, double bound)
 {
     struct regions eye, light;
     struct pairs p;
     double vertices[8192] = {0};
-    const vec3 up = vec(0, 0, 1);
     regions_init(&eye, vec(0, 0, 0), 1, 4, REGION_LEVELS, 8192);
     regions_init(&light, vec(0, 0, 0), 1, CELLS, REGION_LEVELS, 8192);
-    learn(r, &eye, &light, 2000000, vertices, &p);
+    learn(r, &eye, &light, trials, vertices, &p);
     for (int e = 0; e < p.n_eye; e++) {
         double sum = 0;
         for (int y = 0; y < p.n_light; y++)
             sum += vertices[y] * pairs_row(&p, e)[y];
         CHECK(t, fabs(sum - 1) < 1e-9, "worth of region %d over a light sub-path is %.12f", e, sum);
     }
-    /* Of 64 x 512 pairs some 60 trials each, of relative deviation 1.7: 22 %. The worth must show the four values, and
-     * not those of others. */
-    double square = 0, planted = 0;
-    for (int i = 0; i < POINTS; i++) {
-        vec3 e = random_point(r), y = random_point(r), other = vec(-e.x, e.y, e.z);
-        double mean = 3 * (true_worth(e, vec(-1, 0, 0)) + true_worth(e, vec(1, 0, 0))) / 2; /* over a sub-path */
-        double h = pairs_row(&p, region_at(&eye, e, up))[region_at(&light, y, up)];
-        double h_other = pairs_row(&p, region_at(&eye, other, up))[region_at(&light, y, up)];
-        double truth = 0.9 * true_worth(e, y) / mean + 0.1 / 3;
-        square += (h / truth - 1) * (h / truth - 1) / POINTS;
-        planted += (h_other / truth - 1) * (h_other / truth - 1) / POINTS;
-    }
-    CHECK(t, sqrt(square) < 0.25, "the worth of pairs is off by %.0f %%", 100 * sqrt(square));
-    CHECK(t, sqrt(planted) > 0.5, "the worth seen from the wrong side passes: %.0f %%", 100 * sqrt(planted));
+    double planted, error = error_of(r, &eye, &light, &p, &planted);
+    CHECK(t, error < bound, "%d trials: the worth of pairs is off by %.0f %%", trials, 100 * error);
+    CHECK(t, planted > 0.5, "%d trials: seen from the wrong side the worth passes: %.0f %%", trials, 100 * planted);
     pairs_free(&p);
     regions_free(&eye);
     regions_free(&light);
@@ -107,5 +114,8 @@ void test_pairs(struct test *t)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 90, 0);
     test_regions(t, &r);
-    test_learning(t, &r);
+    /* 64 x 512 pairs. 60 trials each, of relative deviation 1.7, leave 22 %; with one trial in two pairs all rests on the
+     * regions above them. */
+    test_learning(t, &r, 2000000, 0.25);
+    test_learning(t, &r, 16000, 0.4);
 }

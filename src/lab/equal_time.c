@@ -11,6 +11,8 @@ const struct variant EQUAL_VARIANTS[EQUAL_MAX] = {
     {"bdpt", "BDPT", "bdpt", NULL, 0, 0, true, false},
     {"vertices", "ASBDPT vertices", "asbdpt", "vertices", 0, 0, true, false},
     {"subspaces", "ASBDPT subspaces", "asbdpt", "subspaces", 0, 0, true, true},
+    {"lvc", "light vertex cache", "asbdpt", "lvc", 0, 0, true, false},
+    {"combinatorial", "combinatorial BDPT", "asbdpt", "combinatorial", 0, 0, true, false},
     {.name = NULL},
 };
 
