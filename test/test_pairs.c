@@ -114,8 +114,8 @@ void test_pairs(struct test *t)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 90, 0);
     test_regions(t, &r);
-    /* 64 x 512 pairs. 60 trials each, of relative deviation 1.7, leave 22 %; with one trial in two pairs all rests on the
-     * regions above them. */
+    /* 64 x 512 pairs. 60 trials each, of relative deviation 1.7, leave 22 %; with one trial in two pairs all rests on
+     * the regions above them. */
     test_learning(t, &r, 2000000, 0.25);
     test_learning(t, &r, 16000, 0.4);
 }
