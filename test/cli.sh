@@ -188,7 +188,7 @@ tiny="--res 8x8 --seeds 2 --quiet"
 expect 0 '' "$program" experiment --equal-time "$box" $tiny --spp 2 -o equal
 check grep -q 'geometric mean' stdout.txt
 check cmp -s stdout.txt equal/equal-time.md
-check [ "$(grep -c '^cornell-box,' equal/equal-time.csv)" = 6 ]
+check [ "$(grep -c '^cornell-box,' equal/equal-time.csv)" = 10 ]
 check grep -q '^cornell-box,bdpt,5002,2,' equal/equal-time.csv
 expect 0 '' "$program" experiment "$box" --equal-time 0.01 $tiny -o equal
 check grep -q -e '--equal-time 0.01 --seeds 2' stdout.txt
