@@ -81,7 +81,7 @@ struct prepass {
 
 static bool trying_pairs(const struct prepass *p) { return p->wish->pairs && p->round > 0; }
 
-static void note(struct chunk *c, struct found f)
+static void list_found(struct chunk *c, struct found f)
 {
     bool nothing = f.kind != TRIAL && !(f.x > 1e-290); /* sums of them, and their shares of sums, stay finite */
     if (nothing || !(f.x >= 0) || !fits_float(f.x))
@@ -147,7 +147,7 @@ static void try_pairs(const struct prepass *p, struct chunk *c, const struct lig
         f.light = regions_key(&p->learnt->light, y->y->p, y->y->ng);
         f.x = rgb_luminance(found.value) / (beta * y->L) * (d2 > 0 ? d2 / (d2 + near2) : 0);
         f.w = beta / y->useful;
-        note(c, f);
+        list_found(c, f);
     }
 }
 
@@ -162,12 +162,12 @@ static void examine_eye_vertex(const struct prepass *p, struct chunk *c, const s
     visit.light = regions_key(&p->learnt->light, z->p, z->ng);
     visit.x = rgb_luminance(z->beta);
     visit.cell = z->first;
-    note(c, visit);
+    list_found(c, visit);
     for (int i = 0; p->wish->guide && i < LIGHTS_PER_VERTEX; i++) {
         struct found seen = {.kind = LIGHT_SEEN, .eye = visit.eye};
         seen.x = rgb_luminance(connect_direct(p->job->scene, &p->counts, z, sampler, &seen.cell).value);
         if (seen.x > 0)
-            note(c, seen);
+            list_found(c, seen);
     }
     if (trying_pairs(p))
         try_pairs(p, c, s, z, sampler);
@@ -243,7 +243,7 @@ static void trace_light_chunk(void *context, int64_t job, int slot, int thread)
             struct found f = {.kind = LIGHT_VERTEX, .light = regions_key(&p->learnt->light, y->p, y->ng)};
             f.x = rgb_luminance(y->beta);
             if (vertex_connectible(y))
-                note(&p->chunk[slot], f);
+                list_found(&p->chunk[slot], f);
         }
     }
 }

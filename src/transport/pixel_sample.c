@@ -49,7 +49,8 @@ double pixel_light_count(const struct render_job *job)
 
 /* --- sums of connections ----------------------------------------------------------------------------- */
 
-static rgb take(struct pixel_sample *g, struct connection c, int s, int t, double scale)
+/* A strategy's weighted share of the pixel; what it is made of is kept where pictures of single strategies are wanted. */
+static rgb weigh(struct pixel_sample *g, struct connection c, int s, int t, double scale)
 {
     if (rgb_is_black(c.value))
         return rgb_black();
@@ -64,7 +65,7 @@ static rgb sum_direct(struct pixel_sample *g, const struct vertex *z, int t)
     rgb sum = rgb_black();
     int n = t == 2 ? g->lights : 1;
     for (int i = 0; i < n; i++)
-        sum = rgb_add(sum, take(g, connect_direct(g->scene, g->counts, z, &g->sampler, NULL), 1, t, 1.0 / n));
+        sum = rgb_add(sum, weigh(g, connect_direct(g->scene, g->counts, z, &g->sampler, NULL), 1, t, 1.0 / n));
     return sum;
 }
 
@@ -74,7 +75,7 @@ rgb pixel_sum_eye(struct pixel_sample *g, const struct vertex *eye, int n)
     for (int t = 2; t <= n; t++) {
         const struct vertex *z = &eye[t - 1];
         if (t == 2 || g->counts->hit > 0)
-            sum = rgb_add(sum, take(g, connect_hit(g->scene, g->counts, eye, t), 0, t, 1));
+            sum = rgb_add(sum, weigh(g, connect_hit(g->scene, g->counts, eye, t), 0, t, 1));
         if (g->counts->direct[0] > 0 && t <= g->max_depth + 1 && z->kind == VERTEX_SURFACE)
             sum = rgb_add(sum, sum_direct(g, z, t));
     }
@@ -83,7 +84,7 @@ rgb pixel_sum_eye(struct pixel_sample *g, const struct vertex *eye, int n)
 
 rgb pixel_sum_pair(struct pixel_sample *g, const struct vertex *y, int s, const struct vertex *z, int t, double scale)
 {
-    return take(g, connect_pair(g->scene, g->counts, y, z), s, t, scale);
+    return weigh(g, connect_pair(g->scene, g->counts, y, z), s, t, scale);
 }
 
 rgb pixel_sum_pairs(struct pixel_sample *g, const struct vertex *eye, int n_eye, const struct vertex *light,
