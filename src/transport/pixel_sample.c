@@ -49,7 +49,8 @@ double pixel_light_count(const struct render_job *job)
 
 /* --- sums of connections ----------------------------------------------------------------------------- */
 
-/* A strategy's weighted share of the pixel; what it is made of is kept where pictures of single strategies are wanted. */
+/* A strategy's weighted share of the pixel; what it is made of is kept where pictures of single strategies are wanted.
+ * */
 static rgb weigh(struct pixel_sample *g, struct connection c, int s, int t, double scale)
 {
     if (rgb_is_black(c.value))
