@@ -196,9 +196,8 @@ void pilot_set_draws(struct selection *sel, double C)
 static void costs(const struct selection *sel, double *fixed, double *cost)
 {
     const double CONNECTION = 0.6, POINT = 0.8;
-    double n_eye = sel->importance.eye_vertices, n_first = sel->importance.first_vertices, n_light = 0;
-    for (int i = 0; i < sel->learnt.light.n; i++)
-        n_light += sel->importance.vertices[i];
+    double n_eye = sel->importance.eye_vertices, n_first = sel->importance.first_vertices;
+    double n_light = sel->importance.light_vertices;
     *fixed = 1 + n_eye;
     cost[DRAW_FIRST] = CONNECTION * n_first;
     cost[DRAW_LATER] = CONNECTION * (n_eye - n_first);

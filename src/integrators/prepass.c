@@ -4,7 +4,6 @@
 
 #include <stdlib.h>
 
-#include "transport/connect.h"
 #include "base/number.h"
 #include "base/parallel.h"
 #include "transport/connect.h"
@@ -98,15 +97,16 @@ static struct walk walk_of(const struct prepass *p, struct arena *arena, struct 
 
 /* --- trials between pairs of regions ----------------------------------------------------------------- */
 
-/* Trace the light sub-paths of a chunk. */
-static void fill_stock(const struct prepass *p, struct light_stock *s, long chunk)
+/* Trace the light sub-paths of the chunk whose first eye sub-path is number `first`: a name no other chunk has, in
+ * whatever round. */
+static void fill_stock(const struct prepass *p, struct light_stock *s, long first)
 {
     int longest = p->job->max_depth + 1;
     arena_reset(&s->arena);
     s->n = 0;
     s->total = 0;
     for (long k = 0; k < POOL; k++) {
-        struct sampler sampler = sampler_start(p->job->seed, RNG_PREPASS, (uint64_t)(chunk * POOL + k), STREAM_POOL);
+        struct sampler sampler = sampler_start(p->job->seed, RNG_PREPASS, (uint64_t)(first * POOL + k), STREAM_POOL);
         struct walk w = walk_of(p, &s->arena, &sampler);
         struct vertex *path = &s->vertex[k * longest];
         int n = path_light(&w, path, longest);
@@ -182,7 +182,7 @@ static void trace_eye_chunk(void *context, int64_t job, int slot, int thread)
     long first = p->first_path + (long)job * CHUNK, end = first + CHUNK < p->n_paths ? first + CHUNK : p->n_paths;
     p->chunk[slot].n = 0;
     if (trying_pairs(p))
-        fill_stock(p, &p->stock[thread], first / CHUNK);
+        fill_stock(p, &p->stock[thread], first);
     for (long i = first; i < end; i++) {
         arena_reset(&work->arena);
         struct sampler sampler = sampler_start(p->job->seed, RNG_PREPASS, (uint64_t)i, STREAM_EYE);
