@@ -160,6 +160,14 @@ expect 0 '' "$program" compare a.pfm b.pfm --json
 check grep -q '"rmse": 0, "rmse8": 0, "relmse": 0, "mean_ratio": 1, "nonfinite": 0' stdout.txt
 expect 0 '' "$program" compare a.png a.ppm --heatmap heat.png
 check [ -s heat.png ]
+check grep -q '^psnr       inf' stdout.txt
+check grep -q '^heatmap    0 to 0 (percentile)' stdout.txt
+check [ ! -s stderr.txt ]
+expect 0 'a.png holds sRGB values from 0 to 1, a.pfm linear ones' \
+    "$program" compare a.png a.pfm --heatmap heat.png --max 2
+check grep -q '^heatmap    0 to 2$' stdout.txt
+expect 0 'b.pfm linear ones' "$program" compare b.pfm a.ppm --json
+expect 2 'expected a number from 1e-30' "$program" compare a.pfm b.pfm --heatmap heat.png --max 0
 expect 0 '' "$program" render "$box" --res 8x8 --spp 1 --quiet -o c.pfm
 expect 1 'equal size' "$program" compare a.pfm c.pfm
 expect 1 'stdout.txt' "$program" compare stdout.txt a.pfm
@@ -175,9 +183,13 @@ expect 0 '' "$program" verify "$box" --methods bdpt,bdpt --res 12x12 --spp 8 --m
 check grep -q 'verdict: agree' stdout.txt
 expect 1 '' "$program" verify "$box" --methods bdpt --spp 4 --quiet --reference "$scenes/../ref/veach-ajar.pfm"
 check grep -q 'verdict: DIFFER' stdout.txt
-# A picture against itself is too alike to be independent.
-expect 1 '' "$program" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" \
+# A picture against itself is identical; with other errors it is too alike to be independent.
+expect 0 '' "$program" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" \
     "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm"
+check grep -q '^verdict: identical' stdout.txt
+expect 1 '' "$program" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" \
+    "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.pfm"
+check grep -q '^verdict: DIFFER' stdout.txt
 expect 1 'same size' "$program" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" \
     a.pfm a.pfm
 expect 2 'usage: asbdpt verify' "$program" verify --images a.pfm

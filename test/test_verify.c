@@ -1,10 +1,11 @@
 /* test_verify.c: `verify` accepts what is equal, rejects what is not, and its p-values are uniform. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/rng.h"
-#include "image/picture.h"
 #include "base/stats.h"
+#include "image/colormap.h"
 #include "image/picture.h"
 #include "lab/compare.h"
 #include "lab/sides.h"
@@ -161,6 +162,43 @@ static void test_compare(struct test *t)
     const float broken[2] = {NAN, 1}, whole[2] = {1, 1};
     d = compare_pixels(broken, whole, 2);
     CHECK(t, d.nonfinite == 1 && d.rmse == 0, "a NaN is counted %ld times and changes rmse to %g", d.nonfinite, d.rmse);
+    CHECK(t, isinf(d.psnr) && d.psnr > 0, "psnr of equal values is %g", d.psnr);
+    const float black = 0, white = 1;
+    d = compare_pixels(&black, &white, 1);
+    CHECK(t, d.rmse8 == 255 && d.psnr == 0, "psnr of black for white is %g", d.psnr);
+}
+
+/* Errors of pixels, what percentile they have, and their colours. */
+static void test_heatmap(struct test *t)
+{
+    enum { N = 101 };
+    float x[3 * N] = {0}, r[3 * N] = {0}, error[N], map[3 * N], stop[3];
+    for (int i = 0; i < N; i++)
+        x[3 * i + 1] = (float)(i * sqrt(3)); /* the error of pixel i is i */
+    compare_errors(x, r, N, error);
+    for (int i = 0; i < N; i++)
+        CHECK(t, fabs((double)error[i] - i) < 1e-4, "error of pixel %d is %g", i, (double)error[i]);
+    for (int percent = 1; percent <= 100; percent += 9) {
+        double p = compare_percentile(error, N, percent); /* N errors 0, 1 ... : rank ceil(1.01 percent) */
+        CHECK(t, fabs(p - (ceil(1.01 * percent) - 1)) < 1e-4, "percentile %d is %g", percent, p);
+    }
+    compare_heatmap(error, N, 50, map);
+    for (int i = 0; i < N; i += 25) {
+        viridis(i / 50.0, stop);
+        for (int c = 0; c < 3; c++)
+            CHECK(t, fabs((double)map[3 * i + c] - (double)stop[c]) < 1e-5, "colour of pixel %d", i);
+    }
+    x[3 * 100] = NAN; /* is shown as the largest, and does not set the scale */
+    compare_errors(x, r, N, error);
+    double largest = compare_percentile(error, N, 100);
+    CHECK(t, isinf((double)error[100]) && fabs(largest - 99) < 1e-4, "largest: %g, for NaN %g", largest,
+          (double)error[100]);
+    compare_heatmap(error, N, 98, map);
+    CHECK(t, memcmp(&map[300], &map[297], 3 * sizeof *map) == 0, "a NaN has not the brightest colour");
+    compare_heatmap(error, 1, 0, map);
+    viridis(0, stop);
+    CHECK(t, memcmp(map, stop, sizeof stop) == 0, "without any error all is dark");
+    CHECK(t, compare_percentile(error + 100, 1, 99) == 0, "percentile where nothing is finite");
 }
 
 /* bdpt and pt agree on the Cornell box; bins, with the same samples, does not agree with either. */
@@ -187,6 +225,7 @@ void test_verify(struct test *t)
     test_tiles(t);
     test_store(t);
     test_compare(t);
+    test_heatmap(t);
     test_level(t, 0);
     test_level(t, 0.5);
     test_power(t);

@@ -32,6 +32,7 @@ void test_streams(struct test *t);
 void test_threads(struct test *t);
 void test_verify(struct test *t);
 void test_sampler(struct test *t);
+void test_sheet(struct test *t);
 void test_shape(struct test *t);
 void test_stats(struct test *t);
 void test_texture(struct test *t);

@@ -10,6 +10,7 @@
 
 struct compare_options {
     const char *image, *reference, *heatmap;
+    double most, percentile; /* of the heat map's colours; most 0: the percentile decides */
     bool json;
 };
 
@@ -17,11 +18,15 @@ struct compare_options {
 static const struct option OPTIONS[] = {
     {"IMAGE", NULL, OPTION_TEXT, AT(image), 1, .help = "a picture"},
     {"REFERENCE", NULL, OPTION_TEXT, AT(reference), 1, .help = "a picture of the same size"},
-    {"--heatmap", "FILE.png", OPTION_TEXT, AT(heatmap), .help = "write where they differ"},
+    {"--heatmap", "FILE.png", OPTION_TEXT, AT(heatmap), .help = "write where they differ, as colours (viridis)"},
+    {"--max", "X", OPTION_NUMBER, AT(most), 1e-30, 1e30, .help = "the brightest colour stands for this error"},
+    {"--percentile", "P", OPTION_NUMBER, AT(percentile), 1, 100, .fallback = "99",
+     .help = "without --max: for this percentile of all errors"},
     {"--json", NULL, OPTION_ON, AT(json), .help = "print an object of JSON"},
     {.name = NULL},
 };
 
+/* The object of JSON has what it always had; psnr follows from rmse8. */
 static void print(const struct difference *d, bool json)
 {
     static const char *const names[] = {"rmse", "rmse8", "relmse", "mean_ratio"};
@@ -34,29 +39,48 @@ static void print(const struct difference *d, bool json)
         else /* JSON has no infinity or NaN */
             printf("%s\"%s\": null", i == 0 ? "{" : ", ", names[i]);
     printf(json ? ", \"nonfinite\": %ld}\n" : "nonfinite  %ld\n", d->nonfinite);
+    if (!json)
+        printf("psnr       %.6g\n", d->psnr);
 }
 
-static bool write_heatmap(const char *path, const float *x, const float *r, int width, int height, struct error *err)
+static bool write_heatmap(const struct compare_options *o, const float *x, const float *r, int width, int height,
+                          struct error *err)
 {
-    float *map = mem_alloc((size_t)width * (size_t)height * 3, sizeof *map);
-    compare_heatmap(x, r, (long)width * height, map);
-    bool ok = image_write(path, width, height, map, err);
+    long pixels = (long)width * height;
+    float *error = mem_alloc((size_t)pixels, sizeof *error), *map = mem_alloc((size_t)pixels * 3, sizeof *map);
+    compare_errors(x, r, pixels, error);
+    double most = o->most > 0 ? o->most : compare_percentile(error, pixels, o->percentile);
+    compare_heatmap(error, pixels, most, map);
+    bool ok = image_write(o->heatmap, width, height, map, err);
+    if (ok)
+        fprintf(o->json ? stderr : stdout, "heatmap    0 to %.6g%s\n", most, o->most > 0 ? "" : " (percentile)");
+    free(error);
     free(map);
     return ok;
+}
+
+/* What 8 bits cut off and round counts as error. */
+static void warn_of_display(const char *display, const char *linear)
+{
+    fprintf(stderr, "asbdpt: warning: %s holds sRGB values from 0 to 1, %s linear ones: what the first cut off and "
+                    "rounded counts as error\n", display, linear);
 }
 
 static bool compare_files(const struct compare_options *o, struct error *err)
 {
     int w1, h1, w2, h2;
-    float *x = load_linear(o->image, &w1, &h1, err), *r = NULL;
-    bool ok = x != NULL && (r = load_linear(o->reference, &w2, &h2, err)) != NULL;
+    bool display1, display2;
+    float *x = load_linear(o->image, &w1, &h1, &display1, err), *r = NULL;
+    bool ok = x != NULL && (r = load_linear(o->reference, &w2, &h2, &display2, err)) != NULL;
     if (ok && (w1 != w2 || h1 != h2))
         ok = error_set(err, "%s is %dx%d but %s is %dx%d; only images of equal size can be compared", o->image, w1, h1,
                        o->reference, w2, h2);
     if (ok) {
         struct difference d = compare_pixels(x, r, (long)w1 * h1 * 3);
+        if (display1 != display2)
+            warn_of_display(display1 ? o->image : o->reference, display1 ? o->reference : o->image);
         print(&d, o->json);
-        ok = o->heatmap == NULL || write_heatmap(o->heatmap, x, r, w1, h1, err);
+        ok = o->heatmap == NULL || write_heatmap(o, x, r, w1, h1, err);
     }
     free(x);
     free(r);
@@ -70,5 +94,5 @@ static int run(void *options)
 }
 
 const struct command command_compare = {
-    "compare", "how far apart two pictures are", {"IMAGE REFERENCE [--heatmap FILE.png] [--json]"}, OPTIONS,
+    "compare", "how far apart two pictures are", {"IMAGE REFERENCE [--heatmap FILE.png [--max X]] [--json]"}, OPTIONS,
     sizeof(struct compare_options), run};

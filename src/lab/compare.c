@@ -3,13 +3,15 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/mem.h"
+#include "image/colormap.h"
 #include "image/image.h"
 
 struct difference compare_pixels(const float *x, const float *r, long n)
 {
-    struct difference d = {0, 0, 0, 1, 0};
+    struct difference d = {0, 0, 0, 1, 0, HUGE_VAL};
     double sum_x = 0, sum_r = 0, square = 0, square8 = 0, relative = 0;
     for (long i = 0; i < n; i++) {
         double a = (double)x[i], b = (double)r[i];
@@ -28,6 +30,7 @@ struct difference compare_pixels(const float *x, const float *r, long n)
     if (count > 0) {
         d.rmse = sqrt(square / count);
         d.rmse8 = sqrt(square8 / count);
+        d.psnr = d.rmse8 > 0 ? 20 * log10(255 / d.rmse8) : HUGE_VAL;
         d.relmse = relative / count;
     }
     if (sum_r != 0 || sum_x != 0)
@@ -35,27 +38,42 @@ struct difference compare_pixels(const float *x, const float *r, long n)
     return d;
 }
 
-static double pixel_error(const float *x, const float *r)
+void compare_errors(const float *x, const float *r, long pixels, float *out)
 {
-    double sum = 0;
-    for (int c = 0; c < 3; c++) {
-        double e = (double)x[c] - (double)r[c];
-        sum += e * e;
+    for (long i = 0; i < pixels; i++) {
+        double sum = 0;
+        for (long k = 3 * i; k < 3 * i + 3; k++) {
+            double e = (double)x[k] - (double)r[k];
+            sum += e * e;
+        }
+        out[i] = isfinite(sum) ? (float)sqrt(sum / 3) : INFINITY;
     }
-    return isfinite(sum) ? sqrt(sum / 3) : 0;
 }
 
-void compare_heatmap(const float *x, const float *r, long pixels, float *out)
+static int by_size(const void *a, const void *b)
 {
-    double largest = 0;
+    float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+double compare_percentile(const float *error, long n, double percent)
+{
+    float *sorted = mem_alloc((size_t)n, sizeof *sorted);
+    memcpy(sorted, error, (size_t)n * sizeof *sorted);
+    qsort(sorted, (size_t)n, sizeof *sorted, by_size);
+    long rank = (long)ceil(percent / 100 * (double)n); /* the nearest rank, from 1; n at most */
+    long at = rank > 0 ? rank - 1 : 0;
+    while (at > 0 && isinf(sorted[at]))
+        at--;
+    double found = n > 0 && isfinite(sorted[at]) ? (double)sorted[at] : 0;
+    free(sorted);
+    return found;
+}
+
+void compare_heatmap(const float *error, long pixels, double most, float *out)
+{
     for (long i = 0; i < pixels; i++)
-        largest = fmax(largest, pixel_error(x + 3 * i, r + 3 * i));
-    for (long i = 0; i < pixels; i++) {
-        double e = largest > 0 ? pixel_error(x + 3 * i, r + 3 * i) / largest : 0;
-        out[3 * i] = 0;
-        out[3 * i + 1] = (float)srgb_decode(e);
-        out[3 * i + 2] = (float)srgb_decode(1 - e);
-    }
+        viridis(most > 0 ? (double)error[i] / most : 0, out + 3 * i);
 }
 
 static float linear_value(const struct image *img, size_t i)
@@ -65,7 +83,7 @@ static float linear_value(const struct image *img, size_t i)
     return (float)srgb_decode(img->u8 != NULL ? img->u8[i] / 255.0 : (double)img->f32[i]);
 }
 
-float *load_linear(const char *path, int *width, int *height, struct error *err)
+float *load_linear(const char *path, int *width, int *height, bool *display, struct error *err)
 {
     struct image img;
     if (!image_read(path, &img, err))
@@ -77,6 +95,8 @@ float *load_linear(const char *path, int *width, int *height, struct error *err)
             out[3 * i + c] = linear_value(&img, img.channels == 3 ? 3 * i + c : i);
     *width = img.width;
     *height = img.height;
+    if (display != NULL)
+        *display = !img.linear;
     image_free(&img);
     return out;
 }

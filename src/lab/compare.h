@@ -5,6 +5,8 @@
 #ifndef ASBDPT_COMPARE_H
 #define ASBDPT_COMPARE_H
 
+#include <stdbool.h>
+
 #include "base/error.h"
 
 /* Errors over all pixels and channels. Pairs with a NaN or infinity are counted and left out. */
@@ -14,17 +16,28 @@ struct difference {
     double relmse;     /* mean of (x - r)^2 / (r^2 + 0.01) */
     double mean_ratio; /* mean of x over mean of r; 0/0 is 1 */
     long nonfinite;
+    double psnr;       /* 20 log10(255 / rmse8), in decibels; infinite where rmse8 is 0 */
 };
 
 /* compare_pixels: x and r are [n] linear values. */
 struct difference compare_pixels(const float *x, const float *r, long n);
 
-/* compare_heatmap: per-pixel error from blue (lowest) to green (highest), normalised by the largest.
- *   x, r  [pixels*3];  out  [pixels*3], linear values ready for image_write */
-void compare_heatmap(const float *x, const float *r, long pixels, float *out);
+/* compare_errors: of each pixel the root mean square of its channels' errors; infinite where it is not finite.
+ *   x, r  [pixels*3];  out  [pixels] */
+void compare_errors(const float *x, const float *r, long pixels, float *out);
+
+/* compare_percentile: the smallest of n errors that at least `percent` % of them, 0 to 100, do not exceed. Infinite
+ * ones count as the largest finite one. 0 if there is none. */
+double compare_percentile(const float *error, long n, double percent);
+
+/* compare_heatmap: errors as colours, from viridis' dark end for none to its bright end for `most` and above; all dark
+ * if that is 0.
+ *   out  [pixels*3], linear values ready for image_write */
+void compare_heatmap(const float *error, long pixels, double most, float *out);
 
 /* load_linear: read any picture as linear RGB floats [height*width*3], top row first, to be freed. 8-bit files are
- * decoded from sRGB. NULL with a message. */
-float *load_linear(const char *path, int *width, int *height, struct error *err);
+ * decoded from sRGB. NULL with a message.
+ *   display  becomes whether the file holds display values, in [0,1] and sRGB encoded; may be NULL */
+float *load_linear(const char *path, int *width, int *height, bool *display, struct error *err);
 
 #endif

@@ -227,7 +227,7 @@ static bool render_run(struct scene_experiment *s, int variant, int seed, const 
 static float *read_picture(const struct scene_experiment *s, const char *path)
 {
     int w, h;
-    float *pixels = load_linear(path, &w, &h, NULL);
+    float *pixels = load_linear(path, &w, &h, NULL, NULL);
     if (pixels == NULL || (w == s->out->width && h == s->out->height))
         return pixels;
     free(pixels);

@@ -6,6 +6,8 @@
  */
 #include "lab/page.h"
 
+#include "image/colormap.h"
+
 static const char *const STYLE[] = {
     ":root{color-scheme:light "
     "dark;--ink:#1b1f24;--soft:#57606a;--page:#fff;--panel:#f5f7f9;--line:#d0d7de;--accent:#0b62a8}",
@@ -36,7 +38,7 @@ static const char *const STYLE[] = {
     ".plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,26rem),1fr));gap:1rem}",
     ".plots .plot{width:100%;border:1px solid var(--line);border-radius:6px}",
     ".scale{display:flex;gap:.6rem;align-items:center;font-size:.85rem;color:var(--soft)}",
-    ".scale i{flex:0 1 14rem;height:.8rem;background:linear-gradient(90deg,#00f,#0f0);print-color-adjust:exact}",
+    ".scale i{flex:0 1 14rem;height:.8rem;print-color-adjust:exact}",
     /* The viewer. */
     ".viewer{background:var(--panel);border:1px solid var(--line);border-radius:6px;padding:.7rem;margin:1rem 0}",
     ".viewer fieldset{border:0;margin:0;padding:0;display:inline-flex;flex-wrap:wrap;gap:.2rem 1rem}",
@@ -341,5 +343,13 @@ static void write_lines(FILE *f, const char *const *line, size_t n)
         fprintf(f, "%s\n", line[i]);
 }
 
-void page_style(FILE *f) { write_lines(f, STYLE, sizeof STYLE / sizeof STYLE[0]); }
+void page_style(FILE *f)
+{
+    write_lines(f, STYLE, sizeof STYLE / sizeof STYLE[0]);
+    fputs(".scale i{background:linear-gradient(90deg", f);
+    for (int i = 0; i < VIRIDIS_STOPS; i++)
+        fprintf(f, ",rgb(%d,%d,%d)", VIRIDIS[i][0], VIRIDIS[i][1], VIRIDIS[i][2]);
+    fputs(")}\n", f);
+}
+
 void page_script(FILE *f) { write_lines(f, SCRIPT, sizeof SCRIPT / sizeof SCRIPT[0]); }

@@ -95,37 +95,34 @@ static bool write_all(const struct results *r, const struct scene_results *s, in
     return ok;
 }
 
-/* Linear values to those of the 8-bit picture, in [0,1]. */
-static void to_display(const float *pixels, size_t n, float *out)
+/* Errors of all variants' 8-bit values, 0 to 255. [N_COMPARED][height*width], to be freed. */
+static float *display_errors(const struct scene_results *s)
 {
-    for (size_t i = 0; i < n; i++)
-        out[i] = (float)(srgb_byte((double)pixels[i]) / 255.0);
-}
-
-/* Heat maps of all variants as one tall picture, so that they share their maximum. [N_COMPARED][values]; to be
- * freed. */
-static float *make_heatmaps(const struct scene_results *s)
-{
-    size_t n = values(s);
-    float *x = mem_alloc(n * N_COMPARED, sizeof *x), *ref = mem_alloc(n * N_COMPARED, sizeof *ref);
-    float *out = mem_alloc(n * N_COMPARED, sizeof *out);
-    for (size_t v = 0; v < N_COMPARED; v++) {
-        to_display(s->image[v], n, x + v * n);
-        to_display(s->reference.pixels, n, ref + v * n);
-    }
-    compare_heatmap(x, ref, (long)(n / 3 * N_COMPARED), out);
-    free(x);
-    free(ref);
+    size_t pixels = values(s) / 3;
+    float *out = mem_alloc(pixels * N_COMPARED, sizeof *out);
+    for (size_t v = 0; v < N_COMPARED; v++)
+        for (size_t i = 0; i < pixels; i++)
+            out[v * pixels + i] =
+                (float)compare_pixels(s->image[v] + 3 * i, s->reference.pixels + 3 * i, 3).rmse8;
     return out;
 }
 
-double pictures_largest_error(const struct scene_results *s)
+double pictures_error_scale(const struct scene_results *s)
 {
-    double largest = 0;
-    for (int v = 0; v < N_COMPARED; v++)
-        for (size_t i = 0; i < values(s); i += 3)
-            largest = fmax(largest, compare_pixels(s->image[v] + i, s->reference.pixels + i, 3).rmse8);
-    return largest;
+    float *error = display_errors(s);
+    double most = compare_percentile(error, (long)(values(s) / 3 * N_COMPARED), PICTURES_PERCENTILE);
+    free(error);
+    return most;
+}
+
+/* Heat maps of all variants to one scale. [N_COMPARED][values], to be freed. */
+static float *make_heatmaps(const struct scene_results *s)
+{
+    long pixels = (long)(values(s) / 3 * N_COMPARED);
+    float *error = display_errors(s), *out = mem_alloc((size_t)pixels * 3, sizeof *out);
+    compare_heatmap(error, pixels, compare_percentile(error, pixels, PICTURES_PERCENTILE), out);
+    free(error);
+    return out;
 }
 
 bool pictures_write(const struct results *r, const struct scene_results *s, struct error *err)

@@ -1,9 +1,9 @@
 /* pictures.h: the pictures of an experiment as PNG files: what each variant made of a scene, its errors as a heat
  * map, and enlarged details of both.
  *
- * Heat maps go from blue (no error) to green (the largest error of any variant in this scene), so that the maps of
- * one scene can be compared; errors are those of the displayed 8-bit values, as in the tables. The details are the
- * two windows, a fifth of the width wide, in which BDPT errs most.
+ * Heat maps of one scene share one scale, so that they can be compared: dark is no error, bright is the 99th
+ * percentile of all its variants' errors, and more. Errors are those of the displayed 8-bit values, as in the tables.
+ * The details are the two windows, a fifth of the width wide, in which BDPT errs most.
  *
  * Tests: test_report.c.
  */
@@ -12,7 +12,7 @@
 
 #include "lab/results.h"
 
-enum { PICTURE_REFERENCE = -1, N_DETAILS = 2 };
+enum { PICTURE_REFERENCE = -1, N_DETAILS = 2, PICTURES_PERCENTILE = 99 };
 
 struct detail {
     int x, y, width, height, enlargement; /* pixels; enlargement: pixels of the file per pixel */
@@ -27,9 +27,9 @@ void picture_path(const struct results *r, const struct scene_results *s, int va
 /* pictures_find_details: choose the windows. */
 void pictures_find_details(const struct scene_results *s, struct detail out[N_DETAILS]);
 
-/* pictures_largest_error: what green stands for: the largest root mean square over the channels of a pixel's 8-bit
- * errors, over all pixels and variants. */
-double pictures_largest_error(const struct scene_results *s);
+/* pictures_error_scale: what the brightest colour stands for: that percentile of the root mean squares over the
+ * channels of a pixel's 8-bit errors, over all pixels and variants. */
+double pictures_error_scale(const struct scene_results *s);
 
 /* pictures_write: all of a scene. Returns false with a message. */
 bool pictures_write(const struct results *r, const struct scene_results *s, struct error *err);

@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/mem.h"
 #include "image/image.h"
+#include "image/sheet.h"
 #include "lab/compare.h"
 
 void reference_free(struct reference *r)
@@ -57,30 +58,12 @@ static void read_text(const char *picture, struct reference_text *s)
 
 /* --- stored references ------------------------------------------------------------------------------- */
 
-/* Average blocks of k x k pixels. */
-static float *shrink(const float *pixels, int width, int height, int k)
-{
-    int w = width / k, h = height / k;
-    float *out = mem_alloc((size_t)w * (size_t)h * 3, sizeof *out);
-    for (int y = 0; y < h; y++)
-        for (int x = 0; x < w; x++)
-            for (int c = 0; c < 3; c++) {
-                double sum = 0;
-                for (int j = 0; j < k; j++)
-                    for (int i = 0; i < k; i++)
-                        sum +=
-                            (double)pixels[3 * ((size_t)(y * k + j) * (size_t)width + (size_t)(x * k + i)) + (size_t)c];
-                out[3 * ((size_t)y * (size_t)w + (size_t)x) + (size_t)c] = (float)(sum / (k * k));
-            }
-    return out;
-}
-
 /* Read one picture, shrink it if it fits. Returns as reference_find does; *text is what is written beside it. */
 static int load_fitting(const char *path, int width, int height, int max_depth, struct reference *out,
                         struct reference_text *text, struct error *err)
 {
     int w, h;
-    float *pixels = load_linear(path, &w, &h, err);
+    float *pixels = load_linear(path, &w, &h, NULL, err);
     if (pixels == NULL)
         return -1;
     read_text(path, text);
@@ -92,7 +75,7 @@ static int load_fitting(const char *path, int width, int height, int max_depth, 
     else if (!deep)
         error_set(err, "%s holds paths up to maxdepth %ld, not %d", path, text->max_depth, max_depth);
     else
-        out->pixels = shrink(pixels, w, h, k);
+        out->pixels = sheet_shrink(pixels, w, h, k);
     free(pixels);
     out->noise8 = text->noise8 / k;
     out->mean_error = text->mean_error;
@@ -156,7 +139,7 @@ bool reference_shape(const char *given, const char *scene_path, const char *name
         else
             place_path(i, scene_path, name, path);
         if (readable(path))
-            pixels = load_linear(path, &out[0], &out[1], NULL);
+            pixels = load_linear(path, &out[0], &out[1], NULL, NULL);
     }
     if (pixels == NULL)
         return false;

@@ -98,7 +98,7 @@ static void write_alt(FILE *f, const struct results *r, const struct scene_resul
     if (detail > 0)
         fprintf(f, "Detail %d: ", detail);
     if (error)
-        xml_print(f, "%s, error of %s against the reference, blue none, green largest", s->name, subject(variant));
+        xml_print(f, "%s, error of %s against the reference, dark none, bright largest", s->name, subject(variant));
     else
         xml_print(f, "%s rendered by %s%s", s->name, variant == PICTURE_REFERENCE ? "the " : "", subject(variant));
     if (variant != PICTURE_REFERENCE)
@@ -152,8 +152,9 @@ static bool write_pictures(FILE *f, const struct results *r, const struct scene_
         return false;
     fprintf(f,
             "<h3>Where the errors are</h3>\n"
-            "<p class=\"scale\"><span>0</span><i></i><span>%.4g of 255: the largest error of any method</span></p>\n",
-            pictures_largest_error(s));
+            "<p class=\"scale\"><span>0</span><i></i><span>%.4g of 255 and more: 99 %% of all methods' pixels err less"
+            "</span></p>\n",
+            pictures_error_scale(s));
     bool ok = write_row(f, r, s, true, 0, err);
     for (int i = 1; ok && i <= N_DETAILS; i++) {
         const struct detail *d = &detail[i - 1];
