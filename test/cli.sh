@@ -75,14 +75,13 @@ expect 2 'whole number from 0 to' "$program" render "$box" --seed ' -1'
 expect 2 'expected an integer' "$program" verify "$box" --batches nan
 expect 2 'expected an integer' "$program" verify "$box" --tile 1e300
 expect 2 'window is empty' "$program" render "$box" --cropwindow 0.5 0.5 0 1
-expect 1 'unknown image format' "$program" render "$box" $small -o x.exr
+expect 1 'x.exr: pictures are written as .pfm, .ppm or .png' "$program" render "$box" $small -o x.exr
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt
 expect 1 'known are' "$program" render "$box" $small --integrator vcm
 expect 1 'did you mean asbdpt\? known are' "$program" render "$box" $small --integrator=asbdtp
 expect 1 'no integrator has a parameter "deltaa"' "$program" render "$box" $small -P deltaa=1 -o x.pfm
 expect 1 'delta' "$program" render "$box" $small -P delta=7 --integrator asbdpt -o x.pfm
 expect 1 'binpaths 7 is odd' "$program" render "$box" $small -P select=bins -P binpaths=7 --integrator asbdpt -o x.pfm
-expect 1 'cannot' "$program" render "$box" $small -o no/such/dir/x.pfm
 expect 1 'select = "bin" is unknown: give "bins", "pool", "vertices", "subspaces", "lvc" or "combinatorial"' \
     "$program" render "$box" $small -P select=bin --integrator asbdpt -o x.pfm
 expect 1 '^asbdpt: -P: heuristic = "max" is unknown: give "balance" or "power"' \
@@ -110,6 +109,34 @@ if [ -e /dev/full ]; then
     ln -s /dev/full full.pfm
     expect 1 'full.pfm' "$program" render "$box" $small -o full.pfm
 fi
+
+# Outputs are opened before the work begins, and nothing is left of them when it fails.
+for wrong in no/such/dir/x.pfm /proc/x.pfm stdout.txt/x.pfm; do
+    expect 1 "^asbdpt: $wrong: cannot be created" "$program" render nothing.pbrt -o good.pfm -o $wrong
+done
+expect 1 '^asbdpt: good.ppm/s/probe: cannot be created' "$program" render nothing.pbrt --strategies good.ppm/s
+expect 1 'takes one picture only' "$program" render nothing.pbrt -o - -o -
+expect 1 'nothing.pbrt' "$program" render nothing.pbrt -o good.pfm
+expect 1 'is odd' "$program" render "$box" $small -P select=bins -P binpaths=7 --integrator asbdpt -o good.pfm
+check [ ! -e good.pfm ]
+check [ -z "$(find . -name '.asbdpt-*')" ]
+# A link is followed, to a file that there is or not; a circle is refused; rights are kept.
+mkdir deep
+ln -s deep/one link.pfm
+ln -s ../target.pfm deep/one
+for i in 1 2; do
+    expect 0 'wrote link.pfm, x.ppm$' "$program" render "$box" --res 8x8 --spp 1 -o link.pfm -o x.ppm
+    check [ -h link.pfm ]
+    check [ -h deep/one ]
+    check [ -f target.pfm ]
+    chmod 640 target.pfm
+done
+check [ -n "$(find target.pfm -perm 640)" ]
+ln -s circle.pfm circle.pfm
+expect 1 'circle.pfm: cannot be created' "$program" render nothing.pbrt -o circle.pfm
+# Standard input and output: -.
+"$program" render - --res 8x8 --spp 1 --quiet -o - <"$box" >piped.pfm
+check cmp -s piped.pfm target.pfm
 
 # One line with place and caret for what a scene file can get wrong.
 printf 'WorldBegin\nShpae "sphere"\nWorldEnd\n' >typo.pbrt

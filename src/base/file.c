@@ -4,11 +4,15 @@
 #include "base/file.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
+#include "base/bits.h"
+#include "base/interrupt.h"
 #include "base/mem.h"
 
 static const size_t PIPE_LIMIT = (size_t)1 << 28;
@@ -32,17 +36,23 @@ static bool read_stream(FILE *f, size_t expected, size_t limit, uint8_t **data, 
     }
 }
 
+static void close_input(FILE *f)
+{
+    if (f != stdin)
+        fclose(f);
+}
+
 bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err)
 {
     *data = NULL;
     *size = 0;
-    FILE *f = fopen(path, "rb");
+    FILE *f = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
     if (f == NULL)
         return error_set(err, "%s: cannot be opened: %s", path, strerror(errno));
     struct stat info;
     bool regular = fstat(fileno(f), &info) == 0 && S_ISREG(info.st_mode);
     if (regular && (uintmax_t)info.st_size >= SIZE_MAX / 2) {
-        fclose(f);
+        close_input(f);
         errno = 0;
         return error_set(err, "%s: the file is too large for this machine's memory", path);
     }
@@ -50,7 +60,7 @@ bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err
     errno = 0;
     bool ok = read_stream(f, expected, regular ? SIZE_MAX / 2 : PIPE_LIMIT, data, size);
     int reason = errno;
-    fclose(f);
+    close_input(f);
     if (ok) {
         (*data)[*size] = 0; /* read_stream left room */
         return true;
@@ -61,26 +71,106 @@ bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err
     return error_set(err, "%s: cannot be read: %s", path, reason != 0 ? strerror(reason) : "endless or too long");
 }
 
+/* --- writing ----------------------------------------------------------------------------------------- */
+
 static void release(struct file_output *out)
 {
+    if (out->temporary != NULL)
+        temporary_forget(out->temporary);
     free(out->path);
+    free(out->target);
     free(out->temporary);
-    struct file_output none = {NULL, NULL, NULL};
+    struct file_output none = {NULL, NULL, NULL, NULL};
     *out = none;
+}
+
+/* The directory of a path with its slash, followed by a name; to be given to free(). */
+static char *beside(const char *path, const char *name)
+{
+    const char *slash = strrchr(path, '/');
+    size_t length = slash != NULL ? (size_t)(slash - path) + 1 : 0, room = length + strlen(name) + 1;
+    char *out = mem_alloc(room, 1);
+    memcpy(out, path, length);
+    memcpy(out + length, name, strlen(name));
+    return out;
+}
+
+/* Where a path leads if symbolic links are followed, whether or not there is a file; to be given to free(). NULL, and
+ * errno, if links go in a circle. */
+static char *follow_links(const char *path)
+{
+    enum { MOST_LINKS = 40, LONGEST = 4096 };
+    char link[LONGEST], *at = mem_copy_text(path);
+    for (int i = 0; i < MOST_LINKS; i++) {
+        ssize_t n = readlink(at, link, sizeof link - 1);
+        if (n < 0)
+            return at; /* no link, and what else may be wrong is found on opening it */
+        link[n] = '\0';
+        char *next = link[0] == '/' ? mem_copy_text(link) : beside(at, link);
+        free(at);
+        at = next;
+    }
+    free(at);
+    errno = ELOOP;
+    return NULL;
+}
+
+/* A new file beside the target that nobody else has: O_EXCL fails where there is anything, a link included. */
+static FILE *open_temporary(struct file_output *out, mode_t mode)
+{
+    enum { ATTEMPTS = 100 };
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    uint64_t hash = hash_combine((uint64_t)now.tv_sec, (uint64_t)now.tv_nsec);
+    hash = hash_combine(hash, (uint64_t)getpid());
+    hash = hash_combine(hash, (uint64_t)(uintptr_t)out->path);
+    for (int i = 0; i < ATTEMPTS; i++) {
+        char name[64];
+        hash = hash_combine(hash, (uint64_t)i);
+        snprintf(name, sizeof name, ".asbdpt-%08lx%08lx.tmp", (unsigned long)(hash >> 32),
+                 (unsigned long)(hash & 0xffffffffu));
+        out->temporary = beside(out->target, name);
+        int fd = open(out->temporary, O_WRONLY | O_CREAT | O_EXCL, mode);
+        FILE *f = fd >= 0 ? fdopen(fd, "wb") : NULL;
+        if (f != NULL) {
+            temporary_add(out->temporary);
+            return f;
+        }
+        free(out->temporary);
+        out->temporary = NULL;
+        if (fd >= 0)
+            close(fd);
+        if (fd >= 0 || errno != EEXIST)
+            break;
+    }
+    return NULL;
+}
+
+/* Devices, pipes and standard output are written directly; a file that must not be written is not replaced either. */
+static FILE *open_target(struct file_output *out)
+{
+    struct stat info;
+    if (strcmp(out->path, "-") == 0)
+        return stdout;
+    out->target = follow_links(out->path);
+    if (out->target == NULL)
+        return NULL;
+    bool exists = stat(out->target, &info) == 0;
+    if (exists && !S_ISREG(info.st_mode))
+        return fopen(out->target, "wb");
+    if (exists && access(out->target, W_OK) != 0)
+        return NULL;
+    FILE *f = open_temporary(out, 0666);
+    if (f != NULL && exists)
+        fchmod(fileno(f), info.st_mode & 0777); /* the new file has the old one's rights, if that can be */
+    return f;
 }
 
 bool file_create(const char *path, struct file_output *out, struct error *err)
 {
-    struct stat info;
-    bool special = stat(path, &info) == 0 && !S_ISREG(info.st_mode); /* a device or pipe must not be replaced */
-    out->path = mem_copy_text(path);
-    out->temporary = NULL;
-    if (!special) {
-        size_t room = strlen(path) + 32;
-        out->temporary = mem_alloc(room, 1);
-        snprintf(out->temporary, room, "%s.tmp-%ld", path, (long)getpid());
-    }
-    out->stream = fopen(special ? path : out->temporary, "wb");
+    struct file_output begun = {NULL, mem_copy_text(path), NULL, NULL};
+    *out = begun;
+    out->stream = open_target(out);
     if (out->stream != NULL)
         return true;
     error_set(err, "%s: cannot be created: %s", path, strerror(errno));
@@ -88,14 +178,19 @@ bool file_create(const char *path, struct file_output *out, struct error *err)
     return false;
 }
 
+/* On the disk before it has the target's name, so that not even a power failure leaves half a file there. */
+static bool on_disk(FILE *f) { return fsync(fileno(f)) == 0 || errno == EINVAL || errno == ENOSYS; }
+
 bool file_commit(struct file_output *out, struct error *err)
 {
     errno = 0;
     bool ok = fflush(out->stream) == 0 && ferror(out->stream) == 0;
+    ok = ok && (out->temporary == NULL || on_disk(out->stream));
     int reason = errno;
-    ok = fclose(out->stream) == 0 && ok;
+    if (out->stream != stdout)
+        ok = fclose(out->stream) == 0 && ok;
     if (ok && out->temporary != NULL)
-        ok = rename(out->temporary, out->path) == 0;
+        ok = rename(out->temporary, out->target) == 0;
     reason = reason != 0 ? reason : errno;
     if (!ok) {
         error_set(err, "%s: cannot be written: %s", out->path, reason != 0 ? strerror(reason) : "write error");
@@ -108,7 +203,8 @@ bool file_commit(struct file_output *out, struct error *err)
 
 void file_abandon(struct file_output *out)
 {
-    fclose(out->stream);
+    if (out->stream != stdout)
+        fclose(out->stream);
     if (out->temporary != NULL)
         remove(out->temporary);
     release(out);

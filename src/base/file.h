@@ -2,7 +2,8 @@
  *
  * Reading takes a file into memory at once, so that a format's parser knows the file's length before it believes
  * any size written in it. Writing goes to a temporary file beside the target that takes the target's name only when
- * every byte has been accepted: a full disk or an interrupted run leaves the old file, never half a new one.
+ * every byte is on the disk: a full disk or an interrupted run leaves the old file, never half a new one. A target that
+ * is a symbolic link stays one: the file it leads to is replaced. The name - is standard input or output.
  *
  * Tests: test_file.c.
  */
@@ -25,16 +26,17 @@ bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err
 /* A file being written. */
 struct file_output {
     FILE *stream;    /* where to write, binary; write errors stick to it and are found by file_commit */
-    char *path;      /* the target; owned */
-    char *temporary; /* what is really written, or NULL where the target is a device or pipe; owned */
+    char *path;      /* as it was given; owned */
+    char *target;    /* where it leads, links followed; owned, NULL: standard output */
+    char *temporary; /* what is really written, or NULL where the target is a device, a pipe or -; owned */
 };
 
-/* file_create: begin to write `path`. Returns false with a message when that is impossible; *out is then empty.
- * After success exactly one of file_commit and file_abandon must follow. */
+/* file_create: begin to write `path`. Returns false with a message when that is impossible, for want of a directory or
+ * of rights; *out is then empty. After success exactly one of file_commit and file_abandon must follow. */
 bool file_create(const char *path, struct file_output *out, struct error *err);
 
-/* file_commit: flush, check, close, rename. Returns false with a message, leaving no file behind, when any write
- * since file_create has failed. */
+/* file_commit: flush, wait for the disk, check, close, rename. Returns false with a message, leaving no file behind,
+ * when any write since file_create has failed. */
 bool file_commit(struct file_output *out, struct error *err);
 
 /* file_abandon: close and remove what was written. */

@@ -12,16 +12,8 @@
 #include "base/progress.h"
 #include "cli/command.h"
 #include "cli/job_options.h"
+#include "cli/outputs.h"
 #include "image/image.h"
-
-/* Every output must be writable in principle before hours are spent. */
-static bool check_outputs(const struct job_options *o, struct error *err)
-{
-    for (int i = 0; i < o->output.n; i++)
-        if (!image_writable(o->output.item[i]))
-            return error_set(err, "%s: unknown image format; use .pfm, .ppm or .png", o->output.item[i]);
-    return true;
-}
 
 /* The scene's Film filename, with .png in place of an extension this program does not write. */
 static char *default_output(const struct scene *scene)
@@ -39,23 +31,42 @@ static char *default_output(const struct scene *scene)
     return out;
 }
 
+/* Those that are named are open already. */
+static bool open_default_output(const struct scene *scene, struct outputs *out, struct error *err)
+{
+    if (out->n > 0)
+        return true;
+    struct texts names = {0};
+    char *name = default_output(scene);
+    texts_add(&names, name);
+    bool ok = outputs_open(&names, out, err);
+    free(names.item);
+    free(name);
+    return ok;
+}
+
 static bool write_outputs(const struct job_options *o, const struct scene *scene, const struct film *film,
-                          struct error *err)
+                          struct outputs *out, struct error *err)
 {
     int width = rect_width(film->rect), height = rect_height(film->rect);
     float *pixels = mem_alloc((size_t)width * (size_t)height * 3, sizeof *pixels);
-    long cut = film_develop(film, scene->film_scale, pixels);
-    film_warn(film, cut);
-    bool ok = true;
-    for (int i = 0; i < o->output.n; i++) /* a failing file does not keep the others from being written */
-        ok = image_write(o->output.item[i], width, height, pixels, ok ? err : NULL) && ok;
-    if (o->output.n == 0) {
-        char *name = default_output(scene);
-        ok = image_write(name, width, height, pixels, err);
-        free(name);
-    }
+    film_warn(film, film_develop(film, scene->film_scale, pixels));
+    bool ok = outputs_write(out, width, height, pixels, o->quiet, err);
     free(pixels);
     return ok;
+}
+
+/* Can files be made in the directory, once it is there? */
+static bool strategies_possible(const char *directory, struct error *err)
+{
+    char path[4096];
+    struct file_output probe;
+    mkdir(directory, 0777); /* if that fails, creating a file says why */
+    snprintf(path, sizeof path, "%s/probe", directory);
+    if (!file_create(path, &probe, err))
+        return false;
+    file_abandon(&probe);
+    return true;
 }
 
 /* Two pictures per strategy: its whole estimate and its weighted share. */
@@ -65,7 +76,6 @@ static bool write_strategies(const char *directory, const struct film *film, str
     size_t n = (size_t)width * (size_t)height * 3;
     float *pixels = mem_alloc(n, sizeof *pixels);
     char path[4096];
-    mkdir(directory, 0777); /* if that fails, writing says why */
     bool ok = true;
     for (int depth = 0; ok && depth <= film->strategies->max_depth; depth++)
         for (int s = 0; ok && s <= depth + 1; s++)
@@ -95,15 +105,18 @@ static void report(const struct job_options *o, const struct integrator *m, cons
         fprintf(stderr, "%s: %s\n", m->name, film->note);
 }
 
+/* Whatever comes of it, the outputs are written or abandoned. */
 static bool render_and_write(const struct job_options *o, const struct scene *scene, const struct integrator *m,
-                             struct error *err)
+                             struct outputs *out, struct error *err)
 {
     struct render_options options = {.integrator = m, .seed = o->seed, .end = job_spp(o, scene)};
+    if (!render_max_depth(scene, o->max_depth, &options.max_depth, err)) {
+        outputs_abandon(out);
+        return false;
+    }
     options.n_threads = o->n_threads;
     struct progress bar;
     struct film film;
-    if (!render_max_depth(scene, o->max_depth, &options.max_depth, err))
-        return false;
     film_init(&film, render_crop(scene), scene->width, scene->height);
     if (o->strategies != NULL)
         film_keep_strategies(&film, options.max_depth);
@@ -116,9 +129,10 @@ static bool render_and_write(const struct job_options *o, const struct scene *sc
     progress_end(&bar);
     if (ok) {
         report(o, m, &film, clock_seconds() - bar.start, cpu_seconds);
-        ok = write_outputs(o, scene, &film, err);
-        if (ok && o->strategies != NULL)
-            ok = write_strategies(o->strategies, &film, err);
+        ok = o->strategies == NULL || write_strategies(o->strategies, &film, err);
+        ok = write_outputs(o, scene, &film, out, ok ? err : NULL) && ok;
+    } else {
+        outputs_abandon(out);
     }
     film_free(&film);
     return ok;
@@ -130,12 +144,17 @@ static int run(void *options)
     struct error err;
     struct scene scene;
     const struct integrator *integrator;
-    if (!check_outputs(o, &err))
+    struct outputs out = {0};
+    if (o->strategies != NULL && !strategies_possible(o->strategies, &err))
+        return fail(&err);
+    if (o->output.n > 0 && !outputs_open(&o->output, &out, &err))
         return fail(&err);
     int status = job_load(o, &scene, &integrator);
-    if (status != EXIT_OK)
+    if (status != EXIT_OK) {
+        outputs_abandon(&out);
         return status;
-    bool ok = render_and_write(o, &scene, integrator, &err);
+    }
+    bool ok = open_default_output(&scene, &out, &err) && render_and_write(o, &scene, integrator, &out, &err);
     scene_free(&scene);
     return ok ? EXIT_OK : fail(&err);
 }

@@ -1,4 +1,9 @@
 /* main.c: asbdpt's command line begins here; command.c has everything that tests need too. */
+#include "base/interrupt.h"
 #include "cli/command.h"
 
-int main(int argc, char **argv) { return command_line(argc, argv); }
+int main(int argc, char **argv)
+{
+    interrupt_init();
+    return command_line(argc, argv);
+}

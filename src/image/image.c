@@ -6,7 +6,6 @@
 #include <string.h>
 #include <stdlib.h>
 
-#include "base/file.h"
 #include "image/formats.h"
 
 struct format {
@@ -88,19 +87,30 @@ void image_mend(struct image *img, bool negative_too)
         }
 }
 
-bool image_writable(const char *path)
+/* The format a picture is written in; NULL if there is none. */
+static const struct format *format_to_write(const char *path)
 {
-    const struct format *format = format_by_name(path);
-    return format != NULL && format->write != NULL;
+    const struct format *format = strcmp(path, "-") == 0 ? &FORMATS[0] : format_by_name(path);
+    return format != NULL && format->write != NULL ? format : NULL;
+}
+
+bool image_writable(const char *path) { return format_to_write(path) != NULL; }
+
+bool image_create(const char *path, struct file_output *out, struct error *err)
+{
+    if (!image_writable(path))
+        return error_set(err, "%s: pictures are written as .pfm, .ppm or .png; end the name in one of these", path);
+    return file_create(path, out, err);
+}
+
+bool image_finish(struct file_output *f, int width, int height, const float *pixels, struct error *err)
+{
+    format_to_write(f->path)->write(f->stream, width, height, pixels);
+    return file_commit(f, err);
 }
 
 bool image_write(const char *path, int width, int height, const float *pixels, struct error *err)
 {
-    if (!image_writable(path))
-        return error_set(err, "%s: pictures are written as .pfm, .ppm or .png; end the name in one of these", path);
     struct file_output f;
-    if (!file_create(path, &f, err))
-        return false;
-    format_by_name(path)->write(f.stream, width, height, pixels);
-    return file_commit(&f, err);
+    return image_create(path, &f, err) && image_finish(&f, width, height, pixels, err);
 }

@@ -11,6 +11,7 @@
 #include <stdbool.h>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "image/picture.h"
 
 /* image_read: read a picture; the format is recognised by content where it has a signature, else by the
@@ -19,11 +20,17 @@
  * Returns false with a message "PATH: what is wrong" on a missing, truncated, absurdly large or unknown file. */
 bool image_read(const char *path, struct image *out, struct error *err);
 
-/* image_write: write linear RGB as the format named by the extension (.pfm, .ppm, .png).
+/* image_write: write linear RGB as the format named by the extension (.pfm, .ppm, .png); to standard output, -, as
+ * PFM.
  *   pixels  [height*width*3] floats, top row first, linear; .ppm and .png are clamped to [0,1] and sRGB encoded
  * The file appears whole or not at all: it is written beside its name and renamed. Returns false with a
  * message on an unknown extension or any I/O error (full disk), leaving no file behind. */
 bool image_write(const char *path, int width, int height, const float *pixels, struct error *err);
+
+/* image_create, image_finish: the same in two steps. The first says what is wrong with the name or the place, and is
+ * to be followed by image_finish or file_abandon; the second may come hours later. */
+bool image_create(const char *path, struct file_output *out, struct error *err);
+bool image_finish(struct file_output *f, int width, int height, const float *pixels, struct error *err);
 
 /* image_mend: make samples that are NaN or infinite 0, and negative ones too if asked; `replaced` counts them. */
 void image_mend(struct image *img, bool negative_too);

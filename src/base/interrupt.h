@@ -1,0 +1,31 @@
+/* interrupt.h: what happens when somebody ends the program: signals, and the temporary files that must go.
+ *
+ * Until interrupt_defer the first SIGINT, SIGTERM or SIGHUP ends the program; after it the first is kept for the work
+ * to look at, so that a render can finish its block and write what there is, and only the second ends the program at
+ * once. Whichever way the program ends, short of SIGKILL, temporary files are removed: file.h registers them here.
+ *
+ * A signal handler can reach nothing but static variables; those of interrupt.c are the only ones of the program that
+ * change. Tests: test/cli.sh.
+ */
+#ifndef ASBDPT_INTERRUPT_H
+#define ASBDPT_INTERRUPT_H
+
+/* interrupt_init: to be called once, first of all. Signals that whoever started the program has told it to ignore
+ * (nohup) stay ignored; SIGXFSZ and SIGPIPE are too, so that the write that caused one fails and is reported. */
+void interrupt_init(void);
+
+/* interrupt_defer: from now on the first signal is only noted. */
+void interrupt_defer(void);
+
+/* interrupt_caught: the signal noted, or 0. Thread-safe. */
+int interrupt_caught(void);
+
+/* interrupt_name: "SIGINT" and so on. */
+const char *interrupt_name(int signal);
+
+/* temporary_add: a file to be removed if the program ends; `path` must stay valid until temporary_forget(path). One
+ * thread at a time. Beyond some sixty files there is no room, and a further one is left to its owner alone. */
+void temporary_add(const char *path);
+void temporary_forget(const char *path);
+
+#endif

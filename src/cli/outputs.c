@@ -1,0 +1,62 @@
+/* outputs.c: see outputs.h. */
+#include "cli/outputs.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "image/image.h"
+
+static void release(struct outputs *o)
+{
+    free(o->file);
+    o->file = NULL;
+    o->n = 0;
+}
+
+bool outputs_open(const struct texts *names, struct outputs *out, struct error *err)
+{
+    bool ok = true, to_standard = false;
+    out->file = mem_alloc((size_t)names->n, sizeof *out->file);
+    for (out->n = 0; ok && out->n < names->n; out->n += ok) {
+        const char *name = names->item[out->n];
+        bool standard = strcmp(name, "-") == 0;
+        if (standard && to_standard)
+            ok = error_set(err, "-: standard output takes one picture only");
+        else
+            ok = image_create(name, &out->file[out->n], err);
+        to_standard |= standard;
+    }
+    if (!ok)
+        outputs_abandon(out);
+    return ok;
+}
+
+bool outputs_write(struct outputs *o, int width, int height, const float *pixels, bool quiet, struct error *err)
+{
+    bool ok = true;
+    char *written = mem_alloc(1, 1);
+    for (int i = 0; i < o->n; i++) {
+        const char *name = strcmp(o->file[i].path, "-") == 0 ? "standard output" : o->file[i].path;
+        size_t size = strlen(written) + strlen(name) + 3;
+        char *more = mem_alloc(size, 1);
+        snprintf(more, size, "%s%s%s", written, written[0] != '\0' ? ", " : "", name);
+        bool done = image_finish(&o->file[i], width, height, pixels, ok ? err : NULL);
+        free(done ? written : more);
+        written = done ? more : written;
+        ok = ok && done;
+    }
+    if (!quiet && written[0] != '\0')
+        fprintf(stderr, "wrote %s\n", written);
+    free(written);
+    release(o);
+    return ok;
+}
+
+void outputs_abandon(struct outputs *o)
+{
+    for (int i = 0; i < o->n; i++)
+        file_abandon(&o->file[i]);
+    release(o);
+}
