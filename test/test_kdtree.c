@@ -233,14 +233,16 @@ static struct ray awkward_ray(const struct geometry *geo, struct rng *r, double 
 
 /* --- comparison --------------------------------------------------------------------------------------- */
 
-static bool brute_closest(const struct geometry *geo, const struct ray *ray, struct hit *hit)
+/* passable: among the primitives without material, else among those with one. */
+static bool brute_closest(const struct geometry *geo, bool passable, const struct ray *ray, struct hit *hit)
 {
     struct ray shorter = *ray;
     bool found = false;
     for (int i = 0; i < geometry_primitives(geo); i++) {
         struct hit h;
         uint32_t id = shape_triangle_id(prim_number(geo, i));
-        if ((id != 0 && (id == ray->from || id == ray->to)) ||
+        if ((shape_group_of(geo, prim_number(geo, i))->material < 0) != passable ||
+            (id != 0 && (id == ray->from || id == ray->to)) ||
             !shape_intersect(geo, prim_number(geo, i), &shorter, &h))
             continue;
         if (geo->opaque != NULL && !geo->opaque(geo->opaque_context, geo, &h, false))
@@ -253,35 +255,36 @@ static bool brute_closest(const struct geometry *geo, const struct ray *ray, str
 }
 
 /* Does the tree say the same of this ray as all primitives one by one? *want, *a: what they say. */
-static bool same_as_brute(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, bool *want,
-                          struct hit *a, struct hit *b)
+static bool same_as_brute(const struct kdtree *kd, const struct geometry *geo, bool passable, const struct ray *ray,
+                          bool *want, struct hit *a, struct hit *b)
 {
-    *want = brute_closest(geo, ray, a);
+    *want = brute_closest(geo, passable, ray, a);
     bool got = kd_closest(kd, geo, ray, b);
     return *want == got && (!*want || a->t == b->t) && kd_occluded(kd, geo, ray) == *want;
 }
 
 /* Every ray is traced as it is, again as if it began on the triangle it hit, and again as if it ended on the next. */
-static void compare(struct test *t, const char *name, const struct geometry *geo, struct rng *r, int n_rays)
+static void compare(struct test *t, const char *name, const struct geometry *geo, bool passable, struct rng *r,
+                    int n_rays)
 {
     struct kdtree kd;
     int wrong = 0, hits = 0;
-    kd_build(&kd, geo);
+    kd_build(&kd, geo, passable);
     double size = 0;
     for (int k = 0; k < 3; k++)
         size = fmax(size, (double)kd.hi[k] - (double)kd.lo[k]);
     for (int i = 0; i < n_rays; i++) {
         struct ray ray = awkward_ray(geo, r, size);
         struct hit a = {0}, b = {0};
-        bool want, next = false, same = same_as_brute(&kd, geo, &ray, &want, &a, &b);
+        bool want, next = false, same = same_as_brute(&kd, geo, passable, &ray, &want, &a, &b);
         hits += want;
         if (same && want && geo->opaque == NULL) {
             ray.from = shape_triangle_id(a.prim);
-            same = same_as_brute(&kd, geo, &ray, &next, &a, &b);
+            same = same_as_brute(&kd, geo, passable, &ray, &next, &a, &b);
         }
         if (same && next) {
             ray.to = shape_triangle_id(a.prim);
-            same = same_as_brute(&kd, geo, &ray, &next, &a, &b);
+            same = same_as_brute(&kd, geo, passable, &ray, &next, &a, &b);
         }
         wrong += !same;
         if (!same && wrong == 1)
@@ -323,7 +326,11 @@ static void check_against_brute_force(struct test *t, struct rng *r)
         struct geometry geo = geometry_of(t, &s);
         if (i == MIXED)
             add_quadrics(&geo, r, 60);
-        compare(t, names[i], &geo, r, 3000);
+        for (int k = 1; i == MIXED && k < geo.n_groups; k += 2)
+            geo.group[k].material = -1;
+        compare(t, names[i], &geo, false, r, 3000);
+        if (i == MIXED)
+            compare(t, "passable", &geo, true, r, 3000);
         geometry_free(&geo);
     }
 }
@@ -334,7 +341,7 @@ static void check_empty(struct test *t)
     struct kdtree kd;
     struct ray ray = {vec(0, 0, 0), vec(0, 0, 1), 0, HUGE_VAL, 0, 0};
     struct hit hit;
-    kd_build(&kd, &geo);
+    kd_build(&kd, &geo, false);
     CHECK(t, !kd_closest(&kd, &geo, &ray, &hit) && !kd_occluded(&kd, &geo, &ray), "a hit in an empty scene");
     CHECK(t, kd.lo[0] > kd.hi[0], "bounds of nothing are not inside out");
     kd_free(&kd);
@@ -348,7 +355,7 @@ static void check_nonsense_rays(struct test *t, struct rng *r)
     struct geometry geo = geometry_of(t, &s);
     struct kdtree kd;
     struct hit hit;
-    kd_build(&kd, &geo);
+    kd_build(&kd, &geo, false);
     vec3 odd[4] = {{NAN, 0, 0}, {HUGE_VAL, 0, 0}, {0, 0, 0}, {0, -HUGE_VAL, NAN}};
     for (int i = 0; i < 16; i++) {
         struct ray ray = {odd[i / 4], odd[i % 4], 0, HUGE_VAL, 0, 0};
@@ -391,7 +398,7 @@ static void check_watertight(struct test *t, struct rng *r)
         struct kdtree kd;
         make_ball(&s, r, 60, 90, i == 2 ? 1000 : 1, center[i]);
         struct geometry geo = geometry_of(t, &s);
-        kd_build(&kd, &geo);
+        kd_build(&kd, &geo, false);
         int escaped = count_escapes(&kd, &geo, center[i], i == 2 ? 1000 : 1, 40000, r);
         CHECK(t, escaped == 0, "ball %d: %d of 40000 rays got out", i, escaped);
         kd_free(&kd);
@@ -407,7 +414,7 @@ static void check_hole(struct test *t, struct rng *r)
     make_ball(&s, r, 12, 12, 1, vec(0, 0, 0));
     s.mesh.n_triangles -= 3;
     struct geometry geo = geometry_of(t, &s);
-    kd_build(&kd, &geo);
+    kd_build(&kd, &geo, false);
     CHECK(t, count_escapes(&kd, &geo, vec(0, 0, 0), 1, 4000, r) > 0, "nothing gets out through a hole");
     kd_free(&kd);
     geometry_free(&geo);
@@ -440,11 +447,11 @@ static void check_alpha(struct test *t, struct rng *r)
     geo.opaque = half_open;
     geo.opaque_context = &counter;
     struct kdtree kd;
-    kd_build(&kd, &geo);
+    kd_build(&kd, &geo, false);
     for (int i = 0; i < 2000; i++) {
         struct ray ray = {in_cube(r), on_sphere(r), 1e-6, HUGE_VAL, 0, 0};
         struct hit a = {0}, b = {0};
-        bool want = brute_closest(&geo, &ray, &a), got = kd_closest(&kd, &geo, &ray, &b);
+        bool want = brute_closest(&geo, false, &ray, &a), got = kd_closest(&kd, &geo, &ray, &b);
         CHECK(t, want == got && a.t == b.t, "alpha: ray %d hits at %g, not at %g", i, b.t, a.t);
         lit += want && !kd_occluded(&kd, &geo, &ray);
         CHECK(t, want || !kd_occluded(&kd, &geo, &ray), "a shadow ray is stopped where no ray is");
@@ -461,8 +468,8 @@ static void check_repeatable(struct test *t, struct rng *r)
     struct kdtree a, b;
     make_random(&s, r, 2000, 0.1, vec(0, 0, 0));
     struct geometry geo = geometry_of(t, &s);
-    kd_build(&a, &geo);
-    kd_build(&b, &geo);
+    kd_build(&a, &geo, false);
+    kd_build(&b, &geo, false);
     CHECK(t, a.n_nodes == b.n_nodes && a.n_items == b.n_items && a.cost == b.cost && a.depth == b.depth,
           "trees differ");
     CHECK(t, a.cost < 200 && a.n_nodes > 100, "a cost of %g with %d nodes is no good tree", a.cost, a.n_nodes);

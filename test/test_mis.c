@@ -54,6 +54,11 @@ static const struct variant VARIANTS[] = {
     {"distant and infinite", "\"float lensradius\" .05 \"float focaldistance\" 2",
      "LightSource \"distant\" \"rgb L\" [3 3 3] \"point from\" [1 4 -1] \"point to\" [0 0 0]\n"
      "LightSource \"infinite\" \"rgb L\" [1 1 1]"},
+    {"lights that rays pass through", "",
+     "AttributeBegin Material \"none\" AreaLightSource \"diffuse\" \"rgb L\" [2 2 2] \"bool twosided\" \"true\"\n"
+     "TransformBegin Translate .3 .8 0 Shape \"sphere\" \"float radius\" .9 TransformEnd\n"
+     "AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
+     "  \"point P\" [-1.9 2 -1.9  1.9 2 -1.9  1.9 2.2 1.9  -1.9 2.2 1.9] AttributeEnd"},
     {"two infinite lights", "",
      "LightSource \"infinite\" \"rgb L\" [3 3 3] LightSource \"infinite\" \"rgb L\" [1 1 1]"},
 };
@@ -91,7 +96,7 @@ struct comparison {
     const struct scene *scene;
     const struct mis_counts *counts;
     double worst; /* largest relative difference */
-    long compared;
+    long compared, passed; /* weights, and of those how many of s = 0 on lights that rays pass through */
     double skew; /* the planted fault: production weights are multiplied by it */
 };
 
@@ -105,6 +110,19 @@ static void compare(struct comparison *c, struct connection got, const struct ve
     if (!(difference <= c->worst))
         c->worst = difference;
     c->compared++;
+}
+
+/* s = 0 of z_{t-1} and of the lights passed on the way there, each with the path before it. */
+static void compare_hits(struct comparison *c, const struct vertex *eye, int t)
+{
+    struct vertex path[16];
+    memcpy(path, eye, (size_t)t * sizeof *path);
+    for (const struct vertex *z = &eye[t - 1]; z != NULL; z = z->passed) {
+        long before = c->compared;
+        path[t - 1] = *z;
+        compare(c, connect_hit(c->scene, c->counts, &eye[t - 2], z, t), NULL, 0, path, t);
+        c->passed += z != &eye[t - 1] ? c->compared - before : 0;
+    }
 }
 
 static void compare_direct(struct comparison *c, const struct vertex *eye, int t, struct sampler *sampler)
@@ -156,7 +174,7 @@ static void compare_paths(struct comparison *c, int n_paths)
         int n_light = path_light(&wl, light, MAX);
         for (int t = 2; t <= n_eye; t++) {
             if (t > 2)
-                compare(c, connect_hit(c->scene, c->counts, eye, t), NULL, 0, eye, t);
+                compare_hits(c, eye, t);
             if (eye[t - 1].kind == VERTEX_SURFACE)
                 compare_direct(c, eye, t, &d);
             for (int s = 2; s <= n_light; s++)
@@ -193,13 +211,15 @@ void test_mis(struct test *t)
             learnt.guided = k % 2 == 1;
             learnt.paired = k / 2 % 2 == 1;
             counts.learnt = k % 4 > 0 ? &learnt : NULL;
-            struct comparison c = {t, VARIANTS[v].name, &scene, &counts, 0, 0, 1};
+            struct comparison c = {t, VARIANTS[v].name, &scene, &counts, 0, 0, 0, 1};
             compare_paths(&c, 400);
             CHECK(t, c.worst < bound && c.compared > 100, "%s, %s%s%s: %ld weights, largest difference %.3g (bound %g)",
                   VARIANTS[v].name, sets[k / 4].name, learnt.guided ? ", guide" : "", learnt.paired ? ", pairs" : "",
                   c.compared, c.worst, bound);
+            CHECK(t, c.passed > 100 || scene.kd_lights.n_nodes == 0 || counts.hit == 0, "%s: only %ld of lights passed",
+                  VARIANTS[v].name, c.passed);
         }
-        struct comparison planted = {t, VARIANTS[v].name, &scene, &all, 0, 0, 1.001};
+        struct comparison planted = {t, VARIANTS[v].name, &scene, &all, 0, 0, 0, 1.001};
         compare_paths(&planted, 50);
         CHECK(t, planted.worst > bound, "a weight wrong by 0.1 %% was not noticed");
         learnt_free(&learnt);

@@ -417,7 +417,7 @@ static void check_lights(struct test *t)
     if (!open_scene(t, "lights", &s))
         return;
     const struct light *l = s.lights.light;
-    if (CHECK(t, s.lights.n == 8, "%d lights", s.lights.n)) {
+    if (CHECK(t, s.lights.n == 9, "%d lights", s.lights.n)) {
         CHECK(t, l[0].kind == LIGHT_POINT && same3(l[0].position, 1, 2, 3) && same_rgb(l[0].L, 1, 2, 3), "point");
         CHECK(t,
               l[1].kind == LIGHT_SPOT && same3(l[1].axis.n, 0, 1, 0) && near(l[1].cos_total, .5) &&
@@ -433,8 +433,10 @@ static void check_lights(struct test *t)
               "one area light per primitive");
         CHECK(t,
               s.geo.group[0].first_light == 5 && s.geo.group[1].first_light == 7 &&
-                  s.geo.group[2].first_light == -1,
+                  s.geo.group[3].first_light == -1 && s.geo.n_groups == 4,
               "groups know their lights; AttributeEnd ends the area light");
+        CHECK(t, s.geo.group[2].first_light == 8 && s.geo.group[2].material == -1 && s.geo.group[3].material >= 0,
+              "a light of material none stays, without a material");
     }
     scene_free(&s);
 }

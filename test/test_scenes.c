@@ -77,6 +77,42 @@ static void test_sides(struct test *t)
     }
 }
 
+/* A surface without material is not there, to the eye and to light; if it shines, that is added to what is behind, to
+ * the last digit, on each of its sides that shines. */
+static void test_passed(struct test *t)
+{
+    static const char text[] =
+        "LookAt 0 0 %d  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 10\n"
+        "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4 WorldBegin %s\n"
+        "Material \"none\" Shape \"sphere\" Translate 0 0 .5 Shape \"disk\" \"float radius\" 2\n"
+        "AreaLightSource \"diffuse\" \"rgb L\" [3 3 3] Shape \"disk\" \"float radius\" 2\n"
+        "AreaLightSource \"diffuse\" \"rgb L\" [.5 .5 .5] \"bool twosided\" \"true\" Translate 0 0 -1\n"
+        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 -2 0  2 -2 0  2 2 0  -2 2 0]\n"
+        "WorldEnd\n";
+    static const char sky[] = "LightSource \"infinite\" \"rgb L\" [.25 .25 .25]";
+    static const char wall[] = "Material \"matte\" \"rgb Kd\" [0 0 0] Shape \"disk\" \"float radius\" 9";
+    static const struct {
+        int z;
+        const char *behind;
+        double expected;
+    } cases[] = {{5, "", 3.5}, {-5, "", .5}, {5, sky, 3.75}, {-5, sky, .75}, {5, wall, 3}, {-5, wall, .5}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char filled[1024];
+        struct scene scene;
+        snprintf(filled, sizeof filled, text, cases[i].z, cases[i].behind);
+        if (!scene_from_text(t, filled, &scene))
+            continue;
+        static const char *const methods[] = {"pt", "lt", "bdpt", "asbdpt"};
+        for (int m = 0; m < 4; m++) {
+            struct batches b = render_batches(t, &scene, methods[m], 2, 4, 2, 4, 830);
+            CHECK(t, fabs(b.value[0] - cases[i].expected) < 1e-9, "%s, case %d: %g through the lights, not %g",
+                  methods[m], (int)i, b.value[0], cases[i].expected);
+            batches_free(&b);
+        }
+        scene_free(&scene);
+    }
+}
+
 /* Alpha 0 is a hole, to the eye and to light; shadow alpha 0 lets light through only; any other alpha is solid, as in
  * pbrt. */
 static void test_holes(struct test *t)
@@ -281,10 +317,30 @@ static void test_agreement(struct test *t, int spp)
     }
 }
 
+/* Lights that rays pass through, one of them around a ball: four integrators. Were s = 0 lost, or a shadow ray stopped,
+ * their weights would no longer add up to 1 for all of them. */
+static void test_pass_through(struct test *t, int spp)
+{
+    static const char *const methods[] = {"lt", "bdpt", "asbdpt"};
+    double ratio;
+    struct batches pt = render(t, "pass-through", "pt", 24, 2 * spp, 861);
+    for (int m = 0; m < 3; m++) {
+        struct batches b = render(t, "pass-through", methods[m], 24, spp, 862 + (uint64_t)m);
+        double p = batches_p(&pt, &b, &ratio);
+        TEST_ACCEPT(t, p, "pass-through: pt against %s, ratio %.4f", methods[m], ratio);
+        for (long k = 0; k < b.n * b.n_batches; k++)
+            b.value[k] *= 1.05;
+        TEST_REJECT(t, batches_p(&pt, &b, &ratio), "pass-through: %s made 5 %% brighter", methods[m]);
+        batches_free(&b);
+    }
+    batches_free(&pt);
+}
+
 void test_scenes(struct test *t)
 {
     test_analytic(t);
     test_sides(t);
+    test_passed(t);
     test_holes(t);
     test_partials(t);
     test_spot(t);
@@ -292,6 +348,7 @@ void test_scenes(struct test *t)
     test_light_pairs(t, 8);
     test_mirrored(t, 16);
     test_agreement(t, 8);
+    test_pass_through(t, 16);
 }
 
 void test_scenes_long(struct test *t)
@@ -299,4 +356,5 @@ void test_scenes_long(struct test *t)
     test_light_pairs(t, 200);
     test_mirrored(t, 400);
     test_agreement(t, 200);
+    test_pass_through(t, 400);
 }

@@ -1,8 +1,9 @@
 /* test_strategies.c: every strategy (s,t) alone, unweighted, has the expectation of all the others of its path length.
  *
- * Only then may their weights be chosen freely. Two scenes without delta lobes or delta lights, so that every strategy
- * can make every path; surfaces do not touch, so that no connection is short and its geometry factor has a variance. In
- * the second, shading normals lean: without the adjoint factor [V97 5.3] strategies would differ.
+ * Only then may their weights be chosen freely. Three scenes without delta lobes or delta lights, so that every
+ * strategy can make every path; surfaces do not touch, so that no connection is short and its geometry factor has a
+ * variance. In the second, shading normals lean: without the adjoint factor [V97 5.3] strategies would differ. In the
+ * third, rays pass through the light: s = 0 meets it on the way, once from outside and once from inside.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -37,6 +38,16 @@ static const char LEANING[] = HEAD
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 1 2.5  2 1 2.5  2 3.4 2.5  -2 3.4 2.5]\n"
     "  \"normal N\" [-.2 -1 -1  .2 -1 -1  .2 -.8 -1  -.2 -.8 -1]\n"
     "WorldEnd\n";
+
+/* A light that rays pass through, around one surface and before the other, seen from inside and outside. */
+static const char PASSED[] =
+    "LookAt 0 1.6 -4.5  0 .9 0  0 1 0 Camera \"perspective\" \"float fov\" 42\n"
+    "Film \"image\" \"integer xresolution\" 12 \"integer yresolution\" 12 PixelFilter \"triangle\" WorldBegin\n"
+    "Material \"matte\" \"rgb Kd\" [.8 .7 .6] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
+    "  \"point P\" [-1.5 0 -1.5  1.5 0 -1.5  1.5 0 1.5  -1.5 0 1.5]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 1 3.8  2 1 3.8  2 3.4 3.8  -2 3.4 3.8]\n"
+    "Material \"none\" AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] \"bool twosided\" \"true\"\n"
+    "Translate 0 1 0 Shape \"sphere\" \"float radius\" 2.6 WorldEnd\n";
 
 /* Mean of the unweighted image of each strategy. */
 static void strategy_means(const struct film *film, double *out)
@@ -102,4 +113,5 @@ void test_strategies(struct test *t)
 {
     test_scene(t, "plain normals", PLAIN);
     test_scene(t, "leaning normals", LEANING);
+    test_scene(t, "a light that rays pass through", PASSED);
 }

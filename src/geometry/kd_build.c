@@ -192,19 +192,25 @@ static int prim_of_item(const struct geometry *geo, uint32_t item)
     return item < (uint32_t)geo->n_triangles ? (int)item : FIRST_QUADRIC + (int)item - geo->n_triangles;
 }
 
-/* The items with their bounds, and the bounds of everything. */
-static void start_items(struct builder *b, size_t n, struct box *bounds)
+/* The items with their bounds, and the bounds of everything. Returns how many there are. */
+static int start_items(struct builder *b, bool passable, struct box *bounds)
 {
-    b->ref = mem_grow(NULL, &b->ref_capacity, n + n / 2, sizeof *b->ref);
-    for (size_t i = 0; i < n; i++) {
-        struct box *box = &b->ref[i].box;
-        b->ref[i].item = (uint32_t)i;
-        shape_bounds(b->geo, prim_of_item(b->geo, (uint32_t)i), box->lo, box->hi);
+    size_t n = 0, most = (size_t)geometry_primitives(b->geo);
+    b->ref = mem_grow(NULL, &b->ref_capacity, most + most / 2, sizeof *b->ref);
+    for (size_t i = 0; i < most; i++) {
+        int prim = prim_of_item(b->geo, (uint32_t)i);
+        if ((shape_group_of(b->geo, prim)->material < 0) != passable)
+            continue;
+        struct box *box = &b->ref[n].box;
+        b->ref[n].item = (uint32_t)i;
+        shape_bounds(b->geo, prim, box->lo, box->hi);
         for (int k = 0; k < 3; k++) {
-            bounds->lo[k] = i == 0 || box->lo[k] < bounds->lo[k] ? box->lo[k] : bounds->lo[k];
-            bounds->hi[k] = i == 0 || box->hi[k] > bounds->hi[k] ? box->hi[k] : bounds->hi[k];
+            bounds->lo[k] = n == 0 || box->lo[k] < bounds->lo[k] ? box->lo[k] : bounds->lo[k];
+            bounds->hi[k] = n == 0 || box->hi[k] > bounds->hi[k] ? box->hi[k] : bounds->hi[k];
         }
+        n++;
     }
+    return (int)n;
 }
 
 static void fill_blocks(struct builder *b)
@@ -222,27 +228,26 @@ static void fill_blocks(struct builder *b)
     }
 }
 
-void kd_build(struct kdtree *kd, const struct geometry *geo)
+void kd_build(struct kdtree *kd, const struct geometry *geo, bool passable)
 {
     struct kdtree empty = {0};
     struct builder b = {0};
     struct box bounds = {{1, 1, 1}, {-1, -1, -1}};
-    int n = geometry_primitives(geo);
     *kd = empty;
     b.geo = geo;
     b.kd = kd;
+    int n = start_items(&b, passable, &bounds);
     if (n > 0) {
-        start_items(&b, (size_t)n, &bounds);
         /* n is 1 to 2^31, so this is 8 to KD_MAX_DEPTH. */
         b.max_depth = (int)fmin(KD_MAX_DEPTH, 8 + 2.0 * log2(n));
         kd->node = mem_grow(NULL, &b.node_capacity, 2, sizeof *kd->node);
         kd->n_nodes = 2;
         struct kd_cell root = {bounds, 0, (size_t)n, MAX_REFERENCES * n, 0};
         kd->cost = build_cell(&b, 0, &root).cost;
-        free(b.ref);
         fill_blocks(&b);
         free(b.leaf_item);
     }
+    free(b.ref);
     memcpy(kd->lo, bounds.lo, sizeof kd->lo);
     memcpy(kd->hi, bounds.hi, sizeof kd->hi);
     for (int k = 0; k < 3; k++)

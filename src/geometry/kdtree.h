@@ -31,9 +31,10 @@ struct kdtree {
     double cost;        /* expected cost of a ray by the surface-area heuristic, in tests of a block of triangles */
 };
 
-/* kd_build: build the tree of all primitives; kd_free releases it. Cannot fail (memory: see mem.h).
- * The result depends on the geometry alone. The geometry must not change afterwards. */
-void kd_build(struct kdtree *kd, const struct geometry *geo);
+/* kd_build: build the tree of all primitives that have a material, or, if `passable`, of those that have none; kd_free
+ * releases it. Cannot fail (memory: see mem.h). The result depends on the geometry alone. The geometry must not change
+ * afterwards. */
+void kd_build(struct kdtree *kd, const struct geometry *geo, bool passable);
 void kd_free(struct kdtree *kd);
 
 /* kd_closest: the first hit in (tmin, tmax), honouring alpha. Returns false if there is none. Thread-safe. */

@@ -24,7 +24,7 @@ enum { FIRST_QUADRIC = 1 << 30 };
 
 /* What the primitives of one Shape directive have in common. */
 struct shape_group {
-    int material;     /* index into scene->materials */
+    int material;     /* index into scene->materials; -1: none, rays pass through */
     int alpha;        /* float texture, -1 if none: a hole where it is 0 (for all rays) */
     int shadow_alpha; /* the same for shadow rays only */
     int first_light;  /* area light of primitive first_prim, the others follow; -1 if none */

@@ -14,7 +14,7 @@
 #include "parser/symbols.h"
 #include "scene/scene.h"
 
-enum { MATERIAL_NONE = -1 }; /* Material "none": the shape only separates media, so it is left out */
+enum { MATERIAL_NONE = -1 }; /* Material "none": rays pass through; a shape that does not shine either is left out */
 
 /* The current AreaLightSource. */
 struct area_light {
@@ -107,7 +107,6 @@ struct parser {
 
     bool texture_is_float;   /* of the Texture directive being carried out */
     int constant[CONSTANTS]; /* textures made for numbers, by hash, plus 1: equal ones are shared */
-    int black_matte;         /* material of a light without material; -1 before the first */
 };
 
 /* --- tables: which types a directive knows, and which parameters each has ------------------------------- */

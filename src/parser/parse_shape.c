@@ -237,18 +237,7 @@ void shape_list_free(struct shape_list *list)
     memset(list, 0, sizeof *list);
 }
 
-/* A light needs a surface to sit on, even where the file gives it no material. */
-static int black_matte(struct parser *p)
-{
-    if (p->black_matte < 0) {
-        struct material m = material_blank(MATERIAL_MATTE);
-        m.Kd = m.sigma = parse_constant(p, rgb_black());
-        p->black_matte = scene_add_material(p->scene, m);
-    }
-    return p->black_matte;
-}
-
-/* Give the shape its light and its material. Returns false if nothing of it would be seen. */
+/* Take its light from a shape that cannot have one. Returns false if nothing of it would be seen. */
 static bool complete_shape(struct parser *p, struct shape_item *item)
 {
     if (p->current_object >= 0 && item->area.on) {
@@ -260,12 +249,7 @@ static bool complete_shape(struct parser *p, struct shape_item *item)
         source_warn(&p->messages, item->position, "absent light", "a light of alpha 0 is left out, with its shape");
     if (item->absent)
         return false;
-    if (item->group.material == MATERIAL_NONE && item->area.on) {
-        source_warn(&p->messages, item->position, "light without material",
-                    "a light without material is given a black one");
-        item->group.material = black_matte(p);
-    }
-    return item->group.material != MATERIAL_NONE;
+    return item->group.material != MATERIAL_NONE || item->area.on;
 }
 
 /* Add a shape to the scene or to the current object. */

@@ -216,7 +216,7 @@ static void start(struct parser *p, const char *path, struct scene *s, const str
     p->params.directory = p->directory;
     p->phase = BEFORE_WORLD;
     parse_state_reset(p);
-    p->current_object = p->black_matte = -1;
+    p->current_object = -1;
     p->params.directive = "Material";
     p->params.type = "matte";
     parse_make_material(p, &p->state.material); /* the material of a shape that comes before any Material */

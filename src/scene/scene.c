@@ -20,6 +20,7 @@ void scene_init(struct scene *s)
 void scene_free(struct scene *s)
 {
     kd_free(&s->kd);
+    kd_free(&s->kd_lights);
     geometry_free(&s->geo);
     texture_set_free(&s->textures);
     free(s->material);
@@ -55,16 +56,28 @@ static bool opaque_at(const void *context, const struct geometry *geo, const str
     return !(shadow && group->shadow_alpha >= 0 && texture_float(&s->textures, group->shadow_alpha, &at) == 0);
 }
 
+/* Widen *lo and *hi to the bounds of a tree. */
+static void widen(const struct kdtree *kd, vec3 *lo, vec3 *hi)
+{
+    if (kd->n_nodes == 0)
+        return;
+    *lo = vec(fmin(lo->x, (double)kd->lo[0]), fmin(lo->y, (double)kd->lo[1]), fmin(lo->z, (double)kd->lo[2]));
+    *hi = vec(fmax(hi->x, (double)kd->hi[0]), fmax(hi->y, (double)kd->hi[1]), fmax(hi->z, (double)kd->hi[2]));
+}
+
 void scene_prepare(struct scene *s)
 {
     s->geo.opaque = opaque_at;
     material_prepare(s->material, s->n_materials, &s->textures, &s->arena);
     for (int i = 0; i < s->geo.n_groups; i++)
         s->geo.group[i].skip_partials =
+            s->geo.group[i].material < 0 ||
             !material_reads_partials(s->material, s->geo.group[i].material, &s->textures);
-    kd_build(&s->kd, &s->geo);
-    vec3 lo = vec((double)s->kd.lo[0], (double)s->kd.lo[1], (double)s->kd.lo[2]);
-    vec3 hi = vec((double)s->kd.hi[0], (double)s->kd.hi[1], (double)s->kd.hi[2]);
+    kd_build(&s->kd, &s->geo, false);
+    kd_build(&s->kd_lights, &s->geo, true);
+    vec3 lo = vec(INFINITY, INFINITY, INFINITY), hi = neg(lo);
+    widen(&s->kd, &lo, &hi);
+    widen(&s->kd_lights, &lo, &hi);
     bool empty = geometry_primitives(&s->geo) == 0;
     double radius = empty ? 1 : length(sub(hi, lo)) / 2;
     light_prepare(&s->lights, &s->geo, empty ? vec(0, 0, 0) : lerp3(0.5, lo, hi), radius > 0 ? radius : 1);
@@ -79,6 +92,16 @@ bool scene_intersect(const struct scene *s, const struct ray *ray, struct surfac
     if (!kd_closest(&s->kd, &s->geo, ray, &hit))
         return false;
     shape_surface(&s->geo, &hit, ray, out);
+    return true;
+}
+
+bool scene_next_light(const struct scene *s, const struct ray *ray, struct surface *out, double *distance)
+{
+    struct hit hit;
+    if (!kd_closest(&s->kd_lights, &s->geo, ray, &hit))
+        return false;
+    shape_surface(&s->geo, &hit, ray, out);
+    *distance = hit.t;
     return true;
 }
 

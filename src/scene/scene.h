@@ -19,7 +19,8 @@
 
 struct scene {
     struct geometry geo; /* first: see opaque_at in scene.c */
-    struct kdtree kd;
+    struct kdtree kd;        /* of the surfaces that have a material */
+    struct kdtree kd_lights; /* of those that have none: area lights that rays pass through */
     struct texture_set textures;
     struct material *material; /* [n_materials], owned */
     int n_materials;
@@ -51,6 +52,10 @@ void scene_prepare(struct scene *s);
 
 /* scene_intersect: first surface along the ray; false if it leaves the scene. */
 bool scene_intersect(const struct scene *s, const struct ray *ray, struct surface *out);
+
+/* scene_next_light: the first area light without material within the ray, which it passes through; false if there is
+ * none. *distance is where, so that looking on from there finds the next. */
+bool scene_next_light(const struct scene *s, const struct ray *ray, struct surface *out, double *distance);
 
 /* scene_visible: is the open segment between two points free?
  *   from, to  the triangles a and b are on, see shape_triangle_id; 0: none */

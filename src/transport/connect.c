@@ -22,10 +22,9 @@ static struct scatter scatter_towards(const struct vertex *v, vec3 wi, enum tran
     return s;
 }
 
-struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *eye,
-                              int t)
+struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *prev,
+                              const struct vertex *z, int t)
 {
-    const struct vertex *z = &eye[t - 1];
     const struct light_set *lights = &scene->lights;
     rgb Le;
     double pdf_emit; /* density of the light sub-path's direction (or origin, at infinity) from here */
@@ -51,7 +50,7 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
      * surface. */
     double before = 0;
     if (!z->prev_delta)
-        before = mis_direct_count(counts, lights, eye[t - 2].eye_region, t == 3, z->cell, neg(z->wo));
+        before = mis_direct_count(counts, lights, prev->eye_region, t == 3, z->cell, neg(z->wo));
     double eye_side = mis_side(counts, z->pdf_origin, z->pdf_fwd, before, pdf_emit, z->mis);
     c.weight = mis_weight(counts, counts->hit, 0, eye_side);
     return c;

@@ -23,10 +23,11 @@ struct connection {
     double px, py;  /* connect_lens: the raster point it arrives at */
 };
 
-/* connect_hit: the last of t >= 2 vertices of an eye sub-path, eye[t-1], is on a light. A light seen directly (t = 2)
- * has weight 1: no other strategy is used for paths of two vertices. */
-struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *eye,
-                              int t);
+/* connect_hit: z, the last of t >= 2 eye vertices, is on a light: z_{t-1} of an eye sub-path, or one of those `passed`
+ * on the way there; prev is z_{t-2}. A light seen directly (t = 2) has weight 1: no other strategy is used for paths of
+ * two vertices. */
+struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *prev,
+                              const struct vertex *z, int t);
 
 /* connect_direct: z is an eye vertex, t >= 2; the light point is drawn from `sampler` (three numbers).
  *   cell  out, may be NULL: the light cell it was drawn from, -1 if none was */

@@ -66,15 +66,17 @@ static void measure(const struct walk *w, struct vertex *v, const struct vertex 
     v->mis = mis_step(w->counts, from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, at_prev);
 }
 
-/* The ray met nothing: if there are infinite lights, the eye sub-path ends on them. Density of the direction, and, to
- * go on from there, parallel light through the scene's disk. [PBRT3 16.3.5] */
-static bool escape(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from)
+/* The ray met nothing: if there are infinite lights, or lights that it passed, the eye sub-path ends on them. Density
+ * of the direction, and, to go on from there, parallel light through the scene's disk. [PBRT3 16.3.5] */
+static bool escape(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
+                   const struct vertex *passed)
 {
-    if (!w->scene->lights.any_infinite)
+    if (!w->scene->lights.any_infinite && passed == NULL)
         return false;
     memset(v, 0, sizeof *v);
     v->kind = VERTEX_ESCAPED;
     v->light = v->cell = -1;
+    v->passed = passed;
     v->prev_delta = from->delta;
     v->wo = neg(from->ray.d);
     v->beta = from->beta;
@@ -85,9 +87,9 @@ static bool escape(const struct walk *w, struct vertex *v, const struct vertex *
     return true;
 }
 
-/* Make the vertex where the ray met a surface. False if it is met edge-on. */
-static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
-                   const struct surface *at, enum transport mode)
+/* Where the ray met a surface: all of the vertex but how it scatters. False if the surface is met edge-on. */
+static bool meet(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
+                 const struct surface *at, enum transport mode)
 {
     double d2 = length2(sub(at->p, from->ray.o));
     if (dot(at->ng, from->ray.d) == 0 || d2 == 0)
@@ -103,6 +105,36 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
     v->beta = from->beta;
     v->pdf_origin = mode == RADIANCE && at->light >= 0 ? light_pdf_surface(&w->scene->lights, &w->scene->geo, at) : 0;
     measure(w, v, prev, from, d2);
+    return true;
+}
+
+/* The lights that the ray passes through, up to the surface at *end (NULL: none); see `passed` of struct vertex. A
+ * light that touches that surface counts as before it, as it does for s = 1, whose shadow ray ends short of it. */
+static const struct vertex *pass_lights(const struct walk *w, const struct vertex *prev, const struct departure *from,
+                                        const struct surface *end)
+{
+    const struct vertex *passed = NULL;
+    struct surface at;
+    struct ray rest = from->ray;
+    if (end != NULL)
+        rest.tmax = length(sub(end->p, rest.o)) + w->scene->epsilon;
+    while (scene_next_light(w->scene, &rest, &at, &rest.tmin)) {
+        struct vertex *v = arena_alloc(w->arena, sizeof *v);
+        memset(v, 0, sizeof *v);
+        if (!meet(w, v, prev, from, &at, RADIANCE))
+            continue;
+        v->passed = passed;
+        passed = v;
+    }
+    return passed;
+}
+
+/* Make the vertex where the ray met a surface. False if it is met edge-on. */
+static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
+                   const struct surface *at, enum transport mode)
+{
+    if (!meet(w, v, prev, from, at, mode))
+        return false;
     v->first = prev->kind == VERTEX_LENS;
     v->eye_region = v->light_region = 0;
     if (w->counts->learnt != NULL) {
@@ -152,13 +184,18 @@ static int random_walk(const struct walk *w, struct departure from, struct verte
     double first = rgb_max(from.beta);
     while (n < max_vertices) {
         struct surface at;
-        if (!scene_intersect(w->scene, &from.ray, &at)) {
-            if (mode == RADIANCE && escape(w, &path[n], &path[n - 1], &from))
+        const struct vertex *passed = NULL;
+        bool met = scene_intersect(w->scene, &from.ray, &at);
+        if (mode == RADIANCE && w->scene->kd_lights.n_nodes > 0)
+            passed = pass_lights(w, &path[n - 1], &from, met ? &at : NULL);
+        if (!met) {
+            if (mode == RADIANCE && escape(w, &path[n], &path[n - 1], &from, passed))
                 n++;
             break;
         }
         if (!arrive(w, &path[n], &path[n - 1], &from, &at, mode))
             break;
+        path[n].passed = passed;
         n++;
         if (n < max_vertices && !depart(w, &path[n - 1], mode, &from))
             break;

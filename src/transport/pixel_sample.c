@@ -70,13 +70,22 @@ static rgb sum_direct(struct pixel_sample *g, const struct vertex *z, int t)
     return sum;
 }
 
+/* s = 0: the light at z_{t-1}, and those passed on the way there. */
+static rgb sum_hits(struct pixel_sample *g, const struct vertex *eye, int t)
+{
+    rgb sum = rgb_black();
+    for (const struct vertex *z = &eye[t - 1]; z != NULL; z = z->passed)
+        sum = rgb_add(sum, weigh(g, connect_hit(g->scene, g->counts, &eye[t - 2], z, t), 0, t, 1));
+    return sum;
+}
+
 rgb pixel_sum_eye(struct pixel_sample *g, const struct vertex *eye, int n)
 {
     rgb sum = rgb_black();
     for (int t = 2; t <= n; t++) {
         const struct vertex *z = &eye[t - 1];
         if (t == 2 || g->counts->hit > 0)
-            sum = rgb_add(sum, weigh(g, connect_hit(g->scene, g->counts, eye, t), 0, t, 1));
+            sum = rgb_add(sum, sum_hits(g, eye, t));
         if (g->counts->direct[0] > 0 && t <= g->max_depth + 1 && z->kind == VERTEX_SURFACE)
             sum = rgb_add(sum, sum_direct(g, z, t));
     }
