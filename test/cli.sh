@@ -36,7 +36,7 @@ check grep -q 'asbdpt render SCENE' stdout.txt
 check grep -q 'asbdpt experiment \[--quick' stdout.txt
 check grep -q -e '--reference-spp' stdout.txt
 check grep -q 'lightsamplestrategy' stdout.txt
-for command in render compare experiment bench verify info; do # a subcommand's help is its own alone
+for command in render compare experiment bench verify demo info; do # a subcommand's help is its own alone
     expect 0 '' "$program" $command --help
     check grep -q "usage: asbdpt $command" stdout.txt
     check [ "$(grep -c 'usage: asbdpt' stdout.txt)" = 1 ]
@@ -200,6 +200,15 @@ expect 1 'equal size' "$program" compare a.pfm c.pfm
 expect 1 'stdout.txt' "$program" compare stdout.txt a.pfm
 expect 0 '' "$program" render "$box" $small --maxdepth 2 --strategies s -o a.pfm
 check [ -s s/d02_s02_t02_weighted.pfm ]
+check [ -s s/pyramid.png ]
+
+# demo: one picture of two integrators, wherever a reference is stored.
+expect 0 '' "$program" demo "$box" --spp 1 --quiet -o demo.png
+check grep -q '^asbdpt .* spp .* s of CPU   rmse8' stdout.txt
+check [ -s demo.png ]
+expect 1 'there is no stored reference known.pfm' "$program" demo known.pbrt -o demo.png
+expect 1 'there is no integrator bdtp; did you mean bdpt' "$program" demo "$box" --with bdtp -o demo.png
+expect 2 'demo needs a picture to write' "$program" demo "$box"
 expect 0 '' "$program" info "$box"
 check grep -q triangles stdout.txt
 

@@ -20,6 +20,7 @@ void test_mis(struct test *t);
 void test_options(struct test *t);
 void test_pairs(struct test *t);
 void test_parser(struct test *t);
+void test_pictures(struct test *t);
 void test_ply(struct test *t);
 void test_render(struct test *t);
 void test_references(struct test *t);

@@ -8,12 +8,12 @@
 #include <time.h>
 
 #include "base/mem.h"
-#include "base/number.h"
 #include "base/progress.h"
 #include "cli/command.h"
 #include "cli/job_options.h"
 #include "cli/outputs.h"
 #include "image/image.h"
+#include "lab/pyramid.h"
 
 /* The scene's Film filename, with .png in place of an extension this program does not write. */
 static char *default_output(const struct scene *scene)
@@ -69,28 +69,24 @@ static bool strategies_possible(const char *directory, struct error *err)
     return true;
 }
 
-/* Two pictures per strategy: its whole estimate and its weighted share. */
+/* Two pictures per strategy, its whole estimate and its weighted share; and all on one sheet. */
 static bool write_strategies(const char *directory, const struct film *film, struct error *err)
 {
     int width = rect_width(film->rect), height = rect_height(film->rect);
-    size_t n = (size_t)width * (size_t)height * 3;
-    float *pixels = mem_alloc(n, sizeof *pixels);
     char path[4096];
     bool ok = true;
     for (int depth = 0; ok && depth <= film->strategies->max_depth; depth++)
         for (int s = 0; ok && s <= depth + 1; s++)
             for (int weighted = 0; ok && weighted < 2; weighted++) {
                 int t = depth + 2 - s;
-                const double *sum = weighted ? film->strategies->weighted : film->strategies->unweighted;
-                sum += n * (size_t)strategy_index(s, t);
-                for (size_t i = 0; i < n; i++)
-                    pixels[i] = float_within(sum[i] / (double)film->iterations);
+                float *pixels = pyramid_strategy(film, s, t, weighted);
                 snprintf(path, sizeof path, "%s/d%02d_s%02d_t%02d_%s.pfm", directory, depth, s, t,
                          weighted ? "weighted" : "unweighted");
                 ok = image_write(path, width, height, pixels, err);
+                free(pixels);
             }
-    free(pixels);
-    return ok;
+    snprintf(path, sizeof path, "%s/pyramid.png", directory);
+    return ok && pyramid_write(path, film, err);
 }
 
 static void report(const struct job_options *o, const struct integrator *m, const struct film *film, double wall,

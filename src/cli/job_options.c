@@ -27,7 +27,8 @@ const struct option JOB_OPTIONS[] = {
     {"--cropwindow", "X0 X1 Y0 Y1", OPTION_WINDOW, AT(crop), 0, 1, .help = "render a part of the film, as fractions"},
     {"--nthreads", "N", OPTION_INTEGER, AT(n_threads), 1, 1024, .alias = "-j", .help = "threads (default: all)"},
     {"--seed", "N", OPTION_SEED, AT(seed), .fallback = "0", .help = "another set of random numbers"},
-    {"--strategies", "DIR", OPTION_TEXT, AT(strategies), .help = "write every strategy (s,t), unweighted and weighted"},
+    {"--strategies", "DIR", OPTION_TEXT, AT(strategies),
+     .help = "write every strategy (s,t), and all as DIR/pyramid.png"},
     {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "no progress, no warnings"},
     {.name = NULL},
 };

@@ -1,0 +1,161 @@
+/* demo.c: see demo.h. */
+#include "lab/demo.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/mem.h"
+#include "base/progress.h"
+#include "lab/compare.h"
+#include "lab/equal_time.h"
+#include "lab/experiment.h"
+#include "lab/reference.h"
+
+enum { GAP = 24, LABEL = 60, COLUMN = 480, CALIBRATION_SPP = 4 };
+static const double PAPER = 0.12, INK = 0.92, SOFT = 0.65; /* greys */
+static const double NEAR = 0.03;                           /* a time this much longer is not corrected */
+
+/* The demonstration under way. */
+struct show {
+    const struct demo *demo;
+    struct scene scene;
+    struct reference reference; /* of ref_width x ref_height pixels */
+    int width, height, ref_width, ref_height, max_depth;
+    float *picture[DEMO_SIDES]; /* owned */
+    struct demo_side *side;     /* [DEMO_SIDES] */
+    struct error *err;
+};
+
+/* --- rendering --------------------------------------------------------------------------------------- */
+
+static bool render(struct show *s, int i, long spp)
+{
+    const struct demo *d = s->demo;
+    struct render_options o = {.integrator = d->integrator[i], .seed = d->seed + (unsigned)i, .end = spp,
+                               .n_threads = d->n_threads, .max_depth = s->max_depth};
+    struct progress bar;
+    struct film film;
+    o.progress = progress_update;
+    o.progress_context = &bar;
+    film_init(&film, render_crop(&s->scene), s->width, s->height);
+    progress_start(&bar, d->quiet);
+    clock_t start = clock();
+    bool ok = render_scene(&s->scene, &o, &film, s->err);
+    s->side[i].seconds = fmax((double)(clock() - start), 1) / CLOCKS_PER_SEC;
+    s->side[i].spp = spp;
+    progress_end(&bar);
+    if (ok)
+        film_develop(&film, s->scene.film_scale, s->picture[i]);
+    film_free(&film);
+    return ok;
+}
+
+/* The second integrator's samples: as many as the first one's time has room for, found by a short render, and found
+ * again if the longer one shows that they were too many. */
+static bool render_both(struct show *s)
+{
+    long calibration = s->demo->spp < CALIBRATION_SPP ? s->demo->spp : CALIBRATION_SPP;
+    if (!render(s, 0, s->demo->spp) || !render(s, 1, calibration))
+        return false;
+    double target = s->side[0].seconds;
+    for (int attempt = 0; attempt < 2; attempt++) {
+        long spp = equal_samples(s->side[1].spp, s->side[1].seconds, 1, target);
+        if (!render(s, 1, spp))
+            return false;
+        if (s->side[1].seconds <= (1 + NEAR) * target || spp == 1)
+            break;
+    }
+    return true;
+}
+
+static bool find_reference(struct show *s)
+{
+    const struct demo *d = s->demo;
+    char name[256];
+    int shape[3];
+    plan_scene_name(d->scene, name, sizeof name);
+    if (!reference_shape(d->reference, d->scene, name, shape))
+        return error_set(s->err, "%s: there is no stored reference %s.pfm; give one with --reference", d->scene, name);
+    s->ref_width = shape[0];
+    s->ref_height = shape[1];
+    if (!picture_size_ok((unsigned long)shape[0] * (unsigned long)d->scale,
+                         (unsigned long)shape[1] * (unsigned long)d->scale, s->err))
+        return false;
+    s->width = shape[0] * d->scale;
+    s->height = shape[1] * d->scale;
+    if (!experiment_scene(d->scene, s->width, s->height, shape[2], &s->scene, &s->max_depth, s->err))
+        return false;
+    settings_clear(&s->scene.settings); /* defaults: what a user gets */
+    if (reference_find(d->reference, d->scene, name, s->ref_width, s->ref_height, s->max_depth, &s->reference,
+                       s->err) == 1)
+        return true;
+    scene_free(&s->scene);
+    return error_set(s->err, "%s: its stored reference holds other paths than those up to maxdepth %d", d->scene,
+                     s->max_depth);
+}
+
+/* --- the picture ------------------------------------------------------------------------------------- */
+
+/* Compare in the reference's size. */
+static void measure(struct show *s)
+{
+    for (int i = 0; i < DEMO_SIDES; i++) {
+        float *small = sheet_shrink(s->picture[i], s->width, s->height, s->demo->scale);
+        s->side[i].rmse8 = compare_pixels(small, s->reference.pixels, 3L * s->ref_width * s->ref_height).rmse8;
+        free(small);
+    }
+}
+
+/* One column: name and error, what it took, and the picture, each pixel a square of k x k.
+ *   error  of which kind; NaN: unknown */
+static void draw_column(struct sheet *sheet, int number, const char *name, const char *kind, double error,
+                        const char *cost, const float *pixels, int width, int height, int k)
+{
+    int x = GAP + number * (width * k + GAP);
+    char text[100] = "";
+    if (isfinite(error))
+        snprintf(text, sizeof text, "%s %.1f", kind, error);
+    sheet_text(sheet, x, GAP, 3, INK, name);
+    sheet_text(sheet, x + width * k - sheet_text_width(text, 3), GAP, 3, INK, text);
+    sheet_text(sheet, x, GAP + 30, 2, SOFT, cost);
+    sheet_paste(sheet, x, GAP + LABEL, pixels, width, height, k);
+}
+
+/* Both sides and the reference, with its own noise where that is known. */
+static void draw_sheet(const struct show *s, struct sheet *sheet)
+{
+    int k = s->width < COLUMN ? COLUMN / s->width : 1;
+    char cost[100];
+    sheet_init(sheet, (DEMO_SIDES + 1) * (s->width * k + GAP) + GAP, LABEL + s->height * k + 2 * GAP, PAPER);
+    for (int i = 0; i < DEMO_SIDES; i++) {
+        snprintf(cost, sizeof cost, "%ld samples per pixel, %.1f s of CPU", s->side[i].spp, s->side[i].seconds);
+        draw_column(sheet, i, s->demo->integrator[i]->name, "error", s->side[i].rmse8, cost, s->picture[i],
+                    s->width, s->height, k);
+    }
+    snprintf(cost, sizeof cost, s->demo->scale > 1 ? "means of %d x %d pixels" : "stored", s->demo->scale,
+             s->demo->scale);
+    draw_column(sheet, DEMO_SIDES, "reference", "noise", s->reference.noise8, cost, s->reference.pixels, s->ref_width,
+                s->ref_height, k * s->demo->scale);
+}
+
+bool demo_run(const struct demo *demo, struct demo_side out[DEMO_SIDES], struct sheet *picture, struct error *err)
+{
+    struct show s = {.demo = demo, .side = out, .err = err};
+    if (!find_reference(&s))
+        return false;
+    for (int i = 0; i < DEMO_SIDES; i++)
+        s.picture[i] = mem_alloc((size_t)s.width * (size_t)s.height * 3, sizeof *s.picture[i]);
+    bool ok = render_both(&s);
+    if (ok) {
+        measure(&s);
+        draw_sheet(&s, picture);
+    }
+    for (int i = 0; i < DEMO_SIDES; i++)
+        free(s.picture[i]);
+    reference_free(&s.reference);
+    scene_free(&s.scene);
+    return ok;
+}

@@ -1,0 +1,113 @@
+/* pyramid.c: see pyramid.h. */
+#include "lab/pyramid.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/mem.h"
+#include "base/number.h"
+#include "image/image.h"
+#include "image/sheet.h"
+#include "lab/compare.h"
+
+enum { GAP = 4, LEFT = 64, TOP = 40, SHEET_WIDTH = 1024, CELL_MIN = 48, CELL_MAX = 192 };
+static const double PAPER = 0.12, INK = 0.92; /* greys */
+static const double PERCENTILE = 98;          /* of a row's values that stay below white */
+
+/* How strategies are laid out: pictures of film size, shrunk or enlarged by whole factors. */
+struct layout {
+    int depth, columns;
+    int shrink, enlarge;
+    int width, height; /* of a cell */
+};
+
+float *pyramid_strategy(const struct film *film, int s, int t, bool weighted)
+{
+    size_t n = (size_t)rect_width(film->rect) * (size_t)rect_height(film->rect) * 3;
+    const double *sum = weighted ? film->strategies->weighted : film->strategies->unweighted;
+    float *out = mem_alloc(n, sizeof *out);
+    sum += n * (size_t)strategy_index(s, t);
+    for (size_t i = 0; i < n; i++)
+        out[i] = float_within(sum[i] / (double)film->iterations);
+    return out;
+}
+
+static struct layout lay_out(const struct film *film)
+{
+    int w = rect_width(film->rect), h = rect_height(film->rect), depth = film->strategies->max_depth;
+    struct layout l = {.depth = depth < PYRAMID_DEPTH ? depth : PYRAMID_DEPTH};
+    l.columns = l.depth + 2;
+    int wanted = (SHEET_WIDTH - LEFT) / l.columns - GAP;
+    wanted = wanted < CELL_MIN ? CELL_MIN : wanted > CELL_MAX ? CELL_MAX : wanted;
+    l.shrink = w > wanted ? (w + wanted / 2) / wanted : 1; /* to the nearest */
+    l.shrink = l.shrink < h ? l.shrink : h;                /* a film may be wide and low */
+    l.enlarge = w < wanted ? wanted / w : 1;
+    l.width = w / l.shrink * l.enlarge;
+    l.height = h / l.shrink * l.enlarge;
+    return l;
+}
+
+/* The power of two, at least 1, that brings most of all weighted shares of this length up to white. */
+static double row_exposure(const struct film *film, int depth)
+{
+    size_t n = (size_t)rect_width(film->rect) * (size_t)rect_height(film->rect) * 3;
+    float *total = mem_alloc(n, sizeof *total);
+    for (int s = 0; s <= depth + 1; s++) {
+        float *share = pyramid_strategy(film, s, depth + 2 - s, true);
+        for (size_t i = 0; i < n; i++)
+            total[i] += share[i];
+        free(share);
+    }
+    double bright = compare_percentile(total, (long)n, PERCENTILE);
+    free(total);
+    return bright > 0 && bright < 1 ? exp2(int_within(floor(-log2(bright)), 0, 16)) : 1;
+}
+
+static void paste_strategy(struct sheet *sheet, const struct layout *l, const struct film *film, int x, int y, int s,
+                           int t, bool weighted, double exposure)
+{
+    int w = rect_width(film->rect), h = rect_height(film->rect);
+    float *whole = pyramid_strategy(film, s, t, weighted), *cell = sheet_shrink(whole, w, h, l->shrink);
+    w /= l->shrink;
+    h /= l->shrink;
+    for (size_t i = 0; i < (size_t)w * (size_t)h * 3; i++)
+        cell[i] = float_within((double)cell[i] * exposure);
+    sheet_paste(sheet, x, y, cell, w, h, l->enlarge);
+    free(whole);
+    free(cell);
+}
+
+/* One pyramid, its top left at (0,y). */
+static void draw_pyramid(struct sheet *sheet, const struct layout *l, const struct film *film, int y, bool weighted)
+{
+    char text[100];
+    sheet_text(sheet, GAP, y + GAP, 2, INK, weighted ? "weighted" : "unweighted");
+    for (int s = 0; s < l->columns; s++) {
+        snprintf(text, sizeof text, "s=%d", s);
+        sheet_text(sheet, LEFT + s * (l->width + GAP), y + TOP - FONT_HEIGHT - GAP, 1, INK, text);
+    }
+    for (int depth = 0; depth <= l->depth; depth++) {
+        double exposure = row_exposure(film, depth);
+        int top = y + TOP + depth * (l->height + GAP);
+        snprintf(text, sizeof text, "depth %d", depth);
+        sheet_text(sheet, GAP, top, 1, INK, text);
+        snprintf(text, sizeof text, "x%.0f", exposure);
+        sheet_text(sheet, GAP, top + FONT_HEIGHT + GAP, 1, INK, text);
+        for (int s = 0; s <= depth + 1; s++)
+            paste_strategy(sheet, l, film, LEFT + s * (l->width + GAP), top, s, depth + 2 - s, weighted, exposure);
+    }
+}
+
+bool pyramid_write(const char *path, const struct film *film, struct error *err)
+{
+    struct layout l = lay_out(film);
+    struct sheet sheet;
+    int half = TOP + (l.depth + 1) * (l.height + GAP);
+    sheet_init(&sheet, LEFT + l.columns * (l.width + GAP), 2 * half, PAPER);
+    draw_pyramid(&sheet, &l, film, 0, false);
+    draw_pyramid(&sheet, &l, film, half, true);
+    bool ok = image_write(path, sheet.width, sheet.height, sheet.pixels, err);
+    sheet_free(&sheet);
+    return ok;
+}

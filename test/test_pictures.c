@@ -1,0 +1,108 @@
+/* test_pictures.c: figures made of pictures: the pyramid of strategies, the demonstration. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/image.h"
+#include "lab/compare.h"
+#include "lab/demo.h"
+#include "lab/pyramid.h"
+#include "helpers.h"
+#include "tests.h"
+
+/* --- the pyramid ------------------------------------------------------------------------------------- */
+
+/* A film of 4 iterations in which strategy (s,t) has this mean everywhere, unweighted and weighted. */
+static void plant(struct film *film, int s, int t, double unweighted, double weighted)
+{
+    long n = 3L * rect_width(film->rect) * rect_height(film->rect);
+    for (long i = 0; i < n; i++) {
+        film->strategies->unweighted[n * strategy_index(s, t) + i] = 4 * unweighted;
+        film->strategies->weighted[n * strategy_index(s, t) + i] = 4 * weighted;
+    }
+}
+
+/* Pixels of the picture that have this byte in all channels. */
+static long count_grey(const struct image *img, int byte)
+{
+    long n = 0;
+    for (long i = 0; i < (long)img->width * img->height; i++)
+        n += img->u8[3 * i] == byte && img->u8[3 * i + 1] == byte && img->u8[3 * i + 2] == byte;
+    return n;
+}
+
+/* Every strategy has a cell on both halves; a row whose shares sum to 1/8 is brightened by 8, above and below. */
+static void test_pyramid(struct test *t)
+{
+    struct film film;
+    struct image img;
+    struct error err = {""};
+    char path[512];
+    struct pixel_rect rect = {0, 0, 8, 4};
+    film_init(&film, rect, 8, 4);
+    film_keep_strategies(&film, 2);
+    film.iterations = 4;
+    plant(&film, 1, 3, 0.03125, 0.03125); /* depth 2: 1/32 + 3/32 = 1/8 */
+    plant(&film, 2, 2, 0.0625, 0.09375);
+    float *one = pyramid_strategy(&film, 2, 2, true);
+    CHECK(t, one[0] == 0.09375f && one[95] == 0.09375f, "the image of (2,2) holds %g", (double)one[0]);
+    free(one);
+    snprintf(path, sizeof path, "%s/pyramid.png", test_tmp(t));
+    bool ok = CHECK(t, pyramid_write(path, &film, &err), "%s", err.text) &&
+              CHECK(t, image_read(path, &img, &err), "%s", err.text);
+    film_free(&film);
+    if (!ok)
+        return;
+    long quarter = count_grey(&img, srgb_byte(0.25)), cell = quarter / 2; /* (1,3), above and below */
+    CHECK(t, cell > 100 && quarter == 2 * cell, "%ld pixels of 8/32", quarter);
+    CHECK(t, count_grey(&img, srgb_byte(0.5)) == cell, "%ld pixels of 8/16", count_grey(&img, srgb_byte(0.5)));
+    CHECK(t, count_grey(&img, srgb_byte(0.75)) == cell, "%ld pixels of 24/32", count_grey(&img, srgb_byte(0.75)));
+    /* 2 + 3 + 4 strategies, twice, four of them not black. */
+    CHECK(t, count_grey(&img, 0) == 14 * cell, "%ld black pixels, cells have %ld", count_grey(&img, 0), cell);
+    image_free(&img);
+}
+
+/* --- the demonstration ------------------------------------------------------------------------------- */
+
+/* What it says is what it shows. */
+static void test_demo(struct test *t)
+{
+    struct error err = {""};
+    struct sheet sheet;
+    struct demo_side side[DEMO_SIDES];
+    struct demo demo = {.scene = "scenes/cornell-box.pbrt", .spp = 2, .scale = 2, .n_threads = 1, .seed = 7,
+                        .quiet = true};
+    demo.integrator[0] = demo.integrator[1] = integrator_find("bdpt");
+    int width, height;
+    float *ref = load_linear("ref/cornell-box.pfm", &width, &height, NULL, &err);
+    bool ok = CHECK(t, ref != NULL && demo_run(&demo, side, &sheet, &err), "%s", err.text);
+    for (int i = 0; ok && i < DEMO_SIDES; i++) {
+        /* Pictures of 64 x 64 pixels, each a square of k x k, 24 pixels apart: take one back out of the sheet. */
+        int k = (sheet.width - 4 * 24) / 3 / 64, left = 24 + i * (64 * k + 24), top = sheet.height - 24 - 64 * k;
+        float mean[32 * 32 * 3] = {0};
+        for (int y = 0; y < 64; y++)
+            for (int x = 0; x < 64; x++)
+                for (int c = 0; c < 3; c++)
+                    mean[3 * (y / 2 * 32 + x / 2) + c] +=
+                        0.25f * sheet.pixels[3 * ((top + y * k) * sheet.width + left + x * k) + c];
+        double rmse8 = compare_pixels(mean, ref, 32 * 32 * 3).rmse8;
+        CHECK(t, fabs(rmse8 - side[i].rmse8) < 0.01, "label %d says %g, the picture has %g", i, side[i].rmse8, rmse8);
+    }
+    if (ok) {
+        CHECK(t, side[0].spp == 2 && side[1].spp >= 1, "%ld and %ld samples", side[0].spp, side[1].spp);
+        CHECK(t, side[0].rmse8 > 1 && side[0].rmse8 != side[1].rmse8, "two seeds, two pictures: errors %g and %g",
+              side[0].rmse8, side[1].rmse8);
+        sheet_free(&sheet);
+    }
+    free(ref);
+    demo.scene = "scenes/test/nothing.pbrt";
+    ok = demo_run(&demo, side, &sheet, &err);
+    CHECK(t, !ok && strstr(err.text, "no stored reference") != NULL, "says \"%s\"", err.text);
+}
+
+void test_pictures(struct test *t)
+{
+    test_pyramid(t);
+    test_demo(t);
+}
