@@ -202,6 +202,22 @@ expect 0 '' "$program" render "$box" $small --maxdepth 2 --strategies s -o a.pfm
 check [ -s s/d02_s02_t02_weighted.pfm ]
 check [ -s s/pyramid.png ]
 
+# --aov: a picture each beside the first, the same for any number of threads and whatever is rendered.
+expect 0 'wrote aov.variance.pfm' "$program" render "$box" --res 16x16 --spp 2 -j 1 \
+    --aov variance,albedo,normal,depth,position -o aov.png
+expect 0 '' "$program" render "$box" $small --integrator pt -j 3 --aov depth,albedo,depth -o two.x.pfm -o a.png
+check cmp -s aov.depth.pfm two.x.depth.pfm
+check cmp -s aov.albedo.pfm two.x.albedo.pfm
+check [ ! -e two.x.normal.pfm ]
+check [ -s aov.normal.pfm -a -s aov.position.pfm ]
+expect 1 'known are albedo' "$program" render "$box" $small --aov albedo,norml -o aov.png
+expect 1 'known are albedo' "$program" render "$box" $small --aov '' -o aov.png
+expect 1 'needs two samples' "$program" render "$box" --spp 1 --res 8x8 --quiet --aov variance -o aov.png
+expect 1 'a picture with a name' "$program" render "$box" $small --aov depth -o -
+mkdir taken.depth.pfm
+expect 1 'taken.depth.pfm' "$program" render "$box" $small --aov albedo,depth -o taken.png
+check [ ! -e taken.png -a ! -e taken.albedo.pfm ]
+
 # demo: one picture of two integrators, wherever a reference is stored.
 expect 0 '' "$program" demo "$box" --spp 1 --quiet -o demo.png
 check grep -q '^asbdpt .* spp .* s of CPU   rmse8' stdout.txt

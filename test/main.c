@@ -35,6 +35,7 @@ static const struct entry ENTRIES[] = {
     {"mis", test_mis, false}, {"pairs", test_pairs, false},
     {"options", test_options, false}, {"render", test_render, false}, {"asbdpt", test_asbdpt, false},
     {"report", test_report, false}, {"pictures", test_pictures, false},
+    {"aov", test_aov, false},
     {"threads", test_threads, false}, {"verify", test_verify, false},
     {"strategies", test_strategies, false}, {"streams", test_streams, false},
     {"scenes", test_scenes, false},   {"reference", test_references, false},

@@ -5,6 +5,7 @@
 #include "test.h"
 
 void test_asbdpt(struct test *t);
+void test_aov(struct test *t);
 void test_alias(struct test *t);
 void test_bsdf(struct test *t);
 void test_camera(struct test *t);

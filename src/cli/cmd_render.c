@@ -9,6 +9,7 @@
 
 #include "base/mem.h"
 #include "base/progress.h"
+#include "cli/aov_files.h"
 #include "cli/command.h"
 #include "cli/job_options.h"
 #include "cli/outputs.h"
@@ -89,6 +90,15 @@ static bool write_strategies(const char *directory, const struct film *film, str
     return ok && pyramid_write(path, film, err);
 }
 
+/* Beside the first picture. */
+static bool open_aovs(const struct job_options *o, const struct scene *scene, const struct outputs *pictures,
+                      struct aov_files *out, struct error *err)
+{
+    if (o->aov != NULL && strstr(o->aov, aov_name(AOV_VARIANCE)) != NULL && job_spp(o, scene) < 2)
+        return error_set(err, "--aov variance needs two samples per pixel at least, see --spp");
+    return aov_open(o->aov, pictures->file[0].path, out, err);
+}
+
 static void report(const struct job_options *o, const struct integrator *m, const struct film *film, double wall,
                    double cpu)
 {
@@ -103,11 +113,12 @@ static void report(const struct job_options *o, const struct integrator *m, cons
 
 /* Whatever comes of it, the outputs are written or abandoned. */
 static bool render_and_write(const struct job_options *o, const struct scene *scene, const struct integrator *m,
-                             struct outputs *out, struct error *err)
+                             struct outputs *out, struct aov_files *aov, struct error *err)
 {
     struct render_options options = {.integrator = m, .seed = o->seed, .end = job_spp(o, scene)};
     if (!render_max_depth(scene, o->max_depth, &options.max_depth, err)) {
         outputs_abandon(out);
+        aov_abandon(aov);
         return false;
     }
     options.n_threads = o->n_threads;
@@ -127,8 +138,10 @@ static bool render_and_write(const struct job_options *o, const struct scene *sc
         report(o, m, &film, clock_seconds() - bar.start, cpu_seconds);
         ok = o->strategies == NULL || write_strategies(o->strategies, &film, err);
         ok = write_outputs(o, scene, &film, out, ok ? err : NULL) && ok;
+        ok = aov_write(aov, scene, &options, &film, o->quiet, ok ? err : NULL) && ok;
     } else {
         outputs_abandon(out);
+        aov_abandon(aov);
     }
     film_free(&film);
     return ok;
@@ -143,6 +156,8 @@ static int run(void *options)
     struct outputs out = {0};
     if (o->strategies != NULL && !strategies_possible(o->strategies, &err))
         return fail(&err);
+    if (o->aov != NULL && !aov_check(o->aov, &err))
+        return fail(&err);
     if (o->output.n > 0 && !outputs_open(&o->output, &out, &err))
         return fail(&err);
     int status = job_load(o, &scene, &integrator);
@@ -150,7 +165,11 @@ static int run(void *options)
         outputs_abandon(&out);
         return status;
     }
-    bool ok = open_default_output(&scene, &out, &err) && render_and_write(o, &scene, integrator, &out, &err);
+    struct aov_files aov;
+    bool ok = open_default_output(&scene, &out, &err);
+    if (ok && !(ok = open_aovs(o, &scene, &out, &aov, &err)))
+        outputs_abandon(&out);
+    ok = ok && render_and_write(o, &scene, integrator, &out, &aov, &err);
     scene_free(&scene);
     return ok ? EXIT_OK : fail(&err);
 }

@@ -29,6 +29,8 @@ const struct option JOB_OPTIONS[] = {
     {"--seed", "N", OPTION_SEED, AT(seed), .fallback = "0", .help = "another set of random numbers"},
     {"--strategies", "DIR", OPTION_TEXT, AT(strategies),
      .help = "write every strategy (s,t), and all as DIR/pyramid.png"},
+    {"--aov", "LIST", OPTION_TEXT, AT(aov),
+     .help = "also NAME.albedo.pfm ...: albedo,normal,depth,position,variance"},
     {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "no progress, no warnings"},
     {.name = NULL},
 };

@@ -23,6 +23,7 @@ struct job_options {
     int n_threads;
     uint64_t seed;
     const char *strategies; /* directory or NULL */
+    const char *aov;        /* list or NULL */
     bool quiet;
 };
 extern const struct option JOB_OPTIONS[], SCENE_OPTIONS[]; /* the second have the scene itself too, which they need */

@@ -1,0 +1,37 @@
+/* aov.h: what the camera sees first, as pictures (arbitrary output variables): for denoisers and for readers.
+ *
+ *   albedo    the share of light from everywhere that the surface sends on towards the camera, by reflection and
+ *             transmission, in [0,1]: pbrt-v4's "Albedo"
+ *   normal    the shading normal in world space, bump mapping included, turned towards the camera
+ *   depth     distance along the camera's axis (z in camera space), the same in all channels
+ *   position  in world space
+ *   variance  of the rendered pixel itself, the mean of its samples: the square of its standard error
+ *
+ * The first four are means over the first AOV_SAMPLES samples of a pixel, through the very points of pixel and lens
+ * that the render draws, so that their edges are smooth where the picture's are. Depth and position are means over
+ * those that hit something. Where nothing is hit all are 0.
+ *
+ * Tests: test_aov.c.
+ */
+#ifndef ASBDPT_AOV_H
+#define ASBDPT_AOV_H
+
+#include "render/render.h"
+
+enum aov { AOV_ALBEDO, AOV_NORMAL, AOV_DEPTH, AOV_POSITION, N_FIRST_HIT, AOV_VARIANCE = N_FIRST_HIT, N_AOVS };
+enum { AOV_SAMPLES = 64 };
+
+/* aov_name: for options and file names. */
+const char *aov_name(enum aov which);
+
+/* aov_render: the first-hit pictures.
+ *   scene    prepared
+ *   options  of the render: its seed, its threads, and the samples [0, end)
+ *   out      [N_FIRST_HIT] pictures of render_crop's size, each [height*width*3], filled
+ * The same numbers for any number of threads. */
+void aov_render(const struct scene *scene, const struct render_options *options, float *const out[N_FIRST_HIT]);
+
+/* aov_variance: of each value of film_develop at this scale, [height*width*3]; two iterations at least. */
+void aov_variance(const struct film *film, double scale, float *out);
+
+#endif

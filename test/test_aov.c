@@ -1,0 +1,168 @@
+/* test_aov.c: what the camera sees first: planes, mirrors and nothing, whose pictures are known. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "render/aov.h"
+#include "helpers.h"
+#include "tests.h"
+
+enum { W = 12, H = 8, VALUES = 3 * W * H };
+
+struct pictures {
+    float *of[N_FIRST_HIT];
+};
+
+static struct pictures render_aovs(const struct scene *scene, long spp, int threads)
+{
+    struct pictures p;
+    struct render_options o = {.seed = 5, .end = spp, .n_threads = threads};
+    for (int i = 0; i < N_FIRST_HIT; i++)
+        p.of[i] = mem_alloc(VALUES, sizeof *p.of[i]);
+    aov_render(scene, &o, p.of);
+    return p;
+}
+
+static void pictures_free(struct pictures *p)
+{
+    for (int i = 0; i < N_FIRST_HIT; i++)
+        free(p->of[i]);
+}
+
+/* The largest deviation of the pixels' channel c from a value, over columns [x0, x1). */
+static double deviation(const float *picture, int c, double value, int x0, int x1)
+{
+    double largest = 0;
+    for (int y = 0; y < H; y++)
+        for (int x = x0; x < x1; x++)
+            largest = fmax(largest, fabs((double)picture[3 * (y * W + x) + c] - value));
+    return largest;
+}
+
+/* The camera looks from (1,2,3) along x; a wall across its axis, 4 away, fills the left half of the picture. */
+static const char WALL[] =
+    "Film \"image\" \"integer xresolution\" 12 \"integer yresolution\" 8 PixelFilter \"box\"\n"
+    "LookAt 1 2 3  2 2 3  0 0 1  Camera \"perspective\" \"float fov\" 60\n"
+    "WorldBegin LightSource \"infinite\"\n%s\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [5 %d -50  5 52 -50  5 52 50  5 %d 50]\n"
+    "WorldEnd\n";
+
+static bool wall_scene(struct test *t, const char *material, int edge, struct scene *scene)
+{
+    char text[1000];
+    snprintf(text, sizeof text, WALL, material, edge, edge);
+    return scene_from_text(t, text, scene);
+}
+
+/* Where the wall is, which depends on the camera's handedness, everything is known; elsewhere nothing is seen. */
+static void test_wall(struct test *t)
+{
+    struct scene scene;
+    if (!wall_scene(t, "Material \"matte\" \"rgb Kd\" [.25 .5 .75]", 2, &scene))
+        return;
+    struct pictures p = render_aovs(&scene, 4, 1);
+    const double albedo[3] = {0.25, 0.5, 0.75}, normal[3] = {-1, 0, 0};
+    bool left = p.of[AOV_DEPTH][0] > 0;
+    int x0 = left ? 0 : W / 2, x1 = x0 + W / 2, rest = left ? W / 2 : 0;
+    for (int c = 0; c < 3; c++) {
+        double off = deviation(p.of[AOV_ALBEDO], c, albedo[c], x0, x1);
+        CHECK(t, off < 1e-6, "albedo, channel %d, is off by %g", c, off);
+        CHECK(t, deviation(p.of[AOV_NORMAL], c, normal[c], x0, x1) < 1e-6, "normal, channel %d", c);
+        off = deviation(p.of[AOV_DEPTH], c, 4, x0, x1); /* also far from the axis */
+        CHECK(t, off < 1e-6, "depth, channel %d, is off by %g", c, off);
+        for (int i = 0; i < N_FIRST_HIT; i++)
+            CHECK(t, deviation(p.of[i], c, 0, rest, rest + W / 2) == 0, "%s where nothing is hit",
+                  aov_name((enum aov)i));
+    }
+    CHECK(t, deviation(p.of[AOV_POSITION], 0, 5, x0, x1) < 1e-6, "the wall is at x = 5");
+    /* Pixels are squares of 8 tan(30 degrees) / 8 there; a mean of 4 points lies within one. */
+    double side = 8 * tan(PI / 6) / 8, first = (double)p.of[AOV_POSITION][3 * x0 + 2];
+    double expected = 3 + 4 * tan(PI / 6) - side / 2;
+    CHECK(t, fabs(first - expected) < side / 2, "the top row is at z = %g, not %g", first, expected);
+    pictures_free(&p);
+    scene_free(&scene);
+}
+
+/* A pixel that is half covered: albedo is its mean, depth and position are those of what is there. */
+static void test_edge(struct test *t)
+{
+    struct scene scene;
+    if (!wall_scene(t, "Material \"mirror\" \"rgb Kr\" [.5 .5 .5]", 0, &scene))
+        return;
+    struct pictures p = render_aovs(&scene, 1000, 2);
+    int edge = 0, full = 0;
+    for (int x = 0; x < W; x++) {
+        double a = (double)p.of[AOV_ALBEDO][3 * x], d = (double)p.of[AOV_DEPTH][3 * x];
+        CHECK(t, a == 0 ? d == 0 : fabs(d - 4) < 1e-6, "depth %g at an albedo of %g", d, a);
+        full += fabs(a - 0.5) < 1e-6;
+        edge += a > 0 && a < 0.5 - 1e-6;
+    }
+    CHECK(t, edge == 1 && full >= 8, "%d pixels hold the edge, %d the wall alone", edge, full);
+    pictures_free(&p);
+    scene_free(&scene);
+}
+
+/* Glass sends on all it gets, whatever its index: albedo 1, not the radiance that refraction gains. */
+static void test_glass(struct test *t)
+{
+    struct scene scene;
+    if (!wall_scene(t, "Material \"glass\" \"float index\" 2", -50, &scene))
+        return;
+    struct pictures p = render_aovs(&scene, 2, 1);
+    CHECK(t, deviation(p.of[AOV_ALBEDO], 1, 1, 0, W) < 1e-6, "albedo of glass is off by %g",
+          deviation(p.of[AOV_ALBEDO], 1, 1, 0, W));
+    pictures_free(&p);
+    scene_free(&scene);
+}
+
+/* The same bytes for any number of threads, and a crop window holds its part of the whole. */
+static void test_same(struct test *t)
+{
+    struct scene scene;
+    if (!scene_from_file(t, "scenes/bathroom.pbrt", W, H, &scene))
+        return;
+    struct pictures a = render_aovs(&scene, 3, 1), b = render_aovs(&scene, 3, 3);
+    const double crop[4] = {0.5, 1, 0.25, 1};
+    memcpy(scene.crop, crop, sizeof crop);
+    struct pictures part = render_aovs(&scene, 3, 2);
+    for (int i = 0; i < N_FIRST_HIT; i++) {
+        CHECK(t, memcmp(a.of[i], b.of[i], VALUES * sizeof *a.of[i]) == 0, "%s depends on the threads",
+              aov_name((enum aov)i));
+        for (int y = 2; y < H; y++)
+            CHECK(t, memcmp(part.of[i] + 3 * (y - 2) * (W / 2), a.of[i] + 3 * (y * W + W / 2),
+                            3 * (W / 2) * sizeof *a.of[i]) == 0,
+                  "%s of a crop window, row %d", aov_name((enum aov)i), y);
+    }
+    CHECK(t, deviation(a.of[AOV_ALBEDO], 0, (double)a.of[AOV_ALBEDO][0], 0, W) > 0.01, "the scene has one albedo only");
+    pictures_free(&a);
+    pictures_free(&b);
+    pictures_free(&part);
+    scene_free(&scene);
+}
+
+static void test_variance(struct test *t)
+{
+    struct film film;
+    struct pixel_rect one = {0, 0, 1, 1};
+    const double sum[3] = {6, 0, 4}, square[3] = {20, 0, 16}; /* of 2 and 4; 0 and 0; 0 and 4 */
+    float variance[3];
+    film_init(&film, one, 1, 1);
+    memcpy(film.eye, sum, sizeof sum);
+    memcpy(film.square, square, sizeof square);
+    film.iterations = 2;
+    aov_variance(&film, 3, variance);
+    CHECK(t, fabs((double)variance[0] - 9) < 1e-5 && variance[1] == 0 && fabs((double)variance[2] - 36) < 1e-4,
+          "variances %g %g %g of the means", (double)variance[0], (double)variance[1], (double)variance[2]);
+    film_free(&film);
+}
+
+void test_aov(struct test *t)
+{
+    test_wall(t);
+    test_edge(t);
+    test_glass(t);
+    test_same(t);
+    test_variance(t);
+}
