@@ -75,7 +75,7 @@ expect 2 'whole number from 0 to' "$program" render "$box" --seed ' -1'
 expect 2 'expected an integer' "$program" verify "$box" --batches nan
 expect 2 'expected an integer' "$program" verify "$box" --tile 1e300
 expect 2 'window is empty' "$program" render "$box" --cropwindow 0.5 0.5 0 1
-expect 1 'x.exr: pictures are written as .pfm, .ppm or .png' "$program" render "$box" $small -o x.exr
+expect 1 'x.jpg: pictures are written as .pfm, .exr' "$program" render "$box" $small -o x.jpg
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt
 expect 1 'known are' "$program" render "$box" $small --integrator vcm
 expect 1 'did you mean asbdpt\? known are' "$program" render "$box" $small --integrator=asbdtp

@@ -26,6 +26,7 @@ struct entry {
 static const struct entry ENTRIES[] = {
     {"vec", test_vec, false},         {"warp", test_warp, false},     {"stats", test_stats, false},
     {"alias", test_alias, false},     {"zlib", test_zlib, false},     {"image", test_image, false},
+    {"hdr", test_hdr, false},
     {"sheet", test_sheet, false},
     {"file", test_file, false},       {"ply", test_ply, false},
     {"shape", test_shape, false},     {"kdtree", test_kdtree, false}, {"texture", test_texture, false},

@@ -72,7 +72,7 @@ static void check_written(struct test *t, const char *name, int width, int heigh
 
 static void test_written(struct test *t)
 {
-    static const char *const NAMES[] = {"a.pfm", "a.ppm", "a.png", "UPPER.PNG"};
+    static const char *const NAMES[] = {"a.pfm", "a.float.exr", "a.ppm", "a.png", "a.tga", "UPPER.PNG"};
     for (size_t i = 0; i < sizeof NAMES / sizeof NAMES[0]; i++) {
         check_written(t, NAMES[i], 1, 1);
         check_written(t, NAMES[i], 7, 1);
@@ -125,20 +125,20 @@ static void test_unwritable(struct test *t)
     char path[256];
     struct stat info;
     check_no_write(t, in_tmp(t, "none/a.png", path, sizeof path), 2, "cannot be created");
-    check_no_write(t, in_tmp(t, "a.jpg", path, sizeof path), 2, "written as .pfm, .ppm or .png");
-    check_no_write(t, in_tmp(t, "a.tga", path, sizeof path), 2, "written as .pfm, .ppm or .png");
-    check_no_write(t, in_tmp(t, "png", path, sizeof path), 2, "written as .pfm, .ppm or .png");
+    check_no_write(t, in_tmp(t, "a.jpg", path, sizeof path), 2, "written as .pfm, .exr, .hdr, .png, .ppm or .tga");
+    check_no_write(t, in_tmp(t, "a.pgm", path, sizeof path), 2, "written as .pfm, .exr, .hdr, .png, .ppm or .tga");
+    check_no_write(t, in_tmp(t, "png", path, sizeof path), 2, "written as .pfm, .exr, .hdr, .png, .ppm or .tga");
     in_tmp(t, "dir.png", path, sizeof path);
     if (mkdir(path, 0777) == 0)
         check_no_write(t, path, 2, "cannot be");
     rmdir(path);
     CHECK(t,
-          image_writable("x.PFM") && image_writable("x.y.png") && !image_writable("x.tga") && !image_writable(""),
+          image_writable("x.PFM") && image_writable("x.y.png") && !image_writable("x.pgm") && !image_writable(""),
           "image_writable");
     if (stat("/dev/full", &info) != 0)
         return; /* a device of some systems only: accepts nothing */
-    static const char *const NAMES[] = {"full.pfm", "full.ppm", "full.png"};
-    for (size_t i = 0; i < 3; i++) {
+    static const char *const NAMES[] = {"full.pfm", "full.ppm", "full.png", "full.exr", "full.hdr", "full.tga"};
+    for (size_t i = 0; i < sizeof NAMES / sizeof NAMES[0]; i++) {
         in_tmp(t, NAMES[i], path, sizeof path);
         if (!CHECK(t, symlink("/dev/full", path) == 0, "%s cannot be linked", path))
             continue;
@@ -217,7 +217,7 @@ static void test_unreadable(struct test *t)
     } CASES[] = {
         {"empty.png", "", "signature"},          {"empty.pfm", "", "not a PFM"},
         {"empty.ppm", "", "not a PPM"},          {"empty.tga", "", "truncated"},
-        {"what.jpg", "JFIF", "unknown picture"}, {"env.exr", "v/1\1", "convert it to PFM"},
+        {"what.jpg", "JFIF", "unknown picture"}, {"env.exr", "v/1\1", "header is damaged: it is truncated"},
         {"p.png", "P3 1 1 7 ", "do not fit"},
     };
     for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {

@@ -12,6 +12,7 @@ void test_camera(struct test *t);
 void test_equal_time(struct test *t); /* part of test_report */
 void test_file(struct test *t);
 void test_film(struct test *t);
+void test_hdr(struct test *t);
 void test_image(struct test *t);
 void test_kdtree(struct test *t);
 void test_light(struct test *t);

@@ -175,5 +175,5 @@ static int run(void *options)
 }
 
 const struct command command_render = {
-    "render", "render a scene", {"SCENE.pbrt [-o FILE.{pfm,ppm,png}]... [options]"}, SCENE_OPTIONS,
+    "render", "render a scene", {"SCENE.pbrt [-o FILE.{pfm,exr,hdr,png,ppm,tga}]... [options]"}, SCENE_OPTIONS,
     sizeof(struct job_options), run};

@@ -17,7 +17,8 @@ const struct option SCENE_OPTIONS[] = {
 };
 
 const struct option JOB_OPTIONS[] = {
-    {"--outfile", "FILE", OPTION_TEXTS, AT(output), .alias = "-o", .help = "linear .pfm, sRGB .ppm .png; repeatable"},
+    {"--outfile", "FILE", OPTION_TEXTS, AT(output), .alias = "-o",
+     .help = "linear .pfm .exr .hdr, sRGB .png .ppm .tga; repeatable"},
     {"--integrator", "NAME", OPTION_TEXT, AT(integrator), .help = "instead of the scene's"},
     {"-P", "NAME=VALUE", OPTION_PAIRS, AT(overrides), .help = "set a parameter of the integrator"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 30, .help = "samples per pixel"},

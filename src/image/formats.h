@@ -4,7 +4,7 @@
  * *out, to be released with image_free; on failure it returns false with a message and *out holds nothing to be
  * released. Writers take linear RGB, top row first; errors stick to the stream.
  *
- * Tests: test_image.c (pictures of other programs, truncations, changed bytes, absurd sizes).
+ * Tests: test_image.c, test_hdr.c (pictures of other programs, truncations, changed bytes, absurd sizes).
  */
 #ifndef ASBDPT_FORMATS_H
 #define ASBDPT_FORMATS_H
@@ -38,9 +38,28 @@ bool png_matches(const uint8_t *data, size_t size);
 bool png_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
 void png_write(FILE *f, int width, int height, const float *pixels);
 
-/* TGA, Truevision's Targa files: colour, grey and colour-mapped, run-length coded or not. Reading only. TGA has no
- * signature: the file's name decides. Pixels of 24 or 32 bits (blue, green, red, alpha), grey and map indices of 8
- * bits; 15 and 16-bit pixels are refused. */
+/* TGA, Truevision's Targa files: colour, grey and colour-mapped, run-length coded or not. TGA has no signature: the
+ * file's name decides. Pixels of 24 or 32 bits (blue, green, red, alpha), grey and map indices of 8 bits; 15 and 16-bit
+ * pixels are refused. Written: 24 bits, sRGB encoded, from the top left. */
 bool tga_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
+void tga_write(FILE *f, int width, int height, const float *pixels);
+
+/* OpenEXR files [OpenEXR]. Read: one part, rows or tiles (of tiled files with several levels the first), channels of
+ * halfs, floats and integers, uncompressed or by RLE, ZIPS, ZIP or PIZ; as pbrt-v3 does, the data window as the
+ * picture, of the channels R, G, B (one that is missing is 0), or Y alone as grey; where there are none without a
+ * layer's name, those of the only layer. Other compressions, several parts, deep pictures and subsampled channels are
+ * refused by name. Reading takes at most 9 * 1032 bytes of memory for each of the file.
+ * Written: R, G, B as halfs, where what is finite and beyond 65504 becomes that, or as floats, exactly; ZIP. */
+bool exr_matches(const uint8_t *data, size_t size);
+bool exr_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
+void exr_write_half(FILE *f, int width, int height, const float *pixels);
+void exr_write_float(FILE *f, int width, int height, const float *pixels);
+
+/* Radiance pictures [Radiance], RGB with a common exponent: flat, with runs and with old runs; rows, from either side.
+ * EXPOSURE and the like have no meaning. At most 1024 pixels for each byte of the file. Written: flat, each number to
+ * the nearest 1/256 of the largest of its pixel or better, negative ones as 0. */
+bool rgbe_matches(const uint8_t *data, size_t size);
+bool rgbe_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
+void rgbe_write(FILE *f, int width, int height, const float *pixels);
 
 #endif

@@ -13,14 +13,21 @@ struct format {
     bool (*matches)(const uint8_t *data, size_t size); /* by content; NULL where the format has no signature */
     bool (*read)(const uint8_t *data, size_t size, struct image *out, struct error *err);
     void (*write)(FILE *f, int width, int height, const float *pixels); /* NULL where it is not written */
+    int most; /* pixels in a row or column of a file written, 0: any */
+    bool is_8_bit;
 };
 
+/* The first whose extension fits counts. */
 static const struct format FORMATS[] = {
-    {".pfm", pfm_matches, pfm_read, pfm_write},
-    {".ppm", ppm_matches, ppm_read, ppm_write},
-    {".pgm", ppm_matches, ppm_read, NULL},
-    {".png", png_matches, png_read, png_write},
-    {".tga", NULL, tga_read, NULL},
+    {".pfm", pfm_matches, pfm_read, pfm_write, 0, false},
+    {".float.exr", exr_matches, exr_read, exr_write_float, 0, false},
+    {".exr", exr_matches, exr_read, exr_write_half, 0, false},
+    {".hdr", rgbe_matches, rgbe_read, rgbe_write, 0, false},
+    {".pic", rgbe_matches, rgbe_read, rgbe_write, 0, false},
+    {".ppm", ppm_matches, ppm_read, ppm_write, 0, true},
+    {".pgm", ppm_matches, ppm_read, NULL, 0, true},
+    {".png", png_matches, png_read, png_write, 0, true},
+    {".tga", NULL, tga_read, tga_write, 65535, true},
 };
 enum { N_FORMATS = sizeof FORMATS / sizeof FORMATS[0] };
 
@@ -53,14 +60,11 @@ static const struct format *format_by_content(const uint8_t *data, size_t size)
 
 static bool read_bytes(const char *path, const uint8_t *data, size_t size, struct image *out, struct error *err)
 {
-    static const uint8_t EXR[4] = {0x76, 0x2f, 0x31, 0x01};
-    if (size >= sizeof EXR && memcmp(data, EXR, sizeof EXR) == 0)
-        return error_set(err, "OpenEXR is not read; convert it to PFM, e.g. with pbrt's `imgtool convert`");
     const struct format *format = format_by_content(data, size);
     if (format == NULL)
         format = format_by_name(path);
     if (format == NULL)
-        return error_set(err, "unknown picture format; convert it to PNG, TGA, PPM or PFM");
+        return error_set(err, "unknown picture format; convert it to PFM, OpenEXR, Radiance, PNG, PPM or TGA");
     return format->read(data, size, out, err);
 }
 
@@ -99,14 +103,26 @@ bool image_writable(const char *path) { return format_to_write(path) != NULL; }
 bool image_create(const char *path, struct file_output *out, struct error *err)
 {
     if (!image_writable(path))
-        return error_set(err, "%s: pictures are written as .pfm, .ppm or .png; end the name in one of these", path);
+        return error_set(err, "%s: pictures are written as " IMAGE_WRITTEN "; end the name in one of these", path);
     return file_create(path, out, err);
 }
 
 bool image_finish(struct file_output *f, int width, int height, const float *pixels, struct error *err)
 {
-    format_to_write(f->path)->write(f->stream, width, height, pixels);
+    const struct format *format = format_to_write(f->path);
+    if (format->most > 0 && (width > format->most || height > format->most)) {
+        error_set(err, "%s: %d x %d pixels do not fit in such a file", f->path, width, height);
+        file_abandon(f);
+        return false;
+    }
+    format->write(f->stream, width, height, pixels);
     return file_commit(f, err);
+}
+
+bool image_is_8_bit(const char *path)
+{
+    const struct format *format = format_to_write(path);
+    return format != NULL && format->is_8_bit;
 }
 
 bool image_write(const char *path, int width, int height, const float *pixels, struct error *err)

@@ -1,9 +1,9 @@
 /* image.h: pictures in memory and their files.
  *
- * Formats are one table {extension, read, write}: PFM (linear float RGB), PPM and PNG (8-bit sRGB when
- * written; read as stored), TGA (read only). The pixels in memory are picture.h's, the formats formats.h's.
+ * Formats are one table {extension, read, write}: PFM, OpenEXR and Radiance (linear RGB), PPM, PNG and TGA (8-bit sRGB
+ * when written; read as stored). The pixels in memory are picture.h's, the formats formats.h's.
  *
- * Tests: test_image.c.
+ * Tests: test_image.c, test_hdr.c.
  */
 #ifndef ASBDPT_IMAGE_H
 #define ASBDPT_IMAGE_H
@@ -20,11 +20,14 @@
  * Returns false with a message "PATH: what is wrong" on a missing, truncated, absurdly large or unknown file. */
 bool image_read(const char *path, struct image *out, struct error *err);
 
-/* image_write: write linear RGB as the format named by the extension (.pfm, .ppm, .png); to standard output, -, as
- * PFM.
- *   pixels  [height*width*3] floats, top row first, linear; .ppm and .png are clamped to [0,1] and sRGB encoded
- * The file appears whole or not at all: it is written beside its name and renamed. Returns false with a
- * message on an unknown extension or any I/O error (full disk), leaving no file behind. */
+/* The extensions that image_write knows, for messages. */
+#define IMAGE_WRITTEN ".pfm, .exr, .hdr, .png, .ppm or .tga"
+
+/* image_write: write linear RGB as the format named by the extension; to standard output, -, as PFM.
+ *   pixels  [height*width*3] floats, top row first, linear; .ppm, .png and .tga are clamped to [0,1] and sRGB encoded;
+ *           .exr has halfs, like pbrt-v3's, .float.exr has floats
+ * The file appears whole or not at all: it is written beside its name and renamed. Returns false with a message on an
+ * unknown extension, a size that the format does not hold, or any I/O error (full disk), leaving no file behind. */
 bool image_write(const char *path, int width, int height, const float *pixels, struct error *err);
 
 /* image_create, image_finish: the same in two steps. The first says what is wrong with the name or the place, and is
@@ -35,7 +38,8 @@ bool image_finish(struct file_output *f, int width, int height, const float *pix
 /* image_mend: make samples that are NaN or infinite 0, and negative ones too if asked; `replaced` counts them. */
 void image_mend(struct image *img, bool negative_too);
 
-/* image_writable: does `path` end in an extension image_write knows? */
+/* image_writable: does `path` end in an extension image_write knows? image_is_8_bit: in one of 8-bit sRGB pictures? */
 bool image_writable(const char *path);
+bool image_is_8_bit(const char *path);
 
 #endif

@@ -1,5 +1,8 @@
 /* tga.c: TGA files, see formats.h. [TGA] */
+#include <stdlib.h>
+
 #include "base/bits.h"
+#include "base/mem.h"
 #include "image/formats.h"
 
 enum tga_kind { TGA_MAPPED = 1, TGA_COLOUR = 2, TGA_GREY = 3 };
@@ -147,4 +150,24 @@ bool tga_read(const uint8_t *data, size_t size, struct image *out, struct error 
         return true;
     image_free(out);
     return false;
+}
+
+void tga_write(FILE *f, int width, int height, const float *pixels)
+{
+    size_t row = 3 * (size_t)width;
+    uint8_t *bytes = mem_alloc(row, 1), header[HEADER] = {0};
+    header[2] = TGA_COLOUR;
+    header[12] = (uint8_t)(width & 255);
+    header[13] = (uint8_t)(width >> 8 & 255);
+    header[14] = (uint8_t)(height & 255);
+    header[15] = (uint8_t)(height >> 8 & 255);
+    header[16] = 24;
+    header[17] = TOP_TO_BOTTOM;
+    fwrite(header, 1, sizeof header, f);
+    for (size_t y = 0; y < (size_t)height; y++) {
+        for (size_t i = 0; i < row; i++)
+            bytes[i] = srgb_byte(pixels[y * row + i - i % 3 + (2 - i % 3)]);
+        fwrite(bytes, 1, row, f);
+    }
+    free(bytes);
 }

@@ -75,9 +75,7 @@ static void infinite_light(struct parser *p, void *object)
     if (path == NULL)
         return;
     struct error inner;
-    if (path_ends_in(path, ".exr"))
-        params_fail(q, at, "OpenEXR pictures are not read; convert it to PFM (magick map.exr map.pfm)");
-    else if (!q->failed && (l->env = envmap_load(path, &inner)) == NULL)
+    if (!q->failed && (l->env = envmap_load(path, &inner)) == NULL)
         params_fail(q, at, "%s", inner.text);
     else if (!q->failed && l->env->image.replaced > 0)
         source_warn(q->messages, at, "environment",

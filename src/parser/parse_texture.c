@@ -58,9 +58,7 @@ static void imagemap(struct parser *p, void *object)
     t->u.imagemap.gamma = params_bool(q, "gamma", path_ends_in(path, ".tga") || path_ends_in(path, ".png"));
     struct error inner;
     int image = 0;
-    if (path_ends_in(path, ".exr"))
-        params_fail(q, at, "OpenEXR pictures are not read; convert it to PFM (magick picture.exr picture.pfm)");
-    else if (!q->failed && (image = texture_load_image(set, path, &inner)) < 0)
+    if (!q->failed && (image = texture_load_image(set, path, &inner)) < 0)
         params_fail(q, at, "%s", inner.text);
     else if (!q->failed && set->image[image].replaced > 0)
         source_warn(&p->messages, at, set->image_path[image], "%ld numbers of this picture are not finite; 0 instead",

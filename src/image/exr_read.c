@@ -1,0 +1,185 @@
+/* exr_read.c: OpenEXR files, from blocks to pixels; see exr.h and formats.h. [OpenEXR] */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "image/exr.h"
+#include "image/formats.h"
+#include "image/half.h"
+#include "image/zlib.h"
+
+/* --- which channels are the picture ------------------------------------------------------------------- */
+
+enum { RED, GREEN, BLUE, GREY, COLOURS }; /* channels "R", "G", "B", "Y", after the name of a layer and a dot if any */
+
+/* Which colour a channel is, COLOURS if none; `layer` becomes the length of its layer's name. */
+static int colour_of(const char *name, size_t *layer)
+{
+    const char *dot = strrchr(name, '.'), *last = dot != NULL ? dot + 1 : name;
+    *layer = dot != NULL ? (size_t)(dot - name) : 0;
+    const char *letter = last[0] != '\0' && last[1] == '\0' ? strchr("RGBY", last[0]) : NULL;
+    return letter != NULL ? (int)(letter - "RGBY") : COLOURS;
+}
+
+/* Find the colours: those without a layer, as pbrt-v3 reads them, or else those of the only layer that has some.
+ *   colour  out, COLOURS of them; NULL where there is none */
+static bool find_colours(const struct exr *e, const struct exr_channel **colour)
+{
+    const char *layer = NULL;
+    size_t n = 0, length;
+    bool plain = false;
+    memset(colour, 0, COLOURS * sizeof *colour);
+    for (size_t i = 0; i < e->n_channels; i++)
+        plain = plain || (colour_of(e->channel[i].name, &length) != COLOURS && length == 0);
+    for (size_t i = 0; i < e->n_channels; i++) {
+        const char *name = e->channel[i].name;
+        int which = colour_of(name, &length);
+        if (which == COLOURS || (plain && length > 0))
+            continue;
+        if (layer != NULL && (length != n || memcmp(layer, name, n) != 0))
+            return error_set(e->err, "the file has several layers (\"%.*s\", \"%.*s\"); keep one of them", (int)n,
+                             layer, (int)length, name);
+        layer = name;
+        n = length;
+        colour[which] = &e->channel[i];
+    }
+    return layer != NULL || error_set(e->err, "the file has no channels R, G, B or Y, but e.g. \"%s\"",
+                                      e->channel[0].name);
+}
+
+/* --- where the pixels are ----------------------------------------------------------------------------- */
+
+/* A block's place in the picture, in pixels from the top left. */
+struct block {
+    size_t x, y, width, height;
+};
+
+static size_t ceil_div(size_t a, size_t b) { return (a - 1) / b + 1; } /* a > 0; no sum that could overflow */
+
+/* Usual width and height of a block; those at the right and bottom edges may be smaller. */
+static void block_size(const struct exr *e, size_t *width, size_t *height)
+{
+    size_t rows = e->compression == EXR_ZIP ? EXR_ZIP_ROWS : e->compression == EXR_PIZ ? EXR_PIZ_ROWS : 1;
+    *width = e->tiled && e->tile[0] < e->width ? e->tile[0] : e->width;
+    *height = e->tiled ? e->tile[1] : rows;
+    *height = *height < e->height ? *height : e->height;
+}
+
+static struct block block_at(const struct exr *e, size_t i)
+{
+    size_t width, height;
+    block_size(e, &width, &height);
+    size_t columns = ceil_div(e->width, width);
+    struct block b = {i % columns * width, i / columns * height, width, height};
+    b.width = b.width < e->width - b.x ? b.width : e->width - b.x;
+    b.height = b.height < e->height - b.y ? b.height : e->height - b.y;
+    return b;
+}
+
+/* Does the head of a stored block, before its size, name this block? Rows: y. Tiles: column, row, level in x and y; the
+ * blocks of level 0 come first in the table of offsets. */
+static bool names_block(const struct exr *e, const uint8_t *head, const struct block *b)
+{
+    if (!e->tiled)
+        return exr_i32(head) == e->top + (int64_t)b->y;
+    size_t width, height;
+    block_size(e, &width, &height);
+    return exr_u32(head) == b->x / width && exr_u32(head + 4) == b->y / height && exr_u32(head + 8) == 0 &&
+           exr_u32(head + 12) == 0;
+}
+
+/* Find block i by the table of offsets at e->at and unpack it. */
+static bool read_block(const struct exr *e, size_t i, const struct block *b, uint8_t *scratch, uint8_t *out)
+{
+    uint64_t offset = bits_of_bytes(e->data + e->at + 8 * i, 8, false);
+    size_t head = e->tiled ? 20 : 8, bytes = b->width * b->height * e->pixel_bytes;
+    if (offset == 0)
+        return error_set(e->err, "the file is incomplete: block %lu is missing", (unsigned long)i);
+    if (offset > e->size || e->size - offset < head)
+        return error_set(e->err, "the file is truncated or damaged: block %lu lies outside", (unsigned long)i);
+    const uint8_t *p = e->data + offset;
+    size_t n = exr_u32(p + head - 4), left = e->size - (size_t)offset - head;
+    if (!names_block(e, p, b))
+        return error_set(e->err, "the file is damaged: block %lu is another", (unsigned long)i);
+    if (n > left)
+        return error_set(e->err, "the file is truncated in block %lu", (unsigned long)i);
+    if (n > bytes || (n < bytes && e->compression == EXR_NONE))
+        return error_set(e->err, "the file is damaged: block %lu has %lu bytes instead of %lu", (unsigned long)i,
+                         (unsigned long)n, (unsigned long)bytes);
+    if (n < bytes)
+        return exr_unpack(e, p + head, n, b->width, b->height, scratch, out, bytes);
+    memcpy(out, p + head, n);
+    return true;
+}
+
+/* --- pixels ------------------------------------------------------------------------------------------- */
+
+static float sample(const uint8_t *p, enum exr_type type)
+{
+    uint32_t bits = exr_u32(p);
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return type == EXR_FLOAT ? value : (float)bits;
+}
+
+/* Put one channel of a block in its place, or leave it 0 where there is none. */
+static void place(const struct exr *e, const struct block *b, const uint8_t *bytes, const struct exr_channel *c,
+                  struct image *out, size_t k)
+{
+    if (c == NULL)
+        return;
+    size_t step = exr_type_bytes(c->type), channels = (size_t)out->channels;
+    for (size_t y = 0; y < b->height; y++) {
+        const uint8_t *from = bytes + (y * e->pixel_bytes + c->start) * b->width;
+        float *to = out->f32 + ((b->y + y) * e->width + b->x) * channels + k;
+        for (size_t x = 0; x < b->width; x++)
+            to[x * channels] = c->type == EXR_HALF ? half_to_float((uint16_t)bits_of_bytes(from + x * step, 2, false))
+                                                   : sample(from + x * step, c->type);
+    }
+}
+
+static bool read_blocks(const struct exr *e, size_t n_blocks, const struct exr_channel *const *colour,
+                        struct image *out)
+{
+    bool grey = colour[RED] == NULL && colour[GREEN] == NULL && colour[BLUE] == NULL;
+    size_t width, height;
+    block_size(e, &width, &height);
+    uint8_t *bytes = mem_alloc(width * height, e->pixel_bytes), *scratch = mem_alloc(width * height, e->pixel_bytes);
+    bool ok = true;
+    picture_alloc_f32(out, e->width, e->height, grey ? 1 : 3);
+    for (size_t i = 0; ok && i < n_blocks; i++) {
+        struct block b = block_at(e, i);
+        ok = read_block(e, i, &b, scratch, bytes);
+        for (size_t k = 0; ok && k < (size_t)out->channels; k++)
+            place(e, &b, bytes, grey ? colour[GREY] : colour[k], out, k);
+    }
+    free(scratch);
+    free(bytes);
+    if (!ok)
+        image_free(out);
+    return ok;
+}
+
+/* Memory is asked for when the file is long enough for what it announces: its table of offsets must be there, and no
+ * compression packs tighter than deflate's INFLATE_MAX_RATIO. */
+static bool read_picture(struct exr *e, struct image *out)
+{
+    const struct exr_channel *colour[COLOURS];
+    if (!exr_read_header(e) || !find_colours(e, colour))
+        return false;
+    size_t width, height, left = e->size - e->at;
+    block_size(e, &width, &height);
+    uint64_t blocks = (uint64_t)ceil_div(e->width, width) * ceil_div(e->height, height);
+    uint64_t bytes = (uint64_t)e->width * e->height * e->pixel_bytes;
+    if (blocks > left / 8 || bytes / INFLATE_MAX_RATIO > left || bytes > SIZE_MAX / 2)
+        return picture_truncated((unsigned long)e->width, (unsigned long)e->height, e->err);
+    return read_blocks(e, (size_t)blocks, colour, out);
+}
+
+bool exr_read(const uint8_t *data, size_t size, struct image *out, struct error *err)
+{
+    struct exr e = {.data = data, .size = size, .err = err};
+    bool ok = read_picture(&e, out);
+    free(e.channel);
+    return ok;
+}

@@ -1,0 +1,24 @@
+/* tone.c: see tone.h. */
+#include "image/tone.h"
+
+#include <math.h>
+
+#include "base/number.h"
+
+bool tone_is_plain(const struct tone *t) { return t->stops == 0 && t->curve == TONE_NONE; }
+
+/* Between 0 and 1.033; beyond 1e6 it has the limit's digits. */
+static double filmic(double x)
+{
+    x = x > 0 ? fmin(x, 1e6) : 0;
+    return x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);
+}
+
+void tone_map(const struct tone *t, const float *in, size_t n, float *out)
+{
+    double factor = exp2(t->stops);
+    for (size_t i = 0; i < n; i++) {
+        double x = factor * (double)in[i];
+        out[i] = float_within(t->curve == TONE_FILMIC ? filmic(x) : x);
+    }
+}
