@@ -23,7 +23,7 @@
 #include "scene/light.h"
 #include "transport/regions.h"
 
-enum { GUIDE_COLUMNS = 512 };
+enum { GUIDE_COLUMNS = 256 };
 
 /* The cells of a light set in columns of equal length, the last one perhaps shorter. */
 struct guide_columns {
