@@ -36,7 +36,7 @@ check grep -q 'asbdpt render SCENE' stdout.txt
 check grep -q 'asbdpt experiment \[--quick' stdout.txt
 check grep -q -e '--reference-spp' stdout.txt
 check grep -q 'lightsamplestrategy' stdout.txt
-for command in render compare experiment bench verify demo info; do # a subcommand's help is its own alone
+for command in render compare experiment bench verify demo convert info; do # a subcommand's help is its own alone
     expect 0 '' "$program" $command --help
     check grep -q "usage: asbdpt $command" stdout.txt
     check [ "$(grep -c 'usage: asbdpt' stdout.txt)" = 1 ]
@@ -258,6 +258,81 @@ expect 0 '' "$program" experiment "$box" --equal-time 0.01 $tiny -o equal
 check grep -q -e '--equal-time 0.01 --seeds 2' stdout.txt
 expect 2 'equal times are those of one thread' "$program" experiment "$box" --equal-time -j 2 $tiny -o equal
 expect 2 '[-]-equal-time 0: expected a number from 0.001' "$program" experiment "$box" --equal-time 0 $tiny -o equal
+
+# convert: linear formats keep light (.float.exr exactly), 8-bit ones what they hold; - reads and writes PFM.
+"$program" render "$box" --res 37x23 --spp 4 --quiet -o light.pfm -o light.png
+expect 0 '' "$program" convert light.pfm x.float.exr x.exr x.hdr x.png x.tga x.ppm
+expect 0 '' "$program" convert x.float.exr back.pfm
+check cmp -s light.pfm back.pfm
+check cmp -s light.png x.png
+expect 0 '' "$program" convert x.exr x2.exr
+check cmp -s x.exr x2.exr
+expect 0 '' "$program" convert x.tga y.png
+check cmp -s light.png y.png
+expect 0 '' "$program" convert x.ppm x.TGA
+check cmp -s x.tga x.TGA
+"$program" convert - - <light.pfm >through.pfm
+check cmp -s light.pfm through.pfm
+close() { # A B MOST: their relative mean squared error is at most so large
+    "$program" compare "$1" "$2" >stdout.txt 2>&1 && awk -v most="$3" '$1 == "relmse" { exit !($2 <= most) }' stdout.txt
+}
+check close x.exr light.pfm 1e-7
+check close x.hdr light.pfm 1e-4
+check [ "$(close light.png light.pfm 1e-4; echo $?)" = 1 ]
+expect 1 'nothing.exr' "$program" convert nothing.exr x.png
+expect 1 'x.jpg: pictures are written as' "$program" convert light.pfm x.jpg
+expect 1 'no/such/dir' "$program" convert light.pfm no/such/dir/x.png
+expect 2 'needs a picture to write' "$program" convert light.pfm
+check [ ! -e x.jpg ]
+
+# --exposure and --tonemap: of 8-bit pictures alone, the same in render and convert; without them nothing changes.
+expect 0 '' "$program" render "$box" --res 37x23 --spp 4 --quiet --exposure -2 --tonemap filmic -o dark.pfm -o dark.png
+check cmp -s light.pfm dark.pfm
+expect 0 '' "$program" convert light.pfm y.png --exposure -2 --tonemap filmic
+check cmp -s dark.png y.png
+expect 0 '' "$program" convert light.pfm y.png --exposure -2
+check test -n "$(cmp dark.png y.png 2>&1)"
+check test -n "$(cmp light.png y.png 2>&1)"
+expect 0 '' "$program" convert light.pfm y.png --exposure 0 --tonemap none
+check cmp -s light.png y.png
+expect 1 'known are none, filmic' "$program" convert light.pfm y.png --tonemap film
+expect 1 'for 8-bit pictures' "$program" convert light.pfm y.exr --exposure 1
+expect 2 'expected a number from -100 to 100' "$program" convert light.pfm y.png --exposure nan
+
+# OpenEXR's own tools and ImageMagick, where they are installed, read our files and write ours.
+if command -v exrmaketiled >/dev/null; then
+    for kind in x.exr x.float.exr; do
+        for compression in none rle zip piz; do
+            for levels in -o -m -r; do
+                expect 0 '' exrmaketiled $levels -z $compression -t 16 9 $kind tiled.exr
+                expect 0 '' "$program" convert tiled.exr tiled.float.exr
+                expect 0 '' "$program" convert $kind plain.float.exr
+                check cmp -s plain.float.exr tiled.float.exr
+            done
+        done
+        expect 0 '' exrheader $kind
+        check grep -q 'compression (type compression): zip' stdout.txt
+    done
+    expect 0 '' exrmaketiled -z pxr24 x.exr tiled.exr
+    expect 1 'tiled.exr: OpenEXR compression PXR24 is not read' "$program" convert tiled.exr y.png
+else
+    echo "skipped: files of OpenEXR's tools (exrmaketiled is not installed)"
+fi
+if command -v convert >/dev/null && convert -version | grep -q ImageMagick; then
+    for kind in png tga ppm; do # the same bytes of pixels
+        expect 0 '' convert x.$kind -depth 8 rgb:theirs.$kind
+    done
+    check cmp -s theirs.png theirs.tga
+    check cmp -s theirs.png theirs.ppm
+    for kind in hdr exr; do # between 0 and 1: what ImageMagick keeps; it may lack OpenEXR
+        convert -list format | grep -iq "$kind\\*\\{0,1\\} .*rw" || continue
+        expect 0 '' "$program" convert x.png 8.$kind
+        expect 0 '' convert 8.$kind theirs.$kind
+        check close theirs.$kind x.png 1e-4
+    done
+else
+    echo "skipped: pictures of ImageMagick (convert is not installed)"
+fi
 
 [ $failures -eq 0 ] && echo "command line: all as expected"
 exit $((failures > 0))

@@ -33,14 +33,15 @@ static char *default_output(const struct scene *scene)
 }
 
 /* Those that are named are open already. */
-static bool open_default_output(const struct scene *scene, struct outputs *out, struct error *err)
+static bool open_default_output(const struct job_options *o, const struct scene *scene, struct outputs *out,
+                                struct error *err)
 {
     if (out->n > 0)
         return true;
     struct texts names = {0};
     char *name = default_output(scene);
     texts_add(&names, name);
-    bool ok = outputs_open(&names, out, err);
+    bool ok = outputs_open(&names, &o->tone, out, err);
     free(names.item);
     free(name);
     return ok;
@@ -158,7 +159,7 @@ static int run(void *options)
         return fail(&err);
     if (o->aov != NULL && !aov_check(o->aov, &err))
         return fail(&err);
-    if (o->output.n > 0 && !outputs_open(&o->output, &out, &err))
+    if (o->output.n > 0 && !outputs_open(&o->output, &o->tone, &out, &err))
         return fail(&err);
     int status = job_load(o, &scene, &integrator);
     if (status != EXIT_OK) {
@@ -166,7 +167,7 @@ static int run(void *options)
         return status;
     }
     struct aov_files aov;
-    bool ok = open_default_output(&scene, &out, &err);
+    bool ok = open_default_output(o, &scene, &out, &err);
     if (ok && !(ok = open_aovs(o, &scene, &out, &aov, &err)))
         outputs_abandon(&out);
     ok = ok && render_and_write(o, &scene, integrator, &out, &aov, &err);
@@ -174,6 +175,12 @@ static int run(void *options)
     return ok ? EXIT_OK : fail(&err);
 }
 
+static const struct option OPTIONS[] = {
+    {"SCENE.pbrt", NULL, OPTION_TEXT, offsetof(struct job_options, scene_path), 1, .help = "a scene file"},
+    TONE_OPTIONS(offsetof(struct job_options, tone)),
+    {.others = JOB_OPTIONS},
+};
+
 const struct command command_render = {
-    "render", "render a scene", {"SCENE.pbrt [-o FILE.{pfm,exr,hdr,png,ppm,tga}]... [options]"}, SCENE_OPTIONS,
+    "render", "render a scene", {"SCENE.pbrt [-o FILE.{pfm,exr,hdr,png,ppm,tga}]... [options]"}, OPTIONS,
     sizeof(struct job_options), run};

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "cli/options.h"
+#include "cli/outputs.h"
 #include "render/render.h"
 #include "scene/scene.h"
 
@@ -25,6 +26,7 @@ struct job_options {
     const char *strategies; /* directory or NULL */
     const char *aov;        /* list or NULL */
     bool quiet;
+    struct tone_options tone; /* of render alone */
 };
 extern const struct option JOB_OPTIONS[], SCENE_OPTIONS[]; /* the second have the scene itself too, which they need */
 

@@ -15,9 +15,29 @@ static void release(struct outputs *o)
     o->n = 0;
 }
 
-bool outputs_open(const struct texts *names, struct outputs *out, struct error *err)
+static bool read_tone(const struct tone_options *t, const struct texts *names, struct tone *out, struct error *err)
+{
+    struct tone tone = {0, TONE_NONE};
+    bool shown = false;
+    if (t != NULL) {
+        bool filmic = t->curve != NULL && strcmp(t->curve, "filmic") == 0;
+        if (t->curve != NULL && !filmic && strcmp(t->curve, "none") != 0)
+            return error_set(err, "--tonemap %s: known are none, filmic", t->curve);
+        tone.stops = t->exposure;
+        tone.curve = filmic ? TONE_FILMIC : TONE_NONE;
+    }
+    for (int i = 0; i < names->n; i++)
+        shown = shown || image_is_8_bit(names->item[i]);
+    *out = tone;
+    return shown || tone_is_plain(&tone) ||
+           error_set(err, "--exposure and --tonemap are for 8-bit pictures (.png, .ppm, .tga); none is written");
+}
+
+bool outputs_open(const struct texts *names, const struct tone_options *tone, struct outputs *out, struct error *err)
 {
     bool ok = true, to_standard = false;
+    if (!read_tone(tone, names, &out->tone, err))
+        return false;
     out->file = mem_alloc((size_t)names->n, sizeof *out->file);
     for (out->n = 0; ok && out->n < names->n; out->n += ok) {
         const char *name = names->item[out->n];
@@ -37,12 +57,17 @@ bool outputs_write(struct outputs *o, int width, int height, const float *pixels
 {
     bool ok = true;
     char *written = mem_alloc(1, 1);
+    size_t n = (size_t)width * (size_t)height * 3;
+    float *shown = tone_is_plain(&o->tone) ? NULL : mem_alloc(n, sizeof *shown);
+    if (shown != NULL)
+        tone_map(&o->tone, pixels, n, shown);
     for (int i = 0; i < o->n; i++) {
         const char *name = strcmp(o->file[i].path, "-") == 0 ? "standard output" : o->file[i].path;
         size_t size = strlen(written) + strlen(name) + 3;
         char *more = mem_alloc(size, 1);
         snprintf(more, size, "%s%s%s", written, written[0] != '\0' ? ", " : "", name);
-        bool done = image_finish(&o->file[i], width, height, pixels, ok ? err : NULL);
+        const float *source = shown != NULL && image_is_8_bit(o->file[i].path) ? shown : pixels;
+        bool done = image_finish(&o->file[i], width, height, source, ok ? err : NULL);
         free(done ? written : more);
         written = done ? more : written;
         ok = ok && done;
@@ -50,6 +75,7 @@ bool outputs_write(struct outputs *o, int width, int height, const float *pixels
     if (!quiet && written[0] != '\0')
         fprintf(stderr, "wrote %s\n", written);
     free(written);
+    free(shown);
     release(o);
     return ok;
 }

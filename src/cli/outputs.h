@@ -10,15 +10,30 @@
 
 #include "base/file.h"
 #include "cli/options.h"
+#include "image/tone.h"
 
 struct outputs {
     struct file_output *file; /* [n], owned */
     int n;
+    struct tone tone; /* of 8-bit pictures */
 };
 
-/* outputs_open: begin to write pictures of these names, at least one, - (standard output) at most once. Returns false
- * with a message; nothing is open then. After success one of outputs_write and outputs_abandon must follow. */
-bool outputs_open(const struct texts *names, struct outputs *out, struct error *err);
+/* What options say of the tone, and their rows for a subcommand's table, `at` being the offset of the struct. */
+struct tone_options {
+    double exposure;
+    const char *curve; /* NULL: none */
+};
+#define TONE_OPTIONS(at) \
+    {"--exposure", "EV", OPTION_NUMBER, (at) + offsetof(struct tone_options, exposure), -100, 100, .fallback = "0", \
+     .help = "8-bit pictures: brighter by so many stops, of a factor of two each"}, \
+    {"--tonemap", "NAME", OPTION_TEXT, (at) + offsetof(struct tone_options, curve), \
+     .help = "8-bit pictures: none, or the curve of film: filmic"}
+
+/* outputs_open: begin to write pictures of these names, at least one, - (standard output) at most once.
+ *   tone  of the 8-bit pictures, or NULL: as they are; if it changes anything, one of the pictures must be such
+ * Returns false with a message; nothing is open then. After success one of outputs_write and outputs_abandon must
+ * follow. */
+bool outputs_open(const struct texts *names, const struct tone_options *tone, struct outputs *out, struct error *err);
 
 /* outputs_write: the picture into all of them; unless `quiet` a last line on stderr names them. One that fails does not
  * keep the others from being written: the first message is kept and false returned. */
