@@ -54,7 +54,7 @@ ref: asbdpt ## render the stored references of ref/ again (an hour; goes on wher
 	sh ref/make-ref.sh $(PROGRAM)
 
 # ---- what proves it ----
-test: asbdpt $(BUILD)/test layers references columns ## build and run the test suite (under 3 minutes)
+test: asbdpt $(BUILD)/test layers libm references columns ## build and run the test suite (under 3 minutes)
 	sh test/cli.sh $(PROGRAM)
 	$(BUILD)/test
 
@@ -73,6 +73,10 @@ mutants: ## apply small faults one by one; the tests must catch every one
 layers: ## check that no file includes a higher room, that no room holds a circle, that headers compile alone
 	@sh test/layers.sh src $(CC)
 	@sh test/layers_test.sh $(CC)
+
+libm: ## check that src calls no function of the C library that differs from machine to machine
+	@sh test/libm.sh
+	@sh test/libm_test.sh
 
 references: ## check that every source named in a comment is in doc/references.md, and that all there are used
 	@sh test/references.sh
@@ -99,4 +103,4 @@ help: ## list the targets
 clean: ## remove everything that was built
 	rm -rf build build-* out asbdpt
 
-.PHONY: all demo experiments bench ref test check-long check-ref builds mutants layers references columns san tsan stats help clean
+.PHONY: all demo experiments bench ref test check-long check-ref builds mutants layers libm references columns san tsan stats help clean

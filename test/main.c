@@ -24,7 +24,8 @@ struct entry {
 };
 
 static const struct entry ENTRIES[] = {
-    {"vec", test_vec, false},         {"warp", test_warp, false},     {"stats", test_stats, false},
+    {"maths", test_maths, false},     {"vec", test_vec, false},
+    {"warp", test_warp, false},     {"stats", test_stats, false},
     {"alias", test_alias, false},     {"zlib", test_zlib, false},     {"image", test_image, false},
     {"hdr", test_hdr, false},
     {"sheet", test_sheet, false},

@@ -18,6 +18,7 @@ void test_kdtree(struct test *t);
 void test_light(struct test *t);
 void test_lobe(struct test *t);
 void test_material(struct test *t);
+void test_maths(struct test *t);
 void test_mis(struct test *t);
 void test_options(struct test *t);
 void test_pairs(struct test *t);

@@ -11,6 +11,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
+#include "base/maths.h"
 #include "base/mem.h"
 #include "base/vec.h"
 
@@ -28,7 +29,7 @@ static double log_gamma(double a)
         product *= a;
     double r = 1 / (a * a);
     double series = (1.0 / 12 - r * (1.0 / 360 - r * (1.0 / 1260 - r * (1.0 / 1680 - r / 1188)))) / a;
-    return (a - 0.5) * log(a) - a + 0.5 * log(2 * PI) + series - log(product);
+    return (a - 0.5) * m_log(a) - a + 0.5 * m_log(2 * PI) + series - m_log(product);
 }
 
 /* P(a,x) for x < a + 1: x^a e^-x / Gamma(a+1) * sum of x^k / ((a+1)...(a+k)). */
@@ -39,7 +40,7 @@ static double gamma_p_series(double a, double x)
         term *= x / (a + k);
         sum += term;
     }
-    return sum * exp(a * log(x) - x - log_gamma(a + 1));
+    return sum * m_exp(a * m_log(x) - x - log_gamma(a + 1));
 }
 
 /* One more term of a continued fraction ... b + numerator / (...): the factor by which its value changes. */
@@ -63,7 +64,7 @@ static double gamma_q_fraction(double a, double x)
         if (fabs(step - 1) < DBL_EPSILON)
             break;
     }
-    return value * exp(a * log(x) - x - log_gamma(a));
+    return value * m_exp(a * m_log(x) - x - log_gamma(a));
 }
 
 double stats_gamma_q(double a, double x)
@@ -100,7 +101,7 @@ double stats_beta_i(double a, double b, double x)
         return 0;
     if (x >= 1)
         return 1;
-    double front = exp(log_gamma(a + b) - log_gamma(a) - log_gamma(b) + a * log(x) + b * log1p(-x));
+    double front = m_exp(log_gamma(a + b) - log_gamma(a) - log_gamma(b) + a * m_log(x) + b * m_log1p(-x));
     if (x < (a + 1) / (a + b + 2))
         return front * beta_fraction(a, b, x) / a;
     return 1 - front * beta_fraction(b, a, 1 - x) / b;
@@ -108,7 +109,7 @@ double stats_beta_i(double a, double b, double x)
 
 /* --- p-values ---------------------------------------------------------------------------------------- */
 
-double stats_normal_p(double z) { return erfc(fabs(z) / sqrt(2.0)); }
+double stats_normal_p(double z) { return stats_gamma_q(0.5, z * z / 2); }
 
 double stats_student_p(double t, double dof)
 {
@@ -190,11 +191,11 @@ double stats_kolmogorov_p(double x)
         return 1;
     if (x < 1.18) {
         for (int j = 1; j <= 5; j += 2)
-            sum += exp(-(j * j) * PI * PI / (8 * x * x));
+            sum += m_exp(-(j * j) * PI * PI / (8 * x * x));
         return 1 - sqrt(2 * PI) / x * sum;
     }
     for (int j = 1; j <= 8; j++)
-        sum += (j % 2 == 1 ? 2 : -2) * exp(-2.0 * j * j * x * x);
+        sum += (j % 2 == 1 ? 2 : -2) * m_exp(-2.0 * j * j * x * x);
     return sum;
 }
 
@@ -225,4 +226,4 @@ double stats_ks_uniform_p(double *x, size_t n)
     return stats_kolmogorov_p(stats_ks_distance(x, n) * (root + 0.12 + 0.11 / root));
 }
 
-double stats_sidak(double p, double m) { return -expm1(m * log1p(-p)); }
+double stats_sidak(double p, double m) { return -m_expm1(m * m_log1p(-p)); }

@@ -4,6 +4,7 @@
 #include <float.h>
 #include <string.h>
 
+#include "base/maths.h"
 #include "base/number.h"
 
 struct transform transform_identity(void)
@@ -136,7 +137,8 @@ struct transform transform_rotate(double degrees, vec3 axis)
     /* Rodrigues [PBRT3 2.7.6]: R = cos I + (1 - cos) a a^T + sin [a]_x; the inverse of a rotation is its transpose. */
     vec3 n = normalize(axis);
     double a[3] = {n.x, n.y, n.z};
-    double s = sin(degrees * PI / 180), c = cos(degrees * PI / 180);
+    double s, c;
+    m_sincos(degrees * PI / 180, &s, &c);
     double skew[3][3] = {{0, -n.z, n.y}, {n.z, 0, -n.x}, {-n.y, n.x, 0}};
     struct transform t = transform_identity();
     for (int i = 0; i < 3; i++)

@@ -12,6 +12,7 @@
 #ifndef ASBDPT_VEC_H
 #define ASBDPT_VEC_H
 
+#include "base/maths.h"
 #include "base/number.h"
 
 typedef struct {
@@ -22,6 +23,14 @@ static inline vec3 vec(double x, double y, double z)
 {
     vec3 v = {x, y, z};
     return v;
+}
+
+/* cylindrical: the point at distance r from the z axis, at the angle phi. */
+static inline vec3 cylindrical(double r, double phi, double z)
+{
+    double s, c;
+    m_sincos(phi, &s, &c);
+    return vec(r * c, r * s, z);
 }
 
 static inline vec3 add(vec3 a, vec3 b) { return vec(a.x + b.x, a.y + b.y, a.z + b.z); }

@@ -8,23 +8,16 @@
 
 #include "base/vec.h"
 
-/* warp_disk: uniform on the unit disk, area-preserving and with little distortion [Shirley 1997]. */
+/* warp_disk: uniform on the unit disk, area-preserving and with little distortion [Shirley 1997]. Squares around the
+ * middle become circles; the angle is counted from the nearer axis. */
 static inline void warp_disk(double u1, double u2, double *x, double *y)
 {
-    double a = 2 * u1 - 1, b = 2 * u2 - 1, r, phi;
-    if (a == 0 && b == 0) {
-        *x = *y = 0;
-        return;
-    }
-    if (fabs(a) > fabs(b)) {
-        r = a;
-        phi = PI / 4 * (b / a);
-    } else {
-        r = b;
-        phi = PI / 2 - PI / 4 * (a / b);
-    }
-    *x = r * cos(phi);
-    *y = r * sin(phi);
+    double a = 2 * u1 - 1, b = 2 * u2 - 1;
+    bool wide = fabs(a) > fabs(b);
+    double r = wide ? a : b, other = wide ? b : a;
+    vec3 p = cylindrical(r, r != 0 ? PI / 4 * (other / r) : 0, 0);
+    *x = wide ? p.x : p.y;
+    *y = wide ? p.y : p.x;
 }
 
 /* warp_cos_hemisphere: direction around +z with density cos(theta)/pi [PBRT3 13.6.3]. */
@@ -41,13 +34,13 @@ static inline double warp_cos_hemisphere_pdf_w(double cos_theta) { return cos_th
 static inline vec3 warp_sphere(double u1, double u2)
 {
     double z = 1 - 2 * u1, r = safe_sqrt(1 - z * z), phi = 2 * PI * u2;
-    return vec(r * cos(phi), r * sin(phi), z);
+    return cylindrical(r, phi, z);
 }
 
 /* warp_sphere_inverse: the (u1,u2), in [0,1), that warp_sphere maps to w. */
 static inline void warp_sphere_inverse(vec3 w, double *u1, double *u2)
 {
-    double phi = atan2(w.y, w.x) / (2 * PI);
+    double phi = m_atan2(w.y, w.x) / (2 * PI);
     *u1 = below_one(fmax((1 - w.z) / 2, 0));
     *u2 = below_one(phi < 0 ? phi + 1 : phi);
 }
@@ -58,7 +51,7 @@ static inline double warp_sphere_pdf_w(void) { return INV_PI / 4; }
 static inline vec3 warp_cone(double u1, double u2, double cos_max)
 {
     double z = 1 - u1 * (1 - cos_max), r = safe_sqrt(1 - z * z), phi = 2 * PI * u2;
-    return vec(r * cos(phi), r * sin(phi), z);
+    return cylindrical(r, phi, z);
 }
 
 static inline double warp_cone_pdf_w(double cos_max) { return 1 / (2 * PI * (1 - cos_max)); }

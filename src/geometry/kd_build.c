@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/maths.h"
 #include "geometry/kd_block.h"
 #include "geometry/kd_plane.h"
 #include "geometry/kdtree.h"
@@ -112,7 +113,7 @@ static struct prospect leaf_prospect(const struct builder *b, const struct kd_ce
     double area = kd_half_area(&cell->box), sum = 0;
     for (size_t i = cell->at; i < cell->at + cell->n; i++)
         sum += kd_half_area(&b->ref[i].box) / 2;
-    struct prospect p = {kd_leaf_cost(cell->n), area > 0 ? 1 - exp(-sum / area) : 1};
+    struct prospect p = {kd_leaf_cost(cell->n), area > 0 ? 1 - m_exp(-sum / area) : 1};
     return p;
 }
 
@@ -239,7 +240,7 @@ void kd_build(struct kdtree *kd, const struct geometry *geo, bool passable)
     int n = start_items(&b, passable, &bounds);
     if (n > 0) {
         /* n is 1 to 2^31, so this is 8 to KD_MAX_DEPTH. */
-        b.max_depth = (int)fmin(KD_MAX_DEPTH, 8 + 2.0 * log2(n));
+        b.max_depth = (int)fmin(KD_MAX_DEPTH, 8 + 2.0 * m_log2(n));
         kd->node = mem_grow(NULL, &b.node_capacity, 2, sizeof *kd->node);
         kd->n_nodes = 2;
         struct kd_cell root = {bounds, 0, (size_t)n, MAX_REFERENCES * n, 0};

@@ -1,6 +1,8 @@
 /* quadric.c: see quadric.h. Parametrisations and partial derivatives as in [PBRT3 3.2-3.4]. */
 #include "geometry/quadric.h"
 
+#include "base/maths.h"
+
 void quadric_normalise(struct quadric *q)
 {
     double low = fmin(q->zmin, q->zmax), high = fmax(q->zmin, q->zmax);
@@ -35,7 +37,7 @@ void quadric_bounds(const struct quadric *q, vec3 *lo, vec3 *hi)
 
 static double azimuth(vec3 p)
 {
-    double phi = atan2(p.y, p.x);
+    double phi = m_atan2(p.y, p.x);
     return phi < 0 ? phi + 2 * PI : phi;
 }
 
@@ -123,10 +125,10 @@ struct object_point {
 static void sphere_point(const struct quadric *q, vec3 p, struct object_point *at)
 {
     double r = q->radius, ring = sqrt(sqr(p.x) + sqr(p.y));
-    double theta0 = acos(clamp(q->zmin / r, -1, 1)), theta1 = acos(clamp(q->zmax / r, -1, 1));
+    double theta0 = m_acos(clamp(q->zmin / r, -1, 1)), theta1 = m_acos(clamp(q->zmax / r, -1, 1));
     vec3 axis = ring > 0 ? vec(p.x / ring, p.y / ring, 0) : vec(1, 0, 0);
     ring = fmax(ring, 1e-5 * r);
-    at->v = (acos(clamp(p.z / r, -1, 1)) - theta0) / (theta1 - theta0);
+    at->v = (m_acos(clamp(p.z / r, -1, 1)) - theta0) / (theta1 - theta0);
     at->n = mul(p, 1 / r);
     at->dpdu = mul(vec(-axis.y, axis.x, 0), q->phi_max * ring);
     at->dpdv = mul(vec(p.z * axis.x, p.z * axis.y, -ring), theta1 - theta0);
@@ -194,7 +196,7 @@ vec3 quadric_sample(const struct quadric *q, double u1, double u2)
         r = safe_sqrt(sqr(q->radius) - sqr(z));
     else if (q->kind == QUADRIC_DISK)
         r = sqrt(sqr(q->inner_radius) + u1 * (sqr(q->radius) - sqr(q->inner_radius)));
-    return vec(r * cos(phi), r * sin(phi), z);
+    return cylindrical(r, phi, z);
 }
 
 static double object_area(const struct quadric *q)

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/maths.h"
 #include "base/mem.h"
 
 bool picture_size_ok(unsigned long width, unsigned long height, struct error *err)
@@ -55,12 +56,12 @@ void image_free(struct image *img)
 
 double srgb_encode(double linear)
 {
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * m_pow(linear, 1 / 2.4) - 0.055;
 }
 
 double srgb_decode(double encoded)
 {
-    return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
+    return encoded <= 0.04045 ? encoded / 12.92 : m_pow((encoded + 0.055) / 1.055, 2.4);
 }
 
 uint8_t srgb_byte(double linear)

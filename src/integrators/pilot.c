@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/maths.h"
 #include "base/parallel.h"
 
 /* What a pixel's variance given its eye sub-path is made of. */
@@ -216,7 +217,7 @@ static void choose_numbers(struct selection *sel, const struct sums *s)
     costs(sel, &fixed, cost);
     for (int k = 0; k < N_KINDS; k++) {
         double best = cost[k] > 0 ? sqrt(b[k] * TRIED[k] / cost[k] * fixed / A) : USUAL[k];
-        n[k] = USUAL[k] * pow(fmax(best, 1e-3) / USUAL[k], BOLDNESS);
+        n[k] = USUAL[k] * m_pow(fmax(best, 1e-3) / USUAL[k], BOLDNESS);
         credit[k] = s->spread[k] > 0 ? clamp(s->square[k] / s->spread[k], 1, MOST_CREDIT) : 1;
     }
     set_numbers(sel, n, credit);

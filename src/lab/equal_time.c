@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/file.h"
+#include "base/maths.h"
 #include "base/number.h"
 
 const struct variant EQUAL_VARIANTS[EQUAL_MAX] = {
@@ -54,7 +55,7 @@ double equal_square(const struct equal_render *r, double noise8, enum equal_erro
 {
     double noise = isfinite(noise8) ? noise8 : 0;
     double square = which == EQUAL_RMSE8 ? r->rmse8 * r->rmse8 - noise * noise : r->relmse;
-    return square * pow(r->seconds / r->target, r->growth);
+    return square * m_pow(r->seconds / r->target, r->growth);
 }
 
 struct interval equal_ratio(const struct equal_time *e, const struct equal_scene *s, int variant,
@@ -77,7 +78,7 @@ struct equal_summary equal_summarize(const struct equal_time *e, int variant, en
         double ratio = equal_ratio(e, s, variant, which).value;
         if (!isfinite(ratio))
             continue;
-        log_sum += log(ratio);
+        log_sum += m_log(ratio);
         if (!(out.best <= ratio)) {
             out.best = ratio;
             out.best_scene = s->name;
@@ -88,7 +89,7 @@ struct equal_summary equal_summarize(const struct equal_time *e, int variant, en
         }
         out.n++;
     }
-    out.mean = out.n > 0 ? exp(log_sum / out.n) : NAN;
+    out.mean = out.n > 0 ? m_exp(log_sum / out.n) : NAN;
     return out;
 }
 

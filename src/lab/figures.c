@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/maths.h"
 #include "base/number.h"
 #include "lab/markup.h"
 
@@ -80,7 +81,7 @@ struct plot_axis axis_make(bool logarithmic, double low, double high)
 {
     struct plot_axis a = {logarithmic, low, high};
     if (logarithmic) {
-        double margin = high > low ? pow(high / low, 0.06) : 1.5;
+        double margin = high > low ? m_pow(high / low, 0.06) : 1.5;
         a.low = low / margin;
         a.high = high * margin;
     } else {
@@ -94,13 +95,13 @@ struct plot_axis axis_make(bool logarithmic, double low, double high)
 double axis_position(const struct plot_axis *a, double value)
 {
     if (a->logarithmic)
-        return log(value / a->low) / log(a->high / a->low);
+        return m_log(value / a->low) / m_log(a->high / a->low);
     return (value - a->low) / (a->high - a->low);
 }
 
 static int linear_ticks(const struct plot_axis *a, double tick[], bool major[])
 {
-    double raw = (a->high - a->low) / 8, power = pow(10, floor(log10(raw))), scaled = raw / power;
+    double raw = (a->high - a->low) / 8, power = m_pow(10, floor(m_log10(raw))), scaled = raw / power;
     double step = power * (scaled <= 1 ? 1 : scaled <= 2 ? 2 : scaled <= 5 ? 5 : 10);
     int n = 0;
     for (double i = ceil(a->low / step); i * step <= a->high && n < AXIS_MAX_TICKS; i++, n++) {
@@ -114,11 +115,11 @@ static int linear_ticks(const struct plot_axis *a, double tick[], bool major[])
  * short one at every digit. */
 static int log_ticks(const struct plot_axis *a, double tick[], bool major[])
 {
-    double decades = log10(a->high / a->low);
+    double decades = m_log10(a->high / a->low);
     int n = 0, every = 1 + int_within(decades / 10, 0, 100);
-    for (int power = int_within(floor(log10(a->low)), -324, 308); pow(10, power) <= a->high; power++)
+    for (int power = int_within(floor(m_log10(a->low)), -324, 308); m_pow(10, power) <= a->high; power++)
         for (int digit = 1; digit <= 9; digit++) {
-            double value = digit * pow(10, power);
+            double value = digit * m_pow(10, power);
             if (value < a->low || value > a->high || n >= AXIS_MAX_TICKS || (decades > 6 && digit != 1))
                 continue;
             tick[n] = value;

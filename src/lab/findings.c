@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/maths.h"
 #include "lab/published.h"
 
 static void add_finding(struct findings *f, const char *format, ...)
@@ -162,7 +163,7 @@ static void add_gains(const struct results *r, int variant, struct findings *f)
         count[outcome_of(ratio)]++;
         if (isfinite(ratio.value)) {
             known++;
-            log_sum += log(ratio.value);
+            log_sum += m_log(ratio.value);
         }
     }
     add_finding(
@@ -170,7 +171,7 @@ static void add_gains(const struct results *r, int variant, struct findings *f)
         "At equal time %s has less squared error than BDPT in %d of %d scenes, more in %d, undecided in %d; the "
         "geometric mean of the ratios is %.3f.",
         VARIANTS[variant].label, count[OUTCOME_GAIN], r->plan->n_scenes, count[OUTCOME_LOSS], count[OUTCOME_UNDECIDED],
-        known > 0 ? exp(log_sum / known) : NAN);
+        known > 0 ? m_exp(log_sum / known) : NAN);
 }
 
 static void add_bias_counts(const struct results *r, struct findings *f)

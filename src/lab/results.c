@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/maths.h"
 #include "base/stats.h"
 
 enum { N_AVERAGED = Q_MEAN_NOISE /* the quantities that results.csv has */ };
@@ -189,7 +190,7 @@ struct interval results_ratio(const double *a, int na, const double *b, int nb)
     /* var ln x = var x / x^2; Welch's degrees of freedom. */
     double va = ea.error * ea.error / (ea.mean * ea.mean), vb = eb.error * eb.error / (eb.mean * eb.mean);
     double v = va + vb, dof = v > 0 ? v * v / (va * va / (na - 1) + vb * vb / (nb - 1)) : 1;
-    double factor = exp(student_quantile(0.05, dof) * sqrt(v));
+    double factor = m_exp(student_quantile(0.05, dof) * sqrt(v));
     out.low = out.value / factor;
     out.high = out.value * factor;
     return out;

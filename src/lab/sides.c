@@ -8,6 +8,7 @@
 
 #include "base/file.h"
 #include "base/mem.h"
+#include "base/number.h"
 #include "base/progress.h"
 #include "base/rng.h"
 #include "image/image.h"
@@ -167,7 +168,7 @@ static bool write_text(const char *name, const struct side *a, const struct side
         return false;
     fprintf(f.stream, "origin %s\nscene %s\nresolution %dx%d\nmaxdepth %d\nnoise8 %.6g\nmean %.9g\nmean_error %.6g\n",
             from->note, from->scene_path, a->width, a->height, from->max_depth, noise8, mean,
-            hypot(weight * error_a, (1 - weight) * error_b) / mean);
+            sqrt(sqr(weight * error_a) + sqr((1 - weight) * error_b)) / mean);
     fprintf(f.stream, "weights %.6f %.6f of the two methods, by the inverse of the sum of all pixels' variances\n",
             weight, 1 - weight);
     fprintf(f.stream,

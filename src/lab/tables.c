@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/maths.h"
 #include "base/mem.h"
 #include "lab/markup.h"
 #include "lab/published.h"
@@ -72,7 +73,7 @@ static void add_missing(struct table *t, int n)
 /* "mean +- error" with as many digits after the point as show two of the error's. */
 static void add_estimate(struct table *t, double mean, double error)
 {
-    int digits = error > 0 && isfinite(error) ? 1 - (int)floor(log10(error)) : 0;
+    int digits = error > 0 && isfinite(error) ? 1 - (int)floor(m_log10(error)) : 0;
     digits = digits < 0 ? 0 : digits > 6 ? 6 : digits;
     if (!isfinite(mean))
         add_missing(t, 1);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/maths.h"
 #include "base/mem.h"
 #include "base/number.h"
 #include "base/rng.h"
@@ -142,7 +143,7 @@ double batches_p(const struct batches *a, const struct batches *b, double *ratio
 static double random_normal(struct rng *r)
 {
     double u = 1 - rng_uniform(r), v = rng_uniform(r);
-    return sqrt(-2 * log(u)) * cos(2 * PI * v);
+    return sqrt(-2 * m_log(u)) * m_cos(2 * PI * v);
 }
 
 /* Batches with expectation 0 that scatter like b does. */

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/maths.h"
+
 /* The lobes of a BSDF in the making, and what they are made from. */
 struct lobe_list {
     const struct material *materials;
@@ -47,7 +49,7 @@ static double refraction(const struct lobe_list *r, const struct material *m)
 /* The polynomial is pbrt's fit in x = ln(roughness). [PBRT3 8.4.2] */
 double roughness_to_alpha(double roughness)
 {
-    double x = log(fmax(roughness, 1e-3));
+    double x = m_log(fmax(roughness, 1e-3));
     return 1.62142 + x * (0.819955 + x * (0.1734 + x * (0.0171201 + x * 0.000640711)));
 }
 

@@ -23,7 +23,7 @@ vec3 microfacet_sample(vec3 wo, double alpha_x, double alpha_y, double u1, doubl
     vec3 v = normalize(vec(side * alpha_x * wo.x, side * alpha_y * wo.y, side * wo.z));
     double z = (1 - u2) * (1 + v.z) - v.z;
     double r = safe_sqrt(1 - z * z), phi = 2 * PI * u1;
-    vec3 half = add(vec(r * cos(phi), r * sin(phi), z), v);
+    vec3 half = add(cylindrical(r, phi, z), v);
     return mul(normalize(vec(alpha_x * half.x, alpha_y * half.y, half.z)), side);
 }
 

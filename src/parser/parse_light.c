@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/maths.h"
+
 /* A light in the making. */
 struct light_item {
     struct light light;
@@ -52,8 +54,8 @@ static void spot_light(struct parser *p, void *object)
     struct params *q = &p->params;
     if (item->cone > 180)
         type_error(q, "\"coneangle\" is %g degrees; the whole sphere is 180", item->cone);
-    l->cos_total = cos(item->cone * PI / 180);
-    l->cos_falloff = cos(fmax(item->cone - item->edge, 0) * PI / 180);
+    l->cos_total = m_cos(item->cone * PI / 180);
+    l->cos_falloff = m_cos(fmax(item->cone - item->edge, 0) * PI / 180);
     if (!(l->cos_total < 1))
         type_error(q, "\"coneangle\" is %g degrees: a cone without inside", item->cone);
     l->position = transform_point(&l->to_world, item->from);

@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include "base/maths.h"
+
 /* The range of the CIE tables, nm, in steps of 1 nm. */
 enum { FIRST_NM = 360, LAST_NM = 830 };
 
@@ -10,7 +12,7 @@ enum { FIRST_NM = 360, LAST_NM = 830 };
 static double lobe(double nm, double height, double mean, double below, double above)
 {
     double t = (nm - mean) / (nm < mean ? below : above);
-    return height * exp(-0.5 * t * t);
+    return height * m_exp(-0.5 * t * t);
 }
 
 static double match_x(double nm)
@@ -77,7 +79,7 @@ rgb spectrum_from_samples(double (*sample)[2], int n)
 
 /* Planck's law up to a constant factor: with x = h c / (lambda k T) it is x^5 / (e^x - 1) for a given T.
  * [PBRT3 12.1.1] */
-static double planck(double x) { return x < 700 ? x * x * x * x * x / expm1(x) : 0; }
+static double planck(double x) { return x < 700 ? x * x * x * x * x / m_expm1(x) : 0; }
 
 rgb spectrum_blackbody(double kelvin, double scale)
 {

@@ -1,6 +1,7 @@
 /* camera.c: see camera.h. Framing rules are those of [PBRT3 6.2]. */
 #include "scene/camera.h"
 
+#include "base/maths.h"
 #include "base/warp.h"
 
 struct camera camera_default(void)
@@ -17,7 +18,7 @@ void camera_prepare(struct camera *c, int width, int height)
     double aspect = c->frame_aspect_ratio > 0 ? c->frame_aspect_ratio : (double)width / height;
     double x = aspect > 1 ? aspect : 1, y = aspect > 1 ? 1 : 1 / aspect; /* the shorter side spans [-1,1] */
     const double whole[4] = {-x, x, -y, y}, *window = c->has_screen_window ? c->screen_window : whole;
-    double half = tan(c->fov * PI / 360); /* screen unit 1 lies at this height at z = 1 */
+    double half = m_tan(c->fov * PI / 360); /* screen unit 1 lies at this height at z = 1 */
     c->x_scale = (window[1] - window[0]) * half / width;
     c->y_scale = -(window[3] - window[2]) * half / height;
     c->x_origin = window[0] * half;

@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "base/maths.h"
 #include "base/mem.h"
 #include "base/number.h"
 #include "material/texture.h"
@@ -52,7 +53,7 @@ static void build_blocks(struct envmap *e, const double *luminance)
         block_range(e, b, &x0, &x1, &y0, &y1);
         for (int y = y0; y < y1; y++)
             for (int x = x0; x < x1; x++)
-                weight[n++] = texel_weight(luminance, width, height, x, y) * sin(PI * (y + 0.5) / height);
+                weight[n++] = texel_weight(luminance, width, height, x, y) * m_sin(PI * (y + 0.5) / height);
         alias_build(&e->block[b], weight, n);
     }
     free(weight);
@@ -65,7 +66,7 @@ static void build_tables(struct envmap *e)
     rgb sum = rgb_black();
     double solid_angle = 0;
     for (int y = 0; y < height; y++) {
-        double sin_theta = sin(PI * (y + 0.5) / height);
+        double sin_theta = m_sin(PI * (y + 0.5) / height);
         for (int x = 0; x < width; x++) {
             rgb c = texel(e, x, y);
             double l = rgb_luminance(c);
@@ -104,9 +105,9 @@ void envmap_free(struct envmap *e)
 
 static void direction_to_map(vec3 w, double *s, double *v)
 {
-    double phi = atan2(w.y, w.x);
+    double phi = m_atan2(w.y, w.x);
     *s = (phi < 0 ? phi + 2 * PI : phi) / (2 * PI);
-    *v = acos(clamp(w.z, -1, 1)) / PI;
+    *v = m_acos(clamp(w.z, -1, 1)) / PI;
 }
 
 rgb envmap_lookup(const struct envmap *e, vec3 w)
@@ -130,9 +131,10 @@ vec3 envmap_sample(const struct envmap *e, int block, double u1, double u2, doub
     block_range(e, block, &x0, &x1, &y0, &y1);
     int x = x0 + i % (x1 - x0), y = y0 + i / (x1 - x0);
     double phi = 2 * PI * (x + du) / e->image.width, theta = PI * (y + u2) / e->image.height;
-    double sin_theta = sin(theta);
+    double sin_theta, cos_theta;
+    m_sincos(theta, &sin_theta, &cos_theta);
     *pdf_dir = texel_pdf(e, pmf, sin_theta);
-    return vec(sin_theta * cos(phi), sin_theta * sin(phi), cos(theta));
+    return cylindrical(sin_theta, phi, cos_theta);
 }
 
 double envmap_pdf(const struct envmap *e, vec3 w, int *block)

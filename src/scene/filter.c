@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/maths.h"
 #include "base/vec.h"
 
 /* [Mitchell & Netravali 1988] [PBRT3 7.8.1] */
@@ -17,7 +18,7 @@ static double mitchell(double x, double B, double C)
     return ((12 - 9 * B - 6 * C) * x * x * x + (-18 + 12 * B + 6 * C) * x * x + (6 - 2 * B)) / 6;
 }
 
-static double sinc(double x) { return fabs(x) < 1e-5 ? 1 : sin(PI * x) / (PI * x); }
+static double sinc(double x) { return fabs(x) < 1e-5 ? 1 : m_sin(PI * x) / (PI * x); }
 
 /* One axis of the filter, not normalised. */
 static double profile(const struct filter *f, int axis, double x)
@@ -28,7 +29,7 @@ static double profile(const struct filter *f, int axis, double x)
     switch (f->kind) {
     case FILTER_BOX: return 1;
     case FILTER_TRIANGLE: return r - fabs(x);
-    case FILTER_GAUSSIAN: return fmax(0, exp(-f->alpha * x * x) - exp(-f->alpha * r * r));
+    case FILTER_GAUSSIAN: return fmax(0, m_exp(-f->alpha * x * x) - m_exp(-f->alpha * r * r));
     case FILTER_MITCHELL: return mitchell(x / r, f->B, f->C);
     case FILTER_SINC: return sinc(x) * sinc(x / f->tau);
     }

@@ -1,0 +1,30 @@
+#!/bin/sh
+# libm.sh [TOP]: TOP's src calls no function of libm that every library rounds in its own way: pictures would have
+# other bytes on another machine. base/maths.h has them. What IEEE 754 or C99 defines to the last bit (sqrt, fabs,
+# floor, ceil, fmin, fmax, fmod, frexp, ldexp, nextafter) may be called. Prints what is wrong; exit status 0 only if
+# nothing is.
+top=${1:-.}
+LC_ALL=C awk '
+    BEGIN {
+        n = split("sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 exp10 expm1 log log2 " \
+                  "log10 log1p pow sincos hypot cbrt erf erfc lgamma tgamma fma j0 j1 jn y0 y1 yn", name, " ")
+        for (i = 1; i <= n; i++) rough[name[i]] = rough[name[i] "f"] = rough[name[i] "l"] = 1
+    }
+    FNR == 1 { comment = 0 }
+    {
+        line = $0
+        gsub(/\\./, "", line)
+        gsub(/"[^"]*"/, "\"\"", line)
+        if (comment && !sub(/^.*\*\//, "", line)) next
+        gsub(/\/\*([^*]|\*+[^*\/])*\*+\//, " ", line)
+        comment = sub(/\/\*.*/, "", line)
+        while (match(line, /[A-Za-z_][A-Za-z_0-9]*/)) {
+            word = substr(line, RSTART, RLENGTH)
+            line = substr(line, RSTART + RLENGTH)
+            if (word in rough && line ~ /^ *[(]/) {
+                print FILENAME ":" FNR ": " word "() differs from machine to machine; see base/maths.h"
+                bad = 1
+            }
+        }
+    }
+    END { exit bad }' $(find "$top/src" -name '*.[ch]' | sort)
