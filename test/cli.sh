@@ -141,6 +141,18 @@ check cmp -s piped.pfm target.pfm
 # One line with place and caret for what a scene file can get wrong.
 printf 'WorldBegin\nShpae "sphere"\nWorldEnd\n' >typo.pbrt
 expect 1 '^asbdpt: typo.pbrt:2:1: ' "$program" render typo.pbrt
+# Warnings are errors by --strict, and all errors come in one run.
+printf 'WorldBegin\nShape "sphere" "float radus" 2\nMaterial "mate"\nWorldEnd\n' >warned.pbrt
+for command in info "render $small -o x.pfm"; do
+    expect 0 '' "$program" $command warned.pbrt
+    expect 1 '^asbdpt: warned.pbrt:2:16: parameter "radus" of Shape "sphere" is not used; did you mean "radius"' \
+        "$program" $command warned.pbrt --strict
+    check grep -q '^asbdpt: warned.pbrt:3:10: unknown Material "mate"' stderr.txt
+    check grep -q 'refused for what is said above' stderr.txt
+done
+printf 'WorldBegin\nShpae "sphere"\nShape "curve"\nWorldEnd\n' >errors.pbrt
+expect 1 '^asbdpt: errors.pbrt:2:1: unknown directive' "$program" render errors.pbrt --quiet
+check grep -q '^asbdpt: errors.pbrt:3:7: Shape "curve"' stderr.txt
 printf 'WorldBegin\nShape "hyperboloid"\nWorldEnd\n' >shape.pbrt
 expect 1 'shape.pbrt:2:[0-9]+: .*hyperboloid' "$program" render shape.pbrt
 printf 'WorldBegin\nShape "plymesh" "string filename" "cut.ply"\nWorldEnd\n' >ply.pbrt

@@ -1,7 +1,8 @@
 /* test_parser.c: scene files.
  *
  * Every file of test/fixtures says in its first line what must come of it: "# expect: ok", or LINE:COL and a part
- * of the message; further lines "# warn: ..." name parts of the warnings, in order. What a scene must contain is
+ * of the message of the first error; further lines "# also: ..." name parts of the other errors and "# warn: ..." of
+ * the warnings, in order. What a scene must contain is
  * checked here for the fixtures ok-*. Then: numbers against strtod, spectra against known colours, and damaged
  * copies of all fixtures, which must be accepted or refused, never crash (run it with sanitizers).
  */
@@ -50,18 +51,24 @@ static void list_fixtures(struct fixtures *f)
     qsort(f->name, (size_t)f->n, sizeof f->name[0], by_name);
 }
 
-/* Warnings as they come. */
+/* Messages as they come. */
 struct heard {
     char text[MAX_WARNINGS][TEXT];
     int n;
 };
 
-static void hear(void *context, const char *text)
+struct hearing {
+    struct heard warnings, errors;
+};
+
+static void hear(struct heard *h, const char *text)
 {
-    struct heard *h = context;
     if (h->n < MAX_WARNINGS)
         snprintf(h->text[h->n++], TEXT, "%s", text);
 }
+
+static void hear_warning(void *context, const char *text) { hear(&((struct hearing *)context)->warnings, text); }
+static void hear_error(void *context, const char *text) { hear(&((struct hearing *)context)->errors, text); }
 
 /* The comment "# KEY: value" number k at the head of the text; empty if there are fewer. */
 static void head_comment(const char *text, const char *key, int k, char out[TEXT])
@@ -112,6 +119,21 @@ static void check_refusal(struct test *t, const char *name, const char *path, co
         check_caret(t, name, message, text, line, column);
 }
 
+/* Messages from number `first` on against the lines "# KEY: ..." of the head. */
+static void check_heard(struct test *t, const char *name, const char *text, const char *key, const struct heard *heard,
+                        int first)
+{
+    char expect[TEXT];
+    int i = first;
+    for (; i < heard->n; i++) {
+        head_comment(text, key, i - first, expect);
+        CHECK(t, expect[0] != '\0' && strstr(heard->text[i], expect) != NULL, "%s: said \"%s\", expected \"%s\"", name,
+              heard->text[i], expect);
+    }
+    head_comment(text, key, i - first, expect);
+    CHECK(t, expect[0] == '\0', "%s: nothing said of \"%s\"", name, expect);
+}
+
 static void check_fixture(struct test *t, const char *name)
 {
     char path[TEXT], expect[TEXT];
@@ -120,22 +142,18 @@ static void check_fixture(struct test *t, const char *name)
     struct error err = {""};
     char *text = text_read(path, &size, &err);
     struct scene s;
-    struct heard *heard = mem_alloc(1, sizeof *heard);
-    struct warning_sink sink = {hear, heard};
+    struct hearing *heard = mem_alloc(1, sizeof *heard);
+    struct message_sink sink = {hear_warning, hear_error, heard};
     bool ok = parse_scene(path, &s, &sink, &err);
     head_comment(text, "expect", 0, expect);
     if (strcmp(expect, "ok") == 0)
         CHECK(t, ok, "%s: refused:\n%s", name, err.text);
     else if (CHECK(t, !ok, "%s: accepted, but expected: %s", name, expect))
         check_refusal(t, name, path, text, expect, err.text);
-    int n = 0;
-    for (; n < heard->n; n++) {
-        head_comment(text, "warn", n, expect);
-        CHECK(t, expect[0] != '\0' && strstr(heard->text[n], expect) != NULL, "%s: warned \"%s\", expected \"%s\"",
-              name, heard->text[n], expect);
-    }
-    head_comment(text, "warn", n, expect);
-    CHECK(t, expect[0] == '\0' || !ok, "%s: no warning \"%s\"", name, expect);
+    CHECK(t, ok == (heard->errors.n == 0), "%s: %d errors", name, heard->errors.n);
+    CHECK(t, ok || strncmp(heard->errors.text[0], err.text, TEXT - 1) == 0, "%s: the first error is another", name);
+    check_heard(t, name, text, "also", &heard->errors, 1);
+    check_heard(t, name, text, "warn", &heard->warnings, 0);
     if (ok)
         scene_free(&s);
     free(heard);
@@ -364,6 +382,24 @@ static void check_materials(struct test *t)
     scene_free(&s);
 }
 
+/* Shapes that change parameters of their material. */
+static void check_changed_materials(struct test *t)
+{
+    struct scene s;
+    if (!open_scene(t, "changed", &s))
+        return;
+    const struct shape_group *g = s.geo.group;
+    const struct material *m[4];
+    for (int i = 0; i < 4; i++)
+        m[i] = &s.material[g[i].material];
+    CHECK(t, is_constant(&s, m[0]->Kd, 1, 0, 0) && is_grey(&s, m[0]->sigma, 0), "of the material at the start");
+    CHECK(t, is_constant(&s, m[1]->Kd, 0, 0, 1) && is_grey(&s, m[1]->sigma, 10), "a colour for a texture");
+    CHECK(t, s.textures.texture[m[2]->Kd].kind == TEXTURE_SCALE, "what the material does not have changes nothing");
+    CHECK(t, s.textures.texture[m[3]->Kd].kind == TEXTURE_SCALE && is_grey(&s, m[3]->sigma, 20), "of a named one");
+    CHECK(t, s.geo.quadric[1].radius == 2, "the shape's own parameters remain its own");
+    scene_free(&s);
+}
+
 /* The k-th texture that is not a plain constant. */
 static const struct texture *texture_number(const struct scene *s, int k)
 {
@@ -527,7 +563,7 @@ static void check_cleaning(struct test *t)
 /* A name in UTF-8 is quoted as it is, an escape sequence is not; in the excerpt a byte is a column. */
 static void check_odd_bytes(struct test *t)
 {
-    static const char TEXT_OF[] = "WorldBegin\nMaterial \"gr\xc3\xbcn\x1b[31m\\n\xff\" # \xc3\xa9\nWorldEnd\n";
+    static const char TEXT_OF[] = "WorldBegin\n Include \"gr\xc3\xbcn\x1b[31m\\n\xff\" # \xc3\xa9\nWorldEnd\n";
     char path[TEXT], want[2 * TEXT];
     snprintf(path, sizeof path, "%s/odd.pbrt", test_tmp(t));
     FILE *f = fopen(path, "wb");
@@ -538,10 +574,10 @@ static void check_odd_bytes(struct test *t)
     struct error err;
     struct scene s;
     CHECK(t, !parse_scene(path, &s, NULL, &err), "an odd name is accepted");
-    snprintf(want, sizeof want, "%s:2:10: unknown Material \"gr\xc3\xbcn?[31m??\"; use one of ", path);
+    snprintf(want, sizeof want, "%s:2:10: %s/gr\xc3\xbcn?[31m??: cannot open", path, test_tmp(t));
     CHECK(t, strncmp(err.text, want, strlen(want)) == 0, "a name of odd bytes, expected %s, got\n%s", want, err.text);
     const char *excerpt = strchr(err.text, '\n');
-    snprintf(want, sizeof want, "\n  Material \"gr??n [31m\\n?\" # ??\n           ^");
+    snprintf(want, sizeof want, "\n   Include \"gr??n [31m\\n?\" # ??\n           ^");
     CHECK(t, excerpt != NULL && strcmp(excerpt, want) == 0, "a line of odd bytes, expected %s, got %s", want, excerpt);
 }
 
@@ -657,6 +693,7 @@ void test_parser(struct test *t)
     check_values(t);
     check_shapes(t);
     check_materials(t);
+    check_changed_materials(t);
     check_textures(t);
     check_lights(t);
     check_numbers(t);

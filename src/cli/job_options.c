@@ -32,14 +32,29 @@ const struct option JOB_OPTIONS[] = {
      .help = "write every strategy (s,t), and all as DIR/pyramid.png"},
     {"--aov", "LIST", OPTION_TEXT, AT(aov),
      .help = "also NAME.albedo.pfm ...: albedo,normal,depth,position,variance"},
+    {"--strict", NULL, OPTION_ON, AT(strict), .help = "warnings of the scene are errors"},
     {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "no progress, no warnings"},
     {.name = NULL},
 };
 
+/* Who hears of warnings, and how many there were. */
+struct listener {
+    const struct job_options *options;
+    int n_warnings;
+};
+
 static void print_warning(void *context, const char *text)
 {
+    struct listener *to = context;
+    to->n_warnings++;
+    if (to->options->strict || !to->options->quiet)
+        fprintf(stderr, "asbdpt: %s%s\n", to->options->strict ? "" : "warning: ", text);
+}
+
+static void print_error(void *context, const char *text)
+{
     (void)context;
-    fprintf(stderr, "asbdpt: warning: %s\n", text);
+    fprintf(stderr, "asbdpt: %s\n", text);
 }
 
 static void override(const char *pair, struct settings *settings)
@@ -81,16 +96,16 @@ void integrator_unknown(const char *wanted, struct error *out)
 }
 
 /* The integrator asked for; pbrt's integrators that do not exist here are replaced by the default. */
-static const struct integrator *choose_integrator(const struct job_options *o, const struct scene *scene,
-                                                  struct error *err)
+static const struct integrator *choose_integrator(const struct scene *scene, struct listener *to, struct error *err)
 {
+    const struct job_options *o = to->options;
     const char *name = o->integrator != NULL ? o->integrator : scene->integrator;
     const struct integrator *m = integrator_find(name != NULL ? name : "bdpt");
     if (m != NULL)
         return m;
     if (o->integrator == NULL) {
         error_set(err, "integrator \"%s\" does not exist here; using bdpt", name);
-        print_warning(NULL, err->text);
+        print_warning(to, err->text);
         return integrator_find("bdpt");
     }
     struct error known;
@@ -100,29 +115,33 @@ static const struct integrator *choose_integrator(const struct job_options *o, c
 }
 
 /* pbrt has three strategies, and scenes name all of them; picking lights uniformly only adds noise. */
-static void warn_of_uniform(const struct scene *scene)
+static void warn_of_uniform(const struct scene *scene, struct listener *to)
 {
     const struct setting *item = settings_find(&scene->settings, "lightsamplestrategy");
     struct error text;
     if (item == NULL || strcmp(item->value, "uniform") != 0)
         return;
     error_set(&text, "%s: lights are not picked uniformly here; \"power\" is used instead", item->origin);
-    print_warning(NULL, text.text);
+    print_warning(to, text.text);
 }
 
 int job_load(const struct job_options *o, struct scene *scene, const struct integrator **integrator)
 {
     struct error err;
-    struct warning_sink sink = {print_warning, NULL};
-    if (!parse_scene(o->scene_path, scene, o->quiet ? NULL : &sink, &err))
-        return fail(&err);
+    struct listener listener = {o, 0};
+    struct message_sink sink = {print_warning, print_error, &listener};
+    if (!parse_scene(o->scene_path, scene, &sink, NULL))
+        return EXIT_JOB;
     *integrator = NULL;
-    if (!apply(o, scene, &err) || (*integrator = choose_integrator(o, scene, &err)) == NULL) {
+    bool ok = apply(o, scene, &err) && (*integrator = choose_integrator(scene, &listener, &err)) != NULL;
+    if (ok)
+        warn_of_uniform(scene, &listener);
+    if (ok && o->strict && listener.n_warnings > 0)
+        ok = error_set(&err, "%s: refused for what is said above, by --strict", o->scene_path);
+    if (!ok) {
         scene_free(scene);
         return fail(&err);
     }
-    if (!o->quiet)
-        warn_of_uniform(scene);
     scene_prepare(scene);
     return EXIT_OK;
 }

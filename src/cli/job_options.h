@@ -25,7 +25,7 @@ struct job_options {
     uint64_t seed;
     const char *strategies; /* directory or NULL */
     const char *aov;        /* list or NULL */
-    bool quiet;
+    bool strict, quiet;
     struct tone_options tone; /* of render alone */
 };
 extern const struct option JOB_OPTIONS[], SCENE_OPTIONS[]; /* the second have the scene itself too, which they need */

@@ -195,12 +195,8 @@ static bool next_word(struct lexer *l, struct token *out)
     return true;
 }
 
-bool lexer_next(struct lexer *l, struct token *out)
+static bool next_token(struct lexer *l, struct token *out)
 {
-    out->kind = lexer_peek(l);
-    out->text = "";
-    out->number = 0;
-    out->position = position_of(l, l->at);
     switch (out->kind) {
     case TOKEN_END: return true;
     case TOKEN_OPEN:
@@ -210,6 +206,26 @@ bool lexer_next(struct lexer *l, struct token *out)
     case TOKEN_WORD: return next_word(l, out);
     }
     return false;
+}
+
+bool lexer_next(struct lexer *l, struct token *out)
+{
+    out->kind = lexer_peek(l);
+    out->text = "";
+    out->number = 0;
+    out->position = position_of(l, l->at);
+    if (next_token(l, out))
+        return true;
+    while (*l->at != '\n' && l->at < l->file->end)
+        l->at++;
+    return false;
+}
+
+void lexer_resume(struct lexer *l)
+{
+    struct token t;
+    while (lexer_peek(l) != TOKEN_END && !(*l->at >= 'A' && *l->at <= 'Z'))
+        lexer_next(l, &t);
 }
 
 const char *token_text(const struct token *t, char *buffer, size_t size)

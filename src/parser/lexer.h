@@ -36,11 +36,15 @@ struct lexer {
 struct lexer lexer_start(const struct source_file *file, struct arena *arena, struct messages *messages);
 
 /* lexer_next: take one token. False with a message on an unterminated string, an unknown escape or character, or a
- * malformed or too large number. At the end of the file: TOKEN_END, again and again. */
+ * malformed or too large number; the rest of the line is then passed over. At the end of the file: TOKEN_END, again and
+ * again. */
 bool lexer_next(struct lexer *l, struct token *out);
 
 /* lexer_peek: the kind of the next token, judged by its first character, without taking it. */
 enum token_kind lexer_peek(struct lexer *l);
+
+/* lexer_resume: after an error, pass over what is no directive: those are words that begin with a capital letter. */
+void lexer_resume(struct lexer *l);
 
 /* lexer_number: a fast path for long lists: if a number comes next, take it and return true; otherwise (also where
  * it is malformed) take nothing and return false. */

@@ -50,29 +50,35 @@ bool params_fail(struct params *p, struct source_position at, const char *format
 
 /* --- reading ------------------------------------------------------------------------------------------ */
 
-/* Split a copy of "type name". */
-static bool read_declaration(struct params *p, const struct token *t, struct param *item)
+/* Split a copy of "type name". The type remains PARAM_TYPES, with a warning, where the parameter cannot be used. */
+static void read_declaration(struct params *p, const struct token *t, struct param *item)
 {
     char *text = arena_alloc(item->values.arena, strlen(t->text) + 1);
     strcpy(text, t->text);
     const char *type = strtok(text, " \t"), *name = strtok(NULL, " \t");
-    if (type == NULL || name == NULL || strtok(NULL, " \t") != NULL)
-        return params_fail(p, t->position, "a parameter is declared by its type and its name, like \"float radius\"");
+    item->type = PARAM_TYPES;
+    item->name = t->text;
+    if (type == NULL || name == NULL) {
+        source_warn(p->messages, t->position, NULL, "the parameter \"%.40s\" is passed over: it is declared by its "
+                    "type and its name, like \"float radius\"", t->text);
+        return;
+    }
     struct suggestion near = suggest_start(type);
     for (int i = 0; i < N_TYPES; i++) {
         suggest_offer(&near, TYPES[i].name);
         if (strcmp(TYPES[i].name, type) == 0) {
             item->type = TYPES[i].type;
             item->name = name;
-            return true;
+            return;
         }
     }
     if (near.name != NULL)
-        return params_fail(p, t->position, "unknown type \"%.40s\"; did you mean \"%s\"?", type, near.name);
-    return params_fail(p, t->position,
-                       "unknown type \"%.40s\"; types are integer, float, bool, string, texture, point2, vector2, "
-                       "point, vector, normal, rgb, xyz, blackbody and spectrum",
-                       type);
+        source_warn(p->messages, t->position, NULL, "the parameter \"%.40s\" is passed over: unknown type; did you "
+                    "mean \"%s\"?", t->text, near.name);
+    else
+        source_warn(p->messages, t->position, NULL, "the parameter \"%.40s\" is passed over: unknown type; types are "
+                    "integer, float, bool, string, texture, point2, vector2, point, vector, normal, rgb, xyz, "
+                    "blackbody and spectrum", t->text);
 }
 
 static bool wants_text(enum param_type type)
@@ -85,16 +91,18 @@ static bool read_text(struct params *p, struct lexer *l, struct param *item)
 {
     struct token t;
     char buffer[64];
+    struct lexer before = *l;
     if (!lexer_next(l, &t)) {
         p->failed = true;
         return false;
     }
     bool bare_bool = t.kind == TOKEN_WORD && (strcmp(t.text, "true") == 0 || strcmp(t.text, "false") == 0);
     bool text = t.kind == TOKEN_STRING || (item->type == PARAM_BOOL && bare_bool);
-    bool fits = text && (wants_text(item->type) || item->type == PARAM_SPECTRUM);
-    if (!fits || (item->n > 0 && !item->is_text))
-        return params_fail(p, t.position, "\"%s %s\" wants %s here, not %s", type_name(item->type), item->name,
-                           wants_text(item->type) ? "a quoted string" : "a number",
+    if (t.kind == TOKEN_WORD && !text)
+        *l = before; /* it may be the next directive */
+    if (!text || (item->n > 0 && !item->is_text))
+        return params_fail(p, t.position, "\"%s\" wants %s here, not %s", item->name,
+                           item->is_text || (item->n == 0 && wants_text(item->type)) ? "a quoted string" : "a number",
                            token_text(&t, buffer, sizeof buffer));
     item->is_text = true;
     p->string = mem_grow(p->string, &p->string_capacity, p->n_string + 1, sizeof *p->string);
@@ -106,7 +114,7 @@ static bool read_text(struct params *p, struct lexer *l, struct param *item)
 static bool read_value(struct params *p, struct lexer *l, struct param *item)
 {
     double number;
-    if (wants_text(item->type) || item->is_text || !lexer_number(l, &number))
+    if (item->is_text || !lexer_number(l, &number))
         return read_text(p, l, item);
     p->number = mem_grow(p->number, &p->number_capacity, p->n_number + 1, sizeof *p->number);
     p->number[p->n_number++] = number;
@@ -133,28 +141,63 @@ static bool read_values(struct params *p, struct lexer *l, struct param *item)
     }
 }
 
+/* Numbers where strings belong and the reverse: pbrt-v3 passes over such a parameter. */
+static bool is_usable(struct params *p, const struct param *item)
+{
+    if (item->type == PARAM_TYPES)
+        return false;
+    if (item->type == PARAM_SPECTRUM || item->n == 0 || item->is_text == wants_text(item->type))
+        return true;
+    source_warn(p->messages, item->position, NULL, "\"%s %.40s\" is passed over: it wants %s", type_name(item->type),
+                item->name, item->is_text ? "numbers, not strings" : "a quoted string, not a number");
+    return false;
+}
+
 bool params_read(struct params *p, struct lexer *l)
 {
     p->n = p->n_asked = 0;
     p->n_number = p->n_string = 0;
-    p->failed = false;
+    p->failed = p->excess = false;
     while (lexer_peek(l) == TOKEN_STRING) {
         struct token t;
         if (!lexer_next(l, &t))
             return false;
         struct param item = {.position = t.position, .values = *l};
-        if (!read_declaration(p, &t, &item))
-            return false;
-        item.first = wants_text(item.type) ? p->n_string : p->n_number;
-        size_t first_string = p->n_string;
+        read_declaration(p, &t, &item);
+        size_t first_number = p->n_number, first_string = p->n_string;
         if (!read_values(p, l, &item))
             return false;
-        if (item.is_text)
-            item.first = first_string;
+        item.first = item.is_text ? first_string : first_number;
+        if (!is_usable(p, &item))
+            continue;
         p->item = mem_grow(p->item, &p->capacity, (size_t)p->n + 1, sizeof *p->item);
         p->item[p->n++] = item;
     }
     return true;
+}
+
+int params_take(struct params *p, const struct params *from, const struct param *item)
+{
+    struct param copy = *item;
+    size_t n = (size_t)item->n;
+    for (int i = 0; i < p->n; i++)
+        if (strcmp(p->item[i].name, item->name) == 0 &&
+            (item->type == PARAM_TEXTURE || p->item[i].type == PARAM_TEXTURE || p->item[i].type == item->type))
+            p->item[i--] = p->item[--p->n];
+    if (item->is_text) {
+        p->string = mem_grow(p->string, &p->string_capacity, p->n_string + n, sizeof *p->string);
+        memcpy(p->string + p->n_string, from->string + item->first, n * sizeof *p->string);
+        copy.first = p->n_string;
+        p->n_string += n;
+    } else {
+        p->number = mem_grow(p->number, &p->number_capacity, p->n_number + n, sizeof *p->number);
+        memcpy(p->number + p->n_number, from->number + item->first, n * sizeof *p->number);
+        copy.first = p->n_number;
+        p->n_number += n;
+    }
+    p->item = mem_grow(p->item, &p->capacity, (size_t)p->n + 1, sizeof *p->item);
+    p->item[p->n] = copy;
+    return p->n++;
 }
 
 void params_free(struct params *p)
@@ -176,6 +219,7 @@ struct source_position param_value_position(const struct param *item, int k)
     for (int i = 0; i <= k; i++)
         if (!lexer_next(&l, &t))
             break;
+    messages_end(&silent);
     return t.position;
 }
 
@@ -198,8 +242,8 @@ static struct param *find(struct params *p, const char *name, unsigned types)
         if ((types & 1u << item->type) == 0 || strcmp(item->name, name) != 0)
             continue;
         if (found != NULL)
-            source_warn(p->messages, item->position, "twice", "parameter \"%s\" is given twice; the last one counts",
-                       name);
+            source_warn(p->messages, item->position, NULL, "parameter \"%s\" is given twice; the last one counts",
+                        name);
         item->used = true;
         found = item;
     }
@@ -218,17 +262,20 @@ static bool numbers_usable(struct params *p, const struct param *item)
     return true;
 }
 
-/* A parameter that must have exactly n values (0: any number, but at least one), all of them usable. */
+/* A parameter of one thing that is n values, all of them usable. Of another number of things pbrt-v3 takes the default,
+ * or the first where p->excess says so; what is left over of a thing it does not count. */
 static struct param *find_n(struct params *p, const char *name, unsigned types, int n)
 {
     struct param *item = find(p, name, types);
     if (item == NULL || p->failed)
         return NULL;
-    if (n == 0 ? item->n > 0 : item->n == n)
-        return numbers_usable(p, item) ? item : NULL;
-    params_fail(p, item->position, "parameter \"%s %s\" of %s \"%s\" wants %s%d value%s, not %d", type_name(item->type),
-                name, p->directive, p->type, n == 0 ? "at least " : "", n == 0 ? 1 : n, n > 1 ? "s" : "", item->n);
-    return NULL;
+    int things = item->n / n;
+    bool taken = things == 1 || (p->excess && things > 1);
+    if (item->n != n)
+        source_warn(p->messages, item->position, NULL, "parameter \"%s %s\" of %s \"%s\" wants %d value%s, not %d; %s",
+                    type_name(item->type), name, p->directive, p->type, n, n > 1 ? "s" : "", item->n,
+                    taken ? "the rest is passed over" : "it is passed over");
+    return taken && numbers_usable(p, item) ? item : NULL;
 }
 
 const struct param *params_ignore(struct params *p, const char *name) { return find(p, name, ~0u); }
@@ -270,8 +317,11 @@ int params_int(struct params *p, const char *name, int fallback, int low, int hi
     if (item == NULL)
         return fallback;
     double number = p->number[item->first];
-    if (number >= low && number <= high && number == floor(number))
-        return (int)number;
+    double whole = trunc(number);
+    if (whole != number)
+        source_warn(p->messages, item->position, NULL, "\"%s\" is %.12g, which counts as %.12g", name, number, whole);
+    if (whole >= low && whole <= high)
+        return (int)whole;
     if (low == high)
         params_fail(p, param_value_position(item, 0), "\"%s\" is %.12g; only %d is supported", name, number, low);
     params_fail(p, param_value_position(item, 0), "\"%s\" is %.12g; it must be a whole number from %d to %d", name,
@@ -285,10 +335,9 @@ bool params_bool(struct params *p, const char *name, bool fallback)
     if (item == NULL)
         return fallback;
     const char *text = p->string[item->first];
-    if (strcmp(text, "true") == 0 || strcmp(text, "false") == 0)
-        return text[0] == 't';
-    params_fail(p, param_value_position(item, 0), "\"%s\" is \"%.40s\"; it must be \"true\" or \"false\"", name, text);
-    return fallback;
+    if (strcmp(text, "true") != 0 && strcmp(text, "false") != 0)
+        source_warn(p->messages, item->position, NULL, "\"%s\" is \"%.40s\", which counts as \"false\"", name, text);
+    return strcmp(text, "true") == 0;
 }
 
 const char *params_text(struct params *p, const char *name, enum param_type type, struct source_position *at)
@@ -319,28 +368,25 @@ int params_choice(struct params *p, const char *name, const char *const *choices
         if (strcmp(choices[i], text) == 0)
             return i;
     const char *near = suggest_from(text, choices);
-    params_fail(p, param_value_position(item, 0), "\"%s\" cannot be \"%.40s\"; %s \"%s\"%s", name, text,
-                near != NULL ? "did you mean" : "the default is", near != NULL ? near : choices[0],
-                near != NULL ? "?" : "");
+    source_warn(p->messages, item->position, NULL, "\"%s\" cannot be \"%.40s\", so it is \"%s\"%s%s%s", name, text,
+                choices[0], near != NULL ? "; did you mean \"" : "", near != NULL ? near : "",
+                near != NULL ? "\"?" : "");
     return 0;
 }
 
 const double *params_list(struct params *p, const char *name, unsigned types, int group, int *n,
                           const struct param **found)
 {
-    const struct param *item = find_n(p, name, types, 0);
-    *n = 0;
+    const struct param *item = find(p, name, types);
+    bool usable = item != NULL && !p->failed && numbers_usable(p, item);
+    *n = usable && !item->is_text ? item->n / group : 0;
     if (found != NULL)
-        *found = item;
-    if (item == NULL || item->is_text)
-        return NULL;
-    if (item->n % group != 0) {
-        params_fail(p, item->position, "parameter \"%s %s\" wants its numbers in groups of %d, but there are %d",
+        *found = usable ? item : NULL;
+    if (usable && (*n == 0 || item->n % group != 0))
+        source_warn(p->messages, item->position, NULL,
+                    "parameter \"%s %s\" wants its numbers in groups of %d, but there are %d; the rest is passed over",
                     type_name(item->type), name, group, item->n);
-        return NULL;
-    }
-    *n = item->n / group;
-    return p->number + item->first;
+    return *n > 0 ? p->number + item->first : NULL;
 }
 
 /* --- files and colours -------------------------------------------------------------------------------- */
@@ -370,7 +416,7 @@ bool path_ends_in(const char *path, const char *extension)
 char *params_file(struct params *p, const char *name, struct source_position *at)
 {
     const char *file = params_text(p, name, PARAM_STRING, at);
-    return file != NULL ? path_join(p->directory, file) : NULL;
+    return file != NULL && file[0] != '\0' ? path_join(p->directory, file) : NULL;
 }
 
 /* Wavelength and value pairs of an .spd file: numbers, with comments from # to the end of the line. Errors in it
@@ -411,12 +457,14 @@ static rgb rgb_from_file(struct params *p, const struct param *item)
     return colour;
 }
 
-/* How many numbers a colour of this type has; 0: pairs. */
-static int colour_numbers(enum param_type type)
+/* How many values make up this colour: one file name, or numbers; of a spectrum as many pairs as there are. */
+static int colour_values(const struct param *item)
 {
-    if (type == PARAM_RGB || type == PARAM_XYZ)
+    if (item->is_text)
+        return 1;
+    if (item->type == PARAM_RGB || item->type == PARAM_XYZ)
         return 3;
-    return type == PARAM_BLACKBODY ? 2 : 0;
+    return item->type == PARAM_BLACKBODY || item->n < 2 ? 2 : item->n - item->n % 2;
 }
 
 static rgb rgb_from_numbers(enum param_type type, double *x, int n)
@@ -438,23 +486,15 @@ static bool colour_usable(rgb c)
 rgb params_rgb(struct params *p, const char *name, rgb fallback)
 {
     const unsigned types = 1u << PARAM_RGB | 1u << PARAM_XYZ | 1u << PARAM_BLACKBODY | 1u << PARAM_SPECTRUM;
-    int n;
-    const struct param *item;
-    params_list(p, name, types, 1, &n, &item);
-    if (item == NULL)
+    const struct param *item = find(p, name, types);
+    int n = item == NULL ? 0 : colour_values(item);
+    if (item == NULL || (item = find_n(p, name, 1u << item->type, n)) == NULL)
         return fallback;
     rgb colour;
-    int want = colour_numbers(item->type);
-    if (item->is_text ? item->n != 1 : (want > 0 && item->n != want) || (want == 0 && item->n % 2 != 0)) {
-        static const char *const WANTED[] = {"pairs of wavelength and value, or one file name", "",
-                                             "two values, temperature and scale", "three values"};
-        params_fail(p, item->position, "parameter \"%s\" wants %s, but there are %d", name, WANTED[want], item->n);
-        return fallback;
-    }
     if (item->is_text)
         colour = rgb_from_file(p, item);
     else
-        colour = rgb_from_numbers(item->type, p->number + item->first, item->n);
+        colour = rgb_from_numbers(item->type, p->number + item->first, n);
     if (colour_usable(colour))
         return colour;
     params_fail(p, item->position, "parameter \"%s\" gives the colour (%g %g %g); its numbers go up to %g here", name,
@@ -465,28 +505,27 @@ rgb params_rgb(struct params *p, const char *name, rgb fallback)
 /* --- the end ------------------------------------------------------------------------------------------ */
 
 /* A parameter nobody asked for: does the name exist with another type, or is another name near? */
-static bool fail_unused(struct params *p, const struct param *item)
+static void warn_of_unused(struct params *p, const struct param *item)
 {
     struct suggestion near = suggest_start(item->name);
     for (int i = 0; i < p->n_asked; i++) {
-        if (strcmp(p->asked[i], item->name) == 0)
-            return params_fail(p, item->position, "parameter \"%s\" of %s \"%s\" cannot be of type \"%s\"; %s",
-                               item->name, p->directive, p->type, type_name(item->type),
-                               "see doc/scene-format.md for its type");
+        if (strcmp(p->asked[i], item->name) == 0) {
+            source_warn(p->messages, item->position, NULL,
+                        "parameter \"%s\" of %s \"%s\" cannot be of type \"%s\", so it is not used", item->name,
+                        p->directive, p->type, type_name(item->type));
+            return;
+        }
         suggest_offer(&near, p->asked[i]);
     }
-    if (near.name != NULL)
-        return params_fail(p, item->position, "%s \"%s\" has no parameter \"%.40s\"; did you mean \"%s\"?",
-                           p->directive, p->type, item->name, near.name);
-    bool shape = strcmp(p->directive, "Shape") == 0;
-    return params_fail(p, item->position, "%s \"%s\" has no parameter \"%.40s\"; %s", p->directive, p->type,
-                       item->name, shape ? "remove it, or set it in a Material before the Shape" : "remove it");
+    source_warn(p->messages, item->position, NULL, "parameter \"%.40s\" of %s \"%s\" is not used%s%s%s", item->name,
+                p->directive, p->type, near.name != NULL ? "; did you mean \"" : "",
+                near.name != NULL ? near.name : "", near.name != NULL ? "\"?" : "");
 }
 
 bool params_done(struct params *p)
 {
     for (int i = 0; i < p->n && !p->failed; i++)
         if (!p->item[i].used)
-            fail_unused(p, &p->item[i]);
+            warn_of_unused(p, &p->item[i]);
     return !p->failed;
 }

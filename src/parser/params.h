@@ -1,9 +1,10 @@
 /* params.h: the typed parameter list of one directive, e.g.  "float radius" 2  "rgb Kd" [.5 .5 .5].
  *
  * The list is read whole, then asked for by name. Each question has a default, so the code that makes a sphere
- * reads like its documentation. Nothing is passed over in silence: the first wrong thing (a type that does not
- * fit, a wrong count, a parameter nobody asked for) is kept as the error, later questions are answered with
- * defaults, and params_done reports it.
+ * reads like its documentation. Nothing is passed over in silence: where pbrt-v3 goes on with the default (a type that
+ * does not fit, a wrong count, a parameter nobody asked for) there is a warning. What cannot be meant (a number out of
+ * range, a file that is not there) is an error: the first is kept, later questions are answered with defaults, and
+ * params_done reports it.
  *
  * Tests: test_parser.c.
  */
@@ -52,6 +53,7 @@ struct params {
     struct messages *messages;
     const char *directory; /* of the main scene file: relative names of files start there */
     bool failed;           /* an error has been kept */
+    bool excess;           /* values beyond the first are passed over, as where a texture may stand */
 
     struct param *item; /* [n], owned */
     int n;
@@ -68,12 +70,16 @@ struct params {
  *      the first and released by params_free after the last
  * Returns false with a message. */
 bool params_read(struct params *p, struct lexer *l);
+
+/* params_take: append a copy of another list's parameter, in place of those that it stands for: a value of the same
+ * type, or, if it is a texture, of any. Returns its number. */
+int params_take(struct params *p, const struct params *from, const struct param *item);
 void params_free(struct params *p);
 
 /* params_fail: keep an error, unless there is one already. Returns false. */
 bool params_fail(struct params *p, struct source_position at, const char *format, ...);
 
-/* params_done: false if anything failed or a parameter was never asked for (its message is then set). */
+/* params_done: false if anything failed. Warns of parameters that were never asked for. */
 bool params_done(struct params *p);
 
 /* params_ignore: accept a parameter of any type without using it. Returns it, or NULL. */
@@ -87,7 +93,7 @@ bool params_bool(struct params *p, const char *name, bool fallback);
 vec3 params_point(struct params *p, const char *name, vec3 fallback);
 rgb params_rgb(struct params *p, const char *name, rgb fallback); /* rgb, xyz, blackbody or spectrum */
 
-/* params_int: a whole number from low to high. */
+/* params_int: a whole number from low to high; others are rounded towards 0. */
 int params_int(struct params *p, const char *name, int fallback, int low, int high);
 
 /* params_number: a number from low to high, each of which may be infinite; low = NUMBER_MIN means greater than 0. The
@@ -104,11 +110,11 @@ const double *params_list(struct params *p, const char *name, unsigned types, in
 /* params_text: the one value of a parameter of type PARAM_STRING or PARAM_TEXTURE, or NULL; *at is its position. */
 const char *params_text(struct params *p, const char *name, enum param_type type, struct source_position *at);
 
-/* params_file: a "string NAME" as a path: relative ones start in the main scene file's directory. NULL if absent.
+/* params_file: a "string NAME" as a path: relative ones start in the main scene file's directory. NULL if absent or "".
  * The text is to be given to free(); *at is the position of the value. */
 char *params_file(struct params *p, const char *name, struct source_position *at);
 
-/* params_choice: a string that must be one of a NULL-terminated list; returns its index (0 = default if absent). */
+/* params_choice: a string that should be one of a NULL-terminated list; returns its index (0 = default if absent). */
 int params_choice(struct params *p, const char *name, const char *const *choices);
 
 /* param_value_position: where the k-th value of a parameter stands. */

@@ -4,6 +4,7 @@
 
 #include "base/bits.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* "a, b, c": the types of a table that are supported, cut at the buffer's end. */
@@ -17,34 +18,62 @@ static void list_types(const struct object_type *types, char *buffer, size_t siz
         }
 }
 
+/* A type that neither pbrt-v3 nor this program knows; *end is the row behind the table. */
+static bool unknown_type(struct parser *p, const struct object_type *types, const struct object_type *end)
+{
+    struct params *q = &p->params;
+    char list[256], advice[320];
+    const char *instead = NULL;
+    list_types(types, list, sizeof list);
+    struct suggestion near = suggest_start(q->type);
+    for (const struct object_type *t = types; t != end; t++) {
+        if (t->parameter != NULL)
+            suggest_offer(&near, t->name);
+        if (instead == NULL && t->parameter == end->parameter && t->kind == end->kind)
+            instead = t->name;
+    }
+    if (near.name != NULL)
+        snprintf(advice, sizeof advice, "did you mean \"%s\"?", near.name);
+    else
+        snprintf(advice, sizeof advice, "known are %s", list);
+    if (end->parameter == NULL && end->kind == 0)
+        return type_error(q, "unknown %s \"%.40s\"; %s", q->directive, q->type, advice);
+    if (end->parameter == NULL || instead == NULL)
+        source_warn(q->messages, q->position, NULL, "unknown %s \"%.40s\" is left out, as pbrt-v3 does; %s",
+                    q->directive, q->type, advice);
+    else
+        source_warn(q->messages, q->position, NULL, "unknown %s \"%.40s\"; \"%s\" is taken instead; %s",
+                    q->directive, q->type, instead, advice);
+    return end->parameter != NULL;
+}
+
 bool parse_type(struct parser *p, const struct object_type *types)
 {
     struct params *q = &p->params;
     char list[256];
-    list_types(types, list, sizeof list);
-    struct suggestion near = suggest_start(q->type);
-    for (const struct object_type *t = types; t->name != NULL; t++) {
-        bool wanted = strcmp(t->name, q->type) == 0;
-        p->type = t;
-        if (wanted && t->parameter != NULL)
+    for (p->type = types; p->type->name != NULL; p->type++) {
+        if (strcmp(p->type->name, q->type) != 0)
+            continue;
+        if (p->type->parameter != NULL)
             return true;
-        if (wanted)
-            return type_error(q, "%s \"%s\" of pbrt-v3 is not supported; use one of %s", q->directive, q->type, list);
-        if (t->parameter != NULL)
-            suggest_offer(&near, t->name);
+        list_types(types, list, sizeof list);
+        return type_error(q, "%s \"%s\" of pbrt-v3 is not supported; use one of %s", q->directive, q->type, list);
     }
-    if (near.name != NULL)
-        return type_error(q, "unknown %s \"%.40s\"; did you mean \"%s\"?", q->directive, q->type, near.name);
-    return type_error(q, "unknown %s \"%.40s\"; use one of %s", q->directive, q->type, list);
+    return unknown_type(p, types, p->type);
 }
 
-bool parse_object(struct parser *p, void *object)
+void parse_fields(struct parser *p, void *object)
 {
     for (const struct parameter *row = p->type->parameter; row->name != NULL; row++)
         if (row->read != NULL)
             row->read(p, row, (char *)object + row->field);
     if (p->type->build != NULL)
         p->type->build(p, object);
+}
+
+bool parse_object(struct parser *p, void *object)
+{
+    parse_fields(p, object);
     return params_done(&p->params);
 }
 
@@ -84,8 +113,8 @@ void parse_no_effect(struct parser *p, const struct parameter *row, void *field)
     const struct param *item = params_ignore(&p->params, row->name);
     (void)field;
     if (item != NULL)
-        source_warn(&p->messages, item->position, p->params.directive, "%s \"%s\": \"%s\" has no effect here",
-                    p->params.directive, p->params.type, row->name);
+        source_warn(&p->messages, item->position, NULL, "%s \"%s\": \"%s\" has no effect here", p->params.directive,
+                    p->params.type, row->name);
 }
 
 /* --- textures ------------------------------------------------------------------------------------------- */
@@ -100,7 +129,7 @@ int parse_constant(struct parser *p, rgb value)
     return *slot - 1;
 }
 
-/* The texture named by "texture NAME"; -1 if there is no such parameter (or, with a message, no such texture). */
+/* The texture named by "texture NAME"; -1 if there is no such parameter (or, with a warning, no such texture). */
 static int named_texture(struct parser *p, const char *name, bool is_float)
 {
     struct params *q = &p->params;
@@ -112,14 +141,14 @@ static int named_texture(struct parser *p, const char *name, bool is_float)
         return -1;
     int id = symbols_find(table, texture);
     if (id < 0 && symbols_find(other, texture) >= 0)
-        params_fail(q, at, "\"%s\" wants a texture of type %s, but \"%.60s\" is of type %s", name,
+        source_warn(q->messages, at, NULL,
+                    "\"%s\" wants a texture of type %s, but \"%.60s\" is of type %s; the default is taken", name,
                     is_float ? "float" : "spectrum", texture, is_float ? "spectrum" : "float");
     else if (id < 0)
-        parse_no_such(p, at, texture, table, is_float ? "float texture" : "spectrum texture",
-                      "define it with Texture before it is used");
+        parse_no_such(p, at, texture, table, is_float ? "float texture" : "spectrum texture", "the default is taken");
     const struct param *value = id < 0 ? NULL : params_ignore(q, name);
     if (value != NULL && value->type != PARAM_TEXTURE) /* a texture wins over a value of the same name, as in pbrt */
-        source_warn(&p->messages, value->position, "texture and value",
+        source_warn(&p->messages, value->position, NULL,
                     "\"%s\" is given as a texture and as a value; the texture counts", name);
     return id;
 }
@@ -127,9 +156,10 @@ static int named_texture(struct parser *p, const char *name, bool is_float)
 int parse_named_float(struct parser *p, const char *name)
 {
     int id = named_texture(p, name, true);
-    if (id < 0 && params_has(&p->params, name, PARAM_FLOAT))
-        id = parse_constant(p, rgb_grey(params_number(&p->params, name, 0, ANY_NUMBER)));
-    return id;
+    p->params.excess = true;
+    double value = id < 0 ? params_number(&p->params, name, NAN, ANY_NUMBER) : NAN;
+    p->params.excess = false;
+    return isnan(value) ? id : parse_constant(p, rgb_grey(value));
 }
 
 /* Refuse a texture that is the same everywhere and outside the row's range. */
@@ -159,8 +189,10 @@ void parse_float_texture(struct parser *p, const struct parameter *row, void *fi
 void parse_rgb_texture(struct parser *p, const struct parameter *row, void *field)
 {
     int id = named_texture(p, row->name, false);
+    p->params.excess = true;
     if (id < 0)
         id = parse_constant(p, params_rgb(&p->params, row->name, row->fallback));
+    p->params.excess = false;
     *(int *)field = id;
     check_range(p, row, id);
 }

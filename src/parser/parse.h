@@ -4,7 +4,9 @@
  * parser.c reads files and directives; parse.c reads objects by their tables; parse_state.c keeps the graphics state;
  * parse_options.c makes camera, film, filter and settings; parse_texture.c, parse_material.c, parse_light.c and
  * parse_shape.c what the world is made of. Each function finds its parameter list in p->params, type included, and
- * returns false with a message in p->messages. Private to this room.
+ * returns false where it gives up its directive, with an error or, where pbrt-v3 goes on, a warning in p->messages.
+ * What has failed is still there under its name, as something plain, so that one error does not bring others. Private
+ * to this room.
  */
 #ifndef ASBDPT_PARSE_H
 #define ASBDPT_PARSE_H
@@ -22,21 +24,40 @@ struct area_light {
     rgb L;
 };
 
-/* What AttributeBegin saves. */
-struct graphics_state {
-    struct transform ctm; /* current transformation matrix: object to world, before WorldBegin world to camera */
+/* A material, and what it was made from, for shapes that change parameters of it. */
+struct material_source {
+    int id;            /* index into scene->materials, or MATERIAL_NONE */
+    const char *type;  /* "matte" */
+    struct lexer list; /* where its parameters begin; file NULL: it has none */
+};
+
+/* What TransformBegin saves. */
+struct transform_state {
+    struct transform ctm; /* current transformation matrix: object to world, before WorldBegin world to camera; of NaN
+                           * where it is of no use, which parse_placed tells */
     bool start_active;    /* ActiveTransform: transforms act on the start of the shutter interval */
-    int material;         /* index into scene->materials, or MATERIAL_NONE */
-    bool reverse;         /* ReverseOrientation */
+};
+
+/* What AttributeBegin saves beside that. */
+struct graphics_state {
+    struct material_source material;
+    bool reverse; /* ReverseOrientation */
     struct area_light area;
+    const char *medium[2]; /* MediumInterface: the names inside and outside, "" for vacuum */
 };
 
 enum block_kind { BLOCK_ATTRIBUTE, BLOCK_TRANSFORM, BLOCK_OBJECT };
 
-/* An open AttributeBegin, TransformBegin or ObjectBegin. */
-struct block {
+/* The transform saved by an open AttributeBegin, TransformBegin or ObjectBegin. */
+struct pushed_transform {
     enum block_kind kind;
     struct source_position position;
+    struct transform_state saved;
+};
+
+/* The rest that an open AttributeBegin or ObjectBegin has saved. pbrt-v3 has two stacks as well: blocks that cross are
+ * not an error. */
+struct pushed_state {
     struct graphics_state saved;
     int n_float_textures, n_spectrum_textures, n_materials; /* named so far */
 };
@@ -44,7 +65,7 @@ struct block {
 /* One Shape directive; stored where it belongs to an object, to be added once per instance. */
 struct shape_item {
     bool is_mesh;
-    bool absent;            /* alpha 0: nothing of it is there */
+    bool absent;            /* alpha 0, or no triangles: nothing of it is there */
     struct mesh mesh;       /* owned */
     struct quadric quadric; /* to_world not yet set */
     struct shape_group group;
@@ -89,12 +110,20 @@ struct parser {
     int n_files;
     size_t file_capacity;
 
+    struct transform_state place;
     struct graphics_state state;
-    struct block *block; /* [n_blocks], the open ones, innermost last, owned */
+    struct pushed_transform *pushed; /* [n_pushed], innermost last, owned */
+    int n_pushed;
+    size_t pushed_capacity;
+    struct pushed_state *block; /* [n_blocks], innermost last, owned */
     int n_blocks;
     size_t block_capacity;
 
-    struct symbols float_textures, spectrum_textures, materials; /* scoped */
+    struct symbols float_textures, spectrum_textures, materials; /* scoped; materials -> named[] */
+    struct material_source *named;                               /* [n_named], owned */
+    int n_named;
+    size_t named_capacity;
+    struct symbols media;                                        /* -> 0 */
     struct symbols systems;                                      /* -> system[] */
     struct transform *system;                                    /* [n_systems], owned */
     int n_systems;
@@ -105,6 +134,7 @@ struct parser {
     size_t object_capacity;
     int current_object; /* between ObjectBegin and ObjectEnd, else -1 */
 
+    struct params changed;   /* parse_changed_material: a material's list with a shape's */
     bool texture_is_float;   /* of the Texture directive being carried out */
     int constant[CONSTANTS]; /* textures made for numbers, by hash, plus 1: equal ones are shared */
 };
@@ -121,7 +151,8 @@ struct parameter {
     const char *warning; /* parse_ignored: what to say where it is given; NULL: nothing */
 };
 
-/* One type of object of a directive. A table of them ends with one without a name. */
+/* One type of object of a directive. A table of them ends with one without a name, which says what becomes of unknown
+ * types. */
 struct object_type {
     const char *name;
     const struct parameter *parameter; /* ended by one without a name. NULL: of pbrt-v3 but refused here */
@@ -139,14 +170,18 @@ struct object_type {
 #define BY_BUILD(name) {name, NULL, 0, GREY(0), 0, 0, NULL}
 #define END_OF_PARAMETERS {NULL, NULL, 0, GREY(0), 0, 0, NULL}
 #define REFUSED(name) {name, NULL, 0, NULL}
-#define END_OF_TYPES {NULL, NULL, 0, NULL}
+#define END_OF_TYPES {NULL, NULL, 0, NULL}      /* unknown ones are an error */
+#define OTHERS_LEFT_OUT {NULL, NULL, 1, NULL}   /* pbrt-v3 goes on without them */
+#define OTHERS_LIKE(parameter, kind, build) {NULL, parameter, kind, build} /* pbrt-v3 takes this type instead */
 
 /* parse_type: find params.type in a table and set p->type. Returns false with a message, which differs for the types of
- * pbrt-v3 that are left out here and for typos. */
+ * pbrt-v3 that are refused here and for typos. */
 bool parse_type(struct parser *p, const struct object_type *types);
 
-/* parse_object: read the parameters of p->type into *object, in the table's order, and build the rest of it. */
+/* parse_object: read the parameters of p->type into *object, in the table's order, and build the rest of it.
+ * parse_fields: the same, but nothing is said yet of parameters that nobody has asked for: params_done will. */
 bool parse_object(struct parser *p, void *object);
+void parse_fields(struct parser *p, void *object);
 
 /* Readers of one parameter into a field. The textures are numbers of the scene. */
 void parse_number(struct parser *p, const struct parameter *row, void *field);        /* double */
@@ -172,12 +207,20 @@ bool parse_numbers(struct parser *p, double *out, int n);
 bool parse_list(struct parser *p, const char *directive, const struct token *type);
 bool parse_typed(struct parser *p);
 
-/* parse_no_such: "there is no WHAT "NAME"; ..." with the nearest known one, or else the advice. Returns false. */
-bool parse_no_such(struct parser *p, struct source_position at, const char *name, const struct symbols *table,
-                   const char *what, const char *advice);
+/* parse_no_such: warn that there is no WHAT of this name, what is done instead, and which known one is near. */
+void parse_no_such(struct parser *p, struct source_position at, const char *name, const struct symbols *table,
+                   const char *what, const char *instead);
 
 /* parse_named: the number of what the directive's one argument names; *name is that argument. -1 with a message. */
-int parse_named(struct parser *p, struct token *name, const struct symbols *table, const char *what);
+int parse_named(struct parser *p, struct token *name, const struct symbols *table, const char *what,
+                const char *instead);
+
+/* parse_placed: can anything stand where the current transform puts it? False with a message if not. */
+bool parse_placed(struct parser *p);
+
+/* parse_media: false with a message if one of the current media is to be seen, which is not supported: on one side of
+ * a shape, or (only_outside) where a camera or a light is. */
+bool parse_media(struct parser *p, struct source_position at, const char *what, bool only_outside);
 
 /* parse_constant: a constant texture. */
 int parse_constant(struct parser *p, rgb value);
@@ -204,15 +247,19 @@ extern const struct directive STATE_DIRECTIVES[], OPTION_DIRECTIVES[], TEXTURE_D
 /* parse_make_material: make a material of kind params.type. *out is its number or MATERIAL_NONE. */
 bool parse_make_material(struct parser *p, int *out);
 
+/* parse_changed_material: the number of the current material, or of one that differs from it by those parameters of the
+ * shape in p->params that nobody has asked for. */
+int parse_changed_material(struct parser *p);
+
 /* parse_shape_add: add one shape to the scene. A mesh inside the item stays the caller's. */
 bool parse_shape_add(struct parser *p, const struct shape_item *item, struct transform to_world,
                      struct source_position at);
 void shape_list_free(struct shape_list *list);
 
-/* parse_state_reset: as a file or its world begins. parse_name_system: name a coordinate system. parse_all_closed:
- * false, with a message, if a block is still open. */
+/* parse_state_reset: the transform as a file or its world begins. parse_name_system: name a coordinate system.
+ * parse_close_all: warn of blocks that are still open. */
 void parse_state_reset(struct parser *p);
 void parse_name_system(struct parser *p, const char *name, struct transform t);
-bool parse_all_closed(struct parser *p);
+void parse_close_all(struct parser *p);
 
 #endif

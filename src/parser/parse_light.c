@@ -110,12 +110,14 @@ static const struct object_type LIGHTS[] = {
     {"distant", DISTANT_LIGHT, LIGHT_DISTANT, distant_light},
     {"infinite", INFINITE_LIGHT, LIGHT_INFINITE, infinite_light},
     {"exinfinite", INFINITE_LIGHT, LIGHT_INFINITE, infinite_light},
-    REFUSED("goniometric"), REFUSED("projection"), END_OF_TYPES};
+    REFUSED("goniometric"), REFUSED("projection"), OTHERS_LEFT_OUT};
 
 static bool light(struct parser *p)
 {
     struct params *q = &p->params;
-    struct light_item item = {.light = {.kind = (enum light_kind)p->type->kind, .to_world = p->state.ctm, .prim = -1}};
+    struct light_item item = {.light = {.kind = (enum light_kind)p->type->kind, .to_world = p->place.ctm, .prim = -1}};
+    if (!parse_placed(p) || !parse_media(p, q->position, "light", true))
+        return false;
     parse_object(p, &item);
     vec3 position = item.light.position;
     if (!is_place(position))
@@ -131,12 +133,15 @@ static const struct parameter AREA_LIGHT[] = {
     SAMPLES,
     END_OF_PARAMETERS};
 
-static const struct object_type AREA_LIGHTS[] = {
-    {"diffuse", AREA_LIGHT, LIGHT_AREA, NULL}, {"area", AREA_LIGHT, LIGHT_AREA, NULL}, END_OF_TYPES};
+enum { NO_AREA_LIGHT = -1 };
+
+static const struct object_type AREA_LIGHTS[] = {{"diffuse", AREA_LIGHT, LIGHT_AREA, NULL},
+                                                 {"area", AREA_LIGHT, LIGHT_AREA, NULL},
+                                                 OTHERS_LIKE(AREA_LIGHT, NO_AREA_LIGHT, NULL)};
 
 static bool area_light(struct parser *p)
 {
-    p->state.area.on = true;
+    p->state.area.on = p->type->kind != NO_AREA_LIGHT;
     return parse_object(p, &p->state.area);
 }
 

@@ -9,16 +9,14 @@ static void mixed_material(struct parser *p, const struct parameter *row, void *
     struct params *q = &p->params;
     struct source_position at;
     const char *name = params_text(q, row->name, PARAM_STRING, &at);
-    if (name == NULL) {
-        type_error(q, "a mix needs \"string namedmaterial1\" and \"string namedmaterial2\"");
-        return;
-    }
-    int value = symbols_find(&p->materials, name);
-    if (value < 0)
-        parse_no_such(p, at, name, &p->materials, "named material", "define it with MakeNamedMaterial");
-    else if (value - 1 == MATERIAL_NONE)
+    int k = name != NULL ? symbols_find(&p->materials, name) : -1;
+    *(int *)field = k >= 0 ? p->named[k].id : 0;
+    if (name == NULL)
+        source_warn(q->messages, q->position, NULL, "a mix needs \"string %s\"; a matte material is taken", row->name);
+    else if (k < 0)
+        parse_no_such(p, at, name, &p->materials, "named material", "a matte one is taken");
+    else if (p->named[k].id == MATERIAL_NONE)
         params_fail(q, at, "the material \"%.60s\" is \"none\"; it cannot be mixed", name);
-    *(int *)field = value - 1;
 }
 
 /* Negative numbers of a colour count as 0: colours of the file that sRGB has not got have some. */
@@ -86,13 +84,16 @@ static const struct object_type TYPES[] = {
     {"translucent", TRANSLUCENT, MATERIAL_TRANSLUCENT, NULL},
     {"mix", MIX, MATERIAL_MIX, NULL},
     REFUSED("disney"), REFUSED("fourier"), REFUSED("hair"), REFUSED("kdsubsurface"), REFUSED("subsurface"),
-    END_OF_TYPES};
+    OTHERS_LIKE(MATTE, MATERIAL_MATTE, NULL)};
+
+static bool is_none(const char *type) { return type[0] == '\0' || strcmp(type, "none") == 0; }
 
 bool parse_make_material(struct parser *p, int *out)
 {
     struct params *q = &p->params;
-    *out = MATERIAL_NONE;
-    if (q->type[0] == '\0' || strcmp(q->type, "none") == 0) {
+    *out = 0; /* where the parser starts with a matte one */
+    if (is_none(q->type)) {
+        *out = MATERIAL_NONE;
         for (int i = 0; i < q->n; i++)
             q->item[i].used = true; /* nothing is left to use them */
         return params_done(q);
@@ -111,35 +112,96 @@ bool parse_make_material(struct parser *p, int *out)
     return true;
 }
 
-static bool material(struct parser *p) { return parse_typed(p) && parse_make_material(p, &p->state.material); }
+/* Does the material have a parameter of this name? */
+static bool has_parameter(const char *type, const char *name)
+{
+    const struct object_type *t = TYPES;
+    while (t->name != NULL && strcmp(t->name, type) != 0)
+        t++;
+    if (is_none(type) || t->parameter == NULL)
+        return false;
+    for (const struct parameter *row = t->parameter; row->name != NULL; row++)
+        if (strcmp(row->name, name) == 0)
+            return true;
+    return false;
+}
+
+int parse_changed_material(struct parser *p)
+{
+    const struct material_source *source = &p->state.material;
+    struct params shape = p->params, *q = &p->params;
+    struct lexer l = source->list;
+    int id = source->id;
+    bool changed = false;
+    for (int i = 0; i < shape.n && !shape.failed; i++) {
+        if (shape.item[i].used || !has_parameter(source->type, shape.item[i].name))
+            continue;
+        if (!changed) { /* read the material's list once more */
+            p->changed.directive = "Material";
+            p->changed.type = source->type;
+            p->changed.position = shape.position;
+            p->changed.messages = shape.messages;
+            p->changed.directory = shape.directory;
+            *q = p->changed;
+            q->n = q->n_asked = 0;
+            q->failed = false;
+            if (l.file != NULL)
+                params_read(q, &l);
+            params_ignore(q, "type"); /* of MakeNamedMaterial */
+            changed = true;
+        }
+        params_take(q, &shape, &shape.item[i]);
+        shape.item[i].used = true;
+    }
+    if (!changed)
+        return id;
+    shape.failed = !parse_make_material(p, &id);
+    p->changed = *q;
+    *q = shape;
+    return id;
+}
+
+static bool material(struct parser *p)
+{
+    struct token type;
+    if (!parse_string(p, &type, "a type"))
+        return false;
+    p->state.material.type = type.text;
+    p->state.material.list = p->lexer;
+    return parse_list(p, "Material", &type) && parse_make_material(p, &p->state.material.id);
+}
 
 static bool make_named_material(struct parser *p)
 {
     struct token name;
-    int id;
-    if (!parse_string(p, &name, "a name") || !parse_list(p, "Material", &name))
+    if (!parse_string(p, &name, "a name"))
         return false;
+    struct material_source source = {.type = "", .list = p->lexer};
+    bool ok = parse_list(p, "Material", &name);
     const char *type = params_text(&p->params, "type", PARAM_STRING, &p->params.position);
-    if (type == NULL)
-        return params_fail(&p->params, name.position,
-                           "MakeNamedMaterial needs its kind: add \"string type\" \"matte\"");
-    p->params.type = type;
-    if (!parse_make_material(p, &id))
-        return false;
+    if (type != NULL)
+        source.type = type;
+    else
+        source_warn(&p->messages, name.position, NULL,
+                    "MakeNamedMaterial needs its kind: add \"string type\" \"matte\"; \"none\" is taken");
+    p->params.type = source.type;
+    ok = ok && parse_make_material(p, &source.id);
     if (symbols_find(&p->materials, name.text) >= 0)
         source_warn(&p->messages, name.position, "material again", "the material \"%.60s\" is defined again",
                     name.text);
-    symbols_add(&p->materials, name.text, id + 1); /* 0 stands for "none" */
-    return true;
+    p->named = mem_grow(p->named, &p->named_capacity, (size_t)p->n_named + 1, sizeof *p->named);
+    p->named[p->n_named] = source;
+    symbols_add(&p->materials, name.text, p->n_named++);
+    return ok;
 }
 
 static bool named_material(struct parser *p)
 {
     struct token name;
-    int id = parse_named(p, &name, &p->materials, "named material");
-    if (id >= 0)
-        p->state.material = id - 1;
-    return id >= 0;
+    int k = parse_named(p, &name, &p->materials, "named material", "the material stays as it is");
+    if (k >= 0)
+        p->state.material = p->named[k];
+    return k >= 0;
 }
 
 const struct directive MATERIAL_DIRECTIVES[] = {{"NamedMaterial", IN_WORLD, named_material, NULL},

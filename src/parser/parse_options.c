@@ -32,10 +32,12 @@ static void perspective(struct parser *p, void *object)
     const struct param *item;
     const double *window = params_list(q, "screenwindow", 1u << PARAM_FLOAT, 1, &n, &item);
     if (window != NULL) {
-        if (n != 4 || !(window[0] < window[1] && window[2] < window[3]))
+        if (n != 4)
+            source_warn(q->messages, item->position, NULL, "\"screenwindow\" wants four numbers; it is passed over");
+        else if (!(window[0] < window[1] && window[2] < window[3]))
             params_fail(q, item->position, "\"screenwindow\" wants four numbers: xmin < xmax, ymin < ymax");
-        c->has_screen_window = true;
-        for (int i = 0; i < 4 && !q->failed; i++)
+        c->has_screen_window = n == 4 && !q->failed;
+        for (int i = 0; c->has_screen_window && i < 4; i++)
             c->screen_window[i] = window[i];
     }
     check_camera(q, *c);
@@ -61,11 +63,11 @@ static const struct object_type CAMERA_TYPES[] = {
 static bool camera(struct parser *p)
 {
     struct camera c = camera_default();
-    c.world_to_camera = p->state.ctm;
-    if (!parse_object(p, &c))
+    c.world_to_camera = p->place.ctm;
+    if (!parse_placed(p) || !parse_object(p, &c))
         return false;
     p->scene->camera = c;
-    parse_name_system(p, "camera", transform_inverse(p->state.ctm));
+    parse_name_system(p, "camera", transform_inverse(p->place.ctm));
     return true;
 }
 
@@ -79,7 +81,8 @@ static void crop_window(struct params *q, double crop[4])
     if (x == NULL)
         return;
     if (n != 4) {
-        params_fail(q, item->position, "\"cropwindow\" wants four numbers, x0 x1 y0 y1, not %d", n);
+        source_warn(q->messages, item->position, NULL,
+                    "\"cropwindow\" wants four numbers, x0 x1 y0 y1, not %d; it is passed over", n);
         return;
     }
     crop[0] = fraction(fmin(x[0], x[1]));
@@ -103,7 +106,7 @@ static void image_film(struct parser *p, void *object)
     free(s->film_filename);
     struct source_position at;
     const char *name = params_text(q, "filename", PARAM_STRING, &at);
-    s->film_filename = name != NULL ? mem_copy_text(name) : NULL;
+    s->film_filename = name != NULL && name[0] != '\0' ? mem_copy_text(name) : NULL;
 }
 
 #define SCENE(name, read, f, value, range) {name, read, offsetof(struct scene, f), GREY(value), range, NULL}
@@ -124,12 +127,15 @@ static const struct object_type FILM_TYPES[] = {{"image", IMAGE_FILM, 0, image_f
 
 static void check_radii(struct parser *p, void *object)
 {
-    const double *radius = ((struct filter *)object)->radius;
+    double *radius = ((struct filter *)object)->radius;
     struct params *q = &p->params;
-    if (radius[0] > 64 || radius[1] > 64)
-        type_error(q, "a filter radius above 64 pixels is too wide; pbrt's own are 0.5 to 4");
-    if (radius[0] < 1e-3 || radius[1] < 1e-3)
-        type_error(q, "a filter radius below 0.001 pixels is too narrow; pbrt's own are 0.5 to 4");
+    for (int i = 0; i < 2; i++) {
+        double within = clamp(radius[i], 1e-3, 64);
+        if (within != radius[i])
+            source_warn(q->messages, q->position, NULL, "a filter radius of %g pixels is beyond 0.001 and 64; it is %g",
+                        radius[i], within);
+        radius[i] = within;
+    }
 }
 
 /* Within these limits the table of a profile (filter.c) is fine enough for it, and its integral is far from 0. */
@@ -178,7 +184,7 @@ static const struct object_type SAMPLER_TYPES[] = {
     {"02sequence", SEQUENCE, 0, NULL},
     {"lowdiscrepancy", SEQUENCE, 0, NULL},
     {"maxmindist", SEQUENCE, 0, NULL},
-    END_OF_TYPES};
+    OTHERS_LIKE(SEQUENCE, 0, NULL)};
 
 /* Film and sampler are fields of the scene itself. */
 static bool of_scene(struct parser *p) { return parse_object(p, p->scene); }
@@ -187,7 +193,8 @@ static const struct parameter TREE[] = {
     NO_EFFECT("splitmethod"), NO_EFFECT("maxnodeprims"), NO_EFFECT("intersectcost"), NO_EFFECT("traversalcost"),
     NO_EFFECT("emptybonus"),  NO_EFFECT("maxprims"),     NO_EFFECT("maxdepth"),      END_OF_PARAMETERS};
 
-static const struct object_type ACCELERATOR_TYPES[] = {{"kdtree", TREE, 0, NULL}, {"bvh", TREE, 0, NULL}, END_OF_TYPES};
+static const struct object_type ACCELERATOR_TYPES[] = {
+    {"kdtree", TREE, 0, NULL}, {"bvh", TREE, 0, NULL}, OTHERS_LIKE(TREE, 0, NULL)};
 
 static bool accelerator(struct parser *p) { return parse_object(p, NULL); }
 

@@ -22,7 +22,7 @@ static float *floats(const double *number, int n)
     return out;
 }
 
-/* Data per vertex beside P: there must be as much of it as of P. */
+/* Data per vertex beside P: where there is not as much of it as of P, pbrt-v3 goes on without it. */
 static float *vertex_data(struct params *q, const char *name, unsigned types, int width, int n_vertices)
 {
     int n;
@@ -31,33 +31,31 @@ static float *vertex_data(struct params *q, const char *name, unsigned types, in
     if (number == NULL)
         return NULL;
     if (n != n_vertices) {
-        params_fail(q, item->position, "\"%s\" has %d entries but \"P\" has %d points; give one for each", name, n,
-                    n_vertices);
+        source_warn(q->messages, item->position, NULL,
+                    "\"%s\" has %d entries but \"P\" has %d points; it is passed over", name, n, n_vertices);
         return NULL;
     }
     return floats(number, n * width);
 }
 
+/* Sets *n_triangles to 0 where an index is wrong. */
 static uint32_t *vertex_indices(struct params *q, int n_vertices, int *n_triangles)
 {
     int n;
     const struct param *item;
     const double *number = params_list(q, "indices", 1u << PARAM_INTEGER, 3, &n, &item);
-    if (number == NULL) {
-        type_error(q, "a trianglemesh needs \"integer indices\" [...]");
-        return NULL;
-    }
     uint32_t *out = mem_alloc((size_t)n, 3 * sizeof *out);
-    for (int i = 0; i < 3 * n; i++) {
-        if (!(number[i] >= 0 && number[i] < n_vertices && number[i] == floor(number[i]))) {
-            params_fail(q, param_value_position(item, i),
-                        "%g is not the index of a point; \"P\" has %d points, 0 to %d", number[i], n_vertices,
+    *n_triangles = n_vertices > 0 ? n : 0;
+    for (int i = 0; i < 3 * *n_triangles; i++) {
+        if (!(number[i] > -1 && number[i] < n_vertices)) {
+            source_warn(q->messages, param_value_position(item, i), NULL,
+                        "%g is not the index of a point: \"P\" has %d points, 0 to %d", number[i], n_vertices,
                         n_vertices - 1);
+            *n_triangles = 0;
             break;
         }
         out[i] = (uint32_t)number[i];
     }
-    *n_triangles = n;
     return out;
 }
 
@@ -66,10 +64,6 @@ static void trianglemesh(struct params *q, struct mesh *m)
     const unsigned uv_types = 1u << PARAM_FLOAT | 1u << PARAM_POINT2;
     int n;
     const double *P = params_list(q, "P", 1u << PARAM_POINT, 3, &n, NULL);
-    if (P == NULL) {
-        type_error(q, "a trianglemesh needs \"point P\" [...]");
-        return;
-    }
     m->n_vertices = n;
     m->P = floats(P, 3 * n);
     m->N = vertex_data(q, "N", 1u << PARAM_NORMAL, 3, n);
@@ -77,6 +71,9 @@ static void trianglemesh(struct params *q, struct mesh *m)
     if (m->UV == NULL)
         m->UV = vertex_data(q, "st", uv_types, 2, n);
     m->index = vertex_indices(q, n, &m->n_triangles);
+    if (m->n_triangles == 0 && !q->failed)
+        source_warn(q->messages, q->position, NULL,
+                    "a trianglemesh without usable \"point P\" and \"integer indices\" is left out, as in pbrt-v3");
 }
 
 static void plymesh(struct params *q, struct mesh *m)
@@ -111,6 +108,7 @@ static void mesh_shape(struct parser *p, void *object)
     else
         plymesh(&p->params, &item->mesh);
     item->group.alpha = alpha(p, "alpha", &item->absent);
+    item->absent = item->absent || item->mesh.n_triangles == 0;
     item->group.shadow_alpha = alpha(p, "shadowalpha", &no_shadow);
     if (no_shadow)
         item->group.shadow_alpha = parse_constant(p, rgb_black());
@@ -186,7 +184,7 @@ static const struct object_type TYPES[] = {
     {"disk", DISK, QUADRIC_DISK, disk},
     {"cylinder", SPHERE, QUADRIC_CYLINDER, cylinder},
     REFUSED("cone"), REFUSED("curve"), REFUSED("heightfield"), REFUSED("hyperboloid"), REFUSED("loopsubdiv"),
-    REFUSED("nurbs"), REFUSED("paraboloid"), END_OF_TYPES};
+    REFUSED("nurbs"), REFUSED("paraboloid"), OTHERS_LEFT_OUT};
 
 /* --- adding ------------------------------------------------------------------------------------------- */
 
@@ -246,7 +244,8 @@ static bool complete_shape(struct parser *p, struct shape_item *item)
         item->area.on = false;
     }
     if (item->absent && item->area.on)
-        source_warn(&p->messages, item->position, "absent light", "a light of alpha 0 is left out, with its shape");
+        source_warn(&p->messages, item->position, "absent light",
+                    "a light of alpha 0 or without triangles is left out");
     if (item->absent)
         return false;
     return item->group.material != MATERIAL_NONE || item->area.on;
@@ -256,10 +255,11 @@ static bool complete_shape(struct parser *p, struct shape_item *item)
 static bool shape(struct parser *p)
 {
     struct shape_item item = {
-        .to_world = p->state.ctm, .reverse = p->state.reverse, .area = p->state.area, .position = p->params.position};
-    item.group.material = p->state.material;
+        .to_world = p->place.ctm, .reverse = p->state.reverse, .area = p->state.area, .position = p->params.position};
     item.group.alpha = item.group.shadow_alpha = item.group.first_light = -1;
-    bool ok = parse_object(p, &item);
+    parse_fields(p, &item);
+    item.group.material = parse_changed_material(p);
+    bool ok = params_done(&p->params) && parse_placed(p) && parse_media(p, item.position, "shape", false);
     bool stored = false;
     if (ok && complete_shape(p, &item)) {
         stored = p->current_object >= 0;

@@ -9,10 +9,13 @@
 bool parse_string(struct parser *p, struct token *out, const char *what)
 {
     char found[64];
+    struct lexer before = p->lexer;
     if (!lexer_next(&p->lexer, out))
         return false;
     if (out->kind == TOKEN_STRING)
         return true;
+    if (out->kind == TOKEN_WORD)
+        p->lexer = before; /* it may be the next directive */
     return source_error(&p->messages, out->position, "%s wants %s in quotes here, not %s", p->directive.text, what,
                        token_text(out, found, sizeof found));
 }
@@ -26,8 +29,11 @@ bool parse_numbers(struct parser *p, double *out, int n)
     if (bracket)
         lexer_next(l, &t);
     for (int i = 0; i < n + bracket; i++) {
+        struct lexer before = *l;
         if (!lexer_next(l, &t))
             return false;
+        if (t.kind == TOKEN_WORD)
+            *l = before; /* it may be the next directive */
         if (t.kind != (i < n ? TOKEN_NUMBER : TOKEN_CLOSE))
             return source_error(&p->messages, t.position, "%s wants %d numbers; here should be %s, not %s",
                                p->directive.text, n, i < n ? "the next" : "]", token_text(&t, found, sizeof found));
@@ -52,45 +58,66 @@ bool parse_typed(struct parser *p)
     return parse_string(p, &type, "a type") && parse_list(p, p->directive.text, &type);
 }
 
-bool parse_no_such(struct parser *p, struct source_position at, const char *name, const struct symbols *table,
-                   const char *what, const char *advice)
+void parse_no_such(struct parser *p, struct source_position at, const char *name, const struct symbols *table,
+                   const char *what, const char *instead)
 {
     const char *near = symbols_near(table, name);
-    if (near != NULL)
-        return params_fail(&p->params, at, "there is no %s \"%.60s\"; did you mean \"%.60s\"?", what, name, near);
-    return params_fail(&p->params, at, "there is no %s \"%.60s\"; %s", what, name, advice);
+    source_warn(&p->messages, at, NULL, "there is no %s \"%.60s\"; %s%s%.60s%s", what, name, instead,
+                near != NULL ? "; did you mean \"" : "", near != NULL ? near : "", near != NULL ? "\"?" : "");
 }
 
-int parse_named(struct parser *p, struct token *name, const struct symbols *table, const char *what)
+int parse_named(struct parser *p, struct token *name, const struct symbols *table, const char *what,
+                const char *instead)
 {
     if (!parse_string(p, name, "a name"))
         return -1;
     int i = symbols_find(table, name->text);
     if (i < 0)
-        parse_no_such(p, name->position, name->text, table, what, "define it before it is used");
+        parse_no_such(p, name->position, name->text, table, what, instead);
     return i;
 }
 
 /* --- transforms --------------------------------------------------------------------------------------- */
 
+/* Stays what it is whatever it is multiplied with. */
+static struct transform no_transform(void)
+{
+    struct transform t;
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++)
+            t.m[i][j] = t.inv[i][j] = NAN;
+    return t;
+}
+
+/* One of no use is an error only where something stands in it. */
 static bool set_ctm(struct parser *p, struct transform t)
 {
-    if (!p->state.start_active)
+    if (!p->place.start_active)
         return true;
-    if (!transform_is_usable(&t))
-        return directive_error(p, "this makes the current transform infinite or singular, or nearly so; %s",
-                           "its numbers and its inverse's go up to 1e30");
-    p->state.ctm = t;
+    bool usable = transform_is_usable(&t);
+    if (!usable && !isnan(p->place.ctm.m[0][0]))
+        source_warn(&p->messages, p->directive.position, NULL,
+                    "%s makes the current transform infinite or singular, or nearly so; nothing can stand in it",
+                    p->directive.text);
+    p->place.ctm = usable ? t : no_transform();
     return true;
+}
+
+bool parse_placed(struct parser *p)
+{
+    if (transform_is_usable(&p->place.ctm))
+        return true;
+    return directive_error(p, "the current transform is infinite or singular, or nearly so; its numbers and its "
+                           "inverse's go up to 1e30");
 }
 
 void parse_state_reset(struct parser *p)
 {
-    p->state.ctm = transform_identity();
-    p->state.start_active = true;
+    p->place.ctm = transform_identity();
+    p->place.start_active = true;
 }
 
-static bool apply(struct parser *p, struct transform t) { return set_ctm(p, transform_compose(p->state.ctm, t)); }
+static bool apply(struct parser *p, struct transform t) { return set_ctm(p, transform_compose(p->place.ctm, t)); }
 
 static bool identity(struct parser *p) { return set_ctm(p, transform_identity()); }
 
@@ -105,9 +132,8 @@ static bool scale(struct parser *p)
     double x[3];
     if (!parse_numbers(p, x, 3))
         return false;
-    if (x[0] == 0 || x[1] == 0 || x[2] == 0)
-        return directive_error(p, "Scale by 0 flattens everything; all three factors must differ from 0");
-    return apply(p, transform_scale(x[0], x[1], x[2]));
+    bool flat = x[0] == 0 || x[1] == 0 || x[2] == 0;
+    return apply(p, flat ? no_transform() : transform_scale(x[0], x[1], x[2]));
 }
 
 static bool rotate(struct parser *p)
@@ -115,9 +141,8 @@ static bool rotate(struct parser *p)
     double x[4];
     if (!parse_numbers(p, x, 4))
         return false;
-    if (x[1] == 0 && x[2] == 0 && x[3] == 0)
-        return directive_error(p, "Rotate around the axis 0 0 0; write Rotate degrees x y z");
-    return apply(p, transform_rotate(x[0], vec(x[1], x[2], x[3])));
+    vec3 axis = vec(x[1], x[2], x[3]);
+    return apply(p, length2(axis) > 0 ? transform_rotate(x[0], axis) : no_transform());
 }
 
 static bool look_at(struct parser *p)
@@ -126,9 +151,14 @@ static bool look_at(struct parser *p)
     struct transform t;
     if (!parse_numbers(p, x, 9))
         return false;
-    if (!transform_look_at(vec(x[0], x[1], x[2]), vec(x[3], x[4], x[5]), vec(x[6], x[7], x[8]), &t))
-        return directive_error(p, "LookAt needs two different points and an up vector across the view");
-    return apply(p, t);
+    vec3 eye = vec(x[0], x[1], x[2]), look = vec(x[3], x[4], x[5]);
+    if (transform_look_at(eye, look, vec(x[6], x[7], x[8]), &t))
+        return apply(p, t);
+    if (!(length2(sub(look, eye)) > 0))
+        return apply(p, no_transform());
+    source_warn(&p->messages, p->directive.position, NULL,
+                "LookAt needs an up vector across the view; as in pbrt-v3, this one changes nothing");
+    return true;
 }
 
 static bool parse_matrix(struct parser *p, struct transform *out)
@@ -137,7 +167,7 @@ static bool parse_matrix(struct parser *p, struct transform *out)
     if (!parse_numbers(p, x, 16))
         return false;
     if (!transform_from_matrix(x, out))
-        return directive_error(p, "this matrix is singular: it has no inverse");
+        *out = no_transform();
     return true;
 }
 
@@ -165,14 +195,14 @@ static bool coordinate_system(struct parser *p)
     struct token name;
     if (!parse_string(p, &name, "a name"))
         return false;
-    parse_name_system(p, name.text, p->state.ctm);
+    parse_name_system(p, name.text, p->place.ctm);
     return true;
 }
 
 static bool coord_sys_transform(struct parser *p)
 {
     struct token name;
-    int i = parse_named(p, &name, &p->systems, "coordinate system");
+    int i = parse_named(p, &name, &p->systems, "coordinate system", "the transform stays as it is");
     return i >= 0 && set_ctm(p, p->system[i]);
 }
 
@@ -186,7 +216,7 @@ static bool active_transform(struct parser *p)
         return source_error(&p->messages, t.position, "ActiveTransform wants StartTime, EndTime or All");
     if (end)
         source_warn(&p->messages, t.position, "motion", "nothing moves here: transforms of the end time are ignored");
-    p->state.start_active = !end;
+    p->place.start_active = !end;
     return true;
 }
 
@@ -202,49 +232,79 @@ static bool transform_times(struct parser *p)
 static const char *const BEGIN[] = {"AttributeBegin", "TransformBegin", "ObjectBegin"};
 static const char *const END[] = {"AttributeEnd", "TransformEnd", "ObjectEnd"};
 
-bool parse_all_closed(struct parser *p)
+void parse_close_all(struct parser *p)
 {
-    if (p->n_blocks == 0)
-        return true;
-    const struct block *b = &p->block[p->n_blocks - 1];
-    return source_error(&p->messages, b->position, "%s is still open at WorldEnd; close it with %s", BEGIN[b->kind],
-                       END[b->kind]);
+    for (; p->n_pushed > 0; p->n_pushed--) {
+        const struct pushed_transform *top = &p->pushed[p->n_pushed - 1];
+        source_warn(&p->messages, top->position, NULL, "%s is still open at WorldEnd; close it with %s",
+                    BEGIN[top->kind], END[top->kind]);
+    }
+}
+
+static void push_transform(struct parser *p, enum block_kind kind)
+{
+    struct pushed_transform top = {kind, p->directive.position, p->place};
+    p->pushed = mem_grow(p->pushed, &p->pushed_capacity, (size_t)p->n_pushed + 1, sizeof *p->pushed);
+    p->pushed[p->n_pushed++] = top;
+}
+
+static void pop_transform(struct parser *p, enum block_kind kind)
+{
+    if (p->n_pushed == 0)
+        return;
+    const struct pushed_transform *top = &p->pushed[--p->n_pushed];
+    if (top->kind != kind)
+        source_warn(&p->messages, p->directive.position, NULL,
+                    "%s does not match the %s of line %d; as in pbrt-v3, it takes back that one's transform", END[kind],
+                    BEGIN[top->kind], top->position.line);
+    p->place = top->saved;
+}
+
+/* Warns of an end without a beginning, which is passed over. */
+static bool is_open(struct parser *p, int n, enum block_kind kind)
+{
+    if (n == 0)
+        source_warn(&p->messages, p->directive.position, NULL, "%s without %s is passed over", END[kind], BEGIN[kind]);
+    return n > 0;
 }
 
 static bool open_block(struct parser *p, enum block_kind kind)
 {
-    struct block b = {kind,          p->directive.position, p->state, p->float_textures.n, p->spectrum_textures.n,
-                      p->materials.n};
+    struct pushed_state b = {p->state, p->float_textures.n, p->spectrum_textures.n, p->materials.n};
     p->block = mem_grow(p->block, &p->block_capacity, (size_t)p->n_blocks + 1, sizeof *p->block);
     p->block[p->n_blocks++] = b;
+    push_transform(p, kind);
     return true;
 }
 
 static bool close_block(struct parser *p, enum block_kind kind)
 {
-    if (p->n_blocks == 0)
-        return directive_error(p, "%s without %s; remove it or open the block", END[kind], BEGIN[kind]);
-    const struct block *b = &p->block[p->n_blocks - 1];
-    if (b->kind != kind)
-        return directive_error(p, "%s does not match the %s of line %d; %s comes first",
-                           END[kind], BEGIN[b->kind], b->position.line, END[b->kind]);
-    p->n_blocks--;
-    if (kind == BLOCK_TRANSFORM) {
-        p->state.ctm = b->saved.ctm;
-        p->state.start_active = b->saved.start_active;
-        return true;
-    }
+    if (!is_open(p, p->n_blocks, kind))
+        return false;
+    const struct pushed_state *b = &p->block[--p->n_blocks];
     p->state = b->saved;
     symbols_forget(&p->float_textures, b->n_float_textures);
     symbols_forget(&p->spectrum_textures, b->n_spectrum_textures);
     symbols_forget(&p->materials, b->n_materials);
+    pop_transform(p, kind);
     return true;
 }
 
 static bool attribute_begin(struct parser *p) { return open_block(p, BLOCK_ATTRIBUTE); }
 static bool attribute_end(struct parser *p) { return close_block(p, BLOCK_ATTRIBUTE); }
-static bool transform_begin(struct parser *p) { return open_block(p, BLOCK_TRANSFORM); }
-static bool transform_end(struct parser *p) { return close_block(p, BLOCK_TRANSFORM); }
+
+static bool transform_begin(struct parser *p)
+{
+    push_transform(p, BLOCK_TRANSFORM);
+    return true;
+}
+
+static bool transform_end(struct parser *p)
+{
+    if (is_open(p, p->n_pushed, BLOCK_TRANSFORM))
+        pop_transform(p, BLOCK_TRANSFORM);
+    return true;
+}
 
 static bool reverse_orientation(struct parser *p)
 {
@@ -258,7 +318,8 @@ static bool object_begin(struct parser *p)
     if (!parse_string(p, &name, "a name"))
         return false;
     if (p->current_object >= 0)
-        return directive_error(p, "ObjectBegin inside an object; end the outer one with ObjectEnd first");
+        source_warn(&p->messages, p->directive.position, NULL,
+                    "ObjectBegin inside an object; as in pbrt-v3, the outer one ends here");
     p->object = mem_grow(p->object, &p->object_capacity, (size_t)p->n_objects + 1, sizeof *p->object);
     memset(&p->object[p->n_objects], 0, sizeof *p->object);
     p->current_object = p->n_objects++;
@@ -268,23 +329,29 @@ static bool object_begin(struct parser *p)
 
 static bool object_end(struct parser *p)
 {
-    if (!close_block(p, BLOCK_OBJECT))
-        return false;
+    if (p->current_object < 0)
+        source_warn(&p->messages, p->directive.position, NULL,
+                    "ObjectEnd outside of an object ends an attribute block");
     p->current_object = -1;
-    return true;
+    return close_block(p, BLOCK_OBJECT);
 }
 
 static bool object_instance(struct parser *p)
 {
     struct token name;
-    if (p->current_object >= 0)
-        return directive_error(p, "ObjectInstance inside an object; objects do not nest");
-    int i = parse_named(p, &name, &p->objects, "object");
+    if (p->current_object >= 0) {
+        source_warn(&p->messages, p->directive.position, NULL,
+                    "ObjectInstance inside an object is passed over, as in pbrt-v3; objects do not nest");
+        return false;
+    }
+    int i = parse_named(p, &name, &p->objects, "object", "this instance is left out");
     if (i < 0)
         return false;
     const struct shape_list *list = &p->object[i];
+    if (list->n > 0 && !parse_placed(p))
+        return false;
     for (int k = 0; k < list->n; k++) {
-        struct transform to_world = transform_compose(p->state.ctm, list->item[k].to_world);
+        struct transform to_world = transform_compose(p->place.ctm, list->item[k].to_world);
         if (!transform_is_usable(&to_world))
             return source_error(&p->messages, name.position,
                                "the object's transform and this instance's together are infinite or singular");

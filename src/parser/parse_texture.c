@@ -110,7 +110,7 @@ static const struct object_type TYPES[] = {
     {"imagemap", IMAGEMAP, TEXTURE_IMAGEMAP, imagemap},
     {"bilerp", BILERP, TEXTURE_BILERP, NULL},
     REFUSED("uv"), REFUSED("dots"), REFUSED("fbm"), REFUSED("wrinkled"), REFUSED("marble"), REFUSED("windy"),
-    REFUSED("ptex"), END_OF_TYPES};
+    REFUSED("ptex"), OTHERS_LEFT_OUT};
 
 /* Texture "name" "float or spectrum or color" "class". */
 static bool texture(struct parser *p)
@@ -120,20 +120,24 @@ static bool texture(struct parser *p)
         !parse_string(p, &class, "a kind of texture") || !parse_list(p, "Texture", &class))
         return false;
     p->texture_is_float = strcmp(type.text, "float") == 0;
-    if (!p->texture_is_float && strcmp(type.text, "spectrum") != 0 && strcmp(type.text, "color") != 0)
-        return params_fail(&p->params, type.position, "unknown texture type \"%.40s\"; use \"float\" or \"spectrum\"",
-                           type.text);
-    if (!parse_type(p, TYPES))
+    if (!p->texture_is_float && strcmp(type.text, "spectrum") != 0 && strcmp(type.text, "color") != 0) {
+        source_warn(&p->messages, type.position, NULL, "unknown texture type \"%.40s\"; use \"float\" or \"spectrum\"",
+                    type.text);
         return false;
-    struct texture t = {.kind = (enum texture_kind)p->type->kind};
-    if (!parse_object(p, &t))
-        return false;
-    int id = texture_add(&p->scene->textures, t);
+    }
+    struct texture t = {.kind = TEXTURE_CONSTANT};
+    bool known = parse_type(p, TYPES);
+    if (known)
+        t.kind = (enum texture_kind)p->type->kind;
+    else if (!p->params.failed)
+        return false; /* left out */
+    bool ok = known && parse_object(p, &t);
+    int id = ok ? texture_add(&p->scene->textures, t) : parse_constant(p, rgb_black());
+    symbols_add(p->texture_is_float ? &p->float_textures : &p->spectrum_textures, name.text, id);
     if (p->scene->textures.texture[id].cost > TEXTURE_MAX_COST)
         return source_error(&p->messages, p->params.position,
                             "this texture is built from more than %d others; use fewer", TEXTURE_MAX_COST);
-    symbols_add(p->texture_is_float ? &p->float_textures : &p->spectrum_textures, name.text, id);
-    return true;
+    return ok;
 }
 
 const struct directive TEXTURE_DIRECTIVES[] = {{"Texture", IN_WORLD, texture, NULL}, END_OF_DIRECTIVES};

@@ -23,10 +23,10 @@ static bool world_begin(struct parser *p)
 static bool world_end(struct parser *p)
 {
     p->phase = AFTER_WORLD;
-    return parse_all_closed(p);
+    parse_close_all(p);
+    return parse_media(p, p->directive.position, "camera", true);
 }
 
-/* Vacuum inside and outside is all there is. */
 static bool medium_interface(struct parser *p)
 {
     struct token name[2];
@@ -35,16 +35,49 @@ static bool medium_interface(struct parser *p)
     name[1] = name[0];
     if (lexer_peek(&p->lexer) == TOKEN_STRING && !lexer_next(&p->lexer, &name[1]))
         return false;
-    for (int i = 0; i < 2; i++)
-        if (name[i].text[0] != '\0')
-            return source_error(&p->messages, name[i].position,
-                               "participating media are not supported; only the medium \"\" is");
+    for (int i = 0; i < 2; i++) {
+        p->state.medium[i] = name[i].text;
+        if (name[i].text[0] != '\0' && symbols_find(&p->media, name[i].text) < 0) {
+            parse_no_such(p, name[i].position, name[i].text, &p->media, "medium", "vacuum is taken");
+            p->state.medium[i] = "";
+        }
+    }
     return true;
 }
 
+/* Its parameters do not matter: nothing of it can be rendered (parse_media). */
 static bool make_named_medium(struct parser *p)
 {
-    return directive_error(p, "participating media are not supported; remove MakeNamedMedium");
+    struct token name;
+    if (!parse_string(p, &name, "a name") || !parse_list(p, "MakeNamedMedium", &name))
+        return false;
+    symbols_add(&p->media, name.text, 0);
+    return true;
+}
+
+/* Which integrators of pbrt-v3 see media; those of others are not its, and may not be less exact. */
+static bool sees_media(const char *integrator)
+{
+    static const char *const BLIND[] = {"path", "directlighting", "whitted", "ambientocclusion", "sppm", NULL};
+    for (int i = 0; integrator != NULL && BLIND[i] != NULL; i++)
+        if (strcmp(integrator, BLIND[i]) == 0)
+            return false;
+    return integrator != NULL;
+}
+
+bool parse_media(struct parser *p, struct source_position at, const char *what, bool only_outside)
+{
+    const char *const *medium = p->state.medium;
+    const char *name = medium[1][0] != '\0' || only_outside ? medium[1] : medium[0];
+    if (name[0] == '\0')
+        return true;
+    if (sees_media(p->scene->integrator))
+        return source_error(&p->messages, at,
+                            "this %s is in or around the medium \"%.60s\", and participating media are not supported; "
+                            "remove its MediumInterface", what, name);
+    source_warn(&p->messages, at, "media", "media are left out, as by pbrt-v3's integrator \"%s\"",
+                p->scene->integrator != NULL ? p->scene->integrator : "path");
+    return true;
 }
 
 static bool color_space(struct parser *p)
@@ -102,33 +135,39 @@ static bool unknown_directive(struct parser *p)
 
 static bool wrong_phase(struct parser *p, const struct directive *d)
 {
-    if (p->phase == AFTER_WORLD)
-        return directive_error(p, "%s after WorldEnd; a file describes one world", d->name);
-    if (d->run == world_begin)
-        return directive_error(p, "a second WorldBegin; a file describes one world");
-    return directive_error(p, "%s may stand only %s WorldBegin%s; move it there", d->name,
-                           d->phase == IN_WORLD ? "between" : "before", d->phase == IN_WORLD ? " and WorldEnd" : "");
+    source_warn(&p->messages, p->directive.position, NULL,
+                "%s is passed over, as in pbrt-v3: it may stand only %s WorldBegin%s", d->name,
+                d->phase == IN_WORLD ? "between" : "before", d->phase == IN_WORLD ? " and WorldEnd" : "");
+    return false;
 }
 
-/* All directives of the current file. */
-static bool run_source(struct parser *p)
+static bool run_directive(struct parser *p)
+{
+    const struct token *t = &p->directive;
+    const struct directive *d = t->kind == TOKEN_WORD ? find_directive(t->text, NULL) : NULL;
+    if (d == NULL)
+        return unknown_directive(p);
+    if ((d->phase & p->phase) == 0)
+        return wrong_phase(p, d);
+    if (d->types != NULL && !(parse_typed(p) && parse_type(p, d->types)))
+        return false;
+    return d->run(p);
+}
+
+/* All directives of the current file, up to the end of its world. */
+static void run_source(struct parser *p)
 {
     struct token *t = &p->directive;
-    for (;;) {
-        if (!lexer_next(&p->lexer, t))
-            return false;
-        if (t->kind == TOKEN_END)
-            return true;
-        const struct directive *d = t->kind == TOKEN_WORD ? find_directive(t->text, NULL) : NULL;
-        if (d == NULL)
-            return unknown_directive(p);
-        if ((d->phase & p->phase) == 0)
-            return wrong_phase(p, d);
-        if (d->types != NULL && !(parse_typed(p) && parse_type(p, d->types)))
-            return false;
-        if (!d->run(p))
-            return false;
+    while (p->phase != AFTER_WORLD) {
+        bool ok = lexer_next(&p->lexer, t);
+        if (ok && t->kind == TOKEN_END)
+            return;
+        if (!ok || !run_directive(p))
+            lexer_resume(&p->lexer);
     }
+    if (lexer_peek(&p->lexer) != TOKEN_END)
+        source_warn(&p->messages, t->position, "after the world",
+                    "what stands after WorldEnd is not read; a file describes one world");
 }
 
 /* --- files -------------------------------------------------------------------------------------------- */
@@ -150,7 +189,7 @@ static int load(struct parser *p, const char *path, struct error *err)
 }
 
 /* Carry out a loaded file. Its path and text live as long as the parser, for all places that point into it. */
-static bool run_file(struct parser *p, int file, const char *path, struct source_position included_at)
+static void run_file(struct parser *p, int file, const char *path, struct source_position included_at)
 {
     struct source_file *source = arena_alloc(&p->arena, sizeof *source);
     char *kept = arena_alloc(&p->arena, strlen(path) + 1);
@@ -162,10 +201,9 @@ static bool run_file(struct parser *p, int file, const char *path, struct source
     struct lexer outer = p->lexer;
     p->lexer = lexer_start(source, &p->arena, &p->messages);
     p->source[p->n_sources++] = source;
-    bool ok = run_source(p);
+    run_source(p);
     p->n_sources--;
     p->lexer = outer;
-    return ok;
 }
 
 /* Relative names start in the directory of the main file, wherever the Include stands. */
@@ -187,7 +225,8 @@ static bool include(struct parser *p)
     int file = ok ? load(p, path, &inner) : -1;
     if (ok && file < 0)
         ok = source_error(&p->messages, name.position, "%s", inner.text);
-    ok = ok && run_file(p, file, path, name.position);
+    if (ok)
+        run_file(p, file, path, name.position);
     free(path);
     return ok;
 }
@@ -203,7 +242,7 @@ static char *directory_of(const char *path)
     return directory;
 }
 
-static void start(struct parser *p, const char *path, struct scene *s, const struct warning_sink *sink,
+static void start(struct parser *p, const char *path, struct scene *s, const struct message_sink *sink,
                   struct error *err)
 {
     p->scene = s;
@@ -216,10 +255,11 @@ static void start(struct parser *p, const char *path, struct scene *s, const str
     p->params.directory = p->directory;
     p->phase = BEFORE_WORLD;
     parse_state_reset(p);
+    p->state.medium[0] = p->state.medium[1] = "";
     p->current_object = -1;
     p->params.directive = "Material";
-    p->params.type = "matte";
-    parse_make_material(p, &p->state.material); /* the material of a shape that comes before any Material */
+    p->params.type = p->state.material.type = "matte";
+    parse_make_material(p, &p->state.material.id); /* the material of a shape that comes before any Material */
 }
 
 static void finish(struct parser *p)
@@ -228,32 +268,39 @@ static void finish(struct parser *p)
         shape_list_free(&p->object[i]);
     for (int i = 0; i < p->n_files; i++)
         free(p->file[i].text);
-    struct symbols *const tables[] = {&p->files,     &p->float_textures, &p->spectrum_textures,
-                                    &p->materials, &p->systems,        &p->objects};
+    struct symbols *const tables[] = {&p->files,   &p->float_textures, &p->spectrum_textures, &p->materials,
+                                      &p->systems, &p->objects,        &p->media};
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++)
         symbols_free(tables[i]);
     free(p->object);
     free(p->file);
     free(p->system);
     free(p->block);
+    free(p->pushed);
+    free(p->named);
     free(p->directory);
     params_free(&p->params);
-    messages_free(&p->messages);
+    params_free(&p->changed);
+    messages_end(&p->messages);
     arena_free(&p->arena);
     free(p);
 }
 
-bool parse_scene(const char *path, struct scene *out, const struct warning_sink *sink, struct error *err)
+bool parse_scene(const char *path, struct scene *out, const struct message_sink *sink, struct error *err)
 {
     static const struct source_position NOWHERE = {NULL, NULL, 0, 0};
     struct parser *p = mem_alloc(1, sizeof *p); /* too large for a small stack: tables of names */
+    struct error first;
     scene_init(out);
-    start(p, path, out, sink, err);
-    int file = load(p, path, err);
-    bool ok = file >= 0 && run_file(p, file, path, NOWHERE);
-    if (ok && p->phase != AFTER_WORLD)
-        ok = directive_error(p, "the file ends without %s; add it",
-                         p->phase == BEFORE_WORLD ? "WorldBegin" : "WorldEnd");
+    start(p, path, out, sink, err != NULL ? err : &first);
+    int file = load(p, path, p->messages.err);
+    if (file < 0)
+        messages_report(&p->messages);
+    else
+        run_file(p, file, path, NOWHERE);
+    if (p->messages.n_errors == 0 && p->phase != AFTER_WORLD)
+        directive_error(p, "the file ends without %s; add it", p->phase == BEFORE_WORLD ? "WorldBegin" : "WorldEnd");
+    bool ok = p->messages.n_errors == 0;
     finish(p);
     if (!ok)
         scene_free(out);

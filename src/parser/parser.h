@@ -1,7 +1,8 @@
 /* parser.h: from a pbrt-v3 scene file to a scene.
  *
- * The subset is listed in doc/scene-format.md. What is outside it is refused with "FILE:LINE:COL: ..." and the
- * line with a caret under the column, or, where the image cannot suffer, warned about once.
+ * The subset is listed in doc/scene-format.md. What would change the picture is refused with "FILE:LINE:COL: ..." and
+ * the line with a caret under the column; where the picture is pbrt-v3's all the same, a warning says what is done.
+ * After an error reading goes on, so that one run finds all.
  *
  * Tests: test_parser.c, whose fixtures carry the error they expect.
  */
@@ -9,13 +10,14 @@
 #define ASBDPT_PARSER_H
 
 #include "base/error.h"
-#include "parser/source_position.h" /* struct warning_sink */
+#include "parser/source_position.h" /* struct message_sink */
 #include "scene/scene.h"
 
 /* parse_scene: read a file and everything it includes.
  *   out   initialised by this function; on success to be released with scene_free; not yet prepared
- *   sink  may be NULL: warnings are dropped
- * Returns false with a message; *out is then empty and needs no release. */
-bool parse_scene(const char *path, struct scene *out, const struct warning_sink *sink, struct error *err);
+ *   sink  may be NULL; receives warnings and errors as they are found
+ *   err   may be NULL; the first error
+ * Returns false after an error; *out is then empty and needs no release. */
+bool parse_scene(const char *path, struct scene *out, const struct message_sink *sink, struct error *err);
 
 #endif

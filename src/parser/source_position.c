@@ -72,50 +72,92 @@ static void write_includes(struct writer *w, const struct source_file *file)
     }
 }
 
+/* "FILE:LINE:COL: message"; returns where the message begins. */
+static size_t write_message(struct writer *w, struct source_position at, const char *format, va_list args)
+{
+    write_text(w, "%s:%d:%d: ", at.file->path, at.line, at.column);
+    size_t begin = w->used;
+    write_args(w, format, args);
+    return begin;
+}
+
+/* How many of these texts are equal to this one. */
+static int count_equal(char *const *known, int n, const char *text)
+{
+    int equal = 0;
+    for (int i = 0; i < n; i++)
+        equal += strcmp(known[i], text) == 0;
+    return equal;
+}
+
 bool source_error(struct messages *m, struct source_position at, const char *format, ...)
 {
-    if (m->err == NULL)
-        return false;
-    struct writer w = {m->err->text, 0, sizeof m->err->text};
-    write_text(&w, "%s:%d:%d: ", at.file->path, at.line, at.column);
+    struct error full;
+    struct writer w = {full.text, 0, sizeof full.text};
     va_list args;
     va_start(args, format);
-    write_args(&w, format, args);
+    const char *sentence = full.text + write_message(&w, at, format, args);
     va_end(args);
+    if (m->n_errors == MOST_ERRORS || count_equal(m->error, m->n_errors, sentence) == MOST_LIKE) {
+        m->more_errors++;
+        return false;
+    }
+    m->error[m->n_errors++] = mem_copy_text(sentence);
     write_excerpt(&w, at);
     write_includes(&w, at.file);
+    if (m->err != NULL && m->n_errors == 1)
+        *m->err = full;
+    if (m->sink != NULL && m->sink->error != NULL)
+        m->sink->error(m->sink->context, full.text);
     return false;
 }
 
 void source_warn(struct messages *m, struct source_position at, const char *kind, const char *format, ...)
 {
-    for (size_t i = 0; i < m->n_given; i++)
-        if (strcmp(m->given[i], kind) == 0)
-            return;
-    m->given = mem_grow(m->given, &m->capacity, m->n_given + 1, sizeof *m->given);
-    m->given[m->n_given++] = kind;
-    if (m->sink == NULL)
-        return;
     char text[ERROR_TEXT_SIZE];
     struct writer w = {text, 0, sizeof text};
-    write_text(&w, "%s:%d:%d: ", at.file->path, at.line, at.column);
     va_list args;
     va_start(args, format);
-    write_args(&w, format, args);
+    const char *sentence = text + write_message(&w, at, format, args);
     va_end(args);
-    m->sink->warn(m->sink->context, text);
+    kind = kind != NULL ? kind : sentence;
+    if (count_equal(m->warning, m->n_warnings, kind) > 0)
+        return;
+    if (m->n_warnings == MOST_WARNINGS) {
+        m->more_warnings++;
+        return;
+    }
+    m->warning[m->n_warnings++] = mem_copy_text(kind);
+    if (m->sink != NULL && m->sink->warn != NULL)
+        m->sink->warn(m->sink->context, text);
+}
+
+void messages_report(struct messages *m)
+{
+    m->error[m->n_errors++] = mem_copy_text("");
+    if (m->sink != NULL && m->sink->error != NULL && m->err != NULL)
+        m->sink->error(m->sink->context, m->err->text);
+}
+
+void messages_end(struct messages *m)
+{
+    char text[64];
+    snprintf(text, sizeof text, "and %ld more warnings", m->more_warnings);
+    if (m->more_warnings > 0 && m->sink != NULL && m->sink->warn != NULL)
+        m->sink->warn(m->sink->context, text);
+    snprintf(text, sizeof text, "and %ld more errors", m->more_errors);
+    if (m->more_errors > 0 && m->sink != NULL && m->sink->error != NULL)
+        m->sink->error(m->sink->context, text);
+    for (int i = 0; i < m->n_errors; i++)
+        free(m->error[i]);
+    for (int i = 0; i < m->n_warnings; i++)
+        free(m->warning[i]);
+    memset(m, 0, sizeof *m);
 }
 
 void source_position_text(struct source_position at, char *buffer, size_t size)
 {
     snprintf(buffer, size, "%s:%d:%d", at.file->path, at.line, at.column);
-}
-
-void messages_free(struct messages *m)
-{
-    free(m->given);
-    m->given = NULL;
-    m->n_given = m->capacity = 0;
 }
 
 char *text_read(const char *path, size_t *size, struct error *err)

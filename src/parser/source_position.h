@@ -29,31 +29,42 @@ struct source_file {
     struct source_position included_at; /* the Include directive; included_at.file is NULL for the main file */
 };
 
-/* A function that receives each warning, one line without newline; `context` is passed through. */
-struct warning_sink {
+/* Functions that receive each warning (one line) and each error (with its excerpt), without newline at the end;
+ * `context` is passed through. Each may be NULL. */
+struct message_sink {
     void (*warn)(void *context, const char *text);
+    void (*error)(void *context, const char *text);
     void *context;
 };
 
-/* Where messages go while one scene is read. */
+enum { MOST_ERRORS = 20, MOST_LIKE = 3, MOST_WARNINGS = 100 };
+
+/* Where messages go while one scene is read. The first MOST_ERRORS errors are given, of equal ones MOST_LIKE, and the
+ * rest is counted; of warnings the first of each kind, up to MOST_WARNINGS. */
 struct messages {
     struct error *err;               /* the first error; may be NULL */
-    const struct warning_sink *sink; /* may be NULL */
-    const char **given;              /* [n_given] kinds of warnings that were given already, owned */
-    size_t n_given, capacity;
+    const struct message_sink *sink; /* may be NULL */
+    char *error[MOST_ERRORS];        /* [n_errors] the sentences given, owned */
+    char *warning[MOST_WARNINGS];    /* [n_warnings] the kinds given, owned */
+    int n_errors, n_warnings;
+    long more_errors, more_warnings; /* not given */
 };
 
 /* source_error: "FILE:LINE:COL: message", the line, a caret under the column, and from where the file was included.
  * Returns false, always. */
 bool source_error(struct messages *m, struct source_position at, const char *format, ...);
 
-/* source_warn: the same on one line, to the sink, once per kind. `kind` must be a string constant. */
+/* source_warn: the same on one line, to the sink, once per kind; NULL: once per message. */
 void source_warn(struct messages *m, struct source_position at, const char *kind, const char *format, ...);
+
+/* messages_report: an error that has been put into m->err already, without a place of its own, goes to the sink. */
+void messages_report(struct messages *m);
 
 /* source_position_text: "FILE:LINE:COL" into the buffer, cut at its end. */
 void source_position_text(struct source_position at, char *buffer, size_t size);
 
-void messages_free(struct messages *m);
+/* messages_end: say how many more there were, and release what is owned. */
+void messages_end(struct messages *m);
 
 /* text_read: a whole file as a zero-terminated text, to be given to free(); NULL with a message (path and reason).
  *   size  out: bytes without the zero */
