@@ -58,7 +58,7 @@ struct batches render_batches(struct test *t, const struct scene *scene, const c
         CHECK(t, render_scene(scene, &o, &film, &err), "%s", err.text);
         CHECK(t, film.nonfinite == 0, "%s: %ld contributions are not finite", integrator, film.nonfinite);
         for (long i = 0; i < pixels.n; i++)
-            pixels.value[pixels.n * k + i] = (film.eye[i] + film.splat[i]) / (double)film.iterations;
+            pixels.value[pixels.n * k + i] = film_value(&film, (size_t)i) / (double)film.iterations;
         film_free(&film);
     }
     struct batches tiles = batches_tiles(&pixels, rect_width(crop), rect_height(crop), tile);

@@ -199,7 +199,7 @@ static void test_expected_vertices(struct test *t)
         const struct integrator *m = integrator_find("asbdpt");
         struct render_job job = {.scene = &scene, .film_rect = render_crop(&scene), .max_depth = cases[i].depth,
                                  .n_threads = 2};
-        struct preparation prepared = {.size = {DEFAULT_BLOCK, DEFAULT_TILE_SIZE}};
+        struct preparation prepared = {.size = {LONGEST_BLOCK, DEFAULT_TILE_SIZE}};
         if (CHECK(t, m->prepare(&job, &prepared, &err), "%s", err.text)) {
             const struct selection *sel = prepared.state;
             CHECK(t, sel->counts.connect[0] == cases[i].count && sel->counts.connect[1] == cases[i].count,

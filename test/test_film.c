@@ -112,6 +112,7 @@ static void test_errors(struct test *t)
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 4, 0);
     struct film film;
     film_init(&film, all, 8, 8);
+    film_keep_errors(&film);
     struct tile tile;
     memset(&tile, 0, sizeof tile);
     tile_start(&tile, all, all, &box, false);
@@ -150,6 +151,7 @@ static void test_overflow(struct test *t)
     struct film film;
     memset(&tile, 0, sizeof tile);
     film_init(&film, all, 4, 4);
+    film_keep_errors(&film);
     tile_start(&tile, all, all, &f, false);
     tile_add_eye(&tile, 0, 0, rgb_grey(1e39));
     tile_add_eye(&tile, 1, 0, rgb_grey(NAN));
@@ -172,6 +174,69 @@ static void test_overflow(struct test *t)
     film_free(&film);
 }
 
+/* --- exact sums -------------------------------------------------------------------------------------- */
+
+static bool same_sum(const struct exact_sum *a, const struct exact_sum *b)
+{
+    return a->top == b->top && memcmp(a->digit, b->digit, sizeof a->digit) == 0;
+}
+
+/* Terms of all sizes and signs, the largest anywhere among them: any order and any parts give the same digits, and the
+ * value is the sum but for 2^-48 of the largest term each. Sums of doubles, the companion, depend on the order. */
+static void test_exact_order(struct test *t)
+{
+    enum { TERMS = 300, ROUNDS = 200 };
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 5, 0);
+    int moved = 0;
+    for (int round = 0; round < ROUNDS; round++) {
+        double term[TERMS], plain[2] = {0, 0}, largest = 0, spread = 60.0 * (round % 4);
+        long double sum = 0;
+        struct exact_sum forward = {{0}, 0}, backward = {{0}, 0}, part[3] = {{{0}, 0}};
+        for (int i = 0; i < TERMS; i++) {
+            term[i] = ldexp(rng_uniform(&r) - 0.25, (int)(spread * (rng_uniform(&r) - 0.5)));
+            largest = fmax(largest, fabs(term[i]));
+            sum += (long double)term[i];
+            plain[0] += term[i];
+            exact_add(&forward, term[i]);
+            exact_add(&part[i < 100 ? 0 : i < 110 ? 1 : 2], term[i]);
+        }
+        for (int i = TERMS - 1; i >= 0; i--) {
+            plain[1] += term[i];
+            exact_add(&backward, term[i]);
+        }
+        moved += plain[0] != plain[1];
+        CHECK(t, same_sum(&forward, &backward), "round %d: the order of the terms is seen", round);
+        CHECK(t, exact_join(&part[2], &part[0]) && exact_join(&part[2], &part[1]) && same_sum(&forward, &part[2]),
+              "round %d: parts are not the whole", round);
+        double error = fabs((double)((long double)exact_value(&forward) - sum));
+        CHECK(t, error <= largest * TERMS * 0x1p-48, "round %d: the sum is wrong by %g of its largest term", round,
+              error / largest);
+    }
+    CHECK(t, moved > ROUNDS / 2, "sums of doubles depend on the order in %d of %d rounds only", moved, ROUNDS);
+}
+
+static void test_exact_range(struct test *t)
+{
+    static const double TERMS[] = {1, -1, 0.1, 3.4028234663852886e38, 1e-30, 1.4e-45, 0x1p-168, 0x1.fffffffffffffp143};
+    for (size_t i = 0; i < sizeof TERMS / sizeof TERMS[0]; i++) {
+        struct exact_sum s = {{0}, 0};
+        exact_add(&s, TERMS[i]);
+        CHECK(t, fabs(exact_value(&s) - TERMS[i]) <= fabs(TERMS[i]) * 0x1p-48, "%g alone is %g", TERMS[i],
+              exact_value(&s));
+    }
+    struct exact_sum s = {{0}, 0}, empty = {{0}, 0}, full = {{INT64_MAX, 0, 0}, 7}, before = full;
+    exact_add(&s, NAN);
+    exact_add(&s, INFINITY);
+    exact_add(&s, -0x1p144);
+    exact_add(&s, 1e-300);
+    CHECK(t, same_sum(&s, &empty) && exact_value(&s) == 0, "what is no term leaves a sum empty");
+    exact_add(&s, 1);
+    CHECK(t, !exact_join(&full, &s) && same_sum(&full, &before), "an overflow is refused and leaves the sum as it was");
+    full.digit[0] = INT64_MIN;
+    exact_add(&empty, -1);
+    CHECK(t, !exact_join(&full, &empty) && exact_join(&full, &s), "an overflow below is refused");
+}
+
 static void test_strategy_numbers(struct test *t)
 {
     int next = 0;
@@ -188,5 +253,7 @@ void test_film(struct test *t)
     test_splats(t);
     test_errors(t);
     test_overflow(t);
+    test_exact_order(t);
+    test_exact_range(t);
     test_strategy_numbers(t);
 }

@@ -160,7 +160,7 @@ static void trace_all(struct test *t, const struct scene *scene, const char *int
     struct render_job job = {.scene = scene, .film_rect = render_crop(scene), .seed = seed, .eye_seed = seed,
                              .max_depth = 1, .n_threads = 1};
     struct error err;
-    struct preparation prepared = {.size = {DEFAULT_BLOCK, DEFAULT_TILE_SIZE}};
+    struct preparation prepared = {.size = {LONGEST_BLOCK, DEFAULT_TILE_SIZE}};
     if (!CHECK(t, m->prepare(&job, &prepared, &err), "%s", err.text))
         return;
     int block = prepared.size.block < ITERATIONS ? prepared.size.block : ITERATIONS;
@@ -217,7 +217,7 @@ static bool note_sums(void *context, double done)
     for (int k = 0; k < STEPS; k++)
         if (lround(done * LAST) == FIRST << k)
             for (int i = 0; i < VALUES; i++)
-                h->sum[k][i] = h->film->eye[i] + h->film->splat[i];
+                h->sum[k][i] = film_value(h->film, (size_t)i);
     return true;
 }
 

@@ -76,7 +76,8 @@ bool aov_write(struct aov_files *f, const struct scene *scene, const struct rend
     for (int i = 0; i < N_AOVS; i++)
         picture[i] = mem_alloc((size_t)width * (size_t)height * 3, sizeof *picture[i]);
     aov_render(scene, options, picture);
-    aov_variance(film, scene->film_scale, picture[AOV_VARIANCE]);
+    if (f->file[AOV_VARIANCE].n > 0)
+        aov_variance(film, scene->film_scale, picture[AOV_VARIANCE]);
     for (int i = 0; i < N_AOVS; i++) {
         if (f->file[i].n > 0)
             ok = outputs_write(&f->file[i], width, height, picture[i], quiet, ok ? err : NULL) && ok;

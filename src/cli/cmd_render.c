@@ -128,6 +128,8 @@ static bool render_and_write(const struct job_options *o, const struct scene *sc
     film_init(&film, render_crop(scene), scene->width, scene->height);
     if (o->strategies != NULL)
         film_keep_strategies(&film, options.max_depth);
+    if (aov->file[AOV_VARIANCE].n > 0)
+        film_keep_errors(&film);
     options.progress = progress_update;
     options.progress_context = &bar;
     progress_start(&bar, o->quiet);

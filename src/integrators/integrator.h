@@ -27,7 +27,7 @@ struct tile_renderer {
 struct preparation {
     void *state; /* handed to the renderer, given to `release` at the end */
     const struct tile_renderer *renderer;
-    struct pass_size size; /* the defaults unless changed */
+    struct pass_size size; /* any block, tiles of DEFAULT_TILE_SIZE unless changed */
     char note[FILM_NOTE_SIZE]; /* what was chosen, for people; may be empty */
 };
 

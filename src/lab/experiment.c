@@ -69,6 +69,7 @@ static struct render_options options_of(struct scene_experiment *s, int variant,
 static void begin_film(const struct scene_experiment *s, struct film *film)
 {
     film_init(film, render_crop(&s->scene), s->scene.width, s->scene.height);
+    film_keep_errors(film);
 }
 
 static float *new_pixels(const struct scene_results *r)

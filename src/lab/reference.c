@@ -171,7 +171,7 @@ double picture_mean_error(const struct film *film)
     film_standard_error(film, 1, error);
     for (size_t i = 0; i < n; i++) {
         square[i % 3] += (double)error[i] * (double)error[i];
-        total += (film->eye[i] + film->splat[i]) / (double)film->iterations;
+        total += film_value(film, i) / (double)film->iterations;
     }
     free(error);
     /* The channels of a pixel are not independent: take them as fully dependent, the worst case. */
@@ -191,6 +191,7 @@ static bool render_half(const struct scene *scene, const struct render_options *
     o.progress = half_progress;
     o.progress_context = &context;
     film_init(&film, render_crop(scene), scene->width, scene->height);
+    film_keep_errors(&film);
     bool ok = render_scene(scene, &o, &film, err);
     if (ok) {
         film_warn(&film, film_develop(&film, scene->film_scale, out));

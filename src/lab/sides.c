@@ -77,7 +77,7 @@ static bool render_batch(const struct scene *scene, const struct render_options 
     bool ok = render_scene(scene, &o, &film, err);
     film_warn(&film, 0);
     for (long i = 0; ok && out != NULL && i < 3L * rect_width(film.rect) * rect_height(film.rect); i++)
-        out[i] = (film.eye[i] + film.splat[i]) / (double)film.iterations * scene->film_scale;
+        out[i] = film_value(&film, (size_t)i) / (double)film.iterations * scene->film_scale;
     film_free(&film);
     return ok;
 }

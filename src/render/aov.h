@@ -31,7 +31,8 @@ const char *aov_name(enum aov which);
  * The same numbers for any number of threads. */
 void aov_render(const struct scene *scene, const struct render_options *options, float *const out[N_FIRST_HIT]);
 
-/* aov_variance: of each value of film_develop at this scale, [height*width*3]; two iterations at least. */
+/* aov_variance: of each value of film_develop at this scale, [height*width*3]; two iterations at least. The
+ * film must have kept errors. */
 void aov_variance(const struct film *film, double scale, float *out);
 
 #endif

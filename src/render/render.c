@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "base/parallel.h"
 
 /* Fractions lie within [0,1]: readers of scenes and options see to it. */
@@ -87,11 +88,21 @@ struct run {
     struct film *film;
     int tiles_x, tiles_y;
     struct preparation prepared; /* blocks begin at multiples of their length, maybe INT_MAX: counted in 64 bits */
-    int64_t n_jobs, n_done;
-    bool stopping; /* progress said so: stop when the block is complete */
+    int64_t begun;  /* tile passes of the first block that the film holds already */
+    int64_t n_jobs; /* all tile passes, with these */
+    bool stopping;  /* progress said so: stop when the block is complete */
     struct workspace *work; /* [n_threads] */
     struct tile *tile;      /* [n_slots] */
 };
+
+/* Samples of a block that may have any length: few enough for a render to be stopped soon. */
+enum { BLOCK_SAMPLES = 1 << 17 };
+
+static int choose_block(struct pixel_rect film)
+{
+    double pixels = (double)rect_width(film) * rect_height(film);
+    return int_within(BLOCK_SAMPLES / pixels, 1, LONGEST_BLOCK);
+}
 
 static int64_t tiles_per_block(const struct run *r) { return (int64_t)r->tiles_x * r->tiles_y; }
 
@@ -117,8 +128,8 @@ static void run_pass(void *context, int64_t job, int slot, int thread)
 {
     struct run *r = context;
     struct tile_pass pass = {.job = &r->job, .tile = &r->tile[slot], .work = &r->work[thread]};
-    pass.rect = tile_rect(r, job % tiles_per_block(r));
-    block_range(r, job / tiles_per_block(r), &pass.first, &pass.end);
+    pass.rect = tile_rect(r, (r->begun + job) % tiles_per_block(r));
+    block_range(r, (r->begun + job) / tiles_per_block(r), &pass.first, &pass.end);
     tile_start(pass.tile, pass.rect, r->job.film_rect, &r->job.scene->filter, r->film->strategies != NULL);
     r->prepared.renderer->render(r->prepared.state, &pass);
 }
@@ -126,17 +137,19 @@ static void run_pass(void *context, int64_t job, int slot, int thread)
 static bool merge_pass(void *context, int64_t job, int slot)
 {
     struct run *r = context;
-    film_merge_tile(r->film, &r->tile[slot]);
-    r->n_done++;
     const struct render_options *o = r->options;
-    if (o->progress != NULL && !o->progress(o->progress_context, (double)r->n_done / (double)r->n_jobs))
+    int64_t done = r->begun + job + 1;
+    film_merge_tile(r->film, &r->tile[slot]);
+    r->film->passes++;
+    if (r->film->passes == tiles_per_block(r)) {
+        long first, end;
+        block_range(r, (done - 1) / tiles_per_block(r), &first, &end);
+        r->film->iterations += end - first;
+        r->film->passes = 0;
+    }
+    if (o->progress != NULL && !o->progress(o->progress_context, (double)done / (double)r->n_jobs))
         r->stopping = true;
-    if ((job + 1) % tiles_per_block(r) != 0)
-        return true;
-    long first, end;
-    block_range(r, job / tiles_per_block(r), &first, &end);
-    r->film->iterations += end - first;
-    return !r->stopping;
+    return !r->stopping || r->film->passes > 0;
 }
 
 static void make_workspaces(struct run *r)
@@ -163,8 +176,9 @@ static void run_all(struct run *r)
     r->tiles_x = (rect_width(r->job.film_rect) + r->prepared.size.tile - 1) / r->prepared.size.tile;
     r->tiles_y = (rect_height(r->job.film_rect) + r->prepared.size.tile - 1) / r->prepared.size.tile;
     r->n_jobs = tiles_per_block(r) * (end_block - first_block);
+    r->begun = r->film->passes;
 
-    struct parallel_jobs jobs = {r->n_jobs, r->job.n_threads, 2 * r->job.n_threads, r, run_pass, merge_pass};
+    struct parallel_jobs jobs = {r->n_jobs - r->begun, r->job.n_threads, 2 * r->job.n_threads, r, run_pass, merge_pass};
     r->tile = mem_alloc((size_t)jobs.n_slots, sizeof *r->tile);
     make_workspaces(r);
     parallel_run(&jobs);
@@ -177,7 +191,7 @@ static void run_all(struct run *r)
 bool render_scene(const struct scene *scene, const struct render_options *options, struct film *film,
                   struct error *err)
 {
-    struct run r = {.options = options, .film = film, .prepared = {.size = {DEFAULT_BLOCK, DEFAULT_TILE_SIZE}}};
+    struct run r = {.options = options, .film = film, .prepared = {.size = {0, DEFAULT_TILE_SIZE}}};
     r.job.scene = scene;
     r.job.film_rect = film->rect;
     r.job.seed = r.job.eye_seed = options->seed;
@@ -189,6 +203,8 @@ bool render_scene(const struct scene *scene, const struct render_options *option
         !render_max_depth(scene, options->max_depth, &r.job.max_depth, err) ||
         !options->integrator->prepare(&r.job, &r.prepared, err))
         return false;
+    if (r.prepared.size.block == 0)
+        r.prepared.size.block = choose_block(film->rect);
     memcpy(film->note, r.prepared.note, sizeof film->note);
     if (options->end > options->first)
         run_all(&r);

@@ -1,8 +1,9 @@
 /* render.h: from a prepared scene to a film: cut the work into tile passes and run them on threads.
  *
  * The frame (or its crop) is cut into tiles of 16x16 pixels, the iterations into blocks. Tile passes are started in the
- * order block by block, tile by tile, and merged into the film in that order (parallel.h), so the same scene, seed
- * and range of iterations give the same bytes for any number of threads.
+ * order block by block, tile by tile, and merged into the film in that order (parallel.h). They depend on nothing but
+ * the pixel and the iteration (of `bins`: the block), and the film's sums are exact, so the same scene, seed and range
+ * of iterations give the same bytes for any number of threads, stopped and continued anywhere or in parts.
  *
  * Tests: test_render.c.
  */
@@ -23,8 +24,8 @@ struct render_options {
     long planned;    /* samples per pixel of the whole picture if these are a part of it; 0: `end` */
     int n_threads; /* 0: one per processor */
     int max_depth; /* 0: what the scene says, else 5 */
-    /* Called after each tile pass with the share of the work done, in [0,1], one call at a time. NULL: not called.
-     * Returns false to stop when the current block of iterations is complete. */
+    /* Called after each tile pass with the share of the work done, in [0,1], one call at a time and while nothing else
+     * touches the film. NULL: not called. Returns false to stop when the current block of iterations is complete. */
     bool (*progress)(void *context, double done);
     void *progress_context;
 };
@@ -34,7 +35,8 @@ struct pixel_rect render_crop(const struct scene *scene);
 
 /* render_scene: render into a film.
  *   scene  prepared
- *   film   initialised by film_init for render_crop(scene), possibly holding earlier iterations already
+ *   film   initialised by film_init for render_crop(scene), possibly holding earlier iterations already, and
+ *          film->passes tile passes of the block that begins at options->first
  * Returns false with a message when a parameter is bad. */
 bool render_scene(const struct scene *scene, const struct render_options *options, struct film *film,
                   struct error *err);

@@ -23,8 +23,10 @@ void tile_start(struct tile *t, struct pixel_rect rect, struct pixel_rect film_r
     t->rect = rect;
     t->film_rect = film_rect;
     t->filter = filter;
-    t->eye = mem_grow(t->eye, &t->capacity, n, sizeof *t->eye);
+    t->sum = mem_grow(t->sum, &t->capacity, n, sizeof *t->sum);
+    t->eye = mem_grow(t->eye, &t->eye_capacity, n, sizeof *t->eye);
     t->square = mem_grow(t->square, &t->square_capacity, n, sizeof *t->square);
+    memset(t->sum, 0, n * sizeof *t->sum);
     memset(t->eye, 0, n * sizeof *t->eye);
     memset(t->square, 0, n * sizeof *t->square);
     t->n_splats = t->n_records = 0;
@@ -34,6 +36,7 @@ void tile_start(struct tile *t, struct pixel_rect rect, struct pixel_rect film_r
 
 void tile_free(struct tile *t)
 {
+    free(t->sum);
     free(t->eye);
     free(t->square);
     free(t->splat);
@@ -50,6 +53,7 @@ void tile_add_eye(struct tile *t, int x, int y, rgb value)
     size_t i = 3 * ((size_t)(y - t->rect.y0) * (size_t)rect_width(t->rect) + (size_t)(x - t->rect.x0));
     const double v[3] = {value.r, value.g, value.b};
     for (size_t c = 0; c < 3; c++) {
+        exact_add(&t->sum[i + c], v[c]);
         t->eye[i + c] += v[c];
         t->square[i + c] += v[c] * v[c];
     }
@@ -141,16 +145,17 @@ void film_init(struct film *f, struct pixel_rect rect, int full_width, int full_
     f->rect = rect;
     f->full_width = full_width;
     f->full_height = full_height;
-    f->eye = mem_alloc(rect_pixels(rect) * 3, sizeof *f->eye);
-    f->splat = mem_alloc(rect_pixels(rect) * 3, sizeof *f->splat);
-    f->square = mem_alloc(rect_pixels(rect) * 3, sizeof *f->square);
+    f->sum = mem_alloc(rect_pixels(rect) * 3, sizeof *f->sum);
 }
 
 void film_free(struct film *f)
 {
-    free(f->eye);
-    free(f->splat);
-    free(f->square);
+    free(f->sum);
+    if (f->errors != NULL) {
+        free(f->errors->eye);
+        free(f->errors->square);
+        free(f->errors);
+    }
     if (f->strategies != NULL) {
         free(f->strategies->unweighted);
         free(f->strategies->weighted);
@@ -166,6 +171,13 @@ int strategy_index(int s, int t)
 {
     int n = s + t;
     return n * (n - 1) / 2 - 1 + s;
+}
+
+void film_keep_errors(struct film *f)
+{
+    f->errors = mem_alloc(1, sizeof *f->errors);
+    f->errors->eye = mem_alloc(rect_pixels(f->rect) * 3, sizeof(double));
+    f->errors->square = mem_alloc(rect_pixels(f->rect) * 3, sizeof(double));
 }
 
 void film_keep_strategies(struct film *f, int max_depth)
@@ -190,29 +202,41 @@ static void merge_records(struct film *f, const struct tile *t)
     }
 }
 
-void film_merge_tile(struct film *f, const struct tile *t)
+static void add_splats(struct film *f, const struct tile *t)
 {
-    size_t width = (size_t)rect_width(t->rect) * 3, height = (size_t)rect_height(t->rect);
-    for (size_t y = 0; y < height; y++) {
-        size_t row = (size_t)(t->rect.y0 - f->rect.y0) + y;
-        size_t to = 3 * (row * (size_t)rect_width(f->rect) + (size_t)(t->rect.x0 - f->rect.x0));
-        for (size_t x = 0; x < width; x++) {
-            f->eye[to + x] += t->eye[y * width + x];
-            f->square[to + x] += t->square[y * width + x];
-        }
-    }
     for (size_t i = 0; i < t->n_splats; i++) {
         const struct splat *s = &t->splat[i];
         const double v[3] = {(double)s->r, (double)s->g, (double)s->b};
         for (size_t c = 0; c < 3; c++) {
-            f->splat[3 * (size_t)s->pixel + c] += v[c];
-            f->square[3 * (size_t)s->pixel + c] += v[c] * v[c];
+            size_t at = 3 * (size_t)s->pixel + c;
+            exact_add(&f->sum[at], v[c]);
+            if (f->errors != NULL)
+                f->errors->square[at] += v[c] * v[c];
         }
     }
+}
+
+void film_merge_tile(struct film *f, const struct tile *t)
+{
+    size_t width = (size_t)rect_width(t->rect) * 3, height = (size_t)rect_height(t->rect);
+    for (size_t y = 0; y < height; y++) {
+        size_t row = (size_t)(t->rect.y0 - f->rect.y0) + y, from = y * width;
+        size_t to = 3 * (row * (size_t)rect_width(f->rect) + (size_t)(t->rect.x0 - f->rect.x0));
+        for (size_t x = 0; x < width; x++) {
+            f->nonfinite += !exact_join(&f->sum[to + x], &t->sum[from + x]);
+            if (f->errors != NULL) {
+                f->errors->eye[to + x] += t->eye[from + x];
+                f->errors->square[to + x] += t->square[from + x];
+            }
+        }
+    }
+    add_splats(f, t);
     f->nonfinite += t->nonfinite;
     if (f->strategies != NULL)
         merge_records(f, t);
 }
+
+double film_value(const struct film *f, size_t i) { return exact_value(&f->sum[i]); }
 
 long film_develop(const struct film *f, double scale, float *out)
 {
@@ -220,7 +244,7 @@ long film_develop(const struct film *f, double scale, float *out)
     size_t n = rect_pixels(f->rect) * 3;
     double per_iteration = f->iterations > 0 ? scale / (double)f->iterations : 0;
     for (size_t i = 0; i < n; i++) {
-        double value = (f->eye[i] + f->splat[i]) * per_iteration;
+        double value = film_value(f, i) * per_iteration;
         cut += !fits_float(value);
         out[i] = float_within(value);
     }
@@ -241,7 +265,7 @@ void film_standard_error(const struct film *f, double scale, float *out)
     size_t n = rect_pixels(f->rect) * 3;
     double k = (double)f->iterations;
     for (size_t i = 0; i < n; i++) {
-        double variance = (f->square[i] - f->eye[i] * f->eye[i] / k) / (k * (k - 1));
+        double variance = (f->errors->square[i] - sqr(f->errors->eye[i]) / k) / (k * (k - 1));
         out[i] = f->iterations < 2 ? INFINITY : float_within(scale * sqrt(fmax(variance, 0)));
     }
 }

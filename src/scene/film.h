@@ -2,8 +2,9 @@
  *
  * A pixel's estimate has two parts. `eye`: per iteration, what its own eye sub-path brought (all strategies with
  * t >= 2). `splat`: what light sub-paths of any pixel sent straight to the lens (t = 1), spread by the pixel filter.
- * A tile pass (one tile, a block of iterations) fills a struct tile; the film takes tiles in, in a fixed order, so the
- * sums do not depend on the number of threads.
+ * A tile pass (one tile, a block of iterations) fills a struct tile, and the film takes tiles in. The sums are exact
+ * (exact_sum.h): they depend on which values came in, not on their order, nor on how the iterations were cut into
+ * blocks or parts. What else is kept on request is summed in a fixed order, whatever the number of threads.
  *
  * Standard errors: eye values of different iterations are independent draws; splats are many rare events, whose
  * variance is the sum of their squares.
@@ -17,6 +18,7 @@
 #include <stdint.h>
 
 #include "scene/filter.h"
+#include "base/exact_sum.h"
 #include "base/rgb.h"
 
 /* Pixels [x0,x1) x [y0,y1). */
@@ -45,9 +47,10 @@ struct tile {
     struct pixel_rect rect;
     struct pixel_rect film_rect; /* of the film: splats land anywhere in it */
     const struct filter *filter;
-    double *eye;    /* [pixels of rect * 3], sum over the iterations of the pass; owned */
-    double *square; /* [pixels of rect * 3], sum of squares of the per-iteration values; owned */
-    size_t capacity, square_capacity;
+    struct exact_sum *sum; /* [pixels of rect * 3], sum over the iterations of the pass; owned */
+    double *eye;           /* [pixels of rect * 3], the same, rounded; owned */
+    double *square;        /* [pixels of rect * 3], sum of squares of the per-iteration values; owned */
+    size_t capacity, eye_capacity, square_capacity;
     struct splat *splat; /* [n_splats], owned */
     size_t n_splats, splat_capacity;
     struct strategy_record *record; /* [n_records], owned */
@@ -77,13 +80,20 @@ struct strategy_images {
     double *unweighted, *weighted; /* owned */
 };
 
+/* What standard errors are made of, [pixels*3]. */
+struct film_errors {
+    double *eye, *square; /* sums of eye values, and of squares of these and of splats; owned */
+};
+
 enum { FILM_NOTE_SIZE = 200 };
 
 struct film {
     struct pixel_rect rect;      /* the rendered part (crop) of the full frame */
     int full_width, full_height;
     long iterations;             /* samples per pixel taken so far */
-    double *eye, *splat, *square; /* [pixels*3] sums; owned */
+    int64_t passes;              /* tile passes of the next block of iterations that are in already */
+    struct exact_sum *sum;       /* [pixels*3] of eye values and splats; owned */
+    struct film_errors *errors;  /* NULL unless asked for; owned */
     long nonfinite;
     char note[FILM_NOTE_SIZE]; /* what the integrator chose for itself, for people */
     struct strategy_images *strategies; /* NULL unless asked for; owned */
@@ -91,6 +101,9 @@ struct film {
 
 void film_init(struct film *f, struct pixel_rect rect, int full_width, int full_height);
 void film_free(struct film *f);
+
+/* film_keep_errors: from now on keep what film_standard_error needs. */
+void film_keep_errors(struct film *f);
 
 /* film_keep_strategies: from now on sum every strategy on its own, for paths up to max_depth. */
 void film_keep_strategies(struct film *f, int max_depth);
@@ -103,6 +116,9 @@ int strategy_count(int max_depth);
 /* film_merge_tile: add a tile's sums. Iterations are counted by the caller once all tiles of a block are in. */
 void film_merge_tile(struct film *f, const struct tile *t);
 
+/* film_value: the sum so far in place i of [pixels*3]. */
+double film_value(const struct film *f, size_t i);
+
 /* film_develop: the image so far: [height*width*3] linear floats, top row first, each pixel times `scale`. Values that
  * no float holds are cut to FLT_MAX; returns how many. */
 long film_develop(const struct film *f, double scale, float *out);
@@ -110,7 +126,8 @@ long film_develop(const struct film *f, double scale, float *out);
 /* film_warn: say on stderr how many contributions were left out and how many values film_develop cut, if any. */
 void film_warn(const struct film *f, long cut);
 
-/* film_standard_error: of each value of film_develop; infinite with fewer than two iterations. */
+/* film_standard_error: of each value of film_develop; infinite with fewer than two iterations. The film must have been
+ * asked to keep errors. */
 void film_standard_error(const struct film *f, double scale, float *out);
 
 #endif

@@ -24,10 +24,10 @@ struct render_job {
 
 /* How an integrator wants its work cut. */
 struct pass_size {
-    int block; /* iterations */
+    int block; /* iterations; 0: any number */
     int tile;  /* pixels along the side, at most MAX_TILE_SIZE */
 };
-enum { DEFAULT_BLOCK = 32, DEFAULT_TILE_SIZE = 16, MAX_TILE_SIZE = 32 };
+enum { LONGEST_BLOCK = 32, DEFAULT_TILE_SIZE = 16, MAX_TILE_SIZE = 32 };
 
 /* Memory of one thread, made once and reused by all its tile passes. */
 struct workspace {
