@@ -153,8 +153,8 @@ done
 printf 'WorldBegin\nShpae "sphere"\nShape "curve"\nWorldEnd\n' >errors.pbrt
 expect 1 '^asbdpt: errors.pbrt:2:1: unknown directive' "$program" render errors.pbrt --quiet
 check grep -q '^asbdpt: errors.pbrt:3:7: Shape "curve"' stderr.txt
-printf 'WorldBegin\nShape "hyperboloid"\nWorldEnd\n' >shape.pbrt
-expect 1 'shape.pbrt:2:[0-9]+: .*hyperboloid' "$program" render shape.pbrt
+printf 'WorldBegin\nShape "nurbs"\nWorldEnd\n' >shape.pbrt
+expect 1 'shape.pbrt:2:[0-9]+: .*nurbs' "$program" render shape.pbrt
 printf 'WorldBegin\nShape "plymesh" "string filename" "cut.ply"\nWorldEnd\n' >ply.pbrt
 printf 'ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\n' >cut.ply
 expect 1 'cut.ply' "$program" render ply.pbrt

@@ -159,14 +159,12 @@ static void add_quadrics(struct geometry *geo, struct rng *r, int n)
         struct transform move = transform_translate(in_cube(r));
         struct transform turn = transform_rotate(360 * rng_uniform(r), on_sphere(r));
         struct transform scale = transform_scale(1, 0.5 + rng_uniform(r), i % 2 == 0 ? -1 : 2);
-        struct quadric q = {(enum quadric_kind)(i % 3),
-                            transform_compose(move, transform_compose(turn, scale)),
-                            0.2,
-                            0.05,
-                            -0.1,
-                            0.15,
-                            i % 4 == 0 ? 4 : 2 * PI,
-                            0};
+        struct quadric q = {.kind = (enum quadric_kind)(i % 6), .radius = 0.2, .inner_radius = 0.05, .zmax = 0.15};
+        q.to_world = transform_compose(move, transform_compose(turn, scale));
+        q.zmin = i % 6 < 3 ? -0.1 : 0;
+        q.phi_max = i % 4 == 0 ? 4 : 2 * PI;
+        q.p1 = vec(0.1, -0.1, -0.1);
+        q.p2 = vec(0.1, 0.2, 0.15);
         if (q.kind == QUADRIC_DISK)
             q.zmin = q.zmax = 0.1;
         shape_add_quadric(geo, q, plain_group(), false, NULL);

@@ -298,7 +298,7 @@ static void check_shapes(struct test *t)
     if (!open_scene(t, "shapes", &s))
         return;
     const struct shape_group *g = s.geo.group;
-    if (!CHECK(t, s.geo.n_triangles == 3 && s.geo.n_quadrics == 3 && s.geo.n_groups == 5,
+    if (!CHECK(t, s.geo.n_triangles == 11 && s.geo.n_quadrics == 7 && s.geo.n_groups == 10,
                "alpha 0 and material none are left out")) {
         scene_free(&s);
         return;
@@ -312,6 +312,13 @@ static void check_shapes(struct test *t)
           "disk");
     CHECK(t, q[2].kind == QUADRIC_CYLINDER && q[2].zmin == -1 && q[2].zmax == 2 && near(q[2].phi_max, 2 * PI),
           "cylinder");
+    CHECK(t, q[3].kind == QUADRIC_CONE && q[3].radius == 2 && q[3].zmin == 0 && q[3].zmax == 3 &&
+                 near(q[3].phi_max, PI / 2), "cone");
+    CHECK(t, q[4].kind == QUADRIC_PARABOLOID && q[4].radius == 2 && q[4].zmin == 1 && q[4].zmax == 3, "paraboloid");
+    CHECK(t, q[5].kind == QUADRIC_HYPERBOLOID && same3(q[5].p1, 3, 0, 0) && same3(q[5].p2, 1, 2, 3) && q[5].zmax == 3,
+          "hyperboloid: from the end at height 0");
+    CHECK(t, same3(q[6].p1, 0, 0, 0) && same3(q[6].p2, 1, 1, 1) && near(q[6].radius, sqrt(2)), "default hyperboloid");
+    CHECK(t, g[9].has_n && !g[9].has_uv && s.geo.n_triangles - g[9].first_prim == 8, "one level of subdivision");
     scene_free(&s);
 }
 

@@ -191,8 +191,25 @@ static void check_mesh_refused(struct test *t)
 
 /* --- quadrics ----------------------------------------------------------------------------------------- */
 
-/* Seven quadrics, whole and cut; the last in a crooked space. */
-enum { N_QUADRICS = 7 };
+/* Quadrics, whole and cut, some in a crooked space; the first seven can be sampled. */
+enum { N_QUADRICS = 13, N_SAMPLED = 7 };
+
+static struct quadric quadric(enum quadric_kind kind, struct transform to_world, double radius, double inner_radius,
+                              double zmin, double zmax, double phi_max)
+{
+    struct quadric q = {.kind = kind, .to_world = to_world, .radius = radius, .zmin = zmin, .zmax = zmax};
+    q.inner_radius = inner_radius;
+    q.phi_max = phi_max;
+    return q;
+}
+
+static struct quadric hyperboloid(struct transform to_world, vec3 p1, vec3 p2, double phi_max)
+{
+    struct quadric q = quadric(QUADRIC_HYPERBOLOID, to_world, 0, 0, 0, 0, phi_max);
+    q.p1 = p1;
+    q.p2 = p2;
+    return q;
+}
 
 static struct quadric quadric_number(int i)
 {
@@ -201,10 +218,19 @@ static struct quadric quadric_number(int i)
         transform_compose(transform_translate(vec(1, 2, 3)), transform_rotate(50, vec(1, 2, -1)));
     struct transform skew = transform_compose(turn, transform_scale(1, 2, -0.5));
     struct quadric q[N_QUADRICS] = {
-        {QUADRIC_SPHERE, id, 2, 0, -2, 2, 2 * PI, 0},        {QUADRIC_SPHERE, turn, 2, 0, -1, 1.5, 5, 0},
-        {QUADRIC_DISK, turn, 1.5, 0, 0.25, 0.25, 2 * PI, 0}, {QUADRIC_DISK, id, 1.5, 0.5, -1, -1, 4, 0},
-        {QUADRIC_CYLINDER, turn, 0.5, 0, -1, 2, 2 * PI, 0},  {QUADRIC_CYLINDER, skew, 0.5, 0, -1, 2, 3, 0},
-        {QUADRIC_SPHERE, skew, 1, 0, -1, 1, 2 * PI, 0},
+        quadric(QUADRIC_SPHERE, id, 2, 0, -2, 2, 2 * PI),
+        quadric(QUADRIC_SPHERE, turn, 2, 0, -1, 1.5, 5),
+        quadric(QUADRIC_DISK, turn, 1.5, 0, 0.25, 0.25, 2 * PI),
+        quadric(QUADRIC_DISK, id, 1.5, 0.5, -1, -1, 4),
+        quadric(QUADRIC_CYLINDER, turn, 0.5, 0, -1, 2, 2 * PI),
+        quadric(QUADRIC_CYLINDER, skew, 0.5, 0, -1, 2, 3),
+        quadric(QUADRIC_SPHERE, skew, 1, 0, -1, 1, 2 * PI),
+        quadric(QUADRIC_CONE, turn, 1.5, 0, 0, 2, 2 * PI),
+        quadric(QUADRIC_CONE, skew, 0.5, 0, 0, 1, 4),
+        quadric(QUADRIC_PARABOLOID, turn, 1, 0, 0, 2, 2 * PI),
+        quadric(QUADRIC_PARABOLOID, skew, 1.5, 0, 0.25, 1, 2),
+        hyperboloid(turn, vec(1, -0.5, -1), vec(0.5, 1, 1.5), 2 * PI),
+        hyperboloid(skew, vec(0.5, 0.3, 1), vec(1, 0.5, 0), 4),
     };
     return q[i];
 }
@@ -218,10 +244,18 @@ static vec3 to_object(const struct quadric *q, vec3 p)
 /* How far an object-space point is from the uncut quadric. */
 static double distance_from(const struct quadric *q, vec3 p)
 {
+    double ring = sqrt(p.x * p.x + p.y * p.y);
     switch (q->kind) {
     case QUADRIC_SPHERE: return fabs(length(p) - q->radius);
     case QUADRIC_DISK: return fabs(p.z - q->zmin);
-    case QUADRIC_CYLINDER: return fabs(sqrt(p.x * p.x + p.y * p.y) - q->radius);
+    case QUADRIC_CYLINDER: return fabs(ring - q->radius);
+    case QUADRIC_CONE: return fabs(ring - q->radius * (1 - p.z / q->zmax));
+    case QUADRIC_PARABOLOID: return fabs(ring * ring - q->radius * q->radius * p.z / q->zmax);
+    case QUADRIC_HYPERBOLOID: {
+        double v = (p.z - q->p1.z) / (q->p2.z - q->p1.z);
+        vec3 from = lerp3(v, q->p1, q->p2);
+        return fabs(ring - sqrt(from.x * from.x + from.y * from.y));
+    }
     }
     return 1;
 }
@@ -236,6 +270,15 @@ static vec3 point_of(const struct quadric *q, double u, double v)
         r = r * sin(theta);
     } else if (q->kind == QUADRIC_DISK) {
         r = r + v * (q->inner_radius - r);
+    } else if (q->kind == QUADRIC_CONE) {
+        r = r * (1 - v);
+    } else if (q->kind == QUADRIC_PARABOLOID) {
+        r = r * sqrt(z / q->zmax);
+    } else if (q->kind == QUADRIC_HYPERBOLOID) {
+        vec3 from = lerp3(v, q->p1, q->p2);
+        struct transform turn = transform_rotate(phi * 180 / PI, vec(0, 0, 1));
+        vec3 p = transform_point(&turn, from);
+        return transform_point(&q->to_world, p);
     }
     return transform_point(&q->to_world, vec(r * cos(phi), r * sin(phi), z));
 }
@@ -294,12 +337,12 @@ static void check_quadric_partials(struct test *t, const struct geometry *geo, i
 /* Bounds beyond what a box can hold are refused, by whatever they get there. */
 static void check_quadric_refused(struct test *t)
 {
-    struct quadric q[] = {{QUADRIC_DISK, transform_identity(), 2e38, 0, 0, 0, 2 * PI, 0},
-                          {QUADRIC_CYLINDER, transform_identity(), 1, 0, -1, 1e39, 2 * PI, 0},
-                          {QUADRIC_CYLINDER, transform_identity(), 1, 0, -1, 3e18, 2 * PI, 0},
-                          {QUADRIC_SPHERE, transform_translate(vec(0, 1e51, 0)), 1, 0, -1, 1, 2 * PI, 0},
-                          {QUADRIC_SPHERE, transform_scale(1, 1, 1e19), 1, 0, -1, 1, 2 * PI, 0},
-                          {QUADRIC_SPHERE, transform_translate(vec(NAN, 0, 0)), 1, 0, -1, 1, 2 * PI, 0}};
+    struct quadric q[] = {quadric(QUADRIC_DISK, transform_identity(), 2e38, 0, 0, 0, 2 * PI),
+                          quadric(QUADRIC_CYLINDER, transform_identity(), 1, 0, -1, 1e39, 2 * PI),
+                          quadric(QUADRIC_CYLINDER, transform_identity(), 1, 0, -1, 3e18, 2 * PI),
+                          quadric(QUADRIC_SPHERE, transform_translate(vec(0, 1e51, 0)), 1, 0, -1, 1, 2 * PI),
+                          quadric(QUADRIC_SPHERE, transform_scale(1, 1, 1e19), 1, 0, -1, 1, 2 * PI),
+                          quadric(QUADRIC_SPHERE, transform_translate(vec(NAN, 0, 0)), 1, 0, -1, 1, 2 * PI)};
     for (size_t i = 0; i < sizeof q / sizeof q[0]; i++) {
         struct geometry geo = {0};
         struct error err = {""};
@@ -315,7 +358,7 @@ static void check_quadric_orientation(struct test *t)
 {
     for (int i = 0; i < 4; i++) {
         struct geometry geo = {0};
-        struct quadric q = {QUADRIC_SPHERE, transform_scale(i & 1 ? -1 : 1, 1, 1), 1, 0, -1, 1, 2 * PI, 0};
+        struct quadric q = quadric(QUADRIC_SPHERE, transform_scale(i & 1 ? -1 : 1, 1, 1), 1, 0, -1, 1, 2 * PI);
         shape_add_quadric(&geo, q, group_of(3, 9), i & 2, NULL);
         struct ray ray = {vec(0, 0, 5), vec(0, 0, -1), 0, HUGE_VAL, 0, 0};
         struct hit hit;
@@ -330,6 +373,42 @@ static void check_quadric_orientation(struct test *t)
               "material and light; the pole's tangent");
         geometry_free(&geo);
     }
+}
+
+/* Where formulas divide by the distance from the axis: rays at the tip of a cone, the vertex of a paraboloid and where
+ * a hyperboloid is a double cone. Lines along the axis and, on a cone, along its slope. */
+static void check_quadric_tips(struct test *t)
+{
+    struct transform id = transform_identity();
+    struct quadric q[3] = {quadric(QUADRIC_CONE, id, 1, 0, 0, 1, 2 * PI),
+                           quadric(QUADRIC_PARABOLOID, id, 1, 0, 0, 1, 2 * PI),
+                           hyperboloid(id, vec(-1, 0, -1), vec(1, 0, 1), 2 * PI)};
+    const vec3 tip[3] = {vec(0, 0, 1), vec(0, 0, 0), vec(0, 0, 0)};
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) {
+            struct geometry geo = {0};
+            struct hit hit;
+            struct surface at;
+            vec3 d = normalize(k == 0 ? vec(0, 0, -1) : k == 1 ? vec(1, 0, -1) : vec(0.3, 0.2, -1));
+            struct ray ray = {sub(tip[i], mul(d, 2)), d, 0, HUGE_VAL, 0, 0};
+            shape_add_quadric(&geo, q[i], group_of(0, -1), false, NULL);
+            if (shape_intersect(&geo, FIRST_QUADRIC, &ray, &hit)) {
+                shape_surface(&geo, &hit, &ray, &at);
+                CHECK(t, is_finite3(at.ng) && is_finite3(at.dpdu) && is_finite3(at.dpdv) && is_finite3(at.dndu) &&
+                             is_finite3(at.dndv), "tip of quadric %d, ray %d", i, k);
+            }
+            CHECK(t, k < 2 || near3(add(ray.o, mul(ray.d, hit.t)), tip[i], 1e-7), "tip %d is missed", i);
+            geometry_free(&geo);
+        }
+    struct geometry geo = {0};
+    shape_add_quadric(&geo, q[0], group_of(0, -1), false, NULL);
+    struct ray slope = {vec(-0.5, 0, 1), normalize(vec(1, 0, -1)), 0, HUGE_VAL, 0, 0};
+    struct ray above = {vec(0, 0, 2), normalize(vec(-1, 0, -1)), 0, HUGE_VAL, 0, 0};
+    struct hit hit;
+    CHECK(t, shape_intersect(&geo, FIRST_QUADRIC, &slope, &hit) && fabs(hit.t - 0.25 * sqrt(2)) < 1e-14,
+          "a line along the slope meets the cone once");
+    CHECK(t, !shape_intersect(&geo, FIRST_QUADRIC, &above, &hit), "the cone's other half is not there");
+    geometry_free(&geo);
 }
 
 /* --- sampling ----------------------------------------------------------------------------------------- */
@@ -364,7 +443,7 @@ static double sample_p(const struct geometry *geo, int prim, bool forget, struct
 
 static void check_sampling(struct test *t, const struct geometry *geo, struct rng *r)
 {
-    for (int i = 0; i < N_QUADRICS; i++) {
+    for (int i = 0; i < N_SAMPLED; i++) {
         double area;
         double p = sample_p(geo, FIRST_QUADRIC + i, false, r, &area);
         TEST_ACCEPT(t, p, "samples of quadric %d follow shape_pdf_a", i);
@@ -421,6 +500,7 @@ void test_shape(struct test *t)
         check_quadric_partials(t, &quadrics, i, &r);
     }
     check_quadric_orientation(t);
+    check_quadric_tips(t);
     check_sampling(t, &quadrics, &r);
     geometry_free(&quadrics);
 }

@@ -39,6 +39,7 @@ void test_sampler(struct test *t);
 void test_sheet(struct test *t);
 void test_shape(struct test *t);
 void test_stats(struct test *t);
+void test_subdivide(struct test *t);
 void test_texture(struct test *t);
 void test_vec(struct test *t);
 void test_zlib(struct test *t);

@@ -1,10 +1,23 @@
-/* quadric.c: see quadric.h. Parametrisations and partial derivatives as in [PBRT3 3.2-3.4]. */
+/* quadric.c: see quadric.h. Parametrisations and partial derivatives as in [PBRT3 3.2-3.5]. */
 #include "geometry/quadric.h"
 
 #include "base/maths.h"
 
+/* Distance from the z axis. */
+static double ring_of(vec3 p) { return sqrt(sqr(p.x) + sqr(p.y)); }
+
 void quadric_normalise(struct quadric *q)
 {
+    if (q->kind == QUADRIC_HYPERBOLOID) {
+        if (q->p2.z == 0) { /* pbrt-v3 turns the segment round then, so v runs the other way */
+            vec3 p = q->p1;
+            q->p1 = q->p2;
+            q->p2 = p;
+        }
+        q->radius = fmax(ring_of(q->p1), ring_of(q->p2));
+        q->zmin = q->p1.z;
+        q->zmax = q->p2.z;
+    }
     double low = fmin(q->zmin, q->zmax), high = fmax(q->zmin, q->zmax);
     q->zmin = q->kind == QUADRIC_SPHERE ? clamp(low, -q->radius, q->radius) : low;
     q->zmax = q->kind == QUADRIC_SPHERE ? clamp(high, -q->radius, q->radius) : high;
@@ -35,16 +48,24 @@ void quadric_bounds(const struct quadric *q, vec3 *lo, vec3 *hi)
     *hi = vec(high[0], high[1], high[2]);
 }
 
-static double azimuth(vec3 p)
+/* The point of a hyperboloid's segment at height z. */
+static vec3 on_segment(const struct quadric *q, double z)
 {
-    double phi = m_atan2(p.y, p.x);
+    return lerp3((z - q->p1.z) / (q->p2.z - q->p1.z), q->p1, q->p2);
+}
+
+/* The angle by which the curve that sweeps the quadric has turned at p. */
+static double azimuth(const struct quadric *q, vec3 p)
+{
+    vec3 from = q->kind == QUADRIC_HYPERBOLOID ? on_segment(q, p.z) : vec(1, 0, 0);
+    double phi = m_atan2(from.x * p.y - from.y * p.x, from.x * p.x + from.y * p.y);
     return phi < 0 ? phi + 2 * PI : phi;
 }
 
 /* Is a point of the full surface in the part that z and phi leave over? */
 static bool is_kept(const struct quadric *q, vec3 p)
 {
-    if (q->phi_max < 2 * PI && azimuth(p) > q->phi_max)
+    if (q->phi_max < 2 * PI && azimuth(q, p) > q->phi_max)
         return false;
     switch (q->kind) {
     case QUADRIC_SPHERE: return !(q->zmin > -q->radius && p.z < q->zmin) && !(q->zmax < q->radius && p.z > q->zmax);
@@ -52,10 +73,68 @@ static bool is_kept(const struct quadric *q, vec3 p)
         double r2 = sqr(p.x) + sqr(p.y);
         return r2 <= sqr(q->radius) && r2 >= sqr(q->inner_radius);
     }
-    case QUADRIC_CYLINDER: return p.z >= q->zmin && p.z <= q->zmax;
+    case QUADRIC_CYLINDER:
+    case QUADRIC_CONE:
+    case QUADRIC_PARABOLOID:
+    case QUADRIC_HYPERBOLOID: return p.z >= q->zmin && p.z <= q->zmax;
     }
     return false;
 }
+
+/* --- cones, paraboloids, hyperboloids ---------------------------------------------------------------- */
+
+/* Of these the distance from the z axis, squared, is c0 + c1 w + c2 w^2 where w = z - z0. */
+struct profile {
+    double z0, c0, c1, c2;
+};
+
+static struct profile profile_of(const struct quadric *q)
+{
+    struct profile f = {0, 0, 0, 0};
+    if (q->kind == QUADRIC_CONE) {
+        f.z0 = q->zmax;
+        f.c2 = sqr(q->radius / q->zmax);
+    } else if (q->kind == QUADRIC_PARABOLOID) {
+        f.c1 = sqr(q->radius) / q->zmax;
+    } else {
+        double height = q->p2.z - q->p1.z;
+        double ex = (q->p2.x - q->p1.x) / height, ey = (q->p2.y - q->p1.y) / height;
+        f.z0 = q->p1.z;
+        f.c0 = sqr(q->p1.x) + sqr(q->p1.y);
+        f.c1 = 2 * (q->p1.x * ex + q->p1.y * ey);
+        f.c2 = sqr(ex) + sqr(ey);
+    }
+    return f;
+}
+
+/* Roots of a t^2 - 2 b t + c = 0, counted from the point of the line that is nearest to (0, 0, z0), so that far rays
+ * lose nothing. One of them is infinite or NaN where a = 0: it lies in no segment. */
+static bool profile_roots(struct profile f, vec3 o, vec3 d, double t[2])
+{
+    o.z -= f.z0;
+    double nearest = -dot(o, d) / length2(d);
+    o = add(o, mul(d, nearest));
+    double a = sqr(d.x) + sqr(d.y) - f.c2 * sqr(d.z);
+    double b = d.z * (0.5 * f.c1 + f.c2 * o.z) - o.x * d.x - o.y * d.y;
+    double c = sqr(o.x) + sqr(o.y) - f.c0 - o.z * (f.c1 + f.c2 * o.z);
+    double discriminant = b * b - a * c;
+    if (!(discriminant >= 0))
+        return false;
+    double q = b + copysign(sqrt(discriminant), b), t0 = q / a, t1 = q != 0 ? c / q : t0;
+    t[0] = nearest + (t0 < t1 ? t0 : t1);
+    t[1] = nearest + (t0 < t1 ? t1 : t0);
+    return true;
+}
+
+/* One step of Newton's method along the gradient: enough for a point that is already within rounding. */
+static vec3 profile_project(struct profile f, vec3 p)
+{
+    double w = p.z - f.z0, excess = sqr(p.x) + sqr(p.y) - f.c0 - w * (f.c1 + f.c2 * w);
+    vec3 gradient = vec(2 * p.x, 2 * p.y, -f.c1 - 2 * f.c2 * w);
+    return length2(gradient) > 0 ? sub(p, mul(gradient, excess / length2(gradient))) : p;
+}
+
+/* --- where rays meet a quadric ------------------------------------------------------------------------ */
 
 /* Roots t[0] <= t[1] of |o + t d| = r. The discriminant is taken at the point of closest approach, and only
  * quantities of the same sign are added: no cancellation for far or touching rays. */
@@ -83,6 +162,9 @@ static int line_roots(const struct quadric *q, vec3 o, vec3 d, double t[2])
     case QUADRIC_SPHERE: return sphere_roots(o, d, q->radius, t) ? 2 : 0;
     case QUADRIC_DISK: t[0] = d.z != 0 ? (q->zmin - o.z) / d.z : 0; return d.z != 0;
     case QUADRIC_CYLINDER: return sphere_roots(vec(o.x, o.y, 0), vec(d.x, d.y, 0), q->radius, t) ? 2 : 0;
+    case QUADRIC_CONE:
+    case QUADRIC_PARABOLOID:
+    case QUADRIC_HYPERBOLOID: return profile_roots(profile_of(q), o, d, t) ? 2 : 0;
     }
     return 0;
 }
@@ -90,12 +172,15 @@ static int line_roots(const struct quadric *q, vec3 o, vec3 d, double t[2])
 /* The nearest point of the uncut quadric. */
 static vec3 project(const struct quadric *q, vec3 p)
 {
-    double r = sqrt(sqr(p.x) + sqr(p.y)), l = length(p);
+    double r = ring_of(p), l = length(p);
     switch (q->kind) {
     case QUADRIC_SPHERE: return l > 0 ? mul(p, q->radius / l) : vec(q->radius, 0, 0);
     case QUADRIC_DISK: return vec(p.x, p.y, q->zmin);
     case QUADRIC_CYLINDER:
         return r > 0 ? vec(p.x * q->radius / r, p.y * q->radius / r, p.z) : vec(q->radius, 0, p.z);
+    case QUADRIC_CONE:
+    case QUADRIC_PARABOLOID:
+    case QUADRIC_HYPERBOLOID: return profile_project(profile_of(q), p);
     }
     return p;
 }
@@ -115,7 +200,9 @@ bool quadric_intersect(const struct quadric *q, const struct ray *ray, double *t
     return false;
 }
 
-/* Everything of a surface point in object space. */
+/* --- the surface -------------------------------------------------------------------------------------- */
+
+/* Everything of a surface point in object space. n is of any length. */
 struct object_point {
     vec3 n, dpdu, dpdv, dndu, dndv;
     double u, v;
@@ -124,7 +211,7 @@ struct object_point {
 /* theta runs from acos(zmin/r), where v = 0, to acos(zmax/r). On the axis phi is taken as 0. */
 static void sphere_point(const struct quadric *q, vec3 p, struct object_point *at)
 {
-    double r = q->radius, ring = sqrt(sqr(p.x) + sqr(p.y));
+    double r = q->radius, ring = ring_of(p);
     double theta0 = m_acos(clamp(q->zmin / r, -1, 1)), theta1 = m_acos(clamp(q->zmax / r, -1, 1));
     vec3 axis = ring > 0 ? vec(p.x / ring, p.y / ring, 0) : vec(1, 0, 0);
     ring = fmax(ring, 1e-5 * r);
@@ -138,7 +225,7 @@ static void sphere_point(const struct quadric *q, vec3 p, struct object_point *a
 
 static void disk_point(const struct quadric *q, vec3 p, struct object_point *at)
 {
-    double r = sqrt(sqr(p.x) + sqr(p.y)), width = q->radius - q->inner_radius;
+    double r = ring_of(p), width = q->radius - q->inner_radius;
     vec3 axis = r > 0 ? vec(p.x / r, p.y / r, 0) : vec(1, 0, 0);
     r = fmax(r, 1e-5 * q->radius);
     at->v = (q->radius - r) / width;
@@ -158,6 +245,47 @@ static void cylinder_point(const struct quadric *q, vec3 p, struct object_point 
     at->dndv = vec(0, 0, 0);
 }
 
+/* The normal does not change along the slope. */
+static void cone_point(const struct quadric *q, vec3 p, struct object_point *at)
+{
+    double r = ring_of(p);
+    vec3 axis = r > 0 ? vec(p.x / r, p.y / r, 0) : vec(1, 0, 0), along = vec(-axis.y, axis.x, 0);
+    at->v = p.z / q->zmax;
+    at->n = vec(axis.x * q->zmax, axis.y * q->zmax, q->radius);
+    at->dpdu = mul(along, q->phi_max * fmax(r, 1e-5 * q->radius));
+    at->dpdv = vec(-axis.x * q->radius, -axis.y * q->radius, q->zmax);
+    at->dndu = mul(along, q->phi_max * q->zmax);
+}
+
+/* n is half the gradient of x^2 + y^2 - k z, k = radius^2 / zmax. */
+static void paraboloid_point(const struct quadric *q, vec3 p, struct object_point *at)
+{
+    double k = sqr(q->radius) / q->zmax, r = ring_of(p), height = q->zmax - q->zmin;
+    vec3 axis = r > 0 ? vec(p.x / r, p.y / r, 0) : vec(1, 0, 0);
+    r = fmax(r, 1e-5 * q->radius);
+    at->v = (p.z - q->zmin) / height;
+    at->n = vec(p.x, p.y, -0.5 * k);
+    at->dpdu = at->dndu = mul(vec(-axis.y, axis.x, 0), q->phi_max * r);
+    at->dndv = mul(axis, height * k / (2 * r)); /* the ring grows by k / 2r with z */
+    at->dpdv = vec(at->dndv.x, at->dndv.y, height);
+}
+
+/* n is half the gradient, turned the way of dpdu x dpdv. Where segment and axis meet any direction will do. */
+static void hyperboloid_point(const struct quadric *q, vec3 p, struct object_point *at)
+{
+    struct profile f = profile_of(q);
+    double phi = azimuth(q, p), c = m_cos(phi), s = m_sin(phi), side = q->p2.z > q->p1.z ? 1 : -1;
+    vec3 d = sub(q->p2, q->p1);
+    at->v = (p.z - q->p1.z) / d.z;
+    at->n = mul(vec(p.x, p.y, -0.5 * f.c1 - f.c2 * (p.z - f.z0)), side);
+    if (length2(at->n) == 0)
+        at->n = vec(side, 0, 0);
+    at->dpdu = mul(vec(-p.y, p.x, 0), q->phi_max);
+    at->dpdv = vec(d.x * c - d.y * s, d.x * s + d.y * c, d.z);
+    at->dndu = mul(at->dpdu, side);
+    at->dndv = mul(vec(at->dpdv.x, at->dpdv.y, -f.c2 * d.z), side);
+}
+
 /* Derivative of the unit world normal from that of the object-space normal: the map is linear up to the
  * final normalisation, which leaves only what is orthogonal to n. */
 static vec3 normal_derivative(const struct quadric *q, vec3 d, vec3 n, double scale)
@@ -170,11 +298,14 @@ void quadric_surface_at(const struct quadric *q, bool reverse_orientation, vec3 
 {
     struct object_point at = {0};
     p = project(q, p);
-    at.u = azimuth(p) / q->phi_max;
+    at.u = azimuth(q, p) / q->phi_max;
     switch (q->kind) {
     case QUADRIC_SPHERE: sphere_point(q, p, &at); break;
     case QUADRIC_DISK: disk_point(q, p, &at); break;
     case QUADRIC_CYLINDER: cylinder_point(q, p, &at); break;
+    case QUADRIC_CONE: cone_point(q, p, &at); break;
+    case QUADRIC_PARABOLOID: paraboloid_point(q, p, &at); break;
+    case QUADRIC_HYPERBOLOID: hyperboloid_point(q, p, &at); break;
     }
     vec3 normal = transform_normal(&q->to_world, at.n);
     double scale = (reverse_orientation ? -1 : 1) / length(normal);
@@ -187,6 +318,8 @@ void quadric_surface_at(const struct quadric *q, bool reverse_orientation, vec3 
     out->u = at.u;
     out->v = at.v;
 }
+
+/* --- sampling ------------------------------------------------------------------------------------------ */
 
 vec3 quadric_sample(const struct quadric *q, double u1, double u2)
 {
@@ -205,6 +338,9 @@ static double object_area(const struct quadric *q)
     case QUADRIC_SPHERE:
     case QUADRIC_CYLINDER: return q->phi_max * q->radius * (q->zmax - q->zmin);
     case QUADRIC_DISK: return q->phi_max * 0.5 * (sqr(q->radius) - sqr(q->inner_radius));
+    case QUADRIC_CONE:
+    case QUADRIC_PARABOLOID:
+    case QUADRIC_HYPERBOLOID: break; /* never sampled */
     }
     return 0;
 }

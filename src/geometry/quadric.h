@@ -1,8 +1,12 @@
-/* quadric.h: spheres, disks and cylinders, whole or cut, with pbrt-v3's parameters and (u,v).
+/* quadric.h: spheres, disks, cylinders, cones, paraboloids and hyperboloids, whole or cut, with pbrt-v3's parameters
+ * and (u,v).
  *
  * A quadric is defined in its object space and placed by an affine transform; rays are taken to object space
- * without rescaling t. The outside of a sphere or cylinder, and the +z side of a disk, is where the normal
- * points; ReverseOrientation turns it. A mirroring transform does not: emitters and hits follow the one rule.
+ * without rescaling t. The outside, the +z side of a disk, and of a hyperboloid whose p2 is below p1 the inside, is
+ * where the normal points; ReverseOrientation turns it. A mirroring transform does not: emitters and hits follow the
+ * one rule.
+ *
+ * As in pbrt-v3, points are sampled only on spheres, disks and cylinders: the others cannot be lights.
  *
  * Tests: test_shape.c.
  */
@@ -12,20 +16,28 @@
 #include "geometry/surface.h"
 #include "base/transform.h"
 
-enum quadric_kind { QUADRIC_SPHERE, QUADRIC_DISK, QUADRIC_CYLINDER };
+enum quadric_kind {
+    QUADRIC_SPHERE,
+    QUADRIC_DISK,
+    QUADRIC_CYLINDER,
+    QUADRIC_CONE,       /* from a circle at z = 0 to its tip at zmax */
+    QUADRIC_PARABOLOID, /* its vertex is the origin, its circle at zmax has the radius */
+    QUADRIC_HYPERBOLOID /* what the segment from p1 to p2 sweeps as it turns around the z axis */
+};
 
 struct quadric {
     enum quadric_kind kind;
     struct transform to_world;
-    double radius;       /* > 0 */
+    double radius;       /* > 0; hyperboloid: the larger of p1's and p2's */
     double inner_radius; /* disk only */
-    double zmin, zmax;   /* sphere and cylinder; a disk lies at z = zmin = zmax ("height") */
+    double zmin, zmax;   /* what is kept lies between; a disk lies at z = zmin = zmax ("height") */
     double phi_max;      /* radians, (0, 2 pi] */
     int group;
+    vec3 p1, p2;         /* hyperboloid only; of different heights */
 };
 
-/* quadric_normalise: parameters as pbrt understands them: zmin <= zmax, within the radius for a sphere,
- * phi_max at most 2 pi. */
+/* quadric_normalise: parameters as pbrt understands them: zmin <= zmax, within the radius for a sphere, from p1 and p2
+ * for a hyperboloid; phi_max at most 2 pi. */
 void quadric_normalise(struct quadric *q);
 
 /* quadric_bounds: a world box around the quadric (of the full turn, whatever phi_max). */
@@ -34,15 +46,16 @@ void quadric_bounds(const struct quadric *q, vec3 *lo, vec3 *hi);
 /* quadric_intersect: the first t in (tmin, tmax) at which the ray meets the quadric; false if none. */
 bool quadric_intersect(const struct quadric *q, const struct ray *ray, double *t);
 
-/* quadric_surface_at: the surface point at object-space point p, which is moved onto the quadric first.
+/* quadric_surface_at: the surface point at object-space point p, near the quadric, which is moved onto it first.
  * Fills all of *out but material and light. */
 void quadric_surface_at(const struct quadric *q, bool reverse_orientation, vec3 p, struct surface *out);
 
-/* quadric_sample: an object-space point, uniform by object-space area, from (u1,u2) in [0,1)^2. */
+/* quadric_sample: an object-space point of a sphere, disk or cylinder, uniform by object-space area, from (u1,u2) in
+ * [0,1)^2. */
 vec3 quadric_sample(const struct quadric *q, double u1, double u2);
 
-/* quadric_area: world area, m^2. Exact if the transform is a similarity or the quadric a disk, otherwise by
- * numerical integration (relative error about 1e-4). */
+/* quadric_area: world area of a sphere, disk or cylinder, m^2; 0 of the others. Exact if the transform is a
+ * similarity or the quadric a disk, otherwise by numerical integration (relative error about 1e-4). */
 double quadric_area(const struct quadric *q);
 
 /* quadric_pdf_a: world-area density of quadric_sample where the unit world normal is ng, 1/m^2. */

@@ -8,8 +8,9 @@
 #include <string.h>
 
 #include "geometry/ply.h"
+#include "geometry/subdivide.h"
 
-enum { TRIANGLEMESH, PLYMESH };
+enum { TRIANGLEMESH, PLYMESH, LOOPSUBDIV };
 
 /* --- meshes ------------------------------------------------------------------------------------------- */
 
@@ -59,21 +60,37 @@ static uint32_t *vertex_indices(struct params *q, int n_vertices, int *n_triangl
     return out;
 }
 
-static void trianglemesh(struct params *q, struct mesh *m)
+/* Points and the triangles between them. */
+static void points(struct params *q, struct mesh *m)
 {
-    const unsigned uv_types = 1u << PARAM_FLOAT | 1u << PARAM_POINT2;
     int n;
     const double *P = params_list(q, "P", 1u << PARAM_POINT, 3, &n, NULL);
     m->n_vertices = n;
     m->P = floats(P, 3 * n);
-    m->N = vertex_data(q, "N", 1u << PARAM_NORMAL, 3, n);
-    m->UV = vertex_data(q, "uv", uv_types, 2, n);
-    if (m->UV == NULL)
-        m->UV = vertex_data(q, "st", uv_types, 2, n);
     m->index = vertex_indices(q, n, &m->n_triangles);
     if (m->n_triangles == 0 && !q->failed)
         source_warn(q->messages, q->position, NULL,
-                    "a trianglemesh without usable \"point P\" and \"integer indices\" is left out, as in pbrt-v3");
+                    "a %s without usable \"point P\" and \"integer indices\" is left out, as in pbrt-v3", q->type);
+}
+
+static void trianglemesh(struct params *q, struct mesh *m)
+{
+    const unsigned uv_types = 1u << PARAM_FLOAT | 1u << PARAM_POINT2;
+    points(q, m);
+    m->N = vertex_data(q, "N", 1u << PARAM_NORMAL, 3, m->n_vertices);
+    m->UV = vertex_data(q, "uv", uv_types, 2, m->n_vertices);
+    if (m->UV == NULL)
+        m->UV = vertex_data(q, "st", uv_types, 2, m->n_vertices);
+}
+
+/* As in pbrt-v3, "levels" comes before "nlevels". */
+static void loopsubdiv(struct params *q, struct mesh *m)
+{
+    struct error inner;
+    int levels = params_int(q, "levels", params_int(q, "nlevels", 3, 0, 30), 0, 30);
+    points(q, m);
+    if (!q->failed && m->n_triangles > 0 && !mesh_subdivide(m, levels, &inner))
+        type_error(q, "%s", inner.text);
 }
 
 static void plymesh(struct params *q, struct mesh *m)
@@ -101,14 +118,19 @@ static int alpha(struct parser *p, const char *name, bool *absent)
 static void mesh_shape(struct parser *p, void *object)
 {
     struct shape_item *item = object;
-    bool no_shadow;
+    bool no_surface, no_shadow;
     item->is_mesh = true;
     if (p->type->kind == TRIANGLEMESH)
         trianglemesh(&p->params, &item->mesh);
-    else
+    else if (p->type->kind == PLYMESH)
         plymesh(&p->params, &item->mesh);
-    item->group.alpha = alpha(p, "alpha", &item->absent);
-    item->absent = item->absent || item->mesh.n_triangles == 0;
+    else
+        loopsubdiv(&p->params, &item->mesh);
+    item->absent = item->mesh.n_triangles == 0;
+    if (p->type->kind == LOOPSUBDIV)
+        return; /* in pbrt-v3 it has no alpha */
+    item->group.alpha = alpha(p, "alpha", &no_surface);
+    item->absent |= no_surface;
     item->group.shadow_alpha = alpha(p, "shadowalpha", &no_shadow);
     if (no_shadow)
         item->group.shadow_alpha = parse_constant(p, rgb_black());
@@ -159,11 +181,39 @@ static void disk(struct parser *p, void *object)
                     s->inner_radius, s->radius);
 }
 
+/* pbrt-v3 has no sampling of the others, so no light can sit on them. Those of objects are ignored anyway. */
+static struct quadric *unlit_quadric(struct parser *p, void *object)
+{
+    if (p->state.area.on && p->current_object < 0)
+        type_error(&p->params, "a %s cannot be an area light, here as in pbrt-v3; end the AreaLightSource before it",
+                   p->params.type);
+    return quadric_of(p, object);
+}
+
+static void cone(struct parser *p, void *object) { unlit_quadric(p, object); }
+
+static void paraboloid(struct parser *p, void *object)
+{
+    struct quadric *s = unlit_quadric(p, object);
+    heights(&p->params, s, 0, 1, DBL_MAX);
+    if (!(s->zmax > 0))
+        type_error(&p->params, "\"zmin\" and \"zmax\" are at most 0; a paraboloid opens upwards from 0");
+}
+
+static void hyperboloid(struct parser *p, void *object)
+{
+    struct quadric *s = unlit_quadric(p, object);
+    if (s->p1.z == s->p2.z)
+        type_error(&p->params, "\"p1\" and \"p2\" have the same height %g; what turns there is a \"disk\"", s->p1.z);
+}
+
 /* --- the table ---------------------------------------------------------------------------------------- */
 
 #define QUADRIC(name, read, f, value, range) \
     {name, read, offsetof(struct shape_item, quadric.f), GREY(value), range, NULL}
-#define ROUND QUADRIC("radius", parse_number, radius, 1, POSITIVE), QUADRIC("phimax", phi_max, phi_max, 360, POSITIVE)
+#define TURN QUADRIC("phimax", phi_max, phi_max, 360, POSITIVE)
+#define ROUND QUADRIC("radius", parse_number, radius, 1, POSITIVE), TURN
+#define SWEPT(f, x) {#f, parse_point, offsetof(struct shape_item, quadric.f), GREY(x), 0, 0, NULL}
 #define ALPHA BY_BUILD("alpha"), BY_BUILD("shadowalpha"), END_OF_PARAMETERS
 
 static const struct parameter TRIANGLEMESH_ROWS[] = {
@@ -176,6 +226,12 @@ static const struct parameter PLYMESH_ROWS[] = {BY_BUILD("filename"), ALPHA};
 static const struct parameter SPHERE[] = {ROUND, BY_BUILD("zmin"), BY_BUILD("zmax"), END_OF_PARAMETERS};
 static const struct parameter DISK[] = {ROUND, QUADRIC("innerradius", parse_number, inner_radius, 0, AT_LEAST_0),
                                         QUADRIC("height", parse_number, zmin, 0, ANY_NUMBER), END_OF_PARAMETERS};
+static const struct parameter CONE[] = {ROUND, QUADRIC("height", parse_number, zmax, 1, POSITIVE), END_OF_PARAMETERS};
+static const struct parameter HYPERBOLOID[] = {SWEPT(p1, 0), SWEPT(p2, 1), TURN, END_OF_PARAMETERS};
+static const struct parameter LOOPSUBDIV_ROWS[] = {
+    BY_BUILD("levels"), BY_BUILD("nlevels"), BY_BUILD("indices"), BY_BUILD("P"),
+    IGNORED("scheme"), /* there is but one */
+    END_OF_PARAMETERS};
 
 static const struct object_type TYPES[] = {
     {"trianglemesh", TRIANGLEMESH_ROWS, TRIANGLEMESH, mesh_shape},
@@ -183,8 +239,11 @@ static const struct object_type TYPES[] = {
     {"sphere", SPHERE, QUADRIC_SPHERE, sphere},
     {"disk", DISK, QUADRIC_DISK, disk},
     {"cylinder", SPHERE, QUADRIC_CYLINDER, cylinder},
-    REFUSED("cone"), REFUSED("curve"), REFUSED("heightfield"), REFUSED("hyperboloid"), REFUSED("loopsubdiv"),
-    REFUSED("nurbs"), REFUSED("paraboloid"), OTHERS_LEFT_OUT};
+    {"cone", CONE, QUADRIC_CONE, cone},
+    {"paraboloid", SPHERE, QUADRIC_PARABOLOID, paraboloid},
+    {"hyperboloid", HYPERBOLOID, QUADRIC_HYPERBOLOID, hyperboloid},
+    {"loopsubdiv", LOOPSUBDIV_ROWS, LOOPSUBDIV, mesh_shape},
+    REFUSED("curve"), REFUSED("heightfield"), REFUSED("nurbs"), OTHERS_LEFT_OUT};
 
 /* --- adding ------------------------------------------------------------------------------------------- */
 
