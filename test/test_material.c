@@ -158,9 +158,9 @@ static void in_advance(struct test *t)
     struct bench b;
     set_up(&b);
     struct texture checks = {.kind = TEXTURE_CHECKERBOARD};
-    checks.u.checker.tex1 = b.grey[2];
-    checks.u.checker.tex2 = b.grey[8];
-    checks.u.checker.map.su = checks.u.checker.map.sv = 1;
+    checks.u.pattern.tex1 = b.grey[2];
+    checks.u.pattern.tex2 = b.grey[8];
+    checks.u.pattern.map.su = checks.u.pattern.map.sv = 1;
     int varying = texture_add(&b.textures, checks);
     enum { KINDS = MATERIAL_MIX + 1, N = KINDS + 3 };
     struct material m[N];

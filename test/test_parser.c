@@ -434,9 +434,9 @@ static void check_textures(struct test *t)
               x[1]->kind == TEXTURE_MIX && is_grey(&s, x[1]->u.pair.tex1, 1) &&
                   is_grey(&s, x[1]->u.pair.amount, .25),
               "mix");
-        const struct uv_mapping *m = &x[2]->u.checker.map;
+        const struct mapping *m = &x[2]->u.pattern.map;
         CHECK(t,
-              x[2]->kind == TEXTURE_CHECKERBOARD && is_grey(&s, x[2]->u.checker.tex2, 0) && m->su == 4 &&
+              x[2]->kind == TEXTURE_CHECKERBOARD && is_grey(&s, x[2]->u.pattern.tex2, 0) && m->su == 4 &&
                   m->sv == 2 && m->du == .5 && m->dv == .25,
               "checkerboard and mapping");
         CHECK(t, x[3]->u.imagemap.wrap == WRAP_CLAMP && x[3]->u.imagemap.scale == 2 && !x[3]->u.imagemap.gamma,

@@ -305,7 +305,7 @@ static void test_mirrored(struct test *t, int spp)
 static void test_agreement(struct test *t, int spp)
 {
     static const char *const scenes[] = {"all-materials", "alpha", "bump",     "instances",     "mirror-glass",
-                                         "negative-scale", "quadrics", "smooth-normals", "thin-lens"};
+                                         "negative-scale", "patterns", "quadrics", "smooth-normals", "thin-lens"};
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         double ratio;
         struct batches pt = render(t, scenes[i], "pt", 24, 2 * spp, 851),

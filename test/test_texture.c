@@ -1,13 +1,17 @@
 /* test_texture.c: values of textures.
  *
  * Facts: every kind against its formula written out at a point; pictures at texel centres, half-way and beyond the
- * edges for each wrap mode, with and without gamma, as pbrt-v3 looks them up; sharing of pictures. */
+ * edges for each wrap mode, with and without gamma, as pbrt-v3 looks them up; sharing of pictures; patterns and
+ * mappings against values that pbrt-v3's own textures return; what noise has by its construction. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "base/rng.h"
 #include "image/picture.h"
+#include "material/noise.h"
 #include "material/texture.h"
+#include "parser/parser.h"
 #include "tests.h"
 
 static bool near(double a, double b) { return fabs(a - b) <= 1e-6 * (1 + fabs(b)); }
@@ -19,7 +23,7 @@ static struct surface at_uv(double u, double v)
     return at;
 }
 
-static const struct uv_mapping IDENTITY = {1, 1, 0, 0};
+static const struct mapping IDENTITY = {.su = 1, .sv = 1};
 
 /* --- the kinds that need no picture ------------------------------------------------------------------ */
 
@@ -44,7 +48,6 @@ static void test_arithmetic(struct test *t)
     CHECK(t, near_rgb(texture_rgb(&set, mix, &at), rgb_make(0.9, 0.8, 0.85)), "mix: amount 0 is tex1, 1 is tex2");
     CHECK(t, near(texture_float(&set, mix, &at), 0.9), "mix of numbers");
     CHECK(t, near_rgb(texture_rgb(&set, nested, &at), rgb_make(0.54, 0.64, 0.68)), "scale of mix and scale");
-    CHECK(t, near_rgb(texture_mean(&set, nested), rgb_make(0.54, 0.64, 0.68)), "mean");
     texture_set_free(&set);
     CHECK(t, set.n_textures == 0 && set.texture == NULL, "a freed set is empty");
 }
@@ -53,10 +56,10 @@ static void test_checkerboard(struct test *t)
 {
     struct texture_set set = {.n_textures = 0};
     struct texture x = {.kind = TEXTURE_CHECKERBOARD};
-    x.u.checker.tex1 = texture_add_constant(&set, rgb_grey(1));
-    x.u.checker.tex2 = texture_add_constant(&set, rgb_grey(2));
-    struct uv_mapping map = {4, 2, 0.5, -1};
-    x.u.checker.map = map;
+    x.u.pattern.tex1 = texture_add_constant(&set, rgb_grey(1));
+    x.u.pattern.tex2 = texture_add_constant(&set, rgb_grey(2));
+    struct mapping map = {.su = 4, .sv = 2, .du = 0.5, .dv = -1};
+    x.u.pattern.map = map;
     int id = texture_add(&set, x);
     for (int j = -9; j <= 9; j++)
         for (int i = -9; i <= 9; i++) {
@@ -65,7 +68,6 @@ static void test_checkerboard(struct test *t)
             CHECK(t, texture_float(&set, id, &at) == expected, "cell %d,%d is not %g", i, j, expected);
             CHECK(t, texture_rgb(&set, id, &at).b == expected, "cell %d,%d is not %g", i, j, expected);
         }
-    CHECK(t, near(texture_mean(&set, id).r, 1.5), "mean");
     struct surface far = at_uv(1e300, -INFINITY); /* no number of a cell, but no fault either */
     double value = texture_float(&set, id, &far);
     CHECK(t, value == 1 || value == 2, "far away");
@@ -89,8 +91,226 @@ static void test_bilerp(struct test *t)
     CHECK(t, near_rgb(texture_rgb(&set, id, &c10), v10) && near_rgb(texture_rgb(&set, id, &c11), v11), "u = 1");
     CHECK(t, near_rgb(texture_rgb(&set, id, &in), rgb_make(2.625, 1, 1)), "inside");
     CHECK(t, near(texture_float(&set, id, &in), 2.625), "as a number");
-    CHECK(t, near_rgb(texture_mean(&set, id), rgb_make(3.75, 1.5, 2)), "mean");
     texture_set_free(&set);
+}
+
+/* --- patterns and mappings ---------------------------------------------------------------------------- */
+
+/* What pbrt-v3's textures, called one by one with rays without differentials, return at these points of the world,
+ * under the transform Translate .1 .2 .3 Rotate 30 1 2 3 Scale 1.5 .5 2. noise: at the point itself. fbm, wrinkled:
+ * with 8 octaves of roughness 0.5, and with 3 of 0.7. marble: of scale 2 and variation 0.4, with all the segments of
+ * its spline (see noise.c). uv: planar, along (1,2,-1) + 0.25 and (0.5,0,3) - 0.5. cubes: the checkerboard in space, 1
+ * on even. */
+static const struct peer {
+    double p[3], noise, fbm, fbm3, wrinkled, wrinkled3, windy, marble[3], spherical[2], cylindrical[2], uv[2];
+    int cubes;
+} PEER[] = {
+    {{0.25, 0.5, 0.75}, -0.068794, -0.098394, -0.100062, 0.349274, 0.469733, -0.045731, {0.644684, 0.644684, 0.739907},
+     {0.387226, 0.223716}, {0.723716, 0.346924}, {0.750000, 0.875000}, 0},
+    {{-1.3, 2.6, -0.4}, 0.169994, 0.267968, 0.355261, 0.428406, 0.520611, 0.065880, {0.853925, 0.853925, 0.888578},
+     {0.538920, 0.251048}, {0.751048, -0.121965}, {0.550000, 0.650000}, 0},
+    {{3.7, -2.1, 5.2}, -0.122297, -0.463562, -0.498817, 0.529939, 0.567417, -0.243250, {0.869823, 0.869823, 0.899874},
+     {0.332428, 0.771302}, {0.271302, 0.502461}, {0.550000, 0.949999}, 1},
+    {{-8.4, -7.9, -0.6}, -0.286956, 0.458712, 0.493093, 0.534210, 0.561693, 0.071113, {0.791180, 0.791180, 0.843996},
+     {0.539413, 0.639426}, {0.139426, -0.123503}, {0.650000, 0.500000}, 1},
+    {{1.1, 9.3, -4.8}, -0.491504, 0.085061, 0.091205, 0.238099, 0.385794, 0.010170, {0.833213, 0.833213, 0.854016},
+     {0.557824, 0.205541}, {0.705541, -0.180662}, {0.750000, 0.650000}, 1},
+    {{0.01, -0.02, 0.03}, 0.040300, 0.400917, 0.485305, 0.528351, 0.596105, 0.058266, {0.890015, 0.879584, 0.878538},
+     {0.594122, 0.724023}, {0.224023, -0.291402}, {0.190000, 0.595000}, 1},
+    {{12.6, 3.3, 0.9}, -0.023455, 0.201008, 0.287118, 0.292378, 0.355718, 0.099650, {0.845290, 0.838633, 0.839159},
+     {0.428897, 0.931447}, {0.431447, 0.221523}, {0.550001, 0.500000}, 1},
+    {{-0.7, 0.1, -6.5}, -0.199600, -0.397621, -0.420193, 0.531314, 0.550721, -0.177555, {0.866419, 0.866419, 0.897456},
+     {0.812070, 0.792040}, {0.292040, -0.830718}, {0.250000, 0.650000}, 0},
+};
+enum { N_PEER = sizeof PEER / sizeof PEER[0] };
+
+static bool close_to(double a, double b) { return fabs(a - b) <= 2e-5; }
+
+static struct surface at_point(const double p[3])
+{
+    struct surface at = {.p = vec(p[0], p[1], p[2])};
+    return at;
+}
+
+/* A texture of space with the parameters of the table. */
+static int add_noise(struct texture_set *set, enum texture_kind kind, int octaves, double omega)
+{
+    struct texture x = {.kind = kind};
+    x.u.noise.space = 0;
+    x.u.noise.octaves = octaves;
+    x.u.noise.omega = omega;
+    x.u.noise.scale = 2;
+    x.u.noise.variation = 0.4;
+    return texture_add(set, x);
+}
+
+static int add_uv(struct texture_set *set, enum mapping_kind kind)
+{
+    struct texture x = {.kind = TEXTURE_UV};
+    struct mapping map = {kind, 0, 0, 0, 0.25, -0.5, {1, 2, -1}, {0.5, 0, 3}};
+    x.u.uv.map = map;
+    return texture_add(set, x);
+}
+
+static double fraction(double x) { return x - floor(x); }
+
+static void test_peer(struct test *t)
+{
+    struct texture_set set = {.n_textures = 0};
+    struct transform turn = transform_compose(transform_rotate(30, vec(1, 2, 3)), transform_scale(1.5, 0.5, 2));
+    texture_add_space(&set, transform_compose(transform_translate(vec(0.1, 0.2, 0.3)), turn));
+    struct texture cubes = {.kind = TEXTURE_CUBES};
+    cubes.u.cubes.tex1 = texture_add_constant(&set, rgb_grey(1));
+    cubes.u.cubes.tex2 = texture_add_constant(&set, rgb_grey(0));
+    int id = texture_add(&set, cubes);
+    int fbm = add_noise(&set, TEXTURE_FBM, 8, 0.5), fbm3 = add_noise(&set, TEXTURE_FBM, 3, 0.7);
+    int wrinkled = add_noise(&set, TEXTURE_WRINKLED, 8, 0.5), wrinkled3 = add_noise(&set, TEXTURE_WRINKLED, 3, 0.7);
+    int windy = add_noise(&set, TEXTURE_WINDY, 0, 0), marble = add_noise(&set, TEXTURE_MARBLE, 8, 0.5);
+    int spherical = add_uv(&set, MAPPING_SPHERICAL), cylindrical = add_uv(&set, MAPPING_CYLINDRICAL);
+    int planar = add_uv(&set, MAPPING_PLANAR);
+    for (int i = 0; i < N_PEER; i++) {
+        const struct peer *w = &PEER[i];
+        struct surface at = at_point(w->p);
+        CHECK(t, close_to(noise(at.p), w->noise), "point %d: noise %g, not %g", i, noise(at.p), w->noise);
+        const int number[] = {fbm, fbm3, wrinkled, wrinkled3, windy};
+        const double want[] = {w->fbm, w->fbm3, w->wrinkled, w->wrinkled3, w->windy};
+        for (int k = 0; k < 5; k++) {
+            double x = texture_float(&set, number[k], &at);
+            rgb c = texture_rgb(&set, number[k], &at);
+            CHECK(t, close_to(x, want[k]), "point %d, texture %d of noise: %g, not %g", i, k, x, want[k]);
+            CHECK(t, c.r == x && c.g == x && c.b == x, "point %d, texture %d of noise is not grey", i, k);
+        }
+        rgb m = texture_rgb(&set, marble, &at), s = texture_rgb(&set, spherical, &at);
+        rgb c = texture_rgb(&set, cylindrical, &at), p = texture_rgb(&set, planar, &at);
+        CHECK(t, close_to(m.r, w->marble[0]) && close_to(m.g, w->marble[1]) && close_to(m.b, w->marble[2]),
+              "point %d: marble %g %g %g", i, m.r, m.g, m.b);
+        CHECK(t, close_to(s.r, w->spherical[0]) && close_to(s.g, w->spherical[1]) && s.b == 0,
+              "point %d: spherical %g %g", i, s.r, s.g);
+        CHECK(t, close_to(c.r, w->cylindrical[0]) && close_to(c.g, fraction(w->cylindrical[1])),
+              "point %d: cylindrical %g %g", i, c.r, c.g);
+        CHECK(t, close_to(p.r, w->uv[0]) && close_to(p.g, w->uv[1]), "point %d: planar %g %g", i, p.r, p.g);
+        CHECK(t, texture_float(&set, id, &at) == w->cubes, "point %d: cubes", i);
+    }
+    texture_set_free(&set);
+}
+
+/* pbrt-v3's dots at s = -3.03 + 0.17 i, t = 2.01 - 0.33 j. */
+static const char *const DOTS[] = {
+    "..........####..####...####.####..####..####..##",
+    ".................###....##....#....##....###....",
+    "................................................",
+    "##..............####............................",
+    "##...............###............................",
+    "...............................................#",
+    ".............................................###",
+    "...............................................#",
+    ".............................##.................",
+    "..........#####.......####..####................",
+    "...........###.........##.......................",
+    "................................................",
+};
+
+static void test_dots(struct test *t)
+{
+    struct texture_set set = {.n_textures = 0};
+    struct texture x = {.kind = TEXTURE_DOTS};
+    x.u.pattern.tex1 = texture_add_constant(&set, rgb_grey(2));
+    x.u.pattern.tex2 = texture_add_constant(&set, rgb_grey(3));
+    x.u.pattern.map = IDENTITY;
+    int id = texture_add(&set, x), inside = 0;
+    for (int j = 0; j < (int)(sizeof DOTS / sizeof DOTS[0]); j++)
+        for (int i = 0; DOTS[j][i] != '\0'; i++) {
+            struct surface at = at_uv(-3.03 + 0.17 * i, 2.01 - 0.33 * j);
+            double want = DOTS[j][i] == '#' ? 2 : 3;
+            CHECK(t, texture_float(&set, id, &at) == want, "dots at %g %g", at.u, at.v);
+        }
+    for (int i = 0; i < 40000; i++) /* two in five squares have one, of area 0.35^2 pi */
+        inside += noise_in_dot(i % 200 / 3.0, i / 200 / 3.0);
+    CHECK(t, fabs(inside / 40000.0 - 0.4 * PI * sqr(0.35)) < 0.01, "%g of the plane is in dots", inside / 40000.0);
+    texture_set_free(&set);
+}
+
+/* By construction: 0 on the lattice, period 256, bounded, continuous from cell to cell; finite wherever asked. */
+static void test_noise(struct test *t)
+{
+    static const double STRANGE[] = {NAN, INFINITY, -INFINITY, 1e308, -1e18, 4294967296.5, -2147483648.5};
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 11, 0);
+    double least = 0, most = 0, sum = 0;
+    for (int i = 0; i < 20000; i++) {
+        double x = 600 * rng_uniform(&r) - 300, y = 600 * rng_uniform(&r) - 300, z = 600 * rng_uniform(&r) - 300;
+        double value = noise(vec(x, y, z)), before = noise(vec(floor(x) - 1e-9, y, z));
+        CHECK(t, noise(vec(floor(x), floor(y), floor(z))) == 0, "noise on the lattice");
+        CHECK(t, fabs(noise(vec(x + 256, y - 512, z + 256)) - value) < 1e-9, "noise comes back after 256 cells");
+        CHECK(t, fabs(before - noise(vec(floor(x) + 1e-9, y, z))) < 1e-8, "noise jumps at %g %g %g", floor(x), y, z);
+        least = fmin(least, value);
+        most = fmax(most, value);
+        sum += fabs(value);
+    }
+    CHECK(t, least > -1 && most < 1 && least < -0.7 && most > 0.7, "noise from %g to %g", least, most);
+    CHECK(t, fabs(sum / 20000 - 0.2) < 0.03, "the mean of |noise| is %g", sum / 20000);
+    for (int i = 0; i < (int)(sizeof STRANGE / sizeof STRANGE[0]); i++) {
+        vec3 p = vec(STRANGE[i], 0.5, -STRANGE[i]);
+        CHECK(t, fabs(noise(p)) <= 1 && isfinite(noise_waves(p)) && rgb_is_finite(noise_marble(p, 0.5, 8, 1)),
+              "noise at %g", STRANGE[i]);
+        noise_in_dot(STRANGE[i], STRANGE[i]); /* inside or outside, but no fault */
+    }
+    CHECK(t, noise_fbm(vec(0.3, 0.2, 0.1), 0.5, 0) == 0 && noise_turbulence(vec(0.3, 0.2, 0.1), 0.5, 0) == 0.2,
+          "no octaves");
+}
+
+/* The k-th texture of a file that is not a plain constant. */
+static const struct texture *nth(const struct texture_set *set, int k)
+{
+    for (int i = 0; i < set->n_textures; i++)
+        if (set->texture[i].kind != TEXTURE_CONSTANT && k-- == 0)
+            return &set->texture[i];
+    return NULL;
+}
+
+static double value_of(const struct texture_set *set, int id) { return set->texture[id].u.constant.r; }
+
+/* Is this the space that Translate 1 2 3 makes, or the world's? */
+static bool is_moved(const struct texture_set *set, int space, bool moved)
+{
+    vec3 o = transform_point(&set->space[space], vec(0, 0, 0));
+    return moved ? o.x == 1 && o.y == 2 && o.z == 3 : length(o) == 0;
+}
+
+/* What the parser makes of every parameter, and pbrt-v3's default of each. */
+static void test_patterns_read(struct test *t)
+{
+    static const enum texture_kind KINDS[] = {TEXTURE_FBM, TEXTURE_WRINKLED, TEXTURE_WINDY, TEXTURE_MARBLE,
+                                              TEXTURE_MARBLE, TEXTURE_UV, TEXTURE_DOTS, TEXTURE_DOTS,
+                                              TEXTURE_IMAGEMAP, TEXTURE_CUBES};
+    enum { N = sizeof KINDS / sizeof KINDS[0] };
+    struct scene s;
+    struct error err;
+    if (!CHECK(t, parse_scene("test/fixtures/ok-patterns.pbrt", &s, NULL, &err), "%s", err.text))
+        return;
+    const struct texture_set *set = &s.textures;
+    const struct texture *x[N];
+    bool all = true;
+    for (int i = 0; i < N; i++)
+        all = (x[i] = nth(set, i)) != NULL && x[i]->kind == KINDS[i] && all;
+    if (CHECK(t, all, "%d textures that are not constant", N)) {
+        static const double NOISE[][4] = {{8, 0.5}, {3, 0.7}, {0}, {4, 0.6, 2, 0.4}, {8, 0.5, 1, 0.2}};
+        for (int i = 0; i < 5; i++)
+            CHECK(t,
+                  x[i]->u.noise.octaves == NOISE[i][0] && x[i]->u.noise.omega == NOISE[i][1] &&
+                      x[i]->u.noise.scale == NOISE[i][2] && x[i]->u.noise.variation == NOISE[i][3] &&
+                      is_moved(set, x[i]->u.noise.space, i >= 2),
+                  "texture %d of noise", i);
+        const struct mapping *uv = &x[5]->u.uv.map, *planar = &x[6]->u.pattern.map, *round = &x[8]->u.imagemap.map;
+        CHECK(t, uv->kind == MAPPING_UV && uv->su == 2 && uv->sv == 1 && uv->du == 0 && uv->dv == 0.5, "uv");
+        CHECK(t, planar->kind == MAPPING_PLANAR && planar->v1.z == 3 && planar->v2.x == 4, "planar");
+        CHECK(t, planar->du == 7 && planar->dv == 8 && planar->v1.x == 1 && planar->v2.z == 6, "planar");
+        CHECK(t, round->kind == MAPPING_CYLINDRICAL && is_moved(set, round->space, true), "cylindrical");
+        CHECK(t, x[7]->u.pattern.map.kind == MAPPING_SPHERICAL, "spherical");
+        CHECK(t, &set->texture[x[6]->u.pattern.tex2] == x[0] && value_of(set, x[6]->u.pattern.tex1) == 0, "dots");
+        CHECK(t, value_of(set, x[7]->u.pattern.tex2) == 1 && value_of(set, x[9]->u.cubes.tex1) == 3, "defaults");
+        CHECK(t, value_of(set, x[9]->u.cubes.tex2) == 0 && is_moved(set, x[9]->u.cubes.space, true), "cubes");
+    }
+    scene_free(&s);
 }
 
 /* --- pictures ---------------------------------------------------------------------------------------- */
@@ -178,7 +398,6 @@ static void test_decoding(struct test *t)
     rgb d = rgb_make(srgb_decode(c.r), srgb_decode(c.g), srgb_decode(c.b));
     CHECK(t, near_rgb(texture_rgb(&set, plain, &at), rgb_scale(c, 3)), "as stored");
     CHECK(t, near_rgb(texture_rgb(&set, gamma, &at), rgb_scale(d, 3)), "decoded, then scaled");
-    CHECK(t, near_rgb(texture_mean(&set, gamma), rgb_scale(d, 3)), "mean");
     CHECK(t, near(texture_float(&set, plain, &at), 3 * rgb_luminance(c)), "a number is the luminance");
     CHECK(t, near(texture_float(&set, gamma, &at), 3 * srgb_decode(rgb_luminance(c))),
           "luminance first, then decoded");
@@ -208,7 +427,6 @@ static void test_decoding_order(struct test *t)
     image_free(&img);
 }
 
-/* The mean of a picture larger than its grid of samples, and the mapping of an image map. */
 /* Numbers of a picture that are none become 0 and are counted; a look-up meets finite numbers only. */
 static void test_mending(struct test *t)
 {
@@ -228,6 +446,7 @@ static void test_mending(struct test *t)
     image_free(&img);
 }
 
+/* The mapping of an image map. */
 static void test_large_picture(struct test *t)
 {
     enum { W = 320, H = 130 };
@@ -237,12 +456,11 @@ static void test_large_picture(struct test *t)
     picture_alloc_f32(&img, W, H, 1);
     for (int i = 0; i < W * H; i++)
         img.f32[i] = (float)((i % W + 0.5) / W + (H - i / W - 0.5) / H);
-    struct uv_mapping map = {0.5, 0.25, 0.1, 0.3};
+    struct mapping map = {.su = 0.5, .sv = 0.25, .du = 0.1, .dv = 0.3};
     x.u.imagemap.map = map;
     x.u.imagemap.scale = 1;
     int id = texture_add(&set, x);
     set.image = &img;
-    CHECK(t, near(texture_mean(&set, id).r, 1), "mean %g", texture_mean(&set, id).r);
     struct surface at = at_uv(0.7, 0.6);
     double expected = 0.5 * 0.7 + 0.1 + 0.25 * 0.6 + 0.3;
     CHECK(t, near(texture_float(&set, id, &at), expected), "mapped: %g", texture_float(&set, id, &at));
@@ -256,6 +474,10 @@ void test_texture(struct test *t)
     test_arithmetic(t);
     test_checkerboard(t);
     test_bilerp(t);
+    test_peer(t);
+    test_dots(t);
+    test_noise(t);
+    test_patterns_read(t);
     test_lookup(t);
     test_decoding(t);
     test_decoding_order(t);

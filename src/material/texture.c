@@ -1,4 +1,4 @@
-/* texture.c: see texture.h. The kinds and their parameters are those of pbrt-v3 [PBRT3 10.3-10.5]. */
+/* texture.c: see texture.h. The kinds and their parameters are those of pbrt-v3 [PBRT3 10.2-10.6]. */
 #include "material/texture.h"
 
 #include <assert.h>
@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "material/noise.h"
 
 /* --- the set ----------------------------------------------------------------------------------------- */
 
@@ -19,8 +20,10 @@ int texture_add(struct texture_set *set, struct texture t)
         t.cost += cost_of(set, t.u.pair.tex1) + cost_of(set, t.u.pair.tex2);
     if (t.kind == TEXTURE_MIX)
         t.cost += cost_of(set, t.u.pair.amount);
-    if (t.kind == TEXTURE_CHECKERBOARD)
-        t.cost += cost_of(set, t.u.checker.tex1) + cost_of(set, t.u.checker.tex2);
+    if (t.kind == TEXTURE_CHECKERBOARD || t.kind == TEXTURE_DOTS)
+        t.cost += cost_of(set, t.u.pattern.tex1) + cost_of(set, t.u.pattern.tex2);
+    if (t.kind == TEXTURE_CUBES)
+        t.cost += cost_of(set, t.u.cubes.tex1) + cost_of(set, t.u.cubes.tex2);
     set->texture =
         mem_grow(set->texture, &set->texture_capacity, (size_t)set->n_textures + 1, sizeof *set->texture);
     set->texture[set->n_textures] = t;
@@ -31,6 +34,13 @@ int texture_add_constant(struct texture_set *set, rgb value)
 {
     struct texture t = {.kind = TEXTURE_CONSTANT, .u = {.constant = value}};
     return texture_add(set, t);
+}
+
+int texture_add_space(struct texture_set *set, struct transform current)
+{
+    set->space = mem_grow(set->space, &set->space_capacity, (size_t)set->n_spaces + 1, sizeof *set->space);
+    set->space[set->n_spaces] = current;
+    return set->n_spaces++;
 }
 
 int texture_load_image(struct texture_set *set, const char *path, struct error *err)
@@ -57,6 +67,7 @@ void texture_set_free(struct texture_set *set)
         free(set->image_path[i]);
     }
     free(set->texture);
+    free(set->space);
     free(set->image);
     free(set->image_path);
     memset(set, 0, sizeof *set);
@@ -151,32 +162,34 @@ rgb image_bilinear(const struct image *img, double s, double t, enum texture_wra
 
 /* --- values ------------------------------------------------------------------------------------------ */
 
-struct st {
-    double s, t;
-};
+static bool is_even(double whole) { return fmod(whole, 2) == 0; }
 
-static struct st map_uv(struct uv_mapping m, double u, double v)
+static rgb bilerp(const struct texture *t, struct st st)
 {
-    struct st st = {m.su * u + m.du, m.sv * v + m.dv};
-    return st;
-}
-
-/* The texture whose turn it is in the square of a checkerboard. */
-static int checker_choice(const struct texture *t, const struct surface *at)
-{
-    struct st st = map_uv(t->u.checker.map, at->u, at->v);
-    return fmod(floor(st.s) + floor(st.t), 2) == 0 ? t->u.checker.tex1 : t->u.checker.tex2;
-}
-
-static rgb bilerp(const struct texture *t, double u, double v)
-{
-    struct st st = map_uv(t->u.bilerp.map, u, v);
     rgb low = rgb_add(rgb_scale(t->u.bilerp.v00, 1 - st.s), rgb_scale(t->u.bilerp.v10, st.s));
     rgb high = rgb_add(rgb_scale(t->u.bilerp.v01, 1 - st.s), rgb_scale(t->u.bilerp.v11, st.s));
     return rgb_add(rgb_scale(low, 1 - st.t), rgb_scale(high, st.t));
 }
 
 static rgb mix(rgb a, rgb b, double amount) { return rgb_add(rgb_scale(a, 1 - amount), rgb_scale(b, amount)); }
+
+/* The point that a texture of space sees. pbrt-v3, and so its scenes, takes the world for the texture's own space and
+ * applies the current transform to it, not its inverse, as the mappings do. [pbrt-v3 textures/fbm.cpp] */
+static vec3 in_space(const struct texture_set *set, int space, const struct surface *at)
+{
+    return transform_point(&set->space[space], at->p);
+}
+
+static rgb noise_value(const struct texture *t, vec3 p)
+{
+    double omega = t->u.noise.omega;
+    int octaves = t->u.noise.octaves;
+    if (t->kind == TEXTURE_MARBLE)
+        return noise_marble(mul(p, t->u.noise.scale), omega, octaves, t->u.noise.variation);
+    return rgb_grey(t->kind == TEXTURE_FBM        ? noise_fbm(p, omega, octaves)
+                    : t->kind == TEXTURE_WRINKLED ? noise_turbulence(p, omega, octaves)
+                                                  : noise_waves(p));
+}
 
 /* A float texture is a grey one, but for the way in which it reads pictures. */
 static rgb evaluate(const struct texture_set *set, int id, const struct surface *at, texel_reader *read)
@@ -190,13 +203,34 @@ static rgb evaluate(const struct texture_set *set, int id, const struct surface 
     case TEXTURE_MIX:
         return mix(evaluate(set, t->u.pair.tex1, at, read), evaluate(set, t->u.pair.tex2, at, read),
                    texture_float(set, t->u.pair.amount, at));
-    case TEXTURE_CHECKERBOARD: return evaluate(set, checker_choice(t, at), at, read);
+    case TEXTURE_CHECKERBOARD: {
+        struct st st = map_point(&t->u.pattern.map, set->space, at);
+        bool even = is_even(floor(st.s) + floor(st.t));
+        return evaluate(set, even ? t->u.pattern.tex1 : t->u.pattern.tex2, at, read);
+    }
+    case TEXTURE_CUBES: {
+        vec3 p = in_space(set, t->u.cubes.space, at);
+        bool even = is_even(floor(p.x) + floor(p.y) + floor(p.z));
+        return evaluate(set, even ? t->u.cubes.tex1 : t->u.cubes.tex2, at, read);
+    }
+    case TEXTURE_DOTS: {
+        struct st st = map_point(&t->u.pattern.map, set->space, at);
+        return evaluate(set, noise_in_dot(st.s, st.t) ? t->u.pattern.tex1 : t->u.pattern.tex2, at, read);
+    }
     case TEXTURE_IMAGEMAP: {
-        struct st st = map_uv(t->u.imagemap.map, at->u, at->v);
+        struct st st = map_point(&t->u.imagemap.map, set->space, at);
         const struct image *img = &set->image[t->u.imagemap.image];
         return rgb_scale(bilinear(img, st.s, st.t, t->u.imagemap.wrap, t->u.imagemap.gamma, read), t->u.imagemap.scale);
     }
-    case TEXTURE_BILERP: return bilerp(t, at->u, at->v);
+    case TEXTURE_BILERP: return bilerp(t, map_point(&t->u.bilerp.map, set->space, at));
+    case TEXTURE_UV: {
+        struct st st = map_point(&t->u.uv.map, set->space, at);
+        return rgb_make(st.s - floor(st.s), st.t - floor(st.t), 0);
+    }
+    case TEXTURE_FBM:
+    case TEXTURE_WRINKLED:
+    case TEXTURE_WINDY:
+    case TEXTURE_MARBLE: return noise_value(t, in_space(set, t->u.noise.space, at));
     }
     return rgb_black();
 }
@@ -209,38 +243,4 @@ rgb texture_varying_rgb(const struct texture_set *set, int id, const struct surf
 double texture_varying_float(const struct texture_set *set, int id, const struct surface *at)
 {
     return evaluate(set, id, at, texel_grey).r;
-}
-
-/* The mean over at most 64 x 64 texels spread over the picture. */
-static rgb image_mean(const struct image *img, bool gamma)
-{
-    enum { MOST = 64 };
-    int nx = img->width < MOST ? img->width : MOST, ny = img->height < MOST ? img->height : MOST;
-    rgb sum = rgb_black();
-    for (int j = 0; j < ny; j++)
-        for (int i = 0; i < nx; i++) {
-            ptrdiff_t x = (2 * i + 1) * (ptrdiff_t)img->width / (2 * nx);
-            ptrdiff_t y = (2 * j + 1) * (ptrdiff_t)img->height / (2 * ny);
-            sum = rgb_add(sum, texel_rgb(img, y * img->width + x, gamma));
-        }
-    return rgb_scale(sum, 1.0 / (nx * ny));
-}
-
-rgb texture_mean(const struct texture_set *set, int id)
-{
-    assert(id >= 0 && id < set->n_textures);
-    const struct texture *t = &set->texture[id];
-    switch (t->kind) {
-    case TEXTURE_CONSTANT: return t->u.constant;
-    case TEXTURE_SCALE: return rgb_mul(texture_mean(set, t->u.pair.tex1), texture_mean(set, t->u.pair.tex2));
-    case TEXTURE_MIX:
-        return mix(texture_mean(set, t->u.pair.tex1), texture_mean(set, t->u.pair.tex2),
-                   texture_mean(set, t->u.pair.amount).r);
-    case TEXTURE_CHECKERBOARD:
-        return mix(texture_mean(set, t->u.checker.tex1), texture_mean(set, t->u.checker.tex2), 0.5);
-    case TEXTURE_IMAGEMAP:
-        return rgb_scale(image_mean(&set->image[t->u.imagemap.image], t->u.imagemap.gamma), t->u.imagemap.scale);
-    case TEXTURE_BILERP: return bilerp(t, 0.5, 0.5); /* the mean of a bilinear function is its middle */
-    }
-    return rgb_black();
 }

@@ -1,7 +1,9 @@
 /* texture.h: numbers and colours that vary over a surface.
  *
  * Every material parameter is a texture, most of them constant. Float textures use the red channel of the same
- * struct. Image maps are looked up bilinearly in the finest level: pixel samples do the filtering.
+ * struct. Image maps are looked up bilinearly in the finest level: pixel samples do the filtering. Textures of space
+ * (fbm, wrinkled, windy, marble, the checkerboard of cubes) and some mappings see a point through the current transform
+ * at the texture's definition.
  *
  * Tests: test_texture.c.
  */
@@ -13,23 +15,27 @@
 #include "base/error.h"
 #include "image/image.h"
 #include "base/rgb.h"
+#include "base/transform.h"
 #include "geometry/surface.h"
+#include "material/mapping.h"
 
 enum texture_kind {
     TEXTURE_CONSTANT,
     TEXTURE_SCALE,        /* tex1 * tex2 */
     TEXTURE_MIX,          /* (1-amount) tex1 + amount tex2 */
     TEXTURE_CHECKERBOARD, /* tex1 on even, tex2 on odd squares of floor(s), floor(t) */
+    TEXTURE_CUBES,        /* the same in space: cubes of floor(x), floor(y), floor(z) */
     TEXTURE_IMAGEMAP,
-    TEXTURE_BILERP
+    TEXTURE_BILERP,
+    TEXTURE_UV,           /* red and green are the fractions of s and t; colours only */
+    TEXTURE_DOTS,         /* tex1 in dots, tex2 around them */
+    TEXTURE_FBM,          /* this and the next three: see noise.h */
+    TEXTURE_WRINKLED,
+    TEXTURE_WINDY,
+    TEXTURE_MARBLE        /* colours only */
 };
 
 enum texture_wrap { WRAP_REPEAT, WRAP_BLACK, WRAP_CLAMP };
-
-/* (s,t) = (su u + du, sv v + dv) */
-struct uv_mapping {
-    double su, sv, du, dv;
-};
 
 enum { TEXTURE_MAX_COST = 256 }; /* the parser refuses textures built from more than that */
 
@@ -43,18 +49,28 @@ struct texture {
         } pair;                     /* scale, mix */
         struct {
             int tex1, tex2;
-            struct uv_mapping map;
-        } checker;
+            struct mapping map;
+        } pattern; /* checkerboard, dots */
+        struct {
+            int tex1, tex2, space;
+        } cubes;
+        struct {
+            struct mapping map;
+        } uv;
+        struct {
+            int space, octaves;
+            double omega, scale, variation;
+        } noise; /* fbm, wrinkled: octaves and omega; windy: neither; marble: all */
         struct {
             int image;  /* index into the scene's images */
             bool gamma; /* decode sRGB */
             double scale;
             enum texture_wrap wrap;
-            struct uv_mapping map;
+            struct mapping map;
         } imagemap;
         struct {
             rgb v00, v01, v10, v11;
-            struct uv_mapping map;
+            struct mapping map;
         } bilerp;
     } u;
 };
@@ -62,15 +78,19 @@ struct texture {
 /* Textures and the images they use. The images are shared between textures that name the same file. */
 struct texture_set {
     struct texture *texture; /* [n_textures], owned */
+    struct transform *space; /* [n_spaces], owned: the current transform where a texture was defined */
     struct image *image;     /* [n_images], owned */
     char **image_path;       /* [n_images], owned */
-    int n_textures, n_images;
-    size_t texture_capacity, image_capacity, path_capacity;
+    int n_textures, n_spaces, n_images;
+    size_t texture_capacity, space_capacity, image_capacity, path_capacity;
 };
 
 /* texture_add: append a texture; returns its number. Textures it names must have been added before. */
 int texture_add(struct texture_set *set, struct texture t);
 int texture_add_constant(struct texture_set *set, rgb value);
+
+/* texture_add_space: append a texture's current transform; returns its number. */
+int texture_add_space(struct texture_set *set, struct transform current);
 
 /* texture_load_image: the number of the image with this path, reading it if it is new; -1 with a message. */
 int texture_load_image(struct texture_set *set, const char *path, struct error *err);
@@ -94,9 +114,6 @@ static inline double texture_float(const struct texture_set *set, int id, const 
     const struct texture *t = &set->texture[id];
     return t->kind == TEXTURE_CONSTANT ? t->u.constant.r : texture_varying_float(set, id, at);
 }
-
-/* texture_mean: a rough average over u, v in [0,1), for estimates only (power of a light, albedo in info). */
-rgb texture_mean(const struct texture_set *set, int id);
 
 /* image_bilinear: the picture at (s,t), (0,0) being the lower left corner, texel centres at half-integers,
  * as pbrt-v3's MIPMap::Lookup at width 0; texels are decoded (`gamma`) before they are mixed. Also used by

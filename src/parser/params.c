@@ -349,13 +349,23 @@ const char *params_text(struct params *p, const char *name, enum param_type type
     return p->string[item->first];
 }
 
-vec3 params_point(struct params *p, const char *name, vec3 fallback)
+static vec3 three_numbers(struct params *p, const char *name, enum param_type type, vec3 fallback)
 {
-    const struct param *item = find_n(p, name, 1u << PARAM_POINT, 3);
+    const struct param *item = find_n(p, name, 1u << type, 3);
     if (item == NULL)
         return fallback;
     const double *x = p->number + item->first;
     return vec(x[0], x[1], x[2]);
+}
+
+vec3 params_point(struct params *p, const char *name, vec3 fallback)
+{
+    return three_numbers(p, name, PARAM_POINT, fallback);
+}
+
+vec3 params_vector(struct params *p, const char *name, vec3 fallback)
+{
+    return three_numbers(p, name, PARAM_VECTOR, fallback);
 }
 
 int params_choice(struct params *p, const char *name, const char *const *choices)

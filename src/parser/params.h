@@ -91,6 +91,7 @@ bool params_has(const struct params *p, const char *name, enum param_type type);
 /* One value, or the default. All questions refuse numbers beyond NUMBER_MAX (number.h). */
 bool params_bool(struct params *p, const char *name, bool fallback);
 vec3 params_point(struct params *p, const char *name, vec3 fallback);
+vec3 params_vector(struct params *p, const char *name, vec3 fallback);
 rgb params_rgb(struct params *p, const char *name, rgb fallback); /* rgb, xyz, blackbody or spectrum */
 
 /* params_int: a whole number from low to high; others are rounded towards 0. */

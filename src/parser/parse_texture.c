@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "material/noise.h"
+
 /* A value or a texture of the type being defined. */
 static void operand(struct parser *p, const struct parameter *row, void *field)
 {
@@ -22,21 +24,70 @@ static void value(struct parser *p, const struct parameter *row, void *field)
                         : params_rgb(&p->params, row->name, row->fallback);
 }
 
-static void mapping(struct parser *p, const struct parameter *row, void *field)
+/* The current transform, kept for textures that look through it. */
+static int space(struct parser *p)
 {
-    struct source_position at;
-    const char *kind = params_text(&p->params, row->name, PARAM_STRING, &at);
-    (void)field;
-    if (kind != NULL && strcmp(kind, "uv") != 0)
-        params_fail(&p->params, at, "texture mapping \"%.40s\" is not supported; use \"uv\"", kind);
+    if (!parse_placed(p))
+        p->params.failed = true;
+    return texture_add_space(&p->scene->textures, p->place.ctm);
 }
 
-/* Two: solid ones are not supported. */
-static void dimension(struct parser *p, const struct parameter *row, void *field)
+/* A parameter that nothing reads here, nor in pbrt-v3. */
+static void without_effect(struct parser *p, const char *name)
 {
-    (void)field;
-    params_int(&p->params, row->name, 2, 2, 2);
+    const struct parameter row = NO_EFFECT(name);
+    parse_no_effect(p, &row, NULL);
 }
+
+/* A number of a mapping, for the kinds that read it. */
+static double mapping_number(struct parser *p, const char *name, double fallback, bool is_read)
+{
+    if (is_read)
+        return params_number(&p->params, name, fallback, ANY_NUMBER);
+    without_effect(p, name);
+    return 0;
+}
+
+static vec3 mapping_vector(struct parser *p, const char *name, vec3 fallback, bool is_read)
+{
+    if (is_read)
+        return params_vector(&p->params, name, fallback);
+    without_effect(p, name);
+    return vec(0, 0, 0);
+}
+
+static void mapping(struct parser *p, const struct parameter *row, void *field)
+{
+    static const char *const KINDS[] = {"uv", "spherical", "cylindrical", "planar", NULL}; /* as in enum mapping_kind */
+    struct mapping *m = field;
+    m->kind = (enum mapping_kind)params_choice(&p->params, row->name, KINDS);
+    bool uv = m->kind == MAPPING_UV, planar = m->kind == MAPPING_PLANAR;
+    m->su = mapping_number(p, "uscale", 1, uv);
+    m->sv = mapping_number(p, "vscale", 1, uv);
+    m->du = mapping_number(p, "udelta", 0, uv || planar);
+    m->dv = mapping_number(p, "vdelta", 0, uv || planar);
+    m->v1 = mapping_vector(p, "v1", vec(1, 0, 0), planar);
+    m->v2 = mapping_vector(p, "v2", vec(0, 1, 0), planar);
+    m->space = uv || planar ? 0 : space(p);
+}
+
+/* Squares, on a surface, or cubes, in space, which no mapping acts on. */
+static void checkerboard(struct parser *p, void *object)
+{
+    static const char *const MAPPED[] = {"mapping", "uscale", "vscale", "udelta", "vdelta", "v1", "v2"};
+    struct texture *t = object;
+    if (params_int(&p->params, "dimension", 2, 2, 3) == 2)
+        return;
+    for (size_t i = 0; i < sizeof MAPPED / sizeof MAPPED[0]; i++)
+        without_effect(p, MAPPED[i]);
+    struct texture solid = {.kind = TEXTURE_CUBES};
+    solid.u.cubes.tex1 = t->u.pattern.tex1;
+    solid.u.cubes.tex2 = t->u.pattern.tex2;
+    solid.u.cubes.space = space(p);
+    *t = solid;
+}
+
+static void noise_texture(struct parser *p, void *object) { ((struct texture *)object)->u.noise.space = space(p); }
 
 static void wrap(struct parser *p, const struct parameter *row, void *field)
 {
@@ -69,12 +120,9 @@ static void imagemap(struct parser *p, void *object)
 
 #define FIELD(f) offsetof(struct texture, u.f)
 #define NUMBER(name, f, x) {name, parse_number, FIELD(f), GREY(x), ANY_NUMBER, NULL}
-#define MAPPING(kind) \
-    {"mapping", mapping, 0, GREY(0), 0, 0, NULL}, NUMBER("uscale", kind.map.su, 1), NUMBER("vscale", kind.map.sv, 1), \
-    NUMBER("udelta", kind.map.du, 0), NUMBER("vdelta", kind.map.dv, 0)
-#define OPERANDS(kind, first, second) \
-    {"tex1", operand, FIELD(kind.tex1), GREY(first), 0, 0, NULL}, \
-    {"tex2", operand, FIELD(kind.tex2), GREY(second), 0, 0, NULL}
+#define MAPPING(kind) {"mapping", mapping, FIELD(kind.map), GREY(0), 0, 0, NULL}
+#define OPERAND(name, f, x) {name, operand, FIELD(f), GREY(x), 0, 0, NULL}
+#define OPERANDS(kind, first, second) OPERAND("tex1", kind.tex1, first), OPERAND("tex2", kind.tex2, second)
 #define VALUE(name, f, x) {name, value, FIELD(f), GREY(x), 0, 0, NULL}
 
 static const struct parameter CONSTANT[] = {VALUE("value", constant, 1), END_OF_PARAMETERS};
@@ -84,9 +132,9 @@ static const struct parameter MIX[] = {
     {"amount", parse_float_texture, FIELD(pair.amount), GREY(0.5), 0, 0, NULL},
     END_OF_PARAMETERS};
 static const struct parameter CHECKERBOARD[] = {
-    {"dimension", dimension, 0, GREY(2), 2, 2, NULL},
-    OPERANDS(checker, 1, 0),
-    MAPPING(checker),
+    OPERANDS(pattern, 1, 0),
+    MAPPING(pattern),
+    BY_BUILD("dimension"),
     IGNORED("aamode"), /* pixel samples do the filtering */
     END_OF_PARAMETERS};
 static const struct parameter IMAGEMAP[] = {
@@ -102,15 +150,41 @@ static const struct parameter BILERP[] = {
     MAPPING(bilerp), VALUE("v00", bilerp.v00, 0), VALUE("v01", bilerp.v01, 1),
     VALUE("v10", bilerp.v10, 0), VALUE("v11", bilerp.v11, 1), END_OF_PARAMETERS};
 
+static const struct parameter UV[] = {MAPPING(uv), END_OF_PARAMETERS};
+/* pbrt-v3 paints the dots with "outside" and what is around them with "inside". */
+static const struct parameter DOTS[] = {
+    MAPPING(pattern), OPERAND("inside", pattern.tex2, 1), OPERAND("outside", pattern.tex1, 0), END_OF_PARAMETERS};
+
+#define OCTAVES {"octaves", parse_integer, FIELD(noise.octaves), GREY(8), 0, NOISE_MAX_OCTAVES, NULL}
+static const struct parameter OCTAVES_OF_NOISE[] = {OCTAVES, NUMBER("roughness", noise.omega, 0.5), END_OF_PARAMETERS};
+static const struct parameter WINDY[] = {END_OF_PARAMETERS};
+static const struct parameter MARBLE[] = {
+    OCTAVES, NUMBER("roughness", noise.omega, 0.5), NUMBER("scale", noise.scale, 1),
+    NUMBER("variation", noise.variation, 0.2), END_OF_PARAMETERS};
+
 static const struct object_type TYPES[] = {
     {"constant", CONSTANT, TEXTURE_CONSTANT, NULL},
     {"scale", SCALE, TEXTURE_SCALE, NULL},
     {"mix", MIX, TEXTURE_MIX, NULL},
-    {"checkerboard", CHECKERBOARD, TEXTURE_CHECKERBOARD, NULL},
+    {"checkerboard", CHECKERBOARD, TEXTURE_CHECKERBOARD, checkerboard},
     {"imagemap", IMAGEMAP, TEXTURE_IMAGEMAP, imagemap},
     {"bilerp", BILERP, TEXTURE_BILERP, NULL},
-    REFUSED("uv"), REFUSED("dots"), REFUSED("fbm"), REFUSED("wrinkled"), REFUSED("marble"), REFUSED("windy"),
+    {"uv", UV, TEXTURE_UV, NULL},
+    {"dots", DOTS, TEXTURE_DOTS, NULL},
+    {"fbm", OCTAVES_OF_NOISE, TEXTURE_FBM, noise_texture},
+    {"wrinkled", OCTAVES_OF_NOISE, TEXTURE_WRINKLED, noise_texture},
+    {"windy", WINDY, TEXTURE_WINDY, noise_texture},
+    {"marble", MARBLE, TEXTURE_MARBLE, noise_texture},
     REFUSED("ptex"), OTHERS_LEFT_OUT};
+
+/* Is a texture of the kind that this one is what its type says? */
+static bool fits_type(struct parser *p)
+{
+    bool colours = p->type->kind == TEXTURE_UV || p->type->kind == TEXTURE_MARBLE;
+    if (p->texture_is_float && colours)
+        return type_error(&p->params, "the texture \"%s\" is a colour; its type is \"spectrum\"", p->params.type);
+    return true;
+}
 
 /* Texture "name" "float or spectrum or color" "class". */
 static bool texture(struct parser *p)
@@ -126,7 +200,7 @@ static bool texture(struct parser *p)
         return false;
     }
     struct texture t = {.kind = TEXTURE_CONSTANT};
-    bool known = parse_type(p, TYPES);
+    bool known = parse_type(p, TYPES) && fits_type(p);
     if (known)
         t.kind = (enum texture_kind)p->type->kind;
     else if (!p->params.failed)
