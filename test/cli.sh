@@ -291,6 +291,10 @@ close() { # A B MOST: their relative mean squared error is at most so large
 check close x.exr light.pfm 1e-7
 check close x.hdr light.pfm 1e-4
 check [ "$(close light.png light.pfm 1e-4; echo $?)" = 1 ]
+expect 0 '' "$program" convert "$scenes/../ref/bathroom.pfm" ref.float.exr
+expect 0 '' "$program" verify --images ref.float.exr "$scenes/../ref/bathroom.error.pfm" \
+    "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm"
+check grep -q 'verdict: identical' stdout.txt
 expect 1 'nothing.exr' "$program" convert nothing.exr x.png
 expect 1 'x.jpg: pictures are written as' "$program" convert light.pfm x.jpg
 expect 1 'no/such/dir' "$program" convert light.pfm no/such/dir/x.png

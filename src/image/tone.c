@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "base/maths.h"
 #include "base/number.h"
 
 bool tone_is_plain(const struct tone *t) { return t->stops == 0 && t->curve == TONE_NONE; }
@@ -16,7 +17,7 @@ static double filmic(double x)
 
 void tone_map(const struct tone *t, const float *in, size_t n, float *out)
 {
-    double factor = exp2(t->stops);
+    double factor = m_pow(2, t->stops);
     for (size_t i = 0; i < n; i++) {
         double x = factor * (double)in[i];
         out[i] = float_within(t->curve == TONE_FILMIC ? filmic(x) : x);
