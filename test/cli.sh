@@ -36,7 +36,7 @@ check grep -q 'asbdpt render SCENE' stdout.txt
 check grep -q 'asbdpt experiment \[--quick' stdout.txt
 check grep -q -e '--reference-spp' stdout.txt
 check grep -q 'lightsamplestrategy' stdout.txt
-for command in render compare experiment bench verify demo convert info; do # a subcommand's help is its own alone
+for command in render compare experiment bench verify demo convert worth info; do # a subcommand's help is its own alone
     expect 0 '' "$program" $command --help
     check grep -q "usage: asbdpt $command" stdout.txt
     check [ "$(grep -c 'usage: asbdpt' stdout.txt)" = 1 ]
@@ -237,6 +237,13 @@ check [ -s demo.png ]
 expect 1 'there is no stored reference known.pfm' "$program" demo known.pbrt -o demo.png
 expect 1 'there is no integrator bdtp; did you mean bdpt' "$program" demo "$box" --with bdtp -o demo.png
 expect 2 'demo needs a picture to write' "$program" demo "$box"
+
+# worth: what was learnt, as a picture.
+expect 0 '' "$program" worth "$box" --pixel 3,9 --res 12x12 --spp 4 --quiet -o worth.png
+check [ -s worth.png ]
+expect 1 'pixel 12,0 lies outside' "$program" worth "$box" --pixel 12,0 --res 12x12 -o worth.png
+expect 1 'learns nothing about pairs' "$program" worth "$box" --pixel 3,9 --res 12x12 -P select=pool -o worth.png
+expect 2 'expected X,Y' "$program" worth "$box" --pixel 3x9 -o worth.png
 expect 0 '' "$program" info "$box"
 check grep -q triangles stdout.txt
 

@@ -213,6 +213,7 @@ static size_t target_size(const struct option *o, char *value, size_t size)
     case OPTION_NUMBER: return sizeof(double);
     case OPTION_PERHAPS: return sizeof(struct perhaps);
     case OPTION_WINDOW: strcpy(value, "0 1 0 1"); return 4 * sizeof(double);
+    case OPTION_PIXEL: strcpy(value, "4,3"); return 2 * sizeof(int);
     case OPTION_SIZE:
     case OPTION_WIDTH: strcpy(value, "4x3"); return 2 * sizeof(int);
     case OPTION_TEXT: strcpy(value, "x"); return sizeof(const char *);

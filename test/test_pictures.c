@@ -8,6 +8,8 @@
 #include "lab/compare.h"
 #include "lab/demo.h"
 #include "lab/pyramid.h"
+#include "lab/worth.h"
+#include "parser/parser.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -101,8 +103,47 @@ static void test_demo(struct test *t)
     CHECK(t, !ok && strstr(err.text, "no stored reference") != NULL, "says \"%s\"", err.text);
 }
 
+/* --- what was learnt --------------------------------------------------------------------------------- */
+
+enum { SIZE = 32 };
+
+static double mean_of(const float *value, int x0, int x1, int y0, int y1)
+{
+    double sum = 0;
+    for (int y = y0; y < y1; y++)
+        for (int x = x0; x < x1; x++)
+            sum += (double)value[y * SIZE + x];
+    return sum / ((y1 - y0) * (x1 - x0));
+}
+
+/* A point on the floor of the Cornell box: the floor itself, in whose plane it lies, is worth little more than the
+ * share that ignores what was learnt; the ceiling is worth much. Draws are probabilities. */
+static void test_worth(struct test *t)
+{
+    static float worth[SIZE * SIZE], draws[SIZE * SIZE];
+    struct scene scene;
+    struct error err = {""};
+    struct render_options options = {.integrator = integrator_find("asbdpt"), .end = 256, .n_threads = 2};
+    if (!CHECK(t, parse_scene("scenes/cornell-box.pbrt", &scene, NULL, &err), "%s", err.text))
+        return;
+    scene.width = scene.height = SIZE;
+    scene_prepare(&scene);
+    if (CHECK(t, worth_values(&scene, &options, 16, 29, worth, draws, &err), "%s", err.text)) {
+        double floor_worth = mean_of(worth, 4, 12, 29, 31), above = mean_of(worth, 12, 20, 2, 5);
+        CHECK(t, floor_worth < 0.5 * above, "the floor is worth %g to itself, the ceiling %g", floor_worth, above);
+        double sum = mean_of(draws, 0, SIZE, 0, SIZE) * SIZE * SIZE;
+        CHECK(t, sum > 0.3 && sum < 1 + 1e-6, "the camera sees %g of the draws", sum);
+        CHECK(t, !worth_values(&scene, &options, SIZE, 0, worth, draws, &err) && strstr(err.text, "outside") != NULL,
+              "a pixel outside the film: \"%s\"", err.text);
+        options.integrator = integrator_find("bdpt");
+        CHECK(t, !worth_values(&scene, &options, 0, 0, worth, draws, &err), "bdpt learns nothing");
+    }
+    scene_free(&scene);
+}
+
 void test_pictures(struct test *t)
 {
     test_pyramid(t);
     test_demo(t);
+    test_worth(t);
 }

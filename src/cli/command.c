@@ -14,7 +14,7 @@ static const char VERSION[] = "asbdpt 0.1";
 
 static const struct command *const COMMANDS[] = {&command_render, &command_compare, &command_experiment,
                                                  &command_bench, &command_verify, &command_info,
-                                                 &command_demo, &command_convert, NULL};
+                                                 &command_demo, &command_convert, &command_worth, NULL};
 
 const struct command *const *command_list(void) { return COMMANDS; }
 

@@ -70,11 +70,11 @@ static bool scan_number(const char **text, const struct option *o, double *out)
 static bool read_numbers(struct reader *r, int least, int most, const char *expected, double *out)
 {
     const struct option *o = r->option;
-    bool window = o->kind == OPTION_WINDOW, ok = true;
+    bool window = o->kind == OPTION_WINDOW, commas = window || o->kind == OPTION_PIXEL, ok = true;
     const char *text = "", *at = "";
     for (int n = 0; ok && n < most && (n < least || *at != '\0'); n++) {
         if (n > 0 && !(window && *at == '\0'))
-            ok = *at++ == (window ? ',' : 'x');
+            ok = *at++ == (commas ? ',' : 'x');
         else if (next_value(r, &text))
             at = text;
         else
@@ -115,6 +115,16 @@ static bool read_size(struct reader *r, int least, const char *expected, int *si
     size[1] = (int)v[1];
     return size[1] == 0 || picture_size_ok((unsigned long)v[0], (unsigned long)v[1], &why) ||
            error_set(r->err, "%s: %s", r->option->name, why.text);
+}
+
+static bool read_pixel(struct reader *r, int *pixel)
+{
+    double v[2];
+    if (!read_numbers(r, 2, 2, "X,Y, each", v))
+        return false;
+    pixel[0] = (int)v[0];
+    pixel[1] = (int)v[1];
+    return true;
 }
 
 static bool read_window(struct reader *r, double *v)
@@ -159,6 +169,7 @@ static bool read_value(struct reader *r, void *target)
     case OPTION_PERHAPS: return read_perhaps(r, target);
     case OPTION_SEED: return read_seed(r, target);
     case OPTION_WINDOW: return read_window(r, target);
+    case OPTION_PIXEL: return read_pixel(r, target);
     case OPTION_SIZE: return read_size(r, 2, "WIDTHxHEIGHT, each", target);
     case OPTION_WIDTH: return read_size(r, 1, "WIDTHxHEIGHT or WIDTH, each", target);
     case OPTION_TEXT: return next_value(r, target);

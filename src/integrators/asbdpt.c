@@ -216,6 +216,12 @@ static void release(void *state)
     free(sel);
 }
 
+const struct learnt *asbdpt_learnt(const void *state)
+{
+    const struct selection *sel = state;
+    return sel->learnt.paired ? &sel->learnt : NULL;
+}
+
 /* The dissertation has no roulette, and its selection reads the throughput at a sub-path's far end, which roulette
  * would level: there it is off unless asked for. */
 static double rr_threshold(const struct settings *s)

@@ -7,4 +7,8 @@
 
 extern const struct integrator integrator_asbdpt;
 
+/* asbdpt_learnt: what a prepared asbdpt knows of places, with a table of pairs; NULL if its selection has none.
+ *   state  of struct preparation; remains the owner */
+const struct learnt *asbdpt_learnt(const void *state);
+
 #endif

@@ -188,20 +188,29 @@ static void run_all(struct run *r)
     free(r->tile);
 }
 
+bool render_prepare(const struct scene *scene, const struct render_options *options, struct pixel_rect rect,
+                    struct render_job *job, struct preparation *out, struct error *err)
+{
+    struct preparation standard = {.size = {0, DEFAULT_TILE_SIZE}};
+    memset(job, 0, sizeof *job);
+    job->scene = scene;
+    job->film_rect = rect;
+    job->seed = job->eye_seed = options->seed;
+    job->spp = (double)(options->planned > options->end ? options->planned : options->end);
+    job->n_threads = options->n_threads < 1 ? parallel_cores() : options->n_threads;
+    *out = standard;
+    return check_settings(scene, err) && read_heuristic(scene, &job->power_heuristic, err) &&
+           read_roulette(scene, options->integrator, &job->rr_threshold, err) &&
+           read_light_strategy(scene, &job->spatial_lights, err) &&
+           render_max_depth(scene, options->max_depth, &job->max_depth, err) &&
+           options->integrator->prepare(job, out, err);
+}
+
 bool render_scene(const struct scene *scene, const struct render_options *options, struct film *film,
                   struct error *err)
 {
-    struct run r = {.options = options, .film = film, .prepared = {.size = {0, DEFAULT_TILE_SIZE}}};
-    r.job.scene = scene;
-    r.job.film_rect = film->rect;
-    r.job.seed = r.job.eye_seed = options->seed;
-    r.job.spp = (double)(options->planned > options->end ? options->planned : options->end);
-    r.job.n_threads = options->n_threads < 1 ? parallel_cores() : options->n_threads;
-    if (!check_settings(scene, err) || !read_heuristic(scene, &r.job.power_heuristic, err) ||
-        !read_roulette(scene, options->integrator, &r.job.rr_threshold, err) ||
-        !read_light_strategy(scene, &r.job.spatial_lights, err) ||
-        !render_max_depth(scene, options->max_depth, &r.job.max_depth, err) ||
-        !options->integrator->prepare(&r.job, &r.prepared, err))
+    struct run r = {.options = options, .film = film};
+    if (!render_prepare(scene, options, film->rect, &r.job, &r.prepared, err))
         return false;
     if (r.prepared.size.block == 0)
         r.prepared.size.block = choose_block(film->rect);

@@ -41,6 +41,13 @@ struct pixel_rect render_crop(const struct scene *scene);
 bool render_scene(const struct scene *scene, const struct render_options *options, struct film *film,
                   struct error *err);
 
+/* render_prepare: what comes before the first tile pass: parameters, and whatever the integrator learns.
+ *   rect      the pixels to be rendered
+ *   job, out  filled; afterwards options->integrator->release(out->state)
+ * Returns false with a message when a parameter is bad; nothing needs release then. */
+bool render_prepare(const struct scene *scene, const struct render_options *options, struct pixel_rect rect,
+                    struct render_job *job, struct preparation *out, struct error *err);
+
 /* render_max_depth: the depth limit in force: options, else the setting "maxdepth", else 5. False with a message. */
 bool render_max_depth(const struct scene *scene, int wanted, int *out, struct error *err);
 

@@ -1,0 +1,61 @@
+/* cmd_worth.c: asbdpt worth SCENE: what light vertices are worth to one surface point, as a picture. See worth.h. */
+#include <string.h>
+
+#include "cli/command.h"
+#include "cli/job_options.h"
+#include "cli/outputs.h"
+#include "lab/worth.h"
+
+struct worth_options {
+    struct job_options job;
+    int pixel[2], scale;
+};
+
+#define AT(member) offsetof(struct worth_options, member)
+static const struct option OPTIONS[] = {
+    {"--pixel", "X,Y", OPTION_PIXEL, AT(pixel), 0, 65535, .fallback = "0,0", .help = "where the surface is seen"},
+    {"--scale", "K", OPTION_INTEGER, AT(scale), 1, 16, .fallback = "2", .help = "a pixel becomes KxK"},
+    {.others = SCENE_OPTIONS},
+};
+
+static int draw(const struct worth_options *o, const struct scene *scene, const struct integrator *integrator,
+                struct outputs *out, struct error *err)
+{
+    struct render_options options = {.integrator = integrator, .seed = o->job.seed, .end = job_spp(&o->job, scene),
+                                     .n_threads = o->job.n_threads, .max_depth = o->job.max_depth};
+    struct sheet picture;
+    if (!worth_picture(scene, &options, o->pixel[0], o->pixel[1], o->scale, &picture, err)) {
+        outputs_abandon(out);
+        return fail(err);
+    }
+    bool ok = outputs_write(out, picture.width, picture.height, picture.pixels, o->job.quiet, err);
+    sheet_free(&picture);
+    return ok ? EXIT_OK : fail(err);
+}
+
+static int run(void *options)
+{
+    struct worth_options *o = options;
+    struct scene scene;
+    const struct integrator *integrator;
+    struct outputs out;
+    struct error err;
+    if (o->job.integrator == NULL)
+        o->job.integrator = "asbdpt";
+    if (o->job.output.n == 0)
+        return usage_error(&command_worth, "an output is needed: -o FILE.png");
+    if (!outputs_open(&o->job.output, &out, &err))
+        return fail(&err);
+    int status = job_load(&o->job, &scene, &integrator);
+    if (status != EXIT_OK) {
+        outputs_abandon(&out);
+        return status;
+    }
+    status = draw(o, &scene, integrator, &out, &err);
+    scene_free(&scene);
+    return status;
+}
+
+const struct command command_worth = {
+    "worth", "what light vertices are worth to a surface point, as a picture",
+    {"SCENE.pbrt --pixel X,Y -o FILE.png [options]"}, OPTIONS, sizeof(struct worth_options), run};

@@ -1,0 +1,190 @@
+/* worth.c: see worth.h. */
+#include "lab/worth.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/mem.h"
+#include "base/number.h"
+#include "image/colormap.h"
+#include "integrators/asbdpt.h"
+#include "render/aov.h"
+#include "transport/pixel_sample.h"
+
+enum { LIGHT_PATHS = 64 * 1024, GAP = 8, LABEL = 24, TEXT = 2 };
+static const double PAPER = 0.12, INK = 0.92; /* greys */
+
+struct view {
+    struct render_job job;
+    const struct learnt *learnt;
+    struct mis_counts counts; /* for the walks, which look regions up; the weights are not used */
+    struct workspace *work;
+    const double *h; /* [light regions], of the eye region of the point */
+    float *worth, *draws;
+};
+
+static struct walk walk_of(const struct view *v, struct sampler *sampler)
+{
+    struct walk w = {v->job.scene, &v->counts, &v->work->arena, sampler, v->job.rr_threshold};
+    return w;
+}
+
+/* The first surface through the middle of a pixel, in work->eye[1]; false if there is none to connect to. */
+static bool look(const struct view *v, int x, int y)
+{
+    arena_reset(&v->work->arena);
+    struct sampler sampler = sampler_start(v->job.seed, RNG_TEST, 0, 0);
+    struct walk w = walk_of(v, &sampler);
+    return path_eye(&w, x + 0.5, y + 0.5, v->work->eye, 2) == 2 && v->work->eye[1].kind == VERTEX_SURFACE &&
+           vertex_connectible(&v->work->eye[1]);
+}
+
+static void map_worth(const struct view *v)
+{
+    const struct scene *s = v->job.scene;
+    for (int y = 0; y < s->height; y++)
+        for (int x = 0; x < s->width; x++)
+            v->worth[y * s->width + x] = look(v, x, y) ? float_within(v->h[v->work->eye[1].light_region]) : 0;
+}
+
+/* Adds p to the pixel in which the camera sees the light vertex y, if it does. */
+static void add_draw(const struct view *v, const struct vertex *y, double p)
+{
+    const struct scene *s = v->job.scene;
+    vec3 lens = camera_sample_lens(&s->camera, 0.5, 0.5), d = sub(y->p, lens);
+    double px, py;
+    if (!(length2(d) > 0) || camera_project(&s->camera, lens, normalize(d), &px, &py) == 0)
+        return;
+    if (px >= 0 && py >= 0 && px < s->width && py < s->height && scene_visible(s, lens, 0, y->p, y->triangle_id))
+        v->draws[(int)py * s->width + (int)px] += float_within(p);
+}
+
+/* Twice the same light sub-paths: the sum of h L of all their vertices, then each one's share of it. */
+static void map_draws(const struct view *v)
+{
+    double total = 0;
+    for (int pass = 0; pass < 2; pass++)
+        for (int k = 0; k < LIGHT_PATHS && (pass == 0 || total > 0); k++) {
+            arena_reset(&v->work->arena);
+            struct sampler sampler = sampler_start(v->job.seed, RNG_LIGHT, (uint64_t)k, 0);
+            struct walk w = walk_of(v, &sampler);
+            int n = path_light(&w, v->work->light, v->job.max_depth + 1);
+            for (int i = 1; i < n; i++) {
+                const struct vertex *y = &v->work->light[i];
+                double hL = vertex_connectible(y) ? v->h[y->light_region] * rgb_luminance(y->beta) : 0;
+                if (pass == 0)
+                    total += hL;
+                else if (hL > 0)
+                    add_draw(v, y, hL / total);
+            }
+        }
+}
+
+static bool fill(struct view *v, int x, int y, struct error *err)
+{
+    const struct scene *s = v->job.scene;
+    if (v->learnt == NULL)
+        return error_set(err, "this selection learns nothing about pairs of places; select=subspaces does");
+    if (x < 0 || y < 0 || x >= s->width || y >= s->height)
+        return error_set(err, "pixel %d,%d lies outside the film of %dx%d", x, y, s->width, s->height);
+    if (!look(v, x, y))
+        return error_set(err, "no surface that can be connected to is seen through pixel %d,%d", x, y);
+    v->h = pairs_row(&v->learnt->pairs, v->work->eye[1].eye_region);
+    map_worth(v);
+    map_draws(v);
+    return true;
+}
+
+bool worth_values(const struct scene *scene, const struct render_options *options, int x, int y, float *worth,
+                  float *draws, struct error *err)
+{
+    struct view v = {.worth = worth, .draws = draws};
+    struct preparation prepared;
+    struct pixel_rect all = {0, 0, scene->width, scene->height};
+    if (options->integrator != &integrator_asbdpt)
+        return error_set(err, "only asbdpt learns what places are worth to each other");
+    if (!render_prepare(scene, options, all, &v.job, &prepared, err))
+        return false;
+    v.learnt = v.counts.learnt = asbdpt_learnt(prepared.state);
+    v.counts.direct[0] = v.counts.direct[1] = 1;
+    v.work = workspaces_new(1, v.job.max_depth);
+    bool ok = fill(&v, x, y, err);
+    workspaces_free(v.work, 1);
+    options->integrator->release(prepared.state);
+    return ok;
+}
+
+/* --- the sheet --------------------------------------------------------------------------------------- */
+
+/* Colours by the logarithm of a share of the largest value. */
+static void colour(const float *value, size_t n, float *out)
+{
+    double most = 0;
+    for (size_t i = 0; i < n; i++)
+        most = fmax(most, (double)value[i]);
+    for (size_t i = 0; i < n; i++) {
+        double share = most > 0 ? (double)value[i] / most : 0;
+        viridis(share > 0 ? 1 + log(share) / log(WORTH_RANGE) : 0, &out[3 * i]);
+    }
+}
+
+/* Lit from the camera: surfaces of one colour are told apart. */
+static void shade(const struct scene *scene, float *const aov[N_FIRST_HIT], size_t n)
+{
+    for (size_t i = 0; i < 3 * n; i += 3) {
+        const float *p = &aov[AOV_POSITION][i], *m = &aov[AOV_NORMAL][i];
+        vec3 towards = sub(scene->camera.position, vec((double)p[0], (double)p[1], (double)p[2]));
+        vec3 normal = vec((double)m[0], (double)m[1], (double)m[2]);
+        double length = sqrt(length2(towards));
+        double facing = length > 0 ? fabs(dot(normal, towards)) / length : 0;
+        for (int c = 0; c < 3; c++)
+            aov[AOV_ALBEDO][i + (size_t)c] = float_within((double)aov[AOV_ALBEDO][i + (size_t)c] * facing);
+    }
+}
+
+/* A white square around the pixel, on every picture. */
+static void mark(struct sheet *s, int left, int x, int y, int scale)
+{
+    const float white[3] = {1, 1, 1};
+    for (int i = -2; i <= 2; i++)
+        for (int j = -2; j <= 2; j++)
+            if (i == -2 || i == 2 || j == -2 || j == 2)
+                sheet_paste(s, left + (x + i) * scale, LABEL + (y + j) * scale, white, 1, 1, scale);
+}
+
+static void draw_sheet(struct sheet *s, const struct scene *scene, const float *const picture[3], int x, int y,
+                       int scale)
+{
+    static const char *const labels[3] = {"scene", "worth", "draws"};
+    int width = scene->width * scale;
+    sheet_init(s, 3 * width + 2 * GAP, LABEL + scene->height * scale, PAPER);
+    for (int i = 0; i < 3; i++) {
+        int left = i * (width + GAP);
+        sheet_text(s, left + GAP, (LABEL - TEXT * FONT_HEIGHT) / 2, TEXT, INK, labels[i]);
+        sheet_paste(s, left, LABEL, picture[i], scene->width, scene->height, scale);
+        mark(s, left, x, y, scale);
+    }
+}
+
+bool worth_picture(const struct scene *scene, const struct render_options *options, int x, int y, int scale,
+                   struct sheet *out, struct error *err)
+{
+    size_t n = (size_t)scene->width * (size_t)scene->height;
+    float *value = mem_alloc(2 * n, sizeof *value), *pixels = mem_alloc((2 + N_FIRST_HIT) * 3 * n, sizeof *pixels);
+    float *aov[N_FIRST_HIT];
+    for (int i = 0; i < N_FIRST_HIT; i++)
+        aov[i] = pixels + (size_t)(2 + i) * 3 * n;
+    bool ok = worth_values(scene, options, x, y, value, value + n, err);
+    if (ok) {
+        aov_render(scene, options, aov);
+        shade(scene, aov, n);
+        colour(value, n, pixels);
+        colour(value + n, n, pixels + 3 * n);
+        const float *const picture[3] = {aov[AOV_ALBEDO], pixels, pixels + 3 * n};
+        draw_sheet(out, scene, picture, x, y, scale);
+    }
+    free(value);
+    free(pixels);
+    return ok;
+}

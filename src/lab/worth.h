@@ -1,0 +1,34 @@
+/* worth.h: a picture of what `select = subspaces` has learnt (pairs.h), seen from one surface point.
+ *
+ * The point is what the camera sees through the middle of a pixel. Three pictures side by side, the point marked:
+ *   scene   the colours of what is seen, as lit from the camera
+ *   worth   of every surface seen: h(e,l), what a light vertex there is worth to the point
+ *   draws   where the light vertices are that the point would draw: light sub-paths projected onto the film, each
+ *           vertex with its probability h L, as far as the camera sees it
+ * The last two are coloured by their logarithm, over a factor of WORTH_RANGE below their largest value.
+ *
+ * Tests: test_pictures.c.
+ */
+#ifndef ASBDPT_WORTH_H
+#define ASBDPT_WORTH_H
+
+#include "image/sheet.h"
+#include "render/render.h"
+
+enum { WORTH_RANGE = 1000 };
+
+/* worth_values: the two maps of numbers, before they become colours.
+ *   scene    prepared
+ *   options  of a render with asbdpt; how much is learnt depends on its samples
+ *   x, y     the pixel, within the film
+ *   worth, draws  out, [height*width] of the whole film, >= 0; the draws sum to at most 1
+ * Returns false with a message: a bad parameter, a selection without such a table, or a pixel through which no surface
+ * is seen that can be connected to. */
+bool worth_values(const struct scene *scene, const struct render_options *options, int x, int y, float *worth,
+                  float *draws, struct error *err);
+
+/* worth_picture: all three, labelled, every pixel a square of `scale` pixels. *out is for the caller to free. */
+bool worth_picture(const struct scene *scene, const struct render_options *options, int x, int y, int scale,
+                   struct sheet *out, struct error *err);
+
+#endif
