@@ -56,6 +56,7 @@ ref: asbdpt ## render the stored references of ref/ again (an hour; goes on wher
 # ---- what proves it ----
 test: asbdpt $(BUILD)/test layers libm references columns ## build and run the test suite (under 3 minutes)
 	sh test/cli.sh $(PROGRAM)
+	sh test/mini.sh $(PROGRAM)
 	$(BUILD)/test
 
 check-long: asbdpt $(BUILD)/test experiments builds ## the tests that take longer
