@@ -38,7 +38,7 @@ window.addEventListener('load', () => setTimeout(() => {
   try {
     check(all('img').length > 0 && all('img').every(i => i.complete && i.naturalWidth > 0), 'a picture is missing');
     check(all('img').every(i => i.alt.length > 10), 'a picture has no description');
-    check(all('svg.plot').length >= 4 * all('.viewer').length, 'a plot is missing');
+    check(all('svg.plot').length === 5 * all('.viewer').length, 'a plot is missing');
     check(all('svg.plot').every(s => s.querySelectorAll('path').length > 20 && s.getBoundingClientRect().width > 100),
       'a plot is empty');
     check(all('svg.plot').every(s => s.querySelector('desc').textContent.length > 20), 'a plot has no description');
@@ -49,9 +49,10 @@ window.addEventListener('load', () => setTimeout(() => {
     check(viewers.length > 0, 'no viewer');
     for (const v of viewers) {
       const name = v.dataset.scene + ': ', mode = m => v.querySelector(`input[value=${m}]`).click();
-      const views = all('canvas', v), range = v.querySelector('input[type=range]'), out = v.querySelector('output');
+      const views = all('canvas', v), range = v.querySelector('input.split'), out = v.querySelector('output');
       const buttons = Object.fromEntries(all('button', v).map(b => [b.textContent, b]));
       const visible = e => e.getClientRects().length > 0;
+      const shown = all(`img[data-scene="${v.dataset.scene}"][data-kind=picture]`);
       check(visible(v), name + 'hidden');
       check(views.length === 2 && views.every(visible), name + 'side by side shows two pictures');
       const left = sum(views[0]);
@@ -68,7 +69,7 @@ window.addEventListener('load', () => setTimeout(() => {
       views[1].focus();
       views[1].dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowLeft', bubbles: true, cancelable: true}));
       check(/^pixel \d+, \d+ of/.test(out.textContent) && /reference( +\d+){3}/.test(out.textContent) &&
-        out.textContent.split('\n').length === 6, name + 'the read-out says ' + out.textContent);
+        out.textContent.split('\n').length === 1 + shown.length, name + 'the read-out says ' + out.textContent);
       const before = views.map(sum);
       buttons['+'].click();
       check(sum(views[0]) !== before[0] && sum(views[1]) !== before[1], name + 'zoom reaches both pictures');
@@ -82,6 +83,30 @@ window.addEventListener('load', () => setTimeout(() => {
       const rgb = [...c.getContext('2d').getImageData(0, 0, 1, 1).data].slice(0, 3);
       check(new RegExp('reference +' + rgb.join(' +') + '\\n').test(out.textContent),
             name + 'the values of that pixel');
+
+      // Errors in place of pictures: the heat map of the right one, nothing for the reference.
+      const pictures = views.map(sum);
+      mode('error');
+      const heat = all(`img[data-scene="${v.dataset.scene}"][data-kind=error]`);
+      check(heat.length === shown.length - 1 && sum(views[1]) !== pictures[1], name + 'errors are shown');
+      check(sum(views[0]) !== pictures[0], name + 'the reference shows no picture among errors');
+      mode('picture');
+      check(views.map(sum).join() === pictures.join(), name + 'the pictures again');
+
+      // Exposure: two stops down and back; 8-bit values become those of a quarter of the light.
+      const slider = v.querySelector('input.exposure');
+      const stops = n => { slider.value = n; slider.dispatchEvent(new Event('input')); };
+      const readReference = () => /reference((?: +\d+){3})/.exec(out.textContent)[1].trim().split(/ +/).map(Number);
+      const linear = b => b / 255 <= 0.04045 ? b / 255 / 12.92 : ((b / 255 + 0.055) / 1.055) ** 2.4;
+      const dim = readReference();
+      stops(-2);
+      const dimmer = readReference();
+      const near = 0.01 + 0.03 * linear(Math.max(...dim));
+      check(dim.every((b, i) => b === 255 || Math.abs(linear(dimmer[i]) * 4 - linear(b)) < near),
+            name + 'two stops down: ' + dim + ' became ' + dimmer);
+      check(sum(views[0]) !== pictures[0] && sum(views[1]) !== pictures[1], name + 'exposure reaches both pictures');
+      stops(0);
+      check(views.map(sum).join() === pictures.join(), name + 'exposure 0 shows the pictures of the page');
 
       mode('slider');
       check(visible(range) && !visible(views[1]), name + 'the slider has one picture and a handle');
@@ -98,6 +123,8 @@ window.addEventListener('load', () => setTimeout(() => {
       check(one !== two && sum(views[0]) === one, name + 'flip shows one, the other, and the first again');
       mode('side');
     }
+    check(all('a[href$=".csv"]').length === 2, 'links to the numbers');
+    check(all('figure.strategies img').length === viewers.length, 'a pyramid of strategies for each scene');
     const scene = document.querySelector('section[id^=scene-] table'), heads = all('thead button', scene);
     const column = i => all('tbody tr', scene).map(row => Number(row.cells[i].dataset.value));
     const rises = x => x.every((v, i) => i === 0 || v >= x[i - 1]);
@@ -116,7 +143,7 @@ END
 } >"$dir/reader.html"
 
 failures=0
-for width in 1200 500; do
+for width in 1280 500; do
     browse --window-size=$width,900 --dump-dom "file://$dir/reader.html" >"$dir/dom.html"
     title=$(grep -o '<title>[^<]*</title>' "$dir/dom.html" | head -n 1)
     if [ "$title" != "<title>ALL RIGHT</title>" ]; then

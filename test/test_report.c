@@ -353,13 +353,46 @@ static void check_tables(struct test *t, const struct results *r)
     table_free(&table);
 }
 
+/* What the range of a picture is decoded to is the picture, but for half a step of its brightest channel's mantissa. */
+static void check_range(struct test *t, const struct results *r)
+{
+    const struct scene_results *s = &r->scene[0];
+    struct image img;
+    struct error err = {""};
+    char path[512];
+    double largest = 0;
+    pictures_range_path(r, s, VARIANT_POOL, path, sizeof path);
+    if (!CHECK(t, image_read(path, &img, &err), "%s", err.text))
+        return;
+    int half = 3 * s->width * s->height;
+    for (int i = 0; img.height == 2 * s->height && i < half; i++) {
+        const float *pixel = s->image[VARIANT_POOL] + i / 3 * 3;
+        double most = fmax((double)pixel[0], fmax((double)pixel[1], (double)pixel[2]));
+        double value = img.u8[half + i] > 0 ? ldexp((img.u8[i] + 0.5) / 256, img.u8[half + i] - 128) : 0;
+        largest = fmax(largest, fabs(value - (double)pixel[i % 3]) - most / 256);
+    }
+    CHECK(t, img.height == 2 * s->height && largest < 1e-6, "the decoded range is off by %g", largest);
+    image_free(&img);
+    static const float extremes[][3] = {{-1, 0, 0}, {NAN, NAN, NAN}, {INFINITY, 1, 1}, {1e-38f, 0, 0}};
+    uint8_t code[4];
+    for (int i = 0; i < 4; i++) {
+        pictures_encode_range(extremes[i], code);
+        CHECK(t, code[3] == 0, "extreme %d has exponent %d", i, code[3]);
+    }
+    const float mixed[3] = {NAN, -1, 3};
+    pictures_encode_range(mixed, code);
+    CHECK(t, code[0] == 0 && code[1] == 0 && code[2] == 192 && code[3] == 130, "%d %d %d %d", code[0], code[1], code[2],
+          code[3]);
+}
+
 /* Every file the experiment leaves is well-formed, and the page needs nothing but itself. */
 static void check_output(struct test *t, const struct results *r)
 {
-    static const char *const plots[] = {"convergence", "bias", "paths-per-set", "restart-limit"};
+    static const char *const plots[] = {"convergence", "samples", "bias", "paths-per-set", "restart-limit"};
     struct error err = {""};
     CHECK(t, report_write(r, &err), "output: %s", err.text);
-    for (size_t i = 0; i < 4; i++) {
+    check_range(t, r);
+    for (size_t i = 0; i < sizeof plots / sizeof plots[0]; i++) {
         char name[128];
         snprintf(name, sizeof name, "plots/cornell-box-%s.svg", plots[i]);
         char *svg = output_of(t, r, name);
@@ -383,7 +416,8 @@ static void check_output(struct test *t, const struct results *r)
         images++;
         with_text += strncmp(p, "<img alt=\"", 10) == 0 && p[10] != '"';
     }
-    CHECK(t, images == (2 * N_COMPARED + 1) * (1 + N_DETAILS) && with_text == images, "%d images, %d described",
+    int shown = (2 * N_COMPARED + 1) * (1 + N_DETAILS), ranges = N_COMPARED + 1;
+    CHECK(t, images == shown + ranges + 1 && with_text == images, "%d images, %d described",
           images, with_text);
     CHECK(t,
           strstr(html, "src=\"http") == NULL && strstr(html, "href=\"http") == NULL && strstr(html, "url(") == NULL,

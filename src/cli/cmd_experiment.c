@@ -34,7 +34,7 @@ static const struct option OPTIONS[] = {
      .help = "scene files (default: five of scenes/, with --equal-time all)"},
     {"-o", "DIR", OPTION_TEXT, AT(directory), 1,
      .help = "a directory for its results; started again with the same, it goes on where it stopped"},
-    {"--quick", NULL, OPTION_OFF, AT(full), .help = "48 pixels wide, 8 to 64 spp (default)"},
+    {"--quick", NULL, OPTION_OFF, AT(full), .help = "at the sizes of the references, 8 to 64 spp (default)"},
     {"--full", NULL, OPTION_ON, AT(full), .help = "320 pixels wide, 32 to 512 spp, and all parameter sweeps"},
     {"--equal-time", "[SECONDS]", OPTION_PERHAPS, AT(equal_time), 0.001, 1e6,
      .help = "give each the CPU time of bdpt's --spp 32, or so many seconds; at the references' sizes"},

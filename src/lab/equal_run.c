@@ -13,7 +13,7 @@
 #include "lab/experiment.h"
 #include "render/render.h"
 
-enum { CALIBRATION_SPP = 4, CORRECTIONS = 3, WIDTH_WITHOUT_REFERENCE = 48, REFERENCE_SEED = 100001 };
+enum { CALIBRATION_SPP = 4, CORRECTIONS = 3, REFERENCE_SEED = 100001 };
 static const double NEAR = 0.03; /* a time this near needs no correction */
 
 /* A scene being measured. */
@@ -117,19 +117,10 @@ static bool measure_variant(struct subject *s, int variant, int seed)
 
 /* --- scenes ------------------------------------------------------------------------------------------ */
 
-/* The size and depth of the stored reference where the plan leaves them open. */
 static bool load_scene(struct subject *s)
 {
-    const struct plan *p = s->whole->plan;
     struct equal_scene *out = s->out;
-    int width = p->width, height = p->height, depth = p->max_depth, stored[3];
-    if (reference_shape(p->reference, out->path, out->name, stored)) {
-        width = width > 0 ? width : stored[0];
-        height = p->width > 0 ? height : stored[1];
-        depth = depth > 0 ? depth : stored[2];
-    }
-    if (!experiment_scene(out->path, width > 0 ? width : WIDTH_WITHOUT_REFERENCE, height, depth, &s->scene,
-                          &out->max_depth, s->err))
+    if (!experiment_planned_scene(s->whole->plan, out->path, out->name, &s->scene, &out->max_depth, s->err))
         return false;
     out->width = s->scene.width;
     out->height = s->scene.height;

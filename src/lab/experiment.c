@@ -10,16 +10,15 @@
 #include <sys/stat.h>
 #include <time.h>
 
-#include "image/zlib.h"
-#include "lab/compare.h"
-#include "image/image.h"
 #include "base/mem.h"
 #include "base/progress.h"
 #include "image/image.h"
+#include "image/zlib.h"
 #include "lab/compare.h"
+#include "lab/pyramid.h"
 #include "parser/parser.h"
 
-enum { PATH_SIZE = 4096, KEY_SIZE = 1024, REFERENCE_SEED = 100001 };
+enum { PATH_SIZE = 4096, KEY_SIZE = 1024, REFERENCE_SEED = 100001, PYRAMID_SPP = 64, PYRAMID_LENGTH = 5 };
 
 /* The experiment under way, and the share of it that is done; in samples per pixel, scenes being of similar size. */
 struct experiment {
@@ -306,11 +305,22 @@ bool experiment_scene(const char *path, int width, int height, int max_depth, st
     return true;
 }
 
+bool experiment_planned_scene(const struct plan *p, const char *path, const char *name, struct scene *scene, int *depth,
+                              struct error *err)
+{
+    int width = p->width, height = p->height, max_depth = p->max_depth, stored[3];
+    if (width == 0 && reference_shape(p->reference, path, name, stored)) {
+        width = stored[0];
+        height = stored[1];
+        max_depth = max_depth > 0 ? max_depth : stored[2];
+    }
+    return experiment_scene(path, width > 0 ? width : WIDTH_WITHOUT_REFERENCE, height, max_depth, scene, depth, err);
+}
+
 static bool load_scene(struct scene_experiment *s)
 {
-    const struct plan *p = s->whole->plan;
     struct scene_results *r = s->out;
-    if (!experiment_scene(r->path, p->width, p->height, p->max_depth, &s->scene, &r->max_depth, s->whole->err))
+    if (!experiment_planned_scene(s->whole->plan, r->path, r->name, &s->scene, &r->max_depth, s->whole->err))
         return false;
     r->width = s->scene.width;
     r->height = s->scene.height;
@@ -327,12 +337,29 @@ static bool all_runs(struct scene_experiment *s)
     return true;
 }
 
+/* All strategies of bdpt, of few samples: what they are is to be seen, not their noise. */
+static bool render_pyramid(struct scene_experiment *s)
+{
+    const struct plan *p = s->whole->plan;
+    struct render_options o = options_of(s, VARIANT_BDPT, 0, p->spp[p->n_steps - 1]);
+    struct film film;
+    char path[PATH_SIZE];
+    o.end = o.end < PYRAMID_SPP ? o.end : PYRAMID_SPP;
+    o.max_depth = o.max_depth < PYRAMID_LENGTH ? o.max_depth : PYRAMID_LENGTH;
+    begin_film(s, &film);
+    film_keep_strategies(&film, o.max_depth);
+    snprintf(path, sizeof path, "%s/images/%s-strategies.png", p->directory, s->out->name);
+    bool ok = render_scene(&s->scene, &o, &film, s->whole->err) && pyramid_write(path, &film, s->whole->err);
+    film_free(&film);
+    return ok;
+}
+
 static bool measure_scene(struct experiment *e, int number)
 {
     struct scene_experiment s = {.whole = e, .out = &e->results->scene[number]};
     if (!load_scene(&s))
         return false;
-    bool ok = find_or_make_reference(&s) && all_runs(&s);
+    bool ok = find_or_make_reference(&s) && all_runs(&s) && render_pyramid(&s);
     scene_free(&s.scene);
     return ok;
 }

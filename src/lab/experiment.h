@@ -28,6 +28,12 @@ bool experiment_run(const struct plan *plan, struct results *out, struct error *
 bool experiment_scene(const char *path, int width, int height, int max_depth, struct scene *scene, int *depth,
                       struct error *err);
 
+/* experiment_planned_scene: the same at the plan's size and depth. Where the plan leaves the width open, size and depth
+ * are those of the stored reference; without one it is WIDTH_WITHOUT_REFERENCE wide. */
+enum { WIDTH_WITHOUT_REFERENCE = 48 };
+bool experiment_planned_scene(const struct plan *p, const char *path, const char *name, struct scene *scene, int *depth,
+                              struct error *err);
+
 /* experiment_directory: make a directory and those above it unless they are there. Returns false with a message. */
 bool experiment_directory(const char *wanted, struct error *err);
 

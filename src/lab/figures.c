@@ -36,6 +36,7 @@ static const struct {
     const char *name, *title, *x_label, *y_label;
 } TEXTS[N_FIGURES] = {
     {"convergence", "error against time", "seconds of CPU", "RMSE, 8-bit scale"},
+    {"samples", "error against samples", "samples per pixel", "RMSE, 8-bit scale"},
     {"bias", "signed mean error against samples", "samples per pixel", "mean error, percent"},
     {"paths-per-set", "paths per bin set", "samples per pixel", "RMSE, 8-bit scale"},
     {"restart-limit", "restart limit", "samples per pixel", "RMSE, 8-bit scale"},

@@ -11,7 +11,7 @@
 
 #include "lab/results.h"
 
-enum figure { FIGURE_CONVERGENCE, FIGURE_BIAS, FIGURE_PATHS, FIGURE_RESTART, N_FIGURES };
+enum figure { FIGURE_CONVERGENCE, FIGURE_SAMPLES, FIGURE_BIAS, FIGURE_PATHS, FIGURE_RESTART, N_FIGURES };
 
 /* figure_name: for file names. */
 const char *figure_name(enum figure f);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/number.h"
 #include "image/image.h"
 #include "lab/compare.h"
 
@@ -18,6 +19,12 @@ void picture_path(const struct results *r, const struct scene_results *s, int va
         snprintf(suffix, sizeof suffix, "-detail%d", detail);
     snprintf(out, size, "%s/images/%s-%s%s%s.png", r->plan->directory, s->name,
              variant == PICTURE_REFERENCE ? "reference" : VARIANTS[variant].name, error ? "-error" : "", suffix);
+}
+
+void pictures_range_path(const struct results *r, const struct scene_results *s, int variant, char *out, size_t size)
+{
+    snprintf(out, size, "%s/images/%s-%s-range.png", r->plan->directory, s->name,
+             variant == PICTURE_REFERENCE ? "reference" : VARIANTS[variant].name);
 }
 
 static size_t values(const struct scene_results *s) { return (size_t)s->width * (size_t)s->height * 3; }
@@ -81,6 +88,37 @@ static bool write_detail(const char *path, const struct scene_results *s, const 
     return ok;
 }
 
+void pictures_encode_range(const float value[3], uint8_t out[4])
+{
+    int exponent;
+    double most = fmax((double)value[0], fmax((double)value[1], (double)value[2])); /* fmax leaves NaN out */
+    memset(out, 0, 4);
+    if (!(most > 1e-32 && most < 1e32)) /* floats go a little farther than exponents of a byte */
+        return;
+    frexp(most, &exponent);
+    for (int c = 0; c < 3; c++)
+        out[c] = (uint8_t)int_within(ldexp((double)value[c], 8 - exponent), 0, 255);
+    out[3] = (uint8_t)(exponent + 128);
+}
+
+/* The bytes as a picture: image_write turns linear values to sRGB bytes, so these are turned back first. */
+static bool write_range(const char *path, const float *pixels, int width, int height, struct error *err)
+{
+    size_t n = (size_t)width * (size_t)height;
+    float *out = mem_alloc(n * 6, sizeof *out);
+    for (size_t i = 0; i < n; i++) {
+        uint8_t code[4];
+        pictures_encode_range(pixels + 3 * i, code);
+        for (size_t c = 0; c < 3; c++) {
+            out[3 * i + c] = (float)srgb_decode(code[c] / 255.0);
+            out[3 * (n + i) + c] = (float)srgb_decode(code[3] / 255.0);
+        }
+    }
+    bool ok = image_write(path, width, 2 * height, out, err);
+    free(out);
+    return ok;
+}
+
 /* A picture and its details. */
 static bool write_all(const struct results *r, const struct scene_results *s, int variant, bool error,
                       const float *pixels, const struct detail *detail, struct error *err)
@@ -92,7 +130,8 @@ static bool write_all(const struct results *r, const struct scene_results *s, in
         picture_path(r, s, variant, error, i + 1, path, sizeof path);
         ok = write_detail(path, s, pixels, &detail[i], err);
     }
-    return ok;
+    pictures_range_path(r, s, variant, path, sizeof path);
+    return ok && (error || write_range(path, pixels, s->width, s->height, err));
 }
 
 /* Errors of all variants' 8-bit values, 0 to 255. [N_COMPARED][height*width], to be freed. */

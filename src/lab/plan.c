@@ -26,7 +26,7 @@ const struct sweep_point SWEEPS[N_SWEEPS][SWEEP_LENGTH] = {
 void plan_preset(struct plan *p, bool quick)
 {
     p->quick = quick;
-    p->width = quick ? 48 : 320;
+    p->width = quick ? 0 : 320;
     p->height = 0;
     p->n_seeds = 3;
     p->sweep_seeds = 1;

@@ -53,8 +53,8 @@ struct plan {
     long spp[PLAN_MAX_STEPS]; /* [n_steps] rising; errors are measured at each */
     int n_steps;
     int n_seeds, sweep_seeds; /* repetitions of what is compared everywhere and of the sweeps */
-    int width, height;        /* height 0: from the scene's aspect ratio */
-    int max_depth;            /* 0: the scene's */
+    int width, height;        /* width 0: the stored reference's; height 0: from the scene's aspect ratio */
+    int max_depth;            /* 0: the stored reference's if the width is 0 too, else the scene's */
     long reference_spp;       /* of a reference made here */
     int n_threads;
     bool quiet;
@@ -62,7 +62,8 @@ struct plan {
     const char *reference; /* file or directory of stored references; NULL: ref/ beside the scene */
 };
 
-/* plan_preset: quick: 48 pixels wide, 8 to 64 spp, some of the sweeps; full: 320 pixels wide, 32 to 512 spp. */
+/* plan_preset: quick: at the size of the stored references, 8 to 64 spp, some of the sweeps; full: 320 pixels wide, 32
+ * to 512 spp. */
 void plan_preset(struct plan *p, bool quick);
 
 /* plan_set_spp: measure at first, 2 first, 4 first ... up to `last`, which is always the last step. Returns false

@@ -13,7 +13,7 @@
 
 enum { GAP = 4, LEFT = 64, TOP = 40, SHEET_WIDTH = 1024, CELL_MIN = 48, CELL_MAX = 192 };
 static const double PAPER = 0.12, INK = 0.92; /* greys */
-static const double PERCENTILE = 98;          /* of a row's values that stay below white */
+static const double PERCENTILE = 90;          /* of a row's values that stay below white */
 
 /* How strategies are laid out: pictures of film size, shrunk or enlarged by whole factors. */
 struct layout {

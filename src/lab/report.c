@@ -35,7 +35,9 @@ static void write_findings(FILE *f, const struct results *r, const struct scene_
 static void write_command(FILE *f, const struct results *r, void (*text)(FILE *, const char *))
 {
     const struct plan *p = r->plan;
-    fprintf(f, "./asbdpt experiment --%s --res %d", p->quick ? "quick" : "full", p->width);
+    fprintf(f, "./asbdpt experiment --%s", p->quick ? "quick" : "full");
+    if (p->width > 0)
+        fprintf(f, " --res %d", p->width);
     if (p->height > 0)
         fprintf(f, "x%d", p->height);
     fprintf(f, " --spp %ld --seeds %d --reference-spp %ld", p->spp[p->n_steps - 1], p->n_seeds, p->reference_spp);
@@ -105,25 +107,52 @@ static void write_alt(FILE *f, const struct results *r, const struct scene_resul
         fprintf(f, ", %ld samples per pixel, RMSE %.3g", r->plan->spp[r->plan->n_steps - 1], shown_rmse(r, s, variant));
 }
 
+/* The src of an img, with a PNG file inside the page. */
+static bool write_source(FILE *f, const char *path, struct error *err)
+{
+    uint8_t *data;
+    size_t size;
+    if (!file_read(path, &data, &size, err))
+        return false;
+    fputs(" src=\"data:image/png;base64,", f);
+    base64(f, data, size);
+    fputs("\"", f);
+    free(data);
+    return true;
+}
+
+/* What the viewer finds a picture by. */
+static void write_data(FILE *f, const struct scene_results *s, int variant, const char *kind)
+{
+    xml_print(f, " data-scene=\"%s\" data-kind=\"%s\" data-label=\"%s\"", s->name, kind, subject(variant));
+}
+
+/* A picture's range, for the viewer alone. */
+static bool write_range(FILE *f, const struct results *r, const struct scene_results *s, int variant, struct error *err)
+{
+    char path[4096];
+    pictures_range_path(r, s, variant, path, sizeof path);
+    fprintf(f, "<img alt=\"the range of %s\" hidden", subject(variant));
+    write_data(f, s, variant, "range");
+    bool ok = write_source(f, path, err);
+    fputs(">\n", f);
+    return ok;
+}
+
 /* One picture as a figure, its file inside the page. Whole pictures are also offered to the viewer. */
 static bool write_picture(FILE *f, const struct results *r, const struct scene_results *s, int variant, bool error,
                           int detail, struct error *err)
 {
     char path[4096];
-    uint8_t *data;
-    size_t size;
-    picture_path(r, s, variant, error, detail, path, sizeof path);
-    if (!file_read(path, &data, &size, err))
-        return false;
     fputs("<figure><img alt=\"", f);
     write_alt(f, r, s, variant, error, detail);
+    fputs("\"", f);
     if (detail == 0)
-        xml_print(f, "\" data-scene=\"%s\" data-kind=\"%s\" data-label=\"%s%s", s->name, error ? "error" : "picture",
-                  subject(variant), error ? ": error" : "");
-    fputs("\" src=\"data:image/png;base64,", f);
-    base64(f, data, size);
-    free(data);
-    fprintf(f, "\"><figcaption>%s%s", subject(variant), error ? ": error" : "");
+        write_data(f, s, variant, error ? "error" : "picture");
+    picture_path(r, s, variant, error, detail, path, sizeof path);
+    if (!write_source(f, path, err))
+        return false;
+    fprintf(f, "><figcaption>%s%s", subject(variant), error ? ": error" : "");
     if (variant != PICTURE_REFERENCE && detail == 0 && !error)
         fprintf(f, ", RMSE %.3f", shown_rmse(r, s, variant));
     fputs("</figcaption></figure>\n", f);
@@ -137,7 +166,8 @@ static bool write_row(FILE *f, const struct results *r, const struct scene_resul
     bool ok = true;
     fputs("<div class=\"grid\">\n", f);
     for (int v = error ? 0 : PICTURE_REFERENCE; ok && v < N_COMPARED; v++)
-        ok = write_picture(f, r, s, v, error, detail, err);
+        ok = write_picture(f, r, s, v, error, detail, err) &&
+             (error || detail > 0 || write_range(f, r, s, v, err));
     fputs("</div>\n", f);
     return ok;
 }
@@ -152,8 +182,8 @@ static bool write_pictures(FILE *f, const struct results *r, const struct scene_
         return false;
     fprintf(f,
             "<h3>Where the errors are</h3>\n"
-            "<p class=\"scale\"><span>0</span><i></i><span>%.4g of 255 and more: 99 %% of all methods' pixels err less"
-            "</span></p>\n",
+            "<p class=\"scale\"><span>0</span><i></i><span>%.4g of 255 and more; 99 %% of all pixels err less</span>"
+            "</p>\n",
             pictures_error_scale(s));
     bool ok = write_row(f, r, s, true, 0, err);
     for (int i = 1; ok && i <= N_DETAILS; i++) {
@@ -180,6 +210,22 @@ static void write_plots(FILE *f, const struct results *r, const struct scene_res
     fputs("</div>\n", f);
 }
 
+static bool write_strategies(FILE *f, const struct results *r, const struct scene_results *s, struct error *err)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s/images/%s-strategies.png", r->plan->directory, s->name);
+    xml_print(f,
+              "<h3>Strategies of BDPT</h3>\n<figure class=\"strategies\"><img alt=\"%s: a row of pictures for each "
+              "path length, each strategy by itself\"",
+              s->name);
+    if (!write_source(f, path, err))
+        return false;
+    fputs("><figcaption>Strategy s has s vertices of its path from the light, the others from the lens. Above each by "
+          "itself, below what the weights leave of it, which adds up to the picture; each row is brightened by the "
+          "factor beside it.</figcaption></figure>\n", f);
+    return true;
+}
+
 static bool write_scene(FILE *f, const struct results *r, const struct scene_results *s, struct error *err)
 {
     xml_print(f,
@@ -188,6 +234,8 @@ static bool write_scene(FILE *f, const struct results *r, const struct scene_res
               s->name, s->name, s->width, s->height, s->max_depth, s->reference.origin);
     write_findings(f, r, s, true);
     if (!write_pictures(f, r, s, err))
+        return false;
+    if (!write_strategies(f, r, s, err))
         return false;
     write_plots(f, r, s);
     fputs("<h3>Tables</h3>\n", f);
@@ -208,7 +256,10 @@ static void write_head(FILE *f, const struct results *r)
           "<p class=\"lead\">",
           f);
     write_lead(f, r);
-    fputs("</p>\n<nav aria-label=\"Contents\"><ul>\n<li><a href=\"#all\">All scenes</a></li>\n", f);
+    fputs("</p>\n<p>The numbers: <a href=\"results.csv\">results.csv</a> (means and standard errors over seeds), "
+          "<a href=\"runs.csv\">runs.csv</a> (every run).</p>\n"
+          "<nav aria-label=\"Contents\"><ul>\n<li><a href=\"#all\">All scenes</a></li>\n",
+          f);
     for (int i = 0; i < r->plan->n_scenes; i++)
         xml_print(f, "<li><a href=\"#scene-%s\">%s</a></li>\n", r->scene[i].name, r->scene[i].name);
     fputs("<li><a href=\"#how\">How to read and repeat this</a></li>\n</ul></nav>\n</header>\n<main>\n", f);
@@ -227,9 +278,8 @@ static void write_how(FILE *f, const struct results *r)
             bathroom[0], bathroom[PUBLISHED_STEPS - 1], first, last, bathroom[0] / sqrt((double)last / (double)first));
     fputs("<p>The same results, up to the times:</p>\n<pre>", f);
     write_command(f, r, xml_text);
-    fputs("</pre>\n<p>Beside this page: <code>results.csv</code>, <code>runs.csv</code>, <code>results.md</code>, the "
-          "pictures in <code>images/</code>, the plots in <code>plots/</code>.</p>\n</section>\n",
-          f);
+    fputs("</pre>\n<p>Beside this page: the pictures in <code>images/</code>, the plots in <code>plots/</code>, the "
+          "sentences and tables in <a href=\"results.md\">results.md</a>.</p>\n</section>\n", f);
 }
 
 static bool write_html(FILE *f, const struct results *r, struct error *err)
