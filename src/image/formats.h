@@ -62,4 +62,8 @@ bool rgbe_matches(const uint8_t *data, size_t size);
 bool rgbe_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
 void rgbe_write(FILE *f, int width, int height, const float *pixels);
 
+/* rgbe_encode: a pixel as three mantissas m and an exponent e, each component m 2^(e - 136) [Ward 1991]. The exponent
+ * is such that the largest mantissa is at least 128; negative numbers and NaN become 0. */
+void rgbe_encode(const float *rgb, uint8_t *out);
+
 #endif

@@ -189,8 +189,7 @@ bool rgbe_read(const uint8_t *data, size_t size, struct image *out, struct error
 
 /* --- writing ------------------------------------------------------------------------------------------ */
 
-/* The exponent is such that the largest component is at least 128; negative numbers and NaN become 0. */
-static void encode(const float *rgb, uint8_t *out)
+void rgbe_encode(const float *rgb, uint8_t *out)
 {
     float part[3], largest = 0;
     for (int c = 0; c < 3; c++) {
@@ -215,7 +214,7 @@ void rgbe_write(FILE *f, int width, int height, const float *pixels)
     fprintf(f, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n", height, width);
     for (size_t y = 0; y < (size_t)height; y++) {
         for (size_t x = 0; x < (size_t)width; x++)
-            encode(pixels + (y * (size_t)width + x) * 3, row + 4 * x);
+            rgbe_encode(pixels + (y * (size_t)width + x) * 3, row + 4 * x);
         fwrite(row, 4, (size_t)width, f);
     }
     free(row);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/maths.h"
 #include "base/mem.h"
 #include "image/colormap.h"
 #include "image/image.h"
@@ -30,7 +31,7 @@ struct difference compare_pixels(const float *x, const float *r, long n)
     if (count > 0) {
         d.rmse = sqrt(square / count);
         d.rmse8 = sqrt(square8 / count);
-        d.psnr = d.rmse8 > 0 ? 20 * log10(255 / d.rmse8) : HUGE_VAL;
+        d.psnr = d.rmse8 > 0 ? 20 * m_log10(255 / d.rmse8) : HUGE_VAL;
         d.relmse = relative / count;
     }
     if (sum_r != 0 || sum_x != 0)

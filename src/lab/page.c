@@ -185,7 +185,7 @@ static const char *const SCRIPT[] = {
     "    linear(range) {",
     "      const code = pixelsOf(range), n = code.length / 2, out = new Float32Array(n);",
     "      for (let i = 0; i < n; i++)",
-    "        if (i % 4 < 3 && code[n + i] > 0) out[i] = (code[i] + 0.5) / 256 * 2 ** (code[n + i] - 128);",
+    "        if (i % 4 < 3 && code[n + i] > 0) out[i] = code[i] * 2 ** (code[n + i] - 136);",
     "      return out;",
     "    }",
     "",

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "base/number.h"
+#include "image/formats.h"
 #include "image/image.h"
 #include "lab/compare.h"
 
@@ -88,19 +88,6 @@ static bool write_detail(const char *path, const struct scene_results *s, const 
     return ok;
 }
 
-void pictures_encode_range(const float value[3], uint8_t out[4])
-{
-    int exponent;
-    double most = fmax((double)value[0], fmax((double)value[1], (double)value[2])); /* fmax leaves NaN out */
-    memset(out, 0, 4);
-    if (!(most > 1e-32 && most < 1e32)) /* floats go a little farther than exponents of a byte */
-        return;
-    frexp(most, &exponent);
-    for (int c = 0; c < 3; c++)
-        out[c] = (uint8_t)int_within(ldexp((double)value[c], 8 - exponent), 0, 255);
-    out[3] = (uint8_t)(exponent + 128);
-}
-
 /* The bytes as a picture: image_write turns linear values to sRGB bytes, so these are turned back first. */
 static bool write_range(const char *path, const float *pixels, int width, int height, struct error *err)
 {
@@ -108,7 +95,7 @@ static bool write_range(const char *path, const float *pixels, int width, int he
     float *out = mem_alloc(n * 6, sizeof *out);
     for (size_t i = 0; i < n; i++) {
         uint8_t code[4];
-        pictures_encode_range(pixels + 3 * i, code);
+        rgbe_encode(pixels + 3 * i, code);
         for (size_t c = 0; c < 3; c++) {
             out[3 * i + c] = (float)srgb_decode(code[c] / 255.0);
             out[3 * (n + i) + c] = (float)srgb_decode(code[3] / 255.0);

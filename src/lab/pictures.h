@@ -10,8 +10,6 @@
 #ifndef ASBDPT_PICTURES_H
 #define ASBDPT_PICTURES_H
 
-#include <stdint.h>
-
 #include "lab/results.h"
 
 enum { PICTURE_REFERENCE = -1, N_DETAILS = 2, PICTURES_PERCENTILE = 99 };
@@ -27,13 +25,9 @@ void picture_path(const struct results *r, const struct scene_results *s, int va
                   char *out, size_t size);
 
 /* pictures_range_path: DIRECTORY/images/... of the picture with its whole range of values, for the exposure of the
- * page's viewer: a PNG of twice the height whose upper half holds the mantissas of three channels and whose lower
- * half, in all channels, their common exponent [Ward 1991]. A channel is (mantissa + 1/2) / 256 * 2^(exponent - 128),
- * and 0 where the exponent is 0. */
+ * page's viewer: a PNG of twice the height whose upper half holds the mantissas of rgbe_encode and whose lower half, in
+ * all channels, their common exponent. */
 void pictures_range_path(const struct results *r, const struct scene_results *s, int variant, char *out, size_t size);
-
-/* pictures_encode_range: the bytes of one pixel, mantissas and exponent; negative values and NaN as 0. */
-void pictures_encode_range(const float value[3], uint8_t out[4]);
 
 /* pictures_find_details: choose the windows. */
 void pictures_find_details(const struct scene_results *s, struct detail out[N_DETAILS]);

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/maths.h"
 #include "base/mem.h"
 #include "base/number.h"
 #include "image/image.h"
@@ -61,7 +62,7 @@ static double row_exposure(const struct film *film, int depth)
     }
     double bright = compare_percentile(total, (long)n, PERCENTILE);
     free(total);
-    return bright > 0 && bright < 1 ? exp2(int_within(floor(-log2(bright)), 0, 16)) : 1;
+    return bright > 0 && bright < 1 ? ldexp(1, int_within(floor(-m_log2(bright)), 0, 16)) : 1;
 }
 
 static void paste_strategy(struct sheet *sheet, const struct layout *l, const struct film *film, int x, int y, int s,
