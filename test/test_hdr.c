@@ -209,7 +209,8 @@ static void test_refused(struct test *t)
     };
     static const struct {
         const char *attribute; /* "": from the beginning of the file */
-        size_t at, n;          /* bytes changed: the first n of `bytes` at this offset */
+        long at; /* bytes changed: the first n of `bytes` at this offset */
+        size_t n;
         const char *bytes, *message;
     } CHANGES[] = {
         {"", 0, 1, "w", "not an OpenEXR file"},
@@ -222,12 +223,12 @@ static void test_refused(struct test *t)
         {"compression", 0, 1, "\14", "unknown OpenEXR compression 12"},
         {"compression", 0, 1, "\3", "no valid zlib header"},
         {"compression", 0, 1, "\4", "compressed data are truncated"},
-        {"compression", (size_t)0 - 28, 1, "x", "no attribute \"compression\""},
-        {"compression", (size_t)0 - 16, 1, "x", "attribute \"compression\" is of another type"},
+        {"compression", -28, 1, "x", "no attribute \"compression\""},
+        {"compression", -16, 1, "x", "attribute \"compression\" is of another type"},
         {"channels", 2, 1, "\3", "unknown type 3"},
         {"channels", 10, 1, "\2", "subsampled"},
-        {"channels", (size_t)0 - 4, 4, "\1\0\0\0", "list of channels has no end"},
-        {"channels", (size_t)0 - 4, 4, "\xff\xff\xff\xff", "truncated in its attribute \"channels\""},
+        {"channels", -4, 4, "\1\0\0\0", "list of channels has no end"},
+        {"channels", -4, 4, "\xff\xff\xff\xff", "truncated in its attribute \"channels\""},
         {"channels", 0, 1, "\0", "names no channel"},
         {"dataWindow", 8, 4, "\xff\xff\xff\xff", "empty"},
         {"dataWindow", 12, 4, "\0\0\0\x80", "empty"},
@@ -248,7 +249,7 @@ static void test_refused(struct test *t)
         if (data == NULL)
             return;
         size_t start = CHANGES[i].attribute[0] != '\0' ? value_of(data, n, CHANGES[i].attribute) : 0;
-        memcpy(data + start + CHANGES[i].at, CHANGES[i].bytes, CHANGES[i].n);
+        memcpy(data + (long)start + CHANGES[i].at, CHANGES[i].bytes, CHANGES[i].n);
         check_refused(t, exr_read, data, n, CHANGES[i].message);
         free(data);
     }
