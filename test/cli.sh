@@ -302,6 +302,20 @@ expect 0 '' "$program" convert "$scenes/../ref/bathroom.pfm" ref.float.exr
 expect 0 '' "$program" verify --images ref.float.exr "$scenes/../ref/bathroom.error.pfm" \
     "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm"
 check grep -q 'verdict: identical' stdout.txt
+for picture in light.pfm x.float.exr; do # the same numbers are the same light and the same texture
+    cat >maps.pbrt <<END
+LookAt 0 0 -5 0 0 0 0 1 0
+WorldBegin
+LightSource "infinite" "string mapname" "$picture"
+Texture "map" "spectrum" "imagemap" "string filename" "$picture"
+Material "matte" "texture Kd" "map"
+Shape "sphere"
+WorldEnd
+END
+    expect 0 '' "$program" render maps.pbrt $small -o maps.$picture
+done
+expect 0 '' "$program" convert maps.x.float.exr maps.exr.pfm
+check cmp -s maps.light.pfm maps.exr.pfm
 expect 1 'nothing.exr' "$program" convert nothing.exr x.png
 expect 1 'x.jpg: pictures are written as' "$program" convert light.pfm x.jpg
 expect 1 'no/such/dir' "$program" convert light.pfm no/such/dir/x.png

@@ -17,8 +17,8 @@ struct image {
     int width, height;
     int channels;      /* 1 grey or 3 RGB; an alpha channel is dropped on reading */
     uint8_t *u8;       /* [height*width*channels], as stored in the file (usually sRGB encoded); owned */
-    float *f32;        /* [height*width*channels]; PFM as stored; 16-bit files as value/65535; owned */
-    bool linear;       /* true for PFM: values are linear light already */
+    float *f32;        /* [height*width*channels]; light as stored; 16-bit files as value/65535; owned */
+    bool linear;       /* true for PFM, OpenEXR, Radiance: values are linear light already */
     long replaced;     /* samples that image_mend found and made 0 */
     float decode[256]; /* sRGB byte -> linear light, for whoever reads u8 */
 };
