@@ -54,7 +54,7 @@ ref: asbdpt ## render the stored references of ref/ again (an hour; goes on wher
 	sh ref/make-ref.sh $(PROGRAM)
 
 # ---- what proves it ----
-test: asbdpt $(BUILD)/test layers libm references columns ## build and run the test suite (under 3 minutes)
+test: asbdpt $(BUILD)/test layers standard references columns ## build and run the test suite (under 3 minutes)
 	sh test/cli.sh $(PROGRAM)
 	sh test/mini.sh $(PROGRAM)
 	$(BUILD)/test
@@ -75,9 +75,9 @@ layers: ## check that no file includes a higher room, that no room holds a circl
 	@sh test/layers.sh src $(CC)
 	@sh test/layers_test.sh $(CC)
 
-libm: ## check that src calls no function of the C library that differs from machine to machine
-	@sh test/libm.sh
-	@sh test/libm_test.sh
+standard: ## check that src calls and includes nothing that differs from machine to machine, but in one place
+	@sh test/standard.sh
+	@sh test/standard_test.sh
 
 references: ## check that every source named in a comment is in doc/references.md, and that all there are used
 	@sh test/references.sh
@@ -99,9 +99,9 @@ stats: ## files, lines of code and comment, and the longest functions of every r
 	@sh test/tree_stats.sh
 
 help: ## list the targets
-	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 12
+	@awk -F ':.*## ' '/^[a-z-]*:.*## / { printf "%-11s %s\n", $$1, $$2 }' Makefile
 
 clean: ## remove everything that was built
 	rm -rf build build-* out asbdpt
 
-.PHONY: all demo experiments bench ref test check-long check-ref builds mutants layers libm references columns san tsan stats help clean
+.PHONY: all demo experiments bench ref test check-long check-ref builds mutants layers standard references columns san tsan stats help clean

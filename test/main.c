@@ -2,6 +2,7 @@
  * Exit status 0 only if every check and every hypothesis came out as it must. The last line is
  * "N passed, N failed". */
 #define _POSIX_C_SOURCE 200809L
+#define _DARWIN_C_SOURCE /* mkdtemp, on macOS */
 
 #include <math.h>
 #include <stdarg.h>

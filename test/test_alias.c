@@ -97,7 +97,7 @@ static double rest_unchanged(const struct alias_table *t, double u, int *index)
     return u;
 }
 
-enum shape_of_weights { UNIFORM, SKEWED, SINGLE, HOLES, DENORMAL, HUGE, RANDOM, N_SHAPES };
+enum shape_of_weights { UNIFORM, SKEWED, SINGLE, HOLES, DENORMAL, VAST, RANDOM, N_SHAPES };
 static const char *const SHAPE_NAME[] = {"uniform",       "skewed", "single", "zero-containing",
                                          "near-denormal", "huge",   "random"};
 
@@ -111,7 +111,7 @@ static void make_weights(enum shape_of_weights shape, double *w, int n, struct r
         case SINGLE: w[i] = i == n / 2 ? 7e-9 : 0; break;
         case HOLES: w[i] = rng_below(r, 2) ? 1 + u : 0; break;
         case DENORMAL: w[i] = 4.9406564584124654e-324 * (1 + rng_below(r, 5)); break;
-        case HUGE: w[i] = 1e300 * (1 + u); break;
+        case VAST: w[i] = 1e300 * (1 + u); break;
         case RANDOM: w[i] = u * u; break;
         case N_SHAPES: break;
         }

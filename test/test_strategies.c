@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/os.h"
 #include "base/parallel.h"
 #include "render/render.h"
 #include "base/stats.h"
@@ -84,7 +85,7 @@ static void test_scene(struct test *t, const char *name, const char *text)
         struct film film;
         struct error err;
         struct render_options o = {.integrator = integrator_find("bdpt"), .end = SPP, .max_depth = DEPTH};
-        o.n_threads = parallel_cores();
+        o.n_threads = os_cores();
         o.seed = test_seed(t) * 7919 + (uint64_t)k;
         film_init(&film, render_crop(&scene), scene.width, scene.height);
         film_keep_strategies(&film, DEPTH);

@@ -1,19 +1,15 @@
 /* file.c: see file.h. */
-#define _POSIX_C_SOURCE 200809L
 
 #include "base/file.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <time.h>
-#include <unistd.h>
 
 #include "base/bits.h"
 #include "base/interrupt.h"
 #include "base/mem.h"
+#include "base/os.h"
 
 static const size_t PIPE_LIMIT = (size_t)1 << 28;
 
@@ -49,14 +45,15 @@ bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err
     FILE *f = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
     if (f == NULL)
         return error_set(err, "%s: cannot be opened: %s", path, strerror(errno));
-    struct stat info;
-    bool regular = fstat(fileno(f), &info) == 0 && S_ISREG(info.st_mode);
-    if (regular && (uintmax_t)info.st_size >= SIZE_MAX / 2) {
+    uint64_t length;
+    bool regular = os_regular(f, &length);
+    os_binary(f);
+    if (length >= SIZE_MAX / 2) {
         close_input(f);
         errno = 0;
         return error_set(err, "%s: the file is too large for this machine's memory", path);
     }
-    size_t expected = regular ? (size_t)info.st_size : 0;
+    size_t expected = (size_t)length;
     errno = 0;
     bool ok = read_stream(f, expected, regular ? SIZE_MAX / 2 : PIPE_LIMIT, data, size);
     int reason = errno;
@@ -87,7 +84,7 @@ static void release(struct file_output *out)
 /* The directory of a path with its slash, followed by a name; to be given to free(). */
 static char *beside(const char *path, const char *name)
 {
-    const char *slash = strrchr(path, '/');
+    const char *slash = os_last_separator(path);
     size_t length = slash != NULL ? (size_t)(slash - path) + 1 : 0, room = length + strlen(name) + 1;
     char *out = mem_alloc(room, 1);
     memcpy(out, path, length);
@@ -102,11 +99,9 @@ static char *follow_links(const char *path)
     enum { MOST_LINKS = 40, LONGEST = 4096 };
     char link[LONGEST], *at = mem_copy_text(path);
     for (int i = 0; i < MOST_LINKS; i++) {
-        ssize_t n = readlink(at, link, sizeof link - 1);
-        if (n < 0)
+        if (!os_read_link(at, link, sizeof link))
             return at; /* no link, and what else may be wrong is found on opening it */
-        link[n] = '\0';
-        char *next = link[0] == '/' ? mem_copy_text(link) : beside(at, link);
+        char *next = os_absolute(link) ? mem_copy_text(link) : beside(at, link);
         free(at);
         at = next;
     }
@@ -115,32 +110,25 @@ static char *follow_links(const char *path)
     return NULL;
 }
 
-/* A new file beside the target that nobody else has: O_EXCL fails where there is anything, a link included. */
-static FILE *open_temporary(struct file_output *out, mode_t mode)
+/* A new file beside the target that nobody else has, with the rights of the one it is to replace. */
+static FILE *open_temporary(struct file_output *out)
 {
     enum { ATTEMPTS = 100 };
-    struct timespec now;
-    clock_gettime(CLOCK_REALTIME, &now);
-    uint64_t hash = hash_combine((uint64_t)now.tv_sec, (uint64_t)now.tv_nsec);
-    hash = hash_combine(hash, (uint64_t)getpid());
-    hash = hash_combine(hash, (uint64_t)(uintptr_t)out->path);
+    uint64_t hash = hash_combine(os_unique(), (uint64_t)(uintptr_t)out->path);
     for (int i = 0; i < ATTEMPTS; i++) {
         char name[64];
         hash = hash_combine(hash, (uint64_t)i);
         snprintf(name, sizeof name, ".asbdpt-%08lx%08lx.tmp", (unsigned long)(hash >> 32),
                  (unsigned long)(hash & 0xffffffffu));
         out->temporary = beside(out->target, name);
-        int fd = open(out->temporary, O_WRONLY | O_CREAT | O_EXCL, mode);
-        FILE *f = fd >= 0 ? fdopen(fd, "wb") : NULL;
+        FILE *f = os_create_new(out->temporary, out->target);
         if (f != NULL) {
             temporary_add(out->temporary);
             return f;
         }
         free(out->temporary);
         out->temporary = NULL;
-        if (fd >= 0)
-            close(fd);
-        if (fd >= 0 || errno != EEXIST)
+        if (errno != EEXIST)
             break;
     }
     return NULL;
@@ -149,21 +137,19 @@ static FILE *open_temporary(struct file_output *out, mode_t mode)
 /* Devices, pipes and standard output are written directly; a file that must not be written is not replaced either. */
 static FILE *open_target(struct file_output *out)
 {
-    struct stat info;
-    if (strcmp(out->path, "-") == 0)
+    if (strcmp(out->path, "-") == 0) {
+        os_binary(stdout);
         return stdout;
+    }
     out->target = follow_links(out->path);
     if (out->target == NULL)
         return NULL;
-    bool exists = stat(out->target, &info) == 0;
-    if (exists && !S_ISREG(info.st_mode))
+    enum os_kind kind = os_kind_of(out->target);
+    if (kind == OS_DIRECTORY || kind == OS_OTHER)
         return fopen(out->target, "wb");
-    if (exists && access(out->target, W_OK) != 0)
+    if (kind == OS_FILE && !os_may_write(out->target))
         return NULL;
-    FILE *f = open_temporary(out, 0666);
-    if (f != NULL && exists)
-        fchmod(fileno(f), info.st_mode & 0777); /* the new file has the old one's rights, if that can be */
-    return f;
+    return open_temporary(out);
 }
 
 bool file_create(const char *path, struct file_output *out, struct error *err)
@@ -178,19 +164,17 @@ bool file_create(const char *path, struct file_output *out, struct error *err)
     return false;
 }
 
-/* On the disk before it has the target's name, so that not even a power failure leaves half a file there. */
-static bool on_disk(FILE *f) { return fsync(fileno(f)) == 0 || errno == EINVAL || errno == ENOSYS; }
-
 bool file_commit(struct file_output *out, struct error *err)
 {
     errno = 0;
     bool ok = fflush(out->stream) == 0 && ferror(out->stream) == 0;
-    ok = ok && (out->temporary == NULL || on_disk(out->stream));
+    /* On the disk before it has the target's name, so that not even a power failure leaves half a file there. */
+    ok = ok && (out->temporary == NULL || os_store(out->stream));
     int reason = errno;
     if (out->stream != stdout)
         ok = fclose(out->stream) == 0 && ok;
     if (ok && out->temporary != NULL)
-        ok = rename(out->temporary, out->target) == 0;
+        ok = os_rename(out->temporary, out->target);
     reason = reason != 0 ? reason : errno;
     if (!ok) {
         error_set(err, "%s: cannot be written: %s", out->path, reason != 0 ? strerror(reason) : "write error");

@@ -20,9 +20,6 @@ void interrupt_defer(void);
 /* interrupt_caught: the signal noted, or 0. Thread-safe. */
 int interrupt_caught(void);
 
-/* interrupt_name: "SIGINT" and so on. */
-const char *interrupt_name(int signal);
-
 /* temporary_add: a file to be removed if the program ends; `path` must stay valid until temporary_forget(path). One
  * thread at a time. Beyond some sixty files there is no room, and a further one is left to its owner alone. */
 void temporary_add(const char *path);

@@ -27,7 +27,4 @@ struct parallel_jobs {
  * cannot be created it goes on with those it has. */
 int64_t parallel_run(const struct parallel_jobs *jobs);
 
-/* parallel_cores: processors online, >= 1. */
-int parallel_cores(void);
-
 #endif

@@ -1,23 +1,15 @@
 /* progress.c: see progress.h. */
-#define _POSIX_C_SOURCE 200809L
 
 #include "base/progress.h"
 
 #include <stdio.h>
-#include <time.h>
-#include <unistd.h>
 
-double clock_seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
+#include "base/os.h"
 
 void progress_start(struct progress *p, bool quiet)
 {
-    p->shown = !quiet && isatty(STDERR_FILENO);
-    p->start = clock_seconds();
+    p->shown = !quiet && os_terminal(stderr);
+    p->start = os_wall_seconds();
     p->last = p->start;
 }
 
@@ -26,7 +18,7 @@ bool progress_update(void *progress, double done)
 {
     enum { WIDTH = 40 };
     struct progress *p = progress;
-    double now = clock_seconds();
+    double now = os_wall_seconds();
     if (!p->shown || now - p->last < 0.1)
         return true;
     p->last = now;

@@ -1,4 +1,4 @@
-/* progress.h: a progress bar with the time left, on stderr when that is a terminal; and the clock it reads. */
+/* progress.h: a progress bar with the time left, on stderr when that is a terminal. */
 #ifndef ASBDPT_PROGRESS_H
 #define ASBDPT_PROGRESS_H
 
@@ -6,11 +6,8 @@
 
 struct progress {
     bool shown;
-    double start, last; /* seconds of clock_seconds */
+    double start, last; /* seconds of os_wall_seconds */
 };
-
-/* clock_seconds: a steady wall clock. */
-double clock_seconds(void);
 
 /* progress_start: show nothing yet; stay silent if `quiet` or stderr is not a terminal. */
 void progress_start(struct progress *p, bool quiet);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/os.h"
 
 /* The aov that the word at the beginning of the list names, or N_AOVS. */
 static int first_word(const char *list)
@@ -35,7 +36,7 @@ bool aov_check(const char *list, struct error *err)
 
 static bool open_one(const char *picture, enum aov which, struct outputs *out, struct error *err)
 {
-    const char *dot = strrchr(picture, '.'), *slash = strrchr(picture, '/');
+    const char *dot = strrchr(picture, '.'), *slash = os_last_separator(picture);
     int stem = dot != NULL && (slash == NULL || dot > slash) ? (int)(dot - picture) : (int)strlen(picture);
     size_t size = strlen(picture) + 20;
     char *name = mem_alloc(size, 1);

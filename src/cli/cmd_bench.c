@@ -1,24 +1,19 @@
 /* cmd_bench.c: asbdpt bench: how fast is each part of the program on given scenes?
  *
- * Every scene is measured in a process of its own, so that its peak memory is its own. Rates are per second of CPU
- * time of one thread: other programs on the machine disturb them less than wall time. Rays are either coherent, the
- * camera's through neighbouring pixels, or incoherent: cosine-distributed directions from points all over the scene,
- * found by following a camera ray one bounce.
+ * Rates are per second of CPU time of one thread: other programs on the machine disturb them less than wall time.
+ * Rays are either coherent, the camera's through neighbouring pixels, or incoherent: cosine-distributed directions from
+ * points all over the scene, found by following a camera ray one bounce. Peak memory is that of the process so far:
+ * for a scene's own, measure it alone.
  */
-#define _POSIX_C_SOURCE 200809L
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <sys/time.h>
-#include <sys/wait.h>
-#include <time.h>
-#include <unistd.h>
 
 #include "base/file.h"
 #include "base/frame.h"
 #include "base/mem.h"
+#include "base/os.h"
 #include "base/progress.h"
 #include "base/sampler.h"
 #include "base/warp.h"
@@ -51,7 +46,7 @@ static const struct {
     {"cpu_1", "bdpt, 1 thread, s of CPU"},
     {"wall_n", "bdpt, all threads, s"},
     {"cpu_n", "bdpt, all threads, s of CPU"},
-    {"peak_mib", "peak memory, MiB"},
+    {"peak_mib", "peak memory so far, MiB"},
 };
 
 struct bench_options {
@@ -70,8 +65,6 @@ static const struct option OPTIONS[] = {
     {"--nthreads", "N", OPTION_INTEGER, AT(n_threads), 1, 1000, .alias = "-j", .fallback = "2", .help = "all threads"},
     {.name = NULL},
 };
-
-static double cpu_seconds(void) { return (double)clock() / CLOCKS_PER_SEC; }
 
 /* --- rays --------------------------------------------------------------------------------------------- */
 
@@ -116,7 +109,7 @@ static int make_rays(const struct scene *s, bool coherent, struct ray *out)
 static double ray_rate(const struct scene *s, const struct ray *rays, int n, bool any)
 {
     const double enough = 0.4;
-    double start = cpu_seconds(), seconds = 0, done = 0;
+    double start = os_cpu_seconds(), seconds = 0, done = 0;
     long hits = 0;
     while (n > 0 && seconds < enough) {
         for (int i = 0; i < n; i++) {
@@ -124,7 +117,7 @@ static double ray_rate(const struct scene *s, const struct ray *rays, int n, boo
             hits += any ? kd_occluded(&s->kd, &s->geo, &rays[i]) : kd_closest(&s->kd, &s->geo, &rays[i], &hit);
         }
         done += n;
-        seconds = cpu_seconds() - start;
+        seconds = os_cpu_seconds() - start;
     }
     return hits >= 0 && seconds > 0 ? 1e-6 * done / seconds : 0;
 }
@@ -151,11 +144,11 @@ static bool render_once(const struct scene *s, const struct bench_options *o, co
     struct film film;
     options.n_threads = n_threads;
     film_init(&film, render_crop(s), s->width, s->height);
-    *wall = clock_seconds();
-    *cpu = cpu_seconds();
+    *wall = os_wall_seconds();
+    *cpu = os_cpu_seconds();
     bool ok = render_scene(s, &options, &film, err);
-    *wall = clock_seconds() - *wall;
-    *cpu = cpu_seconds() - *cpu;
+    *wall = os_wall_seconds() - *wall;
+    *cpu = os_cpu_seconds() - *cpu;
     film_free(&film);
     return ok;
 }
@@ -188,14 +181,14 @@ static void shrink_film(struct scene *s)
 static bool measure_scene(const char *path, const struct bench_options *o, double *value, struct error *err)
 {
     struct scene scene;
-    double start = cpu_seconds();
+    double start = os_cpu_seconds();
     if (!parse_scene(path, &scene, NULL, err))
         return false;
-    value[LOAD] = cpu_seconds() - start;
+    value[LOAD] = os_cpu_seconds() - start;
     shrink_film(&scene);
-    start = cpu_seconds();
+    start = os_cpu_seconds();
     scene_prepare(&scene);
-    value[BUILD] = cpu_seconds() - start;
+    value[BUILD] = os_cpu_seconds() - start;
     value[TRIANGLES] = scene.geo.n_triangles;
     value[NODES] = scene.kd.n_nodes;
     value[REFERENCES] = scene.kd.n_items;
@@ -203,38 +196,8 @@ static bool measure_scene(const char *path, const struct bench_options *o, doubl
     measure_rays(&scene, value);
     bool ok = measure_renders(&scene, o, value, err);
     scene_free(&scene);
-    struct rusage usage;
-    getrusage(RUSAGE_SELF, &usage);
-    value[MEMORY] = (double)usage.ru_maxrss / 1024; /* KiB on Linux */
+    value[MEMORY] = os_peak_memory() / 1048576;
     return ok;
-}
-
-/* The child's part: measure, send the values, end. */
-static void measure_and_send(const char *path, const struct bench_options *o, int pipe_end)
-{
-    double value[N_MEASURES] = {0};
-    struct error err;
-    bool ok = measure_scene(path, o, value, &err);
-    if (!ok)
-        fail(&err);
-    ok = ok && write(pipe_end, value, sizeof value) == (ssize_t)sizeof value;
-    _exit(ok ? EXIT_OK : EXIT_JOB);
-}
-
-static bool measure_in_child(const char *path, const struct bench_options *o, double *value, struct error *err)
-{
-    int ends[2];
-    if (pipe(ends) != 0)
-        return error_set(err, "bench: no pipe");
-    pid_t child = fork();
-    if (child == 0)
-        measure_and_send(path, o, ends[1]);
-    close(ends[1]);
-    bool ok = child > 0 && read(ends[0], value, N_MEASURES * sizeof *value) == (ssize_t)(N_MEASURES * sizeof *value);
-    close(ends[0]);
-    if (child > 0)
-        waitpid(child, NULL, 0);
-    return ok || error_set(err, "bench: %s could not be measured", path);
 }
 
 /* --- output ------------------------------------------------------------------------------------------- */
@@ -292,7 +255,7 @@ static bool measure(const struct bench_options *o, struct error *err)
     double *values = mem_alloc((size_t)o->scenes.n * N_MEASURES, sizeof *values);
     bool ok = o->baseline == NULL || file_read(o->baseline, &baseline, &size, err);
     for (int i = 0; ok && i < o->scenes.n; i++)
-        ok = measure_in_child(o->scenes.item[i], o, values + (size_t)i * N_MEASURES, err);
+        ok = measure_scene(o->scenes.item[i], o, values + (size_t)i * N_MEASURES, err);
     if (ok)
         print_table(o, values, (const char *)baseline);
     ok = ok && (o->json == NULL || write_json(o, values, err));

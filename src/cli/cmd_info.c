@@ -1,6 +1,7 @@
 /* cmd_info.c: asbdpt info SCENE: what is in a scene and how it was prepared. */
 #include <stdio.h>
 
+#include "base/os.h"
 #include "base/progress.h"
 #include "cli/command.h"
 #include "cli/job_options.h"
@@ -53,10 +54,10 @@ static int run(void *options)
 {
     struct scene scene;
     const struct integrator *integrator;
-    double start = clock_seconds();
+    double start = os_wall_seconds();
     int status = job_load(options, &scene, &integrator);
     if (status == EXIT_OK) {
-        print_scene(&scene, integrator, clock_seconds() - start);
+        print_scene(&scene, integrator, os_wall_seconds() - start);
         scene_free(&scene);
     }
     return status;

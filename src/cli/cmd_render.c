@@ -1,13 +1,11 @@
 /* cmd_render.c: asbdpt render: a scene to pictures. */
-#define _POSIX_C_SOURCE 200809L
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <time.h>
 
 #include "base/mem.h"
+#include "base/os.h"
 #include "base/progress.h"
 #include "cli/aov_files.h"
 #include "cli/command.h"
@@ -24,7 +22,8 @@ static char *default_output(const struct scene *scene)
     char *out = mem_alloc(size, 1);
     strcpy(out, name);
     if (!image_writable(out)) {
-        char *dot = strrchr(out, '.'), *slash = strrchr(out, '/');
+        const char *slash = os_last_separator(out);
+        char *dot = strrchr(out, '.');
         if (dot != NULL && (slash == NULL || dot > slash))
             *dot = '\0';
         strcat(out, ".png");
@@ -63,7 +62,7 @@ static bool strategies_possible(const char *directory, struct error *err)
 {
     char path[4096];
     struct file_output probe;
-    mkdir(directory, 0777); /* if that fails, creating a file says why */
+    os_make_directory(directory); /* if that fails, creating a file says why */
     snprintf(path, sizeof path, "%s/probe", directory);
     if (!file_create(path, &probe, err))
         return false;
@@ -133,12 +132,12 @@ static bool render_and_write(const struct job_options *o, const struct scene *sc
     options.progress = progress_update;
     options.progress_context = &bar;
     progress_start(&bar, o->quiet);
-    clock_t cpu = clock();
+    double cpu = os_cpu_seconds();
     bool ok = render_scene(scene, &options, &film, err);
-    double cpu_seconds = (double)(clock() - cpu) / CLOCKS_PER_SEC;
+    double cpu_seconds = os_cpu_seconds() - cpu;
     progress_end(&bar);
     if (ok) {
-        report(o, m, &film, clock_seconds() - bar.start, cpu_seconds);
+        report(o, m, &film, os_wall_seconds() - bar.start, cpu_seconds);
         ok = o->strategies == NULL || write_strategies(o->strategies, &film, err);
         ok = write_outputs(o, scene, &film, out, ok ? err : NULL) && ok;
         ok = aov_write(aov, scene, &options, &film, o->quiet, ok ? err : NULL) && ok;

@@ -5,9 +5,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/mem.h"
+#include "base/os.h"
 #include "base/progress.h"
 #include "lab/compare.h"
 #include "lab/equal_time.h"
@@ -42,9 +42,9 @@ static bool render(struct show *s, int i, long spp)
     o.progress_context = &bar;
     film_init(&film, render_crop(&s->scene), s->width, s->height);
     progress_start(&bar, d->quiet);
-    clock_t start = clock();
+    double start = os_cpu_seconds();
     bool ok = render_scene(&s->scene, &o, &film, s->err);
-    s->side[i].seconds = fmax((double)(clock() - start), 1) / CLOCKS_PER_SEC;
+    s->side[i].seconds = fmax(os_cpu_seconds() - start, 1e-6);
     s->side[i].spp = spp;
     progress_end(&bar);
     if (ok)

@@ -5,9 +5,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/mem.h"
+#include "base/os.h"
 #include "base/progress.h"
 #include "lab/compare.h"
 #include "lab/experiment.h"
@@ -58,9 +58,9 @@ static bool render_samples(struct subject *s, int variant, long spp, struct equa
     struct render_options o = options_of(s, variant, out->seed);
     o.end = out->spp = spp;
     film_init(&film, render_crop(&s->scene), s->scene.width, s->scene.height);
-    clock_t start = clock();
+    double start = os_cpu_seconds();
     bool ok = render_scene(&s->scene, &o, &film, s->err);
-    out->seconds = fmax((double)(clock() - start), 1) / CLOCKS_PER_SEC;
+    out->seconds = fmax(os_cpu_seconds() - start, 1e-6);
     if (ok)
         compare_film(s, &film, out);
     film_free(&film);

@@ -1,5 +1,4 @@
 /* experiment.c: see experiment.h. */
-#define _POSIX_C_SOURCE 200809L
 
 #include "lab/experiment.h"
 
@@ -7,10 +6,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <time.h>
 
 #include "base/mem.h"
+#include "base/os.h"
 #include "base/progress.h"
 #include "image/image.h"
 #include "image/zlib.h"
@@ -81,15 +79,15 @@ static float *new_pixels(const struct scene_results *r)
 bool experiment_directory(const char *wanted, struct error *err)
 {
     char path[PATH_SIZE];
-    struct stat s;
     snprintf(path, sizeof path, "%s", wanted);
     for (char *c = path + 1; *c != '\0'; c++)
-        if (*c == '/') {
+        if (os_separator(*c)) {
+            char separator = *c;
             *c = '\0';
-            mkdir(path, 0777); /* if that fails, the last one says so */
-            *c = '/';
+            os_make_directory(path); /* if that fails, the last one says so */
+            *c = separator;
         }
-    if (mkdir(path, 0777) != 0 && (stat(path, &s) != 0 || !S_ISDIR(s.st_mode)))
+    if (!os_make_directory(path))
         return error_set(err, "%s: cannot make this directory", path);
     return true;
 }
@@ -148,9 +146,9 @@ static void run_key(struct scene_experiment *s, int variant, int seed, char *out
 
 static bool timed_render(struct scene_experiment *s, struct render_options *o, struct film *film, double *seconds)
 {
-    clock_t start = clock();
+    double start = os_cpu_seconds();
     bool ok = render_scene(&s->scene, o, film, s->whole->err);
-    *seconds = (double)(clock() - start) / CLOCKS_PER_SEC;
+    *seconds = os_cpu_seconds() - start;
     return ok;
 }
 

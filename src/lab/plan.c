@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/os.h"
+
 const struct variant VARIANTS[N_VARIANTS] = {
     {"bdpt", "BDPT", "bdpt", NULL, 0, 0, true, false},
     {"bins", "ASBDPT bins", "asbdpt", "bins", 8, 32, true, false},
@@ -75,14 +77,14 @@ long plan_run_spp(const struct plan *p, int variant)
 
 void plan_scene_name(const char *path, char *out, int size)
 {
-    const char *slash = strrchr(path, '/'), *start = slash != NULL ? slash + 1 : path;
+    const char *slash = os_last_separator(path), *start = slash != NULL ? slash + 1 : path;
     const char *end = strrchr(start, '.');
     if (end == NULL || strcmp(end, ".pbrt") != 0)
         end = start + strlen(start);
     if (slash != NULL && strcmp(start, "scene.pbrt") == 0) { /* NAME/scene.pbrt */
         end = slash;
         start = end;
-        while (start > path && start[-1] != '/')
+        while (start > path && !os_separator(start[-1]))
             start--;
     }
     snprintf(out, (size_t)size, "%.*s", (int)(end - start), start);

@@ -8,6 +8,7 @@
 
 #include "base/file.h"
 #include "base/mem.h"
+#include "base/os.h"
 #include "image/image.h"
 #include "image/sheet.h"
 #include "lab/compare.h"
@@ -98,7 +99,7 @@ enum { PATH_SIZE = 4096, N_PLACES = 3 };
 static void place_path(int i, const char *scene_path, const char *name, char path[PATH_SIZE])
 {
     static const char *const places[N_PLACES] = {"ref", "../ref", "ref"};
-    const char *slash = strrchr(scene_path, '/');
+    const char *slash = os_last_separator(scene_path);
     int n = slash != NULL && i < N_PLACES - 1 ? (int)(slash - scene_path) + 1 : 0;
     snprintf(path, PATH_SIZE, "%.*s%s/%s.pfm", n, scene_path, places[i], name);
 }

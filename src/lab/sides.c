@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/mem.h"
 #include "base/number.h"
+#include "base/os.h"
 #include "base/progress.h"
 #include "base/rng.h"
 #include "image/image.h"
@@ -122,14 +123,14 @@ long side_choose_spp(const struct scene *scene, const struct render_options *opt
                      const struct integrator *const integrator[2], int n_batches, struct error *err)
 {
     struct render_options pilot = *options;
-    double start = clock_seconds();
+    double start = os_wall_seconds();
     pilot.end = PILOT_SPP;
     for (int i = 0; i < 2 && integrator[i] != NULL; i++) {
         pilot.integrator = integrator[i];
         if (!render_batch(scene, &pilot, 1, NULL, err))
             return 0;
     }
-    double per_spp = (clock_seconds() - start) / PILOT_SPP, spp = SECONDS / (per_spp * n_batches);
+    double per_spp = (os_wall_seconds() - start) / PILOT_SPP, spp = SECONDS / (per_spp * n_batches);
     return spp < PILOT_SPP ? PILOT_SPP : spp > 1e6 ? 1000000 : (long)spp;
 }
 

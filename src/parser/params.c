@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "base/os.h"
 #include "parser/spectrum.h"
 #include "parser/symbols.h"
 
@@ -403,12 +404,12 @@ const double *params_list(struct params *p, const char *name, unsigned types, in
 
 char *path_join(const char *directory, const char *name)
 {
-    if (name[0] == '/' || directory[0] == '\0')
+    if (os_absolute(name) || directory[0] == '\0')
         return mem_copy_text(name);
     size_t n = strlen(directory);
     char *path = mem_alloc(n + strlen(name) + 2, 1);
     memcpy(path, directory, n);
-    if (directory[n - 1] != '/')
+    if (!os_separator(directory[n - 1]))
         path[n++] = '/';
     strcpy(path + n, name);
     return path;

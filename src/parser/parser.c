@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/os.h"
 #include "parser/parse.h"
 
 enum { MAX_INCLUDES = 65536 };
@@ -234,11 +235,10 @@ static bool include(struct parser *p)
 /* The part of a path before its last slash. To be given to free(). */
 static char *directory_of(const char *path)
 {
-    char *directory = mem_copy_text(path), *slash = strrchr(directory, '/');
-    if (slash == NULL)
-        directory[0] = '\0';
-    else
-        slash[slash == directory] = '\0';
+    char *directory = mem_copy_text(path);
+    const char *slash = os_last_separator(directory);
+    size_t length = slash != NULL ? (size_t)(slash - directory) : 0;
+    directory[slash != NULL && length == 0 ? 1 : length] = '\0';
     return directory;
 }
 

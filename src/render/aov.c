@@ -5,6 +5,7 @@
 
 #include "base/mem.h"
 #include "base/number.h"
+#include "base/os.h"
 #include "base/parallel.h"
 #include "base/sampler.h"
 
@@ -110,7 +111,7 @@ static bool row_done(void *context, int64_t row, int slot)
 void aov_render(const struct scene *scene, const struct render_options *options, float *const out[N_FIRST_HIT])
 {
     struct rows r = {.scene = scene, .rect = render_crop(scene), .seed = options->seed, .out = out};
-    int threads = options->n_threads < 1 ? parallel_cores() : options->n_threads;
+    int threads = options->n_threads < 1 ? os_cores() : options->n_threads;
     r.samples = options->end < AOV_SAMPLES ? (int)options->end : AOV_SAMPLES;
     for (int i = 0; i < ALBEDO_DRAWS; i++) {
         struct sampler sampler = sampler_start(0, RNG_SELECT, 0, (uint64_t)i);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "base/os.h"
 #include "base/parallel.h"
 
 /* Fractions lie within [0,1]: readers of scenes and options see to it. */
@@ -197,7 +198,7 @@ bool render_prepare(const struct scene *scene, const struct render_options *opti
     job->film_rect = rect;
     job->seed = job->eye_seed = options->seed;
     job->spp = (double)(options->planned > options->end ? options->planned : options->end);
-    job->n_threads = options->n_threads < 1 ? parallel_cores() : options->n_threads;
+    job->n_threads = options->n_threads < 1 ? os_cores() : options->n_threads;
     *out = standard;
     return check_settings(scene, err) && read_heuristic(scene, &job->power_heuristic, err) &&
            read_roulette(scene, options->integrator, &job->rr_threshold, err) &&

@@ -1,0 +1,383 @@
+/* os.c: see os.h. What a system has is asked for by its own name, once per section. */
+
+/* Which names headers show: those of glibc and musl, with -std=c99, what is asked for; others all, unless some is. */
+#if defined __linux__ || defined __CYGWIN__ || defined __wasi__
+#define _POSIX_C_SOURCE 200809L
+#define _XOPEN_SOURCE 700
+#endif
+#define _NETBSD_SOURCE 1
+#define _FILE_OFFSET_BITS 64 /* files of more than 2 GiB where long has 32 bits */
+
+#include "base/os.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+
+#ifdef _WIN32
+#include <windows.h>
+/* after it */
+#include <direct.h>
+#include <io.h>
+#include <process.h>
+#include <psapi.h>
+#else
+#include <unistd.h>
+#endif
+#if !defined _WIN32 && !defined __wasi__
+#include <sys/resource.h>
+#endif
+
+#include "base/bits.h"
+#include "base/mem.h"
+
+/* ---- threads ---- */
+
+#if defined __wasi__ && !defined ASBDPT_SERIAL
+#define ASBDPT_SERIAL
+#endif
+
+#ifdef ASBDPT_SERIAL
+
+int os_cores(void) { return 1; }
+
+void os_run_threads(int n, void (*work)(void *context, int thread), void *context)
+{
+    (void)n;
+    work(context, 0);
+}
+
+struct os_lock *os_lock_new(void) { return NULL; }
+void os_lock_free(struct os_lock *lock) { (void)lock; }
+void os_lock_take(struct os_lock *lock) { (void)lock; }
+void os_lock_leave(struct os_lock *lock) { (void)lock; }
+void os_lock_wait(struct os_lock *lock) { (void)lock; }
+void os_lock_wake_all(struct os_lock *lock) { (void)lock; }
+
+#else
+
+#include <pthread.h>
+
+int os_cores(void)
+{
+#ifdef _WIN32
+    SYSTEM_INFO info;
+    GetSystemInfo(&info);
+    double n = (double)info.dwNumberOfProcessors;
+#else
+    double n = (double)sysconf(_SC_NPROCESSORS_ONLN);
+#endif
+    return n < 1 ? 1 : n > 1024 ? 1024 : (int)n;
+}
+
+struct thread {
+    pthread_t handle;
+    void (*work)(void *context, int thread);
+    void *context;
+    int number;
+};
+
+static void *start(void *argument)
+{
+    const struct thread *t = argument;
+    t->work(t->context, t->number);
+    return NULL;
+}
+
+void os_run_threads(int n, void (*work)(void *context, int thread), void *context)
+{
+    struct thread *thread = mem_alloc((size_t)n, sizeof *thread);
+    int started = 1;
+    for (; started < n; started++) {
+        struct thread *t = &thread[started];
+        t->work = work;
+        t->context = context;
+        t->number = started;
+        if (pthread_create(&t->handle, NULL, start, t) != 0)
+            break;
+    }
+    work(context, 0);
+    for (int i = 1; i < started; i++)
+        pthread_join(thread[i].handle, NULL);
+    free(thread);
+}
+
+struct os_lock {
+    pthread_mutex_t mutex;
+    pthread_cond_t condition;
+};
+
+struct os_lock *os_lock_new(void)
+{
+    struct os_lock *lock = mem_alloc(1, sizeof *lock);
+    pthread_mutex_init(&lock->mutex, NULL);
+    pthread_cond_init(&lock->condition, NULL);
+    return lock;
+}
+
+void os_lock_free(struct os_lock *lock)
+{
+    pthread_cond_destroy(&lock->condition);
+    pthread_mutex_destroy(&lock->mutex);
+    free(lock);
+}
+
+void os_lock_take(struct os_lock *lock) { pthread_mutex_lock(&lock->mutex); }
+void os_lock_leave(struct os_lock *lock) { pthread_mutex_unlock(&lock->mutex); }
+void os_lock_wait(struct os_lock *lock) { pthread_cond_wait(&lock->condition, &lock->mutex); }
+void os_lock_wake_all(struct os_lock *lock) { pthread_cond_broadcast(&lock->condition); }
+
+#endif
+
+/* ---- time and memory ---- */
+
+#ifdef _WIN32
+
+double os_wall_seconds(void)
+{
+    LARGE_INTEGER now, unit;
+    QueryPerformanceCounter(&now);
+    QueryPerformanceFrequency(&unit);
+    return (double)now.QuadPart / (double)unit.QuadPart;
+}
+
+static double file_time(FILETIME t) { return 1e-7 * (4294967296.0 * t.dwHighDateTime + t.dwLowDateTime); }
+
+double os_cpu_seconds(void)
+{
+    FILETIME born, ended, kernel, user;
+    bool ok = GetProcessTimes(GetCurrentProcess(), &born, &ended, &kernel, &user) != 0;
+    return ok ? file_time(kernel) + file_time(user) : 0;
+}
+
+double os_peak_memory(void)
+{
+    PROCESS_MEMORY_COUNTERS counters;
+    return GetProcessMemoryInfo(GetCurrentProcess(), &counters, sizeof counters)
+        ? (double)counters.PeakWorkingSetSize : 0;
+}
+
+uint64_t os_unique(void)
+{
+    LARGE_INTEGER now;
+    QueryPerformanceCounter(&now);
+    return hash_combine(hash_combine((uint64_t)time(NULL), (uint64_t)now.QuadPart), (uint64_t)_getpid());
+}
+
+#else
+
+static double seconds_of(clockid_t id)
+{
+    struct timespec t;
+    clock_gettime(id, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+double os_wall_seconds(void) { return seconds_of(CLOCK_MONOTONIC); }
+
+#ifdef __wasi__
+
+double os_cpu_seconds(void) { return os_wall_seconds(); }
+double os_peak_memory(void) { return 0; }
+static uint64_t process(void) { return 0; }
+
+#else
+
+double os_cpu_seconds(void) { return seconds_of(CLOCK_PROCESS_CPUTIME_ID); }
+
+double os_peak_memory(void)
+{
+    struct rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+#ifdef __APPLE__
+    return (double)usage.ru_maxrss;
+#else
+    return 1024 * (double)usage.ru_maxrss;
+#endif
+}
+
+static uint64_t process(void) { return (uint64_t)getpid(); }
+
+#endif
+
+uint64_t os_unique(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    return hash_combine(hash_combine((uint64_t)now.tv_sec, (uint64_t)now.tv_nsec), process());
+}
+
+#endif
+
+/* ---- signals ---- */
+
+#if defined _WIN32 || defined __wasi__
+
+void os_catch_signals(void (*handler)(int number))
+{
+    signal(SIGINT, handler);
+    signal(SIGTERM, handler);
+}
+
+const char *os_signal_name(int number)
+{
+    return number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : "a signal";
+}
+
+#else
+
+static void catch(int number, void (*handler)(int))
+{
+    struct sigaction old, action;
+    if (sigaction(number, NULL, &old) != 0 || old.sa_handler == SIG_IGN)
+        return;
+    action.sa_handler = handler;
+    action.sa_flags = SA_RESTART;
+    sigemptyset(&action.sa_mask);
+    sigaction(number, &action, NULL);
+}
+
+void os_catch_signals(void (*handler)(int number))
+{
+    catch(SIGXFSZ, SIG_IGN);
+    catch(SIGPIPE, SIG_IGN);
+    catch(SIGINT, handler);
+    catch(SIGTERM, handler);
+    catch(SIGHUP, handler);
+}
+
+const char *os_signal_name(int number)
+{
+    return number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : number == SIGHUP ? "SIGHUP" : "a signal";
+}
+
+#endif
+
+/* Safe in a handler [POSIX 2.4.3]; so is _Exit, unlike exit. */
+void os_remove_at_once(const char *path)
+{
+#ifdef _WIN32
+    DeleteFileA(path);
+#else
+    unlink(path);
+#endif
+}
+
+void os_exit_at_once(int status) { _Exit(status); }
+
+/* ---- files ---- */
+
+enum os_kind os_kind_of(const char *path)
+{
+    struct stat info;
+    if (stat(path, &info) != 0)
+        return OS_NOTHING;
+    return S_ISREG(info.st_mode) ? OS_FILE : S_ISDIR(info.st_mode) ? OS_DIRECTORY : OS_OTHER;
+}
+
+#ifdef _WIN32
+
+bool os_terminal(FILE *f) { return _isatty(_fileno(f)) != 0; }
+void os_binary(FILE *f) { _setmode(_fileno(f), _O_BINARY); }
+
+bool os_regular(FILE *f, uint64_t *size)
+{
+    struct _stat64 info;
+    bool ok = _fstat64(_fileno(f), &info) == 0 && S_ISREG(info.st_mode);
+    *size = ok ? (uint64_t)info.st_size : 0;
+    return ok;
+}
+
+bool os_may_write(const char *path) { return _access(path, 2) == 0; }
+
+bool os_read_link(const char *path, char *out, size_t size)
+{
+    (void)path, (void)out, (void)size;
+    return false;
+}
+
+FILE *os_create_new(const char *path, const char *like)
+{
+    (void)like;
+    int fd = _open(path, _O_WRONLY | _O_CREAT | _O_EXCL | _O_BINARY, _S_IREAD | _S_IWRITE);
+    FILE *f = fd >= 0 ? _fdopen(fd, "wb") : NULL;
+    if (f == NULL && fd >= 0)
+        _close(fd);
+    return f;
+}
+
+bool os_store(FILE *f) { return _commit(_fileno(f)) == 0 || errno == EINVAL; }
+
+bool os_rename(const char *from, const char *to)
+{
+    errno = EACCES;
+    return MoveFileExA(from, to, MOVEFILE_REPLACE_EXISTING) != 0;
+}
+
+bool os_make_directory(const char *path) { return _mkdir(path) == 0 || os_kind_of(path) == OS_DIRECTORY; }
+
+bool os_separator(char c) { return c == '/' || c == '\\'; }
+
+bool os_absolute(const char *path)
+{
+    return os_separator(path[0]) || (path[0] != '\0' && path[1] == ':');
+}
+
+#else
+
+bool os_terminal(FILE *f) { return isatty(fileno(f)) != 0; }
+void os_binary(FILE *f) { (void)f; }
+
+bool os_regular(FILE *f, uint64_t *size)
+{
+    struct stat info;
+    bool ok = fstat(fileno(f), &info) == 0 && S_ISREG(info.st_mode);
+    *size = ok ? (uint64_t)info.st_size : 0;
+    return ok;
+}
+
+bool os_may_write(const char *path) { return access(path, W_OK) == 0; }
+
+bool os_read_link(const char *path, char *out, size_t size)
+{
+    ssize_t n = readlink(path, out, size - 1);
+    out[n < 0 ? 0 : n] = '\0';
+    return n >= 0;
+}
+
+FILE *os_create_new(const char *path, const char *like)
+{
+    struct stat info;
+    int fd = open(path, O_WRONLY | O_CREAT | O_EXCL, 0666);
+    FILE *f = fd >= 0 ? fdopen(fd, "wb") : NULL;
+    if (f == NULL && fd >= 0)
+        close(fd);
+#ifndef __wasi__
+    if (f != NULL && stat(like, &info) == 0)
+        fchmod(fd, info.st_mode & 0777);
+#else
+    (void)like, (void)info;
+#endif
+    return f;
+}
+
+bool os_store(FILE *f) { return fsync(fileno(f)) == 0 || errno == EINVAL || errno == ENOSYS; }
+bool os_rename(const char *from, const char *to) { return rename(from, to) == 0; }
+bool os_make_directory(const char *path) { return mkdir(path, 0777) == 0 || os_kind_of(path) == OS_DIRECTORY; }
+bool os_separator(char c) { return c == '/'; }
+bool os_absolute(const char *path) { return path[0] == '/'; }
+
+#endif
+
+const char *os_last_separator(const char *path)
+{
+    const char *last = NULL;
+    for (; *path != '\0'; path++)
+        if (os_separator(*path))
+            last = path;
+    return last;
+}

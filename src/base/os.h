@@ -1,0 +1,95 @@
+/* os.h: everything that this program asks of the operating system beyond what C99 has; nothing else includes a
+ * system's headers. os.c is written for POSIX, Windows and WASI; with -DASBDPT_SERIAL, or where there are no threads,
+ * there is one, and locks do nothing.
+ *
+ * Paths: '/' separates directories everywhere, on Windows '\' too. Tests: test_threads.c, test_file.c, test/cli.sh;
+ * `make portability` builds and runs it on other systems.
+ */
+#ifndef ASBDPT_OS_H
+#define ASBDPT_OS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/* ---- threads ---- */
+
+/* os_cores: processors online, 1 to 1024. */
+int os_cores(void);
+
+/* os_run_threads: call work(context, i) for i in 0 .. n-1, each on a thread of its own, 0 on the calling one, and wait
+ * for all. Where threads cannot be created those with the largest i are not called; 0 always is. n >= 1. */
+void os_run_threads(int n, void (*work)(void *context, int thread), void *context);
+
+/* A lock with a condition that threads can wait for. */
+struct os_lock;
+struct os_lock *os_lock_new(void);
+void os_lock_free(struct os_lock *lock);
+void os_lock_take(struct os_lock *lock);
+void os_lock_leave(struct os_lock *lock);
+void os_lock_wait(struct os_lock *lock);     /* leave it until somebody wakes us, and take it again */
+void os_lock_wake_all(struct os_lock *lock); /* everybody who waits */
+
+/* ---- time and memory ---- */
+
+double os_wall_seconds(void); /* a steady clock; only differences mean something */
+double os_cpu_seconds(void);  /* of all threads of this process; does not wrap. On WASI: wall time */
+double os_peak_memory(void);  /* bytes this process has held at most, 0 where that is not told */
+
+/* os_unique: a number that no other process, and no other moment of this one, is likely to have. */
+uint64_t os_unique(void);
+
+/* ---- signals ---- */
+
+/* os_catch_signals: call `handler` for those that ask the program to end, unless whoever started it has told it to
+ * ignore them; ignore those that a failed write causes, so that the write is reported. Without signals: nothing. */
+void os_catch_signals(void (*handler)(int number));
+const char *os_signal_name(int number); /* "SIGINT" and so on */
+
+/* What a handler may do: remove a file, end the program at once. */
+void os_remove_at_once(const char *path);
+void os_exit_at_once(int status);
+
+/* ---- files ---- */
+
+/* os_terminal: is the stream one? */
+bool os_terminal(FILE *f);
+
+/* os_binary: have standard input or output carry bytes, not lines. */
+void os_binary(FILE *f);
+
+/* os_regular: the length of an open file; false for pipes, devices and directories. */
+bool os_regular(FILE *f, uint64_t *size);
+
+enum os_kind { OS_NOTHING, OS_FILE, OS_DIRECTORY, OS_OTHER /* a device, a pipe */ };
+
+/* os_kind_of: what a path leads to, links followed. */
+enum os_kind os_kind_of(const char *path);
+
+/* os_may_write: may this process write an existing file? errno says why not. */
+bool os_may_write(const char *path);
+
+/* os_read_link: where a symbolic link points, as it is written there; false if `path` is none. */
+bool os_read_link(const char *path, char *out, size_t size);
+
+/* os_create_new: a file that did not exist before, not even as a link, for writing bytes, with the rights of the file
+ * `like` if that exists. NULL, and errno, where it does (EEXIST) or it cannot be. */
+FILE *os_create_new(const char *path, const char *like);
+
+/* os_store: have everything that was written to the file on the disk. False, and errno, if that fails. */
+bool os_store(FILE *f);
+
+/* os_rename: `from` takes the name `to`, at once, in place of a file that may have it. False, and errno. */
+bool os_rename(const char *from, const char *to);
+
+/* os_make_directory: false if there is none afterwards. Those above it must exist. */
+bool os_make_directory(const char *path);
+
+/* os_separator: does this character separate directories? os_last_separator: the last one of a path, or NULL.
+ * os_absolute: does a path start from no other directory? */
+bool os_separator(char c);
+const char *os_last_separator(const char *path);
+bool os_absolute(const char *path);
+
+#endif
