@@ -111,8 +111,10 @@ static void learn_vertices(struct selection *sel, const struct render_job *job, 
     wish.guide = job->spatial_lights && job->scene->lights.n_cells >= MIN_GUIDED_CELLS;
     if (wish.importance || wish.guide)
         prepass_run(job, &wish, &sel->importance, &sel->learnt);
-    if (sel->select == SELECT_POOL)
+    if (sel->select == SELECT_POOL) {
+        sel->path_pixels = 1;
         return;
+    }
     if (sel->connections[0] == 0)
         sel->connections[0] = wish.importance ? choose_connections(&sel->importance) : 4;
     if (sel->path_pixels == 0)

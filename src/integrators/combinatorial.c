@@ -21,7 +21,7 @@
 #include "transport/pixel_sample.h"
 
 struct combinatorial {
-    struct light_pool pool;
+    struct light_pool pool; /* the first, see select.h */
     int M;
     int order[MAX_TILE_SIZE * MAX_TILE_SIZE]; /* pi */
 };
@@ -39,9 +39,9 @@ static void free_scratch(void *scratch)
     free(c);
 }
 
-static void choose_order(struct combinatorial *c, const struct selection *sel, const struct tile_pass *pass,
-                         long iteration)
+static void begin(void *scratch, const struct selection *sel, const struct tile_pass *pass, long iteration)
 {
+    struct combinatorial *c = scratch;
     int M = (int)sel->connections[0], K = c->pool.n;
     c->M = M < K ? M : K;
     light_pool_shuffle(&c->pool, pass, iteration, c->order);
@@ -49,36 +49,22 @@ static void choose_order(struct combinatorial *c, const struct selection *sel, c
         c->order[k] = k;
 }
 
-static void render_pixel(const struct tile_pass *pass, const struct selection *sel, struct combinatorial *c, int x,
-                         int y, int number, long iteration)
+static rgb connect(void *scratch, const struct selection *sel, struct pool_pixel *p, rgb sum)
 {
-    arena_reset(&pass->work->arena);
-    struct vertex *eye = pass->work->eye;
-    struct pixel_sample g = pixel_sample_begin(pass, &sel->counts, x, y, iteration);
-    int n = pixel_eye_path(pass, &g, iteration, eye, g.max_depth + 2);
-    rgb sum = pixel_sum_eye(&g, eye, n);
+    struct combinatorial *c = scratch;
+    (void)sel;
     for (int m = 0; m < c->M; m++) {
-        int k = c->order[(number * c->M + m) % c->pool.n];
+        int k = c->order[(p->number * c->M + m) % c->pool.n];
         const struct vertex *light = light_pool_path(&c->pool, k);
-        sum = rgb_add(sum, pixel_sum_pairs(&g, eye, n, light, c->pool.length[k], 1.0 / c->M));
+        sum = rgb_add(sum, pixel_sum_pairs(&p->sample, p->eye, p->n, light, c->pool.length[k], 1.0 / c->M));
     }
-    if (number % sel->path_pixels == 0)
-        light_pool_splat(&c->pool, pass, &g, sel->path_pixels, number / sel->path_pixels);
-    tile_add_eye(pass->tile, x, y, sum);
+    return sum;
 }
 
 static void render(const void *selection, const struct tile_pass *pass)
 {
-    const struct selection *sel = selection;
-    struct combinatorial *c = pass->work->scratch;
-    for (long i = pass->first; i < pass->end; i++) {
-        light_pool_fill(&c->pool, pass, &sel->counts, sel->path_pixels, i);
-        choose_order(c, sel, pass, i);
-        int number = 0;
-        for (int y = pass->rect.y0; y < pass->rect.y1; y++)
-            for (int x = pass->rect.x0; x < pass->rect.x1; x++)
-                render_pixel(pass, sel, c, x, y, number++, i);
-    }
+    static const struct pool_choice choice = {begin, connect};
+    light_pool_render(selection, pass, &choice);
 }
 
 const struct tile_renderer render_combinatorial = {render, new_scratch, free_scratch};

@@ -31,13 +31,6 @@ void light_pool_fill(struct light_pool *pool, const struct tile_pass *pass, cons
         }
 }
 
-void light_pool_splat(const struct light_pool *pool, const struct tile_pass *pass, struct pixel_sample *g,
-                      int path_pixels, int k)
-{
-    double pixels = (double)rect_width(pass->rect) * rect_height(pass->rect);
-    pixel_splat_path(g, light_pool_path(pool, k), pool->length[k], pixels / ((double)pool->n * path_pixels));
-}
-
 /* Fisher and Yates, from the inside out. [Durstenfeld 1964] */
 void light_pool_shuffle(const struct light_pool *pool, const struct tile_pass *pass, long iteration, int *order)
 {
@@ -50,3 +43,39 @@ void light_pool_shuffle(const struct light_pool *pool, const struct tile_pass *p
 }
 
 double select_throughput(const struct vertex *light, int n) { return n < 1 ? 0 : rgb_mean(light[n - 1].beta); }
+
+/* t = 1 for sub-path k. The weights count one in path_pixels for the whole film; the tile has `n`, rounded up. */
+static void splat(const struct light_pool *pool, const struct tile_pass *pass, struct pixel_sample *g, int path_pixels,
+                  int k)
+{
+    double pixels = (double)rect_width(pass->rect) * rect_height(pass->rect);
+    pixel_splat_path(g, light_pool_path(pool, k), pool->length[k], pixels / ((double)pool->n * path_pixels));
+}
+
+static void render_pixel(const struct selection *sel, const struct tile_pass *pass, const struct pool_choice *choice,
+                         int x, int y, int number, long iteration)
+{
+    struct light_pool *pool = pass->work->scratch;
+    struct pool_pixel p = {.eye = pass->work->eye, .number = number};
+    arena_reset(&pass->work->arena);
+    p.sample = pixel_sample_begin(pass, &sel->counts, x, y, iteration);
+    p.sample.lights = sel->lights;
+    p.n = pixel_eye_path(pass, &p.sample, iteration, pass->work->eye, sel->max_depth + 2);
+    p.draws = pixel_sampler(pass, RNG_SELECT, x, y, iteration);
+    rgb sum = choice->connect(pool, sel, &p, pixel_sum_eye(&p.sample, p.eye, p.n));
+    if (number % sel->path_pixels == 0)
+        splat(pool, pass, &p.sample, sel->path_pixels, number / sel->path_pixels);
+    tile_add_eye(pass->tile, x, y, sum);
+}
+
+void light_pool_render(const struct selection *sel, const struct tile_pass *pass, const struct pool_choice *choice)
+{
+    for (long i = pass->first; i < pass->end; i++) {
+        light_pool_fill(pass->work->scratch, pass, &sel->counts, sel->path_pixels, i);
+        choice->begin(pass->work->scratch, sel, pass, i);
+        int number = 0;
+        for (int y = pass->rect.y0; y < pass->rect.y1; y++)
+            for (int x = pass->rect.x0; x < pass->rect.x1; x++)
+                render_pixel(sel, pass, choice, x, y, number++, i);
+    }
+}

@@ -20,7 +20,7 @@
 #include "base/number.h"
 
 struct pool {
-    struct light_pool paths;
+    struct light_pool paths; /* the first, see select.h */
     double q[MAX_TILE_SIZE * MAX_TILE_SIZE];
     int order[MAX_TILE_SIZE * MAX_TILE_SIZE]; /* bin visited by each pixel */
     struct alias_table table;
@@ -50,8 +50,9 @@ static double path_importance(const struct selection *sel, const struct vertex *
     return 1;
 }
 
-static void build_table(struct pool *p, const struct selection *sel)
+static void begin(void *scratch, const struct selection *sel, const struct tile_pass *pass, long iteration)
 {
+    struct pool *p = scratch;
     int K = p->paths.n;
     double sum = 0;
     for (int k = 0; k < K; k++) {
@@ -62,39 +63,24 @@ static void build_table(struct pool *p, const struct selection *sel)
     for (int k = 0; k < K; k++)
         p->q[k] = (delta < 1 ? (1 - delta) * p->q[k] / sum : 0) + delta / K;
     alias_build(&p->table, p->q, K);
+    light_pool_shuffle(&p->paths, pass, iteration, p->order);
 }
 
-static void render_pixel(const struct tile_pass *pass, const struct selection *sel, struct pool *p, int x, int y,
-                         int number, long iteration)
+static rgb connect(void *scratch, const struct selection *sel, struct pool_pixel *p, rgb sum)
 {
-    arena_reset(&pass->work->arena);
-    struct vertex *eye = pass->work->eye;
-    struct pixel_sample g = pixel_sample_begin(pass, &sel->counts, x, y, iteration);
-    int n = pixel_eye_path(pass, &g, iteration, eye, g.max_depth + 2);
-    struct sampler draw = pixel_sampler(pass, RNG_SELECT, x, y, iteration);
+    struct pool *pool = scratch;
     double q;
-    int k = alias_sample_bin(&p->table, p->order[number], sampler_next(&draw), &q, NULL);
-
-    rgb sum = pixel_sum_eye(&g, eye, n);
-    double W = 1 / (p->paths.n * q);
-    sum = rgb_add(sum, pixel_sum_pairs(&g, eye, n, light_pool_path(&p->paths, k), p->paths.length[k], W));
-    pixel_splat_path(&g, light_pool_path(&p->paths, number), p->paths.length[number], 1);
-    tile_add_eye(pass->tile, x, y, sum);
+    (void)sel;
+    int k = alias_sample_bin(&pool->table, pool->order[p->number], sampler_next(&p->draws), &q, NULL);
+    double W = 1 / (pool->paths.n * q);
+    return rgb_add(sum, pixel_sum_pairs(&p->sample, p->eye, p->n, light_pool_path(&pool->paths, k),
+                                        pool->paths.length[k], W));
 }
 
 static void render(const void *selection, const struct tile_pass *pass)
 {
-    const struct selection *sel = selection;
-    struct pool *p = pass->work->scratch;
-    for (long i = pass->first; i < pass->end; i++) {
-        light_pool_fill(&p->paths, pass, &sel->counts, 1, i);
-        build_table(p, sel);
-        light_pool_shuffle(&p->paths, pass, i, p->order);
-        int number = 0;
-        for (int y = pass->rect.y0; y < pass->rect.y1; y++)
-            for (int x = pass->rect.x0; x < pass->rect.x1; x++)
-                render_pixel(pass, sel, p, x, y, number++, i);
-    }
+    static const struct pool_choice choice = {begin, connect};
+    light_pool_render(selection, pass, &choice);
 }
 
 const struct tile_renderer render_pool = {render, new_scratch, free_scratch};

@@ -36,7 +36,7 @@ struct selection {
     double delta;                 /* pool, vertices, subspaces: share of draws that ignore what was learnt, (0,1] */
     double connections[2];        /* all but bins, pool: C, draws per eye vertex, for t = 2 and t > 2, or M */
     int lights;                   /* subspaces: samples of s = 1 for t = 2 */
-    int path_pixels;              /* all but bins, pool: pixels for each light sub-path */
+    int path_pixels;              /* all but bins: pixels for each light sub-path; pool: 1 */
     int bin_paths;                /* bins: sub-paths per pixel */
     long max_age;                 /* bins: iterations until an unused one is replaced */
     struct importance importance; /* all but bins, combinatorial; of it lvc has light_vertices alone */
@@ -66,11 +66,6 @@ void light_pool_free(struct light_pool *pool);
 void light_pool_fill(struct light_pool *pool, const struct tile_pass *pass, const struct mis_counts *counts,
                      int path_pixels, long iteration);
 
-/* light_pool_splat: t = 1 for sub-path k. The weights count one in path_pixels for the whole film; the tile has `n`,
- * rounded up. */
-void light_pool_splat(const struct light_pool *pool, const struct tile_pass *pass, struct pixel_sample *g,
-                      int path_pixels, int k);
-
 /* light_pool_shuffle: a random permutation of the sub-paths' numbers for one iteration into order [pool->n]. */
 void light_pool_shuffle(const struct light_pool *pool, const struct tile_pass *pass, long iteration, int *order);
 
@@ -78,5 +73,25 @@ static inline const struct vertex *light_pool_path(const struct light_pool *pool
 {
     return &pool->vertex[pool->start[k]];
 }
+
+/* A pixel of a tile and iteration, its eye sub-path traced. */
+struct pool_pixel {
+    struct pixel_sample sample;
+    const struct vertex *eye; /* [n] */
+    int n, number;            /* which pixel of the tile, in row order */
+    struct sampler draws;     /* random numbers for the choice */
+};
+
+/* A way to choose from a pool. The scratch of a thread begins with its light_pool. */
+struct pool_choice {
+    /* The pool of an iteration has been filled. */
+    void (*begin)(void *scratch, const struct selection *sel, const struct tile_pass *pass, long iteration);
+    /* Returns sum plus the weighted contributions of the strategies s >= 2, t >= 2. */
+    rgb (*connect)(void *scratch, const struct selection *sel, struct pool_pixel *p, rgb sum);
+};
+
+/* light_pool_render: a tile pass with light sub-paths for all its pixels in common: fill the pool, connect every pixel,
+ * splat every sub-path once. */
+void light_pool_render(const struct selection *sel, const struct tile_pass *pass, const struct pool_choice *choice);
 
 #endif

@@ -35,7 +35,7 @@ struct group {
 };
 
 struct subspaces {
-    struct light_pool pool;
+    struct light_pool pool; /* the first, see select.h */
     struct candidate *found, *candidate; /* [n], as traced and sorted by region; owned */
     size_t found_capacity, candidate_capacity;
     struct group *group; /* [n_groups], owned */
@@ -106,8 +106,11 @@ static void make_groups(struct subspaces *v, int n_regions)
     }
 }
 
-static void sort_candidates(struct subspaces *v, const struct selection *sel)
+static void begin(void *scratch, const struct selection *sel, const struct tile_pass *pass, long iteration)
 {
+    struct subspaces *v = scratch;
+    (void)pass;
+    (void)iteration;
     find_candidates(v);
     make_groups(v, sel->learnt.light.n);
     v->candidate = mem_grow(v->candidate, &v->candidate_capacity, (size_t)v->n, sizeof *v->candidate);
@@ -180,36 +183,20 @@ static rgb connect_drawn(struct subspaces *v, const struct selection *sel, struc
     return sum;
 }
 
-static void render_pixel(const struct tile_pass *pass, const struct selection *sel, struct subspaces *v, int x, int y,
-                         int number, long iteration)
+/* Draws for every eye vertex that can be connected to. */
+static rgb connect(void *scratch, const struct selection *sel, struct pool_pixel *p, rgb sum)
 {
-    arena_reset(&pass->work->arena);
-    struct vertex *eye = pass->work->eye;
-    struct pixel_sample g = pixel_sample_begin(pass, &sel->counts, x, y, iteration);
-    g.lights = sel->lights;
-    int n = pixel_eye_path(pass, &g, iteration, eye, g.max_depth + 2);
-    struct sampler draws = pixel_sampler(pass, RNG_SELECT, x, y, iteration);
-    rgb sum = pixel_sum_eye(&g, eye, n);
-    for (int t = 2; t <= n && t <= g.max_depth && v->n > 0; t++)
-        if (eye[t - 1].kind == VERTEX_SURFACE && vertex_connectible(&eye[t - 1]))
-            sum = rgb_add(sum, connect_drawn(v, sel, &g, &eye[t - 1], t, &draws));
-    if (number % sel->path_pixels == 0)
-        light_pool_splat(&v->pool, pass, &g, sel->path_pixels, number / sel->path_pixels);
-    tile_add_eye(pass->tile, x, y, sum);
+    struct subspaces *v = scratch;
+    for (int t = 2; t <= p->n && t <= sel->max_depth && v->n > 0; t++)
+        if (p->eye[t - 1].kind == VERTEX_SURFACE && vertex_connectible(&p->eye[t - 1]))
+            sum = rgb_add(sum, connect_drawn(v, sel, &p->sample, &p->eye[t - 1], t, &p->draws));
+    return sum;
 }
 
 static void render(const void *selection, const struct tile_pass *pass)
 {
-    const struct selection *sel = selection;
-    struct subspaces *v = pass->work->scratch;
-    for (long i = pass->first; i < pass->end; i++) {
-        light_pool_fill(&v->pool, pass, &sel->counts, sel->path_pixels, i);
-        sort_candidates(v, sel);
-        int number = 0;
-        for (int y = pass->rect.y0; y < pass->rect.y1; y++)
-            for (int x = pass->rect.x0; x < pass->rect.x1; x++)
-                render_pixel(pass, sel, v, x, y, number++, i);
-    }
+    static const struct pool_choice choice = {begin, connect};
+    light_pool_render(selection, pass, &choice);
 }
 
 const struct tile_renderer render_subspaces = {render, new_scratch, free_scratch};

@@ -31,7 +31,7 @@
 #include "base/number.h"
 
 struct vertices {
-    struct light_pool pool;
+    struct light_pool pool; /* the first, see select.h */
     const struct vertex **candidate; /* [n], connectible light vertices; owned */
     int *s;                          /* [n], vertices of the light sub-path ending there; owned */
     double *q;                       /* [n], weights of the table; owned */
@@ -70,9 +70,12 @@ static double weight_of(struct vertices *v, const struct selection *sel, const s
 }
 
 /* The table over the pool's connectible vertices y_1, y_2 ... */
-static void build_table(struct vertices *v, const struct selection *sel)
+static void begin(void *scratch, const struct selection *sel, const struct tile_pass *pass, long iteration)
 {
+    struct vertices *v = scratch;
     size_t n = 0;
+    (void)iteration;
+    v->lost = 0;
     for (int k = 0; k < v->pool.n; k++) {
         const struct vertex *path = light_pool_path(&v->pool, k);
         for (int i = 1; i < v->pool.length[k]; i++) {
@@ -87,6 +90,7 @@ static void build_table(struct vertices *v, const struct selection *sel)
         }
     }
     alias_build(&v->table, v->q, (int)n);
+    pass->tile->nonfinite += v->lost;
 }
 
 /* C draws for one eye vertex, stratified over the table. */
@@ -104,37 +108,20 @@ static rgb connect_drawn(const struct vertices *v, const struct selection *sel, 
     return sum;
 }
 
-static void render_pixel(const struct tile_pass *pass, const struct selection *sel, struct vertices *v, int x, int y,
-                         int number, long iteration)
+/* Draws for every eye vertex that can be connected to. */
+static rgb connect(void *scratch, const struct selection *sel, struct pool_pixel *p, rgb sum)
 {
-    arena_reset(&pass->work->arena);
-    struct vertex *eye = pass->work->eye;
-    struct pixel_sample g = pixel_sample_begin(pass, &sel->counts, x, y, iteration);
-    int n = pixel_eye_path(pass, &g, iteration, eye, g.max_depth + 2);
-    struct sampler draws = pixel_sampler(pass, RNG_SELECT, x, y, iteration);
-    rgb sum = pixel_sum_eye(&g, eye, n);
-    for (int t = 2; t <= n && t <= g.max_depth && v->table.n > 0; t++)
-        if (eye[t - 1].kind == VERTEX_SURFACE && vertex_connectible(&eye[t - 1]))
-            sum = rgb_add(sum, connect_drawn(v, sel, &g, &eye[t - 1], t, &draws));
-    if (number % sel->path_pixels == 0)
-        light_pool_splat(&v->pool, pass, &g, sel->path_pixels, number / sel->path_pixels);
-    tile_add_eye(pass->tile, x, y, sum);
+    struct vertices *v = scratch;
+    for (int t = 2; t <= p->n && t <= sel->max_depth && v->table.n > 0; t++)
+        if (p->eye[t - 1].kind == VERTEX_SURFACE && vertex_connectible(&p->eye[t - 1]))
+            sum = rgb_add(sum, connect_drawn(v, sel, &p->sample, &p->eye[t - 1], t, &p->draws));
+    return sum;
 }
 
 static void render(const void *selection, const struct tile_pass *pass)
 {
-    const struct selection *sel = selection;
-    struct vertices *v = pass->work->scratch;
-    for (long i = pass->first; i < pass->end; i++) {
-        light_pool_fill(&v->pool, pass, &sel->counts, sel->path_pixels, i);
-        v->lost = 0;
-        build_table(v, sel);
-        pass->tile->nonfinite += v->lost;
-        int number = 0;
-        for (int y = pass->rect.y0; y < pass->rect.y1; y++)
-            for (int x = pass->rect.x0; x < pass->rect.x1; x++)
-                render_pixel(pass, sel, v, x, y, number++, i);
-    }
+    static const struct pool_choice choice = {begin, connect};
+    light_pool_render(selection, pass, &choice);
 }
 
 const struct tile_renderer render_vertices = {render, new_scratch, free_scratch};
