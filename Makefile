@@ -54,7 +54,7 @@ ref: asbdpt ## render the stored references of ref/ again (an hour; goes on wher
 	sh ref/make-ref.sh $(PROGRAM)
 
 # ---- what proves it ----
-test: asbdpt $(BUILD)/test layers standard references columns ## build and run the test suite (under 3 minutes)
+test: asbdpt $(BUILD)/test layers standard references columns faults ## build and run the test suite (under 3 minutes)
 	sh test/cli.sh $(PROGRAM)
 	sh test/mini.sh $(PROGRAM)
 	$(BUILD)/test
@@ -83,6 +83,9 @@ references: ## check that every source named in a comment is in doc/references.m
 	@sh test/references.sh
 	@sh test/references_test.sh
 
+faults: ## check that every fault of the list of mutants still applies
+	@sh test/mutants/check.sh
+
 columns: ## check that no line is longer than .clang-format allows, and that all are ASCII
 	@sh test/columns.sh
 
@@ -104,4 +107,4 @@ help: ## list the targets
 clean: ## remove everything that was built
 	rm -rf build build-* out asbdpt
 
-.PHONY: all demo experiments bench ref test check-long check-ref builds mutants layers standard references columns san tsan stats help clean
+.PHONY: faults all demo experiments bench ref test check-long check-ref builds mutants layers standard references columns san tsan stats help clean
