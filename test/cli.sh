@@ -87,18 +87,47 @@ expect 1 'select = "bin" is unknown: give "bins", "pool", "vertices", "subspaces
 expect 1 '^asbdpt: -P: heuristic = "max" is unknown: give "balance" or "power"' \
     "$program" render "$box" $small -P heuristic=max -o x.pfm
 
-# pbrt's lightsamplestrategy: its three names are taken by every integrator, a misspelling by none.
+# pbrt's lightsamplestrategy: its three names are taken by every integrator; of a misspelling pbrt makes "spatial".
 for method in path bdpt asbdpt; do
     printf 'Integrator "%s" "string lightsamplestrategy" "spacial"\nWorldBegin\nWorldEnd\n' $method >strategy.pbrt
-    expect 1 '^asbdpt: strategy.pbrt:1:[0-9]+: lightsamplestrategy = "spacial" is unknown: give "spatial", "power" or' \
-        "$program" render strategy.pbrt $small -o x.pfm
+    for command in info "render --res 16x16 --spp 2 -o x.pfm"; do
+        expect 0 '^asbdpt: warning: strategy.pbrt:1:[0-9]+: "lightsamplestrategy" is "spatial": its value is unknown' \
+            "$program" $command strategy.pbrt
+        expect 1 '^asbdpt: -P: lightsamplestrategy = "spacial" is unknown: give "spatial", "power" or' \
+            "$program" $command strategy.pbrt -P lightsamplestrategy=spacial
+    done
     for strategy in spatial power uniform; do
         sed s/spacial/$strategy/ strategy.pbrt >known.pbrt
         expect 0 '' "$program" render known.pbrt $small -o x.pfm
     done
 done
-expect 0 '^asbdpt: warning: known.pbrt:1:[0-9]+: lights are not picked uniformly here; "power" is used' \
+expect 0 '^asbdpt: warning: known.pbrt:1:[0-9]+: "lightsamplestrategy" is "power" instead of "uniform"' \
     "$program" info known.pbrt
+check grep -q '^asbdpt: warning: known.pbrt: there are no lights, so the picture is black' stderr.txt
+
+# Parameters of pbrt's integrators that have no effect here are said; those of -P must be right. info and render agree.
+printf 'Integrator "sppm" "integer numiterations" 3 "integer maxdepth" 100000 "bool visualizeweights" "true"
+"integer pixelbounds" [ 0 1 0 1 ] "bool visualizestrategies" "false"
+Film "image" "string filename" "x.jpg"\nWorldBegin\nLightSource "point"\nWorldEnd\n' >sppm.pbrt
+for command in info "render --res 16x16 --spp 1"; do
+    expect 0 'warning: sppm.pbrt:1:19: "numiterations" is not used: no integrator here' "$program" $command sppm.pbrt
+    check grep -q 'warning: sppm.pbrt:1:45: "maxdepth" is cut to 1000' stderr.txt
+    check grep -q 'warning: sppm.pbrt:1:[0-9]*: "visualizeweights" is not used; --strategies' stderr.txt
+    check grep -q 'warning: sppm.pbrt:2:1: "pixelbounds" is not used: .* --cropwindow' stderr.txt
+    check grep -q 'warning: sppm.pbrt: integrator "sppm" does not exist here; bdpt is used' stderr.txt
+    check grep -q 'warning: sppm.pbrt: the picture is written as .png: .*"x.jpg"' stderr.txt
+    check [ "$(grep -c warning: stderr.txt)" = 6 ]
+    expect 1 'sppm.pbrt:1:19: "numiterations" is not used' "$program" $command sppm.pbrt --strict
+    expect 1 '^asbdpt: -P: no integrator has a parameter "radiuss"' "$program" $command sppm.pbrt -P radiuss=3
+    expect 1 '^asbdpt: -P: maxdepth = 100000 is out of range' "$program" $command sppm.pbrt -P maxdepth=100000
+    expect 1 'delta = 7 is out of range' "$program" $command sppm.pbrt -P delta=7 --integrator asbdpt
+done
+check [ -f x.png ]
+printf 'Integrator "bdpt" "integer maxdepth" 1\nWorldBegin\nLightSource "point"\nWorldEnd\n' >depth.pbrt
+expect 0 '' "$program" info depth.pbrt -P maxdepth=7 --maxdepth 8
+check grep -q '^  maxdepth    8$' stdout.txt
+expect 0 '' "$program" info depth.pbrt -P maxdepth=6 -P maxdepth=7
+check grep -q '^  maxdepth    7$' stdout.txt
 for strategy in spatial power uniform; do
     expect 0 '' "$program" render "$scenes/living-room.pbrt" $small --integrator asbdpt \
         -P lightsamplestrategy=$strategy -o $strategy.pfm

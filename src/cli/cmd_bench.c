@@ -19,6 +19,7 @@
 #include "base/warp.h"
 #include "cli/command.h"
 #include "parser/parser.h"
+#include "render/parameters.h"
 #include "render/render.h"
 
 enum measure {
@@ -184,6 +185,7 @@ static bool measure_scene(const char *path, const struct bench_options *o, doubl
     double start = os_cpu_seconds();
     if (!parse_scene(path, &scene, NULL, err))
         return false;
+    parameters_adapt(&scene, NULL);
     value[LOAD] = os_cpu_seconds() - start;
     shrink_film(&scene);
     start = os_cpu_seconds();

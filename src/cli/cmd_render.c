@@ -13,6 +13,7 @@
 #include "cli/outputs.h"
 #include "image/image.h"
 #include "lab/pyramid.h"
+#include "render/parameters.h"
 
 /* The scene's Film filename, with .png in place of an extension this program does not write. */
 static char *default_output(const struct scene *scene)
@@ -116,7 +117,7 @@ static bool render_and_write(const struct job_options *o, const struct scene *sc
                              struct outputs *out, struct aov_files *aov, struct error *err)
 {
     struct render_options options = {.integrator = m, .seed = o->seed, .end = job_spp(o, scene)};
-    if (!render_max_depth(scene, o->max_depth, &options.max_depth, err)) {
+    if (!parameters_max_depth(scene, o->max_depth, &options.max_depth, err)) {
         outputs_abandon(out);
         aov_abandon(aov);
         return false;

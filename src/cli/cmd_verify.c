@@ -6,6 +6,7 @@
 #include "cli/command.h"
 #include "cli/job_options.h"
 #include "lab/sides.h"
+#include "render/parameters.h"
 
 struct verify_options {
     struct job_options job;
@@ -167,7 +168,7 @@ static int verify(const struct verify_options *o)
     int status = EXIT_OK, max_depth = 0;
     if (o->has_scene && (status = job_load(&o->job, &scene, &integrator)) != EXIT_OK)
         return status;
-    bool ok = !o->has_scene || render_max_depth(&scene, o->job.max_depth, &max_depth, &err);
+    bool ok = !o->has_scene || parameters_max_depth(&scene, o->job.max_depth, &max_depth, &err);
     if (ok && o->files.n > 0)
         ok = side_read(o->files.item, o->files.n, o->with_errors, NULL, &a, &err) &&
              side_read(o->against.item, o->against.n, o->with_errors, &a, &b, &err);

@@ -56,7 +56,8 @@ static void print_command(const struct command *c, bool alone)
 
 static void print_methods(void)
 {
-    printf("integrators and their parameters (-P NAME=VALUE, or in the scene's Integrator directive):\n");
+    printf("integrators and their parameters (-P NAME=VALUE, or in the scene's Integrator directive;\n"
+           "of what is given twice, an option like --maxdepth counts before -P, and -P before the scene):\n");
     printf("    all: maxdepth 5, heuristic balance|power, rrthreshold 0.5, for select=bins 0 "
            "(0: no Russian roulette)\n");
     for (const struct integrator *const *m = integrator_list(); *m != NULL; m++) {

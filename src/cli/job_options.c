@@ -7,8 +7,10 @@
 
 #include "base/mem.h"
 #include "cli/command.h"
+#include "image/image.h"
 #include "parser/parser.h"
 #include "parser/symbols.h"
+#include "render/parameters.h"
 
 #define AT(member) offsetof(struct job_options, member)
 const struct option SCENE_OPTIONS[] = {
@@ -77,6 +79,10 @@ static bool apply(const struct job_options *o, struct scene *scene, struct error
         memcpy(scene->crop, o->crop, sizeof o->crop);
     for (int i = 0; i < o->overrides.n; i++)
         override(o->overrides.item[i], &scene->settings);
+    char depth[16];
+    snprintf(depth, sizeof depth, "maxdepth=%d", o->max_depth);
+    if (o->max_depth > 0)
+        override(depth, &scene->settings);
     struct pixel_rect crop = render_crop(scene);
     if (rect_width(crop) < 1 || rect_height(crop) < 1)
         return error_set(err, "the crop window holds no pixel");
@@ -95,6 +101,15 @@ void integrator_unknown(const char *wanted, struct error *out)
               s.name != NULL ? "? " : "", known);
 }
 
+/* A warning about the scene as a whole. */
+static void warn(struct listener *to, const char *format, const char *what)
+{
+    struct error text, line;
+    error_set(&text, format, what);
+    error_set(&line, "%s: %s", to->options->scene_path, text.text);
+    print_warning(to, line.text);
+}
+
 /* The integrator asked for; pbrt's integrators that do not exist here are replaced by the default. */
 static const struct integrator *choose_integrator(const struct scene *scene, struct listener *to, struct error *err)
 {
@@ -104,8 +119,8 @@ static const struct integrator *choose_integrator(const struct scene *scene, str
     if (m != NULL)
         return m;
     if (o->integrator == NULL) {
-        error_set(err, "integrator \"%s\" does not exist here; using bdpt", name);
-        print_warning(to, err->text);
+        warn(to, "integrator \"%s\" does not exist here; bdpt is used, whose picture has all light up to maxdepth",
+             name);
         return integrator_find("bdpt");
     }
     struct error known;
@@ -114,15 +129,14 @@ static const struct integrator *choose_integrator(const struct scene *scene, str
     return NULL;
 }
 
-/* pbrt has three strategies, and scenes name all of them; picking lights uniformly only adds noise. */
-static void warn_of_uniform(const struct scene *scene, struct listener *to)
+/* What is the matter with a scene that can be rendered. */
+static void warn_of_scene(const struct scene *scene, struct listener *to)
 {
-    const struct setting *item = settings_find(&scene->settings, "lightsamplestrategy");
-    struct error text;
-    if (item == NULL || strcmp(item->value, "uniform") != 0)
-        return;
-    error_set(&text, "%s: lights are not picked uniformly here; \"power\" is used instead", item->origin);
-    print_warning(to, text.text);
+    const char *name = scene->film_filename;
+    if (scene->lights.n == 0)
+        warn(to, "%s", "there are no lights, so the picture is black");
+    if (to->options->output.n == 0 && name != NULL && !image_writable(name))
+        warn(to, "the picture is written as .png: the format of the film's \"%.200s\" is none of this program's", name);
 }
 
 int job_load(const struct job_options *o, struct scene *scene, const struct integrator **integrator)
@@ -134,8 +148,11 @@ int job_load(const struct job_options *o, struct scene *scene, const struct inte
         return EXIT_JOB;
     *integrator = NULL;
     bool ok = apply(o, scene, &err) && (*integrator = choose_integrator(scene, &listener, &err)) != NULL;
+    parameters_adapt(scene, &sink);
+    struct render_job job;
+    ok = ok && parameters_read(scene, *integrator, o->max_depth, &job, &err);
     if (ok)
-        warn_of_uniform(scene, &listener);
+        warn_of_scene(scene, &listener);
     if (ok && o->strict && listener.n_warnings > 0)
         ok = error_set(&err, "%s: refused for what is said above, by --strict", o->scene_path);
     if (!ok) {

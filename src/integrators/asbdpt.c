@@ -224,6 +224,14 @@ const struct learnt *asbdpt_learnt(const void *state)
     return sel->learnt.paired ? &sel->learnt : NULL;
 }
 
+static bool check(const struct settings *s, struct error *err)
+{
+    struct selection sel;
+    int cells;
+    long restart;
+    return read_parameters(s, &sel, &cells, &restart, err);
+}
+
 /* The dissertation has no roulette, and its selection reads the throughput at a sub-path's far end, which roulette
  * would level: there it is off unless asked for. */
 static double rr_threshold(const struct settings *s)
@@ -232,4 +240,4 @@ static double rr_threshold(const struct settings *s)
 }
 
 const struct integrator integrator_asbdpt = {"asbdpt", "alias sampled bidirectional path tracing [Silva 2024]",
-                                             PARAMETERS, prepare, release, rr_threshold};
+                                             PARAMETERS, prepare, release, check, rr_threshold};

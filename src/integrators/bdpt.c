@@ -70,11 +70,11 @@ static bool prepare_bdpt(const struct render_job *job, struct preparation *out, 
 }
 
 const struct integrator integrator_pt = {"pt", "path tracing: light found by chance (s = 0) or sampled (s = 1)",
-                                         NO_PARAMETERS, prepare_pt, free, NULL};
+                                         NO_PARAMETERS, prepare_pt, free, NULL, NULL};
 
 const struct integrator integrator_lt = {
     "lt", "light tracing: light sub-paths connected to the lens (t = 1); cannot see mirrors",
-    NO_PARAMETERS, prepare_lt, free, NULL};
+    NO_PARAMETERS, prepare_lt, free, NULL, NULL};
 
 const struct integrator integrator_bdpt = {"bdpt", "bidirectional path tracing [Veach 1997]: all strategies",
-                                           NO_PARAMETERS, prepare_bdpt, free, NULL};
+                                           NO_PARAMETERS, prepare_bdpt, free, NULL, NULL};

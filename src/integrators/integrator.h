@@ -37,6 +37,8 @@ struct integrator {
     /* Read parameters from job->scene->settings and do what must be done once. False with a message on a bad one. */
     bool (*prepare)(const struct render_job *job, struct preparation *out, struct error *err);
     void (*release)(void *state);
+    /* Are those of its parameters that nobody else has right? False with a message if not; may be NULL: it has none. */
+    bool (*check)(const struct settings *settings, struct error *err);
     /* rr_threshold unless the user gives one; may be NULL: DEFAULT_RR_THRESHOLD. */
     double (*rr_threshold)(const struct settings *settings);
 };

@@ -15,6 +15,7 @@
 #include "lab/compare.h"
 #include "lab/pyramid.h"
 #include "parser/parser.h"
+#include "render/parameters.h"
 
 enum { PATH_SIZE = 4096, KEY_SIZE = 1024, REFERENCE_SEED = 100001, PYRAMID_SPP = 64, PYRAMID_LENGTH = 5 };
 
@@ -289,13 +290,14 @@ bool experiment_scene(const char *path, int width, int height, int max_depth, st
     static const double whole[4] = {0, 1, 0, 1};
     if (!parse_scene(path, scene, NULL, err))
         return false;
+    parameters_adapt(scene, NULL);
     /* Widths of plans go up to 8192 and films up to 65536 a side: below 2^30. */
     int by_aspect = (int)(0.5 + (double)width * scene->height / scene->width);
     memcpy(scene->crop, whole, sizeof whole);
     scene->width = width;
     scene->height = height > 0 ? height : by_aspect > 1 ? by_aspect : 1;
     filter_default("box", &scene->filter);
-    if (!render_max_depth(scene, max_depth, depth, err)) {
+    if (!parameters_max_depth(scene, max_depth, depth, err)) {
         scene_free(scene);
         return false;
     }

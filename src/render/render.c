@@ -7,6 +7,7 @@
 #include "base/number.h"
 #include "base/os.h"
 #include "base/parallel.h"
+#include "render/parameters.h"
 
 /* Fractions lie within [0,1]: readers of scenes and options see to it. */
 struct pixel_rect render_crop(const struct scene *scene)
@@ -15,70 +16,6 @@ struct pixel_rect render_crop(const struct scene *scene)
     struct pixel_rect r = {(int)ceil(scene->width * c[0]), (int)ceil(scene->height * c[2]),
                            (int)ceil(scene->width * c[1]), (int)ceil(scene->height * c[3])};
     return r;
-}
-
-bool render_max_depth(const struct scene *scene, int wanted, int *out, struct error *err)
-{
-    long depth = wanted;
-    if (wanted <= 0 && !settings_int(&scene->settings, "maxdepth", 5, 0, PATH_MAX_DEPTH, &depth, err))
-        return false;
-    *out = (int)depth;
-    return true;
-}
-
-/* --- parameters -------------------------------------------------------------------------------------- */
-
-static bool parameter_known(const struct integrator *m, const char *name)
-{
-    for (const struct setting_help *p = m->parameters; p->name != NULL; p++)
-        if (strcmp(p->name, name) == 0)
-            return true;
-    return false;
-}
-
-/* Parameters of any integrator are accepted (--integrator may have replaced the scene's), and pbrt's that cannot change
- * the expected image; anything else is a typo. */
-static bool check_settings(const struct scene *scene, struct error *err)
-{
-    static const char *const harmless[] = {"maxdepth",    "heuristic",           "rrthreshold",
-                                           "pixelbounds", "visualizestrategies", "visualizeweights"};
-    for (int i = 0; i < scene->settings.n; i++) {
-        const struct setting *item = &scene->settings.item[i];
-        bool known = false;
-        for (size_t k = 0; k < sizeof harmless / sizeof harmless[0]; k++)
-            known |= strcmp(item->name, harmless[k]) == 0;
-        for (const struct integrator *const *m = integrator_list(); *m != NULL; m++)
-            known |= parameter_known(*m, item->name);
-        if (!known)
-            return error_set(err, "%s: no integrator has a parameter \"%s\"; asbdpt --help lists them", item->origin,
-                             item->name);
-    }
-    return true;
-}
-
-static bool read_heuristic(const struct scene *scene, bool *power, struct error *err)
-{
-    static const char *const names[] = {"balance", "power", NULL};
-    int which;
-    bool ok = settings_choice(&scene->settings, "heuristic", 0, names, &which, err);
-    *power = which == 1;
-    return ok;
-}
-
-/* Checked for all integrators, as scenes of pbrt have it for several integrators; "uniform" is replaced by "power". */
-static bool read_light_strategy(const struct scene *scene, bool *spatial, struct error *err)
-{
-    static const char *const names[] = {"spatial", "power", "uniform", NULL};
-    int which;
-    bool ok = settings_choice(&scene->settings, "lightsamplestrategy", 0, names, &which, err);
-    *spatial = which == 0;
-    return ok;
-}
-
-static bool read_roulette(const struct scene *scene, const struct integrator *m, double *threshold, struct error *err)
-{
-    double fallback = m->rr_threshold != NULL ? m->rr_threshold(&scene->settings) : DEFAULT_RR_THRESHOLD;
-    return settings_real(&scene->settings, "rrthreshold", fallback, 0, 1e6, threshold, err);
 }
 
 /* --- tile passes ------------------------------------------------------------------------------------- */
@@ -200,10 +137,7 @@ bool render_prepare(const struct scene *scene, const struct render_options *opti
     job->spp = (double)(options->planned > options->end ? options->planned : options->end);
     job->n_threads = options->n_threads < 1 ? os_cores() : options->n_threads;
     *out = standard;
-    return check_settings(scene, err) && read_heuristic(scene, &job->power_heuristic, err) &&
-           read_roulette(scene, options->integrator, &job->rr_threshold, err) &&
-           read_light_strategy(scene, &job->spatial_lights, err) &&
-           render_max_depth(scene, options->max_depth, &job->max_depth, err) &&
+    return parameters_read(scene, options->integrator, options->max_depth, job, err) &&
            options->integrator->prepare(job, out, err);
 }
 

@@ -48,7 +48,4 @@ bool render_scene(const struct scene *scene, const struct render_options *option
 bool render_prepare(const struct scene *scene, const struct render_options *options, struct pixel_rect rect,
                     struct render_job *job, struct preparation *out, struct error *err);
 
-/* render_max_depth: the depth limit in force: options, else the setting "maxdepth", else 5. False with a message. */
-bool render_max_depth(const struct scene *scene, int wanted, int *out, struct error *err);
-
 #endif

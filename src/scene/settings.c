@@ -31,13 +31,23 @@ void settings_set(struct settings *s, const char *name, const char *value, const
     item->origin = mem_copy_text(origin);
 }
 
+static void free_setting(struct setting *item)
+{
+    free(item->name);
+    free(item->value);
+    free(item->origin);
+}
+
+void settings_remove(struct settings *s, int i)
+{
+    free_setting(&s->item[i]);
+    memmove(&s->item[i], &s->item[i + 1], (size_t)(--s->n - i) * sizeof *s->item);
+}
+
 void settings_clear(struct settings *s)
 {
-    for (int i = 0; i < s->n; i++) {
-        free(s->item[i].name);
-        free(s->item[i].value);
-        free(s->item[i].origin);
-    }
+    for (int i = 0; i < s->n; i++)
+        free_setting(&s->item[i]);
     free(s->item);
     memset(s, 0, sizeof *s);
 }

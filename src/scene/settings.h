@@ -23,6 +23,7 @@ struct settings {
 
 /* settings_set: add or replace. */
 void settings_set(struct settings *s, const char *name, const char *value, const char *origin);
+void settings_remove(struct settings *s, int i);
 void settings_clear(struct settings *s); /* forget and free everything */
 
 /* settings_find: the setting of this name, or NULL. */

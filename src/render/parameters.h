@@ -1,0 +1,28 @@
+/* parameters.h: what the settings of a scene say to every integrator.
+ *
+ * Settings come from a scene file or from -P. Those of a file are for pbrt-v3, whose integrators have others than ours:
+ * what has no effect here is said and taken out. Those of -P must be right.
+ *
+ * Tests: test_render.c, test/cli.sh.
+ */
+#ifndef ASBDPT_PARAMETERS_H
+#define ASBDPT_PARAMETERS_H
+
+#include "integrators/integrator.h"
+#include "parser/source_position.h" /* struct message_sink */
+
+/* parameters_adapt: take out and replace what pbrt-v3 knows and this program does not, or pbrt-v3 would pass over.
+ *   sink  hears of each; may be NULL */
+void parameters_adapt(struct scene *scene, const struct message_sink *sink);
+
+/* parameters_read: the settings that all integrators share, into max_depth, power_heuristic, spatial_lights and
+ * rr_threshold of the job.
+ *   max_depth  what the user wants, or 0: what the scene says, else 5
+ * Returns false with a message on a setting that is unknown or wrong, also of those that this integrator alone has. */
+bool parameters_read(const struct scene *scene, const struct integrator *m, int max_depth, struct render_job *job,
+                     struct error *err);
+
+/* parameters_max_depth: that depth alone. */
+bool parameters_max_depth(const struct scene *scene, int wanted, int *out, struct error *err);
+
+#endif
