@@ -180,9 +180,103 @@ static void test_damaged_map(struct test *t)
     scene_free(&scene);
 }
 
+/* What a light emits by light_sample_emission, against the sum of its intensity over a fine grid of directions. */
+static void check_energy(struct test *t, const struct light_set *lights, const struct light_point *at,
+                         const char *name)
+{
+    enum { N = 600, DRAWS = 20000 };
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 7, (uint64_t)name[0]);
+    double total = 0, sum = 0, square = 0;
+    for (int i = 0; i < N; i++)
+        for (int k = 0; k < 2 * N; k++)
+            total += rgb_luminance(light_Le(lights, at, warp_sphere((i + 0.5) / N, (k + 0.5) / (2 * N))));
+    total *= 4 * PI / (2.0 * N * N);
+    for (int i = 0; i < DRAWS; i++) {
+        double u[2] = {rng_uniform(&r), rng_uniform(&r)}, pdf;
+        struct ray ray;
+        double value = rgb_luminance(light_sample_emission(lights, at, u, &ray, &pdf)) / pdf;
+        CHECK(t, pdf > 0 && fabs(length(ray.d) - 1) < 1e-12, "%s: pdf %g", name, pdf);
+        sum += value;
+        square += value * value;
+    }
+    double mean = sum / DRAWS, error = sqrt((square / DRAWS - mean * mean) / DRAWS);
+    TEST_ACCEPT(t, stats_student_p((mean - total) / error, DRAWS - 1), "%s emits %g, not %g", name, mean, total);
+    TEST_REJECT(t, stats_student_p((mean - 1.1 * total) / error, DRAWS - 1), "%s with 10 %% more", name);
+}
+
+/* Lights with slides, also where the transform of light space stretches and mirrors: all directions in which they shine
+ * are drawn, with the density they state. The first has cell edges for the edge of its cone. */
+static void test_slides(struct test *t)
+{
+    enum { W = 16, H = 8, N = 4 };
+    static const char *const places[N] = {
+        "", "Rotate 40 1 2 -1 Scale 1 2 -.7", "Rotate 40 1 2 -1", "Rotate 40 1 2 -1 Scale 1 2 -.7"};
+    static float pixels[W * H * 3];
+    char path[256], text[1024];
+    struct error err = {""};
+    for (int i = 0; i < W * H * 3; i++)
+        pixels[i] = (float)(i % 7 == 0 ? -1 : 1 + (i / 3) % 5);
+    snprintf(path, sizeof path, "%s/slide.pfm", test_tmp(t));
+    if (!CHECK(t, image_write(path, W, H, pixels, &err), "%s", err.text))
+        return;
+    for (int i = 0; i < N; i++) {
+        const char *name = i < 2 ? "projection light" : "goniometric light";
+        struct scene scene;
+        struct light_point at;
+        /* The cosine of the corner is 1/2 where tan(fov/2)^2 (2^2 + 1^2) = 3. */
+        snprintf(text, sizeof text,
+                 "WorldBegin AttributeBegin Translate 1 2 3 %s LightSource \"%s\" \"rgb I\" [1 2 3]\n"
+                 "\"string mapname\" \"%s\" %s AttributeEnd WorldEnd\n", places[i],
+                 i < 2 ? "projection" : "goniometric", path, i < 2 ? "\"float fov\" 75.52248781407008" : "");
+        const double u[3] = {0.5, 0.5, 0.5};
+        if (!scene_from_text(t, text, &scene))
+            return;
+        CHECK(t, light_sample_point(&scene.lights, &scene.geo, u, &at), "no light point");
+        const struct light *l = &scene.lights.light[0];
+        CHECK(t, length(sub(at.p, vec(1, 2, 3))) < 1e-12 && light_is_delta(l) && at.pdf == 1, "%s: its place", name);
+        CHECK(t, i > 0 || fabs(l->cos_total - 0.5) < 1e-12, "corner at cosine %g", l->cos_total);
+        struct direction_source s = {&scene.lights, &at, &scene.geo, 0};
+        if (i % 2 == 0)
+            check_directions(t, s, name);
+        check_energy(t, &scene.lights, &at, name);
+        scene_free(&scene);
+    }
+}
+
+/* Where the texels of a slide go, by pbrt-v3's rules: the first row of a projection is where y is least, the first of a
+ * goniometric map at +y, azimuth from x to z. */
+static void test_slide_places(struct test *t)
+{
+    static const float pixels[] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 0}; /* red green, blue yellow */
+    char path[256];
+    struct error err = {""};
+    snprintf(path, sizeof path, "%s/four.pfm", test_tmp(t));
+    CHECK(t, image_write(path, 2, 2, pixels, &err), "%s", err.text);
+    struct slide *s = slide_load(path, &err);
+    if (!CHECK(t, s != NULL, "%s", err.text))
+        return;
+    const double q = 0.5; /* texel centres lie halfway between middle and edge */
+    rgb p[4] = {slide_projection(s, 1, vec(-q, -q, 1)), slide_projection(s, 1, vec(q, -q, 1)),
+                slide_projection(s, 1, vec(-q, q, 1)), slide_projection(s, 1, vec(q, q, 1))};
+    const double a = sqrt(0.5);
+    rgb g[4] = {slide_goniometric(s, vec(0, a, a)), slide_goniometric(s, vec(0, a, -a)),
+                slide_goniometric(s, vec(0, -a, a)), slide_goniometric(s, vec(0, -a, -a))};
+    for (int i = 0; i < 4; i++) {
+        rgb want = rgb_make((double)pixels[3 * i], (double)pixels[3 * i + 1], (double)pixels[3 * i + 2]);
+        CHECK(t, fabs(p[i].r - want.r) + fabs(p[i].g - want.g) + fabs(p[i].b - want.b) < 1e-9, "projection, %d", i);
+        CHECK(t, fabs(g[i].r - want.r) + fabs(g[i].g - want.g) + fabs(g[i].b - want.b) < 1e-9, "goniometric, %d", i);
+    }
+    const vec3 beside[3] = {vec(1.01, 0, 1), vec(0, -1.01, 1), vec(0, 0, -1)};
+    for (int i = 0; i < 3; i++)
+        CHECK(t, rgb_is_black(slide_projection(s, 1, beside[i])), "light beside the picture, %d", i);
+    slide_free(s);
+}
+
 void test_light(struct test *t)
 {
     test_emission(t);
+    test_slides(t);
+    test_slide_places(t);
     test_environment(t);
     test_damaged_map(t);
 }

@@ -460,7 +460,7 @@ static void check_lights(struct test *t)
     if (!open_scene(t, "lights", &s))
         return;
     const struct light *l = s.lights.light;
-    if (CHECK(t, s.lights.n == 9, "%d lights", s.lights.n)) {
+    if (CHECK(t, s.lights.n == 12, "%d lights", s.lights.n)) {
         CHECK(t, l[0].kind == LIGHT_POINT && same3(l[0].position, 1, 2, 3) && same_rgb(l[0].L, 1, 2, 3), "point");
         CHECK(t,
               l[1].kind == LIGHT_SPOT && same3(l[1].axis.n, 0, 1, 0) && near(l[1].cos_total, .5) &&
@@ -480,6 +480,11 @@ static void check_lights(struct test *t)
               "groups know their lights; AttributeEnd ends the area light");
         CHECK(t, s.geo.group[2].first_light == 8 && s.geo.group[2].material == -1 && s.geo.group[3].material >= 0,
               "a light of material none stays, without a material");
+        CHECK(t, l[9].kind == LIGHT_GONIOMETRIC && same3(l[9].position, 1, 2, 3) && same_rgb(l[9].L, 1, 2, 3) &&
+                     l[9].slide == NULL, "goniometric");
+        CHECK(t, l[10].kind == LIGHT_PROJECTION && same_rgb(l[10].L, 2, 4, 6) && near(l[10].tan_half, 1) &&
+                     l[10].slide != NULL, "projection");
+        CHECK(t, near(l[11].tan_half, tan(PI / 8)) && l[11].slide == NULL, "default projection");
     }
     scene_free(&s);
 }

@@ -8,6 +8,7 @@
 
 static const char *const LIGHT_NAMES[] = {
     [LIGHT_AREA] = "area", [LIGHT_POINT] = "point", [LIGHT_SPOT] = "spot",
+    [LIGHT_GONIOMETRIC] = "goniometric", [LIGHT_PROJECTION] = "projection",
     [LIGHT_DISTANT] = "distant", [LIGHT_INFINITE] = "infinite",
 };
 
@@ -19,7 +20,7 @@ static void print_lights(const struct light_set *lights)
         total += lights->light[i].power;
     printf("lights        %d\n", lights->n);
     for (int i = 0; i < lights->n && i < SHOWN; i++)
-        printf("  %-9s   power %.4g W (%.1f %%)\n", LIGHT_NAMES[lights->light[i].kind], lights->light[i].power,
+        printf("  %-11s power %.4g W (%.1f %%)\n", LIGHT_NAMES[lights->light[i].kind], lights->light[i].power,
                total > 0 ? 100 * lights->light[i].power / total : 0);
     if (lights->n > SHOWN)
         printf("  and %d more\n", lights->n - SHOWN);

@@ -12,6 +12,7 @@ struct light_item {
     struct light light;
     vec3 from, to;     /* in light space */
     double cone, edge; /* degrees */
+    double fov;        /* degrees */
 };
 
 /* "L" or "I" times "scale". */
@@ -68,21 +69,46 @@ static void distant_light(struct parser *p, void *object)
     item->light.direction = direction(&p->params, &item->light, item->to, item->from);
 }
 
-static void infinite_light(struct parser *p, void *object)
+/* The picture of "mapname", if there is one: a map of an infinite light, a slide of the others. */
+static void map_of_light(struct params *q, struct light *l)
 {
-    struct light *l = &((struct light_item *)object)->light;
-    struct params *q = &p->params;
     struct source_position at;
+    struct error inner;
     char *path = params_file(q, "mapname", &at);
+    const struct image *image = NULL;
     if (path == NULL)
         return;
-    struct error inner;
-    if (!q->failed && (l->env = envmap_load(path, &inner)) == NULL)
+    if (!q->failed && l->kind == LIGHT_INFINITE)
+        image = (l->env = envmap_load(path, &inner)) != NULL ? &l->env->image : NULL;
+    else if (!q->failed)
+        image = (l->slide = slide_load(path, &inner)) != NULL ? &l->slide->image : NULL;
+    if (!q->failed && image == NULL)
         params_fail(q, at, "%s", inner.text);
-    else if (!q->failed && l->env->image.replaced > 0)
+    else if (!q->failed && image->replaced > 0)
         source_warn(q->messages, at, "environment",
-                    "%ld numbers of this picture are negative or not finite; 0 instead", l->env->image.replaced);
+                    "%ld numbers of this picture are negative or not finite; 0 instead", image->replaced);
     free(path);
+}
+
+static void infinite_light(struct parser *p, void *object)
+{
+    map_of_light(&p->params, &((struct light_item *)object)->light);
+}
+
+static void slide_light(struct parser *p, void *object)
+{
+    struct light_item *item = object;
+    struct light *l = &item->light;
+    map_of_light(&p->params, l);
+    l->position = transform_point(&l->to_world, vec(0, 0, 0));
+    if (l->kind != LIGHT_PROJECTION)
+        return;
+    if (!(item->fov < 180))
+        type_error(&p->params, "a field of view of %g degrees is too wide; it must be less than 180", item->fov);
+    l->tan_half = m_tan(item->fov * PI / 360);
+    l->cos_total = slide_cos_corner(l->slide, l->tan_half);
+    if (!(l->cos_total < 1))
+        type_error(&p->params, "\"fov\" is %g degrees: a picture without inside", item->fov);
 }
 
 #define EMITTED(name) {name, emitted, offsetof(struct light_item, light.L), GREY(1), 0, 0, NULL}
@@ -103,6 +129,11 @@ static const struct parameter DISTANT_LIGHT[] = {
     EMITTED("L"), BY_BUILD("scale"), POINT(from, 0, 0, 0), POINT(to, 0, 0, 1), END_OF_PARAMETERS};
 static const struct parameter INFINITE_LIGHT[] = {
     EMITTED("L"), BY_BUILD("scale"), SAMPLES, BY_BUILD("mapname"), END_OF_PARAMETERS};
+static const struct parameter GONIOMETRIC_LIGHT[] = {
+    EMITTED("I"), BY_BUILD("scale"), BY_BUILD("mapname"), END_OF_PARAMETERS};
+static const struct parameter PROJECTION_LIGHT[] = {
+    EMITTED("I"), BY_BUILD("scale"), BY_BUILD("mapname"),
+    {"fov", parse_number, offsetof(struct light_item, fov), GREY(45), POSITIVE, NULL}, END_OF_PARAMETERS};
 
 static const struct object_type LIGHTS[] = {
     {"point", POINT_LIGHT, LIGHT_POINT, point_light},
@@ -110,7 +141,9 @@ static const struct object_type LIGHTS[] = {
     {"distant", DISTANT_LIGHT, LIGHT_DISTANT, distant_light},
     {"infinite", INFINITE_LIGHT, LIGHT_INFINITE, infinite_light},
     {"exinfinite", INFINITE_LIGHT, LIGHT_INFINITE, infinite_light},
-    REFUSED("goniometric"), REFUSED("projection"), OTHERS_LEFT_OUT};
+    {"goniometric", GONIOMETRIC_LIGHT, LIGHT_GONIOMETRIC, slide_light},
+    {"projection", PROJECTION_LIGHT, LIGHT_PROJECTION, slide_light},
+    OTHERS_LEFT_OUT};
 
 static bool light(struct parser *p)
 {

@@ -17,8 +17,10 @@ int light_add(struct light_set *set, struct light l)
 
 void light_set_free(struct light_set *set)
 {
-    for (int i = 0; i < set->n; i++)
+    for (int i = 0; i < set->n; i++) {
         envmap_free(set->light[i].env);
+        slide_free(set->light[i].slide);
+    }
     free(set->light);
     alias_free(&set->choice);
     free(set->light_of_cell);
@@ -39,6 +41,12 @@ static double spot_falloff(const struct light *l, vec3 w)
     return sqr(sqr(delta));
 }
 
+/* Mean luminance of L times the slide. */
+static double slide_luminance(const struct light *l)
+{
+    return rgb_luminance(l->slide != NULL ? rgb_mul(l->L, l->slide->mean) : l->L);
+}
+
 /* Powers are those of [PBRT3 12.1-12.6]; of lights at infinity, what meets the disk of the scene's sphere. */
 static double light_power(const struct light *l, const struct geometry *geo, double scene_radius)
 {
@@ -48,6 +56,8 @@ static double light_power(const struct light *l, const struct geometry *geo, dou
     case LIGHT_AREA: return lum * PI * shape_area(geo, l->prim) * (l->two_sided ? 2 : 1);
     case LIGHT_POINT: return lum * 4 * PI;
     case LIGHT_SPOT: return lum * 2 * PI * (1 - 0.5 * (l->cos_falloff + l->cos_total));
+    case LIGHT_GONIOMETRIC: return 4 * PI * slide_luminance(l);
+    case LIGHT_PROJECTION: return 2 * PI * (1 - l->cos_total) * slide_luminance(l);
     case LIGHT_DISTANT: return lum * disk;
     case LIGHT_INFINITE: return disk * PI * rgb_luminance(l->env ? rgb_mul(l->L, l->env->mean) : l->L);
     }
@@ -150,7 +160,9 @@ bool light_sample_cell(const struct light_set *set, const struct geometry *geo, 
         break;
     }
     case LIGHT_POINT:
-    case LIGHT_SPOT: out->p = l->position; break;
+    case LIGHT_SPOT:
+    case LIGHT_GONIOMETRIC:
+    case LIGHT_PROJECTION: out->p = l->position; break;
     case LIGHT_DISTANT: out->w = l->direction; break;
     case LIGHT_INFINITE: out->w = infinite_sample(l, cell - l->first_cell, u1, u2, &pdf); break;
     }
@@ -204,8 +216,12 @@ rgb light_sample_emission(const struct light_set *set, const struct light_point 
         w = to_world(&f, local);
         break;
     }
-    case LIGHT_POINT: w = warp_sphere(u[0], u[1]); break;
+    case LIGHT_POINT:
+    case LIGHT_GONIOMETRIC: w = warp_sphere(u[0], u[1]); break;
     case LIGHT_SPOT: w = to_world(&l->axis, warp_cone(u[0], u[1], l->cos_total)); break;
+    case LIGHT_PROJECTION:
+        w = normalize(transform_vector(&l->to_world, warp_cone(u[0], u[1], l->cos_total)));
+        break;
     case LIGHT_DISTANT:
     case LIGHT_INFINITE:
         *ray = ray_from_infinity(set, y0->w, u);
@@ -218,6 +234,17 @@ rgb light_sample_emission(const struct light_set *set, const struct light_point 
     return *pdf > 0 ? rgb_scale(light_Le(set, y0, w), cosine) : rgb_black();
 }
 
+/* Uniform in a cone of light space, from where a transform A takes direction v to A v / |A v|: solid angles there are
+ * |det A| / |A v|^3 times as large, and |A v| = 1 / |A^-1 w|. */
+static double projection_pdf(const struct light *l, vec3 w)
+{
+    vec3 v = transform_vector_back(&l->to_world, w);
+    double size = length(v);
+    if (v.z < l->cos_total * size)
+        return 0;
+    return warp_cone_pdf_w(l->cos_total) / (fabs(transform_determinant(&l->to_world)) * size * size * size);
+}
+
 double light_pdf_emission(const struct light_set *set, const struct light_point *y0, vec3 w)
 {
     const struct light *l = &set->light[y0->light];
@@ -226,7 +253,9 @@ double light_pdf_emission(const struct light_set *set, const struct light_point 
         double c = dot(y0->n, w);
         return l->two_sided ? 0.5 * warp_cos_hemisphere_pdf_w(fabs(c)) : warp_cos_hemisphere_pdf_w(c);
     }
-    case LIGHT_POINT: return warp_sphere_pdf_w();
+    case LIGHT_POINT:
+    case LIGHT_GONIOMETRIC: return warp_sphere_pdf_w();
+    case LIGHT_PROJECTION: return projection_pdf(l, w);
     case LIGHT_SPOT: return dot(l->axis.n, w) >= l->cos_total ? warp_cone_pdf_w(l->cos_total) : 0;
     case LIGHT_DISTANT:
     case LIGHT_INFINITE: return 1 / (PI * sqr(set->radius));
@@ -241,6 +270,8 @@ rgb light_Le(const struct light_set *set, const struct light_point *y0, vec3 w)
     case LIGHT_AREA: return area_Le(l, y0->n, w);
     case LIGHT_POINT: return l->L;
     case LIGHT_SPOT: return rgb_scale(l->L, spot_falloff(l, w));
+    case LIGHT_GONIOMETRIC: return rgb_mul(l->L, slide_goniometric(l->slide, to_light_space(l, w)));
+    case LIGHT_PROJECTION: return rgb_mul(l->L, slide_projection(l->slide, l->tan_half, to_light_space(l, w)));
     case LIGHT_DISTANT: return l->L;
     case LIGHT_INFINITE: return infinite_Le(l, neg(w));
     }

@@ -1,7 +1,8 @@
 /* light.h: the emitters and how to sample them: emission for light sub-paths, and a fresh end point for s = 1.
  *
- * Five kinds. Area lights are one per primitive. A light's end point y0 is a point in space (area, point, spot) or a
- * direction (distant, infinite): then y0 lies "at infinity" and its density is per steradian.
+ * Seven kinds. Area lights are one per primitive. A light's end point y0 is a point in space (area, point, spot,
+ * goniometric, projection) or a direction (distant, infinite): then y0 lies "at infinity" and its density is per
+ * steradian.
  *
  * Lights are chosen in proportion to their power by an alias table; s = 1 and emission use the same choice and the
  * same density of y0, so one number serves both in the MIS weights.
@@ -17,8 +18,17 @@
 #include "base/rgb.h"
 #include "geometry/shape.h"
 #include "base/transform.h"
+#include "scene/slide.h"
 
-enum light_kind { LIGHT_AREA, LIGHT_POINT, LIGHT_SPOT, LIGHT_DISTANT, LIGHT_INFINITE };
+enum light_kind {
+    LIGHT_AREA,
+    LIGHT_POINT,
+    LIGHT_SPOT,
+    LIGHT_GONIOMETRIC,
+    LIGHT_PROJECTION,
+    LIGHT_DISTANT,
+    LIGHT_INFINITE
+};
 
 /* A light. What its fields mean depends on its kind; a dash: not used.
  *
@@ -34,6 +44,9 @@ enum light_kind { LIGHT_AREA, LIGHT_POINT, LIGHT_SPOT, LIGHT_DISTANT, LIGHT_INFI
  *   cos_falloff  -                 -                  full within it        -                      -
  *   direction  -                   -                  -                     unit, towards it       -
  *   env        -                   -                  -                     -                      map, NULL: constant
+ *
+ * A goniometric or projection light is a point light, with the same position and light points, whose intensity L is
+ * multiplied by its slide's (slide.h) factor for the direction in light space, to which to_world belongs.
  *
  * A light point (struct light_point) is a position (area, point, spot) or a direction (distant, infinite), and its
  * densities are per measure of that, which is why their names carry none:
@@ -53,11 +66,13 @@ struct light {
     struct transform to_world;
     int prim;
     bool two_sided;
-    double cos_total, cos_falloff;
+    double cos_total, cos_falloff; /* projection: cos_total is of the cone around the picture */
+    double tan_half;               /* projection: half a shorter side of the picture at distance 1 */
     vec3 position;
     struct frame axis;
     vec3 direction;
     struct envmap *env;      /* owned */
+    struct slide *slide;     /* goniometric, projection: owned, NULL: 1 */
     double power;            /* estimate, W, luminance; set by light_prepare */
     int first_cell, n_cells; /* its cells, see below; set by light_prepare */
 };
@@ -86,7 +101,7 @@ void light_set_free(struct light_set *set);
 /* Delta lights cannot be hit (s = 0 is impossible). */
 static inline bool light_is_delta(const struct light *l)
 {
-    return l->kind == LIGHT_POINT || l->kind == LIGHT_SPOT || l->kind == LIGHT_DISTANT;
+    return l->kind != LIGHT_AREA && l->kind != LIGHT_INFINITE;
 }
 
 /* Lights whose end point is a direction. */
@@ -122,7 +137,7 @@ rgb light_sample_emission(const struct light_set *set, const struct light_point 
 /* light_pdf_emission: density of that second draw for a given direction w of travel, 1/sr; at infinity 1/m^2. */
 double light_pdf_emission(const struct light_set *set, const struct light_point *y0, vec3 w);
 
-/* light_Le: what y0 sends in the unit direction w of travel: area, infinite: radiance; point, spot: intensity
+/* light_Le: what y0 sends in the unit direction w of travel: area, infinite: radiance; point, spot etc.: intensity
  * (its inverse square law is the connection's G); distant: irradiance. */
 rgb light_Le(const struct light_set *set, const struct light_point *y0, vec3 w);
 
