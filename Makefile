@@ -36,11 +36,9 @@ $(BUILD)/obj/%.o: src/%.c
 -include $(wildcard $(BUILD)/obj/*/*.d)
 
 # ---- what it is for ----
-demo: asbdpt ## render the Cornell box with bdpt and asbdpt into out/
+demo: asbdpt ## render Ajar with bdpt and asbdpt, the same time for each, into one picture, out/demo.png
 	@mkdir -p out
-	$(PROGRAM) render scenes/cornell-box.pbrt --res 256x256 --spp 64 --integrator bdpt -o out/demo-bdpt.png -o out/demo-bdpt.pfm
-	$(PROGRAM) render scenes/cornell-box.pbrt --res 256x256 --spp 64 --integrator asbdpt -o out/demo-asbdpt.png -o out/demo-asbdpt.pfm
-	@echo "look at out/demo-bdpt.png and out/demo-asbdpt.png, side by side"
+	$(PROGRAM) demo scenes/veach-ajar.pbrt --reference ref/demo/veach-ajar.png -o out/demo.png
 
 experiments: asbdpt ## measure all integrators on the five scenes, quickly, into out/experiments/report.html
 	$(PROGRAM) experiment --quick -o out/experiments

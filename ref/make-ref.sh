@@ -6,11 +6,12 @@
 #     ref/NAME.pfm        the mean of both methods, weighted by the inverse of their variances
 #     ref/NAME.error.pfm  its standard errors
 #     ref/NAME.txt        how it was made: commands, seeds, version, mean, p-values
-# Batches are kept in WORK: a run that was interrupted goes on where it stopped. One thread takes about an hour and a quarter.
+# The scene "demo" is the picture that `make demo` measures against, ref/demo/veach-ajar.png: larger, for the eye, and by
+# bdpt alone. Batches are kept in WORK: a run that was interrupted goes on where it stopped. One thread takes about an hour and a quarter.
 set -e
 program=${1:-./asbdpt}
 work=${2:-build/ref}
-[ $# -gt 2 ] && shift 2 || set -- cornell-box cornell-box-modified living-room veach-ajar bathroom \
+[ $# -gt 2 ] && shift 2 || set -- demo cornell-box cornell-box-modified living-room veach-ajar bathroom \
     caustic-glass sky spot corridor many-lights forest
 batches=16
 
@@ -54,8 +55,25 @@ render() {
     done
 }
 
+# demo: four renders by bdpt, two against two.
+demo() {
+    for seed in 3000 3001 3002 3003; do
+        [ -f "$work/demo-$seed.pfm" ] && continue
+        "$program" render scenes/veach-ajar.pbrt --integrator bdpt --res 240x135 --filter box --spp 384 --seed $seed \
+            --quiet -o "$work/part.pfm"
+        mv "$work/part.pfm" "$work/demo-$seed.pfm"
+    done
+    "$program" verify scenes/veach-ajar.pbrt --files "$work"/demo-300[01].pfm --against "$work"/demo-300[23].pfm \
+        --store "$work/veach-ajar" --note "$("$program" --version), ref/make-ref.sh demo: bdpt with seeds 3000 to 3003, \
+each with 384 samples per pixel, 240x135 pixels, box filter"
+    mkdir -p ref/demo
+    "$program" convert "$work/veach-ajar.pfm" ref/demo/veach-ajar.png
+    cp "$work/veach-ajar.txt" ref/demo/
+}
+
 mkdir -p "$work"
 for scene; do
+    [ "$scene" = demo ] && { demo; continue; }
     pair=$(methods "$scene")
     a=${pair% *} b=${pair#* }
     render "$scene" "$a" 1000

@@ -16,7 +16,7 @@
 
 enum { GAP = 24, LABEL = 60, COLUMN = 480, CALIBRATION_SPP = 4 };
 static const double PAPER = 0.12, INK = 0.92, SOFT = 0.65; /* greys */
-static const double NEAR = 0.03;                           /* a time this much longer is not corrected */
+static const double NEAR = 0.03;                           /* a time this much off is not corrected */
 
 /* The demonstration under way. */
 struct show {
@@ -53,20 +53,22 @@ static bool render(struct show *s, int i, long spp)
     return ok;
 }
 
-/* The second integrator's samples: as many as the first one's time has room for, found by a short render, and found
- * again if the longer one shows that they were too many. */
+/* The second integrator's samples: what the first one's time has room for, by a short render, and corrected once if the
+ * long one takes another time. */
 static bool render_both(struct show *s)
 {
     long calibration = s->demo->spp < CALIBRATION_SPP ? s->demo->spp : CALIBRATION_SPP;
     if (!render(s, 0, s->demo->spp) || !render(s, 1, calibration))
         return false;
-    double target = s->side[0].seconds;
+    double target = s->side[0].seconds, growth = 1;
     for (int attempt = 0; attempt < 2; attempt++) {
-        long spp = equal_samples(s->side[1].spp, s->side[1].seconds, 1, target);
+        struct demo_side before = s->side[1];
+        long spp = equal_samples(before.spp, before.seconds, growth, target);
+        if (spp == before.spp || fabs(before.seconds / target - 1) <= NEAR)
+            break;
         if (!render(s, 1, spp))
             return false;
-        if (s->side[1].seconds <= (1 + NEAR) * target || spp == 1)
-            break;
+        growth = equal_growth(before.spp, before.seconds, spp, s->side[1].seconds);
     }
     return true;
 }
