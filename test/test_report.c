@@ -497,6 +497,30 @@ static void test_plan(struct test *t)
     CHECK(t, strcmp(name, "bathroom") == 0, "name of a file: %s", name);
 }
 
+/* What a plan leaves open is the stored reference's; without one, or where it says a width, the scene's. */
+static void test_planned_scene(struct test *t)
+{
+    static const struct {
+        int width, max_depth;
+        const char *name;
+        int expected[3];
+    } cases[] = {{0, 0, "bathroom", {36, 24, 10}}, {0, 3, "bathroom", {36, 24, 3}}, {72, 0, "bathroom", {72, 48, 10}},
+                 {0, 0, "no-such-name", {WIDTH_WITHOUT_REFERENCE, 32, 10}}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct plan p = {.width = cases[i].width, .max_depth = cases[i].max_depth};
+        const int *expected = cases[i].expected;
+        struct scene scene;
+        struct error err = {""};
+        int depth;
+        if (!CHECK(t, experiment_planned_scene(&p, "scenes/bathroom.pbrt", cases[i].name, &scene, &depth, &err), "%s",
+                   err.text))
+            continue;
+        CHECK(t, scene.width == expected[0] && scene.height == expected[1] && depth == expected[2],
+              "case %d: %dx%d, depth %d", (int)i, scene.width, scene.height, depth);
+        scene_free(&scene);
+    }
+}
+
 static void test_reference(struct test *t)
 {
     char path[300];
@@ -530,6 +554,7 @@ void test_report(struct test *t)
     test_markup(t);
     test_plan(t);
     test_reference(t);
+    test_planned_scene(t);
     test_experiment(t);
     test_equal_time(t);
 }

@@ -61,17 +61,17 @@ static float at(const struct sheet *s, int x, int y, int c) { return s->pixels[3
 /* Pictures land where they should, each pixel a square, and nothing is drawn beyond the edges. */
 static void test_paste(struct test *t)
 {
-    const float picture[2 * 2 * 3] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+    const float picture[2 * 3 * 3] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18};
     for (int x = -5; x <= 8; x++)
         for (int y = -5; y <= 8; y++) {
             struct sheet s;
             sheet_init(&s, 8, 7, 0);
-            sheet_paste(&s, x, y, picture, 2, 2, 3);
+            sheet_paste(&s, x, y, picture, 2, 3, 2);
             bool good = true;
             for (int j = 0; j < 7; j++)
                 for (int i = 0; i < 8; i++) {
-                    bool inside = i >= x && i < x + 6 && j >= y && j < y + 6;
-                    int pixel = inside ? (j - y) / 3 * 2 + (i - x) / 3 : 0;
+                    bool inside = i >= x && i < x + 4 && j >= y && j < y + 6;
+                    int pixel = inside ? (j - y) / 2 * 2 + (i - x) / 2 : 0;
                     for (int c = 0; c < 3; c++)
                         good = good && at(&s, i, j, c) == (inside ? picture[3 * pixel + c] : 0);
                 }

@@ -166,6 +166,9 @@ static void test_compare(struct test *t)
     const float black = 0, white = 1;
     d = compare_pixels(&black, &white, 1);
     CHECK(t, d.rmse8 == 255 && d.psnr == 0, "psnr of black for white is %g", d.psnr);
+    const float hundred[100] = {0}, one_off[100] = {1}; /* rmse8 is 255 / 10 */
+    d = compare_pixels(one_off, hundred, 100);
+    CHECK(t, fabs(d.psnr - 20) < 1e-12, "psnr of one in a hundred is %g", d.psnr);
 }
 
 /* Errors of pixels, what percentile they have, and their colours. */

@@ -35,9 +35,9 @@ struct demo_side {
     double rmse8;   /* on the scale of the reference */
 };
 
-/* demo_run: render both, compare, draw the picture. The second is given the samples that take it as long as the
- * first took; clocks being restless and samples whole, both times are reported. Returns false with a message, else `picture` is to be
- * released with sheet_free. */
+/* demo_run: render both, compare, draw the picture. The second is given the samples that take it as long as the first
+ * took; clocks being restless and samples whole, both times are reported. Returns false with a message, else `picture`
+ * is to be released with sheet_free. */
 bool demo_run(const struct demo *demo, struct demo_side out[DEMO_SIDES], struct sheet *picture, struct error *err);
 
 #endif
