@@ -16,6 +16,9 @@ SOURCES  = $(wildcard src/*/*.c)
 OBJECTS  = $(SOURCES:src/%.c=$(BUILD)/obj/%.o)
 TESTS    = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/*.c)) $(filter-out %/main.o,$(OBJECTS))
 
+.BEGIN: # which other makes do before anything else, and GNU make never
+	@echo "This Makefile needs GNU make (gmake); README.md has a line that builds without any make." >&2; exit 1
+
 all: asbdpt ## build ./asbdpt (the default)
 
 # ---- what is built ----
@@ -57,14 +60,17 @@ test: asbdpt $(BUILD)/test layers standard references columns faults ## build an
 	sh test/mini.sh $(PROGRAM)
 	$(BUILD)/test
 
-check-long: asbdpt $(BUILD)/test experiments builds ## the tests that take longer
+check-long: asbdpt $(BUILD)/test experiments portability ## the tests that take longer
 	$(BUILD)/test --slow
 
 check-ref: asbdpt ## are the stored references still what the program converges to?
 	sh ref/check-ref.sh $(PROGRAM)
 
-builds: asbdpt ## build by every compiler at hand, for 32 bits and with fused multiply-add; the pictures must be the same
-	sh test/builds.sh $(PROGRAM)
+portability: ## build by every compiler, and for every system, that is at hand or emulated; the pictures must be the same
+	sh test/portability.sh
+
+hashes: asbdpt ## write the list of pictures' checksums anew, after a change that is meant to change pictures
+	sh test/hashes.sh $(PROGRAM) renew
 
 mutants: ## apply small faults one by one; the tests must catch every one
 	sh test/mutants/run.sh 2
@@ -105,4 +111,5 @@ help: ## list the targets
 clean: ## remove everything that was built
 	rm -rf build build-* out asbdpt
 
-.PHONY: faults all demo experiments bench ref test check-long check-ref builds mutants layers standard references columns san tsan stats help clean
+.PHONY: all demo experiments bench ref test check-long check-ref portability hashes faults mutants layers standard \
+	references columns san tsan stats help clean

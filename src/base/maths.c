@@ -7,9 +7,7 @@
  */
 #include "base/maths.h"
 
-#include <float.h>
-#include <math.h>
-#include <stdbool.h>
+#include "base/number.h"
 
 /* A sum of two doubles that is not carried out; |low| is at most about an ulp of high. */
 struct pair {

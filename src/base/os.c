@@ -19,6 +19,7 @@
 #include <time.h>
 
 #ifdef _WIN32
+#define PSAPI_VERSION 2 /* in kernel32 */
 #include <windows.h>
 /* after it */
 #include <direct.h>

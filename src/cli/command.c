@@ -1,6 +1,7 @@
 /* command.c: see command.h. A new subcommand is a new word in COMMANDS. */
 #include "cli/command.h"
 
+#include <float.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -108,6 +109,9 @@ int command_line(int argc, char **argv)
     }
     if (strcmp(argv[1], "--version") == 0) {
         printf("%s\n", VERSION);
+        if (FLT_EVAL_METHOD != 0) /* such as the x87's, in 32-bit programs */
+            printf("built for arithmetic that keeps more bits than a double has (FLT_EVAL_METHOD %d): pictures differ "
+                   "in their last bits from those of other builds\n", (int)FLT_EVAL_METHOD);
         return EXIT_OK;
     }
     struct suggestion s = suggest_start(argv[1]);

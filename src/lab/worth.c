@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/maths.h"
 #include "base/mem.h"
 #include "base/number.h"
 #include "image/colormap.h"
@@ -125,7 +126,7 @@ static void colour(const float *value, size_t n, float *out)
         most = fmax(most, (double)value[i]);
     for (size_t i = 0; i < n; i++) {
         double share = most > 0 ? (double)value[i] / most : 0;
-        viridis(share > 0 ? 1 + log(share) / log(WORTH_RANGE) : 0, &out[3 * i]);
+        viridis(share > 0 ? 1 + m_log(share) / m_log(WORTH_RANGE) : 0, &out[3 * i]);
     }
 }
 

@@ -162,7 +162,7 @@ struct object_type {
 
 #define GREY(x) {x, x, x}
 #define KEPT (double)NAN /* the object's own default */
-#define ANY_NUMBER (double)-INFINITY, (double)INFINITY
+#define ANY_NUMBER -DBL_MAX, DBL_MAX
 #define POSITIVE NUMBER_MIN, (double)INFINITY
 #define AT_LEAST_0 0, (double)INFINITY
 #define IGNORED(name) {name, parse_ignored, 0, GREY(0), 0, 0, NULL}     /* nothing here depends on it */

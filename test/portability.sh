@@ -1,0 +1,80 @@
+#!/bin/sh
+# portability.sh [NAME...]: README's one-line builds, by whichever compilers are at hand, for whichever machines these
+# or emulators can run: all of them make the pictures of test/hashes.txt, byte for byte. Of every target one line is
+# said: the same bytes, skipped (and why), or FAIL. With NAMEs only those; -l lists them. Run from the top.
+chosen=" $* "
+dir=$(mktemp -d) || exit 1
+trap 'rm -rf "$dir"' EXIT
+failures=0
+
+# line WORDS: the build line of README.md's list that follows these WORDS.
+line() { tr '\n' ' ' <README.md | sed -n "s/.*- $1: \`\([^\`]*\)\`.*/\1/p"; }
+plain=$(line 'Without make') windows=$(line Windows) wasi=$(line WASI)
+
+say() { printf '%-14s %s\n' "$1" "$2"; }
+
+# try NAME RUNNER COMPILER BUILD FLAG...: BUILD is a line of README; its compiler and output are replaced, FLAGs added.
+try() {
+    name=$1 runner=$2 compiler=$3 build=$4
+    shift 4
+    case $chosen in
+    *" -l "*) echo "$name"; return ;;
+    "  " | *" $name "*) ;;
+    *) return ;;
+    esac
+    for tool in "$compiler" ${runner%% *}; do
+        command -v "$tool" >/dev/null || { say "$name" "skipped: no $tool"; return; }
+    done
+    program=$dir/$name.exe
+    command=$(echo "$build" | sed "s|^[^ ]*|$compiler|; s|-o [^ ]*|-o $program|")
+    echo 'int main(void) { volatile double a = 2; return !(__builtin_fma(a, a, a) + a * a > 0); }' >"$dir/a.c"
+    [ "$compiler" = tcc ] && echo 'int main(void) { return 0; }' >"$dir/a.c"
+    trial=$(echo "$command" | sed "s|src/[^ ]*\.c|$dir/a.c|")
+    if ! $trial "$@" >"$dir/log" 2>&1 || ! $runner "$program" </dev/null >"$dir/log" 2>&1; then
+        say "$name" "skipped: no program for it can be compiled, or run, here"
+        return
+    fi
+    if ! $command "$@" 2>"$dir/log"; then
+        say "$name" "FAIL: does not compile"
+        head -5 "$dir/log"
+        failures=$((failures + 1))
+    elif sh test/hashes.sh "${runner:+$runner }$program" >"$dir/log"; then
+        if grep -q 'not compared' "$dir/log"; then
+            say "$name" "the exception: $(head -1 "$dir/log")"
+        else
+            say "$name" "the same bytes"
+        fi
+    else
+        say "$name" "FAIL: other bytes"
+        head -5 "$dir/log"
+        failures=$((failures + 1))
+    fi
+    rm -f "$program"
+}
+
+for compiler in gcc clang; do
+    try $compiler '' $compiler "$plain"
+    try $compiler-O0 '' $compiler "$plain" -O0
+    try $compiler-fma '' $compiler "$plain" -march=haswell
+    try $compiler-i386 '' $compiler "$plain" -m32 -msse2 -mfpmath=sse
+done
+try clang-pragma '' clang "$plain" -march=haswell -ffp-contract=on
+try gcc-Os '' gcc "$plain" -Os
+try gcc-O3-lto '' gcc "$plain" -O3 -flto
+try gcc-c11 '' gcc "$plain" -std=c11
+try gcc-c17 '' gcc "$plain" -std=c17
+try gcc-serial '' gcc "$plain" -DASBDPT_SERIAL
+try gcc-x87 '' gcc "$plain" -m32 -mfpmath=387
+try musl '' musl-gcc "$plain" -static
+try tcc '' tcc "$plain"
+export WINEDEBUG=-all
+try windows "$(command -v wine64 || echo wine)" x86_64-w64-mingw32-gcc "$windows"
+try wasi 'node --no-warnings test/wasi.mjs' clang "$wasi"
+try arm64 qemu-aarch64 aarch64-linux-gnu-gcc "$plain" -static
+try armhf qemu-arm arm-linux-gnueabihf-gcc "$plain" -static
+try riscv64 qemu-riscv64 riscv64-linux-gnu-gcc "$plain" -static
+try ppc64el qemu-ppc64le powerpc64le-linux-gnu-gcc "$plain" -static
+try s390x qemu-s390x s390x-linux-gnu-gcc "$plain" -static
+try mips64el qemu-mips64el mips64el-linux-gnuabi64-gcc "$plain" -static
+try mips qemu-mips mips-linux-gnu-gcc "$plain" -static
+exit $((failures > 0))
