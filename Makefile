@@ -58,10 +58,12 @@ ref: asbdpt ## render the stored references of ref/ again (an hour; goes on wher
 test: asbdpt $(BUILD)/test layers standard references columns faults ## build and run the test suite (under 3 minutes)
 	sh test/cli.sh $(PROGRAM)
 	sh test/mini.sh $(PROGRAM)
+	sh test/keep.sh $(PROGRAM)
 	$(BUILD)/test
 
 check-long: asbdpt $(BUILD)/test experiments portability ## the tests that take longer
 	$(BUILD)/test --slow
+	sh test/keep.sh $(PROGRAM) 100
 
 check-ref: asbdpt ## are the stored references still what the program converges to?
 	sh ref/check-ref.sh $(PROGRAM)

@@ -36,7 +36,7 @@ check grep -q 'asbdpt render SCENE' stdout.txt
 check grep -q 'asbdpt experiment \[--quick' stdout.txt
 check grep -q -e '--reference-spp' stdout.txt
 check grep -q 'lightsamplestrategy' stdout.txt
-for command in render compare experiment bench verify demo convert worth info; do # a subcommand's help is its own alone
+for command in render merge compare experiment bench verify demo convert worth info; do # a subcommand's help is its own
     expect 0 '' "$program" $command --help
     check grep -q "usage: asbdpt $command" stdout.txt
     check [ "$(grep -c 'usage: asbdpt' stdout.txt)" = 1 ]

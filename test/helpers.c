@@ -10,14 +10,6 @@
 #include "parser/parser.h"
 #include "render/render.h"
 
-bool file_exists(const char *path)
-{
-    FILE *f = fopen(path, "rb");
-    if (f != NULL)
-        fclose(f);
-    return f != NULL;
-}
-
 bool scene_from_file(struct test *t, const char *path, int width, int height, struct scene *out)
 {
     struct error err;

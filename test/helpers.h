@@ -2,6 +2,7 @@
 #ifndef ASBDPT_TEST_HELPERS_H
 #define ASBDPT_TEST_HELPERS_H
 
+#include "base/file.h"
 #include "integrators/integrator.h"
 #include "lab/verify.h"
 #include "scene/scene.h"
@@ -20,8 +21,5 @@ struct batches render_batches(struct test *t, const struct scene *scene, const c
 
 /* mean_p: two-sided p-value of "the expectation is `expected`" for the batches' overall mean, by Student's t. */
 double mean_p(const struct batches *b, double expected);
-
-/* Whether a file exists (for data that users may not have). */
-bool file_exists(const char *path);
 
 #endif

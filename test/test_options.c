@@ -11,7 +11,7 @@
 
 struct target {
     bool on;
-    int integer, size[2], width[2];
+    int integer, size[2], width[2], range[2];
     uint64_t seed;
     double number, window[4];
     struct perhaps perhaps;
@@ -34,6 +34,7 @@ static const struct option TABLE[] = {
     {"--number", "X", OPTION_NUMBER, offsetof(struct target, number), -0.5, 2, .fallback = "1.5", .help = "a number"},
     {"--perhaps", "[X]", OPTION_PERHAPS, offsetof(struct target, perhaps), 0.5, 2, .help = "perhaps a number"},
     {"--window", "X0 X1 Y0 Y1", OPTION_WINDOW, offsetof(struct target, window), 0, 1, .help = "a window"},
+    {"--range", "A:B", OPTION_RANGE, offsetof(struct target, range), 0, 100, .help = "a range"},
     {"--size", "WxH", OPTION_SIZE, offsetof(struct target, size), 1, 65536, .help = "a size"},
     {"--width", "WxH or W", OPTION_WIDTH, offsetof(struct target, width), 1, 65536, .help = "a width"},
     {"--text", "TEXT", OPTION_TEXT, offsetof(struct target, text), .alias = "-t", .help = "a text"},
@@ -75,6 +76,7 @@ static void check_accepted(struct test *t)
     CHECK(t, strcmp(o.image, "a.png") == 0 && o.rest.n == 2 && strcmp(o.rest.item[1], "c") == 0, "operands in order");
     options_free(TABLE, &o);
     memset(&o, 0, sizeof o);
+    CHECK(t, read_line(TABLE, "--range 0:100", words, &o, &err) && o.range[0] == 0 && o.range[1] == 100, "a range");
     CHECK(t,
           read_line(TABLE,
                     "--on --off --window=0,0.5,0.25,1 --width 3x4 --texts 1 --texts=2=3 -Pa=b -P c= --list x - y -t= "
@@ -115,6 +117,12 @@ static void check_refused(struct test *t)
     static const struct {
         const char *line, *message; /* the message holds this */
     } WRONG[] = {
+        {"--range 3", "expected FIRST:END"},
+        {"--range 3:101", "expected FIRST:END"},
+        {"--range 3x4", "expected FIRST:END"},
+        {"--range -1:4", "expected FIRST:END"},
+        {"--range 3:3", "nothing in the range"},
+        {"--range=4:3", "nothing in the range"},
         {"--integer 1", "--integer 1: expected an integer from 2 to 1073741824"},
         {"--integer 1073741825", "expected an integer"},
         {"--integer 4294967298", "expected an integer"},
@@ -212,6 +220,7 @@ static size_t target_size(const struct option *o, char *value, size_t size)
     case OPTION_SEED: strcpy(value, "5"); return sizeof(uint64_t);
     case OPTION_NUMBER: return sizeof(double);
     case OPTION_PERHAPS: return sizeof(struct perhaps);
+    case OPTION_RANGE: strcpy(value, "3:7"); return 2 * sizeof(int);
     case OPTION_WINDOW: strcpy(value, "0 1 0 1"); return 4 * sizeof(double);
     case OPTION_PIXEL: strcpy(value, "4,3"); return 2 * sizeof(int);
     case OPTION_SIZE:

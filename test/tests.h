@@ -4,6 +4,7 @@
 
 #include "test.h"
 
+void test_part(struct test *t);
 void test_asbdpt(struct test *t);
 void test_aov(struct test *t);
 void test_alias(struct test *t);

@@ -33,6 +33,21 @@ static inline uint32_t hash_bytes(const void *data, size_t n)
     return h;
 }
 
+/* hash_content: a hash of n bytes, eight at a time: tells files apart that nobody has forged. The same on all machines.
+ */
+static inline uint64_t hash_content(const void *data, size_t n)
+{
+    const uint8_t *byte = (const uint8_t *)data;
+    uint64_t h = n;
+    for (; n > 0; byte += n < 8 ? n : 8, n -= n < 8 ? n : 8) {
+        uint64_t word = 0;
+        for (size_t i = 0; i < 8 && i < n; i++)
+            word |= (uint64_t)byte[i] << (8 * i);
+        h = hash_combine(h, word);
+    }
+    return h;
+}
+
 /* reverse_bits: bit i becomes bit 31 - i. */
 static inline uint32_t reverse_bits(uint32_t x)
 {

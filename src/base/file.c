@@ -68,6 +68,8 @@ bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err
     return error_set(err, "%s: cannot be read: %s", path, reason != 0 ? strerror(reason) : "endless or too long");
 }
 
+bool file_exists(const char *path) { return os_kind_of(path) != OS_NOTHING; }
+
 /* --- writing ----------------------------------------------------------------------------------------- */
 
 static void release(struct file_output *out)

@@ -23,6 +23,9 @@
  * directory or unreadable; errno then says why, 0 for a file that is too long. */
 bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err);
 
+/* file_exists: is there anything of this name? */
+bool file_exists(const char *path);
+
 /* A file being written. */
 struct file_output {
     FILE *stream;    /* where to write, binary; write errors stick to it and are found by file_commit */

@@ -4,12 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "base/mem.h"
 #include "base/os.h"
 #include "base/progress.h"
 #include "cli/aov_files.h"
 #include "cli/command.h"
 #include "cli/job_options.h"
+#include "cli/keep.h"
 #include "cli/outputs.h"
 #include "image/image.h"
 #include "lab/pyramid.h"
@@ -112,36 +114,60 @@ static void report(const struct job_options *o, const struct integrator *m, cons
         fprintf(stderr, "%s: %s\n", m->name, film->note);
 }
 
+/* What has no place in a part (render/part.h) is not there after --resume. */
+static bool check_options(const struct job_options *o, struct error *err)
+{
+    bool variance = o->aov != NULL && strstr(o->aov, aov_name(AOV_VARIANCE)) != NULL;
+    if (o->keep.resume != NULL && (o->strategies != NULL || variance))
+        return error_set(err, "%s: strategies and variance are not saved and cannot be resumed", o->keep.resume);
+    if (o->keep.samples[1] > 0 && o->output.n == 0)
+        return error_set(err, "--samples needs a name for the part: -o NAME.part");
+    if (o->strategies != NULL && !strategies_possible(o->strategies, err))
+        return false;
+    return keep_check(&o->keep, err) && (o->aov == NULL || aov_check(o->aov, err));
+}
+
+/* From a film with nothing or something in it to all files. */
+static bool run_and_write(const struct job_options *o, const struct scene *scene, struct render_options *options,
+                          struct film *film, struct keep *keep, struct outputs *out, struct aov_files *aov,
+                          struct error *err)
+{
+    double cpu = os_cpu_seconds();
+    bool ok = render_scene(scene, options, film, err);
+    double cpu_seconds = os_cpu_seconds() - cpu, wall = os_wall_seconds() - keep->bar.start;
+    bool kept = keep_end(keep, ok, err);
+    if (!ok) {
+        outputs_abandon(out);
+        aov_abandon(aov);
+        return false;
+    }
+    report(o, options->integrator, film, wall, cpu_seconds);
+    ok = kept;
+    ok = (o->strategies == NULL || write_strategies(o->strategies, film, ok ? err : NULL)) && ok;
+    ok = aov_write(aov, scene, options, film, o->quiet, ok ? err : NULL) && ok;
+    return write_outputs(o, scene, film, out, ok ? err : NULL) && ok;
+}
+
 /* Whatever comes of it, the outputs are written or abandoned. */
 static bool render_and_write(const struct job_options *o, const struct scene *scene, const struct integrator *m,
                              struct outputs *out, struct aov_files *aov, struct error *err)
 {
     struct render_options options = {.integrator = m, .seed = o->seed, .end = job_spp(o, scene)};
-    if (!parameters_max_depth(scene, o->max_depth, &options.max_depth, err)) {
-        outputs_abandon(out);
-        aov_abandon(aov);
-        return false;
-    }
-    options.n_threads = o->n_threads;
-    struct progress bar;
     struct film film;
+    struct keep keep;
+    options.n_threads = o->n_threads;
     film_init(&film, render_crop(scene), scene->width, scene->height);
-    if (o->strategies != NULL)
-        film_keep_strategies(&film, options.max_depth);
-    if (aov->file[AOV_VARIANCE].n > 0)
-        film_keep_errors(&film);
-    options.progress = progress_update;
-    options.progress_context = &bar;
-    progress_start(&bar, o->quiet);
-    double cpu = os_cpu_seconds();
-    bool ok = render_scene(scene, &options, &film, err);
-    double cpu_seconds = os_cpu_seconds() - cpu;
-    progress_end(&bar);
+    bool ok = parameters_max_depth(scene, o->max_depth, &options.max_depth, err) &&
+              keep_begin(&keep, &o->keep, o->quiet, scene, &options, &film, err);
     if (ok) {
-        report(o, m, &film, os_wall_seconds() - bar.start, cpu_seconds);
-        ok = o->strategies == NULL || write_strategies(o->strategies, &film, err);
-        ok = write_outputs(o, scene, &film, out, ok ? err : NULL) && ok;
-        ok = aov_write(aov, scene, &options, &film, o->quiet, ok ? err : NULL) && ok;
+        if (o->strategies != NULL)
+            film_keep_strategies(&film, options.max_depth);
+        if (aov->file[AOV_VARIANCE].n > 0)
+            film_keep_errors(&film);
+        out->part = &keep.part;
+        out->film = &film;
+        ok = run_and_write(o, scene, &options, &film, &keep, out, aov, err);
+        part_free(&keep.part);
     } else {
         outputs_abandon(out);
         aov_abandon(aov);
@@ -156,12 +182,8 @@ static int run(void *options)
     struct error err;
     struct scene scene;
     const struct integrator *integrator;
-    struct outputs out = {0};
-    if (o->strategies != NULL && !strategies_possible(o->strategies, &err))
-        return fail(&err);
-    if (o->aov != NULL && !aov_check(o->aov, &err))
-        return fail(&err);
-    if (o->output.n > 0 && !outputs_open(&o->output, &o->tone, &out, &err))
+    struct outputs out = {.parts = o->keep.samples[1] > 0 ? PARTS_OTHERS : PARTS_NAMED};
+    if (!check_options(o, &err) || (o->output.n > 0 && !outputs_open(&o->output, &o->tone, &out, &err)))
         return fail(&err);
     int status = job_load(o, &scene, &integrator);
     if (status != EXIT_OK) {
@@ -174,12 +196,21 @@ static int run(void *options)
         outputs_abandon(&out);
     ok = ok && render_and_write(o, &scene, integrator, &out, &aov, &err);
     scene_free(&scene);
-    return ok ? EXIT_OK : fail(&err);
+    if (!ok)
+        return fail(&err);
+    return interrupt_caught() != 0 ? 128 + interrupt_caught() : EXIT_OK;
 }
 
+#define AT(member) offsetof(struct job_options, keep.member)
 static const struct option OPTIONS[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXT, offsetof(struct job_options, scene_path), 1, .help = "a scene file"},
     TONE_OPTIONS(offsetof(struct job_options, tone)),
+    {"--time", "SECONDS", OPTION_NUMBER, AT(time), 0, 1e9, .help = "stop after so long, and write what there is"},
+    {"--checkpoint", "FILE", OPTION_TEXT, AT(checkpoint), .help = "save the render now and then, and at signals"},
+    {"--interval", "SECONDS", OPTION_NUMBER, AT(interval), 0, 1e9, .fallback = "60", .help = "between checkpoints"},
+    {"--resume", "FILE", OPTION_TEXT, AT(resume), .help = "go on from a checkpoint"},
+    {"--samples", "A:B", OPTION_RANGE, AT(samples), 0, 1 << 30,
+     .help = "only the samples A to B-1, for merge: -o NAME.part"},
     {.others = JOB_OPTIONS},
 };
 

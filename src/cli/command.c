@@ -8,12 +8,11 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/version.h"
 #include "integrators/integrator.h"
 #include "parser/symbols.h"
 
-static const char VERSION[] = "asbdpt 0.1";
-
-static const struct command *const COMMANDS[] = {&command_render, &command_compare, &command_experiment,
+static const struct command *const COMMANDS[] = {&command_render, &command_merge, &command_compare, &command_experiment,
                                                  &command_bench, &command_verify, &command_info,
                                                  &command_demo, &command_convert, &command_worth, NULL};
 

@@ -10,6 +10,15 @@
 #include "render/render.h"
 #include "scene/scene.h"
 
+/* How a render is stopped, saved and resumed. */
+struct keep_options {
+    double time;             /* seconds; 0: no limit */
+    const char *checkpoint;  /* file or NULL */
+    double interval;         /* seconds between checkpoints */
+    const char *resume;      /* file or NULL */
+    int samples[2];          /* of each pixel, the second excluded; 0, 0: all */
+};
+
 /* A subcommand with options of its own has this as the first member of its struct: offsets count from there. */
 struct job_options {
     const char *scene_path;
@@ -27,6 +36,7 @@ struct job_options {
     const char *aov;        /* list or NULL */
     bool strict, quiet;
     struct tone_options tone; /* of render alone */
+    struct keep_options keep; /* of render alone */
 };
 extern const struct option JOB_OPTIONS[], SCENE_OPTIONS[]; /* the second have the scene itself too, which they need */
 

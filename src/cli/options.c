@@ -74,7 +74,7 @@ static bool read_numbers(struct reader *r, int least, int most, const char *expe
     const char *text = "", *at = "";
     for (int n = 0; ok && n < most && (n < least || *at != '\0'); n++) {
         if (n > 0 && !(window && *at == '\0'))
-            ok = *at++ == (commas ? ',' : 'x');
+            ok = *at++ == (commas ? ',' : o->kind == OPTION_RANGE ? ':' : 'x');
         else if (next_value(r, &text))
             at = text;
         else
@@ -133,6 +133,16 @@ static bool read_window(struct reader *r, double *v)
            ((v[0] < v[1] && v[2] < v[3]) || error_set(r->err, "%s: the window is empty", r->option->name));
 }
 
+static bool read_range(struct reader *r, int *range)
+{
+    double v[2];
+    if (!read_numbers(r, 2, 2, "FIRST:END, each", v))
+        return false;
+    range[0] = (int)v[0];
+    range[1] = (int)v[1];
+    return range[0] < range[1] || error_set(r->err, "%s: there is nothing in the range", r->option->name);
+}
+
 static bool read_seed(struct reader *r, uint64_t *out)
 {
     const char *text;
@@ -170,6 +180,7 @@ static bool read_value(struct reader *r, void *target)
     case OPTION_SEED: return read_seed(r, target);
     case OPTION_WINDOW: return read_window(r, target);
     case OPTION_PIXEL: return read_pixel(r, target);
+    case OPTION_RANGE: return read_range(r, target);
     case OPTION_SIZE: return read_size(r, 2, "WIDTHxHEIGHT, each", target);
     case OPTION_WIDTH: return read_size(r, 1, "WIDTHxHEIGHT or WIDTH, each", target);
     case OPTION_TEXT: return next_value(r, target);

@@ -25,6 +25,7 @@ enum option_kind {           /* type of the target, and what is read into it */
     OPTION_PERHAPS,          /* struct perhaps: such a number if one follows */
     OPTION_WINDOW,           /* double[4]: X0 X1 Y0 Y1 or X0,X1,Y0,Y1 from low to high, X0 < X1, Y0 < Y1 */
     OPTION_PIXEL,            /* int[2]: X,Y, each from low to high */
+    OPTION_RANGE,            /* int[2]: FIRST:END, each from low to high, FIRST < END */
     OPTION_SIZE,             /* int[2]: WIDTHxHEIGHT, each from low to high */
     OPTION_WIDTH,            /* the same, or WIDTH alone, then the height becomes 0 */
     OPTION_TEXT,             /* const char *, borrowed from the arguments */

@@ -33,6 +33,17 @@ static bool read_tone(const struct tone_options *t, const struct texts *names, s
            error_set(err, "--exposure and --tonemap are for 8-bit pictures (.png, .ppm, .tga); none is written");
 }
 
+bool outputs_is_part(const char *name)
+{
+    size_t n = strlen(name);
+    return n > 5 && strcmp(name + n - 5, ".part") == 0;
+}
+
+static bool takes_part(const struct outputs *o, const char *name)
+{
+    return o->parts == PARTS_NAMED ? outputs_is_part(name) : o->parts == PARTS_OTHERS && !image_writable(name);
+}
+
 bool outputs_open(const struct texts *names, const struct tone_options *tone, struct outputs *out, struct error *err)
 {
     bool ok = true, to_standard = false;
@@ -45,7 +56,8 @@ bool outputs_open(const struct texts *names, const struct tone_options *tone, st
         if (standard && to_standard)
             ok = error_set(err, "-: standard output takes one picture only");
         else
-            ok = image_create(name, &out->file[out->n], err);
+            ok = takes_part(out, name) ? file_create(name, &out->file[out->n], err)
+                                       : image_create(name, &out->file[out->n], err);
         to_standard |= standard;
     }
     if (!ok)
@@ -67,7 +79,9 @@ bool outputs_write(struct outputs *o, int width, int height, const float *pixels
         char *more = mem_alloc(size, 1);
         snprintf(more, size, "%s%s%s", written, written[0] != '\0' ? ", " : "", name);
         const float *source = shown != NULL && image_is_8_bit(o->file[i].path) ? shown : pixels;
-        bool done = image_finish(&o->file[i], width, height, source, ok ? err : NULL);
+        struct error *why = ok ? err : NULL;
+        bool done = takes_part(o, o->file[i].path) ? part_write(&o->file[i], o->part, o->film, why)
+                                                   : image_finish(&o->file[i], width, height, source, why);
         free(done ? written : more);
         written = done ? more : written;
         ok = ok && done;

@@ -11,12 +11,22 @@
 #include "base/file.h"
 #include "cli/options.h"
 #include "image/tone.h"
+#include "render/part.h"
+
+/* Which names are those of parts (render/part.h) and not of pictures. */
+enum outputs_parts { PARTS_NONE, PARTS_NAMED /* NAME.part */, PARTS_OTHERS /* all that are no picture's */ };
 
 struct outputs {
     struct file_output *file; /* [n], owned */
     int n;
     struct tone tone; /* of 8-bit pictures */
+    enum outputs_parts parts; /* set before outputs_open */
+    const struct part *part;  /* what outputs_write writes into parts, set before; borrowed */
+    const struct film *film;
 };
+
+/* outputs_is_part: does the name end in .part? */
+bool outputs_is_part(const char *name);
 
 /* What options say of the tone, and their rows for a subcommand's table, `at` being the offset of the struct. */
 struct tone_options {

@@ -459,6 +459,7 @@ bool ply_read(const char *path, struct mesh *out, struct error *err)
     r.err = err;
     bool ok = file_read(path, &r.data, &r.size, err) && read_header(&r) && check_counts(&r) && read_body(&r) &&
               check_mesh(&r);
+    out->content = hash_content(r.data, r.size);
     free(r.data);
     free(r.element);
     free(r.property);

@@ -58,6 +58,7 @@ struct mesh {
     float *P, *N, *UV;  /* [n_vertices * 3, 3, 2]; N and UV may be NULL */
     uint32_t *index;    /* [n_triangles*3], every entry < n_vertices */
     int n_vertices, n_triangles;
+    uint64_t content;   /* hash_content of the file it was read from; 0: none */
 };
 void mesh_free(struct mesh *m);
 

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <stdlib.h>
 
+#include "base/bits.h"
 #include "image/formats.h"
 
 struct format {
@@ -77,6 +78,7 @@ bool image_read(const char *path, struct image *out, struct error *err)
         return false;
     struct error reason;
     bool ok = read_bytes(path, data, size, out, &reason);
+    out->content = hash_content(data, size);
     free(data);
     return ok || error_set(err, "%s: %s", path, reason.text);
 }

@@ -20,6 +20,7 @@ struct image {
     float *f32;        /* [height*width*channels]; light as stored; 16-bit files as value/65535; owned */
     bool linear;       /* true for PFM, OpenEXR, Radiance: values are linear light already */
     long replaced;     /* samples that image_mend found and made 0 */
+    uint64_t content;  /* hash_content of the file */
     float decode[256]; /* sRGB byte -> linear light, for whoever reads u8 */
 };
 

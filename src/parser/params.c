@@ -443,6 +443,7 @@ static rgb rgb_from_file(struct params *p, const struct param *item)
         free(path);
         return colour;
     }
+    *p->content = hash_combine(*p->content, hash_content(text, size));
     struct arena arena = {NULL, NULL};
     struct source_file file = {path, text, text + size, item->position};
     struct lexer l = lexer_start(&file, &arena, p->messages);

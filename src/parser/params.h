@@ -12,6 +12,7 @@
 #define ASBDPT_PARAMS_H
 
 #include "parser/lexer.h"
+#include "base/bits.h"
 #include "base/rgb.h"
 #include "base/vec.h"
 
@@ -51,6 +52,7 @@ struct params {
     const char *directive, *type;
     struct source_position position; /* of the type */
     struct messages *messages;
+    uint64_t *content;     /* where the hashes of all files read are combined */
     const char *directory; /* of the main scene file: relative names of files start there */
     bool failed;           /* an error has been kept */
     bool excess;           /* values beyond the first are passed over, as where a texture may stand */

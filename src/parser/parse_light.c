@@ -87,6 +87,8 @@ static void map_of_light(struct params *q, struct light *l)
     else if (!q->failed && image->replaced > 0)
         source_warn(q->messages, at, "environment",
                     "%ld numbers of this picture are negative or not finite; 0 instead", image->replaced);
+    if (image != NULL)
+        *q->content = hash_combine(*q->content, image->content);
     free(path);
 }
 

@@ -102,6 +102,7 @@ static void plymesh(struct params *q, struct mesh *m)
         type_error(q, "a plymesh needs its file: add \"string filename\" \"...\"");
     else if (!ply_read(path, m, &inner))
         params_fail(q, at, "%s", inner.text);
+    *q->content = hash_combine(*q->content, m->content);
     free(path);
 }
 

@@ -114,6 +114,8 @@ static void imagemap(struct parser *p, void *object)
     else if (!q->failed && set->image[image].replaced > 0)
         source_warn(&p->messages, at, set->image_path[image], "%ld numbers of this picture are not finite; 0 instead",
                     set->image[image].replaced);
+    if (!q->failed)
+        *q->content = hash_combine(*q->content, set->image[image].content);
     t->u.imagemap.image = image;
     free(path);
 }

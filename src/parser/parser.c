@@ -183,6 +183,7 @@ static int load(struct parser *p, const char *path, struct error *err)
     f.text = text_read(path, &f.size, err);
     if (f.text == NULL)
         return -1;
+    p->scene->content = hash_combine(p->scene->content, hash_content(f.text, f.size));
     p->file = mem_grow(p->file, &p->file_capacity, (size_t)p->n_files + 1, sizeof *p->file);
     p->file[p->n_files] = f;
     symbols_add(&p->files, path, p->n_files);
@@ -253,6 +254,7 @@ static void start(struct parser *p, const char *path, struct scene *s, const str
     p->directory = directory_of(path);
     p->params.messages = &p->messages;
     p->params.directory = p->directory;
+    p->params.content = &s->content;
     p->phase = BEFORE_WORLD;
     parse_state_reset(p);
     p->state.medium[0] = p->state.medium[1] = "";

@@ -111,10 +111,7 @@ static void run_all(struct run *r)
     const struct render_options *o = r->options;
     int64_t first_block = o->first / r->prepared.size.block,
             end_block = ((int64_t)o->end + r->prepared.size.block - 1) / r->prepared.size.block;
-    r->tiles_x = (rect_width(r->job.film_rect) + r->prepared.size.tile - 1) / r->prepared.size.tile;
-    r->tiles_y = (rect_height(r->job.film_rect) + r->prepared.size.tile - 1) / r->prepared.size.tile;
     r->n_jobs = tiles_per_block(r) * (end_block - first_block);
-    r->begun = r->film->passes;
 
     struct parallel_jobs jobs = {r->n_jobs - r->begun, r->job.n_threads, 2 * r->job.n_threads, r, run_pass, merge_pass};
     r->tile = mem_alloc((size_t)jobs.n_slots, sizeof *r->tile);
@@ -141,17 +138,40 @@ bool render_prepare(const struct scene *scene, const struct render_options *opti
            options->integrator->prepare(job, out, err);
 }
 
+/* Blocks of a length that the integrator has chosen must not be cut: what it draws depends on where one begins. */
+static bool check_range(const struct run *r, struct error *err)
+{
+    const struct render_options *o = r->options;
+    int block = r->prepared.size.block;
+    if (o->is_part && block > 0 && (o->first % block != 0 || (o->end % block != 0 && o->end != o->planned)))
+        return error_set(err, "samples %ld:%ld: here they come in blocks of %d; begin and end with one", o->first,
+                         o->end, block);
+    return true;
+}
+
+/* Tiles, and blocks where their length is free. */
+static bool cut(struct run *r, struct error *err)
+{
+    struct pass_size *size = &r->prepared.size;
+    if (size->block == 0)
+        size->block = choose_block(r->job.film_rect);
+    r->tiles_x = (rect_width(r->job.film_rect) + size->tile - 1) / size->tile;
+    r->tiles_y = (rect_height(r->job.film_rect) + size->tile - 1) / size->tile;
+    r->begun = r->film->passes;
+    return r->begun < tiles_per_block(r) ||
+           error_set(err, "the film has more tile passes in it than a block of samples has");
+}
+
 bool render_scene(const struct scene *scene, const struct render_options *options, struct film *film,
                   struct error *err)
 {
     struct run r = {.options = options, .film = film};
     if (!render_prepare(scene, options, film->rect, &r.job, &r.prepared, err))
         return false;
-    if (r.prepared.size.block == 0)
-        r.prepared.size.block = choose_block(film->rect);
     memcpy(film->note, r.prepared.note, sizeof film->note);
-    if (options->end > options->first)
+    bool ok = check_range(&r, err) && cut(&r, err);
+    if (ok && options->end > options->first)
         run_all(&r);
     options->integrator->release(r.prepared.state);
-    return true;
+    return ok;
 }

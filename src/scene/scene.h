@@ -39,6 +39,8 @@ struct scene {
     struct settings settings; /* its parameters, and those of -P */
     int spp;                /* pixelsamples, 0 if the file does not say */
 
+    uint64_t content;       /* hash of all files the scene was read from */
+
     double epsilon;         /* tmin of every secondary ray: 1e-8 of the scene's diagonal */
 };
 

@@ -1,0 +1,214 @@
+/* cmd_merge.c: asbdpt merge: parts of a picture's samples added up to the picture, or to a larger part. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "cli/command.h"
+#include "cli/outputs.h"
+#include "render/part.h"
+
+struct merge_options {
+    struct texts output, part;
+    struct tone_options tone;
+    bool partial, quiet;
+};
+
+#define AT(member) offsetof(struct merge_options, member)
+static const struct option OPTIONS[] = {
+    {"PART", NULL, OPTION_TEXTS, AT(part), 1, .help = "a part of a picture; without -o the first name is the output's"},
+    {"--outfile", "FILE", OPTION_TEXTS, AT(output), .alias = "-o", .help = "a picture, or .part; repeatable"},
+    {"--partial", NULL, OPTION_ON, AT(partial), .help = "make a picture even where samples are missing"},
+    TONE_OPTIONS(AT(tone)),
+    {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "do not say what was written"},
+    {.name = NULL},
+};
+
+struct named {
+    const char *path;
+    struct part part;
+};
+
+struct merge {
+    struct named *part; /* [n], by first sample; owned */
+    int n, n_wrong;
+};
+
+static int by_first(const void *a, const void *b)
+{
+    const struct named *x = a, *y = b;
+    if (x->part.first != y->part.first)
+        return x->part.first < y->part.first ? -1 : 1;
+    return strcmp(x->path, y->path);
+}
+
+/* All that is wrong is said, not only the first. */
+static void wrong(struct merge *m, const char *text)
+{
+    fprintf(stderr, "asbdpt: %s\n", text);
+    m->n_wrong++;
+}
+
+static void wrong_range(struct merge *m, const char *path, const char *what, long first, long end)
+{
+    struct error err;
+    error_set(&err, "%s%s%s samples %ld:%ld", path, path[0] != '\0' ? ": " : "", what, first, end);
+    wrong(m, err.text);
+}
+
+/* What the parts say of themselves; files are closed again, for there may be thousands. */
+static void read_headers(struct merge *m, const struct texts *names)
+{
+    struct error err;
+    m->part = mem_alloc((size_t)names->n, sizeof *m->part);
+    for (int i = 0; i < names->n; i++) {
+        struct named *p = &m->part[m->n];
+        p->path = names->item[i];
+        FILE *f = part_open(p->path, &p->part, &err);
+        if (f == NULL) {
+            wrong(m, err.text);
+            continue;
+        }
+        fclose(f);
+        m->n++;
+        if (!part_same(&p->part, p->path, &m->part[0].part, &err))
+            wrong(m, err.text);
+        else if (p->part.passes > 0)
+            wrong_range(m, p->path, "stands in the middle of a block, of the", p->part.first, p->part.end);
+    }
+    qsort(m->part, (size_t)m->n, sizeof *m->part, by_first);
+}
+
+static long planned(const struct part *p)
+{
+    const char *line = strstr(p->identity, "\nspp ");
+    return line != NULL ? strtol(line + 5, NULL, 10) : 0;
+}
+
+/* Samples twice, and samples between `first` and `end` in no part unless that is allowed. */
+static void check_ranges(struct merge *m, long first, long end, bool gaps)
+{
+    long reached = first;
+    for (int i = 0; i < m->n; i++) {
+        const struct part *p = &m->part[i].part;
+        long part_end = p->first + p->done;
+        if (p->first > reached && !gaps)
+            wrong_range(m, "", "missing are the", reached, p->first);
+        if (i > 0 && p->first < reached && p->done > 0)
+            wrong_range(m, m->part[i].path, "other parts have the", p->first, part_end < reached ? part_end : reached);
+        reached = part_end > reached ? part_end : reached;
+    }
+    if (reached < end && !gaps)
+        wrong_range(m, "", "missing are the", reached, end);
+}
+
+/* The end of the last samples that there are. */
+static long reached(const struct merge *m)
+{
+    long end = 0;
+    for (int i = 0; i < m->n; i++) {
+        long here = m->part[i].part.first + m->part[i].part.done;
+        end = here > end ? here : end;
+    }
+    return end;
+}
+
+static void add_parts(struct merge *m, struct film *film)
+{
+    struct error err;
+    for (int i = 0; i < m->n && m->n_wrong == 0; i++) {
+        struct part again;
+        FILE *f = part_open(m->part[i].path, &again, &err);
+        if (f == NULL) {
+            wrong(m, err.text);
+            continue;
+        }
+        if (!part_same(&again, m->part[i].path, &m->part[i].part, &err)) { /* it has changed in the meantime */
+            wrong(m, err.text);
+            fclose(f);
+        } else if (!part_add(f, m->part[i].path, &again, film, &err)) {
+            wrong(m, err.text);
+        }
+        part_free(&again);
+    }
+}
+
+static bool write_film(const struct merge_options *o, struct merge *m, struct film *film, struct outputs *out,
+                       struct error *err)
+{
+    struct part whole = m->part[0].part; /* its identity is borrowed */
+    float *pixels = mem_alloc((size_t)whole.width * (size_t)whole.height * 3, sizeof *pixels);
+    whole.end = reached(m);
+    film_warn(film, film_develop(film, whole.scale, pixels));
+    out->part = &whole;
+    out->film = film;
+    bool ok = outputs_write(out, whole.width, whole.height, pixels, o->quiet, err);
+    free(pixels);
+    return ok;
+}
+
+/* A picture needs all samples, a part only that nothing is missing between its first and its last. */
+static bool merge(const struct merge_options *o, struct merge *m, const struct texts *names, bool picture,
+                  struct outputs *out, struct error *err)
+{
+    bool ok = false;
+    read_headers(m, names);
+    if (m->n_wrong == 0) {
+        struct film film;
+        const struct part *first = &m->part[0].part;
+        struct pixel_rect rect = {0, 0, first->width, first->height};
+        check_ranges(m, picture ? 0 : first->first, picture ? planned(first) : 0, o->partial);
+        film_init(&film, rect, rect.x1, rect.y1);
+        add_parts(m, &film);
+        ok = m->n_wrong == 0 && write_film(o, m, &film, out, err);
+        film_free(&film);
+    }
+    if (m->n_wrong > 0) {
+        outputs_abandon(out);
+        error_set(err, "nothing was written");
+    }
+    return ok;
+}
+
+/* The names of outputs and parts: without -o the first word is an output. */
+static bool sort_names(const struct merge_options *o, struct texts *outputs, struct texts *parts, struct error *err)
+{
+    *outputs = o->output;
+    *parts = o->part;
+    if (outputs->n == 0) {
+        outputs->item = parts->item++;
+        outputs->n = 1;
+        parts->n--;
+        if (outputs_is_part(outputs->item[0]) && file_exists(outputs->item[0]))
+            return error_set(err, "%s: the output comes first, or after -o, but this is there already",
+                             outputs->item[0]);
+    }
+    return parts->n > 0 || error_set(err, "merge needs parts");
+}
+
+static int run(void *options)
+{
+    const struct merge_options *o = options;
+    struct texts names, output;
+    struct outputs out = {.parts = PARTS_NAMED};
+    struct merge m = {0};
+    struct error err;
+    int n_pictures = 0;
+    if (!sort_names(o, &output, &names, &err))
+        return usage_error(&command_merge, "%s", err.text);
+    for (int i = 0; i < output.n; i++)
+        n_pictures += !outputs_is_part(output.item[i]);
+    if (o->partial && n_pictures < output.n)
+        return usage_error(&command_merge, "--partial is for pictures; a part has one range of samples");
+    if (!outputs_open(&output, &o->tone, &out, &err))
+        return fail(&err);
+    bool ok = merge(o, &m, &names, n_pictures > 0, &out, &err);
+    for (int i = 0; i < m.n; i++)
+        part_free(&m.part[i].part);
+    free(m.part);
+    return ok ? EXIT_OK : fail(&err);
+}
+
+const struct command command_merge = {
+    "merge", "add up parts of a picture's samples", {"OUT PART...", "-o OUT... PART..."}, OPTIONS,
+    sizeof(struct merge_options), run};

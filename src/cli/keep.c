@@ -1,0 +1,119 @@
+/* keep.c: see keep.h. */
+#include "cli/keep.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/interrupt.h"
+#include "base/os.h"
+
+static bool same_name(const char *a, const char *b) { return a != NULL && b != NULL && strcmp(a, b) == 0; }
+
+bool keep_check(const struct keep_options *o, struct error *err)
+{
+    struct file_output probe;
+    if (o->checkpoint == NULL)
+        return true;
+    if (strcmp(o->checkpoint, "-") == 0)
+        return error_set(err, "--checkpoint needs a file");
+    if (file_exists(o->checkpoint) && !same_name(o->checkpoint, o->resume))
+        return error_set(err, "%s: there is such a file already; go on with it by --resume %s, or remove it",
+                         o->checkpoint, o->checkpoint);
+    if (!file_create(o->checkpoint, &probe, err))
+        return false;
+    file_abandon(&probe);
+    return true;
+}
+
+/* Where the checkpoint that is to be resumed is the one to be written, its absence is the beginning. */
+static bool resume(struct keep *k, struct error *err)
+{
+    const struct keep_options *o = k->options;
+    struct part found;
+    if (o->resume == NULL || (same_name(o->checkpoint, o->resume) && !file_exists(o->resume)))
+        return true;
+    FILE *file = part_open(o->resume, &found, err);
+    if (file == NULL)
+        return false;
+    bool ok = part_same(&found, o->resume, &k->part, err);
+    if (ok && (found.first != k->part.first || found.end != k->part.end))
+        ok = error_set(err, "%s: it is for the samples %ld:%ld, not %ld:%ld", o->resume, found.first, found.end,
+                       k->part.first, k->part.end);
+    if (ok)
+        ok = part_add(file, o->resume, &found, k->film, err);
+    else
+        fclose(file);
+    part_free(&found);
+    return ok;
+}
+
+static void save(struct keep *k)
+{
+    k->unsaved = !part_save(k->options->checkpoint, &k->part, k->film, &k->err);
+    if (k->unsaved)
+        fprintf(stderr, "asbdpt: warning: %s; rendering goes on\n", k->err.text);
+    k->saved = os_wall_seconds();
+}
+
+/* After each tile pass. */
+static bool watch(void *context, double done)
+{
+    struct keep *k = context;
+    const struct keep_options *o = k->options;
+    double now = os_wall_seconds();
+    bool signal = interrupt_caught() != 0;
+    progress_update(&k->bar, done);
+    if (o->checkpoint != NULL && ((signal && !k->hurried) || now - k->saved >= o->interval)) {
+        k->hurried = signal;
+        save(k);
+    }
+    k->late = o->time > 0 && now - k->bar.start >= o->time;
+    return !signal && !k->late;
+}
+
+bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const struct scene *scene,
+                struct render_options *render, struct film *film, struct error *err)
+{
+    memset(k, 0, sizeof *k);
+    render->planned = render->end;
+    if (o->samples[1] > 0) {
+        if (o->samples[1] > render->planned)
+            return error_set(err, "--samples %d:%d: there are %ld per pixel, see --spp", o->samples[0], o->samples[1],
+                             render->planned);
+        render->first = o->samples[0];
+        render->end = o->samples[1];
+        render->is_part = true;
+    }
+    k->options = o;
+    k->film = film;
+    k->part = part_describe(scene, render);
+    if (!resume(k, err)) {
+        part_free(&k->part);
+        return false;
+    }
+    render->first += film->iterations;
+    render->progress = watch;
+    render->progress_context = k;
+    progress_start(&k->bar, quiet);
+    k->saved = k->bar.start;
+    interrupt_defer();
+    return true;
+}
+
+bool keep_end(struct keep *k, bool ok, struct error *err)
+{
+    const struct film *f = k->film;
+    int signal = interrupt_caught();
+    long wanted = k->part.end - k->part.first;
+    progress_end(&k->bar);
+    if (ok && signal != 0)
+        fprintf(stderr, "asbdpt: stopped by %s, at %ld of %ld samples per pixel\n", os_signal_name(signal),
+                f->iterations, wanted);
+    else if (ok && k->late)
+        fprintf(stderr, "asbdpt: stopped after %.1f s, at %ld of %ld samples per pixel\n",
+                os_wall_seconds() - k->bar.start, f->iterations, wanted);
+    if (ok && k->options->checkpoint != NULL)
+        ok = part_save(k->options->checkpoint, &k->part, k->film, err);
+    return ok;
+}

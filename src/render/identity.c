@@ -1,0 +1,79 @@
+/* identity.c: what a render is of, in lines that must agree where its films are to be continued or added up: all that
+ * changes a byte of them. See part.h. */
+#include <inttypes.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "base/bits.h"
+#include "base/version.h"
+#include "render/part.h"
+
+struct lines {
+    char *text; /* owned */
+    size_t used, capacity;
+};
+
+/* One line more; whatever could break a line is replaced. */
+static void add_line(struct lines *l, const char *format, ...)
+{
+    struct error line;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(line.text, sizeof line.text, format, args);
+    va_end(args);
+    error_clean(line.text);
+    size_t n = strlen(line.text);
+    l->text = mem_grow(l->text, &l->capacity, l->used + n + 2, 1);
+    memcpy(l->text + l->used, line.text, n);
+    l->used += n;
+    memcpy(l->text + l->used++, "\n", 2);
+}
+
+static int by_name(const void *a, const void *b)
+{
+    const struct setting *const *x = a, *const *y = b;
+    return strcmp((*x)->name, (*y)->name);
+}
+
+/* In order of their names: -P may give them in any. Long values are told apart by a hash. */
+static void add_settings(struct lines *l, const struct settings *s)
+{
+    const struct setting **item = mem_alloc((size_t)s->n, sizeof *item);
+    for (int i = 0; i < s->n; i++)
+        item[i] = &s->item[i];
+    qsort(item, (size_t)s->n, sizeof *item, by_name);
+    for (int i = 0; i < s->n; i++)
+        if (strcmp(item[i]->name, "maxdepth") != 0)
+            add_line(l, "parameter %.100s %.200s %016" PRIx64, item[i]->name, item[i]->value,
+                hash_content(item[i]->value, strlen(item[i]->value)));
+    free(item);
+}
+
+static void add_filter(struct lines *l, const struct filter *f)
+{
+    add_line(l, "filter %d %.17g %.17g %.17g %.17g %.17g %.17g", (int)f->kind, f->radius[0], f->radius[1], f->alpha,
+             f->B, f->C, f->tau);
+}
+
+struct part part_describe(const struct scene *scene, const struct render_options *o)
+{
+    struct pixel_rect r = render_crop(scene);
+    struct part p = {NULL, rect_width(r), rect_height(r), scene->film_scale, o->first, o->end, 0, 0, 0};
+    struct lines l = {0};
+    add_line(&l, "version " VERSION);
+    add_line(&l, "scene %016" PRIx64, scene->content);
+    add_line(&l, "integrator %s", o->integrator->name);
+    add_line(&l, "maxdepth %d", o->max_depth);
+    add_settings(&l, &scene->settings);
+    add_line(&l, "seed %" PRIu64, o->seed);
+    add_line(&l, "spp %ld", o->planned);
+    add_line(&l, "film %d %d, window %d %d to %d %d", scene->width, scene->height, r.x0, r.y0, r.x1, r.y1);
+    add_filter(&l, &scene->filter);
+    add_line(&l, "size %d %d", p.width, p.height);
+    add_line(&l, "scale %.17g", p.scale);
+    p.identity = l.text;
+    return p;
+}

@@ -1,0 +1,268 @@
+/* part.c: see part.h. identity.c says what is rendered. */
+#include "render/part.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/mem.h"
+#include "image/zlib.h"
+
+static const char MAGIC[] = "asbdpt part 1\n";
+enum { MOST_TEXT = 1 << 20, BUFFER = 1 << 16, EMPTY = 255, LONGEST_SUM = 1 + 10 * EXACT_DIGITS };
+
+static size_t sums_of(const struct part *p) { return (size_t)p->width * (size_t)p->height * 3; }
+
+void part_free(struct part *p)
+{
+    free(p->identity);
+    p->identity = NULL;
+}
+
+/* --- bytes that are checked on the way ---------------------------------------------------------------- */
+
+struct stream {
+    FILE *file;
+    uint32_t crc;
+    size_t used, filled; /* of the buffer */
+    uint8_t byte[BUFFER];
+};
+
+static void flush(struct stream *s)
+{
+    s->crc = checksum_crc32(s->crc, s->byte, s->used);
+    fwrite(s->byte, 1, s->used, s->file);
+    s->used = 0;
+}
+
+static void put_digit(struct stream *s, int64_t digit)
+{
+    uint64_t rest = digit < 0 ? ~((uint64_t)digit << 1) : (uint64_t)digit << 1;
+    for (; rest >= 128; rest >>= 7)
+        s->byte[s->used++] = (uint8_t)(128 | (rest & 127));
+    s->byte[s->used++] = (uint8_t)rest;
+}
+
+static void put_sum(struct stream *s, const struct exact_sum *sum)
+{
+    static const struct exact_sum NOTHING = {{0}, 0};
+    if (s->used > BUFFER - LONGEST_SUM)
+        flush(s);
+    if (sum->top == 0 && memcmp(sum->digit, NOTHING.digit, sizeof sum->digit) == 0) {
+        s->byte[s->used++] = EMPTY;
+        return;
+    }
+    s->byte[s->used++] = (uint8_t)sum->top;
+    for (int i = 0; i < EXACT_DIGITS; i++)
+        put_digit(s, sum->digit[i]);
+}
+
+/* The next byte, or -1 at the end of the file. */
+static int get(struct stream *s)
+{
+    if (s->used == s->filled) {
+        s->crc = checksum_crc32(s->crc, s->byte, s->filled);
+        s->filled = fread(s->byte, 1, sizeof s->byte, s->file);
+        s->used = 0;
+    }
+    return s->used < s->filled ? s->byte[s->used++] : -1;
+}
+
+static bool get_digit(struct stream *s, int64_t *out)
+{
+    uint64_t value = 0;
+    for (int shift = 0; shift < 64; shift += 7) {
+        int byte = get(s);
+        if (byte < 0 || (shift == 63 && byte > 1))
+            return false;
+        value |= (uint64_t)(byte & 127) << shift;
+        if (byte < 128) {
+            int64_t half = (int64_t)(value >> 1);
+            *out = value & 1 ? -1 - half : half;
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool get_sum(struct stream *s, struct exact_sum *out)
+{
+    memset(out, 0, sizeof *out);
+    int top = get(s);
+    if (top == EMPTY)
+        return true;
+    out->top = top;
+    bool ok = top >= 0 && top < EXACT_PLACES;
+    for (int i = 0; ok && i < EXACT_DIGITS; i++)
+        ok = get_digit(s, &out->digit[i]);
+    return ok;
+}
+
+/* --- writing ----------------------------------------------------------------------------------------- */
+
+static char *header_text(const struct part *p, const struct film *f)
+{
+    size_t room = strlen(p->identity) + 512;
+    char *text = mem_alloc(room, 1);
+    snprintf(text, room, "%s%ssamples %ld %ld\ndone %ld %" PRId64 "\nleft-out %ld\n", MAGIC, p->identity, p->first,
+             p->end, f->iterations, f->passes, f->nonfinite);
+    size_t n = strlen(text);
+    snprintf(text + n, room - n, "check %08lx\n", (unsigned long)checksum_crc32(0, (const uint8_t *)text, n));
+    return text;
+}
+
+bool part_write(struct file_output *file, const struct part *p, const struct film *film, struct error *err)
+{
+    char *text = header_text(p, film);
+    struct stream *s = mem_alloc(1, sizeof *s);
+    s->file = file->stream;
+    fwrite(text, 1, strlen(text), s->file);
+    for (size_t i = 0; i < sums_of(p); i++)
+        put_sum(s, &film->sum[i]);
+    flush(s);
+    uint8_t end[4];
+    for (int i = 0; i < 4; i++)
+        end[i] = (uint8_t)(s->crc >> (8 * i) & 255);
+    fwrite(end, 1, sizeof end, s->file);
+    free(s);
+    free(text);
+    return file_commit(file, err);
+}
+
+bool part_save(const char *path, const struct part *p, const struct film *film, struct error *err)
+{
+    struct file_output file;
+    return file_create(path, &file, err) && part_write(&file, p, film, err);
+}
+
+/* --- reading ----------------------------------------------------------------------------------------- */
+
+/* The lines up to the one that checks them, to be given to free(); NULL if there is none, or if it is wrong. */
+static char *read_text(FILE *f)
+{
+    size_t used = 0, line = 0, capacity = 0;
+    char *text = NULL;
+    for (int c; used < MOST_TEXT && (c = getc(f)) != EOF;) {
+        text = mem_grow(text, &capacity, used + 2, 1);
+        text[used++] = (char)c;
+        text[used] = '\0';
+        if (c != '\n')
+            continue;
+        if (strncmp(text + line, "check ", 6) == 0) {
+            unsigned long crc = strtoul(text + line + 6, NULL, 16);
+            if (crc != checksum_crc32(0, (const uint8_t *)text, line))
+                break;
+            text[line] = '\0';
+            return text;
+        }
+        line = used;
+    }
+    free(text);
+    return NULL;
+}
+
+/* What follows a word at the beginning of a line, or NULL. */
+static const char *line_of(const char *text, const char *word)
+{
+    size_t n = strlen(word);
+    for (const char *at = text; at != NULL; at = strchr(at, '\n'), at = at != NULL ? at + 1 : NULL)
+        if (strncmp(at, word, n) == 0 && at[n] == ' ')
+            return at + n + 1;
+    return NULL;
+}
+
+static bool read_numbers(const char *text, struct part *p)
+{
+    const char *size = line_of(text, "size"), *scale = line_of(text, "scale"), *samples = line_of(text, "samples");
+    const char *done = line_of(text, "done"), *left_out = line_of(text, "left-out");
+    struct error ignored;
+    if (size == NULL || scale == NULL || samples == NULL || done == NULL || left_out == NULL)
+        return false;
+    p->scale = strtod(scale, NULL);
+    return sscanf(size, "%d %d", &p->width, &p->height) == 2 && p->width > 0 && p->height > 0 &&
+           picture_size_ok((unsigned long)p->width, (unsigned long)p->height, &ignored) &&
+           sscanf(samples, "%ld %ld", &p->first, &p->end) == 2 &&
+           sscanf(done, "%ld %" SCNd64, &p->done, &p->passes) == 2 && sscanf(left_out, "%ld", &p->left_out) == 1 &&
+           p->first >= 0 && p->end > p->first && p->done >= 0 && p->done <= p->end - p->first && p->passes >= 0;
+}
+
+static bool read_header(FILE *f, const char *path, struct part *out, struct error *err)
+{
+    char *text = read_text(f);
+    if (text == NULL || strncmp(text, "asbdpt part ", 12) != 0) {
+        free(text);
+        return error_set(err, "%s: this is no part, or its beginning is damaged", path);
+    }
+    const char *identity = strchr(text, '\n') + 1, *end = line_of(text, "samples");
+    bool known = strncmp(text, MAGIC, sizeof MAGIC - 1) == 0;
+    bool ok = known && end != NULL && read_numbers(text, out);
+    if (ok) {
+        size_t n = (size_t)(end - strlen("samples ") - identity);
+        out->identity = mem_alloc(n + 1, 1);
+        memcpy(out->identity, identity, n);
+    }
+    free(text);
+    return ok || error_set(err, "%s: %s", path, known ? "the part's beginning makes no sense" :
+                                                        "the part has a format of another version");
+}
+
+FILE *part_open(const char *path, struct part *out, struct error *err)
+{
+    memset(out, 0, sizeof *out);
+    FILE *f = fopen(path, "rb");
+    if (f == NULL) {
+        error_set(err, "%s: cannot be opened: %s", path, strerror(errno));
+        return NULL;
+    }
+    if (read_header(f, path, out, err))
+        return f;
+    fclose(f);
+    return NULL;
+}
+
+/* Every sum, the right check behind them, and nothing more. */
+static bool add_sums(struct stream *s, const struct part *p, struct film *film)
+{
+    for (size_t i = 0; i < sums_of(p); i++) {
+        struct exact_sum sum;
+        if (!get_sum(s, &sum) || !exact_join(&film->sum[i], &sum))
+            return false;
+    }
+    uint32_t crc = checksum_crc32(s->crc, s->byte, s->used), said = 0;
+    for (int i = 0; i < 4; i++) {
+        int byte = get(s);
+        if (byte < 0)
+            return false;
+        said |= (uint32_t)byte << (8 * i);
+    }
+    return said == crc && get(s) < 0;
+}
+
+bool part_add(FILE *file, const char *path, const struct part *p, struct film *film, struct error *err)
+{
+    struct stream *s = mem_alloc(1, sizeof *s);
+    s->file = file;
+    bool ok = add_sums(s, p, film);
+    free(s);
+    fclose(file);
+    film->iterations += p->done;
+    film->passes = p->passes;
+    film->nonfinite += p->left_out;
+    return ok || error_set(err, "%s: the part is damaged or cut off", path);
+}
+
+bool part_same(const struct part *p, const char *path, const struct part *wanted, struct error *err)
+{
+    const char *a = p->identity, *b = wanted->identity;
+    while (*a != '\0' || *b != '\0') {
+        size_t n = strcspn(a, "\n"), m = strcspn(b, "\n");
+        if (n != m || strncmp(a, b, n) != 0)
+            return error_set(err, "%s: a part of another picture: it has \"%.*s\", not \"%.*s\"", path, (int)n, a,
+                             (int)m, b);
+        a += n + (a[n] == '\n');
+        b += m + (b[m] == '\n');
+    }
+    return true;
+}

@@ -1,0 +1,66 @@
+/* part.h: films as files: a checkpoint of a render under way, or a part of a picture's samples, to be added to others.
+ *
+ * A file begins with lines of text, each ended by a line feed:
+ *
+ *     asbdpt part 1                    the format and its version
+ *     version asbdpt 0.1               what was rendered, in some ten lines, each a word and what it says:
+ *     ...                              program, scene, integrator and its parameters, seed, samples, film
+ *     size W H                         pixels of the film's rectangle
+ *     scale X                          by which pixels are multiplied when they are written
+ *     samples A B                      samples A .. B-1 of each pixel are to be in the file when it is complete,
+ *     done N P                         the first N of them are, and P tile passes of the next block
+ *     left-out K                       contributions that were not finite or too large
+ *     check XXXXXXXX                   CRC-32 of all lines before, hexadecimal
+ *
+ * and goes on with the sums of all pixels, row by row from the top, red, green and blue: 255 for an empty sum, else
+ * a byte `top` and three digits (exact_sum.h), the highest first. A digit d is written as the whole number 2d, or
+ * -2d - 1 if it is negative, seven bits to the byte from the lowest on, 128 being added to all bytes but the last. The
+ * CRC-32 of these bytes ends the file, four bytes, the lowest first. Nothing depends on the machine's byte order.
+ *
+ * The same film gives the same bytes, and sums are exact, so parts added up in any order give the bytes of the whole.
+ * Parts are read as a stream: whoever adds them needs the memory of one film. Files appear whole or not at all.
+ *
+ * Tests: test_part.c, test/keep.sh.
+ */
+#ifndef ASBDPT_PART_H
+#define ASBDPT_PART_H
+
+#include <stdio.h>
+
+#include "base/file.h"
+#include "render/render.h"
+
+/* What a file says of itself. */
+struct part {
+    char *identity; /* the lines from "version" to "scale"; owned */
+    int width, height;
+    double scale;
+    long first, end, done; /* samples first .. first + done - 1 of first .. end - 1 */
+    int64_t passes;
+    long left_out;
+};
+
+/* part_describe: the part that a render with these options is to fill, nothing being done yet. Threads, names of files
+ * and what is written do not belong to it; what the scene's files hold does. To be released with part_free. */
+struct part part_describe(const struct scene *scene, const struct render_options *options);
+void part_free(struct part *p);
+
+/* part_write: the film into a file that was begun. Returns false with a message; the file is finished or gone then. */
+bool part_write(struct file_output *file, const struct part *p, const struct film *film, struct error *err);
+
+/* part_save: the same into a new file of this name, which replaces an old one when it is complete. */
+bool part_save(const char *path, const struct part *p, const struct film *film, struct error *err);
+
+/* part_open: read what a file says of itself.
+ *   out  to be released with part_free after success
+ * Returns the file, open behind the text, or NULL with a message. */
+FILE *part_open(const char *path, struct part *out, struct error *err);
+
+/* part_add: add the sums of an open part to a film of its size, count its samples, and close the file. False with a
+ * message if it is damaged; the film is of no use then. */
+bool part_add(FILE *file, const char *path, const struct part *p, struct film *film, struct error *err);
+
+/* part_same: were both made of the same picture? If not, a message names the line that differs. */
+bool part_same(const struct part *p, const char *path, const struct part *wanted, struct error *err);
+
+#endif

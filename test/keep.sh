@@ -1,0 +1,200 @@
+#!/bin/sh
+# keep.sh: nothing rendered is lost: signals, time limits, checkpoints, parts, and a program that is killed.
+# Run from the top: sh test/keep.sh ./asbdpt [KILLS]    (10 kills unless said otherwise)
+program=$1
+case $program in /*) ;; *) program=$PWD/$program ;; esac
+kills=${2:-10}
+scenes=$PWD/scenes
+dir=$(mktemp -d) || exit 1
+trap 'rm -rf "$dir"' EXIT
+cd "$dir" || exit 1
+failures=0
+box="$scenes/cornell-box.pbrt"
+
+fault() {
+    echo "FAIL: $*"
+    failures=$((failures + 1))
+}
+# expect STATUS PATTERN COMMAND...: the command ends with STATUS and its stderr matches PATTERN (extended regexp).
+expect() {
+    status=$1 pattern=$2
+    shift 2
+    "$@" >stdout.txt 2>stderr.txt
+    got=$?
+    if [ $got -ne "$status" ] || { [ -n "$pattern" ] && ! grep -Eq "$pattern" stderr.txt; }; then
+        fault "$* ended with $got (expected $status) saying: $(cat stderr.txt)"
+    fi
+}
+check() { "$@" || fault "$*"; }
+same() { cmp -s "$1" "$2" || fault "$1 and $2 differ, $3"; }
+no_temporaries() { [ -z "$(find . -name '.asbdpt-*')" ] || fault "temporary files are left: $1"; }
+done_in() { LC_ALL=C sed -n 's/^done \([0-9]*\) .*/\1/p' "$1" | head -n 1; } # samples
+work_in() { LC_ALL=C awk '/^done / { print 1000 * $2 + $3; exit }' "$1"; }      # and tile passes
+
+# ---- every integrator: parts add up to the whole, and a checkpoint goes on to it ----
+size="--res 12x20 --spp 70 --maxdepth 3 --quiet"
+while read -r cuts options; do
+    # shellcheck disable=SC2086
+    {
+        rm -f ./*.part
+        check "$program" render "$box" $size $options -j 2 -o whole.part -o whole.pfm
+        from=
+        for to in $(echo "$cuts" | tr , ' '); do
+            [ -z "$from" ] || check "$program" render "$box" $size $options -j 1 --samples "$from:$to" -o "part$to.part"
+            from=$to
+        done
+        set -- part*.part
+        check "$program" merge -o sum.part -o sum.pfm "$@" --quiet
+        same whole.part sum.part "$options in parts"
+        same whole.pfm sum.pfm "$options in parts"
+        rm -f state
+        expect 0 'at (32|64) of 70' \
+            "$program" render "$box" $size $options -j 3 --time 1e-6 --checkpoint state -o early.part
+        same state early.part "a checkpoint and a part"
+        check "$program" render "$box" $size $options -j 2 --resume state -o sum.pfm -o sum.part
+        same whole.pfm sum.pfm "$options resumed"
+        same whole.part sum.part "$options resumed"
+    }
+done <<'END'
+0,3,33,70 --integrator pt
+0,69,70 --integrator lt
+0,32,64,70 --integrator bdpt --filter gaussian
+0,32,64,70 --integrator asbdpt -P select=bins
+0,1,70 --integrator asbdpt -P select=pool
+0,40,70 --integrator asbdpt -P select=vertices
+0,7,41,70 --integrator asbdpt
+0,40,70 --integrator asbdpt -P select=lvc
+0,40,70 --integrator asbdpt -P select=combinatorial
+END
+check [ "$(done_in whole.part)" = 70 ]
+expect 1 'samples 0:40: here they come in blocks of 32' \
+    "$program" render "$box" $size --integrator asbdpt -P select=bins --samples 0:40 -o x.part
+expect 1 'there are 70 per pixel' "$program" render "$box" $size --samples 0:71 -o x.part
+expect 1 'needs a name for the part' "$program" render "$box" $size --samples 0:7
+
+# ---- parts that do not fit ----
+tiny="--integrator pt --maxdepth 2 --quiet"
+part() { # NAME OPTIONS...
+    name=$1
+    shift
+    check "$program" render "$box" $tiny --res 8x8 --spp 8 "$@" -o "$name"
+}
+part a.part --samples 0:3
+part b.part --samples 3:8
+part c.part --samples 5:8
+part other.part --samples 3:8 --seed 1
+sed 's/^# /#  /' "$box" >changed.pbrt
+expect 0 'wrote x.pfm, x.part$' "$program" merge -o x.pfm -o x.part b.part a.part
+expect 0 '' "$program" merge y.pfm a.part b.part
+same x.pfm y.pfm "the output first"
+expect 0 '' "$program" merge z.pfm x.part
+same x.pfm z.pfm "a merged part"
+rm -f x.pfm
+expect 1 'missing are the samples 3:5' "$program" merge -o x.pfm a.part c.part
+expect 1 'missing are the samples 0:3' "$program" merge -o x.pfm b.part
+expect 1 'missing are the samples 3:8' "$program" merge -o x.pfm a.part
+expect 1 'c.part: other parts have the samples 5:8' "$program" merge -o x.pfm a.part b.part c.part
+expect 1 'a.part: other parts have the samples 0:3' "$program" merge -o x.pfm a.part b.part a.part
+expect 1 'other.part: a part of another picture: it has "seed 1", not "seed 0"' \
+    "$program" merge -o x.pfm a.part other.part
+expect 1 'stdout.txt: this is no part' "$program" merge -o x.pfm a.part b.part stdout.txt
+expect 1 'gone.part: cannot be opened' "$program" merge -o x.pfm a.part gone.part
+expect 2 'this is there already' "$program" merge a.part b.part
+expect 2 'merge needs a part' "$program" merge -o x.pfm
+expect 2 'merge needs parts' "$program" merge x.pfm
+expect 0 '' "$program" merge --partial -o partial.pfm a.part
+check [ ! -e x.pfm ]
+"$program" render changed.pbrt $tiny --res 8x8 --spp 8 --samples 3:8 -o foreign.part
+expect 1 'foreign.part: a part of another picture: it has "scene' "$program" merge -o x.pfm a.part foreign.part
+LC_ALL=C sed 's/^version .*/version asbdpt 0.0/' b.part >old.part # its check of the lines no longer fits
+expect 1 'old.part: this is no part, or its beginning is damaged' "$program" merge -o x.pfm a.part old.part
+head -c 700 b.part >cut.part
+expect 1 'cut.part: the part is damaged or cut off' "$program" merge -o x.pfm a.part cut.part
+for resumed in b.part stdout.txt cut.part; do
+    expect 1 "^asbdpt: $resumed: " "$program" render "$box" $tiny --res 8x8 --spp 8 --resume $resumed -o x.pfm
+done
+expect 1 'another picture: it has "spp 8", not "spp 9"' \
+    "$program" render "$box" $tiny --res 8x8 --spp 9 --resume a.part -o x.pfm
+expect 1 'there is such a file already' "$program" render "$box" $tiny --checkpoint a.part -o x.pfm
+expect 1 'cannot be created' "$program" render "$box" $tiny --checkpoint no/such/state -o x.pfm
+check [ ! -e x.pfm ]
+no_temporaries "after errors"
+
+# ---- signals ----
+long="--integrator bdpt --res 64x64 --spp 100000 --quiet"
+wait_for() { # FILE: until it is there, but no longer than some seconds
+    i=0
+    while [ ! -e "$1" ] && [ $i -lt 300 ]; do
+        i=$((i + 1))
+        sleep 0.02
+    done
+}
+for pair in TERM:143 HUP:129; do
+    rm -f state
+    "$program" render "$box" $long -j 2 --checkpoint state --interval 0.05 -o caught.pfm 2>stderr.txt &
+    wait_for state
+    kill -s "${pair%:*}" $!
+    wait $!
+    got=$?
+    [ $got = "${pair#*:}" ] || fault "SIG${pair%:*}: status $got"
+    check grep -Eq "stopped by SIG${pair%:*}, at [1-9][0-9]* of 100000" stderr.txt
+    check "$program" merge --partial --quiet -o again.pfm state
+    same caught.pfm again.pfm "what was written at a signal"
+done
+if command -v timeout >/dev/null && timeout --preserve-status 5 true 2>/dev/null; then
+    expect 130 'stopped by SIGINT, at [1-9][0-9]* of 100000' \
+        timeout --preserve-status -s INT 0.5 "$program" render "$box" $long -o caught.pfm
+fi
+# A block without end: the second signal ends the program at once; the checkpoint was saved at the first.
+rm -f state caught.pfm
+"$program" render "$box" --integrator asbdpt -P select=bins -P restart=0 --res 64x64 --spp 100000 --quiet -j 2 \
+    --checkpoint state --interval 1000 -o caught.pfm 2>stderr.txt &
+sleep 0.3
+kill -s TERM $!
+sleep 0.2
+kill -s TERM $!
+wait $!
+got=$?
+[ $got = 143 ] || fault "two signals: status $got"
+check [ ! -e caught.pfm ]
+no_temporaries "after two signals"
+# Writes that fail say so.
+(
+    ulimit -f 1
+    "$program" render "$box" $tiny --res 99x99 --spp 1 -o large.pfm 2>stderr.txt
+    [ $? = 1 ] && grep -q 'large.pfm: cannot be written' stderr.txt
+) || fault "a file that grows too large"
+{
+    "$program" render "$box" $tiny --res 99x99 --spp 1 -o - 2>stderr.txt
+    echo $? >status.txt
+} | head -c 10 >/dev/null
+check [ "$(cat status.txt)" = 1 ]
+check grep -q 'asbdpt: -: cannot be written' stderr.txt
+no_temporaries "after failed writes"
+
+# ---- killed again and again ----
+slow="--integrator asbdpt --res 200x200 --spp 8 --maxdepth 3 --quiet"
+check "$program" render "$box" $slow -o unbroken.pfm
+rm -f state
+echo old >killed.pfm
+n=0 least=0 wait=0.1 # on a busy machine runs get more time, until they come to save something
+while [ $n -lt "$kills" ]; do
+    n=$((n + 1))
+    "$program" render "$box" $slow -j $((n % 3 + 1)) --checkpoint state --resume state --interval 0.02 \
+        -o killed.pfm 2>stderr.txt &
+    sleep "$(awk -v seed=$n -v wait=$wait 'BEGIN { srand(seed); print 0.01 + wait * rand() }')"
+    kill -s KILL $! 2>/dev/null
+    wait $! 2>/dev/null
+    [ "$(cat stderr.txt)" = "" ] || fault "after kill $n: $(cat stderr.txt)"
+    grep -q '^old$' killed.pfm || cmp -s killed.pfm unbroken.pfm || fault "kill $n has left a damaged picture"
+    now=$least
+    [ ! -e state ] || now=$(work_in state)
+    [ "$now" -ge "$least" ] || fault "kill $n has lost work: $now, $least before"
+    [ "$now" -gt "$least" ] || wait=$(awk -v wait=$wait 'BEGIN { print 1.5 * wait }')
+    least=$now
+done
+[ "$least" -gt 0 ] || fault "$kills kills have left no work done"
+check "$program" render "$box" $slow --checkpoint state --resume state -o killed.pfm
+same killed.pfm unbroken.pfm "after $kills kills"
+[ $failures -eq 0 ] && echo "nothing rendered is lost: all as expected"
+exit $((failures > 0))
