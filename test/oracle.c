@@ -90,6 +90,8 @@ static double eye_density(const struct full_path *f, int j)
     if (j == last - 1) {
         double px, py;
         double J = camera_project(&f->scene->camera, f->x[last]->p, direction(f, last, j), &px, &py);
+        if (f->scene->camera.parallel) /* J is per area across the ray already */
+            return at_infinity(f, j) ? J : J * abs_dot(f->x[j]->ng, direction(f, last, j));
         return per_area(f, last, j, J);
     }
     const struct vertex *v = f->x[j + 1];

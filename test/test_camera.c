@@ -1,4 +1,4 @@
-/* test_camera.c: the perspective camera: projection inverts ray generation, J is the Jacobian of raster over solid
+/* test_camera.c: the cameras: projection inverts ray generation, J is the Jacobian of raster over solid
  * angle, and importance integrates as it must. */
 #include <math.h>
 
@@ -29,7 +29,8 @@ static void test_inverse(struct test *t, const struct camera *c, struct rng *r)
     }
     CHECK(t, worst < 1e-7, "projection is off by %g pixels", worst);
     double px, py;
-    CHECK(t, camera_project(c, c->position, neg(c->forward), &px, &py) == 0, "a direction backwards was accepted");
+    CHECK(t, c->kind == CAMERA_ENVIRONMENT || camera_project(c, c->position, neg(c->forward), &px, &py) == 0,
+          "a direction backwards was accepted");
 }
 
 /* Solid angle of a small raster square, from the directions of its corners. */
@@ -47,6 +48,74 @@ static void test_jacobian(struct test *t, const struct camera *c, struct rng *r)
     }
 }
 
+static struct camera camera_of(enum camera_kind kind, double lens_radius, double scale, int width, int height)
+{
+    struct camera c = camera_default();
+    transform_look_at(vec(1, 2, 3), vec(0.5, -1, 0), vec(0, 1, 0.2), &c.world_to_camera);
+    c.world_to_camera = transform_compose(transform_scale(scale, scale, scale), c.world_to_camera);
+    c.kind = kind;
+    c.lens_radius = lens_radius;
+    c.focal_distance = 5;
+    camera_prepare(&c, width, height);
+    return c;
+}
+
+/* Rays of an orthographic camera are parallel; a point on one is joined to the camera where the ray begins; J is the
+ * raster area per area between rays, also where camera space has another scale. */
+static void test_orthographic(struct test *t, struct rng *r)
+{
+    struct camera c = camera_of(CAMERA_ORTHOGRAPHIC, 0, 2.5, 200, 100);
+    CHECK(t, camera_is_usable(&c), "a usable camera");
+    for (int i = 0; i < 200; i++) {
+        double px = 240 * rng_uniform(r) - 20, py = 100 * rng_uniform(r), qx, qy;
+        struct ray a = camera_ray(&c, px, py, 0, 0), b = camera_ray(&c, px + 1, py, 0, 0);
+        struct ray d = camera_ray(&c, px, py + 1, 0, 0);
+        double J = camera_project(&c, a.o, a.d, &qx, &qy), area = length(cross(sub(b.o, a.o), sub(d.o, a.o)));
+        CHECK(t, length(sub(a.d, c.forward)) < 1e-12 && fabs(dot(sub(b.o, a.o), a.d)) < 1e-12, "direction");
+        CHECK(t, fabs(px - qx) < 1e-9 && fabs(py - qy) < 1e-9, "projection is off by %g %g", px - qx, py - qy);
+        CHECK(t, fabs(J * area - 1) < 1e-9, "J %g, area of a pixel %g", J, area);
+        vec3 p = add(a.o, mul(a.d, 3 + i));
+        CHECK(t, length(sub(camera_sample_lens(&c, p, 0.3, 0.7), a.o)) < 1e-9, "the lens point of a point");
+    }
+    double px, py;
+    CHECK(t, camera_project(&c, c.position, neg(c.forward), &px, &py) == 0, "a direction backwards was accepted");
+    CHECK(t, camera_spread(&c, 4) == 1, "parallel rays spread");
+    /* With a lens, as pbrt-v3 has it: from the lens through the plane of focus, where the screen lies as it is. */
+    c = camera_of(CAMERA_ORTHOGRAPHIC, 0.3, 1, 200, 100);
+    test_inverse(t, &c, r);
+    test_jacobian(t, &c, r);
+    struct ray a = camera_ray(&c, 200, 0, 0.2, 0.8);
+    vec3 o = transform_point(&c.world_to_camera, a.o), d = transform_vector(&c.world_to_camera, a.d);
+    vec3 focus = add(o, mul(d, 5 / d.z));
+    CHECK(t, fabs(focus.x - 2) < 1e-9 && fabs(focus.y - 1) < 1e-9 && fabs(o.z) < 1e-12 && length(o) <= 0.3,
+          "the corner is seen at %g %g", focus.x, focus.y);
+}
+
+/* The images of a raster point are the same ray, different, and all that a filter reaches. */
+static void test_environment(struct test *t, struct rng *r)
+{
+    struct camera c = camera_of(CAMERA_ENVIRONMENT, 0, 1, 10, 5);
+    test_inverse(t, &c, r);
+    test_jacobian(t, &c, r);
+    struct ray pole = camera_ray(&c, 3, 0, 0, 0), side = camera_ray(&c, 2.5, 2.5, 0, 0);
+    vec3 up = transform_vector(&c.world_to_camera, pole.d), z = transform_vector(&c.world_to_camera, side.d);
+    CHECK(t, length(sub(up, vec(0, 1, 0))) < 1e-9 && length(sub(z, vec(0, 0, 1))) < 1e-9, "pole and front");
+    const double radius[2] = {3, 7};
+    for (int i = 0; i < 300; i++) {
+        double px = 16 * rng_uniform(r) - 3, py = 19 * rng_uniform(r) - 7, qx, qy;
+        struct ray ray = camera_ray(&c, px, py, 0, 0);
+        camera_project(&c, ray.o, ray.d, &qx, &qy);
+        int found = 0;
+        for (int k = 0; k < camera_images(&c, radius); k++) {
+            double x = qx, y = qy;
+            camera_image(&c, radius, k, &x, &y);
+            found += fabs(x - px) < 1e-6 && fabs(y - py) < 1e-6;
+            CHECK(t, length(sub(camera_ray(&c, x, y, 0, 0).d, ray.d)) < 1e-9, "image %d is another ray", k);
+        }
+        CHECK(t, found == 1, "(%g, %g) is among the images of (%g, %g) %d times", px, py, qx, qy, found);
+    }
+}
+
 void test_camera(struct test *t)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 1, 0);
@@ -56,6 +125,8 @@ void test_camera(struct test *t)
             test_inverse(t, &c, &r);
             test_jacobian(t, &c, &r);
         }
+    test_orthographic(t, &r);
+    test_environment(t, &r);
     /* The field of view is along the shorter side. */
     struct camera c = camera_default();
     c.fov = 60;

@@ -13,10 +13,12 @@
 #include "oracle.h"
 #include "tests.h"
 
-/* A room with every kind of vertex; %s takes the lights and the camera's lens. */
+#define PERSPECTIVE "\"perspective\" \"float fov\" 50 "
+
+/* A room with every kind of vertex; %s takes the camera and the lights. */
 static const char ROOM[] =
     "LookAt 0 1 -3.2  0 1 0  0 1 0\n"
-    "Camera \"perspective\" \"float fov\" 50 %s\n"
+    "Camera %s\n"
     "Film \"image\" \"integer xresolution\" 32 \"integer yresolution\" 32\n"
     "WorldBegin\n"
     "%s\n"
@@ -38,31 +40,38 @@ static const char ROOM[] =
     "WorldEnd\n";
 
 struct variant {
-    const char *name, *lens, *lights;
+    const char *name, *camera, *lights;
 };
 
 static const struct variant VARIANTS[] = {
-    {"area", "",
+    {"area", PERSPECTIVE,
      "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [5 5 5]\n"
      "Shape \"trianglemesh\" \"integer indices\" [0 1 2] \"point P\" [-1 2.9 -1  1 2.9 -1  0 2.9 1] AttributeEnd"},
-    {"two-sided sphere light, lens", "\"float lensradius\" .1 \"float focaldistance\" 3",
+    {"two-sided sphere light, lens", PERSPECTIVE "\"float lensradius\" .1 \"float focaldistance\" 3",
      "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] \"bool twosided\" \"true\"\n"
      "Translate 0 2 0 Shape \"sphere\" \"float radius\" .3 AttributeEnd"},
-    {"point and spot", "",
+    {"point and spot", PERSPECTIVE,
      "LightSource \"point\" \"rgb I\" [3 3 3] \"point from\" [0 2.5 0]\n"
      "LightSource \"spot\" \"rgb I\" [9 9 9] \"point from\" [1 2.5 0] \"point to\" [0 0 0]"},
-    {"goniometric and projection", "",
+    {"goniometric and projection", PERSPECTIVE,
      "Translate 0 2.5 0 Rotate 100 1 .2 0 LightSource \"goniometric\" \"rgb I\" [3 3 3] Scale 1 2 -1\n"
      "LightSource \"projection\" \"rgb I\" [9 9 9] \"float fov\" 70 Identity"},
-    {"distant and infinite", "\"float lensradius\" .05 \"float focaldistance\" 2",
+    {"distant and infinite", PERSPECTIVE "\"float lensradius\" .05 \"float focaldistance\" 2",
      "LightSource \"distant\" \"rgb L\" [3 3 3] \"point from\" [1 4 -1] \"point to\" [0 0 0]\n"
      "LightSource \"infinite\" \"rgb L\" [1 1 1]"},
-    {"lights that rays pass through", "",
+    {"lights that rays pass through", PERSPECTIVE,
      "AttributeBegin Material \"none\" AreaLightSource \"diffuse\" \"rgb L\" [2 2 2] \"bool twosided\" \"true\"\n"
      "TransformBegin Translate .3 .8 0 Shape \"sphere\" \"float radius\" .9 TransformEnd\n"
      "AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
      "  \"point P\" [-1.9 2 -1.9  1.9 2 -1.9  1.9 2.2 1.9  -1.9 2.2 1.9] AttributeEnd"},
-    {"two infinite lights", "",
+    {"orthographic, area and distant", "\"orthographic\" \"float screenwindow\" [-1.5 1.5 -1 1.5]",
+     "LightSource \"distant\" \"rgb L\" [3 3 3] \"point from\" [1 4 -1] \"point to\" [0 0 0]\n"
+     "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [5 5 5]\n"
+     "Shape \"trianglemesh\" \"integer indices\" [0 1 2] \"point P\" [-1 2.9 -1  1 2.9 -1  0 2.9 1] AttributeEnd"},
+    {"environment, infinite and spot", "\"environment\"",
+     "LightSource \"infinite\" \"rgb L\" [1 1 1]\n"
+     "LightSource \"spot\" \"rgb I\" [9 9 9] \"point from\" [1 2.5 0] \"point to\" [0 0 0]"},
+    {"two infinite lights", PERSPECTIVE,
      "LightSource \"infinite\" \"rgb L\" [3 3 3] LightSource \"infinite\" \"rgb L\" [1 1 1]"},
 };
 
@@ -158,7 +167,7 @@ static void compare_lens(struct comparison *c, const struct vertex *light, int s
     struct vertex z;
     memset(&z, 0, sizeof z);
     z.kind = VERTEX_LENS;
-    z.p = camera_sample_lens(&c->scene->camera, u1, u2);
+    z.p = camera_sample_lens(&c->scene->camera, light[s - 1].p, u1, u2);
     compare(c, got, light, s, &z, 1);
 }
 
@@ -203,7 +212,7 @@ void test_mis(struct test *t)
 
     for (size_t v = 0; v < sizeof VARIANTS / sizeof VARIANTS[0]; v++) {
         char text[8192];
-        snprintf(text, sizeof text, ROOM, VARIANTS[v].lens, VARIANTS[v].lights);
+        snprintf(text, sizeof text, ROOM, VARIANTS[v].camera, VARIANTS[v].lights);
         struct scene scene;
         if (!scene_from_text(t, text, &scene))
             return;

@@ -454,6 +454,20 @@ static void check_textures(struct test *t)
     scene_free(&s);
 }
 
+static void check_cameras(struct test *t)
+{
+    struct scene s;
+    if (open_scene(t, "orthographic", &s)) {
+        CHECK(t, s.camera.kind == CAMERA_ORTHOGRAPHIC && s.camera.has_screen_window && s.camera.screen_window[3] == 4 &&
+                     s.camera.lens_radius == 0, "orthographic camera");
+        scene_free(&s);
+    }
+    if (open_scene(t, "environment", &s)) {
+        CHECK(t, s.camera.kind == CAMERA_ENVIRONMENT && s.camera.lens_radius == 0, "environment camera");
+        scene_free(&s);
+    }
+}
+
 static void check_lights(struct test *t)
 {
     struct scene s;
@@ -707,6 +721,7 @@ void test_parser(struct test *t)
     check_materials(t);
     check_changed_materials(t);
     check_textures(t);
+    check_cameras(t);
     check_lights(t);
     check_numbers(t);
     check_spectra(t);

@@ -350,6 +350,8 @@ void test_scenes(struct test *t)
     test_agreement(t, 8);
     test_four(t, "pass-through", 16, 0.05); /* lights that rays pass through, one of them around a ball */
     test_four(t, "light-slides", 16, 0.1);
+    test_four(t, "orthographic", 16, 0.1);
+    test_four(t, "environment", 16, 0.1);
 }
 
 void test_scenes_long(struct test *t)
@@ -359,4 +361,6 @@ void test_scenes_long(struct test *t)
     test_agreement(t, 200);
     test_four(t, "pass-through", 400, 0.05);
     test_four(t, "light-slides", 400, 0.05);
+    test_four(t, "orthographic", 400, 0.05);
+    test_four(t, "environment", 400, 0.05);
 }

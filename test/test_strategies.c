@@ -1,6 +1,6 @@
 /* test_strategies.c: every strategy (s,t) alone, unweighted, has the expectation of all the others of its path length.
  *
- * Only then may their weights be chosen freely. Three scenes without delta lobes or delta lights, so that every
+ * Only then may their weights be chosen freely. Five scenes without delta lobes or delta lights, so that every
  * strategy can make every path; surfaces do not touch, so that no connection is short and its geometry factor has a
  * variance. In the second, shading normals lean: without the adjoint factor [V97 5.3] strategies would differ. In the
  * third, rays pass through the light: s = 0 meets it on the way, once from outside and once from inside.
@@ -19,8 +19,12 @@
 
 enum { DEPTH = 3, BATCHES = 16, SPP = 400 };
 
-#define HEAD                                                                                                           \
-    "LookAt 0 1.6 -4.5  0 .9 0  0 1 0 Camera \"perspective\" \"float fov\" 42\n"                                       \
+#define VIEW "LookAt 0 1.6 -4.5  0 .9 0  0 1 0 Camera "
+#define PERSPECTIVE VIEW "\"perspective\" \"float fov\" 42\n"
+#define ORTHOGRAPHIC VIEW "\"orthographic\" \"float screenwindow\" [-1.6 1.6 -1.4 1.8]\n"
+#define ENVIRONMENT "LookAt 0 1.9 -.4  0 .9 0  0 1 1 Camera \"environment\"\n"
+
+#define HEAD(camera) camera                                                                                            \
     "Film \"image\" \"integer xresolution\" 12 \"integer yresolution\" 12 PixelFilter \"triangle\"\n"                  \
     "WorldBegin\n"                                                                                                     \
     "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] Material \"matte\" \"rgb Kd\" [.5 .5 .5]\n"          \
@@ -30,15 +34,22 @@ enum { DEPTH = 3, BATCHES = 16, SPP = 400 };
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"                                                       \
     "  \"point P\" [-1.5 0 -1.5  1.5 0 -1.5  1.5 0 1.5  -1.5 0 1.5]\n"
 
-static const char PLAIN[] = HEAD
-    "Material \"plastic\" \"rgb Kd\" [.5 .6 .7] \"float roughness\" .4\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 1 2.5  2 1 2.5  2 3.4 2.5  -2 3.4 2.5]\n"
-    "WorldEnd\n";
+#define WALL                                                                                                           \
+    "Material \"plastic\" \"rgb Kd\" [.5 .6 .7] \"float roughness\" .4\n"                                            \
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"                                                       \
+    "  \"point P\" [-2 1 2.5  2 1 2.5  2 3.4 2.5  -2 3.4 2.5] WorldEnd\n"
 
-static const char LEANING[] = HEAD
+static const char PLAIN[] = HEAD(PERSPECTIVE) WALL;
+
+static const char LEANING[] = HEAD(PERSPECTIVE)
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 1 2.5  2 1 2.5  2 3.4 2.5  -2 3.4 2.5]\n"
     "  \"normal N\" [-.2 -1 -1  .2 -1 -1  .2 -.8 -1  -.2 -.8 -1]\n"
     "WorldEnd\n";
+
+/* The first scene by the other cameras: t = 1 joins a point to its projection on a plane, and to a point from where the
+ * whole sphere is seen, whose picture goes on beyond its edges. */
+static const char PARALLEL[] = HEAD(ORTHOGRAPHIC) WALL;
+static const char AROUND[] = HEAD(ENVIRONMENT) WALL;
 
 /* A light that rays pass through, around one surface and before the other, seen from inside and outside. */
 static const char PASSED[] =
@@ -114,5 +125,7 @@ void test_strategies(struct test *t)
 {
     test_scene(t, "plain normals", PLAIN);
     test_scene(t, "leaning normals", LEANING);
+    test_scene(t, "orthographic camera", PARALLEL);
+    test_scene(t, "environment camera", AROUND);
     test_scene(t, "a light that rays pass through", PASSED);
 }

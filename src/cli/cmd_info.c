@@ -31,7 +31,9 @@ static void print_scene(const struct scene *s, const struct integrator *m, doubl
     const struct kdtree *kd = &s->kd;
     struct pixel_rect crop = render_crop(s);
     printf("film          %dx%d, crop [%d,%d) x [%d,%d)\n", s->width, s->height, crop.x0, crop.x1, crop.y0, crop.y1);
-    printf("camera        fov %g degrees, lens radius %g, at (%g, %g, %g)\n", s->camera.fov, s->camera.lens_radius,
+    static const char *const KINDS[] = {"perspective", "orthographic", "environment"};
+    printf("camera        %s, fov %g degrees, lens radius %g, at (%g, %g, %g)\n", KINDS[s->camera.kind],
+           s->camera.kind == CAMERA_PERSPECTIVE ? s->camera.fov : 0, s->camera.lens_radius,
            s->camera.position.x, s->camera.position.y, s->camera.position.z);
     printf("integrator    %s\n", m->name);
     for (int i = 0; i < s->settings.n; i++) {

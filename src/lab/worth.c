@@ -53,7 +53,7 @@ static void map_worth(const struct view *v)
 static void add_draw(const struct view *v, const struct vertex *y, double p)
 {
     const struct scene *s = v->job.scene;
-    vec3 lens = camera_sample_lens(&s->camera, 0.5, 0.5), d = sub(y->p, lens);
+    vec3 lens = camera_sample_lens(&s->camera, y->p, 0.5, 0.5), d = sub(y->p, lens);
     double px, py;
     if (!(length2(d) > 0) || camera_project(&s->camera, lens, normalize(d), &px, &py) == 0)
         return;
@@ -135,7 +135,8 @@ static void shade(const struct scene *scene, float *const aov[N_FIRST_HIT], size
 {
     for (size_t i = 0; i < 3 * n; i += 3) {
         const float *p = &aov[AOV_POSITION][i], *m = &aov[AOV_NORMAL][i];
-        vec3 towards = sub(scene->camera.position, vec((double)p[0], (double)p[1], (double)p[2]));
+        vec3 at = vec((double)p[0], (double)p[1], (double)p[2]);
+        vec3 towards = sub(camera_sample_lens(&scene->camera, at, 0.5, 0.5), at);
         vec3 normal = vec((double)m[0], (double)m[1], (double)m[2]);
         double length = sqrt(length2(towards));
         double facing = length > 0 ? fabs(dot(normal, towards)) / length : 0;

@@ -19,18 +19,16 @@ static void check_camera(struct params *q, struct camera c)
                     "from 1e-12 to 1e12 wide and high; change transform, field of view or window");
 }
 
-static void perspective(struct parser *p, void *object)
+/* Which camera it is, and its screen. */
+static void framing(struct parser *p, void *object)
 {
     struct params *q = &p->params;
     struct camera *c = object;
-    double half = params_number(q, "halffov", -1, ANY_NUMBER);
-    if (half > 0)
-        c->fov = 2 * half;
-    if (!(c->fov < 180))
-        type_error(q, "a field of view of %g degrees is too wide; it must be less than 180", c->fov);
+    c->kind = (enum camera_kind)p->type->kind;
     int n;
     const struct param *item;
-    const double *window = params_list(q, "screenwindow", 1u << PARAM_FLOAT, 1, &n, &item);
+    const double *window =
+        c->kind == CAMERA_ENVIRONMENT ? NULL : params_list(q, "screenwindow", 1u << PARAM_FLOAT, 1, &n, &item);
     if (window != NULL) {
         if (n != 4)
             source_warn(q->messages, item->position, NULL, "\"screenwindow\" wants four numbers; it is passed over");
@@ -43,22 +41,37 @@ static void perspective(struct parser *p, void *object)
     check_camera(q, *c);
 }
 
+static void perspective(struct parser *p, void *object)
+{
+    struct params *q = &p->params;
+    struct camera *c = object;
+    double half = params_number(q, "halffov", -1, ANY_NUMBER);
+    if (half > 0)
+        c->fov = 2 * half;
+    if (!(c->fov < 180))
+        type_error(q, "a field of view of %g degrees is too wide; it must be less than 180", c->fov);
+    framing(p, object);
+}
+
 #define CAMERA(name, f, value, range) {name, parse_number, offsetof(struct camera, f), GREY(value), range, NULL}
 
+#define SHUTTER IGNORED("shutteropen"), IGNORED("shutterclose") /* nothing moves */
+#define SCREEN                                                                                            \
+    CAMERA("frameaspectratio", frame_aspect_ratio, 0, POSITIVE), CAMERA("lensradius", lens_radius, 0, AT_LEAST_0), \
+        CAMERA("focaldistance", focal_distance, 1e6, POSITIVE), BY_BUILD("screenwindow"), SHUTTER
+
 static const struct parameter PERSPECTIVE[] = {
-    CAMERA("fov", fov, KEPT, POSITIVE),
-    BY_BUILD("halffov"),
-    CAMERA("frameaspectratio", frame_aspect_ratio, 0, POSITIVE),
-    CAMERA("lensradius", lens_radius, 0, AT_LEAST_0),
-    CAMERA("focaldistance", focal_distance, 1e6, POSITIVE),
-    BY_BUILD("screenwindow"),
-    IGNORED("shutteropen"), /* nothing moves */
-    IGNORED("shutterclose"),
+    CAMERA("fov", fov, KEPT, POSITIVE), BY_BUILD("halffov"), SCREEN, END_OF_PARAMETERS};
+static const struct parameter ORTHOGRAPHIC[] = {SCREEN, END_OF_PARAMETERS};
+static const struct parameter ENVIRONMENT[] = {
+    IGNORED("frameaspectratio"), IGNORED("lensradius"), IGNORED("focaldistance"), IGNORED("screenwindow"), SHUTTER,
     END_OF_PARAMETERS};
 
 static const struct object_type CAMERA_TYPES[] = {
-    {"perspective", PERSPECTIVE, 0, perspective},
-    REFUSED("orthographic"), REFUSED("environment"), REFUSED("realistic"), END_OF_TYPES};
+    {"perspective", PERSPECTIVE, CAMERA_PERSPECTIVE, perspective},
+    {"orthographic", ORTHOGRAPHIC, CAMERA_ORTHOGRAPHIC, framing},
+    {"environment", ENVIRONMENT, CAMERA_ENVIRONMENT, framing},
+    REFUSED("realistic"), END_OF_TYPES};
 
 static bool camera(struct parser *p)
 {

@@ -72,7 +72,8 @@ static void add_sample(const struct rows *r, struct arena *arena, int x, int y, 
     sums->albedo = rgb_add(sums->albedo, albedo(&b, wo, r->draw));
     sums->normal = add(sums->normal, dot(b.shading.n, wo) < 0 ? neg(b.shading.n) : b.shading.n);
     sums->position = add(sums->position, at.p);
-    sums->depth += dot(sub(at.p, scene->camera.position), scene->camera.forward);
+    vec3 seen = sub(at.p, scene->camera.position);
+    sums->depth += scene->camera.kind == CAMERA_ENVIRONMENT ? length(seen) : dot(seen, scene->camera.forward);
     arena_reset(arena);
 }
 

@@ -1,7 +1,8 @@
-/* camera.c: see camera.h. Framing rules are those of [PBRT3 6.2]. */
+/* camera.c: see camera.h. Framing rules are those of [PBRT3 6.2-6.3]. */
 #include "scene/camera.h"
 
 #include "base/maths.h"
+#include "base/number.h"
 #include "base/warp.h"
 
 struct camera camera_default(void)
@@ -18,15 +19,25 @@ void camera_prepare(struct camera *c, int width, int height)
     double aspect = c->frame_aspect_ratio > 0 ? c->frame_aspect_ratio : (double)width / height;
     double x = aspect > 1 ? aspect : 1, y = aspect > 1 ? 1 : 1 / aspect; /* the shorter side spans [-1,1] */
     const double whole[4] = {-x, x, -y, y}, *window = c->has_screen_window ? c->screen_window : whole;
-    double half = m_tan(c->fov * PI / 360); /* screen unit 1 lies at this height at z = 1 */
+    c->parallel = c->kind == CAMERA_ORTHOGRAPHIC && c->lens_radius == 0;
+    /* Screen unit 1 lies at this height at z = 1, of an orthographic camera with a lens in the plane of focus. */
+    double half = c->parallel ? 1 : c->kind == CAMERA_ORTHOGRAPHIC ? 1 / c->focal_distance : m_tan(c->fov * PI / 360);
     c->x_scale = (window[1] - window[0]) * half / width;
     c->y_scale = -(window[3] - window[2]) * half / height;
     c->x_origin = window[0] * half;
     c->y_origin = window[3] * half;
-    c->pixel_area = fabs(c->x_scale * c->y_scale);
     c->camera_to_world = transform_inverse(c->world_to_camera);
     c->position = transform_point(&c->camera_to_world, vec(0, 0, 0));
     c->forward = normalize(transform_vector(&c->camera_to_world, vec(0, 0, 1)));
+    if (c->kind == CAMERA_ENVIRONMENT) {
+        c->x_scale = 2 * PI / width;
+        c->y_scale = PI / height;
+        c->x_origin = c->y_origin = 0;
+    }
+    c->pixel_area = fabs(c->x_scale * c->y_scale);
+    if (c->parallel)
+        c->pixel_area = fabs(dot(c->forward, cross(transform_vector(&c->camera_to_world, vec(c->x_scale, 0, 0)),
+                                                   transform_vector(&c->camera_to_world, vec(0, c->y_scale, 0)))));
 }
 
 bool camera_is_usable(const struct camera *c)
@@ -34,7 +45,9 @@ bool camera_is_usable(const struct camera *c)
     const double least = 1e-12, most = 1e12; /* of the screen at distance 1; the film has at most 65536 pixels a side */
     double w = fabs(c->x_scale) * c->width, h = fabs(c->y_scale) * c->height;
     return w >= least && w <= most && h >= least && h <= most && fabs(c->x_origin) <= most &&
-           fabs(c->y_origin) <= most && is_place(c->position) && fabs(length2(c->forward) - 1) < 1e-6 &&
+           fabs(c->y_origin) <= most && c->pixel_area > 0 && is_place(camera_ray(c, 0, 0, 0, 0).o) &&
+           is_place(camera_ray(c, c->width, c->height, 0, 0).o) && is_place(c->position) &&
+           fabs(length2(c->forward) - 1) < 1e-6 &&
            is_place(transform_point(&c->camera_to_world, vec(c->lens_radius, 0, 0))) &&
            is_place(transform_point(&c->camera_to_world, vec(0, c->lens_radius, 0)));
 }
@@ -47,16 +60,31 @@ static vec3 lens_point(const struct camera *c, double u1, double u2)
     return vec(x * c->lens_radius, y * c->lens_radius, 0);
 }
 
-vec3 camera_sample_lens(const struct camera *c, double u1, double u2)
+vec3 camera_sample_lens(const struct camera *c, vec3 p, double u1, double u2)
 {
+    if (c->parallel) {
+        vec3 at = transform_point(&c->world_to_camera, p);
+        return transform_point(&c->camera_to_world, vec(at.x, at.y, 0));
+    }
     return c->lens_radius > 0 ? transform_point(&c->camera_to_world, lens_point(c, u1, u2)) : c->position;
+}
+
+/* Camera-space direction of the angles theta from +y and phi from x to z. */
+static vec3 around(double theta, double phi)
+{
+    return vec(m_sin(theta) * m_cos(phi), m_cos(theta), m_sin(theta) * m_sin(phi));
 }
 
 struct ray camera_ray(const struct camera *c, double px, double py, double u1, double u2)
 {
     vec3 on_screen = vec(c->x_origin + px * c->x_scale, c->y_origin + py * c->y_scale, 1);
     vec3 lens = vec(0, 0, 0);
-    if (c->lens_radius > 0) {
+    if (c->kind == CAMERA_ENVIRONMENT) {
+        on_screen = around(py * c->y_scale, px * c->x_scale);
+    } else if (c->parallel) {
+        lens = vec(on_screen.x, on_screen.y, 0);
+        on_screen = vec(0, 0, 1);
+    } else if (c->lens_radius > 0) {
         /* All lens points see the same point of the plane of focus. */
         lens = lens_point(c, u1, u2);
         on_screen = sub(mul(on_screen, c->focal_distance), lens);
@@ -66,11 +94,28 @@ struct ray camera_ray(const struct camera *c, double px, double py, double u1, d
     return r;
 }
 
+/* The raster is stretched by 1/sin theta in azimuth; at the very pole, which no direction is, J stays finite. */
+static double project_around(const struct camera *c, vec3 d, double *px, double *py)
+{
+    double phi = m_atan2(d.z, d.x), sin_theta = sqrt(sqr(d.x) + sqr(d.z));
+    *px = (phi < 0 ? phi + 2 * PI : phi) / c->x_scale;
+    *py = m_atan2(sin_theta, d.y) / c->y_scale;
+    return 1 / (c->pixel_area * fmax(sin_theta, 1e-9));
+}
+
 double camera_project(const struct camera *c, vec3 lens, vec3 w, double *px, double *py)
 {
     vec3 d = transform_vector(&c->world_to_camera, w);
+    if (c->kind == CAMERA_ENVIRONMENT)
+        return project_around(c, normalize(d), px, py);
     if (!(d.z > 0))
         return 0;
+    if (c->parallel) {
+        vec3 l = transform_point(&c->world_to_camera, lens);
+        *px = (l.x - c->x_origin) / c->x_scale;
+        *py = (l.y - c->y_origin) / c->y_scale;
+        return 1 / c->pixel_area;
+    }
     vec3 at = vec(d.x / d.z, d.y / d.z, 1); /* where the parallel ray through the lens centre meets z = 1 */
     if (c->lens_radius > 0) {
         vec3 l = transform_point(&c->world_to_camera, lens);
@@ -83,4 +128,26 @@ double camera_project(const struct camera *c, vec3 lens, vec3 w, double *px, dou
      * plane of focus is the image plane scaled about the lens, so a lens does not change J. [PBRT3 16.1.1] */
     double cos_theta = d.z / length(d);
     return 1 / (c->pixel_area * cos_theta * cos_theta * cos_theta);
+}
+
+/* How many times a filter of this radius may go round a raster of this size. */
+static int times_round(double radius, int size) { return int_within(ceil(radius / size), 1, 64); }
+
+int camera_images(const struct camera *c, const double radius[2])
+{
+    if (c->kind != CAMERA_ENVIRONMENT)
+        return 1;
+    return (2 * times_round(radius[0], c->width) + 3) * (2 * times_round(radius[1], c->height) + 1);
+}
+
+/* Over a pole, the angle from it grows again on the other side. */
+void camera_image(const struct camera *c, const double radius[2], int i, double *px, double *py)
+{
+    if (c->kind != CAMERA_ENVIRONMENT)
+        return;
+    int across = 2 * times_round(radius[0], c->width) + 3;
+    int row = i / across - times_round(radius[1], c->height), column = i % across - across / 2;
+    bool odd = row % 2 != 0;
+    *px += (column + (odd ? 0.5 : 0)) * c->width;
+    *py = odd ? (row + 1.0) * c->height - *py : *py + (double)row * c->height;
 }

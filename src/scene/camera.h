@@ -1,9 +1,17 @@
-/* camera.h: pbrt's perspective camera, pinhole or thin lens, with its importance.
+/* camera.h: pbrt's perspective (pinhole or thin lens), orthographic and environment cameras, with their importance.
  *
  * Raster coordinates: (0,0) is the upper left corner of the film, pixel (i,j) covers [i,i+1) x [j,j+1).
  * Importance convention: a pixel's value is the integral over the raster of h(p) L(p) (filter.h), so the density of
  * eye rays is 1 per unit of raster area, that is J(w) per steradian; We = h J / (lens area cos) [PBRT3 16.1.1]. Nothing
  * here depends on crop or on the number of samples.
+ *
+ * An orthographic camera sees along one direction from everywhere on its plane: like a distant light's, its rays do not
+ * spread. Eye rays have density J per area across them, and a point is joined to the lens at its projection on the
+ * plane. With a lens, pbrt-v3's starts all rays on the disk around its origin: it is then a perspective camera, and so
+ * it is here.
+ *
+ * An environment camera sees all directions from a point; x is the azimuth, y the angle from its pole. Beyond the edges
+ * of the film, where filters reach, it goes on around the sphere, so that a direction has many raster points.
  *
  * Tests: test_camera.c.
  */
@@ -16,7 +24,10 @@
 #include "base/transform.h"
 #include "base/vec.h"
 
+enum camera_kind { CAMERA_PERSPECTIVE, CAMERA_ORTHOGRAPHIC, CAMERA_ENVIRONMENT };
+
 struct camera {
+    enum camera_kind kind;
     /* as the scene file has it */
     struct transform world_to_camera;
     double fov;                /* degrees, along the shorter side of the screen window */
@@ -28,9 +39,11 @@ struct camera {
     /* filled by camera_prepare */
     struct transform camera_to_world;
     int width, height;              /* of the full film */
-    double x_scale, y_scale;        /* screen units per raster unit at camera z = 1; y_scale < 0 */
-    double x_origin, y_origin;      /* screen position at z = 1 of raster (0,0) */
-    double pixel_area;              /* at z = 1: |x_scale y_scale| */
+    bool parallel;                  /* all rays run along `forward`: orthographic, without a lens */
+    double x_scale, y_scale;        /* screen units per raster unit at camera z = 1 (parallel: 0); y_scale < 0.
+                                     * environment: radians per raster unit */
+    double x_origin, y_origin;      /* screen position of raster (0,0), likewise */
+    double pixel_area;              /* |x_scale y_scale|; parallel: area of a raster unit across the rays, m^2 */
     vec3 position, forward;         /* world; forward is the unit view direction */
 };
 
@@ -47,13 +60,23 @@ bool camera_is_usable(const struct camera *c);
  * tmax = infinity. */
 struct ray camera_ray(const struct camera *c, double px, double py, double u1, double u2);
 
-/* camera_sample_lens: a lens point in world space, uniform by area (the pinhole itself without a lens). */
-vec3 camera_sample_lens(const struct camera *c, double u1, double u2);
+/* camera_sample_lens: the lens point, in world space, that point p is joined to: uniform by area; the pinhole itself
+ * without a lens; on the plane of a parallel camera. */
+vec3 camera_sample_lens(const struct camera *c, vec3 p, double u1, double u2);
+
+/* camera_spread: what turns J into raster area per area across w at distance^2 d2. */
+static inline double camera_spread(const struct camera *c, double d2) { return c->parallel ? 1 : 1 / d2; }
 
 /* camera_project: the raster point that a ray from lens point `lens` in unit direction w (away from the camera)
  * belongs to.
  *   px, py  out: raster coordinates, possibly outside the film
- * Returns J(w), raster area per steradian, > 0, or 0 when w points backwards. */
+ * Returns J(w), raster area per steradian (parallel: per m^2 across w), > 0, or 0 when w points backwards. */
 double camera_project(const struct camera *c, vec3 lens, vec3 w, double *px, double *py);
+
+/* camera_images: how many raster points camera_image can give for a filter of these radii; all that are the same ray
+ * and that the filter of a pixel reaches are among them, once.
+ * camera_image: number i of them for the one that camera_project gave, which is replaced. */
+int camera_images(const struct camera *c, const double radius[2]);
+void camera_image(const struct camera *c, const double radius[2], int i, double *px, double *py);
 
 #endif

@@ -138,7 +138,7 @@ struct connection connect_lens(const struct scene *scene, const struct mis_count
     double u1 = sampler_next(sampler), u2 = sampler_next(sampler);
     if (!vertex_connectible(y))
         return nothing();
-    vec3 lens = camera_sample_lens(&scene->camera, u1, u2);
+    vec3 lens = camera_sample_lens(&scene->camera, y->p, u1, u2);
     vec3 d = sub(y->p, lens);
     double d2 = length2(d);
     if (!(d2 > 0) || !bsdf_may_scatter(&y->bsdf, y->wo, neg(d)))
@@ -151,12 +151,13 @@ struct connection connect_lens(const struct scene *scene, const struct mis_count
         return nothing();
     struct scatter at_y = scatter_towards(y, neg(w), IMPORTANCE);
     /* We cos / (lens density) = J, see camera.h. */
-    c.value = rgb_mul(y->beta, rgb_scale(at_y.factor, J / d2));
+    double density = J * camera_spread(&scene->camera, d2);
+    c.value = rgb_mul(y->beta, rgb_scale(at_y.factor, density));
     if (rgb_is_black(c.value) || !scene_visible(scene, lens, 0, y->p, y->triangle_id))
         return nothing();
     /* The strategy one shorter on the light side has t = 2, which the light walk could not know. */
     double before = vertex_count_before(scene, counts, &light[s - 2], y, true);
-    double light_side = mis_side(counts, J * abs_dot(y->ng, w) / d2, y->pdf_fwd, before, at_y.pdf_rev, y->mis);
+    double light_side = mis_side(counts, density * abs_dot(y->ng, w), y->pdf_fwd, before, at_y.pdf_rev, y->mis);
     c.weight = mis_weight(counts, counts->splat, light_side, 0);
     return c;
 }

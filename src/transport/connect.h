@@ -20,7 +20,7 @@
 struct connection {
     rgb value;      /* W/(sr m^2), a pixel's radiance; black if the vertices cannot see each other */
     double weight;  /* [0,1]; meaningless when value is black */
-    double px, py;  /* connect_lens: the raster point it arrives at */
+    double px, py;  /* connect_lens: a raster point it arrives at, see camera_images */
 };
 
 /* connect_hit: z, the last of t >= 2 eye vertices, is on a light: z_{t-1} of an eye sub-path, or one of those `passed`

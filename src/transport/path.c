@@ -49,7 +49,7 @@ static double count_before(const struct walk *w, const struct vertex *prev, cons
 struct departure {
     struct ray ray;
     rgb beta;
-    double pdf;     /* of the direction, 1/sr; of a light at infinity: of the origin, 1/m^2 */
+    double pdf;     /* of the direction, 1/sr; of parallel rays from a light or the lens: of the origin, 1/m^2 */
     double pdf_rev; /* 1/sr, of going from that vertex to the one before it */
     bool delta;
 };
@@ -60,7 +60,7 @@ static void measure(const struct walk *w, struct vertex *v, const struct vertex 
                     double d2)
 {
     bool parallel = vertex_at_infinity(w->scene, prev); /* rays of a light at infinity do not spread */
-    double spread = parallel ? 1 : 1 / d2;
+    double spread = prev->kind == VERTEX_LENS ? camera_spread(&w->scene->camera, d2) : parallel ? 1 : 1 / d2;
     double at_prev = parallel || prev->kind == VERTEX_LENS ? 1 : abs_dot(prev->ng, from->ray.d) * spread;
     v->pdf_fwd = from->pdf * abs_dot(v->ng, from->ray.d) * spread;
     v->mis = mis_step(w->counts, from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, at_prev);
@@ -216,7 +216,7 @@ int path_eye(const struct walk *w, double px, double py, struct vertex *path, in
     path[0].p = from.ray.o;
     path[0].beta = rgb_grey(1);
     path[0].pdf_fwd = 1; /* never enters a weight: no strategy samples the lens from the light */
-    /* Eye rays have density 1 per raster area, J per steradian; We J^-1 = 1, so beta stays 1 (camera.h).
+    /* Eye rays have density 1 per raster area, J per steradian (or per m^2); We J^-1 = 1, so beta stays 1 (camera.h).
      * [PBRT3 16.1.1] */
     double x, y;
     from.pdf = camera_project(camera, from.ray.o, from.ray.d, &x, &y);

@@ -114,8 +114,13 @@ void pixel_splat_path(struct pixel_sample *g, const struct vertex *light, int n_
         struct connection c = connect_lens(g->scene, g->counts, light, s, &g->sampler);
         if (rgb_is_black(c.value))
             continue;
-        if (g->tile->keep_records)
-            tile_record_splat(g->tile, c.px, c.py, s, 1, rgb_scale(c.value, each), c.weight);
-        tile_add_splat(g->tile, c.px, c.py, rgb_scale(c.value, each * c.weight));
+        const double *radius = g->scene->filter.radius;
+        for (int i = 0; i < camera_images(&g->scene->camera, radius); i++) {
+            double px = c.px, py = c.py;
+            camera_image(&g->scene->camera, radius, i, &px, &py);
+            if (g->tile->keep_records)
+                tile_record_splat(g->tile, px, py, s, 1, rgb_scale(c.value, each), c.weight);
+            tile_add_splat(g->tile, px, py, rgb_scale(c.value, each * c.weight));
+        }
     }
 }
