@@ -95,6 +95,10 @@ faults: ## check that every fault of the list of mutants still applies
 columns: ## check that no line is longer than .clang-format allows, and that all are ASCII
 	@sh test/columns.sh
 
+links: ## check that links, functions, tests and mutants named in the documents exist
+	@sh test/links.sh
+	@sh test/links_test.sh
+
 san: ## run the tests under the address and undefined-behaviour sanitizers
 	$(MAKE) BUILD=build-san OPT="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all" build-san/test
 	build-san/test
@@ -104,6 +108,12 @@ tsan: ## run the threaded tests under the thread sanitizer
 	build-tsan/test threads
 
 # ---- about the tree ----
+doc: ## all documents as static HTML in out/html
+	sh doc/html.sh out/html
+
+figures: asbdpt ## make the figures of doc/tour again
+	sh doc/tour/figures.sh $(PROGRAM)
+
 stats: ## files, lines of code and comment, and the longest functions of every room
 	@sh test/tree_stats.sh
 
@@ -114,4 +124,4 @@ clean: ## remove everything that was built
 	rm -rf build build-* out asbdpt
 
 .PHONY: all demo experiments bench ref test check-long check-ref portability hashes faults mutants layers standard \
-	references columns san tsan stats help clean
+	references columns links doc figures san tsan stats help clean

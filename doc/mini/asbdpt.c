@@ -86,7 +86,7 @@ struct shape {
 #define BLACK {0, 0, 0}
 #define WHITE {0.75, 0.75, 0.75}
 static const struct shape SCENE[] = {
-    {{0.2, 0.98, 1.3}, {0.4, 0, 0}, {0, 0, 0.4}, 0, WHITE, {40, 34, 24}, false}, /* the lamp, facing down */
+    {{0.2, 0.98, 1.3}, {0.4, 0, 0}, {0, 0, 0.4}, 0, WHITE, {120, 102, 72}, false}, /* the lamp, facing down */
     {{0, 0, 1}, {0.8, 0, 0}, {0, 1, 0}, 0, WHITE, BLACK, false},                 /* the wall between the rooms */
     {{0, 0, 2}, {1, 0, 0}, {0, 1, 0}, 0, WHITE, BLACK, false},                   /* the far wall */
     {{0, 0, 0}, {1, 0, 0}, {0, 0, 2}, 0, WHITE, BLACK, false},                   /* floor */

@@ -1,0 +1,185 @@
+# html.awk: a page of Markdown, or a source file (-v source=1), as HTML that needs nothing but itself and its pictures.
+#   awk -v root=../.. -v title=NAME [-v math=1] [-v source=1] -f doc/html.awk FILE >FILE.html
+# root is the way from the page to the top of the HTML tree. The subset of Markdown is that of this tree's documents:
+# headings, paragraphs, lists of one level, tables, indented and fenced code, pictures, links, emphasis, code.
+# With math, plain-text formulas get indices and Greek letters: p_s, y_(s-1), x^2, sum_k, beta.
+
+function escape(s) { gsub(/&/, "\\&amp;", s); gsub(/</, "\\&lt;", s); gsub(/>/, "\\&gt;", s); return s }
+
+# x_0, y_(s-1), m^2 of escaped text; names of two letters or more before an underscore are operators or functions.
+function formula(s, inline,    out, base, index_, mark) {
+    if (!inline) {
+        gsub(/\.\.\./, "\\&hellip;", s)
+        gsub(/&lt;=/, "\\&le;", s); gsub(/&gt;=/, "\\&ge;", s)
+        s = word(s, "integral", "\\&int;"); s = word(s, "delta", "\\&delta;"); s = word(s, "kappa", "\\&kappa;")
+        gsub(/sqrt\(/, "\\&radic;(", s)
+    }
+    s = word(s, "sum_", "\\&Sigma;_"); s = word(s, "beta", "\\&beta;"); s = word(s, "theta", "\\&theta;")
+    s = word(s, "eta", "\\&eta;"); s = word(s, "pi", "\\&pi;")
+    while (match(s, /[A-Za-z*;][_^](\([^()]*\)|[A-Za-z0-9]+)/)) {
+        base = substr(s, RSTART, 1)
+        mark = substr(s, RSTART + 1, 1) == "_" ? "sub" : "sup"
+        index_ = substr(s, RSTART + 2, RLENGTH - 2)
+        if (index_ ~ /^\(/) index_ = substr(index_, 2, length(index_) - 2)
+        out = out substr(s, 1, RSTART - 1) base "<" mark ">" index_ "</" mark ">"
+        s = substr(s, RSTART + RLENGTH)
+    }
+    s = out s
+    gsub(/\)\^2/, ")<sup>2</sup>", s)
+    return s
+}
+# Replace a name that is no part of a longer one; what follows may be an index.
+function word(s, name, with,    out, before, after, at, w) {
+    w = with
+    gsub(/\\/, "", w)
+    while (at = index(s, name)) {
+        before = at > 1 ? substr(s, at - 1, 1) : " "
+        after = substr(s, at + length(name), 1)
+        out = out substr(s, 1, at - 1) (before ~ /[A-Za-z&]/ || (after ~ /[A-Za-z;]/ && name !~ /_$/) ? name : w)
+        s = substr(s, at + length(name))
+    }
+    return out s
+}
+
+# Where a link leads in the HTML tree: documents and sources have a page each.
+function target(url) {
+    if (url ~ /^(https?:|mailto:|#)/) return url
+    if (url ~ /\.md(#.*)?$/) { sub(/\.md/, ".html", url); return url }
+    return url ~ /\.(png|svg|jpg)$/ ? url : url ".html"
+}
+
+# Emphasis, links and code of a paragraph.
+function inline(s,    out, at, code, label, url, i) {
+    n_kept = 0
+    s = escape(s)
+    while (match(s, /`[^`]+`/)) {
+        kept[++n_kept] = "<code>" substr(s, RSTART + 1, RLENGTH - 2) "</code>"
+        s = substr(s, 1, RSTART - 1) "\001" n_kept "\002" substr(s, RSTART + RLENGTH)
+    }
+    while (match(s, /!?\[[^][]*\]\([^() ]*\)/)) {
+        code = substr(s, RSTART, RLENGTH)
+        at = index(code, "](")
+        url = substr(code, at + 2, length(code) - at - 2)
+        label = substr(code, 1, at - 1)
+        sub(/^!?\[/, "", label)
+        if (substr(code, 1, 1) == "!") kept[++n_kept] = "<img src=\"" url "\" alt=\"" label "\">"
+        else kept[++n_kept] = "<a href=\"" target(url) "\">" label "</a>"
+        s = substr(s, 1, RSTART - 1) "\001" n_kept "\002" substr(s, RSTART + RLENGTH)
+    }
+    while (match(s, /&lt;https?:[^ ]*&gt;/)) {
+        url = substr(s, RSTART + 4, RLENGTH - 8)
+        kept[++n_kept] = "<a href=\"" url "\">" url "</a>"
+        s = substr(s, 1, RSTART - 1) "\001" n_kept "\002" substr(s, RSTART + RLENGTH)
+    }
+    s = pairs(s, "\\*\\*[^*]+\\*\\*", 2, "strong")
+    s = pairs(s, "\\*[^* ]([^*]*[^* ])?\\*", 1, "em")
+    if (math) s = formula(s, 1)
+    for (i = n_kept; i > 0; i--) {
+        at = index(s, "\001" i "\002")
+        if (at) s = substr(s, 1, at - 1) kept[i] substr(s, at + length(i) + 2)
+    }
+    return s
+}
+function pairs(s, pattern, n, tag,    out) {
+    while (match(s, pattern)) {
+        out = out substr(s, 1, RSTART - 1) "<" tag ">" substr(s, RSTART + n, RLENGTH - 2 * n) "</" tag ">"
+        s = substr(s, RSTART + RLENGTH)
+    }
+    return out s
+}
+
+# A block of indented lines: a formula unless it looks like commands or a listing.
+function block(text,    is_code) {
+    is_code = !math || text ~ /(^|\n)(\.\/|make|cc |sh |build\/|WHOLE=|awk )/
+    sub(/\n$/, "", text)
+    print is_code ? "<pre>" escape(text) "</pre>" : "<pre class=\"math\">" formula(escape(text), 0) "</pre>"
+}
+
+function flush(    i, n, cell, tag) {
+    if (kind == "p") print "<p>" inline(buffer) "</p>"
+    if (kind == "item") printf "%s", inline(buffer)
+    if (kind == "pre") block(buffer)
+    if (kind == "table") print "</table></div>"
+    kind = buffer = ""
+}
+function end_list() { if (list != "") { flush(); print "</li></" list ">"; list = "" } }
+function row(line, tag,    n, i, cell, out) {
+    gsub(/\\\|/, "\003", line)
+    sub(/^\|/, "", line); sub(/\| *$/, "", line)
+    n = split(line, cell, "|")
+    for (i = 1; i <= n; i++) {
+        gsub(/^ +| +$/, "", cell[i]); gsub(/\003/, "|", cell[i])
+        out = out "<" tag ">" inline(cell[i]) "</" tag ">"
+    }
+    print "<tr>" out "</tr>"
+}
+
+BEGIN {
+    print "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+    print "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>" title "</title>"
+    print "<link rel=\"stylesheet\" href=\"" root "/style.css\"></head><body" (source ? " class=\"source\"" : "") ">"
+    print "<nav><a href=\"" root "/README.html\">asbdpt</a> <a href=\"" root "/doc/tour/README.html\">tour</a> " \
+        "<a href=\"" root "/doc/tour/glossary.html\">glossary</a></nav>"
+    if (source) print "<h1>" title "</h1><pre>"
+}
+source { printf "<span id=\"L%d\" class=\"n\">%4d</span> %s\n", FNR, FNR, escape($0); next }
+
+fence && /^ *```/ { fence = 0; print "</pre>"; next }
+fence { print escape($0); next }
+/^ *```/ { flush(); fence = 1; printf "<pre>"; next }
+/^ *$/ {
+    blank = 1
+    if (kind == "pre") buffer = buffer "\n"
+    else flush()
+    next
+}
+/^#+ / {
+    end_list(); flush()
+    match($0, /^#+/)
+    n = RLENGTH
+    text = substr($0, n + 2)
+    id = tolower(text); gsub(/[^a-z0-9 -]/, "", id); gsub(/ /, "-", id)
+    print "<h" n " id=\"" id "\">" inline(text) "</h" n ">"
+    blank = 0
+    next
+}
+/^\|[-: |]+\|$/ && kind == "table" { next }
+/^\|/ {
+    if (kind != "table") {
+        end_list(); flush()
+        print "<div class=\"wide\"><table>"
+        kind = "table"
+        row($0, "th")
+    } else row($0, "td")
+    blank = 0
+    next
+}
+/^([-*]|[0-9]+\.) / {
+    wanted = /^[-*]/ ? "ul" : "ol"
+    if (list != wanted) { end_list(); flush(); print "<" wanted ">"; list = wanted } else { flush(); print "</li>" }
+    printf "<li>"
+    sub(/^([-*]|[0-9]+\.) +/, "")
+    kind = "item"; buffer = $0; blank = 0
+    next
+}
+/^(    |\t)/ && (list == "" || (/^      / && blank)) && (kind == "" || kind == "pre") || kind == "pre" && /^    / {
+    if (kind != "pre") { flush(); kind = "pre" }
+    sub(list == "" ? "^    " : "^      ", "")
+    buffer = buffer $0 "\n"
+    blank = 0
+    next
+}
+{
+    if (kind == "pre") flush()
+    if (list != "" && blank && !/^ /) end_list()
+    if (kind == "table") flush()
+    if (kind == "") kind = "p"
+    sub(/^ +/, "")
+    buffer = buffer (buffer == "" ? "" : "\n") $0
+    blank = 0
+}
+END {
+    end_list(); flush()
+    if (source) print "</pre>"
+    print "</body></html>"
+}

@@ -1,0 +1,76 @@
+#!/bin/sh
+# html.sh OUT: all documents as static HTML in OUT, with the sources they link to; `make doc` calls it. Needs sh and awk.
+out=$1
+rm -rf "$out"
+mkdir -p "$out" || exit 1
+cat >"$out/style.css" <<'STYLE'
+:root { color-scheme: light dark; }
+body { max-width: 46em; margin: 0 auto; padding: 0 1em 4em; font: 1rem/1.55 Georgia, "Times New Roman", serif; }
+nav { padding: 0.6em 0; border-bottom: 1px solid #8884; font-family: sans-serif; font-size: 0.9rem; }
+nav a { margin-right: 1.2em; }
+h1, h2, h3 { font-family: sans-serif; line-height: 1.25; }
+h2 { margin-top: 1.8em; }
+a { color: #0b62b8; text-decoration: none; }
+a:hover { text-decoration: underline; }
+pre, code { font-family: "DejaVu Sans Mono", Menlo, Consolas, monospace; font-size: 0.86em; }
+pre { overflow-x: auto; padding: 0.7em 1em; background: #8881; border-radius: 4px; line-height: 1.4; }
+pre.math { background: none; border-left: 3px solid #0b62b8; border-radius: 0; font-size: 0.98em; line-height: 1.7; }
+pre.math, .wide td, .wide th { font-family: "DejaVu Serif", Georgia, serif; }
+.wide { overflow-x: auto; }
+.wide td, .wide th { font-size: 0.92em; }
+table { border-collapse: collapse; margin: 1em 0; }
+td, th { padding: 0.25em 0.7em; border-bottom: 1px solid #8884; text-align: left; vertical-align: top; }
+img { max-width: 100%; height: auto; image-rendering: pixelated; vertical-align: middle; }
+img[src$=".svg"] { background: white; }
+sub, sup { font-size: 0.72em; line-height: 0; }
+.source { max-width: none; }
+.n { color: #888; }
+:target { background: #fd08; }
+@media (prefers-color-scheme: dark) { a { color: #7db8f2; } }
+@media print {
+    body { max-width: none; font-size: 10.5pt; }
+    nav { display: none; }
+    a { color: inherit; }
+    pre { white-space: pre-wrap; }
+    pre, table, img { break-inside: avoid; }
+    h2 { break-after: avoid; }
+}
+STYLE
+
+# page FILE: one page of the tree.
+page() {
+    mkdir -p "$out/$(dirname "$1")"
+    root=$(dirname "$1" | sed 's/[^/]\{1,\}/../g; s/^\.$/./; s/^\.\.$/../')
+    [ "$(dirname "$1")" = . ] && root=.
+    case $1 in
+    *.md) math=0 && case $1 in doc/tour/*) math=1 ;; esac
+        awk -v root="$root" -v math=$math -v title="$(sed -n 's/^# //p;/^# /q' "$1")" -f doc/html.awk "$1" \
+            >"$out/${1%.md}.html" ;;
+    *.png | *.svg) cp "$1" "$out/$1" ;;
+    *) awk -v root="$root" -v title="$1" -v source=1 -f doc/html.awk "$1" >"$out/$1.html" ;;
+    esac
+}
+
+documents=$(find . \( -name 'build*' -o -name out -o -name .git \) -prune -o -name '*.md' -print | sed 's/^\.\///' | sort)
+# What they link to, as paths from the top.
+linked=$(for document in $documents; do
+    awk -v folder="$(dirname "$document")" '
+        { while (match($0, /\]\([^() ]+\)/)) {
+            url = substr($0, RSTART + 2, RLENGTH - 3)
+            $0 = substr($0, RSTART + RLENGTH)
+            sub(/#.*/, "", url)
+            if (url ~ /^(https?:|mailto:|$)/ || url ~ /\.md$/) continue
+            n = split(folder "/" url, part, "/")
+            depth = 0
+            for (i = 1; i <= n; i++)
+                if (part[i] == "..") depth--
+                else if (part[i] != ".") kept[++depth] = part[i]
+            path = kept[1]
+            for (i = 2; i <= depth; i++) path = path "/" kept[i]
+            print path
+        } }' "$document"
+done | sort -u)
+for file in $documents $linked; do
+    [ -f "$file" ] && page "$file"
+done
+echo "wrote $(find "$out" -name '*.html' | wc -l | tr -d ' ') pages; begin with $out/doc/tour/README.html"

@@ -1,0 +1,67 @@
+#!/bin/sh
+# figures.sh PROGRAM: makes every figure of the tour (about a minute); `make figures` calls it.
+program=$1
+case $program in /*) ;; *) program=$PWD/$program ;; esac
+tour=$PWD/doc/tour scene=$PWD/doc/mini/rooms.pbrt out=$PWD/doc/tour/figures
+dir=$(mktemp -d) || exit 1
+trap 'rm -rf "$dir"' EXIT
+cd "$dir" || exit 1
+set -e
+mkdir -p "$out"
+render() { "$program" render "$scene" --quiet "$@"; }
+ratio() { "$program" compare "$1" "$2" | awk '$1 == "mean_ratio" { print $2 }'; }
+
+# The same scene by every method, 16 samples per pixel.
+for method in pt lt bdpt; do
+    render --integrator $method --spp 16 -o "$out/$method.png"
+done
+for select in bins pool vertices subspaces; do
+    render --integrator asbdpt -P select=$select --spp 16 -o "$out/$select.png"
+done
+
+# Every strategy alone, as it is and weighted.
+render --integrator bdpt --spp 64 --res 80x80 --maxdepth 4 --strategies pyramid -o x.png
+cp pyramid/pyramid.png "$out/"
+
+# What selection has learnt, seen from the floor.
+"$program" worth "$scene" --pixel 64,100 --spp 64 --quiet -o "$out/worth.png"
+
+# One pixel, on the floor beside the gap: its red value after 1, 4, 16 ... samples.
+for method in pt bdpt; do
+    for spp in 1 4 16 64 256 1024; do
+        render --integrator $method --spp $spp --cropwindow 0.75 0.753 0.875 0.878 -o pixel.pfm
+        red=$(tail -c 12 pixel.pfm | od -An -tf4 | awk '{ print $1; exit }')
+        echo "${method},_$spp ${red:-0}"
+    done
+done | awk -v title="One pixel's red value after so many samples" -v zero=0 -f "$tour/chart.awk" >"$out/pixel.svg"
+
+# How far off the mean of bins is, for several numbers of iterations between restarts.
+render --integrator bdpt --spp 1024 --res 32x32 -o truth.pfm
+for restart in 4 8 16 32; do
+    render --integrator asbdpt -P select=bins -P restart=$restart --spp 1024 --res 32x32 -o bins.pfm
+    echo "restart_$restart $(ratio bins.pfm truth.pfm)"
+done | awk '{ print $1, sprintf("%.2f", 100 * ($2 - 1)) }' |
+    awk -v title="Mean of bins against bdpt, in per cent" -v zero=0 -f "$tour/chart.awk" >"$out/bias.svg"
+
+# p-values of two methods that agree, and of bins.
+for seed in 1 2 3 4 5 6 7 8; do
+    render --integrator bdpt --spp 4 --seed $seed -o bdpt-$seed.pfm
+    render --integrator asbdpt -P select=pool --spp 4 --seed $seed -o pool-$seed.pfm
+    render --integrator asbdpt -P select=bins --spp 4 --seed $seed -o bins-$seed.pfm
+done
+for method in bdpt bins; do
+    "$program" verify "$scene" --files $method-*.pfm --against pool-*.pfm --tile 8 --quiet >verdict.txt || :
+    awk '/^  [01]\.[0-9]-/ { print $1, $2 }' verdict.txt |
+        awk -v title="p-values of $method against pool, by tenths" -v zero=0 -f "$tour/chart.awk" >"$out/p-$method.svg"
+done
+
+# The alias table, step by step.
+awk -v weights="5 1 3 2 1" -f "$tour/alias.awk" </dev/null >"$out/alias.svg"
+
+# Squared error at equal time, from the table of doc/selection.md: 1 is bdpt.
+awk -F '|' '/^\| scene, rmse8/ { on = 1; next }
+    on && /^\| [a-z-]+ \|/ && $2 !~ /geometric|worst/ {
+        gsub(/[ *]/, "", $2); gsub(/\*/, "", $4); sub(/\[.*/, "", $4); print $2, $4 + 0
+    }
+    on && /^$/ { exit }' "$tour/../selection.md" |
+    awk -v title="Squared error of subspaces in bdpt's time; bdpt is 1" -v zero=1 -f "$tour/chart.awk" >"$out/gains.svg"
