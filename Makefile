@@ -55,7 +55,7 @@ ref: asbdpt ## render the stored references of ref/ again (an hour; goes on wher
 	sh ref/make-ref.sh $(PROGRAM)
 
 # ---- what proves it ----
-test: asbdpt $(BUILD)/test layers standard references columns faults ## build and run the test suite (under 3 minutes)
+test: asbdpt $(BUILD)/test layers standard references columns faults links ## build and run the test suite (under 3 minutes)
 	sh test/cli.sh $(PROGRAM)
 	sh test/mini.sh $(PROGRAM)
 	sh test/keep.sh $(PROGRAM)

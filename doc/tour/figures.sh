@@ -9,7 +9,11 @@ cd "$dir" || exit 1
 set -e
 mkdir -p "$out"
 render() { "$program" render "$scene" --quiet "$@"; }
-ratio() { "$program" compare "$1" "$2" | awk '$1 == "mean_ratio" { print $2 }'; }
+# chart NAME TITLE ZERO: table.txt as a picture.
+chart() {
+    [ -s table.txt ]
+    awk -v title="$2" -v zero="$3" -f "$tour/chart.awk" table.txt >"$out/$1.svg"
+}
 
 # The same scene by every method, 16 samples per pixel.
 for method in pt lt bdpt; do
@@ -31,17 +35,19 @@ for method in pt bdpt; do
     for spp in 1 4 16 64 256 1024; do
         render --integrator $method --spp $spp --cropwindow 0.75 0.753 0.875 0.878 -o pixel.pfm
         red=$(tail -c 12 pixel.pfm | od -An -tf4 | awk '{ print $1; exit }')
-        echo "${method},_$spp ${red:-0}"
+        echo "${method},_$spp ${red:?}"
     done
-done | awk -v title="One pixel's red value after so many samples" -v zero=0 -f "$tour/chart.awk" >"$out/pixel.svg"
+done >table.txt
+chart pixel "One pixel's red value after so many samples" 0
 
 # How far off the mean of bins is, for several numbers of iterations between restarts.
 render --integrator bdpt --spp 1024 --res 32x32 -o truth.pfm
 for restart in 4 8 16 32; do
     render --integrator asbdpt -P select=bins -P restart=$restart --spp 1024 --res 32x32 -o bins.pfm
-    echo "restart_$restart $(ratio bins.pfm truth.pfm)"
-done | awk '{ print $1, sprintf("%.2f", 100 * ($2 - 1)) }' |
-    awk -v title="Mean of bins against bdpt, in per cent" -v zero=0 -f "$tour/chart.awk" >"$out/bias.svg"
+    "$program" compare bins.pfm truth.pfm |
+        awk -v n=$restart '$1 == "mean_ratio" { printf "restart_%d %.2f\n", n, 100 * ($2 - 1) }'
+done >table.txt
+chart bias "Mean of bins against bdpt, in per cent" 0
 
 # p-values of two methods that agree, and of bins.
 for seed in 1 2 3 4 5 6 7 8; do
@@ -51,8 +57,8 @@ for seed in 1 2 3 4 5 6 7 8; do
 done
 for method in bdpt bins; do
     "$program" verify "$scene" --files $method-*.pfm --against pool-*.pfm --tile 8 --quiet >verdict.txt || :
-    awk '/^  [01]\.[0-9]-/ { print $1, $2 }' verdict.txt |
-        awk -v title="p-values of $method against pool, by tenths" -v zero=0 -f "$tour/chart.awk" >"$out/p-$method.svg"
+    awk '/^  [01]\.[0-9]-/ { print $1, $2 }' verdict.txt >table.txt
+    chart p-$method "p-values of $method against pool, by tenths" 0
 done
 
 # The alias table, step by step.
@@ -63,5 +69,5 @@ awk -F '|' '/^\| scene, rmse8/ { on = 1; next }
     on && /^\| [a-z-]+ \|/ && $2 !~ /geometric|worst/ {
         gsub(/[ *]/, "", $2); gsub(/\*/, "", $4); sub(/\[.*/, "", $4); print $2, $4 + 0
     }
-    on && /^$/ { exit }' "$tour/../selection.md" |
-    awk -v title="Squared error of subspaces in bdpt's time; bdpt is 1" -v zero=1 -f "$tour/chart.awk" >"$out/gains.svg"
+    on && /^$/ { exit }' "$tour/../selection.md" >table.txt
+chart gains "Squared error of subspaces in bdpt's time; bdpt is 1" 1
