@@ -51,7 +51,7 @@ chart bias "Mean of bins against bdpt, in per cent" 0
 
 # p-values of two methods that agree, and of bins.
 for seed in 1 2 3 4 5 6 7 8; do
-    render --integrator bdpt --spp 4 --seed $seed -o bdpt-$seed.pfm
+    render --integrator bdpt --spp 4 --seed 10$seed -o bdpt-$seed.pfm
     render --integrator asbdpt -P select=pool --spp 4 --seed $seed -o pool-$seed.pfm
     render --integrator asbdpt -P select=bins --spp 4 --seed $seed -o bins-$seed.pfm
 done
