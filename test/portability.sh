@@ -27,8 +27,8 @@ try() {
     done
     program=$dir/$name.exe
     command=$(echo "$build" | sed "s|^[^ ]*|$compiler|; s|-o [^ ]*|-o $program|")
-    echo 'int main(void) { volatile double a = 2; return !(__builtin_fma(a, a, a) + a * a > 0); }' >"$dir/a.c"
-    [ "$compiler" = tcc ] && echo 'int main(void) { return 0; }' >"$dir/a.c"
+    printf '#include <errno.h>\n#include <math.h>\n#include <stdio.h>\n' >"$dir/a.c"
+    echo 'int main(void) { volatile double a = 2; return !(fma(a, a, sqrt(a)) + a * a > errno); }' >>"$dir/a.c"
     trial=$(echo "$command" | sed "s|src/[^ ]*\.c|$dir/a.c|")
     if ! $trial "$@" >"$dir/log" 2>&1 || ! $runner "$program" </dev/null >"$dir/log" 2>&1; then
         say "$name" "skipped: no program for it can be compiled, or run, here"

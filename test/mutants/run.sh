@@ -10,6 +10,7 @@ workers=${1:-2}
 [ $# -gt 0 ] && shift
 only=" $* "
 TIMEOUT=900
+limit=$(command -v timeout || command -v gtimeout) && limit="$limit $TIMEOUT" # else there is none
 rest=all
 [ "${WHOLE:-yes}" = no ] && rest=
 
@@ -46,11 +47,11 @@ field() { awk -v name="$1" -v n="$2" '/^[^-+# \t]/ && $1 == name { print $n }' $
 # try TREE TEST: does the test notice? Prints what it says.
 try() {
     if [ "$2" = cli ] || [ "$2" = mini ] || [ "$2" = links ]; then
-        (cd "$1" && make -s LTO= asbdpt >/dev/null 2>&1 && timeout $TIMEOUT sh "test/$2.sh" ./asbdpt)
+        (cd "$1" && make -s LTO= asbdpt >/dev/null 2>&1 && $limit sh "test/$2.sh" ./asbdpt)
     elif [ "$2" = all ]; then
-        (cd "$1" && timeout $TIMEOUT build/test)
+        (cd "$1" && $limit build/test)
     else
-        (cd "$1" && timeout $TIMEOUT build/test "$2")
+        (cd "$1" && $limit build/test "$2")
     fi >"$1/output.txt" 2>&1
 }
 
