@@ -82,6 +82,14 @@ static bool asks_for_help(const char *word) { return strcmp(word, "--help") == 0
 
 /* --- the command line --------------------------------------------------------------------------------- */
 
+/* Do results stay beyond a double's bits until they are stored, as on the x87? (C99's FLT_EVAL_METHOD says so too, but
+ * not all compilers have it.) */
+static bool keeps_more_bits(void)
+{
+    volatile double one = 1, tiny = DBL_EPSILON / 4;
+    return one + tiny - one != 0;
+}
+
 static int run(const struct command *c, int argc, char **argv)
 {
     for (int i = 1; i < argc; i++)
@@ -108,9 +116,9 @@ int command_line(int argc, char **argv)
     }
     if (strcmp(argv[1], "--version") == 0) {
         printf("%s\n", VERSION);
-        if (FLT_EVAL_METHOD != 0) /* such as the x87's, in 32-bit programs */
-            printf("built for arithmetic that keeps more bits than a double has (FLT_EVAL_METHOD %d): pictures differ "
-                   "in their last bits from those of other builds\n", (int)FLT_EVAL_METHOD);
+        if (keeps_more_bits())
+            printf("built for arithmetic that keeps more bits than a double has (FLT_EVAL_METHOD is not 0): pictures "
+                   "differ in their last bits from those of other builds\n");
         return EXIT_OK;
     }
     struct suggestion s = suggest_start(argv[1]);
