@@ -23,6 +23,7 @@ function formula(s, inline,    out, base, index_, mark) {
         if (index_ ~ /^\(/) index_ = substr(index_, 2, length(index_) - 2)
         out = out substr(s, 1, RSTART - 1) base "<" mark ">" index_ "</" mark ">"
         s = substr(s, RSTART + RLENGTH)
+        if (match(s, /^\^[0-9]/)) { out = out "<sup>" substr(s, 2, 1) "</sup>"; s = substr(s, 3) }
     }
     s = out s
     gsub(/\)\^2/, ")<sup>2</sup>", s)
@@ -90,7 +91,7 @@ function pairs(s, pattern, n, tag,    out) {
 
 # A block of indented lines: a formula unless it looks like commands or a listing.
 function block(text,    is_code) {
-    is_code = !math || text ~ /(^|\n)(\.\/|make|cc |sh |build\/|WHOLE=|awk )/
+    is_code = !math || text ~ /(^|\n)(\.\/|make|cc |sh |build\/|WHOLE=|asbdpt)/
     sub(/\n$/, "", text)
     print is_code ? "<pre>" escape(text) "</pre>" : "<pre class=\"math\">" formula(escape(text), 0) "</pre>"
 }

@@ -137,8 +137,10 @@ static const struct shape *nearest(vec3 o, vec3 d, double *t)
     const struct shape *found = NULL;
     for (int i = 0; i < (int)(sizeof SCENE / sizeof SCENE[0]); i++) {
         double here = hit(&SCENE[i], o, d);
-        if (here > EPSILON && here < *t)
-            *t = here, found = &SCENE[i];
+        if (here > EPSILON && here < *t) {
+            *t = here;
+            found = &SCENE[i];
+        }
     }
     return found;
 }
@@ -428,15 +430,14 @@ static rgb sum_draws(const struct work *w, const struct counts *n, const struct 
 
 static void render(struct work *w, enum method method, int spp, uint64_t *rng)
 {
-    struct counts n = {1, 1, method == PT ? 0 : 1, method == PT ? 0 : SIZE * SIZE, NULL};
-    if (method == VERTICES)
-        n.connect = DRAWS, n.worth = w->worth;
-    if (method == POOL || method == VERTICES)
+    const bool pt = method == PT, vertices = method == VERTICES;
+    const struct counts n = {1, 1, pt ? 0 : vertices ? DRAWS : 1, pt ? 0 : SIZE * SIZE, vertices ? w->worth : NULL};
+    if (method == POOL || vertices)
         learn(w->worth, rng);
     for (int y = 0; y < SIZE; y++)
         for (int i = 0; i < spp; i++) {
             int shift = (int)(next(rng) * SIZE);
-            if (method != PT && method != BINS) /* path tracing makes do with sub-paths of no vertices */
+            if (!pt && method != BINS) /* path tracing makes do with sub-paths of no vertices */
                 fill(w, &n, i, rng);
             for (int x = 0; x < SIZE; x++) {
                 struct light_path *own = &w->path[x], *used = own;
@@ -450,7 +451,7 @@ static void render(struct work *w, enum method method, int spp, uint64_t *rng)
                 }
                 struct vertex eye[EYE_VERTICES];
                 int n_eye = path_eye(&n, x, y, eye, rng);
-                rgb joined = method == VERTICES ? sum_draws(w, &n, eye, n_eye, rng) : sum_pairs(&n, eye, n_eye, used);
+                rgb joined = vertices ? sum_draws(w, &n, eye, n_eye, rng) : sum_pairs(&n, eye, n_eye, used);
                 rgb sum = add(sum_eye(&n, eye, n_eye, rng), mul(joined, W)), *pixel = &w->image[y * SIZE + x];
                 *pixel = add(*pixel, sum);
                 splat_path(&n, own, w->image); /* each once, whoever was chosen */
