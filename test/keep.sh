@@ -121,7 +121,7 @@ check [ ! -e x.pfm ]
 no_temporaries "after errors"
 
 # ---- signals ----
-long="--integrator bdpt --res 64x64 --spp 100000 --quiet"
+long="--integrator bdpt --res 64x64 --spp 4000 --quiet"
 wait_for() { # FILE: until it is there, but no longer than some seconds
     i=0
     while [ ! -e "$1" ] && [ $i -lt 300 ]; do
@@ -137,17 +137,17 @@ for pair in TERM:143 HUP:129; do
     wait $!
     got=$?
     [ $got = "${pair#*:}" ] || fault "SIG${pair%:*}: status $got"
-    check grep -Eq "stopped by SIG${pair%:*}, at [1-9][0-9]* of 100000" stderr.txt
+    check grep -Eq "stopped by SIG${pair%:*}, at [1-9][0-9]* of 4000" stderr.txt
     check "$program" merge --partial --quiet -o again.pfm state
     same caught.pfm again.pfm "what was written at a signal"
 done
 if command -v timeout >/dev/null && timeout --preserve-status 5 true 2>/dev/null; then
-    expect 130 'stopped by SIGINT, at [1-9][0-9]* of 100000' \
+    expect 130 'stopped by SIGINT, at [1-9][0-9]* of 4000' \
         timeout --preserve-status -s INT 0.5 "$program" render "$box" $long -o caught.pfm
 fi
 # A block without end: the second signal ends the program at once; the checkpoint was saved at the first.
 rm -f state caught.pfm
-"$program" render "$box" --integrator asbdpt -P select=bins -P restart=0 --res 64x64 --spp 100000 --quiet -j 2 \
+"$program" render "$box" --integrator asbdpt -P select=bins -P restart=0 --res 64x64 --spp 4000 --quiet -j 2 \
     --checkpoint state --interval 1000 -o caught.pfm 2>stderr.txt &
 sleep 0.3
 kill -s TERM $!

@@ -102,10 +102,11 @@ static bool open_aovs(const struct job_options *o, const struct scene *scene, co
     return aov_open(o->aov, pictures->file[0].path, out, err);
 }
 
-static void report(const struct job_options *o, const struct integrator *m, const struct film *film, double wall,
-                   double cpu)
+/*   samples  per pixel, of those the film has, that took this time */
+static void report(const struct job_options *o, const struct integrator *m, const struct film *film, long samples,
+                   double wall, double cpu)
 {
-    double paths = (double)film->iterations * rect_width(film->rect) * rect_height(film->rect);
+    double paths = (double)samples * rect_width(film->rect) * rect_height(film->rect);
     if (!o->quiet)
         fprintf(stderr, "%s: %dx%d, %ld spp, %s; %.2f s, %.2f s of CPU, %.2f us per sample path\n", o->scene_path,
                 rect_width(film->rect), rect_height(film->rect), film->iterations, m->name, wall, cpu,
@@ -133,6 +134,7 @@ static bool run_and_write(const struct job_options *o, const struct scene *scene
                           struct error *err)
 {
     double cpu = os_cpu_seconds();
+    long before = film->iterations;
     bool ok = render_scene(scene, options, film, err);
     double cpu_seconds = os_cpu_seconds() - cpu, wall = os_wall_seconds() - keep->bar.start;
     bool kept = keep_end(keep, ok, err);
@@ -141,7 +143,7 @@ static bool run_and_write(const struct job_options *o, const struct scene *scene
         aov_abandon(aov);
         return false;
     }
-    report(o, options->integrator, film, wall, cpu_seconds);
+    report(o, options->integrator, film, film->iterations - before, wall, cpu_seconds);
     ok = kept;
     ok = (o->strategies == NULL || write_strategies(o->strategies, film, ok ? err : NULL)) && ok;
     ok = aov_write(aov, scene, options, film, o->quiet, ok ? err : NULL) && ok;

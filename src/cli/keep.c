@@ -110,7 +110,7 @@ bool keep_end(struct keep *k, bool ok, struct error *err)
     if (ok && signal != 0)
         fprintf(stderr, "asbdpt: stopped by %s, at %ld of %ld samples per pixel\n", os_signal_name(signal),
                 f->iterations, wanted);
-    else if (ok && k->late)
+    else if (ok && k->late && f->iterations < wanted)
         fprintf(stderr, "asbdpt: stopped after %.1f s, at %ld of %ld samples per pixel\n",
                 os_wall_seconds() - k->bar.start, f->iterations, wanted);
     if (ok && k->options->checkpoint != NULL)
