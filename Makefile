@@ -4,6 +4,11 @@ BUILD   = build
 PROGRAM = ./asbdpt
 SCENES  = $(addprefix scenes/,$(addsuffix .pbrt,cornell-box cornell-box-modified veach-ajar bathroom living-room))
 
+PREFIX  = /usr/local
+MANDIR  = $(PREFIX)/share/man/man1
+BASHDIR = $(PREFIX)/share/bash-completion/completions
+ZSHDIR  = $(PREFIX)/share/zsh/site-functions
+
 # No fast-math; contraction off, so that one compiler gives one result. Nobody reads errno after sqrt.
 # Link-time optimisation makes small scenes 10 % faster; `make LTO=` leaves it out. CFLAGS is the user's and comes last.
 WARN    = -std=c99 -pedantic -Wall -Wextra -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wswitch
@@ -39,6 +44,17 @@ $(BUILD)/obj/%.o: src/%.c
 -include $(wildcard $(BUILD)/obj/*/*.d)
 
 # ---- what it is for ----
+install: asbdpt ## install the program, its man page and completions below PREFIX (/usr/local), itself below DESTDIR
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(MANDIR) $(DESTDIR)$(BASHDIR) $(DESTDIR)$(ZSHDIR)
+	install -m 755 asbdpt $(DESTDIR)$(PREFIX)/bin/asbdpt
+	$(PROGRAM) help man >$(DESTDIR)$(MANDIR)/asbdpt.1
+	$(PROGRAM) help bash >$(DESTDIR)$(BASHDIR)/asbdpt
+	$(PROGRAM) help zsh >$(DESTDIR)$(ZSHDIR)/_asbdpt
+
+uninstall: ## remove what install put there
+	rm -f $(DESTDIR)$(PREFIX)/bin/asbdpt $(DESTDIR)$(MANDIR)/asbdpt.1 $(DESTDIR)$(BASHDIR)/asbdpt \
+	    $(DESTDIR)$(ZSHDIR)/_asbdpt
+
 demo: asbdpt ## render Ajar with bdpt and asbdpt, the same time for each, into one picture, out/demo.png
 	@mkdir -p out
 	$(PROGRAM) demo scenes/veach-ajar.pbrt --reference ref/demo/veach-ajar.png -o out/demo.png
@@ -123,5 +139,5 @@ help: ## list the targets
 clean: ## remove everything that was built
 	rm -rf build build-* out asbdpt
 
-.PHONY: all demo experiments bench ref test check-long check-ref portability hashes faults mutants layers standard \
+.PHONY: all install uninstall demo experiments bench ref test check-long check-ref portability hashes faults mutants layers standard \
 	references columns links doc figures san tsan stats help clean

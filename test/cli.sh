@@ -267,6 +267,33 @@ expect 1 'there is no stored reference known.pfm' "$program" demo known.pbrt -o 
 expect 1 'there is no integrator bdtp; did you mean bdpt' "$program" demo "$box" --with bdtp -o demo.png
 expect 2 'demo needs a picture to write' "$program" demo "$box"
 
+# What a system is told: the man page and the completions are sound, where there is something to judge them by.
+expect 0 '' "$program" help man
+mv stdout.txt asbdpt.1
+check grep -q '^.TH ASBDPT 1' asbdpt.1
+if command -v mandoc >/dev/null; then
+    check mandoc -T lint -W error asbdpt.1
+else
+    echo "cli: no mandoc, man page not judged"
+fi
+expect 0 '' "$program" help bash
+mv stdout.txt completion.bash
+if command -v bash >/dev/null; then
+    check bash -n completion.bash
+    echo '. ./completion.bash; COMP_WORDS=(asbdpt render --integ); COMP_CWORD=2; _asbdpt; echo $COMPREPLY' >complete.bash
+    check [ "$(bash complete.bash)" = --integrator ]
+else
+    echo "cli: no bash, its completion not tried"
+fi
+expect 0 '' "$program" help zsh
+mv stdout.txt completion.zsh
+if command -v zsh >/dev/null; then check zsh -n completion.zsh; else echo "cli: no zsh, its completion not judged"; fi
+expect 0 '' "$program" help render
+check grep -q 'usage: asbdpt render' stdout.txt
+expect 2 'there is no help on rendering' "$program" help rendering
+expect 0 '' "$program" info "$box" --json
+check grep -q '"triangles": ' stdout.txt
+
 # worth: what was learnt, as a picture.
 expect 0 '' "$program" worth "$box" --pixel 3,9 --res 12x12 --spp 4 --quiet -o worth.png
 check [ -s worth.png ]

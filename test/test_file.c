@@ -12,6 +12,8 @@
 #include <unistd.h>
 
 #include "base/file.h"
+#include "base/json.h"
+#include "base/progress.h"
 #include "image/image.h"
 #include "base/mem.h"
 #include "base/rng.h"
@@ -236,8 +238,61 @@ static void test_unreadable(struct test *t)
     remove(path);
 }
 
+/* --- progress ---------------------------------------------------------------------------------------- */
+
+static void test_duration(struct test *t)
+{
+    static const struct {
+        double seconds;
+        const char *text;
+    } CASES[] = {{0, "0 s"}, {59.4, "59 s"}, {59.6, "1 min 00 s"}, {200, "3 min 20 s"}, {3599.4, "59 min 59 s"},
+                 {7500, "2 h 05 min"}, {86400, "1 day 0 h"}, {273600, "3 days 4 h"}, {-5, "0 s"}, {NAN, "0 s"}};
+    for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
+        char text[32];
+        progress_duration(CASES[i].seconds, text, sizeof text);
+        CHECK(t, strcmp(text, CASES[i].text) == 0, "%g seconds are %s, not %s", CASES[i].seconds, CASES[i].text, text);
+    }
+}
+
+/* --- JSON -------------------------------------------------------------------------------------------- */
+
+static void test_json(struct test *t)
+{
+    static const char EXPECTED[] = "{\n  \"a\": \"x\\\"\\\\\\u001b\",\n  \"b\": [1, 0.10000000000000001, null],\n"
+                                   "  \"c\": {},\n  \"d\": [\n    true,\n    null\n  ]\n}\n";
+    char path[512], read[256] = "";
+    in_tmp(t, "x.json", path, sizeof path);
+    FILE *f = fopen(path, "wb");
+    if (!CHECK(t, f != NULL, "a file to write to"))
+        return;
+    struct json j = json_start(f);
+    json_open(&j, NULL, '{');
+    json_text(&j, "a", "x\"\\\033");
+    json_open(&j, "b", '-');
+    json_number(&j, NULL, 1);
+    json_number(&j, NULL, 0.1);
+    json_number(&j, NULL, (double)INFINITY);
+    json_close(&j);
+    json_open(&j, "c", '{');
+    json_close(&j);
+    json_open(&j, "d", '[');
+    json_bool(&j, NULL, true);
+    json_text(&j, NULL, NULL);
+    json_close(&j);
+    json_close(&j);
+    fclose(f);
+    f = fopen(path, "rb");
+    size_t n = f != NULL ? fread(read, 1, sizeof read - 1, f) : 0;
+    CHECK(t, n == strlen(EXPECTED) && strcmp(read, EXPECTED) == 0, "%s", read);
+    if (f != NULL)
+        fclose(f);
+    remove(path);
+}
+
 void test_file(struct test *t)
 {
+    test_json(t);
+    test_duration(t);
     test_written(t);
     test_written_bytes(t);
     test_unwritable(t);

@@ -4,11 +4,30 @@
 
 #include <stdio.h>
 
+#include "base/number.h"
 #include "base/os.h"
+
+enum { BAR = 20, COLUMNS = 50 };
+static const double LINE_EVERY = 60, BAR_EVERY = 0.1; /* seconds */
+
+void progress_duration(double seconds, char *text, size_t size)
+{
+    const int MINUTE = 60, HOUR = 60 * MINUTE, DAY = 24 * HOUR;
+    int s = int_within(seconds + 0.5, 0, 1000 * DAY);
+    if (s < MINUTE)
+        snprintf(text, size, "%d s", s);
+    else if (s < HOUR)
+        snprintf(text, size, "%d min %02d s", s / MINUTE, s % MINUTE);
+    else if (s < DAY)
+        snprintf(text, size, "%d h %02d min", s / HOUR, s % HOUR / MINUTE);
+    else
+        snprintf(text, size, "%d day%s %d h", s / DAY, s < 2 * DAY ? "" : "s", s % DAY / HOUR);
+}
 
 void progress_start(struct progress *p, bool quiet)
 {
-    p->shown = !quiet && os_terminal(stderr);
+    p->shown = !quiet;
+    p->bar = os_terminal(stderr);
     p->start = os_wall_seconds();
     p->last = p->start;
 }
@@ -16,24 +35,27 @@ void progress_start(struct progress *p, bool quiet)
 /* `done` is a count over a count, 0 to 1. */
 bool progress_update(void *progress, double done)
 {
-    enum { WIDTH = 40 };
     struct progress *p = progress;
-    double now = os_wall_seconds();
-    if (!p->shown || now - p->last < 0.1)
+    double now = os_wall_seconds(), elapsed = now - p->start;
+    if (!p->shown || now - p->last < (p->bar ? BAR_EVERY : LINE_EVERY))
         return true;
     p->last = now;
-    double elapsed = now - p->start, left = done > 0 ? elapsed / done - elapsed : 0;
-    char bar[WIDTH + 1];
-    for (int i = 0; i < WIDTH; i++)
-        bar[i] = i < (int)(done * WIDTH) ? '=' : ' ';
-    bar[WIDTH] = '\0';
-    fprintf(stderr, "\r[%s] %3d%%  %.1f s, %.1f s left   ", bar, (int)(done * 100), elapsed, left);
+    char left[32], bar[BAR + 1];
+    progress_duration(done > 0 ? elapsed / done - elapsed : 0, left, sizeof left);
+    for (int i = 0; i < BAR; i++)
+        bar[i] = i < (int)(done * BAR) ? '=' : ' ';
+    bar[BAR] = '\0';
+    int percent = (int)(done * 100);
+    if (p->bar)
+        fprintf(stderr, "\r[%s] %3d %%, %s left      ", bar, percent, done > 0 ? left : "?");
+    else
+        fprintf(stderr, "%3d %%, %s left\n", percent, done > 0 ? left : "?");
     fflush(stderr);
     return true;
 }
 
 void progress_end(struct progress *p)
 {
-    if (p->shown)
-        fprintf(stderr, "\r%79s\r", "");
+    if (p->shown && p->bar)
+        fprintf(stderr, "\r%*s\r", COLUMNS - 1, "");
 }

@@ -1,15 +1,21 @@
-/* progress.h: a progress bar with the time left, on stderr when that is a terminal. */
+/* progress.h: how far a long job is and how long it will still take, on stderr.
+ *
+ * On a terminal a bar that is redrawn, narrow enough for 50 columns; in a file one line a minute.
+ *
+ * Tests: test_file.c.
+ */
 #ifndef ASBDPT_PROGRESS_H
 #define ASBDPT_PROGRESS_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 struct progress {
-    bool shown;
+    bool shown, bar;    /* at all; on a terminal */
     double start, last; /* seconds of os_wall_seconds */
 };
 
-/* progress_start: show nothing yet; stay silent if `quiet` or stderr is not a terminal. */
+/* progress_start: show nothing yet; nothing at all if `quiet`. */
 void progress_start(struct progress *p, bool quiet);
 
 /* progress_update: redraw, at most ten times a second; `done` in [0,1]. Always returns true, so that it can serve as
@@ -18,5 +24,9 @@ bool progress_update(void *progress, double done);
 
 /* progress_end: remove the bar. */
 void progress_end(struct progress *p);
+
+/* progress_duration: "12 s", "3 min 20 s", "2 h 05 min" or "3 days 4 h" into text [size]; seconds >= 0, others count
+ * as 0. */
+void progress_duration(double seconds, char *text, size_t size);
 
 #endif

@@ -1,6 +1,7 @@
 /* cmd_info.c: asbdpt info SCENE: what is in a scene and how it was prepared. */
 #include <stdio.h>
 
+#include "base/json.h"
 #include "base/os.h"
 #include "base/progress.h"
 #include "cli/command.h"
@@ -53,18 +54,87 @@ static void print_scene(const struct scene *s, const struct integrator *m, doubl
     printf("loaded in     %.2f s\n", seconds);
 }
 
+/* --- for programs -------------------------------------------------------------------------------------- */
+
+static void put_vector(struct json *j, const char *name, double x, double y, double z)
+{
+    json_open(j, name, '-');
+    json_number(j, NULL, x);
+    json_number(j, NULL, y);
+    json_number(j, NULL, z);
+    json_close(j);
+}
+
+static void put_lights(struct json *j, const struct light_set *lights)
+{
+    json_open(j, "lights", '[');
+    for (int i = 0; i < lights->n; i++) {
+        json_open(j, NULL, '{');
+        json_text(j, "kind", LIGHT_NAMES[lights->light[i].kind]);
+        json_number(j, "power", lights->light[i].power);
+        json_close(j);
+    }
+    json_close(j);
+}
+
+static void put_settings(struct json *j, const struct settings *settings)
+{
+    json_open(j, "parameters", '{');
+    for (int i = 0; i < settings->n; i++)
+        json_text(j, settings->item[i].name, settings->item[i].value);
+    json_close(j);
+}
+
+static void print_json(const struct scene *s, const char *path, const struct integrator *m, long spp, double seconds)
+{
+    const struct kdtree *kd = &s->kd;
+    struct json j = json_start(stdout);
+    json_open(&j, NULL, '{');
+    json_text(&j, "scene", path);
+    json_number(&j, "width", s->width);
+    json_number(&j, "height", s->height);
+    json_text(&j, "output", s->film_filename);
+    json_number(&j, "spp", (double)spp);
+    json_text(&j, "integrator", m->name);
+    put_settings(&j, &s->settings);
+    json_number(&j, "triangles", s->geo.n_triangles);
+    json_number(&j, "quadrics", s->geo.n_quadrics);
+    json_number(&j, "shapes", s->geo.n_groups);
+    json_number(&j, "materials", s->n_materials);
+    json_number(&j, "textures", s->textures.n_textures);
+    put_lights(&j, &s->lights);
+    put_vector(&j, "low", (double)kd->lo[0], (double)kd->lo[1], (double)kd->lo[2]);
+    put_vector(&j, "high", (double)kd->hi[0], (double)kd->hi[1], (double)kd->hi[2]);
+    json_number(&j, "seconds", seconds);
+    json_close(&j);
+}
+
+struct info_options {
+    struct job_options job;
+    bool json;
+};
+
 static int run(void *options)
 {
+    const struct info_options *o = options;
     struct scene scene;
     const struct integrator *integrator;
     double start = os_wall_seconds();
-    int status = job_load(options, &scene, &integrator);
-    if (status == EXIT_OK) {
+    int status = job_load(&o->job, &scene, &integrator);
+    if (status != EXIT_OK)
+        return status;
+    if (o->json)
+        print_json(&scene, o->job.scene_path, integrator, job_spp(&o->job, &scene), os_wall_seconds() - start);
+    else
         print_scene(&scene, integrator, os_wall_seconds() - start);
-        scene_free(&scene);
-    }
-    return status;
+    scene_free(&scene);
+    return EXIT_OK;
 }
 
+static const struct option OPTIONS[] = {
+    {"--json", NULL, OPTION_ON, offsetof(struct info_options, json), .help = "print an object of JSON"},
+    {.others = SCENE_OPTIONS},
+};
+
 const struct command command_info = {
-    "info", "describe a scene", {"SCENE.pbrt [options]"}, SCENE_OPTIONS, sizeof(struct job_options), run};
+    "info", "describe a scene", {"SCENE.pbrt [--json] [options]"}, OPTIONS, sizeof(struct info_options), run};

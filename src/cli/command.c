@@ -9,7 +9,6 @@
 
 #include "base/mem.h"
 #include "base/version.h"
-#include "integrators/integrator.h"
 #include "parser/symbols.h"
 
 static const struct command *const COMMANDS[] = {&command_render, &command_merge, &command_compare, &command_experiment,
@@ -54,19 +53,6 @@ static void print_command(const struct command *c, bool alone)
         printf("    and the options of %s\n", COMMANDS[0]->name);
 }
 
-static void print_methods(void)
-{
-    printf("integrators and their parameters (-P NAME=VALUE, or in the scene's Integrator directive;\n"
-           "of what is given twice, an option like --maxdepth counts before -P, and -P before the scene):\n");
-    printf("    all: maxdepth 5, heuristic balance|power, rrthreshold 0.5, for select=bins 0 "
-           "(0: no Russian roulette)\n");
-    for (const struct integrator *const *m = integrator_list(); *m != NULL; m++) {
-        printf("    %-8s %s\n", (*m)->name, (*m)->help);
-        for (const struct setting_help *p = (*m)->parameters; p->name != NULL; p++)
-            printf("             %-12s %-10s %s\n", p->name, p->fallback, p->help);
-    }
-}
-
 static void print_help(void)
 {
     printf("%s: Alias Sampled Bidirectional Path Tracing, a reference implementation\n\n", VERSION);
@@ -74,8 +60,9 @@ static void print_help(void)
         print_command(COMMANDS[i], false);
         printf("\n");
     }
-    print_methods();
-    printf("\nexit status: 0 success, 1 the job failed, 2 wrong usage\n");
+    manual_print_integrators();
+    printf("\nasbdpt help man, bash, zsh: a man page, completions\n"
+           "exit status: 0 success, 1 the job failed, 2 wrong usage\n");
 }
 
 static bool asks_for_help(const char *word) { return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0; }
@@ -106,14 +93,27 @@ static int run(const struct command *c, int argc, char **argv)
     return status;
 }
 
+/* help, help COMMAND, help man|bash|zsh */
+static int help(const char *topic)
+{
+    if (topic == NULL) {
+        print_help();
+        return EXIT_OK;
+    }
+    for (int i = 0; COMMANDS[i] != NULL; i++)
+        if (strcmp(topic, COMMANDS[i]->name) == 0) {
+            print_command(COMMANDS[i], true);
+            return EXIT_OK;
+        }
+    return manual_print(topic, VERSION) ? EXIT_OK : usage_error(NULL, "there is no help on %s", topic);
+}
+
 int command_line(int argc, char **argv)
 {
     if (argc < 2)
         return usage_error(NULL, "which command?");
-    if (asks_for_help(argv[1]) || strcmp(argv[1], "help") == 0) {
-        print_help();
-        return EXIT_OK;
-    }
+    if (asks_for_help(argv[1]) || strcmp(argv[1], "help") == 0)
+        return help(argc > 2 ? argv[2] : NULL);
     if (strcmp(argv[1], "--version") == 0) {
         printf("%s\n", VERSION);
         if (keeps_more_bits())

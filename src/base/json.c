@@ -1,0 +1,96 @@
+/* json.c: see json.h. */
+#include "base/json.h"
+
+#include <math.h>
+#include <string.h>
+
+struct json json_start(FILE *file)
+{
+    struct json j;
+    memset(&j, 0, sizeof j);
+    j.file = file;
+    j.empty = true;
+    return j;
+}
+
+static void quote(struct json *j, const char *text)
+{
+    fputc('"', j->file);
+    for (; *text != '\0'; text++) {
+        unsigned char c = (unsigned char)*text;
+        if (c == '"' || c == '\\')
+            fprintf(j->file, "\\%c", c);
+        else if (c < 0x20 || c == 0x7f)
+            fprintf(j->file, "\\u%04x", (unsigned)c);
+        else
+            fputc(c, j->file);
+    }
+    fputc('"', j->file);
+}
+
+static void new_line(struct json *j)
+{
+    fprintf(j->file, "\n%*s", 2 * j->depth, "");
+}
+
+/* What stands before a value: comma, line, name. */
+static void begin(struct json *j, const char *name)
+{
+    if (j->depth > 0 && !j->empty)
+        fputs(j->compact[j->depth - 1] ? ", " : ",", j->file);
+    if (j->depth > 0 && !j->compact[j->depth - 1])
+        new_line(j);
+    j->empty = false;
+    if (name == NULL)
+        return;
+    quote(j, name);
+    fputs(": ", j->file);
+}
+
+void json_open(struct json *j, const char *name, char kind)
+{
+    begin(j, name);
+    if (j->depth == JSON_DEPTH)
+        return; /* callers nest less */
+    fputc(kind == '{' ? '{' : '[', j->file);
+    j->closing[j->depth] = kind == '{' ? '}' : ']';
+    j->compact[j->depth++] = kind == '-';
+    j->empty = true;
+}
+
+void json_close(struct json *j)
+{
+    if (j->depth == 0)
+        return;
+    j->depth--;
+    if (!j->empty && !j->compact[j->depth])
+        new_line(j);
+    fputc(j->closing[j->depth], j->file);
+    j->empty = false;
+    if (j->depth == 0)
+        fputc('\n', j->file);
+}
+
+void json_number(struct json *j, const char *name, double value)
+{
+    begin(j, name);
+    if (isfinite(value))
+        fprintf(j->file, "%.17g", value);
+    else
+        fputs("null", j->file);
+}
+
+void json_text(struct json *j, const char *name, const char *text)
+{
+    begin(j, name);
+    if (text != NULL)
+        quote(j, text);
+    else
+        fputs("null", j->file);
+}
+
+void json_bool(struct json *j, const char *name, bool value)
+{
+    begin(j, name);
+    fputs(value ? "true" : "false", j->file);
+}

@@ -1,0 +1,40 @@
+/* json.h: writing JSON, a value at a time; commas and indentation come by themselves.                       [RFC 8259]
+ *
+ *     struct json j = json_start(stdout);
+ *     json_open(&j, NULL, '{');
+ *     json_text(&j, "name", name);
+ *     json_open(&j, "size", '[');  json_number(&j, NULL, 3);  json_number(&j, NULL, 4);  json_close(&j);
+ *     json_close(&j);
+ *
+ * Tests: test_file.c.
+ */
+#ifndef ASBDPT_JSON_H
+#define ASBDPT_JSON_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+enum { JSON_DEPTH = 16 };
+
+struct json {
+    FILE *file; /* borrowed; look at ferror in the end */
+    int depth;
+    char closing[JSON_DEPTH]; /* bracket of every open object and array */
+    bool empty, compact[JSON_DEPTH]; /* the innermost holds nothing yet; is on one line */
+};
+
+struct json json_start(FILE *file);
+
+/* json_open: begin an object '{', an array '[', or an array on one line '-'.
+ *   name  within an object, else NULL
+ * json_close ends the innermost one; the last ends the line. */
+void json_open(struct json *j, const char *name, char kind);
+void json_close(struct json *j);
+
+/* json_number: with 17 digits, so that it is read back as it was; null if it is not finite.
+ * json_text: quoted; bytes above 127 are taken to be UTF-8. NULL becomes null. */
+void json_number(struct json *j, const char *name, double value);
+void json_text(struct json *j, const char *name, const char *text);
+void json_bool(struct json *j, const char *name, bool value);
+
+#endif
