@@ -280,7 +280,8 @@ expect 0 '' "$program" help bash
 mv stdout.txt completion.bash
 if command -v bash >/dev/null; then
     check bash -n completion.bash
-    echo '. ./completion.bash; COMP_WORDS=(asbdpt render --integ); COMP_CWORD=2; _asbdpt; echo $COMPREPLY' >complete.bash
+    echo '. ./completion.bash; COMP_WORDS=(asbdpt render --integ); COMP_CWORD=2; _asbdpt; echo $COMPREPLY' \
+        >complete.bash
     check [ "$(bash complete.bash)" = --integrator ]
 else
     echo "cli: no bash, its completion not tried"

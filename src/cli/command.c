@@ -9,6 +9,8 @@
 
 #include "base/mem.h"
 #include "base/version.h"
+#include "cli/job_options.h"
+#include "cli/manual.h"
 #include "parser/symbols.h"
 
 static const struct command *const COMMANDS[] = {&command_render, &command_merge, &command_compare, &command_experiment,
@@ -46,11 +48,13 @@ static void print_command(const struct command *c, bool alone)
     printf("asbdpt %s: %s\n", c->name, c->help);
     for (int i = 0; c->usage[i] != NULL; i++)
         printf("%s asbdpt %s %s\n", i == 0 ? "usage:" : "   or:", c->name, c->usage[i]);
-    const struct option *shared = options_print(c->options);
-    if (shared != NULL && (alone || c == COMMANDS[0]))
-        options_print(shared);
-    else if (shared != NULL)
-        printf("    and the options of %s\n", COMMANDS[0]->name);
+    for (const struct option *table = c->options; table != NULL;) {
+        if (table == JOB_OPTIONS && !alone && c != COMMANDS[0]) {
+            printf("    and the options of %s\n", COMMANDS[0]->name);
+            break;
+        }
+        table = options_print(table);
+    }
 }
 
 static void print_help(void)
