@@ -1,17 +1,8 @@
 /* command.c: see command.h. A new subcommand is a new word in COMMANDS. */
 #include "cli/command.h"
 
-#include <float.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/mem.h"
-#include "base/version.h"
-#include "cli/job_options.h"
-#include "cli/manual.h"
-#include "parser/symbols.h"
 
 static const struct command *const COMMANDS[] = {&command_render, &command_merge, &command_compare, &command_experiment,
                                                  &command_bench, &command_verify, &command_info,
@@ -38,100 +29,4 @@ int usage_error(const struct command *command, const char *format, ...)
     fprintf(stderr, "asbdpt: %s; try asbdpt %s%s--help\n", err.text, command != NULL ? command->name : "",
             command != NULL ? " " : "");
     return EXIT_USAGE;
-}
-
-/* --- help --------------------------------------------------------------------------------------------- */
-
-/* The options that subcommands share are the first one's. */
-static void print_command(const struct command *c, bool alone)
-{
-    printf("asbdpt %s: %s\n", c->name, c->help);
-    for (int i = 0; c->usage[i] != NULL; i++)
-        printf("%s asbdpt %s %s\n", i == 0 ? "usage:" : "   or:", c->name, c->usage[i]);
-    for (const struct option *table = c->options; table != NULL;) {
-        if (table == JOB_OPTIONS && !alone && c != COMMANDS[0]) {
-            printf("    and the options of %s\n", COMMANDS[0]->name);
-            break;
-        }
-        table = options_print(table);
-    }
-}
-
-static void print_help(void)
-{
-    printf("%s: Alias Sampled Bidirectional Path Tracing, a reference implementation\n\n", VERSION);
-    for (int i = 0; COMMANDS[i] != NULL; i++) {
-        print_command(COMMANDS[i], false);
-        printf("\n");
-    }
-    manual_print_integrators();
-    printf("\nasbdpt help man, bash, zsh: a man page, completions\n"
-           "exit status: 0 success, 1 the job failed, 2 wrong usage\n");
-}
-
-static bool asks_for_help(const char *word) { return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0; }
-
-/* --- the command line --------------------------------------------------------------------------------- */
-
-/* Do results stay beyond a double's bits until they are stored, as on the x87? (C99's FLT_EVAL_METHOD says so too, but
- * not all compilers have it.) */
-static bool keeps_more_bits(void)
-{
-    volatile double one = 1, tiny = DBL_EPSILON / 4;
-    return one + tiny - one != 0;
-}
-
-static int run(const struct command *c, int argc, char **argv)
-{
-    for (int i = 1; i < argc; i++)
-        if (asks_for_help(argv[i])) {
-            print_command(c, true);
-            return EXIT_OK;
-        }
-    struct error err;
-    void *options = mem_alloc(1, c->size);
-    bool ok = options_read(c->options, argc, argv, options, &err);
-    int status = ok ? c->run(options) : usage_error(c, "%s", err.text);
-    options_free(c->options, options);
-    free(options);
-    return status;
-}
-
-/* help, help COMMAND, help man|bash|zsh */
-static int help(const char *topic)
-{
-    if (topic == NULL) {
-        print_help();
-        return EXIT_OK;
-    }
-    for (int i = 0; COMMANDS[i] != NULL; i++)
-        if (strcmp(topic, COMMANDS[i]->name) == 0) {
-            print_command(COMMANDS[i], true);
-            return EXIT_OK;
-        }
-    return manual_print(topic, VERSION) ? EXIT_OK : usage_error(NULL, "there is no help on %s", topic);
-}
-
-int command_line(int argc, char **argv)
-{
-    if (argc < 2)
-        return usage_error(NULL, "which command?");
-    if (asks_for_help(argv[1]) || strcmp(argv[1], "help") == 0)
-        return help(argc > 2 ? argv[2] : NULL);
-    if (strcmp(argv[1], "--version") == 0) {
-        printf("%s\n", VERSION);
-        if (keeps_more_bits())
-            printf("built for arithmetic that keeps more bits than a double has (FLT_EVAL_METHOD is not 0): pictures "
-                   "differ in their last bits from those of other builds\n");
-        return EXIT_OK;
-    }
-    struct suggestion s = suggest_start(argv[1]);
-    for (int i = 0; COMMANDS[i] != NULL; i++) {
-        if (strcmp(argv[1], COMMANDS[i]->name) == 0)
-            return run(COMMANDS[i], argc - 1, argv + 1);
-        suggest_offer(&s, COMMANDS[i]->name);
-    }
-    if (s.name == NULL)
-        return usage_error(NULL, "unknown command %s", argv[1]);
-    return usage_error(NULL, "unknown command %s (did you mean %s?)", argv[1], s.name);
 }

@@ -27,9 +27,6 @@ extern const struct command command_render, command_merge, command_compare, comm
 /* command_list: all subcommands, ended by NULL. */
 const struct command *const *command_list(void);
 
-/* command_line: what the program does with its arguments, argv[0] being its own name. Returns the exit status. */
-int command_line(int argc, char **argv);
-
 /* fail / usage_error: print "asbdpt: message" and return EXIT_JOB / EXIT_USAGE.
  *   command  whose help the message points to; NULL: everybody's */
 int fail(const struct error *err);

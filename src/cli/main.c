@@ -1,6 +1,6 @@
-/* main.c: asbdpt's command line begins here; command.c has everything that tests need too. */
+/* main.c: asbdpt's command line begins here; dispatch.c has everything that tests need too. */
 #include "base/interrupt.h"
-#include "cli/command.h"
+#include "cli/dispatch.h"
 
 int main(int argc, char **argv)
 {
