@@ -104,17 +104,21 @@ static void test_edge(struct test *t)
     scene_free(&scene);
 }
 
-/* Glass sends on all it gets, whatever its index: albedo 1, not the radiance that refraction gains. */
+/* Glass sends on all it gets, from either side: albedo 1, not the radiance that refraction gains or loses. */
 static void test_glass(struct test *t)
 {
-    struct scene scene;
-    if (!wall_scene(t, "Material \"glass\" \"float index\" 2", -50, &scene))
-        return;
-    struct pictures p = render_aovs(&scene, 2, 1);
-    CHECK(t, deviation(p.of[AOV_ALBEDO], 1, 1, 0, W) < 1e-6, "albedo of glass is off by %g",
-          deviation(p.of[AOV_ALBEDO], 1, 1, 0, W));
-    pictures_free(&p);
-    scene_free(&scene);
+    static const char *const materials[] = {"Material \"glass\" \"float index\" 2",
+                                            "ReverseOrientation Material \"glass\" \"float index\" 2"};
+    for (int i = 0; i < 2; i++) {
+        struct scene scene;
+        if (!wall_scene(t, materials[i], -50, &scene))
+            continue;
+        struct pictures p = render_aovs(&scene, 2, 1);
+        double off = deviation(p.of[AOV_ALBEDO], 1, 1, 0, W);
+        CHECK(t, off < 1e-6, "albedo of glass, side %d, is off by %g", i, off);
+        pictures_free(&p);
+        scene_free(&scene);
+    }
 }
 
 /* The same bytes for any number of threads, and a crop window holds its part of the whole. */
@@ -142,6 +146,38 @@ static void test_same(struct test *t)
     scene_free(&scene);
 }
 
+/* Of one sample, the position is the first vertex that the eye sub-path of the render meets: also behind a lens. */
+static void test_path(struct test *t)
+{
+    struct scene scene;
+    if (!scene_from_file(t, "scenes/forest.pbrt", W, H, &scene))
+        return;
+    scene.camera.lens_radius = 0.05;
+    scene.camera.focal_distance = 2;
+    struct pictures p = render_aovs(&scene, 1, 1);
+    struct mis_counts counts = {.hit = 1, .direct = {1, 1}};
+    struct arena arena = {0};
+    int hits = 0;
+    for (int y = 0; y < H; y++)
+        for (int x = 0; x < W; x++) {
+            struct sampler sampler = sampler_start(5, RNG_EYE, (uint64_t)(y * W + x), 0);
+            struct walk walk = {.scene = &scene, .counts = &counts, .arena = &arena, .sampler = &sampler};
+            struct vertex path[2];
+            double weight;
+            const float *ours = p.of[AOV_POSITION] + 3 * (y * W + x);
+            if (path_eye_pixel(&walk, x, y, path, 2, &weight) < 2 || path[1].kind != VERTEX_SURFACE)
+                continue;
+            vec3 q = {(double)ours[0], (double)ours[1], (double)ours[2]};
+            double off = sqrt(length2(sub(path[1].p, q)));
+            CHECK(t, off < 1e-5 * (1 + sqrt(length2(q))), "pixel (%d,%d): off by %g", x, y, off);
+            hits++;
+        }
+    CHECK(t, hits > W * H / 2, "%d pixels hit something", hits);
+    arena_free(&arena);
+    pictures_free(&p);
+    scene_free(&scene);
+}
+
 static void test_variance(struct test *t)
 {
     struct film film;
@@ -165,5 +201,6 @@ void test_aov(struct test *t)
     test_edge(t);
     test_glass(t);
     test_same(t);
+    test_path(t);
     test_variance(t);
 }

@@ -27,7 +27,7 @@ static const char *const STYLE[] = {
     "table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.9rem}",
     "th,td{padding:.25rem .6rem;border-bottom:1px solid var(--line);text-align:right;white-space:nowrap}",
     "thead th{background:var(--panel);vertical-align:bottom}tbody th{font-weight:600}",
-    "td:not([data-value]){white-space:normal;text-align:left;min-width:9rem}",
+    "td:not([data-value]){white-space:normal}",
     /* A shadow where more is to be found sideways. */
     ".scroll{background:linear-gradient(90deg,var(--page),transparent) 0/2rem 100%,"
     "linear-gradient(270deg,var(--page),transparent) 100%/2rem 100%,",
