@@ -11,6 +11,8 @@ void test_alias(struct test *t);
 void test_bsdf(struct test *t);
 void test_camera(struct test *t);
 void test_equal_time(struct test *t); /* part of test_report */
+void test_features(struct test *t);
+void test_format(struct test *t);
 void test_file(struct test *t);
 void test_film(struct test *t);
 void test_hdr(struct test *t);

@@ -109,6 +109,13 @@ static bool next_number(struct lexer *l, struct token *out)
         end++;
     int shown = end - l->at < 40 ? (int)(end - l->at) : 40;
     const char *scanned = scan_number(l->at, &out->number);
+    bool finite = out->number - out->number == 0;
+    if (scanned != NULL && scanned < end && finite && !is_letter(*scanned)) {
+        source_warn(l->messages, out->position, "number", "'%.*s' counts as %.9g: numbers are separated by blanks",
+                    shown, l->at, out->number);
+        l->at = end;
+        return true;
+    }
     if (scanned == end)
         return source_error(l->messages, out->position, "the number %.*s is too large; numbers go up to 1.7e308", shown,
                            l->at);

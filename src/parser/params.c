@@ -87,7 +87,15 @@ static bool wants_text(enum param_type type)
     return type == PARAM_BOOL || type == PARAM_STRING || type == PARAM_TEXTURE;
 }
 
-/* One value that is not a plain number: a string, a bare true or false, or a mistake. */
+static bool add_number(struct params *p, struct param *item, double number)
+{
+    p->number = mem_grow(p->number, &p->number_capacity, p->n_number + 1, sizeof *p->number);
+    p->number[p->n_number++] = number;
+    item->n++;
+    return true;
+}
+
+/* One value that is not a plain number: a string, a bare true or false, a number with an appendix, or a mistake. */
 static bool read_text(struct params *p, struct lexer *l, struct param *item)
 {
     struct token t;
@@ -97,6 +105,8 @@ static bool read_text(struct params *p, struct lexer *l, struct param *item)
         p->failed = true;
         return false;
     }
+    if (t.kind == TOKEN_NUMBER && !item->is_text)
+        return add_number(p, item, t.number);
     bool bare_bool = t.kind == TOKEN_WORD && (strcmp(t.text, "true") == 0 || strcmp(t.text, "false") == 0);
     bool text = t.kind == TOKEN_STRING || (item->type == PARAM_BOOL && bare_bool);
     if (t.kind == TOKEN_WORD && !text)
@@ -117,10 +127,7 @@ static bool read_value(struct params *p, struct lexer *l, struct param *item)
     double number;
     if (item->is_text || !lexer_number(l, &number))
         return read_text(p, l, item);
-    p->number = mem_grow(p->number, &p->number_capacity, p->n_number + 1, sizeof *p->number);
-    p->number[p->n_number++] = number;
-    item->n++;
-    return true;
+    return add_number(p, item, number);
 }
 
 static bool read_values(struct params *p, struct lexer *l, struct param *item)

@@ -241,6 +241,7 @@ struct directive {
 
 #define END_OF_DIRECTIVES {NULL, ANYWHERE, NULL, NULL}
 
+extern const struct object_type MATERIAL_TYPES[], TEXTURE_TYPES[]; /* their directives read more than type and list */
 extern const struct directive STATE_DIRECTIVES[], OPTION_DIRECTIVES[], TEXTURE_DIRECTIVES[], MATERIAL_DIRECTIVES[],
     LIGHT_DIRECTIVES[], SHAPE_DIRECTIVES[];
 

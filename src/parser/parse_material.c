@@ -73,7 +73,7 @@ static const struct parameter TRANSLUCENT[] = {
 static const struct parameter MIX[] = {
     MIXED("namedmaterial1", mix1), MIXED("namedmaterial2", mix2), COLOUR(amount, 0.5), END_OF_PARAMETERS};
 
-static const struct object_type TYPES[] = {
+const struct object_type MATERIAL_TYPES[] = {
     {"matte", MATTE, MATERIAL_MATTE, NULL},
     {"mirror", MIRROR, MATERIAL_MIRROR, NULL},
     {"glass", GLASS, MATERIAL_GLASS, NULL},
@@ -98,7 +98,7 @@ bool parse_make_material(struct parser *p, int *out)
             q->item[i].used = true; /* nothing is left to use them */
         return params_done(q);
     }
-    if (!parse_type(p, TYPES))
+    if (!parse_type(p, MATERIAL_TYPES))
         return false;
     struct material m = material_blank((enum material_kind)p->type->kind);
     if (!parse_object(p, &m))
@@ -115,7 +115,7 @@ bool parse_make_material(struct parser *p, int *out)
 /* Does the material have a parameter of this name? */
 static bool has_parameter(const char *type, const char *name)
 {
-    const struct object_type *t = TYPES;
+    const struct object_type *t = MATERIAL_TYPES;
     while (t->name != NULL && strcmp(t->name, type) != 0)
         t++;
     if (is_none(type) || t->parameter == NULL)

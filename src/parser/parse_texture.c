@@ -164,7 +164,7 @@ static const struct parameter MARBLE[] = {
     OCTAVES, NUMBER("roughness", noise.omega, 0.5), NUMBER("scale", noise.scale, 1),
     NUMBER("variation", noise.variation, 0.2), END_OF_PARAMETERS};
 
-static const struct object_type TYPES[] = {
+const struct object_type TEXTURE_TYPES[] = {
     {"constant", CONSTANT, TEXTURE_CONSTANT, NULL},
     {"scale", SCALE, TEXTURE_SCALE, NULL},
     {"mix", MIX, TEXTURE_MIX, NULL},
@@ -202,7 +202,7 @@ static bool texture(struct parser *p)
         return false;
     }
     struct texture t = {.kind = TEXTURE_CONSTANT};
-    bool known = parse_type(p, TYPES) && fits_type(p);
+    bool known = parse_type(p, TEXTURE_TYPES) && fits_type(p);
     if (known)
         t.kind = (enum texture_kind)p->type->kind;
     else if (!p->params.failed)
