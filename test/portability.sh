@@ -67,7 +67,7 @@ try gcc-serial '' gcc "$plain" -DASBDPT_SERIAL
 try gcc-x87 '' gcc "$plain" -m32 -mfpmath=387
 try musl '' musl-gcc "$plain" -static
 try tcc '' tcc "$plain"
-export WINEDEBUG=-all
+export WINEDEBUG=-all # no log of its own
 try windows "$(command -v wine64 || echo wine)" x86_64-w64-mingw32-gcc "$windows"
 try wasi 'node --no-warnings test/wasi.mjs' clang "$wasi"
 try arm64 qemu-aarch64 aarch64-linux-gnu-gcc "$plain" -static
