@@ -111,9 +111,10 @@ faults: ## check that every fault of the list of mutants still applies
 columns: ## check that no line is longer than .clang-format allows, and that all are ASCII
 	@sh test/columns.sh
 
-links: ## check that links, functions, tests and mutants named in the documents exist
+links: ## check that links, functions, tests and mutants named in the documents exist, and their HTML
 	@sh test/links.sh
 	@sh test/links_test.sh
+	@sh test/html.sh
 
 san: ## run the tests under the address and undefined-behaviour sanitizers
 	$(MAKE) BUILD=build-san OPT="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all" build-san/test

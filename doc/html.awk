@@ -16,7 +16,7 @@ function formula(s, inline,    out, base, index_, mark) {
     }
     s = word(s, "sum_", "\\&Sigma;_"); s = word(s, "beta", "\\&beta;"); s = word(s, "theta", "\\&theta;")
     s = word(s, "eta", "\\&eta;"); s = word(s, "pi", "\\&pi;")
-    while (match(s, /[A-Za-z*;][_^](\([^()]*\)|[A-Za-z0-9]+)/)) {
+    while (match(s, /[A-Za-z*;)][_^](\([^()]*\)|[A-Za-z0-9]+)/)) {
         base = substr(s, RSTART, 1)
         mark = substr(s, RSTART + 1, 1) == "_" ? "sub" : "sup"
         index_ = substr(s, RSTART + 2, RLENGTH - 2)
@@ -25,9 +25,7 @@ function formula(s, inline,    out, base, index_, mark) {
         s = substr(s, RSTART + RLENGTH)
         if (match(s, /^\^[0-9]/)) { out = out "<sup>" substr(s, 2, 1) "</sup>"; s = substr(s, 3) }
     }
-    s = out s
-    gsub(/\)\^2/, ")<sup>2</sup>", s)
-    return s
+    return out s
 }
 # Replace a name that is no part of a longer one; what follows may be an index.
 function word(s, name, with,    out, before, after, at, w) {
@@ -42,11 +40,34 @@ function word(s, name, with,    out, before, after, at, w) {
     return out s
 }
 
-# Where a link leads in the HTML tree: documents and sources have a page each.
-function target(url) {
+# Where a link leads in the HTML tree: documents and sources have a page each; "FILE: FUNCTION" leads to the line.
+function target(url, label) {
     if (url ~ /^(https?:|mailto:|#)/) return url
     if (url ~ /\.md(#.*)?$/) { sub(/\.md/, ".html", url); return url }
-    return url ~ /\.(png|svg|jpg)$/ ? url : url ".html"
+    return url ~ /\.(png|svg|jpg)$/ ? url : url ".html" line_of(url, label)
+}
+# "#L" and the number of the line on which the function is defined; "" if none is named or found.
+function line_of(url, label,    name, folder, line, n) {
+    if (label !~ /: [A-Za-z0-9_]+$/) return ""
+    name = label
+    sub(/^.*: /, "", name)
+    folder = FILENAME
+    sub(/[^\/]*$/, "", folder)
+    while ((getline line < (folder url)) > 0) {
+        n++
+        if (line ~ ("^[a-z].*[ *]" name "\\(") && line !~ /;$/) { close(folder url); return "#L" n }
+    }
+    close(folder url)
+    return ""
+}
+
+# A label whose code was set aside.
+function plain(label,    n, text) {
+    if (label !~ /^\001[0-9]+\002$/) return label
+    n = substr(label, 2, length(label) - 2)
+    text = kept[n]
+    gsub(/<[^>]*>/, "", text)
+    return text
 }
 
 # Emphasis, links and code of a paragraph.
@@ -64,7 +85,7 @@ function inline(s,    out, at, code, label, url, i) {
         label = substr(code, 1, at - 1)
         sub(/^!?\[/, "", label)
         if (substr(code, 1, 1) == "!") kept[++n_kept] = "<img src=\"" url "\" alt=\"" label "\">"
-        else kept[++n_kept] = "<a href=\"" target(url) "\">" label "</a>"
+        else kept[++n_kept] = "<a href=\"" target(url, plain(label)) "\">" label "</a>"
         s = substr(s, 1, RSTART - 1) "\001" n_kept "\002" substr(s, RSTART + RLENGTH)
     }
     while (match(s, /&lt;https?:[^ ]*&gt;/)) {

@@ -154,7 +154,7 @@ struct vertex {
     double F;      /* density per area with which its walk chose this place */
     double c, mis; /* c_e and mis_e of section 7 */
 };
-
+/* The camera. No light sub-path ever finds a pinhole by chance, so nothing is asked of its density: F = 1, c = 0. */
 static const struct vertex PINHOLE = {LENS, NULL, {0.5, 0.5, -1.5}, {0, 0, 1}, BLACK, {1, 1, 1}, 1, 0, 0};
 
 /* A mirror is no end for a connection: the other end would have to lie just where it points. */

@@ -18,7 +18,7 @@ END {
         x = left + width * (value[i] - low) / (high - low)
         printf "<text x='%g' y='%g' text-anchor='end'>%s</text>", left - 8, y + 13, label[i]
         printf "<rect x='%g' y='%g' width='%g' height='16' fill='%s'/>", x < base ? x : base, y,
-            x < base ? base - x : x - base, value[i] < zero ? "#4393c3" : "#d6604d"
+            x < base ? base - x : x - base, value[i] > zero && zero > 0 ? "#d6604d" : "#4393c3"
         printf "<text x='%g' y='%g'>%s%s</text>\n", (x > base ? x : base) + 5, y + 13, $0 == "" ? "" : value[i], unit
     }
     printf "<path d='M%g 28 V%g' stroke='#222'/></svg>\n", base, 34 + 22 * NR

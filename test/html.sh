@@ -1,0 +1,62 @@
+#!/bin/sh
+# html.sh: are the documents as HTML whole? (doc/html.sh) Every local link and picture leads to a file; tags are closed as
+# often as they are opened; formulas have indices, lists and tables are there. A damaged page must be found out.
+dir=$(mktemp -d) || exit 1
+trap 'rm -rf "$dir"' EXIT
+
+# whole DIR: prints what is wrong with the pages of DIR.
+whole() {
+    find "$1" -name '*.html' | sort | LC_ALL=C xargs awk '
+        function count(text, piece,    n, at) {
+            while (at = index(text, piece)) { n++; text = substr(text, at + length(piece)) }
+            return n + 0
+        }
+        function exists(path,    line, found) {
+            if (!(path in known)) { found = (getline line < path) >= 0; close(path); known[path] = found }
+            return known[path]
+        }
+        function check(    i, text) {
+            if (page == "") return
+            for (i = 1; i <= n_tags; i++)
+                if (opened[i] != closed[i]) print page ": " opened[i] " times <" tag[i] ">, " closed[i] " times closed"
+        }
+        BEGIN { n_tags = split("p ul ol li table tr td th pre div strong em sub sup code a", tag, " ") }
+        FNR == 1 {
+            check()
+            page = folder = FILENAME
+            sub(/[^\/]*$/, "", folder)
+            for (i = 1; i <= n_tags; i++) opened[i] = closed[i] = 0
+        }
+        {
+            for (i = 1; i <= n_tags; i++) {
+                opened[i] += count($0, "<" tag[i] ">") + count($0, "<" tag[i] " ")
+                closed[i] += count($0, "</" tag[i] ">")
+            }
+            line = $0
+            while (match(line, /(href|src)="[^"]*"/)) {
+                url = substr(line, RSTART, RLENGTH)
+                line = substr(line, RSTART + RLENGTH)
+                gsub(/^[a-z]*="|"$/, "", url)
+                if (url ~ /^(https?:|mailto:)/) continue
+                sub(/#.*/, "", url)
+                if (url != "" && !exists(folder url)) print page ": there is no " url
+            }
+        }
+        END { check() }'
+}
+
+sh doc/html.sh "$dir/html" >/dev/null || exit 1
+wrong=$(whole "$dir/html")
+[ -z "$wrong" ] || { echo "$wrong"; exit 1; }
+weights="$dir/html/doc/tour/07-weights.html"
+for text in 'w<sub>s</sub>(x) = p<sub>s</sub>(x) / &Sigma;<sub>i</sub> p<sub>i</sub>(x)' \
+    'mis<sub>e+1</sub> = g (c<sub>e</sub>' \
+    '<li><a href="../../src/transport/mis.h.html#L' '<td>dVCM</td>' '<img src="figures/' '<h2 id="mirrors">'; do
+    grep -qF "$text" "$weights" "$dir/html/doc/tour/06-connections.html" || { echo "html: no $text"; exit 1; }
+done
+echo '<a href="nothing.html">x</a>' >"$dir/html/damaged.html"
+[ -n "$(whole "$dir/html")" ] || { echo "html: a link that leads nowhere is not noticed"; exit 1; }
+echo '<p>x' >"$dir/html/damaged.html"
+[ -n "$(whole "$dir/html")" ] || { echo "html: a tag that is not closed is not noticed"; exit 1; }
+rm "$dir/html/damaged.html"
+echo "html: $(find "$dir/html" -name '*.html' | wc -l | tr -d ' ') pages are whole"
