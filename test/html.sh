@@ -1,6 +1,6 @@
 #!/bin/sh
-# html.sh: are the documents as HTML whole? (doc/html.sh) Every local link and picture leads to a file; tags are closed as
-# often as they are opened; formulas have indices, lists and tables are there. A damaged page must be found out.
+# html.sh: are the documents as HTML whole? (doc/html.sh) Every local link and picture leads to a file; tags are closed
+# as often as they are opened; formulas have indices, lists and tables are there. A damaged page must be found out.
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
 
