@@ -19,7 +19,10 @@ LTO     = $(eval LTO := $$(shell sh test/lto.sh $$(CC)))$(LTO)# asked of the com
 
 SOURCES  = $(wildcard src/*/*.c)
 OBJECTS  = $(SOURCES:src/%.c=$(BUILD)/obj/%.o)
-TESTS    = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/*.c)) $(filter-out %/main.o,$(OBJECTS))
+LIBRARY  = $(filter-out %/main.o,$(OBJECTS))
+TARGETS  = $(BUILD)/obj/test/fuzz/targets.o $(BUILD)/obj/test/fuzz/hostile.o
+TESTS    = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/*.c)) $(TARGETS) $(LIBRARY)
+FUZZED   = $(BUILD)/obj/test/fuzz/libfuzzer.o $(TARGETS) $(LIBRARY)
 
 .BEGIN: # which other makes do before anything else, and GNU make never
 	@echo "This Makefile needs GNU make (gmake); README.md has a line that builds without any make." >&2; exit 1
@@ -33,6 +36,9 @@ asbdpt: $(OBJECTS)
 $(BUILD)/test: $(TESTS)
 	$(CC) $(FLAGS) $(CFLAGS) -o $@ $(TESTS) $(LDFLAGS) $(LIBS)
 
+$(BUILD)/fuzz: $(FUZZED)
+	$(CC) $(FLAGS) -fsanitize=fuzzer $(CFLAGS) -o $@ $(FUZZED) $(LDFLAGS) $(LIBS)
+
 $(BUILD)/obj/test/%.o: test/%.c
 	@mkdir -p $(@D)
 	$(CC) $(FLAGS) -MMD -MP $(CFLAGS) -c -o $@ $<
@@ -41,7 +47,7 @@ $(BUILD)/obj/%.o: src/%.c
 	@mkdir -p $(@D)
 	$(CC) $(FLAGS) -MMD -MP $(CFLAGS) -c -o $@ $<
 
--include $(wildcard $(BUILD)/obj/*/*.d)
+-include $(wildcard $(BUILD)/obj/*/*.d $(BUILD)/obj/*/*/*.d)
 
 # ---- what it is for ----
 install: asbdpt ## install the program, its man page and completions below PREFIX (/usr/local), itself below DESTDIR
@@ -119,6 +125,10 @@ links: ## check that links, functions, tests and mutants named in the documents 
 san: ## run the tests under the address and undefined-behaviour sanitizers
 	$(MAKE) BUILD=build-san OPT="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all" build-san/test
 	build-san/test
+
+.PHONY: fuzz
+fuzz: ## build build-fuzz/fuzz, which feeds every reader with damaged input (clang; sh test/fuzz/run.sh runs it)
+	$(MAKE) BUILD=build-fuzz CC=clang LTO= OPT="-O1 -g -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined,float-cast-overflow -fno-sanitize-recover=all" build-fuzz/fuzz
 
 tsan: ## run the threaded tests under the thread sanitizer
 	$(MAKE) BUILD=build-tsan OPT="-O1 -g -fsanitize=thread" build-tsan/test

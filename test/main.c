@@ -42,7 +42,7 @@ static const struct entry ENTRIES[] = {
     {"options", test_options, false}, {"render", test_render, false}, {"asbdpt", test_asbdpt, false},
     {"part", test_part, false},
     {"report", test_report, false}, {"pictures", test_pictures, false},
-    {"aov", test_aov, false},
+    {"aov", test_aov, false}, {"fuzz", test_fuzz, false},
     {"threads", test_threads, false}, {"verify", test_verify, false},
     {"strategies", test_strategies, false}, {"streams", test_streams, false},
     {"scenes", test_scenes, false},   {"reference", test_references, false},

@@ -15,6 +15,7 @@ void test_features(struct test *t);
 void test_format(struct test *t);
 void test_file(struct test *t);
 void test_film(struct test *t);
+void test_fuzz(struct test *t);
 void test_hdr(struct test *t);
 void test_image(struct test *t);
 void test_kdtree(struct test *t);

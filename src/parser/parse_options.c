@@ -199,7 +199,7 @@ static const struct object_type SAMPLER_TYPES[] = {
     {"maxmindist", SEQUENCE, 0, NULL},
     OTHERS_LIKE(SEQUENCE, 0, NULL)};
 
-/* Film and sampler are fields of the scene itself. */
+/* Film and sampler are fields of the scene itself; of accelerators nothing is kept. */
 static bool of_scene(struct parser *p) { return parse_object(p, p->scene); }
 
 static const struct parameter TREE[] = {
@@ -208,8 +208,6 @@ static const struct parameter TREE[] = {
 
 static const struct object_type ACCELERATOR_TYPES[] = {
     {"kdtree", TREE, 0, NULL}, {"bvh", TREE, 0, NULL}, OTHERS_LIKE(TREE, 0, NULL)};
-
-static bool accelerator(struct parser *p) { return parse_object(p, NULL); }
 
 /* How many digits tell this number from all others. */
 static int digits(double x)
@@ -262,6 +260,6 @@ const struct directive OPTION_DIRECTIVES[] = {{"Camera", BEFORE_WORLD, camera, C
                                               {"Film", BEFORE_WORLD, of_scene, FILM_TYPES},
                                               {"PixelFilter", BEFORE_WORLD, filter, FILTER_TYPES},
                                               {"Sampler", BEFORE_WORLD, of_scene, SAMPLER_TYPES},
-                                              {"Accelerator", BEFORE_WORLD, accelerator, ACCELERATOR_TYPES},
+                                              {"Accelerator", BEFORE_WORLD, of_scene, ACCELERATOR_TYPES},
                                               {"Integrator", BEFORE_WORLD, integrator, NULL},
                                               END_OF_DIRECTIVES};

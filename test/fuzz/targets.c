@@ -1,0 +1,246 @@
+/* targets.c: see targets.h. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "targets.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/mem.h"
+#include "geometry/ply.h"
+#include "hostile.h"
+#include "image/formats.h"
+#include "image/image.h"
+#include "image/zlib.h"
+#include "lab/results.h"
+#include "parser/parser.h"
+#include "render/parameters.h"
+#include "render/render.h"
+
+/* A broken promise: whoever runs the target reports it with the input. */
+static void broken(const char *what)
+{
+    fprintf(stderr, "BROKEN: %s\n", what);
+    abort();
+}
+
+/* --- files ---------------------------------------------------------------------------------------------- */
+
+/* A path for a file of the target; to be given to free(). */
+static char *path_in(const char *directory, const char *name)
+{
+    size_t room = strlen(directory) + strlen(name) + 2;
+    char *path = mem_alloc(room, 1);
+    snprintf(path, room, "%s/%s", directory, name);
+    return path;
+}
+
+/* The data as a file of that name; to be given to free(). */
+static char *put_file(const char *directory, const char *name, const void *data, size_t size)
+{
+    char *path = path_in(directory, name);
+    FILE *f = fopen(path, "wb");
+    if (f == NULL || fwrite(data, 1, size, f) != size || fclose(f) != 0)
+        broken("the directory for files cannot be written");
+    return path;
+}
+
+/* --- pictures ------------------------------------------------------------------------------------------- */
+
+typedef bool (*picture_reader)(const uint8_t *data, size_t size, struct image *out, struct error *err);
+
+/* What reads can be used: every sample is there, and it can be written by every format. */
+static void read_picture(picture_reader read, const uint8_t *data, size_t size, const char *directory)
+{
+    static const char *const FORMATS[] = {"o.pfm", "o.exr", "o.hdr", "o.ppm", "o.png", "o.tga"};
+    struct image img;
+    struct error err = {""};
+    memset(&img, 0, sizeof img);
+    if (!read(data, size, &img, &err)) {
+        if (err.text[0] == '\0' || img.u8 != NULL || img.f32 != NULL)
+            broken("a picture is refused without a message, or something is left of it");
+        return;
+    }
+    size_t n = (size_t)img.width * (size_t)img.height;
+    float *pixels = n <= 4096 ? mem_alloc(3 * n, sizeof *pixels) : NULL;
+    for (size_t i = 0; pixels != NULL && i < 3 * n; i++) {
+        size_t k = img.channels == 3 ? i : i / 3;
+        pixels[i] = img.u8 != NULL ? img.decode[img.u8[k]] : img.f32[k];
+    }
+    for (size_t i = 0; pixels != NULL && i < sizeof FORMATS / sizeof FORMATS[0]; i++) {
+        char *path = path_in(directory, FORMATS[i]);
+        struct image again;
+        if (!image_write(path, img.width, img.height, pixels, &err) || !image_read(path, &again, &err))
+            broken(err.text);
+        if (again.width != img.width || again.height != img.height)
+            broken("a picture written has another size when it is read");
+        image_free(&again);
+        remove(path);
+        free(path);
+    }
+    free(pixels);
+    image_free(&img);
+}
+
+static void fuzz_png(const uint8_t *data, size_t size, const char *dir) { read_picture(png_read, data, size, dir); }
+static void fuzz_tga(const uint8_t *data, size_t size, const char *dir) { read_picture(tga_read, data, size, dir); }
+static void fuzz_pfm(const uint8_t *data, size_t size, const char *dir) { read_picture(pfm_read, data, size, dir); }
+static void fuzz_ppm(const uint8_t *data, size_t size, const char *dir) { read_picture(ppm_read, data, size, dir); }
+static void fuzz_exr(const uint8_t *data, size_t size, const char *dir) { read_picture(exr_read, data, size, dir); }
+static void fuzz_hdr(const uint8_t *data, size_t size, const char *dir) { read_picture(rgbe_read, data, size, dir); }
+
+/* Two bytes say how long the output is; what unpacks must come back when it is packed and unpacked. */
+static void fuzz_inflate(const uint8_t *data, size_t size, const char *directory)
+{
+    (void)directory;
+    if (size < 2)
+        return;
+    size_t n = (size_t)data[0] << 4 | data[1] >> 4, packed_size;
+    uint8_t *out = mem_alloc(n, 1), *again = mem_alloc(n, 1);
+    struct error err;
+    if (inflate_zlib(data + 2, size - 2, out, n, &err)) {
+        uint8_t *packed = deflate_zlib(out, n, &packed_size);
+        if (!inflate_zlib(packed, packed_size, again, n, &err) || memcmp(out, again, n) != 0)
+            broken("what was unpacked does not survive packing");
+        free(packed);
+    }
+    free(out);
+    free(again);
+}
+
+/* --- meshes and measurements ---------------------------------------------------------------------------- */
+
+static void fuzz_ply(const uint8_t *data, size_t size, const char *directory)
+{
+    char *path = put_file(directory, "m.ply", data, size);
+    struct mesh m;
+    struct error err = {""};
+    if (ply_read(path, &m, &err)) {
+        for (int i = 0; i < 3 * m.n_triangles; i++)
+            if (m.index[i] >= (uint32_t)m.n_vertices)
+                broken("a mesh names a vertex that is not there");
+        for (int i = 0; i < 3 * m.n_vertices; i++)
+            if (!isfinite(m.P[i]))
+                broken("a vertex is nowhere");
+        mesh_free(&m);
+    } else if (err.text[0] == '\0') {
+        broken("a mesh is refused without a message");
+    }
+    free(path);
+}
+
+/* A file of a run, which the program itself has written and somebody may have changed. */
+static void fuzz_run(const uint8_t *data, size_t size, const char *directory)
+{
+    char *path = put_file(directory, "run.csv", data, size);
+    struct seed_run run;
+    if (run_read(path, "key", 2, &run) && run.n != 2)
+        broken("a run of another number of steps is accepted");
+    free(path);
+}
+
+/* --- scenes --------------------------------------------------------------------------------------------- */
+
+enum { WIDTH = 3, HEIGHT = 2, SAMPLES = 2, DEPTH = 4 };
+
+static void render(const struct scene *scene, const struct integrator *integrator)
+{
+    struct render_options o = {.integrator = integrator, .end = SAMPLES, .n_threads = 1, .max_depth = DEPTH};
+    struct film film;
+    struct error err = {""};
+    float pixels[3 * WIDTH * HEIGHT];
+    film_init(&film, render_crop(scene), scene->width, scene->height);
+    if (render_scene(scene, &o, &film, &err)) {
+        film_develop(&film, scene->film_scale, pixels);
+        for (int i = 0; i < 3 * rect_width(film.rect) * rect_height(film.rect); i++)
+            if (!isfinite(pixels[i]))
+                broken("a pixel is no number");
+    } else if (err.text[0] == '\0') {
+        broken("a render fails without a message");
+    }
+    film_free(&film);
+}
+
+/* Six pixels by every integrator and every selection. Parameters of the scene that are wrong are refused by the first
+ * render already, and then left out. */
+static void render_all(struct scene *scene)
+{
+    static const char *const SELECT[] = {"bins", "pool", "vertices", "subspaces", "lvc", "combinatorial", NULL};
+    static const double WHOLE[4] = {0, 1, 0, 1};
+    scene->width = WIDTH;
+    scene->height = HEIGHT;
+    memcpy(scene->crop, WHOLE, sizeof scene->crop);
+    parameters_adapt(scene, NULL);
+    scene_prepare(scene);
+    for (const struct integrator *const *m = integrator_list(); *m != NULL; m++)
+        render(scene, *m);
+    for (const char *const *select = SELECT; *select != NULL; select++) {
+        settings_clear(&scene->settings);
+        settings_set(&scene->settings, "select", *select, "-P");
+        render(scene, integrator_find("asbdpt"));
+    }
+}
+
+/* Messages are for a terminal: one sentence each, and no byte of the scene's that a terminal would act on. */
+static void hear(void *context, const char *text)
+{
+    (void)context;
+    for (; *text != '\0'; text++)
+        if ((unsigned char)*text < ' ' && *text != '\n')
+            broken("a message holds a control character");
+}
+
+static void fuzz_scene(const uint8_t *data, size_t size, const char *directory)
+{
+    char *path = put_file(directory, "scene.pbrt", data, size);
+    struct message_sink sink = {hear, hear, NULL};
+    struct scene scene;
+    struct error err = {""};
+    if (parse_scene(path, &scene, &sink, &err)) {
+        render_all(&scene);
+        scene_free(&scene);
+    } else if (err.text[0] == '\0') {
+        broken("a scene is refused without a message");
+    }
+    free(path);
+}
+
+/* Scenes that are well formed and hostile in their numbers: the bytes choose, see hostile.h. */
+static void fuzz_hostile(const uint8_t *data, size_t size, const char *directory)
+{
+    size_t length;
+    char *text = hostile_scene(data, size, &length);
+    fuzz_scene((const uint8_t *)text, length, directory);
+    free(text);
+}
+
+/* --- the table ------------------------------------------------------------------------------------------ */
+
+const struct fuzz_target fuzz_targets[] = {
+    {"png", fuzz_png},   {"tga", fuzz_tga}, {"pfm", fuzz_pfm},     {"ppm", fuzz_ppm},
+    {"exr", fuzz_exr},   {"hdr", fuzz_hdr}, {"inflate", fuzz_inflate}, {"ply", fuzz_ply},
+    {"run", fuzz_run},   {"scene", fuzz_scene}, {"hostile", fuzz_hostile}, {NULL, NULL}};
+
+const struct fuzz_target *fuzz_find(const char *name)
+{
+    for (const struct fuzz_target *t = fuzz_targets; t->name != NULL; t++)
+        if (strcmp(t->name, name) == 0)
+            return t;
+    return NULL;
+}
+
+void fuzz_prepare(const char *directory)
+{
+    char here[4096], *parts = path_in(directory, "parts");
+    if (getcwd(here, sizeof here) == NULL)
+        broken("there is no working directory");
+    char *fixtures = path_in(here, "test/fixtures/parts");
+    if (symlink(fixtures, parts) != 0)
+        broken("the files of the fixtures cannot be linked");
+    free(fixtures);
+    free(parts);
+}
