@@ -40,7 +40,7 @@ static const struct entry ENTRIES[] = {
     {"film", test_film, false},       {"parser", test_parser, false}, {"sampler", test_sampler, false},
     {"mis", test_mis, false}, {"pairs", test_pairs, false},
     {"options", test_options, false}, {"render", test_render, false}, {"asbdpt", test_asbdpt, false},
-    {"part", test_part, false},
+    {"part", test_part, false}, {"trace", test_trace, false},
     {"report", test_report, false}, {"pictures", test_pictures, false},
     {"aov", test_aov, false}, {"fuzz", test_fuzz, false},
     {"threads", test_threads, false}, {"verify", test_verify, false},

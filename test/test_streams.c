@@ -169,7 +169,7 @@ static void trace_all(struct test *t, const struct scene *scene, const char *int
     struct workspace *work = workspaces_new(1, job.max_depth);
     work->scratch = renderer->new_scratch != NULL ? renderer->new_scratch(prepared.state) : NULL;
     for (long first = 0; first < ITERATIONS; first += block) {
-        struct tile_pass pass = {&job, job.film_rect, first, first + block, &tile, work};
+        struct tile_pass pass = {&job, job.film_rect, first, first + block, &tile, work, NULL};
         tile_start(&tile, job.film_rect, job.film_rect, &scene->filter, true);
         renderer->render(prepared.state, &pass);
         add_records(&tile, eye, light);

@@ -46,6 +46,7 @@ void test_stats(struct test *t);
 void test_subdivide(struct test *t);
 void test_texture(struct test *t);
 void test_vec(struct test *t);
+void test_trace(struct test *t);
 void test_zlib(struct test *t);
 void test_warp(struct test *t);
 

@@ -18,12 +18,12 @@ static void render_pixel(const struct tile_pass *pass, const struct mis_counts *
     if (counts->connect[0] > 0 || counts->splat > 0)
         n_light = pixel_light_path(pass, counts, x, y, (uint64_t)iteration, &work->arena, work->light);
 
-    rgb sum = pixel_sum_eye(&g, work->eye, n_eye);
+    pixel_sum_eye(&g, work->eye, n_eye);
     if (counts->connect[0] > 0)
-        sum = rgb_add(sum, pixel_sum_pairs(&g, work->eye, n_eye, work->light, n_light, 1));
+        pixel_sum_pairs(&g, work->eye, n_eye, work->light, n_light, 1);
     if (counts->splat > 0)
         pixel_splat_path(&g, work->light, n_light, 1);
-    tile_add_eye(pass->tile, x, y, sum);
+    tile_add_eye(pass->tile, x, y, g.sum);
 }
 
 static void render(const void *state, const struct tile_pass *pass)

@@ -94,15 +94,37 @@ static double van_der_corput(uint64_t i)
     return value;
 }
 
+/* p_e0 of the bin of the elements e[0] and e[1]. [S24 eq. 3.1] */
+static double first_probability(const struct element *e)
+{
+    double b0 = sqr(e[0].beta), b1 = sqr(e[1].beta);
+    return b0 + b1 > 0 ? b0 / (b0 + b1) : 0.5;
+}
+
+/* For trace.h: all bins, and how the element `chosen` was. */
+static void tell(const struct pixel *p, struct trace *trace, const struct element *chosen, double u)
+{
+    int bin = (int)(chosen - p->bins->element) / 2, second = (int)(chosen - p->bins->element) % 2;
+    double p_e0 = first_probability(&p->bins->element[2 * bin]), q = second ? 1 - p_e0 : p_e0;
+    trace_note(trace, "the pixel's own %d light sub-paths in bins of two; beta: mean over r, g, b of the throughput at "
+               "the furthest vertex", p->bins->n_elements);
+    for (int b = 0; b < p->bins->n_elements / 2; b++) {
+        const struct element *e = &p->bins->element[2 * b];
+        trace_note(trace, "bin %d: beta %.4g and %.4g, traced in iterations %ld and %ld; p_e0 = %.4f%s", b, e[0].beta,
+                   e[1].beta, e[0].born, e[1].born, first_probability(e), b == bin ? "   <- visited now" : "");
+    }
+    trace_choose(trace, 0, chosen->vertex, chosen->length, 0, q, 1,
+                 "bin %d: u = %.4f %s p_e0 = %.4f, so its %s element; no weight makes up for q: biased", bin, u,
+                 second ? ">=" : "<", p_e0, second ? "second" : "first");
+}
+
 /* Choose a bin, then an element of it. [S24 Algorithm 2] */
 static struct element *choose(struct pixel *p, double shift, uint64_t step, double u)
 {
     double position = van_der_corput(step) + shift;
     int bin = (int)((position - floor(position)) * (p->bins->n_elements / 2));
     struct element *e = &p->bins->element[2 * bin];
-    double b0 = sqr(e[0].beta), b1 = sqr(e[1].beta);
-    double p_e0 = b0 + b1 > 0 ? b0 / (b0 + b1) : 0.5;
-    return u < p_e0 ? &e[0] : &e[1];
+    return u < first_probability(e) ? &e[0] : &e[1];
 }
 
 static void render_iteration(struct pixel *p, double shift, long iteration)
@@ -113,12 +135,15 @@ static void render_iteration(struct pixel *p, double shift, long iteration)
     int n = pixel_eye_path(p->pass, &g, iteration, work->eye, g.max_depth + 2);
     struct sampler draw = pixel_sampler(p->pass, RNG_SELECT, p->x, p->y, iteration);
     replace_aged(p, iteration);
-    struct element *e = choose(p, shift, (uint64_t)(iteration - p->pass->first), sampler_next(&draw));
+    double u = sampler_next(&draw);
+    struct element *e = choose(p, shift, (uint64_t)(iteration - p->pass->first), u);
+    if (g.trace != NULL)
+        tell(p, g.trace, e, u);
 
-    rgb sum = pixel_sum_eye(&g, work->eye, n);
-    sum = rgb_add(sum, pixel_sum_pairs(&g, work->eye, n, e->vertex, e->length, 1));
+    pixel_sum_eye(&g, work->eye, n);
+    pixel_sum_pairs(&g, work->eye, n, e->vertex, e->length, 1);
     pixel_splat_path(&g, e->vertex, e->length, 1);
-    tile_add_eye(p->pass->tile, p->x, p->y, sum);
+    tile_add_eye(p->pass->tile, p->x, p->y, g.sum);
     replace(p, e, iteration);
 }
 

@@ -49,16 +49,20 @@ static void begin(void *scratch, const struct selection *sel, const struct tile_
         c->order[k] = k;
 }
 
-static rgb connect(void *scratch, const struct selection *sel, struct pool_pixel *p, rgb sum)
+static void connect(void *scratch, const struct selection *sel, struct pool_pixel *p)
 {
     struct combinatorial *c = scratch;
     (void)sel;
     for (int m = 0; m < c->M; m++) {
         int k = c->order[(p->number * c->M + m) % c->pool.n];
         const struct vertex *light = light_pool_path(&c->pool, k);
-        sum = rgb_add(sum, pixel_sum_pairs(&p->sample, p->eye, p->n, light, c->pool.length[k], 1.0 / c->M));
+        double scale = 1.0 / c->M;
+        if (p->sample.trace != NULL)
+            trace_choose(p->sample.trace, 0, light, c->pool.length[k], 0, 1.0 / c->pool.n, scale,
+                         "number %d of %d: sub-path %d of the tile's K = %d, in random order", m + 1, c->M, k,
+                         c->pool.n);
+        pixel_sum_pairs(&p->sample, p->eye, p->n, light, c->pool.length[k], scale);
     }
-    return sum;
 }
 
 static void render(const void *selection, const struct tile_pass *pass)

@@ -62,10 +62,11 @@ static void render_pixel(const struct selection *sel, const struct tile_pass *pa
     p.sample.lights = sel->lights;
     p.n = pixel_eye_path(pass, &p.sample, iteration, pass->work->eye, sel->max_depth + 2);
     p.draws = pixel_sampler(pass, RNG_SELECT, x, y, iteration);
-    rgb sum = choice->connect(pool, sel, &p, pixel_sum_eye(&p.sample, p.eye, p.n));
+    pixel_sum_eye(&p.sample, p.eye, p.n);
+    choice->connect(pool, sel, &p);
     if (number % sel->path_pixels == 0)
         splat(pool, pass, &p.sample, sel->path_pixels, number / sel->path_pixels);
-    tile_add_eye(pass->tile, x, y, sum);
+    tile_add_eye(pass->tile, x, y, p.sample.sum);
 }
 
 void light_pool_render(const struct selection *sel, const struct tile_pass *pass, const struct pool_choice *choice)

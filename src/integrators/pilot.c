@@ -142,7 +142,7 @@ static void render_tile(void *context, int64_t job, int slot, int thread)
         struct render_job this = p->job;
         this.seed = hash_combine(p->job.seed, (uint64_t)i);
         this.eye_seed = hash_combine(p->job.seed, RENDERS + (i == 1));
-        struct tile_pass pass = {&this, rect, (long)job, (long)job + 1, tile, &p->work[thread]};
+        struct tile_pass pass = {&this, rect, (long)job, (long)job + 1, tile, &p->work[thread], NULL};
         tile_start(tile, rect, p->job.film_rect, &p->job.scene->filter, true);
         render_subspaces.render(p->sel, &pass);
         pixel_values(tile, value + (size_t)i * n);

@@ -66,15 +66,29 @@ static void begin(void *scratch, const struct selection *sel, const struct tile_
     light_pool_shuffle(&p->paths, pass, iteration, p->order);
 }
 
-static rgb connect(void *scratch, const struct selection *sel, struct pool_pixel *p, rgb sum)
+/* For trace.h: the bin that the pixel visits, and which of its two sub-paths it takes. */
+static void tell(const struct pool *pool, struct trace *trace, int bin, double u, int k, double q, double W)
+{
+    const struct alias_bin *b = &pool->table.bin[bin];
+    trace_note(trace, "alias table over the K = %d light sub-paths of the tile: K bins, each visited by one pixel",
+               pool->paths.n);
+    trace_note(trace, "q_k = (1 - delta) I_k / sum I + delta / K, I the sub-path's importance");
+    trace_choose(trace, 0, light_pool_path(&pool->paths, k), pool->paths.length[k], 0, q, W,
+                 "bin %d holds sub-paths %d (q = %.4g, up to u = %.4f) and %d (q = %.4g); u = %.4f: %d, W = 1 / (K q)",
+                 bin, bin, b->pmf, b->threshold, (int)b->alias, b->alias_pmf, u, k);
+}
+
+static void connect(void *scratch, const struct selection *sel, struct pool_pixel *p)
 {
     struct pool *pool = scratch;
-    double q;
+    int bin = pool->order[p->number];
+    double q, u = sampler_next(&p->draws);
     (void)sel;
-    int k = alias_sample_bin(&pool->table, pool->order[p->number], sampler_next(&p->draws), &q, NULL);
+    int k = alias_sample_bin(&pool->table, bin, u, &q, NULL);
     double W = 1 / (pool->paths.n * q);
-    return rgb_add(sum, pixel_sum_pairs(&p->sample, p->eye, p->n, light_pool_path(&pool->paths, k),
-                                        pool->paths.length[k], W));
+    if (p->sample.trace != NULL)
+        tell(pool, p->sample.trace, bin, u, k, q, W);
+    pixel_sum_pairs(&p->sample, p->eye, p->n, light_pool_path(&pool->paths, k), pool->paths.length[k], W);
 }
 
 static void render(const void *selection, const struct tile_pass *pass)

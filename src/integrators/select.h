@@ -86,8 +86,8 @@ struct pool_pixel {
 struct pool_choice {
     /* The pool of an iteration has been filled. */
     void (*begin)(void *scratch, const struct selection *sel, const struct tile_pass *pass, long iteration);
-    /* Returns sum plus the weighted contributions of the strategies s >= 2, t >= 2. */
-    rgb (*connect)(void *scratch, const struct selection *sel, struct pool_pixel *p, rgb sum);
+    /* Adds the weighted contributions of the strategies s >= 2, t >= 2 to p->sample. */
+    void (*connect)(void *scratch, const struct selection *sel, struct pool_pixel *p);
 };
 
 /* light_pool_render: a tile pass with light sub-paths for all its pixels in common: fill the pool, connect every pixel,

@@ -166,31 +166,44 @@ static const struct candidate *draw(const struct subspaces *v, const double *row
     return &v->candidate[low];
 }
 
-/* C draws on average for one eye vertex, stratified. */
-static rgb connect_drawn(struct subspaces *v, const struct selection *sel, struct pixel_sample *g,
-                         const struct vertex *z, int t, struct sampler *sampler)
+/* For trace.h: draw c of n for the eye vertex z. */
+static void tell(const struct subspaces *v, const struct selection *sel, struct trace *trace, const struct vertex *z,
+                 int t, const struct candidate *y, int c, int n, double P, double scale)
 {
-    rgb sum = rgb_black();
+    double C = sel->connections[t > 2], h = pairs_row(&sel->learnt.pairs, z->eye_region)[y->y->light_region];
+    if (trace->n_draws == 0)
+        trace_note(trace, "the %d connectible vertices of the tile's K = %d light sub-paths, in %d regions", v->n,
+                   v->pool.n, v->n_groups);
+    trace_choose(trace, t, y->y - (y->s - 1), y->s, y->s, P, scale,
+                 "draw %d of %d (C = %.4g): from eye region %d light region %d is worth h = %.4g; scale 1 / (C K P)",
+                 c + 1, n, C, z->eye_region, y->y->light_region, h);
+}
+
+/* C draws on average for one eye vertex, stratified. */
+static void connect_drawn(struct subspaces *v, const struct selection *sel, struct pixel_sample *g,
+                          const struct vertex *z, int t, struct sampler *sampler)
+{
     double C = sel->connections[t > 2], whole = floor(C);
     int n = (int)whole + (C > whole && sampler_next(sampler) < C - whole);
     const double *row = n > 0 ? row_of_region(v, sel, z->eye_region) : NULL;
     for (int c = 0; c < n; c++) {
         double pmf;
         const struct candidate *y = draw(v, row, (c + sampler_next(sampler)) / n, &pmf);
+        double scale = 1 / (C * pmf * v->pool.n);
+        if (g->trace != NULL)
+            tell(v, sel, g->trace, z, t, y, c, n, pmf, scale);
         if (y->s + t <= g->max_depth + 2)
-            sum = rgb_add(sum, pixel_sum_pair(g, y->y, y->s, z, t, 1 / (C * pmf * v->pool.n)));
+            pixel_sum_pair(g, y->y, y->s, z, t, scale);
     }
-    return sum;
 }
 
 /* Draws for every eye vertex that can be connected to. */
-static rgb connect(void *scratch, const struct selection *sel, struct pool_pixel *p, rgb sum)
+static void connect(void *scratch, const struct selection *sel, struct pool_pixel *p)
 {
     struct subspaces *v = scratch;
     for (int t = 2; t <= p->n && t <= sel->max_depth && v->n > 0; t++)
         if (p->eye[t - 1].kind == VERTEX_SURFACE && vertex_connectible(&p->eye[t - 1]))
-            sum = rgb_add(sum, connect_drawn(v, sel, &p->sample, &p->eye[t - 1], t, &p->draws));
-    return sum;
+            connect_drawn(v, sel, &p->sample, &p->eye[t - 1], t, &p->draws);
 }
 
 static void render(const void *selection, const struct tile_pass *pass)

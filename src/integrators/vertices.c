@@ -93,29 +93,42 @@ static void begin(void *scratch, const struct selection *sel, const struct tile_
     pass->tile->nonfinite += v->lost;
 }
 
-/* C draws for one eye vertex, stratified over the table. */
-static rgb connect_drawn(const struct vertices *v, const struct selection *sel, struct pixel_sample *g,
-                         const struct vertex *z, int t, struct sampler *sampler)
+/* For trace.h: draw c of C. */
+static void tell(const struct vertices *v, struct trace *trace, int t, int i, int c, int C, double u, double q,
+                 double scale)
 {
-    rgb sum = rgb_black();
+    const struct vertex *y = v->candidate[i];
+    if (trace->n_draws == 0)
+        trace_note(trace, "alias table over the V = %d connectible vertices of the tile's K = %d light sub-paths",
+                   v->table.n, v->pool.n);
+    trace_choose(trace, t, y - (v->s[i] - 1), v->s[i], v->s[i], q, scale,
+                 "draw %d of C = %d, u = %.4f in [%d/%d, %d/%d): vertex %d of V, region %d; scale 1 / (C K q)", c + 1,
+                 C, u, c, C, c + 1, C, i, y->light_region);
+}
+
+/* C draws for one eye vertex, stratified over the table. */
+static void connect_drawn(const struct vertices *v, const struct selection *sel, struct pixel_sample *g,
+                          const struct vertex *z, int t, struct sampler *sampler)
+{
     int C = (int)sel->connections[0];
     for (int c = 0; c < C; c++) {
         double q, u = (c + sampler_next(sampler)) / C;
         int i = alias_sample(&v->table, u, &q, NULL);
+        double scale = 1 / (C * q * v->pool.n);
+        if (g->trace != NULL)
+            tell(v, g->trace, t, i, c, C, u, q, scale);
         if (v->s[i] + t <= g->max_depth + 2)
-            sum = rgb_add(sum, pixel_sum_pair(g, v->candidate[i], v->s[i], z, t, 1 / (C * q * v->pool.n)));
+            pixel_sum_pair(g, v->candidate[i], v->s[i], z, t, scale);
     }
-    return sum;
 }
 
 /* Draws for every eye vertex that can be connected to. */
-static rgb connect(void *scratch, const struct selection *sel, struct pool_pixel *p, rgb sum)
+static void connect(void *scratch, const struct selection *sel, struct pool_pixel *p)
 {
     struct vertices *v = scratch;
     for (int t = 2; t <= p->n && t <= sel->max_depth && v->table.n > 0; t++)
         if (p->eye[t - 1].kind == VERTEX_SURFACE && vertex_connectible(&p->eye[t - 1]))
-            sum = rgb_add(sum, connect_drawn(v, sel, &p->sample, &p->eye[t - 1], t, &p->draws));
-    return sum;
+            connect_drawn(v, sel, &p->sample, &p->eye[t - 1], t, &p->draws);
 }
 
 static void render(const void *selection, const struct tile_pass *pass)

@@ -175,3 +175,51 @@ bool render_scene(const struct scene *scene, const struct render_options *option
     options->integrator->release(r.prepared.state);
     return ok;
 }
+
+/* --- one sample -------------------------------------------------------------------------------------- */
+
+static bool check_sample(const struct render_options *o, struct pixel_rect film, const struct trace *t,
+                         struct error *err)
+{
+    if (t->x < film.x0 || t->x >= film.x1 || t->y < film.y0 || t->y >= film.y1)
+        return error_set(err, "pixel %d,%d is not rendered: x is %d to %d here, y is %d to %d", t->x, t->y, film.x0,
+                         film.x1 - 1, film.y0, film.y1 - 1);
+    return (t->iteration >= 0 && t->iteration < o->end) ||
+           error_set(err, "sample %ld of a pixel is not taken: they are numbered 0 to %ld, see --spp", t->iteration,
+                     o->end - 1);
+}
+
+/* The tile pass that holds the sample, from where what it depends on begins: in blocks of a length that the integrator
+ * has chosen one iteration builds on another. */
+static void trace_pass(struct run *r, struct trace *trace)
+{
+    const struct tile_renderer *renderer = r->prepared.renderer;
+    struct pass_size size = r->prepared.size;
+    struct pixel_rect film = r->job.film_rect;
+    struct tile tile = {.rect = {0, 0, 0, 0}};
+    long block = size.block > 0 ? size.block : 1;
+    r->tiles_x = (rect_width(film) + size.tile - 1) / size.tile;
+    make_workspaces(r);
+    struct tile_pass pass = {.job = &r->job, .tile = &tile, .work = r->work, .trace = trace};
+    int column = (trace->x - film.x0) / size.tile, row = (trace->y - film.y0) / size.tile;
+    pass.rect = tile_rect(r, (int64_t)row * r->tiles_x + column);
+    pass.first = trace->iteration / block * block;
+    pass.end = trace->iteration + 1;
+    tile_start(&tile, pass.rect, film, &r->job.scene->filter, false);
+    renderer->render(r->prepared.state, &pass);
+    tile_free(&tile);
+    free_workspaces(r);
+}
+
+bool render_trace(const struct scene *scene, const struct render_options *options, struct trace *trace,
+                  struct error *err)
+{
+    struct run r = {.options = options};
+    struct pixel_rect film = render_crop(scene);
+    if (!check_sample(options, film, trace, err) ||
+        !render_prepare(scene, options, film, &r.job, &r.prepared, err))
+        return false;
+    trace_pass(&r, trace);
+    options->integrator->release(r.prepared.state);
+    return true;
+}

@@ -16,6 +16,7 @@
 #include "scene/film.h"
 #include "integrators/integrator.h"
 #include "scene/scene.h"
+#include "transport/trace.h"
 
 struct render_options {
     const struct integrator *integrator;
@@ -48,5 +49,11 @@ bool render_scene(const struct scene *scene, const struct render_options *option
  * Returns false with a message when a parameter is bad; nothing needs release then. */
 bool render_prepare(const struct scene *scene, const struct render_options *options, struct pixel_rect rect,
                     struct render_job *job, struct preparation *out, struct error *err);
+
+/* render_trace: render one pixel sample, the one named in trace->x, y and iteration, exactly as render_scene with these
+ * options would, and have it witnessed; the rest of its tile comes along where it has light sub-paths in common.
+ * Returns false with a message when there is no such sample or a parameter is bad. Either way trace_free follows. */
+bool render_trace(const struct scene *scene, const struct render_options *options, struct trace *trace,
+                  struct error *err);
 
 #endif

@@ -3,7 +3,7 @@
 
 static struct connection nothing(void)
 {
-    struct connection c = {{0, 0, 0}, 0, 0, 0};
+    struct connection c = {{0, 0, 0}, 0, 0, 0, {0, 0, 0}, -1, 0};
     return c;
 }
 
@@ -103,6 +103,9 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
     double eye = mis_side(counts, pdf_z, z->pdf_fwd, z->mis_c, at_z.pdf_rev, z->mis);
     double count = mis_direct_count(counts, lights, z->eye_region, z->first, cell, at.w);
     c.weight = mis_weight(counts, count, light, eye);
+    c.end = parallel ? at.w : at.p;
+    c.light = at.light;
+    c.pdf = pmf * at.pdf_cell;
     return c;
 }
 
@@ -159,5 +162,6 @@ struct connection connect_lens(const struct scene *scene, const struct mis_count
     double before = vertex_count_before(scene, counts, &light[s - 2], y, true);
     double light_side = mis_side(counts, density * abs_dot(y->ng, w), y->pdf_fwd, before, at_y.pdf_rev, y->mis);
     c.weight = mis_weight(counts, counts->splat, light_side, 0);
+    c.end = lens;
     return c;
 }

@@ -21,6 +21,9 @@ struct connection {
     rgb value;      /* W/(sr m^2), a pixel's radiance; black if the vertices cannot see each other */
     double weight;  /* [0,1]; meaningless when value is black */
     double px, py;  /* connect_lens: a raster point it arrives at, see camera_images */
+    vec3 end;       /* connect_direct: the point on the light, at infinity its direction; connect_lens: on the lens */
+    int light;      /* connect_direct: which */
+    double pdf;     /* connect_direct: of the point, see light.h */
 };
 
 /* connect_hit: z, the last of t >= 2 eye vertices, is on a light: z_{t-1} of an eye sub-path, or one of those `passed`

@@ -142,6 +142,8 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
         v->light_region = region_at(&w->counts->learnt->light, v->p, v->ng);
     }
     v->mis_c = count_before(w, prev, v, mode);
+    v->material = at->material;
+    v->pdf_rev = 0;
     material_bsdf(w->scene->material, at->material, &w->scene->textures, at, w->arena, &v->bsdf);
     return true;
 }
@@ -199,6 +201,7 @@ static int random_walk(const struct walk *w, struct departure from, struct verte
         n++;
         if (n < max_vertices && !depart(w, &path[n - 1], mode, &from))
             break;
+        path[n - 1].pdf_rev = from.pdf_rev;
         if (n > 2 && n < max_vertices && !survives(w, rgb_max(from.beta) / first, &from.beta))
             break;
     }

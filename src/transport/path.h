@@ -50,6 +50,8 @@ enum vertex_kind {
  *   pdf_fwd      1, unused    1/m^2; at infinity 1/sr           1/m^2                        1/sr
  *   pdf_origin   -            -                                 eye walk, on a light: of     1/sr, likewise
  *                                                               light_sample_point, 1/m^2
+ *   pdf_rev      -            -                                 1/sr: of the other walk's    -
+ *                                                               going back, if this went on
  *   regions      -            -                                 as learnt.h numbers them     -
  *   bsdf         -            -                                 its scattering               -
  *   passed       -            -                                 eye walk, on the way here: lights without material
@@ -68,7 +70,8 @@ struct vertex {
     uint32_t triangle_id;
     vec3 wo; /* unit */
     rgb beta;
-    double pdf_fwd, pdf_origin;
+    double pdf_fwd, pdf_origin, pdf_rev;
+    int material; /* of the surface, index into scene->material */
     double mis;   /* mis_e of mis.h */
     double mis_c; /* c_e of mis.h, supposing this vertex is not left by a delta lobe */
     int eye_region, light_region;

@@ -11,6 +11,7 @@
 
 #include "transport/connect.h"
 #include "transport/tile_pass.h"
+#include "transport/trace.h"
 
 /* One pixel of one iteration. */
 struct pixel_sample {
@@ -22,6 +23,8 @@ struct pixel_sample {
     double filter_weight;   /* of its eye sample, see path_eye_pixel */
     int lights;             /* samples of s = 1 for t = 2; 1 for t > 2 */
     struct sampler sampler; /* for light and lens points */
+    rgb sum;                /* of what the strategies with t >= 2 have brought so far */
+    struct trace *trace;    /* who watches this sample; NULL: nobody */
 };
 
 /* --- sub-paths --------------------------------------------------------------------------------------- */
@@ -47,18 +50,19 @@ double pixel_light_count(const struct render_job *job);
 
 /* --- sums of connections ----------------------------------------------------------------------------- */
 
-/* pixel_sum_eye: s = 0 and s = 1 for every vertex of the eye sub-path of n vertices. Returns the weighted sum
- * times filter_weight. */
-rgb pixel_sum_eye(struct pixel_sample *g, const struct vertex *eye, int n);
+/* All add to g->sum, weighted and times filter_weight, but for pixel_splat_path.
+ *
+ * pixel_sum_eye: s = 0 and s = 1 for every vertex of the eye sub-path of n vertices. */
+void pixel_sum_eye(struct pixel_sample *g, const struct vertex *eye, int n);
 
 /* pixel_sum_pair: one strategy s >= 2, t >= 2, joining the light vertex y = y_{s-1} to the eye vertex z = z_{t-1};
- * times `scale` and filter_weight. */
-rgb pixel_sum_pair(struct pixel_sample *g, const struct vertex *y, int s, const struct vertex *z, int t, double scale);
+ * times `scale`. */
+void pixel_sum_pair(struct pixel_sample *g, const struct vertex *y, int s, const struct vertex *z, int t, double scale);
 
-/* pixel_sum_pairs: s >= 2, t >= 2 for every pair of vertices of the two sub-paths, each multiplied by `scale`
- * and filter_weight. */
-rgb pixel_sum_pairs(struct pixel_sample *g, const struct vertex *eye, int n_eye, const struct vertex *light,
-                    int n_light, double scale);
+/* pixel_sum_pairs: s >= 2, t >= 2 for every pair of vertices of the two sub-paths, each multiplied by `scale`.
+ */
+void pixel_sum_pairs(struct pixel_sample *g, const struct vertex *eye, int n_eye, const struct vertex *light,
+                     int n_light, double scale);
 
 /* pixel_splat_path: s >= 2, t = 1 for every vertex of a light sub-path, each multiplied by `scale`; the sums go to the
  * tile's splats. */

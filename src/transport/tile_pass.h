@@ -8,6 +8,8 @@
 #include "scene/film.h"
 #include "transport/path.h"
 
+struct trace;
+
 /* What does not change during a render. */
 struct render_job {
     const struct scene *scene;
@@ -47,6 +49,7 @@ struct tile_pass {
     long first, end;
     struct tile *tile; /* started; receives the result */
     struct workspace *work;
+    struct trace *trace; /* see trace.h; NULL: nobody watches */
 };
 
 #endif

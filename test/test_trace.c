@@ -1,0 +1,167 @@
+/* test_trace.c: what the witness of a sample tells is what the film received, to the last bit. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/render.h"
+#include "helpers.h"
+#include "tests.h"
+
+enum { SIZE = 4, SAMPLES = 2 };
+
+static const struct {
+    const char *name, *integrator, *select;
+} WAYS[] = {{"pt", "pt", ""}, {"lt", "lt", ""}, {"bdpt", "bdpt", ""}, {"bins", "asbdpt", "bins"},
+            {"pool", "asbdpt", "pool"}, {"vertices", "asbdpt", "vertices"}, {"subspaces", "asbdpt", "subspaces"},
+            {"lvc", "asbdpt", "lvc"}, {"combinatorial", "asbdpt", "combinatorial"}};
+enum { N_WAYS = sizeof WAYS / sizeof WAYS[0] };
+
+static struct render_options options_of(int way)
+{
+    struct render_options o = {.integrator = integrator_find(WAYS[way].integrator), .seed = 7, .end = SAMPLES,
+                               .n_threads = 1, .max_depth = 4};
+    return o;
+}
+
+/* --- the film ---------------------------------------------------------------------------------------- */
+
+/* What the witness of one sample says, as a tile takes it. */
+static void add_trace(const struct scene *scene, const struct trace *trace, struct film *film)
+{
+    struct tile tile = {.rect = film->rect};
+    struct pixel_rect one = {trace->x, trace->y, trace->x + 1, trace->y + 1};
+    tile_start(&tile, one, film->rect, &scene->filter, false);
+    tile_add_eye(&tile, trace->x, trace->y, trace_sum(trace));
+    for (int i = 0; i < trace->n_connections; i++)
+        if (trace->connection[i].t == 1)
+            tile_add_splat(&tile, trace->connection[i].c.px, trace->connection[i].c.py, trace->connection[i].added);
+    film_merge_tile(film, &tile);
+    tile_free(&tile);
+}
+
+/* What is told of each contribution: its factors make what was added, its choice is one of those told. */
+static void check_parts(struct test *t, int way, const struct trace *trace)
+{
+    for (int i = 0; i < trace->n_connections; i++) {
+        const struct trace_connection *k = &trace->connection[i];
+        double product = rgb_luminance(k->c.value) * k->scale * k->c.weight, added = rgb_luminance(k->added);
+        bool chosen = k->s >= 2 && k->t >= 2 && strcmp(WAYS[way].integrator, "asbdpt") == 0;
+        CHECK(t, fabs(product - added) <= 1e-12 * fabs(added), "%s: %g in parts, %g added", WAYS[way].name, product,
+              added);
+        CHECK(t, (k->light >= 0) == (k->s >= 2) && k->light < trace->n_lights, "%s: light sub-path %d", WAYS[way].name,
+              k->light);
+        CHECK(t, k->s < 2 || trace->light[k->light].n >= k->s, "%s: the light sub-path is cut", WAYS[way].name);
+        CHECK(t, !chosen || (k->draw >= 0 && trace->draw[k->draw].light == k->light), "%s: by which choice?",
+              WAYS[way].name);
+        CHECK(t, !chosen || fabs(trace->draw[k->draw].scale * trace->filter_weight - k->scale) <= 1e-12 * k->scale,
+              "%s: the choice's scale", WAYS[way].name);
+    }
+}
+
+/* Every pixel and sample told one by one gives the film of the render, and half of them do not. */
+static void test_film_from_traces(struct test *t)
+{
+    struct scene scene;
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", SIZE, SIZE, &scene))
+        return;
+    for (int way = 0; way < N_WAYS; way++) {
+        struct render_options options = options_of(way);
+        struct film rendered, told;
+        struct error err;
+        int differ = 0, halfway = 0, added = 0;
+        if (WAYS[way].select[0] != '\0')
+            settings_set(&scene.settings, "select", WAYS[way].select, "test");
+        film_init(&rendered, render_crop(&scene), SIZE, SIZE);
+        film_init(&told, render_crop(&scene), SIZE, SIZE);
+        CHECK(t, render_scene(&scene, &options, &rendered, &err), "%s", err.text);
+        for (int i = 0; i < SIZE * SIZE * SAMPLES; i++) {
+            struct trace trace = {.x = i % SIZE, .y = i / SIZE % SIZE, .iteration = i / (SIZE * SIZE)};
+            CHECK(t, render_trace(&scene, &options, &trace, &err), "%s", err.text);
+            check_parts(t, way, &trace);
+            added += trace.n_connections;
+            for (size_t k = 0; 2 * i == SIZE * SIZE * SAMPLES && k < SIZE * SIZE * 3; k++)
+                halfway += film_value(&rendered, k) != film_value(&told, k);
+            add_trace(&scene, &trace, &told);
+            trace_free(&trace);
+        }
+        for (size_t k = 0; k < SIZE * SIZE * 3; k++)
+            differ += film_value(&rendered, k) != film_value(&told, k);
+        CHECK(t, added > SIZE * SIZE * SAMPLES, "%s: only %d connections told", WAYS[way].name, added);
+        CHECK(t, differ == 0, "%s: %d of %d values differ from what was told", WAYS[way].name, differ, SIZE * SIZE * 3);
+        CHECK(t, halfway > 0, "%s: the second half makes no difference", WAYS[way].name);
+        film_free(&rendered);
+        film_free(&told);
+    }
+    scene_free(&scene);
+}
+
+/* --- densities --------------------------------------------------------------------------------------- */
+
+/* Among matte surfaces the walk from the other end goes back by the cosine: 1/m^2 at vertex i. */
+static int check_path(struct test *t, const struct scene *scene, const struct trace_path *path)
+{
+    int n = 0;
+    for (int i = 0; i < path->n; i++) {
+        double told = trace_pdf_rev(scene, path, i);
+        CHECK(t, (told >= 0) == (i + 2 < path->n && path->vertex[i].kind != VERTEX_LENS), "vertex %d of %d: %g", i,
+              path->n, told);
+        if (told < 0)
+            continue;
+        const struct vertex *v = &path->vertex[i], *next = &path->vertex[i + 1];
+        double expected = abs_dot(next->bsdf.shading.n, next->wo) / PI * abs_dot(v->ng, next->wo) /
+                          length2(sub(v->p, next->p));
+        CHECK(t, fabs(told - expected) <= 1e-12 * expected, "vertex %d: %g, expected %g", i, told, expected);
+        n++;
+    }
+    return n;
+}
+
+static void test_pdf_rev(struct test *t)
+{
+    struct scene scene;
+    int n = 0;
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", SIZE, SIZE, &scene))
+        return;
+    struct render_options options = options_of(2);
+    for (int i = 0; i < SIZE * SIZE; i++) {
+        struct error err;
+        struct trace trace = {.x = i % SIZE, .y = i / SIZE, .iteration = 1};
+        CHECK(t, render_trace(&scene, &options, &trace, &err), "%s", err.text);
+        n += check_path(t, &scene, &trace.eye);
+        for (int k = 0; k < trace.n_lights; k++)
+            n += check_path(t, &scene, &trace.light[k]);
+        trace_free(&trace);
+    }
+    CHECK(t, n > SIZE * SIZE, "only %d densities", n);
+    scene_free(&scene);
+}
+
+/* --- samples that there are not ---------------------------------------------------------------------- */
+
+static void test_refused(struct test *t)
+{
+    static const struct {
+        int x, y;
+        long sample;
+        const char *says;
+    } cases[] = {{SIZE, 0, 0, "pixel 4,0"}, {0, -1, 0, "pixel 0,-1"}, {0, 0, SAMPLES, "sample 2"},
+                 {0, 0, -1, "sample -1"}};
+    struct scene scene;
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", SIZE, SIZE, &scene))
+        return;
+    struct render_options options = options_of(0);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct error err = {""};
+        struct trace trace = {.x = cases[i].x, .y = cases[i].y, .iteration = cases[i].sample};
+        CHECK(t, !render_trace(&scene, &options, &trace, &err) && strstr(err.text, cases[i].says) != NULL,
+              "%s: \"%s\"", cases[i].says, err.text);
+        trace_free(&trace);
+    }
+    scene_free(&scene);
+}
+
+void test_trace(struct test *t)
+{
+    test_film_from_traces(t);
+    test_pdf_rev(t);
+    test_refused(t);
+}
