@@ -36,7 +36,7 @@ check grep -q 'asbdpt render SCENE' stdout.txt
 check grep -q 'asbdpt experiment \[--quick' stdout.txt
 check grep -q -e '--reference-spp' stdout.txt
 check grep -q 'lightsamplestrategy' stdout.txt
-for command in render merge compare experiment bench verify demo convert worth info; do # a subcommand's help is its own
+for command in render merge compare experiment bench verify demo convert worth info trace; do # each its own help
     expect 0 '' "$program" $command --help
     check grep -q "usage: asbdpt $command" stdout.txt
     check [ "$(grep -c 'usage: asbdpt' stdout.txt)" = 1 ]
@@ -294,6 +294,27 @@ check grep -q 'usage: asbdpt render' stdout.txt
 expect 2 'there is no help on rendering' "$program" help rendering
 expect 0 '' "$program" info "$box" --json
 check grep -q '"triangles": ' stdout.txt
+
+# trace: a sample told in words, as JSON and drawn; what it says to have added is what a render's film holds.
+one="--res 12x12 --integrator bdpt --maxdepth 3 --pixel 3,9"
+expect 0 '' "$program" trace "$box" $one --spp 1 --svg paths.svg
+check grep -q 'pixel 3,9, sample 0: bdpt' stdout.txt
+check grep -q '^(s,t): a path of s vertices' stdout.txt
+check grep -Eq '^  z_1 +matte .*/m\^2' stdout.txt
+check grep -Eq '^  \(1,2\) +light - z_1 ' stdout.txt
+check grep -q '^  sum, which the film receives ' stdout.txt
+check awk '/<svg/ { open++ } /<\/svg>/ { open-- } /z1<\/text>/ { n++ } END { exit open != 0 || n != 2 }' paths.svg
+expect 0 '' "$program" trace "$box" $one --spp 4 --sample 3 -P select=vertices --integrator asbdpt --json
+check grep -q '"probability": 0' stdout.txt
+if command -v python3 >/dev/null; then
+    check python3 -c 'import json; o = json.load(open("stdout.txt")); s = [0, 0, 0]
+for c in o["connections"]:
+    if c["t"] > 1: s = [a + b for a, b in zip(s, c["added"])]
+assert s == o["sum"] and o["sample"] == 3'
+fi
+expect 1 'pixel 12,0 is not rendered: x is 0 to 11' "$program" trace "$box" $one --pixel 12,0
+expect 1 'sample 4 of a pixel is not taken: they are numbered 0 to 3' "$program" trace "$box" $one --spp 4 --sample 4
+expect 1 'no/paths.svg' "$program" trace "$box" $one --svg no/paths.svg
 
 # worth: what was learnt, as a picture.
 expect 0 '' "$program" worth "$box" --pixel 3,9 --res 12x12 --spp 4 --quiet -o worth.png

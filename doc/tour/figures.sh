@@ -30,6 +30,10 @@ cp pyramid/pyramid.png "$out/"
 # What selection has learnt, seen from the floor.
 "$program" worth "$scene" --pixel 64,100 --spp 64 --quiet -o "$out/worth.png"
 
+# One sample, seen in the left sphere.
+(cd "$tour/../.." && "$program" trace doc/mini/rooms.pbrt --integrator bdpt --pixel 60,80 --maxdepth 4 \
+    --svg "$out/trace.svg" >/dev/null)
+
 # One pixel, on the floor beside the gap: its red value after 1, 4, 16 ... samples.
 for method in pt bdpt; do
     for spp in 1 4 16 64 256 1024; do

@@ -6,7 +6,7 @@
 
 static const struct command *const COMMANDS[] = {&command_render, &command_merge, &command_compare, &command_experiment,
                                                  &command_bench, &command_verify, &command_info,
-                                                 &command_demo, &command_convert, &command_worth, NULL};
+                                                 &command_demo, &command_convert, &command_worth, &command_trace, NULL};
 
 const struct command *const *command_list(void) { return COMMANDS; }
 

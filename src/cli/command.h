@@ -22,7 +22,8 @@ struct command {
 };
 
 extern const struct command command_render, command_merge, command_compare, command_experiment, command_bench,
-    command_verify, command_info, command_demo, command_convert, command_worth;
+    command_verify, command_info, command_demo, command_convert, command_worth,
+    command_trace;
 
 /* command_list: all subcommands, ended by NULL. */
 const struct command *const *command_list(void);

@@ -219,6 +219,8 @@ bool render_trace(const struct scene *scene, const struct render_options *option
     if (!check_sample(options, film, trace, err) ||
         !render_prepare(scene, options, film, &r.job, &r.prepared, err))
         return false;
+    if (r.prepared.note[0] != '\0')
+        trace_note(trace, "%s", r.prepared.note);
     trace_pass(&r, trace);
     options->integrator->release(r.prepared.state);
     return true;

@@ -1,0 +1,64 @@
+/* cmd_trace.c: asbdpt trace SCENE --pixel X,Y: one sample of a pixel, told in full. See trace_report.h. */
+#include <stdio.h>
+
+#include "cli/command.h"
+#include "cli/job_options.h"
+#include "lab/trace_report.h"
+
+struct trace_options {
+    struct job_options job;
+    int pixel[2], sample;
+    bool json;
+    const char *svg; /* NULL: no drawing */
+};
+
+#define AT(member) offsetof(struct trace_options, member)
+static const struct option OPTIONS[] = {
+    {"--pixel", "X,Y", OPTION_PIXEL, AT(pixel), 0, 65535, .fallback = "0,0", .help = "of the film, 0,0 top left"},
+    {"--sample", "K", OPTION_INTEGER, AT(sample), 0, 1 << 30, .fallback = "0", .help = "which, from 0"},
+    {"--json", NULL, OPTION_ON, AT(json), .help = "print an object of JSON"},
+    {"--svg", "FILE", OPTION_TEXT, AT(svg), .help = "also draw the paths within the scene"},
+    {.others = SCENE_OPTIONS},
+};
+
+static bool draw(const struct trace_options *o, const struct trace_story *story, struct error *err)
+{
+    struct file_output out;
+    if (!file_create(o->svg, &out, err))
+        return false;
+    trace_svg(out.stream, story);
+    return file_commit(&out, err);
+}
+
+static bool tell(const struct trace_options *o, const struct trace_story *story, struct error *err)
+{
+    if (o->json)
+        trace_json(stdout, story);
+    else
+        trace_text(stdout, story);
+    return o->svg == NULL || draw(o, story, err);
+}
+
+static int run(void *options)
+{
+    const struct trace_options *o = options;
+    struct scene scene;
+    const struct integrator *integrator;
+    struct error err;
+    int status = job_load(&o->job, &scene, &integrator);
+    if (status != EXIT_OK)
+        return status;
+    struct render_options render = {.integrator = integrator, .seed = o->job.seed, .end = job_spp(&o->job, &scene),
+                                    .n_threads = o->job.n_threads, .max_depth = o->job.max_depth};
+    struct trace trace = {.x = o->pixel[0], .y = o->pixel[1], .iteration = o->sample};
+    struct trace_story story = {o->job.scene_path, &scene, integrator, o->job.seed, &trace};
+    bool ok = render_trace(&scene, &render, &trace, &err) && tell(o, &story, &err);
+    trace_free(&trace);
+    scene_free(&scene);
+    return ok ? EXIT_OK : fail(&err);
+}
+
+const struct command command_trace = {
+    "trace", "one sample of a pixel, told in full: sub-paths, choices, connections, weights",
+    {"SCENE.pbrt --pixel X,Y [--sample K] [--json] [--svg FILE] [options]"}, OPTIONS, sizeof(struct trace_options),
+    run};

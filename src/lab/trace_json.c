@@ -1,0 +1,115 @@
+/* trace_json.c: a pixel sample as JSON, every number with all its digits; see trace_report.h. doc/trace.md has a table
+ * of the keys. */
+#include "base/json.h"
+#include "lab/trace_report.h"
+
+static void put_three(struct json *j, const char *name, double a, double b, double c)
+{
+    json_open(j, name, '-');
+    json_number(j, NULL, a);
+    json_number(j, NULL, b);
+    json_number(j, NULL, c);
+    json_close(j);
+}
+
+static void put_vec(struct json *j, const char *name, vec3 v) { put_three(j, name, v.x, v.y, v.z); }
+static void put_rgb(struct json *j, const char *name, rgb c) { put_three(j, name, c.r, c.g, c.b); }
+
+static void put_path(struct json *j, const char *name, const struct scene *scene, const struct trace_path *path)
+{
+    json_open(j, name, '[');
+    for (int i = 0; i < path->n; i++) {
+        const struct vertex *v = &path->vertex[i];
+        bool at_infinity = vertex_at_infinity(scene, v) || v->kind == VERTEX_ESCAPED;
+        double pdf_rev = trace_pdf_rev(scene, path, i);
+        json_open(j, NULL, '{');
+        json_text(j, "what", trace_what(scene, v));
+        json_number(j, "light", v->light);
+        if (at_infinity)
+            put_vec(j, "towards", v->kind == VERTEX_ESCAPED ? neg(v->wo) : v->wo);
+        else
+            put_vec(j, "position", v->p);
+        put_vec(j, "normal", v->ng);
+        put_rgb(j, "beta", v->beta);
+        json_text(j, "per", trace_measure(scene, v));
+        json_number(j, "pdf_fwd", v->pdf_fwd);
+        if (pdf_rev >= 0)
+            json_number(j, "pdf_rev", pdf_rev);
+        json_bool(j, "left_by_delta", i + 1 < path->n && path->vertex[i + 1].prev_delta);
+        json_close(j);
+    }
+    json_close(j);
+}
+
+static void put_choices(struct json *j, const struct trace *t)
+{
+    json_open(j, "from", '[');
+    for (int i = 0; i < t->n_notes; i++)
+        json_text(j, NULL, t->note[i]);
+    json_close(j);
+    json_open(j, "choices", '[');
+    for (int i = 0; i < t->n_draws; i++) {
+        const struct trace_draw *d = &t->draw[i];
+        json_open(j, NULL, '{');
+        json_number(j, "t", d->t);
+        json_number(j, "light_path", d->light);
+        json_number(j, "s", d->s);
+        json_number(j, "probability", d->probability);
+        json_number(j, "times", d->scale);
+        json_text(j, "why", d->why);
+        json_close(j);
+    }
+    json_close(j);
+}
+
+static void put_connections(struct json *j, const struct trace *t)
+{
+    json_open(j, "connections", '[');
+    for (int i = 0; i < t->n_connections; i++) {
+        const struct trace_connection *c = &t->connection[i];
+        json_open(j, NULL, '{');
+        json_number(j, "s", c->s);
+        json_number(j, "t", c->t);
+        json_number(j, "light_path", c->light);
+        json_number(j, "choice", c->draw);
+        put_rgb(j, "unweighted", c->c.value);
+        json_number(j, "times", c->scale);
+        json_number(j, "weight", c->c.weight);
+        put_rgb(j, "added", c->added);
+        if (c->s == 1 && !rgb_is_black(c->c.value)) {
+            json_number(j, "light", c->c.light);
+            put_vec(j, "end", c->c.end);
+            json_number(j, "end_pdf", c->c.pdf);
+        }
+        if (c->t == 1 && !rgb_is_black(c->c.value)) {
+            put_vec(j, "end", c->c.end);
+            json_number(j, "x", c->c.px);
+            json_number(j, "y", c->c.py);
+        }
+        json_close(j);
+    }
+    json_close(j);
+}
+
+void trace_json(FILE *f, const struct trace_story *s)
+{
+    const struct trace *t = s->trace;
+    struct json j = json_start(f);
+    json_open(&j, NULL, '{');
+    json_text(&j, "scene", s->scene_path);
+    json_text(&j, "integrator", s->integrator->name);
+    json_number(&j, "x", t->x);
+    json_number(&j, "y", t->y);
+    json_number(&j, "sample", (double)t->iteration);
+    json_number(&j, "seed", (double)s->seed);
+    json_number(&j, "filter_weight", t->filter_weight);
+    put_path(&j, "eye_path", s->scene, &t->eye);
+    json_open(&j, "light_paths", '[');
+    for (int i = 0; i < t->n_lights; i++)
+        put_path(&j, NULL, s->scene, &t->light[i]);
+    json_close(&j);
+    put_choices(&j, t);
+    put_connections(&j, t);
+    put_rgb(&j, "sum", trace_sum(t));
+    json_close(&j);
+}

@@ -1,0 +1,36 @@
+/* trace_report.h: what the witness of a pixel sample (transport/trace.h) has to tell, for people and for programs.
+ *
+ * Tests: test_trace.c, test/cli.sh.
+ */
+#ifndef ASBDPT_TRACE_REPORT_H
+#define ASBDPT_TRACE_REPORT_H
+
+#include <stdio.h>
+
+#include "integrators/integrator.h"
+#include "transport/trace.h"
+
+/* What is told, and of what. */
+struct trace_story {
+    const char *scene_path;
+    const struct scene *scene;
+    const struct integrator *integrator;
+    uint64_t seed;
+    const struct trace *trace;
+};
+
+/* trace_text: a page to read. trace_json: one JSON object with every number; doc/trace.md names its keys. */
+void trace_text(FILE *f, const struct trace_story *story);
+void trace_json(FILE *f, const struct trace_story *story);
+
+/* trace_what: what a vertex is, in a word or two. trace_measure: what its densities are per: "m^2", "sr", or "" where
+ * they are probabilities, of lights that are a point or a direction; NULL for the lens. */
+const char *trace_what(const struct scene *scene, const struct vertex *v);
+const char *trace_measure(const struct scene *scene, const struct vertex *v);
+
+/* trace_svg: the sub-paths and connections within the scene's outlines, from the camera and from above, as an SVG file
+ * that needs nothing else. */
+void trace_svg(FILE *f, const struct trace_story *story);
+
+
+#endif

@@ -1,0 +1,222 @@
+/* trace_text.c: a pixel sample as a page to read; see trace_report.h. */
+#include <stdio.h>
+
+#include "lab/trace_report.h"
+
+/* --- words ------------------------------------------------------------------------------------------- */
+
+const char *trace_what(const struct scene *scene, const struct vertex *v)
+{
+    static const char *const lights[] = {"area light", "point light", "spot light", "goniometric light",
+                                         "projection light", "distant light", "infinite light"};
+    static const char *const materials[] = {"matte", "mirror", "glass", "metal", "plastic", "substrate", "uber",
+                                            "translucent", "mix"};
+    switch (v->kind) {
+    case VERTEX_LENS: return "lens";
+    case VERTEX_LIGHT: return lights[scene->lights.light[v->light].kind];
+    case VERTEX_SURFACE: return v->light >= 0 ? "area light" : materials[scene->material[v->material].kind];
+    case VERTEX_ESCAPED: return "escaped";
+    }
+    return "";
+}
+
+const char *trace_measure(const struct scene *scene, const struct vertex *v)
+{
+    switch (v->kind) {
+    case VERTEX_LENS: return NULL;
+    case VERTEX_LIGHT:
+        return light_is_delta(&scene->lights.light[v->light]) ? "" : vertex_at_infinity(scene, v) ? "sr" : "m^2";
+    case VERTEX_SURFACE: return "m^2";
+    case VERTEX_ESCAPED: return "sr";
+    }
+    return NULL;
+}
+
+/* How a light sub-path's vertices are called: y_2, or y_2(5) where there are more sub-paths than one. */
+static void name_y(const struct trace *t, int light, int i, char *out, size_t size)
+{
+    if (t->n_lights > 1)
+        snprintf(out, size, "y_%d(%d)", i, light + 1);
+    else
+        snprintf(out, size, "y_%d", i);
+}
+
+static void name_joined(const struct trace *t, const struct trace_connection *c, char *out, size_t size)
+{
+    char y[32];
+    if (c->s > 1)
+        name_y(t, c->light, c->s - 1, y, sizeof y);
+    else
+        snprintf(y, sizeof y, c->s == 1 ? "light" : "");
+    if (c->s == 0)
+        snprintf(out, size, "z_%d itself", c->t - 1);
+    else if (c->t == 1)
+        snprintf(out, size, "%s - lens", y);
+    else
+        snprintf(out, size, "%s - z_%d", y, c->t - 1);
+}
+
+/* --- sub-paths --------------------------------------------------------------------------------------- */
+
+/* Below 0: not known. */
+static void print_density(FILE *f, double pdf, const char *measure, int width)
+{
+    if (pdf < 0 || measure == NULL)
+        fprintf(f, "  %9s%*s", ".", width, "");
+    else
+        fprintf(f, "  %9.4g %s%-*s", pdf, measure[0] != '\0' ? "/" : "", width > 0 ? width - 2 : 0, measure);
+}
+
+static void print_path(FILE *f, const struct scene *scene, const struct trace_path *path, char letter)
+{
+    fprintf(f, "  %-6s %-17s %29s  %31s  %9s  %14s\n", "vertex", "what it is", "position", "beta: r g b", "pdf_fwd",
+            "pdf_rev");
+    for (int i = 0; i < path->n; i++) {
+        const struct vertex *v = &path->vertex[i];
+        bool at_infinity = vertex_at_infinity(scene, v) || v->kind == VERTEX_ESCAPED;
+        vec3 p = v->kind == VERTEX_ESCAPED ? neg(v->wo) : at_infinity ? v->wo : v->p;
+        bool delta = i + 1 < path->n && path->vertex[i + 1].prev_delta;
+        char what[40];
+        snprintf(what, sizeof what, "%s%s", trace_what(scene, v), delta ? ", delta" : "");
+        fprintf(f, "  %c_%-4d %-17s %9.4g %9.4g %9.4g  %9.4g  %9.4g  %9.4g", letter, i, what, p.x, p.y, p.z, v->beta.r,
+                v->beta.g, v->beta.b);
+        print_density(f, v->pdf_fwd, trace_measure(scene, v), 5);
+        print_density(f, trace_pdf_rev(scene, path, i), trace_measure(scene, v), 0);
+        fprintf(f, "\n");
+    }
+}
+
+static void print_paths(FILE *f, const struct trace_story *s)
+{
+    const struct trace *t = s->trace;
+    fprintf(f, "\nEYE SUB-PATH, %d vert%s\n", t->eye.n, t->eye.n == 1 ? "ex" : "ices");
+    print_path(f, s->scene, &t->eye, 'z');
+    for (int i = 0; i < t->n_lights; i++) {
+        fprintf(f, "\nLIGHT SUB-PATH");
+        if (t->n_lights > 1)
+            fprintf(f, " (%d)", i + 1);
+        fprintf(f, ", %d vert%s\n", t->light[i].n, t->light[i].n == 1 ? "ex" : "ices");
+        print_path(f, s->scene, &t->light[i], 'y');
+    }
+    fprintf(f,
+            "\n  position  in the scene's unit, called m here; of what is infinitely far the direction towards it\n"
+            "  beta      throughput on arrival: all factors so far over the densities of having sampled them; of z_i\n"
+            "            dimensionless, of y_1, y_2 ... in W; of y_0 what it emits, in W/(m^2 sr) or W/sr\n"
+            "  pdf_fwd   density with which this walk made the vertex: per area; if infinitely far, per solid angle;\n"
+            "            of a light that is a point or a direction its probability\n"
+            "  pdf_rev   density with which a walk from the other end, coming from the vertex below, would have made "
+            "it;\n"
+            "            \".\" where two more vertices would be needed: each connection has its own\n"
+            "  delta     left by a mirror's or smooth glass' only direction; densities there are coefficients of "
+            "deltas\n");
+}
+
+/* --- choices ----------------------------------------------------------------------------------------- */
+
+static void print_choices(FILE *f, const struct trace *t)
+{
+    if (t->n_notes + t->n_draws == 0)
+        return;
+    fprintf(f, "\nCHOICES of what to connect with\n");
+    for (int i = 0; i < t->n_notes; i++)
+        fprintf(f, "  %s\n", t->note[i]);
+    for (int i = 0; i < t->n_draws; i++) {
+        const struct trace_draw *d = &t->draw[i];
+        char taken[64] = "all of a light sub-path", for_whom[32] = "the eye sub-path";
+        if (d->s > 0)
+            name_y(t, d->light, d->s - 1, taken, sizeof taken);
+        else if (t->n_lights > 1)
+            snprintf(taken, sizeof taken, "light sub-path (%d)", d->light + 1);
+        if (d->t > 0)
+            snprintf(for_whom, sizeof for_whom, "z_%d", d->t - 1);
+        fprintf(f, "  #%-3d %s for %s: probability %.4g, contributions times %.4g\n       %s\n", i + 1, taken, for_whom,
+                d->probability, d->scale, d->why);
+    }
+}
+
+/* --- connections ------------------------------------------------------------------------------------- */
+
+static void print_connection(FILE *f, const struct trace *t, const struct trace_connection *c)
+{
+    char strategy[32], joined[64], choice[16] = "";
+    snprintf(strategy, sizeof strategy, "(%d,%d)", c->s, c->t);
+    name_joined(t, c, joined, sizeof joined);
+    if (c->draw >= 0)
+        snprintf(choice, sizeof choice, "#%d", c->draw + 1);
+    fprintf(f, "  %-7s %-15s %-6s", strategy, joined, choice);
+    if (rgb_is_black(c->c.value)) {
+        fprintf(f, " %9d\n", 0);
+        return;
+    }
+    fprintf(f, " %9.4g %9.4g %9.4g  %9.4g  %7.5f  %9.4g %9.4g %9.4g", c->c.value.r, c->c.value.g, c->c.value.b,
+            c->scale, c->c.weight, c->added.r, c->added.g, c->added.b);
+    if (c->t == 1)
+        fprintf(f, "  at %.2f, %.2f", c->c.px, c->c.py);
+    fprintf(f, "\n");
+}
+
+static int print_connections(FILE *f, const struct trace *t, bool splats)
+{
+    int n = 0;
+    fprintf(f, "  %-7s %-15s %-6s %29s  %9s  %7s  %29s%s\n", "(s,t)", "joined",
+            t->n_draws > 0 && !splats ? "choice" : "", "C*: r g b", "times", "weight", "added: r g b",
+            splats ? "  at raster point" : "");
+    for (int i = 0; i < t->n_connections; i++)
+        if ((t->connection[i].t == 1) == splats) {
+            print_connection(f, t, &t->connection[i]);
+            n++;
+        }
+    return n;
+}
+
+/* Which strategies brought what, by the length of the path. */
+static void print_shares(FILE *f, const struct trace *t)
+{
+    enum { MOST = 12 };
+    double share[MOST][MOST] = {{0}}, total = rgb_luminance(trace_sum(t));
+    int longest = 0;
+    for (int i = 0; i < t->n_connections; i++) {
+        const struct trace_connection *c = &t->connection[i];
+        int edges = c->s + c->t - 1;
+        if (c->t == 1 || edges >= MOST || rgb_is_black(c->added))
+            continue;
+        share[edges][c->s] += rgb_luminance(c->added);
+        longest = edges > longest ? edges : longest;
+    }
+    if (!(total > 0))
+        return;
+    fprintf(f, "\n  Per cent of the sum, in luminance, by the path's edges and the strategy's s:\n    edges");
+    for (int s = 0; s < longest; s++)
+        fprintf(f, "  s =%3d", s);
+    for (int edges = 1; edges <= longest; edges++) {
+        fprintf(f, "\n    %5d", edges);
+        for (int s = 0; s < edges; s++)
+            fprintf(f, "  %6.2f", 100 * share[edges][s] / total);
+    }
+    fprintf(f, "\n");
+}
+
+void trace_text(FILE *f, const struct trace_story *s)
+{
+    const struct trace *t = s->trace;
+    rgb sum = trace_sum(t);
+    fprintf(f, "%s, pixel %d,%d, sample %ld: %s, seed %llu\n", s->scene_path, t->x, t->y, t->iteration,
+            s->integrator->name, (unsigned long long)s->seed);
+    fprintf(f, "\n(s,t): a path of s vertices from the light, y_0 ... y_{s-1}, and t from the eye, z_{t-1} ... z_0.\n");
+    print_paths(f, s);
+    print_choices(f, t);
+    fprintf(f, "\nCONNECTIONS, t >= 2: C* times the next two columns is added to the pixel\n");
+    print_connections(f, t, false);
+    fprintf(f, "  %-81s %9.4g %9.4g %9.4g\n", "sum, which the film receives", sum.r, sum.g, sum.b);
+    print_shares(f, t);
+    fprintf(f, "\nCONNECTIONS, t = 1: light sub-paths joined to the lens, added wherever they are seen\n");
+    if (print_connections(f, t, true) == 0)
+        fprintf(f, "  none in this sample\n");
+    fprintf(f,
+            "\n  C*      what one sample of the strategy alone would bring, not weighted: W/(m^2 sr)\n"
+            "  times   1/number of samples, filter weight (%.4g here), 1/probability of the choice where that is made "
+            "up for\n"
+            "  weight  share of the strategy in multiple importance sampling; of one path they add up to 1 over (s,t)\n"
+            "  0       nothing arrives: blocked, turned away, no light there, or outside the picture\n",
+            t->filter_weight);
+}
