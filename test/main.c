@@ -46,6 +46,7 @@ static const struct entry ENTRIES[] = {
     {"threads", test_threads, false}, {"verify", test_verify, false},
     {"strategies", test_strategies, false}, {"streams", test_streams, false},
     {"scenes", test_scenes, false},   {"reference", test_references, false},
+    {"hostile", test_hostile, true},
     {"scenes-long", test_scenes_long, true}, {"reference-long", test_references_long, true},
 };
 enum { N_ENTRIES = sizeof ENTRIES / sizeof ENTRIES[0] };

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "base/file.h"
+#include "base/os.h"
 #include "base/json.h"
 #include "base/progress.h"
 #include "image/image.h"
@@ -289,6 +290,22 @@ static void test_json(struct test *t)
     remove(path);
 }
 
+/* Reading never waits for ever: a pipe that nobody writes to is empty, devices are refused. */
+static void test_endless(struct test *t)
+{
+    char path[256];
+    uint8_t *data = NULL;
+    size_t size = 1;
+    struct error err = {""};
+    in_tmp(t, "pipe", path, sizeof path);
+    CHECK(t, mkfifo(path, 0600) == 0 && file_read(path, &data, &size, &err) && size == 0, "%s", err.text);
+    free(data);
+    remove(path);
+    if (os_kind_of("/dev/zero") == OS_OTHER)
+        CHECK(t, !file_read("/dev/zero", &data, &size, &err) && strstr(err.text, "cannot be opened") != NULL,
+              "/dev/zero: %s", err.text);
+}
+
 void test_file(struct test *t)
 {
     test_json(t);
@@ -299,4 +316,5 @@ void test_file(struct test *t)
     test_commit(t);
     test_failed_rename(t);
     test_unreadable(t);
+    test_endless(t);
 }

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/file.h"
+#include "base/os.h"
 #include "fuzz/targets.h"
 #include "tests.h"
 
@@ -26,20 +27,20 @@ static int run_alone(const struct fuzz_target *target, const uint8_t *data, size
     return child > 0 && waitpid(child, &status, 0) == child ? status : -1;
 }
 
-static int replay(struct test *t, const struct fuzz_target *target)
+static int replay(struct test *t, const struct fuzz_target *target, const char *directory)
 {
-    char directory[256], path[600];
+    char corpus[256], path[600];
     int n = 0;
-    snprintf(directory, sizeof directory, "test/fuzz/corpus/%s", target->name);
-    DIR *d = opendir(directory);
+    snprintf(corpus, sizeof corpus, "test/fuzz/corpus/%s", target->name);
+    DIR *d = opendir(corpus);
     for (struct dirent *e = NULL; d != NULL && (e = readdir(d)) != NULL;) {
         struct error err;
         uint8_t *data;
         size_t size;
-        snprintf(path, sizeof path, "%s/%s", directory, e->d_name);
+        snprintf(path, sizeof path, "%s/%s", corpus, e->d_name);
         if (e->d_name[0] == '.' || !CHECK(t, file_read(path, &data, &size, &err), "%s", err.text))
             continue;
-        int status = run_alone(target, data, size, test_tmp(t));
+        int status = run_alone(target, data, size, directory);
         CHECK(t, status == 0, "%s: target %s ended with wait status %d", path, target->name, status);
         free(data);
         n++;
@@ -59,7 +60,10 @@ void test_fuzz(struct test *t)
 {
     static const struct fuzz_target BROKEN = {"broken", break_promise};
     CHECK(t, run_alone(&BROKEN, NULL, 0, test_tmp(t)) != 0, "a target that breaks its promise is not noticed");
-    fuzz_prepare(test_tmp(t));
+    char directory[256];
+    snprintf(directory, sizeof directory, "%s/fuzz", test_tmp(t));
+    CHECK(t, os_make_directory(directory), "%s cannot be made", directory);
+    fuzz_prepare(directory);
     for (const struct fuzz_target *target = fuzz_targets; target->name != NULL; target++)
-        CHECK(t, replay(t, target) > 0, "no corpus for the target %s", target->name);
+        CHECK(t, replay(t, target, directory) > 0, "no corpus for the target %s", target->name);
 }

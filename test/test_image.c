@@ -489,8 +489,51 @@ static void test_ppm(struct test *t)
     check_texts_refused(t, ppm_read, CASES, sizeof CASES / sizeof CASES[0]);
 }
 
+/* --- small files of large pictures ---------------------------------------------------------------------- */
+
+static void check_too_large(struct test *t, const char *what, reader *read, const uint8_t *data, size_t size)
+{
+    struct image img = {0};
+    struct error err = {"accepted"};
+    CHECK(t, !read(data, size, &img, &err) && strstr(err.text, "too much for a file of this size") != NULL, "%s: %s",
+          what, err.text);
+    image_free(&img);
+}
+
+/* 16384 x 16384 pixels that a codec might well have packed into 300 KB or 3 MB, and the limits themselves. */
+static void test_memory(struct test *t)
+{
+    enum { HDR = 300000, PNG = 3000000, HEAD = 33 };
+    uint8_t *data = mem_alloc(PNG, 1);
+    strcpy((char *)data, "#?RADIANCE\n\n-Y 16384 +X 16384\n");
+    check_too_large(t, "hdr", rgbe_read, data, HDR);
+    struct bytes png = {.n = 0};
+    put_hex(&png, "89504e470d0a1a0a0000000d494844520000400000004000100600000000000000");
+    memset(data, 0, HDR);
+    memcpy(data, png.data, HEAD);
+    const size_t BODY = PNG - HEAD - 12 - 12; /* an IDAT that fills the file, but for an IEND */
+    for (int i = 0; i < 4; i++)
+        data[HEAD + i] = (uint8_t)(BODY >> (24 - 8 * i) & 255);
+    memcpy(data + HEAD + 4, "IDAT", 4);
+    memcpy(data + PNG - 8, "IEND", 4);
+    const size_t chunk[3][2] = {{8, 13}, {HEAD, BODY}, {PNG - 12, 0}};
+    for (int k = 0; k < 3; k++) {
+        uint32_t crc = checksum_crc32(0, data + chunk[k][0] + 4, chunk[k][1] + 4);
+        for (int i = 0; i < 4; i++)
+            data[chunk[k][0] + 8 + chunk[k][1] + (size_t)i] = (uint8_t)(crc >> (24 - 8 * i) & 255);
+    }
+    check_too_large(t, "png", png_read, data, PNG);
+    free(data);
+    struct error err;
+    const uint64_t each = PICTURE_BYTES_PER_BYTE;
+    CHECK(t, picture_memory_ok(PICTURE_FREE_BYTES, 1, &err) && !picture_memory_ok(PICTURE_FREE_BYTES + 1ull, 1, &err) &&
+                 picture_memory_ok(3000000 * each, 3000000, &err) && !picture_memory_ok(3000001 * each, 3000000, &err),
+          "limits");
+}
+
 void test_image(struct test *t)
 {
+    test_memory(t);
     test_srgb(t);
     for (int i = 0; i < N_PNG_SAMPLES; i++)
         check_png_sample(t, &PNG_SAMPLES[i]);

@@ -505,12 +505,47 @@ static void check_lights(struct test *t)
 
 /* --- pieces --------------------------------------------------------------------------------------------- */
 
+/* Of a file that is no scene messages quote no line. */
+static void check_nothing_quoted(struct test *t)
+{
+    struct scene s;
+    struct error err = {""};
+    struct hearing *heard = mem_alloc(1, sizeof *heard);
+    struct message_sink sink = {hear_warning, hear_error, heard};
+    CHECK(t, !parse_scene("test/fixtures/include-no-scene.pbrt", &s, &sink, &err) && heard->errors.n == 1 &&
+                 strstr(err.text, "secret") == NULL, "%d errors, the first\n%s", heard->errors.n, err.text);
+    free(heard);
+}
+
+/* As many chains as names: all are found, the newest first, and forgotten again. */
+static void check_symbols(struct test *t)
+{
+    enum { N = 5000 };
+    struct symbols table = {0};
+    char name[32];
+    int wrong = symbols_find(&table, "0") != -1;
+    for (int i = 0; i < 2 * N; i++) {
+        snprintf(name, sizeof name, "%d", i % N);
+        symbols_add(&table, name, i);
+    }
+    for (int half = 1; half >= 0; half--) {
+        for (int i = 0; i < N; i++) {
+            snprintf(name, sizeof name, "%d", i);
+            wrong += symbols_find(&table, name) != half * N + i;
+        }
+        symbols_forget(&table, N);
+    }
+    symbols_forget(&table, 0);
+    CHECK(t, wrong == 0 && symbols_find(&table, "0") == -1, "%d names are wrong", wrong);
+    symbols_free(&table);
+}
+
 /* One number through the lexer. */
 static bool lex_number(const char *text, double *out)
 {
     struct arena arena = {NULL, NULL};
     struct messages messages = {0};
-    struct source_file file = {"number", text, text + strlen(text), {0}};
+    struct source_file file = {"number", text, text + strlen(text), {0}, true};
     struct lexer l = lexer_start(&file, &arena, &messages);
     return lexer_number(&l, out) && lexer_peek(&l) == TOKEN_END;
 }
@@ -723,6 +758,8 @@ void test_parser(struct test *t)
     check_textures(t);
     check_cameras(t);
     check_lights(t);
+    check_symbols(t);
+    check_nothing_quoted(t);
     check_numbers(t);
     check_spectra(t);
     check_suggestions(t);

@@ -17,6 +17,7 @@ void test_file(struct test *t);
 void test_film(struct test *t);
 void test_fuzz(struct test *t);
 void test_hdr(struct test *t);
+void test_hostile(struct test *t);
 void test_image(struct test *t);
 void test_kdtree(struct test *t);
 void test_light(struct test *t);

@@ -42,7 +42,7 @@ bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err
 {
     *data = NULL;
     *size = 0;
-    FILE *f = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
+    FILE *f = strcmp(path, "-") == 0 ? stdin : os_open_input(path);
     if (f == NULL)
         return error_set(err, "%s: cannot be opened: %s", path, strerror(errno));
     uint64_t length;

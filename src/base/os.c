@@ -30,6 +30,7 @@
 #include <unistd.h>
 #endif
 #if !defined _WIN32 && !defined __wasi__
+#include <sys/mman.h>
 #include <sys/resource.h>
 #endif
 
@@ -162,6 +163,8 @@ double os_peak_memory(void)
         ? (double)counters.PeakWorkingSetSize : 0;
 }
 
+void os_limit_memory(void) {}
+
 uint64_t os_unique(void)
 {
     LARGE_INTEGER now;
@@ -184,6 +187,7 @@ double os_wall_seconds(void) { return seconds_of(CLOCK_MONOTONIC); }
 
 double os_cpu_seconds(void) { return os_wall_seconds(); }
 double os_peak_memory(void) { return 0; }
+void os_limit_memory(void) {}
 static uint64_t process(void) { return 0; }
 
 #else
@@ -202,6 +206,32 @@ double os_peak_memory(void)
 }
 
 static uint64_t process(void) { return (uint64_t)getpid(); }
+
+/* Can memory still be had? Not where more than the limit is mapped already, as sanitizers do. */
+static bool can_map(void)
+{
+    int fd = open("/dev/zero", O_RDWR);
+    void *p = fd >= 0 ? mmap(NULL, 1, PROT_READ | PROT_WRITE, MAP_PRIVATE, fd, 0) : MAP_FAILED;
+    if (fd >= 0)
+        close(fd);
+    return p != MAP_FAILED && munmap(p, 1) == 0;
+}
+
+void os_limit_memory(void)
+{
+#if defined _SC_PHYS_PAGES && defined RLIMIT_DATA
+    struct rlimit old, limit;
+    long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+    if (pages <= 0 || page <= 0 || getrlimit(RLIMIT_DATA, &old) != 0)
+        return;
+    limit = old;
+    limit.rlim_cur = (rlim_t)pages * (rlim_t)page;
+    if (old.rlim_cur != RLIM_INFINITY && old.rlim_cur <= limit.rlim_cur)
+        return;
+    if (setrlimit(RLIMIT_DATA, &limit) == 0 && !can_map())
+        setrlimit(RLIMIT_DATA, &old);
+#endif
+}
 
 #endif
 
@@ -293,6 +323,7 @@ bool os_regular(FILE *f, uint64_t *size)
     return ok;
 }
 
+FILE *os_open_input(const char *path) { return fopen(path, "rb"); }
 bool os_may_write(const char *path) { return _access(path, 2) == 0; }
 
 bool os_read_link(const char *path, char *out, size_t size)
@@ -339,6 +370,24 @@ bool os_regular(FILE *f, uint64_t *size)
     bool ok = fstat(fileno(f), &info) == 0 && S_ISREG(info.st_mode);
     *size = ok ? (uint64_t)info.st_size : 0;
     return ok;
+}
+
+FILE *os_open_input(const char *path)
+{
+    struct stat info;
+    int fd = open(path, O_RDONLY | O_NONBLOCK);
+    bool ok = fd >= 0 && fstat(fd, &info) == 0;
+    if (ok && (S_ISCHR(info.st_mode) || S_ISBLK(info.st_mode))) {
+        errno = EPERM;
+        ok = false;
+    }
+    ok = ok && fcntl(fd, F_SETFL, 0) == 0;
+    FILE *f = ok ? fdopen(fd, "rb") : NULL;
+    int reason = errno;
+    if (f == NULL && fd >= 0)
+        close(fd);
+    errno = reason;
+    return f;
 }
 
 bool os_may_write(const char *path) { return access(path, W_OK) == 0; }

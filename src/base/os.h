@@ -37,6 +37,11 @@ double os_wall_seconds(void); /* a steady clock; only differences mean something
 double os_cpu_seconds(void);  /* of all threads of this process; does not wrap. On WASI: wall time */
 double os_peak_memory(void);  /* bytes this process has held at most, 0 where that is not told */
 
+/* os_limit_memory: from now on allocations fail once this process has as much as the machine, so that a scene that
+ * wants more ends with a message instead of bringing the machine down. A lower limit (ulimit -d) stays. Where the
+ * system cannot do that, nothing happens. */
+void os_limit_memory(void);
+
 /* os_unique: a number that no other process, and no other moment of this one, is likely to have. */
 uint64_t os_unique(void);
 
@@ -58,6 +63,10 @@ bool os_terminal(FILE *f);
 
 /* os_binary: have standard input or output carry bytes, not lines. */
 void os_binary(FILE *f);
+
+/* os_open_input: a file or a pipe for reading bytes. It does not wait for somebody to write to a pipe: where nobody
+ * does, it is empty. Devices, which may never end, are refused with EPERM. NULL, and errno. */
+FILE *os_open_input(const char *path);
 
 /* os_regular: the length of an open file; false for pipes, devices and directories. */
 bool os_regular(FILE *f, uint64_t *size);

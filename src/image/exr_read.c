@@ -144,6 +144,9 @@ static bool read_blocks(const struct exr *e, size_t n_blocks, const struct exr_c
     bool grey = colour[RED] == NULL && colour[GREEN] == NULL && colour[BLUE] == NULL;
     size_t width, height;
     block_size(e, &width, &height);
+    uint64_t blocks = 2 * (uint64_t)width * height * e->pixel_bytes;
+    if (!picture_memory_ok(blocks + (uint64_t)e->width * e->height * 3 * sizeof *out->f32, e->size, e->err))
+        return false;
     uint8_t *bytes = mem_alloc(width * height, e->pixel_bytes), *scratch = mem_alloc(width * height, e->pixel_bytes);
     bool ok = true;
     picture_alloc_f32(out, e->width, e->height, grey ? 1 : 3);

@@ -48,7 +48,7 @@ void tga_write(FILE *f, int width, int height, const float *pixels);
  * halfs, floats and integers, uncompressed or by RLE, ZIPS, ZIP or PIZ; as pbrt-v3 does, the data window as the
  * picture, of the channels R, G, B (one that is missing is 0), or Y alone as grey; where there are none without a
  * layer's name, those of the only layer. Other compressions, several parts, deep pictures and subsampled channels are
- * refused by name. Reading takes at most 9 * 1032 bytes of memory for each of the file.
+ * refused by name.
  * Written: R, G, B as halfs, where what is finite and beyond 65504 becomes that, or as floats, exactly; ZIP. */
 bool exr_matches(const uint8_t *data, size_t size);
 bool exr_read(const uint8_t *data, size_t size, struct image *out, struct error *err);

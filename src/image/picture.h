@@ -31,6 +31,13 @@ enum { PICTURE_MAX_PIXELS = 1 << 28 };
  * pixels. */
 bool picture_size_ok(unsigned long width, unsigned long height, struct error *err);
 
+/* A small file may announce a large picture. Reading it takes at most PICTURE_FREE_BYTES of memory, or
+ * PICTURE_BYTES_PER_BYTE for each of the file. */
+enum { PICTURE_FREE_BYTES = 1 << 28, PICTURE_BYTES_PER_BYTE = 200 };
+
+/* picture_memory_ok: may reading the picture take this much? Returns false with a message. */
+bool picture_memory_ok(uint64_t bytes, size_t file_size, struct error *err);
+
 /* picture_truncated: the message that a file is too short for the pixels it announces. Returns false, always. */
 bool picture_truncated(unsigned long width, unsigned long height, struct error *err);
 

@@ -286,6 +286,9 @@ static bool read_pixels(const struct png *p, struct image *out)
         total += pass_bytes(p, &pass[i]);
     if (total / INFLATE_MAX_RATIO > p->n_packed)
         return picture_truncated(p->width, p->height, p->err);
+    uint64_t samples = (uint64_t)p->width * p->height * 3;
+    if (!picture_memory_ok(total + samples * (p->depth == 16 ? sizeof *out->f32 : 1), p->size, p->err))
+        return false;
     uint8_t *bytes = mem_alloc(total, 1), *zeros = mem_alloc(row_bytes(p, p->width), 1);
     bool ok = inflate_zlib(p->packed, p->n_packed, bytes, total, p->err) &&
               place_pixels(p, pass, passes, zeros, bytes, out);

@@ -170,6 +170,8 @@ bool rgbe_read(const uint8_t *data, size_t size, struct image *out, struct error
         return false;
     if (r.width * r.height / MOST_PIXELS_PER_BYTE > size - r.at)
         return picture_truncated(r.width, r.height, err);
+    if (!picture_memory_ok((uint64_t)r.width * r.height * 3 * sizeof *out->f32, size, err))
+        return false;
     uint8_t *row = mem_alloc(r.width, 4);
     bool ok = true;
     picture_alloc_f32(out, r.width, r.height, 3);

@@ -145,6 +145,8 @@ bool tga_read(const uint8_t *data, size_t size, struct image *out, struct error 
     size_t left = t.size - t.at, most = t.run_length ? left / (1 + t.depth) * 128 + 128 : left / t.depth;
     if (most < t.width * t.height)
         return picture_truncated(t.width, t.height, err);
+    if (!picture_memory_ok((uint64_t)t.width * t.height * 3, size, err))
+        return false;
     picture_alloc_u8(out, t.width, t.height, t.kind == TGA_GREY ? 1 : 3);
     if (read_pixels(&t, out))
         return true;

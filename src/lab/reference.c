@@ -47,7 +47,7 @@ static void read_text(const char *picture, struct reference_text *s)
     s->noise8 = s->mean_error = NAN;
     const char *dot = strrchr(picture, '.');
     snprintf(path, sizeof path, "%.*s.txt", (int)(dot != NULL ? dot - picture : (long)strlen(picture)), picture);
-    FILE *f = fopen(path, "r");
+    FILE *f = os_open_input(path);
     if (f == NULL)
         return;
     while (fgets(line, sizeof line, f) != NULL) {
@@ -87,7 +87,7 @@ static int load_fitting(const char *path, int width, int height, int max_depth, 
 
 static bool readable(const char *path)
 {
-    FILE *f = fopen(path, "rb");
+    FILE *f = os_open_input(path);
     if (f != NULL)
         fclose(f);
     return f != NULL;

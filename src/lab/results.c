@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 #include "base/maths.h"
+#include "base/os.h"
 #include "base/stats.h"
 
 enum { N_AVERAGED = Q_MEAN_NOISE /* the quantities that results.csv has */ };
@@ -78,7 +79,7 @@ bool run_read(const char *path, const char *key, int n_steps, struct seed_run *o
 {
     char line[4096], columns[256];
     memset(out, 0, sizeof *out);
-    FILE *f = fopen(path, "r");
+    FILE *f = os_open_input(path);
     if (f == NULL)
         return false;
     step_columns(columns, "");

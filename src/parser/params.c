@@ -452,7 +452,7 @@ static rgb rgb_from_file(struct params *p, const struct param *item)
     }
     *p->content = hash_combine(*p->content, hash_content(text, size));
     struct arena arena = {NULL, NULL};
-    struct source_file file = {path, text, text + size, item->position};
+    struct source_file file = {path, text, text + size, item->position, false};
     struct lexer l = lexer_start(&file, &arena, p->messages);
     double *number = NULL;
     size_t n = 0, capacity = 0;

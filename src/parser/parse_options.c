@@ -235,6 +235,8 @@ static char *value_text(const struct params *q, const struct param *item)
     return text;
 }
 
+enum { MAX_INTEGRATOR_PARAMETERS = 256 };
+
 /* Which parameters an integrator has is its own affair: all are kept as text with their position. */
 static bool integrator(struct parser *p)
 {
@@ -242,6 +244,9 @@ static bool integrator(struct parser *p)
         return false;
     struct params *q = &p->params;
     struct scene *s = p->scene;
+    if (q->n > MAX_INTEGRATOR_PARAMETERS)
+        return type_error(q, "%d parameters are too many; integrators have at most %d", q->n,
+                          MAX_INTEGRATOR_PARAMETERS);
     free(s->integrator);
     s->integrator = mem_copy_text(q->type);
     settings_clear(&s->settings);

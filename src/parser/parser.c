@@ -9,7 +9,9 @@
 #include "base/os.h"
 #include "parser/parse.h"
 
+/* Files may be included again and again, and include others that are: of all together so much is read. */
 enum { MAX_INCLUDES = 65536 };
+static const uint64_t MAX_INCLUDED_BYTES = (uint64_t)1 << 31;
 
 /* --- the world ---------------------------------------------------------------------------------------- */
 
@@ -148,6 +150,7 @@ static bool run_directive(struct parser *p)
     const struct directive *d = t->kind == TOKEN_WORD ? find_directive(t->text, NULL) : NULL;
     if (d == NULL)
         return unknown_directive(p);
+    *p->is_scene = true;
     if ((d->phase & p->phase) == 0)
         return wrong_phase(p, d);
     if (d->types != NULL && !(parse_typed(p) && parse_type(p, d->types)))
@@ -163,7 +166,10 @@ static void run_source(struct parser *p)
         bool ok = lexer_next(&p->lexer, t);
         if (ok && t->kind == TOKEN_END)
             return;
-        if (!ok || !run_directive(p))
+        ok = ok && run_directive(p);
+        if (!*p->is_scene)
+            return;
+        if (!ok)
             lexer_resume(&p->lexer);
     }
     if (lexer_peek(&p->lexer) != TOKEN_END)
@@ -200,12 +206,16 @@ static void run_file(struct parser *p, int file, const char *path, struct source
     source->text = p->file[file].text;
     source->end = source->text + p->file[file].size;
     source->included_at = included_at;
+    source->is_scene = included_at.file == NULL;
+    bool *outer_is_scene = p->is_scene;
+    p->is_scene = &source->is_scene;
     struct lexer outer = p->lexer;
     p->lexer = lexer_start(source, &p->arena, &p->messages);
     p->source[p->n_sources++] = source;
     run_source(p);
     p->n_sources--;
     p->lexer = outer;
+    p->is_scene = outer_is_scene;
 }
 
 /* Relative names start in the directory of the main file, wherever the Include stands. */
@@ -227,6 +237,8 @@ static bool include(struct parser *p)
     int file = ok ? load(p, path, &inner) : -1;
     if (ok && file < 0)
         ok = source_error(&p->messages, name.position, "%s", inner.text);
+    if (ok && (p->included_bytes += p->file[file].size) > MAX_INCLUDED_BYTES)
+        ok = source_error(&p->messages, name.position, "all includes together have more than 2 GiB of text");
     if (ok)
         run_file(p, file, path, name.position);
     free(path);

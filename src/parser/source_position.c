@@ -103,7 +103,8 @@ bool source_error(struct messages *m, struct source_position at, const char *for
         return false;
     }
     m->error[m->n_errors++] = mem_copy_text(sentence);
-    write_excerpt(&w, at);
+    if (at.file->is_scene)
+        write_excerpt(&w, at);
     write_includes(&w, at.file);
     if (m->err != NULL && m->n_errors == 1)
         *m->err = full;

@@ -27,6 +27,8 @@ struct source_file {
     const char *path;
     const char *text, *end;  /* end[0] is a zero byte that does not belong to the file */
     struct source_position included_at; /* the Include directive; included_at.file is NULL for the main file */
+    bool is_scene; /* the main file, or one that begins with a directive. Messages quote no line of another: it may be
+                    * a file that is none of the scene's business */
 };
 
 /* Functions that receive each warning (one line) and each error (with its excerpt), without newline at the end;

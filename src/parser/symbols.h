@@ -35,8 +35,6 @@ const char *suggest_from(const char *wanted, const char *const *known);
 
 /* --- the table ---------------------------------------------------------------------------------------- */
 
-enum { SYMBOL_CHAINS = 1024 };
-
 /* One name. */
 struct symbol {
     char *name; /* owned */
@@ -48,7 +46,8 @@ struct symbols {
     struct symbol *entry; /* [n], in the order they were added, owned */
     int n;
     size_t capacity;
-    int newest[SYMBOL_CHAINS]; /* first entry of each chain plus 1; 0: empty. So all zeros is an empty table. */
+    int *newest; /* [n_chains], first entry of each chain plus 1; 0: empty; owned */
+    int n_chains; /* a power of two, never fewer than entries. All zeros is an empty table. */
 };
 
 void symbols_add(struct symbols *t, const char *name, int value);

@@ -8,6 +8,7 @@
 
 #include "base/file.h"
 #include "base/mem.h"
+#include "base/os.h"
 #include "image/zlib.h"
 
 static const char MAGIC[] = "asbdpt part 1\n";
@@ -211,7 +212,7 @@ static bool read_header(FILE *f, const char *path, struct part *out, struct erro
 FILE *part_open(const char *path, struct part *out, struct error *err)
 {
     memset(out, 0, sizeof *out);
-    FILE *f = fopen(path, "rb");
+    FILE *f = os_open_input(path);
     if (f == NULL) {
         error_set(err, "%s: cannot be opened: %s", path, strerror(errno));
         return NULL;

@@ -41,15 +41,18 @@ static void put(struct writer *w, const char *format, ...)
 /* One bad number is enough for a scene to be refused at once, so most are ordinary. */
 static void number(struct writer *w)
 {
-    static const char *const ORDINARY[] = {"0", "1", "-1", "0.5", "2", "0.1", "3", "-0.5", "0.9", "10", "45", "0.01"};
+    static const char *const ORDINARY[] = {"1", "0.5", "2", "0.1", "3", "0.9", "10", "45", "0.01", "1", "5", "0.3"};
+    static const char *const LOWER[] = {"0", "-1", "-0.5", "-2"};
     static const char *const EDGE[] = {
         "-0", "1e-308", "4.9e-324", "1e-45", "1e-38", "1e-30", "1e-20", "1e-12", "1e-7", "0.99999999999999",
         "1.0000001", "1000", "1e5", "1e7", "1e9", "1e12", "1e15", "1e18", "1e19", "1e30", "-1e30", "1e31", "1e38",
         "3.5e38", "1e100", "1e308", "-1e308", "1e309", "nan", "inf", "-1e-308", "90", "180", "-180", "360",
         "89.9999999", "255", "2147483647", "2147483648", "-2147483649", "4294967296", "18446744073709551616",
         "0.000000000000000000000000000000000001"};
-    if (rarely(w, 12))
+    if (rarely(w, 50))
         put(w, "%s ", EDGE[choose(w, sizeof EDGE / sizeof EDGE[0])]);
+    else if (rarely(w, 10))
+        put(w, "%s ", LOWER[choose(w, sizeof LOWER / sizeof LOWER[0])]);
     else
         put(w, "%s ", ORDINARY[choose(w, sizeof ORDINARY / sizeof ORDINARY[0])]);
 }
@@ -125,14 +128,14 @@ static const struct object WORLD[] = {
     {"ObjectInstance", "o0", NULL},
     {"CoordinateSystem", "c0", NULL},
     {"CoordSysTransform", "c0", NULL},
-    {"Include", "scene.pbrt", NULL},
     {"Include", "parts/box.pbrt", NULL}};
 
 static const struct object NAMED[] = {
-    {"MakeNamedMaterial \"m0\"", "mix",
+    {"MakeNamedMaterial \"m0\" \"string type\"", "mix",
      "string namedmaterial1:m0,m1|string namedmaterial2:m0,m1|float amount|rgb amount"},
-    {"MakeNamedMaterial \"m1\"", "matte", REFLECT BUMP},
-    {"MakeNamedMaterial \"m1\"", "mix", "string namedmaterial1:m0,m1|string namedmaterial2:m0,m1|texture amount"},
+    {"MakeNamedMaterial \"m1\" \"string type\"", "matte", REFLECT BUMP},
+    {"MakeNamedMaterial \"m1\" \"string type\"", "mix",
+     "string namedmaterial1:m0,m1|string namedmaterial2:m0,m1|texture amount"},
     {"Texture \"t0\" \"spectrum\"", "scale", PAIR},
     {"Texture \"t0\" \"float\"", "mix", PAIR},
     {"Texture \"t1\" \"spectrum\"", "checkerboard", PAIR MAPPED "integer dimension|string aamode:none"},
@@ -153,7 +156,7 @@ enum { N_OPTIONS = sizeof OPTIONS / sizeof OPTIONS[0], N_WORLD = sizeof WORLD / 
 static void word(struct writer *w, const char *values, size_t n)
 {
     const char *at = values, *end = values + n;
-    for (unsigned k = choose(w, 4); k > 0; k--) {
+    for (unsigned k = rarely(w, 4) ? choose(w, 4) : 0; k > 0; k--) {
         const char *comma = memchr(at, ',', (size_t)(end - at));
         at = comma != NULL ? comma + 1 : values;
     }
@@ -171,6 +174,7 @@ static unsigned count(const char *p, const char *star)
 
 static void parameter(struct writer *w, const char *p, size_t n)
 {
+    static const int QUAD[6] = {0, 1, 2, 0, 2, 3};
     const char *colon = memchr(p, ':', n), *star = memchr(p, '*', n);
     size_t name = star != NULL ? (size_t)(star - p) : colon != NULL ? (size_t)(colon - p) : n;
     put(w, "\"%.*s\" [ ", (int)name, p);
@@ -183,7 +187,7 @@ static void parameter(struct writer *w, const char *p, size_t n)
         word(w, colon + 1, n - name - 1);
     else if (strncmp(p, "integer indices", 15) == 0)
         for (unsigned i = 0; i < wanted; i++)
-            put(w, "%d ", rarely(w, 64) ? -1 : (int)choose(w, wanted / 3 + 2));
+            put(w, "%d ", rarely(w, 32) ? (int)choose(w, 5) - 1 : QUAD[i % 6]);
     else
         numbers(w, wanted);
     put(w, "] ");

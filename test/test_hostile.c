@@ -1,0 +1,187 @@
+/* test_hostile.c: whole runs of ./asbdpt on scenes that mean harm. The verdict on each: exit status 0 or 1, never a
+ * signal; a message unless it is 0; a picture, all of finite numbers, if it is 0; and no more than so much time and
+ * memory, which is what doc/SECURITY.md promises for scenes of up to a megabyte.
+ *
+ * Most scenes come from test/fuzz/hostile.h; the others are a kind of harm each, at its full size. */
+#define _POSIX_C_SOURCE 200809L
+#define _XOPEN_SOURCE 700 /* getrusage's ru_maxrss */
+
+#include <fcntl.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/mem.h"
+#include "base/rng.h"
+#include "fuzz/hostile.h"
+#include "fuzz/targets.h"
+#include "image/image.h"
+#include "tests.h"
+
+enum { SCENES = 1200, SECONDS = 20, MEGABYTES = 512 };
+
+static const char *const INTEGRATORS[] = {"pt", "lt", "bdpt", "asbdpt"};
+
+/* The program, its working directory being `directory`, and its stderr there as well; the status of wait. */
+static int run(const char *directory, const char *program, const char *const *arguments)
+{
+    int status = -1;
+    fflush(stdout);
+    pid_t child = fork();
+    if (child == 0) {
+        struct rlimit cpu = {SECONDS, SECONDS + 1};
+        if (chdir(directory) != 0 || setrlimit(RLIMIT_CPU, &cpu) != 0)
+            _Exit(127);
+        dup2(open("/dev/null", O_RDWR), 0);
+        dup2(open("/dev/null", O_RDWR), 1);
+        dup2(open("stderr.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
+        execv(program, (char *const *)arguments);
+        _Exit(127);
+    }
+    return child > 0 && waitpid(child, &status, 0) == child ? status : -1;
+}
+
+/* Is the picture of a run that ended well there, with nothing but numbers? */
+static bool is_picture(const char *path)
+{
+    struct image img;
+    struct error err;
+    bool ok = image_read(path, &img, &err);
+    for (int i = 0; ok && i < img.width * img.height * img.channels; i++)
+        ok = isfinite(img.f32[i]);
+    if (ok)
+        image_free(&img);
+    return ok;
+}
+
+/* Render scene.pbrt of the directory and judge what comes of it; the exit status. */
+static int judge(struct test *t, const char *directory, const char *name, const char *integrator)
+{
+    char here[2048], program[2100], picture[400], log[400];
+    snprintf(program, sizeof program, "%s/asbdpt", getcwd(here, sizeof here) != NULL ? here : ".");
+    snprintf(picture, sizeof picture, "%s/out.pfm", directory);
+    snprintf(log, sizeof log, "%s/stderr.txt", directory);
+    const char *const arguments[] = {"asbdpt", "render", "scene.pbrt", "--res",        "3x2",      "--spp", "2",
+                                     "-j1",    "-o",     "out.pfm",    "--integrator", integrator, NULL};
+    struct rusage before, after;
+    struct stat info;
+    remove(picture);
+    getrusage(RUSAGE_CHILDREN, &before);
+    int status = run(directory, program, arguments);
+    getrusage(RUSAGE_CHILDREN, &after);
+    double seconds = (double)(after.ru_utime.tv_sec - before.ru_utime.tv_sec + after.ru_stime.tv_sec -
+                              before.ru_stime.tv_sec);
+    CHECK(t, WIFEXITED(status) && WEXITSTATUS(status) <= 1, "%s, %s: ended with wait status %d", name, integrator,
+          status);
+    CHECK(t, stat(log, &info) == 0 && info.st_size > 0, "%s, %s: not a word", name, integrator);
+    CHECK(t, status != 0 || is_picture(picture), "%s, %s: no picture of finite numbers", name, integrator);
+    CHECK(t, status == 0 || stat(picture, &info) != 0, "%s, %s: a picture of a failure", name, integrator);
+    CHECK(t, seconds <= SECONDS, "%s, %s: %.0f s", name, integrator, seconds);
+    CHECK(t, after.ru_maxrss <= 1024L * MEGABYTES, "%s, %s: %ld KB", name, integrator, after.ru_maxrss);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+static void put_scene(const char *directory, const char *text, size_t length)
+{
+    char path[400];
+    snprintf(path, sizeof path, "%s/scene.pbrt", directory);
+    FILE *f = fopen(path, "wb");
+    if (f != NULL) {
+        fwrite(text, 1, length, f);
+        fclose(f);
+    }
+}
+
+/* Scenes that random bytes choose. Enough of them must be accepted to be rendered. */
+static void test_generated(struct test *t, const char *directory)
+{
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 41, 0);
+    int rendered = 0;
+    for (int i = 0; i < SCENES; i++) {
+        uint8_t bytes[400];
+        char name[64];
+        size_t n = 20 + rng_below(&r, sizeof bytes - 20), length;
+        for (size_t k = 0; k < n; k++)
+            bytes[k] = (uint8_t)(rng_u32(&r) >> 24);
+        char *text = hostile_scene(bytes, n, &length);
+        put_scene(directory, text, length);
+        free(text);
+        snprintf(name, sizeof name, "generated scene %d", i);
+        rendered += judge(t, directory, name, INTEGRATORS[i % 4]) == 0;
+    }
+    CHECK(t, rendered > SCENES / 4, "only %d of %d scenes are rendered", rendered, SCENES);
+    printf("  %d of %d generated scenes are rendered, the others refused\n", rendered, SCENES);
+}
+
+/* --- harm of one kind --------------------------------------------------------------------------------------- */
+
+/* A scene that says `line`, which may hold a %d for the number of the line, so many times. */
+struct repetition {
+    const char *name, *before, *line, *after;
+    int times, status;
+};
+
+static const struct repetition REPETITIONS[] = {
+    {"named materials", "WorldBegin", "MakeNamedMaterial \"m%d\" \"string type\" \"matte\" NamedMaterial \"m%d\"",
+     "WorldEnd", 200000, 0},
+    {"textures", "WorldBegin", "Texture \"t%d\" \"float\" \"constant\"", "WorldEnd", 200000, 0},
+    {"parameters of the integrator", "Integrator \"bdpt\"", "\"integer p%d\" 1", "WorldBegin WorldEnd", 100000, 1},
+    {"the same parameter", "WorldBegin Shape \"sphere\"", "\"float radius\" 1", "WorldEnd", 100000, 0},
+    {"infinite lights", "WorldBegin", "LightSource \"infinite\"", "WorldEnd", 10000, 0},
+    {"lamps", "WorldBegin Translate 0 0 3 AreaLightSource \"diffuse\"",
+     "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 ] \"point P\" [ %d 0 0 0 1 0 0 0 1 ]", "WorldEnd", 100000, 0},
+    {"open blocks", "WorldBegin", "AttributeBegin", "WorldEnd", 300000, 0},
+    {"nested objects", "WorldBegin ObjectBegin \"o0\" Shape \"sphere\"",
+     "ObjectEnd ObjectBegin \"o\" ObjectInstance \"o0\" ObjectInstance \"o\"",
+     "ObjectEnd ObjectInstance \"o\" WorldEnd", 10000, 0},
+    {"instances of nothing", "WorldBegin ObjectBegin \"o\" ObjectEnd", "ObjectInstance \"o\"", "WorldEnd", 100000, 0},
+    {"unknown directives", "WorldBegin", "Shpae%d", "WorldEnd", 100000, 1},
+    {"unknown names", "WorldBegin", "NamedMaterial \"m%d\"", "WorldEnd", 20000, 0},
+    {"textures within textures", "WorldBegin Texture \"t\" \"float\" \"constant\"",
+     "Texture \"t\" \"float\" \"scale\" \"texture tex1\" \"t\" \"texture tex2\" \"t\"", "WorldEnd", 30, 1},
+    {"includes of itself", "WorldBegin", "Include \"scene.pbrt\"", "WorldEnd", 1000, 1},
+    {"pipe", "", "Include \"pipe\"", "WorldBegin WorldEnd", 1, 0},
+    {"endless device", "", "Include \"/dev/zero\"", "WorldBegin WorldEnd", 1, 1},
+    {"a directory", "", "Include \".\"", "WorldBegin WorldEnd", 1, 1},
+    {"a film of 26 GB", "Film \"image\" \"integer xresolution\" 16384 \"integer yresolution\" 16384", "",
+     "WorldBegin WorldEnd", 1, 0}, /* --res makes it small */
+};
+
+static void test_repetitions(struct test *t, const char *directory)
+{
+    for (size_t i = 0; i < sizeof REPETITIONS / sizeof REPETITIONS[0]; i++) {
+        const struct repetition *r = &REPETITIONS[i];
+        size_t room = strlen(r->before) + strlen(r->after) + 16 + (size_t)r->times * (strlen(r->line) + 24), n = 0;
+        char *text = mem_alloc(room, 1);
+        n += (size_t)snprintf(text, room, "%s\n", r->before);
+        for (int k = 0; k < r->times; k++) {
+            for (const char *p = r->line; *p != '\0'; p++)
+                if (p[0] == '%' && p[1] == 'd')
+                    n += (size_t)snprintf(text + n, room - n, "%d", k), p++;
+                else
+                    text[n++] = *p;
+            text[n++] = '\n';
+        }
+        n += (size_t)snprintf(text + n, room - n, "%s\n", r->after);
+        put_scene(directory, text, n);
+        free(text);
+        int status = judge(t, directory, r->name, INTEGRATORS[i % 4]);
+        CHECK(t, status == r->status, "%s: exit status %d, not %d", r->name, status, r->status);
+    }
+}
+
+void test_hostile(struct test *t)
+{
+    char directory[256], pipe[300];
+    snprintf(directory, sizeof directory, "%s/hostile", test_tmp(t));
+    snprintf(pipe, sizeof pipe, "%s/pipe", directory);
+    CHECK(t, mkdir(directory, 0700) == 0 && mkfifo(pipe, 0600) == 0, "%s cannot be made", pipe);
+    fuzz_prepare(directory);
+    test_generated(t, directory);
+    test_repetitions(t, directory);
+}
