@@ -240,6 +240,47 @@ static void test_every_scene(struct test *t)
     }
 }
 
+/* --- the weights know what samples are worth ---------------------------------------------------------- */
+
+/* Mean over pixels of the variance between renders with seeds of their own. */
+static double variance_of(struct test *t, const struct scene *scene, const char *integrator, long spp)
+{
+    enum { SEEDS = 6 };
+    static float image[SEEDS][WIDTH * HEIGHT * 3];
+    double sum = 0;
+    for (int k = 0; k < SEEDS; k++) {
+        struct film film;
+        struct error err;
+        struct render_options o = {.integrator = integrator_find(integrator), .seed = (uint64_t)k + 1, .end = spp,
+                                   .n_threads = 2, .max_depth = 4};
+        film_init(&film, render_crop(scene), scene->width, scene->height);
+        CHECK(t, render_scene(scene, &o, &film, &err), "%s", err.text);
+        film_develop(&film, 1, image[k]);
+        film_free(&film);
+    }
+    for (int i = 0; i < WIDTH * HEIGHT * 3; i++) {
+        double mean = 0, square = 0;
+        for (int k = 0; k < SEEDS; k++)
+            mean += (double)image[k][i] / SEEDS;
+        for (int k = 0; k < SEEDS; k++)
+            square += sqr((double)image[k][i] - mean) / (SEEDS - 1);
+        sum += square / (WIDTH * HEIGHT * 3);
+    }
+    return sum;
+}
+
+/* An object under an even sky: the first bounce finds it best. Were light points alone counted for more than they are,
+ * they would take over weight from it, and asbdpt would have more variance than bdpt for as many samples. */
+static void test_even_sky(struct test *t)
+{
+    struct scene scene;
+    if (!scene_from_file(t, "scenes/features/light-infinite.pbrt", WIDTH, HEIGHT, &scene))
+        return;
+    double bdpt = variance_of(t, &scene, "bdpt", 64), asbdpt = variance_of(t, &scene, "asbdpt", 64);
+    CHECK(t, asbdpt < 0.95 * bdpt, "variance under an even sky: asbdpt %g, bdpt %g", asbdpt, bdpt);
+    scene_free(&scene);
+}
+
 /* --- reproducibility --------------------------------------------------------------------------------- */
 
 static void test_selection_threads(struct test *t)
@@ -269,5 +310,6 @@ void test_asbdpt(struct test *t)
     test_one_path(t);
     test_expected_vertices(t);
     test_every_scene(t);
+    test_even_sky(t);
     test_selection_threads(t);
 }

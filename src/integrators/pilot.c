@@ -25,6 +25,7 @@ static const double OUTLIER = 25; /* no squared relative deviation counts for mo
 struct sums {
     double total, given_eye;               /* variances relative to the squared brightness */
     double spread[N_KINDS], square[N_KINDS]; /* of the samples of one eye vertex: variance and squares of their sum */
+    double hit_spread, hit_square;           /* of a pixel's s = 0, t = 3: the same */
 };
 
 struct pilot {
@@ -115,6 +116,28 @@ static void add_records(const struct tile *tile, const double *scale, struct sum
     }
 }
 
+/* A pixel's light that was met by the eye sub-path's first bounce, of two renders with sub-paths of their own: value is
+ * room for 2 n numbers. */
+static void add_hits(const struct tile *a, const struct tile *b, const double *scale, double *value, size_t n,
+                     struct sums *out)
+{
+    memset(value, 0, 2 * n * sizeof *value);
+    for (int i = 0; i < 2; i++) {
+        const struct tile *tile = i == 0 ? a : b;
+        for (size_t k = 0; k < tile->n_records; k++) {
+            const struct strategy_record *r = &tile->record[k];
+            long at = r->s == 0 && r->t == 3 ? place_in_tile(tile, r->pixel) : -1;
+            if (at >= 0)
+                value[(size_t)i * n + (size_t)at] +=
+                    luminance_of(r->unweighted[0], r->unweighted[1], r->unweighted[2]) * (double)r->weight;
+        }
+    }
+    for (size_t i = 0; i < n; i++) {
+        out->hit_spread += fmin(sqr(value[i] - value[n + i]) / 2 / scale[i], OUTLIER);
+        out->hit_square += fmin((sqr(value[i]) + sqr(value[n + i])) / 2 / scale[i], OUTLIER);
+    }
+}
+
 /* Tile k lies around point k of the sequence R2 [Roberts 2018]. */
 static struct pixel_rect rect_of(const struct pilot *p, int64_t k)
 {
@@ -154,6 +177,7 @@ static void render_tile(void *context, int64_t job, int slot, int thread)
         found->total += fmin(sqr(value[i] - value[n + i]) / 2 / scale[i], OUTLIER);
         found->given_eye += fmin(sqr(value[i] - value[2 * n + i]) / 2 / scale[i], OUTLIER);
     }
+    add_hits(&p->tile[slot][0], &p->tile[slot][1], scale, value, n, found);
     free(value);
 }
 
@@ -164,6 +188,8 @@ static bool add_tile(void *context, int64_t job, int slot)
     const struct sums *s = &p->found[slot];
     p->sums.total += s->total;
     p->sums.given_eye += s->given_eye;
+    p->sums.hit_spread += s->hit_spread;
+    p->sums.hit_square += s->hit_square;
     for (int k = 0; k < N_KINDS; k++) {
         p->sums.spread[k] += s->spread[k] / RENDERS;
         p->sums.square[k] += s->square[k] / RENDERS;
@@ -206,6 +232,12 @@ static void costs(const struct selection *sel, double *fixed, double *cost)
     cost[LIGHT_PATH] = 1 + (1 + CONNECTION) * n_light;
 }
 
+/* What samples are worth to the weights, compared with independent ones: second moment over variance. */
+static double credit_of(double square, double spread)
+{
+    return spread > 0 ? clamp(square / spread, 1, MOST_CREDIT) : 1;
+}
+
 static void choose_numbers(struct selection *sel, const struct sums *s)
 {
     const double LEAST = 0.2, LEAST_PATH = 0.02; /* shares of the variance that A and light sub-paths have at least */
@@ -218,9 +250,10 @@ static void choose_numbers(struct selection *sel, const struct sums *s)
     for (int k = 0; k < N_KINDS; k++) {
         double best = cost[k] > 0 ? sqrt(b[k] * TRIED[k] / cost[k] * fixed / A) : USUAL[k];
         n[k] = USUAL[k] * m_pow(fmax(best, 1e-3) / USUAL[k], BOLDNESS);
-        credit[k] = s->spread[k] > 0 ? clamp(s->square[k] / s->spread[k], 1, MOST_CREDIT) : 1;
+        credit[k] = credit_of(s->square[k], s->spread[k]);
     }
     set_numbers(sel, n, credit);
+    sel->counts.hit = credit_of(s->hit_square, s->hit_spread);
 }
 
 static void make_memory(struct pilot *p, int n_slots)

@@ -12,7 +12,9 @@
  * machine. [Grittmann 2022] chooses among given candidates by the same product.
  *
  * It also finds how much more a sample is worth to the weights than an independent one, the ratio of its second moment
- * to its variance [Grittmann 2019].
+ * to its variance [Grittmann 2019]: for draws, for light points, and for lights met by the first bounce (s = 0, t = 3),
+ * whose directions are well spread too. Leaving out the last would take weight from it where it serves best, under an
+ * even sky.
  *
  * Tests: test_asbdpt.c.
  */
