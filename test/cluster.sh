@@ -1,6 +1,6 @@
 #!/bin/sh
-# cluster.sh: the recipes of doc/cluster, run for real: parts by make, by GNU parallel, and by a Slurm of one machine, in
-# which a part is stopped and put into the queue again. Each must give the bytes of the whole picture.
+# cluster.sh: the recipes of doc/cluster, run for real: parts by make, by GNU parallel, and by a Slurm of one machine,
+# in which a part is stopped and put into the queue again. Each must give the bytes of the whole picture.
 #   sh test/cluster.sh PROGRAM
 # What is not installed, or cannot be started here, is skipped with a line.
 set -u
