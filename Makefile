@@ -39,6 +39,10 @@ $(BUILD)/test: $(TESTS)
 $(BUILD)/fuzz: $(FUZZED)
 	$(CC) $(FLAGS) -fsanitize=fuzzer $(CFLAGS) -o $@ $(FUZZED) $(LDFLAGS) $(LIBS)
 
+# the program, but for functions that may fail: test/fuzz/inject.c has others in their place
+$(BUILD)/inject: $(OBJECTS) $(BUILD)/obj/test/fuzz/inject.o
+	$(CC) $(FLAGS) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(LIBS)
+
 $(BUILD)/obj/test/%.o: test/%.c
 	@mkdir -p $(@D)
 	$(CC) $(FLAGS) -MMD -MP $(CFLAGS) -c -o $@ $<
@@ -77,13 +81,13 @@ ref: asbdpt ## render the stored references of ref/ again (an hour; goes on wher
 	sh ref/make-ref.sh $(PROGRAM)
 
 # ---- what proves it ----
-test: asbdpt $(BUILD)/test layers standard references columns faults links ## build and run the test suite (under 3 minutes)
+test: asbdpt $(BUILD)/test layers standard references columns faults links limits ## build and run the test suite (under 3 minutes)
 	sh test/cli.sh $(PROGRAM)
 	sh test/mini.sh $(PROGRAM)
 	sh test/keep.sh $(PROGRAM)
 	$(BUILD)/test
 
-check-long: asbdpt $(BUILD)/test experiments portability ## the tests that take longer
+check-long: asbdpt $(BUILD)/test experiments portability inject ## the tests that take longer
 	$(BUILD)/test --slow
 	sh test/keep.sh $(PROGRAM) 100
 
@@ -114,6 +118,11 @@ references: ## check that every source named in a comment is in doc/references.m
 faults: ## check that every fault of the list of mutants still applies
 	@sh test/mutants/check.sh
 
+.PHONY: limits
+limits: ## check that doc/SECURITY.md says what the limits of the program are
+	@sh test/limits.sh
+	@sed 's/65536/65535/' doc/SECURITY.md | sh test/limits.sh /dev/stdin >/dev/null && echo "a wrong limit is not noticed" && exit 1; true
+
 columns: ## check that no line is longer than .clang-format allows, and that all are ASCII
 	@sh test/columns.sh
 
@@ -125,6 +134,12 @@ links: ## check that links, functions, tests and mutants named in the documents 
 san: ## run the tests under the address and undefined-behaviour sanitizers
 	$(MAKE) BUILD=build-san OPT="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all" build-san/test
 	build-san/test
+
+INJECTED = calloc realloc fwrite fprintf fputs fputc fclose fsync fdopen rename pthread_create
+.PHONY: inject
+inject: ## make every allocation, write, close, rename and thread fail once, and see what the program does
+	$(MAKE) BUILD=build-inject LTO= OPT="-O1 $(foreach name,$(INJECTED),-D$(name)=inject_$(name))" build-inject/inject
+	sh test/inject.sh build-inject/inject
 
 .PHONY: fuzz
 fuzz: ## build build-fuzz/fuzz, which feeds every reader with damaged input (clang; sh test/fuzz/run.sh runs it)

@@ -337,8 +337,12 @@ FILE *os_create_new(const char *path, const char *like)
     (void)like;
     int fd = _open(path, _O_WRONLY | _O_CREAT | _O_EXCL | _O_BINARY, _S_IREAD | _S_IWRITE);
     FILE *f = fd >= 0 ? _fdopen(fd, "wb") : NULL;
-    if (f == NULL && fd >= 0)
+    int reason = errno;
+    if (f == NULL && fd >= 0) {
         _close(fd);
+        _unlink(path);
+        errno = reason;
+    }
     return f;
 }
 
@@ -404,8 +408,12 @@ FILE *os_create_new(const char *path, const char *like)
     struct stat info;
     int fd = open(path, O_WRONLY | O_CREAT | O_EXCL, 0666);
     FILE *f = fd >= 0 ? fdopen(fd, "wb") : NULL;
-    if (f == NULL && fd >= 0)
+    int reason = errno;
+    if (f == NULL && fd >= 0) {
         close(fd);
+        unlink(path);
+        errno = reason;
+    }
 #ifndef __wasi__
     if (f != NULL && stat(like, &info) == 0)
         fchmod(fd, info.st_mode & 0777);
