@@ -73,6 +73,10 @@ experiments: asbdpt ## measure all integrators on the five scenes, quickly, into
 	$(PROGRAM) experiment --quick -o out/experiments
 	sh test/report_browser.sh out/experiments/report.html
 
+web: asbdpt ## build and test the page that renders, out/asbdpt.html, where clang can compile for wasm32-wasi
+	sh doc/web/build.sh out/asbdpt.html
+	sh test/web.sh out/asbdpt.html
+
 bench: asbdpt ## measure speed and memory on the scenes (or SCENES="..."), beside doc/bench-baseline.json
 	@mkdir -p out
 	$(PROGRAM) bench $(SCENES) --json out/bench.json --baseline doc/bench-baseline.json
@@ -87,7 +91,7 @@ test: asbdpt $(BUILD)/test layers standard references columns faults links limit
 	sh test/keep.sh $(PROGRAM)
 	$(BUILD)/test
 
-check-long: asbdpt $(BUILD)/test experiments portability inject ## the tests that take longer
+check-long: asbdpt $(BUILD)/test experiments web portability inject ## the tests that take longer
 	$(BUILD)/test --slow
 	sh test/keep.sh $(PROGRAM) 100
 
@@ -165,5 +169,5 @@ help: ## list the targets
 clean: ## remove everything that was built
 	rm -rf build build-* out asbdpt
 
-.PHONY: all install uninstall demo experiments bench ref test check-long check-ref portability hashes faults mutants layers standard \
+.PHONY: all install uninstall demo experiments web bench ref test check-long check-ref portability hashes faults mutants layers standard \
 	references columns links doc figures san tsan stats help clean

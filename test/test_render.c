@@ -202,6 +202,43 @@ static void test_thread_counts(struct test *t)
     scene_free(&scene);
 }
 
+/* The length of blocks says how often a render is at the end of one; it does not change the picture. */
+struct ends {
+    const struct film *film;
+    long n;
+};
+
+static bool count_end(void *context, double done)
+{
+    struct ends *e = context;
+    (void)done;
+    e->n += e->film->passes == 0;
+    return true;
+}
+
+static void test_blocks(struct test *t)
+{
+    enum { SPP = 6 };
+    struct scene scene;
+    struct film film[2];
+    struct error err;
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 20, 20, &scene)) /* four tiles */
+        return;
+    for (int block = 0; block < 2; block++) {
+        struct ends ends = {&film[block], 0};
+        struct render_options o = {.integrator = integrator_find("bdpt"), .end = SPP, .block = block, .n_threads = 2,
+                                   .progress = count_end, .progress_context = &ends};
+        film_init(&film[block], render_crop(&scene), 20, 20);
+        CHECK(t, render_scene(&scene, &o, &film[block], &err), "%s", err.text);
+        CHECK(t, ends.n == (block == 1 ? SPP : 1), "block %d: %ld ends", block, ends.n);
+    }
+    for (size_t i = 0; i < 20 * 20 * 3; i++)
+        CHECK(t, film_value(&film[0], i) == film_value(&film[1], i), "value %lu differs", (unsigned long)i);
+    film_free(&film[0]);
+    film_free(&film[1]);
+    scene_free(&scene);
+}
+
 /* --- Russian roulette -------------------------------------------------------------------------------- */
 
 /* Each integrator has its own default threshold, whatever parameters of other integrators are set; the user's wins. */
@@ -311,6 +348,7 @@ void test_render(struct test *t)
     test_empty(t);
     test_agreement(t);
     test_thread_counts(t);
+    test_blocks(t);
     test_roulette_defaults(t);
     test_crop(t);
     test_filters(t);

@@ -154,7 +154,7 @@ static bool cut(struct run *r, struct error *err)
 {
     struct pass_size *size = &r->prepared.size;
     if (size->block == 0)
-        size->block = choose_block(r->job.film_rect);
+        size->block = r->options->block > 0 ? r->options->block : choose_block(r->job.film_rect);
     r->tiles_x = (rect_width(r->job.film_rect) + size->tile - 1) / size->tile;
     r->tiles_y = (rect_height(r->job.film_rect) + size->tile - 1) / size->tile;
     r->begun = r->film->passes;

@@ -24,6 +24,7 @@ struct render_options {
     long first, end; /* iterations [first, end) of every pixel */
     long planned;    /* samples per pixel of the whole picture if these are a part of it; 0: `end` */
     bool is_part;    /* these are to be added to others: they must be whole blocks, for an integrator that has any */
+    int block;     /* iterations of a block where the integrator leaves that open; 0: by the picture's size */
     int n_threads; /* 0: one per processor */
     int max_depth; /* 0: what the scene says, else 5 */
     /* Called after each tile pass with the share of the work done, in [0,1], one call at a time and while nothing else

@@ -1,0 +1,39 @@
+#!/bin/sh
+# build.sh OUT.html [CLANG]: the page that renders, as one file: page.html with worker.js, the program as WebAssembly,
+# the scenes and their references in it. Needs clang with lld, wasi-libc and libclang-rt for wasm32 (Debian: clang, lld,
+# wasi-libc, libclang-rt-dev-wasm32); without them it says so and makes nothing. Run from the top; `make web` calls it.
+out=$1
+clang=${2:-clang}
+dir=$(mktemp -d) || exit 1
+trap 'rm -rf "$dir"' EXIT
+target="--target=wasm32-wasi -mexec-model=reactor"
+echo 'void f(void); void f(void) {}' >"$dir/a.c"
+if ! command -v "$clang" >/dev/null || ! "$clang" $target -o "$dir/a.wasm" "$dir/a.c" 2>/dev/null; then
+    echo "web: skipped, $clang cannot compile for wasm32-wasi here"
+    exit 0
+fi
+sources=$(ls src/*/*.c | grep -v '^src/cli/main\.c$')
+"$clang" $target -std=c99 -O3 -Isrc -ffp-contract=off -D_WASI_EMULATED_SIGNAL -Wl,-z,stack-size=4194304,-s \
+    -Wl,--allow-undefined,--export=web_words,--export=web_command,--export=web_render \
+    -o "$dir/web.wasm" $sources doc/web/web.c -lm -lwasi-emulated-signal || exit 1
+
+embed() { # ATTRIBUTES FILE: a script that is none, with the file in it
+    echo "<script type=\"text/plain\" $1>"
+    base64 <"$2" | tr -d '\n'
+    echo '</script>'
+}
+{
+    sed '/^<!-- EMBEDDED -->$/,$d' doc/web/page.html
+    embed 'id="wasm"' "$dir/web.wasm"
+    echo '<script type="text/plain" id="worker">'
+    cat doc/web/worker.js
+    echo '</script>'
+    for reference in ref/*.txt; do
+        name=$(basename "$reference" .txt)
+        for file in "ref/$name.pfm" "scenes/$name.pbrt" "scenes/$name"/*; do
+            [ -f "$file" ] && embed "data-path=\"$file\"" "$file"
+        done
+    done
+    sed '1,/^<!-- EMBEDDED -->$/d' doc/web/page.html
+} >"$dir/page.html" && mkdir -p "$(dirname "$out")" && mv "$dir/page.html" "$out" &&
+    echo "wrote $out, $(wc -c <"$out" | tr -d ' ') bytes"

@@ -1,0 +1,123 @@
+#!/bin/sh
+# web.sh PAGE: the page that renders, in a headless Chromium, from a file and without a network: both
+# pictures grow and their errors fall, every control does what it says, a click tells a sample, and the floats of a
+# finished picture are the native program's, bit for bit. Skipped with a line where there is no page, since nothing here
+# compiles for WebAssembly, or no Chromium. Run from the top: sh test/web.sh out/asbdpt.html
+page=$1
+for browser in ${CHROMIUM:-chromium chromium-browser google-chrome chrome} none; do
+    command -v "$browser" >/dev/null 2>&1 && break
+done
+[ -s "$page" ] || { echo "page that renders: skipped, $page was not built"; exit 0; }
+[ "$browser" = none ] && { echo "page that renders: skipped, no Chromium is installed"; exit 0; }
+dir=$(mktemp -d) || exit 1
+trap 'rm -rf "$dir"' EXIT
+
+# What the native program makes of what the page is going to be asked: the bytes of the pixels, top row first.
+native() { # NAME OPTION...
+    name=$1
+    shift
+    ./asbdpt render scenes/cornell-box.pbrt --filter box --res 64x64 --spp 8 --quiet -o "$dir/$name.pfm" "$@" || exit 1
+    row=$((64 * 12))
+    for y in $(seq 1 64); do # the file has the lowest row first
+        tail -c $((y * row)) "$dir/$name.pfm" | head -c $row
+    done | od -An -v -tu1 | awk '{ for (i = 1; i <= NF; i++) sum = (sum * 31 + $i) % 1000003 } END { print sum + 0 }'
+}
+bdpt=$(native bdpt --integrator bdpt)
+bins=$(native bins --integrator asbdpt -P select=bins -P connections=0 -P binpaths=4 -P restart=4)
+
+{
+    cat "$page"
+    cat <<END
+<script>
+const NATIVE = [$bdpt, $bins];
+END
+    cat <<'END'
+const wrong = [], check = (ok, text) => { if (!ok) wrong.push(text); };
+const sleep = ms => new Promise(done => setTimeout(done, ms));
+const until = async (what, text) => {
+  for (let i = 0; i < 600; i++) {
+    if (what()) return;
+    await sleep(100);
+  }
+  check(false, 'waited in vain for: ' + text + ' ' + $('error').textContent);
+};
+const turn = (id, value) => { $(id).value = value; $(id).dispatchEvent(new Event('input', { bubbles: true })); };
+const sum = bytes => bytes.reduce((s, v) => (s * 31 + v) % 1000003, 0);
+const done = () => sides.every(s => s.done);
+async function rendered(settings) {
+  for (const [id, value] of settings) turn(id, value);
+  await sleep(400); // the page waits for the last of several changes
+  await until(done, 'the end of a render with ' + settings.join(' '));
+}
+(async () => {
+  check(SCENES.length === 11, 'scenes: ' + SCENES);
+  check(sides.every(s => s.worker), 'it does not start by itself');
+  turn('scale', 2);
+  turn('spp', 4);
+  await rendered([['scene', 'cornell-box'], ['select', 'vertices']]);
+  for (const [i, side] of sides.entries()) {
+    check(side.points.length === 16, `side ${i}: ${side.points.length} pictures of 16`);
+    check(side.points[15][1] < 0.5 * side.points[0][1], `side ${i}: the error does not fall: ` +
+      side.points.map(p => p[1].toFixed(1)));
+    check(Math.abs(side.points[15][2]) < 4, `side ${i}: the mean is off by ${side.points[15][2]} %`);
+    check($(`picture${i}`).width === 64 && $(`caption${i}`).textContent.includes('16 of 16'), `side ${i}: caption`);
+    const data = $(`picture${i}`).getContext('2d').getImageData(0, 0, 64, 64).data;
+    check(new Set(data).size > 100, `side ${i}: the picture is empty`);
+  }
+  await sleep(200);
+  check($('plot0').querySelectorAll('path').length > 6 && $('plot1').querySelectorAll('path').length > 4, 'plots');
+  check($('verdict').textContent.includes('times that of bdpt'), 'verdict');
+
+  // The sliders reach the renderer: other numbers, other pictures; only those that the choice has can be moved.
+  const before = sum(sides[1].last.pixels), error = sides[1].points[15][1];
+  check(!$('connections').disabled && $('binpaths').disabled && $('restart').disabled, 'sliders of vertices');
+  await rendered([['connections', 16]]);
+  check(sum(sides[1].last.pixels) !== before, 'connections change nothing');
+  check(sides[1].points[15][1] < error, 'more connections do not lower the error');
+  await rendered([['spp', 3], ['connections', 0], ['select', 'bins'], ['binpaths', 4], ['restart', 4]]);
+  check($('connections').disabled && !$('binpaths').disabled && !$('restart').disabled, 'sliders of bins');
+  sides.forEach((side, i) => check(sum(side.last.pixels) === NATIVE[i], `side ${i}: other bytes than the program`));
+  const bins = sum(sides[1].last.pixels);
+  await rendered([['binpaths', 8]]);
+  check(sum(sides[1].last.pixels) !== bins, 'binpaths change nothing');
+  await rendered([['binpaths', 4], ['restart', 0]]);
+  check(sum(sides[1].last.pixels) !== bins, 'restart changes nothing');
+
+  // A click.
+  for (const [i, words] of [[0, 'pixel 32,16, sample 0: bdpt'], [1, 'pixel 32,16, sample 0: asbdpt']]) {
+    const box = $(`picture${i}`).getBoundingClientRect();
+    $(`picture${i}`).dispatchEvent(new MouseEvent('click', { bubbles: true,
+      clientX: box.left + 32.5 / 64 * box.width, clientY: box.top + 16.5 / 64 * box.height }));
+    await until(() => $('story').textContent.includes(words), words);
+    await until(() => $('drawing').naturalWidth > 1000, 'the drawing');
+  }
+  check(/bin 0: beta/.test($('story').textContent), 'the bins are told');
+  $('sample').value = 5;
+  $('sample').dispatchEvent(new Event('change'));
+  await until(() => $('story').textContent.includes('sample 5'), 'another sample');
+  check(performance.getEntriesByType('resource').every(e => /^(data|blob):/.test(e.name)), 'the page loads something');
+  check($('error').textContent === '', 'it says: ' + $('error').textContent);
+})().catch(e => wrong.push(String(e))).then(() =>
+  console.log('WEB ' + (wrong.length ? 'WRONG: ' + wrong.join('; ') : 'ALL RIGHT') + ' END'));
+</script>
+END
+} >"$dir/reader.html"
+
+# A browser that knows no other time than the clock's, until it has said how it went.
+"$browser" --headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking \
+    --disable-component-update --disable-sync --user-data-dir="$dir/profile" --remote-debugging-port=0 \
+    --enable-logging=stderr --window-size=1200,1500 "file://$dir/reader.html" >/dev/null 2>"$dir/log" &
+pid=$!
+i=0
+while [ $i -lt 150 ] && ! grep -q 'WEB .* END' "$dir/log" && kill -0 $pid 2>/dev/null; do
+    sleep 1
+    i=$((i + 1))
+done
+kill $pid 2>/dev/null
+wait $pid 2>/dev/null
+if grep -q 'WEB ALL RIGHT END' "$dir/log"; then
+    echo "page that renders: all as expected"
+    exit 0
+fi
+echo "FAIL: $page: $(grep -o 'WEB .* END' "$dir/log" || tail -n 3 "$dir/log")"
+exit 1
