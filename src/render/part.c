@@ -3,11 +3,13 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/file.h"
 #include "base/mem.h"
+#include "base/number.h"
 #include "base/os.h"
 #include "image/zlib.h"
 
@@ -182,10 +184,12 @@ static bool read_numbers(const char *text, struct part *p)
     if (size == NULL || scale == NULL || samples == NULL || done == NULL || left_out == NULL)
         return false;
     p->scale = strtod(scale, NULL);
-    return sscanf(size, "%d %d", &p->width, &p->height) == 2 && p->width > 0 && p->height > 0 &&
+    return p->scale >= 0 && p->scale <= NUMBER_MAX &&
+           sscanf(size, "%d %d", &p->width, &p->height) == 2 && p->width > 0 && p->height > 0 &&
            picture_size_ok((unsigned long)p->width, (unsigned long)p->height, &ignored) &&
            sscanf(samples, "%ld %ld", &p->first, &p->end) == 2 &&
            sscanf(done, "%ld %" SCNd64, &p->done, &p->passes) == 2 && sscanf(left_out, "%ld", &p->left_out) == 1 &&
+           p->left_out >= 0 &&
            p->first >= 0 && p->end > p->first && p->done >= 0 && p->done <= p->end - p->first && p->passes >= 0;
 }
 
@@ -217,8 +221,13 @@ FILE *part_open(const char *path, struct part *out, struct error *err)
         error_set(err, "%s: cannot be opened: %s", path, strerror(errno));
         return NULL;
     }
-    if (read_header(f, path, out, err))
-        return f;
+    uint64_t size;
+    if (read_header(f, path, out, err)) {
+        if (!os_regular(f, &size) || size >= sums_of(out)) /* a byte each at least: before memory is taken for them */
+            return f;
+        error_set(err, "%s: the part is damaged or cut off", path);
+        part_free(out);
+    }
     fclose(f);
     return NULL;
 }
@@ -250,7 +259,7 @@ bool part_add(FILE *file, const char *path, const struct part *p, struct film *f
     fclose(file);
     film->iterations += p->done;
     film->passes = p->passes;
-    film->nonfinite += p->left_out;
+    film->nonfinite = p->left_out < LONG_MAX - film->nonfinite ? film->nonfinite + p->left_out : LONG_MAX;
     return ok || error_set(err, "%s: the part is damaged or cut off", path);
 }
 

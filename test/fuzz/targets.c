@@ -19,6 +19,7 @@
 #include "lab/results.h"
 #include "parser/parser.h"
 #include "render/parameters.h"
+#include "render/part.h"
 #include "render/render.h"
 
 /* A broken promise: whoever runs the target reports it with the input. */
@@ -86,7 +87,43 @@ static void read_picture(picture_reader read, const uint8_t *data, size_t size, 
     image_free(&img);
 }
 
-static void fuzz_png(const uint8_t *data, size_t size, const char *dir) { read_picture(png_read, data, size, dir); }
+/* One more chunk at the end of a file in memory. */
+static void add_chunk(uint8_t *file, size_t *used, const char *name, const uint8_t *data, size_t size)
+{
+    uint8_t *at = file + *used;
+    for (size_t i = 0; i < 4; i++)
+        at[i] = (uint8_t)(size >> (24 - 8 * i) & 255);
+    memcpy(at + 4, name, 4);
+    memcpy(at + 8, data, size);
+    uint32_t crc = checksum_crc32(0, at + 4, size + 4);
+    for (size_t i = 0; i < 4; i++)
+        at[8 + size + i] = (uint8_t)(crc >> (24 - 8 * i) & 255);
+    *used += size + 12;
+}
+
+/* A PNG file as it is, or, without its signature, what is in one: width, height, depth, colour, interlacing, a palette
+ * and the rows. Checksums would keep out almost every change otherwise. */
+static void fuzz_png(const uint8_t *data, size_t size, const char *directory)
+{
+    enum { HEAD = 5, PALETTE = 12 };
+    if (png_matches(data, size) || size < HEAD + PALETTE) {
+        read_picture(png_read, data, size, directory);
+        return;
+    }
+    const uint8_t header[13] = {[3] = data[0], [7] = data[1], [8] = data[2], [9] = data[3], [12] = data[4]};
+    size_t packed_size, used = 8;
+    uint8_t *packed = deflate_zlib(data + HEAD + PALETTE, size - HEAD - PALETTE, &packed_size);
+    uint8_t *file = mem_alloc(packed_size + 200, 1);
+    memcpy(file, "\x89PNG\r\n\x1a\n", 8);
+    add_chunk(file, &used, "IHDR", header, sizeof header);
+    add_chunk(file, &used, "PLTE", data + HEAD, PALETTE);
+    add_chunk(file, &used, "IDAT", packed, packed_size);
+    add_chunk(file, &used, "IEND", packed, 0);
+    read_picture(png_read, file, used, directory);
+    free(packed);
+    free(file);
+}
+
 static void fuzz_tga(const uint8_t *data, size_t size, const char *dir) { read_picture(tga_read, data, size, dir); }
 static void fuzz_pfm(const uint8_t *data, size_t size, const char *dir) { read_picture(pfm_read, data, size, dir); }
 static void fuzz_ppm(const uint8_t *data, size_t size, const char *dir) { read_picture(ppm_read, data, size, dir); }
@@ -141,6 +178,48 @@ static void fuzz_run(const uint8_t *data, size_t size, const char *directory)
     if (run_read(path, "key", 2, &run) && run.n != 2)
         broken("a run of another number of steps is accepted");
     free(path);
+}
+
+/* A checkpoint. Its checksums are put right, or no change of anything else would get beyond them. */
+static void fuzz_part(const uint8_t *data, size_t size, const char *directory)
+{
+    char *bytes = mem_alloc(size + 1, 1), hex[16];
+    memcpy(bytes, data, size);
+    char *check = strstr(bytes, "\ncheck ");
+    if (check != NULL && size - (size_t)(check - bytes) >= 20) {
+        size_t head = (size_t)(check - bytes) + 1, body = head + 15, n = size - 4 - body;
+        snprintf(hex, sizeof hex, "%08lx\n", (unsigned long)checksum_crc32(0, (const uint8_t *)bytes, head));
+        memcpy(bytes + head + 6, hex, 9);
+        uint32_t crc = size >= body + 4 ? checksum_crc32(0, (const uint8_t *)bytes + body, n) : 0;
+        for (size_t i = 0; i < 4 && size >= body + 4; i++)
+            bytes[size - 4 + i] = (char)(crc >> 8 * i & 255);
+    }
+    char *path = put_file(directory, "x.part", bytes, size);
+    struct part part;
+    struct film film;
+    struct error err = {""};
+    FILE *f = part_open(path, &part, &err);
+    if (f != NULL && (int64_t)part.width * part.height <= (int64_t)size) {
+        struct pixel_rect all = {0, 0, part.width, part.height};
+        float *pixels = mem_alloc((size_t)part.width * (size_t)part.height * 3, sizeof *pixels);
+        film_init(&film, all, part.width, part.height);
+        if (part_add(f, path, &part, &film, &err)) {
+            film_develop(&film, part.scale, pixels);
+            for (size_t i = 0; i < 3 * (size_t)part.width * (size_t)part.height; i++)
+                if (!isfinite(pixels[i]))
+                    broken("a pixel of a part is no number");
+        }
+        film_free(&film);
+        free(pixels);
+    } else if (f != NULL) {
+        broken("a part is larger than its file");
+    }
+    if (f != NULL)
+        part_free(&part);
+    else if (err.text[0] == '\0')
+        broken("a part is refused without a message");
+    free(path);
+    free(bytes);
 }
 
 /* --- scenes --------------------------------------------------------------------------------------------- */
@@ -223,7 +302,7 @@ static void fuzz_hostile(const uint8_t *data, size_t size, const char *directory
 const struct fuzz_target fuzz_targets[] = {
     {"png", fuzz_png},   {"tga", fuzz_tga}, {"pfm", fuzz_pfm},     {"ppm", fuzz_ppm},
     {"exr", fuzz_exr},   {"hdr", fuzz_hdr}, {"inflate", fuzz_inflate}, {"ply", fuzz_ply},
-    {"run", fuzz_run},   {"scene", fuzz_scene}, {"hostile", fuzz_hostile}, {NULL, NULL}};
+    {"part", fuzz_part}, {"run", fuzz_run},   {"scene", fuzz_scene}, {"hostile", fuzz_hostile}, {NULL, NULL}};
 
 const struct fuzz_target *fuzz_find(const char *name)
 {
