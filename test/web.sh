@@ -89,12 +89,14 @@ async function rendered(settings) {
     $(`picture${i}`).dispatchEvent(new MouseEvent('click', { bubbles: true,
       clientX: box.left + 32.5 / 64 * box.width, clientY: box.top + 16.5 / 64 * box.height }));
     await until(() => $('story').textContent.includes(words), words);
+    check($('story').textContent.endsWith('outside the picture\n'), 'the story is cut');
     await until(() => $('drawing').naturalWidth > 1000, 'the drawing');
   }
   check(/bin 0: beta/.test($('story').textContent), 'the bins are told');
   $('sample').value = 5;
   $('sample').dispatchEvent(new Event('change'));
   await until(() => $('story').textContent.includes('sample 5'), 'another sample');
+  check(document.documentElement.scrollWidth <= window.innerWidth + 1, 'the page is wider than the window');
   check(performance.getEntriesByType('resource').every(e => /^(data|blob):/.test(e.name)), 'the page loads something');
   check($('error').textContent === '', 'it says: ' + $('error').textContent);
 })().catch(e => wrong.push(String(e))).then(() =>

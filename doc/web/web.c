@@ -54,6 +54,7 @@ int web_command(int n)
 {
     char **argv = arguments(n);
     int status = command_line(n, argv);
+    fflush(stdout); /* nobody else does: the program does not end here */
     free(argv);
     return status;
 }
