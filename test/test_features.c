@@ -15,7 +15,7 @@
 #include "tests.h"
 
 static const char FEATURES[] = "scenes/features";
-enum { MAX_SCENES = 200, NAME = 64, TEXT = 512, SIZE = 12, SPP = 4, BATCHES = 8, TILE = 6 };
+enum { MAX_SCENES = 200, NAME = 64, TEXT = 512, SIZE = 12, SPP = 4, BATCHES = 10, TILE = 6 };
 
 /* What a scene's warnings are compared with. */
 struct expected {

@@ -180,6 +180,28 @@ static void test_damaged_map(struct test *t)
     scene_free(&scene);
 }
 
+/* The numbers of a map are taken as they stand in its file, also those of 8-bit pictures, which are written as sRGB. */
+static void test_stored_map(struct test *t)
+{
+    static const char *const names[] = {"grey.pfm", "grey.png", "grey.tga", "grey.ppm"};
+    float pixels[2 * 3];
+    for (int i = 0; i < 2 * 3; i++)
+        pixels[i] = 0.5f;
+    for (int i = 0; i < 4; i++) {
+        char path[256];
+        struct error err = {""};
+        snprintf(path, sizeof path, "%s/%s", test_tmp(t), names[i]);
+        CHECK(t, image_write(path, 2, 1, pixels, &err), "%s", err.text);
+        struct envmap *e = envmap_load(path, &err);
+        if (!CHECK(t, e != NULL, "%s", err.text))
+            continue;
+        double expected = i == 0 ? 0.5 : 188 / 255.0, L = envmap_lookup(e, vec(1, 0, 0)).g;
+        CHECK(t, fabs(L - expected) < 1e-6 && fabs(e->mean.g - expected) < 1e-6, "%s: %g, mean %g, not %g", names[i], L,
+              e->mean.g, expected);
+        envmap_free(e);
+    }
+}
+
 /* What a light emits by light_sample_emission, against the sum of its intensity over a fine grid of directions. */
 static void check_energy(struct test *t, const struct light_set *lights, const struct light_point *at,
                          const char *name)
@@ -279,4 +301,5 @@ void test_light(struct test *t)
     test_slide_places(t);
     test_environment(t);
     test_damaged_map(t);
+    test_stored_map(t);
 }

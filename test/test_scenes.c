@@ -26,6 +26,7 @@ static void test_analytic(struct test *t)
         {"furnace-sphere", 2 * (1 - 0.5 / 4096), 2 * (1 - 0.5 / 4096), 8},
         {"furnace-open", 0.998, 1, 4},
         {"disk-light", 0.4, 0.4, 32},
+        {"two-sided-lamp", 0.5, 0.5, 32},
         {"glass-sheets", 1.6 - 2e-6, 1.6, 64},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {

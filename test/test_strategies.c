@@ -1,9 +1,10 @@
 /* test_strategies.c: every strategy (s,t) alone, unweighted, has the expectation of all the others of its path length.
  *
- * Only then may their weights be chosen freely. Five scenes without delta lobes or delta lights, so that every
+ * Only then may their weights be chosen freely. Six scenes without delta lobes or delta lights, so that every
  * strategy can make every path; surfaces do not touch, so that no connection is short and its geometry factor has a
  * variance. In the second, shading normals lean: without the adjoint factor [V97 5.3] strategies would differ. In the
- * third, rays pass through the light: s = 0 meets it on the way, once from outside and once from inside.
+ * fifth, rays pass through the light: s = 0 meets it on the way, once from outside and once from inside. In the sixth,
+ * the light has holes: s = 0 never meets them.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -60,6 +61,16 @@ static const char PASSED[] =
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 1 3.8  2 1 3.8  2 3.4 3.8  -2 3.4 3.8]\n"
     "Material \"none\" AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] \"bool twosided\" \"true\"\n"
     "Translate 0 1 0 Shape \"sphere\" \"float radius\" 2.6 WorldEnd\n";
+
+/* A light with holes, where it neither shines nor stops light: a chequered alpha texture. */
+static const char HOLED[] = PERSPECTIVE
+    "Film \"image\" \"integer xresolution\" 12 \"integer yresolution\" 12 PixelFilter \"triangle\" WorldBegin\n"
+    "Texture \"holes\" \"float\" \"checkerboard\" \"float uscale\" 3 \"float vscale\" 3\n"
+    "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [9 9 9] Material \"matte\" \"rgb Kd\" [.5 .5 .5]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 4 -2  2 4 -2  2 4 2  -2 4 2]\n"
+    "  \"float uv\" [0 0 1 0 1 1 0 1] \"texture alpha\" \"holes\" AttributeEnd\n"
+    "Material \"matte\" \"rgb Kd\" [.8 .7 .6] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
+    "  \"point P\" [-1.5 0 -1.5  1.5 0 -1.5  1.5 0 1.5  -1.5 0 1.5]\n" WALL;
 
 /* Mean of the unweighted image of each strategy. */
 static void strategy_means(const struct film *film, double *out)
@@ -128,4 +139,5 @@ void test_strategies(struct test *t)
     test_scene(t, "orthographic camera", PARALLEL);
     test_scene(t, "environment camera", AROUND);
     test_scene(t, "a light that rays pass through", PASSED);
+    test_scene(t, "a light with holes", HOLED);
 }

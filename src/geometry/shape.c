@@ -256,7 +256,7 @@ double shape_area(const struct geometry *geo, int prim)
 }
 
 /* Position and normal as triangle_surface has them, and no more: every light sampled comes through here. */
-static void sample_triangle(const struct geometry *geo, int prim, double u1, double u2, struct surface *out,
+static bool sample_triangle(const struct geometry *geo, int prim, double u1, double u2, struct surface *out,
                             double *pdf_a)
 {
     const struct shape_group *group = shape_group_of(geo, prim);
@@ -273,16 +273,17 @@ static void sample_triangle(const struct geometry *geo, int prim, double u1, dou
         out->ng = faceforward(out->ng, barycentric3(n, b1, b2));
     }
     *pdf_a = 1 / (0.5 * length(normal));
+    const struct hit hit = {0, b1, b2, prim};
+    return group->alpha < 0 || geo->opaque == NULL || geo->opaque(geo->opaque_context, geo, &hit, false);
 }
 
-void shape_sample(const struct geometry *geo, int prim, double u1, double u2, struct surface *out, double *pdf_a)
+bool shape_sample(const struct geometry *geo, int prim, double u1, double u2, struct surface *out, double *pdf_a)
 {
-    if (!is_quadric(prim)) {
-        sample_triangle(geo, prim, u1, u2, out, pdf_a);
-        return;
-    }
+    if (!is_quadric(prim))
+        return sample_triangle(geo, prim, u1, u2, out, pdf_a);
     quadric_point(geo, prim, quadric_sample(quadric_of(geo, prim), u1, u2), out);
     *pdf_a = shape_pdf_a(geo, prim, out);
+    return true;
 }
 
 double shape_pdf_a(const struct geometry *geo, int prim, const struct surface *at)

@@ -106,8 +106,9 @@ double shape_area(const struct geometry *geo, int prim);
 
 /* shape_sample: a point of the primitive, uniform by area (triangles; quadrics: uniform in object space).
  *   out    p and ng are filled in, of a triangle nothing else
- *   pdf_a  out: density per m^2 of world area at that point */
-void shape_sample(const struct geometry *geo, int prim, double u1, double u2, struct surface *out, double *pdf_a);
+ *   pdf_a  out: density per m^2 of world area at that point
+ * Returns false where an alpha texture leaves a hole there. */
+bool shape_sample(const struct geometry *geo, int prim, double u1, double u2, struct surface *out, double *pdf_a);
 
 /* shape_pdf_a: the density with which shape_sample returns the given point of the primitive, 1/m^2. */
 double shape_pdf_a(const struct geometry *geo, int prim, const struct surface *at);

@@ -295,6 +295,24 @@ void shape_list_free(struct shape_list *list)
     memset(list, 0, sizeof *list);
 }
 
+/* Is it as flat as a disk or a quad: does a line meet it once? */
+static bool is_flat(const struct shape_item *item)
+{
+    return item->is_mesh ? item->mesh.n_triangles <= 2 : item->quadric.kind == QUADRIC_DISK;
+}
+
+/* Say so where pbrt-v3 counts the light of this shape otherwise. */
+static void warn_of_light(struct parser *p, const struct shape_item *item)
+{
+    if (item->group.material == MATERIAL_NONE && item->area.two_sided && !is_flat(item))
+        source_warn(&p->messages, item->position, "light through light",
+                    "rays pass this light, so both its sides light the scene; pbrt-v3's \"path\" shows both, but "
+                    "lights with the nearer one alone");
+    if (item->group.alpha >= 0)
+        source_warn(&p->messages, item->position, "light from holes",
+                    "pbrt-v3 has this light shine from its holes too, where alpha is 0; here it does not");
+}
+
 /* Take its light from a shape that cannot have one. Returns false if nothing of it would be seen. */
 static bool complete_shape(struct parser *p, struct shape_item *item)
 {
@@ -308,6 +326,8 @@ static bool complete_shape(struct parser *p, struct shape_item *item)
                     "a light of alpha 0 or without triangles is left out");
     if (item->absent)
         return false;
+    if (item->area.on)
+        warn_of_light(p, item);
     return item->group.material != MATERIAL_NONE || item->area.on;
 }
 

@@ -12,7 +12,7 @@
 static rgb texel(const struct envmap *e, int x, int y)
 {
     double s = (x + 0.5) / e->image.width, v = (y + 0.5) / e->image.height;
-    return image_bilinear(&e->image, s, 1 - v, WRAP_REPEAT, !e->image.linear);
+    return image_bilinear(&e->image, s, 1 - v, WRAP_REPEAT, false);
 }
 
 /* The lookup interpolates between texels, so a texel holds light of its eight neighbours too. Its weight is the
@@ -114,7 +114,7 @@ rgb envmap_lookup(const struct envmap *e, vec3 w)
 {
     double s, v;
     direction_to_map(w, &s, &v);
-    return image_bilinear(&e->image, s, 1 - v, WRAP_REPEAT, !e->image.linear);
+    return image_bilinear(&e->image, s, 1 - v, WRAP_REPEAT, false);
 }
 
 /* Uniform density over a texel's square of (s,v), carried to the sphere: dw = 2 pi^2 sin(theta) ds dv.

@@ -25,8 +25,8 @@ struct envmap {
     rgb mean;                  /* average radiance over the sphere */
 };
 
-/* envmap_load: read a picture (8-bit ones are taken as sRGB). Returns NULL with a message. Release with
- * envmap_free. */
+/* envmap_load: read a picture, whose numbers are taken as they are stored, 8-bit ones too, as in pbrt-v3. Returns NULL
+ * with a message. Release with envmap_free. */
 struct envmap *envmap_load(const char *path, struct error *err);
 void envmap_free(struct envmap *e);
 

@@ -153,7 +153,8 @@ bool light_sample_cell(const struct light_set *set, const struct geometry *geo, 
     switch (l->kind) {
     case LIGHT_AREA: {
         struct surface at;
-        shape_sample(geo, l->prim, u1, u2, &at, &pdf);
+        if (!shape_sample(geo, l->prim, u1, u2, &at, &pdf))
+            return false;
         out->p = at.p;
         out->n = at.ng;
         out->triangle_id = shape_triangle_id(l->prim);

@@ -118,7 +118,8 @@ struct light_point {
     double pdf_cell, pdf;
 };
 
-/* light_sample_point: choose a light and a point (or direction) on it. False if the scene has no light. */
+/* light_sample_point: choose a light and a point (or direction) on it. False if the scene has no light, or the area
+ * light a hole at that point (its alpha texture is 0): nothing is emitted there, and the sample counts as black. */
 bool light_sample_point(const struct light_set *set, const struct geometry *geo, const double u[3],
                         struct light_point *out);
 
