@@ -294,8 +294,24 @@ static void test_slide_places(struct test *t)
     slide_free(s);
 }
 
+/* A direction that is none, as of a ray from a point that is none, is nowhere outside of the tables. */
+static void test_no_direction(struct test *t)
+{
+    const double none[] = {NAN, INFINITY, -INFINITY, 0, 1e308};
+    struct scene s;
+    if (!scene_from_file(t, "scenes/sky.pbrt", 8, 8, &s))
+        return;
+    for (int i = 0; i < 5; i++) {
+        vec3 w = vec(none[i], none[(i + 1) % 5], none[i]);
+        rgb light = light_Le_environment(&s.lights, w);
+        CHECK(t, isfinite(light.r + light.g + light.b) && !(light_pdf_environment(&s.lights, w) < 0), "%d", i);
+    }
+    scene_free(&s);
+}
+
 void test_light(struct test *t)
 {
+    test_no_direction(t);
     test_emission(t);
     test_slides(t);
     test_slide_places(t);

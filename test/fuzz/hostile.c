@@ -76,6 +76,7 @@ struct object {
 #define BUMP "texture bumpmap|"
 #define GLASS "float index|float eta|rgb opacity|"
 #define LIT "rgb L|rgb scale|blackbody L|spectrum L|integer samples|"
+#define MAP "string mapname:parts/map.pfm,parts/grey.tga,parts/bad.pfm,missing.exr"
 #define CUT "float phimax|float zmin|float zmax|float radius|"
 #define MAPPED "string mapping:uv,planar,spherical,cylindrical|vector v1|vector v2|float udelta|float vdelta|" \
                "float uscale|float vscale|"
@@ -121,7 +122,9 @@ static const struct object WORLD[] = {
     {"LightSource", "point", LIT "rgb I|point from"},
     {"LightSource", "spot", LIT "rgb I|point from|point to|float coneangle|float conedeltaangle"},
     {"LightSource", "distant", LIT "point from|point to"},
-    {"LightSource", "infinite", LIT "string mapname:parts/map.pfm,parts/bad.pfm,missing.exr"},
+    {"LightSource", "infinite", LIT MAP},
+    {"LightSource", "goniometric", LIT "rgb I|" MAP},
+    {"LightSource", "projection", LIT "rgb I|float fov|" MAP},
     {"NamedMaterial", "m0", NULL},
     {"NamedMaterial", "m1", NULL},
     {"ObjectBegin", "o0", NULL},
