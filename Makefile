@@ -94,6 +94,7 @@ test: asbdpt $(BUILD)/test layers standard references columns faults links limit
 check-long: asbdpt $(BUILD)/test experiments web portability inject ## the tests that take longer
 	$(BUILD)/test --slow
 	sh test/keep.sh $(PROGRAM) 100
+	sh test/cluster.sh $(PROGRAM)
 
 check-ref: asbdpt ## are the stored references still what the program converges to?
 	sh ref/check-ref.sh $(PROGRAM)

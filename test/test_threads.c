@@ -1,9 +1,14 @@
 /* test_threads.c: small renders by every integrator on four threads, meant for the thread sanitizer (make tsan); the
- * bytes must be those of one thread. */
+ * bytes must be those of one thread. Jobs of uneven length do not hold up others, and are committed in order. */
+#define _POSIX_C_SOURCE 200809L
+
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "base/mem.h"
+#include "base/os.h"
+#include "base/parallel.h"
 #include "render/render.h"
 #include "helpers.h"
 #include "tests.h"
@@ -30,8 +35,87 @@ static void test_way(struct test *t, const struct scene *scene, const char *inte
     free(image[1]);
 }
 
+/* ---- uneven jobs ---- */
+
+enum { JOBS = 60 };
+
+struct uneven {
+    struct os_lock *lock;
+    int expected;         /* jobs that job 0 waits for */
+    double patience;      /* seconds */
+    int finished;         /* jobs that have ended, */
+    int while_first;      /* until job 0 did, */
+    int while_committing; /* until job 1 was committed, which waits for one more than were begun until then */
+    int64_t next, stop;   /* the job to be committed, that whose commit says stop */
+    int overlapping;      /* commits */
+    bool committing, in_order;
+};
+
+/* Wait until so many jobs have ended, which they never may. Returns how many have. */
+static int wait_for(struct uneven *u, int finished)
+{
+    double end = os_wall_seconds() + u->patience;
+    for (;;) {
+        os_lock_take(u->lock);
+        int now = u->finished;
+        os_lock_leave(u->lock);
+        if (now >= finished || os_wall_seconds() > end)
+            return now;
+        nanosleep(&(struct timespec){0, 1000000}, NULL);
+    }
+}
+
+static void work_unevenly(void *context, int64_t job, int slot, int thread)
+{
+    struct uneven *u = context;
+    (void)slot, (void)thread;
+    if (job == 0)
+        u->while_first = wait_for(u, u->expected);
+    os_lock_take(u->lock);
+    u->finished++;
+    os_lock_leave(u->lock);
+}
+
+static bool commit_unevenly(void *context, int64_t job, int slot)
+{
+    struct uneven *u = context;
+    (void)slot;
+    u->overlapping += u->committing;
+    u->committing = true;
+    u->in_order = u->in_order && job == u->next++;
+    if (job == 1 && u->expected > 0)
+        u->while_committing = wait_for(u, u->expected + 2);
+    u->committing = false;
+    return job != u->stop;
+}
+
+static struct uneven run_unevenly(int n_slots, int expected, double patience, int64_t stop, int64_t *committed)
+{
+    struct uneven u = {.expected = expected, .patience = patience, .stop = stop, .in_order = true};
+    struct parallel_jobs jobs = {JOBS, 2, n_slots, &u, work_unevenly, commit_unevenly};
+    u.lock = os_lock_new();
+    *committed = parallel_run(&jobs);
+    os_lock_free(u.lock);
+    return u;
+}
+
+static void test_uneven(struct test *t)
+{
+    enum { SLOTS = 2 * SLOTS_PER_THREAD };
+    int64_t n;
+    struct uneven u = run_unevenly(SLOTS, SLOTS - 1, 20, -1, &n);
+    CHECK(t, n == JOBS && u.in_order && u.overlapping == 0, "%d jobs are committed, one at a time, in order", (int)n);
+    CHECK(t, u.while_first == SLOTS - 1, "%d jobs end beside a long one", u.while_first);
+    CHECK(t, u.while_committing == SLOTS + 1, "%d jobs have ended during the second commit", u.while_committing);
+    u = run_unevenly(2, 2, 0.1, -1, &n);
+    CHECK(t, n == JOBS && u.while_first == 1, "%d jobs end beside a long one with one slot left", u.while_first);
+    u = run_unevenly(8, 0, 0, 9, &n);
+    CHECK(t, n == 10 && u.in_order, "the commit of job 9 says stop, and %d jobs are committed", (int)n);
+}
+
 void test_threads(struct test *t)
 {
+    test_uneven(t);
     static const char *const selections[] = {"bins", "pool", "vertices", "subspaces", "lvc", "combinatorial"};
     struct scene scene;
     if (!scene_from_file(t, "scenes/test/light-kinds.pbrt", 40, 24, &scene))

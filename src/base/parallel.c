@@ -11,23 +11,32 @@ struct job_queue {
     const struct parallel_jobs *jobs;
     struct os_lock *lock; /* woken when `committed` or `stopped` changes */
     int64_t next;         /* first job not started */
-    int64_t committed;    /* jobs committed; those below next - committed <= n_slots are under way or waiting */
+    int64_t committed;    /* jobs committed; next - committed <= n_slots are under way, done, or being committed */
+    bool committing;      /* somebody commits, without the lock */
     bool stopped;
     bool *done; /* [n_slots]: the job in this slot is finished */
 };
 
-/* Commit every finished job whose turn it is. The lock is held. */
+/* Commit every finished job whose turn it is, unless somebody else does; then they see to ours as well. The lock is
+ * held, but not during the commits: others take jobs meanwhile. */
 static void commit_ready(struct job_queue *q)
 {
-    int n_slots = q->jobs->n_slots;
-    while (!q->stopped && q->committed < q->next && q->done[q->committed % n_slots]) {
-        int slot = (int)(q->committed % n_slots);
+    const struct parallel_jobs *jobs = q->jobs;
+    if (q->committing)
+        return;
+    q->committing = true;
+    while (!q->stopped && q->committed < q->next && q->done[q->committed % jobs->n_slots]) {
+        int64_t job = q->committed;
+        int slot = (int)(job % jobs->n_slots);
+        os_lock_leave(q->lock);
+        bool go_on = jobs->commit(jobs->context, job, slot);
+        os_lock_take(q->lock);
         q->done[slot] = false;
-        if (!q->jobs->commit(q->jobs->context, q->committed, slot))
-            q->stopped = true;
+        q->stopped = !go_on;
         q->committed++;
+        os_lock_wake_all(q->lock);
     }
-    os_lock_wake_all(q->lock);
+    q->committing = false;
 }
 
 static void run_worker(void *queue, int thread)

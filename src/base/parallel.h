@@ -3,13 +3,17 @@
  * Jobs start in order on whichever thread is free and end in any order; results are committed strictly in the order
  * of their numbers, one at a time. What a commit does therefore cannot depend on the number of threads: this is
  * where the promise "same bytes for any -j" is kept. A result waits for its turn in one of a fixed number of slots,
- * so memory stays bounded. Tests: test_threads.c.
+ * so memory stays bounded; a thread that finds none free waits too. doc/cluster.md says how long, by simulation.
+ * Tests: test_threads.c.
  */
 #ifndef ASBDPT_PARALLEL_H
 #define ASBDPT_PARALLEL_H
 
 #include <stdbool.h>
 #include <stdint.h>
+
+/* Slots for jobs that may differ much in length: a job as long as fifteen others holds nobody up. */
+enum { SLOTS_PER_THREAD = 16 };
 
 struct parallel_jobs {
     int64_t n_jobs;
@@ -18,8 +22,9 @@ struct parallel_jobs {
     void *context; /* passed to both functions */
     /* Do job number `job` on thread number `thread` (0 .. n_threads-1), leaving the result in slot `slot`. */
     void (*work)(void *context, int64_t job, int slot, int thread);
-    /* Take in the result of `job` from `slot`. Called with a lock held: keep it short. Returns false to stop: no
-     * later job is committed and none that has not started yet is begun. */
+    /* Take in the result of `job` from `slot`, while other threads work on. Calls never overlap: their time is what
+     * many threads share, so keep it short. Returns false to stop: no later job is committed and none that has not
+     * started yet is begun. */
     bool (*commit)(void *context, int64_t job, int slot);
 };
 

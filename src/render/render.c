@@ -113,7 +113,9 @@ static void run_all(struct run *r)
             end_block = ((int64_t)o->end + r->prepared.size.block - 1) / r->prepared.size.block;
     r->n_jobs = tiles_per_block(r) * (end_block - first_block);
 
-    struct parallel_jobs jobs = {r->n_jobs - r->begun, r->job.n_threads, 2 * r->job.n_threads, r, run_pass, merge_pass};
+    int slots = r->film->strategies != NULL ? 2 : SLOTS_PER_THREAD; /* records of strategies are large */
+    int n_slots = slots * r->job.n_threads;
+    struct parallel_jobs jobs = {r->n_jobs - r->begun, r->job.n_threads, n_slots, r, run_pass, merge_pass};
     r->tile = mem_alloc((size_t)jobs.n_slots, sizeof *r->tile);
     make_workspaces(r);
     parallel_run(&jobs);
