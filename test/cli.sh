@@ -259,6 +259,32 @@ mkdir taken.depth.pfm
 expect 1 'taken.depth.pfm' "$program" render "$box" $small --aov albedo,depth -o taken.png
 check [ ! -e taken.png -a ! -e taken.albedo.pfm ]
 
+# --stats: what was rendered and how it went; --quick: what pbrt's does, but options of one's own count first.
+expect 0 '' "$program" render "$box" --quick -j 2 --integrator asbdpt -P delta=0.25 --aov depth --stats stats.json -o a.png
+check grep -q ': 120x120, 1 spp, asbdpt;' stderr.txt
+for line in '"version": "asbdpt ' '"integrator": "asbdpt",' '"select": "subspaces",' '"delta": 0.25,' '"maxdepth": 6,' \
+    '"film": .120, 120.,' '"spp": 1,' '"spp_done": 1,' '"threads": 2,' '"nonfinite": 0,' '"draws_first_hit": [1-9]' \
+    '"a.png",' '"a.depth.pfm"' '"note": "per eye vertex ' '"cpu_seconds": [0-9]' '"us_per_path": [1-9]' '"peak_memory": [1-9]'; do
+    check grep -q "$line" stats.json
+done
+expect 0 '' "$program" render "$box" --quick --quiet --spp 3 --cropwindow 0 0.5 0 1 --samples 1:3 --stats - -o a.part
+check grep -q '"spp": 3,' stdout.txt
+check grep -q '"first_sample": 1,' stdout.txt
+check grep -q '"spp_done": 2,' stdout.txt
+check grep -q '"width": 60,' stdout.txt
+if command -v python3 >/dev/null; then check python3 -c 'import json; json.load(open("stats.json"))'; fi
+expect 0 '' "$program" render "$box" --quick --quiet --res 9x7 -o q.pfm
+expect 0 '' "$program" render "$box" --quiet --res 9x7 --spp 1 -o p.pfm
+check cmp -s p.pfm q.pfm
+rm stats.json # it is there when all other files are
+expect 1 'nothing.pbrt' "$program" render nothing.pbrt --stats stats.json -o a.png
+expect 1 'no/s.json: cannot be created' "$program" render "$box" $small --stats no/s.json -o made.png
+expect 1 'name of a picture, too' "$program" render "$box" $small --stats made.png -o made.png
+if [ -e /dev/full ]; then
+    expect 1 'full.pfm' "$program" render "$box" $small --stats stats.json -o full.pfm
+fi
+check [ ! -e stats.json -a ! -e made.png ]
+
 # demo: one picture of two integrators, wherever a reference is stored.
 expect 0 '' "$program" demo "$box" --spp 1 --quiet -o demo.png
 check grep -q '^asbdpt .* spp .* s of CPU   rmse8' stdout.txt

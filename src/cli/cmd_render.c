@@ -13,6 +13,7 @@
 #include "cli/job_options.h"
 #include "cli/keep.h"
 #include "cli/outputs.h"
+#include "cli/stats_file.h"
 #include "image/image.h"
 #include "lab/pyramid.h"
 #include "render/parameters.h"
@@ -102,15 +103,13 @@ static bool open_aovs(const struct job_options *o, const struct scene *scene, co
     return aov_open(o->aov, pictures->file[0].path, out, err);
 }
 
-/*   samples  per pixel, of those the film has, that took this time */
-static void report(const struct job_options *o, const struct integrator *m, const struct film *film, long samples,
-                   double wall, double cpu)
+static void report(const struct job_options *o, const struct integrator *m, const struct film *film,
+                   const struct render_times *times)
 {
-    double paths = (double)samples * rect_width(film->rect) * rect_height(film->rect);
     if (!o->quiet)
         fprintf(stderr, "%s: %dx%d, %ld spp, %s; %.2f s, %.2f s of CPU, %.2f us per sample path\n", o->scene_path,
-                rect_width(film->rect), rect_height(film->rect), film->iterations, m->name, wall, cpu,
-                paths > 0 ? 1e6 * cpu / paths : 0);
+                rect_width(film->rect), rect_height(film->rect), film->iterations, m->name,
+                times->wall, times->cpu, render_us_per_path(film, times));
     if (!o->quiet && film->note[0] != '\0')
         fprintf(stderr, "%s: %s\n", m->name, film->note);
 }
@@ -128,31 +127,48 @@ static bool check_options(const struct job_options *o, struct error *err)
     return keep_check(&o->keep, err) && (o->aov == NULL || aov_check(o->aov, err));
 }
 
+/* All that a render writes, opened before the work begins. */
+struct files {
+    struct outputs pictures;
+    struct aov_files aov;
+    struct stats_file stats;
+};
+
+static void abandon(struct files *f)
+{
+    outputs_abandon(&f->pictures);
+    aov_abandon(&f->aov);
+    stats_abandon(&f->stats);
+}
+
 /* From a film with nothing or something in it to all files. */
 static bool run_and_write(const struct job_options *o, const struct scene *scene, struct render_options *options,
-                          struct film *film, struct keep *keep, struct outputs *out, struct aov_files *aov,
-                          struct error *err)
+                          struct film *film, struct keep *keep, struct files *files, struct error *err)
 {
-    double cpu = os_cpu_seconds();
-    long before = film->iterations;
+    struct render_times times = {.cpu = os_cpu_seconds(), .samples = film->iterations};
     bool ok = render_scene(scene, options, film, err);
-    double cpu_seconds = os_cpu_seconds() - cpu, wall = os_wall_seconds() - keep->bar.start;
+    times.cpu = os_cpu_seconds() - times.cpu;
+    times.wall = os_wall_seconds() - keep->bar.start;
+    times.samples = film->iterations - times.samples;
     bool kept = keep_end(keep, ok, err);
     if (!ok) {
-        outputs_abandon(out);
-        aov_abandon(aov);
+        abandon(files);
         return false;
     }
-    report(o, options->integrator, film, film->iterations - before, wall, cpu_seconds);
+    report(o, options->integrator, film, &times);
+    stats_list(&files->stats, o, &files->pictures, &files->aov);
     ok = kept;
     ok = (o->strategies == NULL || write_strategies(o->strategies, film, ok ? err : NULL)) && ok;
-    ok = aov_write(aov, scene, options, film, o->quiet, ok ? err : NULL) && ok;
-    return write_outputs(o, scene, film, out, ok ? err : NULL) && ok;
+    ok = aov_write(&files->aov, scene, options, film, o->quiet, ok ? err : NULL) && ok;
+    ok = write_outputs(o, scene, film, &files->pictures, ok ? err : NULL) && ok;
+    if (!ok)
+        stats_abandon(&files->stats);
+    return ok && stats_write(&files->stats, o, scene, options, film, &times, err);
 }
 
 /* Whatever comes of it, the outputs are written or abandoned. */
 static bool render_and_write(const struct job_options *o, const struct scene *scene, const struct integrator *m,
-                             struct outputs *out, struct aov_files *aov, struct error *err)
+                             struct files *files, struct error *err)
 {
     struct render_options options = {.integrator = m, .seed = o->seed, .end = job_spp(o, scene)};
     struct film film;
@@ -164,17 +180,29 @@ static bool render_and_write(const struct job_options *o, const struct scene *sc
     if (ok) {
         if (o->strategies != NULL)
             film_keep_strategies(&film, options.max_depth);
-        if (aov->file[AOV_VARIANCE].n > 0)
+        if (files->aov.file[AOV_VARIANCE].n > 0)
             film_keep_errors(&film);
-        out->part = &keep.part;
-        out->film = &film;
-        ok = run_and_write(o, scene, &options, &film, &keep, out, aov, err);
+        files->pictures.part = &keep.part;
+        files->pictures.film = &film;
+        ok = run_and_write(o, scene, &options, &film, &keep, files, err);
         part_free(&keep.part);
     } else {
-        outputs_abandon(out);
-        aov_abandon(aov);
+        abandon(files);
     }
     film_free(&film);
+    return ok;
+}
+
+/* What needs no scene to be opened. False with a message; nothing is open then. */
+static bool open_named(const struct job_options *o, struct files *f, struct error *err)
+{
+    memset(f, 0, sizeof *f);
+    f->pictures.parts = o->keep.samples[1] > 0 ? PARTS_OTHERS : PARTS_NAMED;
+    if (o->output.n > 0 && !outputs_open(&o->output, &o->tone, &f->pictures, err))
+        return false;
+    bool ok = stats_open(o->stats, &o->output, &f->stats, err);
+    if (!ok)
+        outputs_abandon(&f->pictures);
     return ok;
 }
 
@@ -184,19 +212,22 @@ static int run(void *options)
     struct error err;
     struct scene scene;
     const struct integrator *integrator;
-    struct outputs out = {.parts = o->keep.samples[1] > 0 ? PARTS_OTHERS : PARTS_NAMED};
-    if (!check_options(o, &err) || (o->output.n > 0 && !outputs_open(&o->output, &o->tone, &out, &err)))
+    struct files files;
+    double start = os_wall_seconds();
+    if (!check_options(o, &err) || !open_named(o, &files, &err))
         return fail(&err);
     int status = job_load(o, &scene, &integrator);
     if (status != EXIT_OK) {
-        outputs_abandon(&out);
+        abandon(&files);
         return status;
     }
-    struct aov_files aov;
-    bool ok = open_default_output(o, &scene, &out, &err);
-    if (ok && !(ok = open_aovs(o, &scene, &out, &aov, &err)))
-        outputs_abandon(&out);
-    ok = ok && render_and_write(o, &scene, integrator, &out, &aov, &err);
+    files.stats.load_seconds = os_wall_seconds() - start;
+    bool ok = open_default_output(o, &scene, &files.pictures, &err) &&
+              open_aovs(o, &scene, &files.pictures, &files.aov, &err);
+    if (ok)
+        ok = render_and_write(o, &scene, integrator, &files, &err);
+    else
+        abandon(&files);
     scene_free(&scene);
     if (!ok)
         return fail(&err);
@@ -213,6 +244,7 @@ static const struct option OPTIONS[] = {
     {"--resume", "FILE", OPTION_TEXT, AT(resume), .help = "go on from a checkpoint"},
     {"--samples", "A:B", OPTION_RANGE, AT(samples), 0, 1 << 30,
      .help = "only the samples A to B-1, for merge: -o NAME.part"},
+    {"--stats", "FILE", OPTION_TEXT, offsetof(struct job_options, stats), .help = "JSON: parameters, times, memory"},
     {.others = JOB_OPTIONS},
 };
 

@@ -24,6 +24,8 @@ const struct option JOB_OPTIONS[] = {
     {"--integrator", "NAME", OPTION_TEXT, AT(integrator), .help = "instead of the scene's"},
     {"-P", "NAME=VALUE", OPTION_PAIRS, AT(overrides), .help = "set a parameter of the integrator"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 30, .help = "samples per pixel"},
+    {"--quick", NULL, OPTION_ON, AT(quick),
+     .help = "as pbrt's: a quarter of the width and height (but --res), one sample per pixel (but --spp)"},
     {"--maxdepth", "N", OPTION_INTEGER, AT(max_depth), 1, PATH_MAX_DEPTH, .help = "longest path, 1 = direct light"},
     {"--res", "WxH", OPTION_SIZE, AT(res), 1, 65536, .help = "resolution of the film"},
     {"--filter", "NAME", OPTION_TEXT, AT(filter), .help = "pixel filter: box triangle gaussian mitchell sinc"},
@@ -72,6 +74,9 @@ static bool apply(const struct job_options *o, struct scene *scene, struct error
     if (o->res[0] > 0) {
         scene->width = o->res[0];
         scene->height = o->res[1];
+    } else if (o->quick) {
+        scene->width = scene->width > 4 ? scene->width / 4 : 1;
+        scene->height = scene->height > 4 ? scene->height / 4 : 1;
     }
     if (o->filter != NULL && !filter_default(o->filter, &scene->filter))
         return error_set(err, "--filter %s: known are box, triangle, gaussian, mitchell, sinc", o->filter);
@@ -165,5 +170,5 @@ int job_load(const struct job_options *o, struct scene *scene, const struct inte
 
 long job_spp(const struct job_options *o, const struct scene *scene)
 {
-    return o->spp > 0 ? o->spp : scene->spp > 0 ? scene->spp : 16;
+    return o->spp > 0 ? o->spp : o->quick ? 1 : scene->spp > 0 ? scene->spp : 16;
 }

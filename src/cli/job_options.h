@@ -34,8 +34,10 @@ struct job_options {
     uint64_t seed;
     const char *strategies; /* directory or NULL */
     const char *aov;        /* list or NULL */
+    bool quick;             /* a quarter of the width and height, one sample, unless options say otherwise */
     bool strict, quiet;
     struct tone_options tone; /* of render alone */
+    const char *stats;        /* file or NULL, of render alone */
     struct keep_options keep; /* of render alone */
 };
 extern const struct option JOB_OPTIONS[], SCENE_OPTIONS[]; /* the second have the scene itself too, which they need */
@@ -44,7 +46,7 @@ extern const struct option JOB_OPTIONS[], SCENE_OPTIONS[]; /* the second have th
  * printing why (then nothing needs release). */
 int job_load(const struct job_options *o, struct scene *scene, const struct integrator **integrator);
 
-/* job_spp: samples per pixel in force: option, scene, else 16. */
+/* job_spp: samples per pixel in force: option, 1 if quick, scene, else 16. */
 long job_spp(const struct job_options *o, const struct scene *scene);
 
 /* integrator_unknown: the rest of a message about an integrator that does not exist: the nearest and all. */

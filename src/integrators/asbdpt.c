@@ -148,6 +148,19 @@ static void learn_subspaces(struct selection *sel, const struct render_job *job)
     sel->counts.splat = pixel_light_count(job) / sel->path_pixels;
 }
 
+static void tell_subspaces(const struct selection *sel, struct preparation *out)
+{
+    const struct film_number numbers[] = {
+        {"draws_first_hit", sel->connections[0]}, {"draws_after", sel->connections[1]},
+        {"light_points_first_hit", sel->lights}, {"pixels_per_light_path", sel->path_pixels},
+        {"eye_regions", sel->learnt.eye.n}, {"light_regions", sel->learnt.light.n}};
+    memcpy(out->number, numbers, sizeof numbers); /* fewer than there is room for: a NULL name stays behind them */
+    snprintf(out->note, sizeof out->note,
+             "per eye vertex %.2f draws at the first hit, %.2f after; %d light point%s at the first hit; a light "
+             "sub-path per %d pixels",
+             sel->connections[0], sel->connections[1], sel->lights, sel->lights == 1 ? "" : "s", sel->path_pixels);
+}
+
 /* lvc, combinatorial: BDPT but for C or M, for which `usual` stands in. */
 static void set_plain(struct selection *sel, double usual)
 {
@@ -194,10 +207,7 @@ static bool prepare(const struct render_job *job, struct preparation *out, struc
     case SELECT_SUBSPACES:
         out->size.tile = MAX_TILE_SIZE; /* a larger pool */
         learn_subspaces(sel, job);
-        snprintf(out->note, sizeof out->note,
-                 "per eye vertex %.2f draws at the first hit, %.2f after; %d light point%s at the first hit; a light "
-                 "sub-path per %d pixels",
-                 sel->connections[0], sel->connections[1], sel->lights, sel->lights == 1 ? "" : "s", sel->path_pixels);
+        tell_subspaces(sel, out);
         break;
     case SELECT_LVC:
         set_plain(sel, 1);

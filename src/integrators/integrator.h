@@ -29,6 +29,7 @@ struct preparation {
     const struct tile_renderer *renderer;
     struct pass_size size; /* any block, tiles of DEFAULT_TILE_SIZE unless changed */
     char note[FILM_NOTE_SIZE]; /* what was chosen, for people; may be empty */
+    struct film_number number[FILM_NUMBERS]; /* and for programs, ended by a NULL name */
 };
 
 struct integrator {

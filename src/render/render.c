@@ -171,6 +171,7 @@ bool render_scene(const struct scene *scene, const struct render_options *option
     if (!render_prepare(scene, options, film->rect, &r.job, &r.prepared, err))
         return false;
     memcpy(film->note, r.prepared.note, sizeof film->note);
+    memcpy(film->number, r.prepared.number, sizeof film->number);
     bool ok = check_range(&r, err) && cut(&r, err);
     if (ok && options->end > options->first)
         run_all(&r);

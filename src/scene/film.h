@@ -85,7 +85,12 @@ struct film_errors {
     double *eye, *square; /* sums of eye values, and of squares of these and of splats; owned */
 };
 
-enum { FILM_NOTE_SIZE = 200 };
+enum { FILM_NOTE_SIZE = 200, FILM_NUMBERS = 8 };
+
+struct film_number {
+    const char *name; /* static */
+    double value;
+};
 
 struct film {
     struct pixel_rect rect;      /* the rendered part (crop) of the full frame */
@@ -96,6 +101,7 @@ struct film {
     struct film_errors *errors;  /* NULL unless asked for; owned */
     long nonfinite;
     char note[FILM_NOTE_SIZE]; /* what the integrator chose for itself, for people */
+    struct film_number number[FILM_NUMBERS]; /* and for programs, ended by a NULL name */
     struct strategy_images *strategies; /* NULL unless asked for; owned */
 };
 

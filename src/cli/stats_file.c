@@ -1,0 +1,139 @@
+/* stats_file.c: see stats_file.h. */
+#include "cli/stats_file.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/os.h"
+#include "base/version.h"
+#include "render/parameters.h"
+
+double render_us_per_path(const struct film *film, const struct render_times *times)
+{
+    double paths = (double)times->samples * rect_width(film->rect) * rect_height(film->rect);
+    return paths > 0 ? 1e6 * times->cpu / paths : 0;
+}
+
+bool stats_open(const char *path, const struct texts *outputs, struct stats_file *out, struct error *err)
+{
+    memset(out, 0, sizeof *out);
+    for (int i = 0; path != NULL && i < outputs->n; i++)
+        if (strcmp(path, outputs->item[i]) == 0)
+            return error_set(err, "--stats %s: this is the name of a picture, too", path);
+    out->wanted = path != NULL && file_create(path, &out->file, err);
+    return out->wanted || path == NULL;
+}
+
+void stats_abandon(struct stats_file *f)
+{
+    if (f->wanted)
+        file_abandon(&f->file);
+    f->wanted = false;
+}
+
+static void put_outputs(struct json *j, const struct outputs *o)
+{
+    for (int i = 0; i < o->n; i++)
+        json_text(j, NULL, o->file[i].path);
+}
+
+void stats_list(struct stats_file *f, const struct job_options *o, const struct outputs *pictures,
+                const struct aov_files *aov)
+{
+    struct json *j = &f->json;
+    if (!f->wanted)
+        return;
+    *j = json_start(f->file.stream);
+    json_open(j, NULL, '{');
+    json_text(j, "version", VERSION);
+    json_text(j, "scene", o->scene_path);
+    json_open(j, "files", '[');
+    put_outputs(j, pictures);
+    for (int i = 0; i < N_AOVS; i++)
+        put_outputs(j, &aov->file[i]);
+    json_close(j);
+    json_text(j, "strategies", o->strategies); /* a directory, or null */
+    json_text(j, "checkpoint", o->keep.checkpoint);
+}
+
+/* A number where the text is one. */
+static void put_value(struct json *j, const char *name, const char *text)
+{
+    char *end;
+    double value = strtod(text, &end);
+    if (end != text && *end == '\0')
+        json_number(j, name, value);
+    else
+        json_text(j, name, text);
+}
+
+/* Those in force, whoever set them. */
+static void put_parameters(struct json *j, const struct scene *scene, const struct render_options *o)
+{
+    struct render_job job;
+    struct error none;
+    json_open(j, "parameters", '{');
+    if (parameters_read(scene, o->integrator, o->max_depth, &job, &none)) { /* they have been read before */
+        json_number(j, "maxdepth", job.max_depth);
+        json_text(j, "heuristic", job.power_heuristic ? "power" : "balance");
+        json_number(j, "rrthreshold", job.rr_threshold);
+        json_text(j, "lightsamplestrategy", job.spatial_lights ? "spatial" : "power");
+    }
+    for (const struct setting_help *p = o->integrator->parameters; p->name != NULL; p++)
+        if (strcmp(p->name, "lightsamplestrategy") != 0)
+            put_value(j, p->name, settings_text(&scene->settings, p->name, p->fallback));
+    json_close(j);
+}
+
+static void put_pair(struct json *j, const char *name, double a, double b)
+{
+    json_open(j, name, '-');
+    json_number(j, NULL, a);
+    json_number(j, NULL, b);
+    json_close(j);
+}
+
+static void put_film(struct json *j, const struct scene *scene, const struct film *film)
+{
+    put_pair(j, "film", scene->width, scene->height);
+    json_number(j, "width", rect_width(film->rect));
+    json_number(j, "height", rect_height(film->rect));
+    put_pair(j, "corner", film->rect.x0, film->rect.y0);
+}
+
+static void put_chosen(struct json *j, const struct film *film)
+{
+    json_text(j, "note", film->note);
+    json_open(j, "chosen", '{');
+    for (const struct film_number *n = film->number; n->name != NULL; n++)
+        json_number(j, n->name, n->value);
+    json_close(j);
+}
+
+bool stats_write(struct stats_file *f, const struct job_options *o, const struct scene *scene,
+                 const struct render_options *render, const struct film *film, const struct render_times *times,
+                 struct error *err)
+{
+    struct json *j = &f->json;
+    if (!f->wanted)
+        return true;
+    json_text(j, "integrator", render->integrator->name);
+    put_parameters(j, scene, render);
+    json_number(j, "seed", (double)render->seed);
+    put_film(j, scene, film);
+    json_number(j, "spp", (double)render->planned);
+    json_number(j, "first_sample", o->keep.samples[0]);
+    json_number(j, "spp_done", (double)film->iterations);
+    json_number(j, "spp_done_now", (double)times->samples);
+    json_number(j, "load_seconds", f->load_seconds);
+    json_number(j, "wall_seconds", times->wall);
+    json_number(j, "cpu_seconds", times->cpu);
+    json_number(j, "us_per_path", render_us_per_path(film, times));
+    json_number(j, "threads", render->n_threads > 0 ? render->n_threads : os_cores());
+    json_number(j, "peak_memory", os_peak_memory());
+    json_number(j, "nonfinite", (double)film->nonfinite);
+    put_chosen(j, film);
+    json_close(j);
+    f->wanted = false;
+    return file_commit(&f->file, err);
+}
