@@ -260,11 +260,13 @@ expect 1 'taken.depth.pfm' "$program" render "$box" $small --aov albedo,depth -o
 check [ ! -e taken.png -a ! -e taken.albedo.pfm ]
 
 # --stats: what was rendered and how it went; --quick: what pbrt's does, but options of one's own count first.
-expect 0 '' "$program" render "$box" --quick -j 2 --integrator asbdpt -P delta=0.25 --aov depth --stats stats.json -o a.png
+expect 0 '' "$program" render "$box" --quick -j 2 --integrator asbdpt -P delta=0.25 --aov depth --stats stats.json \
+    -o a.png
 check grep -q ': 120x120, 1 spp, asbdpt;' stderr.txt
 for line in '"version": "asbdpt ' '"integrator": "asbdpt",' '"select": "subspaces",' '"delta": 0.25,' '"maxdepth": 6,' \
     '"film": .120, 120.,' '"spp": 1,' '"spp_done": 1,' '"threads": 2,' '"nonfinite": 0,' '"draws_first_hit": [1-9]' \
-    '"a.png",' '"a.depth.pfm"' '"note": "per eye vertex ' '"cpu_seconds": [0-9]' '"us_per_path": [1-9]' '"peak_memory": [1-9]'; do
+    '"a.png",' '"a.depth.pfm"' '"note": "per eye vertex ' '"cpu_seconds": [0-9]' \
+    '"us_per_path": [1-9]' '"peak_memory": [1-9]'; do
     check grep -q "$line" stats.json
 done
 expect 0 '' "$program" render "$box" --quick --quiet --spp 3 --cropwindow 0 0.5 0 1 --samples 1:3 --stats - -o a.part
