@@ -98,7 +98,7 @@ static void level_axes(const struct camera *c, vec3 axis[3])
         axis[0] = neg(axis[0]);
 }
 
-/* All vertices; the camera if it is not far away. */
+/* All vertices; and the camera, unless it would make them small, or they are next to nothing. */
 static struct extent extent_of(const struct scene *scene, const struct trace *t, const vec3 axis[3])
 {
     struct extent e = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
@@ -107,7 +107,7 @@ static struct extent extent_of(const struct scene *scene, const struct trace *t,
         extend_path(&e, axis, scene, &t->light[i]);
     struct extent all = e;
     extend(&all, axis, scene->camera.position);
-    return side_of(&all) < 2 * side_of(&e) || t->eye.n < 2 ? all : e;
+    return side_of(&all) < 2 * side_of(&e) || side_of(&all) > 6 * side_of(&e) ? all : e;
 }
 
 /* The camera looks up the page. */
@@ -270,6 +270,8 @@ static void draw_light(FILE *f, const struct view *v, const struct trace *t, int
     enum { FEW = 3 };
     const struct trace_path *path = &t->light[light];
     bool few = t->n_lights <= FEW;
+    if (path->n == 1 && vertex_at_infinity(v->scene, &path->vertex[0]))
+        return; /* it is nowhere */
     draw_edges(f, v, path, ORANGE, few ? 1.8 : 0.9, 'y');
     for (int i = 0; i < path->n; i++) {
         char name[40];
