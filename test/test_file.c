@@ -298,7 +298,9 @@ static void test_endless(struct test *t)
     size_t size = 1;
     struct error err = {""};
     in_tmp(t, "pipe", path, sizeof path);
+    alarm(20); /* who waits is ended */
     CHECK(t, mkfifo(path, 0600) == 0 && file_read(path, &data, &size, &err) && size == 0, "%s", err.text);
+    alarm(0);
     free(data);
     remove(path);
     if (os_kind_of("/dev/zero") == OS_OTHER)

@@ -13,7 +13,7 @@ for target; do
     exr | hdr | pfm) seeds=test/fixtures/pictures words= ;;
     *) seeds= words= ;;
     esac
-    TARGET=$target nice -n 15 build-fuzz/fuzz -fork=1 -ignore_crashes=1 -ignore_timeouts=1 -ignore_ooms=1 -timeout=20 \
+    TARGET=$target nice -n 15 build-fuzz/fuzz -fork=1 -ignore_crashes=1 -ignore_timeouts=1 -ignore_ooms=1 -timeout=60 \
         -rss_limit_mb=1500 -max_len=4096 $words -max_total_time="$seconds" -artifact_prefix="build-fuzz/$target-" \
         "$corpus" "test/fuzz/corpus/$target" $seeds || exit 1
     rm -rf /dev/shm/asbdpt-fuzz-* /tmp/asbdpt-fuzz-* # of processes that have ended
