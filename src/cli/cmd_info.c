@@ -47,8 +47,9 @@ static void print_scene(const struct scene *s, const struct integrator *m, doubl
     printf("materials     %d\ntextures      %d (%d images)\n", s->n_materials, s->textures.n_textures,
            s->textures.n_images);
     print_lights(&s->lights);
-    printf("bounds        (%g, %g, %g) to (%g, %g, %g)\n", (double)kd->lo[0], (double)kd->lo[1], (double)kd->lo[2],
-           (double)kd->hi[0], (double)kd->hi[1], (double)kd->hi[2]);
+    vec3 lo, hi;
+    scene_bounds(s, &lo, &hi);
+    printf("bounds        (%g, %g, %g) to (%g, %g, %g)\n", lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
     printf("kd-tree       %d nodes, %d references, depth %d, expected cost %.1f\n", kd->n_nodes, kd->n_items,
            kd->depth, kd->cost);
     printf("loaded in     %.2f s\n", seconds);
@@ -56,12 +57,12 @@ static void print_scene(const struct scene *s, const struct integrator *m, doubl
 
 /* --- for programs -------------------------------------------------------------------------------------- */
 
-static void put_vector(struct json *j, const char *name, double x, double y, double z)
+static void put_vector(struct json *j, const char *name, vec3 v)
 {
     json_open(j, name, '-');
-    json_number(j, NULL, x);
-    json_number(j, NULL, y);
-    json_number(j, NULL, z);
+    json_number(j, NULL, v.x);
+    json_number(j, NULL, v.y);
+    json_number(j, NULL, v.z);
     json_close(j);
 }
 
@@ -87,7 +88,6 @@ static void put_settings(struct json *j, const struct settings *settings)
 
 static void print_json(const struct scene *s, const char *path, const struct integrator *m, long spp, double seconds)
 {
-    const struct kdtree *kd = &s->kd;
     struct json j = json_start(stdout);
     json_open(&j, NULL, '{');
     json_text(&j, "scene", path);
@@ -103,8 +103,10 @@ static void print_json(const struct scene *s, const char *path, const struct int
     json_number(&j, "materials", s->n_materials);
     json_number(&j, "textures", s->textures.n_textures);
     put_lights(&j, &s->lights);
-    put_vector(&j, "low", (double)kd->lo[0], (double)kd->lo[1], (double)kd->lo[2]);
-    put_vector(&j, "high", (double)kd->hi[0], (double)kd->hi[1], (double)kd->hi[2]);
+    vec3 lo, hi;
+    scene_bounds(s, &lo, &hi);
+    put_vector(&j, "low", lo);
+    put_vector(&j, "high", hi);
     json_number(&j, "seconds", seconds);
     json_close(&j);
 }

@@ -10,7 +10,7 @@
 #include "geometry/ply.h"
 #include "geometry/subdivide.h"
 
-enum { TRIANGLEMESH, PLYMESH, LOOPSUBDIV };
+enum { TRIANGLEMESH, PLYMESH, LOOPSUBDIV, HEIGHTFIELD };
 
 /* --- meshes ------------------------------------------------------------------------------------------- */
 
@@ -93,6 +93,33 @@ static void loopsubdiv(struct params *q, struct mesh *m)
         type_error(q, "%s", inner.text);
 }
 
+/* Heights "Pz" over nu x nv points of the unit square, the first row at y = 0; two triangles between each four. */
+static void heightfield(struct params *q, struct mesh *m)
+{
+    enum { MOST = 1 << 14 };
+    int n, nu = params_int(q, "nu", 0, 0, MOST), nv = params_int(q, "nv", 0, 0, MOST);
+    const double *z = params_list(q, "Pz", 1u << PARAM_FLOAT, 1, &n, NULL);
+    if (z == NULL || nu < 2 || nv < 2 || n != nu * nv) {
+        type_error(q, "a heightfield needs \"nu\" and \"nv\" of 2 at least, and nu nv heights \"Pz\"");
+        return;
+    }
+    m->n_vertices = n;
+    m->P = mem_alloc((size_t)n, 3 * sizeof *m->P);
+    m->UV = mem_alloc((size_t)n, 2 * sizeof *m->UV);
+    m->index = mem_alloc((size_t)n, 6 * sizeof *m->index);
+    for (int i = 0; i < n; i++) {
+        m->P[3 * i] = m->UV[2 * i] = (float)(i % nu) / (float)(nu - 1);
+        m->P[3 * i + 1] = m->UV[2 * i + 1] = (float)(i / nu) / (float)(nv - 1);
+        m->P[3 * i + 2] = (float)z[i]; /* within NUMBER_MAX */
+        if (i % nu == nu - 1 || i / nu == nv - 1)
+            continue;
+        const int corner[6] = {i, i + 1, i + 1 + nu, i, i + 1 + nu, i + nu};
+        for (int k = 0; k < 6; k++)
+            m->index[3 * m->n_triangles + k] = (uint32_t)corner[k];
+        m->n_triangles += 2;
+    }
+}
+
 static void plymesh(struct params *q, struct mesh *m)
 {
     struct source_position at;
@@ -125,11 +152,13 @@ static void mesh_shape(struct parser *p, void *object)
         trianglemesh(&p->params, &item->mesh);
     else if (p->type->kind == PLYMESH)
         plymesh(&p->params, &item->mesh);
-    else
+    else if (p->type->kind == LOOPSUBDIV)
         loopsubdiv(&p->params, &item->mesh);
+    else
+        heightfield(&p->params, &item->mesh);
     item->absent = item->mesh.n_triangles == 0;
-    if (p->type->kind == LOOPSUBDIV)
-        return; /* in pbrt-v3 it has no alpha */
+    if (p->type->kind == LOOPSUBDIV || p->type->kind == HEIGHTFIELD)
+        return; /* in pbrt-v3 they have no alpha */
     item->group.alpha = alpha(p, "alpha", &no_surface);
     item->absent |= no_surface;
     item->group.shadow_alpha = alpha(p, "shadowalpha", &no_shadow);
@@ -234,6 +263,8 @@ static const struct parameter LOOPSUBDIV_ROWS[] = {
     IGNORED("scheme"), /* there is but one */
     END_OF_PARAMETERS};
 
+static const struct parameter HEIGHTFIELD_ROWS[] = {BY_BUILD("nu"), BY_BUILD("nv"), BY_BUILD("Pz"), END_OF_PARAMETERS};
+
 static const struct object_type TYPES[] = {
     {"trianglemesh", TRIANGLEMESH_ROWS, TRIANGLEMESH, mesh_shape},
     {"plymesh", PLYMESH_ROWS, PLYMESH, mesh_shape},
@@ -244,7 +275,8 @@ static const struct object_type TYPES[] = {
     {"paraboloid", SPHERE, QUADRIC_PARABOLOID, paraboloid},
     {"hyperboloid", HYPERBOLOID, QUADRIC_HYPERBOLOID, hyperboloid},
     {"loopsubdiv", LOOPSUBDIV_ROWS, LOOPSUBDIV, mesh_shape},
-    REFUSED("curve"), REFUSED("heightfield"), REFUSED("nurbs"), OTHERS_LEFT_OUT};
+    {"heightfield", HEIGHTFIELD_ROWS, HEIGHTFIELD, mesh_shape},
+    REFUSED("curve"), REFUSED("nurbs"), OTHERS_LEFT_OUT};
 
 /* --- adding ------------------------------------------------------------------------------------------- */
 

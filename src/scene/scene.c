@@ -65,6 +65,17 @@ static void widen(const struct kdtree *kd, vec3 *lo, vec3 *hi)
     *hi = vec(fmax(hi->x, (double)kd->hi[0]), fmax(hi->y, (double)kd->hi[1]), fmax(hi->z, (double)kd->hi[2]));
 }
 
+void scene_bounds(const struct scene *s, vec3 *lo, vec3 *hi)
+{
+    *lo = *hi = vec(0, 0, 0);
+    if (geometry_primitives(&s->geo) == 0)
+        return;
+    *lo = vec(INFINITY, INFINITY, INFINITY);
+    *hi = neg(*lo);
+    widen(&s->kd, lo, hi);
+    widen(&s->kd_lights, lo, hi);
+}
+
 void scene_prepare(struct scene *s)
 {
     s->geo.opaque = opaque_at;
@@ -75,12 +86,10 @@ void scene_prepare(struct scene *s)
             !material_reads_partials(s->material, s->geo.group[i].material, &s->textures);
     kd_build(&s->kd, &s->geo, false);
     kd_build(&s->kd_lights, &s->geo, true);
-    vec3 lo = vec(INFINITY, INFINITY, INFINITY), hi = neg(lo);
-    widen(&s->kd, &lo, &hi);
-    widen(&s->kd_lights, &lo, &hi);
-    bool empty = geometry_primitives(&s->geo) == 0;
-    double radius = empty ? 1 : length(sub(hi, lo)) / 2;
-    light_prepare(&s->lights, &s->geo, empty ? vec(0, 0, 0) : lerp3(0.5, lo, hi), radius > 0 ? radius : 1);
+    vec3 lo, hi;
+    scene_bounds(s, &lo, &hi);
+    double radius = length(sub(hi, lo)) / 2;
+    light_prepare(&s->lights, &s->geo, lerp3(0.5, lo, hi), radius > 0 ? radius : 1);
     s->epsilon = 1e-8 * 2 * s->lights.radius;
     camera_prepare(&s->camera, s->width, s->height);
     filter_prepare(&s->filter);

@@ -52,6 +52,10 @@ int scene_add_material(struct scene *s, struct material m);
 /* scene_prepare: build the kd-tree, light tables, camera and filter for the final resolution. Call once. */
 void scene_prepare(struct scene *s);
 
+/* scene_bounds: the box of all surfaces of a prepared scene, also of those that rays pass through; the origin if there
+ * are none. */
+void scene_bounds(const struct scene *s, vec3 *lo, vec3 *hi);
+
 /* scene_intersect: first surface along the ray; false if it leaves the scene. */
 bool scene_intersect(const struct scene *s, const struct ray *ray, struct surface *out);
 

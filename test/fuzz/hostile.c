@@ -107,6 +107,7 @@ static const struct object WORLD[] = {
     {"Shape", "trianglemesh", "integer indices*3|point P*9|normal N*9|float uv*6|float alpha|texture shadowalpha"},
     {"Shape", "trianglemesh", "integer indices*6|point P*12|float uv*8|texture alpha"},
     {"Shape", "loopsubdiv", "integer levels|integer indices*6|point P*12"},
+    {"Shape", "heightfield", "integer nu|integer nv|float Pz*4"},
     {"Shape", "plymesh", "string filename:parts/triangle.ply,parts/broken.ply|texture alpha"},
     {"Material", "matte", REFLECT BUMP},
     {"Material", "mirror", "rgb Kr|" BUMP},
