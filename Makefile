@@ -95,6 +95,7 @@ check-long: asbdpt $(BUILD)/test experiments web portability inject ## the tests
 	$(BUILD)/test --slow
 	sh test/keep.sh $(PROGRAM) 100
 	sh test/cluster.sh $(PROGRAM)
+	sh test/readme.sh $(PROGRAM)
 
 check-ref: asbdpt ## are the stored references still what the program converges to?
 	sh ref/check-ref.sh $(PROGRAM)
