@@ -322,9 +322,9 @@ check grep -q 'usage: asbdpt render' stdout.txt
 expect 2 'there is no help on rendering' "$program" help rendering
 expect 0 '' "$program" info "$box" --json
 check grep -q '"triangles": ' stdout.txt
-printf 'WorldBegin Translate 1 2 3 Material "none" AreaLightSource "diffuse" Shape "sphere" WorldEnd\n' >lamp.pbrt
+printf 'WorldBegin Translate 5 6 7 Material "none" AreaLightSource "diffuse" Shape "sphere" WorldEnd\n' >lamp.pbrt
 expect 0 '' "$program" info lamp.pbrt # bounds are those of the surfaces that rays pass through, too
-check grep -q 'bounds  *(0, 1, 2) to (2, 3, 4)' stdout.txt
+check grep -q 'bounds  *(4, 5, 6) to (6, 7, 8)' stdout.txt
 
 # trace: a sample told in words, as JSON and drawn; what it says to have added is what a render's film holds.
 one="--res 12x12 --integrator bdpt --maxdepth 3 --pixel 3,9"
