@@ -320,9 +320,9 @@ static void check_shapes(struct test *t)
     CHECK(t, same3(q[6].p1, 0, 0, 0) && same3(q[6].p2, 1, 1, 1) && near(q[6].radius, sqrt(2)), "default hyperboloid");
     CHECK(t, g[9].has_n && !g[9].has_uv && g[10].first_prim - g[9].first_prim == 8, "one level of subdivision");
     const int first = s.geo.n_vertices - 6;
-    const float *P = s.geo.P + 3 * (first + 4), *uv = s.geo.UV + 2 * (first + 4);
+    const float *P = s.geo.P + 3 * (first + 3), *uv = s.geo.UV + 2 * (first + 3);
     const uint32_t *last = s.geo.index + 3 * (s.geo.n_triangles - 1);
-    CHECK(t, P[0] == 0.5f && P[1] == 1 && P[2] == 14 && uv[0] == 0.5f && uv[1] == 1, "a point of the heightfield");
+    CHECK(t, P[0] == 0 && P[1] == 1 && P[2] == 13 && uv[0] == 0 && uv[1] == 1, "a point of the heightfield");
     CHECK(t, last[0] == (uint32_t)first + 1 && last[1] == (uint32_t)first + 5 && last[2] == (uint32_t)first + 4,
           "its last triangle");
     scene_free(&s);
