@@ -137,9 +137,9 @@ links: ## check that links, functions, tests and mutants named in the documents 
 	@sh test/links_test.sh
 	@sh test/html.sh
 
-san: ## run the tests under the address and undefined-behaviour sanitizers
+san: ## run the tests (or SUITES="...") under the address and undefined-behaviour sanitizers
 	$(MAKE) BUILD=build-san OPT="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all" build-san/test
-	build-san/test
+	build-san/test $(SUITES)
 
 INJECTED = calloc realloc fwrite fprintf fputs fputc fclose fsync fdopen rename pthread_create
 .PHONY: inject
