@@ -31,8 +31,7 @@ struct alias_table {
 
 /* alias_build: make the table of n >= 0 weights, each finite and >= 0. O(n), reuses the table's memory.
  *   t  zero-initialised or built before; afterwards owns its memory until alias_free
- * A weight
- * below 1e-308 of the largest counts as zero; `total` may overflow to infinity, probabilities do not.
+ * A weight below 1e-308 of the largest counts as zero; `total` may overflow to infinity, probabilities do not.
  * Returns false, leaving an empty table (n = 0), when the weights sum to zero, or one is negative or not finite. */
 bool alias_build(struct alias_table *t, const double *weight, int n);
 void alias_free(struct alias_table *t);

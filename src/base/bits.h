@@ -18,6 +18,7 @@ static inline uint64_t hash_mix(uint64_t x)
     return x ^ (x >> 31);
 }
 
+/* hash_combine: a hash of the hash h and one more value. */
 static inline uint64_t hash_combine(uint64_t h, uint64_t value)
 {
     return hash_mix(h * 0x9e3779b97f4a7c15u + value + 1);

@@ -1,5 +1,5 @@
-/* frame.h: a right-handed orthonormal frame, used to write a BSDF in coordinates where the normal is z. Tests:
- * test_vec.c. */
+/* frame.h: a right-handed orthonormal frame, used to write a BSDF in coordinates where the normal is z.
+ * Tests: test_vec.c. */
 #ifndef ASBDPT_FRAME_H
 #define ASBDPT_FRAME_H
 

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/mem.h"
 #include "base/bits.h"
+#include "base/mem.h"
 #include "base/version.h"
 #include "render/part.h"
 
