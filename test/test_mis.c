@@ -140,7 +140,7 @@ static void compare_hits(struct comparison *c, const struct vertex *eye, int t)
 static void compare_direct(struct comparison *c, const struct vertex *eye, int t, struct sampler *sampler)
 {
     struct sampler same = *sampler;
-    struct connection got = connect_direct(c->scene, c->counts, &eye[t - 1], sampler, NULL);
+    struct connection got = connect_direct(c->scene, c->counts, &eye[t - 1], sampler);
     double u[3];
     struct light_point at;
     sampler_next3(&same, u);

@@ -11,6 +11,8 @@
 #ifndef ASBDPT_SAMPLER_H
 #define ASBDPT_SAMPLER_H
 
+#include <math.h>
+
 #include "base/rng.h"
 
 enum {
@@ -50,6 +52,14 @@ static inline void sampler_next3(struct sampler *s, double u[3])
     u[1] = sampler_next(s);
     u[2] = sampler_next(s);
     u[0] = sampler_next(s);
+}
+
+/* sampler_r2: point i >= 0 of the sequence R2, which fills the unit square [0,1)^2 evenly [Roberts 2018]. */
+static inline void sampler_r2(int64_t i, double *u, double *v)
+{
+    double x = 0.5 + 0.7548776662466927 * (double)i, y = 0.5 + 0.5698402909980532 * (double)i;
+    *u = x - floor(x);
+    *v = y - floor(y);
 }
 
 #endif

@@ -40,8 +40,8 @@ enum {
     PAIR_CELLS = 16,      /* subspaces: light regions */
     MIN_EYE = 8 * 1024,   /* pool, vertices: eye sub-paths of the pre-pass, two per pixel between these */
     MAX_EYE = 128 * 1024,
-    COUNTED = 4 * 1024,   /* lvc: light sub-paths whose vertices are counted */
-    MIN_TRAINING = 256 /* subspaces: the same, but TRAINING_SHARE of the samples */
+    MIN_TRAINING = 256,   /* subspaces: the same, but TRAINING_SHARE of the samples, at least */
+    COUNTED = 4 * 1024    /* lvc: light sub-paths whose vertices are counted */
 };
 static const double TRAINING_SHARE = 0.06, PILOT_SHARE = 0.02;
 
@@ -97,17 +97,12 @@ static void pairs_from_importance(struct selection *sel)
     free(row);
 }
 
-static double pixels_of(const struct render_job *job)
-{
-    return (double)rect_width(job->film_rect) * rect_height(job->film_rect);
-}
-
 static void learn_vertices(struct selection *sel, const struct render_job *job, int cells)
 {
     struct prepass_wish wish = {.importance = sel->metric == METRIC_IMPORTANCE, .eye_cells = GUIDE_CELLS};
     wish.light_cells = cells;
     wish.levels = 1;
-    wish.n_eye = (long)clamp(2 * pixels_of(job), MIN_EYE, MAX_EYE);
+    wish.n_eye = (long)clamp(2 * pixel_light_count(job), MIN_EYE, MAX_EYE);
     wish.guide = job->spatial_lights && job->scene->lights.n_cells >= MIN_GUIDED_CELLS;
     if (wish.importance || wish.guide)
         prepass_run(job, &wish, &sel->importance, &sel->learnt);
@@ -131,7 +126,7 @@ static void learn_vertices(struct selection *sel, const struct render_job *job, 
 /* What the user gave is kept; the pilot chooses the rest. */
 static void learn_subspaces(struct selection *sel, const struct render_job *job)
 {
-    double samples = pixels_of(job) * job->spp, drawn = sel->connections[0];
+    double samples = pixel_light_count(job) * job->spp, drawn = sel->connections[0];
     int path_pixels = sel->path_pixels;
     struct prepass_wish wish = {.importance = true, .pairs = true, .eye_cells = GUIDE_CELLS};
     wish.light_cells = PAIR_CELLS;

@@ -10,8 +10,9 @@ void light_pool_free(struct light_pool *pool)
     free(pool->vertex);
 }
 
-void light_pool_fill(struct light_pool *pool, const struct tile_pass *pass, const struct mis_counts *counts,
-                     int path_pixels, long iteration)
+/* Trace the sub-paths of the tile's pixels 0, path_pixels, 2 path_pixels ... for one iteration. */
+static void fill(struct light_pool *pool, const struct tile_pass *pass, const struct mis_counts *counts,
+                 int path_pixels, long iteration)
 {
     size_t longest = (size_t)pass->job->max_depth + 1;
     int number = 0;
@@ -72,7 +73,7 @@ static void render_pixel(const struct selection *sel, const struct tile_pass *pa
 void light_pool_render(const struct selection *sel, const struct tile_pass *pass, const struct pool_choice *choice)
 {
     for (long i = pass->first; i < pass->end; i++) {
-        light_pool_fill(pass->work->scratch, pass, &sel->counts, sel->path_pixels, i);
+        fill(pass->work->scratch, pass, &sel->counts, sel->path_pixels, i);
         choice->begin(pass->work->scratch, sel, pass, i);
         int number = 0;
         for (int y = pass->rect.y0; y < pass->rect.y1; y++)

@@ -138,15 +138,16 @@ static void add_hits(const struct tile *a, const struct tile *b, const double *s
     }
 }
 
-/* Tile k lies around point k of the sequence R2 [Roberts 2018]. */
+/* Tile k lies around point k of an even sequence over the film. */
 static struct pixel_rect rect_of(const struct pilot *p, int64_t k)
 {
     struct pixel_rect all = p->job.film_rect, r;
-    double u = 0.5 + 0.7548776662466927 * (double)k, v = 0.5 + 0.5698402909980532 * (double)k;
+    double u, v;
+    sampler_r2(k, &u, &v);
     int w = rect_width(all) < MAX_TILE_SIZE ? rect_width(all) : MAX_TILE_SIZE;
     int h = rect_height(all) < MAX_TILE_SIZE ? rect_height(all) : MAX_TILE_SIZE;
-    r.x0 = all.x0 + (int)((u - floor(u)) * (rect_width(all) - w + 1)); /* the fractions are in [0,1) */
-    r.y0 = all.y0 + (int)((v - floor(v)) * (rect_height(all) - h + 1));
+    r.x0 = all.x0 + (int)(u * (rect_width(all) - w + 1));
+    r.y0 = all.y0 + (int)(v * (rect_height(all) - h + 1));
     r.x1 = r.x0 + w;
     r.y1 = r.y0 + h;
     return r;

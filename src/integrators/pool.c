@@ -15,9 +15,9 @@
 #include <stdlib.h>
 
 #include "base/alias.h"
+#include "base/number.h"
 #include "integrators/select.h"
 #include "transport/pixel_sample.h"
-#include "base/number.h"
 
 struct pool {
     struct light_pool paths; /* the first, see select.h */

@@ -156,7 +156,7 @@ static void try_pairs(const struct prepass *p, struct chunk *c, const struct lig
 static void examine_eye_vertex(const struct prepass *p, struct chunk *c, const struct light_stock *s,
                                const struct vertex *z, struct sampler *sampler)
 {
-    if (z->kind != VERTEX_SURFACE || !vertex_connectible(z))
+    if (!vertex_connectible(z))
         return;
     struct found visit = {.kind = VISIT, .eye = regions_key(&p->learnt->eye, z->p, z->ng)};
     visit.light = regions_key(&p->learnt->light, z->p, z->ng);
@@ -164,16 +164,15 @@ static void examine_eye_vertex(const struct prepass *p, struct chunk *c, const s
     visit.cell = z->first;
     list_found(c, visit);
     for (int i = 0; p->wish->guide && i < LIGHTS_PER_VERTEX; i++) {
-        struct found seen = {.kind = LIGHT_SEEN, .eye = visit.eye};
-        seen.x = rgb_luminance(connect_direct(p->job->scene, &p->counts, z, sampler, &seen.cell).value);
-        if (seen.x > 0)
-            list_found(c, seen);
+        struct connection light = connect_direct(p->job->scene, &p->counts, z, sampler);
+        struct found seen = {.kind = LIGHT_SEEN, .eye = visit.eye, .cell = light.cell, .x = rgb_luminance(light.value)};
+        list_found(c, seen);
     }
     if (trying_pairs(p))
         try_pairs(p, c, s, z, sampler);
 }
 
-/* Sub-path number i goes through point i of the sequence R2 [Roberts 2018], which fills the film evenly. */
+/* Sub-path number i goes through point i of an even sequence over the film. */
 static void trace_eye_chunk(void *context, int64_t job, int slot, int thread)
 {
     struct prepass *p = context;
@@ -187,9 +186,10 @@ static void trace_eye_chunk(void *context, int64_t job, int slot, int thread)
         arena_reset(&work->arena);
         struct sampler sampler = sampler_start(p->job->seed, RNG_PREPASS, (uint64_t)i, STREAM_EYE);
         struct walk w = walk_of(p, &work->arena, &sampler);
-        double u = 0.5 + 0.7548776662466927 * (double)i, v = 0.5 + 0.5698402909980532 * (double)i;
-        double px = film.x0 + (u - floor(u)) * rect_width(film), py = film.y0 + (v - floor(v)) * rect_height(film);
-        int n = path_eye(&w, px, py, work->eye, p->job->max_depth + 1);
+        double u, v;
+        sampler_r2(i, &u, &v);
+        int n = path_eye(&w, film.x0 + u * rect_width(film), film.y0 + v * rect_height(film), work->eye,
+                         p->job->max_depth + 1);
         for (int k = 1; k < n; k++)
             examine_eye_vertex(p, &p->chunk[slot], &p->stock[thread], &work->eye[k], &sampler);
     }
@@ -199,7 +199,7 @@ static void merge_visit(struct prepass *p, const struct found *f)
 {
     p->importance->eye_vertices += 1.0 / (double)p->wish->n_eye;
     p->importance->first_vertices += f->cell / (double)p->wish->n_eye;
-    if (p->wish->pairs && p->round > 0)
+    if (trying_pairs(p))
         return;
     regions_add(&p->eye, f->eye);
     if (p->wish->importance)
@@ -317,8 +317,7 @@ static void trace_light(struct prepass *p)
 }
 
 /* Each round looks for light with what the rounds before have learnt; what was learnt is put to use between rounds
- * only, while no thread reads it. Regions are found in the first round, and by light sub-paths, before pairs are tried.
- * */
+ * only, while no thread reads it. Regions are found in the first round, and by light sub-paths, before pairs are tried. */
 static void learn_in_rounds(struct prepass *p)
 {
     const struct prepass_wish *wish = p->wish;

@@ -8,7 +8,7 @@
  *   combinatorial  no choice: an eye sub-path is connected with M light sub-paths in all pairs           [Pajot 2011]
  *
  * The last two are rivals to measure the others by: but for their connections they are plain BDPT, with lights by power
- * and nothing learnt about places. Each is one file, `lvc` a variant of vertices.c, and one line in the table of
+ * and nothing learnt about places. Each is one file, `lvc` a variant of vertices.c, and a line in each table of
  * asbdpt.c.
  */
 #ifndef ASBDPT_INTEGRATORS_SELECT_H
@@ -61,10 +61,6 @@ struct light_pool {
 
 /* light_pool_free: release what the pool owns. A pool starts as zeros. */
 void light_pool_free(struct light_pool *pool);
-
-/* light_pool_fill: trace the sub-paths of the tile's pixels 0, path_pixels, 2 path_pixels... for one iteration. */
-void light_pool_fill(struct light_pool *pool, const struct tile_pass *pass, const struct mis_counts *counts,
-                     int path_pixels, long iteration);
 
 /* light_pool_shuffle: a random permutation of the sub-paths' numbers for one iteration into order [pool->n]. */
 void light_pool_shuffle(const struct light_pool *pool, const struct tile_pass *pass, long iteration, int *order);

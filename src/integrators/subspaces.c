@@ -202,7 +202,7 @@ static void connect(void *scratch, const struct selection *sel, struct pool_pixe
 {
     struct subspaces *v = scratch;
     for (int t = 2; t <= p->n && t <= sel->max_depth && v->n > 0; t++)
-        if (p->eye[t - 1].kind == VERTEX_SURFACE && vertex_connectible(&p->eye[t - 1]))
+        if (vertex_connectible(&p->eye[t - 1]))
             connect_drawn(v, sel, &p->sample, &p->eye[t - 1], t, &p->draws);
 }
 

@@ -26,9 +26,9 @@
 #include <stdlib.h>
 
 #include "base/alias.h"
+#include "base/number.h"
 #include "integrators/select.h"
 #include "transport/pixel_sample.h"
-#include "base/number.h"
 
 struct vertices {
     struct light_pool pool; /* the first, see select.h */
@@ -37,7 +37,6 @@ struct vertices {
     double *q;                       /* [n], weights of the table; owned */
     size_t candidate_capacity, s_capacity, q_capacity;
     struct alias_table table;
-    long lost; /* vertices of the table that could not be given a weight */
 };
 
 static void *new_scratch(const void *selection)
@@ -58,14 +57,14 @@ static void free_scratch(void *scratch)
 }
 
 /* The weight of a vertex in the table. One that carries no usable amount of light is never drawn. */
-static double weight_of(struct vertices *v, const struct selection *sel, const struct vertex *y)
+static double weight_of(const struct selection *sel, const struct vertex *y, struct tile *tile)
 {
     if (sel->select == SELECT_LVC)
         return 1;
     double q = rgb_luminance(y->beta) * mis_connect_count(&sel->counts, y->light_region, 0, true);
     if (q >= 0 && fits_float(q))
         return q;
-    v->lost++;
+    tile->nonfinite++;
     return 0;
 }
 
@@ -75,7 +74,6 @@ static void begin(void *scratch, const struct selection *sel, const struct tile_
     struct vertices *v = scratch;
     size_t n = 0;
     (void)iteration;
-    v->lost = 0;
     for (int k = 0; k < v->pool.n; k++) {
         const struct vertex *path = light_pool_path(&v->pool, k);
         for (int i = 1; i < v->pool.length[k]; i++) {
@@ -86,11 +84,10 @@ static void begin(void *scratch, const struct selection *sel, const struct tile_
             v->q = mem_grow(v->q, &v->q_capacity, n + 1, sizeof *v->q);
             v->candidate[n] = &path[i];
             v->s[n] = i + 1;
-            v->q[n++] = weight_of(v, sel, &path[i]);
+            v->q[n++] = weight_of(sel, &path[i], pass->tile);
         }
     }
     alias_build(&v->table, v->q, (int)n);
-    pass->tile->nonfinite += v->lost;
 }
 
 /* For trace.h: draw c of C. */
@@ -127,7 +124,7 @@ static void connect(void *scratch, const struct selection *sel, struct pool_pixe
 {
     struct vertices *v = scratch;
     for (int t = 2; t <= p->n && t <= sel->max_depth && v->table.n > 0; t++)
-        if (p->eye[t - 1].kind == VERTEX_SURFACE && vertex_connectible(&p->eye[t - 1]))
+        if (vertex_connectible(&p->eye[t - 1]))
             connect_drawn(v, sel, &p->sample, &p->eye[t - 1], t, &p->draws);
 }
 

@@ -3,7 +3,7 @@
 
 static struct connection nothing(void)
 {
-    struct connection c = {{0, 0, 0}, 0, 0, 0, {0, 0, 0}, -1, 0};
+    struct connection c = {{0, 0, 0}, 0, 0, 0, {0, 0, 0}, -1, -1, 0};
     return c;
 }
 
@@ -57,21 +57,17 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
 }
 
 struct connection connect_direct(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
-                                 struct sampler *sampler, int *cell_out)
+                                 struct sampler *sampler)
 {
     double u[3];
     sampler_next3(sampler, u);
     const struct light_set *lights = &scene->lights;
-    if (cell_out != NULL)
-        *cell_out = -1;
     if (!vertex_connectible(z) || lights->choice.n == 0)
         return nothing();
     struct light_point at;
     const struct guide *guide = counts->learnt != NULL && counts->learnt->guided ? &counts->learnt->guide : NULL;
     double pmf;
     int cell = guide_choose(guide, lights, z->eye_region, u[0], &pmf);
-    if (cell_out != NULL)
-        *cell_out = cell;
     if (!light_sample_cell(lights, &scene->geo, cell, u[1], u[2], &at) || !(at.pdf > 0))
         return nothing();
     bool parallel = light_at_infinity(&lights->light[at.light]);
@@ -105,6 +101,7 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
     c.weight = mis_weight(counts, count, light, eye);
     c.end = parallel ? at.w : at.p;
     c.light = at.light;
+    c.cell = cell;
     c.pdf = pmf * at.pdf_cell;
     return c;
 }

@@ -18,12 +18,12 @@
 #include "base/rgb.h"
 
 struct connection {
-    rgb value;      /* W/(sr m^2), a pixel's radiance; black if the vertices cannot see each other */
-    double weight;  /* [0,1]; meaningless when value is black */
-    double px, py;  /* connect_lens: a raster point it arrives at, see camera_images */
-    vec3 end;       /* connect_direct: the point on the light, at infinity its direction; connect_lens: on the lens */
-    int light;      /* connect_direct: which */
-    double pdf;     /* connect_direct: of the point, see light.h */
+    rgb value;       /* W/(sr m^2), a pixel's radiance; black if the vertices cannot see each other */
+    double weight;   /* [0,1]; meaningless when value is black */
+    double px, py;   /* connect_lens: a raster point it arrives at, see camera_images */
+    vec3 end;        /* connect_direct: the point on the light, at infinity its direction; connect_lens: on the lens */
+    int light, cell; /* connect_direct: which, and the light cell of the point */
+    double pdf;      /* connect_direct: of the point, see light.h */
 };
 
 /* connect_hit: z, the last of t >= 2 eye vertices, is on a light: z_{t-1} of an eye sub-path, or one of those `passed`
@@ -32,10 +32,9 @@ struct connection {
 struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *prev,
                               const struct vertex *z, int t);
 
-/* connect_direct: z is an eye vertex, t >= 2; the light point is drawn from `sampler` (three numbers).
- *   cell  out, may be NULL: the light cell it was drawn from, -1 if none was */
+/* connect_direct: z is an eye vertex, t >= 2; the light point is drawn from `sampler` (three numbers). */
 struct connection connect_direct(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
-                                 struct sampler *sampler, int *cell);
+                                 struct sampler *sampler);
 
 /* connect_pair: y is a light vertex (s >= 2), z an eye vertex (t >= 2). */
 struct connection connect_pair(const struct scene *scene, const struct mis_counts *counts, const struct vertex *y,

@@ -36,8 +36,8 @@ struct sampler pixel_sampler(const struct tile_pass *pass, enum rng_purpose purp
     return sampler_start(pass->job->seed, purpose, pixel, (uint64_t)iteration);
 }
 
-int pixel_light_path(const struct tile_pass *pass, const struct mis_counts *counts, int x, int y,
-                uint64_t number, struct arena *arena, struct vertex *path)
+int pixel_light_path(const struct tile_pass *pass, const struct mis_counts *counts, int x, int y, uint64_t number,
+                     struct arena *arena, struct vertex *path)
 {
     const struct render_job *job = pass->job;
     uint64_t pixel = pixel_number(job->scene, x, y);
@@ -75,7 +75,7 @@ static void sum_direct(struct pixel_sample *g, const struct vertex *z, int t)
 {
     int n = t == 2 ? g->lights : 1;
     for (int i = 0; i < n; i++) {
-        struct connection c = connect_direct(g->scene, g->counts, z, &g->sampler, NULL);
+        struct connection c = connect_direct(g->scene, g->counts, z, &g->sampler);
         contribute(g, &c, 1, t, NULL, 1.0 / n);
     }
 }

@@ -29,7 +29,7 @@ struct pixel_sample {
 
 /* --- sub-paths --------------------------------------------------------------------------------------- */
 
-/* pixel_sample_begin: what pixel_sample.h needs for pixel (x,y): counts, tile, a fresh stream for end points. */
+/* pixel_sample_begin: pixel (x,y) before anything is walked, with a fresh stream for end points. */
 struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struct mis_counts *counts, int x, int y,
                                        long iteration);
 
@@ -42,8 +42,8 @@ struct sampler pixel_sampler(const struct tile_pass *pass, enum rng_purpose purp
 
 /* pixel_light_path: the light sub-path that belongs to pixel (x,y) and `number` into path [max_depth + 1]; its lobes go
  * to `arena`. Returns its length. */
-int pixel_light_path(const struct tile_pass *pass, const struct mis_counts *counts, int x, int y,
-                uint64_t number, struct arena *arena, struct vertex *path);
+int pixel_light_path(const struct tile_pass *pass, const struct mis_counts *counts, int x, int y, uint64_t number,
+                     struct arena *arena, struct vertex *path);
 
 /* pixel_light_count: light sub-paths per iteration over the whole film, one per pixel: n of t = 1. */
 double pixel_light_count(const struct render_job *job);
@@ -59,12 +59,11 @@ void pixel_sum_eye(struct pixel_sample *g, const struct vertex *eye, int n);
  * times `scale`. */
 void pixel_sum_pair(struct pixel_sample *g, const struct vertex *y, int s, const struct vertex *z, int t, double scale);
 
-/* pixel_sum_pairs: s >= 2, t >= 2 for every pair of vertices of the two sub-paths, each multiplied by `scale`.
- */
+/* pixel_sum_pairs: s >= 2, t >= 2 for every pair of vertices of the two sub-paths, each times `scale`. */
 void pixel_sum_pairs(struct pixel_sample *g, const struct vertex *eye, int n_eye, const struct vertex *light,
                      int n_light, double scale);
 
-/* pixel_splat_path: s >= 2, t = 1 for every vertex of a light sub-path, each multiplied by `scale`; the sums go to the
+/* pixel_splat_path: s >= 2, t = 1 for every vertex of a light sub-path, each times `scale`; the sums go to the
  * tile's splats. */
 void pixel_splat_path(struct pixel_sample *g, const struct vertex *light, int n_light, double scale);
 
