@@ -317,7 +317,8 @@ static void trace_light(struct prepass *p)
 }
 
 /* Each round looks for light with what the rounds before have learnt; what was learnt is put to use between rounds
- * only, while no thread reads it. Regions are found in the first round, and by light sub-paths, before pairs are tried. */
+ * only, while no thread reads it. Regions are found before pairs are tried: in the first round and by light sub-paths.
+ */
 static void learn_in_rounds(struct prepass *p)
 {
     const struct prepass_wish *wish = p->wish;

@@ -45,7 +45,7 @@ struct guide_lessons {
 void guide_lessons_init(struct guide_lessons *l, const struct light_set *lights);
 void guide_lessons_free(struct guide_lessons *l);
 
-/* guide_lessons_add: a light point of `cell` brought `value` > 0 to a vertex of the region, and of those that hold it. */
+/* guide_lessons_add: a light point of `cell` brought `value` > 0 to a vertex of the region, and of all above. */
 void guide_lessons_add(struct guide_lessons *l, const struct regions *regions, int region, int cell, double value);
 
 /* The frozen tables. */
