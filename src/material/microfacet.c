@@ -26,9 +26,3 @@ vec3 microfacet_sample(vec3 wo, double alpha_x, double alpha_y, double u1, doubl
     vec3 half = add(cylindrical(r, phi, z), v);
     return mul(normalize(vec(alpha_x * half.x, alpha_y * half.y, half.z)), side);
 }
-
-double microfacet_sample_pdf(vec3 wo, vec3 wh, double alpha_x, double alpha_y)
-{
-    return microfacet_d(wh, alpha_x, alpha_y) * fabs(dot(wo, wh)) /
-           ((1 + microfacet_lambda(wo, alpha_x, alpha_y)) * fabs(wo.z));
-}

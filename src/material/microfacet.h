@@ -20,8 +20,7 @@ double microfacet_lambda(vec3 w, double alpha_x, double alpha_y);
 
 /* microfacet_sample: the normal, on wo's side, of a facet drawn from those that wo sees, by the area it sees of
  * them [Heitz 2018], in the form of [Dupuy & Benyoub 2023]. wo.z != 0, (u1,u2) uniform in [0,1)^2.
- * microfacet_sample_pdf: its density, 1/sr, for a wh on wo's side with dot(wo,wh) > 0. */
+ * Its density is D(wh) dot(wo,wh) / ((1 + lambda(wo)) |cos(wo)|), 1/sr, where dot(wo,wh) > 0, else 0. */
 vec3 microfacet_sample(vec3 wo, double alpha_x, double alpha_y, double u1, double u2);
-double microfacet_sample_pdf(vec3 wo, vec3 wh, double alpha_x, double alpha_y);
 
 #endif

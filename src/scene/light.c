@@ -281,11 +281,6 @@ rgb light_Le(const struct light_set *set, const struct light_point *y0, vec3 w)
 
 /* --- lights met by eye sub-paths --------------------------------------------------------------------- */
 
-rgb light_Le_surface(const struct light_set *set, const struct surface *at, vec3 w)
-{
-    return at->light < 0 ? rgb_black() : area_Le(&set->light[at->light], at->ng, w);
-}
-
 double light_pdf_surface(const struct light_set *set, const struct geometry *geo, const struct surface *at)
 {
     if (at->light < 0)

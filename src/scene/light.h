@@ -13,11 +13,11 @@
 #define ASBDPT_LIGHT_H
 
 #include "base/alias.h"
-#include "scene/envmap.h"
 #include "base/frame.h"
 #include "base/rgb.h"
-#include "geometry/shape.h"
 #include "base/transform.h"
+#include "geometry/shape.h"
+#include "scene/envmap.h"
 #include "scene/slide.h"
 
 enum light_kind {
@@ -141,9 +141,6 @@ double light_pdf_emission(const struct light_set *set, const struct light_point 
 /* light_Le: what y0 sends in the unit direction w of travel: area, infinite: radiance; point, spot etc.: intensity
  * (its inverse square law is the connection's G); distant: irradiance. */
 rgb light_Le(const struct light_set *set, const struct light_point *y0, vec3 w);
-
-/* light_Le_surface: radiance an area light's surface point sends in direction w. */
-rgb light_Le_surface(const struct light_set *set, const struct surface *at, vec3 w);
 
 /* light_Le_environment: radiance of all infinite lights for a ray leaving the scene in unit direction w. */
 rgb light_Le_environment(const struct light_set *set, vec3 w);

@@ -52,8 +52,6 @@ void settings_clear(struct settings *s)
     memset(s, 0, sizeof *s);
 }
 
-const struct setting *settings_find(const struct settings *s, const char *name) { return find(s, name); }
-
 const char *settings_text(const struct settings *s, const char *name, const char *fallback)
 {
     const struct setting *item = find(s, name);

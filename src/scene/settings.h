@@ -26,9 +26,6 @@ void settings_set(struct settings *s, const char *name, const char *value, const
 void settings_remove(struct settings *s, int i);
 void settings_clear(struct settings *s); /* forget and free everything */
 
-/* settings_find: the setting of this name, or NULL. */
-const struct setting *settings_find(const struct settings *s, const char *name);
-
 /* settings_text: the value, or `fallback` when the name is not set. */
 const char *settings_text(const struct settings *s, const char *name, const char *fallback);
 
