@@ -15,7 +15,8 @@ struct convert_options {
 static const struct option OPTIONS[] = {
     {"IN", NULL, OPTION_TEXT, AT(in), 1, .help = "a picture to read: .exr .pfm .hdr .pic .png .tga .ppm .pgm"},
     {"OUT", NULL, OPTION_TEXTS, AT(out), 1, .help = "a picture to write: linear .pfm .exr .hdr, sRGB .png .ppm .tga"},
-    TONE_OPTIONS(AT(tone)),
+    {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
+    {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
     {.name = NULL},
 };
 

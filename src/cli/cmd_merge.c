@@ -19,7 +19,8 @@ static const struct option OPTIONS[] = {
     {"PART", NULL, OPTION_TEXTS, AT(part), 1, .help = "a part of a picture; without -o the first name is the output's"},
     {"--outfile", "FILE", OPTION_TEXTS, AT(output), .alias = "-o", .help = "a picture, or .part; repeatable"},
     {"--partial", NULL, OPTION_ON, AT(partial), .help = "make a picture even where samples are missing"},
-    TONE_OPTIONS(AT(tone)),
+    {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
+    {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
     {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "do not say what was written"},
     {.name = NULL},
 };

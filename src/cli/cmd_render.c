@@ -237,7 +237,9 @@ static int run(void *options)
 #define AT(member) offsetof(struct job_options, keep.member)
 static const struct option OPTIONS[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXT, offsetof(struct job_options, scene_path), 1, .help = "a scene file"},
-    TONE_OPTIONS(offsetof(struct job_options, tone)),
+    {"--exposure", "EV", OPTION_NUMBER, offsetof(struct job_options, tone.exposure), -100, 100, .fallback = "0",
+     .help = EXPOSURE_HELP},
+    {"--tonemap", "NAME", OPTION_TEXT, offsetof(struct job_options, tone.curve), .help = TONEMAP_HELP},
     {"--time", "SECONDS", OPTION_NUMBER, AT(time), 0, 1e9, .help = "stop after so long, and write what there is"},
     {"--checkpoint", "FILE", OPTION_TEXT, AT(checkpoint), .help = "save the render now and then, and at signals"},
     {"--interval", "SECONDS", OPTION_NUMBER, AT(interval), 0, 1e9, .fallback = "60", .help = "between checkpoints"},

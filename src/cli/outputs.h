@@ -28,16 +28,13 @@ struct outputs {
 /* outputs_is_part: does the name end in .part? */
 bool outputs_is_part(const char *name);
 
-/* What options say of the tone, and their rows for a subcommand's table, `at` being the offset of the struct. */
+/* What the options --exposure and --tonemap say, and their help. */
 struct tone_options {
     double exposure;
     const char *curve; /* NULL: none */
 };
-#define TONE_OPTIONS(at) \
-    {"--exposure", "EV", OPTION_NUMBER, (at) + offsetof(struct tone_options, exposure), -100, 100, .fallback = "0", \
-     .help = "8-bit pictures: brighter by so many stops, of a factor of two each"}, \
-    {"--tonemap", "NAME", OPTION_TEXT, (at) + offsetof(struct tone_options, curve), \
-     .help = "8-bit pictures: none, or the curve of film: filmic"}
+#define EXPOSURE_HELP "8-bit pictures: brighter by so many stops, of a factor of two each"
+#define TONEMAP_HELP "8-bit pictures: none, or the curve of film: filmic"
 
 /* outputs_open: begin to write pictures of these names, at least one, - (standard output) at most once.
  *   tone  of the 8-bit pictures, or NULL: as they are; if it changes anything, one of the pictures must be such
