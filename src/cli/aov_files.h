@@ -13,7 +13,7 @@ struct aov_files {
     bool any;
 };
 
-/* aov_check: is the list, words between commas, one of aov_names? False with a message. */
+/* aov_check: is the list made of names of aov_name, with commas between them? False with a message. */
 bool aov_check(const char *list, struct error *err);
 
 /* aov_open: begin to write the pictures of a good list beside `picture`. Returns false with a message; nothing is open

@@ -1,5 +1,4 @@
-/* cmd_verify.c: asbdpt verify: have two integrators, or two pictures, the same expectation? See verify.h for the tests.
- * */
+/* cmd_verify.c: asbdpt verify: have two integrators, or two pictures, the same expectation? See verify.h. */
 #include <stdio.h>
 #include <string.h>
 

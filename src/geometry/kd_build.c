@@ -9,10 +9,10 @@
 #include <string.h>
 
 #include "base/maths.h"
+#include "base/mem.h"
 #include "geometry/kd_block.h"
 #include "geometry/kd_plane.h"
 #include "geometry/kdtree.h"
-#include "base/mem.h"
 
 /* References per item at most. Meshes need 2 to 4; a heap of long needles would ask for ever more. */
 static const double MAX_REFERENCES = 32;

@@ -13,8 +13,8 @@
 #ifndef ASBDPT_QUADRIC_H
 #define ASBDPT_QUADRIC_H
 
-#include "geometry/surface.h"
 #include "base/transform.h"
+#include "geometry/surface.h"
 
 enum quadric_kind {
     QUADRIC_SPHERE,

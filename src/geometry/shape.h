@@ -14,11 +14,11 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "base/transform.h"
+#include "base/vec.h"
 #include "geometry/quadric.h"
 #include "geometry/surface.h"
-#include "base/transform.h"
 #include "geometry/triangle.h"
-#include "base/vec.h"
 
 enum { FIRST_QUADRIC = 1 << 30 };
 

@@ -1,11 +1,11 @@
 /* triangle.h: the ray-triangle test, inline because it is the innermost loop of the whole program, and the
  * differential geometry of a triangle.
  *
- * The test is the watertight one of [Woop 2013], in double. The ray is turned into the axis
- * (0,0) by a shear that depends on the ray alone, so every vertex has one projection (ax, ay), whichever
- * triangle it belongs to. The edge function of a shared edge is then the same number with opposite sign in
- * both triangles; a rounded difference of two products never has the wrong sign (at worst it is 0), and 0
- * counts as inside: no ray slips between two triangles.
+ * The test is the watertight one of [Woop 2013], in double. The ray is turned into the axis (0,0) by a shear that
+ * depends on the ray alone, so every vertex has one projection (ax, ay), whichever triangle it belongs to.
+ * The edge function of a shared edge is then the same number with opposite sign in both triangles; a rounded difference
+ * of two products never has the wrong sign (at worst it is 0), and 0 counts as inside: no ray slips between two
+ * triangles.
  *
  * Tests: test_shape.c, test_kdtree.c (closed surfaces).
  */

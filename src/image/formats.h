@@ -32,8 +32,8 @@ bool ppm_matches(const uint8_t *data, size_t size);
 bool ppm_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
 void ppm_write(FILE *f, int width, int height, const float *pixels);
 
-/* PNG files [PNG]. Read: every colour type and depth, interlaced or not. Alpha,
- * transparency and colour profiles are not used; checksums are checked. Written: 8-bit RGB, sRGB encoded. */
+/* PNG files [PNG]. Read: every colour type and depth, interlaced or not. Alpha, transparency and colour profiles are
+ * not used; checksums are checked. Written: 8-bit RGB, sRGB encoded. */
 bool png_matches(const uint8_t *data, size_t size);
 bool png_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
 void png_write(FILE *f, int width, int height, const float *pixels);

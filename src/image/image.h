@@ -1,6 +1,6 @@
 /* image.h: pictures in memory and their files.
  *
- * Formats are one table {extension, read, write}: PFM, OpenEXR and Radiance (linear RGB), PPM, PNG and TGA (8-bit sRGB
+ * Formats are rows of one table in image.c: PFM, OpenEXR and Radiance (linear RGB), PPM, PNG and TGA (8-bit sRGB
  * when written; read as stored). The pixels in memory are picture.h's, the formats formats.h's.
  *
  * Tests: test_image.c, test_hdr.c.

@@ -7,6 +7,7 @@
 
 #include <stdio.h>
 
+/* page_style, page_script: the contents of the style and script elements; errors stick to the stream. */
 void page_style(FILE *f);
 void page_script(FILE *f);
 

@@ -32,5 +32,4 @@ const char *trace_measure(const struct scene *scene, const struct vertex *v);
  * that needs nothing else. */
 void trace_svg(FILE *f, const struct trace_story *story);
 
-
 #endif

@@ -18,9 +18,9 @@
 #include <stdbool.h>
 
 #include "base/frame.h"
-#include "material/lobe.h"
 #include "base/rgb.h"
 #include "base/vec.h"
+#include "material/lobe.h"
 
 struct bsdf {
     struct frame shading;    /* n is the shading normal */

@@ -14,8 +14,7 @@
  * eta_a side); 1 under total internal reflection. The same for both directions of the refracted path. */
 double fresnel_dielectric(double cos_i, double eta_a, double eta_b);
 
-/* fresnel_conductor: unpolarised reflectance of a metal of complex index eta + i k; the sign of cos_i is ignored.
- */
+/* fresnel_conductor: unpolarised reflectance of a metal of complex index eta + i k; the sign of cos_i is ignored. */
 rgb fresnel_conductor(double cos_i, rgb eta, rgb k);
 
 /* fresnel_refract: the direction of transmission, by Snell's law.

@@ -2,9 +2,9 @@
  * dielectrics [Walter 2007]; substrate [Ashikhmin & Shirley 2000]. */
 #include "material/lobe.h"
 
+#include "base/warp.h"
 #include "material/fresnel.h"
 #include "material/microfacet.h"
-#include "base/warp.h"
 
 static const struct bsdf_value NOTHING = {{0, 0, 0}, 0, 0};
 

@@ -46,8 +46,8 @@ struct lobe {
     enum lobe_kind kind;
     enum fresnel_kind fresnel;
     rgb scale;               /* multiplies the lobe's value: shares of mix materials; 1 otherwise */
-    rgb R;                   /* reflectance of a reflecting lobe; diffuse part of FRESNEL_BLEND */
-    rgb T;                   /* transmittance of a transmitting lobe; specular part of FRESNEL_BLEND */
+    rgb R;                   /* reflectance of a reflecting lobe; diffuse part of LOBE_FRESNEL_BLEND */
+    rgb T;                   /* transmittance of a transmitting lobe; specular part of LOBE_FRESNEL_BLEND */
     rgb eta, k;              /* conductor: complex index relative to the outside */
     double eta_a, eta_b;     /* dielectric: index above (side of the normal) and below */
     double alpha_x, alpha_y; /* Trowbridge-Reitz roughness along s and t, > 0 */
@@ -66,7 +66,7 @@ struct bsdf_value {
 struct bsdf_sample {
     vec3 wi;
     rgb f;      /* value for wi, 1/sr; of a delta lobe: the coefficient of the delta over |cos(wi, ns)| */
-    double pdf; /* 1/sr; of a delta lobe: the probability of choosing it (and, of a FRESNEL_SPECULAR, the branch) */
+    double pdf; /* 1/sr; of a delta lobe: the probability of choosing it (and of LOBE_FRESNEL_SPECULAR the branch) */
     double pdf_rev; /* the same for the reversed pair, 1/sr; of a delta lobe: the probability of choosing it from
                      * wi, times d(wi)/d(wo) = cos_o / (eta^2 cos_i) when it transmits, see lobe.c */
     bool delta;
@@ -91,7 +91,7 @@ struct bsdf_value lobe_eval(const struct lobe *l, vec3 wo, vec3 wi, bool reflect
 bool lobe_sample(const struct lobe *l, vec3 wo, vec3 ng, const double u[3], vec3 *wi);
 
 /* lobe_sample_delta: the direction of a delta lobe, and what goes there; fills *out in the shading frame.
- *   u  uniform in [0,1), chooses between reflection and transmission of FRESNEL_SPECULAR
+ *   u  uniform in [0,1), chooses between reflection and transmission of LOBE_FRESNEL_SPECULAR
  * Returns false when nothing is sent on. */
 bool lobe_sample_delta(const struct lobe *l, vec3 wo, double u, enum transport mode, struct bsdf_sample *out);
 

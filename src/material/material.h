@@ -6,9 +6,9 @@
 
 #include <stdbool.h>
 
-#include "material/bsdf.h"
 #include "base/mem.h"
 #include "geometry/surface.h"
+#include "material/bsdf.h"
 #include "material/texture.h"
 
 enum material_kind {

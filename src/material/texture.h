@@ -13,10 +13,10 @@
 #include <stddef.h>
 
 #include "base/error.h"
-#include "image/image.h"
 #include "base/rgb.h"
 #include "base/transform.h"
 #include "geometry/surface.h"
+#include "image/image.h"
 #include "material/mapping.h"
 
 enum texture_kind {
@@ -97,8 +97,7 @@ int texture_load_image(struct texture_set *set, const char *path, struct error *
 void texture_set_free(struct texture_set *set);
 
 /* texture_rgb / texture_float: the value at a surface point. `id` must be a valid texture number. A float texture
- * of a colour picture is the luminance of the stored values, decoded afterwards if `gamma` is set, as in pbrt-v3.
- */
+ * of a colour picture is the luminance of the stored values, decoded afterwards if `gamma` is set, as in pbrt-v3. */
 rgb texture_varying_rgb(const struct texture_set *set, int id, const struct surface *at);
 double texture_varying_float(const struct texture_set *set, int id, const struct surface *at);
 

@@ -11,10 +11,10 @@
 #ifndef ASBDPT_PARAMS_H
 #define ASBDPT_PARAMS_H
 
-#include "parser/lexer.h"
 #include "base/bits.h"
 #include "base/rgb.h"
 #include "base/vec.h"
+#include "parser/lexer.h"
 
 enum param_type {
     PARAM_INTEGER,

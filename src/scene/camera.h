@@ -20,9 +20,9 @@
 
 #include <stdbool.h>
 
-#include "geometry/shape.h"
 #include "base/transform.h"
 #include "base/vec.h"
+#include "geometry/shape.h"
 
 enum camera_kind { CAMERA_PERSPECTIVE, CAMERA_ORTHOGRAPHIC, CAMERA_ENVIRONMENT };
 

@@ -13,9 +13,9 @@
 
 #include "base/alias.h"
 #include "base/error.h"
-#include "image/image.h"
 #include "base/rgb.h"
 #include "base/vec.h"
+#include "image/image.h"
 
 struct envmap {
     struct image image;        /* owned */

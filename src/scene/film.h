@@ -17,9 +17,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "scene/filter.h"
 #include "base/exact_sum.h"
 #include "base/rgb.h"
+#include "scene/filter.h"
 
 /* Pixels [x0,x1) x [y0,y1). */
 struct pixel_rect {
@@ -70,11 +70,11 @@ void tile_add_eye(struct tile *t, int x, int y, rgb value);
 /* tile_add_splat: a value arriving at raster point (px,py), spread over pixels by the filter. */
 void tile_add_splat(struct tile *t, double px, double py, rgb value);
 
-/* tile_record: note a strategy's contribution, at a pixel of the tile or at a raster point. */
+/* tile_record_eye, tile_record_splat: note a strategy's contribution, at a pixel of the tile or at a raster point. */
 void tile_record_eye(struct tile *t, int x, int y, int s, int th, rgb unweighted, double weight);
 void tile_record_splat(struct tile *t, double px, double py, int s, int th, rgb unweighted, double weight);
 
-/* Images of single strategies, [n_strategies][pixels*3], numbered by strategy_index. */
+/* Images of single strategies, [strategy_count(max_depth)][pixels*3], numbered by strategy_index. */
 struct strategy_images {
     int max_depth;
     double *unweighted, *weighted; /* owned */

@@ -8,14 +8,14 @@
 
 #include <stdbool.h>
 
+#include "geometry/kdtree.h"
+#include "geometry/shape.h"
+#include "material/material.h"
+#include "material/texture.h"
 #include "scene/camera.h"
 #include "scene/filter.h"
-#include "geometry/kdtree.h"
 #include "scene/light.h"
-#include "material/material.h"
 #include "scene/settings.h"
-#include "geometry/shape.h"
-#include "material/texture.h"
 
 struct scene {
     struct geometry geo; /* first: see opaque_at in scene.c */
