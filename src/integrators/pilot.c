@@ -20,10 +20,12 @@ static const double USUAL_CREDIT = 1.5, MOST_CREDIT = 4;
 /* Renders of a tile: the second shares nothing with the first, the third its eye sub-paths. */
 enum { RENDERS = 3 };
 
-static const double OUTLIER = 25; /* no squared relative deviation counts for more: a picture's white is not far off */
+/* No squared relative deviation counts for more: a picture's white is not far off. Light sub-paths have more leave: what
+ * they splat is rare and strong (caustics), and their number is all that is decided by it. */
+static const double OUTLIER = 25, OUTLIER_PATHS = 400;
 
 struct sums {
-    double total, given_eye;               /* variances relative to the squared brightness */
+    double total, given_eye, given_paths;  /* variances relative to the squared brightness; the last: OUTLIER_PATHS */
     double spread[N_KINDS], square[N_KINDS]; /* of the samples of one eye vertex: variance and squares of their sum */
     double hit_spread, hit_square;           /* of a pixel's s = 0, t = 3: the same */
 };
@@ -176,7 +178,9 @@ static void render_tile(void *context, int64_t job, int slot, int thread)
         add_records(&p->tile[slot][i], scale, found);
     for (size_t i = 0; i < n; i++) {
         found->total += fmin(sqr(value[i] - value[n + i]) / 2 / scale[i], OUTLIER);
-        found->given_eye += fmin(sqr(value[i] - value[2 * n + i]) / 2 / scale[i], OUTLIER);
+        double given = sqr(value[i] - value[2 * n + i]) / 2 / scale[i];
+        found->given_eye += fmin(given, OUTLIER);
+        found->given_paths += fmin(given, OUTLIER_PATHS);
     }
     add_hits(&p->tile[slot][0], &p->tile[slot][1], scale, value, n, found);
     free(value);
@@ -189,6 +193,7 @@ static bool add_tile(void *context, int64_t job, int slot)
     const struct sums *s = &p->found[slot];
     p->sums.total += s->total;
     p->sums.given_eye += s->given_eye;
+    p->sums.given_paths += s->given_paths;
     p->sums.hit_spread += s->hit_spread;
     p->sums.hit_square += s->hit_square;
     for (int k = 0; k < N_KINDS; k++) {
@@ -242,7 +247,7 @@ static double credit_of(double square, double spread)
 static void choose_numbers(struct selection *sel, const struct sums *s)
 {
     const double LEAST = 0.2, LEAST_PATH = 0.02; /* shares of the variance that A and light sub-paths have at least */
-    double fixed, cost[N_KINDS], b[N_KINDS], n[N_KINDS], credit[N_KINDS], rest = s->given_eye;
+    double fixed, cost[N_KINDS], b[N_KINDS], n[N_KINDS], credit[N_KINDS], rest = s->given_paths;
     double A = fmax(s->total - s->given_eye, LEAST * s->total);
     for (int k = 0; k < LIGHT_PATH; k++)
         rest -= b[k] = s->spread[k];
