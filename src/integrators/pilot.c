@@ -20,8 +20,8 @@ static const double USUAL_CREDIT = 1.5, MOST_CREDIT = 4;
 /* Renders of a tile: the second shares nothing with the first, the third its eye sub-paths. */
 enum { RENDERS = 3 };
 
-/* No squared relative deviation counts for more: a picture's white is not far off. Light sub-paths have more leave: what
- * they splat is rare and strong (caustics), and their number is all that is decided by it. */
+/* No squared relative deviation counts for more: a picture's white is not far off. Light sub-paths have more leave:
+ * what they splat is rare and strong (caustics), and their number is all that is decided by it. */
 static const double OUTLIER = 25, OUTLIER_PATHS = 400;
 
 struct sums {
