@@ -113,6 +113,9 @@ const double *params_list(struct params *p, const char *name, unsigned types, in
 /* params_text: the one value of a parameter of type PARAM_STRING or PARAM_TEXTURE, or NULL; *at is its position. */
 const char *params_text(struct params *p, const char *name, enum param_type type, struct source_position *at);
 
+/* params_type_name: as scene files have it: "integer", "rgb" ... */
+const char *params_type_name(enum param_type type);
+
 /* params_file: a "string NAME" as a path: relative ones start in the main scene file's directory. NULL if absent or "".
  * The text is to be given to free(); *at is the position of the value. */
 char *params_file(struct params *p, const char *name, struct source_position *at);

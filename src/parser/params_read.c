@@ -1,0 +1,197 @@
+/* params_read.c: see params.h: a parameter list from text to memory. */
+#include "parser/params.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "parser/spectrum.h"
+#include "parser/symbols.h"
+
+/* One row per spelling; the first of a type is its name in messages. */
+static const struct {
+    const char *name;
+    enum param_type type;
+} TYPES[] = {{"integer", PARAM_INTEGER},  {"float", PARAM_FLOAT},
+             {"bool", PARAM_BOOL},        {"string", PARAM_STRING},
+             {"texture", PARAM_TEXTURE},  {"point2", PARAM_POINT2},
+             {"vector2", PARAM_VECTOR2},  {"point", PARAM_POINT},
+             {"point3", PARAM_POINT},     {"vector", PARAM_VECTOR},
+             {"vector3", PARAM_VECTOR},   {"normal", PARAM_NORMAL},
+             {"rgb", PARAM_RGB},          {"color", PARAM_RGB},
+             {"xyz", PARAM_XYZ},          {"blackbody", PARAM_BLACKBODY},
+             {"spectrum", PARAM_SPECTRUM}};
+enum { N_TYPES = sizeof TYPES / sizeof TYPES[0] };
+
+const char *params_type_name(enum param_type type)
+{
+    for (int i = 0; i < N_TYPES; i++)
+        if (TYPES[i].type == type)
+            return TYPES[i].name;
+    return "";
+}
+
+/* Split a copy of "type name". The type remains PARAM_TYPES, with a warning, where the parameter cannot be used. */
+static void read_declaration(struct params *p, const struct token *t, struct param *item)
+{
+    char *text = arena_alloc(item->values.arena, strlen(t->text) + 1);
+    strcpy(text, t->text);
+    const char *type = strtok(text, " \t"), *name = strtok(NULL, " \t");
+    item->type = PARAM_TYPES;
+    item->name = t->text;
+    if (type == NULL || name == NULL) {
+        source_warn(p->messages, t->position, NULL, "the parameter \"%.40s\" is passed over: it is declared by its "
+                    "type and its name, like \"float radius\"", t->text);
+        return;
+    }
+    struct suggestion near = suggest_start(type);
+    for (int i = 0; i < N_TYPES; i++) {
+        suggest_offer(&near, TYPES[i].name);
+        if (strcmp(TYPES[i].name, type) == 0) {
+            item->type = TYPES[i].type;
+            item->name = name;
+            return;
+        }
+    }
+    if (near.name != NULL)
+        source_warn(p->messages, t->position, NULL, "the parameter \"%.40s\" is passed over: unknown type; did you "
+                    "mean \"%s\"?", t->text, near.name);
+    else
+        source_warn(p->messages, t->position, NULL, "the parameter \"%.40s\" is passed over: unknown type; types are "
+                    "integer, float, bool, string, texture, point2, vector2, point, vector, normal, rgb, xyz, "
+                    "blackbody and spectrum", t->text);
+}
+
+static bool wants_text(enum param_type type)
+{
+    return type == PARAM_BOOL || type == PARAM_STRING || type == PARAM_TEXTURE;
+}
+
+static bool add_number(struct params *p, struct param *item, double number)
+{
+    p->number = mem_grow(p->number, &p->number_capacity, p->n_number + 1, sizeof *p->number);
+    p->number[p->n_number++] = number;
+    item->n++;
+    return true;
+}
+
+/* One value that is not a plain number: a string, a bare true or false, a number with an appendix, or a mistake. */
+static bool read_text(struct params *p, struct lexer *l, struct param *item)
+{
+    struct token t;
+    char buffer[64];
+    struct lexer before = *l;
+    if (!lexer_next(l, &t)) {
+        p->failed = true;
+        return false;
+    }
+    if (t.kind == TOKEN_NUMBER && !item->is_text)
+        return add_number(p, item, t.number);
+    bool bare_bool = t.kind == TOKEN_WORD && (strcmp(t.text, "true") == 0 || strcmp(t.text, "false") == 0);
+    bool text = t.kind == TOKEN_STRING || (item->type == PARAM_BOOL && bare_bool);
+    if (t.kind == TOKEN_WORD && !text)
+        *l = before; /* it may be the next directive */
+    if (!text || (item->n > 0 && !item->is_text))
+        return params_fail(p, t.position, "\"%s\" wants %s here, not %s", item->name,
+                           item->is_text || (item->n == 0 && wants_text(item->type)) ? "a quoted string" : "a number",
+                           token_text(&t, buffer, sizeof buffer));
+    item->is_text = true;
+    p->string = mem_grow(p->string, &p->string_capacity, p->n_string + 1, sizeof *p->string);
+    p->string[p->n_string++] = t.text;
+    item->n++;
+    return true;
+}
+
+static bool read_value(struct params *p, struct lexer *l, struct param *item)
+{
+    double number;
+    if (item->is_text || !lexer_number(l, &number))
+        return read_text(p, l, item);
+    return add_number(p, item, number);
+}
+
+static bool read_values(struct params *p, struct lexer *l, struct param *item)
+{
+    item->values = *l;
+    if (lexer_peek(l) != TOKEN_OPEN)
+        return read_value(p, l, item);
+    struct token open;
+    lexer_next(l, &open);
+    item->values = *l;
+    for (;;) {
+        enum token_kind next = lexer_peek(l);
+        if (next == TOKEN_CLOSE)
+            return lexer_next(l, &open);
+        if (next == TOKEN_END || item->n == INT_MAX)
+            return params_fail(p, open.position, "this [ has no ]; close the list of values");
+        if (!read_value(p, l, item))
+            return false;
+    }
+}
+
+/* Numbers where strings belong and the reverse: pbrt-v3 passes over such a parameter. */
+static bool is_usable(struct params *p, const struct param *item)
+{
+    if (item->type == PARAM_TYPES)
+        return false;
+    if (item->type == PARAM_SPECTRUM || item->n == 0 || item->is_text == wants_text(item->type))
+        return true;
+    source_warn(p->messages, item->position, NULL, "\"%s %.40s\" is passed over: it wants %s", params_type_name(item->type),
+                item->name, item->is_text ? "numbers, not strings" : "a quoted string, not a number");
+    return false;
+}
+
+bool params_read(struct params *p, struct lexer *l)
+{
+    p->n = p->n_asked = 0;
+    p->n_number = p->n_string = 0;
+    p->failed = p->excess = false;
+    while (lexer_peek(l) == TOKEN_STRING) {
+        struct token t;
+        if (!lexer_next(l, &t))
+            return false;
+        struct param item = {.position = t.position, .values = *l};
+        read_declaration(p, &t, &item);
+        size_t first_number = p->n_number, first_string = p->n_string;
+        if (!read_values(p, l, &item))
+            return false;
+        item.first = item.is_text ? first_string : first_number;
+        if (!is_usable(p, &item))
+            continue;
+        p->item = mem_grow(p->item, &p->capacity, (size_t)p->n + 1, sizeof *p->item);
+        p->item[p->n++] = item;
+    }
+    return true;
+}
+
+int params_take(struct params *p, const struct params *from, const struct param *item)
+{
+    struct param copy = *item;
+    size_t n = (size_t)item->n;
+    for (int i = 0; i < p->n; i++)
+        if (strcmp(p->item[i].name, item->name) == 0 &&
+            (item->type == PARAM_TEXTURE || p->item[i].type == PARAM_TEXTURE || p->item[i].type == item->type))
+            p->item[i--] = p->item[--p->n];
+    if (item->is_text) {
+        p->string = mem_grow(p->string, &p->string_capacity, p->n_string + n, sizeof *p->string);
+        memcpy(p->string + p->n_string, from->string + item->first, n * sizeof *p->string);
+        copy.first = p->n_string;
+        p->n_string += n;
+    } else {
+        p->number = mem_grow(p->number, &p->number_capacity, p->n_number + n, sizeof *p->number);
+        memcpy(p->number + p->n_number, from->number + item->first, n * sizeof *p->number);
+        copy.first = p->n_number;
+        p->n_number += n;
+    }
+    p->item = mem_grow(p->item, &p->capacity, (size_t)p->n + 1, sizeof *p->item);
+    p->item[p->n] = copy;
+    return p->n++;
+}
+
+void params_free(struct params *p)
+{
+    free(p->item);
+    free(p->number);
+    free(p->string);
+    memset(p, 0, sizeof *p);
+}
