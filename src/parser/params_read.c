@@ -137,7 +137,8 @@ static bool is_usable(struct params *p, const struct param *item)
     if (item->type == PARAM_SPECTRUM || item->n == 0 || item->is_text == wants_text(item->type))
         return true;
     source_warn(p->messages, item->position, NULL, "\"%s %.40s\" is passed over: it wants %s",
-                params_type_name(item->type), item->name, item->is_text ? "numbers, not strings" : "a quoted string, not a number");
+                params_type_name(item->type), item->name,
+                item->is_text ? "numbers, not strings" : "a quoted string, not a number");
     return false;
 }
 
