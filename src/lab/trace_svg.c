@@ -184,8 +184,8 @@ static void draw_section(FILE *f, const struct view *v)
             struct surface at;
             for (int n = 0; n < MOST && scene_intersect(v->scene, &ray, &at); n++) {
                 double x, y;
-                project(v, at.p, &x, &y);
-                xml_print(f, "M%.1f %.1fh0", x, y);
+                if (project(v, at.p, &x, &y))
+                    xml_print(f, "M%.1f %.1fh0", x, y);
                 ray.tmin = length(sub(at.p, start)) + 1e-4 * length(step);
             }
         }
@@ -203,7 +203,7 @@ static void draw_line(FILE *f, const struct view *v, vec3 a, vec3 b, const char 
     xml_print(f, "<path class=\"%s\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"", dashed ? "path none" : "path", colour,
               width);
     for (int i = 0; i <= PIECES; i++) {
-        double x, y;
+        double x = 0, y = 0;
         bool seen = project(v, lerp3((double)i / PIECES, a, b), &x, &y) && fabs(x) < 1e5 && fabs(y) < 1e5;
         bool on = open && seen && fabs(x - before) < WIDTH / 2.0; /* an environment camera's picture has a seam */
         if (seen)
