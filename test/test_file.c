@@ -259,7 +259,7 @@ static void test_duration(struct test *t)
 
 static void test_json(struct test *t)
 {
-    static const char EXPECTED[] = "{\n  \"a\": \"x\\\"\\\\\\u001b\",\n  \"b\": [1, 0.10000000000000001, null],\n"
+    static const char EXPECTED[] = "{\n  \"a\": \"x\\\"\\\\\\u001b\",\n  \"b\": [1, 0.10000000000000001, null, 18446744073709551615],\n"
                                    "  \"c\": {},\n  \"d\": [\n    true,\n    null\n  ]\n}\n";
     char path[512], read[256] = "";
     in_tmp(t, "x.json", path, sizeof path);
@@ -273,6 +273,7 @@ static void test_json(struct test *t)
     json_number(&j, NULL, 1);
     json_number(&j, NULL, 0.1);
     json_number(&j, NULL, (double)INFINITY);
+    json_count(&j, NULL, UINT64_MAX);
     json_close(&j);
     json_open(&j, "c", '{');
     json_close(&j);

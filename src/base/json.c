@@ -1,6 +1,7 @@
 /* json.c: see json.h. */
 #include "base/json.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
@@ -78,6 +79,12 @@ void json_number(struct json *j, const char *name, double value)
         fprintf(j->file, "%.17g", value);
     else
         fputs("null", j->file);
+}
+
+void json_count(struct json *j, const char *name, uint64_t value)
+{
+    begin(j, name);
+    fprintf(j->file, "%" PRIu64, value);
 }
 
 void json_text(struct json *j, const char *name, const char *text)

@@ -12,6 +12,7 @@
 #define ASBDPT_JSON_H
 
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 
 enum { JSON_DEPTH = 16 };
@@ -34,6 +35,7 @@ void json_close(struct json *j);
 /* json_number: with 17 digits, so that it is read back as it was; null if it is not finite.
  * json_text: quoted; bytes above 127 are taken to be UTF-8. NULL becomes null. */
 void json_number(struct json *j, const char *name, double value);
+void json_count(struct json *j, const char *name, uint64_t value); /* with all its digits */
 void json_text(struct json *j, const char *name, const char *text);
 void json_bool(struct json *j, const char *name, bool value);
 

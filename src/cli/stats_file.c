@@ -119,7 +119,7 @@ bool stats_write(struct stats_file *f, const struct job_options *o, const struct
         return true;
     json_text(j, "integrator", render->integrator->name);
     put_parameters(j, scene, render);
-    json_number(j, "seed", (double)render->seed);
+    json_count(j, "seed", render->seed);
     put_film(j, scene, film);
     json_number(j, "spp", (double)render->planned);
     json_number(j, "first_sample", o->keep.samples[0]);

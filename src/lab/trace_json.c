@@ -101,7 +101,7 @@ void trace_json(FILE *f, const struct trace_story *s)
     json_number(&j, "x", t->x);
     json_number(&j, "y", t->y);
     json_number(&j, "sample", (double)t->iteration);
-    json_number(&j, "seed", (double)s->seed);
+    json_count(&j, "seed", s->seed);
     json_number(&j, "filter_weight", t->filter_weight);
     put_path(&j, "eye_path", s->scene, &t->eye);
     json_open(&j, "light_paths", '[');
