@@ -31,7 +31,6 @@ static const struct entry ENTRIES[] = {
     {"hdr", test_hdr, false},
     {"sheet", test_sheet, false},
     {"file", test_file, false},       {"ply", test_ply, false},
-    {"file", test_file, false},       {"ply", test_ply, false},
     {"features", test_features, false}, {"format", test_format, false},
     {"shape", test_shape, false},     {"subdivide", test_subdivide, false},
     {"kdtree", test_kdtree, false}, {"texture", test_texture, false},
