@@ -259,7 +259,8 @@ static void test_duration(struct test *t)
 
 static void test_json(struct test *t)
 {
-    static const char EXPECTED[] = "{\n  \"a\": \"x\\\"\\\\\\u001b\",\n  \"b\": [1, 0.10000000000000001, null, 18446744073709551615],\n"
+    static const char EXPECTED[] = "{\n  \"a\": \"x\\\"\\\\\\u001b\",\n  "
+                                   "\"b\": [1, 0.10000000000000001, null, 18446744073709551615],\n"
                                    "  \"c\": {},\n  \"d\": [\n    true,\n    null\n  ]\n}\n";
     char path[512], read[256] = "";
     in_tmp(t, "x.json", path, sizeof path);
