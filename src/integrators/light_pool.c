@@ -64,7 +64,11 @@ static void render_pixel(const struct selection *sel, const struct tile_pass *pa
     p.n = pixel_eye_path(pass, &p.sample, iteration, pass->work->eye, sel->max_depth + 2);
     p.draws = pixel_sampler(pass, RNG_SELECT, x, y, iteration);
     pixel_sum_eye(&p.sample, p.eye, p.n);
-    choice->connect(pool, sel, &p);
+    if (choice->connect != NULL)
+        choice->connect(pool, sel, &p);
+    for (int t = 2; choice->connect_drawn != NULL && t <= p.n && t <= sel->max_depth; t++)
+        if (vertex_connectible(&p.eye[t - 1]))
+            choice->connect_drawn(pool, sel, &p.sample, &p.eye[t - 1], t, &p.draws);
     if (number % sel->path_pixels == 0)
         splat(pool, pass, &p.sample, sel->path_pixels, number / sel->path_pixels);
     tile_add_eye(pass->tile, x, y, p.sample.sum);

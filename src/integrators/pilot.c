@@ -7,8 +7,8 @@
 #include "base/maths.h"
 #include "base/parallel.h"
 
-/* What a pixel's variance given its eye sub-path is made of. */
-enum kind { DRAW_FIRST, DRAW_LATER, LIGHT_FIRST, LIGHT_PATH, N_KINDS };
+/* What a pixel's variance given its eye sub-path is made of. HIT, which is part of the eye sub-path, has a credit too. */
+enum kind { DRAW_FIRST, DRAW_LATER, LIGHT_FIRST, LIGHT_PATH, N_KINDS, HIT = N_KINDS };
 
 /* Samples per eye vertex (per pixel) of each kind while the pilot runs, and in its absence. The choice moves from the
  * latter by BOLDNESS of the way, on a logarithmic scale: more samples of a kind also take over weight from others, so
@@ -26,8 +26,8 @@ static const double OUTLIER = 25, OUTLIER_PATHS = 400;
 
 struct sums {
     double total, given_eye, given_paths;  /* variances relative to the squared brightness; the last: OUTLIER_PATHS */
-    double spread[N_KINDS], square[N_KINDS]; /* of the samples of one eye vertex: variance and squares of their sum */
-    double hit_spread, hit_square;           /* of a pixel's s = 0, t = 3: the same */
+    /* of the samples of one eye vertex, for HIT of one pixel: variance and squares of their sum */
+    double spread[N_KINDS + 1], square[N_KINDS + 1];
 };
 
 struct pilot {
@@ -42,6 +42,11 @@ struct pilot {
 static double luminance_of(float r, float g, float b)
 {
     return rgb_luminance(rgb_make((double)r, (double)g, (double)b));
+}
+
+static double luminance_added(const struct strategy_record *r)
+{
+    return luminance_of(r->unweighted[0], r->unweighted[1], r->unweighted[2]) * (double)r->weight;
 }
 
 /* Where a pixel of the film lies in the tile, or -1. */
@@ -106,7 +111,7 @@ static void add_records(const struct tile *tile, const double *scale, struct sum
             const struct strategy_record *r = &tile->record[i];
             if (r->pixel != first->pixel || r->t != first->t || kind_of(r) != kind)
                 break;
-            double one = luminance_of(r->unweighted[0], r->unweighted[1], r->unweighted[2]) * (double)r->weight;
+            double one = luminance_added(r);
             x += one;
             x2 += one * one;
         }
@@ -130,13 +135,12 @@ static void add_hits(const struct tile *a, const struct tile *b, const double *s
             const struct strategy_record *r = &tile->record[k];
             long at = r->s == 0 && r->t == 3 ? place_in_tile(tile, r->pixel) : -1;
             if (at >= 0)
-                value[(size_t)i * n + (size_t)at] +=
-                    luminance_of(r->unweighted[0], r->unweighted[1], r->unweighted[2]) * (double)r->weight;
+                value[(size_t)i * n + (size_t)at] += luminance_added(r);
         }
     }
     for (size_t i = 0; i < n; i++) {
-        out->hit_spread += fmin(sqr(value[i] - value[n + i]) / 2 / scale[i], OUTLIER);
-        out->hit_square += fmin((sqr(value[i]) + sqr(value[n + i])) / 2 / scale[i], OUTLIER);
+        out->spread[HIT] += fmin(sqr(value[i] - value[n + i]) / 2 / scale[i], OUTLIER);
+        out->square[HIT] += fmin((sqr(value[i]) + sqr(value[n + i])) / 2 / scale[i], OUTLIER);
     }
 }
 
@@ -194,11 +198,9 @@ static bool add_tile(void *context, int64_t job, int slot)
     p->sums.total += s->total;
     p->sums.given_eye += s->given_eye;
     p->sums.given_paths += s->given_paths;
-    p->sums.hit_spread += s->hit_spread;
-    p->sums.hit_square += s->hit_square;
-    for (int k = 0; k < N_KINDS; k++) {
-        p->sums.spread[k] += s->spread[k] / RENDERS;
-        p->sums.square[k] += s->square[k] / RENDERS;
+    for (int k = 0; k <= HIT; k++) {
+        p->sums.spread[k] += s->spread[k] / (k == HIT ? 1 : RENDERS); /* a pair of renders is one value of HIT */
+        p->sums.square[k] += s->square[k] / (k == HIT ? 1 : RENDERS);
     }
     return true;
 }
@@ -259,7 +261,7 @@ static void choose_numbers(struct selection *sel, const struct sums *s)
         credit[k] = credit_of(s->square[k], s->spread[k]);
     }
     set_numbers(sel, n, credit);
-    sel->counts.hit = credit_of(s->hit_square, s->hit_spread);
+    sel->counts.hit = credit_of(s->square[HIT], s->spread[HIT]);
 }
 
 static void make_memory(struct pilot *p, int n_slots)

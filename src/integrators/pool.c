@@ -93,7 +93,7 @@ static void connect(void *scratch, const struct selection *sel, struct pool_pixe
 
 static void render(const void *selection, const struct tile_pass *pass)
 {
-    static const struct pool_choice choice = {begin, connect};
+    static const struct pool_choice choice = {begin, connect, NULL};
     light_pool_render(selection, pass, &choice);
 }
 

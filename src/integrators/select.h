@@ -82,8 +82,12 @@ struct pool_pixel {
 struct pool_choice {
     /* The pool of an iteration has been filled. */
     void (*begin)(void *scratch, const struct selection *sel, const struct tile_pass *pass, long iteration);
-    /* Adds the weighted contributions of the strategies s >= 2, t >= 2 to p->sample. */
+    /* One of the two adds the weighted contributions of the strategies s >= 2, t >= 2: of all of the pixel's to
+     * p->sample, or to g those of z = z_{t-1}, being called for every eye vertex that can be connected to. The other is
+     * NULL. */
     void (*connect)(void *scratch, const struct selection *sel, struct pool_pixel *p);
+    void (*connect_drawn)(void *scratch, const struct selection *sel, struct pixel_sample *g, const struct vertex *z,
+                          int t, struct sampler *sampler);
 };
 
 /* light_pool_render: a tile pass with light sub-paths for all its pixels in common: fill the pool, connect every pixel,

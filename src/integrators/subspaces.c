@@ -180,9 +180,12 @@ static void tell(const struct subspaces *v, const struct selection *sel, struct 
 }
 
 /* C draws on average for one eye vertex, stratified. */
-static void connect_drawn(struct subspaces *v, const struct selection *sel, struct pixel_sample *g,
+static void connect_drawn(void *scratch, const struct selection *sel, struct pixel_sample *g,
                           const struct vertex *z, int t, struct sampler *sampler)
 {
+    struct subspaces *v = scratch;
+    if (v->n == 0)
+        return;
     double C = sel->connections[t > 2], whole = floor(C);
     int n = (int)whole + (C > whole && sampler_next(sampler) < C - whole);
     const double *row = n > 0 ? row_of_region(v, sel, z->eye_region) : NULL;
@@ -197,18 +200,9 @@ static void connect_drawn(struct subspaces *v, const struct selection *sel, stru
     }
 }
 
-/* Draws for every eye vertex that can be connected to. */
-static void connect(void *scratch, const struct selection *sel, struct pool_pixel *p)
-{
-    struct subspaces *v = scratch;
-    for (int t = 2; t <= p->n && t <= sel->max_depth && v->n > 0; t++)
-        if (vertex_connectible(&p->eye[t - 1]))
-            connect_drawn(v, sel, &p->sample, &p->eye[t - 1], t, &p->draws);
-}
-
 static void render(const void *selection, const struct tile_pass *pass)
 {
-    static const struct pool_choice choice = {begin, connect};
+    static const struct pool_choice choice = {begin, NULL, connect_drawn};
     light_pool_render(selection, pass, &choice);
 }
 

@@ -104,10 +104,11 @@ static void tell(const struct vertices *v, struct trace *trace, int t, int i, in
 }
 
 /* C draws for one eye vertex, stratified over the table. */
-static void connect_drawn(const struct vertices *v, const struct selection *sel, struct pixel_sample *g,
+static void connect_drawn(void *scratch, const struct selection *sel, struct pixel_sample *g,
                           const struct vertex *z, int t, struct sampler *sampler)
 {
-    int C = (int)sel->connections[0];
+    const struct vertices *v = scratch;
+    int C = v->table.n > 0 ? (int)sel->connections[0] : 0;
     for (int c = 0; c < C; c++) {
         double q, u = (c + sampler_next(sampler)) / C;
         int i = alias_sample(&v->table, u, &q, NULL);
@@ -119,18 +120,9 @@ static void connect_drawn(const struct vertices *v, const struct selection *sel,
     }
 }
 
-/* Draws for every eye vertex that can be connected to. */
-static void connect(void *scratch, const struct selection *sel, struct pool_pixel *p)
-{
-    struct vertices *v = scratch;
-    for (int t = 2; t <= p->n && t <= sel->max_depth && v->table.n > 0; t++)
-        if (vertex_connectible(&p->eye[t - 1]))
-            connect_drawn(v, sel, &p->sample, &p->eye[t - 1], t, &p->draws);
-}
-
 static void render(const void *selection, const struct tile_pass *pass)
 {
-    static const struct pool_choice choice = {begin, connect};
+    static const struct pool_choice choice = {begin, NULL, connect_drawn};
     light_pool_render(selection, pass, &choice);
 }
 
