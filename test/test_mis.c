@@ -7,8 +7,8 @@
 
 #include "transport/connect.h"
 #include "base/mem.h"
-#include "transport/learnt.h"
 #include "base/warp.h"
+#include "guiding/learnt.h"
 #include "helpers.h"
 #include "oracle.h"
 #include "tests.h"

@@ -6,7 +6,7 @@
 #include "base/mem.h"
 #include "base/rng.h"
 #include "base/warp.h"
-#include "transport/pairs.h"
+#include "guiding/pairs.h"
 #include "tests.h"
 
 enum { CELLS = 8, POINTS = 3000 };

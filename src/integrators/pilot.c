@@ -7,7 +7,7 @@
 #include "base/maths.h"
 #include "base/parallel.h"
 
-/* What a pixel's variance given its eye sub-path is made of. HIT, which is part of the eye sub-path, has a credit too. */
+/* What the variance of a pixel is made of, given its eye sub-path. HIT is part of that: it has a credit only. */
 enum kind { DRAW_FIRST, DRAW_LATER, LIGHT_FIRST, LIGHT_PATH, N_KINDS, HIT = N_KINDS };
 
 /* Samples per eye vertex (per pixel) of each kind while the pilot runs, and in its absence. The choice moves from the

@@ -6,8 +6,8 @@
 #ifndef ASBDPT_INTEGRATORS_PREPASS_H
 #define ASBDPT_INTEGRATORS_PREPASS_H
 
+#include "guiding/learnt.h"
 #include "integrators/importance.h"
-#include "transport/learnt.h"
 #include "transport/tile_pass.h"
 
 struct prepass_wish {

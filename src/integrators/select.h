@@ -14,9 +14,9 @@
 #ifndef ASBDPT_INTEGRATORS_SELECT_H
 #define ASBDPT_INTEGRATORS_SELECT_H
 
+#include "guiding/learnt.h"
 #include "integrators/importance.h"
 #include "integrators/integrator.h"
-#include "transport/learnt.h"
 #include "transport/pixel_sample.h"
 
 enum metric {

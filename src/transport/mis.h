@@ -41,8 +41,8 @@
 
 #include <stdbool.h>
 
-#include "transport/learnt.h"
 #include "base/vec.h"
+#include "guiding/learnt.h"
 
 /* How many samples each kind of strategy takes per pixel and iteration; 0: the integrator does not use it. An
  * integrator may count a strategy for more than it takes: the weights still add up to 1. The balance heuristic goes by

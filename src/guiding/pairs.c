@@ -1,5 +1,5 @@
 /* pairs.c: see pairs.h. */
-#include "transport/pairs.h"
+#include "guiding/pairs.h"
 
 #include <stdbool.h>
 #include <stdlib.h>

@@ -17,10 +17,10 @@
  *
  * Tests: test_pairs.c, test_mis.c.
  */
-#ifndef ASBDPT_TRANSPORT_PAIRS_H
-#define ASBDPT_TRANSPORT_PAIRS_H
+#ifndef ASBDPT_GUIDING_PAIRS_H
+#define ASBDPT_GUIDING_PAIRS_H
 
-#include "transport/regions.h"
+#include "guiding/regions.h"
 
 /* Sums over trials, for pairs of regions of the same level. */
 struct pair_lessons {

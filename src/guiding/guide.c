@@ -1,5 +1,5 @@
 /* guide.c: see guide.h. */
-#include "transport/guide.h"
+#include "guiding/guide.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -6,8 +6,8 @@
  * far exist, in a hash table with open addressing; they are numbered in the order they were met, those of all levels
  * together, a region after those that hold it.
  */
-#ifndef ASBDPT_TRANSPORT_REGIONS_H
-#define ASBDPT_TRANSPORT_REGIONS_H
+#ifndef ASBDPT_GUIDING_REGIONS_H
+#define ASBDPT_GUIDING_REGIONS_H
 
 #include <stddef.h>
 #include <stdint.h>

@@ -1,12 +1,12 @@
 /* learnt.h: what a pre-pass has found out about the scene, frozen before the first light sub-path of the render is
  * traced. */
-#ifndef ASBDPT_TRANSPORT_LEARNT_H
-#define ASBDPT_TRANSPORT_LEARNT_H
+#ifndef ASBDPT_GUIDING_LEARNT_H
+#define ASBDPT_GUIDING_LEARNT_H
 
 #include <stdbool.h>
 
-#include "transport/guide.h"
-#include "transport/pairs.h"
+#include "guiding/guide.h"
+#include "guiding/pairs.h"
 
 struct learnt {
     struct regions eye, light; /* where eye vertices and light vertices lie */

@@ -16,12 +16,12 @@
  *
  * Tests: test_asbdpt.c, test_mis.c.
  */
-#ifndef ASBDPT_TRANSPORT_GUIDE_H
-#define ASBDPT_TRANSPORT_GUIDE_H
+#ifndef ASBDPT_GUIDING_GUIDE_H
+#define ASBDPT_GUIDING_GUIDE_H
 
 #include "base/alias.h"
+#include "guiding/regions.h"
 #include "scene/light.h"
-#include "transport/regions.h"
 
 enum { GUIDE_COLUMNS = 256 };
 

@@ -1,5 +1,5 @@
 /* regions.c: see regions.h. */
-#include "transport/regions.h"
+#include "guiding/regions.h"
 
 #include <stdlib.h>
 #include <string.h>
