@@ -43,7 +43,7 @@ static bool open_one(const char *picture, enum aov which, struct outputs *out, s
     struct texts names = {0};
     snprintf(name, size, "%.*s.%s.pfm", stem, picture, aov_name(which));
     texts_add(&names, name);
-    bool ok = outputs_open(&names, NULL, out, err);
+    bool ok = outputs_open(&names, NULL, PARTS_NONE, out, err);
     free(names.item);
     free(name);
     return ok;

@@ -24,9 +24,9 @@ static int run(void *options)
 {
     const struct convert_options *o = options;
     struct error err;
-    struct outputs out = {0};
+    struct outputs out;
     int width, height;
-    if (!outputs_open(&o->out, &o->tone, &out, &err))
+    if (!outputs_open(&o->out, &o->tone, PARTS_NONE, &out, &err))
         return fail(&err);
     float *pixels = load_linear(o->in, &width, &height, NULL, &err);
     bool ok = pixels != NULL;

@@ -53,7 +53,7 @@ static int run(void *options)
     struct outputs out;
     struct sheet picture;
     o->demo.spp = o->spp;
-    if (!find_integrators(o, &err) || !outputs_open(&o->output, NULL, &out, &err))
+    if (!find_integrators(o, &err) || !outputs_open(&o->output, NULL, PARTS_NONE, &out, &err))
         return fail(&err);
     if (!demo_run(&o->demo, side, &picture, &err)) {
         outputs_abandon(&out);

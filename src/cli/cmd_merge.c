@@ -191,7 +191,7 @@ static int run(void *options)
 {
     const struct merge_options *o = options;
     struct texts names, output;
-    struct outputs out = {.parts = PARTS_NAMED};
+    struct outputs out;
     struct merge m = {0};
     struct error err;
     int n_pictures = 0;
@@ -201,7 +201,7 @@ static int run(void *options)
         n_pictures += !outputs_is_part(output.item[i]);
     if (o->partial && n_pictures < output.n)
         return usage_error(&command_merge, "--partial is for pictures; a part has one range of samples");
-    if (!outputs_open(&output, &o->tone, &out, &err))
+    if (!outputs_open(&output, &o->tone, PARTS_NAMED, &out, &err))
         return fail(&err);
     bool ok = merge(o, &m, &names, n_pictures > 0, &out, &err);
     for (int i = 0; i < m.n; i++)

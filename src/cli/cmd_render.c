@@ -44,7 +44,7 @@ static bool open_default_output(const struct job_options *o, const struct scene 
     struct texts names = {0};
     char *name = default_output(scene);
     texts_add(&names, name);
-    bool ok = outputs_open(&names, &o->tone, out, err);
+    bool ok = outputs_open(&names, &o->tone, PARTS_NONE, out, err);
     free(names.item);
     free(name);
     return ok;
@@ -196,9 +196,9 @@ static bool render_and_write(const struct job_options *o, const struct scene *sc
 /* What needs no scene to be opened. False with a message; nothing is open then. */
 static bool open_named(const struct job_options *o, struct files *f, struct error *err)
 {
+    enum outputs_parts parts = o->keep.samples[1] > 0 ? PARTS_OTHERS : PARTS_NAMED;
     memset(f, 0, sizeof *f);
-    f->pictures.parts = o->keep.samples[1] > 0 ? PARTS_OTHERS : PARTS_NAMED;
-    if (o->output.n > 0 && !outputs_open(&o->output, &o->tone, &f->pictures, err))
+    if (o->output.n > 0 && !outputs_open(&o->output, &o->tone, parts, &f->pictures, err))
         return false;
     bool ok = stats_open(o->stats, &o->output, &f->stats, err);
     if (!ok)

@@ -44,7 +44,7 @@ static int run(void *options)
         o->job.integrator = "asbdpt";
     if (o->job.output.n == 0)
         return usage_error(&command_worth, "an output is needed: -o FILE.png");
-    if (!outputs_open(&o->job.output, NULL, &out, &err))
+    if (!outputs_open(&o->job.output, NULL, PARTS_NONE, &out, &err))
         return fail(&err);
     int status = job_load(&o->job, &scene, &integrator);
     if (status != EXIT_OK) {

@@ -44,9 +44,12 @@ static bool takes_part(const struct outputs *o, const char *name)
     return o->parts == PARTS_NAMED ? outputs_is_part(name) : o->parts == PARTS_OTHERS && !image_writable(name);
 }
 
-bool outputs_open(const struct texts *names, const struct tone_options *tone, struct outputs *out, struct error *err)
+bool outputs_open(const struct texts *names, const struct tone_options *tone, enum outputs_parts parts,
+                  struct outputs *out, struct error *err)
 {
     bool ok = true, to_standard = false;
+    memset(out, 0, sizeof *out);
+    out->parts = parts;
     if (!read_tone(tone, names, &out->tone, err))
         return false;
     out->file = mem_alloc((size_t)names->n, sizeof *out->file);

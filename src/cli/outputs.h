@@ -20,8 +20,8 @@ struct outputs {
     struct file_output *file; /* [n], owned */
     int n;
     struct tone tone; /* of 8-bit pictures */
-    enum outputs_parts parts; /* set before outputs_open */
-    const struct part *part;  /* what outputs_write writes into parts, set before; borrowed */
+    enum outputs_parts parts;
+    const struct part *part; /* what outputs_write writes into parts, set before it; borrowed */
     const struct film *film;
 };
 
@@ -40,7 +40,8 @@ struct tone_options {
  *   tone  of the 8-bit pictures, or NULL: as they are; if it changes anything, one of the pictures must be such
  * Returns false with a message; nothing is open then. After success one of outputs_write and outputs_abandon must
  * follow. */
-bool outputs_open(const struct texts *names, const struct tone_options *tone, struct outputs *out, struct error *err);
+bool outputs_open(const struct texts *names, const struct tone_options *tone, enum outputs_parts parts,
+                  struct outputs *out, struct error *err);
 
 /* outputs_write: the picture into all of them; unless `quiet` a last line on stderr names them. One that fails does not
  * keep the others from being written: the first message is kept and false returned. */
