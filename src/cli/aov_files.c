@@ -71,12 +71,15 @@ bool aov_write(struct aov_files *f, const struct scene *scene, const struct rend
 {
     int width = rect_width(film->rect), height = rect_height(film->rect);
     float *picture[N_AOVS];
-    bool ok = true;
+    bool ok = true, first_hit = false;
     if (!f->any)
         return true;
-    for (int i = 0; i < N_AOVS; i++)
+    for (int i = 0; i < N_AOVS; i++) {
         picture[i] = mem_alloc((size_t)width * (size_t)height * 3, sizeof *picture[i]);
-    aov_render(scene, options, picture);
+        first_hit |= i < N_FIRST_HIT && f->file[i].n > 0;
+    }
+    if (first_hit)
+        aov_render(scene, options, picture);
     if (f->file[AOV_VARIANCE].n > 0)
         aov_variance(film, scene->film_scale, picture[AOV_VARIANCE]);
     for (int i = 0; i < N_AOVS; i++) {

@@ -94,11 +94,16 @@ static bool write_strategies(const char *directory, const struct film *film, str
     return ok && pyramid_write(path, film, err);
 }
 
+static bool wants_variance(const struct job_options *o)
+{
+    return o->aov != NULL && strstr(o->aov, aov_name(AOV_VARIANCE)) != NULL;
+}
+
 /* Beside the first picture. */
 static bool open_aovs(const struct job_options *o, const struct scene *scene, const struct outputs *pictures,
                       struct aov_files *out, struct error *err)
 {
-    if (o->aov != NULL && strstr(o->aov, aov_name(AOV_VARIANCE)) != NULL && job_spp(o, scene) < 2)
+    if (wants_variance(o) && job_spp(o, scene) < 2)
         return error_set(err, "--aov variance needs two samples per pixel at least, see --spp");
     return aov_open(o->aov, pictures->file[0].path, out, err);
 }
@@ -117,8 +122,7 @@ static void report(const struct job_options *o, const struct integrator *m, cons
 /* What has no place in a part (render/part.h) is not there after --resume. */
 static bool check_options(const struct job_options *o, struct error *err)
 {
-    bool variance = o->aov != NULL && strstr(o->aov, aov_name(AOV_VARIANCE)) != NULL;
-    if (o->keep.resume != NULL && (o->strategies != NULL || variance))
+    if (o->keep.resume != NULL && (o->strategies != NULL || wants_variance(o)))
         return error_set(err, "%s: strategies and variance are not saved and cannot be resumed", o->keep.resume);
     if (o->keep.samples[1] > 0 && o->output.n == 0)
         return error_set(err, "--samples needs a name for the part: -o NAME.part");
