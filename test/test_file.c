@@ -260,8 +260,9 @@ static void test_duration(struct test *t)
 static void test_json(struct test *t)
 {
     static const char EXPECTED[] = "{\n  \"a\": \"x\\\"\\\\\\u001b\",\n  "
-                                   "\"b\": [1, 0.10000000000000001, null, 18446744073709551615],\n"
-                                   "  \"c\": {},\n  \"d\": [\n    true,\n    null\n  ]\n}\n";
+                                   "\"b\": [1, 0.10000000000000001, null],\n"
+                                   "  \"c\": {},\n  \"d\": [\n    true,\n    18446744073709551615\n  ],\n"
+                                   "  \"e\": null\n}\n";
     char path[512], read[256] = "";
     in_tmp(t, "x.json", path, sizeof path);
     FILE *f = fopen(path, "wb");
@@ -270,18 +271,14 @@ static void test_json(struct test *t)
     struct json j = json_start(f);
     json_open(&j, NULL, '{');
     json_text(&j, "a", "x\"\\\033");
-    json_open(&j, "b", '-');
-    json_number(&j, NULL, 1);
-    json_number(&j, NULL, 0.1);
-    json_number(&j, NULL, (double)INFINITY);
-    json_count(&j, NULL, UINT64_MAX);
-    json_close(&j);
+    json_numbers(&j, "b", (const double[]){1, 0.1, (double)INFINITY}, 3);
     json_open(&j, "c", '{');
     json_close(&j);
     json_open(&j, "d", '[');
     json_bool(&j, NULL, true);
-    json_text(&j, NULL, NULL);
+    json_count(&j, NULL, UINT64_MAX);
     json_close(&j);
+    json_text(&j, "e", NULL);
     json_close(&j);
     fclose(f);
     f = fopen(path, "rb");

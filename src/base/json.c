@@ -38,8 +38,8 @@ static void new_line(struct json *j)
 static void begin(struct json *j, const char *name)
 {
     if (j->depth > 0 && !j->empty)
-        fputs(j->compact[j->depth - 1] ? ", " : ",", j->file);
-    if (j->depth > 0 && !j->compact[j->depth - 1])
+        fputc(',', j->file);
+    if (j->depth > 0)
         new_line(j);
     j->empty = false;
     if (name == NULL)
@@ -54,8 +54,7 @@ void json_open(struct json *j, const char *name, char kind)
     if (j->depth == JSON_DEPTH)
         return; /* callers nest less */
     fputc(kind == '{' ? '{' : '[', j->file);
-    j->closing[j->depth] = kind == '{' ? '}' : ']';
-    j->compact[j->depth++] = kind == '-';
+    j->closing[j->depth++] = kind == '{' ? '}' : ']';
     j->empty = true;
 }
 
@@ -64,7 +63,7 @@ void json_close(struct json *j)
     if (j->depth == 0)
         return;
     j->depth--;
-    if (!j->empty && !j->compact[j->depth])
+    if (!j->empty)
         new_line(j);
     fputc(j->closing[j->depth], j->file);
     j->empty = false;
@@ -72,13 +71,29 @@ void json_close(struct json *j)
         fputc('\n', j->file);
 }
 
-void json_number(struct json *j, const char *name, double value)
+static void put_number(struct json *j, double value)
 {
-    begin(j, name);
     if (isfinite(value))
         fprintf(j->file, "%.17g", value);
     else
         fputs("null", j->file);
+}
+
+void json_number(struct json *j, const char *name, double value)
+{
+    begin(j, name);
+    put_number(j, value);
+}
+
+void json_numbers(struct json *j, const char *name, const double *values, int n)
+{
+    begin(j, name);
+    fputc('[', j->file);
+    for (int i = 0; i < n; i++) {
+        fputs(i > 0 ? ", " : "", j->file);
+        put_number(j, values[i]);
+    }
+    fputc(']', j->file);
 }
 
 void json_count(struct json *j, const char *name, uint64_t value)

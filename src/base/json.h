@@ -3,7 +3,7 @@
  *     struct json j = json_start(stdout);
  *     json_open(&j, NULL, '{');
  *     json_text(&j, "name", name);
- *     json_open(&j, "size", '[');  json_number(&j, NULL, 3);  json_number(&j, NULL, 4);  json_close(&j);
+ *     json_open(&j, "seeds", '[');  json_count(&j, NULL, 3);  json_count(&j, NULL, 4);  json_close(&j);
  *     json_close(&j);
  *
  * Tests: test_file.c.
@@ -21,20 +21,22 @@ struct json {
     FILE *file; /* borrowed; look at ferror in the end */
     int depth;
     char closing[JSON_DEPTH]; /* bracket of every open object and array */
-    bool empty, compact[JSON_DEPTH]; /* the innermost holds nothing yet; is on one line */
+    bool empty; /* the innermost holds nothing yet */
 };
 
 struct json json_start(FILE *file);
 
-/* json_open: begin an object '{', an array '[', or an array on one line '-'.
+/* json_open: begin an object '{' or an array '['.
  *   name  within an object, else NULL
  * json_close ends the innermost one; the last ends the line. */
 void json_open(struct json *j, const char *name, char kind);
 void json_close(struct json *j);
 
 /* json_number: with 17 digits, so that it is read back as it was; null if it is not finite.
+ * json_numbers: an array [n] of such numbers, on one line.
  * json_text: quoted; bytes above 127 are taken to be UTF-8. NULL becomes null. */
 void json_number(struct json *j, const char *name, double value);
+void json_numbers(struct json *j, const char *name, const double *values, int n);
 void json_count(struct json *j, const char *name, uint64_t value); /* with all its digits */
 void json_text(struct json *j, const char *name, const char *text);
 void json_bool(struct json *j, const char *name, bool value);

@@ -57,15 +57,6 @@ static void print_scene(const struct scene *s, const struct integrator *m, doubl
 
 /* --- for programs -------------------------------------------------------------------------------------- */
 
-static void put_vector(struct json *j, const char *name, vec3 v)
-{
-    json_open(j, name, '-');
-    json_number(j, NULL, v.x);
-    json_number(j, NULL, v.y);
-    json_number(j, NULL, v.z);
-    json_close(j);
-}
-
 static void put_lights(struct json *j, const struct light_set *lights)
 {
     json_open(j, "lights", '[');
@@ -105,8 +96,8 @@ static void print_json(const struct scene *s, const char *path, const struct int
     put_lights(&j, &s->lights);
     vec3 lo, hi;
     scene_bounds(s, &lo, &hi);
-    put_vector(&j, "low", lo);
-    put_vector(&j, "high", hi);
+    json_numbers(&j, "low", (const double[]){lo.x, lo.y, lo.z}, 3);
+    json_numbers(&j, "high", (const double[]){hi.x, hi.y, hi.z}, 3);
     json_number(&j, "seconds", seconds);
     json_close(&j);
 }

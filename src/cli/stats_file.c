@@ -85,20 +85,12 @@ static void put_parameters(struct json *j, const struct scene *scene, const stru
     json_close(j);
 }
 
-static void put_pair(struct json *j, const char *name, double a, double b)
-{
-    json_open(j, name, '-');
-    json_number(j, NULL, a);
-    json_number(j, NULL, b);
-    json_close(j);
-}
-
 static void put_film(struct json *j, const struct scene *scene, const struct film *film)
 {
-    put_pair(j, "film", scene->width, scene->height);
+    json_numbers(j, "film", (const double[]){scene->width, scene->height}, 2);
     json_number(j, "width", rect_width(film->rect));
     json_number(j, "height", rect_height(film->rect));
-    put_pair(j, "corner", film->rect.x0, film->rect.y0);
+    json_numbers(j, "corner", (const double[]){film->rect.x0, film->rect.y0}, 2);
 }
 
 static void put_chosen(struct json *j, const struct film *film)

@@ -3,17 +3,15 @@
 #include "base/json.h"
 #include "lab/trace_report.h"
 
-static void put_three(struct json *j, const char *name, double a, double b, double c)
+static void put_vec(struct json *j, const char *name, vec3 v)
 {
-    json_open(j, name, '-');
-    json_number(j, NULL, a);
-    json_number(j, NULL, b);
-    json_number(j, NULL, c);
-    json_close(j);
+    json_numbers(j, name, (const double[]){v.x, v.y, v.z}, 3);
 }
 
-static void put_vec(struct json *j, const char *name, vec3 v) { put_three(j, name, v.x, v.y, v.z); }
-static void put_rgb(struct json *j, const char *name, rgb c) { put_three(j, name, c.r, c.g, c.b); }
+static void put_rgb(struct json *j, const char *name, rgb c)
+{
+    json_numbers(j, name, (const double[]){c.r, c.g, c.b}, 3);
+}
 
 static void put_path(struct json *j, const char *name, const struct scene *scene, const struct trace_path *path)
 {
