@@ -80,12 +80,6 @@ static void read_headers(struct merge *m, const struct texts *names)
     qsort(m->part, (size_t)m->n, sizeof *m->part, by_first);
 }
 
-static long planned(const struct part *p)
-{
-    const char *line = strstr(p->identity, "\nspp ");
-    return line != NULL ? strtol(line + 5, NULL, 10) : 0;
-}
-
 /* Samples twice, and samples between `first` and `end` in no part unless that is allowed. */
 static void check_ranges(struct merge *m, long first, long end, bool gaps)
 {
@@ -158,7 +152,7 @@ static bool merge(const struct merge_options *o, struct merge *m, const struct t
         struct film film;
         const struct part *first = &m->part[0].part;
         struct pixel_rect rect = {0, 0, first->width, first->height};
-        check_ranges(m, picture ? 0 : first->first, picture ? planned(first) : 0, o->partial);
+        check_ranges(m, picture ? 0 : first->first, picture ? first->planned : 0, o->partial);
         film_init(&film, rect, rect.x1, rect.y1);
         add_parts(m, &film);
         ok = m->n_wrong == 0 && write_film(o, m, &film, out, err);

@@ -61,7 +61,7 @@ static void add_filter(struct lines *l, const struct filter *f)
 struct part part_describe(const struct scene *scene, const struct render_options *o)
 {
     struct pixel_rect r = render_crop(scene);
-    struct part p = {NULL, rect_width(r), rect_height(r), scene->film_scale, o->first, o->end, 0, 0, 0};
+    struct part p = {NULL, rect_width(r), rect_height(r), scene->film_scale, o->planned, o->first, o->end, 0, 0, 0};
     struct lines l = {0};
     add_line(&l, "version " VERSION);
     add_line(&l, "scene %016" PRIx64, scene->content);
@@ -69,7 +69,7 @@ struct part part_describe(const struct scene *scene, const struct render_options
     add_line(&l, "maxdepth %d", o->max_depth);
     add_settings(&l, &scene->settings);
     add_line(&l, "seed %" PRIu64, o->seed);
-    add_line(&l, "spp %ld", o->planned);
+    add_line(&l, "spp %ld", p.planned);
     add_line(&l, "film %d %d, window %d %d to %d %d", scene->width, scene->height, r.x0, r.y0, r.x1, r.y1);
     add_filter(&l, &scene->filter);
     add_line(&l, "size %d %d", p.width, p.height);

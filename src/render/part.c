@@ -179,18 +179,19 @@ static const char *line_of(const char *text, const char *word)
 static bool read_numbers(const char *text, struct part *p)
 {
     const char *size = line_of(text, "size"), *scale = line_of(text, "scale"), *samples = line_of(text, "samples");
-    const char *done = line_of(text, "done"), *left_out = line_of(text, "left-out");
+    const char *done = line_of(text, "done"), *left_out = line_of(text, "left-out"), *spp = line_of(text, "spp");
     struct error ignored;
     if (size == NULL || scale == NULL || samples == NULL || done == NULL || left_out == NULL)
         return false;
     p->scale = strtod(scale, NULL);
+    p->planned = spp != NULL ? strtol(spp, NULL, 10) : 0;
     return p->scale >= 0 && p->scale <= NUMBER_MAX &&
            sscanf(size, "%d %d", &p->width, &p->height) == 2 && p->width > 0 && p->height > 0 &&
            picture_size_ok((unsigned long)p->width, (unsigned long)p->height, &ignored) &&
            sscanf(samples, "%ld %ld", &p->first, &p->end) == 2 &&
            sscanf(done, "%ld %" SCNd64, &p->done, &p->passes) == 2 && sscanf(left_out, "%ld", &p->left_out) == 1 &&
-           p->left_out >= 0 &&
-           p->first >= 0 && p->end > p->first && p->done >= 0 && p->done <= p->end - p->first && p->passes >= 0;
+           p->left_out >= 0 && p->first >= 0 && p->end > p->first && p->done >= 0 && p->done <= p->end - p->first &&
+           p->passes >= 0;
 }
 
 static bool read_header(FILE *f, const char *path, struct part *out, struct error *err)

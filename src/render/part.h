@@ -35,6 +35,7 @@ struct part {
     char *identity; /* the lines from "version" to "scale"; owned */
     int width, height;
     double scale;
+    long planned;          /* samples per pixel of the whole picture; 0: the file does not say */
     long first, end, done; /* samples first .. first + done - 1 of first .. end - 1 */
     int64_t passes;
     long left_out;
