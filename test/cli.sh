@@ -1,34 +1,7 @@
 #!/bin/sh
 # cli.sh: the command line as a user meets it: exit codes, one clear line per error, formats, determinism of files.
 # Run from the top: sh test/cli.sh ./asbdpt
-program=$1
-case $program in /*) ;; *) program=$PWD/$program ;; esac
-scenes=$PWD/scenes
-dir=$(mktemp -d) || exit 1
-trap 'rm -rf "$dir"' EXIT
-cd "$dir" || exit 1
-failures=0
-
-# expect STATUS PATTERN COMMAND...: the command ends with STATUS and its stderr matches PATTERN (extended regexp).
-expect() {
-    status=$1 pattern=$2
-    shift 2
-    "$@" >stdout.txt 2>stderr.txt
-    got=$?
-    if [ $got -ne "$status" ] || { [ -n "$pattern" ] && ! grep -Eq "$pattern" stderr.txt; }; then
-        echo "FAIL: $* ended with $got (expected $status) saying:"
-        cat stderr.txt
-        failures=$((failures + 1))
-    fi
-}
-check() {
-    if ! "$@"; then
-        echo "FAIL: $*"
-        failures=$((failures + 1))
-    fi
-}
-
-box="$scenes/cornell-box.pbrt"
+. test/expect.sh
 small="--res 16x16 --spp 2 --quiet"
 
 expect 0 '' "$program" --help

@@ -3,12 +3,42 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
+#include "base/mem.h"
 #include "base/os.h"
 #include "base/parallel.h"
 #include "base/stats.h"
 #include "parser/parser.h"
 #include "render/render.h"
+
+void write_bytes(const char *path, const void *data, size_t n)
+{
+    FILE *f = fopen(path, "wb");
+    if (f == NULL)
+        return;
+    fwrite(data, 1, n, f);
+    fclose(f);
+}
+
+bool read_exactly(reader *read, const uint8_t *data, size_t n, struct image *out, struct error *err)
+{
+    uint8_t *copy = mem_alloc(n, 1);
+    memcpy(copy, data, n);
+    memset(out, 0, sizeof *out);
+    bool ok = read(copy, n, out, err);
+    free(copy);
+    return ok;
+}
+
+bool accepts(reader *read, const uint8_t *data, size_t n, struct error *err)
+{
+    struct image img;
+    bool ok = read_exactly(read, data, n, &img, err);
+    image_free(&img);
+    return ok;
+}
 
 bool scene_from_file(struct test *t, const char *path, int width, int height, struct scene *out)
 {
@@ -57,6 +87,12 @@ struct batches render_batches(struct test *t, const struct scene *scene, const c
     struct batches tiles = batches_tiles(&pixels, rect_width(crop), rect_height(crop), tile);
     batches_free(&pixels);
     return tiles;
+}
+
+void batches_scale(struct batches *b, double factor)
+{
+    for (long i = 0; i < b->n * b->n_batches; i++)
+        b->value[i] *= factor;
 }
 
 double mean_p(const struct batches *b, double expected)

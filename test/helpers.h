@@ -1,12 +1,23 @@
-/* helpers.h: what several tests need: scenes from text, renders in batches, comparison of two renders. */
+/* helpers.h: what several tests need: files, scenes from text, renders in batches, comparison of two renders. */
 #ifndef ASBDPT_TEST_HELPERS_H
 #define ASBDPT_TEST_HELPERS_H
 
 #include "base/file.h"
+#include "image/image.h"
 #include "integrators/integrator.h"
 #include "lab/verify.h"
 #include "scene/scene.h"
 #include "test.h"
+
+/* write_bytes: make a file of n bytes. If that fails there is none, as the test will notice. */
+void write_bytes(const char *path, const void *data, size_t n);
+
+/* A reader of a picture format (image/formats.h).
+ * read_exactly: call it on a copy that ends where its memory ends.
+ * accepts: is the file a picture? If not, *err says why. */
+typedef bool reader(const uint8_t *data, size_t size, struct image *out, struct error *err);
+bool read_exactly(reader *read, const uint8_t *data, size_t n, struct image *out, struct error *err);
+bool accepts(reader *read, const uint8_t *data, size_t n, struct error *err);
 
 /* scene_from_text: parse and prepare a scene given as text. A failure is a failed check; returns false. */
 bool scene_from_text(struct test *t, const char *text, struct scene *out);
@@ -18,6 +29,9 @@ bool scene_from_file(struct test *t, const char *path, int width, int height, st
  * `tile` pixels. */
 struct batches render_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth, int spp,
                               int n_batches, int tile, uint64_t seed);
+
+/* batches_scale: multiply all by a factor, as a fault would. */
+void batches_scale(struct batches *b, double factor);
 
 /* mean_p: two-sided p-value of "the expectation is `expected`" for the batches' overall mean, by Student's t. */
 double mean_p(const struct batches *b, double expected);

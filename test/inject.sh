@@ -3,12 +3,7 @@
 # render, verify, merge and experiment. PROGRAM is built by `make inject`, see test/fuzz/inject.c. Each run must end
 # with 0 or 1, with a message if 1, without a file half-written; a run that ends with 0 leaves the picture that it must.
 # ALL=1 tries every call; without, of the many of a kind the first, the last 15 and 30 between.
-program=$1
-case $program in /*) ;; *) program=$PWD/$program ;; esac
-box=$PWD/scenes/cornell-box.pbrt
-dir=$(mktemp -d) || exit 1
-trap 'rm -rf "$dir"' EXIT
-cd "$dir" || exit 1
+. test/expect.sh
 cat >scene.pbrt <<'END'
 Film "image" "integer xresolution" 4 "integer yresolution" 3
 WorldBegin
@@ -19,13 +14,11 @@ AreaLightSource "diffuse"
 Shape "sphere"
 WorldEnd
 END
-failures=0
 runs=0
 
 fail() {
-    echo "FAIL: $*"
+    fault "$*"
     cat stderr.txt
-    failures=$((failures + 1))
 }
 
 # try KIND N OUTPUT COMMAND...: one run; OUTPUT is what it leaves when it ends well, as good/OUTPUT is.

@@ -1,31 +1,9 @@
 #!/bin/sh
 # keep.sh: nothing rendered is lost: signals, time limits, checkpoints, parts, and a program that is killed.
 # Run from the top: sh test/keep.sh ./asbdpt [KILLS]    (10 kills unless said otherwise)
-program=$1
-case $program in /*) ;; *) program=$PWD/$program ;; esac
+. test/expect.sh
 kills=${2:-10}
-scenes=$PWD/scenes
-dir=$(mktemp -d) || exit 1
-trap 'rm -rf "$dir"' EXIT
-cd "$dir" || exit 1
-failures=0
-box="$scenes/cornell-box.pbrt"
 
-fault() {
-    echo "FAIL: $*"
-    failures=$((failures + 1))
-}
-# expect STATUS PATTERN COMMAND...: the command ends with STATUS and its stderr matches PATTERN (extended regexp).
-expect() {
-    status=$1 pattern=$2
-    shift 2
-    "$@" >stdout.txt 2>stderr.txt
-    got=$?
-    if [ $got -ne "$status" ] || { [ -n "$pattern" ] && ! grep -Eq "$pattern" stderr.txt; }; then
-        fault "$* ended with $got (expected $status) saying: $(cat stderr.txt)"
-    fi
-}
-check() { "$@" || fault "$*"; }
 same() { cmp -s "$1" "$2" || fault "$1 and $2 differ, $3"; }
 no_temporaries() { [ -z "$(find . -name '.asbdpt-*')" ] || fault "temporary files are left: $1"; }
 done_in() { LC_ALL=C sed -n 's/^done \([0-9]*\) .*/\1/p' "$1" | head -n 1; } # samples

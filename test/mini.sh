@@ -6,27 +6,21 @@
 # pixels and the uniformity of the p-values, corrected for their number. LEVEL makes one false alarm in 1,000 of all 8
 # comparisons. Of the mini's methods pt, bdpt, pool and vertices must agree with PROGRAM's
 # bdpt, pt also with its pt; bins, which is biased, must differ from both bdpt but agree with PROGRAM's own bins.
-program=$1
+. test/expect.sh
 [ $# -gt 0 ] && shift
-case $program in /*) ;; *) program=$PWD/$program ;; esac
-scene=$PWD/doc/mini/rooms.pbrt source=$PWD/doc/mini/asbdpt.c
+scene=$top/doc/mini/rooms.pbrt source=$top/doc/mini/asbdpt.c
 compilers=${*:-$(command -v gcc clang || echo cc)}
 LEVEL=1.25e-4 SEEDS="1 2 3 4 5 6 7 8"
-dir=$(mktemp -d) || exit 1
-trap 'rm -rf "$dir"' EXIT
-cd "$dir" || exit 1
-failures=0
-fail() { echo "FAIL: $*"; failures=$((failures + 1)); }
 
 for cc in $compilers; do
     warnings=$($cc -std=c99 -pedantic -Wall -Wextra -Wshadow -Wconversion -O2 -o mini "$source" -lm 2>&1) ||
-        fail "$cc does not compile $source"
-    [ -z "$warnings" ] || fail "$cc warns: $warnings"
+        fault "$cc does not compile $source"
+    [ -z "$warnings" ] || fault "$cc warns: $warnings"
 done
-[ "$(wc -l <"$source")" -le 500 ] || fail "$source has more than 500 lines"
-./mini 2>/dev/null && fail "no usage is printed"
-./mini pt 0 x.pfm 2>/dev/null && fail "no samples are taken for some"
-./mini pt 1 no/such/x.pfm 2>/dev/null && fail "an impossible output is not noticed"
+[ "$(wc -l <"$source")" -le 500 ] || fault "$source has more than 500 lines"
+./mini 2>/dev/null && fault "no usage is printed"
+./mini pt 0 x.pfm 2>/dev/null && fault "no samples are taken for some"
+./mini pt 1 no/such/x.pfm 2>/dev/null && fault "an impossible output is not noticed"
 
 # mini METHOD SPP, main METHOD SPP OPTION...: pictures of all seeds.
 mini() { for k in $SEEDS; do ./mini "$1" "$2" "mini-$1-$k.pfm" "$k"; done; }
@@ -41,7 +35,7 @@ main() {
 compare() {
     "$program" verify "$scene" --files "$1"-*.pfm --against "$2"-*.pfm --tile 8 --alpha $LEVEL --quiet >verdict.txt 2>&1
     grep -q "^verdict: $3" verdict.txt ||
-        fail "$1 and $2 should $3: $(cat verdict.txt); repeat with: sh test/mini.sh ./asbdpt"
+        fault "$1 and $2 should $3: $(cat verdict.txt); repeat with: sh test/mini.sh ./asbdpt"
 }
 
 { mini pt 4; mini bdpt 1; mini bins 1; mini pool 1; mini vertices 1; } &

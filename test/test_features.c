@@ -77,8 +77,7 @@ static void check_scene(struct test *t, const char *name, int number)
     CHECK(t, batches_mean(&pt, &error) > 0.01, "%s is black", name);
     double p = batches_p(&pt, &bdpt, &ratio);
     TEST_ACCEPT(t, p, "%s: pt against bdpt, ratio %.4f", name, ratio);
-    for (long k = 0; k < bdpt.n * bdpt.n_batches; k++)
-        bdpt.value[k] *= 2;
+    batches_scale(&bdpt, 2);
     TEST_REJECT(t, batches_p(&pt, &bdpt, &ratio), "%s: bdpt made twice as bright", name);
     batches_free(&pt);
     batches_free(&bdpt);

@@ -18,6 +18,7 @@
 #include "image/image.h"
 #include "base/mem.h"
 #include "base/rng.h"
+#include "helpers.h"
 #include "tests.h"
 
 /* A path in the directory for temporary files; valid until the next call with the same buffer. */
@@ -25,15 +26,6 @@ static const char *in_tmp(const struct test *t, const char *name, char *buffer, 
 {
     snprintf(buffer, size, "%s/%s", test_tmp(t), name);
     return buffer;
-}
-
-static void write_bytes(const char *path, const void *data, size_t n)
-{
-    FILE *f = fopen(path, "wb");
-    if (f == NULL)
-        return;
-    fwrite(data, 1, n, f);
-    fclose(f);
 }
 
 /* A picture with a smooth part, noise, black, and numbers outside [0,1]. */

@@ -17,31 +17,10 @@
 #include "image/half.h"
 #include "image/image.h"
 #include "image/tone.h"
+#include "helpers.h"
 #include "tests.h"
 
 #define FIXTURES "test/fixtures/pictures/"
-
-typedef bool reader(const uint8_t *data, size_t size, struct image *out, struct error *err);
-
-/* Read a copy that ends where its memory ends. */
-static bool read_exactly(reader *read, const uint8_t *data, size_t n, struct image *out, struct error *err)
-{
-    uint8_t *copy = mem_alloc(n, 1);
-    memcpy(copy, data, n);
-    memset(out, 0, sizeof *out);
-    bool ok = read(copy, n, out, err);
-    free(copy);
-    return ok;
-}
-
-/* Whether a file is accepted; if not, *err says why. */
-static bool accepts(reader *read, const uint8_t *data, size_t n, struct error *err)
-{
-    struct image img;
-    bool ok = read_exactly(read, data, n, &img, err);
-    image_free(&img);
-    return ok;
-}
 
 static void check_refused(struct test *t, reader *read, const uint8_t *data, size_t n, const char *message)
 {

@@ -21,6 +21,7 @@
 #include "fuzz/hostile.h"
 #include "fuzz/targets.h"
 #include "image/image.h"
+#include "helpers.h"
 #include "tests.h"
 
 enum { SCENES = 1200, SECONDS = 20, MEGABYTES = 512 };
@@ -90,11 +91,7 @@ static void put_scene(const char *directory, const char *text, size_t length)
 {
     char path[400];
     snprintf(path, sizeof path, "%s/scene.pbrt", directory);
-    FILE *f = fopen(path, "wb");
-    if (f != NULL) {
-        fwrite(text, 1, length, f);
-        fclose(f);
-    }
+    write_bytes(path, text, length);
 }
 
 /* Scenes that random bytes choose. Enough of them must be accepted to be rendered. */

@@ -19,6 +19,7 @@
 #include "base/rng.h"
 #include "parser/spectrum.h"
 #include "parser/symbols.h"
+#include "helpers.h"
 #include "tests.h"
 
 static const char FIXTURES[] = "test/fixtures";
@@ -633,12 +634,8 @@ static void check_odd_bytes(struct test *t)
     static const char TEXT_OF[] = "WorldBegin\n Include \"gr\xc3\xbcn\x1b[31m\\n\xff\" # \xc3\xa9\nWorldEnd\n";
     char path[TEXT], want[2 * TEXT];
     snprintf(path, sizeof path, "%s/odd.pbrt", test_tmp(t));
-    FILE *f = fopen(path, "wb");
-    if (!CHECK(t, f != NULL, "cannot write %s", path))
-        return;
-    fwrite(TEXT_OF, 1, sizeof TEXT_OF - 1, f);
-    fclose(f);
-    struct error err;
+    write_bytes(path, TEXT_OF, sizeof TEXT_OF - 1);
+    struct error err = {""};
     struct scene s;
     CHECK(t, !parse_scene(path, &s, NULL, &err), "an odd name is accepted");
     snprintf(want, sizeof want, "%s:2:10: %s/gr\xc3\xbcn?[31m??: cannot open", path, test_tmp(t));
@@ -655,11 +652,8 @@ static void copy_file(const char *from, const char *to)
     struct error err;
     size_t size;
     char *text = text_read(from, &size, &err);
-    FILE *f = text != NULL ? fopen(to, "wb") : NULL;
-    if (f != NULL) {
-        fwrite(text, 1, size, f);
-        fclose(f);
-    }
+    if (text != NULL)
+        write_bytes(to, text, size);
     free(text);
 }
 
@@ -723,9 +717,7 @@ static void check_damaged(struct test *t, const struct fixtures *f, int rounds)
             size = damage(&r, text, size);
         snprintf(path, sizeof path, "%s/damaged.pbrt", test_tmp(t));
         remove(path); /* a new file is cheaper than an old one cut to nothing */
-        FILE *out = fopen(path, "wb");
-        fwrite(text, 1, size, out);
-        fclose(out);
+        write_bytes(path, text, size);
         free(text);
         struct scene s;
         if (parse_scene(path, &s, NULL, &err)) {

@@ -7,24 +7,15 @@
 #include <string.h>
 
 #include "base/file.h"
-#include "base/mem.h"
 #include "base/rng.h"
 #include "render/part.h"
+#include "helpers.h"
 #include "tests.h"
 
 static struct part small_part(char *identity, int width, int height)
 {
     struct part p = {identity, width, height, 1, 0, 2, 7, 0, 0, 0};
     return p;
-}
-
-static void write_bytes(const char *path, const uint8_t *data, size_t n)
-{
-    FILE *f = fopen(path, "wb");
-    if (f == NULL)
-        return;
-    fwrite(data, 1, n, f);
-    fclose(f);
 }
 
 static bool load(const char *path, struct film *film, struct error *err)

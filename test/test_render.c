@@ -86,8 +86,7 @@ static void agree(struct test *t, const struct scene *scene, const char *name, c
     struct batches y = render_batches(t, scene, b, depth, spp_b, 12, 8, 22);
     double p = batches_p(&x, &y, &ratio);
     TEST_ACCEPT(t, p, "%s: %s against %s, ratio of the means %.4f", name, a, b, ratio);
-    for (long i = 0; i < x.n * x.n_batches; i++)
-        x.value[i] *= 1.1;
+    batches_scale(&x, 1.1);
     TEST_REJECT(t, batches_p(&x, &y, &ratio), "%s: %s made 10 %% brighter against %s", name, a, b);
     batches_free(&x);
     batches_free(&y);

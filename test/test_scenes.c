@@ -41,13 +41,23 @@ static void test_analytic(struct test *t)
             double error, mean = batches_mean(&b, &error);
             TEST_ACCEPT(t, within_p(&b, cases[i].low, cases[i].high), "%s by %s: %.5f +- %.5f, expected %.5f",
                         cases[i].name, methods[m], mean, error, cases[i].high);
-            for (long k = 0; k < b.n * b.n_batches; k++)
-                b.value[k] *= 1.15;
+            batches_scale(&b, 1.15);
             TEST_REJECT(t, within_p(&b, cases[i].low, cases[i].high), "%s by %s made 15 %% brighter", cases[i].name,
                         methods[m]);
             batches_free(&b);
         }
         scene_free(&scene);
+    }
+}
+
+/* What all methods see in the first pixel, to the last digit. */
+static void check_shown(struct test *t, const struct scene *scene, uint64_t seed, double expected, const char *what)
+{
+    static const char *const methods[] = {"pt", "lt", "bdpt", "asbdpt"};
+    for (int m = 0; m < 4; m++) {
+        struct batches b = render_batches(t, scene, methods[m], 2, 4, 2, 4, seed);
+        CHECK(t, fabs(b.value[0] - expected) < 1e-9, "%s: %s: %g, not %g", methods[m], what, b.value[0], expected);
+        batches_free(&b);
     }
 }
 
@@ -66,14 +76,7 @@ static void test_sides(struct test *t)
         snprintf(filled, sizeof filled, text, front ? 5 : -5, both ? "true" : "false");
         if (!scene_from_text(t, filled, &scene))
             continue;
-        static const char *const methods[] = {"pt", "lt", "bdpt", "asbdpt"};
-        for (int m = 0; m < 4; m++) {
-            struct batches b = render_batches(t, &scene, methods[m], 2, 4, 2, 4, 825);
-            double expected = front || both ? 3 : 0;
-            CHECK(t, fabs(b.value[0] - expected) < 1e-9, "%s: a light seen from %s, %s-sided, shows %g", methods[m],
-                  front ? "the front" : "behind", both ? "two" : "one", b.value[0]);
-            batches_free(&b);
-        }
+        check_shown(t, &scene, 825, front || both ? 3 : 0, front ? "a light from the front" : "a light from behind");
         scene_free(&scene);
     }
 }
@@ -103,13 +106,7 @@ static void test_passed(struct test *t)
         snprintf(filled, sizeof filled, text, cases[i].z, cases[i].behind);
         if (!scene_from_text(t, filled, &scene))
             continue;
-        static const char *const methods[] = {"pt", "lt", "bdpt", "asbdpt"};
-        for (int m = 0; m < 4; m++) {
-            struct batches b = render_batches(t, &scene, methods[m], 2, 4, 2, 4, 830);
-            CHECK(t, fabs(b.value[0] - cases[i].expected) < 1e-9, "%s, case %d: %g through the lights, not %g",
-                  methods[m], (int)i, b.value[0], cases[i].expected);
-            batches_free(&b);
-        }
+        check_shown(t, &scene, 830, cases[i].expected, filled);
         scene_free(&scene);
     }
 }
@@ -279,8 +276,7 @@ static void test_light_pairs(struct test *t, int spp)
         TEST_ACCEPT(t, p, "%s: pt against bdpt, ratio %.4f", name, ratio);
         p = batches_p(&vertices, &pt, &ratio);
         TEST_ACCEPT(t, p, "%s: asbdpt against pt, ratio %.4f", name, ratio);
-        for (long k = 0; k < bdpt.n * bdpt.n_batches; k++)
-            bdpt.value[k] *= 1.2;
+        batches_scale(&bdpt, 1.2);
         TEST_REJECT(t, batches_p(&pt, &bdpt, &ratio), "%s: bdpt made 20 %% brighter", name);
         batches_free(&pt);
         batches_free(&bdpt);
@@ -329,8 +325,7 @@ static void test_four(struct test *t, const char *name, int spp, double planted)
         struct batches b = render(t, name, methods[m], 24, spp, 862 + (uint64_t)m);
         double p = batches_p(&pt, &b, &ratio);
         TEST_ACCEPT(t, p, "%s: pt against %s, ratio %.4f", name, methods[m], ratio);
-        for (long k = 0; k < b.n * b.n_batches; k++)
-            b.value[k] *= 1 + planted;
+        batches_scale(&b, 1 + planted);
         TEST_REJECT(t, batches_p(&pt, &b, &ratio), "%s: %s made %g %% brighter", name, methods[m], 100 * planted);
         batches_free(&b);
     }

@@ -1,0 +1,26 @@
+# expect.sh: what the tests of the program from outside share; they read it by `. test/expect.sh`, from the top, with
+# PROGRAM as the first argument. It leads into an empty directory that goes away in the end.
+program=$1 top=$PWD
+case $program in /*) ;; *) program=$top/$program ;; esac
+scenes=$top/scenes
+box=$scenes/cornell-box.pbrt
+dir=$(mktemp -d) || exit 1
+trap 'rm -rf "$dir"' EXIT
+cd "$dir" || exit 1
+failures=0
+
+fault() {
+    echo "FAIL: $*"
+    failures=$((failures + 1))
+}
+# expect STATUS PATTERN COMMAND...: the command ends with STATUS and its stderr matches PATTERN (extended regexp).
+expect() {
+    status=$1 pattern=$2
+    shift 2
+    "$@" >stdout.txt 2>stderr.txt
+    got=$?
+    if [ $got -ne "$status" ] || { [ -n "$pattern" ] && ! grep -Eq "$pattern" stderr.txt; }; then
+        fault "$* ended with $got (expected $status) saying: $(cat stderr.txt)"
+    fi
+}
+check() { "$@" || fault "$*"; }
