@@ -403,13 +403,14 @@ static void check_changed_materials(struct test *t)
     if (!open_scene(t, "changed", &s))
         return;
     const struct shape_group *g = s.geo.group;
-    const struct material *m[4];
-    for (int i = 0; i < 4; i++)
+    const struct material *m[5];
+    for (int i = 0; i < 5; i++)
         m[i] = &s.material[g[i].material];
     CHECK(t, is_constant(&s, m[0]->Kd, 1, 0, 0) && is_grey(&s, m[0]->sigma, 0), "of the material at the start");
     CHECK(t, is_constant(&s, m[1]->Kd, 0, 0, 1) && is_grey(&s, m[1]->sigma, 10), "a colour for a texture");
     CHECK(t, s.textures.texture[m[2]->Kd].kind == TEXTURE_SCALE, "what the material does not have changes nothing");
     CHECK(t, s.textures.texture[m[3]->Kd].kind == TEXTURE_SCALE && is_grey(&s, m[3]->sigma, 20), "of a named one");
+    CHECK(t, is_grey(&s, m[4]->uroughness, 0.5) && m[4]->eta == m[4][-1].eta, "of one with a colour from a file");
     CHECK(t, s.geo.quadric[1].radius == 2, "the shape's own parameters remain its own");
     scene_free(&s);
 }

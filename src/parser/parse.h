@@ -28,7 +28,7 @@ struct area_light {
 struct material_source {
     int id;            /* index into scene->materials, or MATERIAL_NONE */
     const char *type;  /* "matte" */
-    struct lexer list; /* where its parameters begin; file NULL: it has none */
+    struct lexer list; /* where its parameters begin */
 };
 
 /* What TransformBegin saves. */

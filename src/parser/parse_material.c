@@ -126,38 +126,42 @@ static bool has_parameter(const char *type, const char *name)
     return false;
 }
 
+/* Is this parameter of a shape, which the shape has no use for, one of its material? */
+static bool is_change(const struct parser *p, const struct param *item)
+{
+    return !item->used && has_parameter(p->state.material.type, item->name);
+}
+
+/* The material's list, read once more, with the shape's parameters in place of its own. */
+static void read_changed(struct parser *p, struct params *shape)
+{
+    struct params *q = &p->params;
+    struct lexer l = p->state.material.list;
+    q->directive = "Material";
+    q->type = p->state.material.type;
+    q->position = shape->position;
+    params_read(q, &l);
+    params_ignore(q, "type"); /* of MakeNamedMaterial */
+    for (int i = 0; i < shape->n; i++)
+        if (is_change(p, &shape->item[i])) {
+            params_take(q, shape, &shape->item[i]);
+            shape->item[i].used = true;
+        }
+}
+
 int parse_changed_material(struct parser *p)
 {
-    const struct material_source *source = &p->state.material;
-    struct params shape = p->params, *q = &p->params;
-    struct lexer l = source->list;
-    int id = source->id;
-    bool changed = false;
-    for (int i = 0; i < shape.n && !shape.failed; i++) {
-        if (shape.item[i].used || !has_parameter(source->type, shape.item[i].name))
-            continue;
-        if (!changed) { /* read the material's list once more */
-            p->changed.directive = "Material";
-            p->changed.type = source->type;
-            p->changed.position = shape.position;
-            p->changed.messages = shape.messages;
-            p->changed.directory = shape.directory;
-            *q = p->changed;
-            q->n = q->n_asked = 0;
-            q->failed = false;
-            if (l.file != NULL)
-                params_read(q, &l);
-            params_ignore(q, "type"); /* of MakeNamedMaterial */
-            changed = true;
-        }
-        params_take(q, &shape, &shape.item[i]);
-        shape.item[i].used = true;
-    }
-    if (!changed)
+    struct params shape = p->params;
+    int id = p->state.material.id, changes = 0;
+    for (int i = 0; i < shape.n; i++)
+        changes += is_change(p, &shape.item[i]);
+    if (shape.failed || changes == 0)
         return id;
+    p->params = p->changed;
+    read_changed(p, &shape);
     shape.failed = !parse_make_material(p, &id);
-    p->changed = *q;
-    *q = shape;
+    p->changed = p->params;
+    p->params = shape;
     return id;
 }
 

@@ -258,6 +258,7 @@ static char *directory_of(const char *path)
 static void start(struct parser *p, const char *path, struct scene *s, const struct message_sink *sink,
                   struct error *err)
 {
+    static const struct source_file NOTHING = {.path = "", .text = "", .end = ""};
     p->scene = s;
     s->width = 1280; /* pbrt-v3's film where there is no Film directive */
     s->height = 720;
@@ -267,12 +268,14 @@ static void start(struct parser *p, const char *path, struct scene *s, const str
     p->params.messages = &p->messages;
     p->params.directory = p->directory;
     p->params.content = &s->content;
+    p->changed = p->params;
     p->phase = BEFORE_WORLD;
     parse_state_reset(p);
     p->state.medium[0] = p->state.medium[1] = "";
     p->current_object = -1;
     p->params.directive = "Material";
     p->params.type = p->state.material.type = "matte";
+    p->state.material.list = lexer_start(&NOTHING, &p->arena, &p->messages);
     parse_make_material(p, &p->state.material.id); /* the material of a shape that comes before any Material */
 }
 
