@@ -599,6 +599,12 @@ static void check_spectra(struct test *t)
     rgb c = spectrum_from_samples(steps, 4);
     CHECK(t, fabs(c.r - .1745) < .01 && fabs(c.g - .6016) < .01 && fabs(c.b - .4721) < .01,
           "unsorted samples: %g %g %g", c.r, c.g, c.b);
+    double mixed[4][2] = {{700, 1}, {500, 1}, {500, 0}, {400, 0}}, up[4][2] = {{400, 0}, {500, 0}, {500, 1}, {700, 1}};
+    double down[4][2] = {{400, 1}, {500, 1}, {500, 0}, {700, 0}}, one[1][2] = {{500, 1}};
+    rgb a = spectrum_from_samples(mixed, 4), b = spectrum_from_samples(up, 4);
+    CHECK(t, a.r == b.r && a.g == b.g && a.b == b.b, "a step whose samples are out of order goes up");
+    rgb rest = rgb_sub(spectrum_from_samples(one, 1), rgb_add(spectrum_from_samples(down, 4), b));
+    CHECK(t, same_rgb(rest, 0, 0, 0), "steps up and down are the whole: %g %g %g", rest.r, rest.g, rest.b);
     CHECK(t, rgb_is_black(spectrum_blackbody(0, 1)), "0 K is black");
 }
 

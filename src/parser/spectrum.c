@@ -49,15 +49,26 @@ static rgb integral_rgb(const struct integral *sum)
     return spectrum_from_xyz(sum->x / sum->white, sum->y / sum->white, sum->z / sum->white);
 }
 
+/* Samples of one wavelength are put in the order of their values, so that there is but one order. */
 static int by_wavelength(const void *a, const void *b)
 {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
+    const double *x = a, *y = b;
+    return x[0] != y[0] ? (x[0] > y[0]) - (x[0] < y[0]) : (x[1] > y[1]) - (x[1] < y[1]);
+}
+
+/* What is in order stays: two values for one wavelength are a step, up or down. [pbrt-v3 core/spectrum.cpp] */
+static void sort_samples(double (*sample)[2], int n)
+{
+    int i = 1;
+    while (i < n && sample[i - 1][0] <= sample[i][0])
+        i++;
+    if (i < n)
+        qsort(sample, (size_t)n, sizeof *sample, by_wavelength);
 }
 
 rgb spectrum_from_samples(double (*sample)[2], int n)
 {
-    qsort(sample, (size_t)n, sizeof *sample, by_wavelength);
+    sort_samples(sample, n);
     struct integral sum = {0, 0, 0, 0};
     int next = 0; /* first sample beyond nm */
     for (int nm = FIRST_NM; nm <= LAST_NM; nm++) {

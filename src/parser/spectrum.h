@@ -15,7 +15,7 @@
 rgb spectrum_from_xyz(double x, double y, double z);
 
 /* spectrum_from_samples: the colour of a spectrum given at some wavelengths, linear in between and constant beyond.
- *   sample  [n][2]: wavelength in nm, value; sorted by this function; n >= 1
+ *   sample  [n][2]: wavelength in nm, value; sorted by this function if it is not; n >= 1
  * A constant spectrum of value v gives Y = v (not grey in RGB: sRGB's white is D65, not the equal-energy one). */
 rgb spectrum_from_samples(double (*sample)[2], int n);
 
