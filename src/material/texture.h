@@ -37,7 +37,7 @@ enum texture_kind {
 
 enum texture_wrap { WRAP_REPEAT, WRAP_BLACK, WRAP_CLAMP };
 
-enum { TEXTURE_MAX_COST = 256 }; /* the parser refuses textures built from more than that */
+enum { TEXTURE_MAX_COST = 256 }; /* the parser refuses textures built from more, and builds nothing from them */
 
 struct texture {
     enum texture_kind kind;

@@ -215,11 +215,12 @@ static bool texture(struct parser *p)
     else if (!p->params.failed)
         return false; /* left out */
     bool ok = known && parse_object(p, &t);
-    int id = ok ? texture_add(&p->scene->textures, t) : parse_constant(p, rgb_black());
-    symbols_add(p->texture_is_float ? &p->float_textures : &p->spectrum_textures, name.text, id);
-    if (p->scene->textures.texture[id].cost > TEXTURE_MAX_COST)
-        return source_error(&p->messages, p->params.position,
-                            "this texture is built from more than %d others; use fewer", TEXTURE_MAX_COST);
+    int id = ok ? texture_add(&p->scene->textures, t) : -1;
+    if (ok && p->scene->textures.texture[id].cost > TEXTURE_MAX_COST)
+        ok = source_error(&p->messages, p->params.position, "this texture is built from more than %d others; use fewer",
+                          TEXTURE_MAX_COST);
+    symbols_add(p->texture_is_float ? &p->float_textures : &p->spectrum_textures, name.text,
+                ok ? id : parse_constant(p, rgb_black()));
     return ok;
 }
 
