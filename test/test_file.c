@@ -299,8 +299,24 @@ static void test_endless(struct test *t)
               "/dev/zero: %s", err.text);
 }
 
+static void test_names(struct test *t)
+{
+    static const char *const CASE[][3] = {{"a/b/scene.pbrt", "c/d.ply", "a/b/c/d.ply"},
+                                          {"scene.pbrt", "../d.ply", "../d.ply"},
+                                          {"/scene.pbrt", "d.ply", "/d.ply"},
+                                          {"a/scene.pbrt", "/d.ply", "/d.ply"}};
+    for (int i = 0; i < 4; i++) {
+        char *path = file_beside(CASE[i][0], CASE[i][1]);
+        CHECK(t, strcmp(path, CASE[i][2]) == 0, "%s beside %s is %s", CASE[i][1], CASE[i][0], path);
+        free(path);
+    }
+    CHECK(t, file_has_extension("a.b.PNG", ".png") && !file_has_extension("png", ".png") &&
+          !file_has_extension("a.png.b", ".png"), "extensions");
+}
+
 void test_file(struct test *t)
 {
+    test_names(t);
     test_json(t);
     test_duration(t);
     test_written(t);

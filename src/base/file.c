@@ -1,7 +1,7 @@
 /* file.c: see file.h. */
-
 #include "base/file.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +13,7 @@
 
 static const size_t PIPE_LIMIT = (size_t)1 << 28;
 
-/* Read to the end, in pieces that grow; `expected` is the length if it is known, else 0. */
+/* Read to the end, in pieces that grow, and add a zero; `expected` is the length if it is known, else 0. */
 static bool read_stream(FILE *f, size_t expected, size_t limit, uint8_t **data, size_t *size)
 {
     size_t capacity = expected + 1; /* one more, to meet the end of the file without growing */
@@ -53,15 +53,12 @@ bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err
         errno = 0;
         return error_set(err, "%s: the file is too large for this machine's memory", path);
     }
-    size_t expected = (size_t)length;
     errno = 0;
-    bool ok = read_stream(f, expected, regular ? SIZE_MAX / 2 : PIPE_LIMIT, data, size);
+    bool ok = read_stream(f, (size_t)length, regular ? SIZE_MAX / 2 : PIPE_LIMIT, data, size);
     int reason = errno;
     close_input(f);
-    if (ok) {
-        (*data)[*size] = 0; /* read_stream left room */
+    if (ok)
         return true;
-    }
     free(*data);
     *data = NULL;
     errno = reason;
@@ -69,6 +66,27 @@ bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err
 }
 
 bool file_exists(const char *path) { return os_kind_of(path) != OS_NOTHING; }
+
+/* --- names ------------------------------------------------------------------------------------------- */
+
+char *file_beside(const char *path, const char *name)
+{
+    const char *slash = os_absolute(name) ? NULL : os_last_separator(path);
+    size_t length = slash != NULL ? (size_t)(slash - path) + 1 : 0;
+    char *out = mem_alloc(length + strlen(name) + 1, 1);
+    memcpy(out, path, length);
+    strcpy(out + length, name);
+    return out;
+}
+
+bool file_has_extension(const char *path, const char *extension)
+{
+    size_t n = strlen(path), m = strlen(extension);
+    for (size_t i = 0; i < m && n >= m; i++)
+        if (tolower((unsigned char)path[n - m + i]) != extension[i])
+            return false;
+    return n >= m;
+}
 
 /* --- writing ----------------------------------------------------------------------------------------- */
 
@@ -83,17 +101,6 @@ static void release(struct file_output *out)
     *out = none;
 }
 
-/* The directory of a path with its slash, followed by a name; to be given to free(). */
-static char *beside(const char *path, const char *name)
-{
-    const char *slash = os_last_separator(path);
-    size_t length = slash != NULL ? (size_t)(slash - path) + 1 : 0, room = length + strlen(name) + 1;
-    char *out = mem_alloc(room, 1);
-    memcpy(out, path, length);
-    memcpy(out + length, name, strlen(name));
-    return out;
-}
-
 /* Where a path leads if symbolic links are followed, whether or not there is a file; to be given to free(). NULL, and
  * errno, if links go in a circle. */
 static char *follow_links(const char *path)
@@ -103,7 +110,7 @@ static char *follow_links(const char *path)
     for (int i = 0; i < MOST_LINKS; i++) {
         if (!os_read_link(at, link, sizeof link))
             return at; /* no link, and what else may be wrong is found on opening it */
-        char *next = os_absolute(link) ? mem_copy_text(link) : beside(at, link);
+        char *next = file_beside(at, link);
         free(at);
         at = next;
     }
@@ -122,7 +129,7 @@ static FILE *open_temporary(struct file_output *out)
         hash = hash_combine(hash, (uint64_t)i);
         snprintf(name, sizeof name, ".asbdpt-%08lx%08lx.tmp", (unsigned long)(hash >> 32),
                  (unsigned long)(hash & 0xffffffffu));
-        out->temporary = beside(out->target, name);
+        out->temporary = file_beside(out->target, name);
         FILE *f = os_create_new(out->temporary, out->target);
         if (f != NULL) {
             temporary_add(out->temporary);
@@ -172,7 +179,7 @@ bool file_commit(struct file_output *out, struct error *err)
     bool ok = fflush(out->stream) == 0 && ferror(out->stream) == 0;
     /* On the disk before it has the target's name, so that not even a power failure leaves half a file there. */
     ok = ok && (out->temporary == NULL || os_store(out->stream));
-    int reason = errno;
+    int reason = ok ? 0 : errno; /* os_store may leave a number in errno where it finds nothing to do */
     if (out->stream != stdout)
         ok = fclose(out->stream) == 0 && ok;
     if (ok && out->temporary != NULL)

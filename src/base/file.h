@@ -1,4 +1,4 @@
-/* file.h: whole files in, whole files out.
+/* file.h: whole files in, whole files out, and their names.
  *
  * Reading takes a file into memory at once, so that a format's parser knows the file's length before it believes
  * any size written in it. Writing goes to a temporary file beside the target that takes the target's name only when
@@ -25,6 +25,13 @@ bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err
 
 /* file_exists: is there anything of this name? */
 bool file_exists(const char *path);
+
+/* file_beside: where a file is that another one names: a relative name starts in the directory of `path`. To be given
+ * to free(). */
+char *file_beside(const char *path, const char *name);
+
+/* file_has_extension: does a path end in this extension (lower case, with its dot), in whatever case? */
+bool file_has_extension(const char *path, const char *extension);
 
 /* A file being written. */
 struct file_output {

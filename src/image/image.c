@@ -1,7 +1,6 @@
 /* image.c: see image.h. */
 #include "image/image.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <string.h>
 #include <stdlib.h>
@@ -32,21 +31,10 @@ static const struct format FORMATS[] = {
 };
 enum { N_FORMATS = sizeof FORMATS / sizeof FORMATS[0] };
 
-static bool ends_in(const char *path, const char *extension)
-{
-    size_t n = strlen(path), e = strlen(extension);
-    if (n < e)
-        return false;
-    for (size_t i = 0; i < e; i++)
-        if (tolower((unsigned char)path[n - e + i]) != extension[i])
-            return false;
-    return true;
-}
-
 static const struct format *format_by_name(const char *path)
 {
     for (int i = 0; i < N_FORMATS; i++)
-        if (ends_in(path, FORMATS[i].extension))
+        if (file_has_extension(path, FORMATS[i].extension))
             return &FORMATS[i];
     return NULL;
 }

@@ -1,14 +1,13 @@
 /* params.c: see params.h. */
 #include "parser/params.h"
 
-#include <ctype.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/number.h"
-#include "base/os.h"
 #include "parser/spectrum.h"
 #include "parser/symbols.h"
 
@@ -218,32 +217,10 @@ const double *params_list(struct params *p, const char *name, unsigned types, in
 
 /* --- files and colours -------------------------------------------------------------------------------- */
 
-char *path_join(const char *directory, const char *name)
-{
-    if (os_absolute(name) || directory[0] == '\0')
-        return mem_copy_text(name);
-    size_t n = strlen(directory);
-    char *path = mem_alloc(n + strlen(name) + 2, 1);
-    memcpy(path, directory, n);
-    if (!os_separator(directory[n - 1]))
-        path[n++] = '/';
-    strcpy(path + n, name);
-    return path;
-}
-
-bool path_ends_in(const char *path, const char *extension)
-{
-    size_t n = strlen(path), m = strlen(extension);
-    for (size_t i = 0; i < m && n >= m; i++)
-        if (tolower((unsigned char)path[n - m + i]) != extension[i])
-            return false;
-    return n >= m;
-}
-
 char *params_file(struct params *p, const char *name, struct source_position *at)
 {
     const char *file = params_text(p, name, PARAM_STRING, at);
-    return file != NULL && file[0] != '\0' ? path_join(p->directory, file) : NULL;
+    return file != NULL && file[0] != '\0' ? file_beside(p->scene_path, file) : NULL;
 }
 
 /* Wavelength and value pairs of an .spd file: numbers, with comments from # to the end of the line. Errors in it
@@ -253,7 +230,7 @@ static rgb rgb_from_file(struct params *p, const struct param *item)
     rgb colour = rgb_black();
     struct error inner;
     size_t size;
-    char *path = path_join(p->directory, p->string[item->first]), *text = text_read(path, &size, &inner);
+    char *path = file_beside(p->scene_path, p->string[item->first]), *text = text_read(path, &size, &inner);
     if (text == NULL) {
         params_fail(p, param_value_position(item, 0), "%s", inner.text);
         free(path);

@@ -53,7 +53,7 @@ struct params {
     struct source_position position; /* of the type */
     struct messages *messages;
     uint64_t *content;     /* where the hashes of all files read are combined */
-    const char *directory; /* of the main scene file: relative names of files start there */
+    const char *scene_path; /* the main scene file: relative names of files start in its directory */
     bool failed;           /* an error has been kept */
     bool excess;           /* values beyond the first are passed over, as where a texture may stand */
 
@@ -125,11 +125,5 @@ int params_choice(struct params *p, const char *name, const char *const *choices
 
 /* param_value_position: where the k-th value of a parameter stands. */
 struct source_position param_value_position(const struct param *item, int k);
-
-/* path_join: directory/name, or name alone where it is absolute. To be given to free(). */
-char *path_join(const char *directory, const char *name);
-
-/* path_ends_in: does a path end in this extension (lower case, with its dot), in whatever case? */
-bool path_ends_in(const char *path, const char *extension);
 
 #endif

@@ -96,7 +96,6 @@ struct parser {
     struct scene *scene;
     struct messages messages;
     struct arena arena; /* texts of tokens, source files */
-    char *directory;    /* of the main file; owned */
     struct lexer lexer;
     struct params params;
     enum phase phase;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "material/noise.h"
 
 /* A value or a texture of the type being defined. */
@@ -113,7 +114,7 @@ static void imagemap(struct parser *p, void *object)
         type_error(q, "an imagemap needs its picture: add \"string filename\" \"...\"");
         return;
     }
-    t->u.imagemap.gamma = params_bool(q, "gamma", path_ends_in(path, ".tga") || path_ends_in(path, ".png"));
+    t->u.imagemap.gamma = params_bool(q, "gamma", file_has_extension(path, ".tga") || file_has_extension(path, ".png"));
     struct error inner;
     int image = 0;
     if (!q->failed && (image = texture_load_image(set, path, &inner)) < 0)

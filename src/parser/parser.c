@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/os.h"
+#include "base/file.h"
 #include "parser/parse.h"
 
 /* Files may be included again and again, and include others that are: of all together so much is read. */
@@ -228,7 +228,7 @@ static bool include(struct parser *p)
         return source_error(&p->messages, name.position, "more than %d includes; join files", MAX_INCLUDES);
     if (p->n_sources == MAX_INCLUDE_DEPTH)
         return source_error(&p->messages, name.position, "files are nested more than %d deep", MAX_INCLUDE_DEPTH);
-    char *path = path_join(p->directory, name.text);
+    char *path = file_beside(p->params.scene_path, name.text);
     bool ok = true;
     for (int i = 0; i < p->n_sources && ok; i++)
         if (strcmp(p->source[i]->path, path) == 0)
@@ -245,16 +245,6 @@ static bool include(struct parser *p)
     return ok;
 }
 
-/* The part of a path before its last slash. To be given to free(). */
-static char *directory_of(const char *path)
-{
-    char *directory = mem_copy_text(path);
-    const char *slash = os_last_separator(directory);
-    size_t length = slash != NULL ? (size_t)(slash - directory) : 0;
-    directory[slash != NULL && length == 0 ? 1 : length] = '\0';
-    return directory;
-}
-
 static void start(struct parser *p, const char *path, struct scene *s, const struct message_sink *sink,
                   struct error *err)
 {
@@ -264,9 +254,8 @@ static void start(struct parser *p, const char *path, struct scene *s, const str
     s->height = 720;
     p->messages.err = err;
     p->messages.sink = sink;
-    p->directory = directory_of(path);
     p->params.messages = &p->messages;
-    p->params.directory = p->directory;
+    p->params.scene_path = path;
     p->params.content = &s->content;
     p->changed = p->params;
     p->phase = BEFORE_WORLD;
@@ -295,7 +284,6 @@ static void finish(struct parser *p)
     free(p->block);
     free(p->pushed);
     free(p->named);
-    free(p->directory);
     params_free(&p->params);
     params_free(&p->changed);
     messages_end(&p->messages);
