@@ -51,29 +51,24 @@ static rgb albedo(const struct bsdf *b, vec3 wo, const double draw[ALBEDO_DRAWS]
     return rgb_make(clamp(sum.r, 0, 1), clamp(sum.g, 0, 1), clamp(sum.b, 0, 1));
 }
 
-/* The eye ray is that of path_eye_pixel for the same iteration. */
+/* What the eye sub-path of this iteration meets first. */
 static void add_sample(const struct rows *r, struct arena *arena, int x, int y, int iteration, struct sums *sums)
 {
     const struct scene *scene = r->scene;
     uint64_t pixel = (uint64_t)y * (uint64_t)scene->width + (uint64_t)x;
     struct sampler sampler = sampler_start(r->seed, RNG_EYE, pixel, (uint64_t)iteration);
-    double u[4], dx, dy;
-    for (int i = 0; i < 4; i++)
-        u[i] = sampler_next(&sampler);
-    filter_sample(&scene->filter, u[0], u[1], &dx, &dy);
-    struct ray ray = camera_ray(&scene->camera, x + 0.5 + dx, y + 0.5 + dy, u[2], u[3]);
-    struct surface at;
-    struct bsdf b;
-    if (!scene_intersect(scene, &ray, &at))
-        return;
-    vec3 wo = neg(ray.d);
-    material_bsdf(scene->material, at.material, &scene->textures, &at, arena, &b);
-    sums->hits++;
-    sums->albedo = rgb_add(sums->albedo, albedo(&b, wo, r->draw));
-    sums->normal = add(sums->normal, dot(b.shading.n, wo) < 0 ? neg(b.shading.n) : b.shading.n);
-    sums->position = add(sums->position, at.p);
-    vec3 seen = sub(at.p, scene->camera.position);
-    sums->depth += scene->camera.kind == CAMERA_ENVIRONMENT ? length(seen) : dot(seen, scene->camera.forward);
+    struct mis_counts counts = {.hit = 1}; /* nobody asks for weights */
+    struct walk walk = {scene, &counts, arena, &sampler, 0};
+    struct vertex eye[2], *z = &eye[1];
+    double filter_weight;
+    if (path_eye_pixel(&walk, x, y, eye, 2, &filter_weight) == 2 && z->kind == VERTEX_SURFACE) {
+        vec3 n = z->bsdf.shading.n, seen = sub(z->p, scene->camera.position);
+        sums->hits++;
+        sums->albedo = rgb_add(sums->albedo, albedo(&z->bsdf, z->wo, r->draw));
+        sums->normal = add(sums->normal, dot(n, z->wo) < 0 ? neg(n) : n);
+        sums->position = add(sums->position, z->p);
+        sums->depth += scene->camera.kind == CAMERA_ENVIRONMENT ? length(seen) : dot(seen, scene->camera.forward);
+    }
     arena_reset(arena);
 }
 
