@@ -34,7 +34,7 @@ static void print_help(void)
 {
     printf("%s: Alias Sampled Bidirectional Path Tracing, a reference implementation\n\n", VERSION);
     for (const struct command *const *c = command_list(); *c != NULL; c++) {
-        print_command((*c), false);
+        print_command(*c, false);
         printf("\n");
     }
     manual_print_integrators();
@@ -79,7 +79,7 @@ static int help(const char *topic)
     }
     for (const struct command *const *c = command_list(); *c != NULL; c++)
         if (strcmp(topic, (*c)->name) == 0) {
-            print_command((*c), true);
+            print_command(*c, true);
             return EXIT_OK;
         }
     return manual_print(topic, VERSION) ? EXIT_OK : usage_error(NULL, "there is no help on %s", topic);
@@ -101,7 +101,7 @@ int command_line(int argc, char **argv)
     struct suggestion s = suggest_start(argv[1]);
     for (const struct command *const *c = command_list(); *c != NULL; c++) {
         if (strcmp(argv[1], (*c)->name) == 0)
-            return run((*c), argc - 1, argv + 1);
+            return run(*c, argc - 1, argv + 1);
         suggest_offer(&s, (*c)->name);
     }
     if (s.name == NULL)

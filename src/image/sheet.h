@@ -13,7 +13,11 @@ struct sheet {
     float *pixels; /* [height*width*3], linear, top row first; owned */
 };
 
-/* sheet_init: an empty one of a grey, 0 black to 1 white, as sRGB has it. Released by sheet_free. */
+/* Greys, 0 black to 1 white, as sRGB has it: of the figures' ground and letters. */
+#define SHEET_PAPER 0.12
+#define SHEET_INK 0.92
+
+/* sheet_init: an empty one of a grey. Released by sheet_free. */
 void sheet_init(struct sheet *s, int width, int height, double grey);
 void sheet_free(struct sheet *s);
 

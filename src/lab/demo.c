@@ -15,8 +15,8 @@
 #include "lab/reference.h"
 
 enum { GAP = 24, LABEL = 60, COLUMN = 480, CALIBRATION_SPP = 4 };
-static const double PAPER = 0.12, INK = 0.92, SOFT = 0.65; /* greys */
-static const double NEAR = 0.03;                           /* a time this much off is not corrected */
+static const double SOFT = 0.65; /* the grey of what matters less */
+static const double NEAR = 0.03; /* a time this much off is not corrected */
 
 /* The demonstration under way. */
 struct show {
@@ -120,8 +120,8 @@ static void draw_column(struct sheet *sheet, int number, const char *name, const
     char text[100] = "";
     if (isfinite(error))
         snprintf(text, sizeof text, "%s %.1f", kind, error);
-    sheet_text(sheet, x, GAP, 3, INK, name);
-    sheet_text(sheet, x + width * k - sheet_text_width(text, 3), GAP, 3, INK, text);
+    sheet_text(sheet, x, GAP, 3, SHEET_INK, name);
+    sheet_text(sheet, x + width * k - sheet_text_width(text, 3), GAP, 3, SHEET_INK, text);
     sheet_text(sheet, x, GAP + 30, 2, SOFT, cost);
     sheet_paste(sheet, x, GAP + LABEL, pixels, width, height, k);
 }
@@ -131,7 +131,7 @@ static void draw_sheet(const struct show *s, struct sheet *sheet)
 {
     int k = s->width < COLUMN ? COLUMN / s->width : 1;
     char cost[100];
-    sheet_init(sheet, (DEMO_SIDES + 1) * (s->width * k + GAP) + GAP, LABEL + s->height * k + 2 * GAP, PAPER);
+    sheet_init(sheet, (DEMO_SIDES + 1) * (s->width * k + GAP) + GAP, LABEL + s->height * k + 2 * GAP, SHEET_PAPER);
     for (int i = 0; i < DEMO_SIDES; i++) {
         snprintf(cost, sizeof cost, "%ld samples per pixel, %.1f s of CPU", s->side[i].spp, s->side[i].seconds);
         draw_column(sheet, i, s->demo->integrator[i]->name, "error", s->side[i].rmse8, cost, s->picture[i],

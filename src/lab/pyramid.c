@@ -13,8 +13,7 @@
 #include "lab/compare.h"
 
 enum { GAP = 4, LEFT = 64, TOP = 40, SHEET_WIDTH = 1024, CELL_MIN = 48, CELL_MAX = 192 };
-static const double PAPER = 0.12, INK = 0.92; /* greys */
-static const double PERCENTILE = 90;          /* of a row's values that stay below white */
+static const double PERCENTILE = 90; /* of a row's values that stay below white */
 
 /* How strategies are laid out: pictures of film size, shrunk or enlarged by whole factors. */
 struct layout {
@@ -83,18 +82,18 @@ static void paste_strategy(struct sheet *sheet, const struct layout *l, const st
 static void draw_pyramid(struct sheet *sheet, const struct layout *l, const struct film *film, int y, bool weighted)
 {
     char text[100];
-    sheet_text(sheet, GAP, y + GAP, 2, INK, weighted ? "weighted" : "unweighted");
+    sheet_text(sheet, GAP, y + GAP, 2, SHEET_INK, weighted ? "weighted" : "unweighted");
     for (int s = 0; s < l->columns; s++) {
         snprintf(text, sizeof text, "s=%d", s);
-        sheet_text(sheet, LEFT + s * (l->width + GAP), y + TOP - FONT_HEIGHT - GAP, 1, INK, text);
+        sheet_text(sheet, LEFT + s * (l->width + GAP), y + TOP - FONT_HEIGHT - GAP, 1, SHEET_INK, text);
     }
     for (int depth = 0; depth <= l->depth; depth++) {
         double exposure = row_exposure(film, depth);
         int top = y + TOP + depth * (l->height + GAP);
         snprintf(text, sizeof text, "depth %d", depth);
-        sheet_text(sheet, GAP, top, 1, INK, text);
+        sheet_text(sheet, GAP, top, 1, SHEET_INK, text);
         snprintf(text, sizeof text, "x%.0f", exposure);
-        sheet_text(sheet, GAP, top + FONT_HEIGHT + GAP, 1, INK, text);
+        sheet_text(sheet, GAP, top + FONT_HEIGHT + GAP, 1, SHEET_INK, text);
         for (int s = 0; s <= depth + 1; s++)
             paste_strategy(sheet, l, film, LEFT + s * (l->width + GAP), top, s, depth + 2 - s, weighted, exposure);
     }
@@ -105,7 +104,7 @@ bool pyramid_write(const char *path, const struct film *film, struct error *err)
     struct layout l = lay_out(film);
     struct sheet sheet;
     int half = TOP + (l.depth + 1) * (l.height + GAP);
-    sheet_init(&sheet, LEFT + l.columns * (l.width + GAP), 2 * half, PAPER);
+    sheet_init(&sheet, LEFT + l.columns * (l.width + GAP), 2 * half, SHEET_PAPER);
     draw_pyramid(&sheet, &l, film, 0, false);
     draw_pyramid(&sheet, &l, film, half, true);
     bool ok = image_write(path, sheet.width, sheet.height, sheet.pixels, err);

@@ -14,7 +14,6 @@
 #include "transport/pixel_sample.h"
 
 enum { LIGHT_PATHS = 64 * 1024, GAP = 8, LABEL = 24, TEXT = 2 };
-static const double PAPER = 0.12, INK = 0.92; /* greys */
 
 struct view {
     struct render_job job;
@@ -160,10 +159,10 @@ static void draw_sheet(struct sheet *s, const struct scene *scene, const float *
 {
     static const char *const labels[3] = {"scene", "worth", "draws"};
     int width = scene->width * scale;
-    sheet_init(s, 3 * width + 2 * GAP, LABEL + scene->height * scale, PAPER);
+    sheet_init(s, 3 * width + 2 * GAP, LABEL + scene->height * scale, SHEET_PAPER);
     for (int i = 0; i < 3; i++) {
         int left = i * (width + GAP);
-        sheet_text(s, left + GAP, (LABEL - TEXT * FONT_HEIGHT) / 2, TEXT, INK, labels[i]);
+        sheet_text(s, left + GAP, (LABEL - TEXT * FONT_HEIGHT) / 2, TEXT, SHEET_INK, labels[i]);
         sheet_paste(s, left, LABEL, picture[i], scene->width, scene->height, scale);
         mark(s, left, x, y, scale);
     }
