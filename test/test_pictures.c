@@ -135,6 +135,16 @@ static void test_worth(struct test *t)
         CHECK(t, sum > 0.3 && sum < 1 + 1e-6, "the camera sees %g of the draws", sum);
         CHECK(t, !worth_values(&scene, &options, SIZE, 0, worth, draws, &err) && strstr(err.text, "outside") != NULL,
               "a pixel outside the film: \"%s\"", err.text);
+        const double corner[4] = {0, 0.5, 0, 0.5};
+        struct sheet whole = {0}, cropped = {0};
+        bool ok = worth_picture(&scene, &options, 16, 29, 1, &whole, &err);
+        memcpy(scene.crop, corner, sizeof corner);
+        ok = ok && worth_picture(&scene, &options, 16, 29, 1, &cropped, &err);
+        CHECK(t, ok && memcmp(whole.pixels, cropped.pixels,
+                              3 * (size_t)whole.width * (size_t)whole.height * sizeof *whole.pixels) == 0,
+              "a crop window changes the picture of the whole film");
+        sheet_free(&whole);
+        sheet_free(&cropped);
         options.integrator = integrator_find("bdpt");
         CHECK(t, !worth_values(&scene, &options, 0, 0, worth, draws, &err), "bdpt learns nothing");
     }

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/maths.h"
 #include "base/mem.h"
@@ -178,7 +179,10 @@ bool worth_picture(const struct scene *scene, const struct render_options *optio
         aov[i] = pixels + (size_t)(2 + i) * 3 * n;
     bool ok = worth_values(scene, options, x, y, value, value + n, err);
     if (ok) {
-        aov_render(scene, options, aov);
+        const double all[4] = {0, 1, 0, 1};
+        struct scene whole = *scene; /* whatever its crop window is */
+        memcpy(whole.crop, all, sizeof all);
+        aov_render(&whole, options, aov);
         shade(scene, aov, n);
         colour(value, n, pixels);
         colour(value + n, n, pixels + 3 * n);
