@@ -47,6 +47,12 @@ expect 2 'whole number from 0 to' "$program" render "$box" --seed -1
 expect 2 'whole number from 0 to' "$program" render "$box" --seed ' -1'
 expect 2 'expected an integer' "$program" verify "$box" --batches nan
 expect 2 'expected an integer' "$program" verify "$box" --tile 1e300
+for command in info verify trace worth; do # what a command would ignore it does not take
+    expect 2 'unknown option --aov' "$program" $command "$box" --aov depth
+    expect 2 'unknown option --strategies' "$program" $command "$box" --strategies s
+    [ $command = worth ] || expect 2 'unknown option -o' "$program" $command "$box" -o x.pfm
+done
+expect 2 'unknown option --seed' "$program" info "$box" --seed 1
 expect 2 'window is empty' "$program" render "$box" --cropwindow 0.5 0.5 0 1
 expect 1 'x.jpg: pictures are written as .pfm, .exr' "$program" render "$box" $small -o x.jpg
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt
@@ -326,6 +332,7 @@ check [ -s worth.png ]
 expect 1 'pixel 12,0 lies outside' "$program" worth "$box" --pixel 12,0 --res 12x12 -o worth.png
 expect 1 'learns nothing about pairs' "$program" worth "$box" --pixel 3,9 --res 12x12 -P select=pool -o worth.png
 expect 2 'expected X,Y' "$program" worth "$box" --pixel 3x9 -o worth.png
+expect 2 'the whole film is shown' "$program" worth "$box" --pixel 3,9 --cropwindow 0 1 0 0.5 -o worth.png
 expect 0 '' "$program" info "$box"
 check grep -q triangles stdout.txt
 

@@ -125,10 +125,12 @@ static bool render(const struct job_options *o, const struct scene *scene, const
 {
     struct film film;
     struct watch w = {.scene = scene, .film = &film, .start = os_wall_seconds()};
-    struct render_options options = {.integrator = integrator, .seed = o->seed, .end = job_spp(o, scene), .block = 1,
-                                     .n_threads = 1, .max_depth = o->max_depth, .progress = show,
-                                     .progress_context = &w};
+    struct render_options options = job_render(o, scene, integrator);
     size_t n = (size_t)scene->width * (size_t)scene->height;
+    options.block = 1;
+    options.n_threads = 1;
+    options.progress = show;
+    options.progress_context = &w;
     film_init(&film, render_crop(scene), scene->width, scene->height);
     w.pixels = mem_alloc(3 * n, sizeof *w.pixels);
     w.rgba = mem_alloc(4 * n, sizeof *w.rgba);
@@ -140,6 +142,11 @@ static bool render(const struct job_options *o, const struct scene *scene, const
     return ok;
 }
 
+static const struct option OPTIONS[] = {
+    {"SCENE.pbrt", NULL, OPTION_TEXT, offsetof(struct job_options, scene_path), 1, .help = "a scene file"},
+    {.others = RUN_OPTIONS},
+};
+
 /* The first word is the reference, or empty; those after it are as for `asbdpt render`: its name, the scene, options
  * but for outputs and --cropwindow. */
 int web_render(int n)
@@ -149,14 +156,14 @@ int web_render(int n)
     struct scene scene;
     const struct integrator *integrator;
     struct error err;
-    bool ok = options_read(SCENE_OPTIONS, n - 1, argv + 1, &o, &err);
+    bool ok = options_read(OPTIONS, n - 1, argv + 1, &o, &err);
     int status = !ok ? usage_error(NULL, "%s", err.text) : job_load(&o, &scene, &integrator);
     if (status == EXIT_OK) {
         if (!render(&o, &scene, integrator, argv[0], &err))
             status = fail(&err);
         scene_free(&scene);
     }
-    options_free(SCENE_OPTIONS, &o);
+    options_free(OPTIONS, &o);
     free(argv);
     return status;
 }

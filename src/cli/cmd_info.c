@@ -124,9 +124,11 @@ static int run(void *options)
     return EXIT_OK;
 }
 
+#define AT(member) offsetof(struct info_options, member)
 static const struct option OPTIONS[] = {
-    {"--json", NULL, OPTION_ON, offsetof(struct info_options, json), .help = "print an object of JSON"},
-    {.others = SCENE_OPTIONS},
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .help = "a scene file"},
+    {"--json", NULL, OPTION_ON, AT(json), .help = "print an object of JSON"},
+    {.others = JOB_OPTIONS},
 };
 
 const struct command command_info = {

@@ -174,10 +174,9 @@ static bool run_and_write(const struct job_options *o, const struct scene *scene
 static bool render_and_write(const struct job_options *o, const struct scene *scene, const struct integrator *m,
                              struct files *files, struct error *err)
 {
-    struct render_options options = {.integrator = m, .seed = o->seed, .end = job_spp(o, scene)};
+    struct render_options options = job_render(o, scene, m);
     struct film film;
     struct keep keep;
-    options.n_threads = o->n_threads;
     film_init(&film, render_crop(scene), scene->width, scene->height);
     bool ok = parameters_max_depth(scene, o->max_depth, &options.max_depth, err) &&
               keep_begin(&keep, &o->keep, o->quiet, scene, &options, &film, err);
@@ -238,20 +237,25 @@ static int run(void *options)
     return interrupt_caught() != 0 ? 128 + interrupt_caught() : EXIT_OK;
 }
 
-#define AT(member) offsetof(struct job_options, keep.member)
+#define AT(member) offsetof(struct job_options, member)
 static const struct option OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, offsetof(struct job_options, scene_path), 1, .help = "a scene file"},
-    {"--exposure", "EV", OPTION_NUMBER, offsetof(struct job_options, tone.exposure), -100, 100, .fallback = "0",
-     .help = EXPOSURE_HELP},
-    {"--tonemap", "NAME", OPTION_TEXT, offsetof(struct job_options, tone.curve), .help = TONEMAP_HELP},
-    {"--time", "SECONDS", OPTION_NUMBER, AT(time), 0, 1e9, .help = "stop after so long, and write what there is"},
-    {"--checkpoint", "FILE", OPTION_TEXT, AT(checkpoint), .help = "save the render now and then, and at signals"},
-    {"--interval", "SECONDS", OPTION_NUMBER, AT(interval), 0, 1e9, .fallback = "60", .help = "between checkpoints"},
-    {"--resume", "FILE", OPTION_TEXT, AT(resume), .help = "go on from a checkpoint"},
-    {"--samples", "A:B", OPTION_RANGE, AT(samples), 0, 1 << 30,
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene_path), 1, .help = "a scene file"},
+    {"--outfile", "FILE", OPTION_TEXTS, AT(output), .alias = "-o",
+     .help = "linear .pfm .exr .hdr, sRGB .png .ppm .tga; repeatable"},
+    {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
+    {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
+    {"--aov", "LIST", OPTION_TEXT, AT(aov), .help = "also NAME.albedo.pfm ...: albedo,normal,depth,position,variance"},
+    {"--strategies", "DIR", OPTION_TEXT, AT(strategies),
+     .help = "write every strategy (s,t), and all as DIR/pyramid.png"},
+    {"--time", "SECONDS", OPTION_NUMBER, AT(keep.time), 0, 1e9, .help = "stop after so long, and write what there is"},
+    {"--checkpoint", "FILE", OPTION_TEXT, AT(keep.checkpoint), .help = "save the render now and then, and at signals"},
+    {"--interval", "SECONDS", OPTION_NUMBER, AT(keep.interval), 0, 1e9, .fallback = "60",
+     .help = "between checkpoints"},
+    {"--resume", "FILE", OPTION_TEXT, AT(keep.resume), .help = "go on from a checkpoint"},
+    {"--samples", "A:B", OPTION_RANGE, AT(keep.samples), 0, 1 << 30,
      .help = "only the samples A to B-1, for merge: -o NAME.part"},
-    {"--stats", "FILE", OPTION_TEXT, offsetof(struct job_options, stats), .help = "JSON: parameters, times, memory"},
-    {.others = JOB_OPTIONS},
+    {"--stats", "FILE", OPTION_TEXT, AT(stats), .help = "JSON: parameters, times, memory"},
+    {.others = RUN_OPTIONS},
 };
 
 const struct command command_render = {

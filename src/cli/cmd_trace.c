@@ -14,11 +14,12 @@ struct trace_options {
 
 #define AT(member) offsetof(struct trace_options, member)
 static const struct option OPTIONS[] = {
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .help = "a scene file"},
     {"--pixel", "X,Y", OPTION_PIXEL, AT(pixel), 0, 65535, .fallback = "0,0", .help = "of the film, 0,0 top left"},
     {"--sample", "K", OPTION_INTEGER, AT(sample), 0, 1 << 30, .fallback = "0", .help = "which, from 0"},
     {"--json", NULL, OPTION_ON, AT(json), .help = "print an object of JSON"},
     {"--svg", "FILE", OPTION_TEXT, AT(svg), .help = "also draw the paths within the scene"},
-    {.others = SCENE_OPTIONS},
+    {.others = RUN_OPTIONS},
 };
 
 static bool draw(const struct trace_options *o, const struct trace_story *story, struct error *err)
@@ -48,8 +49,7 @@ static int run(void *options)
     int status = job_load(&o->job, &scene, &integrator);
     if (status != EXIT_OK)
         return status;
-    struct render_options render = {.integrator = integrator, .seed = o->job.seed, .end = job_spp(&o->job, &scene),
-                                    .n_threads = o->job.n_threads, .max_depth = o->job.max_depth};
+    struct render_options render = job_render(&o->job, &scene, integrator);
     struct trace trace = {.x = o->pixel[0], .y = o->pixel[1], .iteration = o->sample};
     struct trace_story story = {o->job.scene_path, &scene, integrator, o->job.seed, &trace};
     bool ok = render_trace(&scene, &render, &trace, &err) && tell(o, &story, &err);

@@ -37,7 +37,7 @@ static const struct option OPTIONS[] = {
     {"--batches", "N", OPTION_INTEGER, AT(batches), 4, 10000, .fallback = "12", .help = "renders of each side"},
     {"--tile", "N", OPTION_INTEGER, AT(tile), 1, 10000, .help = "side of the squares of pixels that are compared"},
     {"--alpha", "P", OPTION_NUMBER, AT(alpha), 1e-12, 0.5, .fallback = "0.001", .help = "share of false alarms"},
-    {.others = JOB_OPTIONS},
+    {.others = RUN_OPTIONS},
 };
 
 static bool choose_sides(struct verify_options *o)

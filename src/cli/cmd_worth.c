@@ -13,16 +13,17 @@ struct worth_options {
 
 #define AT(member) offsetof(struct worth_options, member)
 static const struct option OPTIONS[] = {
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .help = "a scene file"},
+    {"--outfile", "FILE.png", OPTION_TEXTS, AT(job.output), 1, .alias = "-o", .help = "a picture to write"},
     {"--pixel", "X,Y", OPTION_PIXEL, AT(pixel), 0, 65535, .fallback = "0,0", .help = "where the surface is seen"},
     {"--scale", "K", OPTION_INTEGER, AT(scale), 1, 16, .fallback = "2", .help = "a pixel becomes KxK"},
-    {.others = SCENE_OPTIONS},
+    {.others = RUN_OPTIONS},
 };
 
 static int draw(const struct worth_options *o, const struct scene *scene, const struct integrator *integrator,
                 struct outputs *out, struct error *err)
 {
-    struct render_options options = {.integrator = integrator, .seed = o->job.seed, .end = job_spp(&o->job, scene),
-                                     .n_threads = o->job.n_threads, .max_depth = o->job.max_depth};
+    struct render_options options = job_render(&o->job, scene, integrator);
     struct sheet picture;
     if (!worth_picture(scene, &options, o->pixel[0], o->pixel[1], o->scale, &picture, err)) {
         outputs_abandon(out);
@@ -42,8 +43,8 @@ static int run(void *options)
     struct error err;
     if (o->job.integrator == NULL)
         o->job.integrator = "asbdpt";
-    if (o->job.output.n == 0)
-        return usage_error(&command_worth, "an output is needed: -o FILE.png");
+    if (o->job.crop[1] > 0)
+        return usage_error(&command_worth, "--cropwindow has no place here: the whole film is shown");
     if (!outputs_open(&o->job.output, NULL, PARTS_NONE, &out, &err))
         return fail(&err);
     int status = job_load(&o->job, &scene, &integrator);

@@ -9,21 +9,20 @@
 #include "base/mem.h"
 #include "base/version.h"
 #include "cli/command.h"
-#include "cli/job_options.h"
 #include "cli/manual.h"
 #include "parser/symbols.h"
 
 /* --- help --------------------------------------------------------------------------------------------- */
 
-/* The options that subcommands share are the first one's. */
+/* The options that subcommands share are the first one's last. */
 static void print_command(const struct command *c, bool alone)
 {
     printf("asbdpt %s: %s\n", c->name, c->help);
     for (int i = 0; c->usage[i] != NULL; i++)
         printf("%s asbdpt %s %s\n", i == 0 ? "usage:" : "   or:", c->name, c->usage[i]);
     for (const struct option *table = c->options; table != NULL;) {
-        if (table == JOB_OPTIONS && !alone && c != command_list()[0]) {
-            printf("    and the options of %s\n", command_list()[0]->name);
+        if (table != c->options && !alone && c != command_list()[0]) {
+            printf("    and the options of %s, from %s on\n", command_list()[0]->name, table->name);
             break;
         }
         table = options_print(table);

@@ -13,14 +13,13 @@
 #include "render/parameters.h"
 
 #define AT(member) offsetof(struct job_options, member)
-const struct option SCENE_OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene_path), 1, .help = "a scene file"},
+const struct option RUN_OPTIONS[] = {
+    {"--nthreads", "N", OPTION_INTEGER, AT(n_threads), 1, 1024, .alias = "-j", .help = "threads (default: all)"},
+    {"--seed", "N", OPTION_SEED, AT(seed), .fallback = "0", .help = "another set of random numbers"},
     {.others = JOB_OPTIONS},
 };
 
 const struct option JOB_OPTIONS[] = {
-    {"--outfile", "FILE", OPTION_TEXTS, AT(output), .alias = "-o",
-     .help = "linear .pfm .exr .hdr, sRGB .png .ppm .tga; repeatable"},
     {"--integrator", "NAME", OPTION_TEXT, AT(integrator), .help = "instead of the scene's"},
     {"-P", "NAME=VALUE", OPTION_PAIRS, AT(overrides), .help = "set a parameter of the integrator"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 30, .help = "samples per pixel"},
@@ -30,12 +29,6 @@ const struct option JOB_OPTIONS[] = {
     {"--res", "WxH", OPTION_SIZE, AT(res), 1, 65536, .help = "resolution of the film"},
     {"--filter", "NAME", OPTION_TEXT, AT(filter), .help = "pixel filter: box triangle gaussian mitchell sinc"},
     {"--cropwindow", "X0 X1 Y0 Y1", OPTION_WINDOW, AT(crop), 0, 1, .help = "render a part of the film, as fractions"},
-    {"--nthreads", "N", OPTION_INTEGER, AT(n_threads), 1, 1024, .alias = "-j", .help = "threads (default: all)"},
-    {"--seed", "N", OPTION_SEED, AT(seed), .fallback = "0", .help = "another set of random numbers"},
-    {"--strategies", "DIR", OPTION_TEXT, AT(strategies),
-     .help = "write every strategy (s,t), and all as DIR/pyramid.png"},
-    {"--aov", "LIST", OPTION_TEXT, AT(aov),
-     .help = "also NAME.albedo.pfm ...: albedo,normal,depth,position,variance"},
     {"--strict", NULL, OPTION_ON, AT(strict), .help = "warnings of the scene are errors"},
     {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "no progress, no warnings"},
     {.name = NULL},
@@ -166,6 +159,13 @@ int job_load(const struct job_options *o, struct scene *scene, const struct inte
     }
     scene_prepare(scene);
     return EXIT_OK;
+}
+
+struct render_options job_render(const struct job_options *o, const struct scene *scene, const struct integrator *m)
+{
+    struct render_options render = {.integrator = m, .seed = o->seed, .end = job_spp(o, scene),
+                                    .n_threads = o->n_threads, .max_depth = o->max_depth};
+    return render;
 }
 
 long job_spp(const struct job_options *o, const struct scene *scene)

@@ -22,7 +22,6 @@ struct keep_options {
 /* A subcommand with options of its own has this as the first member of its struct: offsets count from there. */
 struct job_options {
     const char *scene_path;
-    struct texts output;
     const char *integrator; /* NULL: the scene's */
     struct texts overrides; /* NAME=VALUE of -P */
     int spp;                /* 0: the scene's */
@@ -32,19 +31,24 @@ struct job_options {
     double crop[4];         /* x0, x1, y0, y1; x1 = 0: the scene's */
     int n_threads;
     uint64_t seed;
-    const char *strategies; /* directory or NULL */
-    const char *aov;        /* list or NULL */
     bool quick;             /* a quarter of the width and height, one sample, unless options say otherwise */
     bool strict, quiet;
-    struct tone_options tone; /* of render alone */
-    const char *stats;        /* file or NULL, of render alone */
-    struct keep_options keep; /* of render alone */
+    struct texts output; /* of render and worth */
+    /* Of render alone: */
+    const char *strategies; /* directory or NULL */
+    const char *aov;        /* list or NULL */
+    const char *stats;      /* file or NULL */
+    struct tone_options tone;
+    struct keep_options keep;
 };
-extern const struct option JOB_OPTIONS[], SCENE_OPTIONS[]; /* the second have the scene itself too, which they need */
+extern const struct option JOB_OPTIONS[], RUN_OPTIONS[]; /* the second, for what takes samples, lead on to the first */
 
 /* job_load: parse the scene, apply the options, prepare it, and find the integrator. Returns EXIT_OK, or EXIT_JOB after
  * printing why (then nothing needs release). */
 int job_load(const struct job_options *o, struct scene *scene, const struct integrator **integrator);
+
+/* job_render: what a render is to be by these options, all its samples at once. */
+struct render_options job_render(const struct job_options *o, const struct scene *scene, const struct integrator *m);
 
 /* job_spp: samples per pixel in force: option, 1 if quick, scene, else 16. */
 long job_spp(const struct job_options *o, const struct scene *scene);
