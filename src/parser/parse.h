@@ -200,11 +200,10 @@ void parse_no_effect(struct parser *p, const struct parameter *row, void *field)
 
 /* --- what stands in a directive ------------------------------------------------------------------------- */
 
-/* The arguments of the current directive. parse_string: one quoted string, `what` says which. parse_numbers: n
- * numbers, with or without brackets around them. parse_list: the parameter list of an object of the given type,
- * into p->params. parse_typed: "type" and its list. All return false with a message of what was wanted. */
+/* The arguments of the current directive. parse_string: one quoted string, `what` says which. parse_list: the
+ * parameter list of an object of the given type, into p->params. parse_typed: "type" and its list. All return false
+ * with a message of what was wanted. */
 bool parse_string(struct parser *p, struct token *out, const char *what);
-bool parse_numbers(struct parser *p, double *out, int n);
 bool parse_list(struct parser *p, const char *directive, const struct token *type);
 bool parse_typed(struct parser *p);
 

@@ -20,7 +20,8 @@ bool parse_string(struct parser *p, struct token *out, const char *what)
                        token_text(out, found, sizeof found));
 }
 
-bool parse_numbers(struct parser *p, double *out, int n)
+/* The n numbers of a directive, with or without brackets around them. */
+static bool read_numbers(struct parser *p, double *out, int n)
 {
     struct lexer *l = &p->lexer;
     struct token t;
@@ -124,13 +125,13 @@ static bool identity(struct parser *p) { return set_ctm(p, transform_identity())
 static bool translate(struct parser *p)
 {
     double x[3];
-    return parse_numbers(p, x, 3) && apply(p, transform_translate(vec(x[0], x[1], x[2])));
+    return read_numbers(p, x, 3) && apply(p, transform_translate(vec(x[0], x[1], x[2])));
 }
 
 static bool scale(struct parser *p)
 {
     double x[3];
-    if (!parse_numbers(p, x, 3))
+    if (!read_numbers(p, x, 3))
         return false;
     bool flat = x[0] == 0 || x[1] == 0 || x[2] == 0;
     return apply(p, flat ? no_transform() : transform_scale(x[0], x[1], x[2]));
@@ -139,7 +140,7 @@ static bool scale(struct parser *p)
 static bool rotate(struct parser *p)
 {
     double x[4];
-    if (!parse_numbers(p, x, 4))
+    if (!read_numbers(p, x, 4))
         return false;
     vec3 axis = vec(x[1], x[2], x[3]);
     return apply(p, length2(axis) > 0 ? transform_rotate(x[0], axis) : no_transform());
@@ -149,7 +150,7 @@ static bool look_at(struct parser *p)
 {
     double x[9];
     struct transform t;
-    if (!parse_numbers(p, x, 9))
+    if (!read_numbers(p, x, 9))
         return false;
     vec3 eye = vec(x[0], x[1], x[2]), look = vec(x[3], x[4], x[5]);
     if (transform_look_at(eye, look, vec(x[6], x[7], x[8]), &t))
@@ -164,7 +165,7 @@ static bool look_at(struct parser *p)
 static bool parse_matrix(struct parser *p, struct transform *out)
 {
     double x[16];
-    if (!parse_numbers(p, x, 16))
+    if (!read_numbers(p, x, 16))
         return false;
     if (!transform_from_matrix(x, out))
         *out = no_transform();
@@ -224,7 +225,7 @@ static bool transform_times(struct parser *p)
 {
     double x[2];
     source_warn(&p->messages, p->directive.position, "motion", "nothing moves here: TransformTimes is ignored");
-    return parse_numbers(p, x, 2);
+    return read_numbers(p, x, 2);
 }
 
 /* --- blocks ------------------------------------------------------------------------------------------- */
