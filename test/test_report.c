@@ -325,7 +325,7 @@ static void check_tables(struct test *t, const struct results *r)
     int last = r->plan->n_steps - 1;
     const struct run_step *a = &s->run[VARIANT_POOL][0].step[last], *b = &s->run[VARIANT_POOL][1].step[last];
     table_make(r, s, TABLE_RMSE, &table);
-    size_t cell = (size_t)(last * table.columns + 1 + VARIANT_POOL);
+    size_t cell = (size_t)last * table.columns + 1 + VARIANT_POOL;
     double x = a->value[Q_RMSE8], y = b->value[Q_RMSE8], mean = 0.5 * (x + y), error = 0.5 * fabs(x - y);
     CHECK(t, table.cell[cell].value == mean, "RMSE of pool in the table: %g, computed: %g", table.cell[cell].value,
           mean);
@@ -340,14 +340,14 @@ static void check_tables(struct test *t, const struct results *r)
             cost[v] += 0.5 * (p->value[Q_RMSE8] * p->value[Q_RMSE8] - n2) * p->value[Q_SECONDS];
         }
     table_make(r, s, TABLE_EQUAL_TIME, &table);
-    cell = (size_t)(last * table.columns + 1 + N_COMPARED + VARIANT_POOL - 1);
+    cell = (size_t)last * table.columns + 1 + N_COMPARED + VARIANT_POOL - 1;
     CHECK(t, !(cost[0] > 0 && cost[1] > 0) || fabs(table.cell[cell].value * cost[0] / cost[1] - 1) < 1e-9,
           "equal-time ratio of pool in the table: %g, computed: %g", table.cell[cell].value, cost[1] / cost[0]);
     table_free(&table);
 
     CHECK(t, table_make(r, s, TABLE_PUBLISHED, &table), "the scene has printed numbers");
     const struct published *p = published_find("cornell-box");
-    cell = table_rows(&table) * (size_t)table.columns - 1;
+    cell = table_rows(&table) * table.columns - 1;
     CHECK(t, table.cell[cell].value == p->asbdpt[4] / p->bdpt[4], "the last printed ratio: %g",
           table.cell[cell].value);
     table_free(&table);

@@ -144,11 +144,11 @@ static bool find_reference(struct subject *s)
 /* Seeds come before variants, so that a machine that slows down slows down all alike. */
 static bool measure_scene(struct subject *s, double done)
 {
-    int n = s->whole->plan->n_seeds * equal_variants(), scenes = s->whole->plan->n_scenes;
+    int n = s->whole->plan->n_seeds * N_EQUAL, scenes = s->whole->plan->n_scenes;
     bool ok = find_reference(s);
     for (int i = 0; ok && i < n; i++) {
         progress_update(s->bar, (done + (double)i / n) / scenes);
-        ok = measure_variant(s, i % equal_variants(), i / equal_variants() + 1);
+        ok = measure_variant(s, i % N_EQUAL, i / N_EQUAL + 1);
     }
     reference_free(&s->reference);
     scene_free(&s->scene);

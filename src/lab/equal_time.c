@@ -7,26 +7,18 @@
 #include "base/file.h"
 #include "base/maths.h"
 #include "base/number.h"
+#include "lab/table.h"
 
-const struct variant EQUAL_VARIANTS[EQUAL_MAX] = {
+const struct variant EQUAL_VARIANTS[N_EQUAL] = {
     {"bdpt", "BDPT", "bdpt", NULL, 0, 0, true, false},
     {"vertices", "ASBDPT vertices", "asbdpt", "vertices", 0, 0, true, false},
     {"subspaces", "ASBDPT subspaces", "asbdpt", "subspaces", 0, 0, true, true},
     {"lvc", "light vertex cache", "asbdpt", "lvc", 0, 0, true, false},
     {"combinatorial", "combinatorial BDPT", "asbdpt", "combinatorial", 0, 0, true, false},
-    {.name = NULL},
 };
 
 enum { SEED_BASE = 5000, MOST_SAMPLES = 1 << 20 };
 static const double NEAR = 0.03; /* how far t should be from T at most, as a share of T */
-
-int equal_variants(void)
-{
-    int n = 0;
-    while (EQUAL_VARIANTS[n].name != NULL)
-        n++;
-    return n;
-}
 
 void equal_free(struct equal_time *e)
 {
@@ -99,7 +91,7 @@ void equal_csv(FILE *f, const struct equal_time *e)
 {
     fputs("scene,variant,seed,spp,seconds,rmse8,relmse,target_seconds,growth,reference_noise8,nonfinite\n", f);
     for (const struct equal_scene *s = e->scene; s < e->scene + e->n_scenes; s++)
-        for (int v = 0; v < equal_variants(); v++)
+        for (int v = 0; v < N_EQUAL; v++)
             for (const struct equal_render *r = s->render[v]; r < s->render[v] + e->plan->n_seeds; r++) {
                 fprintf(f, "%s,%s,%ld,%ld,%.9g,%.9g,%.9g,%.9g,%.9g,", s->name, EQUAL_VARIANTS[v].name, r->seed, r->spp,
                         r->seconds, r->rmse8, r->relmse, r->target, r->growth);
@@ -112,76 +104,68 @@ void equal_csv(FILE *f, const struct equal_time *e)
 static const char *const ERROR_NAMES[N_EQUAL_ERRORS] = {"rmse8", "relmse"};
 
 /* The columns: the scene, T, samples per pixel, and for each variant but the first both ratios. */
-static void write_head(FILE *f)
+static void begin_table(struct table *t, const struct equal_time *e)
 {
-    fputs("| scene | seconds | spp:", f);
-    for (int v = 0; v < equal_variants(); v++)
-        fprintf(f, "%s %s", v > 0 ? "," : "", EQUAL_VARIANTS[v].name);
-    fputs(" |", f);
-    for (int v = 1; v < equal_variants(); v++)
+    char names[TABLE_CELL] = "";
+    for (int v = 0, n = 0; v < N_EQUAL; v++)
+        n += snprintf(names + n, sizeof names - (size_t)n, "%s %s", v > 0 ? "," : "", EQUAL_VARIANTS[v].name);
+    table_begin(t, "Squared error over that of BDPT after the same CPU time, with its 95 %% interval over %d seed%s; "
+                   "below 1 is a gain", e->plan->n_seeds, e->plan->n_seeds == 1 ? "" : "s");
+    table_column(t, "scene");
+    table_column(t, "seconds");
+    table_column(t, "spp:%s", names);
+    for (int v = 1; v < N_EQUAL; v++)
         for (int k = 0; k < N_EQUAL_ERRORS; k++)
-            fprintf(f, " %s, %s |", EQUAL_VARIANTS[v].label, ERROR_NAMES[k]);
-    fputs("\n|---|---:|---:|", f);
-    for (int i = 0; i < (equal_variants() - 1) * N_EQUAL_ERRORS; i++)
-        fputs("---:|", f);
-    fputs("\n", f);
-}
-
-static void write_ratio(FILE *f, struct interval i)
-{
-    if (!isfinite(i.value))
-        fputs(" - |", f);
-    else if (!isfinite(i.low) || !isfinite(i.high))
-        fprintf(f, " %.3f |", i.value);
-    else
-        fprintf(f, " %.3f [%.3f, %.3f] |", i.value, i.low, i.high);
+            table_column(t, "%s, %s", EQUAL_VARIANTS[v].label, ERROR_NAMES[k]);
 }
 
 /* A scene: means over seeds of T and of the samples, then the ratios. */
-static void write_scene(FILE *f, const struct equal_time *e, const struct equal_scene *s)
+static void add_scene(struct table *t, const struct equal_time *e, const struct equal_scene *s)
 {
+    char samples[TABLE_CELL] = "";
     double seconds = 0;
     for (int i = 0; i < e->plan->n_seeds; i++)
         seconds += s->render[0][i].target / e->plan->n_seeds;
-    fprintf(f, "| %s | %.3g |", s->name, seconds);
-    for (int v = 0; v < equal_variants(); v++) {
+    for (int v = 0, n = 0; v < N_EQUAL; v++) {
         double spp = 0;
         for (int i = 0; i < e->plan->n_seeds; i++)
             spp += (double)s->render[v][i].spp / e->plan->n_seeds;
-        fprintf(f, "%s %.4g", v > 0 ? "," : "", spp);
+        n += snprintf(samples + n, sizeof samples - (size_t)n, "%s%.4g", v > 0 ? ", " : "", spp);
     }
-    fputs(" |", f);
-    for (int v = 1; v < equal_variants(); v++)
+    table_add(t, NAN, "%s", s->name);
+    table_add(t, seconds, "%.3g", seconds);
+    table_add(t, NAN, "%s", samples);
+    for (int v = 1; v < N_EQUAL; v++)
         for (int k = 0; k < N_EQUAL_ERRORS; k++)
-            write_ratio(f, equal_ratio(e, s, v, (enum equal_error)k));
-    fputs("\n", f);
+            table_add_interval(t, equal_ratio(e, s, v, (enum equal_error)k));
 }
 
-/* All scenes together: a row for the mean, the best and the worst. */
-static void write_summaries(FILE *f, const struct equal_time *e)
+/* Rows for all scenes together. */
+static void add_summaries(struct table *t, const struct equal_time *e)
 {
-    static const char *const rows[] = {"geometric mean", "best", "WORST"};
+    static const char *const rows[3] = {"geometric mean", "best", "WORST"};
     for (int row = 0; row < 3; row++) {
-        fprintf(f, "| **%s** | | |", rows[row]);
-        for (int v = 1; v < equal_variants(); v++)
-            for (int k = 0; k < N_EQUAL_ERRORS; k++) {
-                struct equal_summary s = equal_summarize(e, v, (enum equal_error)k);
-                double value = row == 0 ? s.mean : row == 1 ? s.best : s.worst;
-                if (!isfinite(value))
-                    fputs(" - |", f);
-                else if (row == 0)
-                    fprintf(f, " **%.3f** of %d |", value, s.n);
-                else
-                    fprintf(f, " **%.3f** %s |", value, row == 1 ? s.best_scene : s.worst_scene);
-            }
-        fputs("\n", f);
+        table_add(t, NAN, "**%s**", rows[row]);
+        table_add(t, NAN, "");
+        table_add(t, NAN, "");
+        for (int i = N_EQUAL_ERRORS; i < N_EQUAL * N_EQUAL_ERRORS; i++) {
+            struct equal_summary s = equal_summarize(e, i / N_EQUAL_ERRORS, (enum equal_error)(i % N_EQUAL_ERRORS));
+            if (s.n == 0)
+                table_add_missing(t, 1);
+            else if (row == 0)
+                table_add(t, s.mean, "**%.3f** of %d", s.mean, s.n);
+            else if (row == 1)
+                table_add(t, s.best, "**%.3f** %s", s.best, s.best_scene);
+            else
+                table_add(t, s.worst, "**%.3f** %s", s.worst, s.worst_scene);
+        }
     }
 }
 
 /* How well the times were met. */
 static void write_times(FILE *f, const struct equal_time *e)
 {
-    for (int v = 0; v < equal_variants(); v++) {
+    for (int v = 0; v < N_EQUAL; v++) {
         int near = 0, n = 0;
         long nonfinite = 0;
         double farthest = 0;
@@ -225,15 +209,14 @@ static void write_command(FILE *f, const struct equal_time *e)
 
 void equal_table(FILE *f, const struct equal_time *e)
 {
-    fprintf(f,
-            "Squared error over that of BDPT after the same CPU time, with its 95 %% interval over %d seed%s; below 1 "
-            "is a gain\n\n",
-            e->plan->n_seeds, e->plan->n_seeds == 1 ? "" : "s");
-    write_head(f);
+    struct table t;
+    begin_table(&t, e);
     for (const struct equal_scene *s = e->scene; s < e->scene + e->n_scenes; s++)
-        write_scene(f, e, s);
-    write_summaries(f, e);
-    fputs("\nrmse8: of the squared error of 8-bit values, that of the reference itself subtracted where known; relmse: "
+        add_scene(&t, e, s);
+    add_summaries(&t, e);
+    table_markdown(f, &t);
+    table_free(&t);
+    fputs("rmse8: of the squared error of 8-bit values, that of the reference itself subtracted where known; relmse: "
           "of the relative squared error of linear values as it stands. All with their default parameters, one thread. "
           "The samples per pixel were chosen by the time they take, with all that is prepared; what still differed "
           "between the time t taken and the given T is accounted for by error^2(T) = error^2(t) (t / T)^growth, growth "

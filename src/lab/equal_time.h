@@ -16,11 +16,9 @@
 
 #include "lab/results.h"
 
-/* What is compared, with its default parameters: the first is what the others are compared with; ended by a row
- * without a name. */
-enum { EQUAL_MAX = 8 };
-extern const struct variant EQUAL_VARIANTS[EQUAL_MAX];
-int equal_variants(void); /* how many there are */
+/* What is compared, with its default parameters: the first is what the others are compared with. */
+enum { N_EQUAL = 5 };
+extern const struct variant EQUAL_VARIANTS[N_EQUAL];
 
 /* One render in about the time that was given. */
 struct equal_render {
@@ -37,7 +35,7 @@ struct equal_scene {
     char name[256];
     int width, height, max_depth;
     double noise8; /* of the reference; NaN when unknown */
-    struct equal_render render[EQUAL_MAX][PLAN_MAX_SEEDS];
+    struct equal_render render[N_EQUAL][PLAN_MAX_SEEDS];
 };
 
 struct equal_time {

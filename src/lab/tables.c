@@ -2,13 +2,8 @@
 #include "lab/tables.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "base/maths.h"
-#include "base/mem.h"
-#include "lab/markup.h"
 #include "lab/published.h"
 
 #define PLUS_MINUS "\xc2\xb1" /* U+00B1 in UTF-8 */
@@ -17,58 +12,20 @@ static int last_step(const struct results *r) { return r->plan->n_steps - 1; }
 
 /* --- columns and cells ------------------------------------------------------------------------------- */
 
-/* An empty table; the columns follow. */
-static void begin(struct table *t, const char *caption, ...)
-{
-    va_list args;
-    memset(t, 0, sizeof *t);
-    va_start(args, caption);
-    vsnprintf(t->caption, sizeof t->caption, caption, args);
-    va_end(args);
-}
-
-static void add_column(struct table *t, const char *format, ...)
-{
-    va_list args;
-    if (t->columns >= TABLE_MAX_COLUMNS)
-        return;
-    va_start(args, format);
-    vsnprintf(t->head[t->columns++], TABLE_CELL, format, args);
-    va_end(args);
-}
-
 /* One column for each variant from `first` on that is compared everywhere. */
 static void add_variant_columns(struct table *t, int first, const char *format)
 {
     for (int v = first; v < N_COMPARED; v++)
-        add_column(t, format, VARIANTS[v].label);
+        table_column(t, format, VARIANTS[v].label);
 }
 
 static void add_spp_columns(struct table *t, const struct results *r)
 {
     for (int i = 0; i < r->plan->n_steps; i++)
-        add_column(t, "%ld spp", r->plan->spp[i]);
+        table_column(t, "%ld spp", r->plan->spp[i]);
 }
 
-/* The next cell, rows being filled from left to right. */
-static void add_cell(struct table *t, double value, const char *format, ...)
-{
-    va_list args;
-    t->cell = mem_grow(t->cell, &t->capacity, t->n_cells + 1, sizeof *t->cell);
-    struct table_cell *c = &t->cell[t->n_cells++];
-    c->value = value;
-    va_start(args, format);
-    vsnprintf(c->text, sizeof c->text, format, args);
-    va_end(args);
-}
-
-static void add_spp(struct table *t, long spp) { add_cell(t, (double)spp, "%ld", spp); }
-
-static void add_missing(struct table *t, int n)
-{
-    for (int i = 0; i < n; i++)
-        add_cell(t, NAN, "-");
-}
+static void add_spp(struct table *t, long spp) { table_add(t, (double)spp, "%ld", spp); }
 
 /* "mean +- error" with as many digits after the point as show two of the error's. */
 static void add_estimate(struct table *t, double mean, double error)
@@ -76,11 +33,11 @@ static void add_estimate(struct table *t, double mean, double error)
     int digits = error > 0 && isfinite(error) ? 1 - (int)floor(m_log10(error)) : 0;
     digits = digits < 0 ? 0 : digits > 6 ? 6 : digits;
     if (!isfinite(mean))
-        add_missing(t, 1);
+        table_add_missing(t, 1);
     else if (!isfinite(error) || error == 0)
-        add_cell(t, mean, "%.4g", mean);
+        table_add(t, mean, "%.4g", mean);
     else
-        add_cell(t, mean, "%.*f " PLUS_MINUS " %.*f", digits, mean, digits, error);
+        table_add(t, mean, "%.*f " PLUS_MINUS " %.*f", digits, mean, digits, error);
 }
 
 static void add_mean(struct table *t, const struct results *r, const struct scene_results *s, int variant, int step,
@@ -98,30 +55,18 @@ static void add_means(struct table *t, const struct results *r, const struct sce
         add_mean(t, r, s, v, step, q, 1);
 }
 
-static void add_interval(struct table *t, struct interval i)
-{
-    if (!isfinite(i.value))
-        add_missing(t, 1);
-    else if (!isfinite(i.low) || !isfinite(i.high))
-        add_cell(t, i.value, "%.3f", i.value);
-    else if (i.high > 100 * i.value)
-        add_cell(t, i.value, "%.3f [%.2g, %.2g]", i.value, i.low, i.high);
-    else
-        add_cell(t, i.value, "%.3f [%.3f, %.3f]", i.value, i.low, i.high);
-}
-
 static void add_equal_times(struct table *t, const struct results *r, const struct scene_results *s, int step)
 {
     for (int v = VARIANT_BDPT + 1; v < N_COMPARED; v++)
-        add_interval(t, results_equal_time(r, s, v, step));
+        table_add_interval(t, results_equal_time(r, s, v, step));
 }
 
 /* --- tables of a scene ------------------------------------------------------------------------------- */
 
 static void rmse_table(const struct results *r, const struct scene_results *s, struct table *t)
 {
-    begin(t, "RMSE on the 8-bit scale, mean over seeds and its standard error");
-    add_column(t, "spp");
+    table_begin(t, "RMSE on the 8-bit scale, mean over seeds and its standard error");
+    table_column(t, "spp");
     add_variant_columns(t, 0, "%s");
     for (int i = 0; i < r->plan->n_steps; i++) {
         add_spp(t, r->plan->spp[i]);
@@ -133,7 +78,7 @@ static void add_ours(struct table *t, const struct results *r, const struct scen
 {
     add_mean(t, r, s, VARIANT_BDPT, step, Q_RMSE8, 1);
     add_mean(t, r, s, VARIANT_BINS, step, Q_RMSE8, 1);
-    add_interval(t, results_rmse_ratio(r, s, VARIANT_BINS, step));
+    table_add_interval(t, results_rmse_ratio(r, s, VARIANT_BINS, step));
 }
 
 /* The dissertation's step i beside ours of as many samples, if we have it. */
@@ -147,10 +92,10 @@ static void add_published(struct table *t, const struct results *r, const struct
     if (step >= 0)
         add_ours(t, r, s, step);
     else
-        add_missing(t, 3);
-    add_cell(t, p->bdpt[i], "%.4f", p->bdpt[i]);
-    add_cell(t, p->asbdpt[i], "%.4f", p->asbdpt[i]);
-    add_cell(t, p->asbdpt[i] / p->bdpt[i], "%.3f", p->asbdpt[i] / p->bdpt[i]);
+        table_add_missing(t, 3);
+    table_add(t, p->bdpt[i], "%.4f", p->bdpt[i]);
+    table_add(t, p->asbdpt[i], "%.4f", p->asbdpt[i]);
+    table_add(t, p->asbdpt[i] / p->bdpt[i], "%.3f", p->asbdpt[i] / p->bdpt[i]);
 }
 
 static bool published_table(const struct results *r, const struct scene_results *s, struct table *t)
@@ -161,13 +106,13 @@ static bool published_table(const struct results *r, const struct scene_results 
     const struct published *p = published_find(s->name);
     if (p == NULL)
         return false;
-    begin(t, "RMSE beside the dissertation's (its model of the scene is another, so compare the ratios)");
+    table_begin(t, "RMSE beside the dissertation's (its model of the scene is another, so compare the ratios)");
     for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++)
-        add_column(t, "%s", heads[i]);
+        table_column(t, "%s", heads[i]);
     for (int i = 0; i < r->plan->n_steps && r->plan->spp[i] < published_spp(0); i++) {
         add_spp(t, r->plan->spp[i]);
         add_ours(t, r, s, i);
-        add_missing(t, 3);
+        table_add_missing(t, 3);
     }
     for (int i = 0; i < PUBLISHED_STEPS; i++)
         add_published(t, r, s, p, i);
@@ -176,8 +121,8 @@ static bool published_table(const struct results *r, const struct scene_results 
 
 static void equal_time_table(const struct results *r, const struct scene_results *s, struct table *t)
 {
-    begin(t, "Seconds of CPU, and squared error over BDPT's at equal time with its 95 %% interval; below 1 is a gain");
-    add_column(t, "spp");
+    table_begin(t, "Seconds of CPU, and squared error over BDPT's at equal time with its 95 %% interval; below 1 is a gain");
+    table_column(t, "spp");
     add_variant_columns(t, 0, "%s, s");
     add_variant_columns(t, VARIANT_BDPT + 1, "%s");
     for (int i = 0; i < r->plan->n_steps; i++) {
@@ -189,14 +134,14 @@ static void equal_time_table(const struct results *r, const struct scene_results
 
 static void bias_table(const struct results *r, const struct scene_results *s, struct table *t)
 {
-    begin(t,
+    table_begin(t,
           "Signed error of the picture's mean in percent, mean over seeds and its standard error "
           "(the reference's own standard error: %.2g %%)",
           100 * s->reference.mean_error);
-    add_column(t, "method");
+    table_column(t, "method");
     add_spp_columns(t, r);
     for (int v = 0; v < N_COMPARED; v++) {
-        add_cell(t, v, "%s", VARIANTS[v].label);
+        table_add(t, v, "%s", VARIANTS[v].label);
         for (int i = 0; i < r->plan->n_steps; i++)
             add_mean(t, r, s, v, i, Q_MEAN_ERROR, 100);
     }
@@ -204,15 +149,15 @@ static void bias_table(const struct results *r, const struct scene_results *s, s
 
 static void sweep_table(const struct results *r, const struct scene_results *s, enum sweep sweep, struct table *t)
 {
-    begin(t, sweep == SWEEP_PATHS ? "bins: RMSE on the 8-bit scale by paths per bin set (restart every 32)"
+    table_begin(t, sweep == SWEEP_PATHS ? "bins: RMSE on the 8-bit scale by paths per bin set (restart every 32)"
                                   : "bins: RMSE on the 8-bit scale by restart limit (8 paths per set)");
-    add_column(t, sweep == SWEEP_PATHS ? "paths" : "restart");
+    table_column(t, sweep == SWEEP_PATHS ? "paths" : "restart");
     add_spp_columns(t, r);
     for (int k = 0; k < SWEEP_LENGTH; k++) {
         const struct sweep_point *point = &SWEEPS[sweep][k];
         if (plan_seeds(r->plan, point->variant) == 0)
             continue;
-        add_cell(t, k, "%s", point->label);
+        table_add(t, k, "%s", point->label);
         for (int i = 0; i < r->plan->n_steps; i++)
             add_mean(t, r, s, point->variant, i, Q_RMSE8, 1);
     }
@@ -220,20 +165,20 @@ static void sweep_table(const struct results *r, const struct scene_results *s, 
 
 /* --- tables of all scenes ---------------------------------------------------------------------------- */
 
-static void add_scene(struct table *t, const struct scene_results *s) { add_cell(t, NAN, "%.90s", s->name); }
+static void add_scene(struct table *t, const struct scene_results *s) { table_add(t, NAN, "%.90s", s->name); }
 
 static void setup_table(const struct results *r, struct table *t)
 {
     static const char *const heads[] = {"scene",     "pixels",           "maxdepth",
                                         "reference", "its noise, 8-bit", "error of its mean, %"};
-    begin(t, "What was measured, against what");
+    table_begin(t, "What was measured, against what");
     for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++)
-        add_column(t, "%s", heads[i]);
+        table_column(t, "%s", heads[i]);
     for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++) {
         add_scene(t, s);
-        add_cell(t, (double)s->width * s->height, "%d x %d", s->width, s->height);
-        add_cell(t, s->max_depth, "%d", s->max_depth);
-        add_cell(t, NAN, "%.240s", s->reference.origin);
+        table_add(t, (double)s->width * s->height, "%d x %d", s->width, s->height);
+        table_add(t, s->max_depth, "%d", s->max_depth);
+        table_add(t, NAN, "%.240s", s->reference.origin);
         add_estimate(t, s->reference.noise8, NAN);
         add_estimate(t, 100 * s->reference.mean_error, NAN);
     }
@@ -241,28 +186,28 @@ static void setup_table(const struct results *r, struct table *t)
 
 static void all_rmse_table(const struct results *r, struct table *t)
 {
-    begin(t, "RMSE on the 8-bit scale after %ld spp; the dissertation's is after %ld spp", r->plan->spp[last_step(r)],
+    table_begin(t, "RMSE on the 8-bit scale after %ld spp; the dissertation's is after %ld spp", r->plan->spp[last_step(r)],
           published_spp(PUBLISHED_STEPS - 1));
-    add_column(t, "scene");
+    table_column(t, "scene");
     add_variant_columns(t, 0, "%s");
-    add_column(t, "bins/BDPT, here [95 %%]");
-    add_column(t, "ASBDPT/BDPT, printed");
+    table_column(t, "bins/BDPT, here [95 %%]");
+    table_column(t, "ASBDPT/BDPT, printed");
     for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++) {
         const struct published *p = published_find(s->name);
         double printed = p != NULL ? p->asbdpt[PUBLISHED_STEPS - 1] / p->bdpt[PUBLISHED_STEPS - 1] : NAN;
         struct interval alone = {printed, NAN, NAN};
         add_scene(t, s);
         add_means(t, r, s, last_step(r), Q_RMSE8);
-        add_interval(t, results_rmse_ratio(r, s, VARIANT_BINS, last_step(r)));
-        add_interval(t, alone);
+        table_add_interval(t, results_rmse_ratio(r, s, VARIANT_BINS, last_step(r)));
+        table_add_interval(t, alone);
     }
 }
 
 static void all_equal_time_table(const struct results *r, struct table *t)
 {
-    begin(t, "Squared error over BDPT's at equal time after %ld spp, with its 95 %% interval; below 1 is a gain",
+    table_begin(t, "Squared error over BDPT's at equal time after %ld spp, with its 95 %% interval; below 1 is a gain",
           r->plan->spp[last_step(r)]);
-    add_column(t, "scene");
+    table_column(t, "scene");
     add_variant_columns(t, VARIANT_BDPT + 1, "%s");
     for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++) {
         add_scene(t, s);
@@ -287,49 +232,6 @@ bool table_make(const struct results *r, const struct scene_results *s, enum tab
     return false;
 }
 
-void table_free(struct table *t)
-{
-    free(t->cell);
-    memset(t, 0, sizeof *t);
-}
-
-/* --- writing ----------------------------------------------------------------------------------------- */
-
-size_t table_rows(const struct table *t) { return t->n_cells / (size_t)t->columns; }
-
-static void write_html(FILE *f, const struct table *t)
-{
-    xml_print(f,
-              "<figure class=\"table\"><figcaption>%s</figcaption>\n"
-              "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"%s\"><table>\n<thead><tr>",
-              t->caption, t->caption);
-    for (int c = 0; c < t->columns; c++)
-        xml_print(f, "<th scope=\"col\">%s</th>", t->head[c]);
-    fputs("</tr></thead>\n<tbody>\n", f);
-    for (size_t i = 0; i < table_rows(t) * (size_t)t->columns; i++) {
-        size_t column = i % (size_t)t->columns;
-        fprintf(f, "%s<%s", column == 0 ? "<tr>" : "", column == 0 ? "th scope=\"row\"" : "td");
-        if (isfinite(t->cell[i].value))
-            fprintf(f, " data-value=\"%.9g\"", t->cell[i].value);
-        xml_print(f, ">%s", t->cell[i].text);
-        fprintf(f, "</%s>%s", column == 0 ? "th" : "td", column + 1 == (size_t)t->columns ? "</tr>\n" : "");
-    }
-    fputs("</tbody></table></div></figure>\n", f);
-}
-
-static void write_markdown(FILE *f, const struct table *t)
-{
-    fprintf(f, "%s\n\n|", t->caption);
-    for (int c = 0; c < t->columns; c++)
-        fprintf(f, " %s |", t->head[c]);
-    fputs("\n|", f);
-    for (int c = 0; c < t->columns; c++)
-        fputs(c == 0 ? "---|" : "---:|", f);
-    for (size_t i = 0; i < table_rows(t) * (size_t)t->columns; i++)
-        fprintf(f, "%s %s |", i % (size_t)t->columns == 0 ? "\n|" : "", t->cell[i].text);
-    fputs("\n\n", f);
-}
-
 void tables_write(FILE *f, const struct results *r, const struct scene_results *s, bool html)
 {
     int end = s == NULL ? TABLE_RMSE : N_TABLES;
@@ -337,7 +239,7 @@ void tables_write(FILE *f, const struct results *r, const struct scene_results *
         struct table t;
         if (!table_make(r, s, (enum table_kind)k, &t))
             continue;
-        (html ? write_html : write_markdown)(f, &t);
+        (html ? table_html : table_markdown)(f, &t);
         table_free(&t);
     }
 }

@@ -1,0 +1,101 @@
+/* table.c: see table.h. */
+#include "lab/table.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "lab/markup.h"
+
+void table_begin(struct table *t, const char *caption, ...)
+{
+    va_list args;
+    memset(t, 0, sizeof *t);
+    va_start(args, caption);
+    vsnprintf(t->caption, sizeof t->caption, caption, args);
+    va_end(args);
+}
+
+void table_column(struct table *t, const char *format, ...)
+{
+    va_list args;
+    if (t->columns >= TABLE_MAX_COLUMNS)
+        return;
+    va_start(args, format);
+    vsnprintf(t->head[t->columns++], TABLE_CELL, format, args);
+    va_end(args);
+}
+
+void table_add(struct table *t, double value, const char *format, ...)
+{
+    va_list args;
+    t->cell = mem_grow(t->cell, &t->capacity, t->n_cells + 1, sizeof *t->cell);
+    struct table_cell *c = &t->cell[t->n_cells++];
+    c->value = value;
+    va_start(args, format);
+    vsnprintf(c->text, sizeof c->text, format, args);
+    va_end(args);
+}
+
+void table_add_missing(struct table *t, int n)
+{
+    for (int i = 0; i < n; i++)
+        table_add(t, NAN, "-");
+}
+
+void table_add_interval(struct table *t, struct interval i)
+{
+    if (!isfinite(i.value))
+        table_add_missing(t, 1);
+    else if (!isfinite(i.low) || !isfinite(i.high))
+        table_add(t, i.value, "%.3f", i.value);
+    else if (i.high > 100 * i.value)
+        table_add(t, i.value, "%.3f [%.2g, %.2g]", i.value, i.low, i.high);
+    else
+        table_add(t, i.value, "%.3f [%.3f, %.3f]", i.value, i.low, i.high);
+}
+
+void table_free(struct table *t)
+{
+    free(t->cell);
+    memset(t, 0, sizeof *t);
+}
+
+size_t table_rows(const struct table *t) { return t->n_cells / t->columns; }
+
+void table_html(FILE *f, const struct table *t)
+{
+    xml_print(f,
+              "<figure class=\"table\"><figcaption>%s</figcaption>\n"
+              "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"%s\"><table>\n<thead><tr>",
+              t->caption, t->caption);
+    for (size_t c = 0; c < t->columns; c++)
+        xml_print(f, "<th scope=\"col\">%s</th>", t->head[c]);
+    fputs("</tr></thead>\n<tbody>\n", f);
+    for (size_t i = 0; i < t->n_cells; i++) {
+        size_t column = i % t->columns;
+        fputs(column == 0 ? "<tr><th scope=\"row\"" : "<td", f);
+        if (isfinite(t->cell[i].value))
+            fprintf(f, " data-value=\"%.9g\"", t->cell[i].value);
+        xml_print(f, ">%s", t->cell[i].text);
+        fprintf(f, "</%s>%s", column == 0 ? "th" : "td", column + 1 == t->columns ? "</tr>\n" : "");
+    }
+    fputs("</tbody></table></div></figure>\n", f);
+}
+
+void table_markdown(FILE *f, const struct table *t)
+{
+    fprintf(f, "%s\n\n|", t->caption);
+    for (size_t c = 0; c < t->columns; c++)
+        fprintf(f, " %s |", t->head[c]);
+    fputs("\n|", f);
+    for (size_t c = 0; c < t->columns; c++)
+        fputs(c == 0 ? "---|" : "---:|", f);
+    for (size_t i = 0; i < t->n_cells; i++) {
+        const char *text = t->cell[i].text;
+        fprintf(f, "%s%s%s |", i % t->columns == 0 ? "\n|" : "", text[0] != '\0' ? " " : "", text);
+    }
+    fputs("\n\n", f);
+}
