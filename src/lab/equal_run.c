@@ -101,7 +101,7 @@ static bool measure_variant(struct subject *s, int variant, int seed)
     r->target = s->whole->seconds > 0 ? s->whole->seconds : s->out->render[0][seed - 1].target;
     bool ok;
     if (variant == 0 && s->whole->seconds == 0) {
-        ok = render_samples(s, variant, p->spp[p->n_steps - 1], r);
+        ok = render_samples(s, variant, plan_last_spp(p), r);
         r->target = r->seconds;
         r->growth = 1;
     } else {

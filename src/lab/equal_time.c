@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/file.h"
 #include "base/maths.h"
 #include "base/number.h"
 #include "lab/table.h"
@@ -186,25 +185,13 @@ static void write_times(FILE *f, const struct equal_time *e)
 
 static void write_command(FILE *f, const struct equal_time *e)
 {
-    const struct plan *p = e->plan;
-    fputs("\n    ./asbdpt experiment --equal-time", f);
+    char how[64];
     if (e->seconds > 0)
-        fprintf(f, " %g", e->seconds);
+        snprintf(how, sizeof how, "--equal-time %g", e->seconds);
     else
-        fprintf(f, " --spp %ld", p->spp[p->n_steps - 1]);
-    fprintf(f, " --seeds %d --reference-spp %ld", p->n_seeds, p->reference_spp);
-    if (p->width > 0)
-        fprintf(f, " --res %d", p->width);
-    if (p->height > 0)
-        fprintf(f, "x%d", p->height);
-    if (p->max_depth > 0)
-        fprintf(f, " --maxdepth %d", p->max_depth);
-    if (p->reference != NULL)
-        fprintf(f, " --reference %s", p->reference);
-    fprintf(f, " -o %s", p->directory);
-    for (int i = 0; i < p->n_scenes; i++)
-        fprintf(f, "%s%s", i % 3 == 0 ? " \\\n        " : " ", p->scene[i]);
+        snprintf(how, sizeof how, "--equal-time --spp %ld", plan_last_spp(e->plan));
     fputs("\n", f);
+    plan_command(f, e->plan, how, "    ", false);
 }
 
 void equal_table(FILE *f, const struct equal_time *e)
@@ -229,10 +216,8 @@ void equal_table(FILE *f, const struct equal_time *e)
 static bool write_file(const struct equal_time *e, const char *name, void (*write)(FILE *, const struct equal_time *),
                        struct error *err)
 {
-    char path[4096];
     struct file_output f;
-    snprintf(path, sizeof path, "%s/%s", e->plan->directory, name);
-    if (!file_create(path, &f, err))
+    if (!plan_create(e->plan, name, &f, err))
         return false;
     write(f.stream, e);
     return file_commit(&f, err);

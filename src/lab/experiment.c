@@ -341,7 +341,7 @@ static bool all_runs(struct scene_experiment *s)
 static bool render_pyramid(struct scene_experiment *s)
 {
     const struct plan *p = s->whole->plan;
-    struct render_options o = options_of(s, VARIANT_BDPT, 0, p->spp[p->n_steps - 1]);
+    struct render_options o = options_of(s, VARIANT_BDPT, 0, plan_last_spp(p));
     struct film film;
     char path[PATH_SIZE];
     o.end = o.end < PYRAMID_SPP ? o.end : PYRAMID_SPP;

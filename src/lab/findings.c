@@ -28,8 +28,6 @@ enum outcome outcome_of(struct interval ratio)
 
 static const char *const OUTCOMES[] = {"a gain", "a loss", "undecided, the interval holds 1"}; /* by enum outcome */
 
-static int last_step(const struct results *r) { return r->plan->n_steps - 1; }
-
 static const char *interval_text(struct interval i, char out[64])
 {
     if (isfinite(i.low) && isfinite(i.high))
@@ -55,7 +53,7 @@ static double printed_ratio(const struct published *p, long spp, long *at)
  * taken as it stands. */
 static enum outcome agreement(const struct results *r, const struct scene_results *s, double *printed, long *at)
 {
-    int last = last_step(r);
+    int last = results_last_step(r);
     const struct published *p = published_find(s->name);
     enum outcome ours = outcome_of(results_rmse_ratio(r, s, VARIANT_BINS, last));
     *printed = NAN;
@@ -70,7 +68,7 @@ static enum outcome agreement(const struct results *r, const struct scene_result
 static void add_comparison_with_printed(const struct results *r, const struct scene_results *s, struct findings *f)
 {
     char text[64];
-    int last = last_step(r);
+    int last = results_last_step(r);
     long at = 0;
     double printed;
     struct interval ours = results_rmse_ratio(r, s, VARIANT_BINS, last);
@@ -89,7 +87,7 @@ static void add_comparison_with_printed(const struct results *r, const struct sc
 /* How much the error still falls over the last doubling. */
 static void add_convergence(const struct results *r, const struct scene_results *s, struct findings *f)
 {
-    int last = last_step(r);
+    int last = results_last_step(r);
     double factor[N_COMPARED];
     if (last < 1)
         return;
@@ -105,7 +103,7 @@ static void add_convergence(const struct results *r, const struct scene_results 
 
 static void add_biases(const struct results *r, const struct scene_results *s, struct findings *f)
 {
-    int last = last_step(r);
+    int last = results_last_step(r);
     for (int v = 0; v < N_COMPARED; v++) {
         struct bias b = results_bias(r, s, v, last);
         if (isfinite(b.p))
@@ -121,7 +119,7 @@ static void add_biases(const struct results *r, const struct scene_results *s, s
 static void add_equal_times(const struct results *r, const struct scene_results *s, struct findings *f)
 {
     char text[64];
-    int last = last_step(r);
+    int last = results_last_step(r);
     for (int v = VARIANT_BDPT + 1; v < N_COMPARED; v++) {
         struct interval i = results_equal_time(r, s, v, last);
         if (isfinite(i.value))
@@ -159,7 +157,7 @@ static void add_gains(const struct results *r, int variant, struct findings *f)
     int count[3] = {0, 0, 0}, known = 0;
     double log_sum = 0;
     for (int i = 0; i < r->plan->n_scenes; i++) {
-        struct interval ratio = results_equal_time(r, &r->scene[i], variant, last_step(r));
+        struct interval ratio = results_equal_time(r, &r->scene[i], variant, results_last_step(r));
         count[outcome_of(ratio)]++;
         if (isfinite(ratio.value)) {
             known++;
@@ -181,7 +179,7 @@ static void add_bias_counts(const struct results *r, struct findings *f)
         return;
     for (int i = 0; i < r->plan->n_scenes; i++)
         for (int v = 0; v < N_COMPARED; v++)
-            biased[v] += results_bias(r, &r->scene[i], v, last_step(r)).p < 0.01;
+            biased[v] += results_bias(r, &r->scene[i], v, results_last_step(r)).p < 0.01;
     add_finding(
         f,
         "The mean of the picture is off (p < 0.01) in %d of %d scenes for BDPT, %d for bins, %d for pool, %d for "

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/os.h"
+#include "lab/markup.h"
 
 const struct variant VARIANTS[N_VARIANTS] = {
     {"bdpt", "BDPT", "bdpt", NULL, 0, 0, true, false},
@@ -88,6 +89,42 @@ void plan_scene_name(const char *path, char *out, int size)
             start--;
     }
     snprintf(out, (size_t)size, "%.*s", (int)(end - start), start);
+}
+
+bool plan_create(const struct plan *p, const char *name, struct file_output *out, struct error *err)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s", p->directory, name);
+    return file_create(path, out, err);
+}
+
+static void write_path(FILE *f, const char *before, const char *path, bool html)
+{
+    fputs(before, f);
+    if (html)
+        xml_text(f, path);
+    else
+        fputs(path, f);
+}
+
+void plan_command(FILE *f, const struct plan *p, const char *how, const char *margin, bool html)
+{
+    fprintf(f, "%s./asbdpt experiment %s --seeds %d --reference-spp %ld", margin, how, p->n_seeds, p->reference_spp);
+    if (p->width > 0)
+        fprintf(f, " --res %d", p->width);
+    if (p->height > 0)
+        fprintf(f, "x%d", p->height);
+    if (p->max_depth > 0)
+        fprintf(f, " --maxdepth %d", p->max_depth);
+    if (p->reference != NULL)
+        write_path(f, " --reference ", p->reference, html);
+    write_path(f, " -o ", p->directory, html);
+    for (int i = 0; i < p->n_scenes; i++) {
+        if (i % 3 == 0)
+            fprintf(f, " \\\n%s   ", margin);
+        write_path(f, " ", p->scene[i], html);
+    }
+    fputs("\n", f);
 }
 
 void variant_settings(const struct variant *v, struct settings *out)

@@ -1,8 +1,7 @@
 /* plan.h: what an experiment consists of: scenes x variants x seeds, each rendered to a rising number of samples.
  *
  * A variant is an integrator with its parameters, without Russian roulette. The first five are compared everywhere;
- * the others move one parameter of `bins` at a time, as the dissertation's appendix A does.     [S24 4]
- * [S24 appendix A]
+ * the others move one parameter of `bins` at a time.                                       [S24 4] [S24 appendix A]
  *
  * Tests: test_report.c.
  */
@@ -11,7 +10,7 @@
 
 #include <stdbool.h>
 
-#include "base/error.h"
+#include "base/file.h"
 #include "scene/settings.h"
 
 struct variant {
@@ -70,6 +69,9 @@ void plan_preset(struct plan *p, bool quick);
  * with a message when that is too many steps. */
 bool plan_set_spp(struct plan *p, long first, long last, struct error *err);
 
+/* plan_last_spp: samples per pixel of the finished pictures. */
+static inline long plan_last_spp(const struct plan *p) { return p->spp[p->n_steps - 1]; }
+
 /* plan_seeds: how often the plan renders a variant; 0 when it is left out. */
 int plan_seeds(const struct plan *p, int variant);
 
@@ -88,6 +90,15 @@ long plan_run_spp(const struct plan *p, int variant);
 /* plan_scene_name: the file's name without .pbrt; for .../NAME/scene.pbrt the directory's. At most size - 1
  * bytes. */
 void plan_scene_name(const char *path, char *out, int size);
+
+/* plan_create: begin to write a file of the plan's directory, as file_create does. */
+bool plan_create(const struct plan *p, const char *name, struct file_output *out, struct error *err);
+
+/* plan_command: write the command that carries the plan out again.
+ *   how     its first options: of which kind, with how many samples
+ *   margin  begins every line
+ *   html    paths are escaped */
+void plan_command(FILE *f, const struct plan *p, const char *how, const char *margin, bool html);
 
 /* variant_settings: replace an integrator's settings by the variant's. */
 void variant_settings(const struct variant *v, struct settings *out);

@@ -15,8 +15,6 @@
 
 /* --- what the page and the Markdown share ------------------------------------------------------------ */
 
-static void plain_text(FILE *f, const char *text) { fputs(text, f); }
-
 /* Findings about a scene, or about all scenes for NULL. */
 static void write_findings(FILE *f, const struct results *r, const struct scene_results *s, bool html)
 {
@@ -32,28 +30,11 @@ static void write_findings(FILE *f, const struct results *r, const struct scene_
 }
 
 /* The command that makes these results again. */
-static void write_command(FILE *f, const struct results *r, void (*text)(FILE *, const char *))
+static void write_command(FILE *f, const struct plan *p, const char *margin, bool html)
 {
-    const struct plan *p = r->plan;
-    fprintf(f, "./asbdpt experiment --%s", p->quick ? "quick" : "full");
-    if (p->width > 0)
-        fprintf(f, " --res %d", p->width);
-    if (p->height > 0)
-        fprintf(f, "x%d", p->height);
-    fprintf(f, " --spp %ld --seeds %d --reference-spp %ld", p->spp[p->n_steps - 1], p->n_seeds, p->reference_spp);
-    if (p->max_depth > 0)
-        fprintf(f, " --maxdepth %d", p->max_depth);
-    if (p->reference != NULL) {
-        fputs(" --reference ", f);
-        text(f, p->reference);
-    }
-    fputs(" -o ", f);
-    text(f, p->directory);
-    for (int i = 0; i < p->n_scenes; i++) {
-        fputs(i % 3 == 0 ? " \\\n    " : " ", f);
-        text(f, p->scene[i]);
-    }
-    fputs("\n", f);
+    char how[64];
+    snprintf(how, sizeof how, "--%s --spp %ld", p->quick ? "quick" : "full", plan_last_spp(p));
+    plan_command(f, p, how, margin, html);
 }
 
 static void write_lead(FILE *f, const struct results *r)
@@ -64,7 +45,7 @@ static void write_lead(FILE *f, const struct results *r)
             "its repairs; subspaces, the default) in %d scene%s, each rendered to %ld, doubled up to %ld, samples per "
             "pixel with %d seed%s per method (%d for the parameter sweeps) and compared with a reference. Box filter, "
             "balance heuristic.",
-            p->n_scenes, p->n_scenes == 1 ? "" : "s", p->spp[0], p->spp[p->n_steps - 1], p->n_seeds,
+            p->n_scenes, p->n_scenes == 1 ? "" : "s", p->spp[0], plan_last_spp(p), p->n_seeds,
             p->n_seeds == 1 ? "" : "s", p->sweep_seeds < p->n_seeds ? p->sweep_seeds : p->n_seeds);
 }
 
@@ -91,7 +72,7 @@ static const char *subject(int variant) { return variant == PICTURE_REFERENCE ? 
 /* The first seed's error after all samples: the one of the picture shown. */
 static double shown_rmse(const struct results *r, const struct scene_results *s, int variant)
 {
-    return s->run[variant][0].step[r->plan->n_steps - 1].value[Q_RMSE8];
+    return s->run[variant][0].step[results_last_step(r)].value[Q_RMSE8];
 }
 
 static void write_alt(FILE *f, const struct results *r, const struct scene_results *s, int variant, bool error,
@@ -104,7 +85,7 @@ static void write_alt(FILE *f, const struct results *r, const struct scene_resul
     else
         xml_print(f, "%s rendered by %s%s", s->name, variant == PICTURE_REFERENCE ? "the " : "", subject(variant));
     if (variant != PICTURE_REFERENCE)
-        fprintf(f, ", %ld samples per pixel, RMSE %.3g", r->plan->spp[r->plan->n_steps - 1], shown_rmse(r, s, variant));
+        fprintf(f, ", %ld samples per pixel, RMSE %.3g", plan_last_spp(r->plan), shown_rmse(r, s, variant));
 }
 
 /* The src of an img, with a PNG file inside the page. */
@@ -177,7 +158,7 @@ static bool write_pictures(FILE *f, const struct results *r, const struct scene_
     struct detail detail[N_DETAILS];
     pictures_find_details(s, detail);
     xml_print(f, "<h3>Pictures, %ld samples per pixel</h3>\n<div class=\"viewer\" data-scene=\"%s\" hidden></div>\n",
-              r->plan->spp[r->plan->n_steps - 1], s->name);
+              plan_last_spp(r->plan), s->name);
     if (!write_row(f, r, s, false, 0, err))
         return false;
     fprintf(f,
@@ -277,7 +258,7 @@ static void write_how(FILE *f, const struct results *r)
             "an unbiased method's fall to %.2f: that reference does not match its pictures.</li>\n</ul>\n",
             bathroom[0], bathroom[PUBLISHED_STEPS - 1], first, last, bathroom[0] / sqrt((double)last / (double)first));
     fputs("<p>The same results, up to the times:</p>\n<pre>", f);
-    write_command(f, r, xml_text);
+    write_command(f, r->plan, "", true);
     fputs("</pre>\n<p>Beside this page: the pictures in <code>images/</code>, the plots in <code>plots/</code>, the "
           "sentences and tables in <a href=\"results.md\">results.md</a>.</p>\n</section>\n", f);
 }
@@ -304,8 +285,8 @@ static void write_markdown(FILE *f, const struct results *r)
 {
     fputs("# Alias Sampled Bidirectional Path Tracing, measured\n\n", f);
     write_lead(f, r);
-    fputs("\n\n    ", f);
-    write_command(f, r, plain_text);
+    fputs("\n\n", f);
+    write_command(f, r->plan, "    ", false);
     fputs("\n", f);
     write_findings(f, r, NULL, false);
     tables_write(f, r, NULL, false);
@@ -321,19 +302,11 @@ static void write_markdown(FILE *f, const struct results *r)
 
 /* --- files ------------------------------------------------------------------------------------------- */
 
-/* Begin DIRECTORY/NAME. */
-static bool begin(const struct results *r, const char *name, struct file_output *f, struct error *err)
-{
-    char path[4096];
-    snprintf(path, sizeof path, "%s/%s", r->plan->directory, name);
-    return file_create(path, f, err);
-}
-
 static bool write_file(const struct results *r, const char *name, void (*write)(FILE *, const struct results *),
                        struct error *err)
 {
     struct file_output f;
-    if (!begin(r, name, &f, err))
+    if (!plan_create(r->plan, name, &f, err))
         return false;
     write(f.stream, r);
     return file_commit(&f, err);
@@ -345,7 +318,7 @@ static bool write_plot_files(const struct results *r, const struct scene_results
         struct file_output f;
         char name[400];
         snprintf(name, sizeof name, "plots/%s-%s.svg", s->name, figure_name((enum figure)k));
-        if (!begin(r, name, &f, err))
+        if (!plan_create(r->plan, name, &f, err))
             return false;
         figure_write(f.stream, r, s, (enum figure)k, "plot", true);
         if (!file_commit(&f, err))
@@ -357,7 +330,7 @@ static bool write_plot_files(const struct results *r, const struct scene_results
 static bool write_page_file(const struct results *r, struct error *err)
 {
     struct file_output f;
-    if (!begin(r, "report.html", &f, err))
+    if (!plan_create(r->plan, "report.html", &f, err))
         return false;
     if (write_html(f.stream, r, err))
         return file_commit(&f, err);

@@ -57,6 +57,9 @@ struct results {
 
 void results_free(struct results *r);
 
+/* results_last_step: the one after all samples. */
+static inline int results_last_step(const struct results *r) { return r->plan->n_steps - 1; }
+
 /* run_write: all or nothing. Returns false with a message. */
 bool run_write(const char *path, const char *key, const struct seed_run *run, struct error *err);
 

@@ -8,8 +8,6 @@
 
 #define PLUS_MINUS "\xc2\xb1" /* U+00B1 in UTF-8 */
 
-static int last_step(const struct results *r) { return r->plan->n_steps - 1; }
-
 /* --- columns and cells ------------------------------------------------------------------------------- */
 
 /* One column for each variant from `first` on that is compared everywhere. */
@@ -85,7 +83,7 @@ static void add_ours(struct table *t, const struct results *r, const struct scen
 static void add_published(struct table *t, const struct results *r, const struct scene_results *s,
                           const struct published *p, int i)
 {
-    int step = last_step(r);
+    int step = results_last_step(r);
     while (step >= 0 && r->plan->spp[step] != published_spp(i))
         step--;
     add_spp(t, published_spp(i));
@@ -186,7 +184,7 @@ static void setup_table(const struct results *r, struct table *t)
 
 static void all_rmse_table(const struct results *r, struct table *t)
 {
-    table_begin(t, "RMSE on the 8-bit scale after %ld spp; the dissertation's is after %ld spp", r->plan->spp[last_step(r)],
+    table_begin(t, "RMSE on the 8-bit scale after %ld spp; the dissertation's is after %ld spp", plan_last_spp(r->plan),
           published_spp(PUBLISHED_STEPS - 1));
     table_column(t, "scene");
     add_variant_columns(t, 0, "%s");
@@ -197,8 +195,8 @@ static void all_rmse_table(const struct results *r, struct table *t)
         double printed = p != NULL ? p->asbdpt[PUBLISHED_STEPS - 1] / p->bdpt[PUBLISHED_STEPS - 1] : NAN;
         struct interval alone = {printed, NAN, NAN};
         add_scene(t, s);
-        add_means(t, r, s, last_step(r), Q_RMSE8);
-        table_add_interval(t, results_rmse_ratio(r, s, VARIANT_BINS, last_step(r)));
+        add_means(t, r, s, results_last_step(r), Q_RMSE8);
+        table_add_interval(t, results_rmse_ratio(r, s, VARIANT_BINS, results_last_step(r)));
         table_add_interval(t, alone);
     }
 }
@@ -206,12 +204,12 @@ static void all_rmse_table(const struct results *r, struct table *t)
 static void all_equal_time_table(const struct results *r, struct table *t)
 {
     table_begin(t, "Squared error over BDPT's at equal time after %ld spp, with its 95 %% interval; below 1 is a gain",
-          r->plan->spp[last_step(r)]);
+          plan_last_spp(r->plan));
     table_column(t, "scene");
     add_variant_columns(t, VARIANT_BDPT + 1, "%s");
     for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++) {
         add_scene(t, s);
-        add_equal_times(t, r, s, last_step(r));
+        add_equal_times(t, r, s, results_last_step(r));
     }
 }
 
