@@ -343,6 +343,8 @@ expect 0 '' "$program" verify "$box" --methods bdpt,bdpt --res 12x12 --spp 8 --m
 check grep -q 'verdict: agree' stdout.txt
 expect 1 '' "$program" verify "$box" --methods bdpt --spp 4 --quiet --reference "$scenes/../ref/veach-ajar.pfm"
 check grep -q 'verdict: DIFFER' stdout.txt
+expect 1 'crop window leaves 16x16' "$program" verify "$box" --methods bdpt --spp 4 --quiet \
+    --reference "$scenes/../ref/cornell-box.pfm" --cropwindow 0 0.5 0 0.5
 # A picture against itself is identical; with other errors it is too alike to be independent.
 expect 0 '' "$program" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" \
     "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm"

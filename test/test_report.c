@@ -272,6 +272,9 @@ static bool same_results(const struct results *a, const struct results *b, bool 
                 if (!same)
                     return false;
             }
+    const struct reference *r = &a->scene[0].reference, *s = &b->scene[0].reference;
+    if (r->noise8 != s->noise8 || r->mean_error != s->mean_error)
+        return false;
     for (int v = 0; v < N_COMPARED; v++)
         if (memcmp(a->scene[0].image[v], b->scene[0].image[v], 8 * 6 * 3 * sizeof(float)) != 0)
             return false;
@@ -416,6 +419,22 @@ static void check_output(struct test *t, const struct results *r)
     free(html);
 }
 
+/* What is not known of a reference is said to be so. */
+static void check_unknown(struct test *t, struct results *r)
+{
+    struct table table;
+    struct findings list;
+    double *error = &r->scene[0].reference.mean_error, known = *error;
+    *error = NAN;
+    table_make(r, &r->scene[0], TABLE_BIAS, &table);
+    CHECK(t, strstr(table.caption, "error: not known)") != NULL, "caption \"%s\"", table.caption);
+    table_free(&table);
+    findings_make(r, &r->scene[0], &list);
+    for (int i = 0; i < list.n; i++)
+        CHECK(t, strstr(list.text[i], "nan") == NULL, "finding \"%s\"", list.text[i]);
+    *error = known;
+}
+
 /* The experiment once more: are its results those of the first time? */
 static void check_again(struct test *t, struct setup *s, const struct results *first, bool same, bool times,
                         const char *what)
@@ -441,6 +460,7 @@ static void test_experiment(struct test *t)
     check_runs(t, &first);
     check_tables(t, &first);
     check_output(t, &first);
+    check_unknown(t, &first);
 
     /* Started again, nothing is done twice: even the times are the old ones. */
     check_again(t, &s, &first, true, true, "an experiment started again has the same results");

@@ -144,6 +144,16 @@ static void test_store(struct test *t)
     for (int i = 0; ok && i < 6; i++) /* weights 4/5 and 1/5 */
         CHECK(t, fabs(stored.pixels.value[i] - 2.8 - i) < 1e-6 && fabs(stored.pixels.error[i] - sqrt(0.8)) < 1e-6,
               "value %d is stored as %g +- %g", i, stored.pixels.value[i], stored.pixels.error[i]);
+    batches_free(&stored.pixels);
+    for (int i = 0; i < 6; i++) { /* no noise on either side */
+        a.pixels.value[i] = a.pixels.value[6 + i] = b.pixels.value[i] = i;
+        b.pixels.error[i] = 0;
+    }
+    ok = CHECK(t, sides_store(name, &a, &b, &from, &err), "%s", err.text) &&
+         CHECK(t, side_read_reference(path, &stored, &err), "%s", err.text);
+    for (int i = 0; ok && i < 6; i++)
+        CHECK(t, stored.pixels.value[i] == i && stored.pixels.error[i] == 0, "value %d without noise is stored as %g", i,
+              stored.pixels.value[i]);
     batches_free(&a.pixels);
     batches_free(&b.pixels);
     batches_free(&stored.pixels);
@@ -184,6 +194,10 @@ static void test_heatmap(struct test *t)
     for (int percent = 1; percent <= 100; percent += 9) {
         double p = compare_percentile(error, N, percent); /* N errors 0, 1 ... : rank ceil(1.01 percent) */
         CHECK(t, fabs(p - (ceil(1.01 * percent) - 1)) < 1e-4, "percentile %d is %g", percent, p);
+    }
+    for (int percent = 1; percent <= 100; percent++) {
+        double p = compare_percentile(error, 100, percent);
+        CHECK(t, fabs(p - (percent - 1)) < 1e-4, "percentile %d of a hundred errors 0, 1 ... 99 is %g", percent, p);
     }
     compare_heatmap(error, N, 50, map);
     for (int i = 0; i < N; i += 25) {

@@ -226,4 +226,4 @@ double stats_ks_uniform_p(double *x, size_t n)
     return stats_kolmogorov_p(stats_ks_distance(x, n) * (root + 0.12 + 0.11 / root));
 }
 
-double stats_sidak(double p, double m) { return -m_expm1(m * m_log1p(-p)); }
+double stats_sidak(double p, double m) { return 0 - m_expm1(m * m_log1p(-p)); } /* never -0 */

@@ -92,8 +92,9 @@ static bool render_sides(struct scene *scene, const struct integrator *scenes, c
     choose_integrators(o, scenes, m);
     if (o->reference != NULL && !side_read_reference(o->reference, b, err))
         return false;
-    if (o->reference != NULL || o->job.res[0] == 0)
-        side_choose_resolution(scene, o->reference != NULL ? b : NULL);
+    if ((o->reference != NULL || o->job.res[0] == 0) &&
+        !side_choose_resolution(scene, o->reference != NULL ? b : NULL, err))
+        return false;
     options.end = o->job.spp > 0 ? o->job.spp : side_choose_spp(scene, &options, m, o->batches, err);
     if (options.end == 0)
         return false;

@@ -62,7 +62,8 @@ double compare_percentile(const float *error, long n, double percent)
     float *sorted = mem_alloc((size_t)n, sizeof *sorted);
     memcpy(sorted, error, (size_t)n * sizeof *sorted);
     qsort(sorted, (size_t)n, sizeof *sorted, by_size);
-    long rank = (long)ceil(percent / 100 * (double)n); /* the nearest rank, from 1; n at most */
+    /* The nearest rank, from 1; n at most. Divided last: 7 % of 100 are 7.000000000000001 the other way round. */
+    long rank = (long)ceil(percent * (double)n / 100);
     long at = rank > 0 ? rank - 1 : 0;
     while (at > 0 && isinf(sorted[at]))
         at--;

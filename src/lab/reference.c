@@ -238,7 +238,7 @@ bool reference_write(const struct reference *r, const char *directory, const cha
     snprintf(path, sizeof path, "%s/%s.txt", directory, name);
     if (!file_create(path, &f, err))
         return false;
-    fprintf(f.stream, "key %s\nresolution %dx%d\nmaxdepth %d\nnoise8 %.9g\nmean_error %.9g\norigin %s\n", key, width,
+    fprintf(f.stream, "key %s\nresolution %dx%d\nmaxdepth %d\nnoise8 %.17g\nmean_error %.17g\norigin %s\n", key, width,
             height, max_depth, r->noise8, r->mean_error, r->origin);
     return file_commit(&f, err);
 }

@@ -109,7 +109,7 @@ bool side_render(const struct scene *scene, const struct render_options *options
     return ok;
 }
 
-void side_choose_resolution(struct scene *scene, const struct side *like)
+bool side_choose_resolution(struct scene *scene, const struct side *like, struct error *err)
 {
     int width = scene->width, height = scene->height;
     double aspect = sqrt((double)width / height);
@@ -117,6 +117,11 @@ void side_choose_resolution(struct scene *scene, const struct side *like)
     scene->height = like != NULL ? like->height : (int)fmax(1, sqrt(PIXELS) / aspect + 0.5);
     if (width != scene->width || height != scene->height)
         camera_prepare(&scene->camera, scene->width, scene->height);
+    int left[2] = {rect_width(render_crop(scene)), rect_height(render_crop(scene))};
+    if (like == NULL || (left[0] == like->width && left[1] == like->height))
+        return true;
+    return error_set(err, "%s is %dx%d, of which the crop window leaves %dx%d; add --cropwindow 0 1 0 1", like->name,
+                     like->width, like->height, left[0], left[1]);
 }
 
 long side_choose_spp(const struct scene *scene, const struct render_options *options,
@@ -169,7 +174,7 @@ static bool write_text(const char *name, const struct side *a, const struct side
         return false;
     fprintf(f.stream, "origin %s\nscene %s\nresolution %dx%d\nmaxdepth %d\nnoise8 %.6g\nmean %.9g\nmean_error %.6g\n",
             from->note, from->scene_path, a->width, a->height, from->max_depth, noise8, mean,
-            sqrt(sqr(weight * error_a) + sqr((1 - weight) * error_b)) / mean);
+            mean > 0 ? sqrt(sqr(weight * error_a) + sqr((1 - weight) * error_b)) / mean : NAN);
     fprintf(f.stream, "weights %.6f %.6f of the two methods, by the inverse of the sum of all pixels' variances\n",
             weight, 1 - weight);
     fprintf(f.stream,
@@ -188,7 +193,7 @@ bool sides_store(const char *name, const struct side *a, const struct side *b, c
     float *mean = mem_alloc((size_t)n, sizeof *mean), *error = mem_alloc((size_t)n, sizeof *error);
     float *shifted = mem_alloc((size_t)n, sizeof *shifted);
     double variance_a = total_variance(&a->pixels), variance_b = total_variance(&b->pixels);
-    double weight = variance_b / (variance_a + variance_b), sum = 0;
+    double both = variance_a + variance_b, weight = both > 0 ? variance_b / both : 0.5, sum = 0;
     for (long i = 0; i < n; i++) {
         struct moments x = batches_moments(&a->pixels, i), y = batches_moments(&b->pixels, i);
         mean[i] = (float)(weight * x.mean + (1 - weight) * y.mean);

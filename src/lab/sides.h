@@ -31,8 +31,9 @@ bool side_read_reference(const char *path, struct side *out, struct error *err);
 bool side_render(const struct scene *scene, const struct render_options *options, int number, int n_batches, bool quiet,
                  struct side *out, struct error *err);
 
-/* side_choose_resolution: the scene becomes as large as `like`, or for NULL keeps its shape with about 1000 pixels. */
-void side_choose_resolution(struct scene *scene, const struct side *like);
+/* side_choose_resolution: the scene becomes as large as `like`, or for NULL keeps its shape with about 1000 pixels.
+ * Returns false with a message when a crop window leaves less than `like` has. */
+bool side_choose_resolution(struct scene *scene, const struct side *like, struct error *err);
 
 /* side_choose_spp: samples per pixel so that the batches of one or two integrators (then integrator[1] is not NULL)
  * take about 40 seconds; 0 with a message when they cannot be rendered. */

@@ -119,7 +119,8 @@ static bool published_table(const struct results *r, const struct scene_results 
 
 static void equal_time_table(const struct results *r, const struct scene_results *s, struct table *t)
 {
-    table_begin(t, "Seconds of CPU, and squared error over BDPT's at equal time with its 95 %% interval; below 1 is a gain");
+    table_begin(t, "Seconds of CPU, and squared error over BDPT's at equal time with its 95 %% interval; "
+                   "below 1 is a gain");
     table_column(t, "spp");
     add_variant_columns(t, 0, "%s, s");
     add_variant_columns(t, VARIANT_BDPT + 1, "%s");
@@ -132,10 +133,11 @@ static void equal_time_table(const struct results *r, const struct scene_results
 
 static void bias_table(const struct results *r, const struct scene_results *s, struct table *t)
 {
-    table_begin(t,
-          "Signed error of the picture's mean in percent, mean over seeds and its standard error "
-          "(the reference's own standard error: %.2g %%)",
-          100 * s->reference.mean_error);
+    char own[32] = "not known";
+    if (isfinite(s->reference.mean_error))
+        snprintf(own, sizeof own, "%.2g %%", 100 * s->reference.mean_error);
+    table_begin(t, "Signed error of the picture's mean in percent, mean over seeds and its standard error "
+                   "(the reference's own standard error: %s)", own);
     table_column(t, "method");
     add_spp_columns(t, r);
     for (int v = 0; v < N_COMPARED; v++) {
