@@ -152,8 +152,8 @@ static void test_store(struct test *t)
     ok = CHECK(t, sides_store(name, &a, &b, &from, &err), "%s", err.text) &&
          CHECK(t, side_read_reference(path, &stored, &err), "%s", err.text);
     for (int i = 0; ok && i < 6; i++)
-        CHECK(t, stored.pixels.value[i] == i && stored.pixels.error[i] == 0, "value %d without noise is stored as %g", i,
-              stored.pixels.value[i]);
+        CHECK(t, stored.pixels.value[i] == i && stored.pixels.error[i] == 0, "value %d without noise is stored as %g",
+              i, stored.pixels.value[i]);
     batches_free(&a.pixels);
     batches_free(&b.pixels);
     batches_free(&stored.pixels);
