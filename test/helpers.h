@@ -33,6 +33,10 @@ struct batches render_batches(struct test *t, const struct scene *scene, const c
 /* batches_scale: multiply all by a factor, as a fault would. */
 void batches_scale(struct batches *b, double factor);
 
+/* batches_p: p-value of "all expectations are equal": the smallest of Welch's tests of all values, corrected by Sidak's
+ * formula for their number; those of two exact, equal values say nothing. *ratio: mean of a over mean of b. */
+double batches_p(const struct batches *a, const struct batches *b, double *ratio);
+
 /* mean_p: two-sided p-value of "the expectation is `expected`" for the batches' overall mean, by Student's t. */
 double mean_p(const struct batches *b, double expected);
 

@@ -364,7 +364,7 @@ static void check_range(struct test *t, const struct results *r)
     struct error err = {""};
     char path[512];
     double largest = 0;
-    pictures_range_path(r, s, VARIANT_POOL, path, sizeof path);
+    picture_path(r, s, VARIANT_POOL, PICTURE_RANGE, 0, path, sizeof path);
     if (!CHECK(t, image_read(path, &img, &err), "%s", err.text))
         return;
     int half = 3 * s->width * s->height;

@@ -11,20 +11,15 @@
 #include "image/image.h"
 #include "lab/compare.h"
 
-void picture_path(const struct results *r, const struct scene_results *s, int variant, bool error, int detail,
-                  char *out, size_t size)
+void picture_path(const struct results *r, const struct scene_results *s, int variant, enum picture_kind kind,
+                  int detail, char *out, size_t size)
 {
+    static const char *const kinds[] = {"", "-error", "-range"};
     char suffix[32] = "";
     if (detail > 0)
         snprintf(suffix, sizeof suffix, "-detail%d", detail);
     snprintf(out, size, "%s/images/%s-%s%s%s.png", r->plan->directory, s->name,
-             variant == PICTURE_REFERENCE ? "reference" : VARIANTS[variant].name, error ? "-error" : "", suffix);
-}
-
-void pictures_range_path(const struct results *r, const struct scene_results *s, int variant, char *out, size_t size)
-{
-    snprintf(out, size, "%s/images/%s-%s-range.png", r->plan->directory, s->name,
-             variant == PICTURE_REFERENCE ? "reference" : VARIANTS[variant].name);
+             variant == PICTURE_REFERENCE ? "reference" : VARIANTS[variant].name, kinds[kind], suffix);
 }
 
 static size_t values(const struct scene_results *s) { return (size_t)s->width * (size_t)s->height * 3; }
@@ -107,18 +102,18 @@ static bool write_range(const char *path, const float *pixels, int width, int he
 }
 
 /* A picture and its details. */
-static bool write_all(const struct results *r, const struct scene_results *s, int variant, bool error,
+static bool write_all(const struct results *r, const struct scene_results *s, int variant, enum picture_kind kind,
                       const float *pixels, const struct detail *detail, struct error *err)
 {
     char path[4096];
-    picture_path(r, s, variant, error, 0, path, sizeof path);
+    picture_path(r, s, variant, kind, 0, path, sizeof path);
     bool ok = image_write(path, s->width, s->height, pixels, err);
     for (int i = 0; ok && i < N_DETAILS; i++) {
-        picture_path(r, s, variant, error, i + 1, path, sizeof path);
+        picture_path(r, s, variant, kind, i + 1, path, sizeof path);
         ok = write_detail(path, s, pixels, &detail[i], err);
     }
-    pictures_range_path(r, s, variant, path, sizeof path);
-    return ok && (error || write_range(path, pixels, s->width, s->height, err));
+    picture_path(r, s, variant, PICTURE_RANGE, 0, path, sizeof path);
+    return ok && (kind == PICTURE_ERROR || write_range(path, pixels, s->width, s->height, err));
 }
 
 /* Errors of all variants' 8-bit values, 0 to 255. [N_COMPARED][height*width], to be freed. */
@@ -156,10 +151,10 @@ bool pictures_write(const struct results *r, const struct scene_results *s, stru
     struct detail detail[N_DETAILS];
     pictures_find_details(s, detail);
     float *heat = make_heatmaps(s);
-    bool ok = write_all(r, s, PICTURE_REFERENCE, false, s->reference.pixels, detail, err);
+    bool ok = write_all(r, s, PICTURE_REFERENCE, PICTURE_ITSELF, s->reference.pixels, detail, err);
     for (int v = 0; ok && v < N_COMPARED; v++)
-        ok = write_all(r, s, v, false, s->image[v], detail, err) &&
-             write_all(r, s, v, true, heat + (size_t)v * values(s), detail, err);
+        ok = write_all(r, s, v, PICTURE_ITSELF, s->image[v], detail, err) &&
+             write_all(r, s, v, PICTURE_ERROR, heat + (size_t)v * values(s), detail, err);
     free(heat);
     return ok;
 }

@@ -14,20 +14,22 @@
 
 enum { PICTURE_REFERENCE = -1, N_DETAILS = 2, PICTURES_PERCENTILE = 99 };
 
+/* The range, for the exposure of the page's viewer, is a PNG of twice the height whose upper half holds the mantissas of
+ * rgbe_encode and whose lower half, in all channels, their common exponent. */
+enum picture_kind {
+    PICTURE_ITSELF, /* 8-bit sRGB */
+    PICTURE_ERROR,  /* its heat map; not of the reference */
+    PICTURE_RANGE   /* its whole range of values */
+};
+
 struct detail {
     int x, y, width, height, enlargement; /* pixels; enlargement: pixels of the file per pixel */
 };
 
 /* picture_path: DIRECTORY/images/... of a variant or PICTURE_REFERENCE.
- *   error   its heat map instead (not for the reference)
  *   detail  0: the whole; 1 .. N_DETAILS: that detail */
-void picture_path(const struct results *r, const struct scene_results *s, int variant, bool error, int detail,
-                  char *out, size_t size);
-
-/* pictures_range_path: DIRECTORY/images/... of the picture with its whole range of values, for the exposure of the
- * page's viewer: a PNG of twice the height whose upper half holds the mantissas of rgbe_encode and whose lower half, in
- * all channels, their common exponent. */
-void pictures_range_path(const struct results *r, const struct scene_results *s, int variant, char *out, size_t size);
+void picture_path(const struct results *r, const struct scene_results *s, int variant, enum picture_kind kind,
+                  int detail, char *out, size_t size);
 
 /* pictures_find_details: choose the windows. */
 void pictures_find_details(const struct scene_results *s, struct detail out[N_DETAILS]);

@@ -112,7 +112,7 @@ static void write_data(FILE *f, const struct scene_results *s, int variant, cons
 static bool write_range(FILE *f, const struct results *r, const struct scene_results *s, int variant, struct error *err)
 {
     char path[4096];
-    pictures_range_path(r, s, variant, path, sizeof path);
+    picture_path(r, s, variant, PICTURE_RANGE, 0, path, sizeof path);
     fprintf(f, "<img alt=\"the range of %s\" hidden", subject(variant));
     write_data(f, s, variant, "range");
     bool ok = write_source(f, path, err);
@@ -130,7 +130,7 @@ static bool write_picture(FILE *f, const struct results *r, const struct scene_r
     fputs("\"", f);
     if (detail == 0)
         write_data(f, s, variant, error ? "error" : "picture");
-    picture_path(r, s, variant, error, detail, path, sizeof path);
+    picture_path(r, s, variant, error ? PICTURE_ERROR : PICTURE_ITSELF, detail, path, sizeof path);
     if (!write_source(f, path, err))
         return false;
     fprintf(f, "><figcaption>%s%s", subject(variant), error ? ": error" : "");

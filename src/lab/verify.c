@@ -127,19 +127,6 @@ static long all_p(const struct batches *a, const struct batches *b, double *p, l
     return n;
 }
 
-/* The smallest of n p-values of hypotheses that all hold is as small as p with this probability, or less: 1 - (1-p)^n,
- * Sidak's formula for a family of 1/n. */
-double batches_p(const struct batches *a, const struct batches *b, double *ratio)
-{
-    double smallest = 1, *p = mem_alloc((size_t)a->n, sizeof *p);
-    long n = all_p(a, b, p, NULL);
-    for (long i = 0; i < n; i++)
-        smallest = fmin(smallest, p[i]);
-    free(p);
-    *ratio = batches_mean(a, NULL) / batches_mean(b, NULL);
-    return n > 0 ? stats_sidak(smallest, (double)n) : 1;
-}
-
 static double random_normal(struct rng *r)
 {
     double u = 1 - rng_uniform(r), v = rng_uniform(r);
@@ -156,8 +143,8 @@ static void resample(const struct batches *b, struct rng *r, struct batches *out
         }
         return;
     }
-    double stretch =
-        sqrt(b->n_batches / (b->n_batches - 1.0)); /* deviations from the batches' own mean are too small */
+    /* Deviations from the batches' own mean are too small by this factor. */
+    double stretch = sqrt(b->n_batches / (b->n_batches - 1.0));
     double *mean = mem_alloc((size_t)b->n, sizeof *mean);
     for (long i = 0; i < b->n; i++)
         mean[i] = batches_moments(b, i).mean;

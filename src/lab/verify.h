@@ -48,10 +48,6 @@ struct moments batches_moments(const struct batches *b, long i);
 /* batches_mean: mean over all values, with its standard error (may be NULL). */
 double batches_mean(const struct batches *b, double *error);
 
-/* batches_p: one p-value for "all expectations are equal": the smallest of Welch's tests of all values, corrected by
- * Sidak's formula for their number. *ratio: total mean of a over total mean of b. */
-double batches_p(const struct batches *a, const struct batches *b, double *ratio);
-
 enum { VERIFY_BARS = 10 };
 
 struct verdict {
