@@ -14,8 +14,8 @@
 
 enum { PICTURE_REFERENCE = -1, N_DETAILS = 2, PICTURES_PERCENTILE = 99 };
 
-/* The range, for the exposure of the page's viewer, is a PNG of twice the height whose upper half holds the mantissas of
- * rgbe_encode and whose lower half, in all channels, their common exponent. */
+/* The range, for the exposure of the page's viewer, is a PNG of twice the height whose upper half holds the mantissas
+ * of rgbe_encode and whose lower half, in all channels, their common exponent. */
 enum picture_kind {
     PICTURE_ITSELF, /* 8-bit sRGB */
     PICTURE_ERROR,  /* its heat map; not of the reference */
