@@ -187,7 +187,7 @@ static double exp_series(double r)
     return polynomial(c, 12, r);
 }
 
-/* x = halvings ln(2) + r.high + r.low, |x.high| < 800.                                         [Cody & Waite 1980 6] */
+/* x = power ln(2) + r.high + r.low, |x.high| < 800.                                         [Cody & Waite 1980 6] */
 static struct pair reduce_exponent(struct pair x, int *power)
 {
     *power = (int)(x.high * INV_LN2 + (x.high < 0 ? -0.5 : 0.5));

@@ -127,7 +127,7 @@ static struct prospect order_children(struct kd_node *node, const struct kd_cell
         share[s] = area > 0 ? kd_half_area(&part[s].box) / area : 1;
     if (child[1].hit * child[0].cost > child[0].hit * child[1].cost)
         node->word |= KD_UPPER_FIRST;
-    struct prospect both = {kd_visit_cost() + share[0] * child[0].cost + share[1] * child[1].cost,
+    struct prospect both = {KD_VISIT_COST + share[0] * child[0].cost + share[1] * child[1].cost,
                             1 - (1 - share[0] * child[0].hit) * (1 - share[1] * child[1].hit)};
     return both;
 }

@@ -3,7 +3,7 @@
  *
  * Where a ray that crosses a cell of surface S meets a part of it of surface S' with probability S'/S, a cell cut
  * into parts that cost C0 and C1 to test costs
- *     C = VISIT + (C0 S0 + C1 S1) / S,        against its own test if it stays a leaf  [Wald & Havran 2006]
+ *     C = KD_VISIT_COST + (C0 S0 + C1 S1) / S,    against its own test if it stays a leaf  [Wald & Havran 2006]
  * A leaf is tested in blocks of KD_LANES items, so its cost is the number of blocks. Counting the items that begin and
  * that end in each of BINS equal parts of an axis gives C at the bins' ends, in one pass and without sorting. The ends
  * of the items' common bounds are tried as well: they cut off empty space, and there the planes must be exact.
@@ -18,14 +18,9 @@
 
 /* --- the cheapest plane ------------------------------------------------------------------------------- */
 
-/* A visit of an inner node in units of the test of a block, with its share of cache misses and wrong guesses of the
- * processor; found by measurement. */
-static const double VISIT = 1.5;
-
 enum { FEW = 64, BINS_OF_FEW = 32, BINS = 128 };
 
 double kd_leaf_cost(size_t n) { return (double)((n + KD_LANES - 1) / KD_LANES); }
-double kd_visit_cost(void) { return VISIT; }
 
 double kd_half_area(const struct box *b)
 {
@@ -37,14 +32,14 @@ double kd_half_area(const struct box *b)
 struct axis_bins {
     int number;
     float cell_lo, cell_hi;
-    double fixed;         /* VISIT times the cell's half area */
+    double fixed;         /* KD_VISIT_COST times the cell's half area */
     double below0, slope; /* the half area below x is below0 + slope x */
     double above0;        /* and above it above0 - slope x */
     float lo, hi;         /* bounds of the items */
     float scale;          /* bins per metre */
     int n_bins;
     int begin[BINS], end[BINS]; /* how many items do so in each bin */
-    int planar_lo, planar_hi;       /* how many lie in the planes at lo, hi */
+    int planar_lo, planar_hi;   /* how many lie in the planes at lo, hi */
 };
 
 static void axis_start(struct axis_bins *a, int number, const struct box *cell, size_t n)
@@ -54,7 +49,7 @@ static void axis_start(struct axis_bins *a, int number, const struct box *cell, 
     a->number = number;
     a->cell_lo = cell->lo[number];
     a->cell_hi = cell->hi[number];
-    a->fixed = VISIT * kd_half_area(cell);
+    a->fixed = KD_VISIT_COST * kd_half_area(cell);
     a->slope = u + v;
     a->below0 = u * v - a->slope * a->cell_lo;
     a->above0 = u * v + a->slope * a->cell_hi;

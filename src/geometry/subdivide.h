@@ -3,7 +3,7 @@
  * Each level cuts every triangle in four and moves the vertices; at the end they are moved to where infinitely many
  * levels would take them, and get the normals of that limit surface. [Loop 1987] [PBRT3 3.8]
  *
- * Tests: test_shape.c.
+ * Tests: test_subdivide.c.
  */
 #ifndef ASBDPT_SUBDIVIDE_H
 #define ASBDPT_SUBDIVIDE_H

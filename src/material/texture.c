@@ -94,7 +94,7 @@ struct corners {
     double weight[4];
 };
 
-/* Find them. A point that is not finite has no texels. */
+/* A point that is not finite has no texels around it. */
 static struct corners find_corners(const struct image *img, double s, double t, enum texture_wrap wrap)
 {
     struct corners c = {{-1, -1, -1, -1}, {0, 0, 0, 0}};

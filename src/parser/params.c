@@ -138,8 +138,6 @@ int params_int(struct params *p, const char *name, int fallback, int low, int hi
         source_warn(p->messages, item->position, NULL, "\"%s\" is %.12g, which counts as %.12g", name, number, whole);
     if (whole >= low && whole <= high)
         return (int)whole;
-    if (low == high)
-        params_fail(p, param_value_position(item, 0), "\"%s\" is %.12g; only %d is supported", name, number, low);
     params_fail(p, param_value_position(item, 0), "\"%s\" is %.12g; it must be a whole number from %d to %d", name,
                 number, low, high);
     return fallback;

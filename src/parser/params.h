@@ -40,7 +40,7 @@ struct param {
     struct source_position position;  /* of the quoted declaration */
     struct lexer values; /* where the values begin, to find the position of one of them again */
     size_t first;        /* index into params->number or params->string */
-    int n;               /* values: numbers or strings */
+    int n;               /* values: numbers or strings; fewer than bytes in a file (text_read) */
     bool is_text;        /* strings (also bools), else numbers */
     bool used;
 };

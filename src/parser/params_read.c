@@ -1,11 +1,9 @@
 /* params_read.c: see params.h: a parameter list from text to memory. */
 #include "parser/params.h"
 
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "parser/spectrum.h"
 #include "parser/symbols.h"
 
 /* One row per spelling; the first of a type is its name in messages. */
@@ -122,7 +120,7 @@ static bool read_values(struct params *p, struct lexer *l, struct param *item)
         enum token_kind next = lexer_peek(l);
         if (next == TOKEN_CLOSE)
             return lexer_next(l, &open);
-        if (next == TOKEN_END || item->n == INT_MAX)
+        if (next == TOKEN_END)
             return params_fail(p, open.position, "this [ has no ]; close the list of values");
         if (!read_value(p, l, item))
             return false;

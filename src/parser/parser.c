@@ -250,8 +250,6 @@ static void start(struct parser *p, const char *path, struct scene *s, const str
 {
     static const struct source_file NOTHING = {.path = "", .text = "", .end = ""};
     p->scene = s;
-    s->width = 1280; /* pbrt-v3's film where there is no Film directive */
-    s->height = 720;
     p->messages.err = err;
     p->messages.sink = sink;
     p->params.messages = &p->messages;

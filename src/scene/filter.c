@@ -79,7 +79,6 @@ static void prepare_axis(struct filter *f, int axis)
     for (int i = 0; i <= FILTER_STEPS; i++)
         f->cdf[axis][i] /= absolute;
     f->norm[axis] = 1 / integral;
-    f->sign_scale[axis] = absolute / integral;
 }
 
 void filter_prepare(struct filter *f)

@@ -23,9 +23,8 @@ struct filter {
     double B, C;      /* mitchell */
     double tau;       /* sinc */
     /* filled by filter_prepare, per axis */
-    double norm[2];                   /* 1 / integral of f1 */
-    double sign_scale[2];             /* integral of |f1| / integral of f1, >= 1 */
-    double cdf[2][FILTER_STEPS + 1];  /* running integral of |f1|, normalised; box, triangle: unused */
+    double norm[2];                  /* 1 / integral of f1 */
+    double cdf[2][FILTER_STEPS + 1]; /* running integral of |f1|, normalised; box, triangle: unused */
 };
 
 /* filter_default: the filter of that name ("box", "triangle", "gaussian", "mitchell", "sinc") at pbrt's default
@@ -38,8 +37,8 @@ void filter_prepare(struct filter *f);
 /* filter_eval: h(dx,dy), normalised to integrate to 1 over the plane; dx, dy in pixels from the pixel's centre. */
 double filter_eval(const struct filter *f, double dx, double dy);
 
-/* filter_sample: draw an offset from density |h| / integral |h|.
- * Returns the weight h/density: 1 for filters without negative lobes. */
+/* filter_sample: draw an offset in pixels from the density |h| / integral |h|, or the steps of a table of it, by u1, u2
+ * in [0,1). Returns the weight h / density, which makes up for the steps: of filters without negative lobes about 1. */
 double filter_sample(const struct filter *f, double u1, double u2, double *dx, double *dy);
 
 #endif

@@ -11,8 +11,8 @@ void scene_init(struct scene *s)
     memset(s, 0, sizeof *s);
     s->camera = camera_default();
     filter_default("box", &s->filter);
-    s->width = 640;
-    s->height = 480;
+    s->width = 1280;
+    s->height = 720;
     s->crop[1] = s->crop[3] = 1;
     s->film_scale = 1;
 }
@@ -41,19 +41,18 @@ int scene_add_material(struct scene *s, struct material m)
 
 /* --- ready to render --------------------------------------------------------------------------------- */
 
-/* Is the surface there at this hit? Holes are where an alpha texture is exactly 0, as in pbrt-v3. The geometry is the
- * scene's first member, so its address is the scene's too [C99 6.7.2.1 (13)]. */
+/* Is the surface there at this hit? Holes are where an alpha texture is exactly 0, as in pbrt-v3. The context is the
+ * scene's set of textures. */
 static bool opaque_at(const void *context, const struct geometry *geo, const struct hit *hit, bool shadow)
 {
-    const struct scene *s = (const struct scene *)geo;
-    (void)context;
+    const struct texture_set *textures = context;
     const struct shape_group *group = shape_group_of(geo, hit->prim);
     const struct ray anywhere = {vec(0, 0, 0), vec(0, 0, 1), 0, INFINITY, 0, 0};
     struct surface at;
     shape_surface(geo, hit, &anywhere, &at);
-    if (group->alpha >= 0 && texture_float(&s->textures, group->alpha, &at) == 0)
+    if (group->alpha >= 0 && texture_float(textures, group->alpha, &at) == 0)
         return false;
-    return !(shadow && group->shadow_alpha >= 0 && texture_float(&s->textures, group->shadow_alpha, &at) == 0);
+    return !(shadow && group->shadow_alpha >= 0 && texture_float(textures, group->shadow_alpha, &at) == 0);
 }
 
 /* Widen *lo and *hi to the bounds of a tree. */
@@ -79,6 +78,7 @@ void scene_bounds(const struct scene *s, vec3 *lo, vec3 *hi)
 void scene_prepare(struct scene *s)
 {
     s->geo.opaque = opaque_at;
+    s->geo.opaque_context = &s->textures;
     material_prepare(s->material, s->n_materials, &s->textures, &s->arena);
     for (int i = 0; i < s->geo.n_groups; i++)
         s->geo.group[i].skip_partials =

@@ -18,7 +18,7 @@
 #include "scene/settings.h"
 
 struct scene {
-    struct geometry geo; /* first: see opaque_at in scene.c */
+    struct geometry geo;
     struct kdtree kd;        /* of the surfaces that have a material */
     struct kdtree kd_lights; /* of those that have none: area lights that rays pass through */
     struct texture_set textures;
@@ -44,12 +44,13 @@ struct scene {
     double epsilon;         /* tmin of every secondary ray: 1e-8 of the scene's diagonal */
 };
 
-/* scene_init: an empty scene with pbrt's defaults (640x480 film, box filter of radius 0.5, fov 90). */
+/* scene_init: an empty scene with pbrt's defaults (1280x720 film, box filter of radius 0.5, fov 90). */
 void scene_init(struct scene *s);
 void scene_free(struct scene *s);
 int scene_add_material(struct scene *s, struct material m);
 
-/* scene_prepare: build the kd-tree, light tables, camera and filter for the final resolution. Call once. */
+/* scene_prepare: build the kd-tree, light tables, camera and filter for the final resolution. Call once; from then on
+ * the scene stays where it is in memory. */
 void scene_prepare(struct scene *s);
 
 /* scene_bounds: the box of all surfaces of a prepared scene, also of those that rays pass through; the origin if there

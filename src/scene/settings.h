@@ -1,6 +1,8 @@
 /* settings.h: the named parameters of an integrator, as the scene file and -P give them.
  *
  * Values are kept as text; an integrator reads them by name with a default. Later ones override earlier ones.
+ *
+ * Tests: test_asbdpt.c, test/cli.sh.
  */
 #ifndef ASBDPT_SETTINGS_H
 #define ASBDPT_SETTINGS_H
@@ -21,10 +23,11 @@ struct settings {
     size_t capacity;
 };
 
-/* settings_set: add or replace. */
+/* settings_set: add or replace; the texts are copied. settings_remove: forget number i. settings_clear: forget and
+ * free everything. */
 void settings_set(struct settings *s, const char *name, const char *value, const char *origin);
 void settings_remove(struct settings *s, int i);
-void settings_clear(struct settings *s); /* forget and free everything */
+void settings_clear(struct settings *s);
 
 /* settings_text: the value, or `fallback` when the name is not set. */
 const char *settings_text(const struct settings *s, const char *name, const char *fallback);
