@@ -12,6 +12,8 @@
 #ifndef ASBDPT_VEC_H
 #define ASBDPT_VEC_H
 
+#include <stddef.h>
+
 #include "base/maths.h"
 #include "base/number.h"
 
@@ -23,6 +25,15 @@ static inline vec3 vec(double x, double y, double z)
 {
     vec3 v = {x, y, z};
     return v;
+}
+
+/* load3, store3: number i of an array of vectors, three floats each. What is stored must fit a float. */
+static inline vec3 load3(const float *v, size_t i) { return vec(v[3 * i], v[3 * i + 1], v[3 * i + 2]); }
+static inline void store3(float *v, size_t i, vec3 a)
+{
+    v[3 * i] = (float)a.x;
+    v[3 * i + 1] = (float)a.y;
+    v[3 * i + 2] = (float)a.z;
 }
 
 /* cylindrical: the point at distance r from the z axis, at the angle phi. */

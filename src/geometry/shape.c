@@ -60,15 +60,6 @@ static void reserve_triangles(struct geometry *geo, size_t need)
     geo->triangle_capacity = cap_index;
 }
 
-static vec3 load3(const float *v, size_t i) { return vec(v[3 * i], v[3 * i + 1], v[3 * i + 2]); }
-
-static void store3(float *v, size_t i, vec3 p)
-{
-    v[3 * i] = (float)p.x;
-    v[3 * i + 1] = (float)p.y;
-    v[3 * i + 2] = (float)p.z;
-}
-
 static bool add_vertices(struct geometry *geo, const struct mesh *m, const struct transform *to_world, bool reverse,
                          struct error *err)
 {
@@ -126,7 +117,7 @@ int shape_add_quadric(struct geometry *geo, struct quadric q, struct shape_group
     }
     q.group = geo->n_groups;
     group.first_prim = FIRST_QUADRIC + geo->n_quadrics;
-    group.flip = reverse_orientation != transform_swaps_handedness(&q.to_world);
+    group.flip = reverse_orientation;
     group.has_n = false;
     group.has_uv = true;
     geo->quadric =
@@ -223,9 +214,7 @@ static void set_primitive(const struct geometry *geo, int prim, struct surface *
 /* Surface point of a quadric at an object-space position. */
 static void quadric_point(const struct geometry *geo, int prim, vec3 p, struct surface *out)
 {
-    const struct quadric *q = quadric_of(geo, prim);
-    bool reverse = geo->group[q->group].flip != transform_swaps_handedness(&q->to_world);
-    quadric_surface_at(q, reverse, p, out);
+    quadric_surface_at(quadric_of(geo, prim), shape_group_of(geo, prim)->flip, p, out);
     set_primitive(geo, prim, out);
 }
 

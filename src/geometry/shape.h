@@ -29,7 +29,8 @@ struct shape_group {
     int shadow_alpha; /* the same for shadow rays only */
     int first_light;  /* area light of primitive first_prim, the others follow; -1 if none */
     int first_prim;   /* first primitive of the group */
-    bool flip;        /* ReverseOrientation xor transform swaps handedness: normals without N are negated */
+    bool flip;        /* quadric: ReverseOrientation; triangle without N: whether its normal is negated, which is that
+                       * xor the transform swaps handedness */
     bool has_n;       /* vertex normals given (already negated under ReverseOrientation): they orient ng as well */
     bool has_uv;
     bool skip_partials; /* leave partial derivatives zero: nobody reads them (scene_prepare finds out) */

@@ -244,13 +244,6 @@ static vec3 limit_normal(const struct ring *r, vec3 p)
     return is_finite3(n) ? n : vec(0, 0, 0);
 }
 
-static void store(float *to, size_t i, vec3 p)
-{
-    to[3 * i] = (float)p.x; /* a mean of floats */
-    to[3 * i + 1] = (float)p.y;
-    to[3 * i + 2] = (float)p.z;
-}
-
 /* Move the vertices to their limits, then find the normals there, as pbrt-v3 does in this order. The mesh takes over
  * the corners. */
 static struct mesh limit_mesh(struct level *l, struct ring *ring)
@@ -262,12 +255,12 @@ static struct mesh limit_mesh(struct level *l, struct ring *ring)
     for (int v = 0; v < m.n_vertices; v++) {
         ring_around(l, v, ring);
         limit[v] = limit_point(ring, p[v]);
-        store(m.P, (size_t)v, limit[v]);
+        store3(m.P, (size_t)v, limit[v]); /* a mean of floats */
     }
     l->p = limit;
     for (int v = 0; v < m.n_vertices; v++) {
         ring_around(l, v, ring);
-        store(m.N, (size_t)v, limit_normal(ring, limit[v]));
+        store3(m.N, (size_t)v, limit_normal(ring, limit[v]));
     }
     l->corner = NULL;
     free(p);
@@ -278,7 +271,7 @@ static struct level control_level(const struct mesh *m)
 {
     struct level l = level_make(m->n_vertices, m->n_triangles);
     for (size_t i = 0; i < (size_t)m->n_vertices; i++)
-        l.p[i] = vec(m->P[3 * i], m->P[3 * i + 1], m->P[3 * i + 2]);
+        l.p[i] = load3(m->P, i);
     for (int h = 0; h < 3 * m->n_triangles; h++)
         l.corner[h] = m->index[h];
     find_out(&l);

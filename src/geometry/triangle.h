@@ -36,8 +36,7 @@ static inline struct triangle_ray triangle_ray(const struct ray *ray)
  * double, so t is good to the last digits even for needles and grazing rays. */
 static inline double triangle_distance(const struct triangle_ray *r, const float v[9])
 {
-    vec3 v0 = vec(v[0], v[1], v[2]);
-    vec3 n = cross(sub(vec(v[3], v[4], v[5]), v0), sub(vec(v[6], v[7], v[8]), v0));
+    vec3 v0 = load3(v, 0), n = cross(sub(load3(v, 1), v0), sub(load3(v, 2), v0));
     return dot(n, sub(v0, r->ray->o)) / dot(n, r->ray->d);
 }
 

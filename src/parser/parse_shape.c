@@ -170,8 +170,7 @@ static void mesh_shape(struct parser *p, void *object)
 
 static void phi_max(struct parser *p, const struct parameter *row, void *field)
 {
-    double degrees = params_number(&p->params, row->name, row->fallback.r, row->low, row->high);
-    *(double *)field = fmin(degrees, 360) * PI / 180;
+    *(double *)field = params_number(&p->params, row->name, row->fallback.r, row->low, row->high) * PI / 180;
 }
 
 static struct quadric *quadric_of(struct parser *p, void *object)
@@ -181,12 +180,13 @@ static struct quadric *quadric_of(struct parser *p, void *object)
     return s;
 }
 
-/* The part of a sphere or cylinder between two heights. */
-static void heights(struct params *q, struct quadric *s, double low, double high, double limit)
+/* The part between two heights. */
+static void heights(struct params *q, struct quadric *s, double low, double high)
 {
     double a = params_number(q, "zmin", low, ANY_NUMBER), b = params_number(q, "zmax", high, ANY_NUMBER);
-    s->zmin = clamp(fmin(a, b), -limit, limit);
-    s->zmax = clamp(fmax(a, b), -limit, limit);
+    s->zmin = a;
+    s->zmax = b;
+    quadric_normalise(s);
     if (!(s->zmin < s->zmax))
         type_error(q, "\"zmin\" %g and \"zmax\" %g leave nothing of this %s", a, b, q->type);
 }
@@ -194,12 +194,12 @@ static void heights(struct params *q, struct quadric *s, double low, double high
 static void sphere(struct parser *p, void *object)
 {
     struct quadric *s = quadric_of(p, object);
-    heights(&p->params, s, -s->radius, s->radius, s->radius);
+    heights(&p->params, s, -s->radius, s->radius);
 }
 
 static void cylinder(struct parser *p, void *object)
 {
-    heights(&p->params, quadric_of(p, object), -1, 1, DBL_MAX);
+    heights(&p->params, quadric_of(p, object), -1, 1);
 }
 
 static void disk(struct parser *p, void *object)
@@ -225,7 +225,7 @@ static void cone(struct parser *p, void *object) { unlit_quadric(p, object); }
 static void paraboloid(struct parser *p, void *object)
 {
     struct quadric *s = unlit_quadric(p, object);
-    heights(&p->params, s, 0, 1, DBL_MAX);
+    heights(&p->params, s, 0, 1);
     if (!(s->zmax > 0))
         type_error(&p->params, "\"zmin\" and \"zmax\" are at most 0; a paraboloid opens upwards from 0");
 }
