@@ -221,6 +221,9 @@ expect 1 'stdout.txt' "$program" compare stdout.txt a.pfm
 expect 0 '' "$program" render "$box" $small --maxdepth 2 --strategies s -o a.pfm
 check [ -s s/d02_s02_t02_weighted.pfm ]
 check [ -s s/pyramid.png ]
+printf 'Film "image" "float scale" 3 WorldBegin LightSource "infinite" "rgb L" [ 1 2 3 ] WorldEnd\n' >scale.pbrt
+expect 0 '' "$program" render scale.pbrt $small --maxdepth 1 --strategies s -o scale.pfm
+check cmp -s scale.pfm s/d00_s00_t02_weighted.pfm
 
 # --aov: a picture each beside the first, the same for any number of threads and whatever is rendered.
 expect 0 'wrote aov.variance.pfm' "$program" render "$box" --res 16x16 --spp 2 -j 1 \

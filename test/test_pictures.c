@@ -45,13 +45,13 @@ static void test_pyramid(struct test *t)
     film_init(&film, rect, 8, 4);
     film_keep_strategies(&film, 2);
     film.iterations = 4;
-    plant(&film, 1, 3, 0.03125, 0.03125); /* depth 2: 1/32 + 3/32 = 1/8 */
-    plant(&film, 2, 2, 0.0625, 0.09375);
-    float *one = pyramid_strategy(&film, 2, 2, true);
+    plant(&film, 1, 3, 0.015625, 0.015625); /* depth 2: 1/64 + 3/64, twice as bright 1/8 */
+    plant(&film, 2, 2, 0.03125, 0.046875);
+    float *one = pyramid_strategy(&film, 2, 2, 2, true);
     CHECK(t, one[0] == 0.09375f && one[95] == 0.09375f, "the image of (2,2) holds %g", (double)one[0]);
     free(one);
     snprintf(path, sizeof path, "%s/pyramid.png", test_tmp(t));
-    bool ok = CHECK(t, pyramid_write(path, &film, &err), "%s", err.text) &&
+    bool ok = CHECK(t, pyramid_write(path, &film, 2, &err), "%s", err.text) &&
               CHECK(t, image_read(path, &img, &err), "%s", err.text);
     film_free(&film);
     if (!ok)

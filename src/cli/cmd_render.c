@@ -75,7 +75,7 @@ static bool strategies_possible(const char *directory, struct error *err)
 }
 
 /* Two pictures per strategy, its whole estimate and its weighted share; and all on one sheet. */
-static bool write_strategies(const char *directory, const struct film *film, struct error *err)
+static bool write_strategies(const char *directory, const struct film *film, double scale, struct error *err)
 {
     int width = rect_width(film->rect), height = rect_height(film->rect);
     char path[4096];
@@ -84,14 +84,14 @@ static bool write_strategies(const char *directory, const struct film *film, str
         for (int s = 0; ok && s <= depth + 1; s++)
             for (int weighted = 0; ok && weighted < 2; weighted++) {
                 int t = depth + 2 - s;
-                float *pixels = pyramid_strategy(film, s, t, weighted);
+                float *pixels = pyramid_strategy(film, scale, s, t, weighted);
                 snprintf(path, sizeof path, "%s/d%02d_s%02d_t%02d_%s.pfm", directory, depth, s, t,
                          weighted ? "weighted" : "unweighted");
                 ok = image_write(path, width, height, pixels, err);
                 free(pixels);
             }
     snprintf(path, sizeof path, "%s/pyramid.png", directory);
-    return ok && pyramid_write(path, film, err);
+    return ok && pyramid_write(path, film, scale, err);
 }
 
 static bool wants_variance(const struct job_options *o)
@@ -162,7 +162,7 @@ static bool run_and_write(const struct job_options *o, const struct scene *scene
     report(o, options->integrator, film, &times);
     stats_list(&files->stats, o, &files->pictures, &files->aov);
     ok = kept;
-    ok = (o->strategies == NULL || write_strategies(o->strategies, film, ok ? err : NULL)) && ok;
+    ok = (o->strategies == NULL || write_strategies(o->strategies, film, scene->film_scale, ok ? err : NULL)) && ok;
     ok = aov_write(&files->aov, scene, options, film, o->quiet, ok ? err : NULL) && ok;
     ok = write_outputs(o, scene, film, &files->pictures, ok ? err : NULL) && ok;
     if (!ok)

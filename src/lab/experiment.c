@@ -349,7 +349,8 @@ static bool render_pyramid(struct scene_experiment *s)
     begin_film(s, &film);
     film_keep_strategies(&film, o.max_depth);
     snprintf(path, sizeof path, "%s/images/%s-strategies.png", p->directory, s->out->name);
-    bool ok = render_scene(&s->scene, &o, &film, s->whole->err) && pyramid_write(path, &film, s->whole->err);
+    bool ok = render_scene(&s->scene, &o, &film, s->whole->err) &&
+              pyramid_write(path, &film, s->scene.film_scale, s->whole->err);
     film_free(&film);
     return ok;
 }

@@ -20,23 +20,24 @@ struct layout {
     int depth, columns;
     int shrink, enlarge;
     int width, height; /* of a cell */
+    double scale;      /* of the film's values */
 };
 
-float *pyramid_strategy(const struct film *film, int s, int t, bool weighted)
+float *pyramid_strategy(const struct film *film, double scale, int s, int t, bool weighted)
 {
     size_t n = (size_t)rect_width(film->rect) * (size_t)rect_height(film->rect) * 3;
     const double *sum = weighted ? film->strategies->weighted : film->strategies->unweighted;
     float *out = mem_alloc(n, sizeof *out);
     sum += n * (size_t)strategy_index(s, t);
     for (size_t i = 0; i < n; i++)
-        out[i] = float_within(sum[i] / (double)film->iterations);
+        out[i] = float_within(scale * sum[i] / (double)film->iterations);
     return out;
 }
 
-static struct layout lay_out(const struct film *film)
+static struct layout lay_out(const struct film *film, double scale)
 {
     int w = rect_width(film->rect), h = rect_height(film->rect), depth = film->strategies->max_depth;
-    struct layout l = {.depth = depth < PYRAMID_DEPTH ? depth : PYRAMID_DEPTH};
+    struct layout l = {.depth = depth < PYRAMID_DEPTH ? depth : PYRAMID_DEPTH, .scale = scale};
     l.columns = l.depth + 2;
     int wanted = (SHEET_WIDTH - LEFT) / l.columns - GAP;
     wanted = wanted < CELL_MIN ? CELL_MIN : wanted > CELL_MAX ? CELL_MAX : wanted;
@@ -49,12 +50,12 @@ static struct layout lay_out(const struct film *film)
 }
 
 /* The power of two, at least 1, that brings most of all weighted shares of this length up to white. */
-static double row_exposure(const struct film *film, int depth)
+static double row_exposure(const struct layout *l, const struct film *film, int depth)
 {
     size_t n = (size_t)rect_width(film->rect) * (size_t)rect_height(film->rect) * 3;
     float *total = mem_alloc(n, sizeof *total);
     for (int s = 0; s <= depth + 1; s++) {
-        float *share = pyramid_strategy(film, s, depth + 2 - s, true);
+        float *share = pyramid_strategy(film, l->scale, s, depth + 2 - s, true);
         for (size_t i = 0; i < n; i++)
             total[i] += share[i];
         free(share);
@@ -68,7 +69,7 @@ static void paste_strategy(struct sheet *sheet, const struct layout *l, const st
                            int t, bool weighted, double exposure)
 {
     int w = rect_width(film->rect), h = rect_height(film->rect);
-    float *whole = pyramid_strategy(film, s, t, weighted), *cell = sheet_shrink(whole, w, h, l->shrink);
+    float *whole = pyramid_strategy(film, l->scale, s, t, weighted), *cell = sheet_shrink(whole, w, h, l->shrink);
     w /= l->shrink;
     h /= l->shrink;
     for (size_t i = 0; i < (size_t)w * (size_t)h * 3; i++)
@@ -88,7 +89,7 @@ static void draw_pyramid(struct sheet *sheet, const struct layout *l, const stru
         sheet_text(sheet, LEFT + s * (l->width + GAP), y + TOP - FONT_HEIGHT - GAP, 1, SHEET_INK, text);
     }
     for (int depth = 0; depth <= l->depth; depth++) {
-        double exposure = row_exposure(film, depth);
+        double exposure = row_exposure(l, film, depth);
         int top = y + TOP + depth * (l->height + GAP);
         snprintf(text, sizeof text, "depth %d", depth);
         sheet_text(sheet, GAP, top, 1, SHEET_INK, text);
@@ -99,9 +100,9 @@ static void draw_pyramid(struct sheet *sheet, const struct layout *l, const stru
     }
 }
 
-bool pyramid_write(const char *path, const struct film *film, struct error *err)
+bool pyramid_write(const char *path, const struct film *film, double scale, struct error *err)
 {
-    struct layout l = lay_out(film);
+    struct layout l = lay_out(film, scale);
     struct sheet sheet;
     int half = TOP + (l.depth + 1) * (l.height + GAP);
     sheet_init(&sheet, LEFT + l.columns * (l.width + GAP), 2 * half, SHEET_PAPER);
