@@ -15,11 +15,14 @@ fi
 
 while read -r sum scene options; do
     case $sum in '#'*) echo "$sum $scene $options"; continue ;; esac
-    rm -f "$dir/x.pfm"
     # shellcheck disable=SC2086
-    $program render $scene --res 20x15 --spp 2 -j 2 --quiet $options -o "$dir/x.pfm" </dev/null 2>"$dir/log" ||
-        sed 's/^/# FAIL: /' "$dir/log" >&2
-    set -- $(cksum <"$dir/x.pfm" 2>/dev/null)
+    if $program render $scene --res 20x15 --spp 2 -j 2 --quiet $options -o "$dir/x.pfm" </dev/null 2>"$dir/log"; then
+        set -- $(cksum <"$dir/x.pfm")
+    else
+        echo "# FAIL: status $?, $scene $options: $(cat "$dir/log")" >&2
+        set --
+    fi
+    rm -f "$dir/x.pfm"
     echo "${1:-none} $scene${options:+ $options}"
 done <"$list" >"$dir/new"
 
