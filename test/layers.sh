@@ -44,7 +44,8 @@ if ! tsort "$pairs" >/dev/null 2>"$pairs.circle" || [ -s "$pairs.circle" ]; then
 fi
 
 for header in "$src"/*/*.h; do
-    printf '#include "%s"\n' "${header#"$src/"}" | "$@" -std=c99 -pedantic "-I$src" -fsyntax-only -x c - || {
+    printf '#include "%s"\nint main(void);\n' "${header#"$src/"}" |
+        "$@" -std=c99 -pedantic "-I$src" -fsyntax-only -x c - || {
         echo "$header does not compile alone"
         exit 1
     }
