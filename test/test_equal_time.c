@@ -132,8 +132,8 @@ static char *written(struct test *t, const struct equal_time *e, void (*write)(F
 static void check_files(struct test *t, const struct equal_time *e)
 {
     static const char *const lines[] = {
-        "| scene | seconds | spp: bdpt, vertices, subspaces, lvc, combinatorial | ASBDPT vertices, rmse8 | ASBDPT "
-        "vertices, relmse |",
+        ("| scene | seconds | spp: bdpt, vertices, subspaces, lvc, combinatorial | ASBDPT vertices, rmse8 | ASBDPT "
+         "vertices, relmse |"),
         "| b | 2 | 32, 24, 16, 0, 0 | 8.000 [",
         "| **geometric mean** | | | **2.520** of 3 | **1.260** of 3 |",
         "| **best** | | | **1.000** a | **0.500** a |",

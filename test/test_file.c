@@ -3,6 +3,7 @@
  * Facts: what is written is read back, and is byte for byte what other programs expect. Faults: missing
  * directories, devices that are full, names without a known extension; nothing half-written is ever left behind. */
 #define _POSIX_C_SOURCE 200809L
+#define _XOPEN_SOURCE 700 /* symlink, on NetBSD */
 
 #include <math.h>
 #include <stdio.h>

@@ -423,7 +423,15 @@ FILE *os_create_new(const char *path, const char *like)
     return f;
 }
 
-bool os_store(FILE *f) { return fsync(fileno(f)) == 0 || errno == EINVAL || errno == ENOSYS; }
+bool os_store(FILE *f)
+{
+#ifdef F_FULLFSYNC /* macOS, whose fsync leaves bytes in the drive's memory */
+    if (fcntl(fileno(f), F_FULLFSYNC) == 0)
+        return true;
+#endif
+    return fsync(fileno(f)) == 0 || errno == EINVAL || errno == ENOSYS || errno == ENOTSUP;
+}
+
 bool os_rename(const char *from, const char *to) { return rename(from, to) == 0; }
 bool os_make_directory(const char *path) { return mkdir(path, 0777) == 0 || os_kind_of(path) == OS_DIRECTORY; }
 bool os_separator(char c) { return c == '/'; }

@@ -1,5 +1,6 @@
 /* targets.c: see targets.h. */
 #define _POSIX_C_SOURCE 200809L
+#define _XOPEN_SOURCE 700 /* symlink, on NetBSD */
 
 #include "targets.h"
 
