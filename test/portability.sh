@@ -2,6 +2,9 @@
 # portability.sh [NAME...]: README's one-line builds, by whichever compilers are at hand, for whichever machines these
 # or emulators can run: all of them make the pictures of test/hashes.txt, byte for byte. Of every target one line is
 # said: the same bytes, skipped (and why), or FAIL. With NAMEs only those; -l lists them. Run from the top.
+#
+# Systems that no emulator here runs are compiled for alone, where a variable names the directories of their headers:
+#   MACOS_HEADERS=SDK/usr/include FREEBSD_HEADERS=... NETBSD_HEADERS=... OPENBSD_HEADERS="..." sh test/portability.sh
 chosen=" $* "
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
@@ -13,15 +16,20 @@ plain=$(line 'Without make') windows=$(line Windows) wasi=$(line WASI)
 
 say() { printf '%-14s %s\n' "$1" "$2"; }
 
+# asked NAME: is this target wanted? With -l its name is said instead.
+asked() {
+    case $chosen in
+    *" -l "*) echo "$1"; return 1 ;;
+    "  " | *" $1 "*) ;;
+    *) return 1 ;;
+    esac
+}
+
 # try NAME RUNNER COMPILER BUILD FLAG...: BUILD is a line of README; its compiler and output are replaced, FLAGs added.
 try() {
     name=$1 runner=$2 compiler=$3 build=$4
     shift 4
-    case $chosen in
-    *" -l "*) echo "$name"; return ;;
-    "  " | *" $name "*) ;;
-    *) return ;;
-    esac
+    asked "$name" || return
     for tool in "$compiler" ${runner%% *}; do
         command -v "$tool" >/dev/null || { say "$name" "skipped: no $tool"; return; }
     done
@@ -52,6 +60,27 @@ try() {
     rm -f "$program"
 }
 
+# compile NAME TARGET DIRECTORY...: the program and its tests compile against the headers of another system.
+compile() {
+    name=$1 target=$2
+    shift 2
+    asked "$name" || return
+    [ $# -gt 0 ] || { say "$name" "skipped: no headers given"; return; }
+    command -v clang >/dev/null || { say "$name" "skipped: no clang"; return; }
+    for directory in "$@"; do
+        shift
+        set -- "$@" -isystem "$directory"
+    done
+    if clang --target="$target" -nostdlibinc "$@" -std=c99 -pedantic -Wall -Wextra -Wconversion -Werror -Isrc \
+        -fsyntax-only src/*/*.c test/*.c test/fuzz/targets.c test/fuzz/hostile.c 2>"$dir/log"; then
+        say "$name" "compiles; cannot be run here"
+    else
+        say "$name" "FAIL: does not compile"
+        head -5 "$dir/log"
+        failures=$((failures + 1))
+    fi
+}
+
 for compiler in gcc clang; do
     try $compiler '' $compiler "$plain"
     try $compiler-O0 '' $compiler "$plain" -O0
@@ -77,4 +106,11 @@ try ppc64el qemu-ppc64le powerpc64le-linux-gnu-gcc "$plain" -static
 try s390x qemu-s390x s390x-linux-gnu-gcc "$plain" -static
 try mips64el qemu-mips64el mips64el-linux-gnuabi64-gcc "$plain" -static
 try mips qemu-mips mips-linux-gnu-gcc "$plain" -static
+# shellcheck disable=SC2086
+{
+    compile macos arm64-apple-macos11 $MACOS_HEADERS
+    compile freebsd x86_64-unknown-freebsd13 $FREEBSD_HEADERS
+    compile netbsd x86_64-unknown-netbsd10 $NETBSD_HEADERS
+    compile openbsd x86_64-unknown-openbsd7 $OPENBSD_HEADERS
+}
 exit $((failures > 0))
