@@ -360,6 +360,8 @@ expect 1 'same size' "$program" verify --images "$scenes/../ref/bathroom.pfm" "$
 expect 2 'usage: asbdpt verify' "$program" verify --images a.pfm
 expect 2 'no method nonsense' "$program" verify "$box" --methods nonsense
 
+expect 1 'cannot make this directory' "$program" experiment "$box" -o ''
+
 # experiment --equal-time: a table, a line for every variant and seed, and a number that may be left out.
 tiny="--res 8x8 --seeds 2 --quiet"
 expect 0 '' "$program" experiment --equal-time "$box" $tiny --spp 2 -o equal

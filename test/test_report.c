@@ -16,6 +16,7 @@
 #include "lab/findings.h"
 #include "lab/markup.h"
 #include "lab/pictures.h"
+#include "lab/plan_scene.h"
 #include "lab/published.h"
 #include "lab/report.h"
 #include "lab/tables.h"
@@ -532,7 +533,7 @@ static void test_planned_scene(struct test *t)
         struct scene scene;
         struct error err = {""};
         int depth;
-        if (!CHECK(t, experiment_planned_scene(&p, "scenes/bathroom.pbrt", cases[i].name, &scene, &depth, &err), "%s",
+        if (!CHECK(t, plan_scene_load(&p, "scenes/bathroom.pbrt", cases[i].name, &scene, &depth, &err), "%s",
                    err.text))
             continue;
         CHECK(t, scene.width == expected[0] && scene.height == expected[1] && depth == expected[2],

@@ -11,7 +11,7 @@
 #include "base/progress.h"
 #include "lab/compare.h"
 #include "lab/equal_time.h"
-#include "lab/experiment.h"
+#include "lab/plan_scene.h"
 #include "lab/reference.h"
 
 enum { GAP = 24, LABEL = 60, COLUMN = 480, CALIBRATION_SPP = 4 };
@@ -88,7 +88,8 @@ static bool find_reference(struct show *s)
         return false;
     s->width = shape[0] * d->scale;
     s->height = shape[1] * d->scale;
-    if (!experiment_scene(d->scene, s->width, s->height, shape[2], &s->scene, &s->max_depth, s->err))
+    struct plan plan = {.width = s->width, .height = s->height, .max_depth = shape[2]};
+    if (!plan_scene_load(&plan, d->scene, name, &s->scene, &s->max_depth, s->err))
         return false;
     settings_clear(&s->scene.settings); /* defaults: what a user gets */
     if (reference_find(d->reference, d->scene, name, s->ref_width, s->ref_height, s->max_depth, &s->reference,

@@ -10,7 +10,7 @@
 #include "base/os.h"
 #include "base/progress.h"
 #include "lab/compare.h"
-#include "lab/experiment.h"
+#include "lab/plan_scene.h"
 #include "render/render.h"
 
 enum { CALIBRATION_SPP = 4, CORRECTIONS = 3, REFERENCE_SEED = 100001 };
@@ -120,7 +120,7 @@ static bool measure_variant(struct subject *s, int variant, int seed)
 static bool load_scene(struct subject *s)
 {
     struct equal_scene *out = s->out;
-    if (!experiment_planned_scene(s->whole->plan, out->path, out->name, &s->scene, &out->max_depth, s->err))
+    if (!plan_scene_load(s->whole->plan, out->path, out->name, &s->scene, &out->max_depth, s->err))
         return false;
     out->width = s->scene.width;
     out->height = s->scene.height;
@@ -159,7 +159,7 @@ bool equal_run(struct equal_time *out, struct error *err)
 {
     const struct plan *p = out->plan;
     struct progress bar;
-    bool ok = experiment_directory(p->directory, err);
+    bool ok = file_make_directory(p->directory, err);
     out->scene = mem_alloc((size_t)p->n_scenes, sizeof *out->scene);
     progress_start(&bar, p->quiet);
     for (out->n_scenes = 0; ok && out->n_scenes < p->n_scenes;) {

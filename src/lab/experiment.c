@@ -1,5 +1,4 @@
 /* experiment.c: see experiment.h. */
-
 #include "lab/experiment.h"
 
 #include <math.h>
@@ -13,9 +12,8 @@
 #include "image/image.h"
 #include "image/zlib.h"
 #include "lab/compare.h"
+#include "lab/plan_scene.h"
 #include "lab/pyramid.h"
-#include "parser/parser.h"
-#include "render/parameters.h"
 
 enum { PATH_SIZE = 4096, KEY_SIZE = 1024, REFERENCE_SEED = 100001, PYRAMID_SPP = 64, PYRAMID_LENGTH = 5 };
 
@@ -77,30 +75,14 @@ static float *new_pixels(const struct scene_results *r)
 
 /* --- files ------------------------------------------------------------------------------------------- */
 
-bool experiment_directory(const char *wanted, struct error *err)
-{
-    char path[PATH_SIZE];
-    snprintf(path, sizeof path, "%s", wanted);
-    for (char *c = path + 1; *c != '\0'; c++)
-        if (os_separator(*c)) {
-            char separator = *c;
-            *c = '\0';
-            os_make_directory(path); /* if that fails, the last one says so */
-            *c = separator;
-        }
-    if (!os_make_directory(path))
-        return error_set(err, "%s: cannot make this directory", path);
-    return true;
-}
-
 static bool make_directories(const struct plan *p, struct error *err)
 {
     static const char *const names[] = {"runs", "images", "reference", "plots"};
     char path[PATH_SIZE];
-    bool ok = true;
+    bool ok = file_make_directory(p->directory, err);
     for (size_t i = 0; ok && i < sizeof names / sizeof names[0]; i++) {
         snprintf(path, sizeof path, "%s/%s", p->directory, names[i]);
-        ok = experiment_directory(path, err);
+        ok = file_make_directory(path, err);
     }
     return ok;
 }
@@ -284,43 +266,10 @@ static bool find_or_make_reference(struct scene_experiment *s)
     return found == 1 || (found == 0 && make_reference(s));
 }
 
-bool experiment_scene(const char *path, int width, int height, int max_depth, struct scene *scene, int *depth,
-                      struct error *err)
-{
-    static const double whole[4] = {0, 1, 0, 1};
-    if (!parse_scene(path, scene, NULL, err))
-        return false;
-    parameters_adapt(scene, NULL);
-    /* Widths of plans go up to 8192 and films up to 65536 a side: below 2^30. */
-    int by_aspect = (int)(0.5 + (double)width * scene->height / scene->width);
-    memcpy(scene->crop, whole, sizeof whole);
-    scene->width = width;
-    scene->height = height > 0 ? height : by_aspect > 1 ? by_aspect : 1;
-    filter_default("box", &scene->filter);
-    if (!parameters_max_depth(scene, max_depth, depth, err)) {
-        scene_free(scene);
-        return false;
-    }
-    scene_prepare(scene);
-    return true;
-}
-
-bool experiment_planned_scene(const struct plan *p, const char *path, const char *name, struct scene *scene, int *depth,
-                              struct error *err)
-{
-    int width = p->width, height = p->height, max_depth = p->max_depth, stored[3];
-    if (width == 0 && reference_shape(p->reference, path, name, stored)) {
-        width = stored[0];
-        height = stored[1];
-        max_depth = max_depth > 0 ? max_depth : stored[2];
-    }
-    return experiment_scene(path, width > 0 ? width : WIDTH_WITHOUT_REFERENCE, height, max_depth, scene, depth, err);
-}
-
 static bool load_scene(struct scene_experiment *s)
 {
     struct scene_results *r = s->out;
-    if (!experiment_planned_scene(s->whole->plan, r->path, r->name, &s->scene, &r->max_depth, s->whole->err))
+    if (!plan_scene_load(s->whole->plan, r->path, r->name, &s->scene, &r->max_depth, s->whole->err))
         return false;
     r->width = s->scene.width;
     r->height = s->scene.height;

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/os.h"
 #include "lab/markup.h"
 
 const struct variant VARIANTS[N_VARIANTS] = {
@@ -74,21 +73,6 @@ long plan_run_spp(const struct plan *p, int variant)
     for (int i = 0; i < p->n_steps; i++)
         sum += p->spp[i] - plan_first_sample(p, variant, i);
     return sum;
-}
-
-void plan_scene_name(const char *path, char *out, int size)
-{
-    const char *slash = os_last_separator(path), *start = slash != NULL ? slash + 1 : path;
-    const char *end = strrchr(start, '.');
-    if (end == NULL || strcmp(end, ".pbrt") != 0)
-        end = start + strlen(start);
-    if (slash != NULL && strcmp(start, "scene.pbrt") == 0) { /* NAME/scene.pbrt */
-        end = slash;
-        start = end;
-        while (start > path && !os_separator(start[-1]))
-            start--;
-    }
-    snprintf(out, (size_t)size, "%.*s", (int)(end - start), start);
 }
 
 bool plan_create(const struct plan *p, const char *name, struct file_output *out, struct error *err)

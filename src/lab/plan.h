@@ -87,10 +87,6 @@ long plan_first_sample(const struct plan *p, int variant, int i);
 /* plan_run_spp: samples per pixel rendered for one run of a variant, over all steps. */
 long plan_run_spp(const struct plan *p, int variant);
 
-/* plan_scene_name: the file's name without .pbrt; for .../NAME/scene.pbrt the directory's. At most size - 1
- * bytes. */
-void plan_scene_name(const char *path, char *out, int size);
-
 /* plan_create: begin to write a file of the plan's directory, as file_create does. */
 bool plan_create(const struct plan *p, const char *name, struct file_output *out, struct error *err);
 

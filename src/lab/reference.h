@@ -16,7 +16,6 @@
 #define ASBDPT_REFERENCE_H
 
 #include "base/error.h"
-#include "lab/plan.h"
 #include "render/render.h"
 
 struct reference {
