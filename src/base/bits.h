@@ -1,4 +1,4 @@
-/* bits.h: words of bits mixed, hashed, reversed, and put together from the bytes of a file.
+/* bits.h: words of bits mixed, hashed, reversed, and the bytes and floats that they are in files.
  *
  * Tests: test_vec.c; test_image.c and test_ply.c read every byte order.
  */
@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 /* hash_mix: a bijection of 64-bit words in which every input bit moves every output bit; 0 stays 0. It is the last step
  * of SplitMix64 [Steele 2014]. */
@@ -65,6 +66,27 @@ static inline uint64_t bits_of_bytes(const uint8_t *byte, size_t n, bool big_end
     uint64_t bits = 0;
     for (size_t i = 0; i < n; i++)
         bits = bits << 8 | byte[big_endian ? i : n - 1 - i];
+    return bits;
+}
+
+/* bytes_of_bits: the last n <= 8 bytes of a number, to byte[n]. */
+static inline void bytes_of_bits(uint64_t bits, uint8_t *byte, size_t n, bool big_endian)
+{
+    for (size_t i = 0; i < n; i++, bits >>= 8)
+        byte[big_endian ? n - 1 - i : i] = (uint8_t)(bits & 255);
+}
+
+/* float_of_bits, bits_of_float: the float that 32 bits stand for, and back. */
+static inline float float_of_bits(uint32_t bits)
+{
+    float x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+static inline uint32_t bits_of_float(float x)
+{
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
     return bits;
 }
 

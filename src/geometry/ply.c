@@ -232,9 +232,7 @@ static bool next_ascii(struct ply *r, double *out)
 
 static double decode(uint64_t bits, enum scalar type)
 {
-    float f;
     double d;
-    uint32_t low = (uint32_t)bits;
     switch (type) {
     case INT8: return (double)bits - (bits >= 0x80 ? 0x100 : 0);
     case INT16: return (double)bits - (bits >= 0x8000 ? 0x10000 : 0);
@@ -242,7 +240,7 @@ static double decode(uint64_t bits, enum scalar type)
     case UINT8:
     case UINT16:
     case UINT32: return (double)bits;
-    case FLOAT32: memcpy(&f, &low, sizeof f); return f;
+    case FLOAT32: return (double)float_of_bits((uint32_t)bits);
     case FLOAT64: memcpy(&d, &bits, sizeof d); return d;
     case N_SCALARS: break;
     }

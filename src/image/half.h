@@ -8,7 +8,8 @@
 
 #include <math.h>
 #include <stdint.h>
-#include <string.h>
+
+#include "base/bits.h"
 
 /* The largest finite half. */
 #define HALF_MAX 65504
@@ -21,18 +22,14 @@ static inline float half_to_float(uint16_t h)
         float small = (float)fraction * (1.0f / (1 << 24));
         return (h & 0x8000) != 0 ? -small : small;
     }
-    uint32_t bits = (uint32_t)(h & 0x8000) << 16 | (exponent == 31 ? 255 : exponent + 112) << 23 | fraction << 13;
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
+    return float_of_bits((uint32_t)(h & 0x8000) << 16 | (exponent == 31 ? 255 : exponent + 112) << 23 | fraction << 13);
 }
 
 /* float_to_half: the nearest half, of two equally near ones the even. What is finite stays finite: at most HALF_MAX in
  * magnitude. */
 static inline uint16_t float_to_half(float x)
 {
-    uint32_t bits;
-    memcpy(&bits, &x, sizeof bits);
+    uint32_t bits = bits_of_float(x);
     uint16_t sign = (uint16_t)(bits >> 16 & 0x8000);
     uint32_t size = bits & 0x7fffffff;
     if (size >= 0x7f800000) /* infinity, NaN */

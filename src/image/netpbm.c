@@ -4,7 +4,6 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/bits.h"
 #include "base/mem.h"
@@ -44,10 +43,7 @@ static unsigned long to_count(const char *word)
 
 static float to_float(const uint8_t *byte, bool big_endian)
 {
-    uint32_t bits = (uint32_t)bits_of_bytes(byte, 4, big_endian);
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
+    return float_of_bits((uint32_t)bits_of_bytes(byte, 4, big_endian));
 }
 
 bool pfm_read(const uint8_t *data, size_t size, struct image *out, struct error *err)
@@ -84,12 +80,8 @@ void pfm_write(FILE *f, int width, int height, const float *pixels)
     uint8_t *bytes = mem_alloc(row, 4);
     fprintf(f, "PF\n%d %d\n-1.000000\n", width, height);
     for (int y = height - 1; y >= 0; y--) {
-        for (size_t i = 0; i < row; i++) {
-            uint32_t bits;
-            memcpy(&bits, &pixels[(size_t)y * row + i], sizeof bits);
-            for (int k = 0; k < 4; k++)
-                bytes[4 * i + (size_t)k] = (uint8_t)(bits >> 8 * k & 255);
-        }
+        for (size_t i = 0; i < row; i++)
+            bytes_of_bits(bits_of_float(pixels[(size_t)y * row + i]), bytes + 4 * i, 4, false);
         fwrite(bytes, 4, row, f);
     }
     free(bytes);

@@ -95,10 +95,8 @@ static void interleave(const struct exr *e, const uint16_t *number, const uint16
         for (size_t y = 0; y < height; y++) {
             const uint16_t *from = number + (width * height * c->start) / 2 + y * row;
             uint8_t *to = out + (y * e->pixel_bytes + c->start) * width;
-            for (size_t k = 0; k < row; k++) {
-                to[2 * k] = (uint8_t)(value[from[k]] & 255);
-                to[2 * k + 1] = (uint8_t)(value[from[k]] >> 8);
-            }
+            for (size_t k = 0; k < row; k++)
+                bytes_of_bits(value[from[k]], to + 2 * k, 2, false);
         }
     }
 }

@@ -44,7 +44,6 @@ static uint8_t predict(enum row_filter f, uint8_t left, uint8_t above, uint8_t a
     return 0;
 }
 
-
 /* The same for byte i of a row, `step` being the bytes of a pixel, at least 1. */
 static inline uint8_t predict_at(enum row_filter f, const uint8_t *row, const uint8_t *above, size_t i, size_t step)
 {
@@ -309,11 +308,7 @@ bool png_read(const uint8_t *data, size_t size, struct image *out, struct error 
 
 /* --- writing ----------------------------------------------------------------------------------------- */
 
-static void put_u32(uint8_t *p, uint32_t value)
-{
-    for (int i = 0; i < 4; i++)
-        p[i] = (uint8_t)(value >> (24 - 8 * i) & 255);
-}
+static void put_u32(uint8_t *p, uint32_t value) { bytes_of_bits(value, p, 4, true); }
 
 static void put_chunk(FILE *f, const char *name, const uint8_t *data, size_t size)
 {

@@ -159,10 +159,8 @@ void tga_write(FILE *f, int width, int height, const float *pixels)
     size_t row = 3 * (size_t)width;
     uint8_t *bytes = mem_alloc(row, 1), header[HEADER] = {0};
     header[2] = TGA_COLOUR;
-    header[12] = (uint8_t)(width & 255);
-    header[13] = (uint8_t)(width >> 8 & 255);
-    header[14] = (uint8_t)(height & 255);
-    header[15] = (uint8_t)(height >> 8 & 255);
+    bytes_of_bits((uint64_t)width, header + 12, 2, false);
+    bytes_of_bits((uint64_t)height, header + 14, 2, false);
     header[16] = 24;
     header[17] = TOP_TO_BOTTOM;
     fwrite(header, 1, sizeof header, f);

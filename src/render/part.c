@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/bits.h"
 #include "base/file.h"
 #include "base/mem.h"
 #include "base/number.h"
@@ -126,8 +127,7 @@ bool part_write(struct file_output *file, const struct part *p, const struct fil
         put_sum(s, &film->sum[i]);
     flush(s);
     uint8_t end[4];
-    for (int i = 0; i < 4; i++)
-        end[i] = (uint8_t)(s->crc >> (8 * i) & 255);
+    bytes_of_bits(s->crc, end, 4, false);
     fwrite(end, 1, sizeof end, s->file);
     free(s);
     free(text);
