@@ -202,6 +202,18 @@ check cmp -s a.pfm b.pfm
 expect 0 '' "$program" render "$box" $small --cropwindow 0 0.5 0.25 1 -o crop.pfm
 expect 0 '' "$program" render "$box" $small --cropwindow 0,0.5,0.25,1 -o comma.pfm
 check cmp -s crop.pfm comma.pfm
+expect 0 '' "$program" render "$box" $small --cropwindow 0 0.5 0.25 1 -o crop.exr -o crop.part
+expect 0 '' "$program" convert crop.exr same.exr # OpenEXR keeps the window, other formats do not
+check cmp -s crop.exr same.exr
+expect 0 '' "$program" merge sum.exr crop.part --quiet
+check cmp -s crop.exr sum.exr
+expect 0 '^asbdpt: warning: crop.exr lies at 0,4 of a picture of 16x16, as lost.pfm does not say$' \
+    "$program" convert crop.exr same.exr lost.pfm
+check [ "$(grep -c warning stderr.txt)" = 1 ]
+expect 0 '' "$program" convert lost.pfm whole.exr
+check test -n "$(cmp whole.exr crop.exr 2>&1)"
+expect 0 '' "$program" convert whole.exr lost.png
+check [ ! -s stderr.txt ]
 check [ "$(head -c 2 a.ppm)" = P6 ]
 expect 0 '' "$program" compare a.pfm b.pfm --json
 check grep -q '"rmse": 0, "rmse8": 0, "relmse": 0, "mean_ratio": 1, "nonfinite": 0' stdout.txt
@@ -443,6 +455,9 @@ if command -v exrmaketiled >/dev/null; then
                 check cmp -s plain.float.exr tiled.float.exr
             done
         done
+        expect 0 '' exrheader crop.exr
+        check grep -q '^dataWindow .*: (0 4) - (7 15)$' stdout.txt
+        check grep -q '^displayWindow .*: (0 0) - (15 15)$' stdout.txt
         expect 0 '' exrheader $kind
         check grep -q 'compression (type compression): zip' stdout.txt
     done

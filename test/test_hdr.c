@@ -324,6 +324,47 @@ static void test_round_trips(struct test *t)
     }
 }
 
+/* A fixture knows its place in a whole; a copy has the same; without a display window nobody knows. */
+static void test_place(struct test *t)
+{
+    struct image img, copy;
+    struct file_output file;
+    struct error err = {""};
+    char path[256];
+    snprintf(path, sizeof path, "%s/place.float.exr", test_tmp(t));
+    if (!CHECK(t, image_read(FIXTURES "window.exr", &img, &err), "%s", err.text))
+        return;
+    CHECK(t, img.place.x == -7 && img.place.y == 20 && img.place.width == 100 && img.place.height == 80,
+          "at %d,%d of %dx%d", img.place.x, img.place.y, img.place.width, img.place.height);
+    if (CHECK(t, image_create(path, &file, &err) &&
+                     image_finish(&file, img.place, img.width, img.height, img.f32, &err) &&
+                     image_read(path, &copy, &err), "%s", err.text)) {
+        CHECK(t, memcmp(&copy.place, &img.place, sizeof img.place) == 0 && copy.height == img.height &&
+                     memcmp(copy.f32, img.f32, 3 * (size_t)img.width * (size_t)img.height * sizeof *img.f32) == 0,
+              "a copy is another picture, at %d,%d of %dx%d", copy.place.x, copy.place.y, copy.place.width,
+              copy.place.height);
+        image_free(&copy);
+    }
+    image_free(&img);
+    remove(path);
+    static const struct {
+        int at;
+        char byte;
+        bool known;
+    } CASES[] = {{-20, 'x', false}, {11, '\x80', false}, {15, '\x40', false}, {15, '\1', true}};
+    for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
+        size_t n = 0;
+        uint8_t *data = load(t, "window.exr", &n);
+        if (data == NULL)
+            return;
+        data[value_of(data, n, "displayWindow") + (size_t)CASES[i].at] = (uint8_t)CASES[i].byte;
+        CHECK(t, read_exactly(exr_read, data, n, &img, &err) && (img.place.width > 0) == CASES[i].known,
+              "case %d: %d,%d of %dx%d", (int)i, img.place.x, img.place.y, img.place.width, img.place.height);
+        image_free(&img);
+        free(data);
+    }
+}
+
 /* --- Radiance ------------------------------------------------------------------------------------------ */
 
 /* ImageMagick's file, with runs; it cuts light off at 1. */
@@ -439,6 +480,7 @@ void test_hdr(struct test *t)
     test_refused(t);
     test_refused_blocks(t);
     test_round_trips(t);
+    test_place(t);
     test_rgbe_fixture(t);
     test_rgbe_by_hand(t);
     test_tone(t);

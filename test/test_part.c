@@ -14,7 +14,7 @@
 
 static struct part small_part(char *identity, int width, int height)
 {
-    struct part p = {identity, width, height, 1, 0, 2, 7, 0, 0, 0};
+    struct part p = {.identity = identity, .width = width, .height = height, .scale = 1, .first = 2, .end = 7};
     return p;
 }
 

@@ -69,16 +69,16 @@ static void warn_of_display(const char *display, const char *linear)
 static bool compare_files(const struct compare_options *o, struct error *err)
 {
     int w1, h1, w2, h2;
-    bool display1, display2;
-    float *x = load_linear(o->image, &w1, &h1, &display1, err), *r = NULL;
-    bool ok = x != NULL && (r = load_linear(o->reference, &w2, &h2, &display2, err)) != NULL;
+    struct image about1, about2;
+    float *x = load_linear(o->image, &w1, &h1, &about1, err), *r = NULL;
+    bool ok = x != NULL && (r = load_linear(o->reference, &w2, &h2, &about2, err)) != NULL;
     if (ok && (w1 != w2 || h1 != h2))
         ok = error_set(err, "%s is %dx%d but %s is %dx%d; only images of equal size can be compared", o->image, w1, h1,
                        o->reference, w2, h2);
     if (ok) {
         struct difference d = compare_pixels(x, r, (long)w1 * h1 * 3);
-        if (display1 != display2)
-            warn_of_display(display1 ? o->image : o->reference, display1 ? o->reference : o->image);
+        if (about1.linear != about2.linear)
+            warn_of_display(about1.linear ? o->reference : o->image, about1.linear ? o->image : o->reference);
         print(&d, o->json);
         ok = o->heatmap == NULL || write_heatmap(o, x, r, w1, h1, err);
     }

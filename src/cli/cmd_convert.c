@@ -1,8 +1,10 @@
 /* cmd_convert.c: asbdpt convert IN OUT...: a picture in other formats. */
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "cli/command.h"
 #include "cli/outputs.h"
+#include "image/image.h"
 #include "lab/compare.h"
 
 struct convert_options {
@@ -20,20 +22,34 @@ static const struct option OPTIONS[] = {
     {.name = NULL},
 };
 
+/* Of a part of a whole only some formats say where it lies. */
+static void warn_of_place(const struct convert_options *o, const struct placement *at, int width, int height)
+{
+    bool part = at->width > 0 && (at->x != 0 || at->y != 0 || at->width != width || at->height != height);
+    for (int i = 0; part && i < o->out.n; i++)
+        if (!image_keeps_place(o->out.item[i]))
+            fprintf(stderr, "asbdpt: warning: %s lies at %d,%d of a picture of %dx%d, as %s does not say\n", o->in,
+                    at->x, at->y, at->width, at->height, o->out.item[i]);
+}
+
 static int run(void *options)
 {
     const struct convert_options *o = options;
     struct error err;
     struct outputs out;
+    struct image about;
     int width, height;
     if (!outputs_open(&o->out, &o->tone, PARTS_NONE, &out, &err))
         return fail(&err);
-    float *pixels = load_linear(o->in, &width, &height, NULL, &err);
+    float *pixels = load_linear(o->in, &width, &height, &about, &err);
     bool ok = pixels != NULL;
-    if (ok)
+    if (ok) {
+        out.place = about.place;
+        warn_of_place(o, &about.place, width, height);
         ok = outputs_write(&out, width, height, pixels, true, &err);
-    else
+    } else {
         outputs_abandon(&out);
+    }
     free(pixels);
     return ok ? EXIT_OK : fail(&err);
 }

@@ -135,6 +135,7 @@ static bool write_film(const struct merge_options *o, struct merge *m, struct fi
     float *pixels = mem_alloc((size_t)whole.width * (size_t)whole.height * 3, sizeof *pixels);
     whole.end = reached(m);
     film_warn(film, film_develop(film, whole.scale, pixels));
+    out->place = whole.place;
     out->part = &whole;
     out->film = film;
     bool ok = outputs_write(out, whole.width, whole.height, pixels, o->quiet, err);

@@ -185,6 +185,7 @@ static bool render_and_write(const struct job_options *o, const struct scene *sc
             film_keep_strategies(&film, options.max_depth);
         if (files->aov.file[AOV_VARIANCE].n > 0)
             film_keep_errors(&film);
+        files->pictures.place = keep.part.place;
         files->pictures.part = &keep.part;
         files->pictures.film = &film;
         ok = run_and_write(o, scene, &options, &film, &keep, files, err);

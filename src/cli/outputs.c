@@ -84,7 +84,7 @@ bool outputs_write(struct outputs *o, int width, int height, const float *pixels
         const float *source = shown != NULL && image_is_8_bit(o->file[i].path) ? shown : pixels;
         struct error *why = ok ? err : NULL;
         bool done = takes_part(o, o->file[i].path) ? part_write(&o->file[i], o->part, o->film, why)
-                                                   : image_finish(&o->file[i], width, height, source, why);
+                                                   : image_finish(&o->file[i], o->place, width, height, source, why);
         free(done ? written : more);
         written = done ? more : written;
         ok = ok && done;

@@ -21,7 +21,9 @@ struct outputs {
     int n;
     struct tone tone; /* of 8-bit pictures */
     enum outputs_parts parts;
-    const struct part *part; /* what outputs_write writes into parts, set before it; borrowed */
+    /* Set before outputs_write: */
+    struct placement place;  /* where the pictures lie in their whole */
+    const struct part *part; /* what is written into parts; borrowed */
     const struct film *film;
 };
 

@@ -36,6 +36,7 @@ struct exr {
     bool tiled;
     enum exr_compression compression;
     int64_t left, top;        /* corner of the data window */
+    int64_t display[4];       /* left, top, right, bottom of the display window, all in it */
     size_t width, height;     /* of the data window, not empty */
     size_t tile[2];           /* width and height of a tile, not 0; only in tiled files */
     struct exr_channel *channel; /* [n_channels], at least one; owned */

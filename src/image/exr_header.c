@@ -1,7 +1,8 @@
 /* exr_header.c: what an OpenEXR file says before its pixels, see exr.h. [OpenEXR]
  *
  * Read are single pictures with full-resolution channels. Of the attributes only those that say where the pixels are
- * matter here. The display window does not: like pbrt-v3, this program takes the data window for the picture. */
+ * matter here. Like pbrt-v3, this program takes the data window for the picture; the display window is the whole of
+ * which that is a part. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -107,6 +108,13 @@ static bool read_window(struct exr *e)
     return picture_size_ok((unsigned long)width, (unsigned long)height, e->err);
 }
 
+static bool read_display(struct exr *e)
+{
+    for (size_t i = 0; i < 4; i++)
+        e->display[i] = exr_i32(e->data + e->at + 4 * i);
+    return true;
+}
+
 static bool read_tile_size(struct exr *e)
 {
     e->tile[0] = exr_u32(e->data + e->at);
@@ -114,14 +122,14 @@ static bool read_tile_size(struct exr *e)
     return (e->tile[0] > 0 && e->tile[1] > 0) || damaged(e, "its tiles are empty");
 }
 
-/* The attributes that are used; of sizes 1, 16 and 9 but for the list of channels. */
-enum attribute { CHANNELS, COMPRESSION, DATA_WINDOW, TILES, ATTRIBUTES };
+/* The attributes that are used; of these sizes, but for the list of channels. A file must have all up to TILES. */
+enum attribute { CHANNELS, COMPRESSION, DATA_WINDOW, TILES, DISPLAY_WINDOW, ATTRIBUTES };
 static const struct {
     const char *name, *type;
     size_t size;
 } ATTRIBUTE[ATTRIBUTES] = {
     {"channels", "chlist", 0}, {"compression", "compression", 1}, {"dataWindow", "box2i", 16},
-    {"tiles", "tiledesc", 9}};
+    {"tiles", "tiledesc", 9},  {"displayWindow", "box2i", 16}};
 
 static bool read_value(struct exr *e, enum attribute a, size_t end)
 {
@@ -130,6 +138,7 @@ static bool read_value(struct exr *e, enum attribute a, size_t end)
     case COMPRESSION: return read_compression(e);
     case DATA_WINDOW: return read_window(e);
     case TILES: return read_tile_size(e);
+    case DISPLAY_WINDOW: return read_display(e);
     case ATTRIBUTES: break;
     }
     return true;
@@ -174,7 +183,7 @@ bool exr_read_header(struct exr *e)
         if (!read_attribute(e, name, seen))
             return false;
     }
-    for (int a = 0; a < ATTRIBUTES; a++)
+    for (int a = 0; a <= TILES; a++)
         if (!seen[a] && (a != TILES || e->tiled))
             return error_set(e->err, "the OpenEXR header is damaged: it has no attribute \"%s\"", ATTRIBUTE[a].name);
     return true;

@@ -179,10 +179,23 @@ static bool read_picture(struct exr *e, struct image *out)
     return read_blocks(e, (size_t)blocks, colour, out);
 }
 
+/* The data window within the display window, unless that is empty or far away. */
+static struct placement place_of(const struct exr *e)
+{
+    const int64_t far = 1 << 30;
+    int64_t x = e->left - e->display[0], y = e->top - e->display[1];
+    int64_t width = e->display[2] - e->display[0] + 1, height = e->display[3] - e->display[1] + 1;
+    struct placement place = {0, 0, 0, 0};
+    if (width > 0 && width < far && height > 0 && height < far && x > -far && x < far && y > -far && y < far)
+        place = (struct placement){(int)x, (int)y, (int)width, (int)height};
+    return place;
+}
+
 bool exr_read(const uint8_t *data, size_t size, struct image *out, struct error *err)
 {
-    struct exr e = {.data = data, .size = size, .err = err};
+    struct exr e = {.data = data, .size = size, .err = err, .display = {0, 0, -1, -1}};
     bool ok = read_picture(&e, out);
+    out->place = place_of(&e);
     free(e.channel);
     return ok;
 }

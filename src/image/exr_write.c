@@ -44,16 +44,17 @@ static void put_attribute(struct bytes *b, const char *name, const char *type, s
     put_number(b, n, 4);
 }
 
-static void put_window(struct bytes *b, const char *name, int width, int height)
+static void put_window(struct bytes *b, const char *name, int x, int y, int width, int height)
 {
     put_attribute(b, name, "box2i", 16);
-    put_number(b, 0, 8);
-    put_number(b, (uint64_t)width - 1, 4);
-    put_number(b, (uint64_t)height - 1, 4);
+    put_number(b, (uint64_t)x, 4);
+    put_number(b, (uint64_t)y, 4);
+    put_number(b, (uint64_t)(x + width - 1), 4);
+    put_number(b, (uint64_t)(y + height - 1), 4);
 }
 
 /* All attributes that every file must have. */
-static void put_header(struct bytes *b, int width, int height, enum exr_type type)
+static void put_header(struct bytes *b, struct placement at, int width, int height, enum exr_type type)
 {
     put_number(b, 0x01312f76, 4); /* magic number */
     put_number(b, 2, 4);          /* version */
@@ -68,8 +69,8 @@ static void put_header(struct bytes *b, int width, int height, enum exr_type typ
     put_number(b, 0, 1);
     put_attribute(b, "compression", "compression", 1);
     put_number(b, EXR_ZIP, 1);
-    put_window(b, "dataWindow", width, height);
-    put_window(b, "displayWindow", width, height);
+    put_window(b, "dataWindow", at.x, at.y, width, height);
+    put_window(b, "displayWindow", 0, 0, at.width > 0 ? at.width : width, at.width > 0 ? at.height : height);
     put_attribute(b, "lineOrder", "lineOrder", 1);
     put_number(b, 0, 1); /* from the top */
     put_attribute(b, "pixelAspectRatio", "float", 4);
@@ -81,11 +82,12 @@ static void put_header(struct bytes *b, int width, int height, enum exr_type typ
     put_number(b, 0, 1);
 }
 
-/* Append the block of rows y to end - 1: y, size, data. */
-static void put_block(struct bytes *b, size_t width, size_t y, size_t end, const float *pixels, enum exr_type type)
+/* Append the block of rows y to end - 1 of a picture whose first is `top`: y, size, data. */
+static void put_block(struct bytes *b, int top, size_t width, size_t y, size_t end, const float *pixels,
+                      enum exr_type type)
 {
     struct bytes raw = {NULL, 0, 0};
-    size_t first = y;
+    uint64_t first = (uint64_t)top + y;
     for (; y < end; y++)
         for (int c = 2; c >= 0; c--)
             for (size_t x = 0; x < width; x++)
@@ -106,15 +108,15 @@ static void put_block(struct bytes *b, size_t width, size_t y, size_t end, const
     free(raw.data);
 }
 
-static void write_file(FILE *f, int width, int height, const float *pixels, enum exr_type type)
+static void write_file(FILE *f, struct placement at, int width, int height, const float *pixels, enum exr_type type)
 {
     size_t rows = (size_t)height, n = (rows + EXR_ZIP_ROWS - 1) / EXR_ZIP_ROWS;
     struct bytes head = {NULL, 0, 0}, blocks = {NULL, 0, 0};
-    put_header(&head, width, height, type);
+    put_header(&head, at, width, height, type);
     size_t start = head.n + 8 * n;
     for (size_t y = 0; y < rows; y += EXR_ZIP_ROWS) {
         put_number(&head, start + blocks.n, 8); /* the table of offsets */
-        put_block(&blocks, (size_t)width, y, y + EXR_ZIP_ROWS < rows ? y + EXR_ZIP_ROWS : rows, pixels, type);
+        put_block(&blocks, at.y, (size_t)width, y, y + EXR_ZIP_ROWS < rows ? y + EXR_ZIP_ROWS : rows, pixels, type);
     }
     fwrite(head.data, 1, head.n, f);
     fwrite(blocks.data, 1, blocks.n, f);
@@ -122,12 +124,12 @@ static void write_file(FILE *f, int width, int height, const float *pixels, enum
     free(blocks.data);
 }
 
-void exr_write_half(FILE *f, int width, int height, const float *pixels)
+void exr_write_half(FILE *f, struct placement at, int width, int height, const float *pixels)
 {
-    write_file(f, width, height, pixels, EXR_HALF);
+    write_file(f, at, width, height, pixels, EXR_HALF);
 }
 
-void exr_write_float(FILE *f, int width, int height, const float *pixels)
+void exr_write_float(FILE *f, struct placement at, int width, int height, const float *pixels)
 {
-    write_file(f, width, height, pixels, EXR_FLOAT);
+    write_file(f, at, width, height, pixels, EXR_FLOAT);
 }

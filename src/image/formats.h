@@ -49,11 +49,12 @@ void tga_write(FILE *f, int width, int height, const float *pixels);
  * picture, of the channels R, G, B (one that is missing is 0), or Y alone as grey; where there are none without a
  * layer's name, those of the only layer. Other compressions, several parts, deep pictures and subsampled channels are
  * refused by name.
- * Written: R, G, B as halfs, where what is finite and beyond 65504 becomes that, or as floats, exactly; ZIP. */
+ * Written: R, G, B as halfs, where what is finite and beyond 65504 becomes that, or as floats, exactly; ZIP; as pbrt-v3
+ * does, the picture as the data window and the whole as the display window. */
 bool exr_matches(const uint8_t *data, size_t size);
 bool exr_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
-void exr_write_half(FILE *f, int width, int height, const float *pixels);
-void exr_write_float(FILE *f, int width, int height, const float *pixels);
+void exr_write_half(FILE *f, struct placement at, int width, int height, const float *pixels);
+void exr_write_float(FILE *f, struct placement at, int width, int height, const float *pixels);
 
 /* Radiance pictures [Radiance], RGB with a common exponent: flat, with runs and with old runs; rows, from either side.
  * EXPOSURE and the like have no meaning. At most 1024 pixels for each byte of the file. Written: flat, each number to

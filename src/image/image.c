@@ -12,22 +12,23 @@ struct format {
     const char *extension;
     bool (*matches)(const uint8_t *data, size_t size); /* by content; NULL where the format has no signature */
     bool (*read)(const uint8_t *data, size_t size, struct image *out, struct error *err);
-    void (*write)(FILE *f, int width, int height, const float *pixels); /* NULL where it is not written */
+    void (*write)(FILE *f, int width, int height, const float *pixels); /* NULL where it is not written, or below */
     int most; /* pixels in a row or column of a file written, 0: any */
     bool is_8_bit;
+    void (*write_at)(FILE *f, struct placement at, int width, int height, const float *pixels); /* with its place */
 };
 
 /* The first whose extension fits counts. */
 static const struct format FORMATS[] = {
-    {".pfm", pfm_matches, pfm_read, pfm_write, 0, false},
-    {".float.exr", exr_matches, exr_read, exr_write_float, 0, false},
-    {".exr", exr_matches, exr_read, exr_write_half, 0, false},
-    {".hdr", rgbe_matches, rgbe_read, rgbe_write, 0, false},
-    {".pic", rgbe_matches, rgbe_read, rgbe_write, 0, false},
-    {".ppm", ppm_matches, ppm_read, ppm_write, 0, true},
-    {".pgm", ppm_matches, ppm_read, NULL, 0, true},
-    {".png", png_matches, png_read, png_write, 0, true},
-    {".tga", NULL, tga_read, tga_write, 65535, true},
+    {".pfm", pfm_matches, pfm_read, pfm_write, 0, false, NULL},
+    {".float.exr", exr_matches, exr_read, NULL, 0, false, exr_write_float},
+    {".exr", exr_matches, exr_read, NULL, 0, false, exr_write_half},
+    {".hdr", rgbe_matches, rgbe_read, rgbe_write, 0, false, NULL},
+    {".pic", rgbe_matches, rgbe_read, rgbe_write, 0, false, NULL},
+    {".ppm", ppm_matches, ppm_read, ppm_write, 0, true, NULL},
+    {".pgm", ppm_matches, ppm_read, NULL, 0, true, NULL},
+    {".png", png_matches, png_read, png_write, 0, true, NULL},
+    {".tga", NULL, tga_read, tga_write, 65535, true, NULL},
 };
 enum { N_FORMATS = sizeof FORMATS / sizeof FORMATS[0] };
 
@@ -85,7 +86,7 @@ void image_mend(struct image *img, bool negative_too)
 static const struct format *format_to_write(const char *path)
 {
     const struct format *format = strcmp(path, "-") == 0 ? &FORMATS[0] : format_by_name(path);
-    return format != NULL && format->write != NULL ? format : NULL;
+    return format != NULL && (format->write != NULL || format->write_at != NULL) ? format : NULL;
 }
 
 bool image_writable(const char *path) { return format_to_write(path) != NULL; }
@@ -97,7 +98,8 @@ bool image_create(const char *path, struct file_output *out, struct error *err)
     return file_create(path, out, err);
 }
 
-bool image_finish(struct file_output *f, int width, int height, const float *pixels, struct error *err)
+bool image_finish(struct file_output *f, struct placement at, int width, int height, const float *pixels,
+                  struct error *err)
 {
     const struct format *format = format_to_write(f->path);
     if (format->most > 0 && (width > format->most || height > format->most)) {
@@ -105,7 +107,10 @@ bool image_finish(struct file_output *f, int width, int height, const float *pix
         file_abandon(f);
         return false;
     }
-    format->write(f->stream, width, height, pixels);
+    if (format->write_at != NULL)
+        format->write_at(f->stream, at, width, height, pixels);
+    else
+        format->write(f->stream, width, height, pixels);
     return file_commit(f, err);
 }
 
@@ -115,8 +120,15 @@ bool image_is_8_bit(const char *path)
     return format != NULL && format->is_8_bit;
 }
 
+bool image_keeps_place(const char *path)
+{
+    const struct format *format = format_to_write(path);
+    return format != NULL && format->write_at != NULL;
+}
+
 bool image_write(const char *path, int width, int height, const float *pixels, struct error *err)
 {
     struct file_output f;
-    return image_create(path, &f, err) && image_finish(&f, width, height, pixels, err);
+    struct placement unknown = {0, 0, 0, 0};
+    return image_create(path, &f, err) && image_finish(&f, unknown, width, height, pixels, err);
 }

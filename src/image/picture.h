@@ -12,6 +12,12 @@
 
 #include "base/error.h"
 
+/* Where a picture lies in a whole of which it may be a part, as a crop window is: where its top left pixel is, and the
+ * size of the whole; width 0: nobody knows. Of the formats OpenEXR alone says it. */
+struct placement {
+    int x, y, width, height;
+};
+
 /* A picture, top row first, channels interleaved. Exactly one of u8 and f32 is set. */
 struct image {
     int width, height;
@@ -19,6 +25,7 @@ struct image {
     uint8_t *u8;       /* [height*width*channels], as stored in the file (usually sRGB encoded); owned */
     float *f32;        /* [height*width*channels]; light as stored; 16-bit files as value/65535; owned */
     bool linear;       /* true for PFM, OpenEXR, Radiance: values are linear light already */
+    struct placement place;
     long replaced;     /* samples that image_mend found and made 0 */
     uint64_t content;  /* hash_content of the file */
     float decode[256]; /* sRGB byte -> linear light, for whoever reads u8 */

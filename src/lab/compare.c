@@ -85,7 +85,7 @@ static float linear_value(const struct image *img, size_t i)
     return (float)srgb_decode(img->u8 != NULL ? img->u8[i] / 255.0 : (double)img->f32[i]);
 }
 
-float *load_linear(const char *path, int *width, int *height, bool *display, struct error *err)
+float *load_linear(const char *path, int *width, int *height, struct image *about, struct error *err)
 {
     struct image img;
     if (!image_read(path, &img, err))
@@ -97,8 +97,8 @@ float *load_linear(const char *path, int *width, int *height, bool *display, str
             out[3 * i + c] = linear_value(&img, img.channels == 3 ? 3 * i + c : i);
     *width = img.width;
     *height = img.height;
-    if (display != NULL)
-        *display = !img.linear;
     image_free(&img);
+    if (about != NULL)
+        *about = img;
     return out;
 }

@@ -8,6 +8,7 @@
 #include <stdbool.h>
 
 #include "base/error.h"
+#include "image/picture.h"
 
 /* Errors over all pixels and channels. Pairs with a NaN or infinity are counted and left out. */
 struct difference {
@@ -37,7 +38,7 @@ void compare_heatmap(const float *error, long pixels, double most, float *out);
 
 /* load_linear: read any picture as linear RGB floats [height*width*3], top row first, to be freed. 8-bit files are
  * decoded from sRGB. NULL with a message.
- *   display  becomes whether the file holds display values, in [0,1] and sRGB encoded; may be NULL */
-float *load_linear(const char *path, int *width, int *height, bool *display, struct error *err);
+ *   about  becomes what image_read says of the file, without its pixels; may be NULL */
+float *load_linear(const char *path, int *width, int *height, struct image *about, struct error *err);
 
 #endif

@@ -61,7 +61,9 @@ static void add_filter(struct lines *l, const struct filter *f)
 struct part part_describe(const struct scene *scene, const struct render_options *o)
 {
     struct pixel_rect r = render_crop(scene);
-    struct part p = {NULL, rect_width(r), rect_height(r), scene->film_scale, o->planned, o->first, o->end, 0, 0, 0};
+    struct part p = {.width = rect_width(r), .height = rect_height(r), .scale = scene->film_scale,
+                     .place = {r.x0, r.y0, scene->width, scene->height},
+                     .planned = o->planned, .first = o->first, .end = o->end};
     struct lines l = {0};
     add_line(&l, "version " VERSION);
     add_line(&l, "scene %016" PRIx64, scene->content);

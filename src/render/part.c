@@ -176,6 +176,17 @@ static const char *line_of(const char *text, const char *word)
     return NULL;
 }
 
+/* Where the part's pixels lie, if the text says so; false if that is impossible. */
+static bool read_place(const char *text, struct part *p)
+{
+    const char *film = line_of(text, "film");
+    struct placement *at = &p->place;
+    return film == NULL ||
+           (sscanf(film, "%d %d, window %d %d", &at->width, &at->height, &at->x, &at->y) == 4 && at->width > 0 &&
+            at->height > 0 && at->x >= 0 && at->y >= 0 && p->width <= at->width - at->x &&
+            p->height <= at->height - at->y);
+}
+
 static bool read_numbers(const char *text, struct part *p)
 {
     const char *size = line_of(text, "size"), *scale = line_of(text, "scale"), *samples = line_of(text, "samples");
@@ -191,7 +202,7 @@ static bool read_numbers(const char *text, struct part *p)
            sscanf(samples, "%ld %ld", &p->first, &p->end) == 2 &&
            sscanf(done, "%ld %" SCNd64, &p->done, &p->passes) == 2 && sscanf(left_out, "%ld", &p->left_out) == 1 &&
            p->left_out >= 0 && p->first >= 0 && p->end > p->first && p->done >= 0 && p->done <= p->end - p->first &&
-           p->passes >= 0;
+           p->passes >= 0 && read_place(text, p);
 }
 
 static bool read_header(FILE *f, const char *path, struct part *out, struct error *err)

@@ -28,12 +28,14 @@
 #include <stdio.h>
 
 #include "base/file.h"
+#include "image/picture.h"
 #include "render/render.h"
 
 /* What a file says of itself. */
 struct part {
     char *identity; /* the lines from "version" to "scale"; owned */
     int width, height;
+    struct placement place; /* of these in the film; width 0: the file does not say */
     double scale;
     long planned;          /* samples per pixel of the whole picture; 0: the file does not say */
     long first, end, done; /* samples first .. first + done - 1 of first .. end - 1 */
