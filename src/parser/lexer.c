@@ -1,6 +1,7 @@
 /* lexer.c: see lexer.h. */
 #include "parser/lexer.h"
 
+#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -50,42 +51,63 @@ static bool is_separator(char c)
 static const double EXACT_POWER[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                      1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
+/* A number as it is read: digits times 10^scale. */
+struct decimal {
+    uint64_t digits; /* the first 19 */
+    int64_t scale;
+    int n_digits; /* all but leading zeros */
+};
+
+/* Digits before (step 0) or behind (step -1) the point; returns where they end. */
+static const char *scan_digits(const char *p, int step, struct decimal *d)
+{
+    for (; is_digit(*p); p++) {
+        if (d->n_digits < 19)
+            d->digits = d->digits * 10 + (uint64_t)(*p - '0');
+        d->n_digits += d->digits != 0;
+        d->scale += step;
+    }
+    return p;
+}
+
+/* What follows an e: [+-] digits. NULL if there is none. */
+static const char *scan_exponent(const char *p, struct decimal *d)
+{
+    int power = 0;
+    bool negative = *p == '-';
+    p += *p == '-' || *p == '+';
+    if (!is_digit(*p))
+        return NULL;
+    for (; is_digit(*p); p++)
+        power = power < 10000 ? power * 10 + (*p - '0') : power; /* far beyond what a double holds is enough */
+    d->scale += negative ? -power : power;
+    return p;
+}
+
 /* Read [+-] digits [. digits] [e [+-] digits] at p; returns the end of the number, or NULL if there is none.
  * Digits and power of ten that are both exact in a double give a correctly rounded quotient or product in one
  * operation [Clinger 1990]; all others go to strtod. */
 static const char *scan_number(const char *p, double *out)
 {
-    const char *begin = p;
-    bool negative = *p == '-';
-    if (*p == '-' || *p == '+')
-        p++;
-    uint64_t digits = 0;
-    int n_digits = 0, scale = 0, power = 0;
-    const char *first = p;
-    for (; is_digit(*p); p++, n_digits += digits != 0)
-        digits = n_digits < 19 ? digits * 10 + (uint64_t)(*p - '0') : digits;
-    const char *whole_end = p;
-    if (*p == '.')
-        for (p++; is_digit(*p); p++, scale--, n_digits += digits != 0)
-            digits = n_digits < 19 ? digits * 10 + (uint64_t)(*p - '0') : digits;
-    if (whole_end == first && p - whole_end <= 1)
-        return NULL;
-    if (*p == 'e' || *p == 'E') {
-        p++;
-        bool down = *p == '-';
-        if (*p == '-' || *p == '+')
-            p++;
-        if (!is_digit(*p))
-            return NULL;
-        for (; is_digit(*p); p++)
-            power = power < 10000 ? power * 10 + (*p - '0') : power;
-        scale += down ? -power : power;
+    struct decimal d = {0, 0, 0};
+    const char *begin = p, *first = *p == '-' || *p == '+' ? p + 1 : p;
+    p = scan_digits(first, 0, &d);
+    bool is_number = p > first;
+    if (*p == '.') {
+        first = p + 1;
+        p = scan_digits(first, -1, &d);
+        is_number |= p > first;
     }
-    if (n_digits > 18 || digits > ((uint64_t)1 << 53) || scale < -22 || scale > 22)
+    if (is_number && (*p == 'e' || *p == 'E'))
+        p = scan_exponent(p + 1, &d);
+    if (!is_number || p == NULL)
+        return NULL;
+    if (d.n_digits > 18 || d.digits > (uint64_t)1 << 53 || d.scale < -22 || d.scale > 22) {
         *out = strtod(begin, NULL);
-    else {
-        double value = scale < 0 ? (double)digits / EXACT_POWER[-scale] : (double)digits * EXACT_POWER[scale];
-        *out = negative ? -value : value;
+    } else {
+        double value = (double)d.digits;
+        value = d.scale < 0 ? value / EXACT_POWER[-d.scale] : value * EXACT_POWER[d.scale];
+        *out = *begin == '-' ? -value : value;
     }
     return p;
 }
@@ -94,7 +116,7 @@ bool lexer_number(struct lexer *l, double *out)
 {
     skip_blanks(l);
     const char *end = scan_number(l->at, out);
-    if (end == NULL || !is_separator(*end) || !(*out - *out == 0))
+    if (end == NULL || !is_separator(*end) || !isfinite(*out))
         return false;
     l->at = end;
     return true;
@@ -109,8 +131,7 @@ static bool next_number(struct lexer *l, struct token *out)
         end++;
     int shown = end - l->at < 40 ? (int)(end - l->at) : 40;
     const char *scanned = scan_number(l->at, &out->number);
-    bool finite = out->number - out->number == 0;
-    if (scanned != NULL && scanned < end && finite && !is_letter(*scanned)) {
+    if (scanned != NULL && scanned < end && isfinite(out->number) && !is_letter(*scanned)) {
         source_warn(l->messages, out->position, "number", "'%.*s' counts as %.9g: numbers are separated by blanks",
                     shown, l->at, out->number);
         l->at = end;

@@ -191,10 +191,9 @@ int params_choice(struct params *p, const char *name, const char *const *choices
     for (int i = 0; choices[i] != NULL; i++)
         if (strcmp(choices[i], text) == 0)
             return i;
-    const char *near = suggest_from(text, choices);
-    source_warn(p->messages, item->position, NULL, "\"%s\" cannot be \"%.40s\", so it is \"%s\"%s%s%s", name, text,
-                choices[0], near != NULL ? "; did you mean \"" : "", near != NULL ? near : "",
-                near != NULL ? "\"?" : "");
+    char near[SUGGEST_TEXT];
+    source_warn(p->messages, item->position, NULL, "\"%s\" cannot be \"%.40s\", so it is \"%s\"%s", name, text,
+                choices[0], suggest_text(suggest_from(text, choices), near));
     return 0;
 }
 
@@ -272,12 +271,13 @@ static int colour_values(const struct param *item)
 
 static rgb rgb_from_numbers(enum param_type type, double *x, int n)
 {
-    switch ((int)type) {
-    case PARAM_RGB: return rgb_make(x[0], x[1], x[2]);
-    case PARAM_XYZ: return spectrum_from_xyz(x[0], x[1], x[2]);
-    case PARAM_BLACKBODY: return spectrum_blackbody(x[0], x[1]);
-    default: return spectrum_from_samples((double(*)[2])x, n / 2);
-    }
+    if (type == PARAM_RGB)
+        return rgb_make(x[0], x[1], x[2]);
+    if (type == PARAM_XYZ)
+        return spectrum_from_xyz(x[0], x[1], x[2]);
+    if (type == PARAM_BLACKBODY)
+        return spectrum_blackbody(x[0], x[1]);
+    return spectrum_from_samples((double(*)[2])x, n / 2);
 }
 
 /* Numbers of a colour can be summed, and those of a file are not checked one by one, so what comes out is. */
@@ -320,9 +320,9 @@ static void warn_of_unused(struct params *p, const struct param *item)
         }
         suggest_offer(&near, p->asked[i]);
     }
-    source_warn(p->messages, item->position, NULL, "parameter \"%.40s\" of %s \"%s\" is not used%s%s%s", item->name,
-                p->directive, p->type, near.name != NULL ? "; did you mean \"" : "",
-                near.name != NULL ? near.name : "", near.name != NULL ? "\"?" : "");
+    char text[SUGGEST_TEXT];
+    source_warn(p->messages, item->position, NULL, "parameter \"%.40s\" of %s \"%s\" is not used%s", item->name,
+                p->directive, p->type, suggest_text(near.name, text));
 }
 
 bool params_done(struct params *p)

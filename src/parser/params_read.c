@@ -29,7 +29,8 @@ const char *params_type_name(enum param_type type)
     return "";
 }
 
-/* Split a copy of "type name". The type remains PARAM_TYPES, with a warning, where the parameter cannot be used. */
+/* Split a copy of "type name" into item->type and ->name. The type is PARAM_TYPES, with a warning, where it cannot be
+ * used. */
 static void read_declaration(struct params *p, const struct token *t, struct param *item)
 {
     char *text = arena_alloc(item->values.arena, strlen(t->text) + 1);
@@ -51,13 +52,11 @@ static void read_declaration(struct params *p, const struct token *t, struct par
             return;
         }
     }
-    if (near.name != NULL)
-        source_warn(p->messages, t->position, NULL, "the parameter \"%.40s\" is passed over: unknown type; did you "
-                    "mean \"%s\"?", t->text, near.name);
-    else
-        source_warn(p->messages, t->position, NULL, "the parameter \"%.40s\" is passed over: unknown type; types are "
-                    "integer, float, bool, string, texture, point2, vector2, point, vector, normal, rgb, xyz, "
-                    "blackbody and spectrum", t->text);
+    char nearest[SUGGEST_TEXT];
+    source_warn(p->messages, t->position, NULL, "the parameter \"%.40s\" is passed over: unknown type%s", t->text,
+                near.name != NULL ? suggest_text(near.name, nearest)
+                                  : "; types are integer, float, bool, string, texture, point2, vector2, point, "
+                                    "vector, normal, rgb, xyz, blackbody and spectrum");
 }
 
 static bool wants_text(enum param_type type)
@@ -163,14 +162,22 @@ bool params_read(struct params *p, struct lexer *l)
     return true;
 }
 
+/* Does a parameter come in the place of an older one? */
+static bool stands_for(const struct param *item, const struct param *older)
+{
+    bool texture = item->type == PARAM_TEXTURE || older->type == PARAM_TEXTURE;
+    return strcmp(older->name, item->name) == 0 && (texture || older->type == item->type);
+}
+
 int params_take(struct params *p, const struct params *from, const struct param *item)
 {
     struct param copy = *item;
     size_t n = (size_t)item->n;
+    int kept = 0;
     for (int i = 0; i < p->n; i++)
-        if (strcmp(p->item[i].name, item->name) == 0 &&
-            (item->type == PARAM_TEXTURE || p->item[i].type == PARAM_TEXTURE || p->item[i].type == item->type))
-            p->item[i--] = p->item[--p->n];
+        if (!stands_for(item, &p->item[i]))
+            p->item[kept++] = p->item[i];
+    p->n = kept;
     if (item->is_text) {
         p->string = mem_grow(p->string, &p->string_capacity, p->n_string + n, sizeof *p->string);
         memcpy(p->string + p->n_string, from->string + item->first, n * sizeof *p->string);

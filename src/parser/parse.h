@@ -102,10 +102,9 @@ struct parser {
     struct token directive;         /* the one being carried out */
     const struct object_type *type; /* what its params.type stands for */
 
-    const struct source_file *source[MAX_INCLUDE_DEPTH]; /* files being read, main file first */
+    struct source_file *source[MAX_INCLUDE_DEPTH]; /* [n_sources] files being read, main file first */
     int n_sources, n_includes;
     uint64_t included_bytes; /* of all Includes carried out */
-    bool *is_scene;          /* of the file being read, see source_position.h */
     struct symbols files; /* path -> file[]: a file included twice is read once */
     struct loaded *file;  /* [n_files], owned */
     int n_files;

@@ -62,9 +62,9 @@ bool parse_typed(struct parser *p)
 void parse_no_such(struct parser *p, struct source_position at, const char *name, const struct symbols *table,
                    const char *what, const char *instead)
 {
-    const char *near = symbols_near(table, name);
-    source_warn(&p->messages, at, NULL, "there is no %s \"%.60s\"; %s%s%.60s%s", what, name, instead,
-                near != NULL ? "; did you mean \"" : "", near != NULL ? near : "", near != NULL ? "\"?" : "");
+    char near[SUGGEST_TEXT];
+    source_warn(&p->messages, at, NULL, "there is no %s \"%.60s\"; %s%s", what, name, instead,
+                suggest_text(symbols_near(table, name), near));
 }
 
 int parse_named(struct parser *p, struct token *name, const struct symbols *table, const char *what,

@@ -150,7 +150,7 @@ static bool run_directive(struct parser *p)
     const struct directive *d = t->kind == TOKEN_WORD ? find_directive(t->text, NULL) : NULL;
     if (d == NULL)
         return unknown_directive(p);
-    *p->is_scene = true;
+    p->source[p->n_sources - 1]->is_scene = true;
     if ((d->phase & p->phase) == 0)
         return wrong_phase(p, d);
     if (d->types != NULL && !(parse_typed(p) && parse_type(p, d->types)))
@@ -167,7 +167,7 @@ static void run_source(struct parser *p)
         if (ok && t->kind == TOKEN_END)
             return;
         ok = ok && run_directive(p);
-        if (!*p->is_scene)
+        if (!p->source[p->n_sources - 1]->is_scene)
             return;
         if (!ok)
             lexer_resume(&p->lexer);
@@ -207,15 +207,12 @@ static void run_file(struct parser *p, int file, const char *path, struct source
     source->end = source->text + p->file[file].size;
     source->included_at = included_at;
     source->is_scene = included_at.file == NULL;
-    bool *outer_is_scene = p->is_scene;
-    p->is_scene = &source->is_scene;
     struct lexer outer = p->lexer;
     p->lexer = lexer_start(source, &p->arena, &p->messages);
     p->source[p->n_sources++] = source;
     run_source(p);
     p->n_sources--;
     p->lexer = outer;
-    p->is_scene = outer_is_scene;
 }
 
 /* Relative names start in the directory of the main file, wherever the Include stands. */

@@ -2,6 +2,7 @@
 #include "parser/symbols.h"
 
 #include <ctype.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,7 +11,7 @@
 
 /* --- the nearest known name --------------------------------------------------------------------------- */
 
-enum { LONGEST = 48 }; /* longer names are not compared */
+enum { LONGEST = 48 }; /* longer names are not compared, so that one that is near fits SUGGEST_TEXT */
 
 static int smaller(int a, int b) { return a < b ? a : b; }
 static int lower(const char *text, int i) { return tolower((unsigned char)text[i]); }
@@ -38,7 +39,7 @@ static int distance(const char *a, const char *b)
 
 struct suggestion suggest_start(const char *wanted)
 {
-    struct suggestion s = {wanted, NULL, (int)(smaller((int)strlen(wanted), LONGEST) + 5) / 3};
+    struct suggestion s = {wanted, NULL, (smaller((int)strlen(wanted), LONGEST) + 5) / 3};
     return s;
 }
 
@@ -60,6 +61,14 @@ const char *suggest_from(const char *wanted, const char *const *known)
     for (; *known != NULL; known++)
         suggest_offer(&s, *known);
     return s.name;
+}
+
+const char *suggest_text(const char *near, char buffer[SUGGEST_TEXT])
+{
+    buffer[0] = '\0';
+    if (near != NULL)
+        snprintf(buffer, SUGGEST_TEXT, "; did you mean \"%s\"?", near);
+    return buffer;
 }
 
 /* --- the table ---------------------------------------------------------------------------------------- */

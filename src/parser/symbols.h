@@ -33,6 +33,11 @@ void suggest_offer(struct suggestion *s, const char *known);
 /* suggest_from: the nearest of a NULL-terminated list, or NULL. */
 const char *suggest_from(const char *wanted, const char *const *known);
 
+enum { SUGGEST_TEXT = 80 };
+
+/* suggest_text: the end of a message: '; did you mean "NAME"?', or "" where no name is near (NULL). Returns buffer. */
+const char *suggest_text(const char *near, char buffer[SUGGEST_TEXT]);
+
 /* --- the table ---------------------------------------------------------------------------------------- */
 
 /* One name. */
