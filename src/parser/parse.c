@@ -1,11 +1,63 @@
-/* parse.c: what all directives with a type have in common: choosing the type by its name, and reading its parameters by
- * a table. See parse.h. */
+/* parse.c: what directives have in common: reading their arguments, choosing the type of an object by its name, and
+ * reading its parameters by a table. See parse.h. */
 #include "parser/parse.h"
 
 #include "base/bits.h"
 
 #include <stdio.h>
 #include <string.h>
+
+/* --- arguments of directives -------------------------------------------------------------------------- */
+
+bool parse_string(struct parser *p, struct token *out, const char *what)
+{
+    char found[64];
+    struct lexer before = p->lexer;
+    if (!lexer_next(&p->lexer, out))
+        return false;
+    if (out->kind == TOKEN_STRING)
+        return true;
+    if (out->kind == TOKEN_WORD)
+        p->lexer = before; /* it may be the next directive */
+    return source_error(&p->messages, out->position, "%s wants %s in quotes here, not %s", p->directive.text, what,
+                       token_text(out, found, sizeof found));
+}
+
+bool parse_list(struct parser *p, const char *directive, const struct token *type)
+{
+    struct params *q = &p->params;
+    q->directive = directive;
+    q->type = type->text;
+    q->position = type->position;
+    return params_read(q, &p->lexer);
+}
+
+bool parse_typed(struct parser *p)
+{
+    struct token type;
+    return parse_string(p, &type, "a type") && parse_list(p, p->directive.text, &type);
+}
+
+void parse_no_such(struct parser *p, struct source_position at, const char *name, const struct symbols *table,
+                   const char *what, const char *instead)
+{
+    char near[SUGGEST_TEXT];
+    source_warn(&p->messages, at, NULL, "there is no %s \"%.60s\"; %s%s", what, name, instead,
+                suggest_text(symbols_near(table, name), near));
+}
+
+int parse_named(struct parser *p, struct token *name, const struct symbols *table, const char *what,
+                const char *instead)
+{
+    if (!parse_string(p, name, "a name"))
+        return -1;
+    int i = symbols_find(table, name->text);
+    if (i < 0)
+        parse_no_such(p, name->position, name->text, table, what, instead);
+    return i;
+}
+
+/* --- objects by tables ---------------------------------------------------------------------------------- */
 
 /* "a, b, c": the types of a table that are supported, cut at the buffer's end. */
 static void list_types(const struct object_type *types, char *buffer, size_t size)

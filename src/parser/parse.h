@@ -1,12 +1,12 @@
 /* parse.h: what the files of the parser share: the state between two directives, the tables that say what each type of
  * object is made of, and one function per directive.
  *
- * parser.c reads files and directives; parse.c reads objects by their tables; parse_state.c keeps the graphics state;
- * parse_options.c makes camera, film, filter and settings; parse_texture.c, parse_material.c, parse_light.c and
- * parse_shape.c what the world is made of. Each function finds its parameter list in p->params, type included, and
- * returns false where it gives up its directive, with an error or, where pbrt-v3 goes on, a warning in p->messages.
- * What has failed is still there under its name, as something plain, so that one error does not bring others. Private
- * to this room.
+ * parser.c reads files and directives; parse.c reads their arguments, and objects by their tables; parse_state.c keeps
+ * the graphics state; parse_options.c makes camera, film, filter and settings; parse_texture.c, parse_material.c,
+ * parse_light.c and parse_shape.c what the world is made of; parse_instance.c puts shapes where they belong. Each
+ * function finds its parameter list in p->params, type included, and returns false where it gives up its directive,
+ * with an error or, where pbrt-v3 goes on, a warning in p->messages. What has failed is still there under its name, as
+ * something plain, so that one error does not bring others. Private to this room.
  */
 #ifndef ASBDPT_PARSE_H
 #define ASBDPT_PARSE_H
@@ -242,7 +242,7 @@ struct directive {
 
 extern const struct object_type MATERIAL_TYPES[], TEXTURE_TYPES[]; /* their directives read more than type and list */
 extern const struct directive STATE_DIRECTIVES[], OPTION_DIRECTIVES[], TEXTURE_DIRECTIVES[], MATERIAL_DIRECTIVES[],
-    LIGHT_DIRECTIVES[], SHAPE_DIRECTIVES[];
+    LIGHT_DIRECTIVES[], SHAPE_DIRECTIVES[], INSTANCE_DIRECTIVES[];
 
 /* parse_make_material: make a material of kind params.type. *out is its number or MATERIAL_NONE. */
 bool parse_make_material(struct parser *p, int *out);
@@ -251,15 +251,17 @@ bool parse_make_material(struct parser *p, int *out);
  * shape in p->params that nobody has asked for. */
 int parse_changed_material(struct parser *p);
 
-/* parse_shape_add: add one shape to the scene. A mesh inside the item stays the caller's. */
-bool parse_shape_add(struct parser *p, const struct shape_item *item, struct transform to_world,
-                     struct source_position at);
+/* parse_place_shape: put a shape into the object that is open, else into the scene. Takes over its mesh. */
+bool parse_place_shape(struct parser *p, struct shape_item *item);
 void shape_list_free(struct shape_list *list);
 
 /* parse_state_reset: the transform as a file or its world begins. parse_name_system: name a coordinate system.
- * parse_close_all: warn of blocks that are still open. */
+ * parse_open_block, parse_close_block: save the graphics state and restore it; false, with a warning, if nothing was
+ * saved. parse_close_all: warn of blocks that are still open. */
 void parse_state_reset(struct parser *p);
 void parse_name_system(struct parser *p, const char *name, struct transform t);
+bool parse_open_block(struct parser *p, enum block_kind kind);
+bool parse_close_block(struct parser *p, enum block_kind kind);
 void parse_close_all(struct parser *p);
 
 #endif

@@ -1,5 +1,4 @@
-/* parse_shape.c: shapes, with pbrt-v3's parameters and defaults [pbrt-v3 shapes/], the area lights on them, and their
- * copies in object instances. See parse.h. */
+/* parse_shape.c: shapes, with pbrt-v3's parameters and defaults [pbrt-v3 shapes/]. See parse.h. */
 #include "parser/parse.h"
 
 #include <float.h>
@@ -278,54 +277,7 @@ static const struct object_type TYPES[] = {
     {"heightfield", HEIGHTFIELD_ROWS, HEIGHTFIELD, mesh_shape},
     REFUSED("curve"), REFUSED("nurbs"), OTHERS_LEFT_OUT};
 
-/* --- adding ------------------------------------------------------------------------------------------- */
-
-/* One light for each primitive of the group. */
-static void add_lights(struct scene *s, int group, int n, const struct area_light *area, const struct transform *t)
-{
-    struct light l = {.kind = LIGHT_AREA, .L = area->L, .to_world = *t, .two_sided = area->two_sided};
-    for (int i = 0; i < n; i++) {
-        l.prim = s->geo.group[group].first_prim + i;
-        light_add(&s->lights, l);
-    }
-}
-
-bool parse_shape_add(struct parser *p, const struct shape_item *item, struct transform to_world,
-                     struct source_position at)
-{
-    struct scene *s = p->scene;
-    struct shape_group group = item->group;
-    group.first_light = item->area.on ? s->lights.n : -1;
-    struct error inner;
-    int id, n = 1;
-    if (item->is_mesh) {
-        n = item->mesh.n_triangles;
-        id = shape_add_mesh(&s->geo, &item->mesh, &to_world, group, item->reverse, &inner);
-    } else {
-        struct quadric q = item->quadric;
-        q.to_world = to_world;
-        id = shape_add_quadric(&s->geo, q, group, item->reverse, &inner);
-    }
-    if (id < 0)
-        return source_error(&p->messages, at, "%s", inner.text);
-    if (item->area.on)
-        add_lights(s, id, n, &item->area, &to_world);
-    return true;
-}
-
-static void shape_list_add(struct shape_list *list, const struct shape_item *item)
-{
-    list->item = mem_grow(list->item, &list->capacity, (size_t)list->n + 1, sizeof *list->item);
-    list->item[list->n++] = *item;
-}
-
-void shape_list_free(struct shape_list *list)
-{
-    for (int i = 0; i < list->n; i++)
-        mesh_free(&list->item[i].mesh);
-    free(list->item);
-    memset(list, 0, sizeof *list);
-}
+/* --- the directive ------------------------------------------------------------------------------------ */
 
 /* Is it as flat as a disk or a quad: does a line meet it once? */
 static bool is_flat(const struct shape_item *item)
@@ -363,7 +315,6 @@ static bool complete_shape(struct parser *p, struct shape_item *item)
     return item->group.material != MATERIAL_NONE || item->area.on;
 }
 
-/* Add a shape to the scene or to the current object. */
 static bool shape(struct parser *p)
 {
     struct shape_item item = {
@@ -372,16 +323,9 @@ static bool shape(struct parser *p)
     parse_fields(p, &item);
     item.group.material = parse_changed_material(p);
     bool ok = params_done(&p->params) && parse_placed(p) && parse_media(p, item.position, "shape", false);
-    bool stored = false;
-    if (ok && complete_shape(p, &item)) {
-        stored = p->current_object >= 0;
-        if (stored)
-            shape_list_add(&p->object[p->current_object], &item);
-        else
-            ok = parse_shape_add(p, &item, item.to_world, item.position);
-    }
-    if (!stored)
-        mesh_free(&item.mesh);
+    if (ok && complete_shape(p, &item))
+        return parse_place_shape(p, &item);
+    mesh_free(&item.mesh);
     return ok;
 }
 

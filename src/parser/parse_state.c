@@ -1,24 +1,10 @@
-/* parse_state.c: arguments of directives, and the directives that change the graphics state: transforms, blocks and
- * object instances [pbrt-v3 core/api.cpp]. See parse.h. */
+/* parse_state.c: the directives that change the graphics state: transforms and blocks [pbrt-v3 core/api.cpp]. See
+ * parse.h. */
 #include "parser/parse.h"
 
 #include <string.h>
 
-/* --- arguments of directives -------------------------------------------------------------------------- */
-
-bool parse_string(struct parser *p, struct token *out, const char *what)
-{
-    char found[64];
-    struct lexer before = p->lexer;
-    if (!lexer_next(&p->lexer, out))
-        return false;
-    if (out->kind == TOKEN_STRING)
-        return true;
-    if (out->kind == TOKEN_WORD)
-        p->lexer = before; /* it may be the next directive */
-    return source_error(&p->messages, out->position, "%s wants %s in quotes here, not %s", p->directive.text, what,
-                       token_text(out, found, sizeof found));
-}
+/* --- transforms --------------------------------------------------------------------------------------- */
 
 /* The n numbers of a directive, with or without brackets around them. */
 static bool read_numbers(struct parser *p, double *out, int n)
@@ -43,42 +29,6 @@ static bool read_numbers(struct parser *p, double *out, int n)
     }
     return true;
 }
-
-bool parse_list(struct parser *p, const char *directive, const struct token *type)
-{
-    struct params *q = &p->params;
-    q->directive = directive;
-    q->type = type->text;
-    q->position = type->position;
-    return params_read(q, &p->lexer);
-}
-
-bool parse_typed(struct parser *p)
-{
-    struct token type;
-    return parse_string(p, &type, "a type") && parse_list(p, p->directive.text, &type);
-}
-
-void parse_no_such(struct parser *p, struct source_position at, const char *name, const struct symbols *table,
-                   const char *what, const char *instead)
-{
-    char near[SUGGEST_TEXT];
-    source_warn(&p->messages, at, NULL, "there is no %s \"%.60s\"; %s%s", what, name, instead,
-                suggest_text(symbols_near(table, name), near));
-}
-
-int parse_named(struct parser *p, struct token *name, const struct symbols *table, const char *what,
-                const char *instead)
-{
-    if (!parse_string(p, name, "a name"))
-        return -1;
-    int i = symbols_find(table, name->text);
-    if (i < 0)
-        parse_no_such(p, name->position, name->text, table, what, instead);
-    return i;
-}
-
-/* --- transforms --------------------------------------------------------------------------------------- */
 
 /* Stays what it is whatever it is multiplied with. */
 static struct transform no_transform(void)
@@ -269,7 +219,7 @@ static bool is_open(struct parser *p, int n, enum block_kind kind)
     return n > 0;
 }
 
-static bool open_block(struct parser *p, enum block_kind kind)
+bool parse_open_block(struct parser *p, enum block_kind kind)
 {
     struct pushed_state b = {p->state, p->float_textures.n, p->spectrum_textures.n, p->materials.n};
     p->block = mem_grow(p->block, &p->block_capacity, (size_t)p->n_blocks + 1, sizeof *p->block);
@@ -278,7 +228,7 @@ static bool open_block(struct parser *p, enum block_kind kind)
     return true;
 }
 
-static bool close_block(struct parser *p, enum block_kind kind)
+bool parse_close_block(struct parser *p, enum block_kind kind)
 {
     if (!is_open(p, p->n_blocks, kind))
         return false;
@@ -291,8 +241,8 @@ static bool close_block(struct parser *p, enum block_kind kind)
     return true;
 }
 
-static bool attribute_begin(struct parser *p) { return open_block(p, BLOCK_ATTRIBUTE); }
-static bool attribute_end(struct parser *p) { return close_block(p, BLOCK_ATTRIBUTE); }
+static bool attribute_begin(struct parser *p) { return parse_open_block(p, BLOCK_ATTRIBUTE); }
+static bool attribute_end(struct parser *p) { return parse_close_block(p, BLOCK_ATTRIBUTE); }
 
 static bool transform_begin(struct parser *p)
 {
@@ -313,62 +263,12 @@ static bool reverse_orientation(struct parser *p)
     return true;
 }
 
-static bool object_begin(struct parser *p)
-{
-    struct token name;
-    if (!parse_string(p, &name, "a name"))
-        return false;
-    if (p->current_object >= 0)
-        source_warn(&p->messages, p->directive.position, NULL,
-                    "ObjectBegin inside an object; as in pbrt-v3, the outer one ends here");
-    p->object = mem_grow(p->object, &p->object_capacity, (size_t)p->n_objects + 1, sizeof *p->object);
-    memset(&p->object[p->n_objects], 0, sizeof *p->object);
-    p->current_object = p->n_objects++;
-    symbols_add(&p->objects, name.text, p->current_object);
-    return open_block(p, BLOCK_OBJECT);
-}
-
-static bool object_end(struct parser *p)
-{
-    if (p->current_object < 0)
-        source_warn(&p->messages, p->directive.position, NULL,
-                    "ObjectEnd outside of an object ends an attribute block");
-    p->current_object = -1;
-    return close_block(p, BLOCK_OBJECT);
-}
-
-static bool object_instance(struct parser *p)
-{
-    struct token name;
-    if (p->current_object >= 0) {
-        source_warn(&p->messages, p->directive.position, NULL,
-                    "ObjectInstance inside an object is passed over, as in pbrt-v3; objects do not nest");
-        return false;
-    }
-    int i = parse_named(p, &name, &p->objects, "object", "this instance is left out");
-    if (i < 0)
-        return false;
-    const struct shape_list *list = &p->object[i];
-    if (list->n > 0 && !parse_placed(p))
-        return false;
-    for (int k = 0; k < list->n; k++) {
-        struct transform to_world = transform_compose(p->place.ctm, list->item[k].to_world);
-        if (!transform_is_usable(&to_world))
-            return source_error(&p->messages, name.position,
-                               "the object's transform and this instance's together are infinite or singular");
-        if (!parse_shape_add(p, &list->item[k], to_world, name.position))
-            return false;
-    }
-    return true;
-}
-
 const struct directive STATE_DIRECTIVES[] = {
     {"Transform", ANYWHERE, transform, NULL},
     {"AttributeBegin", IN_WORLD, attribute_begin, NULL},
     {"AttributeEnd", IN_WORLD, attribute_end, NULL},
     {"TransformBegin", IN_WORLD, transform_begin, NULL},
     {"TransformEnd", IN_WORLD, transform_end, NULL},
-    {"ObjectInstance", IN_WORLD, object_instance, NULL},
     {"Translate", ANYWHERE, translate, NULL},
     {"Scale", ANYWHERE, scale, NULL},
     {"Rotate", ANYWHERE, rotate, NULL},
@@ -380,6 +280,4 @@ const struct directive STATE_DIRECTIVES[] = {
     {"ActiveTransform", ANYWHERE, active_transform, NULL},
     {"TransformTimes", BEFORE_WORLD, transform_times, NULL},
     {"ReverseOrientation", IN_WORLD, reverse_orientation, NULL},
-    {"ObjectBegin", IN_WORLD, object_begin, NULL},
-    {"ObjectEnd", IN_WORLD, object_end, NULL},
     END_OF_DIRECTIVES};

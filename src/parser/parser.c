@@ -105,9 +105,9 @@ static const struct directive FILE_DIRECTIVES[] = {{"Include", ANYWHERE, include
                                                    END_OF_DIRECTIVES};
 
 /* All directives, the commonest first. */
-static const struct directive *const TABLES[] = {SHAPE_DIRECTIVES,  MATERIAL_DIRECTIVES, STATE_DIRECTIVES,
-                                                 LIGHT_DIRECTIVES,  TEXTURE_DIRECTIVES,  FILE_DIRECTIVES,
-                                                 OPTION_DIRECTIVES, NULL};
+static const struct directive *const TABLES[] = {SHAPE_DIRECTIVES,    MATERIAL_DIRECTIVES, STATE_DIRECTIVES,
+                                                 INSTANCE_DIRECTIVES, LIGHT_DIRECTIVES,    TEXTURE_DIRECTIVES,
+                                                 FILE_DIRECTIVES,     OPTION_DIRECTIVES,   NULL};
 
 /* The directive of this name, or NULL. Every name passed on the way is offered to *near, unless that is NULL. */
 static const struct directive *find_directive(const char *name, struct suggestion *near)

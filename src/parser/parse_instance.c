@@ -1,0 +1,121 @@
+/* parse_instance.c: where shapes go: into the scene, with a light for each primitive of an emitter, or into an object,
+ * to be copied by each of its instances [pbrt-v3 core/api.cpp]. See parse.h. */
+#include "parser/parse.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* One light for each primitive of the group. */
+static void add_lights(struct scene *s, int group, int n, const struct area_light *area, const struct transform *t)
+{
+    struct light l = {.kind = LIGHT_AREA, .L = area->L, .to_world = *t, .two_sided = area->two_sided};
+    for (int i = 0; i < n; i++) {
+        l.prim = s->geo.group[group].first_prim + i;
+        light_add(&s->lights, l);
+    }
+}
+
+/* Add one shape to the scene. A mesh inside the item stays the caller's. */
+static bool add_shape(struct parser *p, const struct shape_item *item, struct transform to_world,
+                      struct source_position at)
+{
+    struct scene *s = p->scene;
+    struct shape_group group = item->group;
+    group.first_light = item->area.on ? s->lights.n : -1;
+    struct error inner;
+    int id, n = 1;
+    if (item->is_mesh) {
+        n = item->mesh.n_triangles;
+        id = shape_add_mesh(&s->geo, &item->mesh, &to_world, group, item->reverse, &inner);
+    } else {
+        struct quadric q = item->quadric;
+        q.to_world = to_world;
+        id = shape_add_quadric(&s->geo, q, group, item->reverse, &inner);
+    }
+    if (id < 0)
+        return source_error(&p->messages, at, "%s", inner.text);
+    if (item->area.on)
+        add_lights(s, id, n, &item->area, &to_world);
+    return true;
+}
+
+static void shape_list_add(struct shape_list *list, const struct shape_item *item)
+{
+    list->item = mem_grow(list->item, &list->capacity, (size_t)list->n + 1, sizeof *list->item);
+    list->item[list->n++] = *item;
+}
+
+void shape_list_free(struct shape_list *list)
+{
+    for (int i = 0; i < list->n; i++)
+        mesh_free(&list->item[i].mesh);
+    free(list->item);
+    memset(list, 0, sizeof *list);
+}
+
+bool parse_place_shape(struct parser *p, struct shape_item *item)
+{
+    if (p->current_object >= 0) {
+        shape_list_add(&p->object[p->current_object], item);
+        return true;
+    }
+    bool ok = add_shape(p, item, item->to_world, item->position);
+    mesh_free(&item->mesh);
+    return ok;
+}
+
+/* --- objects ------------------------------------------------------------------------------------------ */
+
+static bool object_begin(struct parser *p)
+{
+    struct token name;
+    if (!parse_string(p, &name, "a name"))
+        return false;
+    if (p->current_object >= 0)
+        source_warn(&p->messages, p->directive.position, NULL,
+                    "ObjectBegin inside an object; as in pbrt-v3, the outer one ends here");
+    p->object = mem_grow(p->object, &p->object_capacity, (size_t)p->n_objects + 1, sizeof *p->object);
+    memset(&p->object[p->n_objects], 0, sizeof *p->object);
+    p->current_object = p->n_objects++;
+    symbols_add(&p->objects, name.text, p->current_object);
+    return parse_open_block(p, BLOCK_OBJECT);
+}
+
+static bool object_end(struct parser *p)
+{
+    if (p->current_object < 0)
+        source_warn(&p->messages, p->directive.position, NULL,
+                    "ObjectEnd outside of an object ends an attribute block");
+    p->current_object = -1;
+    return parse_close_block(p, BLOCK_OBJECT);
+}
+
+static bool object_instance(struct parser *p)
+{
+    struct token name;
+    if (p->current_object >= 0) {
+        source_warn(&p->messages, p->directive.position, NULL,
+                    "ObjectInstance inside an object is passed over, as in pbrt-v3; objects do not nest");
+        return false;
+    }
+    int i = parse_named(p, &name, &p->objects, "object", "this instance is left out");
+    if (i < 0)
+        return false;
+    const struct shape_list *list = &p->object[i];
+    if (list->n > 0 && !parse_placed(p))
+        return false;
+    for (int k = 0; k < list->n; k++) {
+        struct transform to_world = transform_compose(p->place.ctm, list->item[k].to_world);
+        if (!transform_is_usable(&to_world))
+            return source_error(&p->messages, name.position,
+                               "the object's transform and this instance's together are infinite or singular");
+        if (!add_shape(p, &list->item[k], to_world, name.position))
+            return false;
+    }
+    return true;
+}
+
+const struct directive INSTANCE_DIRECTIVES[] = {{"ObjectInstance", IN_WORLD, object_instance, NULL},
+                                                {"ObjectBegin", IN_WORLD, object_begin, NULL},
+                                                {"ObjectEnd", IN_WORLD, object_end, NULL},
+                                                END_OF_DIRECTIVES};
