@@ -2,10 +2,10 @@
  * reading its parameters by a table. See parse.h. */
 #include "parser/parse.h"
 
-#include "base/bits.h"
-
 #include <stdio.h>
 #include <string.h>
+
+#include "base/bits.h"
 
 /* --- arguments of directives -------------------------------------------------------------------------- */
 
@@ -70,7 +70,8 @@ static void list_types(const struct object_type *types, char *buffer, size_t siz
         }
 }
 
-/* A type that neither pbrt-v3 nor this program knows; *end is the row behind the table. */
+/* A type that neither pbrt-v3 nor this program knows; *end is the row behind the table, which says what to do: refuse
+ * it, leave the directive out, or take the type of this row, by its name in the table if it has one. */
 static bool unknown_type(struct parser *p, const struct object_type *types, const struct object_type *end)
 {
     struct params *q = &p->params;
@@ -88,7 +89,7 @@ static bool unknown_type(struct parser *p, const struct object_type *types, cons
         snprintf(advice, sizeof advice, "did you mean \"%s\"?", near.name);
     else
         snprintf(advice, sizeof advice, "known are %s", list);
-    if (end->parameter == NULL && end->kind == 0)
+    if (end->parameter == NULL && end->kind == REFUSE_OTHERS)
         return type_error(q, "unknown %s \"%.40s\"; %s", q->directive, q->type, advice);
     if (end->parameter == NULL || instead == NULL)
         source_warn(q->messages, q->position, NULL, "unknown %s \"%.40s\" is left out, as pbrt-v3 does; %s",
@@ -218,7 +219,7 @@ int parse_named_float(struct parser *p, const char *name)
 static void check_range(struct parser *p, const struct parameter *row, int texture)
 {
     const struct texture *t = texture < 0 ? NULL : &p->scene->textures.texture[texture];
-    if (t == NULL || t->kind != TEXTURE_CONSTANT || row->low == row->high)
+    if (t == NULL || t->kind != TEXTURE_CONSTANT)
         return;
     const double value[3] = {t->u.constant.r, t->u.constant.g, t->u.constant.b};
     for (int i = 0; i < 3 && !p->params.failed; i++)

@@ -65,7 +65,7 @@ struct pushed_state {
 /* One Shape directive; stored where it belongs to an object, to be added once per instance. */
 struct shape_item {
     bool is_mesh;
-    bool absent;            /* alpha 0, or no triangles: nothing of it is there */
+    bool absent;            /* alpha 0: nothing of it is there */
     struct mesh mesh;       /* owned */
     struct quadric quadric; /* to_world not yet set */
     struct shape_group group;
@@ -147,7 +147,7 @@ struct parameter {
     void (*read)(struct parser *p, const struct parameter *row, void *field); /* NULL: the type's build reads it */
     size_t field;    /* offset within the object */
     rgb fallback;    /* of a number: r. NaN: what the object holds already */
-    double low, high; /* the numbers it may be; both 0: any that are usable */
+    double low, high; /* what the numbers may be, of readers that care */
     const char *warning; /* parse_ignored: what to say where it is given; NULL: nothing */
 };
 
@@ -170,8 +170,9 @@ struct object_type {
 #define BY_BUILD(name) {name, NULL, 0, GREY(0), 0, 0, NULL}
 #define END_OF_PARAMETERS {NULL, NULL, 0, GREY(0), 0, 0, NULL}
 #define REFUSED(name) {name, NULL, 0, NULL}
-#define END_OF_TYPES {NULL, NULL, 0, NULL}      /* unknown ones are an error */
-#define OTHERS_LEFT_OUT {NULL, NULL, 1, NULL}   /* pbrt-v3 goes on without them */
+enum { REFUSE_OTHERS, LEAVE_OTHERS_OUT };                    /* kinds of a row behind a table without parameters */
+#define END_OF_TYPES {NULL, NULL, REFUSE_OTHERS, NULL}       /* unknown ones are an error */
+#define OTHERS_LEFT_OUT {NULL, NULL, LEAVE_OTHERS_OUT, NULL} /* pbrt-v3 goes on without them */
 #define OTHERS_LIKE(parameter, kind, build) {NULL, parameter, kind, build} /* pbrt-v3 takes this type instead */
 
 /* parse_type: find params.type in a table and set p->type. Returns false with a message, which differs for the types of

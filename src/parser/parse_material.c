@@ -23,22 +23,23 @@ static void mixed_material(struct parser *p, const struct parameter *row, void *
 #define RGB(f, r, g, b) \
     {#f, parse_rgb_texture, offsetof(struct material, f), {r, g, b}, -MATERIAL_MAX_COLOUR, MATERIAL_MAX_COLOUR, NULL}
 #define COLOUR(f, value) RGB(f, value, value, value)
-#define TEXTURE(name, f, value, low, high) \
-    {name, parse_float_texture, offsetof(struct material, f), GREY(value), low, high, NULL}
-#define ROUGH(name, f, value) TEXTURE(name, f, value, 0, MATERIAL_MAX_ROUGHNESS)
+#define TEXTURE(name, f, value, range) \
+    {name, parse_float_texture, offsetof(struct material, f), GREY(value), range, NULL}
+#define ROUGHNESSES 0, MATERIAL_MAX_ROUGHNESS
+#define INDICES MATERIAL_MIN_INDEX, MATERIAL_MAX_INDEX
+#define ROUGH(name, f, value) TEXTURE(name, f, value, ROUGHNESSES)
 #define REMAP {"remaproughness", parse_bool, offsetof(struct material, remap_roughness), GREY(1), 0, 0, NULL}
 #define INDEX /* of refraction; "eta" wins */ \
-    TEXTURE("index", index, 1.5, MATERIAL_MIN_INDEX, MATERIAL_MAX_INDEX), \
-    TEXTURE("eta", index, KEPT, MATERIAL_MIN_INDEX, MATERIAL_MAX_INDEX)
+    TEXTURE("index", index, 1.5, INDICES), TEXTURE("eta", index, KEPT, INDICES)
 #define TWO_ROUGHNESSES(value) /* glass and substrate have no "roughness" in pbrt-v3: it passes over that, so do we */ \
     ROUGH("uroughness", uroughness, value), ROUGH("vroughness", vroughness, value), REMAP, \
     {"roughness", parse_ignored, 0, GREY(0), 0, 0, \
      "pbrt-v3 does not read \"roughness\" of this material, so it is ignored; " \
      "use \"uroughness\" and \"vroughness\""}
-#define BUMP TEXTURE("bumpmap", bump, KEPT, 0, 0), END_OF_PARAMETERS
+#define BUMP TEXTURE("bumpmap", bump, KEPT, ANY_NUMBER), END_OF_PARAMETERS
 #define MIXED(name, f) {name, mixed_material, offsetof(struct material, f), GREY(0), 0, 0, NULL}
 
-static const struct parameter MATTE[] = {COLOUR(Kd, 0.5), TEXTURE("sigma", sigma, 0, 0, 0), BUMP};
+static const struct parameter MATTE[] = {COLOUR(Kd, 0.5), TEXTURE("sigma", sigma, 0, ANY_NUMBER), BUMP};
 static const struct parameter MIRROR[] = {COLOUR(Kr, 0.9), BUMP};
 static const struct parameter GLASS[] = {COLOUR(Kr, 1), COLOUR(Kt, 1), INDEX, TWO_ROUGHNESSES(0), BUMP};
 static const struct parameter METAL[] = {

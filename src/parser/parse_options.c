@@ -19,26 +19,31 @@ static void check_camera(struct params *q, struct camera c)
                     "from 1e-12 to 1e12 wide and high; change transform, field of view or window");
 }
 
+static void screen_window(struct params *q, struct camera *c)
+{
+    int n;
+    const struct param *item;
+    const double *window = params_list(q, "screenwindow", 1u << PARAM_FLOAT, 1, &n, &item);
+    if (window == NULL)
+        return;
+    if (n != 4) {
+        source_warn(q->messages, item->position, NULL, "\"screenwindow\" wants four numbers; it is passed over");
+        return;
+    }
+    if (!(window[0] < window[1] && window[2] < window[3]))
+        params_fail(q, item->position, "\"screenwindow\" wants four numbers: xmin < xmax, ymin < ymax");
+    c->has_screen_window = true;
+    memcpy(c->screen_window, window, sizeof c->screen_window);
+}
+
 /* Which camera it is, and its screen. */
 static void framing(struct parser *p, void *object)
 {
-    struct params *q = &p->params;
     struct camera *c = object;
     c->kind = (enum camera_kind)p->type->kind;
-    int n;
-    const struct param *item;
-    const double *window =
-        c->kind == CAMERA_ENVIRONMENT ? NULL : params_list(q, "screenwindow", 1u << PARAM_FLOAT, 1, &n, &item);
-    if (window != NULL) {
-        if (n != 4)
-            source_warn(q->messages, item->position, NULL, "\"screenwindow\" wants four numbers; it is passed over");
-        else if (!(window[0] < window[1] && window[2] < window[3]))
-            params_fail(q, item->position, "\"screenwindow\" wants four numbers: xmin < xmax, ymin < ymax");
-        c->has_screen_window = n == 4 && !q->failed;
-        for (int i = 0; c->has_screen_window && i < 4; i++)
-            c->screen_window[i] = window[i];
-    }
-    check_camera(q, *c);
+    if (c->kind != CAMERA_ENVIRONMENT)
+        screen_window(&p->params, c);
+    check_camera(&p->params, *c);
 }
 
 static void perspective(struct parser *p, void *object)

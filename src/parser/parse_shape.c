@@ -9,9 +9,14 @@
 #include "geometry/ply.h"
 #include "geometry/subdivide.h"
 
-enum { TRIANGLEMESH, PLYMESH, LOOPSUBDIV, HEIGHTFIELD };
-
 /* --- meshes ------------------------------------------------------------------------------------------- */
+
+static struct mesh *mesh_of(void *object)
+{
+    struct shape_item *item = object;
+    item->is_mesh = true;
+    return &item->mesh;
+}
 
 /* A list of numbers as floats. */
 static float *floats(const double *number, int n)
@@ -72,19 +77,44 @@ static void points(struct params *q, struct mesh *m)
                     "a %s without usable \"point P\" and \"integer indices\" is left out, as in pbrt-v3", q->type);
 }
 
-static void trianglemesh(struct params *q, struct mesh *m)
+/* The texture of "alpha" or "shadowalpha"; -1 if the surface is simply there, *absent if it is simply not. */
+static int alpha(struct parser *p, const char *name, bool *absent)
 {
+    *absent = false;
+    if (params_has(&p->params, name, PARAM_TEXTURE))
+        return parse_named_float(p, name);
+    *absent = params_number(&p->params, name, 1, ANY_NUMBER) == 0;
+    return -1;
+}
+
+/* Where meshes that may have holes have them. */
+static void holes(struct parser *p, struct shape_item *item)
+{
+    bool no_shadow;
+    item->group.alpha = alpha(p, "alpha", &item->absent);
+    item->group.shadow_alpha = alpha(p, "shadowalpha", &no_shadow);
+    if (no_shadow)
+        item->group.shadow_alpha = parse_constant(p, rgb_black());
+}
+
+static void trianglemesh(struct parser *p, void *object)
+{
+    struct params *q = &p->params;
+    struct mesh *m = mesh_of(object);
     const unsigned uv_types = 1u << PARAM_FLOAT | 1u << PARAM_POINT2;
     points(q, m);
     m->N = vertex_data(q, "N", 1u << PARAM_NORMAL, 3, m->n_vertices);
     m->UV = vertex_data(q, "uv", uv_types, 2, m->n_vertices);
     if (m->UV == NULL)
         m->UV = vertex_data(q, "st", uv_types, 2, m->n_vertices);
+    holes(p, object);
 }
 
-/* As in pbrt-v3, "levels" comes before "nlevels". */
-static void loopsubdiv(struct params *q, struct mesh *m)
+/* As in pbrt-v3, "levels" comes before "nlevels", and neither this nor a heightfield has an alpha. */
+static void loopsubdiv(struct parser *p, void *object)
 {
+    struct params *q = &p->params;
+    struct mesh *m = mesh_of(object);
     struct error inner;
     int levels = params_int(q, "levels", params_int(q, "nlevels", 3, 0, 30), 0, 30);
     points(q, m);
@@ -93,8 +123,10 @@ static void loopsubdiv(struct params *q, struct mesh *m)
 }
 
 /* Heights "Pz" over nu x nv points of the unit square, the first row at y = 0; two triangles between each four. */
-static void heightfield(struct params *q, struct mesh *m)
+static void heightfield(struct parser *p, void *object)
 {
+    struct params *q = &p->params;
+    struct mesh *m = mesh_of(object);
     enum { MOST = 1 << 14 };
     int n, nu = params_int(q, "nu", 0, 0, MOST), nv = params_int(q, "nv", 0, 0, MOST);
     const double *z = params_list(q, "Pz", 1u << PARAM_FLOAT, 1, &n, NULL);
@@ -119,8 +151,10 @@ static void heightfield(struct params *q, struct mesh *m)
     }
 }
 
-static void plymesh(struct params *q, struct mesh *m)
+static void plymesh(struct parser *p, void *object)
 {
+    struct params *q = &p->params;
+    struct mesh *m = mesh_of(object);
     struct source_position at;
     struct error inner;
     char *path = params_file(q, "filename", &at);
@@ -130,39 +164,7 @@ static void plymesh(struct params *q, struct mesh *m)
         params_fail(q, at, "%s", inner.text);
     *q->content = hash_combine(*q->content, m->content);
     free(path);
-}
-
-/* The texture of "alpha" or "shadowalpha"; -1 if the surface is simply there, *absent if it is simply not. */
-static int alpha(struct parser *p, const char *name, bool *absent)
-{
-    *absent = false;
-    if (params_has(&p->params, name, PARAM_TEXTURE))
-        return parse_named_float(p, name);
-    *absent = params_number(&p->params, name, 1, ANY_NUMBER) == 0;
-    return -1;
-}
-
-static void mesh_shape(struct parser *p, void *object)
-{
-    struct shape_item *item = object;
-    bool no_surface, no_shadow;
-    item->is_mesh = true;
-    if (p->type->kind == TRIANGLEMESH)
-        trianglemesh(&p->params, &item->mesh);
-    else if (p->type->kind == PLYMESH)
-        plymesh(&p->params, &item->mesh);
-    else if (p->type->kind == LOOPSUBDIV)
-        loopsubdiv(&p->params, &item->mesh);
-    else
-        heightfield(&p->params, &item->mesh);
-    item->absent = item->mesh.n_triangles == 0;
-    if (p->type->kind == LOOPSUBDIV || p->type->kind == HEIGHTFIELD)
-        return; /* in pbrt-v3 they have no alpha */
-    item->group.alpha = alpha(p, "alpha", &no_surface);
-    item->absent |= no_surface;
-    item->group.shadow_alpha = alpha(p, "shadowalpha", &no_shadow);
-    if (no_shadow)
-        item->group.shadow_alpha = parse_constant(p, rgb_black());
+    holes(p, object);
 }
 
 /* --- quadrics ----------------------------------------------------------------------------------------- */
@@ -245,36 +247,36 @@ static void hyperboloid(struct parser *p, void *object)
 #define SWEPT(f, x) {#f, parse_point, offsetof(struct shape_item, quadric.f), GREY(x), 0, 0, NULL}
 #define ALPHA BY_BUILD("alpha"), BY_BUILD("shadowalpha"), END_OF_PARAMETERS
 
-static const struct parameter TRIANGLEMESH_ROWS[] = {
+static const struct parameter TRIANGLEMESH[] = {
     BY_BUILD("P"), BY_BUILD("N"), BY_BUILD("uv"), BY_BUILD("st"), BY_BUILD("indices"),
     IGNORED("faceIndices"), /* for Ptex only */
     {"S", parse_ignored, 0, GREY(0), 0, 0,
      "tangents \"S\" are ignored: anisotropic materials follow the texture coordinates"},
     ALPHA};
-static const struct parameter PLYMESH_ROWS[] = {BY_BUILD("filename"), ALPHA};
+static const struct parameter PLYMESH[] = {BY_BUILD("filename"), ALPHA};
 static const struct parameter SPHERE[] = {ROUND, BY_BUILD("zmin"), BY_BUILD("zmax"), END_OF_PARAMETERS};
 static const struct parameter DISK[] = {ROUND, QUADRIC("innerradius", parse_number, inner_radius, 0, AT_LEAST_0),
                                         QUADRIC("height", parse_number, zmin, 0, ANY_NUMBER), END_OF_PARAMETERS};
 static const struct parameter CONE[] = {ROUND, QUADRIC("height", parse_number, zmax, 1, POSITIVE), END_OF_PARAMETERS};
 static const struct parameter HYPERBOLOID[] = {SWEPT(p1, 0), SWEPT(p2, 1), TURN, END_OF_PARAMETERS};
-static const struct parameter LOOPSUBDIV_ROWS[] = {
+static const struct parameter LOOPSUBDIV[] = {
     BY_BUILD("levels"), BY_BUILD("nlevels"), BY_BUILD("indices"), BY_BUILD("P"),
     IGNORED("scheme"), /* there is but one */
     END_OF_PARAMETERS};
 
-static const struct parameter HEIGHTFIELD_ROWS[] = {BY_BUILD("nu"), BY_BUILD("nv"), BY_BUILD("Pz"), END_OF_PARAMETERS};
+static const struct parameter HEIGHTFIELD[] = {BY_BUILD("nu"), BY_BUILD("nv"), BY_BUILD("Pz"), END_OF_PARAMETERS};
 
 static const struct object_type TYPES[] = {
-    {"trianglemesh", TRIANGLEMESH_ROWS, TRIANGLEMESH, mesh_shape},
-    {"plymesh", PLYMESH_ROWS, PLYMESH, mesh_shape},
+    {"trianglemesh", TRIANGLEMESH, 0, trianglemesh},
+    {"plymesh", PLYMESH, 0, plymesh},
     {"sphere", SPHERE, QUADRIC_SPHERE, sphere},
     {"disk", DISK, QUADRIC_DISK, disk},
     {"cylinder", SPHERE, QUADRIC_CYLINDER, cylinder},
     {"cone", CONE, QUADRIC_CONE, cone},
     {"paraboloid", SPHERE, QUADRIC_PARABOLOID, paraboloid},
     {"hyperboloid", HYPERBOLOID, QUADRIC_HYPERBOLOID, hyperboloid},
-    {"loopsubdiv", LOOPSUBDIV_ROWS, LOOPSUBDIV, mesh_shape},
-    {"heightfield", HEIGHTFIELD_ROWS, HEIGHTFIELD, mesh_shape},
+    {"loopsubdiv", LOOPSUBDIV, 0, loopsubdiv},
+    {"heightfield", HEIGHTFIELD, 0, heightfield},
     REFUSED("curve"), REFUSED("nurbs"), OTHERS_LEFT_OUT};
 
 /* --- the directive ------------------------------------------------------------------------------------ */
@@ -305,10 +307,11 @@ static bool complete_shape(struct parser *p, struct shape_item *item)
                     "area lights inside ObjectBegin are ignored, as in pbrt-v3");
         item->area.on = false;
     }
-    if (item->absent && item->area.on)
+    bool absent = item->absent || (item->is_mesh && item->mesh.n_triangles == 0);
+    if (absent && item->area.on)
         source_warn(&p->messages, item->position, "absent light",
                     "a light of alpha 0 or without triangles is left out");
-    if (item->absent)
+    if (absent)
         return false;
     if (item->area.on)
         warn_of_light(p, item);

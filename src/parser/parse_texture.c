@@ -131,7 +131,7 @@ static void imagemap(struct parser *p, void *object)
 #define FIELD(f) offsetof(struct texture, u.f)
 #define NUMBER(name, f, x) {name, parse_number, FIELD(f), GREY(x), ANY_NUMBER, NULL}
 #define MAPPING(kind) {"mapping", mapping, FIELD(kind.map), GREY(0), 0, 0, NULL}
-#define OPERAND(name, f, x) {name, operand, FIELD(f), GREY(x), 0, 0, NULL}
+#define OPERAND(name, f, x) {name, operand, FIELD(f), GREY(x), ANY_NUMBER, NULL}
 #define OPERANDS(kind, first, second) OPERAND("tex1", kind.tex1, first), OPERAND("tex2", kind.tex2, second)
 #define VALUE(name, f, x) {name, value, FIELD(f), GREY(x), 0, 0, NULL}
 
@@ -139,7 +139,7 @@ static const struct parameter CONSTANT[] = {VALUE("value", constant, 1), END_OF_
 static const struct parameter SCALE[] = {OPERANDS(pair, 1, 1), END_OF_PARAMETERS};
 static const struct parameter MIX[] = {
     OPERANDS(pair, 0, 1),
-    {"amount", parse_float_texture, FIELD(pair.amount), GREY(0.5), 0, 0, NULL},
+    {"amount", parse_float_texture, FIELD(pair.amount), GREY(0.5), ANY_NUMBER, NULL},
     END_OF_PARAMETERS};
 static const struct parameter CHECKERBOARD[] = {
     OPERANDS(pattern, 1, 0),
