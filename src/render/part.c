@@ -63,45 +63,52 @@ static void put_sum(struct stream *s, const struct exact_sum *sum)
         put_digit(s, sum->digit[i]);
 }
 
-/* The next byte, or -1 at the end of the file. */
-static int get(struct stream *s)
+/* Fill the buffer up behind what is not used yet. */
+static void refill(struct stream *s)
 {
-    if (s->used == s->filled) {
-        s->crc = checksum_crc32(s->crc, s->byte, s->filled);
-        s->filled = fread(s->byte, 1, sizeof s->byte, s->file);
-        s->used = 0;
-    }
-    return s->used < s->filled ? s->byte[s->used++] : -1;
+    s->crc = checksum_crc32(s->crc, s->byte, s->used);
+    s->filled -= s->used;
+    memmove(s->byte, s->byte + s->used, s->filled);
+    s->filled += fread(s->byte + s->filled, 1, BUFFER - s->filled, s->file);
+    s->used = 0;
 }
 
-static bool get_digit(struct stream *s, int64_t *out)
+/* The next byte of the buffer, or -1. */
+static int get(struct stream *s) { return s->used < s->filled ? s->byte[s->used++] : -1; }
+
+/* The digit that begins at `at`; returns where the next one does, or NULL if this one does not end before `end`. */
+static const uint8_t *get_digit(const uint8_t *at, const uint8_t *end, int64_t *out)
 {
     uint64_t value = 0;
-    for (int shift = 0; shift < 64; shift += 7) {
-        int byte = get(s);
-        if (byte < 0 || (shift == 63 && byte > 1))
-            return false;
+    for (int shift = 0; shift < 64 && at < end; shift += 7) {
+        uint8_t byte = *at++;
+        if (shift == 63 && byte > 1)
+            return NULL;
         value |= (uint64_t)(byte & 127) << shift;
         if (byte < 128) {
             int64_t half = (int64_t)(value >> 1);
             *out = value & 1 ? -1 - half : half;
-            return true;
+            return at;
         }
     }
-    return false;
+    return NULL;
 }
 
 static bool get_sum(struct stream *s, struct exact_sum *out)
 {
     memset(out, 0, sizeof *out);
+    if (s->filled - s->used < LONGEST_SUM)
+        refill(s);
     int top = get(s);
     if (top == EMPTY)
         return true;
     out->top = top;
-    bool ok = top >= 0 && top < EXACT_PLACES;
-    for (int i = 0; ok && i < EXACT_DIGITS; i++)
-        ok = get_digit(s, &out->digit[i]);
-    return ok;
+    const uint8_t *at = top >= 0 && top < EXACT_PLACES ? s->byte + s->used : NULL;
+    for (int i = 0; at != NULL && i < EXACT_DIGITS; i++)
+        at = get_digit(at, s->byte + s->filled, &out->digit[i]);
+    if (at != NULL)
+        s->used = (size_t)(at - s->byte);
+    return at != NULL;
 }
 
 /* --- writing ----------------------------------------------------------------------------------------- */
@@ -252,7 +259,8 @@ static bool add_sums(struct stream *s, const struct part *p, struct film *film)
         if (!get_sum(s, &sum) || !exact_join(&film->sum[i], &sum))
             return false;
     }
-    uint32_t crc = checksum_crc32(s->crc, s->byte, s->used), said = 0;
+    refill(s);
+    uint32_t crc = s->crc, said = 0;
     for (int i = 0; i < 4; i++) {
         int byte = get(s);
         if (byte < 0)
