@@ -1,7 +1,6 @@
 /* picture.c: see picture.h. */
 #include "image/picture.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -5,7 +5,6 @@
 #ifndef ASBDPT_SHEET_H
 #define ASBDPT_SHEET_H
 
-#include "base/error.h"
 #include "image/font.h"
 
 struct sheet {

@@ -80,9 +80,9 @@ void compare_heatmap(const float *error, long pixels, double most, float *out)
 
 static float linear_value(const struct image *img, size_t i)
 {
-    if (img->linear)
-        return img->f32[i];
-    return (float)srgb_decode(img->u8 != NULL ? img->u8[i] / 255.0 : (double)img->f32[i]);
+    if (img->u8 != NULL)
+        return img->decode[img->u8[i]];
+    return img->linear ? img->f32[i] : (float)srgb_decode((double)img->f32[i]);
 }
 
 float *load_linear(const char *path, int *width, int *height, struct image *about, struct error *err)

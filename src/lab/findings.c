@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "base/maths.h"
 #include "lab/published.h"
@@ -39,49 +38,43 @@ static const char *interval_text(struct interval i, char out[64])
 
 /* --- one scene --------------------------------------------------------------------------------------- */
 
-/* The printed ratio at a number of samples, or at the nearest one that was printed. */
-static double printed_ratio(const struct published *p, long spp, long *at)
+/* The ratio that the dissertation prints, after as many samples as the last step has, or fewer if need be; *at becomes
+ * their number. NaN: it does not have this scene. */
+static double printed_ratio(const struct results *r, const struct scene_results *s, long *at)
 {
+    const struct published *p = published_find(s->name);
     int i = 0;
-    while (i + 1 < PUBLISHED_STEPS && published_spp(i + 1) <= spp)
+    if (p == NULL)
+        return NAN;
+    while (i + 1 < PUBLISHED_STEPS && published_spp(i + 1) <= plan_last_spp(r->plan))
         i++;
     *at = published_spp(i);
     return p->asbdpt[i] / p->bdpt[i];
 }
 
-/* Is the dissertation's direction found again at the last step? The printed table has no errors, so its ratio is
- * taken as it stands. */
-static enum outcome agreement(const struct results *r, const struct scene_results *s, double *printed, long *at)
+/* Is the printed ratio on the same side of 1 as ours? It has no interval, so it is taken as it stands. */
+enum agreement { AGREES, DIFFERS, NOT_DECIDED };
+static enum agreement agreement(struct interval ours, double printed)
 {
-    int last = results_last_step(r);
-    const struct published *p = published_find(s->name);
-    enum outcome ours = outcome_of(results_rmse_ratio(r, s, VARIANT_BINS, last));
-    *printed = NAN;
-    if (p == NULL)
-        return OUTCOME_UNDECIDED;
-    *printed = printed_ratio(p, r->plan->spp[last], at);
-    if (ours == OUTCOME_UNDECIDED)
-        return ours;
-    return (ours == OUTCOME_GAIN) == (*printed < 1) ? OUTCOME_GAIN : OUTCOME_LOSS;
+    enum outcome outcome = outcome_of(ours);
+    if (outcome == OUTCOME_UNDECIDED)
+        return NOT_DECIDED;
+    return (outcome == OUTCOME_GAIN) == (printed < 1) ? AGREES : DIFFERS;
 }
 
 static void add_comparison_with_printed(const struct results *r, const struct scene_results *s, struct findings *f)
 {
+    static const char *const agreements[] = {"found again here", "not found here",
+                                             "neither confirmed nor refuted here"};
     char text[64];
-    int last = results_last_step(r);
     long at = 0;
-    double printed;
-    struct interval ours = results_rmse_ratio(r, s, VARIANT_BINS, last);
-    enum outcome same = agreement(r, s, &printed, &at);
-    add_finding(f, "After %ld samples per pixel the RMSE of bins is that of BDPT times %s: %s.", r->plan->spp[last],
-                interval_text(ours, text), OUTCOMES[outcome_of(ours)]);
-    if (!isfinite(printed))
-        return;
-    add_finding(f, "The dissertation prints %.3f after %ld samples, %s: %s.", printed, at,
-                printed < 1 ? "a gain" : "a loss",
-                same == OUTCOME_UNDECIDED ? "neither confirmed nor refuted here"
-                : same == OUTCOME_GAIN    ? "found again here"
-                                          : "not found here");
+    double printed = printed_ratio(r, s, &at);
+    struct interval ours = results_rmse_ratio(r, s, VARIANT_BINS, results_last_step(r));
+    add_finding(f, "After %ld samples per pixel the RMSE of bins is that of BDPT times %s: %s.",
+                plan_last_spp(r->plan), interval_text(ours, text), OUTCOMES[outcome_of(ours)]);
+    if (isfinite(printed))
+        add_finding(f, "The dissertation prints %.3f after %ld samples, %s: %s.", printed, at,
+                    printed < 1 ? "a gain" : "a loss", agreements[agreement(ours, printed)]);
 }
 
 /* How much the error still falls over the last doubling. */
@@ -138,19 +131,19 @@ static void add_agreement(const struct results *r, struct findings *f)
 {
     int count[3] = {0, 0, 0}, scenes = 0;
     for (int i = 0; i < r->plan->n_scenes; i++) {
-        double printed;
+        const struct scene_results *s = &r->scene[i];
         long at;
-        enum outcome v = agreement(r, &r->scene[i], &printed, &at);
+        double printed = printed_ratio(r, s, &at);
         if (!isfinite(printed))
             continue;
         scenes++;
-        count[v]++;
+        count[agreement(results_rmse_ratio(r, s, VARIANT_BINS, results_last_step(r)), printed)]++;
     }
     if (scenes > 0)
         add_finding(f,
                     "Whether bins has a lower or a higher RMSE than BDPT at the same number of samples agrees with the "
                     "dissertation in %d of %d scenes, differs in %d and is undecided in %d.",
-                    count[OUTCOME_GAIN], scenes, count[OUTCOME_LOSS], count[OUTCOME_UNDECIDED]);
+                    count[AGREES], scenes, count[DIFFERS], count[NOT_DECIDED]);
 }
 
 static void add_gains(const struct results *r, int variant, struct findings *f)

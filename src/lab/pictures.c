@@ -1,7 +1,6 @@
 /* pictures.c: see pictures.h. */
 #include "lab/pictures.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -13,6 +13,8 @@
 #include "image/sheet.h"
 #include "lab/compare.h"
 
+enum { PATH_SIZE = 4096 };
+
 void reference_free(struct reference *r)
 {
     free(r->pixels);
@@ -42,7 +44,7 @@ static void read_line(char *line, struct reference_text *s)
 /* Read NAME.txt beside NAME.pfm; a missing file says nothing. */
 static void read_text(const char *picture, struct reference_text *s)
 {
-    char path[4096], line[2048];
+    char path[PATH_SIZE], line[2048];
     memset(s, 0, sizeof *s);
     s->noise8 = s->mean_error = NAN;
     const char *dot = strrchr(picture, '.');
@@ -59,14 +61,15 @@ static void read_text(const char *picture, struct reference_text *s)
 
 /* --- stored references ------------------------------------------------------------------------------- */
 
-/* Read one picture, shrink it if it fits. Returns as reference_find does; *text is what is written beside it. */
-static int load_fitting(const char *path, int width, int height, int max_depth, struct reference *out,
-                        struct reference_text *text, struct error *err)
+/* Read one picture, shrunk to this size; *text is what is written beside it. Returns false with a message if it does
+ * not fit. */
+static bool load_fitting(const char *path, int width, int height, int max_depth, struct reference *out,
+                         struct reference_text *text, struct error *err)
 {
     int w, h;
     float *pixels = load_linear(path, &w, &h, NULL, err);
     if (pixels == NULL)
-        return -1;
+        return false;
     read_text(path, text);
     int k = w / width;
     bool fits = k >= 1 && w == k * width && h == k * height;
@@ -75,14 +78,15 @@ static int load_fitting(const char *path, int width, int height, int max_depth, 
         error_set(err, "%s is %dx%d, which is no whole multiple of %dx%d", path, w, h, width, height);
     else if (!deep)
         error_set(err, "%s holds paths up to maxdepth %ld, not %d", path, text->max_depth, max_depth);
-    else
+    if (fits && deep) {
         out->pixels = sheet_shrink(pixels, w, h, k);
+        out->noise8 = text->noise8 / k;
+        out->mean_error = text->mean_error;
+        snprintf(out->origin, sizeof out->origin, "stored picture %s of %dx%d pixels%s", path, w, h,
+                 k > 1 ? ", averaged to this size" : "");
+    }
     free(pixels);
-    out->noise8 = text->noise8 / k;
-    out->mean_error = text->mean_error;
-    snprintf(out->origin, sizeof out->origin, "stored picture %s of %dx%d pixels%s", path, w, h,
-             k > 1 ? ", averaged to this size" : "");
-    return fits && deep ? 1 : -1;
+    return fits && deep;
 }
 
 static bool readable(const char *path)
@@ -93,7 +97,7 @@ static bool readable(const char *path)
     return f != NULL;
 }
 
-enum { PATH_SIZE = 4096, N_PLACES = 3 };
+enum { N_PLACES = 3 };
 
 /* Where a reference may be without being given: beside the scene, one directory up, in the current one. */
 static void place_path(int i, const char *scene_path, const char *name, char path[PATH_SIZE])
@@ -119,11 +123,11 @@ int reference_find(const char *given, const char *scene_path, const char *name, 
     struct reference_text text;
     if (given != NULL) {
         given_path(given, name, path);
-        return load_fitting(path, width, height, max_depth, out, &text, err);
+        return load_fitting(path, width, height, max_depth, out, &text, err) ? 1 : -1;
     }
     for (int i = 0; i < N_PLACES; i++) {
         place_path(i, scene_path, name, path);
-        if (readable(path) && load_fitting(path, width, height, max_depth, out, &text, NULL) == 1)
+        if (readable(path) && load_fitting(path, width, height, max_depth, out, &text, NULL))
             return 1;
     }
     return 0;
@@ -230,7 +234,7 @@ bool reference_render(const struct scene *scene, const struct render_options *op
 bool reference_write(const struct reference *r, const char *directory, const char *name, const char *key, int width,
                      int height, int max_depth, struct error *err)
 {
-    char path[4096];
+    char path[PATH_SIZE];
     struct file_output f;
     snprintf(path, sizeof path, "%s/%s.pfm", directory, name);
     if (!image_write(path, width, height, r->pixels, err))
@@ -246,11 +250,11 @@ bool reference_write(const struct reference *r, const char *directory, const cha
 bool reference_read(const char *directory, const char *name, const char *key, int width, int height, int max_depth,
                     struct reference *out)
 {
-    char path[4096];
+    char path[PATH_SIZE];
     struct reference_text text;
     snprintf(path, sizeof path, "%s/%s.pfm", directory, name);
     read_text(path, &text);
-    if (strcmp(text.key, key) != 0 || load_fitting(path, width, height, max_depth, out, &text, NULL) != 1)
+    if (strcmp(text.key, key) != 0 || !load_fitting(path, width, height, max_depth, out, &text, NULL))
         return false;
     snprintf(out->origin, sizeof out->origin, "%s", text.origin);
     return true;

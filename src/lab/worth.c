@@ -2,7 +2,6 @@
 #include "lab/worth.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
