@@ -14,9 +14,8 @@
 #include "lab/plan_scene.h"
 #include "lab/reference.h"
 
-enum { GAP = 24, LABEL = 60, COLUMN = 480, CALIBRATION_SPP = 4 };
+enum { GAP = 24, LABEL = 60, COLUMN = 480 };
 static const double SOFT = 0.65; /* the grey of what matters less */
-static const double NEAR = 0.03; /* a time this much off is not corrected */
 
 /* The demonstration under way. */
 struct show {
@@ -57,14 +56,14 @@ static bool render(struct show *s, int i, long spp)
  * long one takes another time. */
 static bool render_both(struct show *s)
 {
-    long calibration = s->demo->spp < CALIBRATION_SPP ? s->demo->spp : CALIBRATION_SPP;
+    long calibration = s->demo->spp < EQUAL_CALIBRATION ? s->demo->spp : EQUAL_CALIBRATION;
     if (!render(s, 0, s->demo->spp) || !render(s, 1, calibration))
         return false;
     double target = s->side[0].seconds, growth = 1;
     for (int attempt = 0; attempt < 2; attempt++) {
         struct demo_side before = s->side[1];
         long spp = equal_samples(before.spp, before.seconds, growth, target);
-        if (spp == before.spp || fabs(before.seconds / target - 1) <= NEAR)
+        if (spp == before.spp || equal_met(before.seconds, target))
             break;
         if (!render(s, 1, spp))
             return false;

@@ -13,8 +13,7 @@
 #include "lab/plan_scene.h"
 #include "render/render.h"
 
-enum { CALIBRATION_SPP = 4, CORRECTIONS = 3, REFERENCE_SEED = 100001 };
-static const double NEAR = 0.03; /* a time this near needs no correction */
+enum { CORRECTIONS = 3, REFERENCE_SEED = 100001 };
 
 /* A scene being measured. */
 struct subject {
@@ -83,7 +82,7 @@ static bool render_in_time(struct subject *s, int variant, const struct equal_re
         trial.growth = equal_growth(calibration->spp, calibration->seconds, trial.spp, trial.seconds);
         if (i == 0 || off(&trial) < off(r))
             *r = trial;
-        if (off(r) <= NEAR)
+        if (equal_met(r->seconds, r->target))
             break;
         spp = equal_samples(trial.spp, trial.seconds, trial.growth, trial.target);
     }
@@ -95,7 +94,7 @@ static bool measure_variant(struct subject *s, int variant, int seed)
 {
     const struct plan *p = s->whole->plan;
     struct equal_render *r = &s->out->render[variant][seed - 1], calibration = {.seed = equal_seed(variant, seed)};
-    if (!render_samples(s, variant, CALIBRATION_SPP, &calibration)) /* also warms up what the next will use */
+    if (!render_samples(s, variant, EQUAL_CALIBRATION, &calibration)) /* also warms up what the next will use */
         return false;
     r->seed = calibration.seed;
     r->target = s->whole->seconds > 0 ? s->whole->seconds : s->out->render[0][seed - 1].target;

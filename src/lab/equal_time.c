@@ -17,7 +17,6 @@ const struct variant EQUAL_VARIANTS[N_EQUAL] = {
 };
 
 enum { SEED_BASE = 5000, MOST_SAMPLES = 1 << 20 };
-static const double NEAR = 0.03; /* how far t should be from T at most, as a share of T */
 
 void equal_free(struct equal_time *e)
 {
@@ -26,6 +25,8 @@ void equal_free(struct equal_time *e)
 }
 
 /* --- arithmetic -------------------------------------------------------------------------------------- */
+
+bool equal_met(double seconds, double target) { return fabs(seconds / target - 1) <= EQUAL_PERCENT / 100.0; }
 
 long equal_seed(int variant, int i) { return SEED_BASE + 100L * variant + i; }
 
@@ -171,12 +172,12 @@ static void write_times(FILE *f, const struct equal_time *e)
         for (const struct equal_scene *s = e->scene; s < e->scene + e->n_scenes; s++)
             for (const struct equal_render *r = s->render[v]; r < s->render[v] + e->plan->n_seeds; r++, n++) {
                 double off = r->seconds / r->target - 1;
-                near += fabs(off) <= NEAR;
+                near += equal_met(r->seconds, r->target);
                 farthest = fabs(off) > fabs(farthest) ? off : farthest;
                 nonfinite += r->nonfinite;
             }
-        fprintf(f, "- %s: %d of %d renders took the given time within %.0f %%; the farthest was off by %+.1f %%.",
-                EQUAL_VARIANTS[v].label, near, n, 100 * NEAR, 100 * farthest);
+        fprintf(f, "- %s: %d of %d renders took the given time within %d %%; the farthest was off by %+.1f %%.",
+                EQUAL_VARIANTS[v].label, near, n, EQUAL_PERCENT, 100 * farthest);
         if (nonfinite > 0)
             fprintf(f, " %ld values were no numbers and are left out.", nonfinite);
         fputs("\n", f);

@@ -45,6 +45,12 @@ struct equal_time {
     int n_scenes;              /* done so far */
 };
 
+/* The first guess at the samples is made by the time that so few take; a time so near to the given one is met. */
+enum { EQUAL_CALIBRATION = 4, EQUAL_PERCENT = 3 };
+
+/* equal_met: is the time as good as the one given? */
+bool equal_met(double seconds, double target);
+
 /* equal_seed: of repetition i = 1, 2, ... of a variant: those of no other experiment, and of no other variant. */
 long equal_seed(int variant, int i);
 

@@ -18,15 +18,13 @@ static void put_path(struct json *j, const char *name, const struct scene *scene
     json_open(j, name, '[');
     for (int i = 0; i < path->n; i++) {
         const struct vertex *v = &path->vertex[i];
-        bool at_infinity = vertex_at_infinity(scene, v) || v->kind == VERTEX_ESCAPED;
         double pdf_rev = trace_pdf_rev(scene, path, i);
+        vec3 place;
+        bool at_infinity = trace_place(scene, v, &place);
         json_open(j, NULL, '{');
         json_text(j, "what", trace_what(scene, v));
         json_number(j, "light", v->light);
-        if (at_infinity)
-            put_vec(j, "towards", v->kind == VERTEX_ESCAPED ? neg(v->wo) : v->wo);
-        else
-            put_vec(j, "position", v->p);
+        put_vec(j, at_infinity ? "towards" : "position", place);
         put_vec(j, "normal", v->ng);
         put_rgb(j, "beta", v->beta);
         json_text(j, "per", trace_measure(scene, v));

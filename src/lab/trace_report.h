@@ -28,6 +28,9 @@ void trace_json(FILE *f, const struct trace_story *story);
 const char *trace_what(const struct scene *scene, const struct vertex *v);
 const char *trace_measure(const struct scene *scene, const struct vertex *v);
 
+/* trace_place: where a vertex is, in *out; of what is infinitely far the direction towards it, and it returns true. */
+bool trace_place(const struct scene *scene, const struct vertex *v, vec3 *out);
+
 /* trace_svg: the sub-paths and connections within the scene's outlines, from the camera and from above, as an SVG file
  * that needs nothing else. */
 void trace_svg(FILE *f, const struct trace_story *story);

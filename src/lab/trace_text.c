@@ -7,10 +7,14 @@
 
 const char *trace_what(const struct scene *scene, const struct vertex *v)
 {
-    static const char *const lights[] = {"area light", "point light", "spot light", "goniometric light",
-                                         "projection light", "distant light", "infinite light"};
-    static const char *const materials[] = {"matte", "mirror", "glass", "metal", "plastic", "substrate", "uber",
-                                            "translucent", "mix"};
+    static const char *const lights[] = {
+        [LIGHT_AREA] = "area light", [LIGHT_POINT] = "point light", [LIGHT_SPOT] = "spot light",
+        [LIGHT_GONIOMETRIC] = "goniometric light", [LIGHT_PROJECTION] = "projection light",
+        [LIGHT_DISTANT] = "distant light", [LIGHT_INFINITE] = "infinite light"};
+    static const char *const materials[] = {
+        [MATERIAL_MATTE] = "matte", [MATERIAL_MIRROR] = "mirror", [MATERIAL_GLASS] = "glass",
+        [MATERIAL_METAL] = "metal", [MATERIAL_PLASTIC] = "plastic", [MATERIAL_SUBSTRATE] = "substrate",
+        [MATERIAL_UBER] = "uber", [MATERIAL_TRANSLUCENT] = "translucent", [MATERIAL_MIX] = "mix"};
     switch (v->kind) {
     case VERTEX_LENS: return "lens";
     case VERTEX_LIGHT: return lights[scene->lights.light[v->light].kind];
@@ -30,6 +34,13 @@ const char *trace_measure(const struct scene *scene, const struct vertex *v)
     case VERTEX_ESCAPED: return "sr";
     }
     return NULL;
+}
+
+bool trace_place(const struct scene *scene, const struct vertex *v, vec3 *out)
+{
+    bool at_infinity = vertex_at_infinity(scene, v);
+    *out = v->kind == VERTEX_ESCAPED ? neg(v->wo) : at_infinity ? v->wo : v->p;
+    return at_infinity || v->kind == VERTEX_ESCAPED;
 }
 
 /* How a light sub-path's vertices are called: y_2, or y_2(5) where there are more sub-paths than one. */
@@ -73,10 +84,10 @@ static void print_path(FILE *f, const struct scene *scene, const struct trace_pa
             "pdf_rev");
     for (int i = 0; i < path->n; i++) {
         const struct vertex *v = &path->vertex[i];
-        bool at_infinity = vertex_at_infinity(scene, v) || v->kind == VERTEX_ESCAPED;
-        vec3 p = v->kind == VERTEX_ESCAPED ? neg(v->wo) : at_infinity ? v->wo : v->p;
         bool delta = i + 1 < path->n && path->vertex[i + 1].prev_delta;
         char what[40];
+        vec3 p;
+        trace_place(scene, v, &p);
         snprintf(what, sizeof what, "%s%s", trace_what(scene, v), delta ? ", delta" : "");
         fprintf(f, "  %c_%-4d %-17s %9.4g %9.4g %9.4g  %9.4g  %9.4g  %9.4g", letter, i, what, p.x, p.y, p.z, v->beta.r,
                 v->beta.g, v->beta.b);
