@@ -333,7 +333,7 @@ static void check_tables(struct test *t, const struct results *r)
     double x = a->value[Q_RMSE8], y = b->value[Q_RMSE8], mean = 0.5 * (x + y), error = 0.5 * fabs(x - y);
     CHECK(t, table.cell[cell].value == mean, "RMSE of pool in the table: %g, computed: %g", table.cell[cell].value,
           mean);
-    struct estimate e = results_mean(r, s, VARIANT_POOL, last, Q_RMSE8);
+    struct estimate e = results_mean(s, VARIANT_POOL, last, Q_RMSE8);
     CHECK(t, fabs(e.error - error) < 1e-12, "standard error of two values: %g, %g", e.error, error);
     table_free(&table);
 
@@ -365,7 +365,7 @@ static void check_range(struct test *t, const struct results *r)
     struct error err = {""};
     char path[512];
     double largest = 0;
-    picture_path(r, s, VARIANT_POOL, PICTURE_RANGE, 0, path, sizeof path);
+    picture_path(s, VARIANT_POOL, PICTURE_RANGE, 0, path, sizeof path);
     if (!CHECK(t, image_read(path, &img, &err), "%s", err.text))
         return;
     int half = 3 * s->width * s->height;

@@ -320,6 +320,7 @@ static bool name_scenes(const struct plan *p, struct results *r, struct error *e
 {
     for (int i = 0; i < p->n_scenes; i++) {
         struct scene_results *s = &r->scene[i];
+        s->plan = p;
         s->path = p->scene[i];
         plan_scene_name(s->path, s->name, sizeof s->name);
         for (int k = 0; k < i; k++)

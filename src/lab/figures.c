@@ -44,22 +44,21 @@ static const struct {
 
 const char *figure_name(enum figure f) { return TEXTS[f].name; }
 
-static void add_line(const struct results *r, const struct scene_results *s, int variant, const char *label,
-                     struct plot *out)
+static void add_line(const struct scene_results *s, int variant, const char *label, struct plot *out)
 {
     struct plot_line *l = &out->line[out->n++];
     double scale = out->signed_y ? 100 : 1; /* percent */
     l->label = label;
-    l->n = r->plan->n_steps;
+    l->n = s->plan->n_steps;
     for (int i = 0; i < l->n; i++) {
-        struct estimate e = results_mean(r, s, variant, i, out->signed_y ? Q_MEAN_ERROR : Q_RMSE8);
-        l->x[i] = out->over_seconds ? results_mean(r, s, variant, i, Q_SECONDS).mean : (double)r->plan->spp[i];
+        struct estimate e = results_mean(s, variant, i, out->signed_y ? Q_MEAN_ERROR : Q_RMSE8);
+        l->x[i] = out->over_seconds ? results_mean(s, variant, i, Q_SECONDS).mean : (double)s->plan->spp[i];
         l->y[i] = scale * e.mean;
         l->error[i] = scale * e.error;
     }
 }
 
-static void make_plot(const struct results *r, const struct scene_results *s, enum figure f, struct plot *out)
+static void make_plot(const struct scene_results *s, enum figure f, struct plot *out)
 {
     const struct sweep_point *sweep = SWEEPS[f == FIGURE_PATHS ? SWEEP_PATHS : SWEEP_RESTART];
     bool is_sweep = f == FIGURE_PATHS || f == FIGURE_RESTART;
@@ -70,10 +69,10 @@ static void make_plot(const struct results *r, const struct scene_results *s, en
     out->over_seconds = f == FIGURE_CONVERGENCE;
     out->signed_y = f == FIGURE_BIAS;
     for (int v = 0; v < (is_sweep ? 1 : N_COMPARED); v++)
-        add_line(r, s, v, VARIANTS[v].label, out);
+        add_line(s, v, VARIANTS[v].label, out);
     for (int i = 0; is_sweep && i < SWEEP_LENGTH; i++)
-        if (plan_seeds(r->plan, sweep[i].variant) > 0)
-            add_line(r, s, sweep[i].variant, sweep[i].label, out);
+        if (plan_seeds(s->plan, sweep[i].variant) > 0)
+            add_line(s, sweep[i].variant, sweep[i].label, out);
 }
 
 /* --- axes -------------------------------------------------------------------------------------------- */
@@ -306,12 +305,11 @@ static void write_description(FILE *f, const struct plot *p)
     }
 }
 
-void figure_write(FILE *f, const struct results *r, const struct scene_results *s, enum figure which, const char *id,
-                  bool standalone)
+void figure_write(FILE *f, const struct scene_results *s, enum figure which, const char *id, bool standalone)
 {
     struct plot p;
     struct plot_axis xa, ya;
-    make_plot(r, s, which, &p);
+    make_plot(s, which, &p);
     find_axes(&p, &xa, &ya);
     int height = BOTTOM + 50 + 20 * ((p.n + 2) / 3);
     xml_print(

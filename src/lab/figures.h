@@ -19,8 +19,7 @@ const char *figure_name(enum figure f);
 /* figure_write:
  *   id          a word unique in the page, for references inside the picture
  *   standalone  a file of its own (with its style); else a part of a page that has figure_style's text */
-void figure_write(FILE *f, const struct results *r, const struct scene_results *s, enum figure which, const char *id,
-                  bool standalone);
+void figure_write(FILE *f, const struct scene_results *s, enum figure which, const char *id, bool standalone);
 
 /* figure_style: the CSS that plots need. */
 void figure_style(FILE *f);

@@ -40,13 +40,13 @@ static const char *interval_text(struct interval i, char out[64])
 
 /* The ratio that the dissertation prints, after as many samples as the last step has, or fewer if need be; *at becomes
  * their number. NaN: it does not have this scene. */
-static double printed_ratio(const struct results *r, const struct scene_results *s, long *at)
+static double printed_ratio(const struct scene_results *s, long *at)
 {
     const struct published *p = published_find(s->name);
     int i = 0;
     if (p == NULL)
         return NAN;
-    while (i + 1 < PUBLISHED_STEPS && published_spp(i + 1) <= plan_last_spp(r->plan))
+    while (i + 1 < PUBLISHED_STEPS && published_spp(i + 1) <= plan_last_spp(s->plan))
         i++;
     *at = published_spp(i);
     return p->asbdpt[i] / p->bdpt[i];
@@ -62,45 +62,45 @@ static enum agreement agreement(struct interval ours, double printed)
     return (outcome == OUTCOME_GAIN) == (printed < 1) ? AGREES : DIFFERS;
 }
 
-static void add_comparison_with_printed(const struct results *r, const struct scene_results *s, struct findings *f)
+static void add_comparison_with_printed(const struct scene_results *s, struct findings *f)
 {
     static const char *const agreements[] = {"found again here", "not found here",
                                              "neither confirmed nor refuted here"};
     char text[64];
     long at = 0;
-    double printed = printed_ratio(r, s, &at);
-    struct interval ours = results_rmse_ratio(r, s, VARIANT_BINS, results_last_step(r));
+    double printed = printed_ratio(s, &at);
+    struct interval ours = results_rmse_ratio(s, VARIANT_BINS, plan_last_step(s->plan));
     add_finding(f, "After %ld samples per pixel the RMSE of bins is that of BDPT times %s: %s.",
-                plan_last_spp(r->plan), interval_text(ours, text), OUTCOMES[outcome_of(ours)]);
+                plan_last_spp(s->plan), interval_text(ours, text), OUTCOMES[outcome_of(ours)]);
     if (isfinite(printed))
         add_finding(f, "The dissertation prints %.3f after %ld samples, %s: %s.", printed, at,
                     printed < 1 ? "a gain" : "a loss", agreements[agreement(ours, printed)]);
 }
 
 /* How much the error still falls over the last doubling. */
-static void add_convergence(const struct results *r, const struct scene_results *s, struct findings *f)
+static void add_convergence(const struct scene_results *s, struct findings *f)
 {
-    int last = results_last_step(r);
+    int last = plan_last_step(s->plan);
     double factor[N_COMPARED];
     if (last < 1)
         return;
     for (int v = 0; v < N_COMPARED; v++)
-        factor[v] = results_mean(r, s, v, last - 1, Q_RMSE8).mean / results_mean(r, s, v, last, Q_RMSE8).mean;
+        factor[v] = results_mean(s, v, last - 1, Q_RMSE8).mean / results_mean(s, v, last, Q_RMSE8).mean;
     add_finding(f,
                 "From %ld to %ld samples the RMSE falls by a factor of %.3f for BDPT, %.3f for bins, %.3f for pool, "
                 "%.3f for vertices and %.3f for subspaces; without bias and with a perfect reference it would be %.3f.",
-                r->plan->spp[last - 1], r->plan->spp[last], factor[VARIANT_BDPT], factor[VARIANT_BINS],
+                s->plan->spp[last - 1], s->plan->spp[last], factor[VARIANT_BDPT], factor[VARIANT_BINS],
                 factor[VARIANT_POOL], factor[VARIANT_VERTICES], factor[VARIANT_SUBSPACES],
-                sqrt((double)r->plan->spp[last] / (double)r->plan->spp[last - 1]));
+                sqrt((double)s->plan->spp[last] / (double)s->plan->spp[last - 1]));
 }
 
-static void add_biases(const struct results *r, const struct scene_results *s, struct findings *f)
+static void add_biases(const struct scene_results *s, struct findings *f)
 {
     char own[32] = "an unknown part";
     if (isfinite(s->reference.mean_error))
         snprintf(own, sizeof own, "%.2g %%", 100 * s->reference.mean_error);
     for (int v = 0; v < N_COMPARED; v++) {
-        struct bias b = results_bias(r, s, v, results_last_step(r));
+        struct bias b = results_bias(s, v, plan_last_step(s->plan));
         if (isfinite(b.p))
             add_finding(f,
                         "The mean of %s is off by %+.3f %% with a standard error of %.2g %% (of which the reference "
@@ -110,12 +110,12 @@ static void add_biases(const struct results *r, const struct scene_results *s, s
     }
 }
 
-static void add_equal_times(const struct results *r, const struct scene_results *s, struct findings *f)
+static void add_equal_times(const struct scene_results *s, struct findings *f)
 {
     char text[64];
-    int last = results_last_step(r);
+    int last = plan_last_step(s->plan);
     for (int v = VARIANT_BDPT + 1; v < N_COMPARED; v++) {
-        struct interval i = results_equal_time(r, s, v, last);
+        struct interval i = results_equal_time(s, v, last);
         if (isfinite(i.value))
             add_finding(f, "At equal time the squared error of %s is that of BDPT times %s: %s.", VARIANTS[v].label,
                         interval_text(i, text), OUTCOMES[outcome_of(i)]);
@@ -133,11 +133,11 @@ static void add_agreement(const struct results *r, struct findings *f)
     for (int i = 0; i < r->plan->n_scenes; i++) {
         const struct scene_results *s = &r->scene[i];
         long at;
-        double printed = printed_ratio(r, s, &at);
+        double printed = printed_ratio(s, &at);
         if (!isfinite(printed))
             continue;
         scenes++;
-        count[agreement(results_rmse_ratio(r, s, VARIANT_BINS, results_last_step(r)), printed)]++;
+        count[agreement(results_rmse_ratio(s, VARIANT_BINS, plan_last_step(r->plan)), printed)]++;
     }
     if (scenes > 0)
         add_finding(f,
@@ -151,7 +151,7 @@ static void add_gains(const struct results *r, int variant, struct findings *f)
     int count[3] = {0, 0, 0}, known = 0;
     double log_sum = 0;
     for (int i = 0; i < r->plan->n_scenes; i++) {
-        struct interval ratio = results_equal_time(r, &r->scene[i], variant, results_last_step(r));
+        struct interval ratio = results_equal_time(&r->scene[i], variant, plan_last_step(r->plan));
         count[outcome_of(ratio)]++;
         if (isfinite(ratio.value)) {
             known++;
@@ -173,7 +173,7 @@ static void add_bias_counts(const struct results *r, struct findings *f)
         return;
     for (int i = 0; i < r->plan->n_scenes; i++)
         for (int v = 0; v < N_COMPARED; v++)
-            biased[v] += results_bias(r, &r->scene[i], v, results_last_step(r)).p < 0.01;
+            biased[v] += results_bias(&r->scene[i], v, plan_last_step(r->plan)).p < 0.01;
     add_finding(
         f,
         "The mean of the picture is off (p < 0.01) in %d of %d scenes for BDPT, %d for bins, %d for pool, %d for "
@@ -186,10 +186,10 @@ void findings_make(const struct results *r, const struct scene_results *s, struc
 {
     out->n = 0;
     if (s != NULL) {
-        add_comparison_with_printed(r, s, out);
-        add_equal_times(r, s, out);
-        add_convergence(r, s, out);
-        add_biases(r, s, out);
+        add_comparison_with_printed(s, out);
+        add_equal_times(s, out);
+        add_convergence(s, out);
+        add_biases(s, out);
         return;
     }
     add_agreement(r, out);

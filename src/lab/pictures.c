@@ -10,14 +10,14 @@
 #include "image/image.h"
 #include "lab/compare.h"
 
-void picture_path(const struct results *r, const struct scene_results *s, int variant, enum picture_kind kind,
+void picture_path(const struct scene_results *s, int variant, enum picture_kind kind,
                   int detail, char *out, size_t size)
 {
     static const char *const kinds[] = {"", "-error", "-range"};
     char suffix[32] = "";
     if (detail > 0)
         snprintf(suffix, sizeof suffix, "-detail%d", detail);
-    snprintf(out, size, "%s/images/%s-%s%s%s.png", r->plan->directory, s->name,
+    snprintf(out, size, "%s/images/%s-%s%s%s.png", s->plan->directory, s->name,
              variant == PICTURE_REFERENCE ? "reference" : VARIANTS[variant].name, kinds[kind], suffix);
 }
 
@@ -101,17 +101,17 @@ static bool write_range(const char *path, const float *pixels, int width, int he
 }
 
 /* A picture and its details. */
-static bool write_all(const struct results *r, const struct scene_results *s, int variant, enum picture_kind kind,
+static bool write_all(const struct scene_results *s, int variant, enum picture_kind kind,
                       const float *pixels, const struct detail *detail, struct error *err)
 {
     char path[4096];
-    picture_path(r, s, variant, kind, 0, path, sizeof path);
+    picture_path(s, variant, kind, 0, path, sizeof path);
     bool ok = image_write(path, s->width, s->height, pixels, err);
     for (int i = 0; ok && i < N_DETAILS; i++) {
-        picture_path(r, s, variant, kind, i + 1, path, sizeof path);
+        picture_path(s, variant, kind, i + 1, path, sizeof path);
         ok = write_detail(path, s, pixels, &detail[i], err);
     }
-    picture_path(r, s, variant, PICTURE_RANGE, 0, path, sizeof path);
+    picture_path(s, variant, PICTURE_RANGE, 0, path, sizeof path);
     return ok && (kind == PICTURE_ERROR || write_range(path, pixels, s->width, s->height, err));
 }
 
@@ -145,15 +145,15 @@ static float *make_heatmaps(const struct scene_results *s)
     return out;
 }
 
-bool pictures_write(const struct results *r, const struct scene_results *s, struct error *err)
+bool pictures_write(const struct scene_results *s, struct error *err)
 {
     struct detail detail[N_DETAILS];
     pictures_find_details(s, detail);
     float *heat = make_heatmaps(s);
-    bool ok = write_all(r, s, PICTURE_REFERENCE, PICTURE_ITSELF, s->reference.pixels, detail, err);
+    bool ok = write_all(s, PICTURE_REFERENCE, PICTURE_ITSELF, s->reference.pixels, detail, err);
     for (int v = 0; ok && v < N_COMPARED; v++)
-        ok = write_all(r, s, v, PICTURE_ITSELF, s->image[v], detail, err) &&
-             write_all(r, s, v, PICTURE_ERROR, heat + (size_t)v * values(s), detail, err);
+        ok = write_all(s, v, PICTURE_ITSELF, s->image[v], detail, err) &&
+             write_all(s, v, PICTURE_ERROR, heat + (size_t)v * values(s), detail, err);
     free(heat);
     return ok;
 }

@@ -28,7 +28,7 @@ struct detail {
 
 /* picture_path: DIRECTORY/images/... of a variant or PICTURE_REFERENCE.
  *   detail  0: the whole; 1 .. N_DETAILS: that detail */
-void picture_path(const struct results *r, const struct scene_results *s, int variant, enum picture_kind kind,
+void picture_path(const struct scene_results *s, int variant, enum picture_kind kind,
                   int detail, char *out, size_t size);
 
 /* pictures_find_details: choose the windows. */
@@ -39,6 +39,6 @@ void pictures_find_details(const struct scene_results *s, struct detail out[N_DE
 double pictures_error_scale(const struct scene_results *s);
 
 /* pictures_write: all of a scene. Returns false with a message. */
-bool pictures_write(const struct results *r, const struct scene_results *s, struct error *err);
+bool pictures_write(const struct scene_results *s, struct error *err);
 
 #endif

@@ -69,7 +69,8 @@ void plan_preset(struct plan *p, bool quick);
  * with a message when that is too many steps. */
 bool plan_set_spp(struct plan *p, long first, long last, struct error *err);
 
-/* plan_last_spp: samples per pixel of the finished pictures. */
+/* plan_last_step: the one after all samples. plan_last_spp: samples per pixel of the finished pictures. */
+static inline int plan_last_step(const struct plan *p) { return p->n_steps - 1; }
 static inline long plan_last_spp(const struct plan *p) { return p->spp[p->n_steps - 1]; }
 
 /* plan_seeds: how often the plan renders a variant; 0 when it is left out. */

@@ -70,13 +70,12 @@ static const char *const NOTES[] = {
 static const char *subject(int variant) { return variant == PICTURE_REFERENCE ? "reference" : VARIANTS[variant].label; }
 
 /* The first seed's error after all samples: the one of the picture shown. */
-static double shown_rmse(const struct results *r, const struct scene_results *s, int variant)
+static double shown_rmse(const struct scene_results *s, int variant)
 {
-    return s->run[variant][0].step[results_last_step(r)].value[Q_RMSE8];
+    return s->run[variant][0].step[plan_last_step(s->plan)].value[Q_RMSE8];
 }
 
-static void write_alt(FILE *f, const struct results *r, const struct scene_results *s, int variant, bool error,
-                      int detail)
+static void write_alt(FILE *f, const struct scene_results *s, int variant, bool error, int detail)
 {
     if (detail > 0)
         fprintf(f, "Detail %d: ", detail);
@@ -85,7 +84,7 @@ static void write_alt(FILE *f, const struct results *r, const struct scene_resul
     else
         xml_print(f, "%s rendered by %s%s", s->name, variant == PICTURE_REFERENCE ? "the " : "", subject(variant));
     if (variant != PICTURE_REFERENCE)
-        fprintf(f, ", %ld samples per pixel, RMSE %.3g", plan_last_spp(r->plan), shown_rmse(r, s, variant));
+        fprintf(f, ", %ld samples per pixel, RMSE %.3g", plan_last_spp(s->plan), shown_rmse(s, variant));
 }
 
 /* The src of an img, with a PNG file inside the page. */
@@ -109,10 +108,10 @@ static void write_data(FILE *f, const struct scene_results *s, int variant, cons
 }
 
 /* A picture's range, for the viewer alone. */
-static bool write_range(FILE *f, const struct results *r, const struct scene_results *s, int variant, struct error *err)
+static bool write_range(FILE *f, const struct scene_results *s, int variant, struct error *err)
 {
     char path[4096];
-    picture_path(r, s, variant, PICTURE_RANGE, 0, path, sizeof path);
+    picture_path(s, variant, PICTURE_RANGE, 0, path, sizeof path);
     fprintf(f, "<img alt=\"the range of %s\" hidden", subject(variant));
     write_data(f, s, variant, "range");
     bool ok = write_source(f, path, err);
@@ -121,80 +120,79 @@ static bool write_range(FILE *f, const struct results *r, const struct scene_res
 }
 
 /* One picture as a figure, its file inside the page. Whole pictures are also offered to the viewer. */
-static bool write_picture(FILE *f, const struct results *r, const struct scene_results *s, int variant, bool error,
+static bool write_picture(FILE *f, const struct scene_results *s, int variant, bool error,
                           int detail, struct error *err)
 {
     char path[4096];
     fputs("<figure><img alt=\"", f);
-    write_alt(f, r, s, variant, error, detail);
+    write_alt(f, s, variant, error, detail);
     fputs("\"", f);
     if (detail == 0)
         write_data(f, s, variant, error ? "error" : "picture");
-    picture_path(r, s, variant, error ? PICTURE_ERROR : PICTURE_ITSELF, detail, path, sizeof path);
+    picture_path(s, variant, error ? PICTURE_ERROR : PICTURE_ITSELF, detail, path, sizeof path);
     if (!write_source(f, path, err))
         return false;
     fprintf(f, "><figcaption>%s%s", subject(variant), error ? ": error" : "");
     if (variant != PICTURE_REFERENCE && detail == 0 && !error)
-        fprintf(f, ", RMSE %.3f", shown_rmse(r, s, variant));
+        fprintf(f, ", RMSE %.3f", shown_rmse(s, variant));
     fputs("</figcaption></figure>\n", f);
     return true;
 }
 
 /* A row of pictures: all variants, with or without the reference. */
-static bool write_row(FILE *f, const struct results *r, const struct scene_results *s, bool error, int detail,
-                      struct error *err)
+static bool write_row(FILE *f, const struct scene_results *s, bool error, int detail, struct error *err)
 {
     bool ok = true;
     fputs("<div class=\"grid\">\n", f);
     for (int v = error ? 0 : PICTURE_REFERENCE; ok && v < N_COMPARED; v++)
-        ok = write_picture(f, r, s, v, error, detail, err) &&
-             (error || detail > 0 || write_range(f, r, s, v, err));
+        ok = write_picture(f, s, v, error, detail, err) &&
+             (error || detail > 0 || write_range(f, s, v, err));
     fputs("</div>\n", f);
     return ok;
 }
 
-static bool write_pictures(FILE *f, const struct results *r, const struct scene_results *s, struct error *err)
+static bool write_pictures(FILE *f, const struct scene_results *s, struct error *err)
 {
     struct detail detail[N_DETAILS];
     pictures_find_details(s, detail);
     xml_print(f, "<h3>Pictures, %ld samples per pixel</h3>\n<div class=\"viewer\" data-scene=\"%s\" hidden></div>\n",
-              plan_last_spp(r->plan), s->name);
-    if (!write_row(f, r, s, false, 0, err))
+              plan_last_spp(s->plan), s->name);
+    if (!write_row(f, s, false, 0, err))
         return false;
     fprintf(f,
             "<h3>Where the errors are</h3>\n"
             "<p class=\"scale\"><span>0</span><i></i><span>%.4g of 255 and more; 99 %% of all pixels err less</span>"
             "</p>\n",
             pictures_error_scale(s));
-    bool ok = write_row(f, r, s, true, 0, err);
+    bool ok = write_row(f, s, true, 0, err);
     for (int i = 1; ok && i <= N_DETAILS; i++) {
         const struct detail *d = &detail[i - 1];
         fprintf(f, "<p class=\"note\">Detail %d: %d x %d pixels at (%d, %d), where BDPT errs %smost.</p>\n", i,
                 d->width, d->height, d->x, d->y, i == 1 ? "" : "next ");
-        ok = write_row(f, r, s, false, i, err) && write_row(f, r, s, true, i, err);
+        ok = write_row(f, s, false, i, err) && write_row(f, s, true, i, err);
     }
     return ok;
 }
 
 /* --- the page ---------------------------------------------------------------------------------------- */
 
-static void write_plots(FILE *f, const struct results *r, const struct scene_results *s)
+static void write_plots(FILE *f, const struct scene_results *s, int number)
 {
     fputs("<h3>Plots</h3>\n<p class=\"note\">Bars: one standard error over seeds.</p>\n<div class=\"plots\">\n", f);
     for (int k = 0; k < N_FIGURES; k++) {
         char id[300];
-        snprintf(id, sizeof id, "plot%d-%s", (int)(s - r->scene), figure_name((enum figure)k));
+        snprintf(id, sizeof id, "plot%d-%s", number, figure_name((enum figure)k));
         fputs("<figure>", f);
-        figure_write(f, r, s, (enum figure)k, id, false);
+        figure_write(f, s, (enum figure)k, id, false);
         fputs("</figure>\n", f);
     }
     fputs("</div>\n", f);
 }
 
-static bool write_strategies(FILE *f, const struct results *r, const struct scene_results *s, struct error *err)
+static bool write_strategies(FILE *f, const struct scene_results *s, struct error *err)
 {
     char path[4096];
-    snprintf(path, sizeof path, "%s/images/%s-strategies.png", r->plan->directory, s->name);
+    snprintf(path, sizeof path, "%s/images/%s-strategies.png", s->plan->directory, s->name);
     xml_print(f,
               "<h3>Strategies of BDPT</h3>\n<figure class=\"strategies\"><img alt=\"%s: a row of pictures for each "
               "path length, each strategy by itself\"",
@@ -207,18 +205,17 @@ static bool write_strategies(FILE *f, const struct results *r, const struct scen
     return true;
 }
 
-static bool write_scene(FILE *f, const struct results *r, const struct scene_results *s, struct error *err)
+static bool write_scene(FILE *f, const struct results *r, int number, struct error *err)
 {
+    const struct scene_results *s = &r->scene[number];
     xml_print(f,
               "<section id=\"scene-%s\">\n<h2>%s</h2>\n"
               "<p class=\"note\">%d x %d pixels, paths up to maxdepth %d. Reference: %s.</p>\n",
               s->name, s->name, s->width, s->height, s->max_depth, s->reference.origin);
     write_findings(f, r, s, true);
-    if (!write_pictures(f, r, s, err))
+    if (!write_pictures(f, s, err) || !write_strategies(f, s, err))
         return false;
-    if (!write_strategies(f, r, s, err))
-        return false;
-    write_plots(f, r, s);
+    write_plots(f, s, number);
     fputs("<h3>Tables</h3>\n", f);
     tables_write(f, r, s, true);
     fputs("</section>\n", f);
@@ -271,7 +268,7 @@ static bool write_html(FILE *f, const struct results *r, struct error *err)
     tables_write(f, r, NULL, true);
     fputs("</section>\n", f);
     for (int i = 0; i < r->plan->n_scenes; i++)
-        if (!write_scene(f, r, &r->scene[i], err))
+        if (!write_scene(f, r, i, err))
             return false;
     write_how(f, r);
     fputs("</main>\n<script>\n", f);
@@ -312,15 +309,15 @@ static bool write_file(const struct results *r, const char *name, void (*write)(
     return file_commit(&f, err);
 }
 
-static bool write_plot_files(const struct results *r, const struct scene_results *s, struct error *err)
+static bool write_plot_files(const struct scene_results *s, struct error *err)
 {
     for (int k = 0; k < N_FIGURES; k++) {
         struct file_output f;
         char name[400];
         snprintf(name, sizeof name, "plots/%s-%s.svg", s->name, figure_name((enum figure)k));
-        if (!plan_create(r->plan, name, &f, err))
+        if (!plan_create(s->plan, name, &f, err))
             return false;
-        figure_write(f.stream, r, s, (enum figure)k, "plot", true);
+        figure_write(f.stream, s, (enum figure)k, "plot", true);
         if (!file_commit(&f, err))
             return false;
     }
@@ -341,7 +338,7 @@ static bool write_page_file(const struct results *r, struct error *err)
 bool report_write(const struct results *r, struct error *err)
 {
     for (int i = 0; i < r->plan->n_scenes; i++)
-        if (!pictures_write(r, &r->scene[i], err) || !write_plot_files(r, &r->scene[i], err))
+        if (!pictures_write(&r->scene[i], err) || !write_plot_files(&r->scene[i], err))
             return false;
     return write_file(r, "results.csv", results_csv, err) && write_file(r, "runs.csv", results_runs_csv, err) &&
            write_file(r, "results.md", write_markdown, err) && write_page_file(r, err);

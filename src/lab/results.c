@@ -112,12 +112,12 @@ void results_csv(FILE *f, const struct results *r)
             for (int step = 0; step < r->plan->n_steps && plan_seeds(r->plan, v) > 0; step++) {
                 fprintf(f, "%s,%s,%ld,%d", s->name, VARIANTS[v].name, r->plan->spp[step], plan_seeds(r->plan, v));
                 for (int q = 0; q < N_AVERAGED; q++) {
-                    struct estimate e = results_mean(r, s, v, step, (enum quantity)q);
+                    struct estimate e = results_mean(s, v, step, (enum quantity)q);
                     write_number(f, e.mean, 9, "");
                     write_number(f, e.error, 9, "");
                 }
-                write_interval(f, results_rmse_ratio(r, s, v, step));
-                write_interval(f, results_equal_time(r, s, v, step));
+                write_interval(f, results_rmse_ratio(s, v, step));
+                write_interval(f, results_equal_time(s, v, step));
                 fputc('\n', f);
             }
 }
@@ -153,11 +153,10 @@ static struct estimate mean_of(const double *x, int n)
     return e;
 }
 
-struct estimate results_mean(const struct results *r, const struct scene_results *s, int variant, int step,
-                             enum quantity q)
+struct estimate results_mean(const struct scene_results *s, int variant, int step, enum quantity q)
 {
     double x[PLAN_MAX_SEEDS];
-    int n = plan_seeds(r->plan, variant);
+    int n = plan_seeds(s->plan, variant);
     for (int i = 0; i < n; i++)
         x[i] = s->run[variant][i].step[step].value[q];
     return mean_of(x, n);
@@ -199,13 +198,12 @@ struct interval results_ratio(const double *a, int na, const double *b, int nb)
 
 /* The ratio of a variant's mean to bdpt's: of its errors, or of squared error times seconds, which is what a variant
  * pays for the inverse of its variance. */
-static struct interval over_bdpt(const struct results *r, const struct scene_results *s, int variant, int step,
-                                 bool paid)
+static struct interval over_bdpt(const struct scene_results *s, int variant, int step, bool paid)
 {
     double x[2][PLAN_MAX_SEEDS], noise = isfinite(s->reference.noise8) ? s->reference.noise8 : 0;
     int compared[2] = {variant, VARIANT_BDPT}, n[2];
     for (int k = 0; k < 2; k++) {
-        n[k] = plan_seeds(r->plan, compared[k]);
+        n[k] = plan_seeds(s->plan, compared[k]);
         for (int i = 0; i < n[k]; i++) {
             const double *value = s->run[compared[k]][i].step[step].value;
             double square = value[Q_RMSE8] * value[Q_RMSE8] - noise * noise;
@@ -215,19 +213,19 @@ static struct interval over_bdpt(const struct results *r, const struct scene_res
     return results_ratio(x[0], n[0], x[1], n[1]);
 }
 
-struct interval results_rmse_ratio(const struct results *r, const struct scene_results *s, int variant, int step)
+struct interval results_rmse_ratio(const struct scene_results *s, int variant, int step)
 {
-    return over_bdpt(r, s, variant, step, false);
+    return over_bdpt(s, variant, step, false);
 }
 
-struct interval results_equal_time(const struct results *r, const struct scene_results *s, int variant, int step)
+struct interval results_equal_time(const struct scene_results *s, int variant, int step)
 {
-    return over_bdpt(r, s, variant, step, true);
+    return over_bdpt(s, variant, step, true);
 }
 
-struct bias results_bias(const struct results *r, const struct scene_results *s, int variant, int step)
+struct bias results_bias(const struct scene_results *s, int variant, int step)
 {
-    struct estimate e = results_mean(r, s, variant, step, Q_MEAN_ERROR);
+    struct estimate e = results_mean(s, variant, step, Q_MEAN_ERROR);
     struct bias out = {e.mean, NAN, NAN};
     double pixels = 0;
     for (int i = 0; i < e.n; i++)

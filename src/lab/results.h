@@ -42,6 +42,7 @@ struct seed_run {
 };
 
 struct scene_results {
+    const struct plan *plan; /* borrowed */
     const char *path;
     char name[256];
     int width, height, max_depth;
@@ -56,9 +57,6 @@ struct results {
 };
 
 void results_free(struct results *r);
-
-/* results_last_step: the one after all samples. */
-static inline int results_last_step(const struct results *r) { return r->plan->n_steps - 1; }
 
 /* run_write: all or nothing. Returns false with a message. */
 bool run_write(const char *path, const char *key, const struct seed_run *run, struct error *err);
@@ -76,8 +74,7 @@ struct estimate {
     int n;              /* seeds; 0: mean is NaN */
 };
 
-struct estimate results_mean(const struct results *r, const struct scene_results *s, int variant, int step,
-                             enum quantity q);
+struct estimate results_mean(const struct scene_results *s, int variant, int step, enum quantity q);
 
 /* A ratio of two means with its 95 % confidence interval; NaN where it cannot be told. */
 struct interval {
@@ -92,8 +89,8 @@ struct interval results_ratio(const double *a, int na, const double *b, int nb);
  * comparison. results_equal_time: squared error of a variant over bdpt's after the same CPU time, (MSE_v - noise^2)
  * T_v / ((MSE_b - noise^2) T_b), for bdpt's squared error is inversely proportional to its time; noise8 of the
  * reference is subtracted if known. */
-struct interval results_rmse_ratio(const struct results *r, const struct scene_results *s, int variant, int step);
-struct interval results_equal_time(const struct results *r, const struct scene_results *s, int variant, int step);
+struct interval results_rmse_ratio(const struct scene_results *s, int variant, int step);
+struct interval results_equal_time(const struct scene_results *s, int variant, int step);
 
 /* results_bias: the signed mean error with its whole standard error, and the p-value of "it is 0" by Student's t.
  * The variant's share of the standard error is the larger of two: that over seeds, which are few, and that from the
@@ -101,7 +98,7 @@ struct interval results_equal_time(const struct results *r, const struct scene_r
 struct bias {
     double mean, error, p;
 };
-struct bias results_bias(const struct results *r, const struct scene_results *s, int variant, int step);
+struct bias results_bias(const struct scene_results *s, int variant, int step);
 
 /* student_quantile: x with P(|t| > x) = p for Student's t, 0 < p < 1. */
 double student_quantile(double p, double dof);

@@ -17,10 +17,10 @@ static void add_variant_columns(struct table *t, int first, const char *format)
         table_column(t, format, VARIANTS[v].label);
 }
 
-static void add_spp_columns(struct table *t, const struct results *r)
+static void add_spp_columns(struct table *t, const struct plan *p)
 {
-    for (int i = 0; i < r->plan->n_steps; i++)
-        table_column(t, "%ld spp", r->plan->spp[i]);
+    for (int i = 0; i < p->n_steps; i++)
+        table_column(t, "%ld spp", p->spp[i]);
 }
 
 static void add_spp(struct table *t, long spp) { table_add(t, (double)spp, "%ld", spp); }
@@ -38,57 +38,55 @@ static void add_estimate(struct table *t, double mean, double error)
         table_add(t, mean, "%.*f " PLUS_MINUS " %.*f", digits, mean, digits, error);
 }
 
-static void add_mean(struct table *t, const struct results *r, const struct scene_results *s, int variant, int step,
+static void add_mean(struct table *t, const struct scene_results *s, int variant, int step,
                      enum quantity q, double scale)
 {
-    struct estimate e = results_mean(r, s, variant, step, q);
+    struct estimate e = results_mean(s, variant, step, q);
     add_estimate(t, scale * e.mean, scale * e.error);
 }
 
 /* One cell for each variant that is compared everywhere. */
-static void add_means(struct table *t, const struct results *r, const struct scene_results *s, int step,
-                      enum quantity q)
+static void add_means(struct table *t, const struct scene_results *s, int step, enum quantity q)
 {
     for (int v = 0; v < N_COMPARED; v++)
-        add_mean(t, r, s, v, step, q, 1);
+        add_mean(t, s, v, step, q, 1);
 }
 
-static void add_equal_times(struct table *t, const struct results *r, const struct scene_results *s, int step)
+static void add_equal_times(struct table *t, const struct scene_results *s, int step)
 {
     for (int v = VARIANT_BDPT + 1; v < N_COMPARED; v++)
-        table_add_interval(t, results_equal_time(r, s, v, step));
+        table_add_interval(t, results_equal_time(s, v, step));
 }
 
 /* --- tables of a scene ------------------------------------------------------------------------------- */
 
-static void rmse_table(const struct results *r, const struct scene_results *s, struct table *t)
+static void rmse_table(const struct scene_results *s, struct table *t)
 {
     table_begin(t, "RMSE on the 8-bit scale, mean over seeds and its standard error");
     table_column(t, "spp");
     add_variant_columns(t, 0, "%s");
-    for (int i = 0; i < r->plan->n_steps; i++) {
-        add_spp(t, r->plan->spp[i]);
-        add_means(t, r, s, i, Q_RMSE8);
+    for (int i = 0; i < s->plan->n_steps; i++) {
+        add_spp(t, s->plan->spp[i]);
+        add_means(t, s, i, Q_RMSE8);
     }
 }
 
-static void add_ours(struct table *t, const struct results *r, const struct scene_results *s, int step)
+static void add_ours(struct table *t, const struct scene_results *s, int step)
 {
-    add_mean(t, r, s, VARIANT_BDPT, step, Q_RMSE8, 1);
-    add_mean(t, r, s, VARIANT_BINS, step, Q_RMSE8, 1);
-    table_add_interval(t, results_rmse_ratio(r, s, VARIANT_BINS, step));
+    add_mean(t, s, VARIANT_BDPT, step, Q_RMSE8, 1);
+    add_mean(t, s, VARIANT_BINS, step, Q_RMSE8, 1);
+    table_add_interval(t, results_rmse_ratio(s, VARIANT_BINS, step));
 }
 
 /* The dissertation's step i beside ours of as many samples, if we have it. */
-static void add_published(struct table *t, const struct results *r, const struct scene_results *s,
-                          const struct published *p, int i)
+static void add_published(struct table *t, const struct scene_results *s, const struct published *p, int i)
 {
-    int step = results_last_step(r);
-    while (step >= 0 && r->plan->spp[step] != published_spp(i))
+    int step = plan_last_step(s->plan);
+    while (step >= 0 && s->plan->spp[step] != published_spp(i))
         step--;
     add_spp(t, published_spp(i));
     if (step >= 0)
-        add_ours(t, r, s, step);
+        add_ours(t, s, step);
     else
         table_add_missing(t, 3);
     table_add(t, p->bdpt[i], "%.4f", p->bdpt[i]);
@@ -96,7 +94,7 @@ static void add_published(struct table *t, const struct results *r, const struct
     table_add(t, p->asbdpt[i] / p->bdpt[i], "%.3f", p->asbdpt[i] / p->bdpt[i]);
 }
 
-static bool published_table(const struct results *r, const struct scene_results *s, struct table *t)
+static bool published_table(const struct scene_results *s, struct table *t)
 {
     static const char *const heads[] = {
         "spp",           "BDPT, here",      "bins, here",          "bins/BDPT, here [95 %]",
@@ -107,31 +105,31 @@ static bool published_table(const struct results *r, const struct scene_results 
     table_begin(t, "RMSE beside the dissertation's (its model of the scene is another, so compare the ratios)");
     for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++)
         table_column(t, "%s", heads[i]);
-    for (int i = 0; i < r->plan->n_steps && r->plan->spp[i] < published_spp(0); i++) {
-        add_spp(t, r->plan->spp[i]);
-        add_ours(t, r, s, i);
+    for (int i = 0; i < s->plan->n_steps && s->plan->spp[i] < published_spp(0); i++) {
+        add_spp(t, s->plan->spp[i]);
+        add_ours(t, s, i);
         table_add_missing(t, 3);
     }
     for (int i = 0; i < PUBLISHED_STEPS; i++)
-        add_published(t, r, s, p, i);
+        add_published(t, s, p, i);
     return true;
 }
 
-static void equal_time_table(const struct results *r, const struct scene_results *s, struct table *t)
+static void equal_time_table(const struct scene_results *s, struct table *t)
 {
     table_begin(t, "Seconds of CPU, and squared error over BDPT's at equal time with its 95 %% interval; "
                    "below 1 is a gain");
     table_column(t, "spp");
     add_variant_columns(t, 0, "%s, s");
     add_variant_columns(t, VARIANT_BDPT + 1, "%s");
-    for (int i = 0; i < r->plan->n_steps; i++) {
-        add_spp(t, r->plan->spp[i]);
-        add_means(t, r, s, i, Q_SECONDS);
-        add_equal_times(t, r, s, i);
+    for (int i = 0; i < s->plan->n_steps; i++) {
+        add_spp(t, s->plan->spp[i]);
+        add_means(t, s, i, Q_SECONDS);
+        add_equal_times(t, s, i);
     }
 }
 
-static void bias_table(const struct results *r, const struct scene_results *s, struct table *t)
+static void bias_table(const struct scene_results *s, struct table *t)
 {
     char own[32] = "not known";
     if (isfinite(s->reference.mean_error))
@@ -139,27 +137,27 @@ static void bias_table(const struct results *r, const struct scene_results *s, s
     table_begin(t, "Signed error of the picture's mean in percent, mean over seeds and its standard error "
                    "(the reference's own standard error: %s)", own);
     table_column(t, "method");
-    add_spp_columns(t, r);
+    add_spp_columns(t, s->plan);
     for (int v = 0; v < N_COMPARED; v++) {
         table_add(t, v, "%s", VARIANTS[v].label);
-        for (int i = 0; i < r->plan->n_steps; i++)
-            add_mean(t, r, s, v, i, Q_MEAN_ERROR, 100);
+        for (int i = 0; i < s->plan->n_steps; i++)
+            add_mean(t, s, v, i, Q_MEAN_ERROR, 100);
     }
 }
 
-static void sweep_table(const struct results *r, const struct scene_results *s, enum sweep sweep, struct table *t)
+static void sweep_table(const struct scene_results *s, enum sweep sweep, struct table *t)
 {
     table_begin(t, sweep == SWEEP_PATHS ? "bins: RMSE on the 8-bit scale by paths per bin set (restart every 32)"
                                   : "bins: RMSE on the 8-bit scale by restart limit (8 paths per set)");
     table_column(t, sweep == SWEEP_PATHS ? "paths" : "restart");
-    add_spp_columns(t, r);
+    add_spp_columns(t, s->plan);
     for (int k = 0; k < SWEEP_LENGTH; k++) {
         const struct sweep_point *point = &SWEEPS[sweep][k];
-        if (plan_seeds(r->plan, point->variant) == 0)
+        if (plan_seeds(s->plan, point->variant) == 0)
             continue;
         table_add(t, k, "%s", point->label);
-        for (int i = 0; i < r->plan->n_steps; i++)
-            add_mean(t, r, s, point->variant, i, Q_RMSE8, 1);
+        for (int i = 0; i < s->plan->n_steps; i++)
+            add_mean(t, s, point->variant, i, Q_RMSE8, 1);
     }
 }
 
@@ -197,8 +195,8 @@ static void all_rmse_table(const struct results *r, struct table *t)
         double printed = p != NULL ? p->asbdpt[PUBLISHED_STEPS - 1] / p->bdpt[PUBLISHED_STEPS - 1] : NAN;
         struct interval alone = {printed, NAN, NAN};
         add_scene(t, s);
-        add_means(t, r, s, results_last_step(r), Q_RMSE8);
-        table_add_interval(t, results_rmse_ratio(r, s, VARIANT_BINS, results_last_step(r)));
+        add_means(t, s, plan_last_step(r->plan), Q_RMSE8);
+        table_add_interval(t, results_rmse_ratio(s, VARIANT_BINS, plan_last_step(r->plan)));
         table_add_interval(t, alone);
     }
 }
@@ -211,7 +209,7 @@ static void all_equal_time_table(const struct results *r, struct table *t)
     add_variant_columns(t, VARIANT_BDPT + 1, "%s");
     for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++) {
         add_scene(t, s);
-        add_equal_times(t, r, s, results_last_step(r));
+        add_equal_times(t, s, plan_last_step(r->plan));
     }
 }
 
@@ -221,12 +219,12 @@ bool table_make(const struct results *r, const struct scene_results *s, enum tab
     case TABLE_SETUP: setup_table(r, out); return true;
     case TABLE_ALL_RMSE: all_rmse_table(r, out); return true;
     case TABLE_ALL_EQUAL_TIME: all_equal_time_table(r, out); return true;
-    case TABLE_RMSE: rmse_table(r, s, out); return true;
-    case TABLE_PUBLISHED: return published_table(r, s, out);
-    case TABLE_EQUAL_TIME: equal_time_table(r, s, out); return true;
-    case TABLE_BIAS: bias_table(r, s, out); return true;
-    case TABLE_PATHS: sweep_table(r, s, SWEEP_PATHS, out); return true;
-    case TABLE_RESTART: sweep_table(r, s, SWEEP_RESTART, out); return true;
+    case TABLE_RMSE: rmse_table(s, out); return true;
+    case TABLE_PUBLISHED: return published_table(s, out);
+    case TABLE_EQUAL_TIME: equal_time_table(s, out); return true;
+    case TABLE_BIAS: bias_table(s, out); return true;
+    case TABLE_PATHS: sweep_table(s, SWEEP_PATHS, out); return true;
+    case TABLE_RESTART: sweep_table(s, SWEEP_RESTART, out); return true;
     case N_TABLES: break;
     }
     return false;
