@@ -125,15 +125,25 @@ function flush(    i, n, cell, tag) {
     kind = buffer = ""
 }
 function end_list() { if (list != "") { flush(); print "</li></" list ">"; list = "" } }
-function row(line, tag,    n, i, cell, out) {
+function row(line, tag,    n, i, cell, out, side) {
     gsub(/\\\|/, "\003", line)
     sub(/^\|/, "", line); sub(/\| *$/, "", line)
     n = split(line, cell, "|")
     for (i = 1; i <= n; i++) {
         gsub(/^ +| +$/, "", cell[i]); gsub(/\003/, "|", cell[i])
-        out = out "<" tag ">" inline(cell[i]) "</" tag ">"
+        side = i in right ? " class=\"right\"" : ""
+        out = out "<" tag side ">" inline(cell[i]) "</" tag ">"
     }
     print "<tr>" out "</tr>"
+}
+# The first row of a table, when the line below it is read: that says which columns end at the right.
+function head(line,    n, i, cell) {
+    n = split(line, cell, "|") - 2
+    for (i in right) delete right[i]
+    for (i = 1; i <= n; i++) if (cell[i + 1] ~ /-:/) right[i] = 1
+    print "<div class=\"wide" (n > 3 ? " many" : "") "\"><table>"
+    row(buffer, "th")
+    buffer = ""
 }
 
 BEGIN {
@@ -165,13 +175,11 @@ fence { print escape($0); next }
     blank = 0
     next
 }
-/^\|[-: |]+\|$/ && kind == "table" { next }
+/^\|[-: |]+\|$/ && kind == "table" { head($0); next }
 /^\|/ {
     if (kind != "table") {
         end_list(); flush()
-        print "<div class=\"wide\"><table>"
-        kind = "table"
-        row($0, "th")
+        kind = "table"; buffer = $0
     } else row($0, "td")
     blank = 0
     next

@@ -10,16 +10,22 @@ nav { padding: 0.6em 0; border-bottom: 1px solid #8884; font-family: sans-serif;
 nav a { margin-right: 1.2em; }
 h1, h2, h3 { font-family: sans-serif; line-height: 1.25; }
 h2 { margin-top: 1.8em; }
-a { color: #0b62b8; text-decoration: none; }
+a { color: #0b62b8; text-decoration: none; overflow-wrap: anywhere; }
 a:hover { text-decoration: underline; }
 pre, code { font-family: "DejaVu Sans Mono", Menlo, Consolas, monospace; font-size: 0.86em; }
+code { display: inline-block; max-width: 100%; overflow-wrap: anywhere; }
 pre { overflow-x: auto; padding: 0.7em 1em; background: #8881; border-radius: 4px; line-height: 1.4; }
 pre.math { background: none; border-left: 3px solid #0b62b8; border-radius: 0; font-size: 0.98em; line-height: 1.7; }
 pre.math, .wide td, .wide th { font-family: "DejaVu Serif", Georgia, serif; }
 .wide { overflow-x: auto; }
 .wide td, .wide th { font-size: 0.92em; }
+@media screen and (min-width: 60em) {
+    pre, .many { width: max-content; box-sizing: border-box; min-width: 100%; max-width: max(100%, 50vw + 21em); }
+}
 table { border-collapse: collapse; margin: 1em 0; }
 td, th { padding: 0.25em 0.7em; border-bottom: 1px solid #8884; text-align: left; vertical-align: top; }
+.right { text-align: right; }
+td.right { white-space: nowrap; }
 img { max-width: 100%; height: auto; image-rendering: pixelated; vertical-align: middle; }
 img[src$=".svg"] { background: white; }
 sub, sup { font-size: 0.72em; line-height: 0; }
