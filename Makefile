@@ -89,6 +89,8 @@ test: asbdpt $(BUILD)/test layers standard references columns faults links limit
 	sh test/cli.sh $(PROGRAM)
 	sh test/mini.sh $(PROGRAM)
 	sh test/keep.sh $(PROGRAM)
+	sh test/hashes.sh $(PROGRAM)
+	sh test/readme.sh $(PROGRAM) doc/scene-format.md doc/selection.md doc/tour/trace.md
 	$(BUILD)/test
 
 check-long: asbdpt $(BUILD)/test experiments web portability inject ## the tests that take longer
@@ -96,6 +98,8 @@ check-long: asbdpt $(BUILD)/test experiments web portability inject ## the tests
 	sh test/keep.sh $(PROGRAM) 100
 	sh test/cluster.sh $(PROGRAM)
 	sh test/readme.sh $(PROGRAM)
+	sh doc/tour/figures.sh $(PROGRAM) out/figures
+	diff -r doc/tour/figures out/figures
 
 check-ref: asbdpt ## are the stored references still what the program converges to?
 	sh ref/check-ref.sh $(PROGRAM)

@@ -75,7 +75,8 @@ function inline(s,    out, at, code, label, url, i) {
     n_kept = 0
     s = escape(s)
     while (match(s, /`[^`]+`/)) {
-        kept[++n_kept] = "<code>" substr(s, RSTART + 1, RLENGTH - 2) "</code>"
+        code = substr(s, RSTART + 1, RLENGTH - 2)
+        kept[++n_kept] = "<code" (RLENGTH > 38 ? " class=\"long\"" : "") ">" code "</code>"
         s = substr(s, 1, RSTART - 1) "\001" n_kept "\002" substr(s, RSTART + RLENGTH)
     }
     while (match(s, /!?\[[^][]*\]\([^() ]*\)/)) {

@@ -13,7 +13,8 @@ h2 { margin-top: 1.8em; }
 a { color: #0b62b8; text-decoration: none; overflow-wrap: anywhere; }
 a:hover { text-decoration: underline; }
 pre, code { font-family: "DejaVu Sans Mono", Menlo, Consolas, monospace; font-size: 0.86em; }
-code { display: inline-block; max-width: 100%; overflow-wrap: anywhere; }
+code { white-space: nowrap; }
+code.long { white-space: normal; overflow-wrap: anywhere; }
 pre { overflow-x: auto; padding: 0.7em 1em; background: #8881; border-radius: 4px; line-height: 1.4; }
 pre.math { background: none; border-left: 3px solid #0b62b8; border-radius: 0; font-size: 0.98em; line-height: 1.7; }
 pre.math, .wide td, .wide th { font-family: "DejaVu Serif", Georgia, serif; }
@@ -24,9 +25,10 @@ pre.math, .wide td, .wide th { font-family: "DejaVu Serif", Georgia, serif; }
 }
 table { border-collapse: collapse; margin: 1em 0; }
 td, th { padding: 0.25em 0.7em; border-bottom: 1px solid #8884; text-align: left; vertical-align: top; }
+td a, td code.long { overflow-wrap: normal; }
 .right { text-align: right; }
 td.right { white-space: nowrap; }
-img { max-width: 100%; height: auto; image-rendering: pixelated; vertical-align: middle; }
+img { max-width: 100%; height: auto; vertical-align: middle; }
 img[src$=".svg"] { background: white; }
 sub, sup { font-size: 0.72em; line-height: 0; }
 .source { max-width: none; }

@@ -1,8 +1,9 @@
 #!/bin/sh
-# figures.sh PROGRAM: makes every figure of the tour (about a minute); `make figures` calls it.
+# figures.sh PROGRAM [DIR]: makes every figure of the tour, in doc/tour/figures or DIR (about a minute of CPU);
+# `make figures` calls it.
 program=$1
 case $program in /*) ;; *) program=$PWD/$program ;; esac
-tour=$PWD/doc/tour scene=$PWD/doc/mini/rooms.pbrt out=$PWD/doc/tour/figures
+tour=$PWD/doc/tour scene=$PWD/doc/mini/rooms.pbrt out=$PWD/${2:-doc/tour/figures}
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
 cd "$dir" || exit 1
@@ -39,7 +40,7 @@ for method in pt bdpt; do
     for spp in 1 4 16 64 256 1024; do
         render --integrator $method --spp $spp --cropwindow 0.75 0.753 0.875 0.878 -o pixel.pfm
         red=$(tail -c 12 pixel.pfm | od -An -tf4 | awk '{ print $1; exit }')
-        echo "${method},_$spp ${red:?}"
+        echo "${method},_$spp ${red:?}" | awk '{ printf "%s %.3f\n", $1, $2 }'
     done
 done >table.txt
 chart pixel "One pixel's red value after so many samples" 0
@@ -71,7 +72,7 @@ awk -v weights="5 1 3 2 1" -f "$tour/alias.awk" </dev/null >"$out/alias.svg"
 # Squared error at equal time, from the table of doc/selection.md: 1 is bdpt.
 awk -F '|' '/^\| scene, rmse8/ { on = 1; next }
     on && /^\| [a-z-]+ \|/ && $2 !~ /geometric|worst/ {
-        gsub(/[ *]/, "", $2); gsub(/\*/, "", $4); sub(/\[.*/, "", $4); print $2, $4 + 0
+        gsub(/[ *]/, "", $2); gsub(/\*/, "", $4); sub(/\[.*/, "", $4); print $2, $4
     }
     on && /^$/ { exit }' "$tour/../selection.md" >table.txt
 chart gains "Squared error of subspaces in bdpt's time; bdpt is 1" 1

@@ -329,16 +329,16 @@ static void draw_legend(FILE *f, const struct trace_story *s, int height)
     static const struct {
         const char *colour, *dashes, *text;
         int x;
-    } entries[] = {{BLUE, "", "eye sub-path z", 0}, {ORANGE, "", "light sub-path y", 160},
-                   {GREEN, "", "connection, the wider the more it adds", 330},
-                   {GREY, "4 3", "connection that brings nothing", 640}};
+    } entries[] = {{BLUE, "", "eye sub-path z", 0}, {ORANGE, "", "light sub-path y", 195},
+                   {GREEN, "", "connection, the wider the more it adds", 405},
+                   {GREY, "4 3", "connection that brings nothing", 800}};
     xml_print(f, "<text class=\"title\" x=\"%d\" y=\"26\">%s, pixel %d,%d, sample %ld, %s</text>\n", MARGIN,
               s->scene_path, s->trace->x, s->trace->y, s->trace->iteration, s->integrator->name);
     for (int i = 0; i < 4; i++) {
         int x = MARGIN + entries[i].x;
         xml_print(f, "<path d=\"M%d %dh34\" stroke=\"%s\" stroke-width=\"2.5\" stroke-dasharray=\"%s\"/>", x,
                   height - 18, entries[i].colour, entries[i].dashes);
-        xml_print(f, "<text x=\"%d\" y=\"%d\" fill=\"#333\">%s</text>\n", x + 42, height - 14, entries[i].text);
+        xml_print(f, "<text x=\"%d\" y=\"%d\" fill=\"#333\">%s</text>\n", x + 42, height - 12, entries[i].text);
     }
 }
 
@@ -349,8 +349,8 @@ void trace_svg(FILE *f, const struct trace_story *s)
     int width = 2 * WIDTH + 3 * MARGIN, height = TOP + (int)(camera.scale * most) + 50;
     xml_print(f, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" height=\"%d\">\n", width,
               height, width, height);
-    xml_print(f, "<style>text{font:12px sans-serif;paint-order:stroke;stroke:#fff;stroke-width:3px}"
-                 ".title{font-size:14px;fill:#222}.scene{stroke:#9a9a9a;stroke-width:.8;fill:none}"
+    xml_print(f, "<style>text{font:18px sans-serif;paint-order:stroke;stroke:#fff;stroke-width:3px}"
+                 ".title{font-size:20px;fill:#222}.scene{stroke:#9a9a9a;stroke-width:.8;fill:none}"
                  ".section{stroke:#333;stroke-width:2.2;stroke-linecap:round}"
                  ".path{fill:none;stroke-linecap:round}.none{stroke-dasharray:4 3}</style>\n");
     xml_print(f, "<rect width=\"%d\" height=\"%d\" fill=\"#fff\"/>\n", width, height);
