@@ -39,7 +39,11 @@ sub, sup { font-size: 0.72em; line-height: 0; }
     body { max-width: none; font-size: 10.5pt; }
     nav { display: none; }
     a { color: inherit; }
-    pre { white-space: pre-wrap; }
+    pre { white-space: pre-wrap; font-size: 7pt; padding: 0.5em; }
+    pre.math { font-size: 10pt; }
+    .wide { overflow: visible; }
+    .many td, .many th { font-size: 7.5pt; padding: 0.2em 0.4em; }
+    .many code { white-space: normal; }
     pre, table, img { break-inside: avoid; }
     h2 { break-after: avoid; }
 }

@@ -14,7 +14,7 @@ static const char *const STYLE[] = {
     "@media (prefers-color-scheme:dark){",
     ":root{--ink:#e6e9ed;--soft:#a3adb8;--page:#0f1317;--panel:#15191f;--line:#39424d;--accent:#79bfff}}",
     "*{box-sizing:border-box}",
-    "body{margin:0 auto;max-width:72rem;padding:1rem;background:var(--page);color:var(--ink);",
+    "body{margin:0 auto;max-width:80rem;padding:1rem;background:var(--page);color:var(--ink);",
     "font:1rem/1.5 system-ui,sans-serif;overflow-wrap:break-word}",
     "h1{font-size:1.7rem;line-height:1.2}h2{margin-top:3rem;border-bottom:1px solid var(--line)}"
     "h3{margin:2rem 0 .5rem}",
