@@ -8,9 +8,9 @@ function escape(s) { gsub(/&/, "\\&amp;", s); gsub(/</, "\\&lt;", s); gsub(/>/, 
 
 # x_0, y_(s-1), m^2 of escaped text; names of two letters or more before an underscore are operators or functions.
 function formula(s, inline,    out, base, index_, mark) {
+    gsub(/&lt;=/, "\\&le;", s); gsub(/&gt;=/, "\\&ge;", s)
     if (!inline) {
         gsub(/\.\.\./, "\\&hellip;", s)
-        gsub(/&lt;=/, "\\&le;", s); gsub(/&gt;=/, "\\&ge;", s)
         s = word(s, "integral", "\\&int;"); s = word(s, "delta", "\\&delta;"); s = word(s, "kappa", "\\&kappa;")
         gsub(/sqrt\(/, "\\&radic;(", s)
     }

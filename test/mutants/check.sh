@@ -4,8 +4,9 @@
 #   sh test/mutants/check.sh renew    writes doc/mutants.md
 page=doc/mutants.md
 table() {
-    printf '# Mutants\n\nThe %s faults of [`list.txt`](../test/mutants/list.txt) and the tests that are to notice them. ' \
+    printf '# Mutants\n\nThe %s faults of [`list.txt`](../test/mutants/list.txt) and ' \
         "$(awk '/^[^-+# \t]/ && NF > 3' test/mutants/list.txt | wc -l | tr -d ' ')"
+    printf 'the tests that are to notice them. '
     printf '`make mutants`\napplies them one by one; [evidence.md](evidence.md) says what that shows. Written by '
     printf '`sh test/mutants/check.sh renew`.\n\n| mutant | fault | tests |\n|---|---|---|\n'
     awk '/^[^-+# \t]/ && NF > 3 {
