@@ -108,7 +108,8 @@ static bool scalar_of(const char *name, enum scalar *out)
         "char", "uchar", "short", "ushort", "int", "uint", "float", "double",
         "int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"};
     int i = index_of(name, names, 2 * N_SCALARS);
-    *out = (enum scalar)(i % N_SCALARS);
+    if (i >= 0)
+        *out = (enum scalar)(i % N_SCALARS);
     return i >= 0;
 }
 
@@ -143,10 +144,7 @@ static bool header_element(struct ply *r, size_t line, const char *name, const c
 
 static bool header_property(struct ply *r, size_t line, char word[MAX_WORDS][WORD_SIZE], int n)
 {
-    struct ply_property p;
-    p.is_list = n == 5 && strcmp(word[1], "list") == 0;
-    p.count_type = UINT8;
-    p.role = NO_ROLE;
+    struct ply_property p = {.is_list = n == 5 && strcmp(word[1], "list") == 0, .role = NO_ROLE};
     if (r->n_elements == 0)
         return fail_line(r, line, "a property before any element", "");
     if (n != (p.is_list ? 5 : 3))
@@ -189,7 +187,7 @@ static bool read_header(struct ply *r)
         if (!ok)
             return false;
     }
-    return has_format ? true : fail(r, "the header has no format line");
+    return has_format || fail(r, "the header has no format line");
 }
 
 /* Counts are promises; hold them against the bytes that are there before allocating anything. */

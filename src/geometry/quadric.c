@@ -3,8 +3,13 @@
 
 #include "base/maths.h"
 
-/* Distance from the z axis. */
+/* Distance from the z axis, and the unit vector away from it; x on the axis itself. */
 static double ring_of(vec3 p) { return sqrt(sqr(p.x) + sqr(p.y)); }
+static vec3 outwards(vec3 p)
+{
+    double r = ring_of(p);
+    return r > 0 ? vec(p.x / r, p.y / r, 0) : vec(1, 0, 0);
+}
 
 void quadric_normalise(struct quadric *q)
 {
@@ -81,6 +86,14 @@ static bool is_kept(const struct quadric *q, vec3 p)
     return false;
 }
 
+/* Roots t[0] <= t[1] of a t^2 - 2 b t + c = 0 from discriminant b^2 - a c >= 0; numbers of one sign are added. */
+static void ordered_roots(double a, double b, double c, double discriminant, double t[2])
+{
+    double q = b + copysign(sqrt(discriminant), b), t0 = q / a, t1 = q != 0 ? c / q : t0;
+    t[0] = t0 < t1 ? t0 : t1;
+    t[1] = t0 < t1 ? t1 : t0;
+}
+
 /* --- cones, paraboloids, hyperboloids ---------------------------------------------------------------- */
 
 /* Of these the distance from the z axis, squared, is c0 + c1 w + c2 w^2 where w = z - z0. */
@@ -120,9 +133,9 @@ static bool profile_roots(struct profile f, vec3 o, vec3 d, double t[2])
     double discriminant = b * b - a * c;
     if (!(discriminant >= 0))
         return false;
-    double q = b + copysign(sqrt(discriminant), b), t0 = q / a, t1 = q != 0 ? c / q : t0;
-    t[0] = nearest + (t0 < t1 ? t0 : t1);
-    t[1] = nearest + (t0 < t1 ? t1 : t0);
+    ordered_roots(a, b, c, discriminant, t);
+    t[0] += nearest;
+    t[1] += nearest;
     return true;
 }
 
@@ -147,11 +160,8 @@ static bool sphere_roots(vec3 o, vec3 d, double r, double t[2])
     double discriminant = a * (sqr(r) - length2(closest));
     if (discriminant < 0)
         return false;
-    double q = b + copysign(sqrt(discriminant), b);
     double l = length(o), c = (l - r) * (l + r);
-    double t0 = q / a, t1 = q != 0 ? c / q : t0;
-    t[0] = t0 < t1 ? t0 : t1;
-    t[1] = t0 < t1 ? t1 : t0;
+    ordered_roots(a, b, c, discriminant, t);
     return true;
 }
 
@@ -208,30 +218,32 @@ struct object_point {
     double u, v;
 };
 
+/* Derivatives by u shrink towards the axis, where they would be no tangents; of the radius, they stop at this. */
+static const double LEAST_RING = 1e-5;
+
 /* theta runs from acos(zmin/r), where v = 0, to acos(zmax/r). On the axis phi is taken as 0. */
 static void sphere_point(const struct quadric *q, vec3 p, struct object_point *at)
 {
     double r = q->radius, ring = ring_of(p);
     double theta0 = m_acos(clamp(q->zmin / r, -1, 1)), theta1 = m_acos(clamp(q->zmax / r, -1, 1));
-    vec3 axis = ring > 0 ? vec(p.x / ring, p.y / ring, 0) : vec(1, 0, 0);
-    ring = fmax(ring, 1e-5 * r);
+    vec3 out = outwards(p);
+    ring = fmax(ring, LEAST_RING * r);
     at->v = (m_acos(clamp(p.z / r, -1, 1)) - theta0) / (theta1 - theta0);
     at->n = mul(p, 1 / r);
-    at->dpdu = mul(vec(-axis.y, axis.x, 0), q->phi_max * ring);
-    at->dpdv = mul(vec(p.z * axis.x, p.z * axis.y, -ring), theta1 - theta0);
+    at->dpdu = mul(vec(-out.y, out.x, 0), q->phi_max * ring);
+    at->dpdv = mul(vec(p.z * out.x, p.z * out.y, -ring), theta1 - theta0);
     at->dndu = mul(at->dpdu, 1 / r);
     at->dndv = mul(at->dpdv, 1 / r);
 }
 
 static void disk_point(const struct quadric *q, vec3 p, struct object_point *at)
 {
-    double r = ring_of(p), width = q->radius - q->inner_radius;
-    vec3 axis = r > 0 ? vec(p.x / r, p.y / r, 0) : vec(1, 0, 0);
-    r = fmax(r, 1e-5 * q->radius);
+    double r = fmax(ring_of(p), LEAST_RING * q->radius), width = q->radius - q->inner_radius;
+    vec3 out = outwards(p);
     at->v = (q->radius - r) / width;
     at->n = vec(0, 0, 1);
-    at->dpdu = mul(vec(-axis.y, axis.x, 0), q->phi_max * r);
-    at->dpdv = mul(axis, -width);
+    at->dpdu = mul(vec(-out.y, out.x, 0), q->phi_max * r);
+    at->dpdv = mul(out, -width);
     at->dndu = at->dndv = vec(0, 0, 0);
 }
 
@@ -248,25 +260,23 @@ static void cylinder_point(const struct quadric *q, vec3 p, struct object_point 
 /* The normal does not change along the slope. */
 static void cone_point(const struct quadric *q, vec3 p, struct object_point *at)
 {
-    double r = ring_of(p);
-    vec3 axis = r > 0 ? vec(p.x / r, p.y / r, 0) : vec(1, 0, 0), along = vec(-axis.y, axis.x, 0);
+    vec3 out = outwards(p), along = vec(-out.y, out.x, 0);
     at->v = p.z / q->zmax;
-    at->n = vec(axis.x * q->zmax, axis.y * q->zmax, q->radius);
-    at->dpdu = mul(along, q->phi_max * fmax(r, 1e-5 * q->radius));
-    at->dpdv = vec(-axis.x * q->radius, -axis.y * q->radius, q->zmax);
+    at->n = vec(out.x * q->zmax, out.y * q->zmax, q->radius);
+    at->dpdu = mul(along, q->phi_max * fmax(ring_of(p), LEAST_RING * q->radius));
+    at->dpdv = vec(-out.x * q->radius, -out.y * q->radius, q->zmax);
     at->dndu = mul(along, q->phi_max * q->zmax);
 }
 
 /* n is half the gradient of x^2 + y^2 - k z, k = radius^2 / zmax. */
 static void paraboloid_point(const struct quadric *q, vec3 p, struct object_point *at)
 {
-    double k = sqr(q->radius) / q->zmax, r = ring_of(p), height = q->zmax - q->zmin;
-    vec3 axis = r > 0 ? vec(p.x / r, p.y / r, 0) : vec(1, 0, 0);
-    r = fmax(r, 1e-5 * q->radius);
+    double k = sqr(q->radius) / q->zmax, r = fmax(ring_of(p), LEAST_RING * q->radius), height = q->zmax - q->zmin;
+    vec3 out = outwards(p);
     at->v = (p.z - q->zmin) / height;
     at->n = vec(p.x, p.y, -0.5 * k);
-    at->dpdu = at->dndu = mul(vec(-axis.y, axis.x, 0), q->phi_max * r);
-    at->dndv = mul(axis, height * k / (2 * r)); /* the ring grows by k / 2r with z */
+    at->dpdu = at->dndu = mul(vec(-out.y, out.x, 0), q->phi_max * r);
+    at->dndv = mul(out, height * k / (2 * r)); /* the ring grows by k / 2r with z */
     at->dpdv = vec(at->dndv.x, at->dndv.y, height);
 }
 

@@ -32,7 +32,7 @@ struct quadric {
     double inner_radius; /* disk only */
     double zmin, zmax;   /* what is kept lies between; a disk lies at z = zmin = zmax ("height") */
     double phi_max;      /* radians, (0, 2 pi] */
-    int group;
+    int group;           /* its number among the groups of the geometry, set by shape_add_quadric */
     vec3 p1, p2;         /* hyperboloid only; of different heights */
 };
 

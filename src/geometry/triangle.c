@@ -8,7 +8,7 @@ double triangle_area(const struct triangle *tri)
     return 0.5 * length(cross(sub(tri->p[1], tri->p[0]), sub(tri->p[2], tri->p[0])));
 }
 
-/* Two unit vectors that make an orthogonal system with v (any length but 0). */
+/* Two unit vectors that make an orthogonal system with v (any length but 0): pbrt-v3's choice. [PBRT3 2.2.4] */
 static void tangents_of(vec3 v, vec3 *s, vec3 *t)
 {
     *s = normalize(fabs(v.x) > fabs(v.y) ? vec(-v.z, 0, v.x) : vec(0, v.z, -v.y));

@@ -110,30 +110,30 @@ void tile_add_splat(struct tile *t, double px, double py, rgb value)
     }
 }
 
-void tile_record_eye(struct tile *t, int x, int y, int s, int th, rgb unweighted, double weight)
+void tile_record_eye(struct tile *tile, int x, int y, int s, int t, rgb unweighted, double weight)
 {
-    if (!t->keep_records || !fits(unweighted) || !fits_float(weight))
+    if (!tile->keep_records || !fits(unweighted) || !fits_float(weight))
         return;
-    t->record = mem_grow(t->record, &t->record_capacity, t->n_records + 1, sizeof *t->record);
-    struct strategy_record *r = &t->record[t->n_records++];
-    r->pixel = film_pixel(t, x, y);
+    tile->record = mem_grow(tile->record, &tile->record_capacity, tile->n_records + 1, sizeof *tile->record);
+    struct strategy_record *r = &tile->record[tile->n_records++];
+    r->pixel = film_pixel(tile, x, y);
     r->s = (int16_t)s;
-    r->t = (int16_t)th;
+    r->t = (int16_t)t;
     r->unweighted[0] = (float)unweighted.r;
     r->unweighted[1] = (float)unweighted.g;
     r->unweighted[2] = (float)unweighted.b;
     r->weight = (float)weight;
 }
 
-void tile_record_splat(struct tile *t, double px, double py, int s, int th, rgb unweighted, double weight)
+void tile_record_splat(struct tile *tile, double px, double py, int s, int t, rgb unweighted, double weight)
 {
-    if (!t->keep_records)
+    if (!tile->keep_records)
         return;
-    struct pixel_rect range = covered(t, px, py);
+    struct pixel_rect range = covered(tile, px, py);
     for (int y = range.y0; y < range.y1; y++)
         for (int x = range.x0; x < range.x1; x++) {
-            double h = filter_eval(t->filter, px - (x + 0.5), py - (y + 0.5));
-            tile_record_eye(t, x, y, s, th, rgb_scale(unweighted, h), weight);
+            double h = filter_eval(tile->filter, px - (x + 0.5), py - (y + 0.5));
+            tile_record_eye(tile, x, y, s, t, rgb_scale(unweighted, h), weight);
         }
 }
 

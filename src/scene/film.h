@@ -70,9 +70,10 @@ void tile_add_eye(struct tile *t, int x, int y, rgb value);
 /* tile_add_splat: a value arriving at raster point (px,py), spread over pixels by the filter. */
 void tile_add_splat(struct tile *t, double px, double py, rgb value);
 
-/* tile_record_eye, tile_record_splat: note a strategy's contribution, at a pixel of the tile or at a raster point. */
-void tile_record_eye(struct tile *t, int x, int y, int s, int th, rgb unweighted, double weight);
-void tile_record_splat(struct tile *t, double px, double py, int s, int th, rgb unweighted, double weight);
+/* tile_record_eye, tile_record_splat: note a contribution of strategy (s,t) and its MIS weight, at a pixel of the tile
+ * or at a raster point, if records are kept. */
+void tile_record_eye(struct tile *tile, int x, int y, int s, int t, rgb unweighted, double weight);
+void tile_record_splat(struct tile *tile, double px, double py, int s, int t, rgb unweighted, double weight);
 
 /* Images of single strategies, [strategy_count(max_depth)][pixels*3], numbered by strategy_index. */
 struct strategy_images {
@@ -105,6 +106,7 @@ struct film {
     struct strategy_images *strategies; /* NULL unless asked for; owned */
 };
 
+/* film_init: black, for the pixels of `rect` out of a frame of full_width x full_height. Release with film_free. */
 void film_init(struct film *f, struct pixel_rect rect, int full_width, int full_height);
 void film_free(struct film *f);
 
