@@ -11,12 +11,14 @@ struct transform {
     double m[4][4], inv[4][4];
 };
 
+/* transform_identity: what leaves all as it is. */
 struct transform transform_identity(void);
 
 /* transform_from_matrix: from 16 numbers as a scene file lists them, column by column.
  * Returns false, leaving *out alone, when the matrix is singular or not finite. */
 bool transform_from_matrix(const double columns[16], struct transform *out);
 
+/* transform_translate: points move by delta. */
 struct transform transform_translate(vec3 delta);
 
 /* transform_scale: all three factors must be non-zero. */
@@ -28,10 +30,12 @@ struct transform transform_rotate(double degrees, vec3 axis);
 /* transform_look_at: world-to-camera as pbrt's LookAt. Returns false when up is parallel to the view. */
 bool transform_look_at(vec3 eye, vec3 look, vec3 up, struct transform *out);
 
-/* transform_compose: first b, then a (the matrix product a b). */
+/* transform_compose: first b, then a (the matrix product a b). transform_inverse: the way back. */
 struct transform transform_compose(struct transform a, struct transform b);
 struct transform transform_inverse(struct transform t);
 
+/* transform_point: with the translation, and the division that projective matrices ask for. transform_vector: by the
+ * upper left 3x3 part alone; not normalised. */
 vec3 transform_point(const struct transform *t, vec3 p);
 vec3 transform_vector(const struct transform *t, vec3 v);
 

@@ -61,6 +61,8 @@ struct mesh {
     int n_vertices, n_triangles;
     uint64_t content;   /* hash_content of the file it was read from; 0: none */
 };
+
+/* mesh_free: release its arrays; the mesh is empty then. geometry_free: the same of a geometry. */
 void mesh_free(struct mesh *m);
 
 /* shape_add_mesh: transform a mesh to world space and append it as one group.

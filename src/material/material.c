@@ -16,7 +16,7 @@ struct lobe_list {
     int visits; /* materials looked at: bounds the work even if mixes contain each other */
 };
 
-/* Every mix has at least as many branches as materials less one, so a material that fits has fewer than these. */
+/* Nested mixes of n materials, each of one lobe at least, are n - 1 mixes: one that fits is fewer than these in all. */
 enum { MAX_VISITS = 2 * MATERIAL_MAX_LOBES };
 
 struct material material_blank(enum material_kind kind)

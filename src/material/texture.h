@@ -85,23 +85,27 @@ struct texture_set {
     size_t texture_capacity, space_capacity, image_capacity, path_capacity;
 };
 
-/* texture_add: append a texture; returns its number. Textures it names must have been added before. */
+/* texture_add: append a texture; returns its number. Textures it names must have been added before.
+ * texture_add_constant: the same for one value. */
 int texture_add(struct texture_set *set, struct texture t);
 int texture_add_constant(struct texture_set *set, rgb value);
 
 /* texture_add_space: append a texture's current transform; returns its number. */
 int texture_add_space(struct texture_set *set, struct transform current);
 
-/* texture_load_image: the number of the image with this path, reading it if it is new; -1 with a message. */
+/* texture_load_image: the number of the image with this path, reading it if it is new; -1 with a message.
+ * texture_set_free: releases all images, textures and transforms; the set is empty and usable again. */
 int texture_load_image(struct texture_set *set, const char *path, struct error *err);
 void texture_set_free(struct texture_set *set);
 
-/* texture_rgb / texture_float: the value at a surface point. `id` must be a valid texture number. A float texture
- * of a colour picture is the luminance of the stored values, decoded afterwards if `gamma` is set, as in pbrt-v3. */
+/* texture_varying_rgb, texture_varying_float: the general case of the next two, for which every parameter of every
+ * material asks at every hit, and most are constant; for them only. */
 rgb texture_varying_rgb(const struct texture_set *set, int id, const struct surface *at);
 double texture_varying_float(const struct texture_set *set, int id, const struct surface *at);
 
-/* Every parameter of every material comes through here at every hit, and most are constant. */
+/* texture_rgb, texture_float: the value at a surface point; may be negative, infinite or NaN. `id`: a valid texture
+ * number. A float texture of a colour picture is the luminance of the stored values, decoded afterwards if `gamma` is
+ * set, as in pbrt-v3. Cannot fail, thread-safe. */
 static inline rgb texture_rgb(const struct texture_set *set, int id, const struct surface *at)
 {
     const struct texture *t = &set->texture[id];

@@ -33,6 +33,8 @@ struct lexer {
     struct messages *messages;
 };
 
+/* lexer_start: at the beginning of a file. All three must outlive the lexer and its copies; the texts of tokens live as
+ * long as the arena. */
 struct lexer lexer_start(const struct source_file *file, struct arena *arena, struct messages *messages);
 
 /* lexer_next: take one token. False with a message on an unterminated string, an unknown escape or character, or a

@@ -1,4 +1,4 @@
-/* params.c: see params.h. */
+/* params.c: the questions of params.h and their messages; params_read.c reads what is asked for. */
 #include "parser/params.h"
 
 #include <stdarg.h>
@@ -220,23 +220,12 @@ char *params_file(struct params *p, const char *name, struct source_position *at
     return file != NULL && file[0] != '\0' ? file_beside(p->scene_path, file) : NULL;
 }
 
-/* Wavelength and value pairs of an .spd file: numbers, with comments from # to the end of the line. Errors in it
- * are shown at their position in that file. */
-static rgb rgb_from_file(struct params *p, const struct param *item)
+/* The colour of wavelength and value pairs: numbers, with comments from # to the end of the line. */
+static rgb rgb_from_pairs(struct params *p, const struct source_file *file)
 {
     rgb colour = rgb_black();
-    struct error inner;
-    size_t size;
-    char *path = file_beside(p->scene_path, p->string[item->first]), *text = text_read(path, &size, &inner);
-    if (text == NULL) {
-        params_fail(p, param_value_position(item, 0), "%s", inner.text);
-        free(path);
-        return colour;
-    }
-    *p->content = hash_combine(*p->content, hash_content(text, size));
     struct arena arena = {NULL, NULL};
-    struct source_file file = {path, text, text + size, item->position, false};
-    struct lexer l = lexer_start(&file, &arena, p->messages);
+    struct lexer l = lexer_start(file, &arena, p->messages);
     double *number = NULL;
     size_t n = 0, capacity = 0;
     struct token t = {0};
@@ -254,6 +243,23 @@ static rgb rgb_from_file(struct params *p, const struct param *item)
         colour = spectrum_from_samples((double(*)[2])number, (int)(n / 2));
     free(number);
     arena_free(&arena);
+    return colour;
+}
+
+/* That of an .spd file. Errors in it are shown at their position in that file. */
+static rgb rgb_from_file(struct params *p, const struct param *item)
+{
+    rgb colour = rgb_black();
+    struct error inner;
+    size_t size;
+    char *path = file_beside(p->scene_path, p->string[item->first]), *text = text_read(path, &size, &inner);
+    if (text != NULL) {
+        const struct source_file file = {path, text, text + size, item->position, false};
+        *p->content = hash_combine(*p->content, hash_content(text, size));
+        colour = rgb_from_pairs(p, &file);
+    } else {
+        params_fail(p, param_value_position(item, 0), "%s", inner.text);
+    }
     free(text);
     free(path);
     return colour;

@@ -1,4 +1,4 @@
-/* params_read.c: see params.h: a parameter list from text to memory. */
+/* params_read.c: a parameter list from text to memory, see params.h. */
 #include "parser/params.h"
 
 #include <stdlib.h>

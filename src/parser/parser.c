@@ -23,6 +23,7 @@ static bool world_begin(struct parser *p)
     return true;
 }
 
+/* The camera is in the medium that is current here: pbrt-v3 makes it at the end of the world. */
 static bool world_end(struct parser *p)
 {
     p->phase = AFTER_WORLD;

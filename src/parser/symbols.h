@@ -55,9 +55,10 @@ struct symbols {
     int n_chains; /* a power of two, never fewer than entries. All zeros is an empty table. */
 };
 
+/* symbols_add: append a name, which is copied, with its value, >= 0. */
 void symbols_add(struct symbols *t, const char *name, int value);
 
-/* symbols_find: the value of the newest entry of this name, or -1. Values must not be negative. */
+/* symbols_find: the value of the newest entry of this name, or -1. */
 int symbols_find(const struct symbols *t, const char *name);
 
 /* symbols_forget: remove all entries but the first n. */

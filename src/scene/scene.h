@@ -47,6 +47,8 @@ struct scene {
 /* scene_init: an empty scene with pbrt's defaults (1280x720 film, box filter of radius 0.5, fov 90). */
 void scene_init(struct scene *s);
 void scene_free(struct scene *s);
+
+/* scene_add_material: append a material; returns its number. */
 int scene_add_material(struct scene *s, struct material m);
 
 /* scene_prepare: build the kd-tree, light tables, camera and filter for the final resolution. Call once; from then on
