@@ -74,8 +74,10 @@ struct params {
 bool params_read(struct params *p, struct lexer *l);
 
 /* params_take: append a copy of another list's parameter, in place of those that it stands for: a value of the same
- * type, or, if it is a texture, of any. Returns its number. */
-int params_take(struct params *p, const struct params *from, const struct param *item);
+ * type, or, if it is a texture, of any. */
+void params_take(struct params *p, const struct params *from, const struct param *item);
+
+/* params_free: release all lists; *p is empty and has to be set up again. */
 void params_free(struct params *p);
 
 /* params_fail: keep an error, unless there is one already. Returns false. */

@@ -64,12 +64,28 @@ static bool wants_text(enum param_type type)
     return type == PARAM_BOOL || type == PARAM_STRING || type == PARAM_TEXTURE;
 }
 
+/* One more value. Returns true. */
 static bool add_number(struct params *p, struct param *item, double number)
 {
     p->number = mem_grow(p->number, &p->number_capacity, p->n_number + 1, sizeof *p->number);
     p->number[p->n_number++] = number;
     item->n++;
     return true;
+}
+
+static bool add_text(struct params *p, struct param *item, const char *text)
+{
+    p->string = mem_grow(p->string, &p->string_capacity, p->n_string + 1, sizeof *p->string);
+    p->string[p->n_string++] = text;
+    item->is_text = true;
+    item->n++;
+    return true;
+}
+
+static void add_item(struct params *p, const struct param *item)
+{
+    p->item = mem_grow(p->item, &p->capacity, (size_t)p->n + 1, sizeof *p->item);
+    p->item[p->n++] = *item;
 }
 
 /* One value that is not a plain number: a string, a bare true or false, a number with an appendix, or a mistake. */
@@ -92,11 +108,7 @@ static bool read_text(struct params *p, struct lexer *l, struct param *item)
         return params_fail(p, t.position, "\"%s\" wants %s here, not %s", item->name,
                            item->is_text || (item->n == 0 && wants_text(item->type)) ? "a quoted string" : "a number",
                            token_text(&t, buffer, sizeof buffer));
-    item->is_text = true;
-    p->string = mem_grow(p->string, &p->string_capacity, p->n_string + 1, sizeof *p->string);
-    p->string[p->n_string++] = t.text;
-    item->n++;
-    return true;
+    return add_text(p, item, t.text);
 }
 
 static bool read_value(struct params *p, struct lexer *l, struct param *item)
@@ -154,10 +166,8 @@ bool params_read(struct params *p, struct lexer *l)
         if (!read_values(p, l, &item))
             return false;
         item.first = item.is_text ? first_string : first_number;
-        if (!is_usable(p, &item))
-            continue;
-        p->item = mem_grow(p->item, &p->capacity, (size_t)p->n + 1, sizeof *p->item);
-        p->item[p->n++] = item;
+        if (is_usable(p, &item))
+            add_item(p, &item);
     }
     return true;
 }
@@ -169,29 +179,22 @@ static bool stands_for(const struct param *item, const struct param *older)
     return strcmp(older->name, item->name) == 0 && (texture || older->type == item->type);
 }
 
-int params_take(struct params *p, const struct params *from, const struct param *item)
+void params_take(struct params *p, const struct params *from, const struct param *item)
 {
     struct param copy = *item;
-    size_t n = (size_t)item->n;
     int kept = 0;
     for (int i = 0; i < p->n; i++)
         if (!stands_for(item, &p->item[i]))
             p->item[kept++] = p->item[i];
     p->n = kept;
-    if (item->is_text) {
-        p->string = mem_grow(p->string, &p->string_capacity, p->n_string + n, sizeof *p->string);
-        memcpy(p->string + p->n_string, from->string + item->first, n * sizeof *p->string);
-        copy.first = p->n_string;
-        p->n_string += n;
-    } else {
-        p->number = mem_grow(p->number, &p->number_capacity, p->n_number + n, sizeof *p->number);
-        memcpy(p->number + p->n_number, from->number + item->first, n * sizeof *p->number);
-        copy.first = p->n_number;
-        p->n_number += n;
-    }
-    p->item = mem_grow(p->item, &p->capacity, (size_t)p->n + 1, sizeof *p->item);
-    p->item[p->n] = copy;
-    return p->n++;
+    copy.n = 0;
+    copy.first = item->is_text ? p->n_string : p->n_number;
+    for (size_t k = item->first; k < item->first + (size_t)item->n; k++)
+        if (item->is_text)
+            add_text(p, &copy, from->string[k]);
+        else
+            add_number(p, &copy, from->number[k]);
+    add_item(p, &copy);
 }
 
 void params_free(struct params *p)
