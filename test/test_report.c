@@ -525,17 +525,22 @@ static void test_planned_scene(struct test *t)
         int width, max_depth;
         const char *name;
         int expected[3];
-    } cases[] = {{0, 0, "bathroom", {36, 24, 10}}, {0, 3, "bathroom", {36, 24, 3}}, {72, 0, "bathroom", {72, 48, 10}},
-                 {0, 0, "no-such-name", {WIDTH_WITHOUT_REFERENCE, 32, 10}}};
+        bool fits; /* the stored one */
+    } cases[] = {{0, 0, "bathroom", {36, 24, 10}, true}, {0, 3, "bathroom", {36, 24, 3}, false},
+                 {72, 0, "bathroom", {72, 48, 10}, false}, {18, 0, "bathroom", {18, 12, 10}, true},
+                 {0, 0, "no-such-name", {WIDTH_WITHOUT_REFERENCE, 32, 10}, false}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct plan p = {.width = cases[i].width, .max_depth = cases[i].max_depth};
         const int *expected = cases[i].expected;
         struct scene scene;
+        struct reference stored;
         struct error err = {""};
         int depth;
-        if (!CHECK(t, plan_scene_load(&p, "scenes/bathroom.pbrt", cases[i].name, &scene, &depth, &err), "%s",
-                   err.text))
+        bool ok = plan_scene_load(&p, "scenes/bathroom.pbrt", cases[i].name, &scene, &depth, &stored, &err);
+        if (!CHECK(t, ok, "%s", err.text))
             continue;
+        CHECK(t, (stored.pixels != NULL) == cases[i].fits, "case %d: a stored reference", (int)i);
+        reference_free(&stored);
         CHECK(t, scene.width == expected[0] && scene.height == expected[1] && depth == expected[2],
               "case %d: %dx%d, depth %d", (int)i, scene.width, scene.height, depth);
         scene_free(&scene);
@@ -556,16 +561,18 @@ static void test_reference(struct test *t)
     fclose(f);
     snprintf(path, sizeof path, "%s/room.pfm", test_tmp(t));
     image_write(path, 4, 4, pixels, &err);
-    CHECK(t, reference_find(test_tmp(t), "x/room.pbrt", "room", 2, 2, 5, &r, &err) == 1, "%s", err.text);
-    CHECK(t, r.pixels != NULL && fabs((double)r.pixels[0] - 2.5) < 1e-6 && fabs((double)r.pixels[9] - 12.5) < 1e-6,
+    CHECK(t, reference_find(test_tmp(t), "x/room.pbrt", "room", &r, &err), "%s", err.text);
+    CHECK(t, !reference_fit(&r, 2, 2, 6, &err) && strstr(err.text, "maxdepth 5") != NULL,
+          "another depth is refused: %s", err.text);
+    CHECK(t, !reference_fit(&r, 3, 3, 5, &err) && strstr(err.text, "multiple") != NULL, "another size is refused: %s",
+          err.text);
+    CHECK(t, r.width == 4 && reference_fit(&r, 2, 2, 5, &err) && r.width == 2 && r.height == 2, "%s", err.text);
+    CHECK(t, fabs((double)r.pixels[0] - 2.5) < 1e-6 && fabs((double)r.pixels[9] - 12.5) < 1e-6,
           "means of 2 x 2 pixels");
     CHECK(t, r.noise8 == 0.25 && r.mean_error == 0.001, "noise %g, %g", r.noise8, r.mean_error);
     reference_free(&r);
-    CHECK(t, reference_find(path, "", "room", 2, 2, 6, &r, &err) == -1 && strstr(err.text, "maxdepth 5") != NULL,
-          "another depth is refused: %s", err.text);
-    CHECK(t, reference_find(path, "", "room", 3, 3, 5, &r, &err) == -1 && strstr(err.text, "multiple") != NULL,
-          "another size is refused: %s", err.text);
-    CHECK(t, reference_find(NULL, "nowhere/room.pbrt", "no-such-room", 2, 2, 5, &r, &err) == 0, "none is found");
+    CHECK(t, !reference_find("no-such-file.pfm", "", "room", &r, &err), "what was given is needed");
+    CHECK(t, reference_find(NULL, "nowhere/room.pbrt", "no-such-room", &r, &err) && r.pixels == NULL, "none is found");
 }
 
 void test_report(struct test *t)

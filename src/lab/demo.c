@@ -21,8 +21,8 @@ static const double SOFT = 0.65; /* the grey of what matters less */
 struct show {
     const struct demo *demo;
     struct scene scene;
-    struct reference reference; /* of ref_width x ref_height pixels */
-    int width, height, ref_width, ref_height, max_depth;
+    struct reference reference;
+    int width, height, max_depth;
     float *picture[DEMO_SIDES]; /* owned */
     struct demo_side *side;     /* [DEMO_SIDES] */
     struct error *err;
@@ -72,31 +72,26 @@ static bool render_both(struct show *s)
     return true;
 }
 
-static bool find_reference(struct show *s)
+/* The reference, and the scene at its size times the scale. */
+static bool load_scene(struct show *s)
 {
     const struct demo *d = s->demo;
     char name[256];
-    int shape[3];
+    struct reference *r = &s->reference;
     plan_scene_name(d->scene, name, sizeof name);
-    if (!reference_shape(d->reference, d->scene, name, shape))
-        return error_set(s->err, "%s: there is no stored reference %s.pfm; give one with --reference", d->scene, name);
-    s->ref_width = shape[0];
-    s->ref_height = shape[1];
-    if (!picture_size_ok((unsigned long)shape[0] * (unsigned long)d->scale,
-                         (unsigned long)shape[1] * (unsigned long)d->scale, s->err))
+    if (!reference_find(d->reference, d->scene, name, r, s->err))
         return false;
-    s->width = shape[0] * d->scale;
-    s->height = shape[1] * d->scale;
-    struct plan plan = {.width = s->width, .height = s->height, .max_depth = shape[2]};
-    if (!plan_scene_load(&plan, d->scene, name, &s->scene, &s->max_depth, s->err))
+    if (r->pixels == NULL)
+        return error_set(s->err, "%s: there is no stored reference %s.pfm; give one with --reference", d->scene, name);
+    if (!picture_size_ok((unsigned long)r->width * (unsigned long)d->scale,
+                         (unsigned long)r->height * (unsigned long)d->scale, s->err))
+        return false;
+    s->width = r->width * d->scale;
+    s->height = r->height * d->scale;
+    if (!plan_scene_read(d->scene, s->width, s->height, (int)r->max_depth, &s->scene, &s->max_depth, s->err))
         return false;
     settings_clear(&s->scene.settings); /* defaults: what a user gets */
-    if (reference_find(d->reference, d->scene, name, s->ref_width, s->ref_height, s->max_depth, &s->reference,
-                       s->err) == 1)
-        return true;
-    scene_free(&s->scene);
-    return error_set(s->err, "%s: its stored reference holds other paths than those up to maxdepth %d", d->scene,
-                     s->max_depth);
+    return true;
 }
 
 /* --- the picture ------------------------------------------------------------------------------------- */
@@ -104,9 +99,10 @@ static bool find_reference(struct show *s)
 /* Compare in the reference's size. */
 static void measure(struct show *s)
 {
+    const struct reference *r = &s->reference;
     for (int i = 0; i < DEMO_SIDES; i++) {
         float *small = sheet_shrink(s->picture[i], s->width, s->height, s->demo->scale);
-        s->side[i].rmse8 = compare_pixels(small, s->reference.pixels, 3L * s->ref_width * s->ref_height).rmse8;
+        s->side[i].rmse8 = compare_pixels(small, r->pixels, 3L * r->width * r->height).rmse8;
         free(small);
     }
 }
@@ -129,6 +125,7 @@ static void draw_column(struct sheet *sheet, int number, const char *name, const
 /* Both sides and the reference, with its own noise where that is known. */
 static void draw_sheet(const struct show *s, struct sheet *sheet)
 {
+    const struct reference *r = &s->reference;
     int k = s->width < COLUMN ? COLUMN / s->width : 1;
     char cost[100];
     sheet_init(sheet, (DEMO_SIDES + 1) * (s->width * k + GAP) + GAP, LABEL + s->height * k + 2 * GAP, SHEET_PAPER);
@@ -139,18 +136,20 @@ static void draw_sheet(const struct show *s, struct sheet *sheet)
     }
     snprintf(cost, sizeof cost, s->demo->scale > 1 ? "means of %d x %d pixels" : "stored", s->demo->scale,
              s->demo->scale);
-    draw_column(sheet, DEMO_SIDES, "reference", "noise", s->reference.noise8, cost, s->reference.pixels, s->ref_width,
-                s->ref_height, k * s->demo->scale);
+    draw_column(sheet, DEMO_SIDES, "reference", "noise", r->noise8, cost, r->pixels, r->width, r->height,
+                k * s->demo->scale);
 }
 
 bool demo_run(const struct demo *demo, struct demo_side out[DEMO_SIDES], struct sheet *picture, struct error *err)
 {
     struct show s = {.demo = demo, .side = out, .err = err};
-    if (!find_reference(&s))
-        return false;
-    for (int i = 0; i < DEMO_SIDES; i++)
-        s.picture[i] = mem_alloc((size_t)s.width * (size_t)s.height * 3, sizeof *s.picture[i]);
-    bool ok = render_both(&s);
+    bool ok = load_scene(&s);
+    if (ok) {
+        for (int i = 0; i < DEMO_SIDES; i++)
+            s.picture[i] = mem_alloc((size_t)s.width * (size_t)s.height * 3, sizeof *s.picture[i]);
+        ok = render_both(&s);
+        scene_free(&s.scene);
+    }
     if (ok) {
         measure(&s);
         draw_sheet(&s, picture);
@@ -158,6 +157,5 @@ bool demo_run(const struct demo *demo, struct demo_side out[DEMO_SIDES], struct 
     for (int i = 0; i < DEMO_SIDES; i++)
         free(s.picture[i]);
     reference_free(&s.reference);
-    scene_free(&s.scene);
     return ok;
 }

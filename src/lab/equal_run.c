@@ -119,37 +119,32 @@ static bool measure_variant(struct subject *s, int variant, int seed)
 static bool load_scene(struct subject *s)
 {
     struct equal_scene *out = s->out;
-    if (!plan_scene_load(s->whole->plan, out->path, out->name, &s->scene, &out->max_depth, s->err))
+    if (!plan_scene_load(s->whole->plan, out->path, out->name, &s->scene, &out->max_depth, &s->reference, s->err))
         return false;
     out->width = s->scene.width;
     out->height = s->scene.height;
     return true;
 }
 
-static bool find_reference(struct subject *s)
+/* Where no reference is stored, one is rendered. */
+static bool make_reference(struct subject *s)
 {
-    const struct plan *p = s->whole->plan;
-    struct equal_scene *out = s->out;
-    int found = reference_find(p->reference, out->path, out->name, out->width, out->height, out->max_depth,
-                               &s->reference, s->err);
-    if (found == 0) {
-        struct render_options o = options_of(s, 0, REFERENCE_SEED);
-        found = reference_render(&s->scene, &o, p->reference_spp, &s->reference, s->err);
-    }
-    out->noise8 = s->reference.noise8;
-    return found == 1;
+    struct render_options o = options_of(s, 0, REFERENCE_SEED);
+    bool ok = s->reference.pixels != NULL ||
+              reference_render(&s->scene, &o, s->whole->plan->reference_spp, &s->reference, s->err);
+    s->out->noise8 = s->reference.noise8;
+    return ok;
 }
 
 /* Seeds come before variants, so that a machine that slows down slows down all alike. */
 static bool measure_scene(struct subject *s, double done)
 {
     int n = s->whole->plan->n_seeds * N_EQUAL, scenes = s->whole->plan->n_scenes;
-    bool ok = find_reference(s);
+    bool ok = make_reference(s);
     for (int i = 0; ok && i < n; i++) {
         progress_update(s->bar, (done + (double)i / n) / scenes);
         ok = measure_variant(s, i % N_EQUAL, i / N_EQUAL + 1);
     }
-    reference_free(&s->reference);
     scene_free(&s->scene);
     return ok;
 }
@@ -166,6 +161,7 @@ bool equal_run(struct equal_time *out, struct error *err)
         s.out->path = p->scene[out->n_scenes];
         plan_scene_name(s.out->path, s.out->name, sizeof s.out->name);
         ok = load_scene(&s) && measure_scene(&s, out->n_scenes);
+        reference_free(&s.reference);
         out->n_scenes += ok;
         ok = ok && equal_write(out, err);
     }

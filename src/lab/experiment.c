@@ -234,42 +234,37 @@ static bool read_or_render_run(struct scene_experiment *s, int variant, int seed
 
 /* --- one scene --------------------------------------------------------------------------------------- */
 
-/* A reference kept by an earlier start, or a new one. */
+/* The stored reference, or one kept by an earlier start, or a new one. */
 static bool make_reference(struct scene_experiment *s)
 {
     const struct plan *p = s->whole->plan;
     struct scene_results *r = s->out;
     char key[KEY_SIZE], directory[PATH_SIZE];
-    snprintf(directory, sizeof directory, "%s/reference", p->directory);
-    snprintf(key, sizeof key, "%s %08lx %dx%d maxdepth=%d bdpt spp=%ld", r->name, probe_variant(s, VARIANT_BDPT),
-             r->width, r->height, r->max_depth, p->reference_spp);
-    if (reference_read(directory, r->name, key, r->width, r->height, r->max_depth, &r->reference)) {
+    if (r->reference.pixels != NULL) {
         skip_work(s->whole, (double)p->reference_spp);
         return true;
     }
+    snprintf(directory, sizeof directory, "%s/reference", p->directory);
+    snprintf(key, sizeof key, "%s %08lx %dx%d maxdepth=%d bdpt spp=%ld", r->name, probe_variant(s, VARIANT_BDPT),
+             r->width, r->height, r->max_depth, p->reference_spp);
+    if (reference_read(directory, r->name, key, &r->reference) &&
+        reference_fit(&r->reference, r->width, r->height, r->max_depth, NULL)) {
+        skip_work(s->whole, (double)p->reference_spp);
+        return true;
+    }
+    reference_free(&r->reference);
     struct render_options o = options_of(s, VARIANT_BDPT, REFERENCE_SEED, 0);
     s->whole->current = (double)p->reference_spp;
     if (!reference_render(&s->scene, &o, p->reference_spp, &r->reference, s->whole->err))
         return false;
     finish_work(s->whole, (double)p->reference_spp);
-    return reference_write(&r->reference, directory, r->name, key, r->width, r->height, r->max_depth, s->whole->err);
-}
-
-static bool find_or_make_reference(struct scene_experiment *s)
-{
-    const struct plan *p = s->whole->plan;
-    struct scene_results *r = s->out;
-    int found =
-        reference_find(p->reference, r->path, r->name, r->width, r->height, r->max_depth, &r->reference, s->whole->err);
-    if (found == 1)
-        skip_work(s->whole, (double)p->reference_spp);
-    return found == 1 || (found == 0 && make_reference(s));
+    return reference_write(&r->reference, directory, r->name, key, s->whole->err);
 }
 
 static bool load_scene(struct scene_experiment *s)
 {
     struct scene_results *r = s->out;
-    if (!plan_scene_load(s->whole->plan, r->path, r->name, &s->scene, &r->max_depth, s->whole->err))
+    if (!plan_scene_load(s->whole->plan, r->path, r->name, &s->scene, &r->max_depth, &r->reference, s->whole->err))
         return false;
     r->width = s->scene.width;
     r->height = s->scene.height;
@@ -309,7 +304,7 @@ static bool measure_scene(struct experiment *e, int number)
     struct scene_experiment s = {.whole = e, .out = &e->results->scene[number]};
     if (!load_scene(&s))
         return false;
-    bool ok = find_or_make_reference(&s) && all_runs(&s) && render_pyramid(&s);
+    bool ok = make_reference(&s) && all_runs(&s) && render_pyramid(&s);
     scene_free(&s.scene);
     return ok;
 }

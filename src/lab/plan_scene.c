@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/os.h"
-#include "lab/reference.h"
 #include "parser/parser.h"
 #include "render/parameters.h"
 
@@ -24,20 +23,13 @@ void plan_scene_name(const char *path, char *out, int size)
     snprintf(out, (size_t)size, "%.*s", (int)(end - start), start);
 }
 
-bool plan_scene_load(const struct plan *p, const char *path, const char *name, struct scene *scene, int *depth,
+bool plan_scene_read(const char *path, int width, int height, int max_depth, struct scene *scene, int *depth,
                      struct error *err)
 {
     static const double whole[4] = {0, 1, 0, 1};
-    int width = p->width, height = p->height, max_depth = p->max_depth, stored[3];
-    if (width == 0 && reference_shape(p->reference, path, name, stored)) {
-        width = stored[0];
-        height = stored[1];
-        max_depth = max_depth > 0 ? max_depth : stored[2];
-    }
     if (!parse_scene(path, scene, NULL, err))
         return false;
     parameters_adapt(scene, NULL);
-    width = width > 0 ? width : WIDTH_WITHOUT_REFERENCE;
     /* Widths of plans go up to 8192 and films up to 65536 a side: below 2^30. */
     int by_aspect = (int)(0.5 + (double)width * scene->height / scene->width);
     memcpy(scene->crop, whole, sizeof whole);
@@ -50,4 +42,25 @@ bool plan_scene_load(const struct plan *p, const char *path, const char *name, s
     }
     scene_prepare(scene);
     return true;
+}
+
+bool plan_scene_load(const struct plan *p, const char *path, const char *name, struct scene *scene, int *depth,
+                     struct reference *stored, struct error *err)
+{
+    int width = p->width > 0 ? p->width : WIDTH_WITHOUT_REFERENCE, height = p->height, max_depth = p->max_depth;
+    if (!reference_find(p->reference, path, name, stored, err))
+        return false;
+    if (p->width == 0 && stored->pixels != NULL) {
+        width = stored->width;
+        height = stored->height;
+        max_depth = max_depth > 0 ? max_depth : (int)stored->max_depth;
+    }
+    bool ok = plan_scene_read(path, width, height, max_depth, scene, depth, err);
+    if (!ok || stored->pixels == NULL || reference_fit(stored, scene->width, scene->height, *depth, err))
+        return ok;
+    reference_free(stored);
+    if (p->reference == NULL)
+        return true;
+    scene_free(scene);
+    return false;
 }

@@ -1,4 +1,4 @@
-/* plan_scene.h: the scenes of a plan as they are rendered: whole, with a box filter, at the plan's size.
+/* plan_scene.h: the scenes of a plan as they are rendered, and their stored references.
  *
  * Tests: test_report.c.
  */
@@ -6,19 +6,28 @@
 #define ASBDPT_PLAN_SCENE_H
 
 #include "lab/plan.h"
+#include "lab/reference.h"
 #include "scene/scene.h"
 
 /* plan_scene_name: the file's name without .pbrt; for .../NAME/scene.pbrt the directory's. At most size - 1
  * bytes. */
 void plan_scene_name(const char *path, char *out, int size);
 
-/* plan_scene_load: read a scene and prepare it. Where the plan leaves the width open, size and depth are those of the
- * stored reference; without one it is WIDTH_WITHOUT_REFERENCE wide.
- *   name   what its reference is called
- *   depth  out, the maxdepth in force
+/* plan_scene_read: read a scene as experiments render it, whole and with a box filter, and prepare it.
+ *   height     0: by the scene's aspect ratio
+ *   max_depth  0: the scene's; *depth is the one in force
  * Returns false with a message, then nothing needs release. */
+bool plan_scene_read(const char *path, int width, int height, int max_depth, struct scene *scene, int *depth,
+                     struct error *err);
+
+/* plan_scene_load: the same at the plan's size and depth, with its stored reference. Where the plan leaves the width
+ * open, size and depth are the reference's; without one it is WIDTH_WITHOUT_REFERENCE wide.
+ *   name    what the reference is called
+ *   stored  out, to be given to reference_free; its pixels are NULL where there is none, or none that fits
+ * Returns false with a message, also when a reference was given that cannot be used; then the scene is not to be
+ * released. */
 enum { WIDTH_WITHOUT_REFERENCE = 48 };
 bool plan_scene_load(const struct plan *p, const char *path, const char *name, struct scene *scene, int *depth,
-                     struct error *err);
+                     struct reference *stored, struct error *err);
 
 #endif

@@ -61,40 +61,38 @@ static void read_text(const char *picture, struct reference_text *s)
 
 /* --- stored references ------------------------------------------------------------------------------- */
 
-/* Read one picture, shrunk to this size; *text is what is written beside it. Returns false with a message if it does
- * not fit. */
-static bool load_fitting(const char *path, int width, int height, int max_depth, struct reference *out,
-                         struct reference_text *text, struct error *err)
+/* Read one picture, and *text beside it. */
+static bool load(const char *path, struct reference *out, struct reference_text *text, struct error *err)
 {
-    int w, h;
-    float *pixels = load_linear(path, &w, &h, NULL, err);
-    if (pixels == NULL)
+    out->pixels = load_linear(path, &out->width, &out->height, NULL, err);
+    if (out->pixels == NULL)
         return false;
     read_text(path, text);
-    int k = w / width;
-    bool fits = k >= 1 && w == k * width && h == k * height;
-    bool deep = text->max_depth == 0 || text->max_depth == max_depth;
-    if (!fits)
-        error_set(err, "%s is %dx%d, which is no whole multiple of %dx%d", path, w, h, width, height);
-    else if (!deep)
-        error_set(err, "%s holds paths up to maxdepth %ld, not %d", path, text->max_depth, max_depth);
-    if (fits && deep) {
-        out->pixels = sheet_shrink(pixels, w, h, k);
-        out->noise8 = text->noise8 / k;
-        out->mean_error = text->mean_error;
-        snprintf(out->origin, sizeof out->origin, "stored picture %s of %dx%d pixels%s", path, w, h,
-                 k > 1 ? ", averaged to this size" : "");
-    }
-    free(pixels);
-    return fits && deep;
+    out->max_depth = text->max_depth;
+    out->noise8 = text->noise8;
+    out->mean_error = text->mean_error;
+    snprintf(out->origin, sizeof out->origin, "stored picture %.1000s of %dx%d pixels", path, out->width, out->height);
+    return true;
 }
 
-static bool readable(const char *path)
+bool reference_fit(struct reference *r, int width, int height, int max_depth, struct error *err)
 {
-    FILE *f = os_open_input(path);
-    if (f != NULL)
-        fclose(f);
-    return f != NULL;
+    int k = r->width / width;
+    if (k < 1 || r->width != k * width || r->height != k * height)
+        return error_set(err, "%s is no whole multiple of %dx%d", r->origin, width, height);
+    if (r->max_depth != 0 && r->max_depth != max_depth)
+        return error_set(err, "%s holds paths up to maxdepth %ld, not %d", r->origin, r->max_depth, max_depth);
+    if (k == 1)
+        return true;
+    float *small = sheet_shrink(r->pixels, r->width, r->height, k);
+    size_t n = strlen(r->origin);
+    snprintf(r->origin + n, sizeof r->origin - n, ", averaged to this size");
+    free(r->pixels);
+    r->pixels = small;
+    r->width = width;
+    r->height = height;
+    r->noise8 /= k;
+    return true;
 }
 
 enum { N_PLACES = 3 };
@@ -112,45 +110,24 @@ static void place_path(int i, const char *scene_path, const char *name, char pat
 static void given_path(const char *given, const char *name, char path[PATH_SIZE])
 {
     snprintf(path, PATH_SIZE, "%s/%s.pfm", given, name);
-    if (!readable(path))
+    if (!file_exists(path))
         snprintf(path, PATH_SIZE, "%s", given);
 }
 
-int reference_find(const char *given, const char *scene_path, const char *name, int width, int height, int max_depth,
-                   struct reference *out, struct error *err)
+bool reference_find(const char *given, const char *scene_path, const char *name, struct reference *out,
+                    struct error *err)
 {
     char path[PATH_SIZE];
     struct reference_text text;
+    bool found = false;
     if (given != NULL) {
         given_path(given, name, path);
-        return load_fitting(path, width, height, max_depth, out, &text, err) ? 1 : -1;
+        return load(path, out, &text, err);
     }
-    for (int i = 0; i < N_PLACES; i++) {
+    for (int i = 0; !found && i < N_PLACES; i++) {
         place_path(i, scene_path, name, path);
-        if (readable(path) && load_fitting(path, width, height, max_depth, out, &text, NULL))
-            return 1;
+        found = load(path, out, &text, NULL);
     }
-    return 0;
-}
-
-bool reference_shape(const char *given, const char *scene_path, const char *name, int out[3])
-{
-    char path[PATH_SIZE];
-    struct reference_text text;
-    float *pixels = NULL;
-    for (int i = 0; pixels == NULL && i < (given != NULL ? 1 : N_PLACES); i++) {
-        if (given != NULL)
-            given_path(given, name, path);
-        else
-            place_path(i, scene_path, name, path);
-        if (readable(path))
-            pixels = load_linear(path, &out[0], &out[1], NULL, NULL);
-    }
-    if (pixels == NULL)
-        return false;
-    read_text(path, &text);
-    out[2] = (int)text.max_depth;
-    free(pixels);
     return true;
 }
 
@@ -224,6 +201,9 @@ bool reference_render(const struct scene *scene, const struct render_options *op
                  "rendered by this program: %s, two halves of %ld spp, seeds %lu and %lu", options->integrator->name,
                  half, (unsigned long)options->seed, (unsigned long)options->seed + 1);
         out->pixels = a;
+        out->width = scene->width;
+        out->height = scene->height;
+        out->max_depth = options->max_depth;
     } else {
         free(a);
     }
@@ -231,30 +211,29 @@ bool reference_render(const struct scene *scene, const struct render_options *op
     return ok;
 }
 
-bool reference_write(const struct reference *r, const char *directory, const char *name, const char *key, int width,
-                     int height, int max_depth, struct error *err)
+bool reference_write(const struct reference *r, const char *directory, const char *name, const char *key,
+                     struct error *err)
 {
     char path[PATH_SIZE];
     struct file_output f;
     snprintf(path, sizeof path, "%s/%s.pfm", directory, name);
-    if (!image_write(path, width, height, r->pixels, err))
+    if (!image_write(path, r->width, r->height, r->pixels, err))
         return false;
     snprintf(path, sizeof path, "%s/%s.txt", directory, name);
     if (!file_create(path, &f, err))
         return false;
-    fprintf(f.stream, "key %s\nresolution %dx%d\nmaxdepth %d\nnoise8 %.17g\nmean_error %.17g\norigin %s\n", key, width,
-            height, max_depth, r->noise8, r->mean_error, r->origin);
+    fprintf(f.stream, "key %s\nresolution %dx%d\nmaxdepth %ld\nnoise8 %.17g\nmean_error %.17g\norigin %s\n", key,
+            r->width, r->height, r->max_depth, r->noise8, r->mean_error, r->origin);
     return file_commit(&f, err);
 }
 
-bool reference_read(const char *directory, const char *name, const char *key, int width, int height, int max_depth,
-                    struct reference *out)
+bool reference_read(const char *directory, const char *name, const char *key, struct reference *out)
 {
     char path[PATH_SIZE];
     struct reference_text text;
     snprintf(path, sizeof path, "%s/%s.pfm", directory, name);
     read_text(path, &text);
-    if (strcmp(text.key, key) != 0 || !load_fitting(path, width, height, max_depth, out, &text, NULL))
+    if (strcmp(text.key, key) != 0 || !load(path, out, &text, NULL))
         return false;
     snprintf(out->origin, sizeof out->origin, "%s", text.origin);
     return true;

@@ -19,34 +19,36 @@
 #include "render/render.h"
 
 struct reference {
-    float *pixels;     /* [height*width*3] linear; owned */
+    float *pixels;     /* [height*width*3] linear; owned; NULL: there is none */
+    int width, height;
+    long max_depth;    /* 0: not said */
     double noise8;     /* of its 8-bit values; NaN when unknown */
     double mean_error; /* relative standard error of its mean; NaN when unknown */
     char origin[1200]; /* one sentence for readers */
 };
 
-/* reference_find: read a stored reference that fits.
+/* reference_find: read the stored reference of a scene.
  *   given  a file, a directory that holds NAME.pfm, or NULL to look for ref/NAME.pfm beside the scene, one directory
- *          up and in the current one
- * Returns 1 when found; 0 when there is none that fits; -1 with a message when `given` is unusable. */
-int reference_find(const char *given, const char *scene_path, const char *name, int width, int height, int max_depth,
-                   struct reference *out, struct error *err);
+ *          up and in the current one; then out->pixels is NULL if there is none
+ * Returns false with a message when `given` cannot be read. */
+bool reference_find(const char *given, const char *scene_path, const char *name, struct reference *out,
+                    struct error *err);
 
-/* reference_shape: width, height and maxdepth (0: not said) of the stored reference that reference_find meets first,
- * whatever fits. Returns false when there is none. */
-bool reference_shape(const char *given, const char *scene_path, const char *name, int out[3]);
+/* reference_fit: shrink it to this size. Returns false with a message, and leaves it as it is, when its own is no whole
+ * multiple of that or it holds paths of other lengths. */
+bool reference_fit(struct reference *r, int width, int height, int max_depth, struct error *err);
 
-/* reference_render: render one of `spp` samples per pixel; progress as render_options has it, over both halves.
+/* reference_render: render one of `spp` samples per pixel, of the whole scene, paths up to options->max_depth; progress
+ * as render_options has it, over both halves.
  * Returns false with a message. */
 bool reference_render(const struct scene *scene, const struct render_options *options, long spp, struct reference *out,
                       struct error *err);
 
-/* reference_write / reference_read: keep it as DIRECTORY/NAME.pfm and .txt; the key says what it depends on, and
- * only a reference with the same key is read back. */
-bool reference_write(const struct reference *r, const char *directory, const char *name, const char *key, int width,
-                     int height, int max_depth, struct error *err);
-bool reference_read(const char *directory, const char *name, const char *key, int width, int height, int max_depth,
-                    struct reference *out);
+/* reference_write / reference_read: keep it as DIRECTORY/NAME.pfm and .txt; the key says what it depends on, size and
+ * depth too, and only a reference with the same key is read back. */
+bool reference_write(const struct reference *r, const char *directory, const char *name, const char *key,
+                     struct error *err);
+bool reference_read(const char *directory, const char *name, const char *key, struct reference *out);
 
 /* picture_mean_error: relative standard error of the mean of a film's picture, were its pixels independent (for
  * integrators that share light sub-paths between pixels it is too small). NaN for a black one. */
