@@ -38,12 +38,19 @@ static rgb clamped(rgb c)
     return rgb_make(limited(c.r, 0, most), limited(c.g, 0, most), limited(c.b, 0, most));
 }
 
-static rgb colour(const struct lobe_list *r, int texture) { return clamped(texture_rgb(r->textures, texture, r->at)); }
-static double number(const struct lobe_list *r, int texture) { return texture_float(r->textures, texture, r->at); }
-
-static double refraction(const struct lobe_list *r, const struct material *m)
+/* A colour, a number at the point in question. */
+static rgb colour(const struct lobe_list *list, int texture)
 {
-    return limited(number(r, m->index), MATERIAL_MIN_INDEX, MATERIAL_MAX_INDEX);
+    return clamped(texture_rgb(list->textures, texture, list->at));
+}
+static double number(const struct lobe_list *list, int texture)
+{
+    return texture_float(list->textures, texture, list->at);
+}
+
+static double refraction(const struct lobe_list *list, const struct material *m)
+{
+    return limited(number(list, m->index), MATERIAL_MIN_INDEX, MATERIAL_MAX_INDEX);
 }
 
 /* The polynomial is pbrt's fit in x = ln(roughness). [PBRT3 8.4.2] */
@@ -75,126 +82,127 @@ static struct lobe dielectric(struct lobe l, double eta_a, double eta_b)
     return l;
 }
 
-static struct lobe rough(const struct lobe_list *r, const struct material *m, struct lobe l)
+static struct lobe rough(const struct lobe_list *list, const struct material *m, struct lobe l)
 {
     const double least = 1e-3; /* below, facets are a mirror to any purpose and their density overflows squares */
-    double u = limited(number(r, m->uroughness), 0, MATERIAL_MAX_ROUGHNESS);
-    double v = limited(number(r, m->vroughness), 0, MATERIAL_MAX_ROUGHNESS);
+    double u = limited(number(list, m->uroughness), 0, MATERIAL_MAX_ROUGHNESS);
+    double v = limited(number(list, m->vroughness), 0, MATERIAL_MAX_ROUGHNESS);
     l.alpha_x = fmax(least, m->remap_roughness ? roughness_to_alpha(u) : u);
     l.alpha_y = fmax(least, m->remap_roughness ? roughness_to_alpha(v) : v);
     return l;
 }
 
 /* Append a lobe; a black one is dropped. */
-static void add_lobe(struct lobe_list *r, struct lobe l)
+static void add_lobe(struct lobe_list *list, struct lobe l)
 {
-    if (r->n < MATERIAL_MAX_LOBES && lobe_albedo_guess(&l) > 0)
-        r->lobe[r->n++] = l;
+    if (list->n < MATERIAL_MAX_LOBES && lobe_albedo_guess(&l) > 0)
+        list->lobe[list->n++] = l;
 }
 
 /* --- materials --------------------------------------------------------------------------------------- */
 
-static void add_matte(struct lobe_list *r, const struct material *m)
+static void add_matte(struct lobe_list *list, const struct material *m)
 {
-    double sigma = limited(number(r, m->sigma), 0, 90) * (PI / 180), sigma2 = sigma * sigma;
-    struct lobe l = lobe_of(sigma == 0 ? LOBE_LAMBERT_REFLECTION : LOBE_OREN_NAYAR, colour(r, m->Kd), rgb_black());
+    double sigma = limited(number(list, m->sigma), 0, 90) * (PI / 180), sigma2 = sigma * sigma;
+    struct lobe l = lobe_of(sigma == 0 ? LOBE_LAMBERT_REFLECTION : LOBE_OREN_NAYAR, colour(list, m->Kd), rgb_black());
     l.A = 1 - sigma2 / (2 * (sigma2 + 0.33));
     l.B = 0.45 * sigma2 / (sigma2 + 0.09);
-    add_lobe(r, l);
+    add_lobe(list, l);
 }
 
-static void add_glass(struct lobe_list *r, const struct material *m)
+static void add_glass(struct lobe_list *list, const struct material *m)
 {
-    rgb R = colour(r, m->Kr), T = colour(r, m->Kt), none = rgb_black();
-    double eta = refraction(r, m);
-    bool smooth = number(r, m->uroughness) == 0 && number(r, m->vroughness) == 0;
+    rgb R = colour(list, m->Kr), T = colour(list, m->Kt), none = rgb_black();
+    double eta = refraction(list, m);
+    bool smooth = number(list, m->uroughness) == 0 && number(list, m->vroughness) == 0;
     if (smooth || eta == 1) { /* where nothing refracts, facets do not scatter either, however rough */
-        add_lobe(r, dielectric(lobe_of(LOBE_FRESNEL_SPECULAR, R, T), 1, eta));
+        add_lobe(list, dielectric(lobe_of(LOBE_FRESNEL_SPECULAR, R, T), 1, eta));
         return;
     }
-    add_lobe(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_REFLECTION, R, none), 1, eta)));
-    add_lobe(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_TRANSMISSION, none, T), 1, eta)));
+    add_lobe(list, rough(list, m, dielectric(lobe_of(LOBE_MICROFACET_REFLECTION, R, none), 1, eta)));
+    add_lobe(list, rough(list, m, dielectric(lobe_of(LOBE_MICROFACET_TRANSMISSION, none, T), 1, eta)));
 }
 
-static void add_metal(struct lobe_list *r, const struct material *m)
+static void add_metal(struct lobe_list *list, const struct material *m)
 {
-    struct lobe l = rough(r, m, lobe_of(LOBE_MICROFACET_REFLECTION, rgb_grey(1), rgb_black()));
+    struct lobe l = rough(list, m, lobe_of(LOBE_MICROFACET_REFLECTION, rgb_grey(1), rgb_black()));
     l.fresnel = FRESNEL_CONDUCTOR;
-    l.eta = colour(r, m->eta);
-    l.k = colour(r, m->k);
-    add_lobe(r, l);
+    l.eta = colour(list, m->eta);
+    l.k = colour(list, m->k);
+    add_lobe(list, l);
 }
 
 /* pbrt-v3 has the two indices of the coat the wrong way round: from outside its light seems to leave glass of 1.5
  * and is totally reflected from 41.8 degrees on. Its images of plastic are what its users know, so we do the same.
  */
-static void add_plastic(struct lobe_list *r, const struct material *m)
+static void add_plastic(struct lobe_list *list, const struct material *m)
 {
-    add_lobe(r, lobe_of(LOBE_LAMBERT_REFLECTION, colour(r, m->Kd), rgb_black()));
-    add_lobe(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_REFLECTION, colour(r, m->Ks), rgb_black()), 1.5, 1)));
+    add_lobe(list, lobe_of(LOBE_LAMBERT_REFLECTION, colour(list, m->Kd), rgb_black()));
+    struct lobe coat = lobe_of(LOBE_MICROFACET_REFLECTION, colour(list, m->Ks), rgb_black());
+    add_lobe(list, rough(list, m, dielectric(coat, 1.5, 1)));
 }
 
-static void add_uber(struct lobe_list *r, const struct material *m)
+static void add_uber(struct lobe_list *list, const struct material *m)
 {
-    rgb opacity = colour(r, m->opacity), clear = clamped(rgb_sub(rgb_grey(1), opacity)), none = rgb_black();
-    double eta = refraction(r, m);
-    add_lobe(r, dielectric(lobe_of(LOBE_SPECULAR_TRANSMISSION, none, clear), 1, 1));
-    add_lobe(r, lobe_of(LOBE_LAMBERT_REFLECTION, rgb_mul(opacity, colour(r, m->Kd)), none));
-    rgb Ks = rgb_mul(opacity, colour(r, m->Ks));
-    add_lobe(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_REFLECTION, Ks, none), 1, eta)));
-    rgb Kr = rgb_mul(opacity, colour(r, m->Kr)), Kt = rgb_mul(opacity, colour(r, m->Kt));
-    add_lobe(r, dielectric(lobe_of(LOBE_SPECULAR_REFLECTION, Kr, none), 1, eta));
-    add_lobe(r, dielectric(lobe_of(LOBE_SPECULAR_TRANSMISSION, none, Kt), 1, eta));
+    rgb opacity = colour(list, m->opacity), clear = clamped(rgb_sub(rgb_grey(1), opacity)), none = rgb_black();
+    double eta = refraction(list, m);
+    add_lobe(list, dielectric(lobe_of(LOBE_SPECULAR_TRANSMISSION, none, clear), 1, 1));
+    add_lobe(list, lobe_of(LOBE_LAMBERT_REFLECTION, rgb_mul(opacity, colour(list, m->Kd)), none));
+    rgb Ks = rgb_mul(opacity, colour(list, m->Ks));
+    add_lobe(list, rough(list, m, dielectric(lobe_of(LOBE_MICROFACET_REFLECTION, Ks, none), 1, eta)));
+    rgb Kr = rgb_mul(opacity, colour(list, m->Kr)), Kt = rgb_mul(opacity, colour(list, m->Kt));
+    add_lobe(list, dielectric(lobe_of(LOBE_SPECULAR_REFLECTION, Kr, none), 1, eta));
+    add_lobe(list, dielectric(lobe_of(LOBE_SPECULAR_TRANSMISSION, none, Kt), 1, eta));
 }
 
-static void add_translucent(struct lobe_list *r, const struct material *m)
+static void add_translucent(struct lobe_list *list, const struct material *m)
 {
     const double eta = 1.5;
-    rgb up = colour(r, m->reflect), down = colour(r, m->transmit), none = rgb_black();
-    rgb Kd = colour(r, m->Kd), Ks = colour(r, m->Ks);
-    add_lobe(r, lobe_of(LOBE_LAMBERT_REFLECTION, rgb_mul(up, Kd), none));
-    add_lobe(r, lobe_of(LOBE_LAMBERT_TRANSMISSION, none, rgb_mul(down, Kd)));
-    add_lobe(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_REFLECTION, rgb_mul(up, Ks), none), 1, eta)));
-    add_lobe(r, rough(r, m, dielectric(lobe_of(LOBE_MICROFACET_TRANSMISSION, none, rgb_mul(down, Ks)), 1, eta)));
+    rgb up = colour(list, m->reflect), down = colour(list, m->transmit), none = rgb_black();
+    rgb Kd = colour(list, m->Kd), Ks = colour(list, m->Ks);
+    add_lobe(list, lobe_of(LOBE_LAMBERT_REFLECTION, rgb_mul(up, Kd), none));
+    add_lobe(list, lobe_of(LOBE_LAMBERT_TRANSMISSION, none, rgb_mul(down, Kd)));
+    add_lobe(list, rough(list, m, dielectric(lobe_of(LOBE_MICROFACET_REFLECTION, rgb_mul(up, Ks), none), 1, eta)));
+    add_lobe(list, rough(list, m, dielectric(lobe_of(LOBE_MICROFACET_TRANSMISSION, none, rgb_mul(down, Ks)), 1, eta)));
 }
 
-static void add_material(struct lobe_list *r, int id);
+static void add_material(struct lobe_list *list, int id);
 
 /* The lobes of both materials, those of the first times `amount`, those of the second times the rest. */
-static void add_mix(struct lobe_list *r, const struct material *m)
+static void add_mix(struct lobe_list *list, const struct material *m)
 {
-    rgb share = colour(r, m->amount);
+    rgb share = colour(list, m->amount);
     for (int branch = 0; branch < 2; branch++) {
-        int first = r->n;
-        add_material(r, branch == 0 ? m->mix1 : m->mix2);
-        int end = r->n;
-        r->n = first;
+        int first = list->n;
+        add_material(list, branch == 0 ? m->mix1 : m->mix2);
+        int end = list->n;
+        list->n = first;
         for (int i = first; i < end; i++) { /* added again, scaled: what is now black is dropped */
-            struct lobe l = r->lobe[i];
+            struct lobe l = list->lobe[i];
             l.scale = rgb_mul(l.scale, share);
-            add_lobe(r, l);
+            add_lobe(list, l);
         }
         share = clamped(rgb_sub(rgb_grey(1), share));
     }
 }
 
-static void add_material(struct lobe_list *r, int id)
+static void add_material(struct lobe_list *list, int id)
 {
-    const struct material *m = &r->materials[id];
-    if (++r->visits > MAX_VISITS)
+    const struct material *m = &list->materials[id];
+    if (++list->visits > MAX_VISITS)
         return;
     switch (m->kind) {
-    case MATERIAL_MATTE: add_matte(r, m); break;
-    case MATERIAL_MIRROR: add_lobe(r, lobe_of(LOBE_SPECULAR_REFLECTION, colour(r, m->Kr), rgb_black())); break;
-    case MATERIAL_GLASS: add_glass(r, m); break;
-    case MATERIAL_METAL: add_metal(r, m); break;
-    case MATERIAL_PLASTIC: add_plastic(r, m); break;
+    case MATERIAL_MATTE: add_matte(list, m); break;
+    case MATERIAL_MIRROR: add_lobe(list, lobe_of(LOBE_SPECULAR_REFLECTION, colour(list, m->Kr), rgb_black())); break;
+    case MATERIAL_GLASS: add_glass(list, m); break;
+    case MATERIAL_METAL: add_metal(list, m); break;
+    case MATERIAL_PLASTIC: add_plastic(list, m); break;
     case MATERIAL_SUBSTRATE:
-        add_lobe(r, rough(r, m, lobe_of(LOBE_FRESNEL_BLEND, colour(r, m->Kd), colour(r, m->Ks))));
+        add_lobe(list, rough(list, m, lobe_of(LOBE_FRESNEL_BLEND, colour(list, m->Kd), colour(list, m->Ks))));
         break;
-    case MATERIAL_UBER: add_uber(r, m); break;
-    case MATERIAL_TRANSLUCENT: add_translucent(r, m); break;
-    case MATERIAL_MIX: add_mix(r, m); break;
+    case MATERIAL_UBER: add_uber(list, m); break;
+    case MATERIAL_TRANSLUCENT: add_translucent(list, m); break;
+    case MATERIAL_MIX: add_mix(list, m); break;
     }
 }
 
@@ -277,15 +285,15 @@ static int bump_of(const struct material *materials, int id)
 static void make_bsdf(const struct material *materials, int id, const struct texture_set *textures,
                       const struct surface *at, struct frame shading, struct arena *arena, struct bsdf *out)
 {
-    struct lobe_list r;
-    r.materials = materials;
-    r.textures = textures;
-    r.at = at;
-    r.n = r.visits = 0;
-    add_material(&r, id);
-    size_t size = (size_t)r.n * sizeof r.lobe[0];
-    struct lobe *lobe = r.n > 0 ? memcpy(arena_alloc(arena, size), r.lobe, size) : NULL;
-    bsdf_make(out, shading, at->ng, lobe, r.n);
+    struct lobe_list list;
+    list.materials = materials;
+    list.textures = textures;
+    list.at = at;
+    list.n = list.visits = 0;
+    add_material(&list, id);
+    size_t size = (size_t)list.n * sizeof list.lobe[0];
+    struct lobe *lobe = list.n > 0 ? memcpy(arena_alloc(arena, size), list.lobe, size) : NULL;
+    bsdf_make(out, shading, at->ng, lobe, list.n);
 }
 
 /* Are all parameters the same everywhere? Of a mix the materials must be known to be. */

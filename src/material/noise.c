@@ -56,26 +56,30 @@ double noise(vec3 p)
     return sum;
 }
 
-double noise_fbm(vec3 p, double omega, int octaves)
+/* The sum of octaves, of their absolute values if `folded`; *weight: that of the next one. */
+static double sum_octaves(vec3 p, double omega, int octaves, bool folded, double *weight)
 {
-    double sum = 0, weight = 1, frequency = 1;
+    double sum = 0, frequency = 1;
+    *weight = 1;
     for (int i = 0; i < octaves; i++) {
-        sum += weight * noise(mul(p, frequency));
-        weight *= omega;
+        double octave = noise(mul(p, frequency));
+        sum += *weight * (folded ? fabs(octave) : octave);
+        *weight *= omega;
         frequency *= 1.99;
     }
     return sum;
 }
 
+double noise_fbm(vec3 p, double omega, int octaves)
+{
+    double next;
+    return sum_octaves(p, omega, octaves, false, &next);
+}
+
 double noise_turbulence(vec3 p, double omega, int octaves)
 {
-    double sum = 0, weight = 1, frequency = 1;
-    for (int i = 0; i < octaves; i++) {
-        sum += weight * fabs(noise(mul(p, frequency)));
-        weight *= omega;
-        frequency *= 1.99;
-    }
-    return sum + weight * 0.2;
+    double next, sum = sum_octaves(p, omega, octaves, true, &next);
+    return sum + next * 0.2;
 }
 
 double noise_waves(vec3 p) { return fabs(noise_fbm(mul(p, 0.1), 0.5, 3)) * noise_fbm(p, 0.5, 6); }
