@@ -44,7 +44,7 @@ sub, sup { font-size: 0.72em; line-height: 0; }
     .wide { overflow: visible; }
     .many td, .many th { font-size: 7.5pt; padding: 0.2em 0.4em; }
     .many code { white-space: normal; }
-    pre, table, img { break-inside: avoid; }
+    pre, tr, img { break-inside: avoid; }
     h2 { break-after: avoid; }
 }
 STYLE
