@@ -15,6 +15,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/mem.h"
 #include "geometry/shape.h"
 
 struct kd_node;  /* 8 bytes, see kd_block.h */
@@ -39,6 +40,10 @@ void kd_free(struct kdtree *kd);
 
 /* kd_closest: the first hit in (tmin, tmax), honouring alpha. Returns false if there is none. Thread-safe. */
 bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct hit *hit);
+
+/* kd_all: every hit in (tmin, tmax), honouring alpha, the nearest first; *hits is in the arena. Returns how many. */
+int kd_all(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct arena *arena,
+           struct hit **hits);
 
 /* kd_occluded: is anything (for shadow rays: shadow_alpha counts) hit in (tmin, tmax)? Thread-safe. */
 bool kd_occluded(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray);

@@ -104,14 +104,9 @@ bool scene_intersect(const struct scene *s, const struct ray *ray, struct surfac
     return true;
 }
 
-bool scene_next_light(const struct scene *s, const struct ray *ray, struct surface *out, double *distance)
+int scene_lights_passed(const struct scene *s, const struct ray *ray, struct arena *arena, struct hit **hits)
 {
-    struct hit hit;
-    if (!kd_closest(&s->kd_lights, &s->geo, ray, &hit))
-        return false;
-    shape_surface(&s->geo, &hit, ray, out);
-    *distance = hit.t;
-    return true;
+    return kd_all(&s->kd_lights, &s->geo, ray, arena, hits);
 }
 
 bool scene_visible(const struct scene *s, vec3 a, uint32_t from, vec3 b, uint32_t to)

@@ -62,9 +62,9 @@ void scene_bounds(const struct scene *s, vec3 *lo, vec3 *hi);
 /* scene_intersect: first surface along the ray; false if it leaves the scene. */
 bool scene_intersect(const struct scene *s, const struct ray *ray, struct surface *out);
 
-/* scene_next_light: the first area light without material within the ray, which it passes through; false if there is
- * none. *distance is where, so that looking on from there finds the next. */
-bool scene_next_light(const struct scene *s, const struct ray *ray, struct surface *out, double *distance);
+/* scene_lights_passed: where the ray meets area lights without material, which it passes through, the nearest first;
+ * *hits is in the arena. Returns how many. */
+int scene_lights_passed(const struct scene *s, const struct ray *ray, struct arena *arena, struct hit **hits);
 
 /* scene_visible: is the open segment between two points free?
  *   from, to  the triangles a and b are on, see shape_triangle_id; 0: none */

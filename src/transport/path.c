@@ -115,10 +115,13 @@ static const struct vertex *pass_lights(const struct walk *w, const struct verte
 {
     const struct vertex *passed = NULL;
     struct surface at;
-    struct ray rest = from->ray;
+    struct hit *hits;
+    struct ray ray = from->ray;
     if (end != NULL)
-        rest.tmax = length(sub(end->p, rest.o)) + w->scene->epsilon;
-    while (scene_next_light(w->scene, &rest, &at, &rest.tmin)) {
+        ray.tmax = length(sub(end->p, ray.o)) + w->scene->epsilon;
+    int n = scene_lights_passed(w->scene, &ray, w->arena, &hits);
+    for (int i = 0; i < n; i++) {
+        shape_surface(&w->scene->geo, &hits[i], &ray, &at);
         struct vertex *v = arena_alloc(w->arena, sizeof *v);
         memset(v, 0, sizeof *v);
         if (!meet(w, v, prev, from, &at, RADIANCE))
