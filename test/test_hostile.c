@@ -67,7 +67,7 @@ static bool is_picture(const char *path)
 }
 
 /* Render scene.pbrt of the directory and judge what comes of it; the exit status. */
-static int judge(struct test *t, const char *directory, const char *name, const char *integrator)
+static int judge(struct test *t, const char *directory, const char *name, const char *integrator, int megabytes)
 {
     char here[2048], program[2100], picture[400], log[400];
     snprintf(program, sizeof program, "%s/asbdpt", getcwd(here, sizeof here) != NULL ? here : ".");
@@ -90,7 +90,7 @@ static int judge(struct test *t, const char *directory, const char *name, const 
     CHECK(t, status == 0 || stat(picture, &info) != 0, "%s, %s: a picture of a failure", name, integrator);
     CHECK(t, seconds <= SECONDS, "%s, %s: %.0f s", name, integrator, seconds);
     double memory = (double)after.ru_maxrss * RSS_UNIT / 1048576;
-    CHECK(t, memory <= MEGABYTES, "%s, %s: %.0f MB", name, integrator, memory);
+    CHECK(t, memory <= megabytes, "%s, %s: %.0f MB", name, integrator, memory);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
@@ -116,7 +116,7 @@ static void test_generated(struct test *t, const char *directory)
         put_scene(directory, text, length);
         free(text);
         snprintf(name, sizeof name, "generated scene %d", i);
-        rendered += judge(t, directory, name, INTEGRATORS[i % 4]) == 0;
+        rendered += judge(t, directory, name, INTEGRATORS[i % 4], MEGABYTES) == 0;
     }
     CHECK(t, rendered > SCENES / 4, "only %d of %d scenes are rendered", rendered, SCENES);
     printf("  %d of %d generated scenes are rendered, the others refused\n", rendered, SCENES);
@@ -127,34 +127,65 @@ static void test_generated(struct test *t, const char *directory)
 /* A scene that says `line`, which may hold a %d for the number of the line, so many times. */
 struct repetition {
     const char *name, *before, *line, *after;
-    int times, status;
+    int times, status, megabytes; /* megabytes: 0: MEGABYTES */
 };
 
 static const struct repetition REPETITIONS[] = {
     {"named materials", "WorldBegin", "MakeNamedMaterial \"m%d\" \"string type\" \"matte\" NamedMaterial \"m%d\"",
-     "WorldEnd", 200000, 0},
-    {"textures", "WorldBegin", "Texture \"t%d\" \"float\" \"constant\"", "WorldEnd", 200000, 0},
-    {"parameters of the integrator", "Integrator \"bdpt\"", "\"integer p%d\" 1", "WorldBegin WorldEnd", 100000, 1},
-    {"the same parameter", "WorldBegin Shape \"sphere\"", "\"float radius\" 1", "WorldEnd", 100000, 0},
-    {"infinite lights", "WorldBegin", "LightSource \"infinite\"", "WorldEnd", 10000, 0},
+     "WorldEnd", 200000, 0, 0},
+    {"textures", "WorldBegin", "Texture \"t%d\" \"float\" \"constant\"", "WorldEnd", 200000, 0, 0},
+    {"parameters of the integrator", "Integrator \"bdpt\"", "\"integer p%d\" 1", "WorldBegin WorldEnd", 100000, 1, 0},
+    {"the same parameter", "WorldBegin Shape \"sphere\"", "\"float radius\" 1", "WorldEnd", 100000, 0, 0},
+    {"infinite lights", "WorldBegin", "LightSource \"infinite\"", "WorldEnd", 10000, 0, 0},
+    {"infinite lights of one map", "WorldBegin", "LightSource \"infinite\" \"string mapname\" \"map.pfm\"", "WorldEnd",
+     10000, 0, 0},
     {"lamps", "WorldBegin Translate 0 0 3 AreaLightSource \"diffuse\"",
-     "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 ] \"point P\" [ %d 0 0 0 1 0 0 0 1 ]", "WorldEnd", 100000, 0},
-    {"open blocks", "WorldBegin", "AttributeBegin", "WorldEnd", 300000, 0},
+     "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 ] \"point P\" [ %d 0 0 0 1 0 0 0 1 ]", "WorldEnd", 100000, 0,
+     0},
+    {"open blocks", "WorldBegin", "AttributeBegin", "WorldEnd", 300000, 0, 0},
     {"nested objects", "WorldBegin ObjectBegin \"o0\" Shape \"sphere\"",
      "ObjectEnd ObjectBegin \"o\" ObjectInstance \"o0\" ObjectInstance \"o\"",
-     "ObjectEnd ObjectInstance \"o\" WorldEnd", 10000, 0},
-    {"instances of nothing", "WorldBegin ObjectBegin \"o\" ObjectEnd", "ObjectInstance \"o\"", "WorldEnd", 100000, 0},
-    {"unknown directives", "WorldBegin", "Shpae%d", "WorldEnd", 100000, 1},
-    {"unknown names", "WorldBegin", "NamedMaterial \"m%d\"", "WorldEnd", 20000, 0},
+     "ObjectEnd ObjectInstance \"o\" WorldEnd", 10000, 0, 0},
+    {"instances of nothing", "WorldBegin ObjectBegin \"o\" ObjectEnd", "ObjectInstance \"o\"", "WorldEnd", 100000,
+     0, 0},
+    {"unknown directives", "WorldBegin", "Shpae%d", "WorldEnd", 100000, 1, 0},
+    {"unknown names", "WorldBegin", "NamedMaterial \"m%d\"", "WorldEnd", 20000, 0, 0},
     {"textures within textures", "WorldBegin Texture \"t\" \"float\" \"constant\"",
-     "Texture \"t\" \"float\" \"scale\" \"texture tex1\" \"t\" \"texture tex2\" \"t\"", "WorldEnd", 30, 1},
-    {"includes of itself", "WorldBegin", "Include \"scene.pbrt\"", "WorldEnd", 1000, 1},
-    {"pipe", "", "Include \"pipe\"", "WorldBegin WorldEnd", 1, 0},
-    {"endless device", "", "Include \"/dev/zero\"", "WorldBegin WorldEnd", 1, 1},
-    {"a directory", "", "Include \".\"", "WorldBegin WorldEnd", 1, 1},
+     "Texture \"t\" \"float\" \"scale\" \"texture tex1\" \"t\" \"texture tex2\" \"t\"", "WorldEnd", 30, 1, 0},
+    {"includes of itself", "WorldBegin", "Include \"scene.pbrt\"", "WorldEnd", 1000, 1, 0},
+    {"pipe", "", "Include \"pipe\"", "WorldBegin WorldEnd", 1, 0, 0},
+    {"endless device", "", "Include \"/dev/zero\"", "WorldBegin WorldEnd", 1, 1, 0},
+    {"a directory", "", "Include \".\"", "WorldBegin WorldEnd", 1, 1, 0},
     {"a film of 26 GB", "Film \"image\" \"integer xresolution\" 16384 \"integer yresolution\" 16384", "",
-     "WorldBegin WorldEnd", 1, 0}, /* --res makes it small */
+     "WorldBegin WorldEnd", 1, 0, 0}, /* --res makes it small */
+    {"spheres in one place", "WorldBegin Translate 0 0 3 LightSource \"point\" \"point from\" [ 0 0 -3 ]",
+     "Shape \"sphere\"", "WorldEnd", 60000, 0, 0},
+    {"spheres around each other", "WorldBegin Translate 0 0 3 LightSource \"point\" \"point from\" [ 0 0 -3 ]",
+     "Shape \"sphere\" \"float radius\" %d.5", "WorldEnd", 25000, 0, 0},
+    {"triangles in one place",
+     "WorldBegin Shape \"trianglemesh\" \"point P\" [ -9 -9 3 9 -9 3 0 9 3 ] \"integer indices\" [", "0 1 2",
+     "] WorldEnd", 160000, 0, 0},
+    {"lamps that rays pass", "WorldBegin Translate 0 0 3 Material \"none\" AreaLightSource \"diffuse\"",
+     "Shape \"sphere\" \"float radius\" %d.5", "WorldEnd", 25000, 0, 0},
+    {"instances of a million triangles", /* the last: the most memory of any run is what counts */
+     "WorldBegin ObjectBegin \"o\" Shape \"loopsubdiv\" \"integer levels\" 9 "
+     "\"integer indices\" [ 0 1 2 0 2 3 0 3 1 1 3 2 ] \"point P\" [ 0 0 0 1 0 0 0 1 0 0 0 1 ] ObjectEnd",
+     "ObjectInstance \"o\"", "WorldEnd", 20000, 1, 4096},
 };
+
+/* A map of 40 MB once its tables are made. */
+static void put_map(struct test *t, const char *directory)
+{
+    enum { WIDTH = 1024, HEIGHT = 512 };
+    char path[400];
+    struct error err;
+    float *pixels = mem_alloc(WIDTH * HEIGHT, 3 * sizeof *pixels);
+    for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
+        pixels[i] = (float)(i % 7);
+    snprintf(path, sizeof path, "%s/map.pfm", directory);
+    CHECK(t, image_write(path, WIDTH, HEIGHT, pixels, &err), "%s", err.text);
+    free(pixels);
+}
 
 static void test_repetitions(struct test *t, const char *directory)
 {
@@ -174,7 +205,7 @@ static void test_repetitions(struct test *t, const char *directory)
         n += (size_t)snprintf(text + n, room - n, "%s\n", r->after);
         put_scene(directory, text, n);
         free(text);
-        int status = judge(t, directory, r->name, INTEGRATORS[i % 4]);
+        int status = judge(t, directory, r->name, INTEGRATORS[i % 4], r->megabytes > 0 ? r->megabytes : MEGABYTES);
         CHECK(t, status == r->status, "%s: exit status %d, not %d", r->name, status, r->status);
     }
 }
@@ -186,6 +217,7 @@ void test_hostile(struct test *t)
     snprintf(pipe, sizeof pipe, "%s/pipe", directory);
     CHECK(t, mkdir(directory, 0700) == 0 && mkfifo(pipe, 0600) == 0, "%s cannot be made", pipe);
     fuzz_prepare(directory);
+    put_map(t, directory);
     test_generated(t, directory);
     test_repetitions(t, directory);
 }

@@ -484,6 +484,11 @@ static void test_memory(struct test *t)
     uint8_t *data = mem_alloc(PNG, 1);
     strcpy((char *)data, "#?RADIANCE\n\n-Y 16384 +X 16384\n");
     check_too_large(t, "hdr", rgbe_read, data, HDR);
+    memset(data, 0, PNG);
+    data[2] = 11; /* runs of grey */
+    data[13] = data[15] = 0x36;
+    data[16] = 8;
+    check_too_large(t, "tga", tga_read, data, PNG); /* 13824 x 13824 pixels, in packets of 2 bytes for 128 */
     struct bytes png = {.n = 0};
     put_hex(&png, "89504e470d0a1a0a0000000d494844520000400000004000100600000000000000");
     memset(data, 0, HDR);
@@ -504,7 +509,8 @@ static void test_memory(struct test *t)
     struct error err;
     const uint64_t each = PICTURE_BYTES_PER_BYTE;
     CHECK(t, picture_memory_ok(PICTURE_FREE_BYTES, 1, &err) && !picture_memory_ok(PICTURE_FREE_BYTES + 1ull, 1, &err) &&
-                 picture_memory_ok(3000000 * each, 3000000, &err) && !picture_memory_ok(3000001 * each, 3000000, &err),
+                 picture_memory_ok((1 << 24) * each, 1 << 24, &err) &&
+                 !picture_memory_ok((1 << 24) * each + each, 1 << 24, &err),
           "limits");
 }
 

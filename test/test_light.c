@@ -202,6 +202,35 @@ static void test_stored_map(struct test *t)
     }
 }
 
+/* Lights that name the same file share its picture, unless one takes it for a map and the other for a slide; what is
+ * no picture leaves nothing behind. A map may be as large as its file allows. */
+static void test_shared_picture(struct test *t)
+{
+    static const float pixels[2 * 3] = {1, 2, 3, 4, 5, 6};
+    char path[256], other[256];
+    struct error err = {""};
+    struct light_set set = {0};
+    struct light l[6] = {{.L = {1, 1, 1}}};
+    snprintf(path, sizeof path, "%s/shared.pfm", test_tmp(t));
+    snprintf(other, sizeof other, "%s/other.pfm", test_tmp(t));
+    CHECK(t, image_write(path, 2, 1, pixels, &err) && image_write(other, 2, 1, pixels, &err), "%s", err.text);
+    const struct image *map = light_read_map(&set, &l[0], path, &err);
+    CHECK(t, map != NULL && light_read_map(&set, &l[1], path, &err) == map && l[0].env == l[1].env, "a map read twice");
+    const struct image *slide = light_read_slide(&set, &l[2], path, &err);
+    CHECK(t, slide != NULL && slide != map && light_read_slide(&set, &l[3], path, &err) == slide &&
+                 l[2].slide == l[3].slide && l[2].env == NULL, "a slide read twice");
+    CHECK(t, light_read_map(&set, &l[4], other, &err) != map && l[4].env != NULL && set.n_pictures == 3,
+          "another file");
+    snprintf(other, sizeof other, "%s/missing.pfm", test_tmp(t));
+    for (int i = 0; i < 2; i++)
+        CHECK(t, light_read_map(&set, &l[5], other, &err) == NULL && light_read_slide(&set, &l[5], other, &err) == NULL,
+              "a file that is not there");
+    light_set_free(&set);
+    CHECK(t, envmap_size_ok(4096, 4096, 1, &err) && !envmap_size_ok(4097, 4096, 1, &err) &&
+                 envmap_size_ok(8192, 4096, 1 << 24, &err) && !envmap_size_ok(8194, 4096, 1 << 24, &err),
+          "how large a map may be");
+}
+
 /* What a light emits by light_sample_emission, against the sum of its intensity over a fine grid of directions. */
 static void check_energy(struct test *t, const struct light_set *lights, const struct light_point *at,
                          const char *name)
@@ -318,4 +347,5 @@ void test_light(struct test *t)
     test_environment(t);
     test_damaged_map(t);
     test_stored_map(t);
+    test_shared_picture(t);
 }

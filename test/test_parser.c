@@ -491,7 +491,8 @@ static void check_lights(struct test *t)
         CHECK(t, l[2].kind == LIGHT_DISTANT && same3(l[2].direction, 0, 1, 0) && same_rgb(l[2].L, 2, 2, 2),
               "distant");
         CHECK(t, l[3].kind == LIGHT_INFINITE && l[3].env == NULL && same_rgb(l[3].L, .5, .5, .5), "infinite");
-        CHECK(t, l[4].kind == LIGHT_INFINITE && l[4].env != NULL, "environment map");
+        CHECK(t, l[4].kind == LIGHT_INFINITE && l[4].env != NULL && l[4].env == s.lights.picture[0].env,
+              "environment map");
         CHECK(t,
               l[5].kind == LIGHT_AREA && l[5].two_sided && same_rgb(l[5].L, 6, 4, 2) && l[5].prim == 0 &&
                   l[6].prim == 1 && l[7].prim == FIRST_QUADRIC,

@@ -68,6 +68,7 @@ bool image_read(const char *path, struct image *out, struct error *err)
     struct error reason;
     bool ok = read_bytes(path, data, size, out, &reason);
     out->content = hash_content(data, size);
+    out->file_size = size;
     free(data);
     return ok || error_set(err, "%s: %s", path, reason.text);
 }

@@ -28,6 +28,7 @@ struct image {
     struct placement place;
     long replaced;     /* samples that image_mend found and made 0 */
     uint64_t content;  /* hash_content of the file */
+    size_t file_size;  /* bytes */
     float decode[256]; /* sRGB byte -> linear light, for whoever reads u8 */
 };
 
@@ -40,7 +41,7 @@ bool picture_size_ok(unsigned long width, unsigned long height, struct error *er
 
 /* A small file may announce a large picture. Reading it takes at most PICTURE_FREE_BYTES of memory, or
  * PICTURE_BYTES_PER_BYTE for each of the file. */
-enum { PICTURE_FREE_BYTES = 1 << 28, PICTURE_BYTES_PER_BYTE = 200 };
+enum { PICTURE_FREE_BYTES = 1 << 28, PICTURE_BYTES_PER_BYTE = 32 };
 
 /* picture_memory_ok: may reading the picture take this much? Returns false with a message. */
 bool picture_memory_ok(uint64_t bytes, size_t file_size, struct error *err);

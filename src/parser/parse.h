@@ -133,6 +133,7 @@ struct parser {
     int n_objects;
     size_t object_capacity;
     int current_object; /* between ObjectBegin and ObjectEnd, else -1 */
+    uint64_t copied_bytes; /* of all instances */
 
     struct params changed;   /* parse_changed_material: a material's list with a shape's */
     bool texture_is_float;   /* of the Texture directive being carried out */

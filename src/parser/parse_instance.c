@@ -90,6 +90,22 @@ static bool object_end(struct parser *p)
     return parse_close_block(p, BLOCK_OBJECT);
 }
 
+/* Instances are copies: a few lines could ask for more than any machine has. */
+static const uint64_t MAX_COPIED_BYTES = (uint64_t)1 << 31;
+
+/* What an instance of the object adds to struct geometry; the kd-tree takes about as much again, or three times. */
+static uint64_t instance_bytes(const struct shape_list *object)
+{
+    const uint64_t vertex = 8 * sizeof(float), triangle = 3 * sizeof(uint32_t) + sizeof(int32_t);
+    uint64_t sum = (uint64_t)object->n * sizeof(struct shape_group);
+    for (int i = 0; i < object->n; i++) {
+        const struct mesh *m = &object->item[i].mesh;
+        sum += object->item[i].is_mesh ? (uint64_t)m->n_vertices * vertex + (uint64_t)m->n_triangles * triangle
+                                       : sizeof(struct quadric);
+    }
+    return sum;
+}
+
 static bool object_instance(struct parser *p)
 {
     struct token name;
@@ -104,6 +120,11 @@ static bool object_instance(struct parser *p)
     const struct shape_list *list = &p->object[i];
     if (list->n > 0 && !parse_placed(p))
         return false;
+    p->copied_bytes += instance_bytes(list);
+    if (p->copied_bytes > MAX_COPIED_BYTES)
+        return source_error(&p->messages, name.position,
+                            "with this instance they take more than %.0f MB, for each is a copy; use fewer",
+                            (double)MAX_COPIED_BYTES / 1e6);
     for (int k = 0; k < list->n; k++) {
         struct transform to_world = transform_compose(p->place.ctm, list->item[k].to_world);
         if (!transform_is_usable(&to_world))

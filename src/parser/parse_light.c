@@ -70,7 +70,7 @@ static void distant_light(struct parser *p, void *object)
 }
 
 /* The picture of "mapname", if there is one: a map of an infinite light, a slide of the others. */
-static void map_of_light(struct params *q, struct light *l)
+static void map_of_light(struct params *q, struct light_set *lights, struct light *l)
 {
     struct source_position at;
     struct error inner;
@@ -79,9 +79,9 @@ static void map_of_light(struct params *q, struct light *l)
     if (path == NULL)
         return;
     if (!q->failed && l->kind == LIGHT_INFINITE)
-        image = (l->env = envmap_load(path, &inner)) != NULL ? &l->env->image : NULL;
+        image = light_read_map(lights, l, path, &inner);
     else if (!q->failed)
-        image = (l->slide = slide_load(path, &inner)) != NULL ? &l->slide->image : NULL;
+        image = light_read_slide(lights, l, path, &inner);
     if (!q->failed && image == NULL)
         params_fail(q, at, "%s", inner.text);
     else if (!q->failed && image->replaced > 0)
@@ -94,14 +94,14 @@ static void map_of_light(struct params *q, struct light *l)
 
 static void infinite_light(struct parser *p, void *object)
 {
-    map_of_light(&p->params, &((struct light_item *)object)->light);
+    map_of_light(&p->params, &p->scene->lights, &((struct light_item *)object)->light);
 }
 
 static void slide_light(struct parser *p, void *object)
 {
     struct light_item *item = object;
     struct light *l = &item->light;
-    map_of_light(&p->params, l);
+    map_of_light(&p->params, &p->scene->lights, l);
     l->position = transform_point(&l->to_world, vec(0, 0, 0));
     if (l->kind != LIGHT_PROJECTION)
         return;
@@ -157,8 +157,10 @@ static bool light(struct parser *p)
     vec3 position = item.light.position;
     if (!is_place(position))
         type_error(q, "this light would stand at (%g %g %g); places go up to 1e18", position.x, position.y, position.z);
-    light_add(&p->scene->lights, item.light); /* even where it failed: the scene releases its map */
-    return params_done(q);
+    if (!params_done(q))
+        return false;
+    light_add(&p->scene->lights, item.light);
+    return true;
 }
 
 static const struct parameter AREA_LIGHT[] = {

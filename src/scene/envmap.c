@@ -80,10 +80,24 @@ static void build_tables(struct envmap *e)
     free(luminance);
 }
 
+bool envmap_size_ok(int width, int height, size_t file_size, struct error *err)
+{
+    size_t texels = (size_t)width * (size_t)height;
+    return texels <= ENVMAP_FREE_TEXELS || texels / ENVMAP_TEXELS_PER_BYTE <= file_size ||
+           error_set(err, "%d x %d are too many for an environment map from a file of this size; store it as PFM",
+                     width, height);
+}
+
 struct envmap *envmap_load(const char *path, struct error *err)
 {
+    struct error reason;
     struct envmap *e = mem_alloc(1, sizeof *e);
-    if (!image_read(path, &e->image, err)) {
+    bool read = image_read(path, &e->image, err);
+    bool ok = read && envmap_size_ok(e->image.width, e->image.height, e->image.file_size, &reason);
+    if (read && !ok)
+        error_set(err, "%s: %s", path, reason.text);
+    if (!ok) {
+        image_free(&e->image);
         free(e);
         return NULL;
     }

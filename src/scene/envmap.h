@@ -25,6 +25,13 @@ struct envmap {
     rgb mean;                  /* average radiance over the sphere */
 };
 
+/* A texel takes 44 bytes beside the picture's. A map may have ENVMAP_FREE_TEXELS, or ENVMAP_TEXELS_PER_BYTE for each
+ * byte of its file. */
+enum { ENVMAP_FREE_TEXELS = 1 << 24, ENVMAP_TEXELS_PER_BYTE = 2 };
+
+/* envmap_size_ok: may a map of this size be made of this file? Returns false with a message. */
+bool envmap_size_ok(int width, int height, size_t file_size, struct error *err);
+
 /* envmap_load: read a picture, whose numbers are taken as they are stored, 8-bit ones too, as in pbrt-v3. Returns NULL
  * with a message. Release with envmap_free. */
 struct envmap *envmap_load(const char *path, struct error *err);

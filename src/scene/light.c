@@ -17,14 +17,49 @@ int light_add(struct light_set *set, struct light l)
 
 void light_set_free(struct light_set *set)
 {
-    for (int i = 0; i < set->n; i++) {
-        envmap_free(set->light[i].env);
-        slide_free(set->light[i].slide);
+    for (int i = 0; i < set->n_pictures; i++) {
+        free(set->picture[i].path);
+        envmap_free(set->picture[i].env);
+        slide_free(set->picture[i].slide);
     }
+    free(set->picture);
     free(set->light);
     alias_free(&set->choice);
     free(set->light_of_cell);
     memset(set, 0, sizeof *set);
+}
+
+/* --- pictures ---------------------------------------------------------------------------------------- */
+
+/* The picture of this file in this role, or a new one without either. */
+static struct light_picture *picture_of(struct light_set *set, const char *path, bool map)
+{
+    for (int i = 0; i < set->n_pictures; i++)
+        if ((set->picture[i].env != NULL) == map && strcmp(set->picture[i].path, path) == 0)
+            return &set->picture[i];
+    struct light_picture added = {mem_copy_text(path), NULL, NULL};
+    set->picture =
+        mem_grow(set->picture, &set->picture_capacity, (size_t)set->n_pictures + 1, sizeof *set->picture);
+    set->picture[set->n_pictures] = added;
+    return &set->picture[set->n_pictures++];
+}
+
+const struct image *light_read_map(struct light_set *set, struct light *l, const char *path, struct error *err)
+{
+    struct light_picture *p = picture_of(set, path, true);
+    if (p->env == NULL)
+        p->env = envmap_load(path, err);
+    l->env = p->env;
+    return p->env != NULL ? &p->env->image : NULL;
+}
+
+const struct image *light_read_slide(struct light_set *set, struct light *l, const char *path, struct error *err)
+{
+    struct light_picture *p = picture_of(set, path, false);
+    if (p->slide == NULL)
+        p->slide = slide_load(path, err);
+    l->slide = p->slide;
+    return p->slide != NULL ? &p->slide->image : NULL;
 }
 
 /* --- power and choice -------------------------------------------------------------------------------- */
@@ -72,15 +107,15 @@ static int cell_count(const struct light *l)
     return l->kind != LIGHT_INFINITE ? 1 : l->env != NULL ? envmap_blocks(l->env) : SKY_CELLS;
 }
 
-/* A cell's share of its light's power. */
-static double cell_share(const struct light *l, int cell)
+/* The power of each cell of a light, a share of the light's. */
+static void cell_powers(const struct light *l, double *power)
 {
-    if (l->kind != LIGHT_INFINITE || l->env == NULL)
-        return 1.0 / l->n_cells;
+    bool map = l->kind == LIGHT_INFINITE && l->env != NULL;
     double all = 0;
-    for (int b = 0; b < l->n_cells; b++)
-        all += l->env->block[b].total;
-    return all > 0 ? l->env->block[cell].total / all : 0;
+    for (int c = 0; map && c < l->n_cells; c++)
+        all += l->env->block[c].total;
+    for (int c = 0; c < l->n_cells; c++)
+        power[c] = l->power * (!map ? 1.0 / l->n_cells : all > 0 ? l->env->block[c].total / all : 0);
 }
 
 void light_prepare(struct light_set *set, const struct geometry *geo, vec3 center, double radius)
@@ -100,11 +135,11 @@ void light_prepare(struct light_set *set, const struct geometry *geo, vec3 cente
     }
     double *power = mem_alloc((size_t)set->n_cells, sizeof *power);
     set->light_of_cell = mem_alloc((size_t)set->n_cells, sizeof *set->light_of_cell);
-    for (int i = 0; i < set->n; i++)
-        for (int c = 0; c < set->light[i].n_cells; c++) {
-            power[set->light[i].first_cell + c] = set->light[i].power * cell_share(&set->light[i], c);
+    for (int i = 0; i < set->n; i++) {
+        cell_powers(&set->light[i], power + set->light[i].first_cell);
+        for (int c = 0; c < set->light[i].n_cells; c++)
             set->light_of_cell[set->light[i].first_cell + c] = i;
-        }
+    }
     alias_build(&set->choice, power, set->n_cells);
     free(power);
 }

@@ -71,10 +71,17 @@ struct light {
     vec3 position;
     struct frame axis;
     vec3 direction;
-    struct envmap *env;      /* owned */
-    struct slide *slide;     /* goniometric, projection: owned, NULL: 1 */
+    const struct envmap *env;  /* the set's */
+    const struct slide *slide; /* goniometric, projection: the set's, NULL: 1 */
     double power;            /* estimate, W, luminance; set by light_prepare */
     int first_cell, n_cells; /* its cells, see below; set by light_prepare */
+};
+
+/* The picture of all lights that name the same file in the same role. */
+struct light_picture {
+    char *path;         /* owned */
+    struct envmap *env; /* one of these, owned */
+    struct slide *slide;
 };
 
 /* All lights of a scene and what sampling them needs. Sampling is done in cells: an infinite light is cut into cells of
@@ -83,6 +90,9 @@ struct light_set {
     struct light *light; /* [n], owned */
     int n;
     size_t capacity;
+    struct light_picture *picture; /* [n_pictures], owned */
+    int n_pictures;
+    size_t picture_capacity;
     int n_cells;
     int *light_of_cell;        /* [n_cells], owned */
     struct alias_table choice; /* of a cell, by power */
@@ -93,6 +103,11 @@ struct light_set {
 };
 
 int light_add(struct light_set *set, struct light l);
+
+/* light_read_map, light_read_slide: give the light the picture of a file, which is read once for all lights that want
+ * it. Return the picture, which stays the set's, or NULL with a message. */
+const struct image *light_read_map(struct light_set *set, struct light *l, const char *path, struct error *err);
+const struct image *light_read_slide(struct light_set *set, struct light *l, const char *path, struct error *err);
 
 /* light_prepare: powers, the choice table, the scene's sphere. Call once the geometry is complete. */
 void light_prepare(struct light_set *set, const struct geometry *geo, vec3 center, double radius);
