@@ -1,10 +1,13 @@
 /* helpers.c: see helpers.h. */
+#define _POSIX_C_SOURCE 200809L
 #include "helpers.h"
 
+#include <dirent.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/mem.h"
 #include "base/os.h"
@@ -116,4 +119,21 @@ double mean_p(const struct batches *b, double expected)
     if (error <= 1e-12 * fabs(expected))
         return fabs(mean - expected) <= 1e-9 * fabs(expected) ? 1 : 0;
     return stats_student_p((mean - expected) / error, b->n_batches - 1);
+}
+
+bool remove_tree(const char *path)
+{
+    DIR *d = opendir(path);
+    bool ok = d != NULL;
+    for (struct dirent *e = NULL; d != NULL && (e = readdir(d)) != NULL;) {
+        char inner[1024];
+        if (strcmp(e->d_name, ".") == 0 || strcmp(e->d_name, "..") == 0)
+            continue;
+        snprintf(inner, sizeof inner, "%.500s/%.500s", path, e->d_name);
+        if (remove(inner) != 0)
+            ok = remove_tree(inner) && ok;
+    }
+    if (d != NULL)
+        closedir(d);
+    return rmdir(path) == 0 && ok;
 }

@@ -37,6 +37,9 @@ void batches_scale(struct batches *b, double factor);
  * formula for their number; those of two exact, equal values say nothing. *ratio: mean of a over mean of b. */
 double batches_p(const struct batches *a, const struct batches *b, double *ratio);
 
+/* remove_tree: a directory and all that is in it. False if something is left. */
+bool remove_tree(const char *path);
+
 /* mean_p: two-sided p-value of "the expectation is `expected`" for the batches' overall mean, by Student's t. */
 double mean_p(const struct batches *b, double expected);
 

@@ -1,19 +1,16 @@
 /* main.c: the test runner: build/test [-l] [--slow] [--seed N] [NAME...]
  * Exit status 0 only if every check and every hypothesis came out as it must. The last line is
  * "N passed, N failed". */
-#define _POSIX_C_SOURCE 200809L
-#define _DARWIN_C_SOURCE /* mkdtemp, on macOS */
-
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-#include <unistd.h>
 
 #include "base/mem.h"
+#include "base/os.h"
 #include "base/stats.h"
+#include "helpers.h"
 #include "tests.h"
 
 static const double SUITE_ALPHA = 0.001;
@@ -41,11 +38,13 @@ static const struct entry ENTRIES[] = {
     {"options", test_options, false}, {"render", test_render, false}, {"asbdpt", test_asbdpt, false},
     {"part", test_part, false}, {"trace", test_trace, false},
     {"report", test_report, false}, {"pictures", test_pictures, false},
-    {"aov", test_aov, false}, {"fuzz", test_fuzz, false},
+    {"aov", test_aov, false},
+#if !defined _WIN32 && !defined __wasi__ /* which have no fork, and no devices among the files */
+    {"devices", test_devices, false}, {"fuzz", test_fuzz, false}, {"hostile", test_hostile, true},
+#endif
     {"threads", test_threads, false}, {"verify", test_verify, false},
     {"strategies", test_strategies, false}, {"streams", test_streams, false},
     {"scenes", test_scenes, false},   {"reference", test_references, false},
-    {"hostile", test_hostile, true},
     {"scenes-long", test_scenes_long, true}, {"reference-long", test_references_long, true},
 };
 enum { N_ENTRIES = sizeof ENTRIES / sizeof ENTRIES[0] };
@@ -59,7 +58,7 @@ struct hypothesis {
 
 struct test {
     uint64_t seed;
-    char tmp[64];
+    char tmp[128];
     int entry;               /* index of the running test */
     int failures[N_ENTRIES]; /* failed checks and hypotheses per test */
     int checks;
@@ -163,9 +162,11 @@ int main(int argc, char **argv)
             fprintf(stderr, "build/test: no test named %s; -l lists them\n", argv[i]);
             return 2;
         }
-    strcpy(t.tmp, "/tmp/asbdpt-test-XXXXXX");
-    if (mkdtemp(t.tmp) == NULL) {
-        perror("build/test: cannot make a temporary directory");
+    const char *tmp = getenv("TMPDIR");
+    int length = snprintf(t.tmp, sizeof t.tmp, "%s/asbdpt-test-%016llx", tmp != NULL ? tmp : "/tmp",
+                          (unsigned long long)os_unique());
+    if (length >= (int)sizeof t.tmp || os_kind_of(t.tmp) != OS_NOTHING || !os_make_directory(t.tmp)) {
+        fprintf(stderr, "build/test: cannot make a temporary directory %s\n", t.tmp);
         return 1;
     }
     bool ran[N_ENTRIES] = {false};
@@ -174,12 +175,9 @@ int main(int argc, char **argv)
             continue;
         t.entry = i;
         ran[i] = true;
-        struct timespec a, b;
-        clock_gettime(CLOCK_MONOTONIC, &a);
+        double start = os_wall_seconds();
         ENTRIES[i].run(&t);
-        clock_gettime(CLOCK_MONOTONIC, &b);
-        printf("%-10s %6.2f s\n", ENTRIES[i].name,
-               (double)(b.tv_sec - a.tv_sec) + 1e-9 * (double)(b.tv_nsec - a.tv_nsec));
+        printf("%-10s %6.2f s\n", ENTRIES[i].name, os_wall_seconds() - start);
         fflush(stdout);
     }
     judge(&t);
@@ -189,9 +187,7 @@ int main(int argc, char **argv)
         failed += ran[i] && t.failures[i] != 0;
     }
     free(t.hypothesis);
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", t.tmp);
-    if (system(command) != 0)
+    if (!remove_tree(t.tmp))
         fprintf(stderr, "build/test: could not remove %s\n", t.tmp);
     printf("%d checks\n%d passed, %d failed\n", t.checks, passed, failed);
     return failed == 0 ? 0 : 1;

@@ -13,6 +13,7 @@
 #include "base/file.h"
 #include "base/mem.h"
 #include "fuzz/targets.h"
+#include "helpers.h"
 #include "tests.h"
 
 enum { MAX_FILES = 500 };
@@ -86,7 +87,7 @@ static void break_promise(const uint8_t *data, size_t size, const char *director
 void test_fuzz(struct test *t)
 {
     static const struct fuzz_target BROKEN = {"png", break_promise};
-    char directory[256], command[300];
+    char directory[256];
     struct corpus *c = mem_alloc(1, sizeof *c);
     list_corpus("png", c);
     CHECK(t, run_alone(&BROKEN, c, 0, 1, test_tmp(t)) != 0, "a target that breaks its promise is not noticed");
@@ -98,6 +99,5 @@ void test_fuzz(struct test *t)
     fuzz_prepare(directory);
     for (const struct fuzz_target *target = fuzz_targets; target->name != NULL; target++)
         replay(t, target, directory);
-    snprintf(command, sizeof command, "rm -rf '%s'", directory);
-    CHECK(t, system(command) == 0, "%s is left behind", directory);
+    CHECK(t, remove_tree(directory), "%s is left behind", directory);
 }

@@ -113,7 +113,7 @@ static bool read_size(struct reader *r, int least, const char *expected, int *si
         return false;
     size[0] = (int)v[0];
     size[1] = (int)v[1];
-    return size[1] == 0 || picture_size_ok((unsigned long)v[0], (unsigned long)v[1], &why) ||
+    return size[1] == 0 || picture_size_ok((uint64_t)v[0], (uint64_t)v[1], &why) ||
            error_set(r->err, "%s: %s", r->option->name, why.text);
 }
 

@@ -105,7 +105,7 @@ static bool read_window(struct exr *e)
         return error_set(e->err, "the picture is empty: its data window holds no pixel");
     e->width = (size_t)width;
     e->height = (size_t)height;
-    return picture_size_ok((unsigned long)width, (unsigned long)height, e->err);
+    return picture_size_ok((uint64_t)width, (uint64_t)height, e->err);
 }
 
 static bool read_display(struct exr *e)

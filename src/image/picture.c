@@ -7,12 +7,14 @@
 #include "base/maths.h"
 #include "base/mem.h"
 
-bool picture_size_ok(unsigned long width, unsigned long height, struct error *err)
+bool picture_size_ok(uint64_t width, uint64_t height, struct error *err)
 {
     if (width == 0 || height == 0)
-        return error_set(err, "the picture is empty (%lu x %lu)", width, height);
+        return error_set(err, "the picture is empty (%llu x %llu)", (unsigned long long)width,
+                         (unsigned long long)height);
     if (width > PICTURE_MAX_PIXELS / height)
-        return error_set(err, "%lu x %lu pixels are too many (at most %d)", width, height, PICTURE_MAX_PIXELS);
+        return error_set(err, "%llu x %llu pixels are too many (at most %d)", (unsigned long long)width,
+                         (unsigned long long)height, PICTURE_MAX_PIXELS);
     return true;
 }
 

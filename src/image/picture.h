@@ -37,7 +37,7 @@ enum { PICTURE_MAX_PIXELS = 1 << 28 };
 
 /* picture_size_ok: may a picture, or a film, be this large? Returns false with a message for 0 and for too many
  * pixels. */
-bool picture_size_ok(unsigned long width, unsigned long height, struct error *err);
+bool picture_size_ok(uint64_t width, uint64_t height, struct error *err);
 
 /* A small file may announce a large picture. Reading it takes at most PICTURE_FREE_BYTES of memory, or
  * PICTURE_BYTES_PER_BYTE for each of the file. */

@@ -83,8 +83,7 @@ static bool load_scene(struct show *s)
         return false;
     if (r->pixels == NULL)
         return error_set(s->err, "%s: there is no stored reference %s.pfm; give one with --reference", d->scene, name);
-    if (!picture_size_ok((unsigned long)r->width * (unsigned long)d->scale,
-                         (unsigned long)r->height * (unsigned long)d->scale, s->err))
+    if (!picture_size_ok((uint64_t)r->width * (uint64_t)d->scale, (uint64_t)r->height * (uint64_t)d->scale, s->err))
         return false;
     s->width = r->width * d->scale;
     s->height = r->height * d->scale;

@@ -116,7 +116,7 @@ static void image_film(struct parser *p, void *object)
     struct params *q = &p->params;
     struct scene *s = object;
     struct error why;
-    if (!picture_size_ok((unsigned long)s->width, (unsigned long)s->height, &why))
+    if (!picture_size_ok((uint64_t)s->width, (uint64_t)s->height, &why))
         type_error(q, "%s", why.text);
     static const double WHOLE[4] = {0, 1, 0, 1};
     memcpy(s->crop, WHOLE, sizeof s->crop);

@@ -205,7 +205,7 @@ static bool read_numbers(const char *text, struct part *p)
     p->planned = spp != NULL ? strtol(spp, NULL, 10) : 0;
     return p->scale >= 0 && p->scale <= NUMBER_MAX &&
            sscanf(size, "%d %d", &p->width, &p->height) == 2 && p->width > 0 && p->height > 0 &&
-           picture_size_ok((unsigned long)p->width, (unsigned long)p->height, &ignored) &&
+           picture_size_ok((uint64_t)p->width, (uint64_t)p->height, &ignored) &&
            sscanf(samples, "%ld %ld", &p->first, &p->end) == 2 &&
            sscanf(done, "%ld %" SCNd64, &p->done, &p->passes) == 2 && sscanf(left_out, "%ld", &p->left_out) == 1 &&
            p->left_out >= 0 && p->first >= 0 && p->end > p->first && p->done >= 0 && p->done <= p->end - p->first &&

@@ -1,0 +1,66 @@
+/* test_devices.c: what POSIX has among files that are none: a device that is full, one that never ends, a pipe that
+ * nobody writes to. */
+#define _POSIX_C_SOURCE 200809L
+#define _XOPEN_SOURCE 700 /* symlink, on NetBSD */
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "base/mem.h"
+#include "base/os.h"
+#include "image/image.h"
+#include "tests.h"
+
+static void check_no_write(struct test *t, const char *path, int size)
+{
+    struct error err = {""};
+    struct stat info;
+    float *p = mem_alloc(3 * (size_t)size * (size_t)size, sizeof *p);
+    CHECK(t, !image_write(path, size, size, p, &err) && strstr(err.text, "cannot be written") != NULL, "%s: \"%s\"",
+          path, err.text);
+    CHECK(t, lstat(path, &info) == 0 && S_ISLNK(info.st_mode), "a link to a device is not replaced");
+    free(p);
+}
+
+/* A device of some systems only, which accepts nothing. */
+static void test_full(struct test *t)
+{
+    static const char *const NAMES[] = {"full.pfm", "full.ppm", "full.png", "full.exr", "full.hdr", "full.tga"};
+    for (size_t i = 0; os_kind_of("/dev/full") == OS_OTHER && i < sizeof NAMES / sizeof NAMES[0]; i++) {
+        char path[256];
+        snprintf(path, sizeof path, "%s/%s", test_tmp(t), NAMES[i]);
+        if (!CHECK(t, symlink("/dev/full", path) == 0, "%s cannot be linked", path))
+            continue;
+        check_no_write(t, path, 2);   /* found when the buffer is flushed */
+        check_no_write(t, path, 200); /* found before */
+        remove(path);
+    }
+}
+
+/* Reading never waits for ever: a pipe that nobody writes to is empty, devices are refused. */
+static void test_endless(struct test *t)
+{
+    char path[256];
+    uint8_t *data = NULL;
+    size_t size = 1;
+    struct error err = {""};
+    snprintf(path, sizeof path, "%s/pipe", test_tmp(t));
+    alarm(20); /* who waits is ended */
+    CHECK(t, mkfifo(path, 0600) == 0 && file_read(path, &data, &size, &err) && size == 0, "%s", err.text);
+    alarm(0);
+    free(data);
+    remove(path);
+    if (os_kind_of("/dev/zero") == OS_OTHER)
+        CHECK(t, !file_read("/dev/zero", &data, &size, &err) && strstr(err.text, "cannot be opened") != NULL,
+              "/dev/zero: %s", err.text);
+}
+
+void test_devices(struct test *t)
+{
+    test_full(t);
+    test_endless(t);
+}
