@@ -1,7 +1,8 @@
 #!/bin/sh
 # portability.sh [NAME...]: README's one-line builds, by whichever compilers are at hand, for whichever machines these
 # or emulators can run: all of them make the pictures of test/hashes.txt, byte for byte. Of every target one line is
-# said: the same bytes, skipped (and why), or FAIL. With NAMEs only those; -l lists them. Run from the top.
+# said: the same bytes, skipped (and why), or FAIL. Where there is no fork the test suites that need none are run too.
+# With NAMEs only those; -l lists them. Run from the top.
 #
 # Systems that no emulator here runs are compiled for alone, where a variable names the directories of their headers:
 #   MACOS_HEADERS=SDK/usr/include FREEBSD_HEADERS=... NETBSD_HEADERS=... OPENBSD_HEADERS="..." sh test/portability.sh
@@ -25,23 +26,29 @@ asked() {
     esac
 }
 
+# able NAME RUNNER BUILD FLAG...: can a small program be built like this, and run? If not, it is said.
+able() {
+    name=$1 runner=$2 build=$3
+    shift 3
+    for tool in "${build%% *}" ${runner%% *}; do
+        command -v "$tool" >/dev/null || { say "$name" "skipped: no $tool"; return 1; }
+    done
+    printf '#include <errno.h>\n#include <math.h>\n#include <stdio.h>\n' >"$dir/a.c"
+    echo 'int main(void) { volatile double a = 2; return !(fma(a, a, sqrt(a)) + a * a > errno); }' >>"$dir/a.c"
+    trial=$(echo "$build" | sed "s|src/[^ ]*\.c|$dir/a.c|; s|-o [^ ]*|-o $dir/$name.exe|")
+    $trial "$@" >"$dir/log" 2>&1 && $runner "$dir/$name.exe" </dev/null >"$dir/log" 2>&1 && return
+    say "$name" "skipped: no program for it can be compiled, or run, here"
+    return 1
+}
+
 # try NAME RUNNER COMPILER BUILD FLAG...: BUILD is a line of README; its compiler and output are replaced, FLAGs added.
 try() {
     name=$1 runner=$2 compiler=$3 build=$4
     shift 4
     asked "$name" || return
-    for tool in "$compiler" ${runner%% *}; do
-        command -v "$tool" >/dev/null || { say "$name" "skipped: no $tool"; return; }
-    done
     program=$dir/$name.exe
     command=$(echo "$build" | sed "s|^[^ ]*|$compiler|; s|-o [^ ]*|-o $program|")
-    printf '#include <errno.h>\n#include <math.h>\n#include <stdio.h>\n' >"$dir/a.c"
-    echo 'int main(void) { volatile double a = 2; return !(fma(a, a, sqrt(a)) + a * a > errno); }' >>"$dir/a.c"
-    trial=$(echo "$command" | sed "s|src/[^ ]*\.c|$dir/a.c|")
-    if ! $trial "$@" >"$dir/log" 2>&1 || ! $runner "$program" </dev/null >"$dir/log" 2>&1; then
-        say "$name" "skipped: no program for it can be compiled, or run, here"
-        return
-    fi
+    able "$name" "$runner" "$command" "$@" || return
     if ! $command "$@" 2>"$dir/log"; then
         say "$name" "FAIL: does not compile"
         head -5 "$dir/log"
@@ -81,6 +88,28 @@ compile() {
     fi
 }
 
+# suites NAME RUNNER BUILD SUITE...: the test program, built as BUILD, a line of README, builds the other, passes them.
+suites() {
+    name=$1 runner=$2 build=$3
+    shift 3
+    asked "$name" && able "$name" "$runner" "$build" || return
+    program=$dir/$name.exe
+    sources="$(ls test/*.c | grep -v -e devices -e fuzz -e hostile) $(ls src/*/*.c | grep -v src/cli/main.c)"
+    command=$(echo "$build" | sed "s|-o [^ ]*|-Itest -o $program|; s|src/[^ ]*\.c|$(echo $sources)|")
+    if ! $command 2>"$dir/log"; then
+        say "$name" "FAIL: the tests do not compile"
+        head -5 "$dir/log"
+        failures=$((failures + 1))
+    elif $runner "$program" "$@" </dev/null >"$dir/log" 2>&1; then
+        say "$name" "$(tail -1 "$dir/log" | tr -d '\r')"
+    else
+        say "$name" "FAIL: $(tail -1 "$dir/log" | tr -d '\r')"
+        grep -A 1 FAIL "$dir/log" | head -5
+        failures=$((failures + 1))
+    fi
+    rm -f "$program"
+}
+
 for compiler in gcc clang; do
     try $compiler '' $compiler "$plain"
     try $compiler-O0 '' $compiler "$plain" -O0
@@ -97,8 +126,13 @@ try gcc-x87 '' gcc "$plain" -m32 -mfpmath=387
 try musl '' musl-gcc "$plain" -static
 try tcc '' tcc "$plain"
 export WINEDEBUG=-all # no log of its own
-try windows "$(command -v wine64 || echo wine)" x86_64-w64-mingw32-gcc "$windows"
-try wasi 'node --no-warnings test/wasi.mjs' clang "$wasi"
+wine=$(command -v wine64 || echo wine) node='node --no-warnings test/wasi.mjs'
+quick='maths vec warp stats alias zlib image hdr sheet file ply features format shape subdivide kdtree texture lobe bsdf
+    material light camera film parser sampler mis pairs options render part trace report pictures aov threads'
+try windows "$wine" x86_64-w64-mingw32-gcc "$windows"
+suites windows-suites "$wine" "$windows" $quick
+try wasi "$node" clang "$wasi"
+suites wasi-suites "$node" "$wasi" $quick
 try arm64 qemu-aarch64 aarch64-linux-gnu-gcc "$plain" -static
 try armhf qemu-arm arm-linux-gnueabihf-gcc "$plain" -static
 try riscv64 qemu-riscv64 riscv64-linux-gnu-gcc "$plain" -static

@@ -1,9 +1,9 @@
-// wasi.mjs: run a WASI program under node, with the files below this directory:
+// wasi.mjs: run a WASI program under node, with the files below this directory and /tmp:
 // node --no-warnings test/wasi.mjs PROGRAM.wasm ...
 import { readFileSync } from 'node:fs';
 import { WASI } from 'node:wasi';
 
 const args = process.argv.slice(2);
-const wasi = new WASI({ version: 'preview1', args, preopens: { '.': '.' }, returnOnExit: true });
+const wasi = new WASI({ version: 'preview1', args, preopens: { '.': '.', '/tmp': '/tmp' }, returnOnExit: true });
 const { instance } = await WebAssembly.instantiate(readFileSync(args[0]), wasi.getImportObject());
 process.exitCode = wasi.start(instance);
