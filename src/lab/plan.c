@@ -31,7 +31,6 @@ void plan_preset(struct plan *p, bool quick)
     p->width = quick ? 0 : 320;
     p->height = 0;
     p->n_seeds = 3;
-    p->sweep_seeds = 1;
     p->reference_spp = quick ? 256 : 4096;
     plan_set_spp(p, quick ? 8 : 32, quick ? 64 : 512, NULL);
 }
@@ -53,7 +52,7 @@ int plan_seeds(const struct plan *p, int variant)
 {
     if (variant < N_COMPARED)
         return p->n_seeds;
-    return p->quick && !VARIANTS[variant].quick ? 0 : p->sweep_seeds < p->n_seeds ? p->sweep_seeds : p->n_seeds;
+    return p->quick && !VARIANTS[variant].quick ? 0 : 1;
 }
 
 long plan_seed(int variant, int i) { return 100L * variant + i; }

@@ -51,7 +51,7 @@ struct plan {
     bool quick;               /* which preset, which sweeps */
     long spp[PLAN_MAX_STEPS]; /* [n_steps] rising; errors are measured at each */
     int n_steps;
-    int n_seeds, sweep_seeds; /* repetitions of what is compared everywhere and of the sweeps */
+    int n_seeds;              /* repetitions of what is compared everywhere; the sweeps have one */
     int width, height;        /* width 0: the stored reference's; height 0: from the scene's aspect ratio */
     int max_depth;            /* 0: the stored reference's if the width is 0 too, else the scene's */
     long reference_spp;       /* of a reference made here */

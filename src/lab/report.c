@@ -43,10 +43,10 @@ static void write_lead(FILE *f, const struct results *r)
     fprintf(f,
             "BDPT and four ways in which ASBDPT chooses light sub-paths (bins, the dissertation's; pool and vertices, "
             "its repairs; subspaces, the default) in %d scene%s, each rendered to %ld, doubled up to %ld, samples per "
-            "pixel with %d seed%s per method (%d for the parameter sweeps) and compared with a reference. Box filter, "
+            "pixel with %d seed%s per method (1 for the parameter sweeps) and compared with a reference. Box filter, "
             "balance heuristic.",
             p->n_scenes, p->n_scenes == 1 ? "" : "s", p->spp[0], plan_last_spp(p), p->n_seeds,
-            p->n_seeds == 1 ? "" : "s", p->sweep_seeds < p->n_seeds ? p->sweep_seeds : p->n_seeds);
+            p->n_seeds == 1 ? "" : "s");
 }
 
 /* What the numbers mean; nothing here depends on the results. */
