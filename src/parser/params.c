@@ -96,14 +96,6 @@ static struct param *find_n(struct params *p, const char *name, unsigned types, 
 
 const struct param *params_ignore(struct params *p, const char *name) { return find(p, name, ~0u); }
 
-bool params_has(const struct params *p, const char *name, enum param_type type)
-{
-    for (int i = 0; i < p->n; i++)
-        if (p->item[i].type == type && strcmp(p->item[i].name, name) == 0)
-            return true;
-    return false;
-}
-
 /* The one value of a parameter of this type, or NULL. */
 static const struct param *find_one(struct params *p, const char *name, enum param_type type)
 {
@@ -163,23 +155,13 @@ const char *params_text(struct params *p, const char *name, enum param_type type
     return p->string[item->first];
 }
 
-static vec3 three_numbers(struct params *p, const char *name, enum param_type type, vec3 fallback)
+vec3 params_vec3(struct params *p, const char *name, enum param_type type, vec3 fallback)
 {
     const struct param *item = find_n(p, name, 1u << type, 3);
     if (item == NULL)
         return fallback;
     const double *x = p->number + item->first;
     return vec(x[0], x[1], x[2]);
-}
-
-vec3 params_point(struct params *p, const char *name, vec3 fallback)
-{
-    return three_numbers(p, name, PARAM_POINT, fallback);
-}
-
-vec3 params_vector(struct params *p, const char *name, vec3 fallback)
-{
-    return three_numbers(p, name, PARAM_VECTOR, fallback);
 }
 
 int params_choice(struct params *p, const char *name, const char *const *choices)

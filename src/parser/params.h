@@ -89,13 +89,9 @@ bool params_done(struct params *p);
 /* params_ignore: accept a parameter of any type without using it. Returns it, or NULL. */
 const struct param *params_ignore(struct params *p, const char *name);
 
-/* params_has: is there a parameter of this name and of this type? Does not count as asking. */
-bool params_has(const struct params *p, const char *name, enum param_type type);
-
 /* One value, or the default. All questions refuse numbers beyond NUMBER_MAX (number.h). */
 bool params_bool(struct params *p, const char *name, bool fallback);
-vec3 params_point(struct params *p, const char *name, vec3 fallback);
-vec3 params_vector(struct params *p, const char *name, vec3 fallback);
+vec3 params_vec3(struct params *p, const char *name, enum param_type type, vec3 fallback); /* point, vector, normal */
 rgb params_rgb(struct params *p, const char *name, rgb fallback); /* rgb, xyz, blackbody or spectrum */
 
 /* params_int: a whole number from low to high; others are rounded towards 0. */

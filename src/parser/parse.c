@@ -150,7 +150,8 @@ void parse_bool(struct parser *p, const struct parameter *row, void *field)
 
 void parse_point(struct parser *p, const struct parameter *row, void *field)
 {
-    *(vec3 *)field = params_point(&p->params, row->name, vec(row->fallback.r, row->fallback.g, row->fallback.b));
+    vec3 fallback = vec(row->fallback.r, row->fallback.g, row->fallback.b);
+    *(vec3 *)field = params_vec3(&p->params, row->name, PARAM_POINT, fallback);
 }
 
 void parse_ignored(struct parser *p, const struct parameter *row, void *field)
@@ -182,8 +183,7 @@ int parse_constant(struct parser *p, rgb value)
     return *slot - 1;
 }
 
-/* The texture named by "texture NAME"; -1 if there is no such parameter (or, with a warning, no such texture). */
-static int named_texture(struct parser *p, const char *name, bool is_float)
+int parse_named_texture(struct parser *p, const char *name, bool is_float)
 {
     struct params *q = &p->params;
     const struct symbols *table = is_float ? &p->float_textures : &p->spectrum_textures;
@@ -206,15 +206,6 @@ static int named_texture(struct parser *p, const char *name, bool is_float)
     return id;
 }
 
-int parse_named_float(struct parser *p, const char *name)
-{
-    int id = named_texture(p, name, true);
-    p->params.excess = true;
-    double value = id < 0 ? params_number(&p->params, name, NAN, ANY_NUMBER) : NAN;
-    p->params.excess = false;
-    return isnan(value) ? id : parse_constant(p, rgb_grey(value));
-}
-
 /* Refuse a texture that is the same everywhere and outside the row's range. */
 static void check_range(struct parser *p, const struct parameter *row, int texture)
 {
@@ -232,16 +223,19 @@ static void check_range(struct parser *p, const struct parameter *row, int textu
 
 void parse_float_texture(struct parser *p, const struct parameter *row, void *field)
 {
-    int *texture = field, id = parse_named_float(p, row->name);
+    int *texture = field, id = parse_named_texture(p, row->name, true);
+    p->params.excess = true;
+    double value = id < 0 ? params_number(&p->params, row->name, row->fallback.r, ANY_NUMBER) : 0;
+    p->params.excess = false;
     if (id < 0)
-        id = isnan(row->fallback.r) ? *texture : parse_constant(p, row->fallback);
+        id = isnan(value) ? *texture : parse_constant(p, rgb_grey(value));
     *texture = id;
     check_range(p, row, id);
 }
 
 void parse_rgb_texture(struct parser *p, const struct parameter *row, void *field)
 {
-    int id = named_texture(p, row->name, false);
+    int id = parse_named_texture(p, row->name, false);
     p->params.excess = true;
     if (id < 0)
         id = parse_constant(p, params_rgb(&p->params, row->name, row->fallback));

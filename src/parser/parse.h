@@ -106,8 +106,7 @@ struct parser {
     int n_sources, n_includes;
     uint64_t included_bytes; /* of all Includes carried out */
     struct symbols files; /* path -> file[]: a file included twice is read once */
-    struct loaded *file;  /* [n_files], owned */
-    int n_files;
+    struct loaded *file;  /* [files.n], owned */
     size_t file_capacity;
 
     struct transform_state place;
@@ -125,12 +124,10 @@ struct parser {
     size_t named_capacity;
     struct symbols media;                                        /* -> 0 */
     struct symbols systems;                                      /* -> system[] */
-    struct transform *system;                                    /* [n_systems], owned */
-    int n_systems;
+    struct transform *system;                                    /* [systems.n], owned */
     size_t system_capacity;
     struct symbols objects;    /* -> object[] */
-    struct shape_list *object; /* [n_objects], owned */
-    int n_objects;
+    struct shape_list *object; /* [objects.n], owned */
     size_t object_capacity;
     int current_object; /* between ObjectBegin and ObjectEnd, else -1 */
     uint64_t copied_bytes; /* of all instances */
@@ -226,8 +223,8 @@ bool parse_media(struct parser *p, struct source_position at, const char *what, 
 /* parse_constant: a constant texture. */
 int parse_constant(struct parser *p, rgb value);
 
-/* parse_named_float: the texture of "texture NAME" or the constant of "float NAME"; -1 where both are absent. */
-int parse_named_float(struct parser *p, const char *name);
+/* parse_named_texture: that of "texture NAME"; -1 without such a parameter or, with a warning, such a texture. */
+int parse_named_texture(struct parser *p, const char *name, bool is_float);
 
 /* --- directives ----------------------------------------------------------------------------------------- */
 

@@ -74,9 +74,9 @@ static bool object_begin(struct parser *p)
     if (p->current_object >= 0)
         source_warn(&p->messages, p->directive.position, NULL,
                     "ObjectBegin inside an object; as in pbrt-v3, the outer one ends here");
-    p->object = mem_grow(p->object, &p->object_capacity, (size_t)p->n_objects + 1, sizeof *p->object);
-    memset(&p->object[p->n_objects], 0, sizeof *p->object);
-    p->current_object = p->n_objects++;
+    p->object = mem_grow(p->object, &p->object_capacity, (size_t)p->objects.n + 1, sizeof *p->object);
+    memset(&p->object[p->objects.n], 0, sizeof *p->object);
+    p->current_object = p->objects.n;
     symbols_add(&p->objects, name.text, p->current_object);
     return parse_open_block(p, BLOCK_OBJECT);
 }

@@ -80,11 +80,9 @@ static void points(struct params *q, struct mesh *m)
 /* The texture of "alpha" or "shadowalpha"; -1 if the surface is simply there, *absent if it is simply not. */
 static int alpha(struct parser *p, const char *name, bool *absent)
 {
-    *absent = false;
-    if (params_has(&p->params, name, PARAM_TEXTURE))
-        return parse_named_float(p, name);
-    *absent = params_number(&p->params, name, 1, ANY_NUMBER) == 0;
-    return -1;
+    int texture = parse_named_texture(p, name, true);
+    *absent = texture < 0 && params_number(&p->params, name, 1, ANY_NUMBER) == 0;
+    return texture;
 }
 
 /* Where meshes that may have holes have them. */

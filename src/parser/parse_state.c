@@ -136,9 +136,9 @@ static bool concat_transform(struct parser *p)
 
 void parse_name_system(struct parser *p, const char *name, struct transform t)
 {
-    p->system = mem_grow(p->system, &p->system_capacity, (size_t)p->n_systems + 1, sizeof *p->system);
-    p->system[p->n_systems] = t;
-    symbols_add(&p->systems, name, p->n_systems++);
+    p->system = mem_grow(p->system, &p->system_capacity, (size_t)p->systems.n + 1, sizeof *p->system);
+    p->system[p->systems.n] = t;
+    symbols_add(&p->systems, name, p->systems.n);
 }
 
 static bool coordinate_system(struct parser *p)

@@ -52,7 +52,7 @@ static double mapping_number(struct parser *p, const char *name, double fallback
 static vec3 mapping_vector(struct parser *p, const char *name, vec3 fallback, bool is_read)
 {
     if (is_read)
-        return params_vector(&p->params, name, fallback);
+        return params_vec3(&p->params, name, PARAM_VECTOR, fallback);
     without_effect(p, name);
     return vec(0, 0, 0);
 }

@@ -191,10 +191,10 @@ static int load(struct parser *p, const char *path, struct error *err)
     if (f.text == NULL)
         return -1;
     p->scene->content = hash_combine(p->scene->content, hash_content(f.text, f.size));
-    p->file = mem_grow(p->file, &p->file_capacity, (size_t)p->n_files + 1, sizeof *p->file);
-    p->file[p->n_files] = f;
-    symbols_add(&p->files, path, p->n_files);
-    return p->n_files++;
+    p->file = mem_grow(p->file, &p->file_capacity, (size_t)p->files.n + 1, sizeof *p->file);
+    p->file[p->files.n] = f;
+    symbols_add(&p->files, path, p->files.n);
+    return p->files.n - 1;
 }
 
 /* Carry out a loaded file. Its path and text live as long as the parser, for all places that point into it. */
@@ -266,9 +266,9 @@ static void start(struct parser *p, const char *path, struct scene *s, const str
 
 static void finish(struct parser *p)
 {
-    for (int i = 0; i < p->n_objects; i++)
+    for (int i = 0; i < p->objects.n; i++)
         shape_list_free(&p->object[i]);
-    for (int i = 0; i < p->n_files; i++)
+    for (int i = 0; i < p->files.n; i++)
         free(p->file[i].text);
     struct symbols *const tables[] = {&p->files,   &p->float_textures, &p->spectrum_textures, &p->materials,
                                       &p->systems, &p->objects,        &p->media};
