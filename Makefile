@@ -90,7 +90,7 @@ test: asbdpt $(BUILD)/test layers standard references columns faults links limit
 	sh test/mini.sh $(PROGRAM)
 	sh test/keep.sh $(PROGRAM)
 	sh test/hashes.sh $(PROGRAM)
-	sh test/readme.sh $(PROGRAM) doc/scene-format.md doc/selection.md doc/tour/trace.md
+	sh test/readme.sh $(PROGRAM) doc/scene-format.md doc/tour/trace.md
 	$(BUILD)/test
 
 check-long: asbdpt $(BUILD)/test experiments web portability inject ## the tests that take longer
