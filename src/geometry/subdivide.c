@@ -278,12 +278,13 @@ static struct level control_level(const struct mesh *m)
     return l;
 }
 
-bool mesh_subdivide(struct mesh *m, int levels, struct error *err)
+bool mesh_subdivide(struct mesh *m, int levels, int most, struct error *err)
 {
     double triangles = m->n_triangles * m_pow(4, levels);
-    if (triangles > SUBDIVIDE_MAX_TRIANGLES)
-        return error_set(err, "%d levels would make %.3g triangles of %d; at most %d are made: lower the levels",
-                         levels, triangles, m->n_triangles, (int)SUBDIVIDE_MAX_TRIANGLES);
+    if (triangles > most)
+        return error_set(err, "%d levels would make %.3g triangles of %d; %s%d are made: lower the levels", levels,
+                         triangles, m->n_triangles, most < SUBDIVIDE_MAX_TRIANGLES ? "of this scene yet " : "at most ",
+                         most);
     struct level l = control_level(m);
     struct ring ring = {0};
     bool ok = join_edges(&l, err);

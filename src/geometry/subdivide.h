@@ -10,12 +10,12 @@
 
 #include "geometry/shape.h"
 
-enum { SUBDIVIDE_MAX_TRIANGLES = 1 << 23 };
+enum { SUBDIVIDE_MAX_TRIANGLES = 1 << 23 }; /* of a scene */
 
 /* mesh_subdivide: replace the control mesh, of which N and UV are not looked at, by its surface after so many levels,
  * >= 0. Normals point as in pbrt-v3: to the side from which the corners of a triangle run clockwise. Points that no
  * triangle uses stay where they are. Returns false with a message, and the mesh as it was, when an edge has more than
- * two triangles, or two that run along it the same way, or when there would be too many triangles. */
-bool mesh_subdivide(struct mesh *m, int levels, struct error *err);
+ * two triangles, or two that run along it the same way, or when there would be more than `most` triangles. */
+bool mesh_subdivide(struct mesh *m, int levels, int most, struct error *err);
 
 #endif

@@ -131,6 +131,7 @@ struct parser {
     size_t object_capacity;
     int current_object; /* between ObjectBegin and ObjectEnd, else -1 */
     uint64_t copied_bytes; /* of all instances */
+    int n_subdivided;      /* triangles of all subdivision surfaces, at most SUBDIVIDE_MAX_TRIANGLES */
 
     struct params changed;   /* parse_changed_material: a material's list with a shape's */
     bool texture_is_float;   /* of the Texture directive being carried out */

@@ -116,7 +116,11 @@ static void loopsubdiv(struct parser *p, void *object)
     struct error inner;
     int levels = params_int(q, "levels", params_int(q, "nlevels", 3, 0, 30), 0, 30);
     points(q, m);
-    if (!q->failed && m->n_triangles > 0 && !mesh_subdivide(m, levels, &inner))
+    if (q->failed || m->n_triangles == 0)
+        return;
+    if (mesh_subdivide(m, levels, SUBDIVIDE_MAX_TRIANGLES - p->n_subdivided, &inner))
+        p->n_subdivided += m->n_triangles;
+    else
         type_error(q, "%s", inner.text);
 }
 

@@ -4,7 +4,8 @@
  *     INJECT=count ./asbdpt-inject ...      prints how often each kind is called
  *     INJECT=close:3 ./asbdpt-inject ...    the third file that is closed cannot be
  *
- * Kinds: memory, write (from then on the disk is full), close, store, open, rename, thread. */
+ * Kinds: memory, write (from then on the disk is full), close, store, open, rename, thread. What is written stays in a
+ * buffer at first, and all that is in it fails together: one write is counted for each buffer. */
 #undef calloc
 #undef realloc
 #undef fwrite
@@ -46,6 +47,8 @@ static const char *const NAMES[KINDS] = {"memory", "write", "close", "store", "o
 
 static long called[KINDS], failing; /* the call that is to fail, from 1; 0: none */
 static enum kind failing_kind = KINDS; /* KINDS: INJECT has not been read */
+static FILE *written; /* to which the last write went, and to which part of it */
+static long written_part;
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
 static void print_counts(void)
@@ -94,17 +97,32 @@ FILE *inject_fdopen(int fd, const char *mode) { return fails(OPEN, EMFILE) ? NUL
 
 int inject_fclose(FILE *f)
 {
-    int wrong = fails(CLOSE, EIO), status = fclose(f);
+    int wrong = fails(CLOSE, EIO), status;
+    pthread_mutex_lock(&lock);
+    written = NULL; /* another file may come to be where this one was in memory */
+    status = fclose(f);
+    pthread_mutex_unlock(&lock);
     if (!wrong)
         return status;
     errno = EIO;
     return EOF;
 }
 
-/* What is written may stay in a buffer: that the disk is full is found later. */
+/* Is this the first that goes into its file, or beyond the quarter of a buffer where the last write was? */
+static int is_new_buffer(FILE *f)
+{
+    long part = ftell(f) / 1024;
+    pthread_mutex_lock(&lock);
+    int is_new = f != written || part != written_part;
+    written = f;
+    written_part = part;
+    pthread_mutex_unlock(&lock);
+    return is_new;
+}
+
 static void before_write(FILE *f)
 {
-    if (f == stderr || !fails(WRITE, 0))
+    if (f == stderr || !is_new_buffer(f) || !fails(WRITE, 0))
         return;
     int full = open("/dev/full", O_WRONLY);
     if (full >= 0)
