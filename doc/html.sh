@@ -21,7 +21,7 @@ pre.math, .wide td, .wide th { font-family: "DejaVu Serif", Georgia, serif; }
 .wide { overflow-x: auto; }
 .wide td, .wide th { font-size: 0.92em; }
 @media screen and (min-width: 60em) {
-    pre, .many { width: max-content; box-sizing: border-box; min-width: 100%; max-width: max(100%, 50vw + 21em); }
+    pre, .many { width: max-content; box-sizing: border-box; min-width: 100%; max-width: max(100%, 50vw + 21rem); }
 }
 table { border-collapse: collapse; margin: 1em 0; }
 td, th { padding: 0.25em 0.7em; border-bottom: 1px solid #8884; text-align: left; vertical-align: top; }
