@@ -122,12 +122,16 @@ double stats_chi2_p(double x, double dof) { return stats_gamma_q(dof / 2, x / 2)
 
 struct count_pair {
     double observed, expected;
+    size_t at;
 };
 
+/* Equals in the order they came in, for which not every qsort cares. */
 static int by_expectation(const void *a, const void *b)
 {
-    double x = ((const struct count_pair *)a)->expected, y = ((const struct count_pair *)b)->expected;
-    return (x > y) - (x < y);
+    const struct count_pair *x = a, *y = b;
+    if (x->expected != y->expected)
+        return x->expected < y->expected ? -1 : 1;
+    return x->at < y->at ? -1 : x->at > y->at;
 }
 
 /* Pearson's sum over the cells, sorted by expectation, after pooling; *n_pooled receives the number of pools. */
@@ -157,7 +161,9 @@ double stats_chi2_test(const double *observed, const double *expected, size_t n)
     for (size_t i = 0; i < n; i++) {
         if (expected[i] > 0) {
             cell[used].observed = observed[i];
-            cell[used++].expected = expected[i];
+            cell[used].expected = expected[i];
+            cell[used].at = i;
+            used++;
         } else if (observed[i] != 0) {
             impossible = true;
         }
