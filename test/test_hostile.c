@@ -170,7 +170,7 @@ static const struct repetition REPETITIONS[] = {
     {"instances of a million triangles", /* the last: the most memory of any run is what counts */
      "WorldBegin ObjectBegin \"o\" Shape \"loopsubdiv\" \"integer levels\" 9 "
      "\"integer indices\" [ 0 1 2 0 2 3 0 3 1 1 3 2 ] \"point P\" [ 0 0 0 1 0 0 0 1 0 0 0 1 ] ObjectEnd",
-     "ObjectInstance \"o\"", "WorldEnd", 20000, 1, 4096},
+     "ObjectInstance \"o\"", "WorldEnd", 20000, 1, 1024},
 };
 
 /* A map of 40 MB once its tables are made. */

@@ -24,6 +24,8 @@ int texture_add(struct texture_set *set, struct texture t)
         t.cost += cost_of(set, t.u.pattern.tex1) + cost_of(set, t.u.pattern.tex2);
     if (t.kind == TEXTURE_CUBES)
         t.cost += cost_of(set, t.u.cubes.tex1) + cost_of(set, t.u.cubes.tex2);
+    if (t.kind == TEXTURE_FBM || t.kind == TEXTURE_WRINKLED || t.kind == TEXTURE_MARBLE)
+        t.cost += t.u.noise.octaves;
     set->texture =
         mem_grow(set->texture, &set->texture_capacity, (size_t)set->n_textures + 1, sizeof *set->texture);
     set->texture[set->n_textures] = t;

@@ -41,7 +41,7 @@ enum { TEXTURE_MAX_COST = 256 }; /* the parser refuses textures built from more,
 
 struct texture {
     enum texture_kind kind;
-    int cost; /* textures that one look-up visits, itself included; set by texture_add */
+    int cost; /* textures that one look-up visits, itself included, and octaves of noise; set by texture_add */
     union {
         rgb constant;
         struct {

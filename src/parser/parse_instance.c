@@ -91,9 +91,9 @@ static bool object_end(struct parser *p)
 }
 
 /* Instances are copies: a few lines could ask for more than any machine has. */
-static const uint64_t MAX_COPIED_BYTES = (uint64_t)1 << 31;
+static const uint64_t MAX_COPIED_BYTES = (uint64_t)1 << 29;
 
-/* What an instance of the object adds to struct geometry; the kd-tree takes about as much again, or three times. */
+/* What an instance of the object adds to struct geometry: some 32 bytes for a triangle. */
 static uint64_t instance_bytes(const struct shape_list *object)
 {
     const uint64_t vertex = 8 * sizeof(float), triangle = 3 * sizeof(uint32_t) + sizeof(int32_t);

@@ -218,7 +218,8 @@ static bool texture(struct parser *p)
     bool ok = known && parse_object(p, &t);
     int id = ok ? texture_add(&p->scene->textures, t) : -1;
     if (ok && p->scene->textures.texture[id].cost > TEXTURE_MAX_COST)
-        ok = source_error(&p->messages, p->params.position, "this texture is built from more than %d others; use fewer",
+        ok = source_error(&p->messages, p->params.position,
+                          "this texture is built from more than %d others; use fewer, or fewer octaves",
                           TEXTURE_MAX_COST);
     symbols_add(p->texture_is_float ? &p->float_textures : &p->spectrum_textures, name.text,
                 ok ? id : parse_constant(p, rgb_black()));
