@@ -130,6 +130,21 @@ if command -v timeout >/dev/null && timeout --preserve-status 5 true 2>/dev/null
 else
     echo "skipped: a render stopped by timeout (not installed)"
 fi
+# While a method learns there is nothing to lose: the first signal ends the program.
+"$program" render "$box" --integrator asbdpt --res 512x512 --spp 1000000 --quiet -o caught.pfm 2>stderr.txt &
+sleep 0.3
+kill -s TERM $!
+i=0
+while kill -0 $! 2>/dev/null && [ $i -lt 300 ]; do # no longer than some seconds
+    i=$((i + 1))
+    sleep 0.02
+done
+kill -s KILL $! 2>/dev/null
+wait $!
+got=$?
+[ $got = 143 ] || fault "a signal before the first pass: status $got"
+check [ ! -s stderr.txt ]
+no_temporaries "after a signal before the first pass"
 # A block without end: the second signal ends the program at once; the checkpoint was saved at the first.
 rm -f state caught.pfm
 "$program" render "$box" --integrator asbdpt -P select=bins -P restart=0 --res 64x64 --spp 4000 --quiet -j 2 \

@@ -210,8 +210,7 @@ struct ends {
 static bool count_end(void *context, double done)
 {
     struct ends *e = context;
-    (void)done;
-    e->n += e->film->passes == 0;
+    e->n += done > 0 && e->film->passes == 0;
     return true;
 }
 

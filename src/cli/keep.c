@@ -56,12 +56,13 @@ static void save(struct keep *k)
     k->saved = os_wall_seconds();
 }
 
-/* After each tile pass. */
+/* Before the first tile pass, up to which there is nothing to be lost, and after each. */
 static bool watch(void *context, double done)
 {
     struct keep *k = context;
     const struct keep_options *o = k->options;
     double now = os_wall_seconds();
+    interrupt_defer();
     bool signal = interrupt_caught() != 0;
     progress_update(&k->bar, done);
     if (o->checkpoint != NULL && ((signal && !k->hurried) || now - k->saved >= o->interval)) {
@@ -97,7 +98,6 @@ bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const 
     render->progress_context = k;
     progress_start(&k->bar, quiet);
     k->saved = k->bar.start;
-    interrupt_defer();
     return true;
 }
 

@@ -1,6 +1,7 @@
 /* keep.h: nothing rendered is lost: what watches over a render while it runs, stops it, saves and resumes it.
  *
- * A render ends early at a signal (base/interrupt.h) or when its time is over, once its block of samples is complete.
+ * A render ends early at a signal (base/interrupt.h) or when its time is over, once its block of samples is complete;
+ * at a signal at once as long as its method still learns.
  * Its film is saved from time to time (render/part.h), and goes on from there to the same bytes. Tests: test/keep.sh.
  */
 #ifndef ASBDPT_KEEP_H

@@ -118,6 +118,8 @@ static void run_all(struct run *r)
     struct parallel_jobs jobs = {r->n_jobs - r->begun, r->job.n_threads, n_slots, r, run_pass, merge_pass};
     r->tile = mem_alloc((size_t)jobs.n_slots, sizeof *r->tile);
     make_workspaces(r);
+    if (o->progress != NULL)
+        o->progress(o->progress_context, 0);
     parallel_run(&jobs);
     free_workspaces(r);
     for (int i = 0; i < jobs.n_slots; i++)

@@ -28,8 +28,10 @@ struct render_options {
     int block;     /* iterations of a block where the integrator leaves that open; 0: by the picture's size */
     int n_threads; /* 0: one per processor */
     int max_depth; /* 0: what the scene says, else 5 */
-    /* Called after each tile pass with the share of the work done, in [0,1], one call at a time and while nothing else
-     * touches the film. NULL: not called. Returns false to stop when the current block of iterations is complete. */
+    /* Called after each tile pass with the share of the work done, in (0,1], one call at a time and while nothing else
+     * touches the film. NULL: not called. Returns false to stop when the current block of iterations is complete.
+     * Called once before the first pass, when the integrator has learnt what it wants to, with 0: what it returns then
+     * does not matter. */
     bool (*progress)(void *context, double done);
     void *progress_context;
 };
