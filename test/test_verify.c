@@ -173,6 +173,8 @@ static void test_compare(struct test *t)
     d = compare_pixels(broken, whole, 2);
     CHECK(t, d.nonfinite == 1 && d.rmse == 0, "a NaN is counted %ld times and changes rmse to %g", d.nonfinite, d.rmse);
     CHECK(t, isinf(d.psnr) && d.psnr > 0, "psnr of equal values is %g", d.psnr);
+    d = compare_pixels(broken, whole, 1);
+    CHECK(t, isinf(d.rmse) && isinf(d.rmse8) && isinf(d.relmse) && d.psnr < 0, "nothing to compare: rmse %g", d.rmse);
     const float black = 0, white = 1;
     d = compare_pixels(&black, &white, 1);
     CHECK(t, d.rmse8 == 255 && d.psnr == 0, "psnr of black for white is %g", d.psnr);

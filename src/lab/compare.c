@@ -12,7 +12,7 @@
 
 struct difference compare_pixels(const float *x, const float *r, long n)
 {
-    struct difference d = {0, 0, 0, 1, 0, HUGE_VAL};
+    struct difference d = {HUGE_VAL, HUGE_VAL, HUGE_VAL, 1, 0, -HUGE_VAL};
     double sum_x = 0, sum_r = 0, square = 0, square8 = 0, relative = 0;
     for (long i = 0; i < n; i++) {
         double a = (double)x[i], b = (double)r[i];

@@ -10,7 +10,8 @@
 #include "base/error.h"
 #include "image/picture.h"
 
-/* Errors over all pixels and channels. Pairs with a NaN or infinity are counted and left out. */
+/* Errors over all pixels and channels. Pairs with a NaN or infinity are counted and left out; errors are infinite where
+ * no pair is left, and psnr is -infinity. */
 struct difference {
     double rmse;       /* root of the mean of (x - r)^2, linear */
     double rmse8;      /* the same on 8-bit sRGB values, 0..255: the scale of the dissertation's tables */
