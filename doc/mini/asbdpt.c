@@ -396,7 +396,7 @@ static struct light_path *choose_of_bins(const struct counts *n, struct light_pa
     return next(rng) * (b0 + b1) < b0 ? &pair[0] : &pair[1];
 }
 
-/* Trace a row's light sub-paths; make the table over them, or over all their vertices. (pool.c, vertices.c) */
+/* Trace a row's light sub-paths; make the table over them, or over all their vertices. (pool.c, vertices.c; not bdpt) */
 static void fill(struct work *w, const struct counts *n, int i, uint64_t *rng)
 {
     int size = n->worth != NULL ? TABLE : SIZE;

@@ -151,9 +151,10 @@ static void tell_subspaces(const struct selection *sel, struct preparation *out)
         {"eye_regions", sel->learnt.eye.n}, {"light_regions", sel->learnt.light.n}};
     memcpy(out->number, numbers, sizeof numbers); /* fewer than there is room for: a NULL name stays behind them */
     snprintf(out->note, sizeof out->note,
-             "per eye vertex %.2f draws at the first hit, %.2f after; %d light point%s at the first hit; a light "
-             "sub-path per %d pixels",
-             sel->connections[0], sel->connections[1], sel->lights, sel->lights == 1 ? "" : "s", sel->path_pixels);
+             "chosen per eye vertex: %.2f draws at the first hit, %.2f after; %d light point%s at the first hit; and "
+             "%d pixel%s per light sub-path",
+             sel->connections[0], sel->connections[1], sel->lights, sel->lights == 1 ? "" : "s", sel->path_pixels,
+             sel->path_pixels == 1 ? "" : "s");
 }
 
 /* lvc, combinatorial: BDPT but for C or M, for which `usual` stands in. */

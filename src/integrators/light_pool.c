@@ -56,7 +56,7 @@ static void splat(const struct light_pool *pool, const struct tile_pass *pass, s
 static void render_pixel(const struct selection *sel, const struct tile_pass *pass, const struct pool_choice *choice,
                          int x, int y, int number, long iteration)
 {
-    struct light_pool *pool = pass->work->scratch;
+    struct light_pool *pool = pass->work->scratch; /* with which every scratch begins, see select.h */
     struct pool_pixel p = {.eye = pass->work->eye, .number = number};
     arena_reset(&pass->work->arena);
     p.sample = pixel_sample_begin(pass, &sel->counts, x, y, iteration);

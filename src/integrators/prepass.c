@@ -128,7 +128,10 @@ static const struct trial_vertex *choose(const struct light_stock *s, double u)
     int low = 0, high = s->n;
     while (high - low > 1) {
         int middle = low + (high - low) / 2;
-        *(s->candidate[middle].before <= u * s->total ? &low : &high) = middle;
+        if (s->candidate[middle].before <= u * s->total)
+            low = middle;
+        else
+            high = middle;
     }
     return &s->candidate[low];
 }

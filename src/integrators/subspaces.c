@@ -157,13 +157,16 @@ static const struct candidate *draw(const struct subspaces *v, const double *row
     const struct group *g = &v->group[low];
     double before = low > 0 ? row[low - 1] : 0, share = row[low] - before;
     double within = (target - before) / share * g->L;
-    low = g->first, high = g->first + g->n; /* the last candidate that begins at or before it */
-    while (high - low > 1) {
-        int middle = low + (high - low) / 2;
-        *(v->candidate[middle].before <= within ? &low : &high) = middle;
+    int drawn = g->first, end = g->first + g->n; /* the last candidate that begins at or before it */
+    while (end - drawn > 1) {
+        int middle = drawn + (end - drawn) / 2;
+        if (v->candidate[middle].before <= within)
+            drawn = middle;
+        else
+            end = middle;
     }
-    *pmf = share / total * v->candidate[low].L / g->L;
-    return &v->candidate[low];
+    *pmf = share / total * v->candidate[drawn].L / g->L;
+    return &v->candidate[drawn];
 }
 
 /* For trace.h: draw c of n for the eye vertex z. */

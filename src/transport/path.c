@@ -202,10 +202,10 @@ static int random_walk(const struct walk *w, struct departure from, struct verte
             break;
         path[n].passed = passed;
         n++;
-        if (n < max_vertices && !depart(w, &path[n - 1], mode, &from))
+        if (n == max_vertices || !depart(w, &path[n - 1], mode, &from))
             break;
         path[n - 1].pdf_rev = from.pdf_rev;
-        if (n > 2 && n < max_vertices && !survives(w, rgb_max(from.beta) / first, &from.beta))
+        if (n > 2 && !survives(w, rgb_max(from.beta) / first, &from.beta))
             break;
     }
     return n;
