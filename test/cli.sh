@@ -58,7 +58,7 @@ expect 1 'x.jpg: pictures are written as .pfm, .exr' "$program" render "$box" $s
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt
 expect 1 'known are' "$program" render "$box" $small --integrator vcm
 expect 1 'did you mean asbdpt\? known are' "$program" render "$box" $small --integrator=asbdtp
-expect 1 'no integrator has a parameter "deltaa"' "$program" render "$box" $small -P deltaa=1 -o x.pfm
+expect 2 'no integrator has a parameter "deltaa"' "$program" render "$box" $small -P deltaa=1 -o x.pfm
 expect 1 'delta' "$program" render "$box" $small -P delta=7 --integrator asbdpt -o x.pfm
 expect 1 'binpaths 7 is odd' "$program" render "$box" $small -P select=bins -P binpaths=7 --integrator asbdpt -o x.pfm
 expect 1 'select = "bin" is unknown: give "bins", "pool", "vertices", "subspaces", "lvc" or "combinatorial"' \
@@ -97,11 +97,31 @@ for command in info "render --res 16x16 --spp 1"; do
     check grep -q 'warning: sppm.pbrt: the picture is written as .png: .*"x.jpg"' stderr.txt
     check [ "$(grep -c warning: stderr.txt)" = 6 ]
     expect 1 'sppm.pbrt:1:19: "numiterations" is not used' "$program" $command sppm.pbrt --strict
-    expect 1 '^asbdpt: -P: no integrator has a parameter "radiuss"' "$program" $command sppm.pbrt -P radiuss=3
+    expect 2 '^asbdpt: -P: no integrator has a parameter "radiuss"' "$program" $command sppm.pbrt -P radiuss=3
     expect 1 '^asbdpt: -P: maxdepth = 100000 is out of range' "$program" $command sppm.pbrt -P maxdepth=100000
     expect 1 'delta = 7 is out of range' "$program" $command sppm.pbrt -P delta=7 --integrator asbdpt
 done
 check [ -f x.png ]
+
+# Parameters of another integrator than the one that renders: an error in -P, a warning in a file that names no other.
+other='"select" is a parameter of asbdpt, the integrator here is bdpt; try --integrator asbdpt$'
+printf 'Integrator "bdpt" "string select" "bins"\nWorldBegin\nLightSource "point"\nWorldEnd\n' >other.pbrt
+for command in info "render $small -o x.pfm" "trace --pixel 0,0 --res 16x16"; do
+    expect 2 "^asbdpt: -P: $other" "$program" $command "$box" --integrator bdpt -P select=bins
+    expect 0 '' "$program" $command "$box" --integrator asbdpt -P select=bins -P maxdepth=3
+    expect 0 '' "$program" $command "$box" --integrator bdpt -P rrthreshold=1 -P heuristic=power
+done
+expect 0 '^asbdpt: warning: other.pbrt:1:19: "select" is not used: it is a parameter of asbdpt$' \
+    "$program" info other.pbrt
+expect 1 '^asbdpt: other.pbrt:1:19: "select" is not used' "$program" info other.pbrt --strict
+expect 0 '' "$program" info other.pbrt --strict --integrator asbdpt
+sed s/bdpt/asbdpt/ other.pbrt >own.pbrt
+expect 0 '' "$program" info own.pbrt --strict --integrator bdpt
+sides="--res 12x12 --spp 8 --maxdepth 2 --quiet"
+expect 0 '' "$program" verify "$box" --methods pt,asbdpt $sides -P select=vertices
+expect 2 '"select" is a parameter of asbdpt, the integrators here are pt and bdpt$' \
+    "$program" verify "$box" --methods pt,bdpt $sides -P select=vertices
+
 printf 'Integrator "bdpt" "integer maxdepth" 1\nWorldBegin\nLightSource "point"\nWorldEnd\n' >depth.pbrt
 expect 0 '' "$program" info depth.pbrt -P maxdepth=7 --maxdepth 8
 check grep -q '^  maxdepth    8$' stdout.txt

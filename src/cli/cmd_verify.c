@@ -75,9 +75,10 @@ static bool complete(struct verify_options *o)
 
 /* --- both sides -------------------------------------------------------------------------------------- */
 
-static void choose_integrators(const struct verify_options *o, const struct integrator *scenes,
+static void choose_integrators(const struct job_options *job, const struct integrator *scenes,
                                const struct integrator **m)
 {
+    const struct verify_options *o = (const struct verify_options *)job; /* its first member */
     const char *partner = strcmp(scenes->name, "bdpt") == 0 ? "asbdpt" : scenes->name;
     m[0] = integrator_find(o->first[0] != '\0' ? o->first : o->reference != NULL ? scenes->name : "bdpt");
     m[1] = o->reference != NULL ? NULL : integrator_find(o->second[0] != '\0' ? o->second : partner);
@@ -89,7 +90,7 @@ static bool render_sides(struct scene *scene, const struct integrator *scenes, c
     const struct integrator *m[2];
     struct render_options options = {.seed = o->job.seed, .n_threads = o->job.n_threads, .max_depth = o->job.max_depth};
     bool ok = true;
-    choose_integrators(o, scenes, m);
+    choose_integrators(&o->job, scenes, m);
     if (o->reference != NULL && !side_read_reference(o->reference, b, err))
         return false;
     if ((o->reference != NULL || o->job.res[0] == 0) &&
@@ -166,7 +167,7 @@ static int verify(const struct verify_options *o)
     struct side a = {0}, b = {0};
     const struct integrator *integrator;
     int status = EXIT_OK, max_depth = 0;
-    if (o->has_scene && (status = job_load(&o->job, &scene, &integrator)) != EXIT_OK)
+    if (o->has_scene && (status = job_load_for(&o->job, choose_integrators, &scene, &integrator)) != EXIT_OK)
         return status;
     bool ok = !o->has_scene || parameters_max_depth(&scene, o->job.max_depth, &max_depth, &err);
     if (ok && o->files.n > 0)

@@ -137,8 +137,22 @@ static void warn_of_scene(const struct scene *scene, struct listener *to)
         warn(to, "the picture is written as .png: the format of the film's \"%.200s\" is none of this program's", name);
 }
 
+static void chosen_alone(const struct job_options *o, const struct integrator *chosen, const struct integrator **m)
+{
+    (void)o;
+    m[0] = chosen;
+}
+
 int job_load(const struct job_options *o, struct scene *scene, const struct integrator **integrator)
 {
+    return job_load_for(o, chosen_alone, scene, integrator);
+}
+
+int job_load_for(const struct job_options *o, job_readers *choose, struct scene *scene,
+                 const struct integrator **integrator)
+{
+    const struct integrator *readers[3] = {NULL, NULL, NULL};
+    int status = EXIT_JOB;
     struct error err;
     struct listener listener = {o, 0};
     struct message_sink sink = {print_warning, print_error, &listener};
@@ -146,7 +160,12 @@ int job_load(const struct job_options *o, struct scene *scene, const struct inte
         return EXIT_JOB;
     *integrator = NULL;
     bool ok = apply(o, scene, &err) && (*integrator = choose_integrator(scene, &listener, &err)) != NULL;
-    parameters_adapt(scene, &sink);
+    if (ok) {
+        choose(o, *integrator, readers);
+        parameters_adapt(scene, readers, &sink);
+        ok = parameters_belong(scene, readers, &err);
+        status = ok ? EXIT_JOB : EXIT_USAGE;
+    }
     struct render_job job;
     ok = ok && parameters_read(scene, *integrator, o->max_depth, &job, &err);
     if (ok)
@@ -155,7 +174,8 @@ int job_load(const struct job_options *o, struct scene *scene, const struct inte
         ok = error_set(&err, "%s: refused for what is said above, by --strict", o->scene_path);
     if (!ok) {
         scene_free(scene);
-        return fail(&err);
+        fail(&err);
+        return status;
     }
     scene_prepare(scene);
     return EXIT_OK;

@@ -12,17 +12,18 @@ enum { DEFAULT_MAX_DEPTH = 5 }; /* pbrt-v3's */
 
 static bool is_of_file(const struct setting *item) { return strcmp(item->origin, "-P") != 0; }
 
-static bool parameter_known(const char *name)
+/* The first of these integrators that has such a parameter, or NULL. */
+static const struct integrator *owner(const struct integrator *const *m, const char *name)
 {
     static const char *const COMMON[] = {"maxdepth", "heuristic", "rrthreshold", "lightsamplestrategy", NULL};
     for (int i = 0; COMMON[i] != NULL; i++)
         if (strcmp(COMMON[i], name) == 0)
-            return true;
-    for (const struct integrator *const *m = integrator_list(); *m != NULL; m++)
+            return *m;
+    for (; *m != NULL; m++)
         for (const struct setting_help *p = (*m)->parameters; p->name != NULL; p++)
             if (strcmp(p->name, name) == 0)
-                return true;
-    return false;
+                return *m;
+    return NULL;
 }
 
 /* --- adapting ---------------------------------------------------------------------------------------- */
@@ -83,7 +84,22 @@ static void adapt_depth(struct settings *s, const struct setting *item, const st
     replace(s, item, text);
 }
 
-void parameters_adapt(struct scene *scene, const struct message_sink *sink)
+/* A parameter that nobody reads. One of the integrator that the file names is right there: --integrator may have
+ * replaced it. True, with a warning, if it is to be taken out. */
+static bool unread(const struct scene *scene, const struct setting *item, const struct integrator *const *readers,
+                   const struct message_sink *sink)
+{
+    const struct integrator *own[] = {scene->integrator != NULL ? integrator_find(scene->integrator) : NULL, NULL};
+    const struct integrator *has = owner(integrator_list(), item->name);
+    char text[128];
+    if (!is_of_file(item) || owner(readers, item->name) != NULL || owner(own, item->name) != NULL)
+        return false;
+    snprintf(text, sizeof text, "is not used: it is a parameter of %s", has != NULL ? has->name : "");
+    warn(sink, item, has != NULL ? text : "is not used: no integrator here has such a parameter");
+    return true;
+}
+
+void parameters_adapt(struct scene *scene, const struct integrator *const *readers, const struct message_sink *sink)
 {
     struct settings *s = &scene->settings;
     for (int i = 0; i < s->n; i++) {
@@ -93,9 +109,11 @@ void parameters_adapt(struct scene *scene, const struct message_sink *sink)
             adapt_strategy(s, item, sink);
         } else if (strcmp(item->name, "maxdepth") == 0) {
             adapt_depth(s, item, sink);
-        } else if (way != NULL || (is_of_file(item) && !parameter_known(item->name))) {
-            if (way == NULL || strcmp(item->value, "false") != 0)
-                warn(sink, item, way != NULL ? way : "is not used: no integrator here has such a parameter");
+        } else if (way != NULL) {
+            if (strcmp(item->value, "false") != 0)
+                warn(sink, item, way);
+            settings_remove(s, i--);
+        } else if (unread(scene, item, readers, sink)) {
             settings_remove(s, i--);
         }
     }
@@ -112,14 +130,35 @@ bool parameters_max_depth(const struct scene *scene, int wanted, int *out, struc
     return true;
 }
 
+static bool unknown(const struct setting *item, struct error *err)
+{
+    return error_set(err, "%s: no integrator has a parameter \"%s\"; asbdpt --help lists them", item->origin,
+                     item->name);
+}
+
 /* Parameters of any integrator are known: --integrator may have replaced the scene's. */
 static bool all_known(const struct scene *scene, struct error *err)
 {
+    for (int i = 0; i < scene->settings.n; i++)
+        if (owner(integrator_list(), scene->settings.item[i].name) == NULL)
+            return unknown(&scene->settings.item[i], err);
+    return true;
+}
+
+bool parameters_belong(const struct scene *scene, const struct integrator *const *readers, struct error *err)
+{
     for (int i = 0; i < scene->settings.n; i++) {
         const struct setting *item = &scene->settings.item[i];
-        if (!parameter_known(item->name))
-            return error_set(err, "%s: no integrator has a parameter \"%s\"; asbdpt --help lists them", item->origin,
-                             item->name);
+        const struct integrator *has = owner(integrator_list(), item->name);
+        if (is_of_file(item) || owner(readers, item->name) != NULL)
+            continue;
+        if (has == NULL)
+            return unknown(item, err);
+        if (readers[1] != NULL)
+            return error_set(err, "-P: \"%s\" is a parameter of %s, the integrators here are %s and %s", item->name,
+                             has->name, readers[0]->name, readers[1]->name);
+        return error_set(err, "-P: \"%s\" is a parameter of %s, the integrator here is %s; try --integrator %s",
+                         item->name, has->name, readers[0]->name, has->name);
     }
     return true;
 }

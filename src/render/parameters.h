@@ -12,8 +12,12 @@
 #include "parser/source_position.h" /* struct message_sink */
 
 /* parameters_adapt: take out and replace what pbrt-v3 knows and this program does not, or pbrt-v3 would pass over.
- *   sink  hears of each; may be NULL */
-void parameters_adapt(struct scene *scene, const struct message_sink *sink);
+ *   readers  the integrators that will read them, ended by NULL
+ *   sink     hears of each; may be NULL */
+void parameters_adapt(struct scene *scene, const struct integrator *const *readers, const struct message_sink *sink);
+
+/* parameters_belong: does one of the readers have what -P sets? False with a message if not. */
+bool parameters_belong(const struct scene *scene, const struct integrator *const *readers, struct error *err);
 
 /* parameters_read: the settings that all integrators share, into max_depth, power_heuristic, spatial_lights and
  * rr_threshold of the job.

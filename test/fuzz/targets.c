@@ -254,7 +254,7 @@ static void render_all(struct scene *scene)
     scene->width = WIDTH;
     scene->height = HEIGHT;
     memcpy(scene->crop, WHOLE, sizeof scene->crop);
-    parameters_adapt(scene, NULL);
+    parameters_adapt(scene, integrator_list(), NULL);
     scene_prepare(scene);
     for (const struct integrator *const *m = integrator_list(); *m != NULL; m++)
         render(scene, *m);
