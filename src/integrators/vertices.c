@@ -3,7 +3,7 @@
  * A light vertex y_{s-1} *is* the sub-path y_0 ... y_{s-1} that leads to it: a pool of vertices to draw from, as the
  * light vertex cache [Davidovic 2014], which draws uniformly. All connectible ones of the K sub-paths of a tile and
  * iteration, one for every `path_pixels` pixels, go into one alias table with
- *     q_v ~ L_v n(x_v),      L_v = luminance(beta_v),      n(x) = 2 C ((1 - delta) E(x) / mean + delta),
+ *     q_v = L_v n(x_v) / sum,      L_v = luminance(beta_v),      n(x) = 2 C ((1 - delta) E(x) / mean + delta),
  * E being the importance of the place (importance.h), defensively mixed [Hesterberg 1995], and `mean` its expectation
  * over a light sub-path, and each eye vertex (t >= 2) draws C of them. The sum over all vertices of all K sub-paths,
  * divided by K, is what BDPT estimates with one sub-path; drawing v with probability q_v and weighting with 1/q_v
@@ -12,8 +12,8 @@
  * has BDPT's expectation. s = 0, s = 1 and t = 1 stay as they are, every pooled sub-path being splat once.
  *
  * The MIS weights know about it: strategies s >= 2, t >= 2 ending at light position x take about n(x) samples per
- * pixel, a function of the surface point alone, so all strategies of a path agree on it (mis.h). They are counted
- * twice, having been measured to deserve it: draws stratified over a table vary less than independent ones.
+ * pixel, a function of the surface point alone, so all strategies of a path agree on it (mis.h). The 2 is a credit,
+ * which s = 1 has too (VERTICES_CREDIT of asbdpt.c says why); any frozen count is unbiased.
  *
  * `select = lvc` is the light vertex cache itself, a rival: all V vertices are equally likely, q_v = 1/V. An eye vertex
  * takes each of them C/V times, where BDPT, with one of K sub-paths, takes it 1/K times: C K/V times as often, about

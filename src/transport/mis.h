@@ -20,6 +20,8 @@
  *     A_e = R_e/F_e (c_e + pdf_rev mis_e).
  * With A_{e-1} = pdf_rev mis_e the walk's own recursion is
  *     mis_{e+1} = g (c_e + pdf_rev mis_e) / F_e,   c_e = 0 if the walk scattered at e by a delta lobe.
+ * A_e is relative to one sample of strategy s, hence, at the ends of the connection or where the walk ended,
+ *     w_s = n_s / (n_s + A_light + A_eye).
  *
  * Delta lobes have, instead of densities, coefficients of the same delta; they cancel in R/F as densities do (bsdf.h).
  *
@@ -51,7 +53,10 @@
  *
  * A count may depend on the surface points at both ends of the strategy's connecting edge, since both are known when a
  * walk has arrived at the second; and on whether the eye end is the first hit (t = 2), which the eye walk knows, and
- * which is never so on the light side of a connection but for its last vertex when the lens is next (connect_lens). */
+ * which is never so on the light side of a connection but for its last vertex when the lens is next (connect_lens).
+ *
+ * For pt, lt and bdpt `learnt` is NULL and all counts are constants. The two functions that look at it may be skipped
+ * at first reading. */
 struct mis_counts {
     double hit;        /* s = 0, t >= 3: the eye walk finds a light. (t = 2, a light seen directly, has weight 1) */
     double direct[2];  /* s = 1: connection to fresh points on a light, for t = 2 and t > 2; times guide_ratio */
@@ -92,7 +97,7 @@ static inline double mis_step(const struct mis_counts *m, double c, double pdf_r
     return mis_raise(m, g) * (mis_raise(m, c) + mis_raise(m, pdf_rev) * mis) / mis_raise(m, F);
 }
 
-/* mis_side: A_e, the sum over the strategies of one side, each relative to strategy s.
+/* mis_side: A_e, the sum over the strategies of one side, relative to one sample of strategy s.
  *   R        density of vertex e in the other walk, same measure as F */
 static inline double mis_side(const struct mis_counts *m, double R, double F, double c, double pdf_rev, double mis)
 {
