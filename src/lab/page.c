@@ -29,8 +29,8 @@ static const char *const STYLE[] = {
     "thead th{background:var(--panel);vertical-align:bottom}tbody th{font-weight:600}",
     "td:not([data-value]){white-space:normal}",
     /* A shadow where more is to be found sideways. */
-    ".scroll{background:linear-gradient(90deg,var(--page),transparent) 0/2rem 100%,"
-    "linear-gradient(270deg,var(--page),transparent) 100%/2rem 100%,",
+    ".scroll{background:linear-gradient(90deg,var(--page) 40%,transparent) 0/2rem 100%,"
+    "linear-gradient(270deg,var(--page) 40%,transparent) 100%/2rem 100%,",
     "linear-gradient(90deg,#0006,transparent) 0/.6rem 100%,linear-gradient(270deg,#0006,transparent) 100%/.6rem 100%;",
     "background-repeat:no-repeat;background-attachment:local,local,scroll,scroll}",
     "th:first-child{text-align:left;position:sticky;left:0;background:var(--page)}"
