@@ -122,6 +122,21 @@ expect 0 '' "$program" verify "$box" --methods pt,asbdpt $sides -P select=vertic
 expect 2 '"select" is a parameter of asbdpt, the integrators here are pt and bdpt$' \
     "$program" verify "$box" --methods pt,bdpt $sides -P select=vertices
 
+# Types and numbers of values as of all other parameters: the default counts, an integer is cut.
+typed() { # PARAMETER WARNING DEPTH-IN-FORCE, nothing if the default
+    printf 'Integrator "bdpt" %s\nWorldBegin\nLightSource "point"\nWorldEnd\n' "$1" >typed.pbrt
+    expect 0 "^asbdpt: warning: typed.pbrt:1:19: $2\$" "$program" info typed.pbrt
+    check [ "$(sed -n 's/^  maxdepth    //p' stdout.txt)" = "$3" ]
+    expect 1 'typed.pbrt: refused' "$program" info typed.pbrt --strict
+}
+typed '"float maxdepth" [2]' '"maxdepth" cannot be of type "float", so it is not used' ''
+typed '"string maxdepth" ["6"]' '"maxdepth" cannot be of type "string", so it is not used' ''
+typed '"integer maxdepth" [6 7]' '"maxdepth" wants 1 value, not 2; it is passed over' ''
+typed '"integer maxdepth" []' '"maxdepth" wants 1 value, not 0; it is passed over' ''
+typed '"integer maxdepth" [6.7]' '"maxdepth" is 6.7, which counts as 6' 6
+typed '"float maxdepth" 2 "integer maxdepth" 7' '"maxdepth" cannot be of type "float", so it is not used' 7
+typed '"integer rrthreshold" 1' '"rrthreshold" cannot be of type "integer", so it is not used' ''
+
 printf 'Integrator "bdpt" "integer maxdepth" 1\nWorldBegin\nLightSource "point"\nWorldEnd\n' >depth.pbrt
 expect 0 '' "$program" info depth.pbrt -P maxdepth=7 --maxdepth 8
 check grep -q '^  maxdepth    8$' stdout.txt
@@ -279,7 +294,7 @@ expect 0 '' "$program" render "$box" --quick -j 2 --integrator asbdpt -P delta=0
 check grep -q ': 120x120, 1 spp, asbdpt;' stderr.txt
 for line in '"version": "asbdpt ' '"integrator": "asbdpt",' '"select": "subspaces",' '"delta": 0.25,' '"maxdepth": 6,' \
     '"film": .120, 120.,' '"spp": 1,' '"spp_done": 1,' '"threads": 2,' '"nonfinite": 0,' '"draws_first_hit": [1-9]' \
-    '"a.png",' '"a.depth.pfm"' '"note": "per eye vertex ' '"cpu_seconds": [0-9]' \
+    '"a.png",' '"a.depth.pfm"' '"note": "chosen per eye vertex: ' '"cpu_seconds": [0-9]' \
     '"us_per_path": [1-9]' '"peak_memory": [1-9]'; do
     check grep -q "$line" stats.json
 done

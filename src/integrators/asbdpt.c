@@ -13,21 +13,22 @@
 #include "transport/pixel_sample.h"
 
 static const struct setting_help PARAMETERS[] = {
-    {"select", "subspaces", "bins (the dissertation, biased), pool, vertices, subspaces, lvc or combinatorial"},
-    {"metric", "importance", "pool, vertices: constant, throughput or importance"},
-    {"delta", "0.1", "pool, vertices, subspaces: share of draws that ignore what was learnt, (0,1]"},
+    {"select", "subspaces", "bins (the dissertation, biased), pool, vertices, subspaces, lvc or combinatorial",
+     "string"},
+    {"metric", "importance", "pool, vertices: constant, throughput or importance", "string"},
+    {"delta", "0.1", "pool, vertices, subspaces: share of draws that ignore what was learnt, (0,1]", "float"},
     {"connections", "0",
      "vertices, subspaces: light vertices drawn per eye vertex; 0: chosen; lvc: the same, 1; combinatorial: light "
-     "sub-paths per pixel, 8"},
+     "sub-paths per pixel, 8", "integer"},
     {"pathpixels", "0",
-     "all but bins, pool: pixels per light sub-path; 0: chosen (vertices: 2; lvc, combinatorial: 1)"},
-    {"grid", "64", "pool, vertices: cells of the importance along the scene's diagonal"},
+     "all but bins, pool: pixels per light sub-path; 0: chosen (vertices: 2; lvc, combinatorial: 1)", "integer"},
+    {"grid", "64", "pool, vertices: cells of the importance along the scene's diagonal", "integer"},
     {"lightsamplestrategy", "spatial",
-     "pool, vertices, subspaces: s = 1 picks lights by power, or spatial: by what is seen"},
-    {"binpaths", "8", "bins: light sub-paths per pixel, even"},
-    {"maxage", "24", "bins: iterations after which an unused sub-path is replaced, 0: never"},
-    {"restart", "32", "bins: iterations after which all bins are rebuilt, 0: never"},
-    {NULL, NULL, NULL}};
+     "pool, vertices, subspaces: s = 1 picks lights by power, or spatial: by what is seen", "string"},
+    {"binpaths", "8", "bins: light sub-paths per pixel, even", "integer"},
+    {"maxage", "24", "bins: iterations after which an unused sub-path is replaced, 0: never", "integer"},
+    {"restart", "32", "bins: iterations after which all bins are rebuilt, 0: never", "integer"},
+    {NULL, NULL, NULL, NULL}};
 
 static const char *const SELECTS[] = {"bins", "pool", "vertices", "subspaces", "lvc", "combinatorial", NULL};
 static const struct tile_renderer *const RENDERERS[] = {&render_bins, &render_pool, &render_vertices,

@@ -36,7 +36,7 @@ static void render(const void *state, const struct tile_pass *pass)
 }
 
 static const struct tile_renderer RENDERER = {render, NULL, NULL};
-static const struct setting_help NO_PARAMETERS[] = {{NULL, NULL, NULL}};
+static const struct setting_help NO_PARAMETERS[] = {{NULL, NULL, NULL, NULL}};
 
 static bool prepare(const struct render_job *job, struct mis_counts counts, struct preparation *out)
 {

@@ -11,7 +11,7 @@
 
 /* A parameter as --help lists it and a scene file or -P sets it. */
 struct setting_help {
-    const char *name, *fallback, *help;
+    const char *name, *fallback, *help, *type; /* its type in a scene file: "integer", "float", "string" */
 };
 
 #define DEFAULT_RR_THRESHOLD 0.5 /* rr_threshold where neither the user nor the integrator says otherwise */

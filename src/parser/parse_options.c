@@ -259,7 +259,7 @@ static bool integrator(struct parser *p)
         char origin[512];
         source_position_text(q->item[i].position, origin, sizeof origin);
         char *text = value_text(q, &q->item[i]);
-        settings_set(&s->settings, q->item[i].name, text, origin);
+        settings_declare(&s->settings, q->item[i].name, text, origin, params_type_name(q->item[i].type), q->item[i].n);
         free(text);
         q->item[i].used = true;
     }

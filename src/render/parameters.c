@@ -1,6 +1,7 @@
 /* parameters.c: see parameters.h. */
 #include "render/parameters.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,17 +13,27 @@ enum { DEFAULT_MAX_DEPTH = 5 }; /* pbrt-v3's */
 
 static bool is_of_file(const struct setting *item) { return strcmp(item->origin, "-P") != 0; }
 
-/* The first of these integrators that has such a parameter, or NULL. */
-static const struct integrator *owner(const struct integrator *const *m, const char *name)
+/* What all integrators have: names and types. */
+static const char *const COMMON[][2] = {
+    {"maxdepth", "integer"}, {"heuristic", "string"}, {"rrthreshold", "float"}, {"lightsamplestrategy", "string"}};
+enum { N_COMMON = sizeof COMMON / sizeof COMMON[0] };
+
+/* The first of these integrators that has such a parameter, or NULL; *type, unless NULL, is the parameter's. */
+static const struct integrator *owner(const struct integrator *const *m, const char *name, const char **type)
 {
-    static const char *const COMMON[] = {"maxdepth", "heuristic", "rrthreshold", "lightsamplestrategy", NULL};
-    for (int i = 0; COMMON[i] != NULL; i++)
-        if (strcmp(COMMON[i], name) == 0)
+    const char *unwanted;
+    type = type != NULL ? type : &unwanted;
+    for (int i = 0; i < N_COMMON; i++)
+        if (strcmp(COMMON[i][0], name) == 0) {
+            *type = COMMON[i][1];
             return *m;
+        }
     for (; *m != NULL; m++)
         for (const struct setting_help *p = (*m)->parameters; p->name != NULL; p++)
-            if (strcmp(p->name, name) == 0)
+            if (strcmp(p->name, name) == 0) {
+                *type = p->type;
                 return *m;
+            }
     return NULL;
 }
 
@@ -70,17 +81,48 @@ static void adapt_strategy(struct settings *s, const struct setting *item, const
     replace(s, item, STRATEGIES[known ? 1 : 0]);
 }
 
-/* pbrt-v3 has no limit, and takes its default where the number is none. */
+/* pbrt-v3 has no limit. */
 static void adapt_depth(struct settings *s, const struct setting *item, const struct message_sink *sink)
 {
-    char *end, text[64];
-    double depth = strtod(item->value, &end);
-    bool number = end != item->value && *end == '\0';
-    if (!is_of_file(item) || (number && !(depth > PATH_MAX_DEPTH)))
+    char text[64];
+    if (!is_of_file(item) || !(strtod(item->value, NULL) > PATH_MAX_DEPTH))
         return;
     snprintf(text, sizeof text, "is cut to %d, the longest path here", PATH_MAX_DEPTH);
-    warn(sink, item, number ? text : "is not used: it is no number");
-    snprintf(text, sizeof text, "%d", number ? PATH_MAX_DEPTH : DEFAULT_MAX_DEPTH);
+    warn(sink, item, text);
+    snprintf(text, sizeof text, "%d", PATH_MAX_DEPTH);
+    replace(s, item, text);
+}
+
+/* As of all parameters in a file, with the wrong type or number of values the default counts. True, with a warning, if
+ * it is to be taken out. */
+static bool mistyped(const struct setting *item, const struct message_sink *sink)
+{
+    const char *type;
+    char text[96];
+    if (item->type == NULL || owner(integrator_list(), item->name, &type) == NULL)
+        return false;
+    if (strcmp(item->type, type) != 0)
+        snprintf(text, sizeof text, "cannot be of type \"%s\", so it is not used", item->type);
+    else if (item->n_values != 1)
+        snprintf(text, sizeof text, "wants 1 value, not %d; it is passed over", item->n_values);
+    else
+        return false;
+    warn(sink, item, text);
+    return true;
+}
+
+/* Whole numbers are cut; those that no parameter's range reaches stay as they are. */
+static void adapt_integer(struct settings *s, const struct setting *item, const struct message_sink *sink)
+{
+    char text[96];
+    if (item->type == NULL || strcmp(item->type, "integer") != 0 || item->n_values != 1)
+        return;
+    double number = strtod(item->value, NULL), whole = trunc(number);
+    if (whole == number || fabs(number) > 1e15)
+        return;
+    snprintf(text, sizeof text, "is %.12g, which counts as %.12g", number, whole);
+    warn(sink, item, text);
+    snprintf(text, sizeof text, "%.0f", whole + 0.0);
     replace(s, item, text);
 }
 
@@ -90,9 +132,9 @@ static bool unread(const struct scene *scene, const struct setting *item, const 
                    const struct message_sink *sink)
 {
     const struct integrator *own[] = {scene->integrator != NULL ? integrator_find(scene->integrator) : NULL, NULL};
-    const struct integrator *has = owner(integrator_list(), item->name);
+    const struct integrator *has = owner(integrator_list(), item->name, NULL);
     char text[128];
-    if (!is_of_file(item) || owner(readers, item->name) != NULL || owner(own, item->name) != NULL)
+    if (!is_of_file(item) || owner(readers, item->name, NULL) != NULL || owner(own, item->name, NULL) != NULL)
         return false;
     snprintf(text, sizeof text, "is not used: it is a parameter of %s", has != NULL ? has->name : "");
     warn(sink, item, has != NULL ? text : "is not used: no integrator here has such a parameter");
@@ -105,6 +147,12 @@ void parameters_adapt(struct scene *scene, const struct integrator *const *reade
     for (int i = 0; i < s->n; i++) {
         const struct setting *item = &s->item[i];
         const char *way = other_way(item->name);
+        if (mistyped(item, sink)) {
+            settings_remove(s, i--);
+            continue;
+        }
+        if (way == NULL)
+            adapt_integer(s, item, sink);
         if (strcmp(item->name, "lightsamplestrategy") == 0) {
             adapt_strategy(s, item, sink);
         } else if (strcmp(item->name, "maxdepth") == 0) {
@@ -140,7 +188,7 @@ static bool unknown(const struct setting *item, struct error *err)
 static bool all_known(const struct scene *scene, struct error *err)
 {
     for (int i = 0; i < scene->settings.n; i++)
-        if (owner(integrator_list(), scene->settings.item[i].name) == NULL)
+        if (owner(integrator_list(), scene->settings.item[i].name, NULL) == NULL)
             return unknown(&scene->settings.item[i], err);
     return true;
 }
@@ -149,8 +197,8 @@ bool parameters_belong(const struct scene *scene, const struct integrator *const
 {
     for (int i = 0; i < scene->settings.n; i++) {
         const struct setting *item = &scene->settings.item[i];
-        const struct integrator *has = owner(integrator_list(), item->name);
-        if (is_of_file(item) || owner(readers, item->name) != NULL)
+        const struct integrator *has = owner(integrator_list(), item->name, NULL);
+        if (is_of_file(item) || owner(readers, item->name, NULL) != NULL)
             continue;
         if (has == NULL)
             return unknown(item, err);
