@@ -251,7 +251,7 @@ expect 0 '' "$program" convert whole.exr lost.png
 check [ ! -s stderr.txt ]
 check [ "$(head -c 2 a.ppm)" = P6 ]
 expect 0 '' "$program" compare a.pfm b.pfm --json
-check grep -q '"rmse": 0, "rmse8": 0, "relmse": 0, "mean_ratio": 1, "nonfinite": 0' stdout.txt
+check grep -q '"rmse": 0, "rmse8": 0, "relmse": 0, "mean_ratio": 1, "nonfinite": 0, "psnr": null}' stdout.txt
 expect 0 '' "$program" compare a.png a.ppm --heatmap heat.png
 check [ -s heat.png ]
 check grep -q '^psnr       inf' stdout.txt
@@ -261,6 +261,8 @@ expect 0 'a.png holds sRGB values from 0 to 1, a.pfm linear ones' \
     "$program" compare a.png a.pfm --heatmap heat.png --max 2
 check grep -q '^heatmap    0 to 2$' stdout.txt
 expect 0 'b.pfm linear ones' "$program" compare b.pfm a.ppm --json
+expect 0 '' "$program" compare "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" --json
+check grep -Eq ', "psnr": [0-9.]+\}$' stdout.txt
 expect 2 'expected a number from 1e-30' "$program" compare a.pfm b.pfm --heatmap heat.png --max 0
 expect 0 '' "$program" render "$box" --res 8x8 --spp 1 --quiet -o c.pfm
 expect 1 'equal size' "$program" compare a.pfm c.pfm

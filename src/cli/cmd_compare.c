@@ -26,7 +26,6 @@ static const struct option OPTIONS[] = {
     {.name = NULL},
 };
 
-/* The object of JSON has what it always had; psnr follows from rmse8. */
 static void print(const struct difference *d, bool json)
 {
     static const char *const names[] = {"rmse", "rmse8", "relmse", "mean_ratio"};
@@ -38,9 +37,13 @@ static void print(const struct difference *d, bool json)
             printf("%s\"%s\": %.9g", i == 0 ? "{" : ", ", names[i], values[i]);
         else /* JSON has no infinity or NaN */
             printf("%s\"%s\": null", i == 0 ? "{" : ", ", names[i]);
-    printf(json ? ", \"nonfinite\": %ld}\n" : "nonfinite  %ld\n", d->nonfinite);
+    printf(json ? ", \"nonfinite\": %ld" : "nonfinite  %ld\n", d->nonfinite);
     if (!json)
         printf("psnr       %.6g\n", d->psnr);
+    else if (isfinite(d->psnr))
+        printf(", \"psnr\": %.9g}\n", d->psnr);
+    else
+        printf(", \"psnr\": null}\n");
 }
 
 static bool write_heatmap(const struct compare_options *o, const float *x, const float *r, int width, int height,
