@@ -26,24 +26,25 @@ static const struct option OPTIONS[] = {
     {.name = NULL},
 };
 
+static void print_number(const char *before, const char *name, double value, bool json)
+{
+    if (!json)
+        printf("%-10s %.6g\n", name, value);
+    else if (isfinite(value))
+        printf("%s\"%s\": %.9g", before, name, value);
+    else /* JSON has no infinity or NaN */
+        printf("%s\"%s\": null", before, name);
+}
+
 static void print(const struct difference *d, bool json)
 {
-    static const char *const names[] = {"rmse", "rmse8", "relmse", "mean_ratio"};
-    const double values[] = {d->rmse, d->rmse8, d->relmse, d->mean_ratio};
-    for (int i = 0; i < 4; i++)
-        if (!json)
-            printf("%-10s %.6g\n", names[i], values[i]);
-        else if (isfinite(values[i]))
-            printf("%s\"%s\": %.9g", i == 0 ? "{" : ", ", names[i], values[i]);
-        else /* JSON has no infinity or NaN */
-            printf("%s\"%s\": null", i == 0 ? "{" : ", ", names[i]);
+    print_number("{", "rmse", d->rmse, json);
+    print_number(", ", "rmse8", d->rmse8, json);
+    print_number(", ", "relmse", d->relmse, json);
+    print_number(", ", "mean_ratio", d->mean_ratio, json);
     printf(json ? ", \"nonfinite\": %ld" : "nonfinite  %ld\n", d->nonfinite);
-    if (!json)
-        printf("psnr       %.6g\n", d->psnr);
-    else if (isfinite(d->psnr))
-        printf(", \"psnr\": %.9g}\n", d->psnr);
-    else
-        printf(", \"psnr\": null}\n");
+    print_number(", ", "psnr", d->psnr, json);
+    fputs(json ? "}\n" : "", stdout);
 }
 
 static bool write_heatmap(const struct compare_options *o, const float *x, const float *r, int width, int height,
