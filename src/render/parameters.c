@@ -141,30 +141,35 @@ static bool unread(const struct scene *scene, const struct setting *item, const 
     return true;
 }
 
+/* True if the parameter is to be taken out. */
+static bool adapt(struct scene *scene, const struct setting *item, const struct integrator *const *readers,
+                  const struct message_sink *sink)
+{
+    const char *way = other_way(item->name);
+    if (mistyped(item, sink))
+        return true;
+    if (way != NULL) {
+        if (strcmp(item->value, "false") != 0)
+            warn(sink, item, way);
+        return true;
+    }
+    adapt_integer(&scene->settings, item, sink);
+    if (strcmp(item->name, "lightsamplestrategy") == 0)
+        adapt_strategy(&scene->settings, item, sink);
+    else if (strcmp(item->name, "maxdepth") == 0)
+        adapt_depth(&scene->settings, item, sink);
+    else
+        return unread(scene, item, readers, sink);
+    return false;
+}
+
 void parameters_adapt(struct scene *scene, const struct integrator *const *readers, const struct message_sink *sink)
 {
-    struct settings *s = &scene->settings;
-    for (int i = 0; i < s->n; i++) {
-        const struct setting *item = &s->item[i];
-        const char *way = other_way(item->name);
-        if (mistyped(item, sink)) {
-            settings_remove(s, i--);
-            continue;
-        }
-        if (way == NULL)
-            adapt_integer(s, item, sink);
-        if (strcmp(item->name, "lightsamplestrategy") == 0) {
-            adapt_strategy(s, item, sink);
-        } else if (strcmp(item->name, "maxdepth") == 0) {
-            adapt_depth(s, item, sink);
-        } else if (way != NULL) {
-            if (strcmp(item->value, "false") != 0)
-                warn(sink, item, way);
-            settings_remove(s, i--);
-        } else if (unread(scene, item, readers, sink)) {
-            settings_remove(s, i--);
-        }
-    }
+    for (int i = 0; i < scene->settings.n;)
+        if (adapt(scene, &scene->settings.item[i], readers, sink))
+            settings_remove(&scene->settings, i);
+        else
+            i++;
 }
 
 /* --- reading ----------------------------------------------------------------------------------------- */
