@@ -61,7 +61,7 @@ expect 1 'did you mean asbdpt\? known are' "$program" render "$box" $small --int
 expect 2 'no integrator has a parameter "deltaa"' "$program" render "$box" $small -P deltaa=1 -o x.pfm
 expect 1 'delta' "$program" render "$box" $small -P delta=7 --integrator asbdpt -o x.pfm
 expect 1 'binpaths 7 is odd' "$program" render "$box" $small -P select=bins -P binpaths=7 --integrator asbdpt -o x.pfm
-expect 1 'select = "bin" is unknown: give "bins", "pool", "vertices", "subspaces", "lvc" or "combinatorial"' \
+expect 1 'select = "bin" is unknown: give "subspaces", "bins", "pool" or "vertices"' \
     "$program" render "$box" $small -P select=bin --integrator asbdpt -o x.pfm
 expect 1 '^asbdpt: -P: heuristic = "max" is unknown: give "balance" or "power"' \
     "$program" render "$box" $small -P heuristic=max -o x.pfm

@@ -4,7 +4,7 @@
 
 #include "base/file.h"
 #include "image/image.h"
-#include "integrators/integrator.h"
+#include "integrators/method.h"
 #include "lab/verify.h"
 #include "scene/scene.h"
 #include "test.h"

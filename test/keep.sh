@@ -41,8 +41,8 @@ done <<'END'
 0,1,70 --integrator asbdpt -P select=pool
 0,40,70 --integrator asbdpt -P select=vertices
 0,7,41,70 --integrator asbdpt
-0,40,70 --integrator asbdpt -P select=lvc
-0,40,70 --integrator asbdpt -P select=combinatorial
+0,40,70 --integrator lvc
+0,40,70 --integrator cbdpt
 END
 check [ "$(done_in whole.part)" = 70 ]
 expect 1 'samples 0:40: here they come in blocks of 32' \

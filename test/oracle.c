@@ -115,11 +115,15 @@ static double samples(const struct full_path *f, int i)
     if (t == 1)
         return m->splat;
     /* Regions are looked up anew, from the surface points at both ends of the edge. */
-    int e = m->learnt == NULL ? 0 : region_at(&m->learnt->eye, f->x[i]->p, f->x[i]->ng);
+    int e = 0, y = 0, other;
+    enum eye_end end = t == 2 ? FIRST_HIT : LATER_HIT;
+    if (m->model != NULL)
+        m->model->locate(m->model->learnt, f->x[i]->p, f->x[i]->ng, &e, &other);
     if (i == 1)
-        return mis_direct_count(m, &f->scene->lights, e, t == 2, f->x[0]->cell, direction(f, 1, 0));
-    int y = m->learnt == NULL ? 0 : region_at(&m->learnt->light, f->x[i - 1]->p, f->x[i - 1]->ng);
-    return mis_connect_count(m, y, e, t == 2);
+        return mis_direct_count(m, &f->scene->lights, e, end, f->x[0]->cell, direction(f, 1, 0));
+    if (m->model != NULL)
+        m->model->locate(m->model->learnt, f->x[i - 1]->p, f->x[i - 1]->ng, &other, &y);
+    return mis_connect_count(m, y, e, end);
 }
 
 /* A vertex whose walk goes on (not the end of a connection) passed by delta if the next vertex says so. */

@@ -6,32 +6,36 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "integrators/select.h"
 #include "render/render.h"
 #include "base/stats.h"
 #include "helpers.h"
 #include "tests.h"
 
-/* Set integrator parameters given as "name=value name=value". */
-static void set(struct scene *scene, const char *parameters)
+/* A method, as "bdpt" or "asbdpt select=bins restart=16": the parameters replace all settings of the scene. Returns the
+ * integrator's name. */
+static const char *set(struct scene *scene, const char *method)
 {
-    char text[256], *rest = text;
-    snprintf(text, sizeof text, "%s", parameters);
-    for (char *end; *rest != '\0'; rest = end) {
-        end = rest + strcspn(rest, " ");
-        if (*end == ' ')
-            *end++ = '\0';
-        char *equals = strchr(rest, '=');
-        *equals = '\0';
-        settings_set(&scene->settings, rest, equals + 1, "test");
+    static char text[256];
+    snprintf(text, sizeof text, "%s", method);
+    settings_clear(&scene->settings);
+    char *rest = text + strcspn(text, " ");
+    while (*rest != '\0') {
+        *rest++ = '\0';
+        char *name = rest, *equals = strchr(rest, '=');
+        rest += strcspn(rest, " ");
+        bool last = *rest == '\0';
+        *rest = *equals = '\0';
+        settings_set(&scene->settings, name, equals + 1, "test");
+        *rest = last ? '\0' : ' ';
     }
+    return text;
 }
 
-static struct batches batches_of(struct test *t, struct scene *scene, const char *parameters, int spp, int n,
+static struct batches batches_of(struct test *t, struct scene *scene, const char *method, int spp, int n,
                                  uint64_t seed)
 {
-    set(scene, parameters);
-    return render_batches(t, scene, "asbdpt", 4, spp, n, 16, seed);
+    const char *integrator = set(scene, method);
+    return render_batches(t, scene, integrator, 4, spp, n, 16, seed);
 }
 
 /* --- bias -------------------------------------------------------------------------------------------- */
@@ -42,11 +46,11 @@ static void test_bias(struct test *t)
     static const struct {
         const char *parameters;
         bool unbiased;
-    } cases[] = {{"select=pool metric=constant", true}, {"select=pool metric=throughput", true},
-                 {"select=pool metric=importance", true}, {"select=vertices metric=importance connections=2", true},
-                 {"select=vertices metric=constant connections=2", true}, {"select=subspaces", true},
-                 {"select=subspaces connections=2", true}, {"select=lvc connections=1", true},
-                 {"select=combinatorial connections=3", true}, {"select=bins", false}};
+    } cases[] = {{"asbdpt select=pool metric=constant", true}, {"asbdpt select=pool metric=throughput", true},
+                 {"asbdpt select=pool metric=importance", true}, {"asbdpt select=vertices metric=importance connections=2", true},
+                 {"asbdpt select=vertices metric=constant connections=2", true}, {"asbdpt select=subspaces", true},
+                 {"asbdpt select=subspaces connections=2", true}, {"lvc connections=1", true},
+                 {"cbdpt connections=3", true}, {"asbdpt select=bins", false}};
     struct scene scene;
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 32, 32, &scene))
         return;
@@ -92,7 +96,7 @@ static void test_constant_pool(struct test *t)
     struct scene scene;
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 16, 16, &scene))
         return;
-    set(&scene, "select=pool metric=constant");
+    set(&scene, "asbdpt select=pool metric=constant");
     struct batches x = render_batches(t, &scene, "asbdpt", 4, 1, 400, 1, 61);
     struct batches y = render_batches(t, &scene, "bdpt", 4, 1, 400, 1, 62);
     square_deviations(&x);
@@ -109,15 +113,15 @@ static void test_constant_pool(struct test *t)
 /* One tile of 3x3 pixels, whose light sub-paths are one for every 1, 2, 5 or 8 of them: 9, 5, 2 and 2. */
 static void test_few_light_paths(struct test *t)
 {
-    static const char *const cases[] = {"pathpixels=1", "pathpixels=2", "pathpixels=5", "pathpixels=8",
-                                        "select=subspaces pathpixels=2", "pathpixels=5", "pathpixels=9",
-                                        "select=lvc connections=1 pathpixels=5", "pathpixels=9",
-                                        "select=combinatorial connections=3 pathpixels=2",
-                                        "connections=3 pathpixels=5", "connections=1 pathpixels=9"};
+    static const char *const cases[] = {
+        "asbdpt select=vertices connections=2 pathpixels=1", "asbdpt select=vertices connections=2 pathpixels=2",
+        "asbdpt select=vertices connections=2 pathpixels=5", "asbdpt select=vertices connections=2 pathpixels=8",
+        "asbdpt select=subspaces pathpixels=2", "asbdpt select=subspaces pathpixels=5",
+        "asbdpt select=subspaces pathpixels=9", "lvc connections=1 pathpixels=5", "lvc connections=1 pathpixels=9",
+        "cbdpt connections=3 pathpixels=2", "cbdpt connections=3 pathpixels=5", "cbdpt connections=1 pathpixels=9"};
     struct scene scene;
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 3, 3, &scene))
         return;
-    set(&scene, "select=vertices connections=2");
     struct batches pt = render_batches(t, &scene, "pt", 4, 1024, 32, 3, 63);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct batches x = batches_of(t, &scene, cases[i], 512, 32, 64);
@@ -129,7 +133,7 @@ static void test_few_light_paths(struct test *t)
     scene_free(&scene);
 }
 
-/* --- combinatorial with one light sub-path is BDPT --------------------------------------------------- */
+/* --- cbdpt with one light sub-path is BDPT --------------------------------------------------- */
 
 enum { WIDTH = 40, HEIGHT = 24 };
 
@@ -138,7 +142,7 @@ static void render_image(struct test *t, const struct scene *scene, const char *
 {
     struct film film;
     struct error err;
-    struct render_options o = {.integrator = integrator_find(integrator), .end = spp, .n_threads = n_threads};
+    struct render_options o = {.integrator = integrator, .end = spp, .n_threads = n_threads};
     film_init(&film, render_crop(scene), scene->width, scene->height);
     o.max_depth = 4;
     CHECK(t, render_scene(scene, &o, &film, &err), "%s", err.text);
@@ -146,24 +150,18 @@ static void render_image(struct test *t, const struct scene *scene, const char *
     film_free(&film);
 }
 
-/* Whatever the choice of lights by what is seen would be; and with two sub-paths it is something else. */
+/* And with two sub-paths it is something else. */
 static void test_one_path(struct test *t)
 {
-    static const char *const strategies[] = {"lightsamplestrategy=power", "lightsamplestrategy=spatial"};
     static float bdpt[WIDTH * HEIGHT * 3], image[WIDTH * HEIGHT * 3];
     struct scene scene;
     if (!scene_from_file(t, "scenes/test/light-kinds.pbrt", WIDTH, HEIGHT, &scene))
         return;
     render_image(t, &scene, "bdpt", 20, 2, bdpt);
-    set(&scene, "select=combinatorial connections=1");
-    for (int i = 0; i < 2; i++) {
-        set(&scene, strategies[i]);
-        render_image(t, &scene, "asbdpt", 20, 2, image);
-        CHECK(t, memcmp(bdpt, image, sizeof bdpt) == 0, "combinatorial with M = 1 is not bdpt; %s", strategies[i]);
-    }
-    set(&scene, "connections=2");
-    render_image(t, &scene, "asbdpt", 20, 2, image);
-    CHECK(t, memcmp(bdpt, image, sizeof bdpt) != 0, "combinatorial with M = 2 is bdpt");
+    render_image(t, &scene, set(&scene, "cbdpt connections=1"), 20, 2, image);
+    CHECK(t, memcmp(bdpt, image, sizeof bdpt) == 0, "cbdpt with M = 1 is not bdpt");
+    render_image(t, &scene, set(&scene, "cbdpt connections=2"), 20, 2, image);
+    CHECK(t, memcmp(bdpt, image, sizeof bdpt) != 0, "cbdpt with M = 2 is bdpt");
     scene_free(&scene);
 }
 
@@ -195,17 +193,16 @@ static void test_expected_vertices(struct test *t)
         struct error err;
         if (!scene_from_text(t, cases[i].text, &scene))
             return;
-        set(&scene, "select=lvc connections=3");
-        const struct integrator *m = integrator_find("asbdpt");
-        struct render_job job = {.scene = &scene, .film_rect = render_crop(&scene), .max_depth = cases[i].depth,
-                                 .n_threads = 2};
-        struct preparation prepared = {.size = {LONGEST_BLOCK, DEFAULT_TILE_SIZE}};
-        if (CHECK(t, m->prepare(&job, &prepared, &err), "%s", err.text)) {
-            const struct selection *sel = prepared.state;
-            CHECK(t, sel->counts.connect[0] == cases[i].count && sel->counts.connect[1] == cases[i].count,
+        set(&scene, "lvc connections=3");
+        struct render_options o = {.integrator = "lvc", .max_depth = cases[i].depth, .n_threads = 2};
+        struct render_job job;
+        struct preparation prepared;
+        if (CHECK(t, render_prepare(&scene, &o, render_crop(&scene), &job, &prepared, &err), "%s", err.text)) {
+            const double *count = ((const struct frozen *)prepared.state)->counts.connect;
+            CHECK(t, count[FIRST_HIT] == cases[i].count && count[LATER_HIT] == cases[i].count,
                   "%s, maxdepth %d: lvc counts %g and %g draws, not %g", cases[i].name, cases[i].depth,
-                  sel->counts.connect[0], sel->counts.connect[1], cases[i].count);
-            m->release(prepared.state);
+                  count[FIRST_HIT], count[LATER_HIT], cases[i].count);
+            method_release(&prepared);
         }
         scene_free(&scene);
     }
@@ -217,10 +214,10 @@ static void test_every_scene(struct test *t)
 {
     static const char *const scenes[] = {"light-kinds", "mirror-glass", "thin-lens", "all-materials", "smooth-normals",
                                          "negative-scale", "alpha", "instances"};
-    static const char *const ways[] = {"select=pool metric=importance",
-                                       "select=vertices metric=importance connections=3",
-                                       "select=subspaces connections=0", "select=lvc connections=2",
-                                       "select=combinatorial connections=2"};
+    static const char *const ways[] = {"asbdpt select=pool metric=importance",
+                                       "asbdpt select=vertices metric=importance connections=3",
+                                       "asbdpt select=subspaces connections=0", "lvc connections=2",
+                                       "cbdpt connections=2"};
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         char path[256];
         struct scene scene;
@@ -229,8 +226,8 @@ static void test_every_scene(struct test *t)
             continue;
         struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 8, 12, 12, 71);
         for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++) {
-            set(&scene, ways[k]);
-            struct batches x = render_batches(t, &scene, "asbdpt", 4, 8, 12, 12, 72);
+            const char *integrator = set(&scene, ways[k]);
+            struct batches x = render_batches(t, &scene, integrator, 4, 8, 12, 12, 72);
             double ratio, p = batches_p(&x, &bdpt, &ratio);
             TEST_ACCEPT(t, p, "%s, %s against bdpt: ratio %.4f", scenes[i], ways[k], ratio);
             batches_free(&x);
@@ -251,7 +248,7 @@ static double variance_of(struct test *t, const struct scene *scene, const char 
     for (int k = 0; k < SEEDS; k++) {
         struct film film;
         struct error err;
-        struct render_options o = {.integrator = integrator_find(integrator), .seed = (uint64_t)k + 1, .end = spp,
+        struct render_options o = {.integrator = integrator, .seed = (uint64_t)k + 1, .end = spp,
                                    .n_threads = 2, .max_depth = 4};
         film_init(&film, render_crop(scene), scene->width, scene->height);
         CHECK(t, render_scene(scene, &o, &film, &err), "%s", err.text);
@@ -285,17 +282,17 @@ static void test_even_sky(struct test *t)
 
 static void test_selection_threads(struct test *t)
 {
-    static const char *const ways[] = {"select=bins restart=16", "select=pool", "select=vertices", "select=subspaces",
-                                       "select=lvc", "select=combinatorial"};
+    static const char *const ways[] = {"asbdpt select=bins restart=16", "asbdpt select=pool", "asbdpt select=vertices", "asbdpt select=subspaces",
+                                       "lvc", "cbdpt"};
     struct scene scene;
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", WIDTH, HEIGHT, &scene))
         return;
     for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++) {
-        set(&scene, ways[k]);
+        const char *integrator = set(&scene, ways[k]);
         static float image[3][WIDTH * HEIGHT * 3];
         static const int threads[] = {1, 2, 7};
         for (int i = 0; i < 3; i++)
-            render_image(t, &scene, "asbdpt", 40, threads[i], image[i]);
+            render_image(t, &scene, integrator, 40, threads[i], image[i]);
         CHECK(t, memcmp(image[0], image[1], sizeof image[0]) == 0 && memcmp(image[0], image[2], sizeof image[0]) == 0,
               "%s depends on the number of threads", ways[k]);
     }

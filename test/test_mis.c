@@ -8,7 +8,7 @@
 #include "transport/connect.h"
 #include "base/mem.h"
 #include "base/warp.h"
-#include "guiding/learnt.h"
+#include "learning/learnt.h"
 #include "helpers.h"
 #include "oracle.h"
 #include "tests.h"
@@ -82,8 +82,9 @@ static void learn_nothing(const struct scene *scene, struct learnt *l)
     struct guide_lessons lessons;
     struct rng r = rng_stream(7, RNG_TEST, 0, 0);
     const struct light_set *lights = &scene->lights;
-    regions_init(&l->eye, lights->center, lights->radius, 4, 2, 1000);
-    regions_init(&l->light, lights->center, lights->radius, 9, REGION_LEVELS, 1000);
+    const vec3 low = vec(-2, 0, -2), high = vec(2, 3, 2);
+    regions_init(&l->eye, low, high, 4, 2, 1000);
+    regions_init(&l->light, low, high, 9, REGION_LEVELS, 1000);
     guide_lessons_init(&lessons, lights);
     for (int i = 0; i < 2000; i++) {
         vec3 p = vec(4 * rng_uniform(&r) - 2, 3 * rng_uniform(&r), 4 * rng_uniform(&r) - 2);
@@ -145,9 +146,11 @@ static void compare_direct(struct comparison *c, const struct vertex *eye, int t
     struct light_point at;
     sampler_next3(&same, u);
     const struct light_set *lights = &c->scene->lights;
-    const struct learnt *l = c->counts->learnt;
+    const struct count_model *m = c->counts->model;
     double pmf;
-    int cell = guide_choose(l != NULL && l->guided ? &l->guide : NULL, lights, eye[t - 1].eye_region, u[0], &pmf);
+    int cell = m != NULL && m->choose_light != NULL
+                   ? m->choose_light(m->learnt, lights, eye[t - 1].eye_region, u[0], &pmf)
+                   : alias_sample(&lights->choice, u[0], &pmf, NULL);
     if (!light_sample_cell(lights, &c->scene->geo, cell, u[1], u[2], &at))
         return;
     struct vertex y;
@@ -222,7 +225,8 @@ void test_mis(struct test *t)
             struct mis_counts counts = *sets[k / 4].counts;
             learnt.guided = k % 2 == 1;
             learnt.paired = k / 2 % 2 == 1;
-            counts.learnt = k % 4 > 0 ? &learnt : NULL;
+            learnt_freeze(&learnt);
+            counts.model = k % 4 > 0 ? &learnt.model : NULL;
             struct comparison c = {t, VARIANTS[v].name, &scene, &counts, 0, 0, 0, 1};
             compare_paths(&c, 400);
             CHECK(t, c.worst < bound && c.compared > 100, "%s, %s%s%s: %ld weights, largest difference %.3g (bound %g)",

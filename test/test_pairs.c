@@ -6,7 +6,7 @@
 #include "base/mem.h"
 #include "base/rng.h"
 #include "base/warp.h"
-#include "guiding/pairs.h"
+#include "learning/pairs.h"
 #include "tests.h"
 
 enum { CELLS = 8, POINTS = 3000 };
@@ -19,7 +19,7 @@ static vec3 random_point(struct rng *r)
 static void test_regions(struct test *t, struct rng *r)
 {
     struct regions a, b = {.n = 0};
-    regions_init(&a, vec(0, 0, 0), 1, CELLS, REGION_LEVELS, 1 << 20);
+    regions_init(&a, vec(-1, -1, -1), vec(1, 1, 1), CELLS, REGION_LEVELS, 1 << 20);
     const vec3 up = vec(0, 0, 1), p = vec(0.1, 0.1, 0.1);
     CHECK(t, a.n == 1 && region_at(&a, p, up) == 0, "an empty scene is one region");
     int first = regions_add(&a, regions_key(&a, p, up));
@@ -36,7 +36,7 @@ static void test_regions(struct test *t, struct rng *r)
     regions_copy(&b, &a);
     CHECK(t, b.n == a.n && region_at(&b, p, up) == first, "a copy differs");
     regions_free(&b);
-    regions_init(&b, vec(0, 0, 0), 1, CELLS, REGION_LEVELS, 50);
+    regions_init(&b, vec(-1, -1, -1), vec(1, 1, 1), CELLS, REGION_LEVELS, 50);
     for (int i = 0; i < POINTS; i++)
         regions_add(&b, regions_key(&b, random_point(r), up));
     CHECK(t, b.n <= 50, "%d regions, the limit is 50", b.n);
@@ -65,7 +65,7 @@ static void learn(struct rng *r, struct regions *eye, struct regions *light, int
         double x = rng_below(r, 4) == 0 ? 4 * true_worth(e, y) : 0;
         pair_lessons_add(&l, eye, light, region_at(eye, e, up), region_at(light, y, up), x, 0.5 + rng_uniform(r));
     }
-    pairs_build(out, &l, eye, light, vertices, 0.1);
+    pairs_build(out, &l, eye, light, vertices, light->n, 0.1);
     pair_lessons_free(&l);
 }
 
@@ -93,8 +93,8 @@ static void test_learning(struct test *t, struct rng *r, int trials, double boun
     struct regions eye, light;
     struct pairs p;
     double vertices[8192] = {0};
-    regions_init(&eye, vec(0, 0, 0), 1, 4, REGION_LEVELS, 8192);
-    regions_init(&light, vec(0, 0, 0), 1, CELLS, REGION_LEVELS, 8192);
+    regions_init(&eye, vec(-1, -1, -1), vec(1, 1, 1), 4, REGION_LEVELS, 8192);
+    regions_init(&light, vec(-1, -1, -1), vec(1, 1, 1), CELLS, REGION_LEVELS, 8192);
     learn(r, &eye, &light, trials, vertices, &p);
     for (int e = 0; e < p.n_eye; e++) {
         double sum = 0;

@@ -75,7 +75,7 @@ static void test_demo(struct test *t)
     struct demo_side side[DEMO_SIDES];
     struct demo demo = {.scene = "scenes/cornell-box.pbrt", .spp = 2, .scale = 2, .n_threads = 1, .seed = 7,
                         .quiet = true};
-    demo.integrator[0] = demo.integrator[1] = integrator_find("bdpt");
+    demo.integrator[0] = demo.integrator[1] = "bdpt";
     int width, height;
     float *ref = load_linear("ref/cornell-box.pfm", &width, &height, NULL, &err);
     bool ok = CHECK(t, ref != NULL && demo_run(&demo, side, &sheet, &err), "%s", err.text);
@@ -123,7 +123,7 @@ static void test_worth(struct test *t)
     static float worth[SIZE * SIZE], draws[SIZE * SIZE];
     struct scene scene;
     struct error err = {""};
-    struct render_options options = {.integrator = integrator_find("asbdpt"), .end = 256, .n_threads = 2};
+    struct render_options options = {.integrator = "asbdpt", .end = 256, .n_threads = 2};
     if (!CHECK(t, parse_scene("scenes/cornell-box.pbrt", &scene, NULL, &err), "%s", err.text))
         return;
     scene.width = scene.height = SIZE;
@@ -145,7 +145,7 @@ static void test_worth(struct test *t)
               "a crop window changes the picture of the whole film");
         sheet_free(&whole);
         sheet_free(&cropped);
-        options.integrator = integrator_find("bdpt");
+        options.integrator = "bdpt";
         CHECK(t, !worth_values(&scene, &options, 0, 0, worth, draws, &err), "bdpt learns nothing");
     }
     scene_free(&scene);

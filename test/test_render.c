@@ -34,6 +34,13 @@ static void test_furnace(struct test *t, const char *integrator)
     scene_free(&scene);
 }
 
+static void choose(struct scene *scene, const struct method *m)
+{
+    settings_clear(&scene->settings);
+    if (m->select != NULL)
+        settings_set(&scene->settings, "select", m->select, "test");
+}
+
 /* No shapes at all: every ray sees the sky. */
 static void test_empty(struct test *t)
 {
@@ -43,7 +50,8 @@ static void test_empty(struct test *t)
     struct scene scene;
     if (!scene_from_text(t, text, &scene))
         return;
-    for (const struct integrator *const *m = integrator_list(); *m != NULL; m++) {
+    for (const struct method *const *m = method_list(); *m != NULL; m++) {
+        choose(&scene, *m);
         struct batches b = render_batches(t, &scene, (*m)->name, 3, 2, 2, 8, 12);
         CHECK(t, fabs(b.value[0] - 0.25) < 1e-6 && fabs(b.value[2] - 0.75) < 1e-6, "%s: the sky is %g %g %g",
               (*m)->name, b.value[0], b.value[1], b.value[2]);
@@ -159,7 +167,7 @@ static float *render_pixels(struct test *t, const struct scene *scene, const cha
     struct film film;
     struct error err;
     film_init(&film, crop, scene->width, scene->height);
-    struct render_options o = {.integrator = integrator_find(integrator), .seed = seed, .first = first, .end = middle};
+    struct render_options o = {.integrator = integrator, .seed = seed, .first = first, .end = middle};
     o.n_threads = threads;
     o.max_depth = 4;
     o.planned = end;
@@ -181,8 +189,9 @@ static void test_thread_counts(struct test *t)
     if (!scene_from_text(t, text, &scene))
         return;
     size_t bytes = (size_t)scene.width * (size_t)scene.height * 3 * sizeof(float);
-    for (const struct integrator *const *m = integrator_list(); *m != NULL; m++) {
+    for (const struct method *const *m = method_list(); *m != NULL; m++) {
         const char *name = (*m)->name;
+        choose(&scene, *m);
         float *one = render_pixels(t, &scene, name, 1, 5, 0, 0, 40);
         float *two = render_pixels(t, &scene, name, 2, 5, 0, 0, 40),
               *seven = render_pixels(t, &scene, name, 7, 5, 0, 0, 40);
@@ -224,7 +233,7 @@ static void test_blocks(struct test *t)
         return;
     for (int block = 0; block < 2; block++) {
         struct ends ends = {&film[block], 0};
-        struct render_options o = {.integrator = integrator_find("bdpt"), .end = SPP, .block = block, .n_threads = 2,
+        struct render_options o = {.integrator = "bdpt", .end = SPP, .block = block, .n_threads = 2,
                                    .progress = count_end, .progress_context = &ends};
         film_init(&film[block], render_crop(&scene), 20, 20);
         CHECK(t, render_scene(&scene, &o, &film[block], &err), "%s", err.text);

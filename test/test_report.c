@@ -293,7 +293,7 @@ static double direct_rmse8(struct test *t, const struct results *r, int variant,
         return NAN;
     variant_settings(&VARIANTS[variant], &scene.settings);
     struct render_options o = {
-        .integrator = integrator_find(VARIANTS[variant].integrator), .n_threads = 2, .max_depth = 4};
+        .integrator = VARIANTS[variant].integrator, .n_threads = 2, .max_depth = 4};
     o.seed = (uint64_t)plan_seed(variant, 1);
     o.end = r->plan->spp[step];
     film_init(&film, render_crop(&scene), 8, 6);

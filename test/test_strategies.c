@@ -106,7 +106,7 @@ static void test_scene(struct test *t, const char *name, const char *text)
     for (int k = 0; k < BATCHES; k++) {
         struct film film;
         struct error err;
-        struct render_options o = {.integrator = integrator_find("bdpt"), .end = SPP, .max_depth = DEPTH};
+        struct render_options o = {.integrator = "bdpt", .end = SPP, .max_depth = DEPTH};
         o.n_threads = os_cores();
         o.seed = test_seed(t) * 7919 + (uint64_t)k;
         film_init(&film, render_crop(&scene), scene.width, scene.height);

@@ -19,24 +19,26 @@ static const struct way {
     {"pt", "pt", NULL, NULL, NULL},
     {"lt", "lt", NULL, NULL, NULL},
     {"bdpt", "bdpt", NULL, NULL, NULL},
-    {"pool", "asbdpt", "pool", "32", "0"},
-    {"vertices", "asbdpt", "vertices", "32", "0"},
-    {"subspaces", "asbdpt", "subspaces", "32", "0"},
-    {"lvc", "asbdpt", "lvc", "32", "0"},
-    {"combinatorial", "asbdpt", "combinatorial", "32", "2"},
-    {"bins", "asbdpt", "bins", "32", "0"},
-    {"bins, restart 8", "asbdpt", "bins", "8", "0"},
-    {"bins, never restarted", "asbdpt", "bins", "0", "0"},
+    {"pool", "asbdpt", "pool", NULL, NULL},
+    {"vertices", "asbdpt", "vertices", NULL, NULL},
+    {"subspaces", "asbdpt", "subspaces", NULL, NULL},
+    {"lvc", "lvc", NULL, NULL, NULL},
+    {"cbdpt", "cbdpt", NULL, NULL, "2"},
+    {"bins", "asbdpt", "bins", "32", NULL},
+    {"bins, restart 8", "asbdpt", "bins", "8", NULL},
+    {"bins, never restarted", "asbdpt", "bins", "0", NULL},
 };
 enum { N_WAYS = sizeof WAYS / sizeof WAYS[0] };
 
 static void choose_way(struct scene *scene, const struct way *w)
 {
-    if (w->select != NULL) {
+    settings_clear(&scene->settings);
+    if (w->select != NULL)
         settings_set(&scene->settings, "select", w->select, "test");
+    if (w->restart != NULL)
         settings_set(&scene->settings, "restart", w->restart, "test");
+    if (w->connections != NULL)
         settings_set(&scene->settings, "connections", w->connections, "test");
-    }
 }
 
 /* --- pairs of equal keys ----------------------------------------------------------------------------- */
@@ -156,29 +158,27 @@ static void add_records(const struct tile *tile, struct keys *eye, struct keys *
 static void trace_all(struct test *t, const struct scene *scene, const char *integrator, uint64_t seed,
                       struct keys *eye, struct keys *light)
 {
-    const struct integrator *m = integrator_find(integrator);
-    struct render_job job = {.scene = scene, .film_rect = render_crop(scene), .seed = seed, .eye_seed = seed,
-                             .max_depth = 1, .n_threads = 1};
+    struct render_options o = {.integrator = integrator, .seed = seed, .max_depth = 1, .n_threads = 1};
+    struct render_job job;
     struct error err;
-    struct preparation prepared = {.size = {LONGEST_BLOCK, DEFAULT_TILE_SIZE}};
-    if (!CHECK(t, m->prepare(&job, &prepared, &err), "%s", err.text))
+    struct preparation prepared;
+    if (!CHECK(t, render_prepare(scene, &o, render_crop(scene), &job, &prepared, &err), "%s", err.text))
         return;
-    int block = prepared.size.block < ITERATIONS ? prepared.size.block : ITERATIONS;
-    const struct tile_renderer *renderer = prepared.renderer;
+    int block = prepared.size.block == 0 ? LONGEST_BLOCK : prepared.size.block;
+    block = block < ITERATIONS ? block : ITERATIONS;
     struct tile tile = {.rect = job.film_rect};
     struct workspace *work = workspaces_new(1, job.max_depth);
-    work->scratch = renderer->new_scratch != NULL ? renderer->new_scratch(prepared.state) : NULL;
+    work->scratch = method_scratch(&prepared);
     for (long first = 0; first < ITERATIONS; first += block) {
         struct tile_pass pass = {&job, job.film_rect, first, first + block, &tile, work, NULL};
         tile_start(&tile, job.film_rect, job.film_rect, &scene->filter, true);
-        renderer->render(prepared.state, &pass);
+        prepared.method->render(&prepared, &pass);
         add_records(&tile, eye, light);
     }
     tile_free(&tile);
-    if (renderer->free_scratch != NULL)
-        renderer->free_scratch(work->scratch);
+    method_scratch_free(&prepared, work->scratch);
     workspaces_free(work, 1);
-    m->release(prepared.state);
+    method_release(&prepared);
 }
 
 /* Four pixels, two seeds in a row: no sub-path comes twice. */
@@ -214,8 +214,9 @@ struct history {
 static bool note_sums(void *context, double done)
 {
     struct history *h = context;
+    (void)done;
     for (int k = 0; k < STEPS; k++)
-        if (lround(done * LAST) == FIRST << k)
+        if (h->film->passes == 0 && h->film->iterations == FIRST << k)
             for (int i = 0; i < VALUES; i++)
                 h->sum[k][i] = film_value(h->film, (size_t)i);
     return true;
@@ -226,7 +227,7 @@ static void render_history(struct test *t, const struct scene *scene, const char
 {
     struct film film;
     struct error err;
-    struct render_options o = {.integrator = integrator_find(integrator), .seed = seed, .end = LAST, .n_threads = 2,
+    struct render_options o = {.integrator = integrator, .seed = seed, .end = LAST, .n_threads = 2,
                                .max_depth = 4};
     o.progress = note_sums;
     o.progress_context = out;

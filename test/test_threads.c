@@ -20,7 +20,7 @@ static void test_way(struct test *t, const struct scene *scene, const char *inte
     for (int i = 0; i < 2; i++) {
         struct film film;
         struct error err;
-        struct render_options o = {.integrator = integrator_find(integrator), .end = 40, .n_threads = i == 0 ? 1 : 4,
+        struct render_options o = {.integrator = integrator, .end = 40, .n_threads = i == 0 ? 1 : 4,
                                    .seed = test_seed(t)};
         film_init(&film, render_crop(scene), scene->width, scene->height);
         film_keep_strategies(&film, 4);

@@ -12,12 +12,12 @@ static const struct {
     const char *name, *integrator, *select;
 } WAYS[] = {{"pt", "pt", ""}, {"lt", "lt", ""}, {"bdpt", "bdpt", ""}, {"bins", "asbdpt", "bins"},
             {"pool", "asbdpt", "pool"}, {"vertices", "asbdpt", "vertices"}, {"subspaces", "asbdpt", "subspaces"},
-            {"lvc", "asbdpt", "lvc"}, {"combinatorial", "asbdpt", "combinatorial"}};
+            {"lvc", "lvc", ""}, {"cbdpt", "cbdpt", ""}};
 enum { N_WAYS = sizeof WAYS / sizeof WAYS[0] };
 
 static struct render_options options_of(int way)
 {
-    struct render_options o = {.integrator = integrator_find(WAYS[way].integrator), .seed = 7, .end = SAMPLES,
+    struct render_options o = {.integrator = WAYS[way].integrator, .seed = 7, .end = SAMPLES,
                                .n_threads = 1, .max_depth = 4};
     return o;
 }
@@ -44,16 +44,14 @@ static void check_parts(struct test *t, int way, const struct trace *trace)
     for (int i = 0; i < trace->n_connections; i++) {
         const struct trace_connection *k = &trace->connection[i];
         double product = rgb_luminance(k->c.value) * k->scale * k->c.weight, added = rgb_luminance(k->added);
-        bool chosen = k->s >= 2 && k->t >= 2 && strcmp(WAYS[way].integrator, "asbdpt") == 0;
+        bool chosen = k->s >= 2 && k->t >= 2 && trace->why != NULL;
         CHECK(t, fabs(product - added) <= 1e-12 * fabs(added), "%s: %g in parts, %g added", WAYS[way].name, product,
               added);
         CHECK(t, (k->light >= 0) == (k->s >= 2) && k->light < trace->n_lights, "%s: light sub-path %d", WAYS[way].name,
               k->light);
         CHECK(t, k->s < 2 || trace->light[k->light].n >= k->s, "%s: the light sub-path is cut", WAYS[way].name);
-        CHECK(t, !chosen || (k->draw >= 0 && trace->draw[k->draw].light == k->light), "%s: by which choice?",
-              WAYS[way].name);
-        CHECK(t, !chosen || fabs(trace->draw[k->draw].scale * trace->filter_weight - k->scale) <= 1e-12 * k->scale,
-              "%s: the choice's scale", WAYS[way].name);
+        CHECK(t, k->pmf > 0 && (chosen || k->pmf == 1) && (k->pmf <= 1), "%s: chosen with probability %g",
+              WAYS[way].name, k->pmf);
     }
 }
 

@@ -203,7 +203,7 @@ struct counts { /* the number n of samples per pixel; 0: the method does not use
     const double *worth; /* `vertices`: `connect` is times the worth of the light end's cell; else NULL */
 };
 
-enum { CELLS = 16 }; /* of space, along each axis (src/guiding/regions.c) */
+enum { CELLS = 16 }; /* of space, along each axis (src/learning/regions.c) */
 static int cell(double x) { return (int)fmin(fmax(x * CELLS, 0), CELLS - 1); }
 static int place(vec3 p) { return (cell(p.x) * CELLS + cell(p.y)) * CELLS + cell(p.z / 2); }
 

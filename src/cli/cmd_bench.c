@@ -141,7 +141,7 @@ static bool render_once(const struct scene *s, const struct bench_options *o, co
                         double *wall, double *cpu, struct error *err)
 {
     struct render_options options = {
-        .integrator = integrator_find(integrator), .end = o->spp, .max_depth = o->max_depth};
+        .integrator = integrator, .end = o->spp, .max_depth = o->max_depth};
     struct film film;
     options.n_threads = n_threads;
     film_init(&film, render_crop(s), s->width, s->height);
@@ -185,7 +185,7 @@ static bool measure_scene(const char *path, const struct bench_options *o, doubl
     double start = os_cpu_seconds();
     if (!parse_scene(path, &scene, NULL, err))
         return false;
-    parameters_adapt(&scene, integrator_list(), NULL);
+    parameters_adapt(&scene, method_list(), NULL);
     value[LOAD] = os_cpu_seconds() - start;
     shrink_film(&scene);
     start = os_cpu_seconds();

@@ -27,7 +27,7 @@ static void print_lights(const struct light_set *lights)
         printf("  and %d more\n", lights->n - SHOWN);
 }
 
-static void print_scene(const struct scene *s, const struct integrator *m, double seconds)
+static void print_scene(const struct scene *s, const struct method *m, double seconds)
 {
     const struct kdtree *kd = &s->kd;
     struct pixel_rect crop = render_crop(s);
@@ -77,7 +77,7 @@ static void put_settings(struct json *j, const struct settings *settings)
     json_close(j);
 }
 
-static void print_json(const struct scene *s, const char *path, const struct integrator *m, long spp, double seconds)
+static void print_json(const struct scene *s, const char *path, const struct method *m, long spp, double seconds)
 {
     struct json j = json_start(stdout);
     json_open(&j, NULL, '{');
@@ -111,7 +111,7 @@ static int run(void *options)
 {
     const struct info_options *o = options;
     struct scene scene;
-    const struct integrator *integrator;
+    const struct method *integrator;
     double start = os_wall_seconds();
     int status = job_load(&o->job, &scene, &integrator);
     if (status != EXIT_OK)

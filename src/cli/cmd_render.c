@@ -108,15 +108,15 @@ static bool open_aovs(const struct job_options *o, const struct scene *scene, co
     return aov_open(o->aov, pictures->file[0].path, out, err);
 }
 
-static void report(const struct job_options *o, const struct integrator *m, const struct film *film,
+static void report(const struct job_options *o, const char *integrator, const struct film *film,
                    const struct render_times *times)
 {
     if (!o->quiet)
         fprintf(stderr, "%s: %dx%d, %ld spp, %s; %.2f s, %.2f s of CPU, %.2f us per sample path\n", o->scene_path,
-                rect_width(film->rect), rect_height(film->rect), film->iterations, m->name,
+                rect_width(film->rect), rect_height(film->rect), film->iterations, integrator,
                 times->wall, times->cpu, render_us_per_path(film, times));
     if (!o->quiet && film->note[0] != '\0')
-        fprintf(stderr, "%s: %s\n", m->name, film->note);
+        fprintf(stderr, "%s: %s\n", integrator, film->note);
 }
 
 /* What has no place in a part (render/part.h) is not there after --resume. */
@@ -171,7 +171,7 @@ static bool run_and_write(const struct job_options *o, const struct scene *scene
 }
 
 /* Whatever comes of it, the outputs are written or abandoned. */
-static bool render_and_write(const struct job_options *o, const struct scene *scene, const struct integrator *m,
+static bool render_and_write(const struct job_options *o, const struct scene *scene, const struct method *m,
                              struct files *files, struct error *err)
 {
     struct render_options options = job_render(o, scene, m);
@@ -215,7 +215,7 @@ static int run(void *options)
     const struct job_options *o = options;
     struct error err;
     struct scene scene;
-    const struct integrator *integrator;
+    const struct method *integrator;
     struct files files;
     double start = os_wall_seconds();
     if (!check_options(o, &err) || !open_named(o, &files, &err))

@@ -44,7 +44,7 @@ static int run(void *options)
 {
     const struct trace_options *o = options;
     struct scene scene;
-    const struct integrator *integrator;
+    const struct method *integrator;
     struct error err;
     int status = job_load(&o->job, &scene, &integrator);
     if (status != EXIT_OK)

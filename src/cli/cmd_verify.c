@@ -45,8 +45,8 @@ static bool choose_sides(struct verify_options *o)
     struct error known;
     if (o->methods != NULL)
         sscanf(o->methods, "%63[^,],%63s", o->first, o->second);
-    const char *wrong = o->first[0] != '\0' && integrator_find(o->first) == NULL ? o->first : o->second;
-    if (wrong[0] == '\0' || integrator_find(wrong) != NULL)
+    const char *wrong = o->first[0] != '\0' && !method_exists(o->first) ? o->first : o->second;
+    if (wrong[0] == '\0' || method_exists(wrong))
         return true;
     integrator_unknown(wrong, &known);
     return usage_error(&command_verify, "--methods: there is no method %s; %s", wrong, known.text) == EXIT_OK;
@@ -75,22 +75,26 @@ static bool complete(struct verify_options *o)
 
 /* --- both sides -------------------------------------------------------------------------------------- */
 
-static void choose_integrators(const struct job_options *job, const struct integrator *scenes,
-                               const struct integrator **m)
+static bool choose_integrators(const struct job_options *job, const struct scene *scene, const struct method *scenes,
+                               const struct method **m, struct error *err)
 {
     const struct verify_options *o = (const struct verify_options *)job; /* its first member */
     const char *partner = strcmp(scenes->name, "bdpt") == 0 ? "asbdpt" : scenes->name;
-    m[0] = integrator_find(o->first[0] != '\0' ? o->first : o->reference != NULL ? scenes->name : "bdpt");
-    m[1] = o->reference != NULL ? NULL : integrator_find(o->second[0] != '\0' ? o->second : partner);
+    const char *first = o->first[0] != '\0' ? o->first : o->reference != NULL ? scenes->name : "bdpt";
+    const char *second = o->second[0] != '\0' ? o->second : partner;
+    m[0] = method_find(first, &scene->settings, err);
+    m[1] = o->reference != NULL ? NULL : method_find(second, &scene->settings, err);
+    return m[0] != NULL && (o->reference != NULL || m[1] != NULL);
 }
 
-static bool render_sides(struct scene *scene, const struct integrator *scenes, const struct verify_options *o,
+static bool render_sides(struct scene *scene, const struct method *scenes, const struct verify_options *o,
                          struct side *a, struct side *b, struct error *err)
 {
-    const struct integrator *m[2];
+    const struct method *m[2];
     struct render_options options = {.seed = o->job.seed, .n_threads = o->job.n_threads, .max_depth = o->job.max_depth};
     bool ok = true;
-    choose_integrators(&o->job, scenes, m);
+    if (!choose_integrators(&o->job, scene, scenes, m, err))
+        return false;
     if (o->reference != NULL && !side_read_reference(o->reference, b, err))
         return false;
     if ((o->reference != NULL || o->job.res[0] == 0) &&
@@ -102,7 +106,7 @@ static bool render_sides(struct scene *scene, const struct integrator *scenes, c
     printf("%dx%d pixels, %d batches of %ld spp, seed %llu\n", rect_width(render_crop(scene)),
            rect_height(render_crop(scene)), o->batches, options.end, (unsigned long long)o->job.seed);
     for (int i = 0; ok && i < 2 && m[i] != NULL; i++) {
-        options.integrator = m[i];
+        options.integrator = m[i]->name;
         ok = side_render(scene, &options, i, o->batches, o->job.quiet, i == 0 ? a : b, err);
     }
     return ok;
@@ -165,7 +169,7 @@ static int verify(const struct verify_options *o)
     struct error err;
     struct scene scene;
     struct side a = {0}, b = {0};
-    const struct integrator *integrator;
+    const struct method *integrator;
     int status = EXIT_OK, max_depth = 0;
     if (o->has_scene && (status = job_load_for(&o->job, choose_integrators, &scene, &integrator)) != EXIT_OK)
         return status;

@@ -20,7 +20,7 @@ static const struct option OPTIONS[] = {
     {.others = RUN_OPTIONS},
 };
 
-static int draw(const struct worth_options *o, const struct scene *scene, const struct integrator *integrator,
+static int draw(const struct worth_options *o, const struct scene *scene, const struct method *integrator,
                 struct outputs *out, struct error *err)
 {
     struct render_options options = job_render(&o->job, scene, integrator);
@@ -38,7 +38,7 @@ static int run(void *options)
 {
     struct worth_options *o = options;
     struct scene scene;
-    const struct integrator *integrator;
+    const struct method *integrator;
     struct outputs out;
     struct error err;
     if (o->job.integrator == NULL)

@@ -91,7 +91,9 @@ void integrator_unknown(const char *wanted, struct error *out)
 {
     struct suggestion s = suggest_start(wanted);
     char known[256] = "";
-    for (const struct integrator *const *m = integrator_list(); *m != NULL; m++) {
+    for (const struct method *const *m = method_list(), *before = NULL; *m != NULL; before = *m++) {
+        if (before != NULL && strcmp((*m)->name, before->name) == 0)
+            continue;
         suggest_offer(&s, (*m)->name);
         snprintf(known + strlen(known), sizeof known - strlen(known), " %s", (*m)->name);
     }
@@ -108,18 +110,17 @@ static void warn(struct listener *to, const char *format, const char *what)
     print_warning(to, line.text);
 }
 
-/* The integrator asked for; pbrt's integrators that do not exist here are replaced by the default. */
-static const struct integrator *choose_integrator(const struct scene *scene, struct listener *to, struct error *err)
+/* The method asked for; pbrt's integrators that do not exist here are replaced by the default. */
+static const struct method *choose_method(const struct scene *scene, struct listener *to, struct error *err)
 {
     const struct job_options *o = to->options;
-    const char *name = o->integrator != NULL ? o->integrator : scene->integrator;
-    const struct integrator *m = integrator_find(name != NULL ? name : "bdpt");
-    if (m != NULL)
-        return m;
+    const char *name = o->integrator != NULL ? o->integrator : scene->integrator != NULL ? scene->integrator : "bdpt";
+    if (method_exists(name))
+        return method_find(name, &scene->settings, err);
     if (o->integrator == NULL) {
         warn(to, "integrator \"%s\" does not exist here; bdpt is used, whose picture has all light up to maxdepth",
              name);
-        return integrator_find("bdpt");
+        return method_find("bdpt", &scene->settings, err);
     }
     struct error known;
     integrator_unknown(name, &known);
@@ -137,37 +138,40 @@ static void warn_of_scene(const struct scene *scene, struct listener *to)
         warn(to, "the picture is written as .png: the format of the film's \"%.200s\" is none of this program's", name);
 }
 
-static void chosen_alone(const struct job_options *o, const struct integrator *chosen, const struct integrator **m)
+static bool chosen_alone(const struct job_options *o, const struct scene *scene, const struct method *chosen,
+                         const struct method **m, struct error *err)
 {
     (void)o;
+    (void)scene;
+    (void)err;
     m[0] = chosen;
+    return true;
 }
 
-int job_load(const struct job_options *o, struct scene *scene, const struct integrator **integrator)
+int job_load(const struct job_options *o, struct scene *scene, const struct method **method)
 {
-    return job_load_for(o, chosen_alone, scene, integrator);
+    return job_load_for(o, chosen_alone, scene, method);
 }
 
-int job_load_for(const struct job_options *o, job_readers *choose, struct scene *scene,
-                 const struct integrator **integrator)
+int job_load_for(const struct job_options *o, job_readers *choose, struct scene *scene, const struct method **method)
 {
-    const struct integrator *readers[3] = {NULL, NULL, NULL};
+    const struct method *readers[3] = {NULL, NULL, NULL};
     int status = EXIT_JOB;
     struct error err;
     struct listener listener = {o, 0};
     struct message_sink sink = {print_warning, print_error, &listener};
     if (!parse_scene(o->scene_path, scene, &sink, NULL))
         return EXIT_JOB;
-    *integrator = NULL;
-    bool ok = apply(o, scene, &err) && (*integrator = choose_integrator(scene, &listener, &err)) != NULL;
+    *method = NULL;
+    bool ok = apply(o, scene, &err) && (*method = choose_method(scene, &listener, &err)) != NULL &&
+              choose(o, scene, *method, readers, &err);
     if (ok) {
-        choose(o, *integrator, readers);
         parameters_adapt(scene, readers, &sink);
         ok = parameters_belong(scene, readers, &err);
         status = ok ? EXIT_JOB : EXIT_USAGE;
     }
     struct render_job job;
-    ok = ok && parameters_read(scene, *integrator, o->max_depth, &job, &err);
+    ok = ok && parameters_read(scene, *method, o->max_depth, &job, &err);
     if (ok)
         warn_of_scene(scene, &listener);
     if (ok && o->strict && listener.n_warnings > 0)
@@ -181,9 +185,9 @@ int job_load_for(const struct job_options *o, job_readers *choose, struct scene 
     return EXIT_OK;
 }
 
-struct render_options job_render(const struct job_options *o, const struct scene *scene, const struct integrator *m)
+struct render_options job_render(const struct job_options *o, const struct scene *scene, const struct method *m)
 {
-    struct render_options render = {.integrator = m, .seed = o->seed, .end = job_spp(o, scene),
+    struct render_options render = {.integrator = m->name, .seed = o->seed, .end = job_spp(o, scene),
                                     .n_threads = o->n_threads, .max_depth = o->max_depth};
     return render;
 }

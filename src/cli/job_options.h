@@ -43,18 +43,19 @@ struct job_options {
 };
 extern const struct option JOB_OPTIONS[], RUN_OPTIONS[]; /* the second, for what takes samples, lead on to the first */
 
-/* job_load: parse the scene, apply the options, prepare it, and find the integrator. Returns EXIT_OK, or EXIT_JOB or
+/* job_load: parse the scene, apply the options, prepare it, and find the method. Returns EXIT_OK, or EXIT_JOB or
  * EXIT_USAGE after printing why (then nothing needs release). */
-int job_load(const struct job_options *o, struct scene *scene, const struct integrator **integrator);
+int job_load(const struct job_options *o, struct scene *scene, const struct method **method);
 
-/* job_load_for: the same where others than the integrator that is found may render.
- *   choose  says which: one or two, at m[0] and m[1] */
-typedef void job_readers(const struct job_options *o, const struct integrator *found, const struct integrator **m);
+/* job_load_for: the same where others than the method that is found may render.
+ *   choose  says which: one or two, at m[0] and m[1]; false with a message if there is none such */
+typedef bool job_readers(const struct job_options *o, const struct scene *scene, const struct method *found,
+                         const struct method **m, struct error *err);
 int job_load_for(const struct job_options *o, job_readers *choose, struct scene *scene,
-                 const struct integrator **integrator);
+                 const struct method **method);
 
 /* job_render: what a render is to be by these options, all its samples at once. */
-struct render_options job_render(const struct job_options *o, const struct scene *scene, const struct integrator *m);
+struct render_options job_render(const struct job_options *o, const struct scene *scene, const struct method *m);
 
 /* job_spp: samples per pixel in force: option, 1 if quick, scene, else 16. */
 long job_spp(const struct job_options *o, const struct scene *scene);

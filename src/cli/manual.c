@@ -5,18 +5,33 @@
 #include <string.h>
 
 #include "cli/command.h"
-#include "integrators/integrator.h"
+#include "render/parameters.h"
+
+static void print_parameters(const struct method_parameter *p)
+{
+    char fallback[64];
+    for (; p != NULL && p->name != NULL; p++) {
+        parameter_fallback(p, fallback, sizeof fallback);
+        printf("             %-12s %-10s %s\n", p->name, fallback, p->help);
+    }
+}
+
+/* "asbdpt -P select=bins", or "bdpt". */
+static void name_method(const struct method *m, char *out, size_t size)
+{
+    snprintf(out, size, m->select != NULL ? "%s -P select=%s" : "%s", m->name, m->select);
+}
 
 void manual_print_integrators(void)
 {
+    char name[64];
     printf("integrators and their parameters (-P NAME=VALUE, or in the scene's Integrator directive;\n"
-           "of what is given twice, an option like --maxdepth counts before -P, and -P before the scene):\n");
-    printf("    all: maxdepth 5, heuristic balance|power, rrthreshold 0.5, for select=bins 0 "
-           "(0: no Russian roulette)\n");
-    for (const struct integrator *const *m = integrator_list(); *m != NULL; m++) {
-        printf("    %-8s %s\n", (*m)->name, (*m)->help);
-        for (const struct setting_help *p = (*m)->parameters; p->name != NULL; p++)
-            printf("             %-12s %-10s %s\n", p->name, p->fallback, p->help);
+           "of what is given twice, an option like --maxdepth counts before -P, and -P before the scene):\n    all\n");
+    print_parameters(parameters_common());
+    for (const struct method *const *m = method_list(); *m != NULL; m++) {
+        name_method(*m, name, sizeof name);
+        printf("    %-8s %s\n", name, (*m)->help);
+        print_parameters((*m)->parameters);
     }
 }
 
@@ -75,13 +90,18 @@ static void man_command(const struct command *c)
 
 static void man_parameters(void)
 {
-    for (const struct integrator *const *m = integrator_list(); *m != NULL; m++) {
-        printf(".TP\n\\fB%s\\fR\n\\&", (*m)->name);
+    char text[64];
+    for (const struct method *const *m = method_list(); *m != NULL; m++) {
+        name_method(*m, text, sizeof text);
+        printf(".TP\n\\fB");
+        roff(text);
+        printf("\\fR\n\\&");
         roff((*m)->help);
         printf("\n");
-        for (const struct setting_help *p = (*m)->parameters; p->name != NULL; p++) {
+        for (const struct method_parameter *p = (*m)->parameters; p != NULL && p->name != NULL; p++) {
+            parameter_fallback(p, text, sizeof text);
             printf(".RS\n.TP\n\\fB%s\\fR (", p->name);
-            roff(p->fallback);
+            roff(text);
             printf(")\n\\&");
             roff(p->help);
             printf("\n.RE\n");
@@ -129,7 +149,7 @@ static void print_bash(void)
     for (const struct command *const *c = command_list(); *c != NULL; c++)
         printf(" %s", (*c)->name);
     printf("\"\n    case \"${COMP_WORDS[COMP_CWORD-1]}\" in\n    --integrator) words=\"");
-    for (const struct integrator *const *m = integrator_list(); *m != NULL; m++)
+    for (const struct method *const *m = method_list(); *m != NULL; m++)
         printf(" %s", (*m)->name);
     printf("\" ;;\n    esac\n"
            "    COMPREPLY=($(compgen -W \"$words\" -- \"${COMP_WORDS[COMP_CWORD]}\"))\n}\n"

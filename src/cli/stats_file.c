@@ -68,20 +68,30 @@ static void put_value(struct json *j, const char *name, const char *text)
 }
 
 /* Those in force, whoever set them. */
+static void put_table(struct json *j, const struct scene *scene, const struct method_parameter *p)
+{
+    char fallback[64];
+    for (; p != NULL && p->name != NULL; p++) {
+        parameter_fallback(p, fallback, sizeof fallback);
+        put_value(j, p->name, settings_text(&scene->settings, p->name, fallback));
+    }
+}
+
 static void put_parameters(struct json *j, const struct scene *scene, const struct render_options *o)
 {
+    const struct method *m = method_find(o->integrator, &scene->settings, NULL);
     struct render_job job;
     struct error none;
     json_open(j, "parameters", '{');
-    if (parameters_read(scene, o->integrator, o->max_depth, &job, &none)) { /* they have been read before */
+    if (m != NULL && parameters_read(scene, m, o->max_depth, &job, &none)) { /* they have been read before */
         json_number(j, "maxdepth", job.max_depth);
         json_text(j, "heuristic", job.power_heuristic ? "power" : "balance");
         json_number(j, "rrthreshold", job.rr_threshold);
         json_text(j, "lightsamplestrategy", job.spatial_lights ? "spatial" : "power");
     }
-    for (const struct setting_help *p = o->integrator->parameters; p->name != NULL; p++)
-        if (strcmp(p->name, "lightsamplestrategy") != 0)
-            put_value(j, p->name, settings_text(&scene->settings, p->name, p->fallback));
+    if (m != NULL && m->select != NULL)
+        json_text(j, "select", m->select);
+    put_table(j, scene, m != NULL ? m->parameters : NULL);
     json_close(j);
 }
 
@@ -109,7 +119,7 @@ bool stats_write(struct stats_file *f, const struct job_options *o, const struct
     struct json *j = &f->json;
     if (!f->wanted)
         return true;
-    json_text(j, "integrator", render->integrator->name);
+    json_text(j, "integrator", render->integrator);
     put_parameters(j, scene, render);
     json_count(j, "seed", render->seed);
     put_film(j, scene, film);

@@ -5,7 +5,7 @@
  *     p_e0 = beta_0^2 / (beta_0^2 + beta_1^2),                                                        [S24 eq. 3.1]
  * beta being the mean over RGB of the throughput at the sub-path's furthest vertex. It is connected with the pixel's
  * eye sub-path exactly as in BDPT, without any further weight, and replaced by a fresh one. Elements older than
- * `maxage` iterations are replaced unused; after `restart` iterations (a block, see asbdpt.c) all bins are discarded.
+ * `maxage` iterations are replaced unused; after `restart` iterations (a block) all bins are discarded.
  *
  * Where the text leaves a choice: Algorithm 2 prints the comparison of the random number with p_e0 the other way round;
  * the text's reading (take e0 if u < p_e0) is implemented. An empty sub-path has beta 0; two zeros give 1/2. Bins are
@@ -18,10 +18,17 @@
  *
  * Tests: test_asbdpt.c (must be rejected by the test that accepts BDPT).
  */
+#include <limits.h>
+#include <stddef.h>
 #include <stdlib.h>
 
-#include "integrators/select.h"
-#include "transport/pixel_sample.h"
+#include "integrators/method.h"
+
+/* Parameters. */
+struct bins_state {
+    struct frozen frozen;
+    int bin_paths, max_age, restart;
+};
 
 struct element {
     struct arena arena;    /* its lobes */
@@ -35,17 +42,17 @@ struct element {
 struct bins {
     int n_elements;
     uint64_t traced; /* sub-paths traced for this pixel and block */
-    struct element element[];
+    struct element *element; /* [n_elements], owned */
 };
 
-static void *new_scratch(const void *selection)
+static void init_scratch(void *scratch, const void *state)
 {
-    const struct selection *sel = selection;
-    struct bins *b = mem_alloc(1, sizeof *b + (size_t)sel->bin_paths * sizeof b->element[0]);
-    b->n_elements = sel->bin_paths;
+    const struct bins_state *s = state;
+    struct bins *b = scratch;
+    b->n_elements = s->bin_paths;
+    b->element = mem_alloc((size_t)b->n_elements, sizeof *b->element);
     for (int i = 0; i < b->n_elements; i++)
-        b->element[i].vertex = mem_alloc((size_t)sel->max_depth + 1, sizeof *b->element[i].vertex);
-    return b;
+        b->element[i].vertex = mem_alloc((size_t)s->frozen.max_depth + 1, sizeof *b->element[i].vertex);
 }
 
 static void free_scratch(void *scratch)
@@ -55,12 +62,12 @@ static void free_scratch(void *scratch)
         arena_free(&b->element[i].arena);
         free(b->element[i].vertex);
     }
-    free(b);
+    free(b->element);
 }
 
 struct pixel {
     const struct tile_pass *pass;
-    const struct selection *sel;
+    const struct bins_state *state;
     struct bins *bins;
     int x, y;
 };
@@ -72,15 +79,15 @@ static void replace(struct pixel *p, struct element *e, long iteration)
 {
     uint64_t number = ((uint64_t)p->pass->first << 32) + p->bins->traced++;
     arena_reset(&e->arena);
-    e->length = pixel_light_path(p->pass, &p->sel->counts, p->x, p->y, number, &e->arena, e->vertex);
-    e->beta = select_throughput(e->vertex, e->length);
+    e->length = pixel_light_path(p->pass, &p->state->frozen.counts, p->x, p->y, number, &e->arena, e->vertex);
+    e->beta = path_throughput(e->vertex, e->length);
     e->born = iteration;
 }
 
 static void replace_aged(struct pixel *p, long iteration)
 {
-    for (int i = 0; p->sel->max_age > 0 && i < p->bins->n_elements; i++)
-        if (iteration - p->bins->element[i].born > p->sel->max_age)
+    for (int i = 0; p->state->max_age > 0 && i < p->bins->n_elements; i++)
+        if (iteration - p->bins->element[i].born > p->state->max_age)
             replace(p, &p->bins->element[i], iteration);
 }
 
@@ -101,65 +108,79 @@ static double first_probability(const struct element *e)
     return b0 + b1 > 0 ? b0 / (b0 + b1) : 0.5;
 }
 
-/* For trace.h: all bins, and how the element `chosen` was. */
-static void tell(const struct pixel *p, struct trace *trace, const struct element *chosen, double u)
-{
-    int bin = (int)(chosen - p->bins->element) / 2, second = (int)(chosen - p->bins->element) % 2;
-    double p_e0 = first_probability(&p->bins->element[2 * bin]), q = second ? 1 - p_e0 : p_e0;
-    trace_note(trace, "the pixel's own %d light sub-paths in bins of two; beta: mean over r, g, b of the throughput at "
-               "the furthest vertex", p->bins->n_elements);
-    for (int b = 0; b < p->bins->n_elements / 2; b++) {
-        const struct element *e = &p->bins->element[2 * b];
-        trace_note(trace, "bin %d: beta %.4g and %.4g, traced in iterations %ld and %ld; p_e0 = %.4f%s", b, e[0].beta,
-                   e[1].beta, e[0].born, e[1].born, first_probability(e), b == bin ? "   <- visited now" : "");
-    }
-    trace_choose(trace, 0, chosen->vertex, chosen->length, 0, q, 1,
-                 "bin %d: u = %.4f %s p_e0 = %.4f, so its %s element; no weight makes up for q: biased", bin, u,
-                 second ? ">=" : "<", p_e0, second ? "second" : "first");
-}
-
 /* Choose a bin, then an element of it. [S24 Algorithm 2] */
-static struct element *choose(struct pixel *p, double shift, uint64_t step, double u)
+static struct element *choose(struct pixel *p, double shift, uint64_t step, double u, double *pmf)
 {
     double position = van_der_corput(step) + shift;
     int bin = (int)((position - floor(position)) * (p->bins->n_elements / 2));
     struct element *e = &p->bins->element[2 * bin];
-    return u < first_probability(e) ? &e[0] : &e[1];
+    double p_e0 = first_probability(e);
+    *pmf = u < p_e0 ? p_e0 : 1 - p_e0;
+    return u < p_e0 ? &e[0] : &e[1];
 }
 
 static void render_iteration(struct pixel *p, double shift, long iteration)
 {
     struct workspace *work = p->pass->work;
     arena_reset(&work->arena);
-    struct pixel_sample g = pixel_sample_begin(p->pass, &p->sel->counts, p->x, p->y, iteration);
+    struct pixel_sample g = pixel_sample_begin(p->pass, &p->state->frozen.counts, p->x, p->y, iteration);
     int n = pixel_eye_path(p->pass, &g, iteration, work->eye, g.max_depth + 2);
     struct sampler draw = pixel_sampler(p->pass, RNG_SELECT, p->x, p->y, iteration);
     replace_aged(p, iteration);
     double u = sampler_next(&draw);
-    struct element *e = choose(p, shift, (uint64_t)(iteration - p->pass->first), u);
-    if (g.trace != NULL)
-        tell(p, g.trace, e, u);
+    struct choice unweighted = {0, 1};
+    struct element *e = choose(p, shift, (uint64_t)(iteration - p->pass->first), u, &unweighted.pmf);
 
     pixel_sum_eye(&g, work->eye, n);
-    pixel_sum_pairs(&g, work->eye, n, e->vertex, e->length, 1);
+    pixel_sum_pairs(&g, work->eye, n, e->vertex, e->length, unweighted);
     pixel_splat_path(&g, e->vertex, e->length, 1);
     tile_add_eye(p->pass->tile, p->x, p->y, g.sum);
     replace(p, e, iteration);
 }
 
-static void render(const void *selection, const struct tile_pass *pass)
+static void render(const struct preparation *m, const struct tile_pass *pass)
 {
-    struct pixel p = {pass, selection, pass->work->scratch, 0, 0};
-    for (p.y = pass->rect.y0; p.y < pass->rect.y1; p.y++)
-        for (p.x = pass->rect.x0; p.x < pass->rect.x1; p.x++) {
-            struct sampler shift = pixel_sampler(pass, RNG_SHUFFLE, p.x, p.y, pass->first);
-            double start = sampler_next(&shift);
-            p.bins->traced = 0;
-            for (int i = 0; i < p.bins->n_elements; i++)
-                replace(&p, &p.bins->element[i], pass->first);
-            for (long i = pass->first; i < pass->end; i++)
-                render_iteration(&p, start, i);
-        }
+    struct pixel p = {pass, m->state, pass->work->scratch, 0, 0};
+    for (int number = 0; pass_pixel(pass, number, &p.x, &p.y); number++) {
+        struct sampler shift = pixel_sampler(pass, RNG_SHUFFLE, p.x, p.y, pass->first);
+        double start = sampler_next(&shift);
+        p.bins->traced = 0;
+        for (int i = 0; i < p.bins->n_elements; i++)
+            replace(&p, &p.bins->element[i], pass->first);
+        for (long i = pass->first; i < pass->end; i++)
+            render_iteration(&p, start, i);
+    }
 }
 
-const struct tile_renderer render_bins = {render, new_scratch, free_scratch};
+static bool check(const void *state, struct error *err)
+{
+    const struct bins_state *s = state;
+    return s->bin_paths % 2 == 0 ||
+           error_set(err, "asbdpt: binpaths %d is odd; bins hold two sub-paths each", s->bin_paths);
+}
+
+static void prepare(const struct render_job *job, struct preparation *out)
+{
+    const struct bins_state *s = out->state;
+    (void)job;
+    out->size.block = s->restart > 0 ? s->restart : INT_MAX;
+}
+
+#define AT(member) offsetof(struct bins_state, member)
+static const struct method_parameter PARAMETERS[] = {
+    {"binpaths", PARAMETER_INTEGER, AT(bin_paths), 8, 2, 4096, "light sub-paths per pixel, even", NULL},
+    {"maxage", PARAMETER_INTEGER, AT(max_age), 24, 0, INT_MAX,
+     "iterations after which an unused sub-path is replaced, 0: never", NULL},
+    {"restart", PARAMETER_INTEGER, AT(restart), 32, 0, INT_MAX,
+     "iterations after which all bins are rebuilt, 0: never", NULL},
+    {.name = NULL}};
+
+/* The dissertation has no roulette, and its selection reads the throughput at a sub-path's far end, which roulette
+ * would level: it is off unless asked for. */
+const struct method method_bins = {
+    .name = "asbdpt", .select = "bins", .help = "the dissertation's bins of two light sub-paths [Silva 2024]; biased",
+    .why = "of the pixel's bins of two light sub-paths one is visited, of its two elements one taken with probability "
+           "beta_e^2 / (beta_0^2 + beta_1^2); no weight makes up for it",
+    .parameters = PARAMETERS, .state_size = sizeof(struct bins_state), .scratch_size = sizeof(struct bins),
+    .rr_threshold = 0, .check = check, .prepare = prepare, .render = render, .scratch_init = init_scratch,
+    .scratch_free = free_scratch};

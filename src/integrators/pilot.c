@@ -7,7 +7,8 @@
 #include "base/maths.h"
 #include "base/parallel.h"
 
-/* What the variance of a pixel is made of, given its eye sub-path. HIT is part of that: it has a credit only. */
+/* What the variance of a pixel is made of, given its eye sub-path: kinds of samples whose number is free. HIT, lights
+ * met by the first bounce, is not one of them, but its samples too are worth more than independent ones. */
 enum kind { DRAW_FIRST, DRAW_LATER, LIGHT_FIRST, LIGHT_PATH, N_KINDS, HIT = N_KINDS };
 
 /* Samples per eye vertex (per pixel) of each kind while the pilot runs, and in its absence. The choice moves from the
@@ -16,6 +17,10 @@ enum kind { DRAW_FIRST, DRAW_LATER, LIGHT_FIRST, LIGHT_PATH, N_KINDS, HIT = N_KI
 static const double TRIED[N_KINDS] = {4, 4, 4, 0.25}, USUAL[N_KINDS] = {3, 1, 2, 0.25};
 static const double BOLDNESS = 2.0 / 3;
 static const double USUAL_CREDIT = 1.5, MOST_CREDIT = 4;
+
+/* The budget: samples for each pixel of the picture, in whole tiles. */
+static const double SAMPLES_PER_PIXEL = 1.28;
+enum { MOST_TILES = 32 };
 
 /* Renders of a tile: the second shares nothing with the first, the third its eye sub-paths. */
 enum { RENDERS = 3 };
@@ -32,11 +37,12 @@ struct sums {
 
 struct pilot {
     struct render_job job;
-    const struct selection *sel;
+    const struct preparation *method;
     struct workspace *work;       /* [n_threads] */
     struct tile (*tile)[RENDERS]; /* [n_slots] */
     struct sums *found;           /* [n_slots] */
     struct sums sums;
+    bool stopped;
 };
 
 static double luminance_of(float r, float g, float b)
@@ -174,7 +180,7 @@ static void render_tile(void *context, int64_t job, int slot, int thread)
         this.eye_seed = hash_combine(p->job.seed, RENDERS + (i == 1));
         struct tile_pass pass = {&this, rect, (long)job, (long)job + 1, tile, &p->work[thread], NULL};
         tile_start(tile, rect, p->job.film_rect, &p->job.scene->filter, true);
-        render_subspaces.render(p->sel, &pass);
+        p->method->method->render(p->method, &pass);
         pixel_values(tile, value + (size_t)i * n);
     }
     brightness(rect, value, value + n, scale);
@@ -192,9 +198,9 @@ static void render_tile(void *context, int64_t job, int slot, int thread)
 
 static bool add_tile(void *context, int64_t job, int slot)
 {
-    (void)job;
     struct pilot *p = context;
     const struct sums *s = &p->found[slot];
+    double n = RENDERS * (double)(job + 1) * MAX_TILE_SIZE * MAX_TILE_SIZE;
     p->sums.total += s->total;
     p->sums.given_eye += s->given_eye;
     p->sums.given_paths += s->given_paths;
@@ -202,37 +208,38 @@ static bool add_tile(void *context, int64_t job, int slot)
         p->sums.spread[k] += s->spread[k] / (k == HIT ? 1 : RENDERS); /* a pair of renders is one value of HIT */
         p->sums.square[k] += s->square[k] / (k == HIT ? 1 : RENDERS);
     }
-    return true;
+    p->stopped = p->job.watch != NULL && !p->job.watch(p->job.watch_context, n);
+    return !p->stopped;
 }
 
 /* --- the choice -------------------------------------------------------------------------------------- */
 
-static void set_numbers(struct selection *sel, const double *n, const double *credit)
+static void set_numbers(struct subspaces_state *s, const double *n, const double *credit)
 {
-    sel->connections[0] = clamp(n[DRAW_FIRST], 0.25, 16);
-    sel->connections[1] = clamp(n[DRAW_LATER], 0.125, 8);
-    sel->lights = (int)clamp(n[LIGHT_FIRST] + 0.5, 1, 8);
-    sel->path_pixels = (int)clamp(1 / n[LIGHT_PATH] + 0.5, 1, 64);
-    sel->counts.connect[0] = credit[DRAW_FIRST] * sel->connections[0];
-    sel->counts.connect[1] = credit[DRAW_LATER] * sel->connections[1];
-    sel->counts.direct[0] = credit[LIGHT_FIRST] * sel->lights;
-    sel->counts.direct[1] = 1;
+    struct frozen *f = &s->frozen;
+    s->draws[FIRST_HIT] = clamp(n[DRAW_FIRST], 0.25, 16);
+    s->draws[LATER_HIT] = clamp(n[DRAW_LATER], 0.125, 8);
+    f->lights = (int)clamp(n[LIGHT_FIRST] + 0.5, 1, 8);
+    f->path_pixels = (int)clamp(1 / n[LIGHT_PATH] + 0.5, 1, 64);
+    f->counts.connect[FIRST_HIT] = credit[DRAW_FIRST] * s->draws[FIRST_HIT];
+    f->counts.connect[LATER_HIT] = credit[DRAW_LATER] * s->draws[LATER_HIT];
+    f->counts.direct[FIRST_HIT] = credit[LIGHT_FIRST] * f->lights;
+    f->counts.direct[LATER_HIT] = 1;
 }
 
-void pilot_set_draws(struct selection *sel, double C)
+void pilot_set_draws(struct subspaces_state *s, double C)
 {
-    for (int i = 0; i < 2; i++) {
-        sel->counts.connect[i] *= C / sel->connections[i];
-        sel->connections[i] = C;
+    for (int end = 0; end < EYE_ENDS; end++) {
+        s->frozen.counts.connect[end] *= C / s->draws[end];
+        s->draws[end] = C;
     }
 }
 
 /* In units of a ray that looks for the closest hit; the factors were measured. */
-static void costs(const struct selection *sel, double *fixed, double *cost)
+static void costs(const struct importance *g, double *fixed, double *cost)
 {
     const double CONNECTION = 0.6, POINT = 0.8;
-    double n_eye = sel->importance.eye_vertices, n_first = sel->importance.first_vertices;
-    double n_light = sel->importance.light_vertices;
+    double n_eye = g->eye_vertices, n_first = g->first_vertices, n_light = g->light_vertices;
     *fixed = 1 + n_eye;
     cost[DRAW_FIRST] = CONNECTION * n_first;
     cost[DRAW_LATER] = CONNECTION * (n_eye - n_first);
@@ -246,7 +253,7 @@ static double credit_of(double square, double spread)
     return spread > 0 ? clamp(square / spread, 1, MOST_CREDIT) : 1;
 }
 
-static void choose_numbers(struct selection *sel, const struct sums *s)
+static void choose_numbers(struct subspaces_state *state, const struct sums *s)
 {
     const double LEAST = 0.2, LEAST_PATH = 0.02; /* shares of the variance that A and light sub-paths have at least */
     double fixed, cost[N_KINDS], b[N_KINDS], n[N_KINDS], credit[N_KINDS], rest = s->given_paths;
@@ -254,21 +261,21 @@ static void choose_numbers(struct selection *sel, const struct sums *s)
     for (int k = 0; k < LIGHT_PATH; k++)
         rest -= b[k] = s->spread[k];
     b[LIGHT_PATH] = fmax(rest, LEAST_PATH * s->total);
-    costs(sel, &fixed, cost);
+    costs(&state->learnt.importance, &fixed, cost);
     for (int k = 0; k < N_KINDS; k++) {
         double best = cost[k] > 0 ? sqrt(b[k] * TRIED[k] / cost[k] * fixed / A) : USUAL[k];
         n[k] = USUAL[k] * m_pow(fmax(best, 1e-3) / USUAL[k], BOLDNESS);
         credit[k] = credit_of(s->square[k], s->spread[k]);
     }
-    set_numbers(sel, n, credit);
-    sel->counts.hit = credit_of(s->square[HIT], s->spread[HIT]);
+    set_numbers(state, n, credit);
+    state->frozen.counts.hit = credit_of(s->square[HIT], s->spread[HIT]);
 }
 
 static void make_memory(struct pilot *p, int n_slots)
 {
     p->work = workspaces_new(p->job.n_threads, p->job.max_depth);
     for (int i = 0; i < p->job.n_threads; i++)
-        p->work[i].scratch = render_subspaces.new_scratch(p->sel);
+        p->work[i].scratch = method_scratch(p->method);
     p->tile = mem_alloc((size_t)n_slots, sizeof *p->tile);
     p->found = mem_alloc((size_t)n_slots, sizeof *p->found);
 }
@@ -279,31 +286,30 @@ static void free_memory(struct pilot *p, int n_slots)
         for (int k = 0; k < RENDERS; k++)
             tile_free(&p->tile[i][k]);
     for (int i = 0; i < p->job.n_threads; i++)
-        render_subspaces.free_scratch(p->work[i].scratch);
+        method_scratch_free(p->method, p->work[i].scratch);
     workspaces_free(p->work, p->job.n_threads);
     free(p->tile);
     free(p->found);
 }
 
-void pilot_run(const struct render_job *job, struct selection *sel, double samples)
+void pilot_run(const struct render_job *job, struct preparation *method)
 {
     const double credit[N_KINDS] = {USUAL_CREDIT, USUAL_CREDIT, USUAL_CREDIT, USUAL_CREDIT};
-    struct pilot p = {.job = *job, .sel = sel};
+    struct subspaces_state *s = method->state;
+    struct pilot p = {.job = *job, .method = method};
     struct pixel_rect rect = rect_of(&p, 0);
-    double tiles = samples / (RENDERS * (double)rect_width(rect) * rect_height(rect)) + 0.75;
+    double tile = (double)rect_width(rect) * rect_height(rect);
+    int tiles = int_within(SAMPLES_PER_PIXEL * pixel_light_count(job) / (RENDERS * tile) + 0.75, 1, MOST_TILES);
     int n_slots = 2 * job->n_threads;
-    set_numbers(sel, USUAL, credit);
-    sel->counts.splat = pixel_light_count(job) / sel->path_pixels;
-    if (tiles < 1)
-        return;
-    set_numbers(sel, TRIED, credit);
+    set_numbers(s, TRIED, credit);
+    s->frozen.counts.splat = pixel_light_count(job) / s->frozen.path_pixels;
     p.job.seed = hash_combine(job->seed, 0x3c6ef372fe94f82bu); /* unlike the render's */
-    struct parallel_jobs jobs = {(int64_t)fmin(tiles, 1 << 20), job->n_threads, n_slots, &p, render_tile, add_tile};
+    struct parallel_jobs jobs = {tiles, job->n_threads, n_slots, &p, render_tile, add_tile};
     make_memory(&p, n_slots);
     parallel_run(&jobs);
     free_memory(&p, n_slots);
-    if (p.sums.total > 0)
-        choose_numbers(sel, &p.sums);
+    if (p.sums.total > 0 && !p.stopped)
+        choose_numbers(s, &p.sums);
     else
-        set_numbers(sel, USUAL, credit);
+        set_numbers(s, USUAL, credit);
 }

@@ -18,17 +18,17 @@
  *
  * Tests: test_asbdpt.c.
  */
-#ifndef ASBDPT_INTEGRATORS_PILOT_H
-#define ASBDPT_INTEGRATORS_PILOT_H
+#ifndef ASBDPT_PILOT_H
+#define ASBDPT_PILOT_H
 
-#include "integrators/select.h"
+#include "integrators/subspaces.h"
 
-/* pilot_run: choose connections, lights, path_pixels and the counts that go with them.
- *   sel      all else complete
- *   samples  pixel samples that may be spent; too few for one tile: a usual choice is made */
-void pilot_run(const struct render_job *job, struct selection *sel, double samples);
+/* pilot_run: choose draws, lights, path_pixels and the counts that go with them.
+ *   p  of method_subspaces; all but these complete. It renders a number of tiles that the picture's size alone decides,
+ *      unless job->watch ends it; then usual numbers are taken */
+void pilot_run(const struct render_job *job, struct preparation *p);
 
 /* pilot_set_draws: C draws per eye vertex, whatever was chosen. */
-void pilot_set_draws(struct selection *sel, double C);
+void pilot_set_draws(struct subspaces_state *s, double C);
 
 #endif

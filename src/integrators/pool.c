@@ -12,89 +12,90 @@
  *
  * Tests: test_asbdpt.c.
  */
-#include <stdlib.h>
+#include <stddef.h>
 
 #include "base/alias.h"
 #include "base/number.h"
-#include "integrators/select.h"
-#include "transport/pixel_sample.h"
+#include "integrators/asbdpt.h"
+
+struct pool_state {
+    struct frozen frozen;
+    int metric, grid;
+    double delta;
+    struct learnt learnt;
+};
 
 struct pool {
-    struct light_pool paths; /* the first, see select.h */
+    struct light_pool paths; /* the first, see pooled.h */
     double q[MAX_TILE_SIZE * MAX_TILE_SIZE];
     int order[MAX_TILE_SIZE * MAX_TILE_SIZE]; /* bin visited by each pixel */
     struct alias_table table;
 };
-
-static void *new_scratch(const void *selection)
-{
-    (void)selection;
-    return mem_alloc(1, sizeof(struct pool));
-}
 
 static void free_scratch(void *scratch)
 {
     struct pool *p = scratch;
     light_pool_free(&p->paths);
     alias_free(&p->table);
-    free(p);
 }
 
-static double path_importance(const struct selection *sel, const struct vertex *path, int n)
+static double path_importance(const struct pool_state *s, const struct vertex *path, int n)
 {
-    switch (sel->metric) {
-    case METRIC_CONSTANT: return 1;
-    case METRIC_THROUGHPUT: return select_throughput(path, n);
-    case METRIC_IMPORTANCE: return importance_of_path(&sel->importance, path, n);
-    }
-    return 1;
+    return s->metric == METRIC_CONSTANT     ? 1
+           : s->metric == METRIC_THROUGHPUT ? path_throughput(path, n)
+                                            : importance_of_path(&s->learnt.importance, path, n);
 }
 
-static void begin(void *scratch, const struct selection *sel, const struct tile_pass *pass, long iteration)
+static void begin(void *scratch, const void *state, const struct tile_pass *pass, long iteration)
 {
     struct pool *p = scratch;
+    const struct pool_state *s = state;
     int K = p->paths.n;
     double sum = 0;
     for (int k = 0; k < K; k++) {
-        double q = path_importance(sel, light_pool_path(&p->paths, k), p->paths.length[k]);
+        double q = path_importance(s, light_pool_path(&p->paths, k), p->paths.length[k]);
         sum += p->q[k] = q >= 0 && fits_float(q) ? q : 0; /* what delta leaves to all is enough to choose it by */
     }
-    double delta = sum > 0 ? sel->delta : 1;
+    double delta = sum > 0 ? s->delta : 1;
     for (int k = 0; k < K; k++)
         p->q[k] = (delta < 1 ? (1 - delta) * p->q[k] / sum : 0) + delta / K;
     alias_build(&p->table, p->q, K);
     light_pool_shuffle(&p->paths, pass, iteration, p->order);
 }
 
-/* For trace.h: the bin that the pixel visits, and which of its two sub-paths it takes. */
-static void tell(const struct pool *pool, struct trace *trace, int bin, double u, int k, double q, double W)
-{
-    const struct alias_bin *b = &pool->table.bin[bin];
-    trace_note(trace, "alias table over the K = %d light sub-paths of the tile: K bins, each visited by one pixel",
-               pool->paths.n);
-    trace_note(trace, "q_k = (1 - delta) I_k / sum I + delta / K, I the sub-path's importance");
-    trace_choose(trace, 0, light_pool_path(&pool->paths, k), pool->paths.length[k], 0, q, W,
-                 "bin %d holds sub-paths %d (q = %.4g, up to u = %.4f) and %d (q = %.4g); u = %.4f: %d, W = 1 / (K q)",
-                 bin, bin, b->pmf, b->threshold, (int)b->alias, b->alias_pmf, u, k);
-}
-
-static void connect(void *scratch, const struct selection *sel, struct pool_pixel *p)
+static void connect(void *scratch, const void *state, struct pooled_pixel *p)
 {
     struct pool *pool = scratch;
-    int bin = pool->order[p->number];
-    double q, u = sampler_next(&p->draws);
-    (void)sel;
-    int k = alias_sample_bin(&pool->table, bin, u, &q, NULL);
-    double W = 1 / (pool->paths.n * q);
-    if (p->sample.trace != NULL)
-        tell(pool, p->sample.trace, bin, u, k, q, W);
-    pixel_sum_pairs(&p->sample, p->eye, p->n, light_pool_path(&pool->paths, k), pool->paths.length[k], W);
+    struct choice choice;
+    (void)state;
+    int k = alias_sample_bin(&pool->table, pool->order[p->number], sampler_next(&p->draws), &choice.pmf, NULL);
+    choice.scale = 1 / (pool->paths.n * choice.pmf);
+    pixel_sum_pairs(&p->sample, p->eye, p->n, light_pool_path(&pool->paths, k), pool->paths.length[k], choice);
 }
 
-static void render(const void *selection, const struct tile_pass *pass)
+static void prepare(const struct render_job *job, struct preparation *out)
 {
-    static const struct pool_choice choice = {begin, connect, NULL};
-    light_pool_render(selection, pass, &choice);
+    struct pool_state *s = out->state;
+    asbdpt_learn(job, s->metric == METRIC_IMPORTANCE, s->grid, &s->learnt, &s->frozen);
 }
 
-const struct tile_renderer render_pool = {render, new_scratch, free_scratch};
+static void release(void *state)
+{
+    struct pool_state *s = state;
+    learnt_free(&s->learnt);
+}
+
+#define AT(member) offsetof(struct pool_state, member)
+static const struct method_parameter PARAMETERS[] = {
+    {"metric", PARAMETER_WORD, AT(metric), METRIC_IMPORTANCE, 0, 0, "what a light sub-path is chosen by", METRICS},
+    {"delta", PARAMETER_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore it", NULL},
+    {"grid", PARAMETER_INTEGER, AT(grid), 64, 1, 100000, "cells of the importance along the scene's diagonal", NULL},
+    {.name = NULL}};
+
+const struct method method_pool = {
+    .name = "asbdpt", .select = "pool", .help = "one alias table over the light sub-paths of a tile, weighted: unbiased",
+    .why = "alias table over the K light sub-paths of the tile, one bin for each pixel; q_k = (1 - delta) I_k / sum I + "
+           "delta / K, I the sub-path's importance; scale 1 / (K q)",
+    .parameters = PARAMETERS, .state_size = sizeof(struct pool_state), .scratch_size = sizeof(struct pool),
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .release = release, .render = pooled_render,
+    .scratch_free = free_scratch, .begin = begin, .connect = connect};

@@ -15,18 +15,15 @@
  *
  * Tests: test_asbdpt.c.
  */
+#include "integrators/subspaces.h"
+
+#include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "integrators/select.h"
-#include "transport/pixel_sample.h"
-
-/* A connectible vertex y_1, y_2 ... of the pool. */
-struct candidate {
-    const struct vertex *y;
-    int s;            /* vertices of the light sub-path ending there */
-    double L, before; /* luminance of beta; sum of those before it in its group */
-};
+#include "base/cumulative.h"
+#include "integrators/pilot.h"
 
 /* The candidates that lie in one region. */
 struct group {
@@ -35,64 +32,49 @@ struct group {
 };
 
 struct subspaces {
-    struct light_pool pool; /* the first, see select.h */
-    struct candidate *found, *candidate; /* [n], as traced and sorted by region; owned */
-    size_t found_capacity, candidate_capacity;
-    struct group *group; /* [n_groups], owned */
+    struct light_pool pool;        /* the first, see pooled.h */
+    struct candidates found;       /* as traced */
+    struct candidate *candidate;   /* [found.n], sorted by region; owned */
+    double *before;                /* [found.n], sum of L before it in its group; owned */
+    size_t candidate_capacity, before_capacity;
+    struct group *group; /* [n_groups], in the order of their regions; owned */
     size_t group_capacity;
     int *group_of; /* [light regions], owned */
-    double *row;   /* [n_rows * n_groups] cumulative sums of h(e,.) L of the groups; owned */
+    double *row;   /* [n_rows * (n_groups + 1)] sums of h(e,.) L of the groups before, and of all; owned */
     size_t row_capacity;
     int *row_of; /* [eye regions], row of a region, -1 if it was not met since the pool was filled; owned */
-    int n, n_groups, n_rows;
+    int n_groups, n_rows;
 };
 
-static void *new_scratch(const void *selection)
+static void init_scratch(void *scratch, const void *state)
 {
-    const struct selection *sel = selection;
-    struct subspaces *v = mem_alloc(1, sizeof *v);
-    v->group_of = mem_alloc((size_t)sel->learnt.light.n, sizeof *v->group_of);
-    v->row_of = mem_alloc((size_t)sel->learnt.eye.n, sizeof *v->row_of);
-    return v;
+    const struct subspaces_state *s = state;
+    struct subspaces *v = scratch;
+    v->group_of = mem_alloc((size_t)s->learnt.light.n, sizeof *v->group_of);
+    v->row_of = mem_alloc((size_t)s->learnt.eye.n, sizeof *v->row_of);
 }
 
 static void free_scratch(void *scratch)
 {
     struct subspaces *v = scratch;
     light_pool_free(&v->pool);
-    free(v->found);
+    free(v->found.item);
     free(v->candidate);
+    free(v->before);
     free(v->group);
     free(v->group_of);
     free(v->row);
     free(v->row_of);
-    free(v);
 }
 
 /* --- the pool's vertices by region ------------------------------------------------------------------- */
 
-static void find_candidates(struct subspaces *v)
-{
-    v->n = 0;
-    for (int k = 0; k < v->pool.n; k++) {
-        const struct vertex *path = light_pool_path(&v->pool, k);
-        for (int i = 1; i < v->pool.length[k]; i++) {
-            double L = rgb_luminance(path[i].beta);
-            if (!vertex_connectible(&path[i]) || !(L > 0))
-                continue;
-            v->found = mem_grow(v->found, &v->found_capacity, (size_t)v->n + 1, sizeof *v->found);
-            struct candidate c = {&path[i], i + 1, L, 0};
-            v->found[v->n++] = c;
-        }
-    }
-}
-
-/* Groups in the order of their regions' numbers. */
+/* Count the candidates of every region; room for each region's in turn. */
 static void make_groups(struct subspaces *v, int n_regions)
 {
     memset(v->group_of, 0, (size_t)n_regions * sizeof *v->group_of);
-    for (int i = 0; i < v->n; i++)
-        v->group_of[v->found[i].y->light_region]++;
+    for (int i = 0; i < v->found.n; i++)
+        v->group_of[v->found.item[i].y->light_region] += v->found.item[i].L > 0;
     v->n_groups = 0;
     for (int region = 0, first = 0; region < n_regions; region++) {
         int n = v->group_of[region];
@@ -106,107 +88,138 @@ static void make_groups(struct subspaces *v, int n_regions)
     }
 }
 
-static void begin(void *scratch, const struct selection *sel, const struct tile_pass *pass, long iteration)
+static void begin(void *scratch, const void *state, const struct tile_pass *pass, long iteration)
 {
     struct subspaces *v = scratch;
+    const struct subspaces_state *s = state;
     (void)pass;
     (void)iteration;
-    find_candidates(v);
-    make_groups(v, sel->learnt.light.n);
-    v->candidate = mem_grow(v->candidate, &v->candidate_capacity, (size_t)v->n, sizeof *v->candidate);
-    for (int i = 0; i < v->n; i++) {
-        struct candidate c = v->found[i];
+    candidates_find(&v->found, &v->pool);
+    make_groups(v, s->learnt.light.n);
+    size_t n = (size_t)v->found.n;
+    v->candidate = mem_grow(v->candidate, &v->candidate_capacity, n, sizeof *v->candidate);
+    v->before = mem_grow(v->before, &v->before_capacity, n, sizeof *v->before);
+    for (int i = 0; i < v->found.n; i++) {
+        struct candidate c = v->found.item[i];
+        if (!(c.L > 0))
+            continue; /* it carries nothing */
         struct group *g = &v->group[v->group_of[c.y->light_region]];
-        c.before = g->L;
+        v->candidate[g->first + g->n] = c;
+        v->before[g->first + g->n++] = g->L;
         g->L += c.L;
-        v->candidate[g->first + g->n++] = c;
     }
     v->n_rows = 0;
-    for (int e = 0; e < sel->learnt.eye.n; e++)
+    for (int e = 0; e < s->learnt.eye.n; e++)
         v->row_of[e] = -1;
 }
 
 /* --- drawing ----------------------------------------------------------------------------------------- */
 
 /* The cumulative sums of an eye region, made when it is first met. */
-static const double *row_of_region(struct subspaces *v, const struct selection *sel, int e)
+static const double *row_of_region(struct subspaces *v, const struct learnt *learnt, int e)
 {
     size_t n = (size_t)v->n_groups;
     if (v->row_of[e] < 0) {
-        const double *h = pairs_row(&sel->learnt.pairs, e);
-        v->row = mem_grow(v->row, &v->row_capacity, (size_t)(v->n_rows + 1) * n, sizeof *v->row);
-        double *row = &v->row[(size_t)v->n_rows * n], sum = 0;
+        const double *h = pairs_row(&learnt->pairs, e);
+        v->row = mem_grow(v->row, &v->row_capacity, (size_t)(v->n_rows + 1) * (n + 1), sizeof *v->row);
+        double *row = &v->row[(size_t)v->n_rows * (n + 1)];
+        row[0] = 0;
         for (size_t g = 0; g < n; g++)
-            row[g] = sum += h[v->group[g].region] * v->group[g].L;
+            row[g + 1] = row[g] + h[v->group[g].region] * v->group[g].L;
         v->row_of[e] = v->n_rows++;
     }
-    return &v->row[(size_t)v->row_of[e] * n];
+    return &v->row[(size_t)v->row_of[e] * (n + 1)];
 }
 
-static const struct candidate *draw(const struct subspaces *v, const double *row, double u, double *pmf)
+/* Region, then vertex, with the number u. */
+static const struct candidate *find(const struct subspaces *v, const double *row, double u, double *pmf)
 {
-    double total = row[v->n_groups - 1], target = u * total;
-    int low = 0, high = v->n_groups - 1; /* the first group that ends beyond the target */
-    while (low < high) {
-        int middle = low + (high - low) / 2;
-        if (row[middle] > target)
-            high = middle;
-        else
-            low = middle + 1;
-    }
-    const struct group *g = &v->group[low];
-    double before = low > 0 ? row[low - 1] : 0, share = row[low] - before;
-    double within = (target - before) / share * g->L;
-    int drawn = g->first, end = g->first + g->n; /* the last candidate that begins at or before it */
-    while (end - drawn > 1) {
-        int middle = drawn + (end - drawn) / 2;
-        if (v->candidate[middle].before <= within)
-            drawn = middle;
-        else
-            end = middle;
-    }
-    *pmf = share / total * v->candidate[drawn].L / g->L;
-    return &v->candidate[drawn];
-}
-
-/* For trace.h: draw c of n for the eye vertex z. */
-static void tell(const struct subspaces *v, const struct selection *sel, struct trace *trace, const struct vertex *z,
-                 int t, const struct candidate *y, int c, int n, double P, double scale)
-{
-    double C = sel->connections[t > 2], h = pairs_row(&sel->learnt.pairs, z->eye_region)[y->y->light_region];
-    if (trace->n_draws == 0)
-        trace_note(trace, "the %d connectible vertices of the tile's K = %d light sub-paths, in %d regions", v->n,
-                   v->pool.n, v->n_groups);
-    trace_choose(trace, t, y->y - (y->s - 1), y->s, y->s, P, scale,
-                 "draw %d of %d (C = %.4g): from eye region %d light region %d is worth h = %.4g; scale 1 / (C K P)",
-                 c + 1, n, C, z->eye_region, y->y->light_region, h);
+    double total = row[v->n_groups], target = u * total;
+    int number = cumulative_find(row, v->n_groups, target);
+    const struct group *g = &v->group[number];
+    double share = row[number + 1] - row[number], within = (target - row[number]) / share * g->L;
+    int i = g->first + cumulative_find(&v->before[g->first], g->n, within);
+    *pmf = share / total * v->candidate[i].L / g->L;
+    return &v->candidate[i];
 }
 
 /* C draws on average for one eye vertex, stratified. */
-static void connect_drawn(void *scratch, const struct selection *sel, struct pixel_sample *g,
-                          const struct vertex *z, int t, struct sampler *sampler)
+static void draw(void *scratch, const void *state, struct pooled_pixel *p, const struct vertex *z, int t)
 {
     struct subspaces *v = scratch;
-    if (v->n == 0)
+    const struct subspaces_state *s = state;
+    if (v->n_groups == 0)
         return;
-    double C = sel->connections[t > 2], whole = floor(C);
-    int n = (int)whole + (C > whole && sampler_next(sampler) < C - whole);
-    const double *row = n > 0 ? row_of_region(v, sel, z->eye_region) : NULL;
+    double C = s->draws[z->eye_end], whole = floor(C);
+    int n = (int)whole + (C > whole && sampler_next(&p->draws) < C - whole);
+    const double *row = n > 0 ? row_of_region(v, &s->learnt, z->eye_region) : NULL;
     for (int c = 0; c < n; c++) {
-        double pmf;
-        const struct candidate *y = draw(v, row, (c + sampler_next(sampler)) / n, &pmf);
-        double scale = 1 / (C * pmf * v->pool.n);
-        if (g->trace != NULL)
-            tell(v, sel, g->trace, z, t, y, c, n, pmf, scale);
-        if (y->s + t <= g->max_depth + 2)
-            pixel_sum_pair(g, y->y, y->s, z, t, scale);
+        struct choice choice;
+        const struct candidate *y = find(v, row, (c + sampler_next(&p->draws)) / n, &choice.pmf);
+        choice.scale = 1 / (C * choice.pmf * v->pool.n);
+        pooled_join(p, y, z, t, choice);
     }
 }
 
-static void render(const void *selection, const struct tile_pass *pass)
+/* --- preparing --------------------------------------------------------------------------------------- */
+
+enum { LIGHT_CELLS = 16 }; /* light regions along the diagonal */
+
+static void tell(const struct subspaces_state *s, struct preparation *out)
 {
-    static const struct pool_choice choice = {begin, NULL, connect_drawn};
-    light_pool_render(selection, pass, &choice);
+    const struct frozen *f = &s->frozen;
+    const struct film_number numbers[] = {
+        {"draws_first_hit", s->draws[FIRST_HIT]}, {"draws_after", s->draws[LATER_HIT]},
+        {"light_points_first_hit", f->lights}, {"pixels_per_light_path", f->path_pixels},
+        {"eye_regions", s->learnt.eye.n}, {"light_regions", s->learnt.light.n}};
+    memcpy(out->number, numbers, sizeof numbers); /* fewer than there is room for: a NULL name stays behind them */
+    snprintf(out->note, sizeof out->note,
+             "chosen per eye vertex: %.2f draws at the first hit, %.2f after; %d light point%s at the first hit; and "
+             "%d pixel%s per light sub-path",
+             s->draws[FIRST_HIT], s->draws[LATER_HIT], f->lights, f->lights == 1 ? "" : "s", f->path_pixels,
+             f->path_pixels == 1 ? "" : "s");
 }
 
-const struct tile_renderer render_subspaces = {render, new_scratch, free_scratch};
+/* What the user gave is kept; the pilot chooses the rest. */
+static void prepare(const struct render_job *job, struct preparation *out)
+{
+    struct subspaces_state *s = out->state;
+    struct frozen *f = &s->frozen;
+    int path_pixels = f->path_pixels;
+    const struct wish wish = {.importance = true, .guide = asbdpt_guided(job), .pairs = true,
+                              .eye_cells = GUIDE_CELLS, .light_cells = LIGHT_CELLS, .levels = REGION_LEVELS,
+                              .delta = s->delta};
+    out->size.tile = MAX_TILE_SIZE; /* a larger pool */
+    learn(job, &wish, &s->learnt);
+    f->counts.model = &s->learnt.model;
+    pilot_run(job, out);
+    if (s->connections > 0)
+        pilot_set_draws(s, s->connections);
+    if (path_pixels > 0)
+        f->path_pixels = path_pixels;
+    f->counts.splat = pixel_light_count(job) / f->path_pixels;
+    tell(s, out);
+}
+
+static void release(void *state)
+{
+    struct subspaces_state *s = state;
+    learnt_free(&s->learnt);
+}
+
+#define AT(member) offsetof(struct subspaces_state, member)
+static const struct method_parameter PARAMETERS[] = {
+    {"connections", PARAMETER_INTEGER, AT(connections), 0, 0, 1024,
+     "light vertices drawn for each eye vertex; 0: chosen", NULL},
+    {"pathpixels", PARAMETER_INTEGER, AT(frozen.path_pixels), 0, 0, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
+     "pixels for each light sub-path; 0: chosen", NULL},
+    {"delta", PARAMETER_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore what was learnt", NULL},
+    {.name = NULL}};
+
+const struct method method_subspaces = {
+    .name = "asbdpt", .select = "subspaces", .help = "light vertices by what they are worth where the eye vertex is",
+    .why = "C draws for each eye vertex from the connectible vertices of the tile's K light sub-paths, in proportion "
+           "to h(e,l) luminance(beta), by the regions of both; scale 1 / (C K P)",
+    .parameters = PARAMETERS, .state_size = sizeof(struct subspaces_state), .scratch_size = sizeof(struct subspaces),
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .release = release, .render = pooled_render,
+    .scratch_init = init_scratch, .scratch_free = free_scratch, .begin = begin, .draw = draw};

@@ -1,4 +1,4 @@
-/* vertices.c: `select = vertices`, `lvc`: every eye vertex draws light vertices from one table over a tile's pool.
+/* vertices.c: `select = vertices`: every eye vertex draws light vertices from one table over a tile's pool.
  *
  * A light vertex y_{s-1} *is* the sub-path y_0 ... y_{s-1} that leads to it: a pool of vertices to draw from, as the
  * light vertex cache [Davidovic 2014], which draws uniformly. All connectible ones of the K sub-paths of a tile and
@@ -13,117 +13,142 @@
  *
  * The MIS weights know about it: strategies s >= 2, t >= 2 ending at light position x take about n(x) samples per
  * pixel, a function of the surface point alone, so all strategies of a path agree on it (mis.h). The 2 is a credit,
- * which s = 1 has too (VERTICES_CREDIT of asbdpt.c says why); any frozen count is unbiased.
- *
- * `select = lvc` is the light vertex cache itself, a rival: all V vertices are equally likely, q_v = 1/V. An eye vertex
- * takes each of them C/V times, where BDPT, with one of K sub-paths, takes it 1/K times: C K/V times as often, about
- * C/l, l being the expected number of connectible vertices of a light sub-path. That is the count, with no credit. l is
- * frozen by a pre-pass: the pool's own V/K would make a vertex' weight depend on what else is in the pool, which biases
- * small pools.
+ * which s = 1 has too (CREDIT says why); any frozen count is unbiased.
  *
  * Tests: test_asbdpt.c.
  */
+#include <stddef.h>
 #include <stdlib.h>
 
 #include "base/alias.h"
 #include "base/number.h"
-#include "integrators/select.h"
-#include "transport/pixel_sample.h"
+#include "integrators/asbdpt.h"
 
-struct vertices {
-    struct light_pool pool; /* the first, see select.h */
-    const struct vertex **candidate; /* [n], connectible light vertices; owned */
-    int *s;                          /* [n], vertices of the light sub-path ending there; owned */
-    double *q;                       /* [n], weights of the table; owned */
-    size_t candidate_capacity, s_capacity, q_capacity;
-    struct alias_table table;
+struct vertices_state {
+    struct frozen frozen; /* path_pixels 0, connections 0: chosen */
+    int metric, grid, connections;
+    double delta;
+    struct learnt learnt;
 };
 
-static void *new_scratch(const void *selection)
-{
-    (void)selection;
-    return mem_alloc(1, sizeof(struct vertices));
-}
+struct vertices {
+    struct light_pool pool; /* the first, see pooled.h */
+    struct candidates found;
+    double *q;              /* [found.n], weights of the table; owned */
+    size_t q_capacity;
+    struct alias_table table;
+};
 
 static void free_scratch(void *scratch)
 {
     struct vertices *v = scratch;
     light_pool_free(&v->pool);
-    free(v->candidate);
-    free(v->s);
+    free(v->found.item);
     free(v->q);
     alias_free(&v->table);
-    free(v);
 }
 
-/* The weight of a vertex in the table. One that carries no usable amount of light is never drawn. */
-static double weight_of(const struct selection *sel, const struct vertex *y, struct tile *tile)
-{
-    if (sel->select == SELECT_LVC)
-        return 1;
-    double q = rgb_luminance(y->beta) * mis_connect_count(&sel->counts, y->light_region, 0, true);
-    if (q >= 0 && fits_float(q))
-        return q;
-    tile->nonfinite++;
-    return 0;
-}
+/* --- drawing ----------------------------------------------------------------------------------------- */
 
-/* The table over the pool's connectible vertices y_1, y_2 ... */
-static void begin(void *scratch, const struct selection *sel, const struct tile_pass *pass, long iteration)
+/* One that carries no usable amount of light is never drawn. */
+static void begin(void *scratch, const void *state, const struct tile_pass *pass, long iteration)
 {
     struct vertices *v = scratch;
-    size_t n = 0;
+    const struct vertices_state *s = state;
     (void)iteration;
-    for (int k = 0; k < v->pool.n; k++) {
-        const struct vertex *path = light_pool_path(&v->pool, k);
-        for (int i = 1; i < v->pool.length[k]; i++) {
-            if (!vertex_connectible(&path[i]))
-                continue;
-            v->candidate = mem_grow(v->candidate, &v->candidate_capacity, n + 1, sizeof *v->candidate);
-            v->s = mem_grow(v->s, &v->s_capacity, n + 1, sizeof *v->s);
-            v->q = mem_grow(v->q, &v->q_capacity, n + 1, sizeof *v->q);
-            v->candidate[n] = &path[i];
-            v->s[n] = i + 1;
-            v->q[n++] = weight_of(sel, &path[i], pass->tile);
-        }
+    candidates_find(&v->found, &v->pool);
+    v->q = mem_grow(v->q, &v->q_capacity, (size_t)v->found.n, sizeof *v->q);
+    for (int i = 0; i < v->found.n; i++) {
+        const struct candidate *c = &v->found.item[i];
+        double q = c->L * mis_connect_count(&s->frozen.counts, c->y->light_region, 0, FIRST_HIT);
+        bool usable = q >= 0 && fits_float(q);
+        v->q[i] = usable ? q : 0;
+        pass->tile->nonfinite += !usable;
     }
-    alias_build(&v->table, v->q, (int)n);
-}
-
-/* For trace.h: draw c of C. */
-static void tell(const struct vertices *v, struct trace *trace, int t, int i, int c, int C, double u, double q,
-                 double scale)
-{
-    const struct vertex *y = v->candidate[i];
-    if (trace->n_draws == 0)
-        trace_note(trace, "alias table over the V = %d connectible vertices of the tile's K = %d light sub-paths",
-                   v->table.n, v->pool.n);
-    trace_choose(trace, t, y - (v->s[i] - 1), v->s[i], v->s[i], q, scale,
-                 "draw %d of C = %d, u = %.4f in [%d/%d, %d/%d): vertex %d of V, region %d; scale 1 / (C K q)", c + 1,
-                 C, u, c, C, c + 1, C, i, y->light_region);
+    alias_build(&v->table, v->q, v->found.n);
 }
 
 /* C draws for one eye vertex, stratified over the table. */
-static void connect_drawn(void *scratch, const struct selection *sel, struct pixel_sample *g,
-                          const struct vertex *z, int t, struct sampler *sampler)
+static void draw(void *scratch, const void *state, struct pooled_pixel *p, const struct vertex *z, int t)
 {
     const struct vertices *v = scratch;
-    int C = v->table.n > 0 ? (int)sel->connections[0] : 0;
+    const struct vertices_state *s = state;
+    int C = v->table.n > 0 ? s->connections : 0;
     for (int c = 0; c < C; c++) {
-        double q, u = (c + sampler_next(sampler)) / C;
-        int i = alias_sample(&v->table, u, &q, NULL);
-        double scale = 1 / (C * q * v->pool.n);
-        if (g->trace != NULL)
-            tell(v, g->trace, t, i, c, C, u, q, scale);
-        if (v->s[i] + t <= g->max_depth + 2)
-            pixel_sum_pair(g, v->candidate[i], v->s[i], z, t, scale);
+        struct choice choice;
+        int i = alias_sample(&v->table, (c + sampler_next(&p->draws)) / C, &choice.pmf, NULL);
+        choice.scale = 1 / (C * choice.pmf * v->pool.n);
+        pooled_join(p, &v->found.item[i], z, t, choice);
     }
 }
 
-static void render(const void *selection, const struct tile_pass *pass)
+/* --- preparing --------------------------------------------------------------------------------------- */
+
+/* What draws, and the one sample of s = 1, count for in the weights (mis.h): draws are stratified over a table, and the
+ * point on the light comes from a low-discrepancy sequence. */
+static const double CREDIT = 2;
+
+/* As many draws as are needed, on average, to meet one light vertex that the camera can make use of; between 2, below
+ * which tracing the sub-paths costs more than connecting them, and 8, where shadow rays begin to dominate. A rule of
+ * our own. */
+static int choose_connections(const struct importance *g)
 {
-    static const struct pool_choice choice = {begin, NULL, connect_drawn};
-    light_pool_render(selection, pass, &choice);
+    return int_within(1 / g->useful + 0.5, 2, 8); /* `useful` of a scene in which nothing arrives is 0 */
 }
 
-const struct tile_renderer render_vertices = {render, new_scratch, free_scratch};
+/* h(l) = (1 - delta) E(l) / mean + delta, for every eye vertex alike. */
+static void pairs_from_importance(struct vertices_state *s)
+{
+    struct learnt *l = &s->learnt;
+    double *row = mem_alloc((size_t)l->light.n, sizeof *row);
+    for (int y = 0; y < l->light.n; y++)
+        row[y] = (1 - s->delta) * importance_in(&l->importance, y) / l->importance.mean + s->delta;
+    pairs_from_row(&l->pairs, row, l->light.n);
+    l->paired = true;
+    learnt_freeze(l);
+    free(row);
+}
+
+static void prepare(const struct render_job *job, struct preparation *out)
+{
+    struct vertices_state *s = out->state;
+    struct frozen *f = &s->frozen;
+    bool importance = s->metric == METRIC_IMPORTANCE;
+    asbdpt_learn(job, importance, s->grid, &s->learnt, f);
+    if (s->connections == 0)
+        s->connections = importance ? choose_connections(&s->learnt.importance) : 4;
+    if (f->path_pixels == 0)
+        f->path_pixels = 2;
+    for (int end = 0; end < EYE_ENDS; end++) {
+        f->counts.connect[end] = CREDIT * s->connections;
+        f->counts.direct[end] = CREDIT;
+    }
+    f->counts.splat /= f->path_pixels;
+    if (importance && s->learnt.importance.mean > 0)
+        pairs_from_importance(s);
+}
+
+static void release(void *state)
+{
+    struct vertices_state *s = state;
+    learnt_free(&s->learnt);
+}
+
+#define AT(member) offsetof(struct vertices_state, member)
+static const struct method_parameter PARAMETERS[] = {
+    {"connections", PARAMETER_INTEGER, AT(connections), 0, 0, 1024,
+     "light vertices drawn for each eye vertex; 0: chosen", NULL},
+    {"pathpixels", PARAMETER_INTEGER, AT(frozen.path_pixels), 0, 0, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
+     "pixels for each light sub-path; 0: 2", NULL},
+    {"metric", PARAMETER_WORD, AT(metric), METRIC_IMPORTANCE, 0, 0, "what a light vertex is chosen by", METRICS},
+    {"delta", PARAMETER_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore it", NULL},
+    {"grid", PARAMETER_INTEGER, AT(grid), 64, 1, 100000, "cells of the importance along the scene's diagonal", NULL},
+    {.name = NULL}};
+
+const struct method method_vertices = {
+    .name = "asbdpt", .select = "vertices", .help = "one alias table over the light vertices of a tile",
+    .why = "C draws for each eye vertex from an alias table over the connectible vertices of the tile's K light "
+           "sub-paths, q in proportion to luminance(beta) n(x); scale 1 / (C K q)",
+    .parameters = PARAMETERS, .state_size = sizeof(struct vertices_state), .scratch_size = sizeof(struct vertices),
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .release = release, .render = pooled_render,
+    .scratch_free = free_scratch, .begin = begin, .draw = draw};

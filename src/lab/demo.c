@@ -130,7 +130,7 @@ static void draw_sheet(const struct show *s, struct sheet *sheet)
     sheet_init(sheet, (DEMO_SIDES + 1) * (s->width * k + GAP) + GAP, LABEL + s->height * k + 2 * GAP, SHEET_PAPER);
     for (int i = 0; i < DEMO_SIDES; i++) {
         snprintf(cost, sizeof cost, "%ld samples per pixel, %.1f s of CPU", s->side[i].spp, s->side[i].seconds);
-        draw_column(sheet, i, s->demo->integrator[i]->name, "error", s->side[i].rmse8, cost, s->picture[i],
+        draw_column(sheet, i, s->demo->integrator[i], "error", s->side[i].rmse8, cost, s->picture[i],
                     s->width, s->height, k);
     }
     snprintf(cost, sizeof cost, s->demo->scale > 1 ? "means of %d x %d pixels" : "stored", s->demo->scale,

@@ -14,13 +14,13 @@
 
 #include "base/error.h"
 #include "image/sheet.h"
-#include "integrators/integrator.h"
+#include "integrators/method.h"
 
 enum { DEMO_SIDES = 2 };
 
 struct demo {
     const char *scene, *reference; /* reference as in plan.h: file, directory, or NULL */
-    const struct integrator *integrator[DEMO_SIDES]; /* with their defaults; the first one's time counts */
+    const char *integrator[DEMO_SIDES]; /* with their defaults; the first one's time counts */
     long spp;                                        /* of the first */
     int scale;                                       /* k */
     int n_threads;

@@ -30,7 +30,7 @@ struct subject {
 static struct render_options options_of(struct subject *s, int variant, long seed)
 {
     const struct variant *v = &EQUAL_VARIANTS[variant];
-    struct render_options o = {.integrator = integrator_find(v->integrator), .seed = (uint64_t)seed, .n_threads = 1};
+    struct render_options o = {.integrator = v->integrator, .seed = (uint64_t)seed, .n_threads = 1};
     settings_clear(&s->scene.settings); /* defaults: what is compared is what a user gets */
     if (v->select != NULL)
         settings_set(&s->scene.settings, "select", v->select, "experiment");

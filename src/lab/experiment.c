@@ -54,7 +54,7 @@ static struct render_options options_of(struct scene_experiment *s, int variant,
 {
     variant_settings(&VARIANTS[variant], &s->scene.settings);
     struct render_options o = {
-        .integrator = integrator_find(VARIANTS[variant].integrator), .seed = (uint64_t)seed, .end = end};
+        .integrator = VARIANTS[variant].integrator, .seed = (uint64_t)seed, .end = end};
     o.n_threads = s->whole->plan->n_threads;
     o.max_depth = s->out->max_depth;
     o.progress = show_progress;

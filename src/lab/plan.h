@@ -16,7 +16,7 @@
 struct variant {
     const char *name;       /* in files and tables of numbers */
     const char *label;      /* for readers */
-    const char *integrator; /* as integrator_find knows it */
+    const char *integrator; /* as method_find knows it */
     const char *select;     /* asbdpt's; NULL for bdpt */
     int bin_paths, restart; /* bins only, else 0 */
     bool quick;             /* part of a quick experiment */

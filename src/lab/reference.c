@@ -198,7 +198,7 @@ bool reference_render(const struct scene *scene, const struct render_options *op
         for (size_t i = 0; i < n; i++)
             a[i] = 0.5f * (a[i] + b[i]);
         snprintf(out->origin, sizeof out->origin,
-                 "rendered by this program: %s, two halves of %ld spp, seeds %lu and %lu", options->integrator->name,
+                 "rendered by this program: %s, two halves of %ld spp, seeds %lu and %lu", options->integrator,
                  half, (unsigned long)options->seed, (unsigned long)options->seed + 1);
         out->pixels = a;
         out->width = scene->width;

@@ -94,7 +94,7 @@ bool side_render(const struct scene *scene, const struct render_options *options
                  struct side *out, struct error *err)
 {
     struct progress bar;
-    out->name = options->integrator->name;
+    out->name = options->integrator;
     out->width = rect_width(render_crop(scene));
     out->height = rect_height(render_crop(scene));
     out->pixels = batches_new(n_batches, 3L * out->width * out->height, false);
@@ -125,13 +125,13 @@ bool side_choose_resolution(struct scene *scene, const struct side *like, struct
 }
 
 long side_choose_spp(const struct scene *scene, const struct render_options *options,
-                     const struct integrator *const integrator[2], int n_batches, struct error *err)
+                     const struct method *const integrator[2], int n_batches, struct error *err)
 {
     struct render_options pilot = *options;
     double start = os_wall_seconds();
     pilot.end = PILOT_SPP;
     for (int i = 0; i < 2 && integrator[i] != NULL; i++) {
-        pilot.integrator = integrator[i];
+        pilot.integrator = integrator[i]->name;
         if (!render_batch(scene, &pilot, 1, NULL, err))
             return 0;
     }

@@ -38,7 +38,7 @@ bool side_choose_resolution(struct scene *scene, const struct side *like, struct
 /* side_choose_spp: samples per pixel so that the batches of one or two integrators (then integrator[1] is not NULL)
  * take about 40 seconds; 0 with a message when they cannot be rendered. */
 long side_choose_spp(const struct scene *scene, const struct render_options *options,
-                     const struct integrator *const integrator[2], int n_batches, struct error *err);
+                     const struct method *const integrator[2], int n_batches, struct error *err);
 
 /* side_choose_tile: side of tiles that are large enough for means that are nearly normal, and not too many. */
 int side_choose_tile(const struct side *s);

@@ -37,27 +37,6 @@ static void put_path(struct json *j, const char *name, const struct scene *scene
     json_close(j);
 }
 
-static void put_choices(struct json *j, const struct trace *t)
-{
-    json_open(j, "from", '[');
-    for (int i = 0; i < t->n_notes; i++)
-        json_text(j, NULL, t->note[i]);
-    json_close(j);
-    json_open(j, "choices", '[');
-    for (int i = 0; i < t->n_draws; i++) {
-        const struct trace_draw *d = &t->draw[i];
-        json_open(j, NULL, '{');
-        json_number(j, "t", d->t);
-        json_number(j, "light_path", d->light);
-        json_number(j, "s", d->s);
-        json_number(j, "probability", d->probability);
-        json_number(j, "times", d->scale);
-        json_text(j, "why", d->why);
-        json_close(j);
-    }
-    json_close(j);
-}
-
 static void put_connections(struct json *j, const struct trace *t)
 {
     json_open(j, "connections", '[');
@@ -67,7 +46,7 @@ static void put_connections(struct json *j, const struct trace *t)
         json_number(j, "s", c->s);
         json_number(j, "t", c->t);
         json_number(j, "light_path", c->light);
-        json_number(j, "choice", c->draw);
+        json_number(j, "probability", c->pmf);
         put_rgb(j, "unweighted", c->c.value);
         json_number(j, "times", c->scale);
         json_number(j, "weight", c->c.weight);
@@ -104,7 +83,8 @@ void trace_json(FILE *f, const struct trace_story *s)
     for (int i = 0; i < t->n_lights; i++)
         put_path(&j, NULL, s->scene, &t->light[i]);
     json_close(&j);
-    put_choices(&j, t);
+    json_text(&j, "why", t->why);
+    json_text(&j, "note", t->note);
     put_connections(&j, t);
     put_rgb(&j, "sum", trace_sum(t));
     json_close(&j);

@@ -7,14 +7,14 @@
 
 #include <stdio.h>
 
-#include "integrators/integrator.h"
+#include "integrators/method.h"
 #include "transport/trace.h"
 
 /* What is told, and of what. */
 struct trace_story {
     const char *scene_path;
     const struct scene *scene;
-    const struct integrator *integrator;
+    const struct method *integrator;
     uint64_t seed;
     const struct trace *trace;
 };

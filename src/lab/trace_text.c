@@ -122,39 +122,16 @@ static void print_paths(FILE *f, const struct trace_story *s)
             "deltas\n");
 }
 
-/* --- choices ----------------------------------------------------------------------------------------- */
-
-static void print_choices(FILE *f, const struct trace *t)
-{
-    if (t->n_notes + t->n_draws == 0)
-        return;
-    fprintf(f, "\nCHOICES of what to connect with\n");
-    for (int i = 0; i < t->n_notes; i++)
-        fprintf(f, "  %s\n", t->note[i]);
-    for (int i = 0; i < t->n_draws; i++) {
-        const struct trace_draw *d = &t->draw[i];
-        char taken[64] = "all of a light sub-path", for_whom[32] = "the eye sub-path";
-        if (d->s > 0)
-            name_y(t, d->light, d->s - 1, taken, sizeof taken);
-        else if (t->n_lights > 1)
-            snprintf(taken, sizeof taken, "light sub-path (%d)", d->light + 1);
-        if (d->t > 0)
-            snprintf(for_whom, sizeof for_whom, "z_%d", d->t - 1);
-        fprintf(f, "  #%-3d %s for %s: probability %.4g, contributions times %.4g\n       %s\n", i + 1, taken, for_whom,
-                d->probability, d->scale, d->why);
-    }
-}
-
 /* --- connections ------------------------------------------------------------------------------------- */
 
 static void print_connection(FILE *f, const struct trace *t, const struct trace_connection *c)
 {
-    char strategy[32], joined[64], choice[16] = "";
+    char strategy[32], joined[64], chance[16] = "";
     snprintf(strategy, sizeof strategy, "(%d,%d)", c->s, c->t);
     name_joined(t, c, joined, sizeof joined);
-    if (c->draw >= 0)
-        snprintf(choice, sizeof choice, "#%d", c->draw + 1);
-    fprintf(f, "  %-7s %-15s %-6s", strategy, joined, choice);
+    if (c->pmf < 1)
+        snprintf(chance, sizeof chance, "%.3g", c->pmf);
+    fprintf(f, "  %-7s %-15s %-9s", strategy, joined, chance);
     if (rgb_is_black(c->c.value)) {
         fprintf(f, " %9d\n", 0);
         return;
@@ -169,8 +146,8 @@ static void print_connection(FILE *f, const struct trace *t, const struct trace_
 static int print_connections(FILE *f, const struct trace *t, bool splats)
 {
     int n = 0;
-    fprintf(f, "  %-7s %-15s %-6s %29s  %9s  %7s  %29s%s\n", "(s,t)", "joined",
-            t->n_draws > 0 && !splats ? "choice" : "", "C*: r g b", "times", "weight", "added: r g b",
+    fprintf(f, "  %-7s %-15s %-9s %29s  %9s  %7s  %29s%s\n", "(s,t)", "joined",
+            t->why != NULL && !splats ? "chosen" : "", "C*: r g b", "times", "weight", "added: r g b",
             splats ? "  at raster point" : "");
     for (int i = 0; i < t->n_connections; i++)
         if ((t->connection[i].t == 1) == splats) {
@@ -215,16 +192,20 @@ void trace_text(FILE *f, const struct trace_story *s)
             s->integrator->name, (unsigned long long)s->seed);
     fprintf(f, "\n(s,t): a path of s vertices from the light, y_0 ... y_{s-1}, and t from the eye, z_{t-1} ... z_0.\n");
     print_paths(f, s);
-    print_choices(f, t);
+    if (t->why != NULL)
+        fprintf(f, "\nCHOICE of what to connect with: %s\n", t->why);
+    if (t->note[0] != '\0')
+        fprintf(f, "  %s\n", t->note);
     fprintf(f, "\nCONNECTIONS, t >= 2: C* times the next two columns is added to the pixel\n");
     print_connections(f, t, false);
-    fprintf(f, "  %-81s %9.4g %9.4g %9.4g\n", "sum, which the film receives", sum.r, sum.g, sum.b);
+    fprintf(f, "  %-84s %9.4g %9.4g %9.4g\n", "sum, which the film receives", sum.r, sum.g, sum.b);
     print_shares(f, t);
     fprintf(f, "\nCONNECTIONS, t = 1: light sub-paths joined to the lens, added wherever they are seen\n");
     if (print_connections(f, t, true) == 0)
         fprintf(f, "  none in this sample\n");
     fprintf(f,
-            "\n  C*      what one sample of the strategy alone would bring, not weighted: W/(m^2 sr)\n"
+            "\n  chosen  probability of the draw, where there was a choice\n"
+            "  C*      what one sample of the strategy alone would bring, not weighted: W/(m^2 sr)\n"
             "  times   1/number of samples, filter weight (%.4g here), 1/probability of the choice where that is made "
             "up for\n"
             "  weight  share of the strategy in multiple importance sampling; of one path they add up to 1 over (s,t)\n"

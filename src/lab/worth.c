@@ -9,7 +9,7 @@
 #include "base/mem.h"
 #include "base/number.h"
 #include "image/colormap.h"
-#include "integrators/asbdpt.h"
+#include "integrators/subspaces.h"
 #include "render/aov.h"
 #include "transport/pixel_sample.h"
 
@@ -102,16 +102,14 @@ bool worth_values(const struct scene *scene, const struct render_options *option
     struct view v = {.worth = worth, .draws = draws};
     struct preparation prepared;
     struct pixel_rect all = {0, 0, scene->width, scene->height};
-    if (options->integrator != &integrator_asbdpt)
-        return error_set(err, "only asbdpt learns what places are worth to each other");
     if (!render_prepare(scene, options, all, &v.job, &prepared, err))
         return false;
-    v.learnt = v.counts.learnt = asbdpt_learnt(prepared.state);
-    v.counts.direct[0] = v.counts.direct[1] = 1;
+    v.counts = ((const struct frozen *)prepared.state)->counts;
+    v.learnt = prepared.method == &method_subspaces ? v.counts.model->learnt : NULL;
     v.work = workspaces_new(1, v.job.max_depth);
     bool ok = fill(&v, x, y, err);
     workspaces_free(v.work, 1);
-    options->integrator->release(prepared.state);
+    method_release(&prepared);
     return ok;
 }
 

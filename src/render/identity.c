@@ -67,7 +67,7 @@ struct part part_describe(const struct scene *scene, const struct render_options
     struct lines l = {0};
     add_line(&l, "version " VERSION);
     add_line(&l, "scene %016" PRIx64, scene->content);
-    add_line(&l, "integrator %s", o->integrator->name);
+    add_line(&l, "integrator %s", o->integrator);
     add_line(&l, "maxdepth %d", o->max_depth);
     add_settings(&l, &scene->settings);
     add_line(&l, "seed %" PRIu64, o->seed);

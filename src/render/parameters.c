@@ -6,35 +6,38 @@
 #include <stdlib.h>
 #include <string.h>
 
+static bool is_of_file(const struct setting *item) { return strcmp(item->origin, "-P") != 0; }
+
+/* What all integrators have. */
+struct common {
+    int max_depth, heuristic, strategy;
+    double rr_threshold;
+};
+enum { DEFAULT_MAX_DEPTH = 5 }; /* pbrt-v3's */
 static const char *const HEURISTICS[] = {"balance", "power", NULL};
 static const char *const STRATEGIES[] = {"spatial", "power", "uniform", NULL};
 
-enum { DEFAULT_MAX_DEPTH = 5 }; /* pbrt-v3's */
+#define AT(member) offsetof(struct common, member)
+static const struct method_parameter COMMON[] = {
+    {"maxdepth", PARAMETER_INTEGER, AT(max_depth), DEFAULT_MAX_DEPTH, 0, PATH_MAX_DEPTH, "edges of a path less one", NULL},
+    {"heuristic", PARAMETER_WORD, AT(heuristic), 0, 0, 0, "of the weights: balance or power", HEURISTICS},
+    {"rrthreshold", PARAMETER_NUMBER, AT(rr_threshold), DEFAULT_RR_THRESHOLD, 0, 1e6,
+     "relative throughput at which Russian roulette begins, 0: never; asbdpt's bins: 0", NULL},
+    {"lightsamplestrategy", PARAMETER_WORD, AT(strategy), 0, 0, 0,
+     "asbdpt: s = 1 picks lights by what is seen, or by power", STRATEGIES},
+    {.name = NULL}};
 
-static bool is_of_file(const struct setting *item) { return strcmp(item->origin, "-P") != 0; }
+const struct method_parameter *parameters_common(void) { return COMMON; }
 
-/* What all integrators have: names and types. */
-static const char *const COMMON[][2] = {
-    {"maxdepth", "integer"}, {"heuristic", "string"}, {"rrthreshold", "float"}, {"lightsamplestrategy", "string"}};
-enum { N_COMMON = sizeof COMMON / sizeof COMMON[0] };
-
-/* The first of these integrators that has such a parameter, or NULL; *type, unless NULL, is the parameter's. */
-static const struct integrator *owner(const struct integrator *const *m, const char *name, const char **type)
+/* The first of these methods that has such a parameter, or NULL; *out, unless NULL, is the parameter. */
+static const struct method *owner(const struct method *const *m, const char *name, const struct method_parameter **out)
 {
-    const char *unwanted;
-    type = type != NULL ? type : &unwanted;
-    for (int i = 0; i < N_COMMON; i++)
-        if (strcmp(COMMON[i][0], name) == 0) {
-            *type = COMMON[i][1];
-            return *m;
-        }
-    for (; *m != NULL; m++)
-        for (const struct setting_help *p = (*m)->parameters; p->name != NULL; p++)
-            if (strcmp(p->name, name) == 0) {
-                *type = p->type;
-                return *m;
-            }
-    return NULL;
+    const struct method_parameter *found = parameter_find(COMMON, name);
+    for (; found == NULL && *m != NULL; m += found == NULL)
+        found = method_has(*m, name);
+    if (out != NULL)
+        *out = found;
+    return found != NULL ? *m : NULL;
 }
 
 /* --- adapting ---------------------------------------------------------------------------------------- */
@@ -97,11 +100,11 @@ static void adapt_depth(struct settings *s, const struct setting *item, const st
  * it is to be taken out. */
 static bool mistyped(const struct setting *item, const struct message_sink *sink)
 {
-    const char *type;
+    const struct method_parameter *found;
     char text[96];
-    if (item->type == NULL || owner(integrator_list(), item->name, &type) == NULL)
+    if (item->type == NULL || owner(method_list(), item->name, &found) == NULL)
         return false;
-    if (strcmp(item->type, type) != 0)
+    if (strcmp(item->type, parameter_type(found)) != 0)
         snprintf(text, sizeof text, "cannot be of type \"%s\", so it is not used", item->type);
     else if (item->n_values != 1)
         snprintf(text, sizeof text, "wants 1 value, not %d; it is passed over", item->n_values);
@@ -127,22 +130,24 @@ static void adapt_integer(struct settings *s, const struct setting *item, const 
 }
 
 /* A parameter that nobody reads. One of the integrator that the file names is right there: --integrator may have
- * replaced it. True, with a warning, if it is to be taken out. */
-static bool unread(const struct scene *scene, const struct setting *item, const struct integrator *const *readers,
+ * replaced it, or -P its selection. True, with a warning, if it is to be taken out. */
+static bool unread(const struct scene *scene, const struct setting *item, const struct method *const *readers,
                    const struct message_sink *sink)
 {
-    const struct integrator *own[] = {scene->integrator != NULL ? integrator_find(scene->integrator) : NULL, NULL};
-    const struct integrator *has = owner(integrator_list(), item->name, NULL);
+    const struct method *has = owner(method_list(), item->name, NULL);
     char text[128];
-    if (!is_of_file(item) || owner(readers, item->name, NULL) != NULL || owner(own, item->name, NULL) != NULL)
+    if (!is_of_file(item) || owner(readers, item->name, NULL) != NULL)
         return false;
+    for (const struct method *const *m = method_list(); scene->integrator != NULL && *m != NULL; m++)
+        if (strcmp((*m)->name, scene->integrator) == 0 && method_has(*m, item->name) != NULL)
+            return false;
     snprintf(text, sizeof text, "is not used: it is a parameter of %s", has != NULL ? has->name : "");
     warn(sink, item, has != NULL ? text : "is not used: no integrator here has such a parameter");
     return true;
 }
 
 /* True if the parameter is to be taken out. */
-static bool adapt(struct scene *scene, const struct setting *item, const struct integrator *const *readers,
+static bool adapt(struct scene *scene, const struct setting *item, const struct method *const *readers,
                   const struct message_sink *sink)
 {
     const char *way = other_way(item->name);
@@ -163,7 +168,7 @@ static bool adapt(struct scene *scene, const struct setting *item, const struct 
     return false;
 }
 
-void parameters_adapt(struct scene *scene, const struct integrator *const *readers, const struct message_sink *sink)
+void parameters_adapt(struct scene *scene, const struct method *const *readers, const struct message_sink *sink)
 {
     for (int i = 0; i < scene->settings.n;)
         if (adapt(scene, &scene->settings.item[i], readers, sink))
@@ -176,11 +181,11 @@ void parameters_adapt(struct scene *scene, const struct integrator *const *reade
 
 bool parameters_max_depth(const struct scene *scene, int wanted, int *out, struct error *err)
 {
-    long depth = wanted;
-    if (wanted <= 0 && !settings_int(&scene->settings, "maxdepth", DEFAULT_MAX_DEPTH, 0, PATH_MAX_DEPTH, &depth, err))
-        return false;
-    *out = (int)depth;
-    return true;
+    struct common c = {.max_depth = wanted};
+    const struct method_parameter table[] = {COMMON[0], {.name = NULL}};
+    bool ok = wanted > 0 || parameters_set(table, &scene->settings, &c, err);
+    *out = c.max_depth;
+    return ok;
 }
 
 static bool unknown(const struct setting *item, struct error *err)
@@ -192,42 +197,54 @@ static bool unknown(const struct setting *item, struct error *err)
 /* Parameters of any integrator are known: --integrator may have replaced the scene's. */
 static bool all_known(const struct scene *scene, struct error *err)
 {
-    for (int i = 0; i < scene->settings.n; i++)
-        if (owner(integrator_list(), scene->settings.item[i].name, NULL) == NULL)
-            return unknown(&scene->settings.item[i], err);
-    return true;
-}
-
-bool parameters_belong(const struct scene *scene, const struct integrator *const *readers, struct error *err)
-{
     for (int i = 0; i < scene->settings.n; i++) {
-        const struct setting *item = &scene->settings.item[i];
-        const struct integrator *has = owner(integrator_list(), item->name, NULL);
-        if (is_of_file(item) || owner(readers, item->name, NULL) != NULL)
-            continue;
-        if (has == NULL)
-            return unknown(item, err);
-        if (readers[1] != NULL)
-            return error_set(err, "-P: \"%s\" is a parameter of %s, the integrators here are %s and %s", item->name,
-                             has->name, readers[0]->name, readers[1]->name);
-        return error_set(err, "-P: \"%s\" is a parameter of %s, the integrator here is %s; try --integrator %s",
-                         item->name, has->name, readers[0]->name, has->name);
+        const struct method_parameter *found;
+        owner(method_list(), scene->settings.item[i].name, &found);
+        if (found == NULL)
+            return unknown(&scene->settings.item[i], err);
     }
     return true;
 }
 
-bool parameters_read(const struct scene *scene, const struct integrator *m, int max_depth, struct render_job *job,
+/* "asbdpt", or "asbdpt with select=bins" where a name has several rows. */
+static void name_method(const struct method *m, char *out, size_t size)
+{
+    snprintf(out, size, m->select != NULL ? "%s with select=%s" : "%s", m->name, m->select);
+}
+
+bool parameters_belong(const struct scene *scene, const struct method *const *readers, struct error *err)
+{
+    for (int i = 0; i < scene->settings.n; i++) {
+        const struct setting *item = &scene->settings.item[i];
+        const struct method *has = owner(method_list(), item->name, NULL);
+        char whose[64], first[64], second[64] = "";
+        if (is_of_file(item) || owner(readers, item->name, NULL) != NULL)
+            continue;
+        if (has == NULL)
+            return unknown(item, err);
+        name_method(has, whose, sizeof whose);
+        name_method(readers[0], first, sizeof first);
+        if (readers[1] != NULL)
+            name_method(readers[1], second, sizeof second);
+        if (readers[1] != NULL)
+            return error_set(err, "-P: \"%s\" is a parameter of %s, the integrators here are %s and %s", item->name,
+                             whose, first, second);
+        return error_set(err, "-P: \"%s\" is a parameter of %s, the integrator here is %s", item->name, whose, first);
+    }
+    return true;
+}
+
+bool parameters_read(const struct scene *scene, const struct method *m, int max_depth, struct render_job *job,
                      struct error *err)
 {
     const struct settings *s = &scene->settings;
-    double fallback = m->rr_threshold != NULL ? m->rr_threshold(s) : DEFAULT_RR_THRESHOLD;
-    int heuristic, strategy;
-    if (!all_known(scene, err) || !settings_choice(s, "heuristic", 0, HEURISTICS, &heuristic, err) ||
-        !settings_real(s, "rrthreshold", fallback, 0, 1e6, &job->rr_threshold, err) ||
-        !settings_choice(s, "lightsamplestrategy", 0, STRATEGIES, &strategy, err) ||
-        !parameters_max_depth(scene, max_depth, &job->max_depth, err) || (m->check != NULL && !m->check(s, err)))
+    struct common c;
+    if (!all_known(scene, err) || !parameters_set(COMMON, s, &c, err) ||
+        (m->parameters != NULL && !method_check(m, s, err)))
         return false;
-    job->power_heuristic = heuristic == 1;
-    job->spatial_lights = strategy == 0;
+    job->max_depth = max_depth > 0 ? max_depth : c.max_depth;
+    job->rr_threshold = settings_text(s, "rrthreshold", NULL) != NULL ? c.rr_threshold : m->rr_threshold;
+    job->power_heuristic = c.heuristic == 1;
+    job->spatial_lights = c.strategy == 0;
     return true;
 }

@@ -8,22 +8,25 @@
 #ifndef ASBDPT_PARAMETERS_H
 #define ASBDPT_PARAMETERS_H
 
-#include "integrators/integrator.h"
+#include "integrators/method.h"
 #include "parser/source_position.h" /* struct message_sink */
 
+/* parameters_common: what all integrators have, ended by a NULL name. */
+const struct method_parameter *parameters_common(void);
+
 /* parameters_adapt: take out and replace what pbrt-v3 knows and this program does not, or pbrt-v3 would pass over.
- *   readers  the integrators that will read them, ended by NULL
+ *   readers  the methods that will read them, ended by NULL
  *   sink     hears of each; may be NULL */
-void parameters_adapt(struct scene *scene, const struct integrator *const *readers, const struct message_sink *sink);
+void parameters_adapt(struct scene *scene, const struct method *const *readers, const struct message_sink *sink);
 
 /* parameters_belong: does one of the readers have what -P sets? False with a message if not. */
-bool parameters_belong(const struct scene *scene, const struct integrator *const *readers, struct error *err);
+bool parameters_belong(const struct scene *scene, const struct method *const *readers, struct error *err);
 
 /* parameters_read: the settings that all integrators share, into max_depth, power_heuristic, spatial_lights and
  * rr_threshold of the job.
  *   max_depth  what the user wants, or 0: what the scene says, else 5
- * Returns false with a message on a setting that is unknown or wrong, also of those that this integrator alone has. */
-bool parameters_read(const struct scene *scene, const struct integrator *m, int max_depth, struct render_job *job,
+ * Returns false with a message on a setting that is unknown or wrong, also of those that this method alone has. */
+bool parameters_read(const struct scene *scene, const struct method *m, int max_depth, struct render_job *job,
                      struct error *err);
 
 /* parameters_max_depth: that depth alone. */

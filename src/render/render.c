@@ -29,6 +29,7 @@ struct run {
     int64_t begun;  /* tile passes of the first block that the film holds already */
     int64_t n_jobs; /* all tile passes, with these */
     bool stopping;  /* progress said so: stop when the block is complete */
+    double learning; /* share of all work that learning has been */
     struct workspace *work; /* [n_threads] */
     struct tile *tile;      /* [n_slots] */
 };
@@ -69,7 +70,7 @@ static void run_pass(void *context, int64_t job, int slot, int thread)
     pass.rect = tile_rect(r, (r->begun + job) % tiles_per_block(r));
     block_range(r, (r->begun + job) / tiles_per_block(r), &pass.first, &pass.end);
     tile_start(pass.tile, pass.rect, r->job.film_rect, &r->job.scene->filter, r->film->strategies != NULL);
-    r->prepared.renderer->render(r->prepared.state, &pass);
+    r->prepared.method->render(&r->prepared, &pass);
 }
 
 static bool merge_pass(void *context, int64_t job, int slot)
@@ -85,24 +86,23 @@ static bool merge_pass(void *context, int64_t job, int slot)
         r->film->iterations += end - first;
         r->film->passes = 0;
     }
-    if (o->progress != NULL && !o->progress(o->progress_context, (double)done / (double)r->n_jobs))
+    double share = r->learning + (1 - r->learning) * (double)done / (double)r->n_jobs;
+    if (o->progress != NULL && !o->progress(o->progress_context, share))
         r->stopping = true;
     return !r->stopping || r->film->passes > 0;
 }
 
 static void make_workspaces(struct run *r)
 {
-    const struct tile_renderer *renderer = r->prepared.renderer;
     r->work = workspaces_new(r->job.n_threads, r->job.max_depth);
-    for (int i = 0; renderer->new_scratch != NULL && i < r->job.n_threads; i++)
-        r->work[i].scratch = renderer->new_scratch(r->prepared.state);
+    for (int i = 0; i < r->job.n_threads; i++)
+        r->work[i].scratch = method_scratch(&r->prepared);
 }
 
 static void free_workspaces(struct run *r)
 {
-    const struct tile_renderer *renderer = r->prepared.renderer;
-    for (int i = 0; renderer->free_scratch != NULL && i < r->job.n_threads; i++)
-        renderer->free_scratch(r->work[i].scratch);
+    for (int i = 0; i < r->job.n_threads; i++)
+        method_scratch_free(&r->prepared, r->work[i].scratch);
     workspaces_free(r->work, r->job.n_threads);
 }
 
@@ -118,8 +118,6 @@ static void run_all(struct run *r)
     struct parallel_jobs jobs = {r->n_jobs - r->begun, r->job.n_threads, n_slots, r, run_pass, merge_pass};
     r->tile = mem_alloc((size_t)jobs.n_slots, sizeof *r->tile);
     make_workspaces(r);
-    if (o->progress != NULL)
-        o->progress(o->progress_context, 0);
     parallel_run(&jobs);
     free_workspaces(r);
     for (int i = 0; i < jobs.n_slots; i++)
@@ -127,22 +125,48 @@ static void run_all(struct run *r)
     free(r->tile);
 }
 
-bool render_prepare(const struct scene *scene, const struct render_options *options, struct pixel_rect rect,
-                    struct render_job *job, struct preparation *out, struct error *err)
+static const struct method *begin_job(const struct scene *scene, const struct render_options *options,
+                                      struct pixel_rect rect, struct render_job *job, struct error *err)
 {
-    struct preparation standard = {.size = {0, DEFAULT_TILE_SIZE}};
+    const struct method *m = method_find(options->integrator, &scene->settings, err);
     memset(job, 0, sizeof *job);
     job->scene = scene;
     job->film_rect = rect;
     job->seed = job->eye_seed = options->seed;
-    job->spp = (double)(options->planned > options->end ? options->planned : options->end);
     job->n_threads = options->n_threads < 1 ? os_cores() : options->n_threads;
-    *out = standard;
-    return parameters_read(scene, options->integrator, options->max_depth, job, err) &&
-           options->integrator->prepare(job, out, err);
+    return m != NULL && parameters_read(scene, m, options->max_depth, job, err) ? m : NULL;
 }
 
-/* Blocks of a length that the integrator has chosen must not be cut: what it draws depends on where one begins. */
+bool render_prepare(const struct scene *scene, const struct render_options *options, struct pixel_rect rect,
+                    struct render_job *job, struct preparation *out, struct error *err)
+{
+    const struct method *m = begin_job(scene, options, rect, job, err);
+    return m != NULL && method_prepare(m, job, out, err);
+}
+
+/* Learning counts as work, a sub-path as a sample. */
+static bool watch(void *context, double traced)
+{
+    struct run *r = context;
+    const struct render_options *o = r->options;
+    double samples = pixel_light_count(&r->job) * (double)(o->end - o->first);
+    r->learning = traced / (traced + samples);
+    if (!o->progress(o->progress_context, r->learning))
+        r->stopping = true;
+    return !r->stopping;
+}
+
+static bool prepare(struct run *r, struct error *err)
+{
+    const struct method *m = begin_job(r->job.scene, r->options, r->film->rect, &r->job, err);
+    if (m == NULL)
+        return false;
+    r->job.watch = r->options->progress != NULL ? watch : NULL;
+    r->job.watch_context = r;
+    return method_prepare(m, &r->job, &r->prepared, err);
+}
+
+/* Blocks of a length that the method has chosen must not be cut: what it draws depends on where one begins. */
 static bool check_range(const struct run *r, struct error *err)
 {
     const struct render_options *o = r->options;
@@ -169,15 +193,15 @@ static bool cut(struct run *r, struct error *err)
 bool render_scene(const struct scene *scene, const struct render_options *options, struct film *film,
                   struct error *err)
 {
-    struct run r = {.options = options, .film = film};
-    if (!render_prepare(scene, options, film->rect, &r.job, &r.prepared, err))
+    struct run r = {.options = options, .film = film, .job = {.scene = scene}};
+    if (!prepare(&r, err))
         return false;
     memcpy(film->note, r.prepared.note, sizeof film->note);
     memcpy(film->number, r.prepared.number, sizeof film->number);
     bool ok = check_range(&r, err) && cut(&r, err);
     if (ok && options->end > options->first)
         run_all(&r);
-    options->integrator->release(r.prepared.state);
+    method_release(&r.prepared);
     return ok;
 }
 
@@ -198,7 +222,6 @@ static bool check_sample(const struct render_options *o, struct pixel_rect film,
  * has chosen one iteration builds on another. */
 static void trace_pass(struct run *r, struct trace *trace)
 {
-    const struct tile_renderer *renderer = r->prepared.renderer;
     struct pass_size size = r->prepared.size;
     struct pixel_rect film = r->job.film_rect;
     struct tile tile = {.rect = {0, 0, 0, 0}};
@@ -211,7 +234,7 @@ static void trace_pass(struct run *r, struct trace *trace)
     pass.first = trace->iteration / block * block;
     pass.end = trace->iteration + 1;
     tile_start(&tile, pass.rect, film, &r->job.scene->filter, false);
-    renderer->render(r->prepared.state, &pass);
+    r->prepared.method->render(&r->prepared, &pass);
     tile_free(&tile);
     free_workspaces(r);
 }
@@ -224,9 +247,9 @@ bool render_trace(const struct scene *scene, const struct render_options *option
     if (!check_sample(options, film, trace, err) ||
         !render_prepare(scene, options, film, &r.job, &r.prepared, err))
         return false;
-    if (r.prepared.note[0] != '\0')
-        trace_note(trace, "%s", r.prepared.note);
+    trace->why = r.prepared.method->why;
+    memcpy(trace->note, r.prepared.note, sizeof trace->note);
     trace_pass(&r, trace);
-    options->integrator->release(r.prepared.state);
+    method_release(&r.prepared);
     return true;
 }

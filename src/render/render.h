@@ -1,6 +1,6 @@
 /* render.h: from a prepared scene to a film: cut the work into tile passes and run them on threads.
  *
- * The frame (or its crop) is cut into tiles, the iterations into blocks, of sizes the integrator may choose. Tile
+ * The frame (or its crop) is cut into tiles, the iterations into blocks, of sizes the method may choose. Tile
  * passes are started in the order block by block, tile by tile, and merged into the film in that order (parallel.h).
  * They depend on nothing but the pixel and the iteration (of `bins`: the block), and the film's sums are exact, so the
  * same scene, seed and range of iterations give the same bytes for any number of threads, stopped and continued
@@ -15,23 +15,23 @@
 
 #include "base/error.h"
 #include "scene/film.h"
-#include "integrators/integrator.h"
+#include "integrators/method.h"
 #include "scene/scene.h"
 #include "transport/trace.h"
 
 struct render_options {
-    const struct integrator *integrator;
+    const char *integrator; /* as method_find knows it */
     uint64_t seed;
     long first, end; /* iterations [first, end) of every pixel */
     long planned;    /* samples per pixel of the whole picture if these are a part of it; 0: `end` */
-    bool is_part;    /* these are to be added to others: they must be whole blocks, for an integrator that has any */
-    int block;     /* iterations of a block where the integrator leaves that open; 0: by the picture's size */
+    bool is_part;    /* these are to be added to others: they must be whole blocks, for a method that has any */
+    int block;     /* iterations of a block where the method leaves that open; 0: by the picture's size */
     int n_threads; /* 0: one per processor */
     int max_depth; /* 0: what the scene says, else 5 */
     /* Called after each tile pass with the share of the work done, in (0,1], one call at a time and while nothing else
      * touches the film. NULL: not called. Returns false to stop when the current block of iterations is complete.
-     * Called once before the first pass, when the integrator has learnt what it wants to, with 0: what it returns then
-     * does not matter. */
+     * While the method learns it is called, too, learning being a part of the work; then false ends that with what has
+     * been learnt, and one block is rendered by it. */
     bool (*progress)(void *context, double done);
     void *progress_context;
 };
@@ -47,9 +47,9 @@ struct pixel_rect render_crop(const struct scene *scene);
 bool render_scene(const struct scene *scene, const struct render_options *options, struct film *film,
                   struct error *err);
 
-/* render_prepare: what comes before the first tile pass: parameters, and whatever the integrator learns.
+/* render_prepare: what comes before the first tile pass: parameters, and whatever the method learns.
  *   rect      the pixels to be rendered
- *   job, out  filled; afterwards options->integrator->release(out->state)
+ *   job, out  filled; method_release(out) afterwards
  * Returns false with a message when a parameter is bad; nothing needs release then. */
 bool render_prepare(const struct scene *scene, const struct render_options *options, struct pixel_rect rect,
                     struct render_job *job, struct preparation *out, struct error *err);

@@ -50,10 +50,17 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
      * surface. */
     double before = 0;
     if (!z->prev_delta)
-        before = mis_direct_count(counts, lights, prev->eye_region, t == 3, z->cell, neg(z->wo));
+        before = mis_direct_count(counts, lights, prev->eye_region, prev->eye_end, z->cell, neg(z->wo));
     double eye_side = mis_side(counts, z->pdf_origin, z->pdf_fwd, before, pdf_emit, z->mis);
     c.weight = mis_weight(counts, counts->hit, 0, eye_side);
     return c;
+}
+
+static int choose_light(const struct count_model *model, const struct light_set *lights, int region, double u,
+                        double *pmf)
+{
+    return model != NULL && model->choose_light != NULL ? model->choose_light(model->learnt, lights, region, u, pmf)
+                                                        : alias_sample(&lights->choice, u, pmf, NULL);
 }
 
 struct connection connect_direct(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
@@ -65,9 +72,8 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
     if (!vertex_connectible(z) || lights->choice.n == 0)
         return nothing();
     struct light_point at;
-    const struct guide *guide = counts->learnt != NULL && counts->learnt->guided ? &counts->learnt->guide : NULL;
     double pmf;
-    int cell = guide_choose(guide, lights, z->eye_region, u[0], &pmf);
+    int cell = choose_light(counts->model, lights, z->eye_region, u[0], &pmf);
     if (!light_sample_cell(lights, &scene->geo, cell, u[1], u[2], &at) || !(at.pdf > 0))
         return nothing();
     bool parallel = light_at_infinity(&lights->light[at.light]);
@@ -97,7 +103,7 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
     double light = mis_side(counts, at_z.pdf * at_light, y.pdf_fwd, y.mis_c, 0, 0);
     double pdf_z = light_pdf_emission(lights, &at, neg(w)) * abs_dot(z->ng, w) * spread;
     double eye = mis_side(counts, pdf_z, z->pdf_fwd, z->mis_c, at_z.pdf_rev, z->mis);
-    double count = mis_direct_count(counts, lights, z->eye_region, z->first, cell, at.w);
+    double count = mis_direct_count(counts, lights, z->eye_region, z->eye_end, cell, at.w);
     c.weight = mis_weight(counts, count, light, eye);
     c.end = parallel ? at.w : at.p;
     c.light = at.light;
@@ -106,29 +112,45 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
     return c;
 }
 
-struct connection connect_pair(const struct scene *scene, const struct mis_counts *counts, const struct vertex *y,
-                               const struct vertex *z)
+bool connect_join(const struct vertex *y, const struct vertex *z, struct joint *out)
 {
     vec3 d = sub(y->p, z->p);
     double d2 = length2(d);
+    out->value = rgb_black();
     if (!vertex_connectible(y) || !vertex_connectible(z) || !(d2 > 0))
-        return nothing();
+        return false;
     if (!bsdf_may_scatter(&z->bsdf, z->wo, d) || !bsdf_may_scatter(&y->bsdf, y->wo, neg(d)))
-        return nothing();
+        return false;
     vec3 w = mul(d, 1 / sqrt(d2));
     struct scatter at_z = scatter_towards(z, w, RADIANCE);
     if (rgb_is_black(at_z.factor))
-        return nothing();
+        return false;
     struct scatter at_y = scatter_towards(y, neg(w), IMPORTANCE);
-    struct connection c = nothing();
-    c.value = rgb_mul(rgb_mul(y->beta, at_y.factor), rgb_scale(rgb_mul(z->beta, at_z.factor), 1 / d2));
-    if (rgb_is_black(c.value) || !scene_visible(scene, z->p, z->triangle_id, y->p, y->triangle_id))
-        return nothing();
+    rgb value = rgb_mul(rgb_mul(y->beta, at_y.factor), rgb_scale(rgb_mul(z->beta, at_z.factor), 1 / d2));
+    struct joint j = {y, z, value, at_y.pdf, at_z.pdf, at_y.pdf_rev, at_z.pdf_rev, abs_dot(y->ng, w) / d2,
+                      abs_dot(z->ng, w) / d2};
+    *out = j;
+    return !rgb_is_black(value);
+}
 
-    double light = mis_side(counts, at_z.pdf * abs_dot(y->ng, w) / d2, y->pdf_fwd, y->mis_c, at_y.pdf_rev, y->mis);
-    double eye = mis_side(counts, at_y.pdf * abs_dot(z->ng, w) / d2, z->pdf_fwd, z->mis_c, at_z.pdf_rev, z->mis);
-    c.weight = mis_weight(counts, mis_connect_count(counts, y->light_region, z->eye_region, z->first), light, eye);
+struct connection connect_joint(const struct scene *scene, const struct mis_counts *counts, const struct joint *j)
+{
+    const struct vertex *y = j->y, *z = j->z;
+    struct connection c = nothing();
+    if (rgb_is_black(j->value) || !scene_visible(scene, z->p, z->triangle_id, y->p, y->triangle_id))
+        return c;
+    double light = mis_side(counts, j->pdf_z * j->area_y, y->pdf_fwd, y->mis_c, j->pdf_rev_y, y->mis);
+    double eye = mis_side(counts, j->pdf_y * j->area_z, z->pdf_fwd, z->mis_c, j->pdf_rev_z, z->mis);
+    c.value = j->value;
+    c.weight = mis_weight(counts, mis_connect_count(counts, y->light_region, z->eye_region, z->eye_end), light, eye);
     return c;
+}
+
+struct connection connect_pair(const struct scene *scene, const struct mis_counts *counts, const struct vertex *y,
+                               const struct vertex *z)
+{
+    struct joint j;
+    return connect_join(y, z, &j) ? connect_joint(scene, counts, &j) : nothing();
 }
 
 struct connection connect_lens(const struct scene *scene, const struct mis_counts *counts, const struct vertex *light,
@@ -156,7 +178,7 @@ struct connection connect_lens(const struct scene *scene, const struct mis_count
     if (rgb_is_black(c.value) || !scene_visible(scene, lens, 0, y->p, y->triangle_id))
         return nothing();
     /* The strategy one shorter on the light side has t = 2, which the light walk could not know. */
-    double before = vertex_count_before(scene, counts, &light[s - 2], y, true);
+    double before = mis_count_before(counts, &scene->lights, &light[s - 2], y, FIRST_HIT);
     double light_side = mis_side(counts, density * abs_dot(y->ng, w), y->pdf_fwd, before, at_y.pdf_rev, y->mis);
     c.weight = mis_weight(counts, counts->splat, light_side, 0);
     c.end = lens;

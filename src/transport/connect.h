@@ -40,6 +40,22 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
 struct connection connect_pair(const struct scene *scene, const struct mis_counts *counts, const struct vertex *y,
                                const struct vertex *z);
 
+/* The same in two steps, for methods that compare many such pairs and look along the edge of few: value is C* as if y
+ * and z saw each other. */
+struct joint {
+    const struct vertex *y, *z;
+    rgb value;
+    double pdf_y, pdf_z;         /* 1/sr, at y and at z, of the direction to the other */
+    double pdf_rev_y, pdf_rev_z; /* 1/sr, of going on from there to the vertex before */
+    double area_y, area_z;       /* what turns a density per steradian at the other end into one per area here */
+};
+
+/* connect_join: false if nothing can arrive; out->value is black then. */
+bool connect_join(const struct vertex *y, const struct vertex *z, struct joint *out);
+
+/* connect_joint: visibility and weight. */
+struct connection connect_joint(const struct scene *scene, const struct mis_counts *counts, const struct joint *j);
+
 /* connect_lens: the last of s >= 2 vertices of a light sub-path, light[s-1]; the lens point is drawn from `sampler`
  * (two numbers). The value is for the whole frame: tile_add_splat gives each pixel its part, and the caller divides by
  * counts->splat. */

@@ -25,7 +25,7 @@
  *
  * Delta lobes have, instead of densities, coefficients of the same delta; they cancel in R/F as densities do (bsdf.h).
  *
- * Every integrator is described by its sample counts n; see struct mis_counts. The counts may vary from path to path as
+ * Every method is described by its sample counts n; see struct mis_counts. The counts may vary from path to path as
  * long as every strategy computes the same number for the same path.
  *
  * Readers of VCM [Georgiev 2012] and SmallVCM know two of its three partial sums, which are ours divided by F_e (in
@@ -44,45 +44,67 @@
 #include <stdbool.h>
 
 #include "base/vec.h"
-#include "guiding/learnt.h"
 
-/* How many samples each kind of strategy takes per pixel and iteration; 0: the integrator does not use it. An
- * integrator may count a strategy for more than it takes: the weights still add up to 1. The balance heuristic goes by
- * second moments, so a strategy whose samples are better spread than independent ones, and whose variance is therefore
- * smaller, deserves it [Grittmann 2019].
- *
- * A count may depend on the surface points at both ends of the strategy's connecting edge, since both are known when a
- * walk has arrived at the second; and on whether the eye end is the first hit (t = 2), which the eye walk knows, and
- * which is never so on the light side of a connection but for its last vertex when the lens is next (connect_lens).
- *
- * For pt, lt and bdpt `learnt` is NULL and all counts are constants. The two functions that look at it may be skipped
- * at first reading. */
-struct mis_counts {
-    double hit;        /* s = 0, t >= 3: the eye walk finds a light. (t = 2, a light seen directly, has weight 1) */
-    double direct[2];  /* s = 1: connection to fresh points on a light, for t = 2 and t > 2; times guide_ratio */
-    double connect[2]; /* s >= 2: connection to light vertices, for t = 2 and t > 2; times h of pairs.h */
-    double splat;      /* s >= 2, t = 1: light sub-paths connected to the lens: how many are traced per iteration */
-    const struct learnt *learnt; /* guide and pairs; NULL: neither */
-    bool power;                  /* power heuristic instead of the balance heuristic */
+struct light_set;
+struct scene;
+struct vertex;
+
+/* Which eye vertex a strategy with t >= 2 ends at: what the camera sees, t = 2, or a later one. */
+enum eye_end { FIRST_HIT, LATER_HIT, EYE_ENDS };
+
+/* What a method has learnt about places, as the weights need it: the n of an edge from its two ends. Surface points are
+ * sorted into regions, as eye ends and as light ends; both ends of a strategy's connecting edge are known when a walk
+ * has arrived at the second, so that every strategy finds the same number for the same path. */
+struct count_model {
+    const void *learnt; /* handed to all of these */
+    void (*locate)(const void *learnt, vec3 p, vec3 ng, int *eye_region, int *light_region);
+    /* Factor of counts.connect for a light end in region y and an eye end in region e. NULL: 1. */
+    double (*connect)(const void *learnt, int y, int e);
+    /* How s = 1 chooses a light cell for an eye end in region e with the uniform number u, -1: there is none; and the
+     * density of y0 under that choice over the one under emission's, its factor of counts.direct (cell: of y0, -1 for
+     * a direction met by an escaping ray; w: of lights at infinity). NULL: as emission chooses, hence 1. */
+    int (*choose_light)(const void *learnt, const struct light_set *lights, int e, double u, double *pmf);
+    double (*direct)(const void *learnt, const struct light_set *lights, int e, int cell, vec3 w);
 };
 
-/* mis_connect_count: n of the strategy s >= 2, t >= 2 whose light end lies in region y and whose eye end lies in region
- * e.
- *   first  t = 2 */
-static inline double mis_connect_count(const struct mis_counts *c, int y, int e, bool first)
+/* How many samples each kind of strategy takes per pixel and iteration; 0: the method does not use it. A method may
+ * count a strategy for more than it takes: the weights still add up to 1. The balance heuristic goes by second moments,
+ * so a strategy whose samples are better spread than independent ones, and whose variance is therefore smaller,
+ * deserves such a credit [Grittmann 2019].
+ *
+ * A light side has no FIRST_HIT but at its last vertex, when the lens is next (connect_lens). */
+struct mis_counts {
+    double hit;                /* s = 0, t >= 3: the eye walk finds a light. (t = 2, a light seen directly: weight 1) */
+    double direct[EYE_ENDS];   /* s = 1: connection to fresh points on a light */
+    double connect[EYE_ENDS];  /* s >= 2, t >= 2: connection to light vertices */
+    double splat;              /* s >= 2, t = 1: light sub-paths connected to the lens: how many per iteration */
+    const struct count_model *model; /* factors that vary over the scene; NULL: all counts are constants */
+    bool power;                /* power heuristic instead of the balance heuristic */
+};
+
+/* mis_connect_count: n of the strategy s >= 2, t >= 2 whose light end lies in region y and whose eye end in region e. */
+static inline double mis_connect_count(const struct mis_counts *c, int y, int e, enum eye_end end)
 {
-    double n = c->connect[!first];
-    return c->learnt != 0 && c->learnt->paired ? n * pairs_row(&c->learnt->pairs, e)[y] : n;
+    double n = c->connect[end];
+    return c->model != 0 && c->model->connect != 0 ? n * c->model->connect(c->model->learnt, y, e) : n;
 }
 
 /* mis_direct_count: n of the strategy s = 1, t >= 2 that joins a surface point in region e to the end point y0.
- *   cell, w  of y0, as guide_ratio takes them */
-static inline double mis_direct_count(const struct mis_counts *c, const struct light_set *lights, int e, bool first,
-                                      int cell, vec3 w)
+ *   cell, w  of y0, see count_model */
+static inline double mis_direct_count(const struct mis_counts *c, const struct light_set *lights, int e,
+                                      enum eye_end end, int cell, vec3 w)
 {
-    double n = c->direct[!first];
-    return c->learnt != 0 && c->learnt->guided && n > 0 ? n * guide_ratio(&c->learnt->guide, lights, e, cell, w) : n;
+    double n = c->direct[end];
+    return c->model != 0 && c->model->direct != 0 && n > 0 ? n * c->model->direct(c->model->learnt, lights, e, cell, w)
+                                                           : n;
 }
+
+/* mis_count_before: c_e of a light sub-path's vertex y with prev before it: n of the strategy that joins prev to y, y
+ * being an eye end of the given kind; 0 after a delta lobe. mis_count_behind: c_e of an eye sub-path's vertex z: n of
+ * the strategy that joins z, as its light end, to prev. */
+double mis_count_before(const struct mis_counts *c, const struct light_set *lights, const struct vertex *prev,
+                        const struct vertex *y, enum eye_end end);
+double mis_count_behind(const struct mis_counts *c, const struct vertex *prev, const struct vertex *z);
 
 /* mis_raise: the heuristic's power of a density or count. */
 static inline double mis_raise(const struct mis_counts *c, double x) { return c->power ? x * x : x; }

@@ -23,28 +23,6 @@ double scatter_cosine(const struct vertex *v, vec3 wi, enum transport mode)
     return wo_ng > 0 ? abs_dot(v->wo, ns) * abs_dot(wi, v->ng) / wo_ng : 0;
 }
 
-double vertex_count_before(const struct scene *scene, const struct mis_counts *m, const struct vertex *prev,
-                           const struct vertex *y, bool first)
-{
-    if (y->prev_delta)
-        return 0;
-    return prev->kind == VERTEX_LIGHT ? mis_direct_count(m, &scene->lights, y->eye_region, first, prev->cell, prev->wo)
-                                      : mis_connect_count(m, prev->light_region, y->eye_region, first);
-}
-
-/* c_e of mis.h for the vertex just reached: samples of the strategy whose sub-path of this side ends at the vertex
- * before. On the light side that is a connection from there to here; on the eye side one from here to there. */
-static double count_before(const struct walk *w, const struct vertex *prev, const struct vertex *v,
-                           enum transport mode)
-{
-    if (mode == IMPORTANCE)
-        return vertex_count_before(w->scene, w->counts, prev, v, false);
-    if (v->prev_delta)
-        return 0;
-    return prev->kind == VERTEX_LENS ? w->counts->splat
-                                     : mis_connect_count(w->counts, v->light_region, prev->eye_region, prev->first);
-}
-
 /* How the walk left its last vertex. */
 struct departure {
     struct ray ray;
@@ -138,13 +116,13 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
 {
     if (!meet(w, v, prev, from, at, mode))
         return false;
-    v->first = prev->kind == VERTEX_LENS;
+    const struct count_model *model = w->counts->model;
+    v->eye_end = prev->kind == VERTEX_LENS ? FIRST_HIT : LATER_HIT;
     v->eye_region = v->light_region = 0;
-    if (w->counts->learnt != NULL) {
-        v->eye_region = region_at(&w->counts->learnt->eye, v->p, v->ng);
-        v->light_region = region_at(&w->counts->learnt->light, v->p, v->ng);
-    }
-    v->mis_c = count_before(w, prev, v, mode);
+    if (model != NULL)
+        model->locate(model->learnt, v->p, v->ng, &v->eye_region, &v->light_region);
+    v->mis_c = mode == RADIANCE ? mis_count_behind(w->counts, prev, v)
+                                : mis_count_before(w->counts, &w->scene->lights, prev, v, LATER_HIT);
     v->material = at->material;
     v->pdf_rev = 0;
     material_bsdf(w->scene->material, at->material, &w->scene->textures, at, w->arena, &v->bsdf);

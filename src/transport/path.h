@@ -52,7 +52,7 @@ enum vertex_kind {
  *                                                               light_sample_point, 1/m^2
  *   pdf_rev      -            -                                 1/sr: of the other walk's    -
  *                                                               going back, if this went on
- *   regions      -            -                                 as learnt.h numbers them     -
+ *   regions      -            -                                 as count_model.locate says    -
  *   bsdf         -            -                                 its scattering               -
  *   passed       -            -                                 eye walk, on the way here: lights without material
  *
@@ -64,7 +64,7 @@ enum vertex_kind {
 struct vertex {
     enum vertex_kind kind;
     bool prev_delta; /* the walk left the previous vertex by a delta lobe */
-    bool first;      /* z_1: what the camera sees */
+    enum eye_end eye_end;
     int light, cell;
     vec3 p, ng;
     uint32_t triangle_id;
@@ -101,11 +101,12 @@ int path_eye_pixel(const struct walk *w, int x, int y, struct vertex *path, int 
 /* path_light: choose a light, emit, and walk. Returns the number of vertices; 0 when nothing is emitted. */
 int path_light(const struct walk *w, struct vertex *path, int max_vertices);
 
-/* vertex_count_before: samples taken by the strategy that joins `prev` of a light sub-path to y, the vertex after it,
- * as its eye end.
- *   first  y would be the first hit, t = 2 */
-double vertex_count_before(const struct scene *scene, const struct mis_counts *m, const struct vertex *prev,
-                           const struct vertex *y, bool first);
+/* path_throughput: beta of [S24]: mean over RGB at the furthest vertex of a light sub-path; 0 if it is empty. One of y_0
+ * alone, which met no surface, has the emitted radiance there, as in pbrt-v3, where [S24] was implemented. */
+static inline double path_throughput(const struct vertex *light, int n)
+{
+    return n < 1 ? 0 : rgb_mean(light[n - 1].beta);
+}
 
 /* vertex_light_end: fill in a y_0 for a point drawn by light_sample_point; its beta is 1/density. */
 void vertex_light_end(const struct scene *scene, const struct mis_counts *counts, const struct light_point *at,

@@ -57,26 +57,27 @@ double pixel_light_count(const struct render_job *job)
  * wanted, or where somebody watches.
  *   light  the light sub-path whose first s vertices were joined; NULL for s <= 1 */
 static void contribute(struct pixel_sample *g, const struct connection *c, int s, int t, const struct vertex *light,
-                       double scale)
+                       struct choice choice)
 {
     rgb added = rgb_black();
     if (!rgb_is_black(c->value)) {
-        rgb value = rgb_scale(c->value, scale * g->filter_weight);
+        rgb value = rgb_scale(c->value, choice.scale * g->filter_weight);
         if (g->tile->keep_records)
             tile_record_eye(g->tile, g->x, g->y, s, t, value, c->weight);
         added = rgb_scale(value, c->weight);
         g->sum = rgb_add(g->sum, added);
     }
     if (g->trace != NULL)
-        trace_connect(g->trace, s, t, light, c, scale * g->filter_weight, added);
+        trace_connect(g->trace, s, t, light, c, choice.pmf, choice.scale * g->filter_weight, added);
 }
 
 static void sum_direct(struct pixel_sample *g, const struct vertex *z, int t)
 {
-    int n = t == 2 ? g->lights : 1;
+    int n = z->eye_end == FIRST_HIT ? g->lights : 1;
+    const struct choice each = {1, 1.0 / n};
     for (int i = 0; i < n; i++) {
         struct connection c = connect_direct(g->scene, g->counts, z, &g->sampler);
-        contribute(g, &c, 1, t, NULL, 1.0 / n);
+        contribute(g, &c, 1, t, NULL, each);
     }
 }
 
@@ -85,7 +86,7 @@ static void sum_hits(struct pixel_sample *g, const struct vertex *eye, int t)
 {
     for (const struct vertex *z = &eye[t - 1]; z != NULL; z = z->passed) {
         struct connection c = connect_hit(g->scene, g->counts, &eye[t - 2], z, t);
-        contribute(g, &c, 0, t, NULL, 1);
+        contribute(g, &c, 0, t, NULL, NO_CHOICE);
     }
 }
 
@@ -95,25 +96,32 @@ void pixel_sum_eye(struct pixel_sample *g, const struct vertex *eye, int n)
         const struct vertex *z = &eye[t - 1];
         if (t == 2 || g->counts->hit > 0)
             sum_hits(g, eye, t);
-        if (g->counts->direct[0] > 0 && t <= g->max_depth + 1 && z->kind == VERTEX_SURFACE)
+        if (g->counts->direct[FIRST_HIT] > 0 && t <= g->max_depth + 1 && z->kind == VERTEX_SURFACE)
             sum_direct(g, z, t);
     }
 }
 
-void pixel_sum_pair(struct pixel_sample *g, const struct vertex *y, int s, const struct vertex *z, int t, double scale)
+void pixel_sum_pair(struct pixel_sample *g, const struct vertex *y, int s, const struct vertex *z, int t,
+                    struct choice choice)
 {
     struct connection c = connect_pair(g->scene, g->counts, y, z);
-    contribute(g, &c, s, t, y - (s - 1), scale);
+    contribute(g, &c, s, t, y - (s - 1), choice);
+}
+
+void pixel_sum_joint(struct pixel_sample *g, const struct joint *j, int s, int t, struct choice choice)
+{
+    struct connection c = connect_joint(g->scene, g->counts, j);
+    contribute(g, &c, s, t, j->y - (s - 1), choice);
 }
 
 void pixel_sum_pairs(struct pixel_sample *g, const struct vertex *eye, int n_eye, const struct vertex *light,
-                     int n_light, double scale)
+                     int n_light, struct choice choice)
 {
     if (g->trace != NULL)
         trace_light(g->trace, light, n_light);
     for (int t = 2; t <= n_eye; t++)
         for (int s = 2; s <= n_light && s + t <= g->max_depth + 2; s++)
-            pixel_sum_pair(g, &light[s - 1], s, &eye[t - 1], t, scale);
+            pixel_sum_pair(g, &light[s - 1], s, &eye[t - 1], t, choice);
 }
 
 /* A light sub-path of s vertices arrives at every raster point that is the same ray. */
@@ -128,7 +136,7 @@ static void splat(struct pixel_sample *g, const struct connection *c, int s, con
             tile_record_splat(g->tile, image.px, image.py, s, 1, rgb_scale(c->value, scale), c->weight);
         tile_add_splat(g->tile, image.px, image.py, added);
         if (g->trace != NULL)
-            trace_connect(g->trace, s, 1, light, &image, scale, added);
+            trace_connect(g->trace, s, 1, light, &image, 1, scale, added);
     }
 }
 
@@ -142,6 +150,6 @@ void pixel_splat_path(struct pixel_sample *g, const struct vertex *light, int n_
         if (!rgb_is_black(c.value))
             splat(g, &c, s, light, each);
         else if (g->trace != NULL)
-            trace_connect(g->trace, s, 1, light, &c, each, rgb_black());
+            trace_connect(g->trace, s, 1, light, &c, 1, each, rgb_black());
     }
 }

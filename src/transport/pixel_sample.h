@@ -2,8 +2,8 @@
  * sums of connections, weight times C* [V97 10.2], over the strategies that a whole sub-path, or a pair of them, can
  * take part in.
  *
- * An integrator is a choice of which of these sums to take, with which light sub-path, and of the counts of mis.h.
- * Random streams belong to (seed, purpose, pixel, iteration), so a sub-path does not depend on which integrator,
+ * A method is a choice of which of these sums to take, with which light sub-path, and of the counts of mis.h.
+ * Random streams belong to (seed, purpose, pixel, iteration), so a sub-path does not depend on which method,
  * tile or thread asks for it.
  */
 #ifndef ASBDPT_TRANSPORT_PIXEL_SAMPLE_H
@@ -37,7 +37,7 @@ struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struc
 int pixel_eye_path(const struct tile_pass *pass, struct pixel_sample *g, long iteration, struct vertex *path,
                    int max_vertices);
 
-/* pixel_sampler: the stream of a pixel and iteration for a purpose of the integrator's own. */
+/* pixel_sampler: the stream of a pixel and iteration for a purpose of the method's own. */
 struct sampler pixel_sampler(const struct tile_pass *pass, enum rng_purpose purpose, int x, int y, long iteration);
 
 /* pixel_light_path: the light sub-path that belongs to pixel (x,y) and `number` into path [max_depth + 1]; its lobes go
@@ -55,13 +55,22 @@ double pixel_light_count(const struct render_job *job);
  * pixel_sum_eye: s = 0 and s = 1 for every vertex of the eye sub-path of n vertices. */
 void pixel_sum_eye(struct pixel_sample *g, const struct vertex *eye, int n);
 
-/* pixel_sum_pair: one strategy s >= 2, t >= 2, joining the light vertex y = y_{s-1} to the eye vertex z = z_{t-1};
- * times `scale`. */
-void pixel_sum_pair(struct pixel_sample *g, const struct vertex *y, int s, const struct vertex *z, int t, double scale);
+/* What a method drew to join an eye sub-path with. */
+struct choice {
+    double pmf;   /* probability of the draw, given what it was drawn from; 1: there was no choice */
+    double scale; /* what its contributions are multiplied by for that */
+};
+static const struct choice NO_CHOICE = {1, 1};
 
-/* pixel_sum_pairs: s >= 2, t >= 2 for every pair of vertices of the two sub-paths, each times `scale`. */
+/* pixel_sum_pair: one strategy s >= 2, t >= 2, joining the light vertex y = y_{s-1} to the eye vertex z = z_{t-1}.
+ * pixel_sum_joint: the same where its value has been found before. */
+void pixel_sum_pair(struct pixel_sample *g, const struct vertex *y, int s, const struct vertex *z, int t,
+                    struct choice choice);
+void pixel_sum_joint(struct pixel_sample *g, const struct joint *j, int s, int t, struct choice choice);
+
+/* pixel_sum_pairs: s >= 2, t >= 2 for every pair of vertices of the two sub-paths. */
 void pixel_sum_pairs(struct pixel_sample *g, const struct vertex *eye, int n_eye, const struct vertex *light,
-                     int n_light, double scale);
+                     int n_light, struct choice choice);
 
 /* pixel_splat_path: s >= 2, t = 1 for every vertex of a light sub-path, each times `scale`; the sums go to the
  * tile's splats. */

@@ -20,11 +20,14 @@ struct render_job {
     int n_threads;
     bool power_heuristic;
     double rr_threshold; /* of Russian roulette, see path.h */
-    double spp;          /* samples per pixel of the whole picture, of which this render may be a part */
     bool spatial_lights; /* pbrt's lightsamplestrategy asks for lights by what is seen; else they are picked by power */
+    /* Called now and then, one call at a time, while a method prepares itself: how many sub-paths it has traced for
+     * that. False: it is to come to an end, with what it has. NULL: nobody watches. */
+    bool (*watch)(void *context, double traced);
+    void *watch_context;
 };
 
-/* How an integrator wants its work cut. */
+/* How a method wants its work cut. */
 struct pass_size {
     int block; /* iterations; 0: any number */
     int tile;  /* pixels along the side, at most MAX_TILE_SIZE */
@@ -35,7 +38,7 @@ enum { LONGEST_BLOCK = 32, DEFAULT_TILE_SIZE = 16, MAX_TILE_SIZE = 32 };
 struct workspace {
     struct arena arena;
     struct vertex *eye, *light; /* [max_depth + 2] each; owned */
-    void *scratch;              /* the integrator's; may be NULL */
+    void *scratch;              /* the method's; may be NULL */
 };
 
 /* workspaces_new: arenas and sub-paths for n threads; `scratch` is left NULL. */
@@ -51,5 +54,14 @@ struct tile_pass {
     struct workspace *work;
     struct trace *trace; /* see trace.h; NULL: nobody watches */
 };
+
+/* pass_pixel: the pass' pixel number i in row order; false if there are not so many. */
+static inline bool pass_pixel(const struct tile_pass *pass, int i, int *x, int *y)
+{
+    int width = rect_width(pass->rect);
+    *x = pass->rect.x0 + i % width;
+    *y = pass->rect.y0 + i / width;
+    return *y < pass->rect.y1;
+}
 
 #endif

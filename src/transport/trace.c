@@ -1,8 +1,6 @@
 /* trace.c: see trace.h. */
 #include "transport/trace.h"
 
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,9 +10,7 @@ void trace_free(struct trace *t)
         free(t->light[i].vertex);
     free(t->eye.vertex);
     free(t->light);
-    free(t->draw);
     free(t->connection);
-    free(t->note);
     memset(t, 0, sizeof *t);
 }
 
@@ -50,33 +46,11 @@ int trace_light(struct trace *t, const struct vertex *path, int n)
     return i;
 }
 
-void trace_note(struct trace *t, const char *format, ...)
-{
-    va_list args;
-    t->note = mem_grow(t->note, &t->note_capacity, (size_t)t->n_notes + 1, sizeof *t->note);
-    va_start(args, format);
-    vsnprintf(t->note[t->n_notes++], sizeof *t->note, format, args);
-    va_end(args);
-}
-
-void trace_choose(struct trace *t, int for_t, const struct vertex *path, int n, int s, double probability,
-                  double scale, const char *why, ...)
-{
-    va_list args;
-    struct trace_draw d = {for_t, trace_light(t, path, s > 0 ? s : n), s, probability, scale, ""};
-    va_start(args, why);
-    vsnprintf(d.why, sizeof d.why, why, args);
-    va_end(args);
-    t->draw = mem_grow(t->draw, &t->draw_capacity, (size_t)t->n_draws + 1, sizeof *t->draw);
-    t->draw[t->n_draws++] = d;
-}
-
 void trace_connect(struct trace *t, int s, int for_t, const struct vertex *light, const struct connection *c,
-                   double scale, rgb added)
+                   double pmf, double scale, rgb added)
 {
     int path = light != NULL ? trace_light(t, light, s) : -1;
-    int draw = light != NULL && for_t > 1 ? t->n_draws - 1 : -1;
-    struct trace_connection made = {s, for_t, path, draw, *c, scale, added};
+    struct trace_connection made = {s, for_t, path, pmf, *c, scale, added};
     t->connection =
         mem_grow(t->connection, &t->connection_capacity, (size_t)t->n_connections + 1, sizeof *t->connection);
     t->connection[t->n_connections++] = made;

@@ -1,6 +1,6 @@
-/* trace.h: a witness of one pixel sample: what was walked, chosen, connected and added to the film.
+/* trace.h: a witness of one pixel sample: what was walked, connected and added to the film.
  *
- * The code that renders tells it what it does, at the places where it does it; where nobody watches, which is
+ * pixel_sample.c tells it what is walked, connected and added, and nobody else does; where nobody watches, which is
  * everywhere but in the one sample of `asbdpt trace`, that costs the comparison of a pointer. What comes of it is no
  * second computation that might differ: added up in their order, the contributions are the film's value to the last
  * bit.
@@ -10,6 +10,7 @@
 #ifndef ASBDPT_TRACE_H
 #define ASBDPT_TRACE_H
 
+#include "scene/film.h"
 #include "transport/connect.h"
 #include "transport/path.h"
 
@@ -21,20 +22,11 @@ struct trace_path {
     const struct vertex *source; /* what was copied: how a sub-path is recognised */
 };
 
-/* A choice of what to connect with. */
-struct trace_draw {
-    int t;              /* for the eye vertex z_{t-1}; 0: for all of the eye sub-path */
-    int light, s;       /* number of a light sub-path, and its vertex y_{s-1} that is taken; s = 0: all of it */
-    double probability; /* of this choice, under the conditions that `why` names */
-    double scale;       /* what its contributions are multiplied by, but for filter and MIS weight */
-    char why[200];
-};
-
 /* One connection that was tried. */
 struct trace_connection {
     int s, t;
     int light;           /* number of the light sub-path; -1: none (s <= 1) */
-    int draw;            /* number of the choice that led to it; -1: none */
+    double pmf;          /* probability with which it was chosen; 1: there was no choice */
     struct connection c; /* value C*, weight, end point */
     double scale;        /* what else C* is multiplied by: numbers of samples, filter, 1/probabilities of a choice */
     rgb added;           /* C* times scale times weight, as it was added; t = 1: at raster point (c.px, c.py) */
@@ -47,13 +39,11 @@ struct trace {
     struct trace_path eye;
     struct trace_path *light; /* [n_lights], those that were connected or chosen; owned */
     int n_lights;
-    struct trace_draw *draw; /* [n_draws], owned */
-    int n_draws;
     struct trace_connection *connection; /* [n_connections] in the order of adding; owned */
     int n_connections;
-    char (*note)[200]; /* [n_notes], what is chosen from; owned */
-    int n_notes;
-    size_t light_capacity, draw_capacity, connection_capacity, note_capacity;
+    size_t light_capacity, connection_capacity;
+    const char *why;   /* how the method chooses what to connect with; NULL: it does not */
+    char note[FILM_NOTE_SIZE]; /* what it has chosen for itself */
 };
 
 /* A trace starts as zeros but for the sample to watch. trace_free releases what it owns. */
@@ -69,16 +59,10 @@ static inline struct trace *trace_watches(struct trace *t, int x, int y, long it
 void trace_eye(struct trace *t, const struct vertex *path, int n, double filter_weight);
 int trace_light(struct trace *t, const struct vertex *path, int n);
 
-/* trace_note: a line about what is chosen from. trace_choose: a choice, see struct trace_draw; `path` has at least s
- * vertices, or n if s = 0. Both print into lines that are cut where they are too long. */
-void trace_note(struct trace *t, const char *format, ...);
-void trace_choose(struct trace *t, int for_t, const struct vertex *path, int n, int s, double probability,
-                  double scale, const char *why, ...);
-
 /* trace_connect: a connection has been made or tried.
  *   light  the light sub-path whose first s vertices it has; NULL for s <= 1 */
 void trace_connect(struct trace *t, int s, int for_t, const struct vertex *light, const struct connection *c,
-                   double scale, rgb added);
+                   double pmf, double scale, rgb added);
 
 /* trace_sum: what was added to the sample's own pixel: all with t >= 2, in their order. */
 rgb trace_sum(const struct trace *t);

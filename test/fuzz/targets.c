@@ -227,7 +227,7 @@ static void fuzz_part(const uint8_t *data, size_t size, const char *directory)
 
 enum { WIDTH = 3, HEIGHT = 2, SAMPLES = 2, DEPTH = 4 };
 
-static void render(const struct scene *scene, const struct integrator *integrator)
+static void render(const struct scene *scene, const char *integrator)
 {
     struct render_options o = {.integrator = integrator, .end = SAMPLES, .n_threads = 1, .max_depth = DEPTH};
     struct film film;
@@ -245,23 +245,21 @@ static void render(const struct scene *scene, const struct integrator *integrato
     film_free(&film);
 }
 
-/* Six pixels by every integrator and every selection. Parameters of the scene that are wrong are refused by the first
- * render already, and then left out. */
+/* Six pixels by every method. Parameters of the scene that are wrong are refused by the first render already, and then
+ * left out. */
 static void render_all(struct scene *scene)
 {
-    static const char *const SELECT[] = {"bins", "pool", "vertices", "subspaces", "lvc", "combinatorial", NULL};
     static const double WHOLE[4] = {0, 1, 0, 1};
     scene->width = WIDTH;
     scene->height = HEIGHT;
     memcpy(scene->crop, WHOLE, sizeof scene->crop);
-    parameters_adapt(scene, integrator_list(), NULL);
+    parameters_adapt(scene, method_list(), NULL);
     scene_prepare(scene);
-    for (const struct integrator *const *m = integrator_list(); *m != NULL; m++)
-        render(scene, *m);
-    for (const char *const *select = SELECT; *select != NULL; select++) {
+    for (const struct method *const *m = method_list(); *m != NULL; m++) {
+        render(scene, (*m)->name);
         settings_clear(&scene->settings);
-        settings_set(&scene->settings, "select", *select, "-P");
-        render(scene, integrator_find("asbdpt"));
+        if (m[1] != NULL && m[1]->select != NULL)
+            settings_set(&scene->settings, "select", m[1]->select, "-P");
     }
 }
 

@@ -1,5 +1,5 @@
 /* importance.c: see importance.h. */
-#include "integrators/importance.h"
+#include "learning/importance.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -11,12 +11,23 @@ void importance_free(struct importance *g)
     memset(g, 0, sizeof *g);
 }
 
+static double *add_to(double *sum, int *n, size_t *capacity, int region, double x)
+{
+    sum = mem_grow(sum, capacity, (size_t)region + 1, sizeof *sum);
+    for (; *n <= region; ++*n)
+        sum[*n] = 0;
+    sum[region] += x;
+    return sum;
+}
+
 void importance_add(struct importance *g, int region, double luminance)
 {
-    g->E = mem_grow(g->E, &g->capacity, (size_t)region + 1, sizeof *g->E);
-    for (; g->n <= region; g->n++)
-        g->E[g->n] = 0;
-    g->E[region] += luminance;
+    g->E = add_to(g->E, &g->n, &g->capacity, region, luminance);
+}
+
+void importance_add_light(struct importance *g, int region, double count)
+{
+    g->vertices = add_to(g->vertices, &g->n_vertices, &g->vertices_capacity, region, count);
 }
 
 double importance_in(const struct importance *g, int region) { return region < g->n ? g->E[region] : 0; }

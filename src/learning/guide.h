@@ -16,11 +16,11 @@
  *
  * Tests: test_asbdpt.c, test_mis.c.
  */
-#ifndef ASBDPT_GUIDING_GUIDE_H
-#define ASBDPT_GUIDING_GUIDE_H
+#ifndef ASBDPT_LEARNING_GUIDE_H
+#define ASBDPT_LEARNING_GUIDE_H
 
 #include "base/alias.h"
-#include "guiding/regions.h"
+#include "learning/regions.h"
 #include "scene/light.h"
 
 enum { GUIDE_COLUMNS = 256 };

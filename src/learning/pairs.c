@@ -1,5 +1,5 @@
 /* pairs.c: see pairs.h. */
-#include "guiding/pairs.h"
+#include "learning/pairs.h"
 
 #include <stdbool.h>
 #include <stdlib.h>
@@ -65,7 +65,7 @@ static void shrink(const struct pair_lessons *l, const struct regions *eye, cons
 }
 
 void pairs_build(struct pairs *p, const struct pair_lessons *l, const struct regions *eye, const struct regions *light,
-                 const double *vertices, double delta)
+                 const double *vertices, int n_vertices, double delta)
 {
     size_t n = (size_t)l->n_light;
     double *m = mem_alloc((size_t)l->n_eye * n, sizeof *m), all = 0;
@@ -73,12 +73,12 @@ void pairs_build(struct pairs *p, const struct pair_lessons *l, const struct reg
     p->n_eye = l->n_eye;
     p->n_light = l->n_light;
     p->h = mem_alloc((size_t)l->n_eye * n, sizeof *p->h);
-    for (size_t y = 0; y < n; y++)
+    for (int y = 0; y < n_vertices; y++)
         all += vertices[y];
     for (int e = 0; e < p->n_eye; e++) {
         const double *row = &m[(size_t)e * n];
         double mean = 0;
-        for (size_t y = 0; y < n; y++)
+        for (int y = 0; y < n_vertices; y++)
             mean += vertices[y] * row[y];
         for (size_t y = 0; y < n; y++)
             p->h[(size_t)e * n + y] =

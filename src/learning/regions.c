@@ -1,5 +1,5 @@
 /* regions.c: see regions.h. */
-#include "guiding/regions.h"
+#include "learning/regions.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -11,11 +11,18 @@
 /* A key: level (2 bits), x, y, z (19 bits each), face (3 bits, never 0). */
 enum { FACE_BITS = 3, AXIS_BITS = 19, LEVEL_SHIFT = FACE_BITS + 3 * AXIS_BITS };
 
-void regions_init(struct regions *r, vec3 center, double radius, int cells, int n_levels, int limit)
+void regions_init(struct regions *r, vec3 low, vec3 high, int cells, int n_levels, int limit)
 {
+    const double SHIFT = 0.3819660112501051; /* of a cube; 2 minus the golden ratio */
+    vec3 size = sub(high, low);
+    double diagonal = sqrt(length2(size));
     memset(r, 0, sizeof *r);
-    r->per_metre = cells / (2 * radius);
-    r->origin = sub(center, vec(radius, radius, radius));
+    r->per_metre = diagonal > 0 ? cells / diagonal : 1;
+    double shift = SHIFT / r->per_metre;
+    r->origin = sub(low, vec(shift, shift, shift));
+    r->last[0] = int_within((size.x + shift) * r->per_metre, 0, cells);
+    r->last[1] = int_within((size.y + shift) * r->per_metre, 0, cells);
+    r->last[2] = int_within((size.z + shift) * r->per_metre, 0, cells);
     r->n_levels = n_levels;
     r->limit = limit;
     r->region = mem_grow(NULL, &r->capacity, 1, sizeof *r->region);
@@ -55,10 +62,9 @@ static uint64_t face_of(vec3 n)
 
 uint64_t regions_key(const struct regions *r, vec3 p, vec3 ng)
 {
-    const int top = (1 << AXIS_BITS) - 1;
     vec3 c = mul(sub(p, r->origin), r->per_metre);
-    uint64_t x = (uint64_t)int_within(c.x, 0, top), y = (uint64_t)int_within(c.y, 0, top);
-    uint64_t z = (uint64_t)int_within(c.z, 0, top);
+    uint64_t x = (uint64_t)int_within(c.x, 0, r->last[0]), y = (uint64_t)int_within(c.y, 0, r->last[1]);
+    uint64_t z = (uint64_t)int_within(c.z, 0, r->last[2]);
     return x << (FACE_BITS + 2 * AXIS_BITS) | y << (FACE_BITS + AXIS_BITS) | z << FACE_BITS | face_of(ng);
 }
 

@@ -1,9 +1,10 @@
 /* guide.c: see guide.h. */
-#include "guiding/guide.h"
+#include "learning/guide.h"
 
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/cumulative.h"
 #include "base/mem.h"
 
 /* --- columns ----------------------------------------------------------------------------------------- */
@@ -33,11 +34,7 @@ static int cell_of_column(const struct guide_columns *c, const struct light_set 
 {
     int low = column * c->cells_each, high = low + c->cells_each;
     high = high < lights->n_cells ? high : lights->n_cells;
-    double target = u * c->power[column];
-    while (high - low > 1) {
-        int middle = low + (high - low) / 2;
-        *(c->before[middle] <= target ? &low : &high) = middle;
-    }
+    low += cumulative_find(&c->before[low], high - low, u * c->power[column]);
     while (low > column * c->cells_each && alias_pmf(&lights->choice, low) == 0)
         low--; /* rounding at the end of the column */
     return low;

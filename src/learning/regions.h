@@ -6,8 +6,8 @@
  * far exist, in a hash table with open addressing; they are numbered in the order they were met, those of all levels
  * together, a region after those that hold it.
  */
-#ifndef ASBDPT_GUIDING_REGIONS_H
-#define ASBDPT_GUIDING_REGIONS_H
+#ifndef ASBDPT_LEARNING_REGIONS_H
+#define ASBDPT_LEARNING_REGIONS_H
 
 #include <stddef.h>
 #include <stdint.h>
@@ -27,6 +27,7 @@ struct region {
 struct regions {
     vec3 origin;              /* corner of cube (0,0,0) */
     double per_metre;         /* cubes of level 0 per unit of length */
+    int last[3];              /* the last cube along each axis */
     int n_levels;             /* 1 .. REGION_LEVELS */
     int limit;                /* no more regions than these */
     struct region_slot *slot; /* [n_slots], owned */
@@ -38,15 +39,16 @@ struct regions {
 
 enum { REGION_LEVELS = 4 };
 
-/* regions_init: the whole scene only; `cells` cubes of level 0 along the diameter of a sphere that holds everything. */
-void regions_init(struct regions *r, vec3 center, double radius, int cells, int n_levels, int limit);
+/* regions_init: the whole scene only; `cells` cubes of level 0 along the diagonal of the box from `low` to `high`. What
+ * lies outside it joins the outermost cubes. They are shifted by an irrational share of a cube, so that floors and
+ * tables at round heights do not straddle two. */
+void regions_init(struct regions *r, vec3 low, vec3 high, int cells, int n_levels, int limit);
 void regions_free(struct regions *r);
 
 /* regions_copy: make *to, initialised before, the same with memory of its own. */
 void regions_copy(struct regions *to, const struct regions *from);
 
-/* regions_key: names the region of level 0 of a surface point with unit geometric normal ng. Points outside share the
- * cubes at the border. */
+/* regions_key: names the region of level 0 of a surface point with unit geometric normal ng. */
 uint64_t regions_key(const struct regions *r, vec3 p, vec3 ng);
 
 /* regions_add: the number of a region of level 0, a new one, with those that hold it, if it was never met; beyond the

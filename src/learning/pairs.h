@@ -17,10 +17,10 @@
  *
  * Tests: test_pairs.c, test_mis.c.
  */
-#ifndef ASBDPT_GUIDING_PAIRS_H
-#define ASBDPT_GUIDING_PAIRS_H
+#ifndef ASBDPT_LEARNING_PAIRS_H
+#define ASBDPT_LEARNING_PAIRS_H
 
-#include "guiding/regions.h"
+#include "learning/regions.h"
 
 /* Sums over trials, for pairs of regions of the same level. */
 struct pair_lessons {
@@ -44,10 +44,10 @@ struct pairs {
 };
 
 /* pairs_build: make the table.
- *   vertices  [light->n] N(l), those of a region counted in the finest region they lie in
+ *   vertices  [n <= light->n] N(l), those of a region counted in the finest region they lie in; beyond n none
  *   delta     (0,1] */
 void pairs_build(struct pairs *p, const struct pair_lessons *l, const struct regions *eye, const struct regions *light,
-                 const double *vertices, double delta);
+                 const double *vertices, int n_vertices, double delta);
 
 /* pairs_from_row: a table that does not look at the eye vertex: h(e,l) = row[l].
  *   row  [n_light] */

@@ -1,0 +1,84 @@
+/* lvc.c: the light vertex cache: all light vertices of a tile's pool are equally likely.          [Davidovic 2014]
+ *
+ * Each eye vertex (t >= 2) draws C of the V connectible vertices of the K light sub-paths, each with probability 1/V:
+ *     (1/C) sum over draws of F(v) V / K
+ * has BDPT's expectation. It takes each vertex C/V times, where BDPT, with one of K sub-paths, takes it 1/K times: C K/V
+ * times as often, about C/l, l being the expected number of connectible vertices of a light sub-path. That is the
+ * count, with no credit. l is frozen before the render: the pool's own V/K would make a vertex' weight depend on what
+ * else is in the pool, which biases small pools. s = 0, s = 1 and t = 1 stay as they are, lights are chosen by power.
+ *
+ * Tests: test_asbdpt.c.
+ */
+#include <stddef.h>
+#include <stdlib.h>
+
+#include "integrators/pooled.h"
+#include "learning/learn.h"
+
+struct lvc_state {
+    struct frozen frozen;
+    int connections; /* C */
+};
+
+struct lvc {
+    struct light_pool pool; /* the first, see pooled.h */
+    struct candidates found;
+};
+
+static void free_scratch(void *scratch)
+{
+    struct lvc *v = scratch;
+    light_pool_free(&v->pool);
+    free(v->found.item);
+}
+
+static void begin(void *scratch, const void *state, const struct tile_pass *pass, long iteration)
+{
+    struct lvc *v = scratch;
+    (void)state;
+    (void)pass;
+    (void)iteration;
+    candidates_find(&v->found, &v->pool);
+}
+
+/* C draws for one eye vertex, stratified over the pool. */
+static void draw(void *scratch, const void *state, struct pooled_pixel *p, const struct vertex *z, int t)
+{
+    const struct lvc *v = scratch;
+    const struct lvc_state *s = state;
+    int C = s->connections, V = v->found.n;
+    const struct choice choice = {1.0 / V, 1 / (C * (1.0 / V) * v->pool.n)};
+    for (int c = 0; V > 0 && c < C; c++) {
+        int i = (int)((c + sampler_next(&p->draws)) / C * V); /* below V: what is drawn is a multiple of 2^-32 */
+        pooled_join(p, &v->found.item[i < V ? i : V - 1], z, t, choice);
+    }
+}
+
+/* Where light sub-paths have no vertex to connect to there is nothing to be counted. */
+static void prepare(const struct render_job *job, struct preparation *out)
+{
+    struct lvc_state *s = out->state;
+    struct learnt counted = {.guided = false};
+    const struct wish nothing = {.eye_cells = 1};
+    learn(job, &nothing, &counted);
+    double l = counted.importance.light_vertices;
+    for (int end = 0; end < EYE_ENDS; end++)
+        s->frozen.counts.connect[end] = l > 0 ? s->connections / l : s->connections;
+    s->frozen.counts.splat /= s->frozen.path_pixels;
+    learnt_free(&counted);
+}
+
+#define AT(member) offsetof(struct lvc_state, member)
+static const struct method_parameter PARAMETERS[] = {
+    {"connections", PARAMETER_INTEGER, AT(connections), 1, 1, 1024, "light vertices drawn for each eye vertex", NULL},
+    {"pathpixels", PARAMETER_INTEGER, AT(frozen.path_pixels), 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
+     "pixels for each light sub-path", NULL},
+    {.name = NULL}};
+
+const struct method method_lvc = {
+    .name = "lvc", .help = "light vertex cache [Davidovic 2014]: light vertices drawn uniformly from a tile's",
+    .why = "C draws for each eye vertex from the V connectible vertices of the tile's K light sub-paths, all equally "
+           "likely; scale V / (C K)",
+    .parameters = PARAMETERS, .state_size = sizeof(struct lvc_state), .scratch_size = sizeof(struct lvc),
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render, .scratch_free = free_scratch,
+    .begin = begin, .draw = draw};

@@ -1,0 +1,97 @@
+/* method.h: a method is one file and one row.
+ *
+ * A row says all that anybody needs to know of a method: what --help, -P, scene files, experiments, trace and tests ask
+ * for stands here and nowhere else. The table of all rows is in methods.c.
+ *
+ * A render asks a method to prepare its state once, parameters being read already, and then to render tile passes
+ * (tile_pass.h) on as many threads as there are, each with scratch memory of its own. Methods whose pixels share the
+ * light sub-paths of their tile leave the rendering to pooled_render and say what they draw (pooled.h).
+ *
+ * doc/add-a-method.md adds one. Tests: test_methods.c.
+ */
+#ifndef ASBDPT_METHOD_H
+#define ASBDPT_METHOD_H
+
+#include "base/error.h"
+#include "integrators/parameter.h"
+#include "transport/pixel_sample.h"
+
+#define DEFAULT_RR_THRESHOLD 0.5
+
+/* What every method has settled before the first sample: its own state begins with it. All 0 but the counts, which are
+ * BDPT's, when it is to be prepared. */
+struct frozen {
+    struct mis_counts counts;
+    int max_depth;
+    int lights;      /* samples of s = 1 at the first hit; 1 */
+    int path_pixels; /* pooled methods: pixels for each light sub-path; 1 */
+};
+
+struct method;
+
+/* What `prepare` has settled. */
+struct preparation {
+    const struct method *method;
+    void *state;           /* of method->state_size bytes, begins with struct frozen; owned */
+    struct pass_size size; /* any block, tiles of DEFAULT_TILE_SIZE unless changed */
+    char note[FILM_NOTE_SIZE]; /* what was chosen, for people; may be empty */
+    struct film_number number[FILM_NUMBERS]; /* and for programs, ended by a NULL name */
+};
+
+struct pooled_pixel;
+
+struct method {
+    const char *name;   /* --integrator NAME */
+    const char *select; /* asbdpt alone, whose rows share a name: the value of its parameter `select` */
+    const char *help;   /* one line */
+    const char *why;    /* for trace: how what an eye sub-path is joined to is chosen; NULL: it is not */
+    const struct method_parameter *parameters; /* of the state; NULL: none */
+    size_t state_size, scratch_size;    /* scratch_size 0: none; else all zeros at first */
+    double rr_threshold;                /* of Russian roulette unless the user gives one (path.h) */
+
+    /* Is each parameter right beside the others? False with a message if not. NULL: all are. */
+    bool (*check)(const void *state, struct error *err);
+    /* Settle counts and whatever is frozen; out->state is zero but for struct frozen and the parameters. NULL: all is
+     * settled. */
+    void (*prepare)(const struct render_job *job, struct preparation *out);
+    void (*release)(void *state); /* what the state owns, but not the state; NULL: nothing */
+
+    void (*render)(const struct preparation *m, const struct tile_pass *pass);
+    void (*scratch_init)(void *scratch, const void *state); /* NULL: zeros will do */
+    void (*scratch_free)(void *scratch);                    /* what the scratch owns; NULL: nothing */
+
+    /* For pooled_render, whose scratch begins with struct light_pool: the pool of an iteration has been filled; */
+    void (*begin)(void *scratch, const void *state, const struct tile_pass *pass, long iteration);
+    /* add the strategies s >= 2, t >= 2 to p->sample, of all the pixel's eye sub-path or, called for every eye vertex
+     * that can be connected to, those of z = z_{t-1}. One of the two is NULL. */
+    void (*connect)(void *scratch, const void *state, struct pooled_pixel *p);
+    void (*draw)(void *scratch, const void *state, struct pooled_pixel *p, const struct vertex *z, int t);
+};
+
+/* method_list: all rows, ended by NULL. Of rows that share a name the first is the default. */
+const struct method *const *method_list(void);
+
+/* method_exists: is there an integrator of that name ("path", pbrt's name of pt, among them)? */
+bool method_exists(const char *name);
+
+/* method_find: the row of an integrator; the setting `select` chooses among several. NULL with a message if there is
+ * none. */
+const struct method *method_find(const char *name, const struct settings *s, struct error *err);
+
+/* method_has: the parameter of that name that a row has, or NULL; `select` is one, where rows share a name. */
+const struct method_parameter *method_has(const struct method *m, const char *name);
+
+/* method_check: are the settings right that are the method's own? False with a message if not. */
+bool method_check(const struct method *m, const struct settings *s, struct error *err);
+
+/* method_prepare: read the parameters and prepare.
+ *   out  method_release releases it after success
+ * Returns false with a message on a bad parameter. */
+bool method_prepare(const struct method *m, const struct render_job *job, struct preparation *out, struct error *err);
+void method_release(struct preparation *p);
+
+/* method_scratch: the memory of one thread; NULL: none is needed. */
+void *method_scratch(const struct preparation *p);
+void method_scratch_free(const struct preparation *p, void *scratch);
+
+#endif

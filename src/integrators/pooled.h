@@ -1,0 +1,76 @@
+/* pooled.h: methods whose pixels choose from the light sub-paths of their tile.
+ *
+ *   pool       asbdpt: one alias table over the sub-paths, one bin per pixel, weighted: the smallest unbiased repair of
+ *              the dissertation's bins
+ *   vertices   asbdpt: one alias table over light *vertices*, C draws per eye vertex, known to the MIS weights
+ *   subspaces  asbdpt, its default: the same, but what is drawn depends on where the eye vertex is too
+ *   lvc        all light vertices equally likely: the light vertex cache                            [Davidovic 2014]
+ *   cbdpt      no choice: an eye sub-path is connected with M light sub-paths in all pairs              [Pajot 2011]
+ *
+ * In every iteration the pixels of a tile trace light sub-paths, one for every path_pixels of them; each pixel traces
+ * its eye sub-path, takes the strategies s = 0 and s = 1 as BDPT does, and is joined to what its method draws; every
+ * light sub-path is splat once (t = 1), whether drawn or not.
+ */
+#ifndef ASBDPT_POOLED_H
+#define ASBDPT_POOLED_H
+
+#include "integrators/method.h"
+
+/* The light sub-paths of one tile and iteration, in row order of their pixels, packed one behind the other. The scratch
+ * of a pooled method begins with it. */
+struct light_pool {
+    struct arena arena;                  /* their lobes */
+    struct vertex *vertex;               /* [used], grows to the longest need; owned */
+    size_t used, capacity;
+    size_t start[MAX_TILE_SIZE * MAX_TILE_SIZE]; /* first vertex of path k */
+    int length[MAX_TILE_SIZE * MAX_TILE_SIZE];   /* vertices of path k */
+    int n;                                       /* K */
+};
+
+/* light_pool_free: release what the pool owns. A pool starts as zeros. */
+void light_pool_free(struct light_pool *pool);
+
+static inline const struct vertex *light_pool_path(const struct light_pool *pool, int k)
+{
+    return &pool->vertex[pool->start[k]];
+}
+
+/* light_pool_shuffle: a random permutation of the sub-paths' numbers for one iteration into order [pool->n]. */
+void light_pool_shuffle(const struct light_pool *pool, const struct tile_pass *pass, long iteration, int *order);
+
+/* A light vertex that can be connected to: it stands for the sub-path that leads to it. */
+struct candidate {
+    const struct vertex *y;
+    int s;    /* vertices of that sub-path */
+    double L; /* luminance(beta) */
+};
+
+struct candidates {
+    struct candidate *item; /* [n], in the order they were traced; owned */
+    int n;
+    size_t capacity;
+};
+
+/* candidates_find: all connectible y_1, y_2 ... of the pool. c starts as zeros; free(c->item) releases it. */
+void candidates_find(struct candidates *c, const struct light_pool *pool);
+
+/* A pixel of a tile and iteration, its eye sub-path traced. */
+struct pooled_pixel {
+    struct pixel_sample sample;
+    const struct vertex *eye; /* [n] */
+    int n, number;            /* which pixel of the tile, in row order */
+    struct sampler draws;     /* random numbers for the choice */
+};
+
+/* pooled_join: the pixel's eye vertex z = z_{t-1} and a candidate, unless the path would be too long. */
+static inline void pooled_join(struct pooled_pixel *p, const struct candidate *c, const struct vertex *z, int t,
+                               struct choice choice)
+{
+    if (c->s + t <= p->sample.max_depth + 2)
+        pixel_sum_pair(&p->sample, c->y, c->s, z, t, choice);
+}
+
+/* pooled_render: the `render` of a pooled method. */
+void pooled_render(const struct preparation *m, const struct tile_pass *pass);
+
+#endif

@@ -1,0 +1,17 @@
+/* subspaces.h: the state of `select = subspaces`, which the pilot completes. */
+#ifndef ASBDPT_SUBSPACES_H
+#define ASBDPT_SUBSPACES_H
+
+#include "integrators/asbdpt.h"
+
+struct subspaces_state {
+    struct frozen frozen;         /* lights and path_pixels are the pilot's to choose */
+    int connections;              /* parameter: draws for each eye vertex; 0: chosen */
+    double draws[EYE_ENDS];       /* C */
+    double delta;
+    struct learnt learnt;
+};
+
+extern const struct method method_subspaces;
+
+#endif

@@ -1,0 +1,28 @@
+/* learnt.h: what has been learnt about a scene before its first sample, frozen from then on, so that a choice made by it
+ * biases nothing.
+ *
+ * A value: it depends on scene, film, seed and depth, not on the samples asked for, nor on threads; it can be written
+ * to a file and read again (learnt_file.h).
+ */
+#ifndef ASBDPT_LEARNT_H
+#define ASBDPT_LEARNT_H
+
+#include "learning/guide.h"
+#include "learning/importance.h"
+#include "learning/pairs.h"
+#include "transport/mis.h"
+
+struct learnt {
+    struct regions eye, light;    /* where eye vertices and light vertices lie */
+    struct importance importance; /* how much of the camera's throughput comes to a light region */
+    struct guide guide;           /* how s = 1 chooses lights, by eye region */
+    struct pairs pairs;           /* how s >= 2 chooses light vertices, by both */
+    bool guided, paired;          /* are there a guide and pairs? */
+    struct count_model model;     /* all of it, as the weights see it; of no use once the struct has moved */
+};
+
+/* learnt_freeze: fill in the model, which counts then may point to. */
+void learnt_freeze(struct learnt *l);
+void learnt_free(struct learnt *l);
+
+#endif

@@ -1,0 +1,74 @@
+/* lessons.h: the passes of learning and what they have in common: sub-paths are traced in chunks on all threads, each
+ * chunk lists what it found, and the lists are taken in in order (parallel.h): sums and the numbers of regions are the
+ * same for any number of threads. What was learnt is put to use between passes only, while no thread reads it.
+ */
+#ifndef ASBDPT_LESSONS_H
+#define ASBDPT_LESSONS_H
+
+#include "learning/learn.h"
+
+/* Something a sub-path found. */
+struct finding {
+    enum { VISIT, LIGHT_SEEN, LIGHT_VERTEX, TRIAL } kind;
+    vec3 p, p_ng; /* the vertex; TRIAL: its eye end */
+    vec3 y, y_ng; /* TRIAL: its light end */
+    int cell;     /* LIGHT_SEEN: the light cell */
+    bool first;   /* VISIT: is it the first hit? */
+    double x;     /* VISIT, LIGHT_VERTEX: luminance of beta; LIGHT_SEEN: contribution; TRIAL: worth */
+    double w;     /* TRIAL: weight */
+};
+
+struct findings {
+    struct finding *item; /* [n], owned */
+    size_t n, capacity;
+};
+
+/* findings_add: unless it is nothing, or of no use for sums. */
+void findings_add(struct findings *list, struct finding f);
+
+enum { CHUNK = 256 }; /* sub-paths per chunk */
+
+/* Learning under way. */
+struct lessons {
+    const struct render_job *job;
+    const struct wish *wish;
+    struct learnt *learnt;    /* what walks look things up in */
+    struct mis_counts counts; /* weights are not used here; any will do */
+    struct workspace *work;   /* [n_threads] */
+    long traced;              /* sub-paths so far, for job->watch */
+    bool stopped;
+};
+
+/* A pass over sub-paths first .. end-1. */
+struct pass {
+    struct lessons *lessons;
+    long first, end;
+    void *context; /* of the pass, for the functions below */
+    /* Sub-path number i; thread: whose. `begin`, unless NULL, is called first for each chunk. */
+    void (*begin)(void *context, struct lessons *l, int thread, long chunk);
+    void (*trace)(void *context, struct lessons *l, int thread, long i, struct findings *out);
+    void (*take)(void *context, struct lessons *l, const struct finding *f);
+};
+
+/* pass_run: all of it, unless job->watch ends it. */
+void pass_run(const struct pass *p);
+
+/* lessons_walk: a walk of the thread's own, its numbers being those of stream (i, kind). */
+enum stream { STREAM_EYE, STREAM_LIGHT, STREAM_POOL, STREAM_EXTENT };
+struct walk lessons_walk(const struct lessons *l, struct arena *arena, struct sampler *sampler);
+struct sampler lessons_sampler(const struct lessons *l, long i, enum stream stream);
+
+/* lessons_eye: eye sub-path number i, through point i of an even sequence over the film, into the thread's workspace;
+ * *sampler goes on with its numbers. Returns its length. */
+int lessons_eye(const struct lessons *l, int thread, long i, enum stream stream, struct sampler *sampler);
+
+/* visits_run: eye sub-paths first .. end-1: importance, and with rounds > 0 the guide, which each round betters for the
+ * next. visits_light: n light sub-paths. visits_extent: the box in which most vertices are. */
+void visits_extent(struct lessons *l, vec3 *low, vec3 *high);
+void visits_run(struct lessons *l, long n);
+void visits_light(struct lessons *l, long n);
+
+/* trials_run: n eye sub-paths, from whose vertices connections are tried. */
+void trials_run(struct lessons *l, long first, long n);
+
+#endif

@@ -1,0 +1,190 @@
+/* visits.c: the passes that look where sub-paths come to; see lessons.h. */
+#include <stdlib.h>
+
+#include "learning/lessons.h"
+#include "transport/connect.h"
+
+enum {
+    EXTENT_PATHS = 1024,
+    ROUNDS = 2,          /* of eye sub-paths: each finds light with what the ones before have learnt */
+    LIGHTS_PER_VERTEX = 4 /* light points tried from each eye vertex for the guide */
+};
+static const double OUTSIDE = 0.01;     /* share of vertices beyond either side of the extent, along each axis */
+static const double GUIDE_DELTA = 0.2;  /* share of s = 1 samples that choose lights by power */
+static const double LEARN_DELTA = 0.5;  /* the same while learning */
+
+/* --- extent ------------------------------------------------------------------------------------------ */
+
+struct extent {
+    double *along[3]; /* [n] coordinates of vertices, owned */
+    size_t n, capacity[3];
+};
+
+static void trace_extent(void *context, struct lessons *l, int thread, long i, struct findings *out)
+{
+    struct sampler sampler;
+    (void)context;
+    int n = lessons_eye(l, thread, i, STREAM_EXTENT, &sampler);
+    for (int k = 1; k < n; k++)
+        if (vertex_connectible(&l->work[thread].eye[k])) {
+            struct finding f = {.kind = VISIT, .p = l->work[thread].eye[k].p, .x = 1};
+            findings_add(out, f);
+        }
+}
+
+static void take_extent(void *context, struct lessons *l, const struct finding *f)
+{
+    struct extent *e = context;
+    const double p[3] = {f->p.x, f->p.y, f->p.z};
+    (void)l;
+    for (int k = 0; k < 3; k++) {
+        e->along[k] = mem_grow(e->along[k], &e->capacity[k], e->n + 1, sizeof *e->along[k]);
+        e->along[k][e->n] = p[k];
+    }
+    e->n++;
+}
+
+static int by_size(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+void visits_extent(struct lessons *l, vec3 *low, vec3 *high)
+{
+    struct extent e = {.n = 0};
+    const struct light_set *lights = &l->job->scene->lights;
+    struct pass pass = {l, 0, EXTENT_PATHS, &e, NULL, trace_extent, take_extent};
+    double side[2][3];
+    pass_run(&pass);
+    size_t outside = (size_t)(OUTSIDE * (double)e.n);
+    for (int k = 0; k < 3 && e.n > 0; k++) {
+        qsort(e.along[k], e.n, sizeof *e.along[k], by_size);
+        side[0][k] = e.along[k][outside];
+        side[1][k] = e.along[k][e.n - 1 - outside];
+    }
+    for (int k = 0; k < 3; k++)
+        free(e.along[k]);
+    *low = e.n > 0 ? vec(side[0][0], side[0][1], side[0][2]) : lights->center;
+    *high = e.n > 0 ? vec(side[1][0], side[1][1], side[1][2]) : lights->center;
+}
+
+/* --- eye sub-paths ----------------------------------------------------------------------------------- */
+
+/* What was met until now, and seen; walks look things up in what was known before this round. */
+struct visits {
+    struct regions eye, light;
+    struct guide_lessons lights;
+    long n;
+};
+
+static void trace_visits(void *context, struct lessons *l, int thread, long i, struct findings *out)
+{
+    struct sampler sampler;
+    (void)context;
+    int n = lessons_eye(l, thread, i, STREAM_EYE, &sampler);
+    for (int k = 1; k < n; k++) {
+        const struct vertex *z = &l->work[thread].eye[k];
+        if (!vertex_connectible(z))
+            continue;
+        struct finding f = {.kind = VISIT, .p = z->p, .p_ng = z->ng, .first = z->eye_end == FIRST_HIT};
+        f.x = rgb_luminance(z->beta);
+        findings_add(out, f);
+        f.kind = LIGHT_SEEN;
+        for (int j = 0; l->wish->guide && j < LIGHTS_PER_VERTEX; j++) {
+            struct connection light = connect_direct(l->job->scene, &l->counts, z, &sampler);
+            f.cell = light.cell;
+            f.x = rgb_luminance(light.value);
+            findings_add(out, f);
+        }
+    }
+}
+
+static void take_visit(void *context, struct lessons *l, const struct finding *f)
+{
+    struct visits *v = context;
+    struct importance *g = &l->learnt->importance;
+    int eye = regions_add(&v->eye, regions_key(&v->eye, f->p, f->p_ng));
+    if (f->kind == LIGHT_SEEN) {
+        guide_lessons_add(&v->lights, &v->eye, eye, f->cell, f->x);
+        return;
+    }
+    g->eye_vertices += 1.0 / (double)v->n;
+    g->first_vertices += f->first / (double)v->n;
+    if (l->wish->importance)
+        importance_add(g, regions_add(&v->light, regions_key(&v->light, f->p, f->p_ng)), f->x);
+}
+
+void visits_run(struct lessons *l, long n)
+{
+    struct learnt *learnt = l->learnt;
+    struct visits v = {.n = n};
+    regions_copy(&v.eye, &learnt->eye);
+    regions_copy(&v.light, &learnt->light);
+    guide_lessons_init(&v.lights, &l->job->scene->lights);
+    for (int round = 0; round < ROUNDS && !l->stopped; round++) {
+        struct pass pass = {l, n * round / ROUNDS, n * (round + 1) / ROUNDS, &v, NULL, trace_visits, take_visit};
+        pass_run(&pass);
+        regions_copy(&learnt->eye, &v.eye);
+        regions_copy(&learnt->light, &v.light);
+        if (l->wish->guide) {
+            bool last = l->stopped || round + 1 == ROUNDS;
+            guide_build(&learnt->guide, &v.lights, &v.eye, &l->job->scene->lights, last ? GUIDE_DELTA : LEARN_DELTA);
+            learnt->guided = true;
+        }
+        learnt_freeze(learnt);
+    }
+    guide_lessons_free(&v.lights);
+    regions_free(&v.eye);
+    regions_free(&v.light);
+}
+
+/* --- light sub-paths --------------------------------------------------------------------------------- */
+
+/* Sums over the connectible vertices of light sub-paths; I = luminance(beta) E. */
+struct light_sums {
+    double vertices, E, I, square; /* square: of I */
+    long n;                        /* sub-paths */
+};
+
+static void trace_light(void *context, struct lessons *l, int thread, long i, struct findings *out)
+{
+    struct workspace *work = &l->work[thread];
+    struct sampler sampler = lessons_sampler(l, i, STREAM_LIGHT);
+    struct walk w = lessons_walk(l, &work->arena, &sampler);
+    int n = path_light(&w, work->light, l->job->max_depth + 1);
+    (void)context;
+    for (int k = 1; k < n; k++) {
+        const struct vertex *y = &work->light[k];
+        struct finding f = {.kind = LIGHT_VERTEX, .p = y->p, .p_ng = y->ng, .x = rgb_luminance(y->beta)};
+        if (vertex_connectible(y))
+            findings_add(out, f);
+    }
+}
+
+static void take_light(void *context, struct lessons *l, const struct finding *f)
+{
+    struct light_sums *s = context;
+    struct importance *g = &l->learnt->importance;
+    struct regions *light = &l->learnt->light;
+    uint64_t key = regions_key(light, f->p, f->p_ng);
+    int region = l->wish->pairs ? regions_add(light, key) : regions_find(light, key);
+    double E = importance_in(g, region), I = f->x * E;
+    s->vertices++;
+    s->E += E;
+    s->I += I;
+    s->square += I * I;
+    if (l->wish->pairs)
+        importance_add_light(g, region, 1.0 / (double)s->n);
+}
+
+void visits_light(struct lessons *l, long n)
+{
+    struct importance *g = &l->learnt->importance;
+    struct light_sums s = {.n = n};
+    struct pass pass = {l, 0, n, &s, NULL, trace_light, take_light};
+    pass_run(&pass);
+    g->light_vertices = s.vertices / (double)n;
+    g->mean = s.E / (double)n;
+    g->useful = s.square > 0 ? s.I * s.I / (s.square * s.vertices) : 1;
+}

@@ -1,0 +1,21 @@
+/* mis.c: see mis.h: the counts that need to know what vertices are. */
+#include "transport/mis.h"
+
+#include "transport/path.h"
+
+double mis_count_before(const struct mis_counts *c, const struct light_set *lights, const struct vertex *prev,
+                        const struct vertex *y, enum eye_end end)
+{
+    if (y->prev_delta)
+        return 0;
+    return prev->kind == VERTEX_LIGHT ? mis_direct_count(c, lights, y->eye_region, end, prev->cell, prev->wo)
+                                      : mis_connect_count(c, prev->light_region, y->eye_region, end);
+}
+
+double mis_count_behind(const struct mis_counts *c, const struct vertex *prev, const struct vertex *z)
+{
+    if (z->prev_delta)
+        return 0;
+    return prev->kind == VERTEX_LENS ? c->splat
+                                     : mis_connect_count(c, z->light_region, prev->eye_region, prev->eye_end);
+}
