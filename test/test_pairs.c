@@ -88,13 +88,20 @@ static double error_of(struct rng *r, const struct regions *eye, const struct re
     return sqrt(square);
 }
 
+/* Cubes, so many from -1 to 1, with sides at 0 on every level. */
+static void centred_grid(struct regions *r, int cells)
+{
+    double low = -1 + 0.3819660112501051 * 2 / cells, high = low + 2 / sqrt(3);
+    regions_init(r, vec(low, low, low), vec(high, high, high), cells, REGION_LEVELS, 8192);
+}
+
 static void test_learning(struct test *t, struct rng *r, int trials, double bound)
 {
     struct regions eye, light;
     struct pairs p;
     double vertices[8192] = {0};
-    regions_init(&eye, vec(-1, -1, -1), vec(1, 1, 1), 4, REGION_LEVELS, 8192);
-    regions_init(&light, vec(-1, -1, -1), vec(1, 1, 1), CELLS, REGION_LEVELS, 8192);
+    centred_grid(&eye, 4);
+    centred_grid(&light, CELLS);
     learn(r, &eye, &light, trials, vertices, &p);
     for (int e = 0; e < p.n_eye; e++) {
         double sum = 0;

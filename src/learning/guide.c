@@ -138,14 +138,19 @@ static double *shares_of_regions(const struct guide_lessons *l, const struct reg
     return t;
 }
 
+void guide_start(struct guide *g, const struct light_set *lights)
+{
+    guide_free(g);
+    g->columns = columns_new(lights);
+}
+
 void guide_build(struct guide *g, struct guide_lessons *l, const struct regions *regions,
                  const struct light_set *lights, double delta)
 {
     make_room(l, regions->n);
     int n = l->columns.n;
     double *t = shares_of_regions(l, regions), *q = mem_alloc((size_t)n, sizeof *q);
-    guide_free(g);
-    g->columns = columns_new(lights);
+    guide_start(g, lights);
     g->n = l->n;
     g->table = mem_alloc((size_t)l->n, sizeof *g->table);
     for (int i = 0; i < l->n; i++) {

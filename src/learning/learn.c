@@ -5,7 +5,7 @@
 #include "learning/lessons.h"
 
 /* The budget: eye sub-paths for each pixel, and between which numbers. */
-enum { LEARN_LEAST = 8 * 1024, LEARN_MOST = 128 * 1024, LIGHT_MOST = 32 * 1024, COUNTED = 4 * 1024 };
+enum { LEARN_LEAST = 2 * 1024, LEARN_MOST = 128 * 1024, LIGHT_MOST = 32 * 1024, COUNTED = 4 * 1024 };
 static const double LEARN_PER_PIXEL = 4;
 
 enum { MAX_EYE_REGIONS = 1024, MAX_LIGHT_REGIONS = 2048, MAX_IMPORTANCE_REGIONS = 1 << 17 };

@@ -12,12 +12,15 @@
 #include "learning/pairs.h"
 #include "transport/mis.h"
 
+enum { LEARNT_NUMBERS = 16 };
+
 struct learnt {
     struct regions eye, light;    /* where eye vertices and light vertices lie */
     struct importance importance; /* how much of the camera's throughput comes to a light region */
     struct guide guide;           /* how s = 1 chooses lights, by eye region */
     struct pairs pairs;           /* how s >= 2 chooses light vertices, by both */
     bool guided, paired;          /* are there a guide and pairs? */
+    double number[LEARNT_NUMBERS]; /* what a method has chosen by trying, in an order of its own; >= 0 */
     struct count_model model;     /* all of it, as the weights see it; of no use once the struct has moved */
 };
 

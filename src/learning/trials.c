@@ -12,7 +12,7 @@
 
 enum {
     STOCK = 64, /* light sub-paths of a chunk */
-    TRIALS = 8  /* connections tried from each eye vertex */
+    TRIALS = 4  /* connections tried from each eye vertex */
 };
 
 /* A light vertex that trials may choose. */

@@ -7,7 +7,7 @@
 enum {
     EXTENT_PATHS = 1024,
     ROUNDS = 2,          /* of eye sub-paths: each finds light with what the ones before have learnt */
-    LIGHTS_PER_VERTEX = 4 /* light points tried from each eye vertex for the guide */
+    LIGHTS_PER_VERTEX = 2 /* light points tried from each eye vertex for the guide */
 };
 static const double OUTSIDE = 0.01;     /* share of vertices beyond either side of the extent, along each axis */
 static const double GUIDE_DELTA = 0.2;  /* share of s = 1 samples that choose lights by power */

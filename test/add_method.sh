@@ -1,0 +1,36 @@
+#!/bin/sh
+# add_method.sh: is a method one file and one row? Takes the code of doc/add-a-method.md, plants it in a copy of the tree
+# with nothing else edited, builds, and finds the method in --help, render, trace and verify, which accepts it, and rejects
+# it with a planted fault. BUILD names a build directory to begin with.
+build=${BUILD:-build}
+dir=$(mktemp -d) || exit 1
+trap 'rm -rf "$dir"' EXIT
+mkdir "$dir/doc" && cp -R -p Makefile src scenes ref test "$build" "$dir" && cp -R -p doc/*.md "$dir/doc" || exit 1
+
+plant() { # the code of the page, and its row
+    sed -n '/^```c$/,/^```$/p' doc/add-a-method.md | sed '1d;$d' >"$dir/src/integrators/resampling.c"
+    sed 's/^static const struct method \*const METHODS\[\] = {/extern const struct method method_resampling;\n&\&method_resampling, /' \
+        src/integrators/methods.c | awk '{ gsub(/\\n/, "\n"); print }' >"$dir/src/integrators/methods.c"
+}
+must() { "$@" >"$dir/log" 2>&1 || { echo "FAIL: $*"; cat "$dir/log"; exit 1; }; }
+says() { grep -q "$1" "$dir/log" || { echo "FAIL: no \"$1\" in:"; cat "$dir/log"; exit 1; }; }
+
+plant
+cd "$dir" || exit 1
+must make BUILD="$build" LTO=
+must ./asbdpt --help
+says 'resampling'
+says 'candidates'
+must ./asbdpt render scenes/cornell-box.pbrt --integrator resampling -P candidates=2 --quick -o x.pfm
+must ./asbdpt trace scenes/cornell-box.pbrt --integrator resampling --pixel 32,32
+says 'CHOICE'
+must ./asbdpt verify scenes/cornell-box.pbrt --methods pt,resampling --res 24x24 --spp 64 --quiet
+says 'agree'
+sed 's/sum \* V \/ (L \* M/1.02 * sum * V \/ (L * M/' src/integrators/resampling.c >x.c && mv x.c src/integrators/resampling.c
+must make BUILD="$build" LTO=
+if ./asbdpt verify scenes/cornell-box.pbrt --methods pt,resampling --res 24x24 --spp 64 --quiet >log 2>&1; then
+    echo "FAIL: a method that is wrong by 2 % of its share is accepted"
+    exit 1
+fi
+says 'DIFFER'
+echo "a method is one file and one row"
