@@ -34,7 +34,7 @@ static const struct entry ENTRIES[] = {
     {"lobe", test_lobe, false},       {"bsdf", test_bsdf, false},       {"material", test_material, false},
     {"light", test_light, false},   {"camera", test_camera, false},
     {"film", test_film, false},       {"parser", test_parser, false}, {"sampler", test_sampler, false},
-    {"mis", test_mis, false}, {"pairs", test_pairs, false},
+    {"mis", test_mis, false}, {"pairs", test_pairs, false}, {"learning", test_learning, false},
     {"options", test_options, false}, {"render", test_render, false}, {"asbdpt", test_asbdpt, false},
     {"part", test_part, false}, {"trace", test_trace, false},
     {"report", test_report, false}, {"pictures", test_pictures, false},

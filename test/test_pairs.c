@@ -95,7 +95,7 @@ static void centred_grid(struct regions *r, int cells)
     regions_init(r, vec(low, low, low), vec(high, high, high), cells, REGION_LEVELS, 8192);
 }
 
-static void test_learning(struct test *t, struct rng *r, int trials, double bound)
+static void test_worth_learnt(struct test *t, struct rng *r, int trials, double bound)
 {
     struct regions eye, light;
     struct pairs p;
@@ -123,6 +123,6 @@ void test_pairs(struct test *t)
     test_regions(t, &r);
     /* 64 x 512 pairs. 60 trials each, of relative deviation 1.7, leave 22 %; with one trial in two pairs all rests on
      * the regions above them. */
-    test_learning(t, &r, 2000000, 0.25);
-    test_learning(t, &r, 16000, 0.4);
+    test_worth_learnt(t, &r, 2000000, 0.25);
+    test_worth_learnt(t, &r, 16000, 0.4);
 }

@@ -21,6 +21,7 @@ void test_hdr(struct test *t);
 void test_hostile(struct test *t);
 void test_image(struct test *t);
 void test_kdtree(struct test *t);
+void test_learning(struct test *t);
 void test_light(struct test *t);
 void test_lobe(struct test *t);
 void test_material(struct test *t);
