@@ -135,7 +135,7 @@ static void render_iteration(struct pixel *p, double shift, long iteration)
     int n = pixel_eye_path(p->pass, &g, iteration, work->eye, g.max_depth + 2);
     struct sampler draw = pixel_sampler(p->pass, RNG_SELECT, p->x, p->y, iteration);
     replace_aged(p, iteration);
-    double u = sampler_next(&draw);
+    double u = sampler_number(&draw, DRAW_LIGHT_END);
     struct element *e = choose(p, shift, (uint64_t)(iteration - p->pass->first), u);
     if (g.trace != NULL)
         tell(p, g.trace, e, u);
@@ -153,7 +153,7 @@ static void render(const void *selection, const struct tile_pass *pass)
     for (p.y = pass->rect.y0; p.y < pass->rect.y1; p.y++)
         for (p.x = pass->rect.x0; p.x < pass->rect.x1; p.x++) {
             struct sampler shift = pixel_sampler(pass, RNG_SHUFFLE, p.x, p.y, pass->first);
-            double start = sampler_next(&shift);
+            double start = sampler_number(&shift, DRAW_ORDER);
             p.bins->traced = 0;
             for (int i = 0; i < p.bins->n_elements; i++)
                 replace(&p, &p.bins->element[i], pass->first);

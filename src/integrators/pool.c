@@ -82,7 +82,7 @@ static void connect(void *scratch, const struct selection *sel, struct pool_pixe
 {
     struct pool *pool = scratch;
     int bin = pool->order[p->number];
-    double q, u = sampler_next(&p->draws);
+    double q, u = sampler_number(&p->draws, DRAW_LIGHT_END);
     (void)sel;
     int k = alias_sample_bin(&pool->table, bin, u, &q, NULL);
     double W = 1 / (pool->paths.n * q);

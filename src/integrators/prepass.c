@@ -143,7 +143,7 @@ static void try_pairs(const struct prepass *p, struct chunk *c, const struct lig
 {
     double near2 = sqr(0.25 / p->learnt->eye.per_metre), beta = rgb_luminance(z->beta);
     for (int i = 0; i < TRIALS && s->n > 0 && beta > 0; i++) {
-        const struct trial_vertex *y = choose(s, (i + sampler_next(sampler)) / TRIALS);
+        const struct trial_vertex *y = choose(s, (i + sampler_number(sampler, DRAW_LIGHT_END)) / TRIALS);
         struct connection found = connect_pair(p->job->scene, &p->counts, y->y, z);
         double d2 = length2(sub(y->y->p, z->p));
         struct found f = {.kind = TRIAL, .eye = regions_key(&p->learnt->eye, z->p, z->ng)};

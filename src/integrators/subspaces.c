@@ -190,11 +190,11 @@ static void connect_drawn(void *scratch, const struct selection *sel, struct pix
     if (v->n == 0)
         return;
     double C = sel->connections[t > 2], whole = floor(C);
-    int n = (int)whole + (C > whole && sampler_next(sampler) < C - whole);
+    int n = (int)whole + (C > whole && sampler_number(sampler, DRAW_HOW_MANY) < C - whole);
     const double *row = n > 0 ? row_of_region(v, sel, z->eye_region) : NULL;
     for (int c = 0; c < n; c++) {
         double pmf;
-        const struct candidate *y = draw(v, row, (c + sampler_next(sampler)) / n, &pmf);
+        const struct candidate *y = draw(v, row, (c + sampler_number(sampler, DRAW_LIGHT_END)) / n, &pmf);
         double scale = 1 / (C * pmf * v->pool.n);
         if (g->trace != NULL)
             tell(v, sel, g->trace, z, t, y, c, n, pmf, scale);

@@ -110,7 +110,7 @@ static void connect_drawn(void *scratch, const struct selection *sel, struct pix
     const struct vertices *v = scratch;
     int C = v->table.n > 0 ? (int)sel->connections[0] : 0;
     for (int c = 0; c < C; c++) {
-        double q, u = (c + sampler_next(sampler)) / C;
+        double q, u = (c + sampler_number(sampler, DRAW_LIGHT_END)) / C;
         int i = alias_sample(&v->table, u, &q, NULL);
         double scale = 1 / (C * q * v->pool.n);
         if (g->trace != NULL)
