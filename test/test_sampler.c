@@ -205,13 +205,13 @@ static void note_connections(struct usage *all, const struct trace *trace, int s
     int directs = 0;
     for (int i = 0; i < trace->n_connections; i++) {
         const struct trace_connection *c = &trace->connection[i];
-        int k = c->s == 1 ? directs++ : c->s;
+        int k = c->s == 1 ? directs++ : c->s - 2;
         if (k >= SAMPLER_TIMES || rgb_is_black(c->c.value))
             continue;
         if (c->s == 1)
             lamp_inverse(c->c.end, place(all, "light point of try", k, sample));
         else if (c->t == 1)
-            lens_inverse(&all->scene->camera, c->c.end, place(all, "lens point for light vertex", k, sample));
+            lens_inverse(&all->scene->camera, c->c.end, place(all, "lens point of try", k, sample));
     }
 }
 
@@ -257,7 +257,7 @@ static void test_usage(struct test *t)
     static const struct {
         const char *integrator;
         int decisions; /* at least; asbdpt: two light points at the first vertex */
-    } ways[] = {{"pt", 8}, {"lt", 8}, {"bdpt", 14}, {"asbdpt", 14}};
+    } ways[] = {{"pt", 6}, {"lt", 7}, {"bdpt", 11}, {"asbdpt", 11}};
     struct scene scene;
     if (!scene_from_text(t, HALL, &scene))
         return;

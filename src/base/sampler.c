@@ -29,19 +29,19 @@ static uint32_t sobol_second(uint32_t index)
 struct sampler sampler_start(uint64_t seed, enum rng_purpose purpose, uint64_t pixel, uint64_t iteration)
 {
     struct sampler s = {.rng = rng_stream(seed, purpose, pixel, iteration),
-                        .index = (uint32_t)(iteration & (SAMPLER_POINTS - 1))};
+                        .index = reverse_bits((uint32_t)(iteration & (SAMPLER_POINTS - 1)))};
     /* hash_mix is a bijection with hash_mix(0) = 0: every run of 2^16 iterations has a scramble of its own. */
     s.scramble = hash_combine(hash_combine(hash_mix(seed ^ 0x6a09e667f3bcc908u), (uint64_t)purpose), pixel) ^
                  hash_mix(iteration >> SAMPLER_LOG2_POINTS);
     return s;
 }
 
-/* Where a decision's sequence is at this iteration: the points are visited in a scrambled order, of which the first 2^k
- * still are a net. */
+/* Where a decision's sequence is at an iteration, given with its bits reversed: the points are visited in a scrambled
+ * order, of which the first 2^k still are a net. */
 static uint32_t scramble_order(uint32_t index, uint32_t seed)
 {
     const uint32_t kept = ~(uint32_t)0 << (32 - SAMPLER_LOG2_POINTS);
-    return reverse_bits(scramble_digits(reverse_bits(index), seed) & kept);
+    return reverse_bits(scramble_digits(index, seed) & kept);
 }
 
 /* The fraction whose first digit is bit 0. */

@@ -136,8 +136,9 @@ struct connection connect_lens(const struct scene *scene, const struct mis_count
                                int s, struct sampler *sampler)
 {
     const struct vertex *y = &light[s - 1];
-    double u[2];
-    sampler_pair(sampler, DRAW_LENS_POINT, u);
+    double u[2] = {0, 0};
+    if (scene->camera.lens_radius > 0)
+        sampler_pair(sampler, DRAW_LENS_POINT, u);
     if (!vertex_connectible(y))
         return nothing();
     vec3 lens = camera_sample_lens(&scene->camera, y->p, u[0], u[1]);

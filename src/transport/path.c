@@ -215,8 +215,9 @@ static int random_walk(const struct walk *w, struct departure from, struct verte
 int path_eye(const struct walk *w, double px, double py, struct vertex *path, int max_vertices)
 {
     const struct camera *camera = &w->scene->camera;
-    double u[2];
-    sampler_pair(w->sampler, DRAW_LENS_POINT, u);
+    double u[2] = {0, 0};
+    if (camera->lens_radius > 0)
+        sampler_pair(w->sampler, DRAW_LENS_POINT, u);
     struct departure from = {.ray = camera_ray(camera, px, py, u[0], u[1]), .beta = rgb_grey(1)};
     memset(&path[0], 0, sizeof path[0]);
     path[0].kind = VERTEX_LENS;
