@@ -144,7 +144,8 @@ static void compare_direct(struct comparison *c, const struct vertex *eye, int t
     struct connection got = connect_direct(c->scene, c->counts, &eye[t - 1], sampler);
     double u[3];
     struct light_point at;
-    sampler_next3(&same, u);
+    u[0] = sampler_number(&same, DRAW_LIGHT);
+    sampler_pair(&same, DRAW_LIGHT_POINT, &u[1]);
     const struct light_set *lights = &c->scene->lights;
     const struct count_model *m = c->counts->model;
     double pmf;
@@ -166,11 +167,12 @@ static void compare_lens(struct comparison *c, const struct vertex *light, int s
 {
     struct sampler same = *sampler;
     struct connection got = connect_lens(c->scene, c->counts, light, s, sampler);
-    double u1 = sampler_next(&same), u2 = sampler_next(&same);
+    double u[2];
+    sampler_pair(&same, DRAW_LENS_POINT, u);
     struct vertex z;
     memset(&z, 0, sizeof z);
     z.kind = VERTEX_LENS;
-    z.p = camera_sample_lens(&c->scene->camera, light[s - 1].p, u1, u2);
+    z.p = camera_sample_lens(&c->scene->camera, light[s - 1].p, u[0], u[1]);
     compare(c, got, light, s, &z, 1);
 }
 
@@ -185,7 +187,9 @@ static void compare_paths(struct comparison *c, int n_paths)
         struct sampler b = sampler_start(test_seed(c->t), RNG_LIGHT, 1, (uint64_t)i);
         struct sampler d = sampler_start(test_seed(c->t), RNG_CONNECT, 1, (uint64_t)i);
         struct walk we = {c->scene, c->counts, &arena, &a, 0}, wl = {c->scene, c->counts, &arena, &b, 0};
-        int n_eye = path_eye(&we, 32 * sampler_next(&d), 32 * sampler_next(&d), eye, MAX);
+        double raster[2];
+        sampler_pair(&d, DRAW_FILM_POINT, raster);
+        int n_eye = path_eye(&we, 32 * raster[0], 32 * raster[1], eye, MAX);
         int n_light = path_light(&wl, light, MAX);
         for (int t = 2; t <= n_eye; t++) {
             if (t > 2)

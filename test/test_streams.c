@@ -75,14 +75,14 @@ static long count_equal(struct keys *k)
 
 /* --- the sampler ------------------------------------------------------------------------------------- */
 
-/* The first 16 binary digits of one number of each of the first three pairs. */
+/* The first 16 binary digits of one number of each of three points. */
 static uint64_t digits_of(struct sampler s, int second)
 {
     uint64_t key = 0;
-    for (int i = 0; i < SAMPLER_DIMENSIONS; i++) {
-        double u = sampler_next(&s);
-        if (i % 2 == second)
-            key = key << 16 | (uint64_t)(u * 65536);
+    for (int d = DRAW_FILM_POINT; d < DRAW_FILM_POINT + 3; d++) {
+        double u[2];
+        sampler_pair(&s, (enum decision)d, u);
+        key = key << 16 | (uint64_t)(u[second] * 65536);
     }
     return key;
 }

@@ -29,22 +29,50 @@ static uint32_t sobol_second(uint32_t index)
 struct sampler sampler_start(uint64_t seed, enum rng_purpose purpose, uint64_t pixel, uint64_t iteration)
 {
     struct sampler s = {.rng = rng_stream(seed, purpose, pixel, iteration),
-                        .index = (uint32_t)(iteration & (SAMPLER_POINTS - 1))};
+                        .index = reverse_bits((uint32_t)(iteration & (SAMPLER_POINTS - 1)))};
     /* hash_mix is a bijection with hash_mix(0) = 0: every run of 2^16 iterations has a scramble of its own. */
     s.scramble = hash_combine(hash_combine(hash_mix(seed ^ 0x6a09e667f3bcc908u), (uint64_t)purpose), pixel) ^
                  hash_mix(iteration >> SAMPLER_LOG2_POINTS);
     return s;
 }
 
-double sampler_pair(struct sampler *s)
+/* Where a decision's sequence is at an iteration, given with its bits reversed: the points are visited in a scrambled
+ * order, of which the first 2^k still are a net. */
+static uint32_t scramble_order(uint32_t index, uint32_t seed)
 {
-    const double unit = 1.0 / 4294967296.0;
-    uint64_t h = hash_combine(s->scramble, (uint64_t)s->dimension), h2 = hash_mix(h);
-    /* Visit the points in a scrambled order; the first 2^k iterations still visit 2^k points that form a net. */
     const uint32_t kept = ~(uint32_t)0 << (32 - SAMPLER_LOG2_POINTS);
-    uint32_t index = reverse_bits(scramble_digits(reverse_bits(s->index), (uint32_t)h) & kept);
-    uint32_t x = scramble_digits(index, (uint32_t)(h >> 32));
-    uint32_t y = scramble_digits(sobol_second(index), (uint32_t)h2);
-    s->second = reverse_bits(y) * unit;
-    return reverse_bits(x) * unit;
+    return reverse_bits(scramble_digits(index, seed) & kept);
+}
+
+/* The fraction whose first digit is bit 0. */
+static double fraction(uint32_t digits) { return reverse_bits(digits) * (1.0 / 4294967296.0); }
+
+/* Whether the next number of a decision is of low discrepancy; then *h is a hash of which it is. */
+static inline bool is_even(struct sampler *s, enum decision d, uint64_t *h)
+{
+    if (d >= DRAW_LOBE || s->drawn[d] >= SAMPLER_TIMES)
+        return false;
+    *h = hash_combine(s->scramble, (uint64_t)d * SAMPLER_TIMES + s->drawn[d]++);
+    return true;
+}
+
+void sampler_pair(struct sampler *s, enum decision d, double u[2])
+{
+    uint64_t h;
+    if (!is_even(s, d, &h)) {
+        u[0] = rng_uniform(&s->rng);
+        u[1] = rng_uniform(&s->rng);
+        return;
+    }
+    uint32_t index = scramble_order(s->index, (uint32_t)h);
+    u[0] = fraction(scramble_digits(index, (uint32_t)(h >> 32)));
+    u[1] = fraction(scramble_digits(sobol_second(index), (uint32_t)hash_mix(h)));
+}
+
+double sampler_number(struct sampler *s, enum decision d)
+{
+    uint64_t h;
+    if (!is_even(s, d, &h))
+        return rng_uniform(&s->rng);
+    return fraction(scramble_digits(scramble_order(s->index, (uint32_t)h), (uint32_t)(h >> 32)));
 }

@@ -1,12 +1,23 @@
-/* sampler.h: the random numbers one sub-path consumes, drawn in order.
+/* sampler.h: the random numbers one sub-path consumes, each drawn for a decision with a name.
  *
- * The first numbers of every stream, those that decide most, form a low-discrepancy sequence over the iterations of a
- * pixel: pairs of Sobol' points, Owen-scrambled by hashing, each pair visited in an order of its own [Burley 2020].
- * The rest comes from the pixel's generator. Each number alone is exactly uniform, and over pixels and seeds all are
- * independent, so nothing is biased. Within one pixel the iterations are better spread than independent ones, and a
- * weak correlation between two pairs may remain, since the order is a hash.
+ * A decision that needs a point of the unit square, a direction say, draws one; a choice, say of a light, draws a
+ * single number. What a stream gives for a decision the k-th time depends on nothing that other decisions have drawn:
+ * roulette or a lens cannot shift a direction's numbers.
  *
- * Tests: test_sampler.c.
+ * Over the iterations of a pixel the first SAMPLER_TIMES points of each decision, and single numbers where that pays,
+ * are of low discrepancy: Sobol' points, Owen-scrambled by hashing, visited in an order of each one's own [Burley 2020].
+ * Any 2^k iterations from a multiple of 2^k on have exactly one of 2^k points in every elementary interval of area 2^-k:
+ * they are a (0,k,2)-net. All else comes from the pixel's generator. Each number alone is exactly uniform, and over
+ * pixels and seeds all are independent, so nothing is biased. Within one pixel a weak correlation between two decisions
+ * may remain, since the order is a hash.
+ *
+ * Any other number of samples is made of several nets, 48 of those of 32 and 16, and its error is about that of
+ * independent nets with equal weights for all samples: the smaller have the larger share. So 20 samples of a smooth
+ * integrand (x y) have twice the squared error of 16, 40 of 32; at an edge across the square all are as good as their
+ * number, or nearly. Choose powers of two. No sequence can be good at all numbers: n times the error changes by f - I
+ * with sample n + 1, so it is not small on both sides of it.
+ *
+ * Tests: test_sampler.c (also of the points as sub-paths and connections have used them), test_streams.c.
  */
 #ifndef ASBDPT_SAMPLER_H
 #define ASBDPT_SAMPLER_H
@@ -16,17 +27,34 @@
 #include "base/rng.h"
 
 enum {
-    SAMPLER_DIMENSIONS = 6, /* numbers of low discrepancy at the start of a stream; even */
+    SAMPLER_TIMES = 2, /* how often each decision is given numbers of low discrepancy */
     SAMPLER_LOG2_POINTS = 16,
     SAMPLER_POINTS = 1 << SAMPLER_LOG2_POINTS /* iterations that share one scrambled sequence */
 };
 
+/* What numbers decide. */
+enum decision {
+    /* points of the unit square */
+    DRAW_FILM_POINT,
+    DRAW_LENS_POINT,
+    DRAW_LIGHT_POINT,
+    DRAW_EMISSION,   /* how a light is left */
+    DRAW_SCATTERING, /* how a surface is left */
+    /* single numbers */
+    DRAW_LIGHT,
+    DRAW_LIGHT_END, /* which light sub-path, or vertex of one, to connect to */
+    DRAW_HOW_MANY,  /* of these */
+    /* single numbers that are plain random ones */
+    DRAW_LOBE,
+    DRAW_ROULETTE,
+    DRAW_ORDER /* of a permutation */
+};
+
 struct sampler {
     struct rng rng;
-    uint64_t scramble; /* hash of (seed, purpose, pixel, iteration / SAMPLER_POINTS) */
-    uint32_t index;    /* iteration % SAMPLER_POINTS: where in the sequence */
-    int dimension;     /* numbers drawn so far, counted up to SAMPLER_DIMENSIONS */
-    double second;     /* the other number of the current pair */
+    uint64_t scramble;        /* hash of (seed, purpose, pixel, iteration / SAMPLER_POINTS) */
+    uint32_t index;           /* iteration % SAMPLER_POINTS, bits reversed: where in the sequence */
+    uint8_t drawn[DRAW_LOBE]; /* how often for each decision, counted up to SAMPLER_TIMES */
 };
 
 /* sampler_start: the numbers of (seed, purpose, pixel, iteration); see rng_stream. All 64 bits of each of them count:
@@ -35,24 +63,11 @@ struct sampler {
  * first coordinates, and with them whatever depends on no others.) */
 struct sampler sampler_start(uint64_t seed, enum rng_purpose purpose, uint64_t pixel, uint64_t iteration);
 
-/* sampler_pair: the next pair of the low-discrepancy part; for sampler_next only. */
-double sampler_pair(struct sampler *s);
+/* sampler_pair: the next point u of the unit square [0,1)^2 for a decision. */
+void sampler_pair(struct sampler *s, enum decision d, double u[2]);
 
-/* sampler_next: the next number in [0,1). */
-static inline double sampler_next(struct sampler *s)
-{
-    if (s->dimension >= SAMPLER_DIMENSIONS)
-        return rng_uniform(&s->rng);
-    return s->dimension++ % 2 == 0 ? sampler_pair(s) : s->second;
-}
-
-/* sampler_next3: a discrete choice u[0] and a point of the unit square (u[1], u[2]), which is a pair where possible. */
-static inline void sampler_next3(struct sampler *s, double u[3])
-{
-    u[1] = sampler_next(s);
-    u[2] = sampler_next(s);
-    u[0] = sampler_next(s);
-}
+/* sampler_number: the next number in [0,1) for a decision. */
+double sampler_number(struct sampler *s, enum decision d);
 
 /* sampler_r2: point i >= 0 of the sequence R2, which fills the unit square [0,1)^2 evenly [Roberts 2018]. */
 static inline void sampler_r2(int64_t i, double *u, double *v)

@@ -74,8 +74,9 @@ enum { N_RAYS = 1 << 17, FRAME = 128 /* pixels along the square root of the fram
 static vec3 cosine_direction(struct sampler *sampler, vec3 n)
 {
     struct frame f = frame_from_normal(n);
-    double u1 = sampler_next(sampler), u2 = sampler_next(sampler);
-    return to_world(&f, warp_cos_hemisphere(u1, u2));
+    double u[2];
+    sampler_pair(sampler, DRAW_SCATTERING, u);
+    return to_world(&f, warp_cos_hemisphere(u[0], u[1]));
 }
 
 /* Replace the ray by one leaving the surface it meets. False if it meets none. */
@@ -95,7 +96,9 @@ static int make_rays(const struct scene *s, bool coherent, struct ray *out)
     int n = 0;
     for (int i = 0; n < N_RAYS && i < 8 * N_RAYS; i++) {
         struct sampler sampler = sampler_start(0, RNG_TEST, (uint64_t)i, 0);
-        double x = sampler_next(&sampler) * s->width, y = sampler_next(&sampler) * s->height;
+        double u[2];
+        sampler_pair(&sampler, DRAW_FILM_POINT, u);
+        double x = u[0] * s->width, y = u[1] * s->height;
         if (coherent) { /* row by row, as often as needed */
             x = i % s->width + 0.5;
             y = i / s->width % s->height + 0.5;

@@ -127,7 +127,7 @@ static void render_iteration(struct pixel *p, double shift, long iteration)
     int n = pixel_eye_path(p->pass, &g, iteration, work->eye, g.max_depth + 2);
     struct sampler draw = pixel_sampler(p->pass, RNG_SELECT, p->x, p->y, iteration);
     replace_aged(p, iteration);
-    double u = sampler_next(&draw);
+    double u = sampler_number(&draw, DRAW_LIGHT_END);
     struct choice unweighted = {0, 1};
     struct element *e = choose(p, shift, (uint64_t)(iteration - p->pass->first), u, &unweighted.pmf);
 
@@ -143,7 +143,7 @@ static void render(const struct preparation *m, const struct tile_pass *pass)
     struct pixel p = {pass, m->state, pass->work->scratch, 0, 0};
     for (int number = 0; pass_pixel(pass, number, &p.x, &p.y); number++) {
         struct sampler shift = pixel_sampler(pass, RNG_SHUFFLE, p.x, p.y, pass->first);
-        double start = sampler_next(&shift);
+        double start = sampler_number(&shift, DRAW_ORDER);
         p.bins->traced = 0;
         for (int i = 0; i < p.bins->n_elements; i++)
             replace(&p, &p.bins->element[i], pass->first);

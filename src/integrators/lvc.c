@@ -49,7 +49,7 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *p, const
     int C = s->connections, V = v->found.n;
     const struct choice choice = {1.0 / V, 1 / (C * (1.0 / V) * v->pool.n)};
     for (int c = 0; V > 0 && c < C; c++) {
-        int i = (int)((c + sampler_next(&p->draws)) / C * V); /* below V: what is drawn is a multiple of 2^-32 */
+        int i = (int)((c + sampler_number(&p->draws, DRAW_LIGHT_END)) / C * V); /* below V: what is drawn is a multiple of 2^-32 */
         pooled_join(p, &v->found.item[i < V ? i : V - 1], z, t, choice);
     }
 }

@@ -68,7 +68,7 @@ static void connect(void *scratch, const void *state, struct pooled_pixel *p)
     struct pool *pool = scratch;
     struct choice choice;
     (void)state;
-    int k = alias_sample_bin(&pool->table, pool->order[p->number], sampler_next(&p->draws), &choice.pmf, NULL);
+    int k = alias_sample_bin(&pool->table, pool->order[p->number], sampler_number(&p->draws, DRAW_LIGHT_END), &choice.pmf, NULL);
     choice.scale = 1 / (pool->paths.n * choice.pmf);
     pixel_sum_pairs(&p->sample, p->eye, p->n, light_pool_path(&pool->paths, k), pool->paths.length[k], choice);
 }

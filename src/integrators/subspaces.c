@@ -151,11 +151,11 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *p, const
     if (v->n_groups == 0)
         return;
     double C = s->draws[z->eye_end], whole = floor(C);
-    int n = (int)whole + (C > whole && sampler_next(&p->draws) < C - whole);
+    int n = (int)whole + (C > whole && sampler_number(&p->draws, DRAW_HOW_MANY) < C - whole);
     const double *row = n > 0 ? row_of_region(v, &s->learnt, z->eye_region) : NULL;
     for (int c = 0; c < n; c++) {
         struct choice choice;
-        const struct candidate *y = find(v, row, (c + sampler_next(&p->draws)) / n, &choice.pmf);
+        const struct candidate *y = find(v, row, (c + sampler_number(&p->draws, DRAW_LIGHT_END)) / n, &choice.pmf);
         choice.scale = 1 / (C * choice.pmf * v->pool.n);
         pooled_join(p, y, z, t, choice);
     }

@@ -76,7 +76,7 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *p, const
     int C = v->table.n > 0 ? s->connections : 0;
     for (int c = 0; c < C; c++) {
         struct choice choice;
-        int i = alias_sample(&v->table, (c + sampler_next(&p->draws)) / C, &choice.pmf, NULL);
+        int i = alias_sample(&v->table, (c + sampler_number(&p->draws, DRAW_LIGHT_END)) / C, &choice.pmf, NULL);
         choice.scale = 1 / (C * choice.pmf * v->pool.n);
         pooled_join(p, &v->found.item[i], z, t, choice);
     }

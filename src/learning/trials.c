@@ -75,7 +75,7 @@ static void try_vertex(const struct lessons *l, const struct stock *s, const str
 {
     double near2 = sqr(0.25 / l->learnt->eye.per_metre), beta = rgb_luminance(z->beta);
     for (int i = 0; i < TRIALS && s->n > 0 && beta > 0; i++) {
-        double u = (i + sampler_next(sampler)) / TRIALS;
+        double u = (i + sampler_number(sampler, DRAW_LIGHT_END)) / TRIALS;
         const struct choosable *c = &s->item[cumulative_find(s->before, s->n, u * s->total)];
         const struct vertex *y = c->y;
         struct connection found = connect_pair(l->job->scene, &l->counts, y, z);

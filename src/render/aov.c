@@ -111,7 +111,8 @@ void aov_render(const struct scene *scene, const struct render_options *options,
     r.samples = options->end < AOV_SAMPLES ? (int)options->end : AOV_SAMPLES;
     for (int i = 0; i < ALBEDO_DRAWS; i++) {
         struct sampler sampler = sampler_start(0, RNG_SELECT, 0, (uint64_t)i);
-        sampler_next3(&sampler, r.draw[i]);
+        r.draw[i][0] = sampler_number(&sampler, DRAW_LOBE);
+        sampler_pair(&sampler, DRAW_SCATTERING, &r.draw[i][1]);
     }
     r.arena = mem_alloc((size_t)threads, sizeof *r.arena);
     struct parallel_jobs jobs = {rect_height(r.rect), threads, 2 * threads, &r, do_row, row_done};

@@ -67,7 +67,8 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
                                  struct sampler *sampler)
 {
     double u[3];
-    sampler_next3(sampler, u);
+    u[0] = sampler_number(sampler, DRAW_LIGHT);
+    sampler_pair(sampler, DRAW_LIGHT_POINT, &u[1]);
     const struct light_set *lights = &scene->lights;
     if (!vertex_connectible(z) || lights->choice.n == 0)
         return nothing();
@@ -157,10 +158,12 @@ struct connection connect_lens(const struct scene *scene, const struct mis_count
                                int s, struct sampler *sampler)
 {
     const struct vertex *y = &light[s - 1];
-    double u1 = sampler_next(sampler), u2 = sampler_next(sampler);
+    double u[2] = {0, 0};
+    if (scene->camera.lens_radius > 0)
+        sampler_pair(sampler, DRAW_LENS_POINT, u);
     if (!vertex_connectible(y))
         return nothing();
-    vec3 lens = camera_sample_lens(&scene->camera, y->p, u1, u2);
+    vec3 lens = camera_sample_lens(&scene->camera, y->p, u[0], u[1]);
     vec3 d = sub(y->p, lens);
     double d2 = length2(d);
     if (!(d2 > 0) || !bsdf_may_scatter(&y->bsdf, y->wo, neg(d)))

@@ -32,7 +32,7 @@ struct connection {
 struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *prev,
                               const struct vertex *z, int t);
 
-/* connect_direct: z is an eye vertex, t >= 2; the light point is drawn from `sampler` (three numbers). */
+/* connect_direct: z is an eye vertex, t >= 2; the light point is drawn from `sampler`. */
 struct connection connect_direct(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
                                  struct sampler *sampler);
 
@@ -56,8 +56,8 @@ bool connect_join(const struct vertex *y, const struct vertex *z, struct joint *
 /* connect_joint: visibility and weight. */
 struct connection connect_joint(const struct scene *scene, const struct mis_counts *counts, const struct joint *j);
 
-/* connect_lens: the last of s >= 2 vertices of a light sub-path, light[s-1]; the lens point is drawn from `sampler`
- * (two numbers). The value is for the whole frame: tile_add_splat gives each pixel its part, and the caller divides by
+/* connect_lens: the last of s >= 2 vertices of a light sub-path, light[s-1]; the lens point is drawn from `sampler`.
+ * The value is for the whole frame: tile_add_splat gives each pixel its part, and the caller divides by
  * counts->splat. */
 struct connection connect_lens(const struct scene *scene, const struct mis_counts *counts, const struct vertex *light,
                                int s, struct sampler *sampler);

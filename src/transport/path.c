@@ -136,7 +136,7 @@ static bool survives(const struct walk *w, double kept, rgb *beta)
         return true;
     double q = sqrt(kept / w->rr_threshold);
     *beta = rgb_scale(*beta, 1 / q);
-    return sampler_next(w->sampler) < q;
+    return sampler_number(w->sampler, DRAW_ROULETTE) < q;
 }
 
 /* Leave the surface vertex by sampling its BSDF: beta takes up f cos / pdf. [V97 10.2]
@@ -144,7 +144,8 @@ static bool survives(const struct walk *w, double kept, rgb *beta)
 static bool depart(const struct walk *w, const struct vertex *v, enum transport mode, struct departure *out)
 {
     double u[3];
-    sampler_next3(w->sampler, u);
+    u[0] = v->bsdf.n_lobes > 1 ? sampler_number(w->sampler, DRAW_LOBE) : 0;
+    sampler_pair(w->sampler, DRAW_SCATTERING, &u[1]);
     struct bsdf_sample s;
     if (v->bsdf.n_lobes == 0 || !bsdf_sample(&v->bsdf, v->wo, u, mode, &s))
         return false;
@@ -192,8 +193,10 @@ static int random_walk(const struct walk *w, struct departure from, struct verte
 int path_eye(const struct walk *w, double px, double py, struct vertex *path, int max_vertices)
 {
     const struct camera *camera = &w->scene->camera;
-    double u1 = sampler_next(w->sampler), u2 = sampler_next(w->sampler);
-    struct departure from = {.ray = camera_ray(camera, px, py, u1, u2), .beta = rgb_grey(1)};
+    double u[2] = {0, 0};
+    if (camera->lens_radius > 0)
+        sampler_pair(w->sampler, DRAW_LENS_POINT, u);
+    struct departure from = {.ray = camera_ray(camera, px, py, u[0], u[1]), .beta = rgb_grey(1)};
     memset(&path[0], 0, sizeof path[0]);
     path[0].kind = VERTEX_LENS;
     path[0].light = path[0].cell = -1;
@@ -210,8 +213,9 @@ int path_eye(const struct walk *w, double px, double py, struct vertex *path, in
 int path_eye_pixel(const struct walk *w, int x, int y, struct vertex *path, int max_vertices,
                    double *filter_weight)
 {
-    double u1 = sampler_next(w->sampler), u2 = sampler_next(w->sampler), dx, dy;
-    *filter_weight = filter_sample(&w->scene->filter, u1, u2, &dx, &dy);
+    double u[2], dx, dy;
+    sampler_pair(w->sampler, DRAW_FILM_POINT, u);
+    *filter_weight = filter_sample(&w->scene->filter, u[0], u[1], &dx, &dy);
     return path_eye(w, x + 0.5 + dx, y + 0.5 + dy, path, max_vertices);
 }
 
@@ -240,9 +244,9 @@ int path_light(const struct walk *w, struct vertex *path, int max_vertices)
 {
     const struct light_set *lights = &w->scene->lights;
     double u[3], direction[2];
-    sampler_next3(w->sampler, u);
-    direction[0] = sampler_next(w->sampler);
-    direction[1] = sampler_next(w->sampler);
+    u[0] = sampler_number(w->sampler, DRAW_LIGHT);
+    sampler_pair(w->sampler, DRAW_LIGHT_POINT, &u[1]);
+    sampler_pair(w->sampler, DRAW_EMISSION, direction);
     struct light_point at;
     if (max_vertices < 1 || !light_sample_point(lights, &w->scene->geo, u, &at))
         return 0;
