@@ -404,6 +404,20 @@ check grep -q '^verdict: identical' stdout.txt
 expect 1 '' "$program" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" \
     "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.pfm"
 check grep -q '^verdict: DIFFER' stdout.txt
+# NaN is a difference, also from itself, in every pixel or in one, in a picture or in its errors.
+nan() { head -c "$1" /dev/zero | LC_ALL=C tr '\000' '\377'; } # so many bytes of NaNs
+{ printf 'PF\n36 24\n-1\n'; nan 10368; } >nan.pfm
+{ head -c -12 "$scenes/../ref/bathroom.pfm"; nan 12; } >corner.pfm
+for nan in nan corner; do
+    for sides in "$nan.pfm E $nan.pfm E" "$nan.pfm E R E" "R E $nan.pfm E" "R $nan.pfm R E"; do
+        # shellcheck disable=SC2046
+        expect 1 '' "$program" verify --images $(echo "$sides" |
+            sed "s|\bE\b|$scenes/../ref/bathroom.error.pfm|g; s|\bR\b|$scenes/../ref/bathroom.pfm|g")
+        check grep -q '^verdict: DIFFER' stdout.txt
+    done
+done
+expect 0 '' "$program" compare nan.pfm nan.pfm --json
+check grep -q '"mean_ratio": null, "nonfinite": 2592,' stdout.txt
 expect 1 'same size' "$program" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" \
     a.pfm a.pfm
 expect 2 'usage: asbdpt verify' "$program" verify --images a.pfm
@@ -437,11 +451,16 @@ expect 0 '' "$program" convert x.ppm x.TGA
 check cmp -s x.tga x.TGA
 "$program" convert - - <light.pfm >through.pfm
 check cmp -s light.pfm through.pfm
-close() { # A B MOST: their relative mean squared error is at most so large
-    "$program" compare "$1" "$2" >stdout.txt 2>&1 && awk -v most="$3" '$1 == "relmse" { exit !($2 <= most) }' stdout.txt
+close() { # A B MOST: their relative mean squared error, of all values, is at most so large
+    "$program" compare "$1" "$2" >stdout.txt 2>&1 && awk -v most="$3" '
+        $1 == "relmse" { near = $2 ~ /^[0-9.e+-]+$/ && $2 + 0 <= most }
+        $1 == "nonfinite" { all = $2 == "0" }
+        END { exit !(near && all) }' stdout.txt
 }
 check close x.exr light.pfm 1e-7
 check close x.hdr light.pfm 1e-4
+check [ "$(close nan.pfm nan.pfm 1; echo $?)" = 1 ]
+check [ "$(close corner.pfm corner.pfm 1; echo $?)" = 1 ]
 check [ "$(close light.png light.pfm 1e-4; echo $?)" = 1 ]
 expect 0 '' "$program" convert "$scenes/../ref/bathroom.pfm" ref.float.exr
 expect 0 '' "$program" verify --images ref.float.exr "$scenes/../ref/bathroom.error.pfm" \

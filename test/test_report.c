@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 #include "base/mem.h"
+#include "base/number.h"
 #include "base/rng.h"
 #include "base/stats.h"
 #include "image/image.h"
@@ -373,7 +374,7 @@ static void check_range(struct test *t, const struct results *r)
         const float *pixel = s->image[VARIANT_POOL] + i / 3 * 3;
         double most = fmax((double)pixel[0], fmax((double)pixel[1], (double)pixel[2]));
         double value = img.u8[half + i] > 0 ? ldexp(img.u8[i], img.u8[half + i] - 136) : 0;
-        largest = fmax(largest, fabs(value - (double)pixel[i % 3]) - most / 256);
+        largest = most_of(largest, fabs(value - (double)pixel[i % 3]) - most / 256);
     }
     CHECK(t, img.height == 2 * s->height && largest < 1e-6, "the decoded range is off by %g", largest);
     image_free(&img);

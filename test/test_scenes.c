@@ -11,7 +11,7 @@
 static double within_p(const struct batches *b, double low, double high)
 {
     double error, mean = batches_mean(b, &error);
-    return mean < low ? mean_p(b, low) : mean > high ? mean_p(b, high) : 1;
+    return mean >= low && mean <= high ? 1 : mean_p(b, mean < low ? low : high);
 }
 
 /* Expected radiance, as the comments of the scene files derive it; `low` to `high` where the depth limit cuts a little

@@ -108,4 +108,5 @@ done >$work/table.txt
 cat $work/table.txt
 awk -v wanted="$(names | wc -l)" '
     $2 == "SURVIVED" || $2 == "ERROR" { bad++ }
-    END { printf "%d mutants, %d caught\n", wanted, NR - bad; exit (bad > 0 || NR != wanted) }' $work/table.txt
+    END { printf "%d mutants, %d caught\n", wanted, NR - bad
+          exit (bad > 0 || NR != wanted || NR == 0) }' $work/table.txt
