@@ -284,6 +284,9 @@ check [ ! -e two.x.normal.pfm ]
 check [ -s aov.normal.pfm -a -s aov.position.pfm ]
 expect 1 'known are albedo' "$program" render "$box" $small --aov albedo,norml -o aov.png
 expect 1 'known are albedo' "$program" render "$box" $small --aov '' -o aov.png
+expect 1 'few.variance.pfm: not written: one sample' "$program" render "$box" --spp 2 --samples 0:1 --res 8x8 --quiet \
+    --aov variance -o few.png
+check [ -s few.png -a ! -e few.variance.pfm ]
 expect 1 'needs two samples' "$program" render "$box" --spp 1 --res 8x8 --quiet --aov variance -o aov.png
 expect 1 'a picture with a name' "$program" render "$box" $small --aov depth -o -
 mkdir taken.depth.pfm

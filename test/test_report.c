@@ -123,6 +123,26 @@ static void check_axis(struct test *t, const struct plot_axis *a)
     CHECK(t, majors >= (a->logarithmic ? 1 : 3) && majors <= 14, "%d numbers on [%g, %g]", majors, a->low, a->high);
 }
 
+/* One estimate of the error everywhere: that over seeds, by which 3.160 +- 0.099 % is a bias, and 0.160 is none. */
+static void test_bias(struct test *t)
+{
+    struct plan p = {.n_seeds = 3};
+    struct scene_results *s = mem_alloc(1, sizeof *s);
+    s->plan = &p;
+    s->reference.mean_error = 0.0004;
+    for (int biased = 0; biased < 2; biased++) {
+        for (int i = 0; i < 3; i++)
+            s->run[VARIANT_BINS][i].step[0].value[Q_MEAN_ERROR] = 0.0016 + 0.03 * biased + 0.001715 * (i - 1);
+        struct estimate e = results_mean(s, VARIANT_BINS, 0, Q_MEAN_ERROR);
+        struct bias b = results_bias(s, VARIANT_BINS, 0);
+        double error = sqrt(e.error * e.error + 0.0004 * 0.0004), dof = 2 * pow(error / e.error, 4);
+        CHECK(t, b.mean == e.mean && b.error == e.error, "%g +- %g, but %g +- %g in the table", b.mean, b.error, e.mean,
+              e.error);
+        CHECK(t, fabs(b.p - stats_student_p(e.mean / error, dof)) < 1e-12 && (b.p < 0.01) == biased, "p is %g", b.p);
+    }
+    free(s);
+}
+
 static void test_axes(struct test *t)
 {
     static const double range[][2] = {{0.01, 0.02}, {1, 1},  {3, 700},    {0.0004, 12},
@@ -579,6 +599,7 @@ static void test_reference(struct test *t)
 void test_report(struct test *t)
 {
     test_statistics(t);
+    test_bias(t);
     test_axes(t);
     test_markup(t);
     test_plan(t);

@@ -21,7 +21,8 @@ bool aov_check(const char *list, struct error *err);
 bool aov_open(const char *list, const char *picture, struct aov_files *out, struct error *err);
 
 /* aov_write: make and write them.
- *   options, film  of the render that is done; for the variance the film must have kept errors */
+ *   options, film  of the render that is done; for the variance the film must have kept errors
+ * Returns false with a message, also when the render was stopped too early for a variance; the others are written. */
 bool aov_write(struct aov_files *f, const struct scene *scene, const struct render_options *options,
                const struct film *film, bool quiet, struct error *err);
 

@@ -65,7 +65,6 @@ static struct render_options options_of(struct scene_experiment *s, int variant,
 static void begin_film(const struct scene_experiment *s, struct film *film)
 {
     film_init(film, render_crop(&s->scene), s->scene.width, s->scene.height);
-    film_keep_errors(film);
 }
 
 static float *new_pixels(const struct scene_results *r)
@@ -141,7 +140,7 @@ static void measure(const struct scene_experiment *s, const struct film *film, l
     film_develop(film, s->scene.film_scale, pixels);
     struct difference d = compare_pixels(pixels, s->out->reference.pixels, (long)s->out->width * s->out->height * 3);
     struct run_step step = {spp,
-                            {seconds, d.rmse, d.rmse8, d.relmse, d.mean_ratio - 1, picture_mean_error(film)},
+                            {seconds, d.rmse, d.rmse8, d.relmse, d.mean_ratio - 1},
                             d.nonfinite + film->nonfinite};
     *out = step;
 }

@@ -145,7 +145,9 @@ static bool half_progress(void *context, double done)
     return h->options->progress == NULL || h->options->progress(h->options->progress_context, 0.5 * (h->number + done));
 }
 
-double picture_mean_error(const struct film *film)
+/* Relative standard error of the mean of a film's picture, were its pixels independent; too large rather than too
+ * small, as samples are spread evenly. NaN for a black one. */
+static double picture_mean_error(const struct film *film)
 {
     size_t n = (size_t)rect_width(film->rect) * (size_t)rect_height(film->rect) * 3;
     float *error = mem_alloc(n, sizeof *error);

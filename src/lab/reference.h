@@ -9,6 +9,7 @@
  *
  * Where none is stored, one is rendered by bdpt in two independent halves A and B. Their mean is the reference, and
  *     E (A - B)^2 = 2 var A = 4 var (A + B)/2,   so that   noise8 = rmse8(A, B) / 2.
+ * Its mean_error is an upper bound, by the variances of pixels over samples, which err together less than that.
  *
  * Tests: test_report.c.
  */
@@ -49,10 +50,6 @@ bool reference_render(const struct scene *scene, const struct render_options *op
 bool reference_write(const struct reference *r, const char *directory, const char *name, const char *key,
                      struct error *err);
 bool reference_read(const char *directory, const char *name, const char *key, struct reference *out);
-
-/* picture_mean_error: relative standard error of the mean of a film's picture, were its pixels independent (for
- * integrators that share light sub-paths between pixels it is too small). NaN for a black one. */
-double picture_mean_error(const struct film *film);
 
 void reference_free(struct reference *r);
 
