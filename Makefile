@@ -89,6 +89,7 @@ test: asbdpt $(BUILD)/test layers standard references columns faults links limit
 	sh test/cli.sh $(PROGRAM)
 	sh test/mini.sh $(PROGRAM)
 	sh test/keep.sh $(PROGRAM)
+	sh test/hashes_test.sh
 	sh test/hashes.sh $(PROGRAM)
 	sh test/readme.sh $(PROGRAM) doc/scene-format.md doc/tour/trace.md
 	$(BUILD)/test

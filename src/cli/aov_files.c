@@ -81,7 +81,8 @@ bool aov_write(struct aov_files *f, const struct scene *scene, const struct rend
     if (first_hit)
         aov_render(scene, options, picture);
     if (f->file[AOV_VARIANCE].n > 0 && film->iterations < 2) {
-        ok = error_set(err, "%s: not written: one sample per pixel shows no variance", f->file[AOV_VARIANCE].file[0].path);
+        ok = error_set(err, "%s: not written: one sample per pixel shows no variance",
+                       f->file[AOV_VARIANCE].file[0].path);
         outputs_abandon(&f->file[AOV_VARIANCE]);
     } else if (f->file[AOV_VARIANCE].n > 0) {
         aov_variance(film, scene->film_scale, picture[AOV_VARIANCE]);
