@@ -437,6 +437,20 @@ check [ "$(grep -c '^cornell-box,' equal/equal-time.csv)" = 10 ]
 check grep -q '^cornell-box,bdpt,5002,2,' equal/equal-time.csv
 expect 0 '' "$program" experiment "$box" --equal-time 0.01 $tiny -o equal
 check grep -q -e '--equal-time 0.01 --seeds 2' stdout.txt
+# A reference is of the scene, or it is none: another's of the same name is refused, and no reference is not kept quiet.
+mkdir -p bathroom/ref
+cp "$box" bathroom/scene.pbrt
+cp "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.txt" bathroom/ref
+tiny="--seeds 1 --spp 1 --reference-spp 4"
+expect 0 'bathroom.pfm.* is of another scene: measured at 48x48 pixels' \
+    "$program" experiment --equal-time bathroom/scene.pbrt $tiny -o foreign
+expect 1 'bathroom.pfm.* is of another scene$' \
+    "$program" experiment --equal-time bathroom/scene.pbrt --reference bathroom/ref $tiny --quiet -o foreign
+sed -i.old '/^content/d' bathroom/ref/bathroom.txt
+expect 0 'does not say what scene it is of: measured at 48x48' \
+    "$program" experiment --equal-time bathroom/scene.pbrt $tiny -o foreign
+expect 1 'have the same name, bathroom' \
+    "$program" experiment --equal-time bathroom/scene.pbrt "$scenes/bathroom.pbrt" $tiny --quiet -o foreign
 expect 2 'equal times are those of one thread' "$program" experiment "$box" --equal-time -j 2 $tiny -o equal
 expect 2 '[-]-equal-time 0: expected a number from 0.001' "$program" experiment "$box" --equal-time 0 $tiny -o equal
 

@@ -168,7 +168,7 @@ static void test_store(struct test *t)
         b.pixels.error[i] = 2;
     }
     struct verdict v = verify_batches(&a.pixels, &b.pixels, 1);
-    struct provenance from = {"a note", "a scene", 5, &v};
+    struct provenance from = {"a note", "a scene", 77, 5, &v};
     snprintf(name, sizeof name, "%s/stored", test_tmp(t));
     snprintf(path, sizeof path, "%s.pfm", name);
     bool ok = CHECK(t, sides_store(name, &a, &b, &from, &err), "%s", err.text) &&

@@ -143,8 +143,8 @@ static bool identical(const struct batches *a, const struct batches *b)
 }
 
 /* Test, print, store. */
-static int judge(const struct verify_options *o, int max_depth, const struct side *a, const struct side *b,
-                 struct error *err)
+static int judge(const struct verify_options *o, uint64_t content, int max_depth, const struct side *a,
+                 const struct side *b, struct error *err)
 {
     if (o->with_errors && identical(&a->pixels, &b->pixels)) {
         printf("verdict: identical (pixel by pixel the same values and errors; there is nothing to test)\n");
@@ -154,7 +154,7 @@ static int judge(const struct verify_options *o, int max_depth, const struct sid
     struct batches x = batches_tiles(&a->pixels, a->width, a->height, tile);
     struct batches y = batches_tiles(&b->pixels, b->width, b->height, tile);
     struct verdict v = verify_batches(&x, &y, o->job.seed);
-    struct provenance from = {o->note, o->job.scene_path, max_depth, &v};
+    struct provenance from = {o->note, o->job.scene_path, content, max_depth, &v};
     batches_free(&x);
     batches_free(&y);
     print_verdict(&v, a, b, tile, o->alpha);
@@ -178,7 +178,7 @@ static int verify(const struct verify_options *o)
              side_read(o->against.item, o->against.n, o->with_errors, &a, &b, &err);
     else if (ok)
         ok = render_sides(&scene, integrator, o, &a, &b, &err);
-    status = ok ? judge(o, max_depth, &a, &b, &err) : fail(&err);
+    status = ok ? judge(o, o->has_scene ? scene.content : 0, max_depth, &a, &b, &err) : fail(&err);
     batches_free(&a.pixels);
     batches_free(&b.pixels);
     if (o->has_scene)

@@ -310,19 +310,14 @@ static bool measure_scene(struct experiment *e, int number)
 
 /* --- the whole --------------------------------------------------------------------------------------- */
 
-static bool name_scenes(const struct plan *p, struct results *r, struct error *err)
+static void name_scenes(const struct plan *p, struct results *r)
 {
     for (int i = 0; i < p->n_scenes; i++) {
         struct scene_results *s = &r->scene[i];
         s->plan = p;
         s->path = p->scene[i];
         plan_scene_name(s->path, s->name, sizeof s->name);
-        for (int k = 0; k < i; k++)
-            if (strcmp(s->name, r->scene[k].name) == 0)
-                return error_set(err, "%s and %s have the same name, %s; experiment with them one at a time", s->path,
-                                 r->scene[k].path, s->name);
     }
-    return true;
 }
 
 bool experiment_run(const struct plan *plan, struct results *out, struct error *err)
@@ -330,7 +325,8 @@ bool experiment_run(const struct plan *plan, struct results *out, struct error *
     struct experiment e = {.plan = plan, .results = out, .err = err};
     out->plan = plan;
     out->scene = mem_alloc((size_t)plan->n_scenes, sizeof *out->scene);
-    if (!name_scenes(plan, out, err) || !make_directories(plan, err))
+    name_scenes(plan, out);
+    if (!plan_names_differ(plan, err) || !make_directories(plan, err))
         return false;
     for (int v = 0; v < N_VARIANTS; v++)
         e.total += (double)(plan_seeds(plan, v) * plan_run_spp(plan, v));

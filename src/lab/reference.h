@@ -1,6 +1,7 @@
 /* reference.h: the picture that errors are measured against, and how far it may itself be off.
  *
  * A stored reference is a picture NAME.pfm with, beside it, an optional text NAME.txt of lines "key value", of which
+ *     content     H   the scene it is of: the hash of its files, hexadecimal, as the parts of its renders have it
  *     maxdepth    N   it holds paths up to this length
  *     noise8      X   root mean square of the standard errors of its 8-bit values
  *     mean_error  X   standard error of its mean, relative to the mean
@@ -23,17 +24,22 @@ struct reference {
     float *pixels;     /* [height*width*3] linear; owned; NULL: there is none */
     int width, height;
     long max_depth;    /* 0: not said */
+    uint64_t content;  /* of the scene; 0: not said */
     double noise8;     /* of its 8-bit values; NaN when unknown */
     double mean_error; /* relative standard error of its mean; NaN when unknown */
     char origin[1200]; /* one sentence for readers */
 };
 
 /* reference_find: read the stored reference of a scene.
- *   given  a file, a directory that holds NAME.pfm, or NULL to look for ref/NAME.pfm beside the scene, one directory
- *          up and in the current one; then out->pixels is NULL if there is none
+ *   given  a file, a directory that holds NAME.pfm, or NULL to look for ref/NAME.pfm beside the scene and one
+ *          directory up; then out->pixels is NULL if there is none
  * Returns false with a message when `given` cannot be read. */
 bool reference_find(const char *given, const char *scene_path, const char *name, struct reference *out,
                     struct error *err);
+
+/* reference_is_of: is it of this scene? One that somebody has given need not say so, but may not say otherwise; one
+ * that was found must. False with a message. */
+bool reference_is_of(const struct reference *r, const struct scene *scene, bool given, struct error *err);
 
 /* reference_fit: shrink it to this size. Returns false with a message, and leaves it as it is, when its own is no whole
  * multiple of that or it holds paths of other lengths. */
