@@ -362,6 +362,8 @@ check grep -q 'bounds  *(4, 5, 6) to (6, 7, 8)' stdout.txt
 
 # trace: a sample told in words, as JSON and drawn; what it says to have added is what a render's film holds.
 one="--res 12x12 --integrator bdpt --maxdepth 3 --pixel 3,9"
+expect 1 'cannot be created' "$program" trace "$box" --pixel 3,9 --svg no/such/dir.svg # before the work
+check [ ! -s stdout.txt ]
 expect 0 '' "$program" trace "$box" $one --spp 1 --svg paths.svg
 check grep -q 'pixel 3,9, sample 0: bdpt' stdout.txt
 check grep -q '^(s,t): a path of s vertices' stdout.txt

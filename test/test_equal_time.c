@@ -148,6 +148,13 @@ static void check_files(struct test *t, const struct equal_time *e)
         "- ASBDPT vertices: 6 of 6 renders took the given time within 3 %",
         "./asbdpt experiment --equal-time --spp 32 --seeds 2 --reference-spp 0 -o results \\\n",
         "\n        a.pbrt b.pbrt c.pbrt\n"};
+    char last[256];
+    memcpy(last, e->scene[2].name, sizeof last);
+    snprintf(e->scene[2].name, sizeof last, "c|d");
+    char *barred = written(t, e, equal_table);
+    CHECK(t, strstr(barred, "\n| c\\|d | ") != NULL, "a bar in a name ends a cell:\n%s", barred);
+    free(barred);
+    memcpy(e->scene[2].name, last, sizeof last);
     char *table = written(t, e, equal_table), *csv = written(t, e, equal_csv);
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
         CHECK(t, strstr(table, lines[i]) != NULL, "the table lacks %s:\n%s", lines[i], table);
