@@ -87,6 +87,7 @@ ref: asbdpt ## render the stored references of ref/ again (an hour; goes on wher
 # ---- what proves it ----
 test: asbdpt $(BUILD)/test layers standard references columns faults links limits ## build and run the test suite (under 3 minutes)
 	sh test/cli.sh $(PROGRAM)
+	sh test/outputs.sh $(PROGRAM)
 	sh test/mini.sh $(PROGRAM)
 	sh test/keep.sh $(PROGRAM)
 	sh test/hashes_test.sh

@@ -128,4 +128,5 @@ const struct command command_experiment = {
     {"[--quick | --full] [SCENE.pbrt...] -o DIR [options]", "--equal-time [SECONDS] [SCENE.pbrt...] -o DIR [options]"},
     OPTIONS,
     sizeof(struct experiment_options),
-    run};
+    run,
+    true};

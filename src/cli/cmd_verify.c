@@ -193,4 +193,4 @@ const struct command command_verify = {
     {"SCENE.pbrt [--methods A,B | --methods A --reference R.pfm] [options]",
      "--images A.pfm A.error.pfm B.pfm B.error.pfm",
      "SCENE.pbrt --files A.pfm... --against B.pfm... [--store NAME]"},
-    OPTIONS, sizeof(struct verify_options), run};
+    OPTIONS, sizeof(struct verify_options), run, true};

@@ -1,8 +1,10 @@
 /* command.c: see command.h. A new subcommand is a new word in COMMANDS. */
 #include "cli/command.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 static const struct command *const COMMANDS[] = {&command_render, &command_merge, &command_compare, &command_experiment,
                                                  &command_bench, &command_verify, &command_info,
@@ -16,6 +18,16 @@ int fail(const struct error *err)
 {
     fprintf(stderr, "asbdpt: %s\n", err->text);
     return EXIT_JOB;
+}
+
+int command_end(int status)
+{
+    struct error err;
+    errno = 0;
+    if (fflush(stdout) == 0 && ferror(stdout) == 0)
+        return status;
+    error_set(&err, "standard output: cannot be written: %s", errno != 0 ? strerror(errno) : "write error");
+    return fail(&err);
 }
 
 int usage_error(const struct command *command, const char *format, ...)

@@ -19,6 +19,7 @@ struct command {
     const struct option *options; /* table */
     size_t size;                  /* of the struct that the options fill */
     int (*run)(void *options);    /* returns the exit status */
+    bool prints;                  /* to standard output, which no file of its options can be then */
 };
 
 extern const struct command command_render, command_merge, command_compare, command_experiment, command_bench,
@@ -32,5 +33,9 @@ const struct command *const *command_list(void);
  *   command  whose help the message points to; NULL: everybody's */
 int fail(const struct error *err);
 int usage_error(const struct command *command, const char *format, ...);
+
+/* command_end: the status of the program, in the end: `status`, but EXIT_JOB with a message where something that was
+ * printed could not be written. */
+int command_end(int status);
 
 #endif

@@ -10,6 +10,7 @@
 #include "base/version.h"
 #include "cli/command.h"
 #include "cli/manual.h"
+#include "cli/names.h"
 #include "parser/symbols.h"
 
 /* --- help --------------------------------------------------------------------------------------------- */
@@ -53,6 +54,16 @@ static bool keeps_more_bits(void)
     return one + tiny - one != 0;
 }
 
+/* Is every file of the command line another one? */
+static bool files_apart(const struct command *c, void *options, struct error *err)
+{
+    struct names all = {0};
+    bool ok = (!c->prints || names_add(&all, FILE_WRITTEN, "what it prints to", "-", err)) &&
+              names_add_options(&all, c->options, options, err);
+    names_free(&all);
+    return ok;
+}
+
 static int run(const struct command *c, int argc, char **argv)
 {
     for (int i = 1; i < argc; i++)
@@ -62,7 +73,7 @@ static int run(const struct command *c, int argc, char **argv)
         }
     struct error err;
     void *options = mem_alloc(1, c->size);
-    bool ok = options_read(c->options, argc, argv, options, &err);
+    bool ok = options_read(c->options, argc, argv, options, &err) && files_apart(c, options, &err);
     int status = ok ? c->run(options) : usage_error(c, "%s", err.text);
     options_free(c->options, options);
     free(options);

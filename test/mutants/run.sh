@@ -46,7 +46,7 @@ field() { awk -v name="$1" -v n="$2" '/^[^-+# \t]/ && $1 == name { print $n }' $
 
 # try TREE TEST: does the test notice? Prints what it says.
 try() {
-    if [ "$2" = cli ] || [ "$2" = keep ] || [ "$2" = mini ] || [ "$2" = links ]; then
+    if [ -f "$1/test/$2.sh" ]; then
         (cd "$1" && make -s LTO= asbdpt >/dev/null 2>&1 && $limit sh "test/$2.sh" ./asbdpt)
     elif [ "$2" = all ]; then
         (cd "$1" && $limit build/test)
