@@ -329,7 +329,7 @@ expect 2 'demo needs a picture to write' "$program" demo "$box"
 # What a system is told: the man page and the completions are sound, where there is something to judge them by.
 expect 0 '' "$program" help man
 mv stdout.txt asbdpt.1
-check grep -q '^.TH ASBDPT 1' asbdpt.1
+check grep -q '^.TH asbdpt 1' asbdpt.1
 if command -v mandoc >/dev/null; then
     check mandoc -T lint -W error asbdpt.1
 else

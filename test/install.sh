@@ -20,7 +20,7 @@ END
     cmp -s wanted.txt found.txt || fault "$name: installed are $(cat found.txt)"
     check [ -z "$(find "$name" -mindepth 1 -type d ! -perm 755)" ]
     expect 0 '' "$here$prefix/bin/asbdpt" --version
-    check grep -q '^.TH ASBDPT 1' "$here$prefix/share/man/man1/asbdpt.1"
+    check grep -q '^.TH asbdpt 1' "$here$prefix/share/man/man1/asbdpt.1"
     echo mine >"$here$prefix/bin/other"
     expect 0 '' run uninstall "$prefix"
     check [ "$(find "$name" -type f | wc -l)" -eq 1 ]

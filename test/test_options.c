@@ -267,7 +267,7 @@ void test_options(struct test *t)
     check_perhaps(t);
     check_refused(t);
     check_required(t);
-    for (const struct command *const *c = command_list(); *c != NULL; c++)
+    for (const struct command *const *c = program.commands; *c != NULL; c++)
         for (const struct option *o = (*c)->options; o != NULL; o = options_next(o), rows++)
             check_row(t, *c, o);
     CHECK(t, rows > 50, "%d rows", rows);

@@ -18,12 +18,12 @@
 /* The options that subcommands share are the first one's last. */
 static void print_command(const struct command *c, bool alone)
 {
-    printf("asbdpt %s: %s\n", c->name, c->help);
+    printf("%s %s: %s\n", program.name, c->name, c->help);
     for (int i = 0; c->usage[i] != NULL; i++)
-        printf("%s asbdpt %s %s\n", i == 0 ? "usage:" : "   or:", c->name, c->usage[i]);
+        printf("%s %s %s %s\n", i == 0 ? "usage:" : "   or:", program.name, c->name, c->usage[i]);
     for (const struct option *table = c->options; table != NULL;) {
-        if (table != c->options && !alone && c != command_list()[0]) {
-            printf("    and the options of %s, from %s on\n", command_list()[0]->name, table->name);
+        if (table != c->options && !alone && c != program.commands[0]) {
+            printf("    and the options of %s, from %s on\n", program.commands[0]->name, table->name);
             break;
         }
         table = options_print(table);
@@ -32,14 +32,14 @@ static void print_command(const struct command *c, bool alone)
 
 static void print_help(void)
 {
-    printf("%s: Alias Sampled Bidirectional Path Tracing, a reference implementation\n\n", VERSION);
-    for (const struct command *const *c = command_list(); *c != NULL; c++) {
+    printf("%s: %s\n\n", VERSION, program.title);
+    for (const struct command *const *c = program.commands; *c != NULL; c++) {
         print_command(*c, false);
         printf("\n");
     }
     manual_print_integrators();
-    printf("\nasbdpt help man, bash, zsh: a man page, completions\n"
-           "exit status: 0 success, 1 the job failed, 2 wrong usage\n");
+    printf("\n%s help man, bash, zsh: a man page, completions\n"
+           "exit status: 0 success, 1 the job failed, 2 wrong usage\n", program.name);
 }
 
 static bool asks_for_help(const char *word) { return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0; }
@@ -87,7 +87,7 @@ static int help(const char *topic)
         print_help();
         return EXIT_OK;
     }
-    for (const struct command *const *c = command_list(); *c != NULL; c++)
+    for (const struct command *const *c = program.commands; *c != NULL; c++)
         if (strcmp(topic, (*c)->name) == 0) {
             print_command(*c, true);
             return EXIT_OK;
@@ -109,7 +109,7 @@ int command_line(int argc, char **argv)
         return EXIT_OK;
     }
     struct suggestion s = suggest_start(argv[1]);
-    for (const struct command *const *c = command_list(); *c != NULL; c++) {
+    for (const struct command *const *c = program.commands; *c != NULL; c++) {
         if (strcmp(argv[1], (*c)->name) == 0)
             return run(*c, argc - 1, argv + 1);
         suggest_offer(&s, (*c)->name);
