@@ -105,6 +105,32 @@ refused 1 'have 1005004 pictures; --maxdepth 20 is the most' \
     "$program" render scene.pbrt --res 1x1 --strategies sub --maxdepth 1000 -o new.pfm
 expect 0 '' "$program" render scene.pbrt --res 1x1 --spp 1 --quiet --strategies all --maxdepth 20 -o new.pfm
 check [ "$(find all -name '*.pfm' | wc -l)" = 504 ]
+# A name is wrong before the work, not after it.
+long=$(awk 'BEGIN { for (i = 0; i < 300; i++) printf "n" }')
+refused 1 'nnn.pfm: cannot be created' "$program" render nothing.pbrt -o "$long.pfm"
+refused 2 'expected a number from 1e-09' render --time 0 -o new.pfm
+# A signal between two strategies ends them; the picture is there.
+"$program" render "$box" --integrator pt --res 48x48 --spp 1 --quiet --strategies some --maxdepth 20 -o some.pfm \
+    2>stderr.txt &
+i=0
+while [ ! -e some/d00_s00_t02_weighted.pfm ] && [ $i -lt 300 ]; do
+    i=$((i + 1))
+    sleep 0.02
+done
+kill -s TERM $!
+wait $!
+check [ $? = 143 ]
+check grep -q 'stopped by SIGTERM before all strategies were in some' stderr.txt
+check [ -s some.pfm -a ! -e some/pyramid.png ]
+# A limit of CPU time, too, ends with what there is.
+(
+    ulimit -S -t 1 && ulimit -S -c 0
+    "$program" render "$box" --integrator bdpt --res 64x64 --spp 100000 --quiet -o late.pfm 2>stderr.txt
+    echo $? >status.txt
+)
+check [ "$(cat status.txt)" = 152 -o "$(uname)" != Linux ]
+check grep -Eq 'stopped by SIGXCPU, at [1-9]' stderr.txt
+check [ -s late.pfm ]
 # A second signal leaves nothing behind, however many outputs there are.
 many=$(awk 'BEGIN { for (i = 0; i < 100; i++) printf " -o m%d.pfm", i }')
 "$program" render "$box" --integrator asbdpt --res 512x512 --spp 1000000 --quiet $many 2>stderr.txt &

@@ -165,7 +165,10 @@ static FILE *open_target(struct file_output *out)
     out->target = file_follow(out->path);
     if (out->target == NULL)
         return NULL;
+    errno = 0;
     enum os_kind kind = os_kind_of(out->target);
+    if (kind == OS_NOTHING && errno != ENOENT && errno != 0) /* too long a name, for example */
+        return NULL;
     if (kind == OS_DIRECTORY || kind == OS_OTHER)
         return fopen(out->target, "wb");
     if (kind == OS_FILE && !os_may_write(out->target))

@@ -29,8 +29,8 @@ static void remove_temporaries(void)
 /* Everything called here is safe in a handler. The status is that of a program killed by the signal. */
 static void note(int number)
 {
-    if (deferred && caught == 0) {
-        caught = number;
+    if (deferred && (caught == 0 || os_signal_repeats(number))) {
+        caught = caught != 0 ? caught : number;
         return;
     }
     remove_temporaries();

@@ -259,6 +259,12 @@ const char *os_signal_name(int number)
     return number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : "a signal";
 }
 
+bool os_signal_repeats(int number)
+{
+    (void)number;
+    return false;
+}
+
 #else
 
 static void catch(int number, void (*handler)(int))
@@ -279,12 +285,16 @@ void os_catch_signals(void (*handler)(int number))
     catch(SIGINT, handler);
     catch(SIGTERM, handler);
     catch(SIGHUP, handler);
+    catch(SIGXCPU, handler);
 }
 
 const char *os_signal_name(int number)
 {
-    return number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : number == SIGHUP ? "SIGHUP" : "a signal";
+    return number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : number == SIGHUP ? "SIGHUP"
+         : number == SIGXCPU ? "SIGXCPU" : "a signal";
 }
+
+bool os_signal_repeats(int number) { return number == SIGXCPU; } /* every second, up to the hard limit */
 
 #endif
 

@@ -52,6 +52,9 @@ uint64_t os_unique(void);
 void os_catch_signals(void (*handler)(int number));
 const char *os_signal_name(int number); /* "SIGINT" and so on */
 
+/* os_signal_repeats: does it come again and again by itself? */
+bool os_signal_repeats(int number);
+
 /* What a handler may do: remove a file, end the program at once. */
 void os_remove_at_once(const char *path);
 void os_exit_at_once(int status);
@@ -77,7 +80,7 @@ bool os_regular(FILE *f, uint64_t *size);
 
 enum os_kind { OS_NOTHING, OS_FILE, OS_DIRECTORY, OS_OTHER /* a device, a pipe */ };
 
-/* os_kind_of: what a path leads to, links followed. */
+/* os_kind_of: what a path leads to, links followed; for OS_NOTHING errno says why. */
 enum os_kind os_kind_of(const char *path);
 
 /* What a file is, however it is called: two names with the same numbers are one file. */

@@ -105,8 +105,8 @@ static void print_man(const char *version)
     printf(".SH INTEGRATORS\nParameters are set by \\fB\\-P\\fR \\fINAME=VALUE\\fR or by the scene; defaults stand in "
            "brackets.\n");
     man_parameters();
-    printf(".SH EXIT STATUS\n0 success, 1 the job failed, 2 wrong usage; 130, 143 or 129 after SIGINT, SIGTERM or "
-           "SIGHUP.\n");
+    printf(".SH EXIT STATUS\n0 success, 1 the job failed, 2 wrong usage; 128 and the number of a signal that ended "
+           "it.\n");
 }
 
 /* --- completion ---------------------------------------------------------------------------------------- */

@@ -97,11 +97,12 @@ bool strategies_write(const char *directory, const struct film *film, double sca
                  write_picture(directory, film, scale, s, edges + 1 - s, true, err);
             go_on = interrupt_caught() == signal;
         }
-    if (ok && !go_on)
-        return error_set(err, "%s: stopped by %s before all strategies were written", directory,
-                         os_signal_name(interrupt_caught()));
     char *path = sheet_path(directory);
-    ok = ok && pyramid_write(path, film, scale, err);
+    if (ok && go_on)
+        ok = pyramid_write(path, film, scale, err);
+    else if (ok)
+        fprintf(stderr, "asbdpt: stopped by %s before all strategies were in %s\n", os_signal_name(interrupt_caught()),
+                directory);
     free(path);
     return ok;
 }
