@@ -94,15 +94,17 @@ fi
 # A terminal is shown no picture.
 if command -v python3 >/dev/null; then
     expect 1 'a picture is nothing for a terminal' python3 -c 'import os, pty, subprocess, sys
-sys.exit(subprocess.run([os.environ["ASBDPT"], "render", "scene.pbrt", "-o", "-"], stdout=pty.openpty()[1]).returncode)'
+words = [os.environ["ASBDPT"], "render", "scene.pbrt", "--res", "8x8", "-o", "-"]
+sys.exit(subprocess.run(words, stdout=pty.openpty()[1]).returncode)'
 fi
 
 # ---- sizes and numbers ----
-refused 1 't.tga: 65536 x 1 pixels do not fit' "$program" render scene.pbrt --res 65536x1 --spp 1000000 -o t.tga
+refused 1 't.tga: 65536 x 1 pixels do not fit' "$program" render scene.pbrt --res 65536x1 --spp 1 --maxdepth 1 \
+    --integrator pt --quiet --checkpoint begun -o t.tga # which is there once the render has begun
 expect 0 '' "$program" render scene.pbrt --res 65536x1 --spp 1 --maxdepth 1 --integrator pt --quiet -o t.part
 refused 1 't.tga: 65536 x 1 pixels do not fit' "$program" merge t.part -o t.tga
-refused 1 'have 1005004 pictures; --maxdepth 20 is the most' \
-    "$program" render scene.pbrt --res 1x1 --strategies sub --maxdepth 1000 -o new.pfm
+refused 1 'have 550 pictures; --maxdepth 20 is the most' \
+    "$program" render scene.pbrt --res 1x1 --spp 1 --strategies sub --maxdepth 21 -o new.pfm
 expect 0 '' "$program" render scene.pbrt --res 1x1 --spp 1 --quiet --strategies all --maxdepth 20 -o new.pfm
 check [ "$(find all -name '*.pfm' | wc -l)" = 504 ]
 # A name is wrong before the work, not after it.
