@@ -166,7 +166,7 @@ static bool survives(const struct walk *w, double kept, rgb *beta)
 static bool depart(const struct walk *w, const struct vertex *v, enum transport mode, struct departure *out)
 {
     double u[3];
-    u[0] = v->bsdf.n_lobes > 1 ? sampler_number(w->sampler, DRAW_LOBE) : 0;
+    u[0] = sampler_number(w->sampler, DRAW_LOBE);
     sampler_pair(w->sampler, DRAW_SCATTERING, &u[1]);
     struct bsdf_sample s;
     if (v->bsdf.n_lobes == 0 || !bsdf_sample(&v->bsdf, v->wo, u, mode, &s))
