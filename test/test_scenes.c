@@ -115,6 +115,22 @@ static void test_lamps(struct test *t)
     }
 }
 
+/* A light of an object is one for each instance. */
+static void test_object_light(struct test *t)
+{
+    static const char text[] =
+        "LookAt 0 0 5  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 10\n"
+        "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4 WorldBegin\n"
+        "ObjectBegin \"lamp\" AreaLightSource \"diffuse\" \"rgb L\" [7 7 7] Shape \"disk\" ObjectEnd\n"
+        "ObjectInstance \"lamp\" Translate 9 0 0 ObjectInstance \"lamp\" WorldEnd\n";
+    struct scene scene;
+    if (!scene_from_text(t, text, &scene))
+        return;
+    check_shown(t, &scene, 835, 7, "a light of an object");
+    CHECK(t, scene.lights.n == 2, "two instances of a light are %d lights", scene.lights.n);
+    scene_free(&scene);
+}
+
 /* Alpha 0 is a hole, to the eye and to light; shadow alpha 0 lets light through only; any other alpha is solid, as in
  * pbrt. */
 static void test_holes(struct test *t)
@@ -341,6 +357,7 @@ void test_scenes(struct test *t)
     test_analytic(t);
     test_sides(t);
     test_lamps(t);
+    test_object_light(t);
     test_holes(t);
     test_partials(t);
     test_spot(t);
