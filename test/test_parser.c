@@ -300,7 +300,8 @@ static void check_uv(struct test *t)
     struct scene s;
     if (!open_scene(t, "mesh-uv", &s))
         return;
-    CHECK(t, s.geo.n_groups == 2 && s.geo.group[0].has_uv && s.geo.UV[5] == 1 && !s.geo.group[1].has_uv, "4 and 2 uv of 3 points");
+    CHECK(t, s.geo.n_groups == 2 && s.geo.group[0].has_uv && s.geo.UV[5] == 1 && !s.geo.group[1].has_uv,
+          "4 and 2 uv of 3 points");
     scene_free(&s);
 }
 

@@ -1,8 +1,9 @@
 /* ply.h: triangle meshes from PLY files (ascii, binary little and big endian).
  *
  * Vertex: x y z [nx ny nz] [u v | s t | texture_u texture_v | texture_s texture_t], any scalar type. Faces:
- * a list property vertex_indices (or vertex_index) of any integer types; polygons are cut into fans, those of fewer than
- * 3 corners left out. Other properties and elements are read over. Normals and texture coordinates that are not finite become 0.
+ * a list property vertex_indices (or vertex_index) of any integer types; polygons are cut into fans, and those of
+ * fewer than 3 corners left out. Other properties and elements are read over. Normals and texture coordinates that
+ * are not finite become 0.
  *
  * Tests: test_ply.c.
  */

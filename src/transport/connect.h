@@ -27,8 +27,8 @@ struct connection {
 };
 
 /* connect_hit: z, the last of t >= 2 eye vertices, is on a light, or its walk met a see-through lamp on the way there,
- * which then takes its place; prev is z_{t-2}. A light seen directly (t = 2) has weight 1: no other strategy is used for paths of
- * two vertices. */
+ * which then takes its place; prev is z_{t-2}. A light seen directly (t = 2) has weight 1: no other strategy is used
+ * for paths of two vertices. */
 struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *prev,
                               const struct vertex *z, int t);
 
