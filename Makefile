@@ -54,16 +54,20 @@ $(BUILD)/obj/%.o: src/%.c
 -include $(wildcard $(BUILD)/obj/*/*.d $(BUILD)/obj/*/*/*.d)
 
 # ---- what it is for ----
+# Paths come to the shell as variables, for they may hold blanks and quotes. Whatever the umask, everybody may read.
+install uninstall: export TO_BIN = $(DESTDIR)$(PREFIX)/bin
+install uninstall: export TO_MAN = $(DESTDIR)$(MANDIR)
+install uninstall: export TO_BASH = $(DESTDIR)$(BASHDIR)
+install uninstall: export TO_ZSH = $(DESTDIR)$(ZSHDIR)
+
 install: asbdpt ## install the program, its man page and completions below PREFIX (/usr/local), itself below DESTDIR
-	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(MANDIR) $(DESTDIR)$(BASHDIR) $(DESTDIR)$(ZSHDIR)
-	install -m 755 asbdpt $(DESTDIR)$(PREFIX)/bin/asbdpt
-	$(PROGRAM) help man >$(DESTDIR)$(MANDIR)/asbdpt.1
-	$(PROGRAM) help bash >$(DESTDIR)$(BASHDIR)/asbdpt
-	$(PROGRAM) help zsh >$(DESTDIR)$(ZSHDIR)/_asbdpt
+	umask 022 && mkdir -p "$$TO_BIN" "$$TO_MAN" "$$TO_BASH" "$$TO_ZSH" && \
+	    install -m 755 asbdpt "$$TO_BIN/asbdpt" && $(PROGRAM) help man >"$$TO_MAN/asbdpt.1" && \
+	    $(PROGRAM) help bash >"$$TO_BASH/asbdpt" && $(PROGRAM) help zsh >"$$TO_ZSH/_asbdpt" && \
+	    chmod 644 "$$TO_MAN/asbdpt.1" "$$TO_BASH/asbdpt" "$$TO_ZSH/_asbdpt"
 
 uninstall: ## remove what install put there
-	rm -f $(DESTDIR)$(PREFIX)/bin/asbdpt $(DESTDIR)$(MANDIR)/asbdpt.1 $(DESTDIR)$(BASHDIR)/asbdpt \
-	    $(DESTDIR)$(ZSHDIR)/_asbdpt
+	rm -f "$$TO_BIN/asbdpt" "$$TO_MAN/asbdpt.1" "$$TO_BASH/asbdpt" "$$TO_ZSH/_asbdpt"
 
 demo: asbdpt ## render Ajar with bdpt and asbdpt, the same time for each, into one picture, out/demo.png
 	@mkdir -p out
@@ -87,8 +91,11 @@ ref: asbdpt ## render the stored references of ref/ again (an hour; goes on wher
 # ---- what proves it ----
 test: asbdpt $(BUILD)/test layers standard references columns faults links limits ## build and run the test suite (under 3 minutes)
 	sh test/cli.sh $(PROGRAM)
+	sh test/outputs.sh $(PROGRAM)
+	sh test/install.sh $(PROGRAM)
 	sh test/mini.sh $(PROGRAM)
 	sh test/keep.sh $(PROGRAM)
+	sh test/hashes_test.sh
 	sh test/hashes.sh $(PROGRAM)
 	sh test/readme.sh $(PROGRAM) doc/scene-format.md doc/tour/trace.md
 	$(BUILD)/test

@@ -8,7 +8,9 @@ spp=${2:-256}
 failures=0
 for text in ref/*.txt; do
     name=$(basename "$text" .txt)
-    for method in $(sed -n 's/^origin .*: \([a-z]*\) with seeds .* and \([a-z]*\) with seeds .*/\1 \2/p' "$text"); do
+    methods=$(sed -n 's/^origin .*: \([a-z]*\) with seeds .* and \([a-z]*\) with seeds .*/\1 \2/p' "$text")
+    [ -n "$methods" ] || { echo "FAILED  $text names no two methods"; failures=$((failures + 1)); }
+    for method in $methods; do
         if "$program" verify "scenes/$name.pbrt" --methods $method --reference "ref/$name.pfm" --filter box --spp "$spp" \
             --batches 16 --seed 777000 --quiet >"/tmp/check-ref.$$"; then
             echo "ok      $name by $method: $(grep 'ratio of' "/tmp/check-ref.$$")"

@@ -67,7 +67,7 @@ demo() {
         --store "$work/veach-ajar" --note "$("$program" --version), ref/make-ref.sh demo: bdpt with seeds 3000 to 3003, \
 each with 384 samples per pixel, 240x135 pixels, box filter"
     mkdir -p ref/demo
-    "$program" convert "$work/veach-ajar.pfm" ref/demo/veach-ajar.png
+    "$program" convert "$work/veach-ajar.pfm" -o ref/demo/veach-ajar.png
     cp "$work/veach-ajar.txt" ref/demo/
 }
 

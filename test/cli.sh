@@ -158,7 +158,6 @@ for wrong in no/such/dir/x.pfm /proc/x.pfm stdout.txt/x.pfm; do
     expect 1 "^asbdpt: $wrong: cannot be created" "$program" render nothing.pbrt -o good.pfm -o $wrong
 done
 expect 1 '^asbdpt: good.ppm/s/probe: cannot be created' "$program" render nothing.pbrt --strategies good.ppm/s
-expect 1 'takes one picture only' "$program" render nothing.pbrt -o - -o -
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt -o good.pfm
 expect 1 'is odd' "$program" render "$box" $small -P select=bins -P binpaths=7 --integrator asbdpt -o good.pfm
 check [ ! -e good.pfm ]
@@ -238,16 +237,16 @@ expect 0 '' "$program" render "$box" $small --cropwindow 0 0.5 0.25 1 -o crop.pf
 expect 0 '' "$program" render "$box" $small --cropwindow 0,0.5,0.25,1 -o comma.pfm
 check cmp -s crop.pfm comma.pfm
 expect 0 '' "$program" render "$box" $small --cropwindow 0 0.5 0.25 1 -o crop.exr -o crop.part
-expect 0 '' "$program" convert crop.exr same.exr # OpenEXR keeps the window, other formats do not
+expect 0 '' "$program" convert crop.exr -o same.exr # OpenEXR keeps the window, other formats do not
 check cmp -s crop.exr same.exr
-expect 0 '' "$program" merge sum.exr crop.part --quiet
+expect 0 '' "$program" merge crop.part -o sum.exr --quiet
 check cmp -s crop.exr sum.exr
 expect 0 '^asbdpt: warning: crop.exr lies at 0,4 of a picture of 16x16, as lost.pfm does not say$' \
-    "$program" convert crop.exr same.exr lost.pfm
+    "$program" convert crop.exr -o same.exr -o lost.pfm
 check [ "$(grep -c warning stderr.txt)" = 1 ]
-expect 0 '' "$program" convert lost.pfm whole.exr
+expect 0 '' "$program" convert lost.pfm -o whole.exr
 check test -n "$(cmp whole.exr crop.exr 2>&1)"
-expect 0 '' "$program" convert whole.exr lost.png
+expect 0 '' "$program" convert whole.exr -o lost.png
 check [ ! -s stderr.txt ]
 check [ "$(head -c 2 a.ppm)" = P6 ]
 expect 0 '' "$program" compare a.pfm b.pfm --json
@@ -266,7 +265,7 @@ check grep -Eq ', "psnr": [0-9.]+\}$' stdout.txt
 expect 2 'expected a number from 1e-30' "$program" compare a.pfm b.pfm --heatmap heat.png --max 0
 expect 0 '' "$program" render "$box" --res 8x8 --spp 1 --quiet -o c.pfm
 expect 1 'equal size' "$program" compare a.pfm c.pfm
-expect 1 'stdout.txt' "$program" compare stdout.txt a.pfm
+expect 1 typo.pbrt "$program" compare typo.pbrt a.pfm
 expect 0 '' "$program" render "$box" $small --maxdepth 2 --strategies s -o a.pfm
 check [ -s s/d02_s02_t02_weighted.pfm ]
 check [ -s s/pyramid.png ]
@@ -283,7 +282,9 @@ check cmp -s aov.albedo.pfm two.x.albedo.pfm
 check [ ! -e two.x.normal.pfm ]
 check [ -s aov.normal.pfm -a -s aov.position.pfm ]
 expect 1 'known are albedo' "$program" render "$box" $small --aov albedo,norml -o aov.png
-expect 1 'known are albedo' "$program" render "$box" $small --aov '' -o aov.png
+expect 1 'few.variance.pfm: not written: one sample' "$program" render "$box" --spp 2 --samples 0:1 --res 8x8 --quiet \
+    --aov variance -o few.png
+check [ -s few.png -a ! -e few.variance.pfm ]
 expect 1 'needs two samples' "$program" render "$box" --spp 1 --res 8x8 --quiet --aov variance -o aov.png
 expect 1 'a picture with a name' "$program" render "$box" $small --aov depth -o -
 mkdir taken.depth.pfm
@@ -312,7 +313,6 @@ check cmp -s p.pfm q.pfm
 rm stats.json # it is there when all other files are
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt --stats stats.json -o a.png
 expect 1 'no/s.json: cannot be created' "$program" render "$box" $small --stats no/s.json -o made.png
-expect 1 'name of a picture, too' "$program" render "$box" $small --stats made.png -o made.png
 if [ -e /dev/full ]; then
     expect 1 'full.pfm' "$program" render "$box" $small --stats stats.json -o full.pfm
 fi
@@ -329,7 +329,7 @@ expect 2 'demo needs a picture to write' "$program" demo "$box"
 # What a system is told: the man page and the completions are sound, where there is something to judge them by.
 expect 0 '' "$program" help man
 mv stdout.txt asbdpt.1
-check grep -q '^.TH ASBDPT 1' asbdpt.1
+check grep -q '^.TH asbdpt 1' asbdpt.1
 if command -v mandoc >/dev/null; then
     check mandoc -T lint -W error asbdpt.1
 else
@@ -359,6 +359,8 @@ check grep -q 'bounds  *(4, 5, 6) to (6, 7, 8)' stdout.txt
 
 # trace: a sample told in words, as JSON and drawn; what it says to have added is what a render's film holds.
 one="--res 12x12 --integrator bdpt --maxdepth 3 --pixel 3,9"
+expect 1 'cannot be created' "$program" trace "$box" --pixel 3,9 --svg no/such/dir.svg # before the work
+check [ ! -s stdout.txt ]
 expect 0 '' "$program" trace "$box" $one --spp 1 --svg paths.svg
 check grep -q 'pixel 3,9, sample 0: bdpt' stdout.txt
 check grep -q '^(s,t): a path of s vertices' stdout.txt
@@ -404,12 +406,24 @@ check grep -q '^verdict: identical' stdout.txt
 expect 1 '' "$program" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" \
     "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.pfm"
 check grep -q '^verdict: DIFFER' stdout.txt
+# NaN is a difference, also from itself, in every pixel or in one, in a picture or in its errors.
+nan() { head -c "$1" /dev/zero | LC_ALL=C tr '\000' '\377'; } # so many bytes of NaNs
+{ printf 'PF\n36 24\n-1\n'; nan 10368; } >nan.pfm
+{ head -c -12 "$scenes/../ref/bathroom.pfm"; nan 12; } >corner.pfm
+for nan in nan corner; do
+    for sides in "$nan.pfm E $nan.pfm E" "$nan.pfm E R E" "R E $nan.pfm E" "R $nan.pfm R E"; do
+        # shellcheck disable=SC2046
+        expect 1 '' "$program" verify --images $(echo "$sides" |
+            sed "s|\bE\b|$scenes/../ref/bathroom.error.pfm|g; s|\bR\b|$scenes/../ref/bathroom.pfm|g")
+        check grep -q '^verdict: DIFFER' stdout.txt
+    done
+done
+expect 0 '' "$program" compare nan.pfm nan.pfm --json
+check grep -q '"mean_ratio": null, "nonfinite": 2592,' stdout.txt
 expect 1 'same size' "$program" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" \
     a.pfm a.pfm
 expect 2 'usage: asbdpt verify' "$program" verify --images a.pfm
 expect 2 'no method nonsense' "$program" verify "$box" --methods nonsense
-
-expect 1 'cannot make this directory' "$program" experiment "$box" -o ''
 
 # experiment --equal-time: a table, a line for every variant and seed, and a number that may be left out.
 tiny="--res 8x8 --seeds 2 --quiet"
@@ -420,30 +434,49 @@ check [ "$(grep -c '^cornell-box,' equal/equal-time.csv)" = 10 ]
 check grep -q '^cornell-box,bdpt,5002,2,' equal/equal-time.csv
 expect 0 '' "$program" experiment "$box" --equal-time 0.01 $tiny -o equal
 check grep -q -e '--equal-time 0.01 --seeds 2' stdout.txt
+# A reference is of the scene, or it is none: another's of the same name is refused, and no reference is not kept quiet.
+mkdir -p bathroom/ref
+cp "$box" bathroom/scene.pbrt
+cp "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.txt" bathroom/ref
+tiny="--seeds 1 --spp 1 --reference-spp 4"
+expect 0 'bathroom.pfm.* is of another scene: measured at 48x48 pixels' \
+    "$program" experiment --equal-time bathroom/scene.pbrt $tiny -o foreign
+expect 1 'bathroom.pfm.* is of another scene$' \
+    "$program" experiment --equal-time bathroom/scene.pbrt --reference bathroom/ref $tiny --quiet -o foreign
+sed -i.old '/^content/d' bathroom/ref/bathroom.txt
+expect 0 'does not say what scene it is of: measured at 48x48' \
+    "$program" experiment --equal-time bathroom/scene.pbrt $tiny -o foreign
+expect 1 'have the same name, bathroom' \
+    "$program" experiment --equal-time bathroom/scene.pbrt "$scenes/bathroom.pbrt" $tiny --quiet -o foreign
 expect 2 'equal times are those of one thread' "$program" experiment "$box" --equal-time -j 2 $tiny -o equal
 expect 2 '[-]-equal-time 0: expected a number from 0.001' "$program" experiment "$box" --equal-time 0 $tiny -o equal
 
 # convert: linear formats keep light (.float.exr exactly), 8-bit ones what they hold; - reads and writes PFM.
 "$program" render "$box" --res 37x23 --spp 4 --quiet -o light.pfm -o light.png
-expect 0 '' "$program" convert light.pfm x.float.exr x.exr x.hdr x.png x.tga x.ppm
-expect 0 '' "$program" convert x.float.exr back.pfm
+expect 0 '' "$program" convert light.pfm -o x.float.exr -o x.exr -o x.hdr -o x.png -o x.tga -o x.ppm
+expect 0 '' "$program" convert x.float.exr -o back.pfm
 check cmp -s light.pfm back.pfm
 check cmp -s light.png x.png
-expect 0 '' "$program" convert x.exr x2.exr
+expect 0 '' "$program" convert x.exr -o x2.exr
 check cmp -s x.exr x2.exr
-expect 0 '' "$program" convert x.tga y.png
+expect 0 '' "$program" convert x.tga -o y.png
 check cmp -s light.png y.png
-expect 0 '' "$program" convert x.ppm x.TGA
+expect 0 '' "$program" convert x.ppm -o x.TGA
 check cmp -s x.tga x.TGA
-"$program" convert - - <light.pfm >through.pfm
+"$program" convert - -o - <light.pfm >through.pfm
 check cmp -s light.pfm through.pfm
-close() { # A B MOST: their relative mean squared error is at most so large
-    "$program" compare "$1" "$2" >stdout.txt 2>&1 && awk -v most="$3" '$1 == "relmse" { exit !($2 <= most) }' stdout.txt
+close() { # A B MOST: their relative mean squared error, of all values, is at most so large
+    "$program" compare "$1" "$2" >stdout.txt 2>&1 && awk -v most="$3" '
+        $1 == "relmse" { near = $2 ~ /^[0-9.e+-]+$/ && $2 + 0 <= most }
+        $1 == "nonfinite" { all = $2 == "0" }
+        END { exit !(near && all) }' stdout.txt
 }
 check close x.exr light.pfm 1e-7
 check close x.hdr light.pfm 1e-4
+check [ "$(close nan.pfm nan.pfm 1; echo $?)" = 1 ]
+check [ "$(close corner.pfm corner.pfm 1; echo $?)" = 1 ]
 check [ "$(close light.png light.pfm 1e-4; echo $?)" = 1 ]
-expect 0 '' "$program" convert "$scenes/../ref/bathroom.pfm" ref.float.exr
+expect 0 '' "$program" convert "$scenes/../ref/bathroom.pfm" -o ref.float.exr
 expect 0 '' "$program" verify --images ref.float.exr "$scenes/../ref/bathroom.error.pfm" \
     "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm"
 check grep -q 'verdict: identical' stdout.txt
@@ -459,27 +492,27 @@ WorldEnd
 END
     expect 0 '' "$program" render maps.pbrt $small -o maps.$picture
 done
-expect 0 '' "$program" convert maps.x.float.exr maps.exr.pfm
+expect 0 '' "$program" convert maps.x.float.exr -o maps.exr.pfm
 check cmp -s maps.light.pfm maps.exr.pfm
-expect 1 'nothing.exr' "$program" convert nothing.exr x.png
-expect 1 'x.jpg: pictures are written as' "$program" convert light.pfm x.jpg
-expect 1 'no/such/dir' "$program" convert light.pfm no/such/dir/x.png
+expect 1 'nothing.exr' "$program" convert nothing.exr -o x.png
+expect 1 'x.jpg: pictures are written as' "$program" convert light.pfm -o x.jpg
+expect 1 'no/such/dir' "$program" convert light.pfm -o no/such/dir/x.png
 expect 2 'needs a picture to write' "$program" convert light.pfm
 check [ ! -e x.jpg ]
 
 # --exposure and --tonemap: of 8-bit pictures alone, the same in render and convert; without them nothing changes.
 expect 0 '' "$program" render "$box" --res 37x23 --spp 4 --quiet --exposure -2 --tonemap filmic -o dark.pfm -o dark.png
 check cmp -s light.pfm dark.pfm
-expect 0 '' "$program" convert light.pfm y.png --exposure -2 --tonemap filmic
+expect 0 '' "$program" convert light.pfm -o y.png --exposure -2 --tonemap filmic
 check cmp -s dark.png y.png
-expect 0 '' "$program" convert light.pfm y.png --exposure -2
+expect 0 '' "$program" convert light.pfm -o y.png --exposure -2
 check test -n "$(cmp dark.png y.png 2>&1)"
 check test -n "$(cmp light.png y.png 2>&1)"
-expect 0 '' "$program" convert light.pfm y.png --exposure 0 --tonemap none
+expect 0 '' "$program" convert light.pfm -o y.png --exposure 0 --tonemap none
 check cmp -s light.png y.png
-expect 1 'known are none, filmic' "$program" convert light.pfm y.png --tonemap film
-expect 1 'for 8-bit pictures' "$program" convert light.pfm y.exr --exposure 1
-expect 2 'expected a number from -100 to 100' "$program" convert light.pfm y.png --exposure nan
+expect 1 'known are none, filmic' "$program" convert light.pfm -o y.png --tonemap film
+expect 1 'for 8-bit pictures' "$program" convert light.pfm -o y.exr --exposure 1
+expect 2 'expected a number from -100 to 100' "$program" convert light.pfm -o y.png --exposure nan
 
 # OpenEXR's own tools and ImageMagick, where they are installed, read our files and write ours.
 if command -v exrmaketiled >/dev/null; then
@@ -487,8 +520,8 @@ if command -v exrmaketiled >/dev/null; then
         for compression in none rle zip piz; do
             for levels in -o -m -r; do
                 expect 0 '' exrmaketiled $levels -z $compression -t 16 9 $kind tiled.exr
-                expect 0 '' "$program" convert tiled.exr tiled.float.exr
-                expect 0 '' "$program" convert $kind plain.float.exr
+                expect 0 '' "$program" convert tiled.exr -o tiled.float.exr
+                expect 0 '' "$program" convert $kind -o plain.float.exr
                 check cmp -s plain.float.exr tiled.float.exr
             done
         done
@@ -499,7 +532,7 @@ if command -v exrmaketiled >/dev/null; then
         check grep -q 'compression (type compression): zip' stdout.txt
     done
     expect 0 '' exrmaketiled -z pxr24 x.exr tiled.exr
-    expect 1 'tiled.exr: OpenEXR compression PXR24 is not read' "$program" convert tiled.exr y.png
+    expect 1 'tiled.exr: OpenEXR compression PXR24 is not read' "$program" convert tiled.exr -o y.png
 else
     echo "skipped: files of OpenEXR's tools (exrmaketiled is not installed)"
 fi
@@ -511,7 +544,7 @@ if command -v convert >/dev/null && convert -version | grep -q ImageMagick; then
     check cmp -s theirs.png theirs.ppm
     for kind in hdr exr; do # between 0 and 1: what ImageMagick keeps; it may lack OpenEXR
         convert -list format | grep -iq "$kind\\*\\{0,1\\} .*rw" || continue
-        expect 0 '' "$program" convert x.png 8.$kind
+        expect 0 '' "$program" convert x.png -o 8.$kind
         expect 0 '' convert 8.$kind theirs.$kind
         check close theirs.$kind x.png 1e-4
     done

@@ -80,7 +80,7 @@ run_slurm() {
     mkdir -p "$work/slurm"
     cd "$work" || exit 1
     job=$(sbatch --parsable --array=0-3 "$recipes/slurm.sh" "$scene" 48 "$work/slurm" --res 64x36 --interval 1)
-    sbatch --parsable "--dependency=afterok:$job" --wrap "'$ASBDPT' merge slurm.pfm slurm/*.part" >/dev/null
+    sbatch --parsable "--dependency=afterok:$job" --wrap "'$ASBDPT' merge slurm/*.part -o slurm.pfm" >/dev/null
     sleep 2
     scontrol requeue "${job}_1" || { echo "FAIL: part 1 had ended before it could be stopped"; failed=1; }
     second=0

@@ -10,4 +10,5 @@ find "$top/src" "$top/test" "$top/scenes/generate" \( -name fixtures -o -name co
         LC_ALL=C awk -v limit="${limit:-0}" '
             length($0) > limit { print FILENAME ":" FNR ": " length($0) " characters, more than " limit }
             /[^ -~]/ { print FILENAME ":" FNR ": a character that is not printable ASCII" }' "$file"
-    done | awk '{ print } END { exit NR > 0 }'
+        echo
+    done | awk '/./ { print; bad = 1 } END { exit bad || NR == 0 }'

@@ -19,7 +19,7 @@ expect() {
     shift 2
     "$@" >stdout.txt 2>stderr.txt
     got=$?
-    if [ $got -ne "$status" ] || { [ -n "$pattern" ] && ! grep -Eq "$pattern" stderr.txt; }; then
+    if [ $got -ne "$status" ] || { [ -n "$pattern" ] && ! grep -Eq -e "$pattern" stderr.txt; }; then
         fault "$* ended with $got (expected $status) saying: $(cat stderr.txt)"
     fi
 }

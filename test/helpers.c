@@ -100,17 +100,8 @@ void batches_scale(struct batches *b, double factor)
 
 double batches_p(const struct batches *a, const struct batches *b, double *ratio)
 {
-    double smallest = 1;
-    long n = 0;
-    for (long i = 0; i < a->n; i++) {
-        struct moments x = batches_moments(a, i), y = batches_moments(b, i);
-        if (x.variance + y.variance == 0 && x.mean == y.mean)
-            continue;
-        smallest = fmin(smallest, stats_welch_p(x.mean, x.variance, x.n, y.mean, y.variance, y.n));
-        n++;
-    }
     *ratio = batches_mean(a, NULL) / batches_mean(b, NULL);
-    return n > 0 ? stats_sidak(smallest, (double)n) : 1;
+    return batches_smallest_p(a, b);
 }
 
 double mean_p(const struct batches *b, double expected)

@@ -33,8 +33,7 @@ struct batches render_batches(struct test *t, const struct scene *scene, const c
 /* batches_scale: multiply all by a factor, as a fault would. */
 void batches_scale(struct batches *b, double factor);
 
-/* batches_p: p-value of "all expectations are equal": the smallest of Welch's tests of all values, corrected by Sidak's
- * formula for their number; those of two exact, equal values say nothing. *ratio: mean of a over mean of b. */
+/* batches_p: batches_smallest_p, and in *ratio the mean of a over the mean of b. */
 double batches_p(const struct batches *a, const struct batches *b, double *ratio);
 
 /* remove_tree: a directory and all that is in it. False if something is left. */

@@ -63,9 +63,9 @@ part c.part --samples 5:8
 part other.part --samples 3:8 --seed 1
 sed 's/^# /#  /' "$box" >changed.pbrt
 expect 0 'wrote x.pfm, x.part$' "$program" merge -o x.pfm -o x.part b.part a.part
-expect 0 '' "$program" merge y.pfm a.part b.part
+expect 0 '' "$program" merge a.part b.part -o y.pfm
 same x.pfm y.pfm "the output first"
-expect 0 '' "$program" merge z.pfm x.part
+expect 0 '' "$program" merge x.part -o z.pfm
 same x.pfm z.pfm "a merged part"
 rm -f x.pfm
 expect 1 'missing are the samples 3:5' "$program" merge -o x.pfm a.part c.part
@@ -77,9 +77,8 @@ expect 1 'other.part: a part of another picture: it has "seed 1", not "seed 0"' 
     "$program" merge -o x.pfm a.part other.part
 expect 1 'stdout.txt: this is no part' "$program" merge -o x.pfm a.part b.part stdout.txt
 expect 1 'gone.part: cannot be opened' "$program" merge -o x.pfm a.part gone.part
-expect 2 'this is there already' "$program" merge a.part b.part
+expect 2 "merge needs a picture to write" "$program" merge a.part b.part
 expect 2 'merge needs a part' "$program" merge -o x.pfm
-expect 2 'merge needs parts' "$program" merge x.pfm
 expect 0 '' "$program" merge --partial -o partial.pfm a.part
 check [ ! -e x.pfm ]
 "$program" render changed.pbrt $tiny --res 8x8 --spp 8 --samples 3:8 -o foreign.part

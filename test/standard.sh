@@ -37,4 +37,4 @@ LC_ALL=C awk '
             }
         }
     }
-    END { exit bad }' $(find "$top/src" -name '*.[ch]' | sort)
+    END { exit bad || NR == 0 }' $(find "$top/src" -name '*.[ch]' | sort)

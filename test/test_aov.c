@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/number.h"
 #include "render/aov.h"
 #include "helpers.h"
 #include "tests.h"
@@ -37,7 +38,7 @@ static double deviation(const float *picture, int c, double value, int x0, int x
     double largest = 0;
     for (int y = 0; y < H; y++)
         for (int x = x0; x < x1; x++)
-            largest = fmax(largest, fabs((double)picture[3 * (y * W + x) + c] - value));
+            largest = most_of(largest, fabs((double)picture[3 * (y * W + x) + c] - value));
     return largest;
 }
 

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "scene/camera.h"
+#include "base/number.h"
 #include "base/rng.h"
 #include "tests.h"
 
@@ -25,7 +26,7 @@ static void test_inverse(struct test *t, const struct camera *c, struct rng *r)
         struct ray ray = camera_ray(c, px, py, rng_uniform(r), rng_uniform(r));
         double J = camera_project(c, ray.o, ray.d, &qx, &qy);
         CHECK(t, J > 0 && fabs(length(ray.d) - 1) < 1e-12, "J = %g, |d| = %.17g", J, length(ray.d));
-        worst = fmax(worst, fmax(fabs(px - qx), fabs(py - qy)));
+        worst = most_of(worst, most_of(fabs(px - qx), fabs(py - qy)));
     }
     CHECK(t, worst < 1e-7, "projection is off by %g pixels", worst);
     double px, py;

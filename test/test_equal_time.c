@@ -92,27 +92,6 @@ static void plant(struct plan *p, struct equal_time *e)
 
 static bool near(double a, double b) { return fabs(a - b) < 1e-9 * fabs(b); }
 
-static void check_ratios(struct test *t, const struct equal_time *e)
-{
-    struct interval i = equal_ratio(e, &e->scene[1], 1, EQUAL_RELMSE), j = equal_ratio(e, &e->scene[1], 1, EQUAL_RMSE8);
-    double v = 2 * pow(0.05 / 1.05, 2); /* of the logarithm: both have two values of this relative distance */
-    CHECK(t, near(i.value, 4) && near(j.value, 8), "planted ratios 4 and 8, found %g and %g", i.value, j.value);
-    CHECK(t, near(log(i.high / 4), student_quantile(0.05, 2) * sqrt(v)) && near(i.low * i.high, 16),
-          "Welch's interval of two seeds each: %g to %g", i.low, i.high);
-    struct equal_summary s = equal_summarize(e, 1, EQUAL_RELMSE), all = equal_summarize(e, 2, EQUAL_RMSE8);
-    CHECK(t, near(s.mean, cbrt(2)) && near(s.best, 0.5) && near(s.worst, 4) && s.n == 3, "mean %g, best %g, worst %g",
-          s.mean, s.best, s.worst);
-    CHECK(t, strcmp(s.best_scene, "a") == 0 && strcmp(s.worst_scene, "b") == 0, "in their scenes");
-    CHECK(t, near(all.mean, 0.5) && near(all.best, 0.5) && near(all.worst, 0.5), "one ratio everywhere: %g", all.mean);
-    /* Half the time is worth twice the error; the wrong sign would make it a half. */
-    e->scene[0].render[1][0].seconds = e->scene[0].render[1][1].seconds = 4;
-    CHECK(t, near(equal_ratio(e, &e->scene[0], 1, EQUAL_RELMSE).value, 1), "an error reached in twice the time");
-    e->scene[0].render[1][0].seconds = e->scene[0].render[1][1].seconds = 2;
-    e->scene[0].render[2][0].rmse8 = e->scene[0].render[2][1].rmse8 = 2; /* below the noise */
-    all = equal_summarize(e, 2, EQUAL_RMSE8);
-    CHECK(t, all.n == 2 && near(all.mean, 0.5), "a scene whose ratio cannot be told is left out");
-}
-
 /* What the writer puts into a file, as text to be freed. */
 static char *written(struct test *t, const struct equal_time *e, void (*write)(FILE *, const struct equal_time *))
 {
@@ -129,6 +108,34 @@ static char *written(struct test *t, const struct equal_time *e, void (*write)(F
     return text;
 }
 
+static void check_ratios(struct test *t, const struct equal_time *e)
+{
+    struct interval i = equal_ratio(e, &e->scene[1], 1, EQUAL_RELMSE), j = equal_ratio(e, &e->scene[1], 1, EQUAL_RMSE8);
+    double v = 2 * pow(0.05 / 1.05, 2); /* of the logarithm: both have two values of this relative distance */
+    CHECK(t, near(i.value, 4) && near(j.value, 8), "planted ratios 4 and 8, found %g and %g", i.value, j.value);
+    CHECK(t, near(log(i.high / 4), student_quantile(0.05, 2) * sqrt(v)) && near(i.low * i.high, 16),
+          "Welch's interval of two seeds each: %g to %g", i.low, i.high);
+    struct equal_summary s = equal_summarize(e, 1, EQUAL_RELMSE), all = equal_summarize(e, 2, EQUAL_RMSE8);
+    CHECK(t, near(s.mean, cbrt(2)) && near(s.best, 0.5) && near(s.worst, 4) && s.n == 3, "mean %g, best %g, worst %g",
+          s.mean, s.best, s.worst);
+    CHECK(t, strcmp(s.best_scene, "a") == 0 && strcmp(s.worst_scene, "b") == 0, "in their scenes");
+    CHECK(t, near(all.mean, 0.5) && near(all.best, 0.5) && near(all.worst, 0.5), "one ratio everywhere: %g", all.mean);
+    /* A fifth more time is worth a fifth more error; the wrong sign would make it a sixth less. Twice the time is
+     * beyond what can be told, in one render too. */
+    e->scene[0].render[1][0].seconds = e->scene[0].render[1][1].seconds = 2.4;
+    CHECK(t, near(equal_ratio(e, &e->scene[0], 1, EQUAL_RELMSE).value, 0.6), "an error reached in more time");
+    e->scene[0].render[1][1].seconds = 4;
+    CHECK(t, isnan(equal_ratio(e, &e->scene[0], 1, EQUAL_RELMSE).value) && equal_summarize(e, 1, EQUAL_RMSE8).n == 2,
+          "twice the time is accounted for");
+    char *table = written(t, e, equal_table);
+    CHECK(t, strstr(table, " 1 was off by more than 25 %: too far") != NULL, "the table says so:\n%s", table);
+    free(table);
+    e->scene[0].render[1][0].seconds = e->scene[0].render[1][1].seconds = 2;
+    e->scene[0].render[2][0].rmse8 = e->scene[0].render[2][1].rmse8 = 2; /* below the noise */
+    all = equal_summarize(e, 2, EQUAL_RMSE8);
+    CHECK(t, all.n == 2 && near(all.mean, 0.5), "a scene whose ratio cannot be told is left out");
+}
+
 static void check_files(struct test *t, const struct equal_time *e)
 {
     static const char *const lines[] = {
@@ -141,6 +148,13 @@ static void check_files(struct test *t, const struct equal_time *e)
         "- ASBDPT vertices: 6 of 6 renders took the given time within 3 %",
         "./asbdpt experiment --equal-time --spp 32 --seeds 2 --reference-spp 0 -o results \\\n",
         "\n        a.pbrt b.pbrt c.pbrt\n"};
+    char last[256];
+    memcpy(last, e->scene[2].name, sizeof last);
+    snprintf(e->scene[2].name, sizeof last, "c|d");
+    char *barred = written(t, e, equal_table);
+    CHECK(t, strstr(barred, "\n| c\\|d | ") != NULL, "a bar in a name ends a cell:\n%s", barred);
+    free(barred);
+    memcpy(e->scene[2].name, last, sizeof last);
     char *table = written(t, e, equal_table), *csv = written(t, e, equal_csv);
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
         CHECK(t, strstr(table, lines[i]) != NULL, "the table lacks %s:\n%s", lines[i], table);

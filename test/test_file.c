@@ -240,7 +240,8 @@ static void test_json(struct test *t)
     static const char EXPECTED[] = "{\n  \"a\": \"x\\\"\\\\\\u001b\",\n  "
                                    "\"b\": [1, 0.10000000000000001, null],\n"
                                    "  \"c\": {},\n  \"d\": [\n    true,\n    18446744073709551615\n  ],\n"
-                                   "  \"e\": null\n}\n";
+                                   "  \"e\": null,\n"
+                                   "  \"f\": \"\303\251\\ufffd\\ufffd\\ufffd(\360\237\230\200\\ufffd\"\n}\n";
     char path[512], read[256] = "";
     in_tmp(t, "x.json", path, sizeof path);
     FILE *f = fopen(path, "wb");
@@ -257,6 +258,7 @@ static void test_json(struct test *t)
     json_count(&j, NULL, UINT64_MAX);
     json_close(&j);
     json_text(&j, "e", NULL);
+    json_text(&j, "f", "\303\251\377\300\257(\360\237\230\200\303"); /* good, never, too long, good, cut */
     json_close(&j);
     fclose(f);
     f = fopen(path, "rb");

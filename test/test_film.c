@@ -5,6 +5,7 @@
 
 #include "scene/film.h"
 #include "base/mem.h"
+#include "base/number.h"
 #include "base/rng.h"
 #include "base/stats.h"
 #include "base/vec.h"
@@ -47,7 +48,7 @@ static double sampling_p(const struct filter *f, struct rng *r, double stretch)
                                         -f->radius[1] + (j + 0.5) * 2 * f->radius[1] / (20 * SUB)) *
                             width / SUB * 2 * f->radius[1] / (20 * SUB);
         double mean = sum[c] / N, variance = (square[c] / N - mean * mean) / N;
-        smallest = fmin(smallest, stats_normal_p((mean - expected) / sqrt(variance)));
+        smallest = least_of(smallest, stats_normal_p((mean - expected) / sqrt(variance)));
     }
     return 1 - pow(1 - smallest, CELLS);
 }

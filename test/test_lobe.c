@@ -8,6 +8,7 @@
 #include "material/bsdf.h"
 #include "material/fresnel.h"
 #include "material/microfacet.h"
+#include "base/number.h"
 #include "base/rng.h"
 #include "tests.h"
 
@@ -147,7 +148,7 @@ static double jacobian_error(const struct lobe *sampled, const struct lobe *clai
             if ((wo.z * wi.z > 0) != (sampled->kind == LOBE_MICROFACET_REFLECTION))
                 continue; /* through the facet but not through the surface: absorbed */
             double pdf = lobe_eval(claimed, wo, wi, wo.z * wi.z > 0, RADIANCE).pdf;
-            worst = fmax(worst, fabs(pdf * area - 1));
+            worst = most_of(worst, fabs(pdf * area - 1));
         }
     return worst;
 }

@@ -241,7 +241,7 @@ static void check_function(struct test *t, const struct function *f, struct rng 
             at = x;
         }
         double shifted = y + ldexp(y, -52) * (2 * f->bound + 1);
-        wrong = fmin(wrong, in_ulps(f->off(x, shifted), y));
+        wrong = least_of(wrong, in_ulps(f->off(x, shifted), y));
     }
     CHECK(t, worst <= f->bound, "%s(%.17g) is off by %.3f ulp, more than %g", f->name, at, worst, f->bound);
     CHECK(t, wrong > f->bound, "%s: a planted error counts as %.3f ulp", f->name, wrong);

@@ -79,7 +79,7 @@ static void check_accepted(struct test *t)
     CHECK(t, read_line(TABLE, "--range 0:100", words, &o, &err) && o.range[0] == 0 && o.range[1] == 100, "a range");
     CHECK(t,
           read_line(TABLE,
-                    "--on --off --window=0,0.5,0.25,1 --width 3x4 --texts 1 --texts=2=3 -Pa=b -P c= --list x - y -t= "
+                    "--on --off --window=0,0.5,0.25,1 --width 3x4 --texts 1 --texts=2=3 -Pa=b -P c= --list x - y -t=- "
                     "-i 2 --number=2",
                     words, &o, &err),
           "%s", err.text);
@@ -88,7 +88,7 @@ static void check_accepted(struct test *t)
     CHECK(t, o.pairs.n == 2 && strcmp(o.pairs.item[0], "a=b") == 0, "pairs");
     CHECK(t, strcmp(o.pairs.item[1], "c=") == 0, "a pair without a value");
     CHECK(t, o.list.n == 3 && strcmp(o.list.item[1], "-") == 0, "a list ends at the next option; - is none");
-    CHECK(t, o.text[0] == '\0' && o.integer == 2 && o.number == 2, "an empty value; other bounds");
+    CHECK(t, strcmp(o.text, "-") == 0 && o.integer == 2 && o.number == 2, "a value behind =; other bounds");
     options_free(TABLE, &o);
 }
 
@@ -132,7 +132,7 @@ static void check_refused(struct test *t)
         {"--integer 0x10", "expected an integer"},
         {"--integer 3.0", "expected an integer"},
         {"--integer 4,5", "expected an integer"},
-        {"--integer=", "expected an integer"},
+        {"--integer=", "--integer: its value is empty"},
         {"-i4x", "expected an integer"},
         {"--number -0.6", "--number -0.6: expected a number from -0.5 to 2"},
         {"--number 2.0000001", "expected a number"},
@@ -170,6 +170,8 @@ static void check_refused(struct test *t)
         {"-P a", "expected name=value"},
         {"-P =a", "expected name=value"},
         {"--text", "--text needs a value"},
+        {"--text=", "--text: its value is empty"},
+        {"--texts=", "--texts: its value is empty"},
         {"-t", "--text needs a value"},
         {"--list", "--list needs a value"},
         {"--on=1", "--on takes no value"},
@@ -265,7 +267,7 @@ void test_options(struct test *t)
     check_perhaps(t);
     check_refused(t);
     check_required(t);
-    for (const struct command *const *c = command_list(); *c != NULL; c++)
+    for (const struct command *const *c = program.commands; *c != NULL; c++)
         for (const struct option *o = (*c)->options; o != NULL; o = options_next(o), rows++)
             check_row(t, *c, o);
     CHECK(t, rows > 50, "%d rows", rows);

@@ -294,6 +294,17 @@ static void check_values(struct test *t)
     scene_free(&s);
 }
 
+/* Texture coordinates for more points than there are serve those that there are; for fewer, none. */
+static void check_uv(struct test *t)
+{
+    struct scene s;
+    if (!open_scene(t, "mesh-uv", &s))
+        return;
+    CHECK(t, s.geo.n_groups == 2 && s.geo.group[0].has_uv && s.geo.UV[5] == 1 && !s.geo.group[1].has_uv,
+          "4 and 2 uv of 3 points");
+    scene_free(&s);
+}
+
 static void check_shapes(struct test *t)
 {
     struct scene s;
@@ -778,6 +789,7 @@ void test_parser(struct test *t)
     check_transforms(t);
     check_values(t);
     check_shapes(t);
+    check_uv(t);
     check_materials(t);
     check_changed_materials(t);
     check_textures(t);

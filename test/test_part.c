@@ -8,6 +8,7 @@
 
 #include "base/file.h"
 #include "base/rng.h"
+#include "base/version.h"
 #include "render/part.h"
 #include "helpers.h"
 #include "tests.h"
@@ -152,8 +153,31 @@ static void test_damage(struct test *t)
     remove(path);
 }
 
+/* A program whose pictures are others has another estimator, and its films are not taken. */
+static void test_estimator(struct test *t)
+{
+    struct scene scene;
+    struct error err = {""};
+    char line[64];
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 4, 4, &scene))
+        return;
+    struct render_options o = {.integrator = integrator_find("bdpt"), .end = 4, .planned = 4, .max_depth = 5};
+    struct part ours = part_describe(&scene, &o), other = part_describe(&scene, &o);
+    snprintf(line, sizeof line, "version %s, estimator %d\n", VERSION, ESTIMATOR);
+    bool named = strncmp(ours.identity, line, strlen(line)) == 0;
+    if (CHECK(t, named, "the lines begin with: %.40s", ours.identity)) {
+        CHECK(t, part_same(&ours, "a.part", &other, &err), "%s", err.text);
+        other.identity[strlen(line) - 2]++;
+        CHECK(t, !part_same(&ours, "a.part", &other, &err) && strstr(err.text, "estimator") != NULL, "%s", err.text);
+    }
+    part_free(&ours);
+    part_free(&other);
+    scene_free(&scene);
+}
+
 void test_part(struct test *t)
 {
+    test_estimator(t);
     test_bytes(t);
     test_round_trip(t);
     test_damage(t);

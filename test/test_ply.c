@@ -281,7 +281,6 @@ static void check_refused(struct test *t)
         {HEAD FACE THREE "3 0 1 1.5\n", "not a vertex index"},
         {HEAD FACE THREE "-3 0 1 2\n", "not a list length"},
         {HEAD FACE THREE "3.5 0 1 2\n", "not a list length"},
-        {HEAD FACE THREE "2 0 1   \n", "fewer than 3"},
         {HEAD FACE THREE "99999999 0 1 2\n", "ends"},
         {HEAD "element face 0\nproperty list uchar int vertex_indices\nend_header\n" THREE, "no faces"},
         {HEAD "end_header\n" THREE, "no faces"},
@@ -314,13 +313,13 @@ static void check_refused(struct test *t)
     CHECK(t, !ply_read(test_tmp(t), &m, &err), "a directory is read");
 }
 
-/* Odd but legal: what is not finite beside the position, polygons, meshes without normals. */
+/* Odd but legal: what is not finite beside the position, polygons, faces that are none, meshes without normals. */
 static void check_odd(struct test *t)
 {
     static const char text[] =
         "ply\nformat ascii 1.0\nelement vertex 5\n" XYZ "property float u\nproperty float v\nproperty float nx\n"
-        "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
-        "0 0 0 nan 0 9\n1 0 0 0 0 9\n2 1 0 0 0 9\n1 2 0 0 0 9\n0 1 0 0 0 9\n5 0 1 2 3 4\n3 0 0 0";
+        "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0 nan 0 9\n1 0 0 0 0 9\n2 1 0 0 0 9\n1 2 0 0 0 9\n0 1 0 0 0 9\n5 0 1 2 3 4\n0\n2 0 1\n3 0 0 0";
     struct text f = {NULL, 0, 0};
     struct mesh m;
     struct error err = {""};
@@ -329,6 +328,7 @@ static void check_odd(struct test *t)
     save(t, &f, path);
     bool ok = ply_read(path, &m, &err);
     CHECK(t, ok && m.n_triangles == 4 && m.N == NULL && m.UV != NULL && m.UV[0] == 0, "pentagon: %s", err.text);
+    CHECK(t, m.n_thin == 2 && m.n_wide == 1, "%d and %d faces of few and of many corners", m.n_thin, m.n_wide);
     CHECK(t, !ok || (m.index[6] == 0 && m.index[7] == 3 && m.index[8] == 4), "the last triangle of the fan");
     mesh_free(&m);
 }

@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 #include "base/mem.h"
+#include "base/number.h"
 #include "base/rng.h"
 #include "base/stats.h"
 #include "image/image.h"
@@ -120,6 +121,26 @@ static void check_axis(struct test *t, const struct plot_axis *a)
               "tick %.12g is round", tick[i]);
     }
     CHECK(t, majors >= (a->logarithmic ? 1 : 3) && majors <= 14, "%d numbers on [%g, %g]", majors, a->low, a->high);
+}
+
+/* One estimate of the error everywhere: that over seeds, by which 3.160 +- 0.099 % is a bias, and 0.160 is none. */
+static void test_bias(struct test *t)
+{
+    struct plan p = {.n_seeds = 3};
+    struct scene_results *s = mem_alloc(1, sizeof *s);
+    s->plan = &p;
+    s->reference.mean_error = 0.0004;
+    for (int biased = 0; biased < 2; biased++) {
+        for (int i = 0; i < 3; i++)
+            s->run[VARIANT_BINS][i].step[0].value[Q_MEAN_ERROR] = 0.0016 + 0.03 * biased + 0.001715 * (i - 1);
+        struct estimate e = results_mean(s, VARIANT_BINS, 0, Q_MEAN_ERROR);
+        struct bias b = results_bias(s, VARIANT_BINS, 0);
+        double error = sqrt(e.error * e.error + 0.0004 * 0.0004), dof = 2 * pow(error / e.error, 4);
+        CHECK(t, b.mean == e.mean && b.error == e.error, "%g +- %g, but %g +- %g in the table", b.mean, b.error, e.mean,
+              e.error);
+        CHECK(t, fabs(b.p - stats_student_p(e.mean / error, dof)) < 1e-12 && (b.p < 0.01) == biased, "p is %g", b.p);
+    }
+    free(s);
 }
 
 static void test_axes(struct test *t)
@@ -373,7 +394,7 @@ static void check_range(struct test *t, const struct results *r)
         const float *pixel = s->image[VARIANT_POOL] + i / 3 * 3;
         double most = fmax((double)pixel[0], fmax((double)pixel[1], (double)pixel[2]));
         double value = img.u8[half + i] > 0 ? ldexp(img.u8[i], img.u8[half + i] - 136) : 0;
-        largest = fmax(largest, fabs(value - (double)pixel[i % 3]) - most / 256);
+        largest = most_of(largest, fabs(value - (double)pixel[i % 3]) - most / 256);
     }
     CHECK(t, img.height == 2 * s->height && largest < 1e-6, "the decoded range is off by %g", largest);
     image_free(&img);
@@ -530,7 +551,7 @@ static void test_planned_scene(struct test *t)
                  {72, 0, "bathroom", {72, 48, 10}, false}, {18, 0, "bathroom", {18, 12, 10}, true},
                  {0, 0, "no-such-name", {WIDTH_WITHOUT_REFERENCE, 32, 10}, false}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        struct plan p = {.width = cases[i].width, .max_depth = cases[i].max_depth};
+        struct plan p = {.width = cases[i].width, .max_depth = cases[i].max_depth, .quiet = true};
         const int *expected = cases[i].expected;
         struct scene scene;
         struct reference stored;
@@ -578,6 +599,7 @@ static void test_reference(struct test *t)
 void test_report(struct test *t)
 {
     test_statistics(t);
+    test_bias(t);
     test_axes(t);
     test_markup(t);
     test_plan(t);

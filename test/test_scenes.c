@@ -11,7 +11,7 @@
 static double within_p(const struct batches *b, double low, double high)
 {
     double error, mean = batches_mean(b, &error);
-    return mean < low ? mean_p(b, low) : mean > high ? mean_p(b, high) : 1;
+    return mean >= low && mean <= high ? 1 : mean_p(b, mean < low ? low : high);
 }
 
 /* Expected radiance, as the comments of the scene files derive it; `low` to `high` where the depth limit cuts a little
@@ -26,7 +26,8 @@ static void test_analytic(struct test *t)
         {"furnace-sphere", 2 * (1 - 0.5 / 4096), 2 * (1 - 0.5 / 4096), 8},
         {"furnace-open", 0.998, 1, 4},
         {"disk-light", 0.4, 0.4, 32},
-        {"two-sided-lamp", 0.5, 0.5, 32},
+        {"two-sided-lamp", 0.25, 0.25, 32},
+        {"lamp-in-lamp", 0.4, 0.4, 32},
         {"glass-sheets", 1.6 - 2e-6, 1.6, 64},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
@@ -81,12 +82,12 @@ static void test_sides(struct test *t)
     }
 }
 
-/* A surface without material is not there, to the eye and to light; if it shines, that is added to what is behind, to
- * the last digit, on each of its sides that shines. */
-static void test_passed(struct test *t)
+/* A surface without material is not there. If it shines, the first on the way is seen, to the last digit, on each of
+ * its sides that shines, but no light behind it: neither a lamp nor the sky. */
+static void test_lamps(struct test *t)
 {
     static const char text[] =
-        "LookAt 0 0 %d  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 10\n"
+        "LookAt 0 0 %g  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 10\n"
         "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4 WorldBegin %s\n"
         "Material \"none\" Shape \"sphere\" Translate 0 0 .5 Shape \"disk\" \"float radius\" 2\n"
         "AreaLightSource \"diffuse\" \"rgb L\" [3 3 3] Shape \"disk\" \"float radius\" 2\n"
@@ -95,11 +96,14 @@ static void test_passed(struct test *t)
         "WorldEnd\n";
     static const char sky[] = "LightSource \"infinite\" \"rgb L\" [.25 .25 .25]";
     static const char wall[] = "Material \"matte\" \"rgb Kd\" [0 0 0] Shape \"disk\" \"float radius\" 9";
+    static const char touching[] =
+        "Material \"matte\" \"rgb Kd\" [0 0 0] Shape \"disk\" \"float radius\" 9 \"float height\" -.5";
     static const struct {
-        int z;
+        double z;
         const char *behind;
         double expected;
-    } cases[] = {{5, "", 3.5}, {-5, "", .5}, {5, sky, 3.75}, {-5, sky, .75}, {5, wall, 3}, {-5, wall, .5}};
+    } cases[] = {{5, "", 3},    {-5, "", .5},   {.2, "", .5},  {-.2, "", 0},     {5, sky, 3},     {-5, sky, .5},
+                 {-.2, sky, 0}, {5, wall, 3},   {-5, wall, .5}, {.2, wall, 0},    {.2, touching, .5}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char filled[1024];
         struct scene scene;
@@ -109,6 +113,22 @@ static void test_passed(struct test *t)
         check_shown(t, &scene, 830, cases[i].expected, filled);
         scene_free(&scene);
     }
+}
+
+/* A light of an object is one for each instance. */
+static void test_object_light(struct test *t)
+{
+    static const char text[] =
+        "LookAt 0 0 5  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 10\n"
+        "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4 WorldBegin\n"
+        "ObjectBegin \"lamp\" AreaLightSource \"diffuse\" \"rgb L\" [7 7 7] Shape \"disk\" ObjectEnd\n"
+        "ObjectInstance \"lamp\" Translate 9 0 0 ObjectInstance \"lamp\" WorldEnd\n";
+    struct scene scene;
+    if (!scene_from_text(t, text, &scene))
+        return;
+    check_shown(t, &scene, 835, 7, "a light of an object");
+    CHECK(t, scene.lights.n == 2, "two instances of a light are %d lights", scene.lights.n);
+    scene_free(&scene);
 }
 
 /* Alpha 0 is a hole, to the eye and to light; shadow alpha 0 lets light through only; any other alpha is solid, as in
@@ -336,7 +356,8 @@ void test_scenes(struct test *t)
 {
     test_analytic(t);
     test_sides(t);
-    test_passed(t);
+    test_lamps(t);
+    test_object_light(t);
     test_holes(t);
     test_partials(t);
     test_spot(t);
@@ -344,7 +365,7 @@ void test_scenes(struct test *t)
     test_light_pairs(t, 8);
     test_mirrored(t, 16);
     test_agreement(t, 8);
-    test_four(t, "pass-through", 16, 0.05); /* lights that rays pass through, one of them around a ball */
+    test_four(t, "pass-through", 16, 0.05); /* see-through lamps, one of them around a ball */
     test_four(t, "light-slides", 16, 0.1);
     test_four(t, "orthographic", 16, 0.1);
     test_four(t, "environment", 16, 0.1);

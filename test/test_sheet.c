@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "image/colormap.h"
 #include "image/picture.h"
 #include "image/sheet.h"
@@ -40,8 +41,8 @@ static void test_colormap(struct test *t)
         double y = 0.2126 * (double)colour[0] + 0.7152 * (double)colour[1] + 0.0722 * (double)colour[2];
         double lightness = y > 0.008856 ? 116 * cbrt(y) - 16 : 903.3 * y; /* L* of CIE 1976, 0 to 100 */
         if (i > 0) {
-            smallest = fmin(smallest, lightness - before);
-            largest = fmax(largest, lightness - before);
+            smallest = least_of(smallest, lightness - before);
+            largest = most_of(largest, lightness - before);
         }
         before = lightness;
     }

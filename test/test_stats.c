@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "base/mem.h"
+#include "base/number.h"
 #include "base/rng.h"
 #include "tests.h"
 
@@ -68,7 +69,7 @@ static void tests_of_hypotheses(struct test *t)
     double three[3] = {10, 0, 1}, expect[3] = {10, 1, 0};
     CHECK(t, stats_chi2_test(three, expect, 3) == 0, "a count where none can be");
     double few[3] = {1, 2, 1}, small[3] = {2, 1, 1};
-    CHECK(t, stats_chi2_test(few, small, 3) == 1, "too few counts to say anything");
+    CHECK(t, isnan(stats_chi2_test(few, small, 3)), "too few counts to say anything");
     double pool[4] = {20, 3, 2, 1}, cells[4] = {20, 2, 2, 2}; /* three small cells become one of 6 */
     CHECK(t, near(stats_chi2_test(pool, cells, 4), 1, 1e-12), "pooling hides the small cells' differences");
 
@@ -93,6 +94,28 @@ static void tests_of_hypotheses(struct test *t)
     }
     CHECK(t, near(stats_sidak(0.05, 0.5), 1 - sqrt(0.95), 1e-12), "Sidak of two");
     CHECK(t, near(stats_sidak(0.001, 1e-6), 1.0005e-9, 1e-4), "Sidak of a million keeps its digits");
+}
+
+/* A NaN agrees with nothing and differs from nothing, and no more does an empty set. */
+static void no_numbers(struct test *t)
+{
+    double one[3] = {10, NAN, 10}, two[3] = {10, 10, 10}, stray[3] = {10, 10, NAN}, none[3] = {10, 10, 0};
+    CHECK(t, isnan(stats_normal_p(NAN)) && isnan(stats_chi2_p(NAN, 3)), "one-sided and two");
+    CHECK(t, isnan(stats_student_p(NAN, 5)) && isnan(stats_student_p(2, NAN)), "Student");
+    CHECK(t, isnan(stats_chi2_test(one, two, 3)) && isnan(stats_chi2_test(two, one, 3)), "chi-square");
+    CHECK(t, isnan(stats_chi2_test(stray, none, 3)) && isnan(stats_chi2_test(two, two, 0)), "chi-square of nothing");
+    for (int variance = 0; variance < 2; variance++)
+        CHECK(t, isnan(stats_welch_p(NAN, variance, 5, 1, variance, 5)) &&
+                     isnan(stats_welch_p(INFINITY, variance, 5, INFINITY, variance, 5)) &&
+                     isnan(stats_welch_p(1, NAN, 5, 1, variance, 5)), "Welch, variance %d", variance);
+    for (int place = 0; place < 3; place++) {
+        double x[3] = {0.2, 0.5, 0.8};
+        x[place] = NAN;
+        CHECK(t, isnan(stats_ks_distance(x, 3)) && isnan(stats_ks_uniform_p(x, 3)), "Kolmogorov-Smirnov, %d", place);
+    }
+    CHECK(t, isnan(stats_ks_uniform_p(one, 0)) && isnan(stats_kolmogorov_p(NAN)) && isnan(stats_sidak(NAN, 3)), "none");
+    CHECK(t, isnan(least_of(NAN, 1)) && isnan(least_of(1, NAN)) && least_of(1, 2) == 1 && least_of(2, 1) == 1, "least");
+    CHECK(t, isnan(most_of(NAN, 1)) && isnan(most_of(1, NAN)) && most_of(1, 2) == 2 && most_of(2, 1) == 2, "most");
 }
 
 /* p-values of true hypotheses are uniform: each test is run on data made to be true and judged by the KS test. */
@@ -131,5 +154,6 @@ void test_stats(struct test *t)
     special_functions(t);
     published_tables(t);
     tests_of_hypotheses(t);
+    no_numbers(t);
     p_values_are_uniform(t);
 }

@@ -3,8 +3,8 @@
  * Only then may their weights be chosen freely. Six scenes without delta lobes or delta lights, so that every
  * strategy can make every path; surfaces do not touch, so that no connection is short and its geometry factor has a
  * variance. In the second, shading normals lean: without the adjoint factor [V97 5.3] strategies would differ. In the
- * fifth, rays pass through the light: s = 0 meets it on the way, once from outside and once from inside. In the sixth,
- * the light has holes: s = 0 never meets them.
+ * fifth, see-through lamps stand before each other and the sky, so that each strategy must let through what the others
+ * do. In the sixth, the light has holes: s = 0 never meets them.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -52,15 +52,17 @@ static const char LEANING[] = HEAD(PERSPECTIVE)
 static const char PARALLEL[] = HEAD(ORTHOGRAPHIC) WALL;
 static const char AROUND[] = HEAD(ENVIRONMENT) WALL;
 
-/* A light that rays pass through, around one surface and before the other, seen from inside and outside. */
-static const char PASSED[] =
+/* See-through lamps: a ball that shines inwards and outwards, between the surfaces and before the eye, and a pane above
+ * it that shines to both sides; the sky is behind them. */
+static const char LAMPS[] =
     "LookAt 0 1.6 -4.5  0 .9 0  0 1 0 Camera \"perspective\" \"float fov\" 42\n"
     "Film \"image\" \"integer xresolution\" 12 \"integer yresolution\" 12 PixelFilter \"triangle\" WorldBegin\n"
-    "Material \"matte\" \"rgb Kd\" [.8 .7 .6] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
-    "  \"point P\" [-1.5 0 -1.5  1.5 0 -1.5  1.5 0 1.5  -1.5 0 1.5]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 1 3.8  2 1 3.8  2 3.4 3.8  -2 3.4 3.8]\n"
+    "LightSource \"infinite\" \"rgb L\" [1 1 1] Material \"matte\" \"rgb Kd\" [.8 .7 .6]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1.5 0 -1.5  1.5 0 -1.5  1.5 0 1.5  -1.5 0 1.5]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 1 2.5  2 1 2.5  2 3.4 2.5  -2 3.4 2.5]\n"
     "Material \"none\" AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] \"bool twosided\" \"true\"\n"
-    "Translate 0 1 0 Shape \"sphere\" \"float radius\" 2.6 WorldEnd\n";
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 4 -2  2 4 -2  2 4 2  -2 4 2]\n"
+    "Translate 0 1.5 .5 Shape \"sphere\" \"float radius\" 1 WorldEnd\n";
 
 /* A light with holes, where it neither shines nor stops light: a chequered alpha texture. */
 static const char HOLED[] = PERSPECTIVE
@@ -138,6 +140,6 @@ void test_strategies(struct test *t)
     test_scene(t, "leaning normals", LEANING);
     test_scene(t, "orthographic camera", PARALLEL);
     test_scene(t, "environment camera", AROUND);
-    test_scene(t, "a light that rays pass through", PASSED);
+    test_scene(t, "see-through lamps", LAMPS);
     test_scene(t, "a light with holes", HOLED);
 }

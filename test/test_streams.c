@@ -289,7 +289,7 @@ static double halves_p(const struct difference *d, int step, double repeated)
     double correlation[PAIRS] = {0};
     for (int i = 0; i < VALUES; i++) {
         struct two square = mean_squares(d, i, halves, step, repeated);
-        for (int k = 0; k < PAIRS && square.a > 0 && square.b > 0; k++) {
+        for (int k = 0; k < PAIRS && !(square.a <= 0 || square.b <= 0); k++) {
             struct two x = halves(&d[k], i, step, repeated);
             correlation[k] += x.a * x.b / sqrt(square.a * square.b);
         }
@@ -311,7 +311,7 @@ static double falls_p(const struct difference *d, double repeated)
     double rise[PAIRS] = {0};
     for (int i = 0; i < VALUES; i++) {
         struct two square = mean_squares(d, i, ends, 0, repeated);
-        for (int k = 0; k < PAIRS && square.a + square.b > 0; k++) {
+        for (int k = 0; k < PAIRS && !(square.a + square.b <= 0); k++) {
             struct two x = ends(&d[k], i, 0, repeated);
             rise[k] += (x.b * x.b - x.a * x.a) / (square.a + square.b);
         }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/number.h"
 #include "tests.h"
 
 static struct mesh mesh_of(const float *P, int n_vertices, const uint32_t *index, int n_triangles)
@@ -83,7 +84,7 @@ static void check_closed(struct test *t)
         vec3 *want = face_normals(&fine);
         double worst = 1;
         for (uint32_t v = 0; v < (uint32_t)fine.n_vertices; v++) {
-            worst = fmin(worst, -dot(normalize(want[v]), point(fine.N, v)));
+            worst = least_of(worst, -dot(normalize(want[v]), point(fine.N, v)));
             CHECK(t, fabs(length(point(fine.N, v)) - 1) < 1e-6, "a normal of length %g", length(point(fine.N, v)));
         }
         CHECK(t, worst > 0.99, "valence %d: normal and triangles differ by %g degrees", n, acos(worst) * 180 / PI);

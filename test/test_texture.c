@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "base/rng.h"
 #include "image/picture.h"
 #include "material/noise.h"
@@ -241,8 +242,8 @@ static void test_noise(struct test *t)
         CHECK(t, noise(vec(floor(x), floor(y), floor(z))) == 0, "noise on the lattice");
         CHECK(t, fabs(noise(vec(x + 256, y - 512, z + 256)) - value) < 1e-9, "noise comes back after 256 cells");
         CHECK(t, fabs(before - noise(vec(floor(x) + 1e-9, y, z))) < 1e-8, "noise jumps at %g %g %g", floor(x), y, z);
-        least = fmin(least, value);
-        most = fmax(most, value);
+        least = least_of(least, value);
+        most = most_of(most, value);
         sum += fabs(value);
     }
     CHECK(t, least > -1 && most < 1 && least < -0.7 && most > 0.7, "noise from %g to %g", least, most);

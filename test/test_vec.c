@@ -100,7 +100,7 @@ static double inverse_error(const struct transform *t)
             double sum = i == j ? -1 : 0;
             for (int k = 0; k < 4; k++)
                 sum += t->m[i][k] * t->inv[k][j];
-            worst = fmax(worst, fabs(sum));
+            worst = most_of(worst, fabs(sum));
         }
     return worst;
 }

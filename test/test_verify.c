@@ -103,6 +103,38 @@ static void test_errors(struct test *t)
     batches_free(&b);
 }
 
+/* A single NaN on one side, or the same on both, is a difference; so is an infinity, and so is nothing at all. What is
+ * exact and equal agrees, but has shown nothing to those who ask for a test. */
+static void test_no_numbers(struct test *t)
+{
+    enum { VALUES = 12 };
+    for (int with_error = 0; with_error < 2; with_error++)
+        for (int kind = 0; kind < 6; kind++) { /* a NaN here, there, on both sides; in the errors; an infinity; none */
+            struct batches a = batches_new(with_error ? 1 : 4, VALUES, with_error), b;
+            for (long i = 0; i < VALUES * a.n_batches; i++)
+                a.value[i] = 1 + (with_error ? 0 : 0.01 * (double)(i % 5));
+            b = batches_tiles(&a, 2, 2, 1);
+            if (kind == 0 || kind == 2)
+                a.value[7] = NAN;
+            if (kind == 1 || kind == 2)
+                b.value[7] = NAN;
+            if (kind == 3 && with_error)
+                a.error[7] = NAN;
+            if (kind == 4)
+                a.value[7] = b.value[7] = INFINITY;
+            double p = verify_batches(&a, &b, 1).p, smallest = batches_smallest_p(&a, &b);
+            bool agrees = kind == 5 || (kind == 3 && !with_error);
+            CHECK(t, agrees ? p >= 0.001 : !(p >= 0.001), "verdict %d, kind %d: p is %g", with_error, kind, p);
+            CHECK(t, agrees && !with_error ? smallest >= 0.001 : !(smallest >= 0.001 || smallest < 0.001),
+                  "smallest %d, kind %d: p is %g", with_error, kind, smallest);
+            batches_free(&a);
+            batches_free(&b);
+        }
+    struct batches none = batches_new(4, 0, false);
+    CHECK(t, !(verify_batches(&none, &none, 1).p >= 0.001), "nothing agrees with nothing");
+    batches_free(&none);
+}
+
 static void test_tiles(struct test *t)
 {
     struct batches s = batches_new(1, 5 * 3 * 3, true);
@@ -136,7 +168,7 @@ static void test_store(struct test *t)
         b.pixels.error[i] = 2;
     }
     struct verdict v = verify_batches(&a.pixels, &b.pixels, 1);
-    struct provenance from = {"a note", "a scene", 5, &v};
+    struct provenance from = {"a note", "a scene", 77, 5, &v};
     snprintf(name, sizeof name, "%s/stored", test_tmp(t));
     snprintf(path, sizeof path, "%s.pfm", name);
     bool ok = CHECK(t, sides_store(name, &a, &b, &from, &err), "%s", err.text) &&
@@ -175,6 +207,7 @@ static void test_compare(struct test *t)
     CHECK(t, isinf(d.psnr) && d.psnr > 0, "psnr of equal values is %g", d.psnr);
     d = compare_pixels(broken, whole, 1);
     CHECK(t, isinf(d.rmse) && isinf(d.rmse8) && isinf(d.relmse) && d.psnr < 0, "nothing to compare: rmse %g", d.rmse);
+    CHECK(t, isnan(d.mean_ratio), "nothing to compare: the ratio of the means is %g", d.mean_ratio);
     const float black = 0, white = 1;
     d = compare_pixels(&black, &white, 1);
     CHECK(t, d.rmse8 == 255 && d.psnr == 0, "psnr of black for white is %g", d.psnr);
@@ -249,5 +282,6 @@ void test_verify(struct test *t)
     test_level(t, 0.5);
     test_power(t);
     test_errors(t);
+    test_no_numbers(t);
     test_methods(t);
 }

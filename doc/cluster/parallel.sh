@@ -16,4 +16,4 @@ for i in $(seq 0 $((parts - 1))); do
 done | parallel --colsep ' ' --retries 3 --halt soon,fail=1 "$@" \
     "'$asbdpt' render '$scene' --spp $spp --samples {2} -j 1 -o '$dir/{1}.part'" \
     "--checkpoint '$dir/{1}.state' --resume '$dir/{1}.state' --quiet"
-"$asbdpt" merge "$out" "$dir"/*.part
+"$asbdpt" merge "$dir"/*.part -o "$out"

@@ -114,14 +114,12 @@ static void release(struct file_output *out)
     *out = none;
 }
 
-/* Where a path leads if symbolic links are followed, whether or not there is a file; to be given to free(). NULL, and
- * errno, if links go in a circle. */
-static char *follow_links(const char *path)
+char *file_follow(const char *path)
 {
     enum { MOST_LINKS = 40, LONGEST = 4096 };
     char link[LONGEST], *at = mem_copy_text(path);
     for (int i = 0; i < MOST_LINKS; i++) {
-        if (!os_read_link(at, link, sizeof link))
+        if (os_kind_of(at) == OS_OTHER || !os_read_link(at, link, sizeof link))
             return at; /* no link, and what else may be wrong is found on opening it */
         char *next = file_beside(at, link);
         free(at);
@@ -137,6 +135,7 @@ static FILE *open_temporary(struct file_output *out)
 {
     enum { ATTEMPTS = 100 };
     uint64_t hash = hash_combine(os_unique(), (uint64_t)(uintptr_t)out->path);
+    temporary_room();
     for (int i = 0; i < ATTEMPTS; i++) {
         char name[64];
         hash = hash_combine(hash, (uint64_t)i);
@@ -163,10 +162,13 @@ static FILE *open_target(struct file_output *out)
         os_binary(stdout);
         return stdout;
     }
-    out->target = follow_links(out->path);
+    out->target = file_follow(out->path);
     if (out->target == NULL)
         return NULL;
+    errno = 0;
     enum os_kind kind = os_kind_of(out->target);
+    if (kind == OS_NOTHING && errno != ENOENT && errno != 0) /* too long a name, for example */
+        return NULL;
     if (kind == OS_DIRECTORY || kind == OS_OTHER)
         return fopen(out->target, "wb");
     if (kind == OS_FILE && !os_may_write(out->target))

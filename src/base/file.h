@@ -33,6 +33,10 @@ bool file_make_directory(const char *path, struct error *err);
  * to free(). */
 char *file_beside(const char *path, const char *name);
 
+/* file_follow: where a path leads if symbolic links are followed, whether or not there is a file; to be given to
+ * free(). Links to devices and pipes stay: those of /dev/fd name nothing. NULL, and errno, if links go in a circle. */
+char *file_follow(const char *path);
+
 /* file_has_extension: does a path end in this extension (lower case, with its dot), in whatever case? */
 bool file_has_extension(const char *path, const char *extension);
 

@@ -5,25 +5,32 @@
 #include <signal.h>
 #include <stdlib.h>
 
+#include "base/mem.h"
 #include "base/os.h"
 
-enum { MAX_TEMPORARIES = 64 };
+/* A list that only grows, at its head, by whole entries: it can be walked at any moment. */
+struct temporary {
+    const char *volatile path; /* not owned; NULL: the entry is free */
+    struct temporary *next;
+};
 
 static volatile sig_atomic_t caught, deferred;
-static const char *volatile temporary[MAX_TEMPORARIES]; /* not owned; NULL: free */
+static struct temporary *volatile first; /* never given back */
 
 static void remove_temporaries(void)
 {
-    for (int i = 0; i < MAX_TEMPORARIES; i++)
-        if (temporary[i] != NULL)
-            os_remove_at_once(temporary[i]);
+    for (struct temporary *t = first; t != NULL; t = t->next) {
+        const char *path = t->path;
+        if (path != NULL)
+            os_remove_at_once(path);
+    }
 }
 
 /* Everything called here is safe in a handler. The status is that of a program killed by the signal. */
 static void note(int number)
 {
-    if (deferred && caught == 0) {
-        caught = number;
+    if (deferred && (caught == 0 || os_signal_repeats(number))) {
+        caught = caught != 0 ? caught : number;
         return;
     }
     remove_temporaries();
@@ -40,18 +47,24 @@ void interrupt_defer(void) { deferred = 1; }
 
 int interrupt_caught(void) { return (int)caught; }
 
-void temporary_add(const char *path)
+/* The entry with this path, or NULL. */
+static struct temporary *find(const char *path)
 {
-    for (int i = 0; i < MAX_TEMPORARIES; i++)
-        if (temporary[i] == NULL) {
-            temporary[i] = path;
-            return;
-        }
+    struct temporary *t = first;
+    while (t != NULL && t->path != path)
+        t = t->next;
+    return t;
 }
 
-void temporary_forget(const char *path)
+void temporary_room(void)
 {
-    for (int i = 0; i < MAX_TEMPORARIES; i++)
-        if (temporary[i] == path)
-            temporary[i] = NULL;
+    if (find(NULL) != NULL)
+        return;
+    struct temporary *t = mem_alloc(1, sizeof *t);
+    t->next = first;
+    first = t;
 }
+
+void temporary_add(const char *path) { find(NULL)->path = path; }
+
+void temporary_forget(const char *path) { find(path)->path = NULL; }

@@ -1,8 +1,9 @@
 /* interrupt.h: what happens when somebody ends the program: signals, and the temporary files that must go.
  *
- * Until interrupt_defer the first SIGINT, SIGTERM or SIGHUP ends the program; after it the first is kept for the work
- * to look at, so that a render can finish its block and write what there is, and only the second ends the program at
- * once. Whichever way the program ends, short of SIGKILL, temporary files are removed: file.h registers them here.
+ * Until interrupt_defer the first SIGINT, SIGTERM, SIGHUP or SIGXCPU (a limit of CPU time) ends the program; after it
+ * the first is kept for the work to look at, so that a render can finish its block and write what there is, and only
+ * the second ends the program at once, unless it is a further SIGXCPU, which nobody sends. Whichever way the program
+ * ends, short of SIGKILL, temporary files are removed: file.h registers them here.
  *
  * A signal handler can reach nothing but static variables; those of interrupt.c are the only ones of the program that
  * change. Tests: test/keep.sh.
@@ -20,8 +21,9 @@ void interrupt_defer(void);
 /* interrupt_caught: the signal noted, or 0. Thread-safe. */
 int interrupt_caught(void);
 
-/* temporary_add: a file to be removed if the program ends; `path` must stay valid until temporary_forget(path). One
- * thread at a time. Beyond some sixty files there is no room, and a further one is left to its owner alone. */
+/* temporary_room: make room for one more, before the file is there: memory may run out. temporary_add: a file to be
+ * removed if the program ends; `path` must stay valid until temporary_forget(path). One thread at a time. */
+void temporary_room(void);
 void temporary_add(const char *path);
 void temporary_forget(const char *path);
 

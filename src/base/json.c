@@ -14,6 +14,20 @@ struct json json_start(FILE *file)
     return j;
 }
 
+/* Bytes of the UTF-8 character that the text begins with: 0 if it is none [RFC 3629 4]. */
+static int utf8_length(const unsigned char *c)
+{
+    if (c[0] < 0x80)
+        return 1;
+    int n = c[0] >= 0xc2 && c[0] < 0xe0 ? 2 : c[0] >= 0xe0 && c[0] < 0xf0 ? 3 : c[0] >= 0xf0 && c[0] < 0xf5 ? 4 : 0;
+    for (int i = 1; i < n; i++)
+        if ((c[i] & 0xc0) != 0x80)
+            return 0;
+    bool longer = (c[0] == 0xe0 && c[1] < 0xa0) || (c[0] == 0xf0 && c[1] < 0x90);
+    bool surrogate = c[0] == 0xed && c[1] >= 0xa0, beyond = c[0] == 0xf4 && c[1] >= 0x90;
+    return longer || surrogate || beyond ? 0 : n;
+}
+
 static void quote(struct json *j, const char *text)
 {
     fputc('"', j->file);
@@ -23,8 +37,10 @@ static void quote(struct json *j, const char *text)
             fprintf(j->file, "\\%c", c);
         else if (c < 0x20 || c == 0x7f)
             fprintf(j->file, "\\u%04x", (unsigned)c);
+        else if (utf8_length((const unsigned char *)text) == 0)
+            fputs("\\ufffd", j->file);
         else
-            fputc(c, j->file);
+            text += fwrite(text, 1, (size_t)utf8_length((const unsigned char *)text), j->file) - 1;
     }
     fputc('"', j->file);
 }

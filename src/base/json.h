@@ -34,7 +34,7 @@ void json_close(struct json *j);
 
 /* json_number: with 17 digits, so that it is read back as it was; null if it is not finite.
  * json_numbers: an array [n] of such numbers, on one line.
- * json_text: quoted; bytes above 127 are taken to be UTF-8. NULL becomes null. */
+ * json_text: quoted; a byte that is no part of UTF-8 becomes U+FFFD. NULL becomes null. */
 void json_number(struct json *j, const char *name, double value);
 void json_numbers(struct json *j, const char *name, const double *values, int n);
 void json_count(struct json *j, const char *name, uint64_t value); /* with all its digits */

@@ -259,6 +259,12 @@ const char *os_signal_name(int number)
     return number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : "a signal";
 }
 
+bool os_signal_repeats(int number)
+{
+    (void)number;
+    return false;
+}
+
 #else
 
 static void catch(int number, void (*handler)(int))
@@ -279,12 +285,16 @@ void os_catch_signals(void (*handler)(int number))
     catch(SIGINT, handler);
     catch(SIGTERM, handler);
     catch(SIGHUP, handler);
+    catch(SIGXCPU, handler);
 }
 
 const char *os_signal_name(int number)
 {
-    return number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : number == SIGHUP ? "SIGHUP" : "a signal";
+    return number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : number == SIGHUP ? "SIGHUP"
+         : number == SIGXCPU ? "SIGXCPU" : "a signal";
 }
+
+bool os_signal_repeats(int number) { return number == SIGXCPU; } /* every second, up to the hard limit */
 
 #endif
 
@@ -311,6 +321,35 @@ enum os_kind os_kind_of(const char *path)
 }
 
 #ifdef _WIN32
+
+void os_open_standard(void) {} /* its C library opens nothing in their place */
+
+static struct os_identity identity(HANDLE handle, enum os_kind kind)
+{
+    struct os_identity out = {kind, 0, 0};
+    BY_HANDLE_FILE_INFORMATION info;
+    if (handle != INVALID_HANDLE_VALUE && GetFileInformationByHandle(handle, &info)) {
+        out.device = info.dwVolumeSerialNumber;
+        out.number = (uint64_t)info.nFileIndexHigh << 32 | info.nFileIndexLow;
+    }
+    return out;
+}
+
+struct os_identity os_identify(const char *path)
+{
+    HANDLE handle = CreateFileA(path, 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, NULL, OPEN_EXISTING,
+                                FILE_FLAG_BACKUP_SEMANTICS, NULL); /* which directories need */
+    struct os_identity out = identity(handle, os_kind_of(path));
+    if (handle != INVALID_HANDLE_VALUE)
+        CloseHandle(handle);
+    return out;
+}
+
+struct os_identity os_identify_stream(FILE *f)
+{
+    uint64_t size;
+    return identity((HANDLE)_get_osfhandle(_fileno(f)), os_regular(f, &size) ? OS_FILE : OS_OTHER);
+}
 
 bool os_terminal(FILE *f) { return _isatty(_fileno(f)) != 0; }
 void os_binary(FILE *f) { _setmode(_fileno(f), _O_BINARY); }
@@ -364,6 +403,37 @@ bool os_absolute(const char *path)
 }
 
 #else
+
+/* The wrong way round, so that reading and writing fail as from a closed one. */
+void os_open_standard(void)
+{
+    for (int fd = 0; fd <= 2; fd++)
+        if (fcntl(fd, F_GETFD) == -1 && errno == EBADF && open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY) < 0)
+            return; /* nothing to be had: the next could not take the right number */
+}
+
+static struct os_identity identity(bool known, const struct stat *info)
+{
+    struct os_identity out = {OS_NOTHING, 0, 0};
+    if (known) {
+        out.kind = S_ISREG(info->st_mode) ? OS_FILE : S_ISDIR(info->st_mode) ? OS_DIRECTORY : OS_OTHER;
+        out.device = (uint64_t)info->st_dev;
+        out.number = (uint64_t)info->st_ino;
+    }
+    return out;
+}
+
+struct os_identity os_identify(const char *path)
+{
+    struct stat info;
+    return identity(stat(path, &info) == 0, &info);
+}
+
+struct os_identity os_identify_stream(FILE *f)
+{
+    struct stat info;
+    return identity(fstat(fileno(f), &info) == 0, &info);
+}
 
 bool os_terminal(FILE *f) { return isatty(fileno(f)) != 0; }
 void os_binary(FILE *f) { (void)f; }

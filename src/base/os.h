@@ -52,11 +52,18 @@ uint64_t os_unique(void);
 void os_catch_signals(void (*handler)(int number));
 const char *os_signal_name(int number); /* "SIGINT" and so on */
 
+/* os_signal_repeats: does it come again and again by itself? */
+bool os_signal_repeats(int number);
+
 /* What a handler may do: remove a file, end the program at once. */
 void os_remove_at_once(const char *path);
 void os_exit_at_once(int status);
 
 /* ---- files ---- */
+
+/* os_open_standard: to be called once, first of all: where standard input, output or error is closed, the next file
+ * that is opened would come to be it, and messages would go into a picture. A stream that fails takes its place. */
+void os_open_standard(void);
 
 /* os_terminal: is the stream one? */
 bool os_terminal(FILE *f);
@@ -73,8 +80,18 @@ bool os_regular(FILE *f, uint64_t *size);
 
 enum os_kind { OS_NOTHING, OS_FILE, OS_DIRECTORY, OS_OTHER /* a device, a pipe */ };
 
-/* os_kind_of: what a path leads to, links followed. */
+/* os_kind_of: what a path leads to, links followed; for OS_NOTHING errno says why. */
 enum os_kind os_kind_of(const char *path);
+
+/* What a file is, however it is called: two names with the same numbers are one file. */
+struct os_identity {
+    enum os_kind kind;
+    uint64_t device, number; /* number 0: the system does not say */
+};
+
+/* os_identify: what a path leads to, links followed; os_identify_stream: an open file. */
+struct os_identity os_identify(const char *path);
+struct os_identity os_identify_stream(FILE *f);
 
 /* os_may_write: may this process write an existing file? errno says why not. */
 bool os_may_write(const char *path);

@@ -8,11 +8,11 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdbool.h>
 #include <stdlib.h>
 
 #include "base/maths.h"
 #include "base/mem.h"
+#include "base/number.h"
 #include "base/vec.h"
 
 static const double TINY = 1e-300; /* stands in for a zero denominator in Lentz's method */
@@ -71,8 +71,8 @@ double stats_gamma_q(double a, double x)
 {
     if (x <= 0)
         return 1;
-    if (isinf(x))
-        return 0;
+    if (isinf(x) || isnan(x))
+        return isnan(x) ? x : 0;
     return x < a + 1 ? 1 - gamma_p_series(a, x) : gamma_q_fraction(a, x);
 }
 
@@ -97,8 +97,8 @@ static double beta_fraction(double a, double b, double x)
 
 double stats_beta_i(double a, double b, double x)
 {
-    if (x <= 0)
-        return 0;
+    if (x <= 0 || isnan(x))
+        return isnan(x) ? x : 0;
     if (x >= 1)
         return 1;
     double front = m_exp(log_gamma(a + b) - log_gamma(a) - log_gamma(b) + a * m_log(x) + b * m_log1p(-x));
@@ -157,30 +157,30 @@ double stats_chi2_test(const double *observed, const double *expected, size_t n)
 {
     struct count_pair *cell = mem_alloc(n, sizeof *cell);
     size_t used = 0;
-    bool impossible = false;
+    double impossible = 0;
     for (size_t i = 0; i < n; i++) {
-        if (expected[i] > 0) {
+        if (!(expected[i] <= 0)) {
             cell[used].observed = observed[i];
             cell[used].expected = expected[i];
             cell[used].at = i;
             used++;
-        } else if (observed[i] != 0) {
-            impossible = true;
+        } else {
+            impossible += fabs(observed[i]);
         }
     }
     qsort(cell, used, sizeof *cell, by_expectation);
     size_t pools;
     double sum = pearson(cell, used, &pools);
     free(cell);
-    if (impossible)
+    if (impossible > 0)
         return 0;
-    return pools < 2 ? 1 : stats_chi2_p(sum, (double)(pools - 1));
+    return pools < 2 || isnan(impossible) ? NAN : stats_chi2_p(sum, (double)(pools - 1));
 }
 
 double stats_welch_p(double mean1, double var1, double n1, double mean2, double var2, double n2)
 {
     double e1 = var1 / n1, e2 = var2 / n2; /* squared standard errors of the two means */
-    if (e1 + e2 == 0)
+    if (e1 + e2 == 0 && isfinite(mean1 - mean2))
         return mean1 == mean2 ? 1 : 0;
     double t = (mean1 - mean2) / sqrt(e1 + e2);
     /* Welch-Satterthwaite, with the shares of the error so that tiny variances do not underflow. */
@@ -208,6 +208,8 @@ double stats_kolmogorov_p(double x)
 static int by_value(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
+    if (isnan(x) || isnan(y))
+        return (isnan(x) != 0) - (isnan(y) != 0);
     return (x > y) - (x < y);
 }
 
@@ -218,8 +220,8 @@ double stats_ks_distance(double *x, size_t n)
     double d = 0, count = (double)n;
     stats_sort(x, n);
     for (size_t i = 0; i < n; i++) {
-        d = fmax(d, x[i] - (double)i / count);
-        d = fmax(d, (double)(i + 1) / count - x[i]);
+        d = most_of(d, x[i] - (double)i / count);
+        d = most_of(d, (double)(i + 1) / count - x[i]);
     }
     return d;
 }
@@ -227,7 +229,7 @@ double stats_ks_distance(double *x, size_t n)
 double stats_ks_uniform_p(double *x, size_t n)
 {
     if (n == 0)
-        return 1;
+        return NAN;
     double root = sqrt((double)n); /* the bracket is Stephens's correction for small n [Stephens 1970] */
     return stats_kolmogorov_p(stats_ks_distance(x, n) * (root + 0.12 + 0.11 / root));
 }

@@ -1,6 +1,8 @@
 /* stats.h: distribution functions and hypothesis tests, the yardsticks of the test suite and of `compare`.
  *
- * Every test returns a p-value: the probability, were the hypothesis true, of data at least as extreme.
+ * Every test returns a p-value: the probability, were the hypothesis true, of data at least as extreme. With a NaN
+ * among the data it is NaN, which neither agrees nor differs: say `p >= level` where agreement is wanted, `p < level`
+ * where a difference is, and take the smallest of several with least_of.
  * Tests: test_stats.c (published tables).
  */
 #ifndef ASBDPT_STATS_H
@@ -26,7 +28,7 @@ double stats_chi2_p(double x, double dof);
 /* stats_chi2_test: Pearson's test of observed counts against expected ones.
  *   observed, expected  [n], counts; the two sums should agree
  * Cells with an expectation below 5 are pooled, smallest first. A count in a cell of expectation 0 gives p = 0.
- * Returns 1 when fewer than two cells remain. */
+ * NaN when else fewer than two cells remain: nothing has been tested. */
 double stats_chi2_test(const double *observed, const double *expected, size_t n);
 
 /* stats_welch_p: two-sided p-value for equal means of two samples given by mean, variance of one observation
@@ -37,17 +39,17 @@ double stats_welch_p(double mean1, double var1, double n1, double mean2, double 
 double stats_kolmogorov_p(double x);
 
 /* stats_ks_distance: largest distance of the empirical distribution of n numbers from the uniform one on [0,1]; sorts
- * them. */
+ * them. NaN if one of them is. */
 double stats_ks_distance(double *x, size_t n);
 
-/* stats_ks_uniform_p: Kolmogorov-Smirnov test that the n numbers are uniform on [0,1]; sorts them. */
+/* stats_ks_uniform_p: Kolmogorov-Smirnov test that the n numbers are uniform on [0,1]; sorts them. NaN for n = 0. */
 double stats_ks_uniform_p(double *x, size_t n);
 
 /* stats_sidak: the probability that the least of m independent p-values is p or less [Sidak 1967]. With 1 / m instead
  * of m: the level of one of m tests that keeps the family at level p. */
 double stats_sidak(double p, double m);
 
-/* stats_sort: by rising value. */
+/* stats_sort: by rising value, NaN last. */
 void stats_sort(double *x, size_t n);
 
 #endif

@@ -34,7 +34,7 @@ bool aov_check(const char *list, struct error *err)
     return true;
 }
 
-static bool open_one(const char *picture, enum aov which, struct outputs *out, struct error *err)
+static bool open_one(const char *picture, enum aov which, struct names *all, struct outputs *out, struct error *err)
 {
     const char *dot = strrchr(picture, '.'), *slash = os_last_separator(picture);
     int stem = dot != NULL && (slash == NULL || dot > slash) ? (int)(dot - picture) : (int)strlen(picture);
@@ -43,13 +43,13 @@ static bool open_one(const char *picture, enum aov which, struct outputs *out, s
     struct texts names = {0};
     snprintf(name, size, "%.*s.%s.pfm", stem, picture, aov_name(which));
     texts_add(&names, name);
-    bool ok = outputs_open(&names, NULL, PARTS_NONE, out, err);
+    bool ok = names_add(all, FILE_WRITTEN, "--aov", name, err) && outputs_open(&names, NULL, PARTS_NONE, out, err);
     free(names.item);
     free(name);
     return ok;
 }
 
-bool aov_open(const char *list, const char *picture, struct aov_files *out, struct error *err)
+bool aov_open(const char *list, const char *picture, struct names *all, struct aov_files *out, struct error *err)
 {
     bool ok = true;
     memset(out, 0, sizeof *out);
@@ -58,7 +58,7 @@ bool aov_open(const char *list, const char *picture, struct aov_files *out, stru
     for (const char *word = list; ok && word != NULL; word = other_words(word)) {
         int which = first_word(word);
         if (out->file[which].n == 0)
-            ok = open_one(picture, (enum aov)which, &out->file[which], err);
+            ok = open_one(picture, (enum aov)which, all, &out->file[which], err);
         out->any = true;
     }
     if (!ok)
@@ -80,8 +80,13 @@ bool aov_write(struct aov_files *f, const struct scene *scene, const struct rend
     }
     if (first_hit)
         aov_render(scene, options, picture);
-    if (f->file[AOV_VARIANCE].n > 0)
+    if (f->file[AOV_VARIANCE].n > 0 && film->iterations < 2) {
+        ok = error_set(err, "%s: not written: one sample per pixel shows no variance",
+                       f->file[AOV_VARIANCE].file[0].path);
+        outputs_abandon(&f->file[AOV_VARIANCE]);
+    } else if (f->file[AOV_VARIANCE].n > 0) {
         aov_variance(film, scene->film_scale, picture[AOV_VARIANCE]);
+    }
     for (int i = 0; i < N_AOVS; i++) {
         if (f->file[i].n > 0)
             ok = outputs_write(&f->file[i], width, height, picture[i], quiet, ok ? err : NULL) && ok;

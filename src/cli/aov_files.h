@@ -5,6 +5,7 @@
 #ifndef ASBDPT_AOV_FILES_H
 #define ASBDPT_AOV_FILES_H
 
+#include "cli/names.h"
 #include "cli/outputs.h"
 #include "render/aov.h"
 
@@ -16,12 +17,14 @@ struct aov_files {
 /* aov_check: is the list made of names of aov_name, with commas between them? False with a message. */
 bool aov_check(const char *list, struct error *err);
 
-/* aov_open: begin to write the pictures of a good list beside `picture`. Returns false with a message; nothing is open
- * then. After success one of aov_write and aov_abandon must follow. */
-bool aov_open(const char *list, const char *picture, struct aov_files *out, struct error *err);
+/* aov_open: begin to write the pictures of a good list beside `picture`.
+ *   all  the files of the command; in-out
+ * Returns false with a message; nothing is open then. After success one of aov_write and aov_abandon must follow. */
+bool aov_open(const char *list, const char *picture, struct names *all, struct aov_files *out, struct error *err);
 
 /* aov_write: make and write them.
- *   options, film  of the render that is done; for the variance the film must have kept errors */
+ *   options, film  of the render that is done; for the variance the film must have kept errors
+ * Returns false with a message, also when the render was stopped too early for a variance; the others are written. */
 bool aov_write(struct aov_files *f, const struct scene *scene, const struct render_options *options,
                const struct film *film, bool quiet, struct error *err);
 

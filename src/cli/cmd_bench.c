@@ -12,6 +12,7 @@
 
 #include "base/file.h"
 #include "base/frame.h"
+#include "base/json.h"
 #include "base/mem.h"
 #include "base/os.h"
 #include "base/progress.h"
@@ -58,9 +59,10 @@ struct bench_options {
 
 #define AT(member) offsetof(struct bench_options, member)
 static const struct option OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes), 1, .help = "at least one scene"},
-    {"--json", "FILE", OPTION_TEXT, AT(json), .help = "write the figures"},
-    {"--baseline", "FILE", OPTION_TEXT, AT(baseline), .help = "such a file, to print what has changed since"},
+    {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes), 1, .file = FILE_READ, .help = "at least one scene"},
+    {"--json", "FILE", OPTION_TEXT, AT(json), .file = FILE_WRITTEN, .help = "write the figures"},
+    {"--baseline", "FILE", OPTION_TEXT, AT(baseline), .file = FILE_READ,
+     .help = "such a file, to print what has changed since"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1000, .fallback = "8", .help = "samples per pixel"},
     {"--maxdepth", "N", OPTION_INTEGER, AT(max_depth), 1, 1000, .fallback = "8", .help = "longest path"},
     {"--nthreads", "N", OPTION_INTEGER, AT(n_threads), 1, 1000, .alias = "-j", .fallback = "2", .help = "all threads"},
@@ -234,21 +236,23 @@ static void print_table(const struct bench_options *o, const double *values, con
     }
 }
 
-static bool write_json(const struct bench_options *o, const double *values, struct error *err)
+static void write_json(FILE *f, const struct bench_options *o, const double *values)
 {
-    struct file_output out;
-    if (!file_create(o->json, &out, err))
-        return false;
-    fprintf(out.stream, "{\"threads\": %d, \"spp\": %d, \"maxdepth\": %d, \"scenes\": [", o->n_threads, o->spp,
-            o->max_depth);
+    struct json j = json_start(f);
+    json_open(&j, NULL, '{');
+    json_count(&j, "threads", (uint64_t)o->n_threads);
+    json_count(&j, "spp", (uint64_t)o->spp);
+    json_count(&j, "maxdepth", (uint64_t)o->max_depth);
+    json_open(&j, "scenes", '[');
     for (int i = 0; i < o->scenes.n; i++) {
-        fprintf(out.stream, "%s\n  {\"scene\": \"%s\"", i > 0 ? "," : "", o->scenes.item[i]);
+        json_open(&j, NULL, '{');
+        json_text(&j, "scene", o->scenes.item[i]);
         for (int m = 0; m < N_MEASURES; m++)
-            fprintf(out.stream, ",\n   \"%s\": %.6g", MEASURES[m].key, values[(size_t)i * N_MEASURES + (size_t)m]);
-        fprintf(out.stream, "}");
+            json_number(&j, MEASURES[m].key, values[(size_t)i * N_MEASURES + (size_t)m]);
+        json_close(&j);
     }
-    fprintf(out.stream, "\n]}\n");
-    return file_commit(&out, err);
+    json_close(&j);
+    json_close(&j);
 }
 
 /* --- the command ------------------------------------------------------------------------------------- */
@@ -258,12 +262,19 @@ static bool measure(const struct bench_options *o, struct error *err)
     uint8_t *baseline = NULL;
     size_t size;
     double *values = mem_alloc((size_t)o->scenes.n * N_MEASURES, sizeof *values);
-    bool ok = o->baseline == NULL || file_read(o->baseline, &baseline, &size, err);
+    struct file_output out;
+    bool opened = o->json != NULL && file_create(o->json, &out, err);
+    bool ok = (opened || o->json == NULL) && (o->baseline == NULL || file_read(o->baseline, &baseline, &size, err));
     for (int i = 0; ok && i < o->scenes.n; i++)
         ok = measure_scene(o->scenes.item[i], o, values + (size_t)i * N_MEASURES, err);
     if (ok)
         print_table(o, values, (const char *)baseline);
-    ok = ok && (o->json == NULL || write_json(o, values, err));
+    if (ok && opened)
+        write_json(out.stream, o, values);
+    if (opened && ok)
+        ok = file_commit(&out, err);
+    else if (opened)
+        file_abandon(&out);
     free(baseline);
     free(values);
     return ok;
@@ -276,4 +287,4 @@ static int run(void *options)
 }
 
 const struct command command_bench = {
-    "bench", "measure speed and memory", {"SCENE.pbrt... [options]"}, OPTIONS, sizeof(struct bench_options), run};
+    "bench", "measure speed and memory", {"SCENE.pbrt... [options]"}, OPTIONS, sizeof(struct bench_options), run, true};

@@ -16,9 +16,10 @@ struct compare_options {
 
 #define AT(member) offsetof(struct compare_options, member)
 static const struct option OPTIONS[] = {
-    {"IMAGE", NULL, OPTION_TEXT, AT(image), 1, .help = "a picture"},
-    {"REFERENCE", NULL, OPTION_TEXT, AT(reference), 1, .help = "a picture of the same size"},
-    {"--heatmap", "FILE.png", OPTION_TEXT, AT(heatmap), .help = "write where they differ, as colours (viridis)"},
+    {"IMAGE", NULL, OPTION_TEXT, AT(image), 1, .file = FILE_READ, .help = "a picture"},
+    {"REFERENCE", NULL, OPTION_TEXT, AT(reference), 1, .file = FILE_READ, .help = "a picture of the same size"},
+    {"--heatmap", "FILE.png", OPTION_TEXT, AT(heatmap), .file = FILE_WRITTEN,
+     .help = "write where they differ, as colours (viridis)"},
     {"--max", "X", OPTION_NUMBER, AT(most), 1e-30, 1e30, .help = "the brightest colour stands for this error"},
     {"--percentile", "P", OPTION_NUMBER, AT(percentile), 1, 100, .fallback = "99",
      .help = "without --max: for this percentile of all errors"},
@@ -99,4 +100,4 @@ static int run(void *options)
 
 const struct command command_compare = {
     "compare", "how far apart two pictures are", {"IMAGE REFERENCE [--heatmap FILE.png [--max X]] [--json]"}, OPTIONS,
-    sizeof(struct compare_options), run};
+    sizeof(struct compare_options), run, true};

@@ -1,4 +1,4 @@
-/* cmd_convert.c: asbdpt convert IN OUT...: a picture in other formats. */
+/* cmd_convert.c: asbdpt convert IN -o OUT: a picture in other formats. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -15,8 +15,10 @@ struct convert_options {
 
 #define AT(member) offsetof(struct convert_options, member)
 static const struct option OPTIONS[] = {
-    {"IN", NULL, OPTION_TEXT, AT(in), 1, .help = "a picture to read: .exr .pfm .hdr .pic .png .tga .ppm .pgm"},
-    {"OUT", NULL, OPTION_TEXTS, AT(out), 1, .help = "a picture to write: linear .pfm .exr .hdr, sRGB .png .ppm .tga"},
+    {"IN", NULL, OPTION_TEXT, AT(in), 1, .file = FILE_READ,
+     .help = "a picture to read: .exr .pfm .hdr .pic .png .tga .ppm .pgm"},
+    {"--outfile", "FILE", OPTION_TEXTS, AT(out), 1, .alias = "-o", .file = FILE_WRITTEN,
+     .help = "a picture to write: linear .pfm .exr .hdr, sRGB .png .ppm .tga; repeatable"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
     {.name = NULL},
@@ -55,5 +57,5 @@ static int run(void *options)
 }
 
 const struct command command_convert = {
-    "convert", "a picture in other formats", {"IN OUT... [--exposure EV] [--tonemap NAME]"}, OPTIONS,
-    sizeof(struct convert_options), run};
+    "convert", "a picture in other formats", {"IN -o FILE... [--exposure EV] [--tonemap NAME]"}, OPTIONS,
+    sizeof(struct convert_options), run, false};

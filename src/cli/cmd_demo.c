@@ -15,8 +15,9 @@ struct demo_options {
 
 #define AT(member) offsetof(struct demo_options, member)
 static const struct option OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(demo.scene), 1, .help = "a scene with a stored reference"},
-    {"--outfile", "FILE.png", OPTION_TEXTS, AT(output), 1, .alias = "-o", .help = "a picture to write"},
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(demo.scene), 1, .file = FILE_READ, .help = "a scene with a stored reference"},
+    {"--outfile", "FILE.png", OPTION_TEXTS, AT(output), 1, .alias = "-o", .file = FILE_WRITTEN,
+     .help = "a picture to write"},
     {"--integrator", "NAME", OPTION_TEXT, AT(second), .fallback = "asbdpt", .help = "what is compared"},
     {"--with", "NAME", OPTION_TEXT, AT(first), .fallback = "bdpt", .help = "what it is compared with"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20, .fallback = "24",
@@ -24,7 +25,7 @@ static const struct option OPTIONS[] = {
     {"--scale", "K", OPTION_INTEGER, AT(demo.scale), 1, 64, .fallback = "1",
      .help = "the pictures are K times as wide and high as the reference"},
     {"--reference", "PATH", OPTION_TEXT, AT(demo.reference),
-     .help = "picture, or directory of NAME.pfm (default: ref/ beside the scene)"},
+     .file = FILE_READ, .help = "picture, or directory of NAME.pfm (default: ref/ beside the scene)"},
     {"--nthreads", "N", OPTION_INTEGER, AT(demo.n_threads), 1, 1024, .alias = "-j", .help = "threads (default: all)"},
     {"--seed", "N", OPTION_SEED, AT(demo.seed), .fallback = "0", .help = "another set of random numbers"},
     {"--quiet", NULL, OPTION_ON, AT(demo.quiet), .help = "no progress"},
@@ -71,4 +72,4 @@ static int run(void *options)
 
 const struct command command_demo = {
     "demo", "two integrators at equal time, in one labelled picture", {"SCENE.pbrt -o FILE.png [options]"}, OPTIONS,
-    sizeof(struct demo_options), run};
+    sizeof(struct demo_options), run, true};

@@ -33,7 +33,7 @@ static const struct option OPTIONS[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes),
      .help = "scene files (default: five of scenes/, with --equal-time all)"},
     {"-o", "DIR", OPTION_TEXT, AT(directory), 1,
-     .help = "a directory for its results; started again with the same, it goes on where it stopped"},
+     .help = "a directory for its results; started again with the same, it goes on (--equal-time: anew)"},
     {"--quick", NULL, OPTION_OFF, AT(full), .help = "at the sizes of the references, 8 to 64 spp (default)"},
     {"--full", NULL, OPTION_ON, AT(full), .help = "320 pixels wide, 32 to 512 spp, and all parameter sweeps"},
     {"--equal-time", "[SECONDS]", OPTION_PERHAPS, AT(equal_time), 0.001, 1e6,
@@ -45,7 +45,7 @@ static const struct option OPTIONS[] = {
     {"--nthreads", "N", OPTION_INTEGER, AT(n_threads), 1, 1024, .alias = "-j", .help = "threads (default: all)"},
     {"--res", "WxH or W", OPTION_WIDTH, AT(res), 1, 8192, .help = "size, or width alone"},
     {"--reference", "PATH", OPTION_TEXT, AT(reference),
-     .help = "picture, or directory of NAME.pfm (default: ref/ beside the scene, else rendered)"},
+     .help = "picture, or directory of NAME.pfm (default: ref/ beside the scene if of it, else rendered)"},
     {"--reference-spp", "N", OPTION_INTEGER, AT(reference_spp), 4, 1 << 24, .help = "samples of one rendered here"},
     {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "no progress, no warnings"},
     {.name = NULL},
@@ -128,4 +128,5 @@ const struct command command_experiment = {
     {"[--quick | --full] [SCENE.pbrt...] -o DIR [options]", "--equal-time [SECONDS] [SCENE.pbrt...] -o DIR [options]"},
     OPTIONS,
     sizeof(struct experiment_options),
-    run};
+    run,
+    true};

@@ -16,8 +16,10 @@ struct merge_options {
 
 #define AT(member) offsetof(struct merge_options, member)
 static const struct option OPTIONS[] = {
-    {"PART", NULL, OPTION_TEXTS, AT(part), 1, .help = "a part of a picture; without -o the first name is the output's"},
-    {"--outfile", "FILE", OPTION_TEXTS, AT(output), .alias = "-o", .help = "a picture, or .part; repeatable"},
+    {"PART", NULL, OPTION_TEXTS, AT(part), 1, .file = FILE_READ,
+     .help = "a part of a picture"},
+    {"--outfile", "FILE", OPTION_TEXTS, AT(output), 1, .alias = "-o", .file = FILE_WRITTEN,
+     .help = "a picture to write, or .part; repeatable"},
     {"--partial", NULL, OPTION_ON, AT(partial), .help = "make a picture even where samples are missing"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
@@ -144,11 +146,13 @@ static bool write_film(const struct merge_options *o, struct merge *m, struct fi
 }
 
 /* A picture needs all samples, a part only that nothing is missing between its first and its last. */
-static bool merge(const struct merge_options *o, struct merge *m, const struct texts *names, bool picture,
-                  struct outputs *out, struct error *err)
+static bool merge(const struct merge_options *o, struct merge *m, bool picture, struct outputs *out, struct error *err)
 {
     bool ok = false;
-    read_headers(m, names);
+    struct error small;
+    read_headers(m, &o->part);
+    if (m->n_wrong == 0 && !outputs_fit(out, m->part[0].part.width, m->part[0].part.height, &small))
+        wrong(m, small.text);
     if (m->n_wrong == 0) {
         struct film film;
         const struct part *first = &m->part[0].part;
@@ -166,39 +170,20 @@ static bool merge(const struct merge_options *o, struct merge *m, const struct t
     return ok;
 }
 
-/* The names of outputs and parts: without -o the first word is an output. */
-static bool sort_names(const struct merge_options *o, struct texts *outputs, struct texts *parts, struct error *err)
-{
-    *outputs = o->output;
-    *parts = o->part;
-    if (outputs->n == 0) {
-        outputs->item = parts->item++;
-        outputs->n = 1;
-        parts->n--;
-        if (outputs_is_part(outputs->item[0]) && file_exists(outputs->item[0]))
-            return error_set(err, "%s: the output comes first, or after -o, but this is there already",
-                             outputs->item[0]);
-    }
-    return parts->n > 0 || error_set(err, "merge needs parts");
-}
-
 static int run(void *options)
 {
     const struct merge_options *o = options;
-    struct texts names, output;
     struct outputs out;
     struct merge m = {0};
     struct error err;
     int n_pictures = 0;
-    if (!sort_names(o, &output, &names, &err))
-        return usage_error(&command_merge, "%s", err.text);
-    for (int i = 0; i < output.n; i++)
-        n_pictures += !outputs_is_part(output.item[i]);
-    if (o->partial && n_pictures < output.n)
+    for (int i = 0; i < o->output.n; i++)
+        n_pictures += !outputs_is_part(o->output.item[i]);
+    if (o->partial && n_pictures < o->output.n)
         return usage_error(&command_merge, "--partial is for pictures; a part has one range of samples");
-    if (!outputs_open(&output, &o->tone, PARTS_NAMED, &out, &err))
+    if (!outputs_open(&o->output, &o->tone, PARTS_NAMED, &out, &err))
         return fail(&err);
-    bool ok = merge(o, &m, &names, n_pictures > 0, &out, &err);
+    bool ok = merge(o, &m, n_pictures > 0, &out, &err);
     for (int i = 0; i < m.n; i++)
         part_free(&m.part[i].part);
     free(m.part);
@@ -206,5 +191,5 @@ static int run(void *options)
 }
 
 const struct command command_merge = {
-    "merge", "add up parts of a picture's samples", {"OUT PART...", "-o OUT... PART..."}, OPTIONS,
-    sizeof(struct merge_options), run};
+    "merge", "add up parts of a picture's samples", {"PART... -o FILE... [options]"}, OPTIONS,
+    sizeof(struct merge_options), run, false};

@@ -12,11 +12,35 @@
 #include "cli/command.h"
 #include "cli/job_options.h"
 #include "cli/keep.h"
+#include "cli/names.h"
 #include "cli/outputs.h"
 #include "cli/stats_file.h"
+#include "cli/strategy_files.h"
 #include "image/image.h"
-#include "lab/pyramid.h"
 #include "render/parameters.h"
+
+#define AT(member) offsetof(struct job_options, member)
+static const struct option OPTIONS[] = {
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene_path), 1, .file = FILE_READ, .help = "a scene file"},
+    {"--outfile", "FILE", OPTION_TEXTS, AT(output), .alias = "-o",
+     .file = FILE_WRITTEN, .help = "linear .pfm .exr .hdr, sRGB .png .ppm .tga; repeatable"},
+    {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
+    {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
+    {"--aov", "LIST", OPTION_TEXT, AT(aov), .help = "also NAME.albedo.pfm ...: albedo,normal,depth,position,variance"},
+    {"--strategies", "DIR", OPTION_TEXT, AT(strategies),
+     .help = "write every strategy (s,t), and all as DIR/pyramid.png"},
+    {"--time", "SECONDS", OPTION_NUMBER, AT(keep.time), 1e-9, 1e9,
+     .help = "stop after so long, and write what there is"},
+    {"--checkpoint", "FILE", OPTION_TEXT, AT(keep.checkpoint), .file = FILE_KEPT,
+     .help = "save the render now and then, and at signals"},
+    {"--interval", "SECONDS", OPTION_NUMBER, AT(keep.interval), 0, 1e9, .fallback = "60",
+     .help = "between checkpoints"},
+    {"--resume", "FILE", OPTION_TEXT, AT(keep.resume), .file = FILE_KEPT, .help = "go on from a checkpoint"},
+    {"--samples", "A:B", OPTION_RANGE, AT(keep.samples), 0, 1 << 30,
+     .help = "only the samples A to B-1, for merge: -o NAME.part"},
+    {"--stats", "FILE", OPTION_TEXT, AT(stats), .file = FILE_WRITTEN, .help = "JSON: parameters, times, memory"},
+    {.others = RUN_OPTIONS},
+};
 
 /* The scene's Film filename, with .png in place of an extension this program does not write. */
 static char *default_output(const struct scene *scene)
@@ -36,15 +60,16 @@ static char *default_output(const struct scene *scene)
 }
 
 /* Those that are named are open already. */
-static bool open_default_output(const struct job_options *o, const struct scene *scene, struct outputs *out,
-                                struct error *err)
+static bool open_default_output(const struct job_options *o, const struct scene *scene, struct names *all,
+                                struct outputs *out, struct error *err)
 {
     if (out->n > 0)
         return true;
     struct texts names = {0};
     char *name = default_output(scene);
     texts_add(&names, name);
-    bool ok = outputs_open(&names, &o->tone, PARTS_NONE, out, err);
+    bool ok = names_add(all, FILE_WRITTEN, "the film's", name, err) &&
+              outputs_open(&names, &o->tone, PARTS_NONE, out, err);
     free(names.item);
     free(name);
     return ok;
@@ -61,39 +86,6 @@ static bool write_outputs(const struct job_options *o, const struct scene *scene
     return ok;
 }
 
-/* Can files be made in the directory, once it is there? */
-static bool strategies_possible(const char *directory, struct error *err)
-{
-    char path[4096];
-    struct file_output probe;
-    os_make_directory(directory); /* if that fails, creating a file says why */
-    snprintf(path, sizeof path, "%s/probe", directory);
-    if (!file_create(path, &probe, err))
-        return false;
-    file_abandon(&probe);
-    return true;
-}
-
-/* Two pictures per strategy, its whole estimate and its weighted share; and all on one sheet. */
-static bool write_strategies(const char *directory, const struct film *film, double scale, struct error *err)
-{
-    int width = rect_width(film->rect), height = rect_height(film->rect);
-    char path[4096];
-    bool ok = true;
-    for (int depth = 0; ok && depth <= film->strategies->max_depth; depth++)
-        for (int s = 0; ok && s <= depth + 1; s++)
-            for (int weighted = 0; ok && weighted < 2; weighted++) {
-                int t = depth + 2 - s;
-                float *pixels = pyramid_strategy(film, scale, s, t, weighted);
-                snprintf(path, sizeof path, "%s/d%02d_s%02d_t%02d_%s.pfm", directory, depth, s, t,
-                         weighted ? "weighted" : "unweighted");
-                ok = image_write(path, width, height, pixels, err);
-                free(pixels);
-            }
-    snprintf(path, sizeof path, "%s/pyramid.png", directory);
-    return ok && pyramid_write(path, film, scale, err);
-}
-
 static bool wants_variance(const struct job_options *o)
 {
     return o->aov != NULL && strstr(o->aov, aov_name(AOV_VARIANCE)) != NULL;
@@ -101,11 +93,11 @@ static bool wants_variance(const struct job_options *o)
 
 /* Beside the first picture. */
 static bool open_aovs(const struct job_options *o, const struct scene *scene, const struct outputs *pictures,
-                      struct aov_files *out, struct error *err)
+                      struct names *all, struct aov_files *out, struct error *err)
 {
     if (wants_variance(o) && job_spp(o, scene) < 2)
         return error_set(err, "--aov variance needs two samples per pixel at least, see --spp");
-    return aov_open(o->aov, pictures->file[0].path, out, err);
+    return aov_open(o->aov, pictures->file[0].path, all, out, err);
 }
 
 static void report(const struct job_options *o, const char *integrator, const struct film *film,
@@ -126,9 +118,8 @@ static bool check_options(const struct job_options *o, struct error *err)
         return error_set(err, "%s: strategies and variance are not saved and cannot be resumed", o->keep.resume);
     if (o->keep.samples[1] > 0 && o->output.n == 0)
         return error_set(err, "--samples needs a name for the part: -o NAME.part");
-    if (o->strategies != NULL && !strategies_possible(o->strategies, err))
-        return false;
-    return keep_check(&o->keep, err) && (o->aov == NULL || aov_check(o->aov, err));
+    return strategies_possible(o->strategies, err) && keep_check(&o->keep, err) &&
+           (o->aov == NULL || aov_check(o->aov, err));
 }
 
 /* All that a render writes, opened before the work begins. */
@@ -162,9 +153,9 @@ static bool run_and_write(const struct job_options *o, const struct scene *scene
     report(o, options->integrator, film, &times);
     stats_list(&files->stats, o, &files->pictures, &files->aov);
     ok = kept;
-    ok = (o->strategies == NULL || write_strategies(o->strategies, film, scene->film_scale, ok ? err : NULL)) && ok;
     ok = aov_write(&files->aov, scene, options, film, o->quiet, ok ? err : NULL) && ok;
     ok = write_outputs(o, scene, film, &files->pictures, ok ? err : NULL) && ok;
+    ok = strategies_write(o->strategies, film, scene->film_scale, ok ? err : NULL) && ok;
     if (!ok)
         stats_abandon(&files->stats);
     return ok && stats_write(&files->stats, o, scene, options, film, &times, err);
@@ -197,6 +188,20 @@ static bool render_and_write(const struct job_options *o, const struct scene *sc
     return ok;
 }
 
+/* What the scene names, or what lies beside that, once the scene is loaded; all are different files. */
+static bool open_others(struct job_options *o, const struct scene *scene, struct files *f, struct error *err)
+{
+    struct names all = {0};
+    struct pixel_rect film = render_crop(scene);
+    bool ok = names_add_options(&all, OPTIONS, o, err) &&
+              open_default_output(o, scene, &all, &f->pictures, err) &&
+              outputs_fit(&f->pictures, rect_width(film), rect_height(film), err) &&
+              open_aovs(o, scene, &f->pictures, &all, &f->aov, err) &&
+              strategies_check(o->strategies, scene, o->max_depth, &all, err);
+    names_free(&all);
+    return ok;
+}
+
 /* What needs no scene to be opened. False with a message; nothing is open then. */
 static bool open_named(const struct job_options *o, struct files *f, struct error *err)
 {
@@ -204,7 +209,7 @@ static bool open_named(const struct job_options *o, struct files *f, struct erro
     memset(f, 0, sizeof *f);
     if (o->output.n > 0 && !outputs_open(&o->output, &o->tone, parts, &f->pictures, err))
         return false;
-    bool ok = stats_open(o->stats, &o->output, &f->stats, err);
+    bool ok = stats_open(o->stats, &f->stats, err);
     if (!ok)
         outputs_abandon(&f->pictures);
     return ok;
@@ -212,7 +217,7 @@ static bool open_named(const struct job_options *o, struct files *f, struct erro
 
 static int run(void *options)
 {
-    const struct job_options *o = options;
+    struct job_options *o = options;
     struct error err;
     struct scene scene;
     const struct method *integrator;
@@ -226,8 +231,7 @@ static int run(void *options)
         return status;
     }
     files.stats.load_seconds = os_wall_seconds() - start;
-    bool ok = open_default_output(o, &scene, &files.pictures, &err) &&
-              open_aovs(o, &scene, &files.pictures, &files.aov, &err);
+    bool ok = open_others(o, &scene, &files, &err);
     if (ok)
         ok = render_and_write(o, &scene, integrator, &files, &err);
     else
@@ -238,27 +242,6 @@ static int run(void *options)
     return interrupt_caught() != 0 ? 128 + interrupt_caught() : EXIT_OK;
 }
 
-#define AT(member) offsetof(struct job_options, member)
-static const struct option OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene_path), 1, .help = "a scene file"},
-    {"--outfile", "FILE", OPTION_TEXTS, AT(output), .alias = "-o",
-     .help = "linear .pfm .exr .hdr, sRGB .png .ppm .tga; repeatable"},
-    {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
-    {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
-    {"--aov", "LIST", OPTION_TEXT, AT(aov), .help = "also NAME.albedo.pfm ...: albedo,normal,depth,position,variance"},
-    {"--strategies", "DIR", OPTION_TEXT, AT(strategies),
-     .help = "write every strategy (s,t), and all as DIR/pyramid.png"},
-    {"--time", "SECONDS", OPTION_NUMBER, AT(keep.time), 0, 1e9, .help = "stop after so long, and write what there is"},
-    {"--checkpoint", "FILE", OPTION_TEXT, AT(keep.checkpoint), .help = "save the render now and then, and at signals"},
-    {"--interval", "SECONDS", OPTION_NUMBER, AT(keep.interval), 0, 1e9, .fallback = "60",
-     .help = "between checkpoints"},
-    {"--resume", "FILE", OPTION_TEXT, AT(keep.resume), .help = "go on from a checkpoint"},
-    {"--samples", "A:B", OPTION_RANGE, AT(keep.samples), 0, 1 << 30,
-     .help = "only the samples A to B-1, for merge: -o NAME.part"},
-    {"--stats", "FILE", OPTION_TEXT, AT(stats), .help = "JSON: parameters, times, memory"},
-    {.others = RUN_OPTIONS},
-};
-
 const struct command command_render = {
     "render", "render a scene", {"SCENE.pbrt [-o FILE.{pfm,exr,hdr,png,ppm,tga}]... [options]"}, OPTIONS,
-    sizeof(struct job_options), run};
+    sizeof(struct job_options), run, false};

@@ -14,30 +14,40 @@ struct trace_options {
 
 #define AT(member) offsetof(struct trace_options, member)
 static const struct option OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .help = "a scene file"},
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .file = FILE_READ, .help = "a scene file"},
     {"--pixel", "X,Y", OPTION_PIXEL, AT(pixel), 0, 65535, .fallback = "0,0", .help = "of the film, 0,0 top left"},
     {"--sample", "K", OPTION_INTEGER, AT(sample), 0, 1 << 30, .fallback = "0", .help = "which, from 0"},
     {"--json", NULL, OPTION_ON, AT(json), .help = "print an object of JSON"},
-    {"--svg", "FILE", OPTION_TEXT, AT(svg), .help = "also draw the paths within the scene"},
+    {"--svg", "FILE", OPTION_TEXT, AT(svg), .file = FILE_WRITTEN, .help = "also draw the paths within the scene"},
     {.others = RUN_OPTIONS},
 };
 
-static bool draw(const struct trace_options *o, const struct trace_story *story, struct error *err)
-{
-    struct file_output out;
-    if (!file_create(o->svg, &out, err))
-        return false;
-    trace_svg(out.stream, story);
-    return file_commit(&out, err);
-}
-
-static bool tell(const struct trace_options *o, const struct trace_story *story, struct error *err)
+/* `svg`: open for the drawing; NULL: none is wanted. */
+static bool tell(const struct trace_options *o, const struct trace_story *story, struct file_output *svg,
+                 struct error *err)
 {
     if (o->json)
         trace_json(stdout, story);
     else
         trace_text(stdout, story);
-    return o->svg == NULL || draw(o, story, err);
+    if (svg == NULL)
+        return true;
+    trace_svg(svg->stream, story);
+    return file_commit(svg, err);
+}
+
+/* The drawing's file is opened before the work. */
+static bool trace_and_tell(const struct trace_options *o, const struct render_options *render,
+                           const struct trace_story *story, struct trace *trace, struct error *err)
+{
+    struct file_output file, *svg = o->svg != NULL ? &file : NULL;
+    if (svg != NULL && !file_create(o->svg, svg, err))
+        return false;
+    if (render_trace(story->scene, render, trace, err))
+        return tell(o, story, svg, err);
+    if (svg != NULL)
+        file_abandon(svg);
+    return false;
 }
 
 static int run(void *options)
@@ -52,7 +62,7 @@ static int run(void *options)
     struct render_options render = job_render(&o->job, &scene, integrator);
     struct trace trace = {.x = o->pixel[0], .y = o->pixel[1], .iteration = o->sample};
     struct trace_story story = {o->job.scene_path, &scene, integrator, o->job.seed, &trace};
-    bool ok = render_trace(&scene, &render, &trace, &err) && tell(o, &story, &err);
+    bool ok = trace_and_tell(o, &render, &story, &trace, &err);
     trace_free(&trace);
     scene_free(&scene);
     return ok ? EXIT_OK : fail(&err);
@@ -61,4 +71,4 @@ static int run(void *options)
 const struct command command_trace = {
     "trace", "one sample of a pixel, told in full: sub-paths, choices, connections, weights",
     {"SCENE.pbrt --pixel X,Y [--sample K] [--json] [--svg FILE] [options]"}, OPTIONS, sizeof(struct trace_options),
-    run};
+    run, true};

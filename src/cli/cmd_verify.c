@@ -136,16 +136,19 @@ static void print_verdict(const struct verdict *v, const struct side *a, const s
     printf("verdict: %s (p = %.3g at level %g)\n", v->p >= alpha ? "agree" : "DIFFER", v->p, alpha);
 }
 
-/* The same values and errors: no test can tell them apart, nor from pictures made with the same random numbers. */
+/* The same values and errors: no test can tell them apart, nor from pictures made with the same random numbers. What is
+ * not finite is the same as nothing. */
 static bool identical(const struct batches *a, const struct batches *b)
 {
-    size_t size = (size_t)a->n * sizeof *a->value;
-    return a->n == b->n && memcmp(a->value, b->value, size) == 0 && memcmp(a->error, b->error, size) == 0;
+    bool same = a->n == b->n && a->n > 0;
+    for (long i = 0; same && i < a->n; i++)
+        same = a->value[i] - b->value[i] == 0 && a->error[i] - b->error[i] == 0;
+    return same;
 }
 
 /* Test, print, store. */
-static int judge(const struct verify_options *o, int max_depth, const struct side *a, const struct side *b,
-                 struct error *err)
+static int judge(const struct verify_options *o, uint64_t content, int max_depth, const struct side *a,
+                 const struct side *b, struct error *err)
 {
     if (o->with_errors && identical(&a->pixels, &b->pixels)) {
         printf("verdict: identical (pixel by pixel the same values and errors; there is nothing to test)\n");
@@ -155,7 +158,7 @@ static int judge(const struct verify_options *o, int max_depth, const struct sid
     struct batches x = batches_tiles(&a->pixels, a->width, a->height, tile);
     struct batches y = batches_tiles(&b->pixels, b->width, b->height, tile);
     struct verdict v = verify_batches(&x, &y, o->job.seed);
-    struct provenance from = {o->note, o->job.scene_path, max_depth, &v};
+    struct provenance from = {o->note, o->job.scene_path, content, max_depth, &v};
     batches_free(&x);
     batches_free(&y);
     print_verdict(&v, a, b, tile, o->alpha);
@@ -179,7 +182,7 @@ static int verify(const struct verify_options *o)
              side_read(o->against.item, o->against.n, o->with_errors, &a, &b, &err);
     else if (ok)
         ok = render_sides(&scene, integrator, o, &a, &b, &err);
-    status = ok ? judge(o, max_depth, &a, &b, &err) : fail(&err);
+    status = ok ? judge(o, o->has_scene ? scene.content : 0, max_depth, &a, &b, &err) : fail(&err);
     batches_free(&a.pixels);
     batches_free(&b.pixels);
     if (o->has_scene)
@@ -194,4 +197,4 @@ const struct command command_verify = {
     {"SCENE.pbrt [--methods A,B | --methods A --reference R.pfm] [options]",
      "--images A.pfm A.error.pfm B.pfm B.error.pfm",
      "SCENE.pbrt --files A.pfm... --against B.pfm... [--store NAME]"},
-    OPTIONS, sizeof(struct verify_options), run};
+    OPTIONS, sizeof(struct verify_options), run, true};

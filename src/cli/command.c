@@ -1,21 +1,25 @@
-/* command.c: see command.h. A new subcommand is a new word in COMMANDS. */
+/* command.c: see command.h. */
 #include "cli/command.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
-
-static const struct command *const COMMANDS[] = {&command_render, &command_merge, &command_compare, &command_experiment,
-                                                 &command_bench, &command_verify, &command_info,
-                                                 &command_demo, &command_convert, &command_worth, &command_trace, NULL};
-
-const struct command *const *command_list(void) { return COMMANDS; }
-
-/* --- messages ----------------------------------------------------------------------------------------- */
+#include <string.h>
 
 int fail(const struct error *err)
 {
     fprintf(stderr, "asbdpt: %s\n", err->text);
     return EXIT_JOB;
+}
+
+int command_end(int status)
+{
+    struct error err;
+    errno = 0;
+    if (fflush(stdout) == 0 && ferror(stdout) == 0)
+        return status;
+    error_set(&err, "standard output: cannot be written: %s", errno != 0 ? strerror(errno) : "write error");
+    return fail(&err);
 }
 
 int usage_error(const struct command *command, const char *format, ...)
@@ -26,7 +30,7 @@ int usage_error(const struct command *command, const char *format, ...)
     vsnprintf(err.text, sizeof err.text, format, args);
     va_end(args);
     error_clean(err.text);
-    fprintf(stderr, "asbdpt: %s; try asbdpt %s%s--help\n", err.text, command != NULL ? command->name : "",
+    fprintf(stderr, "asbdpt: %s; try %s %s%s--help\n", err.text, program.name, command != NULL ? command->name : "",
             command != NULL ? " " : "");
     return EXIT_USAGE;
 }

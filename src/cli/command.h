@@ -1,4 +1,4 @@
-/* command.h: what a subcommand of the command line is, and the table of all.
+/* command.h: what a subcommand of the command line is, and a program that is made of some.
  *
  * A subcommand names its options (options.h) and does its work on the struct that they fill. Its exit status is the
  * program's. Messages go to stderr through the helpers here.
@@ -15,22 +15,31 @@ enum { EXIT_OK = 0, EXIT_JOB = 1, EXIT_USAGE = 2 }; /* success, failure of the j
 
 struct command {
     const char *name, *help;
-    const char *usage[4];         /* its forms after "asbdpt NAME", ended by NULL */
+    const char *usage[4];         /* its forms after its name, ended by NULL */
     const struct option *options; /* table */
     size_t size;                  /* of the struct that the options fill */
     int (*run)(void *options);    /* returns the exit status */
+    bool prints;                  /* to standard output, which no file of its options can be then */
 };
 
 extern const struct command command_render, command_merge, command_compare, command_experiment, command_bench,
-    command_verify, command_info, command_demo, command_convert, command_worth,
-    command_trace;
+    command_verify, command_info, command_demo, command_convert, command_worth, command_trace;
 
-/* command_list: all subcommands, ended by NULL. */
-const struct command *const *command_list(void);
+/* What is linked into an executable beside main; all that is shared asks this for names. */
+struct program {
+    const char *name;
+    const char *title, *about;             /* a line for the help, a paragraph for the man page */
+    const struct command *const *commands; /* ended by NULL */
+};
+extern const struct program program;
 
 /* fail / usage_error: print "asbdpt: message" and return EXIT_JOB / EXIT_USAGE.
  *   command  whose help the message points to; NULL: everybody's */
 int fail(const struct error *err);
 int usage_error(const struct command *command, const char *format, ...);
+
+/* command_end: the status of the program, in the end: `status`, but EXIT_JOB with a message where something that was
+ * printed could not be written. */
+int command_end(int status);
 
 #endif

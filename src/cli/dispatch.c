@@ -10,6 +10,7 @@
 #include "base/version.h"
 #include "cli/command.h"
 #include "cli/manual.h"
+#include "cli/names.h"
 #include "parser/symbols.h"
 
 /* --- help --------------------------------------------------------------------------------------------- */
@@ -17,12 +18,12 @@
 /* The options that subcommands share are the first one's last. */
 static void print_command(const struct command *c, bool alone)
 {
-    printf("asbdpt %s: %s\n", c->name, c->help);
+    printf("%s %s: %s\n", program.name, c->name, c->help);
     for (int i = 0; c->usage[i] != NULL; i++)
-        printf("%s asbdpt %s %s\n", i == 0 ? "usage:" : "   or:", c->name, c->usage[i]);
+        printf("%s %s %s %s\n", i == 0 ? "usage:" : "   or:", program.name, c->name, c->usage[i]);
     for (const struct option *table = c->options; table != NULL;) {
-        if (table != c->options && !alone && c != command_list()[0]) {
-            printf("    and the options of %s, from %s on\n", command_list()[0]->name, table->name);
+        if (table != c->options && !alone && c != program.commands[0]) {
+            printf("    and the options of %s, from %s on\n", program.commands[0]->name, table->name);
             break;
         }
         table = options_print(table);
@@ -31,14 +32,14 @@ static void print_command(const struct command *c, bool alone)
 
 static void print_help(void)
 {
-    printf("%s: Alias Sampled Bidirectional Path Tracing, a reference implementation\n\n", VERSION);
-    for (const struct command *const *c = command_list(); *c != NULL; c++) {
+    printf("%s: %s\n\n", VERSION, program.title);
+    for (const struct command *const *c = program.commands; *c != NULL; c++) {
         print_command(*c, false);
         printf("\n");
     }
     manual_print_integrators();
-    printf("\nasbdpt help man, bash, zsh: a man page, completions\n"
-           "exit status: 0 success, 1 the job failed, 2 wrong usage\n");
+    printf("\n%s help man, bash, zsh: a man page, completions\n"
+           "exit status: 0 success, 1 the job failed, 2 wrong usage\n", program.name);
 }
 
 static bool asks_for_help(const char *word) { return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0; }
@@ -53,6 +54,16 @@ static bool keeps_more_bits(void)
     return one + tiny - one != 0;
 }
 
+/* Is every file of the command line another one? */
+static bool files_apart(const struct command *c, void *options, struct error *err)
+{
+    struct names all = {0};
+    bool ok = (!c->prints || names_add(&all, FILE_WRITTEN, "what it prints to", "-", err)) &&
+              names_add_options(&all, c->options, options, err);
+    names_free(&all);
+    return ok;
+}
+
 static int run(const struct command *c, int argc, char **argv)
 {
     for (int i = 1; i < argc; i++)
@@ -62,7 +73,7 @@ static int run(const struct command *c, int argc, char **argv)
         }
     struct error err;
     void *options = mem_alloc(1, c->size);
-    bool ok = options_read(c->options, argc, argv, options, &err);
+    bool ok = options_read(c->options, argc, argv, options, &err) && files_apart(c, options, &err);
     int status = ok ? c->run(options) : usage_error(c, "%s", err.text);
     options_free(c->options, options);
     free(options);
@@ -76,7 +87,7 @@ static int help(const char *topic)
         print_help();
         return EXIT_OK;
     }
-    for (const struct command *const *c = command_list(); *c != NULL; c++)
+    for (const struct command *const *c = program.commands; *c != NULL; c++)
         if (strcmp(topic, (*c)->name) == 0) {
             print_command(*c, true);
             return EXIT_OK;
@@ -98,7 +109,7 @@ int command_line(int argc, char **argv)
         return EXIT_OK;
     }
     struct suggestion s = suggest_start(argv[1]);
-    for (const struct command *const *c = command_list(); *c != NULL; c++) {
+    for (const struct command *const *c = program.commands; *c != NULL; c++) {
         if (strcmp(argv[1], (*c)->name) == 0)
             return run(*c, argc - 1, argv + 1);
         suggest_offer(&s, (*c)->name);

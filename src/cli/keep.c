@@ -7,17 +7,23 @@
 #include "base/file.h"
 #include "base/interrupt.h"
 #include "base/os.h"
+#include "cli/names.h"
 
-static bool same_name(const char *a, const char *b) { return a != NULL && b != NULL && strcmp(a, b) == 0; }
+/* Is the checkpoint to be resumed the one to be written? */
+static bool resumes_its_own(const struct keep_options *o)
+{
+    return o->checkpoint != NULL && o->resume != NULL && names_same(o->checkpoint, o->resume);
+}
 
 bool keep_check(const struct keep_options *o, struct error *err)
 {
     struct file_output probe;
     if (o->checkpoint == NULL)
         return true;
-    if (strcmp(o->checkpoint, "-") == 0)
-        return error_set(err, "--checkpoint needs a file");
-    if (file_exists(o->checkpoint) && !same_name(o->checkpoint, o->resume))
+    enum os_kind kind = os_kind_of(o->checkpoint);
+    if (strcmp(o->checkpoint, "-") == 0 || (kind != OS_NOTHING && kind != OS_FILE))
+        return error_set(err, "--checkpoint %s: it needs a file", o->checkpoint);
+    if (kind == OS_FILE && !resumes_its_own(o))
         return error_set(err, "%s: there is such a file already; go on with it by --resume %s, or remove it",
                          o->checkpoint, o->checkpoint);
     if (!file_create(o->checkpoint, &probe, err))
@@ -26,12 +32,12 @@ bool keep_check(const struct keep_options *o, struct error *err)
     return true;
 }
 
-/* Where the checkpoint that is to be resumed is the one to be written, its absence is the beginning. */
+/* Where that is so, its absence is the beginning. */
 static bool resume(struct keep *k, struct error *err)
 {
     const struct keep_options *o = k->options;
     struct part found;
-    if (o->resume == NULL || (same_name(o->checkpoint, o->resume) && !file_exists(o->resume)))
+    if (o->resume == NULL || (resumes_its_own(o) && !file_exists(o->resume)))
         return true;
     FILE *file = part_open(o->resume, &found, err);
     if (file == NULL)

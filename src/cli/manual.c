@@ -80,7 +80,7 @@ static void man_command(const struct command *c)
     roff(c->help);
     printf("\n");
     for (int i = 0; c->usage[i] != NULL; i++) {
-        printf(".PP\n.B asbdpt %s\n\\&", c->name);
+        printf(".PP\n.B %s %s\n\\&", program.name, c->name);
         roff(c->usage[i]);
         printf("\n");
     }
@@ -111,19 +111,22 @@ static void man_parameters(void)
 
 static void print_man(const char *version)
 {
-    printf(".TH ASBDPT 1 \"\" \"%s\" \"User Commands\"\n.SH NAME\n"
-           "asbdpt \\- alias sampled bidirectional path tracing\n.SH SYNOPSIS\n",
-           version);
-    printf(".B asbdpt\n.I COMMAND\n[\\fIOPTIONS\\fR]\n.SH DESCRIPTION\n"
-           "Renders scenes of pbrt\\-v3 with path tracing, light tracing, bidirectional path tracing and its alias\n"
-           "sampled kin, compares pictures and measures integrators.\n.SH COMMANDS\n");
-    for (const struct command *const *c = command_list(); *c != NULL; c++)
+    printf(".TH ");
+    roff(program.name);
+    printf(" 1 \"\" \"%s\" \"User Commands\"\n.SH NAME\n", version);
+    roff(program.name);
+    printf(" \\- ");
+    roff(program.title);
+    printf("\n.SH SYNOPSIS\n.B %s\n.I COMMAND\n[\\fIOPTIONS\\fR]\n.SH DESCRIPTION\n", program.name);
+    roff(program.about);
+    printf("\n.SH COMMANDS\n");
+    for (const struct command *const *c = program.commands; *c != NULL; c++)
         man_command(*c);
     printf(".SH INTEGRATORS\nParameters are set by \\fB\\-P\\fR \\fINAME=VALUE\\fR or by the scene; defaults stand in "
            "brackets.\n");
     man_parameters();
-    printf(".SH EXIT STATUS\n0 success, 1 the job failed, 2 wrong usage; 130, 143 or 129 after SIGINT, SIGTERM or "
-           "SIGHUP.\n");
+    printf(".SH EXIT STATUS\n0 success, 1 the job failed, 2 wrong usage; 128 and the number of a signal that ended "
+           "it.\n");
 }
 
 /* --- completion ---------------------------------------------------------------------------------------- */
@@ -139,21 +142,22 @@ static void list_options(const struct command *c)
 
 static void print_bash(void)
 {
-    printf("# completion of asbdpt for bash\n_asbdpt()\n{\n    local words=\n    case \"${COMP_WORDS[1]}\" in\n");
-    for (const struct command *const *c = command_list(); *c != NULL; c++) {
+    printf("# completion of %s for bash\n_%s()\n{\n    local words=\n    case \"${COMP_WORDS[1]}\" in\n", program.name,
+           program.name);
+    for (const struct command *const *c = program.commands; *c != NULL; c++) {
         printf("    %s) words=\"", (*c)->name);
         list_options(*c);
         printf("\" ;;\n");
     }
     printf("    esac\n    [ \"$COMP_CWORD\" = 1 ] && words=\"help");
-    for (const struct command *const *c = command_list(); *c != NULL; c++)
+    for (const struct command *const *c = program.commands; *c != NULL; c++)
         printf(" %s", (*c)->name);
     printf("\"\n    case \"${COMP_WORDS[COMP_CWORD-1]}\" in\n    --integrator) words=\"");
     for (const struct method *const *m = method_list(); *m != NULL; m++)
         printf(" %s", (*m)->name);
     printf("\" ;;\n    esac\n"
            "    COMPREPLY=($(compgen -W \"$words\" -- \"${COMP_WORDS[COMP_CWORD]}\"))\n}\n"
-           "complete -o default -F _asbdpt asbdpt\n");
+           "complete -o default -F _%s %s\n", program.name, program.name);
 }
 
 /* In single quotes, without what has a meaning in the descriptions of _arguments. */
@@ -179,15 +183,15 @@ static void zsh_option(const struct option *o, const char *name)
 
 static void print_zsh(void)
 {
-    printf("#compdef asbdpt\n# completion of asbdpt for zsh\nif (( CURRENT == 2 )); then\n"
-           "    local -a commands=(\n        'help:all commands and options'\n");
-    for (const struct command *const *c = command_list(); *c != NULL; c++) {
+    printf("#compdef %s\n# completion of %s for zsh\nif (( CURRENT == 2 )); then\n"
+           "    local -a commands=(\n        'help:all commands and options'\n", program.name, program.name);
+    for (const struct command *const *c = program.commands; *c != NULL; c++) {
         printf("        '%s:", (*c)->name);
         zsh_text((*c)->help);
         printf("'\n");
     }
     printf("    )\n    _describe command commands\nelse\n    case $words[2] in\n");
-    for (const struct command *const *c = command_list(); *c != NULL; c++) {
+    for (const struct command *const *c = program.commands; *c != NULL; c++) {
         printf("    %s)\n        _arguments", (*c)->name);
         for (const struct option *o = (*c)->options; o != NULL; o = options_next(o))
             if (o->name[0] == '-') {

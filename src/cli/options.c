@@ -14,7 +14,7 @@
 
 /* How far the arguments are read, and the option being read. */
 struct reader {
-    int argc, at;
+    int argc, at; /* 0: those of fallbacks, before the first */
     char **argv;
     const char *attached; /* the option's value if it came in the same argument and is not used yet, else NULL */
     const struct option *option;
@@ -50,7 +50,9 @@ static bool next_value(struct reader *r, const char **text)
     r->attached = NULL;
     if (*text == NULL && r->at + 1 < r->argc)
         *text = r->argv[++r->at];
-    return *text != NULL || error_set(r->err, "%s needs a value: %s", r->option->name, r->option->value);
+    if (*text == NULL)
+        return error_set(r->err, "%s needs a value: %s", r->option->name, r->option->value);
+    return **text != '\0' || r->at == 0 || error_set(r->err, "%s: its value is empty", r->option->name);
 }
 
 /* The number at the beginning of *text, which moves behind it. False if there is none, or if it is out of range, as NaN
@@ -225,10 +227,19 @@ static bool read_option(struct reader *r, const struct option *table, void *targ
     return r->attached == NULL || error_set(r->err, "%s: %s takes no value", argument, o->name);
 }
 
+const char *const *options_texts(const struct option *o, void *target, int *n)
+{
+    const struct texts *texts = target_of(o, target);
+    const char *const *one = target_of(o, target);
+    *n = has_texts(o) ? texts->n : *one != NULL;
+    return has_texts(o) ? (const char *const *)texts->item : one;
+}
+
 static bool is_given(const struct option *o, void *target)
 {
-    void *at = target_of(o, target);
-    return has_texts(o) ? ((struct texts *)at)->n > 0 : *(const char **)at != NULL;
+    int n;
+    options_texts(o, target, &n);
+    return n > 0;
 }
 
 /* Operands fill their rows in order; a list takes all that are left. */

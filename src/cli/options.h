@@ -7,6 +7,8 @@
  *     --name VALUE, --name=VALUE, -n VALUE, -nVALUE    an option; given twice, the later one counts
  *     WORD                                             an operand: a row whose name has no dash in front
  *
+ * An empty value is always a mistake, of a script for example whose variable is not set.
+ *
  * Tests: test_options.c, test/cli.sh.
  */
 #ifndef ASBDPT_OPTIONS_H
@@ -34,6 +36,9 @@ enum option_kind {           /* type of the target, and what is read into it */
     OPTION_LIST              /* struct texts: all arguments up to the next option */
 };
 
+/* What is done with a file that a text names (names.h); FILE_KEPT: it is read if it is there, and written. */
+enum option_file { FILE_NONE, FILE_READ, FILE_WRITTEN, FILE_KEPT };
+
 /* What an option that may be repeated collects. */
 struct texts {
     const char **item; /* [n], owned array of borrowed strings */
@@ -56,6 +61,7 @@ struct option {
     const char *alias;           /* another name, or NULL */
     const char *fallback;        /* text of the default; NULL: the target stays zero */
     const char *help;            /* where one must be given: what it is, with an article */
+    enum option_file file;
     const struct option *others; /* in the row without a name: the table that goes on, or NULL */
 };
 
@@ -69,6 +75,9 @@ const struct option *options_next(const struct option *option);
  * Returns false with a message on wrong usage. Either way options_free releases what the target's lists hold. */
 bool options_read(const struct option *table, int argc, char **argv, void *target, struct error *err);
 void options_free(const struct option *table, void *target);
+
+/* options_texts: the texts that an option has in `target`, *n of them. */
+const char *const *options_texts(const struct option *option, void *target, int *n);
 
 /* options_print: one line of help for every row of this table alone. Returns the table that goes on, or NULL. */
 const struct option *options_print(const struct option *table);

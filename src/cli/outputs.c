@@ -47,7 +47,7 @@ static bool takes_part(const struct outputs *o, const char *name)
 bool outputs_open(const struct texts *names, const struct tone_options *tone, enum outputs_parts parts,
                   struct outputs *out, struct error *err)
 {
-    bool ok = true, to_standard = false;
+    bool ok = true;
     memset(out, 0, sizeof *out);
     out->parts = parts;
     if (!read_tone(tone, names, &out->tone, err))
@@ -55,16 +55,19 @@ bool outputs_open(const struct texts *names, const struct tone_options *tone, en
     out->file = mem_alloc((size_t)names->n, sizeof *out->file);
     for (out->n = 0; ok && out->n < names->n; out->n += ok) {
         const char *name = names->item[out->n];
-        bool standard = strcmp(name, "-") == 0;
-        if (standard && to_standard)
-            ok = error_set(err, "-: standard output takes one picture only");
-        else
-            ok = takes_part(out, name) ? file_create(name, &out->file[out->n], err)
-                                       : image_create(name, &out->file[out->n], err);
-        to_standard |= standard;
+        ok = takes_part(out, name) ? file_create(name, &out->file[out->n], err)
+                                   : image_create(name, &out->file[out->n], err);
     }
     if (!ok)
         outputs_abandon(out);
+    return ok;
+}
+
+bool outputs_fit(const struct outputs *o, int width, int height, struct error *err)
+{
+    bool ok = true;
+    for (int i = 0; ok && i < o->n; i++)
+        ok = takes_part(o, o->file[i].path) || image_fits(o->file[i].path, width, height, err);
     return ok;
 }
 

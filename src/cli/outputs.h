@@ -38,12 +38,15 @@ struct tone_options {
 #define EXPOSURE_HELP "8-bit pictures: brighter by so many stops, of a factor of two each"
 #define TONEMAP_HELP "8-bit pictures: none, or the curve of film: filmic"
 
-/* outputs_open: begin to write pictures of these names, at least one, - (standard output) at most once.
+/* outputs_open: begin to write pictures of these names, at least one, that names.h has found to be different files.
  *   tone  of the 8-bit pictures, or NULL: as they are; if it changes anything, one of the pictures must be such
  * Returns false with a message; nothing is open then. After success one of outputs_write and outputs_abandon must
  * follow. */
 bool outputs_open(const struct texts *names, const struct tone_options *tone, enum outputs_parts parts,
                   struct outputs *out, struct error *err);
+
+/* outputs_fit: do the formats hold pictures of this size? False with a message; they are still open then. */
+bool outputs_fit(const struct outputs *o, int width, int height, struct error *err);
 
 /* outputs_write: the picture into all of them; unless `quiet` a last line on stderr names them. One that fails does not
  * keep the others from being written: the first message is kept and false returned. */

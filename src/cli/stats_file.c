@@ -14,12 +14,9 @@ double render_us_per_path(const struct film *film, const struct render_times *ti
     return paths > 0 ? 1e6 * times->cpu / paths : 0;
 }
 
-bool stats_open(const char *path, const struct texts *outputs, struct stats_file *out, struct error *err)
+bool stats_open(const char *path, struct stats_file *out, struct error *err)
 {
     memset(out, 0, sizeof *out);
-    for (int i = 0; path != NULL && i < outputs->n; i++)
-        if (strcmp(path, outputs->item[i]) == 0)
-            return error_set(err, "--stats %s: this is the name of a picture, too", path);
     out->wanted = path != NULL && file_create(path, &out->file, err);
     return out->wanted || path == NULL;
 }

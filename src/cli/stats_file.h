@@ -29,7 +29,7 @@ double render_us_per_path(const struct film *film, const struct render_times *ti
 
 /* stats_open: begin the file; NULL: none is wanted, and the other functions do nothing. Returns false with a message;
  * nothing is open then. After success one of stats_write and stats_abandon must follow. */
-bool stats_open(const char *path, const struct texts *outputs, struct stats_file *out, struct error *err);
+bool stats_open(const char *path, struct stats_file *out, struct error *err);
 
 /* stats_list: note the names of the files that are about to be written. */
 void stats_list(struct stats_file *f, const struct job_options *o, const struct outputs *pictures,

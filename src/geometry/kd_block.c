@@ -1,8 +1,6 @@
 /* kd_block.c: see kd_block.h. */
 #include "geometry/kd_block.h"
 
-#include <string.h>
-
 void kd_block_ray(struct kd_block_ray *r, const struct ray *ray, double size)
 {
     r->exact = triangle_ray(ray);
@@ -78,30 +76,4 @@ bool kd_block_hit(const struct kd_block *b, const int near[KD_LANES], const stru
             found = true;
         }
     return found;
-}
-
-static void add_hit(struct kd_hits *all, const struct hit *hit)
-{
-    if (all->n == all->capacity) {
-        all->capacity = all->capacity < 16 ? 16 : 2 * all->capacity;
-        struct hit *larger = arena_alloc(all->arena, (size_t)all->capacity * sizeof *larger);
-        if (all->n > 0)
-            memcpy(larger, all->hit, (size_t)all->n * sizeof *larger);
-        all->hit = larger;
-    }
-    all->hit[all->n++] = *hit;
-}
-
-void kd_block_all(const struct kd_block *b, const int near[KD_LANES], const struct geometry *geo,
-                  const struct kd_block_ray *r, struct kd_hits *all)
-{
-    struct hit hit;
-    for (int i = 0; i < KD_LANES; i++) {
-        struct ray rest = *r->exact.ray;
-        if (near[i] && (b->prim[i] & ~KD_ALPHA) < FIRST_QUADRIC && lane_hit(b, i, geo, r, rest.tmax, false, &hit))
-            add_hit(all, &hit);
-        if (near[i] && (b->prim[i] & ~KD_ALPHA) >= FIRST_QUADRIC)
-            for (; shape_intersect(geo, (int)b->prim[i], &rest, &hit); rest.tmin = hit.t)
-                add_hit(all, &hit);
-    }
 }

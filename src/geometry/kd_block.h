@@ -18,7 +18,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "base/mem.h"
 #include "geometry/shape.h"
 
 /* --- nodes -------------------------------------------------------------------------------------------- */
@@ -103,16 +102,5 @@ static inline bool kd_block_near(const struct kd_block *b, const struct kd_block
  * untouched, if none. */
 bool kd_block_hit(const struct kd_block *b, const int near[KD_LANES], const struct geometry *geo,
                   const struct kd_block_ray *r, double tmax, bool shadow, struct hit *hit);
-
-/* Hits one after the other, in an arena. */
-struct kd_hits {
-    struct arena *arena;
-    struct hit *hit; /* [n] */
-    int n, capacity;
-};
-
-/* kd_block_all: add all hits within the ray's (tmin, tmax) among the near lanes, honouring alpha. */
-void kd_block_all(const struct kd_block *b, const int near[KD_LANES], const struct geometry *geo,
-                  const struct kd_block_ray *r, struct kd_hits *all);
 
 #endif

@@ -194,13 +194,13 @@ static int prim_of_item(const struct geometry *geo, uint32_t item)
 }
 
 /* The items with their bounds, and the bounds of everything. Returns how many there are. */
-static int start_items(struct builder *b, bool passable, struct box *bounds)
+static int start_items(struct builder *b, bool see_through, struct box *bounds)
 {
     size_t n = 0, most = (size_t)geometry_primitives(b->geo);
     b->ref = mem_grow(NULL, &b->ref_capacity, most + most / 2, sizeof *b->ref);
     for (size_t i = 0; i < most; i++) {
         int prim = prim_of_item(b->geo, (uint32_t)i);
-        if ((shape_group_of(b->geo, prim)->material < 0) != passable)
+        if ((shape_group_of(b->geo, prim)->material < 0) != see_through)
             continue;
         struct box *box = &b->ref[n].box;
         b->ref[n].item = (uint32_t)i;
@@ -229,7 +229,7 @@ static void fill_blocks(struct builder *b)
     }
 }
 
-void kd_build(struct kdtree *kd, const struct geometry *geo, bool passable)
+void kd_build(struct kdtree *kd, const struct geometry *geo, bool see_through)
 {
     struct kdtree empty = {0};
     struct builder b = {0};
@@ -237,7 +237,7 @@ void kd_build(struct kdtree *kd, const struct geometry *geo, bool passable)
     *kd = empty;
     b.geo = geo;
     b.kd = kd;
-    int n = start_items(&b, passable, &bounds);
+    int n = start_items(&b, see_through, &bounds);
     if (n > 0) {
         /* n is 1 to 2^31, so this is 8 to KD_MAX_DEPTH. */
         b.max_depth = (int)fmin(KD_MAX_DEPTH, 8 + 2.0 * m_log2(n));

@@ -153,37 +153,6 @@ bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struc
     return traverse(kd, geo, ray, false, hit);
 }
 
-/* By distance, then by number. */
-static int compare_hits(const void *a, const void *b)
-{
-    const struct hit *x = a, *y = b;
-    return x->t != y->t ? (x->t > y->t) - (x->t < y->t) : (x->prim > y->prim) - (x->prim < y->prim);
-}
-
-int kd_all(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct arena *arena,
-           struct hit **hits)
-{
-    struct traversal w;
-    struct kd_hits all = {arena, NULL, 0, 0};
-    int near[KD_LANES], n = 0;
-    if (!traversal_start(&w, kd, ray))
-        return 0;
-    do {
-        struct kd_node leaf = traversal_to_leaf(&w, kd->node, false);
-        const struct kd_block *block = kd->block + leaf.at.first, *end = block + kd_blocks(leaf);
-        for (; block < end; block++)
-            if (kd_block_near(block, &w.ray, near))
-                kd_block_all(block, near, geo, &w.ray, &all);
-    } while (traversal_next(&w, ray->tmax));
-    if (all.n > 0)
-        qsort(all.hit, (size_t)all.n, sizeof *all.hit, compare_hits);
-    for (int i = 0; i < all.n; i++)
-        if (n == 0 || compare_hits(&all.hit[i], &all.hit[n - 1]) != 0) /* not again from another leaf */
-            all.hit[n++] = all.hit[i];
-    *hits = all.hit;
-    return n;
-}
-
 bool kd_occluded(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray)
 {
     struct hit hit;

@@ -15,7 +15,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "base/mem.h"
 #include "geometry/shape.h"
 
 struct kd_node;  /* 8 bytes, see kd_block.h */
@@ -32,18 +31,14 @@ struct kdtree {
     double cost;        /* expected cost of a ray by the surface-area heuristic, in tests of a block of triangles */
 };
 
-/* kd_build: build the tree of all primitives that have a material, or, if `passable`, of those that have none; kd_free
- * releases it. Cannot fail (memory: see mem.h). The result depends on the geometry alone. The geometry must not change
- * afterwards. */
-void kd_build(struct kdtree *kd, const struct geometry *geo, bool passable);
+/* kd_build: build the tree of all primitives that have a material, or, if `see_through`, of those that have none;
+ * kd_free releases it. Cannot fail (memory: see mem.h). The result depends on the geometry alone. The geometry must not
+ * change afterwards. */
+void kd_build(struct kdtree *kd, const struct geometry *geo, bool see_through);
 void kd_free(struct kdtree *kd);
 
 /* kd_closest: the first hit in (tmin, tmax), honouring alpha. Returns false if there is none. Thread-safe. */
 bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct hit *hit);
-
-/* kd_all: every hit in (tmin, tmax), honouring alpha, the nearest first; *hits is in the arena. Returns how many. */
-int kd_all(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct arena *arena,
-           struct hit **hits);
 
 /* kd_occluded: is anything (for shadow rays: shadow_alpha counts) hit in (tmin, tmax)? Thread-safe. */
 bool kd_occluded(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray);

@@ -326,8 +326,8 @@ static bool read_polygon(struct ply *r, const struct ply_property *p, int row)
     uint32_t first = 0, previous = 0;
     if (!next_count(r, p, "face", row, &count))
         return false;
-    if (count < 3)
-        return fail_row(r, "face", row, "fewer than 3 vertices");
+    r->mesh->n_thin += count < 3;
+    r->mesh->n_wide += count > 4;
     for (double k = 0; k < count; k++) {
         if (!next_number(r, p->type, "face", row, &value))
             return false;
@@ -436,7 +436,7 @@ static bool read_body(struct ply *r)
 static bool check_mesh(struct ply *r)
 {
     const struct mesh *m = r->mesh;
-    if (m->n_triangles == 0)
+    if (m->n_triangles == 0 && m->n_thin == 0)
         return fail(r, "no faces");
     for (size_t i = 0; i < r->n_indices; i++)
         if (m->index[i] >= (uint32_t)m->n_vertices)

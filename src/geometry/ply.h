@@ -1,8 +1,9 @@
 /* ply.h: triangle meshes from PLY files (ascii, binary little and big endian).
  *
  * Vertex: x y z [nx ny nz] [u v | s t | texture_u texture_v | texture_s texture_t], any scalar type. Faces:
- * a list property vertex_indices (or vertex_index) of any integer types; polygons are cut into fans. Other
- * properties and elements are read over. Normals and texture coordinates that are not finite become 0.
+ * a list property vertex_indices (or vertex_index) of any integer types; polygons are cut into fans, and those of
+ * fewer than 3 corners left out. Other properties and elements are read over. Normals and texture coordinates that
+ * are not finite become 0.
  *
  * Tests: test_ply.c.
  */
@@ -14,7 +15,7 @@
 
 /* ply_read: read a mesh. Returns false with a message "PATH: ..." (line for the header and ascii files) on a
  * missing, truncated or malformed file, an index out of range, a non-finite position, or counts the file is
- * too short to hold, and when there are no faces or one of fewer than 3 corners; *out is then empty. */
+ * too short to hold, and when there are no faces; *out is then empty. */
 bool ply_read(const char *path, struct mesh *out, struct error *err);
 
 #endif

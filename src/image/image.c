@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/bits.h"
+#include "base/os.h"
 #include "image/formats.h"
 
 struct format {
@@ -96,15 +97,26 @@ bool image_create(const char *path, struct file_output *out, struct error *err)
 {
     if (!image_writable(path))
         return error_set(err, "%s: pictures are written as " IMAGE_WRITTEN "; end the name in one of these", path);
-    return file_create(path, out, err);
+    if (!file_create(path, out, err))
+        return false;
+    if (!os_terminal(out->stream))
+        return true;
+    file_abandon(out);
+    return error_set(err, "%s: a picture is nothing for a terminal; send it into a file or another program", path);
+}
+
+bool image_fits(const char *path, int width, int height, struct error *err)
+{
+    int most = format_to_write(path)->most;
+    return most == 0 || (width <= most && height <= most) ||
+           error_set(err, "%s: %d x %d pixels do not fit in such a file", path, width, height);
 }
 
 bool image_finish(struct file_output *f, struct placement at, int width, int height, const float *pixels,
                   struct error *err)
 {
     const struct format *format = format_to_write(f->path);
-    if (format->most > 0 && (width > format->most || height > format->most)) {
-        error_set(err, "%s: %d x %d pixels do not fit in such a file", f->path, width, height);
+    if (!image_fits(f->path, width, height, err)) {
         file_abandon(f);
         return false;
     }

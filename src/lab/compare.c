@@ -12,7 +12,7 @@
 
 struct difference compare_pixels(const float *x, const float *r, long n)
 {
-    struct difference d = {HUGE_VAL, HUGE_VAL, HUGE_VAL, 1, 0, -HUGE_VAL};
+    struct difference d = {HUGE_VAL, HUGE_VAL, HUGE_VAL, NAN, 0, -HUGE_VAL};
     double sum_x = 0, sum_r = 0, square = 0, square8 = 0, relative = 0;
     for (long i = 0; i < n; i++) {
         double a = (double)x[i], b = (double)r[i];
@@ -33,9 +33,8 @@ struct difference compare_pixels(const float *x, const float *r, long n)
         d.rmse8 = sqrt(square8 / count);
         d.psnr = d.rmse8 > 0 ? 20 * m_log10(255 / d.rmse8) : HUGE_VAL;
         d.relmse = relative / count;
+        d.mean_ratio = sum_r != 0 || sum_x != 0 ? sum_x / sum_r : 1;
     }
-    if (sum_r != 0 || sum_x != 0)
-        d.mean_ratio = sum_x / sum_r;
     return d;
 }
 

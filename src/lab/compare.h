@@ -11,7 +11,7 @@
 #include "image/picture.h"
 
 /* Errors over all pixels and channels. Pairs with a NaN or infinity are counted and left out; errors are infinite where
- * no pair is left, and psnr is -infinity. */
+ * no pair is left, psnr is -infinity and mean_ratio NaN. */
 struct difference {
     double rmse;       /* root of the mean of (x - r)^2, linear */
     double rmse8;      /* the same on 8-bit sRGB values, 0..255: the scale of the dissertation's tables */

@@ -89,6 +89,10 @@ static bool load_scene(struct show *s)
     s->height = r->height * d->scale;
     if (!plan_scene_read(d->scene, s->width, s->height, (int)r->max_depth, &s->scene, &s->max_depth, s->err))
         return false;
+    if (!reference_is_of(r, &s->scene, d->reference != NULL, s->err)) {
+        scene_free(&s->scene);
+        return false;
+    }
     settings_clear(&s->scene.settings); /* defaults: what a user gets */
     return true;
 }

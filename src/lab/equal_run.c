@@ -153,7 +153,7 @@ bool equal_run(struct equal_time *out, struct error *err)
 {
     const struct plan *p = out->plan;
     struct progress bar;
-    bool ok = file_make_directory(p->directory, err);
+    bool ok = plan_names_differ(p, err) && file_make_directory(p->directory, err);
     out->scene = mem_alloc((size_t)p->n_scenes, sizeof *out->scene);
     progress_start(&bar, p->quiet);
     for (out->n_scenes = 0; ok && out->n_scenes < p->n_scenes;) {

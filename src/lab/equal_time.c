@@ -28,6 +28,11 @@ void equal_free(struct equal_time *e)
 
 bool equal_met(double seconds, double target) { return fabs(seconds / target - 1) <= EQUAL_PERCENT / 100.0; }
 
+bool equal_comparable(double seconds, double target)
+{
+    return fabs(seconds / target - 1) <= EQUAL_FARTHEST / 100.0;
+}
+
 long equal_seed(int variant, int i) { return SEED_BASE + 100L * variant + i; }
 
 double equal_growth(long spp0, double seconds0, long spp1, double seconds1)
@@ -47,7 +52,7 @@ double equal_square(const struct equal_render *r, double noise8, enum equal_erro
 {
     double noise = isfinite(noise8) ? noise8 : 0;
     double square = which == EQUAL_RMSE8 ? r->rmse8 * r->rmse8 - noise * noise : r->relmse;
-    return square * m_pow(r->seconds / r->target, r->growth);
+    return equal_comparable(r->seconds, r->target) ? square * m_pow(r->seconds / r->target, r->growth) : NAN;
 }
 
 struct interval equal_ratio(const struct equal_time *e, const struct equal_scene *s, int variant,
@@ -166,18 +171,22 @@ static void add_summaries(struct table *t, const struct equal_time *e)
 static void write_times(FILE *f, const struct equal_time *e)
 {
     for (int v = 0; v < N_EQUAL; v++) {
-        int near = 0, n = 0;
+        int near = 0, far = 0, n = 0;
         long nonfinite = 0;
         double farthest = 0;
         for (const struct equal_scene *s = e->scene; s < e->scene + e->n_scenes; s++)
             for (const struct equal_render *r = s->render[v]; r < s->render[v] + e->plan->n_seeds; r++, n++) {
                 double off = r->seconds / r->target - 1;
                 near += equal_met(r->seconds, r->target);
+                far += !equal_comparable(r->seconds, r->target);
                 farthest = fabs(off) > fabs(farthest) ? off : farthest;
                 nonfinite += r->nonfinite;
             }
         fprintf(f, "- %s: %d of %d renders took the given time within %d %%; the farthest was off by %+.1f %%.",
                 EQUAL_VARIANTS[v].label, near, n, EQUAL_PERCENT, 100 * farthest);
+        if (far > 0)
+            fprintf(f, " %d %s off by more than %d %%: too far to be accounted for, so the scene has no ratio.", far,
+                    far == 1 ? "was" : "were", EQUAL_FARTHEST);
         if (nonfinite > 0)
             fprintf(f, " %ld values were no numbers and are left out.", nonfinite);
         fputs("\n", f);

@@ -45,11 +45,13 @@ struct equal_time {
     int n_scenes;              /* done so far */
 };
 
-/* The first guess at the samples is made by the time that so few take; a time so near to the given one is met. */
-enum { EQUAL_CALIBRATION = 4, EQUAL_PERCENT = 3 };
+/* The first guess at the samples is made by the time that so few take; a time so near to the given one is met. One
+ * farther off than EQUAL_FARTHEST per cent is not accounted for: the law holds nearby. */
+enum { EQUAL_CALIBRATION = 4, EQUAL_PERCENT = 3, EQUAL_FARTHEST = 25 };
 
-/* equal_met: is the time as good as the one given? */
+/* equal_met: is the time as good as the one given? equal_comparable: is it near enough to be accounted for? */
 bool equal_met(double seconds, double target);
+bool equal_comparable(double seconds, double target);
 
 /* equal_seed: of repetition i = 1, 2, ... of a variant: those of no other experiment, and of no other variant. */
 long equal_seed(int variant, int i);
@@ -65,7 +67,7 @@ long equal_samples(long spp, double seconds, double growth, double target);
 enum equal_error { EQUAL_RMSE8, EQUAL_RELMSE, N_EQUAL_ERRORS };
 
 /* equal_square: the squared error of a render at T: rmse8^2 - noise8^2, the reference's own error being no fault of
- * the render; relmse as it is. */
+ * the render; relmse as it is. NaN if the time is not comparable. */
 double equal_square(const struct equal_render *r, double noise8, enum equal_error which);
 
 /* equal_ratio: mean over seeds of a variant's squared error over that of bdpt, with the interval of results_ratio. */

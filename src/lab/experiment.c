@@ -65,7 +65,6 @@ static struct render_options options_of(struct scene_experiment *s, int variant,
 static void begin_film(const struct scene_experiment *s, struct film *film)
 {
     film_init(film, render_crop(&s->scene), s->scene.width, s->scene.height);
-    film_keep_errors(film);
 }
 
 static float *new_pixels(const struct scene_results *r)
@@ -141,7 +140,7 @@ static void measure(const struct scene_experiment *s, const struct film *film, l
     film_develop(film, s->scene.film_scale, pixels);
     struct difference d = compare_pixels(pixels, s->out->reference.pixels, (long)s->out->width * s->out->height * 3);
     struct run_step step = {spp,
-                            {seconds, d.rmse, d.rmse8, d.relmse, d.mean_ratio - 1, picture_mean_error(film)},
+                            {seconds, d.rmse, d.rmse8, d.relmse, d.mean_ratio - 1},
                             d.nonfinite + film->nonfinite};
     *out = step;
 }
@@ -311,19 +310,14 @@ static bool measure_scene(struct experiment *e, int number)
 
 /* --- the whole --------------------------------------------------------------------------------------- */
 
-static bool name_scenes(const struct plan *p, struct results *r, struct error *err)
+static void name_scenes(const struct plan *p, struct results *r)
 {
     for (int i = 0; i < p->n_scenes; i++) {
         struct scene_results *s = &r->scene[i];
         s->plan = p;
         s->path = p->scene[i];
         plan_scene_name(s->path, s->name, sizeof s->name);
-        for (int k = 0; k < i; k++)
-            if (strcmp(s->name, r->scene[k].name) == 0)
-                return error_set(err, "%s and %s have the same name, %s; experiment with them one at a time", s->path,
-                                 r->scene[k].path, s->name);
     }
-    return true;
 }
 
 bool experiment_run(const struct plan *plan, struct results *out, struct error *err)
@@ -331,7 +325,8 @@ bool experiment_run(const struct plan *plan, struct results *out, struct error *
     struct experiment e = {.plan = plan, .results = out, .err = err};
     out->plan = plan;
     out->scene = mem_alloc((size_t)plan->n_scenes, sizeof *out->scene);
-    if (!name_scenes(plan, out, err) || !make_directories(plan, err))
+    name_scenes(plan, out);
+    if (!plan_names_differ(plan, err) || !make_directories(plan, err))
         return false;
     for (int v = 0; v < N_VARIANTS; v++)
         e.total += (double)(plan_seeds(plan, v) * plan_run_spp(plan, v));

@@ -96,15 +96,15 @@ static void add_convergence(const struct scene_results *s, struct findings *f)
 
 static void add_biases(const struct scene_results *s, struct findings *f)
 {
-    char own[32] = "an unknown part";
+    char own[32] = "not known";
     if (isfinite(s->reference.mean_error))
         snprintf(own, sizeof own, "%.2g %%", 100 * s->reference.mean_error);
     for (int v = 0; v < N_COMPARED; v++) {
         struct bias b = results_bias(s, v, plan_last_step(s->plan));
         if (isfinite(b.p))
             add_finding(f,
-                        "The mean of %s is off by %+.3f %% with a standard error of %.2g %% (of which the reference "
-                        "%s), p = %.2g: %s.",
+                        "The mean of %s is off by %+.3f %% with a standard error over seeds of %.2g %% (that of the "
+                        "reference: %s), p = %.2g: %s.",
                         VARIANTS[v].label, 100 * b.mean, 100 * b.error, own, b.p,
                         b.p < 0.01 ? "a bias" : "no bias seen");
     }

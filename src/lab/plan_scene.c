@@ -44,23 +44,58 @@ bool plan_scene_read(const char *path, int width, int height, int max_depth, str
     return true;
 }
 
-bool plan_scene_load(const struct plan *p, const char *path, const char *name, struct scene *scene, int *depth,
-                     struct reference *stored, struct error *err)
+/* At the plan's size and depth, or what it leaves open at the stored reference's. */
+static bool read_planned(const struct plan *p, const char *path, const struct reference *stored, struct scene *scene,
+                         int *depth, struct error *err)
 {
-    int width = p->width > 0 ? p->width : WIDTH_WITHOUT_REFERENCE, height = p->height, max_depth = p->max_depth;
-    if (!reference_find(p->reference, path, name, stored, err))
-        return false;
-    if (p->width == 0 && stored->pixels != NULL) {
+    int width = p->width, height = p->height, max_depth = p->max_depth;
+    if (width == 0 && stored->pixels != NULL) {
         width = stored->width;
         height = stored->height;
         max_depth = max_depth > 0 ? max_depth : (int)stored->max_depth;
     }
-    bool ok = plan_scene_read(path, width, height, max_depth, scene, depth, err);
-    if (!ok || stored->pixels == NULL || reference_fit(stored, scene->width, scene->height, *depth, err))
-        return ok;
-    reference_free(stored);
-    if (p->reference == NULL)
+    return plan_scene_read(path, width > 0 ? width : WIDTH_WITHOUT_REFERENCE, height, max_depth, scene, depth, err);
+}
+
+static void warn(const struct plan *p, const struct scene *scene, const char *path, const char *why)
+{
+    if (!p->quiet)
+        fprintf(stderr, "asbdpt: warning: %s: %s: measured at %dx%d pixels (see --res) against a picture rendered "
+                        "here\n", path, why, scene->width, scene->height);
+}
+
+bool plan_scene_load(const struct plan *p, const char *path, const char *name, struct scene *scene, int *depth,
+                     struct reference *stored, struct error *err)
+{
+    struct error why = {"there is no stored reference"};
+    bool given = p->reference != NULL;
+    if (!reference_find(p->reference, path, name, stored, err) || !read_planned(p, path, stored, scene, depth, err))
+        return false;
+    bool found = stored->pixels != NULL, same = found && reference_is_of(stored, scene, given, &why);
+    if (same && reference_fit(stored, scene->width, scene->height, *depth, &why))
         return true;
-    scene_free(scene);
-    return false;
+    reference_free(stored);
+    if (given || (found && !same))
+        scene_free(scene);
+    if (given)
+        return error_set(err, "%s", why.text);
+    if (found && !same && !read_planned(p, path, stored, scene, depth, err)) /* not at the size of another's */
+        return false;
+    warn(p, scene, path, why.text);
+    return true;
+}
+
+bool plan_names_differ(const struct plan *p, struct error *err)
+{
+    char name[256], other[256];
+    for (int i = 0; i < p->n_scenes; i++) {
+        plan_scene_name(p->scene[i], name, sizeof name);
+        for (int k = 0; k < i; k++) {
+            plan_scene_name(p->scene[k], other, sizeof other);
+            if (strcmp(name, other) == 0)
+                return error_set(err, "%s and %s have the same name, %s; experiment with them one at a time",
+                                 p->scene[i], p->scene[k], name);
+        }
+    }
+    return true;
 }

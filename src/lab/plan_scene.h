@@ -21,11 +21,16 @@ bool plan_scene_read(const char *path, int width, int height, int max_depth, str
                      struct error *err);
 
 /* plan_scene_load: the same at the plan's size and depth, with its stored reference. Where the plan leaves the width
- * open, size and depth are the reference's; without one it is WIDTH_WITHOUT_REFERENCE wide.
+ * open, size and depth are the reference's; without one it is WIDTH_WITHOUT_REFERENCE wide, with a warning. What is
+ * found beside the scene is taken only if it says that it is of this scene, size and depth.
  *   name    what the reference is called
  *   stored  out, to be given to reference_free; its pixels are NULL where there is none, or none that fits
  * Returns false with a message, also when a reference was given that cannot be used; then the scene is not to be
  * released. */
+/* plan_names_differ: no two scenes of the plan have the same name, under which their results are kept. False with a
+ * message. */
+bool plan_names_differ(const struct plan *p, struct error *err);
+
 enum { WIDTH_WITHOUT_REFERENCE = 48 };
 bool plan_scene_load(const struct plan *p, const char *path, const char *name, struct scene *scene, int *depth,
                      struct reference *stored, struct error *err);

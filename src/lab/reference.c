@@ -1,6 +1,7 @@
 /* reference.c: see reference.h. */
 #include "lab/reference.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,7 +26,8 @@ void reference_free(struct reference *r)
 
 struct reference_text {
     char key[512];
-    long max_depth; /* 0: not said */
+    long max_depth;   /* 0: not said */
+    uint64_t content; /* 0: not said */
     double noise8, mean_error;
     char origin[1200];
 };
@@ -33,6 +35,7 @@ struct reference_text {
 static void read_line(char *line, struct reference_text *s)
 {
     sscanf(line, "maxdepth %ld", &s->max_depth);
+    sscanf(line, "content %" SCNx64, &s->content);
     sscanf(line, "noise8 %lf", &s->noise8);
     sscanf(line, "mean_error %lf", &s->mean_error);
     if (strncmp(line, "key ", 4) == 0)
@@ -69,6 +72,7 @@ static bool load(const char *path, struct reference *out, struct reference_text 
         return false;
     read_text(path, text);
     out->max_depth = text->max_depth;
+    out->content = text->content;
     out->noise8 = text->noise8;
     out->mean_error = text->mean_error;
     snprintf(out->origin, sizeof out->origin, "stored picture %.1000s of %dx%d pixels", path, out->width, out->height);
@@ -95,14 +99,22 @@ bool reference_fit(struct reference *r, int width, int height, int max_depth, st
     return true;
 }
 
-enum { N_PLACES = 3 };
+bool reference_is_of(const struct reference *r, const struct scene *scene, bool given, struct error *err)
+{
+    if (r->content == scene->content || (given && r->content == 0))
+        return true;
+    const char *why = r->content == 0 ? "does not say what scene it is of" : "is of another scene";
+    return error_set(err, "%s %s", r->origin, why);
+}
 
-/* Where a reference may be without being given: beside the scene, one directory up, in the current one. */
+enum { N_PLACES = 2 };
+
+/* Where a reference may be without being given: beside the scene, or one directory up. */
 static void place_path(int i, const char *scene_path, const char *name, char path[PATH_SIZE])
 {
-    static const char *const places[N_PLACES] = {"ref", "../ref", "ref"};
+    static const char *const places[N_PLACES] = {"ref", "../ref"};
     const char *slash = os_last_separator(scene_path);
-    int n = slash != NULL && i < N_PLACES - 1 ? (int)(slash - scene_path) + 1 : 0;
+    int n = slash != NULL ? (int)(slash - scene_path) + 1 : 0;
     snprintf(path, PATH_SIZE, "%.*s%s/%s.pfm", n, scene_path, places[i], name);
 }
 
@@ -145,7 +157,9 @@ static bool half_progress(void *context, double done)
     return h->options->progress == NULL || h->options->progress(h->options->progress_context, 0.5 * (h->number + done));
 }
 
-double picture_mean_error(const struct film *film)
+/* Relative standard error of the mean of a film's picture, were its pixels independent; too large rather than too
+ * small, as samples are spread evenly. NaN for a black one. */
+static double picture_mean_error(const struct film *film)
 {
     size_t n = (size_t)rect_width(film->rect) * (size_t)rect_height(film->rect) * 3;
     float *error = mem_alloc(n, sizeof *error);

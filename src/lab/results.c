@@ -10,8 +10,7 @@
 #include "base/os.h"
 #include "base/stats.h"
 
-enum { N_AVERAGED = Q_MEAN_NOISE /* the quantities that results.csv has */ };
-static const char *const NAMES[N_QUANTITIES] = {"seconds", "rmse", "rmse8", "relmse", "mean_error", "mean_noise"};
+static const char *const NAMES[N_QUANTITIES] = {"seconds", "rmse", "rmse8", "relmse", "mean_error"};
 
 void results_free(struct results *r)
 {
@@ -104,14 +103,14 @@ static void write_interval(FILE *f, struct interval i)
 void results_csv(FILE *f, const struct results *r)
 {
     fputs("scene,variant,spp,seeds", f);
-    for (int q = 0; q < N_AVERAGED; q++)
+    for (int q = 0; q < N_QUANTITIES; q++)
         fprintf(f, ",%s,%s_error", NAMES[q], NAMES[q]);
     fputs(",rmse8_ratio,rmse8_ratio_low,rmse8_ratio_high,equal_time_mse,equal_time_mse_low,equal_time_mse_high\n", f);
     for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++)
         for (int v = 0; v < N_VARIANTS; v++)
             for (int step = 0; step < r->plan->n_steps && plan_seeds(r->plan, v) > 0; step++) {
                 fprintf(f, "%s,%s,%ld,%d", s->name, VARIANTS[v].name, r->plan->spp[step], plan_seeds(r->plan, v));
-                for (int q = 0; q < N_AVERAGED; q++) {
+                for (int q = 0; q < N_QUANTITIES; q++) {
                     struct estimate e = results_mean(s, v, step, (enum quantity)q);
                     write_number(f, e.mean, 9, "");
                     write_number(f, e.error, 9, "");
@@ -226,16 +225,12 @@ struct interval results_equal_time(const struct scene_results *s, int variant, i
 struct bias results_bias(const struct scene_results *s, int variant, int step)
 {
     struct estimate e = results_mean(s, variant, step, Q_MEAN_ERROR);
-    struct bias out = {e.mean, NAN, NAN};
-    double pixels = 0;
-    for (int i = 0; i < e.n; i++)
-        pixels += sqr(s->run[variant][i].step[step].value[Q_MEAN_NOISE] / e.n);
-    double variance = fmax(sqr(e.error), isfinite(pixels) ? pixels : 0);
-    double total = variance + (isfinite(s->reference.mean_error) ? sqr(s->reference.mean_error) : 0);
-    if (e.n < 2 || !(variance > 0))
+    struct bias out = {e.mean, e.error, NAN};
+    double variance = sqr(e.error), reference = isfinite(s->reference.mean_error) ? sqr(s->reference.mean_error) : 0;
+    if (!(variance > 0))
         return out;
-    out.error = sqrt(total);
     /* Welch's degrees of freedom; the reference's error is known from thousands of pixels. */
-    out.p = stats_student_p(out.mean / out.error, sqr(total) / (sqr(variance) / (e.n - 1)));
+    double total = variance + reference;
+    out.p = stats_student_p(out.mean / sqrt(total), sqr(total) / (sqr(variance) / (e.n - 1)));
     return out;
 }

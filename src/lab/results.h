@@ -24,7 +24,6 @@ enum quantity {
     Q_RMSE8,      /* 8-bit sRGB */
     Q_RELMSE,     /* relative squared error */
     Q_MEAN_ERROR, /* mean of image over mean of reference, less 1 */
-    Q_MEAN_NOISE, /* its standard error, were pixels independent; NaN if unknown; of one run, not to be averaged */
     N_QUANTITIES
 };
 
@@ -92,9 +91,9 @@ struct interval results_ratio(const double *a, int na, const double *b, int nb);
 struct interval results_rmse_ratio(const struct scene_results *s, int variant, int step);
 struct interval results_equal_time(const struct scene_results *s, int variant, int step);
 
-/* results_bias: the signed mean error with its whole standard error, and the p-value of "it is 0" by Student's t.
- * The variant's share of the standard error is the larger of two: that over seeds, which are few, and that from the
- * variances of pixels, which takes them as independent. The reference's share is added. NaN for one seed. */
+/* results_bias: the signed mean error with its standard error over seeds, as results_mean has them, and the p-value of
+ * "it is 0" by Student's t, the error of the reference's mean added. (The variances of pixels over samples are no
+ * estimate of it: samples that are spread evenly err together several times less.) NaN for one seed. */
 struct bias {
     double mean, error, p;
 };

@@ -1,6 +1,7 @@
 /* sides.c: see sides.h. */
 #include "lab/sides.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -172,8 +173,9 @@ static bool write_text(const char *name, const struct side *a, const struct side
     snprintf(path, sizeof path, "%s.txt", name);
     if (!file_create(path, &f, err))
         return false;
-    fprintf(f.stream, "origin %s\nscene %s\nresolution %dx%d\nmaxdepth %d\nnoise8 %.6g\nmean %.9g\nmean_error %.6g\n",
-            from->note, from->scene_path, a->width, a->height, from->max_depth, noise8, mean,
+    fprintf(f.stream, "origin %s\nscene %s\ncontent %016" PRIx64 "\nresolution %dx%d\nmaxdepth %d\n", from->note,
+            from->scene_path, from->content, a->width, a->height, from->max_depth);
+    fprintf(f.stream, "noise8 %.6g\nmean %.9g\nmean_error %.6g\n", noise8, mean,
             mean > 0 ? sqrt(sqr(weight * error_a) + sqr((1 - weight) * error_b)) / mean : NAN);
     fprintf(f.stream, "weights %.6f %.6f of the two methods, by the inverse of the sum of all pixels' variances\n",
             weight, 1 - weight);

@@ -46,6 +46,7 @@ int side_choose_tile(const struct side *s);
 /* What is told of a stored reference beside its pixels. */
 struct provenance {
     const char *note, *scene_path;
+    uint64_t content; /* of the scene's files */
     int max_depth;
     const struct verdict *verdict;
 };

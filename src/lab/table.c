@@ -85,6 +85,13 @@ void table_html(FILE *f, const struct table *t)
     fputs("</tbody></table></div></figure>\n", f);
 }
 
+/* A bar or a backslash of the text is no end of the cell. */
+static void markdown_text(FILE *f, const char *text)
+{
+    for (; *text != '\0'; text++)
+        fprintf(f, *text == '|' || *text == '\\' ? "\\%c" : "%c", *text);
+}
+
 void table_markdown(FILE *f, const struct table *t)
 {
     fprintf(f, "%s\n\n|", t->caption);
@@ -95,7 +102,9 @@ void table_markdown(FILE *f, const struct table *t)
         fputs(c == 0 ? "---|" : "---:|", f);
     for (size_t i = 0; i < t->n_cells; i++) {
         const char *text = t->cell[i].text;
-        fprintf(f, "%s%s%s |", i % t->columns == 0 ? "\n|" : "", text[0] != '\0' ? " " : "", text);
+        fprintf(f, "%s%s", i % t->columns == 0 ? "\n|" : "", text[0] != '\0' ? " " : "");
+        markdown_text(f, text);
+        fputs(" |", f);
     }
     fputs("\n\n", f);
 }

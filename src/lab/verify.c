@@ -112,13 +112,13 @@ double batches_mean(const struct batches *b, double *error)
 /* --- all of them ------------------------------------------------------------------------------------- */
 
 /* p-values of all n hypotheses; those between two exact, equal values say nothing and are left out. Returns how many
- * were written; where[j] (may be NULL) is the index of the j-th. */
+ * were written; where[j] (may be NULL) is the index of the j-th. What is not finite equals nothing. */
 static long all_p(const struct batches *a, const struct batches *b, double *p, long *where)
 {
     long n = 0;
     for (long i = 0; i < a->n; i++) {
         struct moments x = batches_moments(a, i), y = batches_moments(b, i);
-        if (x.variance + y.variance == 0 && x.mean == y.mean)
+        if (x.variance + y.variance == 0 && x.mean - y.mean == 0)
             continue;
         if (where != NULL)
             where[n] = i;
@@ -176,26 +176,43 @@ static double uniform_p(const struct batches *a, const struct batches *b, double
     return stats_kolmogorov_p(quantile * distance / found[RESAMPLINGS * 9 / 10]);
 }
 
+/* Of n p-values the smallest, corrected for their number, and its place; `none` if there are none. */
+static double smallest_p(const double *p, long n, double none, const long *where, long *place)
+{
+    double smallest = 1;
+    for (long i = 0; i < n && !isnan(smallest); i++)
+        if (!(p[i] >= smallest)) {
+            smallest = p[i];
+            *place = where[i];
+        }
+    return n > 0 ? stats_sidak(smallest, (double)n) : none;
+}
+
+double batches_smallest_p(const struct batches *a, const struct batches *b)
+{
+    long place = 0, *where = mem_alloc((size_t)a->n, sizeof *where);
+    double *p = mem_alloc((size_t)a->n, sizeof *p);
+    double smallest = smallest_p(p, all_p(a, b, p, where), NAN, where, &place);
+    free(p);
+    free(where);
+    return smallest;
+}
+
 struct verdict verify_batches(const struct batches *a, const struct batches *b, uint64_t seed)
 {
-    struct verdict v = {.smallest = 1};
+    struct verdict v = {0};
     double *p = mem_alloc((size_t)a->n, sizeof *p);
     long *where = mem_alloc((size_t)a->n, sizeof *where);
     v.n = all_p(a, b, p, where);
-    for (long i = 0; i < v.n; i++) {
+    v.smallest = smallest_p(p, v.n, a->n > 0 ? 1 : NAN, where, &v.where);
+    for (long i = 0; i < v.n; i++)
         v.bar[int_within(p[i] * VERIFY_BARS, 0, VERIFY_BARS - 1)]++;
-        if (p[i] < v.smallest) {
-            v.smallest = p[i];
-            v.where = where[i];
-        }
-    }
-    v.smallest = v.n > 0 ? stats_sidak(v.smallest, (double)v.n) : 1;
     v.uniform = v.n > 0 ? uniform_p(a, b, stats_ks_distance(p, (size_t)v.n), seed) : 1;
     struct moments x = total_moments(a), y = total_moments(b);
     v.mean = welch(x, y);
     v.ratio = x.mean / y.mean;
     v.ratio_error = fabs(v.ratio) * sqrt(x.variance / (x.n * x.mean * x.mean) + y.variance / (y.n * y.mean * y.mean));
-    v.p = stats_sidak(fmin(v.smallest, fmin(v.mean, v.uniform)), 3);
+    v.p = stats_sidak(least_of(v.smallest, least_of(v.mean, v.uniform)), 3);
     free(p);
     free(where);
     return v;

@@ -48,6 +48,11 @@ struct moments batches_moments(const struct batches *b, long i);
 /* batches_mean: mean over all values, with its standard error (may be NULL). */
 double batches_mean(const struct batches *b, double *error);
 
+/* batches_smallest_p: p-value of "all expectations are equal": the smallest of Welch's tests of all values, corrected
+ * by Sidak's formula for their number; those of two exact, equal values say nothing. NaN if none says anything, or if
+ * a value is NaN. */
+double batches_smallest_p(const struct batches *a, const struct batches *b);
+
 enum { VERIFY_BARS = 10 };
 
 struct verdict {
@@ -59,7 +64,8 @@ struct verdict {
     long bar[VERIFY_BARS];          /* how many p-values fall into each tenth of [0,1] */
 };
 
-/* verify_batches: a and b have the same n; the seed is that of the random signs. */
+/* verify_batches: a and b have the same n; the seed is that of the random signs. All p-values are 1 where everything is
+ * exact and equal, and p is NaN where a value is or where there are none: what agrees has p >= a level. */
 struct verdict verify_batches(const struct batches *a, const struct batches *b, uint64_t seed);
 
 #endif

@@ -28,7 +28,7 @@ static void skip_blanks(struct lexer *l)
             l->line++;
             l->line_start = p + 1;
         } else if (*p == '#') {
-            while (p[1] != '\n' && p + 1 < l->file->end)
+            while (p[1] != '\n' && p[1] != '\r' && p + 1 < l->file->end)
                 p++;
         } else if (*p != ' ' && *p != '\t' && *p != '\r') {
             break;

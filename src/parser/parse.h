@@ -129,6 +129,7 @@ struct parser {
     struct symbols objects;    /* -> object[] */
     struct shape_list *object; /* [objects.n], owned */
     size_t object_capacity;
+    struct source_position lamp; /* the first see-through lamp; no file: none */
     int current_object; /* between ObjectBegin and ObjectEnd, else -1 */
     uint64_t copied_bytes; /* of all instances */
     int n_subdivided;      /* triangles of all subdivision surfaces, at most SUBDIVIDE_MAX_TRIANGLES */
@@ -217,6 +218,10 @@ int parse_named(struct parser *p, struct token *name, const struct symbols *tabl
 /* parse_placed: can anything stand where the current transform puts it? False with a message if not. */
 bool parse_placed(struct parser *p);
 
+/* parse_sees_media: is it an integrator of pbrt-v3 that sees media, or none of its, which may not be less exact? NULL is
+ * its default. */
+bool parse_sees_media(const char *integrator);
+
 /* parse_media: false with a message if one of the current media is to be seen, which is not supported: on one side of
  * a shape, or (only_outside) where a camera or a light is. */
 bool parse_media(struct parser *p, struct source_position at, const char *what, bool only_outside);
@@ -250,6 +255,9 @@ bool parse_make_material(struct parser *p, int *out);
 /* parse_changed_material: the number of the current material, or of one that differs from it by those parameters of the
  * shape in p->params that nobody has asked for. */
 int parse_changed_material(struct parser *p);
+
+/* parse_warn_of_lamps: at the end of the world, of what see-through lamps may hide that pbrt-v3 shows. */
+void parse_warn_of_lamps(struct parser *p);
 
 /* parse_place_shape: put a shape into the object that is open, else into the scene. Takes over its mesh. */
 bool parse_place_shape(struct parser *p, struct shape_item *item);

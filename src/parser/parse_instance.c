@@ -15,6 +15,32 @@ static void add_lights(struct scene *s, int group, int n, const struct area_ligh
     }
 }
 
+/* Does the picture depend on which side of its surface is outside? */
+static bool knows_sides(const struct scene *s, const struct shape_item *item)
+{
+    int m = item->group.material;
+    return (item->area.on && !item->area.two_sided) || (m >= 0 && s->material[m].kind == MATERIAL_GLASS);
+}
+
+/* The material whose frame counts has a bump map. */
+static bool is_bumped(const struct scene *s, int m)
+{
+    while (m >= 0 && s->material[m].kind == MATERIAL_MIX)
+        m = s->material[m].mix1;
+    return m >= 0 && s->material[m].bump >= 0;
+}
+
+/* Say so where pbrt-v3 gives this shape other normals. */
+static void warn_of_normals(struct parser *p, const struct shape_item *item, const struct transform *to_world)
+{
+    if (!item->is_mesh && transform_swaps_handedness(to_world) && knows_sides(p->scene, item))
+        source_warn(&p->messages, item->position, "mirrored quadric",
+                    "pbrt-v3 turns the normals of a mirrored quadric round; here they point outwards");
+    if (item->is_mesh && item->mesh.N != NULL && is_bumped(p->scene, item->group.material))
+        source_warn(&p->messages, item->position, "bump and normals",
+                    "pbrt-v3 inverts and scales bump maps on meshes that have normals; here they are as on other shapes");
+}
+
 /* Add one shape to the scene. A mesh inside the item stays the caller's. */
 static bool add_shape(struct parser *p, const struct shape_item *item, struct transform to_world,
                       struct source_position at)
@@ -24,6 +50,7 @@ static bool add_shape(struct parser *p, const struct shape_item *item, struct tr
     group.first_light = item->area.on ? s->lights.n : -1;
     struct error inner;
     int id, n = 1;
+    warn_of_normals(p, item, &to_world);
     if (item->is_mesh) {
         n = item->mesh.n_triangles;
         id = shape_add_mesh(&s->geo, &item->mesh, &to_world, group, item->reverse, &inner);
@@ -93,15 +120,16 @@ static bool object_end(struct parser *p)
 /* Instances are copies: a few lines could ask for more than any machine has. */
 static const uint64_t MAX_COPIED_BYTES = (uint64_t)1 << 29;
 
-/* What an instance of the object adds to struct geometry: some 32 bytes for a triangle. */
+/* What an instance of the object adds to the scene: some 32 bytes for a triangle, and a light for each that shines. */
 static uint64_t instance_bytes(const struct shape_list *object)
 {
     const uint64_t vertex = 8 * sizeof(float), triangle = 3 * sizeof(uint32_t) + sizeof(int32_t);
     uint64_t sum = (uint64_t)object->n * sizeof(struct shape_group);
     for (int i = 0; i < object->n; i++) {
         const struct mesh *m = &object->item[i].mesh;
-        sum += object->item[i].is_mesh ? (uint64_t)m->n_vertices * vertex + (uint64_t)m->n_triangles * triangle
-                                       : sizeof(struct quadric);
+        uint64_t n = object->item[i].is_mesh ? (uint64_t)m->n_triangles : 1;
+        sum += object->item[i].is_mesh ? (uint64_t)m->n_vertices * vertex + n * triangle : sizeof(struct quadric);
+        sum += object->item[i].area.on ? n * sizeof(struct light) : 0;
     }
     return sum;
 }

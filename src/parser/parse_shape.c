@@ -27,7 +27,7 @@ static float *floats(const double *number, int n)
     return out;
 }
 
-/* Data per vertex beside P: where there is not as much of it as of P, pbrt-v3 goes on without it. */
+/* Data per vertex beside P: where there is less of it than of P, or of N more, pbrt-v3 goes on without it. */
 static float *vertex_data(struct params *q, const char *name, unsigned types, int width, int n_vertices)
 {
     int n;
@@ -35,12 +35,11 @@ static float *vertex_data(struct params *q, const char *name, unsigned types, in
     const double *number = params_list(q, name, types, width, &n, &item);
     if (number == NULL)
         return NULL;
-    if (n != n_vertices) {
-        source_warn(q->messages, item->position, NULL,
-                    "\"%s\" has %d entries but \"P\" has %d points; it is passed over", name, n, n_vertices);
-        return NULL;
-    }
-    return floats(number, n * width);
+    bool kept = n == n_vertices || (n > n_vertices && width == 2);
+    if (n != n_vertices)
+        source_warn(q->messages, item->position, NULL, "\"%s\" has %d entries but \"P\" has %d points; %s", name, n,
+                    n_vertices, kept ? "the rest is passed over" : "it is passed over");
+    return kept ? floats(number, n_vertices * width) : NULL;
 }
 
 /* Sets *n_triangles to 0 where an index is wrong. */
@@ -153,6 +152,15 @@ static void heightfield(struct parser *p, void *object)
     }
 }
 
+/* Faces that pbrt-v3 does not draw: here those of many corners are. */
+static void warn_of_faces(struct params *q, struct source_position at, const struct mesh *m)
+{
+    if (m->n_thin > 0)
+        source_warn(q->messages, at, NULL, "%d faces of fewer than 3 corners are left out", m->n_thin);
+    if (m->n_wide > 0)
+        source_warn(q->messages, at, NULL, "%d faces have more than 4 corners; pbrt-v3 leaves them out", m->n_wide);
+}
+
 static void plymesh(struct parser *p, void *object)
 {
     struct params *q = &p->params;
@@ -164,6 +172,8 @@ static void plymesh(struct parser *p, void *object)
         type_error(q, "a plymesh needs its file: add \"string filename\" \"...\"");
     else if (!ply_read(path, m, &inner))
         params_fail(q, at, "%s", inner.text);
+    else
+        warn_of_faces(q, at, m);
     *q->content = hash_combine(*q->content, m->content);
     free(path);
     holes(p, object);
@@ -214,10 +224,10 @@ static void disk(struct parser *p, void *object)
                     s->inner_radius, s->radius);
 }
 
-/* pbrt-v3 has no sampling of the others, so no light can sit on them. Those of objects are ignored anyway. */
+/* pbrt-v3 has no sampling of the others, so no light can sit on them. */
 static struct quadric *unlit_quadric(struct parser *p, void *object)
 {
-    if (p->state.area.on && p->current_object < 0)
+    if (p->state.area.on)
         type_error(&p->params, "a %s cannot be an area light, here as in pbrt-v3; end the AreaLightSource before it",
                    p->params.type);
     return quadric_of(p, object);
@@ -292,23 +302,42 @@ static bool is_flat(const struct shape_item *item)
 /* Say so where pbrt-v3 counts the light of this shape otherwise. */
 static void warn_of_light(struct parser *p, const struct shape_item *item)
 {
+    if (p->current_object >= 0)
+        source_warn(&p->messages, item->position, "light in object",
+                    "pbrt-v3 shows this light of an object, but lights nothing with it; here its copies light the scene");
+    if (item->group.material == MATERIAL_NONE && p->lamp.file == NULL)
+        p->lamp = item->position;
     if (item->group.material == MATERIAL_NONE && item->area.two_sided && !is_flat(item))
         source_warn(&p->messages, item->position, "light through light",
-                    "rays pass this light, so both its sides light the scene; pbrt-v3's \"path\" shows both, but "
-                    "lights with the nearer one alone");
+                    "of the two sides of this lamp without material the nearer one is seen; pbrt-v3's \"path\" shows both");
     if (item->group.alpha >= 0)
         source_warn(&p->messages, item->position, "light from holes",
                     "pbrt-v3 has this light shine from its holes too, where alpha is 0; here it does not");
 }
 
-/* Take its light from a shape that cannot have one. Returns false if nothing of it would be seen. */
+/* Is there a see-through lamp, and another light that may stand behind it? */
+static bool lamp_hides_light(const struct scene *s)
+{
+    int lamps = 0, others = 0;
+    for (int i = 0; i < s->geo.n_groups; i++)
+        lamps += s->geo.group[i].material == MATERIAL_NONE;
+    for (int i = 0; i < s->lights.n; i++)
+        others += s->lights.light[i].kind != LIGHT_AREA ||
+                  shape_group_of(&s->geo, s->lights.light[i].prim)->material != MATERIAL_NONE;
+    return lamps > 1 || (lamps == 1 && others > 0);
+}
+
+void parse_warn_of_lamps(struct parser *p)
+{
+    if (lamp_hides_light(p->scene))
+        source_warn(&p->messages, p->lamp, NULL,
+                    "no light is seen through this lamp without material, nor shines through it; pbrt-v3's \"path\" shows "
+                    "what is behind, and its \"volpath\" and \"bdpt\" let that shine through");
+}
+
+/* Warns of what is left out. Returns false if nothing of the shape would be seen. */
 static bool complete_shape(struct parser *p, struct shape_item *item)
 {
-    if (p->current_object >= 0 && item->area.on) {
-        source_warn(&p->messages, item->position, "light in object",
-                    "area lights inside ObjectBegin are ignored, as in pbrt-v3");
-        item->area.on = false;
-    }
     bool absent = item->absent || (item->is_mesh && item->mesh.n_triangles == 0);
     if (absent && item->area.on)
         source_warn(&p->messages, item->position, "absent light",
@@ -317,6 +346,10 @@ static bool complete_shape(struct parser *p, struct shape_item *item)
         return false;
     if (item->area.on)
         warn_of_light(p, item);
+    else if (item->group.material == MATERIAL_NONE && !parse_sees_media(p->scene->integrator))
+        source_warn(&p->messages, item->position, "no surface",
+                    "a shape without material is left out; in pbrt-v3's \"%s\" it stops the light of lamps",
+                    p->scene->integrator != NULL ? p->scene->integrator : "path");
     return item->group.material != MATERIAL_NONE || item->area.on;
 }
 

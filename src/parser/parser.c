@@ -28,6 +28,7 @@ static bool world_end(struct parser *p)
 {
     p->phase = AFTER_WORLD;
     parse_close_all(p);
+    parse_warn_of_lamps(p);
     return parse_media(p, p->directive.position, "camera", true);
 }
 
@@ -59,8 +60,7 @@ static bool make_named_medium(struct parser *p)
     return true;
 }
 
-/* Which integrators of pbrt-v3 see media; those of others are not its, and may not be less exact. */
-static bool sees_media(const char *integrator)
+bool parse_sees_media(const char *integrator)
 {
     static const char *const BLIND[] = {"path", "directlighting", "whitted", "ambientocclusion", "sppm", NULL};
     for (int i = 0; integrator != NULL && BLIND[i] != NULL; i++)
@@ -75,7 +75,7 @@ bool parse_media(struct parser *p, struct source_position at, const char *what, 
     const char *name = medium[1][0] != '\0' || only_outside ? medium[1] : medium[0];
     if (name[0] == '\0')
         return true;
-    if (sees_media(p->scene->integrator))
+    if (parse_sees_media(p->scene->integrator))
         return source_error(&p->messages, at,
                             "this %s is in or around the medium \"%.60s\", and participating media are not supported; "
                             "remove its MediumInterface", what, name);

@@ -65,7 +65,7 @@ struct part part_describe(const struct scene *scene, const struct render_options
                      .place = {r.x0, r.y0, scene->width, scene->height},
                      .planned = o->planned, .first = o->first, .end = o->end};
     struct lines l = {0};
-    add_line(&l, "version " VERSION);
+    add_line(&l, "version %s, estimator %d", VERSION, ESTIMATOR);
     add_line(&l, "scene %016" PRIx64, scene->content);
     add_line(&l, "integrator %s", o->integrator);
     add_line(&l, "maxdepth %d", o->max_depth);

@@ -3,7 +3,7 @@
  * A file begins with lines of text, each ended by a line feed:
  *
  *     asbdpt part 1                    the format and its version
- *     version asbdpt 0.1               what was rendered, in some ten lines, each a word and what it says:
+ *     version asbdpt 0.1, estimator 1  what was rendered, in some ten lines, each a word and what it says:
  *     ...                              program, scene, integrator and its parameters, seed, samples, film
  *     size W H                         pixels of the film's rectangle
  *     scale X                          by which pixels are multiplied when they are written

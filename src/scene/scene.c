@@ -20,7 +20,7 @@ void scene_init(struct scene *s)
 void scene_free(struct scene *s)
 {
     kd_free(&s->kd);
-    kd_free(&s->kd_lights);
+    kd_free(&s->kd_lamps);
     geometry_free(&s->geo);
     texture_set_free(&s->textures);
     free(s->material);
@@ -72,7 +72,7 @@ void scene_bounds(const struct scene *s, vec3 *lo, vec3 *hi)
     *lo = vec(INFINITY, INFINITY, INFINITY);
     *hi = neg(*lo);
     widen(&s->kd, lo, hi);
-    widen(&s->kd_lights, lo, hi);
+    widen(&s->kd_lamps, lo, hi);
 }
 
 void scene_prepare(struct scene *s)
@@ -85,7 +85,7 @@ void scene_prepare(struct scene *s)
             s->geo.group[i].material < 0 ||
             !material_reads_partials(s->material, s->geo.group[i].material, &s->textures);
     kd_build(&s->kd, &s->geo, false);
-    kd_build(&s->kd_lights, &s->geo, true);
+    kd_build(&s->kd_lamps, &s->geo, true);
     vec3 lo, hi;
     scene_bounds(s, &lo, &hi);
     double radius = length(sub(hi, lo)) / 2;
@@ -104,21 +104,52 @@ bool scene_intersect(const struct scene *s, const struct ray *ray, struct surfac
     return true;
 }
 
-int scene_lights_passed(const struct scene *s, const struct ray *ray, struct arena *arena, struct hit **hits)
+bool scene_lamp(const struct scene *s, const struct ray *ray, const struct surface *end, struct surface *out)
 {
-    return kd_all(&s->kd_lights, &s->geo, ray, arena, hits);
+    struct hit hit;
+    struct ray before = *ray;
+    if (end != NULL)
+        before.tmax = length(sub(end->p, ray->o)) + s->epsilon;
+    if (s->kd_lamps.n_nodes == 0 || !kd_closest(&s->kd_lamps, &s->geo, &before, &hit))
+        return false;
+    shape_surface(&s->geo, &hit, ray, out);
+    return true;
 }
 
-bool scene_visible(const struct scene *s, vec3 a, uint32_t from, vec3 b, uint32_t to)
+bool scene_lamp_stops(const struct scene *s, const struct ray *ray, const struct surface *end)
+{
+    struct ray before = *ray;
+    before.tmax = length(sub(end->p, ray->o)) - s->epsilon;
+    return s->kd_lamps.n_nodes > 0 && kd_occluded(&s->kd_lamps, &s->geo, &before);
+}
+
+/* Is a surface on the ray, or, if the light is `emitted`, a see-through lamp? */
+static bool blocked(const struct scene *s, const struct ray *ray, bool emitted)
+{
+    return kd_occluded(&s->kd, &s->geo, ray) ||
+           (emitted && s->kd_lamps.n_nodes > 0 && kd_occluded(&s->kd_lamps, &s->geo, ray));
+}
+
+static bool segment_free(const struct scene *s, vec3 a, uint32_t from, vec3 b, uint32_t to, bool emitted)
 {
     vec3 d = sub(b, a);
     double distance = length(d);
     struct ray ray = {a, mul(d, 1 / distance), s->epsilon, distance - s->epsilon, from, to};
-    return !(ray.tmin < ray.tmax) || !kd_occluded(&s->kd, &s->geo, &ray);
+    return !(ray.tmin < ray.tmax) || !blocked(s, &ray, emitted);
 }
 
-bool scene_visible_ray(const struct scene *s, vec3 a, uint32_t from, vec3 w)
+bool scene_visible(const struct scene *s, vec3 a, uint32_t from, vec3 b, uint32_t to)
+{
+    return segment_free(s, a, from, b, to, false);
+}
+
+bool scene_lit(const struct scene *s, vec3 a, uint32_t from, vec3 b, uint32_t to)
+{
+    return segment_free(s, a, from, b, to, true);
+}
+
+bool scene_lit_from(const struct scene *s, vec3 a, uint32_t from, vec3 w)
 {
     struct ray ray = {a, w, s->epsilon, INFINITY, from, 0};
-    return !kd_occluded(&s->kd, &s->geo, &ray);
+    return !blocked(s, &ray, true);
 }

@@ -2,6 +2,17 @@
  *
  * Objects refer to each other by index. The parser fills a scene in, scene_prepare makes it ready to render,
  * scene_free releases everything. After scene_prepare a scene is read-only and shared by all threads.
+ *
+ * A see-through lamp is an area light without material. Rays pass it; light obeys one rule:
+ *
+ *     What lights emit does not pass see-through lamps; what surfaces scatter does.
+ *
+ * So of a path only the segment from its light to the first surface, or to the lens, is stopped by such a lamp, from
+ * its dark side as well. That is a property of the path, whichever strategy makes it: scene_lit asks for s = 1,
+ * scene_lamp for eye walks, which collect of each segment the first see-through lamp, in place of any light behind, and
+ * go on, and scene_lamp_stops for light walks, which end at one on their first segment.
+ *
+ * Tests: test_strategies.c, test_scenes.c.
  */
 #ifndef ASBDPT_SCENE_H
 #define ASBDPT_SCENE_H
@@ -19,8 +30,8 @@
 
 struct scene {
     struct geometry geo;
-    struct kdtree kd;        /* of the surfaces that have a material */
-    struct kdtree kd_lights; /* of those that have none: area lights that rays pass through */
+    struct kdtree kd;       /* of the surfaces that have a material */
+    struct kdtree kd_lamps; /* of those that have none: the see-through lamps */
     struct texture_set textures;
     struct material *material; /* [n_materials], owned */
     int n_materials;
@@ -55,22 +66,27 @@ int scene_add_material(struct scene *s, struct material m);
  * the scene stays where it is in memory. */
 void scene_prepare(struct scene *s);
 
-/* scene_bounds: the box of all surfaces of a prepared scene, also of those that rays pass through; the origin if there
- * are none. */
+/* scene_bounds: the box of all surfaces of a prepared scene, see-through lamps among them; the origin if there are
+ * none. */
 void scene_bounds(const struct scene *s, vec3 *lo, vec3 *hi);
 
 /* scene_intersect: first surface along the ray; false if it leaves the scene. */
 bool scene_intersect(const struct scene *s, const struct ray *ray, struct surface *out);
 
-/* scene_lights_passed: where the ray meets area lights without material, which it passes through, the nearest first;
- * *hits is in the arena. Returns how many. */
-int scene_lights_passed(const struct scene *s, const struct ray *ray, struct arena *arena, struct hit **hits);
+/* scene_lamp: first see-through lamp along an eye walk's ray, before the surface at *end (NULL: however far). One that
+ * touches that surface shines before it, as it does for scene_lit, whose segment ends short of the lamp. */
+bool scene_lamp(const struct scene *s, const struct ray *ray, const struct surface *end, struct surface *out);
 
-/* scene_visible: is the open segment between two points free?
+/* scene_lamp_stops: is there a see-through lamp along a light's ray before the surface at *end? One that touches that
+ * surface does not count, as it does not for scene_lit, whose segment begins short of the surface. */
+bool scene_lamp_stops(const struct scene *s, const struct ray *ray, const struct surface *end);
+
+/* scene_visible: does light that is scattered at b reach a: is the open segment between them free of surfaces?
  *   from, to  the triangles a and b are on, see shape_triangle_id; 0: none */
 bool scene_visible(const struct scene *s, vec3 a, uint32_t from, vec3 b, uint32_t to);
 
-/* scene_visible_ray: is the half line from a in unit direction w free? `from` as above. */
-bool scene_visible_ray(const struct scene *s, vec3 a, uint32_t from, vec3 w);
+/* scene_lit: does light that is emitted at b reach a? scene_lit_from: the same from infinity, in unit direction w. */
+bool scene_lit(const struct scene *s, vec3 a, uint32_t from, vec3 b, uint32_t to);
+bool scene_lit_from(const struct scene *s, vec3 a, uint32_t from, vec3 w);
 
 #endif

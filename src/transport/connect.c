@@ -28,6 +28,8 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
     const struct light_set *lights = &scene->lights;
     rgb Le;
     double pdf_emit; /* density of the light sub-path's direction (or origin, at infinity) from here */
+    if (z->lamp != NULL)
+        z = z->lamp;
     if (z->kind == VERTEX_ESCAPED) {
         Le = light_Le_environment(lights, neg(z->wo));
         pdf_emit = 1 / (PI * sqr(lights->radius));
@@ -95,8 +97,8 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
     c.value = rgb_mul(rgb_mul(z->beta, at_z.factor), rgb_scale(Le, at_light / (pmf * at.pdf_cell)));
     if (rgb_is_black(c.value))
         return nothing();
-    if (parallel ? !scene_visible_ray(scene, z->p, z->triangle_id, w)
-                 : !scene_visible(scene, z->p, z->triangle_id, at.p, at.triangle_id))
+    if (parallel ? !scene_lit_from(scene, z->p, z->triangle_id, w)
+                 : !scene_lit(scene, z->p, z->triangle_id, at.p, at.triangle_id))
         return nothing();
 
     struct vertex y;

@@ -26,9 +26,9 @@ struct connection {
     double pdf;      /* connect_direct: of the point, see light.h */
 };
 
-/* connect_hit: z, the last of t >= 2 eye vertices, is on a light: z_{t-1} of an eye sub-path, or one of those `passed`
- * on the way there; prev is z_{t-2}. A light seen directly (t = 2) has weight 1: no other strategy is used for paths of
- * two vertices. */
+/* connect_hit: z, the last of t >= 2 eye vertices, is on a light, or its walk met a see-through lamp on the way there,
+ * which then takes its place; prev is z_{t-2}. A light seen directly (t = 2) has weight 1: no other strategy is used
+ * for paths of two vertices. */
 struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *prev,
                               const struct vertex *z, int t);
 

@@ -44,17 +44,17 @@ static void measure(const struct walk *w, struct vertex *v, const struct vertex 
     v->mis = mis_step(w->counts, from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, at_prev);
 }
 
-/* The ray met nothing: if there are infinite lights, or lights that it passed, the eye sub-path ends on them. Density
+/* The ray met no surface: if there are infinite lights, or a see-through lamp, the eye sub-path ends on them. Density
  * of the direction, and, to go on from there, parallel light through the scene's disk. [PBRT3 16.3.5] */
 static bool escape(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
-                   const struct vertex *passed)
+                   const struct vertex *lamp)
 {
-    if (!w->scene->lights.any_infinite && passed == NULL)
+    if (!w->scene->lights.any_infinite && lamp == NULL)
         return false;
     memset(v, 0, sizeof *v);
     v->kind = VERTEX_ESCAPED;
     v->light = v->cell = -1;
-    v->passed = passed;
+    v->lamp = lamp;
     v->prev_delta = from->delta;
     v->wo = neg(from->ray.d);
     v->beta = from->beta;
@@ -86,28 +86,16 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
     return true;
 }
 
-/* The lights that the ray passes through, up to the surface at *end (NULL: none); see `passed` of struct vertex. A
- * light that touches that surface counts as before it, as it does for s = 1, whose shadow ray ends short of it. */
-static const struct vertex *pass_lights(const struct walk *w, const struct vertex *prev, const struct departure *from,
-                                        const struct surface *end)
+/* The see-through lamp that the ray meets before the surface at *end (NULL: none), as a vertex; NULL if there is none. */
+static const struct vertex *meet_lamp(const struct walk *w, const struct vertex *prev, const struct departure *from,
+                                      const struct surface *end)
 {
-    const struct vertex *passed = NULL;
     struct surface at;
-    struct hit *hits;
-    struct ray ray = from->ray;
-    if (end != NULL)
-        ray.tmax = length(sub(end->p, ray.o)) + w->scene->epsilon;
-    int n = scene_lights_passed(w->scene, &ray, w->arena, &hits);
-    for (int i = 0; i < n; i++) {
-        shape_surface(&w->scene->geo, &hits[i], &ray, &at);
-        struct vertex *v = arena_alloc(w->arena, sizeof *v);
-        memset(v, 0, sizeof *v);
-        if (!meet(w, v, prev, from, &at, RADIANCE))
-            continue;
-        v->passed = passed;
-        passed = v;
-    }
-    return passed;
+    if (!scene_lamp(w->scene, &from->ray, end, &at))
+        return NULL;
+    struct vertex *v = arena_alloc(w->arena, sizeof *v);
+    memset(v, 0, sizeof *v);
+    return meet(w, v, prev, from, &at, RADIANCE) ? v : NULL;
 }
 
 /* Make the vertex where the ray met a surface. False if it is met edge-on. */
@@ -144,7 +132,7 @@ static bool survives(const struct walk *w, double kept, rgb *beta)
 static bool depart(const struct walk *w, const struct vertex *v, enum transport mode, struct departure *out)
 {
     double u[3];
-    u[0] = v->bsdf.n_lobes > 1 ? sampler_number(w->sampler, DRAW_LOBE) : 0;
+    u[0] = sampler_number(w->sampler, DRAW_LOBE);
     sampler_pair(w->sampler, DRAW_SCATTERING, &u[1]);
     struct bsdf_sample s;
     if (v->bsdf.n_lobes == 0 || !bsdf_sample(&v->bsdf, v->wo, u, mode, &s))
@@ -168,18 +156,20 @@ static int random_walk(const struct walk *w, struct departure from, struct verte
     double first = rgb_max(from.beta);
     while (n < max_vertices) {
         struct surface at;
-        const struct vertex *passed = NULL;
+        const struct vertex *lamp = NULL;
         bool met = scene_intersect(w->scene, &from.ray, &at);
-        if (mode == RADIANCE && w->scene->kd_lights.n_nodes > 0)
-            passed = pass_lights(w, &path[n - 1], &from, met ? &at : NULL);
+        if (mode == RADIANCE)
+            lamp = meet_lamp(w, &path[n - 1], &from, met ? &at : NULL);
+        else if (n == 1 && met && scene_lamp_stops(w->scene, &from.ray, &at))
+            break;
         if (!met) {
-            if (mode == RADIANCE && escape(w, &path[n], &path[n - 1], &from, passed))
+            if (mode == RADIANCE && escape(w, &path[n], &path[n - 1], &from, lamp))
                 n++;
             break;
         }
         if (!arrive(w, &path[n], &path[n - 1], &from, &at, mode))
             break;
-        path[n].passed = passed;
+        path[n].lamp = lamp;
         n++;
         if (n == max_vertices || !depart(w, &path[n - 1], mode, &from))
             break;

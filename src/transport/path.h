@@ -33,7 +33,7 @@ enum vertex_kind {
     VERTEX_LENS,    /* z_0 */
     VERTEX_LIGHT,   /* y_0 */
     VERTEX_SURFACE, /* a scattering point, possibly on an area light */
-    VERTEX_ESCAPED  /* end of an eye sub-path that left the scene: a direction, where infinite lights are or `passed` */
+    VERTEX_ESCAPED  /* end of an eye sub-path that left the scene: a direction, where infinite lights are or a `lamp` */
 };
 
 /* What the fields mean depends on the kind; a dash: not used. Densities are those of the vertex in its own walk, per
@@ -54,12 +54,11 @@ enum vertex_kind {
  *                                                               going back, if this went on
  *   regions      -            -                                 as count_model.locate says    -
  *   bsdf         -            -                                 its scattering               -
- *   passed       -            -                                 eye walk, on the way here: lights without material
+ *   lamp         -            -                                 eye walk: see below              likewise
  *
- * Rays pass through a surface without material as if it were not there, so it has no vertices, but for one: a light
- * sub-path may start on an area light there. An eye walk meets such lights on its way from one vertex to the next, and
- * the next has them in `passed`, linked by their own `passed`, the farthest first. Each is the last vertex of a path of
- * its own, and is in no sub-path: kind SURFACE, what connect_hit needs, and no scattering.
+ * See-through lamps (scene.h) scatter nothing, so no walk has vertices there, but that one may start on them. The first
+ * that an eye walk meets on its way from one vertex to the next is the `lamp` of the next: the last vertex of a path of
+ * its own, and in no sub-path. Its kind is SURFACE, it has what connect_hit needs, and no scattering.
  */
 struct vertex {
     enum vertex_kind kind;
@@ -76,7 +75,7 @@ struct vertex {
     double mis_c; /* c_e of mis.h, supposing this vertex is not left by a delta lobe */
     int eye_region, light_region;
     struct bsdf bsdf;
-    const struct vertex *passed; /* below; NULL: none */
+    const struct vertex *lamp; /* above; NULL: none */
 };
 
 /* What a walk needs besides its start. */

@@ -81,13 +81,10 @@ static void sum_direct(struct pixel_sample *g, const struct vertex *z, int t)
     }
 }
 
-/* s = 0: the light at z_{t-1}, and those passed on the way there. */
-static void sum_hits(struct pixel_sample *g, const struct vertex *eye, int t)
+static void sum_hit(struct pixel_sample *g, const struct vertex *eye, int t)
 {
-    for (const struct vertex *z = &eye[t - 1]; z != NULL; z = z->passed) {
-        struct connection c = connect_hit(g->scene, g->counts, &eye[t - 2], z, t);
-        contribute(g, &c, 0, t, NULL, NO_CHOICE);
-    }
+    struct connection c = connect_hit(g->scene, g->counts, &eye[t - 2], &eye[t - 1], t);
+    contribute(g, &c, 0, t, NULL, NO_CHOICE);
 }
 
 void pixel_sum_eye(struct pixel_sample *g, const struct vertex *eye, int n)
@@ -95,7 +92,7 @@ void pixel_sum_eye(struct pixel_sample *g, const struct vertex *eye, int n)
     for (int t = 2; t <= n; t++) {
         const struct vertex *z = &eye[t - 1];
         if (t == 2 || g->counts->hit > 0)
-            sum_hits(g, eye, t);
+            sum_hit(g, eye, t);
         if (g->counts->direct[FIRST_HIT] > 0 && t <= g->max_depth + 1 && z->kind == VERTEX_SURFACE)
             sum_direct(g, z, t);
     }

@@ -22,7 +22,7 @@ static void copy(struct trace_path *to, const struct vertex *path, int n)
     for (; to->n < n; to->n++) {
         to->vertex[to->n] = path[to->n];
         to->vertex[to->n].bsdf.lobe = NULL;
-        to->vertex[to->n].passed = NULL;
+        to->vertex[to->n].lamp = NULL;
     }
 }
 

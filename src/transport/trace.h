@@ -14,7 +14,7 @@
 #include "transport/connect.h"
 #include "transport/path.h"
 
-/* Copies of vertices, without their lobes and `passed`, which do not outlive the sample. */
+/* Copies of vertices, without their lobes and `lamp`, which do not outlive the sample. */
 struct trace_path {
     struct vertex *vertex; /* [n], owned */
     int n;

@@ -1,0 +1,108 @@
+/* strategy_files.c: see strategy_files.h. */
+#include "cli/strategy_files.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/interrupt.h"
+#include "base/mem.h"
+#include "base/os.h"
+#include "image/image.h"
+#include "lab/pyramid.h"
+#include "render/parameters.h"
+
+enum { LONGEST_NAME = 64 };
+
+/* The path of a file in the directory; to be given to free(). */
+static char *path_of(const char *directory, const char *name)
+{
+    size_t size = strlen(directory) + LONGEST_NAME + 2;
+    char *out = mem_alloc(size, 1);
+    snprintf(out, size, "%s/%s", directory, name);
+    return out;
+}
+
+static char *sheet_path(const char *directory) { return path_of(directory, "pyramid.png"); }
+
+static char *picture_path(const char *directory, int s, int t, bool weighted)
+{
+    char name[LONGEST_NAME];
+    snprintf(name, sizeof name, "d%02d_s%02d_t%02d_%s.pfm", s + t - 2, s, t, weighted ? "weighted" : "unweighted");
+    return path_of(directory, name);
+}
+
+bool strategies_possible(const char *directory, struct error *err)
+{
+    struct file_output probe;
+    if (directory == NULL)
+        return true;
+    os_make_directory(directory); /* if that fails, creating a file says why */
+    char *path = path_of(directory, "probe");
+    bool ok = file_create(path, &probe, err);
+    if (ok)
+        file_abandon(&probe);
+    free(path);
+    return ok;
+}
+
+/* The path, which is given back, is that of no other file. */
+static bool add_name(struct names *all, char *path, struct error *err)
+{
+    bool ok = names_add(all, FILE_WRITTEN, "--strategies", path, err);
+    free(path);
+    return ok;
+}
+
+bool strategies_check(const char *directory, const struct scene *scene, int max_depth, struct names *all,
+                      struct error *err)
+{
+    int most = 0;
+    if (directory == NULL)
+        return true;
+    if (!parameters_max_depth(scene, max_depth, &most, err))
+        return false;
+    if (most > STRATEGIES_MAX_DEPTH)
+        return error_set(err, "--strategies: paths of up to %d edges have %d pictures; --maxdepth %d is the most here",
+                         most + 1, (most + 1) * (most + 4), STRATEGIES_MAX_DEPTH);
+    bool ok = add_name(all, sheet_path(directory), err);
+    for (int edges = 1; edges <= most + 1; edges++)
+        for (int s = 0; ok && s <= edges; s++)
+            ok = add_name(all, picture_path(directory, s, edges + 1 - s, false), err) &&
+                 add_name(all, picture_path(directory, s, edges + 1 - s, true), err);
+    return ok;
+}
+
+static bool write_picture(const char *directory, const struct film *film, double scale, int s, int t, bool weighted,
+                          struct error *err)
+{
+    float *pixels = pyramid_strategy(film, scale, s, t, weighted);
+    char *path = picture_path(directory, s, t, weighted);
+    bool ok = image_write(path, rect_width(film->rect), rect_height(film->rect), pixels, err);
+    free(path);
+    free(pixels);
+    return ok;
+}
+
+bool strategies_write(const char *directory, const struct film *film, double scale, struct error *err)
+{
+    bool ok = true, go_on = true;
+    int signal = interrupt_caught(); /* of the render, which writes what it has */
+    if (directory == NULL)
+        return true;
+    for (int edges = 1; edges <= film->strategies->max_depth + 1; edges++)
+        for (int s = 0; ok && go_on && s <= edges; s++) {
+            ok = write_picture(directory, film, scale, s, edges + 1 - s, false, err) &&
+                 write_picture(directory, film, scale, s, edges + 1 - s, true, err);
+            go_on = interrupt_caught() == signal;
+        }
+    char *path = sheet_path(directory);
+    if (ok && go_on)
+        ok = pyramid_write(path, film, scale, err);
+    else if (ok)
+        fprintf(stderr, "asbdpt: stopped by %s before all strategies were in %s\n", os_signal_name(interrupt_caught()),
+                directory);
+    free(path);
+    return ok;
+}

@@ -1,0 +1,150 @@
+#!/bin/sh
+# outputs.sh: no output takes another file's place, nothing is mixed or lost in silence, nothing is left behind.
+# Run from the top: sh test/outputs.sh ./asbdpt
+. test/expect.sh
+export ASBDPT="$program"
+tiny="--res 8x8 --spp 1 --maxdepth 2 --quiet"
+render() { "$program" render scene.pbrt $tiny "$@"; }
+files() { find . -type f ! -name 'std*.txt' ! -name '*.list' -exec cksum {} + | sort; }
+# refused STATUS PATTERN COMMAND...: nothing has been written, removed or left.
+refused() {
+    files >before.list
+    expect "$@"
+    files | cmp -s - before.list || fault "$* has changed files"
+}
+cp "$box" scene.pbrt
+check render -o a.pfm -o b.pfm
+check render --samples 0:1 -o c.part
+
+# ---- one file, two names ----
+same='are the same file'
+ln -s a.pfm link.pfm
+mkdir sub
+ln -s ../new.pfm sub/link.pfm
+refused 2 "SCENE.pbrt scene.pbrt and --stats ./scene.pbrt $same" render --stats ./scene.pbrt -o new.pfm
+refused 2 "-o a.pfm and --stats ./a.pfm $same" render --stats ./a.pfm -o a.pfm
+refused 2 "$same" render -o a.pfm -o sub/../a.pfm
+refused 2 "$same" render -o a.pfm --stats link.pfm
+refused 2 "$same" render -o new.pfm -o sub/../new.pfm
+refused 2 "$same" render -o new.pfm -o sub/link.pfm
+refused 2 "$same" render -o "$PWD/new.pfm" --stats new.pfm
+refused 2 "$same" render --stats c --checkpoint c -o new.pfm
+refused 2 "$same" render --samples 0:1 --checkpoint new.part -o new.part
+refused 2 "$same" render --resume c.part -o c.part
+refused 2 "$same" render --stats - -o -
+refused 2 "$same" render -o - -o -
+refused 2 "$same" "$program" merge c.part -o c.part
+refused 2 "$same" "$program" convert a.pfm -o ./a.pfm
+refused 2 "$same" "$program" compare a.pfm b.pfm --heatmap b.pfm
+refused 2 "$same" "$program" compare - -
+refused 2 "$same" "$program" trace scene.pbrt --svg scene.pbrt
+refused 2 "$same" "$program" bench scene.pbrt --json new --baseline new
+refused 2 "$same" sh -c '"$ASBDPT" render scene.pbrt -o a.pfm --stats - >>a.pfm'
+# Some are known when the scene is.
+sed 's/cornell-box.png/film.png/' "$box" >film.pbrt
+refused 1 "the film's film.png and --stats ./film.png $same|--stats ./film.png and the film's film.png $same" \
+    "$program" render film.pbrt $tiny --stats ./film.png
+refused 1 "-o x.albedo.pfm and --aov x.albedo.pfm $same" render --aov albedo -o x.pfm -o x.albedo.pfm
+refused 1 "$same" render --strategies sub -o sub/pyramid.png
+refused 1 "$same" render --strategies sub -o ./sub/d00_s00_t02_weighted.pfm
+# What may be the same: a checkpoint and what is resumed, however they are called; devices.
+expect 0 '' render --checkpoint sub/../state --resume "$PWD/state" -o new.pfm
+expect 0 '' render --checkpoint state --resume ./state -o new.pfm
+expect 0 '' render --stats /dev/null -o new.pfm --quiet
+refused 1 'state: there is such a file already' render --checkpoint ./state -o new.pfm
+refused 1 'it needs a file' render --checkpoint /dev/null -o new.pfm
+refused 1 'it needs a file' render --checkpoint - -o new.pfm
+# What is to be written comes after -o: a shell's *.pfm may be many.
+refused 2 'one argument too many' "$program" convert a.pfm b.pfm
+refused 2 'needs a picture' "$program" merge b.part c.part
+# An empty name is a variable that is not set.
+for option in -o --checkpoint --resume --stats --strategies --aov; do
+    refused 2 "${option#-}.*: its value is empty" render $option ''
+done
+refused 2 'SCENE.pbrt: its value is empty' "$program" render ''
+refused 2 'its value is empty' render --stats=
+
+# ---- standard streams ----
+# One stream carries one thing: what a command prints is not mixed with what it writes.
+refused 2 "what it prints to - and --heatmap - $same" "$program" compare a.pfm b.pfm --heatmap -
+refused 2 "$same" "$program" trace scene.pbrt --svg -
+refused 2 "$same" "$program" bench scene.pbrt --json -
+refused 2 "$same" "$program" demo scene.pbrt -o -
+# Closed ones do not become files that are opened.
+expect 0 '' render -o good.png
+for closed in '2>&-' '>&-' '<&-' '<&- >&- 2>&-'; do
+    rm -f x.png
+    check sh -c "\"\$ASBDPT\" render scene.pbrt ${tiny% --quiet} -o x.png $closed" 2>/dev/null
+    check cmp -s good.png x.png
+done
+expect 1 'standard output: cannot be written' sh -c '"$ASBDPT" info scene.pbrt >&-'
+expect 1 'Bad file descriptor|cannot be read' sh -c '"$ASBDPT" render - -o x.png <&-'
+# What cannot be printed is said.
+if [ -e /dev/full ]; then
+    for words in --help --version 'help man' 'info scene.pbrt' 'info scene.pbrt --json' 'compare a.pfm b.pfm --json' \
+        'trace scene.pbrt --res 8x8' 'verify --images a.pfm b.pfm a.pfm b.pfm'; do
+        expect 1 'asbdpt: standard output: cannot be written' sh -c "\"\$ASBDPT\" $words >/dev/full"
+        check [ "$(wc -l <stderr.txt)" = 1 ]
+    done
+fi
+# Pipes by the names that shells give them.
+if [ -e /dev/fd/1 ]; then
+    render -o x.png --stats /dev/fd/1 | grep -q '"spp_done": 1' || fault "statistics through /dev/fd"
+fi
+# A terminal is shown no picture.
+if command -v python3 >/dev/null; then
+    expect 1 'a picture is nothing for a terminal' python3 -c 'import os, pty, subprocess, sys
+words = [os.environ["ASBDPT"], "render", "scene.pbrt", "--res", "8x8", "-o", "-"]
+sys.exit(subprocess.run(words, stdout=pty.openpty()[1]).returncode)'
+fi
+
+# ---- sizes and numbers ----
+refused 1 't.tga: 65536 x 1 pixels do not fit' "$program" render scene.pbrt --res 65536x1 --spp 1 --maxdepth 1 \
+    --integrator pt --quiet --checkpoint begun -o t.tga # which is there once the render has begun
+expect 0 '' "$program" render scene.pbrt --res 65536x1 --spp 1 --maxdepth 1 --integrator pt --quiet -o t.part
+refused 1 't.tga: 65536 x 1 pixels do not fit' "$program" merge t.part -o t.tga
+refused 1 'have 550 pictures; --maxdepth 20 is the most' \
+    "$program" render scene.pbrt --res 1x1 --spp 1 --strategies sub --maxdepth 21 -o new.pfm
+expect 0 '' "$program" render scene.pbrt --res 1x1 --spp 1 --quiet --strategies all --maxdepth 20 -o new.pfm
+check [ "$(find all -name '*.pfm' | wc -l)" = 504 ]
+# A name is wrong before the work, not after it.
+long=$(awk 'BEGIN { for (i = 0; i < 300; i++) printf "n" }')
+refused 1 'nnn.pfm: cannot be created' "$program" render nothing.pbrt -o "$long.pfm"
+refused 2 'expected a number from 1e-09' render --time 0 -o new.pfm
+# A signal between two strategies ends them; the picture is there.
+"$program" render "$box" --integrator pt --res 48x48 --spp 1 --quiet --strategies some --maxdepth 20 -o some.pfm \
+    2>stderr.txt &
+i=0
+while [ ! -e some/d00_s00_t02_weighted.pfm ] && [ $i -lt 300 ]; do
+    i=$((i + 1))
+    sleep 0.02
+done
+kill -s TERM $!
+wait $!
+check [ $? = 143 ]
+check grep -q 'stopped by SIGTERM before all strategies were in some' stderr.txt
+check [ -s some.pfm -a ! -e some/pyramid.png ]
+# A limit of CPU time, too, ends with what there is.
+(
+    ulimit -S -t 1 && ulimit -S -c 0
+    "$program" render "$box" --integrator bdpt --res 64x64 --spp 100000 --quiet -o late.pfm 2>stderr.txt
+    echo $? >status.txt
+)
+check [ "$(cat status.txt)" = 152 -o "$(uname)" != Linux ]
+check grep -Eq 'stopped by SIGXCPU, at [1-9]' stderr.txt
+check [ -s late.pfm ]
+# A second signal leaves nothing behind, however many outputs there are.
+many=$(awk 'BEGIN { for (i = 0; i < 100; i++) printf " -o m%d.pfm", i }')
+"$program" render "$box" --integrator asbdpt --res 512x512 --spp 1000000 --quiet $many 2>stderr.txt &
+i=0
+while [ "$(find . -name '.asbdpt-*' | wc -l)" -lt 100 ] && [ $i -lt 300 ]; do
+    i=$((i + 1))
+    sleep 0.02
+done
+kill -s TERM $!
+kill -s TERM $! 2>/dev/null
+wait $!
+check [ "$(find . -name '.asbdpt-*' | wc -l)" = 0 ]
+
+[ $failures -eq 0 ] && echo "outputs: all as expected"
+exit $((failures > 0))
