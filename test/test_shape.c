@@ -13,6 +13,7 @@
 #include "base/rng.h"
 #include "base/stats.h"
 #include "base/warp.h"
+#include "helpers.h"
 #include "tests.h"
 
 static struct shape_group group_of(int material, int first_light)
@@ -137,9 +138,38 @@ static void check_triangle_partials(struct test *t)
     b = surface_at(&geo, flat, 0.2, 0.3);
     CHECK(t, length(cross(sub(a.dpdu, b.dpdu), a.ns)) < 1e-14, "dp/du moves along ns only");
     CHECK(t, length(cross(sub(a.dpdv, b.dpdv), a.ns)) < 1e-14, "dp/dv moves along ns only");
-    vec3 dn = add(mul(a.dndu, 0.5), mul(a.dndv, 0.25)), want = vec(0.6, 0, -0.2); /* n1 - n0, uv1 - uv0 */
-    CHECK(t, near3(dn, want, 1e-6), "dn/du, dn/dv");
     geometry_free(&geo);
+}
+
+/* Vertex normals of any length under any transform: they are interpolated as they come out of it, as in pbrt-v3, and the
+ * partials of ns are its differences. */
+static void check_vertex_normals(struct test *t, struct rng *r)
+{
+    const double h = 1e-5;
+    for (int i = 0; i < 50; i++) {
+        struct geometry geo = {0};
+        struct error err = {""};
+        struct transform m = random_affine(r);
+        double b1 = 0.1 + 0.4 * rng_uniform(r), b2 = 0.1 + 0.3 * rng_uniform(r);
+        float normal[9];
+        vec3 n[3];
+        for (int k = 0; k < 9; k++)
+            normal[k] = corner_normal[k] * (float)(k / 3 + 1);
+        struct mesh mesh = {corner, normal, corner_uv, corner_index, 3, 1, 0};
+        CHECK(t, shape_add_mesh(&geo, &mesh, &m, group_of(7, 40), false, &err) == 0, "%s", err.text);
+        for (size_t k = 0; k < 3; k++)
+            n[k] = load3(normal, k);
+        struct surface at = surface_at(&geo, 0, b1, b2);
+        vec3 want = normalize(transform_normal(&m, barycentric3(n, b1, b2)));
+        CHECK(t, near3(at.ns, want, 1e-6), "transform %d: normal off by %g", i, length(sub(at.ns, want)));
+        for (int k = 0; k < 2; k++) {
+            struct surface a = surface_at(&geo, 0, b1 + (k ? 0 : h), b2 + (k ? h : 0));
+            struct surface b = surface_at(&geo, 0, b1 - (k ? 0 : h), b2 - (k ? h : 0));
+            vec3 dn = add(mul(at.dndu, a.u - b.u), mul(at.dndv, a.v - b.v)), moved = sub(a.ns, b.ns);
+            CHECK(t, near3(dn, moved, 1e-4 * h + 1e-4 * length(moved)), "transform %d: dn/du, dn/dv", i);
+        }
+        geometry_free(&geo);
+    }
 }
 
 static void check_degenerate_uv(struct test *t)
@@ -488,6 +518,7 @@ void test_shape(struct test *t)
     check_triangle_hits(t);
     check_triangle_random(t, &r);
     check_triangle_partials(t);
+    check_vertex_normals(t, &r);
     check_degenerate_uv(t);
     check_triangle_orientation(t);
     check_mesh_refused(t);

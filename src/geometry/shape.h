@@ -39,7 +39,7 @@ struct shape_group {
 struct geometry {
     /* Triangle meshes, all concatenated. Vertex arrays share one numbering. */
     float *P;         /* [n_vertices*3] world positions */
-    float *N;         /* [n_vertices*3] unit world normals; zeros where a group has none */
+    float *N;         /* [n_vertices*3] world normals, at most 1 long; zeros where a group has none */
     float *UV;        /* [n_vertices*2] */
     uint32_t *index;  /* [n_triangles*3] */
     int32_t *group_of_triangle; /* [n_triangles] */
