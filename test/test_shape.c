@@ -342,6 +342,40 @@ static void check_quadric_hits(struct test *t, const struct geometry *geo, int i
     }
 }
 
+/* Rays that end on a quadric do not meet it there, and rays that leave it do not meet it at once, however they graze it,
+ * whatever its size, shape and place, and with no margin: what is left is the other meeting, if there is one. */
+static void check_own_quadric(struct test *t, int i, struct rng *r)
+{
+    struct geometry geo = {0};
+    struct hit hit, next, again;
+    struct surface at;
+    double size = pow(10, 9 * rng_uniform(r) - 3);
+    struct quadric q = quadric_number(i);
+    q.to_world = transform_compose(transform_translate(mul(on_sphere(r), size)),
+                                   transform_compose(random_affine(r), transform_scale(size, size, size)));
+    CHECK(t, shape_add_quadric(&geo, q, group_of(0, -1), false, NULL) == 0, "quadric %d", i);
+    for (int k = 0; k < 100; k++) {
+        vec3 target = point_of(&q, rng_uniform(r), rng_uniform(r)), o = add(target, mul(on_sphere(r), 9 * size));
+        struct ray ray = {o, normalize(sub(target, o)), 0, HUGE_VAL, 0, 0};
+        if (!CHECK(t, shape_intersect(&geo, FIRST_QUADRIC, &ray, &hit), "quadric %d is missed", i))
+            continue;
+        shape_surface(&geo, &hit, &ray, &at);
+        struct ray arrive = {o, ray.d, 0, length(sub(at.p, o)), 0, shape_triangle_id(FIRST_QUADRIC)};
+        CHECK(t, !shape_intersect(&geo, FIRST_QUADRIC, &arrive, &again), "quadric %d stands before itself", i);
+        double cosine = pow(10, -5 * rng_uniform(r));
+        vec3 along = normalize(cross(at.ng, on_sphere(r)));
+        struct ray leave = {at.p, normalize(add(along, mul(at.ng, cosine))), 0, HUGE_VAL,
+                            shape_triangle_id(FIRST_QUADRIC), 0};
+        double blur = 1e-7 * size + 1e-10 * length(at.p);
+        struct ray beyond = {at.p, leave.d, blur, HUGE_VAL, 0, 0};
+        bool met = shape_intersect(&geo, FIRST_QUADRIC, &leave, &next);
+        CHECK(t, met == shape_intersect(&geo, FIRST_QUADRIC, &beyond, &again) &&
+                     (!met || fabs(next.t - again.t) <= blur),
+              "quadric %d of size %g meets itself: %d at %g, cosine %g", i, size, met, met ? next.t : again.t, cosine);
+    }
+    geometry_free(&geo);
+}
+
 /* Derivatives against central differences. */
 static void check_quadric_partials(struct test *t, const struct geometry *geo, int i, struct rng *r)
 {
@@ -528,6 +562,7 @@ void test_shape(struct test *t)
         shape_add_quadric(&quadrics, quadric_number(i), group_of(0, -1), false, NULL);
     for (int i = 0; i < N_QUADRICS; i++) {
         check_quadric_hits(t, &quadrics, i, &r);
+        check_own_quadric(t, i, &r);
         check_quadric_partials(t, &quadrics, i, &r);
     }
     check_quadric_orientation(t);

@@ -195,15 +195,23 @@ static vec3 project(const struct quadric *q, vec3 p)
     return p;
 }
 
-bool quadric_intersect(const struct quadric *q, const struct ray *ray, double *t)
+/* Which of n <= 2 roots is nearest to t? */
+static int nearest_root(const double root[2], int n, double t)
+{
+    return n == 2 && fabs(root[1] - t) < fabs(root[0] - t);
+}
+
+bool quadric_intersect(const struct quadric *q, const struct ray *ray, bool begins, bool ends, double *t)
 {
     const double(*m)[4] = q->to_world.inv;
     vec3 o = add(transform_vector_back(&q->to_world, ray->o), vec(m[0][3], m[1][3], m[2][3]));
     vec3 d = transform_vector_back(&q->to_world, ray->d);
     double root[2];
     int n = line_roots(q, o, d, root);
+    int first = begins ? nearest_root(root, n, 0) : -1, last = ends ? nearest_root(root, n, ray->tmax) : -1;
     for (int i = 0; i < n; i++)
-        if (root[i] > ray->tmin && root[i] < ray->tmax && is_kept(q, project(q, add(o, mul(d, root[i]))))) {
+        if (i != first && i != last && root[i] > ray->tmin && root[i] < ray->tmax &&
+            is_kept(q, project(q, add(o, mul(d, root[i]))))) {
             *t = root[i];
             return true;
         }

@@ -43,8 +43,9 @@ void quadric_normalise(struct quadric *q);
 /* quadric_bounds: a world box around the quadric (of the full turn, whatever phi_max). */
 void quadric_bounds(const struct quadric *q, vec3 *lo, vec3 *hi);
 
-/* quadric_intersect: the first t in (tmin, tmax) at which the ray meets the quadric; false if none. */
-bool quadric_intersect(const struct quadric *q, const struct ray *ray, double *t);
+/* quadric_intersect: the first t in (tmin, tmax) at which the ray meets the quadric; false if none.
+ *   begins, ends  the ray does so on this quadric: where it meets it nearest to 0, or to tmax, does not count */
+bool quadric_intersect(const struct quadric *q, const struct ray *ray, bool begins, bool ends, double *t);
 
 /* quadric_surface_at: the surface point at object-space point p, near the quadric, which is moved onto it first.
  * Fills all of *out but material and light. */

@@ -202,10 +202,13 @@ void shape_bounds(const struct geometry *geo, int prim, float lo[3], float hi[3]
 
 bool shape_intersect(const struct geometry *geo, int prim, const struct ray *ray, struct hit *hit)
 {
+    bool begins = ray->from == shape_triangle_id(prim), ends = ray->to == shape_triangle_id(prim);
     if (is_quadric(prim)) {
-        if (!quadric_intersect(quadric_of(geo, prim), ray, &hit->t))
+        if (!quadric_intersect(quadric_of(geo, prim), ray, begins, ends, &hit->t))
             return false;
         hit->b1 = hit->b2 = 0;
+    } else if (begins || ends) {
+        return false;
     } else {
         float v[9];
         shape_vertices(geo, prim, v);

@@ -93,12 +93,12 @@ void shape_vertices(const struct geometry *geo, int triangle, float v[9]);
 /* shape_bounds: world bounding box of one primitive, never inside out, conservative in float. */
 void shape_bounds(const struct geometry *geo, int prim, float lo[3], float hi[3]);
 
-/* shape_intersect: does the ray meet this primitive within (tmin, tmax)? Fills *hit if so. Double precision,
- * edges shared by two triangles leave no gap. Alpha is not looked at here. */
+/* shape_intersect: does the ray meet this primitive within (tmin, tmax), where it neither begins nor ends on it? Fills
+ * *hit if so. Double precision, edges shared by two triangles leave no gap. Alpha is not looked at here. */
 bool shape_intersect(const struct geometry *geo, int prim, const struct ray *ray, struct hit *hit);
 
-/* shape_triangle_id: the number by which rays and points name the triangle they begin, end or lie on; 0: a quadric. */
-static inline uint32_t shape_triangle_id(int prim) { return prim < FIRST_QUADRIC ? (uint32_t)prim + 1 : 0; }
+/* shape_triangle_id: the number, not 0, by which rays and points name the primitive they begin, end or lie on. */
+static inline uint32_t shape_triangle_id(int prim) { return (uint32_t)prim + 1; }
 
 /* shape_surface: the full surface point of a hit (position from the barycentric coordinates for triangles,
  * refined onto the surface for quadrics). Shading normal and partials as pbrt-v3 defines them. */
