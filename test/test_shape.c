@@ -155,7 +155,7 @@ static void check_vertex_normals(struct test *t, struct rng *r)
         vec3 n[3];
         for (int k = 0; k < 9; k++)
             normal[k] = corner_normal[k] * (float)(k / 3 + 1);
-        struct mesh mesh = {corner, normal, corner_uv, corner_index, 3, 1, 0};
+        struct mesh mesh = {corner, normal, corner_uv, corner_index, 3, 1, 0, 0};
         CHECK(t, shape_add_mesh(&geo, &mesh, &m, group_of(7, 40), false, &err) == 0, "%s", err.text);
         for (size_t k = 0; k < 3; k++)
             n[k] = load3(normal, k);
