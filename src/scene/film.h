@@ -37,7 +37,7 @@ struct splat {
 
 /* One contribution of one strategy, kept only for per-strategy images. */
 struct strategy_record {
-    int32_t at; /* t >= 2: pixel within the film's rectangle, row by row; t = 1: place in the list of splats */
+    int32_t at; /* t >= 2: pixel of the film's rectangle, row by row; t = 1: place in the list of splats */
     int16_t s, t;
     float unweighted[3];
     float weight; /* its MIS weight, [0,1] */
@@ -137,7 +137,8 @@ int strategy_count(int max_depth);
 /* film_take_splats: add a tile's splats and records, and empty its lists. */
 void film_take_splats(struct film *f, struct tile *t);
 
-/* film_merge_tile: add these and a tile's sums. Iterations are counted by the caller once all tiles of a block are in. */
+/* film_merge_tile: add these and a tile's sums. Iterations are counted by the caller once all tiles of a block are
+ * in. */
 void film_merge_tile(struct film *f, struct tile *t);
 
 /* film_value: the sum so far in place i of [pixels*3]. */
