@@ -181,7 +181,8 @@ static void test_estimator(struct test *t)
 static void forge_lines(struct rng *r, const char *const *line, int n, char *out)
 {
     static const char *const NUMBERS[] = {"0", "-1", "1", "4", "9", "04", "+4", "4.0", "nan", "inf", "1e999",
-                                          "2147483647", "2147483648", "9223372036854775807", "9223372036854775808", " ", ""};
+                                          "2147483647", "2147483648", "9223372036854775807", "9223372036854775808",
+                                          " ", ""};
     int kind = (int)(4 * rng_uniform(r)), a = 1 + (int)((n - 1) * rng_uniform(r));
     int b = 1 + (int)((n - 1) * rng_uniform(r));
     out[0] = '\0';

@@ -44,7 +44,10 @@ static double luminance_of(const float *c)
     return rgb_luminance(rgb_make((double)c[0], (double)c[1], (double)c[2]));
 }
 
-static double luminance_added(const struct strategy_record *r) { return luminance_of(r->unweighted) * (double)r->weight; }
+static double luminance_added(const struct strategy_record *r)
+{
+    return luminance_of(r->unweighted) * (double)r->weight;
+}
 
 /* Where the pixel of a record lies in the tile. */
 static long place_in_tile(const struct tile *tile, const struct strategy_record *r)
@@ -297,7 +300,8 @@ void pilot_run(const struct render_job *job, struct selection *sel, double sampl
         return;
     set_numbers(sel, TRIED, credit);
     p.job.seed = hash_combine(job->seed, 0x3c6ef372fe94f82bu); /* unlike the render's */
-    struct parallel_jobs jobs = {(int64_t)fmin(tiles, 1 << 20), job->n_threads, n_slots, &p, render_tile, add_tile, NULL};
+    struct parallel_jobs jobs = {(int64_t)fmin(tiles, 1 << 20), job->n_threads, n_slots, &p, render_tile, add_tile,
+                                 NULL};
     make_memory(&p, n_slots);
     parallel_run(&jobs);
     free_memory(&p, n_slots);

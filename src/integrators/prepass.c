@@ -295,7 +295,8 @@ static void free_stock(struct prepass *p)
 static void run_chunks(struct prepass *p, void (*work)(void *, int64_t, int, int), bool (*merge)(void *, int64_t, int))
 {
     int n_threads = p->job->n_threads, n_slots = 4 * n_threads;
-    struct parallel_jobs jobs = {(p->n_paths - p->first_path + CHUNK - 1) / CHUNK, n_threads, n_slots, p, work, merge, NULL};
+    struct parallel_jobs jobs = {(p->n_paths - p->first_path + CHUNK - 1) / CHUNK, n_threads, n_slots, p, work,
+                                 merge, NULL};
     p->chunk = mem_alloc((size_t)n_slots, sizeof *p->chunk);
     parallel_run(&jobs);
     for (int i = 0; i < n_slots; i++)

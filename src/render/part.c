@@ -198,15 +198,15 @@ static bool possible(const struct part *p)
            p->passes >= 0 && (p->passes == 0 || p->done < p->end - p->first) && p->left_out >= 0;
 }
 
-/* The text must be, byte for byte, what the program writes for the numbers that it reads in it: so no line can be twice,
- * missing, elsewhere, or read otherwise than it is compared. */
+/* The text must be, byte for byte, what the program writes for the numbers that it reads in it: so no line can be
+ * twice, missing, elsewhere, or read otherwise than it is compared. */
 static bool read_numbers(const char *text, struct part *p)
 {
     int begin = 0;
     sscanf(text + sizeof MAGIC - 1, "samples %ld %ld done %ld %" SCNd64 " left-out %ld "
            "size %d %d film %d %d, window %d %d scale %lf spp %ld %n",
-           &p->first, &p->end, &p->done, &p->passes, &p->left_out, &p->width, &p->height, &p->place.width, &p->place.height, &p->place.x, &p->place.y, &p->scale, &p->planned,
-           &begin);
+           &p->first, &p->end, &p->done, &p->passes, &p->left_out, &p->width, &p->height, &p->place.width,
+           &p->place.height, &p->place.x, &p->place.y, &p->scale, &p->planned, &begin);
     const char *identity = text + sizeof MAGIC - 1 + begin, *check = identity;
     while (strncmp(check, "check ", 6) != 0)
         check = strchr(check, '\n') + 1;

@@ -43,8 +43,8 @@ struct strategy_record {
     float weight; /* its MIS weight, [0,1] */
 };
 
-/* So many splats, or records, do not wait for the end of a pass: paths may have a thousand bounces, a pass any number of
- * iterations. */
+/* So many splats, or records, do not wait for the end of a pass: paths may have a thousand bounces, a pass any number
+ * of iterations. */
 enum { TILE_FULL = 1 << 16 };
 
 /* What a tile pass produces. Reused from pass to pass. */
@@ -61,7 +61,7 @@ struct tile {
     struct strategy_record *record; /* [n_records], owned */
     size_t n_records, record_capacity;
     bool keep_records;
-    void (*full)(void *context, struct tile *tile); /* empties both lists when they are full; NULL: they grow */
+    void (*full)(void *context, struct tile *tile); /* empties full lists; NULL: they grow */
     void *context;
     long nonfinite; /* contributions that were NaN, infinite or beyond FLT_MAX, and were left out */
 };
@@ -74,8 +74,8 @@ void tile_free(struct tile *t);
 /* tile_add_eye: the whole value of pixel (x,y) of the tile for one iteration. Call once per pixel and iteration. */
 void tile_add_eye(struct tile *t, int x, int y, rgb value);
 
-/* tile_add_splat: a value arriving at raster point (px,py), to be spread over pixels by the filter. False if it was left
- * out. */
+/* tile_add_splat: a value arriving at raster point (px,py), to be spread over pixels by the filter. False if it was
+ * left out. */
 bool tile_add_splat(struct tile *t, double px, double py, rgb value);
 
 /* splat_pixels: those of `within` whose filter covers the splat; none when x1 <= x0 or y1 <= y0.
