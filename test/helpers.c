@@ -43,6 +43,19 @@ bool accepts(reader *read, const uint8_t *data, size_t n, struct error *err)
     return ok;
 }
 
+struct transform random_affine(struct rng *r)
+{
+    struct transform out;
+    double m[16];
+    do {
+        for (int i = 0; i < 16; i++)
+            m[i] = i % 5 == 0 ? 0.4 + 1.6 * rng_uniform(r) : i % 4 == 3 ? 0 : 1.2 * rng_uniform(r) - 0.6;
+        m[0] *= rng_below(r, 2) == 0 ? 1 : -1;
+        m[15] = 1;
+    } while (!transform_from_matrix(m, &out) || fabs(transform_determinant(&out)) < 0.2);
+    return out;
+}
+
 bool scene_from_file(struct test *t, const char *path, int width, int height, struct scene *out)
 {
     struct error err;

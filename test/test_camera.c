@@ -5,6 +5,7 @@
 #include "scene/camera.h"
 #include "base/number.h"
 #include "base/rng.h"
+#include "helpers.h"
 #include "tests.h"
 
 static struct camera make_camera(double lens_radius, double aspect_width)
@@ -34,7 +35,8 @@ static void test_inverse(struct test *t, const struct camera *c, struct rng *r)
           "a direction backwards was accepted");
 }
 
-/* Solid angle of a small raster square, from the directions of its corners. */
+/* Solid angle of a small raster square, from the directions of its corners; of parallel rays the area across them, from
+ * their origins. */
 static void test_jacobian(struct test *t, const struct camera *c, struct rng *r)
 {
     const double h = 1e-3;
@@ -44,6 +46,8 @@ static void test_jacobian(struct test *t, const struct camera *c, struct rng *r)
         struct ray a = camera_ray(c, px, py, u1, u2), b = camera_ray(c, px + h, py, u1, u2);
         struct ray d = camera_ray(c, px, py + h, u1, u2);
         double solid_angle = length(cross(sub(b.d, a.d), sub(d.d, a.d)));
+        if (c->parallel)
+            solid_angle = abs_dot(a.d, cross(sub(b.o, a.o), sub(d.o, a.o)));
         double J = camera_project(c, a.o, a.d, &x, &y);
         CHECK(t, fabs(J * solid_angle / (h * h) - 1) < 1e-3, "J %g but raster/solid angle %g", J, h * h / solid_angle);
     }
@@ -117,6 +121,19 @@ static void test_environment(struct test *t, struct rng *r)
     }
 }
 
+/* Any camera under any transform: before the view, as in "Scale 3 1 1 LookAt ...", and after it. */
+static void test_transformed(struct test *t, struct rng *r)
+{
+    for (int i = 0; i < 100; i++) {
+        struct camera c = camera_of((enum camera_kind)(i % 3), i % 2 * 0.3, 1, 200, 100);
+        c.world_to_camera = transform_compose(random_affine(r), transform_compose(c.world_to_camera, random_affine(r)));
+        camera_prepare(&c, 200, 100);
+        CHECK(t, camera_is_usable(&c), "camera %d is not usable", i);
+        test_inverse(t, &c, r);
+        test_jacobian(t, &c, r);
+    }
+}
+
 void test_camera(struct test *t)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 1, 0);
@@ -128,6 +145,7 @@ void test_camera(struct test *t)
         }
     test_orthographic(t, &r);
     test_environment(t, &r);
+    test_transformed(t, &r);
     /* The field of view is along the shorter side. */
     struct camera c = camera_default();
     c.fov = 60;

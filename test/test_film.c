@@ -70,6 +70,54 @@ static void test_filters(struct test *t)
     CHECK(t, !filter_default("tent", &f), "a filter that does not exist was found");
 }
 
+/* The sum over a new film's pixels of what a tile's splats bring; how many pixels are not black. */
+static double spread(struct tile *tile, int *pixels)
+{
+    struct film film;
+    double sum = 0;
+    film_init(&film, tile->film_rect, tile->film_rect.x1, tile->film_rect.y1);
+    film_take_splats(&film, tile);
+    *pixels = 0;
+    for (size_t i = 0; i < (size_t)(rect_width(film.rect) * rect_height(film.rect)); i++) {
+        sum += film_value(&film, 3 * i + 1);
+        *pixels += film_value(&film, 3 * i + 1) != 0;
+    }
+    film_free(&film);
+    return sum;
+}
+
+static void count_full(void *context, struct tile *tile)
+{
+    int *calls = context;
+    ++*calls;
+    tile->n_splats = tile->n_records = 0;
+}
+
+/* A splat is one, however many pixels it covers, and a tile that is full is emptied before an iteration is added. */
+static void test_memory(struct test *t)
+{
+    struct pixel_rect all = {0, 0, 64, 64}, one = {0, 0, 1, 1};
+    struct filter f;
+    struct tile tile;
+    int calls = 0;
+    memset(&tile, 0, sizeof tile);
+    filter_default("gaussian", &f);
+    f.radius[0] = f.radius[1] = 32;
+    filter_prepare(&f);
+    tile_start(&tile, one, all, &f, true);
+    tile.full = count_full;
+    tile.context = &calls;
+    for (int i = 0; i < 5 * TILE_FULL / 2; i++) {
+        if (CHECK(t, tile_add_splat(&tile, 32, 32, rgb_grey(1)), "a splat is left out"))
+            tile_record_splat(&tile, 2, rgb_grey(2), 0.5);
+        tile_add_eye(&tile, 0, 0, rgb_black());
+    }
+    CHECK(t, calls == 2 && tile.n_splats == TILE_FULL / 2 && tile.n_records == TILE_FULL / 2,
+          "emptied %d times, %d splats and %d records are left", calls, (int)tile.n_splats, (int)tile.n_records);
+    CHECK(t, tile.splat_capacity * sizeof *tile.splat <= 4 << 20, "%d splats of memory", (int)tile.splat_capacity);
+    tile_free(&tile);
+}
+
 /* A splat of value 1 spread over the film, summed: 1 inside, less at the edges; a box puts it in exactly one pixel. */
 static void test_splats(struct test *t)
 {
@@ -82,12 +130,12 @@ static void test_splats(struct test *t)
         struct tile tile;
         memset(&tile, 0, sizeof tile);
         double total = 0;
+        int pixels;
         for (int k = 0; k < 2000; k++) {
             tile_start(&tile, all, all, &f, false);
             tile_add_splat(&tile, 6 + 8 * rng_uniform(&r), 5 + 2 * rng_uniform(&r), rgb_grey(1));
-            for (size_t j = 0; j < tile.n_splats; j++)
-                total += (double)tile.splat[j].g;
-            CHECK(t, f.kind != FILTER_BOX || tile.n_splats == 1, "a box splat fell on %d pixels", (int)tile.n_splats);
+            total += spread(&tile, &pixels);
+            CHECK(t, f.kind != FILTER_BOX || pixels == 1, "a box splat fell on %d pixels", pixels);
         }
         /* Averaged over positions, the sum over pixels is the filter's integral. */
         CHECK(t, fabs(total / 2000 - 1) < 0.02, "%s: a splat of 1 sums to %g", NAMES[i], total / 2000);
@@ -95,7 +143,8 @@ static void test_splats(struct test *t)
         tile_add_splat(&tile, 20, 5, rgb_grey(1));
         tile_add_splat(&tile, -1e30, 5, rgb_grey(1));
         tile_add_splat(&tile, 1e30, 1e30, rgb_grey(1));
-        CHECK(t, f.kind != FILTER_BOX || tile.n_splats == 0, "a splat beyond the film was kept");
+        spread(&tile, &pixels);
+        CHECK(t, f.kind != FILTER_BOX || pixels == 0, "a splat beyond the film was kept");
         tile_add_splat(&tile, 5, 5, rgb_grey(NAN));
         CHECK(t, tile.nonfinite == 1, "a NaN splat was not counted");
         tile_free(&tile);
@@ -150,6 +199,7 @@ static void test_overflow(struct test *t)
     filter_prepare(&f);
     struct tile tile;
     struct film film;
+    int pixels_met;
     memset(&tile, 0, sizeof tile);
     film_init(&film, all, 4, 4);
     film_keep_errors(&film);
@@ -160,7 +210,8 @@ static void test_overflow(struct test *t)
     CHECK(t, tile.nonfinite == 3 && tile.n_splats == 0, "%ld of 3 contributions were left out", tile.nonfinite);
     tile_add_splat(&tile, NAN, 2, rgb_grey(1));
     tile_add_splat(&tile, 2, INFINITY, rgb_grey(1));
-    CHECK(t, tile.n_splats == 0, "a splat that is nowhere fell on %d pixels", (int)tile.n_splats);
+    spread(&tile, &pixels_met);
+    CHECK(t, pixels_met == 0, "a splat that is nowhere fell on %d pixels", pixels_met);
     tile_add_eye(&tile, 2, 0, rgb_make(3e38, 1, -3e38));
     film_merge_tile(&film, &tile);
     film.iterations = 1;
@@ -252,6 +303,7 @@ void test_film(struct test *t)
 {
     test_filters(t);
     test_splats(t);
+    test_memory(t);
     test_errors(t);
     test_overflow(t);
     test_exact_order(t);

@@ -234,19 +234,15 @@ static struct ray awkward_ray(const struct geometry *geo, struct rng *r, double 
 /* see_through: among the primitives without material, else among those with one. */
 static bool brute_closest(const struct geometry *geo, bool see_through, const struct ray *ray, struct hit *hit)
 {
-    struct ray shorter = *ray;
     bool found = false;
     for (int i = 0; i < geometry_primitives(geo); i++) {
         struct hit h;
-        uint32_t id = shape_triangle_id(prim_number(geo, i));
         if ((shape_group_of(geo, prim_number(geo, i))->material < 0) != see_through ||
-            (id != 0 && (id == ray->from || id == ray->to)) ||
-            !shape_intersect(geo, prim_number(geo, i), &shorter, &h))
+            !shape_intersect(geo, prim_number(geo, i), ray, &h) || (found && !(h.t < hit->t)))
             continue;
         if (geo->opaque != NULL && !geo->opaque(geo->opaque_context, geo, &h, false))
             continue;
         *hit = h;
-        shorter.tmax = h.t;
         found = true;
     }
     return found;

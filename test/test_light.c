@@ -323,6 +323,116 @@ static void test_slide_places(struct test *t)
     slide_free(s);
 }
 
+/* One light around the origin, first in a space of its own, then with that space transformed. */
+static bool light_under(struct test *t, const char *light, const char *path, const struct transform *m,
+                        struct scene *out)
+{
+    char text[2048];
+    int n = snprintf(text, sizeof text, "WorldBegin ConcatTransform [");
+    for (int i = 0; i < 16; i++)
+        n += snprintf(text + n, sizeof text - (size_t)n, " %.17g", i >= 12 ? i == 15 : m->m[i % 4][i / 4]);
+    n += snprintf(text + n, sizeof text - (size_t)n, "]\n");
+    n += snprintf(text + n, sizeof text - (size_t)n, light, path);
+    snprintf(text + n, sizeof text - (size_t)n, "\nWorldEnd");
+    return scene_from_text(t, text, out);
+}
+
+/* What the light sends in direction w, or what comes from there. */
+static double light_along(const struct scene *s, const struct light_point *at, vec3 w)
+{
+    return rgb_luminance(s->lights.any_infinite ? light_Le_environment(&s->lights, w) : light_Le(&s->lights, at, w));
+}
+
+/* Light that comes from all directions of a map, drawn by light_sample_point, against the sum over a fine grid. */
+static void check_sky(struct test *t, const struct scene *s, struct rng *r)
+{
+    enum { N = 300, DRAWS = 20000 };
+    double total = 0, sum = 0, square = 0, integral = 0;
+    for (int i = 0; i < N; i++)
+        for (int k = 0; k < 2 * N; k++) {
+            vec3 w = warp_sphere((i + 0.5) / N, (k + 0.5) / (2 * N));
+            total += light_along(s, NULL, w) * 4 * PI / (2.0 * N * N);
+            integral += light_pdf_environment(&s->lights, w) * 4 * PI / (2.0 * N * N);
+        }
+    CHECK(t, fabs(integral - 1) < 0.01, "the density of a transformed map integrates to %g", integral);
+    for (int i = 0; i < DRAWS; i++) {
+        struct light_point at;
+        double u[3] = {rng_uniform(r), rng_uniform(r), rng_uniform(r)};
+        if (!light_sample_point(&s->lights, &s->geo, u, &at))
+            continue;
+        double pdf = light_pdf_environment(&s->lights, at.w), value = light_along(s, NULL, at.w) / at.pdf;
+        CHECK(t, fabs(pdf / at.pdf - 1) < 1e-6, "a direction of density %g was drawn with %g", pdf, at.pdf);
+        sum += value;
+        square += value * value;
+    }
+    double mean = sum / DRAWS, error = sqrt((square / DRAWS - mean * mean) / DRAWS);
+    TEST_ACCEPT(t, stats_student_p((mean - total) / error, DRAWS - 1), "a transformed map sends %g, not %g", mean, total);
+    TEST_REJECT(t, stats_student_p((mean - 1.1 * total) / error, DRAWS - 1), "a transformed map with 10 %% more");
+}
+
+/* Lights of which light space matters, under random transforms: a direction of it gets what it got without them, and all
+ * of it is drawn with the density stated. */
+static void test_transformed(struct test *t)
+{
+    enum { W = 16, H = 8, N = 4 };
+    static const char *const lights[N] = {
+        "LightSource \"spot\" \"float coneangle\" 40 \"float conedeltaangle\" 25 \"point to\" [1 2 -1] # %s\n",
+        "LightSource \"projection\" \"float fov\" 70 \"string mapname\" \"%s\"",
+        "LightSource \"goniometric\" \"string mapname\" \"%s\"",
+        "LightSource \"infinite\" \"string mapname\" \"%s\""};
+    static float pixels[W * H * 3];
+    char path[256];
+    struct error err = {""};
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 8, 0);
+    struct transform id = transform_identity();
+    for (int i = 0; i < W * H * 3; i++)
+        pixels[i] = (float)(1 + (i / 3) % 5);
+    snprintf(path, sizeof path, "%s/slide.pfm", test_tmp(t));
+    if (!CHECK(t, image_write(path, W, H, pixels, &err), "%s", err.text))
+        return;
+    for (int i = 0; i < 2 * N; i++) {
+        struct scene plain, moved;
+        struct transform m = random_affine(&r);
+        struct light_point at;
+        const double u[3] = {0.5, 0.5, 0.5};
+        if (!light_under(t, lights[i % N], path, &id, &plain) || !light_under(t, lights[i % N], path, &m, &moved))
+            return;
+        CHECK(t, light_sample_point(&moved.lights, &moved.geo, u, &at), "light %d: no point", i);
+        double worst = 0;
+        for (int k = 0; k < 1000; k++) {
+            vec3 v = warp_sphere(rng_uniform(&r), rng_uniform(&r)), w = normalize(transform_vector(&m, v));
+            worst = fmax(worst, fabs(light_along(&plain, &at, v) - light_along(&moved, &at, w)));
+        }
+        CHECK(t, worst < 1e-9, "light %d: its space is off by %g", i, worst);
+        if (moved.lights.any_infinite)
+            check_sky(t, &moved, &r);
+        else
+            check_energy(t, &moved.lights, &at, "a transformed light");
+        scene_free(&plain);
+        scene_free(&moved);
+    }
+}
+
+/* A spot narrower than its edge is wide: as in pbrt-v3, whose falloff then begins at the cosine of a negative angle. */
+static void test_narrow_spot(struct test *t)
+{
+    static const struct {
+        double cone, angle, expected; /* degrees */
+    } cases[] = {{3, 1.9, 1}, {3, 2.5, 0.0919}, {3, 3.1, 0}, {1, 0.9, 1}, {1, 1.1, 0}};
+    for (int i = 0; i < 5; i++) {
+        char text[256];
+        struct scene s;
+        snprintf(text, sizeof text, "WorldBegin LightSource \"spot\" \"float coneangle\" %g WorldEnd", cases[i].cone);
+        if (!scene_from_text(t, text, &s))
+            return;
+        struct light_point at = {0};
+        double angle = cases[i].angle * PI / 180, got = light_along(&s, &at, vec(sin(angle), 0, cos(angle)));
+        CHECK(t, fabs(got - cases[i].expected) < 1e-3, "cone of %g degrees, at %g: %g, not %g", cases[i].cone,
+              cases[i].angle, got, cases[i].expected);
+        scene_free(&s);
+    }
+}
+
 /* A direction that is none, as of a ray from a point that is none, is nowhere outside of the tables. */
 static void test_no_direction(struct test *t)
 {
@@ -344,6 +454,8 @@ void test_light(struct test *t)
     test_emission(t);
     test_slides(t);
     test_slide_places(t);
+    test_transformed(t);
+    test_narrow_spot(t);
     test_environment(t);
     test_damaged_map(t);
     test_stored_map(t);

@@ -223,27 +223,32 @@ static bool count_end(void *context, double done)
     return true;
 }
 
-static void test_blocks(struct test *t)
+static void blocks(struct test *t, const char *integrator, int size, int spp, int longest)
 {
-    enum { SPP = 6 };
     struct scene scene;
     struct film film[2];
     struct error err;
-    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 20, 20, &scene)) /* four tiles */
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", size, size, &scene))
         return;
-    for (int block = 0; block < 2; block++) {
-        struct ends ends = {&film[block], 0};
-        struct render_options o = {.integrator = "bdpt", .end = SPP, .block = block, .n_threads = 2,
-                                   .progress = count_end, .progress_context = &ends};
-        film_init(&film[block], render_crop(&scene), 20, 20);
-        CHECK(t, render_scene(&scene, &o, &film[block], &err), "%s", err.text);
-        CHECK(t, ends.n == (block == 1 ? SPP : 1), "block %d: %ld ends", block, ends.n);
+    for (int i = 0; i < 2; i++) {
+        struct ends ends = {&film[i], 0};
+        struct render_options o = {.integrator = integrator, .end = spp, .block = i == 1 ? 1 : longest,
+                                   .n_threads = 2, .progress = count_end, .progress_context = &ends};
+        film_init(&film[i], render_crop(&scene), size, size);
+        CHECK(t, render_scene(&scene, &o, &film[i], &err), "%s", err.text);
+        CHECK(t, ends.n == (i == 1 ? spp : 1), "block %d: %ld ends", o.block, ends.n);
     }
-    for (size_t i = 0; i < 20 * 20 * 3; i++)
-        CHECK(t, film_value(&film[0], i) == film_value(&film[1], i), "value %lu differs", (unsigned long)i);
+    for (int i = 0; i < size * size * 3; i++)
+        CHECK(t, film_value(&film[0], (size_t)i) == film_value(&film[1], (size_t)i), "value %d differs", i);
     film_free(&film[0]);
     film_free(&film[1]);
     scene_free(&scene);
+}
+
+static void test_blocks(struct test *t)
+{
+    blocks(t, "bdpt", 20, 6, 0);  /* four tiles */
+    blocks(t, "lt", 20, 150, 150); /* the first tile holds more splats than wait for the end of its pass */
 }
 
 /* --- Russian roulette -------------------------------------------------------------------------------- */

@@ -82,6 +82,35 @@ static void test_sides(struct test *t)
     }
 }
 
+/* Two centimetres above a ground of 2000 km, flat or round, something casts its shadow; beside it the ground is lit and
+ * not in its own. */
+static void test_contact(struct test *t)
+{
+    static const char *const grounds[] = {
+        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
+        "  \"point P\" [-1e6 0 -1e6  1e6 0 -1e6  1e6 0 1e6  -1e6 0 1e6]",
+        "AttributeBegin Translate 0 -1e6 0 Shape \"sphere\" \"float radius\" 1e6 AttributeEnd"};
+    for (int i = 0; i < 4; i++) {
+        char text[1024];
+        struct scene scene;
+        snprintf(text, sizeof text,
+                 "LookAt .1 .01 0  .1 0 0  1 0 0 Camera \"perspective\" \"float fov\" 10\n"
+                 "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4 WorldBegin\n"
+                 "LightSource \"point\" \"point from\" [0 5 0] %s\n"
+                 "Translate %d .02 0 Rotate 90 1 0 0 Shape \"disk\" \"float radius\" .5 WorldEnd\n",
+                 grounds[i / 2], i % 2 * 5);
+        if (!scene_from_text(t, text, &scene))
+            continue;
+        if (i % 2 == 0)
+            check_shown(t, &scene, 835, 0, "the ground under a disk");
+        struct batches b = render_batches(t, &scene, "pt", 1, 4, 2, 4, 836);
+        double lit = i % 2 * 0.5 * INV_PI * 5 / pow(25.01, 1.5);
+        CHECK(t, fabs(b.value[0] - lit) < 1e-5, "ground %d is lit with %g, not %g", i, b.value[0], lit);
+        batches_free(&b);
+        scene_free(&scene);
+    }
+}
+
 /* A surface without material is not there. If it shines, the first on the way is seen, to the last digit, on each of
  * its sides that shines, but no light behind it: neither a lamp nor the sky. */
 static void test_lamps(struct test *t)
@@ -356,6 +385,7 @@ void test_scenes(struct test *t)
 {
     test_analytic(t);
     test_sides(t);
+    test_contact(t);
     test_lamps(t);
     test_object_light(t);
     test_holes(t);

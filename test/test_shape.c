@@ -13,6 +13,7 @@
 #include "base/rng.h"
 #include "base/stats.h"
 #include "base/warp.h"
+#include "helpers.h"
 #include "tests.h"
 
 static struct shape_group group_of(int material, int first_light)
@@ -137,9 +138,38 @@ static void check_triangle_partials(struct test *t)
     b = surface_at(&geo, flat, 0.2, 0.3);
     CHECK(t, length(cross(sub(a.dpdu, b.dpdu), a.ns)) < 1e-14, "dp/du moves along ns only");
     CHECK(t, length(cross(sub(a.dpdv, b.dpdv), a.ns)) < 1e-14, "dp/dv moves along ns only");
-    vec3 dn = add(mul(a.dndu, 0.5), mul(a.dndv, 0.25)), want = vec(0.6, 0, -0.2); /* n1 - n0, uv1 - uv0 */
-    CHECK(t, near3(dn, want, 1e-6), "dn/du, dn/dv");
     geometry_free(&geo);
+}
+
+/* Vertex normals of any length under any transform: they are interpolated as they come out of it, as in pbrt-v3, and the
+ * partials of ns are its differences. */
+static void check_vertex_normals(struct test *t, struct rng *r)
+{
+    const double h = 1e-5;
+    for (int i = 0; i < 50; i++) {
+        struct geometry geo = {0};
+        struct error err = {""};
+        struct transform m = random_affine(r);
+        double b1 = 0.1 + 0.4 * rng_uniform(r), b2 = 0.1 + 0.3 * rng_uniform(r);
+        float normal[9];
+        vec3 n[3];
+        for (int k = 0; k < 9; k++)
+            normal[k] = corner_normal[k] * (float)(k / 3 + 1);
+        struct mesh mesh = {corner, normal, corner_uv, corner_index, 3, 1, 0, 0, 0};
+        CHECK(t, shape_add_mesh(&geo, &mesh, &m, group_of(7, 40), false, &err) == 0, "%s", err.text);
+        for (size_t k = 0; k < 3; k++)
+            n[k] = load3(normal, k);
+        struct surface at = surface_at(&geo, 0, b1, b2);
+        vec3 want = normalize(transform_normal(&m, barycentric3(n, b1, b2)));
+        CHECK(t, near3(at.ns, want, 1e-6), "transform %d: normal off by %g", i, length(sub(at.ns, want)));
+        for (int k = 0; k < 2; k++) {
+            struct surface a = surface_at(&geo, 0, b1 + (k ? 0 : h), b2 + (k ? h : 0));
+            struct surface b = surface_at(&geo, 0, b1 - (k ? 0 : h), b2 - (k ? h : 0));
+            vec3 dn = add(mul(at.dndu, a.u - b.u), mul(at.dndv, a.v - b.v)), moved = sub(a.ns, b.ns);
+            CHECK(t, near3(dn, moved, 1e-4 * h + 1e-4 * length(moved)), "transform %d: dn/du, dn/dv", i);
+        }
+        geometry_free(&geo);
+    }
 }
 
 static void check_degenerate_uv(struct test *t)
@@ -310,6 +340,40 @@ static void check_quadric_hits(struct test *t, const struct geometry *geo, int i
         struct ray leave = {at.p, on_sphere(r), 1e-7, 1e-3, 0, 0};
         CHECK(t, fabs(dot(leave.d, at.ng)) < 0.05 || !shape_intersect(geo, prim, &leave, &hit), "it meets itself");
     }
+}
+
+/* Rays that end on a quadric do not meet it there, and rays that leave it do not meet it at once, however they graze it,
+ * whatever its size, shape and place, and with no margin: what is left is the other meeting, if there is one. */
+static void check_own_quadric(struct test *t, int i, struct rng *r)
+{
+    struct geometry geo = {0};
+    struct hit hit, next, again;
+    struct surface at;
+    double size = pow(10, 9 * rng_uniform(r) - 3);
+    struct quadric q = quadric_number(i);
+    q.to_world = transform_compose(transform_translate(mul(on_sphere(r), size)),
+                                   transform_compose(random_affine(r), transform_scale(size, size, size)));
+    CHECK(t, shape_add_quadric(&geo, q, group_of(0, -1), false, NULL) == 0, "quadric %d", i);
+    for (int k = 0; k < 100; k++) {
+        vec3 target = point_of(&q, rng_uniform(r), rng_uniform(r)), o = add(target, mul(on_sphere(r), 9 * size));
+        struct ray ray = {o, normalize(sub(target, o)), 0, HUGE_VAL, 0, 0};
+        if (!CHECK(t, shape_intersect(&geo, FIRST_QUADRIC, &ray, &hit), "quadric %d is missed", i))
+            continue;
+        shape_surface(&geo, &hit, &ray, &at);
+        struct ray arrive = {o, ray.d, 0, length(sub(at.p, o)), 0, shape_triangle_id(FIRST_QUADRIC)};
+        CHECK(t, !shape_intersect(&geo, FIRST_QUADRIC, &arrive, &again), "quadric %d stands before itself", i);
+        double cosine = pow(10, -5 * rng_uniform(r));
+        vec3 along = normalize(cross(at.ng, on_sphere(r)));
+        struct ray leave = {at.p, normalize(add(along, mul(at.ng, cosine))), 0, HUGE_VAL,
+                            shape_triangle_id(FIRST_QUADRIC), 0};
+        double blur = 1e-7 * size + 1e-10 * length(at.p);
+        struct ray beyond = {at.p, leave.d, blur, HUGE_VAL, 0, 0};
+        bool met = shape_intersect(&geo, FIRST_QUADRIC, &leave, &next);
+        CHECK(t, met == shape_intersect(&geo, FIRST_QUADRIC, &beyond, &again) &&
+                     (!met || fabs(next.t - again.t) <= blur),
+              "quadric %d of size %g meets itself: %d at %g, cosine %g", i, size, met, met ? next.t : again.t, cosine);
+    }
+    geometry_free(&geo);
 }
 
 /* Derivatives against central differences. */
@@ -488,6 +552,7 @@ void test_shape(struct test *t)
     check_triangle_hits(t);
     check_triangle_random(t, &r);
     check_triangle_partials(t);
+    check_vertex_normals(t, &r);
     check_degenerate_uv(t);
     check_triangle_orientation(t);
     check_mesh_refused(t);
@@ -497,6 +562,7 @@ void test_shape(struct test *t)
         shape_add_quadric(&quadrics, quadric_number(i), group_of(0, -1), false, NULL);
     for (int i = 0; i < N_QUADRICS; i++) {
         check_quadric_hits(t, &quadrics, i, &r);
+        check_own_quadric(t, i, &r);
         check_quadric_partials(t, &quadrics, i, &r);
     }
     check_quadric_orientation(t);

@@ -92,7 +92,7 @@ static bool commit_unevenly(void *context, int64_t job, int slot)
 static struct uneven run_unevenly(int n_slots, int expected, double patience, int64_t stop, int64_t *committed)
 {
     struct uneven u = {.expected = expected, .patience = patience, .stop = stop, .in_order = true};
-    struct parallel_jobs jobs = {JOBS, 2, n_slots, &u, work_unevenly, commit_unevenly};
+    struct parallel_jobs jobs = {JOBS, 2, n_slots, &u, work_unevenly, commit_unevenly, NULL};
     u.lock = os_lock_new();
     *committed = parallel_run(&jobs);
     os_lock_free(u.lock);
@@ -117,6 +117,45 @@ static bool two_threads(void)
     return u.finished == 2;
 }
 
+struct waiting {
+    struct parallel_jobs *jobs;
+    int64_t next, stop; /* job to be committed next; the last one */
+    int early, late;    /* jobs that went on before their turn; that were told to stop */
+};
+
+static void work_and_await(void *context, int64_t job, int slot, int thread)
+{
+    struct waiting *w = context;
+    (void)slot, (void)thread;
+    if (job % 3 == 0)
+        return;
+    if (parallel_await(w->jobs, job))
+        w->early += w->next != job; /* by nobody else now */
+    else
+        w->late++; /* after the last commit there is at most one */
+}
+
+static bool commit_waiting(void *context, int64_t job, int slot)
+{
+    struct waiting *w = context;
+    (void)slot;
+    w->next = job + 1;
+    return job != w->stop;
+}
+
+/* Jobs that wait for their turn have it after all others before them, and do not wait for ever. */
+static void test_await(struct test *t)
+{
+    for (int64_t stop = -1; stop < 20; stop += 7) {
+        struct waiting w = {.stop = stop};
+        struct parallel_jobs jobs = {200, 2, 8, &w, work_and_await, commit_waiting, NULL};
+        w.jobs = &jobs;
+        int64_t n = parallel_run(&jobs);
+        CHECK(t, n == (stop < 0 ? 200 : stop + 1) && w.early == 0 && w.late <= 1,
+              "of %d jobs %d went on too early, %d too late", (int)n, w.early, w.late);
+    }
+}
+
 static void test_uneven(struct test *t)
 {
     enum { SLOTS = 2 * SLOTS_PER_THREAD };
@@ -135,6 +174,7 @@ static void test_uneven(struct test *t)
 
 void test_threads(struct test *t)
 {
+    test_await(t);
     test_uneven(t);
     static const char *const selections[] = {"bins", "pool", "vertices", "subspaces", "lvc", "combinatorial"};
     struct scene scene;

@@ -36,7 +36,10 @@ void exact_add(struct exact_sum *s, double term)
     }
 }
 
-static bool add_fits(int64_t a, int64_t b) { return b > 0 ? a <= INT64_MAX - b : a >= INT64_MIN - b; }
+/* Sums of sums end here, far enough from overflow for as many terms more as a render can have. */
+static const int64_t MOST = (int64_t)1 << 62;
+
+static bool add_fits(int64_t a, int64_t b) { return b > 0 ? a <= MOST - b : a >= -MOST - b; }
 
 bool exact_join(struct exact_sum *s, const struct exact_sum *other)
 {

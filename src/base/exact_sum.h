@@ -8,8 +8,9 @@
  * terms to come. So the digits are a function of the set of terms alone, sums may be added up from parts, and pictures
  * rendered in pieces are those rendered at once, to the byte. [Demmel & Nguyen 2015] sum doubles on the same principle.
  *
- * At least 48 bits below the leading one of the largest term are kept, and 2^39 terms may be added before a digit
- * overflows. What is not a number or not below 2^144 is no term, and nothing is left of what is below 2^-216.
+ * At least 48 bits below the leading one of the largest term are kept, and 2^38 terms may be added to any sum of sums
+ * before a digit overflows. What is not a number or not below 2^144 is no term, and nothing is left of what is below
+ * 2^-216.
  *
  * Tests: test_film.c.
  */
@@ -30,7 +31,8 @@ struct exact_sum {
 /* exact_add: one term more. */
 void exact_add(struct exact_sum *sum, double term);
 
-/* exact_join: all terms of another sum more. Returns false, and leaves the sum as it was, if a digit would overflow. */
+/* exact_join: all terms of another sum more. Returns false, and leaves the sum as it was, if a digit would go
+ * beyond 2^62. */
 bool exact_join(struct exact_sum *sum, const struct exact_sum *other);
 
 /* exact_value: the sum, rounded. */

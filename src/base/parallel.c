@@ -60,9 +60,21 @@ static void run_worker(void *queue, int thread)
     os_lock_leave(q->lock);
 }
 
-int64_t parallel_run(const struct parallel_jobs *jobs)
+bool parallel_await(const struct parallel_jobs *jobs, int64_t job)
+{
+    struct job_queue *q = jobs->queue;
+    os_lock_take(q->lock);
+    while (!q->stopped && q->committed < job)
+        os_lock_wait(q->lock);
+    bool go_on = !q->stopped;
+    os_lock_leave(q->lock);
+    return go_on;
+}
+
+int64_t parallel_run(struct parallel_jobs *jobs)
 {
     struct job_queue q = {.jobs = jobs};
+    jobs->queue = &q;
     q.done = mem_alloc((size_t)jobs->n_slots, sizeof *q.done);
     q.lock = os_lock_new();
     os_run_threads(jobs->n_threads, run_worker, &q);

@@ -15,6 +15,8 @@
 /* Slots for jobs that may differ much in length: a job as long as fifteen others holds nobody up. */
 enum { SLOTS_PER_THREAD = 16 };
 
+struct job_queue;
+
 struct parallel_jobs {
     int64_t n_jobs;
     int n_threads; /* >= 1; the calling thread is one of them */
@@ -26,10 +28,16 @@ struct parallel_jobs {
      * many threads share, so keep it short. Returns false to stop: no later job is committed and none that has not
      * started yet is begun. */
     bool (*commit)(void *context, int64_t job, int slot);
+    struct job_queue *queue; /* set by parallel_run */
 };
 
 /* parallel_run: run all jobs. Returns the number of jobs committed (n_jobs unless a commit said stop). If threads
  * cannot be created it goes on with those it has. */
-int64_t parallel_run(const struct parallel_jobs *jobs);
+int64_t parallel_run(struct parallel_jobs *jobs);
+
+/* parallel_await: for a job under way whose result has grown too large to wait in its slot. Returns when all jobs
+ * before it are committed: nobody commits before it does, so it may take in what it has. False if a commit has said
+ * stop and nothing of this job is wanted. */
+bool parallel_await(const struct parallel_jobs *jobs, int64_t job);
 
 #endif

@@ -110,6 +110,15 @@ static long reached(const struct merge *m)
     return end;
 }
 
+/* Is the part what it was when it was opened first? */
+static bool unchanged(const struct part *p, const char *path, const struct part *before, struct error *err)
+{
+    return part_same(p, path, before, err) &&
+           ((p->first == before->first && p->end == before->end && p->done == before->done &&
+             p->passes == before->passes && p->left_out == before->left_out) ||
+            error_set(err, "%s: the part has changed while it was read", path));
+}
+
 static void add_parts(struct merge *m, struct film *film)
 {
     struct error err;
@@ -120,7 +129,7 @@ static void add_parts(struct merge *m, struct film *film)
             wrong(m, err.text);
             continue;
         }
-        if (!part_same(&again, m->part[i].path, &m->part[i].part, &err)) { /* it has changed in the meantime */
+        if (!unchanged(&again, m->part[i].path, &m->part[i].part, &err)) {
             wrong(m, err.text);
             fclose(f);
         } else if (!part_add(f, m->part[i].path, &again, film, &err)) {

@@ -1,6 +1,9 @@
 /* kd_block.c: see kd_block.h. */
 #include "geometry/kd_block.h"
 
+/* The number of a primitive that is a triangle, KD_NONE of another: quadrics see to themselves. */
+static uint32_t own_triangle(uint32_t id) { return id - 1 < FIRST_QUADRIC ? id - 1 : KD_NONE; }
+
 void kd_block_ray(struct kd_block_ray *r, const struct ray *ray, double size)
 {
     r->exact = triangle_ray(ray);
@@ -10,8 +13,8 @@ void kd_block_ray(struct kd_block_ray *r, const struct ray *ray, double size)
     r->sx = (float)r->exact.sx;
     r->sy = (float)r->exact.sy;
     r->slack = (float)(64 * 0x1p-24 * size);
-    r->from = ray->from - 1; /* 0 becomes KD_NONE */
-    r->to = ray->to - 1;
+    r->from = own_triangle(ray->from);
+    r->to = own_triangle(ray->to);
 }
 
 void kd_block_fill(struct kd_block *b, const struct geometry *geo, const int *prim, int n)
@@ -51,14 +54,12 @@ static bool lane_hit(const struct kd_block *b, int lane, const struct geometry *
 static bool quadrics_hit(const struct kd_block *b, const struct geometry *geo, const struct ray *ray, double tmax,
                          struct hit *hit)
 {
-    struct ray shorter = *ray;
     struct hit h;
     bool found = false;
-    shorter.tmax = tmax;
     for (int i = 0; i < KD_LANES && b->prim[i] != KD_NONE; i++)
-        if (shape_intersect(geo, (int)b->prim[i], &shorter, &h)) {
+        if (shape_intersect(geo, (int)b->prim[i], ray, &h) && h.t < tmax) {
             *hit = h;
-            shorter.tmax = h.t;
+            tmax = h.t;
             found = true;
         }
     return found;

@@ -61,7 +61,7 @@ struct kd_block_ray {
     struct triangle_ray exact;
     float ox, oy, oz, sx, sy; /* of exact, in float */
     float slack;              /* 64 u s */
-    uint32_t from, to;        /* primitive numbers of the ray's own triangles, KD_NONE if it has none */
+    uint32_t from, to;        /* primitive numbers of the triangles it begins and ends on, KD_NONE: on none */
 };
 
 /* kd_block_ray: prepare *r for the scene whose largest absolute coordinate, or the ray's origin's, is `size`. */

@@ -4,8 +4,8 @@
  * nodes, leaves of triangles in blocks of four, iterative traversal.
  *
  * Precision: nodes hold float planes, traversal and intersection are computed in double from exact float
- * vertices. A point found on a surface is therefore within about 1e-15 of the scene's size of it, and a ray
- * leaving it needs only tmin = scene->epsilon (1e-8 of the scene's diagonal) to miss its own surface.
+ * vertices. A point found on a surface is therefore within about 1e-15 of the scene's size of it; a ray leaving it does
+ * not meet that primitive again, and others from ray_margin on.
  *
  * Tests: test_kdtree.c (against brute force, degenerate meshes).
  */

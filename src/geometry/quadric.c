@@ -195,15 +195,23 @@ static vec3 project(const struct quadric *q, vec3 p)
     return p;
 }
 
-bool quadric_intersect(const struct quadric *q, const struct ray *ray, double *t)
+/* Which of n <= 2 roots is nearest to t? */
+static int nearest_root(const double root[2], int n, double t)
+{
+    return n == 2 && fabs(root[1] - t) < fabs(root[0] - t);
+}
+
+bool quadric_intersect(const struct quadric *q, const struct ray *ray, bool begins, bool ends, double *t)
 {
     const double(*m)[4] = q->to_world.inv;
     vec3 o = add(transform_vector_back(&q->to_world, ray->o), vec(m[0][3], m[1][3], m[2][3]));
     vec3 d = transform_vector_back(&q->to_world, ray->d);
     double root[2];
     int n = line_roots(q, o, d, root);
+    int first = begins ? nearest_root(root, n, 0) : -1, last = ends ? nearest_root(root, n, ray->tmax) : -1;
     for (int i = 0; i < n; i++)
-        if (root[i] > ray->tmin && root[i] < ray->tmax && is_kept(q, project(q, add(o, mul(d, root[i]))))) {
+        if (i != first && i != last && root[i] > ray->tmin && root[i] < ray->tmax &&
+            is_kept(q, project(q, add(o, mul(d, root[i]))))) {
             *t = root[i];
             return true;
         }
@@ -385,4 +393,18 @@ double quadric_area(const struct quadric *q)
         sum += area_ratio(q, at.ng);
     }
     return object_area(q) * sum / (n * n);
+}
+
+/* |M^T n|^2 is a quadratic form of n: if it is the same at this many places, it is everywhere. */
+bool quadric_keeps_area(const struct quadric *q)
+{
+    enum { DOWN = 4, ROUND = 5 };
+    for (int i = 0; i < DOWN * ROUND; i++) {
+        struct surface at;
+        vec3 p = quadric_sample(q, (i / ROUND + 0.5) / DOWN, (i % ROUND + 0.5) / ROUND);
+        quadric_surface_at(q, false, p, &at);
+        if (!(fabs(area_ratio(q, at.ng) - 1) < 1e-3))
+            return false;
+    }
+    return true;
 }

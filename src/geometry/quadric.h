@@ -43,8 +43,9 @@ void quadric_normalise(struct quadric *q);
 /* quadric_bounds: a world box around the quadric (of the full turn, whatever phi_max). */
 void quadric_bounds(const struct quadric *q, vec3 *lo, vec3 *hi);
 
-/* quadric_intersect: the first t in (tmin, tmax) at which the ray meets the quadric; false if none. */
-bool quadric_intersect(const struct quadric *q, const struct ray *ray, double *t);
+/* quadric_intersect: the first t in (tmin, tmax) at which the ray meets the quadric; false if none.
+ *   begins, ends  the ray does so on this quadric: where it meets it nearest to 0, or to tmax, does not count */
+bool quadric_intersect(const struct quadric *q, const struct ray *ray, bool begins, bool ends, double *t);
 
 /* quadric_surface_at: the surface point at object-space point p, near the quadric, which is moved onto it first.
  * Fills all of *out but material and light. */
@@ -57,6 +58,10 @@ vec3 quadric_sample(const struct quadric *q, double u1, double u2);
 /* quadric_area: world area of a sphere, disk or cylinder, m^2; 0 of the others. Exact if the transform is a
  * similarity or the quadric a disk, otherwise by numerical integration (relative error about 1e-4). */
 double quadric_area(const struct quadric *q);
+
+/* quadric_keeps_area: is every part of a sphere, disk or cylinder as large in the world as in object space, to a
+ * thousandth? */
+bool quadric_keeps_area(const struct quadric *q);
 
 /* quadric_pdf_a: world-area density of quadric_sample where the unit world normal is ng, 1/m^2. */
 double quadric_pdf_a(const struct quadric *q, vec3 ng);

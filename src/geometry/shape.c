@@ -60,21 +60,36 @@ static void reserve_triangles(struct geometry *geo, size_t need)
     geo->triangle_capacity = cap_index;
 }
 
+/* The world normal of a vertex, of any length; 0 if there is none. */
+static vec3 vertex_normal(const struct mesh *m, const struct transform *to_world, size_t i)
+{
+    vec3 n = m->N != NULL ? transform_normal(to_world, load3(m->N, i)) : vec(0, 0, 0);
+    return is_finite3(n) ? n : vec(0, 0, 0);
+}
+
+/* As in pbrt-v3, longer normals count for more where they are interpolated. A factor common to all of a mesh changes
+ * nothing, so the longest is made 1, which fits a float. */
+static double normal_scale(const struct mesh *m, const struct transform *to_world)
+{
+    double longest = 0;
+    for (size_t i = 0; i < (size_t)m->n_vertices && m->N != NULL; i++)
+        longest = fmax(longest, length(vertex_normal(m, to_world, i)));
+    return longest > 0 ? 1 / longest : 1;
+}
+
 static bool add_vertices(struct geometry *geo, const struct mesh *m, const struct transform *to_world, bool reverse,
                          struct error *err)
 {
     size_t base = (size_t)geo->n_vertices;
+    double scale = reverse ? -normal_scale(m, to_world) : normal_scale(m, to_world);
     reserve_vertices(geo, base + (size_t)m->n_vertices);
     for (size_t i = 0; i < (size_t)m->n_vertices; i++) {
         vec3 p = transform_point(to_world, load3(m->P, i));
         if (!is_place(p))
             return error_set(err, "vertex %lu of the mesh lies at (%g, %g, %g) in the world: not a usable position",
                              (unsigned long)i, p.x, p.y, p.z);
-        vec3 n = m->N != NULL ? normalize(transform_normal(to_world, load3(m->N, i))) : vec(0, 0, 0);
-        if (!is_finite3(n))
-            n = vec(0, 0, 0);
         store3(geo->P, base + i, p);
-        store3(geo->N, base + i, reverse ? neg(n) : n);
+        store3(geo->N, base + i, mul(vertex_normal(m, to_world, i), scale));
         for (size_t k = 0; k < 2; k++)
             geo->UV[2 * (base + i) + k] = m->UV != NULL ? m->UV[2 * i + k] : 0;
     }
@@ -187,10 +202,13 @@ void shape_bounds(const struct geometry *geo, int prim, float lo[3], float hi[3]
 
 bool shape_intersect(const struct geometry *geo, int prim, const struct ray *ray, struct hit *hit)
 {
+    bool begins = ray->from == shape_triangle_id(prim), ends = ray->to == shape_triangle_id(prim);
     if (is_quadric(prim)) {
-        if (!quadric_intersect(quadric_of(geo, prim), ray, &hit->t))
+        if (!quadric_intersect(quadric_of(geo, prim), ray, begins, ends, &hit->t))
             return false;
         hit->b1 = hit->b2 = 0;
+    } else if (begins || ends) {
+        return false;
     } else {
         float v[9];
         shape_vertices(geo, prim, v);

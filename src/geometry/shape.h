@@ -39,7 +39,7 @@ struct shape_group {
 struct geometry {
     /* Triangle meshes, all concatenated. Vertex arrays share one numbering. */
     float *P;         /* [n_vertices*3] world positions */
-    float *N;         /* [n_vertices*3] unit world normals; zeros where a group has none */
+    float *N;         /* [n_vertices*3] world normals, at most 1 long; zeros where a group has none */
     float *UV;        /* [n_vertices*2] */
     uint32_t *index;  /* [n_triangles*3] */
     int32_t *group_of_triangle; /* [n_triangles] */
@@ -93,12 +93,12 @@ void shape_vertices(const struct geometry *geo, int triangle, float v[9]);
 /* shape_bounds: world bounding box of one primitive, never inside out, conservative in float. */
 void shape_bounds(const struct geometry *geo, int prim, float lo[3], float hi[3]);
 
-/* shape_intersect: does the ray meet this primitive within (tmin, tmax)? Fills *hit if so. Double precision,
- * edges shared by two triangles leave no gap. Alpha is not looked at here. */
+/* shape_intersect: does the ray meet this primitive within (tmin, tmax), where it neither begins nor ends on it? Fills
+ * *hit if so. Double precision, edges shared by two triangles leave no gap. Alpha is not looked at here. */
 bool shape_intersect(const struct geometry *geo, int prim, const struct ray *ray, struct hit *hit);
 
-/* shape_triangle_id: the number by which rays and points name the triangle they begin, end or lie on; 0: a quadric. */
-static inline uint32_t shape_triangle_id(int prim) { return prim < FIRST_QUADRIC ? (uint32_t)prim + 1 : 0; }
+/* shape_triangle_id: the number, not 0, by which rays and points name the primitive they begin, end or lie on. */
+static inline uint32_t shape_triangle_id(int prim) { return (uint32_t)prim + 1; }
 
 /* shape_surface: the full surface point of a hit (position from the barycentric coordinates for triangles,
  * refined onto the surface for quadrics). Shading normal and partials as pbrt-v3 defines them. */

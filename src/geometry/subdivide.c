@@ -228,7 +228,7 @@ static vec3 across_boundary(const struct ring *r, vec3 p)
     return sum;
 }
 
-/* Unit normal of the limit surface from two of its tangents; zero where they are parallel. */
+/* Normal of the limit surface: the product of two of its tangents, as long as in pbrt-v3. */
 static vec3 limit_normal(const struct ring *r, vec3 p)
 {
     vec3 s = vec(0, 0, 0), t = s;
@@ -240,8 +240,7 @@ static vec3 limit_normal(const struct ring *r, vec3 p)
         s = add(s, mul(r->p[i], m_cos(2 * PI * i / r->n)));
         t = add(t, mul(r->p[i], m_sin(2 * PI * i / r->n)));
     }
-    vec3 n = normalize(cross(s, t));
-    return is_finite3(n) ? n : vec(0, 0, 0);
+    return cross(s, t);
 }
 
 /* Move the vertices to their limits, then find the normals there, as pbrt-v3 does in this order. The mesh takes over

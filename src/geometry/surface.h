@@ -10,9 +10,13 @@
 struct ray {
     vec3 o, d;
     double tmin, tmax; /* tmin >= 0; tmax may be HUGE_VAL */
-    uint32_t from, to; /* triangles that the segment begins and ends on, as shape_triangle_id numbers them; 0: none
-                        * known. A line meets a plane only once, so they need not be tested again; they may be 0. */
+    uint32_t from, to; /* primitives that the segment begins and ends on, as shape_triangle_id numbers them; 0: none
+                        * known. A line meets a triangle once and a quadric twice, so these meetings are left out. */
 };
+
+/* ray_margin: how far from a point p of a surface, which is not met again (`from`, `to`), a ray meets others. Corners are
+ * floats: surfaces nearer to each other than a float's step at p are one to the scene file. */
+static inline double ray_margin(vec3 p) { return 1e-7 * (fabs(p.x) + fabs(p.y) + fabs(p.z)); }
 
 /* Where a ray meets a primitive. */
 struct hit {
@@ -30,7 +34,7 @@ struct surface {
     vec3 dndu, dndv; /* partial derivatives of ns; zero where the shape does not define them */
     double u, v;     /* texture coordinates */
     int material;    /* index into scene->materials, or -1 */
-    uint32_t triangle_id; /* the triangle it is on, see shape_triangle_id; 0: none */
+    uint32_t triangle_id; /* the primitive it is on, see shape_triangle_id */
     int light;       /* index into scene->lights of the area light that sits here, or -1 */
 };
 

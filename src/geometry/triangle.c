@@ -33,8 +33,9 @@ static bool linear_partials(const struct triangle *tri, const vec3 *value, vec3 
     return true;
 }
 
-/* Tangents orthogonal to a shading normal from vertex normals, and how that normal changes. */
-static void partials_by_vertex_normals(const struct triangle *tri, struct surface *out)
+/* Tangents orthogonal to a shading normal from vertex normals, whose mean has this length, and how that normal
+ * changes. */
+static void partials_by_vertex_normals(const struct triangle *tri, double size, struct surface *out)
 {
     vec3 du = reject(out->dpdu, out->ns), dv = reject(out->dpdv, out->ns);
     if (length2(cross(du, dv)) > 0) {
@@ -43,7 +44,10 @@ static void partials_by_vertex_normals(const struct triangle *tri, struct surfac
     } else {
         tangents_of(out->ns, &out->dpdu, &out->dpdv);
     }
-    if (!linear_partials(tri, tri->n, &out->dndu, &out->dndv)) {
+    if (linear_partials(tri, tri->n, &out->dndu, &out->dndv)) {
+        out->dndu = mul(reject(out->dndu, out->ns), 1 / size);
+        out->dndv = mul(reject(out->dndv, out->ns), 1 / size);
+    } else {
         vec3 dn = cross(sub(tri->n[2], tri->n[0]), sub(tri->n[1], tri->n[0]));
         if (length2(dn) > 0)
             tangents_of(dn, &out->dndu, &out->dndv);
@@ -59,16 +63,18 @@ void triangle_surface(const struct triangle *tri, double b1, double b2, struct s
     out->u = (1 - b1 - b2) * tri->uv[0][0] + b1 * tri->uv[1][0] + b2 * tri->uv[2][0];
     out->v = (1 - b1 - b2) * tri->uv[0][1] + b1 * tri->uv[1][1] + b2 * tri->uv[2][1];
     out->dpdu = out->dpdv = out->dndu = out->dndv = vec(0, 0, 0);
+    double size = 0;
     if (tri->has_n) {
         vec3 ns = barycentric3(tri->n, b1, b2);
-        if (length2(ns) > 0)
-            out->ns = normalize(ns);
+        size = length(ns);
+        if (size > 0)
+            out->ns = mul(ns, 1 / size);
         out->ng = faceforward(out->ng, out->ns);
     }
     if (tri->skip_partials)
         return;
     if (!linear_partials(tri, tri->p, &out->dpdu, &out->dpdv) || !(length2(cross(out->dpdu, out->dpdv)) > 0))
         tangents_of(neg(normal), &out->dpdu, &out->dpdv);
-    if (tri->has_n)
-        partials_by_vertex_normals(tri, out);
+    if (size > 0)
+        partials_by_vertex_normals(tri, size, out);
 }

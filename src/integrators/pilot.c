@@ -45,24 +45,22 @@ struct pilot {
     bool stopped;
 };
 
-static double luminance_of(float r, float g, float b)
+static double luminance_of(const float *c)
 {
-    return rgb_luminance(rgb_make((double)r, (double)g, (double)b));
+    return rgb_luminance(rgb_make((double)c[0], (double)c[1], (double)c[2]));
 }
 
 static double luminance_added(const struct strategy_record *r)
 {
-    return luminance_of(r->unweighted[0], r->unweighted[1], r->unweighted[2]) * (double)r->weight;
+    return luminance_of(r->unweighted) * (double)r->weight;
 }
 
-/* Where a pixel of the film lies in the tile, or -1. */
-static long place_in_tile(const struct tile *tile, int32_t pixel)
+/* Where the pixel of a record lies in the tile. */
+static long place_in_tile(const struct tile *tile, const struct strategy_record *r)
 {
-    int film_width = rect_width(tile->film_rect);
-    int x = pixel % film_width + tile->film_rect.x0, y = pixel / film_width + tile->film_rect.y0;
-    struct pixel_rect r = tile->rect;
-    bool inside = x >= r.x0 && y >= r.y0 && x < r.x1 && y < r.y1;
-    return inside ? (long)(y - r.y0) * rect_width(r) + (x - r.x0) : -1;
+    int width = rect_width(tile->film_rect);
+    int x = r->at % width + tile->film_rect.x0, y = r->at / width + tile->film_rect.y0;
+    return (long)(y - tile->rect.y0) * rect_width(tile->rect) + (x - tile->rect.x0);
 }
 
 /* Luminance of every pixel of the tile, splats included. */
@@ -72,9 +70,14 @@ static void pixel_values(const struct tile *tile, double *out)
     for (int i = 0; i < n; i++)
         out[i] = rgb_luminance(rgb_make(tile->eye[3 * i], tile->eye[3 * i + 1], tile->eye[3 * i + 2]));
     for (size_t k = 0; k < tile->n_splats; k++) {
-        long i = place_in_tile(tile, tile->splat[k].pixel);
-        if (i >= 0)
-            out[i] += luminance_of(tile->splat[k].r, tile->splat[k].g, tile->splat[k].b);
+        const struct splat *s = &tile->splat[k];
+        struct pixel_rect r = tile->rect, range = splat_pixels(s, tile->filter, r);
+        for (int y = range.y0; y < range.y1; y++)
+            for (int x = range.x0; x < range.x1; x++) {
+                float part[3];
+                if (splat_part(s, tile->filter, x, y, part))
+                    out[(y - r.y0) * rect_width(r) + (x - r.x0)] += luminance_of(part);
+            }
     }
 }
 
@@ -115,15 +118,15 @@ static void add_records(const struct tile *tile, const double *scale, struct sum
         double x = 0, x2 = 0, n = kind >= 0 ? TRIED[kind] : 1;
         for (; i < tile->n_records; i++) {
             const struct strategy_record *r = &tile->record[i];
-            if (r->pixel != first->pixel || r->t != first->t || kind_of(r) != kind)
+            if (r->at != first->at || r->t != first->t || kind_of(r) != kind)
                 break;
             double one = luminance_added(r);
             x += one;
             x2 += one * one;
         }
-        long at = place_in_tile(tile, first->pixel);
-        if (kind < 0 || at < 0)
+        if (kind < 0)
             continue;
+        long at = place_in_tile(tile, first);
         out->spread[kind] += fmin((x2 - x * x / n) * n / (n - 1) / scale[at], OUTLIER);
         out->square[kind] += fmin(x2 / scale[at], OUTLIER);
     }
@@ -139,9 +142,8 @@ static void add_hits(const struct tile *a, const struct tile *b, const double *s
         const struct tile *tile = i == 0 ? a : b;
         for (size_t k = 0; k < tile->n_records; k++) {
             const struct strategy_record *r = &tile->record[k];
-            long at = r->s == 0 && r->t == 3 ? place_in_tile(tile, r->pixel) : -1;
-            if (at >= 0)
-                value[(size_t)i * n + (size_t)at] += luminance_added(r);
+            if (r->s == 0 && r->t == 3)
+                value[(size_t)i * n + (size_t)place_in_tile(tile, r)] += luminance_added(r);
         }
     }
     for (size_t i = 0; i < n; i++) {
@@ -304,7 +306,7 @@ void pilot_run(const struct render_job *job, struct preparation *method)
     set_numbers(s, TRIED, credit);
     s->frozen.counts.splat = pixel_light_count(job) / s->frozen.path_pixels;
     p.job.seed = hash_combine(job->seed, 0x3c6ef372fe94f82bu); /* unlike the render's */
-    struct parallel_jobs jobs = {tiles, job->n_threads, n_slots, &p, render_tile, add_tile};
+    struct parallel_jobs jobs = {tiles, job->n_threads, n_slots, &p, render_tile, add_tile, NULL};
     make_memory(&p, n_slots);
     parallel_run(&jobs);
     free_memory(&p, n_slots);

@@ -52,7 +52,7 @@ void pass_run(const struct pass *p)
     struct run r = {.pass = p};
     int n_threads = p->lessons->job->n_threads, n_slots = 4 * n_threads;
     struct parallel_jobs jobs = {(p->end - p->first + CHUNK - 1) / CHUNK, n_threads, n_slots, &r, trace_chunk,
-                                 take_chunk};
+                                 take_chunk, NULL};
     if (p->lessons->stopped)
         return;
     r.found = mem_alloc((size_t)n_slots, sizeof *r.found);

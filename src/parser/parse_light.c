@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/frame.h"
 #include "base/maths.h"
 
 /* A light in the making. */
@@ -37,10 +38,10 @@ static void point_light(struct parser *p, void *object)
     item->light.position = add(item->from, transform_point(&item->light.to_world, vec(0, 0, 0)));
 }
 
-/* Unit vector in world space from one point of light space to another; fails where they coincide. */
-static vec3 direction(struct params *q, const struct light *l, vec3 from, vec3 to)
+/* The unit vector along w, which leads from one point to another; fails where they coincide. */
+static vec3 direction(struct params *q, vec3 w)
 {
-    vec3 w = normalize(transform_vector(&l->to_world, sub(to, from)));
+    w = normalize(w);
     if (!(fabs(length2(w) - 1) < 1e-6)) {
         type_error(q, "\"from\" and \"to\" give no direction; move them apart");
         return vec(0, 0, 1);
@@ -56,17 +57,22 @@ static void spot_light(struct parser *p, void *object)
     if (item->cone > 180)
         type_error(q, "\"coneangle\" is %g degrees; the whole sphere is 180", item->cone);
     l->cos_total = m_cos(item->cone * PI / 180);
-    l->cos_falloff = m_cos(fmax(item->cone - item->edge, 0) * PI / 180);
+    l->cos_falloff = m_cos((item->cone - item->edge) * PI / 180); /* of an angle below 0 too, as in pbrt-v3 */
     if (!(l->cos_total < 1))
         type_error(q, "\"coneangle\" is %g degrees: a cone without inside", item->cone);
-    l->position = transform_point(&l->to_world, item->from);
-    l->axis = frame_from_normal(direction(q, l, item->from, item->to));
+    struct frame beam = frame_from_normal(direction(q, sub(item->to, item->from)));
+    struct transform along_z;
+    transform_look_at(vec(0, 0, 0), beam.n, beam.s, &along_z);
+    along_z = transform_compose(transform_translate(item->from), transform_inverse(along_z));
+    l->to_world = transform_compose(l->to_world, along_z);
+    l->position = transform_point(&l->to_world, vec(0, 0, 0));
 }
 
 static void distant_light(struct parser *p, void *object)
 {
     struct light_item *item = object;
-    item->light.direction = direction(&p->params, &item->light, item->to, item->from);
+    item->light.direction =
+        direction(&p->params, transform_vector(&item->light.to_world, sub(item->from, item->to)));
 }
 
 /* The picture of "mapname", if there is one: a map of an infinite light, a slide of the others. */

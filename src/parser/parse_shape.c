@@ -299,6 +299,18 @@ static bool is_flat(const struct shape_item *item)
     return item->is_mesh ? item->mesh.n_triangles <= 2 : item->quadric.kind == QUADRIC_DISK;
 }
 
+/* pbrt-v3 draws points of lamps on quadrics by areas in object space. */
+static void warn_of_stretch(struct parser *p, const struct shape_item *item)
+{
+    struct quadric plain = item->quadric, placed = item->quadric;
+    plain.to_world = transform_identity();
+    placed.to_world = item->to_world;
+    if (!quadric_keeps_area(&placed))
+        source_warn(&p->messages, item->position, "stretched light",
+                    "pbrt-v3 overlooks that this light's transform stretches it, and has it light the scene about %.3g "
+                    "times as much as here", quadric_area(&plain) / quadric_area(&placed));
+}
+
 /* Say so where pbrt-v3 counts the light of this shape otherwise. */
 static void warn_of_light(struct parser *p, const struct shape_item *item)
 {
@@ -310,6 +322,8 @@ static void warn_of_light(struct parser *p, const struct shape_item *item)
     if (item->group.material == MATERIAL_NONE && item->area.two_sided && !is_flat(item))
         source_warn(&p->messages, item->position, "light through light",
                     "of the two sides of this lamp without material the nearer one is seen; pbrt-v3's \"path\" shows both");
+    if (!item->is_mesh)
+        warn_of_stretch(p, item);
     if (item->group.alpha >= 0)
         source_warn(&p->messages, item->position, "light from holes",
                     "pbrt-v3 has this light shine from its holes too, where alpha is 0; here it does not");

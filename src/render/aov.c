@@ -115,7 +115,7 @@ void aov_render(const struct scene *scene, const struct render_options *options,
         sampler_pair(&sampler, DRAW_SCATTERING, &r.draw[i][1]);
     }
     r.arena = mem_alloc((size_t)threads, sizeof *r.arena);
-    struct parallel_jobs jobs = {rect_height(r.rect), threads, 2 * threads, &r, do_row, row_done};
+    struct parallel_jobs jobs = {rect_height(r.rect), threads, 2 * threads, &r, do_row, row_done, NULL};
     parallel_run(&jobs);
     for (int i = 0; i < threads; i++)
         arena_free(&r.arena[i]);

@@ -71,11 +71,7 @@ struct part part_describe(const struct scene *scene, const struct render_options
     add_line(&l, "maxdepth %d", o->max_depth);
     add_settings(&l, &scene->settings);
     add_line(&l, "seed %" PRIu64, o->seed);
-    add_line(&l, "spp %ld", p.planned);
-    add_line(&l, "film %d %d, window %d %d to %d %d", scene->width, scene->height, r.x0, r.y0, r.x1, r.y1);
     add_filter(&l, &scene->filter);
-    add_line(&l, "size %d %d", p.width, p.height);
-    add_line(&l, "scale %.17g", p.scale);
     p.identity = l.text;
     return p;
 }

@@ -14,7 +14,7 @@
 #include "base/os.h"
 #include "image/zlib.h"
 
-static const char MAGIC[] = "asbdpt part 1\n";
+static const char MAGIC[] = "asbdpt part 2\n";
 enum { MOST_TEXT = 1 << 20, BUFFER = 1 << 16, EMPTY = 255, LONGEST_SUM = 1 + 10 * EXACT_DIGITS };
 
 static size_t sums_of(const struct part *p) { return (size_t)p->width * (size_t)p->height * 3; }
@@ -113,20 +113,38 @@ static bool get_sum(struct stream *s, struct exact_sum *out)
 
 /* --- writing ----------------------------------------------------------------------------------------- */
 
-static char *header_text(const struct part *p, const struct film *f)
+/* The lines that must agree between parts of one picture; to be given to free(). */
+static char *picture_text(const struct part *p)
 {
-    size_t room = strlen(p->identity) + 512;
+    size_t room = strlen(p->identity) + 256;
     char *text = mem_alloc(room, 1);
-    snprintf(text, room, "%s%ssamples %ld %ld\ndone %ld %" PRId64 "\nleft-out %ld\n", MAGIC, p->identity, p->first,
-             p->end, f->iterations, f->passes, f->nonfinite);
+    snprintf(text, room, "size %d %d\nfilm %d %d, window %d %d\nscale %.17g\nspp %ld\n%s",
+             p->width, p->height, p->place.width, p->place.height,
+             p->place.x, p->place.y, p->scale, p->planned, p->identity);
+    return text;
+}
+
+/* All lines; to be given to free(). */
+static char *header_text(const struct part *p)
+{
+    char *picture = picture_text(p);
+    size_t room = strlen(picture) + 256;
+    char *text = mem_alloc(room, 1);
+    snprintf(text, room, "%ssamples %ld %ld\ndone %ld %" PRId64 "\nleft-out %ld\n%s", MAGIC, p->first, p->end,
+             p->done, p->passes, p->left_out, picture);
     size_t n = strlen(text);
     snprintf(text + n, room - n, "check %08lx\n", (unsigned long)checksum_crc32(0, (const uint8_t *)text, n));
+    free(picture);
     return text;
 }
 
 bool part_write(struct file_output *file, const struct part *p, const struct film *film, struct error *err)
 {
-    char *text = header_text(p, film);
+    struct part now = *p; /* its identity is borrowed */
+    now.done = film->iterations;
+    now.passes = film->passes;
+    now.left_out = film->nonfinite;
+    char *text = header_text(&now);
     struct stream *s = mem_alloc(1, sizeof *s);
     s->file = file->stream;
     fwrite(text, 1, strlen(text), s->file);
@@ -149,87 +167,68 @@ bool part_save(const char *path, const struct part *p, const struct film *film, 
 
 /* --- reading ----------------------------------------------------------------------------------------- */
 
-/* The lines up to the one that checks them, to be given to free(); NULL if there is none, or if it is wrong. */
+/* The lines up to the one that checks them, and this one, to be given to free(); NULL if there is none. */
 static char *read_text(FILE *f)
 {
     size_t used = 0, line = 0, capacity = 0;
     char *text = NULL;
-    for (int c; used < MOST_TEXT && (c = getc(f)) != EOF;) {
+    for (int c; used < MOST_TEXT && (c = getc(f)) != EOF && c != '\0';) {
         text = mem_grow(text, &capacity, used + 2, 1);
         text[used++] = (char)c;
         text[used] = '\0';
         if (c != '\n')
             continue;
-        if (strncmp(text + line, "check ", 6) == 0) {
-            unsigned long crc = strtoul(text + line + 6, NULL, 16);
-            if (crc != checksum_crc32(0, (const uint8_t *)text, line))
-                break;
-            text[line] = '\0';
+        if (strncmp(text + line, "check ", 6) == 0)
             return text;
-        }
         line = used;
     }
     free(text);
     return NULL;
 }
 
-/* What follows a word at the beginning of a line, or NULL. */
-static const char *line_of(const char *text, const char *word)
+/* Can a part have these numbers? */
+static bool possible(const struct part *p)
 {
-    size_t n = strlen(word);
-    for (const char *at = text; at != NULL; at = strchr(at, '\n'), at = at != NULL ? at + 1 : NULL)
-        if (strncmp(at, word, n) == 0 && at[n] == ' ')
-            return at + n + 1;
-    return NULL;
+    const struct placement *at = &p->place;
+    struct error ignored;
+    return p->width > 0 && p->height > 0 && picture_size_ok((uint64_t)p->width, (uint64_t)p->height, &ignored) &&
+           at->x >= 0 && at->y >= 0 && at->width > 0 && at->height > 0 && p->width <= at->width - at->x &&
+           p->height <= at->height - at->y && p->scale >= 0 && p->scale <= NUMBER_MAX && p->first >= 0 &&
+           p->end > p->first && p->end <= p->planned && p->done >= 0 && p->done <= p->end - p->first &&
+           p->passes >= 0 && (p->passes == 0 || p->done < p->end - p->first) && p->left_out >= 0;
 }
 
-/* Where the part's pixels lie, if the text says so; false if that is impossible. */
-static bool read_place(const char *text, struct part *p)
-{
-    const char *film = line_of(text, "film");
-    struct placement *at = &p->place;
-    return film == NULL ||
-           (sscanf(film, "%d %d, window %d %d", &at->width, &at->height, &at->x, &at->y) == 4 && at->width > 0 &&
-            at->height > 0 && at->x >= 0 && at->y >= 0 && p->width <= at->width - at->x &&
-            p->height <= at->height - at->y);
-}
-
+/* The text must be, byte for byte, what the program writes for the numbers that it reads in it: so no line can be
+ * twice, missing, elsewhere, or read otherwise than it is compared. */
 static bool read_numbers(const char *text, struct part *p)
 {
-    const char *size = line_of(text, "size"), *scale = line_of(text, "scale"), *samples = line_of(text, "samples");
-    const char *done = line_of(text, "done"), *left_out = line_of(text, "left-out"), *spp = line_of(text, "spp");
-    struct error ignored;
-    if (size == NULL || scale == NULL || samples == NULL || done == NULL || left_out == NULL)
-        return false;
-    p->scale = strtod(scale, NULL);
-    p->planned = spp != NULL ? strtol(spp, NULL, 10) : 0;
-    return p->scale >= 0 && p->scale <= NUMBER_MAX &&
-           sscanf(size, "%d %d", &p->width, &p->height) == 2 && p->width > 0 && p->height > 0 &&
-           picture_size_ok((uint64_t)p->width, (uint64_t)p->height, &ignored) &&
-           sscanf(samples, "%ld %ld", &p->first, &p->end) == 2 &&
-           sscanf(done, "%ld %" SCNd64, &p->done, &p->passes) == 2 && sscanf(left_out, "%ld", &p->left_out) == 1 &&
-           p->left_out >= 0 && p->first >= 0 && p->end > p->first && p->done >= 0 && p->done <= p->end - p->first &&
-           p->passes >= 0 && read_place(text, p);
+    int begin = 0;
+    sscanf(text + sizeof MAGIC - 1, "samples %ld %ld done %ld %" SCNd64 " left-out %ld "
+           "size %d %d film %d %d, window %d %d scale %lf spp %ld %n",
+           &p->first, &p->end, &p->done, &p->passes, &p->left_out, &p->width, &p->height, &p->place.width,
+           &p->place.height, &p->place.x, &p->place.y, &p->scale, &p->planned, &begin);
+    const char *identity = text + sizeof MAGIC - 1 + begin, *check = identity;
+    while (strncmp(check, "check ", 6) != 0)
+        check = strchr(check, '\n') + 1;
+    p->identity = mem_alloc((size_t)(check - identity) + 1, 1);
+    memcpy(p->identity, identity, (size_t)(check - identity));
+    char *again = header_text(p);
+    bool ok = begin > 0 && possible(p) && strcmp(text, again) == 0;
+    free(again);
+    return ok;
 }
 
 static bool read_header(FILE *f, const char *path, struct part *out, struct error *err)
 {
     char *text = read_text(f);
-    if (text == NULL || strncmp(text, "asbdpt part ", 12) != 0) {
-        free(text);
-        return error_set(err, "%s: this is no part, or its beginning is damaged", path);
-    }
-    const char *identity = strchr(text, '\n') + 1, *end = line_of(text, "samples");
-    bool known = strncmp(text, MAGIC, sizeof MAGIC - 1) == 0;
-    bool ok = known && end != NULL && read_numbers(text, out);
-    if (ok) {
-        size_t n = (size_t)(end - strlen("samples ") - identity);
-        out->identity = mem_alloc(n + 1, 1);
-        memcpy(out->identity, identity, n);
-    }
+    bool part = text != NULL && strncmp(text, "asbdpt part ", 12) == 0;
+    bool known = part && strncmp(text, MAGIC, sizeof MAGIC - 1) == 0;
+    bool ok = known && read_numbers(text, out);
     free(text);
-    return ok || error_set(err, "%s: %s", path, known ? "the part's beginning makes no sense" :
-                                                        "the part has a format of another version");
+    if (!ok)
+        part_free(out);
+    return ok || error_set(err, "%s: %s", path, part && !known ? "the part has a format of another version" :
+                                                "this is no part, or its beginning is damaged");
 }
 
 FILE *part_open(const char *path, struct part *out, struct error *err)
@@ -272,6 +271,10 @@ static bool add_sums(struct stream *s, const struct part *p, struct film *film)
 
 bool part_add(FILE *file, const char *path, const struct part *p, struct film *film, struct error *err)
 {
+    if (p->width != rect_width(film->rect) || p->height != rect_height(film->rect)) {
+        fclose(file);
+        return error_set(err, "%s: the part has another size than the film", path);
+    }
     struct stream *s = mem_alloc(1, sizeof *s);
     s->file = file;
     bool ok = add_sums(s, p, film);
@@ -285,14 +288,18 @@ bool part_add(FILE *file, const char *path, const struct part *p, struct film *f
 
 bool part_same(const struct part *p, const char *path, const struct part *wanted, struct error *err)
 {
-    const char *a = p->identity, *b = wanted->identity;
-    while (*a != '\0' || *b != '\0') {
+    char *text = picture_text(p), *other = picture_text(wanted);
+    const char *a = text, *b = other;
+    bool same = true;
+    while (same && (*a != '\0' || *b != '\0')) {
         size_t n = strcspn(a, "\n"), m = strcspn(b, "\n");
-        if (n != m || strncmp(a, b, n) != 0)
-            return error_set(err, "%s: a part of another picture: it has \"%.*s\", not \"%.*s\"", path, (int)n, a,
-                             (int)m, b);
+        same = n == m && strncmp(a, b, n) == 0;
+        if (!same)
+            error_set(err, "%s: a part of another picture: it has \"%.*s\", not \"%.*s\"", path, (int)n, a, (int)m, b);
         a += n + (a[n] == '\n');
         b += m + (b[m] == '\n');
     }
-    return true;
+    free(text);
+    free(other);
+    return same;
 }

@@ -2,18 +2,21 @@
  *
  * A file begins with lines of text, each ended by a line feed:
  *
- *     asbdpt part 1                    the format and its version
- *     version asbdpt 0.1, estimator 1  what was rendered, in some ten lines, each a word and what it says:
- *     ...                              program, scene, integrator and its parameters, seed, samples, film
- *     size W H                         pixels of the film's rectangle
- *     scale X                          by which pixels are multiplied when they are written
+ *     asbdpt part 2                    the format and its version
  *     samples A B                      samples A .. B-1 of each pixel are to be in the file when it is complete,
  *     done N P                         the first N of them are, and P tile passes of the next block
  *     left-out K                       contributions that were not finite or too large
+ *     size W H                         pixels of the film's rectangle
+ *     film W H, window X Y             the whole frame, and where in it the rectangle begins
+ *     scale X                          by which pixels are multiplied when they are written
+ *     spp N                            samples per pixel of the whole picture
+ *     version asbdpt 0.1, estimator 1  what was rendered, in some lines, each a word and what it says:
+ *     ...                              program, scene, integrator and its parameters, seed, filter
  *     check XXXXXXXX                   CRC-32 of all lines before, hexadecimal
  *
- * and goes on with the sums of all pixels, row by row from the top, red, green and blue: 255 for an empty sum, else
- * a byte `top` and three digits (exact_sum.h), the highest first. A digit d is written as the whole number 2d, or
+ * The lines from `size` on must agree between parts of one picture. A file's lines must be those that the program would
+ * write for what they say, to the byte. The file goes on with the sums of all pixels, row by row from the top, red,
+ * green and blue: 255 for an empty sum, else a byte `top` and three digits (exact_sum.h), the highest first. A digit d is written as the whole number 2d, or
  * -2d - 1 if it is negative, seven bits to the byte from the lowest on, 128 being added to all bytes but the last. The
  * CRC-32 of these bytes ends the file, four bytes, the lowest first. Nothing depends on the machine's byte order.
  *
@@ -33,11 +36,11 @@
 
 /* What a file says of itself. */
 struct part {
-    char *identity; /* the lines from "version" to "scale"; owned */
+    char *identity; /* the lines from "version" on; owned */
     int width, height;
-    struct placement place; /* of these in the film; width 0: the file does not say */
+    struct placement place; /* of these in the film */
     double scale;
-    long planned;          /* samples per pixel of the whole picture; 0: the file does not say */
+    long planned;          /* samples per pixel of the whole picture */
     long first, end, done; /* samples first .. first + done - 1 of first .. end - 1 */
     int64_t passes;
     long left_out;

@@ -32,6 +32,12 @@ struct run {
     double learning; /* share of all work that learning has been */
     struct workspace *work; /* [n_threads] */
     struct tile *tile;      /* [n_slots] */
+    struct parallel_jobs jobs;
+};
+
+struct run_job {
+    struct run *run;
+    int64_t job;
 };
 
 /* Samples of a block that may have any length: few enough for a render to be stopped soon. */
@@ -63,13 +69,25 @@ static struct pixel_rect tile_rect(const struct run *r, int64_t tile)
     return rect;
 }
 
+/* More splats than a tile holds go into the film before their pass is complete, when it is the next to do so. */
+static void take_splats(void *context, struct tile *tile)
+{
+    const struct run_job *j = context;
+    if (parallel_await(&j->run->jobs, j->job))
+        film_take_splats(j->run->film, tile);
+    tile->n_splats = tile->n_records = 0;
+}
+
 static void run_pass(void *context, int64_t job, int slot, int thread)
 {
     struct run *r = context;
+    struct run_job this = {r, job};
     struct tile_pass pass = {.job = &r->job, .tile = &r->tile[slot], .work = &r->work[thread]};
     pass.rect = tile_rect(r, (r->begun + job) % tiles_per_block(r));
     block_range(r, (r->begun + job) / tiles_per_block(r), &pass.first, &pass.end);
     tile_start(pass.tile, pass.rect, r->job.film_rect, &r->job.scene->filter, r->film->strategies != NULL);
+    pass.tile->full = take_splats;
+    pass.tile->context = &this;
     r->prepared.method->render(&r->prepared, &pass);
 }
 
@@ -115,12 +133,13 @@ static void run_all(struct run *r)
 
     int slots = r->film->strategies != NULL ? 2 : SLOTS_PER_THREAD; /* records of strategies are large */
     int n_slots = slots * r->job.n_threads;
-    struct parallel_jobs jobs = {r->n_jobs - r->begun, r->job.n_threads, n_slots, r, run_pass, merge_pass};
-    r->tile = mem_alloc((size_t)jobs.n_slots, sizeof *r->tile);
+    struct parallel_jobs jobs = {r->n_jobs - r->begun, r->job.n_threads, n_slots, r, run_pass, merge_pass, NULL};
+    r->jobs = jobs;
+    r->tile = mem_alloc((size_t)n_slots, sizeof *r->tile);
     make_workspaces(r);
-    parallel_run(&jobs);
+    parallel_run(&r->jobs);
     free_workspaces(r);
-    for (int i = 0; i < jobs.n_slots; i++)
+    for (int i = 0; i < n_slots; i++)
         tile_free(&r->tile[i]);
     free(r->tile);
 }

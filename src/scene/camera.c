@@ -34,10 +34,7 @@ void camera_prepare(struct camera *c, int width, int height)
         c->y_scale = PI / height;
         c->x_origin = c->y_origin = 0;
     }
-    c->pixel_area = fabs(c->x_scale * c->y_scale);
-    if (c->parallel)
-        c->pixel_area = fabs(dot(c->forward, cross(transform_vector(&c->camera_to_world, vec(c->x_scale, 0, 0)),
-                                                   transform_vector(&c->camera_to_world, vec(0, c->y_scale, 0)))));
+    c->pixel_volume = fabs(c->x_scale * c->y_scale * transform_determinant(&c->camera_to_world));
 }
 
 bool camera_is_usable(const struct camera *c)
@@ -45,7 +42,7 @@ bool camera_is_usable(const struct camera *c)
     const double least = 1e-12, most = 1e12; /* of the screen at distance 1; the film has at most 65536 pixels a side */
     double w = fabs(c->x_scale) * c->width, h = fabs(c->y_scale) * c->height;
     return w >= least && w <= most && h >= least && h <= most && fabs(c->x_origin) <= most &&
-           fabs(c->y_origin) <= most && c->pixel_area > 0 && is_place(camera_ray(c, 0, 0, 0, 0).o) &&
+           fabs(c->y_origin) <= most && c->pixel_volume > 0 && is_place(camera_ray(c, 0, 0, 0, 0).o) &&
            is_place(camera_ray(c, c->width, c->height, 0, 0).o) && is_place(c->position) &&
            fabs(length2(c->forward) - 1) < 1e-6 &&
            is_place(transform_point(&c->camera_to_world, vec(c->lens_radius, 0, 0))) &&
@@ -94,27 +91,28 @@ struct ray camera_ray(const struct camera *c, double px, double py, double u1, d
     return r;
 }
 
-/* The raster is stretched by 1/sin theta in azimuth; at the very pole, which no direction is, J stays finite. */
+/* J as below, over a piece of the unit sphere of camera space, which shrinks with sin theta towards the pole; at the very
+ * pole, which no direction is, J stays finite. */
 static double project_around(const struct camera *c, vec3 d, double *px, double *py)
 {
-    double phi = m_atan2(d.z, d.x), sin_theta = sqrt(sqr(d.x) + sqr(d.z));
+    double phi = m_atan2(d.z, d.x), d2 = length2(d), ring = sqrt(sqr(d.x) + sqr(d.z)); /* |d| sin theta */
     *px = (phi < 0 ? phi + 2 * PI : phi) / c->x_scale;
-    *py = m_atan2(sin_theta, d.y) / c->y_scale;
-    return 1 / (c->pixel_area * fmax(sin_theta, 1e-9));
+    *py = m_atan2(ring, d.y) / c->y_scale;
+    return 1 / (c->pixel_volume * d2 * fmax(ring, 1e-9 * sqrt(d2)));
 }
 
 double camera_project(const struct camera *c, vec3 lens, vec3 w, double *px, double *py)
 {
     vec3 d = transform_vector(&c->world_to_camera, w);
     if (c->kind == CAMERA_ENVIRONMENT)
-        return project_around(c, normalize(d), px, py);
+        return project_around(c, d, px, py);
     if (!(d.z > 0))
         return 0;
     if (c->parallel) {
         vec3 l = transform_point(&c->world_to_camera, lens);
         *px = (l.x - c->x_origin) / c->x_scale;
         *py = (l.y - c->y_origin) / c->y_scale;
-        return 1 / c->pixel_area;
+        return 1 / (c->pixel_volume * d.z);
     }
     vec3 at = vec(d.x / d.z, d.y / d.z, 1); /* where the parallel ray through the lens centre meets z = 1 */
     if (c->lens_radius > 0) {
@@ -124,10 +122,10 @@ double camera_project(const struct camera *c, vec3 lens, vec3 w, double *px, dou
     }
     *px = (at.x - c->x_origin) / c->x_scale;
     *py = (at.y - c->y_origin) / c->y_scale;
-    /* A raster unit covers pixel_area cos^3 steradians at distance 1/cos from the lens: J = 1/(area cos^3). The
-     * plane of focus is the image plane scaled about the lens, so a lens does not change J. [PBRT3 16.1.1] */
-    double cos_theta = d.z / length(d);
-    return 1 / (c->pixel_area * cos_theta * cos_theta * cos_theta);
+    /* The pyramid over a raster unit at z = 1 has a volume of pixel_volume / 3 in the world and is 1 / d.z long, so a
+     * raster unit covers pixel_volume d.z^3 steradians: cos^3 of [PBRT3 16.1.1], under any transform. The plane of focus
+     * is the image plane scaled about the lens, so a lens does not change J. */
+    return 1 / (c->pixel_volume * d.z * d.z * d.z);
 }
 
 /* How many times a filter of this radius may go round a raster of this size. */

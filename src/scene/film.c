@@ -46,6 +46,8 @@ void tile_free(struct tile *t)
 
 void tile_add_eye(struct tile *t, int x, int y, rgb value)
 {
+    if (t->full != NULL && (t->n_splats >= TILE_FULL || t->n_records >= TILE_FULL))
+        t->full(t->context, t);
     if (!fits(value)) {
         t->nonfinite++;
         return;
@@ -74,49 +76,49 @@ static void filter_span(double p, double radius, int low, int high, int *first, 
     *end = int_within(b + 1, low, high);
 }
 
-/* The pixels whose filter covers a raster point; none when x1 <= x0 or y1 <= y0. */
-static struct pixel_rect covered(const struct tile *t, double px, double py)
+struct pixel_rect splat_pixels(const struct splat *s, const struct filter *filter, struct pixel_rect within)
 {
     struct pixel_rect r;
-    filter_span(px, t->filter->radius[0], t->film_rect.x0, t->film_rect.x1, &r.x0, &r.x1);
-    filter_span(py, t->filter->radius[1], t->film_rect.y0, t->film_rect.y1, &r.y0, &r.y1);
+    filter_span(s->px, filter->radius[0], within.x0, within.x1, &r.x0, &r.x1);
+    filter_span(s->py, filter->radius[1], within.y0, within.y1, &r.y0, &r.y1);
     return r;
 }
 
-void tile_add_splat(struct tile *t, double px, double py, rgb value)
+static double filter_at(const struct filter *f, const struct splat *s, int x, int y)
+{
+    return filter_eval(f, s->px - (x + 0.5), s->py - (y + 0.5));
+}
+
+bool splat_part(const struct splat *s, const struct filter *filter, int x, int y, float out[3])
+{
+    rgb part = rgb_scale(s->value, filter_at(filter, s, x, y));
+    if (!fits(part))
+        return false;
+    out[0] = (float)part.r;
+    out[1] = (float)part.g;
+    out[2] = (float)part.b;
+    return true;
+}
+
+bool tile_add_splat(struct tile *t, double px, double py, rgb value)
 {
     if (!fits(value)) {
         t->nonfinite++;
-        return;
+        return false;
     }
-    struct pixel_rect range = covered(t, px, py);
-    for (int y = range.y0; y < range.y1; y++) {
-        for (int x = range.x0; x < range.x1; x++) {
-            double h = filter_eval(t->filter, px - (x + 0.5), py - (y + 0.5));
-            if (h == 0)
-                continue;
-            rgb part = rgb_scale(value, h);
-            if (!fits(part)) {
-                t->nonfinite++;
-                continue;
-            }
-            t->splat = mem_grow(t->splat, &t->splat_capacity, t->n_splats + 1, sizeof *t->splat);
-            struct splat *s = &t->splat[t->n_splats++];
-            s->pixel = film_pixel(t, x, y);
-            s->r = (float)part.r;
-            s->g = (float)part.g;
-            s->b = (float)part.b;
-        }
-    }
+    struct splat s = {px, py, value};
+    t->splat = mem_grow(t->splat, &t->splat_capacity, t->n_splats + 1, sizeof *t->splat);
+    t->splat[t->n_splats++] = s;
+    return true;
 }
 
-void tile_record_eye(struct tile *tile, int x, int y, int s, int t, rgb unweighted, double weight)
+static void record(struct tile *tile, int32_t at, int s, int t, rgb unweighted, double weight)
 {
     if (!tile->keep_records || !fits(unweighted) || !fits_float(weight))
         return;
     tile->record = mem_grow(tile->record, &tile->record_capacity, tile->n_records + 1, sizeof *tile->record);
     struct strategy_record *r = &tile->record[tile->n_records++];
-    r->pixel = film_pixel(tile, x, y);
+    r->at = at;
     r->s = (int16_t)s;
     r->t = (int16_t)t;
     r->unweighted[0] = (float)unweighted.r;
@@ -125,16 +127,14 @@ void tile_record_eye(struct tile *tile, int x, int y, int s, int t, rgb unweight
     r->weight = (float)weight;
 }
 
-void tile_record_splat(struct tile *tile, double px, double py, int s, int t, rgb unweighted, double weight)
+void tile_record_eye(struct tile *tile, int x, int y, int s, int t, rgb unweighted, double weight)
 {
-    if (!tile->keep_records)
-        return;
-    struct pixel_rect range = covered(tile, px, py);
-    for (int y = range.y0; y < range.y1; y++)
-        for (int x = range.x0; x < range.x1; x++) {
-            double h = filter_eval(tile->filter, px - (x + 0.5), py - (y + 0.5));
-            tile_record_eye(tile, x, y, s, t, rgb_scale(unweighted, h), weight);
-        }
+    record(tile, film_pixel(tile, x, y), s, t, unweighted, weight);
+}
+
+void tile_record_splat(struct tile *tile, int s, rgb unweighted, double weight)
+{
+    record(tile, (int32_t)tile->n_splats - 1, s, 1, unweighted, weight);
 }
 
 /* --- the film ---------------------------------------------------------------------------------------- */
@@ -189,34 +189,64 @@ void film_keep_strategies(struct film *f, int max_depth)
     f->strategies->weighted = mem_alloc(n, sizeof(double));
 }
 
-static void merge_records(struct film *f, const struct tile *t)
+static size_t pixel_of(const struct film *f, int x, int y)
 {
-    size_t pixels = rect_pixels(f->rect);
+    return (size_t)(y - f->rect.y0) * (size_t)rect_width(f->rect) + (size_t)(x - f->rect.x0);
+}
+
+static void add_record(struct film *f, const struct strategy_record *r, size_t pixel, double h)
+{
+    size_t at = 3 * ((size_t)strategy_index(r->s, r->t) * rect_pixels(f->rect) + pixel);
+    for (size_t c = 0; c < 3; c++) {
+        double unweighted = (double)r->unweighted[c] * h;
+        f->strategies->unweighted[at + c] += unweighted;
+        f->strategies->weighted[at + c] += unweighted * (double)r->weight;
+    }
+}
+
+static void add_records(struct film *f, const struct tile *t)
+{
     for (size_t i = 0; i < t->n_records; i++) {
         const struct strategy_record *r = &t->record[i];
-        size_t at = 3 * ((size_t)strategy_index(r->s, r->t) * pixels + (size_t)r->pixel);
-        for (size_t c = 0; c < 3; c++) {
-            f->strategies->unweighted[at + c] += (double)r->unweighted[c];
-            f->strategies->weighted[at + c] += (double)r->unweighted[c] * (double)r->weight;
+        if (r->t > 1) {
+            add_record(f, r, (size_t)r->at, 1);
+            continue;
         }
+        const struct splat *s = &t->splat[r->at];
+        struct pixel_rect range = splat_pixels(s, t->filter, f->rect);
+        for (int y = range.y0; y < range.y1; y++)
+            for (int x = range.x0; x < range.x1; x++)
+                add_record(f, r, pixel_of(f, x, y), filter_at(t->filter, s, x, y));
     }
 }
 
-static void add_splats(struct film *f, const struct tile *t)
+static void add_splat(struct film *f, const struct splat *s, const struct filter *filter)
 {
-    for (size_t i = 0; i < t->n_splats; i++) {
-        const struct splat *s = &t->splat[i];
-        const double v[3] = {(double)s->r, (double)s->g, (double)s->b};
-        for (size_t c = 0; c < 3; c++) {
-            size_t at = 3 * (size_t)s->pixel + c;
-            exact_add(&f->sum[at], v[c]);
-            if (f->errors != NULL)
-                f->errors->square[at] += v[c] * v[c];
+    struct pixel_rect range = splat_pixels(s, filter, f->rect);
+    for (int y = range.y0; y < range.y1; y++)
+        for (int x = range.x0; x < range.x1; x++) {
+            float part[3];
+            size_t at = 3 * pixel_of(f, x, y);
+            bool ok = splat_part(s, filter, x, y, part);
+            f->nonfinite += !ok;
+            for (size_t c = 0; ok && c < 3; c++) {
+                exact_add(&f->sum[at + c], (double)part[c]);
+                if (f->errors != NULL)
+                    f->errors->square[at + c] += sqr((double)part[c]);
+            }
         }
-    }
 }
 
-void film_merge_tile(struct film *f, const struct tile *t)
+void film_take_splats(struct film *f, struct tile *t)
+{
+    for (size_t i = 0; i < t->n_splats; i++)
+        add_splat(f, &t->splat[i], t->filter);
+    if (f->strategies != NULL)
+        add_records(f, t);
+    t->n_splats = t->n_records = 0;
+}
+
+void film_merge_tile(struct film *f, struct tile *t)
 {
     size_t width = (size_t)rect_width(t->rect) * 3, height = (size_t)rect_height(t->rect);
     for (size_t y = 0; y < height; y++) {
@@ -230,10 +260,8 @@ void film_merge_tile(struct film *f, const struct tile *t)
             }
         }
     }
-    add_splats(f, t);
+    film_take_splats(f, t);
     f->nonfinite += t->nonfinite;
-    if (f->strategies != NULL)
-        merge_records(f, t);
 }
 
 double film_value(const struct film *f, size_t i) { return exact_value(&f->sum[i]); }

@@ -29,18 +29,23 @@ struct pixel_rect {
 static inline int rect_width(struct pixel_rect r) { return r.x1 - r.x0; }
 static inline int rect_height(struct pixel_rect r) { return r.y1 - r.y0; }
 
+/* What a light sub-path sent to a raster point, all pixels having their part of it yet to come. */
 struct splat {
-    int32_t pixel; /* number within the film's rectangle, row by row */
-    float r, g, b;
+    double px, py;
+    rgb value;
 };
 
 /* One contribution of one strategy, kept only for per-strategy images. */
 struct strategy_record {
-    int32_t pixel;
+    int32_t at; /* t >= 2: pixel of the film's rectangle, row by row; t = 1: place in the list of splats */
     int16_t s, t;
     float unweighted[3];
     float weight; /* its MIS weight, [0,1] */
 };
+
+/* So many splats, or records, do not wait for the end of a pass: paths may have a thousand bounces, a pass any number
+ * of iterations. */
+enum { TILE_FULL = 1 << 16 };
 
 /* What a tile pass produces. Reused from pass to pass. */
 struct tile {
@@ -56,6 +61,8 @@ struct tile {
     struct strategy_record *record; /* [n_records], owned */
     size_t n_records, record_capacity;
     bool keep_records;
+    void (*full)(void *context, struct tile *tile); /* empties full lists; NULL: they grow */
+    void *context;
     long nonfinite; /* contributions that were NaN, infinite or beyond FLT_MAX, and were left out */
 };
 
@@ -67,13 +74,19 @@ void tile_free(struct tile *t);
 /* tile_add_eye: the whole value of pixel (x,y) of the tile for one iteration. Call once per pixel and iteration. */
 void tile_add_eye(struct tile *t, int x, int y, rgb value);
 
-/* tile_add_splat: a value arriving at raster point (px,py), spread over pixels by the filter. */
-void tile_add_splat(struct tile *t, double px, double py, rgb value);
+/* tile_add_splat: a value arriving at raster point (px,py), to be spread over pixels by the filter. False if it was
+ * left out. */
+bool tile_add_splat(struct tile *t, double px, double py, rgb value);
 
-/* tile_record_eye, tile_record_splat: note a contribution of strategy (s,t) and its MIS weight, at a pixel of the tile
- * or at a raster point, if records are kept. */
+/* splat_pixels: those of `within` whose filter covers the splat; none when x1 <= x0 or y1 <= y0.
+ * splat_part: what it adds to one of them, as floats; false if no float holds it. */
+struct pixel_rect splat_pixels(const struct splat *s, const struct filter *filter, struct pixel_rect within);
+bool splat_part(const struct splat *s, const struct filter *filter, int x, int y, float out[3]);
+
+/* tile_record_eye, tile_record_splat: note a contribution of strategy (s,t) and its MIS weight, at a pixel of the tile,
+ * or of (s,1) for the splat that was added last, if records are kept. */
 void tile_record_eye(struct tile *tile, int x, int y, int s, int t, rgb unweighted, double weight);
-void tile_record_splat(struct tile *tile, double px, double py, int s, int t, rgb unweighted, double weight);
+void tile_record_splat(struct tile *tile, int s, rgb unweighted, double weight);
 
 /* Images of single strategies, [strategy_count(max_depth)][pixels*3], numbered by strategy_index. */
 struct strategy_images {
@@ -121,8 +134,12 @@ void film_keep_strategies(struct film *f, int max_depth);
 int strategy_index(int s, int t);
 int strategy_count(int max_depth);
 
-/* film_merge_tile: add a tile's sums. Iterations are counted by the caller once all tiles of a block are in. */
-void film_merge_tile(struct film *f, const struct tile *t);
+/* film_take_splats: add a tile's splats and records, and empty its lists. */
+void film_take_splats(struct film *f, struct tile *t);
+
+/* film_merge_tile: add these and a tile's sums. Iterations are counted by the caller once all tiles of a block are
+ * in. */
+void film_merge_tile(struct film *f, struct tile *t);
 
 /* film_value: the sum so far in place i of [pixels*3]. */
 double film_value(const struct film *f, size_t i);

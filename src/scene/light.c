@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/frame.h"
 #include "base/mem.h"
 #include "base/number.h"
 #include "base/warp.h"
@@ -64,10 +65,23 @@ const struct image *light_read_slide(struct light_set *set, struct light *l, con
 
 /* --- power and choice -------------------------------------------------------------------------------- */
 
+static vec3 to_light_space(const struct light *l, vec3 w)
+{
+    return normalize(transform_vector_back(&l->to_world, w));
+}
+
+/* Steradians of light space per steradian of the world, around the direction that is v in light space, and there as long
+ * as 1 is in the world: a thin cone of length 1 and solid angle x has the volume x / 3, its image x' |v|^3 / 3. */
+static double solid_angle_back(const struct light *l, vec3 v)
+{
+    double size = length(v);
+    return 1 / (l->volume * size * size * size);
+}
+
 /* Smooth step from 1 inside the inner cone to 0 outside the outer one. [PBRT3 12.3.1] */
 static double spot_falloff(const struct light *l, vec3 w)
 {
-    double c = dot(l->axis.n, w);
+    double c = to_light_space(l, w).z;
     if (c < l->cos_total)
         return 0;
     if (c >= l->cos_falloff)
@@ -126,6 +140,7 @@ void light_prepare(struct light_set *set, const struct geometry *geo, vec3 cente
     set->n_cells = 0;
     for (int i = 0; i < set->n; i++) {
         struct light *l = &set->light[i];
+        l->volume = fabs(transform_determinant(&l->to_world));
         l->power = light_power(l, geo, radius);
         l->first_cell = set->n_cells;
         l->n_cells = cell_count(l);
@@ -152,19 +167,18 @@ static vec3 infinite_sample(const struct light *l, int cell, double u1, double u
         *pdf_dir = warp_sphere_pdf_w() * SKY_CELLS;
         return warp_sphere((cell / SKY_SECTORS + u1) / SKY_BANDS, (cell % SKY_SECTORS + u2) / SKY_SECTORS);
     }
-    return normalize(transform_vector(&l->to_world, envmap_sample(l->env, cell, u1, u2, pdf_dir)));
-}
-
-static vec3 to_light_space(const struct light *l, vec3 w)
-{
-    return normalize(transform_vector_back(&l->to_world, w));
+    vec3 w = normalize(transform_vector(&l->to_world, envmap_sample(l->env, cell, u1, u2, pdf_dir)));
+    *pdf_dir *= solid_angle_back(l, transform_vector_back(&l->to_world, w));
+    return w;
 }
 
 /* Density of w within its cell; *cell is that cell's number within the light. */
 static double infinite_pdf(const struct light *l, vec3 w, int *cell)
 {
-    if (l->env != NULL)
-        return envmap_pdf(l->env, to_light_space(l, w), cell);
+    if (l->env != NULL) {
+        vec3 v = transform_vector_back(&l->to_world, w);
+        return envmap_pdf(l->env, normalize(v), cell) * solid_angle_back(l, v);
+    }
     double u1, u2;
     warp_sphere_inverse(w, &u1, &u2);
     int band = int_within(u1 * SKY_BANDS, 0, SKY_BANDS - 1), sector = int_within(u2 * SKY_SECTORS, 0, SKY_SECTORS - 1);
@@ -254,7 +268,7 @@ rgb light_sample_emission(const struct light_set *set, const struct light_point 
     }
     case LIGHT_POINT:
     case LIGHT_GONIOMETRIC: w = warp_sphere(u[0], u[1]); break;
-    case LIGHT_SPOT: w = to_world(&l->axis, warp_cone(u[0], u[1], l->cos_total)); break;
+    case LIGHT_SPOT:
     case LIGHT_PROJECTION:
         w = normalize(transform_vector(&l->to_world, warp_cone(u[0], u[1], l->cos_total)));
         break;
@@ -270,15 +284,11 @@ rgb light_sample_emission(const struct light_set *set, const struct light_point 
     return *pdf > 0 ? rgb_scale(light_Le(set, y0, w), cosine) : rgb_black();
 }
 
-/* Uniform in a cone of light space, from where a transform A takes direction v to A v / |A v|: solid angles there are
- * |det A| / |A v|^3 times as large, and |A v| = 1 / |A^-1 w|. */
-static double projection_pdf(const struct light *l, vec3 w)
+/* Uniform in a cone of light space. */
+static double cone_pdf(const struct light *l, vec3 w)
 {
     vec3 v = transform_vector_back(&l->to_world, w);
-    double size = length(v);
-    if (v.z < l->cos_total * size)
-        return 0;
-    return warp_cone_pdf_w(l->cos_total) / (fabs(transform_determinant(&l->to_world)) * size * size * size);
+    return v.z >= l->cos_total * length(v) ? warp_cone_pdf_w(l->cos_total) * solid_angle_back(l, v) : 0;
 }
 
 double light_pdf_emission(const struct light_set *set, const struct light_point *y0, vec3 w)
@@ -291,8 +301,8 @@ double light_pdf_emission(const struct light_set *set, const struct light_point 
     }
     case LIGHT_POINT:
     case LIGHT_GONIOMETRIC: return warp_sphere_pdf_w();
-    case LIGHT_PROJECTION: return projection_pdf(l, w);
-    case LIGHT_SPOT: return dot(l->axis.n, w) >= l->cos_total ? warp_cone_pdf_w(l->cos_total) : 0;
+    case LIGHT_SPOT:
+    case LIGHT_PROJECTION: return cone_pdf(l, w);
     case LIGHT_DISTANT:
     case LIGHT_INFINITE: return 1 / (PI * sqr(set->radius));
     }

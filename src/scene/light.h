@@ -13,7 +13,6 @@
 #define ASBDPT_LIGHT_H
 
 #include "base/alias.h"
-#include "base/frame.h"
 #include "base/rgb.h"
 #include "base/transform.h"
 #include "geometry/shape.h"
@@ -35,15 +34,17 @@ enum light_kind {
  *              area                point              spot                  distant                infinite
  *   L          radiance,           intensity, W/sr    intensity, W/sr       irradiance on a        factor of the map,
  *              W/(m^2 sr)                                                   facing surface, W/m^2  else radiance
- *   to_world   -                   -                  -                     -                      light space to world
+ *   to_world   -                   -                  light space to world  -                      light space to world
  *   prim       the surface         -                  -                     -                      -
  *   two_sided  emits on both       -                  -                     -                      -
  *   position   -                   where it is        where it is           -                      -
- *   axis       -                   -                  n: the beam's axis    -                      -
  *   cos_total  -                   -                  dark beyond it        -                      -
  *   cos_falloff  -                 -                  full within it        -                      -
  *   direction  -                   -                  -                     unit, towards it       -
  *   env        -                   -                  -                     -                      map, NULL: constant
+ *
+ * The beam of a spot runs along z in light space, and what a direction gets is asked there, as in pbrt-v3, so that an
+ * uneven scale makes the beam elliptic.
  *
  * A goniometric or projection light is a point light, with the same position and light points, whose intensity L is
  * multiplied by its slide's (slide.h) factor for the direction in light space, to which to_world belongs.
@@ -69,10 +70,10 @@ struct light {
     double cos_total, cos_falloff; /* projection: cos_total is of the cone around the picture */
     double tan_half;               /* projection: half a shorter side of the picture at distance 1 */
     vec3 position;
-    struct frame axis;
     vec3 direction;
     const struct envmap *env;  /* the set's */
     const struct slide *slide; /* goniometric, projection: the set's, NULL: 1 */
+    double volume;           /* that to_world makes of 1; set by light_prepare */
     double power;            /* estimate, W, luminance; set by light_prepare */
     int first_cell, n_cells; /* its cells, see below; set by light_prepare */
 };

@@ -90,7 +90,6 @@ void scene_prepare(struct scene *s)
     scene_bounds(s, &lo, &hi);
     double radius = length(sub(hi, lo)) / 2;
     light_prepare(&s->lights, &s->geo, lerp3(0.5, lo, hi), radius > 0 ? radius : 1);
-    s->epsilon = 1e-8 * 2 * s->lights.radius;
     camera_prepare(&s->camera, s->width, s->height);
     filter_prepare(&s->filter);
 }
@@ -109,7 +108,7 @@ bool scene_lamp(const struct scene *s, const struct ray *ray, const struct surfa
     struct hit hit;
     struct ray before = *ray;
     if (end != NULL)
-        before.tmax = length(sub(end->p, ray->o)) + s->epsilon;
+        before.tmax = length(sub(end->p, ray->o)) + ray_margin(end->p);
     if (s->kd_lamps.n_nodes == 0 || !kd_closest(&s->kd_lamps, &s->geo, &before, &hit))
         return false;
     shape_surface(&s->geo, &hit, ray, out);
@@ -119,7 +118,7 @@ bool scene_lamp(const struct scene *s, const struct ray *ray, const struct surfa
 bool scene_lamp_stops(const struct scene *s, const struct ray *ray, const struct surface *end)
 {
     struct ray before = *ray;
-    before.tmax = length(sub(end->p, ray->o)) - s->epsilon;
+    before.tmax = length(sub(end->p, ray->o)) - ray_margin(end->p);
     return s->kd_lamps.n_nodes > 0 && kd_occluded(&s->kd_lamps, &s->geo, &before);
 }
 
@@ -134,7 +133,7 @@ static bool segment_free(const struct scene *s, vec3 a, uint32_t from, vec3 b, u
 {
     vec3 d = sub(b, a);
     double distance = length(d);
-    struct ray ray = {a, mul(d, 1 / distance), s->epsilon, distance - s->epsilon, from, to};
+    struct ray ray = {a, mul(d, 1 / distance), ray_margin(a), distance - ray_margin(b), from, to};
     return !(ray.tmin < ray.tmax) || !blocked(s, &ray, emitted);
 }
 
@@ -150,6 +149,6 @@ bool scene_lit(const struct scene *s, vec3 a, uint32_t from, vec3 b, uint32_t to
 
 bool scene_lit_from(const struct scene *s, vec3 a, uint32_t from, vec3 w)
 {
-    struct ray ray = {a, w, s->epsilon, INFINITY, from, 0};
+    struct ray ray = {a, w, ray_margin(a), INFINITY, from, 0};
     return !blocked(s, &ray, true);
 }

@@ -51,8 +51,6 @@ struct scene {
     int spp;                /* pixelsamples, 0 if the file does not say */
 
     uint64_t content;       /* hash of all files the scene was read from */
-
-    double epsilon;         /* tmin of every secondary ray: 1e-8 of the scene's diagonal */
 };
 
 /* scene_init: an empty scene with pbrt's defaults (1280x720 film, box filter of radius 0.5, fov 90). */
@@ -82,7 +80,7 @@ bool scene_lamp(const struct scene *s, const struct ray *ray, const struct surfa
 bool scene_lamp_stops(const struct scene *s, const struct ray *ray, const struct surface *end);
 
 /* scene_visible: does light that is scattered at b reach a: is the open segment between them free of surfaces?
- *   from, to  the triangles a and b are on, see shape_triangle_id; 0: none */
+ *   from, to  the primitives a and b are on, see shape_triangle_id; 0: none */
 bool scene_visible(const struct scene *s, vec3 a, uint32_t from, vec3 b, uint32_t to);
 
 /* scene_lit: does light that is emitted at b reach a? scene_lit_from: the same from infinity, in unit direction w. */

@@ -140,7 +140,7 @@ static bool depart(const struct walk *w, const struct vertex *v, enum transport 
     out->beta = rgb_mul(v->beta, rgb_scale(s.f, scatter_cosine(v, s.wi, mode) / s.pdf));
     if (rgb_is_black(out->beta) || !rgb_is_finite(out->beta))
         return false;
-    struct ray ray = {v->p, s.wi, w->scene->epsilon, INFINITY, v->triangle_id, 0};
+    struct ray ray = {v->p, s.wi, ray_margin(v->p), INFINITY, v->triangle_id, 0};
     out->ray = ray;
     out->pdf = s.pdf;
     out->pdf_rev = s.pdf_rev;
@@ -247,6 +247,6 @@ int path_light(const struct walk *w, struct vertex *path, int max_vertices)
         return 0;
     path[0].beta = light_Le(lights, &at, from.ray.d); /* not a throughput: nothing connects to this y_0 */
     from.beta = rgb_scale(emitted, 1 / (at.pdf * from.pdf)); /* alpha_2 of [V97 eq. 10.6] */
-    from.ray.tmin = w->scene->epsilon;
+    from.ray.tmin = ray_margin(from.ray.o);
     return random_walk(w, from, path, max_vertices, IMPORTANCE);
 }

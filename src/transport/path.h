@@ -43,7 +43,7 @@ enum vertex_kind {
  *   light, cell  -1           its light and light cell          of the area light, or -1     -1
  *   p            on the lens  on the light; at infinity -       the point                    -
  *   ng           0            area light: its normal; else 0    geometric normal             0
- *   triangle_id  0            area light: see shape.h; else 0   see shape.h; 0: a quadric    0
+ *   triangle_id  0            area light: see shape.h; else 0   see shape.h                  0
  *   wo           0            at infinity: towards the light    towards the previous vertex  inwards
  *   beta         1            radiance or intensity emitted;    throughput on arrival        throughput on arrival
  *                             as a connection's end 1/density

@@ -129,9 +129,8 @@ static void splat(struct pixel_sample *g, const struct connection *c, int s, con
     for (int i = 0; i < camera_images(&g->scene->camera, radius); i++) {
         struct connection image = *c;
         camera_image(&g->scene->camera, radius, i, &image.px, &image.py);
-        if (g->tile->keep_records)
-            tile_record_splat(g->tile, image.px, image.py, s, 1, rgb_scale(c->value, scale), c->weight);
-        tile_add_splat(g->tile, image.px, image.py, added);
+        if (tile_add_splat(g->tile, image.px, image.py, added))
+            tile_record_splat(g->tile, s, rgb_scale(c->value, scale), c->weight);
         if (g->trace != NULL)
             trace_connect(g->trace, s, 1, light, &image, 1, scale, added);
     }
