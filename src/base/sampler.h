@@ -27,7 +27,7 @@
 #include "base/rng.h"
 
 enum {
-    SAMPLER_TIMES = 2, /* how often each decision is given numbers of low discrepancy */
+    SAMPLER_TIMES = 4, /* how often each decision is given numbers of low discrepancy */
     SAMPLER_LOG2_POINTS = 16,
     SAMPLER_POINTS = 1 << SAMPLER_LOG2_POINTS /* iterations that share one scrambled sequence */
 };
