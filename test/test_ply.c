@@ -333,10 +333,33 @@ static void check_odd(struct test *t)
     mesh_free(&m);
 }
 
+/* As many elements as a file may have, and one more. */
+static void check_elements(struct test *t)
+{
+    for (int n = PLY_MAX_ELEMENTS; n <= PLY_MAX_ELEMENTS + 1; n++) {
+        struct text f = {NULL, 0, 0};
+        struct mesh m;
+        struct error err = {""};
+        char path[256], line[64];
+        put_text(&f, "ply\nformat ascii 1.0\nelement vertex 3\n" XYZ);
+        for (int i = 0; i < n - 2; i++) {
+            snprintf(line, sizeof line, "element e%d 0\n", i);
+            put_text(&f, line);
+        }
+        put_text(&f, FACE "0 0 0 1 0 0 0 1 0 3 0 1 2 ");
+        save(t, &f, path);
+        bool ok = ply_read(path, &m, &err);
+        CHECK(t, ok == (n == PLY_MAX_ELEMENTS), "%d elements: %s", n, err.text);
+        CHECK(t, ok || strstr(err.text, "too many elements") != NULL, "%d elements: %s", n, err.text);
+        mesh_free(&m);
+    }
+}
+
 void test_ply(struct test *t)
 {
     check_variants(t);
     check_cut_files(t);
     check_refused(t);
     check_odd(t);
+    check_elements(t);
 }

@@ -13,6 +13,8 @@
 #include "base/error.h"
 #include "geometry/shape.h"
 
+enum { PLY_MAX_ELEMENTS = 64 }; /* of a file; two are of use */
+
 /* ply_read: read a mesh. Returns false with a message "PATH: ..." (line for the header and ascii files) on a
  * missing, truncated or malformed file, an index out of range, a non-finite position, or counts the file is
  * too short to hold, and when there are no faces; *out is then empty. */
