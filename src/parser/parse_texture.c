@@ -116,14 +116,15 @@ static void imagemap(struct parser *p, void *object)
     }
     t->u.imagemap.gamma = params_bool(q, "gamma", file_has_extension(path, ".tga") || file_has_extension(path, ".png"));
     struct error inner;
-    int image = 0;
+    int image = 0, known = set->n_images;
     if (!q->failed && (image = texture_load_image(set, path, &inner)) < 0)
+        params_fail(q, at, "%s", inner.text);
+    else if (!q->failed && image == known &&
+             !scene_files_count(q->files, set->image[image].content, image_bytes(&set->image[image]), &inner))
         params_fail(q, at, "%s", inner.text);
     else if (!q->failed && set->image[image].replaced > 0)
         source_warn(&p->messages, at, set->image_path[image], "%ld numbers of this picture are not finite; 0 instead",
                     set->image[image].replaced);
-    if (!q->failed)
-        *q->content = hash_combine(*q->content, set->image[image].content);
     t->u.imagemap.image = image;
     free(path);
 }
