@@ -17,6 +17,7 @@
 
 #include "parser/lexer.h"
 #include "parser/parser.h"
+#include "parser/scene_files.h"
 #include "base/os.h"
 #include "base/rng.h"
 #include "parser/spectrum.h"
@@ -764,6 +765,28 @@ static void check_repeated(struct test *t)
     }
 }
 
+/* Pictures of small files may take so much together, those of large ones anything; what is too much is the end. */
+static void check_unpacked(struct test *t)
+{
+    uint8_t pixel = 0;
+    uint64_t content = 0;
+    struct scene_files f = {.scene_path = "", .content = &content};
+    struct image small = {.width = 8192, .height = 8192, .channels = 1, .u8 = &pixel, .content = 1};
+    struct image large = {.width = 8192, .height = 8192, .channels = 1, .u8 = &pixel, .content = 2, .file_size = 1 << 21};
+    struct error err = {""};
+    bool ok = true;
+    for (int i = 0; i < 3; i++) {
+        small.content = 3 + (uint64_t)i;
+        ok = ok && scene_files_picture(&f, &small, 0, &err);
+    }
+    ok = ok && scene_files_picture(&f, &large, 0, &err);
+    CHECK(t, ok, "192 MB of pictures: %s", err.text);
+    small.content++;
+    CHECK(t, !scene_files_picture(&f, &small, 0, &err) && strstr(err.text, "more than 192 MB") != NULL, "%s", err.text);
+    CHECK(t, scene_files_path(&f, "a.png", &err) == NULL && strstr(err.text, "a.png: not read") != NULL, "%s", err.text);
+    symbols_free(&f.known);
+}
+
 /* What a hundred unknown names were meant to be is said, not more: each is compared with all that are known. */
 static void check_suggested(struct test *t)
 {
@@ -934,6 +957,7 @@ void test_parser(struct test *t)
     check_odd_bytes(t);
     check_subdivided(t);
     check_repeated(t);
+    check_unpacked(t);
     check_suggested(t);
     check_many_errors(t);
     check_no_files(t);

@@ -244,6 +244,8 @@ static void check_cut_files(struct test *t)
 /* --- what is refused ---------------------------------------------------------------------------------- */
 
 #define XYZ   "property float x\nproperty float y\nproperty float z\n"
+#define BYTES_10  "~~~~~~~~~~"
+#define BYTES_100 "d" BYTES_10 BYTES_10 BYTES_10 BYTES_10 BYTES_10 BYTES_10 BYTES_10 BYTES_10 BYTES_10 BYTES_10
 #define HEAD  "ply\nformat ascii 1.0\nelement vertex 3\n" XYZ
 #define FACE  "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
 #define THREE "0 0 0\n1 0 0\n0 1 0\n"
@@ -288,6 +290,8 @@ static void check_refused(struct test *t)
          "integer list"},
         {HEAD "element face 1\nproperty list uchar int corners\nend_header\n" THREE "3 0 1 2\n", "integer list"},
         {"ply\nformat ascii 1.0\n" FACE "3 0 1 2\n", "there are only 0"},
+        {"ply\nformat binary_little_endian 1.0\nelement vertex 0\n" XYZ "element face 3\n"
+         "property list char char vertex_indices\nend_header\n" BYTES_100 BYTES_100 BYTES_100, "less than two bytes"},
         {"ply\nformat binary_little_endian 1.0\nelement vertex 3\n" XYZ
          "element face 1000000\nproperty list uchar int "
          "vertex_indices\nend_header\n" THREE,

@@ -412,6 +412,8 @@ static bool read_faces(struct ply *r, const struct ply_element *e)
         return false;
     if (r->n_indices / 3 > FIRST_QUADRIC)
         return fail(r, "more than 2^30 triangles");
+    if (r->n_indices / 3 * PLY_BYTES_PER_TRIANGLE > r->size)
+        return fail(r, "polygons of so many corners that a triangle of theirs has less than two bytes");
     r->mesh->n_triangles = (int)(r->n_indices / 3);
     return true;
 }

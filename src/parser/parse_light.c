@@ -90,7 +90,7 @@ static void map_of_light(struct params *q, struct light_set *lights, struct ligh
     else if (!q->failed)
         image = light_read_slide(lights, l, path, &inner);
     bool ok = image != NULL && (lights->n_pictures == known ||
-                                scene_files_count(q->files, image->content, image_bytes(image), &inner));
+                                scene_files_picture(q->files, image, l->env != NULL ? envmap_bytes(l->env) : 0, &inner));
     if (!q->failed && !ok)
         params_fail(q, at, "%s", inner.text);
     else if (!q->failed && image->replaced > 0)

@@ -120,7 +120,7 @@ static void imagemap(struct parser *p, void *object)
     if (!q->failed && (image = texture_load_image(set, path, &inner)) < 0)
         params_fail(q, at, "%s", inner.text);
     else if (!q->failed && image == known &&
-             !scene_files_count(q->files, set->image[image].content, image_bytes(&set->image[image]), &inner))
+             !scene_files_picture(q->files, &set->image[image], 0, &inner))
         params_fail(q, at, "%s", inner.text);
     else if (!q->failed && set->image[image].replaced > 0)
         source_warn(&p->messages, at, set->image_path[image], "%ld numbers of this picture are not finite; 0 instead",
