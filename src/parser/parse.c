@@ -151,15 +151,6 @@ void parse_ignored(struct parser *p, const struct parameter *row, void *field)
         source_warn(&p->messages, item->position, row->name, "%s", row->warning);
 }
 
-void parse_no_effect(struct parser *p, const struct parameter *row, void *field)
-{
-    const struct param *item = params_ignore(&p->params, row->name);
-    (void)field;
-    if (item != NULL)
-        source_warn(&p->messages, item->position, NULL, "%s \"%s\": \"%s\" has no effect here", p->params.directive,
-                    p->params.type, row->name);
-}
-
 /* --- textures ------------------------------------------------------------------------------------------- */
 
 int parse_constant(struct parser *p, rgb value)

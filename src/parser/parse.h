@@ -166,8 +166,7 @@ struct object_type {
 #define ANY_NUMBER -DBL_MAX, DBL_MAX
 #define POSITIVE NUMBER_MIN, (double)INFINITY
 #define AT_LEAST_0 0, (double)INFINITY
-#define IGNORED(name) {name, parse_ignored, 0, GREY(0), 0, 0, NULL}     /* nothing here depends on it */
-#define NO_EFFECT(name) {name, parse_no_effect, 0, GREY(0), 0, 0, NULL} /* the same, and worth a warning */
+#define IGNORED(name) {name, parse_ignored, 0, GREY(0), 0, 0, NULL} /* nothing here depends on it */
 #define BY_BUILD(name) {name, NULL, 0, GREY(0), 0, 0, NULL}
 #define END_OF_PARAMETERS {NULL, NULL, 0, GREY(0), 0, 0, NULL}
 #define REFUSED(name) {name, NULL, 0, NULL}
@@ -193,7 +192,6 @@ void parse_point(struct parser *p, const struct parameter *row, void *field);   
 void parse_float_texture(struct parser *p, const struct parameter *row, void *field); /* int: a texture number */
 void parse_rgb_texture(struct parser *p, const struct parameter *row, void *field);   /* int: a texture number */
 void parse_ignored(struct parser *p, const struct parameter *row, void *field);
-void parse_no_effect(struct parser *p, const struct parameter *row, void *field);
 
 /* A message at the directive, or at the type of the list. Both return false. */
 #define directive_error(p, ...) source_error(&(p)->messages, (p)->directive.position, __VA_ARGS__)

@@ -188,11 +188,10 @@ static void stratified(struct parser *p, void *object)
 }
 
 #define SAMPLES(value) {"pixelsamples", parse_integer, offsetof(struct scene, spp), GREY(value), 1, 1 << 30, NULL}
-#define UNUSED_CHOICES NO_EFFECT("dimensions"), NO_EFFECT("jitter"), NO_EFFECT("samplepixelcenter"), END_OF_PARAMETERS
 
-static const struct parameter RANDOM[] = {SAMPLES(4), UNUSED_CHOICES};
-static const struct parameter STRATIFIED[] = {BY_BUILD("xsamples"), BY_BUILD("ysamples"), UNUSED_CHOICES};
-static const struct parameter SEQUENCE[] = {SAMPLES(16), UNUSED_CHOICES};
+static const struct parameter RANDOM[] = {SAMPLES(4), END_OF_PARAMETERS};
+static const struct parameter STRATIFIED[] = {BY_BUILD("xsamples"), BY_BUILD("ysamples"), END_OF_PARAMETERS};
+static const struct parameter SEQUENCE[] = {SAMPLES(16), END_OF_PARAMETERS};
 
 static const struct object_type SAMPLER_TYPES[] = {
     {"sobol", SEQUENCE, 0, NULL},
@@ -207,9 +206,7 @@ static const struct object_type SAMPLER_TYPES[] = {
 /* Film and sampler are fields of the scene itself; of accelerators nothing is kept. */
 static bool of_scene(struct parser *p) { return parse_object(p, p->scene); }
 
-static const struct parameter TREE[] = {
-    NO_EFFECT("splitmethod"), NO_EFFECT("maxnodeprims"), NO_EFFECT("intersectcost"), NO_EFFECT("traversalcost"),
-    NO_EFFECT("emptybonus"),  NO_EFFECT("maxprims"),     NO_EFFECT("maxdepth"),      END_OF_PARAMETERS};
+static const struct parameter TREE[] = {END_OF_PARAMETERS};
 
 static const struct object_type ACCELERATOR_TYPES[] = {
     {"kdtree", TREE, 0, NULL}, {"bvh", TREE, 0, NULL}, OTHERS_LIKE(TREE, 0, NULL)};

@@ -83,23 +83,11 @@ bool parse_media(struct parser *p, struct source_position at, const char *what, 
     return true;
 }
 
-static bool color_space(struct parser *p)
-{
-    struct token name;
-    if (!parse_string(p, &name, "a name"))
-        return false;
-    if (strcmp(name.text, "srgb") == 0)
-        return true;
-    return source_error(&p->messages, name.position,
-                       "colours here have the primaries of sRGB; convert the scene's colours");
-}
-
 static bool include(struct parser *p);
 
 static const struct directive FILE_DIRECTIVES[] = {{"Include", ANYWHERE, include, NULL},
                                                    {"MediumInterface", ANYWHERE, medium_interface, NULL},
                                                    {"MakeNamedMedium", ANYWHERE, make_named_medium, NULL},
-                                                   {"ColorSpace", BEFORE_WORLD, color_space, NULL},
                                                    {"WorldBegin", BEFORE_WORLD, world_begin, NULL},
                                                    {"WorldEnd", IN_WORLD, world_end, NULL},
                                                    END_OF_DIRECTIVES};
