@@ -41,8 +41,8 @@ static void test_full(struct test *t)
     }
 }
 
-/* Reading never waits for ever: a pipe that nobody writes to is empty, nothing is read behind the end of a file, devices
- * are refused. */
+/* Reading never waits for ever: a pipe that nobody writes to is empty, what stands behind the end of a file is not
+ * read, devices are refused. */
 static void test_endless(struct test *t)
 {
     char path[256];

@@ -772,7 +772,9 @@ static void check_unpacked(struct test *t)
     uint64_t content = 0;
     struct scene_files f = {.scene_path = "", .content = &content};
     struct image small = {.width = 8192, .height = 8192, .channels = 1, .u8 = &pixel, .content = 1};
-    struct image large = {.width = 8192, .height = 8192, .channels = 1, .u8 = &pixel, .content = 2, .file_size = 1 << 21};
+    struct image large = small;
+    large.content = 2;
+    large.file_size = 1 << 21;
     struct error err = {""};
     bool ok = true;
     for (int i = 0; i < 3; i++) {
@@ -783,7 +785,8 @@ static void check_unpacked(struct test *t)
     CHECK(t, ok, "192 MB of pictures: %s", err.text);
     small.content++;
     CHECK(t, !scene_files_picture(&f, &small, 0, &err) && strstr(err.text, "more than 192 MB") != NULL, "%s", err.text);
-    CHECK(t, scene_files_path(&f, "a.png", &err) == NULL && strstr(err.text, "a.png: not read") != NULL, "%s", err.text);
+    CHECK(t, scene_files_path(&f, "a.png", &err) == NULL && strstr(err.text, "a.png: not read") != NULL, "%s",
+          err.text);
     symbols_free(&f.known);
 }
 

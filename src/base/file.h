@@ -19,8 +19,9 @@
 
 /* file_read: the content of a file.
  *   data, size  out; data to be given to free(), NULL on failure; a zero byte follows the last that size counts
- * A file is as long as the system says, whatever can be read behind that; pipes are read to their end, up to 256 MiB. Returns false with a message "PATH: ..." when the file is missing, a
- * directory, a device or unreadable; errno then says why, 0 for a file that is too long. */
+ * A file is as long as the system says, whatever can be read behind that; pipes are read to their end, up to 256 MiB.
+ * Returns false with a message "PATH: ..." when the file is missing, a directory, a device or unreadable; errno then
+ * says why, 0 for a file that is too long. */
 bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err);
 
 /* file_exists: is there anything of this name? */

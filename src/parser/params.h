@@ -123,8 +123,8 @@ const char *params_text(struct params *p, const char *name, enum param_type type
 /* params_type_name: as scene files have it: "integer", "rgb" ... */
 const char *params_type_name(enum param_type type);
 
-/* params_file: a "string NAME" as a path (scene_files_path), to be given to free(). NULL if absent, "" or, with an error,
- * refused. */
+/* params_file: a "string NAME" as a path (scene_files_path), to be given to free(); *at is where it is declared. NULL
+ * if absent, "" or, with an error, refused. */
 char *params_file(struct params *p, const char *name, struct source_position *at);
 
 /* params_choice: a string that should be one of a NULL-terminated list; returns its index (0 = default if absent). */

@@ -182,7 +182,7 @@ struct kept_params params_keep(const struct params *p)
 {
     struct kept_params kept = {arena_alloc(p->arena, (size_t)p->n * sizeof *kept.item), 0};
     for (int i = 0; i < p->n; i++) {
-        if (!p->item[i].used)
+        if (!p->item[i].used || p->item[i].n == 0)
             continue;
         struct param *copy = &kept.item[kept.n++];
         *copy = p->item[i];

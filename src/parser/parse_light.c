@@ -89,8 +89,9 @@ static void map_of_light(struct params *q, struct light_set *lights, struct ligh
         image = light_read_map(lights, l, path, &inner);
     else if (!q->failed)
         image = light_read_slide(lights, l, path, &inner);
-    bool ok = image != NULL && (lights->n_pictures == known ||
-                                scene_files_picture(q->files, image, l->env != NULL ? envmap_bytes(l->env) : 0, &inner));
+    uint64_t tables = l->env != NULL ? envmap_bytes(l->env) : 0;
+    bool ok = image != NULL &&
+              (lights->n_pictures == known || scene_files_picture(q->files, image, tables, &inner));
     if (!q->failed && !ok)
         params_fail(q, at, "%s", inner.text);
     else if (!q->failed && image->replaced > 0)
