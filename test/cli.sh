@@ -162,6 +162,18 @@ expect 1 'nothing.pbrt' "$program" render nothing.pbrt -o good.pfm
 expect 1 'is odd' "$program" render "$box" $small -P select=bins -P binpaths=7 --integrator asbdpt -o good.pfm
 check [ ! -e good.pfm ]
 check [ -z "$(find . -name '.asbdpt-*')" ]
+# Only the command line means standard input or output by "-".
+echo 'Film "image" "string filename" "-" WorldBegin WorldEnd' >dash.pbrt
+expect 0 'wrote -\.png' "$program" render dash.pbrt --res 16x16 --spp 2
+check [ ! -s stdout.txt ]
+rm -f ./-.png
+echo 'Include "-" WorldBegin WorldEnd' >dash.pbrt
+expect 1 'dash.pbrt:1:9: \./-: cannot open' "$program" info dash.pbrt </dev/null
+if command -v script >/dev/null && script -qec true /dev/null >/dev/null 2>&1; then
+    expect 0 '' script -qec "'$program' render '$box' $small -o -; echo status \$?" /dev/null
+    check grep -q 'standard output is a terminal' stdout.txt
+    check grep -q 'status 1' stdout.txt
+fi
 # A link is followed, to a file that there is or not; a circle is refused; rights are kept.
 mkdir deep
 ln -s deep/one link.pfm

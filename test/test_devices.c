@@ -41,7 +41,8 @@ static void test_full(struct test *t)
     }
 }
 
-/* Reading never waits for ever: a pipe that nobody writes to is empty, devices are refused. */
+/* Reading never waits for ever: a pipe that nobody writes to is empty, what stands behind the end of a file is not
+ * read, devices are refused. */
 static void test_endless(struct test *t)
 {
     char path[256];
@@ -54,6 +55,11 @@ static void test_endless(struct test *t)
     alarm(0);
     free(data);
     remove(path);
+    if (os_kind_of("/proc/self/status") == OS_FILE) { /* says that it is empty */
+        CHECK(t, file_read("/proc/self/status", &data, &size, &err) && size == 0, "%lu bytes behind a file's end",
+              (unsigned long)size);
+        free(data);
+    }
     if (os_kind_of("/dev/zero") == OS_OTHER)
         CHECK(t, !file_read("/dev/zero", &data, &size, &err) && strstr(err.text, "cannot be opened") != NULL,
               "/dev/zero: %s", err.text);

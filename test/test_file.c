@@ -274,8 +274,9 @@ static void test_names(struct test *t)
     static const char *const CASE[][3] = {{"a/b/scene.pbrt", "c/d.ply", "a/b/c/d.ply"},
                                           {"scene.pbrt", "../d.ply", "../d.ply"},
                                           {"/scene.pbrt", "d.ply", "/d.ply"},
-                                          {"a/scene.pbrt", "/d.ply", "/d.ply"}};
-    for (int i = 0; i < 4; i++) {
+                                          {"a/scene.pbrt", "/d.ply", "/d.ply"},
+                                          {"scene.pbrt", "-", "./-"}};
+    for (int i = 0; i < 5; i++) {
         char *path = file_beside(CASE[i][0], CASE[i][1]);
         CHECK(t, strcmp(path, CASE[i][2]) == 0, "%s beside %s is %s", CASE[i][1], CASE[i][0], path);
         free(path);

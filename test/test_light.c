@@ -226,7 +226,7 @@ static void test_shared_picture(struct test *t)
         CHECK(t, light_read_map(&set, &l[5], other, &err) == NULL && light_read_slide(&set, &l[5], other, &err) == NULL,
               "a file that is not there");
     light_set_free(&set);
-    CHECK(t, envmap_size_ok(4096, 4096, 1, &err) && !envmap_size_ok(4097, 4096, 1, &err) &&
+    CHECK(t, envmap_size_ok(2048, 2048, 1, &err) && !envmap_size_ok(2049, 2048, 1, &err) &&
                  envmap_size_ok(8192, 4096, 1 << 24, &err) && !envmap_size_ok(8194, 4096, 1 << 24, &err),
           "how large a map may be");
 }

@@ -13,9 +13,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "parser/lexer.h"
 #include "parser/parser.h"
+#include "parser/scene_files.h"
 #include "base/os.h"
 #include "base/rng.h"
 #include "parser/spectrum.h"
@@ -621,12 +623,21 @@ static void check_spectra(struct test *t)
     CHECK(t, rgb_is_black(spectrum_blackbody(0, 1)), "0 K is black");
 }
 
-static void check_suggestions(struct test *t)
+/* Which of the parameters of a sphere is near, or "". */
+static const char *suggested(const char *wanted)
 {
     static const char *const KNOWN[] = {"radius", "zmin", "zmax", "phimax", NULL};
-    CHECK(t, strcmp(suggest_from("raduis", KNOWN), "radius") == 0, "a swap");
-    CHECK(t, strcmp(suggest_from("ZMIN", KNOWN), "zmin") == 0, "letter case");
-    CHECK(t, suggest_from("colour", KNOWN) == NULL && suggest_from("", KNOWN) == NULL, "nothing near");
+    struct suggestion s = suggest_start(wanted);
+    for (int i = 0; KNOWN[i] != NULL; i++)
+        suggest_offer(&s, KNOWN[i]);
+    return s.name != NULL ? s.name : "";
+}
+
+static void check_suggestions(struct test *t)
+{
+    CHECK(t, strcmp(suggested("raduis"), "radius") == 0, "a swap");
+    CHECK(t, strcmp(suggested("ZMIN"), "zmin") == 0, "letter case");
+    CHECK(t, strcmp(suggested("colour"), "") == 0 && strcmp(suggested(""), "") == 0, "nothing near");
 }
 
 /* --- what reaches the terminal ------------------------------------------------------------------------- */
@@ -681,6 +692,151 @@ static void check_subdivided(struct test *t)
     static const char WANT[] = ":3:7: 11 levels would make 8.39e+06 triangles of 2; of this scene yet 8388607 are made";
     CHECK(t, !parse_scene(path, &s, NULL, &err) && strstr(err.text, WANT) != NULL,
           "more triangles than a scene may have: %s", err.text);
+}
+
+/* --- what a scene may repeat ---------------------------------------------------------------------------- */
+
+/* A world of n times `line`, in which "@" stands for another way each to write "", is parsed. */
+static bool parse_repeated(struct test *t, const char *line, int n, struct error *err)
+{
+    char path[TEXT];
+    size_t room = 64 + (size_t)n * (strlen(line) + 2 * (size_t)n);
+    char *text = mem_alloc(room, 1);
+    size_t used = (size_t)sprintf(text, "WorldBegin\n");
+    for (int i = 0; i < n; i++) {
+        for (const char *p = line; *p != '\0'; p++)
+            if (*p != '@')
+                text[used++] = *p;
+            else
+                for (int k = 0; k < i; k++)
+                    used += (size_t)sprintf(text + used, "./");
+        text[used++] = '\n';
+    }
+    used += (size_t)sprintf(text + used, "WorldEnd\n");
+    snprintf(path, sizeof path, "%s/repeated.pbrt", test_tmp(t));
+    write_bytes(path, text, used);
+    free(text);
+    struct scene s;
+    bool ok = parse_scene(path, &s, NULL, err);
+    if (ok)
+        scene_free(&s);
+    return ok;
+}
+
+/* What comes first of a file, and a comment that makes it a megabyte. */
+static void put_megabyte(struct test *t, const char *name, const char *begin)
+{
+    enum { MEGABYTE = 1 << 20 };
+    char path[TEXT], *text = mem_alloc(MEGABYTE, 1);
+    memset(text, '#', MEGABYTE);
+    memcpy(text, begin, strlen(begin));
+    snprintf(path, sizeof path, "%s/%s", test_tmp(t), name);
+    write_bytes(path, text, MEGABYTE);
+    free(text);
+}
+
+/* A megabyte may be read 64 times again; so may what it holds, under whatever name. */
+static void check_repeated(struct test *t)
+{
+    static const char LIGHTS[] = "more than 4096 infinite lights", AGAIN[] = "more than 64 MB have been read again";
+    static const struct {
+        const char *line;
+        int most;
+        const char *want;
+    } CASE[] = {
+        {"LightSource \"infinite\"", 4096, LIGHTS},
+        {"Include \"text\"", 65, AGAIN},
+        {"Include \"@text\"", 65, AGAIN},
+        {"LightSource \"point\" \"spectrum I\" \"@spectrum\"", 65, AGAIN},
+        {"Shape \"plymesh\" \"string filename\" \"mesh\"", 65, AGAIN},
+        {"Texture \"t\" \"float\" \"imagemap\" \"string filename\" \"@picture\"", 65, AGAIN}};
+    put_megabyte(t, "text", "");
+    put_megabyte(t, "spectrum", "500 1\n");
+    put_megabyte(t, "picture", "P5 1024 1023 255 ");
+    put_megabyte(t, "mesh",
+                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                 "element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0 1 0 0 0 1 0 3 0 1 2 ");
+    for (size_t i = 0; i < sizeof CASE / sizeof CASE[0]; i++) {
+        struct error err = {""};
+        CHECK(t, parse_repeated(t, CASE[i].line, CASE[i].most, &err), "%s: %s", CASE[i].line, err.text);
+        CHECK(t, !parse_repeated(t, CASE[i].line, CASE[i].most + 1, &err), "%s is accepted",
+              CASE[i].line);
+        CHECK(t, strstr(err.text, CASE[i].want) != NULL, "%s: %s", CASE[i].line, err.text);
+    }
+}
+
+/* Pictures of small files may take so much together, those of large ones anything; what is too much is the end. */
+static void check_unpacked(struct test *t)
+{
+    uint8_t pixel = 0;
+    uint64_t content = 0;
+    struct scene_files f = {.scene_path = "", .content = &content};
+    struct image small = {.width = 8192, .height = 8192, .channels = 1, .u8 = &pixel, .content = 1};
+    struct image large = small;
+    large.content = 2;
+    large.file_size = 1 << 21;
+    struct error err = {""};
+    bool ok = true;
+    for (int i = 0; i < 3; i++) {
+        small.content = 3 + (uint64_t)i;
+        ok = ok && scene_files_picture(&f, &small, 0, &err);
+    }
+    ok = ok && scene_files_picture(&f, &large, 0, &err);
+    CHECK(t, ok, "192 MB of pictures: %s", err.text);
+    small.content++;
+    CHECK(t, !scene_files_picture(&f, &small, 0, &err) && strstr(err.text, "more than 192 MB") != NULL, "%s", err.text);
+    CHECK(t, scene_files_path(&f, "a.png", &err) == NULL && strstr(err.text, "a.png: not read") != NULL, "%s",
+          err.text);
+    symbols_free(&f.known);
+}
+
+/* What a hundred unknown names were meant to be is said, not more: each is compared with all that are known. */
+static void check_suggested(struct test *t)
+{
+    struct messages m = {0};
+    int n = 0;
+    for (int i = 0; i < 3 * MOST_SUGGESTIONS; i++)
+        n += messages_suggest(&m);
+    CHECK(t, n == MOST_SUGGESTIONS, "%d suggestions", n);
+    messages_end(&m);
+}
+
+/* No more errors than are told are looked for. */
+static void check_many_errors(struct test *t)
+{
+    struct hearing *heard = mem_alloc(1, sizeof *heard);
+    struct message_sink sink = {hear_warning, hear_error, heard};
+    struct error err = {""};
+    char path[TEXT];
+    parse_repeated(t, "Shpae", 1000, &err);
+    snprintf(path, sizeof path, "%s/repeated.pbrt", test_tmp(t));
+    struct scene s;
+    CHECK(t, !parse_scene(path, &s, &sink, &err), "unknown directives are accepted");
+    CHECK(t, strstr(heard->errors.text[heard->errors.n - 1], "and 17 more errors") != NULL, "the last error is %s",
+          heard->errors.text[heard->errors.n - 1]);
+    free(heard);
+}
+
+/* A scene names files: not standard input, no pipe and no device. */
+static void check_no_files(struct test *t)
+{
+    static const char *const NAMES[][2] = {
+        {"fifo", "scenes name files, not devices or pipes"}, {"/dev/null", "scenes name files, not devices or pipes"},
+        {"parts", "scenes name files, not directories"}, {"-", "No such file"}};
+    char path[TEXT], line[TEXT];
+    snprintf(path, sizeof path, "%s/fifo", test_tmp(t));
+    CHECK(t, mkfifo(path, 0600) == 0, "cannot make a pipe");
+    snprintf(path, sizeof path, "%s/parts", test_tmp(t));
+    CHECK(t, os_make_directory(path), "cannot make a directory");
+    static const char *const LINES[] = {"Include \"%s\"", "LightSource \"infinite\" \"string mapname\" \"%s\"",
+                                        "LightSource \"point\" \"spectrum I\" \"%s\"",
+                                        "Shape \"plymesh\" \"string filename\" \"%s\""};
+    for (int i = 0; i < 16; i++) {
+        struct error err = {""};
+        snprintf(line, sizeof line, LINES[i / 4], NAMES[i % 4][0]);
+        CHECK(t, !parse_repeated(t, line, 1, &err) && strstr(err.text, NAMES[i % 4][1]) != NULL, "%s: %s", line,
+              err.text);
+    }
 }
 
 /* --- damaged files -------------------------------------------------------------------------------------- */
@@ -803,6 +959,11 @@ void test_parser(struct test *t)
     check_cleaning(t);
     check_odd_bytes(t);
     check_subdivided(t);
+    check_repeated(t);
+    check_unpacked(t);
+    check_suggested(t);
+    check_many_errors(t);
+    check_no_files(t);
     struct error err;
     struct scene s;
     CHECK(t,

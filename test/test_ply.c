@@ -244,6 +244,8 @@ static void check_cut_files(struct test *t)
 /* --- what is refused ---------------------------------------------------------------------------------- */
 
 #define XYZ   "property float x\nproperty float y\nproperty float z\n"
+#define BYTES_10  "~~~~~~~~~~"
+#define BYTES_100 "d" BYTES_10 BYTES_10 BYTES_10 BYTES_10 BYTES_10 BYTES_10 BYTES_10 BYTES_10 BYTES_10 BYTES_10
 #define HEAD  "ply\nformat ascii 1.0\nelement vertex 3\n" XYZ
 #define FACE  "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
 #define THREE "0 0 0\n1 0 0\n0 1 0\n"
@@ -288,6 +290,8 @@ static void check_refused(struct test *t)
          "integer list"},
         {HEAD "element face 1\nproperty list uchar int corners\nend_header\n" THREE "3 0 1 2\n", "integer list"},
         {"ply\nformat ascii 1.0\n" FACE "3 0 1 2\n", "there are only 0"},
+        {"ply\nformat binary_little_endian 1.0\nelement vertex 0\n" XYZ "element face 3\n"
+         "property list char char vertex_indices\nend_header\n" BYTES_100 BYTES_100 BYTES_100, "less than two bytes"},
         {"ply\nformat binary_little_endian 1.0\nelement vertex 3\n" XYZ
          "element face 1000000\nproperty list uchar int "
          "vertex_indices\nend_header\n" THREE,
@@ -333,10 +337,33 @@ static void check_odd(struct test *t)
     mesh_free(&m);
 }
 
+/* As many elements as a file may have, and one more. */
+static void check_elements(struct test *t)
+{
+    for (int n = PLY_MAX_ELEMENTS; n <= PLY_MAX_ELEMENTS + 1; n++) {
+        struct text f = {NULL, 0, 0};
+        struct mesh m;
+        struct error err = {""};
+        char path[256], line[64];
+        put_text(&f, "ply\nformat ascii 1.0\nelement vertex 3\n" XYZ);
+        for (int i = 0; i < n - 2; i++) {
+            snprintf(line, sizeof line, "element e%d 0\n", i);
+            put_text(&f, line);
+        }
+        put_text(&f, FACE "0 0 0 1 0 0 0 1 0 3 0 1 2 ");
+        save(t, &f, path);
+        bool ok = ply_read(path, &m, &err);
+        CHECK(t, ok == (n == PLY_MAX_ELEMENTS), "%d elements: %s", n, err.text);
+        CHECK(t, ok || strstr(err.text, "too many elements") != NULL, "%d elements: %s", n, err.text);
+        mesh_free(&m);
+    }
+}
+
 void test_ply(struct test *t)
 {
     check_variants(t);
     check_cut_files(t);
     check_refused(t);
     check_odd(t);
+    check_elements(t);
 }

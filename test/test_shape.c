@@ -44,7 +44,7 @@ static uint32_t corner_index[] = {0, 1, 2};
 static int add_triangle(struct test *t, struct geometry *geo, bool with_n, bool with_uv, struct transform to_world,
                         bool reverse)
 {
-    struct mesh m = {corner, with_n ? corner_normal : NULL, with_uv ? corner_uv : NULL, corner_index, 3, 1, 0, 0, 0};
+    struct mesh m = {corner, with_n ? corner_normal : NULL, with_uv ? corner_uv : NULL, corner_index, 3, 1, 0, 0, 0, 0};
     struct error err = {""};
     int group = shape_add_mesh(geo, &m, &to_world, group_of(7, 40), reverse, &err);
     CHECK(t, group == geo->n_groups - 1, "%s", err.text);
@@ -155,7 +155,7 @@ static void check_vertex_normals(struct test *t, struct rng *r)
         vec3 n[3];
         for (int k = 0; k < 9; k++)
             normal[k] = corner_normal[k] * (float)(k / 3 + 1);
-        struct mesh mesh = {corner, normal, corner_uv, corner_index, 3, 1, 0, 0, 0};
+        struct mesh mesh = {corner, normal, corner_uv, corner_index, 3, 1, 0, 0, 0, 0};
         CHECK(t, shape_add_mesh(&geo, &mesh, &m, group_of(7, 40), false, &err) == 0, "%s", err.text);
         for (size_t k = 0; k < 3; k++)
             n[k] = load3(normal, k);
@@ -178,7 +178,7 @@ static void check_degenerate_uv(struct test *t)
     struct transform id = transform_identity();
     struct error err;
     float same[] = {0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f};
-    struct mesh m = {corner, corner_normal, same, corner_index, 3, 1, 0, 0, 0};
+    struct mesh m = {corner, corner_normal, same, corner_index, 3, 1, 0, 0, 0, 0};
     shape_add_mesh(&geo, &m, &id, group_of(0, -1), false, &err);
     m.N = NULL;
     shape_add_mesh(&geo, &m, &id, group_of(0, -1), false, &err);
@@ -211,7 +211,7 @@ static void check_triangle_orientation(struct test *t)
 static void check_mesh_refused(struct test *t)
 {
     struct geometry geo = {0};
-    struct mesh m = {corner, NULL, NULL, corner_index, 3, 1, 0, 0, 0};
+    struct mesh m = {corner, NULL, NULL, corner_index, 3, 1, 0, 0, 0, 0};
     struct error err = {""};
     struct transform far = transform_translate(vec(1e30, 0, 0));
     CHECK(t, shape_add_mesh(&geo, &m, &far, group_of(0, -1), false, &err) == -1, "a vertex at 1e30");

@@ -13,23 +13,27 @@
 
 static const size_t PIPE_LIMIT = (size_t)1 << 28;
 
-/* Read to the end, in pieces that grow, and add a zero; `expected` is the length if it is known, else 0. */
-static bool read_stream(FILE *f, size_t expected, size_t limit, uint8_t **data, size_t *size)
+/* A file of this length, and a zero. What stands behind it, as in one that is being written or some of the system that
+ * say they are empty and never end, does not belong to it. */
+static bool read_length(FILE *f, size_t length, uint8_t **data, size_t *size)
 {
-    size_t capacity = expected + 1; /* one more, to meet the end of the file without growing */
-    *data = mem_alloc(capacity, 1);
-    *size = 0;
-    for (;;) {
-        size_t got = fread(*data + *size, 1, capacity - *size, f);
-        *size += got;
-        if (*size > limit)
-            return false;
-        if (*size < capacity) {
-            (*data)[*size] = 0;
-            return ferror(f) == 0;
-        }
+    *data = mem_alloc(length + 1, 1);
+    *size = fread(*data, 1, length, f);
+    (*data)[*size] = 0;
+    return ferror(f) == 0;
+}
+
+/* A pipe to its end, in pieces that grow, and a zero. */
+static bool read_pipe(FILE *f, uint8_t **data, size_t *size)
+{
+    for (size_t capacity = 0; *size == capacity;) {
         *data = mem_grow(*data, &capacity, capacity + 65536, 1);
+        *size += fread(*data + *size, 1, capacity - *size, f);
+        if (*size > PIPE_LIMIT)
+            return false;
     }
+    (*data)[*size] = 0;
+    return ferror(f) == 0;
 }
 
 static void close_input(FILE *f)
@@ -54,7 +58,7 @@ bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err
         return error_set(err, "%s: the file is too large for this machine's memory", path);
     }
     errno = 0;
-    bool ok = read_stream(f, (size_t)length, regular ? SIZE_MAX / 2 : PIPE_LIMIT, data, size);
+    bool ok = regular ? read_length(f, (size_t)length, data, size) : read_pipe(f, data, size);
     int reason = errno;
     close_input(f);
     if (ok)
@@ -89,7 +93,10 @@ char *file_beside(const char *path, const char *name)
     char *out = mem_alloc(length + strlen(name) + 1, 1);
     memcpy(out, path, length);
     strcpy(out + length, name);
-    return out;
+    if (strcmp(out, "-") != 0)
+        return out;
+    free(out); /* a file of this name, not standard input */
+    return mem_copy_text("./-");
 }
 
 bool file_has_extension(const char *path, const char *extension)

@@ -19,8 +19,9 @@
 
 /* file_read: the content of a file.
  *   data, size  out; data to be given to free(), NULL on failure; a zero byte follows the last that size counts
- * Pipes are read to their end, up to 256 MiB. Returns false with a message "PATH: ..." when the file is missing, a
- * directory, a device or unreadable; errno then says why, 0 for a file that is too long. */
+ * A file is as long as the system says, whatever can be read behind that; pipes are read to their end, up to 256 MiB.
+ * Returns false with a message "PATH: ..." when the file is missing, a directory, a device or unreadable; errno then
+ * says why, 0 for a file that is too long. */
 bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err);
 
 /* file_exists: is there anything of this name? */
@@ -29,8 +30,8 @@ bool file_exists(const char *path);
 /* file_make_directory: a directory and those above it, unless they are there. Returns false with a message. */
 bool file_make_directory(const char *path, struct error *err);
 
-/* file_beside: where a file is that another one names: a relative name starts in the directory of `path`. To be given
- * to free(). */
+/* file_beside: where a file is that another one names: a relative name starts in the directory of `path`; never "-",
+ * which only whoever runs the program may mean. To be given to free(). */
 char *file_beside(const char *path, const char *name);
 
 /* file_follow: where a path leads if symbolic links are followed, whether or not there is a file; to be given to

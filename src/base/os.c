@@ -446,15 +446,20 @@ bool os_regular(FILE *f, uint64_t *size)
     return ok;
 }
 
+static bool is_no_device(const struct stat *info)
+{
+    if (!S_ISCHR(info->st_mode) && !S_ISBLK(info->st_mode))
+        return true;
+    errno = EPERM;
+    return false;
+}
+
 FILE *os_open_input(const char *path)
 {
     struct stat info;
-    int fd = open(path, O_RDONLY | O_NONBLOCK);
-    bool ok = fd >= 0 && fstat(fd, &info) == 0;
-    if (ok && (S_ISCHR(info.st_mode) || S_ISBLK(info.st_mode))) {
-        errno = EPERM;
-        ok = false;
-    }
+    bool ok = stat(path, &info) == 0 && is_no_device(&info);
+    int fd = ok ? open(path, O_RDONLY | O_NONBLOCK) : -1;
+    ok = fd >= 0 && fstat(fd, &info) == 0 && is_no_device(&info); /* it may be another file by now */
     ok = ok && fcntl(fd, F_SETFL, 0) == 0;
     FILE *f = ok ? fdopen(fd, "rb") : NULL;
     int reason = errno;

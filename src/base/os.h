@@ -72,7 +72,7 @@ bool os_terminal(FILE *f);
 void os_binary(FILE *f);
 
 /* os_open_input: a file or a pipe for reading bytes. It does not wait for somebody to write to a pipe: where nobody
- * does, it is empty. Devices, which may never end, are refused with EPERM. NULL, and errno. */
+ * does, it is empty. Devices, which may never end, are refused with EPERM, unopened. NULL, and errno. */
 FILE *os_open_input(const char *path);
 
 /* os_regular: the length of an open file; false for pipes, devices and directories. */

@@ -42,14 +42,14 @@ static const struct option OPTIONS[] = {
     {.others = RUN_OPTIONS},
 };
 
-/* The scene's Film filename, with .png in place of an extension this program does not write. */
+/* The scene's Film filename, with .png in place of an extension this program does not write; never standard output. */
 static char *default_output(const struct scene *scene)
 {
     const char *name = scene->film_filename != NULL ? scene->film_filename : "asbdpt.png";
     size_t size = strlen(name) + 5;
     char *out = mem_alloc(size, 1);
     strcpy(out, name);
-    if (!image_writable(out)) {
+    if (!image_writable(out) || strcmp(out, "-") == 0) {
         const char *slash = os_last_separator(out);
         char *dot = strrchr(out, '.');
         if (dot != NULL && (slash == NULL || dot > slash))

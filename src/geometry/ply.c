@@ -38,9 +38,9 @@ struct ply {
     uint8_t *data; /* [size] the whole file */
     size_t size, pos;
     enum encoding encoding;
-    struct ply_element *element; /* [n_elements] */
-    struct ply_property *property;
-    size_t n_elements, n_properties, element_capacity, property_capacity;
+    struct ply_element element[PLY_MAX_ELEMENTS]; /* [n_elements] */
+    struct ply_property *property;                /* [n_properties] */
+    size_t n_elements, n_properties, property_capacity;
     struct mesh *mesh;
     size_t n_indices, index_capacity;
     struct error *err;
@@ -133,7 +133,8 @@ static bool header_element(struct ply *r, size_t line, const char *name, const c
     for (size_t i = 0; i < r->n_elements; i++)
         if (strcmp(r->element[i].name, name) == 0)
             return fail_line(r, line, "a second element named ", name);
-    r->element = mem_grow(r->element, &r->element_capacity, r->n_elements + 1, sizeof *r->element);
+    if (r->n_elements == PLY_MAX_ELEMENTS)
+        return fail_line(r, line, "too many elements, of which vertex and face are of use: ", name);
     struct ply_element *e = &r->element[r->n_elements++];
     strcpy(e->name, name);
     e->count = (int)n;
@@ -411,6 +412,8 @@ static bool read_faces(struct ply *r, const struct ply_element *e)
         return false;
     if (r->n_indices / 3 > FIRST_QUADRIC)
         return fail(r, "more than 2^30 triangles");
+    if (r->n_indices / 3 * PLY_BYTES_PER_TRIANGLE > r->size)
+        return fail(r, "polygons of so many corners that a triangle of theirs has less than two bytes");
     r->mesh->n_triangles = (int)(r->n_indices / 3);
     return true;
 }
@@ -456,8 +459,8 @@ bool ply_read(const char *path, struct mesh *out, struct error *err)
     bool ok = file_read(path, &r.data, &r.size, err) && read_header(&r) && check_counts(&r) && read_body(&r) &&
               check_mesh(&r);
     out->content = hash_content(r.data, r.size);
+    out->file_size = r.size;
     free(r.data);
-    free(r.element);
     free(r.property);
     if (!ok)
         mesh_free(out);

@@ -13,6 +13,9 @@
 #include "base/error.h"
 #include "geometry/shape.h"
 
+/* Elements of a file, of which two are of use, and its bytes for a triangle, which takes some 1000 as a lamp. */
+enum { PLY_MAX_ELEMENTS = 64, PLY_BYTES_PER_TRIANGLE = 2 };
+
 /* ply_read: read a mesh. Returns false with a message "PATH: ..." (line for the header and ascii files) on a
  * missing, truncated or malformed file, an index out of range, a non-finite position, or counts the file is
  * too short to hold, and when there are no faces; *out is then empty. */

@@ -61,6 +61,7 @@ struct mesh {
     int n_vertices, n_triangles;
     int n_thin, n_wide; /* faces of the file of fewer than 3 corners, which are left out, and of more than 4 */
     uint64_t content;   /* hash_content of the file it was read from; 0: none */
+    size_t file_size;   /* bytes of it */
 };
 
 /* mesh_free: release its arrays; the mesh is empty then. geometry_free: the same of a geometry. */

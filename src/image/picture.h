@@ -56,6 +56,13 @@ void picture_alloc_f32(struct image *out, size_t width, size_t height, int chann
 
 void image_free(struct image *img);
 
+/* image_bytes: what its pixels take. */
+static inline size_t image_bytes(const struct image *img)
+{
+    size_t samples = (size_t)img->width * (size_t)img->height * (size_t)img->channels;
+    return img->u8 != NULL ? samples : samples * sizeof *img->f32;
+}
+
 /* srgb_encode: linear [0,1] -> sRGB [0,1];  srgb_decode: its inverse [IEC 61966-2-1]. Negative numbers stay linear. */
 double srgb_encode(double linear);
 double srgb_decode(double encoded);

@@ -26,35 +26,20 @@ bool params_fail(struct params *p, struct source_position at, const char *format
 
 /* --- asking ------------------------------------------------------------------------------------------- */
 
-struct source_position param_value_position(const struct param *item, int k)
-{
-    struct messages silent = {0};
-    struct lexer l = item->values;
-    l.messages = &silent;
-    struct token t = {.position = item->position};
-    for (int i = 0; i <= k; i++)
-        if (!lexer_next(&l, &t))
-            break;
-    messages_end(&silent);
-    return t.position;
-}
-
 static void remember_name(struct params *p, const char *name)
 {
     for (int i = 0; i < p->n_asked; i++)
         if (strcmp(p->asked[i], name) == 0)
             return;
-    if (p->n_asked < MAX_ASKED)
+    if (p->n_asked < MAX_PARAMETERS)
         p->asked[p->n_asked++] = name;
 }
 
 /* The last parameter of this name and one of the types; like pbrt, a later one replaces an earlier one. */
-static struct param *find(struct params *p, const char *name, unsigned types)
+static struct param *find_in(struct params *p, struct param *list, int n, const char *name, unsigned types)
 {
-    remember_name(p, name);
     struct param *found = NULL;
-    for (int i = 0; i < p->n; i++) {
-        struct param *item = &p->item[i];
+    for (struct param *item = list; item < list + n; item++) {
         if ((types & 1u << item->type) == 0 || strcmp(item->name, name) != 0)
             continue;
         if (found != NULL)
@@ -66,15 +51,28 @@ static struct param *find(struct params *p, const char *name, unsigned types)
     return found;
 }
 
+/* The same, or of the list behind. What is a texture here is no value there, and the reverse. */
+static struct param *find(struct params *p, const char *name, unsigned types)
+{
+    remember_name(p, name);
+    struct param *found = find_in(p, p->item, p->n, name, types);
+    if (found != NULL || p->behind.n == 0)
+        return found;
+    found = find_in(p, p->behind.item, p->behind.n, name, types);
+    for (int i = 0; i < p->n && found != NULL; i++)
+        if (strcmp(p->item[i].name, name) == 0 &&
+            (p->item[i].type == PARAM_TEXTURE) != (found->type == PARAM_TEXTURE))
+            return NULL;
+    return found;
+}
+
 /* Whole numbers have ranges of their own, which params_int checks. */
 static bool numbers_usable(struct params *p, const struct param *item)
 {
-    for (int i = 0; !item->is_text && item->type != PARAM_INTEGER && i < item->n; i++) {
-        double number = p->number[item->first + (size_t)i];
-        if (!(fabs(number) <= NUMBER_MAX))
-            return params_fail(p, param_value_position(item, i), "%g is too large for \"%s\"; numbers go up to %g here",
-                               number, item->name, NUMBER_MAX);
-    }
+    for (int i = 0; !item->is_text && item->type != PARAM_INTEGER && i < item->n; i++)
+        if (!(fabs(item->number[i]) <= NUMBER_MAX))
+            return params_fail(p, item->position, "%g is too large for \"%s\"; numbers go up to %g here",
+                               item->number[i], item->name, NUMBER_MAX);
     return true;
 }
 
@@ -107,14 +105,13 @@ double params_number(struct params *p, const char *name, double fallback, double
     const struct param *item = find_one(p, name, PARAM_FLOAT);
     if (item == NULL)
         return fallback;
-    double number = p->number[item->first];
+    double number = item->number[0];
     if (number >= low && number <= high)
         return number;
-    struct source_position at = param_value_position(item, 0);
     if (high <= NUMBER_MAX)
-        params_fail(p, at, "\"%s\" is %g; it must be from %g to %g", name, number, low, high);
+        params_fail(p, item->position, "\"%s\" is %g; it must be from %g to %g", name, number, low, high);
     else
-        params_fail(p, at, "\"%s\" is %g; it must be %sat least %g", name, number,
+        params_fail(p, item->position, "\"%s\" is %g; it must be %sat least %g", name, number,
                     low == NUMBER_MIN ? "greater than 0, and " : "", low);
     return fallback;
 }
@@ -124,14 +121,13 @@ int params_int(struct params *p, const char *name, int fallback, int low, int hi
     const struct param *item = find_one(p, name, PARAM_INTEGER);
     if (item == NULL)
         return fallback;
-    double number = p->number[item->first];
-    double whole = trunc(number);
+    double number = item->number[0], whole = trunc(number);
     if (whole != number)
         source_warn(p->messages, item->position, NULL, "\"%s\" is %.12g, which counts as %.12g", name, number, whole);
     if (whole >= low && whole <= high)
         return (int)whole;
-    params_fail(p, param_value_position(item, 0), "\"%s\" is %.12g; it must be a whole number from %d to %d", name,
-                number, low, high);
+    params_fail(p, item->position, "\"%s\" is %.12g; it must be a whole number from %d to %d", name, number, low,
+                high);
     return fallback;
 }
 
@@ -140,7 +136,7 @@ bool params_bool(struct params *p, const char *name, bool fallback)
     const struct param *item = find_one(p, name, PARAM_BOOL);
     if (item == NULL)
         return fallback;
-    const char *text = p->string[item->first];
+    const char *text = item->text[0];
     if (strcmp(text, "true") != 0 && strcmp(text, "false") != 0)
         source_warn(p->messages, item->position, NULL, "\"%s\" is \"%.40s\", which counts as \"false\"", name, text);
     return strcmp(text, "true") == 0;
@@ -151,8 +147,8 @@ const char *params_text(struct params *p, const char *name, enum param_type type
     const struct param *item = find_one(p, name, type);
     if (item == NULL)
         return NULL;
-    *at = param_value_position(item, 0);
-    return p->string[item->first];
+    *at = item->position;
+    return item->text[0];
 }
 
 vec3 params_vec3(struct params *p, const char *name, enum param_type type, vec3 fallback)
@@ -160,8 +156,7 @@ vec3 params_vec3(struct params *p, const char *name, enum param_type type, vec3 
     const struct param *item = find_n(p, name, 1u << type, 3);
     if (item == NULL)
         return fallback;
-    const double *x = p->number + item->first;
-    return vec(x[0], x[1], x[2]);
+    return vec(item->number[0], item->number[1], item->number[2]);
 }
 
 int params_choice(struct params *p, const char *name, const char *const *choices)
@@ -169,13 +164,11 @@ int params_choice(struct params *p, const char *name, const char *const *choices
     const struct param *item = find_one(p, name, PARAM_STRING);
     if (item == NULL)
         return 0;
-    const char *text = p->string[item->first];
     for (int i = 0; choices[i] != NULL; i++)
-        if (strcmp(choices[i], text) == 0)
+        if (strcmp(choices[i], item->text[0]) == 0)
             return i;
-    char near[SUGGEST_TEXT];
-    source_warn(p->messages, item->position, NULL, "\"%s\" cannot be \"%.40s\", so it is \"%s\"%s", name, text,
-                choices[0], suggest_text(suggest_from(text, choices), near));
+    source_warn(p->messages, item->position, NULL, "\"%s\" cannot be \"%.40s\", so it is \"%s\"", name,
+                item->text[0], choices[0]);
     return 0;
 }
 
@@ -191,7 +184,7 @@ const double *params_list(struct params *p, const char *name, unsigned types, in
         source_warn(p->messages, item->position, NULL,
                     "parameter \"%s %s\" wants its numbers in groups of %d, but there are %d; the rest is passed over",
                     params_type_name(item->type), name, group, item->n);
-    return *n > 0 ? p->number + item->first : NULL;
+    return *n > 0 ? item->number : NULL;
 }
 
 /* --- files and colours -------------------------------------------------------------------------------- */
@@ -199,7 +192,13 @@ const double *params_list(struct params *p, const char *name, unsigned types, in
 char *params_file(struct params *p, const char *name, struct source_position *at)
 {
     const char *file = params_text(p, name, PARAM_STRING, at);
-    return file != NULL && file[0] != '\0' ? file_beside(p->scene_path, file) : NULL;
+    struct error refused;
+    if (file == NULL || file[0] == '\0')
+        return NULL;
+    char *path = scene_files_path(p->files, file, &refused);
+    if (path == NULL)
+        params_fail(p, *at, "%s", refused.text);
+    return path;
 }
 
 /* The colour of wavelength and value pairs: numbers, with comments from # to the end of the line. */
@@ -234,13 +233,13 @@ static rgb rgb_from_file(struct params *p, const struct param *item)
     rgb colour = rgb_black();
     struct error inner;
     size_t size;
-    char *path = file_beside(p->scene_path, p->string[item->first]), *text = text_read(path, &size, &inner);
-    if (text != NULL) {
+    char *path = scene_files_path(p->files, item->text[0], &inner);
+    char *text = path != NULL ? text_read(path, &size, &inner) : NULL;
+    if (text != NULL && scene_files_count(p->files, hash_content(text, size), size, &inner)) {
         const struct source_file file = {path, text, text + size, item->position, false};
-        *p->content = hash_combine(*p->content, hash_content(text, size));
         colour = rgb_from_pairs(p, &file);
     } else {
-        params_fail(p, param_value_position(item, 0), "%s", inner.text);
+        params_fail(p, item->position, "%s", inner.text);
     }
     free(text);
     free(path);
@@ -274,10 +273,24 @@ static bool colour_usable(rgb c)
     return fabs(c.r) <= NUMBER_MAX && fabs(c.g) <= NUMBER_MAX && fabs(c.b) <= NUMBER_MAX;
 }
 
+/* The parameter is this colour from now on: it may be asked for again, and its file need not be read again. */
+static rgb remember_colour(struct params *p, struct param *item, rgb c)
+{
+    double *x = arena_alloc(p->arena, 3 * sizeof *x);
+    x[0] = c.r;
+    x[1] = c.g;
+    x[2] = c.b;
+    item->type = PARAM_RGB;
+    item->is_text = false;
+    item->number = x;
+    item->n = 3;
+    return c;
+}
+
 rgb params_rgb(struct params *p, const char *name, rgb fallback)
 {
     const unsigned types = 1u << PARAM_RGB | 1u << PARAM_XYZ | 1u << PARAM_BLACKBODY | 1u << PARAM_SPECTRUM;
-    const struct param *item = find(p, name, types);
+    struct param *item = find(p, name, types);
     int n = item == NULL ? 0 : colour_values(item);
     if (item == NULL || (item = find_n(p, name, 1u << item->type, n)) == NULL)
         return fallback;
@@ -285,9 +298,9 @@ rgb params_rgb(struct params *p, const char *name, rgb fallback)
     if (item->is_text)
         colour = rgb_from_file(p, item);
     else
-        colour = rgb_from_numbers(item->type, p->number + item->first, n);
+        colour = rgb_from_numbers(item->type, item->number, n);
     if (colour_usable(colour))
-        return colour;
+        return item->type == PARAM_RGB ? colour : remember_colour(p, item, colour);
     params_fail(p, item->position, "parameter \"%s\" gives the colour (%g %g %g); its numbers go up to %g here", name,
                 colour.r, colour.g, colour.b, NUMBER_MAX);
     return fallback;
@@ -298,7 +311,7 @@ rgb params_rgb(struct params *p, const char *name, rgb fallback)
 /* A parameter nobody asked for: does the name exist with another type, or is another name near? */
 static void warn_of_unused(struct params *p, const struct param *item)
 {
-    struct suggestion near = suggest_start(item->name);
+    struct suggestion near = suggest_start(messages_suggest(p->messages) ? item->name : "");
     for (int i = 0; i < p->n_asked; i++) {
         if (strcmp(p->asked[i], item->name) == 0) {
             source_warn(p->messages, item->position, NULL,
@@ -308,9 +321,10 @@ static void warn_of_unused(struct params *p, const struct param *item)
         }
         suggest_offer(&near, p->asked[i]);
     }
-    char text[SUGGEST_TEXT];
-    source_warn(p->messages, item->position, NULL, "parameter \"%.40s\" of %s \"%s\" is not used%s", item->name,
-                p->directive, p->type, suggest_text(near.name, text));
+    bool is_near = near.name != NULL;
+    source_warn(p->messages, item->position, NULL, "parameter \"%.40s\" of %s \"%s\" is not used%s%s%s", item->name,
+                p->directive, p->type, is_near ? "; did you mean \"" : "", is_near ? near.name : "",
+                is_near ? "\"?" : "");
 }
 
 bool params_done(struct params *p)

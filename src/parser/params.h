@@ -15,6 +15,7 @@
 #include "base/rgb.h"
 #include "base/vec.h"
 #include "parser/lexer.h"
+#include "parser/scene_files.h"
 
 enum param_type {
     PARAM_INTEGER,
@@ -37,47 +38,54 @@ enum param_type {
 struct param {
     enum param_type type;
     const char *name;
-    struct source_position position;  /* of the quoted declaration */
-    struct lexer values; /* where the values begin, to find the position of one of them again */
-    size_t first;        /* index into params->number or params->string */
-    int n;               /* values: numbers or strings; fewer than bytes in a file (text_read) */
-    bool is_text;        /* strings (also bools), else numbers */
+    struct source_position position; /* of the quoted declaration */
+    int n;             /* values; fewer than bytes in a file (text_read) */
+    bool is_text;      /* strings (also bools), else numbers */
     bool used;
+    double *number;    /* [n] if they are numbers */
+    const char **text; /* [n] if they are strings */
 };
 
-enum { MAX_ASKED = 48 }; /* more names than any type of object has parameters */
+enum { MAX_PARAMETERS = 64 }; /* of a directive: more than any has names for */
+
+/* What is left of a list that has been read: the parameters that were used. */
+struct kept_params {
+    struct param *item; /* [n], in an arena, with their values */
+    int n;
+};
 
 struct params {
     /* What the list belongs to, for messages: directive "Shape", type "sphere". */
     const char *directive, *type;
     struct source_position position; /* of the type */
     struct messages *messages;
-    uint64_t *content;     /* where the hashes of all files read are combined */
-    const char *scene_path; /* the main scene file: relative names of files start in its directory */
+    struct scene_files *files;
+    struct arena *arena;   /* for what outlives the list */
     bool failed;           /* an error has been kept */
     bool excess;           /* values beyond the first are passed over, as where a texture may stand */
 
-    struct param *item; /* [n], owned */
+    struct param item[MAX_PARAMETERS]; /* [n] */
     int n;
-    double *number;      /* all numbers of all items, owned */
-    const char **string; /* all strings, owned array of texts in the lexer's arena */
+    struct kept_params behind; /* another list that is asked for what this one does not have */
+    double *number;            /* all numbers of all items, owned */
+    const char **string;       /* all strings, owned array of texts in the lexer's arena */
     size_t n_number, n_string;
-    const char *asked[MAX_ASKED]; /* names asked for so far, for suggestions */
+    const char *asked[MAX_PARAMETERS]; /* names asked for so far, for suggestions */
     int n_asked;
-    size_t capacity, number_capacity, string_capacity;
+    size_t number_capacity, string_capacity;
 };
 
 /* params_read: read the list that starts at the lexer's position, up to the first token that is not a declaration.
- *   p  directive, type, position, messages and directory set; reused from list to list; zero-initialised before
+ *   p  directive, type, position, messages, files and arena set; reused from list to list; zero-initialised before
  *      the first and released by params_free after the last
  * Returns false with a message. */
 bool params_read(struct params *p, struct lexer *l);
 
-/* params_take: append a copy of another list's parameter, in place of those that it stands for: a value of the same
- * type, or, if it is a texture, of any. */
-void params_take(struct params *p, const struct params *from, const struct param *item);
+/* params_keep: copies of the parameters that were used, in the arena: of numbers the first three, of texts the first,
+ * for more is never used of those that are one thing. */
+struct kept_params params_keep(const struct params *p);
 
-/* params_free: release all lists; *p is empty and has to be set up again. */
+/* params_free: release all lists. */
 void params_free(struct params *p);
 
 /* params_fail: keep an error, unless there is one already. Returns false. */
@@ -108,20 +116,17 @@ double params_number(struct params *p, const char *name, double fallback, double
 const double *params_list(struct params *p, const char *name, unsigned types, int group, int *n,
                           const struct param **found);
 
-/* params_text: the one value of a parameter of type PARAM_STRING or PARAM_TEXTURE, or NULL; *at is its position. */
+/* params_text: the one value of a parameter of type PARAM_STRING or PARAM_TEXTURE, or NULL; *at is where it is
+ * declared. */
 const char *params_text(struct params *p, const char *name, enum param_type type, struct source_position *at);
 
 /* params_type_name: as scene files have it: "integer", "rgb" ... */
 const char *params_type_name(enum param_type type);
 
-/* params_file: a "string NAME" as a path: relative ones start in the main scene file's directory. NULL if absent or "".
- * The text is to be given to free(); *at is the position of the value. */
+/* params_file: a "string NAME" as a path (scene_files_path), to be given to free(); *at is where it is declared. NULL
+ * if absent, "" or, with an error, refused. */
 char *params_file(struct params *p, const char *name, struct source_position *at);
 
 /* params_choice: a string that should be one of a NULL-terminated list; returns its index (0 = default if absent). */
 int params_choice(struct params *p, const char *name, const char *const *choices);
-
-/* param_value_position: where the k-th value of a parameter stands. */
-struct source_position param_value_position(const struct param *item, int k);
-
 #endif

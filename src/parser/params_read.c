@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "parser/symbols.h"
-
 /* One row per spelling; the first of a type is its name in messages. */
 static const struct {
     const char *name;
@@ -33,7 +31,7 @@ const char *params_type_name(enum param_type type)
  * used. */
 static void read_declaration(struct params *p, const struct token *t, struct param *item)
 {
-    char *text = arena_alloc(item->values.arena, strlen(t->text) + 1);
+    char *text = arena_alloc(p->arena, strlen(t->text) + 1);
     strcpy(text, t->text);
     const char *type = strtok(text, " \t"), *name = strtok(NULL, " \t");
     item->type = PARAM_TYPES;
@@ -43,20 +41,15 @@ static void read_declaration(struct params *p, const struct token *t, struct par
                     "type and its name, like \"float radius\"", t->text);
         return;
     }
-    struct suggestion near = suggest_start(type);
-    for (int i = 0; i < N_TYPES; i++) {
-        suggest_offer(&near, TYPES[i].name);
+    for (int i = 0; i < N_TYPES; i++)
         if (strcmp(TYPES[i].name, type) == 0) {
             item->type = TYPES[i].type;
             item->name = name;
             return;
         }
-    }
-    char nearest[SUGGEST_TEXT];
-    source_warn(p->messages, t->position, NULL, "the parameter \"%.40s\" is passed over: unknown type%s", t->text,
-                near.name != NULL ? suggest_text(near.name, nearest)
-                                  : "; types are integer, float, bool, string, texture, point2, vector2, point, "
-                                    "vector, normal, rgb, xyz, blackbody and spectrum");
+    source_warn(p->messages, t->position, NULL, "the parameter \"%.40s\" is passed over: unknown type; types are "
+                "integer, float, bool, string, texture, point2, vector2, point, vector, normal, rgb, xyz, blackbody "
+                "and spectrum", t->text);
 }
 
 static bool wants_text(enum param_type type)
@@ -80,12 +73,6 @@ static bool add_text(struct params *p, struct param *item, const char *text)
     item->is_text = true;
     item->n++;
     return true;
-}
-
-static void add_item(struct params *p, const struct param *item)
-{
-    p->item = mem_grow(p->item, &p->capacity, (size_t)p->n + 1, sizeof *p->item);
-    p->item[p->n++] = *item;
 }
 
 /* One value that is not a plain number: a string, a bare true or false, a number with an appendix, or a mistake. */
@@ -121,12 +108,10 @@ static bool read_value(struct params *p, struct lexer *l, struct param *item)
 
 static bool read_values(struct params *p, struct lexer *l, struct param *item)
 {
-    item->values = *l;
     if (lexer_peek(l) != TOKEN_OPEN)
         return read_value(p, l, item);
     struct token open;
     lexer_next(l, &open);
-    item->values = *l;
     for (;;) {
         enum token_kind next = lexer_peek(l);
         if (next == TOKEN_CLOSE)
@@ -151,56 +136,70 @@ static bool is_usable(struct params *p, const struct param *item)
     return false;
 }
 
+static bool read_items(struct params *p, struct lexer *l)
+{
+    while (lexer_peek(l) == TOKEN_STRING) {
+        struct token t;
+        if (!lexer_next(l, &t))
+            return false;
+        if (p->n == MAX_PARAMETERS)
+            return params_fail(p, t.position, "more than %d parameters; nothing has so many", MAX_PARAMETERS);
+        struct param item = {.position = t.position};
+        read_declaration(p, &t, &item);
+        size_t n_number = p->n_number, n_string = p->n_string;
+        if (!read_values(p, l, &item))
+            return false;
+        if (is_usable(p, &item)) {
+            p->item[p->n++] = item;
+        } else {
+            p->n_number = n_number;
+            p->n_string = n_string;
+        }
+    }
+    return true;
+}
+
 bool params_read(struct params *p, struct lexer *l)
 {
     p->n = p->n_asked = 0;
     p->n_number = p->n_string = 0;
     p->failed = p->excess = false;
-    while (lexer_peek(l) == TOKEN_STRING) {
-        struct token t;
-        if (!lexer_next(l, &t))
-            return false;
-        struct param item = {.position = t.position, .values = *l};
-        read_declaration(p, &t, &item);
-        size_t first_number = p->n_number, first_string = p->n_string;
-        if (!read_values(p, l, &item))
-            return false;
-        item.first = item.is_text ? first_string : first_number;
-        if (is_usable(p, &item))
-            add_item(p, &item);
-    }
-    return true;
+    bool ok = read_items(p, l);
+    double *number = p->number;
+    const char **text = p->string;
+    for (struct param *item = p->item; item < p->item + p->n; item++) /* the arrays do not move any more */
+        if (item->is_text) {
+            item->text = text;
+            text += item->n;
+        } else {
+            item->number = number;
+            number += item->n;
+        }
+    return ok;
 }
 
-/* Does a parameter come in the place of an older one? */
-static bool stands_for(const struct param *item, const struct param *older)
+struct kept_params params_keep(const struct params *p)
 {
-    bool texture = item->type == PARAM_TEXTURE || older->type == PARAM_TEXTURE;
-    return strcmp(older->name, item->name) == 0 && (texture || older->type == item->type);
-}
-
-void params_take(struct params *p, const struct params *from, const struct param *item)
-{
-    struct param copy = *item;
-    int kept = 0;
-    for (int i = 0; i < p->n; i++)
-        if (!stands_for(item, &p->item[i]))
-            p->item[kept++] = p->item[i];
-    p->n = kept;
-    copy.n = 0;
-    copy.first = item->is_text ? p->n_string : p->n_number;
-    for (size_t k = item->first; k < item->first + (size_t)item->n; k++)
-        if (item->is_text)
-            add_text(p, &copy, from->string[k]);
+    struct kept_params kept = {arena_alloc(p->arena, (size_t)p->n * sizeof *kept.item), 0};
+    for (int i = 0; i < p->n; i++) {
+        if (!p->item[i].used || p->item[i].n == 0)
+            continue;
+        struct param *copy = &kept.item[kept.n++];
+        *copy = p->item[i];
+        int most = copy->is_text ? 1 : 3;
+        copy->n = copy->n < most ? copy->n : most;
+        size_t n = (size_t)copy->n;
+        if (copy->is_text)
+            copy->text = memcpy(arena_alloc(p->arena, n * sizeof *copy->text), copy->text, n * sizeof *copy->text);
         else
-            add_number(p, &copy, from->number[k]);
-    add_item(p, &copy);
+            copy->number = memcpy(arena_alloc(p->arena, n * sizeof *copy->number), copy->number,
+                                  n * sizeof *copy->number);
+    }
+    return kept;
 }
 
 void params_free(struct params *p)
 {
-    free(p->item);
     free(p->number);
     free(p->string);
-    memset(p, 0, sizeof *p);
 }

@@ -2,7 +2,6 @@
  * reading its parameters by a table. See parse.h. */
 #include "parser/parse.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "base/bits.h"
@@ -38,12 +37,10 @@ bool parse_typed(struct parser *p)
     return parse_string(p, &type, "a type") && parse_list(p, p->directive.text, &type);
 }
 
-void parse_no_such(struct parser *p, struct source_position at, const char *name, const struct symbols *table,
-                   const char *what, const char *instead)
+void parse_no_such(struct parser *p, struct source_position at, const char *name, const char *what,
+                   const char *instead)
 {
-    char near[SUGGEST_TEXT];
-    source_warn(&p->messages, at, NULL, "there is no %s \"%.60s\"; %s%s", what, name, instead,
-                suggest_text(symbols_near(table, name), near));
+    source_warn(&p->messages, at, NULL, "there is no %s \"%.60s\"; %s", what, name, instead);
 }
 
 int parse_named(struct parser *p, struct token *name, const struct symbols *table, const char *what,
@@ -53,7 +50,7 @@ int parse_named(struct parser *p, struct token *name, const struct symbols *tabl
         return -1;
     int i = symbols_find(table, name->text);
     if (i < 0)
-        parse_no_such(p, name->position, name->text, table, what, instead);
+        parse_no_such(p, name->position, name->text, what, instead);
     return i;
 }
 
@@ -75,28 +72,20 @@ static void list_types(const struct object_type *types, char *buffer, size_t siz
 static bool unknown_type(struct parser *p, const struct object_type *types, const struct object_type *end)
 {
     struct params *q = &p->params;
-    char list[256], advice[320];
+    char list[256];
     const char *instead = NULL;
     list_types(types, list, sizeof list);
-    struct suggestion near = suggest_start(q->type);
-    for (const struct object_type *t = types; t != end; t++) {
-        if (t->parameter != NULL)
-            suggest_offer(&near, t->name);
-        if (instead == NULL && t->parameter == end->parameter && t->kind == end->kind)
+    for (const struct object_type *t = types; t != end && instead == NULL; t++)
+        if (t->parameter == end->parameter && t->kind == end->kind)
             instead = t->name;
-    }
-    if (near.name != NULL)
-        snprintf(advice, sizeof advice, "did you mean \"%s\"?", near.name);
-    else
-        snprintf(advice, sizeof advice, "known are %s", list);
     if (end->parameter == NULL && end->kind == REFUSE_OTHERS)
-        return type_error(q, "unknown %s \"%.40s\"; %s", q->directive, q->type, advice);
+        return type_error(q, "unknown %s \"%.40s\"; known are %s", q->directive, q->type, list);
     if (end->parameter == NULL || instead == NULL)
-        source_warn(q->messages, q->position, NULL, "unknown %s \"%.40s\" is left out, as pbrt-v3 does; %s",
-                    q->directive, q->type, advice);
+        source_warn(q->messages, q->position, NULL,
+                    "unknown %s \"%.40s\" is left out, as pbrt-v3 does; known are %s", q->directive, q->type, list);
     else
-        source_warn(q->messages, q->position, NULL, "unknown %s \"%.40s\"; \"%s\" is taken instead; %s",
-                    q->directive, q->type, instead, advice);
+        source_warn(q->messages, q->position, NULL, "unknown %s \"%.40s\"; \"%s\" is taken instead; known are %s",
+                    q->directive, q->type, instead, list);
     return end->parameter != NULL;
 }
 
@@ -162,15 +151,6 @@ void parse_ignored(struct parser *p, const struct parameter *row, void *field)
         source_warn(&p->messages, item->position, row->name, "%s", row->warning);
 }
 
-void parse_no_effect(struct parser *p, const struct parameter *row, void *field)
-{
-    const struct param *item = params_ignore(&p->params, row->name);
-    (void)field;
-    if (item != NULL)
-        source_warn(&p->messages, item->position, NULL, "%s \"%s\": \"%s\" has no effect here", p->params.directive,
-                    p->params.type, row->name);
-}
-
 /* --- textures ------------------------------------------------------------------------------------------- */
 
 int parse_constant(struct parser *p, rgb value)
@@ -198,7 +178,7 @@ int parse_named_texture(struct parser *p, const char *name, bool is_float)
                     "\"%s\" wants a texture of type %s, but \"%.60s\" is of type %s; the default is taken", name,
                     is_float ? "float" : "spectrum", texture, is_float ? "spectrum" : "float");
     else if (id < 0)
-        parse_no_such(p, at, texture, table, is_float ? "float texture" : "spectrum texture", "the default is taken");
+        parse_no_such(p, at, texture, is_float ? "float texture" : "spectrum texture", "the default is taken");
     const struct param *value = id < 0 ? NULL : params_ignore(q, name);
     if (value != NULL && value->type != PARAM_TEXTURE) /* a texture wins over a value of the same name, as in pbrt */
         source_warn(&p->messages, value->position, NULL,

@@ -26,9 +26,9 @@ struct area_light {
 
 /* A material, and what it was made from, for shapes that change parameters of it. */
 struct material_source {
-    int id;            /* index into scene->materials, or MATERIAL_NONE */
-    const char *type;  /* "matte" */
-    struct lexer list; /* where its parameters begin */
+    int id;                  /* index into scene->materials, or MATERIAL_NONE */
+    const char *type;        /* "matte" */
+    struct kept_params list;
 };
 
 /* What TransformBegin saves. */
@@ -90,6 +90,7 @@ enum phase { BEFORE_WORLD = 1, IN_WORLD = 2, AFTER_WORLD = 4, ANYWHERE = BEFORE_
 struct loaded {
     char *text; /* owned */
     size_t size;
+    uint64_t content; /* its hash */
 };
 
 struct parser {
@@ -104,7 +105,7 @@ struct parser {
 
     struct source_file *source[MAX_INCLUDE_DEPTH]; /* [n_sources] files being read, main file first */
     int n_sources, n_includes;
-    uint64_t included_bytes; /* of all Includes carried out */
+    struct scene_files named; /* what may be read, and how often */
     struct symbols files; /* path -> file[]: a file included twice is read once */
     struct loaded *file;  /* [files.n], owned */
     size_t file_capacity;
@@ -118,10 +119,10 @@ struct parser {
     int n_blocks;
     size_t block_capacity;
 
-    struct symbols float_textures, spectrum_textures, materials; /* scoped; materials -> named[] */
-    struct material_source *named;                               /* [n_named], owned */
-    int n_named;
-    size_t named_capacity;
+    struct symbols float_textures, spectrum_textures, materials; /* scoped; materials -> material[] */
+    struct material_source *material;                            /* [n_materials], owned */
+    int n_materials;
+    size_t material_capacity;
     struct symbols media;                                        /* -> 0 */
     struct symbols systems;                                      /* -> system[] */
     struct transform *system;                                    /* [systems.n], owned */
@@ -132,9 +133,9 @@ struct parser {
     struct source_position lamp; /* the first see-through lamp; no file: none */
     int current_object; /* between ObjectBegin and ObjectEnd, else -1 */
     uint64_t copied_bytes; /* of all instances */
+    int n_infinite;        /* lights */
     int n_subdivided;      /* triangles of all subdivision surfaces, at most SUBDIVIDE_MAX_TRIANGLES */
 
-    struct params changed;   /* parse_changed_material: a material's list with a shape's */
     bool texture_is_float;   /* of the Texture directive being carried out */
     int constant[CONSTANTS]; /* textures made for numbers, by hash, plus 1: equal ones are shared */
 };
@@ -165,8 +166,7 @@ struct object_type {
 #define ANY_NUMBER -DBL_MAX, DBL_MAX
 #define POSITIVE NUMBER_MIN, (double)INFINITY
 #define AT_LEAST_0 0, (double)INFINITY
-#define IGNORED(name) {name, parse_ignored, 0, GREY(0), 0, 0, NULL}     /* nothing here depends on it */
-#define NO_EFFECT(name) {name, parse_no_effect, 0, GREY(0), 0, 0, NULL} /* the same, and worth a warning */
+#define IGNORED(name) {name, parse_ignored, 0, GREY(0), 0, 0, NULL} /* nothing here depends on it */
 #define BY_BUILD(name) {name, NULL, 0, GREY(0), 0, 0, NULL}
 #define END_OF_PARAMETERS {NULL, NULL, 0, GREY(0), 0, 0, NULL}
 #define REFUSED(name) {name, NULL, 0, NULL}
@@ -192,7 +192,6 @@ void parse_point(struct parser *p, const struct parameter *row, void *field);   
 void parse_float_texture(struct parser *p, const struct parameter *row, void *field); /* int: a texture number */
 void parse_rgb_texture(struct parser *p, const struct parameter *row, void *field);   /* int: a texture number */
 void parse_ignored(struct parser *p, const struct parameter *row, void *field);
-void parse_no_effect(struct parser *p, const struct parameter *row, void *field);
 
 /* A message at the directive, or at the type of the list. Both return false. */
 #define directive_error(p, ...) source_error(&(p)->messages, (p)->directive.position, __VA_ARGS__)
@@ -207,9 +206,9 @@ bool parse_string(struct parser *p, struct token *out, const char *what);
 bool parse_list(struct parser *p, const char *directive, const struct token *type);
 bool parse_typed(struct parser *p);
 
-/* parse_no_such: warn that there is no WHAT of this name, what is done instead, and which known one is near. */
-void parse_no_such(struct parser *p, struct source_position at, const char *name, const struct symbols *table,
-                   const char *what, const char *instead);
+/* parse_no_such: warn that there is no WHAT of this name, and what is done instead. */
+void parse_no_such(struct parser *p, struct source_position at, const char *name, const char *what,
+                   const char *instead);
 
 /* parse_named: the number of what the directive's one argument names; *name is that argument. -1 with a message. */
 int parse_named(struct parser *p, struct token *name, const struct symbols *table, const char *what,
@@ -249,11 +248,11 @@ extern const struct object_type MATERIAL_TYPES[], TEXTURE_TYPES[]; /* their dire
 extern const struct directive STATE_DIRECTIVES[], OPTION_DIRECTIVES[], TEXTURE_DIRECTIVES[], MATERIAL_DIRECTIVES[],
     LIGHT_DIRECTIVES[], SHAPE_DIRECTIVES[], INSTANCE_DIRECTIVES[];
 
-/* parse_make_material: make a material of kind params.type. *out is its number or MATERIAL_NONE. */
-bool parse_make_material(struct parser *p, int *out);
+/* parse_make_material: make a material of kind params.type. */
+bool parse_make_material(struct parser *p, struct material_source *out);
 
-/* parse_changed_material: the number of the current material, or of one that differs from it by those parameters of the
- * shape in p->params that nobody has asked for. */
+/* parse_changed_material: the number of the current material, or, if parameters of the shape in p->params are some of
+ * its, of one like it that looks up its parameters in the shape's list and then in the material's, as pbrt-v3 does. */
 int parse_changed_material(struct parser *p);
 
 /* parse_warn_of_lamps: at the end of the world, of what see-through lamps may hide that pbrt-v3 shows. */

@@ -82,19 +82,21 @@ static void map_of_light(struct params *q, struct light_set *lights, struct ligh
     struct error inner;
     char *path = params_file(q, "mapname", &at);
     const struct image *image = NULL;
+    int known = lights->n_pictures;
     if (path == NULL)
         return;
     if (!q->failed && l->kind == LIGHT_INFINITE)
         image = light_read_map(lights, l, path, &inner);
     else if (!q->failed)
         image = light_read_slide(lights, l, path, &inner);
-    if (!q->failed && image == NULL)
+    uint64_t tables = l->env != NULL ? envmap_bytes(l->env) : 0;
+    bool ok = image != NULL &&
+              (lights->n_pictures == known || scene_files_picture(q->files, image, tables, &inner));
+    if (!q->failed && !ok)
         params_fail(q, at, "%s", inner.text);
     else if (!q->failed && image->replaced > 0)
         source_warn(q->messages, at, "environment",
                     "%ld numbers of this picture are negative or not finite; 0 instead", image->replaced);
-    if (image != NULL)
-        *q->content = hash_combine(*q->content, image->content);
     free(path);
 }
 
@@ -163,6 +165,8 @@ static bool light(struct parser *p)
     vec3 position = item.light.position;
     if (!is_place(position))
         type_error(q, "this light would stand at (%g %g %g); places go up to 1e18", position.x, position.y, position.z);
+    if (item.light.kind == LIGHT_INFINITE && ++p->n_infinite > LIGHT_MAX_INFINITE)
+        type_error(q, "more than %d infinite lights; use fewer", LIGHT_MAX_INFINITE);
     if (!params_done(q))
         return false;
     light_add(&p->scene->lights, item.light);

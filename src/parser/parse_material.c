@@ -10,12 +10,12 @@ static void mixed_material(struct parser *p, const struct parameter *row, void *
     struct source_position at;
     const char *name = params_text(q, row->name, PARAM_STRING, &at);
     int k = name != NULL ? symbols_find(&p->materials, name) : -1;
-    *(int *)field = k >= 0 ? p->named[k].id : 0;
+    *(int *)field = k >= 0 ? p->material[k].id : 0;
     if (name == NULL)
         source_warn(q->messages, q->position, NULL, "a mix needs \"string %s\"; a matte material is taken", row->name);
     else if (k < 0)
-        parse_no_such(p, at, name, &p->materials, "named material", "a matte one is taken");
-    else if (p->named[k].id == MATERIAL_NONE)
+        parse_no_such(p, at, name, "named material", "a matte one is taken");
+    else if (p->material[k].id == MATERIAL_NONE)
         params_fail(q, at, "the material \"%.60s\" is \"none\"; it cannot be mixed", name);
 }
 
@@ -89,7 +89,8 @@ const struct object_type MATERIAL_TYPES[] = {
 
 static bool is_none(const char *type) { return type[0] == '\0' || strcmp(type, "none") == 0; }
 
-bool parse_make_material(struct parser *p, int *out)
+/* A material of kind params.type, whose parameters that nobody has asked for are left. */
+static bool make(struct parser *p, int *out)
 {
     struct params *q = &p->params;
     *out = 0; /* where the parser starts with a matte one */
@@ -97,12 +98,13 @@ bool parse_make_material(struct parser *p, int *out)
         *out = MATERIAL_NONE;
         for (int i = 0; i < q->n; i++)
             q->item[i].used = true; /* nothing is left to use them */
-        return params_done(q);
+        return true;
     }
     if (!parse_type(p, MATERIAL_TYPES))
         return false;
     struct material m = material_blank((enum material_kind)p->type->kind);
-    if (!parse_object(p, &m))
+    parse_fields(p, &m);
+    if (q->failed)
         return false;
     if (m.vroughness < 0)
         m.vroughness = m.uroughness;
@@ -111,6 +113,14 @@ bool parse_make_material(struct parser *p, int *out)
         return source_error(&p->messages, q->position,
                             "this mix has more than %d lobes in all; mix fewer materials", MATERIAL_MAX_LOBES);
     return true;
+}
+
+bool parse_make_material(struct parser *p, struct material_source *out)
+{
+    out->type = p->params.type;
+    bool ok = make(p, &out->id) && params_done(&p->params);
+    out->list = params_keep(&p->params);
+    return ok;
 }
 
 /* Does the material have a parameter of this name? */
@@ -133,70 +143,47 @@ static bool is_change(const struct parser *p, const struct param *item)
     return !item->used && has_parameter(p->state.material.type, item->name);
 }
 
-/* The material's list, read once more, with the shape's parameters in place of its own. */
-static void read_changed(struct parser *p, struct params *shape)
-{
-    struct params *q = &p->params;
-    struct lexer l = p->state.material.list;
-    q->directive = "Material";
-    q->type = p->state.material.type;
-    q->position = shape->position;
-    params_read(q, &l);
-    params_ignore(q, "type"); /* of MakeNamedMaterial */
-    for (int i = 0; i < shape->n; i++)
-        if (is_change(p, &shape->item[i])) {
-            params_take(q, shape, &shape->item[i]);
-            shape->item[i].used = true;
-        }
-}
-
 int parse_changed_material(struct parser *p)
 {
-    struct params shape = p->params;
-    int id = p->state.material.id, changes = 0;
-    for (int i = 0; i < shape.n; i++)
-        changes += is_change(p, &shape.item[i]);
-    if (shape.failed || changes == 0)
+    struct params *q = &p->params;
+    const struct material_source *current = &p->state.material;
+    const char *directive = q->directive, *type = q->type;
+    int id = current->id, changes = 0;
+    for (int i = 0; i < q->n; i++)
+        changes += is_change(p, &q->item[i]);
+    if (q->failed || changes == 0)
         return id;
-    p->params = p->changed;
-    read_changed(p, &shape);
-    shape.failed = !parse_make_material(p, &id);
-    p->changed = p->params;
-    p->params = shape;
+    q->directive = "Material";
+    q->type = current->type;
+    q->behind = current->list;
+    q->failed = !make(p, &id);
+    q->behind.n = 0;
+    q->directive = directive;
+    q->type = type;
     return id;
 }
 
-static bool material(struct parser *p)
-{
-    struct token type;
-    if (!parse_string(p, &type, "a type"))
-        return false;
-    p->state.material.type = type.text;
-    p->state.material.list = p->lexer;
-    return parse_list(p, "Material", &type) && parse_make_material(p, &p->state.material.id);
-}
+static bool material(struct parser *p) { return parse_typed(p) && parse_make_material(p, &p->state.material); }
 
 static bool make_named_material(struct parser *p)
 {
     struct token name;
     if (!parse_string(p, &name, "a name"))
         return false;
-    struct material_source source = {.type = "", .list = p->lexer};
+    struct material_source made = {.type = ""};
     bool ok = parse_list(p, "Material", &name);
     const char *type = params_text(&p->params, "type", PARAM_STRING, &p->params.position);
-    if (type != NULL)
-        source.type = type;
-    else
+    if (type == NULL)
         source_warn(&p->messages, name.position, NULL,
                     "MakeNamedMaterial needs its kind: add \"string type\" \"matte\"; \"none\" is taken");
-    p->params.type = source.type;
-    ok = ok && parse_make_material(p, &source.id);
+    p->params.type = type != NULL ? type : "";
+    ok = ok && parse_make_material(p, &made);
     if (symbols_find(&p->materials, name.text) >= 0)
         source_warn(&p->messages, name.position, "material again", "the material \"%.60s\" is defined again",
                     name.text);
-    p->named = mem_grow(p->named, &p->named_capacity, (size_t)p->n_named + 1, sizeof *p->named);
-    p->named[p->n_named] = source;
-    symbols_add(&p->materials, name.text, p->n_named++);
+    p->material = mem_grow(p->material, &p->material_capacity, (size_t)p->n_materials + 1, sizeof *p->material);
+    p->material[p->n_materials] = made;
+    symbols_add(&p->materials, name.text, p->n_materials++);
     return ok;
 }
 
@@ -205,7 +192,7 @@ static bool named_material(struct parser *p)
     struct token name;
     int k = parse_named(p, &name, &p->materials, "named material", "the material stays as it is");
     if (k >= 0)
-        p->state.material = p->named[k];
+        p->state.material = p->material[k];
     return k >= 0;
 }
 

@@ -188,11 +188,10 @@ static void stratified(struct parser *p, void *object)
 }
 
 #define SAMPLES(value) {"pixelsamples", parse_integer, offsetof(struct scene, spp), GREY(value), 1, 1 << 30, NULL}
-#define UNUSED_CHOICES NO_EFFECT("dimensions"), NO_EFFECT("jitter"), NO_EFFECT("samplepixelcenter"), END_OF_PARAMETERS
 
-static const struct parameter RANDOM[] = {SAMPLES(4), UNUSED_CHOICES};
-static const struct parameter STRATIFIED[] = {BY_BUILD("xsamples"), BY_BUILD("ysamples"), UNUSED_CHOICES};
-static const struct parameter SEQUENCE[] = {SAMPLES(16), UNUSED_CHOICES};
+static const struct parameter RANDOM[] = {SAMPLES(4), END_OF_PARAMETERS};
+static const struct parameter STRATIFIED[] = {BY_BUILD("xsamples"), BY_BUILD("ysamples"), END_OF_PARAMETERS};
+static const struct parameter SEQUENCE[] = {SAMPLES(16), END_OF_PARAMETERS};
 
 static const struct object_type SAMPLER_TYPES[] = {
     {"sobol", SEQUENCE, 0, NULL},
@@ -207,9 +206,7 @@ static const struct object_type SAMPLER_TYPES[] = {
 /* Film and sampler are fields of the scene itself; of accelerators nothing is kept. */
 static bool of_scene(struct parser *p) { return parse_object(p, p->scene); }
 
-static const struct parameter TREE[] = {
-    NO_EFFECT("splitmethod"), NO_EFFECT("maxnodeprims"), NO_EFFECT("intersectcost"), NO_EFFECT("traversalcost"),
-    NO_EFFECT("emptybonus"),  NO_EFFECT("maxprims"),     NO_EFFECT("maxdepth"),      END_OF_PARAMETERS};
+static const struct parameter TREE[] = {END_OF_PARAMETERS};
 
 static const struct object_type ACCELERATOR_TYPES[] = {
     {"kdtree", TREE, 0, NULL}, {"bvh", TREE, 0, NULL}, OTHERS_LIKE(TREE, 0, NULL)};
@@ -223,24 +220,21 @@ static int digits(double x)
 }
 
 /* The values of a parameter as one text, blanks between them. To be given to free(). */
-static char *value_text(const struct params *q, const struct param *item)
+static char *value_text(const struct param *item)
 {
     size_t size = 1, used = 0;
     for (int i = 0; i < item->n; i++)
-        size += 1 + (item->is_text ? strlen(q->string[item->first + (size_t)i]) : 32);
+        size += 1 + (item->is_text ? strlen(item->text[i]) : 32);
     char *text = mem_alloc(size, 1);
     for (int i = 0; i < item->n; i++) {
         const char *blank = i > 0 ? " " : "";
-        size_t k = item->first + (size_t)i;
-        int n = item->is_text
-                    ? snprintf(text + used, size - used, "%s%s", blank, q->string[k])
-                    : snprintf(text + used, size - used, "%s%.*g", blank, digits(q->number[k]), q->number[k]);
+        double x = item->is_text ? 0 : item->number[i];
+        int n = item->is_text ? snprintf(text + used, size - used, "%s%s", blank, item->text[i])
+                              : snprintf(text + used, size - used, "%s%.*g", blank, digits(x), x);
         used += (size_t)n;
     }
     return text;
 }
-
-enum { MAX_INTEGRATOR_PARAMETERS = 256 };
 
 /* Which parameters an integrator has is its own affair: all are kept as text with their position. */
 static bool integrator(struct parser *p)
@@ -249,16 +243,13 @@ static bool integrator(struct parser *p)
         return false;
     struct params *q = &p->params;
     struct scene *s = p->scene;
-    if (q->n > MAX_INTEGRATOR_PARAMETERS)
-        return type_error(q, "%d parameters are too many; integrators have at most %d", q->n,
-                          MAX_INTEGRATOR_PARAMETERS);
     free(s->integrator);
     s->integrator = mem_copy_text(q->type);
     settings_clear(&s->settings);
     for (int i = 0; i < q->n; i++) {
         char origin[512];
         source_position_text(q->item[i].position, origin, sizeof origin);
-        char *text = value_text(q, &q->item[i]);
+        char *text = value_text(&q->item[i]);
         settings_declare(&s->settings, q->item[i].name, text, origin, params_type_name(q->item[i].type), q->item[i].n);
         free(text);
         q->item[i].used = true;

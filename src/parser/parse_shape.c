@@ -52,8 +52,8 @@ static uint32_t *vertex_indices(struct params *q, int n_vertices, int *n_triangl
     *n_triangles = n_vertices > 0 ? n : 0;
     for (int i = 0; i < 3 * *n_triangles; i++) {
         if (!(number[i] > -1 && number[i] < n_vertices)) {
-            source_warn(q->messages, param_value_position(item, i), NULL,
-                        "%g is not the index of a point: \"P\" has %d points, 0 to %d", number[i], n_vertices,
+            source_warn(q->messages, item->position, NULL,
+                        "number %d of the indices is %g: \"P\" has %d points, 0 to %d", i + 1, number[i], n_vertices,
                         n_vertices - 1);
             *n_triangles = 0;
             break;
@@ -172,9 +172,10 @@ static void plymesh(struct parser *p, void *object)
         type_error(q, "a plymesh needs its file: add \"string filename\" \"...\"");
     else if (!ply_read(path, m, &inner))
         params_fail(q, at, "%s", inner.text);
+    else if (!scene_files_count(q->files, m->content, m->file_size, &inner))
+        params_fail(q, at, "%s", inner.text);
     else
         warn_of_faces(q, at, m);
-    *q->content = hash_combine(*q->content, m->content);
     free(path);
     holes(p, object);
 }

@@ -33,54 +33,38 @@ static int space(struct parser *p)
     return texture_add_space(&p->scene->textures, p->place.ctm);
 }
 
-/* A parameter that nothing reads here, nor in pbrt-v3. */
-static void without_effect(struct parser *p, const char *name)
-{
-    const struct parameter row = NO_EFFECT(name);
-    parse_no_effect(p, &row, NULL);
-}
-
-/* A number of a mapping, for the kinds that read it. */
-static double mapping_number(struct parser *p, const char *name, double fallback, bool is_read)
-{
-    if (is_read)
-        return params_number(&p->params, name, fallback, ANY_NUMBER);
-    without_effect(p, name);
-    return 0;
-}
-
-static vec3 mapping_vector(struct parser *p, const char *name, vec3 fallback, bool is_read)
-{
-    if (is_read)
-        return params_vec3(&p->params, name, PARAM_VECTOR, fallback);
-    without_effect(p, name);
-    return vec(0, 0, 0);
-}
-
+/* Each kind reads what it has a use for. */
 static void mapping(struct parser *p, const struct parameter *row, void *field)
 {
     static const char *const KINDS[] = {"uv", "spherical", "cylindrical", "planar", NULL}; /* as in enum mapping_kind */
+    struct params *q = &p->params;
     struct mapping *m = field;
-    m->kind = (enum mapping_kind)params_choice(&p->params, row->name, KINDS);
-    bool uv = m->kind == MAPPING_UV, planar = m->kind == MAPPING_PLANAR;
-    m->su = mapping_number(p, "uscale", 1, uv);
-    m->sv = mapping_number(p, "vscale", 1, uv);
-    m->du = mapping_number(p, "udelta", 0, uv || planar);
-    m->dv = mapping_number(p, "vdelta", 0, uv || planar);
-    m->v1 = mapping_vector(p, "v1", vec(1, 0, 0), planar);
-    m->v2 = mapping_vector(p, "v2", vec(0, 1, 0), planar);
-    m->space = uv || planar ? 0 : space(p);
+    m->kind = (enum mapping_kind)params_choice(q, "mapping", KINDS);
+    (void)row;
+    if (m->kind == MAPPING_UV) {
+        m->su = params_number(q, "uscale", 1, ANY_NUMBER);
+        m->sv = params_number(q, "vscale", 1, ANY_NUMBER);
+    }
+    if (m->kind == MAPPING_PLANAR) {
+        m->v1 = params_vec3(q, "v1", PARAM_VECTOR, vec(1, 0, 0));
+        m->v2 = params_vec3(q, "v2", PARAM_VECTOR, vec(0, 1, 0));
+    }
+    if (m->kind == MAPPING_UV || m->kind == MAPPING_PLANAR) {
+        m->du = params_number(q, "udelta", 0, ANY_NUMBER);
+        m->dv = params_number(q, "vdelta", 0, ANY_NUMBER);
+    } else {
+        m->space = space(p);
+    }
 }
 
 /* Squares, on a surface, or cubes, in space, which no mapping acts on. */
 static void checkerboard(struct parser *p, void *object)
 {
-    static const char *const MAPPED[] = {"mapping", "uscale", "vscale", "udelta", "vdelta", "v1", "v2"};
     struct texture *t = object;
-    if (params_int(&p->params, "dimension", 2, 2, 3) == 2)
+    if (params_int(&p->params, "dimension", 2, 2, 3) == 2) {
+        mapping(p, NULL, &t->u.pattern.map);
         return;
-    for (size_t i = 0; i < sizeof MAPPED / sizeof MAPPED[0]; i++)
-        without_effect(p, MAPPED[i]);
+    }
     struct texture solid = {.kind = TEXTURE_CUBES};
     solid.u.cubes.tex1 = t->u.pattern.tex1;
     solid.u.cubes.tex2 = t->u.pattern.tex2;
@@ -116,14 +100,15 @@ static void imagemap(struct parser *p, void *object)
     }
     t->u.imagemap.gamma = params_bool(q, "gamma", file_has_extension(path, ".tga") || file_has_extension(path, ".png"));
     struct error inner;
-    int image = 0;
+    int image = 0, known = set->n_images;
     if (!q->failed && (image = texture_load_image(set, path, &inner)) < 0)
+        params_fail(q, at, "%s", inner.text);
+    else if (!q->failed && image == known &&
+             !scene_files_picture(q->files, &set->image[image], 0, &inner))
         params_fail(q, at, "%s", inner.text);
     else if (!q->failed && set->image[image].replaced > 0)
         source_warn(&p->messages, at, set->image_path[image], "%ld numbers of this picture are not finite; 0 instead",
                     set->image[image].replaced);
-    if (!q->failed)
-        *q->content = hash_combine(*q->content, set->image[image].content);
     t->u.imagemap.image = image;
     free(path);
 }
@@ -143,7 +128,7 @@ static const struct parameter MIX[] = {
     END_OF_PARAMETERS};
 static const struct parameter CHECKERBOARD[] = {
     OPERANDS(pattern, 1, 0),
-    MAPPING(pattern),
+    BY_BUILD("mapping"),
     BY_BUILD("dimension"),
     IGNORED("aamode"), /* pixel samples do the filtering */
     END_OF_PARAMETERS};

@@ -9,9 +9,8 @@
 #include "base/file.h"
 #include "parser/parse.h"
 
-/* Files may be included again and again, and include others that are: of all together so much is read. */
+/* Files may be included again and again, and include others that are. */
 enum { MAX_INCLUDES = 65536 };
-static const uint64_t MAX_INCLUDED_BYTES = (uint64_t)1 << 31;
 
 /* --- the world ---------------------------------------------------------------------------------------- */
 
@@ -43,7 +42,7 @@ static bool medium_interface(struct parser *p)
     for (int i = 0; i < 2; i++) {
         p->state.medium[i] = name[i].text;
         if (name[i].text[0] != '\0' && symbols_find(&p->media, name[i].text) < 0) {
-            parse_no_such(p, name[i].position, name[i].text, &p->media, "medium", "vacuum is taken");
+            parse_no_such(p, name[i].position, name[i].text, "medium", "vacuum is taken");
             p->state.medium[i] = "";
         }
     }
@@ -84,23 +83,11 @@ bool parse_media(struct parser *p, struct source_position at, const char *what, 
     return true;
 }
 
-static bool color_space(struct parser *p)
-{
-    struct token name;
-    if (!parse_string(p, &name, "a name"))
-        return false;
-    if (strcmp(name.text, "srgb") == 0)
-        return true;
-    return source_error(&p->messages, name.position,
-                       "colours here have the primaries of sRGB; convert the scene's colours");
-}
-
 static bool include(struct parser *p);
 
 static const struct directive FILE_DIRECTIVES[] = {{"Include", ANYWHERE, include, NULL},
                                                    {"MediumInterface", ANYWHERE, medium_interface, NULL},
                                                    {"MakeNamedMedium", ANYWHERE, make_named_medium, NULL},
-                                                   {"ColorSpace", BEFORE_WORLD, color_space, NULL},
                                                    {"WorldBegin", BEFORE_WORLD, world_begin, NULL},
                                                    {"WorldEnd", IN_WORLD, world_end, NULL},
                                                    END_OF_DIRECTIVES};
@@ -130,7 +117,7 @@ static bool unknown_directive(struct parser *p)
     token_text(t, found, sizeof found);
     if (t->kind != TOKEN_WORD)
         return source_error(&p->messages, t->position, "here should be a directive like Shape, not %s", found);
-    struct suggestion near = suggest_start(t->text);
+    struct suggestion near = suggest_start(messages_suggest(&p->messages) ? t->text : "");
     find_directive(t->text, &near);
     if (near.name != NULL)
         return source_error(&p->messages, t->position, "unknown directive %s; did you mean %s?", found, near.name);
@@ -159,11 +146,11 @@ static bool run_directive(struct parser *p)
     return d->run(p);
 }
 
-/* All directives of the current file, up to the end of its world. */
+/* All directives of the current file, up to the end of its world or to more errors than are told. */
 static void run_source(struct parser *p)
 {
     struct token *t = &p->directive;
-    while (p->phase != AFTER_WORLD) {
+    while (p->phase != AFTER_WORLD && p->messages.n_errors + p->messages.more_errors < MOST_ERRORS) {
         bool ok = lexer_next(&p->lexer, t);
         if (ok && t->kind == TOKEN_END)
             return;
@@ -173,7 +160,7 @@ static void run_source(struct parser *p)
         if (!ok)
             lexer_resume(&p->lexer);
     }
-    if (lexer_peek(&p->lexer) != TOKEN_END)
+    if (p->phase == AFTER_WORLD && lexer_peek(&p->lexer) != TOKEN_END)
         source_warn(&p->messages, t->position, "after the world",
                     "what stands after WorldEnd is not read; a file describes one world");
 }
@@ -183,18 +170,19 @@ static void run_source(struct parser *p)
 /* The text of a file, from memory if it was read before. Returns its number, or -1 with a message in *err. */
 static int load(struct parser *p, const char *path, struct error *err)
 {
-    int known = symbols_find(&p->files, path);
-    if (known >= 0)
-        return known;
-    struct loaded f;
-    f.text = text_read(path, &f.size, err);
-    if (f.text == NULL)
-        return -1;
-    p->scene->content = hash_combine(p->scene->content, hash_content(f.text, f.size));
-    p->file = mem_grow(p->file, &p->file_capacity, (size_t)p->files.n + 1, sizeof *p->file);
-    p->file[p->files.n] = f;
-    symbols_add(&p->files, path, p->files.n);
-    return p->files.n - 1;
+    int i = symbols_find(&p->files, path);
+    if (i < 0) {
+        struct loaded f;
+        f.text = text_read(path, &f.size, err);
+        if (f.text == NULL)
+            return -1;
+        f.content = hash_content(f.text, f.size);
+        i = p->files.n;
+        p->file = mem_grow(p->file, &p->file_capacity, (size_t)i + 1, sizeof *p->file);
+        p->file[i] = f;
+        symbols_add(&p->files, path, i);
+    }
+    return scene_files_count(&p->named, p->file[i].content, p->file[i].size, err) ? i : -1;
 }
 
 /* Carry out a loaded file. Its path and text live as long as the parser, for all places that point into it. */
@@ -226,17 +214,15 @@ static bool include(struct parser *p)
         return source_error(&p->messages, name.position, "more than %d includes; join files", MAX_INCLUDES);
     if (p->n_sources == MAX_INCLUDE_DEPTH)
         return source_error(&p->messages, name.position, "files are nested more than %d deep", MAX_INCLUDE_DEPTH);
-    char *path = file_beside(p->params.scene_path, name.text);
-    bool ok = true;
+    struct error inner;
+    char *path = scene_files_path(&p->named, name.text, &inner);
+    bool ok = path != NULL || source_error(&p->messages, name.position, "%s", inner.text);
     for (int i = 0; i < p->n_sources && ok; i++)
         if (strcmp(p->source[i]->path, path) == 0)
             ok = source_error(&p->messages, name.position, "this file is being read already; it cannot include itself");
-    struct error inner;
     int file = ok ? load(p, path, &inner) : -1;
     if (ok && file < 0)
         ok = source_error(&p->messages, name.position, "%s", inner.text);
-    if (ok && (p->included_bytes += p->file[file].size) > MAX_INCLUDED_BYTES)
-        ok = source_error(&p->messages, name.position, "all includes together have more than 2 GiB of text");
     if (ok)
         run_file(p, file, path, name.position);
     free(path);
@@ -246,22 +232,21 @@ static bool include(struct parser *p)
 static void start(struct parser *p, const char *path, struct scene *s, const struct message_sink *sink,
                   struct error *err)
 {
-    static const struct source_file NOTHING = {.path = "", .text = "", .end = ""};
     p->scene = s;
     p->messages.err = err;
     p->messages.sink = sink;
     p->params.messages = &p->messages;
-    p->params.scene_path = path;
-    p->params.content = &s->content;
-    p->changed = p->params;
+    p->params.arena = &p->arena;
+    p->params.files = &p->named;
+    p->named.scene_path = path;
+    p->named.content = &s->content;
     p->phase = BEFORE_WORLD;
     parse_state_reset(p);
     p->state.medium[0] = p->state.medium[1] = "";
     p->current_object = -1;
     p->params.directive = "Material";
-    p->params.type = p->state.material.type = "matte";
-    p->state.material.list = lexer_start(&NOTHING, &p->arena, &p->messages);
-    parse_make_material(p, &p->state.material.id); /* the material of a shape that comes before any Material */
+    p->params.type = "matte";
+    parse_make_material(p, &p->state.material); /* the material of a shape that comes before any Material */
 }
 
 static void finish(struct parser *p)
@@ -271,7 +256,7 @@ static void finish(struct parser *p)
     for (int i = 0; i < p->files.n; i++)
         free(p->file[i].text);
     struct symbols *const tables[] = {&p->files,   &p->float_textures, &p->spectrum_textures, &p->materials,
-                                      &p->systems, &p->objects,        &p->media};
+                                      &p->systems, &p->objects,        &p->media,          &p->named.known};
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++)
         symbols_free(tables[i]);
     free(p->object);
@@ -279,9 +264,8 @@ static void finish(struct parser *p)
     free(p->system);
     free(p->block);
     free(p->pushed);
-    free(p->named);
+    free(p->material);
     params_free(&p->params);
-    params_free(&p->changed);
     messages_end(&p->messages);
     arena_free(&p->arena);
     free(p);

@@ -133,6 +133,12 @@ void source_warn(struct messages *m, struct source_position at, const char *kind
         m->sink->warn(m->sink->context, text);
 }
 
+bool messages_suggest(struct messages *m)
+{
+    m->n_suggestions += m->n_suggestions < MOST_SUGGESTIONS + 1;
+    return m->n_suggestions <= MOST_SUGGESTIONS;
+}
+
 void messages_report(struct messages *m)
 {
     m->error[m->n_errors++] = mem_copy_text("");

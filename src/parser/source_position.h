@@ -39,7 +39,7 @@ struct message_sink {
     void *context;
 };
 
-enum { MOST_ERRORS = 20, MOST_LIKE = 3, MOST_WARNINGS = 100 };
+enum { MOST_ERRORS = 20, MOST_LIKE = 3, MOST_WARNINGS = 100, MOST_SUGGESTIONS = 100 };
 
 /* Where messages go while one scene is read. The first MOST_ERRORS errors are given, of equal ones MOST_LIKE, and the
  * rest is counted; of warnings the first of each kind, up to MOST_WARNINGS. */
@@ -48,7 +48,7 @@ struct messages {
     const struct message_sink *sink; /* may be NULL */
     char *error[MOST_ERRORS];        /* [n_errors] the sentences given, owned */
     char *warning[MOST_WARNINGS];    /* [n_warnings] the kinds given, owned */
-    int n_errors, n_warnings;
+    int n_errors, n_warnings, n_suggestions;
     long more_errors, more_warnings; /* not given */
 };
 
@@ -58,6 +58,9 @@ bool source_error(struct messages *m, struct source_position at, const char *for
 
 /* source_warn: the same on one line, to the sink, once per kind; NULL: once per message. */
 void source_warn(struct messages *m, struct source_position at, const char *kind, const char *format, ...);
+
+/* messages_suggest: may another name be compared with all known ones, to say which was meant? MOST_SUGGESTIONS may. */
+bool messages_suggest(struct messages *m);
 
 /* messages_report: an error that has been put into m->err already, without a place of its own, goes to the sink. */
 void messages_report(struct messages *m);

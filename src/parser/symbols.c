@@ -2,7 +2,6 @@
 #include "parser/symbols.h"
 
 #include <ctype.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,7 +10,7 @@
 
 /* --- the nearest known name --------------------------------------------------------------------------- */
 
-enum { LONGEST = 48 }; /* longer names are not compared, so that one that is near fits SUGGEST_TEXT */
+enum { LONGEST = 48 }; /* longer names are not compared */
 
 static int smaller(int a, int b) { return a < b ? a : b; }
 static int lower(const char *text, int i) { return tolower((unsigned char)text[i]); }
@@ -53,22 +52,6 @@ void suggest_offer(struct suggestion *s, const char *known)
         s->distance = d;
         s->name = known;
     }
-}
-
-const char *suggest_from(const char *wanted, const char *const *known)
-{
-    struct suggestion s = suggest_start(wanted);
-    for (; *known != NULL; known++)
-        suggest_offer(&s, *known);
-    return s.name;
-}
-
-const char *suggest_text(const char *near, char buffer[SUGGEST_TEXT])
-{
-    buffer[0] = '\0';
-    if (near != NULL)
-        snprintf(buffer, SUGGEST_TEXT, "; did you mean \"%s\"?", near);
-    return buffer;
 }
 
 /* --- the table ---------------------------------------------------------------------------------------- */
@@ -123,14 +106,6 @@ void symbols_forget(struct symbols *t, int n)
         *chain(t, e->name) = e->older + 1;
         free(e->name);
     }
-}
-
-const char *symbols_near(const struct symbols *t, const char *name)
-{
-    struct suggestion s = suggest_start(name);
-    for (int i = 0; i < t->n; i++)
-        suggest_offer(&s, t->entry[i].name);
-    return s.name;
 }
 
 void symbols_free(struct symbols *t)

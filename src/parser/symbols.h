@@ -24,19 +24,11 @@ struct suggestion {
     int distance;       /* its distance; before the first near one: one more than may be called near */
 };
 
-/* suggest_start: a name of n letters may be off by about a third of them. */
+/* suggest_start: a name of n letters may be off by about a third of them. Nothing is near "". */
 struct suggestion suggest_start(const char *wanted);
 
 /* suggest_offer: consider one known name; the string must outlive the suggestion. */
 void suggest_offer(struct suggestion *s, const char *known);
-
-/* suggest_from: the nearest of a NULL-terminated list, or NULL. */
-const char *suggest_from(const char *wanted, const char *const *known);
-
-enum { SUGGEST_TEXT = 80 };
-
-/* suggest_text: the end of a message: '; did you mean "NAME"?', or "" where no name is near (NULL). Returns buffer. */
-const char *suggest_text(const char *near, char buffer[SUGGEST_TEXT]);
 
 /* --- the table ---------------------------------------------------------------------------------------- */
 
@@ -64,8 +56,6 @@ int symbols_find(const struct symbols *t, const char *name);
 /* symbols_forget: remove all entries but the first n. */
 void symbols_forget(struct symbols *t, int n);
 
-/* symbols_near: the known name nearest to an unknown one, or NULL. */
-const char *symbols_near(const struct symbols *t, const char *name);
 void symbols_free(struct symbols *t);
 
 #endif

@@ -27,7 +27,7 @@ struct envmap {
 
 /* A texel takes 44 bytes beside the picture's. A map may have ENVMAP_FREE_TEXELS, or ENVMAP_TEXELS_PER_BYTE for each
  * byte of its file. */
-enum { ENVMAP_FREE_TEXELS = 1 << 24, ENVMAP_TEXELS_PER_BYTE = 2 };
+enum { ENVMAP_FREE_TEXELS = 1 << 22, ENVMAP_TEXELS_PER_BYTE = 2, ENVMAP_BYTES_PER_TEXEL = 44 };
 
 /* envmap_size_ok: may a map of this size be made of this file? Returns false with a message. */
 bool envmap_size_ok(int width, int height, size_t file_size, struct error *err);
@@ -39,6 +39,12 @@ void envmap_free(struct envmap *e);
 
 /* envmap_lookup: radiance from unit direction w of light space, bilinear. */
 rgb envmap_lookup(const struct envmap *e, vec3 w);
+
+/* envmap_bytes: what its tables take. */
+static inline size_t envmap_bytes(const struct envmap *e)
+{
+    return (size_t)e->image.width * (size_t)e->image.height * ENVMAP_BYTES_PER_TEXEL;
+}
 
 static inline int envmap_blocks(const struct envmap *e) { return e->blocks_u * e->blocks_v; }
 

@@ -103,6 +103,9 @@ struct light_set {
     bool several_infinite;     /* two or more of them */
 };
 
+/* Of each up to 512 cells are made, and every ray that leaves the scene asks all of them. */
+enum { LIGHT_MAX_INFINITE = 1 << 12 };
+
 int light_add(struct light_set *set, struct light l);
 
 /* light_read_map, light_read_slide: give the light the picture of a file, which is read once for all lights that want

@@ -1,0 +1,57 @@
+/* scene_files.c: see scene_files.h. */
+#include "parser/scene_files.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/bits.h"
+#include "base/file.h"
+#include "base/os.h"
+
+char *scene_files_path(const struct scene_files *f, const char *name, struct error *err)
+{
+    if (f->full) {
+        error_set(err, "%s: not read after too many or too large files", name);
+        return NULL;
+    }
+    char *path = file_beside(f->scene_path, name);
+    enum os_kind kind = os_kind_of(path);
+    if (kind == OS_FILE || kind == OS_NOTHING) /* that there is nothing, reading will say */
+        return path;
+    error_set(err, "%s: cannot be read: scenes name files, not %s", path,
+              kind == OS_DIRECTORY ? "directories" : "devices or pipes");
+    free(path);
+    return NULL;
+}
+
+/* A file costs its size where it is new, else what it takes. */
+static bool count(struct scene_files *f, uint64_t content, uint64_t size, uint64_t taken, struct error *err)
+{
+    char name[24];
+    snprintf(name, sizeof name, "%016llx", (unsigned long long)content);
+    *f->content = hash_combine(*f->content, content);
+    bool known = symbols_find(&f->known, name) >= 0;
+    if (!known)
+        symbols_add(&f->known, name, 0);
+    *(known ? &f->again : &f->first) += known ? taken : size;
+    f->full |= f->again > MAX_READ_AGAIN && f->again / READ_AGAIN_PER_BYTE > f->first;
+    return !f->full ||
+           error_set(err, "with this file, more than %d MB have been read again; use ObjectInstance",
+                     MAX_READ_AGAIN >> 20);
+}
+
+bool scene_files_count(struct scene_files *f, uint64_t content, uint64_t size, struct error *err)
+{
+    return count(f, content, size, size, err);
+}
+
+bool scene_files_picture(struct scene_files *f, const struct image *img, uint64_t tables, struct error *err)
+{
+    uint64_t taken = image_bytes(img) + tables, paid = (uint64_t)img->file_size * PICTURE_BYTES_PER_BYTE;
+    f->unpacked += taken > paid ? taken - paid : 0;
+    f->full |= f->unpacked > MAX_UNPACKED;
+    if (f->full)
+        return error_set(err, "this and other pictures of so small files take more than %d MB; store them as PFM",
+                         MAX_UNPACKED >> 20);
+    return count(f, img->content, img->file_size, taken, err);
+}
