@@ -13,6 +13,9 @@
 /* write_bytes: make a file of n bytes. If that fails there is none, as the test will notice. */
 void write_bytes(const char *path, const void *data, size_t n);
 
+/* top_directory: the path of the source tree, where tests are run, with a slash at its end. */
+const char *top_directory(char *path, size_t size);
+
 /* A reader of a picture format (image/formats.h).
  * read_exactly: call it on a copy that ends where its memory ends.
  * accepts: is the file a picture? If not, *err says why. */
