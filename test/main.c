@@ -1,4 +1,5 @@
-/* main.c: the test runner: build/test [-l] [--slow] [--seed N] [--scenes FIRST:END] [NAME...], or build/test --scene N
+/* main.c: the test runner: build/test [-l] [--slow] [--seed N] [--scenes FIRST:END] [NAME...]
+ * or build/test --scene N, which prints random scene N; --evil N prints it with numbers that no scene should have.
  * Exit status 0 only if every check and every hypothesis came out as it must. The last line is
  * "N passed, N failed". */
 #include <math.h>
@@ -168,14 +169,15 @@ int main(int argc, char **argv)
             char *end;
             t.first_scene = strtoull(argv[++first], &end, 10);
             t.end_scene = *end == ':' ? strtoull(end + 1, NULL, 10) : t.first_scene + 1;
-        } else if (strcmp(argv[first], "--scene") == 0 && first + 1 < argc) {
-            struct random_scene scene = random_scene(strtoull(argv[++first], NULL, 10), "", false);
+        } else if ((strcmp(argv[first], "--scene") == 0 || strcmp(argv[first], "--evil") == 0) && first + 1 < argc) {
+            bool evil = strcmp(argv[first++], "--evil") == 0;
+            struct random_scene scene = random_scene(strtoull(argv[first], NULL, 10), "", evil);
             fputs(scene.text, stdout);
             free(scene.text);
             return 0;
         } else {
             fprintf(stderr, "usage: build/test [-l] [--slow] [--seed N] [--scenes FIRST:END] [NAME...]\n"
-                            "       build/test --scene N    # prints a random scene, for use in this directory\n");
+                            "       build/test --scene N | --evil N\n");
             return 2;
         }
     }

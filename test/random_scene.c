@@ -253,10 +253,10 @@ static double shine(struct writer *w, const struct patch *p, vec3 wi, double uni
     return strength * spot_at(cos(miss * PI / 180), cone, edge) / (distance * distance);
 }
 
-/* A disk about `at` that faces n. */
-static void black_disk(struct writer *w, vec3 at, vec3 n, double radius)
+/* A square about `at` that faces n. */
+static void black_square(struct writer *w, vec3 at, vec3 n, double half)
 {
-    struct map m = map_scaled(map_frame(n), radius);
+    struct map m = map_scaled(map_frame(n), half);
     put(w, "AttributeBegin Material \"matte\" \"rgb Kd\" [ 0 0 0 ] Translate ");
     put_vec(w, at);
     put_map(w, &m);
@@ -290,14 +290,14 @@ static void direct(struct writer *w, struct random_scene *s)
     struct map facing = map_frame(p.n);
     vec3 wi = leaning(&world, p.n, between(&world, 0, 40)), wo = map_apply(&facing, cylindrical(0.98, 0, 0.2));
     double E = shine(&world, &p, wi, k) * fabs(dot(p.ns, wi));
-    if (chance(&world, 0.3)) /* far larger than all else, behind the patch */
-        black_disk(&world, sub(p.at, mul(p.n, 20)), p.n, across(&world, 1e2, 1e6));
-    if (chance(&world, 0.3)) { /* a shadow */
-        double h = across(&world, 0.01, 0.3);
-        black_disk(&world, add(p.at, mul(wi, h)), wi, 0.1 * h);
+    if (chance(&world, 0.4)) /* far larger than all else, behind the patch */
+        black_square(&world, sub(p.at, mul(p.n, 20)), p.n, across(&world, 1e2, 1e7));
+    if (chance(&world, 0.4)) { /* a shadow */
+        double h = across(&world, 0.005, 0.3);
+        black_square(&world, add(p.at, mul(wi, h)), wi, 0.3 * h);
         E = 0;
     }
-    struct view v = {add(p.at, mul(wo, 4)), p.at, 0.01, k, true};
+    struct view v = {add(p.at, mul(wo, 4)), p.at, 0.001, k, true};
     w->rng = world.rng;
     s->max_depth = 1;
     s->known = s->one_ray = s->delta_light = true;
