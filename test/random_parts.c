@@ -427,7 +427,7 @@ void put_shape(struct writer *w, bool lamp)
 
 /* --- lights --------------------------------------------------------------------------------------------- */
 
-static void area_light(struct writer *w)
+void put_area_light(struct writer *w)
 {
     double strength = across(w, 2, 8);
     put(w, "AreaLightSource \"diffuse\" ");
@@ -493,7 +493,7 @@ void put_light(struct writer *w, double unit)
         if (kind < 4)
             delta_light(w, unit);
         else
-            area_light(w);
+            put_area_light(w);
     }
     put(w, "AttributeEnd\n");
 }

@@ -64,6 +64,9 @@ void put_material(struct writer *w, bool lamp);
 /* put_shape: a shape of about radius 1 about the origin, of the current material; `lamp`: one that may be a light. */
 void put_shape(struct writer *w, bool lamp);
 
+/* put_area_light: a shape that shines. */
+void put_area_light(struct writer *w);
+
 /* put_light: a light two to three units from the origin that shines towards it, or at infinity.
  *   unit  how long a unit is in the world, by which the strength of delta lights is to be measured */
 void put_light(struct writer *w, double unit);

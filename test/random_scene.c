@@ -316,15 +316,19 @@ static void thing(struct writer *w)
     put(w, "AttributeBegin Translate ");
     put_vec(w, mul(direction(w), between(w, 0.2, 1.1)));
     put_map(w, &m);
-    put_material(w, false);
-    put_shape(w, false);
+    if (chance(w, 0.15)) {
+        put_area_light(w);
+    } else {
+        put_material(w, false);
+        put_shape(w, false);
+    }
     put(w, "AttributeEnd\n");
 }
 
 static void instances(struct writer *w)
 {
     struct map m = map_random(w);
-    put(w, "AttributeBegin ");
+    put(w, "AttributeBegin Identity "); /* the unit is that of the instances */
     put_map(w, &m);
     put(w, "ObjectBegin \"o\"\n");
     for (int n = 1 + pick(w, 2); n > 0; n--)
