@@ -479,7 +479,7 @@ static void light_at_infinity(struct writer *w)
 
 void put_light(struct writer *w, double unit)
 {
-    vec3 at = mul(direction(w), between(w, 2.2, 3));
+    vec3 at = mul(direction(w), between(w, 2, 2.6));
     struct map inwards = map_frame(normalize(neg(at))), m = map_then(map_uneven(w), inwards);
     int kind = pick(w, 8);
     put(w, "AttributeBegin\n");
@@ -488,7 +488,7 @@ void put_light(struct writer *w, double unit)
     } else {
         put(w, "Translate ");
         put_vec(w, at);
-        m = map_scaled(m, kind < 4 ? 1 : between(w, 0.3, 0.6));
+        m = map_scaled(m, kind < 4 ? 1 : between(w, 0.3, 0.5));
         put_map(w, &m);
         if (kind < 4)
             delta_light(w, unit);

@@ -67,7 +67,7 @@ void put_shape(struct writer *w, bool lamp);
 /* put_area_light: a shape that shines. */
 void put_area_light(struct writer *w);
 
-/* put_light: a light two to three units from the origin that shines towards it, or at infinity.
+/* put_light: a light two units and more from the origin that shines towards it, or at infinity.
  *   unit  how long a unit is in the world, by which the strength of delta lights is to be measured */
 void put_light(struct writer *w, double unit);
 

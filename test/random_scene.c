@@ -101,7 +101,7 @@ static void seen_by(struct writer *w, struct view *v, double distance)
 {
     v->look = mul(direction(w), 0.2);
     v->eye = mul(direction(w), distance);
-    v->fov = between(w, 30, 55);
+    v->fov = between(w, 25, 45);
     v->unit = unit(w);
 }
 
@@ -342,14 +342,18 @@ static void instances(struct writer *w)
     }
 }
 
-/* Walls or a ground far enough from the things to leave room for lights. */
-static void surroundings(struct writer *w)
+/* Walls or a ground far enough from the things to leave room for lights, and from the eye: light sub-paths that are
+ * joined to the lens from close by are rare and bright. */
+static void surroundings(struct writer *w, vec3 eye)
 {
-    struct map m = map_frame(direction(w));
+    vec3 up = direction(w);
+    while (fabs(dot(eye, up) + 1.6) < 1)
+        up = direction(w);
+    struct map m = map_frame(up);
     put(w, "AttributeBegin ");
     put_material(w, false);
     if (chance(w, 0.4)) {
-        m = map_scaled(map_then(map_identity(), m), 6);
+        m = map_scaled(m, 8);
         put_map(w, &m);
         put(w, "Shape \"sphere\"\n");
     } else {
@@ -363,7 +367,7 @@ static void surroundings(struct writer *w)
 static void anything(struct writer *w, struct random_scene *s)
 {
     struct view v = {.plain = false};
-    seen_by(w, &v, between(w, 3.5, 4.5));
+    seen_by(w, &v, between(w, 4.5, 5.5));
     s->max_depth = 1 + pick(w, 4);
     begin(w, &v, s->max_depth);
     put_textures(w);
@@ -376,7 +380,7 @@ static void anything(struct writer *w, struct random_scene *s)
     if (chance(w, 0.2))
         instances(w);
     if (chance(w, 0.8))
-        surroundings(w);
+        surroundings(w, v.eye);
 }
 
 struct random_scene random_scene(uint64_t number, const char *top, bool evil)
