@@ -409,7 +409,8 @@ void put_shape(struct writer *w, bool lamp)
         part_of_quadric(w);
         break;
     case 8:
-        put(w, "\"loopsubdiv\" \"integer levels\" %d \"integer indices\" [ 0 2 1 0 3 2 0 1 3 1 2 3 ] \"point P\" [ ", pick(w, 3));
+        put(w, "\"loopsubdiv\" \"integer levels\" %d ", pick(w, 3));
+        put(w, "\"integer indices\" [ 0 2 1 0 3 2 0 1 3 1 2 3 ] \"point P\" [ ");
         for (int i = 0; i < 4; i++)
             put_vec(w, i == 0 ? vec(0, 0, 1.2) : cylindrical(1.2, i * 2 * PI / 3, -0.6));
         put(w, "] ");

@@ -113,7 +113,7 @@ static void closed_furnace(struct writer *w, struct random_scene *s)
 {
     struct view v;
     double a = between(w, 0.2, 0.6), e = between(w, 0.5, 2);
-    seen_by(w, &v, 1.5);
+    seen_by(w, &v, 2);
     v.plain = chance(w, 0.4);
     s->max_depth = 1 + pick(w, 5);
     s->known = true;
@@ -125,7 +125,7 @@ static void closed_furnace(struct writer *w, struct random_scene *s)
     put_rgb(w, "Kd", a, a, a);
     for (int i = pick(w, 3); i >= 0; i--) {
         bool outer = i == 0;
-        struct map m = map_scaled(map_random(w), outer ? 6 : between(w, 0.2, 0.5));
+        struct map m = map_scaled(map_random(w), outer ? 8 : between(w, 0.2, 0.4));
         put(w, "\nAttributeBegin ");
         if (!outer) {
             put(w, "Translate ");
@@ -344,7 +344,7 @@ static void instances(struct writer *w)
 
 /* Walls or a ground far enough from the things to leave room for lights, and from the eye: light sub-paths that are
  * joined to the lens from close by are rare and bright. */
-static void surroundings(struct writer *w, vec3 eye)
+static void surroundings(struct writer *w, vec3 eye, bool walls)
 {
     vec3 up = direction(w);
     while (fabs(dot(eye, up) + 1.6) < 1)
@@ -352,7 +352,7 @@ static void surroundings(struct writer *w, vec3 eye)
     struct map m = map_frame(up);
     put(w, "AttributeBegin ");
     put_material(w, false);
-    if (chance(w, 0.4)) {
+    if (walls) {
         m = map_scaled(m, 8);
         put_map(w, &m);
         put(w, "Shape \"sphere\"\n");
@@ -373,14 +373,19 @@ static void anything(struct writer *w, struct random_scene *s)
     put_textures(w);
     for (int n = 1 + pick(w, 2); n > 0; n--)
         put_light(w, v.unit);
-    if (chance(w, 0.3)) /* in one of three, no corner is quite dark */
-        put(w, "LightSource \"infinite\" \"rgb L\" [ .2 .2 .3 ]\n");
+    bool walls = chance(w, 0.35);
+    if (!walls) { /* what no light reaches is not governed by the tails of rough lobes */
+        double L = across(w, 0.02, 0.3);
+        put(w, "LightSource \"infinite\" ");
+        put_rgb(w, "L", L, L, L);
+        put(w, "\n");
+    }
     for (int n = 1 + pick(w, 3); n > 0; n--)
         thing(w);
     if (chance(w, 0.2))
         instances(w);
-    if (chance(w, 0.8))
-        surroundings(w, v.eye);
+    if (walls || chance(w, 0.7))
+        surroundings(w, v.eye, walls);
 }
 
 struct random_scene random_scene(uint64_t number, const char *top, bool evil)
