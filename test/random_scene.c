@@ -133,8 +133,9 @@ static void closed_furnace(struct writer *w, struct random_scene *s)
         }
         put_map(w, &m);
         if (outer && chance(w, 0.5))
-            put(w, "Shape \"trianglemesh\" \"integer indices\" [ 0 1 3 0 3 2 4 5 7 4 7 6 0 1 5 0 5 4 2 3 7 2 7 6 0 2 6 0 6 4 "
-                   "1 3 7 1 7 5 ]\n  \"point P\" [ -1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1 ]\n");
+            put(w, "Shape \"trianglemesh\" \"integer indices\" "
+                   "[ 0 1 3 0 3 2 4 5 7 4 7 6 0 1 5 0 5 4 2 3 7 2 7 6 0 2 6 0 6 4 1 3 7 1 7 5 ]\n"
+                   "  \"point P\" [ -1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1 ]\n");
         else
             put(w, "Shape \"sphere\"\n");
         put(w, "AttributeEnd\n");
@@ -211,7 +212,7 @@ static struct patch sphere_patch(struct writer *w, const struct map *m, vec3 at)
     return p;
 }
 
-/* pbrt-v3's: the cosines are of the cone and of the cone less the soft edge, whatever its sign, in the light's space. */
+/* pbrt-v3's: the cosines are of the cone and of the cone less the soft edge, whatever its sign, in light space. */
 static double spot_at(double cosine, double cone, double edge)
 {
     double total = cos(cone * PI / 180), falloff = cos((cone - edge) * PI / 180);

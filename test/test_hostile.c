@@ -2,8 +2,8 @@
  * signal; a message unless it is 0; a picture, all of finite numbers, if it is 0; and no more than so much time and
  * memory, which is what doc/SECURITY.md promises for scenes of up to a megabyte.
  *
- * Most scenes come from test/fuzz/hostile.h, or are random ones (random_scene.h) with evil numbers in them; the others are
- * a kind of harm each, at its full size. */
+ * Most scenes come from test/fuzz/hostile.h, or are random ones (random_scene.h) with evil numbers in them; the others
+ * are a kind of harm each, at its full size. */
 #define _POSIX_C_SOURCE 200809L
 #define _XOPEN_SOURCE 700 /* getrusage's ru_maxrss */
 #define _DARWIN_C_SOURCE  /* the same, on macOS */
