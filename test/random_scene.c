@@ -396,7 +396,7 @@ struct random_scene random_scene(uint64_t number, const char *top, bool evil)
         void (*write)(struct writer *w, struct random_scene *s);
     } FAMILIES[] = {{"any", anything}, {"closed furnace", closed_furnace}, {"any", anything}, {"any", anything},
                     {"direct", direct}, {"any", anything}, {"open furnace", open_furnace}, {"any", anything}};
-    struct random_scene s = {NULL};
+    struct random_scene s = {.text = NULL};
     struct writer w = {.rng = rng_stream(number, RNG_TEST, 7, evil), .top = top, .evil = evil};
     int family = (int)(number % (sizeof FAMILIES / sizeof FAMILIES[0]));
     s.family = FAMILIES[family].name;
