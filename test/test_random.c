@@ -4,7 +4,7 @@
  * surface, and with lt where no specular surface is. Renders are made in independent batches; Welch's test compares the
  * means of the picture and of its tiles. Where light is found rarely such p-values are too small (doc/evidence.md), so
  * the comparison goes by stages: if p is below CUTOFF the scene is rendered again, with new seeds and ten times the
- * samples, and what comes out then counts alone. Of true hypotheses fewer are rejected than by the last stage by itself,
+ * samples, and what comes out then counts alone. Of true hypotheses fewer are rejected than by the last stage itself,
  * and means of a hundred times the samples are nearer to normal. A fault shows at every stage.
  */
 #include <math.h>
