@@ -22,15 +22,15 @@
 enum { BATCHES = 12, TILE = 6, STAGES = 3 };
 static const double CUTOFF = 0.01, BEYOND_DOUBT = 1e-15;
 
-struct method {
+struct way {
     const char *name, *integrator, *select;
 };
-static const struct method BDPT = {"bdpt", "bdpt", NULL}, PT = {"pt", "pt", NULL}, LT = {"lt", "lt", NULL};
-static const struct method SELECTIONS[] = {{"subspaces", "asbdpt", "subspaces"},
+static const struct way BDPT = {"bdpt", "bdpt", NULL}, PT = {"pt", "pt", NULL}, LT = {"lt", "lt", NULL};
+static const struct way SELECTIONS[] = {{"subspaces", "asbdpt", "subspaces"},
                                            {"vertices", "asbdpt", "vertices"},
                                            {"pool", "asbdpt", "pool"},
-                                           {"combinatorial", "asbdpt", "combinatorial"},
-                                           {"lvc", "asbdpt", "lvc"}};
+                                           {"cbdpt", "cbdpt", NULL},
+                                           {"lvc", "lvc", NULL}};
 enum { N_SELECTIONS = sizeof SELECTIONS / sizeof SELECTIONS[0] };
 
 /* A scene that is looked at. */
@@ -42,7 +42,7 @@ struct subject {
     double samples; /* of a render at the first stage */
 };
 
-static struct batches render(struct subject *s, const struct method *m, int stage)
+static struct batches render(struct subject *s, const struct way *m, int stage)
 {
     struct pixel_rect crop = render_crop(&s->scene);
     double pixels = (double)rect_width(crop) * rect_height(crop);
@@ -113,7 +113,7 @@ static void report(struct subject *s, double p, const char *what, double found, 
 }
 
 /* Two methods, or one (b NULL) and the truth. */
-static void compare(struct subject *s, const struct method *a, const struct method *b)
+static void compare(struct subject *s, const struct way *a, const struct way *b)
 {
     double p = 1, found = 0, expected = s->made.high;
     for (int stage = 0; stage < STAGES; stage++) {
