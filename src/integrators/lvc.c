@@ -60,7 +60,9 @@ static void prepare(const struct render_job *job, struct preparation *out)
     struct lvc_state *s = out->state;
     struct learnt counted = {.guided = false};
     const struct wish nothing = {.eye_cells = 1};
-    learn(job, &nothing, &counted);
+    struct render_job whole = *job;
+    whole.watch = NULL; /* it is soon done, and l is not kept: it must be the same whenever the render goes on */
+    learn(&whole, &nothing, &counted);
     double l = counted.importance.light_vertices;
     for (int end = 0; end < EYE_ENDS; end++)
         s->frozen.counts.connect[end] = l > 0 ? s->connections / l : s->connections;

@@ -26,7 +26,7 @@ struct wish {
     double delta;               /* of the pairs, and of what guides their trials */
 };
 
-/* learn: out is zero-initialised; learnt_free releases it. */
+/* learn: out is zero-initialised, or was read from a file: then that is all. learnt_free releases it. */
 void learn(const struct render_job *job, const struct wish *wish, struct learnt *out);
 
 #endif

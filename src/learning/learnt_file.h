@@ -16,12 +16,6 @@
 #include "base/error.h"
 #include "learning/learnt.h"
 
-/* Bytes in memory. */
-struct bytes {
-    uint8_t *data; /* [n], owned */
-    size_t n, capacity;
-};
-
 /* learnt_write: into `out`, empty before. */
 void learnt_write(const struct learnt *l, uint64_t of, struct bytes *out);
 
