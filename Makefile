@@ -2,6 +2,7 @@
 CC      = cc
 BUILD   = build
 PROGRAM = ./asbdpt
+LAB     = ./asbdpt-lab
 SCENES  = $(addprefix scenes/,$(addsuffix .pbrt,cornell-box cornell-box-modified veach-ajar bathroom living-room))
 
 PREFIX  = /usr/local
@@ -20,18 +21,22 @@ LTO     = $(eval LTO := $$(shell sh test/lto.sh $$(CC)))$(LTO)# asked of the com
 SOURCES  = $(wildcard src/*/*.c)
 OBJECTS  = $(SOURCES:src/%.c=$(BUILD)/obj/%.o)
 LIBRARY  = $(filter-out %/main.o,$(OBJECTS))
+LABS     = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/lab/*.c)) $(filter-out %/cli/program.o,$(OBJECTS))
 TARGETS  = $(BUILD)/obj/test/fuzz/targets.o $(BUILD)/obj/test/fuzz/hostile.o
-TESTS    = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/*.c)) $(TARGETS) $(LIBRARY)
+TESTS    = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/*.c)) $(TARGETS) $(filter-out %/main.o,$(LABS))
 FUZZED   = $(BUILD)/obj/test/fuzz/libfuzzer.o $(TARGETS) $(LIBRARY)
 
 .BEGIN: # which other makes do before anything else, and GNU make never
 	@echo "This Makefile needs GNU make (gmake); README.md has a line that builds without any make." >&2; exit 1
 
-all: asbdpt ## build ./asbdpt (the default)
+all: asbdpt asbdpt-lab ## build ./asbdpt, the renderer, and ./asbdpt-lab, the laboratory (the default)
 
 # ---- what is built ----
 asbdpt: $(OBJECTS)
 	$(CC) $(FLAGS) $(CFLAGS) -o $@ $(OBJECTS) $(LDFLAGS) $(LIBS)
+
+asbdpt-lab: $(LABS)
+	$(CC) $(FLAGS) $(CFLAGS) -o $@ $(LABS) $(LDFLAGS) $(LIBS)
 
 $(BUILD)/test: $(TESTS)
 	$(CC) $(FLAGS) $(CFLAGS) -o $@ $(TESTS) $(LDFLAGS) $(LIBS)
@@ -39,13 +44,16 @@ $(BUILD)/test: $(TESTS)
 $(BUILD)/fuzz: $(FUZZED)
 	$(CC) $(FLAGS) -fsanitize=fuzzer $(CFLAGS) -o $@ $(FUZZED) $(LDFLAGS) $(LIBS)
 
-# the program, but for functions that may fail: test/fuzz/inject.c has others in their place
+# both programs, but for functions that may fail: test/fuzz/inject.c has others in their place
 $(BUILD)/inject: $(OBJECTS) $(BUILD)/obj/test/fuzz/inject.o
+	$(CC) $(FLAGS) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(LIBS)
+
+$(BUILD)/inject-lab: $(LABS) $(BUILD)/obj/test/fuzz/inject.o
 	$(CC) $(FLAGS) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(LIBS)
 
 $(BUILD)/obj/test/%.o: test/%.c
 	@mkdir -p $(@D)
-	$(CC) $(FLAGS) -MMD -MP $(CFLAGS) -c -o $@ $<
+	$(CC) $(FLAGS) -Itest -MMD -MP $(CFLAGS) -c -o $@ $<
 
 $(BUILD)/obj/%.o: src/%.c
 	@mkdir -p $(@D)
@@ -69,27 +77,27 @@ install: asbdpt ## install the program, its man page and completions below PREFI
 uninstall: ## remove what install put there
 	rm -f "$$TO_BIN/asbdpt" "$$TO_MAN/asbdpt.1" "$$TO_BASH/asbdpt" "$$TO_ZSH/_asbdpt"
 
-demo: asbdpt ## render Ajar with bdpt and asbdpt, the same time for each, into one picture, out/demo.png
+demo: asbdpt-lab ## render Ajar with bdpt and asbdpt, the same time for each, into one picture, out/demo.png
 	@mkdir -p out
-	$(PROGRAM) demo scenes/veach-ajar.pbrt --reference ref/demo/veach-ajar.png -o out/demo.png
+	$(LAB) demo scenes/veach-ajar.pbrt --reference ref/demo/veach-ajar.png -o out/demo.png
 
-experiments: asbdpt ## measure all integrators on the five scenes, quickly, into out/experiments/report.html
-	$(PROGRAM) experiment --quick -o out/experiments
+experiments: asbdpt-lab ## measure all integrators on the five scenes, quickly, into out/experiments/report.html
+	$(LAB) experiment --quick -o out/experiments
 	sh test/report_browser.sh out/experiments/report.html
 
 web: asbdpt ## build and test the page that renders, out/asbdpt.html, where clang can compile for wasm32-wasi
 	sh doc/web/build.sh out/asbdpt.html
 	sh test/web.sh out/asbdpt.html
 
-bench: asbdpt ## measure speed and memory on the scenes (or SCENES="..."), beside doc/bench-baseline.json
+bench: asbdpt-lab ## measure speed and memory on the scenes (or SCENES="..."), beside doc/bench-baseline.json
 	@mkdir -p out
-	$(PROGRAM) bench $(SCENES) --json out/bench.json --baseline doc/bench-baseline.json
+	$(LAB) bench $(SCENES) --json out/bench.json --baseline doc/bench-baseline.json
 
-ref: asbdpt ## render the stored references of ref/ again (an hour; goes on where it stopped)
+ref: asbdpt asbdpt-lab ## render the stored references of ref/ again (an hour; goes on where it stopped)
 	sh ref/make-ref.sh $(PROGRAM)
 
 # ---- what proves it ----
-test: asbdpt $(BUILD)/test layers standard references columns faults links limits ## build and run the test suite (under 3 minutes)
+test: asbdpt asbdpt-lab $(BUILD)/test layers standard references columns faults links limits ## build and run the test suite (under 3 minutes)
 	sh test/cli.sh $(PROGRAM)
 	sh test/outputs.sh $(PROGRAM)
 	sh test/install.sh $(PROGRAM)
@@ -100,7 +108,7 @@ test: asbdpt $(BUILD)/test layers standard references columns faults links limit
 	sh test/readme.sh $(PROGRAM) doc/scene-format.md doc/tour/trace.md
 	$(BUILD)/test
 
-check-long: asbdpt $(BUILD)/test experiments web portability inject ## the tests that take longer
+check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject ## the tests that take longer
 	$(BUILD)/test --slow
 	sh test/keep.sh $(PROGRAM) 100
 	sh test/cluster.sh $(PROGRAM)
@@ -108,7 +116,7 @@ check-long: asbdpt $(BUILD)/test experiments web portability inject ## the tests
 	sh doc/tour/figures.sh $(PROGRAM) out/figures
 	diff -r doc/tour/figures out/figures
 
-check-ref: asbdpt ## are the stored references still what the program converges to?
+check-ref: asbdpt asbdpt-lab ## are the stored references still what the program converges to?
 	sh ref/check-ref.sh $(PROGRAM)
 
 portability: ## build by every compiler, and for every system, that is at hand or emulated; the pictures must be the same
@@ -121,7 +129,7 @@ mutants: ## apply small faults one by one; the tests must catch every one
 	sh test/mutants/run.sh 2
 
 layers: ## check that no file includes a higher room, that no room holds a circle, that headers compile alone
-	@sh test/layers.sh src $(CC)
+	@ABOVE=test/lab sh test/layers.sh src $(CC)
 	@sh test/layers_test.sh $(CC)
 
 standard: ## check that src calls and includes nothing that differs from machine to machine, but in one place
@@ -155,7 +163,7 @@ san: ## run the tests (or SUITES="...") under the address and undefined-behaviou
 INJECTED = calloc realloc fwrite fprintf fputs fputc fclose fsync fdopen rename pthread_create
 .PHONY: inject
 inject: ## make every allocation, write, close, rename and thread fail once, and see what the program does
-	$(MAKE) BUILD=build-inject LTO= OPT="-O1 $(foreach name,$(INJECTED),-D$(name)=inject_$(name))" build-inject/inject
+	$(MAKE) BUILD=build-inject LTO= OPT="-O1 $(foreach name,$(INJECTED),-D$(name)=inject_$(name))" build-inject/inject build-inject/inject-lab
 	sh test/inject.sh build-inject/inject
 
 .PHONY: fuzz
@@ -170,7 +178,7 @@ tsan: ## run the threaded tests under the thread sanitizer
 doc: ## all documents as static HTML in out/html
 	sh doc/html.sh out/html
 
-figures: asbdpt ## make the figures of doc/tour again
+figures: asbdpt asbdpt-lab ## make the figures of doc/tour again
 	sh doc/tour/figures.sh $(PROGRAM)
 
 stats: ## files, lines of code and comment, and the longest functions of every room
@@ -180,7 +188,7 @@ help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]*:.*## / { printf "%-11s %s\n", $$1, $$2 }' Makefile
 
 clean: ## remove everything that was built
-	rm -rf build build-* out asbdpt
+	rm -rf build build-* out asbdpt asbdpt-lab
 
 .PHONY: all install uninstall demo experiments web bench ref test check-long check-ref portability hashes faults mutants layers standard \
 	references columns links doc figures san tsan stats help clean

@@ -3,7 +3,7 @@
 # Each is rendered again by the two methods it was made with (its text names them), with fewer samples and other seeds,
 # and tested tile by tile.
 #   sh ref/check-ref.sh [PROGRAM [SPP]]
-program=${1:-./asbdpt}
+program=${1:-./asbdpt} lab=${1:-./asbdpt}-lab
 spp=${2:-256}
 failures=0
 for text in ref/*.txt; do
@@ -11,7 +11,7 @@ for text in ref/*.txt; do
     methods=$(sed -n 's/^origin .*: \([a-z]*\) with seeds .* and \([a-z]*\) with seeds .*/\1 \2/p' "$text")
     [ -n "$methods" ] || { echo "FAILED  $text names no two methods"; failures=$((failures + 1)); }
     for method in $methods; do
-        if "$program" verify "scenes/$name.pbrt" --methods $method --reference "ref/$name.pfm" --filter box --spp "$spp" \
+        if "$lab" verify "scenes/$name.pbrt" --methods $method --reference "ref/$name.pfm" --filter box --spp "$spp" \
             --batches 16 --seed 777000 --quiet >"/tmp/check-ref.$$"; then
             echo "ok      $name by $method: $(grep 'ratio of' "/tmp/check-ref.$$")"
         else

@@ -2,14 +2,14 @@
 # make-ref.sh: render the stored references again; `make ref` calls it.  sh ref/make-ref.sh [PROGRAM [WORK [SCENE...]]]
 #
 # Every scene is rendered by two methods, pt and bdpt where pt can, each in 16 independent batches of 256 to 1024 samples
-# per pixel (4096 to 16384 in all) with seeds of their own. `asbdpt verify --files` tests that the two agree, tile by tile, and only then stores
+# per pixel (4096 to 16384 in all) with seeds of their own. `asbdpt-lab verify --files` tests that the two agree, tile by tile, and only then stores
 #     ref/NAME.pfm        the mean of both methods, weighted by the inverse of their variances
 #     ref/NAME.error.pfm  its standard errors
 #     ref/NAME.txt        how it was made: commands, seeds, version, mean, p-values
 # The scene "demo" is the picture that `make demo` measures against, ref/demo/veach-ajar.png: larger, for the eye, and by
 # bdpt alone. Batches are kept in WORK: a run that was interrupted goes on where it stopped. One thread takes about an hour and a quarter.
 set -e
-program=${1:-./asbdpt}
+program=${1:-./asbdpt} lab=${1:-./asbdpt}-lab
 work=${2:-build/ref}
 [ $# -gt 2 ] && shift 2 || set -- demo cornell-box cornell-box-modified living-room veach-ajar bathroom \
     caustic-glass sky spot corridor many-lights forest
@@ -63,7 +63,7 @@ demo() {
             --quiet -o "$work/part.pfm"
         mv "$work/part.pfm" "$work/demo-$seed.pfm"
     done
-    "$program" verify scenes/veach-ajar.pbrt --files "$work"/demo-300[01].pfm --against "$work"/demo-300[23].pfm \
+    "$lab" verify scenes/veach-ajar.pbrt --files "$work"/demo-300[01].pfm --against "$work"/demo-300[23].pfm \
         --store "$work/veach-ajar" --note "$("$program" --version), ref/make-ref.sh demo: bdpt with seeds 3000 to 3003, \
 each with 384 samples per pixel, 240x135 pixels, box filter"
     mkdir -p ref/demo
@@ -80,6 +80,6 @@ for scene; do
     render "$scene" "$b" 2000
     note="$("$program" --version), ref/make-ref.sh: $a with seeds 1000 to $((999 + batches)) and $b with seeds 2000"
     note="$note to $((1999 + batches)), each with $(samples "$scene") samples per pixel, $(resolution "$scene") pixels, box filter"
-    "$program" verify "scenes/$scene.pbrt" --files "$work/$scene-$a-"*.pfm --against "$work/$scene-$b-"*.pfm \
+    "$lab" verify "scenes/$scene.pbrt" --files "$work/$scene-$a-"*.pfm --against "$work/$scene-$b-"*.pfm \
         --store "ref/$scene" --note "$note"
 done

@@ -24,11 +24,11 @@ says 'candidates'
 must ./asbdpt render scenes/cornell-box.pbrt --integrator resampling -P candidates=2 --quick -o x.pfm
 must ./asbdpt trace scenes/cornell-box.pbrt --integrator resampling --pixel 32,32
 says 'CHOICE'
-must ./asbdpt verify scenes/cornell-box.pbrt --methods pt,resampling --res 24x24 --spp 64 --quiet
+must ./asbdpt-lab verify scenes/cornell-box.pbrt --methods pt,resampling --res 24x24 --spp 64 --quiet
 says 'agree'
 sed 's/(L \* M \*/(L */' src/integrators/resampling.c >x.c && mv x.c src/integrators/resampling.c
 must make BUILD="$build" LTO=
-if ./asbdpt verify scenes/cornell-box.pbrt --methods pt,resampling --res 24x24 --spp 64 --quiet >log 2>&1; then
+if ./asbdpt-lab verify scenes/cornell-box.pbrt --methods pt,resampling --res 24x24 --spp 64 --quiet >log 2>&1; then
     echo "FAIL: a method without 1/M is accepted"
     exit 1
 fi

@@ -6,10 +6,8 @@ small="--res 16x16 --spp 2 --quiet"
 
 expect 0 '' "$program" --help
 check grep -q 'asbdpt render SCENE' stdout.txt
-check grep -q 'asbdpt experiment \[--quick' stdout.txt
-check grep -q -e '--reference-spp' stdout.txt
 check grep -q 'lightsamplestrategy' stdout.txt
-for command in render merge compare experiment bench verify demo convert worth info trace; do # each its own help
+for command in render merge compare convert worth info trace; do # each its own help
     expect 0 '' "$program" $command --help
     check grep -q "usage: asbdpt $command" stdout.txt
     check [ "$(grep -c 'usage: asbdpt' stdout.txt)" = 1 ]
@@ -28,26 +26,26 @@ expect 2 '60000 x 60000 pixels are too many \(at most 268435456\)' \
     "$program" render "$box" --spp 1 --cropwindow 0 0.0001 0 0.0001 --res 60000x60000
 for size in 4294967297x4 4x4294967300 18446744073709551617x4 10x0; do
     expect 2 '[-]-res .*: expected WIDTHxHEIGHT' "$program" render "$box" --res $size
-    expect 2 '[-]-res .*: expected WIDTHxHEIGHT or WIDTH' "$program" experiment -o x --res $size
+    expect 2 '[-]-res .*: expected WIDTHxHEIGHT or WIDTH' "$lab" experiment -o x --res $size
 done
 expect 2 'expected an integer from 1 to' "$program" render "$box" --spp 99999999999999999999
 expect 2 'whole number from 0 to' "$program" render "$box" --seed 12345678901234567890123
 expect 2 'expected an integer from 1 to 1024' "$program" render "$box" -j99999999999999999999
 for number in nan inf 1e999 -1; do
     expect 2 'expected four numbers' "$program" render "$box" --cropwindow 0 $number 0 1
-    expect 2 'expected a number from 1e-12 to 0.5' "$program" verify "$box" --alpha $number
+    expect 2 'expected a number from 1e-12 to 0.5' "$lab" verify "$box" --alpha $number
 done
-expect 2 'expected an integer' "$program" bench "$box" --spp 1e3
-expect 2 'experiment needs a directory for its results' "$program" experiment --quick
+expect 2 'expected an integer' "$lab" bench "$box" --spp 1e3
+expect 2 'experiment needs a directory for its results' "$lab" experiment --quick
 expect 2 'compare needs a picture of the same size' "$program" compare a.pfm
-expect 2 'verify' "$program" verify
+expect 2 'verify' "$lab" verify
 expect 2 'WIDTHxHEIGHT' "$program" render "$box" --res 4x4x4
-expect 2 'WIDTHxHEIGHT' "$program" experiment "$box" --res -4 -o e
+expect 2 'WIDTHxHEIGHT' "$lab" experiment "$box" --res -4 -o e
 expect 2 'whole number from 0 to' "$program" render "$box" --seed -1
 expect 2 'whole number from 0 to' "$program" render "$box" --seed ' -1'
-expect 2 'expected an integer' "$program" verify "$box" --batches nan
-expect 2 'expected an integer' "$program" verify "$box" --tile 1e300
-for command in info verify trace worth; do # what a command would ignore it does not take
+expect 2 'expected an integer' "$lab" verify "$box" --batches nan
+expect 2 'expected an integer' "$lab" verify "$box" --tile 1e300
+for command in info trace worth; do # what a command would ignore it does not take
     expect 2 'unknown option --aov' "$program" $command "$box" --aov depth
     expect 2 'unknown option --strategies' "$program" $command "$box" --strategies s
     [ $command = worth ] || expect 2 'unknown option -o' "$program" $command "$box" -o x.pfm
@@ -118,9 +116,9 @@ expect 0 '' "$program" info other.pbrt --strict --integrator asbdpt
 sed s/bdpt/asbdpt/ other.pbrt >own.pbrt
 expect 0 '' "$program" info own.pbrt --strict --integrator bdpt
 sides="--res 12x12 --spp 8 --maxdepth 2 --quiet"
-expect 0 '' "$program" verify "$box" --methods pt,asbdpt $sides -P select=vertices
+expect 0 '' "$lab" verify "$box" --methods pt,asbdpt $sides -P select=vertices
 expect 2 '"select" is a parameter of asbdpt, the integrators here are pt and bdpt$' \
-    "$program" verify "$box" --methods pt,bdpt $sides -P select=vertices
+    "$lab" verify "$box" --methods pt,bdpt $sides -P select=vertices
 
 # Types and numbers of values as of all other parameters: the default counts, an integer is cut.
 typed() { # PARAMETER WARNING DEPTH-IN-FORCE, nothing if the default
@@ -331,12 +329,12 @@ fi
 check [ ! -e stats.json -a ! -e made.png ]
 
 # demo: one picture of two integrators, wherever a reference is stored.
-expect 0 '' "$program" demo "$box" --spp 1 --quiet -o demo.png
+expect 0 '' "$lab" demo "$box" --spp 1 --quiet -o demo.png
 check grep -q '^asbdpt .* spp .* s of CPU   rmse8' stdout.txt
 check [ -s demo.png ]
-expect 1 'there is no stored reference known.pfm' "$program" demo known.pbrt -o demo.png
-expect 1 'there is no integrator bdtp; did you mean bdpt' "$program" demo "$box" --with bdtp -o demo.png
-expect 2 'demo needs a picture to write' "$program" demo "$box"
+expect 1 'there is no stored reference known.pfm' "$lab" demo known.pbrt -o demo.png
+expect 1 'there is no integrator bdtp; did you mean bdpt' "$lab" demo "$box" --with bdtp -o demo.png
+expect 2 'demo needs a picture to write' "$lab" demo "$box"
 
 # What a system is told: the man page and the completions are sound, where there is something to judge them by.
 expect 0 '' "$program" help man
@@ -403,19 +401,19 @@ expect 0 '' "$program" info "$box"
 check grep -q triangles stdout.txt
 
 # verify: agreement is status 0, a difference status 1.
-expect 0 '' "$program" verify "$box" --methods pt,bdpt --res 12x12 --spp 8 --maxdepth 2 --quiet
+expect 0 '' "$lab" verify "$box" --methods pt,bdpt --res 12x12 --spp 8 --maxdepth 2 --quiet
 # The two sides have random numbers of their own, even with the same method: sharing them would be too alike to be true.
-expect 0 '' "$program" verify "$box" --methods bdpt,bdpt --res 12x12 --spp 8 --maxdepth 2 --quiet
+expect 0 '' "$lab" verify "$box" --methods bdpt,bdpt --res 12x12 --spp 8 --maxdepth 2 --quiet
 check grep -q 'verdict: agree' stdout.txt
-expect 1 '' "$program" verify "$box" --methods bdpt --spp 4 --quiet --reference "$scenes/../ref/veach-ajar.pfm"
+expect 1 '' "$lab" verify "$box" --methods bdpt --spp 4 --quiet --reference "$scenes/../ref/veach-ajar.pfm"
 check grep -q 'verdict: DIFFER' stdout.txt
-expect 1 'crop window leaves 16x16' "$program" verify "$box" --methods bdpt --spp 4 --quiet \
+expect 1 'crop window leaves 16x16' "$lab" verify "$box" --methods bdpt --spp 4 --quiet \
     --reference "$scenes/../ref/cornell-box.pfm" --cropwindow 0 0.5 0 0.5
 # A picture against itself is identical; with other errors it is too alike to be independent.
-expect 0 '' "$program" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" \
+expect 0 '' "$lab" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" \
     "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm"
 check grep -q '^verdict: identical' stdout.txt
-expect 1 '' "$program" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" \
+expect 1 '' "$lab" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" \
     "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.pfm"
 check grep -q '^verdict: DIFFER' stdout.txt
 # NaN is a difference, also from itself, in every pixel or in one, in a picture or in its errors.
@@ -425,26 +423,26 @@ nan() { head -c "$1" /dev/zero | LC_ALL=C tr '\000' '\377'; } # so many bytes of
 for nan in nan corner; do
     for sides in "$nan.pfm E $nan.pfm E" "$nan.pfm E R E" "R E $nan.pfm E" "R $nan.pfm R E"; do
         # shellcheck disable=SC2046
-        expect 1 '' "$program" verify --images $(echo "$sides" |
+        expect 1 '' "$lab" verify --images $(echo "$sides" |
             sed "s|\bE\b|$scenes/../ref/bathroom.error.pfm|g; s|\bR\b|$scenes/../ref/bathroom.pfm|g")
         check grep -q '^verdict: DIFFER' stdout.txt
     done
 done
 expect 0 '' "$program" compare nan.pfm nan.pfm --json
 check grep -q '"mean_ratio": null, "nonfinite": 2592,' stdout.txt
-expect 1 'same size' "$program" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" \
+expect 1 'same size' "$lab" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" \
     a.pfm a.pfm
-expect 2 'usage: asbdpt verify' "$program" verify --images a.pfm
-expect 2 'no method nonsense' "$program" verify "$box" --methods nonsense
+expect 2 'usage: asbdpt-lab verify' "$lab" verify --images a.pfm
+expect 2 'no method nonsense' "$lab" verify "$box" --methods nonsense
 
 # experiment --equal-time: a table, a line for every variant and seed, and a number that may be left out.
 tiny="--res 8x8 --seeds 2 --quiet"
-expect 0 '' "$program" experiment --equal-time "$box" $tiny --spp 2 -o equal
+expect 0 '' "$lab" experiment --equal-time "$box" $tiny --spp 2 -o equal
 check grep -q 'geometric mean' stdout.txt
 check cmp -s stdout.txt equal/equal-time.md
 check [ "$(grep -c '^cornell-box,' equal/equal-time.csv)" = 10 ]
 check grep -q '^cornell-box,bdpt,5002,2,' equal/equal-time.csv
-expect 0 '' "$program" experiment "$box" --equal-time 0.01 $tiny -o equal
+expect 0 '' "$lab" experiment "$box" --equal-time 0.01 $tiny -o equal
 check grep -q -e '--equal-time 0.01 --seeds 2' stdout.txt
 # A reference is of the scene, or it is none: another's of the same name is refused, and no reference is not kept quiet.
 mkdir -p bathroom/ref
@@ -452,16 +450,16 @@ cp "$box" bathroom/scene.pbrt
 cp "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.txt" bathroom/ref
 tiny="--seeds 1 --spp 1 --reference-spp 4"
 expect 0 'bathroom.pfm.* is of another scene: measured at 48x48 pixels' \
-    "$program" experiment --equal-time bathroom/scene.pbrt $tiny -o foreign
+    "$lab" experiment --equal-time bathroom/scene.pbrt $tiny -o foreign
 expect 1 'bathroom.pfm.* is of another scene$' \
-    "$program" experiment --equal-time bathroom/scene.pbrt --reference bathroom/ref $tiny --quiet -o foreign
+    "$lab" experiment --equal-time bathroom/scene.pbrt --reference bathroom/ref $tiny --quiet -o foreign
 sed -i.old '/^content/d' bathroom/ref/bathroom.txt
 expect 0 'does not say what scene it is of: measured at 48x48' \
-    "$program" experiment --equal-time bathroom/scene.pbrt $tiny -o foreign
+    "$lab" experiment --equal-time bathroom/scene.pbrt $tiny -o foreign
 expect 1 'have the same name, bathroom' \
-    "$program" experiment --equal-time bathroom/scene.pbrt "$scenes/bathroom.pbrt" $tiny --quiet -o foreign
-expect 2 'equal times are those of one thread' "$program" experiment "$box" --equal-time -j 2 $tiny -o equal
-expect 2 '[-]-equal-time 0: expected a number from 0.001' "$program" experiment "$box" --equal-time 0 $tiny -o equal
+    "$lab" experiment --equal-time bathroom/scene.pbrt "$scenes/bathroom.pbrt" $tiny --quiet -o foreign
+expect 2 'equal times are those of one thread' "$lab" experiment "$box" --equal-time -j 2 $tiny -o equal
+expect 2 '[-]-equal-time 0: expected a number from 0.001' "$lab" experiment "$box" --equal-time 0 $tiny -o equal
 
 # convert: linear formats keep light (.float.exr exactly), 8-bit ones what they hold; - reads and writes PFM.
 "$program" render "$box" --res 37x23 --spp 4 --quiet -o light.pfm -o light.png
@@ -489,7 +487,7 @@ check [ "$(close nan.pfm nan.pfm 1; echo $?)" = 1 ]
 check [ "$(close corner.pfm corner.pfm 1; echo $?)" = 1 ]
 check [ "$(close light.png light.pfm 1e-4; echo $?)" = 1 ]
 expect 0 '' "$program" convert "$scenes/../ref/bathroom.pfm" -o ref.float.exr
-expect 0 '' "$program" verify --images ref.float.exr "$scenes/../ref/bathroom.error.pfm" \
+expect 0 '' "$lab" verify --images ref.float.exr "$scenes/../ref/bathroom.error.pfm" \
     "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm"
 check grep -q 'verdict: identical' stdout.txt
 for picture in light.pfm x.float.exr; do # the same numbers are the same light and the same texture

@@ -1,8 +1,8 @@
 # expect.sh: what the tests of the program from outside share; they read it by `. test/expect.sh`, from the top, with
-# PROGRAM as the first argument. It leads into an empty directory that goes away in the end.
+# PROGRAM as the first argument; the laboratory lies beside it. It leads into an empty directory that goes away in the end.
 program=$1 top=$PWD
 case $program in /*) ;; *) program=$top/$program ;; esac
-scenes=$top/scenes
+lab=$program-lab scenes=$top/scenes
 box=$scenes/cornell-box.pbrt
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT

@@ -103,9 +103,9 @@ work() {
     (cd start && "$program" render scene.pbrt --spp 2 --samples 1:2 --quiet -o b.part 2>/dev/null)
     all sum.pfm "$program" merge -o sum.pfm a.part b.part
     prints=yes
-    all scene.pbrt "$program" verify scene.pbrt --methods pt,bdpt --batches 4 --spp 1
+    all scene.pbrt "$lab" verify scene.pbrt --methods pt,bdpt --batches 4 --spp 1
     prints=
-    set -- "$program" experiment scene.pbrt -o results --res 2x1 --spp 1 --maxdepth 1 --seeds 1 --reference-spp 4 \
+    set -- "$lab" experiment scene.pbrt -o results --res 2x1 --spp 1 --maxdepth 1 --seeds 1 --reference-spp 4 \
         --quiet
     (cd start && "$@" >/dev/null 2>&1)
     rm -rf start/results/report.html start/results/plots start/results/results.* start/results/images/*.png

@@ -3,6 +3,7 @@
 #   1. every file lies in a room that is listed, and includes only files of its own room and of rooms below;
 #   2. inside a room there is no circle, a .c and its .h counting as one;
 #   3. every header compiles alone.
+# ABOVE names a folder elsewhere that is a room over all these, and that they know nothing of.
 # Prints what is wrong; exit status 0 only if nothing is.
 src=${1:-src}
 [ $# -gt 0 ] && shift
@@ -10,10 +11,12 @@ src=${1:-src}
 pairs=$(mktemp) || exit 1
 trap 'rm -f "$pairs" "$pairs.circle"' EXIT
 
-awk -v pairs="$pairs" -v top="$src/" '
+awk -v pairs="$pairs" -v top="$src/" -v above="$ABOVE" '
     NR == FNR { rank[$1] = NR; next }
     FNR == 1 {
-        me = substr(FILENAME, length(top) + 1)
+        if (n++ == 0 && above != "") rank[last_part(above)] = 1000
+        me = above != "" && index(FILENAME, above "/") == 1 ? last_part(above) substr(FILENAME, length(above) + 1) : \
+            substr(FILENAME, length(top) + 1)
         sub(/\.[ch]$/, "", me)
         room = me
         if (!sub(/\/.*/, "", room) || !(room in rank)) { print FILENAME ": not in a room of LAYERS"; bad = 1 }
@@ -35,7 +38,8 @@ awk -v pairs="$pairs" -v top="$src/" '
         }
         if (other == room && dep != me) print me, dep > pairs
     }
-    END { exit bad }' "$src/LAYERS" $(find "$src" -name '*.[ch]' | sort) || exit 1
+    function last_part(path) { sub(/.*\//, "", path); return path }
+    END { exit bad }' "$src/LAYERS" $(find "$src" $ABOVE -name '*.[ch]' | sort) || exit 1
 
 if ! tsort "$pairs" >/dev/null 2>"$pairs.circle" || [ -s "$pairs.circle" ]; then
     echo "$src: files of a room include each other in a circle:"
@@ -43,9 +47,9 @@ if ! tsort "$pairs" >/dev/null 2>"$pairs.circle" || [ -s "$pairs.circle" ]; then
     exit 1
 fi
 
-for header in "$src"/*/*.h; do
-    printf '#include "%s"\nint main(void);\n' "${header#"$src/"}" |
-        "$@" -std=c99 -pedantic "-I$src" -fsyntax-only -x c - || {
+for header in "$src"/*/*.h ${ABOVE:+"$ABOVE"/*.h}; do
+    printf '#include "%s/%s"\nint main(void);\n' "$(basename "$(dirname "$header")")" "$(basename "$header")" |
+        "$@" -std=c99 -pedantic "-I$src" ${ABOVE:+"-I$ABOVE/.."} -fsyntax-only -x c - || {
         echo "$header does not compile alone"
         exit 1
     }

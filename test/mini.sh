@@ -2,7 +2,7 @@
 # mini.sh PROGRAM [CC...]: does doc/mini/asbdpt.c, the renderer in one file, compile without a warning under every
 # compiler at hand, and make the pictures that PROGRAM makes of the same scene?
 #
-# Each side renders 8 pictures with seeds of their own; `verify` (src/lab/verify.h) tests the mean, every block of 8x8
+# Each side renders 8 pictures with seeds of their own; `verify` (test/lab/verify.h) tests the mean, every block of 8x8
 # pixels and the uniformity of the p-values, corrected for their number. LEVEL makes one false alarm in 1,000 of all 8
 # comparisons. Of the mini's methods pt, bdpt, pool and vertices must agree with PROGRAM's
 # bdpt, pt also with its pt; bins, which is biased, must differ from both bdpt but agree with PROGRAM's own bins.
@@ -33,7 +33,7 @@ main() {
 }
 # compare A B VERDICT: agree or DIFFER.
 compare() {
-    "$program" verify "$scene" --files "$1"-*.pfm --against "$2"-*.pfm --tile 8 --alpha $LEVEL --quiet >verdict.txt 2>&1
+    "$lab" verify "$scene" --files "$1"-*.pfm --against "$2"-*.pfm --tile 8 --alpha $LEVEL --quiet >verdict.txt 2>&1
     grep -q "^verdict: $3" verdict.txt ||
         fault "$1 and $2 should $3: $(cat verdict.txt); repeat with: sh test/mini.sh ./asbdpt"
 }

@@ -78,8 +78,8 @@ compile() {
         shift
         set -- "$@" -isystem "$directory"
     done
-    if clang --target="$target" -nostdlibinc "$@" -std=c99 -pedantic -Wall -Wextra -Wconversion -Werror -Isrc \
-        -fsyntax-only src/*/*.c test/*.c test/fuzz/targets.c test/fuzz/hostile.c 2>"$dir/log"; then
+    if clang --target="$target" -nostdlibinc "$@" -std=c99 -pedantic -Wall -Wextra -Wconversion -Werror -Isrc -Itest \
+        -fsyntax-only src/*/*.c test/*.c test/lab/*.c test/fuzz/targets.c test/fuzz/hostile.c 2>"$dir/log"; then
         say "$name" "compiles; cannot be run here"
     else
         say "$name" "FAIL: does not compile"
@@ -94,7 +94,7 @@ suites() {
     shift 3
     asked "$name" && able "$name" "$runner" "$build" || return
     program=$dir/$name.exe
-    sources="$(ls test/*.c | grep -v -e devices -e fuzz -e hostile) $(ls src/*/*.c | grep -v src/cli/main.c)"
+    sources="$(ls test/*.c test/lab/*.c | grep -v -e devices -e fuzz -e hostile) $(ls src/*/*.c | grep -v -e src/cli/main.c -e src/cli/program.c)"
     command=$(echo "$build" | sed "s|-o [^ ]*|-Itest -o $program|; s|src/[^ ]*\.c|$(echo $sources)|")
     if ! $command 2>"$dir/log"; then
         say "$name" "FAIL: the tests do not compile"

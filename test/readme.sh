@@ -14,9 +14,10 @@ top=$PWD
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
 for entry in "$top"/*; do
-    case ${entry##*/} in out | asbdpt) ;; *) ln -s "$entry" "$dir/" ;; esac
+    case ${entry##*/} in out | asbdpt | asbdpt-lab) ;; *) ln -s "$entry" "$dir/" ;; esac
 done
 ln -s "$program" "$dir/asbdpt"
+ln -s "$program-lab" "$dir/asbdpt-lab"
 cd "$dir" && mkdir out || exit 1
 [ $all -gt 0 ] || set -- README.md doc/*.md doc/tour/*.md
 

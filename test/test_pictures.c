@@ -5,10 +5,10 @@
 #include <string.h>
 
 #include "image/image.h"
-#include "lab/compare.h"
+#include "look/compare.h"
 #include "lab/demo.h"
-#include "lab/pyramid.h"
-#include "lab/worth.h"
+#include "look/pyramid.h"
+#include "look/worth.h"
 #include "parser/parser.h"
 #include "helpers.h"
 #include "tests.h"

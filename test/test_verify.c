@@ -7,7 +7,7 @@
 #include "base/stats.h"
 #include "image/colormap.h"
 #include "image/picture.h"
-#include "lab/compare.h"
+#include "look/compare.h"
 #include "lab/sides.h"
 #include "helpers.h"
 #include "tests.h"

@@ -3,6 +3,7 @@
 # `make figures` calls it.
 program=$1
 case $program in /*) ;; *) program=$PWD/$program ;; esac
+lab=$program-lab
 tour=$PWD/doc/tour scene=$PWD/doc/mini/rooms.pbrt out=$PWD/${2:-doc/tour/figures}
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
@@ -61,7 +62,7 @@ for seed in 1 2 3 4 5 6 7 8; do
     render --integrator asbdpt -P select=bins --spp 4 --seed $seed -o bins-$seed.pfm
 done
 for method in bdpt bins; do
-    "$program" verify "$scene" --files $method-*.pfm --against pool-*.pfm --tile 8 --quiet >verdict.txt || :
+    "$lab" verify "$scene" --files $method-*.pfm --against pool-*.pfm --tile 8 --quiet >verdict.txt || :
     awk '/^  [01]\.[0-9]-/ { print $1, $2 }' verdict.txt >table.txt
     chart p-$method "p-values of $method against pool, by tenths" 0
 done

@@ -6,7 +6,7 @@
 #include "base/mem.h"
 #include "cli/command.h"
 #include "image/image.h"
-#include "lab/compare.h"
+#include "look/compare.h"
 
 struct compare_options {
     const char *image, *reference, *heatmap;

@@ -5,7 +5,7 @@
 #include "cli/command.h"
 #include "cli/outputs.h"
 #include "image/image.h"
-#include "lab/compare.h"
+#include "look/compare.h"
 
 struct convert_options {
     const char *in;

@@ -3,7 +3,7 @@
 
 #include "cli/command.h"
 #include "cli/job_options.h"
-#include "lab/trace_report.h"
+#include "look/trace_report.h"
 
 struct trace_options {
     struct job_options job;

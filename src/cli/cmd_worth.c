@@ -4,7 +4,7 @@
 #include "cli/command.h"
 #include "cli/job_options.h"
 #include "cli/outputs.h"
-#include "lab/worth.h"
+#include "look/worth.h"
 
 struct worth_options {
     struct job_options job;

@@ -22,10 +22,11 @@ struct command {
     bool prints;                  /* to standard output, which no file of its options can be then */
 };
 
-extern const struct command command_render, command_merge, command_compare, command_experiment, command_bench,
-    command_verify, command_info, command_demo, command_convert, command_worth, command_trace;
+extern const struct command command_render, command_merge, command_compare, command_convert, command_info,
+    command_trace, command_worth;
 
-/* What is linked into an executable beside main; all that is shared asks this for names. */
+/* What is linked into an executable beside main; all that is shared asks this for names. asbdpt has its own in
+ * program.c, the laboratory another one. */
 struct program {
     const char *name;
     const char *title, *about;             /* a line for the help, a paragraph for the man page */

@@ -10,7 +10,7 @@
 #include "base/mem.h"
 #include "base/os.h"
 #include "image/image.h"
-#include "lab/pyramid.h"
+#include "look/pyramid.h"
 #include "render/parameters.h"
 
 enum { LONGEST_NAME = 64 };

@@ -4,7 +4,7 @@
 
 #include "base/mem.h"
 #include "base/parallel.h"
-#include "cli/command.h"
+#include "lab/commands.h"
 #include "lab/equal_run.h"
 #include "lab/experiment.h"
 #include "lab/report.h"

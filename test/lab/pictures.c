@@ -8,7 +8,7 @@
 #include "base/mem.h"
 #include "image/formats.h"
 #include "image/image.h"
-#include "lab/compare.h"
+#include "look/compare.h"
 
 void picture_path(const struct scene_results *s, int variant, enum picture_kind kind,
                   int detail, char *out, size_t size)

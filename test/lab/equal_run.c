@@ -9,7 +9,7 @@
 #include "base/mem.h"
 #include "base/os.h"
 #include "base/progress.h"
-#include "lab/compare.h"
+#include "look/compare.h"
 #include "lab/plan_scene.h"
 #include "render/render.h"
 

@@ -1,5 +1,5 @@
 /* compare.c: see compare.h. */
-#include "lab/compare.h"
+#include "look/compare.h"
 
 #include <math.h>
 #include <stdlib.h>

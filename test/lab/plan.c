@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "lab/markup.h"
+#include "look/markup.h"
 
 const struct variant VARIANTS[N_VARIANTS] = {
     {"bdpt", "BDPT", "bdpt", NULL, 0, 0, true, false},

@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/command.h"
+#include "lab/commands.h"
 #include "cli/job_options.h"
 #include "lab/sides.h"
 #include "render/parameters.h"

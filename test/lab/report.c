@@ -7,7 +7,7 @@
 #include "base/file.h"
 #include "lab/figures.h"
 #include "lab/findings.h"
-#include "lab/markup.h"
+#include "look/markup.h"
 #include "lab/page.h"
 #include "lab/pictures.h"
 #include "lab/published.h"

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "lab/markup.h"
+#include "look/markup.h"
 
 void table_begin(struct table *t, const char *caption, ...)
 {

@@ -12,7 +12,7 @@
 #include "base/os.h"
 #include "image/image.h"
 #include "image/sheet.h"
-#include "lab/compare.h"
+#include "look/compare.h"
 
 enum { PATH_SIZE = 4096 };
 

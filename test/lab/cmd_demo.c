@@ -1,7 +1,7 @@
 /* cmd_demo.c: asbdpt demo: two integrators at equal time in one labelled picture. See demo.h. */
 #include <stdio.h>
 
-#include "cli/command.h"
+#include "lab/commands.h"
 #include "cli/job_options.h"
 #include "cli/outputs.h"
 #include "lab/demo.h"

@@ -18,7 +18,7 @@
 #include "base/progress.h"
 #include "base/sampler.h"
 #include "base/warp.h"
-#include "cli/command.h"
+#include "lab/commands.h"
 #include "parser/parser.h"
 #include "render/parameters.h"
 #include "render/render.h"

@@ -1,5 +1,5 @@
 /* worth.c: see worth.h. */
-#include "lab/worth.h"
+#include "look/worth.h"
 
 #include <math.h>
 #include <stdlib.h>

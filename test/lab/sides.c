@@ -14,7 +14,7 @@
 #include "base/progress.h"
 #include "base/rng.h"
 #include "image/image.h"
-#include "lab/compare.h"
+#include "look/compare.h"
 
 enum {
     PIXELS = 1024,    /* of the pictures, unless somebody says otherwise */

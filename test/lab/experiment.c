@@ -11,9 +11,9 @@
 #include "base/progress.h"
 #include "image/image.h"
 #include "image/zlib.h"
-#include "lab/compare.h"
+#include "look/compare.h"
 #include "lab/plan_scene.h"
-#include "lab/pyramid.h"
+#include "look/pyramid.h"
 
 enum { PATH_SIZE = 4096, KEY_SIZE = 1024, REFERENCE_SEED = 100001, PYRAMID_SPP = 64, PYRAMID_LENGTH = 5 };
 

@@ -1,0 +1,9 @@
+/* commands.h: the subcommands of asbdpt-lab, each in its cmd_*.c. */
+#ifndef ASBDPT_LAB_COMMANDS_H
+#define ASBDPT_LAB_COMMANDS_H
+
+#include "cli/command.h"
+
+extern const struct command command_verify, command_experiment, command_demo, command_bench;
+
+#endif
