@@ -2,11 +2,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "integrators/subspaces.h"
+#include "integrators/method.h"
 #include "learning/learnt_file.h"
 
 extern const struct method method_pt, method_lt, method_bdpt, method_bins, method_pool, method_vertices,
-    method_lvc, method_cbdpt;
+    method_subspaces, method_lvc, method_cbdpt;
 
 static const struct method *const METHODS[] = {&method_pt,       &method_lt,   &method_bdpt,
                                                &method_subspaces, &method_bins, &method_pool,

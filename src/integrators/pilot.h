@@ -21,7 +21,7 @@
 #ifndef ASBDPT_PILOT_H
 #define ASBDPT_PILOT_H
 
-#include "integrators/subspaces.h"
+#include "integrators/subspaces_state.h"
 
 /* pilot_run: choose draws, lights, path_pixels and the counts that go with them.
  *   p  of method_subspaces; all but these complete. It renders a number of tiles that the picture's size alone decides,

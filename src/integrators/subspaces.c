@@ -15,7 +15,7 @@
  *
  * Tests: test_asbdpt.c.
  */
-#include "integrators/subspaces.h"
+#include "integrators/subspaces_state.h"
 
 #include <stddef.h>
 #include <stdio.h>

@@ -23,6 +23,7 @@
 #include "base/alias.h"
 #include "base/number.h"
 #include "integrators/asbdpt.h"
+#include "transport/counts.h"
 
 struct vertices_state {
     struct frozen frozen; /* path_pixels 0, connections 0: chosen */

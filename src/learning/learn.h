@@ -18,14 +18,6 @@
 #include "learning/learnt.h"
 #include "transport/tile_pass.h"
 
-/* What is wished for. Light vertices are counted in any case. */
-struct wish {
-    bool importance, guide, pairs;
-    int eye_cells, light_cells; /* regions along the diagonal of where vertices are */
-    int levels;                 /* of regions */
-    double delta;               /* of the pairs, and of what guides their trials */
-};
-
 /* learn: out is zero-initialised, or was read from a file: then that is all. learnt_free releases it. */
 void learn(const struct render_job *job, const struct wish *wish, struct learnt *out);
 

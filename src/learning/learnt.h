@@ -12,6 +12,14 @@
 #include "learning/pairs.h"
 #include "transport/mis.h"
 
+/* What is wished to be learnt. Light vertices are counted in any case. */
+struct wish {
+    bool importance, guide, pairs;
+    int eye_cells, light_cells; /* regions along the diagonal of where vertices are */
+    int levels;                 /* of regions */
+    double delta;               /* of the pairs, and of what guides their trials */
+};
+
 enum { LEARNT_NUMBERS = 16 };
 
 struct learnt {

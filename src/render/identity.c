@@ -58,22 +58,21 @@ static void add_filter(struct lines *l, const struct filter *f)
              f->B, f->C, f->tau);
 }
 
-char *identity_text(const struct scene *scene, const struct render_options *o)
+char *identity_text(const struct scene *scene, struct picture_options o)
 {
     struct lines l = {0};
     add_line(&l, "version %s, estimator %d", VERSION, ESTIMATOR);
     add_line(&l, "scene %016" PRIx64, scene->content);
-    add_line(&l, "integrator %s", o->integrator);
-    add_line(&l, "maxdepth %d", o->max_depth);
+    add_line(&l, "integrator %s", o.integrator);
+    add_line(&l, "maxdepth %d", o.max_depth);
     add_settings(&l, &scene->settings);
-    add_line(&l, "seed %" PRIu64, o->seed);
+    add_line(&l, "seed %" PRIu64, o.seed);
     add_filter(&l, &scene->filter);
     return l.text;
 }
 
-uint64_t picture_number(const struct scene *scene, const struct render_options *o)
+uint64_t picture_number(const struct scene *scene, struct picture_options o, struct pixel_rect r)
 {
-    struct pixel_rect r = render_crop(scene);
     const int place[] = {r.x0, r.y0, r.x1, r.y1, scene->width, scene->height};
     char *text = identity_text(scene, o);
     uint64_t number = hash_content(text, strlen(text));

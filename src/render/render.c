@@ -183,8 +183,9 @@ static bool prepare(struct run *r, struct error *err)
         return false;
     r->job.watch = r->options->progress != NULL ? watch : NULL;
     r->job.watch_context = r;
+    const struct picture_options picture = {r->options->integrator, r->options->max_depth, r->options->seed};
     r->job.learnt = &r->film->learnt;
-    r->job.of = picture_number(r->job.scene, r->options);
+    r->job.of = picture_number(r->job.scene, picture, r->film->rect);
     bool ok = method_prepare(m, &r->job, &r->prepared, err);
     r->film->learnt_short = r->stopping;
     return ok;
