@@ -29,8 +29,8 @@ bool scene_from_text(struct test *t, const char *text, struct scene *out);
 /* scene_from_file: the same for a file, at the given resolution (0: as it is) with a box filter. */
 bool scene_from_file(struct test *t, const char *path, int width, int height, struct scene *out);
 
-/* random_affine: a transform of uneven scale and shear, half of them mirrors, with some translation; no direction becomes
- * more than some ten times as long as another. */
+/* random_affine: a transform of uneven scale and shear, half of them mirrors, with some translation; no direction
+ * becomes more than some ten times as long as another. */
 struct transform random_affine(struct rng *r);
 
 /* render_batches: render `n_batches` times with `spp` samples and seeds of their own, and average over square tiles of

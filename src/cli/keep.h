@@ -35,7 +35,8 @@ bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const 
                 struct render_options *render, struct film *film, struct error *err);
 
 /* keep_end: remove the progress bar, say on stderr if and why the render has stopped early, save the last checkpoint
- * and --learnt if `ok`. False with a message where it cannot be written; err may be NULL. The caller releases k->part. */
+ * and --learnt if `ok`. False with a message where it cannot be written; err may be NULL. The caller releases
+ * k->part. */
 bool keep_end(struct keep *k, bool ok, struct error *err);
 
 #endif

@@ -2,8 +2,8 @@
  *
  * Each eye vertex (t >= 2) draws C of the V connectible vertices of the K light sub-paths, each with probability 1/V:
  *     (1/C) sum over draws of F(v) V / K
- * has BDPT's expectation. It takes each vertex C/V times, where BDPT, with one of K sub-paths, takes it 1/K times: C K/V
- * times as often, about C/l, l being the expected number of connectible vertices of a light sub-path. That is the
+ * has BDPT's expectation. It takes each vertex C/V times, where BDPT, with one of K sub-paths, takes it 1/K times: C
+ * K/V times as often, about C/l, l being the expected number of connectible vertices of a light sub-path. That is the
  * count, with no credit. l is frozen before the render: the pool's own V/K would make a vertex' weight depend on what
  * else is in the pool, which biases small pools. s = 0, s = 1 and t = 1 stay as they are, lights are chosen by power.
  *

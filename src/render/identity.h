@@ -12,8 +12,8 @@ struct picture_options {
     uint64_t seed;
 };
 
-/* identity_text: lines, each a word and what it says, to be given to free(). Threads, names of files and what is written
- * do not belong to it; what the scene's files hold does. */
+/* identity_text: lines, each a word and what it says, to be given to free(). Threads, names of files and what is
+ * written do not belong to it; what the scene's files hold does. */
 char *identity_text(const struct scene *scene, struct picture_options o);
 
 /* picture_number: a hash of these and of the film's size and window. */

@@ -1,10 +1,12 @@
-/* counts.h: how many samples a strategy takes for a path (mis.h): n of its connecting edge, from the edge's two ends. */
+/* counts.h: how many samples a strategy takes for a path (mis.h): n of its connecting edge, from the edge's two
+ * ends. */
 #ifndef ASBDPT_COUNTS_H
 #define ASBDPT_COUNTS_H
 
 #include "transport/vertex.h"
 
-/* mis_connect_count: n of the strategy s >= 2, t >= 2 whose light end lies in region y and whose eye end in region e. */
+/* mis_connect_count: n of the strategy s >= 2, t >= 2 whose light end lies in region y and whose eye end in region
+ * e. */
 static inline double mis_connect_count(const struct mis_counts *c, int y, int e, enum eye_end end)
 {
     double n = c->connect[end];

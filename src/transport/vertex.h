@@ -59,8 +59,8 @@ struct vertex {
     const struct vertex *lamp; /* above; NULL: none */
 };
 
-/* path_throughput: beta of [S24]: mean over RGB at the furthest vertex of a light sub-path; 0 if it is empty. One of y_0
- * alone, which met no surface, has the emitted radiance there, as in pbrt-v3, where [S24] was implemented. */
+/* path_throughput: beta of [S24]: mean over RGB at the furthest vertex of a light sub-path; 0 if it is empty. One of
+ * y_0 alone, which met no surface, has the emitted radiance there, as in pbrt-v3, where [S24] was implemented. */
 static inline double path_throughput(const struct vertex *light, int n)
 {
     return n < 1 ? 0 : rgb_mean(light[n - 1].beta);
