@@ -29,6 +29,7 @@ struct render_job {
      * here. NULL: nobody wants it. */
     struct bytes *learnt;
     uint64_t of;
+    struct tape *tape; /* where the numbers of samples are recorded, or come from (sampler.h), by one thread; or NULL */
 };
 
 /* How a method wants its work cut. */
