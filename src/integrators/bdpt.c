@@ -11,19 +11,19 @@ static void render_pixel(const struct tile_pass *pass, const struct mis_counts *
 {
     struct workspace *work = pass->work;
     arena_reset(&work->arena);
-    struct pixel_sample g = pixel_sample_begin(pass, counts, x, y, iteration);
+    struct pixel_sample sample = pixel_sample_begin(pass, counts, x, y, iteration);
     /* Light tracing needs of the eye sub-path only the lights seen directly (s = 0, t = 2). */
     bool light_tracing = counts->hit == 0;
-    int n_eye = pixel_eye_path(pass, &g, iteration, work->eye, light_tracing ? 2 : g.max_depth + 2);
+    int n_eye = pixel_eye_path(pass, &sample, iteration, work->eye, light_tracing ? 2 : sample.max_depth + 2);
     int n_light = 0;
     if (counts->splat > 0)
         n_light = pixel_light_path(pass, counts, x, y, (uint64_t)iteration, &work->arena, work->light);
 
-    pixel_sum_eye(&g, work->eye, n_eye);
+    pixel_sum_eye(&sample, work->eye, n_eye);
     if (counts->connect[FIRST_HIT] > 0)
-        pixel_sum_pairs(&g, work->eye, n_eye, work->light, n_light, NO_CHOICE);
-    pixel_splat_path(&g, work->light, n_light, 1);
-    tile_add_eye(pass->tile, x, y, g.sum);
+        pixel_sum_pairs(&sample, work->eye, n_eye, work->light, n_light, NO_CHOICE);
+    pixel_splat_path(&sample, work->light, n_light, 1);
+    tile_add_eye(pass->tile, x, y, sample.sum);
 }
 
 static void render(const struct preparation *m, const struct tile_pass *pass)

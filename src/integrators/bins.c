@@ -123,18 +123,18 @@ static void render_iteration(struct pixel *p, double shift, long iteration)
 {
     struct workspace *work = p->pass->work;
     arena_reset(&work->arena);
-    struct pixel_sample g = pixel_sample_begin(p->pass, &p->state->frozen.counts, p->x, p->y, iteration);
-    int n = pixel_eye_path(p->pass, &g, iteration, work->eye, g.max_depth + 2);
+    struct pixel_sample sample = pixel_sample_begin(p->pass, &p->state->frozen.counts, p->x, p->y, iteration);
+    int n = pixel_eye_path(p->pass, &sample, iteration, work->eye, sample.max_depth + 2);
     struct sampler draw = pixel_sampler(p->pass, RNG_SELECT, p->x, p->y, iteration);
     replace_aged(p, iteration);
     double u = sampler_number(&draw, DRAW_LIGHT_END);
     struct choice unweighted = {0, 1};
     struct element *e = choose(p, shift, (uint64_t)(iteration - p->pass->first), u, &unweighted.pmf);
 
-    pixel_sum_eye(&g, work->eye, n);
-    pixel_sum_pairs(&g, work->eye, n, e->vertex, e->length, unweighted);
-    pixel_splat_path(&g, e->vertex, e->length, 1);
-    tile_add_eye(p->pass->tile, p->x, p->y, g.sum);
+    pixel_sum_eye(&sample, work->eye, n);
+    pixel_sum_pairs(&sample, work->eye, n, e->vertex, e->length, unweighted);
+    pixel_splat_path(&sample, e->vertex, e->length, 1);
+    tile_add_eye(p->pass->tile, p->x, p->y, sample.sum);
     replace(p, e, iteration);
 }
 

@@ -239,10 +239,10 @@ void pilot_set_draws(struct subspaces_state *s, double C)
 }
 
 /* In units of a ray that looks for the closest hit; the factors were measured. */
-static void costs(const struct importance *g, double *fixed, double *cost)
+static void costs(const struct importance *importance, double *fixed, double *cost)
 {
     const double CONNECTION = 0.6, POINT = 0.8;
-    double n_eye = g->eye_vertices, n_first = g->first_vertices, n_light = g->light_vertices;
+    double n_eye = importance->eye_vertices, n_first = importance->first_vertices, n_light = importance->light_vertices;
     *fixed = 1 + n_eye;
     cost[DRAW_FIRST] = CONNECTION * n_first;
     cost[DRAW_LATER] = CONNECTION * (n_eye - n_first);

@@ -53,11 +53,11 @@ void candidates_find(struct candidates *c, const struct light_pool *pool)
 }
 
 /* t = 1 for sub-path k. The weights count one in path_pixels for the whole film; the tile has `n`, rounded up. */
-static void splat(const struct light_pool *pool, const struct tile_pass *pass, struct pixel_sample *g, int path_pixels,
-                  int k)
+static void splat(const struct light_pool *pool, const struct tile_pass *pass, struct pixel_sample *sample,
+                  int path_pixels, int k)
 {
     double pixels = (double)rect_width(pass->rect) * rect_height(pass->rect);
-    pixel_splat_path(g, light_pool_path(pool, k), pool->length[k], pixels / ((double)pool->n * path_pixels));
+    pixel_splat_path(sample, light_pool_path(pool, k), pool->length[k], pixels / ((double)pool->n * path_pixels));
 }
 
 static void render_pixel(const struct preparation *m, const struct tile_pass *pass, int x, int y, int number,

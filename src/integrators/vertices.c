@@ -92,9 +92,9 @@ static const double CREDIT = 2;
 /* As many draws as are needed, on average, to meet one light vertex that the camera can make use of; between 2, below
  * which tracing the sub-paths costs more than connecting them, and 8, where shadow rays begin to dominate. A rule of
  * our own. */
-static int choose_connections(const struct importance *g)
+static int choose_connections(const struct importance *importance)
 {
-    return int_within(1 / g->useful + 0.5, 2, 8); /* `useful` of a scene in which nothing arrives is 0 */
+    return int_within(1 / importance->useful + 0.5, 2, 8); /* `useful` of a scene in which nothing arrives is 0 */
 }
 
 /* h(l) = (1 - delta) E(l) / mean + delta, for every eye vertex alike. */

@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-void importance_free(struct importance *g)
+void importance_free(struct importance *importance)
 {
-    free(g->E);
-    free(g->vertices);
-    memset(g, 0, sizeof *g);
+    free(importance->E);
+    free(importance->vertices);
+    memset(importance, 0, sizeof *importance);
 }
 
 static double *add_to(double *sum, int *n, size_t *capacity, int region, double x)
@@ -20,23 +20,27 @@ static double *add_to(double *sum, int *n, size_t *capacity, int region, double 
     return sum;
 }
 
-void importance_add(struct importance *g, int region, double luminance)
+void importance_add(struct importance *importance, int region, double luminance)
 {
-    g->E = add_to(g->E, &g->n, &g->capacity, region, luminance);
+    importance->E = add_to(importance->E, &importance->n, &importance->capacity, region, luminance);
 }
 
-void importance_add_light(struct importance *g, int region, double count)
+void importance_add_light(struct importance *importance, int region, double count)
 {
-    g->vertices = add_to(g->vertices, &g->n_vertices, &g->vertices_capacity, region, count);
+    importance->vertices =
+        add_to(importance->vertices, &importance->n_vertices, &importance->vertices_capacity, region, count);
 }
 
-double importance_in(const struct importance *g, int region) { return region < g->n ? g->E[region] : 0; }
+double importance_in(const struct importance *importance, int region)
+{
+    return region < importance->n ? importance->E[region] : 0;
+}
 
-double importance_of_path(const struct importance *g, const struct vertex *light, int n)
+double importance_of_path(const struct importance *importance, const struct vertex *light, int n)
 {
     double sum = 0;
     for (int i = 1; i < n; i++)
         if (vertex_connectible(&light[i]))
-            sum += rgb_luminance(light[i].beta) * importance_in(g, light[i].light_region);
+            sum += rgb_luminance(light[i].beta) * importance_in(importance, light[i].light_region);
     return sum;
 }

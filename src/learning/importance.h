@@ -25,17 +25,17 @@ struct importance {
     double useful;         /* share of light vertices that carries I: (mean I)^2 / mean(I^2), (0,1] */
 };
 
-void importance_free(struct importance *g);
+void importance_free(struct importance *importance);
 
 /* importance_add: an eye vertex of that throughput luminance fell into the region. importance_add_light: a light vertex
  * did, or `count` of them. */
-void importance_add(struct importance *g, int region, double luminance);
-void importance_add_light(struct importance *g, int region, double count);
+void importance_add(struct importance *importance, int region, double luminance);
+void importance_add_light(struct importance *importance, int region, double count);
 
 /* importance_in: E of a region, >= 0; 0 where no eye sub-path came. */
-double importance_in(const struct importance *g, int region);
+double importance_in(const struct importance *importance, int region);
 
 /* importance_of_path: sum of I over the connectible vertices y_1 .. of a light sub-path. */
-double importance_of_path(const struct importance *g, const struct vertex *light, int n);
+double importance_of_path(const struct importance *importance, const struct vertex *light, int n);
 
 #endif

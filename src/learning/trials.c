@@ -38,9 +38,9 @@ struct trials {
 
 static void add_choosable(const struct lessons *l, struct stock *s, const struct vertex *y)
 {
-    const struct importance *g = &l->learnt->importance;
-    double L = rgb_luminance(y->beta), E = importance_in(g, y->light_region), delta = l->wish->delta;
-    double useful = (1 - delta) * (g->mean > 0 ? E / g->mean : 0) + delta;
+    const struct importance *importance = &l->learnt->importance;
+    double L = rgb_luminance(y->beta), E = importance_in(importance, y->light_region), delta = l->wish->delta;
+    double useful = (1 - delta) * (importance->mean > 0 ? E / importance->mean : 0) + delta;
     if (!vertex_connectible(y) || !(L * useful > 1e-290) || !fits_float(L * useful))
         return;
     struct choosable c = {y, L, useful};

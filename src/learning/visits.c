@@ -103,16 +103,16 @@ static void trace_visits(void *context, struct lessons *l, int thread, long i, s
 static void take_visit(void *context, struct lessons *l, const struct finding *f)
 {
     struct visits *v = context;
-    struct importance *g = &l->learnt->importance;
+    struct importance *importance = &l->learnt->importance;
     int eye = regions_add(&v->eye, regions_key(&v->eye, f->p, f->p_ng));
     if (f->kind == LIGHT_SEEN) {
         guide_lessons_add(&v->lights, &v->eye, eye, f->cell, f->x);
         return;
     }
-    g->eye_vertices += 1.0 / (double)v->n;
-    g->first_vertices += f->first / (double)v->n;
+    importance->eye_vertices += 1.0 / (double)v->n;
+    importance->first_vertices += f->first / (double)v->n;
     if (l->wish->importance)
-        importance_add(g, regions_add(&v->light, regions_key(&v->light, f->p, f->p_ng)), f->x);
+        importance_add(importance, regions_add(&v->light, regions_key(&v->light, f->p, f->p_ng)), f->x);
 }
 
 void visits_run(struct lessons *l, long n)
@@ -165,26 +165,26 @@ static void trace_light(void *context, struct lessons *l, int thread, long i, st
 static void take_light(void *context, struct lessons *l, const struct finding *f)
 {
     struct light_sums *s = context;
-    struct importance *g = &l->learnt->importance;
+    struct importance *importance = &l->learnt->importance;
     struct regions *light = &l->learnt->light;
     uint64_t key = regions_key(light, f->p, f->p_ng);
     int region = l->wish->pairs ? regions_add(light, key) : regions_find(light, key);
-    double E = importance_in(g, region), I = f->x * E;
+    double E = importance_in(importance, region), I = f->x * E;
     s->vertices++;
     s->E += E;
     s->I += I;
     s->square += I * I;
     if (l->wish->pairs)
-        importance_add_light(g, region, 1.0 / (double)s->n);
+        importance_add_light(importance, region, 1.0 / (double)s->n);
 }
 
 void visits_light(struct lessons *l, long n)
 {
-    struct importance *g = &l->learnt->importance;
+    struct importance *importance = &l->learnt->importance;
     struct light_sums s = {.n = n};
     struct pass pass = {l, 0, n, &s, NULL, trace_light, take_light};
     pass_run(&pass);
-    g->light_vertices = s.vertices / (double)n;
-    g->mean = s.E / (double)n;
-    g->useful = s.square > 0 ? s.I * s.I / (s.square * s.vertices) : 1;
+    importance->light_vertices = s.vertices / (double)n;
+    importance->mean = s.E / (double)n;
+    importance->useful = s.square > 0 ? s.I * s.I / (s.square * s.vertices) : 1;
 }

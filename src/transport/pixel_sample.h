@@ -33,8 +33,9 @@ struct pixel_sample {
 struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struct mis_counts *counts, int x, int y,
                                        long iteration);
 
-/* pixel_eye_path: the eye sub-path of g's pixel into path [max_vertices]; sets g->filter_weight. Returns its length. */
-int pixel_eye_path(const struct tile_pass *pass, struct pixel_sample *g, long iteration, struct vertex *path,
+/* pixel_eye_path: the eye sub-path of the sample's pixel into path [max_vertices]; sets sample->filter_weight. Returns
+ * its length. */
+int pixel_eye_path(const struct tile_pass *pass, struct pixel_sample *sample, long iteration, struct vertex *path,
                    int max_vertices);
 
 /* pixel_sampler: the stream of a pixel and iteration for a purpose of the method's own. */
@@ -50,10 +51,10 @@ double pixel_light_count(const struct render_job *job);
 
 /* --- sums of connections ----------------------------------------------------------------------------- */
 
-/* All add to g->sum, weighted and times filter_weight, but for pixel_splat_path.
+/* All add to sample->sum, weighted and times filter_weight, but for pixel_splat_path.
  *
  * pixel_sum_eye: s = 0 and s = 1 for every vertex of the eye sub-path of n vertices. */
-void pixel_sum_eye(struct pixel_sample *g, const struct vertex *eye, int n);
+void pixel_sum_eye(struct pixel_sample *sample, const struct vertex *eye, int n);
 
 /* What a method drew to join an eye sub-path with. */
 struct choice {
@@ -64,16 +65,16 @@ static const struct choice NO_CHOICE = {1, 1};
 
 /* pixel_sum_pair: one strategy s >= 2, t >= 2, joining the light vertex y = y_{s-1} to the eye vertex z = z_{t-1}.
  * pixel_sum_joint: the same where its value has been found before. */
-void pixel_sum_pair(struct pixel_sample *g, const struct vertex *y, int s, const struct vertex *z, int t,
+void pixel_sum_pair(struct pixel_sample *sample, const struct vertex *y, int s, const struct vertex *z, int t,
                     struct choice choice);
-void pixel_sum_joint(struct pixel_sample *g, const struct joint *j, int s, int t, struct choice choice);
+void pixel_sum_joint(struct pixel_sample *sample, const struct joint *j, int s, int t, struct choice choice);
 
 /* pixel_sum_pairs: s >= 2, t >= 2 for every pair of vertices of the two sub-paths. */
-void pixel_sum_pairs(struct pixel_sample *g, const struct vertex *eye, int n_eye, const struct vertex *light,
+void pixel_sum_pairs(struct pixel_sample *sample, const struct vertex *eye, int n_eye, const struct vertex *light,
                      int n_light, struct choice choice);
 
 /* pixel_splat_path: s >= 2, t = 1 for every vertex of a light sub-path, each times `scale`; the sums go to the
  * tile's splats. */
-void pixel_splat_path(struct pixel_sample *g, const struct vertex *light, int n_light, double scale);
+void pixel_splat_path(struct pixel_sample *sample, const struct vertex *light, int n_light, double scale);
 
 #endif

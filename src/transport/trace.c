@@ -26,13 +26,13 @@ static void copy(struct trace_path *to, const struct vertex *path, int n)
     }
 }
 
-void trace_eye(struct trace *t, const struct vertex *path, int n, double filter_weight)
+void trace_eye_path(struct trace *t, const struct vertex *path, int n, double filter_weight)
 {
     t->filter_weight = filter_weight;
     copy(&t->eye, path, n);
 }
 
-int trace_light(struct trace *t, const struct vertex *path, int n)
+int trace_light_path(struct trace *t, const struct vertex *path, int n)
 {
     int i = 0;
     while (i < t->n_lights && t->light[i].source != path)
@@ -49,7 +49,7 @@ int trace_light(struct trace *t, const struct vertex *path, int n)
 void trace_connect(struct trace *t, int s, int for_t, const struct vertex *light, const struct connection *c,
                    double pmf, double scale, rgb added)
 {
-    int path = light != NULL ? trace_light(t, light, s) : -1;
+    int path = light != NULL ? trace_light_path(t, light, s) : -1;
     struct trace_connection made = {s, for_t, path, pmf, *c, scale, added};
     t->connection =
         mem_grow(t->connection, &t->connection_capacity, (size_t)t->n_connections + 1, sizeof *t->connection);

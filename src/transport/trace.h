@@ -55,9 +55,9 @@ static inline struct trace *trace_watches(struct trace *t, int x, int y, long it
     return t != NULL && t->x == x && t->y == y && t->iteration == iteration ? t : NULL;
 }
 
-/* trace_eye: the eye sub-path. trace_light: a light sub-path, once or more often; returns its number. */
-void trace_eye(struct trace *t, const struct vertex *path, int n, double filter_weight);
-int trace_light(struct trace *t, const struct vertex *path, int n);
+/* trace_eye_path: the eye sub-path. trace_light_path: a light sub-path, once or more often; returns its number. */
+void trace_eye_path(struct trace *t, const struct vertex *path, int n, double filter_weight);
+int trace_light_path(struct trace *t, const struct vertex *path, int n);
 
 /* trace_connect: a connection has been made or tried.
  *   light  the light sub-path whose first s vertices it has; NULL for s <= 1 */
