@@ -2,8 +2,8 @@
  *
  * Each eye vertex (t >= 2) draws C of the V connectible vertices of the K light sub-paths, each with probability 1/V:
  *     (1/C) sum over draws of F(v) V / K
- * has BDPT's expectation. It takes each vertex C/V times, where BDPT, with one of K sub-paths, takes it 1/K times: C
- * K/V times as often, about C/l, l being the expected number of connectible vertices of a light sub-path. That is the
+ * has BDPT's expectation. It takes each vertex C/V times, where BDPT, with one of K sub-paths, takes it 1/K times:
+ * C K/V times as often, about C/l, l being the expected number of connectible vertices of a light sub-path. That is the
  * count, with no credit. l is frozen before the render: the pool's own V/K would make a vertex' weight depend on what
  * else is in the pool, which biases small pools. s = 0, s = 1 and t = 1 stay as they are, lights are chosen by power.
  *
@@ -49,7 +49,8 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *p, const
     int C = s->connections, V = v->found.n;
     const struct choice choice = {1.0 / V, 1 / (C * (1.0 / V) * v->pool.n)};
     for (int c = 0; V > 0 && c < C; c++) {
-        int i = (int)((c + sampler_number(&p->draws, DRAW_LIGHT_END)) / C * V); /* below V: what is drawn is a multiple of 2^-32 */
+        /* below V, since what is drawn is a multiple of 2^-32 */
+        int i = (int)((c + sampler_number(&p->draws, DRAW_LIGHT_END)) / C * V);
         pooled_join(p, &v->found.item[i < V ? i : V - 1], z, t, choice);
     }
 }

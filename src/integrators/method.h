@@ -7,7 +7,7 @@
  * (tile_pass.h) on as many threads as there are, each with scratch memory of its own. Methods whose pixels share the
  * light sub-paths of their tile leave the rendering to pooled_render and say what they draw (pooled.h).
  *
- * doc/add-a-method.md adds one. Tests: test_methods.c.
+ * doc/add-a-method.md adds one. Tests: test_render.c, test_options.c, test/add_method.sh.
  */
 #ifndef ASBDPT_METHOD_H
 #define ASBDPT_METHOD_H

@@ -1,7 +1,7 @@
 /* parameter.h: the parameters of a method as one table, from which --help, -P, scene files and --stats take all they
  * know, and in which alone a default stands.
  *
- * Tests: test_methods.c.
+ * Tests: test_options.c.
  */
 #ifndef ASBDPT_PARAMETER_H
 #define ASBDPT_PARAMETER_H

@@ -8,8 +8,9 @@
 #include "base/number.h"
 #include "base/parallel.h"
 
-/* What the variance of a pixel is made of, given its eye sub-path: kinds of samples whose number is free. HIT, lights
- * met by the first bounce, is not one of them, but its samples too are worth more than independent ones. */
+/* The kinds of samples whose number is free: a pixel's variance, given its eye sub-path, is theirs. HIT is the light
+ * that the first bounce meets (s = 0, t = 3). An eye sub-path has one such sample, so its number is not free, but the
+ * weights count it, too, for what it is worth. */
 enum kind { DRAW_FIRST, DRAW_LATER, LIGHT_FIRST, LIGHT_PATH, N_KINDS, HIT = N_KINDS };
 
 /* Samples per eye vertex (per pixel) of each kind while the pilot runs, and in its absence. The choice moves from the
@@ -32,7 +33,7 @@ static const double OUTLIER = 25, OUTLIER_PATHS = 400;
 
 struct sums {
     double total, given_eye, given_paths;  /* variances relative to the squared brightness; the last: OUTLIER_PATHS */
-    /* of the samples of one eye vertex, for HIT of one pixel: variance and squares of their sum */
+    /* of the samples that one eye vertex has of a kind (HIT: one pixel): variance of their sum, sum of their squares */
     double spread[N_KINDS + 1], square[N_KINDS + 1];
 };
 

@@ -2,7 +2,8 @@
  *
  * Let a pixel's estimate have the variance A + sum_c b_c / n_c and the cost k + sum_c n_c k_c, where c are the kinds of
  * samples whose number is free (draws for t = 2, draws for t > 2, light points for t = 2, light sub-paths), b_c is the
- * variance that one sample of the kind has given the eye sub-path, and A is what the eye sub-path brings. The product
+ * variance of one sample of the kind once the eye sub-path is given, and A is the variance that the eye sub-path
+ * brings. The product
  * of both, which is the squared error at equal time, is smallest for
  *     n_c = sqrt(b_c / k_c) sqrt(k / A).
  * The pilot renders some tiles three times with random numbers of their own, two of them with the same eye sub-paths. A
@@ -11,10 +12,10 @@
  * brightness around the pixel. Costs are counted in rays, not measured in seconds: the choice must be the same on every
  * machine. [Grittmann 2022] chooses among given candidates by the same product.
  *
- * It also finds how much more a sample is worth to the weights than an independent one, the ratio of its second moment
- * to its variance [Grittmann 2019]: for draws, for light points, and for lights met by the first bounce (s = 0, t = 3),
- * whose directions are well spread too. Leaving out the last would take weight from it where it serves best, under an
- * even sky.
+ * The pilot also finds the credit of each kind (mis.h): how much more a sample is worth to the weights than an
+ * independent one, the ratio of its second moment to its variance [Grittmann 2019]. Draws, light points, and lights met
+ * by the first bounce (s = 0, t = 3), whose directions are well spread too, have one. Without it the last would lose
+ * weight where they serve best, under an even sky.
  *
  * Tests: test_asbdpt.c.
  */

@@ -68,7 +68,8 @@ static void connect(void *scratch, const void *state, struct pooled_pixel *p)
     struct pool *pool = scratch;
     struct choice choice;
     (void)state;
-    int k = alias_sample_bin(&pool->table, pool->order[p->number], sampler_number(&p->draws, DRAW_LIGHT_END), &choice.pmf, NULL);
+    double u = sampler_number(&p->draws, DRAW_LIGHT_END);
+    int k = alias_sample_bin(&pool->table, pool->order[p->number], u, &choice.pmf, NULL);
     choice.scale = 1 / (pool->paths.n * choice.pmf);
     pixel_sum_pairs(&p->sample, p->eye, p->n, light_pool_path(&pool->paths, k), pool->paths.length[k], choice);
 }
@@ -99,9 +100,10 @@ static const struct method_parameter PARAMETERS[] = {
     {.name = NULL}};
 
 const struct method method_pool = {
-    .name = "asbdpt", .select = "pool", .help = "one alias table over the light sub-paths of a tile, weighted: unbiased",
-    .why = "alias table over the K light sub-paths of the tile, one bin for each pixel; q_k = (1 - delta) I_k / sum I + "
-           "delta / K, I the sub-path's importance; scale 1 / (K q)",
+    .name = "asbdpt", .select = "pool",
+    .help = "one alias table over the light sub-paths of a tile, weighted: unbiased",
+    .why = "alias table over the K light sub-paths of the tile, one bin for each pixel; q_k = (1 - delta) I_k / sum I "
+           "+ delta / K, I the sub-path's importance; scale 1 / (K q)",
     .parameters = PARAMETERS, .state_size = sizeof(struct pool_state), .scratch_size = sizeof(struct pool),
     .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .learnt = learnt_of, .release = release, .render = pooled_render,
     .scratch_free = free_scratch, .begin = begin, .connect = connect};

@@ -31,7 +31,8 @@ void light_pool_shuffle(const struct light_pool *pool, const struct tile_pass *p
 {
     struct sampler sampler = pixel_sampler(pass, RNG_SHUFFLE, pass->rect.x0, pass->rect.y0, iteration);
     for (int i = 0; i < pool->n; i++) {
-        int j = (int)(sampler_number(&sampler, DRAW_ORDER) * (i + 1)); /* a sample is below 1 by more than rounding can add */
+        /* at most i, since what is drawn is below 1 by more than rounding can add */
+        int j = (int)(sampler_number(&sampler, DRAW_ORDER) * (i + 1));
         order[i] = order[j];
         order[j] = i;
     }

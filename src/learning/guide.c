@@ -200,7 +200,7 @@ double guide_ratio(const struct guide *g, const struct light_set *lights, int re
         return 1;
     if (cell >= 0 && !(lights->several_infinite && lights->light[lights->light_of_cell[cell]].kind == LIGHT_INFINITE))
         return ratio_of_cell(g, table, cell);
-    /* Infinite lights are told apart by nobody who meets them: their densities are added (light.h). */
+    /* An escaping ray cannot tell infinite lights apart: their densities are added (light.h). */
     double guided = 0, by_power = 0;
     for (int i = 0; i < lights->n; i++)
         if (lights->light[i].kind == LIGHT_INFINITE) {

@@ -1,7 +1,7 @@
 /* guide.h: which lights, and which parts of the sky, do the surfaces of a region actually see?
  *
  * s = 1 connects an eye vertex to a point on a light. Choosing the light by power alone wastes most shadow rays where
- * walls stand between, and an environment map seen through a window is mostly hidden. The pre-pass tries light points
+ * walls stand between, and an environment map seen through a window is mostly hidden. Learning tries light points
  * from eye vertices and adds up, per region (regions.h) and per light cell (light.h), the contributions that arrived.
  * Each region then has an alias table over all light cells,
  *     q(c) = delta e(c) + (1 - delta) t(c),      t(c) = (N own(c) + K above(c)) / (N + K),
@@ -11,8 +11,8 @@
  * A scene with more than GUIDE_COLUMNS light cells is learnt in groups of consecutive cells; within a group the choice
  * is by power. So the memory is bounded, by 44 bytes for each of GUIDE_COLUMNS columns of each region.
  *
- * Frozen after the pre-pass, so any choice is unbiased; MIS needs the ratio of the two choices, guide_ratio, as the
- * count of strategy s = 1 (mis.h): its samples are that many times denser than those of emission.
+ * The tables are frozen before the render, so any choice is unbiased; MIS needs the ratio of the two choices,
+ * guide_ratio, as the count of strategy s = 1 (mis.h): its samples are that many times denser than those of emission.
  *
  * Tests: test_asbdpt.c, test_mis.c.
  */
@@ -32,7 +32,7 @@ struct guide_columns {
     double *before; /* [cells], probability by power of the cells before this one in its column; owned */
 };
 
-/* What the pre-pass has found so far, per region. */
+/* What has been found so far, per region. */
 struct guide_lessons {
     struct guide_columns columns;
     double *arrived; /* [regions * columns.n] sums of contributions (luminance), owned */

@@ -1,8 +1,7 @@
 /* importance.h: where in space can the camera make use of light?
  *
- * Eye sub-paths leave in each region (regions.h) they come to the luminance of their throughput: E, large where many or
- * strong ones pass. A light vertex y is worth about I = luminance(beta_y) E(region of y). Means over sub-paths say how
- * much there is of everything.
+ * E of a region (regions.h) is the sum of the luminances of the throughputs with which eye sub-paths arrive there:
+ * large where many or strong ones pass. A light vertex y is worth about I = luminance(beta_y) E(region of y).
  *
  * Tests: test_asbdpt.c.
  */

@@ -1,5 +1,5 @@
-/* learnt.h: what has been learnt about a scene before its first sample, frozen from then on, so that a choice made by
- * it biases nothing.
+/* learnt.h: what has been learnt about a scene before its first sample, frozen from then on, so that no choice made by
+ * it is biased.
  *
  * A value: it depends on scene, film, seed and depth, not on the samples asked for, nor on threads; it can be written
  * to a file and read again (learnt_file.h).

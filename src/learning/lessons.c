@@ -70,7 +70,7 @@ struct walk lessons_walk(const struct lessons *l, struct arena *arena, struct sa
 
 struct sampler lessons_sampler(const struct lessons *l, long i, enum stream stream)
 {
-    return sampler_start(l->job->seed, RNG_PREPASS, (uint64_t)i, (uint64_t)stream);
+    return sampler_start(l->job->seed, RNG_LEARN, (uint64_t)i, (uint64_t)stream);
 }
 
 int lessons_eye(const struct lessons *l, int thread, long i, enum stream stream, struct sampler *sampler)

@@ -63,13 +63,13 @@ struct sampler lessons_sampler(const struct lessons *l, long i, enum stream stre
  * *sampler goes on with its numbers. Returns its length. */
 int lessons_eye(const struct lessons *l, int thread, long i, enum stream stream, struct sampler *sampler);
 
-/* visits_run: eye sub-paths first .. end-1: importance, and with rounds > 0 the guide, which each round betters for the
- * next. visits_light: n light sub-paths. visits_extent: the box in which most vertices are. */
+/* visits_extent: the box in which most vertices are. visits_run: n eye sub-paths, for importance and, if it is wished
+ * for, the guide, which each round betters for the next. visits_light: n light sub-paths, for the means over them. */
 void visits_extent(struct lessons *l, vec3 *low, vec3 *high);
 void visits_run(struct lessons *l, long n);
 void visits_light(struct lessons *l, long n);
 
-/* trials_run: n eye sub-paths, from whose vertices connections are tried. */
+/* trials_run: eye sub-paths first .. first+n-1, from whose vertices connections are tried, for the pairs. */
 void trials_run(struct lessons *l, long first, long n);
 
 #endif

@@ -1,7 +1,7 @@
 /* pairs.h: what is a light vertex of one region worth to an eye vertex of another?
  *
  * A wall between two regions, the angle at which they face each other, their distance: whether a connection between
- * them brings anything depends on both. Trial connections of a pre-pass measure the mean of
+ * them brings anything depends on both. Trial connections measure the mean of
  *     x = luminance(connection) / (luminance(beta_z) luminance(beta_y))
  * for pairs of regions e (of the eye vertex z) and l (of the light vertex y). There are more pairs than trials, so the
  * mean of a pair leans on that of the pair of regions that hold them, twice as wide each, and so on up to the whole
@@ -12,8 +12,8 @@
  *     h(e,l) = (1 - delta) m(e,l) / sum_l N(l) m(e,l) + delta / sum_l N(l),
  * N(l) being the vertices that a light sub-path has in l on average.
  *
- * Frozen after the pre-pass: h may guide the choice of light vertices and enter the counts of the MIS weights (mis.h),
- * since it depends on nothing but the two surface points.
+ * The table is frozen before the render: h may guide the choice of light vertices and enter the counts of the MIS
+ * weights (mis.h), since it depends on nothing but the two surface points.
  *
  * Tests: test_pairs.c, test_mis.c.
  */

@@ -18,7 +18,7 @@ enum {
 /* A light vertex that trials may choose. */
 struct choosable {
     const struct vertex *y;
-    double L, useful; /* luminance(beta), 1 on average where E is */
+    double L, useful; /* luminance(beta); (1 - delta) E / mean + delta, see importance.h */
 };
 
 /* Memory of one thread for the light sub-paths of a chunk. */
@@ -68,8 +68,8 @@ static void fill_stock(void *context, struct lessons *l, int thread, long chunk)
     }
 }
 
-/* Connect z to a few light vertices. Close ones would shout everything else down: their worth is what it would be a
- * quarter of a region apart. */
+/* Connect z to a few light vertices. The worth of a pair falls as 1/d^2, so that near ones would hide all others: the
+ * square of a quarter of a region's width is added to that d^2. */
 static void try_vertex(const struct lessons *l, const struct stock *s, const struct vertex *z, struct sampler *sampler,
                        struct findings *out)
 {

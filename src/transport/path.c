@@ -68,8 +68,7 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
     return true;
 }
 
-/* The see-through lamp that the ray meets before the surface at *end (NULL: none), as a vertex; NULL if there is
- * none. */
+/* The see-through lamp that the ray meets before the surface *end (NULL: none), as a vertex; NULL if there is none. */
 static const struct vertex *meet_lamp(const struct walk *w, const struct vertex *prev, const struct departure *from,
                                       const struct surface *end)
 {
