@@ -366,7 +366,7 @@ struct work { /* all memory there is */
 };
 
 /* Where can the camera use light? In proportion to the throughput with which eye sub-paths arrive there. Normalised so
- * that the vertices of a light sub-path are worth 1 on average; frozen before the first sample. (prepass.c) */
+ * that the vertices of a light sub-path are worth 1 on average; frozen before the first sample. (visits.c) */
 static void learn(double *worth, uint64_t *rng)
 {
     const struct counts n = {0, 0, 0, 0, NULL};

@@ -33,7 +33,7 @@ cp pyramid/pyramid.png "$out/"
 "$program" worth "$scene" --pixel 64,100 --spp 64 --quiet -o "$out/worth.png"
 
 # One sample, seen in the left sphere.
-(cd "$tour/../.." && "$program" trace doc/mini/rooms.pbrt --integrator bdpt --pixel 60,80 --maxdepth 4 \
+(cd "$tour/../.." && "$program" trace doc/mini/rooms.pbrt --integrator bdpt --pixel 60,80 --sample 22 --maxdepth 4 \
     --svg "$out/trace.svg" >/dev/null)
 
 # One pixel, on the floor beside the gap: its red value after 1, 4, 16 ... samples.
