@@ -113,6 +113,7 @@ check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject #
 	sh test/keep.sh $(PROGRAM) 100
 	sh test/cluster.sh $(PROGRAM)
 	sh test/readme.sh $(PROGRAM)
+	BUILD=$(BUILD) sh test/add_method.sh
 	sh doc/tour/figures.sh $(PROGRAM) out/figures
 	diff -r doc/tour/figures out/figures
 
