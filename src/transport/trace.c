@@ -4,14 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-void trace_free(struct trace *t)
+void trace_free(struct trace *trace)
 {
-    for (int i = 0; i < t->n_lights; i++)
-        free(t->light[i].vertex);
-    free(t->eye.vertex);
-    free(t->light);
-    free(t->connection);
-    memset(t, 0, sizeof *t);
+    for (int i = 0; i < trace->n_lights; i++)
+        free(trace->light[i].vertex);
+    free(trace->eye.vertex);
+    free(trace->light);
+    free(trace->connection);
+    memset(trace, 0, sizeof *trace);
 }
 
 /* Copy the vertices that are not there yet. */
@@ -26,42 +26,42 @@ static void copy(struct trace_path *to, const struct vertex *path, int n)
     }
 }
 
-void trace_eye_path(struct trace *t, const struct vertex *path, int n, double filter_weight)
+void trace_eye_path(struct trace *trace, const struct vertex *path, int n, double filter_weight)
 {
-    t->filter_weight = filter_weight;
-    copy(&t->eye, path, n);
+    trace->filter_weight = filter_weight;
+    copy(&trace->eye, path, n);
 }
 
-int trace_light_path(struct trace *t, const struct vertex *path, int n)
+int trace_light_path(struct trace *trace, const struct vertex *path, int n)
 {
     int i = 0;
-    while (i < t->n_lights && t->light[i].source != path)
+    while (i < trace->n_lights && trace->light[i].source != path)
         i++;
-    if (i == t->n_lights) {
+    if (i == trace->n_lights) {
         struct trace_path empty = {NULL, 0, 0, NULL};
-        t->light = mem_grow(t->light, &t->light_capacity, (size_t)i + 1, sizeof *t->light);
-        t->light[t->n_lights++] = empty;
+        trace->light = mem_grow(trace->light, &trace->light_capacity, (size_t)i + 1, sizeof *trace->light);
+        trace->light[trace->n_lights++] = empty;
     }
-    copy(&t->light[i], path, n);
+    copy(&trace->light[i], path, n);
     return i;
 }
 
-void trace_connect(struct trace *t, int s, int for_t, const struct vertex *light, const struct connection *c,
+void trace_connect(struct trace *trace, int s, int t, const struct vertex *light, const struct connection *c,
                    double pmf, double scale, rgb added)
 {
-    int path = light != NULL ? trace_light_path(t, light, s) : -1;
-    struct trace_connection made = {s, for_t, path, pmf, *c, scale, added};
-    t->connection =
-        mem_grow(t->connection, &t->connection_capacity, (size_t)t->n_connections + 1, sizeof *t->connection);
-    t->connection[t->n_connections++] = made;
+    int path = light != NULL ? trace_light_path(trace, light, s) : -1;
+    struct trace_connection made = {s, t, path, pmf, *c, scale, added};
+    size_t n = (size_t)trace->n_connections + 1;
+    trace->connection = mem_grow(trace->connection, &trace->connection_capacity, n, sizeof *trace->connection);
+    trace->connection[trace->n_connections++] = made;
 }
 
-rgb trace_sum(const struct trace *t)
+rgb trace_sum(const struct trace *trace)
 {
     rgb sum = rgb_black();
-    for (int i = 0; i < t->n_connections; i++)
-        if (t->connection[i].t > 1)
-            sum = rgb_add(sum, t->connection[i].added);
+    for (int i = 0; i < trace->n_connections; i++)
+        if (trace->connection[i].t > 1)
+            sum = rgb_add(sum, trace->connection[i].added);
     return sum;
 }
 

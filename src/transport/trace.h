@@ -47,25 +47,25 @@ struct trace {
 };
 
 /* A trace starts as zeros but for the sample to watch. trace_free releases what it owns. */
-void trace_free(struct trace *t);
+void trace_free(struct trace *trace);
 
 /* trace_watches: the trace, if it watches this sample, else NULL. */
-static inline struct trace *trace_watches(struct trace *t, int x, int y, long iteration)
+static inline struct trace *trace_watches(struct trace *trace, int x, int y, long iteration)
 {
-    return t != NULL && t->x == x && t->y == y && t->iteration == iteration ? t : NULL;
+    return trace != NULL && trace->x == x && trace->y == y && trace->iteration == iteration ? trace : NULL;
 }
 
 /* trace_eye_path: the eye sub-path. trace_light_path: a light sub-path, once or more often; returns its number. */
-void trace_eye_path(struct trace *t, const struct vertex *path, int n, double filter_weight);
-int trace_light_path(struct trace *t, const struct vertex *path, int n);
+void trace_eye_path(struct trace *trace, const struct vertex *path, int n, double filter_weight);
+int trace_light_path(struct trace *trace, const struct vertex *path, int n);
 
 /* trace_connect: a connection has been made or tried.
  *   light  the light sub-path whose first s vertices it has; NULL for s <= 1 */
-void trace_connect(struct trace *t, int s, int for_t, const struct vertex *light, const struct connection *c,
+void trace_connect(struct trace *trace, int s, int t, const struct vertex *light, const struct connection *c,
                    double pmf, double scale, rgb added);
 
 /* trace_sum: what was added to the sample's own pixel: all with t >= 2, in their order. */
-rgb trace_sum(const struct trace *t);
+rgb trace_sum(const struct trace *trace);
 
 /* trace_pdf_rev: the density with which a walk from the other end would have made vertex i, measured as its pdf_fwd,
  * given the two vertices after it; below 0 where the sub-path does not have them. */
