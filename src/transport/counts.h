@@ -5,8 +5,7 @@
 
 #include "transport/vertex.h"
 
-/* mis_connect_count: n of the strategy s >= 2, t >= 2 whose light end lies in region y and whose eye end in region
- * e. */
+/* mis_connect_count: n of the strategy s >= 2, t >= 2 whose light end is in region y and whose eye end in region e. */
 static inline double mis_connect_count(const struct mis_counts *c, int y, int e, enum eye_end end)
 {
     double n = c->connect[end];
