@@ -202,7 +202,7 @@ void shape_bounds(const struct geometry *geo, int prim, float lo[3], float hi[3]
 
 bool shape_intersect(const struct geometry *geo, int prim, const struct ray *ray, struct hit *hit)
 {
-    bool begins = ray->from == shape_triangle_id(prim), ends = ray->to == shape_triangle_id(prim);
+    bool begins = ray->from == shape_prim_id(prim), ends = ray->to == shape_prim_id(prim);
     if (is_quadric(prim)) {
         if (!quadric_intersect(quadric_of(geo, prim), ray, begins, ends, &hit->t))
             return false;
@@ -225,7 +225,7 @@ static void set_primitive(const struct geometry *geo, int prim, struct surface *
 {
     const struct shape_group *group = shape_group_of(geo, prim);
     out->material = group->material;
-    out->triangle_id = shape_triangle_id(prim);
+    out->prim_id = shape_prim_id(prim);
     out->light = group->first_light >= 0 ? group->first_light + prim - group->first_prim : -1;
 }
 

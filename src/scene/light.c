@@ -206,7 +206,7 @@ bool light_sample_cell(const struct light_set *set, const struct geometry *geo, 
             return false;
         out->p = at.p;
         out->n = at.ng;
-        out->triangle_id = shape_triangle_id(l->prim);
+        out->prim_id = shape_prim_id(l->prim);
         break;
     }
     case LIGHT_POINT:
@@ -278,7 +278,7 @@ rgb light_sample_emission(const struct light_set *set, const struct light_point 
         *pdf = light_pdf_emission(set, y0, ray->d);
         return light_Le(set, y0, ray->d);
     }
-    struct ray r = {y0->p, w, 0, INFINITY, y0->triangle_id, 0};
+    struct ray r = {y0->p, w, 0, INFINITY, y0->prim_id, 0};
     *ray = r;
     *pdf = light_pdf_emission(set, y0, w);
     return *pdf > 0 ? rgb_scale(light_Le(set, y0, w), cosine) : rgb_black();

@@ -56,7 +56,7 @@ enum light_kind {
  *   p          on the surface      position           position              -                      -
  *   n          emitting side       0                  0                     0                      0
  *   w          -                   -                  -                     unit, towards it       unit, towards it
- *   triangle_id shape_triangle_id  0                 0                     0                      0
+ *   prim_id    shape_prim_id       0                  0                     0                      0
  *   pdf_cell   1/m^2               1                  1                     1                      1/sr
  *   pdf        pdf_cell times the probability of the cell under `choice`, in all kinds
  *   emission's second draw is      a direction, 1/sr (area, point, spot)    an origin on a disk, 1/m^2
@@ -133,7 +133,7 @@ static inline bool light_at_infinity(const struct light *l)
 struct light_point {
     int light, cell;
     vec3 p, n, w;
-    uint32_t triangle_id;
+    uint32_t prim_id;
     double pdf_cell, pdf;
 };
 

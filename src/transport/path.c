@@ -5,7 +5,7 @@
 
 struct light_point vertex_light_point(const struct vertex *v)
 {
-    struct light_point at = {v->light, v->cell, v->p, v->ng, v->wo, v->triangle_id, 0, 0};
+    struct light_point at = {v->light, v->cell, v->p, v->ng, v->wo, v->prim_id, 0, 0};
     return at;
 }
 
@@ -78,7 +78,7 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
     v->cell = at->light < 0 ? -1 : w->scene->lights.light[at->light].first_cell;
     v->p = at->p;
     v->ng = at->ng;
-    v->triangle_id = at->triangle_id;
+    v->prim_id = at->prim_id;
     v->wo = neg(from->ray.d);
     v->beta = from->beta;
     v->pdf_origin = mode == RADIANCE && at->light >= 0 ? light_pdf_surface(&w->scene->lights, &w->scene->geo, at) : 0;
@@ -140,7 +140,7 @@ static bool depart(const struct walk *w, const struct vertex *v, enum transport 
     out->beta = rgb_mul(v->beta, rgb_scale(s.f, scatter_cosine(v, s.wi, mode) / s.pdf));
     if (rgb_is_black(out->beta) || !rgb_is_finite(out->beta))
         return false;
-    struct ray ray = {v->p, s.wi, ray_margin(v->p), INFINITY, v->triangle_id, 0};
+    struct ray ray = {v->p, s.wi, ray_margin(v->p), INFINITY, v->prim_id, 0};
     out->ray = ray;
     out->pdf = s.pdf;
     out->pdf_rev = s.pdf_rev;
@@ -219,7 +219,7 @@ void vertex_light_end(const struct scene *scene, const struct mis_counts *counts
     out->cell = at->cell;
     out->p = at->p;
     out->ng = at->n;
-    out->triangle_id = at->triangle_id;
+    out->prim_id = at->prim_id;
     out->wo = at->w;
     out->beta = rgb_grey(1 / at->pdf);
     /* An escaping eye ray cannot tell infinite lights apart, so their densities are added up for the weight.
