@@ -37,7 +37,7 @@ static void read_declaration(struct params *p, const struct token *t, struct par
     item->type = PARAM_TYPES;
     item->name = t->text;
     if (type == NULL || name == NULL) {
-        source_warn(p->messages, t->position, NULL, "the parameter \"%.40s\" is passed over: it is declared by its "
+        source_warn(p->messages, t->position, "the parameter \"%.40s\" is passed over: it is declared by its "
                     "type and its name, like \"float radius\"", t->text);
         return;
     }
@@ -47,7 +47,7 @@ static void read_declaration(struct params *p, const struct token *t, struct par
             item->name = name;
             return;
         }
-    source_warn(p->messages, t->position, NULL, "the parameter \"%.40s\" is passed over: unknown type; types are "
+    source_warn(p->messages, t->position, "the parameter \"%.40s\" is passed over: unknown type; types are "
                 "integer, float, bool, string, texture, point2, vector2, point, vector, normal, rgb, xyz, blackbody "
                 "and spectrum", t->text);
 }
@@ -130,9 +130,8 @@ static bool is_usable(struct params *p, const struct param *item)
         return false;
     if (item->type == PARAM_SPECTRUM || item->n == 0 || item->is_text == wants_text(item->type))
         return true;
-    source_warn(p->messages, item->position, NULL, "\"%s %.40s\" is passed over: it wants %s",
-                params_type_name(item->type), item->name,
-                item->is_text ? "numbers, not strings" : "a quoted string, not a number");
+    source_warn(p->messages, item->position, "\"%s %.40s\" is passed over: it wants %s", params_type_name(item->type),
+                item->name, item->is_text ? "numbers, not strings" : "a quoted string, not a number");
     return false;
 }
 

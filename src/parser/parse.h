@@ -43,7 +43,6 @@ struct graphics_state {
     struct material_source material;
     bool reverse; /* ReverseOrientation */
     struct area_light area;
-    const char *medium[2]; /* MediumInterface: the names inside and outside, "" for vacuum */
 };
 
 enum block_kind { BLOCK_ATTRIBUTE, BLOCK_TRANSFORM, BLOCK_OBJECT };
@@ -130,7 +129,8 @@ struct parser {
     struct symbols objects;    /* -> object[] */
     struct shape_list *object; /* [objects.n], owned */
     size_t object_capacity;
-    struct source_position lamp; /* the first see-through lamp; no file: none */
+    struct source_position lamp;   /* the first see-through lamp; no file: none */
+    struct source_position medium; /* the first medium that a MediumInterface names; no file: none */
     int current_object; /* between ObjectBegin and ObjectEnd, else -1 */
     uint64_t copied_bytes; /* of all instances */
     int n_infinite;        /* lights */
@@ -220,10 +220,6 @@ bool parse_placed(struct parser *p);
 /* parse_sees_media: is it an integrator of pbrt-v3 that sees media, or none of its, which may not be less exact? NULL is
  * its default. */
 bool parse_sees_media(const char *integrator);
-
-/* parse_media: false with a message if one of the current media is to be seen, which is not supported: on one side of
- * a shape, or (only_outside) where a camera or a light is. */
-bool parse_media(struct parser *p, struct source_position at, const char *what, bool only_outside);
 
 /* parse_constant: a constant texture. */
 int parse_constant(struct parser *p, rgb value);

@@ -27,7 +27,7 @@ static void screen_window(struct params *q, struct camera *c)
     if (window == NULL)
         return;
     if (n != 4) {
-        source_warn(q->messages, item->position, NULL, "\"screenwindow\" wants four numbers; it is passed over");
+        source_warn(q->messages, item->position, "\"screenwindow\" wants four numbers; it is passed over");
         return;
     }
     if (!(window[0] < window[1] && window[2] < window[3]))
@@ -99,7 +99,7 @@ static void crop_window(struct params *q, double crop[4])
     if (x == NULL)
         return;
     if (n != 4) {
-        source_warn(q->messages, item->position, NULL,
+        source_warn(q->messages, item->position,
                     "\"cropwindow\" wants four numbers, x0 x1 y0 y1, not %d; it is passed over", n);
         return;
     }
@@ -150,7 +150,7 @@ static void check_radii(struct parser *p, void *object)
     for (int i = 0; i < 2; i++) {
         double within = clamp(radius[i], 1e-3, 64);
         if (within != radius[i])
-            source_warn(q->messages, q->position, NULL, "a filter radius of %g pixels is beyond 0.001 and 64; it is %g",
+            source_warn(q->messages, q->position, "a filter radius of %g pixels is beyond 0.001 and 64; it is %g",
                         radius[i], within);
         radius[i] = within;
     }

@@ -77,7 +77,7 @@ static void noise_texture(struct parser *p, void *object) { ((struct texture *)o
 static void marble(struct parser *p, void *object)
 {
     noise_texture(p, object);
-    source_warn(p->params.messages, p->params.position, "marble",
+    source_warn(p->params.messages, p->params.position,
                 "\"marble\" is the book's; that of pbrt-v3 since October 2019 is up to 40 times as bright");
 }
 
@@ -107,8 +107,7 @@ static void imagemap(struct parser *p, void *object)
              !scene_files_picture(q->files, &set->image[image], 0, &inner))
         params_fail(q, at, "%s", inner.text);
     else if (!q->failed && set->image[image].replaced > 0)
-        source_warn(&p->messages, at, set->image_path[image], "%ld numbers of this picture are not finite; 0 instead",
-                    set->image[image].replaced);
+        source_warn(&p->messages, at, "%ld numbers of this picture are not finite; 0 instead", set->image[image].replaced);
     t->u.imagemap.image = image;
     free(path);
 }
@@ -190,8 +189,7 @@ static bool texture(struct parser *p)
         return false;
     p->texture_is_float = strcmp(type.text, "float") == 0;
     if (!p->texture_is_float && strcmp(type.text, "spectrum") != 0 && strcmp(type.text, "color") != 0) {
-        source_warn(&p->messages, type.position, NULL, "unknown texture type \"%.40s\"; use \"float\" or \"spectrum\"",
-                    type.text);
+        source_warn(&p->messages, type.position, "unknown texture type \"%.40s\"; use \"float\" or \"spectrum\"", type.text);
         return false;
     }
     struct texture t = {.kind = TEXTURE_CONSTANT};
