@@ -20,6 +20,10 @@ void *mem_alloc(size_t count, size_t size);
  * Returns the (possibly moved) block. New objects are not cleared. Ends the program like mem_alloc. */
 void *mem_grow(void *array, size_t *capacity, size_t need, size_t size);
 
+/* mem_append: make sure a growing array that holds n objects can hold one more. Its room is kept nowhere: it is a power
+ * of two, doubled when n reaches it. For arrays that only ever grow by one; the rest is as mem_grow's. */
+void *mem_append(void *array, size_t n, size_t size);
+
 /* mem_copy_text: a heap copy of a string, to be given to free(). */
 char *mem_copy_text(const char *text);
 

@@ -40,9 +40,9 @@ struct ply {
     enum encoding encoding;
     struct ply_element element[PLY_MAX_ELEMENTS]; /* [n_elements] */
     struct ply_property *property;                /* [n_properties] */
-    size_t n_elements, n_properties, property_capacity;
+    size_t n_elements, n_properties;
     struct mesh *mesh;
-    size_t n_indices, index_capacity;
+    size_t n_indices;
     struct error *err;
 };
 
@@ -155,7 +155,7 @@ static bool header_property(struct ply *r, size_t line, char word[MAX_WORDS][WOR
     if (!scalar_of(word[p.is_list ? 3 : 1], &p.type))
         return fail_line(r, line, "unknown type ", word[p.is_list ? 3 : 1]);
     strcpy(p.name, word[n - 1]);
-    r->property = mem_grow(r->property, &r->property_capacity, r->n_properties + 1, sizeof *r->property);
+    r->property = mem_append(r->property, r->n_properties, sizeof *r->property);
     r->property[r->n_properties++] = p;
     r->element[r->n_elements - 1].n++;
     return true;
@@ -314,10 +314,11 @@ static bool assign_uv(struct ply *r, const struct ply_element *e)
 static void add_triangle(struct ply *r, uint32_t a, uint32_t b, uint32_t c)
 {
     struct mesh *m = r->mesh;
-    m->index = mem_grow(m->index, &r->index_capacity, r->n_indices + 3, sizeof *m->index);
-    m->index[r->n_indices++] = a;
-    m->index[r->n_indices++] = b;
-    m->index[r->n_indices++] = c;
+    const uint32_t corner[3] = {a, b, c};
+    for (int k = 0; k < 3; k++) {
+        m->index = mem_append(m->index, r->n_indices, sizeof *m->index);
+        m->index[r->n_indices++] = corner[k];
+    }
 }
 
 /* One polygon, cut into a fan around its first corner. */

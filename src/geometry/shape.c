@@ -37,7 +37,7 @@ void geometry_free(struct geometry *geo)
 
 static int add_group(struct geometry *geo, struct shape_group group)
 {
-    geo->group = mem_grow(geo->group, &geo->group_capacity, (size_t)geo->n_groups + 1, sizeof *geo->group);
+    geo->group = mem_append(geo->group, (size_t)geo->n_groups, sizeof *geo->group);
     geo->group[geo->n_groups] = group;
     return geo->n_groups++;
 }
@@ -135,8 +135,7 @@ int shape_add_quadric(struct geometry *geo, struct quadric q, struct shape_group
     group.flip = reverse_orientation;
     group.has_n = false;
     group.has_uv = true;
-    geo->quadric =
-        mem_grow(geo->quadric, &geo->quadric_capacity, (size_t)geo->n_quadrics + 1, sizeof *geo->quadric);
+    geo->quadric = mem_append(geo->quadric, (size_t)geo->n_quadrics, sizeof *geo->quadric);
     geo->quadric[geo->n_quadrics++] = q;
     return add_group(geo, group);
 }

@@ -46,7 +46,7 @@ struct geometry {
     struct quadric *quadric;    /* [n_quadrics] */
     struct shape_group *group;  /* [n_groups] */
     int n_vertices, n_triangles, n_quadrics, n_groups;
-    size_t vertex_capacity, triangle_capacity, quadric_capacity, group_capacity;
+    size_t vertex_capacity, triangle_capacity;
 
     /* Alpha textures: asked at a hit of a group with alpha or shadow_alpha >= 0. Returns true where the
      * surface is there. Set by scene.c; NULL means everything is opaque. */

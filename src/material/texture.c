@@ -26,8 +26,7 @@ int texture_add(struct texture_set *set, struct texture t)
         t.cost += cost_of(set, t.u.cubes.tex1) + cost_of(set, t.u.cubes.tex2);
     if (t.kind == TEXTURE_FBM || t.kind == TEXTURE_WRINKLED || t.kind == TEXTURE_MARBLE)
         t.cost += t.u.noise.octaves;
-    set->texture =
-        mem_grow(set->texture, &set->texture_capacity, (size_t)set->n_textures + 1, sizeof *set->texture);
+    set->texture = mem_append(set->texture, (size_t)set->n_textures, sizeof *set->texture);
     set->texture[set->n_textures] = t;
     return set->n_textures++;
 }
@@ -40,7 +39,7 @@ int texture_add_constant(struct texture_set *set, rgb value)
 
 int texture_add_space(struct texture_set *set, struct transform current)
 {
-    set->space = mem_grow(set->space, &set->space_capacity, (size_t)set->n_spaces + 1, sizeof *set->space);
+    set->space = mem_append(set->space, (size_t)set->n_spaces, sizeof *set->space);
     set->space[set->n_spaces] = current;
     return set->n_spaces++;
 }
@@ -54,9 +53,8 @@ int texture_load_image(struct texture_set *set, const char *path, struct error *
     if (!image_read(path, &img, err))
         return -1;
     image_mend(&img, false);
-    size_t need = (size_t)set->n_images + 1;
-    set->image = mem_grow(set->image, &set->image_capacity, need, sizeof *set->image);
-    set->image_path = mem_grow(set->image_path, &set->path_capacity, need, sizeof *set->image_path);
+    set->image = mem_append(set->image, (size_t)set->n_images, sizeof *set->image);
+    set->image_path = mem_append(set->image_path, (size_t)set->n_images, sizeof *set->image_path);
     set->image[set->n_images] = img;
     set->image_path[set->n_images] = mem_copy_text(path);
     return set->n_images++;

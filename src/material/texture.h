@@ -82,7 +82,6 @@ struct texture_set {
     struct image *image;     /* [n_images], owned */
     char **image_path;       /* [n_images], owned */
     int n_textures, n_spaces, n_images;
-    size_t texture_capacity, space_capacity, image_capacity, path_capacity;
 };
 
 /* texture_add: append a texture; returns its number. Textures it names must have been added before.

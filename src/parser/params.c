@@ -206,11 +206,11 @@ static rgb rgb_from_pairs(struct params *p, const struct source_file *file)
     struct arena arena = {NULL, NULL};
     struct lexer l = lexer_start(file, &arena, p->messages);
     double *number = NULL;
-    size_t n = 0, capacity = 0;
+    size_t n = 0;
     struct token t = {0};
     bool ok = lexer_next(&l, &t);
     for (; ok && t.kind == TOKEN_NUMBER; ok = lexer_next(&l, &t)) {
-        number = mem_grow(number, &capacity, n + 1, sizeof *number);
+        number = mem_append(number, n, sizeof *number);
         number[n++] = t.number;
     }
     if (!ok)

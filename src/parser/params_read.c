@@ -60,7 +60,7 @@ static bool wants_text(enum param_type type)
 /* One more value. Returns true. */
 static bool add_number(struct params *p, struct param *item, double number)
 {
-    p->number = mem_grow(p->number, &p->number_capacity, p->n_number + 1, sizeof *p->number);
+    p->number = mem_append(p->number, p->n_number, sizeof *p->number);
     p->number[p->n_number++] = number;
     item->n++;
     return true;
@@ -68,7 +68,7 @@ static bool add_number(struct params *p, struct param *item, double number)
 
 static bool add_text(struct params *p, struct param *item, const char *text)
 {
-    p->string = mem_grow(p->string, &p->string_capacity, p->n_string + 1, sizeof *p->string);
+    p->string = mem_append(p->string, p->n_string, sizeof *p->string);
     p->string[p->n_string++] = text;
     item->is_text = true;
     item->n++;

@@ -77,7 +77,6 @@ struct shape_item {
 struct shape_list {
     struct shape_item *item; /* [n], owned with their meshes */
     int n;
-    size_t capacity;
 };
 
 enum { CONSTANTS = 256, MAX_INCLUDE_DEPTH = 32 };
@@ -107,28 +106,22 @@ struct parser {
     struct scene_files named; /* what may be read, and how often */
     struct symbols files; /* path -> file[]: a file included twice is read once */
     struct loaded *file;  /* [files.n], owned */
-    size_t file_capacity;
 
     struct transform_state place;
     struct graphics_state state;
     struct pushed_transform *pushed; /* [n_pushed], innermost last, owned */
     int n_pushed;
-    size_t pushed_capacity;
     struct pushed_state *block; /* [n_blocks], innermost last, owned */
     int n_blocks;
-    size_t block_capacity;
 
     struct symbols float_textures, spectrum_textures, materials; /* scoped; materials -> material[] */
     struct material_source *material;                            /* [n_materials], owned */
     int n_materials;
-    size_t material_capacity;
     struct symbols media;                                        /* -> 0 */
     struct symbols systems;                                      /* -> system[] */
     struct transform *system;                                    /* [systems.n], owned */
-    size_t system_capacity;
     struct symbols objects;    /* -> object[] */
     struct shape_list *object; /* [objects.n], owned */
-    size_t object_capacity;
     struct source_position lamp;   /* the first see-through lamp; no file: none */
     struct source_position medium; /* the first medium that a MediumInterface names; no file: none */
     int current_object; /* between ObjectBegin and ObjectEnd, else -1 */

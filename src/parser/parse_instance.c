@@ -68,7 +68,7 @@ static bool add_shape(struct parser *p, const struct shape_item *item, struct tr
 
 static void shape_list_add(struct shape_list *list, const struct shape_item *item)
 {
-    list->item = mem_grow(list->item, &list->capacity, (size_t)list->n + 1, sizeof *list->item);
+    list->item = mem_append(list->item, (size_t)list->n, sizeof *list->item);
     list->item[list->n++] = *item;
 }
 
@@ -101,7 +101,7 @@ static bool object_begin(struct parser *p)
     if (p->current_object >= 0)
         source_warn(&p->messages, p->directive.position,
                     "ObjectBegin inside an object; as in pbrt-v3, the outer one ends here");
-    p->object = mem_grow(p->object, &p->object_capacity, (size_t)p->objects.n + 1, sizeof *p->object);
+    p->object = mem_append(p->object, (size_t)p->objects.n, sizeof *p->object);
     memset(&p->object[p->objects.n], 0, sizeof *p->object);
     p->current_object = p->objects.n;
     symbols_add(&p->objects, name.text, p->current_object);

@@ -180,7 +180,7 @@ static bool make_named_material(struct parser *p)
     ok = ok && parse_make_material(p, &made);
     if (symbols_find(&p->materials, name.text) >= 0)
         source_warn(&p->messages, name.position, "the material \"%.60s\" is defined again", name.text);
-    p->material = mem_grow(p->material, &p->material_capacity, (size_t)p->n_materials + 1, sizeof *p->material);
+    p->material = mem_append(p->material, (size_t)p->n_materials, sizeof *p->material);
     p->material[p->n_materials] = made;
     symbols_add(&p->materials, name.text, p->n_materials++);
     return ok;

@@ -136,7 +136,7 @@ static bool concat_transform(struct parser *p)
 
 void parse_name_system(struct parser *p, const char *name, struct transform t)
 {
-    p->system = mem_grow(p->system, &p->system_capacity, (size_t)p->systems.n + 1, sizeof *p->system);
+    p->system = mem_append(p->system, (size_t)p->systems.n, sizeof *p->system);
     p->system[p->systems.n] = t;
     symbols_add(&p->systems, name, p->systems.n);
 }
@@ -195,7 +195,7 @@ void parse_close_all(struct parser *p)
 static void push_transform(struct parser *p, enum block_kind kind)
 {
     struct pushed_transform top = {kind, p->directive.position, p->place};
-    p->pushed = mem_grow(p->pushed, &p->pushed_capacity, (size_t)p->n_pushed + 1, sizeof *p->pushed);
+    p->pushed = mem_append(p->pushed, (size_t)p->n_pushed, sizeof *p->pushed);
     p->pushed[p->n_pushed++] = top;
 }
 
@@ -222,7 +222,7 @@ static bool is_open(struct parser *p, int n, enum block_kind kind)
 bool parse_open_block(struct parser *p, enum block_kind kind)
 {
     struct pushed_state b = {p->state, p->float_textures.n, p->spectrum_textures.n, p->materials.n};
-    p->block = mem_grow(p->block, &p->block_capacity, (size_t)p->n_blocks + 1, sizeof *p->block);
+    p->block = mem_append(p->block, (size_t)p->n_blocks, sizeof *p->block);
     p->block[p->n_blocks++] = b;
     push_transform(p, kind);
     return true;

@@ -164,7 +164,7 @@ static int load(struct parser *p, const char *path, struct error *err)
             return -1;
         f.content = hash_content(f.text, f.size);
         i = p->files.n;
-        p->file = mem_grow(p->file, &p->file_capacity, (size_t)i + 1, sizeof *p->file);
+        p->file = mem_append(p->file, (size_t)i, sizeof *p->file);
         p->file[i] = f;
         symbols_add(&p->files, path, i);
     }

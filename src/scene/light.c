@@ -11,7 +11,7 @@
 
 int light_add(struct light_set *set, struct light l)
 {
-    set->light = mem_grow(set->light, &set->capacity, (size_t)set->n + 1, sizeof *set->light);
+    set->light = mem_append(set->light, (size_t)set->n, sizeof *set->light);
     set->light[set->n] = l;
     return set->n++;
 }
@@ -39,8 +39,7 @@ static struct light_picture *picture_of(struct light_set *set, const char *path,
         if ((set->picture[i].env != NULL) == map && strcmp(set->picture[i].path, path) == 0)
             return &set->picture[i];
     struct light_picture added = {mem_copy_text(path), NULL, NULL};
-    set->picture =
-        mem_grow(set->picture, &set->picture_capacity, (size_t)set->n_pictures + 1, sizeof *set->picture);
+    set->picture = mem_append(set->picture, (size_t)set->n_pictures, sizeof *set->picture);
     set->picture[set->n_pictures] = added;
     return &set->picture[set->n_pictures++];
 }

@@ -90,10 +90,8 @@ struct light_picture {
 struct light_set {
     struct light *light; /* [n], owned */
     int n;
-    size_t capacity;
     struct light_picture *picture; /* [n_pictures], owned */
     int n_pictures;
-    size_t picture_capacity;
     int n_cells;
     int *light_of_cell;        /* [n_cells], owned */
     struct alias_table choice; /* of a cell, by power */

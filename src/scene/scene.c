@@ -34,7 +34,7 @@ void scene_free(struct scene *s)
 
 int scene_add_material(struct scene *s, struct material m)
 {
-    s->material = mem_grow(s->material, &s->material_capacity, (size_t)s->n_materials + 1, sizeof *s->material);
+    s->material = mem_append(s->material, (size_t)s->n_materials, sizeof *s->material);
     s->material[s->n_materials] = m;
     return s->n_materials++;
 }

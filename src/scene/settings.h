@@ -22,7 +22,6 @@ struct setting {
 struct settings {
     struct setting *item; /* [n], owned */
     int n;
-    size_t capacity;
 };
 
 /* settings_set: add, or replace all of that name; the texts are copied. settings_remove: forget number i.
