@@ -158,7 +158,7 @@ int parse_constant(struct parser *p, rgb value)
     uint32_t h = hash_bytes(&value, sizeof value);
     int *slot = &p->constant[(h ^ h >> 16) % CONSTANTS];
     const struct texture *known = *slot > 0 ? &p->scene->textures.texture[*slot - 1] : NULL;
-    if (known == NULL || memcmp(&known->u.constant, &value, sizeof value) != 0)
+    if (known == NULL || memcmp(&known->constant, &value, sizeof value) != 0)
         *slot = texture_add_constant(&p->scene->textures, value) + 1;
     return *slot - 1;
 }
@@ -191,7 +191,7 @@ static void check_range(struct parser *p, const struct parameter *row, int textu
     const struct texture *t = texture < 0 ? NULL : &p->scene->textures.texture[texture];
     if (t == NULL || t->kind != TEXTURE_CONSTANT)
         return;
-    const double value[3] = {t->u.constant.r, t->u.constant.g, t->u.constant.b};
+    const double value[3] = {t->constant.r, t->constant.g, t->constant.b};
     for (int i = 0; i < 3 && !p->params.failed; i++)
         if (!(value[i] >= row->low && value[i] <= row->high)) {
             const struct param *item = params_ignore(&p->params, row->name);

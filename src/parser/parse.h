@@ -160,7 +160,7 @@ struct object_type {
 #define POSITIVE NUMBER_MIN, (double)INFINITY
 #define AT_LEAST_0 0, (double)INFINITY
 #define IGNORED(name) {name, parse_ignored, 0, GREY(0), 0, 0, NULL} /* nothing here depends on it */
-#define BY_BUILD(name) {name, NULL, 0, GREY(0), 0, 0, NULL}
+#define BY_BUILD(name) {name, NULL, 0, GREY(0), 0, 0, NULL} /* for whoever lists what a type has */
 #define END_OF_PARAMETERS {NULL, NULL, 0, GREY(0), 0, 0, NULL}
 #define REFUSED(name) {name, NULL, 0, NULL}
 enum { REFUSE_OTHERS, LEAVE_OTHERS_OUT };                    /* kinds of a row behind a table without parameters */

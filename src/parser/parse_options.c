@@ -133,8 +133,8 @@ static void image_film(struct parser *p, void *object)
 static const struct parameter IMAGE_FILM[] = {
     SCENE("xresolution", parse_integer, width, 1280, PIXELS),
     SCENE("yresolution", parse_integer, height, 720, PIXELS),
-    BY_BUILD("cropwindow"),
     SCENE("scale", parse_number, film_scale, 1, AT_LEAST_0),
+    BY_BUILD("cropwindow"),
     BY_BUILD("filename"),
     IGNORED("diagonal"), /* for realistic cameras only */
     {"maxsampleluminance", parse_ignored, 0, GREY(0), 0, 0,
@@ -211,32 +211,8 @@ static const struct parameter TREE[] = {END_OF_PARAMETERS};
 static const struct object_type ACCELERATOR_TYPES[] = {
     {"kdtree", TREE, 0, NULL}, {"bvh", TREE, 0, NULL}, OTHERS_LIKE(TREE, 0, NULL)};
 
-/* How many digits tell this number from all others. */
-static int digits(double x)
-{
-    char text[40];
-    snprintf(text, sizeof text, "%.15g", x);
-    return strtod(text, NULL) == x ? 15 : 17;
-}
-
-/* The values of a parameter as one text, blanks between them. To be given to free(). */
-static char *value_text(const struct param *item)
-{
-    size_t size = 1, used = 0;
-    for (int i = 0; i < item->n; i++)
-        size += 1 + (item->is_text ? strlen(item->text[i]) : 32);
-    char *text = mem_alloc(size, 1);
-    for (int i = 0; i < item->n; i++) {
-        const char *blank = i > 0 ? " " : "";
-        double x = item->is_text ? 0 : item->number[i];
-        int n = item->is_text ? snprintf(text + used, size - used, "%s%s", blank, item->text[i])
-                              : snprintf(text + used, size - used, "%s%.*g", blank, digits(x), x);
-        used += (size_t)n;
-    }
-    return text;
-}
-
-/* Which parameters an integrator has is its own affair: all are kept as text with their position. */
+/* Which parameters an integrator has is its own affair: the first value of each is kept as text, with its position; none
+ * has several. */
 static bool integrator(struct parser *p)
 {
     if (!parse_typed(p))
@@ -246,13 +222,14 @@ static bool integrator(struct parser *p)
     free(s->integrator);
     s->integrator = mem_copy_text(q->type);
     settings_clear(&s->settings);
-    for (int i = 0; i < q->n; i++) {
-        char origin[512];
-        source_position_text(q->item[i].position, origin, sizeof origin);
-        char *text = value_text(&q->item[i]);
-        settings_declare(&s->settings, q->item[i].name, text, origin, params_type_name(q->item[i].type), q->item[i].n);
-        free(text);
-        q->item[i].used = true;
+    for (struct param *item = q->item; item < q->item + q->n; item++) {
+        char origin[512], number[32] = "";
+        source_position_text(item->position, origin, sizeof origin);
+        if (item->n > 0 && !item->is_text)
+            snprintf(number, sizeof number, "%.15g", item->number[0]); /* what was written, if it had no more digits */
+        settings_declare(&s->settings, item->name, item->is_text ? item->text[0] : number, origin,
+                         params_type_name(item->type), item->n);
+        item->used = true;
     }
     return params_done(q);
 }

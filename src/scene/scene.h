@@ -35,7 +35,6 @@ struct scene {
     struct texture_set textures;
     struct material *material; /* [n_materials], owned */
     int n_materials;
-    struct arena arena; /* what scene_prepare makes of the materials */
     struct light_set lights;
 
     struct camera camera;

@@ -32,7 +32,7 @@ void settings_clear(struct settings *s);
 
 /* settings_declare: add what a scene file declares, beside declarations of another type.
  *   type      borrowed: a constant
- *   n_values  how many values `value` holds, blanks between them */
+ *   n_values  how many values it has, of which `value` is the first */
 void settings_declare(struct settings *s, const char *name, const char *value, const char *origin, const char *type,
                       int n_values);
 
