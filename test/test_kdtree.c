@@ -273,11 +273,11 @@ static void compare(struct test *t, const char *name, const struct geometry *geo
         bool want, next = false, same = same_as_brute(&kd, geo, see_through, &ray, &want, &a, &b);
         hits += want;
         if (same && want && geo->opaque == NULL) {
-            ray.from = shape_triangle_id(a.prim);
+            ray.from = shape_prim_id(a.prim);
             same = same_as_brute(&kd, geo, see_through, &ray, &next, &a, &b);
         }
         if (same && next) {
-            ray.to = shape_triangle_id(a.prim);
+            ray.to = shape_prim_id(a.prim);
             same = same_as_brute(&kd, geo, see_through, &ray, &next, &a, &b);
         }
         wrong += !same;

@@ -69,7 +69,7 @@ static void lobes_of_materials(struct test *t)
         black.index = b.grey[5];
         bsdf = make(&b, &black, 0);
         CHECK(t, strcmp(kinds(&bsdf, text), BLACK[kind]) == 0, "black material %d has lobes %s", kind, text);
-        CHECK(t, material_fits(&m, 0), "material %d fits", kind);
+        CHECK(t, material_lobes(NULL, &m) >= (int)strlen(text), "material %d: %d lobes", kind, material_lobes(NULL, &m));
     }
     struct material matte = all_same(MATERIAL_MATTE, b.grey[5]);
     matte.sigma = b.grey[0];
@@ -136,74 +136,24 @@ static void mixing(struct test *t)
     CHECK(t, fabs(f[OUTER] / outer - 1) < 1e-12, "mix in a mix: %g, should be %g", f[OUTER], outer);
     struct bsdf first = make(&b, m, ONLY_FIRST);
     CHECK(t, first.n_lobes == 1 && f[ONLY_FIRST] == f[MATTE], "a share of 0 drops the lobes");
-    CHECK(t, material_fits(m, OUTER), "three materials fit");
     arena_free(&b.arena);
     texture_set_free(&b.textures);
 }
 
-static bool same_lobes(const struct bsdf *a, const struct bsdf *b)
-{
-    bool same = a->n_lobes == b->n_lobes && a->n_smooth == b->n_smooth;
-    for (int i = 0; same && i < a->n_lobes; i++) {
-        const struct lobe *p = &a->lobe[i], *q = &b->lobe[i];
-        same = p->kind == q->kind && p->R.g == q->R.g && p->T.g == q->T.g && p->choice == q->choice &&
-               p->scale.g == q->scale.g && p->alpha_x == q->alpha_x && p->eta_b == q->eta_b;
-    }
-    return same;
-}
-
-/* BSDFs made in advance are those made at every hit; what varies is not made in advance. */
-static void in_advance(struct test *t)
-{
-    struct bench b;
-    set_up(&b);
-    struct texture checks = {.kind = TEXTURE_CHECKERBOARD};
-    checks.u.pattern.tex1 = b.grey[2];
-    checks.u.pattern.tex2 = b.grey[8];
-    checks.u.pattern.map.su = checks.u.pattern.map.sv = 1;
-    int varying = texture_add(&b.textures, checks);
-    enum { KINDS = MATERIAL_MIX + 1, N = KINDS + 3 };
-    struct material m[N];
-    struct bsdf each[N];
-    for (int kind = 0; kind < KINDS; kind++)
-        m[kind] = all_same((enum material_kind)kind, b.grey[3]);
-    m[MATERIAL_MIX].mix1 = MATERIAL_PLASTIC;
-    m[MATERIAL_MIX].mix2 = MATERIAL_GLASS;
-    m[KINDS] = all_same(MATERIAL_MATTE, b.grey[3]);
-    m[KINDS].Kd = varying;
-    m[KINDS + 1] = m[MATERIAL_MIX];
-    m[KINDS + 1].mix2 = KINDS;
-    m[KINDS + 2] = m[MATERIAL_MIX];
-    m[KINDS + 2].amount = varying;
-    for (int i = 0; i < N; i++)
-        each[i] = make(&b, m, i);
-    material_prepare(m, N, &b.textures, &b.arena);
-    for (int i = 0; i < N; i++) {
-        struct bsdf bsdf = make(&b, m, i);
-        CHECK(t, same_lobes(&bsdf, &each[i]) && bsdf.shading.n.z == 1 && bsdf.ng.z == 1, "material %d in advance", i);
-        CHECK(t, (m[i].uniform != NULL) == (i < KINDS), "material %d is%s uniform", i, i < KINDS ? "" : " not");
-    }
-    arena_free(&b.arena);
-    texture_set_free(&b.textures);
-}
-
-/* Mixes that are too large, or contain each other: found out, and harmless if not. */
+/* Mixes that are too large: found out, and harmless if not. */
 static void too_many(struct test *t)
 {
     struct bench b;
     set_up(&b);
-    struct material ring[2] = {all_same(MATERIAL_MIX, b.grey[5]), all_same(MATERIAL_MIX, b.grey[5])};
-    ring[0].mix1 = ring[0].mix2 = 1;
-    struct bsdf bsdf = make(&b, ring, 0);
-    CHECK(t, !material_fits(ring, 0) && bsdf.n_lobes == 0, "mixes of each other");
+    static const int WANT[6] = {5, 10, 17, 17, 17, 17};
     struct material tower[6];
-    tower[0] = all_same(MATERIAL_UBER, b.grey[5]);
-    for (int i = 1; i < 6; i++) {
-        tower[i] = all_same(MATERIAL_MIX, b.grey[5]);
+    for (int i = 0; i < 6; i++) {
+        tower[i] = all_same(i == 0 ? MATERIAL_UBER : MATERIAL_MIX, b.grey[5]);
         tower[i].mix1 = tower[i].mix2 = i - 1;
+        tower[i].n_lobes = material_lobes(tower, &tower[i]);
+        CHECK(t, tower[i].n_lobes == WANT[i], "%d mixes: %d lobes", i, tower[i].n_lobes);
     }
-    CHECK(t, material_fits(tower, 1) && !material_fits(tower, 2) && !material_fits(tower, 5), "10, 20, 160 lobes");
-    bsdf = make(&b, tower, 5);
+    struct bsdf bsdf = make(&b, tower, 5);
     CHECK(t, bsdf.n_lobes <= MATERIAL_MAX_LOBES, "%d lobes", bsdf.n_lobes);
     arena_free(&b.arena);
     texture_set_free(&b.textures);
@@ -217,10 +167,10 @@ static void bump(struct test *t)
     struct texture ramp;
     memset(&ramp, 0, sizeof ramp);
     ramp.kind = TEXTURE_BILERP;
-    ramp.u.bilerp.v01 = rgb_grey(0.4);
-    ramp.u.bilerp.v10 = rgb_grey(0.6);
-    ramp.u.bilerp.v11 = rgb_grey(1);
-    ramp.u.bilerp.map.su = ramp.u.bilerp.map.sv = 1;
+    ramp.v01 = rgb_grey(0.4);
+    ramp.v10 = rgb_grey(0.6);
+    ramp.v11 = rgb_grey(1);
+    ramp.map.su = ramp.map.sv = 1;
     int id = texture_add(&b.textures, ramp);
     vec3 tilted = normalize(cross(vec(2, 0, 0.6), vec(0, 1, 0.4)));
     struct material m = all_same(MATERIAL_MATTE, b.grey[5]);
@@ -258,7 +208,6 @@ void test_material(struct test *t)
     lobes_of_materials(t);
     roughness(t);
     mixing(t);
-    in_advance(t);
     too_many(t);
     bump(t);
 }

@@ -182,7 +182,7 @@ static bool same_rgb(rgb a, double r, double g, double b) { return near(a.r, r) 
 static bool is_constant(const struct scene *s, int texture, double r, double g, double b)
 {
     const struct texture *x = &s->textures.texture[texture];
-    return texture >= 0 && x->kind == TEXTURE_CONSTANT && same_rgb(x->u.constant, r, g, b);
+    return texture >= 0 && x->kind == TEXTURE_CONSTANT && same_rgb(x->constant, r, g, b);
 }
 
 static bool is_grey(const struct scene *s, int texture, double v) { return is_constant(s, texture, v, v, v); }
@@ -220,7 +220,7 @@ static void check_options(struct test *t)
                                           {"visualize", "true"},
                                           {"threshold", "0.1"},
                                           {"select", "vertices"},
-                                          {"pixelbounds", "0 10 0 20"}};
+                                          {"pixelbounds", "0"}};
     for (int i = 0; i < 5; i++)
         CHECK(t, strcmp(settings_text(&s.settings, WANT[i][0], ""), WANT[i][1]) == 0, "setting %s is %s",
               WANT[i][0], settings_text(&s.settings, WANT[i][0], "absent"));
@@ -449,28 +449,28 @@ static void check_textures(struct test *t)
         all = (x[i] = texture_number(&s, i)) != NULL && all;
     if (CHECK(t, all, "eight textures that are not constant")) {
         CHECK(t,
-              x[0]->kind == TEXTURE_SCALE && is_constant(&s, x[0]->u.pair.tex1, .1, .2, .3) &&
-                  is_grey(&s, x[0]->u.pair.tex2, 2),
+              x[0]->kind == TEXTURE_SCALE && is_constant(&s, x[0]->tex1, .1, .2, .3) &&
+                  is_grey(&s, x[0]->tex2, 2),
               "scale");
         CHECK(t,
-              x[1]->kind == TEXTURE_MIX && is_grey(&s, x[1]->u.pair.tex1, 1) &&
-                  is_grey(&s, x[1]->u.pair.amount, .25),
+              x[1]->kind == TEXTURE_MIX && is_grey(&s, x[1]->tex1, 1) &&
+                  is_grey(&s, x[1]->amount, .25),
               "mix");
-        const struct mapping *m = &x[2]->u.pattern.map;
+        const struct mapping *m = &x[2]->map;
         CHECK(t,
-              x[2]->kind == TEXTURE_CHECKERBOARD && is_grey(&s, x[2]->u.pattern.tex2, 0) && m->su == 4 &&
+              x[2]->kind == TEXTURE_CHECKERBOARD && is_grey(&s, x[2]->tex2, 0) && m->su == 4 &&
                   m->sv == 2 && m->du == .5 && m->dv == .25,
               "checkerboard and mapping");
-        CHECK(t, x[3]->u.imagemap.wrap == WRAP_CLAMP && x[3]->u.imagemap.scale == 2 && !x[3]->u.imagemap.gamma,
+        CHECK(t, x[3]->wrap == WRAP_CLAMP && x[3]->scale == 2 && !x[3]->gamma,
               "pfm");
         CHECK(t,
-              x[4]->u.imagemap.wrap == WRAP_BLACK && x[4]->u.imagemap.gamma && !x[5]->u.imagemap.gamma &&
-                  x[5]->u.imagemap.wrap == WRAP_REPEAT,
+              x[4]->wrap == WRAP_BLACK && x[4]->gamma && !x[5]->gamma &&
+                  x[5]->wrap == WRAP_REPEAT,
               "tga is decoded unless told otherwise");
-        CHECK(t, s.textures.n_images == 2 && x[4]->u.imagemap.image == x[5]->u.imagemap.image, "images are shared");
+        CHECK(t, s.textures.n_images == 2 && x[4]->image == x[5]->image, "images are shared");
         CHECK(t,
-              same_rgb(x[6]->u.bilerp.v00, 1, 0, 0) && same_rgb(x[6]->u.bilerp.v01, 1, 1, 1) &&
-                  same_rgb(x[6]->u.bilerp.v10, 0, 0, 0) && x[7]->u.bilerp.v01.r == 3,
+              same_rgb(x[6]->v00, 1, 0, 0) && same_rgb(x[6]->v01, 1, 1, 1) &&
+                  same_rgb(x[6]->v10, 0, 0, 0) && x[7]->v01.r == 3,
               "bilerp");
     }
     scene_free(&s);

@@ -360,12 +360,12 @@ static void check_own_quadric(struct test *t, int i, struct rng *r)
         if (!CHECK(t, shape_intersect(&geo, FIRST_QUADRIC, &ray, &hit), "quadric %d is missed", i))
             continue;
         shape_surface(&geo, &hit, &ray, &at);
-        struct ray arrive = {o, ray.d, 0, length(sub(at.p, o)), 0, shape_triangle_id(FIRST_QUADRIC)};
+        struct ray arrive = {o, ray.d, 0, length(sub(at.p, o)), 0, shape_prim_id(FIRST_QUADRIC)};
         CHECK(t, !shape_intersect(&geo, FIRST_QUADRIC, &arrive, &again), "quadric %d stands before itself", i);
         double cosine = pow(10, -5 * rng_uniform(r));
         vec3 along = normalize(cross(at.ng, on_sphere(r)));
         struct ray leave = {at.p, normalize(add(along, mul(at.ng, cosine))), 0, HUGE_VAL,
-                            shape_triangle_id(FIRST_QUADRIC), 0};
+                            shape_prim_id(FIRST_QUADRIC), 0};
         double blur = 1e-7 * size + 1e-10 * length(at.p);
         struct ray beyond = {at.p, leave.d, blur, HUGE_VAL, 0, 0};
         bool met = shape_intersect(&geo, FIRST_QUADRIC, &leave, &next);

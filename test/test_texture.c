@@ -30,7 +30,7 @@ static const struct mapping IDENTITY = {.su = 1, .sv = 1};
 
 static int add_pair(struct texture_set *set, enum texture_kind kind, int tex1, int tex2, int amount)
 {
-    struct texture x = {.kind = kind, .u = {.pair = {tex1, tex2, amount}}};
+    struct texture x = {.kind = kind, .tex1 = tex1, .tex2 = tex2, .amount = amount};
     return texture_add(set, x);
 }
 
@@ -57,10 +57,10 @@ static void test_checkerboard(struct test *t)
 {
     struct texture_set set = {.n_textures = 0};
     struct texture x = {.kind = TEXTURE_CHECKERBOARD};
-    x.u.pattern.tex1 = texture_add_constant(&set, rgb_grey(1));
-    x.u.pattern.tex2 = texture_add_constant(&set, rgb_grey(2));
+    x.tex1 = texture_add_constant(&set, rgb_grey(1));
+    x.tex2 = texture_add_constant(&set, rgb_grey(2));
     struct mapping map = {.su = 4, .sv = 2, .du = 0.5, .dv = -1};
-    x.u.pattern.map = map;
+    x.map = map;
     int id = texture_add(&set, x);
     for (int j = -9; j <= 9; j++)
         for (int i = -9; i <= 9; i++) {
@@ -80,11 +80,11 @@ static void test_bilerp(struct test *t)
     struct texture_set set = {.n_textures = 0};
     struct texture x = {.kind = TEXTURE_BILERP};
     rgb v00 = rgb_make(1, 0, 0), v01 = rgb_make(2, 1, 0), v10 = rgb_make(4, 0, 3), v11 = rgb_make(8, 5, 5);
-    x.u.bilerp.v00 = v00;
-    x.u.bilerp.v01 = v01;
-    x.u.bilerp.v10 = v10;
-    x.u.bilerp.v11 = v11;
-    x.u.bilerp.map = IDENTITY;
+    x.v00 = v00;
+    x.v01 = v01;
+    x.v10 = v10;
+    x.v11 = v11;
+    x.map = IDENTITY;
     int id = texture_add(&set, x);
     struct surface c00 = at_uv(0, 0), c01 = at_uv(0, 1), c10 = at_uv(1, 0), c11 = at_uv(1, 1),
                    in = at_uv(0.25, 0.5);
@@ -137,11 +137,11 @@ static struct surface at_point(const double p[3])
 static int add_noise(struct texture_set *set, enum texture_kind kind, int octaves, double omega)
 {
     struct texture x = {.kind = kind};
-    x.u.noise.space = 0;
-    x.u.noise.octaves = octaves;
-    x.u.noise.omega = omega;
-    x.u.noise.scale = 2;
-    x.u.noise.variation = 0.4;
+    x.space = 0;
+    x.octaves = octaves;
+    x.omega = omega;
+    x.scale = 2;
+    x.variation = 0.4;
     return texture_add(set, x);
 }
 
@@ -149,7 +149,7 @@ static int add_uv(struct texture_set *set, enum mapping_kind kind)
 {
     struct texture x = {.kind = TEXTURE_UV};
     struct mapping map = {kind, 0, 0, 0, 0.25, -0.5, {1, 2, -1}, {0.5, 0, 3}};
-    x.u.uv.map = map;
+    x.map = map;
     return texture_add(set, x);
 }
 
@@ -159,8 +159,8 @@ static void test_peer(struct test *t)
     struct transform turn = transform_compose(transform_rotate(30, vec(1, 2, 3)), transform_scale(1.5, 0.5, 2));
     texture_add_space(&set, transform_compose(transform_translate(vec(0.1, 0.2, 0.3)), turn));
     struct texture cubes = {.kind = TEXTURE_CUBES};
-    cubes.u.cubes.tex1 = texture_add_constant(&set, rgb_grey(1));
-    cubes.u.cubes.tex2 = texture_add_constant(&set, rgb_grey(0));
+    cubes.tex1 = texture_add_constant(&set, rgb_grey(1));
+    cubes.tex2 = texture_add_constant(&set, rgb_grey(0));
     int id = texture_add(&set, cubes);
     int fbm = add_noise(&set, TEXTURE_FBM, 8, 0.5), fbm3 = add_noise(&set, TEXTURE_FBM, 3, 0.7);
     int wrinkled = add_noise(&set, TEXTURE_WRINKLED, 8, 0.5), wrinkled3 = add_noise(&set, TEXTURE_WRINKLED, 3, 0.7);
@@ -180,8 +180,8 @@ static void test_peer(struct test *t)
             CHECK(t, c.r == x && c.g == x && c.b == x, "point %d, texture %d of noise is not grey", i, k);
         }
         rgb m = texture_rgb(&set, marble, &at), p = texture_rgb(&set, planar, &at);
-        struct st s = map_point(&set.texture[spherical].u.uv.map, set.space, &at);
-        struct st c = map_point(&set.texture[cylindrical].u.uv.map, set.space, &at);
+        struct st s = map_point(&set.texture[spherical].map, set.space, &at);
+        struct st c = map_point(&set.texture[cylindrical].map, set.space, &at);
         CHECK(t, close_to(m.r, w->marble[0]) && close_to(m.g, w->marble[1]) && close_to(m.b, w->marble[2]),
               "point %d: marble %g %g %g", i, m.r, m.g, m.b);
         CHECK(t, close_to(s.s, w->spherical[0]) && close_to(s.t, w->spherical[1]), "point %d: spherical %g %g", i, s.s,
@@ -214,9 +214,9 @@ static void test_dots(struct test *t)
 {
     struct texture_set set = {.n_textures = 0};
     struct texture x = {.kind = TEXTURE_DOTS};
-    x.u.pattern.tex1 = texture_add_constant(&set, rgb_grey(2));
-    x.u.pattern.tex2 = texture_add_constant(&set, rgb_grey(3));
-    x.u.pattern.map = IDENTITY;
+    x.tex1 = texture_add_constant(&set, rgb_grey(2));
+    x.tex2 = texture_add_constant(&set, rgb_grey(3));
+    x.map = IDENTITY;
     int id = texture_add(&set, x), inside = 0;
     for (int j = 0; j < (int)(sizeof DOTS / sizeof DOTS[0]); j++)
         for (int i = 0; DOTS[j][i] != '\0'; i++) {
@@ -267,7 +267,7 @@ static const struct texture *nth(const struct texture_set *set, int k)
     return NULL;
 }
 
-static double value_of(const struct texture_set *set, int id) { return set->texture[id].u.constant.r; }
+static double value_of(const struct texture_set *set, int id) { return set->texture[id].constant.r; }
 
 /* Is this the space that Translate 1 2 3 makes, or the world's? */
 static bool is_moved(const struct texture_set *set, int space, bool moved)
@@ -296,19 +296,19 @@ static void test_patterns_read(struct test *t)
         static const double NOISE[][4] = {{8, 0.5}, {3, 0.7}, {0}, {4, 0.6, 2, 0.4}, {8, 0.5, 1, 0.2}};
         for (int i = 0; i < 5; i++)
             CHECK(t,
-                  x[i]->u.noise.octaves == NOISE[i][0] && x[i]->u.noise.omega == NOISE[i][1] &&
-                      x[i]->u.noise.scale == NOISE[i][2] && x[i]->u.noise.variation == NOISE[i][3] &&
-                      is_moved(set, x[i]->u.noise.space, i >= 2),
+                  x[i]->octaves == NOISE[i][0] && x[i]->omega == NOISE[i][1] &&
+                      x[i]->scale == NOISE[i][2] && x[i]->variation == NOISE[i][3] &&
+                      is_moved(set, x[i]->space, i >= 2),
                   "texture %d of noise", i);
-        const struct mapping *uv = &x[5]->u.uv.map, *planar = &x[6]->u.pattern.map, *round = &x[8]->u.imagemap.map;
+        const struct mapping *uv = &x[5]->map, *planar = &x[6]->map, *round = &x[8]->map;
         CHECK(t, uv->kind == MAPPING_UV && uv->su == 2 && uv->sv == 1 && uv->du == 0 && uv->dv == 0.5, "uv");
         CHECK(t, planar->kind == MAPPING_PLANAR && planar->v1.z == 3 && planar->v2.x == 4, "planar");
         CHECK(t, planar->du == 7 && planar->dv == 8 && planar->v1.x == 1 && planar->v2.z == 6, "planar");
         CHECK(t, round->kind == MAPPING_CYLINDRICAL && is_moved(set, round->space, true), "cylindrical");
-        CHECK(t, x[7]->u.pattern.map.kind == MAPPING_SPHERICAL, "spherical");
-        CHECK(t, &set->texture[x[6]->u.pattern.tex2] == x[0] && value_of(set, x[6]->u.pattern.tex1) == 0, "dots");
-        CHECK(t, value_of(set, x[7]->u.pattern.tex2) == 1 && value_of(set, x[9]->u.cubes.tex1) == 3, "defaults");
-        CHECK(t, value_of(set, x[9]->u.cubes.tex2) == 0 && is_moved(set, x[9]->u.cubes.space, true), "cubes");
+        CHECK(t, x[7]->map.kind == MAPPING_SPHERICAL, "spherical");
+        CHECK(t, &set->texture[x[6]->tex2] == x[0] && value_of(set, x[6]->tex1) == 0, "dots");
+        CHECK(t, value_of(set, x[7]->tex2) == 1 && value_of(set, x[9]->tex1) == 3, "defaults");
+        CHECK(t, value_of(set, x[9]->tex2) == 0 && is_moved(set, x[9]->space, true), "cubes");
     }
     scene_free(&s);
 }
@@ -385,13 +385,13 @@ static void test_decoding(struct test *t)
     CHECK(t, texture_load_image(&set, missing, &err) == -1 && strstr(err.text, missing) == err.text, "%s",
           err.text);
     struct texture x = {.kind = TEXTURE_IMAGEMAP};
-    x.u.imagemap.image = image;
-    x.u.imagemap.scale = 3;
-    x.u.imagemap.map = IDENTITY;
+    x.image = image;
+    x.scale = 3;
+    x.map = IDENTITY;
     int plain = texture_add(&set, x);
-    x.u.imagemap.gamma = true;
+    x.gamma = true;
     int gamma = texture_add(&set, x);
-    x.u.imagemap.image = 1;
+    x.image = 1;
     int grey = texture_add(&set, x);
     struct surface at = at_uv(0.9, 0.1);
     rgb c = rgb_make(200 / 255.0, 100 / 255.0, 20 / 255.0);
@@ -457,8 +457,8 @@ static void test_large_picture(struct test *t)
     for (int i = 0; i < W * H; i++)
         img.f32[i] = (float)((i % W + 0.5) / W + (H - i / W - 0.5) / H);
     struct mapping map = {.su = 0.5, .sv = 0.25, .du = 0.1, .dv = 0.3};
-    x.u.imagemap.map = map;
-    x.u.imagemap.scale = 1;
+    x.map = map;
+    x.scale = 1;
     int id = texture_add(&set, x);
     set.image = &img;
     struct surface at = at_uv(0.7, 0.6);

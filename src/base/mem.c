@@ -42,6 +42,12 @@ void *mem_grow(void *array, size_t *capacity, size_t need, size_t size)
     return p;
 }
 
+void *mem_append(void *array, size_t n, size_t size)
+{
+    size_t capacity = 0;
+    return (n & (n - 1)) == 0 ? mem_grow(array, &capacity, n + 1, size) : array;
+}
+
 char *mem_copy_text(const char *text)
 {
     size_t size = strlen(text) + 1;

@@ -26,6 +26,9 @@ struct bytes {
     uint8_t *data; /* [n], owned */
     size_t n, capacity;
 };
+/* mem_append: make sure a growing array that holds n objects can hold one more. Its room is kept nowhere: it is a power
+ * of two, doubled when n reaches it. For arrays that only ever grow by one; the rest is as mem_grow's. */
+void *mem_append(void *array, size_t n, size_t size);
 
 /* mem_copy_text: a heap copy of a string, to be given to free(). */
 char *mem_copy_text(const char *text);

@@ -37,12 +37,15 @@ struct ply {
     const char *path;
     uint8_t *data; /* [size] the whole file */
     size_t size, pos;
+    size_t at;                         /* where in a header or an ascii file messages point; 0: nowhere */
+    const struct ply_element *reading; /* of which element they speak, NULL: of none */
+    int row;                           /* and of which row of it */
     enum encoding encoding;
     struct ply_element element[PLY_MAX_ELEMENTS]; /* [n_elements] */
     struct ply_property *property;                /* [n_properties] */
-    size_t n_elements, n_properties, property_capacity;
+    size_t n_elements, n_properties;
     struct mesh *mesh;
-    size_t n_indices, index_capacity;
+    size_t n_indices;
     struct error *err;
 };
 
@@ -58,18 +61,15 @@ static int line_at(const struct ply *r, size_t pos)
     return line;
 }
 
-static bool fail(struct ply *r, const char *what) { return error_set(r->err, "%s: %s", r->path, what); }
-
-static bool fail_line(struct ply *r, size_t pos, const char *what, const char *detail)
+/* "PATH:LINE: ELEMENT ROW: what": the line and the row where there are such. */
+static bool fail(struct ply *r, const char *what, const char *detail)
 {
-    return error_set(r->err, "%s:%d: %s%s", r->path, line_at(r, pos), what, detail);
-}
-
-static bool fail_row(struct ply *r, const char *element, int row, const char *what)
-{
-    if (r->encoding == ENCODING_ASCII)
-        return error_set(r->err, "%s:%d: %s %d: %s", r->path, line_at(r, r->pos), element, row, what);
-    return error_set(r->err, "%s: %s %d: %s", r->path, element, row, what);
+    char line[24] = "", row[96] = "";
+    if (r->at > 0)
+        snprintf(line, sizeof line, ":%d", line_at(r, r->at));
+    if (r->reading != NULL)
+        snprintf(row, sizeof row, " %s %d:", r->reading->name, r->row);
+    return error_set(r->err, "%s%s:%s %s%s", r->path, line, row, what, detail);
 }
 
 /* --- header ------------------------------------------------------------------------------------------- */
@@ -80,6 +80,7 @@ enum { MAX_WORDS = 5, WORD_SIZE = 64 };
 static int next_line(struct ply *r, char word[MAX_WORDS][WORD_SIZE])
 {
     char line[512];
+    r->at = r->pos;
     if (r->pos >= r->size)
         return -1;
     const uint8_t *start = r->data + r->pos, *end = memchr(start, '\n', r->size - r->pos);
@@ -113,28 +114,28 @@ static bool scalar_of(const char *name, enum scalar *out)
     return i >= 0;
 }
 
-static bool header_format(struct ply *r, size_t line, const char *name, const char *version)
+static bool header_format(struct ply *r, const char *name, const char *version)
 {
     static const char *const names[] = {"ascii", "binary_little_endian", "binary_big_endian"};
     int i = strcmp(version, "1.0") == 0 ? index_of(name, names, 3) : -1;
     if (i < 0)
-        return fail_line(r, line, "not a format of PLY 1.0: ", name);
+        return fail(r, "not a format of PLY 1.0: ", name);
     r->encoding = (enum encoding)i;
     return true;
 }
 
-static bool header_element(struct ply *r, size_t line, const char *name, const char *count)
+static bool header_element(struct ply *r, const char *name, const char *count)
 {
     char *end;
     errno = 0;
     long n = strtol(count, &end, 10);
     if (*end != 0 || end == count || n < 0 || n > FIRST_QUADRIC || errno != 0)
-        return fail_line(r, line, "not a usable element count: ", count);
+        return fail(r, "not a usable element count: ", count);
     for (size_t i = 0; i < r->n_elements; i++)
         if (strcmp(r->element[i].name, name) == 0)
-            return fail_line(r, line, "a second element named ", name);
+            return fail(r, "a second element named ", name);
     if (r->n_elements == PLY_MAX_ELEMENTS)
-        return fail_line(r, line, "too many elements, of which vertex and face are of use: ", name);
+        return fail(r, "too many elements, of which vertex and face are of use: ", name);
     struct ply_element *e = &r->element[r->n_elements++];
     strcpy(e->name, name);
     e->count = (int)n;
@@ -143,19 +144,19 @@ static bool header_element(struct ply *r, size_t line, const char *name, const c
     return true;
 }
 
-static bool header_property(struct ply *r, size_t line, char word[MAX_WORDS][WORD_SIZE], int n)
+static bool header_property(struct ply *r, char word[MAX_WORDS][WORD_SIZE], int n)
 {
     struct ply_property p = {.is_list = n == 5 && strcmp(word[1], "list") == 0, .role = NO_ROLE};
     if (r->n_elements == 0)
-        return fail_line(r, line, "a property before any element", "");
+        return fail(r, "a property before any element", "");
     if (n != (p.is_list ? 5 : 3))
-        return fail_line(r, line, "expected 'property TYPE NAME' or 'property list TYPE TYPE NAME'", "");
+        return fail(r, "expected 'property TYPE NAME' or 'property list TYPE TYPE NAME'", "");
     if (p.is_list && (!scalar_of(word[2], &p.count_type) || p.count_type >= FLOAT32))
-        return fail_line(r, line, "a list cannot be counted by the type ", word[2]);
+        return fail(r, "a list cannot be counted by the type ", word[2]);
     if (!scalar_of(word[p.is_list ? 3 : 1], &p.type))
-        return fail_line(r, line, "unknown type ", word[p.is_list ? 3 : 1]);
+        return fail(r, "unknown type ", word[p.is_list ? 3 : 1]);
     strcpy(p.name, word[n - 1]);
-    r->property = mem_grow(r->property, &r->property_capacity, r->n_properties + 1, sizeof *r->property);
+    r->property = mem_append(r->property, r->n_properties, sizeof *r->property);
     r->property[r->n_properties++] = p;
     r->element[r->n_elements - 1].n++;
     return true;
@@ -166,35 +167,35 @@ static bool read_header(struct ply *r)
     char word[MAX_WORDS][WORD_SIZE];
     bool has_format = false;
     if (next_line(r, word) != 1 || strcmp(word[0], "ply") != 0)
-        return fail(r, "not a PLY file (its first line is not 'ply')");
+        return fail(r, "not a PLY file (its first line is not 'ply')", "");
     for (;;) {
-        size_t line = r->pos;
         int n = next_line(r, word);
         bool ok = true;
         if (n < 0)
-            return fail(r, "the header has no end_header");
+            return fail(r, "the header has no end_header", "");
         if (n == 0 || strcmp(word[0], "comment") == 0 || strcmp(word[0], "obj_info") == 0)
             continue;
         if (strcmp(word[0], "end_header") == 0)
             break;
         if (strcmp(word[0], "format") == 0 && n == 3)
-            ok = has_format = header_format(r, line, word[1], word[2]);
+            ok = has_format = header_format(r, word[1], word[2]);
         else if (strcmp(word[0], "element") == 0 && n == 3)
-            ok = header_element(r, line, word[1], word[2]);
+            ok = header_element(r, word[1], word[2]);
         else if (strcmp(word[0], "property") == 0)
-            ok = header_property(r, line, word, n);
+            ok = header_property(r, word, n);
         else
-            return fail_line(r, line, "not a line of a PLY header: ", word[0]);
+            return fail(r, "not a line of a PLY header: ", word[0]);
         if (!ok)
             return false;
     }
-    return has_format || fail(r, "the header has no format line");
+    return has_format || fail(r, "the header has no format line", "");
 }
 
 /* Counts are promises; hold them against the bytes that are there before allocating anything. */
 static bool check_counts(struct ply *r)
 {
     double need = 0;
+    r->at = 0;
     for (size_t i = 0; i < r->n_elements; i++) {
         const struct ply_element *e = &r->element[i];
         double row = 0;
@@ -205,7 +206,7 @@ static bool check_counts(struct ply *r)
         need += row * e->count;
     }
     if (need > (double)(r->size - r->pos) + 1) /* the last number of an ascii file may lack its newline */
-        return fail(r, "truncated: the header announces more than the file holds");
+        return fail(r, "truncated: the header announces more than the file holds", "");
     return true;
 }
 
@@ -217,6 +218,7 @@ static bool next_ascii(struct ply *r, double *out)
     size_t n = 0;
     while (r->pos < r->size && isspace(r->data[r->pos]))
         r->pos++;
+    r->at = r->pos;
     while (r->pos + n < r->size && !isspace(r->data[r->pos + n]) && n < sizeof word - 1) {
         word[n] = (char)r->data[r->pos + n];
         n++;
@@ -247,11 +249,11 @@ static double decode(uint64_t bits, enum scalar type)
 }
 
 /* One number of the given type; false, with a message, at the end of the file or, in ascii, on what is none. */
-static bool next_number(struct ply *r, enum scalar type, const char *element, int row, double *out)
+static bool next_number(struct ply *r, enum scalar type, double *out)
 {
     size_t size = (size_t)SCALAR_SIZE[type];
     if (r->encoding == ENCODING_ASCII ? !next_ascii(r, out) : size > r->size - r->pos)
-        return fail_row(r, element, row, "the file ends or has no number here");
+        return fail(r, "the file ends or has no number here", "");
     if (r->encoding != ENCODING_ASCII) {
         *out = decode(bits_of_bytes(r->data + r->pos, size, r->encoding == ENCODING_BIG), type);
         r->pos += size;
@@ -260,24 +262,24 @@ static bool next_number(struct ply *r, enum scalar type, const char *element, in
 }
 
 /* A list's length: a whole number, 0 or more. */
-static bool next_count(struct ply *r, const struct ply_property *p, const char *element, int row, double *count)
+static bool next_count(struct ply *r, const struct ply_property *p, double *count)
 {
-    if (!next_number(r, p->count_type, element, row, count))
+    if (!next_number(r, p->count_type, count))
         return false;
     if (!(*count >= 0 && *count <= FIRST_QUADRIC) || *count != floor(*count))
-        return fail_row(r, element, row, "not a list length");
+        return fail(r, "not a list length", "");
     return true;
 }
 
 /* --- elements ----------------------------------------------------------------------------------------- */
 
-static bool skip_list(struct ply *r, const struct ply_property *p, const char *element, int row)
+static bool skip_list(struct ply *r, const struct ply_property *p)
 {
     double count, ignored;
-    if (!next_count(r, p, element, row, &count))
+    if (!next_count(r, p, &count))
         return false;
     for (double k = 0; k < count; k++)
-        if (!next_number(r, p->type, element, row, &ignored))
+        if (!next_number(r, p->type, &ignored))
             return false;
     return true;
 }
@@ -314,26 +316,27 @@ static bool assign_uv(struct ply *r, const struct ply_element *e)
 static void add_triangle(struct ply *r, uint32_t a, uint32_t b, uint32_t c)
 {
     struct mesh *m = r->mesh;
-    m->index = mem_grow(m->index, &r->index_capacity, r->n_indices + 3, sizeof *m->index);
-    m->index[r->n_indices++] = a;
-    m->index[r->n_indices++] = b;
-    m->index[r->n_indices++] = c;
+    const uint32_t corner[3] = {a, b, c};
+    for (int k = 0; k < 3; k++) {
+        m->index = mem_append(m->index, r->n_indices, sizeof *m->index);
+        m->index[r->n_indices++] = corner[k];
+    }
 }
 
 /* One polygon, cut into a fan around its first corner. */
-static bool read_polygon(struct ply *r, const struct ply_property *p, int row)
+static bool read_polygon(struct ply *r, const struct ply_property *p)
 {
     double count, value;
     uint32_t first = 0, previous = 0;
-    if (!next_count(r, p, "face", row, &count))
+    if (!next_count(r, p, &count))
         return false;
     r->mesh->n_thin += count < 3;
     r->mesh->n_wide += count > 4;
     for (double k = 0; k < count; k++) {
-        if (!next_number(r, p->type, "face", row, &value))
+        if (!next_number(r, p->type, &value))
             return false;
         if (!(value >= 0 && value < FIRST_QUADRIC) || value != floor(value))
-            return fail_row(r, "face", row, "not a vertex index");
+            return fail(r, "not a vertex index", "");
         uint32_t index = (uint32_t)value;
         if (k >= 2)
             add_triangle(r, first, previous, index);
@@ -343,20 +346,20 @@ static bool read_polygon(struct ply *r, const struct ply_property *p, int row)
     return true;
 }
 
-static bool store_vertex(struct ply *r, int i, const double value[N_ROLES])
+static bool store_vertex(struct ply *r, size_t i, const double value[N_ROLES])
 {
     struct mesh *m = r->mesh;
     for (int k = 0; k < N_ROLES; k++) {
         bool good = fits_float(value[k]);
         float f = good ? (float)value[k] : 0;
         if (k <= Z && !good)
-            return fail_row(r, "vertex", i, "the position is not a finite number");
+            return fail(r, "the position is not a finite number", "");
         if (k <= Z)
-            m->P[3 * (size_t)i + (size_t)k] = f;
+            m->P[3 * i + (size_t)k] = f;
         else if (k <= NZ && m->N != NULL)
-            m->N[3 * (size_t)i + (size_t)(k - NX)] = f;
+            m->N[3 * i + (size_t)(k - NX)] = f;
         else if (k > NZ && m->UV != NULL)
-            m->UV[2 * (size_t)i + (size_t)(k - U)] = f;
+            m->UV[2 * i + (size_t)(k - U)] = f;
     }
     return true;
 }
@@ -365,19 +368,22 @@ static bool store_vertex(struct ply *r, int i, const double value[N_ROLES])
 static bool read_rows(struct ply *r, const struct ply_element *e, const struct ply_property *polygon)
 {
     bool is_vertex = strcmp(e->name, "vertex") == 0;
-    for (int row = 0; e->n > 0 && row < e->count; row++) {
+    r->reading = e;
+    for (r->row = 0; e->n > 0 && r->row < e->count; r->row++) {
         double value[N_ROLES + 1] = {0}; /* the last takes what we do not use */
         for (int k = 0; k < e->n; k++) {
             const struct ply_property *p = &r->property[e->first + k];
-            bool ok = p == polygon ? read_polygon(r, p, row)
-                      : p->is_list ? skip_list(r, p, e->name, row)
-                                   : next_number(r, p->type, e->name, row, &value[p->role]);
+            bool ok = p == polygon ? read_polygon(r, p)
+                      : p->is_list ? skip_list(r, p)
+                                   : next_number(r, p->type, &value[p->role]);
             if (!ok)
                 return false;
         }
-        if (is_vertex && !store_vertex(r, row, value))
+        if (is_vertex && !store_vertex(r, (size_t)r->row, value))
             return false;
     }
+    r->reading = NULL;
+    r->at = 0;
     return true;
 }
 
@@ -387,7 +393,7 @@ static bool read_vertices(struct ply *r, const struct ply_element *e)
     struct mesh *m = r->mesh;
     size_t count = (size_t)e->count;
     if (!assign_roles(r, e, xyz, 3, X))
-        return fail(r, "vertices have no x, y, z");
+        return fail(r, "vertices have no x, y, z", "");
     m->P = mem_alloc(count * 3, sizeof *m->P);
     if (assign_roles(r, e, normal, 3, NX))
         m->N = mem_alloc(count * 3, sizeof *m->N);
@@ -407,13 +413,13 @@ static bool read_faces(struct ply *r, const struct ply_element *e)
             polygon = p;
     }
     if (polygon == NULL)
-        return fail(r, "faces have no integer list vertex_indices (or vertex_index)");
+        return fail(r, "faces have no integer list vertex_indices (or vertex_index)", "");
     if (!read_rows(r, e, polygon))
         return false;
     if (r->n_indices / 3 > FIRST_QUADRIC)
-        return fail(r, "more than 2^30 triangles");
+        return fail(r, "more than 2^30 triangles", "");
     if (r->n_indices / 3 * PLY_BYTES_PER_TRIANGLE > r->size)
-        return fail(r, "polygons of so many corners that a triangle of theirs has less than two bytes");
+        return fail(r, "polygons of so many corners that a triangle of theirs has less than two bytes", "");
     r->mesh->n_triangles = (int)(r->n_indices / 3);
     return true;
 }
@@ -440,7 +446,7 @@ static bool check_mesh(struct ply *r)
 {
     const struct mesh *m = r->mesh;
     if (m->n_triangles == 0 && m->n_thin == 0)
-        return fail(r, "no faces");
+        return fail(r, "no faces", "");
     for (size_t i = 0; i < r->n_indices; i++)
         if (m->index[i] >= (uint32_t)m->n_vertices)
             return error_set(r->err, "%s: a face refers to vertex %lu, but there are only %d", r->path,

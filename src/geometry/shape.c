@@ -37,7 +37,7 @@ void geometry_free(struct geometry *geo)
 
 static int add_group(struct geometry *geo, struct shape_group group)
 {
-    geo->group = mem_grow(geo->group, &geo->group_capacity, (size_t)geo->n_groups + 1, sizeof *geo->group);
+    geo->group = mem_append(geo->group, (size_t)geo->n_groups, sizeof *geo->group);
     geo->group[geo->n_groups] = group;
     return geo->n_groups++;
 }
@@ -135,8 +135,7 @@ int shape_add_quadric(struct geometry *geo, struct quadric q, struct shape_group
     group.flip = reverse_orientation;
     group.has_n = false;
     group.has_uv = true;
-    geo->quadric =
-        mem_grow(geo->quadric, &geo->quadric_capacity, (size_t)geo->n_quadrics + 1, sizeof *geo->quadric);
+    geo->quadric = mem_append(geo->quadric, (size_t)geo->n_quadrics, sizeof *geo->quadric);
     geo->quadric[geo->n_quadrics++] = q;
     return add_group(geo, group);
 }
@@ -202,7 +201,7 @@ void shape_bounds(const struct geometry *geo, int prim, float lo[3], float hi[3]
 
 bool shape_intersect(const struct geometry *geo, int prim, const struct ray *ray, struct hit *hit)
 {
-    bool begins = ray->from == shape_triangle_id(prim), ends = ray->to == shape_triangle_id(prim);
+    bool begins = ray->from == shape_prim_id(prim), ends = ray->to == shape_prim_id(prim);
     if (is_quadric(prim)) {
         if (!quadric_intersect(quadric_of(geo, prim), ray, begins, ends, &hit->t))
             return false;
@@ -225,7 +224,7 @@ static void set_primitive(const struct geometry *geo, int prim, struct surface *
 {
     const struct shape_group *group = shape_group_of(geo, prim);
     out->material = group->material;
-    out->triangle_id = shape_triangle_id(prim);
+    out->prim_id = shape_prim_id(prim);
     out->light = group->first_light >= 0 ? group->first_light + prim - group->first_prim : -1;
 }
 

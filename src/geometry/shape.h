@@ -46,7 +46,7 @@ struct geometry {
     struct quadric *quadric;    /* [n_quadrics] */
     struct shape_group *group;  /* [n_groups] */
     int n_vertices, n_triangles, n_quadrics, n_groups;
-    size_t vertex_capacity, triangle_capacity, quadric_capacity, group_capacity;
+    size_t vertex_capacity, triangle_capacity;
 
     /* Alpha textures: asked at a hit of a group with alpha or shadow_alpha >= 0. Returns true where the
      * surface is there. Set by scene.c; NULL means everything is opaque. */
@@ -98,8 +98,8 @@ void shape_bounds(const struct geometry *geo, int prim, float lo[3], float hi[3]
  * *hit if so. Double precision, edges shared by two triangles leave no gap. Alpha is not looked at here. */
 bool shape_intersect(const struct geometry *geo, int prim, const struct ray *ray, struct hit *hit);
 
-/* shape_triangle_id: the number, not 0, by which rays and points name the primitive they begin, end or lie on. */
-static inline uint32_t shape_triangle_id(int prim) { return (uint32_t)prim + 1; }
+/* shape_prim_id: the number, not 0, by which rays and points name the primitive they begin, end or lie on. */
+static inline uint32_t shape_prim_id(int prim) { return (uint32_t)prim + 1; }
 
 /* shape_surface: the full surface point of a hit (position from the barycentric coordinates for triangles,
  * refined onto the surface for quadrics). Shading normal and partials as pbrt-v3 defines them. */

@@ -97,15 +97,14 @@ static void find_out(struct level *l)
 
 /* The points around a vertex: all around it, clockwise; at the boundary from side to side, counterclockwise. */
 struct ring {
-    vec3 *p; /* [capacity], owned */
-    size_t capacity;
+    vec3 *p; /* [n], owned */
     int n;
     bool boundary;
 };
 
 static void ring_add(struct ring *r, vec3 p)
 {
-    r->p = mem_grow(r->p, &r->capacity, (size_t)r->n + 1, sizeof *r->p);
+    r->p = mem_append(r->p, (size_t)r->n, sizeof *r->p);
     r->p[r->n++] = p;
 }
 

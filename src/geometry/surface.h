@@ -10,7 +10,7 @@
 struct ray {
     vec3 o, d;
     double tmin, tmax; /* tmin >= 0; tmax may be HUGE_VAL */
-    uint32_t from, to; /* primitives that the segment begins and ends on, as shape_triangle_id numbers them; 0: none
+    uint32_t from, to; /* primitives that the segment begins and ends on, as shape_prim_id numbers them; 0: none
                         * known. A line meets a triangle once and a quadric twice, so these meetings are left out. */
 };
 
@@ -34,7 +34,7 @@ struct surface {
     vec3 dndu, dndv; /* partial derivatives of ns; zero where the shape does not define them */
     double u, v;     /* texture coordinates */
     int material;    /* index into scene->materials, or -1 */
-    uint32_t triangle_id; /* the primitive it is on, see shape_triangle_id */
+    uint32_t prim_id; /* the primitive it is on, see shape_prim_id */
     int light;       /* index into scene->lights of the area light that sits here, or -1 */
 };
 

@@ -56,7 +56,7 @@ static void add_draw(const struct view *v, const struct vertex *y, double p)
     double px, py;
     if (!(length2(d) > 0) || camera_project(&s->camera, lens, normalize(d), &px, &py) == 0)
         return;
-    if (px >= 0 && py >= 0 && px < s->width && py < s->height && scene_visible(s, lens, 0, y->p, y->triangle_id))
+    if (px >= 0 && py >= 0 && px < s->width && py < s->height && scene_visible(s, lens, 0, y->p, y->prim_id))
         v->draws[(int)py * s->width + (int)px] += float_within(p);
 }
 

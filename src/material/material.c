@@ -13,11 +13,7 @@ struct lobe_list {
     const struct surface *at;
     struct lobe lobe[MATERIAL_MAX_LOBES];
     int n;
-    int visits; /* materials looked at: bounds the work even if mixes contain each other */
 };
-
-/* Nested mixes of n materials, each of one lobe at least, are n - 1 mixes: one that fits is fewer than these in all. */
-enum { MAX_VISITS = 2 * MATERIAL_MAX_LOBES };
 
 struct material material_blank(enum material_kind kind)
 {
@@ -189,8 +185,6 @@ static void add_mix(struct lobe_list *list, const struct material *m)
 static void add_material(struct lobe_list *list, int id)
 {
     const struct material *m = &list->materials[id];
-    if (++list->visits > MAX_VISITS)
-        return;
     switch (m->kind) {
     case MATERIAL_MATTE: add_matte(list, m); break;
     case MATERIAL_MIRROR: add_lobe(list, lobe_of(LOBE_SPECULAR_REFLECTION, colour(list, m->Kr), rgb_black())); break;
@@ -223,23 +217,10 @@ static int lobes_of_kind(enum material_kind kind)
     return 0;
 }
 
-/* Count the lobes of a material into *n, and the materials looked at into *visits; stop when there are too many. */
-static void count_lobes(const struct material *materials, int id, int *n, int *visits)
+int material_lobes(const struct material *materials, const struct material *m)
 {
-    if (++*visits > MAX_VISITS)
-        return;
-    *n += lobes_of_kind(materials[id].kind);
-    if (materials[id].kind == MATERIAL_MIX) {
-        count_lobes(materials, materials[id].mix1, n, visits);
-        count_lobes(materials, materials[id].mix2, n, visits);
-    }
-}
-
-bool material_fits(const struct material *materials, int id)
-{
-    int n = 0, visits = 0;
-    count_lobes(materials, id, &n, &visits);
-    return n <= MATERIAL_MAX_LOBES && visits <= MAX_VISITS;
+    int n = m->kind == MATERIAL_MIX ? materials[m->mix1].n_lobes + materials[m->mix2].n_lobes : lobes_of_kind(m->kind);
+    return n > MATERIAL_MAX_LOBES ? MATERIAL_MAX_LOBES + 1 : n;
 }
 
 /* --- bump maps --------------------------------------------------------------------------------------- */
@@ -277,35 +258,9 @@ struct frame bump_frame(const struct texture_set *textures, int displacement, co
 /* The bump map that counts: a mix shades with the frame of its first material. */
 static int bump_of(const struct material *materials, int id)
 {
-    for (int visits = 0; visits < MAX_VISITS && materials[id].kind == MATERIAL_MIX; visits++)
+    while (materials[id].kind == MATERIAL_MIX)
         id = materials[id].mix1;
     return materials[id].bump;
-}
-
-static void make_bsdf(const struct material *materials, int id, const struct texture_set *textures,
-                      const struct surface *at, struct frame shading, struct arena *arena, struct bsdf *out)
-{
-    struct lobe_list list;
-    list.materials = materials;
-    list.textures = textures;
-    list.at = at;
-    list.n = list.visits = 0;
-    add_material(&list, id);
-    size_t size = (size_t)list.n * sizeof list.lobe[0];
-    struct lobe *lobe = list.n > 0 ? memcpy(arena_alloc(arena, size), list.lobe, size) : NULL;
-    bsdf_make(out, shading, at->ng, lobe, list.n);
-}
-
-/* Are all parameters the same everywhere? Of a mix the materials must be known to be. */
-static bool is_uniform(const struct material *materials, int id, const struct texture_set *textures)
-{
-    const struct material *m = &materials[id];
-    const int used[] = {m->Kd,         m->Ks,         m->Kr,      m->Kt,      m->sigma,    m->eta,   m->k, m->index,
-                        m->uroughness, m->vroughness, m->opacity, m->reflect, m->transmit, m->amount};
-    for (size_t i = 0; i < sizeof used / sizeof used[0]; i++)
-        if (used[i] >= 0 && textures->texture[used[i]].kind != TEXTURE_CONSTANT)
-            return false;
-    return m->kind != MATERIAL_MIX || (materials[m->mix1].uniform != NULL && materials[m->mix2].uniform != NULL);
 }
 
 bool material_reads_partials(const struct material *materials, int id, const struct texture_set *textures)
@@ -316,31 +271,21 @@ bool material_reads_partials(const struct material *materials, int id, const str
     if (m->uroughness == m->vroughness)
         return false;
     const struct texture *u = &textures->texture[m->uroughness], *v = &textures->texture[m->vroughness];
-    return u->kind != TEXTURE_CONSTANT || v->kind != TEXTURE_CONSTANT || u->u.constant.r != v->u.constant.r;
-}
-
-void material_prepare(struct material *materials, int n, const struct texture_set *textures, struct arena *arena)
-{
-    const struct surface anywhere = {.u = 0};
-    const struct frame any = frame_from_normal(vec(0, 0, 1));
-    for (int i = 0; i < n; i++)
-        if (is_uniform(materials, i, textures)) {
-            struct bsdf *b = arena_alloc(arena, sizeof *b);
-            make_bsdf(materials, i, textures, &anywhere, any, arena, b);
-            materials[i].uniform = b;
-        }
+    return u->kind != TEXTURE_CONSTANT || v->kind != TEXTURE_CONSTANT || u->constant.r != v->constant.r;
 }
 
 void material_bsdf(const struct material *materials, int id, const struct texture_set *textures,
                    const struct surface *at, struct arena *arena, struct bsdf *out)
 {
+    struct lobe_list list;
+    list.materials = materials;
+    list.textures = textures;
+    list.at = at;
+    list.n = 0;
+    add_material(&list, id);
+    size_t size = (size_t)list.n * sizeof list.lobe[0];
+    struct lobe *lobe = list.n > 0 ? memcpy(arena_alloc(arena, size), list.lobe, size) : NULL;
     int bump = bump_of(materials, id);
     struct frame shading = bump >= 0 ? bump_frame(textures, bump, at) : frame_from_tangent(at->ns, at->dpdu);
-    if (materials[id].uniform == NULL) {
-        make_bsdf(materials, id, textures, at, shading, arena, out);
-        return;
-    }
-    *out = *materials[id].uniform;
-    out->shading = shading;
-    out->ng = at->ng;
+    bsdf_make(out, shading, at->ng, lobe, list.n);
 }

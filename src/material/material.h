@@ -33,10 +33,9 @@ struct material {
     int uroughness, vroughness; /* always both set where used ("roughness" sets both) */
     bool remap_roughness;
     int opacity, reflect, transmit, amount;
-    int mix1, mix2; /* material numbers */
+    int mix1, mix2; /* numbers of materials that were made before */
+    int n_lobes;    /* material_lobes, set by scene_add_material */
     int bump;       /* float texture of displacement along the normal, in world units */
-    const struct bsdf *uniform; /* its BSDF but for the frame, the same everywhere; NULL where a texture varies it or
-                                 * material_prepare was not called */
 };
 
 /* material_blank: a material without parameters. */
@@ -52,13 +51,9 @@ enum { MATERIAL_MAX_LOBES = 16 };
 #define MATERIAL_MAX_INDEX 100.0
 #define MATERIAL_MAX_ROUGHNESS 1e3
 
-/* material_fits: whether material `id` keeps to MATERIAL_MAX_LOBES. Always true but for mixes; the parser refuses
- * the others. Ends even if mixes contain each other. */
-bool material_fits(const struct material *materials, int id);
-
-/* material_prepare: make the BSDFs of those materials that are alike everywhere, as most are, once for all.
- *   arena  where they live: as long as the materials are used */
-void material_prepare(struct material *materials, int n, const struct texture_set *textures, struct arena *arena);
+/* material_lobes: the most lobes the BSDF of a material can have, for its n_lobes; those that it mixes have theirs. It
+ * stops counting at one more than MATERIAL_MAX_LOBES: the parser refuses such mixes. */
+int material_lobes(const struct material *materials, const struct material *m);
 
 /* material_reads_partials: whether the BSDFs of material `id` depend on dpdu, dpdv, dndu or dndv: by a bump map, or by
  * a roughness that differs between u and v. May say so of one that does not. */

@@ -10,37 +10,26 @@
 
 /* --- the set ----------------------------------------------------------------------------------------- */
 
-/* Number of textures a look-up of `id` visits; -1 stands for none. */
-static int cost_of(const struct texture_set *set, int id) { return id < 0 ? 0 : set->texture[id].cost; }
-
 int texture_add(struct texture_set *set, struct texture t)
 {
-    t.cost = 1;
-    if (t.kind == TEXTURE_SCALE || t.kind == TEXTURE_MIX)
-        t.cost += cost_of(set, t.u.pair.tex1) + cost_of(set, t.u.pair.tex2);
-    if (t.kind == TEXTURE_MIX)
-        t.cost += cost_of(set, t.u.pair.amount);
-    if (t.kind == TEXTURE_CHECKERBOARD || t.kind == TEXTURE_DOTS)
-        t.cost += cost_of(set, t.u.pattern.tex1) + cost_of(set, t.u.pattern.tex2);
-    if (t.kind == TEXTURE_CUBES)
-        t.cost += cost_of(set, t.u.cubes.tex1) + cost_of(set, t.u.cubes.tex2);
-    if (t.kind == TEXTURE_FBM || t.kind == TEXTURE_WRINKLED || t.kind == TEXTURE_MARBLE)
-        t.cost += t.u.noise.octaves;
-    set->texture =
-        mem_grow(set->texture, &set->texture_capacity, (size_t)set->n_textures + 1, sizeof *set->texture);
+    bool two = t.kind == TEXTURE_SCALE || t.kind == TEXTURE_MIX || t.kind == TEXTURE_CHECKERBOARD ||
+               t.kind == TEXTURE_CUBES || t.kind == TEXTURE_DOTS;
+    t.cost = 1 + t.octaves + (two ? set->texture[t.tex1].cost + set->texture[t.tex2].cost : 0) +
+             (t.kind == TEXTURE_MIX ? set->texture[t.amount].cost : 0);
+    set->texture = mem_append(set->texture, (size_t)set->n_textures, sizeof *set->texture);
     set->texture[set->n_textures] = t;
     return set->n_textures++;
 }
 
 int texture_add_constant(struct texture_set *set, rgb value)
 {
-    struct texture t = {.kind = TEXTURE_CONSTANT, .u = {.constant = value}};
+    struct texture t = {.kind = TEXTURE_CONSTANT, .constant = value};
     return texture_add(set, t);
 }
 
 int texture_add_space(struct texture_set *set, struct transform current)
 {
-    set->space = mem_grow(set->space, &set->space_capacity, (size_t)set->n_spaces + 1, sizeof *set->space);
+    set->space = mem_append(set->space, (size_t)set->n_spaces, sizeof *set->space);
     set->space[set->n_spaces] = current;
     return set->n_spaces++;
 }
@@ -54,9 +43,8 @@ int texture_load_image(struct texture_set *set, const char *path, struct error *
     if (!image_read(path, &img, err))
         return -1;
     image_mend(&img, false);
-    size_t need = (size_t)set->n_images + 1;
-    set->image = mem_grow(set->image, &set->image_capacity, need, sizeof *set->image);
-    set->image_path = mem_grow(set->image_path, &set->path_capacity, need, sizeof *set->image_path);
+    set->image = mem_append(set->image, (size_t)set->n_images, sizeof *set->image);
+    set->image_path = mem_append(set->image_path, (size_t)set->n_images, sizeof *set->image_path);
     set->image[set->n_images] = img;
     set->image_path[set->n_images] = mem_copy_text(path);
     return set->n_images++;
@@ -168,8 +156,8 @@ static bool is_even(double whole) { return fmod(whole, 2) == 0; }
 
 static rgb bilerp(const struct texture *t, struct st st)
 {
-    rgb low = rgb_add(rgb_scale(t->u.bilerp.v00, 1 - st.s), rgb_scale(t->u.bilerp.v10, st.s));
-    rgb high = rgb_add(rgb_scale(t->u.bilerp.v01, 1 - st.s), rgb_scale(t->u.bilerp.v11, st.s));
+    rgb low = rgb_add(rgb_scale(t->v00, 1 - st.s), rgb_scale(t->v10, st.s));
+    rgb high = rgb_add(rgb_scale(t->v01, 1 - st.s), rgb_scale(t->v11, st.s));
     return rgb_add(rgb_scale(low, 1 - st.t), rgb_scale(high, st.t));
 }
 
@@ -184,10 +172,10 @@ static vec3 in_space(const struct texture_set *set, int space, const struct surf
 
 static rgb noise_value(const struct texture *t, vec3 p)
 {
-    double omega = t->u.noise.omega;
-    int octaves = t->u.noise.octaves;
+    double omega = t->omega;
+    int octaves = t->octaves;
     if (t->kind == TEXTURE_MARBLE)
-        return noise_marble(mul(p, t->u.noise.scale), omega, octaves, t->u.noise.variation);
+        return noise_marble(mul(p, t->scale), omega, octaves, t->variation);
     return rgb_grey(t->kind == TEXTURE_FBM        ? noise_fbm(p, omega, octaves)
                     : t->kind == TEXTURE_WRINKLED ? noise_turbulence(p, omega, octaves)
                                                   : noise_waves(p));
@@ -199,40 +187,40 @@ static rgb evaluate(const struct texture_set *set, int id, const struct surface 
     assert(id >= 0 && id < set->n_textures);
     const struct texture *t = &set->texture[id];
     switch (t->kind) {
-    case TEXTURE_CONSTANT: return t->u.constant;
+    case TEXTURE_CONSTANT: return t->constant;
     case TEXTURE_SCALE:
-        return rgb_mul(evaluate(set, t->u.pair.tex1, at, read), evaluate(set, t->u.pair.tex2, at, read));
+        return rgb_mul(evaluate(set, t->tex1, at, read), evaluate(set, t->tex2, at, read));
     case TEXTURE_MIX:
-        return mix(evaluate(set, t->u.pair.tex1, at, read), evaluate(set, t->u.pair.tex2, at, read),
-                   texture_float(set, t->u.pair.amount, at));
+        return mix(evaluate(set, t->tex1, at, read), evaluate(set, t->tex2, at, read),
+                   texture_float(set, t->amount, at));
     case TEXTURE_CHECKERBOARD: {
-        struct st st = map_point(&t->u.pattern.map, set->space, at);
+        struct st st = map_point(&t->map, set->space, at);
         bool even = is_even(floor(st.s) + floor(st.t));
-        return evaluate(set, even ? t->u.pattern.tex1 : t->u.pattern.tex2, at, read);
+        return evaluate(set, even ? t->tex1 : t->tex2, at, read);
     }
     case TEXTURE_CUBES: {
-        vec3 p = in_space(set, t->u.cubes.space, at);
+        vec3 p = in_space(set, t->space, at);
         bool even = is_even(floor(p.x) + floor(p.y) + floor(p.z));
-        return evaluate(set, even ? t->u.cubes.tex1 : t->u.cubes.tex2, at, read);
+        return evaluate(set, even ? t->tex1 : t->tex2, at, read);
     }
     case TEXTURE_DOTS: {
-        struct st st = map_point(&t->u.pattern.map, set->space, at);
-        return evaluate(set, noise_in_dot(st.s, st.t) ? t->u.pattern.tex1 : t->u.pattern.tex2, at, read);
+        struct st st = map_point(&t->map, set->space, at);
+        return evaluate(set, noise_in_dot(st.s, st.t) ? t->tex1 : t->tex2, at, read);
     }
     case TEXTURE_IMAGEMAP: {
-        struct st st = map_point(&t->u.imagemap.map, set->space, at);
-        const struct image *img = &set->image[t->u.imagemap.image];
-        return rgb_scale(bilinear(img, st.s, st.t, t->u.imagemap.wrap, t->u.imagemap.gamma, read), t->u.imagemap.scale);
+        struct st st = map_point(&t->map, set->space, at);
+        const struct image *img = &set->image[t->image];
+        return rgb_scale(bilinear(img, st.s, st.t, t->wrap, t->gamma, read), t->scale);
     }
-    case TEXTURE_BILERP: return bilerp(t, map_point(&t->u.bilerp.map, set->space, at));
+    case TEXTURE_BILERP: return bilerp(t, map_point(&t->map, set->space, at));
     case TEXTURE_UV: {
-        struct st st = map_point(&t->u.uv.map, set->space, at);
+        struct st st = map_point(&t->map, set->space, at);
         return rgb_make(st.s - floor(st.s), st.t - floor(st.t), 0);
     }
     case TEXTURE_FBM:
     case TEXTURE_WRINKLED:
     case TEXTURE_WINDY:
-    case TEXTURE_MARBLE: return noise_value(t, in_space(set, t->u.noise.space, at));
+    case TEXTURE_MARBLE: return noise_value(t, in_space(set, t->space, at));
     }
     return rgb_black();
 }

@@ -39,40 +39,22 @@ enum texture_wrap { WRAP_REPEAT, WRAP_BLACK, WRAP_CLAMP };
 
 enum { TEXTURE_MAX_COST = 256 }; /* the parser refuses textures built from more, and builds nothing from them */
 
+/* One texture; which fields matter depends on kind. */
 struct texture {
     enum texture_kind kind;
     int cost; /* textures that one look-up visits, itself included, and octaves of noise; set by texture_add */
-    union {
-        rgb constant;
-        struct {
-            int tex1, tex2, amount; /* texture numbers; amount for mix only */
-        } pair;                     /* scale, mix */
-        struct {
-            int tex1, tex2;
-            struct mapping map;
-        } pattern; /* checkerboard, dots */
-        struct {
-            int tex1, tex2, space;
-        } cubes;
-        struct {
-            struct mapping map;
-        } uv;
-        struct {
-            int space, octaves;
-            double omega, scale, variation;
-        } noise; /* fbm, wrinkled: octaves and omega; windy: neither; marble: all */
-        struct {
-            int image;  /* index into the scene's images */
-            bool gamma; /* decode sRGB */
-            double scale;
-            enum texture_wrap wrap;
-            struct mapping map;
-        } imagemap;
-        struct {
-            rgb v00, v01, v10, v11;
-            struct mapping map;
-        } bilerp;
-    } u;
+    rgb constant;
+    int tex1, tex2;               /* scale, mix, checkerboard, cubes, dots: texture numbers */
+    int amount;                   /* mix: likewise */
+    struct mapping map;           /* checkerboard, dots, imagemap, bilerp, uv */
+    int space;                    /* cubes and textures of noise */
+    int octaves;                  /* fbm, wrinkled, marble; else 0. The same have omega */
+    double omega, variation;      /* variation, scale: marble */
+    double scale;                 /* imagemap, too */
+    int image;                    /* imagemap: index into the scene's images */
+    bool gamma;                   /* imagemap: decode sRGB */
+    enum texture_wrap wrap;       /* imagemap */
+    rgb v00, v01, v10, v11;       /* bilerp */
 };
 
 /* Textures and the images they use. The images are shared between textures that name the same file. */
@@ -82,7 +64,6 @@ struct texture_set {
     struct image *image;     /* [n_images], owned */
     char **image_path;       /* [n_images], owned */
     int n_textures, n_spaces, n_images;
-    size_t texture_capacity, space_capacity, image_capacity, path_capacity;
 };
 
 /* texture_add: append a texture; returns its number. Textures it names must have been added before.
@@ -109,13 +90,13 @@ double texture_varying_float(const struct texture_set *set, int id, const struct
 static inline rgb texture_rgb(const struct texture_set *set, int id, const struct surface *at)
 {
     const struct texture *t = &set->texture[id];
-    return t->kind == TEXTURE_CONSTANT ? t->u.constant : texture_varying_rgb(set, id, at);
+    return t->kind == TEXTURE_CONSTANT ? t->constant : texture_varying_rgb(set, id, at);
 }
 
 static inline double texture_float(const struct texture_set *set, int id, const struct surface *at)
 {
     const struct texture *t = &set->texture[id];
-    return t->kind == TEXTURE_CONSTANT ? t->u.constant.r : texture_varying_float(set, id, at);
+    return t->kind == TEXTURE_CONSTANT ? t->constant.r : texture_varying_float(set, id, at);
 }
 
 /* image_bilinear: the picture at (s,t), (0,0) being the lower left corner, texel centres at half-integers,

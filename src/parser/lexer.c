@@ -132,8 +132,8 @@ static bool next_number(struct lexer *l, struct token *out)
     int shown = end - l->at < 40 ? (int)(end - l->at) : 40;
     const char *scanned = scan_number(l->at, &out->number);
     if (scanned != NULL && scanned < end && isfinite(out->number) && !is_letter(*scanned)) {
-        source_warn(l->messages, out->position, "number", "'%.*s' counts as %.9g: numbers are separated by blanks",
-                    shown, l->at, out->number);
+        source_warn(l->messages, out->position, "'%.*s' counts as %.9g: numbers are separated by blanks", shown,
+                    l->at, out->number);
         l->at = end;
         return true;
     }

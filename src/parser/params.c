@@ -43,8 +43,7 @@ static struct param *find_in(struct params *p, struct param *list, int n, const 
         if ((types & 1u << item->type) == 0 || strcmp(item->name, name) != 0)
             continue;
         if (found != NULL)
-            source_warn(p->messages, item->position, NULL, "parameter \"%s\" is given twice; the last one counts",
-                        name);
+            source_warn(p->messages, item->position, "parameter \"%s\" is given twice; the last one counts", name);
         item->used = true;
         found = item;
     }
@@ -86,7 +85,7 @@ static struct param *find_n(struct params *p, const char *name, unsigned types, 
     int things = item->n / n;
     bool taken = things == 1 || (p->excess && things > 1);
     if (item->n != n)
-        source_warn(p->messages, item->position, NULL, "parameter \"%s %s\" of %s \"%s\" wants %d value%s, not %d; %s",
+        source_warn(p->messages, item->position, "parameter \"%s %s\" of %s \"%s\" wants %d value%s, not %d; %s",
                     params_type_name(item->type), name, p->directive, p->type, n, n > 1 ? "s" : "", item->n,
                     taken ? "the rest is passed over" : "it is passed over");
     return taken && numbers_usable(p, item) ? item : NULL;
@@ -123,7 +122,7 @@ int params_int(struct params *p, const char *name, int fallback, int low, int hi
         return fallback;
     double number = item->number[0], whole = trunc(number);
     if (whole != number)
-        source_warn(p->messages, item->position, NULL, "\"%s\" is %.12g, which counts as %.12g", name, number, whole);
+        source_warn(p->messages, item->position, "\"%s\" is %.12g, which counts as %.12g", name, number, whole);
     if (whole >= low && whole <= high)
         return (int)whole;
     params_fail(p, item->position, "\"%s\" is %.12g; it must be a whole number from %d to %d", name, number, low,
@@ -138,7 +137,7 @@ bool params_bool(struct params *p, const char *name, bool fallback)
         return fallback;
     const char *text = item->text[0];
     if (strcmp(text, "true") != 0 && strcmp(text, "false") != 0)
-        source_warn(p->messages, item->position, NULL, "\"%s\" is \"%.40s\", which counts as \"false\"", name, text);
+        source_warn(p->messages, item->position, "\"%s\" is \"%.40s\", which counts as \"false\"", name, text);
     return strcmp(text, "true") == 0;
 }
 
@@ -167,8 +166,7 @@ int params_choice(struct params *p, const char *name, const char *const *choices
     for (int i = 0; choices[i] != NULL; i++)
         if (strcmp(choices[i], item->text[0]) == 0)
             return i;
-    source_warn(p->messages, item->position, NULL, "\"%s\" cannot be \"%.40s\", so it is \"%s\"", name,
-                item->text[0], choices[0]);
+    source_warn(p->messages, item->position, "\"%s\" cannot be \"%.40s\", so it is \"%s\"", name, item->text[0], choices[0]);
     return 0;
 }
 
@@ -181,7 +179,7 @@ const double *params_list(struct params *p, const char *name, unsigned types, in
     if (found != NULL)
         *found = usable ? item : NULL;
     if (usable && (*n == 0 || item->n % group != 0))
-        source_warn(p->messages, item->position, NULL,
+        source_warn(p->messages, item->position,
                     "parameter \"%s %s\" wants its numbers in groups of %d, but there are %d; the rest is passed over",
                     params_type_name(item->type), name, group, item->n);
     return *n > 0 ? item->number : NULL;
@@ -208,11 +206,11 @@ static rgb rgb_from_pairs(struct params *p, const struct source_file *file)
     struct arena arena = {NULL, NULL};
     struct lexer l = lexer_start(file, &arena, p->messages);
     double *number = NULL;
-    size_t n = 0, capacity = 0;
+    size_t n = 0;
     struct token t = {0};
     bool ok = lexer_next(&l, &t);
     for (; ok && t.kind == TOKEN_NUMBER; ok = lexer_next(&l, &t)) {
-        number = mem_grow(number, &capacity, n + 1, sizeof *number);
+        number = mem_append(number, n, sizeof *number);
         number[n++] = t.number;
     }
     if (!ok)
@@ -314,7 +312,7 @@ static void warn_of_unused(struct params *p, const struct param *item)
     struct suggestion near = suggest_start(messages_suggest(p->messages) ? item->name : "");
     for (int i = 0; i < p->n_asked; i++) {
         if (strcmp(p->asked[i], item->name) == 0) {
-            source_warn(p->messages, item->position, NULL,
+            source_warn(p->messages, item->position,
                         "parameter \"%s\" of %s \"%s\" cannot be of type \"%s\", so it is not used", item->name,
                         p->directive, p->type, params_type_name(item->type));
             return;
@@ -322,7 +320,7 @@ static void warn_of_unused(struct params *p, const struct param *item)
         suggest_offer(&near, p->asked[i]);
     }
     bool is_near = near.name != NULL;
-    source_warn(p->messages, item->position, NULL, "parameter \"%.40s\" of %s \"%s\" is not used%s%s%s", item->name,
+    source_warn(p->messages, item->position, "parameter \"%.40s\" of %s \"%s\" is not used%s%s%s", item->name,
                 p->directive, p->type, is_near ? "; did you mean \"" : "", is_near ? near.name : "",
                 is_near ? "\"?" : "");
 }

@@ -72,7 +72,6 @@ struct params {
     size_t n_number, n_string;
     const char *asked[MAX_PARAMETERS]; /* names asked for so far, for suggestions */
     int n_asked;
-    size_t number_capacity, string_capacity;
 };
 
 /* params_read: read the list that starts at the lexer's position, up to the first token that is not a declaration.

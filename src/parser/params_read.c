@@ -37,7 +37,7 @@ static void read_declaration(struct params *p, const struct token *t, struct par
     item->type = PARAM_TYPES;
     item->name = t->text;
     if (type == NULL || name == NULL) {
-        source_warn(p->messages, t->position, NULL, "the parameter \"%.40s\" is passed over: it is declared by its "
+        source_warn(p->messages, t->position, "the parameter \"%.40s\" is passed over: it is declared by its "
                     "type and its name, like \"float radius\"", t->text);
         return;
     }
@@ -47,7 +47,7 @@ static void read_declaration(struct params *p, const struct token *t, struct par
             item->name = name;
             return;
         }
-    source_warn(p->messages, t->position, NULL, "the parameter \"%.40s\" is passed over: unknown type; types are "
+    source_warn(p->messages, t->position, "the parameter \"%.40s\" is passed over: unknown type; types are "
                 "integer, float, bool, string, texture, point2, vector2, point, vector, normal, rgb, xyz, blackbody "
                 "and spectrum", t->text);
 }
@@ -60,7 +60,7 @@ static bool wants_text(enum param_type type)
 /* One more value. Returns true. */
 static bool add_number(struct params *p, struct param *item, double number)
 {
-    p->number = mem_grow(p->number, &p->number_capacity, p->n_number + 1, sizeof *p->number);
+    p->number = mem_append(p->number, p->n_number, sizeof *p->number);
     p->number[p->n_number++] = number;
     item->n++;
     return true;
@@ -68,7 +68,7 @@ static bool add_number(struct params *p, struct param *item, double number)
 
 static bool add_text(struct params *p, struct param *item, const char *text)
 {
-    p->string = mem_grow(p->string, &p->string_capacity, p->n_string + 1, sizeof *p->string);
+    p->string = mem_append(p->string, p->n_string, sizeof *p->string);
     p->string[p->n_string++] = text;
     item->is_text = true;
     item->n++;
@@ -130,9 +130,8 @@ static bool is_usable(struct params *p, const struct param *item)
         return false;
     if (item->type == PARAM_SPECTRUM || item->n == 0 || item->is_text == wants_text(item->type))
         return true;
-    source_warn(p->messages, item->position, NULL, "\"%s %.40s\" is passed over: it wants %s",
-                params_type_name(item->type), item->name,
-                item->is_text ? "numbers, not strings" : "a quoted string, not a number");
+    source_warn(p->messages, item->position, "\"%s %.40s\" is passed over: it wants %s", params_type_name(item->type),
+                item->name, item->is_text ? "numbers, not strings" : "a quoted string, not a number");
     return false;
 }
 

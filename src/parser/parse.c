@@ -40,7 +40,7 @@ bool parse_typed(struct parser *p)
 void parse_no_such(struct parser *p, struct source_position at, const char *name, const char *what,
                    const char *instead)
 {
-    source_warn(&p->messages, at, NULL, "there is no %s \"%.60s\"; %s", what, name, instead);
+    source_warn(&p->messages, at, "there is no %s \"%.60s\"; %s", what, name, instead);
 }
 
 int parse_named(struct parser *p, struct token *name, const struct symbols *table, const char *what,
@@ -81,10 +81,10 @@ static bool unknown_type(struct parser *p, const struct object_type *types, cons
     if (end->parameter == NULL && end->kind == REFUSE_OTHERS)
         return type_error(q, "unknown %s \"%.40s\"; known are %s", q->directive, q->type, list);
     if (end->parameter == NULL || instead == NULL)
-        source_warn(q->messages, q->position, NULL,
-                    "unknown %s \"%.40s\" is left out, as pbrt-v3 does; known are %s", q->directive, q->type, list);
+        source_warn(q->messages, q->position, "unknown %s \"%.40s\" is left out, as pbrt-v3 does; known are %s",
+                    q->directive, q->type, list);
     else
-        source_warn(q->messages, q->position, NULL, "unknown %s \"%.40s\"; \"%s\" is taken instead; known are %s",
+        source_warn(q->messages, q->position, "unknown %s \"%.40s\"; \"%s\" is taken instead; known are %s",
                     q->directive, q->type, instead, list);
     return end->parameter != NULL;
 }
@@ -148,7 +148,7 @@ void parse_ignored(struct parser *p, const struct parameter *row, void *field)
     const struct param *item = params_ignore(&p->params, row->name);
     (void)field;
     if (item != NULL && row->warning != NULL)
-        source_warn(&p->messages, item->position, row->name, "%s", row->warning);
+        source_warn(&p->messages, item->position, "%s", row->warning);
 }
 
 /* --- textures ------------------------------------------------------------------------------------------- */
@@ -158,7 +158,7 @@ int parse_constant(struct parser *p, rgb value)
     uint32_t h = hash_bytes(&value, sizeof value);
     int *slot = &p->constant[(h ^ h >> 16) % CONSTANTS];
     const struct texture *known = *slot > 0 ? &p->scene->textures.texture[*slot - 1] : NULL;
-    if (known == NULL || memcmp(&known->u.constant, &value, sizeof value) != 0)
+    if (known == NULL || memcmp(&known->constant, &value, sizeof value) != 0)
         *slot = texture_add_constant(&p->scene->textures, value) + 1;
     return *slot - 1;
 }
@@ -174,15 +174,14 @@ int parse_named_texture(struct parser *p, const char *name, bool is_float)
         return -1;
     int id = symbols_find(table, texture);
     if (id < 0 && symbols_find(other, texture) >= 0)
-        source_warn(q->messages, at, NULL,
+        source_warn(q->messages, at,
                     "\"%s\" wants a texture of type %s, but \"%.60s\" is of type %s; the default is taken", name,
                     is_float ? "float" : "spectrum", texture, is_float ? "spectrum" : "float");
     else if (id < 0)
         parse_no_such(p, at, texture, is_float ? "float texture" : "spectrum texture", "the default is taken");
     const struct param *value = id < 0 ? NULL : params_ignore(q, name);
     if (value != NULL && value->type != PARAM_TEXTURE) /* a texture wins over a value of the same name, as in pbrt */
-        source_warn(&p->messages, value->position, NULL,
-                    "\"%s\" is given as a texture and as a value; the texture counts", name);
+        source_warn(&p->messages, value->position, "\"%s\" is given as a texture and as a value; the texture counts", name);
     return id;
 }
 
@@ -192,7 +191,7 @@ static void check_range(struct parser *p, const struct parameter *row, int textu
     const struct texture *t = texture < 0 ? NULL : &p->scene->textures.texture[texture];
     if (t == NULL || t->kind != TEXTURE_CONSTANT)
         return;
-    const double value[3] = {t->u.constant.r, t->u.constant.g, t->u.constant.b};
+    const double value[3] = {t->constant.r, t->constant.g, t->constant.b};
     for (int i = 0; i < 3 && !p->params.failed; i++)
         if (!(value[i] >= row->low && value[i] <= row->high)) {
             const struct param *item = params_ignore(&p->params, row->name);

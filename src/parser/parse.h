@@ -43,7 +43,6 @@ struct graphics_state {
     struct material_source material;
     bool reverse; /* ReverseOrientation */
     struct area_light area;
-    const char *medium[2]; /* MediumInterface: the names inside and outside, "" for vacuum */
 };
 
 enum block_kind { BLOCK_ATTRIBUTE, BLOCK_TRANSFORM, BLOCK_OBJECT };
@@ -78,7 +77,6 @@ struct shape_item {
 struct shape_list {
     struct shape_item *item; /* [n], owned with their meshes */
     int n;
-    size_t capacity;
 };
 
 enum { CONSTANTS = 256, MAX_INCLUDE_DEPTH = 32 };
@@ -108,29 +106,24 @@ struct parser {
     struct scene_files named; /* what may be read, and how often */
     struct symbols files; /* path -> file[]: a file included twice is read once */
     struct loaded *file;  /* [files.n], owned */
-    size_t file_capacity;
 
     struct transform_state place;
     struct graphics_state state;
     struct pushed_transform *pushed; /* [n_pushed], innermost last, owned */
     int n_pushed;
-    size_t pushed_capacity;
     struct pushed_state *block; /* [n_blocks], innermost last, owned */
     int n_blocks;
-    size_t block_capacity;
 
     struct symbols float_textures, spectrum_textures, materials; /* scoped; materials -> material[] */
     struct material_source *material;                            /* [n_materials], owned */
     int n_materials;
-    size_t material_capacity;
     struct symbols media;                                        /* -> 0 */
     struct symbols systems;                                      /* -> system[] */
     struct transform *system;                                    /* [systems.n], owned */
-    size_t system_capacity;
     struct symbols objects;    /* -> object[] */
     struct shape_list *object; /* [objects.n], owned */
-    size_t object_capacity;
-    struct source_position lamp; /* the first see-through lamp; no file: none */
+    struct source_position lamp;   /* the first see-through lamp; no file: none */
+    struct source_position medium; /* the first medium that a MediumInterface names; no file: none */
     int current_object; /* between ObjectBegin and ObjectEnd, else -1 */
     uint64_t copied_bytes; /* of all instances */
     int n_infinite;        /* lights */
@@ -167,7 +160,7 @@ struct object_type {
 #define POSITIVE NUMBER_MIN, (double)INFINITY
 #define AT_LEAST_0 0, (double)INFINITY
 #define IGNORED(name) {name, parse_ignored, 0, GREY(0), 0, 0, NULL} /* nothing here depends on it */
-#define BY_BUILD(name) {name, NULL, 0, GREY(0), 0, 0, NULL}
+#define BY_BUILD(name) {name, NULL, 0, GREY(0), 0, 0, NULL} /* for whoever lists what a type has */
 #define END_OF_PARAMETERS {NULL, NULL, 0, GREY(0), 0, 0, NULL}
 #define REFUSED(name) {name, NULL, 0, NULL}
 enum { REFUSE_OTHERS, LEAVE_OTHERS_OUT };                    /* kinds of a row behind a table without parameters */
@@ -220,10 +213,6 @@ bool parse_placed(struct parser *p);
 /* parse_sees_media: is it an integrator of pbrt-v3 that sees media, or none of its, which may not be less exact?
  * NULL is its default. */
 bool parse_sees_media(const char *integrator);
-
-/* parse_media: false with a message if one of the current media is to be seen, which is not supported: on one side of
- * a shape, or (only_outside) where a camera or a light is. */
-bool parse_media(struct parser *p, struct source_position at, const char *what, bool only_outside);
 
 /* parse_constant: a constant texture. */
 int parse_constant(struct parser *p, rgb value);

@@ -34,10 +34,10 @@ static bool is_bumped(const struct scene *s, int m)
 static void warn_of_normals(struct parser *p, const struct shape_item *item, const struct transform *to_world)
 {
     if (!item->is_mesh && transform_swaps_handedness(to_world) && knows_sides(p->scene, item))
-        source_warn(&p->messages, item->position, "mirrored quadric",
+        source_warn(&p->messages, item->position,
                     "pbrt-v3 turns the normals of a mirrored quadric round; here they point outwards");
     if (item->is_mesh && item->mesh.N != NULL && is_bumped(p->scene, item->group.material))
-        source_warn(&p->messages, item->position, "bump and normals",
+        source_warn(&p->messages, item->position,
                     "pbrt-v3 inverts and scales bump maps on meshes that have normals; here they are as on other shapes");
 }
 
@@ -68,7 +68,7 @@ static bool add_shape(struct parser *p, const struct shape_item *item, struct tr
 
 static void shape_list_add(struct shape_list *list, const struct shape_item *item)
 {
-    list->item = mem_grow(list->item, &list->capacity, (size_t)list->n + 1, sizeof *list->item);
+    list->item = mem_append(list->item, (size_t)list->n, sizeof *list->item);
     list->item[list->n++] = *item;
 }
 
@@ -99,9 +99,9 @@ static bool object_begin(struct parser *p)
     if (!parse_string(p, &name, "a name"))
         return false;
     if (p->current_object >= 0)
-        source_warn(&p->messages, p->directive.position, NULL,
+        source_warn(&p->messages, p->directive.position,
                     "ObjectBegin inside an object; as in pbrt-v3, the outer one ends here");
-    p->object = mem_grow(p->object, &p->object_capacity, (size_t)p->objects.n + 1, sizeof *p->object);
+    p->object = mem_append(p->object, (size_t)p->objects.n, sizeof *p->object);
     memset(&p->object[p->objects.n], 0, sizeof *p->object);
     p->current_object = p->objects.n;
     symbols_add(&p->objects, name.text, p->current_object);
@@ -111,8 +111,7 @@ static bool object_begin(struct parser *p)
 static bool object_end(struct parser *p)
 {
     if (p->current_object < 0)
-        source_warn(&p->messages, p->directive.position, NULL,
-                    "ObjectEnd outside of an object ends an attribute block");
+        source_warn(&p->messages, p->directive.position, "ObjectEnd outside of an object ends an attribute block");
     p->current_object = -1;
     return parse_close_block(p, BLOCK_OBJECT);
 }
@@ -138,7 +137,7 @@ static bool object_instance(struct parser *p)
 {
     struct token name;
     if (p->current_object >= 0) {
-        source_warn(&p->messages, p->directive.position, NULL,
+        source_warn(&p->messages, p->directive.position,
                     "ObjectInstance inside an object is passed over, as in pbrt-v3; objects do not nest");
         return false;
     }

@@ -95,8 +95,7 @@ static void map_of_light(struct params *q, struct light_set *lights, struct ligh
     if (!q->failed && !ok)
         params_fail(q, at, "%s", inner.text);
     else if (!q->failed && image->replaced > 0)
-        source_warn(q->messages, at, "environment",
-                    "%ld numbers of this picture are negative or not finite; 0 instead", image->replaced);
+        source_warn(q->messages, at, "%ld numbers of this picture are negative or not finite; 0 instead", image->replaced);
     free(path);
 }
 
@@ -159,7 +158,7 @@ static bool light(struct parser *p)
 {
     struct params *q = &p->params;
     struct light_item item = {.light = {.kind = (enum light_kind)p->type->kind, .to_world = p->place.ctm, .prim = -1}};
-    if (!parse_placed(p) || !parse_media(p, q->position, "light", true))
+    if (!parse_placed(p))
         return false;
     parse_object(p, &item);
     vec3 position = item.light.position;

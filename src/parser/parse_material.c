@@ -12,7 +12,7 @@ static void mixed_material(struct parser *p, const struct parameter *row, void *
     int k = name != NULL ? symbols_find(&p->materials, name) : -1;
     *(int *)field = k >= 0 ? p->material[k].id : 0;
     if (name == NULL)
-        source_warn(q->messages, q->position, NULL, "a mix needs \"string %s\"; a matte material is taken", row->name);
+        source_warn(q->messages, q->position, "a mix needs \"string %s\"; a matte material is taken", row->name);
     else if (k < 0)
         parse_no_such(p, at, name, "named material", "a matte one is taken");
     else if (p->material[k].id == MATERIAL_NONE)
@@ -109,7 +109,7 @@ static bool make(struct parser *p, int *out)
     if (m.vroughness < 0)
         m.vroughness = m.uroughness;
     *out = scene_add_material(p->scene, m);
-    if (!material_fits(p->scene->material, *out))
+    if (p->scene->material[*out].n_lobes > MATERIAL_MAX_LOBES)
         return source_error(&p->messages, q->position,
                             "this mix has more than %d lobes in all; mix fewer materials", MATERIAL_MAX_LOBES);
     return true;
@@ -174,14 +174,13 @@ static bool make_named_material(struct parser *p)
     bool ok = parse_list(p, "Material", &name);
     const char *type = params_text(&p->params, "type", PARAM_STRING, &p->params.position);
     if (type == NULL)
-        source_warn(&p->messages, name.position, NULL,
+        source_warn(&p->messages, name.position,
                     "MakeNamedMaterial needs its kind: add \"string type\" \"matte\"; \"none\" is taken");
     p->params.type = type != NULL ? type : "";
     ok = ok && parse_make_material(p, &made);
     if (symbols_find(&p->materials, name.text) >= 0)
-        source_warn(&p->messages, name.position, "material again", "the material \"%.60s\" is defined again",
-                    name.text);
-    p->material = mem_grow(p->material, &p->material_capacity, (size_t)p->n_materials + 1, sizeof *p->material);
+        source_warn(&p->messages, name.position, "the material \"%.60s\" is defined again", name.text);
+    p->material = mem_append(p->material, (size_t)p->n_materials, sizeof *p->material);
     p->material[p->n_materials] = made;
     symbols_add(&p->materials, name.text, p->n_materials++);
     return ok;

@@ -27,7 +27,7 @@ static void screen_window(struct params *q, struct camera *c)
     if (window == NULL)
         return;
     if (n != 4) {
-        source_warn(q->messages, item->position, NULL, "\"screenwindow\" wants four numbers; it is passed over");
+        source_warn(q->messages, item->position, "\"screenwindow\" wants four numbers; it is passed over");
         return;
     }
     if (!(window[0] < window[1] && window[2] < window[3]))
@@ -99,7 +99,7 @@ static void crop_window(struct params *q, double crop[4])
     if (x == NULL)
         return;
     if (n != 4) {
-        source_warn(q->messages, item->position, NULL,
+        source_warn(q->messages, item->position,
                     "\"cropwindow\" wants four numbers, x0 x1 y0 y1, not %d; it is passed over", n);
         return;
     }
@@ -133,8 +133,8 @@ static void image_film(struct parser *p, void *object)
 static const struct parameter IMAGE_FILM[] = {
     SCENE("xresolution", parse_integer, width, 1280, PIXELS),
     SCENE("yresolution", parse_integer, height, 720, PIXELS),
-    BY_BUILD("cropwindow"),
     SCENE("scale", parse_number, film_scale, 1, AT_LEAST_0),
+    BY_BUILD("cropwindow"),
     BY_BUILD("filename"),
     IGNORED("diagonal"), /* for realistic cameras only */
     {"maxsampleluminance", parse_ignored, 0, GREY(0), 0, 0,
@@ -150,7 +150,7 @@ static void check_radii(struct parser *p, void *object)
     for (int i = 0; i < 2; i++) {
         double within = clamp(radius[i], 1e-3, 64);
         if (within != radius[i])
-            source_warn(q->messages, q->position, NULL, "a filter radius of %g pixels is beyond 0.001 and 64; it is %g",
+            source_warn(q->messages, q->position, "a filter radius of %g pixels is beyond 0.001 and 64; it is %g",
                         radius[i], within);
         radius[i] = within;
     }
@@ -211,32 +211,8 @@ static const struct parameter TREE[] = {END_OF_PARAMETERS};
 static const struct object_type ACCELERATOR_TYPES[] = {
     {"kdtree", TREE, 0, NULL}, {"bvh", TREE, 0, NULL}, OTHERS_LIKE(TREE, 0, NULL)};
 
-/* How many digits tell this number from all others. */
-static int digits(double x)
-{
-    char text[40];
-    snprintf(text, sizeof text, "%.15g", x);
-    return strtod(text, NULL) == x ? 15 : 17;
-}
-
-/* The values of a parameter as one text, blanks between them. To be given to free(). */
-static char *value_text(const struct param *item)
-{
-    size_t size = 1, used = 0;
-    for (int i = 0; i < item->n; i++)
-        size += 1 + (item->is_text ? strlen(item->text[i]) : 32);
-    char *text = mem_alloc(size, 1);
-    for (int i = 0; i < item->n; i++) {
-        const char *blank = i > 0 ? " " : "";
-        double x = item->is_text ? 0 : item->number[i];
-        int n = item->is_text ? snprintf(text + used, size - used, "%s%s", blank, item->text[i])
-                              : snprintf(text + used, size - used, "%s%.*g", blank, digits(x), x);
-        used += (size_t)n;
-    }
-    return text;
-}
-
-/* Which parameters an integrator has is its own affair: all are kept as text with their position. */
+/* Which parameters an integrator has is its own affair: the first value of each is kept as text, with its position; none
+ * has several. */
 static bool integrator(struct parser *p)
 {
     if (!parse_typed(p))
@@ -246,13 +222,14 @@ static bool integrator(struct parser *p)
     free(s->integrator);
     s->integrator = mem_copy_text(q->type);
     settings_clear(&s->settings);
-    for (int i = 0; i < q->n; i++) {
-        char origin[512];
-        source_position_text(q->item[i].position, origin, sizeof origin);
-        char *text = value_text(&q->item[i]);
-        settings_declare(&s->settings, q->item[i].name, text, origin, params_type_name(q->item[i].type), q->item[i].n);
-        free(text);
-        q->item[i].used = true;
+    for (struct param *item = q->item; item < q->item + q->n; item++) {
+        char origin[512], number[32] = "";
+        source_position_text(item->position, origin, sizeof origin);
+        if (item->n > 0 && !item->is_text)
+            snprintf(number, sizeof number, "%.15g", item->number[0]); /* what was written, if it had no more digits */
+        settings_declare(&s->settings, item->name, item->is_text ? item->text[0] : number, origin,
+                         params_type_name(item->type), item->n);
+        item->used = true;
     }
     return params_done(q);
 }

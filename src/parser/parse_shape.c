@@ -37,7 +37,7 @@ static float *vertex_data(struct params *q, const char *name, unsigned types, in
         return NULL;
     bool kept = n == n_vertices || (n > n_vertices && width == 2);
     if (n != n_vertices)
-        source_warn(q->messages, item->position, NULL, "\"%s\" has %d entries but \"P\" has %d points; %s", name, n,
+        source_warn(q->messages, item->position, "\"%s\" has %d entries but \"P\" has %d points; %s", name, n,
                     n_vertices, kept ? "the rest is passed over" : "it is passed over");
     return kept ? floats(number, n_vertices * width) : NULL;
 }
@@ -52,9 +52,8 @@ static uint32_t *vertex_indices(struct params *q, int n_vertices, int *n_triangl
     *n_triangles = n_vertices > 0 ? n : 0;
     for (int i = 0; i < 3 * *n_triangles; i++) {
         if (!(number[i] > -1 && number[i] < n_vertices)) {
-            source_warn(q->messages, item->position, NULL,
-                        "number %d of the indices is %g: \"P\" has %d points, 0 to %d", i + 1, number[i], n_vertices,
-                        n_vertices - 1);
+            source_warn(q->messages, item->position, "number %d of the indices is %g: \"P\" has %d points, 0 to %d",
+                        i + 1, number[i], n_vertices, n_vertices - 1);
             *n_triangles = 0;
             break;
         }
@@ -72,7 +71,7 @@ static void points(struct params *q, struct mesh *m)
     m->P = floats(P, 3 * n);
     m->index = vertex_indices(q, n, &m->n_triangles);
     if (m->n_triangles == 0 && !q->failed)
-        source_warn(q->messages, q->position, NULL,
+        source_warn(q->messages, q->position,
                     "a %s without usable \"point P\" and \"integer indices\" is left out, as in pbrt-v3", q->type);
 }
 
@@ -156,9 +155,9 @@ static void heightfield(struct parser *p, void *object)
 static void warn_of_faces(struct params *q, struct source_position at, const struct mesh *m)
 {
     if (m->n_thin > 0)
-        source_warn(q->messages, at, NULL, "%d faces of fewer than 3 corners are left out", m->n_thin);
+        source_warn(q->messages, at, "%d faces of fewer than 3 corners are left out", m->n_thin);
     if (m->n_wide > 0)
-        source_warn(q->messages, at, NULL, "%d faces have more than 4 corners; pbrt-v3 leaves them out", m->n_wide);
+        source_warn(q->messages, at, "%d faces have more than 4 corners; pbrt-v3 leaves them out", m->n_wide);
 }
 
 static void plymesh(struct parser *p, void *object)
@@ -307,7 +306,7 @@ static void warn_of_stretch(struct parser *p, const struct shape_item *item)
     plain.to_world = transform_identity();
     placed.to_world = item->to_world;
     if (!quadric_keeps_area(&placed))
-        source_warn(&p->messages, item->position, "stretched light",
+        source_warn(&p->messages, item->position,
                     "pbrt-v3 overlooks that this light's transform stretches it, and has it light the scene about %.3g "
                     "times as much as here", quadric_area(&plain) / quadric_area(&placed));
 }
@@ -316,17 +315,17 @@ static void warn_of_stretch(struct parser *p, const struct shape_item *item)
 static void warn_of_light(struct parser *p, const struct shape_item *item)
 {
     if (p->current_object >= 0)
-        source_warn(&p->messages, item->position, "light in object",
+        source_warn(&p->messages, item->position,
                     "pbrt-v3 shows this light of an object, but lights nothing with it; here its copies light the scene");
     if (item->group.material == MATERIAL_NONE && p->lamp.file == NULL)
         p->lamp = item->position;
     if (item->group.material == MATERIAL_NONE && item->area.two_sided && !is_flat(item))
-        source_warn(&p->messages, item->position, "light through light",
+        source_warn(&p->messages, item->position,
                     "of the two sides of this lamp without material the nearer one is seen; pbrt-v3's \"path\" shows both");
     if (!item->is_mesh)
         warn_of_stretch(p, item);
     if (item->group.alpha >= 0)
-        source_warn(&p->messages, item->position, "light from holes",
+        source_warn(&p->messages, item->position,
                     "pbrt-v3 has this light shine from its holes too, where alpha is 0; here it does not");
 }
 
@@ -345,7 +344,7 @@ static bool lamp_hides_light(const struct scene *s)
 void parse_warn_of_lamps(struct parser *p)
 {
     if (lamp_hides_light(p->scene))
-        source_warn(&p->messages, p->lamp, NULL,
+        source_warn(&p->messages, p->lamp,
                     "no light is seen through this lamp without material, nor shines through it; pbrt-v3's \"path\" shows "
                     "what is behind, and its \"volpath\" and \"bdpt\" let that shine through");
 }
@@ -355,14 +354,13 @@ static bool complete_shape(struct parser *p, struct shape_item *item)
 {
     bool absent = item->absent || (item->is_mesh && item->mesh.n_triangles == 0);
     if (absent && item->area.on)
-        source_warn(&p->messages, item->position, "absent light",
-                    "a light of alpha 0 or without triangles is left out");
+        source_warn(&p->messages, item->position, "a light of alpha 0 or without triangles is left out");
     if (absent)
         return false;
     if (item->area.on)
         warn_of_light(p, item);
     else if (item->group.material == MATERIAL_NONE && !parse_sees_media(p->scene->integrator))
-        source_warn(&p->messages, item->position, "no surface",
+        source_warn(&p->messages, item->position,
                     "a shape without material is left out; in pbrt-v3's \"%s\" it stops the light of lamps",
                     p->scene->integrator != NULL ? p->scene->integrator : "path");
     return item->group.material != MATERIAL_NONE || item->area.on;
@@ -375,7 +373,7 @@ static bool shape(struct parser *p)
     item.group.alpha = item.group.shadow_alpha = item.group.first_light = -1;
     parse_fields(p, &item);
     item.group.material = parse_changed_material(p);
-    bool ok = params_done(&p->params) && parse_placed(p) && parse_media(p, item.position, "shape", false);
+    bool ok = params_done(&p->params) && parse_placed(p);
     if (ok && complete_shape(p, &item))
         return parse_place_shape(p, &item);
     mesh_free(&item.mesh);

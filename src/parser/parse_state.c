@@ -47,7 +47,7 @@ static bool set_ctm(struct parser *p, struct transform t)
         return true;
     bool usable = transform_is_usable(&t);
     if (!usable && !isnan(p->place.ctm.m[0][0]))
-        source_warn(&p->messages, p->directive.position, NULL,
+        source_warn(&p->messages, p->directive.position,
                     "%s makes the current transform infinite or singular, or nearly so; nothing can stand in it",
                     p->directive.text);
     p->place.ctm = usable ? t : no_transform();
@@ -107,7 +107,7 @@ static bool look_at(struct parser *p)
         return apply(p, t);
     if (!(length2(sub(look, eye)) > 0))
         return apply(p, no_transform());
-    source_warn(&p->messages, p->directive.position, NULL,
+    source_warn(&p->messages, p->directive.position,
                 "LookAt needs an up vector across the view; as in pbrt-v3, this one changes nothing");
     return true;
 }
@@ -136,7 +136,7 @@ static bool concat_transform(struct parser *p)
 
 void parse_name_system(struct parser *p, const char *name, struct transform t)
 {
-    p->system = mem_grow(p->system, &p->system_capacity, (size_t)p->systems.n + 1, sizeof *p->system);
+    p->system = mem_append(p->system, (size_t)p->systems.n, sizeof *p->system);
     p->system[p->systems.n] = t;
     symbols_add(&p->systems, name, p->systems.n);
 }
@@ -166,7 +166,7 @@ static bool active_transform(struct parser *p)
     if (t.kind != TOKEN_WORD || !(end || strcmp(t.text, "StartTime") == 0 || strcmp(t.text, "All") == 0))
         return source_error(&p->messages, t.position, "ActiveTransform wants StartTime, EndTime or All");
     if (end)
-        source_warn(&p->messages, t.position, "motion", "nothing moves here: transforms of the end time are ignored");
+        source_warn(&p->messages, t.position, "nothing moves here: transforms of the end time are ignored");
     p->place.start_active = !end;
     return true;
 }
@@ -174,7 +174,7 @@ static bool active_transform(struct parser *p)
 static bool transform_times(struct parser *p)
 {
     double x[2];
-    source_warn(&p->messages, p->directive.position, "motion", "nothing moves here: TransformTimes is ignored");
+    source_warn(&p->messages, p->directive.position, "nothing moves here: transforms of the end time are ignored");
     return read_numbers(p, x, 2);
 }
 
@@ -187,15 +187,15 @@ void parse_close_all(struct parser *p)
 {
     for (; p->n_pushed > 0; p->n_pushed--) {
         const struct pushed_transform *top = &p->pushed[p->n_pushed - 1];
-        source_warn(&p->messages, top->position, NULL, "%s is still open at WorldEnd; close it with %s",
-                    BEGIN[top->kind], END[top->kind]);
+        source_warn(&p->messages, top->position, "%s is still open at WorldEnd; close it with %s", BEGIN[top->kind],
+                    END[top->kind]);
     }
 }
 
 static void push_transform(struct parser *p, enum block_kind kind)
 {
     struct pushed_transform top = {kind, p->directive.position, p->place};
-    p->pushed = mem_grow(p->pushed, &p->pushed_capacity, (size_t)p->n_pushed + 1, sizeof *p->pushed);
+    p->pushed = mem_append(p->pushed, (size_t)p->n_pushed, sizeof *p->pushed);
     p->pushed[p->n_pushed++] = top;
 }
 
@@ -205,9 +205,9 @@ static void pop_transform(struct parser *p, enum block_kind kind)
         return;
     const struct pushed_transform *top = &p->pushed[--p->n_pushed];
     if (top->kind != kind)
-        source_warn(&p->messages, p->directive.position, NULL,
-                    "%s does not match the %s of line %d; as in pbrt-v3, it takes back that one's transform", END[kind],
-                    BEGIN[top->kind], top->position.line);
+        source_warn(&p->messages, p->directive.position,
+                    "%s does not match the %s of line %d; as in pbrt-v3, it takes back that one's transform",
+                    END[kind], BEGIN[top->kind], top->position.line);
     p->place = top->saved;
 }
 
@@ -215,14 +215,14 @@ static void pop_transform(struct parser *p, enum block_kind kind)
 static bool is_open(struct parser *p, int n, enum block_kind kind)
 {
     if (n == 0)
-        source_warn(&p->messages, p->directive.position, NULL, "%s without %s is passed over", END[kind], BEGIN[kind]);
+        source_warn(&p->messages, p->directive.position, "%s without %s is passed over", END[kind], BEGIN[kind]);
     return n > 0;
 }
 
 bool parse_open_block(struct parser *p, enum block_kind kind)
 {
     struct pushed_state b = {p->state, p->float_textures.n, p->spectrum_textures.n, p->materials.n};
-    p->block = mem_grow(p->block, &p->block_capacity, (size_t)p->n_blocks + 1, sizeof *p->block);
+    p->block = mem_append(p->block, (size_t)p->n_blocks, sizeof *p->block);
     p->block[p->n_blocks++] = b;
     push_transform(p, kind);
     return true;

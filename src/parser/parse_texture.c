@@ -62,22 +62,19 @@ static void checkerboard(struct parser *p, void *object)
 {
     struct texture *t = object;
     if (params_int(&p->params, "dimension", 2, 2, 3) == 2) {
-        mapping(p, NULL, &t->u.pattern.map);
-        return;
+        mapping(p, NULL, &t->map);
+    } else {
+        t->kind = TEXTURE_CUBES;
+        t->space = space(p);
     }
-    struct texture solid = {.kind = TEXTURE_CUBES};
-    solid.u.cubes.tex1 = t->u.pattern.tex1;
-    solid.u.cubes.tex2 = t->u.pattern.tex2;
-    solid.u.cubes.space = space(p);
-    *t = solid;
 }
 
-static void noise_texture(struct parser *p, void *object) { ((struct texture *)object)->u.noise.space = space(p); }
+static void noise_texture(struct parser *p, void *object) { ((struct texture *)object)->space = space(p); }
 
 static void marble(struct parser *p, void *object)
 {
     noise_texture(p, object);
-    source_warn(p->params.messages, p->params.position, "marble",
+    source_warn(p->params.messages, p->params.position,
                 "\"marble\" is the book's; that of pbrt-v3 since October 2019 is up to 40 times as bright");
 }
 
@@ -98,7 +95,7 @@ static void imagemap(struct parser *p, void *object)
         type_error(q, "an imagemap needs its picture: add \"string filename\" \"...\"");
         return;
     }
-    t->u.imagemap.gamma = params_bool(q, "gamma", file_has_extension(path, ".tga") || file_has_extension(path, ".png"));
+    t->gamma = params_bool(q, "gamma", file_has_extension(path, ".tga") || file_has_extension(path, ".png"));
     struct error inner;
     int image = 0, known = set->n_images;
     if (!q->failed && (image = texture_load_image(set, path, &inner)) < 0)
@@ -107,55 +104,52 @@ static void imagemap(struct parser *p, void *object)
              !scene_files_picture(q->files, &set->image[image], 0, &inner))
         params_fail(q, at, "%s", inner.text);
     else if (!q->failed && set->image[image].replaced > 0)
-        source_warn(&p->messages, at, set->image_path[image], "%ld numbers of this picture are not finite; 0 instead",
-                    set->image[image].replaced);
-    t->u.imagemap.image = image;
+        source_warn(&p->messages, at, "%ld numbers of this picture are not finite; 0 instead", set->image[image].replaced);
+    t->image = image;
     free(path);
 }
 
-#define FIELD(f) offsetof(struct texture, u.f)
+#define FIELD(f) offsetof(struct texture, f)
 #define NUMBER(name, f, x) {name, parse_number, FIELD(f), GREY(x), ANY_NUMBER, NULL}
-#define MAPPING(kind) {"mapping", mapping, FIELD(kind.map), GREY(0), 0, 0, NULL}
+#define MAPPING {"mapping", mapping, FIELD(map), GREY(0), 0, 0, NULL}
 #define OPERAND(name, f, x) {name, operand, FIELD(f), GREY(x), ANY_NUMBER, NULL}
-#define OPERANDS(kind, first, second) OPERAND("tex1", kind.tex1, first), OPERAND("tex2", kind.tex2, second)
+#define OPERANDS(first, second) OPERAND("tex1", tex1, first), OPERAND("tex2", tex2, second)
 #define VALUE(name, f, x) {name, value, FIELD(f), GREY(x), 0, 0, NULL}
 
 static const struct parameter CONSTANT[] = {VALUE("value", constant, 1), END_OF_PARAMETERS};
-static const struct parameter SCALE[] = {OPERANDS(pair, 1, 1), END_OF_PARAMETERS};
+static const struct parameter SCALE[] = {OPERANDS(1, 1), END_OF_PARAMETERS};
 static const struct parameter MIX[] = {
-    OPERANDS(pair, 0, 1),
-    {"amount", parse_float_texture, FIELD(pair.amount), GREY(0.5), ANY_NUMBER, NULL},
+    OPERANDS(0, 1),
+    {"amount", parse_float_texture, FIELD(amount), GREY(0.5), ANY_NUMBER, NULL},
     END_OF_PARAMETERS};
 static const struct parameter CHECKERBOARD[] = {
-    OPERANDS(pattern, 1, 0),
-    BY_BUILD("mapping"),
-    BY_BUILD("dimension"),
+    OPERANDS(1, 0), BY_BUILD("mapping"), BY_BUILD("dimension"),
     IGNORED("aamode"), /* pixel samples do the filtering */
     END_OF_PARAMETERS};
 static const struct parameter IMAGEMAP[] = {
-    MAPPING(imagemap),
-    NUMBER("scale", imagemap.scale, 1),
-    {"wrap", wrap, FIELD(imagemap.wrap), GREY(0), 0, 0, NULL},
+    MAPPING,
+    NUMBER("scale", scale, 1),
+    {"wrap", wrap, FIELD(wrap), GREY(0), 0, 0, NULL},
     IGNORED("trilinear"), /* choices of pbrt's texture filter; here pixel samples filter */
     IGNORED("maxanisotropy"),
     BY_BUILD("filename"),
     BY_BUILD("gamma"),
     END_OF_PARAMETERS};
 static const struct parameter BILERP[] = {
-    MAPPING(bilerp), VALUE("v00", bilerp.v00, 0), VALUE("v01", bilerp.v01, 1),
-    VALUE("v10", bilerp.v10, 0), VALUE("v11", bilerp.v11, 1), END_OF_PARAMETERS};
+    MAPPING, VALUE("v00", v00, 0), VALUE("v01", v01, 1),
+    VALUE("v10", v10, 0), VALUE("v11", v11, 1), END_OF_PARAMETERS};
 
-static const struct parameter UV[] = {MAPPING(uv), END_OF_PARAMETERS};
+static const struct parameter UV[] = {MAPPING, END_OF_PARAMETERS};
 /* pbrt-v3 paints the dots with "outside" and what is around them with "inside". */
 static const struct parameter DOTS[] = {
-    MAPPING(pattern), OPERAND("inside", pattern.tex2, 1), OPERAND("outside", pattern.tex1, 0), END_OF_PARAMETERS};
+    MAPPING, OPERAND("inside", tex2, 1), OPERAND("outside", tex1, 0), END_OF_PARAMETERS};
 
-#define OCTAVES {"octaves", parse_integer, FIELD(noise.octaves), GREY(8), 0, NOISE_MAX_OCTAVES, NULL}
-static const struct parameter OCTAVES_OF_NOISE[] = {OCTAVES, NUMBER("roughness", noise.omega, 0.5), END_OF_PARAMETERS};
+#define OCTAVES {"octaves", parse_integer, FIELD(octaves), GREY(8), 0, NOISE_MAX_OCTAVES, NULL}
+static const struct parameter OCTAVES_OF_NOISE[] = {OCTAVES, NUMBER("roughness", omega, 0.5), END_OF_PARAMETERS};
 static const struct parameter WINDY[] = {END_OF_PARAMETERS};
 static const struct parameter MARBLE[] = {
-    OCTAVES, NUMBER("roughness", noise.omega, 0.5), NUMBER("scale", noise.scale, 1),
-    NUMBER("variation", noise.variation, 0.2), END_OF_PARAMETERS};
+    OCTAVES, NUMBER("roughness", omega, 0.5), NUMBER("scale", scale, 1),
+    NUMBER("variation", variation, 0.2), END_OF_PARAMETERS};
 
 const struct object_type TEXTURE_TYPES[] = {
     {"constant", CONSTANT, TEXTURE_CONSTANT, NULL},
@@ -190,8 +184,7 @@ static bool texture(struct parser *p)
         return false;
     p->texture_is_float = strcmp(type.text, "float") == 0;
     if (!p->texture_is_float && strcmp(type.text, "spectrum") != 0 && strcmp(type.text, "color") != 0) {
-        source_warn(&p->messages, type.position, NULL, "unknown texture type \"%.40s\"; use \"float\" or \"spectrum\"",
-                    type.text);
+        source_warn(&p->messages, type.position, "unknown texture type \"%.40s\"; use \"float\" or \"spectrum\"", type.text);
         return false;
     }
     struct texture t = {.kind = TEXTURE_CONSTANT};

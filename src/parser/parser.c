@@ -22,15 +22,6 @@ static bool world_begin(struct parser *p)
     return true;
 }
 
-/* The camera is in the medium that is current here: pbrt-v3 makes it at the end of the world. */
-static bool world_end(struct parser *p)
-{
-    p->phase = AFTER_WORLD;
-    parse_close_all(p);
-    parse_warn_of_lamps(p);
-    return parse_media(p, p->directive.position, "camera", true);
-}
-
 static bool medium_interface(struct parser *p)
 {
     struct token name[2];
@@ -39,17 +30,15 @@ static bool medium_interface(struct parser *p)
     name[1] = name[0];
     if (lexer_peek(&p->lexer) == TOKEN_STRING && !lexer_next(&p->lexer, &name[1]))
         return false;
-    for (int i = 0; i < 2; i++) {
-        p->state.medium[i] = name[i].text;
-        if (name[i].text[0] != '\0' && symbols_find(&p->media, name[i].text) < 0) {
+    for (int i = 0; i < 2; i++)
+        if (name[i].text[0] != '\0' && symbols_find(&p->media, name[i].text) < 0)
             parse_no_such(p, name[i].position, name[i].text, "medium", "vacuum is taken");
-            p->state.medium[i] = "";
-        }
-    }
+        else if (name[i].text[0] != '\0' && p->medium.file == NULL)
+            p->medium = name[i].position;
     return true;
 }
 
-/* Its parameters do not matter: nothing of it can be rendered (parse_media). */
+/* Its parameters do not matter: nothing of it can be rendered. */
 static bool make_named_medium(struct parser *p)
 {
     struct token name;
@@ -68,18 +57,16 @@ bool parse_sees_media(const char *integrator)
     return integrator != NULL;
 }
 
-bool parse_media(struct parser *p, struct source_position at, const char *what, bool only_outside)
+static bool world_end(struct parser *p)
 {
-    const char *const *medium = p->state.medium;
-    const char *name = medium[1][0] != '\0' || only_outside ? medium[1] : medium[0];
-    if (name[0] == '\0')
-        return true;
-    if (parse_sees_media(p->scene->integrator))
-        return source_error(&p->messages, at,
-                            "this %s is in or around the medium \"%.60s\", and participating media are not supported; "
-                            "remove its MediumInterface", what, name);
-    source_warn(&p->messages, at, "media", "media are left out, as by pbrt-v3's integrator \"%s\"",
-                p->scene->integrator != NULL ? p->scene->integrator : "path");
+    p->phase = AFTER_WORLD;
+    parse_close_all(p);
+    parse_warn_of_lamps(p);
+    if (p->medium.file != NULL && parse_sees_media(p->scene->integrator))
+        return source_error(&p->messages, p->medium, "participating media are not supported; remove this MediumInterface");
+    if (p->medium.file != NULL)
+        source_warn(&p->messages, p->medium, "media are left out, as by pbrt-v3's integrator \"%s\"",
+                    p->scene->integrator != NULL ? p->scene->integrator : "path");
     return true;
 }
 
@@ -126,7 +113,7 @@ static bool unknown_directive(struct parser *p)
 
 static bool wrong_phase(struct parser *p, const struct directive *d)
 {
-    source_warn(&p->messages, p->directive.position, NULL,
+    source_warn(&p->messages, p->directive.position,
                 "%s is passed over, as in pbrt-v3: it may stand only %s WorldBegin%s", d->name,
                 d->phase == IN_WORLD ? "between" : "before", d->phase == IN_WORLD ? " and WorldEnd" : "");
     return false;
@@ -161,8 +148,7 @@ static void run_source(struct parser *p)
             lexer_resume(&p->lexer);
     }
     if (p->phase == AFTER_WORLD && lexer_peek(&p->lexer) != TOKEN_END)
-        source_warn(&p->messages, t->position, "after the world",
-                    "what stands after WorldEnd is not read; a file describes one world");
+        source_warn(&p->messages, t->position, "what stands after WorldEnd is not read; a file describes one world");
 }
 
 /* --- files -------------------------------------------------------------------------------------------- */
@@ -178,7 +164,7 @@ static int load(struct parser *p, const char *path, struct error *err)
             return -1;
         f.content = hash_content(f.text, f.size);
         i = p->files.n;
-        p->file = mem_grow(p->file, &p->file_capacity, (size_t)i + 1, sizeof *p->file);
+        p->file = mem_append(p->file, (size_t)i, sizeof *p->file);
         p->file[i] = f;
         symbols_add(&p->files, path, i);
     }
@@ -242,7 +228,6 @@ static void start(struct parser *p, const char *path, struct scene *s, const str
     p->named.content = &s->content;
     p->phase = BEFORE_WORLD;
     parse_state_reset(p);
-    p->state.medium[0] = p->state.medium[1] = "";
     p->current_object = -1;
     p->params.directive = "Material";
     p->params.type = "matte";

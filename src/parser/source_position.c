@@ -113,7 +113,7 @@ bool source_error(struct messages *m, struct source_position at, const char *for
     return false;
 }
 
-void source_warn(struct messages *m, struct source_position at, const char *kind, const char *format, ...)
+void source_warn(struct messages *m, struct source_position at, const char *format, ...)
 {
     char text[ERROR_TEXT_SIZE];
     struct writer w = {text, 0, sizeof text};
@@ -121,14 +121,13 @@ void source_warn(struct messages *m, struct source_position at, const char *kind
     va_start(args, format);
     const char *sentence = text + write_message(&w, at, format, args);
     va_end(args);
-    kind = kind != NULL ? kind : sentence;
-    if (count_equal(m->warning, m->n_warnings, kind) > 0)
+    if (count_equal(m->warning, m->n_warnings, sentence) > 0)
         return;
     if (m->n_warnings == MOST_WARNINGS) {
         m->more_warnings++;
         return;
     }
-    m->warning[m->n_warnings++] = mem_copy_text(kind);
+    m->warning[m->n_warnings++] = mem_copy_text(sentence);
     if (m->sink != NULL && m->sink->warn != NULL)
         m->sink->warn(m->sink->context, text);
 }

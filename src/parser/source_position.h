@@ -42,12 +42,12 @@ struct message_sink {
 enum { MOST_ERRORS = 20, MOST_LIKE = 3, MOST_WARNINGS = 100, MOST_SUGGESTIONS = 100 };
 
 /* Where messages go while one scene is read. The first MOST_ERRORS errors are given, of equal ones MOST_LIKE, and the
- * rest is counted; of warnings the first of each kind, up to MOST_WARNINGS. */
+ * rest is counted; of warnings each different one, up to MOST_WARNINGS. */
 struct messages {
     struct error *err;               /* the first error; may be NULL */
     const struct message_sink *sink; /* may be NULL */
     char *error[MOST_ERRORS];        /* [n_errors] the sentences given, owned */
-    char *warning[MOST_WARNINGS];    /* [n_warnings] the kinds given, owned */
+    char *warning[MOST_WARNINGS];    /* [n_warnings] the same of warnings */
     int n_errors, n_warnings, n_suggestions;
     long more_errors, more_warnings; /* not given */
 };
@@ -56,8 +56,8 @@ struct messages {
  * Returns false, always. */
 bool source_error(struct messages *m, struct source_position at, const char *format, ...);
 
-/* source_warn: the same on one line, to the sink, once per kind; NULL: once per message. */
-void source_warn(struct messages *m, struct source_position at, const char *kind, const char *format, ...);
+/* source_warn: the same on one line, to the sink, each sentence once. */
+void source_warn(struct messages *m, struct source_position at, const char *format, ...);
 
 /* messages_suggest: may another name be compared with all known ones, to say which was meant? MOST_SUGGESTIONS may. */
 bool messages_suggest(struct messages *m);

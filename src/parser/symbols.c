@@ -85,7 +85,7 @@ void symbols_add(struct symbols *t, const char *name, int value)
 {
     if (t->n == t->n_chains)
         add_chains(t);
-    t->entry = mem_grow(t->entry, &t->capacity, (size_t)t->n + 1, sizeof *t->entry);
+    t->entry = mem_append(t->entry, (size_t)t->n, sizeof *t->entry);
     struct symbol e = {mem_copy_text(name), value, -1};
     t->entry[t->n] = e;
     link_entry(t, t->n++);

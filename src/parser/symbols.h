@@ -42,7 +42,6 @@ struct symbol {
 struct symbols {
     struct symbol *entry; /* [n], in the order they were added, owned */
     int n;
-    size_t capacity;
     int *newest; /* [n_chains], first entry of each chain plus 1; 0: empty; owned */
     int n_chains; /* a power of two, never fewer than entries. All zeros is an empty table. */
 };

@@ -11,7 +11,7 @@
 
 int light_add(struct light_set *set, struct light l)
 {
-    set->light = mem_grow(set->light, &set->capacity, (size_t)set->n + 1, sizeof *set->light);
+    set->light = mem_append(set->light, (size_t)set->n, sizeof *set->light);
     set->light[set->n] = l;
     return set->n++;
 }
@@ -39,8 +39,7 @@ static struct light_picture *picture_of(struct light_set *set, const char *path,
         if ((set->picture[i].env != NULL) == map && strcmp(set->picture[i].path, path) == 0)
             return &set->picture[i];
     struct light_picture added = {mem_copy_text(path), NULL, NULL};
-    set->picture =
-        mem_grow(set->picture, &set->picture_capacity, (size_t)set->n_pictures + 1, sizeof *set->picture);
+    set->picture = mem_append(set->picture, (size_t)set->n_pictures, sizeof *set->picture);
     set->picture[set->n_pictures] = added;
     return &set->picture[set->n_pictures++];
 }
@@ -206,7 +205,7 @@ bool light_sample_cell(const struct light_set *set, const struct geometry *geo, 
             return false;
         out->p = at.p;
         out->n = at.ng;
-        out->triangle_id = shape_triangle_id(l->prim);
+        out->prim_id = shape_prim_id(l->prim);
         break;
     }
     case LIGHT_POINT:
@@ -278,7 +277,7 @@ rgb light_sample_emission(const struct light_set *set, const struct light_point 
         *pdf = light_pdf_emission(set, y0, ray->d);
         return light_Le(set, y0, ray->d);
     }
-    struct ray r = {y0->p, w, 0, INFINITY, y0->triangle_id, 0};
+    struct ray r = {y0->p, w, 0, INFINITY, y0->prim_id, 0};
     *ray = r;
     *pdf = light_pdf_emission(set, y0, w);
     return *pdf > 0 ? rgb_scale(light_Le(set, y0, w), cosine) : rgb_black();

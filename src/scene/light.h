@@ -56,7 +56,7 @@ enum light_kind {
  *   p          on the surface      position           position              -                      -
  *   n          emitting side       0                  0                     0                      0
  *   w          -                   -                  -                     unit, towards it       unit, towards it
- *   triangle_id shape_triangle_id  0                 0                     0                      0
+ *   prim_id    shape_prim_id       0                  0                     0                      0
  *   pdf_cell   1/m^2               1                  1                     1                      1/sr
  *   pdf        pdf_cell times the probability of the cell under `choice`, in all kinds
  *   emission's second draw is      a direction, 1/sr (area, point, spot)    an origin on a disk, 1/m^2
@@ -90,10 +90,8 @@ struct light_picture {
 struct light_set {
     struct light *light; /* [n], owned */
     int n;
-    size_t capacity;
     struct light_picture *picture; /* [n_pictures], owned */
     int n_pictures;
-    size_t picture_capacity;
     int n_cells;
     int *light_of_cell;        /* [n_cells], owned */
     struct alias_table choice; /* of a cell, by power */
@@ -133,7 +131,7 @@ static inline bool light_at_infinity(const struct light *l)
 struct light_point {
     int light, cell;
     vec3 p, n, w;
-    uint32_t triangle_id;
+    uint32_t prim_id;
     double pdf_cell, pdf;
 };
 

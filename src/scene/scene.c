@@ -24,7 +24,6 @@ void scene_free(struct scene *s)
     geometry_free(&s->geo);
     texture_set_free(&s->textures);
     free(s->material);
-    arena_free(&s->arena);
     light_set_free(&s->lights);
     free(s->film_filename);
     free(s->integrator);
@@ -34,7 +33,8 @@ void scene_free(struct scene *s)
 
 int scene_add_material(struct scene *s, struct material m)
 {
-    s->material = mem_grow(s->material, &s->material_capacity, (size_t)s->n_materials + 1, sizeof *s->material);
+    s->material = mem_append(s->material, (size_t)s->n_materials, sizeof *s->material);
+    m.n_lobes = material_lobes(s->material, &m);
     s->material[s->n_materials] = m;
     return s->n_materials++;
 }
@@ -79,7 +79,6 @@ void scene_prepare(struct scene *s)
 {
     s->geo.opaque = opaque_at;
     s->geo.opaque_context = &s->textures;
-    material_prepare(s->material, s->n_materials, &s->textures, &s->arena);
     for (int i = 0; i < s->geo.n_groups; i++)
         s->geo.group[i].skip_partials =
             s->geo.group[i].material < 0 ||

@@ -35,8 +35,6 @@ struct scene {
     struct texture_set textures;
     struct material *material; /* [n_materials], owned */
     int n_materials;
-    size_t material_capacity;
-    struct arena arena; /* what scene_prepare makes of the materials */
     struct light_set lights;
 
     struct camera camera;
@@ -80,7 +78,7 @@ bool scene_lamp(const struct scene *s, const struct ray *ray, const struct surfa
 bool scene_lamp_stops(const struct scene *s, const struct ray *ray, const struct surface *end);
 
 /* scene_visible: does light that is scattered at b reach a: is the open segment between them free of surfaces?
- *   from, to  the primitives a and b are on, see shape_triangle_id; 0: none */
+ *   from, to  the primitives a and b are on, see shape_prim_id; 0: none */
 bool scene_visible(const struct scene *s, vec3 a, uint32_t from, vec3 b, uint32_t to);
 
 /* scene_lit: does light that is emitted at b reach a? scene_lit_from: the same from infinity, in unit direction w. */

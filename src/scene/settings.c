@@ -32,7 +32,7 @@ void settings_remove(struct settings *s, int i)
 /* One more, with its texts copied. */
 static struct setting *append(struct settings *s, const char *name, const char *value, const char *origin)
 {
-    s->item = mem_grow(s->item, &s->capacity, (size_t)s->n + 1, sizeof *s->item);
+    s->item = mem_append(s->item, (size_t)s->n, sizeof *s->item);
     struct setting *item = &s->item[s->n++];
     memset(item, 0, sizeof *item);
     item->name = mem_copy_text(name);

@@ -22,7 +22,6 @@ struct setting {
 struct settings {
     struct setting *item; /* [n], owned */
     int n;
-    size_t capacity;
 };
 
 /* settings_set: add, or replace all of that name; the texts are copied. settings_remove: forget number i.
@@ -33,7 +32,7 @@ void settings_clear(struct settings *s);
 
 /* settings_declare: add what a scene file declares, beside declarations of another type.
  *   type      borrowed: a constant
- *   n_values  how many values `value` holds, blanks between them */
+ *   n_values  how many values it has, of which `value` is the first */
 void settings_declare(struct settings *s, const char *name, const char *value, const char *origin, const char *type,
                       int n_values);
 

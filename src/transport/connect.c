@@ -99,8 +99,8 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
     c.value = rgb_mul(rgb_mul(z->beta, at_z.factor), rgb_scale(Le, at_light / (pmf * at.pdf_cell)));
     if (rgb_is_black(c.value))
         return nothing();
-    if (parallel ? !scene_lit_from(scene, z->p, z->triangle_id, w)
-                 : !scene_lit(scene, z->p, z->triangle_id, at.p, at.triangle_id))
+    if (parallel ? !scene_lit_from(scene, z->p, z->prim_id, w)
+                 : !scene_lit(scene, z->p, z->prim_id, at.p, at.prim_id))
         return nothing();
 
     struct vertex y;
@@ -142,7 +142,7 @@ struct connection connect_joint(const struct scene *scene, const struct mis_coun
 {
     const struct vertex *y = j->y, *z = j->z;
     struct connection c = nothing();
-    if (rgb_is_black(j->value) || !scene_visible(scene, z->p, z->triangle_id, y->p, y->triangle_id))
+    if (rgb_is_black(j->value) || !scene_visible(scene, z->p, z->prim_id, y->p, y->prim_id))
         return c;
     double light = mis_side(counts, j->pdf_z * j->area_y, y->pdf_fwd, y->mis_c, j->pdf_rev_y, y->mis);
     double eye = mis_side(counts, j->pdf_y * j->area_z, z->pdf_fwd, z->mis_c, j->pdf_rev_z, z->mis);
@@ -182,7 +182,7 @@ struct connection connect_lens(const struct scene *scene, const struct mis_count
     /* We cos / (lens density) = J, see camera.h. */
     double density = J * camera_spread(&scene->camera, d2);
     c.value = rgb_mul(y->beta, rgb_scale(at_y.factor, density));
-    if (rgb_is_black(c.value) || !scene_visible(scene, lens, 0, y->p, y->triangle_id))
+    if (rgb_is_black(c.value) || !scene_visible(scene, lens, 0, y->p, y->prim_id))
         return nothing();
     /* The strategy one shorter on the light side has t = 2, which the light walk could not know. */
     double before = mis_count_before(counts, &scene->lights, &light[s - 2], y, FIRST_HIT);

@@ -60,7 +60,7 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
     v->cell = at->light < 0 ? -1 : w->scene->lights.light[at->light].first_cell;
     v->p = at->p;
     v->ng = at->ng;
-    v->triangle_id = at->triangle_id;
+    v->prim_id = at->prim_id;
     v->wo = neg(from->ray.d);
     v->beta = from->beta;
     v->pdf_origin = mode == RADIANCE && at->light >= 0 ? light_pdf_surface(&w->scene->lights, &w->scene->geo, at) : 0;
@@ -122,7 +122,7 @@ static bool depart(const struct walk *w, const struct vertex *v, enum transport 
     out->beta = rgb_mul(v->beta, rgb_scale(s.f, scatter_cosine(v, s.wi, mode) / s.pdf));
     if (rgb_is_black(out->beta) || !rgb_is_finite(out->beta))
         return false;
-    struct ray ray = {v->p, s.wi, ray_margin(v->p), INFINITY, v->triangle_id, 0};
+    struct ray ray = {v->p, s.wi, ray_margin(v->p), INFINITY, v->prim_id, 0};
     out->ray = ray;
     out->pdf = s.pdf;
     out->pdf_rev = s.pdf_rev;

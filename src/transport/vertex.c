@@ -5,7 +5,7 @@
 
 struct light_point vertex_light_point(const struct vertex *v)
 {
-    struct light_point at = {v->light, v->cell, v->p, v->ng, v->wo, v->triangle_id, 0, 0};
+    struct light_point at = {v->light, v->cell, v->p, v->ng, v->wo, v->prim_id, 0, 0};
     return at;
 }
 
@@ -33,7 +33,7 @@ void vertex_light_end(const struct scene *scene, const struct mis_counts *counts
     out->cell = at->cell;
     out->p = at->p;
     out->ng = at->n;
-    out->triangle_id = at->triangle_id;
+    out->prim_id = at->prim_id;
     out->wo = at->w;
     out->beta = rgb_grey(1 / at->pdf);
     /* An escaping eye ray cannot tell infinite lights apart, so their densities are added up for the weight.

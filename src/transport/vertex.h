@@ -24,7 +24,7 @@ enum vertex_kind {
  *   light, cell  -1           its light and light cell          of the area light, or -1     -1
  *   p            on the lens  on the light; at infinity -       the point                    -
  *   ng           0            area light: its normal; else 0    geometric normal             0
- *   triangle_id  0            area light: see shape.h; else 0   see shape.h                  0
+ *   prim_id      0            area light: see shape.h; else 0   see shape.h                  0
  *   wo           0            at infinity: towards the light    towards the previous vertex  inwards
  *   beta         1            radiance or intensity emitted;    throughput on arrival        throughput on arrival
  *                             as a connection's end 1/density
@@ -47,7 +47,7 @@ struct vertex {
     enum eye_end eye_end;
     int light, cell;
     vec3 p, ng;
-    uint32_t triangle_id;
+    uint32_t prim_id;
     vec3 wo; /* unit */
     rgb beta;
     double pdf_fwd, pdf_origin, pdf_rev;

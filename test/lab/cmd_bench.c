@@ -88,7 +88,7 @@ static bool bounce(const struct scene *s, struct ray *ray, struct sampler *sampl
     if (!scene_intersect(s, ray, &at))
         return false;
     struct ray next = {at.p, cosine_direction(sampler, faceforward(at.ng, neg(ray->d))), ray_margin(at.p), INFINITY,
-                       at.triangle_id, 0};
+                       at.prim_id, 0};
     *ray = next;
     return true;
 }
