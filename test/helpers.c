@@ -94,7 +94,7 @@ struct batches render_batches(struct test *t, const struct scene *scene, const c
 {
     struct pixel_rect crop = render_crop(scene);
     struct batches pixels = batches_new(n_batches, 3L * rect_width(crop) * rect_height(crop), false);
-    struct render_options o = {.integrator = integrator, .end = spp, .max_depth = max_depth};
+    struct render_options o = {.integrator = integrator, .end = spp * test_effort(t), .max_depth = max_depth};
     o.n_threads = os_cores();
     for (int k = 0; k < n_batches; k++) {
         struct film film;
