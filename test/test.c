@@ -74,8 +74,8 @@ static bool doubtful(const struct hypothesis *h) { return h->must_hold && h->p <
 static void fail(struct test *t, const struct hypothesis *h, const char *must_be, double level)
 {
     t->failures++;
-    fprintf(t->set.out, "  FAIL %s\n       p = %.3g, must be %s %.3g\n       repeat with: build/test --seed %llu %s\n", h->text,
-            h->p, must_be, level, (unsigned long long)t->set.seed, t->name);
+    fprintf(t->set.out, "  FAIL %s\n       p = %.3g, must be %s %.3g\n       repeat with: build/test --seed %llu %s\n",
+            h->text, h->p, must_be, level, (unsigned long long)t->set.seed, t->name);
 }
 
 /* Fails what is certain already; returns the number of doubtful hypotheses. NaN is neither small nor large enough. */
@@ -113,7 +113,8 @@ static void run(const struct test_entry *e, struct test *t)
 {
     double start = os_wall_seconds();
     e->run(t);
-    fprintf(t->set.out, "%-10s %6.2f s%s\n", e->name, os_wall_seconds() - start, t->effort > 1 ? " for ten times the samples" : "");
+    fprintf(t->set.out, "%-10s %6.2f s%s\n", e->name, os_wall_seconds() - start,
+            t->effort > 1 ? " for ten times the samples" : "");
     fflush(t->set.out);
 }
 
