@@ -9,8 +9,9 @@
  *     true                    p of 1e-4 or more passes, one below 1e-7 fails; one between them is doubtful
  *
  * A test with doubtful hypotheses, and no failures, is called again with another seed and an effort of 10: it takes ten
- * times the samples (or as many others, if what it expects of them is no more exact). What the doubtful ones come to then
- * counts alone; all of them together are judged at 0.001, shared by Sidak's formula. So n true hypotheses fail in fewer than n (1e-4 * 0.001 + 1e-7) of all seeds. NaN always fails.
+ * times the samples (or as many others, if what it expects of them is no more exact). What the doubtful ones come to
+ * then counts alone; all of them together are judged at 0.001, shared by Sidak's formula. So n true hypotheses fail in
+ * fewer than n (1e-4 * 0.001 + 1e-7) of all seeds. NaN always fails.
  */
 #ifndef ASBDPT_TEST_H
 #define ASBDPT_TEST_H
