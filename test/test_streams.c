@@ -203,7 +203,7 @@ static void test_sub_paths(struct test *t)
 
 /* --- long renders ------------------------------------------------------------------------------------ */
 
-enum { FIRST = 64, STEPS = 4, LAST = FIRST << (STEPS - 1), SIDE = 5, VALUES = SIDE * SIDE * 3, PAIRS = 8 };
+enum { FIRST = 64, STEPS = 4, LAST = FIRST << (STEPS - 1), SIDE = 5, VALUES = SIDE * SIDE * 3, PAIRS = 10 };
 
 /* Sums of one render after 64, 128, 256 and 512 iterations. */
 struct history {
