@@ -131,15 +131,12 @@ mutants: ## apply small faults one by one; the tests must catch every one
 
 layers: ## check that no file includes a higher room, that no room holds a circle, that headers compile alone
 	@ABOVE=test/lab sh test/layers.sh src $(CC)
-	@sh test/layers_test.sh $(CC)
 
 standard: ## check that src calls and includes nothing that differs from machine to machine, but in one place
 	@sh test/standard.sh
-	@sh test/standard_test.sh
 
 references: ## check that every source named in a comment is in doc/references.md, and that all there are used
 	@sh test/references.sh
-	@sh test/references_test.sh
 
 faults: ## check that every fault of the list of mutants still applies
 	@sh test/mutants/check.sh
@@ -154,7 +151,6 @@ columns: ## check that no line is longer than .clang-format allows, and that all
 
 links: ## check that links, functions, tests and mutants named in the documents exist, and their HTML
 	@sh test/links.sh
-	@sh test/links_test.sh
 	@sh test/html.sh
 
 san: ## run the tests (or SUITES="...") under the address and undefined-behaviour sanitizers

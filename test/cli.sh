@@ -1,8 +1,24 @@
 #!/bin/sh
 # cli.sh: the command line as a user meets it: exit codes, one clear line per error, formats, determinism of files.
-# Run from the top: sh test/cli.sh ./asbdpt
+# Run from the top: sh test/cli.sh ./asbdpt [PART...]    PART: one that begins with a line "# --- PART" below
+if [ $# -gt 1 ]; then # this script without the other parts
+    program=$1 script=$(mktemp) || exit 1
+    shift
+    trap 'rm -f "$script"' EXIT
+    awk -v wanted=" $* end " '
+        /^# --- / { here = index(wanted, " " $3 " "); found += here > 0; started = 1 }
+        !started || here
+        END { exit found != split(wanted, part, " ") }' test/cli.sh >"$script" || { echo "cli.sh: no part $*"; exit 2; }
+    sh "$script" "$program"
+    exit
+fi
 . test/expect.sh
 small="--res 16x16 --spp 2 --quiet"
+nan() { head -c "$1" /dev/zero | LC_ALL=C tr '\000' '\377'; } # so many bytes of NaNs
+{ printf 'PF\n36 24\n-1\n'; nan 10368; } >nan.pfm
+{ head -c -12 "$scenes/../ref/bathroom.pfm"; nan 12; } >corner.pfm
+
+# --- options
 
 expect 0 '' "$program" --help
 check grep -q 'asbdpt render SCENE' stdout.txt
@@ -64,6 +80,7 @@ expect 1 'select = "bin" is unknown: give "subspaces", "bins", "pool" or "vertic
 expect 1 '^asbdpt: -P: heuristic = "max" is unknown: give "balance" or "power"' \
     "$program" render "$box" $small -P heuristic=max -o x.pfm
 
+# --- parameters
 # pbrt's lightsamplestrategy: its three names are taken by every integrator; of a misspelling pbrt makes "spatial".
 for method in path bdpt asbdpt; do
     printf 'Integrator "%s" "string lightsamplestrategy" "spacial"\nWorldBegin\nWorldEnd\n' $method >strategy.pbrt
@@ -146,6 +163,7 @@ for strategy in spatial power uniform; do
 done
 check cmp -s power.pfm uniform.pfm
 check test -n "$(cmp power.pfm spatial.pfm 2>&1)"
+# --- outputs
 if [ -e /dev/full ]; then
     ln -s /dev/full full.pfm
     expect 1 'full.pfm' "$program" render "$box" $small -o full.pfm
@@ -190,6 +208,7 @@ expect 1 'circle.pfm: cannot be created' "$program" render nothing.pbrt -o circl
 "$program" render - --res 8x8 --spp 1 --quiet -o - <"$box" >piped.pfm
 check cmp -s piped.pfm target.pfm
 
+# --- scenes
 # One line with place and caret for what a scene file can get wrong.
 printf 'WorldBegin\nShpae "sphere"\nWorldEnd\n' >typo.pbrt
 expect 1 '^asbdpt: typo.pbrt:2:1: ' "$program" render typo.pbrt
@@ -237,6 +256,7 @@ expect 0 'warning: [0-9]+ contributions were not finite, or too large' \
 expect 0 '' "$program" compare mirrors.pfm mirrors.pfm --json
 check grep -q '"nonfinite": 0' stdout.txt
 
+# --- render
 # Files: three formats from one run, the same bytes for any number of threads.
 expect 0 '' "$program" render "$box" $small -j 1 -o a.pfm -o a.ppm -o a.png
 expect 0 '' "$program" render "$box" $small -j 3 -o b.pfm
@@ -275,7 +295,7 @@ check grep -Eq ', "psnr": [0-9.]+\}$' stdout.txt
 expect 2 'expected a number from 1e-30' "$program" compare a.pfm b.pfm --heatmap heat.png --max 0
 expect 0 '' "$program" render "$box" --res 8x8 --spp 1 --quiet -o c.pfm
 expect 1 'equal size' "$program" compare a.pfm c.pfm
-expect 1 typo.pbrt "$program" compare typo.pbrt a.pfm
+expect 1 cornell-box.pbrt "$program" compare "$box" a.pfm
 expect 0 '' "$program" render "$box" $small --maxdepth 2 --strategies s -o a.pfm
 check [ -s s/d02_s02_t02_weighted.pfm ]
 check [ -s s/pyramid.png ]
@@ -283,6 +303,7 @@ printf 'Film "image" "float scale" 3 WorldBegin LightSource "infinite" "rgb L" [
 expect 0 '' "$program" render scale.pbrt $small --maxdepth 1 --strategies s -o scale.pfm
 check cmp -s scale.pfm s/d00_s00_t02_weighted.pfm
 
+# --- aov
 # --aov: a picture each beside the first, the same for any number of threads and whatever is rendered.
 expect 0 'wrote aov.variance.pfm' "$program" render "$box" --res 16x16 --spp 2 -j 1 \
     --aov variance,albedo,normal,depth,position -o aov.png
@@ -301,6 +322,7 @@ mkdir taken.depth.pfm
 expect 1 'taken.depth.pfm' "$program" render "$box" $small --aov albedo,depth -o taken.png
 check [ ! -e taken.png -a ! -e taken.albedo.pfm ]
 
+# --- stats
 # --stats: what was rendered and how it went; --quick: what pbrt's does, but options of one's own count first.
 expect 0 '' "$program" render "$box" --quick -j 2 --integrator asbdpt -P delta=0.25 --aov depth --stats stats.json \
     -o a.png
@@ -324,11 +346,14 @@ rm stats.json # it is there when all other files are
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt --stats stats.json -o a.png
 expect 1 'no/s.json: cannot be created' "$program" render "$box" $small --stats no/s.json -o made.png
 if [ -e /dev/full ]; then
+    ln -sf /dev/full full.pfm
     expect 1 'full.pfm' "$program" render "$box" $small --stats stats.json -o full.pfm
 fi
 check [ ! -e stats.json -a ! -e made.png ]
 
+# --- demo
 # demo: one picture of two integrators, wherever a reference is stored.
+cp "$box" known.pbrt
 expect 0 '' "$lab" demo "$box" --spp 1 --quiet -o demo.png
 check grep -q '^asbdpt .* spp .* s of CPU   rmse8' stdout.txt
 check [ -s demo.png ]
@@ -336,6 +361,7 @@ expect 1 'there is no stored reference known.pfm' "$lab" demo known.pbrt -o demo
 expect 1 'there is no integrator bdtp; did you mean bdpt' "$lab" demo "$box" --with bdtp -o demo.png
 expect 2 'demo needs a picture to write' "$lab" demo "$box"
 
+# --- help
 # What a system is told: the man page and the completions are sound, where there is something to judge them by.
 expect 0 '' "$program" help man
 mv stdout.txt asbdpt.1
@@ -367,6 +393,7 @@ printf 'WorldBegin Translate 5 6 7 Material "none" AreaLightSource "diffuse" Sha
 expect 0 '' "$program" info lamp.pbrt # bounds are those of the surfaces that rays pass through, too
 check grep -q 'bounds  *(4, 5, 6) to (6, 7, 8)' stdout.txt
 
+# --- trace
 # trace: a sample told in words, as JSON and drawn; what it says to have added is what a render's film holds.
 one="--res 12x12 --integrator bdpt --maxdepth 3 --pixel 3,9"
 expect 1 'cannot be created' "$program" trace "$box" --pixel 3,9 --svg no/such/dir.svg # before the work
@@ -390,6 +417,7 @@ expect 1 'pixel 12,0 is not rendered: x is 0 to 11' "$program" trace "$box" $one
 expect 1 'sample 4 of a pixel is not taken: they are numbered 0 to 3' "$program" trace "$box" $one --spp 4 --sample 4
 expect 1 'no/paths.svg' "$program" trace "$box" $one --svg no/paths.svg
 
+# --- worth
 # worth: what was learnt, as a picture.
 expect 0 '' "$program" worth "$box" --pixel 3,9 --res 12x12 --spp 4 --quiet -o worth.png
 check [ -s worth.png ]
@@ -400,7 +428,9 @@ expect 2 'the whole film is shown' "$program" worth "$box" --pixel 3,9 --cropwin
 expect 0 '' "$program" info "$box"
 check grep -q triangles stdout.txt
 
+# --- verify
 # verify: agreement is status 0, a difference status 1.
+expect 0 '' "$program" render "$box" $small -o a.pfm
 expect 0 '' "$lab" verify "$box" --methods pt,bdpt --res 12x12 --spp 8 --maxdepth 2 --quiet
 # The two sides have random numbers of their own, even with the same method: sharing them would be too alike to be true.
 expect 0 '' "$lab" verify "$box" --methods bdpt,bdpt --res 12x12 --spp 8 --maxdepth 2 --quiet
@@ -417,9 +447,6 @@ expect 1 '' "$lab" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref
     "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.pfm"
 check grep -q '^verdict: DIFFER' stdout.txt
 # NaN is a difference, also from itself, in every pixel or in one, in a picture or in its errors.
-nan() { head -c "$1" /dev/zero | LC_ALL=C tr '\000' '\377'; } # so many bytes of NaNs
-{ printf 'PF\n36 24\n-1\n'; nan 10368; } >nan.pfm
-{ head -c -12 "$scenes/../ref/bathroom.pfm"; nan 12; } >corner.pfm
 for nan in nan corner; do
     for sides in "$nan.pfm E $nan.pfm E" "$nan.pfm E R E" "R E $nan.pfm E" "R $nan.pfm R E"; do
         # shellcheck disable=SC2046
@@ -435,6 +462,7 @@ expect 1 'same size' "$lab" verify --images "$scenes/../ref/bathroom.pfm" "$scen
 expect 2 'usage: asbdpt-lab verify' "$lab" verify --images a.pfm
 expect 2 'no method nonsense' "$lab" verify "$box" --methods nonsense
 
+# --- experiment
 # experiment --equal-time: a table, a line for every variant and seed, and a number that may be left out.
 tiny="--res 8x8 --seeds 2 --quiet"
 expect 0 '' "$lab" experiment --equal-time "$box" $tiny --spp 2 -o equal
@@ -461,6 +489,7 @@ expect 1 'have the same name, bathroom' \
 expect 2 'equal times are those of one thread' "$lab" experiment "$box" --equal-time -j 2 $tiny -o equal
 expect 2 '[-]-equal-time 0: expected a number from 0.001' "$lab" experiment "$box" --equal-time 0 $tiny -o equal
 
+# --- convert
 # convert: linear formats keep light (.float.exr exactly), 8-bit ones what they hold; - reads and writes PFM.
 "$program" render "$box" --res 37x23 --spp 4 --quiet -o light.pfm -o light.png
 expect 0 '' "$program" convert light.pfm -o x.float.exr -o x.exr -o x.hdr -o x.png -o x.tga -o x.ppm
@@ -526,6 +555,7 @@ expect 2 'expected a number from -100 to 100' "$program" convert light.pfm -o y.
 
 # OpenEXR's own tools and ImageMagick, where they are installed, read our files and write ours.
 if command -v exrmaketiled >/dev/null; then
+    expect 0 '' "$program" render "$box" $small --cropwindow 0 0.5 0.25 1 -o crop.exr
     for kind in x.exr x.float.exr; do
         for compression in none rle zip piz; do
             for levels in -o -m -r; do
@@ -562,5 +592,6 @@ else
     echo "skipped: pictures of ImageMagick (convert is not installed)"
 fi
 
+# --- end
 [ $failures -eq 0 ] && echo "command line: all as expected"
 exit $((failures > 0))

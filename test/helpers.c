@@ -13,6 +13,7 @@
 #include "base/os.h"
 #include "base/parallel.h"
 #include "base/stats.h"
+#include "lab/sides.h"
 #include "parser/parser.h"
 #include "render/render.h"
 
@@ -94,7 +95,7 @@ struct batches render_batches(struct test *t, const struct scene *scene, const c
 {
     struct pixel_rect crop = render_crop(scene);
     struct batches pixels = batches_new(n_batches, 3L * rect_width(crop) * rect_height(crop), false);
-    struct render_options o = {.integrator = integrator, .end = spp, .max_depth = max_depth};
+    struct render_options o = {.integrator = integrator, .end = spp * test_effort(t), .max_depth = max_depth};
     o.n_threads = os_cores();
     for (int k = 0; k < n_batches; k++) {
         struct film film;
@@ -110,6 +111,21 @@ struct batches render_batches(struct test *t, const struct scene *scene, const c
     struct batches tiles = batches_tiles(&pixels, rect_width(crop), rect_height(crop), tile);
     batches_free(&pixels);
     return tiles;
+}
+
+bool load_reference(struct test *t, const char *name, int tile, int *width, int *height, struct batches *out)
+{
+    char path[256];
+    struct error err;
+    struct side side = {0};
+    snprintf(path, sizeof path, "ref/%s.pfm", name);
+    bool ok = CHECK(t, side_read_reference(path, &side, &err), "%s", err.text);
+    *width = side.width;
+    *height = side.height;
+    if (ok)
+        *out = batches_tiles(&side.pixels, side.width, side.height, tile);
+    batches_free(&side.pixels);
+    return ok;
 }
 
 void batches_scale(struct batches *b, double factor)

@@ -33,10 +33,13 @@ bool scene_from_file(struct test *t, const char *path, int width, int height, st
  * becomes more than some ten times as long as another. */
 struct transform random_affine(struct rng *r);
 
-/* render_batches: render `n_batches` times with `spp` samples and seeds of their own, and average over square tiles of
- * `tile` pixels. */
+/* render_batches: render `n_batches` times with `spp` samples, times the effort, and seeds of their own, and average
+ * over square tiles of `tile` pixels. */
 struct batches render_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth, int spp,
                               int n_batches, int tile, uint64_t seed);
+
+/* load_reference: the picture ref/NAME.pfm with its errors, averaged over square tiles. A failure is a failed check. */
+bool load_reference(struct test *t, const char *name, int tile, int *width, int *height, struct batches *out);
 
 /* batches_scale: multiply all by a factor, as a fault would. */
 void batches_scale(struct batches *b, double factor);

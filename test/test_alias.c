@@ -134,7 +134,7 @@ static void every_shape(struct test *t)
                 continue;
             double e = mass_error(&table, w, n);
             CHECK(t, e < 1e-12, "%s, n %d: relative mass error %g", SHAPE_NAME[shape], n, e);
-            double p = draw_p(&table, w, n, 50000, &r);
+            double p = draw_p(&table, w, n, 50000 * test_effort(t), &r);
             int choices = 0;
             for (int i = 0; i < n; i++)
                 choices += w[i] > 0;
@@ -264,7 +264,8 @@ static void what_is_left_of_u(struct test *t)
         make_weights((enum shape_of_weights)shape, w, 12, &r);
         w[3] += shape == HOLES;
         alias_build(&table, w, 12);
-        TEST_ACCEPT(t, rest_p(&table, 60000, rest_of_sample, &r), "left-over u, %s", SHAPE_NAME[shape]);
+        double p = rest_p(&table, 60000 * test_effort(t), rest_of_sample, &r);
+        TEST_ACCEPT(t, p, "left-over u, %s", SHAPE_NAME[shape]);
     }
     TEST_REJECT(t, rest_p(&table, 60000, rest_unchanged, &r), "u handed on unchanged");
     alias_free(&table);

@@ -2,27 +2,10 @@
  * dissertation's bins, with the same samples, are found out. */
 #include <stdio.h>
 
-#include "lab/sides.h"
 #include "helpers.h"
 #include "tests.h"
 
 enum { TILE = 8 }; /* pixels; smaller ones have means too skewed for the few samples of the quick test */
-
-/* The stored picture with its errors, in tiles. */
-static bool load_reference(struct test *t, const char *name, int *width, int *height, struct batches *out)
-{
-    char path[256];
-    struct error err;
-    struct side side = {0};
-    snprintf(path, sizeof path, "ref/%s.pfm", name);
-    bool ok = CHECK(t, side_read_reference(path, &side, &err), "%s", err.text);
-    *width = side.width;
-    *height = side.height;
-    if (ok)
-        *out = batches_tiles(&side.pixels, side.width, side.height, TILE);
-    batches_free(&side.pixels);
-    return ok;
-}
 
 static const struct integrator_case {
     const char *name, *integrator, *select;
@@ -59,7 +42,7 @@ static void test_scene(struct test *t, const char *name, int integrators, int sp
     struct scene scene;
     struct batches reference;
     int width, height;
-    if (!load_reference(t, name, &width, &height, &reference))
+    if (!load_reference(t, name, TILE, &width, &height, &reference))
         return;
     snprintf(path, sizeof path, "scenes/%s.pbrt", name);
     if (scene_from_file(t, path, width, height, &scene)) {
@@ -75,7 +58,7 @@ static void test_scene(struct test *t, const char *name, int integrators, int sp
  * rare. */
 void test_references(struct test *t)
 {
-    test_scene(t, "cornell-box", PT | LT | BDPT | POOL | VERTICES | SUBSPACES | BINS, 16);
+    test_scene(t, "cornell-box", PT | LT | BDPT | SUBSPACES | BINS, 8); /* all selections: test_asbdpt.c */
     test_scene(t, "cornell-box-modified", BDPT | SUBSPACES, 8);
     test_scene(t, "veach-ajar", BDPT | VERTICES | SUBSPACES, 8);
     test_scene(t, "bathroom", BDPT | SUBSPACES, 8);

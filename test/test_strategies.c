@@ -18,7 +18,7 @@
 #include "helpers.h"
 #include "tests.h"
 
-enum { DEPTH = 3, BATCHES = 16, SPP = 400 };
+enum { DEPTH = 3, BATCHES = 16, SPP = 200 };
 
 #define VIEW "LookAt 0 1.6 -4.5  0 .9 0  0 1 0 Camera "
 #define PERSPECTIVE VIEW "\"perspective\" \"float fov\" 42\n"
@@ -108,7 +108,7 @@ static void test_scene(struct test *t, const char *name, const char *text)
     for (int k = 0; k < BATCHES; k++) {
         struct film film;
         struct error err;
-        struct render_options o = {.integrator = "bdpt", .end = SPP, .max_depth = DEPTH};
+        struct render_options o = {.integrator = "bdpt", .end = SPP * test_effort(t), .max_depth = DEPTH};
         o.n_threads = os_cores();
         o.seed = test_seed(t) * 7919 + (uint64_t)k;
         film_init(&film, render_crop(&scene), scene.width, scene.height);

@@ -268,9 +268,9 @@ static void test_sub_paths(struct test *t)
 
 /* --- long renders ------------------------------------------------------------------------------------ */
 
-enum { FIRST = 64, STEPS = 5, LAST = FIRST << (STEPS - 1), SIDE = 5, VALUES = SIDE * SIDE * 3, PAIRS = 12 };
+enum { FIRST = 64, STEPS = 4, LAST = FIRST << (STEPS - 1), SIDE = 5, VALUES = SIDE * SIDE * 3, PAIRS = 10 };
 
-/* Sums of one render after 64, 128 ... 1024 iterations. */
+/* Sums of one render after 64, 128, 256 and 512 iterations. */
 struct history {
     const struct film *film;
     double sum[STEPS][VALUES];
@@ -302,15 +302,15 @@ static void render_history(struct test *t, const struct scene *scene, const char
     film_free(&film);
 }
 
-/* P-value of "the expectation is at most 0", by Student's t over PAIRS values. */
-static double not_positive_p(const double *x)
+/* P-value of "the expectation is at most 0", by Student's t over n values. */
+static double not_positive_p(const double *x, int n)
 {
     double sum = 0, square = 0;
-    for (int i = 0; i < PAIRS; i++)
+    for (int i = 0; i < n; i++)
         sum += x[i];
-    for (int i = 0; i < PAIRS; i++)
-        square += (x[i] - sum / PAIRS) * (x[i] - sum / PAIRS);
-    double t = sum / PAIRS / sqrt(square / (PAIRS - 1) / PAIRS), two_sided = stats_student_p(t, PAIRS - 1);
+    for (int i = 0; i < n; i++)
+        square += (x[i] - sum / n) * (x[i] - sum / n);
+    double t = sum / n / sqrt(square / (n - 1) / n), two_sided = stats_student_p(t, n - 1);
     return t > 0 ? two_sided / 2 : 1 - two_sided / 2;
 }
 
@@ -318,6 +318,11 @@ static double not_positive_p(const double *x)
  * likely as its negative. */
 struct difference {
     double sum[STEPS][VALUES];
+};
+
+struct differences {
+    const struct difference *of; /* [n] */
+    int n;                       /* PAIRS, times the effort */
 };
 
 /* What is compared of pair k and value i: the first n iterations, and the n after them or all. */
@@ -335,31 +340,33 @@ static struct two halves(const struct difference *d, int i, int step, double rep
 }
 
 /* Mean over k of a^2 or b^2. */
-static struct two mean_squares(const struct difference *d, int i,
+static struct two mean_squares(const struct differences *d, int i,
                                struct two (*of)(const struct difference *, int, int, double),
                                int step, double repeated)
 {
     struct two mean = {0, 0};
-    for (int k = 0; k < PAIRS; k++) {
-        struct two x = of(&d[k], i, step, repeated);
-        mean.a += x.a * x.a / PAIRS;
-        mean.b += x.b * x.b / PAIRS;
+    for (int k = 0; k < d->n; k++) {
+        struct two x = of(&d->of[k], i, step, repeated);
+        mean.a += x.a * x.a / d->n;
+        mean.b += x.b * x.b / d->n;
     }
     return mean;
 }
 
 /* Every value is divided by its standard deviation, lest the few pixels at edges of the light decide everything. */
-static double halves_p(const struct difference *d, int step, double repeated)
+static double halves_p(const struct differences *d, int step, double repeated)
 {
-    double correlation[PAIRS] = {0};
+    double *correlation = mem_alloc((size_t)d->n, sizeof *correlation);
     for (int i = 0; i < VALUES; i++) {
         struct two square = mean_squares(d, i, halves, step, repeated);
-        for (int k = 0; k < PAIRS && !(square.a <= 0 || square.b <= 0); k++) {
-            struct two x = halves(&d[k], i, step, repeated);
+        for (int k = 0; k < d->n && !(square.a <= 0 || square.b <= 0); k++) {
+            struct two x = halves(&d->of[k], i, step, repeated);
             correlation[k] += x.a * x.b / sqrt(square.a * square.b);
         }
     }
-    return not_positive_p(correlation);
+    double p = not_positive_p(correlation, d->n);
+    free(correlation);
+    return p;
 }
 
 /* Errors after the first and after all iterations, scaled so that they are alike if the error falls as 1/sqrt(n). */
@@ -371,40 +378,44 @@ static struct two ends(const struct difference *d, int i, int step, double repea
 }
 
 /* n times the squared error after n iterations does not rise from the first step to the last. */
-static double falls_p(const struct difference *d, double repeated)
+static double falls_p(const struct differences *d, double repeated)
 {
-    double rise[PAIRS] = {0};
+    double *rise = mem_alloc((size_t)d->n, sizeof *rise);
     for (int i = 0; i < VALUES; i++) {
         struct two square = mean_squares(d, i, ends, 0, repeated);
-        for (int k = 0; k < PAIRS && !(square.a + square.b <= 0); k++) {
-            struct two x = ends(&d[k], i, 0, repeated);
+        for (int k = 0; k < d->n && !(square.a + square.b <= 0); k++) {
+            struct two x = ends(&d->of[k], i, 0, repeated);
             rise[k] += (x.b * x.b - x.a * x.a) / (square.a + square.b);
         }
     }
-    return not_positive_p(rise);
+    double p = not_positive_p(rise, d->n);
+    free(rise);
+    return p;
 }
 
 /* Low-discrepancy points may make the halves complement each other, so correlations below 0 and errors that fall faster
  * than 1/n are welcome; only the other side is tested. */
 static void test_way_falls(struct test *t, const struct scene *scene, const struct way *w)
 {
-    struct difference *d = mem_alloc(PAIRS, sizeof *d);
+    int n = PAIRS * test_effort(t);
+    struct difference *of = mem_alloc((size_t)n, sizeof *of);
     struct history *h = mem_alloc(2, sizeof *h);
-    for (int k = 0; k < PAIRS; k++) {
+    for (int k = 0; k < n; k++) {
         for (uint64_t i = 0; i < 2; i++)
             render_history(t, scene, w->integrator, test_seed(t) * 1000 + 2 * (uint64_t)k + i, &h[i]);
         for (int step = 0; step < STEPS; step++)
             for (int i = 0; i < VALUES; i++)
-                d[k].sum[step][i] = h[0].sum[step][i] - h[1].sum[step][i];
+                of[k].sum[step][i] = h[0].sum[step][i] - h[1].sum[step][i];
     }
+    struct differences d = {of, n};
     for (int step = 0; step + 1 < STEPS; step++)
-        TEST_ACCEPT(t, halves_p(d, step, 0), "%s: iterations before and after %d are correlated", w->name,
+        TEST_ACCEPT(t, halves_p(&d, step, 0), "%s: iterations before and after %d are correlated", w->name,
                     FIRST << step);
-    TEST_ACCEPT(t, falls_p(d, 0), "%s: the squared error falls more slowly than 1/n", w->name);
-    TEST_REJECT(t, halves_p(d, STEPS - 2, 0.5), "%s: half of the second half is the first", w->name);
-    TEST_REJECT(t, falls_p(d, 0.5), "%s: half of all iterations repeat the first %d", w->name, FIRST);
+    TEST_ACCEPT(t, falls_p(&d, 0), "%s: the squared error falls more slowly than 1/n", w->name);
+    TEST_REJECT(t, halves_p(&d, STEPS - 2, 0.5), "%s: half of the second half is the first", w->name);
+    TEST_REJECT(t, falls_p(&d, 0.5), "%s: half of all iterations repeat the first %d", w->name, FIRST);
     free(h);
-    free(d);
+    free(of);
 }
 
 static void test_falls(struct test *t)

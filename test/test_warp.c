@@ -65,10 +65,10 @@ static double ring(enum warp_kind kind, double a0, double a1)
     return 0;
 }
 
-static double warp_p(enum warp_kind sampled, enum warp_kind claimed, struct rng *r)
+static double warp_p(enum warp_kind sampled, enum warp_kind claimed, int n, struct rng *r)
 {
     double count[ROWS * COLUMNS] = {0}, expected[ROWS * COLUMNS];
-    for (int i = 0; i < SAMPLES; i++) {
+    for (int i = 0; i < n; i++) {
         double a, b, u1 = rng_uniform(r), u2 = rng_uniform(r);
         locate(sampled, u1, u2, &a, &b);
         int row = (int)(clamp(a, 0, 1) * ROWS), column = (int)(clamp(b, 0, 1) * COLUMNS);
@@ -79,7 +79,7 @@ static double warp_p(enum warp_kind sampled, enum warp_kind claimed, struct rng 
     for (int row = 0; row < ROWS; row++)
         for (int column = 0; column < COLUMNS; column++)
             expected[row * COLUMNS + column] =
-                SAMPLES * ring(claimed, (double)row / ROWS, (row + 1.0) / ROWS) / COLUMNS;
+                n * ring(claimed, (double)row / ROWS, (row + 1.0) / ROWS) / COLUMNS;
     return stats_chi2_test(count, expected, ROWS * COLUMNS);
 }
 
@@ -105,10 +105,11 @@ static void facts(struct test *t)
 void test_warp(struct test *t)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 7, 0);
+    int n = SAMPLES * test_effort(t);
     facts(t);
     for (int kind = 0; kind < N_WARPS; kind++)
-        TEST_ACCEPT(t, warp_p((enum warp_kind)kind, (enum warp_kind)kind, &r), "warp %s", NAME[kind]);
-    TEST_REJECT(t, warp_p(COS_HEMISPHERE, CONE, &r), "cosine-weighted directions claimed to be uniform");
-    TEST_REJECT(t, warp_p(SPHERE, DISK, &r), "uniform directions claimed to have a radial density");
-    TEST_REJECT(t, warp_p(CONE, TRIANGLE, &r), "cone samples with a wrong density");
+        TEST_ACCEPT(t, warp_p((enum warp_kind)kind, (enum warp_kind)kind, n, &r), "warp %s", NAME[kind]);
+    TEST_REJECT(t, warp_p(COS_HEMISPHERE, CONE, n, &r), "cosine-weighted directions claimed to be uniform");
+    TEST_REJECT(t, warp_p(SPHERE, DISK, n, &r), "uniform directions claimed to have a radial density");
+    TEST_REJECT(t, warp_p(CONE, TRIANGLE, n, &r), "cone samples with a wrong density");
 }

@@ -16,6 +16,7 @@ void test_features(struct test *t);
 void test_format(struct test *t);
 void test_file(struct test *t);
 void test_film(struct test *t);
+void test_frame(struct test *t);
 void test_fuzz(struct test *t);
 void test_hdr(struct test *t);
 void test_hostile(struct test *t);

@@ -148,6 +148,7 @@ static bool run_and_write(const struct job_options *o, const struct scene *scene
     times.wall = os_wall_seconds() - keep->bar.start;
     times.samples = film->iterations - times.samples;
     bool kept = keep_end(keep, ok, err);
+    keep->part.carries = false; /* an output that is a part has what was learnt by its hash alone */
     if (!ok) {
         abandon(files);
         return false;
