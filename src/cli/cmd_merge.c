@@ -18,7 +18,7 @@ struct merge_options {
 static const struct option OPTIONS[] = {
     {"PART", NULL, OPTION_TEXTS, AT(part), 1, .file = FILE_READ,
      .help = "a part of a picture"},
-    {"--outfile", "FILE", OPTION_TEXTS, AT(output), 1, .alias = "-o", .file = FILE_WRITTEN,
+    {"-o", "FILE", OPTION_TEXTS, AT(output), 1, .alias = "--outfile", .file = FILE_WRITTEN,
      .help = "a picture to write, or .part; repeatable"},
     {"--partial", NULL, OPTION_ON, AT(partial), .help = "make a picture even where samples are missing"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
@@ -201,4 +201,5 @@ static int run(void *options)
 
 const struct command command_merge = {
     "merge", "add up parts of a picture's samples", {"PART... -o FILE... [options]"}, OPTIONS,
-    sizeof(struct merge_options), run, false};
+    sizeof(struct merge_options), run, false,
+    "merge 0.part 1.part -o picture.exr"};

@@ -55,8 +55,11 @@ bool outputs_open(const struct texts *names, const struct tone_options *tone, en
     out->file = mem_alloc((size_t)names->n, sizeof *out->file);
     for (out->n = 0; ok && out->n < names->n; out->n += ok) {
         const char *name = names->item[out->n];
-        ok = takes_part(out, name) ? file_create(name, &out->file[out->n], err)
-                                   : image_create(name, &out->file[out->n], err);
+        bool part = takes_part(out, name);
+        if (!part && !image_writable(name))
+            ok = error_set(err, "-o %s: pictures are written as " IMAGE_WRITTEN "; end the name in one of these", name);
+        else
+            ok = part ? file_create(name, &out->file[out->n], err) : image_create(name, &out->file[out->n], err);
     }
     if (!ok)
         outputs_abandon(out);
