@@ -99,10 +99,6 @@ sys.exit(subprocess.run(words, stdout=pty.openpty()[1]).returncode)'
 fi
 
 # ---- sizes and numbers ----
-refused 1 't.tga: 65536 x 1 pixels do not fit' "$program" render scene.pbrt --res 65536x1 --spp 1 --maxdepth 1 \
-    --integrator pt --quiet --checkpoint begun -o t.tga # which is there once the render has begun
-expect 0 '' "$program" render scene.pbrt --res 65536x1 --spp 1 --maxdepth 1 --integrator pt --quiet -o t.part
-refused 1 't.tga: 65536 x 1 pixels do not fit' "$program" merge t.part -o t.tga
 refused 2 'have 550 pictures; --maxdepth 20 is the most' \
     "$program" render scene.pbrt --res 1x1 --spp 1 --strategies sub --maxdepth 21 -o new.pfm
 expect 0 '' "$program" render scene.pbrt --res 1x1 --spp 1 --quiet --strategies all --maxdepth 20 -o new.pfm

@@ -18,7 +18,7 @@ static const struct option OPTIONS[] = {
     {"IN", NULL, OPTION_TEXT, AT(in), 1, .file = FILE_READ,
      .help = "a picture to read: .exr .pfm .hdr .pic .png .tga .ppm .pgm"},
     {"-o", "FILE", OPTION_TEXTS, AT(out), 1, .alias = "--outfile", .file = FILE_WRITTEN,
-     .help = "a picture to write: linear .pfm .exr .hdr, sRGB .png .ppm .tga; repeatable"},
+     .help = "a picture to write: linear .pfm .exr, sRGB .png .ppm; repeatable"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
     {.name = NULL},

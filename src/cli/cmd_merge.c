@@ -158,10 +158,7 @@ static bool write_film(const struct merge_options *o, struct merge *m, struct fi
 static bool merge(const struct merge_options *o, struct merge *m, bool picture, struct outputs *out, struct error *err)
 {
     bool ok = false;
-    struct error small;
     read_headers(m, &o->part);
-    if (m->n_wrong == 0 && !outputs_fit(out, m->part[0].part.width, m->part[0].part.height, &small))
-        wrong(m, small.text);
     if (m->n_wrong == 0) {
         struct film film;
         const struct part *first = &m->part[0].part;

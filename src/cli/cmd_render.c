@@ -23,7 +23,7 @@
 static const struct option OPTIONS[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene_path), 1, .file = FILE_READ, .help = "a scene file"},
     {"-o", "FILE", OPTION_TEXTS, AT(output), .alias = "--outfile",
-     .file = FILE_WRITTEN, .help = "linear .pfm .exr .hdr, sRGB .png .ppm .tga; repeatable"},
+     .file = FILE_WRITTEN, .help = "linear .pfm .exr, sRGB .png .ppm; repeatable"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
     {"--aov", "LIST", OPTION_TEXT, AT(aov), .help = "also NAME.albedo.pfm ...: albedo,normal,depth,position,variance"},
@@ -192,10 +192,8 @@ static bool render_and_write(const struct job_options *o, const struct scene *sc
 static bool open_others(struct job_options *o, const struct scene *scene, struct files *f, struct error *err)
 {
     struct names all = {0};
-    struct pixel_rect film = render_crop(scene);
     bool ok = names_add_options(&all, OPTIONS, o, err) &&
               open_default_output(o, scene, &all, &f->pictures, err) &&
-              outputs_fit(&f->pictures, rect_width(film), rect_height(film), err) &&
               open_aovs(o, scene, &f->pictures, &all, &f->aov, err) &&
               strategies_check(o->strategies, scene, o->max_depth, &all, err);
     names_free(&all);
@@ -243,6 +241,6 @@ static int run(void *options)
 }
 
 const struct command command_render = {
-    "render", "render a scene", {"SCENE.pbrt [-o FILE.{pfm,exr,hdr,png,ppm,tga}]... [options]"}, OPTIONS,
+    "render", "render a scene", {"SCENE.pbrt [-o FILE.{pfm,exr,png,ppm}]... [options]"}, OPTIONS,
     sizeof(struct job_options), run, false,
     "render scenes/veach-ajar.pbrt --quick --spp 16 -o ajar.png"};

@@ -30,7 +30,7 @@ static bool read_tone(const struct tone_options *t, const struct texts *names, s
         shown = shown || image_is_8_bit(names->item[i]);
     *out = tone;
     return shown || tone_is_plain(&tone) ||
-           error_set(err, "--exposure and --tonemap are for 8-bit pictures (.png, .ppm, .tga); none is written");
+           error_set(err, "--exposure and --tonemap are for 8-bit pictures (.png, .ppm); none is written");
 }
 
 bool outputs_is_part(const char *name)
@@ -63,14 +63,6 @@ bool outputs_open(const struct texts *names, const struct tone_options *tone, en
     }
     if (!ok)
         outputs_abandon(out);
-    return ok;
-}
-
-bool outputs_fit(const struct outputs *o, int width, int height, struct error *err)
-{
-    bool ok = true;
-    for (int i = 0; ok && i < o->n; i++)
-        ok = takes_part(o, o->file[i].path) || image_fits(o->file[i].path, width, height, err);
     return ok;
 }
 
