@@ -10,7 +10,7 @@
 
 #include "base/mem.h"
 #include "base/os.h"
-#include "base/stats.h"
+#include "lab/stats.h"
 #include "helpers.h"
 #include "random_scene.h"
 #include "tests.h"
