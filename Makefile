@@ -28,34 +28,38 @@ FUZZED   = $(BUILD)/obj/test/fuzz/libfuzzer.o $(TARGETS) $(LIBRARY)
 	@echo "This Makefile needs GNU make (gmake); README.md has a line that builds without any make." >&2; exit 1
 
 all: asbdpt asbdpt-lab ## build ./asbdpt, the renderer, and ./asbdpt-lab, the laboratory (the default)
+	@echo "Built. Next: make demo (half a minute), ./asbdpt --help, make test, make help."
 
 # ---- what is built ----
+# A line for each file; V=1 shows the commands.
+SAY = $(if $(V),,@echo "  $@";)
+
 asbdpt: $(OBJECTS)
-	$(CC) $(FLAGS) $(CFLAGS) -o $@ $(OBJECTS) $(LDFLAGS) $(LIBS)
+	$(SAY)$(CC) $(FLAGS) $(CFLAGS) -o $@ $(OBJECTS) $(LDFLAGS) $(LIBS)
 
 asbdpt-lab: $(LABS)
-	$(CC) $(FLAGS) $(CFLAGS) -o $@ $(LABS) $(LDFLAGS) $(LIBS)
+	$(SAY)$(CC) $(FLAGS) $(CFLAGS) -o $@ $(LABS) $(LDFLAGS) $(LIBS)
 
 $(BUILD)/test: $(TESTS)
-	$(CC) $(FLAGS) $(CFLAGS) -o $@ $(TESTS) $(LDFLAGS) $(LIBS)
+	$(SAY)$(CC) $(FLAGS) $(CFLAGS) -o $@ $(TESTS) $(LDFLAGS) $(LIBS)
 
 $(BUILD)/fuzz: $(FUZZED)
-	$(CC) $(FLAGS) -fsanitize=fuzzer $(CFLAGS) -o $@ $(FUZZED) $(LDFLAGS) $(LIBS)
+	$(SAY)$(CC) $(FLAGS) -fsanitize=fuzzer $(CFLAGS) -o $@ $(FUZZED) $(LDFLAGS) $(LIBS)
 
 # both programs, but for functions that may fail: test/fuzz/inject.c has others in their place
 $(BUILD)/inject: $(OBJECTS) $(BUILD)/obj/test/fuzz/inject.o
-	$(CC) $(FLAGS) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(LIBS)
+	$(SAY)$(CC) $(FLAGS) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(LIBS)
 
 $(BUILD)/inject-lab: $(LABS) $(BUILD)/obj/test/fuzz/inject.o
-	$(CC) $(FLAGS) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(LIBS)
+	$(SAY)$(CC) $(FLAGS) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(LIBS)
 
 $(BUILD)/obj/test/%.o: test/%.c
 	@mkdir -p $(@D)
-	$(CC) $(FLAGS) -Itest -MMD -MP $(CFLAGS) -c -o $@ $<
+	$(SAY)$(CC) $(FLAGS) -Itest -MMD -MP $(CFLAGS) -c -o $@ $<
 
 $(BUILD)/obj/%.o: src/%.c
 	@mkdir -p $(@D)
-	$(CC) $(FLAGS) -MMD -MP $(CFLAGS) -c -o $@ $<
+	$(SAY)$(CC) $(FLAGS) -MMD -MP $(CFLAGS) -c -o $@ $<
 
 -include $(wildcard $(BUILD)/obj/*/*.d $(BUILD)/obj/*/*/*.d)
 
