@@ -81,13 +81,10 @@ static bool scan_number(const char **text, const struct option *o, double *out)
 static bool expected(struct reader *r, const char *text, bool several)
 {
     const struct option *o = r->option;
-    const char *kind = o->kind == OPTION_INTEGER ? "integer" : "number";
+    const char *one = o->kind == OPTION_INTEGER ? "an integer" : "a number", *kind = strchr(one, ' ') + 1;
     bool time = strcmp(o->value, "TIME") == 0;
-    if (several)
-        return error_set(r->err, "%s %s: expected %s, %ss from %.10g to %.10g", o->name, text, o->value, kind, o->low,
-                         o->high);
-    return error_set(r->err, "%s %s: expected %s %s from %.10g to %.10g%s", o->name, text,
-                     o->kind == OPTION_INTEGER ? "an" : "a", kind, o->low, o->high,
+    return error_set(r->err, "%s %s: expected %s%s%s%s from %.10g to %.10g%s", o->name, text, several ? o->value : one,
+                     several ? ", " : "", several ? kind : "", several ? "s" : "", o->low, o->high,
                      time ? ", of seconds, or with a unit: 90s, 5m, 1h" : "");
 }
 
