@@ -7,8 +7,6 @@ SCENES  = $(addprefix scenes/,$(addsuffix .pbrt,cornell-box cornell-box-modified
 
 PREFIX  = /usr/local
 MANDIR  = $(PREFIX)/share/man/man1
-BASHDIR = $(PREFIX)/share/bash-completion/completions
-ZSHDIR  = $(PREFIX)/share/zsh/site-functions
 
 # No fast-math; contraction off, so that one compiler gives one result. Nobody reads errno after sqrt.
 # Link-time optimisation makes small scenes 10 % faster; `make LTO=` leaves it out. CFLAGS is the user's and comes last.
@@ -30,34 +28,38 @@ FUZZED   = $(BUILD)/obj/test/fuzz/libfuzzer.o $(TARGETS) $(LIBRARY)
 	@echo "This Makefile needs GNU make (gmake); README.md has a line that builds without any make." >&2; exit 1
 
 all: asbdpt asbdpt-lab ## build ./asbdpt, the renderer, and ./asbdpt-lab, the laboratory (the default)
+	@echo "Built. Next: make demo (half a minute), ./asbdpt --help, make test, make help."
 
 # ---- what is built ----
+# A line for each file; V=1 shows the commands.
+SAY = $(if $(V),,@echo "  $@";)
+
 asbdpt: $(OBJECTS)
-	$(CC) $(FLAGS) $(CFLAGS) -o $@ $(OBJECTS) $(LDFLAGS) $(LIBS)
+	$(SAY)$(CC) $(FLAGS) $(CFLAGS) -o $@ $(OBJECTS) $(LDFLAGS) $(LIBS)
 
 asbdpt-lab: $(LABS)
-	$(CC) $(FLAGS) $(CFLAGS) -o $@ $(LABS) $(LDFLAGS) $(LIBS)
+	$(SAY)$(CC) $(FLAGS) $(CFLAGS) -o $@ $(LABS) $(LDFLAGS) $(LIBS)
 
 $(BUILD)/test: $(TESTS)
-	$(CC) $(FLAGS) $(CFLAGS) -o $@ $(TESTS) $(LDFLAGS) $(LIBS)
+	$(SAY)$(CC) $(FLAGS) $(CFLAGS) -o $@ $(TESTS) $(LDFLAGS) $(LIBS)
 
 $(BUILD)/fuzz: $(FUZZED)
-	$(CC) $(FLAGS) -fsanitize=fuzzer $(CFLAGS) -o $@ $(FUZZED) $(LDFLAGS) $(LIBS)
+	$(SAY)$(CC) $(FLAGS) -fsanitize=fuzzer $(CFLAGS) -o $@ $(FUZZED) $(LDFLAGS) $(LIBS)
 
 # both programs, but for functions that may fail: test/fuzz/inject.c has others in their place
 $(BUILD)/inject: $(OBJECTS) $(BUILD)/obj/test/fuzz/inject.o
-	$(CC) $(FLAGS) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(LIBS)
+	$(SAY)$(CC) $(FLAGS) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(LIBS)
 
 $(BUILD)/inject-lab: $(LABS) $(BUILD)/obj/test/fuzz/inject.o
-	$(CC) $(FLAGS) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(LIBS)
+	$(SAY)$(CC) $(FLAGS) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(LIBS)
 
 $(BUILD)/obj/test/%.o: test/%.c
 	@mkdir -p $(@D)
-	$(CC) $(FLAGS) -Itest -MMD -MP $(CFLAGS) -c -o $@ $<
+	$(SAY)$(CC) $(FLAGS) -Itest -MMD -MP $(CFLAGS) -c -o $@ $<
 
 $(BUILD)/obj/%.o: src/%.c
 	@mkdir -p $(@D)
-	$(CC) $(FLAGS) -MMD -MP $(CFLAGS) -c -o $@ $<
+	$(SAY)$(CC) $(FLAGS) -MMD -MP $(CFLAGS) -c -o $@ $<
 
 -include $(wildcard $(BUILD)/obj/*/*.d $(BUILD)/obj/*/*/*.d)
 
@@ -65,17 +67,15 @@ $(BUILD)/obj/%.o: src/%.c
 # Paths come to the shell as variables, for they may hold blanks and quotes. Whatever the umask, everybody may read.
 install uninstall: export TO_BIN = $(DESTDIR)$(PREFIX)/bin
 install uninstall: export TO_MAN = $(DESTDIR)$(MANDIR)
-install uninstall: export TO_BASH = $(DESTDIR)$(BASHDIR)
-install uninstall: export TO_ZSH = $(DESTDIR)$(ZSHDIR)
 
-install: asbdpt ## install the program, its man page and completions below PREFIX (/usr/local), itself below DESTDIR
-	umask 022 && mkdir -p "$$TO_BIN" "$$TO_MAN" "$$TO_BASH" "$$TO_ZSH" && \
-	    install -m 755 asbdpt "$$TO_BIN/asbdpt" && $(PROGRAM) help man >"$$TO_MAN/asbdpt.1" && \
-	    $(PROGRAM) help bash >"$$TO_BASH/asbdpt" && $(PROGRAM) help zsh >"$$TO_ZSH/_asbdpt" && \
-	    chmod 644 "$$TO_MAN/asbdpt.1" "$$TO_BASH/asbdpt" "$$TO_ZSH/_asbdpt"
+install: asbdpt ## install the program and its man page below PREFIX (/usr/local), itself below DESTDIR
+	umask 022 && mkdir -p "$$TO_BIN" "$$TO_MAN" && install -m 755 asbdpt "$$TO_BIN/asbdpt" && \
+	    { printf '.TH asbdpt 1\n.SH NAME\nasbdpt \\- bidirectional path tracing\n.SH DESCRIPTION\n.nf\n' && \
+	    $(PROGRAM) help all | sed 's/\\/\\e/g; s/-/\\-/g; s/^/\\\&/'; } >"$$TO_MAN/asbdpt.1" && \
+	    chmod 644 "$$TO_MAN/asbdpt.1"
 
 uninstall: ## remove what install put there
-	rm -f "$$TO_BIN/asbdpt" "$$TO_MAN/asbdpt.1" "$$TO_BASH/asbdpt" "$$TO_ZSH/_asbdpt"
+	rm -f "$$TO_BIN/asbdpt" "$$TO_MAN/asbdpt.1"
 
 demo: asbdpt-lab ## render Ajar with bdpt and asbdpt, the same time for each, into one picture, out/demo.png
 	@mkdir -p out

@@ -21,8 +21,8 @@ nan() { head -c "$1" /dev/zero | LC_ALL=C tr '\000' '\377'; } # so many bytes of
 # --- options
 
 expect 0 '' "$program" --help
-check grep -q 'asbdpt render SCENE' stdout.txt
-check grep -q 'lightsamplestrategy' stdout.txt
+check grep -q '^asbdpt SCENE.pbrt' stdout.txt
+check grep -q '^    render  *render a scene$' stdout.txt
 for command in render merge compare convert worth info trace; do # each its own help
     expect 0 '' "$program" $command --help
     check grep -q "usage: asbdpt $command" stdout.txt
@@ -34,6 +34,18 @@ expect 0 '' "$program" --version
 expect 2 'asbdpt: which command' "$program"
 expect 2 'unknown command rendr \(did you mean render\?\); try asbdpt --help' "$program" rendr
 expect 2 'needs a scene' "$program" render
+expect 2 'needs a scene' "$program" --quick # no command: render
+expect 0 '' "$program" "$box" --res 8x8 --spp 1 --quiet --time 1h -o unnamed.pfm
+check [ -s unnamed.pfm ]
+expect 2 '[-]-time 5x: expected a number .* 5m, 1h' "$program" render "$box" --time 5x
+expect 2 'unknown option --out \(did you mean -o\?\)' "$program" render "$box" --out x.pfm
+expect 2 'unknown option --output=x.pfm \(did you mean -o\?\)' "$program" render "$box" --output=x.pfm
+expect 2 'did you mean --res\?' "$program" render "$box" --resolution 8x8
+expect 2 'did you mean --cropwindow\?' "$program" render "$box" --crop 0 1 0 1
+expect 2 'no integrator has a parameter "selct" \(did you mean select\?\)' "$program" render "$box" -P selct=bins
+expect 2 '[-]-interval has no effect without --checkpoint' "$program" render "$box" --interval 5m
+expect 2 '[-]-samples has no effect without -o' "$program" render "$box" --samples 0:1
+expect 2 '[-]-filter bx: known are' "$program" render "$box" --filter bx
 expect 2 'unknown option --sppp \(did you mean --spp\?\); try asbdpt render --help' "$program" render "$box" --sppp 3
 expect 2 'one argument too many' "$program" render "$box" "$box"
 expect 2 'expected an integer' "$program" render "$box" --spp 0
@@ -42,13 +54,13 @@ expect 2 '60000 x 60000 pixels are too many \(at most 268435456\)' \
     "$program" render "$box" --spp 1 --cropwindow 0 0.0001 0 0.0001 --res 60000x60000
 for size in 4294967297x4 4x4294967300 18446744073709551617x4 10x0; do
     expect 2 '[-]-res .*: expected WIDTHxHEIGHT' "$program" render "$box" --res $size
-    expect 2 '[-]-res .*: expected WIDTHxHEIGHT or WIDTH' "$lab" experiment -o x --res $size
+    expect 2 '[-]-res .*: expected WIDTH.xHEIGHT., integers from 1' "$lab" experiment -o x --res $size
 done
 expect 2 'expected an integer from 1 to' "$program" render "$box" --spp 99999999999999999999
 expect 2 'whole number from 0 to' "$program" render "$box" --seed 12345678901234567890123
 expect 2 'expected an integer from 1 to 1024' "$program" render "$box" -j99999999999999999999
 for number in nan inf 1e999 -1; do
-    expect 2 'expected four numbers' "$program" render "$box" --cropwindow 0 $number 0 1
+    expect 2 'expected X0 X1 Y0 Y1, numbers from 0 to 1' "$program" render "$box" --cropwindow 0 $number 0 1
     expect 2 'expected a number from 1e-12 to 0.5' "$lab" verify "$box" --alpha $number
 done
 expect 2 'expected an integer' "$lab" bench "$box" --spp 1e3
@@ -56,7 +68,7 @@ expect 2 'experiment needs a directory for its results' "$lab" experiment --quic
 expect 2 'compare needs a picture of the same size' "$program" compare a.pfm
 expect 2 'verify' "$lab" verify
 expect 2 'WIDTHxHEIGHT' "$program" render "$box" --res 4x4x4
-expect 2 'WIDTHxHEIGHT' "$lab" experiment "$box" --res -4 -o e
+expect 2 'WIDTH.xHEIGHT.' "$lab" experiment "$box" --res -4 -o e
 expect 2 'whole number from 0 to' "$program" render "$box" --seed -1
 expect 2 'whole number from 0 to' "$program" render "$box" --seed ' -1'
 expect 2 'expected an integer' "$lab" verify "$box" --batches nan
@@ -67,17 +79,17 @@ for command in info trace worth; do # what a command would ignore it does not ta
     [ $command = worth ] || expect 2 'unknown option -o' "$program" $command "$box" -o x.pfm
 done
 expect 2 'unknown option --seed' "$program" info "$box" --seed 1
-expect 2 'window is empty' "$program" render "$box" --cropwindow 0.5 0.5 0 1
-expect 1 'x.jpg: pictures are written as .pfm, .exr' "$program" render "$box" $small -o x.jpg
+expect 2 'cropwindow: there is nothing between 0.5 and 0.5' "$program" render "$box" --cropwindow 0.5 0.5 0 1
+expect 2 'x.jpg: pictures are written as .pfm, .exr' "$program" render "$box" $small -o x.jpg
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt
-expect 1 'known are' "$program" render "$box" $small --integrator vcm
-expect 1 'did you mean asbdpt\? known are' "$program" render "$box" $small --integrator=asbdtp
+expect 2 'known are' "$program" render "$box" $small --integrator vcm
+expect 2 'did you mean asbdpt\? known are' "$program" render "$box" $small --integrator=asbdtp
 expect 2 'no integrator has a parameter "deltaa"' "$program" render "$box" $small -P deltaa=1 -o x.pfm
-expect 1 'delta' "$program" render "$box" $small -P delta=7 --integrator asbdpt -o x.pfm
+expect 2 'delta' "$program" render "$box" $small -P delta=7 --integrator asbdpt -o x.pfm
 expect 1 'binpaths 7 is odd' "$program" render "$box" $small -P select=bins -P binpaths=7 --integrator asbdpt -o x.pfm
-expect 1 'select = "bin" is unknown: give "subspaces", "bins", "pool" or "vertices"' \
+expect 2 'select = "bin" is unknown: give "subspaces", "bins", "pool" or "vertices"' \
     "$program" render "$box" $small -P select=bin --integrator asbdpt -o x.pfm
-expect 1 '^asbdpt: -P: heuristic = "max" is unknown: give "balance" or "power"' \
+expect 2 '^asbdpt: -P: heuristic = "max" is unknown: give "balance" or "power"' \
     "$program" render "$box" $small -P heuristic=max -o x.pfm
 
 # --- parameters
@@ -87,7 +99,7 @@ for method in path bdpt asbdpt; do
     for command in info "render --res 16x16 --spp 2 -o x.pfm"; do
         expect 0 '^asbdpt: warning: strategy.pbrt:1:[0-9]+: "lightsamplestrategy" is "spatial": its value is unknown' \
             "$program" $command strategy.pbrt
-        expect 1 '^asbdpt: -P: lightsamplestrategy = "spacial" is unknown: give "spatial", "power" or' \
+        expect 2 '^asbdpt: -P: lightsamplestrategy = "spacial" is unknown: give "spatial", "power" or' \
             "$program" $command strategy.pbrt -P lightsamplestrategy=spacial
     done
     for strategy in spatial power uniform; do
@@ -113,8 +125,8 @@ for command in info "render --res 16x16 --spp 1"; do
     check [ "$(grep -c warning: stderr.txt)" = 6 ]
     expect 1 'sppm.pbrt:1:19: "numiterations" is not used' "$program" $command sppm.pbrt --strict
     expect 2 '^asbdpt: -P: no integrator has a parameter "radiuss"' "$program" $command sppm.pbrt -P radiuss=3
-    expect 1 '^asbdpt: -P: maxdepth = 100000 is out of range' "$program" $command sppm.pbrt -P maxdepth=100000
-    expect 1 'delta = 7 is out of range' "$program" $command sppm.pbrt -P delta=7 --integrator asbdpt
+    expect 2 '^asbdpt: -P: maxdepth = 100000 is out of range' "$program" $command sppm.pbrt -P maxdepth=100000
+    expect 2 'delta = 7 is out of range' "$program" $command sppm.pbrt -P delta=7 --integrator asbdpt
 done
 check [ -f x.png ]
 
@@ -293,6 +305,10 @@ expect 0 'b.pfm linear ones' "$program" compare b.pfm a.ppm --json
 expect 0 '' "$program" compare "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" --json
 check grep -Eq ', "psnr": [0-9.]+\}$' stdout.txt
 expect 2 'expected a number from 1e-30' "$program" compare a.pfm b.pfm --heatmap heat.png --max 0
+expect 2 '[-]-max has no effect without --heatmap' "$program" compare a.pfm b.pfm --max 2
+expect 2 'exclude each other' "$program" compare a.pfm b.pfm --heatmap heat.png --max 2 --percentile 50
+expect 0 '' "$program" compare a.png a.pfm --max-rmse 1000
+expect 1 'rmse [0-9.e-]+ is more than 1e-09' "$program" compare a.png a.pfm --max-rmse 1e-9
 expect 0 '' "$program" render "$box" --res 8x8 --spp 1 --quiet -o c.pfm
 expect 1 'equal size' "$program" compare a.pfm c.pfm
 expect 1 cornell-box.pbrt "$program" compare "$box" a.pfm
@@ -312,12 +328,12 @@ check cmp -s aov.depth.pfm two.x.depth.pfm
 check cmp -s aov.albedo.pfm two.x.albedo.pfm
 check [ ! -e two.x.normal.pfm ]
 check [ -s aov.normal.pfm -a -s aov.position.pfm ]
-expect 1 'known are albedo' "$program" render "$box" $small --aov albedo,norml -o aov.png
+expect 2 'known are albedo' "$program" render "$box" $small --aov albedo,norml -o aov.png
 expect 1 'few.variance.pfm: not written: one sample' "$program" render "$box" --spp 2 --samples 0:1 --res 8x8 --quiet \
     --aov variance -o few.png
 check [ -s few.png -a ! -e few.variance.pfm ]
-expect 1 'needs two samples' "$program" render "$box" --spp 1 --res 8x8 --quiet --aov variance -o aov.png
-expect 1 'a picture with a name' "$program" render "$box" $small --aov depth -o -
+expect 2 'needs two samples' "$program" render "$box" --spp 1 --res 8x8 --quiet --aov variance -o aov.png
+expect 2 'a picture with a name' "$program" render "$box" $small --aov depth -o -
 mkdir taken.depth.pfm
 expect 1 'taken.depth.pfm' "$program" render "$box" $small --aov albedo,depth -o taken.png
 check [ ! -e taken.png -a ! -e taken.albedo.pfm ]
@@ -362,28 +378,13 @@ expect 1 'there is no integrator bdtp; did you mean bdpt' "$lab" demo "$box" --w
 expect 2 'demo needs a picture to write' "$lab" demo "$box"
 
 # --- help
-# What a system is told: the man page and the completions are sound, where there is something to judge them by.
-expect 0 '' "$program" help man
-mv stdout.txt asbdpt.1
-check grep -q '^.TH asbdpt 1' asbdpt.1
-if command -v mandoc >/dev/null; then
-    check mandoc -T lint -W error asbdpt.1
-else
-    echo "cli: no mandoc, man page not judged"
-fi
-expect 0 '' "$program" help bash
-mv stdout.txt completion.bash
-if command -v bash >/dev/null; then
-    check bash -n completion.bash
-    echo '. ./completion.bash; COMP_WORDS=(asbdpt render --integ); COMP_CWORD=2; _asbdpt; echo $COMPREPLY' \
-        >complete.bash
-    check [ "$(bash complete.bash)" = --integrator ]
-else
-    echo "cli: no bash, its completion not tried"
-fi
-expect 0 '' "$program" help zsh
-mv stdout.txt completion.zsh
-if command -v zsh >/dev/null; then check zsh -n completion.zsh; else echo "cli: no zsh, its completion not judged"; fi
+# help: as a whole no wider than a terminal, with every integrator once.
+expect 0 '' "$program" help all
+check [ -z "$(awk 'length > 100' stdout.txt)" ]
+check [ "$(grep -c 'usage: asbdpt' stdout.txt)" = 7 ]
+expect 0 '' "$program" help integrators
+check [ "$(grep -c '^asbdpt$' stdout.txt)" = 1 ] # however many selections it has
+check grep -q '^    lightsamplestrategy *spatial ' stdout.txt
 expect 0 '' "$program" help render
 check grep -q 'usage: asbdpt render' stdout.txt
 expect 2 'there is no help on rendering' "$program" help rendering
@@ -413,15 +414,15 @@ for c in o["connections"]:
     if c["t"] > 1: s = [a + b for a, b in zip(s, c["added"])]
 assert s == o["sum"] and o["sample"] == 3'
 fi
-expect 1 'pixel 12,0 is not rendered: x is 0 to 11' "$program" trace "$box" $one --pixel 12,0
-expect 1 'sample 4 of a pixel is not taken: they are numbered 0 to 3' "$program" trace "$box" $one --spp 4 --sample 4
+expect 2 'pixel 12,0 is not rendered: x is 0 to 11' "$program" trace "$box" $one --pixel 12,0
+expect 2 'sample 4 is not taken: they are numbered 0 to 3' "$program" trace "$box" $one --spp 4 --sample 4
 expect 1 'no/paths.svg' "$program" trace "$box" $one --svg no/paths.svg
 
 # --- worth
 # worth: what was learnt, as a picture.
 expect 0 '' "$program" worth "$box" --pixel 3,9 --res 12x12 --spp 4 --quiet -o worth.png
 check [ -s worth.png ]
-expect 1 'pixel 12,0 lies outside' "$program" worth "$box" --pixel 12,0 --res 12x12 -o worth.png
+expect 2 'pixel 12,0 lies outside' "$program" worth "$box" --pixel 12,0 --res 12x12 -o worth.png
 expect 1 'learns nothing about pairs' "$program" worth "$box" --pixel 3,9 --res 12x12 -P select=pool -o worth.png
 expect 2 'expected X,Y' "$program" worth "$box" --pixel 3x9 -o worth.png
 expect 2 'the whole film is shown' "$program" worth "$box" --pixel 3,9 --cropwindow 0 1 0 0.5 -o worth.png
@@ -455,6 +456,7 @@ for nan in nan corner; do
         check grep -q '^verdict: DIFFER' stdout.txt
     done
 done
+expect 1 'rmse .* is more than 1' "$program" compare nan.pfm nan.pfm --max-rmse 1
 expect 0 '' "$program" compare nan.pfm nan.pfm --json
 check grep -q '"mean_ratio": null, "nonfinite": 2592,' stdout.txt
 expect 1 'same size' "$lab" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" \
@@ -470,8 +472,8 @@ check grep -q 'geometric mean' stdout.txt
 check cmp -s stdout.txt equal/equal-time.md
 check [ "$(grep -c '^cornell-box,' equal/equal-time.csv)" = 10 ]
 check grep -q '^cornell-box,bdpt,5002,2,' equal/equal-time.csv
-expect 0 '' "$lab" experiment "$box" --equal-time 0.01 $tiny -o equal
-check grep -q -e '--equal-time 0.01 --seeds 2' stdout.txt
+expect 0 '' "$lab" experiment "$box" --equal-time --time 0.01 $tiny -o equal
+check grep -q -e '--equal-time --time 0.01 --seeds 2' stdout.txt
 # A reference is of the scene, or it is none: another's of the same name is refused, and no reference is not kept quiet.
 mkdir -p bathroom/ref
 cp "$box" bathroom/scene.pbrt
@@ -487,21 +489,20 @@ expect 0 'does not say what scene it is of: measured at 48x48' \
 expect 1 'have the same name, bathroom' \
     "$lab" experiment --equal-time bathroom/scene.pbrt "$scenes/bathroom.pbrt" $tiny --quiet -o foreign
 expect 2 'equal times are those of one thread' "$lab" experiment "$box" --equal-time -j 2 $tiny -o equal
-expect 2 '[-]-equal-time 0: expected a number from 0.001' "$lab" experiment "$box" --equal-time 0 $tiny -o equal
+expect 2 '[-]-time 0: expected a number from 0.001' "$lab" experiment "$box" --equal-time --time 0 $tiny -o equal
 
 # --- convert
 # convert: linear formats keep light (.float.exr exactly), 8-bit ones what they hold; - reads and writes PFM.
 "$program" render "$box" --res 37x23 --spp 4 --quiet -o light.pfm -o light.png
-expect 0 '' "$program" convert light.pfm -o x.float.exr -o x.exr -o x.hdr -o x.png -o x.tga -o x.ppm
+expect 0 '' "$program" convert light.pfm -o x.float.exr -o x.exr -o x.png -o x.ppm
 expect 0 '' "$program" convert x.float.exr -o back.pfm
 check cmp -s light.pfm back.pfm
 check cmp -s light.png x.png
 expect 0 '' "$program" convert x.exr -o x2.exr
 check cmp -s x.exr x2.exr
-expect 0 '' "$program" convert x.tga -o y.png
-check cmp -s light.png y.png
-expect 0 '' "$program" convert x.ppm -o x.TGA
-check cmp -s x.tga x.TGA
+expect 0 '' "$program" convert x.ppm -o y.PNG
+check cmp -s light.png y.PNG
+expect 2 'x.tga: pictures are written as' "$program" convert light.pfm -o x.tga
 "$program" convert - -o - <light.pfm >through.pfm
 check cmp -s light.pfm through.pfm
 close() { # A B MOST: their relative mean squared error, of all values, is at most so large
@@ -511,7 +512,6 @@ close() { # A B MOST: their relative mean squared error, of all values, is at mo
         END { exit !(near && all) }' stdout.txt
 }
 check close x.exr light.pfm 1e-7
-check close x.hdr light.pfm 1e-4
 check [ "$(close nan.pfm nan.pfm 1; echo $?)" = 1 ]
 check [ "$(close corner.pfm corner.pfm 1; echo $?)" = 1 ]
 check [ "$(close light.png light.pfm 1e-4; echo $?)" = 1 ]
@@ -534,7 +534,7 @@ done
 expect 0 '' "$program" convert maps.x.float.exr -o maps.exr.pfm
 check cmp -s maps.light.pfm maps.exr.pfm
 expect 1 'nothing.exr' "$program" convert nothing.exr -o x.png
-expect 1 'x.jpg: pictures are written as' "$program" convert light.pfm -o x.jpg
+expect 2 'x.jpg: pictures are written as' "$program" convert light.pfm -o x.jpg
 expect 1 'no/such/dir' "$program" convert light.pfm -o no/such/dir/x.png
 expect 2 'needs a picture to write' "$program" convert light.pfm
 check [ ! -e x.jpg ]
@@ -549,8 +549,8 @@ check test -n "$(cmp dark.png y.png 2>&1)"
 check test -n "$(cmp light.png y.png 2>&1)"
 expect 0 '' "$program" convert light.pfm -o y.png --exposure 0 --tonemap none
 check cmp -s light.png y.png
-expect 1 'known are none, filmic' "$program" convert light.pfm -o y.png --tonemap film
-expect 1 'for 8-bit pictures' "$program" convert light.pfm -o y.exr --exposure 1
+expect 2 'known are none, filmic' "$program" convert light.pfm -o y.png --tonemap film
+expect 2 'for 8-bit pictures' "$program" convert light.pfm -o y.exr --exposure 1
 expect 2 'expected a number from -100 to 100' "$program" convert light.pfm -o y.png --exposure nan
 
 # OpenEXR's own tools and ImageMagick, where they are installed, read our files and write ours.
@@ -577,17 +577,15 @@ else
     echo "skipped: files of OpenEXR's tools (exrmaketiled is not installed)"
 fi
 if command -v convert >/dev/null && convert -version | grep -q ImageMagick; then
-    for kind in png tga ppm; do # the same bytes of pixels
+    for kind in png ppm; do # the same bytes of pixels
         expect 0 '' convert x.$kind -depth 8 rgb:theirs.$kind
     done
-    check cmp -s theirs.png theirs.tga
     check cmp -s theirs.png theirs.ppm
-    for kind in hdr exr; do # between 0 and 1: what ImageMagick keeps; it may lack OpenEXR
-        convert -list format | grep -iq "$kind\\*\\{0,1\\} .*rw" || continue
-        expect 0 '' "$program" convert x.png -o 8.$kind
-        expect 0 '' convert 8.$kind theirs.$kind
-        check close theirs.$kind x.png 1e-4
-    done
+    if convert -list format | grep -iq 'exr\*\{0,1\} .*rw'; then # between 0 and 1: what ImageMagick keeps
+        expect 0 '' "$program" convert x.png -o 8.exr
+        expect 0 '' convert 8.exr theirs.exr
+        check close theirs.exr x.png 1e-4
+    fi
 else
     echo "skipped: pictures of ImageMagick (convert is not installed)"
 fi

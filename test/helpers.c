@@ -12,8 +12,8 @@
 #include "base/mem.h"
 #include "base/os.h"
 #include "base/parallel.h"
-#include "base/stats.h"
 #include "lab/sides.h"
+#include "lab/stats.h"
 #include "parser/parser.h"
 #include "render/render.h"
 

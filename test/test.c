@@ -6,7 +6,7 @@
 
 #include "base/mem.h"
 #include "base/os.h"
-#include "base/stats.h"
+#include "lab/stats.h"
 
 static const double LEVEL = 1e-4, BEYOND_DOUBT = 1e-7, SECOND_LEVEL = 0.001;
 enum { EFFORT = 10 };

@@ -13,7 +13,7 @@
 #include "base/mem.h"
 #include "base/number.h"
 #include "base/rng.h"
-#include "base/stats.h"
+#include "lab/stats.h"
 #include "tests.h"
 
 /* 52 random bits: with the 32 of rng_uniform a table of a million bins would leave 12 for the choice within. */

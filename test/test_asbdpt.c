@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "lab/stats.h"
 #include "render/render.h"
-#include "base/stats.h"
 #include "helpers.h"
 #include "tests.h"
 

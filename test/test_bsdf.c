@@ -15,9 +15,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "material/fresnel.h"
 #include "base/rng.h"
-#include "base/stats.h"
+#include "lab/stats.h"
+#include "material/fresnel.h"
 #include "tests.h"
 
 enum {

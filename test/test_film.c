@@ -3,12 +3,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "scene/film.h"
 #include "base/mem.h"
 #include "base/number.h"
 #include "base/rng.h"
-#include "base/stats.h"
 #include "base/vec.h"
+#include "lab/stats.h"
+#include "scene/film.h"
 #include "tests.h"
 
 #include <stdlib.h>

@@ -283,29 +283,18 @@ static float *make_pixels(struct test *t, int width, int height)
     return p;
 }
 
-/* As near as 8 bits with the exponent of the pixel's largest come. */
-static bool near_rgbe(const float *pixel, const float *got, int c)
-{
-    double largest = fmax(fmax(pixel[0], pixel[1]), pixel[2]), x = fmax(pixel[c], 0);
-    if (!isfinite(largest))
-        return isfinite(got[c]) && got[c] >= 0 && (x < INFINITY || got[c] > 1e38f);
-    return fabs((double)got[c] - x) <= largest / 256 * 1.0001 || largest < 1e-38;
-}
-
 static void check_round_trip(struct test *t, const char *name, int width, int height)
 {
     char path[256];
     struct image img;
     struct error err = {""};
     float *p = make_pixels(t, width, height);
-    bool half = strstr(name, ".exr") != NULL;
     int wrong = 0;
     snprintf(path, sizeof path, "%s/%s", test_tmp(t), name);
     if (CHECK(t, image_write(path, width, height, p, &err) && image_read(path, &img, &err), "%s", err.text)) {
         CHECK(t, img.width == width && img.height == height && img.channels == 3 && img.linear, "%s: shape", name);
         for (int i = 0; i < width * height * 3; i++)
-            wrong += half ? img.f32[i] != half_to_float(float_to_half(p[i]))
-                          : !near_rgbe(p + i - i % 3, img.f32 + i - i % 3, i % 3);
+            wrong += img.f32[i] != half_to_float(float_to_half(p[i]));
         CHECK(t, wrong == 0, "%s, %d x %d: %d samples differ", name, width, height, wrong);
         image_free(&img);
     }
@@ -315,7 +304,7 @@ static void check_round_trip(struct test *t, const char *name, int width, int he
 
 static void test_round_trips(struct test *t)
 {
-    static const char *const NAMES[] = {"a.exr", "a.hdr", "a.PIC"};
+    static const char *const NAMES[] = {"a.exr", "a.EXR"};
     for (size_t i = 0; i < sizeof NAMES / sizeof NAMES[0]; i++) {
         check_round_trip(t, NAMES[i], 1, 1);
         check_round_trip(t, NAMES[i], 2, 16);

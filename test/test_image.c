@@ -389,7 +389,7 @@ static void test_pfm(struct test *t)
         {"PX\n2 2\n-1\n", "not a PFM"},
         {"PF\n2\n", "incomplete"},
         {"PF\n0 2\n-1\n", "empty"},
-        {"PF\n-2 2\n-1\n", "empty"},
+        {"PF\n-2 2\n-1\n", "incomplete"},
         {"PF\n2 2\n0\n", "scale"},
         {"PF\n2 2\nnan\n", "scale"},
         {"PF\n2 2\n1e999\n", "scale"},

@@ -4,11 +4,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "image/image.h"
 #include "base/mem.h"
 #include "base/rng.h"
-#include "base/stats.h"
 #include "base/warp.h"
+#include "image/image.h"
+#include "lab/stats.h"
 #include "helpers.h"
 #include "tests.h"
 

@@ -14,13 +14,13 @@ struct target {
     int integer, size[2], width[2], range[2];
     uint64_t seed;
     double number, window[4];
-    struct perhaps perhaps;
+    double time;
     const char *text, *image;
     struct texts texts, pairs, list, rest;
 };
 
 static const struct option SHARED[] = {
-    {"--list", "FILE...", OPTION_LIST, offsetof(struct target, list), .help = "a list"},
+    {"--list", "FILE...", OPTION_TEXTS, offsetof(struct target, list), .help = "a list"},
     {"--seed", "N", OPTION_SEED, offsetof(struct target, seed), .fallback = "7", .help = "a seed"},
     {.name = NULL},
 };
@@ -29,17 +29,16 @@ static const struct option TABLE[] = {
     {"IMAGE", NULL, OPTION_TEXT, offsetof(struct target, image), .help = "a picture"},
     {"REST", NULL, OPTION_TEXTS, offsetof(struct target, rest), .help = "others"},
     {"--on", NULL, OPTION_ON, offsetof(struct target, on), .help = "on"},
-    {"--off", NULL, OPTION_OFF, offsetof(struct target, on), .help = "off"},
     {"--integer", "N", OPTION_INTEGER, offsetof(struct target, integer), 2, 1 << 30, .alias = "-i", .help = "integer"},
     {"--number", "X", OPTION_NUMBER, offsetof(struct target, number), -0.5, 2, .fallback = "1.5", .help = "a number"},
-    {"--perhaps", "[X]", OPTION_PERHAPS, offsetof(struct target, perhaps), 0.5, 2, .help = "perhaps a number"},
-    {"--window", "X0 X1 Y0 Y1", OPTION_WINDOW, offsetof(struct target, window), 0, 1, .help = "a window"},
-    {"--range", "A:B", OPTION_RANGE, offsetof(struct target, range), 0, 100, .help = "a range"},
-    {"--size", "WxH", OPTION_SIZE, offsetof(struct target, size), 1, 65536, .help = "a size"},
-    {"--width", "WxH or W", OPTION_WIDTH, offsetof(struct target, width), 1, 65536, .help = "a width"},
+    {"--time", "TIME", OPTION_NUMBER, offsetof(struct target, time), 0.5, 7200, .with = "--on", .help = "a duration"},
+    {"--window", "X0 X1 Y0 Y1", OPTION_NUMBER, offsetof(struct target, window), 0, 1, .help = "a window"},
+    {"--range", "FIRST:END", OPTION_INTEGER, offsetof(struct target, range), 0, 100, .help = "a range"},
+    {"--size", "WIDTHxHEIGHT", OPTION_INTEGER, offsetof(struct target, size), 1, 65536, .help = "a size"},
+    {"--width", "WIDTH[xHEIGHT]", OPTION_INTEGER, offsetof(struct target, width), 1, 65536, .help = "a width"},
     {"--text", "TEXT", OPTION_TEXT, offsetof(struct target, text), .alias = "-t", .help = "a text"},
     {"--texts", "TEXT", OPTION_TEXTS, offsetof(struct target, texts), .help = "texts"},
-    {"-P", "NAME=VALUE", OPTION_PAIRS, offsetof(struct target, pairs), .help = "pairs"},
+    {"-P", "NAME=VALUE", OPTION_TEXTS, offsetof(struct target, pairs), .help = "pairs"},
     {.others = SHARED},
 };
 
@@ -79,11 +78,11 @@ static void check_accepted(struct test *t)
     CHECK(t, read_line(TABLE, "--range 0:100", words, &o, &err) && o.range[0] == 0 && o.range[1] == 100, "a range");
     CHECK(t,
           read_line(TABLE,
-                    "--on --off --window=0,0.5,0.25,1 --width 3x4 --texts 1 --texts=2=3 -Pa=b -P c= --list x - y -t=- "
+                    "--on --window=0,0.5,0.25,1 --width 3x4 --texts 1 --texts=2=3 -Pa=b -P c= --list x - y -t=- "
                     "-i 2 --number=2",
                     words, &o, &err),
           "%s", err.text);
-    CHECK(t, !o.on && o.window[1] == 0.5 && o.window[3] == 1 && o.width[1] == 4, "off, window with commas, height");
+    CHECK(t, o.on && o.window[1] == 0.5 && o.window[3] == 1 && o.width[1] == 4, "window with commas, height");
     CHECK(t, o.texts.n == 2 && strcmp(o.texts.item[1], "2=3") == 0, "only the first = belongs to the option");
     CHECK(t, o.pairs.n == 2 && strcmp(o.pairs.item[0], "a=b") == 0, "pairs");
     CHECK(t, strcmp(o.pairs.item[1], "c=") == 0, "a pair without a value");
@@ -92,22 +91,19 @@ static void check_accepted(struct test *t)
     options_free(TABLE, &o);
 }
 
-/* A number that may be left out is taken only where a number stands. */
-static void check_perhaps(struct test *t)
+/* Seconds, and units. */
+static void check_times(struct test *t)
 {
     static const struct {
         const char *line;
-        double number;
-        int operands;
-    } CASES[] = {{"--perhaps", 0, 0},        {"--perhaps 2", 2, 0},  {"--perhaps=.5", 0.5, 0},
-                 {"--perhaps a.png b", 0, 1}, {"--perhaps 2b c", 0, 1}, {"--perhaps --on", 0, 0}};
+        double seconds;
+    } CASES[] = {{"--on --time 90", 90}, {"--time=1.5s --on", 1.5}, {"--on --time .5m", 30}, {"--on --time 2h", 7200}};
     for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
         struct target o = {0};
         struct error err = {""};
         char words[1024];
         CHECK(t, read_line(TABLE, CASES[i].line, words, &o, &err), "%s: %s", CASES[i].line, err.text);
-        CHECK(t, o.perhaps.given && o.perhaps.number == CASES[i].number, "%s: %g", CASES[i].line, o.perhaps.number);
-        CHECK(t, o.rest.n == CASES[i].operands, "%s: %d operands", CASES[i].line, o.rest.n);
+        CHECK(t, o.time == CASES[i].seconds, "%s: %g", CASES[i].line, o.time);
         options_free(TABLE, &o);
     }
 }
@@ -117,12 +113,12 @@ static void check_refused(struct test *t)
     static const struct {
         const char *line, *message; /* the message holds this */
     } WRONG[] = {
-        {"--range 3", "expected FIRST:END"},
-        {"--range 3:101", "expected FIRST:END"},
-        {"--range 3x4", "expected FIRST:END"},
-        {"--range -1:4", "expected FIRST:END"},
-        {"--range 3:3", "nothing in the range"},
-        {"--range=4:3", "nothing in the range"},
+        {"--range 3", "expected FIRST:END, integers from 0 to 100"},
+        {"--range 3:101", "expected FIRST:END, integers from 0 to 100"},
+        {"--range 3x4", "expected FIRST:END, integers from 0 to 100"},
+        {"--range -1:4", "expected FIRST:END, integers from 0 to 100"},
+        {"--range 3:3", "nothing between 3 and 3"},
+        {"--range=4:3", "nothing between 4 and 3"},
         {"--integer 1", "--integer 1: expected an integer from 2 to 1073741824"},
         {"--integer 1073741825", "expected an integer"},
         {"--integer 4294967298", "expected an integer"},
@@ -137,8 +133,11 @@ static void check_refused(struct test *t)
         {"--number -0.6", "--number -0.6: expected a number from -0.5 to 2"},
         {"--number 2.0000001", "expected a number"},
         {"--number nan", "expected a number"},
-        {"--perhaps 3", "--perhaps 3: expected a number from 0.5 to 2"},
-        {"--perhaps=x", "--perhaps x: expected a number"},
+        {"--on --time 3h", "--time 3h: expected a number from 0.5 to 7200, of seconds, or with a unit: 90s, 5m, 1h"},
+        {"--on --time 3d", "expected a number"},
+        {"--on --time 3ms", "expected a number"},
+        {"--on --time m", "expected a number"},
+        {"--time 3", "--time has no effect without --on"},
         {"--number inf", "expected a number"},
         {"--number -inf", "expected a number"},
         {"--number 1e999", "expected a number"},
@@ -146,14 +145,14 @@ static void check_refused(struct test *t)
         {"--number x", "expected a number"},
         {"--window 0 1 0", "--window needs a value"},
         {"--window 0,1,0", "--window needs a value"},
-        {"--window 0,1,0,1,0", "expected four numbers"},
-        {"--window 0,,0,1", "expected four numbers"},
-        {"--window 0,1,0,", "expected four numbers"},
-        {"--window 0 1 0 nan", "expected four numbers, each from 0 to 1"},
-        {"--window 0 1 0 1.1", "expected four numbers"},
-        {"--window 0.5 0.5 0 1", "window is empty"},
-        {"--window 0 1 1 0.5", "window is empty"},
-        {"--size 10", "expected WIDTHxHEIGHT, each from 1 to 65536"},
+        {"--window 0,1,0,1,0", "expected X0 X1 Y0 Y1"},
+        {"--window 0,,0,1", "expected X0 X1 Y0 Y1"},
+        {"--window 0,1,0,", "expected X0 X1 Y0 Y1"},
+        {"--window 0 1 0 nan", "expected X0 X1 Y0 Y1, numbers from 0 to 1"},
+        {"--window 0 1 0 1.1", "expected X0 X1 Y0 Y1"},
+        {"--window 0.5 0.5 0 1", "--window: there is nothing between"},
+        {"--window 0 1 1 0.5", "--window: there is nothing between"},
+        {"--size 10", "expected WIDTHxHEIGHT, integers from 1 to 65536"},
         {"--size 10x", "expected WIDTHxHEIGHT"},
         {"--size x10", "expected WIDTHxHEIGHT"},
         {"--size 10x10x10", "expected WIDTHxHEIGHT"},
@@ -161,8 +160,8 @@ static void check_refused(struct test *t)
         {"--size 4x18446744073709551617", "expected WIDTHxHEIGHT"},
         {"--size 0x10", "expected WIDTHxHEIGHT"},
         {"--size 60000x60000", "60000 x 60000 pixels are too many"},
-        {"--width 65537", "expected WIDTHxHEIGHT or WIDTH"},
-        {"--width 4x0", "expected WIDTHxHEIGHT or WIDTH"},
+        {"--width 65537", "expected WIDTH[xHEIGHT]"},
+        {"--width 4x0", "expected WIDTH[xHEIGHT]"},
         {"--seed 18446744073709551616", "expected a whole number from 0 to 18446744073709551615"},
         {"--seed 12345678901234567890123", "expected a whole number"},
         {"--seed -1", "expected a whole number"},
@@ -179,6 +178,7 @@ static void check_refused(struct test *t)
         {"--sede=4", "unknown option --sede=4 (did you mean --seed?)"},
         {"--zzzzzzzzzz", "unknown option --zzzzzzzzzz"},
         {"--int 4", "unknown option"},
+        {"--crop 4", "unknown option --crop"},
         {"-x", "unknown option -x"},
         {"--", "unknown option --"},
     };
@@ -214,23 +214,21 @@ static void check_required(struct test *t)
 /* How many bytes the reader may write, and a value that it takes. */
 static size_t target_size(const struct option *o, char *value, size_t size)
 {
+    static const char *const SEVERAL[][2] = {{"x", "4x3"}, {":", "3:7"}, {",", "4,3"}, {" ", "0.5 1 0 1"}};
+    size_t n = 1;
     snprintf(value, size, "%.10g", o->high);
+    for (int i = 0; i < 4; i++)
+        if (o->value != NULL && strstr(o->value, SEVERAL[i][0]) != NULL) {
+            strcpy(value, SEVERAL[i][1]);
+            n = i < 3 ? 2 : 4;
+        }
     switch (o->kind) {
-    case OPTION_ON:
-    case OPTION_OFF: value[0] = '\0'; return sizeof(bool);
-    case OPTION_INTEGER: return sizeof(int);
+    case OPTION_ON: value[0] = '\0'; return sizeof(bool);
+    case OPTION_INTEGER: return n * sizeof(int);
     case OPTION_SEED: strcpy(value, "5"); return sizeof(uint64_t);
-    case OPTION_NUMBER: return sizeof(double);
-    case OPTION_PERHAPS: return sizeof(struct perhaps);
-    case OPTION_RANGE: strcpy(value, "3:7"); return 2 * sizeof(int);
-    case OPTION_WINDOW: strcpy(value, "0 1 0 1"); return 4 * sizeof(double);
-    case OPTION_PIXEL: strcpy(value, "4,3"); return 2 * sizeof(int);
-    case OPTION_SIZE:
-    case OPTION_WIDTH: strcpy(value, "4x3"); return 2 * sizeof(int);
+    case OPTION_NUMBER: return n * sizeof(double);
     case OPTION_TEXT: strcpy(value, "x"); return sizeof(const char *);
-    case OPTION_TEXTS:
-    case OPTION_PAIRS:
-    case OPTION_LIST: strcpy(value, "x=y"); return sizeof(struct texts);
+    case OPTION_TEXTS: strcpy(value, "x=y"); return sizeof(struct texts);
     }
     return 0;
 }
@@ -241,8 +239,9 @@ static void check_row(struct test *t, const struct command *c, const struct opti
     char line[256] = "", words[256], value[64];
     size_t size = target_size(row, value, sizeof value);
     for (const struct option *o = c->options; o != NULL; o = options_next(o))
-        if (o != row && o->low == 1 && (o->kind == OPTION_TEXT || o->kind == OPTION_TEXTS))
-            strcat(strcat(line, o->name[0] == '-' ? o->name : ""), " x ");
+        if ((o != row && o->low == 1 && (o->kind == OPTION_TEXT || o->kind == OPTION_TEXTS)) ||
+            (row->with != NULL && strcmp(row->with, o->name) == 0))
+            strcat(strcat(line, o->name[0] == '-' ? o->name : ""), o->kind == OPTION_ON ? " " : " x ");
     for (int alias = 0; alias < (row->alias != NULL ? 2 : 1); alias++) {
         char whole[512];
         struct error err = {""};
@@ -251,7 +250,7 @@ static void check_row(struct test *t, const struct command *c, const struct opti
         snprintf(whole, sizeof whole, "%s%s %s", line, name, value);
         CHECK(t, row->offset + size <= c->size, "%s %s: the target lies outside the struct", c->name, row->name);
         CHECK(t, read_line(c->options, whole, words, target, &err), "%s %s: %s", c->name, whole, err.text);
-        CHECK(t, row->kind == OPTION_OFF || memcmp(target + row->offset, before + row->offset, size) != 0,
+        CHECK(t, memcmp(target + row->offset, before + row->offset, size) != 0,
               "%s %s: nothing is stored", c->name, whole);
         CHECK(t, (row->value != NULL) == (name[0] == '-' && value[0] != '\0'), "%s %s: help", c->name, row->name);
         options_free(c->options, target);
@@ -264,7 +263,7 @@ void test_options(struct test *t)
 {
     int rows = 0;
     check_accepted(t);
-    check_perhaps(t);
+    check_times(t);
     check_refused(t);
     check_required(t);
     for (const struct command *const *c = program.commands; *c != NULL; c++)

@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "base/maths.h"
-#include "base/stats.h"
+#include "lab/stats.h"
 #include "helpers.h"
 #include "random_scene.h"
 #include "render/render.h"

@@ -7,8 +7,8 @@
 
 #include "base/mem.h"
 #include "base/parallel.h"
+#include "lab/stats.h"
 #include "render/render.h"
-#include "base/stats.h"
 #include "helpers.h"
 #include "tests.h"
 

@@ -9,10 +9,10 @@
 
 #include "base/mem.h"
 #include "base/sampler.h"
-#include "base/stats.h"
 #include "base/warp.h"
-#include "helpers.h"
+#include "lab/stats.h"
 #include "render/render.h"
+#include "helpers.h"
 #include "tests.h"
 
 enum { N = 64 };

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "base/stats.h"
+#include "lab/stats.h"
 #include "helpers.h"
 #include "tests.h"
 

@@ -11,8 +11,8 @@
 
 #include "base/mem.h"
 #include "base/rng.h"
-#include "base/stats.h"
 #include "base/warp.h"
+#include "lab/stats.h"
 #include "helpers.h"
 #include "tests.h"
 

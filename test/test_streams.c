@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "render/render.h"
 #include "base/sampler.h"
-#include "base/stats.h"
+#include "lab/stats.h"
+#include "render/render.h"
 #include "helpers.h"
 #include "tests.h"
 

@@ -4,11 +4,11 @@
 #include <string.h>
 
 #include "base/rng.h"
-#include "base/stats.h"
 #include "image/colormap.h"
 #include "image/picture.h"
-#include "look/compare.h"
 #include "lab/sides.h"
+#include "lab/stats.h"
+#include "look/compare.h"
 #include "helpers.h"
 #include "tests.h"
 

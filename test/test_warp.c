@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "base/rng.h"
-#include "base/stats.h"
+#include "lab/stats.h"
 #include "tests.h"
 
 enum { ROWS = 10, COLUMNS = 20, SAMPLES = 100000 };

@@ -1,6 +1,6 @@
 /* os.h: everything that this program asks of the operating system beyond what C99 has; nothing else includes a
- * system's headers. os.c is written for POSIX, Windows and WASI; with -DASBDPT_SERIAL, or where there are no threads,
- * there is one, and locks do nothing.
+ * system's headers. os.c and os_thread.c are written for POSIX, Windows and WASI; with -DASBDPT_SERIAL, or where there
+ * are no threads, there is one, and locks do nothing.
  *
  * Paths: '/' separates directories everywhere, on Windows '\' too. Tests: test_threads.c, test_file.c, test/cli.sh;
  * `make portability` builds and runs it on other systems.

@@ -11,6 +11,7 @@
 struct compare_options {
     const char *image, *reference, *heatmap;
     double most, percentile; /* of the heat map's colours; most 0: the percentile decides */
+    double max_rmse;         /* 0: any will do */
     bool json;
 };
 
@@ -20,9 +21,12 @@ static const struct option OPTIONS[] = {
     {"REFERENCE", NULL, OPTION_TEXT, AT(reference), 1, .file = FILE_READ, .help = "a picture of the same size"},
     {"--heatmap", "FILE.png", OPTION_TEXT, AT(heatmap), .file = FILE_WRITTEN,
      .help = "write where they differ, as colours (viridis)"},
-    {"--max", "X", OPTION_NUMBER, AT(most), 1e-30, 1e30, .help = "the brightest colour stands for this error"},
-    {"--percentile", "P", OPTION_NUMBER, AT(percentile), 1, 100, .fallback = "99",
-     .help = "without --max: for this percentile of all errors"},
+    {"--max", "X", OPTION_NUMBER, AT(most), 1e-30, 1e30, .with = "--heatmap",
+     .help = "the brightest colour stands for this error (default: that of --percentile)"},
+    {"--percentile", "P", OPTION_NUMBER, AT(percentile), 1, 100, .with = "--heatmap",
+     .help = "or for this percentile of all errors (default 99)"},
+    {"--max-rmse", "X", OPTION_NUMBER, AT(max_rmse), 1e-30, 1e30,
+     .help = "exit with status 1 if rmse is larger, or no number"},
     {"--json", NULL, OPTION_ON, AT(json), .help = "print an object of JSON"},
     {.name = NULL},
 };
@@ -54,7 +58,7 @@ static bool write_heatmap(const struct compare_options *o, const float *x, const
     long pixels = (long)width * height;
     float *error = mem_alloc((size_t)pixels, sizeof *error), *map = mem_alloc((size_t)pixels * 3, sizeof *map);
     compare_errors(x, r, pixels, error);
-    double most = o->most > 0 ? o->most : compare_percentile(error, pixels, o->percentile);
+    double most = o->most > 0 ? o->most : compare_percentile(error, pixels, o->percentile > 0 ? o->percentile : 99);
     compare_heatmap(error, pixels, most, map);
     bool ok = image_write(o->heatmap, width, height, map, err);
     if (ok)
@@ -86,6 +90,8 @@ static bool compare_files(const struct compare_options *o, struct error *err)
             warn_of_display(about1.linear ? o->reference : o->image, about1.linear ? o->image : o->reference);
         print(&d, o->json);
         ok = o->heatmap == NULL || write_heatmap(o, x, r, w1, h1, err);
+        if (ok && o->max_rmse > 0 && !(d.rmse <= o->max_rmse))
+            ok = error_set(err, "%s and %s: rmse %.6g is more than %.6g", o->image, o->reference, d.rmse, o->max_rmse);
     }
     free(x);
     free(r);
@@ -94,10 +100,16 @@ static bool compare_files(const struct compare_options *o, struct error *err)
 
 static int run(void *options)
 {
+    const struct compare_options *o = options;
     struct error err;
-    return compare_files(options, &err) ? EXIT_OK : fail(&err);
+    if (o->most > 0 && o->percentile > 0)
+        return usage_error(&command_compare, "--max and --percentile exclude each other");
+    if (o->heatmap != NULL && !image_writable(o->heatmap))
+        return usage_error(&command_compare, "--heatmap %s: pictures are written as " IMAGE_WRITTEN, o->heatmap);
+    return compare_files(o, &err) ? EXIT_OK : fail(&err);
 }
 
 const struct command command_compare = {
-    "compare", "how far apart two pictures are", {"IMAGE REFERENCE [--heatmap FILE.png [--max X]] [--json]"}, OPTIONS,
-    sizeof(struct compare_options), run, true};
+    "compare", "how far apart two pictures are", {"IMAGE REFERENCE [options]"}, OPTIONS,
+    sizeof(struct compare_options), run, true,
+    "compare picture.pfm reference.pfm --max-rmse 0.01"};

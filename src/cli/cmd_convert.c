@@ -17,8 +17,8 @@ struct convert_options {
 static const struct option OPTIONS[] = {
     {"IN", NULL, OPTION_TEXT, AT(in), 1, .file = FILE_READ,
      .help = "a picture to read: .exr .pfm .hdr .pic .png .tga .ppm .pgm"},
-    {"--outfile", "FILE", OPTION_TEXTS, AT(out), 1, .alias = "-o", .file = FILE_WRITTEN,
-     .help = "a picture to write: linear .pfm .exr .hdr, sRGB .png .ppm .tga; repeatable"},
+    {"-o", "FILE", OPTION_TEXTS, AT(out), 1, .alias = "--outfile", .file = FILE_WRITTEN,
+     .help = "a picture to write: linear .pfm .exr, sRGB .png .ppm; repeatable"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
     {.name = NULL},
@@ -58,4 +58,5 @@ static int run(void *options)
 
 const struct command command_convert = {
     "convert", "a picture in other formats", {"IN -o FILE... [--exposure EV] [--tonemap NAME]"}, OPTIONS,
-    sizeof(struct convert_options), run, false};
+    sizeof(struct convert_options), run, false,
+    "convert picture.exr -o picture.png --exposure 1 --tonemap filmic"};

@@ -132,4 +132,5 @@ static const struct option OPTIONS[] = {
 };
 
 const struct command command_info = {
-    "info", "describe a scene", {"SCENE.pbrt [--json] [options]"}, OPTIONS, sizeof(struct info_options), run, true};
+    "info", "describe a scene", {"SCENE.pbrt [--json] [options]"}, OPTIONS, sizeof(struct info_options), run, true,
+    "info scenes/bathroom.pbrt"};

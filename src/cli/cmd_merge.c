@@ -18,7 +18,7 @@ struct merge_options {
 static const struct option OPTIONS[] = {
     {"PART", NULL, OPTION_TEXTS, AT(part), 1, .file = FILE_READ,
      .help = "a part of a picture"},
-    {"--outfile", "FILE", OPTION_TEXTS, AT(output), 1, .alias = "-o", .file = FILE_WRITTEN,
+    {"-o", "FILE", OPTION_TEXTS, AT(output), 1, .alias = "--outfile", .file = FILE_WRITTEN,
      .help = "a picture to write, or .part; repeatable"},
     {"--partial", NULL, OPTION_ON, AT(partial), .help = "make a picture even where samples are missing"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
@@ -158,10 +158,7 @@ static bool write_film(const struct merge_options *o, struct merge *m, struct fi
 static bool merge(const struct merge_options *o, struct merge *m, bool picture, struct outputs *out, struct error *err)
 {
     bool ok = false;
-    struct error small;
     read_headers(m, &o->part);
-    if (m->n_wrong == 0 && !outputs_fit(out, m->part[0].part.width, m->part[0].part.height, &small))
-        wrong(m, small.text);
     if (m->n_wrong == 0) {
         struct film film;
         const struct part *first = &m->part[0].part;
@@ -201,4 +198,5 @@ static int run(void *options)
 
 const struct command command_merge = {
     "merge", "add up parts of a picture's samples", {"PART... -o FILE... [options]"}, OPTIONS,
-    sizeof(struct merge_options), run, false};
+    sizeof(struct merge_options), run, false,
+    "merge 0.part 1.part -o picture.exr"};

@@ -22,24 +22,24 @@
 #define AT(member) offsetof(struct job_options, member)
 static const struct option OPTIONS[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene_path), 1, .file = FILE_READ, .help = "a scene file"},
-    {"--outfile", "FILE", OPTION_TEXTS, AT(output), .alias = "-o",
-     .file = FILE_WRITTEN, .help = "linear .pfm .exr .hdr, sRGB .png .ppm .tga; repeatable"},
+    {"-o", "FILE", OPTION_TEXTS, AT(output), .alias = "--outfile",
+     .file = FILE_WRITTEN, .help = "linear .pfm .exr, sRGB .png .ppm; repeatable"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
     {"--aov", "LIST", OPTION_TEXT, AT(aov), .help = "also NAME.albedo.pfm ...: albedo,normal,depth,position,variance"},
     {"--strategies", "DIR", OPTION_TEXT, AT(strategies),
      .help = "write every strategy (s,t), and all as DIR/pyramid.png"},
-    {"--time", "SECONDS", OPTION_NUMBER, AT(keep.time), 1e-9, 1e9,
+    {"--time", "TIME", OPTION_NUMBER, AT(keep.time), 1e-9, 1e9,
      .help = "stop after so long, and write what there is"},
     {"--checkpoint", "FILE", OPTION_TEXT, AT(keep.checkpoint), .file = FILE_KEPT,
      .help = "save the render now and then, and at signals"},
-    {"--interval", "SECONDS", OPTION_NUMBER, AT(keep.interval), 0, 1e9, .fallback = "60",
+    {"--interval", "TIME", OPTION_NUMBER, AT(keep.interval), 0, 1e9, .with = "--checkpoint", .fallback = "60",
      .help = "between checkpoints"},
     {"--resume", "FILE", OPTION_TEXT, AT(keep.resume), .file = FILE_KEPT, .help = "go on from a checkpoint"},
     {"--learnt", "FILE", OPTION_TEXT, AT(keep.learnt), .file = FILE_WRITTEN,
      .help = "what the method learns: read, if there is such a file, else written; for the parts of a picture"},
-    {"--samples", "A:B", OPTION_RANGE, AT(keep.samples), 0, 1 << 30,
-     .help = "only the samples A to B-1, for merge: -o NAME.part"},
+    {"--samples", "FIRST:END", OPTION_INTEGER, AT(keep.samples), 0, 1 << 30, .with = "-o",
+     .help = "only the samples FIRST to END-1, for merge: -o NAME.part"},
     {"--stats", "FILE", OPTION_TEXT, AT(stats), .file = FILE_WRITTEN, .help = "JSON: parameters, times, memory"},
     {.others = RUN_OPTIONS},
 };
@@ -118,8 +118,6 @@ static bool check_options(const struct job_options *o, struct error *err)
 {
     if (o->keep.resume != NULL && (o->strategies != NULL || wants_variance(o)))
         return error_set(err, "%s: strategies and variance are not saved and cannot be resumed", o->keep.resume);
-    if (o->keep.samples[1] > 0 && o->output.n == 0)
-        return error_set(err, "--samples needs a name for the part: -o NAME.part");
     return strategies_possible(o->strategies, err) && keep_check(&o->keep, err) &&
            (o->aov == NULL || aov_check(o->aov, err));
 }
@@ -195,10 +193,8 @@ static bool render_and_write(const struct job_options *o, const struct scene *sc
 static bool open_others(struct job_options *o, const struct scene *scene, struct files *f, struct error *err)
 {
     struct names all = {0};
-    struct pixel_rect film = render_crop(scene);
     bool ok = names_add_options(&all, OPTIONS, o, err) &&
               open_default_output(o, scene, &all, &f->pictures, err) &&
-              outputs_fit(&f->pictures, rect_width(film), rect_height(film), err) &&
               open_aovs(o, scene, &f->pictures, &all, &f->aov, err) &&
               strategies_check(o->strategies, scene, o->max_depth, &all, err);
     names_free(&all);
@@ -246,5 +242,6 @@ static int run(void *options)
 }
 
 const struct command command_render = {
-    "render", "render a scene", {"SCENE.pbrt [-o FILE.{pfm,exr,hdr,png,ppm,tga}]... [options]"}, OPTIONS,
-    sizeof(struct job_options), run, false};
+    "render", "render a scene", {"SCENE.pbrt [-o FILE.{pfm,exr,png,ppm}]... [options]"}, OPTIONS,
+    sizeof(struct job_options), run, false,
+    "render scenes/veach-ajar.pbrt --quick --spp 16 -o ajar.png"};

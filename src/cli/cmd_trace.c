@@ -15,7 +15,7 @@ struct trace_options {
 #define AT(member) offsetof(struct trace_options, member)
 static const struct option OPTIONS[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .file = FILE_READ, .help = "a scene file"},
-    {"--pixel", "X,Y", OPTION_PIXEL, AT(pixel), 0, 65535, .fallback = "0,0", .help = "of the film, 0,0 top left"},
+    {"--pixel", "X,Y", OPTION_INTEGER, AT(pixel), 0, 65535, .fallback = "0,0", .help = "of the film, 0,0 top left"},
     {"--sample", "K", OPTION_INTEGER, AT(sample), 0, 1 << 30, .fallback = "0", .help = "which, from 0"},
     {"--json", NULL, OPTION_ON, AT(json), .help = "print an object of JSON"},
     {"--svg", "FILE", OPTION_TEXT, AT(svg), .file = FILE_WRITTEN, .help = "also draw the paths within the scene"},
@@ -71,4 +71,5 @@ static int run(void *options)
 const struct command command_trace = {
     "trace", "one sample of a pixel, told in full: sub-paths, choices, connections, weights",
     {"SCENE.pbrt --pixel X,Y [--sample K] [--json] [--svg FILE] [options]"}, OPTIONS, sizeof(struct trace_options),
-    run, true};
+    run, true,
+    "trace scenes/bathroom.pbrt --pixel 150,120 --svg paths.svg"};

@@ -14,9 +14,9 @@ struct worth_options {
 #define AT(member) offsetof(struct worth_options, member)
 static const struct option OPTIONS[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .file = FILE_READ, .help = "a scene file"},
-    {"--outfile", "FILE.png", OPTION_TEXTS, AT(job.output), 1, .alias = "-o", .file = FILE_WRITTEN,
+    {"-o", "FILE.png", OPTION_TEXTS, AT(job.output), 1, .alias = "--outfile", .file = FILE_WRITTEN,
      .help = "a picture to write"},
-    {"--pixel", "X,Y", OPTION_PIXEL, AT(pixel), 0, 65535, .fallback = "0,0", .help = "where the surface is seen"},
+    {"--pixel", "X,Y", OPTION_INTEGER, AT(pixel), 0, 65535, .fallback = "0,0", .help = "where the surface is seen"},
     {"--scale", "K", OPTION_INTEGER, AT(scale), 1, 16, .fallback = "2", .help = "a pixel becomes KxK"},
     {.others = RUN_OPTIONS},
 };
@@ -60,4 +60,5 @@ static int run(void *options)
 
 const struct command command_worth = {
     "worth", "what light vertices are worth to a surface point, as a picture",
-    {"SCENE.pbrt --pixel X,Y -o FILE.png [options]"}, OPTIONS, sizeof(struct worth_options), run, false};
+    {"SCENE.pbrt --pixel X,Y -o FILE.png [options]"}, OPTIONS, sizeof(struct worth_options), run, false,
+    "worth scenes/veach-ajar.pbrt --pixel 24,20 --res 48x27 --spp 64 -o worth.png"};

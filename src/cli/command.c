@@ -8,8 +8,10 @@
 
 int fail(const struct error *err)
 {
+    bool option = strncmp(err->text, "--", 2) == 0 || strncmp(err->text, "-P:", 3) == 0 ||
+                  strncmp(err->text, "-o ", 3) == 0;
     fprintf(stderr, "asbdpt: %s\n", err->text);
-    return EXIT_JOB;
+    return option ? EXIT_USAGE : EXIT_JOB;
 }
 
 int command_end(int status)

@@ -20,6 +20,7 @@ struct command {
     size_t size;                  /* of the struct that the options fill */
     int (*run)(void *options);    /* returns the exit status */
     bool prints;                  /* to standard output, which no file of its options can be then */
+    const char *example;          /* what follows the program's name */
 };
 
 extern const struct command command_render, command_merge, command_compare, command_convert, command_info,
@@ -29,12 +30,14 @@ extern const struct command command_render, command_merge, command_compare, comm
  * program.c, the laboratory another one. */
 struct program {
     const char *name;
-    const char *title, *about;             /* a line for the help, a paragraph for the man page */
+    const char *title, *about;             /* a line and a paragraph for the help */
     const struct command *const *commands; /* ended by NULL */
+    const struct command *unnamed;         /* meant where none of them is named, or NULL */
 };
 extern const struct program program;
 
-/* fail / usage_error: print "asbdpt: message" and return EXIT_JOB / EXIT_USAGE.
+/* fail / usage_error: print "asbdpt: message" and return EXIT_JOB / EXIT_USAGE. A message that begins with the name of
+ * an option is about a wrong word of the user, and fail returns EXIT_USAGE, too.
  *   command  whose help the message points to; NULL: everybody's */
 int fail(const struct error *err);
 int usage_error(const struct command *command, const char *format, ...);

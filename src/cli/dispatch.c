@@ -6,40 +6,83 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/mem.h"
 #include "base/version.h"
 #include "cli/command.h"
-#include "cli/manual.h"
 #include "cli/names.h"
 #include "parser/symbols.h"
+#include "render/parameters.h"
 
 /* --- help --------------------------------------------------------------------------------------------- */
 
-/* The options that subcommands share are the first one's last. */
-static void print_command(const struct command *c, bool alone)
+static void print_command(const struct command *c)
 {
-    printf("%s %s: %s\n", program.name, c->name, c->help);
+    printf("%s %s: ", program.name, c->name);
+    print_wrapped(c->help, (int)(strlen(program.name) + strlen(c->name)) + 3, 4);
     for (int i = 0; c->usage[i] != NULL; i++)
         printf("%s %s %s %s\n", i == 0 ? "usage:" : "   or:", program.name, c->name, c->usage[i]);
-    for (const struct option *table = c->options; table != NULL;) {
-        if (table != c->options && !alone && c != program.commands[0]) {
-            printf("    and the options of %s, from %s on\n", program.commands[0]->name, table->name);
-            break;
-        }
-        table = options_print(table);
+    printf(" e.g.: %s %s\n", program.name, c->example);
+    options_print(c->options);
+}
+
+static void print_parameters(const struct method_parameter *p)
+{
+    enum { HELP = 36 };
+    char fallback[64];
+    for (; p != NULL && p->name != NULL; p++) {
+        parameter_fallback(p, fallback, sizeof fallback);
+        printf("    %-20s %-10s ", p->name, fallback);
+        print_wrapped(p->help, HELP, HELP);
+    }
+}
+
+/* Rows of the table with the same name are one integrator, and as many selections. */
+static void print_integrators(void)
+{
+    const char *before = "";
+    printf("Integrators (--integrator NAME) and their parameters with defaults: -P NAME=VALUE, or in the\n"
+           "scene's Integrator directive. Of what is given twice, an option like --maxdepth counts before -P,\n"
+           "and -P before the scene.\n\nall\n");
+    print_parameters(parameters_common());
+    for (const struct method *const *m = method_list(); *m != NULL; before = (*m++)->name) {
+        if (strcmp((*m)->name, before) != 0)
+            printf("\n%s\n", (*m)->name);
+        if ((*m)->select != NULL)
+            printf("  -P select=%s\n", (*m)->select);
+        printf("    ");
+        print_wrapped((*m)->help, 4, 4);
+        print_parameters((*m)->parameters);
     }
 }
 
 static void print_help(void)
 {
     printf("%s: %s\n\n", VERSION, program.title);
+    print_wrapped(program.about, 0, 0);
+    printf("\n");
     for (const struct command *const *c = program.commands; *c != NULL; c++) {
-        print_command(*c, false);
-        printf("\n");
+        printf("    %-12s ", (*c)->name);
+        print_wrapped((*c)->help, 17, 17);
     }
-    manual_print_integrators();
-    printf("\n%s help man, bash, zsh: a man page, completions\n"
-           "exit status: 0 success, 1 the job failed, 2 wrong usage\n", program.name);
+    printf("\n%s COMMAND --help        its options, their defaults, an example\n"
+           "%s help integrators      integrators and their parameters\n", program.name, program.name);
+    if (program.unnamed != NULL)
+        printf("%s SCENE.pbrt ...        the same as %s %s SCENE.pbrt ...\n", program.name, program.name,
+               program.unnamed->name);
+    printf("exit status: 0 success, 1 the job failed, 2 wrong usage, 128 and the number of a signal\n");
+}
+
+/* All that there is, as for a man page. */
+static void print_all(void)
+{
+    print_help();
+    for (const struct command *const *c = program.commands; *c != NULL; c++) {
+        printf("\n");
+        print_command(*c);
+    }
+    printf("\n");
+    print_integrators();
 }
 
 static bool asks_for_help(const char *word) { return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0; }
@@ -68,7 +111,7 @@ static int run(const struct command *c, int argc, char **argv)
 {
     for (int i = 1; i < argc; i++)
         if (asks_for_help(argv[i])) {
-            print_command(c, true);
+            print_command(c);
             return EXIT_OK;
         }
     struct error err;
@@ -80,19 +123,31 @@ static int run(const struct command *c, int argc, char **argv)
     return status;
 }
 
-/* help, help COMMAND, help man|bash|zsh */
+/* help, help COMMAND, help integrators, help all */
 static int help(const char *topic)
 {
-    if (topic == NULL) {
-        print_help();
-        return EXIT_OK;
-    }
-    for (const struct command *const *c = program.commands; *c != NULL; c++)
+    for (const struct command *const *c = program.commands; topic != NULL && *c != NULL; c++)
         if (strcmp(topic, (*c)->name) == 0) {
-            print_command(*c, true);
+            print_command(*c);
             return EXIT_OK;
         }
-    return manual_print(topic, VERSION) ? EXIT_OK : usage_error(NULL, "there is no help on %s", topic);
+    if (topic == NULL)
+        print_help();
+    else if (strcmp(topic, "integrators") == 0)
+        print_integrators();
+    else if (strcmp(topic, "all") == 0)
+        print_all();
+    else
+        return usage_error(NULL, "there is no help on %s", topic);
+    return EXIT_OK;
+}
+
+static void print_version(void)
+{
+    printf("%s\n", VERSION);
+    if (keeps_more_bits())
+        printf("built for arithmetic that keeps more bits than a double has (FLT_EVAL_METHOD is not 0): pictures\n"
+               "differ in their last bits from those of other builds\n");
 }
 
 int command_line(int argc, char **argv)
@@ -102,10 +157,7 @@ int command_line(int argc, char **argv)
     if (asks_for_help(argv[1]) || strcmp(argv[1], "help") == 0)
         return help(argc > 2 ? argv[2] : NULL);
     if (strcmp(argv[1], "--version") == 0) {
-        printf("%s\n", VERSION);
-        if (keeps_more_bits())
-            printf("built for arithmetic that keeps more bits than a double has (FLT_EVAL_METHOD is not 0): pictures "
-                   "differ in their last bits from those of other builds\n");
+        print_version();
         return EXIT_OK;
     }
     struct suggestion s = suggest_start(argv[1]);
@@ -114,6 +166,8 @@ int command_line(int argc, char **argv)
             return run(*c, argc - 1, argv + 1);
         suggest_offer(&s, (*c)->name);
     }
+    if (program.unnamed != NULL && (argv[1][0] == '-' || file_has_extension(argv[1], ".pbrt")))
+        return run(program.unnamed, argc, argv);
     if (s.name == NULL)
         return usage_error(NULL, "unknown command %s", argv[1]);
     return usage_error(NULL, "unknown command %s (did you mean %s?)", argv[1], s.name);

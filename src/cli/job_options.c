@@ -20,15 +20,19 @@ const struct option RUN_OPTIONS[] = {
 };
 
 const struct option JOB_OPTIONS[] = {
-    {"--integrator", "NAME", OPTION_TEXT, AT(integrator), .help = "instead of the scene's"},
-    {"-P", "NAME=VALUE", OPTION_PAIRS, AT(overrides), .help = "set a parameter of the integrator"},
-    {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 30, .help = "samples per pixel"},
+    {"--integrator", "NAME", OPTION_TEXT, AT(integrator),
+     .help = "see asbdpt help integrators (default: the scene's, else bdpt)"},
+    {"-P", "NAME=VALUE", OPTION_TEXTS, AT(overrides), .help = "set a parameter of the integrator; repeatable"},
+    {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 30, .help = "samples per pixel (default: the scene's, else 16)"},
     {"--quick", NULL, OPTION_ON, AT(quick),
      .help = "as pbrt's: a quarter of the width and height (but --res), one sample per pixel (but --spp)"},
-    {"--maxdepth", "N", OPTION_INTEGER, AT(max_depth), 1, PATH_MAX_DEPTH, .help = "longest path, 1 = direct light"},
-    {"--res", "WxH", OPTION_SIZE, AT(res), 1, 65536, .help = "resolution of the film"},
-    {"--filter", "NAME", OPTION_TEXT, AT(filter), .help = "pixel filter: box triangle gaussian mitchell sinc"},
-    {"--cropwindow", "X0 X1 Y0 Y1", OPTION_WINDOW, AT(crop), 0, 1, .help = "render a part of the film, as fractions"},
+    {"--maxdepth", "N", OPTION_INTEGER, AT(max_depth), 1, PATH_MAX_DEPTH,
+     .help = "longest path, 1 = direct light (default: the scene's, else 5)"},
+    {"--res", "WIDTHxHEIGHT", OPTION_INTEGER, AT(res), 1, 65536, .help = "pixels of the film (default: the scene's)"},
+    {"--filter", "NAME", OPTION_TEXT, AT(filter),
+     .help = "of pixels: box, triangle, gaussian, mitchell or sinc (default: the scene's)"},
+    {"--cropwindow", "X0 X1 Y0 Y1", OPTION_NUMBER, AT(crop), 0, 1,
+     .help = "render a part of the film, as fractions (default: the scene's)"},
     {"--strict", NULL, OPTION_ON, AT(strict), .help = "warnings of the scene are errors"},
     {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "no progress, no warnings"},
     {.name = NULL},
@@ -83,7 +87,7 @@ static bool apply(const struct job_options *o, struct scene *scene, struct error
         override(depth, &scene->settings);
     struct pixel_rect crop = render_crop(scene);
     if (rect_width(crop) < 1 || rect_height(crop) < 1)
-        return error_set(err, "the crop window holds no pixel");
+        return error_set(err, "%s holds no pixel", o->crop[1] > 0 ? "--cropwindow" : "the crop window");
     return true;
 }
 
@@ -138,48 +142,33 @@ static void warn_of_scene(const struct scene *scene, struct listener *to)
         warn(to, "the picture is written as .png: the format of the film's \"%.200s\" is none of this program's", name);
 }
 
-static bool chosen_alone(const struct job_options *o, const struct scene *scene, const struct method *chosen,
-                         const struct method **m, struct error *err)
-{
-    (void)o;
-    (void)scene;
-    (void)err;
-    m[0] = chosen;
-    return true;
-}
-
 int job_load(const struct job_options *o, struct scene *scene, const struct method **method)
 {
-    return job_load_for(o, chosen_alone, scene, method);
+    return job_load_for(o, NULL, scene, method);
 }
 
 int job_load_for(const struct job_options *o, job_readers *choose, struct scene *scene, const struct method **method)
 {
     const struct method *readers[3] = {NULL, NULL, NULL};
-    int status = EXIT_JOB;
     struct error err;
     struct listener listener = {o, 0};
     struct message_sink sink = {print_warning, print_error, &listener};
+    struct render_job job;
     if (!parse_scene(o->scene_path, scene, &sink, NULL))
         return EXIT_JOB;
-    *method = NULL;
-    bool ok = apply(o, scene, &err) && (*method = choose_method(scene, &listener, &err)) != NULL &&
-              choose(o, scene, *method, readers, &err);
+    bool ok = apply(o, scene, &err) && (*method = readers[0] = choose_method(scene, &listener, &err)) != NULL &&
+              (choose == NULL || choose(o, scene, *method, readers, &err));
     if (ok) {
         parameters_adapt(scene, readers, &sink);
-        ok = parameters_belong(scene, readers, &err);
-        status = ok ? EXIT_JOB : EXIT_USAGE;
+        ok = parameters_belong(scene, readers, &err) && parameters_read(scene, *method, o->max_depth, &job, &err);
     }
-    struct render_job job;
-    ok = ok && parameters_read(scene, *method, o->max_depth, &job, &err);
     if (ok)
         warn_of_scene(scene, &listener);
     if (ok && o->strict && listener.n_warnings > 0)
         ok = error_set(&err, "%s: refused for what is said above, by --strict", o->scene_path);
     if (!ok) {
         scene_free(scene);
-        fail(&err);
-        return status;
+        return fail(&err);
     }
     scene_prepare(scene);
     return EXIT_OK;

@@ -49,7 +49,7 @@ extern const struct option JOB_OPTIONS[], RUN_OPTIONS[]; /* the second, for what
 int job_load(const struct job_options *o, struct scene *scene, const struct method **method);
 
 /* job_load_for: the same where others than the method that is found may render.
- *   choose  says which: one or two, at m[0] and m[1]; false with a message if there is none such */
+ *   choose  says which: one or two, at m[0] and m[1]; false with a message if there is none such; NULL: that one */
 typedef bool job_readers(const struct job_options *o, const struct scene *scene, const struct method *found,
                          const struct method **m, struct error *err);
 int job_load_for(const struct job_options *o, job_readers *choose, struct scene *scene,

@@ -82,7 +82,7 @@ bool names_add_options(struct names *all, const struct option *table, void *targ
         int n = 0;
         const char *const *text = o->file != FILE_NONE ? options_texts(o, target, &n) : NULL;
         for (int i = 0; ok && i < n; i++)
-            ok = names_add(all, o->file, o->alias != NULL ? o->alias : o->name, text[i], err);
+            ok = names_add(all, o->file, o->name, text[i], err);
     }
     return ok;
 }

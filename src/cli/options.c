@@ -14,10 +14,13 @@
 
 /* How far the arguments are read, and the option being read. */
 struct reader {
+    const struct option *table;
     int argc, at; /* 0: those of fallbacks, before the first */
     char **argv;
     const char *attached; /* the option's value if it came in the same argument and is not used yet, else NULL */
     const struct option *option;
+    const struct option **seen; /* [n_seen], those given; owned */
+    int n_seen;
     struct error *err;
 };
 
@@ -29,11 +32,6 @@ const struct option *options_next(const struct option *option)
 static bool is_operand(const struct option *o) { return o->name[0] != '-'; }
 static void *target_of(const struct option *o, void *target) { return (char *)target + o->offset; }
 static bool looks_like_option(const char *text) { return text[0] == '-' && text[1] != '\0'; }
-
-static bool has_texts(const struct option *o)
-{
-    return o->kind == OPTION_TEXTS || o->kind == OPTION_PAIRS || o->kind == OPTION_LIST;
-}
 
 void texts_add(struct texts *texts, const char *text)
 {
@@ -55,94 +53,99 @@ static bool next_value(struct reader *r, const char **text)
     return **text != '\0' || r->at == 0 || error_set(r->err, "%s: its value is empty", r->option->name);
 }
 
+/* Seconds in a unit at *text, which moves behind it; 1 where there is none. */
+static double scan_unit(const char **text)
+{
+    static const char UNITS[] = "smh";
+    static const double SECONDS[] = {1, 60, 3600};
+    const char *unit = **text != '\0' ? strchr(UNITS, **text) : NULL;
+    *text += unit != NULL;
+    return unit != NULL ? SECONDS[unit - UNITS] : 1;
+}
+
 /* The number at the beginning of *text, which moves behind it. False if there is none, or if it is out of range, as NaN
  * and what overflows are of every range. */
 static bool scan_number(const char **text, const struct option *o, double *out)
 {
-    bool real = o->kind == OPTION_NUMBER || o->kind == OPTION_PERHAPS || o->kind == OPTION_WINDOW;
+    bool real = o->kind == OPTION_NUMBER;
     bool begins = real || isdigit((unsigned char)**text); /* strtoull takes signs too */
     char *end;
     *out = real ? strtod(*text, &end) : (double)strtoull(*text, &end, 10);
     bool found = begins && end != *text;
     *text = end;
+    if (found && strcmp(o->value, "TIME") == 0)
+        *out *= scan_unit(text);
     return found && *out >= o->low && *out <= o->high;
 }
 
-/* Numbers with a separator between them; those of a window may also be arguments of their own. */
-static bool read_numbers(struct reader *r, int least, int most, const char *expected, double *out)
+static bool expected(struct reader *r, const char *text, bool several)
 {
     const struct option *o = r->option;
-    bool window = o->kind == OPTION_WINDOW, commas = window || o->kind == OPTION_PIXEL, ok = true;
-    const char *text = "", *at = "";
-    for (int n = 0; ok && n < most && (n < least || *at != '\0'); n++) {
-        if (n > 0 && !(window && *at == '\0'))
-            ok = *at++ == (commas ? ',' : o->kind == OPTION_RANGE ? ':' : 'x');
-        else if (next_value(r, &text))
+    const char *one = o->kind == OPTION_INTEGER ? "an integer" : "a number", *kind = strchr(one, ' ') + 1;
+    bool time = strcmp(o->value, "TIME") == 0;
+    return error_set(r->err, "%s %s: expected %s%s%s%s from %.10g to %.10g%s", o->name, text, several ? o->value : one,
+                     several ? ", " : "", several ? kind : "", several ? "s" : "", o->low, o->high,
+                     time ? ", of seconds, or with a unit: 90s, 5m, 1h" : "");
+}
+
+enum { MOST_NUMBERS = 4 };
+static const char CAPITALS[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
+
+/* As many numbers as the value's name has words, *n; separators stand as they do there. */
+static bool scan_numbers(struct reader *r, double *out, int *n)
+{
+    const char *shape = r->option->value, *text, *at;
+    bool several = shape[strspn(shape, CAPITALS)] != '\0', ok = true;
+    if (!next_value(r, &text))
+        return false;
+    at = text;
+    for (*n = 0; ok; shape++) {
+        ok = scan_number(&at, r->option, &out[(*n)++]);
+        shape += strspn(shape, CAPITALS);
+        bool optional = *shape == '[';
+        shape += optional;
+        if (*shape == '\0' || *shape == ']' || !ok)
+            break;
+        if (optional && *at == '\0') {
+            out[(*n)++] = 0;
+            return true;
+        }
+        if (*shape == ' ' && *at == '\0') {
+            if (!next_value(r, &text))
+                return false;
             at = text;
-        else
-            return false;
-        ok = ok && scan_number(&at, o, &out[n]);
+        } else {
+            ok = *at == (*shape == ' ' ? ',' : *shape);
+            at += ok;
+        }
     }
-    return (ok && *at == '\0') ||
-           error_set(r->err, "%s %s: expected %s from %.10g to %.10g", o->name, text, expected, o->low, o->high);
+    return (ok && *at == '\0') || expected(r, text, several);
 }
 
-static bool read_integer(struct reader *r, int *out)
+/* What must hold of several numbers: see the names of values in options.h. */
+static bool fit_together(const struct option *o, const double *v, int n, struct error *err)
 {
-    double v;
-    if (!read_numbers(r, 1, 1, "an integer", &v))
-        return false;
-    *out = (int)v;
-    return true;
-}
-
-/* The next argument is the value only if it is a number. */
-static bool read_perhaps(struct reader *r, struct perhaps *out)
-{
-    const char *next = r->attached != NULL ? r->attached : r->at + 1 < r->argc ? r->argv[r->at + 1] : "";
-    char *end;
-    out->given = true;
-    out->number = 0;
-    strtod(next, &end);
-    return (r->attached == NULL && (end == next || *end != '\0')) || read_numbers(r, 1, 1, "a number", &out->number);
-}
-
-static bool read_size(struct reader *r, int least, const char *expected, int *size)
-{
-    double v[2] = {0, 0};
     struct error why;
-    if (!read_numbers(r, least, 2, expected, v))
-        return false;
-    size[0] = (int)v[0];
-    size[1] = (int)v[1];
-    return size[1] == 0 || picture_size_ok((uint64_t)v[0], (uint64_t)v[1], &why) ||
-           error_set(r->err, "%s: %s", r->option->name, why.text);
+    bool pairs = strpbrk(o->value, ": ") != NULL, size = strchr(o->value, 'x') != NULL;
+    for (int i = 1; pairs && i < n; i += 2)
+        if (!(v[i - 1] < v[i]))
+            return error_set(err, "%s: there is nothing between %.10g and %.10g", o->name, v[i - 1], v[i]);
+    return !size || v[1] == 0 || picture_size_ok((uint64_t)v[0], (uint64_t)v[1], &why) ||
+           error_set(err, "%s: %s", o->name, why.text);
 }
 
-static bool read_pixel(struct reader *r, int *pixel)
+static bool read_numbers(struct reader *r, void *target)
 {
-    double v[2];
-    if (!read_numbers(r, 2, 2, "X,Y, each", v))
+    double v[MOST_NUMBERS];
+    int n;
+    if (!scan_numbers(r, v, &n) || !fit_together(r->option, v, n, r->err))
         return false;
-    pixel[0] = (int)v[0];
-    pixel[1] = (int)v[1];
+    for (int i = 0; i < n; i++)
+        if (r->option->kind == OPTION_INTEGER)
+            ((int *)target)[i] = (int)v[i];
+        else
+            ((double *)target)[i] = v[i];
     return true;
-}
-
-static bool read_window(struct reader *r, double *v)
-{
-    return read_numbers(r, 4, 4, "four numbers, each", v) &&
-           ((v[0] < v[1] && v[2] < v[3]) || error_set(r->err, "%s: the window is empty", r->option->name));
-}
-
-static bool read_range(struct reader *r, int *range)
-{
-    double v[2];
-    if (!read_numbers(r, 2, 2, "FIRST:END, each", v))
-        return false;
-    range[0] = (int)v[0];
-    range[1] = (int)v[1];
-    return range[0] < range[1] || error_set(r->err, "%s: there is nothing in the range", r->option->name);
 }
 
 static bool read_seed(struct reader *r, uint64_t *out)
@@ -159,15 +162,16 @@ static bool read_seed(struct reader *r, uint64_t *out)
 
 static bool read_texts(struct reader *r, struct texts *texts)
 {
-    const char *text;
+    const char *text, *shape = r->option->value;
+    bool pair = shape != NULL && strchr(shape, '=') != NULL, list = shape != NULL && strstr(shape, "...") != NULL;
     do {
         if (!next_value(r, &text))
             return false;
         const char *equals = strchr(text, '=');
-        if (r->option->kind == OPTION_PAIRS && (equals == NULL || equals == text))
+        if (pair && (equals == NULL || equals == text))
             return error_set(r->err, "%s %s: expected name=value", r->option->name, text);
         texts_add(texts, text);
-    } while (r->option->kind == OPTION_LIST && r->at + 1 < r->argc && !looks_like_option(r->argv[r->at + 1]));
+    } while (list && r->at + 1 < r->argc && !looks_like_option(r->argv[r->at + 1]));
     return true;
 }
 
@@ -175,52 +179,57 @@ static bool read_value(struct reader *r, void *target)
 {
     switch (r->option->kind) {
     case OPTION_ON: *(bool *)target = true; return true;
-    case OPTION_OFF: *(bool *)target = false; return true;
-    case OPTION_INTEGER: return read_integer(r, target);
-    case OPTION_NUMBER: return read_numbers(r, 1, 1, "a number", target);
-    case OPTION_PERHAPS: return read_perhaps(r, target);
+    case OPTION_INTEGER:
+    case OPTION_NUMBER: return read_numbers(r, target);
     case OPTION_SEED: return read_seed(r, target);
-    case OPTION_WINDOW: return read_window(r, target);
-    case OPTION_PIXEL: return read_pixel(r, target);
-    case OPTION_RANGE: return read_range(r, target);
-    case OPTION_SIZE: return read_size(r, 2, "WIDTHxHEIGHT, each", target);
-    case OPTION_WIDTH: return read_size(r, 1, "WIDTHxHEIGHT or WIDTH, each", target);
     case OPTION_TEXT: return next_value(r, target);
-    case OPTION_TEXTS:
-    case OPTION_PAIRS:
-    case OPTION_LIST: return read_texts(r, target);
+    case OPTION_TEXTS: return read_texts(r, target);
     }
     return false;
 }
 
 /* --- options ------------------------------------------------------------------------------------------ */
 
-static bool unknown_option(const struct option *table, const char *argument, struct error *err)
-{
-    struct suggestion s = suggest_start(argument);
-    for (const struct option *o = table; o != NULL; o = options_next(o))
-        if (o->name[1] == '-')
-            suggest_offer(&s, o->name);
-    if (s.name == NULL)
-        return error_set(err, "unknown option %s", argument);
-    return error_set(err, "unknown option %s (did you mean %s?)", argument, s.name);
-}
-
 static bool is_called(const char *name, const char *argument, size_t length)
 {
     return name != NULL && strncmp(name, argument, length) == 0 && name[length] == '\0';
 }
 
-static bool read_option(struct reader *r, const struct option *table, void *target)
+/* The row of a name that ends after `length` letters, or NULL. */
+static const struct option *find(const struct option *table, const char *argument, size_t length)
 {
-    const char *argument = r->argv[r->at];
-    size_t length = argument[1] == '-' ? strcspn(argument, "=") : 2; /* of the name */
     const struct option *o = table;
     while (o != NULL && !is_called(o->name, argument, length) && !is_called(o->alias, argument, length))
         o = options_next(o);
+    return o;
+}
+
+/* What other programs call it, or the nearest name there is. */
+static bool unknown_option(const struct option *table, const char *argument, struct error *err)
+{
+    static const char *const ELSEWHERE[][2] = {{"--out", "-o"}, {"--output", "-o"}, {"--resolution", "--res"},
+                                               {"--crop", "--cropwindow"}, {"--threads", "--nthreads"}};
+    struct suggestion s = suggest_start(argument);
+    for (const struct option *o = table; o != NULL; o = options_next(o))
+        if (o->name[1] == '-')
+            suggest_offer(&s, o->name);
+    for (size_t i = 0; i < sizeof ELSEWHERE / sizeof ELSEWHERE[0]; i++)
+        if (is_called(ELSEWHERE[i][0], argument, strcspn(argument, "=")) &&
+            find(table, ELSEWHERE[i][1], strlen(ELSEWHERE[i][1])) != NULL)
+            s.name = ELSEWHERE[i][1];
+    if (s.name == NULL)
+        return error_set(err, "unknown option %s", argument);
+    return error_set(err, "unknown option %s (did you mean %s?)", argument, s.name);
+}
+
+static bool read_option(struct reader *r, void *target)
+{
+    const char *argument = r->argv[r->at];
+    size_t length = argument[1] == '-' ? strcspn(argument, "=") : 2; /* of the name */
+    const struct option *o = find(r->table, argument, length);
     if (o == NULL)
-        return unknown_option(table, argument, r->err);
-    r->option = o;
+        return unknown_option(r->table, argument, r->err);
+    r->option = r->seen[r->n_seen++] = o;
     r->attached = argument[length] == '\0' ? NULL : argument + length + (argument[length] == '=');
     if (!read_value(r, target_of(o, target)))
         return false;
@@ -231,8 +240,8 @@ const char *const *options_texts(const struct option *o, void *target, int *n)
 {
     const struct texts *texts = target_of(o, target);
     const char *const *one = target_of(o, target);
-    *n = has_texts(o) ? texts->n : *one != NULL;
-    return has_texts(o) ? (const char *const *)texts->item : one;
+    *n = o->kind == OPTION_TEXTS ? texts->n : *one != NULL;
+    return o->kind == OPTION_TEXTS ? (const char *const *)texts->item : one;
 }
 
 static bool is_given(const struct option *o, void *target)
@@ -243,10 +252,10 @@ static bool is_given(const struct option *o, void *target)
 }
 
 /* Operands fill their rows in order; a list takes all that are left. */
-static bool read_operand(struct reader *r, const struct option *table, void *target)
+static bool read_operand(struct reader *r, void *target)
 {
-    const struct option *o = table;
-    while (o != NULL && !(is_operand(o) && (has_texts(o) || !is_given(o, target))))
+    const struct option *o = r->table;
+    while (o != NULL && !(is_operand(o) && (o->kind == OPTION_TEXTS || !is_given(o, target))))
         o = options_next(o);
     if (o == NULL)
         return error_set(r->err, "%s is one argument too many", r->argv[r->at]);
@@ -255,42 +264,84 @@ static bool read_operand(struct reader *r, const struct option *table, void *tar
     return read_value(r, target_of(o, target));
 }
 
+static bool was_seen(const struct reader *r, const char *name)
+{
+    bool seen = false;
+    for (int i = 0; i < r->n_seen; i++)
+        seen = seen || strcmp(r->seen[i]->name, name) == 0;
+    return seen;
+}
+
+/* Is everything there that must be, and that other options need? */
+static bool is_complete(const struct reader *r, void *target)
+{
+    for (const struct option *o = r->table; o != NULL; o = options_next(o))
+        if ((o->kind == OPTION_TEXTS || o->kind == OPTION_TEXT) && o->low > 0 && !is_given(o, target))
+            return error_set(r->err, "%s needs %s (%s)", r->argv[0], o->help, o->name);
+    for (int i = 0; i < r->n_seen; i++)
+        if (r->seen[i]->with != NULL && !was_seen(r, r->seen[i]->with))
+            return error_set(r->err, "%s has no effect without %s", r->seen[i]->name, r->seen[i]->with);
+    return true;
+}
+
 bool options_read(const struct option *table, int argc, char **argv, void *target, struct error *err)
 {
-    struct reader r = {.argc = argc, .argv = argv, .err = err};
+    struct reader r = {.table = table, .argc = argc, .argv = argv, .err = err};
     bool ok = true;
+    r.seen = mem_alloc((size_t)argc, sizeof *r.seen);
     for (const struct option *o = table; ok && o != NULL; o = options_next(o)) {
         r.option = o;
         r.attached = o->fallback;
         ok = o->fallback == NULL || read_value(&r, target_of(o, target));
     }
     for (r.at = 1; ok && r.at < argc; r.at++)
-        ok = looks_like_option(argv[r.at]) ? read_option(&r, table, target) : read_operand(&r, table, target);
-    for (const struct option *o = table; ok && o != NULL; o = options_next(o))
-        if ((has_texts(o) || o->kind == OPTION_TEXT) && o->low > 0 && !is_given(o, target))
-            ok = error_set(err, "%s needs %s (%s)", argv[0], o->help, o->name);
+        ok = looks_like_option(argv[r.at]) ? read_option(&r, target) : read_operand(&r, target);
+    ok = ok && is_complete(&r, target);
+    free(r.seen);
     return ok;
 }
 
 void options_free(const struct option *table, void *target)
 {
     for (const struct option *o = table; o != NULL; o = options_next(o))
-        if (has_texts(o))
+        if (o->kind == OPTION_TEXTS)
             free(((struct texts *)target_of(o, target))->item);
 }
 
 /* --- help --------------------------------------------------------------------------------------------- */
 
-const struct option *options_print(const struct option *table)
+void print_wrapped(const char *text, int column, int indent)
 {
-    const struct option *o = table;
-    for (; o->name != NULL; o++) {
-        char left[80], right[80] = "";
+    enum { COLUMNS = 100 };
+    for (const char *word = text; *word != '\0';) {
+        int n = (int)strcspn(word, " ");
+        if (column > indent && column + 1 + n > COLUMNS) {
+            printf("\n%*s", indent, "");
+            column = indent;
+        } else if (word != text) {
+            printf(" ");
+            column++;
+        }
+        printf("%.*s", n, word);
+        column += n;
+        word += n + (word[n] == ' ');
+    }
+    printf("\n");
+}
+
+void options_print(const struct option *table)
+{
+    enum { HELP = 30 }; /* the column where the help stands */
+    for (const struct option *o = table; o != NULL; o = options_next(o)) {
+        char left[80], right[300];
+        bool fallback = o->fallback != NULL && o->fallback[0] != '\0';
         snprintf(left, sizeof left, "%s%s%s %s", o->name, o->alias != NULL ? ", " : "",
                  o->alias != NULL ? o->alias : "", o->value != NULL ? o->value : "");
-        if (o->fallback != NULL && o->fallback[0] != '\0')
-            snprintf(right, sizeof right, " (default %s)", o->fallback);
-        printf("    %-25s %s%s\n", left, o->help, right);
+        snprintf(right, sizeof right, "%s%s%s%s", o->help, fallback ? " (default " : "", fallback ? o->fallback : "",
+                 fallback ? ")" : "");
+        int width = printf("    %-25s ", left);
+        if (width > HELP)
+            printf("\n%*s", HELP, "");
+        print_wrapped(right, HELP, HELP);
     }
-    return o->others;
 }

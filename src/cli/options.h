@@ -7,6 +7,16 @@
  *     --name VALUE, --name=VALUE, -n VALUE, -nVALUE    an option; given twice, the later one counts
  *     WORD                                             an operand: a row whose name has no dash in front
  *
+ * How a value is called says how it is read: words in capitals are numbers, with what stands between them.
+ *
+ *     WIDTHxHEIGHT, X,Y     several numbers, up to four
+ *     FIRST:END             the first less than the second
+ *     X0 X1 Y0 Y1           a blank is the next argument, or a comma; pairs, each the lesser first
+ *     WIDTH[xHEIGHT]        what is in brackets may be left out, and is 0 then
+ *     TIME                  seconds, or with a unit: 90s, 5m, 1h
+ *     NAME=VALUE            of texts: something, = and anything
+ *     FILE...               of texts: all arguments up to the next option
+ *
  * An empty value is always a mistake, of a script for example whose variable is not set.
  *
  * Tests: test_options.c, test/cli.sh.
@@ -19,21 +29,13 @@
 
 #include "base/error.h"
 
-enum option_kind {           /* type of the target, and what is read into it */
-    OPTION_ON, OPTION_OFF,   /* bool: becomes true, false; no value */
-    OPTION_INTEGER,          /* int from low to high */
-    OPTION_SEED,             /* uint64_t, any */
-    OPTION_NUMBER,           /* double from low to high */
-    OPTION_PERHAPS,          /* struct perhaps: such a number if one follows */
-    OPTION_WINDOW,           /* double[4]: X0 X1 Y0 Y1 or X0,X1,Y0,Y1 from low to high, X0 < X1, Y0 < Y1 */
-    OPTION_PIXEL,            /* int[2]: X,Y, each from low to high */
-    OPTION_RANGE,            /* int[2]: FIRST:END, each from low to high, FIRST < END */
-    OPTION_SIZE,             /* int[2]: WIDTHxHEIGHT, each from low to high */
-    OPTION_WIDTH,            /* the same, or WIDTH alone, then the height becomes 0 */
-    OPTION_TEXT,             /* const char *, borrowed from the arguments */
-    OPTION_TEXTS,            /* struct texts: one more each time */
-    OPTION_PAIRS,            /* the same, each NAME=VALUE */
-    OPTION_LIST              /* struct texts: all arguments up to the next option */
+enum option_kind {  /* type of the target */
+    OPTION_ON,      /* bool: becomes true; no value */
+    OPTION_INTEGER, /* int, or int[]; each from low to high */
+    OPTION_NUMBER,  /* double, or double[]; each from low to high */
+    OPTION_SEED,    /* uint64_t, any */
+    OPTION_TEXT,    /* const char *, borrowed from the arguments */
+    OPTION_TEXTS    /* struct texts: one more each time */
 };
 
 /* What is done with a file that a text names (names.h); FILE_KEPT: it is read if it is there, and written. */
@@ -46,15 +48,9 @@ struct texts {
     size_t capacity;
 };
 
-/* An option whose number may be left out. */
-struct perhaps {
-    bool given;
-    double number; /* 0 when left out */
-};
-
 struct option {
     const char *name;            /* "--spp"; without a dash an operand, then of kind OPTION_TEXT or OPTION_TEXTS */
-    const char *value;           /* what the help calls its value; NULL: it has none */
+    const char *value;           /* what the help calls its value, see above; NULL: it has none */
     enum option_kind kind;
     size_t offset;               /* of the target in the subcommand's struct */
     double low, high;            /* range of numbers; of texts: low 1 if one must be given */
@@ -62,6 +58,7 @@ struct option {
     const char *fallback;        /* text of the default; NULL: the target stays zero */
     const char *help;            /* where one must be given: what it is, with an article */
     enum option_file file;
+    const char *with;            /* the option without which this one has no effect, or NULL */
     const struct option *others; /* in the row without a name: the table that goes on, or NULL */
 };
 
@@ -79,8 +76,12 @@ void options_free(const struct option *table, void *target);
 /* options_texts: the texts that an option has in `target`, *n of them. */
 const char *const *options_texts(const struct option *option, void *target, int *n);
 
-/* options_print: one line of help for every row of this table alone. Returns the table that goes on, or NULL. */
-const struct option *options_print(const struct option *table);
+/* options_print: the help of every row. */
+void options_print(const struct option *table);
+
+/* print_wrapped: words in lines of at most 100 columns, all but the first moved in by `indent`.
+ *   column  where the first line is */
+void print_wrapped(const char *text, int column, int indent);
 
 void texts_add(struct texts *texts, const char *text);
 

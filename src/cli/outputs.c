@@ -30,7 +30,7 @@ static bool read_tone(const struct tone_options *t, const struct texts *names, s
         shown = shown || image_is_8_bit(names->item[i]);
     *out = tone;
     return shown || tone_is_plain(&tone) ||
-           error_set(err, "--exposure and --tonemap are for 8-bit pictures (.png, .ppm, .tga); none is written");
+           error_set(err, "--exposure and --tonemap are for 8-bit pictures (.png, .ppm); none is written");
 }
 
 bool outputs_is_part(const char *name)
@@ -55,19 +55,14 @@ bool outputs_open(const struct texts *names, const struct tone_options *tone, en
     out->file = mem_alloc((size_t)names->n, sizeof *out->file);
     for (out->n = 0; ok && out->n < names->n; out->n += ok) {
         const char *name = names->item[out->n];
-        ok = takes_part(out, name) ? file_create(name, &out->file[out->n], err)
-                                   : image_create(name, &out->file[out->n], err);
+        bool part = takes_part(out, name);
+        if (!part && !image_writable(name))
+            ok = error_set(err, "-o %s: pictures are written as " IMAGE_WRITTEN "; end the name in one of these", name);
+        else
+            ok = part ? file_create(name, &out->file[out->n], err) : image_create(name, &out->file[out->n], err);
     }
     if (!ok)
         outputs_abandon(out);
-    return ok;
-}
-
-bool outputs_fit(const struct outputs *o, int width, int height, struct error *err)
-{
-    bool ok = true;
-    for (int i = 0; ok && i < o->n; i++)
-        ok = takes_part(o, o->file[i].path) || image_fits(o->file[i].path, width, height, err);
     return ok;
 }
 

@@ -45,9 +45,6 @@ struct tone_options {
 bool outputs_open(const struct texts *names, const struct tone_options *tone, enum outputs_parts parts,
                   struct outputs *out, struct error *err);
 
-/* outputs_fit: do the formats hold pictures of this size? False with a message; they are still open then. */
-bool outputs_fit(const struct outputs *o, int width, int height, struct error *err);
-
 /* outputs_write: the picture into all of them; unless `quiet` a last line on stderr names them. One that fails does not
  * keep the others from being written: the first message is kept and false returned. */
 bool outputs_write(struct outputs *o, int width, int height, const float *pixels, bool quiet, struct error *err);

@@ -8,4 +8,4 @@ static const struct command *const COMMANDS[] = {
 const struct program program = {
     "asbdpt", "Alias Sampled Bidirectional Path Tracing, a reference implementation",
     "Renders scenes of pbrt-v3 with path tracing, light tracing, bidirectional path tracing and its alias sampled kin, "
-    "compares and converts pictures, and tells how a sample came about.", COMMANDS};
+    "compares and converts pictures, and tells how a sample came about.", COMMANDS, &command_render};

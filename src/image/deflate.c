@@ -3,7 +3,7 @@
  * Two steps, block by block [RFC 1951]. First the bytes become symbols: wherever the coming bytes occurred within
  * the last 32 KiB, a (length, distance) pair stands for them [Ziv & Lempel 1977]; earlier places are found
  * through hash chains over three bytes. Then the symbols are written in Huffman codes made for the block
- * [Huffman 1952]. (With the format's fixed codes instead, pictures would be 15 to 30 % larger.)
+ * [Huffman 1952]. (With the format's fixed codes instead, pictures would be 10 to 30 % larger.)
  */
 #include "image/zlib.h"
 

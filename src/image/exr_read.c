@@ -117,9 +117,7 @@ static bool read_block(const struct exr *e, size_t i, const struct block *b, uin
 static float sample(const uint8_t *p, enum exr_type type)
 {
     uint32_t bits = exr_u32(p);
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return type == EXR_FLOAT ? value : (float)bits;
+    return type == EXR_FLOAT ? float_of_bits(bits) : (float)bits;
 }
 
 /* Put one channel of a block in its place, or leave it 0 where there is none. */

@@ -18,16 +18,13 @@ static void put(struct bytes *b, const void *data, size_t n)
 static void put_number(struct bytes *b, uint64_t value, size_t n)
 {
     uint8_t byte[8];
-    for (size_t i = 0; i < 8; i++)
-        byte[i] = (uint8_t)(value >> 8 * i & 255);
+    bytes_of_bits(value, byte, n, false);
     put(b, byte, n);
 }
 
 static void put_float(struct bytes *b, float x, enum exr_type type)
 {
-    uint32_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    put_number(b, type == EXR_HALF ? float_to_half(x) : bits, exr_type_bytes(type));
+    put_number(b, type == EXR_HALF ? float_to_half(x) : bits_of_float(x), exr_type_bytes(type));
 }
 
 /* The head of an attribute whose value has n bytes. */

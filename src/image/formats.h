@@ -42,7 +42,6 @@ void png_write(FILE *f, int width, int height, const float *pixels);
  * file's name decides. Pixels of 24 or 32 bits (blue, green, red, alpha), grey and map indices of 8 bits; 15 and 16-bit
  * pixels are refused. Written: 24 bits, sRGB encoded, from the top left. */
 bool tga_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
-void tga_write(FILE *f, int width, int height, const float *pixels);
 
 /* OpenEXR files [OpenEXR]. Read: one part, rows or tiles (of tiled files with several levels the first), channels of
  * halfs, floats and integers, uncompressed or by RLE, ZIPS, ZIP or PIZ; as pbrt-v3 does, the data window as the
@@ -57,14 +56,8 @@ void exr_write_half(FILE *f, struct placement at, int width, int height, const f
 void exr_write_float(FILE *f, struct placement at, int width, int height, const float *pixels);
 
 /* Radiance pictures [Radiance], RGB with a common exponent: flat, with runs and with old runs; rows, from either side.
- * EXPOSURE and the like have no meaning. At most 1024 pixels for each byte of the file. Written: flat, each number to
- * the nearest 1/256 of the largest of its pixel or better, negative ones as 0. */
+ * EXPOSURE and the like have no meaning. At most 1024 pixels for each byte of the file. */
 bool rgbe_matches(const uint8_t *data, size_t size);
 bool rgbe_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
-void rgbe_write(FILE *f, int width, int height, const float *pixels);
-
-/* rgbe_encode: a pixel as three mantissas m and an exponent e, each component m 2^(e - 136) [Ward 1991]. The exponent
- * is such that the largest mantissa is at least 128; negative numbers and NaN become 0. */
-void rgbe_encode(const float *rgb, uint8_t *out);
 
 #endif

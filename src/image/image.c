@@ -14,22 +14,21 @@ struct format {
     bool (*matches)(const uint8_t *data, size_t size); /* by content; NULL where the format has no signature */
     bool (*read)(const uint8_t *data, size_t size, struct image *out, struct error *err);
     void (*write)(FILE *f, int width, int height, const float *pixels); /* NULL where it is not written, or below */
-    int most; /* pixels in a row or column of a file written, 0: any */
     bool is_8_bit;
     void (*write_at)(FILE *f, struct placement at, int width, int height, const float *pixels); /* with its place */
 };
 
 /* The first whose extension fits counts. */
 static const struct format FORMATS[] = {
-    {".pfm", pfm_matches, pfm_read, pfm_write, 0, false, NULL},
-    {".float.exr", exr_matches, exr_read, NULL, 0, false, exr_write_float},
-    {".exr", exr_matches, exr_read, NULL, 0, false, exr_write_half},
-    {".hdr", rgbe_matches, rgbe_read, rgbe_write, 0, false, NULL},
-    {".pic", rgbe_matches, rgbe_read, rgbe_write, 0, false, NULL},
-    {".ppm", ppm_matches, ppm_read, ppm_write, 0, true, NULL},
-    {".pgm", ppm_matches, ppm_read, NULL, 0, true, NULL},
-    {".png", png_matches, png_read, png_write, 0, true, NULL},
-    {".tga", NULL, tga_read, tga_write, 65535, true, NULL},
+    {".pfm", pfm_matches, pfm_read, pfm_write, false, NULL},
+    {".float.exr", exr_matches, exr_read, NULL, false, exr_write_float},
+    {".exr", exr_matches, exr_read, NULL, false, exr_write_half},
+    {".hdr", rgbe_matches, rgbe_read, NULL, false, NULL},
+    {".pic", rgbe_matches, rgbe_read, NULL, false, NULL},
+    {".ppm", ppm_matches, ppm_read, ppm_write, true, NULL},
+    {".pgm", ppm_matches, ppm_read, NULL, true, NULL},
+    {".png", png_matches, png_read, png_write, true, NULL},
+    {".tga", NULL, tga_read, NULL, true, NULL},
 };
 enum { N_FORMATS = sizeof FORMATS / sizeof FORMATS[0] };
 
@@ -105,21 +104,10 @@ bool image_create(const char *path, struct file_output *out, struct error *err)
     return error_set(err, "%s: a picture is nothing for a terminal; send it into a file or another program", path);
 }
 
-bool image_fits(const char *path, int width, int height, struct error *err)
-{
-    int most = format_to_write(path)->most;
-    return most == 0 || (width <= most && height <= most) ||
-           error_set(err, "%s: %d x %d pixels do not fit in such a file", path, width, height);
-}
-
 bool image_finish(struct file_output *f, struct placement at, int width, int height, const float *pixels,
                   struct error *err)
 {
     const struct format *format = format_to_write(f->path);
-    if (!image_fits(f->path, width, height, err)) {
-        file_abandon(f);
-        return false;
-    }
     if (format->write_at != NULL)
         format->write_at(f->stream, at, width, height, pixels);
     else

@@ -1,7 +1,8 @@
 /* image.h: pictures in memory and their files.
  *
- * Formats are rows of one table in image.c: PFM, OpenEXR and Radiance (linear RGB), PPM, PNG and TGA (8-bit sRGB
- * when written; read as stored). The pixels in memory are picture.h's, the formats formats.h's.
+ * Formats are rows of one table in image.c: PFM, OpenEXR and Radiance (linear RGB), PPM, PNG and TGA (8-bit sRGB when
+ * written; read as stored). Radiance and TGA are only read. The pixels in memory are picture.h's, the formats
+ * formats.h's.
  *
  * Tests: test_image.c, test_hdr.c.
  */
@@ -21,13 +22,13 @@
 bool image_read(const char *path, struct image *out, struct error *err);
 
 /* The extensions that image_write knows, for messages. */
-#define IMAGE_WRITTEN ".pfm, .exr, .hdr, .png, .ppm or .tga"
+#define IMAGE_WRITTEN ".pfm, .exr, .png or .ppm"
 
 /* image_write: write linear RGB as the format named by the extension; to standard output, -, as PFM.
- *   pixels  [height*width*3] floats, top row first, linear; .ppm, .png and .tga are clamped to [0,1] and sRGB encoded;
+ *   pixels  [height*width*3] floats, top row first, linear; .ppm and .png are clamped to [0,1] and sRGB encoded;
  *           .exr has halfs, like pbrt-v3's, .float.exr has floats
  * The file appears whole or not at all: it is written beside its name and renamed. Returns false with a message on an
- * unknown extension, a size that the format does not hold, or any I/O error (full disk), leaving no file behind. */
+ * unknown extension or any I/O error (full disk), leaving no file behind. */
 bool image_write(const char *path, int width, int height, const float *pixels, struct error *err);
 
 /* image_create, image_finish: the same in two steps. The first says what is wrong with the name or the place, as of
@@ -36,9 +37,6 @@ bool image_write(const char *path, int width, int height, const float *pixels, s
 bool image_create(const char *path, struct file_output *out, struct error *err);
 bool image_finish(struct file_output *f, struct placement at, int width, int height, const float *pixels,
                   struct error *err);
-
-/* image_fits: does the format of a name that image_create has taken hold so many pixels? False with a message. */
-bool image_fits(const char *path, int width, int height, struct error *err);
 
 /* image_mend: make samples that are NaN or infinite 0, and negative ones too if asked; `replaced` counts them. */
 void image_mend(struct image *img, bool negative_too);

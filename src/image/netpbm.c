@@ -9,96 +9,10 @@
 #include "base/mem.h"
 #include "image/formats.h"
 
-/* --- PFM ---------------------------------------------------------------------------------------------- */
-
-bool pfm_matches(const uint8_t *data, size_t size)
-{
-    return size >= 3 && data[0] == 'P' && (data[1] == 'F' || data[1] == 'f') && isspace(data[2]);
-}
-
-/* The next word of the header and the one blank after it. Returns false if it is missing or does not fit. */
-static bool next_word(const uint8_t *data, size_t size, size_t *at, char *word, size_t room)
-{
-    while (*at < size && isspace(data[*at]))
-        ++*at;
-    size_t n = 0;
-    while (*at < size && !isspace(data[*at]) && n + 1 < room)
-        word[n++] = (char)data[(*at)++];
-    word[n] = '\0';
-    if (n == 0 || *at >= size || !isspace(data[*at]))
-        return false;
-    ++*at;
-    return true;
-}
-
-/* A whole word as a decimal count; 0 if it is none. Beyond 2^28 the value is not exact. */
-static unsigned long to_count(const char *word)
-{
-    unsigned long value = 0;
-    for (; *word >= '0' && *word <= '9'; word++)
-        if (value <= PICTURE_MAX_PIXELS)
-            value = value * 10 + (unsigned long)(*word - '0');
-    return *word == '\0' ? value : 0;
-}
-
-static float to_float(const uint8_t *byte, bool big_endian)
-{
-    return float_of_bits((uint32_t)bits_of_bytes(byte, 4, big_endian));
-}
-
-bool pfm_read(const uint8_t *data, size_t size, struct image *out, struct error *err)
-{
-    if (!pfm_matches(data, size))
-        return error_set(err, "not a PFM file: it does not begin with PF or Pf");
-    char word[3][64];
-    size_t at = 2;
-    for (int i = 0; i < 3; i++)
-        if (!next_word(data, size, &at, word[i], sizeof word[i]))
-            return error_set(err, "the PFM header (PF, width height, scale) is incomplete");
-    unsigned long width = to_count(word[0]), height = to_count(word[1]);
-    char *end;
-    double scale = strtod(word[2], &end);
-    if (*end != '\0' || !(fabs(scale) > 0 && fabs(scale) <= FLT_MAX))
-        return error_set(err, "the scale in the PFM header is \"%s\"; it must be a number other than 0", word[2]);
-    if (!picture_size_ok(width, height, err))
-        return false;
-    int channels = data[1] == 'F' ? 3 : 1;
-    size_t row = (size_t)width * (size_t)channels; /* samples */
-    if ((size - at) / 4 / row < height)
-        return picture_truncated(width, height, err);
-    picture_alloc_f32(out, width, height, channels);
-    float factor = (float)fabs(scale);
-    for (size_t y = 0; y < height; y++)
-        for (size_t i = 0; i < row; i++)
-            out->f32[(height - 1 - y) * row + i] = factor * to_float(data + at + (y * row + i) * 4, scale > 0);
-    return true;
-}
-
-void pfm_write(FILE *f, int width, int height, const float *pixels)
-{
-    size_t row = 3 * (size_t)width;
-    uint8_t *bytes = mem_alloc(row, 4);
-    fprintf(f, "PF\n%d %d\n-1.000000\n", width, height);
-    for (int y = height - 1; y >= 0; y--) {
-        for (size_t i = 0; i < row; i++)
-            bytes_of_bits(bits_of_float(pixels[(size_t)y * row + i]), bytes + 4 * i, 4, false);
-        fwrite(bytes, 4, row, f);
-    }
-    free(bytes);
-}
-
-/* --- PPM ---------------------------------------------------------------------------------------------- */
-
 struct netpbm {
     const uint8_t *data;
     size_t size, at;
 };
-
-bool ppm_matches(const uint8_t *data, size_t size)
-{
-    return size >= 3 && data[0] == 'P' && (data[1] == '2' || data[1] == '3' || data[1] == '5' || data[1] == '6') &&
-           (isspace(data[2]) || data[2] == '#');
-}
 
 /* Read over blanks and comments. */
 static void skip(struct netpbm *r)
@@ -122,6 +36,75 @@ static bool next_number(struct netpbm *r, unsigned long *value)
         if (*value <= PICTURE_MAX_PIXELS)
             *value = *value * 10 + (unsigned long)(r->data[r->at] - '0');
     return r->at > start;
+}
+
+/* --- PFM ---------------------------------------------------------------------------------------------- */
+
+bool pfm_matches(const uint8_t *data, size_t size)
+{
+    return size >= 3 && data[0] == 'P' && (data[1] == 'F' || data[1] == 'f') && isspace(data[2]);
+}
+
+/* The next word and the one blank after it. Returns false if it is missing or does not fit. */
+static bool next_word(struct netpbm *r, char *word, size_t room)
+{
+    size_t n = 0;
+    for (skip(r); r->at < r->size && !isspace(r->data[r->at]) && n + 1 < room; r->at++)
+        word[n++] = (char)r->data[r->at];
+    word[n] = '\0';
+    return n > 0 && r->at < r->size && isspace(r->data[r->at++]);
+}
+
+static float to_float(const uint8_t *byte, bool big_endian)
+{
+    return float_of_bits((uint32_t)bits_of_bytes(byte, 4, big_endian));
+}
+
+bool pfm_read(const uint8_t *data, size_t size, struct image *out, struct error *err)
+{
+    if (!pfm_matches(data, size))
+        return error_set(err, "not a PFM file: it does not begin with PF or Pf");
+    struct netpbm r = {data, size, 2};
+    unsigned long width, height;
+    char word[64], *end;
+    if (!next_number(&r, &width) || !next_number(&r, &height) || !next_word(&r, word, sizeof word))
+        return error_set(err, "the PFM header (PF, width height, scale) is incomplete");
+    double scale = strtod(word, &end);
+    if (*end != '\0' || !(fabs(scale) > 0 && fabs(scale) <= FLT_MAX))
+        return error_set(err, "the scale in the PFM header is \"%s\"; it must be a number other than 0", word);
+    if (!picture_size_ok(width, height, err))
+        return false;
+    int channels = data[1] == 'F' ? 3 : 1;
+    size_t row = (size_t)width * (size_t)channels; /* samples */
+    if ((size - r.at) / 4 / row < height)
+        return picture_truncated(width, height, err);
+    picture_alloc_f32(out, width, height, channels);
+    float factor = (float)fabs(scale);
+    for (size_t y = 0; y < height; y++)
+        for (size_t i = 0; i < row; i++)
+            out->f32[(height - 1 - y) * row + i] = factor * to_float(data + r.at + (y * row + i) * 4, scale > 0);
+    return true;
+}
+
+void pfm_write(FILE *f, int width, int height, const float *pixels)
+{
+    size_t row = 3 * (size_t)width;
+    uint8_t *bytes = mem_alloc(row, 4);
+    fprintf(f, "PF\n%d %d\n-1.000000\n", width, height);
+    for (int y = height - 1; y >= 0; y--) {
+        for (size_t i = 0; i < row; i++)
+            bytes_of_bits(bits_of_float(pixels[(size_t)y * row + i]), bytes + 4 * i, 4, false);
+        fwrite(bytes, 4, row, f);
+    }
+    free(bytes);
+}
+
+/* --- PPM ---------------------------------------------------------------------------------------------- */
+
+bool ppm_matches(const uint8_t *data, size_t size)
+{
+    return size >= 3 && data[0] == 'P' && (data[1] == '2' || data[1] == '3' || data[1] == '5' || data[1] == '6') &&
+           (isspace(data[2]) || data[2] == '#');
 }
 
 static bool next_sample(struct netpbm *r, bool text, bool wide, unsigned long *value)

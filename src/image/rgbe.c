@@ -188,36 +188,3 @@ bool rgbe_read(const uint8_t *data, size_t size, struct image *out, struct error
         image_free(out);
     return ok;
 }
-
-/* --- writing ------------------------------------------------------------------------------------------ */
-
-void rgbe_encode(const float *rgb, uint8_t *out)
-{
-    float part[3], largest = 0;
-    for (int c = 0; c < 3; c++) {
-        part[c] = rgb[c] > 0 ? fminf(rgb[c], 0x1.fep126f) : 0;
-        largest = fmaxf(largest, part[c]);
-    }
-    int e;
-    memset(out, 0, 4);
-    if (largest < 0x1p-128f) /* the smallest exponent that a byte holds */
-        return;
-    frexpf(largest, &e);
-    if (lrintf(ldexpf(largest, 8 - e)) > 255) /* rounded up to the next power of two */
-        e++;
-    for (int c = 0; c < 3; c++)
-        out[c] = (uint8_t)lrintf(ldexpf(part[c], 8 - e));
-    out[3] = (uint8_t)(e + 128);
-}
-
-void rgbe_write(FILE *f, int width, int height, const float *pixels)
-{
-    uint8_t *row = mem_alloc((size_t)width, 4);
-    fprintf(f, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n", height, width);
-    for (size_t y = 0; y < (size_t)height; y++) {
-        for (size_t x = 0; x < (size_t)width; x++)
-            rgbe_encode(pixels + (y * (size_t)width + x) * 3, row + 4 * x);
-        fwrite(row, 4, (size_t)width, f);
-    }
-    free(row);
-}

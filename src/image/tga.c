@@ -153,21 +153,3 @@ bool tga_read(const uint8_t *data, size_t size, struct image *out, struct error 
     image_free(out);
     return false;
 }
-
-void tga_write(FILE *f, int width, int height, const float *pixels)
-{
-    size_t row = 3 * (size_t)width;
-    uint8_t *bytes = mem_alloc(row, 1), header[HEADER] = {0};
-    header[2] = TGA_COLOUR;
-    bytes_of_bits((uint64_t)width, header + 12, 2, false);
-    bytes_of_bits((uint64_t)height, header + 14, 2, false);
-    header[16] = 24;
-    header[17] = TOP_TO_BOTTOM;
-    fwrite(header, 1, sizeof header, f);
-    for (size_t y = 0; y < (size_t)height; y++) {
-        for (size_t i = 0; i < row; i++)
-            bytes[i] = srgb_byte(pixels[y * row + i - i % 3 + (2 - i % 3)]);
-        fwrite(bytes, 1, row, f);
-    }
-    free(bytes);
-}

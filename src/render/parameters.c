@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "parser/symbols.h"
+
 static bool is_of_file(const struct setting *item) { return strcmp(item->origin, "-P") != 0; }
 
 /* What all integrators have. */
@@ -188,10 +190,22 @@ bool parameters_max_depth(const struct scene *scene, int wanted, int *out, struc
     return ok;
 }
 
+static void offer(struct suggestion *s, const struct method_parameter *p)
+{
+    for (; p != NULL && p->name != NULL; p++)
+        suggest_offer(s, p->name);
+}
+
 static bool unknown(const struct setting *item, struct error *err)
 {
-    return error_set(err, "%s: no integrator has a parameter \"%s\"; asbdpt --help lists them", item->origin,
-                     item->name);
+    struct suggestion s = suggest_start(item->name);
+    suggest_offer(&s, "select");
+    offer(&s, COMMON);
+    for (const struct method *const *m = method_list(); *m != NULL; m++)
+        offer(&s, (*m)->parameters);
+    bool near = s.name != NULL;
+    return error_set(err, "%s: no integrator has a parameter \"%s\"%s%s%s; asbdpt help integrators lists them",
+                     item->origin, item->name, near ? " (did you mean " : "", near ? s.name : "", near ? "?)" : "");
 }
 
 /* Parameters of any integrator are known: --integrator may have replaced the scene's. */
@@ -222,14 +236,18 @@ bool parameters_belong(const struct scene *scene, const struct method *const *re
             continue;
         if (has == NULL)
             return unknown(item, err);
-        name_method(has, whose, sizeof whose);
+        if (strcmp(item->name, "select") == 0) /* of all its rows */
+            snprintf(whose, sizeof whose, "%s", has->name);
+        else
+            name_method(has, whose, sizeof whose);
         name_method(readers[0], first, sizeof first);
         if (readers[1] != NULL)
             name_method(readers[1], second, sizeof second);
         if (readers[1] != NULL)
             return error_set(err, "-P: \"%s\" is a parameter of %s, the integrators here are %s and %s", item->name,
                              whose, first, second);
-        return error_set(err, "-P: \"%s\" is a parameter of %s, the integrator here is %s", item->name, whose, first);
+        return error_set(err, "-P: \"%s\" is a parameter of %s, the integrator here is %s; try --integrator %s",
+                         item->name, whose, first, has->name);
     }
     return true;
 }

@@ -288,4 +288,5 @@ static int run(void *options)
 }
 
 const struct command command_bench = {
-    "bench", "measure speed and memory", {"SCENE.pbrt... [options]"}, OPTIONS, sizeof(struct bench_options), run, true};
+    "bench", "measure speed and memory", {"SCENE.pbrt... [options]"}, OPTIONS, sizeof(struct bench_options), run, true,
+    "bench scenes/cornell-box.pbrt"};

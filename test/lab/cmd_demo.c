@@ -16,7 +16,7 @@ struct demo_options {
 #define AT(member) offsetof(struct demo_options, member)
 static const struct option OPTIONS[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXT, AT(demo.scene), 1, .file = FILE_READ, .help = "a scene with a stored reference"},
-    {"--outfile", "FILE.png", OPTION_TEXTS, AT(output), 1, .alias = "-o", .file = FILE_WRITTEN,
+    {"-o", "FILE.png", OPTION_TEXTS, AT(output), 1, .alias = "--outfile", .file = FILE_WRITTEN,
      .help = "a picture to write"},
     {"--integrator", "NAME", OPTION_TEXT, AT(second), .fallback = "asbdpt", .help = "what is compared"},
     {"--with", "NAME", OPTION_TEXT, AT(first), .fallback = "bdpt", .help = "what it is compared with"},
@@ -72,4 +72,5 @@ static int run(void *options)
 
 const struct command command_demo = {
     "demo", "two integrators at equal time, in one labelled picture", {"SCENE.pbrt -o FILE.png [options]"}, OPTIONS,
-    sizeof(struct demo_options), run, true};
+    sizeof(struct demo_options), run, true,
+    "demo scenes/bathroom.pbrt --scale 5 -o out/demo.png"};

@@ -23,8 +23,8 @@ enum { EQUAL_SPP = 32, EQUAL_SEEDS = 5 }; /* unless said otherwise */
 struct experiment_options {
     struct texts scenes;
     const char *directory, *reference;
-    bool full, quiet;
-    struct perhaps equal_time;
+    bool quick, full, equal_time, quiet;
+    double seconds; /* 0: as bdpt takes */
     int spp, reference_spp, seeds, max_depth, n_threads, res[2];
 };
 
@@ -34,16 +34,17 @@ static const struct option OPTIONS[] = {
      .help = "scene files (default: five of scenes/, with --equal-time all)"},
     {"-o", "DIR", OPTION_TEXT, AT(directory), 1,
      .help = "a directory for its results; started again with the same, it goes on (--equal-time: anew)"},
-    {"--quick", NULL, OPTION_OFF, AT(full), .help = "at the sizes of the references, 8 to 64 spp (default)"},
+    {"--quick", NULL, OPTION_ON, AT(quick), .help = "at the sizes of the references, 8 to 64 spp (default)"},
     {"--full", NULL, OPTION_ON, AT(full), .help = "320 pixels wide, 32 to 512 spp, and all parameter sweeps"},
-    {"--equal-time", "[SECONDS]", OPTION_PERHAPS, AT(equal_time), 0.001, 1e6,
-     .help = "give each the CPU time of bdpt's --spp 32, or so many seconds; at the references' sizes"},
+    {"--equal-time", NULL, OPTION_ON, AT(equal_time),
+     .help = "give each the CPU time of bdpt's --spp 32, or --time; at the references' sizes"},
+    {"--time", "TIME", OPTION_NUMBER, AT(seconds), 0.001, 1e6, .with = "--equal-time", .help = "of CPU for each"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20, .help = "most samples per pixel"},
     {"--seeds", "N", OPTION_INTEGER, AT(seeds), 1, PLAN_MAX_SEEDS,
      .help = "renders per method (default 3, --equal-time: 5)"},
     {"--maxdepth", "N", OPTION_INTEGER, AT(max_depth), 1, PATH_MAX_DEPTH, .help = "longest path, 1 = direct light"},
     {"--nthreads", "N", OPTION_INTEGER, AT(n_threads), 1, 1024, .alias = "-j", .help = "threads (default: all)"},
-    {"--res", "WxH or W", OPTION_WIDTH, AT(res), 1, 8192, .help = "size, or width alone"},
+    {"--res", "WIDTH[xHEIGHT]", OPTION_INTEGER, AT(res), 1, 8192, .help = "size, or width alone"},
     {"--reference", "PATH", OPTION_TEXT, AT(reference),
      .help = "picture, or directory of NAME.pfm (default: ref/ beside the scene if of it, else rendered)"},
     {"--reference-spp", "N", OPTION_INTEGER, AT(reference_spp), 4, 1 << 24, .help = "samples of one rendered here"},
@@ -80,7 +81,7 @@ static bool make_plan(const struct experiment_options *o, struct plan *p, struct
         p->n_seeds = o->seeds;
     if (o->reference_spp > 0)
         p->reference_spp = o->reference_spp;
-    if (o->equal_time.given)
+    if (o->equal_time)
         make_equal(o, p);
     return o->spp == 0 || plan_set_spp(p, o->spp < p->spp[0] ? o->spp : p->spp[0], o->spp, err);
 }
@@ -112,21 +113,24 @@ static int run(void *options)
     struct experiment_options *o = options;
     struct plan plan;
     struct error err;
-    bool named = o->scenes.n > 0, equal = o->equal_time.given;
+    bool named = o->scenes.n > 0, equal = o->equal_time;
     for (int i = 0; !named && i < (equal ? N_SCENES : N_PUBLISHED); i++)
         texts_add(&o->scenes, SCENES[i]);
     if (!make_plan(o, &plan, &err))
         return usage_error(&command_experiment, "--spp %d: %s", o->spp, err.text);
+    if (o->quick && o->full)
+        return usage_error(&command_experiment, "--quick and --full exclude each other");
     if (equal && o->n_threads > 1)
         return usage_error(&command_experiment, "--nthreads %d: equal times are those of one thread", o->n_threads);
-    return equal ? give_equal_time(&plan, o->equal_time.number) : carry_out(&plan);
+    return equal ? give_equal_time(&plan, o->seconds) : carry_out(&plan);
 }
 
 const struct command command_experiment = {
     "experiment",
     "measure methods as the dissertation does",
-    {"[--quick | --full] [SCENE.pbrt...] -o DIR [options]", "--equal-time [SECONDS] [SCENE.pbrt...] -o DIR [options]"},
+    {"[--quick | --full] [SCENE.pbrt...] -o DIR [options]", "--equal-time [SCENE.pbrt...] -o DIR [options]"},
     OPTIONS,
     sizeof(struct experiment_options),
     run,
-    true};
+    true,
+    "experiment --equal-time scenes/spot.pbrt -o out/equal"};

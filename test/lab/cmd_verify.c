@@ -29,11 +29,11 @@ static const struct option OPTIONS[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), .help = "a scene file"},
     {"--methods", "A,B", OPTION_TEXT, AT(methods), .help = "integrators (default: bdpt and the scene's, or asbdpt)"},
     {"--reference", "R.pfm", OPTION_TEXT, AT(reference), .help = "a picture, beside R.error.pfm, instead of B"},
-    {"--images", "FILE...", OPTION_LIST, AT(images), .help = "pictures, each followed by its standard errors"},
-    {"--files", "FILE...", OPTION_LIST, AT(files), .help = "pictures that differ in nothing but their seeds"},
-    {"--against", "FILE...", OPTION_LIST, AT(against), .help = "the pictures of the other side"},
+    {"--images", "FILE...", OPTION_TEXTS, AT(images), .help = "pictures, each followed by its standard errors"},
+    {"--files", "FILE...", OPTION_TEXTS, AT(files), .help = "pictures that differ in nothing but their seeds"},
+    {"--against", "FILE...", OPTION_TEXTS, AT(against), .help = "the pictures of the other side"},
     {"--store", "NAME", OPTION_TEXT, AT(store), .help = "write the mean of both sides as NAME.pfm, .error.pfm, .txt"},
-    {"--note", "TEXT", OPTION_TEXT, AT(note), .fallback = "", .help = "where a stored reference comes from"},
+    {"--note", "TEXT", OPTION_TEXT, AT(note), .help = "where a stored reference comes from"},
     {"--batches", "N", OPTION_INTEGER, AT(batches), 4, 10000, .fallback = "12", .help = "renders of each side"},
     {"--tile", "N", OPTION_INTEGER, AT(tile), 1, 10000, .help = "side of the squares of pixels that are compared"},
     {"--alpha", "P", OPTION_NUMBER, AT(alpha), 1e-12, 0.5, .fallback = "0.001", .help = "share of false alarms"},
@@ -158,7 +158,7 @@ static int judge(const struct verify_options *o, uint64_t content, int max_depth
     struct batches x = batches_tiles(&a->pixels, a->width, a->height, tile);
     struct batches y = batches_tiles(&b->pixels, b->width, b->height, tile);
     struct verdict v = verify_batches(&x, &y, o->job.seed);
-    struct provenance from = {o->note, o->job.scene_path, content, max_depth, &v};
+    struct provenance from = {o->note != NULL ? o->note : "", o->job.scene_path, content, max_depth, &v};
     batches_free(&x);
     batches_free(&y);
     print_verdict(&v, a, b, tile, o->alpha);
@@ -197,4 +197,5 @@ const struct command command_verify = {
     {"SCENE.pbrt [--methods A,B | --methods A --reference R.pfm] [options]",
      "--images A.pfm A.error.pfm B.pfm B.error.pfm",
      "SCENE.pbrt --files A.pfm... --against B.pfm... [--store NAME]"},
-    OPTIONS, sizeof(struct verify_options), run, true};
+    OPTIONS, sizeof(struct verify_options), run, true,
+    "verify scenes/cornell-box.pbrt --methods pt,bdpt --res 24x24 --spp 16"};

@@ -197,7 +197,7 @@ static void write_command(FILE *f, const struct equal_time *e)
 {
     char how[64];
     if (e->seconds > 0)
-        snprintf(how, sizeof how, "--equal-time %g", e->seconds);
+        snprintf(how, sizeof how, "--equal-time --time %g", e->seconds);
     else
         snprintf(how, sizeof how, "--equal-time --spp %ld", plan_last_spp(e->plan));
     fputs("\n", f);

@@ -1,6 +1,7 @@
 /* pictures.c: see pictures.h. */
 #include "lab/pictures.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -80,6 +81,27 @@ static bool write_detail(const char *path, const struct scene_results *s, const 
     bool ok = image_write(path, w, h, out, err);
     free(out);
     return ok;
+}
+
+/* A pixel as three mantissas m and an exponent e, each component m 2^(e - 136) [Ward 1991]. The exponent is such that
+ * the largest mantissa is at least 128; negative numbers and NaN become 0. */
+static void rgbe_encode(const float *pixel, uint8_t *out)
+{
+    float part[3], largest = 0;
+    for (int c = 0; c < 3; c++) {
+        part[c] = pixel[c] > 0 ? fminf(pixel[c], 0x1.fep126f) : 0;
+        largest = fmaxf(largest, part[c]);
+    }
+    int e;
+    memset(out, 0, 4);
+    if (largest < 0x1p-128f) /* the smallest exponent that a byte holds */
+        return;
+    frexpf(largest, &e);
+    if (lrintf(ldexpf(largest, 8 - e)) > 255) /* rounded up to the next power of two */
+        e++;
+    for (int c = 0; c < 3; c++)
+        out[c] = (uint8_t)lrintf(ldexpf(part[c], 8 - e));
+    out[3] = (uint8_t)(e + 128);
 }
 
 /* The bytes as a picture: image_write turns linear values to sRGB bytes, so these are turned back first. */

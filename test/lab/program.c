@@ -6,4 +6,4 @@ static const struct command *const COMMANDS[] = {&command_verify, &command_exper
 const struct program program = {
     "asbdpt-lab", "the laboratory of asbdpt: what measures its pictures and its speed",
     "Tests whether pictures have the same expectation, repeats the dissertation's measurements, gives methods the same "
-    "time, and measures the speed of the renderer's parts.", COMMANDS};
+    "time, and measures the speed of the renderer's parts.", COMMANDS, NULL};

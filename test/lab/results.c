@@ -8,7 +8,7 @@
 #include "base/file.h"
 #include "base/maths.h"
 #include "base/os.h"
-#include "base/stats.h"
+#include "lab/stats.h"
 
 static const char *const NAMES[N_QUANTITIES] = {"seconds", "rmse", "rmse8", "relmse", "mean_error"};
 

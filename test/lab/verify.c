@@ -9,8 +9,8 @@
 #include "base/mem.h"
 #include "base/number.h"
 #include "base/rng.h"
-#include "base/stats.h"
 #include "base/vec.h"
+#include "lab/stats.h"
 
 enum {
     RESAMPLINGS = 299,

@@ -5,8 +5,8 @@
  * where a difference is, and take the smallest of several with least_of.
  * Tests: test_stats.c (published tables).
  */
-#ifndef ASBDPT_STATS_H
-#define ASBDPT_STATS_H
+#ifndef ASBDPT_LAB_STATS_H
+#define ASBDPT_LAB_STATS_H
 
 #include <stddef.h>
 

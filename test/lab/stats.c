@@ -4,7 +4,7 @@
  * the other, the latter evaluated with Lentz's method [Lentz 1976] [Thompson & Barnett 1986]. Everything else is
  * one of these two functions.
  */
-#include "base/stats.h"
+#include "lab/stats.h"
 
 #include <float.h>
 #include <math.h>
