@@ -83,8 +83,8 @@ static bool write_detail(const char *path, const struct scene_results *s, const 
     return ok;
 }
 
-/* A pixel as three mantissas m and an exponent e, each component m 2^(e - 136) [Ward 1991]. The exponent is such that the
- * largest mantissa is at least 128; negative numbers and NaN become 0. */
+/* A pixel as three mantissas m and an exponent e, each component m 2^(e - 136) [Ward 1991]. The exponent is such that
+ * the largest mantissa is at least 128; negative numbers and NaN become 0. */
 static void rgbe_encode(const float *pixel, uint8_t *out)
 {
     float part[3], largest = 0;
