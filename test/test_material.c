@@ -69,7 +69,8 @@ static void lobes_of_materials(struct test *t)
         black.index = b.grey[5];
         bsdf = make(&b, &black, 0);
         CHECK(t, strcmp(kinds(&bsdf, text), BLACK[kind]) == 0, "black material %d has lobes %s", kind, text);
-        CHECK(t, material_lobes(NULL, &m) >= (int)strlen(text), "material %d: %d lobes", kind, material_lobes(NULL, &m));
+        CHECK(t, material_lobes(NULL, &m) >= (int)strlen(text), "material %d: %d lobes", kind,
+              material_lobes(NULL, &m));
     }
     struct material matte = all_same(MATERIAL_MATTE, b.grey[5]);
     matte.sigma = b.grey[0];

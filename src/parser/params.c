@@ -166,7 +166,8 @@ int params_choice(struct params *p, const char *name, const char *const *choices
     for (int i = 0; choices[i] != NULL; i++)
         if (strcmp(choices[i], item->text[0]) == 0)
             return i;
-    source_warn(p->messages, item->position, "\"%s\" cannot be \"%.40s\", so it is \"%s\"", name, item->text[0], choices[0]);
+    source_warn(p->messages, item->position, "\"%s\" cannot be \"%.40s\", so it is \"%s\"", name, item->text[0],
+                choices[0]);
     return 0;
 }
 

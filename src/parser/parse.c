@@ -181,7 +181,8 @@ int parse_named_texture(struct parser *p, const char *name, bool is_float)
         parse_no_such(p, at, texture, is_float ? "float texture" : "spectrum texture", "the default is taken");
     const struct param *value = id < 0 ? NULL : params_ignore(q, name);
     if (value != NULL && value->type != PARAM_TEXTURE) /* a texture wins over a value of the same name, as in pbrt */
-        source_warn(&p->messages, value->position, "\"%s\" is given as a texture and as a value; the texture counts", name);
+        source_warn(&p->messages, value->position, "\"%s\" is given as a texture and as a value; the texture counts",
+                    name);
     return id;
 }
 

@@ -95,7 +95,8 @@ static void map_of_light(struct params *q, struct light_set *lights, struct ligh
     if (!q->failed && !ok)
         params_fail(q, at, "%s", inner.text);
     else if (!q->failed && image->replaced > 0)
-        source_warn(q->messages, at, "%ld numbers of this picture are negative or not finite; 0 instead", image->replaced);
+        source_warn(q->messages, at, "%ld numbers of this picture are negative or not finite; 0 instead",
+                    image->replaced);
     free(path);
 }
 

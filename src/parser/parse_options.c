@@ -211,8 +211,8 @@ static const struct parameter TREE[] = {END_OF_PARAMETERS};
 static const struct object_type ACCELERATOR_TYPES[] = {
     {"kdtree", TREE, 0, NULL}, {"bvh", TREE, 0, NULL}, OTHERS_LIKE(TREE, 0, NULL)};
 
-/* Which parameters an integrator has is its own affair: the first value of each is kept as text, with its position; none
- * has several. */
+/* Which parameters an integrator has is its own affair: the first value of each is kept as text, with its position;
+ * none has several. */
 static bool integrator(struct parser *p)
 {
     if (!parse_typed(p))

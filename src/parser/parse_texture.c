@@ -104,7 +104,8 @@ static void imagemap(struct parser *p, void *object)
              !scene_files_picture(q->files, &set->image[image], 0, &inner))
         params_fail(q, at, "%s", inner.text);
     else if (!q->failed && set->image[image].replaced > 0)
-        source_warn(&p->messages, at, "%ld numbers of this picture are not finite; 0 instead", set->image[image].replaced);
+        source_warn(&p->messages, at, "%ld numbers of this picture are not finite; 0 instead",
+                    set->image[image].replaced);
     t->image = image;
     free(path);
 }
@@ -184,7 +185,8 @@ static bool texture(struct parser *p)
         return false;
     p->texture_is_float = strcmp(type.text, "float") == 0;
     if (!p->texture_is_float && strcmp(type.text, "spectrum") != 0 && strcmp(type.text, "color") != 0) {
-        source_warn(&p->messages, type.position, "unknown texture type \"%.40s\"; use \"float\" or \"spectrum\"", type.text);
+        source_warn(&p->messages, type.position, "unknown texture type \"%.40s\"; use \"float\" or \"spectrum\"",
+                    type.text);
         return false;
     }
     struct texture t = {.kind = TEXTURE_CONSTANT};

@@ -63,7 +63,8 @@ static bool world_end(struct parser *p)
     parse_close_all(p);
     parse_warn_of_lamps(p);
     if (p->medium.file != NULL && parse_sees_media(p->scene->integrator))
-        return source_error(&p->messages, p->medium, "participating media are not supported; remove this MediumInterface");
+        return source_error(&p->messages, p->medium,
+                            "participating media are not supported; remove this MediumInterface");
     if (p->medium.file != NULL)
         source_warn(&p->messages, p->medium, "media are left out, as by pbrt-v3's integrator \"%s\"",
                     p->scene->integrator != NULL ? p->scene->integrator : "path");

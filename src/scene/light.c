@@ -80,7 +80,8 @@ static double solid_angle_back(const struct light *l, vec3 v)
 /* Smooth step from 1 inside the inner cone to 0 outside the outer one. [PBRT3 12.3.1] */
 static double spot_falloff(const struct light *l, vec3 w)
 {
-    double c = to_light_space(l, w).z;
+    vec3 v = transform_vector_back(&l->to_world, w);
+    double c = v.z / length(v);
     if (c < l->cos_total)
         return 0;
     if (c >= l->cos_falloff)
