@@ -105,6 +105,15 @@ struct batches render_batches(struct test *t, const struct scene *scene, const c
     return tiles;
 }
 
+bool read_reference(struct test *t, const char *path, struct side *out)
+{
+    char errors[300];
+    const char *both[2] = {path, errors};
+    struct error err = {""};
+    return CHECK(t, side_errors_path(path, errors, sizeof errors, &err) && side_read(both, 2, true, NULL, out, &err),
+                 "%s", err.text);
+}
+
 void batches_scale(struct batches *b, double factor)
 {
     for (long i = 0; i < b->n * b->n_batches; i++)

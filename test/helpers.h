@@ -6,7 +6,7 @@
 #include "base/rng.h"
 #include "image/image.h"
 #include "integrators/method.h"
-#include "lab/verify.h"
+#include "lab/sides.h"
 #include "scene/scene.h"
 #include "test.h"
 
@@ -34,6 +34,9 @@ struct transform random_affine(struct rng *r);
  * `tile` pixels. */
 struct batches render_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth, int spp,
                               int n_batches, int tile, uint64_t seed);
+
+/* read_reference: a stored picture, NAME.pfm, with its errors. A failure is a failed check; returns false. */
+bool read_reference(struct test *t, const char *path, struct side *out);
 
 /* batches_scale: multiply all by a factor, as a fault would. */
 void batches_scale(struct batches *b, double factor);

@@ -2,7 +2,6 @@
  * dissertation's bins, with the same samples, are found out. */
 #include <stdio.h>
 
-#include "lab/sides.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -12,10 +11,9 @@ enum { TILE = 8 }; /* pixels; smaller ones have means too skewed for the few sam
 static bool load_reference(struct test *t, const char *name, int *width, int *height, struct batches *out)
 {
     char path[256];
-    struct error err;
     struct side side = {0};
     snprintf(path, sizeof path, "ref/%s.pfm", name);
-    bool ok = CHECK(t, side_read_reference(path, &side, &err), "%s", err.text);
+    bool ok = read_reference(t, path, &side);
     *width = side.width;
     *height = side.height;
     if (ok)

@@ -59,7 +59,7 @@ static bool next_value(struct reader *r, const char **text)
  * and what overflows are of every range. */
 static bool scan_number(const char **text, const struct option *o, double *out)
 {
-    bool real = o->kind == OPTION_NUMBER || o->kind == OPTION_PERHAPS || o->kind == OPTION_WINDOW;
+    bool real = o->kind == OPTION_NUMBER || o->kind == OPTION_WINDOW;
     bool begins = real || isdigit((unsigned char)**text); /* strtoull takes signs too */
     char *end;
     *out = real ? strtod(*text, &end) : (double)strtoull(*text, &end, 10);
@@ -94,17 +94,6 @@ static bool read_integer(struct reader *r, int *out)
         return false;
     *out = (int)v;
     return true;
-}
-
-/* The next argument is the value only if it is a number. */
-static bool read_perhaps(struct reader *r, struct perhaps *out)
-{
-    const char *next = r->attached != NULL ? r->attached : r->at + 1 < r->argc ? r->argv[r->at + 1] : "";
-    char *end;
-    out->given = true;
-    out->number = 0;
-    strtod(next, &end);
-    return (r->attached == NULL && (end == next || *end != '\0')) || read_numbers(r, 1, 1, "a number", &out->number);
 }
 
 static bool read_size(struct reader *r, int least, const char *expected, int *size)
@@ -178,7 +167,6 @@ static bool read_value(struct reader *r, void *target)
     case OPTION_OFF: *(bool *)target = false; return true;
     case OPTION_INTEGER: return read_integer(r, target);
     case OPTION_NUMBER: return read_numbers(r, 1, 1, "a number", target);
-    case OPTION_PERHAPS: return read_perhaps(r, target);
     case OPTION_SEED: return read_seed(r, target);
     case OPTION_WINDOW: return read_window(r, target);
     case OPTION_PIXEL: return read_pixel(r, target);

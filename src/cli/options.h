@@ -24,7 +24,6 @@ enum option_kind {           /* type of the target, and what is read into it */
     OPTION_INTEGER,          /* int from low to high */
     OPTION_SEED,             /* uint64_t, any */
     OPTION_NUMBER,           /* double from low to high */
-    OPTION_PERHAPS,          /* struct perhaps: such a number if one follows */
     OPTION_WINDOW,           /* double[4]: X0 X1 Y0 Y1 or X0,X1,Y0,Y1 from low to high, X0 < X1, Y0 < Y1 */
     OPTION_PIXEL,            /* int[2]: X,Y, each from low to high */
     OPTION_RANGE,            /* int[2]: FIRST:END, each from low to high, FIRST < END */
@@ -44,12 +43,6 @@ struct texts {
     const char **item; /* [n], owned array of borrowed strings */
     int n;
     size_t capacity;
-};
-
-/* An option whose number may be left out. */
-struct perhaps {
-    bool given;
-    double number; /* 0 when left out */
 };
 
 struct option {
