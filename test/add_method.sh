@@ -1,7 +1,7 @@
 #!/bin/sh
-# add_method.sh: is a method one file and one row? Takes the code of doc/add-a-method.md, plants it in a copy of the tree
-# with nothing else edited, builds, and finds the method in --help, render, trace and verify, which accepts it, and rejects
-# it with a planted fault. BUILD names a build directory to begin with.
+# add_method.sh: is a method one file and one row? Takes the code of doc/add-a-method.md, plants it in a copy of the
+# tree with nothing else edited, builds, and finds the method in --help, render, trace and verify, which accepts it, and
+# rejects it with a planted fault. BUILD names a build directory to begin with.
 build=${BUILD:-build}
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT

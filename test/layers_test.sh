@@ -21,6 +21,14 @@ plant 'may not include' '#include "cli/command.h"' base/vec.h
 plant 'in a circle' '#include "base/alias.h"' base/mem.h
 plant 'in no room' '#include "nowhere/x.h"' base/vec.h
 plant 'not in a room' '' loose.c
+plant 'is in no room' '#include "lab/verify.h"' look/compare.h # the renderer knows nothing of the laboratory
+rm -rf "$dir/lab"
+cp -r test/lab "$dir/lab"
+echo '#include "lab/plan.h"' >>"$dir/lab/methods.h"
+if ABOVE=$dir/lab sh test/layers.sh src true >"$dir/out" || ! grep -q 'in a circle' "$dir/out"; then
+    echo "layers.sh does not notice a circle in the room above"
+    failures=1
+fi
 
 rm -rf "$dir/src"
 mkdir -p "$dir/src/base"

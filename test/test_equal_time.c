@@ -180,6 +180,7 @@ static void check_run(struct test *t)
     plan_set_spp(&p, 32, 32, NULL);
     p.command = "";
     CHECK(t, plan_set_methods(&p, METHODS_EQUAL_TIME, &err) && p.methods.n == 5, "%s", err.text);
+    CHECK(t, plan_set_methods(&p, "bdpt,lvc,asbdpt:select=bins", &err), "%s", err.text); /* those that begin quickly */
     for (int bdpt = 0; bdpt < 2; bdpt++) { /* so many seconds; the time of bdpt */
         e.seconds = bdpt ? 0 : 0.02;
         if (!CHECK(t, equal_run(&e, &err), "%s", err.text))

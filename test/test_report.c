@@ -131,7 +131,8 @@ static void test_bias(struct test *t)
         struct estimate e = results_mean(s, METHOD, 0, Q_MEAN_ERROR);
         double found = results_bias_p(s, METHOD, 0);
         double error = sqrt(e.error * e.error + 0.0004 * 0.0004), dof = 2 * pow(error / e.error, 4);
-        CHECK(t, fabs(found - stats_student_p(e.mean / error, dof)) < 1e-12 && (found < 0.01) == biased, "p is %g", found);
+        CHECK(t, fabs(found - stats_student_p(e.mean / error, dof)) < 1e-12 && (found < 0.01) == biased,
+              "p is %g", found);
     }
     free(s);
 }
@@ -534,8 +535,8 @@ static void test_plan(struct test *t)
     CHECK(t, plan_set_spp(&p, 32, 100, NULL) && p.n_steps == 3 && p.spp[2] == 100,
           "the last step is what was asked for");
     CHECK(t, !plan_set_spp(&p, 1, 1L << 24, NULL), "too many steps are refused");
-    CHECK(t, plan_set_methods(&p, "bdpt,asbdpt", &err) && plan_add_sweep(&p, "asbdpt,asbdpt:select=pool/bins", &err), "%s",
-          err.text);
+    CHECK(t, plan_set_methods(&p, "bdpt,asbdpt", &err) && plan_add_sweep(&p, "asbdpt,asbdpt:select=pool/bins", &err),
+          "%s", err.text);
     CHECK(t, p.methods.n == 4 && p.n_compared == 2 && p.sweep[0].n == 3, "%d methods", p.methods.n);
     CHECK(t, p.sweep[0].method[0] == 1 && p.sweep[0].method[2] == 3, "what is compared is not measured twice");
     plan_scene_name("a/b/veach-ajar/scene.pbrt", name, sizeof name);

@@ -15,14 +15,22 @@
 
 /* --- help --------------------------------------------------------------------------------------------- */
 
-/* The options that subcommands share are the first one's last. */
+/* Does this table lead on to those rows? */
+static bool leads_to(const struct option *table, const struct option *rows)
+{
+    while (table != NULL && table != rows)
+        table = options_next(table);
+    return table != NULL;
+}
+
+/* Options that are the first subcommand's, too, are told there. */
 static void print_command(const struct command *c, bool alone)
 {
     printf("%s %s: %s\n", program.name, c->name, c->help);
     for (int i = 0; c->usage[i] != NULL; i++)
         printf("%s %s %s %s\n", i == 0 ? "usage:" : "   or:", program.name, c->name, c->usage[i]);
     for (const struct option *table = c->options; table != NULL;) {
-        if (table != c->options && !alone && c != program.commands[0]) {
+        if (!alone && c != program.commands[0] && leads_to(program.commands[0]->options, table)) {
             printf("    and the options of %s, from %s on\n", program.commands[0]->name, table->name);
             break;
         }

@@ -1,5 +1,5 @@
-/* cmd_experiment.c: asbdpt-lab experiment: the dissertation's measurements, repeated; and asbdpt-lab equal-time: methods
- * given the same time. */
+/* cmd_experiment.c: asbdpt-lab experiment: the dissertation's measurements, repeated; and asbdpt-lab equal-time:
+ * methods given the same time. */
 #include <stdio.h>
 #include <string.h>
 
@@ -9,8 +9,8 @@
 #include "lab/experiment.h"
 #include "lab/report.h"
 
-/* The scenes measured when none is named, the first five of them by `experiment`; the program is run from the top of its
- * tree. */
+/* The scenes measured when none is named, the first five of them by `experiment`; the program is run from the top of
+ * its tree. */
 static const char *const SCENES[] = {
     "scenes/cornell-box.pbrt", "scenes/cornell-box-modified.pbrt", "scenes/veach-ajar.pbrt", "scenes/bathroom.pbrt",
     "scenes/living-room.pbrt", "scenes/caustic-glass.pbrt",        "scenes/sky.pbrt",        "scenes/spot.pbrt",
@@ -115,7 +115,8 @@ static bool plan_experiment(struct plan_options *o, char command[1024], struct p
     if (o->full && o->res[0] == 0)
         o->res[0] = 320;
     snprintf(how, sizeof how, "experiment --%s --spp %ld", o->full ? "full" : "quick", last);
-    bool ok = begin_plan(o, N_PUBLISHED, how, command, p, err) && plan_set_spp(p, last < first ? last : first, last, err);
+    bool ok = begin_plan(o, N_PUBLISHED, how, command, p, err) &&
+              plan_set_spp(p, last < first ? last : first, last, err);
     p->n_threads = o->n_threads;
     for (int i = 0; ok && i < o->sweeps.n; i++)
         ok = plan_add_sweep(p, o->sweeps.item[i], err);

@@ -56,9 +56,10 @@ static bool choose_pictures(struct verify_options *o, struct error *err)
 {
     struct source *a = &o->source[0], *b = &o->source[1];
     if (o->images.n > 0) {
-        struct source first = {o->images.item, 2, true, {"", "", ""}}, second = {o->images.item + 2, 2, true, {"", "", ""}};
-        *a = first;
-        *b = second;
+        a->file = o->images.item;
+        b->file = o->images.item + 2;
+        a->n = b->n = 2;
+        a->with_errors = b->with_errors = true;
         return o->images.n == 4;
     }
     if (o->files.n > 0) {
@@ -137,25 +138,22 @@ static bool choose_integrators(const struct job_options *job, const struct scene
     return true;
 }
 
-/* Render a side, with its own settings on top of the scene's.
- *   spp  0: as many as take SECONDS; then it is chosen */
+/* Render a side, with its own settings on top of the scene's. */
 static bool render_side(struct scene *scene, const struct method *m, const struct verify_options *o, int number,
-                        long *spp, struct side *out, struct error *err)
+                        struct side *out, struct error *err)
 {
-    static const double seconds = 20; /* of each side */
+    static const double seconds = 20; /* of rendering */
     const struct measured *given = &o->source[number].method;
     struct render_options options = {.integrator = m->name, .seed = o->job.seed, .n_threads = o->job.n_threads,
                                      .max_depth = o->job.max_depth};
     struct settings shared = scene->settings;
     scene->settings = measured_settings(given, &shared);
-    if (*spp == 0)
-        *spp = side_choose_spp(scene, &options, o->batches, seconds, err);
-    options.end = *spp;
-    bool ok = *spp > 0 && side_render(scene, &options, number, o->batches, o->job.quiet, out, err);
+    options.end = o->job.spp > 0 ? o->job.spp : side_choose_spp(scene, &options, o->batches, seconds, err);
+    bool ok = options.end > 0 && side_render(scene, &options, number, o->batches, o->job.quiet, out, err);
     out->name = given->text[0] != '\0' ? given->text : m->name;
     if (ok)
-        printf("%s: %dx%d pixels, %d batches of %ld spp, seed %llu\n", out->name, out->width, out->height, o->batches, *spp,
-               (unsigned long long)o->job.seed);
+        printf("%s: %dx%d pixels, %d batches of %ld spp, seed %llu\n", out->name, out->width, out->height, o->batches,
+               options.end, (unsigned long long)o->job.seed);
     settings_clear(&scene->settings);
     scene->settings = shared;
     return ok;
@@ -179,11 +177,9 @@ static bool make_sides(struct scene *scene, const struct method *scenes, const s
     if (!choose_integrators(&o->job, scene, scenes, m, err) ||
         ((like != NULL || o->job.res[0] == 0) && !side_choose_resolution(scene, like, err)))
         return false;
-    for (int i = 0, n = 0; i < 2; i++) {
-        long spp = o->job.spp;
-        if (o->source[i].n == 0 && !render_side(scene, m[n++], o, i, &spp, &side[i], err))
+    for (int i = 0, n = 0; i < 2; i++)
+        if (o->source[i].n == 0 && !render_side(scene, m[n++], o, i, &side[i], err))
             return false;
-    }
     return true;
 }
 

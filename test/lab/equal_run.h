@@ -1,8 +1,8 @@
 /* equal_run.h: render by every method in the same CPU time.
  *
  * Per scene and seed the first method comes first and its time is what the others are given, or all are given as many
- * seconds as were asked for. A method renders 4 samples per pixel, by which its samples are chosen; it renders them, and
- * unless that took the given time within 3 %, it renders again with the samples corrected, at most three times. The
+ * seconds as were asked for. A method renders 4 samples per pixel, by which its samples are chosen; it renders them,
+ * and unless that took the given time within 3 %, it renders again with the samples corrected, at most three times. The
  * render whose time is nearest counts. No choice looks at an error. Times are CPU times of the process.
  *
  * Tests: test_equal_time.c, test_pictures.c, test/cli.sh.
@@ -30,8 +30,8 @@ bool subject_render_in_time(struct subject *s, const struct measured *m, struct 
                             struct error *err);
 
 /* equal_run: carry out out->plan, whose width 0 stands for the size of each scene's stored reference and whose
- * max_depth 0 for that reference's, on one thread. Both files are written after each scene. `out` is to be released with
- * equal_free also on failure. Returns false with a message. */
+ * max_depth 0 for that reference's, on one thread. Both files are written after each scene. `out` is to be released
+ * with equal_free also on failure. Returns false with a message. */
 bool equal_run(struct equal_time *out, struct error *err);
 
 #endif

@@ -90,7 +90,8 @@ void equal_csv(FILE *f, const struct equal_time *e)
     for (const struct equal_scene *s = e->scene; s < e->scene + e->n_scenes; s++)
         for (int v = 0; v < e->plan->methods.n; v++)
             for (const struct equal_render *r = s->render[v]; r < s->render[v] + e->plan->n_seeds; r++) {
-                fprintf(f, "%s,%s,%ld,%ld,%.9g,%.9g,%.9g,%.9g,%.9g,", s->name, e->plan->methods.item[v].text, r->seed, r->spp,
+                fprintf(f, "%s,%s,%ld,%ld,%.9g,%.9g,%.9g,%.9g,%.9g,", s->name, e->plan->methods.item[v].text,
+                        r->seed, r->spp,
                         r->seconds, r->rmse8, r->relmse, r->target, r->growth);
                 if (isfinite(s->noise8))
                     fprintf(f, "%.9g", s->noise8);
@@ -104,7 +105,8 @@ static const char *const ERROR_NAMES[N_EQUAL_ERRORS] = {"rmse8", "relmse"};
 static void begin_table(struct table *t, const struct equal_time *e)
 {
     table_begin(t, "Squared error over that of %s after the same CPU time, with its 95 %% interval over %d seed%s; "
-                   "below 1 is a gain", e->plan->methods.item[0].text, e->plan->n_seeds, e->plan->n_seeds == 1 ? "" : "s");
+                   "below 1 is a gain", e->plan->methods.item[0].text, e->plan->n_seeds,
+                e->plan->n_seeds == 1 ? "" : "s");
     table_column(t, "scene");
     table_column(t, "seconds");
     table_column(t, "spp of each");

@@ -1,8 +1,8 @@
 /* equal_time.h: methods that were given the same CPU time: what came of it, its statistics and its files.
  *
  * The first renders N samples per pixel, which takes T seconds; each of the others is given the samples that take it T,
- * what it learns beforehand included. Samples are whole and clocks restless, so the time t that was really taken differs a
- * little. The squared error is brought from t to T by the law of its surroundings,
+ * what it learns beforehand included. Samples are whole and clocks restless, so the time t that was really taken
+ * differs a little. The squared error is brought from t to T by the law of its surroundings,
  *     error^2 ~ 1 / samples   and   samples ~ time^growth,   hence   error^2(T) = error^2(t) (t / T)^growth,
  * where growth is measured between two renders: 1 where every sample costs the same, more where something has to be
  * paid before the first.
@@ -66,7 +66,8 @@ enum equal_error { EQUAL_RMSE8, EQUAL_RELMSE, N_EQUAL_ERRORS };
  * the render; relmse as it is. NaN if the time is not comparable. */
 double equal_square(const struct equal_render *r, double noise8, enum equal_error which);
 
-/* equal_ratio: mean over seeds of a method's squared error over that of the first, with the interval of results_ratio. */
+/* equal_ratio: mean over seeds of a method's squared error over that of the first, with the interval of results_ratio.
+ * */
 struct interval equal_ratio(const struct equal_time *e, const struct equal_scene *s, int method,
                             enum equal_error which);
 

@@ -40,8 +40,8 @@ struct methods {
 
 #define METHODS_HELP "what is compared, as NAME:PARAMETER=VALUE:..., values like 4/8"
 
-/* methods_read: a list. False with a message on an integrator, a parameter or a value that does not exist, and if a method
- * is given twice. */
+/* methods_read: a list. False with a message on an integrator, a parameter or a value that does not exist, and if a
+ * method is given twice. */
 bool methods_read(const char *text, struct methods *out, struct error *err);
 
 /* methods_find: the number of the method of that text, or -1. */

@@ -14,8 +14,8 @@
 
 enum { COLUMN_GAP = 24, COLUMN_LABEL = 60, COLUMN_WIDTH = 480, PICTURES_PERCENTILE = 99 };
 
-/* draw_column: column `number` of a sheet: name, an error and what it took, and below it the picture, each of its pixels
- * a square of k x k.
+/* draw_column: column `number` of a sheet: name, an error and what it took, and below it the picture, each of its
+ * pixels a square of k x k.
  *   error  after its name, `kind`; NaN: unknown */
 void draw_column(struct sheet *sheet, int number, const char *name, const char *kind, double error, const char *cost,
                  const float *pixels, int width, int height, int k);

@@ -8,8 +8,8 @@
  * are read and the others kept for people. It fits a wanted size when its own is the same or a whole multiple: with a
  * box filter the mean of k x k pixels is exactly the pixel of the smaller picture.
  *
- * Where none is stored, one is rendered: two sides of independent batches (sides.h), their weighted mean, and the errors
- * that follow from how the batches scatter, stored as any other.
+ * Where none is stored, one is rendered: two sides of independent batches (sides.h), their weighted mean, and the
+ * errors that follow from how the batches scatter, stored as any other.
  *
  * Tests: test_report.c.
  */

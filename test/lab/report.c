@@ -8,25 +8,25 @@
 /* What the numbers mean; nothing here depends on the results. */
 static const char NOTES[] =
     "## Notes\n\n"
-    "- RMSE is the root mean square difference to the reference of all 8-bit sRGB values, 0 to 255, the dissertation's\n"
-    "  scale; results.csv also has it on linear values, and the relative squared error.\n"
+    "- RMSE is the root mean square difference to the reference of all 8-bit sRGB values, 0 to 255, the\n"
+    "  dissertation's scale; results.csv also has it on linear values, and the relative squared error.\n"
     "- Seconds are CPU seconds of all threads together, with the method's own preparation, without loading the scene.\n"
     "- A squared error falls as one over the time, so squared error times seconds is what a method pays for its\n"
-    "  precision; the squared error of the reference itself is subtracted where known. `equal-time` gives all the same\n"
-    "  time instead.\n"
+    "  precision; the squared error of the reference itself is subtracted where known. `equal-time` gives all the\n"
+    "  same time instead.\n"
     "- Intervals are Welch's, at 95 %, on the logarithm of the ratio, over seeds. Few seeds give wide intervals.\n"
     "- Signed mean error: mean of the picture over mean of the reference, less 1. p is that of its being 0 after the\n"
     "  last step, the error of the reference's mean added.\n"
     "- No walk is ended by Russian roulette here (rrthreshold 0) unless a method says otherwise, as in the\n"
     "  dissertation; by default methods use it and are faster. Box filter, balance heuristic.\n"
     "- The printed numbers are from the dissertation's own models and its own pbrt-v3, against 16384 samples of BDPT;\n"
-    "  absolute values cannot agree with ours, the direction and shape of the ratios can. Its reference of Bathroom does\n"
-    "  not match its pictures: BDPT's errors hardly fall.\n";
+    "  absolute values cannot agree with ours, the direction and shape of the ratios can. Its reference of Bathroom\n"
+    "  does not match its pictures: BDPT's errors hardly fall.\n";
 
 static void write_scene(FILE *f, const struct results *r, const struct scene_results *s)
 {
-    fprintf(f, "## %s\n\n![The reference, each method's picture and below it where it errs](images/%s.png)\n\n", s->name,
-            s->name);
+    fprintf(f, "## %s\n\n![The reference, each method's picture and below it where it errs](images/%s.png)\n\n",
+            s->name, s->name);
     tables_write(f, r, s);
     for (int k = 0; k < figure_count(r->plan); k++) {
         char path[512];

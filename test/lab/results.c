@@ -109,7 +109,8 @@ void results_csv(FILE *f, const struct results *r)
     for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++)
         for (int v = 0; v < r->plan->methods.n; v++)
             for (int step = 0; step < r->plan->n_steps; step++) {
-                fprintf(f, "%s,%s,%ld,%d", s->name, r->plan->methods.item[v].text, r->plan->spp[step], plan_seeds(r->plan, v));
+                fprintf(f, "%s,%s,%ld,%d", s->name, r->plan->methods.item[v].text, r->plan->spp[step],
+                        plan_seeds(r->plan, v));
                 for (int q = 0; q < N_QUANTITIES; q++) {
                     struct estimate e = results_mean(s, v, step, (enum quantity)q);
                     write_number(f, e.mean, 9, "");

@@ -85,14 +85,15 @@ struct interval {
 struct interval results_ratio(const double *a, int na, const double *b, int nb);
 
 /* results_rmse_ratio: rmse8 of a method over the first one's after the same number of samples, the dissertation's
- * comparison. results_cost_ratio: the same of squared error times seconds, (MSE - noise^2) T: what a method pays for the
- * inverse of its variance, as the squared error falls as one over the time; noise8 of the reference is subtracted if known. */
+ * comparison. results_cost_ratio: the same of squared error times seconds, (MSE - noise^2) T: what a method pays for
+ * the inverse of its variance, as the squared error falls as one over the time; noise8 of the reference is subtracted
+ * if known. */
 struct interval results_rmse_ratio(const struct scene_results *s, int method, int step);
 struct interval results_cost_ratio(const struct scene_results *s, int method, int step);
 
 /* results_bias_p: p-value of "the signed mean error is 0" by Student's t, from the seeds' scatter and the error of the
- * reference's mean. (The variances of pixels over samples are no estimate of it: samples that are spread evenly err together
- * several times less.) NaN for one seed. */
+ * reference's mean. (The variances of pixels over samples are no estimate of it: samples that are spread evenly err
+ * together several times less.) NaN for one seed. */
 double results_bias_p(const struct scene_results *s, int method, int step);
 
 /* student_quantile: x with P(|t| > x) = p for Student's t, 0 < p < 1. */

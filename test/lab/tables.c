@@ -126,8 +126,8 @@ static bool printed_table(const struct scene_results *s, struct table *t)
 
 static void cost_table(const struct scene_results *s, struct table *t)
 {
-    table_begin(t, "Seconds of CPU, and squared error times seconds over that of %s, with its 95 %% interval; below 1 is a "
-                   "gain", s->plan->methods.item[0].text);
+    table_begin(t, "Seconds of CPU, and squared error times seconds over that of %s, with its 95 %% interval; "
+                   "below 1 is a gain", s->plan->methods.item[0].text);
     table_column(t, "spp");
     add_method_columns(t, s->plan, 0, "%s, s");
     add_method_columns(t, s->plan, 1, "%s");
@@ -217,7 +217,8 @@ static void all_rmse_table(const struct results *r, struct table *t)
 
 static void all_cost_table(const struct results *r, struct table *t)
 {
-    table_begin(t, "Squared error times seconds over that of %s after %ld spp, with its 95 %% interval; below 1 is a gain",
+    table_begin(t, "Squared error times seconds over that of %s after %ld spp, with its 95 %% interval; below 1 is "
+                   "a gain",
                 r->plan->methods.item[0].text, plan_last_spp(r->plan));
     table_column(t, "scene");
     add_method_columns(t, r->plan, 1, "%s");

@@ -13,8 +13,8 @@ struct timed {
     long nonfinite;       /* samples that were left out */
 };
 
-/* timed_film: render into a film that there is, and add to out->seconds and out->wall. timed_render: render a picture by
- * itself; *out is filled, its pixels are the caller's. False with a message. */
+/* timed_film: render into a film that there is, and add to out->seconds and out->wall. timed_render: render a picture
+ * by itself; *out is filled, its pixels are the caller's. False with a message. */
 bool timed_film(const struct scene *scene, const struct render_options *o, struct film *film, struct timed *out,
                 struct error *err);
 bool timed_render(const struct scene *scene, const struct render_options *o, struct timed *out, struct error *err);
