@@ -222,8 +222,9 @@ static const char ROOM[] =
     "ReverseOrientation\nTranslate .4 .4 .3\nAreaLightSource \"diffuse\" \"rgb L\" %s\n"
     "Shape \"sphere\" \"float radius\" .1\nWorldEnd\n";
 
-/* What is measured: the fifth choice of the defaults and a sweep that holds the second. */
-enum { BINS = 1, POOL = 2, N_METHODS = 6, COMPARED = 5 };
+/* What is measured: four methods, and a sweep that holds the second of them and another. */
+enum { POOL = 2, N_METHODS = 5, COMPARED = 4 };
+static const char METHODS[] = "bdpt,asbdpt:select=bins/pool/subspaces";
 static const char SWEEP[] = "asbdpt:select=bins,asbdpt:select=bins:restart=0";
 
 struct setup {
@@ -249,7 +250,7 @@ static void set_up(struct test *t, const char *name, struct setup *s)
              test_tmp(t)); /* a scene with printed numbers */
     snprintf(s->directory, sizeof s->directory, "%s/%s", test_tmp(t), name);
     write_scene(s->scene_path, "[6 6 6]");
-    CHECK(t, plan_set_methods(&s->plan, METHODS_EXPERIMENT, &err) && plan_add_sweep(&s->plan, SWEEP, &err), "%s",
+    CHECK(t, plan_set_methods(&s->plan, METHODS, &err) && plan_add_sweep(&s->plan, SWEEP, &err), "%s",
           err.text);
     plan_set_spp(&s->plan, 16, 64, NULL);
     s->plan.command = "experiment";
@@ -522,6 +523,10 @@ static void test_methods(struct test *t)
                  strcmp(settings_text(&s, "rrthreshold", ""), "0") == 0, "its own settings over the others'");
     settings_clear(&s);
     settings_clear(&base);
+    static const char *const usual[] = {METHODS_EXPERIMENT, METHODS_EQUAL_TIME, METHODS_DEMO, SWEEPS_FULL, SWEEPS_QUICK,
+                                        METHOD_REFERENCE "," METHOD_PARTNER "," METHOD_PRINTED, METHODS_BENCH};
+    for (size_t i = 0; i < sizeof usual / sizeof usual[0]; i++)
+        CHECK(t, methods_read(usual[i], &m, &err) && m.n > 0, "%s", err.text);
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
         CHECK(t, !methods_read(wrong[i][0], &m, &err) && strstr(err.text, wrong[i][1]) != NULL, "%s: %s", wrong[i][0],
               err.text);
