@@ -25,6 +25,13 @@ void write_bytes(const char *path, const void *data, size_t n)
     fclose(f);
 }
 
+const char *top_directory(char *path, size_t size)
+{
+    if (size < 2 || getcwd(path, size - 1) == NULL)
+        return "";
+    return strcat(path, "/");
+}
+
 bool read_exactly(reader *read, const uint8_t *data, size_t n, struct image *out, struct error *err)
 {
     uint8_t *copy = mem_alloc(n, 1);

@@ -13,6 +13,9 @@
 /* write_bytes: make a file of n bytes. If that fails there is none, as the test will notice. */
 void write_bytes(const char *path, const void *data, size_t n);
 
+/* top_directory: the path of the source tree, where tests are run, with a slash at its end. */
+const char *top_directory(char *path, size_t size);
+
 /* A reader of a picture format (image/formats.h).
  * read_exactly: call it on a copy that ends where its memory ends.
  * accepts: is the file a picture? If not, *err says why. */
@@ -26,8 +29,8 @@ bool scene_from_text(struct test *t, const char *text, struct scene *out);
 /* scene_from_file: the same for a file, at the given resolution (0: as it is) with a box filter. */
 bool scene_from_file(struct test *t, const char *path, int width, int height, struct scene *out);
 
-/* random_affine: a transform of uneven scale and shear, half of them mirrors, with some translation; no direction becomes
- * more than some ten times as long as another. */
+/* random_affine: a transform of uneven scale and shear, half of them mirrors, with some translation; no direction
+ * becomes more than some ten times as long as another. */
 struct transform random_affine(struct rng *r);
 
 /* render_batches: render `n_batches` times with `spp` samples and seeds of their own, and average over square tiles of

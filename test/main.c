@@ -1,4 +1,5 @@
-/* main.c: the test runner: build/test [-l] [--slow] [--seed N] [NAME...]
+/* main.c: the test runner: build/test [-l] [--slow] [--seed N] [--scenes FIRST:END] [NAME...]
+ * or build/test --scene N, which prints random scene N; --evil N prints it with numbers that no scene should have.
  * Exit status 0 only if every check and every hypothesis came out as it must. The last line is
  * "N passed, N failed". */
 #include <math.h>
@@ -11,6 +12,7 @@
 #include "base/os.h"
 #include "base/stats.h"
 #include "helpers.h"
+#include "random_scene.h"
 #include "tests.h"
 
 static const double SUITE_ALPHA = 0.001;
@@ -45,6 +47,7 @@ static const struct entry ENTRIES[] = {
     {"threads", test_threads, false}, {"verify", test_verify, false},
     {"strategies", test_strategies, false}, {"streams", test_streams, false},
     {"scenes", test_scenes, false},   {"reference", test_references, false},
+    {"random", test_random, false}, {"random-long", test_random_long, true},
     {"scenes-long", test_scenes_long, true}, {"reference-long", test_references_long, true},
 };
 enum { N_ENTRIES = sizeof ENTRIES / sizeof ENTRIES[0] };
@@ -58,6 +61,7 @@ struct hypothesis {
 
 struct test {
     uint64_t seed;
+    uint64_t first_scene, end_scene; /* of random scenes; both 0: each test's own */
     char tmp[128];
     int entry;               /* index of the running test */
     int failures[N_ENTRIES]; /* failed checks and hypotheses per test */
@@ -98,6 +102,15 @@ void test_hypothesis(struct test *t, const char *file, int line, bool must_hold,
 
 uint64_t test_seed(const struct test *t) { return t->seed; }
 const char *test_tmp(const struct test *t) { return t->tmp; }
+
+bool test_range(const struct test *t, uint64_t *first, uint64_t *end)
+{
+    if (t->end_scene <= t->first_scene)
+        return false;
+    *first = t->first_scene;
+    *end = t->end_scene;
+    return true;
+}
 
 /* Judge all p-values together. NaN counts as a failure either way. */
 static void judge(struct test *t)
@@ -152,8 +165,19 @@ int main(int argc, char **argv)
             slow = true;
         } else if (strcmp(argv[first], "--seed") == 0 && first + 1 < argc) {
             t.seed = strtoull(argv[++first], NULL, 10);
+        } else if (strcmp(argv[first], "--scenes") == 0 && first + 1 < argc) {
+            char *end;
+            t.first_scene = strtoull(argv[++first], &end, 10);
+            t.end_scene = *end == ':' ? strtoull(end + 1, NULL, 10) : t.first_scene + 1;
+        } else if ((strcmp(argv[first], "--scene") == 0 || strcmp(argv[first], "--evil") == 0) && first + 1 < argc) {
+            bool evil = strcmp(argv[first++], "--evil") == 0;
+            struct random_scene scene = random_scene(strtoull(argv[first], NULL, 10), "", evil);
+            fputs(scene.text, stdout);
+            free(scene.text);
+            return 0;
         } else {
-            fprintf(stderr, "usage: build/test [-l] [--slow] [--seed N] [NAME...]\n");
+            fprintf(stderr, "usage: build/test [-l] [--slow] [--seed N] [--scenes FIRST:END] [NAME...]\n"
+                            "       build/test --scene N | --evil N\n");
             return 2;
         }
     }

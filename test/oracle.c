@@ -3,6 +3,8 @@
  * [V97 10.2] */
 #include "oracle.h"
 
+#include "transport/counts.h"
+
 #include "material/fresnel.h"
 
 /* The whole path, light first. */

@@ -19,6 +19,9 @@ void test_hypothesis(struct test *t, const char *file, int line, bool must_hold,
 /* The suite's seed: fixed by default, changed with `build/test --seed N` to measure the false-alarm rate. */
 uint64_t test_seed(const struct test *t);
 
+/* Which random scenes the user wants, [first, end). False if he has not said; both stay as they are then. */
+bool test_range(const struct test *t, uint64_t *first, uint64_t *end);
+
 /* A directory for temporary files, removed at the end; no trailing slash. */
 const char *test_tmp(const struct test *t);
 

@@ -2,7 +2,8 @@
  * signal; a message unless it is 0; a picture, all of finite numbers, if it is 0; and no more than so much time and
  * memory, which is what doc/SECURITY.md promises for scenes of up to a megabyte.
  *
- * Most scenes come from test/fuzz/hostile.h; the others are a kind of harm each, at its full size. */
+ * Most scenes come from test/fuzz/hostile.h, or are random ones (random_scene.h) with evil numbers in them; the others
+ * are a kind of harm each, at its full size. */
 #define _POSIX_C_SOURCE 200809L
 #define _XOPEN_SOURCE 700 /* getrusage's ru_maxrss */
 #define _DARWIN_C_SOURCE  /* the same, on macOS */
@@ -23,6 +24,7 @@
 #include "fuzz/targets.h"
 #include "image/image.h"
 #include "helpers.h"
+#include "random_scene.h"
 #include "tests.h"
 
 #ifdef __APPLE__
@@ -30,7 +32,7 @@ enum { RSS_UNIT = 1 }; /* bytes of ru_maxrss */
 #else
 enum { RSS_UNIT = 1024 };
 #endif
-enum { SCENES = 1200, SECONDS = 20, MEGABYTES = 512 };
+enum { SCENES = 1200, EVIL_SCENES = 600, SECONDS = 20, MEGABYTES = 512 };
 
 static const char *const INTEGRATORS[] = {"pt", "lt", "bdpt", "asbdpt"};
 
@@ -120,6 +122,26 @@ static void test_generated(struct test *t, const char *directory)
     }
     CHECK(t, rendered > SCENES / 4, "only %d of %d scenes are rendered", rendered, SCENES);
     printf("  %d of %d generated scenes are rendered, the others refused\n", rendered, SCENES);
+}
+
+/* Random scenes that would be right but for a few of their numbers. */
+static void test_evil(struct test *t, const char *directory)
+{
+    uint64_t first = 0, end = EVIL_SCENES;
+    int rendered = 0;
+    char top[1024], name[96];
+    top_directory(top, sizeof top);
+    bool all = !test_range(t, &first, &end);
+    for (uint64_t i = first; i < end; i++) {
+        struct random_scene scene = random_scene(i, top, true);
+        put_scene(directory, scene.text, strlen(scene.text));
+        free(scene.text);
+        snprintf(name, sizeof name, "evil scene %llu (build/test --evil %llu)", (unsigned long long)i,
+                 (unsigned long long)i);
+        rendered += judge(t, directory, name, INTEGRATORS[i % 4], MEGABYTES) == 0;
+    }
+    CHECK(t, !all || rendered > EVIL_SCENES / 4, "only %d of %d scenes are rendered", rendered, EVIL_SCENES);
+    printf("  %d evil scenes are rendered, the others refused\n", rendered);
 }
 
 /* --- harm of one kind --------------------------------------------------------------------------------------- */
@@ -251,5 +273,6 @@ void test_hostile(struct test *t)
     put_map(t, directory);
     put_megabytes(directory);
     test_generated(t, directory);
+    test_evil(t, directory);
     test_repetitions(t, directory);
 }

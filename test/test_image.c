@@ -17,20 +17,20 @@
 #include "tests.h"
 
 /* A file in memory. */
-struct bytes {
+struct small_file {
     uint8_t data[4096];
     size_t n;
 };
 
-static void put_text(struct bytes *b, const char *text)
+static void put_text(struct small_file *b, const char *text)
 {
     memcpy(b->data + b->n, text, strlen(text));
     b->n += strlen(text);
 }
 
-static void put_byte(struct bytes *b, unsigned value) { b->data[b->n++] = (uint8_t)value; }
+static void put_byte(struct small_file *b, unsigned value) { b->data[b->n++] = (uint8_t)value; }
 
-static void put_hex(struct bytes *b, const char *hex)
+static void put_hex(struct small_file *b, const char *hex)
 {
     for (; *hex != '\0'; hex += 2) {
         char digits[3] = {hex[0], hex[1], '\0'};
@@ -39,7 +39,7 @@ static void put_hex(struct bytes *b, const char *hex)
 }
 
 /* The message of a refusal, or "" if the file is accepted. */
-static struct error refusal(reader *read, const struct bytes *b)
+static struct error refusal(reader *read, const struct small_file *b)
 {
     struct error err = {""};
     if (accepts(read, b->data, b->n, &err))
@@ -47,7 +47,7 @@ static struct error refusal(reader *read, const struct bytes *b)
     return err;
 }
 
-static void check_refused(struct test *t, reader *read, const struct bytes *b, const char *message)
+static void check_refused(struct test *t, reader *read, const struct small_file *b, const char *message)
 {
     struct error err = refusal(read, b);
     CHECK(t, strstr(err.text, message) != NULL, "\"%s\" expected, got \"%s\"", message, err.text);
@@ -62,25 +62,25 @@ struct refusal {
 static void check_texts_refused(struct test *t, reader *read, const struct refusal *c, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
-        struct bytes b = {.n = 0};
+        struct small_file b = {.n = 0};
         put_text(&b, c[i].text);
         check_refused(t, read, &b, c[i].message);
     }
 }
 
 /* Every proper beginning of a file is refused. */
-static void check_truncations(struct test *t, const char *what, reader *read, const struct bytes *b)
+static void check_truncations(struct test *t, const char *what, reader *read, const struct small_file *b)
 {
     for (size_t n = 0; n < b->n; n++)
         CHECK(t, !accepts(read, b->data, n, NULL), "%s: the first %lu bytes are accepted", what, (unsigned long)n);
 }
 
 /* Change each byte to a few others; returns how many of the changed files are accepted. */
-static int count_accepted_mutants(reader *read, const struct bytes *b)
+static int count_accepted_mutants(reader *read, const struct small_file *b)
 {
     static const uint8_t CHANGE[] = {0x01, 0x80, 0xff, 0x10};
     int accepted = 0;
-    struct bytes m = *b;
+    struct small_file m = *b;
     for (size_t i = 0; i < m.n; i++)
         for (size_t k = 0; k < sizeof CHANGE; k++) {
             m.data[i] ^= CHANGE[k];
@@ -119,7 +119,7 @@ static unsigned expected_sample(const struct png_sample *s, int x, int y, int c)
 
 static void check_png_sample(struct test *t, const struct png_sample *s)
 {
-    struct bytes file = {.n = 0};
+    struct small_file file = {.n = 0};
     put_hex(&file, s->hex);
     struct image img;
     struct error err = {""};
@@ -149,7 +149,7 @@ static void check_png_sample(struct test *t, const struct png_sample *s)
 static void test_paeth_ties(struct test *t)
 {
     static const uint8_t EXPECTED[8] = {10, 11, 10, 8, 8, 13, 11, 99};
-    struct bytes file = {.n = 0};
+    struct small_file file = {.n = 0};
     struct image img;
     struct error err = {""};
     put_hex(&file, PNG_PAETH_TIES);
@@ -160,7 +160,7 @@ static void test_paeth_ties(struct test *t)
 }
 
 /* Correct all chunk checksums, so that a changed byte reaches the code behind them. */
-static void repair_checksums(struct bytes *b)
+static void repair_checksums(struct small_file *b)
 {
     for (size_t at = 8; at + 12 <= b->n;) {
         size_t n = (size_t)b->data[at] << 24 | (size_t)b->data[at + 1] << 16 | (size_t)b->data[at + 2] << 8 |
@@ -180,10 +180,10 @@ static void test_png_mutants(struct test *t)
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 10, 0);
     int accepted = 0;
     for (int s = 0; s < N_PNG_SAMPLES; s++) {
-        struct bytes file = {.n = 0};
+        struct small_file file = {.n = 0};
         put_hex(&file, PNG_SAMPLES[s].hex);
         for (int i = 0; i < 400; i++) {
-            struct bytes m = file;
+            struct small_file m = file;
             for (uint32_t k = 0; k <= rng_below(&r, 3); k++) {
                 uint8_t value = (uint8_t)(rng_u32(&r) >> 24);
                 m.data[8 + rng_below(&r, (uint32_t)m.n - 8)] = value;
@@ -197,9 +197,9 @@ static void test_png_mutants(struct test *t)
 }
 
 /* A PNG header for a picture of this size and kind, followed by chunks given in hexadecimal without checksums. */
-static struct bytes make_png(const char *header, const char *chunks)
+static struct small_file make_png(const char *header, const char *chunks)
 {
-    struct bytes b = {.n = 0};
+    struct small_file b = {.n = 0};
     put_hex(&b, "89504e470d0a1a0a0000000d49484452");
     put_hex(&b, header);
     put_hex(&b, "00000000");
@@ -245,7 +245,7 @@ static void test_png_refusals(struct test *t)
          "colour 1 of 1"},
     };
     for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
-        struct bytes b = make_png(CASES[i].header, CASES[i].chunks);
+        struct small_file b = make_png(CASES[i].header, CASES[i].chunks);
         check_refused(t, png_read, &b, CASES[i].message);
     }
 }
@@ -253,9 +253,9 @@ static void test_png_refusals(struct test *t)
 /* --- TGA --------------------------------------------------------------------------------------------- */
 
 /* A 3 x 2 picture whose pixel (x,y), from the top left, has blue 10 x + y, green +100, red +200. */
-static struct bytes make_tga(unsigned type, unsigned bits, unsigned origin)
+static struct small_file make_tga(unsigned type, unsigned bits, unsigned origin)
 {
-    struct bytes b = {.n = 0};
+    struct small_file b = {.n = 0};
     bool mapped = type % 8 == 1, run_length = type >= 8;
     put_byte(&b, 4); /* length of the name */
     put_byte(&b, mapped);
@@ -286,7 +286,7 @@ static struct bytes make_tga(unsigned type, unsigned bits, unsigned origin)
 
 static void check_tga(struct test *t, unsigned type, unsigned bits, unsigned origin)
 {
-    struct bytes file = make_tga(type, bits, origin);
+    struct small_file file = make_tga(type, bits, origin);
     struct image img;
     struct error err = {""};
     char what[64];
@@ -325,14 +325,14 @@ static void test_tga(struct test *t)
         {22, 0x84, "beyond the end"}, {22, 0x7f, "truncated"},  {0, 255, "truncated"},
     };
     for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
-        struct bytes b = make_tga(10, 24, 0);
+        struct small_file b = make_tga(10, 24, 0);
         b.data[CASES[i].at] = (uint8_t)CASES[i].value;
         if (CASES[i].value == 0x84) { /* a long run, then one too long: 5 + 5 pixels */
             b.data[26] = 0x84;
         }
         check_refused(t, tga_read, &b, CASES[i].message);
     }
-    struct bytes outside = make_tga(1, 24, 0), unmapped = outside, narrow = outside;
+    struct small_file outside = make_tga(1, 24, 0), unmapped = outside, narrow = outside;
     outside.data[outside.n - 1] = 4;
     check_refused(t, tga_read, &outside, "not in the colour map");
     outside.data[outside.n - 1] = 11;
@@ -345,7 +345,7 @@ static void test_tga(struct test *t)
 
 /* --- PFM and PPM ------------------------------------------------------------------------------------- */
 
-static void put_float(struct bytes *b, float value, bool big_endian)
+static void put_float(struct small_file *b, float value, bool big_endian)
 {
     uint32_t bits;
     memcpy(&bits, &value, sizeof bits);
@@ -355,7 +355,7 @@ static void put_float(struct bytes *b, float value, bool big_endian)
 
 static void check_pfm(struct test *t, int channels, const char *scale, double factor)
 {
-    struct bytes file = {.n = 0};
+    struct small_file file = {.n = 0};
     put_text(&file, channels == 3 ? "PF\n2 3\n" : "Pf 2\t3\r\n");
     put_text(&file, scale);
     put_text(&file, "\n");
@@ -406,7 +406,7 @@ static void test_pfm(struct test *t)
 /* A 2 x 2 picture with samples 0, 1, 2, ... of maxval `most`. */
 static void check_ppm(struct test *t, int kind, unsigned most)
 {
-    struct bytes file = {.n = 0};
+    struct small_file file = {.n = 0};
     char header[64];
     int channels = kind == 3 || kind == 6 ? 3 : 1;
     snprintf(header, sizeof header, "P%d# comment\n 2 #\n2\n# 7 7\n%u\n", kind, most);
@@ -489,7 +489,7 @@ static void test_memory(struct test *t)
     data[13] = data[15] = 0x36;
     data[16] = 8;
     check_too_large(t, "tga", tga_read, data, PNG); /* 13824 x 13824 pixels, in packets of 2 bytes for 128 */
-    struct bytes png = {.n = 0};
+    struct small_file png = {.n = 0};
     put_hex(&png, "89504e470d0a1a0a0000000d494844520000400000004000100600000000000000");
     memset(data, 0, HDR);
     memcpy(data, png.data, HEAD);

@@ -370,8 +370,8 @@ static void check_sky(struct test *t, const struct scene *s, struct rng *r)
     TEST_REJECT(t, stats_student_p((mean - 1.1 * total) / error, DRAWS - 1), "a transformed map with 10 %% more");
 }
 
-/* Lights of which light space matters, under random transforms: a direction of it gets what it got without them, and all
- * of it is drawn with the density stated. */
+/* Lights of which light space matters, under random transforms: a direction of it gets what it got without them, and
+ * all of it is drawn with the density stated. */
 static void test_transformed(struct test *t)
 {
     enum { W = 16, H = 8, N = 4 };

@@ -37,8 +37,8 @@ static bool load(const char *path, struct film *film, struct error *err)
 /* Digits 0, -1, 63, 64, -65 and 2^62, of which the last has nine bytes. */
 static void test_bytes(struct test *t)
 {
-    static const char TEXT[] = "asbdpt part 2\nsamples 2 7\ndone 3 1\nleft-out 4\nsize 1 1\nfilm 1 1, window 0 0\n"
-                               "scale 1\nspp 8\nversion 0\ncheck ";
+    static const char TEXT[] = "asbdpt part 3\nsamples 2 7\ndone 3 1\nleft-out 4\ncarried 0\nsize 1 1\nfilm 1 1, window 0 0\n"
+                               "scale 1\nspp 8\nlearnt 0000000000000000\nversion 0\ncheck ";
     static const uint8_t SUMS[] = {255, 7,   0,   1,   126, 12,  128, 1,   129, 1,
                                    128, 128, 128, 128, 128, 128, 128, 128, 128, 1};
     struct pixel_rect one = {0, 0, 1, 1};
@@ -69,6 +69,51 @@ static void test_bytes(struct test *t)
     free(data);
     film_free(&film);
     film_free(&back);
+    remove(path);
+}
+
+/* A checkpoint carries what was learnt, a part only its hash; cut, changed or longer it is refused. */
+static void test_carried(struct test *t)
+{
+    enum { N = 100000 };
+    struct pixel_rect one = {0, 0, 1, 1};
+    char path[256], identity[] = "version 0\n";
+    struct part p = small_part(identity, 1, 1), found;
+    struct film film, back;
+    struct error err = {""};
+    uint8_t *data = NULL;
+    size_t n = 0;
+    snprintf(path, sizeof path, "%s/carried.part", test_tmp(t));
+    film_init(&film, one, 1, 1);
+    film.learnt.data = mem_alloc(N, 1);
+    film.learnt.n = N;
+    for (int i = 0; i < N; i++)
+        film.learnt.data[i] = (uint8_t)(i * i / 7);
+    for (int carries = 0; carries < 2; carries++) {
+        p.carries = carries;
+        film_init(&back, one, 1, 1);
+        CHECK(t, part_save(path, &p, &film, &err) && load(path, &back, &err), "%s", err.text);
+        CHECK(t, back.learnt.n == (carries ? N : 0) &&
+                     (!carries || memcmp(back.learnt.data, film.learnt.data, N) == 0), "%lu bytes come back",
+              (unsigned long)back.learnt.n);
+        film_free(&back);
+        FILE *f = part_open(path, &found, &err);
+        if (CHECK(t, f != NULL && found.learnt != 0, "%s", err.text)) {
+            fclose(f);
+            part_free(&found);
+        }
+    }
+    CHECK(t, file_read(path, &data, &n, &err), "%s", err.text);
+    for (int way = 0; way < 3; way++) {
+        film_init(&back, one, 1, 1);
+        data[n - 7] ^= way == 1;
+        write_bytes(path, data, way == 0 ? n - 1 : way == 2 ? n + 1 : n); /* a zero byte follows what was read */
+        data[n - 7] ^= way == 1;
+        CHECK(t, !load(path, &back, &err), "damage of kind %d is not noticed", way);
+        film_free(&back);
+    }
+    free(data);
+    film_free(&film);
     remove(path);
 }
 
@@ -208,9 +253,10 @@ static void forge_lines(struct rng *r, const char *const *line, int n, char *out
 
 static void test_forged(struct test *t)
 {
-    static const char *const LINES[] = {"asbdpt part 2", "samples 2 7", "done 3 1", "left-out 4", "size 4 3",
-                                        "film 4 3, window 0 0", "scale 1", "spp 8", "version 0", "seed 1"};
-    enum { N_LINES = 10, ROUNDS = 1000, SUMS = 36 };
+    static const char *const LINES[] = {"asbdpt part 3", "samples 2 7", "done 3 1", "left-out 4", "carried 0", "size 4 3",
+                                        "film 4 3, window 0 0", "scale 1", "spp 8", "learnt 0000000000000000", "version 0",
+                                        "seed 1"};
+    enum { N_LINES = 12, ROUNDS = 1000, SUMS = 36 };
     char path[256], text[1024], identity[] = "version 0\nseed 1\n";
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 32, 0);
     struct part whole = small_part(identity, 4, 3);
@@ -234,7 +280,7 @@ static void test_forged(struct test *t)
         taken++;
         bool same = part_same(&p, path, &whole, &err);
         same_picture += same;
-        CHECK(t, !same || strstr(text, "\nsize 4 3\nfilm 4 3, window 0 0\nscale 1\nspp 8\nversion 0\nseed 1\ncheck "),
+        CHECK(t, !same || strstr(text, "\nsize 4 3\nfilm 4 3, window 0 0\nscale 1\nspp 8\nlearnt 0000000000000000\nversion 0\nseed 1\ncheck "),
               "taken for the same picture: %s", text);
         CHECK(t, p.done >= 0 && p.done <= p.end - p.first && p.end <= p.planned, "taken: %s", text);
         film_init(&film, rect, 4, 3);
@@ -276,6 +322,7 @@ void test_part(struct test *t)
     test_forged(t);
     test_forged_digits(t);
     test_bytes(t);
+    test_carried(t);
     test_round_trip(t);
     test_damage(t);
 }

@@ -99,8 +99,8 @@ static void test_streams_of_decisions(struct test *t)
 
 /* --- decisions as they were used ------------------------------------------------------------------------- */
 
-/* Inside of a sphere, under two triangular lamps with corners (x, 0, 9), (x + 1, 0, 9), (x, 1, 9), x = 0 and 2, seen by a
- * lens at the middle; nothing hides anything. */
+/* Inside of a sphere, under two triangular lamps with corners (x, 0, 9), (x + 1, 0, 9), (x, 1, 9), x = 0 and 2, seen
+ * by a lens at the middle; nothing hides anything. */
 static const char HALL[] =
     "Film \"image\" \"integer xresolution\" 1 \"integer yresolution\" 1 PixelFilter \"box\"\n"
     "LookAt 0 0 6  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 150\n"

@@ -141,8 +141,8 @@ static void check_triangle_partials(struct test *t)
     geometry_free(&geo);
 }
 
-/* Vertex normals of any length under any transform: they are interpolated as they come out of it, as in pbrt-v3, and the
- * partials of ns are its differences. */
+/* Vertex normals of any length under any transform: they are interpolated as they come out of it, as in pbrt-v3, and
+ * the partials of ns are its differences. */
 static void check_vertex_normals(struct test *t, struct rng *r)
 {
     const double h = 1e-5;
@@ -342,8 +342,8 @@ static void check_quadric_hits(struct test *t, const struct geometry *geo, int i
     }
 }
 
-/* Rays that end on a quadric do not meet it there, and rays that leave it do not meet it at once, however they graze it,
- * whatever its size, shape and place, and with no margin: what is left is the other meeting, if there is one. */
+/* Rays that end on a quadric do not meet it there, and rays that leave it do not meet it at once, however they graze
+ * it, whatever its size, shape and place, and with no margin: what is left is the other meeting, if there is one. */
 static void check_own_quadric(struct test *t, int i, struct rng *r)
 {
     struct geometry geo = {0};

@@ -32,6 +32,8 @@ void test_pairs(struct test *t);
 void test_parser(struct test *t);
 void test_pictures(struct test *t);
 void test_ply(struct test *t);
+void test_random(struct test *t);
+void test_random_long(struct test *t);
 void test_render(struct test *t);
 void test_references(struct test *t);
 void test_references_long(struct test *t);

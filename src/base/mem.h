@@ -8,6 +8,7 @@
 #define ASBDPT_MEM_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 /* mem_alloc: room for `count` objects of `size` bytes, filled with zeros.
  * Returns a pointer to be given to free(); never NULL (a count of 0 gives a valid one-byte block).
@@ -19,6 +20,12 @@ void *mem_alloc(size_t count, size_t size);
  *   capacity  in-out, objects the block can hold
  * Returns the (possibly moved) block. New objects are not cleared. Ends the program like mem_alloc. */
 void *mem_grow(void *array, size_t *capacity, size_t need, size_t size);
+
+/* Bytes in memory. */
+struct bytes {
+    uint8_t *data; /* [n], owned */
+    size_t n, capacity;
+};
 
 /* mem_copy_text: a heap copy of a string, to be given to free(). */
 char *mem_copy_text(const char *text);

@@ -1,6 +1,8 @@
 /* sampler.c: see sampler.h. */
 #include "base/sampler.h"
 
+#include "base/mem.h"
+
 /* Owen scrambling of a binary fraction given with its first digit in bit 0: every digit is flipped or not depending on
  * a hash of the digits before it. Multiplications by even numbers carry upwards only, which is what makes this hash do
  * that [Laine & Karras 2011]; constants of [Burley 2020]. */
@@ -56,7 +58,15 @@ static inline bool is_even(struct sampler *s, enum decision d, uint64_t *h)
     return true;
 }
 
-void sampler_pair(struct sampler *s, enum decision d, double u[2])
+static double own_number(struct sampler *s, enum decision d)
+{
+    uint64_t h;
+    if (!is_even(s, d, &h))
+        return rng_uniform(&s->rng);
+    return fraction(scramble_digits(scramble_order(s->index, (uint32_t)h), (uint32_t)(h >> 32)));
+}
+
+static void own_pair(struct sampler *s, enum decision d, double u[2])
 {
     uint64_t h;
     if (!is_even(s, d, &h)) {
@@ -69,10 +79,28 @@ void sampler_pair(struct sampler *s, enum decision d, double u[2])
     u[1] = fraction(scramble_digits(sobol_second(index), (uint32_t)hash_mix(h)));
 }
 
+/* What the tape has instead of n numbers, or appends. */
+static void play(struct tape *t, double *u, int n)
+{
+    for (int i = 0; i < n; i++) {
+        t->number = mem_grow(t->number, &t->capacity, t->n + 1, sizeof *t->number);
+        if (t->at == t->n)
+            t->number[t->n++] = u[i];
+        u[i] = t->number[t->at++];
+    }
+}
+
+void sampler_pair(struct sampler *s, enum decision d, double u[2])
+{
+    own_pair(s, d, u);
+    if (s->tape != NULL)
+        play(s->tape, u, 2);
+}
+
 double sampler_number(struct sampler *s, enum decision d)
 {
-    uint64_t h;
-    if (!is_even(s, d, &h))
-        return rng_uniform(&s->rng);
-    return fraction(scramble_digits(scramble_order(s->index, (uint32_t)h), (uint32_t)(h >> 32)));
+    double u = own_number(s, d);
+    if (s->tape != NULL)
+        play(s->tape, &u, 1);
+    return u;
 }

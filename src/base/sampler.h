@@ -5,11 +5,11 @@
  * roulette or a lens cannot shift a direction's numbers.
  *
  * Over the iterations of a pixel the first SAMPLER_TIMES points of each decision, and single numbers where that pays,
- * are of low discrepancy: Sobol' points, Owen-scrambled by hashing, visited in an order of each one's own [Burley 2020].
- * Any 2^k iterations from a multiple of 2^k on have exactly one of 2^k points in every elementary interval of area 2^-k:
- * they are a (0,k,2)-net. All else comes from the pixel's generator. Each number alone is exactly uniform, and over
- * pixels and seeds all are independent, so nothing is biased. Within one pixel a weak correlation between two decisions
- * may remain, since the order is a hash.
+ * are of low discrepancy: Sobol' points, Owen-scrambled by hashing, visited in an order of each one's own [Burley
+ * 2020]. Any 2^k iterations from a multiple of 2^k on have exactly one of 2^k points in every elementary interval of
+ * area 2^-k: they are a (0,k,2)-net. All else comes from the pixel's generator. Each number alone is exactly uniform,
+ * and over pixels and seeds all are independent, so nothing is biased. Within one pixel a weak correlation between two
+ * decisions may remain, since the order is a hash.
  *
  * Any other number of samples is made of several nets, 48 of those of 32 and 16, and its error is about that of
  * independent nets with equal weights for all samples: the smaller have the larger share. So 20 samples of a smooth
@@ -23,6 +23,7 @@
 #define ASBDPT_SAMPLER_H
 
 #include <math.h>
+#include <stddef.h>
 
 #include "base/rng.h"
 
@@ -50,7 +51,15 @@ enum decision {
     DRAW_ORDER /* of a permutation */
 };
 
+/* Numbers from elsewhere: the next one that a sampler gives is number[at], if there is one; else its own, which is
+ * appended. So the same tape, set back to at = 0, gives what it has recorded: for replay, mutation and tests. */
+struct tape {
+    double *number; /* [n], each in [0,1); owned */
+    size_t n, at, capacity;
+};
+
 struct sampler {
+    struct tape *tape; /* NULL, but where somebody records or replays: then all samplers of one thread share it */
     struct rng rng;
     uint64_t scramble;        /* hash of (seed, purpose, pixel, iteration / SAMPLER_POINTS) */
     uint32_t index;           /* iteration % SAMPLER_POINTS, bits reversed: where in the sequence */

@@ -36,6 +36,8 @@ static const struct option OPTIONS[] = {
     {"--interval", "SECONDS", OPTION_NUMBER, AT(keep.interval), 0, 1e9, .fallback = "60",
      .help = "between checkpoints"},
     {"--resume", "FILE", OPTION_TEXT, AT(keep.resume), .file = FILE_KEPT, .help = "go on from a checkpoint"},
+    {"--learnt", "FILE", OPTION_TEXT, AT(keep.learnt), .file = FILE_WRITTEN,
+     .help = "what the method learns: read, if there is such a file, else written; for the parts of a picture"},
     {"--samples", "A:B", OPTION_RANGE, AT(keep.samples), 0, 1 << 30,
      .help = "only the samples A to B-1, for merge: -o NAME.part"},
     {"--stats", "FILE", OPTION_TEXT, AT(stats), .file = FILE_WRITTEN, .help = "JSON: parameters, times, memory"},

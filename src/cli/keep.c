@@ -42,8 +42,11 @@ static bool resume(struct keep *k, struct error *err)
     FILE *file = part_open(o->resume, &found, err);
     if (file == NULL)
         return false;
-    bool ok = part_same(&found, o->resume, &k->part, err);
-    if (ok && (found.first != k->part.first || found.end != k->part.end))
+    struct part asked = k->part; /* the same picture, of however many samples, by what was learnt then */
+    asked.planned = found.planned;
+    asked.learnt = found.learnt;
+    bool ok = part_same(&found, o->resume, &asked, err);
+    if (ok && (found.first != k->part.first || found.end > k->part.end))
         ok = error_set(err, "%s: it is for the samples %ld:%ld, not %ld:%ld", o->resume, found.first, found.end,
                        k->part.first, k->part.end);
     if (ok)
@@ -54,15 +57,54 @@ static bool resume(struct keep *k, struct error *err)
     return ok;
 }
 
+/* The file is read if it is there; nothing else may have been learnt for what is resumed. */
+static bool recall(struct keep *k, const struct scene *scene, const struct render_options *render, struct error *err)
+{
+    const char *path = k->options->learnt;
+    const struct method *m = method_find(render->integrator, &scene->settings, err);
+    struct bytes *b = &k->film->learnt;
+    if (path == NULL || m == NULL)
+        return m != NULL;
+    if (m->learnt == NULL)
+        return error_set(err, "--learnt %s: %s learns nothing", path, m->name);
+    k->teaches = !file_exists(path);
+    return k->teaches || b->n > 0 || file_read(path, &b->data, &b->n, err);
+}
+
+static bool teach(const struct keep *k, struct error *err)
+{
+    struct file_output file;
+    const struct bytes *b = &k->film->learnt;
+    if (!k->teaches || b->n == 0 || k->film->learnt_short)
+        return true;
+    if (!file_create(k->options->learnt, &file, err))
+        return false;
+    fwrite(b->data, 1, b->n, file.stream);
+    return file_commit(&file, err);
+}
+
+/* Samples by what was learnt in haste are for the picture at hand alone: it is gone on with from the beginning. */
+static bool save_film(const struct keep *k, struct error *err)
+{
+    const struct film *f = k->film;
+    struct film none;
+    if (!f->learnt_short)
+        return part_save(k->options->checkpoint, &k->part, f, err);
+    film_init(&none, f->rect, f->full_width, f->full_height);
+    bool ok = part_save(k->options->checkpoint, &k->part, &none, err);
+    film_free(&none);
+    return ok;
+}
+
 static void save(struct keep *k)
 {
-    k->unsaved = !part_save(k->options->checkpoint, &k->part, k->film, &k->err);
+    k->unsaved = !save_film(k, &k->err);
     if (k->unsaved)
         fprintf(stderr, "asbdpt: warning: %s; rendering goes on\n", k->err.text);
     k->saved = os_wall_seconds();
 }
 
-/* Before the first tile pass, up to which there is nothing to be lost, and after each. */
+/* While the method learns, and after each tile pass. */
 static bool watch(void *context, double done)
 {
     struct keep *k = context;
@@ -95,7 +137,8 @@ bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const 
     k->options = o;
     k->film = film;
     k->part = part_describe(scene, render);
-    if (!resume(k, err)) {
+    k->part.carries = true;
+    if (!resume(k, err) || !recall(k, scene, render, err)) {
         part_free(&k->part);
         return false;
     }
@@ -120,6 +163,6 @@ bool keep_end(struct keep *k, bool ok, struct error *err)
         fprintf(stderr, "asbdpt: stopped after %.1f s, at %ld of %ld samples per pixel\n",
                 os_wall_seconds() - k->bar.start, f->iterations, wanted);
     if (ok && k->options->checkpoint != NULL)
-        ok = part_save(k->options->checkpoint, &k->part, k->film, err);
-    return ok;
+        ok = save_film(k, err);
+    return ok && teach(k, err);
 }

@@ -1,7 +1,7 @@
 /* keep.h: nothing rendered is lost: what watches over a render while it runs, stops it, saves and resumes it.
  *
  * A render ends early at a signal (base/interrupt.h) or when its time is over, once its block of samples is complete;
- * at a signal at once as long as its method still learns.
+ * if its method still learns, it ends that with what it has learnt and makes one block.
  * Its film is saved from time to time (render/part.h), and goes on from there to the same bytes. Tests: test/keep.sh.
  */
 #ifndef ASBDPT_KEEP_H
@@ -19,6 +19,7 @@ struct keep {
     double saved;  /* time of the last checkpoint, seconds of os_wall_seconds */
     bool hurried;  /* a checkpoint was saved for the signal's sake */
     bool late;     /* the time is over */
+    bool teaches;  /* --learnt is to be written */
     bool unsaved;  /* the last checkpoint could not be written; err says why */
     struct error err;
 };
@@ -26,7 +27,7 @@ struct keep {
 /* keep_check: can the options be as they are, and the checkpoint's file be written? False with a message. */
 bool keep_check(const struct keep_options *o, struct error *err);
 
-/* keep_begin: cut the render to the samples asked for, and continue what --resume names.
+/* keep_begin: cut the render to the samples asked for, continue what --resume names, and read what --learnt names.
  *   render   in-out: its samples, and what is called after each tile pass, which is given `k`
  *   film     initialised, empty
  * Returns false with a message; after success keep_end must follow. */
@@ -34,7 +35,8 @@ bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const 
                 struct render_options *render, struct film *film, struct error *err);
 
 /* keep_end: remove the progress bar, say on stderr if and why the render has stopped early, save the last checkpoint
- * if `ok`. False with a message where it cannot be written; err may be NULL. The caller releases k->part. */
+ * and --learnt if `ok`. False with a message where it cannot be written; err may be NULL. The caller releases
+ * k->part. */
 bool keep_end(struct keep *k, bool ok, struct error *err);
 
 #endif

@@ -7,12 +7,6 @@
 #include "image/formats.h"
 #include "image/half.h"
 
-/* Bytes one after another; owned. */
-struct bytes {
-    uint8_t *data;
-    size_t n, capacity;
-};
-
 static void put(struct bytes *b, const void *data, size_t n)
 {
     b->data = mem_grow(b->data, &b->capacity, b->n + n, 1);

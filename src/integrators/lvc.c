@@ -2,8 +2,8 @@
  *
  * Each eye vertex (t >= 2) draws C of the V connectible vertices of the K light sub-paths, each with probability 1/V:
  *     (1/C) sum over draws of F(v) V / K
- * has BDPT's expectation. It takes each vertex C/V times, where BDPT, with one of K sub-paths, takes it 1/K times: C K/V
- * times as often, about C/l, l being the expected number of connectible vertices of a light sub-path. That is the
+ * has BDPT's expectation. It takes each vertex C/V times, where BDPT, with one of K sub-paths, takes it 1/K times: C
+ * K/V times as often, about C/l, l being the expected number of connectible vertices of a light sub-path. That is the
  * count, with no credit. l is frozen before the render: the pool's own V/K would make a vertex' weight depend on what
  * else is in the pool, which biases small pools. s = 0, s = 1 and t = 1 stay as they are, lights are chosen by power.
  *
@@ -60,7 +60,9 @@ static void prepare(const struct render_job *job, struct preparation *out)
     struct lvc_state *s = out->state;
     struct learnt counted = {.guided = false};
     const struct wish nothing = {.eye_cells = 1};
-    learn(job, &nothing, &counted);
+    struct render_job whole = *job;
+    whole.watch = NULL; /* it is soon done, and l is not kept: it must be the same whenever the render goes on */
+    learn(&whole, &nothing, &counted);
     double l = counted.importance.light_vertices;
     for (int end = 0; end < EYE_ENDS; end++)
         s->frozen.counts.connect[end] = l > 0 ? s->connections / l : s->connections;

@@ -2,10 +2,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "integrators/subspaces.h"
+#include "integrators/method.h"
+#include "learning/learnt_file.h"
 
 extern const struct method method_pt, method_lt, method_bdpt, method_bins, method_pool, method_vertices,
-    method_lvc, method_cbdpt;
+    method_subspaces, method_lvc, method_cbdpt;
 
 static const struct method *const METHODS[] = {&method_pt,       &method_lt,   &method_bdpt,
                                                &method_subspaces, &method_bins, &method_pool,
@@ -69,6 +70,16 @@ bool method_check(const struct method *m, const struct settings *s, struct error
     return ok;
 }
 
+/* What was learnt before, if anybody has it. */
+static bool recall(const struct method *m, const struct render_job *job, void *state, struct error *err)
+{
+    if (job->learnt == NULL || job->learnt->n == 0)
+        return true;
+    if (m->learnt == NULL)
+        return error_set(err, "%s learns nothing, so there is nothing to go on with", m->name);
+    return learnt_read(m->learnt(state), &job->scene->lights, job->of, job->learnt, "what was learnt", err);
+}
+
 bool method_prepare(const struct method *m, const struct render_job *job, struct preparation *out, struct error *err)
 {
     struct preparation standard = {.method = m, .state = mem_alloc(1, m->state_size),
@@ -84,8 +95,14 @@ bool method_prepare(const struct method *m, const struct render_job *job, struct
         free(out->state);
         return false;
     }
+    if (!recall(m, job, out->state, err)) {
+        method_release(out);
+        return false;
+    }
     if (m->prepare != NULL)
         m->prepare(job, out);
+    if (m->learnt != NULL && job->learnt != NULL && job->learnt->n == 0 && m->learnt(out->state)->eye.n > 0)
+        learnt_write(m->learnt(out->state), job->of, job->learnt);
     return true;
 }
 

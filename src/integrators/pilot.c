@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/maths.h"
+#include "base/number.h"
 #include "base/parallel.h"
 
 /* What the variance of a pixel is made of, given its eye sub-path: kinds of samples whose number is free. HIT, lights
@@ -20,7 +21,7 @@ static const double USUAL_CREDIT = 1.5, MOST_CREDIT = 4;
 
 /* The budget: samples for each pixel of the picture, in whole tiles. */
 static const double SAMPLES_PER_PIXEL = 1.28;
-enum { MOST_TILES = 32 };
+enum { MOST_TILES = 8 };
 
 /* Renders of a tile: the second shares nothing with the first, the third its eye sub-paths. */
 enum { RENDERS = 3 };
@@ -294,6 +295,24 @@ static void free_memory(struct pilot *p, int n_slots)
     free(p->found);
 }
 
+/* What was chosen, as struct learnt keeps it. */
+static void exchange(struct subspaces_state *s, bool store)
+{
+    struct mis_counts *c = &s->frozen.counts;
+    double lights = s->frozen.lights, path_pixels = s->frozen.path_pixels, *kept = s->learnt.number;
+    double *const chosen[] = {&s->draws[FIRST_HIT], &s->draws[LATER_HIT], &lights, &path_pixels, &c->hit,
+                              &c->direct[FIRST_HIT], &c->direct[LATER_HIT], &c->connect[FIRST_HIT],
+                              &c->connect[LATER_HIT]};
+    for (size_t i = 0; i < sizeof chosen / sizeof chosen[0]; i++)
+        *(store ? &kept[i] : chosen[i]) = *(store ? chosen[i] : &kept[i]);
+    for (int end = 0; end < EYE_ENDS; end++)
+        s->draws[end] = clamp(s->draws[end], 0.125, 16);
+    s->frozen.lights = int_within(lights, 1, 8); /* whatever a file says */
+    s->frozen.path_pixels = int_within(path_pixels, 1, MAX_TILE_SIZE * MAX_TILE_SIZE);
+}
+
+void pilot_recall(struct subspaces_state *s) { exchange(s, false); }
+
 void pilot_run(const struct render_job *job, struct preparation *method)
 {
     const double credit[N_KINDS] = {USUAL_CREDIT, USUAL_CREDIT, USUAL_CREDIT, USUAL_CREDIT};
@@ -314,4 +333,5 @@ void pilot_run(const struct render_job *job, struct preparation *method)
         choose_numbers(s, &p.sums);
     else
         set_numbers(s, USUAL, credit);
+    exchange(s, true);
 }

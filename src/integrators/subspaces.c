@@ -15,7 +15,7 @@
  *
  * Tests: test_asbdpt.c.
  */
-#include "integrators/subspaces.h"
+#include "integrators/subspaces_state.h"
 
 #include <stddef.h>
 #include <stdio.h>
@@ -190,15 +190,25 @@ static void prepare(const struct render_job *job, struct preparation *out)
                               .eye_cells = GUIDE_CELLS, .light_cells = LIGHT_CELLS, .levels = REGION_LEVELS,
                               .delta = s->delta};
     out->size.tile = MAX_TILE_SIZE; /* a larger pool */
+    bool known = s->learnt.eye.n > 0;
     learn(job, &wish, &s->learnt);
     f->counts.model = &s->learnt.model;
-    pilot_run(job, out);
+    if (known)
+        pilot_recall(s);
+    else
+        pilot_run(job, out);
     if (s->connections > 0)
         pilot_set_draws(s, s->connections);
     if (path_pixels > 0)
         f->path_pixels = path_pixels;
     f->counts.splat = pixel_light_count(job) / f->path_pixels;
     tell(s, out);
+}
+
+static struct learnt *learnt_of(void *state)
+{
+    struct subspaces_state *s = state;
+    return &s->learnt;
 }
 
 static void release(void *state)
@@ -221,5 +231,5 @@ const struct method method_subspaces = {
     .why = "C draws for each eye vertex from the connectible vertices of the tile's K light sub-paths, in proportion "
            "to h(e,l) luminance(beta), by the regions of both; scale 1 / (C K P)",
     .parameters = PARAMETERS, .state_size = sizeof(struct subspaces_state), .scratch_size = sizeof(struct subspaces),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .release = release, .render = pooled_render,
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .learnt = learnt_of, .release = release, .render = pooled_render,
     .scratch_init = init_scratch, .scratch_free = free_scratch, .begin = begin, .draw = draw};

@@ -23,6 +23,7 @@
 #include "base/alias.h"
 #include "base/number.h"
 #include "integrators/asbdpt.h"
+#include "transport/counts.h"
 
 struct vertices_state {
     struct frozen frozen; /* path_pixels 0, connections 0: chosen */
@@ -124,8 +125,14 @@ static void prepare(const struct render_job *job, struct preparation *out)
         f->counts.direct[end] = CREDIT;
     }
     f->counts.splat /= f->path_pixels;
-    if (importance && s->learnt.importance.mean > 0)
+    if (importance && s->learnt.importance.mean > 0 && !s->learnt.paired)
         pairs_from_importance(s);
+}
+
+static struct learnt *learnt_of(void *state)
+{
+    struct vertices_state *s = state;
+    return &s->learnt;
 }
 
 static void release(void *state)
@@ -150,5 +157,5 @@ const struct method method_vertices = {
     .why = "C draws for each eye vertex from an alias table over the connectible vertices of the tile's K light "
            "sub-paths, q in proportion to luminance(beta) n(x); scale 1 / (C K q)",
     .parameters = PARAMETERS, .state_size = sizeof(struct vertices_state), .scratch_size = sizeof(struct vertices),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .release = release, .render = pooled_render,
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .learnt = learnt_of, .release = release, .render = pooled_render,
     .scratch_free = free_scratch, .begin = begin, .draw = draw};

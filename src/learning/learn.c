@@ -5,7 +5,7 @@
 #include "learning/lessons.h"
 
 /* The budget: eye sub-paths for each pixel, and between which numbers. */
-enum { LEARN_LEAST = 2 * 1024, LEARN_MOST = 128 * 1024, LIGHT_MOST = 32 * 1024, COUNTED = 4 * 1024 };
+enum { LEARN_LEAST = 2 * 1024, LEARN_MOST = 48 * 1024, LIGHT_MOST = 16 * 1024, COUNTED = 4 * 1024 };
 static const double LEARN_PER_PIXEL = 4;
 
 enum { MAX_EYE_REGIONS = 1024, MAX_LIGHT_REGIONS = 2048, MAX_IMPORTANCE_REGIONS = 1 << 17 };
@@ -27,6 +27,8 @@ void learn(const struct render_job *job, const struct wish *wish, struct learnt 
     struct lessons l = {.job = job, .wish = wish, .learnt = out, .counts = {.direct = {1, 1}}};
     double pixels = (double)rect_width(job->film_rect) * rect_height(job->film_rect);
     long n = int_within(LEARN_PER_PIXEL * pixels, LEARN_LEAST, LEARN_MOST), n_light = n < LIGHT_MOST ? n : LIGHT_MOST;
+    if (out->eye.n > 0)
+        return; /* it is known already */
     bool visits = wish->importance || wish->guide || wish->pairs;
     l.work = workspaces_new(job->n_threads, job->max_depth);
     if (visits) {

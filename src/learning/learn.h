@@ -1,10 +1,10 @@
 /* learn.h: look at a scene before it is rendered, and keep what was found (learnt.h).
  *
- * The contract. A fixed number of sub-paths is traced, LEARN_PER_PIXEL for each pixel of the picture between LEARN_LEAST
- * and LEARN_MOST eye sub-paths and at most as many light sub-paths, whatever number of samples is asked for: a picture
- * that is continued, or made in parts, is made by one and the same estimator. Memory is bounded: 1024 eye regions and
- * 2048 light regions, 64 MiB while learning and a quarter of that after it. job->watch sees it go on and may end it:
- * then there is what was found so far, which is a valid, if poor, thing to have learnt.
+ * The contract. A fixed number of sub-paths is traced, LEARN_PER_PIXEL for each pixel of the picture between
+ * LEARN_LEAST and LEARN_MOST eye sub-paths and at most as many light sub-paths, whatever number of samples is asked
+ * for: a picture that is continued, or made in parts, is made by one and the same estimator. Memory is bounded: 1024
+ * eye regions and 2048 light regions, 64 MiB while learning and a quarter of that after it. job->watch sees it go on
+ * and may end it: then there is what was found so far, which is a valid, if poor, thing to have learnt.
  *
  * Passes, each over sub-paths of its own: extent (where vertices are, so that the grid lies there), visits (where the
  * camera can use light, and which lights are seen from where), light walks (where light vertices are), trials (what
@@ -18,15 +18,7 @@
 #include "learning/learnt.h"
 #include "transport/tile_pass.h"
 
-/* What is wished for. Light vertices are counted in any case. */
-struct wish {
-    bool importance, guide, pairs;
-    int eye_cells, light_cells; /* regions along the diagonal of where vertices are */
-    int levels;                 /* of regions */
-    double delta;               /* of the pairs, and of what guides their trials */
-};
-
-/* learn: out is zero-initialised; learnt_free releases it. */
+/* learn: out is zero-initialised, or was read from a file: then that is all. learnt_free releases it. */
 void learn(const struct render_job *job, const struct wish *wish, struct learnt *out);
 
 #endif

@@ -1,5 +1,5 @@
-/* learnt.h: what has been learnt about a scene before its first sample, frozen from then on, so that a choice made by it
- * biases nothing.
+/* learnt.h: what has been learnt about a scene before its first sample, frozen from then on, so that a choice made by
+ * it biases nothing.
  *
  * A value: it depends on scene, film, seed and depth, not on the samples asked for, nor on threads; it can be written
  * to a file and read again (learnt_file.h).
@@ -11,6 +11,14 @@
 #include "learning/importance.h"
 #include "learning/pairs.h"
 #include "transport/mis.h"
+
+/* What is wished to be learnt. Light vertices are counted in any case. */
+struct wish {
+    bool importance, guide, pairs;
+    int eye_cells, light_cells; /* regions along the diagonal of where vertices are */
+    int levels;                 /* of regions */
+    double delta;               /* of the pairs, and of what guides their trials */
+};
 
 enum { LEARNT_NUMBERS = 16 };
 

@@ -5,7 +5,8 @@
 #ifndef ASBDPT_LESSONS_H
 #define ASBDPT_LESSONS_H
 
-#include "learning/learn.h"
+#include "learning/learnt.h"
+#include "transport/tile_pass.h"
 
 /* Something a sub-path found. */
 struct finding {

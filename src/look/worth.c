@@ -9,7 +9,7 @@
 #include "base/mem.h"
 #include "base/number.h"
 #include "image/colormap.h"
-#include "integrators/subspaces.h"
+#include "learning/learnt.h"
 #include "render/aov.h"
 #include "transport/pixel_sample.h"
 
@@ -84,7 +84,7 @@ static void map_draws(const struct view *v)
 static bool fill(struct view *v, int x, int y, struct error *err)
 {
     const struct scene *s = v->job.scene;
-    if (v->learnt == NULL)
+    if (v->learnt == NULL || !v->learnt->paired)
         return error_set(err, "this selection learns nothing about pairs of places; select=subspaces does");
     if (x < 0 || y < 0 || x >= s->width || y >= s->height)
         return error_set(err, "pixel %d,%d lies outside the film of %dx%d", x, y, s->width, s->height);
@@ -105,7 +105,7 @@ bool worth_values(const struct scene *scene, const struct render_options *option
     if (!render_prepare(scene, options, all, &v.job, &prepared, err))
         return false;
     v.counts = ((const struct frozen *)prepared.state)->counts;
-    v.learnt = prepared.method == &method_subspaces ? v.counts.model->learnt : NULL;
+    v.learnt = prepared.method->learnt != NULL ? prepared.method->learnt(prepared.state) : NULL;
     v.work = workspaces_new(1, v.job.max_depth);
     bool ok = fill(&v, x, y, err);
     workspaces_free(v.work, 1);

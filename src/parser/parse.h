@@ -217,8 +217,8 @@ int parse_named(struct parser *p, struct token *name, const struct symbols *tabl
 /* parse_placed: can anything stand where the current transform puts it? False with a message if not. */
 bool parse_placed(struct parser *p);
 
-/* parse_sees_media: is it an integrator of pbrt-v3 that sees media, or none of its, which may not be less exact? NULL is
- * its default. */
+/* parse_sees_media: is it an integrator of pbrt-v3 that sees media, or none of its, which may not be less exact?
+ * NULL is its default. */
 bool parse_sees_media(const char *integrator);
 
 /* parse_media: false with a message if one of the current media is to be seen, which is not supported: on one side of

@@ -9,7 +9,7 @@
 #include "base/bits.h"
 #include "base/mem.h"
 #include "base/version.h"
-#include "render/part.h"
+#include "render/identity.h"
 
 struct lines {
     char *text; /* owned */
@@ -58,20 +58,26 @@ static void add_filter(struct lines *l, const struct filter *f)
              f->B, f->C, f->tau);
 }
 
-struct part part_describe(const struct scene *scene, const struct render_options *o)
+char *identity_text(const struct scene *scene, struct picture_options o)
 {
-    struct pixel_rect r = render_crop(scene);
-    struct part p = {.width = rect_width(r), .height = rect_height(r), .scale = scene->film_scale,
-                     .place = {r.x0, r.y0, scene->width, scene->height},
-                     .planned = o->planned, .first = o->first, .end = o->end};
     struct lines l = {0};
     add_line(&l, "version %s, estimator %d", VERSION, ESTIMATOR);
     add_line(&l, "scene %016" PRIx64, scene->content);
-    add_line(&l, "integrator %s", o->integrator);
-    add_line(&l, "maxdepth %d", o->max_depth);
+    add_line(&l, "integrator %s", o.integrator);
+    add_line(&l, "maxdepth %d", o.max_depth);
     add_settings(&l, &scene->settings);
-    add_line(&l, "seed %" PRIu64, o->seed);
+    add_line(&l, "seed %" PRIu64, o.seed);
     add_filter(&l, &scene->filter);
-    p.identity = l.text;
-    return p;
+    return l.text;
+}
+
+uint64_t picture_number(const struct scene *scene, struct picture_options o, struct pixel_rect r)
+{
+    const int place[] = {r.x0, r.y0, r.x1, r.y1, scene->width, scene->height};
+    char *text = identity_text(scene, o);
+    uint64_t number = hash_content(text, strlen(text));
+    for (size_t i = 0; i < sizeof place / sizeof place[0]; i++)
+        number = hash_combine(number, (uint64_t)place[i]);
+    free(text);
+    return number;
 }

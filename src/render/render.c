@@ -7,6 +7,7 @@
 #include "base/number.h"
 #include "base/os.h"
 #include "base/parallel.h"
+#include "render/identity.h"
 #include "render/parameters.h"
 
 /* Fractions lie within [0,1]: readers of scenes and options see to it. */
@@ -182,7 +183,12 @@ static bool prepare(struct run *r, struct error *err)
         return false;
     r->job.watch = r->options->progress != NULL ? watch : NULL;
     r->job.watch_context = r;
-    return method_prepare(m, &r->job, &r->prepared, err);
+    const struct picture_options picture = {r->options->integrator, r->options->max_depth, r->options->seed};
+    r->job.learnt = &r->film->learnt;
+    r->job.of = picture_number(r->job.scene, picture, r->film->rect);
+    bool ok = method_prepare(m, &r->job, &r->prepared, err);
+    r->film->learnt_short = r->stopping;
+    return ok;
 }
 
 /* Blocks of a length that the method has chosen must not be cut: what it draws depends on where one begins. */
@@ -190,6 +196,9 @@ static bool check_range(const struct run *r, struct error *err)
 {
     const struct render_options *o = r->options;
     int block = r->prepared.size.block;
+    if (r->film->iterations > 0 && block > 0 && o->first % block != 0)
+        return error_set(err, "the film ends at sample %ld: here they come in blocks of %d, so it cannot go on from there",
+                         o->first, block);
     if (o->is_part && block > 0 && (o->first % block != 0 || (o->end % block != 0 && o->end != o->planned)))
         return error_set(err, "samples %ld:%ld: here they come in blocks of %d; begin and end with one", o->first,
                          o->end, block);

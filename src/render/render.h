@@ -42,7 +42,7 @@ struct pixel_rect render_crop(const struct scene *scene);
 /* render_scene: render into a film.
  *   scene  prepared
  *   film   initialised by film_init for render_crop(scene), possibly holding earlier iterations already, and
- *          film->passes tile passes of the block that begins at options->first
+ *          film->passes tile passes of the block that begins at options->first, and what was learnt before them
  * Returns false with a message when a parameter is bad. */
 bool render_scene(const struct scene *scene, const struct render_options *options, struct film *film,
                   struct error *err);

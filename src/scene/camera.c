@@ -91,8 +91,8 @@ struct ray camera_ray(const struct camera *c, double px, double py, double u1, d
     return r;
 }
 
-/* J as below, over a piece of the unit sphere of camera space, which shrinks with sin theta towards the pole; at the very
- * pole, which no direction is, J stays finite. */
+/* J as below, over a piece of the unit sphere of camera space, which shrinks with sin theta towards the pole; at the
+ * very pole, which no direction is, J stays finite. */
 static double project_around(const struct camera *c, vec3 d, double *px, double *py)
 {
     double phi = m_atan2(d.z, d.x), d2 = length2(d), ring = sqrt(sqr(d.x) + sqr(d.z)); /* |d| sin theta */

@@ -18,6 +18,7 @@
 #include <stdint.h>
 
 #include "base/exact_sum.h"
+#include "base/mem.h"
 #include "base/rgb.h"
 #include "scene/filter.h"
 
@@ -114,9 +115,11 @@ struct film {
     struct exact_sum *sum;       /* [pixels*3] of eye values and splats; owned */
     struct film_errors *errors;  /* NULL unless asked for; owned */
     long nonfinite;
-    char note[FILM_NOTE_SIZE]; /* what the integrator chose for itself, for people */
+    char note[FILM_NOTE_SIZE]; /* what the method chose for itself, for people */
     struct film_number number[FILM_NUMBERS]; /* and for programs, ended by a NULL name */
     struct strategy_images *strategies; /* NULL unless asked for; owned */
+    struct bytes learnt; /* what the method has learnt, to go on with (learning/learnt_file.h); n = 0: nothing; owned */
+    bool learnt_short;   /* its learning was ended early */
 };
 
 /* film_init: black, for the pixels of `rect` out of a frame of full_width x full_height. Release with film_free. */

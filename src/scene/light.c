@@ -70,8 +70,8 @@ static vec3 to_light_space(const struct light *l, vec3 w)
     return normalize(transform_vector_back(&l->to_world, w));
 }
 
-/* Steradians of light space per steradian of the world, around the direction that is v in light space, and there as long
- * as 1 is in the world: a thin cone of length 1 and solid angle x has the volume x / 3, its image x' |v|^3 / 3. */
+/* Steradians of light space per steradian of the world, around the direction that is v in light space, and there as
+ * long as 1 is in the world: a thin cone of length 1 and solid angle x has the volume x / 3, its image x' |v|^3 / 3. */
 static double solid_angle_back(const struct light *l, vec3 v)
 {
     double size = length(v);

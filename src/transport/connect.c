@@ -1,6 +1,8 @@
 /* connect.c: see connect.h. */
 #include "transport/connect.h"
 
+#include "transport/counts.h"
+
 static struct connection nothing(void)
 {
     struct connection c = {{0, 0, 0}, 0, 0, 0, {0, 0, 0}, -1, -1, 0};

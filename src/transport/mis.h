@@ -46,8 +46,6 @@
 #include "base/vec.h"
 
 struct light_set;
-struct scene;
-struct vertex;
 
 /* Which eye vertex a strategy with t >= 2 ends at: what the camera sees, t = 2, or a later one. */
 enum eye_end { FIRST_HIT, LATER_HIT, EYE_ENDS };
@@ -81,30 +79,6 @@ struct mis_counts {
     const struct count_model *model; /* factors that vary over the scene; NULL: all counts are constants */
     bool power;                /* power heuristic instead of the balance heuristic */
 };
-
-/* mis_connect_count: n of the strategy s >= 2, t >= 2 whose light end lies in region y and whose eye end in region e. */
-static inline double mis_connect_count(const struct mis_counts *c, int y, int e, enum eye_end end)
-{
-    double n = c->connect[end];
-    return c->model != 0 && c->model->connect != 0 ? n * c->model->connect(c->model->learnt, y, e) : n;
-}
-
-/* mis_direct_count: n of the strategy s = 1, t >= 2 that joins a surface point in region e to the end point y0.
- *   cell, w  of y0, see count_model */
-static inline double mis_direct_count(const struct mis_counts *c, const struct light_set *lights, int e,
-                                      enum eye_end end, int cell, vec3 w)
-{
-    double n = c->direct[end];
-    return c->model != 0 && c->model->direct != 0 && n > 0 ? n * c->model->direct(c->model->learnt, lights, e, cell, w)
-                                                           : n;
-}
-
-/* mis_count_before: c_e of a light sub-path's vertex y with prev before it: n of the strategy that joins prev to y, y
- * being an eye end of the given kind; 0 after a delta lobe. mis_count_behind: c_e of an eye sub-path's vertex z: n of
- * the strategy that joins z, as its light end, to prev. */
-double mis_count_before(const struct mis_counts *c, const struct light_set *lights, const struct vertex *prev,
-                        const struct vertex *y, enum eye_end end);
-double mis_count_behind(const struct mis_counts *c, const struct vertex *prev, const struct vertex *z);
 
 /* mis_raise: the heuristic's power of a density or count. */
 static inline double mis_raise(const struct mis_counts *c, double x) { return c->power ? x * x : x; }

@@ -3,25 +3,7 @@
 
 #include <string.h>
 
-struct light_point vertex_light_point(const struct vertex *v)
-{
-    struct light_point at = {v->light, v->cell, v->p, v->ng, v->wo, v->triangle_id, 0, 0};
-    return at;
-}
-
-bool vertex_at_infinity(const struct scene *scene, const struct vertex *v)
-{
-    return v->kind == VERTEX_LIGHT && light_at_infinity(&scene->lights.light[v->light]);
-}
-
-double scatter_cosine(const struct vertex *v, vec3 wi, enum transport mode)
-{
-    vec3 ns = v->bsdf.shading.n;
-    if (mode == RADIANCE)
-        return abs_dot(wi, ns);
-    double wo_ng = abs_dot(v->wo, v->ng);
-    return wo_ng > 0 ? abs_dot(v->wo, ns) * abs_dot(wi, v->ng) / wo_ng : 0;
-}
+#include "transport/counts.h"
 
 /* How the walk left its last vertex. */
 struct departure {
@@ -86,7 +68,8 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
     return true;
 }
 
-/* The see-through lamp that the ray meets before the surface at *end (NULL: none), as a vertex; NULL if there is none. */
+/* The see-through lamp that the ray meets before the surface at *end (NULL: none), as a vertex; NULL if there is
+ * none. */
 static const struct vertex *meet_lamp(const struct walk *w, const struct vertex *prev, const struct departure *from,
                                       const struct surface *end)
 {
@@ -207,27 +190,6 @@ int path_eye_pixel(const struct walk *w, int x, int y, struct vertex *path, int 
     sampler_pair(w->sampler, DRAW_FILM_POINT, u);
     *filter_weight = filter_sample(&w->scene->filter, u[0], u[1], &dx, &dy);
     return path_eye(w, x + 0.5 + dx, y + 0.5 + dy, path, max_vertices);
-}
-
-void vertex_light_end(const struct scene *scene, const struct mis_counts *counts, const struct light_point *at,
-                      struct vertex *out)
-{
-    const struct light *l = &scene->lights.light[at->light];
-    memset(out, 0, sizeof *out);
-    out->kind = VERTEX_LIGHT;
-    out->light = at->light;
-    out->cell = at->cell;
-    out->p = at->p;
-    out->ng = at->n;
-    out->triangle_id = at->triangle_id;
-    out->wo = at->w;
-    out->beta = rgb_grey(1 / at->pdf);
-    /* An escaping eye ray cannot tell infinite lights apart, so their densities are added up for the weight.
-     * [PBRT3 16.3.5] */
-    out->pdf_fwd = scene->lights.several_infinite && l->kind == LIGHT_INFINITE
-                       ? light_pdf_environment(&scene->lights, at->w)
-                       : at->pdf;
-    out->mis_c = light_is_delta(l) ? 0 : counts->hit;
 }
 
 int path_light(const struct walk *w, struct vertex *path, int max_vertices)

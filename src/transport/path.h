@@ -20,63 +20,11 @@
 #ifndef ASBDPT_PATH_H
 #define ASBDPT_PATH_H
 
-#include "material/bsdf.h"
-#include "scene/light.h"
 #include "base/mem.h"
-#include "transport/mis.h"
 #include "base/sampler.h"
-#include "scene/scene.h"
+#include "transport/vertex.h"
 
 enum { PATH_MAX_DEPTH = 1000 }; /* largest maxdepth accepted */
-
-enum vertex_kind {
-    VERTEX_LENS,    /* z_0 */
-    VERTEX_LIGHT,   /* y_0 */
-    VERTEX_SURFACE, /* a scattering point, possibly on an area light */
-    VERTEX_ESCAPED  /* end of an eye sub-path that left the scene: a direction, where infinite lights are or a `lamp` */
-};
-
-/* What the fields mean depends on the kind; a dash: not used. Densities are those of the vertex in its own walk, per
- * area unless it is a direction: where light comes from infinity, per solid angle.
- *
- *                LENS         LIGHT (y_0)                       SURFACE                      ESCAPED
- *   light, cell  -1           its light and light cell          of the area light, or -1     -1
- *   p            on the lens  on the light; at infinity -       the point                    -
- *   ng           0            area light: its normal; else 0    geometric normal             0
- *   triangle_id  0            area light: see shape.h; else 0   see shape.h                  0
- *   wo           0            at infinity: towards the light    towards the previous vertex  inwards
- *   beta         1            radiance or intensity emitted;    throughput on arrival        throughput on arrival
- *                             as a connection's end 1/density
- *   pdf_fwd      1, unused    1/m^2; at infinity 1/sr           1/m^2                        1/sr
- *   pdf_origin   -            -                                 eye walk, on a light: of     1/sr, likewise
- *                                                               light_sample_point, 1/m^2
- *   pdf_rev      -            -                                 1/sr: of the other walk's    -
- *                                                               going back, if this went on
- *   regions      -            -                                 as count_model.locate says    -
- *   bsdf         -            -                                 its scattering               -
- *   lamp         -            -                                 eye walk: see below              likewise
- *
- * See-through lamps (scene.h) scatter nothing, so no walk has vertices there, but that one may start on them. The first
- * that an eye walk meets on its way from one vertex to the next is the `lamp` of the next: the last vertex of a path of
- * its own, and in no sub-path. Its kind is SURFACE, it has what connect_hit needs, and no scattering.
- */
-struct vertex {
-    enum vertex_kind kind;
-    bool prev_delta; /* the walk left the previous vertex by a delta lobe */
-    enum eye_end eye_end;
-    int light, cell;
-    vec3 p, ng;
-    uint32_t triangle_id;
-    vec3 wo; /* unit */
-    rgb beta;
-    double pdf_fwd, pdf_origin, pdf_rev;
-    int material; /* of the surface, index into scene->material */
-    double mis;   /* mis_e of mis.h */
-    double mis_c; /* c_e of mis.h, supposing this vertex is not left by a delta lobe */
-    int eye_region, light_region;
-    struct bsdf bsdf;
-    const struct vertex *lamp; /* above; NULL: none */
-};
 
 /* What a walk needs besides its start. */
 struct walk {
@@ -99,33 +47,5 @@ int path_eye_pixel(const struct walk *w, int x, int y, struct vertex *path, int 
 
 /* path_light: choose a light, emit, and walk. Returns the number of vertices; 0 when nothing is emitted. */
 int path_light(const struct walk *w, struct vertex *path, int max_vertices);
-
-/* path_throughput: beta of [S24]: mean over RGB at the furthest vertex of a light sub-path; 0 if it is empty. One of y_0
- * alone, which met no surface, has the emitted radiance there, as in pbrt-v3, where [S24] was implemented. */
-static inline double path_throughput(const struct vertex *light, int n)
-{
-    return n < 1 ? 0 : rgb_mean(light[n - 1].beta);
-}
-
-/* vertex_light_end: fill in a y_0 for a point drawn by light_sample_point; its beta is 1/density. */
-void vertex_light_end(const struct scene *scene, const struct mis_counts *counts, const struct light_point *at,
-                      struct vertex *out);
-
-/* vertex_light_point: the light_point of a y_0, or of a surface on an area light. */
-struct light_point vertex_light_point(const struct vertex *v);
-
-/* vertex_at_infinity: y_0 of an infinite or distant light. */
-bool vertex_at_infinity(const struct scene *scene, const struct vertex *v);
-
-/* vertex_connectible: can a connection end at this vertex? */
-static inline bool vertex_connectible(const struct vertex *v)
-{
-    return v->kind == VERTEX_SURFACE ? v->bsdf.n_smooth > 0 : v->kind != VERTEX_ESCAPED;
-}
-
-/* scatter_cosine: the factor that turns a BSDF's f into throughput for leaving v in direction wi. Walking from the eye
- * it is |cos(wi, ns)|; from a light the adjoint BSDF of shading normals makes it
- * |cos(wo, ns)| |cos(wi, ng)| / |cos(wo, ng)|                                                          [V97 5.3] */
-double scatter_cosine(const struct vertex *v, vec3 wi, enum transport mode);
 
 #endif

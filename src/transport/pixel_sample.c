@@ -8,11 +8,20 @@ static uint64_t pixel_number(const struct scene *scene, int x, int y)
     return (uint64_t)y * (uint64_t)scene->width + (uint64_t)x;
 }
 
+/* The stream of a pixel, by whatever number of its own. */
+static struct sampler stream(const struct render_job *job, uint64_t seed, enum rng_purpose purpose, int x, int y,
+                             uint64_t number)
+{
+    struct sampler s = sampler_start(seed, purpose, pixel_number(job->scene, x, y), number);
+    s.tape = job->tape;
+    return s;
+}
+
 struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struct mis_counts *counts, int x, int y,
                                        long iteration)
 {
     const struct render_job *job = pass->job;
-    struct sampler points = sampler_start(job->seed, RNG_CONNECT, pixel_number(job->scene, x, y), (uint64_t)iteration);
+    struct sampler points = stream(job, job->seed, RNG_CONNECT, x, y, (uint64_t)iteration);
     struct pixel_sample g = {job->scene, counts, pass->tile, job->max_depth, x, y, 1, 1, points, rgb_black(),
                              trace_watches(pass->trace, x, y, iteration)};
     return g;
@@ -21,8 +30,7 @@ struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struc
 int pixel_eye_path(const struct tile_pass *pass, struct pixel_sample *g, long iteration, struct vertex *path,
                    int max_vertices)
 {
-    uint64_t pixel = pixel_number(g->scene, g->x, g->y);
-    struct sampler sampler = sampler_start(pass->job->eye_seed, RNG_EYE, pixel, (uint64_t)iteration);
+    struct sampler sampler = stream(pass->job, pass->job->eye_seed, RNG_EYE, g->x, g->y, (uint64_t)iteration);
     struct walk w = {g->scene, g->counts, &pass->work->arena, &sampler, pass->job->rr_threshold};
     int n = path_eye_pixel(&w, g->x, g->y, path, max_vertices, &g->filter_weight);
     if (g->trace != NULL)
@@ -32,16 +40,14 @@ int pixel_eye_path(const struct tile_pass *pass, struct pixel_sample *g, long it
 
 struct sampler pixel_sampler(const struct tile_pass *pass, enum rng_purpose purpose, int x, int y, long iteration)
 {
-    uint64_t pixel = pixel_number(pass->job->scene, x, y);
-    return sampler_start(pass->job->seed, purpose, pixel, (uint64_t)iteration);
+    return stream(pass->job, pass->job->seed, purpose, x, y, (uint64_t)iteration);
 }
 
 int pixel_light_path(const struct tile_pass *pass, const struct mis_counts *counts, int x, int y, uint64_t number,
                      struct arena *arena, struct vertex *path)
 {
     const struct render_job *job = pass->job;
-    uint64_t pixel = pixel_number(job->scene, x, y);
-    struct sampler sampler = sampler_start(job->seed, RNG_LIGHT, pixel, number);
+    struct sampler sampler = stream(job, job->seed, RNG_LIGHT, x, y, number);
     struct walk w = {job->scene, counts, arena, &sampler, job->rr_threshold};
     return path_light(&w, path, job->max_depth + 1);
 }

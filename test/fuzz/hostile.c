@@ -38,19 +38,23 @@ static void put(struct writer *w, const char *format, ...)
 
 /* --- numbers -------------------------------------------------------------------------------------------- */
 
+static const char *const EDGE[] = {
+    "-0", "1e-308", "4.9e-324", "1e-45", "1e-38", "1e-30", "1e-20", "1e-12", "1e-7", "0.99999999999999",
+    "1.0000001", "1000", "1e5", "1e7", "1e9", "1e12", "1e15", "1e18", "1e19", "1e30", "-1e30", "1e31", "1e38",
+    "3.5e38", "1e100", "1e308", "-1e308", "1e309", "nan", "inf", "-1e-308", "90", "180", "-180", "360",
+    "89.9999999", "255", "2147483647", "2147483648", "-2147483649", "4294967296", "18446744073709551616",
+    "0.000000000000000000000000000000000001"};
+enum { N_EDGE = sizeof EDGE / sizeof EDGE[0] };
+
+const char *hostile_number(unsigned i) { return EDGE[i % N_EDGE]; }
+
 /* One bad number is enough for a scene to be refused at once, so most are ordinary. */
 static void number(struct writer *w)
 {
     static const char *const ORDINARY[] = {"1", "0.5", "2", "0.1", "3", "0.9", "10", "45", "0.01", "1", "5", "0.3"};
     static const char *const LOWER[] = {"0", "-1", "-0.5", "-2"};
-    static const char *const EDGE[] = {
-        "-0", "1e-308", "4.9e-324", "1e-45", "1e-38", "1e-30", "1e-20", "1e-12", "1e-7", "0.99999999999999",
-        "1.0000001", "1000", "1e5", "1e7", "1e9", "1e12", "1e15", "1e18", "1e19", "1e30", "-1e30", "1e31", "1e38",
-        "3.5e38", "1e100", "1e308", "-1e308", "1e309", "nan", "inf", "-1e-308", "90", "180", "-180", "360",
-        "89.9999999", "255", "2147483647", "2147483648", "-2147483649", "4294967296", "18446744073709551616",
-        "0.000000000000000000000000000000000001"};
     if (rarely(w, 50))
-        put(w, "%s ", EDGE[choose(w, sizeof EDGE / sizeof EDGE[0])]);
+        put(w, "%s ", EDGE[choose(w, N_EDGE)]);
     else if (rarely(w, 10))
         put(w, "%s ", LOWER[choose(w, sizeof LOWER / sizeof LOWER[0])]);
     else

@@ -12,4 +12,7 @@
  * To be given to free(). At most 4 MB. */
 char *hostile_scene(const uint8_t *bytes, size_t n, size_t *length);
 
+/* hostile_number: a number that no scene should have, the i-th in a circle, as it is written. */
+const char *hostile_number(unsigned i);
+
 #endif

@@ -1,6 +1,6 @@
-/* subspaces.h: the state of `select = subspaces`, which the pilot completes. */
-#ifndef ASBDPT_SUBSPACES_H
-#define ASBDPT_SUBSPACES_H
+/* subspaces_state.h: the state of `select = subspaces`, which the pilot completes. */
+#ifndef ASBDPT_SUBSPACES_STATE_H
+#define ASBDPT_SUBSPACES_STATE_H
 
 #include "integrators/asbdpt.h"
 
@@ -11,7 +11,5 @@ struct subspaces_state {
     double delta;
     struct learnt learnt;
 };
-
-extern const struct method method_subspaces;
 
 #endif

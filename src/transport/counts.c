@@ -1,7 +1,5 @@
-/* mis.c: see mis.h: the counts that need to know what vertices are. */
-#include "transport/mis.h"
-
-#include "transport/path.h"
+/* counts.c: see counts.h. */
+#include "transport/counts.h"
 
 double mis_count_before(const struct mis_counts *c, const struct light_set *lights, const struct vertex *prev,
                         const struct vertex *y, enum eye_end end)

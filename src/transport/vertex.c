@@ -1,0 +1,45 @@
+/* vertex.c: see vertex.h. */
+#include "transport/vertex.h"
+
+#include <string.h>
+
+struct light_point vertex_light_point(const struct vertex *v)
+{
+    struct light_point at = {v->light, v->cell, v->p, v->ng, v->wo, v->triangle_id, 0, 0};
+    return at;
+}
+
+bool vertex_at_infinity(const struct scene *scene, const struct vertex *v)
+{
+    return v->kind == VERTEX_LIGHT && light_at_infinity(&scene->lights.light[v->light]);
+}
+
+double scatter_cosine(const struct vertex *v, vec3 wi, enum transport mode)
+{
+    vec3 ns = v->bsdf.shading.n;
+    if (mode == RADIANCE)
+        return abs_dot(wi, ns);
+    double wo_ng = abs_dot(v->wo, v->ng);
+    return wo_ng > 0 ? abs_dot(v->wo, ns) * abs_dot(wi, v->ng) / wo_ng : 0;
+}
+
+void vertex_light_end(const struct scene *scene, const struct mis_counts *counts, const struct light_point *at,
+                      struct vertex *out)
+{
+    const struct light *l = &scene->lights.light[at->light];
+    memset(out, 0, sizeof *out);
+    out->kind = VERTEX_LIGHT;
+    out->light = at->light;
+    out->cell = at->cell;
+    out->p = at->p;
+    out->ng = at->n;
+    out->triangle_id = at->triangle_id;
+    out->wo = at->w;
+    out->beta = rgb_grey(1 / at->pdf);
+    /* An escaping eye ray cannot tell infinite lights apart, so their densities are added up for the weight.
+     * [PBRT3 16.3.5] */
+    out->pdf_fwd = scene->lights.several_infinite && l->kind == LIGHT_INFINITE
+                       ? light_pdf_environment(&scene->lights, at->w)
+                       : at->pdf;
+    out->mis_c = light_is_delta(l) ? 0 : counts->hit;
+}

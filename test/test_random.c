@@ -1,0 +1,174 @@
+/* test_random.c: random scenes (random_scene.h): all methods must see the same, and what is known if anything is.
+ *
+ * bdpt is compared with one of asbdpt's selections, by turns; with pt where no delta light could be behind a specular
+ * surface, and with lt where no specular surface is. Renders are made in independent batches; Welch's test compares the
+ * means of the picture and of its tiles. Where light is found rarely such p-values are too small (doc/evidence.md), so
+ * the comparison goes by stages: if p is below CUTOFF the scene is rendered again, with new seeds and ten times the
+ * samples, and what comes out then counts alone. Of true hypotheses fewer are rejected than by the last stage itself,
+ * and means of a hundred times the samples are nearer to normal. A fault shows at every stage.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/maths.h"
+#include "base/stats.h"
+#include "helpers.h"
+#include "random_scene.h"
+#include "render/render.h"
+#include "tests.h"
+
+enum { BATCHES = 12, TILE = 6, STAGES = 3 };
+static const double CUTOFF = 0.01, BEYOND_DOUBT = 1e-15;
+
+struct way {
+    const char *name, *integrator, *select;
+};
+static const struct way BDPT = {"bdpt", "bdpt", NULL}, PT = {"pt", "pt", NULL}, LT = {"lt", "lt", NULL};
+static const struct way SELECTIONS[] = {{"subspaces", "asbdpt", "subspaces"},
+                                           {"vertices", "asbdpt", "vertices"},
+                                           {"pool", "asbdpt", "pool"},
+                                           {"cbdpt", "cbdpt", NULL},
+                                           {"lvc", "lvc", NULL}};
+enum { N_SELECTIONS = sizeof SELECTIONS / sizeof SELECTIONS[0] };
+
+/* A scene that is looked at. */
+struct subject {
+    struct test *t;
+    struct random_scene made;
+    struct scene scene;
+    uint64_t number;
+    double samples; /* of a render at the first stage */
+};
+
+static struct batches render(struct subject *s, const struct way *m, int stage)
+{
+    struct pixel_rect crop = render_crop(&s->scene);
+    double pixels = (double)rect_width(crop) * rect_height(crop);
+    double samples = s->made.one_ray ? 1 : s->samples * pow(10, stage);
+    int spp = (int)ceil(samples / pixels / BATCHES);
+    uint64_t seed = hash_combine(s->number, (uint64_t)stage);
+    for (const char *c = m->name; *c != '\0'; c++)
+        seed = hash_combine(seed, (uint64_t)*c);
+    settings_clear(&s->scene.settings);
+    if (m->select != NULL)
+        settings_set(&s->scene.settings, "select", m->select, "test");
+    settings_set(&s->scene.settings, "heuristic", s->number % 2 == 0 ? "balance" : "power", "test");
+    return render_batches(s->t, &s->scene, m->integrator, s->made.max_depth, spp, BATCHES, TILE, seed);
+}
+
+/* --- p-values ------------------------------------------------------------------------------------------- */
+
+/* Moments of the sum of values [from, to) of every batch. */
+static struct moments sum_moments(const struct batches *b, long from, long to)
+{
+    struct batches sum = batches_new(b->n_batches, 1, false);
+    for (int k = 0; k < b->n_batches; k++)
+        for (long i = from; i < to; i++)
+            sum.value[k] += b->value[b->n * k + i];
+    struct moments m = batches_moments(&sum, 0);
+    batches_free(&sum);
+    return m;
+}
+
+static double welch(struct moments a, struct moments b)
+{
+    double close = 1e-9 * (fabs(a.mean) + fabs(b.mean)); /* exact values, but for rounding */
+    if (a.variance + b.variance <= close * close)
+        return fabs(a.mean - b.mean) <= close ? 1 : 0;
+    return stats_welch_p(a.mean, a.variance, a.n, b.mean, b.variance, b.n);
+}
+
+/* Half the level for the whole, half for the tiles. Not a number: 0. */
+static double batches_differ_p(const struct batches *a, const struct batches *b)
+{
+    double whole = welch(sum_moments(a, 0, a->n), sum_moments(b, 0, b->n)), least = 1;
+    for (long i = 0; i < a->n; i += 3) {
+        double p = welch(sum_moments(a, i, i + 3), sum_moments(b, i, i + 3));
+        least = least <= p ? least : p;
+    }
+    double tiles = stats_sidak(least, (double)a->n / 3), both = stats_sidak(whole <= tiles ? whole : tiles, 2);
+    return both >= 0 && isfinite(batches_mean(a, NULL)) && isfinite(batches_mean(b, NULL)) ? both : 0;
+}
+
+static double known_p(const struct batches *b, double low, double high)
+{
+    double error, mean = batches_mean(b, &error);
+    double p = mean < low * (1 - 1e-9) ? mean_p(b, low) : mean > high * (1 + 1e-9) ? mean_p(b, high) : 1;
+    return isfinite(mean) ? p : 0;
+}
+
+/* --- comparisons ---------------------------------------------------------------------------------------- */
+
+static void report(struct subject *s, double p, const char *what, double found, double expected)
+{
+    char text[160];
+    snprintf(text, sizeof text, "scene %llu (%s): %s %.6g, not %.6g: build/test --scenes %llu random",
+             (unsigned long long)s->number, s->made.family, what, found, expected, (unsigned long long)s->number);
+    if (!(p >= 1e-4))
+        printf("  p = %.3g: %s\n", p, text);
+    fflush(stdout);
+    TEST_ACCEPT(s->t, p, "%s", text);
+}
+
+/* Two methods, or one (b NULL) and the truth. */
+static void compare(struct subject *s, const struct way *a, const struct way *b)
+{
+    double p = 1, found = 0, expected = s->made.high;
+    for (int stage = 0; stage < STAGES; stage++) {
+        struct batches x = render(s, a, stage), y = {0};
+        found = batches_mean(&x, NULL);
+        if (b != NULL) {
+            y = render(s, b, stage);
+            expected = batches_mean(&y, NULL);
+            p = batches_differ_p(&x, &y);
+            batches_free(&y);
+        } else {
+            p = known_p(&x, s->made.low, s->made.high);
+        }
+        batches_free(&x);
+        if (p >= CUTOFF || (stage > 0 && p < BEYOND_DOUBT))
+            break;
+    }
+    char what[64];
+    snprintf(what, sizeof what, "%s against %s:", a->name, b != NULL ? b->name : "the truth");
+    report(s, p, what, found, expected);
+}
+
+static void look_at(struct subject *s)
+{
+    bool pt = !(s->made.delta_light && s->made.specular), lt = !s->made.specular && !s->made.one_ray;
+    if (s->made.known && pt)
+        compare(s, &PT, NULL);
+    if (s->made.one_ray)
+        return;
+    compare(s, &SELECTIONS[s->number % N_SELECTIONS], &BDPT);
+    if (pt)
+        compare(s, &BDPT, &PT);
+    if (lt)
+        compare(s, &LT, &BDPT);
+}
+
+/* Scenes [first, end), unless the user wants others; from `cheap` on only those that one ray decides. */
+static void test_range_of(struct test *t, uint64_t first, uint64_t cheap, uint64_t end, double samples)
+{
+    char top[1024];
+    top_directory(top, sizeof top);
+    if (test_range(t, &first, &end))
+        cheap = end;
+    for (uint64_t i = first; i < end; i++) {
+        struct subject s = {.t = t, .number = i, .samples = samples};
+        s.made = random_scene(i, top, false);
+        if ((i < cheap || s.made.one_ray) &&
+            CHECK(t, scene_from_text(t, s.made.text, &s.scene), "scene %llu is refused", (unsigned long long)i)) {
+            look_at(&s);
+            scene_free(&s.scene);
+        }
+        free(s.made.text);
+    }
+}
+
+void test_random(struct test *t) { test_range_of(t, 0, 48, 800, 5e3); }
+
+void test_random_long(struct test *t) { test_range_of(t, 1000, 3000, 9000, 1e4); }
