@@ -81,9 +81,9 @@ demo: asbdpt-lab ## render Ajar with bdpt and asbdpt, the same time for each, in
 	@mkdir -p out
 	$(LAB) demo scenes/veach-ajar.pbrt --reference ref/demo/veach-ajar.png -o out/demo.png
 
-experiments: asbdpt-lab ## measure all integrators on the five scenes, quickly, into out/experiments/report.html
+experiments: asbdpt-lab ## measure all integrators on the five scenes, quickly, into out/experiments/results.html
 	$(LAB) experiment --quick -o out/experiments
-	sh test/report_browser.sh out/experiments/report.html
+	sh doc/html.sh out/experiments results.md
 
 web: asbdpt ## build and test the page that renders, out/asbdpt.html, where clang can compile for wasm32-wasi
 	sh doc/web/build.sh out/asbdpt.html

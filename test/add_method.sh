@@ -1,7 +1,7 @@
 #!/bin/sh
-# add_method.sh: is a method one file and one row? Takes the code of doc/add-a-method.md, plants it in a copy of the tree
-# with nothing else edited, builds, and finds the method in --help, render, trace and verify, which accepts it, and rejects
-# it with a planted fault. BUILD names a build directory to begin with.
+# add_method.sh: is a method one file and one row? Takes the code of doc/add-a-method.md, plants it in a copy of the
+# tree with nothing else edited, builds, and finds the method in --help, render, trace, equal-time, demo and verify,
+# which accepts it, and rejects it with a planted fault. BUILD names a build directory to begin with.
 build=${BUILD:-build}
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
@@ -26,6 +26,10 @@ must ./asbdpt trace scenes/cornell-box.pbrt --integrator resampling --pixel 32,3
 says 'CHOICE'
 must ./asbdpt-lab verify scenes/cornell-box.pbrt --methods pt,resampling --res 24x24 --spp 64 --quiet
 says 'agree'
+must ./asbdpt-lab equal-time scenes/cornell-box.pbrt --methods pt,resampling:candidates=2 --seeds 1 --spp 4 --quiet -o equal
+says 'resampling:candidates=2'
+must ./asbdpt-lab demo scenes/cornell-box.pbrt --methods pt,resampling --spp 4 --quiet -o x.png
+says 'resampling'
 sed 's/(L \* M \*/(L */' src/integrators/resampling.c >x.c && mv x.c src/integrators/resampling.c
 must make BUILD="$build" LTO=
 if ./asbdpt-lab verify scenes/cornell-box.pbrt --methods pt,resampling --res 24x24 --spp 64 --quiet >log 2>&1; then

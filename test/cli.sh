@@ -30,6 +30,15 @@ for command in render merge compare convert worth info trace; do # each its own 
 done
 check grep -q -e '--cropwindow' stdout.txt
 expect 0 '' "$program" compare a.pfm -h
+expect 0 '' "$lab" --help
+check grep -q 'asbdpt-lab experiment \[SCENE' stdout.txt
+check grep -q -e '--reference-spp' stdout.txt
+for command in verify experiment equal-time demo bench; do
+    expect 0 '' "$lab" $command --help
+    check grep -q "usage: asbdpt-lab $command" stdout.txt
+    check [ "$(grep -c 'usage: asbdpt' stdout.txt)" = 1 ]
+done
+expect 2 'unknown command verify' "$program" verify
 expect 0 '' "$program" --version
 expect 2 'asbdpt: which command' "$program"
 expect 2 'unknown command rendr \(did you mean render\?\); try asbdpt --help' "$program" rendr
@@ -368,13 +377,13 @@ fi
 check [ ! -e stats.json -a ! -e made.png ]
 
 # --- demo
-# demo: one picture of two integrators, wherever a reference is stored.
+# demo: one picture of two methods, wherever a reference is stored.
 cp "$box" known.pbrt
 expect 0 '' "$lab" demo "$box" --spp 1 --quiet -o demo.png
 check grep -q '^asbdpt .* spp .* s of CPU   rmse8' stdout.txt
 check [ -s demo.png ]
 expect 1 'there is no stored reference known.pfm' "$lab" demo known.pbrt -o demo.png
-expect 1 'there is no integrator bdtp; did you mean bdpt' "$lab" demo "$box" --with bdtp -o demo.png
+expect 2 'there is no method bdtp; did you mean bdpt' "$lab" demo "$box" --methods bdtp,asbdpt -o demo.png
 expect 2 'demo needs a picture to write' "$lab" demo "$box"
 
 # --- help
@@ -463,33 +472,43 @@ expect 1 'same size' "$lab" verify --images "$scenes/../ref/bathroom.pfm" "$scen
     a.pfm a.pfm
 expect 2 'usage: asbdpt-lab verify' "$lab" verify --images a.pfm
 expect 2 'no method nonsense' "$lab" verify "$box" --methods nonsense
+expect 2 'two methods are compared' "$lab" verify "$box" --methods pt,lt,bdpt
+expect 2 'is unknown: give' "$lab" verify "$box" --methods pt,asbdpt:select=bin
+expect 0 '' "$lab" verify "$box" --methods asbdpt:select=pool,asbdpt:select=vertices --res 12x12 --spp 8 \
+    --maxdepth 2 --quiet
+check grep -q '^B  asbdpt:select=vertices ' stdout.txt
 
 # --- experiment
-# experiment --equal-time: a table, a line for every variant and seed, and a number that may be left out.
+# equal-time: a table, a line for every method and seed, and a number that may be left out.
 tiny="--res 8x8 --seeds 2 --quiet"
-expect 0 '' "$lab" experiment --equal-time "$box" $tiny --spp 2 -o equal
+expect 0 '' "$lab" equal-time "$box" $tiny --spp 2 -o equal
 check grep -q 'geometric mean' stdout.txt
 check cmp -s stdout.txt equal/equal-time.md
 check [ "$(grep -c '^cornell-box,' equal/equal-time.csv)" = 10 ]
 check grep -q '^cornell-box,bdpt,5002,2,' equal/equal-time.csv
-expect 0 '' "$lab" experiment "$box" --equal-time --time 0.01 $tiny -o equal
-check grep -q -e '--equal-time --time 0.01 --seeds 2' stdout.txt
+expect 0 '' "$lab" equal-time "$box" --methods bdpt,asbdpt:select=pool --seconds 0.01 $tiny -o equal
+check grep -q -e 'equal-time --seconds 0.01 --methods bdpt,asbdpt:select=pool --seeds 2' stdout.txt
+check [ "$(grep -c '^cornell-box,asbdpt:select=pool,' equal/equal-time.csv)" = 2 ]
 # A reference is of the scene, or it is none: another's of the same name is refused, and no reference is not kept quiet.
 mkdir -p bathroom/ref
 cp "$box" bathroom/scene.pbrt
 cp "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.txt" bathroom/ref
 tiny="--seeds 1 --spp 1 --reference-spp 4"
 expect 0 'bathroom.pfm.* is of another scene: measured at 48x48 pixels' \
-    "$lab" experiment --equal-time bathroom/scene.pbrt $tiny -o foreign
+    "$lab" equal-time bathroom/scene.pbrt $tiny -o foreign
 expect 1 'bathroom.pfm.* is of another scene$' \
-    "$lab" experiment --equal-time bathroom/scene.pbrt --reference bathroom/ref $tiny --quiet -o foreign
+    "$lab" equal-time bathroom/scene.pbrt --reference bathroom/ref $tiny --quiet -o foreign
 sed -i.old '/^content/d' bathroom/ref/bathroom.txt
 expect 0 'does not say what scene it is of: measured at 48x48' \
-    "$lab" experiment --equal-time bathroom/scene.pbrt $tiny -o foreign
+    "$lab" equal-time bathroom/scene.pbrt $tiny -o foreign
 expect 1 'have the same name, bathroom' \
-    "$lab" experiment --equal-time bathroom/scene.pbrt "$scenes/bathroom.pbrt" $tiny --quiet -o foreign
-expect 2 'equal times are those of one thread' "$lab" experiment "$box" --equal-time -j 2 $tiny -o equal
-expect 2 '[-]-time 0: expected a number from 0.001' "$lab" experiment "$box" --equal-time --time 0 $tiny -o equal
+    "$lab" equal-time bathroom/scene.pbrt "$scenes/bathroom.pbrt" $tiny --quiet -o foreign
+expect 2 'unknown option -j' "$lab" equal-time "$box" -j 2 $tiny -o equal
+expect 2 '[-]-seconds 0: expected a number from 0.001' "$lab" equal-time "$box" --seconds 0 $tiny -o equal
+for command in experiment equal-time; do
+    expect 2 'there is no method bdtp; did you mean bdpt' "$lab" $command "$box" --methods bdtp -o equal
+done
+expect 2 'there is no parameter "selects"' "$lab" experiment "$box" --sweep pt,asbdpt:selects=bins -o equal
 
 # --- convert
 # convert: linear formats keep light (.float.exr exactly), 8-bit ones what they hold; - reads and writes PFM.

@@ -1,5 +1,6 @@
 # expect.sh: what the tests of the program from outside share; they read it by `. test/expect.sh`, from the top, with
-# PROGRAM as the first argument; the laboratory lies beside it. It leads into an empty directory that goes away in the end.
+# PROGRAM as the first argument; the laboratory lies beside it. It leads into an empty directory that goes away in the
+# end.
 program=$1 top=$PWD
 case $program in /*) ;; *) program=$top/$program ;; esac
 lab=$program-lab scenes=$top/scenes

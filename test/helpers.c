@@ -113,13 +113,21 @@ struct batches render_batches(struct test *t, const struct scene *scene, const c
     return tiles;
 }
 
+bool read_reference(struct test *t, const char *path, struct side *out)
+{
+    char errors[300];
+    const char *both[2] = {path, errors};
+    struct error err = {""};
+    return CHECK(t, side_errors_path(path, errors, sizeof errors, &err) && side_read(both, 2, true, NULL, out, &err),
+                 "%s", err.text);
+}
+
 bool load_reference(struct test *t, const char *name, int tile, int *width, int *height, struct batches *out)
 {
     char path[256];
-    struct error err;
     struct side side = {0};
     snprintf(path, sizeof path, "ref/%s.pfm", name);
-    bool ok = CHECK(t, side_read_reference(path, &side, &err), "%s", err.text);
+    bool ok = read_reference(t, path, &side);
     *width = side.width;
     *height = side.height;
     if (ok)

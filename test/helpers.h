@@ -6,6 +6,7 @@
 #include "base/rng.h"
 #include "image/image.h"
 #include "integrators/method.h"
+#include "lab/sides.h"
 #include "lab/verify.h"
 #include "scene/scene.h"
 #include "test.h"
@@ -37,6 +38,9 @@ struct transform random_affine(struct rng *r);
  * over square tiles of `tile` pixels. */
 struct batches render_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth, int spp,
                               int n_batches, int tile, uint64_t seed);
+
+/* read_reference: a stored picture, NAME.pfm, with its errors. A failure is a failed check; returns false. */
+bool read_reference(struct test *t, const char *path, struct side *out);
 
 /* load_reference: the picture ref/NAME.pfm with its errors, averaged over square tiles. A failure is a failed check. */
 bool load_reference(struct test *t, const char *name, int tile, int *width, int *height, struct batches *out);

@@ -94,7 +94,8 @@ suites() {
     shift 3
     asked "$name" && able "$name" "$runner" "$build" || return
     program=$dir/$name.exe
-    sources="$(ls test/*.c test/lab/*.c | grep -v -e devices -e fuzz -e hostile) $(ls src/*/*.c | grep -v -e src/cli/main.c -e src/cli/program.c)"
+    sources="$(ls test/*.c test/lab/*.c | grep -v -e devices -e fuzz -e hostile)
+        $(ls src/*/*.c | grep -v -e src/cli/main.c -e src/cli/program.c)"
     command=$(echo "$build" | sed "s|-o [^ ]*|-Itest -o $program|; s|src/[^ ]*\.c|$(echo $sources)|")
     if ! $command 2>"$dir/log"; then
         say "$name" "FAIL: the tests do not compile"

@@ -27,7 +27,7 @@ why() {
     "make test" | "make check"* | "make mutants" | "make san" | "make tsan" | *run.sh*) echo "other tests" ;;
     "make portability" | "make ref" | "make experiments" | "make web" | "make inject") echo "over a minute" ;;
     "make install"* | "make clean") echo "changes the system or the tree" ;;
-    *"--equal-time"* | *"ajar.pbrt -o out/ajar.png "*) echo "over a minute" ;;
+    *"equal-time"* | *"ajar.pbrt -o out/ajar.png "*) echo "over a minute" ;;
     *"verify --images A"*) echo "placeholder" ;;
     *) echo "$1" | grep -Eq '(^|[ /])[A-Z]{2,}([ ./]|$)|\.\.\.' && echo "placeholder" ;;
     esac

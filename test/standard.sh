@@ -1,5 +1,5 @@
 #!/bin/sh
-# standard.sh [TOP]: TOP's src keeps to what is the same everywhere:
+# standard.sh [TOP]: TOP's src and test/lab keep to what is the same everywhere:
 #   1. it calls no function of libm that every library rounds in its own way, which would give pictures other bytes on
 #      another machine: base/maths.h has them. What IEEE 754 or C99 defines to the last bit (sqrt, fabs, floor, ceil,
 #      fmin, fmax, fmod, frexp, ldexp, nextafter) may be called;
@@ -37,4 +37,4 @@ LC_ALL=C awk '
             }
         }
     }
-    END { exit bad || NR == 0 }' $(find "$top/src" -name '*.[ch]' | sort)
+    END { exit bad || NR == 0 }' $(find "$top/src" "$top/test/lab" -name '*.[ch]' 2>/dev/null | sort)

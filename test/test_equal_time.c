@@ -1,4 +1,4 @@
-/* test_equal_time.c: integrators given equal time: the arithmetic and the table on planted numbers, and a tiny
+/* test_equal_time.c: methods given equal time: the arithmetic and the table on planted numbers, and a tiny
  * experiment carried out. A part of the test `report`. */
 #include <math.h>
 #include <stdio.h>
@@ -59,7 +59,7 @@ static void check_samples(struct test *t)
 
 enum { SCENES = 3, SEEDS = 2 };
 
-/* Planted: squared errors over bdpt's are 0.5, 4 and 1 for vertices, 0.25 for subspaces; rmse8 has twice the
+/* Planted: squared errors over bdpt's are 0.5, 4 and 1 for asbdpt, 0.25 for lvc; rmse8 has twice the
  * ratios of relmse, and noise 3 on top of it. */
 static void plant(struct plan *p, struct equal_time *e)
 {
@@ -71,6 +71,8 @@ static void plant(struct plan *p, struct equal_time *e)
     p->n_seeds = SEEDS;
     p->scene = mem_alloc(SCENES, sizeof *p->scene);
     p->directory = "results";
+    p->command = "equal-time --spp 32";
+    plan_set_methods(p, "bdpt,asbdpt,lvc", NULL);
     plan_set_spp(p, 32, 32, NULL);
     e->plan = p;
     e->n_scenes = SCENES;
@@ -139,14 +141,13 @@ static void check_ratios(struct test *t, const struct equal_time *e)
 static void check_files(struct test *t, const struct equal_time *e)
 {
     static const char *const lines[] = {
-        ("| scene | seconds | spp: bdpt, vertices, subspaces, lvc, combinatorial | ASBDPT vertices, rmse8 | ASBDPT "
-         "vertices, relmse |"),
-        "| b | 2 | 32, 24, 16, 0, 0 | 8.000 [",
+        "| scene | seconds | spp of each | asbdpt, rmse8 | asbdpt, relmse | lvc, rmse8 | lvc, relmse |",
+        "| b | 2 | 32, 24, 16 | 8.000 [",
         "| **geometric mean** | | | **2.520** of 3 | **1.260** of 3 |",
         "| **best** | | | **1.000** a | **0.500** a |",
         "| **WORST** | | | **8.000** b | **4.000** b |",
-        "- ASBDPT vertices: 6 of 6 renders took the given time within 3 %",
-        "./asbdpt experiment --equal-time --spp 32 --seeds 2 --reference-spp 0 -o results \\\n",
+        "- asbdpt: 6 of 6 renders took the given time within 3 %",
+        "    ./asbdpt-lab equal-time --spp 32 -o results \\\n",
         "\n        a.pbrt b.pbrt c.pbrt\n"};
     char last[256];
     memcpy(last, e->scene[2].name, sizeof last);
@@ -158,8 +159,8 @@ static void check_files(struct test *t, const struct equal_time *e)
     char *table = written(t, e, equal_table), *csv = written(t, e, equal_csv);
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
         CHECK(t, strstr(table, lines[i]) != NULL, "the table lacks %s:\n%s", lines[i], table);
-    CHECK(t, strncmp(csv, "scene,variant,seed,spp,seconds,rmse8,relmse,", 44) == 0, "head of the CSV: %.60s", csv);
-    CHECK(t, strstr(csv, "\nb,vertices,5102,24,2,") != NULL, "a line of the CSV:\n%s", csv);
+    CHECK(t, strncmp(csv, "scene,method,seed,spp,seconds,rmse8,relmse,", 43) == 0, "head of the CSV: %.60s", csv);
+    CHECK(t, strstr(csv, "\nb,asbdpt,5102,24,2,") != NULL, "a line of the CSV:\n%s", csv);
     free(table);
     free(csv);
 }
@@ -177,6 +178,9 @@ static void check_run(struct test *t)
     p.directory = directory;
     p.quiet = true;
     plan_set_spp(&p, 32, 32, NULL);
+    p.command = "";
+    CHECK(t, plan_set_methods(&p, METHODS_EQUAL_TIME, &err) && p.methods.n == 5, "%s", err.text);
+    CHECK(t, plan_set_methods(&p, "bdpt,lvc,asbdpt:select=bins", &err), "%s", err.text); /* those that begin quickly */
     for (int bdpt = 0; bdpt < 2; bdpt++) { /* so many seconds; the time of bdpt */
         e.seconds = bdpt ? 0 : 0.02;
         if (!CHECK(t, equal_run(&e, &err), "%s", err.text))
@@ -184,7 +188,7 @@ static void check_run(struct test *t)
         const struct equal_scene *s = &e.scene[0];
         CHECK(t, e.n_scenes == 1 && s->width == 8 && s->max_depth == 6, "width %d, depth %d", s->width, s->max_depth);
         CHECK(t, isfinite(s->noise8) && s->noise8 > 0, "the stored reference's noise: %g", s->noise8);
-        for (int v = 0; v < N_EQUAL; v++)
+        for (int v = 0; v < p.methods.n; v++)
             for (int i = 0; i < 2; i++) {
                 const struct equal_render *r = &s->render[v][i];
                 CHECK(t, r->seed == 5000 + 100 * v + i + 1 && r->spp >= 1 && r->rmse8 > 0 && r->relmse > 0,
@@ -204,7 +208,6 @@ void test_equal_time(struct test *t)
     check_law(t, 0.03);
     check_law(t, -0.03);
     check_samples(t);
-    CHECK(t, strcmp(EQUAL_VARIANTS[0].name, "bdpt") == 0, "bdpt is the first variant");
     plant(&p, &e);
     check_files(t, &e);
     check_ratios(t, &e);

@@ -72,14 +72,17 @@ static void test_demo(struct test *t)
 {
     struct error err = {""};
     struct sheet sheet;
-    struct demo_side side[DEMO_SIDES];
-    struct demo demo = {.scene = "scenes/cornell-box.pbrt", .spp = 2, .scale = 2, .n_threads = 1, .seed = 7,
-                        .quiet = true};
-    demo.integrator[0] = demo.integrator[1] = "bdpt";
+    enum { SIDES = 2 };
+    struct equal_render side[SIDES];
+    struct demo demo = {.scene = "scenes/cornell-box.pbrt", .spp = 2, .scale = 2, .n_threads = 1, .seed = 7};
+    demo.methods.n = SIDES; /* the same twice, which a list has not */
+    snprintf(demo.methods.item[0].text, METHOD_TEXT, "bdpt");
+    snprintf(demo.methods.item[0].integrator, 32, "bdpt");
+    demo.methods.item[1] = demo.methods.item[0];
     int width, height;
     float *ref = load_linear("ref/cornell-box.pfm", &width, &height, NULL, &err);
     bool ok = CHECK(t, ref != NULL && demo_run(&demo, side, &sheet, &err), "%s", err.text);
-    for (int i = 0; ok && i < DEMO_SIDES; i++) {
+    for (int i = 0; ok && i < SIDES; i++) {
         /* Pictures of 64 x 64 pixels, each a square of k x k, 24 pixels apart: take one back out of the sheet. */
         int k = (sheet.width - 4 * 24) / 3 / 64, left = 24 + i * (64 * k + 24), top = sheet.height - 24 - 64 * k;
         float mean[32 * 32 * 3] = {0};

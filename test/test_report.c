@@ -7,20 +7,18 @@
 
 #include "base/file.h"
 #include "base/mem.h"
-#include "base/number.h"
 #include "base/rng.h"
+#include "lab/stats.h"
 #include "image/image.h"
+#include "look/compare.h"
 #include "lab/experiment.h"
 #include "lab/figures.h"
-#include "lab/findings.h"
+#include "look/markup.h"
 #include "lab/pictures.h"
 #include "lab/plan_scene.h"
 #include "lab/published.h"
 #include "lab/report.h"
-#include "lab/stats.h"
 #include "lab/tables.h"
-#include "look/compare.h"
-#include "look/markup.h"
 #include "parser/parser.h"
 #include "helpers.h"
 #include "tests.h"
@@ -96,11 +94,6 @@ static void test_statistics(struct test *t)
     CHECK(t, isnan(results_ratio(below, 2, b, 2).value), "error below the reference's noise has no ratio");
     TEST_ACCEPT(t, coverage_p(t, 1), "95 %% intervals of a ratio hold it at least 95 times of 100");
     TEST_REJECT(t, coverage_p(t, 0.7), "intervals drawn in to 0.7 hold it as often");
-
-    struct interval gain = {0.5, 0.4, 0.9}, loss = {2, 1.1, 3}, open = {0.9, 0.7, 1.2}, single = {0.5, NAN, NAN};
-    CHECK(t, outcome_of(gain) == OUTCOME_GAIN && outcome_of(loss) == OUTCOME_LOSS, "outcomes of clear intervals");
-    CHECK(t, outcome_of(open) == OUTCOME_UNDECIDED && outcome_of(single) == OUTCOME_UNDECIDED,
-          "an interval that holds 1, or none, decides nothing");
 }
 
 /* --- plots ------------------------------------------------------------------------------------------- */
@@ -123,22 +116,23 @@ static void check_axis(struct test *t, const struct plot_axis *a)
     CHECK(t, majors >= (a->logarithmic ? 1 : 3) && majors <= 14, "%d numbers on [%g, %g]", majors, a->low, a->high);
 }
 
-/* One estimate of the error everywhere: that over seeds, by which 3.160 +- 0.099 % is a bias, and 0.160 is none. */
+/* The errors of the seeds' mean and of the reference's: 3.160 +- 0.099 % is a bias, and 0.160 is none. */
 static void test_bias(struct test *t)
 {
-    struct plan p = {.n_seeds = 3};
+    enum { METHOD = 1 };
+    struct plan p = {.n_seeds = 3, .n_compared = 2};
     struct scene_results *s = mem_alloc(1, sizeof *s);
     s->plan = &p;
     s->reference.mean_error = 0.0004;
     for (int biased = 0; biased < 2; biased++) {
         for (int i = 0; i < 3; i++)
-            s->run[VARIANT_BINS][i].step[0].value[Q_MEAN_ERROR] = 0.0016 + 0.03 * biased + 0.001715 * (i - 1);
-        struct estimate e = results_mean(s, VARIANT_BINS, 0, Q_MEAN_ERROR);
-        struct bias b = results_bias(s, VARIANT_BINS, 0);
+            s->run[METHOD][i].step[0].value[Q_MEAN_ERROR] = 0.0016 + 0.03 * biased + 0.001715 * (i - 1);
+        p.n_steps = 1;
+        struct estimate e = results_mean(s, METHOD, 0, Q_MEAN_ERROR);
+        double found = results_bias_p(s, METHOD, 0);
         double error = sqrt(e.error * e.error + 0.0004 * 0.0004), dof = 2 * pow(error / e.error, 4);
-        CHECK(t, b.mean == e.mean && b.error == e.error, "%g +- %g, but %g +- %g in the table", b.mean, b.error, e.mean,
-              e.error);
-        CHECK(t, fabs(b.p - stats_student_p(e.mean / error, dof)) < 1e-12 && (b.p < 0.01) == biased, "p is %g", b.p);
+        CHECK(t, fabs(found - stats_student_p(e.mean / error, dof)) < 1e-12 && (found < 0.01) == biased,
+              "p is %g", found);
     }
     free(s);
 }
@@ -205,18 +199,8 @@ static int csv_lines(const char *p)
 
 static void test_markup(struct test *t)
 {
-    static const char *const plain[] = {"", "f", "fo", "foo", "foob", "fooba", "foobar"}; /* [RFC 4648 10] */
-    static const char *const coded[] = {"", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"};
     char path[256];
     snprintf(path, sizeof path, "%s/markup", test_tmp(t));
-    for (size_t i = 0; i < 7; i++) {
-        FILE *f = fopen(path, "w");
-        base64(f, (const uint8_t *)plain[i], strlen(plain[i]));
-        fclose(f);
-        char *text = text_of(t, path);
-        CHECK(t, strcmp(text, coded[i]) == 0, "base64 of %s is %s", plain[i], text);
-        free(text);
-    }
     FILE *f = fopen(path, "w");
     xml_print(f, "<%s>%s</p> %d %04ld %.1f %s|", "p", "a<b & \"c\" %d", 3, 14L, 0.25, "x");
     fclose(f);
@@ -238,6 +222,11 @@ static const char ROOM[] =
     "ReverseOrientation\nTranslate .4 .4 .3\nAreaLightSource \"diffuse\" \"rgb L\" %s\n"
     "Shape \"sphere\" \"float radius\" .1\nWorldEnd\n";
 
+/* What is measured: four methods, and a sweep that holds the second of them and another. */
+enum { POOL = 2, N_METHODS = 5, COMPARED = 4 };
+static const char METHODS[] = "bdpt,asbdpt:select=bins/pool/subspaces";
+static const char SWEEP[] = "asbdpt:select=bins,asbdpt:select=bins:restart=0";
+
 struct setup {
     char scene_path[300], directory[300];
     const char *scene[1];
@@ -255,13 +244,16 @@ static void write_scene(const char *path, const char *emission)
 /* A plan of one scene in a directory of its own. */
 static void set_up(struct test *t, const char *name, struct setup *s)
 {
+    struct error err = {""};
     memset(s, 0, sizeof *s);
     snprintf(s->scene_path, sizeof s->scene_path, "%s/cornell-box.pbrt",
              test_tmp(t)); /* a scene with printed numbers */
     snprintf(s->directory, sizeof s->directory, "%s/%s", test_tmp(t), name);
     write_scene(s->scene_path, "[6 6 6]");
-    plan_preset(&s->plan, true);
+    CHECK(t, plan_set_methods(&s->plan, METHODS, &err) && plan_add_sweep(&s->plan, SWEEP, &err), "%s",
+          err.text);
     plan_set_spp(&s->plan, 16, 64, NULL);
+    s->plan.command = "experiment";
     s->scene[0] = s->scene_path;
     s->plan.scene = s->scene;
     s->plan.n_scenes = 1;
@@ -283,7 +275,7 @@ static bool carry_out(struct test *t, struct setup *s, struct results *out)
 /* Are all measurements but the times the same, and the times too if `times`? */
 static bool same_results(const struct results *a, const struct results *b, bool times)
 {
-    for (int v = 0; v < N_VARIANTS; v++)
+    for (int v = 0; v < N_METHODS; v++)
         for (int seed = 0; seed < plan_seeds(a->plan, v); seed++)
             for (int i = 0; i < a->plan->n_steps; i++) {
                 const struct run_step *p = &a->scene[0].run[v][seed].step[i],
@@ -297,14 +289,14 @@ static bool same_results(const struct results *a, const struct results *b, bool 
     const struct reference *r = &a->scene[0].reference, *s = &b->scene[0].reference;
     if (r->noise8 != s->noise8 || r->mean_error != s->mean_error)
         return false;
-    for (int v = 0; v < N_COMPARED; v++)
+    for (int v = 0; v < COMPARED; v++)
         if (memcmp(a->scene[0].image[v], b->scene[0].image[v], 8 * 6 * 3 * sizeof(float)) != 0)
             return false;
     return true;
 }
 
 /* The step's picture rendered in one go, without the experiment. */
-static double direct_rmse8(struct test *t, const struct results *r, int variant, int step)
+static double direct_rmse8(struct test *t, const struct results *r, int method, int step)
 {
     struct scene scene;
     struct film film;
@@ -312,10 +304,15 @@ static double direct_rmse8(struct test *t, const struct results *r, int variant,
     float pixels[8 * 6 * 3];
     if (!scene_from_file(t, r->scene[0].path, 8, 6, &scene))
         return NAN;
-    variant_settings(&VARIANTS[variant], &scene.settings);
-    struct render_options o = {
-        .integrator = VARIANTS[variant].integrator, .n_threads = 2, .max_depth = 4};
-    o.seed = (uint64_t)plan_seed(variant, 1);
+    const struct measured *m = &r->plan->methods.item[method];
+    struct settings base = {0}, s = {0};
+    settings_set(&base, "rrthreshold", "0", "test");
+    s = measured_settings(m, &base);
+    settings_clear(&base);
+    settings_clear(&scene.settings);
+    scene.settings = s;
+    struct render_options o = {.integrator = m->integrator, .n_threads = 2, .max_depth = 4};
+    o.seed = (uint64_t)plan_seed(method, 1);
     o.end = r->plan->spp[step];
     film_init(&film, render_crop(&scene), 8, 6);
     CHECK(t, render_scene(&scene, &o, &film, &err), "%s", err.text);
@@ -332,11 +329,11 @@ static void check_runs(struct test *t, const struct results *r)
     CHECK(t, s->width == 8 && s->height == 6 && s->max_depth == 4, "%dx%d, depth %d", s->width, s->height,
           s->max_depth);
     CHECK(t, strcmp(s->name, "cornell-box") == 0, "scene name %s", s->name);
-    for (int v = 0; v < N_VARIANTS; v++)
-        for (int i = 0; i < r->plan->n_steps && plan_seeds(r->plan, v) > 0; i++) {
+    for (int v = 0; v < N_METHODS; v++)
+        for (int i = 0; i < r->plan->n_steps; i++) {
             double direct = direct_rmse8(t, r, v, i), ours = s->run[v][0].step[i].value[Q_RMSE8];
             CHECK(t, fabs(direct - ours) < 1e-9, "%s after %ld spp: rmse8 %g, rendered in one go %g",
-                  VARIANTS[v].name, r->plan->spp[i], ours, direct);
+                  r->plan->methods.item[v].text, r->plan->spp[i], ours, direct);
         }
     const struct run_step *step = s->run[0][0].step;
     double seconds[2] = {step[0].value[Q_SECONDS], step[r->plan->n_steps - 1].value[Q_SECONDS]};
@@ -348,29 +345,29 @@ static void check_tables(struct test *t, const struct results *r)
     const struct scene_results *s = &r->scene[0];
     struct table table;
     int last = r->plan->n_steps - 1;
-    const struct run_step *a = &s->run[VARIANT_POOL][0].step[last], *b = &s->run[VARIANT_POOL][1].step[last];
+    const struct run_step *a = &s->run[POOL][0].step[last], *b = &s->run[POOL][1].step[last];
     table_make(r, s, TABLE_RMSE, &table);
-    size_t cell = (size_t)last * table.columns + 1 + VARIANT_POOL;
+    size_t cell = (size_t)last * table.columns + 1 + POOL;
     double x = a->value[Q_RMSE8], y = b->value[Q_RMSE8], mean = 0.5 * (x + y), error = 0.5 * fabs(x - y);
     CHECK(t, table.cell[cell].value == mean, "RMSE of pool in the table: %g, computed: %g", table.cell[cell].value,
           mean);
-    struct estimate e = results_mean(s, VARIANT_POOL, last, Q_RMSE8);
+    struct estimate e = results_mean(s, POOL, last, Q_RMSE8);
     CHECK(t, fabs(e.error - error) < 1e-12, "standard error of two values: %g, %g", e.error, error);
     table_free(&table);
 
     double n2 = s->reference.noise8 * s->reference.noise8, cost[2] = {0, 0};
     for (int v = 0; v < 2; v++)
         for (int i = 0; i < 2; i++) {
-            const struct run_step *p = &s->run[v == 0 ? VARIANT_BDPT : VARIANT_POOL][i].step[last];
+            const struct run_step *p = &s->run[v == 0 ? 0 : POOL][i].step[last];
             cost[v] += 0.5 * (p->value[Q_RMSE8] * p->value[Q_RMSE8] - n2) * p->value[Q_SECONDS];
         }
-    table_make(r, s, TABLE_EQUAL_TIME, &table);
-    cell = (size_t)last * table.columns + 1 + N_COMPARED + VARIANT_POOL - 1;
+    table_make(r, s, TABLE_COST, &table);
+    cell = (size_t)last * table.columns + 1 + COMPARED + POOL - 1;
     CHECK(t, !(cost[0] > 0 && cost[1] > 0) || fabs(table.cell[cell].value * cost[0] / cost[1] - 1) < 1e-9,
           "equal-time ratio of pool in the table: %g, computed: %g", table.cell[cell].value, cost[1] / cost[0]);
     table_free(&table);
 
-    CHECK(t, table_make(r, s, TABLE_PUBLISHED, &table), "the scene has printed numbers");
+    CHECK(t, table_make(r, s, TABLE_PRINTED, &table), "the scene has printed numbers");
     const struct published *p = published_find("cornell-box");
     cell = table_rows(&table) * table.columns - 1;
     CHECK(t, table.cell[cell].value == p->asbdpt[4] / p->bdpt[4], "the last printed ratio: %g",
@@ -378,35 +375,39 @@ static void check_tables(struct test *t, const struct results *r)
     table_free(&table);
 }
 
-/* What the range of a picture is decoded to is the picture, but for half a step of its brightest channel's mantissa. */
-static void check_range(struct test *t, const struct results *r)
+/* The heat map of a method on the sheet has the colours that its errors have on the common scale. */
+static void check_sheet(struct test *t, const struct results *r)
 {
     const struct scene_results *s = &r->scene[0];
     struct image img;
     struct error err = {""};
     char path[512];
-    double largest = 0;
-    picture_path(s, VARIANT_POOL, PICTURE_RANGE, 0, path, sizeof path);
+    snprintf(path, sizeof path, "%s/images/cornell-box.png", r->plan->directory);
     if (!CHECK(t, image_read(path, &img, &err), "%s", err.text))
         return;
-    int half = 3 * s->width * s->height;
-    for (int i = 0; img.height == 2 * s->height && i < half; i++) {
-        const float *pixel = s->image[VARIANT_POOL] + i / 3 * 3;
-        double most = fmax((double)pixel[0], fmax((double)pixel[1], (double)pixel[2]));
-        double value = img.u8[half + i] > 0 ? ldexp(img.u8[i], img.u8[half + i] - 136) : 0;
-        largest = most_of(largest, fabs(value - (double)pixel[i % 3]) - most / 256);
+    int k = COLUMN_WIDTH / s->width, column = s->width * k + COLUMN_GAP;
+    CHECK(t, img.width == (COMPARED + 1) * column + COLUMN_GAP, "%d columns of %d", COMPARED + 1, column);
+    int below = img.height - COLUMN_GAP - s->height * k;
+    double scale = pictures_error_scale(s);
+    CHECK(t, scale > 0, "the scale is %g", scale);
+    for (int i = 0; i < s->width * s->height; i++) {
+        float e = (float)compare_pixels(s->image[POOL] + 3 * i, s->reference.pixels + 3 * i, 3).rmse8, colour[3];
+        int x = COLUMN_GAP + (POOL + 1) * column + i % s->width * k, y = below + i / s->width * k;
+        compare_heatmap(&e, 1, scale, colour);
+        for (int c = 0; c < 3; c++)
+            CHECK(t, srgb_byte((double)colour[c]) == img.u8[3 * (y * img.width + x) + c], "pixel %d, error %g of %g", i,
+                  (double)e, scale);
     }
-    CHECK(t, img.height == 2 * s->height && largest < 1e-6, "the decoded range is off by %g", largest);
     image_free(&img);
 }
 
-/* Every file the experiment leaves is well-formed, and the page needs nothing but itself. */
+/* Every file the experiment leaves is well-formed, and every one that the page names is there. */
 static void check_output(struct test *t, const struct results *r)
 {
-    static const char *const plots[] = {"convergence", "samples", "bias", "paths-per-set", "restart-limit"};
+    static const char *const plots[] = {"convergence", "samples", "bias", "sweep-1"};
     struct error err = {""};
     CHECK(t, report_write(r, &err), "output: %s", err.text);
-    check_range(t, r);
+    check_sheet(t, r);
     for (size_t i = 0; i < sizeof plots / sizeof plots[0]; i++) {
         char name[128];
         snprintf(name, sizeof name, "plots/cornell-box-%s.svg", plots[i]);
@@ -414,46 +415,35 @@ static void check_output(struct test *t, const struct results *r)
         CHECK(t, xml_ok(svg) && strstr(svg, "nan") == NULL && strstr(svg, "inf\"") == NULL, "%s", name);
         free(svg);
     }
-    int variants = 0, runs = 0;
-    for (int v = 0; v < N_VARIANTS; v++) {
-        variants += plan_seeds(r->plan, v) > 0;
+    int runs = 0;
+    for (int v = 0; v < N_METHODS; v++)
         runs += plan_seeds(r->plan, v);
-    }
     char *means = output_of(t, r, "results.csv"), *each = output_of(t, r, "runs.csv");
-    CHECK(t, csv_lines(means) == 1 + variants * r->plan->n_steps, "results.csv has %d lines", csv_lines(means));
+    CHECK(t, csv_lines(means) == 1 + N_METHODS * r->plan->n_steps, "results.csv has %d lines", csv_lines(means));
     CHECK(t, csv_lines(each) == 1 + runs * r->plan->n_steps, "runs.csv has %d lines", csv_lines(each));
     free(means);
     free(each);
 
-    char *html = output_of(t, r, "report.html");
-    int images = 0, with_text = 0;
-    for (const char *p = html; (p = strstr(p, "<img ")) != NULL; p++) {
-        images++;
-        with_text += strncmp(p, "<img alt=\"", 10) == 0 && p[10] != '"';
+    char *page = output_of(t, r, "results.md");
+    int named = 0;
+    for (const char *p = page; (p = strstr(p, "](")) != NULL; p += 2, named++) {
+        char path[512];
+        snprintf(path, sizeof path, "%s/%.*s", r->plan->directory, (int)strcspn(p + 2, ")"), p + 2);
+        CHECK(t, file_exists(path), "%s, which the page names, is not there", path);
     }
-    int shown = (2 * N_COMPARED + 1) * (1 + N_DETAILS), ranges = N_COMPARED + 1;
-    CHECK(t, images == shown + ranges + 1 && with_text == images, "%d images, %d described",
-          images, with_text);
-    CHECK(t,
-          strstr(html, "src=\"http") == NULL && strstr(html, "href=\"http") == NULL && strstr(html, "url(") == NULL,
-          "the page asks for nothing from elsewhere");
-    CHECK(t, strstr(html, "</html>") != NULL && strstr(html, ">nan") == NULL, "the page is whole");
-    free(html);
+    CHECK(t, named == 2 + 2 + 4 && strstr(page, "nan") == NULL, "the page names %d files", named);
+    free(page);
 }
 
 /* What is not known of a reference is said to be so. */
 static void check_unknown(struct test *t, struct results *r)
 {
     struct table table;
-    struct findings list;
     double *error = &r->scene[0].reference.mean_error, known = *error;
     *error = NAN;
     table_make(r, &r->scene[0], TABLE_BIAS, &table);
     CHECK(t, strstr(table.caption, "error: not known)") != NULL, "caption \"%s\"", table.caption);
     table_free(&table);
-    findings_make(r, &r->scene[0], &list);
-    for (int i = 0; i < list.n; i++)
-        CHECK(t, strstr(list.text[i], "nan") == NULL, "finding \"%s\"", list.text[i]);
     *error = known;
 }
 
@@ -464,7 +454,7 @@ static void check_again(struct test *t, struct setup *s, const struct results *f
     struct results again;
     carry_out(t, s, &again);
     CHECK(t, same_results(first, &again, times) == same, "%s", what);
-    again.scene[0].run[VARIANT_POOL][0] = again.scene[0].run[VARIANT_POOL][1];
+    again.scene[0].run[POOL][0] = again.scene[0].run[POOL][1];
     CHECK(t, !same_results(first, &again, false), "two seeds have different results");
     results_free(&again);
 }
@@ -487,9 +477,9 @@ static void test_experiment(struct test *t)
     /* Started again, nothing is done twice: even the times are the old ones. */
     check_again(t, &s, &first, true, true, "an experiment started again has the same results");
     /* Interrupted: one run is lost, one is damaged. */
-    snprintf(path, sizeof path, "%s/runs/cornell-box--bins--seed1.csv", s.directory);
+    snprintf(path, sizeof path, "%s/runs/cornell-box--asbdpt-select-bins--seed1.csv", s.directory);
     CHECK(t, remove(path) == 0, "%s exists", path);
-    snprintf(path, sizeof path, "%s/runs/cornell-box--pool--seed2.csv", s.directory);
+    snprintf(path, sizeof path, "%s/runs/cornell-box--asbdpt-select-pool--seed2.csv", s.directory);
     FILE *f = fopen(path, "a");
     fputs("64,1", f);
     fclose(f);
@@ -510,29 +500,50 @@ static void test_experiment(struct test *t)
 
 /* --- the plan and the reference ---------------------------------------------------------------------- */
 
+static void test_methods(struct test *t)
+{
+    static const char *const wrong[][2] = {
+        {"bdtp", "did you mean bdpt"}, {"bdpt,", "expected methods"}, {"bdpt,bdpt", "given twice"},
+        {"asbdpt:select", "expected NAME=VALUE"}, {"asbdpt:selects=bins", "no parameter \"selects\""},
+        {"asbdpt:select=bin", "\"bin\" is unknown"}, {"asbdpt:select=bins:restart=x", "restart = \"x\""},
+        {"bdpt:select=bins", "no parameter \"select\""}, {"lt:rrthreshold=0/1/0", "given twice"}};
+    struct methods m;
+    struct error err = {""};
+    CHECK(t, methods_read("bdpt,asbdpt:select=bins/pool,asbdpt:select=bins:restart=0/8:binpaths=4/16", &m, &err), "%s",
+          err.text);
+    CHECK(t, m.n == 7 && strcmp(m.item[2].text, "asbdpt:select=pool") == 0, "%d methods, %s", m.n, m.item[2].text);
+    CHECK(t, strcmp(m.item[4].text, "asbdpt:select=bins:restart=0:binpaths=16") == 0, "%s", m.item[4].text);
+    CHECK(t, strcmp(m.item[4].file, "asbdpt-select-bins-restart-0-binpaths-16") == 0, "%s", m.item[4].file);
+    struct settings base = {0};
+    settings_set(&base, "restart", "32", "test");
+    settings_set(&base, "rrthreshold", "0", "test");
+    struct settings s = measured_settings(&m.item[4], &base);
+    CHECK(t, s.n == 4 && strcmp(settings_text(&s, "restart", ""), "0") == 0 &&
+                 strcmp(settings_text(&s, "binpaths", ""), "16") == 0 &&
+                 strcmp(settings_text(&s, "rrthreshold", ""), "0") == 0, "its own settings over the others'");
+    settings_clear(&s);
+    settings_clear(&base);
+    static const char *const usual[] = {METHODS_EXPERIMENT, METHODS_EQUAL_TIME, METHODS_DEMO, SWEEPS_FULL, SWEEPS_QUICK,
+                                        METHOD_REFERENCE "," METHOD_PARTNER "," METHOD_PRINTED, METHODS_BENCH};
+    for (size_t i = 0; i < sizeof usual / sizeof usual[0]; i++)
+        CHECK(t, methods_read(usual[i], &m, &err) && m.n > 0, "%s", err.text);
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
+        CHECK(t, !methods_read(wrong[i][0], &m, &err) && strstr(err.text, wrong[i][1]) != NULL, "%s: %s", wrong[i][0],
+              err.text);
+}
+
 static void test_plan(struct test *t)
 {
     struct plan p = {0};
     char name[64];
-    plan_preset(&p, true);
-    CHECK(t, p.n_steps == 4 && p.spp[0] == 8 && p.spp[3] == 64, "quick steps");
-    CHECK(t, plan_first_sample(&p, VARIANT_BDPT, 1) == 8, "bdpt continues any film");
-    CHECK(t, plan_first_sample(&p, VARIANT_BINS, 1) == 0 && plan_first_sample(&p, VARIANT_BINS, 3) == 32,
-          "bins continues a film only at a restart");
-    for (int i = 0; i < p.n_steps; i++)
-        CHECK(t, plan_first_sample(&p, VARIANT_SUBSPACES, i) == 0, "subspaces renders step %d on its own", i);
-    CHECK(t, plan_run_spp(&p, VARIANT_SUBSPACES) == 8 + 16 + 32 + 64, "and pays for every sample of every step");
-    plan_preset(&p, false);
-    CHECK(t, p.n_steps == 5 && p.spp[0] == 32 && p.spp[4] == 512, "full steps are the dissertation's");
+    struct error err = {""};
     CHECK(t, plan_set_spp(&p, 32, 100, NULL) && p.n_steps == 3 && p.spp[2] == 100,
           "the last step is what was asked for");
     CHECK(t, !plan_set_spp(&p, 1, 1L << 24, NULL), "too many steps are refused");
-    for (int i = 0; i < SWEEP_LENGTH; i++) {
-        CHECK(t, VARIANTS[SWEEPS[SWEEP_PATHS][i].variant].bin_paths == 4 << i, "paths %d", 4 << i);
-        CHECK(t, VARIANTS[SWEEPS[SWEEP_PATHS][i].variant].restart == 32, "only the paths move");
-        CHECK(t, VARIANTS[SWEEPS[SWEEP_RESTART][i].variant].restart == (i > 0 ? 4 << i : 0), "restart %d", i);
-        CHECK(t, VARIANTS[SWEEPS[SWEEP_RESTART][i].variant].bin_paths == 8, "only the restart moves");
-    }
+    CHECK(t, plan_set_methods(&p, "bdpt,asbdpt", &err) && plan_add_sweep(&p, "asbdpt,asbdpt:select=pool/bins", &err),
+          "%s", err.text);
+    CHECK(t, p.methods.n == 4 && p.n_compared == 2 && p.sweep[0].n == 3, "%d methods", p.methods.n);
+    CHECK(t, p.sweep[0].method[0] == 1 && p.sweep[0].method[2] == 3, "what is compared is not measured twice");
     plan_scene_name("a/b/veach-ajar/scene.pbrt", name, sizeof name);
     CHECK(t, strcmp(name, "veach-ajar") == 0, "name of a directory's scene: %s", name);
     plan_scene_name("scenes/bathroom.pbrt", name, sizeof name);
@@ -602,6 +613,7 @@ void test_report(struct test *t)
     test_bias(t);
     test_axes(t);
     test_markup(t);
+    test_methods(t);
     test_plan(t);
     test_reference(t);
     test_planned_scene(t);

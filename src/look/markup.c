@@ -38,16 +38,3 @@ void xml_print(FILE *f, const char *format, ...)
     }
     va_end(args);
 }
-
-void base64(FILE *f, const uint8_t *data, size_t size)
-{
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (size_t i = 0; i < size; i += 3) {
-        size_t n = size - i < 3 ? size - i : 3;
-        uint32_t bits = 0;
-        for (size_t k = 0; k < 3; k++)
-            bits = bits << 8 | (k < n ? data[i + k] : 0u);
-        for (size_t k = 0; k < 4; k++)
-            fputc(k <= n ? digits[bits >> (18 - 6 * k) & 63] : '=', f);
-    }
-}

@@ -1,4 +1,4 @@
-/* cmd_bench.c: asbdpt bench: how fast is each part of the program on given scenes?
+/* cmd_bench.c: asbdpt-lab bench: how fast is each part of the program on given scenes?
  *
  * Rates are per second of CPU time of one thread: other programs on the machine disturb them less than wall time.
  * Rays are either coherent, the camera's through neighbouring pixels, or incoherent: cosine-distributed directions from
@@ -19,6 +19,8 @@
 #include "base/sampler.h"
 #include "base/warp.h"
 #include "lab/commands.h"
+#include "lab/methods.h"
+#include "lab/timed.h"
 #include "parser/parser.h"
 #include "render/parameters.h"
 #include "render/render.h"
@@ -147,22 +149,19 @@ static bool render_once(const struct scene *s, const struct bench_options *o, co
                         double *wall, double *cpu, struct error *err)
 {
     struct render_options options = {
-        .integrator = integrator, .end = o->spp, .max_depth = o->max_depth};
-    struct film film;
-    options.n_threads = n_threads;
-    film_init(&film, render_crop(s), s->width, s->height);
-    *wall = os_wall_seconds();
-    *cpu = os_cpu_seconds();
-    bool ok = render_scene(s, &options, &film, err);
-    *wall = os_wall_seconds() - *wall;
-    *cpu = os_cpu_seconds() - *cpu;
-    film_free(&film);
-    return ok;
+        .integrator = integrator, .end = o->spp, .max_depth = o->max_depth, .n_threads = n_threads};
+    struct timed took;
+    if (!timed_render(s, &options, &took, err))
+        return false;
+    free(took.pixels);
+    *wall = took.wall;
+    *cpu = took.seconds;
+    return true;
 }
 
 static bool measure_renders(const struct scene *s, const struct bench_options *o, double *value, struct error *err)
 {
-    static const char *const NAMES[] = {"pt", "bdpt", "asbdpt"};
+    static const char *const NAMES[] = {METHODS_BENCH};
     double paths = (double)o->spp * rect_width(render_crop(s)) * rect_height(render_crop(s));
     for (int i = 0; i < 3; i++) {
         double wall, cpu;
@@ -170,8 +169,8 @@ static bool measure_renders(const struct scene *s, const struct bench_options *o
             return false;
         value[PT + i] = cpu > 0 ? paths / cpu : 0;
     }
-    return render_once(s, o, "bdpt", 1, &value[WALL_1], &value[CPU_1], err) &&
-           render_once(s, o, "bdpt", o->n_threads, &value[WALL_N], &value[CPU_N], err);
+    return render_once(s, o, METHOD_REFERENCE, 1, &value[WALL_1], &value[CPU_1], err) &&
+           render_once(s, o, METHOD_REFERENCE, o->n_threads, &value[WALL_N], &value[CPU_N], err);
 }
 
 /* --- one scene ---------------------------------------------------------------------------------------- */

@@ -1,49 +1,36 @@
-/* cmd_experiment.c: asbdpt experiment: the dissertation's measurements, repeated; and integrators given equal time. */
+/* cmd_experiment.c: asbdpt-lab experiment: the dissertation's measurements, repeated; and asbdpt-lab equal-time:
+ * methods given the same time. */
 #include <stdio.h>
 #include <string.h>
 
-#include "base/mem.h"
 #include "base/parallel.h"
 #include "lab/commands.h"
 #include "lab/equal_run.h"
 #include "lab/experiment.h"
 #include "lab/report.h"
-#include "transport/path.h"
 
-/* The scenes measured when none is named, the first five of them unless times are equal; the program is run from the
- * top of its tree. */
+/* The scenes measured when none is named, the first five of them by `experiment`; the program is run from the top of
+ * its tree. */
 static const char *const SCENES[] = {
     "scenes/cornell-box.pbrt", "scenes/cornell-box-modified.pbrt", "scenes/veach-ajar.pbrt", "scenes/bathroom.pbrt",
     "scenes/living-room.pbrt", "scenes/caustic-glass.pbrt",        "scenes/sky.pbrt",        "scenes/spot.pbrt",
     "scenes/corridor.pbrt",    "scenes/many-lights.pbrt",          "scenes/forest.pbrt"};
 enum { N_SCENES = sizeof SCENES / sizeof SCENES[0], N_PUBLISHED = 5 };
-enum { EQUAL_SPP = 32, EQUAL_SEEDS = 5 }; /* unless said otherwise */
 
 /* What the options say; 0 and NULL: what the preset says. */
-struct experiment_options {
-    struct texts scenes;
-    const char *directory, *reference;
-    bool quick, full, equal_time, quiet;
-    double seconds; /* 0: as bdpt takes */
+struct plan_options {
+    struct texts scenes, sweeps;
+    const char *directory, *reference, *methods;
+    bool quick, full, quiet;
+    double seconds;
     int spp, reference_spp, seeds, max_depth, n_threads, res[2];
 };
 
-#define AT(member) offsetof(struct experiment_options, member)
-static const struct option OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes),
-     .help = "scene files (default: five of scenes/, with --equal-time all)"},
-    {"-o", "DIR", OPTION_TEXT, AT(directory), 1,
-     .help = "a directory for its results; started again with the same, it goes on (--equal-time: anew)"},
-    {"--quick", NULL, OPTION_ON, AT(quick), .help = "at the sizes of the references, 8 to 64 spp (default)"},
-    {"--full", NULL, OPTION_ON, AT(full), .help = "320 pixels wide, 32 to 512 spp, and all parameter sweeps"},
-    {"--equal-time", NULL, OPTION_ON, AT(equal_time),
-     .help = "give each the CPU time of bdpt's --spp 32, or --time; at the references' sizes"},
-    {"--time", "TIME", OPTION_NUMBER, AT(seconds), 0.001, 1e6, .with = "--equal-time", .help = "of CPU for each"},
-    {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20, .help = "most samples per pixel"},
-    {"--seeds", "N", OPTION_INTEGER, AT(seeds), 1, PLAN_MAX_SEEDS,
-     .help = "renders per method (default 3, --equal-time: 5)"},
+/* --- options ----------------------------------------------------------------------------------------- */
+
+#define AT(member) offsetof(struct plan_options, member)
+static const struct option SHARED[] = {
     {"--maxdepth", "N", OPTION_INTEGER, AT(max_depth), 1, PATH_MAX_DEPTH, .help = "longest path, 1 = direct light"},
-    {"--nthreads", "N", OPTION_INTEGER, AT(n_threads), 1, 1024, .alias = "-j", .help = "threads (default: all)"},
     {"--res", "WIDTH[xHEIGHT]", OPTION_INTEGER, AT(res), 1, 8192, .help = "size, or width alone"},
     {"--reference", "PATH", OPTION_TEXT, AT(reference),
      .help = "picture, or directory of NAME.pfm (default: ref/ beside the scene if of it, else rendered)"},
@@ -52,55 +39,132 @@ static const struct option OPTIONS[] = {
     {.name = NULL},
 };
 
-/* One step, and sizes left to the references, where nothing else is said. */
-static void make_equal(const struct experiment_options *o, struct plan *p)
-{
-    plan_set_spp(p, o->spp > 0 ? o->spp : EQUAL_SPP, o->spp > 0 ? o->spp : EQUAL_SPP, NULL);
-    p->width = o->res[0];
-    p->n_seeds = o->seeds > 0 ? o->seeds : EQUAL_SEEDS;
-    p->n_threads = 1;
-}
+static const struct option EXPERIMENT[] = {
+    {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes), .help = "scene files (default: five of scenes/)"},
+    {"-o", "DIR", OPTION_TEXT, AT(directory), 1,
+     .help = "a directory for its results; started again with the same, it goes on"},
+    {"--methods", "LIST", OPTION_TEXT, AT(methods), .help = METHODS_HELP " (default: " METHODS_EXPERIMENT ")"},
+    {"--sweep", "LIST", OPTION_TEXTS, AT(sweeps),
+     .help = "such a list in a table and plot of its own, one seed (default: two, unless there are --methods)"},
+    {"--quick", NULL, OPTION_ON, AT(quick), .help = "at the sizes of the references, 8 to 64 spp (default)"},
+    {"--full", NULL, OPTION_ON, AT(full), .help = "320 pixels wide, 32 to 512 spp, and longer sweeps"},
+    {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20, .help = "most samples per pixel"},
+    {"--seeds", "N", OPTION_INTEGER, AT(seeds), 1, PLAN_MAX_SEEDS, .fallback = "3", .help = "renders per method"},
+    {"--nthreads", "N", OPTION_INTEGER, AT(n_threads), 1, 1024, .alias = "-j", .help = "threads (default: all)"},
+    {.others = SHARED},
+};
 
-/* The steps of the samples stay doublings of the preset's first, up to --spp. */
-static bool make_plan(const struct experiment_options *o, struct plan *p, struct error *err)
+static const struct option EQUAL_TIME[] = {
+    {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes), .help = "scene files (default: eleven of scenes/)"},
+    {"-o", "DIR", OPTION_TEXT, AT(directory), 1, .help = "a directory for its results"},
+    {"--methods", "LIST", OPTION_TEXT, AT(methods), .fallback = METHODS_EQUAL_TIME, .help = METHODS_HELP},
+    {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20, .fallback = "32",
+     .help = "samples per pixel of the first method; the others are given its CPU time"},
+    {"--seconds", "T", OPTION_NUMBER, AT(seconds), 0.001, 1e6, .help = "instead: the CPU time that all are given"},
+    {"--seeds", "N", OPTION_INTEGER, AT(seeds), 1, PLAN_MAX_SEEDS, .fallback = "5", .help = "renders per method"},
+    {.others = SHARED},
+};
+
+/* --- the plan ---------------------------------------------------------------------------------------- */
+
+/* What both commands have in common. `command` becomes the command that carries the plan out again, after `how`. */
+static bool begin_plan(struct plan_options *o, int n_scenes, const char *how, char command[1024], struct plan *p,
+                       struct error *err)
 {
     memset(p, 0, sizeof *p);
-    plan_preset(p, !o->full);
+    if (o->scenes.n == 0)
+        for (int i = 0; i < n_scenes; i++)
+            texts_add(&o->scenes, SCENES[i]);
     p->scene = o->scenes.item;
     p->n_scenes = o->scenes.n;
     p->directory = o->directory;
     p->reference = o->reference;
+    p->reference_spp = o->reference_spp;
     p->quiet = o->quiet;
     p->max_depth = o->max_depth;
-    p->n_threads = o->n_threads;
-    if (o->res[0] > 0) {
-        p->width = o->res[0];
-        p->height = o->res[1];
-    }
-    if (o->seeds > 0)
-        p->n_seeds = o->seeds;
-    if (o->reference_spp > 0)
-        p->reference_spp = o->reference_spp;
-    if (o->equal_time)
-        make_equal(o, p);
-    return o->spp == 0 || plan_set_spp(p, o->spp < p->spp[0] ? o->spp : p->spp[0], o->spp, err);
+    p->n_seeds = o->seeds;
+    p->width = o->res[0];
+    p->height = o->res[1];
+    p->command = command;
+    int n = snprintf(command, 1024, "%s --methods %s --seeds %d --reference-spp %ld", how, o->methods, p->n_seeds,
+                     p->reference_spp);
+    if (p->width > 0)
+        n += snprintf(command + n, 1024 - (size_t)n, p->height > 0 ? " --res %dx%d" : " --res %d", p->width, p->height);
+    if (p->max_depth > 0)
+        n += snprintf(command + n, 1024 - (size_t)n, " --maxdepth %d", p->max_depth);
+    if (p->reference != NULL)
+        n += snprintf(command + n, 1024 - (size_t)n, " --reference %.400s", p->reference);
+    for (int i = 0; i < o->sweeps.n && n < 800; i++)
+        n += snprintf(command + n, 1024 - (size_t)n, " --sweep %.200s", o->sweeps.item[i]);
+    return plan_set_methods(p, o->methods, err);
 }
 
-static int carry_out(const struct plan *plan)
+/* The steps of the samples are doublings of the preset's first, up to --spp. */
+static bool plan_experiment(struct plan_options *o, char command[1024], struct plan *p, struct error *err)
 {
+    static const char *const sweeps[2][2] = {{SWEEPS_QUICK}, {SWEEPS_FULL}};
+    char how[64];
+    long first = o->full ? 32 : 8, last = o->spp > 0 ? o->spp : o->full ? 512 : 64;
+    if (o->methods == NULL && o->sweeps.n == 0)
+        for (int i = 0; i < 2; i++)
+            texts_add(&o->sweeps, sweeps[o->full][i]);
+    if (o->methods == NULL)
+        o->methods = METHODS_EXPERIMENT;
+    if (o->reference_spp == 0)
+        o->reference_spp = o->full ? 4096 : 256;
+    if (o->full && o->res[0] == 0)
+        o->res[0] = 320;
+    snprintf(how, sizeof how, "experiment --%s --spp %ld", o->full ? "full" : "quick", last);
+    bool ok = begin_plan(o, N_PUBLISHED, how, command, p, err) &&
+              plan_set_spp(p, last < first ? last : first, last, err);
+    p->n_threads = o->n_threads;
+    for (int i = 0; ok && i < o->sweeps.n; i++)
+        ok = plan_add_sweep(p, o->sweeps.item[i], err);
+    return ok;
+}
+
+static bool plan_equal_time(struct plan_options *o, char command[1024], struct plan *p, struct error *err)
+{
+    char how[64];
+    if (o->reference_spp == 0)
+        o->reference_spp = 256;
+    snprintf(how, sizeof how, "equal-time --spp %d", o->spp);
+    if (o->seconds > 0)
+        snprintf(how, sizeof how, "equal-time --seconds %g", o->seconds);
+    bool ok = begin_plan(o, N_SCENES, how, command, p, err) && plan_set_spp(p, o->spp, o->spp, err);
+    p->n_threads = 1;
+    return ok;
+}
+
+/* --- the commands ------------------------------------------------------------------------------------ */
+
+static int run_experiment(void *options)
+{
+    struct plan_options *o = options;
+    struct plan plan;
     struct error err;
     struct results results = {0};
-    bool ok = experiment_run(plan, &results, &err) && report_write(&results, &err);
-    if (ok && !plan->quiet)
-        printf("%s/report.html\n", plan->directory);
+    char command[1024];
+    if (o->quick && o->full)
+        return usage_error(&command_experiment, "--quick and --full exclude each other");
+    if (!plan_experiment(o, command, &plan, &err))
+        return usage_error(&command_experiment, "%s", err.text);
+    bool ok = experiment_run(&plan, &results, &err) && report_write(&results, &err);
+    if (ok && !plan.quiet)
+        printf("%s/results.md\n", plan.directory);
     results_free(&results);
     return ok ? EXIT_OK : fail(&err);
 }
 
-static int give_equal_time(const struct plan *plan, double seconds)
+static int run_equal_time(void *options)
 {
+    struct plan_options *o = options;
+    struct plan plan;
     struct error err;
-    struct equal_time results = {.plan = plan, .seconds = seconds};
+    char command[1024];
+    if (!plan_equal_time(o, command, &plan, &err))
+        return usage_error(&command_equal_time, "%s", err.text);
+    struct equal_time results = {.plan = &plan, .seconds = o->seconds};
     bool ok = equal_run(&results, &err);
     if (ok)
         equal_table(stdout, &results);
@@ -108,29 +172,10 @@ static int give_equal_time(const struct plan *plan, double seconds)
     return ok ? EXIT_OK : fail(&err);
 }
 
-static int run(void *options)
-{
-    struct experiment_options *o = options;
-    struct plan plan;
-    struct error err;
-    bool named = o->scenes.n > 0, equal = o->equal_time;
-    for (int i = 0; !named && i < (equal ? N_SCENES : N_PUBLISHED); i++)
-        texts_add(&o->scenes, SCENES[i]);
-    if (!make_plan(o, &plan, &err))
-        return usage_error(&command_experiment, "--spp %d: %s", o->spp, err.text);
-    if (o->quick && o->full)
-        return usage_error(&command_experiment, "--quick and --full exclude each other");
-    if (equal && o->n_threads > 1)
-        return usage_error(&command_experiment, "--nthreads %d: equal times are those of one thread", o->n_threads);
-    return equal ? give_equal_time(&plan, o->seconds) : carry_out(&plan);
-}
-
 const struct command command_experiment = {
-    "experiment",
-    "measure methods as the dissertation does",
-    {"[--quick | --full] [SCENE.pbrt...] -o DIR [options]", "--equal-time [SCENE.pbrt...] -o DIR [options]"},
-    OPTIONS,
-    sizeof(struct experiment_options),
-    run,
-    true,
-    "experiment --equal-time scenes/spot.pbrt -o out/equal"};
+    "experiment", "measure methods as the dissertation does", {"[SCENE.pbrt...] -o DIR [options]"}, EXPERIMENT,
+    sizeof(struct plan_options), run_experiment, true, "experiment --quick -o out/experiment"};
+
+const struct command command_equal_time = {
+    "equal-time", "give methods the same CPU time", {"[SCENE.pbrt...] -o DIR [options]"}, EQUAL_TIME,
+    sizeof(struct plan_options), run_equal_time, true, "equal-time scenes/spot.pbrt -o out/equal"};

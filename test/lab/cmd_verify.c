@@ -1,16 +1,25 @@
-/* cmd_verify.c: asbdpt verify: have two integrators, or two pictures, the same expectation? See verify.h. */
+/* cmd_verify.c: asbdpt-lab verify: have two methods, or two pictures, the same expectation? See verify.h. */
 #include <stdio.h>
 #include <string.h>
 
-#include "lab/commands.h"
 #include "cli/job_options.h"
+#include "lab/commands.h"
+#include "lab/methods.h"
 #include "lab/sides.h"
 #include "render/parameters.h"
+
+/* Where a side comes from: pictures, or a method that renders them. */
+struct source {
+    const char *const *file; /* [n]; n = 0: there are none */
+    int n;
+    bool with_errors;        /* two files: a picture and its standard errors */
+    struct measured method;  /* without a text: the default */
+};
 
 struct verify_options {
     struct job_options job;
     const char *methods;   /* A or A,B; or NULL */
-    const char *reference; /* a stored picture instead of the second integrator, or NULL */
+    const char *reference; /* a stored picture instead of the second method, or NULL */
     const char *store;     /* write the mean of both sides as STORE.pfm ..., or NULL */
     const char *note;
     struct texts files, against; /* pictures */
@@ -18,8 +27,9 @@ struct verify_options {
     int batches, tile;
     double alpha;
     /* What follows from the above: */
-    bool has_scene, with_errors; /* with errors, files[0..1] and against[0..1] are a picture and its standard errors */
-    char first[64], second[64];  /* integrators; "": the default */
+    struct source source[2];
+    const char *stored[2]; /* the reference and its errors */
+    char errors_path[4096];
 };
 
 /* --- options ----------------------------------------------------------------------------------------- */
@@ -27,7 +37,8 @@ struct verify_options {
 #define AT(member) offsetof(struct verify_options, member)
 static const struct option OPTIONS[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), .help = "a scene file"},
-    {"--methods", "A,B", OPTION_TEXT, AT(methods), .help = "integrators (default: bdpt and the scene's, or asbdpt)"},
+    {"--methods", "A,B", OPTION_TEXT, AT(methods),
+     .help = METHODS_HELP " (default: " METHOD_REFERENCE " and the scene's, or " METHOD_PARTNER ")"},
     {"--reference", "R.pfm", OPTION_TEXT, AT(reference), .help = "a picture, beside R.error.pfm, instead of B"},
     {"--images", "FILE...", OPTION_TEXTS, AT(images), .help = "pictures, each followed by its standard errors"},
     {"--files", "FILE...", OPTION_TEXTS, AT(files), .help = "pictures that differ in nothing but their seeds"},
@@ -40,76 +51,136 @@ static const struct option OPTIONS[] = {
     {.others = RUN_OPTIONS},
 };
 
-static bool choose_sides(struct verify_options *o)
+/* The pictures of both sides, as far as there are any. */
+static bool choose_pictures(struct verify_options *o, struct error *err)
 {
-    struct error known;
-    if (o->methods != NULL)
-        sscanf(o->methods, "%63[^,],%63s", o->first, o->second);
-    const char *wrong = o->first[0] != '\0' && !method_exists(o->first) ? o->first : o->second;
-    if (wrong[0] == '\0' || method_exists(wrong))
-        return true;
-    integrator_unknown(wrong, &known);
-    return usage_error(&command_verify, "--methods: there is no method %s; %s", wrong, known.text) == EXIT_OK;
+    struct source *a = &o->source[0], *b = &o->source[1];
+    if (o->images.n > 0) {
+        a->file = o->images.item;
+        b->file = o->images.item + 2;
+        a->n = b->n = 2;
+        a->with_errors = b->with_errors = true;
+        return o->images.n == 4;
+    }
+    if (o->files.n > 0) {
+        a->file = o->files.item;
+        b->file = o->against.item;
+        a->n = o->files.n;
+        b->n = o->against.n;
+        return a->n > 1 && b->n > 1;
+    }
+    if (o->reference != NULL) {
+        o->stored[0] = o->reference;
+        o->stored[1] = o->errors_path;
+        b->file = o->stored;
+        b->n = 2;
+        b->with_errors = true;
+        return side_errors_path(o->reference, o->errors_path, sizeof o->errors_path, err);
+    }
+    return true;
 }
 
-/* One side is --files, the other --against; --images has both, or one, each with its errors. */
-static bool choose_pictures(struct verify_options *o)
+static bool choose_methods(struct verify_options *o, struct error *err)
 {
-    o->with_errors = o->images.n > 0;
-    for (int i = 0; i < o->images.n; i++)
-        texts_add(i < 2 ? &o->files : &o->against, o->images.item[i]);
-    return o->with_errors ? o->files.n == 2 && o->against.n == 2 : o->files.n > 1 && o->against.n > 1;
+    struct methods list = {.n = 0};
+    const char *comma = o->methods != NULL ? strchr(o->methods, ',') : NULL;
+    char first[METHOD_TEXT];
+    if (o->methods == NULL)
+        return true;
+    snprintf(first, sizeof first, "%.*s", (int)strcspn(o->methods, ","), o->methods);
+    if (!methods_read(first, &list, err)) /* one by one, as both may be the same */
+        return false;
+    o->source[0].method = list.item[0];
+    if (list.n == 1 && comma != NULL && !methods_read(comma + 1, &list, err))
+        return false;
+    if (comma != NULL)
+        o->source[1].method = list.item[0];
+    return list.n == 1 || error_set(err, "%s: two methods are compared", o->methods);
 }
 
 static bool complete(struct verify_options *o)
 {
-    bool pictures = o->files.n + o->images.n > 0;
-    o->has_scene = o->job.scene_path != NULL;
-    bool good = pictures ? choose_pictures(o) && (o->store == NULL || o->has_scene) : o->has_scene && o->store == NULL;
-    if (good)
-        return choose_sides(o);
+    struct error err = {""};
+    bool scene = o->job.scene_path != NULL, both = o->files.n + o->images.n > 0;
+    if (choose_pictures(o, &err) && (both ? scene || o->store == NULL : scene && o->store == NULL)) {
+        if (choose_methods(o, &err))
+            return true;
+        usage_error(&command_verify, "--methods: %s", err.text);
+        return false;
+    }
     const char *const *usage = command_verify.usage;
-    usage_error(&command_verify, "usage: asbdpt verify %s, or %s, or %s", usage[0], usage[1], usage[2]);
+    if (err.text[0] != '\0')
+        usage_error(&command_verify, "%s", err.text);
+    else
+        usage_error(&command_verify, "usage: asbdpt-lab verify %s, or %s, or %s", usage[0], usage[1], usage[2]);
     return false;
 }
 
 /* --- both sides -------------------------------------------------------------------------------------- */
 
+/* The methods that render: what was given; or one that renders references, and the scene's or its partner. */
 static bool choose_integrators(const struct job_options *job, const struct scene *scene, const struct method *scenes,
                                const struct method **m, struct error *err)
 {
     const struct verify_options *o = (const struct verify_options *)job; /* its first member */
-    const char *partner = strcmp(scenes->name, "bdpt") == 0 ? "asbdpt" : scenes->name;
-    const char *first = o->first[0] != '\0' ? o->first : o->reference != NULL ? scenes->name : "bdpt";
-    const char *second = o->second[0] != '\0' ? o->second : partner;
-    m[0] = method_find(first, &scene->settings, err);
-    m[1] = o->reference != NULL ? NULL : method_find(second, &scene->settings, err);
-    return m[0] != NULL && (o->reference != NULL || m[1] != NULL);
+    const char *partner = strcmp(scenes->name, METHOD_REFERENCE) == 0 ? METHOD_PARTNER : scenes->name;
+    for (int i = 0, n = 0; i < 2; i++) {
+        const struct measured *given = &o->source[i].method;
+        const char *usual = i == 1 ? partner : o->source[1].n > 0 ? scenes->name : METHOD_REFERENCE;
+        if (o->source[i].n > 0)
+            continue;
+        struct settings s = measured_settings(given, &scene->settings);
+        m[n] = method_find(given->text[0] != '\0' ? given->integrator : usual, &s, err);
+        settings_clear(&s);
+        if (m[n++] == NULL)
+            return false;
+    }
+    return true;
 }
 
-static bool render_sides(struct scene *scene, const struct method *scenes, const struct verify_options *o,
-                         struct side *a, struct side *b, struct error *err)
+/* Render a side, with its own settings on top of the scene's. */
+static bool render_side(struct scene *scene, const struct method *m, const struct verify_options *o, int number,
+                        struct side *out, struct error *err)
 {
-    const struct method *m[2];
-    struct render_options options = {.seed = o->job.seed, .n_threads = o->job.n_threads, .max_depth = o->job.max_depth};
-    bool ok = true;
-    if (!choose_integrators(&o->job, scene, scenes, m, err))
-        return false;
-    if (o->reference != NULL && !side_read_reference(o->reference, b, err))
-        return false;
-    if ((o->reference != NULL || o->job.res[0] == 0) &&
-        !side_choose_resolution(scene, o->reference != NULL ? b : NULL, err))
-        return false;
-    options.end = o->job.spp > 0 ? o->job.spp : side_choose_spp(scene, &options, m, o->batches, err);
-    if (options.end == 0)
-        return false;
-    printf("%dx%d pixels, %d batches of %ld spp, seed %llu\n", rect_width(render_crop(scene)),
-           rect_height(render_crop(scene)), o->batches, options.end, (unsigned long long)o->job.seed);
-    for (int i = 0; ok && i < 2 && m[i] != NULL; i++) {
-        options.integrator = m[i]->name;
-        ok = side_render(scene, &options, i, o->batches, o->job.quiet, i == 0 ? a : b, err);
-    }
+    static const double seconds = 20; /* of rendering */
+    const struct measured *given = &o->source[number].method;
+    struct render_options options = {.integrator = m->name, .seed = o->job.seed, .n_threads = o->job.n_threads,
+                                     .max_depth = o->job.max_depth};
+    struct settings shared = scene->settings;
+    scene->settings = measured_settings(given, &shared);
+    options.end = o->job.spp > 0 ? o->job.spp : side_choose_spp(scene, &options, o->batches, seconds, err);
+    bool ok = options.end > 0 && side_render(scene, &options, number, o->batches, o->job.quiet, out, err);
+    out->name = given->text[0] != '\0' ? given->text : m->name;
+    if (ok)
+        printf("%s: %dx%d pixels, %d batches of %ld spp, seed %llu\n", out->name, out->width, out->height, o->batches,
+               options.end, (unsigned long long)o->job.seed);
+    settings_clear(&scene->settings);
+    scene->settings = shared;
     return ok;
+}
+
+/* Pictures are read first, as they say how large the others are to be.
+ *   side  [2] */
+static bool make_sides(struct scene *scene, const struct method *scenes, const struct verify_options *o,
+                       struct side *side, struct error *err)
+{
+    const struct method *m[2] = {NULL, NULL};
+    const struct side *like = NULL;
+    for (int i = 0; i < 2; i++) {
+        const struct source *from = &o->source[i];
+        if (from->n > 0 && !side_read(from->file, from->n, from->with_errors, like, &side[i], err))
+            return false;
+        like = from->n > 0 ? &side[i] : like;
+    }
+    if (o->source[0].n > 0 && o->source[1].n > 0)
+        return true;
+    if (!choose_integrators(&o->job, scene, scenes, m, err) ||
+        ((like != NULL || o->job.res[0] == 0) && !side_choose_resolution(scene, like, err)))
+        return false;
+    for (int i = 0, n = 0; i < 2; i++)
+        if (o->source[i].n == 0 && !render_side(scene, m[n++], o, i, &side[i], err))
+            return false;
+    return true;
 }
 
 /* --- the verdict ------------------------------------------------------------------------------------- */
@@ -150,7 +221,7 @@ static bool identical(const struct batches *a, const struct batches *b)
 static int judge(const struct verify_options *o, uint64_t content, int max_depth, const struct side *a,
                  const struct side *b, struct error *err)
 {
-    if (o->with_errors && identical(&a->pixels, &b->pixels)) {
+    if (o->source[0].with_errors && o->source[1].with_errors && identical(&a->pixels, &b->pixels)) {
         printf("verdict: identical (pixel by pixel the same values and errors; there is nothing to test)\n");
         return EXIT_OK;
     }
@@ -171,21 +242,18 @@ static int verify(const struct verify_options *o)
 {
     struct error err;
     struct scene scene;
-    struct side a = {0}, b = {0};
-    const struct method *integrator;
+    struct side side[2] = {{.name = ""}, {.name = ""}};
+    const struct method *scenes = NULL;
+    bool has_scene = o->job.scene_path != NULL;
     int status = EXIT_OK, max_depth = 0;
-    if (o->has_scene && (status = job_load_for(&o->job, choose_integrators, &scene, &integrator)) != EXIT_OK)
+    if (has_scene && (status = job_load_for(&o->job, choose_integrators, &scene, &scenes)) != EXIT_OK)
         return status;
-    bool ok = !o->has_scene || parameters_max_depth(&scene, o->job.max_depth, &max_depth, &err);
-    if (ok && o->files.n > 0)
-        ok = side_read(o->files.item, o->files.n, o->with_errors, NULL, &a, &err) &&
-             side_read(o->against.item, o->against.n, o->with_errors, &a, &b, &err);
-    else if (ok)
-        ok = render_sides(&scene, integrator, o, &a, &b, &err);
-    status = ok ? judge(o, o->has_scene ? scene.content : 0, max_depth, &a, &b, &err) : fail(&err);
-    batches_free(&a.pixels);
-    batches_free(&b.pixels);
-    if (o->has_scene)
+    bool ok = (!has_scene || parameters_max_depth(&scene, o->job.max_depth, &max_depth, &err)) &&
+              make_sides(&scene, scenes, o, side, &err);
+    status = ok ? judge(o, has_scene ? scene.content : 0, max_depth, &side[0], &side[1], &err) : fail(&err);
+    batches_free(&side[0].pixels);
+    batches_free(&side[1].pixels);
+    if (has_scene)
         scene_free(&scene);
     return status;
 }

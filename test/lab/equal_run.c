@@ -7,145 +7,156 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "base/os.h"
 #include "base/progress.h"
-#include "look/compare.h"
+#include "image/sheet.h"
 #include "lab/plan_scene.h"
-#include "render/render.h"
+#include "lab/timed.h"
+#include "look/compare.h"
 
 enum { CORRECTIONS = 3, REFERENCE_SEED = 100001 };
 
-/* A scene being measured. */
-struct subject {
-    struct equal_time *whole;
-    struct equal_scene *out;
-    struct scene scene;
-    struct reference reference;
-    struct progress *bar;
-    struct error *err;
-};
+/* --- one method and seed ----------------------------------------------------------------------------- */
 
-/* --- one render -------------------------------------------------------------------------------------- */
-
-static struct render_options options_of(struct subject *s, int variant, long seed)
+bool subject_render(struct subject *s, const struct measured *m, struct equal_render *r, float **pixels,
+                    struct error *err)
 {
-    const struct variant *v = &EQUAL_VARIANTS[variant];
-    struct render_options o = {.integrator = v->integrator, .seed = (uint64_t)seed, .n_threads = 1};
-    settings_clear(&s->scene.settings); /* defaults: what is compared is what a user gets */
-    if (v->select != NULL)
-        settings_set(&s->scene.settings, "select", v->select, "experiment");
-    o.max_depth = s->out->max_depth;
-    return o;
+    const struct reference *ref = &s->reference;
+    struct render_options o = {.integrator = m->integrator, .seed = (uint64_t)r->seed, .end = r->spp,
+                               .n_threads = s->n_threads, .max_depth = s->max_depth};
+    struct timed took;
+    settings_clear(&s->scene.settings);
+    s->scene.settings = measured_settings(m, NULL);
+    if (!timed_render(&s->scene, &o, &took, err))
+        return false;
+    float *small = sheet_shrink(took.pixels, s->scene.width, s->scene.height, s->scale);
+    struct difference d = compare_pixels(small, ref->pixels, 3L * ref->width * ref->height);
+    free(small);
+    r->seconds = took.seconds;
+    r->rmse8 = d.rmse8;
+    r->relmse = d.relmse;
+    r->nonfinite = d.nonfinite + took.nonfinite;
+    if (pixels != NULL) {
+        free(*pixels);
+        *pixels = took.pixels;
+    } else {
+        free(took.pixels);
+    }
+    return true;
 }
-
-static void compare_film(const struct subject *s, const struct film *film, struct equal_render *out)
-{
-    size_t n = (size_t)s->out->width * (size_t)s->out->height * 3;
-    float *pixels = mem_alloc(n, sizeof *pixels);
-    film_develop(film, s->scene.film_scale, pixels);
-    struct difference d = compare_pixels(pixels, s->reference.pixels, (long)n);
-    out->rmse8 = d.rmse8;
-    out->relmse = d.relmse;
-    out->nonfinite = d.nonfinite + film->nonfinite;
-    free(pixels);
-}
-
-/* Render so many samples, take the time, compare. */
-static bool render_samples(struct subject *s, int variant, long spp, struct equal_render *out)
-{
-    struct film film;
-    struct render_options o = options_of(s, variant, out->seed);
-    o.end = out->spp = spp;
-    film_init(&film, render_crop(&s->scene), s->scene.width, s->scene.height);
-    double start = os_cpu_seconds();
-    bool ok = render_scene(&s->scene, &o, &film, s->err);
-    out->seconds = fmax(os_cpu_seconds() - start, 1e-6);
-    if (ok)
-        compare_film(s, &film, out);
-    film_free(&film);
-    return ok;
-}
-
-/* --- one variant and seed ---------------------------------------------------------------------------- */
 
 static double off(const struct equal_render *r) { return fabs(r->seconds / r->target - 1); }
 
-/* The samples that take r->target: by the calibration's time, then by the times they took. The nearest counts. */
-static bool render_in_time(struct subject *s, int variant, const struct equal_render *calibration,
-                           struct equal_render *r)
+/* The samples are chosen by the calibration's time, then by the times they took. The nearest counts. */
+bool subject_render_in_time(struct subject *s, const struct measured *m, struct equal_render *r, float **pixels,
+                            struct error *err)
 {
-    struct equal_render trial = *r;
-    long spp = equal_samples(calibration->spp, calibration->seconds, 1, r->target);
-    for (int i = 0; i <= CORRECTIONS && spp != trial.spp; i++) {
-        if (!render_samples(s, variant, spp, &trial))
+    struct equal_render first = *r, trial = *r;
+    first.spp = EQUAL_CALIBRATION;
+    if (!subject_render(s, m, &first, NULL, err))
+        return false;
+    long spp = equal_samples(first.spp, first.seconds, 1, r->target);
+    trial.spp = 0;
+    for (int i = 0; i <= CORRECTIONS && spp != trial.spp && !(i > 0 && equal_met(r->seconds, r->target)); i++) {
+        float *picture = NULL;
+        trial.spp = spp;
+        if (!subject_render(s, m, &trial, &picture, err))
             return false;
-        trial.growth = equal_growth(calibration->spp, calibration->seconds, trial.spp, trial.seconds);
-        if (i == 0 || off(&trial) < off(r))
+        trial.growth = equal_growth(first.spp, first.seconds, trial.spp, trial.seconds);
+        if (i == 0 || off(&trial) < off(r)) {
             *r = trial;
-        if (equal_met(r->seconds, r->target))
-            break;
+            if (pixels != NULL) {
+                float *worse = *pixels;
+                *pixels = picture;
+                picture = worse;
+            }
+        }
+        free(picture);
         spp = equal_samples(trial.spp, trial.seconds, trial.growth, trial.target);
     }
     return true;
 }
 
-/* bdpt's samples are given unless its time is; what it takes for them is the time of this seed. */
-static bool measure_variant(struct subject *s, int variant, int seed)
+/* --- one scene --------------------------------------------------------------------------------------- */
+
+/* A scene of the whole. */
+struct part {
+    struct equal_time *whole;
+    struct equal_scene *out;
+    struct subject subject;
+    struct progress *bar;
+    struct error *err;
+};
+
+/* The first method's samples are given unless its time is; what it takes for them is the time of this seed. A short
+ * render before it warms up what it will use. */
+static bool measure(struct part *s, int method, int seed)
 {
     const struct plan *p = s->whole->plan;
-    struct equal_render *r = &s->out->render[variant][seed - 1], calibration = {.seed = equal_seed(variant, seed)};
-    if (!render_samples(s, variant, EQUAL_CALIBRATION, &calibration)) /* also warms up what the next will use */
-        return false;
-    r->seed = calibration.seed;
-    r->target = s->whole->seconds > 0 ? s->whole->seconds : s->out->render[0][seed - 1].target;
-    bool ok;
-    if (variant == 0 && s->whole->seconds == 0) {
-        ok = render_samples(s, variant, plan_last_spp(p), r);
-        r->target = r->seconds;
-        r->growth = 1;
+    const struct measured *m = &p->methods.item[method];
+    struct equal_render *r = &s->out->render[method][seed - 1];
+    bool given = method > 0 || s->whole->seconds > 0, ok;
+    r->seed = equal_seed(method, seed);
+    r->target = s->whole->seconds > 0 ? s->whole->seconds : s->out->render[0][seed - 1].seconds;
+    if (given) {
+        ok = subject_render_in_time(&s->subject, m, r, NULL, s->err);
     } else {
-        ok = render_in_time(s, variant, &calibration, r);
+        struct equal_render warm = {.seed = r->seed, .spp = EQUAL_CALIBRATION};
+        r->spp = plan_last_spp(p);
+        r->growth = 1;
+        ok = subject_render(&s->subject, m, &warm, NULL, s->err) && subject_render(&s->subject, m, r, NULL, s->err);
+        r->target = r->seconds;
     }
     progress_end(s->bar);
     if (ok && !p->quiet)
         fprintf(stderr, "%s, %s, seed %ld: %ld spp in %.3f s of CPU for %.3f s, rmse8 %.3f, relmse %.4f\n",
-                s->out->name, EQUAL_VARIANTS[variant].label, r->seed, r->spp, r->seconds, r->target, r->rmse8,
-                r->relmse);
+                s->out->name, m->text, r->seed, r->spp, r->seconds, r->target, r->rmse8, r->relmse);
     return ok;
 }
 
-/* --- scenes ------------------------------------------------------------------------------------------ */
-
-static bool load_scene(struct subject *s)
+static bool load_scene(struct part *s)
 {
-    struct equal_scene *out = s->out;
-    if (!plan_scene_load(s->whole->plan, out->path, out->name, &s->scene, &out->max_depth, &s->reference, s->err))
+    const struct plan *p = s->whole->plan;
+    struct subject *subject = &s->subject;
+    subject->scale = subject->n_threads = 1;
+    if (!plan_scene_load(p, s->out->path, s->out->name, &subject->scene, &subject->max_depth, &subject->reference,
+                         s->err))
         return false;
-    out->width = s->scene.width;
-    out->height = s->scene.height;
+    s->out->width = subject->scene.width;
+    s->out->height = subject->scene.height;
+    s->out->max_depth = subject->max_depth;
     return true;
 }
 
 /* Where no reference is stored, one is rendered. */
-static bool make_reference(struct subject *s)
+static bool find_reference(struct part *s)
 {
-    struct render_options o = options_of(s, 0, REFERENCE_SEED);
-    bool ok = s->reference.pixels != NULL ||
-              reference_render(&s->scene, &o, s->whole->plan->reference_spp, &s->reference, s->err);
-    s->out->noise8 = s->reference.noise8;
+    const struct plan *p = s->whole->plan;
+    struct subject *subject = &s->subject;
+    struct render_options o = {.integrator = METHOD_REFERENCE, .seed = REFERENCE_SEED, .n_threads = p->n_threads,
+                               .max_depth = subject->max_depth};
+    char key[400], directory[4096];
+    snprintf(directory, sizeof directory, "%s/reference", p->directory);
+    snprintf(key, sizeof key, "%s %dx%d maxdepth=%d spp=%ld", s->out->name, s->out->width, s->out->height,
+             subject->max_depth, p->reference_spp);
+    settings_clear(&subject->scene.settings);
+    bool ok = subject->reference.pixels != NULL ||
+              reference_make(&subject->scene, &o, p->reference_spp, directory, s->out->name, key, &subject->reference,
+                             s->err);
+    s->out->noise8 = subject->reference.noise8;
     return ok;
 }
 
-/* Seeds come before variants, so that a machine that slows down slows down all alike. */
-static bool measure_scene(struct subject *s, double done)
+/* Seeds come before methods, so that a machine that slows down slows down all alike. */
+static bool measure_scene(struct part *s, double done)
 {
-    int n = s->whole->plan->n_seeds * N_EQUAL, scenes = s->whole->plan->n_scenes;
-    bool ok = make_reference(s);
+    const struct plan *p = s->whole->plan;
+    int methods = p->methods.n, n = p->n_seeds * methods;
+    bool ok = find_reference(s);
     for (int i = 0; ok && i < n; i++) {
-        progress_update(s->bar, (done + (double)i / n) / scenes);
-        ok = measure_variant(s, i % N_EQUAL, i / N_EQUAL + 1);
+        progress_update(s->bar, (done + (double)i / n) / p->n_scenes);
+        ok = measure(s, i % methods, i / methods + 1);
     }
-    scene_free(&s->scene);
+    scene_free(&s->subject.scene);
     return ok;
 }
 
@@ -157,11 +168,11 @@ bool equal_run(struct equal_time *out, struct error *err)
     out->scene = mem_alloc((size_t)p->n_scenes, sizeof *out->scene);
     progress_start(&bar, p->quiet);
     for (out->n_scenes = 0; ok && out->n_scenes < p->n_scenes;) {
-        struct subject s = {.whole = out, .out = &out->scene[out->n_scenes], .bar = &bar, .err = err};
+        struct part s = {.whole = out, .out = &out->scene[out->n_scenes], .bar = &bar, .err = err};
         s.out->path = p->scene[out->n_scenes];
         plan_scene_name(s.out->path, s.out->name, sizeof s.out->name);
         ok = load_scene(&s) && measure_scene(&s, out->n_scenes);
-        reference_free(&s.reference);
+        reference_free(&s.subject.reference);
         out->n_scenes += ok;
         ok = ok && equal_write(out, err);
     }

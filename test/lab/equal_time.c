@@ -8,14 +8,6 @@
 #include "base/number.h"
 #include "lab/table.h"
 
-const struct variant EQUAL_VARIANTS[N_EQUAL] = {
-    {"bdpt", "BDPT", "bdpt", NULL, 0, 0, true, false},
-    {"vertices", "ASBDPT vertices", "asbdpt", "vertices", 0, 0, true, false},
-    {"subspaces", "ASBDPT subspaces", "asbdpt", "subspaces", 0, 0, true, true},
-    {"lvc", "light vertex cache", "asbdpt", "lvc", 0, 0, true, false},
-    {"combinatorial", "combinatorial BDPT", "asbdpt", "combinatorial", 0, 0, true, false},
-};
-
 enum { SEED_BASE = 5000, MOST_SAMPLES = 1 << 20 };
 
 void equal_free(struct equal_time *e)
@@ -33,7 +25,7 @@ bool equal_comparable(double seconds, double target)
     return fabs(seconds / target - 1) <= EQUAL_FARTHEST / 100.0;
 }
 
-long equal_seed(int variant, int i) { return SEED_BASE + 100L * variant + i; }
+long equal_seed(int method, int i) { return SEED_BASE + 100L * method + i; }
 
 double equal_growth(long spp0, double seconds0, long spp1, double seconds1)
 {
@@ -55,24 +47,24 @@ double equal_square(const struct equal_render *r, double noise8, enum equal_erro
     return equal_comparable(r->seconds, r->target) ? square * m_pow(r->seconds / r->target, r->growth) : NAN;
 }
 
-struct interval equal_ratio(const struct equal_time *e, const struct equal_scene *s, int variant,
+struct interval equal_ratio(const struct equal_time *e, const struct equal_scene *s, int method,
                             enum equal_error which)
 {
-    double ours[PLAN_MAX_SEEDS], bdpt[PLAN_MAX_SEEDS];
+    double ours[PLAN_MAX_SEEDS], first[PLAN_MAX_SEEDS];
     int n = e->plan->n_seeds;
     for (int i = 0; i < n; i++) {
-        ours[i] = equal_square(&s->render[variant][i], s->noise8, which);
-        bdpt[i] = equal_square(&s->render[0][i], s->noise8, which);
+        ours[i] = equal_square(&s->render[method][i], s->noise8, which);
+        first[i] = equal_square(&s->render[0][i], s->noise8, which);
     }
-    return results_ratio(ours, n, bdpt, n);
+    return results_ratio(ours, n, first, n);
 }
 
-struct equal_summary equal_summarize(const struct equal_time *e, int variant, enum equal_error which)
+struct equal_summary equal_summarize(const struct equal_time *e, int method, enum equal_error which)
 {
     struct equal_summary out = {NAN, NAN, NAN, "-", "-", 0};
     double log_sum = 0;
     for (const struct equal_scene *s = e->scene; s < e->scene + e->n_scenes; s++) {
-        double ratio = equal_ratio(e, s, variant, which).value;
+        double ratio = equal_ratio(e, s, method, which).value;
         if (!isfinite(ratio))
             continue;
         log_sum += m_log(ratio);
@@ -94,11 +86,12 @@ struct equal_summary equal_summarize(const struct equal_time *e, int variant, en
 
 void equal_csv(FILE *f, const struct equal_time *e)
 {
-    fputs("scene,variant,seed,spp,seconds,rmse8,relmse,target_seconds,growth,reference_noise8,nonfinite\n", f);
+    fputs("scene,method,seed,spp,seconds,rmse8,relmse,target_seconds,growth,reference_noise8,nonfinite\n", f);
     for (const struct equal_scene *s = e->scene; s < e->scene + e->n_scenes; s++)
-        for (int v = 0; v < N_EQUAL; v++)
+        for (int v = 0; v < e->plan->methods.n; v++)
             for (const struct equal_render *r = s->render[v]; r < s->render[v] + e->plan->n_seeds; r++) {
-                fprintf(f, "%s,%s,%ld,%ld,%.9g,%.9g,%.9g,%.9g,%.9g,", s->name, EQUAL_VARIANTS[v].name, r->seed, r->spp,
+                fprintf(f, "%s,%s,%ld,%ld,%.9g,%.9g,%.9g,%.9g,%.9g,", s->name, e->plan->methods.item[v].text,
+                        r->seed, r->spp,
                         r->seconds, r->rmse8, r->relmse, r->target, r->growth);
                 if (isfinite(s->noise8))
                     fprintf(f, "%.9g", s->noise8);
@@ -108,20 +101,18 @@ void equal_csv(FILE *f, const struct equal_time *e)
 
 static const char *const ERROR_NAMES[N_EQUAL_ERRORS] = {"rmse8", "relmse"};
 
-/* The columns: the scene, T, samples per pixel, and for each variant but the first both ratios. */
+/* The columns: the scene, T, samples per pixel, and for each method but the first both ratios. */
 static void begin_table(struct table *t, const struct equal_time *e)
 {
-    char names[TABLE_CELL] = "";
-    for (int v = 0, n = 0; v < N_EQUAL; v++)
-        n += snprintf(names + n, sizeof names - (size_t)n, "%s %s", v > 0 ? "," : "", EQUAL_VARIANTS[v].name);
-    table_begin(t, "Squared error over that of BDPT after the same CPU time, with its 95 %% interval over %d seed%s; "
-                   "below 1 is a gain", e->plan->n_seeds, e->plan->n_seeds == 1 ? "" : "s");
+    table_begin(t, "Squared error over that of %s after the same CPU time, with its 95 %% interval over %d seed%s; "
+                   "below 1 is a gain", e->plan->methods.item[0].text, e->plan->n_seeds,
+                e->plan->n_seeds == 1 ? "" : "s");
     table_column(t, "scene");
     table_column(t, "seconds");
-    table_column(t, "spp:%s", names);
-    for (int v = 1; v < N_EQUAL; v++)
+    table_column(t, "spp of each");
+    for (int v = 1; v < e->plan->methods.n; v++)
         for (int k = 0; k < N_EQUAL_ERRORS; k++)
-            table_column(t, "%s, %s", EQUAL_VARIANTS[v].label, ERROR_NAMES[k]);
+            table_column(t, "%s, %s", e->plan->methods.item[v].text, ERROR_NAMES[k]);
 }
 
 /* A scene: means over seeds of T and of the samples, then the ratios. */
@@ -131,7 +122,7 @@ static void add_scene(struct table *t, const struct equal_time *e, const struct 
     double seconds = 0;
     for (int i = 0; i < e->plan->n_seeds; i++)
         seconds += s->render[0][i].target / e->plan->n_seeds;
-    for (int v = 0, n = 0; v < N_EQUAL; v++) {
+    for (int v = 0, n = 0; v < e->plan->methods.n; v++) {
         double spp = 0;
         for (int i = 0; i < e->plan->n_seeds; i++)
             spp += (double)s->render[v][i].spp / e->plan->n_seeds;
@@ -140,7 +131,7 @@ static void add_scene(struct table *t, const struct equal_time *e, const struct 
     table_add(t, NAN, "%s", s->name);
     table_add(t, seconds, "%.3g", seconds);
     table_add(t, NAN, "%s", samples);
-    for (int v = 1; v < N_EQUAL; v++)
+    for (int v = 1; v < e->plan->methods.n; v++)
         for (int k = 0; k < N_EQUAL_ERRORS; k++)
             table_add_interval(t, equal_ratio(e, s, v, (enum equal_error)k));
 }
@@ -153,7 +144,7 @@ static void add_summaries(struct table *t, const struct equal_time *e)
         table_add(t, NAN, "**%s**", rows[row]);
         table_add(t, NAN, "");
         table_add(t, NAN, "");
-        for (int i = N_EQUAL_ERRORS; i < N_EQUAL * N_EQUAL_ERRORS; i++) {
+        for (int i = N_EQUAL_ERRORS; i < e->plan->methods.n * N_EQUAL_ERRORS; i++) {
             struct equal_summary s = equal_summarize(e, i / N_EQUAL_ERRORS, (enum equal_error)(i % N_EQUAL_ERRORS));
             if (s.n == 0)
                 table_add_missing(t, 1);
@@ -170,7 +161,7 @@ static void add_summaries(struct table *t, const struct equal_time *e)
 /* How well the times were met. */
 static void write_times(FILE *f, const struct equal_time *e)
 {
-    for (int v = 0; v < N_EQUAL; v++) {
+    for (int v = 0; v < e->plan->methods.n; v++) {
         int near = 0, far = 0, n = 0;
         long nonfinite = 0;
         double farthest = 0;
@@ -183,7 +174,7 @@ static void write_times(FILE *f, const struct equal_time *e)
                 nonfinite += r->nonfinite;
             }
         fprintf(f, "- %s: %d of %d renders took the given time within %d %%; the farthest was off by %+.1f %%.",
-                EQUAL_VARIANTS[v].label, near, n, EQUAL_PERCENT, 100 * farthest);
+                e->plan->methods.item[v].text, near, n, EQUAL_PERCENT, 100 * farthest);
         if (far > 0)
             fprintf(f, " %d %s off by more than %d %%: too far to be accounted for, so the scene has no ratio.", far,
                     far == 1 ? "was" : "were", EQUAL_FARTHEST);
@@ -191,17 +182,6 @@ static void write_times(FILE *f, const struct equal_time *e)
             fprintf(f, " %ld values were no numbers and are left out.", nonfinite);
         fputs("\n", f);
     }
-}
-
-static void write_command(FILE *f, const struct equal_time *e)
-{
-    char how[64];
-    if (e->seconds > 0)
-        snprintf(how, sizeof how, "--equal-time --time %g", e->seconds);
-    else
-        snprintf(how, sizeof how, "--equal-time --spp %ld", plan_last_spp(e->plan));
-    fputs("\n", f);
-    plan_command(f, e->plan, how, "    ", false);
 }
 
 void equal_table(FILE *f, const struct equal_time *e)
@@ -214,13 +194,14 @@ void equal_table(FILE *f, const struct equal_time *e)
     table_markdown(f, &t);
     table_free(&t);
     fputs("rmse8: of the squared error of 8-bit values, that of the reference itself subtracted where known; relmse: "
-          "of the relative squared error of linear values as it stands. All with their default parameters, one thread. "
+          "of the relative squared error of linear values as it stands. One thread. "
           "The samples per pixel were chosen by the time they take, with all that is prepared; what still differed "
           "between the time t taken and the given T is accounted for by error^2(T) = error^2(t) (t / T)^growth, growth "
           "being that of samples over time as measured.\n\n",
           f);
     write_times(f, e);
-    write_command(f, e);
+    fputs("\n", f);
+    plan_write_command(f, e->plan);
 }
 
 static bool write_file(const struct equal_time *e, const char *name, void (*write)(FILE *, const struct equal_time *),

@@ -1,13 +1,13 @@
-/* equal_time.h: integrators that were given the same CPU time: what came of it, its statistics and its files.
+/* equal_time.h: methods that were given the same CPU time: what came of it, its statistics and its files.
  *
- * bdpt renders N samples per pixel, which takes T seconds; each of the others is given the samples that take it T, what
- * it learns beforehand included. Samples are whole and clocks restless, so the time t that was really taken differs a
- * little. The squared error is brought from t to T by the law of its surroundings,
+ * The first renders N samples per pixel, which takes T seconds; each of the others is given the samples that take it T,
+ * what it learns beforehand included. Samples are whole and clocks restless, so the time t that was really taken
+ * differs a little. The squared error is brought from t to T by the law of its surroundings,
  *     error^2 ~ 1 / samples   and   samples ~ time^growth,   hence   error^2(T) = error^2(t) (t / T)^growth,
  * where growth is measured between two renders: 1 where every sample costs the same, more where something has to be
  * paid before the first.
  *
- * Files: equal-time.csv has one line per scene, variant and seed; equal-time.md the table.
+ * Files: equal-time.csv has one line per scene, method and seed; equal-time.md the table.
  *
  * Tests: test_equal_time.c.
  */
@@ -15,10 +15,6 @@
 #define ASBDPT_EQUAL_TIME_H
 
 #include "lab/results.h"
-
-/* What is compared, with its default parameters: the first is what the others are compared with. */
-enum { N_EQUAL = 5 };
-extern const struct variant EQUAL_VARIANTS[N_EQUAL];
 
 /* One render in about the time that was given. */
 struct equal_render {
@@ -35,12 +31,12 @@ struct equal_scene {
     char name[256];
     int width, height, max_depth;
     double noise8; /* of the reference; NaN when unknown */
-    struct equal_render render[N_EQUAL][PLAN_MAX_SEEDS];
+    struct equal_render render[METHODS_MAX][PLAN_MAX_SEEDS];
 };
 
 struct equal_time {
-    const struct plan *plan;   /* borrowed; the last of its steps is bdpt's samples */
-    double seconds;            /* T; 0: what bdpt takes for its samples */
+    const struct plan *plan;   /* borrowed; the last of its steps is the first method's samples */
+    double seconds;            /* T; 0: what the first takes for its samples */
     struct equal_scene *scene; /* [n_scenes], owned */
     int n_scenes;              /* done so far */
 };
@@ -53,8 +49,8 @@ enum { EQUAL_CALIBRATION = 4, EQUAL_PERCENT = 3, EQUAL_FARTHEST = 25 };
 bool equal_met(double seconds, double target);
 bool equal_comparable(double seconds, double target);
 
-/* equal_seed: of repetition i = 1, 2, ... of a variant: those of no other experiment, and of no other variant. */
-long equal_seed(int variant, int i);
+/* equal_seed: of repetition i = 1, 2, ... of a method: those of no other experiment, and of no other method. */
+long equal_seed(int method, int i);
 
 /* equal_growth: d ln samples / d ln time at the second of two renders, by the line through both, kept between 1 and 4;
  * 1 where it cannot be told. */
@@ -70,17 +66,18 @@ enum equal_error { EQUAL_RMSE8, EQUAL_RELMSE, N_EQUAL_ERRORS };
  * the render; relmse as it is. NaN if the time is not comparable. */
 double equal_square(const struct equal_render *r, double noise8, enum equal_error which);
 
-/* equal_ratio: mean over seeds of a variant's squared error over that of bdpt, with the interval of results_ratio. */
-struct interval equal_ratio(const struct equal_time *e, const struct equal_scene *s, int variant,
+/* equal_ratio: mean over seeds of a method's squared error over that of the first, with the interval of results_ratio.
+ * */
+struct interval equal_ratio(const struct equal_time *e, const struct equal_scene *s, int method,
                             enum equal_error which);
 
-/* equal_summarize: a variant in all scenes together; those without a ratio are left out. */
+/* equal_summarize: a method in all scenes together; those without a ratio are left out. */
 struct equal_summary {
     double mean, best, worst;             /* geometric mean; smallest and largest ratio */
     const char *best_scene, *worst_scene; /* "-" if there is none */
     int n;                                /* scenes with a ratio */
 };
-struct equal_summary equal_summarize(const struct equal_time *e, int variant, enum equal_error which);
+struct equal_summary equal_summarize(const struct equal_time *e, int method, enum equal_error which);
 
 void equal_csv(FILE *f, const struct equal_time *e);
 void equal_table(FILE *f, const struct equal_time *e); /* Markdown */

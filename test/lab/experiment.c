@@ -11,18 +11,19 @@
 #include "base/progress.h"
 #include "image/image.h"
 #include "image/zlib.h"
-#include "look/compare.h"
 #include "lab/plan_scene.h"
+#include "lab/timed.h"
+#include "look/compare.h"
 #include "look/pyramid.h"
 
 enum { PATH_SIZE = 4096, KEY_SIZE = 1024, REFERENCE_SEED = 100001, PYRAMID_SPP = 64, PYRAMID_LENGTH = 5 };
 
-/* The experiment under way, and the share of it that is done; in samples per pixel, scenes being of similar size. */
+/* The experiment under way; progress is counted in runs. */
 struct experiment {
     const struct plan *plan;
     struct results *results;
     struct progress bar;
-    double total, done, current; /* current: samples of the render that is going on */
+    double total, done, share; /* share: of the run that is going on */
     struct error *err;
 };
 
@@ -31,32 +32,33 @@ struct scene_experiment {
     struct experiment *whole;
     struct scene scene;
     struct scene_results *out;
-    unsigned long probe[N_VARIANTS]; /* what the program makes of the scene, see probe_variant; 0: not asked yet */
+    unsigned long probe[METHODS_MAX]; /* what the program makes of the scene, see probe; 0: not asked yet */
 };
 
 static bool show_progress(void *context, double done)
 {
     struct experiment *e = context;
-    return progress_update(&e->bar, (e->done + done * e->current) / fmax(e->total, 1));
+    return progress_update(&e->bar, (e->done + done * e->share) / e->total);
 }
 
-/* Work found done already counts neither as done nor as to be done, so that the time left comes out right. */
-static void skip_work(struct experiment *e, double spp) { e->total -= spp; }
-
-static void finish_work(struct experiment *e, double spp)
+/* The scene's settings become the method's, without Russian roulette unless it asks for that: what is compared is the
+ * choice of sub-paths alone. */
+static void take_settings(struct scene *scene, const struct measured *m)
 {
-    e->done += spp;
-    e->current = 0;
+    struct settings base = {0};
+    settings_set(&base, "rrthreshold", "0", "experiment");
+    settings_clear(&scene->settings);
+    scene->settings = measured_settings(m, &base);
+    settings_clear(&base);
 }
 
-/* How a variant is rendered; the scene's settings become the variant's. */
-static struct render_options options_of(struct scene_experiment *s, int variant, long seed, long end)
+/* How a method is rendered; the scene's settings become the method's. */
+static struct render_options options_of(struct scene_experiment *s, int method, long seed, long end)
 {
-    variant_settings(&VARIANTS[variant], &s->scene.settings);
-    struct render_options o = {
-        .integrator = VARIANTS[variant].integrator, .seed = (uint64_t)seed, .end = end};
-    o.n_threads = s->whole->plan->n_threads;
-    o.max_depth = s->out->max_depth;
+    const struct plan *p = s->whole->plan;
+    take_settings(&s->scene, &p->methods.item[method]);
+    struct render_options o = {.integrator = p->methods.item[method].integrator, .seed = (uint64_t)seed, .end = end,
+                               .n_threads = p->n_threads, .max_depth = s->out->max_depth};
     o.progress = show_progress;
     o.progress_context = s->whole;
     return o;
@@ -67,16 +69,11 @@ static void begin_film(const struct scene_experiment *s, struct film *film)
     film_init(film, render_crop(&s->scene), s->scene.width, s->scene.height);
 }
 
-static float *new_pixels(const struct scene_results *r)
-{
-    return mem_alloc((size_t)r->width * (size_t)r->height * 3, sizeof(float));
-}
-
 /* --- files ------------------------------------------------------------------------------------------- */
 
 static bool make_directories(const struct plan *p, struct error *err)
 {
-    static const char *const names[] = {"runs", "images", "reference", "plots"};
+    static const char *const names[] = {"runs", "images", "plots"};
     char path[PATH_SIZE];
     bool ok = file_make_directory(p->directory, err);
     for (size_t i = 0; ok && i < sizeof names / sizeof names[0]; i++) {
@@ -92,111 +89,116 @@ static unsigned long crc_of(const float *pixels, const struct scene_results *r)
 }
 
 /* Checksum of a picture of one sample per pixel: it changes when the scene, its files or the program do, so that
- * results of another scene or another version of an integrator are not taken for this one's. 0 when it cannot be
- * rendered, which the run itself will report. */
-static unsigned long probe_variant(struct scene_experiment *s, int variant)
+ * results of another scene or another version of a method are not taken for this one's. 0 when it cannot be rendered,
+ * which the run itself will report. */
+static unsigned long probe(struct scene_experiment *s, int method)
 {
-    struct film film;
-    if (s->probe[variant] != 0)
-        return s->probe[variant];
-    struct render_options o = options_of(s, variant, 0, 1);
-    begin_film(s, &film);
-    if (render_scene(&s->scene, &o, &film, NULL)) {
-        float *pixels = new_pixels(s->out);
-        film_develop(&film, s->scene.film_scale, pixels);
-        s->probe[variant] = crc_of(pixels, s->out);
-        free(pixels);
+    struct render_options o = options_of(s, method, 0, 1);
+    struct timed picture;
+    if (s->probe[method] == 0 && timed_render(&s->scene, &o, &picture, NULL)) {
+        s->probe[method] = crc_of(picture.pixels, s->out);
+        free(picture.pixels);
     }
-    film_free(&film);
-    return s->probe[variant];
+    return s->probe[method];
 }
 
 /* The key of a run: everything its numbers depend on. */
-static void run_key(struct scene_experiment *s, int variant, int seed, char *out)
+static void run_key(struct scene_experiment *s, int method, int seed, char *out)
 {
-    const struct variant *v = &VARIANTS[variant];
+    const struct plan *p = s->whole->plan;
     const struct scene_results *r = s->out;
-    int n = snprintf(out, KEY_SIZE,
-                     "%s %08lx %dx%d maxdepth=%d reference=%08lx %s paths=%d restart=%d seed=%ld spp=", r->name,
-                     probe_variant(s, variant), r->width, r->height, r->max_depth, crc_of(r->reference.pixels, r),
-                     v->name, v->bin_paths, v->restart, plan_seed(variant, seed));
-    for (int i = 0; i < s->whole->plan->n_steps && n < KEY_SIZE; i++)
-        n += snprintf(out + n, (size_t)(KEY_SIZE - n), "%s%ld", i > 0 ? "," : "", s->whole->plan->spp[i]);
+    int n = snprintf(out, KEY_SIZE, "%s %08lx %dx%d maxdepth=%d reference=%08lx %s seed=%ld spp=", r->name,
+                     probe(s, method), r->width, r->height, r->max_depth, crc_of(r->reference.pixels, r),
+                     p->methods.item[method].text, plan_seed(method, seed));
+    for (int i = 0; i < p->n_steps && n < KEY_SIZE; i++)
+        n += snprintf(out + n, (size_t)(KEY_SIZE - n), "%s%ld", i > 0 ? "," : "", p->spp[i]);
 }
 
 /* --- one run ----------------------------------------------------------------------------------------- */
 
-static bool timed_render(struct scene_experiment *s, struct render_options *o, struct film *film, double *seconds)
-{
-    double start = os_cpu_seconds();
-    bool ok = render_scene(&s->scene, o, film, s->whole->err);
-    *seconds = os_cpu_seconds() - start;
-    return ok;
-}
-
 static void measure(const struct scene_experiment *s, const struct film *film, long spp, double seconds,
-                    struct run_step *out, float *pixels)
+                    struct run_step *out, float **pixels)
 {
-    film_develop(film, s->scene.film_scale, pixels);
-    struct difference d = compare_pixels(pixels, s->out->reference.pixels, (long)s->out->width * s->out->height * 3);
+    free(*pixels);
+    *pixels = timed_develop(&s->scene, film);
+    struct difference d = compare_pixels(*pixels, s->out->reference.pixels, (long)s->out->width * s->out->height * 3);
     struct run_step step = {spp,
                             {seconds, d.rmse, d.rmse8, d.relmse, d.mean_ratio - 1},
                             d.nonfinite + film->nonfinite};
     *out = step;
 }
 
-/* Render all steps of a run. Each continues the film of an earlier one where the integrator allows it, so only its own
- * samples are rendered and timed. Preparing the integrator again for each is not part of what a user would wait for: an
- * empty render measures it, and it is charged once. */
-static bool render_steps(struct scene_experiment *s, int variant, int seed, struct film *film, struct seed_run *run,
-                         float *pixels)
+/* What preparing the method takes, and the length of the blocks that its samples come in; 0: any. */
+static bool prepare(struct scene_experiment *s, const struct render_options *o, double *seconds, int *block)
+{
+    struct render_job job;
+    struct preparation prepared;
+    double start = os_cpu_seconds();
+    if (!render_prepare(&s->scene, o, render_crop(&s->scene), &job, &prepared, s->whole->err))
+        return false;
+    *block = prepared.size.block;
+    method_release(&prepared);
+    *seconds = os_cpu_seconds() - start;
+    return true;
+}
+
+/* Render all steps of a run. Each continues the film of the one before, so only its own samples are rendered and timed,
+ * unless that ends within a block of samples, which must not be cut. Preparing the method again for each is not part
+ * of what a user would wait for: it is charged once. */
+static bool render_steps(struct scene_experiment *s, int method, int seed, struct film *film, struct seed_run *run,
+                         float **pixels)
 {
     const struct plan *p = s->whole->plan;
-    struct render_options o = options_of(s, variant, plan_seed(variant, seed), 0);
-    double prepare, seconds;
-    if (!timed_render(s, &o, film, &prepare))
+    struct render_options o = options_of(s, method, plan_seed(method, seed), plan_last_spp(p));
+    double before;
+    int block;
+    if (!prepare(s, &o, &before, &block))
         return false;
+    double prepared = before;
     for (int i = 0; i < p->n_steps; i++) {
-        o.first = plan_first_sample(p, variant, i);
+        struct timed took = {0};
+        o.first = i > 0 && (block == 0 || p->spp[i - 1] % block == 0) ? p->spp[i - 1] : 0;
         o.end = p->spp[i];
         if (o.first == 0) {
+            before = prepared;
             film_free(film);
             begin_film(s, film);
         }
-        s->whole->current = (double)(o.end - o.first);
-        if (!timed_render(s, &o, film, &seconds))
+        s->whole->share = (double)(o.end - o.first) / (double)plan_last_spp(p);
+        if (!timed_film(&s->scene, &o, film, &took, s->whole->err))
             return false;
-        double before = o.first > 0 ? run->step[i - 1].value[Q_SECONDS] : prepare;
-        measure(s, film, o.end, before + fmax(seconds - prepare, 0), &run->step[i], pixels);
-        finish_work(s->whole, (double)(o.end - o.first));
+        before += fmax(took.seconds - prepared, 0);
+        measure(s, film, o.end, before, &run->step[i], pixels);
     }
     run->n = p->n_steps;
     return true;
 }
 
-static void print_run(const struct scene_experiment *s, int variant, int seed, const struct seed_run *run)
+static void print_run(const struct scene_experiment *s, int method, int seed, const struct seed_run *run)
 {
     const struct run_step *last = &run->step[run->n - 1];
     progress_end(&s->whole->bar);
     if (!s->whole->plan->quiet)
         fprintf(stderr, "%s, %s, seed %d: %ld spp in %.1f s of CPU, rmse8 %.3f\n", s->out->name,
-                VARIANTS[variant].label, seed, last->spp, last->value[Q_SECONDS], last->value[Q_RMSE8]);
+                s->whole->plan->methods.item[method].text, seed, last->spp, last->value[Q_SECONDS],
+                last->value[Q_RMSE8]);
 }
 
-static bool render_run(struct scene_experiment *s, int variant, int seed, const char *file, const char *key,
+/* The picture of the first seed goes into a file, and is kept. */
+static bool render_run(struct scene_experiment *s, int method, int seed, const char *file, const char *key,
                        const char *picture)
 {
-    struct seed_run *run = &s->out->run[variant][seed - 1];
-    float *pixels = new_pixels(s->out);
+    struct seed_run *run = &s->out->run[method][seed - 1];
+    float *pixels = NULL;
     struct film film;
     begin_film(s, &film);
-    bool ok = render_steps(s, variant, seed, &film, run, pixels) &&
+    bool ok = render_steps(s, method, seed, &film, run, &pixels) &&
               (picture == NULL || image_write(picture, s->out->width, s->out->height, pixels, s->whole->err)) &&
               run_write(file, key, run, s->whole->err);
     if (ok)
-        print_run(s, variant, seed, run);
+        print_run(s, method, seed, run);
     if (picture != NULL)
-        s->out->image[variant] = pixels;
+        s->out->image[method] = pixels;
     else
         free(pixels);
     film_free(&film);
@@ -215,20 +217,21 @@ static float *read_picture(const struct scene_experiment *s, const char *path)
 }
 
 /* A run kept by an earlier start, or a new one. */
-static bool read_or_render_run(struct scene_experiment *s, int variant, int seed)
+static bool read_or_render_run(struct scene_experiment *s, int method, int seed)
 {
     const struct plan *p = s->whole->plan;
+    const char *name = p->methods.item[method].file;
     char file[PATH_SIZE], picture[PATH_SIZE], key[KEY_SIZE];
-    bool wants_picture = variant < N_COMPARED && seed == 1;
-    snprintf(file, sizeof file, "%s/runs/%s--%s--seed%d.csv", p->directory, s->out->name, VARIANTS[variant].name, seed);
-    snprintf(picture, sizeof picture, "%s/images/%s-%s.pfm", p->directory, s->out->name, VARIANTS[variant].name);
-    run_key(s, variant, seed, key);
-    if (run_read(file, key, p->n_steps, &s->out->run[variant][seed - 1]) &&
-        (!wants_picture || (s->out->image[variant] = read_picture(s, picture)) != NULL)) {
-        skip_work(s->whole, (double)plan_run_spp(p, variant));
-        return true;
-    }
-    return render_run(s, variant, seed, file, key, wants_picture ? picture : NULL);
+    bool wants_picture = method < p->n_compared && seed == 1;
+    snprintf(file, sizeof file, "%s/runs/%s--%s--seed%d.csv", p->directory, s->out->name, name, seed);
+    snprintf(picture, sizeof picture, "%s/images/%s-%s.pfm", p->directory, s->out->name, name);
+    s->whole->share = 0;
+    run_key(s, method, seed, key);
+    bool ok = (run_read(file, key, p->n_steps, &s->out->run[method][seed - 1]) &&
+               (!wants_picture || (s->out->image[method] = read_picture(s, picture)) != NULL)) ||
+              render_run(s, method, seed, file, key, wants_picture ? picture : NULL);
+    s->whole->done++;
+    return ok;
 }
 
 /* --- one scene --------------------------------------------------------------------------------------- */
@@ -239,25 +242,16 @@ static bool make_reference(struct scene_experiment *s)
     const struct plan *p = s->whole->plan;
     struct scene_results *r = s->out;
     char key[KEY_SIZE], directory[PATH_SIZE];
-    if (r->reference.pixels != NULL) {
-        skip_work(s->whole, (double)p->reference_spp);
+    struct measured m = {.text = METHOD_REFERENCE};
+    struct render_options o = {.integrator = METHOD_REFERENCE, .seed = REFERENCE_SEED, .n_threads = p->n_threads,
+                               .max_depth = r->max_depth};
+    if (r->reference.pixels != NULL)
         return true;
-    }
     snprintf(directory, sizeof directory, "%s/reference", p->directory);
-    snprintf(key, sizeof key, "%s %08lx %dx%d maxdepth=%d bdpt spp=%ld", r->name, probe_variant(s, VARIANT_BDPT),
-             r->width, r->height, r->max_depth, p->reference_spp);
-    if (reference_read(directory, r->name, key, &r->reference) &&
-        reference_fit(&r->reference, r->width, r->height, r->max_depth, NULL)) {
-        skip_work(s->whole, (double)p->reference_spp);
-        return true;
-    }
-    reference_free(&r->reference);
-    struct render_options o = options_of(s, VARIANT_BDPT, REFERENCE_SEED, 0);
-    s->whole->current = (double)p->reference_spp;
-    if (!reference_render(&s->scene, &o, p->reference_spp, &r->reference, s->whole->err))
-        return false;
-    finish_work(s->whole, (double)p->reference_spp);
-    return reference_write(&r->reference, directory, r->name, key, s->whole->err);
+    snprintf(key, sizeof key, "%s %08lx %dx%d maxdepth=%d %s spp=%ld", r->name, probe(s, 0), r->width, r->height,
+             r->max_depth, o.integrator, p->reference_spp);
+    take_settings(&s->scene, &m);
+    return reference_make(&s->scene, &o, p->reference_spp, directory, r->name, key, &r->reference, s->whole->err);
 }
 
 static bool load_scene(struct scene_experiment *s)
@@ -270,12 +264,13 @@ static bool load_scene(struct scene_experiment *s)
     return true;
 }
 
-/* Seeds come before variants, so that a machine that slows down in between slows down all alike. */
+/* Seeds come before methods, so that a machine that slows down in between slows down all alike. */
 static bool all_runs(struct scene_experiment *s)
 {
-    for (int seed = 1; seed <= s->whole->plan->n_seeds; seed++)
-        for (int v = 0; v < N_VARIANTS; v++)
-            if (seed <= plan_seeds(s->whole->plan, v) && !read_or_render_run(s, v, seed))
+    const struct plan *p = s->whole->plan;
+    for (int seed = 1; seed <= p->n_seeds; seed++)
+        for (int v = 0; v < p->methods.n; v++)
+            if (seed <= plan_seeds(p, v) && !read_or_render_run(s, v, seed))
                 return false;
     return true;
 }
@@ -284,11 +279,13 @@ static bool all_runs(struct scene_experiment *s)
 static bool render_pyramid(struct scene_experiment *s)
 {
     const struct plan *p = s->whole->plan;
-    struct render_options o = options_of(s, VARIANT_BDPT, 0, plan_last_spp(p));
+    struct measured m = {.text = METHOD_REFERENCE};
+    struct render_options o = {.integrator = METHOD_REFERENCE, .n_threads = p->n_threads};
     struct film film;
     char path[PATH_SIZE];
-    o.end = o.end < PYRAMID_SPP ? o.end : PYRAMID_SPP;
-    o.max_depth = o.max_depth < PYRAMID_LENGTH ? o.max_depth : PYRAMID_LENGTH;
+    o.end = plan_last_spp(p) < PYRAMID_SPP ? plan_last_spp(p) : PYRAMID_SPP;
+    o.max_depth = s->out->max_depth < PYRAMID_LENGTH ? s->out->max_depth : PYRAMID_LENGTH;
+    take_settings(&s->scene, &m);
     begin_film(s, &film);
     film_keep_strategies(&film, o.max_depth);
     snprintf(path, sizeof path, "%s/images/%s-strategies.png", p->directory, s->out->name);
@@ -328,9 +325,8 @@ bool experiment_run(const struct plan *plan, struct results *out, struct error *
     name_scenes(plan, out);
     if (!plan_names_differ(plan, err) || !make_directories(plan, err))
         return false;
-    for (int v = 0; v < N_VARIANTS; v++)
-        e.total += (double)(plan_seeds(plan, v) * plan_run_spp(plan, v));
-    e.total = plan->n_scenes * (e.total + (double)plan->reference_spp);
+    for (int v = 0; v < plan->methods.n; v++)
+        e.total += plan->n_scenes * plan_seeds(plan, v);
     progress_start(&e.bar, plan->quiet);
     bool ok = true;
     for (int i = 0; ok && i < plan->n_scenes; i++)

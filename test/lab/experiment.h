@@ -1,8 +1,8 @@
 /* experiment.h: carry out a plan: render everything, measure, keep what was measured.
  *
  * In plan->directory it keeps
- *     runs/SCENE--VARIANT--seedN.csv   one finished run, see results.h
- *     images/SCENE-VARIANT.pfm         the picture of a variant's first seed after all samples
+ *     runs/SCENE--METHOD--seedN.csv    one finished run, see results.h
+ *     images/SCENE-METHOD.pfm          the picture of a method's first seed after all samples
  *     reference/SCENE.{pfm,txt}        a reference made here
  * and uses them again when started once more with the same plan, so that an interrupted experiment goes on where it
  * stopped. A scene or program that renders another picture begins anew; one that is only faster does not notice, so
@@ -16,8 +16,8 @@
 
 #include "lab/results.h"
 
-/* experiment_run: fill `out`, to be released with results_free also on failure. Seeds are plan_seed's; a reference
- * made here has 100001 and 100002. Returns false with a message. */
+/* experiment_run: fill `out`, to be released with results_free also on failure. Seeds are plan_seed's. Returns false
+ * with a message. */
 bool experiment_run(const struct plan *plan, struct results *out, struct error *err);
 
 #endif

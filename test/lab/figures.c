@@ -10,9 +10,9 @@
 
 /* The picture's size and the frame of the data in it, in SVG units. */
 enum { WIDTH = 640, LEFT = 68, RIGHT = 624, TOP = 40, BOTTOM = 330 };
-enum { MAX_LINES = 8 };
+enum { MAX_LINES = METHODS_MAX };
 
-/* One line of a plot: a variant after a rising number of samples. */
+/* One line of a plot: a method after a rising number of samples. */
 struct plot_line {
     const char *label;
     int n;
@@ -34,45 +34,51 @@ struct plot {
 
 static const struct {
     const char *name, *title, *x_label, *y_label;
-} TEXTS[N_FIGURES] = {
+} TEXTS[FIGURE_SWEEP + 1] = {
     {"convergence", "error against time", "seconds of CPU", "RMSE, 8-bit scale"},
     {"samples", "error against samples", "samples per pixel", "RMSE, 8-bit scale"},
     {"bias", "signed mean error against samples", "samples per pixel", "mean error, percent"},
-    {"paths-per-set", "paths per bin set", "samples per pixel", "RMSE, 8-bit scale"},
-    {"restart-limit", "restart limit", "samples per pixel", "RMSE, 8-bit scale"},
+    {"sweep", NULL, "samples per pixel", "RMSE, 8-bit scale"},
 };
 
-const char *figure_name(enum figure f) { return TEXTS[f].name; }
+static int kind_of(int which) { return which < FIGURE_SWEEP ? which : FIGURE_SWEEP; }
 
-static void add_line(const struct scene_results *s, int variant, const char *label, struct plot *out)
+void figure_path(const struct scene_results *s, int which, char *out, size_t size)
+{
+    char number[16] = "";
+    if (which >= FIGURE_SWEEP)
+        snprintf(number, sizeof number, "-%d", which - FIGURE_SWEEP + 1);
+    snprintf(out, size, "plots/%s-%s%s.svg", s->name, TEXTS[kind_of(which)].name, number);
+}
+
+static void add_line(const struct scene_results *s, int method, struct plot *out)
 {
     struct plot_line *l = &out->line[out->n++];
     double scale = out->signed_y ? 100 : 1; /* percent */
-    l->label = label;
+    l->label = s->plan->methods.item[method].text;
     l->n = s->plan->n_steps;
     for (int i = 0; i < l->n; i++) {
-        struct estimate e = results_mean(s, variant, i, out->signed_y ? Q_MEAN_ERROR : Q_RMSE8);
-        l->x[i] = out->over_seconds ? results_mean(s, variant, i, Q_SECONDS).mean : (double)s->plan->spp[i];
+        struct estimate e = results_mean(s, method, i, out->signed_y ? Q_MEAN_ERROR : Q_RMSE8);
+        l->x[i] = out->over_seconds ? results_mean(s, method, i, Q_SECONDS).mean : (double)s->plan->spp[i];
         l->y[i] = scale * e.mean;
         l->error[i] = scale * e.error;
     }
 }
 
-static void make_plot(const struct scene_results *s, enum figure f, struct plot *out)
+static void make_plot(const struct scene_results *s, int which, struct plot *out)
 {
-    const struct sweep_point *sweep = SWEEPS[f == FIGURE_PATHS ? SWEEP_PATHS : SWEEP_RESTART];
-    bool is_sweep = f == FIGURE_PATHS || f == FIGURE_RESTART;
+    int kind = kind_of(which);
+    const struct sweep *sweep = which >= FIGURE_SWEEP ? &s->plan->sweep[which - FIGURE_SWEEP] : NULL;
     memset(out, 0, sizeof *out);
-    snprintf(out->title, sizeof out->title, "%.255s: %.99s", s->name, TEXTS[f].title);
-    out->x_label = TEXTS[f].x_label;
-    out->y_label = TEXTS[f].y_label;
-    out->over_seconds = f == FIGURE_CONVERGENCE;
-    out->signed_y = f == FIGURE_BIAS;
-    for (int v = 0; v < (is_sweep ? 1 : N_COMPARED); v++)
-        add_line(s, v, VARIANTS[v].label, out);
-    for (int i = 0; is_sweep && i < SWEEP_LENGTH; i++)
-        if (plan_seeds(s->plan, sweep[i].variant) > 0)
-            add_line(s, sweep[i].variant, sweep[i].label, out);
+    snprintf(out->title, sizeof out->title, "%.255s: %.120s", s->name, sweep != NULL ? sweep->text : TEXTS[kind].title);
+    out->x_label = TEXTS[kind].x_label;
+    out->y_label = TEXTS[kind].y_label;
+    out->over_seconds = kind == FIGURE_CONVERGENCE;
+    out->signed_y = kind == FIGURE_BIAS;
+    for (int v = 0; v < (sweep != NULL ? 1 : s->plan->n_compared); v++)
+        add_line(s, v, out);
+    for (int i = 0; sweep != NULL && i < sweep->n; i++)
+        add_line(s, sweep->method[i], out);
 }
 
 /* --- axes -------------------------------------------------------------------------------------------- */
@@ -231,7 +237,7 @@ static void write_marker(FILE *f, int k, double x, double y)
 {
     static const char *const shape[] = {"m-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0z", "m-3.6 -3.6h7.2v7.2h-7.2z",
                                         "m0 -4.8l4.6 8h-9.2z", "m0 -5l5 5l-5 5l-5 -5z"};
-    fprintf(f, "<path class=\"pk%d%s\" d=\"M%.1f %.1f%s\"/>\n", k, k >= 4 ? " ph" : "", x, y, shape[k % 4]);
+    fprintf(f, "<path class=\"pk%d%s\" d=\"M%.1f %.1f%s\"/>\n", k, k / 4 % 2 == 1 ? " ph" : "", x, y, shape[k % 4]);
 }
 
 static void write_line(FILE *f, const struct plot *p, int k, const struct plot_axis *xa, const struct plot_axis *ya)
@@ -263,7 +269,7 @@ static void write_line(FILE *f, const struct plot *p, int k, const struct plot_a
 static void write_legend(FILE *f, const struct plot *p)
 {
     for (int k = 0; k < p->n; k++) {
-        int x = LEFT + (k % 3) * 190, y = BOTTOM + 60 + (k / 3) * 20;
+        int x = LEFT + (k % 2) * 285, y = BOTTOM + 60 + (k / 2) * 20;
         fprintf(f, "<path class=\"pl%d\" d=\"M%d %dh24\"/>\n", k, x, y - 4);
         write_marker(f, k, x + 12, y - 4);
         xml_print(f, "<text class=\"pt\" x=\"%d\" y=\"%d\">%s</text>\n", x + 30, y, p->line[k].label);
@@ -272,27 +278,17 @@ static void write_legend(FILE *f, const struct plot *p)
 
 /* --- the whole --------------------------------------------------------------------------------------- */
 
-void figure_style(FILE *f)
+static void write_style(FILE *f, const struct plot *p)
 {
-    static const char *const lines[] = {
-        ".plot{color:#1b1f24;background:#fff;font:13px system-ui,sans-serif;max-width:100%;height:auto}",
-        ".plot .pt{fill:currentColor}.plot .ptitle{fill:currentColor;font-weight:600;font-size:15px}",
-        ".plot .pg{stroke:currentColor;stroke-opacity:.22;fill:none}",
-        ".plot .pm{stroke:currentColor;stroke-opacity:.08;fill:none}",
-        ".plot .pz{stroke:currentColor;stroke-opacity:.7;stroke-dasharray:2 3;fill:none}",
-        ".plot .pf{stroke:currentColor;stroke-opacity:.6;fill:none}",
-        ".plot [class^=pl]{fill:none;stroke-width:2}.plot .pe{stroke-width:1.3}.plot .ph{fill:none!important}",
-        ".plot{--c0:#3d444d;--c1:#b3400a;--c2:#0b62a8;--c3:#12733a;--c4:#8b00e0;--c5:#8a6a00}",
-        "@media (prefers-color-scheme:dark){.plot{color:#e6e9ed;background:#15191f;",
-        "--c0:#c3cad3;--c1:#ff9052;--c2:#5cb6ff;--c3:#4fd68a;--c4:#a64dff;--c5:#e6c34a}}",
-        "@media print{.plot{color:#000;background:#fff;",
-        "--c0:#3d444d;--c1:#b3400a;--c2:#0b62a8;--c3:#12733a;--c4:#8b00e0;--c5:#8a6a00}}",
-    };
-    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
-        fprintf(f, "%s\n", lines[i]);
-    for (int k = 0; k < MAX_LINES; k++)
-        fprintf(f, ".plot .pl%d{stroke:var(--c%d)}.plot .pk%d{fill:var(--c%d);stroke:var(--c%d)}\n", k, k % 6, k, k % 6,
-                k % 6);
+    static const char *const colours[] = {"#3d444d", "#b3400a", "#0b62a8", "#12733a", "#8b00e0", "#8a6a00"};
+    fputs("<style>\n.plot{color:#1b1f24;background:#fff;font:13px system-ui,sans-serif}\n"
+          ".pt{fill:currentColor}.ptitle{fill:currentColor;font-weight:600;font-size:15px}\n"
+          ".pg,.pm,.pz,.pf{stroke:currentColor;fill:none}.pg{stroke-opacity:.22}.pm{stroke-opacity:.08}\n"
+          ".pz{stroke-opacity:.7;stroke-dasharray:2 3}.pf{stroke-opacity:.6}\n"
+          "[class^=pl]{fill:none;stroke-width:2}.pe{stroke-width:1.3}.ph{fill:none!important}\n", f);
+    for (int k = 0; k < p->n; k++)
+        fprintf(f, ".pl%d{stroke:%s}.pk%d{fill:%s;stroke:%s}\n", k, colours[k % 6], k, colours[k % 6], colours[k % 6]);
+    fputs("</style>\n", f);
 }
 
 /* What the plot shows at its right end, in words, for those who cannot see it. */
@@ -305,25 +301,19 @@ static void write_description(FILE *f, const struct plot *p)
     }
 }
 
-void figure_write(FILE *f, const struct scene_results *s, enum figure which, const char *id, bool standalone)
+void figure_write(FILE *f, const struct scene_results *s, int which)
 {
     struct plot p;
     struct plot_axis xa, ya;
     make_plot(s, which, &p);
     find_axes(&p, &xa, &ya);
-    int height = BOTTOM + 50 + 20 * ((p.n + 2) / 3);
-    xml_print(
-        f,
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" viewBox=\"0 0 %d %d\" width=\"%d\" "
-        "height=\"%d\" role=\"img\" aria-labelledby=\"%s-t %s-d\">\n<title id=\"%s-t\">%s</title>\n<desc id=\"%s-d\">",
-        WIDTH, height, WIDTH, height, id, id, id, p.title, id);
+    int height = BOTTOM + 50 + 20 * ((p.n + 1) / 2);
+    xml_print(f, "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" viewBox=\"0 0 %d %d\" width=\"%d\" "
+              "height=\"%d\" role=\"img\" aria-labelledby=\"t d\">\n<title id=\"t\">%s</title>\n<desc id=\"d\">",
+              WIDTH, height, WIDTH, height, p.title);
     write_description(f, &p);
     fputs("</desc>\n", f);
-    if (standalone) {
-        fputs("<style>\n", f);
-        figure_style(f);
-        fputs("</style>\n", f);
-    }
+    write_style(f, &p);
     xml_print(f, "<text class=\"ptitle\" x=\"%d\" y=\"24\">%s</text>\n", LEFT, p.title);
     write_x_axis(f, &p, &xa);
     write_y_axis(f, &p, &ya);

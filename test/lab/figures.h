@@ -1,8 +1,8 @@
 /* figures.h: the plots of an experiment as SVG text, and which results each shows.
  *
  * Axes are linear or logarithmic, with ticks at round numbers; lines have markers of their own shape, so that they
- * can be told apart without colour, and error bars. Colours follow the reader's light or dark setting; those of the
- * compared variants were chosen to stay apart for readers who lack one kind of cone.
+ * can be told apart without colour, and error bars. Colours were chosen to stay apart for readers who lack one kind of
+ * cone.
  *
  * Tests: test_report.c.
  */
@@ -11,18 +11,14 @@
 
 #include "lab/results.h"
 
-enum figure { FIGURE_CONVERGENCE, FIGURE_SAMPLES, FIGURE_BIAS, FIGURE_PATHS, FIGURE_RESTART, N_FIGURES };
+enum figure { FIGURE_CONVERGENCE, FIGURE_SAMPLES, FIGURE_BIAS, FIGURE_SWEEP /* and one more for each other sweep */ };
 
-/* figure_name: for file names. */
-const char *figure_name(enum figure f);
+/* figure_count: how many there are of a plan's scene. figure_path: plots/..., below the plan's directory. */
+static inline int figure_count(const struct plan *p) { return FIGURE_SWEEP + p->n_sweeps; }
+void figure_path(const struct scene_results *s, int which, char *out, size_t size);
 
-/* figure_write:
- *   id          a word unique in the page, for references inside the picture
- *   standalone  a file of its own (with its style); else a part of a page that has figure_style's text */
-void figure_write(FILE *f, const struct scene_results *s, enum figure which, const char *id, bool standalone);
-
-/* figure_style: the CSS that plots need. */
-void figure_style(FILE *f);
+/* figure_write: figure number `which`, an enum figure, as an SVG file that needs nothing else. */
+void figure_write(FILE *f, const struct scene_results *s, int which);
 
 /* An axis: from the range of the data to a position between 0 and 1. */
 struct plot_axis {

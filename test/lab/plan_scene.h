@@ -27,12 +27,12 @@ bool plan_scene_read(const char *path, int width, int height, int max_depth, str
  *   stored  out, to be given to reference_free; its pixels are NULL where there is none, or none that fits
  * Returns false with a message, also when a reference was given that cannot be used; then the scene is not to be
  * released. */
-/* plan_names_differ: no two scenes of the plan have the same name, under which their results are kept. False with a
- * message. */
-bool plan_names_differ(const struct plan *p, struct error *err);
-
 enum { WIDTH_WITHOUT_REFERENCE = 48 };
 bool plan_scene_load(const struct plan *p, const char *path, const char *name, struct scene *scene, int *depth,
                      struct reference *stored, struct error *err);
+
+/* plan_names_differ: no two scenes of the plan have the same name, under which their results are kept. False with a
+ * message. */
+bool plan_names_differ(const struct plan *p, struct error *err);
 
 #endif

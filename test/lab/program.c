@@ -1,7 +1,8 @@
 /* program.c: what asbdpt-lab is made of. A new subcommand is a new word in COMMANDS. */
 #include "lab/commands.h"
 
-static const struct command *const COMMANDS[] = {&command_verify, &command_experiment, &command_demo, &command_bench, NULL};
+static const struct command *const COMMANDS[] = {&command_verify, &command_experiment, &command_equal_time,
+                                                &command_demo,   &command_bench,      NULL};
 
 const struct program program = {
     "asbdpt-lab", "the laboratory of asbdpt: what measures its pictures and its speed",

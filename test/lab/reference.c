@@ -12,6 +12,7 @@
 #include "base/os.h"
 #include "image/image.h"
 #include "image/sheet.h"
+#include "lab/sides.h"
 #include "look/compare.h"
 
 enum { PATH_SIZE = 4096 };
@@ -25,7 +26,6 @@ void reference_free(struct reference *r)
 /* --- the text beside the picture --------------------------------------------------------------------- */
 
 struct reference_text {
-    char key[512];
     long max_depth;   /* 0: not said */
     uint64_t content; /* 0: not said */
     double noise8, mean_error;
@@ -38,8 +38,6 @@ static void read_line(char *line, struct reference_text *s)
     sscanf(line, "content %" SCNx64, &s->content);
     sscanf(line, "noise8 %lf", &s->noise8);
     sscanf(line, "mean_error %lf", &s->mean_error);
-    if (strncmp(line, "key ", 4) == 0)
-        snprintf(s->key, sizeof s->key, "%.511s", line + 4);
     if (strncmp(line, "origin ", 7) == 0)
         snprintf(s->origin, sizeof s->origin, "%.1199s", line + 7);
 }
@@ -145,110 +143,28 @@ bool reference_find(const char *given, const char *scene_path, const char *name,
 
 /* --- references made here ---------------------------------------------------------------------------- */
 
-/* The share of both halves that is done. */
-struct halves {
-    const struct render_options *options;
-    int number;
-};
+enum { BATCHES = 4 }; /* of each side */
 
-static bool half_progress(void *context, double done)
+bool reference_make(const struct scene *scene, const struct render_options *options, long spp, const char *directory,
+                    const char *name, const char *key, struct reference *out, struct error *err)
 {
-    const struct halves *h = context;
-    return h->options->progress == NULL || h->options->progress(h->options->progress_context, 0.5 * (h->number + done));
-}
-
-/* Relative standard error of the mean of a film's picture, were its pixels independent; too large rather than too
- * small, as samples are spread evenly. NaN for a black one. */
-static double picture_mean_error(const struct film *film)
-{
-    size_t n = (size_t)rect_width(film->rect) * (size_t)rect_height(film->rect) * 3;
-    float *error = mem_alloc(n, sizeof *error);
-    double square[3] = {0, 0, 0}, total = 0;
-    film_standard_error(film, 1, error);
-    for (size_t i = 0; i < n; i++) {
-        square[i % 3] += (double)error[i] * (double)error[i];
-        total += film_value(film, i) / (double)film->iterations;
-    }
-    free(error);
-    /* The channels of a pixel are not independent: take them as fully dependent, the worst case. */
-    return total > 0 ? (sqrt(square[0]) + sqrt(square[1]) + sqrt(square[2])) / total : NAN;
-}
-
-/* Render half number i into `out`; `mean_error` as picture_mean_error has it. */
-static bool render_half(const struct scene *scene, const struct render_options *options, long spp, int i, float *out,
-                        double *mean_error, struct error *err)
-{
-    struct halves context = {options, i};
-    struct render_options o = *options;
-    struct film film;
-    o.seed = options->seed + (unsigned)i;
-    o.first = 0;
-    o.end = spp;
-    o.progress = half_progress;
-    o.progress_context = &context;
-    film_init(&film, render_crop(scene), scene->width, scene->height);
-    film_keep_errors(&film);
-    bool ok = render_scene(scene, &o, &film, err);
-    if (ok) {
-        film_warn(&film, film_develop(&film, scene->film_scale, out));
-        *mean_error = picture_mean_error(&film);
-    }
-    film_free(&film);
-    return ok;
-}
-
-bool reference_render(const struct scene *scene, const struct render_options *options, long spp, struct reference *out,
-                      struct error *err)
-{
-    size_t n = (size_t)scene->width * (size_t)scene->height * 3;
-    long half = spp / 2 > 1 ? spp / 2 : 2;
-    float *a = mem_alloc(n, sizeof *a), *b = mem_alloc(n, sizeof *b);
-    double error[2] = {NAN, NAN};
-    bool ok = render_half(scene, options, half, 0, a, &error[0], err) &&
-              render_half(scene, options, half, 1, b, &error[1], err);
-    if (ok) {
-        out->noise8 = compare_pixels(a, b, (long)n).rmse8 / 2;
-        out->mean_error = 0.5 * sqrt(error[0] * error[0] + error[1] * error[1]);
-        for (size_t i = 0; i < n; i++)
-            a[i] = 0.5f * (a[i] + b[i]);
-        snprintf(out->origin, sizeof out->origin,
-                 "rendered by this program: %s, two halves of %ld spp, seeds %lu and %lu", options->integrator,
-                 half, (unsigned long)options->seed, (unsigned long)options->seed + 1);
-        out->pixels = a;
-        out->width = scene->width;
-        out->height = scene->height;
-        out->max_depth = options->max_depth;
-    } else {
-        free(a);
-    }
-    free(b);
-    return ok;
-}
-
-bool reference_write(const struct reference *r, const char *directory, const char *name, const char *key,
-                     struct error *err)
-{
-    char path[PATH_SIZE];
-    struct file_output f;
-    snprintf(path, sizeof path, "%s/%s.pfm", directory, name);
-    if (!image_write(path, r->width, r->height, r->pixels, err))
-        return false;
-    snprintf(path, sizeof path, "%s/%s.txt", directory, name);
-    if (!file_create(path, &f, err))
-        return false;
-    fprintf(f.stream, "key %s\nresolution %dx%d\nmaxdepth %ld\nnoise8 %.17g\nmean_error %.17g\norigin %s\n", key,
-            r->width, r->height, r->max_depth, r->noise8, r->mean_error, r->origin);
-    return file_commit(&f, err);
-}
-
-bool reference_read(const char *directory, const char *name, const char *key, struct reference *out)
-{
-    char path[PATH_SIZE];
+    char stem[PATH_SIZE - 4], path[PATH_SIZE];
     struct reference_text text;
-    snprintf(path, sizeof path, "%s/%s.pfm", directory, name);
+    struct render_options o = *options;
+    struct side a = {0}, b = {0};
+    snprintf(stem, sizeof stem, "%s/%s", directory, name);
+    snprintf(path, sizeof path, "%s.pfm", stem);
     read_text(path, &text);
-    if (strcmp(text.key, key) != 0 || !load(path, out, &text, NULL))
-        return false;
-    snprintf(out->origin, sizeof out->origin, "%s", text.origin);
-    return true;
+    if (strcmp(text.origin, key) == 0 && load(path, out, &text, NULL))
+        return true;
+    o.end = spp / (2 * BATCHES) > 1 ? spp / (2 * BATCHES) : 1;
+    bool ok = file_make_directory(directory, err) && side_render(scene, &o, 0, BATCHES, true, &a, err) &&
+              side_render(scene, &o, 1, BATCHES, true, &b, err);
+    if (ok) {
+        struct provenance from = {key, "here", scene->content, options->max_depth, NULL};
+        ok = sides_store(stem, &a, &b, &from, err) && load(path, out, &text, err);
+    }
+    batches_free(&a.pixels);
+    batches_free(&b.pixels);
+    return ok;
 }

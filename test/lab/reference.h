@@ -8,9 +8,8 @@
  * are read and the others kept for people. It fits a wanted size when its own is the same or a whole multiple: with a
  * box filter the mean of k x k pixels is exactly the pixel of the smaller picture.
  *
- * Where none is stored, one is rendered by bdpt in two independent halves A and B. Their mean is the reference, and
- *     E (A - B)^2 = 2 var A = 4 var (A + B)/2,   so that   noise8 = rmse8(A, B) / 2.
- * Its mean_error is an upper bound, by the variances of pixels over samples, which err together less than that.
+ * Where none is stored, one is rendered: two sides of independent batches (sides.h), their weighted mean, and the
+ * errors that follow from how the batches scatter, stored as any other.
  *
  * Tests: test_report.c.
  */
@@ -45,17 +44,13 @@ bool reference_is_of(const struct reference *r, const struct scene *scene, bool 
  * multiple of that or it holds paths of other lengths. */
 bool reference_fit(struct reference *r, int width, int height, int max_depth, struct error *err);
 
-/* reference_render: render one of `spp` samples per pixel, of the whole scene, paths up to options->max_depth; progress
- * as render_options has it, over both halves.
+/* reference_make: render one of about `spp` samples per pixel, of the whole scene, and store it as DIRECTORY/NAME.pfm,
+ * .error.pfm and .txt, or read back the one that is stored there with the same key, which says what it depends on, size
+ * and depth too.
+ *   options  who renders it, from which seed, how deep, on how many threads
  * Returns false with a message. */
-bool reference_render(const struct scene *scene, const struct render_options *options, long spp, struct reference *out,
-                      struct error *err);
-
-/* reference_write / reference_read: keep it as DIRECTORY/NAME.pfm and .txt; the key says what it depends on, size and
- * depth too, and only a reference with the same key is read back. */
-bool reference_write(const struct reference *r, const char *directory, const char *name, const char *key,
-                     struct error *err);
-bool reference_read(const char *directory, const char *name, const char *key, struct reference *out);
+bool reference_make(const struct scene *scene, const struct render_options *options, long spp, const char *directory,
+                    const char *name, const char *key, struct reference *out, struct error *err);
 
 void reference_free(struct reference *r);
 

@@ -16,7 +16,7 @@ void results_free(struct results *r)
 {
     for (int i = 0; r->scene != NULL && i < r->plan->n_scenes; i++) {
         reference_free(&r->scene[i].reference);
-        for (int v = 0; v < N_COMPARED; v++)
+        for (int v = 0; v < METHODS_MAX; v++)
             free(r->scene[i].image[v]);
     }
     free(r->scene);
@@ -102,21 +102,22 @@ static void write_interval(FILE *f, struct interval i)
 
 void results_csv(FILE *f, const struct results *r)
 {
-    fputs("scene,variant,spp,seeds", f);
+    fputs("scene,method,spp,seeds", f);
     for (int q = 0; q < N_QUANTITIES; q++)
         fprintf(f, ",%s,%s_error", NAMES[q], NAMES[q]);
-    fputs(",rmse8_ratio,rmse8_ratio_low,rmse8_ratio_high,equal_time_mse,equal_time_mse_low,equal_time_mse_high\n", f);
+    fputs(",rmse8_ratio,rmse8_ratio_low,rmse8_ratio_high,cost,cost_low,cost_high\n", f);
     for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++)
-        for (int v = 0; v < N_VARIANTS; v++)
-            for (int step = 0; step < r->plan->n_steps && plan_seeds(r->plan, v) > 0; step++) {
-                fprintf(f, "%s,%s,%ld,%d", s->name, VARIANTS[v].name, r->plan->spp[step], plan_seeds(r->plan, v));
+        for (int v = 0; v < r->plan->methods.n; v++)
+            for (int step = 0; step < r->plan->n_steps; step++) {
+                fprintf(f, "%s,%s,%ld,%d", s->name, r->plan->methods.item[v].text, r->plan->spp[step],
+                        plan_seeds(r->plan, v));
                 for (int q = 0; q < N_QUANTITIES; q++) {
                     struct estimate e = results_mean(s, v, step, (enum quantity)q);
                     write_number(f, e.mean, 9, "");
                     write_number(f, e.error, 9, "");
                 }
                 write_interval(f, results_rmse_ratio(s, v, step));
-                write_interval(f, results_equal_time(s, v, step));
+                write_interval(f, results_cost_ratio(s, v, step));
                 fputc('\n', f);
             }
 }
@@ -124,13 +125,13 @@ void results_csv(FILE *f, const struct results *r)
 void results_runs_csv(FILE *f, const struct results *r)
 {
     char columns[256];
-    step_columns(columns, "scene,variant,seed,");
+    step_columns(columns, "scene,method,seed,");
     fputs(columns, f);
     for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++)
-        for (int v = 0; v < N_VARIANTS; v++)
+        for (int v = 0; v < r->plan->methods.n; v++)
             for (int i = 0; i < plan_seeds(r->plan, v); i++)
                 for (int step = 0; step < s->run[v][i].n; step++) {
-                    fprintf(f, "%s,%s,%ld,", s->name, VARIANTS[v].name, plan_seed(v, i + 1));
+                    fprintf(f, "%s,%s,%ld,", s->name, r->plan->methods.item[v].text, plan_seed(v, i + 1));
                     write_step(f, &s->run[v][i].step[step], 9, "");
                 }
 }
@@ -152,12 +153,12 @@ static struct estimate mean_of(const double *x, int n)
     return e;
 }
 
-struct estimate results_mean(const struct scene_results *s, int variant, int step, enum quantity q)
+struct estimate results_mean(const struct scene_results *s, int method, int step, enum quantity q)
 {
     double x[PLAN_MAX_SEEDS];
-    int n = plan_seeds(s->plan, variant);
+    int n = plan_seeds(s->plan, method);
     for (int i = 0; i < n; i++)
-        x[i] = s->run[variant][i].step[step].value[q];
+        x[i] = s->run[method][i].step[step].value[q];
     return mean_of(x, n);
 }
 
@@ -195,12 +196,11 @@ struct interval results_ratio(const double *a, int na, const double *b, int nb)
     return out;
 }
 
-/* The ratio of a variant's mean to bdpt's: of its errors, or of squared error times seconds, which is what a variant
- * pays for the inverse of its variance. */
-static struct interval over_bdpt(const struct scene_results *s, int variant, int step, bool paid)
+/* The ratio of a method's mean to the first one's: of its errors, or of squared error times seconds. */
+static struct interval over_first(const struct scene_results *s, int method, int step, bool paid)
 {
     double x[2][PLAN_MAX_SEEDS], noise = isfinite(s->reference.noise8) ? s->reference.noise8 : 0;
-    int compared[2] = {variant, VARIANT_BDPT}, n[2];
+    int compared[2] = {method, 0}, n[2];
     for (int k = 0; k < 2; k++) {
         n[k] = plan_seeds(s->plan, compared[k]);
         for (int i = 0; i < n[k]; i++) {
@@ -212,25 +212,23 @@ static struct interval over_bdpt(const struct scene_results *s, int variant, int
     return results_ratio(x[0], n[0], x[1], n[1]);
 }
 
-struct interval results_rmse_ratio(const struct scene_results *s, int variant, int step)
+struct interval results_rmse_ratio(const struct scene_results *s, int method, int step)
 {
-    return over_bdpt(s, variant, step, false);
+    return over_first(s, method, step, false);
 }
 
-struct interval results_equal_time(const struct scene_results *s, int variant, int step)
+struct interval results_cost_ratio(const struct scene_results *s, int method, int step)
 {
-    return over_bdpt(s, variant, step, true);
+    return over_first(s, method, step, true);
 }
 
-struct bias results_bias(const struct scene_results *s, int variant, int step)
+double results_bias_p(const struct scene_results *s, int method, int step)
 {
-    struct estimate e = results_mean(s, variant, step, Q_MEAN_ERROR);
-    struct bias out = {e.mean, e.error, NAN};
+    struct estimate e = results_mean(s, method, step, Q_MEAN_ERROR);
     double variance = sqr(e.error), reference = isfinite(s->reference.mean_error) ? sqr(s->reference.mean_error) : 0;
     if (!(variance > 0))
-        return out;
+        return NAN;
     /* Welch's degrees of freedom; the reference's error is known from thousands of pixels. */
     double total = variance + reference;
-    out.p = stats_student_p(out.mean / sqrt(total), sqr(total) / (sqr(variance) / (e.n - 1)));
-    return out;
+    return stats_student_p(e.mean / sqrt(total), sqr(total) / (sqr(variance) / (e.n - 1)));
 }

@@ -1,12 +1,12 @@
 /* results.h: the measurements of an experiment in memory and in files, and the statistics over its seeds.
  *
- * Every number shown anywhere (tables, plots, CSV, sentences) comes from the functions here. On disk there are
- *     runs/SCENE--VARIANT--seedN.csv
+ * Every number shown anywhere (tables, plots, CSV) comes from the functions here. On disk there are
+ *     runs/SCENE--METHOD--seedN.csv
  *                   one run, written when it is finished, read back when the experiment is started again; its first
  *                   line is a key that says everything the numbers depend on
- *     results.csv   one line per scene, variant and number of samples: means over seeds with standard errors, ratios
- *                   to BDPT with 95 % intervals; empty where unknown
- *     runs.csv      one line per scene, variant, seed and number of samples: what was measured
+ *     results.csv   one line per scene, method and number of samples: means over seeds with standard errors, ratios
+ *                   to the first method with 95 % intervals; empty where unknown
+ *     runs.csv      one line per scene, method, seed and number of samples: what was measured
  *
  * Tests: test_report.c.
  */
@@ -34,7 +34,7 @@ struct run_step {
     long nonfinite; /* values that could not be compared */
 };
 
-/* What one seed of a variant brought: a whole convergence curve. */
+/* What one seed of a method brought: a whole convergence curve. */
 struct seed_run {
     struct run_step step[PLAN_MAX_STEPS]; /* [n] */
     int n;                                /* 0: not done */
@@ -46,8 +46,8 @@ struct scene_results {
     char name[256];
     int width, height, max_depth;
     struct reference reference;
-    struct seed_run run[N_VARIANTS][PLAN_MAX_SEEDS]; /* the first plan_seeds() of each */
-    float *image[N_COMPARED];                        /* first seed, all samples; owned */
+    struct seed_run run[METHODS_MAX][PLAN_MAX_SEEDS]; /* the first plan_seeds() of each */
+    float *image[METHODS_MAX];                        /* of what is compared: first seed, all samples; owned */
 };
 
 struct results {
@@ -73,7 +73,7 @@ struct estimate {
     int n;              /* seeds; 0: mean is NaN */
 };
 
-struct estimate results_mean(const struct scene_results *s, int variant, int step, enum quantity q);
+struct estimate results_mean(const struct scene_results *s, int method, int step, enum quantity q);
 
 /* A ratio of two means with its 95 % confidence interval; NaN where it cannot be told. */
 struct interval {
@@ -84,20 +84,17 @@ struct interval {
  * on the logarithm of the ratio. */
 struct interval results_ratio(const double *a, int na, const double *b, int nb);
 
-/* results_rmse_ratio: rmse8 of a variant over bdpt's after the same number of samples, the dissertation's
- * comparison. results_equal_time: squared error of a variant over bdpt's after the same CPU time, (MSE_v - noise^2)
- * T_v / ((MSE_b - noise^2) T_b), for bdpt's squared error is inversely proportional to its time; noise8 of the
- * reference is subtracted if known. */
-struct interval results_rmse_ratio(const struct scene_results *s, int variant, int step);
-struct interval results_equal_time(const struct scene_results *s, int variant, int step);
+/* results_rmse_ratio: rmse8 of a method over the first one's after the same number of samples, the dissertation's
+ * comparison. results_cost_ratio: the same of squared error times seconds, (MSE - noise^2) T: what a method pays for
+ * the inverse of its variance, as the squared error falls as one over the time; noise8 of the reference is subtracted
+ * if known. */
+struct interval results_rmse_ratio(const struct scene_results *s, int method, int step);
+struct interval results_cost_ratio(const struct scene_results *s, int method, int step);
 
-/* results_bias: the signed mean error with its standard error over seeds, as results_mean has them, and the p-value of
- * "it is 0" by Student's t, the error of the reference's mean added. (The variances of pixels over samples are no
- * estimate of it: samples that are spread evenly err together several times less.) NaN for one seed. */
-struct bias {
-    double mean, error, p;
-};
-struct bias results_bias(const struct scene_results *s, int variant, int step);
+/* results_bias_p: p-value of "the signed mean error is 0" by Student's t, from the seeds' scatter and the error of the
+ * reference's mean. (The variances of pixels over samples are no estimate of it: samples that are spread evenly err
+ * together several times less.) NaN for one seed. */
+double results_bias_p(const struct scene_results *s, int method, int step);
 
 /* student_quantile: x with P(|t| > x) = p for Student's t, 0 < p < 1. */
 double student_quantile(double p, double dof);

@@ -10,10 +10,10 @@
 #include "base/file.h"
 #include "base/mem.h"
 #include "base/number.h"
-#include "base/os.h"
 #include "base/progress.h"
 #include "base/rng.h"
 #include "image/image.h"
+#include "lab/timed.h"
 #include "look/compare.h"
 
 enum {
@@ -21,7 +21,6 @@ enum {
     MOST_TILES = 196, /* of a picture */
     PILOT_SPP = 4
 };
-static const double SECONDS = 40; /* of rendering */
 
 /* --- reading ----------------------------------------------------------------------------------------- */
 
@@ -53,18 +52,13 @@ bool side_read(const char *const *file, int n, bool with_errors, const struct si
     return ok;
 }
 
-bool side_read_reference(const char *path, struct side *out, struct error *err)
+bool side_errors_path(const char *path, char *out, size_t size, struct error *err)
 {
-    char picture[4096], error[4096];
-    const char *both[2] = {picture, error};
     int stem = (int)strlen(path) - 4;
     if (stem < 1 || strcmp(path + stem, ".pfm") != 0)
         return error_set(err, "%s: a reference is a .pfm file", path);
-    snprintf(picture, sizeof picture, "%s", path);
-    snprintf(error, sizeof error, "%.*s.error.pfm", stem, path);
-    bool ok = side_read(both, 2, true, NULL, out, err);
-    out->name = path;
-    return ok;
+    snprintf(out, size, "%.*s.error.pfm", stem, path);
+    return true;
 }
 
 /* --- rendering --------------------------------------------------------------------------------------- */
@@ -78,7 +72,7 @@ static bool render_batch(const struct scene *scene, const struct render_options 
     film_init(&film, render_crop(scene), scene->width, scene->height);
     bool ok = render_scene(scene, &o, &film, err);
     film_warn(&film, 0);
-    for (long i = 0; ok && out != NULL && i < 3L * rect_width(film.rect) * rect_height(film.rect); i++)
+    for (long i = 0; ok && i < 3L * rect_width(film.rect) * rect_height(film.rect); i++)
         out[i] = film_value(&film, (size_t)i) / (double)film.iterations * scene->film_scale;
     film_free(&film);
     return ok;
@@ -125,18 +119,16 @@ bool side_choose_resolution(struct scene *scene, const struct side *like, struct
                      like->width, like->height, left[0], left[1]);
 }
 
-long side_choose_spp(const struct scene *scene, const struct render_options *options,
-                     const struct method *const integrator[2], int n_batches, struct error *err)
+long side_choose_spp(const struct scene *scene, const struct render_options *options, int n_batches, double seconds,
+                     struct error *err)
 {
     struct render_options pilot = *options;
-    double start = os_wall_seconds();
+    struct timed took;
     pilot.end = PILOT_SPP;
-    for (int i = 0; i < 2 && integrator[i] != NULL; i++) {
-        pilot.integrator = integrator[i]->name;
-        if (!render_batch(scene, &pilot, 1, NULL, err))
-            return 0;
-    }
-    double per_spp = (os_wall_seconds() - start) / PILOT_SPP, spp = SECONDS / (per_spp * n_batches);
+    if (!timed_render(scene, &pilot, &took, err))
+        return 0;
+    free(took.pixels);
+    double spp = seconds * PILOT_SPP / (took.wall * n_batches);
     return spp < PILOT_SPP ? PILOT_SPP : spp > 1e6 ? 1000000 : (long)spp;
 }
 
@@ -179,10 +171,11 @@ static bool write_text(const char *name, const struct side *a, const struct side
             mean > 0 ? sqrt(sqr(weight * error_a) + sqr((1 - weight) * error_b)) / mean : NAN);
     fprintf(f.stream, "weights %.6f %.6f of the two methods, by the inverse of the sum of all pixels' variances\n",
             weight, 1 - weight);
-    fprintf(f.stream,
-            "agreement p %.3g: smallest of the tiles %.3g, means %.3g, uniform %.3g; "
-            "ratio of the means %.6f +- %.6f\n",
-            v->p, v->smallest, v->mean, v->uniform, v->ratio, v->ratio_error);
+    if (v != NULL)
+        fprintf(f.stream,
+                "agreement p %.3g: smallest of the tiles %.3g, means %.3g, uniform %.3g; "
+                "ratio of the means %.6f +- %.6f\n",
+                v->p, v->smallest, v->mean, v->uniform, v->ratio, v->ratio_error);
     return file_commit(&f, err);
 }
 

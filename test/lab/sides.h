@@ -10,7 +10,7 @@
 #include "render/render.h"
 
 struct side {
-    const char *name; /* borrowed */
+    const char *name; /* of a method, or the first of its pictures; borrowed */
     int width, height;
     struct batches pixels; /* [height*width*3] values; owned, to be released also when reading or rendering failed */
 };
@@ -21,8 +21,8 @@ struct side {
 bool side_read(const char *const *file, int n, bool with_errors, const struct side *like, struct side *out,
                struct error *err);
 
-/* side_read_reference: NAME.pfm with the standard errors beside it, NAME.error.pfm. Returns false with a message. */
-bool side_read_reference(const char *path, struct side *out, struct error *err);
+/* side_errors_path: of NAME.pfm the picture of its standard errors, NAME.error.pfm. Returns false with a message. */
+bool side_errors_path(const char *path, char *out, size_t size, struct error *err);
 
 /* side_render: independent batches of options->end samples per pixel.
  *   number  0 or 1: which side; the batches' seeds are hashes of it, of the batch and of options->seed
@@ -35,10 +35,10 @@ bool side_render(const struct scene *scene, const struct render_options *options
  * Returns false with a message when a crop window leaves less than `like` has. */
 bool side_choose_resolution(struct scene *scene, const struct side *like, struct error *err);
 
-/* side_choose_spp: samples per pixel so that the batches of one or two integrators (then integrator[1] is not NULL)
- * take about 40 seconds; 0 with a message when they cannot be rendered. */
-long side_choose_spp(const struct scene *scene, const struct render_options *options,
-                     const struct method *const integrator[2], int n_batches, struct error *err);
+/* side_choose_spp: samples per pixel so that the batches take about `seconds`; 0 with a message when they cannot be
+ * rendered. */
+long side_choose_spp(const struct scene *scene, const struct render_options *options, int n_batches, double seconds,
+                     struct error *err);
 
 /* side_choose_tile: side of tiles that are large enough for means that are nearly normal, and not too many. */
 int side_choose_tile(const struct side *s);
@@ -48,7 +48,7 @@ struct provenance {
     const char *note, *scene_path;
     uint64_t content; /* of the scene's files */
     int max_depth;
-    const struct verdict *verdict;
+    const struct verdict *verdict; /* NULL: no test was made */
 };
 
 /* sides_store: the mean of both sides as NAME.pfm, its standard errors as NAME.error.pfm, and NAME.txt, which

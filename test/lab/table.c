@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "look/markup.h"
 
 void table_begin(struct table *t, const char *caption, ...)
 {
@@ -64,26 +63,6 @@ void table_free(struct table *t)
 }
 
 size_t table_rows(const struct table *t) { return t->n_cells / t->columns; }
-
-void table_html(FILE *f, const struct table *t)
-{
-    xml_print(f,
-              "<figure class=\"table\"><figcaption>%s</figcaption>\n"
-              "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"%s\"><table>\n<thead><tr>",
-              t->caption, t->caption);
-    for (size_t c = 0; c < t->columns; c++)
-        xml_print(f, "<th scope=\"col\">%s</th>", t->head[c]);
-    fputs("</tr></thead>\n<tbody>\n", f);
-    for (size_t i = 0; i < t->n_cells; i++) {
-        size_t column = i % t->columns;
-        fputs(column == 0 ? "<tr><th scope=\"row\"" : "<td", f);
-        if (isfinite(t->cell[i].value))
-            fprintf(f, " data-value=\"%.9g\"", t->cell[i].value);
-        xml_print(f, ">%s", t->cell[i].text);
-        fprintf(f, "</%s>%s", column == 0 ? "th" : "td", column + 1 == t->columns ? "</tr>\n" : "");
-    }
-    fputs("</tbody></table></div></figure>\n", f);
-}
 
 /* A bar or a backslash of the text is no end of the cell. */
 static void markdown_text(FILE *f, const char *text)

@@ -1,4 +1,4 @@
-/* table.h: a table as rows of cells, written as HTML or as Markdown.
+/* table.h: a table as rows of cells, written as Markdown.
  *
  * A row is complete when it has as many cells as there are columns; the next cell begins another.
  *
@@ -12,11 +12,11 @@
 
 #include "lab/results.h"
 
-enum { TABLE_MAX_COLUMNS = 20, TABLE_CELL = 256 };
+enum { TABLE_MAX_COLUMNS = 2 * METHODS_MAX + 4, TABLE_CELL = 256 };
 
 struct table_cell {
     char text[TABLE_CELL];
-    double value; /* what sorting goes by; NaN: the text */
+    double value; /* NaN: none but the text */
 };
 
 struct table {
@@ -41,9 +41,7 @@ void table_add_interval(struct table *t, struct interval i);
 
 size_t table_rows(const struct table *t);
 
-/* table_html: a figure with the caption; cells have their values as data-value. table_markdown: the caption is the
- * paragraph before the table. */
-void table_html(FILE *f, const struct table *t);
+/* table_markdown: the caption is the paragraph before the table. */
 void table_markdown(FILE *f, const struct table *t);
 
 #endif

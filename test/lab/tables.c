@@ -10,11 +10,11 @@
 
 /* --- columns and cells ------------------------------------------------------------------------------- */
 
-/* One column for each variant from `first` on that is compared everywhere. */
-static void add_variant_columns(struct table *t, int first, const char *format)
+/* One column for each method from `first` on that is compared. */
+static void add_method_columns(struct table *t, const struct plan *p, int first, const char *format)
 {
-    for (int v = first; v < N_COMPARED; v++)
-        table_column(t, format, VARIANTS[v].label);
+    for (int v = first; v < p->n_compared; v++)
+        table_column(t, format, p->methods.item[v].text);
 }
 
 static void add_spp_columns(struct table *t, const struct plan *p)
@@ -38,24 +38,24 @@ static void add_estimate(struct table *t, double mean, double error)
         table_add(t, mean, "%.*f " PLUS_MINUS " %.*f", digits, mean, digits, error);
 }
 
-static void add_mean(struct table *t, const struct scene_results *s, int variant, int step,
+static void add_mean(struct table *t, const struct scene_results *s, int method, int step,
                      enum quantity q, double scale)
 {
-    struct estimate e = results_mean(s, variant, step, q);
+    struct estimate e = results_mean(s, method, step, q);
     add_estimate(t, scale * e.mean, scale * e.error);
 }
 
-/* One cell for each variant that is compared everywhere. */
+/* One cell for each method that is compared. */
 static void add_means(struct table *t, const struct scene_results *s, int step, enum quantity q)
 {
-    for (int v = 0; v < N_COMPARED; v++)
+    for (int v = 0; v < s->plan->n_compared; v++)
         add_mean(t, s, v, step, q, 1);
 }
 
-static void add_equal_times(struct table *t, const struct scene_results *s, int step)
+static void add_costs(struct table *t, const struct scene_results *s, int step)
 {
-    for (int v = VARIANT_BDPT + 1; v < N_COMPARED; v++)
-        table_add_interval(t, results_equal_time(s, v, step));
+    for (int v = 1; v < s->plan->n_compared; v++)
+        table_add_interval(t, results_cost_ratio(s, v, step));
 }
 
 /* --- tables of a scene ------------------------------------------------------------------------------- */
@@ -64,18 +64,27 @@ static void rmse_table(const struct scene_results *s, struct table *t)
 {
     table_begin(t, "RMSE on the 8-bit scale, mean over seeds and its standard error");
     table_column(t, "spp");
-    add_variant_columns(t, 0, "%s");
+    add_method_columns(t, s->plan, 0, "%s");
     for (int i = 0; i < s->plan->n_steps; i++) {
         add_spp(t, s->plan->spp[i]);
         add_means(t, s, i, Q_RMSE8);
     }
 }
 
+/* What the dissertation measured, among what is compared: the first method is its BDPT, the number of its ASBDPT is
+ * returned; or -1. */
+static int find_printed(const struct plan *p)
+{
+    int bins = methods_find(&p->methods, METHOD_PRINTED);
+    return methods_find(&p->methods, METHOD_REFERENCE) == 0 && bins < p->n_compared ? bins : -1;
+}
+
 static void add_ours(struct table *t, const struct scene_results *s, int step)
 {
-    add_mean(t, s, VARIANT_BDPT, step, Q_RMSE8, 1);
-    add_mean(t, s, VARIANT_BINS, step, Q_RMSE8, 1);
-    table_add_interval(t, results_rmse_ratio(s, VARIANT_BINS, step));
+    int bins = find_printed(s->plan);
+    add_mean(t, s, 0, step, Q_RMSE8, 1);
+    add_mean(t, s, bins, step, Q_RMSE8, 1);
+    table_add_interval(t, results_rmse_ratio(s, bins, step));
 }
 
 /* The dissertation's step i beside ours of as many samples, if we have it. */
@@ -94,13 +103,13 @@ static void add_published(struct table *t, const struct scene_results *s, const 
     table_add(t, p->asbdpt[i] / p->bdpt[i], "%.3f", p->asbdpt[i] / p->bdpt[i]);
 }
 
-static bool published_table(const struct scene_results *s, struct table *t)
+static bool printed_table(const struct scene_results *s, struct table *t)
 {
     static const char *const heads[] = {
         "spp",           "BDPT, here",      "bins, here",          "bins/BDPT, here [95 %]",
         "BDPT, printed", "ASBDPT, printed", "ASBDPT/BDPT, printed"};
     const struct published *p = published_find(s->name);
-    if (p == NULL)
+    if (p == NULL || find_printed(s->plan) < 0)
         return false;
     table_begin(t, "RMSE beside the dissertation's (its model of the scene is another, so compare the ratios)");
     for (size_t i = 0; i < sizeof heads / sizeof heads[0]; i++)
@@ -115,17 +124,17 @@ static bool published_table(const struct scene_results *s, struct table *t)
     return true;
 }
 
-static void equal_time_table(const struct scene_results *s, struct table *t)
+static void cost_table(const struct scene_results *s, struct table *t)
 {
-    table_begin(t, "Seconds of CPU, and squared error over BDPT's at equal time with its 95 %% interval; "
-                   "below 1 is a gain");
+    table_begin(t, "Seconds of CPU, and squared error times seconds over that of %s, with its 95 %% interval; "
+                   "below 1 is a gain", s->plan->methods.item[0].text);
     table_column(t, "spp");
-    add_variant_columns(t, 0, "%s, s");
-    add_variant_columns(t, VARIANT_BDPT + 1, "%s");
+    add_method_columns(t, s->plan, 0, "%s, s");
+    add_method_columns(t, s->plan, 1, "%s");
     for (int i = 0; i < s->plan->n_steps; i++) {
         add_spp(t, s->plan->spp[i]);
         add_means(t, s, i, Q_SECONDS);
-        add_equal_times(t, s, i);
+        add_costs(t, s, i);
     }
 }
 
@@ -138,26 +147,25 @@ static void bias_table(const struct scene_results *s, struct table *t)
                    "(the reference's own standard error: %s)", own);
     table_column(t, "method");
     add_spp_columns(t, s->plan);
-    for (int v = 0; v < N_COMPARED; v++) {
-        table_add(t, v, "%s", VARIANTS[v].label);
+    table_column(t, "p of 0");
+    for (int v = 0; v < s->plan->n_compared; v++) {
+        table_add(t, v, "%s", s->plan->methods.item[v].text);
         for (int i = 0; i < s->plan->n_steps; i++)
             add_mean(t, s, v, i, Q_MEAN_ERROR, 100);
+        double p = results_bias_p(s, v, plan_last_step(s->plan));
+        table_add(t, p, isfinite(p) ? "%.2g" : "-", p);
     }
 }
 
-static void sweep_table(const struct scene_results *s, enum sweep sweep, struct table *t)
+static void sweep_table(const struct scene_results *s, const struct sweep *sweep, struct table *t)
 {
-    table_begin(t, sweep == SWEEP_PATHS ? "bins: RMSE on the 8-bit scale by paths per bin set (restart every 32)"
-                                  : "bins: RMSE on the 8-bit scale by restart limit (8 paths per set)");
-    table_column(t, sweep == SWEEP_PATHS ? "paths" : "restart");
+    table_begin(t, "RMSE on the 8-bit scale of %s, one seed where it is not compared above", sweep->text);
+    table_column(t, "method");
     add_spp_columns(t, s->plan);
-    for (int k = 0; k < SWEEP_LENGTH; k++) {
-        const struct sweep_point *point = &SWEEPS[sweep][k];
-        if (plan_seeds(s->plan, point->variant) == 0)
-            continue;
-        table_add(t, k, "%s", point->label);
+    for (int k = 0; k < sweep->n; k++) {
+        table_add(t, k, "%s", s->plan->methods.item[sweep->method[k]].text);
         for (int i = 0; i < s->plan->n_steps; i++)
-            add_mean(t, s, point->variant, i, Q_RMSE8, 1);
+            add_mean(t, s, sweep->method[k], i, Q_RMSE8, 1);
     }
 }
 
@@ -184,60 +192,68 @@ static void setup_table(const struct results *r, struct table *t)
 
 static void all_rmse_table(const struct results *r, struct table *t)
 {
-    table_begin(t, "RMSE on the 8-bit scale after %ld spp; the dissertation's is after %ld spp", plan_last_spp(r->plan),
-          published_spp(PUBLISHED_STEPS - 1));
+    int bins = find_printed(r->plan);
+    table_begin(t, bins < 0 ? "RMSE on the 8-bit scale after %ld spp" :
+                   "RMSE on the 8-bit scale after %ld spp; the dissertation's is after %ld spp",
+                plan_last_spp(r->plan), published_spp(PUBLISHED_STEPS - 1));
     table_column(t, "scene");
-    add_variant_columns(t, 0, "%s");
-    table_column(t, "bins/BDPT, here [95 %%]");
-    table_column(t, "ASBDPT/BDPT, printed");
+    add_method_columns(t, r->plan, 0, "%s");
+    if (bins >= 0) {
+        table_column(t, "ASBDPT/BDPT, here [95 %%]");
+        table_column(t, "printed");
+    }
     for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++) {
         const struct published *p = published_find(s->name);
         double printed = p != NULL ? p->asbdpt[PUBLISHED_STEPS - 1] / p->bdpt[PUBLISHED_STEPS - 1] : NAN;
         struct interval alone = {printed, NAN, NAN};
         add_scene(t, s);
         add_means(t, s, plan_last_step(r->plan), Q_RMSE8);
-        table_add_interval(t, results_rmse_ratio(s, VARIANT_BINS, plan_last_step(r->plan)));
-        table_add_interval(t, alone);
+        if (bins >= 0) {
+            table_add_interval(t, results_rmse_ratio(s, bins, plan_last_step(r->plan)));
+            table_add_interval(t, alone);
+        }
     }
 }
 
-static void all_equal_time_table(const struct results *r, struct table *t)
+static void all_cost_table(const struct results *r, struct table *t)
 {
-    table_begin(t, "Squared error over BDPT's at equal time after %ld spp, with its 95 %% interval; below 1 is a gain",
-          plan_last_spp(r->plan));
+    table_begin(t, "Squared error times seconds over that of %s after %ld spp, with its 95 %% interval; below 1 is "
+                   "a gain",
+                r->plan->methods.item[0].text, plan_last_spp(r->plan));
     table_column(t, "scene");
-    add_variant_columns(t, VARIANT_BDPT + 1, "%s");
+    add_method_columns(t, r->plan, 1, "%s");
     for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++) {
         add_scene(t, s);
-        add_equal_times(t, s, plan_last_step(r->plan));
+        add_costs(t, s, plan_last_step(r->plan));
     }
 }
 
-bool table_make(const struct results *r, const struct scene_results *s, enum table_kind which, struct table *out)
+bool table_make(const struct results *r, const struct scene_results *s, int which, struct table *out)
 {
     switch (which) {
     case TABLE_SETUP: setup_table(r, out); return true;
     case TABLE_ALL_RMSE: all_rmse_table(r, out); return true;
-    case TABLE_ALL_EQUAL_TIME: all_equal_time_table(r, out); return true;
+    case TABLE_ALL_COST: all_cost_table(r, out); return true;
     case TABLE_RMSE: rmse_table(s, out); return true;
-    case TABLE_PUBLISHED: return published_table(s, out);
-    case TABLE_EQUAL_TIME: equal_time_table(s, out); return true;
+    case TABLE_PRINTED: return printed_table(s, out);
+    case TABLE_COST: cost_table(s, out); return true;
     case TABLE_BIAS: bias_table(s, out); return true;
-    case TABLE_PATHS: sweep_table(s, SWEEP_PATHS, out); return true;
-    case TABLE_RESTART: sweep_table(s, SWEEP_RESTART, out); return true;
-    case N_TABLES: break;
+    default:
+        if (which - TABLE_SWEEP >= r->plan->n_sweeps)
+            return false;
+        sweep_table(s, &r->plan->sweep[which - TABLE_SWEEP], out);
+        return true;
     }
-    return false;
 }
 
-void tables_write(FILE *f, const struct results *r, const struct scene_results *s, bool html)
+void tables_write(FILE *f, const struct results *r, const struct scene_results *s)
 {
-    int end = s == NULL ? TABLE_RMSE : N_TABLES;
+    int end = s == NULL ? TABLE_RMSE : TABLE_SWEEP + r->plan->n_sweeps;
     for (int k = s == NULL ? TABLE_SETUP : TABLE_RMSE; k < end; k++) {
         struct table t;
-        if (!table_make(r, s, (enum table_kind)k, &t))
-            continue;
-        (html ? table_html : table_markdown)(f, &t);
-        table_free(&t);
+        if (table_make(r, s, k, &t)) {
+            table_markdown(f, &t);
+            table_free(&t);
+        }
     }
 }

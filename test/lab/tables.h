@@ -10,22 +10,20 @@
 enum table_kind {
     TABLE_SETUP, /* of all scenes together */
     TABLE_ALL_RMSE,
-    TABLE_ALL_EQUAL_TIME,
+    TABLE_ALL_COST,
     TABLE_RMSE, /* of one scene */
-    TABLE_PUBLISHED,
-    TABLE_EQUAL_TIME,
+    TABLE_PRINTED,
+    TABLE_COST,
     TABLE_BIAS,
-    TABLE_PATHS,
-    TABLE_RESTART,
-    N_TABLES
+    TABLE_SWEEP, /* and one more for each other sweep */
 };
 
-/* table_make:
+/* table_make: table number `which`, an enum table_kind.
  *   s  the scene; not looked at for the tables of all
  * Returns false when the experiment has nothing to show in it (then nothing needs release). */
-bool table_make(const struct results *r, const struct scene_results *s, enum table_kind which, struct table *out);
+bool table_make(const struct results *r, const struct scene_results *s, int which, struct table *out);
 
-/* tables_write: all tables of a scene, or of all scenes for NULL. */
-void tables_write(FILE *f, const struct results *r, const struct scene_results *s, bool html);
+/* tables_write: all tables of a scene, or of all scenes for NULL, as Markdown. */
+void tables_write(FILE *f, const struct results *r, const struct scene_results *s);
 
 #endif

@@ -1,0 +1,109 @@
+/* methods.c: see methods.h. */
+#include "lab/methods.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/job_options.h"
+#include "render/parameters.h"
+
+/* Set what stands after the colons. False with a message if something there is no NAME=VALUE. */
+static bool set_pairs(const char *text, struct settings *out, struct error *err)
+{
+    for (const char *p = strchr(text, ':'); p != NULL; p = strchr(p, ':')) {
+        char name[64], value[METHOD_TEXT];
+        if (sscanf(++p, "%63[^=:]=%127[^:]", name, value) != 2)
+            return error_set(err, "%s: expected NAME=VALUE after each colon", text);
+        settings_set(out, name, value, text);
+    }
+    return true;
+}
+
+struct settings measured_settings(const struct measured *m, const struct settings *base)
+{
+    struct settings out = {0};
+    struct error err;
+    for (int i = 0; base != NULL && i < base->n; i++)
+        settings_set(&out, base->item[i].name, base->item[i].value, base->item[i].origin);
+    set_pairs(m->text, &out, &err); /* which has been read before */
+    return out;
+}
+
+/* Is there such an integrator, and has it these parameters, with such values? */
+static bool check(const struct measured *m, struct error *err)
+{
+    struct settings s = {0};
+    struct error known;
+    if (!method_exists(m->integrator)) {
+        integrator_unknown(m->integrator, &known);
+        return error_set(err, "there is no method %s; %s", m->integrator, known.text);
+    }
+    bool ok = set_pairs(m->text, &s, err);
+    const struct method *row = ok ? method_find(m->integrator, &s, err) : NULL;
+    for (int i = 0; row != NULL && ok && i < s.n; i++)
+        if (parameter_find(parameters_common(), s.item[i].name) == NULL && method_has(row, s.item[i].name) == NULL)
+            ok = error_set(err, "%s: there is no parameter \"%s\"", m->text, s.item[i].name);
+    ok = ok && row != NULL && method_check(row, &s, err);
+    settings_clear(&s);
+    return ok;
+}
+
+static bool add_one(struct methods *list, const char *text, struct error *err)
+{
+    if (list->n == METHODS_MAX)
+        return error_set(err, "more than %d methods", METHODS_MAX);
+    struct measured *m = &list->item[list->n];
+    snprintf(m->text, sizeof m->text, "%s", text);
+    snprintf(m->file, sizeof m->file, "%s", text);
+    snprintf(m->integrator, sizeof m->integrator, "%.*s", (int)strcspn(text, ":"), text);
+    for (char *c = m->file; *c != '\0'; c++)
+        *c = isalnum((unsigned char)*c) || *c == '.' ? *c : '-';
+    if (methods_find(list, text) >= 0)
+        return error_set(err, "%s is given twice", text);
+    list->n++;
+    return check(m, err);
+}
+
+/* One method for each of the values that slashes divide; the first such list leads on to the others. */
+static bool add_all(struct methods *list, const char *text, struct error *err)
+{
+    const char *begin = strchr(text, '/'), *end;
+    if (begin == NULL)
+        return add_one(list, text, err);
+    while (begin > text && strchr(":=", begin[-1]) == NULL)
+        begin--;
+    end = begin + strcspn(begin, ":");
+    for (const char *value = begin; value < end; value += strcspn(value, "/:") + 1) {
+        char one[METHOD_TEXT];
+        snprintf(one, sizeof one, "%.*s%.*s%s", (int)(begin - text), text, (int)strcspn(value, "/:"), value, end);
+        if (!add_all(list, one, err))
+            return false;
+    }
+    return true;
+}
+
+bool methods_read(const char *text, struct methods *out, struct error *err)
+{
+    out->n = 0;
+    for (const char *p = text;; p++) {
+        char one[METHOD_TEXT];
+        size_t n = strcspn(p, ",");
+        if (n == 0 || n >= sizeof one)
+            return error_set(err, "%s: expected methods, like bdpt,asbdpt:select=pool", text);
+        snprintf(one, sizeof one, "%.*s", (int)n, p);
+        if (!add_all(out, one, err))
+            return false;
+        p += n;
+        if (*p == '\0')
+            return true;
+    }
+}
+
+int methods_find(const struct methods *list, const char *text)
+{
+    for (int i = 0; i < list->n; i++)
+        if (strcmp(list->item[i].text, text) == 0)
+            return i;
+    return -1;
+}

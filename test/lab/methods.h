@@ -1,0 +1,53 @@
+/* methods.h: what is measured: methods with settings of their own, named by a text.
+ *
+ *     bdpt                                      an integrator with its defaults
+ *     asbdpt:select=bins:restart=16             with parameters, as -P gives them
+ *     asbdpt:select=bins/pool:restart=0/8       with each of several values: four methods
+ *     bdpt,lvc,asbdpt                           a list
+ *
+ * The text of one is its name in tables and files. No other file of the laboratory knows methods by name.
+ *
+ * Tests: test_report.c.
+ */
+#ifndef ASBDPT_LAB_METHODS_H
+#define ASBDPT_LAB_METHODS_H
+
+#include "integrators/method.h"
+
+enum { METHODS_MAX = 24, METHOD_TEXT = 128 };
+
+struct measured {
+    char text[METHOD_TEXT];
+    char file[METHOD_TEXT]; /* the same for names of files: "asbdpt-select-bins" */
+    char integrator[32];
+};
+
+struct methods {
+    struct measured item[METHODS_MAX]; /* [n] */
+    int n;
+};
+
+/* What is measured unless somebody says otherwise; the others are compared with the first. */
+#define METHODS_EXPERIMENT "bdpt,asbdpt:select=bins/pool/vertices/subspaces"
+#define METHODS_EQUAL_TIME "bdpt,asbdpt:select=vertices/subspaces,lvc,cbdpt"
+#define METHODS_DEMO "bdpt,asbdpt"
+#define METHODS_BENCH "pt", "bdpt", "asbdpt"
+#define SWEEPS_FULL "asbdpt:select=bins:binpaths=4/8/16/32", "asbdpt:select=bins:restart=0/8/16/32"
+#define SWEEPS_QUICK "asbdpt:select=bins:binpaths=8/32", "asbdpt:select=bins:restart=0/32"
+#define METHOD_REFERENCE "bdpt"         /* renders references */
+#define METHOD_PARTNER "asbdpt"         /* of METHOD_REFERENCE in verify, if the scene names no other */
+#define METHOD_PRINTED "asbdpt:select=bins" /* the dissertation's asbdpt; its bdpt is METHOD_REFERENCE */
+
+#define METHODS_HELP "what is compared, as NAME:PARAMETER=VALUE:..., values like 4/8"
+
+/* methods_read: a list. False with a message on an integrator, a parameter or a value that does not exist, and if a
+ * method is given twice. */
+bool methods_read(const char *text, struct methods *out, struct error *err);
+
+/* methods_find: the number of the method of that text, or -1. */
+int methods_find(const struct methods *list, const char *text);
+
+/* measured_settings: its settings, over those of `base` (NULL: none). To be given to settings_clear. */
+struct settings measured_settings(const struct measured *m, const struct settings *base);
+
+#endif

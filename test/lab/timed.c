@@ -1,0 +1,38 @@
+/* timed.c: see timed.h. */
+#include "lab/timed.h"
+
+#include <math.h>
+
+#include "base/mem.h"
+#include "base/os.h"
+
+bool timed_film(const struct scene *scene, const struct render_options *o, struct film *film, struct timed *out,
+                struct error *err)
+{
+    double cpu = os_cpu_seconds(), wall = os_wall_seconds();
+    bool ok = render_scene(scene, o, film, err);
+    out->seconds += fmax(os_cpu_seconds() - cpu, 1e-6);
+    out->wall += fmax(os_wall_seconds() - wall, 1e-6);
+    out->nonfinite = film->nonfinite;
+    return ok;
+}
+
+float *timed_develop(const struct scene *scene, const struct film *film)
+{
+    float *pixels = mem_alloc((size_t)rect_width(film->rect) * (size_t)rect_height(film->rect) * 3, sizeof *pixels);
+    film_develop(film, scene->film_scale, pixels);
+    return pixels;
+}
+
+bool timed_render(const struct scene *scene, const struct render_options *o, struct timed *out, struct error *err)
+{
+    struct film film;
+    struct timed none = {0};
+    *out = none;
+    film_init(&film, render_crop(scene), scene->width, scene->height);
+    bool ok = timed_film(scene, o, &film, out, err);
+    if (ok)
+        out->pixels = timed_develop(scene, &film);
+    film_free(&film);
+    return ok;
+}
