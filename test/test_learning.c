@@ -89,6 +89,27 @@ static void test_damage(struct test *t, const struct scene *scene, const struct 
     CHECK(t, refused > TRIES / 5, "only %d of %d damaged files are refused", refused, TRIES);
 }
 
+/* A changed bit is seen by the check sum; bytes that end elsewhere than the lessons are none, whatever it says. */
+static void test_ends(struct test *t, const struct scene *scene, const struct bytes *good)
+{
+    static const int more[] = {0, 8, -8};
+    for (int i = 0; i < 3; i++) {
+        size_t n = good->n + (size_t)more[i];
+        struct bytes bad = {mem_alloc(good->n + 8, 1), n, good->n + 8};
+        struct learnt l = {.guided = false};
+        struct error err;
+        memcpy(bad.data, good->data, n < good->n ? n : good->n);
+        if (i == 0)
+            bad.data[n - 40] ^= 1;
+        else
+            seal(&bad);
+        CHECK(t, !learnt_read(&l, &scene->lights, 5, &bad, "x", &err), "%d bytes more, or a changed bit, are taken",
+              more[i]);
+        learnt_free(&l);
+        free(bad.data);
+    }
+}
+
 static void test_bytes(struct test *t, const struct scene *scene, const struct learnt *l)
 {
     struct bytes one = {NULL, 0, 0}, two = {NULL, 0, 0};
@@ -102,6 +123,7 @@ static void test_bytes(struct test *t, const struct scene *scene, const struct l
     CHECK(t, !learnt_read(&other, &scene->lights, 6, &one, "x", &err), "read for another picture");
     learnt_free(&again);
     learnt_free(&other);
+    test_ends(t, scene, &one);
     test_damage(t, scene, &one);
     free(one.data);
     free(two.data);
@@ -164,7 +186,7 @@ static void test_early_end(struct test *t)
 
 /* --- grids -------------------------------------------------------------------------------------------- */
 
-/* One black triangle far away moves no region. */
+/* One black triangle far away moves no region, seen or not. */
 static void test_far_triangle(struct test *t)
 {
     static const char scene_text[] =
@@ -174,9 +196,12 @@ static void test_far_triangle(struct test *t)
         "Shape \"sphere\" AttributeBegin AreaLightSource \"diffuse\" Translate 0 3 0 Shape \"disk\" AttributeEnd\n%s WorldEnd";
     static const char *const far[] = {
         "", "Material \"matte\" \"rgb Kd\" [0 0 0] Shape \"trianglemesh\" \"integer indices\" [0 1 2] "
-            "\"point P\" [1000 0 0  1001 0 0  1000 0 1]"};
-    int regions[2][2];
-    for (int i = 0; i < 2; i++) {
+            "\"point P\" [1000 0 0  1001 0 0  1000 0 1]",
+        "Material \"matte\" \"rgb Kd\" [0 0 0] Shape \"trianglemesh\" \"integer indices\" [0 1 2] "
+            "\"point P\" [0 200 1000  50 200 1000  0 250 1000]"};
+    enum { WAYS = sizeof far / sizeof far[0] };
+    int regions[WAYS][2];
+    for (int i = 0; i < WAYS; i++) {
         char text[1024];
         struct scene scene;
         struct watcher w = {0, INFINITY};
@@ -192,9 +217,10 @@ static void test_far_triangle(struct test *t)
         scene_free(&scene);
     }
     CHECK(t, regions[0][0] > 20 && regions[0][1] > 50, "%d and %d regions", regions[0][0], regions[0][1]);
-    CHECK(t, regions[1][0] > 0.8 * regions[0][0] && regions[1][1] > 0.8 * regions[0][1],
-          "a far triangle leaves %d and %d regions of %d and %d", regions[1][0], regions[1][1], regions[0][0],
-          regions[0][1]);
+    for (int i = 1; i < WAYS; i++)
+        CHECK(t, regions[i][0] > 0.8 * regions[0][0] && regions[i][1] > 0.8 * regions[0][1],
+              "a far triangle leaves %d and %d regions of %d and %d", regions[i][0], regions[i][1], regions[0][0],
+              regions[0][1]);
 }
 
 void test_learning(struct test *t)
