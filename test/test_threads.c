@@ -176,13 +176,15 @@ void test_threads(struct test *t)
 {
     test_await(t);
     test_uneven(t);
-    static const char *const selections[] = {"bins", "pool", "vertices", "subspaces", "lvc", "combinatorial"};
+    static const char *const selections[] = {"bins", "pool", "vertices", "subspaces"};
     struct scene scene;
     if (!scene_from_file(t, "scenes/test/light-kinds.pbrt", 40, 24, &scene))
         return;
     test_way(t, &scene, "pt", "pt");
     test_way(t, &scene, "lt", "lt");
     test_way(t, &scene, "bdpt", "bdpt");
+    test_way(t, &scene, "lvc", "lvc");
+    test_way(t, &scene, "cbdpt", "cbdpt");
     for (int i = 0; i < (int)(sizeof selections / sizeof selections[0]); i++) {
         settings_set(&scene.settings, "select", selections[i], "test");
         test_way(t, &scene, "asbdpt", selections[i]);

@@ -12,8 +12,8 @@ const struct variant EQUAL_VARIANTS[N_EQUAL] = {
     {"bdpt", "BDPT", "bdpt", NULL, 0, 0, true, false},
     {"vertices", "ASBDPT vertices", "asbdpt", "vertices", 0, 0, true, false},
     {"subspaces", "ASBDPT subspaces", "asbdpt", "subspaces", 0, 0, true, true},
-    {"lvc", "light vertex cache", "asbdpt", "lvc", 0, 0, true, false},
-    {"combinatorial", "combinatorial BDPT", "asbdpt", "combinatorial", 0, 0, true, false},
+    {"lvc", "light vertex cache", "lvc", NULL, 0, 0, true, false},
+    {"combinatorial", "combinatorial BDPT", "cbdpt", NULL, 0, 0, true, false},
 };
 
 enum { SEED_BASE = 5000, MOST_SAMPLES = 1 << 20 };
