@@ -159,6 +159,26 @@ static void test_budget(struct test *t)
     scene_free(&large);
 }
 
+/* A picture of one pixel is looked at, too, and one of a million no longer than one of 32768. */
+static void test_bounds(struct test *t)
+{
+    static const int sides[] = {1, 182, 1024};
+    double traced[3];
+    for (int i = 0; i < 3; i++) {
+        struct scene scene;
+        struct watcher w = {0, INFINITY};
+        if (!scene_from_text(t, "Camera \"perspective\" WorldBegin LightSource \"point\" WorldEnd", &scene))
+            return;
+        scene.width = scene.height = sides[i];
+        camera_prepare(&scene.camera, sides[i], sides[i]);
+        drop(learn_scene(&scene, &w, 2));
+        traced[i] = w.traced;
+        scene_free(&scene);
+    }
+    CHECK(t, traced[0] > 4000 && traced[2] == traced[1], "%g sub-paths for one pixel, %g for 182^2, %g for 1024^2", traced[0],
+          traced[1], traced[2]);
+}
+
 /* A render whose time is over while it learns has a picture of one block all the same. */
 static bool impatient(void *context, double done)
 {
@@ -226,6 +246,7 @@ static void test_far_triangle(struct test *t)
 void test_learning(struct test *t)
 {
     test_budget(t);
+    test_bounds(t);
     test_early_end(t);
     test_far_triangle(t);
 }
