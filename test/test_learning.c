@@ -182,8 +182,8 @@ static void test_bounds(struct test *t)
 /* A render whose time is over while it learns has a picture of one block all the same. */
 static bool impatient(void *context, double done)
 {
-    (void)context;
-    (void)done;
+    double *asked_first = context;
+    *asked_first = *asked_first < 0 ? done : *asked_first;
     return false;
 }
 
@@ -192,21 +192,23 @@ static void test_early_end(struct test *t)
     struct scene scene;
     struct film film;
     struct error err = {""};
+    double asked_first = -1; /* at what share of all work */
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 32, 32, &scene))
         return;
     struct render_options o = {.integrator = "asbdpt", .end = 1000000, .n_threads = 2, .max_depth = 4,
-                               .progress = impatient};
+                               .progress = impatient, .progress_context = &asked_first};
     film_init(&film, render_crop(&scene), 32, 32);
     CHECK(t, render_scene(&scene, &o, &film, &err), "%s", err.text);
     CHECK(t, film.iterations > 0 && film.iterations <= LONGEST_BLOCK && film_value(&film, 3 * 16 * 33) > 0,
           "%ld samples of a render that was stopped at once", film.iterations);
+    CHECK(t, asked_first >= 0 && asked_first * 1e6 * 32 * 32 < 1000, "asked first after %g of the work", asked_first);
     film_free(&film);
     scene_free(&scene);
 }
 
 /* --- grids -------------------------------------------------------------------------------------------- */
 
-/* One black triangle far away moves no region, seen or not. */
+/* One triangle far away moves no region, be it black or seen by few. */
 static void test_far_triangle(struct test *t)
 {
     static const char scene_text[] =
@@ -217,7 +219,7 @@ static void test_far_triangle(struct test *t)
     static const char *const far[] = {
         "", "Material \"matte\" \"rgb Kd\" [0 0 0] Shape \"trianglemesh\" \"integer indices\" [0 1 2] "
             "\"point P\" [1000 0 0  1001 0 0  1000 0 1]",
-        "Material \"matte\" \"rgb Kd\" [0 0 0] Shape \"trianglemesh\" \"integer indices\" [0 1 2] "
+        "Material \"matte\" Shape \"trianglemesh\" \"integer indices\" [0 1 2] "
             "\"point P\" [0 200 1000  50 200 1000  0 250 1000]"};
     enum { WAYS = sizeof far / sizeof far[0] };
     int regions[WAYS][2];
