@@ -54,6 +54,16 @@ static void seal(struct bytes *b)
         b->data[b->n - 4 + (size_t)i] = (uint8_t)(crc >> 8 * i);
 }
 
+/* No bin of the guide's tables names one beyond their end. */
+static bool guide_is_whole(const struct learnt *l)
+{
+    for (int i = 0; l->guided && i < l->guide.n; i++)
+        for (int k = 0; k < l->guide.table[i].n; k++)
+            if (l->guide.table[i].n != l->guide.columns.n || l->guide.table[i].bin[k].alias >= (uint32_t)l->guide.columns.n)
+                return false;
+    return true;
+}
+
 /* Bytes that are damaged, with a check sum that is not: refused, or tables that can be used without harm (which
  * sanitizers see). */
 static void test_damage(struct test *t, const struct scene *scene, const struct bytes *good)
@@ -73,6 +83,8 @@ static void test_damage(struct test *t, const struct scene *scene, const struct 
         seal(&bad);
         bool ok = learnt_read(&l, &scene->lights, 5, &bad, "x", &err);
         refused += !ok;
+        CHECK(t, !ok || guide_is_whole(&l), "damage at byte %lu gives a table that leads beyond its end",
+              (unsigned long)at);
         for (int k = 0; ok && k < 20; k++) {
             int e, y;
             double pmf;
