@@ -55,6 +55,22 @@ static void check_parts(struct test *t, int way, const struct trace *trace)
     }
 }
 
+/* Where weights make up for the choice, what is told of it is what they divide by: for all draws of first hits, and all of
+ * later ones, probability times scale is the same. */
+static void check_choices(struct test *t, int way, const struct trace *trace)
+{
+    double same[2] = {0, 0};
+    for (int i = 0; i < trace->n_connections && strcmp(WAYS[way].name, "bins") != 0; i++) {
+        const struct trace_connection *k = &trace->connection[i];
+        double *first = &same[k->t > 2], product = k->pmf * k->scale;
+        if (k->s < 2 || k->t < 2)
+            continue;
+        *first = *first == 0 ? product : *first;
+        CHECK(t, fabs(product - *first) <= 1e-12 * *first, "%s: probability %g, scale %g, of others %g times as much",
+              WAYS[way].name, k->pmf, k->scale, *first / product);
+    }
+}
+
 /* Every pixel and sample told one by one gives the film of the render, and half of them do not. */
 static void test_film_from_traces(struct test *t)
 {
@@ -75,6 +91,7 @@ static void test_film_from_traces(struct test *t)
             struct trace trace = {.x = i % SIZE, .y = i / SIZE % SIZE, .iteration = i / (SIZE * SIZE)};
             CHECK(t, render_trace(&scene, &options, &trace, &err), "%s", err.text);
             check_parts(t, way, &trace);
+            check_choices(t, way, &trace);
             added += trace.n_connections;
             for (size_t k = 0; 2 * i == SIZE * SIZE * SAMPLES && k < SIZE * SIZE * 3; k++)
                 halfway += film_value(&rendered, k) != film_value(&told, k);
