@@ -205,15 +205,15 @@ static void test_early_end(struct test *t)
     struct film film;
     struct error err = {""};
     double asked_first = -1; /* at what share of all work */
-    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 32, 32, &scene))
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 48, 32, &scene)) /* two tiles */
         return;
     struct render_options o = {.integrator = "asbdpt", .end = 1000000, .n_threads = 2, .max_depth = 4,
                                .progress = impatient, .progress_context = &asked_first};
-    film_init(&film, render_crop(&scene), 32, 32);
+    film_init(&film, render_crop(&scene), 48, 32);
     CHECK(t, render_scene(&scene, &o, &film, &err), "%s", err.text);
-    CHECK(t, film.iterations > 0 && film.iterations <= LONGEST_BLOCK && film_value(&film, 3 * 16 * 33) > 0,
+    CHECK(t, film.iterations > 0 && film.iterations <= LONGEST_BLOCK && film_value(&film, 3 * (16 * 48 + 24)) > 0,
           "%ld samples of a render that was stopped at once", film.iterations);
-    CHECK(t, asked_first >= 0 && asked_first * 1e6 * 32 * 32 < 1000, "asked first after %g of the work", asked_first);
+    CHECK(t, asked_first >= 0 && asked_first * 1e6 * 48 * 32 < 1000, "asked first after %g of the work", asked_first);
     film_free(&film);
     scene_free(&scene);
 }
