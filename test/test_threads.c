@@ -135,10 +135,12 @@ static void work_and_await(void *context, int64_t job, int slot, int thread)
         w->late++; /* after the last commit there is at most one */
 }
 
+/* Long enough for the next job to come to its question meanwhile. */
 static bool commit_waiting(void *context, int64_t job, int slot)
 {
     struct waiting *w = context;
     (void)slot;
+    nanosleep(&(struct timespec){0, 1000000}, NULL);
     w->next = job + 1;
     return job != w->stop;
 }
@@ -148,10 +150,10 @@ static void test_await(struct test *t)
 {
     for (int64_t stop = -1; stop < 20; stop += 7) {
         struct waiting w = {.stop = stop};
-        struct parallel_jobs jobs = {200, 2, 8, &w, work_and_await, commit_waiting, NULL};
+        struct parallel_jobs jobs = {JOBS, 2, 8, &w, work_and_await, commit_waiting, NULL};
         w.jobs = &jobs;
         int64_t n = parallel_run(&jobs);
-        CHECK(t, n == (stop < 0 ? 200 : stop + 1) && w.early == 0 && w.late <= 1,
+        CHECK(t, n == (stop < 0 ? JOBS : stop + 1) && w.early == 0 && w.late <= 1,
               "of %d jobs %d went on too early, %d too late", (int)n, w.early, w.late);
     }
 }
