@@ -47,7 +47,7 @@ field() { awk -v name="$1" -v n="$2" '/^[^-+# \t]/ && $1 == name { print $n }' $
 # try TREE TEST: does the test notice? Prints what it says.
 try() {
     if [ -f "$1/test/$2.sh" ]; then
-        (cd "$1" && make -s LTO= asbdpt >/dev/null 2>&1 && $limit sh "test/$2.sh" ./asbdpt)
+        (cd "$1" && make -s LTO= asbdpt asbdpt-lab >/dev/null 2>&1 && $limit sh "test/$2.sh" ./asbdpt)
     elif [ "$2" = all ]; then
         (cd "$1" && $limit build/test)
     else
@@ -85,7 +85,7 @@ one() {
 plant() {
     mkdir -p "$1"
     cp -R Makefile src test scenes ref doc "$1/" 2>/dev/null
-    (cd "$1" && make -s LTO= asbdpt build/test)
+    (cd "$1" && make -s LTO= asbdpt asbdpt-lab build/test)
 }
 
 # sound TREE: do the tests pass without any fault? One that does not would seem to catch them all.
