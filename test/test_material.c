@@ -278,7 +278,7 @@ static double same_p(const struct mean *a, const struct mean *b)
                          (b->square - b->sum * b->sum / n) / (n - 1), n);
 }
 
-/* A walk that leaves a surface into the sky carries, on average, what uniform directions find that the surface scatters. */
+/* A walk that leaves a surface into the sky carries, on average, what uniform directions find that is scattered. */
 static void check_walks(struct test *t, const char *material)
 {
     char text[512];
@@ -288,8 +288,8 @@ static void check_walks(struct test *t, const char *material)
     struct vertex path[3], first[3];
     struct mean walked = {0, 0}, uniform = {0, 0};
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 50, 0);
-    snprintf(text, sizeof text, "LookAt 3 0 2  0 0 0  0 0 1 Camera \"perspective\" WorldBegin LightSource \"infinite\"\n"
-             "Material %s Shape \"disk\" \"float radius\" 5 WorldEnd", material);
+    snprintf(text, sizeof text, "LookAt 3 0 2  0 0 0  0 0 1 Camera \"perspective\" WorldBegin\n"
+             "LightSource \"infinite\" Material %s Shape \"disk\" \"float radius\" 5 WorldEnd", material);
     if (!scene_from_text(t, text, &scene))
         return;
     for (int i = 0; i < WALKS; i++) {

@@ -331,7 +331,8 @@ static void test_other_size(struct test *t)
     film_free(&film);
     for (int i = 0; i < 2; i++) {
         film_init(&film, others[i], 5, 4);
-        CHECK(t, !load(path, &film, &err), "a film of %d x %d pixels takes a part of 4 x 3", others[i].x1, others[i].y1);
+        CHECK(t, !load(path, &film, &err), "a film of %d x %d pixels takes a part of 4 x 3", others[i].x1,
+              others[i].y1);
         film_free(&film);
     }
     remove(path);

@@ -55,8 +55,8 @@ static void check_parts(struct test *t, int way, const struct trace *trace)
     }
 }
 
-/* Where weights make up for the choice, what is told of it is what they divide by: for all draws of first hits, and all of
- * later ones, probability times scale is the same. */
+/* Where weights make up for the choice, what is told of it is what they divide by: for all draws of first hits, and all
+ * of later ones, probability times scale is the same. */
 static void check_choices(struct test *t, int way, const struct trace *trace)
 {
     double same[2] = {0, 0};
