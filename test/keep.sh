@@ -205,7 +205,7 @@ while [ $n -lt "$kills" ] || { [ $worked = 0 ] && [ $n -lt $((kills + 50)) ]; };
     now=$least
     [ ! -e state ] || now=$(work_in state)
     [ "$now" -ge "$least" ] || fault "kill $n has lost work: $now, $least before"
-    [ "$now" -gt "$least" ] || wait=$(awk -v wait=$wait 'BEGIN { print (wait < 2 ? 1.5 * wait : wait) }')
+    [ "$now" -gt "$least" ] || wait=$(awk -v wait=$wait 'BEGIN { print (wait < 16 ? 1.5 * wait : wait) }')
     worked=$((worked + now - least))
     least=$now
     if [ "$now" = 8000 ]; then # all is done: from the beginning again
