@@ -160,14 +160,18 @@ got=$?
 check grep -Eq 'stopped by SIGTERM, at [0-9]+ of 1000000' stderr.txt
 check [ -s learning.pfm ]
 no_temporaries "after a signal before the first pass"
-# A block without end: the second signal ends the program at once; the checkpoint was saved at the first.
+# A block without end: the first signal, once it has begun, lets it go on, the second ends the program at once.
 rm -f state caught.pfm
-"$program" render "$box" --integrator asbdpt -P select=bins -P restart=0 --res 64x64 --spp 4000 --quiet -j 2 \
-    --checkpoint state --interval 1000 -o caught.pfm 2>stderr.txt &
-sleep 0.3
+"$program" render "$box" --integrator asbdpt -P select=bins -P restart=0 --res 96x96 --spp 400 --quiet -j 2 \
+    --checkpoint state --interval 0.01 -o caught.pfm 2>stderr.txt &
+waited=0
+while [ ! -s state ] && [ $waited -lt 300 ]; do
+    sleep 0.1
+    waited=$((waited + 1))
+done
 kill -s TERM $!
 sleep 0.2
-kill -s TERM $!
+check kill -s TERM $!
 wait $!
 got=$?
 [ $got = 143 ] || fault "two signals: status $got"
@@ -205,7 +209,7 @@ while [ $n -lt "$kills" ] || { [ $worked = 0 ] && [ $n -lt $((kills + 50)) ]; };
     now=$least
     [ ! -e state ] || now=$(work_in state)
     [ "$now" -ge "$least" ] || fault "kill $n has lost work: $now, $least before"
-    [ "$now" -gt "$least" ] || wait=$(awk -v wait=$wait 'BEGIN { print (wait < 2 ? 1.5 * wait : wait) }')
+    [ "$now" -gt "$least" ] || wait=$(awk -v wait=$wait 'BEGIN { print (wait < 16 ? 1.5 * wait : wait) }')
     worked=$((worked + now - least))
     least=$now
     if [ "$now" = 8000 ]; then # all is done: from the beginning again

@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/cumulative.h"
 #include "base/mem.h"
 #include "base/number.h"
 #include "base/rng.h"
@@ -312,8 +313,23 @@ static void planted_faults(struct test *t)
     alias_free(&table);
 }
 
+/* The last sum that is not above the target, also where it is met exactly and where elements of weight 0 stand. */
+static void cumulative_sums(struct test *t)
+{
+    static const double before[] = {0, 0, 1, 1, 1, 2.5, 4, 4};
+    for (int n = 1; n <= 8; n++)
+        for (double target = -0.5; target <= 5; target += 0.5) {
+            int last = 0;
+            for (int i = 0; i < n; i++)
+                last = before[i] <= target ? i : last;
+            CHECK(t, cumulative_find(before, n, target) == last, "of %d sums %d is drawn at %g, not %d", n,
+                  cumulative_find(before, n, target), target, last);
+        }
+}
+
 void test_alias(struct test *t)
 {
+    cumulative_sums(t);
     every_shape(t);
     a_million(t);
     what_is_refused(t);

@@ -285,8 +285,30 @@ static void test_names(struct test *t)
           !file_has_extension("a.png.b", ".png"), "extensions");
 }
 
+/* Several files are written at once and ended in any order: each is removed from the list of temporary files, which is
+ * gone through where the program ends early, and takes no other's place there. */
+static void test_several(struct test *t)
+{
+    enum { FILES = 3, ROUNDS = 50 };
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 40, 0);
+    struct file_output out[FILES];
+    bool open[FILES] = {false};
+    for (int i = 0; i < ROUNDS + FILES; i++) {
+        int k = i < ROUNDS ? (int)rng_below(&r, FILES) : i - ROUNDS;
+        char path[256], name[16];
+        struct error err;
+        snprintf(name, sizeof name, "several%d", k);
+        if (open[k])
+            file_abandon(&out[k]);
+        else if (i < ROUNDS)
+            CHECK(t, file_create(in_tmp(t, name, path, sizeof path), &out[k], &err), "%s", err.text);
+        open[k] = i < ROUNDS && !open[k];
+    }
+}
+
 void test_file(struct test *t)
 {
+    test_several(t);
     test_names(t);
     test_json(t);
     test_duration(t);

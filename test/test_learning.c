@@ -54,6 +54,16 @@ static void seal(struct bytes *b)
         b->data[b->n - 4 + (size_t)i] = (uint8_t)(crc >> 8 * i);
 }
 
+/* No bin of the guide's tables names one beyond their end. */
+static bool guide_is_whole(const struct learnt *l)
+{
+    for (int i = 0; l->guided && i < l->guide.n; i++)
+        for (int k = 0; k < l->guide.table[i].n; k++)
+            if (l->guide.table[i].bin[k].alias >= (uint32_t)l->guide.table[i].n)
+                return false;
+    return true;
+}
+
 /* Bytes that are damaged, with a check sum that is not: refused, or tables that can be used without harm (which
  * sanitizers see). */
 static void test_damage(struct test *t, const struct scene *scene, const struct bytes *good)
@@ -73,6 +83,8 @@ static void test_damage(struct test *t, const struct scene *scene, const struct 
         seal(&bad);
         bool ok = learnt_read(&l, &scene->lights, 5, &bad, "x", &err);
         refused += !ok;
+        CHECK(t, !ok || guide_is_whole(&l), "damage at byte %lu gives a table that leads beyond its end",
+              (unsigned long)at);
         for (int k = 0; ok && k < 20; k++) {
             int e, y;
             double pmf;
@@ -89,6 +101,27 @@ static void test_damage(struct test *t, const struct scene *scene, const struct 
     CHECK(t, refused > TRIES / 5, "only %d of %d damaged files are refused", refused, TRIES);
 }
 
+/* A changed bit is seen by the check sum; bytes that end elsewhere than the lessons are none, whatever it says. */
+static void test_ends(struct test *t, const struct scene *scene, const struct bytes *good)
+{
+    static const int more[] = {0, 8, -8};
+    for (int i = 0; i < 3; i++) {
+        size_t n = good->n + (size_t)more[i];
+        struct bytes bad = {mem_alloc(good->n + 8, 1), n, good->n + 8};
+        struct learnt l = {.guided = false};
+        struct error err;
+        memcpy(bad.data, good->data, n < good->n ? n : good->n);
+        if (i == 0)
+            bad.data[n - 40] ^= 1;
+        else
+            seal(&bad);
+        CHECK(t, !learnt_read(&l, &scene->lights, 5, &bad, "x", &err), "%d bytes more, or a changed bit, are taken",
+              more[i]);
+        learnt_free(&l);
+        free(bad.data);
+    }
+}
+
 static void test_bytes(struct test *t, const struct scene *scene, const struct learnt *l)
 {
     struct bytes one = {NULL, 0, 0}, two = {NULL, 0, 0};
@@ -102,6 +135,7 @@ static void test_bytes(struct test *t, const struct scene *scene, const struct l
     CHECK(t, !learnt_read(&other, &scene->lights, 6, &one, "x", &err), "read for another picture");
     learnt_free(&again);
     learnt_free(&other);
+    test_ends(t, scene, &one);
     test_damage(t, scene, &one);
     free(one.data);
     free(two.data);
@@ -137,11 +171,31 @@ static void test_budget(struct test *t)
     scene_free(&large);
 }
 
+/* A picture of one pixel is looked at, too, and one of a million no longer than one of 32768. */
+static void test_bounds(struct test *t)
+{
+    static const int sides[] = {1, 182, 1024};
+    double traced[3];
+    for (int i = 0; i < 3; i++) {
+        struct scene scene;
+        struct watcher w = {0, INFINITY};
+        if (!scene_from_text(t, "Camera \"perspective\" WorldBegin LightSource \"point\" WorldEnd", &scene))
+            return;
+        scene.width = scene.height = sides[i];
+        camera_prepare(&scene.camera, sides[i], sides[i]);
+        drop(learn_scene(&scene, &w, 2));
+        traced[i] = w.traced;
+        scene_free(&scene);
+    }
+    CHECK(t, traced[0] > 4000 && traced[2] == traced[1], "%g sub-paths for one pixel, %g for 182^2, %g for 1024^2",
+          traced[0], traced[1], traced[2]);
+}
+
 /* A render whose time is over while it learns has a picture of one block all the same. */
 static bool impatient(void *context, double done)
 {
-    (void)context;
-    (void)done;
+    double *asked_first = context;
+    *asked_first = *asked_first < 0 ? done : *asked_first;
     return false;
 }
 
@@ -150,21 +204,23 @@ static void test_early_end(struct test *t)
     struct scene scene;
     struct film film;
     struct error err = {""};
-    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 32, 32, &scene))
+    double asked_first = -1; /* at what share of all work */
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 48, 32, &scene)) /* two tiles */
         return;
     struct render_options o = {.integrator = "asbdpt", .end = 1000000, .n_threads = 2, .max_depth = 4,
-                               .progress = impatient};
-    film_init(&film, render_crop(&scene), 32, 32);
+                               .progress = impatient, .progress_context = &asked_first};
+    film_init(&film, render_crop(&scene), 48, 32);
     CHECK(t, render_scene(&scene, &o, &film, &err), "%s", err.text);
-    CHECK(t, film.iterations > 0 && film.iterations <= LONGEST_BLOCK && film_value(&film, 3 * 16 * 33) > 0,
+    CHECK(t, film.iterations > 0 && film.iterations <= LONGEST_BLOCK && film_value(&film, 3 * (16 * 48 + 24)) > 0,
           "%ld samples of a render that was stopped at once", film.iterations);
+    CHECK(t, asked_first >= 0 && asked_first * 1e6 * 48 * 32 < 1000, "asked first after %g of the work", asked_first);
     film_free(&film);
     scene_free(&scene);
 }
 
 /* --- grids -------------------------------------------------------------------------------------------- */
 
-/* One black triangle far away moves no region. */
+/* One triangle far away moves no region, be it black or seen by few. */
 static void test_far_triangle(struct test *t)
 {
     static const char scene_text[] =
@@ -174,9 +230,12 @@ static void test_far_triangle(struct test *t)
         "Shape \"sphere\" AttributeBegin AreaLightSource \"diffuse\" Translate 0 3 0 Shape \"disk\" AttributeEnd\n%s WorldEnd";
     static const char *const far[] = {
         "", "Material \"matte\" \"rgb Kd\" [0 0 0] Shape \"trianglemesh\" \"integer indices\" [0 1 2] "
-            "\"point P\" [1000 0 0  1001 0 0  1000 0 1]"};
-    int regions[2][2];
-    for (int i = 0; i < 2; i++) {
+            "\"point P\" [1000 0 0  1001 0 0  1000 0 1]",
+        "Material \"matte\" Shape \"trianglemesh\" \"integer indices\" [0 1 2] "
+            "\"point P\" [0 200 1000  50 200 1000  0 250 1000]"};
+    enum { WAYS = sizeof far / sizeof far[0] };
+    int regions[WAYS][2];
+    for (int i = 0; i < WAYS; i++) {
         char text[1024];
         struct scene scene;
         struct watcher w = {0, INFINITY};
@@ -192,14 +251,16 @@ static void test_far_triangle(struct test *t)
         scene_free(&scene);
     }
     CHECK(t, regions[0][0] > 20 && regions[0][1] > 50, "%d and %d regions", regions[0][0], regions[0][1]);
-    CHECK(t, regions[1][0] > 0.8 * regions[0][0] && regions[1][1] > 0.8 * regions[0][1],
-          "a far triangle leaves %d and %d regions of %d and %d", regions[1][0], regions[1][1], regions[0][0],
-          regions[0][1]);
+    for (int i = 1; i < WAYS; i++)
+        CHECK(t, regions[i][0] > 0.8 * regions[0][0] && regions[i][1] > 0.8 * regions[0][1],
+              "a far triangle leaves %d and %d regions of %d and %d", regions[i][0], regions[i][1], regions[0][0],
+              regions[0][1]);
 }
 
 void test_learning(struct test *t)
 {
     test_budget(t);
+    test_bounds(t);
     test_early_end(t);
     test_far_triangle(t);
 }

@@ -183,7 +183,7 @@ static void test_damaged_map(struct test *t)
 /* The numbers of a map are taken as they stand in its file, also those of 8-bit pictures, which are written as sRGB. */
 static void test_stored_map(struct test *t)
 {
-    static const char *const names[] = {"grey.pfm", "grey.png", "grey.tga", "grey.ppm"};
+    static const char *const names[] = {"grey.pfm", "grey.png", "grey.ppm"};
     float pixels[2 * 3];
     for (int i = 0; i < 2 * 3; i++)
         pixels[i] = 0.5f;

@@ -1,11 +1,16 @@
 /* test_material.c: which lobes a material makes, mixing, and bump mapping.
- * The lobes themselves are tested in test_lobe.c and test_bsdf.c. */
+ * The lobes themselves are tested in test_lobe.c and test_bsdf.c; here, how walks leave the surfaces they make. */
 #include "material/material.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "lab/stats.h"
+#include "base/warp.h"
+#include "helpers.h"
 #include "tests.h"
+#include "transport/path.h"
 
 struct bench {
     struct texture_set textures;
@@ -204,8 +209,71 @@ static void bump(struct test *t)
     texture_set_free(&b.textures);
 }
 
+/* --- walks -------------------------------------------------------------------------------------------- */
+
+enum { WALKS = 20000 };
+struct mean {
+    double sum, square;
+};
+
+static void take(struct mean *m, double x)
+{
+    m->sum += x;
+    m->square += x * x;
+}
+
+static double same_p(const struct mean *a, const struct mean *b)
+{
+    const double n = WALKS;
+    return stats_welch_p(a->sum / n, (a->square - a->sum * a->sum / n) / (n - 1), n, b->sum / n,
+                         (b->square - b->sum * b->sum / n) / (n - 1), n);
+}
+
+/* A walk that leaves a surface into the sky carries, on average, what uniform directions find that is scattered. */
+static void check_walks(struct test *t, const char *material)
+{
+    char text[512];
+    struct scene scene;
+    struct mis_counts counts = {.hit = 1};
+    struct arena arena = {0}, kept = {0};
+    struct vertex path[3], first[3];
+    struct mean walked = {0, 0}, uniform = {0, 0};
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 50, 0);
+    snprintf(text, sizeof text, "LookAt 3 0 2  0 0 0  0 0 1 Camera \"perspective\" WorldBegin\n"
+             "LightSource \"infinite\" Material %s Shape \"disk\" \"float radius\" 5 WorldEnd", material);
+    if (!scene_from_text(t, text, &scene))
+        return;
+    for (int i = 0; i < WALKS; i++) {
+        struct sampler sampler = sampler_start(test_seed(t), RNG_EYE, (uint64_t)i, 0);
+        struct walk w = {&scene, &counts, i == 0 ? &kept : &arena, &sampler, 0};
+        struct vertex *v = i == 0 ? first : path;
+        arena_reset(&arena);
+        int n = path_eye(&w, scene.width / 2.0, scene.height / 2.0, v, 3);
+        take(&walked, n == 3 ? rgb_luminance(v[2].beta) : 0);
+        vec3 wi = warp_sphere(rng_uniform(&r), rng_uniform(&r));
+        rgb f = bsdf_eval(&first[1].bsdf, first[1].wo, wi, RADIANCE).f;
+        take(&uniform, rgb_luminance(f) * scatter_cosine(&first[1], wi, RADIANCE) * 4 * PI);
+    }
+    TEST_ACCEPT(t, same_p(&walked, &uniform), "%s: walks carry %.4f, uniform directions %.4f", material,
+                walked.sum / WALKS, uniform.sum / WALKS);
+    arena_free(&arena);
+    arena_free(&kept);
+    scene_free(&scene);
+}
+
+static void walks(struct test *t)
+{
+    static const char *const materials[] = {
+        "\"matte\"", "\"matte\" \"float sigma\" 40", "\"substrate\" \"float uroughness\" .3 \"float vroughness\" .2",
+        "\"plastic\" \"float roughness\" .3", "\"metal\" \"float roughness\" .3",
+        "\"translucent\" \"float roughness\" .4", "\"uber\" \"float roughness\" .3 \"rgb opacity\" [1 1 1]"};
+    for (size_t i = 0; i < sizeof materials / sizeof materials[0]; i++)
+        check_walks(t, materials[i]);
+}
+
 void test_material(struct test *t)
 {
+    walks(t);
     lobes_of_materials(t);
     roughness(t);
     mixing(t);

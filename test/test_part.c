@@ -316,8 +316,31 @@ static void test_forged_digits(struct test *t)
     remove(path);
 }
 
+/* A film that differs in one side alone takes nothing. */
+static void test_other_size(struct test *t)
+{
+    struct pixel_rect whole = {0, 0, 4, 3};
+    const struct pixel_rect others[] = {{0, 0, 4, 4}, {0, 0, 5, 3}};
+    char path[256], identity[] = "version 0\n";
+    struct part p = small_part(identity, 4, 3);
+    struct film film;
+    struct error err = {""};
+    snprintf(path, sizeof path, "%s/size.part", test_tmp(t));
+    film_init(&film, whole, 4, 3);
+    CHECK(t, part_save(path, &p, &film, &err) && load(path, &film, &err), "%s", err.text);
+    film_free(&film);
+    for (int i = 0; i < 2; i++) {
+        film_init(&film, others[i], 5, 4);
+        CHECK(t, !load(path, &film, &err), "a film of %d x %d pixels takes a part of 4 x 3", others[i].x1,
+              others[i].y1);
+        film_free(&film);
+    }
+    remove(path);
+}
+
 void test_part(struct test *t)
 {
+    test_other_size(t);
     test_estimator(t);
     test_forged(t);
     test_forged_digits(t);

@@ -97,6 +97,25 @@ static void test_streams_of_decisions(struct test *t)
     free(cells);
 }
 
+/* What a decision draws is the same, whatever others have drawn before and between. */
+static void test_others(struct test *t)
+{
+    for (int d = DRAW_FILM_POINT; d < DRAW_LOBE; d++)
+        for (int e = DRAW_FILM_POINT; e <= DRAW_ORDER; e++) {
+            struct sampler alone = sampler_start(test_seed(t), RNG_EYE, 7, 3), among = alone;
+            bool same = true;
+            for (int k = 0; d != e && k < SAMPLER_TIMES; k++) {
+                double a[2], b[2], other[2];
+                sampler_number(&among, (enum decision)e);
+                sampler_pair(&among, (enum decision)e, other);
+                sampler_pair(&alone, (enum decision)d, a);
+                sampler_pair(&among, (enum decision)d, b);
+                same = same && a[0] == b[0] && a[1] == b[1];
+            }
+            CHECK(t, same, "decision %d draws other numbers after decision %d", d, e);
+        }
+}
+
 /* --- decisions as they were used ------------------------------------------------------------------------- */
 
 /* Inside of a sphere, under two triangular lamps with corners (x, 0, 9), (x + 1, 0, 9), (x, 1, 9), x = 0 and 2, seen
@@ -277,5 +296,6 @@ static void test_usage(struct test *t)
 void test_sampler(struct test *t)
 {
     test_streams_of_decisions(t);
+    test_others(t);
     test_usage(t);
 }

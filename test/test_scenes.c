@@ -82,8 +82,8 @@ static void test_sides(struct test *t)
     }
 }
 
-/* Two centimetres above a ground of 2000 km, flat or round, something casts its shadow; beside it the ground is lit and
- * not in its own. */
+/* Two centimetres above a ground of 2000 km, flat or round, and twenty metres from the origin, something casts its
+ * shadow; beside it the ground is lit and not in its own. */
 static void test_contact(struct test *t)
 {
     static const char *const grounds[] = {
@@ -94,11 +94,11 @@ static void test_contact(struct test *t)
         char text[1024];
         struct scene scene;
         snprintf(text, sizeof text,
-                 "LookAt .1 .01 0  .1 0 0  1 0 0 Camera \"perspective\" \"float fov\" 10\n"
+                 "LookAt 20.1 .01 0  20.1 0 0  1 0 0 Camera \"perspective\" \"float fov\" 10\n"
                  "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4 WorldBegin\n"
-                 "LightSource \"point\" \"point from\" [0 5 0] %s\n"
+                 "LightSource \"point\" \"point from\" [20 5 0] %s\n"
                  "Translate %d .02 0 Rotate 90 1 0 0 Shape \"disk\" \"float radius\" .5 WorldEnd\n",
-                 grounds[i / 2], i % 2 * 5);
+                 grounds[i / 2], 20 + i % 2 * 5);
         if (!scene_from_text(t, text, &scene))
             continue;
         if (i % 2 == 0)

@@ -55,6 +55,44 @@ static void check_parts(struct test *t, int way, const struct trace *trace)
     }
 }
 
+/* Where weights make up for the choice, what is told of it is what they divide by: for all draws of first hits, and all
+ * of later ones, probability times scale is the same. */
+static void check_choices(struct test *t, int way, const struct trace *trace)
+{
+    double same[2] = {0, 0};
+    for (int i = 0; i < trace->n_connections && strcmp(WAYS[way].name, "bins") != 0; i++) {
+        const struct trace_connection *k = &trace->connection[i];
+        double *first = &same[k->t > 2], product = k->pmf * k->scale;
+        if (k->s < 2 || k->t < 2)
+            continue;
+        *first = *first == 0 ? product : *first;
+        CHECK(t, fabs(product - *first) <= 1e-12 * *first, "%s: probability %g, scale %g, of others %g times as much",
+              WAYS[way].name, k->pmf, k->scale, *first / product);
+    }
+}
+
+/* The eye end of the longest pair: t. */
+static int longest_pair(const struct trace *trace)
+{
+    int t = 0;
+    for (int i = 0; i < trace->n_connections; i++)
+        if (trace->connection[i].s >= 2 && trace->connection[i].t > t)
+            t = trace->connection[i].t;
+    return t;
+}
+
+/* At the first hit as many light points are taken as the method has chosen, by default one. */
+static void check_light_points(struct test *t, int way, const struct trace *trace, const struct film *film)
+{
+    int chosen = 1, n = 0;
+    for (const struct film_number *k = film->number; k->name != NULL; k++)
+        if (strcmp(k->name, "light_points_first_hit") == 0)
+            chosen = (int)k->value;
+    for (int i = 0; i < trace->n_connections; i++)
+        n += trace->connection[i].s == 1 && trace->connection[i].t == 2;
+    CHECK(t, n == 0 || n == chosen, "%s: %d light points at the first hit, %d were chosen", WAYS[way].name, n, chosen);
+}
+
 /* Every pixel and sample told one by one gives the film of the render, and half of them do not. */
 static void test_film_from_traces(struct test *t)
 {
@@ -65,7 +103,7 @@ static void test_film_from_traces(struct test *t)
         struct render_options options = options_of(way);
         struct film rendered, told;
         struct error err;
-        int differ = 0, halfway = 0, added = 0;
+        int differ = 0, halfway = 0, added = 0, longest = 0;
         if (WAYS[way].select[0] != '\0')
             settings_set(&scene.settings, "select", WAYS[way].select, "test");
         film_init(&rendered, render_crop(&scene), SIZE, SIZE);
@@ -75,7 +113,10 @@ static void test_film_from_traces(struct test *t)
             struct trace trace = {.x = i % SIZE, .y = i / SIZE % SIZE, .iteration = i / (SIZE * SIZE)};
             CHECK(t, render_trace(&scene, &options, &trace, &err), "%s", err.text);
             check_parts(t, way, &trace);
+            check_choices(t, way, &trace);
+            check_light_points(t, way, &trace, &rendered);
             added += trace.n_connections;
+            longest = longest_pair(&trace) > longest ? longest_pair(&trace) : longest;
             for (size_t k = 0; 2 * i == SIZE * SIZE * SAMPLES && k < SIZE * SIZE * 3; k++)
                 halfway += film_value(&rendered, k) != film_value(&told, k);
             add_trace(&scene, &trace, &told);
@@ -84,6 +125,9 @@ static void test_film_from_traces(struct test *t)
         for (size_t k = 0; k < SIZE * SIZE * 3; k++)
             differ += film_value(&rendered, k) != film_value(&told, k);
         CHECK(t, added > SIZE * SIZE * SAMPLES, "%s: only %d connections told", WAYS[way].name, added);
+        bool seldom = strcmp(WAYS[way].name, "subspaces") == 0; /* less than one draw for a later vertex */
+        CHECK(t, seldom || longest == (way == 0 ? 0 : way == 1 ? 1 : options.max_depth),
+              "%s: no pair is longer than t = %d", WAYS[way].name, longest);
         CHECK(t, differ == 0, "%s: %d of %d values differ from what was told", WAYS[way].name, differ, SIZE * SIZE * 3);
         CHECK(t, halfway > 0, "%s: the second half makes no difference", WAYS[way].name);
         film_free(&rendered);

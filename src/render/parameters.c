@@ -220,10 +220,11 @@ static bool all_known(const struct scene *scene, struct error *err)
     return true;
 }
 
-/* "asbdpt", or "asbdpt with select=bins" where a name has several rows. */
-static void name_method(const struct method *m, char *out, size_t size)
+/* "asbdpt", or "asbdpt with select=bins" where a name has several rows, which `select` itself belongs to alike. */
+static void name_method(const struct method *m, const char *parameter, char *out, size_t size)
 {
-    snprintf(out, size, m->select != NULL ? "%s with select=%s" : "%s", m->name, m->select);
+    bool row = m->select != NULL && strcmp(parameter, "select") != 0;
+    snprintf(out, size, row ? "%s with select=%s" : "%s", m->name, m->select);
 }
 
 bool parameters_belong(const struct scene *scene, const struct method *const *readers, struct error *err)
@@ -236,13 +237,10 @@ bool parameters_belong(const struct scene *scene, const struct method *const *re
             continue;
         if (has == NULL)
             return unknown(item, err);
-        if (strcmp(item->name, "select") == 0) /* of all its rows */
-            snprintf(whose, sizeof whose, "%s", has->name);
-        else
-            name_method(has, whose, sizeof whose);
-        name_method(readers[0], first, sizeof first);
+        name_method(has, item->name, whose, sizeof whose);
+        name_method(readers[0], item->name, first, sizeof first);
         if (readers[1] != NULL)
-            name_method(readers[1], second, sizeof second);
+            name_method(readers[1], item->name, second, sizeof second);
         if (readers[1] != NULL)
             return error_set(err, "-P: \"%s\" is a parameter of %s, the integrators here are %s and %s", item->name,
                              whose, first, second);

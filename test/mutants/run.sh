@@ -81,12 +81,24 @@ one() {
     printf '%-18s %s\n' "$1" "$verdict"
 }
 
+# plant TREE: a copy of all that tests need, built.
+plant() {
+    mkdir -p "$1"
+    cp -R Makefile src test scenes ref doc "$1/" 2>/dev/null
+    (cd "$1" && make -s LTO= asbdpt asbdpt-lab build/test)
+}
+
+# sound TREE: do the tests pass without any fault? One that does not would seem to catch them all.
+sound() {
+    for test in $(for name in $(names); do field "$name" 3; done | tr , '\n' | sort -u) $rest; do
+        try "$1" "$test" || { echo "$test fails without any fault: $1/output.txt"; return 1; }
+    done
+}
+
 # worker NUMBER: every WORKERS-th mutant in a tree of its own.
 worker() {
     tree=$work/tree$1
-    mkdir -p "$tree"
-    cp -R Makefile src test scenes ref doc "$tree/" 2>/dev/null
-    (cd "$tree" && make -s LTO= asbdpt build/test) || exit 1
+    plant "$tree" || exit 1
     n=0
     for name in $(names); do
         [ $((n % workers)) -eq "$1" ] && one "$name" "$tree"
@@ -95,7 +107,7 @@ worker() {
 }
 
 rm -rf $work/part*.txt
-mkdir -p $work
+plant $work/tree0 && sound $work/tree0 || exit 1
 w=0
 while [ $w -lt "$workers" ]; do
     worker $w &
