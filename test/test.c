@@ -84,12 +84,14 @@ static size_t judge(struct test *t)
     size_t doubts = 0;
     for (size_t i = 0; i < t->n; i++) {
         const struct hypothesis *h = &t->hypothesis[i];
-        if (doubtful(h))
+        if (doubtful(h)) {
             doubts++;
-        else if (h->must_hold && !(h->p >= LEVEL))
+            fprintf(t->set.out, "  doubtful: %s: p = %.3g\n", h->text, h->p);
+        } else if (h->must_hold && !(h->p >= LEVEL)) {
             fail(t, h, ">=", LEVEL);
-        else if (!h->must_hold && !(h->p < LEVEL))
+        } else if (!h->must_hold && !(h->p < LEVEL)) {
             fail(t, h, "<", LEVEL);
+        }
     }
     return doubts;
 }

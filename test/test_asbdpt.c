@@ -64,7 +64,8 @@ static void test_bias(struct test *t)
         !scene_from_file(t, "scenes/cornell-box.pbrt", width, height, &scene))
         return;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        struct batches x = batches_of(t, &scene, cases[i].parameters, 12, 16, 53);
+        const char *integrator = set(&scene, cases[i].parameters);
+        struct batches x = render_batches(t, &scene, integrator, 0, 10, 16, 16, 53);
         double ratio, p = batches_p(&x, &reference, &ratio);
         if (cases[i].unbiased)
             TEST_ACCEPT(t, p, "Cornell box, %s against its reference: ratio %.4f", cases[i].parameters, ratio);
