@@ -187,7 +187,7 @@ static void test_stored_map(struct test *t)
     float pixels[2 * 3];
     for (int i = 0; i < 2 * 3; i++)
         pixels[i] = 0.5f;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 3; i++) {
         char path[256];
         struct error err = {""};
         snprintf(path, sizeof path, "%s/%s", test_tmp(t), names[i]);
