@@ -9,8 +9,11 @@ mkdir "$dir/doc" && cp -R -p Makefile src scenes ref test "$build" "$dir" && cp 
 
 plant() { # the code of the page, and its row
     sed -n '/^```c$/,/^```$/p' doc/add-a-method.md | sed '1d;$d' >"$dir/src/integrators/resampling.c"
-    sed 's/^static const struct method \*const METHODS\[\] = {/extern const struct method method_resampling;\n&\&method_resampling, /' \
-        src/integrators/methods.c | awk '{ gsub(/\\n/, "\n"); print }' >"$dir/src/integrators/methods.c"
+    awk '/^static const struct method \*const METHODS\[\] = {/ {
+            print "extern const struct method method_resampling;"
+            sub(/{/, "{\\&method_resampling, ")
+        }
+        { print }' src/integrators/methods.c >"$dir/src/integrators/methods.c"
 }
 must() { "$@" >"$dir/log" 2>&1 || { echo "FAIL: $*"; cat "$dir/log"; exit 1; }; }
 says() { grep -q "$1" "$dir/log" || { echo "FAIL: no \"$1\" in:"; cat "$dir/log"; exit 1; }; }
@@ -26,7 +29,8 @@ must ./asbdpt trace scenes/cornell-box.pbrt --integrator resampling --pixel 32,3
 says 'CHOICE'
 must ./asbdpt-lab verify scenes/cornell-box.pbrt --methods pt,resampling --res 24x24 --spp 64 --quiet
 says 'agree'
-must ./asbdpt-lab equal-time scenes/cornell-box.pbrt --methods pt,resampling:candidates=2 --seeds 1 --spp 4 --quiet -o equal
+must ./asbdpt-lab equal-time scenes/cornell-box.pbrt --methods pt,resampling:candidates=2 --seeds 1 --spp 4 --quiet \
+    -o equal
 says 'resampling:candidates=2'
 must ./asbdpt-lab demo scenes/cornell-box.pbrt --methods pt,resampling --spp 4 --quiet -o x.png
 says 'resampling'

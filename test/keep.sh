@@ -28,7 +28,10 @@ while read -r cuts options; do
         rm -f state
         expect 0 'at (32|64) of 70' \
             "$program" render "$box" $size $options -j 3 --time 1e-6 --checkpoint state -o early.part
-        case $options in *asbdpt*) ;; *) same state early.part "a checkpoint and a part" ;; esac # it carries what was learnt
+        case $options in
+        *asbdpt*) ;; # a checkpoint carries what was learnt
+        *) same state early.part "a checkpoint and a part" ;;
+        esac
         check "$program" render "$box" $size $options -j 2 --resume state -o sum.pfm -o sum.part
         same whole.pfm sum.pfm "$options resumed"
         same whole.part sum.part "$options resumed"

@@ -3,7 +3,8 @@
 #   1. it calls no function of libm that every library rounds in its own way, which would give pictures other bytes on
 #      another machine: base/maths.h has them. What IEEE 754 or C99 defines to the last bit (sqrt, fabs, floor, ceil,
 #      fmin, fmax, fmod, frexp, ldexp, nextafter) may be called;
-#   2. it includes no header that C99 does not have, except in base/os.c and os_thread.c, nor asks there for what headers may show.
+#   2. it includes no header that C99 does not have, except in base/os.c and os_thread.c, nor asks there for what
+#      headers may show.
 # Prints what is wrong; exit status 0 only if nothing is.
 top=${1:-.}
 LC_ALL=C awk '

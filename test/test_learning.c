@@ -154,7 +154,8 @@ static void test_budget(struct test *t)
                            learn_scene(&large, &w[3], 2)};
     struct bytes bytes[2] = {{NULL, 0, 0}, {NULL, 0, 0}};
     CHECK(t, w[0].traced > 1000 && w[0].traced < 8000, "%g sub-paths for a small picture", w[0].traced);
-    CHECK(t, w[2].traced > 4 * w[0].traced && w[2].traced < 16 * w[0].traced, "%g sub-paths for 16 times as many pixels",
+    CHECK(t, w[2].traced > 4 * w[0].traced && w[2].traced < 16 * w[0].traced,
+          "%g sub-paths for 16 times as many pixels",
           w[2].traced);
     CHECK(t, w[3].traced < 1000 && l[3]->eye.n >= 1, "it goes on when told to stop: %g sub-paths", w[3].traced);
     learnt_write(l[0], 5, &bytes[0]);
@@ -227,7 +228,8 @@ static void test_far_triangle(struct test *t)
         "LookAt 0 1 -3.4  0 1 0  0 1 0 Camera \"perspective\" \"float fov\" 40 WorldBegin\n"
         "Material \"matte\" Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
         "  \"point P\" [-2 0 -2  2 0 -2  2 0 2  -2 0 2]\n"
-        "Shape \"sphere\" AttributeBegin AreaLightSource \"diffuse\" Translate 0 3 0 Shape \"disk\" AttributeEnd\n%s WorldEnd";
+        "Shape \"sphere\" AttributeBegin AreaLightSource \"diffuse\" Translate 0 3 0 Shape \"disk\" AttributeEnd\n"
+        "%s WorldEnd";
     static const char *const far[] = {
         "", "Material \"matte\" \"rgb Kd\" [0 0 0] Shape \"trianglemesh\" \"integer indices\" [0 1 2] "
             "\"point P\" [1000 0 0  1001 0 0  1000 0 1]",

@@ -366,7 +366,8 @@ static void check_sky(struct test *t, const struct scene *s, struct rng *r)
         square += value * value;
     }
     double mean = sum / DRAWS, error = sqrt((square / DRAWS - mean * mean) / DRAWS);
-    TEST_ACCEPT(t, stats_student_p((mean - total) / error, DRAWS - 1), "a transformed map sends %g, not %g", mean, total);
+    TEST_ACCEPT(t, stats_student_p((mean - total) / error, DRAWS - 1), "a transformed map sends %g, not %g", mean,
+                total);
     TEST_REJECT(t, stats_student_p((mean - 1.1 * total) / error, DRAWS - 1), "a transformed map with 10 %% more");
 }
 

@@ -236,7 +236,8 @@ void test_mis(struct test *t)
             CHECK(t, c.worst < bound && c.compared > 100, "%s, %s%s%s: %ld weights, largest difference %.3g (bound %g)",
                   VARIANTS[v].name, sets[k / 4].name, learnt.guided ? ", guide" : "", learnt.paired ? ", pairs" : "",
                   c.compared, c.worst, bound);
-            CHECK(t, c.lamps > 100 || scene.kd_lamps.n_nodes == 0 || counts.hit == 0, "%s: only %ld of see-through lamps",
+            CHECK(t, c.lamps > 100 || scene.kd_lamps.n_nodes == 0 || counts.hit == 0,
+                  "%s: only %ld of see-through lamps",
                   VARIANTS[v].name, c.lamps);
         }
         struct comparison planted = {t, VARIANTS[v].name, &scene, &all, 0, 0, 0, 1.001};

@@ -37,7 +37,8 @@ static bool load(const char *path, struct film *film, struct error *err)
 /* Digits 0, -1, 63, 64, -65 and 2^62, of which the last has nine bytes. */
 static void test_bytes(struct test *t)
 {
-    static const char TEXT[] = "asbdpt part 3\nsamples 2 7\ndone 3 1\nleft-out 4\ncarried 0\nsize 1 1\nfilm 1 1, window 0 0\n"
+    static const char TEXT[] = "asbdpt part 3\nsamples 2 7\ndone 3 1\nleft-out 4\ncarried 0\nsize 1 1\n"
+                               "film 1 1, window 0 0\n"
                                "scale 1\nspp 8\nlearnt 0000000000000000\nversion 0\ncheck ";
     static const uint8_t SUMS[] = {255, 7,   0,   1,   126, 12,  128, 1,   129, 1,
                                    128, 128, 128, 128, 128, 128, 128, 128, 128, 1};
@@ -253,8 +254,10 @@ static void forge_lines(struct rng *r, const char *const *line, int n, char *out
 
 static void test_forged(struct test *t)
 {
-    static const char *const LINES[] = {"asbdpt part 3", "samples 2 7", "done 3 1", "left-out 4", "carried 0", "size 4 3",
-                                        "film 4 3, window 0 0", "scale 1", "spp 8", "learnt 0000000000000000", "version 0",
+    static const char *const LINES[] = {"asbdpt part 3", "samples 2 7", "done 3 1", "left-out 4", "carried 0",
+                                        "size 4 3",
+                                        "film 4 3, window 0 0", "scale 1", "spp 8",
+                                        "learnt 0000000000000000", "version 0",
                                         "seed 1"};
     enum { N_LINES = 12, ROUNDS = 1000, SUMS = 36 };
     char path[256], text[1024], identity[] = "version 0\nseed 1\n";
@@ -280,7 +283,8 @@ static void test_forged(struct test *t)
         taken++;
         bool same = part_same(&p, path, &whole, &err);
         same_picture += same;
-        CHECK(t, !same || strstr(text, "\nsize 4 3\nfilm 4 3, window 0 0\nscale 1\nspp 8\nlearnt 0000000000000000\nversion 0\nseed 1\ncheck "),
+        CHECK(t, !same || strstr(text, "\nsize 4 3\nfilm 4 3, window 0 0\nscale 1\nspp 8\n"
+                                      "learnt 0000000000000000\nversion 0\nseed 1\ncheck "),
               "taken for the same picture: %s", text);
         CHECK(t, p.done >= 0 && p.done <= p.end - p.first && p.end <= p.planned, "taken: %s", text);
         film_init(&film, rect, 4, 3);

@@ -163,7 +163,8 @@ static void disk_inverse(double x, double y, double u[2])
 {
     bool wide = fabs(x) > fabs(y);
     double r = sqrt(x * x + y * y);
-    double a = wide ? (x < 0 ? -r : r) : (y < 0 ? -r : r), b = wide ? a * 4 / PI * atan(y / x) : a * 4 / PI * atan(x / y);
+    double a = wide ? (x < 0 ? -r : r) : (y < 0 ? -r : r);
+    double b = wide ? a * 4 / PI * atan(y / x) : a * 4 / PI * atan(x / y);
     u[0] = ((wide ? a : b) + 1) / 2;
     u[1] = ((wide ? b : a) + 1) / 2;
 }

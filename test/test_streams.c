@@ -218,7 +218,7 @@ static double *play_back(struct test *t, const struct scene *scene, const char *
     return value;
 }
 
-/* A recorded sample replayed under another seed gives its value to the last bit, whatever the method; another does not. */
+/* A recorded sample replayed under another seed gives its value to the last bit, whatever the method. */
 static void test_replay(struct test *t)
 {
     struct scene scene;

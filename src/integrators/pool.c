@@ -105,5 +105,5 @@ const struct method method_pool = {
     .why = "alias table over the K light sub-paths of the tile, one bin for each pixel; q_k = (1 - delta) I_k / sum I "
            "+ delta / K, I the sub-path's importance; scale 1 / (K q)",
     .parameters = PARAMETERS, .state_size = sizeof(struct pool_state), .scratch_size = sizeof(struct pool),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .learnt = learnt_of, .release = release, .render = pooled_render,
-    .scratch_free = free_scratch, .begin = begin, .connect = connect};
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .learnt = learnt_of, .release = release,
+    .render = pooled_render, .scratch_free = free_scratch, .begin = begin, .connect = connect};

@@ -232,5 +232,5 @@ const struct method method_subspaces = {
     .why = "C draws for each eye vertex from the connectible vertices of the tile's K light sub-paths, in proportion "
            "to h(e,l) luminance(beta), by the regions of both; scale 1 / (C K P)",
     .parameters = PARAMETERS, .state_size = sizeof(struct subspaces_state), .scratch_size = sizeof(struct subspaces),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .learnt = learnt_of, .release = release, .render = pooled_render,
-    .scratch_init = init_scratch, .scratch_free = free_scratch, .begin = begin, .draw = draw};
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .learnt = learnt_of, .release = release,
+    .render = pooled_render, .scratch_init = init_scratch, .scratch_free = free_scratch, .begin = begin, .draw = draw};

@@ -157,5 +157,5 @@ const struct method method_vertices = {
     .why = "C draws for each eye vertex from an alias table over the connectible vertices of the tile's K light "
            "sub-paths, q in proportion to luminance(beta) n(x); scale 1 / (C K q)",
     .parameters = PARAMETERS, .state_size = sizeof(struct vertices_state), .scratch_size = sizeof(struct vertices),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .learnt = learnt_of, .release = release, .render = pooled_render,
-    .scratch_free = free_scratch, .begin = begin, .draw = draw};
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .learnt = learnt_of, .release = release,
+    .render = pooled_render, .scratch_free = free_scratch, .begin = begin, .draw = draw};

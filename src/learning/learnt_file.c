@@ -201,8 +201,8 @@ void learnt_write(const struct learnt *l, uint64_t of, struct bytes *out)
         out->data[out->n++] = (uint8_t)(crc >> 8 * i);
 }
 
-bool learnt_read(struct learnt *l, const struct light_set *lights, uint64_t of, const struct bytes *in, const char *name,
-                 struct error *err)
+bool learnt_read(struct learnt *l, const struct light_set *lights, uint64_t of, const struct bytes *in,
+                 const char *name, struct error *err)
 {
     char text[64];
     size_t n = (size_t)head(of, text, sizeof text), line = strcspn(text, "\n") + 1;

@@ -21,7 +21,7 @@ void learnt_write(const struct learnt *l, uint64_t of, struct bytes *out);
 
 /* learnt_read: from bytes into l, zero-initialised; learnt_free releases it either way. False with a message "NAME:
  * ..." if they are not what learnt_write wrote for `of`, or for lights of another number. */
-bool learnt_read(struct learnt *l, const struct light_set *lights, uint64_t of, const struct bytes *in, const char *name,
-                 struct error *err);
+bool learnt_read(struct learnt *l, const struct light_set *lights, uint64_t of, const struct bytes *in,
+                 const char *name, struct error *err);
 
 #endif

@@ -38,7 +38,8 @@ static void warn_of_normals(struct parser *p, const struct shape_item *item, con
                     "pbrt-v3 turns the normals of a mirrored quadric round; here they point outwards");
     if (item->is_mesh && item->mesh.N != NULL && is_bumped(p->scene, item->group.material))
         source_warn(&p->messages, item->position,
-                    "pbrt-v3 inverts and scales bump maps on meshes that have normals; here they are as on other shapes");
+                    "pbrt-v3 inverts and scales bump maps on meshes that have normals; here they are as on "
+                    "other shapes");
 }
 
 /* Add one shape to the scene. A mesh inside the item stays the caller's. */

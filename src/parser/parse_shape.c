@@ -316,12 +316,14 @@ static void warn_of_light(struct parser *p, const struct shape_item *item)
 {
     if (p->current_object >= 0)
         source_warn(&p->messages, item->position,
-                    "pbrt-v3 shows this light of an object, but lights nothing with it; here its copies light the scene");
+                    "pbrt-v3 shows this light of an object, but lights nothing with it; here its copies light "
+                    "the scene");
     if (item->group.material == MATERIAL_NONE && p->lamp.file == NULL)
         p->lamp = item->position;
     if (item->group.material == MATERIAL_NONE && item->area.two_sided && !is_flat(item))
         source_warn(&p->messages, item->position,
-                    "of the two sides of this lamp without material the nearer one is seen; pbrt-v3's \"path\" shows both");
+                    "of the two sides of this lamp without material the nearer one is seen; pbrt-v3's "
+                    "\"path\" shows both");
     if (!item->is_mesh)
         warn_of_stretch(p, item);
     if (item->group.alpha >= 0)
@@ -345,7 +347,8 @@ void parse_warn_of_lamps(struct parser *p)
 {
     if (lamp_hides_light(p->scene))
         source_warn(&p->messages, p->lamp,
-                    "no light is seen through this lamp without material, nor shines through it; pbrt-v3's \"path\" shows "
+                    "no light is seen through this lamp without material, nor shines through it; pbrt-v3's "
+                    "\"path\" shows "
                     "what is behind, and its \"volpath\" and \"bdpt\" let that shine through");
 }
 

@@ -21,7 +21,8 @@ static const char *const STRATEGIES[] = {"spatial", "power", "uniform", NULL};
 
 #define AT(member) offsetof(struct common, member)
 static const struct method_parameter COMMON[] = {
-    {"maxdepth", PARAMETER_INTEGER, AT(max_depth), DEFAULT_MAX_DEPTH, 0, PATH_MAX_DEPTH, "edges of a path less one", NULL},
+    {"maxdepth", PARAMETER_INTEGER, AT(max_depth), DEFAULT_MAX_DEPTH, 0, PATH_MAX_DEPTH,
+     "edges of a path less one", NULL},
     {"heuristic", PARAMETER_WORD, AT(heuristic), 0, 0, 0, "of the weights: balance or power", HEURISTICS},
     {"rrthreshold", PARAMETER_NUMBER, AT(rr_threshold), DEFAULT_RR_THRESHOLD, 0, 1e6,
      "relative throughput at which Russian roulette begins, 0: never; asbdpt's bins: 0", NULL},

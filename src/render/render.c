@@ -197,7 +197,8 @@ static bool check_range(const struct run *r, struct error *err)
     const struct render_options *o = r->options;
     int block = r->prepared.size.block;
     if (r->film->iterations > 0 && block > 0 && o->first % block != 0)
-        return error_set(err, "the film ends at sample %ld: here they come in blocks of %d, so it cannot go on from there",
+        return error_set(err,
+                         "the film ends at sample %ld: here they come in blocks of %d, so it cannot be gone on with",
                          o->first, block);
     if (o->is_part && block > 0 && (o->first % block != 0 || (o->end % block != 0 && o->end != o->planned)))
         return error_set(err, "samples %ld:%ld: here they come in blocks of %d; begin and end with one", o->first,

@@ -123,7 +123,7 @@ double camera_project(const struct camera *c, vec3 lens, vec3 w, double *px, dou
     *px = (at.x - c->x_origin) / c->x_scale;
     *py = (at.y - c->y_origin) / c->y_scale;
     /* The pyramid over a raster unit at z = 1 has a volume of pixel_volume / 3 in the world and is 1 / d.z long, so a
-     * raster unit covers pixel_volume d.z^3 steradians: cos^3 of [PBRT3 16.1.1], under any transform. The plane of focus
+     * raster unit covers pixel_volume d.z^3 steradians: cos^3 of [PBRT3 16.1.1] under any transform. The plane of focus
      * is the image plane scaled about the lens, so a lens does not change J. */
     return 1 / (c->pixel_volume * d.z * d.z * d.z);
 }
