@@ -61,7 +61,7 @@ done
 check "$program" merge -o x.pfm 0:16.part 16:64.part
 same whole.pfm x.pfm "parts by what one of them has learnt"
 expect 1 'another picture' "$program" render "$box" $size --integrator asbdpt --seed 1 --spp 2 --learnt learnt -o x.pfm
-expect 1 'bdpt learns nothing' "$program" render "$box" $size --integrator bdpt --spp 2 --learnt new -o x.pfm
+expect 2 'bdpt learns nothing' "$program" render "$box" $size --integrator bdpt --spp 2 --learnt new -o x.pfm
 head -c 5000 learnt >cut
 expect 1 'the file is damaged' "$program" render "$box" $size --integrator asbdpt --spp 2 --learnt cut -o x.pfm
 check "$program" render "$box" $size --integrator asbdpt -P select=bins --spp 40 -o x.pfm --checkpoint bins.state
