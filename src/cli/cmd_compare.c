@@ -52,15 +52,17 @@ static void print(const struct difference *d, bool json)
     fputs(json ? "}\n" : "", stdout);
 }
 
-static bool write_heatmap(const struct compare_options *o, const float *x, const float *r, int width, int height,
-                          struct error *err)
+/* Into a file that is open. */
+static bool write_heatmap(const struct compare_options *o, struct file_output *f, const float *x, const float *r,
+                          int width, int height, struct error *err)
 {
+    const struct placement whole = {0, 0, 0, 0};
     long pixels = (long)width * height;
     float *error = mem_alloc((size_t)pixels, sizeof *error), *map = mem_alloc((size_t)pixels * 3, sizeof *map);
     compare_errors(x, r, pixels, error);
     double most = o->most > 0 ? o->most : compare_percentile(error, pixels, o->percentile > 0 ? o->percentile : 99);
     compare_heatmap(error, pixels, most, map);
-    bool ok = image_write(o->heatmap, width, height, map, err);
+    bool ok = image_finish(f, whole, width, height, map, err);
     if (ok)
         fprintf(o->json ? stderr : stdout, "heatmap    0 to %.6g%s\n", most, o->most > 0 ? "" : " (percentile)");
     free(error);
@@ -78,6 +80,10 @@ static void warn_of_display(const char *display, const char *linear)
 static bool compare_files(const struct compare_options *o, struct error *err)
 {
     int w1, h1, w2, h2;
+    struct file_output map;
+    bool mapped = o->heatmap != NULL;
+    if (mapped && !image_create(o->heatmap, &map, err))
+        return false;
     struct image about1, about2;
     float *x = load_linear(o->image, &w1, &h1, &about1, err), *r = NULL;
     bool ok = x != NULL && (r = load_linear(o->reference, &w2, &h2, &about2, err)) != NULL;
@@ -89,10 +95,13 @@ static bool compare_files(const struct compare_options *o, struct error *err)
         if (about1.linear != about2.linear)
             warn_of_display(about1.linear ? o->reference : o->image, about1.linear ? o->image : o->reference);
         print(&d, o->json);
-        ok = o->heatmap == NULL || write_heatmap(o, x, r, w1, h1, err);
+        ok = !mapped || write_heatmap(o, &map, x, r, w1, h1, err);
+        mapped = false;
         if (ok && o->max_rmse > 0 && !(d.rmse <= o->max_rmse))
             ok = error_set(err, "%s and %s: rmse %.6g is more than %.6g", o->image, o->reference, d.rmse, o->max_rmse);
     }
+    if (mapped)
+        file_abandon(&map);
     free(x);
     free(r);
     return ok;

@@ -90,7 +90,8 @@ void equal_csv(FILE *f, const struct equal_time *e)
     for (const struct equal_scene *s = e->scene; s < e->scene + e->n_scenes; s++)
         for (int v = 0; v < e->plan->methods.n; v++)
             for (const struct equal_render *r = s->render[v]; r < s->render[v] + e->plan->n_seeds; r++) {
-                fprintf(f, "%s,%s,%ld,%ld,%.9g,%.9g,%.9g,%.9g,%.9g,", s->name, e->plan->methods.item[v].text,
+                csv_text(f, s->name);
+                fprintf(f, ",%s,%ld,%ld,%.9g,%.9g,%.9g,%.9g,%.9g,", e->plan->methods.item[v].text,
                         r->seed, r->spp,
                         r->seconds, r->rmse8, r->relmse, r->target, r->growth);
                 if (isfinite(s->noise8))

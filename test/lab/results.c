@@ -1,6 +1,8 @@
 /* results.c: see results.h. */
 #include "lab/results.h"
 
+#include "lab/table.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -109,7 +111,8 @@ void results_csv(FILE *f, const struct results *r)
     for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++)
         for (int v = 0; v < r->plan->methods.n; v++)
             for (int step = 0; step < r->plan->n_steps; step++) {
-                fprintf(f, "%s,%s,%ld,%d", s->name, r->plan->methods.item[v].text, r->plan->spp[step],
+                csv_text(f, s->name);
+                fprintf(f, ",%s,%ld,%d", r->plan->methods.item[v].text, r->plan->spp[step],
                         plan_seeds(r->plan, v));
                 for (int q = 0; q < N_QUANTITIES; q++) {
                     struct estimate e = results_mean(s, v, step, (enum quantity)q);
@@ -131,7 +134,8 @@ void results_runs_csv(FILE *f, const struct results *r)
         for (int v = 0; v < r->plan->methods.n; v++)
             for (int i = 0; i < plan_seeds(r->plan, v); i++)
                 for (int step = 0; step < s->run[v][i].n; step++) {
-                    fprintf(f, "%s,%s,%ld,", s->name, r->plan->methods.item[v].text, plan_seed(v, i + 1));
+                    csv_text(f, s->name);
+                    fprintf(f, ",%s,%ld,", r->plan->methods.item[v].text, plan_seed(v, i + 1));
                     write_step(f, &s->run[v][i].step[step], 9, "");
                 }
 }
