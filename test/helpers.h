@@ -35,7 +35,7 @@ bool scene_from_file(struct test *t, const char *path, int width, int height, st
 struct transform random_affine(struct rng *r);
 
 /* render_batches: render `n_batches` times with `spp` samples, times the effort, and seeds of their own, and average
- * over square tiles of `tile` pixels. */
+ * over square tiles of `tile` pixels. Powers of two are best: low-discrepancy points lie evenly then. */
 struct batches render_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth, int spp,
                               int n_batches, int tile, uint64_t seed);
 

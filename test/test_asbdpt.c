@@ -60,12 +60,13 @@ static void test_bias(struct test *t)
     struct scene scene;
     struct batches reference;
     int width, height;
+    enum { DEPTH = 6 }; /* the reference's; set() has cleared the scene's own */
     if (!load_reference(t, "cornell-box", 16, &width, &height, &reference) ||
         !scene_from_file(t, "scenes/cornell-box.pbrt", width, height, &scene))
         return;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const char *integrator = set(&scene, cases[i].parameters);
-        struct batches x = render_batches(t, &scene, integrator, 0, 10, 16, 16, 53);
+        struct batches x = render_batches(t, &scene, integrator, DEPTH, 8, 16, 16, 53);
         double ratio, p = batches_p(&x, &reference, &ratio);
         if (cases[i].unbiased)
             TEST_ACCEPT(t, p, "Cornell box, %s against its reference: ratio %.4f", cases[i].parameters, ratio);
@@ -127,7 +128,7 @@ static void test_few_light_paths(struct test *t)
         return;
     struct batches pt = render_batches(t, &scene, "pt", 4, 1024, 32, 3, 63);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        struct batches x = batches_of(t, &scene, cases[i], 200, 32, 64);
+        struct batches x = batches_of(t, &scene, cases[i], 256, 32, 64);
         double ratio, p = batches_p(&x, &pt, &ratio);
         TEST_ACCEPT(t, p, "Cornell box in 9 pixels, %s against pt: ratio %.4f", cases[i], ratio);
         batches_free(&x);
@@ -229,7 +230,7 @@ static void test_every_scene(struct test *t)
         struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 8, 12, 12, 71);
         for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++) {
             const char *integrator = set(&scene, ways[k]);
-            struct batches x = render_batches(t, &scene, integrator, 4, 6, 10, 12, 72);
+            struct batches x = render_batches(t, &scene, integrator, 4, 8, 10, 12, 72);
             double ratio, p = batches_p(&x, &bdpt, &ratio);
             TEST_ACCEPT(t, p, "%s, %s against bdpt: ratio %.4f", scenes[i], ways[k], ratio);
             batches_free(&x);

@@ -151,9 +151,9 @@ static void test_agreement(struct test *t)
         struct scene scene;
         if (!scene_from_text(t, text, &scene))
             return;
-        agree(t, &scene, cases[i].name, "bdpt", 16, "pt", 40, 4);
+        agree(t, &scene, cases[i].name, "bdpt", 16, "pt", 32, 4);
         if (cases[i].light_tracing)
-            agree(t, &scene, cases[i].name, "bdpt", 16, "lt", 40, 3);
+            agree(t, &scene, cases[i].name, "bdpt", 16, "lt", 32, 3);
         scene_free(&scene);
     }
 }
@@ -336,7 +336,7 @@ static void test_filters(struct test *t)
         if (!scene_from_text(t, text, &scene))
             return;
         /* A disk of albedo 1/2 under a sky of 1 has radiance 1/2, in every pixel: tiles of one pixel show edges. */
-        struct batches b = render_batches(t, &scene, "lt", 1, 200, 16, 3, 41);
+        struct batches b = render_batches(t, &scene, "lt", 1, 256, 16, 3, 41);
         struct batches expected = batches_new(b.n_batches, b.n, false);
         for (long k = 0; k < b.n * b.n_batches; k++)
             expected.value[k] = 0.5;

@@ -280,13 +280,13 @@ static void test_filter_spot(struct test *t)
         if (!scene_from_text(t, filled, &scene))
             continue;
         double ratio;
-        struct batches pt = render_batches(t, &scene, "pt", 1, 120, 16, 1, 826);
-        struct batches lt = render_batches(t, &scene, "lt", 1, 800, 16, 1, 827);
+        struct batches pt = render_batches(t, &scene, "pt", 1, 128, 16, 1, 826);
+        struct batches lt = render_batches(t, &scene, "lt", 1, 1024, 16, 1, 827);
         double p = batches_p(&pt, &lt, &ratio);
         TEST_ACCEPT(t, p, "a spot through the %s filter: pt against lt, ratio %.4f", filters[i], ratio);
         filter_default("triangle", &scene.filter);
         filter_prepare(&scene.filter);
-        struct batches other = render_batches(t, &scene, "pt", 1, 120, 16, 1, 828);
+        struct batches other = render_batches(t, &scene, "pt", 1, 128, 16, 1, 828);
         TEST_REJECT(t, batches_p(&other, &lt, &ratio), "a spot through the triangle instead of the %s filter",
                     filters[i]);
         batches_free(&pt);
@@ -392,13 +392,13 @@ void test_scenes(struct test *t)
     test_partials(t);
     test_spot(t);
     test_filter_spot(t);
-    test_light_pairs(t, 6);
-    test_mirrored(t, 12);
-    test_agreement(t, 6);
-    test_four(t, "pass-through", 12, 0.05); /* see-through lamps, one of them around a ball */
-    test_four(t, "light-slides", 12, 0.1);
-    test_four(t, "orthographic", 12, 0.1);
-    test_four(t, "environment", 12, 0.1);
+    test_light_pairs(t, 8);
+    test_mirrored(t, 16);
+    test_agreement(t, 8);
+    test_four(t, "pass-through", 16, 0.05); /* see-through lamps, one of them around a ball */
+    test_four(t, "light-slides", 16, 0.1);
+    test_four(t, "orthographic", 16, 0.1);
+    test_four(t, "environment", 16, 0.1);
 }
 
 void test_scenes_long(struct test *t)
