@@ -52,7 +52,8 @@ void regions_copy(struct regions *to, const struct regions *from)
     to->region = mem_alloc(from->capacity, sizeof *to->region);
     if (from->n_slots > 0)
         memcpy(to->slot, from->slot, from->n_slots * sizeof *to->slot);
-    memcpy(to->region, from->region, (size_t)from->n * sizeof *to->region);
+    if (from->n > 0)
+        memcpy(to->region, from->region, (size_t)from->n * sizeof *to->region);
 }
 
 /* 1..6, the axis and sign a unit normal is nearest to. */

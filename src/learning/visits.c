@@ -145,6 +145,7 @@ void visits_run(struct lessons *l, long n)
 struct light_sums {
     double vertices, E, I, square; /* square: of I */
     long n;                        /* sub-paths */
+    struct regions light;          /* with those met now; walks look things up in what was known before */
 };
 
 static void trace_light(void *context, struct lessons *l, int thread, long i, struct findings *out)
@@ -166,7 +167,7 @@ static void take_light(void *context, struct lessons *l, const struct finding *f
 {
     struct light_sums *s = context;
     struct importance *importance = &l->learnt->importance;
-    struct regions *light = &l->learnt->light;
+    struct regions *light = &s->light;
     uint64_t key = regions_key(light, f->p, f->p_ng);
     int region = l->wish->pairs ? regions_add(light, key) : regions_find(light, key);
     double E = importance_in(importance, region), I = f->x * E;
@@ -181,9 +182,13 @@ static void take_light(void *context, struct lessons *l, const struct finding *f
 void visits_light(struct lessons *l, long n)
 {
     struct importance *importance = &l->learnt->importance;
+    struct regions *known = &l->learnt->light;
     struct light_sums s = {.n = n};
+    regions_copy(&s.light, known);
     struct pass pass = {l, 0, n, &s, NULL, trace_light, take_light};
     pass_run(&pass);
+    regions_copy(known, &s.light);
+    regions_free(&s.light);
     importance->light_vertices = s.vertices / (double)n;
     importance->mean = s.E / (double)n;
     importance->useful = s.square > 0 ? s.I * s.I / (s.square * s.vertices) : 1;
