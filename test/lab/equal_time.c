@@ -6,6 +6,7 @@
 
 #include "base/maths.h"
 #include "base/number.h"
+#include "lab/csv.h"
 #include "lab/table.h"
 
 enum { SEED_BASE = 5000, MOST_SAMPLES = 1 << 20 };

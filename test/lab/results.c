@@ -1,7 +1,7 @@
 /* results.c: see results.h. */
 #include "lab/results.h"
 
-#include "lab/table.h"
+#include "lab/csv.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -87,12 +87,3 @@ void table_markdown(FILE *f, const struct table *t)
     }
     fputs("\n\n", f);
 }
-
-void csv_text(FILE *f, const char *text)
-{
-    bool quoted = strpbrk(text, ",\"\r\n") != NULL;
-    fputs(quoted ? "\"" : "", f);
-    for (; *text != '\0'; text++)
-        fputs(*text == '"' ? "\"\"" : (const char[]){*text, '\0'}, f);
-    fputs(quoted ? "\"" : "", f);
-}

@@ -44,7 +44,4 @@ size_t table_rows(const struct table *t);
 /* table_markdown: the caption is the paragraph before the table. */
 void table_markdown(FILE *f, const struct table *t);
 
-/* csv_text: one field of a line of comma-separated values: in quotes where it has to be. */
-void csv_text(FILE *f, const char *text);
-
 #endif
