@@ -170,7 +170,7 @@ static bool watch(void *context, double traced)
     struct run *r = context;
     const struct render_options *o = r->options;
     double samples = pixel_light_count(&r->job) * (double)(o->end - o->first);
-    r->learning = traced / (traced + samples);
+    r->learning = fmax(r->learning, traced / (traced + samples)); /* each pass counts its own; a bar never goes back */
     if (!o->progress(o->progress_context, r->learning))
         r->stopping = true;
     return !r->stopping;
