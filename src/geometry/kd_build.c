@@ -35,12 +35,6 @@ struct kd_cell {
     int depth;
 };
 
-/* What a shadow ray that crosses a cell may expect of it. */
-struct prospect {
-    double cost; /* of going through all of it, in tests of a block */
-    double hit;  /* probability of being stopped */
-};
-
 /* Bounds of the two parts of an item that the plane cuts; a quadric is represented by its bounding box. */
 static void split_item(const struct geometry *geo, const struct kd_ref *ref, const struct box *cell,
                        const struct kd_plane *p, struct box part[2], bool filled[2])
@@ -106,32 +100,6 @@ static void make_leaf(struct builder *b, uint32_t node, const struct kd_cell *ce
     kd->n_items += (int)cell->n;
 }
 
-/* A line that crosses a cell of surface S meets a triangle of area A in it with probability 2 A / S. A quarter of the
- * surface of its bounds is good enough for A here. */
-static struct prospect leaf_prospect(const struct builder *b, const struct kd_cell *cell)
-{
-    double area = kd_half_area(&cell->box), sum = 0;
-    for (size_t i = cell->at; i < cell->at + cell->n; i++)
-        sum += kd_half_area(&b->ref[i].box) / 2;
-    struct prospect p = {kd_leaf_cost(cell->n), area > 0 ? 1 - m_exp(-sum / area) : 1};
-    return p;
-}
-
-/* Decide which child shadow rays visit first: as with any two chances, that with the better relation of probability to
- * cost. Returns the prospect of both together. */
-static struct prospect order_children(struct kd_node *node, const struct kd_cell *cell, const struct kd_cell part[2],
-                                      const struct prospect child[2])
-{
-    double area = kd_half_area(&cell->box), share[2];
-    for (int s = 0; s < 2; s++)
-        share[s] = area > 0 ? kd_half_area(&part[s].box) / area : 1;
-    if (child[1].hit * child[0].cost > child[0].hit * child[1].cost)
-        node->word |= KD_UPPER_FIRST;
-    struct prospect both = {KD_VISIT_COST + share[0] * child[0].cost + share[1] * child[1].cost,
-                            1 - (1 - share[0] * child[0].hit) * (1 - share[1] * child[1].hit)};
-    return both;
-}
-
 /* Two neighbouring nodes; returns the first. */
 static uint32_t add_children(struct builder *b, uint32_t parent, const struct kd_plane *p)
 {
@@ -139,7 +107,7 @@ static uint32_t add_children(struct builder *b, uint32_t parent, const struct kd
     uint32_t first = (uint32_t)kd->n_nodes;
     kd->node = mem_grow(kd->node, &b->node_capacity, (size_t)kd->n_nodes + 2, sizeof *kd->node);
     kd->n_nodes += 2;
-    kd->node[parent].word = (first >> 1) << 3 | (uint32_t)p->axis;
+    kd->node[parent].word = (first >> 1) << 2 | (uint32_t)p->axis;
     kd->node[parent].at.split = p->at;
     return first;
 }
@@ -169,23 +137,23 @@ static bool cut_cell(struct builder *b, const struct kd_cell *cell, struct kd_pl
     return true;
 }
 
-/* Build what is below a node, taking the cell's items from the stack. */
-static struct prospect build_cell(struct builder *b, uint32_t node, const struct kd_cell *cell)
+/* Build what is below a node, taking the cell's items from the stack; returns the cost of a ray that crosses it. */
+static double build_cell(struct builder *b, uint32_t node, const struct kd_cell *cell)
 {
     struct kd_plane p;
     struct kd_cell part[2];
-    struct prospect prospect[2];
     if (cell->depth > b->kd->depth)
         b->kd->depth = cell->depth;
     if (!cut_cell(b, cell, &p, part)) {
         make_leaf(b, node, cell);
-        return leaf_prospect(b, cell);
+        return kd_leaf_cost(cell->n);
     }
     uint32_t child = add_children(b, node, &p);
     int top = part[0].at > part[1].at ? 0 : 1;
-    prospect[top] = build_cell(b, child + (uint32_t)top, &part[top]);
-    prospect[1 - top] = build_cell(b, child + 1 - (uint32_t)top, &part[1 - top]);
-    return order_children(&b->kd->node[node], cell, part, prospect);
+    double area = kd_half_area(&cell->box), cost = KD_VISIT_COST;
+    for (int i = 0, s = top; i < 2; i++, s = 1 - top)
+        cost += build_cell(b, child + (uint32_t)s, &part[s]) * (area > 0 ? kd_half_area(&part[s].box) / area : 1);
+    return cost;
 }
 
 static int prim_of_item(const struct geometry *geo, uint32_t item)
@@ -244,7 +212,7 @@ void kd_build(struct kdtree *kd, const struct geometry *geo, bool see_through)
         kd->node = mem_grow(NULL, &b.node_capacity, 2, sizeof *kd->node);
         kd->n_nodes = 2;
         struct kd_cell root = {bounds, 0, (size_t)n, MAX_REFERENCES * n, 0};
-        kd->cost = build_cell(&b, 0, &root).cost;
+        kd->cost = build_cell(&b, 0, &root);
         fill_blocks(&b);
         free(b.leaf_item);
     }
