@@ -220,7 +220,7 @@ bool quadric_intersect(const struct quadric *q, const struct ray *ray, bool begi
 
 /* --- the surface -------------------------------------------------------------------------------------- */
 
-/* Everything of a surface point in object space. n is of any length. */
+/* A surface point in object space, zeros at first. n is of any length. */
 struct object_point {
     vec3 n, dpdu, dpdv, dndu, dndv;
     double u, v;
@@ -252,7 +252,6 @@ static void disk_point(const struct quadric *q, vec3 p, struct object_point *at)
     at->n = vec(0, 0, 1);
     at->dpdu = mul(vec(-out.y, out.x, 0), q->phi_max * r);
     at->dpdv = mul(out, -width);
-    at->dndu = at->dndv = vec(0, 0, 0);
 }
 
 static void cylinder_point(const struct quadric *q, vec3 p, struct object_point *at)
@@ -262,7 +261,6 @@ static void cylinder_point(const struct quadric *q, vec3 p, struct object_point 
     at->dpdu = mul(vec(-p.y, p.x, 0), q->phi_max);
     at->dpdv = vec(0, 0, q->zmax - q->zmin);
     at->dndu = mul(at->dpdu, 1 / q->radius);
-    at->dndv = vec(0, 0, 0);
 }
 
 /* The normal does not change along the slope. */
@@ -371,40 +369,37 @@ static double area_ratio(const struct quadric *q, vec3 ng)
 
 double quadric_pdf_a(const struct quadric *q, vec3 ng) { return 1 / (object_area(q) * area_ratio(q, ng)); }
 
-/* Columns orthogonal and of one length, to rounding. */
-static bool is_similarity(const struct transform *t)
+/* The mean of area_ratio at n x n places, and its range. */
+static double mean_area_ratio(const struct quadric *q, int n, double *least, double *most)
 {
-    vec3 c[3];
-    for (int i = 0; i < 3; i++)
-        c[i] = vec(t->m[0][i], t->m[1][i], t->m[2][i]);
-    double size = length2(c[0]), slack = 1e-9 * size;
-    return fabs(length2(c[1]) - size) < slack && fabs(length2(c[2]) - size) < slack &&
-           fabs(dot(c[0], c[1])) < slack && fabs(dot(c[1], c[2])) < slack && fabs(dot(c[2], c[0])) < slack;
+    double sum = 0;
+    *least = HUGE_VAL;
+    *most = 0;
+    for (int i = 0; i < n * n; i++) {
+        struct surface at;
+        quadric_surface_at(q, false, quadric_sample(q, (i / n + 0.5) / n, (i % n + 0.5) / n), &at);
+        double ratio = area_ratio(q, at.ng);
+        *least = fmin(*least, ratio);
+        *most = fmax(*most, ratio);
+        sum += ratio;
+    }
+    return sum / (n * n);
 }
+
+/* |M^T n|^2 is a quadratic form of n: if it is the same at so many places, it is everywhere. */
+enum { PLACES = 5 };
 
 double quadric_area(const struct quadric *q)
 {
-    int n = q->kind == QUADRIC_DISK || is_similarity(&q->to_world) ? 1 : 64;
-    double sum = 0;
-    for (int i = 0; i < n * n; i++) {
-        struct surface at;
-        vec3 p = quadric_sample(q, (i / n + 0.5) / n, (i % n + 0.5) / n);
-        quadric_surface_at(q, false, p, &at);
-        sum += area_ratio(q, at.ng);
-    }
-    return object_area(q) * sum / (n * n);
+    double least, most, mean = mean_area_ratio(q, PLACES, &least, &most);
+    if (most - least > 1e-9 * most)
+        mean = mean_area_ratio(q, 64, &least, &most);
+    return object_area(q) * mean;
 }
 
-/* |M^T n|^2 is a quadratic form of n: if it is the same at this many places, it is everywhere. */
 bool quadric_keeps_area(const struct quadric *q)
 {
-    enum { DOWN = 4, ROUND = 5 };
-    for (int i = 0; i < DOWN * ROUND; i++) {
-        struct surface at;
-        vec3 p = quadric_sample(q, (i / ROUND + 0.5) / DOWN, (i % ROUND + 0.5) / ROUND);
-        quadric_surface_at(q, false, p, &at);
-        if (!(fabs(area_ratio(q, at.ng) - 1) < 1e-3))
-            return false;
-    }
-    return true;
+    double least, most;
+    mean_area_ratio(q, PLACES, &least, &most);
+    return least > 1 - 1e-3 && most < 1 + 1e-3;
 }
