@@ -7,6 +7,7 @@
 
 #include "base/mem.h"
 #include "base/number.h"
+#include "helpers.h"
 #include "tests.h"
 
 static struct mesh mesh_of(const float *P, int n_vertices, const uint32_t *index, int n_triangles)
@@ -20,8 +21,6 @@ static struct mesh mesh_of(const float *P, int n_vertices, const uint32_t *index
 }
 
 static vec3 point(const float *v, uint32_t i) { return vec(v[3 * i], v[3 * i + 1], v[3 * i + 2]); }
-
-static bool near3(vec3 a, vec3 b, double tolerance) { return length(sub(a, b)) <= tolerance; }
 
 /* Two tips of valence n over a ring of valence 4, its corners at odd heights: closed, counterclockwise from outside. */
 static struct mesh spindle(int n)
