@@ -60,13 +60,7 @@ double roughness_to_alpha(double roughness)
 
 static struct lobe lobe_of(enum lobe_kind kind, rgb R, rgb T)
 {
-    struct lobe l;
-    memset(&l, 0, sizeof l);
-    l.kind = kind;
-    l.fresnel = FRESNEL_NONE;
-    l.scale = rgb_grey(1);
-    l.R = R;
-    l.T = T;
+    struct lobe l = {.kind = kind, .fresnel = FRESNEL_NONE, .scale = rgb_grey(1), .R = R, .T = T};
     return l;
 }
 

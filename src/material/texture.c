@@ -186,13 +186,6 @@ static struct st map_point(const struct texture_set *set, const struct mapping *
 
 static bool is_even(double whole) { return fmod(whole, 2) == 0; }
 
-static rgb bilerp(const struct texture *t, struct st st)
-{
-    rgb low = rgb_add(rgb_scale(t->v00, 1 - st.s), rgb_scale(t->v10, st.s));
-    rgb high = rgb_add(rgb_scale(t->v01, 1 - st.s), rgb_scale(t->v11, st.s));
-    return rgb_add(rgb_scale(low, 1 - st.t), rgb_scale(high, st.t));
-}
-
 static rgb mix(rgb a, rgb b, double amount) { return rgb_add(rgb_scale(a, 1 - amount), rgb_scale(b, amount)); }
 
 /* The point that a texture of space sees. pbrt-v3, and so its scenes, takes the world for the texture's own space and
@@ -244,7 +237,10 @@ static rgb evaluate(const struct texture_set *set, int id, const struct surface 
         const struct image *img = &set->image[t->image];
         return rgb_scale(bilinear(img, st.s, st.t, t->wrap, t->gamma, read), t->scale);
     }
-    case TEXTURE_BILERP: return bilerp(t, map_point(set, &t->map, at));
+    case TEXTURE_BILERP: {
+        struct st st = map_point(set, &t->map, at);
+        return mix(mix(t->v00, t->v10, st.s), mix(t->v01, t->v11, st.s), st.t);
+    }
     case TEXTURE_UV: {
         struct st st = map_point(set, &t->map, at);
         return rgb_make(st.s - floor(st.s), st.t - floor(st.t), 0);
