@@ -210,21 +210,25 @@ static void test_shared_picture(struct test *t)
     char path[256], other[256];
     struct error err = {""};
     struct light_set set = {0};
-    struct light l[6] = {{.L = {1, 1, 1}}};
+    static const enum light_kind KINDS[] = {LIGHT_INFINITE, LIGHT_INFINITE, LIGHT_PROJECTION, LIGHT_GONIOMETRIC,
+                                            LIGHT_INFINITE};
+    struct light l[5];
+    const struct image *got[5];
     snprintf(path, sizeof path, "%s/shared.pfm", test_tmp(t));
     snprintf(other, sizeof other, "%s/other.pfm", test_tmp(t));
     CHECK(t, image_write(path, 2, 1, pixels, &err) && image_write(other, 2, 1, pixels, &err), "%s", err.text);
-    const struct image *map = light_read_map(&set, &l[0], path, &err);
-    CHECK(t, map != NULL && light_read_map(&set, &l[1], path, &err) == map && l[0].env == l[1].env, "a map read twice");
-    const struct image *slide = light_read_slide(&set, &l[2], path, &err);
-    CHECK(t, slide != NULL && slide != map && light_read_slide(&set, &l[3], path, &err) == slide &&
-                 l[2].slide == l[3].slide && l[2].env == NULL, "a slide read twice");
-    CHECK(t, light_read_map(&set, &l[4], other, &err) != map && l[4].env != NULL && set.n_pictures == 3,
-          "another file");
+    for (int i = 0; i < 5; i++) {
+        struct light start = {.kind = KINDS[i]};
+        l[i] = start;
+        got[i] = light_read_picture(&set, &l[i], i < 4 ? path : other, &err);
+        CHECK(t, got[i] != NULL, "%s", err.text);
+    }
+    CHECK(t, got[0] == got[1] && got[2] == got[3] && got[0] != got[2] && got[4] != got[0] && set.n_pictures == 3,
+          "a map, a slide and another map");
+    CHECK(t, l[1].env != NULL && l[1].slide == NULL && l[3].slide != NULL && l[3].env == NULL, "each in its role");
     snprintf(other, sizeof other, "%s/missing.pfm", test_tmp(t));
-    for (int i = 0; i < 2; i++)
-        CHECK(t, light_read_map(&set, &l[5], other, &err) == NULL && light_read_slide(&set, &l[5], other, &err) == NULL,
-              "a file that is not there");
+    for (int i = 0; i < 4; i++)
+        CHECK(t, light_read_picture(&set, &l[i], other, &err) == NULL && set.n_pictures == 3, "a missing file");
     light_set_free(&set);
     CHECK(t, envmap_size_ok(2048, 2048, 1, &err) && !envmap_size_ok(2049, 2048, 1, &err) &&
                  envmap_size_ok(8192, 4096, 1 << 24, &err) && !envmap_size_ok(8194, 4096, 1 << 24, &err),

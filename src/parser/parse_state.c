@@ -185,77 +185,48 @@ static const char *const END[] = {"AttributeEnd", "TransformEnd", "ObjectEnd"};
 
 void parse_close_all(struct parser *p)
 {
-    for (; p->n_pushed > 0; p->n_pushed--) {
-        const struct pushed_transform *top = &p->pushed[p->n_pushed - 1];
-        source_warn(&p->messages, top->position, "%s is still open at WorldEnd; close it with %s", BEGIN[top->kind],
-                    END[top->kind]);
+    while (p->n_blocks > 0) {
+        const struct block *b = &p->block[--p->n_blocks];
+        source_warn(&p->messages, b->position, "%s is still open at WorldEnd; close it with %s", BEGIN[b->kind],
+                    END[b->kind]);
     }
-}
-
-static void push_transform(struct parser *p, enum block_kind kind)
-{
-    struct pushed_transform top = {kind, p->directive.position, p->place};
-    p->pushed = mem_append(p->pushed, (size_t)p->n_pushed, sizeof *p->pushed);
-    p->pushed[p->n_pushed++] = top;
-}
-
-static void pop_transform(struct parser *p, enum block_kind kind)
-{
-    if (p->n_pushed == 0)
-        return;
-    const struct pushed_transform *top = &p->pushed[--p->n_pushed];
-    if (top->kind != kind)
-        source_warn(&p->messages, p->directive.position,
-                    "%s does not match the %s of line %d; as in pbrt-v3, it takes back that one's transform",
-                    END[kind], BEGIN[top->kind], top->position.line);
-    p->place = top->saved;
-}
-
-/* Warns of an end without a beginning, which is passed over. */
-static bool is_open(struct parser *p, int n, enum block_kind kind)
-{
-    if (n == 0)
-        source_warn(&p->messages, p->directive.position, "%s without %s is passed over", END[kind], BEGIN[kind]);
-    return n > 0;
 }
 
 bool parse_open_block(struct parser *p, enum block_kind kind)
 {
-    struct pushed_state b = {p->state, p->float_textures.n, p->spectrum_textures.n, p->materials.n};
+    struct block b = {kind, p->directive.position, p->place, p->state,
+                      p->float_textures.n, p->spectrum_textures.n, p->materials.n};
     p->block = mem_append(p->block, (size_t)p->n_blocks, sizeof *p->block);
     p->block[p->n_blocks++] = b;
-    push_transform(p, kind);
     return true;
 }
 
 bool parse_close_block(struct parser *p, enum block_kind kind)
 {
-    if (!is_open(p, p->n_blocks, kind))
+    if (p->n_blocks == 0) {
+        source_warn(&p->messages, p->directive.position, "%s without %s is passed over", END[kind], BEGIN[kind]);
         return false;
-    const struct pushed_state *b = &p->block[--p->n_blocks];
-    p->state = b->saved;
+    }
+    const struct block *b = &p->block[p->n_blocks - 1];
+    if (b->kind != kind)
+        return directive_error(p, "the %s of line %d is still open; close it with %s", BEGIN[b->kind],
+                               b->position.line, END[b->kind]);
+    p->n_blocks--;
+    p->place = b->place;
+    if (kind == BLOCK_TRANSFORM)
+        return true;
+    p->state = b->state;
     symbols_forget(&p->float_textures, b->n_float_textures);
     symbols_forget(&p->spectrum_textures, b->n_spectrum_textures);
     symbols_forget(&p->materials, b->n_materials);
-    pop_transform(p, kind);
     return true;
 }
 
 static bool attribute_begin(struct parser *p) { return parse_open_block(p, BLOCK_ATTRIBUTE); }
 static bool attribute_end(struct parser *p) { return parse_close_block(p, BLOCK_ATTRIBUTE); }
 
-static bool transform_begin(struct parser *p)
-{
-    push_transform(p, BLOCK_TRANSFORM);
-    return true;
-}
-
-static bool transform_end(struct parser *p)
-{
-    if (is_open(p, p->n_pushed, BLOCK_TRANSFORM))
-        pop_transform(p, BLOCK_TRANSFORM);
-    return true;
-}
+static bool transform_begin(struct parser *p) { return parse_open_block(p, BLOCK_TRANSFORM); }
+static bool transform_end(struct parser *p) { return parse_close_block(p, BLOCK_TRANSFORM); }
 
 static bool reverse_orientation(struct parser *p)
 {
