@@ -31,25 +31,17 @@ const char *params_type_name(enum param_type type)
  * used. */
 static void read_declaration(struct params *p, const struct token *t, struct param *item)
 {
-    char *text = arena_alloc(p->arena, strlen(t->text) + 1);
-    strcpy(text, t->text);
+    char *text = strcpy(arena_alloc(p->arena, strlen(t->text) + 1), t->text);
     const char *type = strtok(text, " \t"), *name = strtok(NULL, " \t");
     item->type = PARAM_TYPES;
-    item->name = t->text;
-    if (type == NULL || name == NULL) {
-        source_warn(p->messages, t->position, "the parameter \"%.40s\" is passed over: it is declared by its "
-                    "type and its name, like \"float radius\"", t->text);
-        return;
-    }
-    for (int i = 0; i < N_TYPES; i++)
-        if (strcmp(TYPES[i].name, type) == 0) {
+    item->name = name != NULL ? name : t->text;
+    for (int i = 0; i < N_TYPES && name != NULL; i++)
+        if (strcmp(TYPES[i].name, type) == 0)
             item->type = TYPES[i].type;
-            item->name = name;
-            return;
-        }
-    source_warn(p->messages, t->position, "the parameter \"%.40s\" is passed over: unknown type; types are "
-                "integer, float, bool, string, texture, point2, vector2, point, vector, normal, rgb, xyz, blackbody "
-                "and spectrum", t->text);
+    if (item->type == PARAM_TYPES)
+        source_warn(p->messages, t->position, "the parameter \"%.40s\" is passed over: it wants a type and a name, like "
+                    "\"float radius\"; types are integer, float, bool, string, texture, point2, vector2, point, vector, "
+                    "normal, rgb, xyz, blackbody and spectrum", t->text);
 }
 
 static bool wants_text(enum param_type type)

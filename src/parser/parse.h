@@ -33,8 +33,8 @@ struct material_source {
 
 /* What every block saves. */
 struct transform_state {
-    struct transform ctm; /* current transformation matrix: object to world, before WorldBegin world to camera; of NaN
-                           * where it is of no use, which parse_placed tells */
+    struct transform ctm; /* current transformation matrix: object to world, before WorldBegin world to camera; whether
+                           * it is of use, parse_placed tells */
     bool start_active;    /* ActiveTransform: transforms act on the start of the shutter interval */
 };
 

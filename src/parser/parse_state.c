@@ -30,27 +30,14 @@ static bool read_numbers(struct parser *p, double *out, int n)
     return true;
 }
 
-/* Stays what it is whatever it is multiplied with. */
-static struct transform no_transform(void)
-{
-    struct transform t;
-    for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++)
-            t.m[i][j] = t.inv[i][j] = NAN;
-    return t;
-}
+/* One of no use is an error only where something stands in it. This one stays what it is whatever it is multiplied
+ * with. */
+static const struct transform SINGULAR = {{{0}}, {{0}}};
 
-/* One of no use is an error only where something stands in it. */
 static bool set_ctm(struct parser *p, struct transform t)
 {
-    if (!p->place.start_active)
-        return true;
-    bool usable = transform_is_usable(&t);
-    if (!usable && !isnan(p->place.ctm.m[0][0]))
-        source_warn(&p->messages, p->directive.position,
-                    "%s makes the current transform infinite or singular, or nearly so; nothing can stand in it",
-                    p->directive.text);
-    p->place.ctm = usable ? t : no_transform();
+    if (p->place.start_active)
+        p->place.ctm = t;
     return true;
 }
 
@@ -84,7 +71,7 @@ static bool scale(struct parser *p)
     if (!read_numbers(p, x, 3))
         return false;
     bool flat = x[0] == 0 || x[1] == 0 || x[2] == 0;
-    return apply(p, flat ? no_transform() : transform_scale(x[0], x[1], x[2]));
+    return apply(p, flat ? SINGULAR : transform_scale(x[0], x[1], x[2]));
 }
 
 static bool rotate(struct parser *p)
@@ -93,23 +80,17 @@ static bool rotate(struct parser *p)
     if (!read_numbers(p, x, 4))
         return false;
     vec3 axis = vec(x[1], x[2], x[3]);
-    return apply(p, length2(axis) > 0 ? transform_rotate(x[0], axis) : no_transform());
+    return apply(p, length2(axis) > 0 ? transform_rotate(x[0], axis) : SINGULAR);
 }
 
 static bool look_at(struct parser *p)
 {
     double x[9];
-    struct transform t;
+    struct transform t = SINGULAR;
     if (!read_numbers(p, x, 9))
         return false;
-    vec3 eye = vec(x[0], x[1], x[2]), look = vec(x[3], x[4], x[5]);
-    if (transform_look_at(eye, look, vec(x[6], x[7], x[8]), &t))
-        return apply(p, t);
-    if (!(length2(sub(look, eye)) > 0))
-        return apply(p, no_transform());
-    source_warn(&p->messages, p->directive.position,
-                "LookAt needs an up vector across the view; as in pbrt-v3, this one changes nothing");
-    return true;
+    transform_look_at(vec(x[0], x[1], x[2]), vec(x[3], x[4], x[5]), vec(x[6], x[7], x[8]), &t);
+    return apply(p, t);
 }
 
 static bool parse_matrix(struct parser *p, struct transform *out)
@@ -117,8 +98,8 @@ static bool parse_matrix(struct parser *p, struct transform *out)
     double x[16];
     if (!read_numbers(p, x, 16))
         return false;
-    if (!transform_from_matrix(x, out))
-        *out = no_transform();
+    *out = SINGULAR;
+    transform_from_matrix(x, out);
     return true;
 }
 
@@ -163,7 +144,7 @@ static bool active_transform(struct parser *p)
     if (!lexer_next(&p->lexer, &t))
         return false;
     bool end = strcmp(t.text, "EndTime") == 0;
-    if (t.kind != TOKEN_WORD || !(end || strcmp(t.text, "StartTime") == 0 || strcmp(t.text, "All") == 0))
+    if (!end && strcmp(t.text, "StartTime") != 0 && strcmp(t.text, "All") != 0)
         return source_error(&p->messages, t.position, "ActiveTransform wants StartTime, EndTime or All");
     if (end)
         source_warn(&p->messages, t.position, "nothing moves here: transforms of the end time are ignored");
