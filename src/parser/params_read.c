@@ -39,9 +39,10 @@ static void read_declaration(struct params *p, const struct token *t, struct par
         if (strcmp(TYPES[i].name, type) == 0)
             item->type = TYPES[i].type;
     if (item->type == PARAM_TYPES)
-        source_warn(p->messages, t->position, "the parameter \"%.40s\" is passed over: it wants a type and a name, like "
-                    "\"float radius\"; types are integer, float, bool, string, texture, point2, vector2, point, vector, "
-                    "normal, rgb, xyz, blackbody and spectrum", t->text);
+        source_warn(p->messages, t->position,
+                    "the parameter \"%.40s\" is passed over: it wants a type and a name, like \"float radius\"; types "
+                    "are integer, float, bool, string, texture, point2, vector2, point, vector, normal, rgb, xyz, "
+                    "blackbody and spectrum", t->text);
 }
 
 static bool wants_text(enum param_type type)
