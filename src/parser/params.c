@@ -25,7 +25,7 @@ bool params_fail(struct params *p, struct source_position at, const char *format
 
 /* --- asking ------------------------------------------------------------------------------------------- */
 
-/* The last parameter of this name and one of the types, for a later one replaces an earlier one, as in pbrt. Without one,
+/* The last parameter of this name and one of the types: as in pbrt, a later one replaces an earlier one. Without one,
  * that of the list behind, unless this list has a value in place of its texture or the reverse. */
 static struct param *find(struct params *p, const char *name, unsigned types)
 {
