@@ -396,8 +396,8 @@ static void test_spot(struct test *t)
         char text[256];
         struct scene s;
         double cone = cases[i][0], inner = cos((cone - cases[i][1]) * PI / 180), outer = cos(cone * PI / 180);
-        snprintf(text, sizeof text, "WorldBegin LightSource \"spot\" \"float coneangle\" %g \"float conedeltaangle\" %g "
-                 "WorldEnd", cone, cases[i][1]);
+        snprintf(text, sizeof text, "WorldBegin LightSource \"spot\" \"float coneangle\" %g "
+                 "\"float conedeltaangle\" %g WorldEnd", cone, cases[i][1]);
         if (!scene_from_text(t, text, &s))
             return;
         for (int k = 0; k < 40; k++) {

@@ -710,7 +710,7 @@ void test_parser(struct test *t)
     if (CHECK(t, f->n >= 170, "only %d fixtures in %s: run the tests at the top of the tree", f->n, FIXTURES)) {
         for (int i = 0; i < f->n; i++)
             check_fixture(t, f->name[i]);
-        check_damaged(t, f, 4000);
+        check_damaged(t, f, 2000);
     }
     free(f);
     check_symbols(t);
