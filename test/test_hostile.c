@@ -32,7 +32,7 @@ enum { RSS_UNIT = 1 }; /* bytes of ru_maxrss */
 #else
 enum { RSS_UNIT = 1024 };
 #endif
-enum { SCENES = 1200, EVIL_SCENES = 600, SECONDS = 20, MEGABYTES = 512 };
+enum { SCENES = 600, EVIL_SCENES = 300, SECONDS = 20, MEGABYTES = 512 };
 
 static const char *const INTEGRATORS[] = {"pt", "lt", "bdpt", "asbdpt"};
 

@@ -11,7 +11,7 @@
 #include "base/file.h"
 #include "base/mem.h"
 
-enum { SHOWN_COLUMNS = 110, SHOWN_INCLUDES = 4 };
+enum { SHOWN_COLUMNS = 110 };
 
 /* A growing message in a buffer of fixed size. */
 struct writer {
@@ -62,12 +62,8 @@ static void write_excerpt(struct writer *w, struct source_position at)
 
 static void write_includes(struct writer *w, const struct source_file *file)
 {
-    for (int i = 0; file->included_at.file != NULL; i++, file = file->included_at.file) {
+    for (; file->included_at.file != NULL; file = file->included_at.file) {
         write_line_break(w);
-        if (i == SHOWN_INCLUDES) {
-            write_text(w, "...");
-            return;
-        }
         write_text(w, "included from %s:%d", file->included_at.file->path, file->included_at.line);
     }
 }
