@@ -137,6 +137,7 @@ struct object_type {
 #define KEPT (double)NAN /* the object's own default */
 #define ANY_NUMBER -NUMBER_MAX, NUMBER_MAX
 #define POSITIVE NUMBER_MIN, NUMBER_MAX
+#define FIELD_OF_VIEW NUMBER_MIN, 179.999 /* degrees */
 #define AT_LEAST_0 0, NUMBER_MAX
 #define IGNORED(name) {name, parse_ignored, 0, GREY(0), 0, 0} /* nothing here depends on it */
 #define BY_BUILD(name) {name, NULL, 0, GREY(0), 0, 0}

@@ -51,8 +51,6 @@ static void spot_light(struct parser *p, void *object)
     struct light_item *item = object;
     struct light *l = &item->light;
     struct params *q = &p->params;
-    if (item->cone > 180)
-        type_error(q, "\"coneangle\" is %g degrees; the whole sphere is 180", item->cone);
     l->cos_total = m_cos(item->cone * PI / 180);
     l->cos_falloff = m_cos((item->cone - item->edge) * PI / 180); /* of an angle below 0 too, as in pbrt-v3 */
     if (!(l->cos_total < 1))
@@ -102,8 +100,6 @@ static void slide_light(struct parser *p, void *object)
     l->position = transform_point(&l->to_world, vec(0, 0, 0));
     if (l->kind != LIGHT_PROJECTION)
         return;
-    if (!(item->fov < 180))
-        type_error(&p->params, "a field of view of %g degrees is too wide; it must be less than 180", item->fov);
     l->tan_half = m_tan(item->fov * PI / 360);
     l->cos_total = slide_cos_corner(l->slide, l->tan_half);
     if (!(l->cos_total < 1))
@@ -118,7 +114,7 @@ static void slide_light(struct parser *p, void *object)
 static const struct parameter POINT_LIGHT[] = {EMITTED("I"), POINT(from, 0, 0, 0), END_OF_PARAMETERS};
 static const struct parameter SPOT_LIGHT[] = {
     EMITTED("I"),
-    {"coneangle", parse_number, offsetof(struct light_item, cone), GREY(30), POSITIVE},
+    {"coneangle", parse_number, offsetof(struct light_item, cone), GREY(30), NUMBER_MIN, 180},
     {"conedeltaangle", parse_number, offsetof(struct light_item, edge), GREY(5), AT_LEAST_0},
     POINT(from, 0, 0, 0),
     POINT(to, 0, 0, 1),
@@ -129,7 +125,7 @@ static const struct parameter INFINITE_LIGHT[] = {EMITTED("L"), PICTURE, SAMPLES
 static const struct parameter GONIOMETRIC_LIGHT[] = {EMITTED("I"), PICTURE, END_OF_PARAMETERS};
 static const struct parameter PROJECTION_LIGHT[] = {
     EMITTED("I"), PICTURE,
-    {"fov", parse_number, offsetof(struct light_item, fov), GREY(45), POSITIVE}, END_OF_PARAMETERS};
+    {"fov", parse_number, offsetof(struct light_item, fov), GREY(45), FIELD_OF_VIEW}, END_OF_PARAMETERS};
 
 static const struct object_type LIGHTS[] = {
     {"point", POINT_LIGHT, LIGHT_POINT, point_light},

@@ -9,44 +9,29 @@
 
 #include "image/picture.h"
 
-/* The resolution may still change, which shifts the scale by a few powers of ten: the limits are far from where numbers
- * end. */
-static void check_camera(struct params *q, struct camera c)
-{
-    camera_prepare(&c, 1, 1);
-    if (!q->failed && !camera_is_usable(&c))
-        type_error(q, "this camera is not usable: its place must be within 1e18, and its view at distance 1 %s",
-                    "from 1e-12 to 1e12 wide and high; change transform, field of view or window");
-}
-
-static void screen_window(struct params *q, struct camera *c)
-{
-    double *w = c->screen_window;
-    c->has_screen_window = params_numbers(q, "screenwindow", w, 4);
-    if (c->has_screen_window && !(w[0] < w[1] && w[2] < w[3]))
-        type_error(q, "\"screenwindow\" wants four numbers: xmin < xmax, ymin < ymax");
-}
-
-/* Which camera it is, and its screen. */
+/* Which camera it is, and its screen. The resolution may still change, which shifts the scale by a few powers of ten;
+ * the limits of a usable camera are far from where numbers end. */
 static void framing(struct parser *p, void *object)
-{
-    struct camera *c = object;
-    c->kind = (enum camera_kind)p->type->kind;
-    if (c->kind != CAMERA_ENVIRONMENT)
-        screen_window(&p->params, c);
-    check_camera(&p->params, *c);
-}
-
-static void perspective(struct parser *p, void *object)
 {
     struct params *q = &p->params;
     struct camera *c = object;
-    double half = params_number(q, "halffov", -1, ANY_NUMBER);
+    double *w = c->screen_window;
+    c->kind = (enum camera_kind)p->type->kind;
+    c->has_screen_window = c->kind != CAMERA_ENVIRONMENT && params_numbers(q, "screenwindow", w, 4);
+    if (c->has_screen_window && !(w[0] < w[1] && w[2] < w[3]))
+        type_error(q, "\"screenwindow\" wants four numbers: xmin < xmax, ymin < ymax");
+    struct camera prepared = *c;
+    camera_prepare(&prepared, 1, 1);
+    if (!camera_is_usable(&prepared))
+        type_error(q, "this camera is not usable: its place must be within 1e18, and its view at distance 1 "
+                   "from 1e-12 to 1e12 wide and high; change transform, field of view or window");
+}
+
+static void half_fov(struct parser *p, const struct parameter *row, void *field)
+{
+    double half = params_number(&p->params, row->name, -1, row->low, row->high);
     if (half > 0)
-        c->fov = 2 * half;
-    if (!(c->fov < 180))
-        type_error(q, "a field of view of %g degrees is too wide; it must be less than 180", c->fov);
-    framing(p, object);
+        *(double *)field = 2 * half;
 }
 
 #define CAMERA(name, f, value, range) {name, parse_number, offsetof(struct camera, f), GREY(value), range}
@@ -57,14 +42,16 @@ static void perspective(struct parser *p, void *object)
         CAMERA("focaldistance", focal_distance, 1e6, POSITIVE), BY_BUILD("screenwindow"), SHUTTER
 
 static const struct parameter PERSPECTIVE[] = {
-    CAMERA("fov", fov, KEPT, POSITIVE), BY_BUILD("halffov"), SCREEN, END_OF_PARAMETERS};
+    CAMERA("fov", fov, KEPT, FIELD_OF_VIEW),
+    {"halffov", half_fov, offsetof(struct camera, fov), GREY(0), -NUMBER_MAX, 89.9995},
+    SCREEN, END_OF_PARAMETERS};
 static const struct parameter ORTHOGRAPHIC[] = {SCREEN, END_OF_PARAMETERS};
 static const struct parameter ENVIRONMENT[] = {
     IGNORED("frameaspectratio"), IGNORED("lensradius"), IGNORED("focaldistance"), IGNORED("screenwindow"), SHUTTER,
     END_OF_PARAMETERS};
 
 static const struct object_type CAMERA_TYPES[] = {
-    {"perspective", PERSPECTIVE, CAMERA_PERSPECTIVE, perspective},
+    {"perspective", PERSPECTIVE, CAMERA_PERSPECTIVE, framing},
     {"orthographic", ORTHOGRAPHIC, CAMERA_ORTHOGRAPHIC, framing},
     {"environment", ENVIRONMENT, CAMERA_ENVIRONMENT, framing},
     END_OF_TYPES};
