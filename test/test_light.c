@@ -293,6 +293,7 @@ static void test_slide_places(struct test *t)
         CHECK(t, fabs(p[i].r - want.r) + fabs(p[i].g - want.g) + fabs(p[i].b - want.b) < 1e-9, "projection, %d", i);
         CHECK(t, fabs(g[i].r - want.r) + fabs(g[i].g - want.g) + fabs(g[i].b - want.b) < 1e-9, "goniometric, %d", i);
     }
+    CHECK(t, fabs(slide_cos_corner(s, 1) - 1 / sqrt(3)) < 1e-12, "the corner of the picture");
     const vec3 beside[3] = {vec(1.01, 0, 1), vec(0, -1.01, 1), vec(0, 0, -1)};
     for (int i = 0; i < 3; i++)
         CHECK(t, rgb_is_black(slide_projection(s, 1, beside[i])), "light beside the picture, %d", i);

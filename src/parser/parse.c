@@ -138,7 +138,7 @@ void parse_ignored(struct parser *p, const struct parameter *row, void *field)
     (void)field;
 }
 
-/* --- textures ------------------------------------------------------------------------------------------- */
+/* --- textures and pictures ----------------------------------------------------------------------------- */
 
 int parse_constant(struct parser *p, rgb value)
 {
@@ -196,4 +196,15 @@ void parse_rgb_texture(struct parser *p, const struct parameter *row, void *fiel
         id = parse_constant(p, params_rgb(&p->params, row->name, row->fallback));
     *(int *)field = id;
     check_range(p, row, id);
+}
+
+bool parse_picture(struct params *q, struct source_position at, const struct image *image, bool is_new, uint64_t tables,
+                   struct error *why)
+{
+    if (image == NULL || (is_new && !scene_files_picture(q->files, image, tables, why)))
+        return params_fail(q, at, "%s", why->text);
+    if (image->replaced > 0)
+        source_warn(q->messages, at, "%ld numbers of this picture are not finite, or negative light; 0 instead",
+                    image->replaced);
+    return true;
 }

@@ -59,7 +59,6 @@ struct block {
 /* One Shape directive; stored where it belongs to an object, to be added once per instance. */
 struct shape_item {
     bool is_mesh;
-    bool absent;            /* alpha 0: nothing of it is there */
     struct mesh mesh;       /* owned */
     struct quadric quadric; /* to_world not yet set */
     struct shape_group group;
@@ -192,6 +191,11 @@ int parse_constant(struct parser *p, rgb value);
 
 /* parse_named_texture: that of "texture NAME"; -1 without such a parameter or, with a warning, such a texture. */
 int parse_named_texture(struct parser *p, const char *name, bool is_float);
+
+/* parse_picture: a picture has been loaded, or, for the reason in *why, not (NULL). Counts it if it is new, with
+ * `tables` bytes that were made for it; false, with a message, if it cannot be had. */
+bool parse_picture(struct params *q, struct source_position at, const struct image *image, bool is_new, uint64_t tables,
+                   struct error *why);
 
 /* --- directives ----------------------------------------------------------------------------------------- */
 

@@ -83,12 +83,7 @@ static void picture(struct parser *p, const struct parameter *row, void *field)
         int known = lights->n_pictures;
         const struct image *image = light_read_picture(lights, l, path, &inner);
         uint64_t tables = l->env != NULL ? envmap_bytes(l->env) : 0;
-        if (image == NULL ||
-            (lights->n_pictures > known && !scene_files_picture(q->files, image, tables, &inner)))
-            params_fail(q, at, "%s", inner.text);
-        else if (image->replaced > 0)
-            source_warn(q->messages, at, "%ld numbers of this picture are negative or not finite; 0 instead",
-                        image->replaced);
+        parse_picture(q, at, image, lights->n_pictures > known, tables, &inner);
     }
     free(path);
 }

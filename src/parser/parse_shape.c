@@ -75,22 +75,18 @@ static void points(struct params *q, struct mesh *m)
                     "a %s without usable \"point P\" and \"integer indices\" is left out, as in pbrt-v3", q->type);
 }
 
-/* The texture of "alpha" or "shadowalpha"; -1 if the surface is simply there, *absent if it is simply not. */
-static int alpha(struct parser *p, const char *name, bool *absent)
+/* The texture of where there are holes; -1 if there are none: of numbers 0 alone makes a hole. */
+static int alpha(struct parser *p, const char *name)
 {
     int texture = parse_named_texture(p, name, true);
-    *absent = texture < 0 && params_number(&p->params, name, 1, ANY_NUMBER) == 0;
-    return texture;
+    bool hole = texture < 0 && params_number(&p->params, name, 1, ANY_NUMBER) == 0;
+    return hole ? parse_constant(p, rgb_black()) : texture;
 }
 
-/* Where meshes that may have holes have them. */
 static void holes(struct parser *p, struct shape_item *item)
 {
-    bool no_shadow;
-    item->group.alpha = alpha(p, "alpha", &item->absent);
-    item->group.shadow_alpha = alpha(p, "shadowalpha", &no_shadow);
-    if (no_shadow)
-        item->group.shadow_alpha = parse_constant(p, rgb_black());
+    item->group.alpha = alpha(p, "alpha");
+    item->group.shadow_alpha = alpha(p, "shadowalpha");
 }
 
 static void trianglemesh(struct parser *p, void *object)
@@ -282,8 +278,8 @@ static const struct object_type TYPES[] = {
 /* Is there anything to be seen of it? What has no material bounds media, of which there are none here. */
 static bool is_seen(const struct shape_item *item)
 {
-    bool there = !item->absent && (!item->is_mesh || item->mesh.n_triangles > 0);
-    return there && (item->group.material != MATERIAL_NONE || item->area.on);
+    bool empty = item->is_mesh && item->mesh.n_triangles == 0;
+    return !empty && (item->group.material != MATERIAL_NONE || item->area.on);
 }
 
 static bool shape(struct parser *p)

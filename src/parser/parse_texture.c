@@ -89,15 +89,12 @@ static void imagemap(struct parser *p, void *object)
         return;
     }
     t->gamma = params_bool(q, "gamma", file_has_extension(path, ".tga") || file_has_extension(path, ".png"));
-    struct error inner;
-    int known = set->n_images;
-    t->image = q->failed ? 0 : texture_load_image(set, path, &inner);
-    if (!q->failed && (t->image < 0 || (t->image == known &&
-                                        !scene_files_picture(q->files, &set->image[known], 0, &inner))))
-        params_fail(q, at, "%s", inner.text);
-    else if (!q->failed && set->image[t->image].replaced > 0)
-        source_warn(&p->messages, at, "%ld numbers of this picture are not finite; 0 instead",
-                    set->image[t->image].replaced);
+    if (!q->failed) {
+        struct error inner;
+        int known = set->n_images;
+        t->image = texture_load_image(set, path, &inner);
+        parse_picture(q, at, t->image < 0 ? NULL : &set->image[t->image], t->image == known, 0, &inner);
+    }
     free(path);
 }
 
