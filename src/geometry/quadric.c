@@ -369,37 +369,26 @@ static double area_ratio(const struct quadric *q, vec3 ng)
 
 double quadric_pdf_a(const struct quadric *q, vec3 ng) { return 1 / (object_area(q) * area_ratio(q, ng)); }
 
-/* The mean of area_ratio at n x n places, and its range. */
-static double mean_area_ratio(const struct quadric *q, int n, double *least, double *most)
+/* Columns orthogonal and of one length, to rounding. */
+static bool is_similarity(const struct transform *t)
 {
-    double sum = 0;
-    *least = HUGE_VAL;
-    *most = 0;
-    for (int i = 0; i < n * n; i++) {
-        struct surface at;
-        quadric_surface_at(q, false, quadric_sample(q, (i / n + 0.5) / n, (i % n + 0.5) / n), &at);
-        double ratio = area_ratio(q, at.ng);
-        *least = fmin(*least, ratio);
-        *most = fmax(*most, ratio);
-        sum += ratio;
-    }
-    return sum / (n * n);
+    vec3 c[3];
+    for (int i = 0; i < 3; i++)
+        c[i] = vec(t->m[0][i], t->m[1][i], t->m[2][i]);
+    double size = length2(c[0]), slack = 1e-9 * size;
+    return fabs(length2(c[1]) - size) < slack && fabs(length2(c[2]) - size) < slack &&
+           fabs(dot(c[0], c[1])) < slack && fabs(dot(c[1], c[2])) < slack && fabs(dot(c[2], c[0])) < slack;
 }
-
-/* |M^T n|^2 is a quadratic form of n: if it is the same at so many places, it is everywhere. */
-enum { PLACES = 5 };
 
 double quadric_area(const struct quadric *q)
 {
-    double least, most, mean = mean_area_ratio(q, PLACES, &least, &most);
-    if (most - least > 1e-9 * most)
-        mean = mean_area_ratio(q, 64, &least, &most);
-    return object_area(q) * mean;
-}
-
-bool quadric_keeps_area(const struct quadric *q)
-{
-    double least, most;
-    mean_area_ratio(q, PLACES, &least, &most);
-    return least > 1 - 1e-3 && most < 1 + 1e-3;
+    int n = q->kind == QUADRIC_DISK || is_similarity(&q->to_world) ? 1 : 64;
+    double sum = 0;
+    for (int i = 0; i < n * n; i++) {
+        struct surface at;
+        vec3 p = quadric_sample(q, (i / n + 0.5) / n, (i % n + 0.5) / n);
+        quadric_surface_at(q, false, p, &at);
+        sum += area_ratio(q, at.ng);
+    }
+    return object_area(q) * sum / (n * n);
 }
