@@ -28,8 +28,8 @@ static bool read_version(struct exr *e)
     e->at = 8;
     e->tiled = (version & TILED) != 0;
     return (version & ~(uint32_t)(TILED | LONG_NAMES)) == VERSION ||
-           error_set(e->err, "OpenEXR files of several parts, deep ones and other versions than 2 are not read (this is "
-                             "of kind %lx); save it as one flat picture", (unsigned long)version);
+           error_set(e->err, "OpenEXR files of several parts, deep ones and other versions than 2 are not read (this "
+                             "is of kind %lx); save it as one flat picture", (unsigned long)version);
 }
 
 /* The next text before `end`, stepping over it; NULL if it has no end. */

@@ -59,7 +59,7 @@ void suggest_offer(struct suggestion *s, const char *known)
 /* The chain a name is in. */
 static int *chain(const struct symbols *t, const char *name)
 {
-    return &t->newest[hash_bytes(name, strlen(name)) & (uint32_t)(t->n_chains - 1)];
+    return &t->newest[hash_content(name, strlen(name)) & (uint64_t)(t->n_chains - 1)];
 }
 
 /* Put entry i at the head of its chain. */
