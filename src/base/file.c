@@ -36,12 +36,6 @@ static bool read_pipe(FILE *f, uint8_t **data, size_t *size)
     return ferror(f) == 0;
 }
 
-static void close_input(FILE *f)
-{
-    if (f != stdin)
-        fclose(f);
-}
-
 bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err)
 {
     *data = NULL;
@@ -51,15 +45,12 @@ bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err
         return error_set(err, "%s: cannot be opened: %s", path, strerror(errno));
     struct os_identity is = os_identify_stream(f);
     os_binary(f);
-    if (is.size >= SIZE_MAX / 2) {
-        close_input(f);
-        errno = 0;
-        return error_set(err, "%s: the file is too large for this machine's memory", path);
-    }
     errno = 0;
-    bool ok = is.kind == OS_FILE ? read_length(f, (size_t)is.size, data, size) : read_pipe(f, data, size);
+    bool ok = is.kind != OS_FILE ? read_pipe(f, data, size)
+                                 : is.size < SIZE_MAX / 2 && read_length(f, (size_t)is.size, data, size);
     int reason = errno;
-    close_input(f);
+    if (f != stdin)
+        fclose(f);
     if (ok)
         return true;
     free(*data);
@@ -119,8 +110,7 @@ static void release(struct file_output *out, bool remove_it)
     free(out->path);
     free(out->target);
     free(out->temporary);
-    struct file_output none = {NULL, NULL, NULL, NULL};
-    *out = none;
+    *out = (struct file_output){.stream = NULL};
 }
 
 char *file_follow(const char *path)
@@ -174,8 +164,7 @@ static FILE *open_target(struct file_output *out)
 
 bool file_create(const char *path, struct file_output *out, struct error *err)
 {
-    struct file_output begun = {NULL, mem_copy_text(path), NULL, NULL};
-    *out = begun;
+    *out = (struct file_output){.path = mem_copy_text(path)};
     out->stream = open_target(out);
     if (out->stream != NULL)
         return true;

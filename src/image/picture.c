@@ -57,9 +57,7 @@ void image_free(struct image *img)
 {
     free(img->u8);
     free(img->f32);
-    img->u8 = NULL;
-    img->f32 = NULL;
-    img->width = img->height = img->channels = 0;
+    memset(img, 0, sizeof *img);
 }
 
 double srgb_encode(double linear)
