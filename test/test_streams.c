@@ -1,6 +1,6 @@
 /* test_streams.c: random numbers have names (seed, purpose, pixel, iteration), and no two names may meet. Tested from
- * two sides: the numbers of a sampler, and the sub-paths that the integrators trace. And whoever plays a sample's numbers
- * again gets the sample. */
+ * two sides: the numbers of a sampler, and the sub-paths that the integrators trace. And whoever plays a sample's
+ * numbers again gets the sample. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -336,7 +336,7 @@ void os_binary(FILE *f) { (void)f; }
 FILE *os_open_input(const char *path)
 {
     struct stat info;
-    int fd = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY);
+    int fd = open(path, O_RDONLY | O_NONBLOCK);
     if (fd < 0)
         return NULL;
     bool device = fstat(fd, &info) == 0 && (S_ISCHR(info.st_mode) || S_ISBLK(info.st_mode));
