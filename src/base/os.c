@@ -234,7 +234,7 @@ static struct os_identity identity(HANDLE handle)
 {
     struct os_identity out = {OS_OTHER, 0, 0, 0};
     BY_HANDLE_FILE_INFORMATION info;
-    if (handle != INVALID_HANDLE_VALUE && GetFileInformationByHandle(handle, &info)) {
+    if (GetFileType(handle) == FILE_TYPE_DISK && GetFileInformationByHandle(handle, &info)) {
         out.kind = (info.dwFileAttributes & FILE_ATTRIBUTE_DIRECTORY) != 0 ? OS_DIRECTORY : OS_FILE;
         out.size = (uint64_t)info.nFileSizeHigh << 32 | info.nFileSizeLow;
         out.device = info.dwVolumeSerialNumber;
