@@ -67,15 +67,14 @@ static void check_stream(struct test *t, const char *what, const char *hex, cons
     free(shorter);
     for (size_t length = 0; length < n; length++)
         CHECK(t, !unpack(stream, length, out, size), "%s: truncated to %lu bytes", what, (unsigned long)length);
-    for (size_t i = 2; i < n; i++)
-        for (int bit = 0; bit < 8; bit++) {
-            stream[i] ^= (uint8_t)(1 << bit);
-            bool ok = unpack(stream, n, out, size);
-            /* up to 7 bits after the last block are padding: any change elsewhere must be noticed */
-            CHECK(t, !ok || (i == n - 5 && memcmp(out, expected, size) == 0), "%s: bit %d of byte %lu flipped",
-                  what, bit, (unsigned long)i);
-            stream[i] ^= (uint8_t)(1 << bit);
-        }
+    for (size_t i = 2; i < n; i++) {
+        stream[i] ^= (uint8_t)(1 << i % 8);
+        bool ok = unpack(stream, n, out, size);
+        /* up to 7 bits after the last block are padding: any change elsewhere must be noticed */
+        CHECK(t, !ok || (i == n - 5 && memcmp(out, expected, size) == 0), "%s: byte %lu changed", what,
+              (unsigned long)i);
+        stream[i] ^= (uint8_t)(1 << i % 8);
+    }
     free(stream);
     free(out);
 }
