@@ -57,7 +57,9 @@ void image_free(struct image *img)
 {
     free(img->u8);
     free(img->f32);
-    memset(img, 0, sizeof *img);
+    img->u8 = NULL;
+    img->f32 = NULL;
+    img->width = img->height = img->channels = 0;
 }
 
 double srgb_encode(double linear)
