@@ -10,14 +10,6 @@
 #include "helpers.h"
 #include "tests.h"
 
-static bool near3(vec3 a, vec3 b, double tolerance) { return length(sub(a, b)) <= tolerance; }
-
-static vec3 random_direction(struct rng *r)
-{
-    double u1 = rng_uniform(r), u2 = rng_uniform(r);
-    return warp_sphere(u1, u2);
-}
-
 /* The values are those of the generator's published demonstration. */
 static void check_rng(struct test *t)
 {
@@ -76,7 +68,7 @@ static void check_frames(struct test *t, struct rng *r)
     for (int i = 0; i < 6; i++)
         check_frame(t, frame_from_normal(normalize(special[i])), normalize(special[i]));
     for (int i = 0; i < 200; i++) {
-        vec3 n = random_direction(r), tangent = random_direction(r);
+        vec3 n = on_sphere(r), tangent = on_sphere(r);
         check_frame(t, frame_from_normal(n), n);
         struct frame f = frame_from_tangent(n, tangent);
         check_frame(t, f, n);
@@ -140,8 +132,8 @@ static void check_transforms_random(struct test *t, struct rng *r)
     for (int i = 0; i < 200; i++) {
         struct transform a = random_affine(r), b = random_affine(r), ab = transform_compose(a, b);
         struct transform back = transform_inverse(ab),
-                         turn = transform_rotate(360 * rng_uniform(r), random_direction(r));
-        vec3 p = random_direction(r), q = random_direction(r);
+                         turn = transform_rotate(360 * rng_uniform(r), on_sphere(r));
+        vec3 p = on_sphere(r), q = on_sphere(r);
         CHECK(t, inverse_error(&a) < 1e-11 && inverse_error(&ab) < 1e-10, "inverse off by %g", inverse_error(&ab));
         CHECK(t, inverse_error(&turn) < 1e-14, "a rotation's inverse");
         CHECK(t, near3(transform_point(&ab, p), transform_point(&a, transform_point(&b, p)), 1e-12), "product");
