@@ -34,8 +34,9 @@ bool scene_from_file(struct test *t, const char *path, int width, int height, st
  * becomes more than some ten times as long as another. */
 struct transform random_affine(struct rng *r);
 
-/* render_batches: render `n_batches` times with `spp` samples, times the effort, and seeds of their own, and average
- * over square tiles of `tile` pixels. Powers of two are best: low-discrepancy points lie evenly then. */
+/* render_batches: render `n_batches` times with `spp` samples, times the effort, and average over square tiles of `tile`
+ * pixels. Powers of two are best: low-discrepancy points lie evenly then. Batches are parts of one long render, so far
+ * apart that their numbers have nothing in common (sampler.h), by what was learnt before it, once. */
 struct batches render_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth, int spp,
                               int n_batches, int tile, uint64_t seed);
 

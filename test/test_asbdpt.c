@@ -66,7 +66,7 @@ static void test_bias(struct test *t)
         return;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const char *integrator = set(&scene, cases[i].parameters);
-        struct batches x = render_batches(t, &scene, integrator, DEPTH, 8, 16, 16, 53);
+        struct batches x = render_batches(t, &scene, integrator, DEPTH, 4, 16, 16, 53);
         double ratio, p = batches_p(&x, &reference, &ratio);
         if (cases[i].unbiased)
             TEST_ACCEPT(t, p, "Cornell box, %s against its reference: ratio %.4f", cases[i].parameters, ratio);
@@ -101,8 +101,8 @@ static void test_constant_pool(struct test *t)
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 16, 16, &scene))
         return;
     set(&scene, "asbdpt select=pool metric=constant");
-    struct batches x = render_batches(t, &scene, "asbdpt", 4, 1, 400, 1, 61);
-    struct batches y = render_batches(t, &scene, "bdpt", 4, 1, 400, 1, 62);
+    struct batches x = render_batches(t, &scene, "asbdpt", 4, 1, 200, 1, 61);
+    struct batches y = render_batches(t, &scene, "bdpt", 4, 1, 200, 1, 62);
     square_deviations(&x);
     square_deviations(&y);
     double ratio, p = batches_p(&x, &y, &ratio);
@@ -126,9 +126,9 @@ static void test_few_light_paths(struct test *t)
     struct scene scene;
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 3, 3, &scene))
         return;
-    struct batches pt = render_batches(t, &scene, "pt", 4, 1024, 32, 3, 63);
+    struct batches pt = render_batches(t, &scene, "pt", 4, 256, 16, 3, 63);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        struct batches x = batches_of(t, &scene, cases[i], 256, 32, 64);
+        struct batches x = batches_of(t, &scene, cases[i], 64, 16, 64);
         double ratio, p = batches_p(&x, &pt, &ratio);
         TEST_ACCEPT(t, p, "Cornell box in 9 pixels, %s against pt: ratio %.4f", cases[i], ratio);
         batches_free(&x);
@@ -139,7 +139,7 @@ static void test_few_light_paths(struct test *t)
 
 /* --- cbdpt with one light sub-path is BDPT --------------------------------------------------- */
 
-enum { WIDTH = 40, HEIGHT = 24 };
+enum { WIDTH = 20, HEIGHT = 12 };
 
 static void render_image(struct test *t, const struct scene *scene, const char *integrator, int spp, float *image)
 {
@@ -225,12 +225,12 @@ static void test_every_scene(struct test *t)
         char path[256];
         struct scene scene;
         snprintf(path, sizeof path, "scenes/test/%s.pbrt", scenes[i]);
-        if (!scene_from_file(t, path, 24, 24, &scene))
+        if (!scene_from_file(t, path, 16, 16, &scene))
             continue;
-        struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 8, 12, 12, 71);
+        struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 8, 12, 8, 71);
         for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++) {
             const char *integrator = set(&scene, ways[k]);
-            struct batches x = render_batches(t, &scene, integrator, 4, 8, 10, 12, 72);
+            struct batches x = render_batches(t, &scene, integrator, 4, 8, 10, 8, 72);
             double ratio, p = batches_p(&x, &bdpt, &ratio);
             TEST_ACCEPT(t, p, "%s, %s against bdpt: ratio %.4f", scenes[i], ways[k], ratio);
             batches_free(&x);
