@@ -11,12 +11,9 @@
 
 #include "base/mem.h"
 #include "base/os.h"
-#include "base/parallel.h"
 #include "base/sampler.h"
-#include "lab/sides.h"
 #include "lab/stats.h"
 #include "parser/parser.h"
-#include "render/render.h"
 
 void write_bytes(const char *path, const void *data, size_t n)
 {
@@ -89,6 +86,43 @@ bool scene_from_text(struct test *t, const char *text, struct scene *out)
     fputs(text, f);
     fclose(f);
     return scene_from_file(t, path, 0, 0, out);
+}
+
+const char *set_method(struct scene *scene, const char *way)
+{
+    static char text[256];
+    snprintf(text, sizeof text, "%s", way);
+    settings_clear(&scene->settings);
+    const char *integrator = strtok(text, " ");
+    for (char *name; (name = strtok(NULL, " ")) != NULL;) {
+        char *equals = strchr(name, '=');
+        *equals = '\0';
+        settings_set(&scene->settings, name, equals + 1, "test");
+    }
+    return integrator;
+}
+
+const char *method_name(const struct method *m)
+{
+    static char text[64];
+    snprintf(text, sizeof text, "%s%s%s", m->name, m->select != NULL ? " select=" : "", m->select != NULL ? m->select : "");
+    return text;
+}
+
+void render_film(struct test *t, const struct scene *scene, const struct render_options *o, struct film *film)
+{
+    struct error err;
+    film_init(film, render_crop(scene), scene->width, scene->height);
+    CHECK(t, render_scene(scene, o, film, &err), "%s", err.text);
+}
+
+bool films_equal(const struct film *a, const struct film *b)
+{
+    size_t n = (size_t)rect_width(a->rect) * (size_t)rect_height(a->rect) * 3;
+    for (size_t i = 0; i < n; i++)
+        if (film_value(a, i) != film_value(b, i))
+            return false;
+    return true;
 }
 
 struct batches render_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth, int spp,

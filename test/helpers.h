@@ -8,6 +8,7 @@
 #include "integrators/method.h"
 #include "lab/sides.h"
 #include "lab/verify.h"
+#include "render/render.h"
 #include "scene/scene.h"
 #include "test.h"
 
@@ -33,6 +34,19 @@ bool scene_from_file(struct test *t, const char *path, int width, int height, st
 /* random_affine: a transform of uneven scale and shear, half of them mirrors, with some translation; no direction
  * becomes more than some ten times as long as another. */
 struct transform random_affine(struct rng *r);
+
+/* set_method: choose by "asbdpt select=bins restart=16", say, whose parameters replace all settings of the scene. Returns
+ * the integrator's name, which the next call overwrites. */
+const char *set_method(struct scene *scene, const char *way);
+
+/* method_name: such words for a method with all its defaults, which the next call overwrites. */
+const char *method_name(const struct method *m);
+
+/* render_film: render into a fresh film of the scene's crop window, to be given to film_free. */
+void render_film(struct test *t, const struct scene *scene, const struct render_options *o, struct film *film);
+
+/* films_equal: the sums of all pixels of two films of one size, to the last bit. */
+bool films_equal(const struct film *a, const struct film *b);
 
 /* render_batches: render `n_batches` times with `spp` samples, times the effort, and average over square tiles of `tile`
  * pixels. Powers of two are best: low-discrepancy points lie evenly then. Batches are parts of one long render, so far
