@@ -105,7 +105,8 @@ const char *set_method(struct scene *scene, const char *way)
 const char *method_name(const struct method *m)
 {
     static char text[64];
-    snprintf(text, sizeof text, "%s%s%s", m->name, m->select != NULL ? " select=" : "", m->select != NULL ? m->select : "");
+    bool one = m->select == NULL;
+    snprintf(text, sizeof text, "%s%s%s", m->name, one ? "" : " select=", one ? "" : m->select);
     return text;
 }
 

@@ -35,8 +35,8 @@ bool scene_from_file(struct test *t, const char *path, int width, int height, st
  * becomes more than some ten times as long as another. */
 struct transform random_affine(struct rng *r);
 
-/* set_method: choose by "asbdpt select=bins restart=16", say, whose parameters replace all settings of the scene. Returns
- * the integrator's name, which the next call overwrites. */
+/* set_method: choose by "asbdpt select=bins restart=16", say, whose parameters replace all settings of the scene.
+ * Returns the integrator's name, which the next call overwrites. */
 const char *set_method(struct scene *scene, const char *way);
 
 /* method_name: such words for a method with all its defaults, which the next call overwrites. */
@@ -48,9 +48,9 @@ void render_film(struct test *t, const struct scene *scene, const struct render_
 /* films_equal: the sums of all pixels of two films of one size, to the last bit. */
 bool films_equal(const struct film *a, const struct film *b);
 
-/* render_batches: render `n_batches` times with `spp` samples, times the effort, and average over square tiles of `tile`
- * pixels. Powers of two are best: low-discrepancy points lie evenly then. Batches are parts of one long render, so far
- * apart that their numbers have nothing in common (sampler.h), by what was learnt before it, once. */
+/* render_batches: render `n_batches` times with `spp` samples, times the effort, and average over square tiles of
+ * `tile` pixels. Powers of two are best: low-discrepancy points lie evenly then. Batches are parts of one long render,
+ * so far apart that their numbers have nothing in common (sampler.h), by what was learnt before it, once. */
 struct batches render_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth, int spp,
                               int n_batches, int tile, uint64_t seed);
 

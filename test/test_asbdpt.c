@@ -152,7 +152,7 @@ static void test_expected_vertices(struct test *t)
         struct error err;
         if (!scene_from_text(t, cases[i].text, &scene))
             return;
-        struct render_options o = {.integrator = set_method(&scene, "lvc connections=3"), .max_depth = cases[i].depth, .n_threads = 2};
+        struct render_options o = {.integrator = set_method(&scene, "lvc connections=3"), .max_depth = cases[i].depth};
         struct render_job job;
         struct preparation prepared;
         if (CHECK(t, render_prepare(&scene, &o, render_crop(&scene), &job, &prepared, &err), "%s", err.text)) {

@@ -11,12 +11,12 @@ enum { TILE = 18, BATCHES = 16 }; /* smaller tiles have means too skewed for the
 enum { PT = 1, LT = 2, BDPT = 4, POOL = 8, VERTICES = 16, SUBSPACES = 32, BINS = 64, N_WAYS = 7 };
 static const struct {
     const char *name, *integrator;
-} WAYS[N_WAYS] = {{"pt", "pt"},           {"lt", "lt"},           {"bdpt", "bdpt"}, {"pool", "asbdpt"}, {"vertices", "asbdpt"},
-                 {"subspaces", "asbdpt"}, {"bins", "asbdpt"}};
+} WAYS[N_WAYS] = {{"pt", "pt"},           {"lt", "lt"},           {"bdpt", "bdpt"}, {"pool", "asbdpt"},
+                 {"vertices", "asbdpt"}, {"subspaces", "asbdpt"}, {"bins", "asbdpt"}};
 
 /* Light tracing cannot see what reaches the lens by way of a mirror or glass only: lt has the boxes alone. Few samples
- * are enough where a tile's mean is nearly normal: not for pt where light is rare, nor ever on caustics of a spot light.
- * All selections in the Cornell box: test_asbdpt.c. */
+ * are enough where a tile's mean is nearly normal: not for pt where light is rare, and none for it on the caustics of a
+ * spot light. All selections in the Cornell box: test_asbdpt.c. */
 static const struct {
     const char *name;
     int quick, slow, slow_spp;

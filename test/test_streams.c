@@ -292,9 +292,9 @@ struct difference {
     double sum[STEPS][VALUES];
 };
 
-/* P-value of "the first iterations and as many after them are not positively correlated" in n differences. `repeated` is
- * the share of the second half that is planted to be the first again. Every value is divided by its standard deviation,
- * lest the few pixels at edges of the light decide everything. */
+/* P-value of "the first iterations and as many after them are not positively correlated" in n differences. `repeated`
+ * is the share of the second half that is planted to be the first again. Every value is divided by its standard
+ * deviation, lest the few pixels at edges of the light decide everything. */
 static double halves_p(const struct difference *d, int n, int step, double repeated)
 {
     double *correlation = mem_alloc((size_t)n, sizeof *correlation);
