@@ -22,15 +22,15 @@ static const struct {
     int quick, slow, slow_spp;
 } SCENES[] = {{"cornell-box", PT | LT | BINS, PT | LT | BDPT | POOL | VERTICES | SUBSPACES | BINS, 256},
               {"cornell-box-modified", BDPT | SUBSPACES, PT | LT | BDPT | POOL | VERTICES | SUBSPACES | BINS, 256},
-              {"veach-ajar", VERTICES | SUBSPACES, PT | BDPT | POOL | VERTICES | SUBSPACES, 256},
+              {"veach-ajar", SUBSPACES, PT | BDPT | POOL | VERTICES | SUBSPACES, 256},
               {"bathroom", BDPT | SUBSPACES, PT | BDPT | POOL | VERTICES | SUBSPACES, 256},
-              {"living-room", VERTICES | SUBSPACES, PT | BDPT | POOL | VERTICES | SUBSPACES, 256},
+              {"living-room", VERTICES, PT | BDPT | POOL | VERTICES | SUBSPACES, 256},
               {"caustic-glass", BDPT | SUBSPACES, BDPT | POOL | VERTICES | SUBSPACES, 64},
               {"sky", SUBSPACES, PT | BDPT | POOL | VERTICES | SUBSPACES, 64},
               {"spot", SUBSPACES, PT | BDPT | POOL | VERTICES | SUBSPACES, 64},
               {"corridor", SUBSPACES, PT | BDPT | POOL | VERTICES | SUBSPACES, 64},
               {"many-lights", SUBSPACES, PT | BDPT | POOL | VERTICES | SUBSPACES, 64},
-              {"forest", BDPT | SUBSPACES, PT | BDPT | POOL | VERTICES | SUBSPACES, 64}};
+              {"forest", SUBSPACES, PT | BDPT | POOL | VERTICES | SUBSPACES, 64}};
 
 static void test_way(struct test *t, const char *name, int way, struct scene *scene, const struct batches *reference,
                      int spp)
