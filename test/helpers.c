@@ -190,6 +190,18 @@ double batches_p(const struct batches *a, const struct batches *b, double *ratio
     return batches_smallest_p(a, b);
 }
 
+double batches_paired_p(const struct batches *a, const struct batches *b, double *ratio)
+{
+    struct batches d = batches_new(a->n_batches, a->n, false), zero = batches_new(1, a->n, true);
+    for (long i = 0; i < a->n * a->n_batches; i++)
+        d.value[i] = a->value[i] - b->value[i];
+    double one = batches_smallest_p(&d, &zero), whole = mean_p(&d, 0);
+    *ratio = batches_mean(a, NULL) / batches_mean(b, NULL);
+    batches_free(&d);
+    batches_free(&zero);
+    return stats_sidak(whole < one ? whole : one, 2);
+}
+
 double mean_p(const struct batches *b, double expected)
 {
     double error, mean = batches_mean(b, &error);
