@@ -66,8 +66,8 @@ void batches_scale(struct batches *b, double factor);
 /* batches_p: batches_smallest_p, and in *ratio the mean of a over the mean of b. */
 double batches_p(const struct batches *a, const struct batches *b, double *ratio);
 
-/* batches_paired_p: the same for batches that are not independent, as those of one seed, which share eye sub-paths and with them
- * most of their noise: by Student's t over the differences, of every value and of the mean. */
+/* batches_paired_p: the same for batches that are not independent, as those of one seed, which share eye sub-paths and
+ * with them most of their noise: by Student's t over the differences, of every value and of the mean. */
 double batches_paired_p(const struct batches *a, const struct batches *b, double *ratio);
 
 /* remove_tree: a directory and all that is in it. False if something is left. */

@@ -70,7 +70,7 @@ static void test_damage(struct test *t, const struct scene *scene, const struct 
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 7, 0);
     int refused = 0;
-    enum { TRIES = 100 };
+    enum { TRIES = 300 };
     for (int i = 0; i < TRIES; i++) {
         struct bytes bad = {mem_alloc(good->n, 1), good->n, good->n};
         struct learnt l = {.guided = false};

@@ -18,7 +18,7 @@
 #include "helpers.h"
 #include "tests.h"
 
-enum { DEPTH = 3, BATCHES = 16, SPP = 128 };
+enum { DEPTH = 3, BATCHES = 16, SPP = 256 };
 
 #define VIEW "LookAt 0 1.6 -4.5  0 .9 0  0 1 0 Camera "
 #define PERSPECTIVE VIEW "\"perspective\" \"float fov\" 42\n"

@@ -256,9 +256,9 @@ static void test_replay(struct test *t)
 
 /* --- long renders ------------------------------------------------------------------------------------ */
 
-enum { FIRST = 64, STEPS = 3, LAST = FIRST << (STEPS - 1), SIDE = 4, VALUES = SIDE * SIDE * 3, PAIRS = 10 };
+enum { FIRST = 128, STEPS = 3, LAST = FIRST << (STEPS - 1), SIDE = 5, VALUES = SIDE * SIDE * 3, PAIRS = 10 };
 
-/* Sums of one render after 64, 128 and 256 iterations. */
+/* Sums of one render after 128, 256 and 512 iterations. */
 struct history {
     struct film film;
     double sum[STEPS][VALUES];
