@@ -13,11 +13,10 @@
 #include "base/mem.h"
 #include "base/os.h"
 #include "cli/command.h"
-#include "cli/dispatch.h"
 #include "cli/job_options.h"
 #include "image/picture.h"
 #include "image/sheet.h"
-#include "lab/compare.h"
+#include "look/compare.h"
 #include "render/parameters.h"
 
 char *web_words(int size);

@@ -10,24 +10,24 @@
 #include "render/aov.h"
 
 struct aov_files {
-    struct outputs file[N_AOVS]; /* one each, or none */
-    bool any;
+    bool wanted[N_AOVS];
+    int first;              /* of the outputs that are theirs, in this order */
+    float *picture[N_AOVS]; /* owned, NULL before aov_make */
 };
 
-/* aov_check: is the list made of names of aov_name, with commas between them? False with a message. */
-bool aov_check(const char *list, struct error *err);
+/* aov_read: names of aov_name with commas between them; NULL: none. False with a message. */
+bool aov_read(const char *list, struct aov_files *out, struct error *err);
 
-/* aov_open: begin to write the pictures of a good list beside `picture`.
+/* aov_open: begin to write them beside the first of the pictures.
  *   all  the files of the command; in-out
- * Returns false with a message; nothing is open then. After success one of aov_write and aov_abandon must follow. */
-bool aov_open(const char *list, const char *picture, struct names *all, struct aov_files *out, struct error *err);
+ *   out  the pictures of the command; in-out
+ * Returns false with a message. */
+bool aov_open(struct aov_files *f, struct names *all, struct outputs *out, struct error *err);
 
-/* aov_write: make and write them.
- *   options, film  of the render that is done; for the variance the film must have kept errors
- * Returns false with a message, also when the render was stopped too early for a variance; the others are written. */
-bool aov_write(struct aov_files *f, const struct scene *scene, const struct render_options *options,
-               const struct film *film, bool quiet, struct error *err);
-
-void aov_abandon(struct aov_files *f);
+/* aov_make: make them, for outputs_write; aov_free after that.
+ *   options, film  of the render that is done; for the variance the film must have kept errors */
+void aov_make(struct aov_files *f, const struct scene *scene, const struct render_options *options,
+              const struct film *film, struct outputs *out);
+void aov_free(struct aov_files *f);
 
 #endif

@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/file.h"
 #include "base/interrupt.h"
 #include "base/mem.h"
 #include "base/os.h"
+#include "cli/outputs.h"
 #include "image/image.h"
 #include "look/pyramid.h"
 #include "render/parameters.h"
@@ -35,14 +35,11 @@ static char *picture_path(const char *directory, int s, int t, bool weighted)
 
 bool strategies_possible(const char *directory, struct error *err)
 {
-    struct file_output probe;
     if (directory == NULL)
         return true;
     os_make_directory(directory); /* if that fails, creating a file says why */
     char *path = path_of(directory, "probe");
-    bool ok = file_create(path, &probe, err);
-    if (ok)
-        file_abandon(&probe);
+    bool ok = outputs_possible(path, err);
     free(path);
     return ok;
 }
