@@ -1,5 +1,5 @@
-/* test_plan.c: what an experiment consists of: methods, steps and sweeps, its scenes and their stored references. A part
- * of the test `report`. */
+/* test_plan.c: what an experiment consists of: methods, steps, sweeps, scenes and their stored references. A part of
+ * the test `report`. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

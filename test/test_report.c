@@ -64,7 +64,8 @@ static void check_axis(struct test *t, const struct plot_axis *a)
         snprintf(digits, sizeof digits, "%.3g", tick[i]);
         majors += major[i];
         CHECK(t, at > -1e-9 && at < 1 + 1e-9 && fabs(atof(digits) - tick[i]) <= 1e-9 * most &&
-                     (i == 0 || tick[i] > tick[i - (i > 0)]), "tick %d, %.12g, of [%g, %g]", i, tick[i], a->low, a->high);
+                     (i == 0 || tick[i] > tick[i - (i > 0)]),
+              "tick %d, %.12g, of [%g, %g]", i, tick[i], a->low, a->high);
     }
     CHECK(t, majors >= (a->logarithmic ? 1 : 3) && majors <= 14, "%d numbers on [%g, %g]", majors, a->low, a->high);
 }

@@ -47,8 +47,7 @@ struct tone_options {
 
 /* outputs_open: begin to write pictures of these names, that names.h has found to be different files.
  *   tone  of the 8-bit pictures, or NULL: as they are; if it changes anything, one of the pictures must be such
- * Returns false with a message; nothing is open then. After success one of outputs_write and outputs_abandon must
- * follow. */
+ * Returns false with a message; nothing is open then. After success outputs_abandon must follow in the end. */
 bool outputs_open(const struct texts *names, const struct tone_options *tone, enum outputs_parts parts,
                   struct outputs *out, struct error *err);
 
@@ -59,6 +58,7 @@ bool outputs_add(struct outputs *out, const char *name, bool is_part, struct err
  * keep the others from being written: the first message is kept and false returned. */
 bool outputs_write(struct outputs *o, int width, int height, const float *pixels, bool quiet, struct error *err);
 
+/* outputs_abandon: remove what outputs_write has not written. */
 void outputs_abandon(struct outputs *o);
 
 /* outputs_possible: can a file of this name be made? False with a message. */
