@@ -99,8 +99,7 @@ for command in info "render --res 16x16 --spp 1"; do
     expect 0 'warning: sppm.pbrt:1:19: "numiterations" is not used: no integrator here' "$program" $command sppm.pbrt
     check grep -q 'warning: sppm.pbrt:1:45: "maxdepth" is 100000, which counts as 1000' stderr.txt
     check grep -q 'warning: sppm.pbrt: integrator "sppm" does not exist here; bdpt is used' stderr.txt
-    check grep -q 'warning: sppm.pbrt: the picture is written as .png: .*"x.jpg"' stderr.txt
-    check [ "$(grep -c warning: stderr.txt)" = 4 ]
+    check [ "$(grep -c warning: stderr.txt)" = 3 ]
     expect 1 'sppm.pbrt:1:19: "numiterations" is not used' "$program" $command sppm.pbrt --strict
     expect 2 '^asbdpt: -P: no integrator has a parameter "radiuss"' "$program" $command sppm.pbrt -P radiuss=3
     expect 2 '^asbdpt: -P: maxdepth = 100000 is out of range' "$program" $command sppm.pbrt -P maxdepth=100000
@@ -284,7 +283,6 @@ expect 2 'known are albedo' "$program" render "$box" $small --aov albedo,norml -
 expect 1 'few.variance.pfm: not written: one sample' "$program" render "$box" --spp 2 --samples 0:1 --res 8x8 --quiet \
     --aov variance -o few.png
 check [ -s few.png -a ! -e few.variance.pfm ]
-expect 2 'needs two samples' "$program" render "$box" --spp 1 --res 8x8 --quiet --aov variance -o aov.png
 expect 2 'a picture with a name' "$program" render "$box" $small --aov depth -o -
 mkdir taken.depth.pfm
 expect 1 'taken.depth.pfm' "$program" render "$box" $small --aov albedo,depth -o taken.png

@@ -1,5 +1,5 @@
-/* aov_files.c: see aov_files.h. */
-#include "cli/aov_files.h"
+/* aov_files.c: render --aov; see render_files.h. */
+#include "cli/render_files.h"
 
 #include <stdio.h>
 #include <stdlib.h>

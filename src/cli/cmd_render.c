@@ -8,14 +8,10 @@
 #include "base/mem.h"
 #include "base/os.h"
 #include "base/progress.h"
-#include "cli/aov_files.h"
 #include "cli/command.h"
 #include "cli/job_options.h"
 #include "cli/keep.h"
-#include "cli/names.h"
-#include "cli/outputs.h"
-#include "cli/stats_file.h"
-#include "cli/strategy_files.h"
+#include "cli/render_files.h"
 #include "image/image.h"
 #include "render/parameters.h"
 
@@ -112,8 +108,6 @@ static bool open_default_output(const struct job_options *o, const struct scene 
 static bool open_others(struct job_options *o, const struct scene *scene, struct files *f, struct error *err)
 {
     struct names all = {0};
-    if (f->aov.wanted[AOV_VARIANCE] && job_spp(o, scene) < 2)
-        return error_set(err, "--aov variance needs two samples per pixel at least, see --spp");
     bool ok = names_add_options(&all, OPTIONS, o, err) &&
               (f->pictures.n > 0 || open_default_output(o, scene, &all, &f->pictures, err)) &&
               aov_open(&f->aov, &all, &f->pictures, err) &&

@@ -1,5 +1,5 @@
-/* stats_file.c: see stats_file.h. */
-#include "cli/stats_file.h"
+/* stats_file.c: render --stats; see render_files.h. */
+#include "cli/render_files.h"
 
 #include <stdlib.h>
 
