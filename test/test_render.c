@@ -1,5 +1,5 @@
-/* test_render.c: whole renders: radiance known on paper, agreement of the integrators, reproducibility, crop, filters.
- * */
+/* test_render.c: whole renders: radiance known on paper, agreement of the integrators, reproducibility, crop,
+ * filters. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,22 +14,41 @@
 
 /* --- radiance known on paper ------------------------------------------------------------------------- */
 
-/* A closed sphere of albedo a that emits Le everywhere: every ray sees Le (1 + a + a^2 + ...), cut at the depth. */
-static void test_furnace(struct test *t, const char *integrator)
+/* A closed sphere of albedo 1/2 that emits 1 everywhere: every ray sees 1 + 1/2 + 1/4 + ..., cut at the depth. Direct
+ * light of a disk of radius R at height h on the floor's centre: E = pi L R^2 / (R^2 + h^2), radiance kd E / pi. */
+static const struct known {
+    const char *name, *text;
+    double expected;
+    int depth, spp, size;
+    uint64_t seed;
+} KNOWN[] = {
+    {"a furnace",
+     "Camera \"perspective\" \"float fov\" 60\n"
+     "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16\n"
+     "WorldBegin Material \"matte\" \"rgb Kd\" [.5 .5 .5] AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\n"
+     "ReverseOrientation Shape \"sphere\" \"float radius\" 2 WorldEnd\n",
+     1.9375, 4, 16, 16, 11},
+    {"light of a disk",
+     "LookAt 0 0.2 -1  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" .2\n"
+     "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4\n"
+     "WorldBegin Material \"matte\" \"rgb Kd\" [.6 .6 .6]\n"
+     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-5 0 -5  5 0 -5  5 0 5  -5 0 5]\n"
+     "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [4 4 4] Translate 0 2 0 Rotate 90 1 0 0\n"
+     "Shape \"disk\" \"float radius\" 1.5 AttributeEnd WorldEnd\n",
+     0.6 * 4 * 1.5 * 1.5 / (1.5 * 1.5 + 4), 1, 512, 4, 13},
+};
+
+static void test_known(struct test *t, const struct known *k, const char *integrator)
 {
-    static const char text[] =
-        "Camera \"perspective\" \"float fov\" 60 Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16\n"
-        "WorldBegin Material \"matte\" \"rgb Kd\" [.5 .5 .5] AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\n"
-        "ReverseOrientation Shape \"sphere\" \"float radius\" 2 WorldEnd\n";
     struct scene scene;
-    if (!scene_from_text(t, text, &scene))
+    if (!scene_from_text(t, k->text, &scene))
         return;
-    double expected = 1.9375, error; /* depth 4: 1 + .5 + .25 + .125 + .0625 */
-    struct batches b = render_batches(t, &scene, integrator, 4, 16, 8, 16, 11);
+    double error;
+    struct batches b = render_batches(t, &scene, integrator, k->depth, k->spp, 8, k->size, k->seed);
     double mean = batches_mean(&b, &error);
-    TEST_ACCEPT(t, mean_p(&b, expected), "%s in a furnace: %.5f +- %.5f, expected %.5f", integrator, mean, error,
-                expected);
-    TEST_REJECT(t, mean_p(&b, expected * 1.05), "%s in a furnace 5 %% brighter than it is", integrator);
+    TEST_ACCEPT(t, mean_p(&b, k->expected), "%s in %s: %.5f +- %.5f, expected %.5f", integrator, k->name, mean, error,
+                k->expected);
+    TEST_REJECT(t, mean_p(&b, k->expected * 1.05), "%s in %s, 5 %% brighter than it is", integrator, k->name);
     batches_free(&b);
     scene_free(&scene);
 }
@@ -57,30 +76,6 @@ static void test_empty(struct test *t)
               (*m)->name, b.value[0], b.value[1], b.value[2]);
         batches_free(&b);
     }
-    scene_free(&scene);
-}
-
-/* Direct light of a disk of radius R at height h on the floor's centre: E = pi L R^2 / (R^2 + h^2), radiance kd E /
- * pi. */
-static void test_disk(struct test *t, const char *integrator)
-{
-    static const char text[] =
-        "LookAt 0 0.2 -1  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" .2\n"
-        "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4\n"
-        "WorldBegin Material \"matte\" \"rgb Kd\" [.6 .6 .6]\n"
-        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-5 0 -5  5 0 -5  5 0 5  -5 0 5]\n"
-        "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [4 4 4] Translate 0 2 0 Rotate 90 1 0 0\n"
-        "Shape \"disk\" \"float radius\" 1.5 AttributeEnd WorldEnd\n";
-    struct scene scene;
-    if (!scene_from_text(t, text, &scene))
-        return;
-    double expected = 0.6 * 4 * 1.5 * 1.5 / (1.5 * 1.5 + 4), error;
-    struct batches b = render_batches(t, &scene, integrator, 1, 512, 8, 4, 13);
-    double mean = batches_mean(&b, &error);
-    TEST_ACCEPT(t, mean_p(&b, expected), "%s under a disk: %.5f +- %.5f, expected %.5f", integrator, mean, error,
-                expected);
-    TEST_REJECT(t, mean_p(&b, expected * 1.1), "%s under a disk 10 %% brighter than it is", integrator);
-    batches_free(&b);
     scene_free(&scene);
 }
 
@@ -160,22 +155,21 @@ static void test_agreement(struct test *t)
 
 /* --- reproducibility --------------------------------------------------------------------------------- */
 
+/* In two parts, the first of which may be empty. */
 static float *render_pixels(struct test *t, const struct scene *scene, const char *integrator, int threads,
-                            uint64_t seed, long first, long middle, long end)
+                            uint64_t seed, long middle, long end)
 {
     struct pixel_rect crop = render_crop(scene);
     struct film film;
     struct error err;
+    struct render_options o = {.integrator = integrator, .seed = seed, .end = middle, .planned = end,
+                               .n_threads = threads, .max_depth = 4};
     film_init(&film, crop, scene->width, scene->height);
-    struct render_options o = {.integrator = integrator, .seed = seed, .first = first, .end = middle};
-    o.n_threads = threads;
-    o.max_depth = 4;
-    o.planned = end;
     CHECK(t, render_scene(scene, &o, &film, &err), "%s", err.text);
     o.first = middle;
     o.end = end;
     CHECK(t, render_scene(scene, &o, &film, &err), "%s", err.text);
-    float *pixels = mem_alloc((size_t)rect_width(crop) * (size_t)rect_height(crop) * 3, sizeof *pixels);
+    float *pixels = mem_alloc(rect_pixels(crop) * 3, sizeof *pixels);
     film_develop(&film, 1, pixels);
     film_free(&film);
     return pixels;
@@ -188,21 +182,19 @@ static void test_thread_counts(struct test *t)
     snprintf(text, sizeof text, EVERYTHING, AREA, SPECULAR);
     if (!scene_from_text(t, text, &scene))
         return;
-    size_t bytes = (size_t)scene.width * (size_t)scene.height * 3 * sizeof(float);
+    scene.crop[2] = 0.25; /* two tiles */
+    scene.crop[3] = 0.5;
+    size_t bytes = rect_pixels(render_crop(&scene)) * 3 * sizeof(float);
     for (const struct method *const *m = method_list(); *m != NULL; m++) {
         const char *name = (*m)->name;
         choose(&scene, *m);
-        float *one = render_pixels(t, &scene, name, 1, 5, 0, 0, 40);
-        float *two = render_pixels(t, &scene, name, 2, 5, 0, 0, 40),
-              *seven = render_pixels(t, &scene, name, 7, 5, 0, 0, 40);
-        float *split = render_pixels(t, &scene, name, 3, 5, 0, 32, 40),
-              *other = render_pixels(t, &scene, name, 2, 6, 0, 0, 40);
-        CHECK(t, memcmp(one, two, bytes) == 0 && memcmp(one, seven, bytes) == 0, "%s depends on the number of threads",
-              name);
+        float *one = render_pixels(t, &scene, name, 1, 5, 0, 40), *seven = render_pixels(t, &scene, name, 7, 5, 0, 40);
+        float *split = render_pixels(t, &scene, name, 3, 5, 32, 40);
+        float *other = render_pixels(t, &scene, name, 2, 6, 0, 40);
+        CHECK(t, memcmp(one, seven, bytes) == 0, "%s depends on the number of threads", name);
         CHECK(t, memcmp(one, split, bytes) == 0, "%s: a render in two parts differs", name);
         CHECK(t, memcmp(one, other, bytes) != 0, "%s: the seed has no effect", name);
         free(one);
-        free(two);
         free(seven);
         free(split);
         free(other);
@@ -271,11 +263,11 @@ static void test_roulette_defaults(struct test *t)
         settings_set(&scene.settings, "select", cases[i].select, "test");
         if (cases[i].threshold != NULL)
             settings_set(&scene.settings, "rrthreshold", cases[i].threshold, "test");
-        float *got = render_pixels(t, &scene, cases[i].integrator, 2, 7, 0, 0, 4);
+        float *got = render_pixels(t, &scene, cases[i].integrator, 2, 7, 0, 4);
         settings_set(&scene.settings, "rrthreshold", cases[i].as, "test");
-        float *same = render_pixels(t, &scene, cases[i].integrator, 2, 7, 0, 0, 4);
+        float *same = render_pixels(t, &scene, cases[i].integrator, 2, 7, 0, 4);
         settings_set(&scene.settings, "rrthreshold", cases[i].as[1] == '\0' ? "0.5" : "0", "test");
-        float *other = render_pixels(t, &scene, cases[i].integrator, 2, 7, 0, 0, 4);
+        float *other = render_pixels(t, &scene, cases[i].integrator, 2, 7, 0, 4);
         CHECK(t, memcmp(got, same, bytes) == 0 && memcmp(got, other, bytes) != 0,
               "%s with select %s, rrthreshold %s: not as with %s", cases[i].integrator, cases[i].select,
               cases[i].threshold == NULL ? "not set" : cases[i].threshold, cases[i].as);
@@ -289,33 +281,23 @@ static void test_roulette_defaults(struct test *t)
 /* --- crop and filter --------------------------------------------------------------------------------- */
 
 /* Means of the lower right quarter, once cut out of the full frame, once rendered as a crop window. */
-static void test_crop(struct test *t)
+static void test_crop(struct test *t, const char *integrator, int spp, uint64_t seed)
 {
     char text[8192];
     struct scene scene;
     snprintf(text, sizeof text, EVERYTHING, AREA, "");
     if (!scene_from_text(t, text, &scene))
         return;
-    double ratio;
-    struct batches full = render_batches(t, &scene, "bdpt", 3, 16, 12, 12, 31),
-                   lt = render_batches(t, &scene, "lt", 3, 32, 12, 12, 32);
+    struct batches full = render_batches(t, &scene, integrator, 3, spp, 12, 12, seed);
     scene.crop[0] = scene.crop[2] = 0.5;
-    struct batches part = render_batches(t, &scene, "bdpt", 3, 48, 12, 12, 33),
-                   lt_part = render_batches(t, &scene, "lt", 3, 96, 12, 12, 34);
+    struct batches part = render_batches(t, &scene, integrator, 3, 3 * spp, 12, 12, seed + 2);
     for (int i = 0; i < full.n_batches; i++) /* keep only the last of the 2x2 tiles of the full frame */
-        for (int c = 0; c < 3; c++) {
-            full.value[3 * i + c] = full.value[12 * i + 9 + c];
-            lt.value[3 * i + c] = lt.value[12 * i + 9 + c];
-        }
-    full.n = lt.n = 3;
-    double p = batches_p(&part, &full, &ratio);
-    TEST_ACCEPT(t, p, "a crop window against the full frame, bdpt: ratio %.4f", ratio);
-    p = batches_p(&lt_part, &lt, &ratio);
-    TEST_ACCEPT(t, p, "a crop window against the full frame, lt: ratio %.4f", ratio);
+        memmove(&full.value[3 * i], &full.value[12 * i + 9], 3 * sizeof full.value[0]);
+    full.n = 3;
+    double ratio, p = batches_p(&part, &full, &ratio);
+    TEST_ACCEPT(t, p, "a crop window against the full frame, %s: ratio %.4f", integrator, ratio);
     batches_free(&full);
     batches_free(&part);
-    batches_free(&lt);
-    batches_free(&lt_part);
     scene_free(&scene);
 }
 
@@ -336,7 +318,7 @@ static void test_filters(struct test *t)
         if (!scene_from_text(t, text, &scene))
             return;
         /* A disk of albedo 1/2 under a sky of 1 has radiance 1/2, in every pixel: tiles of one pixel show edges. */
-        struct batches b = render_batches(t, &scene, "lt", 1, 256, 16, 3, 41);
+        struct batches b = render_batches(t, &scene, "lt", 1, 96, 16, 3, 41);
         struct batches expected = batches_new(b.n_batches, b.n, false);
         for (long k = 0; k < b.n * b.n_batches; k++)
             expected.value[k] = 0.5;
@@ -353,15 +335,16 @@ static void test_filters(struct test *t)
 
 void test_render(struct test *t)
 {
-    test_furnace(t, "pt");
-    test_furnace(t, "bdpt");
-    test_disk(t, "pt");
-    test_disk(t, "bdpt");
+    for (int i = 0; i < 2; i++) {
+        test_known(t, &KNOWN[i], "pt");
+        test_known(t, &KNOWN[i], "bdpt");
+    }
     test_empty(t);
     test_agreement(t);
     test_thread_counts(t);
     test_blocks(t);
     test_roulette_defaults(t);
-    test_crop(t);
+    test_crop(t, "bdpt", 16, 31);
+    test_crop(t, "lt", 32, 32);
     test_filters(t);
 }
