@@ -318,7 +318,7 @@ static void test_filters(struct test *t)
         if (!scene_from_text(t, text, &scene))
             return;
         /* A disk of albedo 1/2 under a sky of 1 has radiance 1/2, in every pixel: tiles of one pixel show edges. */
-        struct batches b = render_batches(t, &scene, "lt", 1, 96, 16, 3, 41);
+        struct batches b = render_batches(t, &scene, "lt", 1, 256, 16, 3, 41);
         struct batches expected = batches_new(b.n_batches, b.n, false);
         for (long k = 0; k < b.n * b.n_batches; k++)
             expected.value[k] = 0.5;
