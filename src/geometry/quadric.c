@@ -394,17 +394,3 @@ double quadric_area(const struct quadric *q)
     }
     return object_area(q) * sum / (n * n);
 }
-
-/* |M^T n|^2 is a quadratic form of n: if it is the same at this many places, it is everywhere. */
-bool quadric_keeps_area(const struct quadric *q)
-{
-    enum { DOWN = 4, ROUND = 5 };
-    for (int i = 0; i < DOWN * ROUND; i++) {
-        struct surface at;
-        vec3 p = quadric_sample(q, (i / ROUND + 0.5) / DOWN, (i % ROUND + 0.5) / ROUND);
-        quadric_surface_at(q, false, p, &at);
-        if (!(fabs(area_ratio(q, at.ng) - 1) < 1e-3))
-            return false;
-    }
-    return true;
-}
