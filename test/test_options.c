@@ -20,6 +20,7 @@ struct target {
 };
 
 static const struct option SHARED[] = {
+    {"--list", "FILE...", OPTION_TEXTS, offsetof(struct target, list), .help = "a list"},
     {"--seed", "N", OPTION_SEED, offsetof(struct target, seed), .fallback = "7", .help = "a seed"},
     {.name = NULL},
 };
@@ -64,7 +65,8 @@ static void check_accepted(struct test *t)
     bool ok = read_line(TABLE, "a.png --on --integer=2 --number -0.5 --window 0 1 0.25 1e0 --size 65536x4096 "
                         "--width 65536 b c --range 0:100 --seed=18446744073709551615 -i1073741824 --text -x",
                         words, &o, &err);
-    CHECK(t, ok, "%s", err.text);
+    if (!CHECK(t, ok, "%s", err.text))
+        return;
     CHECK(t, o.on && o.integer == 1 << 30 && o.number == -0.5, "flag, integer at its upper bound, number at its lower");
     CHECK(t, o.window[0] == 0 && o.window[1] == 1 && o.window[2] == 0.25 && o.window[3] == 1, "window");
     CHECK(t, o.size[0] == 65536 && o.size[1] == 4096 && o.width[0] == 65536 && o.width[1] == 0, "sizes");
@@ -75,7 +77,8 @@ static void check_accepted(struct test *t)
     memset(&o, 0, sizeof o);
     ok = read_line(TABLE, "--on --window=0,0.5,0.25,1 --width 3x4 --texts 1 --texts=2=3 -Pa=b -P c= --list x - y -t=- "
                    "-i 2 --number=2 --time .5m", words, &o, &err);
-    CHECK(t, ok, "%s", err.text);
+    if (!CHECK(t, ok, "%s", err.text))
+        return;
     CHECK(t, o.on && o.window[1] == 0.5 && o.window[3] == 1 && o.width[1] == 4, "window with commas, height");
     CHECK(t, o.texts.n == 2 && strcmp(o.texts.item[1], "2=3") == 0, "only the first = belongs to the option");
     CHECK(t, o.pairs.n == 2 && strcmp(o.pairs.item[0], "a=b") == 0 && strcmp(o.pairs.item[1], "c=") == 0, "pairs");
