@@ -24,11 +24,21 @@ typedef bool reader(const uint8_t *data, size_t size, struct image *out, struct 
 bool read_exactly(reader *read, const uint8_t *data, size_t n, struct image *out, struct error *err);
 bool accepts(reader *read, const uint8_t *data, size_t n, struct error *err);
 
+/* check_no_picture: is the file refused in one line that holds this message?
+ * check_spoilt: every proper beginning of the file is refused, or some hundred of a longer one; changed bytes are
+ * survived. Returns how many changed files are accepted. */
+void check_no_picture(struct test *t, reader *read, const uint8_t *data, size_t n, const char *message);
+int check_spoilt(struct test *t, const char *what, reader *read, const uint8_t *data, size_t n);
+
 /* scene_from_text: parse and prepare a scene given as text. A failure is a failed check; returns false. */
 bool scene_from_text(struct test *t, const char *text, struct scene *out);
 
 /* scene_from_file: the same for a file, at the given resolution (0: as it is) with a box filter. */
 bool scene_from_file(struct test *t, const char *path, int width, int height, struct scene *out);
+
+/* near3: are two points, or directions, no farther from each other? on_sphere: a direction, uniform. */
+bool near3(vec3 a, vec3 b, double tolerance);
+vec3 on_sphere(struct rng *r);
 
 /* random_affine: a transform of uneven scale and shear, half of them mirrors, with some translation; no direction
  * becomes more than some ten times as long as another. */

@@ -15,8 +15,8 @@
 #include "cli/command.h"
 #include "cli/job_options.h"
 #include "image/picture.h"
-#include "image/sheet.h"
 #include "look/compare.h"
+#include "look/sheet.h"
 #include "render/parameters.h"
 
 char *web_words(int size);

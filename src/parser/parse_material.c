@@ -100,7 +100,7 @@ static bool make(struct parser *p, int *out)
     if (m.vroughness < 0)
         m.vroughness = m.uroughness;
     *out = scene_add_material(p->scene, m);
-    if (p->scene->material[*out].n_lobes > MATERIAL_MAX_LOBES)
+    if (material_lobes(p->scene->material, *out) > MATERIAL_MAX_LOBES)
         return source_error(&p->messages, q->position,
                             "this mix has more than %d lobes in all; mix fewer materials", MATERIAL_MAX_LOBES);
     return true;
