@@ -34,6 +34,12 @@ static void mixed_material(struct parser *p, const struct parameter *row, void *
 static const struct parameter MATTE[] = {COLOUR(Kd, 0.5), TEXTURE("sigma", sigma, 0, ANY_NUMBER), BUMP};
 static const struct parameter MIRROR[] = {COLOUR(Kr, 0.9), BUMP};
 static const struct parameter GLASS[] = {COLOUR(Kr, 1), COLOUR(Kt, 1), INDEX, TWO_ROUGHNESSES(0), BUMP};
+/* Of what is beneath the surface pbrt-v3's bdpt sees nothing. */
+#define BENEATH \
+    COLOUR(Kr, 1), COLOUR(Kt, 1), TEXTURE("eta", index, 1.33, INDICES), TWO_ROUGHNESSES(0), IGNORED("scale"), \
+        IGNORED("g"), BUMP
+static const struct parameter SUBSURFACE[] = {IGNORED("name"), IGNORED("sigma_a"), IGNORED("sigma_s"), BENEATH};
+static const struct parameter KDSUBSURFACE[] = {IGNORED("Kd"), IGNORED("mfp"), BENEATH};
 static const struct parameter METAL[] = {
     /* Complex index of copper in sRGB: pbrt-v3's default, its tabulated spectra reduced to RGB. */
     RGB(eta, 0.199990, 0.922086, 1.099876),
@@ -66,6 +72,13 @@ static const struct parameter TRANSLUCENT[] = {
 static const struct parameter MIX[] = {
     MIXED("namedmaterial1", mix1), MIXED("namedmaterial2", mix2), COLOUR(amount, 0.5), END_OF_PARAMETERS};
 
+static void surface_alone(struct parser *p, void *object)
+{
+    source_warn(&p->messages, p->params.position, "\"%s\" is its surface alone, as in pbrt-v3's \"bdpt\": no light "
+                "goes through what is beneath", p->params.type);
+    (void)object;
+}
+
 const struct object_type MATERIAL_TYPES[] = {
     {"matte", MATTE, MATERIAL_MATTE, NULL},
     {"mirror", MIRROR, MATERIAL_MIRROR, NULL},
@@ -75,6 +88,8 @@ const struct object_type MATERIAL_TYPES[] = {
     {"substrate", SUBSTRATE, MATERIAL_SUBSTRATE, NULL},
     {"uber", UBER, MATERIAL_UBER, NULL},
     {"translucent", TRANSLUCENT, MATERIAL_TRANSLUCENT, NULL},
+    {"subsurface", SUBSURFACE, MATERIAL_GLASS, surface_alone},
+    {"kdsubsurface", KDSUBSURFACE, MATERIAL_GLASS, surface_alone},
     {"mix", MIX, MATERIAL_MIX, NULL},
     END_OF_TYPES};
 
