@@ -59,13 +59,19 @@ static struct lobe copper(double alpha_x, double alpha_y)
     return l;
 }
 
+static struct lobe dimmed(struct lobe l)
+{
+    l.scale = rgb_grey(0.4);
+    return l;
+}
+
 struct specimen {
     const char *name;
     int n;
     struct lobe lobe[MAX_LOBES];
 };
 
-enum { N_SPECIMENS = 13 };
+enum { N_SPECIMENS = 18 };
 
 static void specimens(struct specimen *s)
 {
@@ -77,6 +83,16 @@ static void specimens(struct specimen *s)
     coat.R = rgb_grey(0.4);
     faint.R = weak.T = rgb_grey(0.1);
     weak.scale = rgb_make(0.5, 0.7, 0.9);
+    struct lobe disney = lobe(LOBE_DISNEY_DIFFUSE, 0.5, 0.2), metal = copper(0.4, 0.2), glass = refract;
+    struct lobe gloss = lobe(LOBE_CLEARCOAT, 1, 0);
+    disney.eta = rgb_grey(0.5);
+    disney.k = rgb_make(0.1, 0.2, 0);
+    metal.fresnel = FRESNEL_DISNEY;
+    metal.eta = rgb_make(0.9, 0.5, 0.2);
+    metal.A = 0.6;
+    metal.eta_b = 1.5;
+    gloss.alpha_x = 0.1;
+    metal.separate = glass.separate = true;
     struct specimen all[N_SPECIMENS] = {
         {"lambert", 1, {diffuse}},
         {"lambert transmission", 1, {through}},
@@ -91,6 +107,11 @@ static void specimens(struct specimen *s)
         {"plastic", 2, {diffuse, coat}},
         {"translucent", 4, {diffuse, through, faint, weak}},
         {"half a mirror", 2, {diffuse, mirror}},
+        {"disney's diffuse part", 1, {disney}},
+        {"disney's facets", 1, {metal}},
+        {"disney's glass", 1, {glass}},
+        {"clear coat", 1, {gloss}},
+        {"disney", 4, {dimmed(disney), dimmed(metal), gloss, dimmed(glass)}},
     };
     memcpy(s, all, sizeof all);
 }

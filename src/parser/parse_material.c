@@ -40,6 +40,26 @@ static const struct parameter GLASS[] = {COLOUR(Kr, 1), COLOUR(Kt, 1), INDEX, TW
         IGNORED("g"), BUMP
 static const struct parameter SUBSURFACE[] = {IGNORED("name"), IGNORED("sigma_a"), IGNORED("sigma_s"), BENEATH};
 static const struct parameter KDSUBSURFACE[] = {IGNORED("Kd"), IGNORED("mfp"), BENEATH};
+#define UNIT 0, 1
+#define TWICE 0, 2
+#define FACTORS 0, MATERIAL_MAX_COLOUR
+static const struct parameter DISNEY[] = {
+    {"color", parse_rgb_texture, offsetof(struct material, Kd), GREY(0.5), -MATERIAL_MAX_COLOUR, MATERIAL_MAX_COLOUR},
+    TEXTURE("eta", index, 1.5, INDICES),
+    ROUGH("roughness", uroughness, 0.5),
+    TEXTURE("metallic", disney.metallic, 0, UNIT),
+    TEXTURE("speculartint", disney.specular_tint, 0, UNIT),
+    TEXTURE("anisotropic", disney.anisotropic, 0, UNIT),
+    TEXTURE("sheen", disney.sheen, 0, FACTORS),
+    TEXTURE("sheentint", disney.sheen_tint, 0.5, UNIT),
+    TEXTURE("clearcoat", disney.clearcoat, 0, FACTORS),
+    TEXTURE("clearcoatgloss", disney.clearcoat_gloss, 1, UNIT),
+    TEXTURE("spectrans", disney.transmission, 0, UNIT),
+    {"scatterdistance", parse_rgb_texture, offsetof(struct material, disney.scatter_distance), GREY(0), ANY_NUMBER},
+    {"thin", parse_bool, offsetof(struct material, disney.thin), GREY(0), 0, 0},
+    TEXTURE("flatness", disney.flatness, 0, UNIT),
+    TEXTURE("difftrans", disney.diffuse_transmission, 1, TWICE),
+    BUMP};
 static const struct parameter METAL[] = {
     /* Complex index of copper in sRGB: pbrt-v3's default, its tabulated spectra reduced to RGB. */
     RGB(eta, 0.199990, 0.922086, 1.099876),
@@ -72,11 +92,24 @@ static const struct parameter TRANSLUCENT[] = {
 static const struct parameter MIX[] = {
     MIXED("namedmaterial1", mix1), MIXED("namedmaterial2", mix2), COLOUR(amount, 0.5), END_OF_PARAMETERS};
 
-static void surface_alone(struct parser *p, void *object)
+static void surface_alone(struct parser *p)
 {
     source_warn(&p->messages, p->params.position, "\"%s\" is its surface alone, as in pbrt-v3's \"bdpt\": no light "
                 "goes through what is beneath", p->params.type);
+}
+
+static void subsurface(struct parser *p, void *object)
+{
+    surface_alone(p);
     (void)object;
+}
+
+static void disney(struct parser *p, void *object)
+{
+    const struct material *m = object;
+    const struct texture *distance = &p->scene->textures.texture[m->disney.scatter_distance];
+    if (!m->disney.thin && !(distance->kind == TEXTURE_CONSTANT && rgb_is_black(distance->constant)))
+        surface_alone(p);
 }
 
 const struct object_type MATERIAL_TYPES[] = {
@@ -88,8 +121,9 @@ const struct object_type MATERIAL_TYPES[] = {
     {"substrate", SUBSTRATE, MATERIAL_SUBSTRATE, NULL},
     {"uber", UBER, MATERIAL_UBER, NULL},
     {"translucent", TRANSLUCENT, MATERIAL_TRANSLUCENT, NULL},
-    {"subsurface", SUBSURFACE, MATERIAL_GLASS, surface_alone},
-    {"kdsubsurface", KDSUBSURFACE, MATERIAL_GLASS, surface_alone},
+    {"subsurface", SUBSURFACE, MATERIAL_GLASS, subsurface},
+    {"kdsubsurface", KDSUBSURFACE, MATERIAL_GLASS, subsurface},
+    {"disney", DISNEY, MATERIAL_DISNEY, disney},
     {"mix", MIX, MATERIAL_MIX, NULL},
     END_OF_TYPES};
 

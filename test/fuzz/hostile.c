@@ -121,6 +121,10 @@ static const struct object WORLD[] = {
     {"Material", "substrate", REFLECT ROUGH},
     {"Material", "uber", REFLECT ROUGH GLASS},
     {"Material", "translucent", REFLECT ROUGH "rgb reflect|rgb transmit"},
+    {"Material", "subsurface", "rgb Kr|rgb Kt|" ROUGH "float eta|" BUMP},
+    {"Material", "disney", "rgb color|float roughness|float eta|float metallic|float speculartint|float anisotropic|"
+                           "float sheen|float sheentint|float clearcoat|float clearcoatgloss|float spectrans|"
+                           "rgb scatterdistance|bool thin:true,false|float flatness|float difftrans|" BUMP},
     {"Material", "none", ""},
     {"Material", "", ""},
     {"AreaLightSource", "diffuse", LIT "bool twosided:true,false"},
