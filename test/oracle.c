@@ -103,6 +103,15 @@ static double eye_density(const struct full_path *f, int j)
     return per_area(f, j + 1, j, pdf);
 }
 
+/* Which eye end x_i is, i >= 1: the first that is not seen by way of delta lobes alone? */
+static enum eye_end end_of(const struct full_path *f, int i)
+{
+    for (int j = i + 1; j < f->n - 1; j++)
+        if (!f->delta[j])
+            return LATER_HIT;
+    return FIRST_HIT;
+}
+
 /* n of the strategy with i light vertices, 0 if it cannot make this path. */
 static double samples(const struct full_path *f, int i)
 {
@@ -110,7 +119,7 @@ static double samples(const struct full_path *f, int i)
     int t = f->n - i;
     if (i == 0) {
         bool delta_light = f->x[0]->kind == VERTEX_LIGHT && light_is_delta(&f->scene->lights.light[f->x[0]->light]);
-        return delta_light ? 0 : m->hit;
+        return delta_light ? 0 : m->hit[end_of(f, 1)];
     }
     if (t < 1 || f->delta[i - 1] || f->delta[i])
         return 0;
@@ -118,7 +127,7 @@ static double samples(const struct full_path *f, int i)
         return m->splat;
     /* Regions are looked up anew, from the surface points at both ends of the edge. */
     int e = 0, y = 0, other;
-    enum eye_end end = t == 2 ? FIRST_HIT : LATER_HIT;
+    enum eye_end end = end_of(f, i);
     if (m->model != NULL)
         m->model->locate(m->model->learnt, f->x[i]->p, f->x[i]->ng, &e, &other);
     if (i == 1)

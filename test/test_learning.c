@@ -54,12 +54,12 @@ static void seal(struct bytes *b)
         b->data[b->n - 4 + (size_t)i] = (uint8_t)(crc >> 8 * i);
 }
 
-/* No bin of the guide's tables names one beyond their end. */
+/* The guide's sums rise to 1, or nearly. */
 static bool guide_is_whole(const struct learnt *l)
 {
     for (int i = 0; l->guided && i < l->guide.n; i++)
-        for (int k = 0; k < l->guide.table[i].n; k++)
-            if (l->guide.table[i].bin[k].alias >= (uint32_t)l->guide.table[i].n)
+        for (int k = 0, n = l->guide.columns.n; k < n; k++)
+            if (!(l->guide.before[i * (n + 1) + k + 1] >= l->guide.before[i * (n + 1) + k]))
                 return false;
     return true;
 }

@@ -141,7 +141,7 @@ static void compare_hit(struct comparison *c, const struct vertex *eye, int t)
 static void compare_direct(struct comparison *c, const struct vertex *eye, int t, struct sampler *sampler)
 {
     struct sampler same = *sampler;
-    struct connection got = connect_direct(c->scene, c->counts, &eye[t - 1], sampler);
+    struct connection got = connect_direct(c->scene, c->counts, &eye[t - 1], sampler, 0, 1);
     double u[3];
     struct light_point at;
     u[0] = sampler_number(&same, DRAW_LIGHT);
@@ -208,10 +208,10 @@ static void compare_paths(struct comparison *c, int n_paths)
 void test_mis(struct test *t)
 {
     const double bound = 1e-6;
-    const struct mis_counts all = {.hit = 1, .direct = {1, 1}, .connect = {1, 1}, .splat = 1024};
-    const struct mis_counts pt = {.hit = 1, .direct = {1, 1}}, lt = {.splat = 1024};
-    const struct mis_counts power = {.hit = 1, .direct = {1, 1}, .connect = {1, 1}, .splat = 1024, .power = true};
-    const struct mis_counts uneven = {.hit = 1, .direct = {6, 1.5}, .connect = {8, 0.7}, .splat = 300};
+    const struct mis_counts all = {.hit = {1, 1}, .direct = {1, 1}, .delta = {1, 1}, .connect = {1, 1}, .splat = 1024};
+    const struct mis_counts pt = {.hit = {1, 1}, .direct = {1, 1}, .delta = {1, 1}}, lt = {.splat = 1024};
+    const struct mis_counts power = {.hit = {1, 1}, .direct = {1, 1}, .delta = {1, 1}, .connect = {1, 1}, .splat = 1024, .power = true};
+    const struct mis_counts uneven = {.hit = {3, 1}, .direct = {6, 1.5}, .delta = {9, 2}, .connect = {8, 0.7}, .splat = 300};
     const struct {
         const char *name;
         const struct mis_counts *counts;

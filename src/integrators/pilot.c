@@ -1,12 +1,14 @@
 /* pilot.c: see pilot.h. */
 #include "integrators/pilot.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/maths.h"
 #include "base/number.h"
 #include "base/parallel.h"
+#include "integrators/first_light.h"
 
 /* The kinds of samples whose number is free: a pixel's variance, given its eye sub-path, is theirs. HIT is the light
  * that the first bounce meets (s = 0, t = 3). An eye sub-path has one such sample, so its number is not free, but the
@@ -218,17 +220,18 @@ static bool add_tile(void *context, int64_t job, int slot)
 
 /* --- the choice -------------------------------------------------------------------------------------- */
 
-static void set_numbers(struct subspaces_state *s, const double *n, const double *credit)
+static void set_numbers(struct subspaces_state *s, const double *n, const double *credit, const struct first_light *l)
 {
     struct frozen *f = &s->frozen;
     s->draws[FIRST_HIT] = clamp(n[DRAW_FIRST], 0.25, 16);
     s->draws[LATER_HIT] = clamp(n[DRAW_LATER], 0.125, 8);
     f->lights = (int)clamp(n[LIGHT_FIRST] + 0.5, 1, 8);
     f->path_pixels = (int)clamp(1 / n[LIGHT_PATH] + 0.5, 1, 64);
+    f->counts.hit[FIRST_HIT] = l->hit;
+    f->counts.direct[FIRST_HIT] = l->direct * f->lights;
+    f->counts.delta[FIRST_HIT] = l->delta * f->lights;
     f->counts.connect[FIRST_HIT] = credit[DRAW_FIRST] * s->draws[FIRST_HIT];
     f->counts.connect[LATER_HIT] = credit[DRAW_LATER] * s->draws[LATER_HIT];
-    f->counts.direct[FIRST_HIT] = credit[LIGHT_FIRST] * f->lights;
-    f->counts.direct[LATER_HIT] = 1;
 }
 
 void pilot_set_draws(struct subspaces_state *s, double C)
@@ -257,7 +260,7 @@ static double credit_of(double square, double spread)
     return spread > 0 ? clamp(square / spread, 1, MOST_CREDIT) : 1;
 }
 
-static void choose_numbers(struct subspaces_state *state, const struct sums *s)
+static void choose_numbers(struct subspaces_state *state, const struct sums *s, const struct first_light *light)
 {
     const double LEAST = 0.2, LEAST_PATH = 0.02; /* shares of the variance that A and light sub-paths have at least */
     double fixed, cost[N_KINDS], b[N_KINDS], n[N_KINDS], credit[N_KINDS], rest = s->given_paths;
@@ -271,8 +274,7 @@ static void choose_numbers(struct subspaces_state *state, const struct sums *s)
         n[k] = USUAL[k] * m_pow(fmax(best, 1e-3) / USUAL[k], BOLDNESS);
         credit[k] = credit_of(s->square[k], s->spread[k]);
     }
-    set_numbers(state, n, credit);
-    state->frozen.counts.hit = credit_of(s->square[HIT], s->spread[HIT]);
+    set_numbers(state, n, credit, light);
 }
 
 static void make_memory(struct pilot *p, int n_slots)
@@ -301,8 +303,8 @@ static void exchange(struct subspaces_state *s, bool store)
 {
     struct mis_counts *c = &s->frozen.counts;
     double lights = s->frozen.lights, path_pixels = s->frozen.path_pixels, *kept = s->learnt.number;
-    double *const chosen[] = {&s->draws[FIRST_HIT], &s->draws[LATER_HIT], &lights, &path_pixels, &c->hit,
-                              &c->direct[FIRST_HIT], &c->direct[LATER_HIT], &c->connect[FIRST_HIT],
+    double *const chosen[] = {&s->draws[FIRST_HIT], &s->draws[LATER_HIT], &lights, &path_pixels, &c->hit[FIRST_HIT],
+                              &c->direct[FIRST_HIT], &c->delta[FIRST_HIT], &c->connect[FIRST_HIT],
                               &c->connect[LATER_HIT]};
     for (size_t i = 0; i < sizeof chosen / sizeof chosen[0]; i++)
         *(store ? &kept[i] : chosen[i]) = *(store ? chosen[i] : &kept[i]);
@@ -323,7 +325,9 @@ void pilot_run(const struct render_job *job, struct preparation *method)
     double tile = (double)rect_width(rect) * rect_height(rect);
     int tiles = int_within(SAMPLES_PER_PIXEL * pixel_light_count(job) / (RENDERS * tile) + 0.75, 1, MOST_TILES);
     int n_slots = 2 * job->n_threads;
-    set_numbers(s, TRIED, credit);
+    struct first_light light;
+    first_light_measure(job, &s->learnt.model, &light);
+    set_numbers(s, TRIED, credit, &light);
     s->frozen.counts.splat = pixel_light_count(job) / s->frozen.path_pixels;
     p.job.seed = hash_combine(job->seed, 0x3c6ef372fe94f82bu); /* unlike the render's */
     struct parallel_jobs jobs = {tiles, job->n_threads, n_slots, &p, render_tile, add_tile, NULL};
@@ -331,8 +335,12 @@ void pilot_run(const struct render_job *job, struct preparation *method)
     parallel_run(&jobs);
     free_memory(&p, n_slots);
     if (p.sums.total > 0 && !p.stopped)
-        choose_numbers(s, &p.sums);
+        choose_numbers(s, &p.sums, &light);
     else
-        set_numbers(s, USUAL, credit);
+        set_numbers(s, USUAL, credit, &light);
+    struct mis_counts *c = &s->frozen.counts;
+    if (getenv("DH")) c->hit[0] = atof(getenv("DH"));
+    if (getenv("DD")) c->direct[0] = atof(getenv("DD"))* s->frozen.lights;
+    if (getenv("DBG")) fprintf(stderr, "DBG hit %.2f direct %.2f (x%d) delta %.2f | connect %.2f %.2f draws %.2f %.2f pp %d\n", c->hit[0], light.direct, s->frozen.lights, light.delta, c->connect[0], c->connect[1], s->draws[0], s->draws[1], s->frozen.path_pixels);
     exchange(s, true);
 }

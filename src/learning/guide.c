@@ -86,9 +86,7 @@ void guide_lessons_add(struct guide_lessons *l, const struct regions *regions, i
 
 void guide_free(struct guide *g)
 {
-    for (int i = 0; i < g->n; i++)
-        alias_free(&g->table[i]);
-    free(g->table);
+    free(g->before);
     columns_free(&g->columns);
     memset(g, 0, sizeof *g);
 }
@@ -149,64 +147,75 @@ void guide_build(struct guide *g, struct guide_lessons *l, const struct regions 
 {
     make_room(l, regions->n);
     int n = l->columns.n;
-    double *t = shares_of_regions(l, regions), *q = mem_alloc((size_t)n, sizeof *q);
+    double *t = shares_of_regions(l, regions);
     guide_start(g, lights);
     g->n = l->n;
-    g->table = mem_alloc((size_t)l->n, sizeof *g->table);
+    g->before = mem_alloc((size_t)l->n * (size_t)(n + 1), sizeof *g->before);
     for (int i = 0; i < l->n; i++) {
+        double *before = &g->before[(size_t)i * (size_t)(n + 1)];
         for (int c = 0; c < n; c++)
-            q[c] = delta * l->columns.power[c] + (1 - delta) * t[(size_t)i * (size_t)n + (size_t)c];
-        alias_build(&g->table[i], q, n);
+            before[c + 1] =
+                before[c] + delta * l->columns.power[c] + (1 - delta) * t[(size_t)i * (size_t)n + (size_t)c];
     }
-    free(q);
     free(t);
 }
 
 /* --- use --------------------------------------------------------------------------------------------- */
 
-static const struct alias_table *table_of(const struct guide *g, int region)
+/* The sums of a region; NULL: there is no table for it. */
+static const double *row_of(const struct guide *g, int region)
 {
-    return g == NULL || region >= g->n || g->table[region].n == 0 ? NULL : &g->table[region];
+    if (g == NULL || region >= g->n)
+        return NULL;
+    const double *before = &g->before[(size_t)region * (size_t)(g->columns.n + 1)];
+    return before[g->columns.n] > 0 ? before : NULL;
+}
+
+static double pmf_of_column(const struct guide *g, const double *before, int column)
+{
+    return (before[column + 1] - before[column]) / before[g->columns.n];
 }
 
 int guide_choose(const struct guide *g, const struct light_set *lights, int region, double u, double *pmf)
 {
-    const struct alias_table *table = table_of(g, region);
+    const double *before = row_of(g, region);
     if (lights->choice.n == 0)
         return -1;
-    if (table == NULL)
+    if (before == NULL)
         return alias_sample(&lights->choice, u, pmf, NULL);
-    double q, rest;
-    int column = alias_sample(table, u, &q, &rest);
+    double target = u * before[g->columns.n];
+    int column = cumulative_find(before, g->columns.n, target);
+    double q = pmf_of_column(g, before, column);
     if (g->columns.cells_each == 1) {
         *pmf = q;
         return column;
     }
+    double rest = below_one((target - before[column]) / (before[column + 1] - before[column]));
     int cell = cell_of_column(&g->columns, lights, column, rest);
     *pmf = q * alias_pmf(&lights->choice, cell) / g->columns.power[column];
     return cell;
 }
 
-static double ratio_of_cell(const struct guide *g, const struct alias_table *table, int cell)
+static double ratio_of_cell(const struct guide *g, const double *before, int cell)
 {
     double e = g->columns.power[cell / g->columns.cells_each];
-    return e > 0 ? alias_pmf(table, cell / g->columns.cells_each) / e : 0;
+    return e > 0 ? pmf_of_column(g, before, cell / g->columns.cells_each) / e : 0;
 }
 
 double guide_ratio(const struct guide *g, const struct light_set *lights, int region, int cell, vec3 w)
 {
-    const struct alias_table *table = table_of(g, region);
-    if (table == NULL)
+    const double *before = row_of(g, region);
+    if (before == NULL)
         return 1;
     if (cell >= 0 && !(lights->several_infinite && lights->light[lights->light_of_cell[cell]].kind == LIGHT_INFINITE))
-        return ratio_of_cell(g, table, cell);
+        return ratio_of_cell(g, before, cell);
     /* An escaping ray cannot tell infinite lights apart: their densities are added (light.h). */
     double guided = 0, by_power = 0;
     for (int i = 0; i < lights->n; i++)
         if (lights->light[i].kind == LIGHT_INFINITE) {
             double pdf = light_pdf_towards(lights, i, w, &cell);
             by_power += pdf;
-            guided += pdf * ratio_of_cell(g, table, cell);
+            guided += pdf * ratio_of_cell(g, before, cell);
         }
     return by_power > 0 ? guided / by_power : 0;
 }

@@ -3,13 +3,14 @@
  * s = 1 connects an eye vertex to a point on a light. Choosing the light by power alone wastes most shadow rays where
  * walls stand between, and an environment map seen through a window is mostly hidden. Learning tries light points
  * from eye vertices and adds up, per region (regions.h) and per light cell (light.h), the contributions that arrived.
- * Each region then has an alias table over all light cells,
+ * Each region then has a table over all light cells, from which they are drawn by cumulative sums, so that neighbours
+ * stay neighbours and well-spread numbers are spread over the lights,
  *     q(c) = delta e(c) + (1 - delta) t(c),      t(c) = (N own(c) + K above(c)) / (N + K),
  * e being the choice by power, own the region's shares after N contributions, and above the t of the region that holds
  * it (at the top: the shares of the whole scene), on which a region seldom visited relies.
  *
  * A scene with more than GUIDE_COLUMNS light cells is learnt in groups of consecutive cells; within a group the choice
- * is by power. So the memory is bounded, by 44 bytes for each of GUIDE_COLUMNS columns of each region.
+ * is by power. So the memory is bounded, by 24 bytes for each of GUIDE_COLUMNS columns of each region.
  *
  * The tables are frozen before the render, so any choice is unbiased; MIS needs the ratio of the two choices,
  * guide_ratio, as the count of strategy s = 1 (mis.h): its samples are that many times denser than those of emission.
@@ -19,7 +20,6 @@
 #ifndef ASBDPT_LEARNING_GUIDE_H
 #define ASBDPT_LEARNING_GUIDE_H
 
-#include "base/alias.h"
 #include "learning/regions.h"
 #include "scene/light.h"
 
@@ -51,8 +51,8 @@ void guide_lessons_add(struct guide_lessons *l, const struct regions *regions, i
 /* The frozen tables. */
 struct guide {
     struct guide_columns columns;
-    struct alias_table *table; /* [n], over the columns; owned */
-    int n;                     /* regions */
+    double *before; /* [n * (columns.n + 1)], per region: probability of the columns before, and of all; owned */
+    int n;          /* regions */
 };
 
 /* guide_build: make the tables from the lessons, with `delta` in (0,1].

@@ -92,7 +92,7 @@ static void trace_visits(void *context, struct lessons *l, int thread, long i, s
         findings_add(out, f);
         f.kind = LIGHT_SEEN;
         for (int j = 0; l->wish->guide && j < LIGHTS_PER_VERTEX; j++) {
-            struct connection light = connect_direct(l->job->scene, &l->counts, z, &sampler);
+            struct connection light = connect_direct(l->job->scene, &l->counts, z, &sampler, j, LIGHTS_PER_VERTEX);
             f.cell = light.cell;
             f.x = rgb_luminance(light.value);
             findings_add(out, f);

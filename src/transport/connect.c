@@ -56,7 +56,7 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
     if (!z->prev_delta)
         before = mis_direct_count(counts, lights, prev->eye_region, prev->eye_end, z->cell, neg(z->wo));
     double eye_side = mis_side(counts, z->pdf_origin, z->pdf_fwd, before, pdf_emit, z->mis);
-    c.weight = mis_weight(counts, counts->hit, 0, eye_side);
+    c.weight = mis_weight(counts, counts->hit[prev->eye_end], 0, eye_side);
     return c;
 }
 
@@ -68,10 +68,10 @@ static int choose_light(const struct count_model *model, const struct light_set 
 }
 
 struct connection connect_direct(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
-                                 struct sampler *sampler)
+                                 struct sampler *sampler, int i, int n)
 {
     double u[3];
-    u[0] = sampler_number(sampler, DRAW_LIGHT);
+    u[0] = below_one((i + sampler_number(sampler, DRAW_LIGHT)) / n);
     sampler_pair(sampler, DRAW_LIGHT_POINT, &u[1]);
     const struct light_set *lights = &scene->lights;
     if (!vertex_connectible(z) || lights->choice.n == 0)
@@ -105,7 +105,8 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
 
     struct vertex y;
     vertex_light_end(scene, counts, &at, &y);
-    double light = mis_side(counts, at_z.pdf * at_light, y.pdf_fwd, y.mis_c, 0, 0);
+    double hit = light_is_delta(&lights->light[at.light]) ? 0 : counts->hit[z->eye_end];
+    double light = mis_side(counts, at_z.pdf * at_light, y.pdf_fwd, hit, 0, 0);
     double pdf_z = light_pdf_emission(lights, &at, neg(w)) * abs_dot(z->ng, w) * spread;
     double eye = mis_side(counts, pdf_z, z->pdf_fwd, z->mis_c, at_z.pdf_rev, z->mis);
     double count = mis_direct_count(counts, lights, z->eye_region, z->eye_end, cell, at.w);
@@ -184,9 +185,13 @@ struct connection connect_lens(const struct scene *scene, const struct mis_count
     c.value = rgb_mul(y->beta, rgb_scale(at_y.factor, density));
     if (rgb_is_black(c.value) || !scene_visible(scene, lens, 0, y->p, y->prim_id))
         return nothing();
-    /* The strategy one shorter on the light side has t = 2, which the light walk could not know. */
+    /* The strategy one shorter on the light side has t = 2, which the light walk could not know; of s = 2 nor could it
+     * the one before, s = 0. */
     double before = mis_count_before(counts, &scene->lights, &light[s - 2], y, FIRST_HIT);
-    double light_side = mis_side(counts, density * abs_dot(y->ng, w), y->pdf_fwd, before, at_y.pdf_rev, y->mis);
+    double mis = y->mis;
+    if (s == 2 && mis > 0)
+        mis *= mis_raise(counts, counts->hit[FIRST_HIT]) / mis_raise(counts, counts->hit[LATER_HIT]);
+    double light_side = mis_side(counts, density * abs_dot(y->ng, w), y->pdf_fwd, before, at_y.pdf_rev, mis);
     c.weight = mis_weight(counts, counts->splat, light_side, 0);
     c.end = lens;
     return c;

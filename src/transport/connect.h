@@ -32,9 +32,10 @@ struct connection {
 struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *prev,
                               const struct vertex *z, int t);
 
-/* connect_direct: z is an eye vertex, t >= 2; the light point is drawn from `sampler`. */
+/* connect_direct: z is an eye vertex, t >= 2; the light point is drawn from `sampler`, as the i-th of n that share the
+ * lights evenly. */
 struct connection connect_direct(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
-                                 struct sampler *sampler);
+                                 struct sampler *sampler, int i, int n);
 
 /* connect_pair: y is a light vertex (s >= 2), z an eye vertex (t >= 2). */
 struct connection connect_pair(const struct scene *scene, const struct mis_counts *counts, const struct vertex *y,

@@ -47,7 +47,8 @@
 
 struct light_set;
 
-/* Which eye vertex a strategy with t >= 2 ends at: what the camera sees, t = 2, or a later one. */
+/* Which eye vertex a strategy with t >= 2 ends at: what the camera sees, itself or by way of delta lobes alone, or a
+ * later one. */
 enum eye_end { FIRST_HIT, LATER_HIT, EYE_ENDS };
 
 /* What a method has learnt about places, as the weights need it: the n of an edge from its two ends. Surface points are
@@ -70,10 +71,12 @@ struct count_model {
  * so a strategy whose samples are better spread than independent ones, and whose variance is therefore smaller,
  * deserves such a credit [Grittmann 2019].
  *
- * A light side has no FIRST_HIT but at its last vertex, when the lens is next (connect_lens). */
+ * A light side has no FIRST_HIT but at its last vertex, when the lens is next (connect_lens): a delta lobe between the
+ * two leaves no other strategy that makes the path. */
 struct mis_counts {
-    double hit;                /* s = 0, t >= 3: the eye walk finds a light. (t = 2, a light seen directly: weight 1) */
-    double direct[EYE_ENDS];   /* s = 1: connection to fresh points on a light */
+    double hit[EYE_ENDS];      /* s = 0, t >= 3: the eye walk finds a light. (t = 2, a light seen directly: weight 1) */
+    double direct[EYE_ENDS];   /* s = 1: connection to fresh points on a light that s = 0 can find */
+    double delta[EYE_ENDS];    /* s = 1: connection to a light that it cannot, without extent or of one direction */
     double connect[EYE_ENDS];  /* s >= 2, t >= 2: connection to light vertices */
     double splat;              /* s >= 2, t = 1: light sub-paths connected to the lens: how many per iteration */
     const struct count_model *model; /* factors that vary over the scene; NULL: all counts are constants */

@@ -87,7 +87,8 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
     if (!meet(w, v, prev, from, at, mode))
         return false;
     const struct count_model *model = w->counts->model;
-    v->eye_end = prev->kind == VERTEX_LENS ? FIRST_HIT : LATER_HIT;
+    bool first = prev->kind == VERTEX_LENS || (prev->eye_end == FIRST_HIT && prev->kind == VERTEX_SURFACE && from->delta);
+    v->eye_end = mode == RADIANCE && first ? FIRST_HIT : LATER_HIT;
     v->eye_region = v->light_region = 0;
     if (model != NULL)
         model->locate(model->learnt, v->p, v->ng, &v->eye_region, &v->light_region);

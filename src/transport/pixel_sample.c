@@ -82,7 +82,7 @@ static void sum_direct(struct pixel_sample *sample, const struct vertex *z, int 
     int n = z->eye_end == FIRST_HIT ? sample->lights : 1;
     const struct choice each = {1, 1.0 / n};
     for (int i = 0; i < n; i++) {
-        struct connection c = connect_direct(sample->scene, sample->counts, z, &sample->sampler);
+        struct connection c = connect_direct(sample->scene, sample->counts, z, &sample->sampler, i, n);
         contribute(sample, &c, 1, t, NULL, each);
     }
 }
@@ -97,7 +97,7 @@ void pixel_sum_eye(struct pixel_sample *sample, const struct vertex *eye, int n)
 {
     for (int t = 2; t <= n; t++) {
         const struct vertex *z = &eye[t - 1];
-        if (t == 2 || sample->counts->hit > 0)
+        if (t == 2 || sample->counts->hit[LATER_HIT] > 0)
             sum_hit(sample, eye, t);
         if (sample->counts->direct[FIRST_HIT] > 0 && t <= sample->max_depth + 1 && z->kind == VERTEX_SURFACE)
             sum_direct(sample, z, t);
