@@ -10,10 +10,8 @@
 #include "base/parallel.h"
 #include "integrators/first_light.h"
 
-/* The kinds of samples whose number is free: a pixel's variance, given its eye sub-path, is theirs. HIT is the light
- * that the first bounce meets (s = 0, t = 3). An eye sub-path has one such sample, so its number is not free, but the
- * weights count it, too, for what it is worth. */
-enum kind { DRAW_FIRST, DRAW_LATER, LIGHT_FIRST, LIGHT_PATH, N_KINDS, HIT = N_KINDS };
+/* The kinds of samples whose number is free: a pixel's variance, given its eye sub-path, is theirs. */
+enum kind { DRAW_FIRST, DRAW_LATER, LIGHT_FIRST, LIGHT_PATH, N_KINDS };
 
 /* Samples per eye vertex (per pixel) of each kind while the pilot runs, and in its absence. The choice moves from the
  * latter by BOLDNESS of the way, on a logarithmic scale: more samples of a kind also take over weight from others, so
@@ -27,23 +25,24 @@ static const double SAMPLES_PER_PIXEL = 1.28;
 enum { MOST_TILES = 8 };
 
 /* Renders of a tile: the second shares nothing with the first, the third its eye sub-paths. */
-enum { RENDERS = 3 };
+enum { RENDERS = 3, AGAIN = RENDERS, TILES };
 
 /* No squared relative deviation counts for more: a picture's white is not far off. Light sub-paths have more leave:
  * what they splat is rare and strong (caustics), and their number is all that is decided by it. */
-static const double OUTLIER = 25, OUTLIER_PATHS = 400;
+static const double OUTLIER = 25, OUTLIER_PATHS = 400, OUTLIER_TAIL = 1e4;
 
 struct sums {
     double total, given_eye, given_paths;  /* variances relative to the squared brightness; the last: OUTLIER_PATHS */
-    /* of the samples that one eye vertex has of a kind (HIT: one pixel): variance of their sum, sum of their squares */
-    double spread[N_KINDS + 1], square[N_KINDS + 1];
+    double tail;                           /* what the second moment grows by without light sub-paths */
+    /* of the samples that one eye vertex has of a kind: variance of their sum, sum of their squares */
+    double spread[N_KINDS], square[N_KINDS];
 };
 
 struct pilot {
     struct render_job job;
-    const struct preparation *method;
+    const struct preparation *method, *again; /* again: counts of s <= 1 twice as large */
     struct workspace *work;       /* [n_threads] */
-    struct tile (*tile)[RENDERS]; /* [n_slots] */
+    struct tile (*tile)[TILES];   /* [n_slots] */
     struct sums *found;           /* [n_slots] */
     struct sums sums;
     bool stopped;
@@ -136,23 +135,20 @@ static void add_records(const struct tile *tile, const double *scale, struct sum
     }
 }
 
-/* A pixel's light that was met by the eye sub-path's first bounce, of two renders with sub-paths of their own: value is
- * room for 2 n numbers. */
-static void add_hits(const struct tile *a, const struct tile *b, const double *scale, double *value, size_t n,
+/* The second moment of the path tracer's estimate is larger than that of all strategies' by the sum of
+ *     X^2 (1 / P - 1),
+ * X being what a sample of any strategy brings and P the share that s <= 1 have in the weights of its path: so the path
+ * tracer's fireflies are foreseen by who makes those paths often. Weights with the counts of s <= 1 doubled tell P: they
+ * are larger by the factor 1 / (1 + P) for the other strategies, 2 / (1 + P) for these. */
+static void add_tail(const struct tile *tile, const struct tile *again, const double *scale, double mean_scale,
                      struct sums *out)
 {
-    memset(value, 0, 2 * n * sizeof *value);
-    for (int i = 0; i < 2; i++) {
-        const struct tile *tile = i == 0 ? a : b;
-        for (size_t k = 0; k < tile->n_records; k++) {
-            const struct strategy_record *r = &tile->record[k];
-            if (r->s == 0 && r->t == 3)
-                value[(size_t)i * n + (size_t)place_in_tile(tile, r)] += luminance_added(r);
-        }
-    }
-    for (size_t i = 0; i < n; i++) {
-        out->spread[HIT] += fmin(sqr(value[i] - value[n + i]) / 2 / scale[i], OUTLIER);
-        out->square[HIT] += fmin((sqr(value[i]) + sqr(value[n + i])) / 2 / scale[i], OUTLIER);
+    for (size_t i = 0; i < tile->n_records && i < again->n_records; i++) {
+        const struct strategy_record *r = &tile->record[i], *a = &again->record[i];
+        if (r->s + r->t < 4 || !(r->weight > 0) || !(a->weight > 0))
+            continue;
+        double ratio = (double)r->weight / (double)a->weight * (r->s <= 1 ? 2 : 1), P = clamp(ratio - 1, 1e-6, 1);
+        out->tail += fmin(sqr(luminance_added(r)) * (1 / P - 1) / (r->t == 1 ? mean_scale : scale[place_in_tile(tile, r)]), OUTLIER_TAIL);
     }
 }
 
@@ -179,17 +175,22 @@ static void render_tile(void *context, int64_t job, int slot, int thread)
     double *value = mem_alloc((RENDERS + 1) * n, sizeof *value), *scale = value + RENDERS * n;
     struct sums *found = &p->found[slot];
     memset(found, 0, sizeof *found);
-    for (int i = 0; i < RENDERS; i++) {
+    for (int i = 0; i < TILES; i++) {
         struct tile *tile = &p->tile[slot][i];
         struct render_job this = p->job;
-        this.seed = hash_combine(p->job.seed, (uint64_t)i);
+        this.seed = hash_combine(p->job.seed, (uint64_t)(i % AGAIN));
         this.eye_seed = hash_combine(p->job.seed, RENDERS + (i == 1));
         struct tile_pass pass = {&this, rect, (long)job, (long)job + 1, tile, &p->work[thread], NULL};
         tile_start(tile, rect, p->job.film_rect, &p->job.scene->filter, true);
-        p->method->method->render(p->method, &pass);
-        pixel_values(tile, value + (size_t)i * n);
+        p->method->method->render(i == AGAIN ? p->again : p->method, &pass);
+        if (i < RENDERS)
+            pixel_values(tile, value + (size_t)i * n);
     }
     brightness(rect, value, value + n, scale);
+    double mean_scale = 0;
+    for (size_t i = 0; i < n; i++)
+        mean_scale += scale[i] / (double)n;
+    add_tail(&p->tile[slot][0], &p->tile[slot][AGAIN], scale, mean_scale, found);
     for (int i = 0; i < RENDERS; i++)
         add_records(&p->tile[slot][i], scale, found);
     for (size_t i = 0; i < n; i++) {
@@ -198,7 +199,6 @@ static void render_tile(void *context, int64_t job, int slot, int thread)
         found->given_eye += fmin(given, OUTLIER);
         found->given_paths += fmin(given, OUTLIER_PATHS);
     }
-    add_hits(&p->tile[slot][0], &p->tile[slot][1], scale, value, n, found);
     free(value);
 }
 
@@ -208,11 +208,12 @@ static bool add_tile(void *context, int64_t job, int slot)
     const struct sums *s = &p->found[slot];
     double n = RENDERS * (double)(job + 1) * MAX_TILE_SIZE * MAX_TILE_SIZE;
     p->sums.total += s->total;
+    p->sums.tail += s->tail;
     p->sums.given_eye += s->given_eye;
     p->sums.given_paths += s->given_paths;
-    for (int k = 0; k <= HIT; k++) {
-        p->sums.spread[k] += s->spread[k] / (k == HIT ? 1 : RENDERS); /* a pair of renders is one value of HIT */
-        p->sums.square[k] += s->square[k] / (k == HIT ? 1 : RENDERS);
+    for (int k = 0; k < N_KINDS; k++) {
+        p->sums.spread[k] += s->spread[k] / RENDERS;
+        p->sums.square[k] += s->square[k] / RENDERS;
     }
     p->stopped = p->job.watch != NULL && !p->job.watch(p->job.watch_context, n);
     return !p->stopped;
@@ -260,7 +261,20 @@ static double credit_of(double square, double spread)
     return spread > 0 ? clamp(square / spread, 1, MOST_CREDIT) : 1;
 }
 
-static void choose_numbers(struct subspaces_state *state, const struct sums *s, const struct first_light *light)
+/* Light of a delta light that comes by way of a delta lobe is beyond s <= 1. */
+static bool path_tracing_finds_all(const struct scene *scene)
+{
+    bool delta_light = false, delta_lobe = false;
+    for (int i = 0; i < scene->lights.n; i++)
+        delta_light |= light_is_delta(&scene->lights.light[i]);
+    for (int i = 0; i < scene->n_materials; i++) {
+        enum material_kind kind = scene->material[i].kind;
+        delta_lobe |= kind == MATERIAL_MIRROR || kind == MATERIAL_GLASS || kind == MATERIAL_UBER;
+    }
+    return !(delta_light && delta_lobe);
+}
+
+static void choose_numbers(struct subspaces_state *state, const struct sums *s, const struct first_light *light, bool may)
 {
     const double LEAST = 0.2, LEAST_PATH = 0.02; /* shares of the variance that A and light sub-paths have at least */
     double fixed, cost[N_KINDS], b[N_KINDS], n[N_KINDS], credit[N_KINDS], rest = s->given_paths;
@@ -275,6 +289,15 @@ static void choose_numbers(struct subspaces_state *state, const struct sums *s, 
         credit[k] = credit_of(s->square[k], s->spread[k]);
     }
     set_numbers(state, n, credit, light);
+    double full = fixed, paths = fixed, eye_cost = 0.8;
+    double n_eye = state->learnt.importance.eye_vertices, n_first = state->learnt.importance.first_vertices;
+    full += cost[DRAW_FIRST] * state->draws[FIRST_HIT] + cost[DRAW_LATER] * state->draws[LATER_HIT] + cost[LIGHT_FIRST] * state->frozen.lights + cost[LIGHT_PATH] / state->frozen.path_pixels + eye_cost * (n_eye - n_first);
+    paths += cost[LIGHT_FIRST] * state->frozen.lights + eye_cost * (n_eye - n_first);
+    if (may && (s->total + s->tail) * paths < 0.9 * s->total * full * 1.2) {
+        state->frozen.path_pixels = 0;
+        state->frozen.counts.connect[0] = state->frozen.counts.connect[1] = 0;
+    }
+    if (getenv("DBG")) fprintf(stderr, "DBG total %.3g A %.3g tail %.3g full %.3g paths %.3g => %.3g ", s->total, A, s->tail, full, paths, (s->total + s->tail) * paths / (s->total * full * 1.2));
 }
 
 static void make_memory(struct pilot *p, int n_slots)
@@ -289,7 +312,7 @@ static void make_memory(struct pilot *p, int n_slots)
 static void free_memory(struct pilot *p, int n_slots)
 {
     for (int i = 0; i < n_slots; i++)
-        for (int k = 0; k < RENDERS; k++)
+        for (int k = 0; k < TILES; k++)
             tile_free(&p->tile[i][k]);
     for (int i = 0; i < p->job.n_threads; i++)
         method_scratch_free(p->method, p->work[i].scratch);
@@ -311,12 +334,12 @@ static void exchange(struct subspaces_state *s, bool store)
     for (int end = 0; end < EYE_ENDS; end++)
         s->draws[end] = clamp(s->draws[end], 0.125, 16);
     s->frozen.lights = int_within(lights, 1, 8); /* whatever a file says */
-    s->frozen.path_pixels = int_within(path_pixels, 1, MAX_TILE_SIZE * MAX_TILE_SIZE);
+    s->frozen.path_pixels = int_within(path_pixels, 0, MAX_TILE_SIZE * MAX_TILE_SIZE);
 }
 
 void pilot_recall(struct subspaces_state *s) { exchange(s, false); }
 
-void pilot_run(const struct render_job *job, struct preparation *method)
+void pilot_run(const struct render_job *job, bool free_choice, struct preparation *method)
 {
     const double credit[N_KINDS] = {USUAL_CREDIT, USUAL_CREDIT, USUAL_CREDIT, USUAL_CREDIT};
     struct subspaces_state *s = method->state;
@@ -331,11 +354,20 @@ void pilot_run(const struct render_job *job, struct preparation *method)
     s->frozen.counts.splat = pixel_light_count(job) / s->frozen.path_pixels;
     p.job.seed = hash_combine(job->seed, 0x3c6ef372fe94f82bu); /* unlike the render's */
     struct parallel_jobs jobs = {tiles, job->n_threads, n_slots, &p, render_tile, add_tile, NULL};
+    struct subspaces_state twice = *s;
+    struct preparation again = *method;
+    for (int end = 0; end < EYE_ENDS; end++) {
+        twice.frozen.counts.hit[end] *= 2;
+        twice.frozen.counts.direct[end] *= 2;
+        twice.frozen.counts.delta[end] *= 2;
+    }
+    again.state = &twice;
+    p.again = &again;
     make_memory(&p, n_slots);
     parallel_run(&jobs);
     free_memory(&p, n_slots);
     if (p.sums.total > 0 && !p.stopped)
-        choose_numbers(s, &p.sums, &light);
+        choose_numbers(s, &p.sums, &light, free_choice && path_tracing_finds_all(job->scene));
     else
         set_numbers(s, USUAL, credit, &light);
     struct mis_counts *c = &s->frozen.counts;

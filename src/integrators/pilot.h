@@ -27,7 +27,7 @@
 /* pilot_run: choose draws, lights, path_pixels and the counts that go with them.
  *   p  of method_subspaces; all but these complete. It renders a number of tiles that the picture's size alone decides,
  *      unless job->watch ends it; then usual numbers are taken */
-void pilot_run(const struct render_job *job, struct preparation *p);
+void pilot_run(const struct render_job *job, bool free_choice, struct preparation *p);
 
 /* pilot_recall: what it chose when s->learnt was learnt. */
 void pilot_recall(struct subspaces_state *s);

@@ -76,19 +76,24 @@ static void render_pixel(const struct preparation *m, const struct tile_pass *pa
     pixel_sum_eye(&p.sample, p.eye, p.n);
     if (method->connect != NULL)
         method->connect(pool, f, &p);
+    if (f->path_pixels > 0) {
     for (int t = 2; method->draw != NULL && t <= p.n && t <= f->max_depth; t++)
         if (vertex_connectible(&p.eye[t - 1]))
             method->draw(pool, f, &p, &p.eye[t - 1], t);
     if (number % f->path_pixels == 0)
         splat(pool, pass, &p.sample, f->path_pixels, number / f->path_pixels);
+    }
     tile_add_eye(pass->tile, x, y, p.sample.sum);
 }
 
 void pooled_render(const struct preparation *m, const struct tile_pass *pass)
 {
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
-        fill(pass->work->scratch, pass, m->state, iteration);
-        m->method->begin(pass->work->scratch, m->state, pass, iteration);
+        const struct frozen *f = m->state;
+        if (f->path_pixels > 0) {
+            fill(pass->work->scratch, pass, f, iteration);
+            m->method->begin(pass->work->scratch, m->state, pass, iteration);
+        }
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++)
             render_pixel(m, pass, x, y, i, iteration);
     }

@@ -191,18 +191,18 @@ static void prepare(const struct render_job *job, struct preparation *out)
                               .eye_cells = GUIDE_CELLS, .light_cells = LIGHT_CELLS, .levels = REGION_LEVELS,
                               .delta = s->delta};
     out->size.tile = MAX_TILE_SIZE; /* a larger pool */
-    bool known = s->learnt.eye.n > 0;
+    bool known = s->learnt.eye.n > 0, free_choice = path_pixels == 0 && s->connections == 0;
     learn(job, &wish, &s->learnt);
     f->counts.model = &s->learnt.model;
     if (known)
         pilot_recall(s);
     else
-        pilot_run(job, out);
+        pilot_run(job, free_choice, out);
     if (s->connections > 0)
         pilot_set_draws(s, s->connections);
     if (path_pixels > 0)
         f->path_pixels = path_pixels;
-    f->counts.splat = pixel_light_count(job) / f->path_pixels;
+    f->counts.splat = f->path_pixels > 0 ? pixel_light_count(job) / f->path_pixels : 0;
     tell(s, out);
 }
 
