@@ -17,11 +17,10 @@ enum {
     N_SUMS = RATIOS + 2,
     MOST_PIXELS = 1024
 };
-static const double SHARE = 1.28;
-static const double SLOPE = 1.5;         /* log 64 / log SEQUENCE */
-static double MOST_CREDIT = 64;
-static double RELUCTANCE = 1.15;   /* to move from 1, for each power of two */
-static const double OUTLIER = 25;        /* as in pilot.c */
+static const double SAMPLES_PER_PIXEL = 1.28;
+static const double SLOPE = 1.5;       /* log 64 / log SEQUENCE */
+static const double RELUCTANCE = 1.15; /* to move from equal counts, for each power of two */
+static const double MOST_CREDIT = 64, OUTLIER = 25;
 
 /* Of one pixel, its two sequences together. */
 struct pixel_sums {
@@ -35,6 +34,11 @@ struct first_light_job {
     struct tile *tile;        /* [n_threads] */
     struct pixel_sums *pixel; /* [n] */
     int64_t n;
+};
+
+/* A credit is found from moments that are means over pixels, relative to their brightness. */
+struct moments {
+    double square, single, sequence; /* second moment; variances of one sample, of the mean of SEQUENCE */
 };
 
 static double ratio(int i) { return ldexp(1, i - EVEN); }
@@ -59,27 +63,35 @@ static void add_sample(const struct tile *tile, double *x)
     }
 }
 
+/* One sample of a pixel by path tracing, from stream `seed`. */
+static void take_sample(const struct first_light_job *f, int x, int y, uint64_t seed, long iteration, int thread,
+                        double *value)
+{
+    struct render_job job = f->job;
+    struct tile *tile = &f->tile[thread];
+    struct pixel_rect rect = {x, y, x + 1, y + 1};
+    struct tile_pass pass = {&job, rect, iteration, iteration + 1, tile, &f->work[thread], NULL};
+    job.seed = job.eye_seed = seed;
+    tile_start(tile, rect, job.film_rect, &job.scene->filter, true);
+    arena_reset(&pass.work->arena);
+    struct pixel_sample sample = pixel_sample_begin(&pass, &f->counts, x, y, iteration);
+    int n = pixel_eye_path(&pass, &sample, iteration, pass.work->eye, job.max_depth + 2);
+    pixel_sum_eye(&sample, pass.work->eye, n);
+    add_sample(tile, value);
+}
+
 static void work(void *context, int64_t job, int slot, int thread)
 {
     struct first_light_job *f = context;
-    struct render_job this = f->job;
-    struct pixel_rect all = this.film_rect;
-    struct tile *tile = &f->tile[thread];
+    struct pixel_rect all = f->job.film_rect;
     struct pixel_sums *sums = &f->pixel[job];
     double u, v, value[N_SUMS];
     (void)slot;
     sampler_r2(job, &u, &v);
     int x = all.x0 + (int)(u * rect_width(all)), y = all.y0 + (int)(v * rect_height(all));
-    struct pixel_rect rect = {x, y, x + 1, y + 1};
     for (int k = 0; k < 2 * SEQUENCE; k++) {
-        this.seed = this.eye_seed = hash_combine(f->job.seed, (uint64_t)(2 * job + k / SEQUENCE));
-        struct tile_pass pass = {&this, rect, k % SEQUENCE, k % SEQUENCE + 1, tile, &f->work[thread], NULL};
-        tile_start(tile, rect, all, &this.scene->filter, true);
-        arena_reset(&pass.work->arena);
-        struct pixel_sample sample = pixel_sample_begin(&pass, &f->counts, x, y, pass.first);
-        int n = pixel_eye_path(&pass, &sample, pass.first, pass.work->eye, this.max_depth + 2);
-        pixel_sum_eye(&sample, pass.work->eye, n);
-        add_sample(tile, value);
+        uint64_t seed = hash_combine(f->job.seed, (uint64_t)(2 * job + k / SEQUENCE));
+        take_sample(f, x, y, seed, k % SEQUENCE, thread, value);
         for (int i = 0; i < N_SUMS; i++) {
             sums->mean[k / SEQUENCE][i] += value[i] / SEQUENCE;
             sums->square[i] += sqr(value[i]) / (2 * SEQUENCE);
@@ -93,11 +105,6 @@ static bool commit(void *context, int64_t job, int slot)
     (void)slot;
     return f->job.watch == NULL || f->job.watch(f->job.watch_context, 2.0 * SEQUENCE * (double)(job + 1));
 }
-
-/* Means over pixels, relative to their brightness. */
-struct moments {
-    double square, single, sequence; /* second moment; variances of one sample, of the mean of SEQUENCE */
-};
 
 static struct moments moments_of(const struct first_light_job *f, int i, double bright)
 {
@@ -117,7 +124,7 @@ static double credit_of(struct moments m)
 {
     if (!(m.square > 0))
         return 1;
-    if (!(SEQUENCE * m.sequence * MOST_CREDIT > m.square * 1e-3))
+    if (!(SEQUENCE * m.sequence * MOST_CREDIT > m.square))
         return MOST_CREDIT;
     double gain = fmax(m.single / (SEQUENCE * m.sequence), 1);
     return clamp(m.square / m.single * m_pow(gain, SLOPE), 1, MOST_CREDIT);
@@ -125,8 +132,6 @@ static double credit_of(struct moments m)
 
 static void choose(const struct first_light_job *f, struct first_light *out)
 {
-    if (getenv("RL")) RELUCTANCE = atof(getenv("RL"));
-    if (getenv("MC")) MOST_CREDIT = atof(getenv("MC"));
     double bright = 0, least = INFINITY;
     int best = EVEN;
     for (int64_t k = 0; k < f->n; k++)
@@ -147,7 +152,7 @@ void first_light_measure(const struct render_job *job, const struct count_model 
 {
     struct first_light_job f = {.job = *job, .counts = {.hit = {1, 1}, .direct = {1, 1}, .delta = {1, 1}, .model = model}};
     double pixels = (double)rect_width(job->film_rect) * rect_height(job->film_rect);
-    f.n = int_within(SHARE * pixels / (2 * SEQUENCE), 64, MOST_PIXELS);
+    f.n = int_within(SAMPLES_PER_PIXEL * pixels / (2 * SEQUENCE), 64, MOST_PIXELS);
     f.job.seed = hash_combine(job->seed, 0x9e3779b97f4a7c15u);
     f.work = workspaces_new(job->n_threads, job->max_depth);
     f.tile = mem_alloc((size_t)job->n_threads, sizeof *f.tile);

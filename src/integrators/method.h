@@ -24,7 +24,7 @@ struct frozen {
     struct mis_counts counts;
     int max_depth;
     int lights;      /* samples of s = 1 at the first hit; 1 */
-    int path_pixels; /* pooled methods: pixels for each light sub-path; 1 */
+    int path_pixels; /* pooled methods: pixels for each light sub-path, 0: there are none; 1 */
 };
 
 struct method;

@@ -61,12 +61,25 @@ static void splat(const struct light_pool *pool, const struct tile_pass *pass, s
     pixel_splat_path(sample, light_pool_path(pool, k), pool->length[k], pixels / ((double)pool->n * path_pixels));
 }
 
-static void render_pixel(const struct preparation *m, const struct tile_pass *pass, int x, int y, int number,
-                         long iteration)
+/* What the light sub-paths bring to a pixel, and to others by pixel `number`'s own. */
+static void use_pool(const struct preparation *m, const struct tile_pass *pass, struct pooled_pixel *p)
 {
     const struct method *method = m->method;
     const struct frozen *f = m->state;
     struct light_pool *pool = pass->work->scratch;
+    if (method->connect != NULL)
+        method->connect(pool, f, p);
+    for (int t = 2; method->draw != NULL && t <= p->n && t <= f->max_depth; t++)
+        if (vertex_connectible(&p->eye[t - 1]))
+            method->draw(pool, f, p, &p->eye[t - 1], t);
+    if (p->number % f->path_pixels == 0)
+        splat(pool, pass, &p->sample, f->path_pixels, p->number / f->path_pixels);
+}
+
+static void render_pixel(const struct preparation *m, const struct tile_pass *pass, int x, int y, int number,
+                         long iteration)
+{
+    const struct frozen *f = m->state;
     struct pooled_pixel p = {.eye = pass->work->eye, .number = number};
     arena_reset(&pass->work->arena);
     p.sample = pixel_sample_begin(pass, &f->counts, x, y, iteration);
@@ -74,25 +87,18 @@ static void render_pixel(const struct preparation *m, const struct tile_pass *pa
     p.n = pixel_eye_path(pass, &p.sample, iteration, pass->work->eye, f->max_depth + 2);
     p.draws = pixel_sampler(pass, RNG_SELECT, x, y, iteration);
     pixel_sum_eye(&p.sample, p.eye, p.n);
-    if (method->connect != NULL)
-        method->connect(pool, f, &p);
-    if (f->path_pixels > 0) {
-    for (int t = 2; method->draw != NULL && t <= p.n && t <= f->max_depth; t++)
-        if (vertex_connectible(&p.eye[t - 1]))
-            method->draw(pool, f, &p, &p.eye[t - 1], t);
-    if (number % f->path_pixels == 0)
-        splat(pool, pass, &p.sample, f->path_pixels, number / f->path_pixels);
-    }
+    if (f->path_pixels > 0)
+        use_pool(m, pass, &p);
     tile_add_eye(pass->tile, x, y, p.sample.sum);
 }
 
 void pooled_render(const struct preparation *m, const struct tile_pass *pass)
 {
+    const struct frozen *f = m->state;
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
-        const struct frozen *f = m->state;
         if (f->path_pixels > 0) {
             fill(pass->work->scratch, pass, f, iteration);
-            m->method->begin(pass->work->scratch, m->state, pass, iteration);
+            m->method->begin(pass->work->scratch, f, pass, iteration);
         }
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++)
             render_pixel(m, pass, x, y, i, iteration);

@@ -174,7 +174,11 @@ static void tell(const struct subspaces_state *s, struct preparation *out)
         {"light_points_first_hit", f->lights}, {"pixels_per_light_path", f->path_pixels},
         {"eye_regions", s->learnt.eye.n}, {"light_regions", s->learnt.light.n}};
     memcpy(out->number, numbers, sizeof numbers); /* fewer than there is room for: a NULL name stays behind them */
-    snprintf(out->note, sizeof out->note,
+    if (f->path_pixels == 0)
+        snprintf(out->note, sizeof out->note, "chosen: no light sub-paths; %d light point%s at the first hit",
+                 f->lights, f->lights == 1 ? "" : "s");
+    else
+        snprintf(out->note, sizeof out->note,
              "chosen per eye vertex: %.2f draws at the first hit, %.2f after; %d light point%s at the first hit; and "
              "%d pixel%s per light sub-path",
              s->draws[FIRST_HIT], s->draws[LATER_HIT], f->lights, f->lights == 1 ? "" : "s", f->path_pixels,
@@ -195,7 +199,7 @@ static void prepare(const struct render_job *job, struct preparation *out)
     learn(job, &wish, &s->learnt);
     f->counts.model = &s->learnt.model;
     if (known)
-        pilot_recall(s);
+        pilot_recall(job, s);
     else
         pilot_run(job, free_choice, out);
     if (s->connections > 0)
