@@ -12,6 +12,7 @@
 #include "base/mem.h"
 #include "base/os.h"
 #include "base/parallel.h"
+#include "base/warp.h"
 #include "lab/sides.h"
 #include "lab/stats.h"
 #include "parser/parser.h"
@@ -49,6 +50,14 @@ bool accepts(reader *read, const uint8_t *data, size_t n, struct error *err)
     bool ok = read_exactly(read, data, n, &img, err);
     image_free(&img);
     return ok;
+}
+
+bool near3(vec3 a, vec3 b, double tolerance) { return length(sub(a, b)) <= tolerance; }
+
+vec3 on_sphere(struct rng *r)
+{
+    double u1 = rng_uniform(r), u2 = rng_uniform(r);
+    return warp_sphere(u1, u2);
 }
 
 struct transform random_affine(struct rng *r)

@@ -30,6 +30,10 @@ bool scene_from_text(struct test *t, const char *text, struct scene *out);
 /* scene_from_file: the same for a file, at the given resolution (0: as it is) with a box filter. */
 bool scene_from_file(struct test *t, const char *path, int width, int height, struct scene *out);
 
+/* near3: are two points, or directions, no farther from each other? on_sphere: a direction, uniform. */
+bool near3(vec3 a, vec3 b, double tolerance);
+vec3 on_sphere(struct rng *r);
+
 /* random_affine: a transform of uneven scale and shear, half of them mirrors, with some translation; no direction
  * becomes more than some ten times as long as another. */
 struct transform random_affine(struct rng *r);
