@@ -60,6 +60,29 @@ vec3 on_sphere(struct rng *r)
     return warp_sphere(u1, u2);
 }
 
+void check_no_picture(struct test *t, reader *read, const uint8_t *data, size_t n, const char *message)
+{
+    struct error err = {""};
+    CHECK(t, !accepts(read, data, n, &err) && strstr(err.text, message) != NULL && strchr(err.text, '\n') == NULL,
+          "\"%s\" expected, got \"%s\"", message, err.text);
+}
+
+int check_spoilt(struct test *t, const char *what, reader *read, const uint8_t *data, size_t n)
+{
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 30, n);
+    int accepted = 0;
+    for (size_t cut = 0; cut < n; cut += cut < 300 || n - cut < 20 ? 1 : 1 + n / 40)
+        CHECK(t, !accepts(read, data, cut, NULL), "%s: the first %lu bytes are accepted", what, (unsigned long)cut);
+    uint8_t *copy = mem_alloc(n, 1);
+    for (size_t round = 0; round < 200; round++) {
+        memcpy(copy, data, n);
+        copy[round < n ? round : rng_below(&r, (uint32_t)n)] ^= (uint8_t)(1 + rng_below(&r, 255));
+        accepted += accepts(read, copy, n, NULL);
+    }
+    free(copy);
+    return accepted;
+}
+
 struct transform random_affine(struct rng *r)
 {
     struct transform out;

@@ -24,6 +24,12 @@ typedef bool reader(const uint8_t *data, size_t size, struct image *out, struct 
 bool read_exactly(reader *read, const uint8_t *data, size_t n, struct image *out, struct error *err);
 bool accepts(reader *read, const uint8_t *data, size_t n, struct error *err);
 
+/* check_no_picture: is the file refused in one line that holds this message?
+ * check_spoilt: every proper beginning of the file is refused, or some hundred of a longer one; changed bytes are
+ * survived. Returns how many changed files are accepted. */
+void check_no_picture(struct test *t, reader *read, const uint8_t *data, size_t n, const char *message);
+int check_spoilt(struct test *t, const char *what, reader *read, const uint8_t *data, size_t n);
+
 /* scene_from_text: parse and prepare a scene given as text. A failure is a failed check; returns false. */
 bool scene_from_text(struct test *t, const char *text, struct scene *out);
 

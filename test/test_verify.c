@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/rng.h"
-#include "image/colormap.h"
+#include "look/colormap.h"
 #include "image/picture.h"
 #include "lab/stats.h"
 #include "look/compare.h"

@@ -142,8 +142,7 @@ void parse_ignored(struct parser *p, const struct parameter *row, void *field)
 
 int parse_constant(struct parser *p, rgb value)
 {
-    uint32_t h = hash_bytes(&value, sizeof value);
-    int *slot = &p->constant[(h ^ h >> 16) % CONSTANTS];
+    int *slot = &p->constant[hash_content(&value, sizeof value) % CONSTANTS];
     const struct texture *known = *slot > 0 ? &p->scene->textures.texture[*slot - 1] : NULL;
     if (known == NULL || memcmp(&known->constant, &value, sizeof value) != 0)
         *slot = texture_add_constant(&p->scene->textures, value) + 1;

@@ -57,7 +57,7 @@ void suggest_offer(struct suggestion *s, const char *known)
 /* --- the table ---------------------------------------------------------------------------------------- */
 
 /* The chain a name is in. */
-static uint32_t chain(const char *name) { return hash_bytes(name, strlen(name)) % SYMBOL_CHAINS; }
+static uint64_t chain(const char *name) { return hash_content(name, strlen(name)) % SYMBOL_CHAINS; }
 
 void symbols_add(struct symbols *t, const char *name, int value)
 {
