@@ -8,6 +8,7 @@
 #include "integrators/method.h"
 #include "lab/sides.h"
 #include "lab/verify.h"
+#include "render/render.h"
 #include "scene/scene.h"
 #include "test.h"
 
@@ -44,8 +45,22 @@ vec3 on_sphere(struct rng *r);
  * becomes more than some ten times as long as another. */
 struct transform random_affine(struct rng *r);
 
-/* render_batches: render `n_batches` times with `spp` samples, times the effort, and seeds of their own, and average
- * over square tiles of `tile` pixels. Powers of two are best: low-discrepancy points lie evenly then. */
+/* set_method: choose by "asbdpt select=bins restart=16", say, whose parameters replace all settings of the scene.
+ * Returns the integrator's name, which the next call overwrites. */
+const char *set_method(struct scene *scene, const char *way);
+
+/* method_name: such words for a method with all its defaults, which the next call overwrites. */
+const char *method_name(const struct method *m);
+
+/* render_film: render into a fresh film of the scene's crop window, to be given to film_free. */
+void render_film(struct test *t, const struct scene *scene, const struct render_options *o, struct film *film);
+
+/* films_equal: the sums of all pixels of two films of one size, to the last bit. */
+bool films_equal(const struct film *a, const struct film *b);
+
+/* render_batches: render `n_batches` times with `spp` samples, times the effort, and average over square tiles of
+ * `tile` pixels. Powers of two are best: low-discrepancy points lie evenly then. Batches are parts of one long render,
+ * so far apart that their numbers have nothing in common (sampler.h), by what was learnt before it, once. */
 struct batches render_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth, int spp,
                               int n_batches, int tile, uint64_t seed);
 
@@ -60,6 +75,10 @@ void batches_scale(struct batches *b, double factor);
 
 /* batches_p: batches_smallest_p, and in *ratio the mean of a over the mean of b. */
 double batches_p(const struct batches *a, const struct batches *b, double *ratio);
+
+/* batches_paired_p: the same for batches that are not independent, as those of one seed, which share eye sub-paths and
+ * with them most of their noise: by Student's t over the differences, of every value and of the mean. */
+double batches_paired_p(const struct batches *a, const struct batches *b, double *ratio);
 
 /* remove_tree: a directory and all that is in it. False if something is left. */
 bool remove_tree(const char *path);
