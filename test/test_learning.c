@@ -15,7 +15,7 @@
 #include "tests.h"
 
 static const struct wish ALL = {.importance = true, .guide = true, .pairs = true, .eye_cells = 8, .light_cells = 16,
-                                .levels = REGION_LEVELS, .delta = 0.1};
+                                .levels = REGION_LEVELS, .delta = 0.1, .emission = 0.2};
 
 /* Who watches: how much was traced, and when to say stop. */
 struct watcher {
@@ -90,7 +90,11 @@ static void test_damage(struct test *t, const struct scene *scene, const struct 
             double pmf;
             vec3 p = vec(rng_uniform(&r), rng_uniform(&r), rng_uniform(&r));
             l.model.locate(&l, p, vec(0, 0, 1), &e, &y);
-            bool fine = (l.model.connect == NULL || l.model.connect(&l, y, e) >= 0) &&
+            double rho = 1, u[2] = {rng_uniform(&r), rng_uniform(&r)};
+            bool aims = l.model.choose_emission == NULL ||
+                        (l.model.choose_emission(&l, &scene->lights, rng_uniform(&r), u, &rho) <
+                             scene->lights.n_cells && rho > 0 && rho < 1e6);
+            bool fine = aims && (l.model.connect == NULL || l.model.connect(&l, y, e) >= 0) &&
                         (l.model.choose_light == NULL ||
                          l.model.choose_light(&l, &scene->lights, e, rng_uniform(&r), &pmf) < scene->lights.n_cells);
             CHECK(t, fine, "damage at byte %lu gives a table of no use", (unsigned long)at);

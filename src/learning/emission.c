@@ -126,7 +126,7 @@ static int fall(const double *part, double *u)
     int i = 0;
     while (i < SIDE - 1 && rest >= part[i])
         rest -= part[i++];
-    *u = (i + below_one(rest / part[i])) / SIDE;
+    *u = below_one((i + fmin(rest / part[i], 1)) / SIDE);
     return i;
 }
 
