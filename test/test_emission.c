@@ -76,7 +76,7 @@ static void test_numbers(struct test *t, const struct scene *s)
 
 /* --- what is drawn ----------------------------------------------------------------------------------- */
 
-/* Some bins are worth much more than others, some nothing. */
+/* Some bins and some lights are worth much more than others, some nothing. */
 static void random_table(const struct scene *s, struct rng *r, double delta, struct emission *out)
 {
     struct emission_lessons l;
@@ -86,7 +86,7 @@ static void random_table(const struct scene *s, struct rng *r, double delta, str
         int cell = (int)rng_below(r, (uint32_t)s->lights.n_cells), bin = (int)rng_below(r, EMISSION_BINS);
         const double u[2] = {(bin / EMISSION_SIDE + rng_uniform(r)) / EMISSION_SIDE,
                              (bin % EMISSION_SIDE + rng_uniform(r)) / EMISSION_SIDE};
-        emission_lessons_add(&l, cell, u, bin % 7 * (1 + cell % 3));
+        emission_lessons_add(&l, cell, u, bin % 7 * (1 + s->lights.light_of_cell[cell]));
     }
     emission_build(out, &l, &s->lights, RAYS, delta);
     emission_lessons_free(&l);
@@ -143,7 +143,7 @@ static void carry(const struct scene *s, const struct mis_counts *counts, uint64
         arena_reset(&arena);
         if (path_light(&w, path, 2) < 2)
             continue;
-        double x = rgb_luminance(path[1].beta);
+        double x = path[1].beta.r; /* lights are chosen by luminance: what red they bring differs */
         mean[part_of(&path[1])] += x / (double)n;
         variance[part_of(&path[1])] += x * x / (double)n;
     }

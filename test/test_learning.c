@@ -126,6 +126,25 @@ static void test_ends(struct test *t, const struct scene *scene, const struct by
     }
 }
 
+/* Tables of emission that somebody has made: a bin that is never drawn, and probabilities of more than 1 in all. */
+static void test_made_up(struct test *t, const struct scene *scene, struct learnt *l)
+{
+    static const double made_up[] = {0, 0.5, 1e300};
+    CHECK(t, l->aimed, "emission was not learnt");
+    for (int i = 0; i < 3; i++) {
+        struct bytes bytes = {NULL, 0, 0};
+        struct learnt again = {.guided = false};
+        struct error err;
+        double kept = l->emission.q[9];
+        l->emission.q[9] = made_up[i];
+        learnt_write(l, 5, &bytes);
+        CHECK(t, !learnt_read(&again, &scene->lights, 5, &bytes, "x", &err), "%g for a bin is taken", made_up[i]);
+        l->emission.q[9] = kept;
+        learnt_free(&again);
+        free(bytes.data);
+    }
+}
+
 static void test_bytes(struct test *t, const struct scene *scene, const struct learnt *l)
 {
     struct bytes one = {NULL, 0, 0}, two = {NULL, 0, 0};
@@ -168,6 +187,7 @@ static void test_budget(struct test *t)
           "what is learnt depends on the number of threads");
     CHECK(t, l[0]->guided && l[0]->paired, "nothing was learnt");
     test_bytes(t, &small, l[0]);
+    test_made_up(t, &small, l[0]);
     for (int i = 0; i < 4; i++)
         drop(l[i]);
     free(bytes[0].data);
