@@ -2,8 +2,7 @@
  *
  * Emission chooses a light cell c with probability e(c), by power, a point of it, and with two uniform numbers u the
  * ray: its direction, from lights at infinity its origin on a disk. Most of these rays go where no picture is. Learning
- * follows some and adds up what each was worth, I = sum over its vertices of luminance(beta) E (importance.h), by cell
- * and by bin b of EMISSION_SIDE x EMISSION_SIDE in the square of u. From then on
+ * follows some and adds up what each was worth, I = sum over its vertices of luminance(beta) E (importance.h; the first counts less, visits.c), by cell and by bin b of EMISSION_SIDE x EMISSION_SIDE in the square of u. From then on
  *     q(c,b) = delta e(c) / B + (1 - delta) t(c,b),   t ~ e(c) / B sqrt(mean of I^2),   B: bins of a cell,
  * chooses both, and u lies uniformly in its bin. The square root makes the variance of the sum of I least; a mean of
  * few leans on that of four times as many bins, at last of the cell and of the scene:

@@ -12,6 +12,7 @@ enum {
 static const double OUTSIDE = 0.01;     /* share of vertices beyond either side of the extent, along each axis */
 static const double GUIDE_DELTA = 0.2;  /* share of s = 1 samples that choose lights by power */
 static const double LEARN_DELTA = 0.5;  /* the same while learning */
+static const double FIRST_VERTEX = 0.2; /* what the first vertex of a light sub-path counts for in emission */
 
 /* --- extent ------------------------------------------------------------------------------------------ */
 
@@ -141,7 +142,8 @@ void visits_run(struct lessons *l, long n)
 
 /* --- light sub-paths --------------------------------------------------------------------------------- */
 
-/* What a light sub-path was worth is a lesson about how it began. */
+/* What a light sub-path is worth is a lesson about how it begins. Its first vertex counts little: what comes from there
+ * is what s = 1 finds as well. */
 static void trace_emission(void *context, struct lessons *l, int thread, long i, struct findings *out)
 {
     struct workspace *work = &l->work[thread];
@@ -154,7 +156,8 @@ static void trace_emission(void *context, struct lessons *l, int thread, long i,
     struct light_point at = vertex_light_point(&work->light[0]);
     struct finding f = {.kind = LIGHT_LEFT, .cell = at.cell};
     light_emission_numbers(&l->job->scene->lights, &at, work->light[1].p, neg(work->light[1].wo), f.u);
-    f.x = importance_of_path(&l->learnt->importance, work->light, n);
+    f.x = FIRST_VERTEX * importance_of_path(&l->learnt->importance, work->light, 2) +
+          importance_of_path(&l->learnt->importance, work->light + 1, n - 1);
     findings_add(out, f);
 }
 
