@@ -2,16 +2,17 @@
  *
  * Emission chooses a light cell c with probability e(c), by power, a point of it, and with two uniform numbers u the
  * ray: its direction, from lights at infinity its origin on a disk. Most of these rays go where no picture is. Learning
- * follows some and adds up what each was worth, I = sum over its vertices of luminance(beta) E (importance.h; the first counts less, visits.c), by cell and by bin b of EMISSION_SIDE x EMISSION_SIDE in the square of u. From then on
- *     q(c,b) = delta e(c) / B + (1 - delta) t(c,b),   t ~ e(c) / B sqrt(mean of I^2),   B: bins of a cell,
- * chooses both, and u lies uniformly in its bin. The square root makes the variance of the sum of I least; a mean of
- * few leans on that of four times as many bins, at last of the cell and of the scene:
+ * follows some and adds up what each was worth, I = sum over its vertices of luminance(beta) E (importance.h; the first
+ * counts less, visits.c), by cell and by bin b of SIDE x SIDE in the square of u. From then on
+ *     q(c,b) = delta e(c) / B + (1 - delta) t(c,b),   t ~ e(c) / B sqrt(mean of I^2),   B = SIDE SIDE,
+ * chooses both, and u lies uniformly in its bin. That root makes the variance of the sum of I least; the mean of few
+ * leans on that of four times as many bins, at last of the cell and of the scene:
  *     m = (sum of I^2 + K m_above) / (n + K).
- * The density of a ray is then rho = B q / e times that of light.h, where the point on the light is the same.
+ * The density of a ray is then rho = B q / e times that of light.h; where it begins is not looked at.
  *
  * The table is frozen before the render, so any is unbiased, and the weights know rho (transport/emit.h). More than
- * EMISSION_COLUMNS cells share columns. Drawn by inversion, cell, row and bin in turn, so strata remain strata.
- * [Grittmann 2018] guides emission by photons that reached the camera's region; the square root is [Rath 2020]'s.
+ * EMISSION_COLUMNS cells share columns. Drawn by inversion, cell, row and bin in turn, so that strata remain strata.
+ * [Grittmann 2018] has such tables for photons; that squares are to be learnt is from [Rath 2020].
  *
  * Tests: test_emission.c, test_mis.c, test_learning.c.
  */
