@@ -133,8 +133,8 @@ for command in info "render --res 16x16 --spp 1"; do
     check [ "$(grep -c warning: stderr.txt)" = 6 ]
     expect 1 'sppm.pbrt:1:19: "numiterations" is not used' "$program" $command sppm.pbrt --strict
     expect 2 '^asbdpt: -P: no integrator has a parameter "radiuss"' "$program" $command sppm.pbrt -P radiuss=3
-    expect 2 '^asbdpt: -P: maxdepth = 100000 is out of range' "$program" $command sppm.pbrt -P maxdepth=100000
-    expect 2 'delta = 7 is out of range' "$program" $command sppm.pbrt -P delta=7 --integrator asbdpt
+    expect 2 '^asbdpt: -P: maxdepth = "100000": give a whole number' "$program" $command sppm.pbrt -P maxdepth=100000
+    expect 2 'delta = "7": give a number from' "$program" $command sppm.pbrt -P delta=7 --integrator asbdpt
 done
 check [ -f x.png ]
 
@@ -233,12 +233,12 @@ check cmp -s piped.pfm target.pfm
 printf 'WorldBegin\nShpae "sphere"\nWorldEnd\n' >typo.pbrt
 expect 1 '^asbdpt: typo.pbrt:2:1: ' "$program" render typo.pbrt
 # Warnings are errors by --strict, and all errors come in one run.
-printf 'WorldBegin\nShape "sphere" "float radus" 2\nMaterial "mate"\nWorldEnd\n' >warned.pbrt
+printf 'WorldBegin\nShape "sphere" "float radus" 2\nNamedMaterial "mate"\nWorldEnd\n' >warned.pbrt
 for command in info "render $small -o x.pfm"; do
     expect 0 '' "$program" $command warned.pbrt
-    expect 1 '^asbdpt: warned.pbrt:2:16: parameter "radus" of Shape "sphere" is not used; did you mean "radius"' \
+    expect 1 '^asbdpt: warned.pbrt:2:16: parameter "float radus" of Shape "sphere" is not used; did you mean "radius"' \
         "$program" $command warned.pbrt --strict
-    check grep -q '^asbdpt: warned.pbrt:3:10: unknown Material "mate"' stderr.txt
+    check grep -q '^asbdpt: warned.pbrt:3:15: there is no named material "mate"' stderr.txt
     check grep -q 'refused for what is said above' stderr.txt
 done
 printf 'WorldBegin\nShpae "sphere"\nShape "curve"\nWorldEnd\n' >errors.pbrt

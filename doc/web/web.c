@@ -16,7 +16,7 @@
 #include "cli/dispatch.h"
 #include "cli/job_options.h"
 #include "image/picture.h"
-#include "image/sheet.h"
+#include "look/sheet.h"
 #include "lab/compare.h"
 #include "render/parameters.h"
 

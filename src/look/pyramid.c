@@ -9,7 +9,7 @@
 #include "base/mem.h"
 #include "base/number.h"
 #include "image/image.h"
-#include "image/sheet.h"
+#include "look/sheet.h"
 #include "look/compare.h"
 
 enum { GAP = 4, LEFT = 64, TOP = 40, SHEET_WIDTH = 1024, CELL_MIN = 48, CELL_MAX = 192 };

@@ -256,9 +256,9 @@ FILE *part_open(const char *path, struct part *out, struct error *err)
         error_set(err, "%s: cannot be opened: %s", path, strerror(errno));
         return NULL;
     }
-    uint64_t size;
     if (read_header(f, path, out, err)) {
-        if (!os_regular(f, &size) || size >= sums_of(out)) /* a byte each at least: before memory is taken for them */
+        struct os_identity is = os_identify_stream(f);
+        if (is.kind != OS_FILE || is.size >= sums_of(out)) /* a byte each at least: before memory is taken for them */
             return f;
         error_set(err, "%s: the part is damaged or cut off", path);
         part_free(out);

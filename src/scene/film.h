@@ -54,9 +54,8 @@ struct tile {
     struct pixel_rect film_rect; /* of the film: splats land anywhere in it */
     const struct filter *filter;
     struct exact_sum *sum; /* [pixels of rect * 3], sum over the iterations of the pass; owned */
-    double *eye;           /* [pixels of rect * 3], the same, rounded; owned */
     double *square;        /* [pixels of rect * 3], sum of squares of the per-iteration values; owned */
-    size_t capacity, eye_capacity, square_capacity;
+    size_t capacity, square_capacity;
     struct splat *splat; /* [n_splats], owned */
     size_t n_splats, splat_capacity;
     struct strategy_record *record; /* [n_records], owned */
