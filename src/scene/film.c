@@ -9,8 +9,6 @@
 #include "base/mem.h"
 #include "base/number.h"
 
-static size_t rect_pixels(struct pixel_rect r) { return (size_t)rect_width(r) * (size_t)rect_height(r); }
-
 /* What a float cannot hold is no part of a picture; squares of the rest stay far from overflow. */
 static bool fits(rgb c) { return fits_float(c.r) && fits_float(c.g) && fits_float(c.b); }
 

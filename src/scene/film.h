@@ -29,6 +29,7 @@ struct pixel_rect {
 
 static inline int rect_width(struct pixel_rect r) { return r.x1 - r.x0; }
 static inline int rect_height(struct pixel_rect r) { return r.y1 - r.y0; }
+static inline size_t rect_pixels(struct pixel_rect r) { return (size_t)rect_width(r) * (size_t)rect_height(r); }
 
 /* What a light sub-path sent to a raster point, all pixels having their part of it yet to come. */
 struct splat {
