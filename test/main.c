@@ -25,6 +25,7 @@ static const struct test_entry ENTRIES[] = {
     {"light", test_light, false},   {"camera", test_camera, false},
     {"film", test_film, false},       {"parser", test_parser, false}, {"sampler", test_sampler, false},
     {"mis", test_mis, false}, {"pairs", test_pairs, false}, {"pilot", test_pilot, false},
+    {"emission", test_emission, false},
     {"learning", test_learning, false},
     {"options", test_options, false}, {"render", test_render, false}, {"asbdpt", test_asbdpt, false},
     {"part", test_part, false}, {"trace", test_trace, false},

@@ -2,6 +2,7 @@
 #include "transport/connect.h"
 
 #include "transport/counts.h"
+#include "transport/emit.h"
 
 static struct connection nothing(void)
 {
@@ -34,11 +35,12 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
         z = z->lamp;
     if (z->kind == VERTEX_ESCAPED) {
         Le = light_Le_environment(lights, neg(z->wo));
-        pdf_emit = 1 / (PI * sqr(lights->radius));
+        struct light_point anywhere = {.light = -1, .w = neg(z->wo)};
+        pdf_emit = emit_pdf(counts, lights, &anywhere, prev->p, z->wo);
     } else if (z->kind == VERTEX_SURFACE && z->light >= 0) {
         struct light_point at = vertex_light_point(z);
         Le = light_Le(lights, &at, z->wo);
-        pdf_emit = light_pdf_emission(lights, &at, z->wo);
+        pdf_emit = emit_pdf(counts, lights, &at, z->p, z->wo);
     } else {
         return nothing();
     }
@@ -107,7 +109,7 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
     vertex_light_end(scene, counts, &at, &y);
     double hit = light_is_delta(&lights->light[at.light]) ? 0 : counts->hit[z->eye_end];
     double light = mis_side(counts, at_z.pdf * at_light, y.pdf_fwd, hit, 0, 0);
-    double pdf_z = light_pdf_emission(lights, &at, neg(w)) * abs_dot(z->ng, w) * spread;
+    double pdf_z = emit_pdf(counts, lights, &at, z->p, neg(w)) * abs_dot(z->ng, w) * spread;
     double eye = mis_side(counts, pdf_z, z->pdf_fwd, z->mis_c, at_z.pdf_rev, z->mis);
     double count = mis_direct_count(counts, lights, z->eye_region, z->eye_end, cell, at.w);
     c.weight = mis_weight(counts, count, light, eye);

@@ -46,6 +46,7 @@
 #include "base/vec.h"
 
 struct light_set;
+struct light_point;
 
 /* Which eye vertex a strategy with t >= 2 ends at: what the camera sees, itself or by way of delta lobes alone, or a
  * later one. */
@@ -64,6 +65,14 @@ struct count_model {
      * a direction met by an escaping ray; w: of lights at infinity). NULL: as emission chooses, hence 1. */
     int (*choose_light)(const void *learnt, const struct light_set *lights, int e, double u, double *pmf);
     double (*direct)(const void *learnt, const struct light_set *lights, int e, int cell, vec3 w);
+    /* How light sub-paths choose a light cell with the uniform number u, and what of the unit square light.h is then
+     * given for `direction`; rho is the density of that choice over the usual one's. And rho again, of the ray of
+     * direction w through p that leaves y0 (y0->light -1: some infinite light in direction y0->w). NULL: as light.h
+     * has it, hence 1. See emit.h. */
+    int (*choose_emission)(const void *learnt, const struct light_set *lights, double u, double direction[2],
+                           double *rho);
+    double (*emission)(const void *learnt, const struct light_set *lights, const struct light_point *y0, vec3 p,
+                       vec3 w);
 };
 
 /* How many samples each kind of strategy takes per pixel and iteration; 0: the method does not use it. A method may
