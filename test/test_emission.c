@@ -157,7 +157,7 @@ static void test_expectation(struct test *t, const struct scene *s)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 32, 0);
     struct learnt learnt = {.aimed = true};
-    struct mis_counts plain = {.hit = 1}, aimed = {.hit = {1, 1}, .delta = {1, 1}, .model = &learnt.model};
+    struct mis_counts plain = {.hit = {1, 1}}, aimed = {.hit = {1, 1}, .delta = {1, 1}, .model = &learnt.model};
     double mean[2][PARTS], variance[2][PARTS];
     long n = 200000L * test_effort(t);
     random_table(s, &r, 0.2, &learnt.emission);

@@ -84,8 +84,7 @@ bool method_prepare(const struct method *m, const struct render_job *job, struct
 {
     struct preparation standard = {.method = m, .state = mem_alloc(1, m->state_size),
                                    .size = {0, DEFAULT_TILE_SIZE}};
-    struct mis_counts bdpt = {.hit = {1, 1}, .direct = {1, 1}, .delta = {1, 1}, .connect = {1, 1}, .splat = pixel_light_count(job),
-                              .power = job->power_heuristic};
+    struct mis_counts bdpt = {{1, 1}, {1, 1}, {1, 1}, {1, 1}, pixel_light_count(job), .power = job->power_heuristic};
     struct frozen *f = standard.state;
     *out = standard;
     f->counts = bdpt;

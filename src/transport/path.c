@@ -88,7 +88,8 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
     if (!meet(w, v, prev, from, at, mode))
         return false;
     const struct count_model *model = w->counts->model;
-    bool first = prev->kind == VERTEX_LENS || (prev->eye_end == FIRST_HIT && prev->kind == VERTEX_SURFACE && from->delta);
+    bool first =
+        prev->kind == VERTEX_LENS || (prev->kind == VERTEX_SURFACE && prev->eye_end == FIRST_HIT && from->delta);
     v->eye_end = mode == RADIANCE && first ? FIRST_HIT : LATER_HIT;
     v->eye_region = v->light_region = 0;
     if (model != NULL)
