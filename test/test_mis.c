@@ -217,10 +217,10 @@ void test_mis(struct test *t)
 {
     const double bound = 1e-6;
     /* hit, direct, delta, connect, splat */
-    const struct mis_counts all = {{1, 1}, {1, 1}, {1, 1}, {1, 1}, 1024};
-    const struct mis_counts pt = {{1, 1}, {1, 1}, {1, 1}}, lt = {.splat = 1024};
+    const struct mis_counts all = {{1, 1}, {1, 1}, {1, 1}, {1, 1}, .splat = 1024};
+    const struct mis_counts pt = {{1, 1}, {1, 1}, .delta = {1, 1}}, lt = {.splat = 1024};
     const struct mis_counts power = {{1, 1}, {1, 1}, {1, 1}, {1, 1}, 1024, .power = true};
-    const struct mis_counts uneven = {{3, 1}, {6, 1.5}, {9, 2}, {8, 0.7}, 300};
+    const struct mis_counts uneven = {{3, 1}, {6, 1.5}, {9, 2}, {8, 0.7}, .splat = 300};
     const struct {
         const char *name;
         const struct mis_counts *counts;

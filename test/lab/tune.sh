@@ -1,9 +1,9 @@
 #!/bin/sh
 # tune.sh: how good is asbdpt with another constant, or without one of its parts?
 #   sh test/lab/tune.sh [DIR [NAME...]]      NAME: an entry of tune.txt; default: all; DIR: default build-tune
-# Every variant is built and renders the training scenes for the CPU time that bdpt takes for SPP samples, by SEEDS seeds;
-# its squared error, relative to bdpt's, stands in DIR/table.txt: geometric mean and worst of the scenes. What is there
-# already is not made again. The scenes and seeds on which a claim is made are others (doc/selection.md).
+# Every variant is built and renders the training scenes for the CPU time that bdpt takes for SPP samples, by SEEDS
+# seeds; its squared error, relative to bdpt's, stands in DIR/table.txt: geometric mean and worst of the scenes. What is
+# there already is not made again. The scenes and seeds on which a claim is made are others (doc/selection.md).
 list=test/lab/tune.txt
 dir=${1:-build-tune}
 [ $# -gt 0 ] && shift
@@ -34,7 +34,11 @@ row() {
     awk -F '|' -v name="$1" -v about="$about" '
         /geometric mean/ { mean = $5 }
         /WORST/ { worst = $5 }
-        END { gsub(/\*\*/, "", mean); gsub(/\*\*/, "", worst); printf "| %s |%s|%s| %s|\n", name, mean, worst, about }' \
+        END {
+            gsub(/\*\*/, "", mean)
+            gsub(/\*\*/, "", worst)
+            printf "| %s |%s|%s| %s|\n", name, mean, worst, about
+        }' \
         "$dir/$1/equal-time.md"
 }
 
