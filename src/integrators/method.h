@@ -1,7 +1,7 @@
 /* method.h: a method is one file and one row.
  *
  * A row says all that anybody needs to know of a method: what --help, -P, scene files, experiments, trace and tests ask
- * for stands here and nowhere else. The table of all rows is in methods.c.
+ * for stands here and nowhere else. The table of all rows is render/methods.h.
  *
  * A render asks a method to prepare its state once, parameters being read already, and then to render tile passes
  * (tile_pass.h) on as many threads as there are, each with scratch memory of its own. Methods whose pixels share the
@@ -69,16 +69,6 @@ struct method {
     void (*connect)(void *scratch, const void *state, struct pooled_pixel *p);
     void (*draw)(void *scratch, const void *state, struct pooled_pixel *p, const struct vertex *z, int t);
 };
-
-/* method_list: all rows, ended by NULL. Of rows that share a name the first is the default. */
-const struct method *const *method_list(void);
-
-/* method_exists: is there an integrator of that name ("path", pbrt's name of pt, among them)? */
-bool method_exists(const char *name);
-
-/* method_find: the row of an integrator; the setting `select` chooses among several. NULL with a message if there is
- * none. */
-const struct method *method_find(const char *name, const struct settings *s, struct error *err);
 
 /* method_has: the parameter of that name that a row has, or NULL; `select` is one, where rows share a name. */
 const struct method_parameter *method_has(const struct method *m, const char *name);
