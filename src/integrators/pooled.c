@@ -10,6 +10,11 @@ void light_pool_free(struct light_pool *pool)
     free(pool->vertex);
 }
 
+static const struct mis_counts *counts_of(const struct light_pool *pool, const struct frozen *f)
+{
+    return pool->counts != NULL ? pool->counts : &f->counts;
+}
+
 void light_pool_fill(struct light_pool *pool, const struct tile_pass *pass, const struct frozen *f, long iteration)
 {
     size_t longest = (size_t)f->max_depth + 1;
@@ -19,7 +24,7 @@ void light_pool_fill(struct light_pool *pool, const struct tile_pass *pass, cons
     for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i += f->path_pixels) {
         pool->vertex = mem_grow(pool->vertex, &pool->capacity, pool->used + longest, sizeof *pool->vertex);
         struct vertex *path = &pool->vertex[pool->used];
-        int length = pixel_light_path(pass, &f->counts, x, y, (uint64_t)iteration, &pool->arena, path);
+        int length = pixel_light_path(pass, counts_of(pool, f), x, y, (uint64_t)iteration, &pool->arena, path);
         pool->start[pool->n] = pool->used;
         pool->length[pool->n++] = length;
         pool->used += (size_t)length;
@@ -67,7 +72,7 @@ static struct pooled_pixel begin_pixel(const struct preparation *m, const struct
 {
     const struct frozen *f = m->state;
     struct pooled_pixel p = {.eye = pass->work->eye, .number = number};
-    p.sample = pixel_sample_begin(pass, &f->counts, x, y, iteration);
+    p.sample = pixel_sample_begin(pass, counts_of(pass->work->scratch, f), x, y, iteration);
     p.sample.lights = f->lights;
     p.n = pixel_eye_path(pass, &p.sample, iteration, pass->work->eye, f->max_depth + 2);
     p.draws = pixel_sampler(pass, RNG_SELECT, x, y, iteration);

@@ -4,12 +4,13 @@
 #include <string.h>
 
 extern const struct method method_pt, method_lt, method_bdpt, method_bins, method_pool, method_vertices,
-    method_subspaces, method_lvc, method_cbdpt, method_mbdpt, method_pcbdpt;
+    method_subspaces, method_lvc, method_cbdpt, method_mbdpt, method_pcbdpt, method_ris, method_ris2;
 
 static const struct method *const METHODS[] = {&method_pt,       &method_lt,   &method_bdpt,
                                                &method_subspaces, &method_bins, &method_pool,
                                                &method_vertices, &method_lvc,  &method_cbdpt,
-                                               &method_mbdpt,    &method_pcbdpt, NULL};
+                                               &method_mbdpt,    &method_pcbdpt, &method_ris,
+                                               &method_ris2,     NULL};
 
 const struct method *const *method_list(void) { return METHODS; }
 

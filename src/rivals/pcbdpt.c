@@ -44,7 +44,7 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *pixel, c
     struct pcbdpt *p = scratch;
     const struct pcbdpt_state *s = state;
     int C = s->connections, V = p->found.n, which;
-    struct mixture mixture = records_mixture(&p->records, pixel->sample.scene, z, s->normals, V);
+    struct mixture mixture = records_mixture(&p->records, pixel->sample.scene, z, s->normals, false, V);
     for (int c = 0; V > 0 && c < C; c++) {
         int v = mixture_draw(&mixture, (c + sampler_number(&pixel->draws, DRAW_LIGHT_END)) / C, &which);
         double P = mixture_pmf(&mixture, v);

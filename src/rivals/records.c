@@ -99,12 +99,12 @@ int records_near(const struct records *r, const struct scene *scene, const struc
 }
 
 struct mixture records_mixture(const struct records *r, const struct scene *scene, const struct vertex *z,
-                               double normals, int V)
+                               double normals, bool blind, int V)
 {
     struct mixture m = {.m = 0, .V = V};
     int near[RECORDS_NEAR], n = records_near(r, scene, z, normals, near);
     for (int i = 0; i < n; i++)
-        if (r->item[near[i]].sum > 0)
+        if (blind || r->item[near[i]].sum > 0)
             m.record[m.m++] = &r->item[near[i]];
     return m;
 }
@@ -124,7 +124,7 @@ double mixture_pmf(const struct mixture *m, int v)
 {
     double sum = 1.0 / m->V;
     for (int i = 0; i < m->m; i++)
-        sum += m->record[i]->h[v] / m->record[i]->sum;
+        sum += m->record[i]->sum > 0 ? m->record[i]->h[v] / m->record[i]->sum : 0;
     return sum / (m->m + 1);
 }
 

@@ -20,6 +20,7 @@ enum { RECORDS_NEAR = 3, RECORDS_DEPTH = 5, RECORDS_TILE = MAX_TILE_SIZE, RECORD
 struct record {
     struct vertex z;
     double sum;           /* of h over the light vertices */
+    double expected;      /* of that over one light sub-path; whoever asks for it sets it */
     const double *h;      /* [V] */
     const double *before; /* [V] sum of h before each */
 };
@@ -49,13 +50,14 @@ double records_least_distance2(const struct scene *scene);
  * are. Distances squared grow by `normals` times the scene's diagonal squared times 1 - cosine of the normals. */
 int records_near(const struct records *r, const struct scene *scene, const struct vertex *z, double normals, int *near);
 
-/* What an eye vertex draws from: m of its nearest records, all that meet any light, and the uniform choice. */
+/* What an eye vertex draws from: m of its nearest records, and the uniform choice. records_mixture: with those that met
+ * no light (blind) or without. */
 struct mixture {
     const struct record *record[RECORDS_NEAR];
     int m, V;
 };
 struct mixture records_mixture(const struct records *r, const struct scene *scene, const struct vertex *z,
-                               double normals, int V);
+                               double normals, bool blind, int V);
 
 /* mixture_draw: a light vertex with the number u in [0,1); *which: by which record, m for none.
  * mixture_pmf: the probability of that, all taken together. */

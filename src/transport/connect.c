@@ -57,6 +57,9 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
         before = mis_direct_count(counts, lights, prev->eye_region, prev->eye_end, z->cell, neg(z->wo));
     double eye_side = mis_side(counts, z->pdf_origin, z->pdf_fwd, before, pdf_emit, z->mis);
     c.weight = mis_weight(counts, counts->hit, 0, eye_side);
+    const struct path_end end = {z, prev, z->pdf_origin, pdf_emit};
+    if (counts->weigher != NULL)
+        c.weight = counts->weigher->weigh(counts->weigher->context, 0, NULL, &end);
     return c;
 }
 
@@ -110,6 +113,9 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
     double eye = mis_side(counts, pdf_z, z->pdf_fwd, z->mis_c, at_z.pdf_rev, z->mis);
     double count = mis_direct_count(counts, lights, z->eye_region, z->eye_end, cell, at.w);
     c.weight = mis_weight(counts, count, light, eye);
+    const struct path_end end_y = {&y, NULL, at_z.pdf * at_light, 0}, end_z = {z, z - 1, pdf_z, at_z.pdf_rev};
+    if (counts->weigher != NULL)
+        c.weight = counts->weigher->weigh(counts->weigher->context, 1, &end_y, &end_z);
     c.end = parallel ? at.w : at.p;
     c.light = at.light;
     c.cell = cell;
@@ -148,6 +154,10 @@ struct connection connect_joint(const struct scene *scene, const struct mis_coun
     double eye = mis_side(counts, j->pdf_y * j->area_z, z->pdf_fwd, z->mis_c, j->pdf_rev_z, z->mis);
     c.value = j->value;
     c.weight = mis_weight(counts, mis_connect_count(counts, y->light_region, z->eye_region, z->eye_end), light, eye);
+    const struct path_end end_y = {y, y - 1, j->pdf_z * j->area_y, j->pdf_rev_y};
+    const struct path_end end_z = {z, z - 1, j->pdf_y * j->area_z, j->pdf_rev_z};
+    if (counts->weigher != NULL)
+        c.weight = counts->weigher->weigh(counts->weigher->context, 2, &end_y, &end_z);
     return c;
 }
 
