@@ -23,7 +23,7 @@
 struct frozen {
     struct mis_counts counts;
     int max_depth;
-    int lights;      /* samples of s = 1 at the first hit; 1 */
+    int lights;      /* samples of s = 1 at the first hit, 0: left to the method; 1 */
     int path_pixels; /* pooled methods: pixels for each light sub-path; 1 */
 };
 

@@ -4,13 +4,14 @@
 #include <string.h>
 
 extern const struct method method_pt, method_lt, method_bdpt, method_bins, method_pool, method_vertices,
-    method_subspaces, method_lvc, method_cbdpt, method_mbdpt, method_pcbdpt, method_ris, method_ris2;
+    method_subspaces, method_lvc, method_cbdpt, method_mbdpt, method_pcbdpt, method_ris, method_ris2,
+    method_restir;
 
 static const struct method *const METHODS[] = {&method_pt,       &method_lt,   &method_bdpt,
                                                &method_subspaces, &method_bins, &method_pool,
                                                &method_vertices, &method_lvc,  &method_cbdpt,
                                                &method_mbdpt,    &method_pcbdpt, &method_ris,
-                                               &method_ris2,     NULL};
+                                               &method_ris2,     &method_restir, NULL};
 
 const struct method *const *method_list(void) { return METHODS; }
 
