@@ -69,7 +69,8 @@ struct method {
      * that can be connected to, those of z = z_{t-1}, */
     void (*connect)(void *scratch, const void *state, struct pooled_pixel *p);
     void (*draw)(void *scratch, const void *state, struct pooled_pixel *p, const struct vertex *z, int t);
-    /* or, when all eye sub-paths of the tile have been traced, of all n pixels. Two of the three are NULL. */
+    /* or, when all eye sub-paths of the tile have been traced, all strategies t >= 2 of all n pixels. Two of the three
+     * are NULL. */
     void (*connect_all)(void *scratch, const void *state, const struct tile_pass *pass, struct pooled_pixel *pixel,
                         int n);
 };

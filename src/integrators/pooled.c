@@ -66,7 +66,7 @@ static void splat(const struct light_pool *pool, const struct tile_pass *pass, s
     pixel_splat_path(sample, light_pool_path(pool, k), pool->length[k], pixels / ((double)pool->n * path_pixels));
 }
 
-/* Trace the eye sub-path and take s = 0 and s = 1. */
+/* Trace the eye sub-path. */
 static struct pooled_pixel begin_pixel(const struct preparation *m, const struct tile_pass *pass, int x, int y,
                                        int number, long iteration)
 {
@@ -76,7 +76,6 @@ static struct pooled_pixel begin_pixel(const struct preparation *m, const struct
     p.sample.lights = f->lights;
     p.n = pixel_eye_path(pass, &p.sample, iteration, pass->work->eye, f->max_depth + 2);
     p.draws = pixel_sampler(pass, RNG_SELECT, x, y, iteration);
-    pixel_sum_eye(&p.sample, p.eye, p.n);
     return p;
 }
 
@@ -96,6 +95,7 @@ static void render_pixel(const struct preparation *m, const struct tile_pass *pa
     void *scratch = pass->work->scratch;
     arena_reset(&pass->work->arena);
     struct pooled_pixel p = begin_pixel(m, pass, x, y, number, iteration);
+    pixel_sum_eye(&p.sample, p.eye, p.n);
     if (method->connect != NULL)
         method->connect(scratch, f, &p);
     for (int t = 2; method->draw != NULL && t <= p.n && t <= f->max_depth; t++)

@@ -104,6 +104,8 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
     struct ranked *row = arena_alloc(arena, (size_t)n * sizeof *row);
     struct ranked **column = arena_alloc(arena, (size_t)(depth + 1) * sizeof *column);
     double *shift = arena_alloc(arena, (size_t)(depth + 1) * sizeof *shift);
+    for (int i = 0; i < n; i++)
+        pixel_sum_eye(&pixel[i].sample, pixel[i].eye, pixel[i].n);
     for (int s = 2; s <= depth; s++)
         column[s] = rank_light_paths(pool, pass->job->scene, s, arena);
     for (int t = 2; t <= depth; t++) {

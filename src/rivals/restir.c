@@ -45,7 +45,8 @@ static struct reservoir resample(struct pooled_pixel *p, int M)
 {
     struct reservoir r = {.weight = 0, .first = p->n >= 2 && vertex_connectible(&p->eye[1])};
     double sum = 0, own = 0;
-    for (int m = 0; r.first && m < M; m++) {
+    bool surface = p->n >= 2 && p->eye[1].kind == VERTEX_SURFACE;
+    for (int m = 0; surface && m < M; m++) {
         struct lit y;
         bool lit = connect_light_point(p->sample.scene, p->sample.counts, &p->eye[1], &p->sample.sampler, &y);
         double f = lit ? rgb_luminance(y.value) : 0;
@@ -101,8 +102,10 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
     const struct light_pool *pool = scratch;
     const struct restir_state *s = state;
     struct reservoir *all = arena_alloc(&pass->work->arena, (size_t)n * sizeof *all);
-    for (int i = 0; i < n; i++)
+    for (int i = 0; i < n; i++) {
         all[i] = resample(&pixel[i], s->candidates);
+        pixel_sum_eye(&pixel[i].sample, pixel[i].eye, pixel[i].n);
+    }
     for (int i = 0; i < n; i++) {
         int near[MOST_NEIGHBOURS + 1] = {i}, found = 1;
         for (int k = 0; all[i].first && k < s->neighbours; k++) {
