@@ -172,3 +172,21 @@ bool remove_tree(const char *path)
         closedir(d);
     return rmdir(path) == 0 && ok;
 }
+
+const char *set_method(struct scene *scene, const char *method)
+{
+    static char text[256];
+    snprintf(text, sizeof text, "%s", method);
+    settings_clear(&scene->settings);
+    char *rest = text + strcspn(text, " ");
+    while (*rest != '\0') {
+        *rest++ = '\0';
+        char *name = rest, *equals = strchr(rest, '=');
+        rest += strcspn(rest, " ");
+        bool last = *rest == '\0';
+        *rest = *equals = '\0';
+        settings_set(&scene->settings, name, equals + 1, "test");
+        *rest = last ? '\0' : ' ';
+    }
+    return text;
+}

@@ -34,6 +34,10 @@ bool scene_from_file(struct test *t, const char *path, int width, int height, st
  * becomes more than some ten times as long as another. */
 struct transform random_affine(struct rng *r);
 
+/* set_method: a method, as "bdpt" or "asbdpt select=bins restart=16": the parameters replace all settings of the scene.
+ * Returns the integrator's name, until the next call. */
+const char *set_method(struct scene *scene, const char *method);
+
 /* render_batches: render `n_batches` times with `spp` samples, times the effort, and seeds of their own, and average
  * over square tiles of `tile` pixels. Powers of two are best: low-discrepancy points lie evenly then. */
 struct batches render_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth, int spp,

@@ -11,30 +11,10 @@
 #include "helpers.h"
 #include "tests.h"
 
-/* A method, as "bdpt" or "asbdpt select=bins restart=16": the parameters replace all settings of the scene. Returns the
- * integrator's name. */
-static const char *set(struct scene *scene, const char *method)
-{
-    static char text[256];
-    snprintf(text, sizeof text, "%s", method);
-    settings_clear(&scene->settings);
-    char *rest = text + strcspn(text, " ");
-    while (*rest != '\0') {
-        *rest++ = '\0';
-        char *name = rest, *equals = strchr(rest, '=');
-        rest += strcspn(rest, " ");
-        bool last = *rest == '\0';
-        *rest = *equals = '\0';
-        settings_set(&scene->settings, name, equals + 1, "test");
-        *rest = last ? '\0' : ' ';
-    }
-    return text;
-}
-
 static struct batches batches_of(struct test *t, struct scene *scene, const char *method, int spp, int n,
                                  uint64_t seed)
 {
-    const char *integrator = set(scene, method);
+    const char *integrator = set_method(scene, method);
     return render_batches(t, scene, integrator, 4, spp, n, 16, seed);
 }
 
@@ -60,12 +40,12 @@ static void test_bias(struct test *t)
     struct scene scene;
     struct batches reference;
     int width, height;
-    enum { DEPTH = 6 }; /* the reference's; set() has cleared the scene's own */
+    enum { DEPTH = 6 }; /* the reference's; set_method() has cleared the scene's own */
     if (!load_reference(t, "cornell-box", 16, &width, &height, &reference) ||
         !scene_from_file(t, "scenes/cornell-box.pbrt", width, height, &scene))
         return;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        const char *integrator = set(&scene, cases[i].parameters);
+        const char *integrator = set_method(&scene, cases[i].parameters);
         struct batches x = render_batches(t, &scene, integrator, DEPTH, 8, 16, 16, 53);
         double ratio, p = batches_p(&x, &reference, &ratio);
         if (cases[i].unbiased)
@@ -100,7 +80,7 @@ static void test_constant_pool(struct test *t)
     struct scene scene;
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 16, 16, &scene))
         return;
-    set(&scene, "asbdpt select=pool metric=constant");
+    set_method(&scene, "asbdpt select=pool metric=constant");
     struct batches x = render_batches(t, &scene, "asbdpt", 4, 1, 400, 1, 61);
     struct batches y = render_batches(t, &scene, "bdpt", 4, 1, 400, 1, 62);
     square_deviations(&x);
@@ -161,9 +141,9 @@ static void test_one_path(struct test *t)
     if (!scene_from_file(t, "scenes/test/light-kinds.pbrt", WIDTH, HEIGHT, &scene))
         return;
     render_image(t, &scene, "bdpt", 20, bdpt);
-    render_image(t, &scene, set(&scene, "cbdpt connections=1"), 20, image);
+    render_image(t, &scene, set_method(&scene, "cbdpt connections=1"), 20, image);
     CHECK(t, memcmp(bdpt, image, sizeof bdpt) == 0, "cbdpt with M = 1 is not bdpt");
-    render_image(t, &scene, set(&scene, "cbdpt connections=2"), 20, image);
+    render_image(t, &scene, set_method(&scene, "cbdpt connections=2"), 20, image);
     CHECK(t, memcmp(bdpt, image, sizeof bdpt) != 0, "cbdpt with M = 2 is bdpt");
     scene_free(&scene);
 }
@@ -196,7 +176,7 @@ static void test_expected_vertices(struct test *t)
         struct error err;
         if (!scene_from_text(t, cases[i].text, &scene))
             return;
-        set(&scene, "lvc connections=3");
+        set_method(&scene, "lvc connections=3");
         struct render_options o = {.integrator = "lvc", .max_depth = cases[i].depth, .n_threads = 2};
         struct render_job job;
         struct preparation prepared;
@@ -229,7 +209,7 @@ static void test_every_scene(struct test *t)
             continue;
         struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 8, 12, 12, 71);
         for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++) {
-            const char *integrator = set(&scene, ways[k]);
+            const char *integrator = set_method(&scene, ways[k]);
             struct batches x = render_batches(t, &scene, integrator, 4, 8, 10, 12, 72);
             double ratio, p = batches_p(&x, &bdpt, &ratio);
             TEST_ACCEPT(t, p, "%s, %s against bdpt: ratio %.4f", scenes[i], ways[k], ratio);

@@ -187,6 +187,11 @@ void test_threads(struct test *t)
     test_way(t, &scene, "bdpt", "bdpt");
     test_way(t, &scene, "lvc", "lvc");
     test_way(t, &scene, "cbdpt", "cbdpt");
+    test_way(t, &scene, "mbdpt", "mbdpt");
+    test_way(t, &scene, "pcbdpt", "pcbdpt");
+    test_way(t, &scene, "ris", "ris");
+    test_way(t, &scene, "ris2", "ris2");
+    test_way(t, &scene, "restir", "restir");
     for (int i = 0; i < (int)(sizeof selections / sizeof selections[0]); i++) {
         settings_set(&scene.settings, "select", selections[i], "test");
         test_way(t, &scene, "asbdpt", selections[i]);

@@ -12,7 +12,8 @@ static const struct {
     const char *name, *integrator, *select;
 } WAYS[] = {{"pt", "pt", ""}, {"lt", "lt", ""}, {"bdpt", "bdpt", ""}, {"bins", "asbdpt", "bins"},
             {"pool", "asbdpt", "pool"}, {"vertices", "asbdpt", "vertices"}, {"subspaces", "asbdpt", "subspaces"},
-            {"lvc", "lvc", ""}, {"cbdpt", "cbdpt", ""}};
+            {"lvc", "lvc", ""}, {"cbdpt", "cbdpt", ""}, {"mbdpt", "mbdpt", ""}, {"pcbdpt", "pcbdpt", ""},
+            {"ris", "ris", ""}, {"ris2", "ris2", ""}, {"restir", "restir", ""}};
 enum { N_WAYS = sizeof WAYS / sizeof WAYS[0] };
 
 static struct render_options options_of(int way)
@@ -56,11 +57,13 @@ static void check_parts(struct test *t, int way, const struct trace *trace)
 }
 
 /* Where weights make up for the choice, what is told of it is what they divide by: for all draws of first hits, and all
- * of later ones, probability times scale is the same. */
+ * of later ones, probability times scale is the same. (ris2 draws from what was drawn before, with a factor for it.) */
 static void check_choices(struct test *t, int way, const struct trace *trace)
 {
     double same[2] = {0, 0};
-    for (int i = 0; i < trace->n_connections && strcmp(WAYS[way].name, "bins") != 0; i++) {
+    if (strcmp(WAYS[way].name, "bins") == 0 || strcmp(WAYS[way].name, "ris2") == 0)
+        return;
+    for (int i = 0; i < trace->n_connections; i++) {
         const struct trace_connection *k = &trace->connection[i];
         double *first = &same[k->t > 2], product = k->pmf * k->scale;
         if (k->s < 2 || k->t < 2)

@@ -82,8 +82,8 @@ static const struct method_parameter PARAMETERS[] = {
 
 const struct method method_pcbdpt = {
     .name = "pcbdpt", .help = "probabilistic connections [Popov 2015]: light vertices drawn by records nearby",
-    .why = "C draws for each eye vertex from the tile's light vertices, P the mean of the PMFs of the records nearby and "
-           "of the uniform choice; scale 1 / (C K P)",
+    .why = "C draws for each eye vertex from the tile's light vertices, P the mean of the PMFs of the records nearby "
+           "and of the uniform choice; scale 1 / (C K P)",
     .parameters = PARAMETERS, .state_size = sizeof(struct pcbdpt_state), .scratch_size = sizeof(struct pcbdpt),
     .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render, .scratch_free = free_scratch,
     .begin = begin, .draw = draw};

@@ -99,8 +99,8 @@ void pixel_sum_eye(struct pixel_sample *sample, const struct vertex *eye, int n)
         const struct vertex *z = &eye[t - 1];
         if (t == 2 || sample->counts->hit > 0)
             sum_hit(sample, eye, t);
-        if (sample->counts->direct[FIRST_HIT] > 0 && t <= sample->max_depth + 1 && z->kind == VERTEX_SURFACE &&
-            (t > 2 || sample->lights > 0))
+        bool wanted = sample->counts->direct[FIRST_HIT] > 0 && (t > 2 || sample->lights > 0);
+        if (wanted && t <= sample->max_depth + 1 && z->kind == VERTEX_SURFACE)
             sum_direct(sample, z, t);
     }
 }

@@ -1,0 +1,140 @@
+/* test_rivals.c: other ways of choosing what to connect (src/rivals): each has the expectation of path tracing, in
+ * pools of one, two and four light sub-paths, too, where a fault of 1/K is as large as what is measured; and each is
+ * another method where the two are one. test_asbdpt.c has lvc and cbdpt. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "render/render.h"
+#include "helpers.h"
+#include "tests.h"
+
+/* --- expectation ------------------------------------------------------------------------------------- */
+
+/* One tile of 3x3 pixels, with one, two and four or five light sub-paths; a third of the pixels have records. */
+static void test_small_pools(struct test *t)
+{
+    static const char *const cases[] = {"mbdpt pathpixels=9", "mbdpt pathpixels=5", "mbdpt pathpixels=2",
+                                        "pcbdpt records=.3 pathpixels=9", "pcbdpt records=.3 pathpixels=5",
+                                        "pcbdpt records=.3 pathpixels=2 connections=2",
+                                        "ris records=.3 pathpixels=9", "ris records=.3 pathpixels=5",
+                                        "ris records=.3 pathpixels=2", "ris2 records=.3 presampled=1 pathpixels=5",
+                                        "ris2 records=.3 presampled=3 pathpixels=2",
+                                        "restir candidates=1 neighbours=2", "restir candidates=2 neighbours=1",
+                                        "restir candidates=4 neighbours=8"};
+    struct scene scene;
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 3, 3, &scene))
+        return;
+    struct batches pt = render_batches(t, &scene, "pt", 4, 1024, 32, 3, 163);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const char *integrator = set_method(&scene, cases[i]);
+        struct batches x = render_batches(t, &scene, integrator, 4, 256, 32, 3, 164);
+        double ratio, p = batches_p(&x, &pt, &ratio);
+        TEST_ACCEPT(t, p, "Cornell box in 9 pixels, %s against pt: ratio %.4f", cases[i], ratio);
+        batches_free(&x);
+    }
+    batches_free(&pt);
+    scene_free(&scene);
+}
+
+static void test_every_scene(struct test *t)
+{
+    static const char *const scenes[] = {"light-kinds", "mirror-glass", "all-materials", "negative-scale"};
+    static const char *const ways[] = {"mbdpt", "pcbdpt connections=2", "ris", "ris pathpixels=256 records=.01",
+                                       "ris2 presampled=20 records=.01", "restir neighbours=20"};
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        char path[256];
+        struct scene scene;
+        snprintf(path, sizeof path, "scenes/test/%s.pbrt", scenes[i]);
+        if (!scene_from_file(t, path, 24, 24, &scene))
+            continue;
+        struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 8, 12, 12, 171);
+        for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++) {
+            const char *integrator = set_method(&scene, ways[k]);
+            struct batches x = render_batches(t, &scene, integrator, 4, 4, 10, 12, 172);
+            double ratio, p = batches_p(&x, &bdpt, &ratio);
+            TEST_ACCEPT(t, p, "%s, %s against bdpt: ratio %.4f", scenes[i], ways[k], ratio);
+            batches_free(&x);
+        }
+        batches_free(&bdpt);
+        scene_free(&scene);
+    }
+}
+
+/* --- limits ------------------------------------------------------------------------------------------ */
+
+enum { SIDE = 16 };
+
+static void render_image(struct test *t, struct scene *scene, const char *method, int depth, float *image)
+{
+    struct film film;
+    struct error err;
+    struct render_options o = {.integrator = set_method(scene, method), .end = 4, .n_threads = 2, .max_depth = depth};
+    film_init(&film, render_crop(scene), scene->width, scene->height);
+    CHECK(t, render_scene(scene, &o, &film, &err), "%s: %s", method, err.text);
+    film_develop(&film, 1, image);
+    film_free(&film);
+}
+
+/* Largest difference of two methods, relative. */
+static double differ(struct test *t, struct scene *scene, const char *a, const char *b, int depth)
+{
+    static float x[SIDE * SIDE * 3], y[SIDE * SIDE * 3];
+    double worst = 0;
+    render_image(t, scene, a, depth, x);
+    render_image(t, scene, b, depth, y);
+    for (int i = 0; i < scene->width * scene->height * 3; i++)
+        worst = fmax(worst, fabs((double)x[i] - (double)y[i]) / (fabs((double)x[i]) + 1e-6));
+    return worst;
+}
+
+/* Where one method is another: with the same random numbers they make the same picture, up to `bound`: where the same
+ * sums are added in another order that is not to the byte. Beside each stands one that is near, and is not. */
+static void test_limits(struct test *t)
+{
+    static const struct {
+        const char *scene;
+        int side, depth;
+        const char *a, *b, *other;
+        double bound;
+    } cases[] = {
+        {"light-kinds", 1, 4, "mbdpt", "bdpt", "cbdpt connections=2", 0},
+        {"mirror-glass", SIDE, 4, "restir candidates=1 neighbours=0", "bdpt", "restir candidates=1 neighbours=9", 1e-6},
+        {"light-kinds", SIDE, 4, "restir candidates=1 neighbours=0", "bdpt", "restir candidates=2 neighbours=0", 1e-6},
+        /* without records the choice is uniform; where light sub-paths have two vertices, two draws count like one */
+        {"white", SIDE, 2, "pcbdpt records=0 connections=2 pathpixels=4", "lvc connections=2 pathpixels=4",
+         "pcbdpt records=.1 connections=2 pathpixels=4", 0},
+        {"all-materials", SIDE, 4, "ris weights=counts records=.02", "pcbdpt normals=0 records=.02",
+         "pcbdpt records=.02", 0},
+        /* of one light sub-path every draw counts like one: the arrays of the path give what the recursion does */
+        {"light-kinds", SIDE, 4, "ris records=0 pathpixels=256", "pcbdpt records=0 pathpixels=256",
+         "ris records=0 pathpixels=128", 1e-5},
+        {"mirror-glass", SIDE, 4, "ris records=0 pathpixels=256", "pcbdpt records=0 pathpixels=256",
+         "ris records=.1 pathpixels=256", 1e-5},
+        {"all-materials", SIDE, 4, "ris records=0 pathpixels=256", "pcbdpt records=0 pathpixels=256",
+         "ris records=0 pathpixels=2", 1e-5},
+    };
+    static const char WHITE[] = "Camera \"perspective\" Film \"image\" \"integer xresolution\" 16 \"integer yresolution\""
+                                " 16 WorldBegin LightSource \"point\"\n"
+                                "Material \"matte\" \"rgb Kd\" [1 1 1] Shape \"sphere\" \"float radius\" 2 WorldEnd\n";
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char path[256];
+        struct scene scene;
+        snprintf(path, sizeof path, "scenes/test/%s.pbrt", cases[i].scene);
+        if (!(strcmp(cases[i].scene, "white") == 0 ? scene_from_text(t, WHITE, &scene)
+                                                    : scene_from_file(t, path, cases[i].side, cases[i].side, &scene)))
+            continue;
+        double same = differ(t, &scene, cases[i].a, cases[i].b, cases[i].depth);
+        double other = differ(t, &scene, cases[i].other, cases[i].b, cases[i].depth);
+        CHECK(t, same <= cases[i].bound, "%s: %s is not %s: %g", cases[i].scene, cases[i].a, cases[i].b, same);
+        CHECK(t, other > 1e-3, "%s: %s is %s: %g", cases[i].scene, cases[i].other, cases[i].b, other);
+        scene_free(&scene);
+    }
+}
+
+void test_rivals(struct test *t)
+{
+    test_small_pools(t);
+    test_every_scene(t);
+    test_limits(t);
+}
