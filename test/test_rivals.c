@@ -6,7 +6,9 @@
 #include <string.h>
 
 #include "render/render.h"
+#include "rivals/ris.h"
 #include "helpers.h"
+#include "oracle.h"
 #include "tests.h"
 
 /* --- expectation ------------------------------------------------------------------------------------- */
@@ -88,6 +90,12 @@ static double differ(struct test *t, struct scene *scene, const char *a, const c
     return worst;
 }
 
+/* A light in a closed white ball. */
+static const char WHITE[] =
+    "Camera \"perspective\" Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16\n"
+    "WorldBegin LightSource \"point\" Material \"matte\" \"rgb Kd\" [1 1 1] Shape \"sphere\" \"float radius\" 2\n"
+    "WorldEnd\n";
+
 /* Where one method is another: with the same random numbers they make the same picture, up to `bound`: where the same
  * sums are added in another order that is not to the byte. Beside each stands one that is near, and is not. */
 static void test_limits(struct test *t)
@@ -114,9 +122,6 @@ static void test_limits(struct test *t)
         {"all-materials", SIDE, 4, "ris records=0 pathpixels=256", "pcbdpt records=0 pathpixels=256",
          "ris records=0 pathpixels=2", 1e-5},
     };
-    static const char WHITE[] = "Camera \"perspective\" Film \"image\" \"integer xresolution\" 16 \"integer yresolution\""
-                                " 16 WorldBegin LightSource \"point\"\n"
-                                "Material \"matte\" \"rgb Kd\" [1 1 1] Shape \"sphere\" \"float radius\" 2 WorldEnd\n";
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char path[256];
         struct scene scene;
@@ -132,8 +137,103 @@ static void test_limits(struct test *t)
     }
 }
 
+/* --- the weights of ris ------------------------------------------------------------------------------ */
+
+/* The eye vertex that lies where light vertex x does, the eye walk coming from z with that density, 1/sr, there: what
+ * strategies with fewer light vertices have of the same path. */
+static struct vertex as_eye_vertex(const struct vertex *x, const struct vertex *z, double pdf)
+{
+    struct vertex v = *x;
+    vec3 d = sub(x->p, z->p);
+    v.wo = neg(normalize(d));
+    v.kind = VERTEX_SURFACE;
+    v.prev_delta = false;
+    v.pdf_fwd = pdf * abs_dot(x->ng, v.wo) / length2(d);
+    v.pdf_origin = x->kind == VERTEX_LIGHT ? x->pdf_fwd : 0;
+    v.beta = rgb_grey(1);
+    return v;
+}
+
+/* The strategies s, s - 1 ... 0 of the path of s light vertices and two eye vertices, all one after the other weighed
+ * by ris: each takes the last light vertex of the one before for an eye vertex. Returns the sum. */
+static double sum_weights(struct ris *r, const struct vertex *light, int s, struct vertex *eye)
+{
+    double sum = 0;
+    for (int t = 2; s >= 0; s--, t++) {
+        struct vertex *z = &eye[t - 1];
+        struct connection c;
+        if (s >= 2) {
+            struct joint j;
+            if (!connect_join(&light[s - 1], z, &j))
+                return NAN;
+            r->own = r->all = ris_worth(r, &light[s - 1], z);
+            c = connect_joint(r->scene, &r->counts, &j);
+            eye[t] = as_eye_vertex(&light[s - 1], z, j.pdf_z);
+            z->pdf_rev = j.pdf_rev_z;
+            eye[t].pdf_rev = 0;
+        } else if (s == 1) {
+            struct light_point at = vertex_light_point(light);
+            struct lit l;
+            at.pdf = at.pdf_cell = light->pdf_fwd;
+            if (!connect_light(r->scene, z, &at, at.pdf, &l))
+                return NAN;
+            c = connect_lit(r->scene, &r->counts, &l);
+            eye[t] = as_eye_vertex(light, z, l.pdf_z);
+            z->pdf_rev = l.pdf_rev_z;
+        } else {
+            c = connect_hit(r->scene, &r->counts, &eye[t - 2], z, t);
+        }
+        sum += rgb_is_black(c.value) ? NAN : c.weight;
+    }
+    return sum;
+}
+
+/* Sums of weights, t = 1 being BDPT's by the oracle, of all light sub-paths of a pool of the given number of them, each
+ * joined to the first hit of a pixel; twice, since what roulette has done must not matter. */
+static void test_weights(struct test *t, const char *method)
+{
+    struct scene scene;
+    struct error err;
+    if (!scene_from_file(t, "scenes/cornell-box-modified.pbrt", SIDE, SIDE, &scene))
+        return;
+    struct render_options o = {.integrator = set_method(&scene, method), .max_depth = 5, .n_threads = 1};
+    struct render_job job;
+    struct preparation prepared;
+    if (!CHECK(t, render_prepare(&scene, &o, render_crop(&scene), &job, &prepared, &err), "%s", err.text))
+        return;
+    struct tile tile = {.rect = job.film_rect};
+    struct workspace *work = workspaces_new(1, job.max_depth);
+    struct ris *r = work->scratch = method_scratch(&prepared);
+    struct tile_pass pass = {&job, job.film_rect, 3, 4, &tile, work, NULL};
+    tile_start(&tile, job.film_rect, job.film_rect, &scene.filter, false);
+    prepared.method->render(&prepared, &pass);
+    double worst = 0, weight[16];
+    int n = 0;
+    for (int k = 0; k < r->pool.n; k++)
+        for (int s = 2, x, y; s <= r->pool.length[k] && pass_pixel(&pass, k, &x, &y); s++) {
+            const struct vertex *light = light_pool_path(&r->pool, k);
+            struct mis_counts plain = r->counts;
+            struct pixel_sample sample = pixel_sample_begin(&pass, &r->counts, x, y, 3);
+            struct vertex eye[16];
+            plain.weigher = NULL;
+            if (pixel_eye_path(&pass, &sample, 3, eye, 2) < 2 || !oracle_weights(&scene, &plain, light, s, eye, 2, weight))
+                continue;
+            double sum = sum_weights(r, light, s, eye) + weight[s + 1];
+            worst = sum == sum ? fmax(worst, fabs(sum - 1)) : worst; /* NaN: they do not see each other */
+            n += sum == sum;
+        }
+    CHECK(t, n > 20 && worst < 1e-6, "%s: weights of %d paths sum to 1 but for %g", method, n, worst);
+    tile_free(&tile);
+    method_scratch_free(&prepared, work->scratch);
+    workspaces_free(work, 1);
+    method_release(&prepared);
+    scene_free(&scene);
+}
+
 void test_rivals(struct test *t)
 {
+    test_weights(t, "ris records=.02 pathpixels=2 rrthreshold=1");
+    test_weights(t, "ris2 records=.02 pathpixels=2 presampled=30");
     test_small_pools(t);
     test_every_scene(t);
     test_limits(t);

@@ -1,5 +1,5 @@
 /* records.h: places of a tile at which it is known what each light vertex of the pool is worth, for eye vertices nearby
- * to choose by: importance records, after [Georgiev 2012].
+ * to choose by: importance records, after [Georgiev 2012b].
  *
  * Records are the vertices of a few eye sub-paths of their own, through a coarse raster over the tile. For record c and
  * light vertex v of the pool

@@ -5,13 +5,13 @@
  *  1. Each pixel draws M light points y with density p and keeps one in proportion to f_i / p. If it is seen, it stands
  *     for the light with the weight
  *         W_i = (1/f_i(y)) (1/M) sum f_i / p,    else W_i = 0:   E[h(y) W_i] = integral of h where f_i V_i > 0.
- *  2. Pixel c keeps one of its own reservoir and those of up to N pixels of the tile with a like surface, the set S, in
- *     proportion to f_c(y_j) W_j. Of the one kept, y from pixel s,
+ *  2. Pixel c keeps one of its own reservoir and those of up to N pixels of the tile with a like surface, the set S,
+ *     in proportion to f_c(y_j) W_j. Of the one kept, y from pixel s,
  *         X = w F_c(y) (m / f_c(y)) sum_j f_c(y_j) W_j,    m = f_s(y) V_s(y) / sum over k in S of f_k(y) V_k(y),
- *     since y could have come from any k that sees it. All N + 1 of m are tested for visibility, which makes X exact;
- *     without it what neighbours do not see comes out too dark.
- * Given the weights w, which are BDPT's, E[X] = integral of w F_c. All other strategies are BDPT's, with the pixel's own
- * light sub-path. With M = 1 and N = 0 the method is BDPT but for the order in which it adds.
+ *     since y could have come from any k that sees it. All N + 1 terms of m are tested for visibility, so X is exact;
+ *     without that what neighbours do not see comes out too dark.
+ * Given the weights w, which are BDPT's, E[X] = integral of w F_c. All other strategies are BDPT's, with the pixel's
+ * own light sub-path. With M = 1 and N = 0 the method is BDPT but for the order in which it adds.
  *
  * Densities cancel in f / p, so p is never asked for: f stands for f / p below.
  *

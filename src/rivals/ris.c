@@ -78,6 +78,12 @@ static double worth_edge(const struct ris *r, const struct sight *s, double L, c
     return sum;
 }
 
+double ris_worth(const struct ris *r, const struct vertex *y, const struct vertex *z)
+{
+    struct sight s = look(r, z, y);
+    return worth_edge(r, &s, r->light_L[y - r->pool.vertex], y, y->wo);
+}
+
 /* --- the weights ------------------------------------------------------------------------------------- */
 
 /* Luminance that a light walk keeps at v, from wo towards wi. */
@@ -230,8 +236,7 @@ static void weigh_light_paths(struct ris *r)
             const struct vertex *y = &path[i - 1];
             vec3 w = neg(path[i].wo);
             L[i] = i == 1 ? emitted(r->scene, y, w) : L[i - 1] * (path[i].prev_delta ? 1 : kept(y, y->wo, w));
-            struct sight s = look(r, &path[i], y);
-            n[i] = i == 1 ? 1 : worth_edge(r, &s, L[i - 1], y, y->wo);
+            n[i] = i == 1 ? 1 : ris_worth(r, y, &path[i]);
         }
     }
 }

@@ -36,6 +36,9 @@ void ris_prepare(const struct render_job *job, struct preparation *out);
 void ris_begin(void *scratch, const void *state, const struct tile_pass *pass, long iteration);
 void ris_draw(void *scratch, const void *state, struct pooled_pixel *pixel, const struct vertex *z, int t);
 
+/* ris_worth: the sum of N of all techniques that join light vertex y of the pool to z. */
+double ris_worth(const struct ris *r, const struct vertex *y, const struct vertex *z);
+
 /* ris2_presample: the first stage: replace what was found by M2 draws in proportion to L. */
 void ris2_presample(struct ris *r, const struct tile_pass *pass, long iteration);
 
