@@ -43,26 +43,10 @@ static double length_of(const struct vertex *path, int n, int m, bool far)
     return m <= n ? sum : INFINITY;
 }
 
-static struct ranked *rank_light_paths(const struct light_pool *pool, const struct scene *scene, int s,
-                                       struct arena *arena)
+static void rank(struct ranked *r, int i, const struct vertex *path, int n, int m, bool far)
 {
-    struct ranked *r = arena_alloc(arena, (size_t)pool->n * sizeof *r);
-    for (int k = 0; k < pool->n; k++) {
-        const struct vertex *path = light_pool_path(pool, k);
-        r[k].length = length_of(path, pool->length[k], s, pool->length[k] > 0 && vertex_at_infinity(scene, path));
-        r[k].number = k;
-    }
-    qsort(r, (size_t)pool->n, sizeof *r, by_length);
-    return r;
-}
-
-static void rank_eye_paths(const struct pooled_pixel *pixel, int n, int t, struct ranked *r)
-{
-    for (int i = 0; i < n; i++) {
-        r[i].length = length_of(pixel[i].eye, pixel[i].n, t, false);
-        r[i].number = i;
-    }
-    qsort(r, (size_t)n, sizeof *r, by_length);
+    r[i].length = length_of(path, n, m, far);
+    r[i].number = i;
 }
 
 /* A: the number prime to n that is next to n times the golden section from below; 0 for n = 1. */
@@ -84,7 +68,9 @@ static void connect_length(const struct light_pool *pool, struct ranked **column
 {
     const struct choice choice = {1.0 / pool->n, 1};
     int step = lattice_step(n), most = pixel[0].sample.max_depth + 2 - t;
-    rank_eye_paths(pixel, n, t, row);
+    for (int i = 0; i < n; i++)
+        rank(row, i, pixel[i].eye, pixel[i].n, t, false);
+    qsort(row, (size_t)n, sizeof *row, by_length);
     for (int i = 0; i < n && row[i].length < INFINITY; i++)
         for (int s = 2; s <= most; s++) {
             double u = (double)((long)i * step % n) / n + shift[s];
@@ -106,8 +92,15 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
     double *shift = arena_alloc(arena, (size_t)(depth + 1) * sizeof *shift);
     for (int i = 0; i < n; i++)
         pixel_sum_eye(&pixel[i].sample, pixel[i].eye, pixel[i].n);
-    for (int s = 2; s <= depth; s++)
-        column[s] = rank_light_paths(pool, pass->job->scene, s, arena);
+    for (int s = 2; s <= depth; s++) {
+        column[s] = arena_alloc(arena, (size_t)pool->n * sizeof *column[s]);
+        for (int k = 0; k < pool->n; k++) {
+            const struct vertex *path = light_pool_path(pool, k);
+            int length = pool->length[k];
+            rank(column[s], k, path, length, s, length > 0 && vertex_at_infinity(pass->job->scene, path));
+        }
+        qsort(column[s], (size_t)pool->n, sizeof *column[s], by_length);
+    }
     for (int t = 2; t <= depth; t++) {
         for (int s = 2; s <= depth; s++)
             shift[s] = sampler_number(&pixel[0].draws, DRAW_LIGHT_END);

@@ -319,7 +319,7 @@ void ris_prepare(const struct render_job *job, struct preparation *out)
     struct ris_state *s = out->state;
     out->size.tile = RECORDS_TILE;
     s->frozen.counts.splat /= s->frozen.path_pixels;
-    s->vertices = light_vertices_expected(job);
+    s->vertices = s->nabata && s->presampled == 0 ? light_vertices_expected(job) : 0;
 }
 
 #define AT(member) offsetof(struct ris_state, member)

@@ -1,4 +1,4 @@
-/* ris.h: what one-stage and two-stage resampling have in common (ris.c, ris2.c). */
+/* ris.h: what methods have in common that draw by records: pcbdpt.c, ris.c, ris2.c. */
 #ifndef ASBDPT_RIS_H
 #define ASBDPT_RIS_H
 
