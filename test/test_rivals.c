@@ -188,6 +188,28 @@ static double sum_weights(struct ris *r, const struct vertex *light, int s, stru
     return sum;
 }
 
+/* What an eye vertex draws from: probabilities sum to 1, and evenly spread numbers draw by them, each part of the
+ * mixture being off by less than one number. */
+static void check_mixture(struct test *t, const struct ris *r, const struct vertex *z)
+{
+    enum { NUMBERS = 5000, MOST = 4000 };
+    static int drawn[MOST];
+    int V = r->found.n, which, parts = RECORDS_NEAR + 1;
+    double sum = 0, worst = 0;
+    if (!CHECK(t, V > 0 && V <= MOST, "%d light vertices", V))
+        return;
+    struct mixture m = records_mixture(&r->records, r->scene, z, 0.5, false, V);
+    memset(drawn, 0, sizeof drawn);
+    for (int i = 0; i < NUMBERS; i++)
+        drawn[mixture_draw(&m, (i + 0.5) / NUMBERS, &which)]++;
+    for (int v = 0; v < V; v++) {
+        double P = mixture_pmf(&m, v);
+        sum += P;
+        worst = fmax(worst, fabs(drawn[v] - P * NUMBERS));
+    }
+    CHECK(t, fabs(sum - 1) < 1e-12 && worst <= parts, "P sums to 1 but for %g, draws are off by %g", sum - 1, worst);
+}
+
 /* Sums of weights, t = 1 being BDPT's by the oracle, of all light sub-paths of a pool of the given number of them, each
  * joined to the first hit of a pixel; twice, since what roulette has done must not matter. */
 static void test_weights(struct test *t, const char *method)
@@ -216,8 +238,11 @@ static void test_weights(struct test *t, const char *method)
             struct pixel_sample sample = pixel_sample_begin(&pass, &r->counts, x, y, 3);
             struct vertex eye[16];
             plain.weigher = NULL;
-            if (pixel_eye_path(&pass, &sample, 3, eye, 2) < 2 || !oracle_weights(&scene, &plain, light, s, eye, 2, weight))
+            if (pixel_eye_path(&pass, &sample, 3, eye, 2) < 2 ||
+                !oracle_weights(&scene, &plain, light, s, eye, 2, weight))
                 continue;
+            if (s == 2)
+                check_mixture(t, r, &eye[1]);
             double sum = sum_weights(r, light, s, eye) + weight[s + 1];
             worst = sum == sum ? fmax(worst, fabs(sum - 1)) : worst; /* NaN: they do not see each other */
             n += sum == sum;
