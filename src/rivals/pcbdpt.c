@@ -32,7 +32,7 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *pixel, c
     for (int c = 0; V > 0 && c < C; c++) {
         int v = mixture_draw(&mixture, (c + sampler_number(&pixel->draws, DRAW_LIGHT_END)) / C, &which);
         double P = mixture_pmf(&mixture, v);
-        const struct choice choice = {P, 1 / (C * P * r->pool.n)};
+        const struct choice choice = {P, 1 / (C * P * r->K)};
         pooled_join(pixel, &r->found.item[v], z, t, choice);
     }
 }
@@ -40,10 +40,9 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *pixel, c
 #define AT(member) offsetof(struct pcbdpt_state, member)
 static const struct method_parameter PARAMETERS[] = {
     {"connections", PARAMETER_INTEGER, AT(connections), 1, 1, 1024, "light vertices drawn for each eye vertex", NULL},
-    {"pathpixels", PARAMETER_INTEGER, AT(ris.frozen.path_pixels), RECORDS_PATH_PIXELS, 1, RECORDS_TILE * RECORDS_TILE,
-     "pixels for each light sub-path", NULL},
-    {"records", PARAMETER_NUMBER, AT(ris.records), RECORDS_SHARE, 0, 1, "share of pixels whose eye sub-paths are records",
+    {"subpaths", PARAMETER_INTEGER, AT(ris.sub_paths), RECORDS_SUB_PATHS, 1, 1e6, "light sub-paths that are drawn from",
      NULL},
+    {"records", PARAMETER_NUMBER, AT(ris.records), RECORDS_SHARE, 0, 1, "share of pixels that have records", NULL},
     {"normals", PARAMETER_NUMBER, AT(normals), 0.5, 0, 1e6, "what normals count beside places in looking for records",
      NULL},
     {.name = NULL}};

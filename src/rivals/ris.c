@@ -12,9 +12,10 @@
  * throw back in full, so that all strategies find the same. N is no linear function of L, so the weights are sums over
  * the arrays of the path, not mis.h's recursion, and they cost shadow rays: does x_{i-1} see the records next to x_i?
  *
- * Here, unlike in the paper, the pool and the records are a tile's, and s = 1 takes light points of its own. A light
- * sub-path is splat in any tile, so t = 1 has BDPT's weight, and the others share what that leaves. The paper keeps
- * Q of the first iteration itself for the first, which is biased; here one is made up before it.
+ * K sub-paths of a tile are drawn from; all are for t = 1. Unlike in the paper they and the records are a tile's, not
+ * the picture's, and s = 1 takes light points of its own. A light sub-path is splat in any tile, so t = 1 has BDPT's
+ * weight, and the others share what that leaves. In the first iteration the paper takes its own Q, which is biased;
+ * here an iteration is made up before it.
  *
  * `weights = counts` draws the same and has the weights of pcbdpt.c, whose draws by place alone it is to the byte.
  *
@@ -51,8 +52,8 @@ static struct sight look(const struct ris *r, const struct vertex *x, const stru
 /* N of one technique for a light end of luminance L. */
 static double worth(const struct ris *r, double P, double L, double h, double Q)
 {
-    int K = r->pool.n, M2 = r->state->presampled;
-    double share = 1.0 / K, ratio = fmin(fmax(EPSILON, Q / h), 1e30);
+    int M2 = r->state->presampled;
+    double share = 1.0 / r->K, ratio = fmin(fmax(EPSILON, Q / h), 1e30);
     if (!(h > 0))
         return 0;
     if (M2 > 0)
@@ -204,10 +205,14 @@ static double weigh(void *context, int s, const struct path_end *y, const struct
 static void gather(struct ris *r, const struct tile_pass *pass, long iteration)
 {
     arena_reset(&r->arena);
+    r->K = r->state->sub_paths < r->pool.n ? r->state->sub_paths : r->pool.n;
     candidates_find(&r->found, &r->pool);
+    while (r->K < r->pool.n && r->found.n > 0 &&
+           r->found.item[r->found.n - 1].y >= light_pool_path(&r->pool, r->K))
+        r->found.n--;
     r->g = 0;
     for (int v = 0; v < r->found.n; v++)
-        r->g += r->found.item[v].L / r->pool.n;
+        r->g += r->found.item[v].L / r->K;
     if (r->state->presampled > 0)
         ris2_presample(r, pass, iteration);
     records_place(&r->records, pass, &r->state->frozen, iteration, r->state->records);
@@ -220,7 +225,7 @@ static double expect(const struct ris *r, const struct record *c)
     int near[RECORDS_NEAR], n = records_near(&r->previous, r->scene, &c->z, 0, near);
     double sum = 0;
     for (int i = 0; i < n; i++)
-        sum += r->previous.item[near[i]].sum / r->pool.n;
+        sum += r->previous.item[near[i]].sum / r->K;
     return n > 0 ? sum / n : 0;
 }
 
@@ -229,7 +234,7 @@ static void weigh_light_paths(struct ris *r)
 {
     r->light_L = arena_alloc(&r->arena, r->pool.used * sizeof *r->light_L);
     r->light_n = arena_alloc(&r->arena, r->pool.used * sizeof *r->light_n);
-    for (int k = 0; k < r->pool.n; k++) {
+    for (int k = 0; k < r->K; k++) {
         const struct vertex *path = light_pool_path(&r->pool, k);
         double *L = &r->light_L[r->pool.start[k]], *n = &r->light_n[r->pool.start[k]];
         for (int i = 1; i < r->pool.length[k]; i++) {
@@ -284,7 +289,7 @@ void ris_draw(void *scratch, const void *state, struct pooled_pixel *pixel, cons
         r->own = N[which];
         P = each * (which < m.m ? m.record[which]->h[v] / m.record[which]->sum : 1.0 / V);
     }
-    const struct choice choice = {P, u / (P * r->pool.n)};
+    const struct choice choice = {P, u / (P * r->K)};
     if (P > 0) /* a record that met nothing has nothing to offer */
         pooled_join(pixel, c, z, t, choice);
 }
@@ -318,17 +323,15 @@ void ris_prepare(const struct render_job *job, struct preparation *out)
 {
     struct ris_state *s = out->state;
     out->size.tile = RECORDS_TILE;
-    s->frozen.counts.splat /= s->frozen.path_pixels;
     s->vertices = s->nabata && s->presampled == 0 ? light_vertices_expected(job) : 0;
 }
 
 #define AT(member) offsetof(struct ris_state, member)
 static const struct method_parameter PARAMETERS[] = {
     {"weights", PARAMETER_WORD, AT(nabata), 1, 0, 0, "what draws count for", RIS_WEIGHTS},
-    {"pathpixels", PARAMETER_INTEGER, AT(frozen.path_pixels), RECORDS_PATH_PIXELS, 1, RECORDS_TILE * RECORDS_TILE,
-     "pixels for each light sub-path", NULL},
-    {"records", PARAMETER_NUMBER, AT(records), RECORDS_SHARE, 0, 1, "share of pixels whose eye sub-paths are records",
+    {"subpaths", PARAMETER_INTEGER, AT(sub_paths), RECORDS_SUB_PATHS, 1, 1e6, "light sub-paths that are drawn from",
      NULL},
+    {"records", PARAMETER_NUMBER, AT(records), RECORDS_SHARE, 0, 1, "share of pixels that have records", NULL},
     {.name = NULL}};
 
 const struct method method_ris = {

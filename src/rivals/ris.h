@@ -10,6 +10,7 @@ struct ris_state {
     struct frozen frozen;
     int nabata;      /* weights: 0: counts of 1, 1: of N(s,c) */
     int presampled;  /* M2 of ris2, 0: one stage */
+    int sub_paths;   /* M, of which light vertices are drawn; the others of the pool are for t = 1 alone */
     double records;  /* share of pixels */
     double vertices; /* l */
 };
@@ -18,12 +19,13 @@ struct ris {
     struct light_pool pool; /* the first, see pooled.h */
     const struct ris_state *state;
     const struct scene *scene;
+    int K;                   /* sub-paths that are drawn from: M, or all of a small pool */
     struct candidates found; /* [V] what is drawn from */
     double *u;               /* [V] the first stage's factors; NULL with one stage */
-    double g, previous_g;    /* sum of L over the pool, over K, in this iteration and in the one before */
+    double g, previous_g;    /* sum of L over these, over K, in this iteration and in the one before */
     struct records records, previous;
     struct arena arena;      /* of the first stage, and of the light sub-paths' L and n */
-    double *light_L, *light_n; /* [pool.used] see ris.c */
+    double *light_L, *light_n; /* [pool.used] see ris.c; of these K */
     struct mis_counts counts;
     struct weigher weigher;
     double own, all; /* n of the technique, and of all techniques of the strategy, that is being taken */

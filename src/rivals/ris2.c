@@ -42,10 +42,8 @@ void ris2_presample(struct ris *r, const struct tile_pass *pass, long iteration)
 static const struct method_parameter PARAMETERS[] = {
     {"weights", PARAMETER_WORD, AT(nabata), 1, 0, 0, "what draws count for", RIS_WEIGHTS},
     {"presampled", PARAMETER_INTEGER, AT(presampled), 200, 1, 100000, "light vertices left by the first stage", NULL},
-    {"pathpixels", PARAMETER_INTEGER, AT(frozen.path_pixels), 1, 1, RECORDS_TILE * RECORDS_TILE,
-     "pixels for each light sub-path", NULL},
-    {"records", PARAMETER_NUMBER, AT(records), RECORDS_SHARE, 0, 1, "share of pixels whose eye sub-paths are records",
-     NULL},
+    {"subpaths", PARAMETER_INTEGER, AT(sub_paths), 10000, 1, 1e6, "light sub-paths that are drawn from", NULL},
+    {"records", PARAMETER_NUMBER, AT(records), RECORDS_SHARE, 0, 1, "share of pixels that have records", NULL},
     {.name = NULL}};
 
 const struct method method_ris2 = {
