@@ -13,7 +13,8 @@
 
 /* --- expectation ------------------------------------------------------------------------------------- */
 
-/* One tile of 3x3 pixels, with one, two and four or five light sub-paths; a third of the pixels have records. */
+/* Two rooms, where connections matter most, as one tile of 3x3 pixels, with one, two and four or five light sub-paths;
+ * a third of the pixels have records. */
 static void test_small_pools(struct test *t)
 {
     static const char *const cases[] = {"mbdpt pathpixels=9", "mbdpt pathpixels=5", "mbdpt pathpixels=2",
@@ -25,14 +26,14 @@ static void test_small_pools(struct test *t)
                                         "restir candidates=1 neighbours=2", "restir candidates=2 neighbours=1",
                                         "restir candidates=4 neighbours=8"};
     struct scene scene;
-    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 3, 3, &scene))
+    if (!scene_from_file(t, "doc/mini/rooms.pbrt", 3, 3, &scene))
         return;
-    struct batches pt = render_batches(t, &scene, "pt", 4, 1024, 32, 3, 163);
+    struct batches pt = render_batches(t, &scene, "pt", 4, 2048, 32, 1, 163);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const char *integrator = set_method(&scene, cases[i]);
-        struct batches x = render_batches(t, &scene, integrator, 4, 256, 32, 3, 164);
+        struct batches x = render_batches(t, &scene, integrator, 4, 256, 32, 1, 164);
         double ratio, p = batches_p(&x, &pt, &ratio);
-        TEST_ACCEPT(t, p, "Cornell box in 9 pixels, %s against pt: ratio %.4f", cases[i], ratio);
+        TEST_ACCEPT(t, p, "rooms in 9 pixels, %s against pt: ratio %.4f", cases[i], ratio);
         batches_free(&x);
     }
     batches_free(&pt);
@@ -107,8 +108,10 @@ static void test_limits(struct test *t)
         double bound;
     } cases[] = {
         {"light-kinds", 1, 4, "mbdpt", "bdpt", "cbdpt connections=2", 0},
-        {"mirror-glass", SIDE, 4, "restir candidates=1 neighbours=0", "bdpt", "restir candidates=1 neighbours=9", 1e-6},
-        {"light-kinds", SIDE, 4, "restir candidates=1 neighbours=0", "bdpt", "restir candidates=2 neighbours=0", 1e-6},
+        {"mirror-glass", SIDE, 4, "restir candidates=1 neighbours=0 credit=1", "bdpt",
+         "restir candidates=1 neighbours=9 credit=1", 1e-6},
+        {"light-kinds", SIDE, 4, "restir candidates=1 neighbours=0 credit=1", "bdpt",
+         "restir candidates=2 neighbours=0 credit=1", 1e-6},
         /* without records the choice is uniform; where light sub-paths have two vertices, two draws count like one */
         {"white", SIDE, 2, "pcbdpt records=0 connections=2 subpaths=256", "lvc connections=2",
          "pcbdpt records=.1 connections=2 subpaths=256", 0},

@@ -10,8 +10,9 @@
  *         X = w F_c(y) (m / f_c(y)) sum_j f_c(y_j) W_j,    m = f_s(y) V_s(y) / sum over k in S of f_k(y) V_k(y),
  *     since y could have come from any k that sees it. All N + 1 terms of m are tested for visibility, so X is exact;
  *     without that what neighbours do not see comes out too dark.
- * Given the weights w, which are BDPT's, E[X] = integral of w F_c. All other strategies are BDPT's, with the pixel's
- * own light sub-path. With M = 1 and N = 0 the method is BDPT but for the order in which it adds.
+ * Given the weights w, E[X] = integral of w F_c; they are BDPT's, but that s = 1, t = 2 counts for several samples. All
+ * other strategies are BDPT's, with the pixel's own light sub-path. With M = 1, N = 0 and no credit the method is BDPT
+ * but for the order in which it adds.
  *
  * Densities cancel in f / p, so p is never asked for: f stands for f / p below.
  *
@@ -24,6 +25,7 @@
 struct restir_state {
     struct frozen frozen;
     int candidates, neighbours; /* M, N */
+    double credit;
 };
 
 enum { MOST_NEIGHBOURS = 32 };
@@ -124,10 +126,11 @@ static void free_scratch(void *scratch) { light_pool_free(scratch); }
 
 static void prepare(const struct render_job *job, struct preparation *out)
 {
-    struct frozen *f = out->state;
+    struct restir_state *s = out->state;
     (void)job;
     out->size.tile = MAX_TILE_SIZE;
-    f->lights = 0;
+    s->frozen.lights = 0;
+    s->frozen.counts.direct[FIRST_HIT] = s->credit;
 }
 
 #define AT(member) offsetof(struct restir_state, member)
@@ -135,6 +138,7 @@ static const struct method_parameter PARAMETERS[] = {
     {"candidates", PARAMETER_INTEGER, AT(candidates), 16, 1, 1024, "light points of which a pixel keeps one", NULL},
     {"neighbours", PARAMETER_INTEGER, AT(neighbours), 5, 0, MOST_NEIGHBOURS, "pixels whose light points it shares",
      NULL},
+    {"credit", PARAMETER_NUMBER, AT(credit), 4, 1e-3, 1e6, "samples that one kept counts for in the weights", NULL},
     {.name = NULL}};
 
 const struct method method_restir = {
