@@ -40,6 +40,41 @@ static void test_small_pools(struct test *t)
     scene_free(&scene);
 }
 
+/* In three pixels, where sub-paths of a rank would meet too often if the lattice were not shifted at random. */
+static void test_three_pixels(struct test *t)
+{
+    struct scene scene;
+    if (!scene_from_file(t, "doc/mini/rooms.pbrt", 3, 1, &scene))
+        return;
+    struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 512, 32, 3, 181);
+    struct batches x = render_batches(t, &scene, "mbdpt", 4, 512, 32, 3, 182);
+    double ratio, p = batches_p(&x, &bdpt, &ratio);
+    TEST_ACCEPT(t, p, "rooms in three pixels, mbdpt against bdpt: ratio %.4f", ratio);
+    batches_free(&bdpt);
+    batches_free(&x);
+    scene_free(&scene);
+}
+
+/* The two rooms with pools of a hundred light vertices, in which records differ. */
+static void test_rooms(struct test *t)
+{
+    static const char *const ways[] = {"pcbdpt records=.02", "ris records=.02 subpaths=30",
+                                       "ris2 records=.02 presampled=30", "restir neighbours=20"};
+    struct scene scene;
+    if (!scene_from_file(t, "doc/mini/rooms.pbrt", 16, 16, &scene))
+        return;
+    struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 32, 16, 8, 191);
+    for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++) {
+        const char *integrator = set_method(&scene, ways[k]);
+        struct batches x = render_batches(t, &scene, integrator, 4, 16, 16, 8, 192);
+        double ratio, p = batches_p(&x, &bdpt, &ratio);
+        TEST_ACCEPT(t, p, "rooms, %s against bdpt: ratio %.4f", ways[k], ratio);
+        batches_free(&x);
+    }
+    batches_free(&bdpt);
+    scene_free(&scene);
+}
+
 static void test_every_scene(struct test *t)
 {
     static const char *const scenes[] = {"light-kinds", "mirror-glass", "all-materials", "negative-scale"};
@@ -263,6 +298,8 @@ void test_rivals(struct test *t)
     test_weights(t, "ris records=.02 rrthreshold=1");
     test_weights(t, "ris2 records=.02 presampled=30");
     test_small_pools(t);
+    test_three_pixels(t);
+    test_rooms(t);
     test_every_scene(t);
     test_limits(t);
 }

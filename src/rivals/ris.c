@@ -13,9 +13,9 @@
  * the arrays of the path, not mis.h's recursion, and they cost shadow rays: does x_{i-1} see the records next to x_i?
  *
  * K sub-paths of a tile are drawn from; all are for t = 1. Unlike in the paper they and the records are a tile's, not
- * the picture's, and s = 1 takes light points of its own. A light sub-path is splat in any tile, so t = 1 has BDPT's
- * weight, and the others share what that leaves. In the first iteration the paper takes its own Q, which is biased;
- * here an iteration is made up before it.
+ * the picture's, and s = 1 takes light points of its own. A light sub-path is splat in any tile, so t = 1 has mis.h's
+ * weight, with lvc.c's count of connections, and the others share what that leaves. In the first iteration the paper
+ * takes its own Q, which is biased; here an iteration is made up before it.
  *
  * `weights = counts` draws the same and has the weights of pcbdpt.c, whose draws by place alone it is to the byte.
  *
@@ -120,7 +120,7 @@ static double to_area(const struct scene *scene, const struct vertex *before, co
 
 /* Sums over the strategies of one side, relative to one sample of the own. */
 struct sums {
-    double plain, lens; /* by BDPT's counts: all but t = 1, and t = 1 */
+    double plain, lens; /* by the counts of mis.h: all but t = 1, and t = 1 */
     double N;           /* by N: all but t = 1 */
 };
 
@@ -142,7 +142,7 @@ static void sum_light_side(const struct ris *r, const struct path_end *end, stru
         }
         bool direct = v[-1].kind == VERTEX_LIGHT;
         if (!passed && !v->prev_delta)
-            count(r, a, ratio, 1, direct ? 1 : r->light_n[v - r->pool.vertex]);
+            count(r, a, ratio, direct ? 1 : r->counts.connect[LATER_HIT], direct ? 1 : r->light_n[v - r->pool.vertex]);
         passed = v->prev_delta;
         pdf_other = pdf_rev * to_area(r->scene, &v[-1], v);
         pdf_rev = v[-1].pdf_rev;
@@ -171,7 +171,7 @@ static void sum_eye_side(struct ris *r, int s, const struct path_end *end, doubl
             struct sight *known = &r->sight[before - lens];
             if (memcmp(&known->x, &before->p, sizeof known->x) != 0 || memcmp(&known->y, &v->p, sizeof known->y) != 0)
                 *known = look(r, before, v);
-            count(r, a, ratio, 1, worth_edge(r, known, L, v, wo));
+            count(r, a, ratio, r->counts.connect[LATER_HIT], worth_edge(r, known, L, v, wo));
         }
         if (light)
             L = emitted(r->scene, v, v->wo);
@@ -196,7 +196,8 @@ static double weigh(void *context, int s, const struct path_end *y, const struct
         L = s == 1 ? emitted(r->scene, y->v, w) : r->light_L[y->v - r->pool.vertex] * kept(y->v, y->v->wo, w);
     }
     sum_eye_side(r, s, z, L, neg(w), &a);
-    return own / (all + a.N) * (1 + a.plain) / (1 + a.plain + a.lens);
+    a.plain += mis_raise(&r->counts, s == 2 ? r->counts.connect[LATER_HIT] : 1);
+    return own / (all + a.N) * a.plain / (a.plain + a.lens);
 }
 
 /* --- an iteration ------------------------------------------------------------------------------------ */
@@ -323,7 +324,12 @@ void ris_prepare(const struct render_job *job, struct preparation *out)
 {
     struct ris_state *s = out->state;
     out->size.tile = RECORDS_TILE;
-    s->vertices = s->nabata && s->presampled == 0 ? light_vertices_expected(job) : 0;
+    if (!s->nabata)
+        return;
+    int M = s->sub_paths;
+    s->vertices = light_vertices_expected(job);
+    for (int end = 0; end < EYE_ENDS; end++)
+        s->frozen.counts.connect[end] = M / ((M - 1) * s->vertices + 1);
 }
 
 #define AT(member) offsetof(struct ris_state, member)
