@@ -42,6 +42,7 @@ void test_render(struct test *t);
 void test_references(struct test *t);
 void test_references_long(struct test *t);
 void test_report(struct test *t);
+void test_rivals(struct test *t);
 void test_scenes(struct test *t);
 void test_scenes_long(struct test *t);
 void test_strategies(struct test *t);
