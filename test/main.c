@@ -26,6 +26,7 @@ static const struct test_entry ENTRIES[] = {
     {"film", test_film, false},       {"parser", test_parser, false}, {"sampler", test_sampler, false},
     {"mis", test_mis, false}, {"pairs", test_pairs, false}, {"learning", test_learning, false},
     {"options", test_options, false}, {"render", test_render, false}, {"asbdpt", test_asbdpt, false},
+    {"chains", test_chains, false},
     {"part", test_part, false}, {"trace", test_trace, false},
     {"report", test_report, false}, {"pictures", test_pictures, false},
     {"aov", test_aov, false},

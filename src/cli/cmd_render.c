@@ -122,6 +122,15 @@ static bool check_options(const struct job_options *o, struct error *err)
            (o->aov == NULL || aov_check(o->aov, err));
 }
 
+/* Samples of a chain are neither a pixel's own nor independent. */
+static bool suits(const struct job_options *o, const struct method *m, struct error *err)
+{
+    const char *wanted = wants_variance(o) ? "--aov variance" : o->strategies != NULL ? "--strategies" : NULL;
+    return !m->chain || wanted == NULL ||
+           error_set(err, "%s: the samples of %s are a chain, and do not show that; render several --seed", wanted,
+                     m->name);
+}
+
 /* All that a render writes, opened before the work begins. */
 struct files {
     struct outputs pictures;
@@ -230,7 +239,7 @@ static int run(void *options)
         return status;
     }
     files.stats.load_seconds = os_wall_seconds() - start;
-    bool ok = open_others(o, &scene, &files, &err);
+    bool ok = suits(o, integrator, &err) && open_others(o, &scene, &files, &err);
     if (ok)
         ok = render_and_write(o, &scene, integrator, &files, &err);
     else

@@ -6,11 +6,12 @@
 #include "learning/learnt_file.h"
 
 extern const struct method method_pt, method_lt, method_bdpt, method_bins, method_pool, method_vertices,
-    method_subspaces, method_lvc, method_cbdpt;
+    method_subspaces, method_lvc, method_cbdpt, method_pssmlt, method_mmlt;
 
 static const struct method *const METHODS[] = {&method_pt,       &method_lt,   &method_bdpt,
                                                &method_subspaces, &method_bins, &method_pool,
-                                               &method_vertices, &method_lvc,  &method_cbdpt, NULL};
+                                               &method_vertices, &method_lvc,  &method_cbdpt,
+                                               &method_pssmlt,   &method_mmlt, NULL};
 
 const struct method *const *method_list(void) { return METHODS; }
 

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "parser/symbols.h"
 
 static bool is_of_file(const struct setting *item) { return strcmp(item->origin, "-P") != 0; }
@@ -58,6 +59,7 @@ static const char *other_way(const char *name)
 {
     static const char *const WAYS[][2] = {
         {"pixelbounds", "is not used: the whole picture is rendered; --cropwindow renders a part of it"},
+        {"chains", "is not used: a tile has a chain of its own for every few samples"},
         {"visualizestrategies", "is not used; --strategies DIR writes a picture of every strategy"},
         {"visualizeweights", "is not used; --strategies DIR writes a picture of every strategy"}};
     for (size_t i = 0; i < sizeof WAYS / sizeof WAYS[0]; i++)
@@ -149,6 +151,13 @@ static bool unread(const struct scene *scene, const struct setting *item, const 
     return true;
 }
 
+/* pbrt-v3's number of samples for its mlt. */
+static void adapt_mutations(struct scene *scene, const struct setting *item, const struct method *reader)
+{
+    if (reader->chain)
+        scene->spp = int_within(strtod(item->value, NULL), 1, 1 << 30);
+}
+
 /* True if the parameter is to be taken out. */
 static bool adapt(struct scene *scene, const struct setting *item, const struct method *const *readers,
                   const struct message_sink *sink)
@@ -159,6 +168,10 @@ static bool adapt(struct scene *scene, const struct setting *item, const struct 
     if (way != NULL) {
         if (strcmp(item->value, "false") != 0)
             warn(sink, item, way);
+        return true;
+    }
+    if (is_of_file(item) && strcmp(item->name, "mutationsperpixel") == 0) {
+        adapt_mutations(scene, item, readers[0]);
         return true;
     }
     adapt_integer(&scene->settings, item, sink);
