@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "chains/primary.h"
+#include "chains/mlt.h"
 #include "lab/stats.h"
 #include "render/render.h"
 #include "helpers.h"
@@ -265,6 +265,53 @@ static void test_samples(struct test *t)
     scene_free(&scene);
 }
 
+/* --- paths ------------------------------------------------------------------------------------------- */
+
+/* A path made again where it is, by whichever strategy a perturbation uses, counts as it did when another had made it:
+ * that depends on the path alone. */
+static void test_remake(struct test *t, struct scene *scene, long made[MLT_PERTURBATIONS])
+{
+    struct bench b;
+    if (!bench_new(t, scene, "mlt", &b))
+        return;
+    struct chain *c = b.chain;
+    const struct chains *all = b.prepared.state;
+    for (long i = 0; i < (long)all->lengths * all->each; i += 5) {
+        chain_candidate(c, i);
+        if (!(c->next.I > 0))
+            continue;
+        swap(c);
+        const struct mlt_path *path = c->now.own;
+        for (int which = 0; which < MLT_PERTURBATIONS; which++) {
+            struct strategy to = {.n = c->now.length > 2 ? c->now.length : 1};
+            struct primary p = {.chain = c};
+            if (!path->can[which])
+                continue;
+            struct mlt_move stay = mlt_stay(path, (enum mlt_perturbation)which);
+            double L = mlt_remake(&p, path, (enum mlt_perturbation)which, &stay, &to);
+            primary_end(&p);
+            CHECK(t, L > 0 && fabs(c->next.I / c->now.I - 1) < 1e-9, "path %ld, k %d, m %d, l %d, strategy %d,%d: %g, not %g", i,
+                  path->k, path->m, path->l, to.s, to.t, c->next.I, c->now.I);
+            made[which]++;
+        }
+    }
+    bench_free(&b);
+}
+
+static void test_paths(struct test *t)
+{
+    static const char *const LENS[] = {"", "\"float lensradius\" .05 \"float focaldistance\" 4"};
+    long made[MLT_PERTURBATIONS] = {0, 0};
+    struct scene scene;
+    for (int i = 0; i < 2; i++)
+        if (room(t, 16, 16, LENS[i], "gaussian", &scene)) {
+            test_remake(t, &scene, made);
+            scene_free(&scene);
+        }
+    CHECK(t, made[0] > 1000 && made[1] > 100, "only %ld and %ld paths", made[0], made[1]);
+    printf("%ld %ld\n", made[0], made[1]);
+}
+
 /* --- pictures ---------------------------------------------------------------------------------------- */
 
 /* Tiles of several sizes: each has its own interval, and in it a place of which the position in the interval is the
@@ -344,9 +391,10 @@ static void test_means(struct test *t, const char *integrator)
 
 void test_chains(struct test *t)
 {
-    static const char *const METHODS[] = {"pssmlt", "mmlt"};
+    static const char *const METHODS[] = {"pssmlt", "mmlt", "mlt"};
     test_steps(t);
     test_samples(t);
+    test_paths(t);
     test_starts(t);
     for (size_t i = 0; i < sizeof METHODS / sizeof METHODS[0]; i++) {
         test_balance(t, METHODS[i]);

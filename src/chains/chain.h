@@ -64,6 +64,7 @@ struct chain {
 
 /* What makes a method of it. */
 struct chain_rules {
+    bool roulette;  /* walks end by rrthreshold */
     bool by_length; /* independent states are of one length each; else of all */
     size_t own_size;
     void (*own_free)(void *own); /* what that owns; NULL: nothing */

@@ -26,7 +26,7 @@ static double propose(struct chain *c)
     return chain_accept(c);
 }
 
-static const struct chain_rules RULES = {.by_length = true, .fresh = fresh, .propose = propose};
+static const struct chain_rules RULES = {.roulette = true, .by_length = true, .fresh = fresh, .propose = propose};
 
 static void prepare(const struct render_job *job, struct preparation *out) { chain_prepare(&RULES, job, out); }
 

@@ -61,17 +61,18 @@ void primary_end(struct primary *p)
 
 bool primary_small(struct chain *c) { return rng_uniform(&c->rng) >= c->all->large_step; }
 
-static struct walk walk_of(struct primary *p, enum chain_stream stream)
+struct walk primary_walk(struct primary *p, enum chain_stream stream)
 {
     struct chain *c = p->chain;
-    struct walk w = {c->job->scene, &c->all->frozen.counts, &c->work->arena, &p->sampler[stream], c->job->rr_threshold};
+    struct walk w = {c->job->scene, &c->all->frozen.counts, &c->work->arena, &p->sampler[stream],
+                     c->all->rules->roulette ? c->job->rr_threshold : 0};
     return w;
 }
 
 int primary_eye(struct primary *p, int n, double *px, double *py)
 {
     const struct chains *all = p->chain->all;
-    struct walk w = walk_of(p, EYE_NUMBERS);
+    struct walk w = primary_walk(p, EYE_NUMBERS);
     double u[2];
     sampler_pair(w.sampler, DRAW_FILM_POINT, u);
     *px = all->x + u[0] * all->width;
@@ -81,7 +82,7 @@ int primary_eye(struct primary *p, int n, double *px, double *py)
 
 int primary_light(struct primary *p, int n)
 {
-    struct walk w = walk_of(p, LIGHT_NUMBERS);
+    struct walk w = primary_walk(p, LIGHT_NUMBERS);
     return path_light(&w, p->chain->work->light, n);
 }
 
@@ -101,16 +102,26 @@ static struct connection join(struct primary *p, int s, int t)
     return connect_pair(scene, counts, y, z);
 }
 
-/* What arrives from the light at every raster point that is the same ray. */
-static void splat(struct primary *p, const struct strategy *to)
+/* What arrives from the light (t = 1) does so at every raster point that is the same ray. */
+bool primary_bring(struct primary *p, const struct connection *c, struct strategy *out)
 {
     const struct scene *scene = p->chain->job->scene;
     const double *radius = scene->filter.radius;
-    for (int i = 0; i < camera_images(&scene->camera, radius); i++) {
-        double px = to->px, py = to->py;
-        camera_image(&scene->camera, radius, i, &px, &py);
-        tile_add_splat(&p->state->heard, px, py, to->value);
+    double each = out->t > 1 ? 1 : 1 / p->chain->all->frozen.counts.splat;
+    if (rgb_is_black(c->value))
+        return false;
+    out->value = rgb_scale(c->value, c->weight * out->n * each);
+    if (out->t == 1) {
+        out->px = c->px;
+        out->py = c->py;
     }
+    for (int i = 0; i < (out->t > 1 ? 1 : camera_images(&scene->camera, radius)); i++) {
+        double px = out->px, py = out->py;
+        if (out->t == 1)
+            camera_image(&scene->camera, radius, i, &px, &py);
+        tile_add_splat(&p->state->heard, px, py, out->value);
+    }
+    return true;
 }
 
 bool primary_strategy(struct primary *p, struct strategy *out)
@@ -122,16 +133,5 @@ bool primary_strategy(struct primary *p, struct strategy *out)
     if (primary_eye(p, out->t, &out->px, &out->py) < out->t || (out->s > 1 && primary_light(p, out->s) < out->s))
         return false;
     struct connection c = join(p, out->s, out->t);
-    if (rgb_is_black(c.value))
-        return false;
-    out->value = rgb_scale(c.value, c.weight * out->n);
-    if (out->t > 1) {
-        tile_add_splat(&p->state->heard, out->px, out->py, out->value);
-        return true;
-    }
-    out->px = c.px;
-    out->py = c.py;
-    out->value = rgb_scale(out->value, 1 / p->chain->all->frozen.counts.splat);
-    splat(p, out);
-    return true;
+    return primary_bring(p, &c, out);
 }

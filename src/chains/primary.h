@@ -35,6 +35,7 @@ bool primary_small(struct chain *c);
  * primary_light: a light sub-path likewise. Both into the thread's memory, both return their lengths. */
 int primary_eye(struct primary *p, int n, double *px, double *py);
 int primary_light(struct primary *p, int n);
+struct walk primary_walk(struct primary *p, enum chain_stream stream); /* theirs */
 
 /* One strategy of those that make paths of a length, drawn by a number of its own. */
 struct strategy {
@@ -46,5 +47,8 @@ struct strategy {
 /* primary_strategy: draw one for paths of c->next.length vertices, with sub-paths of just the vertices that it needs
  * and with bdpt's weight, and hear what it brings. Returns false if that is nothing. */
 bool primary_strategy(struct primary *p, struct strategy *out);
+
+/* primary_bring: hear what a connection brings to out->px, py, or of t = 1 to where it arrives, which is set then. */
+bool primary_bring(struct primary *p, const struct connection *c, struct strategy *out);
 
 #endif

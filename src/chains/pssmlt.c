@@ -34,7 +34,7 @@ static double propose(struct chain *c)
     return chain_accept(c);
 }
 
-static const struct chain_rules RULES = {.fresh = fresh, .propose = propose};
+static const struct chain_rules RULES = {.roulette = true, .fresh = fresh, .propose = propose};
 
 static void prepare(const struct render_job *job, struct preparation *out) { chain_prepare(&RULES, job, out); }
 

@@ -6,12 +6,13 @@
 #include "learning/learnt_file.h"
 
 extern const struct method method_pt, method_lt, method_bdpt, method_bins, method_pool, method_vertices,
-    method_subspaces, method_lvc, method_cbdpt, method_pssmlt, method_mmlt;
+    method_subspaces, method_lvc, method_cbdpt, method_pssmlt, method_mmlt,
+    method_mlt;
 
 static const struct method *const METHODS[] = {&method_pt,       &method_lt,   &method_bdpt,
                                                &method_subspaces, &method_bins, &method_pool,
                                                &method_vertices, &method_lvc,  &method_cbdpt,
-                                               &method_pssmlt,   &method_mmlt, NULL};
+                                               &method_pssmlt,   &method_mmlt,   &method_mlt,  NULL};
 
 const struct method *const *method_list(void) { return METHODS; }
 

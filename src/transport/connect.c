@@ -81,39 +81,48 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
     int cell = choose_light(counts->model, lights, z->eye_region, u[0], &pmf);
     if (!light_sample_cell(lights, &scene->geo, cell, u[1], u[2], &at) || !(at.pdf > 0))
         return nothing();
-    bool parallel = light_at_infinity(&lights->light[at.light]);
-    bool area = lights->light[at.light].kind == LIGHT_AREA;
-    vec3 d = parallel ? at.w : sub(at.p, z->p);
+    return connect_light_point(scene, counts, z, &at, pmf * at.pdf_cell);
+}
+
+struct connection connect_light_point(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
+                                      const struct light_point *at, double pdf)
+{
+    const struct light_set *lights = &scene->lights;
+    if (!vertex_connectible(z))
+        return nothing();
+    bool parallel = light_at_infinity(&lights->light[at->light]);
+    bool area = lights->light[at->light].kind == LIGHT_AREA;
+    vec3 d = parallel ? at->w : sub(at->p, z->p);
     double d2 = length2(d);
     if (!(d2 > 0) || !bsdf_may_scatter(&z->bsdf, z->wo, d))
         return nothing();
     vec3 w = mul(d, 1 / sqrt(d2));
 
-    rgb Le = light_Le(lights, &at, neg(w));
+    rgb Le = light_Le(lights, at, neg(w));
     if (rgb_is_black(Le))
         return nothing();
     struct scatter at_z = scatter_towards(z, w, RADIANCE);
     double spread = parallel ? 1 : 1 / d2;
-    double at_light = area ? abs_dot(at.n, w) * spread : spread; /* area or solid angle at y_0 per steradian at z */
+    double at_light = area ? abs_dot(at->n, w) * spread : spread; /* area or solid angle at y_0 per steradian at z */
     struct connection c = nothing();
-    c.value = rgb_mul(rgb_mul(z->beta, at_z.factor), rgb_scale(Le, at_light / (pmf * at.pdf_cell)));
+    c.value = rgb_mul(rgb_mul(z->beta, at_z.factor), rgb_scale(Le, at_light / pdf));
     if (rgb_is_black(c.value))
         return nothing();
     if (parallel ? !scene_lit_from(scene, z->p, z->prim_id, w)
-                 : !scene_lit(scene, z->p, z->prim_id, at.p, at.prim_id))
+                 : !scene_lit(scene, z->p, z->prim_id, at->p, at->prim_id))
         return nothing();
 
     struct vertex y;
-    vertex_light_end(scene, counts, &at, &y);
+    vertex_light_end(scene, counts, at, &y);
     double light = mis_side(counts, at_z.pdf * at_light, y.pdf_fwd, y.mis_c, 0, 0);
-    double pdf_z = light_pdf_emission(lights, &at, neg(w)) * abs_dot(z->ng, w) * spread;
+    double pdf_z = light_pdf_emission(lights, at, neg(w)) * abs_dot(z->ng, w) * spread;
     double eye = mis_side(counts, pdf_z, z->pdf_fwd, z->mis_c, at_z.pdf_rev, z->mis);
-    double count = mis_direct_count(counts, lights, z->eye_region, z->eye_end, cell, at.w);
+    double count = mis_direct_count(counts, lights, z->eye_region, z->eye_end, at->cell, at->w);
     c.weight = mis_weight(counts, count, light, eye);
-    c.end = parallel ? at.w : at.p;
-    c.light = at.light;
-    c.cell = cell;
-    c.pdf = pmf * at.pdf_cell;
+    c.end = parallel ? at->w : at->p;
+    c.light = at->light;
+    c.cell = at->cell;
+    c.pdf = pdf;
     return c;
 }
 
