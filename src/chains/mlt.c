@@ -211,8 +211,7 @@ static const double LEAST_OFFSET = 0.1, MOST_SHARE = 0.05;
 
 static double most_offset(const struct chains *all) { return fmax(1, sqrt(MOST_SHARE * all->width * all->height / PI)); }
 
-/* Pixels for an angle at x_l: so that its chain and the lens see about the same offset. */
-static double pixels_per_angle(const struct chain *c, const struct mlt_path *path)
+double mlt_pixels_per_angle(const struct chain *c, const struct mlt_path *path)
 {
     const struct camera *camera = &c->job->scene->camera;
     const struct path_stop *x = path->x;
@@ -236,7 +235,7 @@ static struct mlt_move draw_move(struct chain *c, const struct mlt_path *path, e
         move.raster[1] += r * sine / all->height;
         return move;
     }
-    *angle = r / pixels_per_angle(c, path);
+    *angle = r / mlt_pixels_per_angle(c, path);
     double across = m_sin(*angle);
     struct frame f = frame_from_normal(move.wi);
     move.wi = to_world(&f, vec(across * cosine, across * sine, m_cos(*angle)));
@@ -248,7 +247,7 @@ static bool in_raster(const double u[2]) { return u[0] >= 0 && u[0] < 1 && u[1] 
 /* Could the way back have this angle? */
 static bool returns(const struct chain *c, const struct mlt_path *path, double angle)
 {
-    double r = angle * pixels_per_angle(c, path);
+    double r = angle * mlt_pixels_per_angle(c, path);
     return angle < PI && r >= LEAST_OFFSET && r <= most_offset(c->all);
 }
 

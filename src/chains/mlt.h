@@ -32,4 +32,8 @@ struct mlt_move mlt_stay(const struct mlt_path *path, enum mlt_perturbation whic
 double mlt_remake(struct primary *p, const struct mlt_path *path, enum mlt_perturbation which, const struct mlt_move *move,
                   struct strategy *to);
 
+/* mlt_pixels_per_angle: for a caustic perturbation, an angle at x_l moves x_m, as far as its chain only has length, by so many
+ * pixels: > 0. */
+double mlt_pixels_per_angle(const struct chain *c, const struct mlt_path *path);
+
 #endif
