@@ -2,8 +2,8 @@
  *
  * x_0 is on the light, x_k the lens. x_m is the first vertex from the lens that scatters by a lobe that is not delta, 0
  * if none does; the vertices between x_m and the lens are a chain of mirrors. Three mutations:
- *   new path   all vertices are replaced by a sample of bdpt, one of its N strategies for paths of this length [V97
- *              11.4.2.1], of which all is deleted. With T the density of such samples, f / T = N w F, the weighted contribution
+ *   new path   all vertices are deleted, and a sample of bdpt takes their place, by one of its N strategies for this
+ *              length. With T the density of such samples, f / T = N w F, the weighted contribution
  *              (primary.h), whichever strategy made the path: R, the I of chain.h. a = min(1, R' c' / (R c)), c being
  *              the probability to choose this mutation.
  *   lens       x_m and the chain move with the raster point, x_0 .. x_(m-1) stay: a = min(1, L'/L), L being f per
@@ -12,12 +12,11 @@
  *              light leaves in another direction, and x_m is joined to the lens: a = min(1, L'/L) with f per
  *              solid angle at x_l, which is the contribution of strategy (k,1) times the density of that direction.
  * Chains are walked with the same numbers, which chose their delta lobes: a number is uniform among those that choose
- * the lobe, so it is a coordinate of the state like those of primary.h, and where it chooses another the path is
- * still the way back's. Offsets are between r1 and r2 pixels, r = r2 exp(-u ln(r2/r1)), as likely from there to here
- * [V97 11.4.3].
+ * the lobe, so it is a coordinate of the state like those of primary.h. Offsets are between r1 and r2 pixels,
+ * r = r2 exp(-u ln(r2/r1)), as likely from there to here [V97 11.4.3].
  *
- * Left out: deletion of a part, and perturbations of several chains. Paths to one of several infinite lights, which s = 0
- * cannot tell apart, have new paths alone.
+ * Left out: deletion of a part, and perturbations of several chains. Paths to one of several infinite lights, which
+ * s = 0 cannot tell apart, have new paths alone.
  *
  * Tests: test_chains.c.
  */
@@ -57,7 +56,7 @@ static void begin_path(struct mlt_path *path, int k)
     path->L[LENS_PERTURBATION] = path->L[CAUSTIC_PERTURBATION] = -1;
 }
 
-/* x_0 where an eye sub-path came to a light (s = 0; an infinite one: the first), or drawn with these numbers (s = 1). */
+/* x_0 where an eye sub-path came to a light (s = 0; an infinite one: the first), or drawn with these numbers (s = 1) */
 static void light_end(const struct chain *c, const struct vertex *z, const double *u, struct vertex *out)
 {
     const struct scene *scene = c->job->scene;
@@ -190,8 +189,8 @@ static bool remake_caustic(struct primary *p, const struct mlt_path *path, const
     return true;
 }
 
-double mlt_remake(struct primary *p, const struct mlt_path *path, enum mlt_perturbation which, const struct mlt_move *move,
-                  struct strategy *to)
+double mlt_remake(struct primary *p, const struct mlt_path *path, enum mlt_perturbation which,
+                  const struct mlt_move *move, struct strategy *to)
 {
     struct connection c;
     double pdf = 1;
@@ -209,7 +208,10 @@ double mlt_remake(struct primary *p, const struct mlt_path *path, enum mlt_pertu
 /* An offset's length in pixels is between these; at most a twentieth of the picture lies within. */
 static const double LEAST_OFFSET = 0.1, MOST_SHARE = 0.05;
 
-static double most_offset(const struct chains *all) { return fmax(1, sqrt(MOST_SHARE * all->width * all->height / PI)); }
+static double most_offset(const struct chains *all)
+{
+    return fmax(1, sqrt(MOST_SHARE * all->width * all->height / PI));
+}
 
 double mlt_pixels_per_angle(const struct chain *c, const struct mlt_path *path)
 {
@@ -224,7 +226,8 @@ double mlt_pixels_per_angle(const struct chain *c, const struct mlt_path *path)
 }
 
 /* A move; for a caustic, *angle is by how much. */
-static struct mlt_move draw_move(struct chain *c, const struct mlt_path *path, enum mlt_perturbation which, double *angle)
+static struct mlt_move draw_move(struct chain *c, const struct mlt_path *path, enum mlt_perturbation which,
+                                 double *angle)
 {
     const struct chains *all = c->all;
     struct mlt_move move = mlt_stay(path, which);
@@ -251,24 +254,15 @@ static bool returns(const struct chain *c, const struct mlt_path *path, double a
     return angle < PI && r >= LEAST_OFFSET && r <= most_offset(c->all);
 }
 
-/* The moved path: what was walked anew, and the rest of the old one. */
+/* The moved path. Of what an eye walk makes anew nothing is asked again but the numbers. */
 static void keep_moved(struct chain *c, const struct mlt_path *old, enum mlt_perturbation which,
                        const struct strategy *to)
 {
     struct mlt_path *path = c->next.own;
     begin_path(path, old->k);
     for (int i = 0; i < old->k; i++) {
-        const struct vertex *v = &old->x[i].v;
-        if (which == LENS_PERTURBATION && i >= old->m && i > 0)
-            v = &c->work->eye[old->k - i];
-        if (which == CAUSTIC_PERTURBATION && i > old->l)
-            v = &c->work->light[i];
-        keep(path, i, v, old->x[i].delta, old->x[i].u);
-    }
-    if (old->m == 0 && which == LENS_PERTURBATION) {
-        struct vertex end;
-        light_end(c, &c->work->eye[old->k], NULL, &end);
-        keep(path, 0, &end, false, NULL);
+        bool moved = which == CAUSTIC_PERTURBATION && i > old->l;
+        keep(path, i, moved ? &c->work->light[i] : &old->x[i].v, old->x[i].delta, old->x[i].u);
     }
     memcpy(path->lens, old->lens, sizeof path->lens);
     path->raster[0] = (to->px - c->all->x) / c->all->width;

@@ -9,7 +9,7 @@ enum mlt_perturbation { LENS_PERTURBATION, CAUSTIC_PERTURBATION, MLT_PERTURBATIO
 /* x_0 .. x_k, x_k being the lens. */
 struct mlt_path {
     struct arena arena; /* holds the rest */
-    struct path_stop *x; /* [k]; x_0 as vertex_light_end fills it in */
+    struct path_stop *x; /* [k]; x_0 as vertex_light_end fills it in; those an eye walk makes anew may be out of date */
     int k, m, l;         /* see mlt.c; l is used where can[CAUSTIC_PERTURBATION] */
     bool can[MLT_PERTURBATIONS];
     double L[MLT_PERTURBATIONS]; /* below 0: not known yet */
@@ -29,11 +29,10 @@ struct mlt_move mlt_stay(const struct mlt_path *path, enum mlt_perturbation whic
  * memory, and hear what it brings as `next`.
  *   to  out: the strategy; to->n is given
  * Returns L, 0 if it has become no path, or one of other delta lobes. */
-double mlt_remake(struct primary *p, const struct mlt_path *path, enum mlt_perturbation which, const struct mlt_move *move,
-                  struct strategy *to);
+double mlt_remake(struct primary *p, const struct mlt_path *path, enum mlt_perturbation which,
+                  const struct mlt_move *move, struct strategy *to);
 
-/* mlt_pixels_per_angle: for a caustic perturbation, an angle at x_l moves x_m, as far as its chain only has length, by so many
- * pixels: > 0. */
+/* mlt_pixels_per_angle: by how many pixels an angle at x_l moves x_m, if its chain did not bend; > 0. */
 double mlt_pixels_per_angle(const struct chain *c, const struct mlt_path *path);
 
 #endif

@@ -84,8 +84,8 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
     return connect_light_point(scene, counts, z, &at, pmf * at.pdf_cell);
 }
 
-struct connection connect_light_point(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
-                                      const struct light_point *at, double pdf)
+struct connection connect_light_point(const struct scene *scene, const struct mis_counts *counts,
+                                      const struct vertex *z, const struct light_point *at, double pdf)
 {
     const struct light_set *lights = &scene->lights;
     if (!vertex_connectible(z))

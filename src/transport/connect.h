@@ -37,8 +37,8 @@ struct connection connect_direct(const struct scene *scene, const struct mis_cou
                                  struct sampler *sampler);
 
 /* connect_light_point: the same to a given light point; pdf: its density, see light.h. */
-struct connection connect_light_point(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
-                                      const struct light_point *at, double pdf);
+struct connection connect_light_point(const struct scene *scene, const struct mis_counts *counts,
+                                      const struct vertex *z, const struct light_point *at, double pdf);
 
 /* connect_pair: y is a light vertex (s >= 2), z an eye vertex (t >= 2). */
 struct connection connect_pair(const struct scene *scene, const struct mis_counts *counts, const struct vertex *y,
