@@ -22,167 +22,126 @@ nan() { head -c "$1" /dev/zero | LC_ALL=C tr '\000' '\377'; } # so many bytes of
 
 expect 0 '' "$program" --help
 check grep -q '^asbdpt SCENE.pbrt' stdout.txt
-check grep -q '^    render  *render a scene$' stdout.txt
-for command in render merge compare convert worth info trace; do # each its own help
-    expect 0 '' "$program" $command --help
-    check grep -q "usage: asbdpt $command" stdout.txt
-    check [ "$(grep -c 'usage: asbdpt' stdout.txt)" = 1 ]
-done
-check grep -q -e '--cropwindow' stdout.txt
-expect 0 '' "$program" compare a.pfm -h
 expect 0 '' "$lab" --help
 check grep -q '^    experiment  ' stdout.txt
-for command in verify experiment equal-time demo bench; do
-    expect 0 '' "$lab" $command --help
-    check grep -q "usage: asbdpt-lab $command" stdout.txt
-    check [ "$(grep -c 'usage: asbdpt' stdout.txt)" = 1 ]
+for command in render merge compare convert worth info trace; do # each its own help
+    expect 0 '' "$program" $command --help
+    check [ "$(grep -c "usage: asbdpt $command" stdout.txt)" = 1 ]
 done
-expect 2 'unknown command verify' "$program" verify
+for command in verify experiment equal-time demo bench; do
+    expect 0 '' "$lab" $command -h
+    check [ "$(grep -c "usage: asbdpt-lab $command" stdout.txt)" = 1 ]
+done
 expect 0 '' "$program" --version
-expect 2 'asbdpt: which command' "$program"
-expect 2 'unknown command rendr \(did you mean render\?\); try asbdpt --help' "$program" rendr
-expect 2 'needs a scene' "$program" render
-expect 2 'needs a scene' "$program" --quick # no command: render
 expect 0 '' "$program" "$box" --res 8x8 --spp 1 --quiet --time 1h -o unnamed.pfm
 check [ -s unnamed.pfm ]
-expect 2 '[-]-time 5x: expected a number .* 5m, 1h' "$program" render "$box" --time 5x
-expect 2 'unknown option --out \(did you mean -o\?\)' "$program" render "$box" --out x.pfm
-expect 2 'unknown option --output=x.pfm \(did you mean -o\?\)' "$program" render "$box" --output=x.pfm
-expect 2 'did you mean --res\?' "$program" render "$box" --resolution 8x8
-expect 2 'did you mean --cropwindow\?' "$program" render "$box" --crop 0 1 0 1
-expect 2 'no integrator has a parameter "selct" \(did you mean select\?\)' "$program" render "$box" -P selct=bins
-expect 2 '[-]-interval has no effect without --checkpoint' "$program" render "$box" --interval 5m
-expect 2 '[-]-samples has no effect without -o' "$program" render "$box" --samples 0:1
-expect 2 '[-]-filter bx: known are' "$program" render "$box" --filter bx
-expect 2 'unknown option --sppp \(did you mean --spp\?\); try asbdpt render --help' "$program" render "$box" --sppp 3
-expect 2 'one argument too many' "$program" render "$box" "$box"
-expect 2 'expected an integer' "$program" render "$box" --spp 0
-expect 2 'WIDTHxHEIGHT' "$program" render "$box" --res 10
-expect 2 '60000 x 60000 pixels are too many \(at most 268435456\)' \
-    "$program" render "$box" --spp 1 --cropwindow 0 0.0001 0 0.0001 --res 60000x60000
-for size in 4294967297x4 4x4294967300 18446744073709551617x4 10x0; do
-    expect 2 '[-]-res .*: expected WIDTHxHEIGHT' "$program" render "$box" --res $size
-    expect 2 '[-]-res .*: expected WIDTH.xHEIGHT., integers from 1' "$lab" experiment -o x --res $size
-done
-expect 2 'expected an integer from 1 to' "$program" render "$box" --spp 99999999999999999999
-expect 2 'whole number from 0 to' "$program" render "$box" --seed 12345678901234567890123
-expect 2 'expected an integer from 1 to 1024' "$program" render "$box" -j99999999999999999999
-for number in nan inf 1e999 -1; do
-    expect 2 'expected X0 X1 Y0 Y1, numbers from 0 to 1' "$program" render "$box" --cropwindow 0 $number 0 1
-    expect 2 'expected a number from 1e-12 to 0.5' "$lab" verify "$box" --alpha $number
-done
-expect 2 'expected an integer' "$lab" bench "$box" --spp 1e3
-expect 2 'experiment needs a directory for its results' "$lab" experiment --quick
-expect 2 'compare needs a picture of the same size' "$program" compare a.pfm
-expect 2 'verify' "$lab" verify
-expect 2 'WIDTHxHEIGHT' "$program" render "$box" --res 4x4x4
-expect 2 'WIDTH.xHEIGHT.' "$lab" experiment "$box" --res -4 -o e
-expect 2 'whole number from 0 to' "$program" render "$box" --seed -1
-expect 2 'whole number from 0 to' "$program" render "$box" --seed ' -1'
-expect 2 'expected an integer' "$lab" verify "$box" --batches nan
-expect 2 'expected an integer' "$lab" verify "$box" --tile 1e300
+refuse() { # PATTERN WORDS...: wrong usage of the program; test_options.c has what is wrong with values
+    pattern=$1
+    shift
+    expect 2 "$pattern" "$program" "$@"
+}
+refuse 'unknown command verify' verify
+refuse 'asbdpt: which command'
+refuse 'unknown command rendr \(did you mean render\?\); try asbdpt --help' rendr
+refuse 'needs a scene' render
+refuse 'needs a scene' --quick # no command: render
+refuse '[-]-time 5x: expected a number .* 5m, 1h' render "$box" --time 5x
+refuse 'unknown option --sppp \(did you mean --spp\?\); try asbdpt render --help' render "$box" --sppp 3
+refuse '[-]-filter bx: known are' render "$box" --filter bx
+refuse '[-]-samples has no effect without -o' render "$box" --samples 0:1
+refuse 'one argument too many' render "$box" "$box"
+refuse 'expected an integer from 1 to 1024' render "$box" -j99999999999999999999
+refuse '60000 x 60000 pixels are too many \(at most 268435456\)' render "$box" --res 60000x60000
+refuse 'compare needs a picture of the same size' compare a.pfm
+refuse 'unknown option --seed' info "$box" --seed 1
+refuse 'x.jpg: pictures are written as .pfm, .exr' render "$box" $small -o x.jpg
+refuse 'did you mean asbdpt\? known are' render "$box" $small --integrator=asbdtp
+refuse 'no integrator has a parameter "selct" \(did you mean select\?\)' render "$box" -P selct=bins
+refuse 'delta' render "$box" $small -P delta=7 --integrator asbdpt -o x.pfm
+refuse 'select = "bin" is unknown: give "subspaces", "bins", "pool" or "vertices"' \
+    render "$box" $small -P select=bin --integrator asbdpt -o x.pfm
+refuse '^asbdpt: -P: heuristic = "max" is unknown: give "balance" or "power"' \
+    render "$box" $small -P heuristic=max -o x.pfm
 for command in info trace worth; do # what a command would ignore it does not take
-    expect 2 'unknown option --aov' "$program" $command "$box" --aov depth
-    expect 2 'unknown option --strategies' "$program" $command "$box" --strategies s
-    [ $command = worth ] || expect 2 'unknown option -o' "$program" $command "$box" -o x.pfm
+    refuse 'unknown option --aov' $command "$box" --aov depth
 done
-expect 2 'unknown option --seed' "$program" info "$box" --seed 1
-expect 2 'cropwindow: there is nothing between 0.5 and 0.5' "$program" render "$box" --cropwindow 0.5 0.5 0 1
-expect 2 'x.jpg: pictures are written as .pfm, .exr' "$program" render "$box" $small -o x.jpg
+expect 2 'expected a number from 1e-12 to 0.5' "$lab" verify "$box" --alpha nan
+expect 2 '[-]-res .*: expected WIDTH.xHEIGHT., integers from 1' "$lab" experiment -o x --res -4
+expect 2 'experiment needs a directory for its results' "$lab" experiment --quick
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt
-expect 2 'known are' "$program" render "$box" $small --integrator vcm
-expect 2 'did you mean asbdpt\? known are' "$program" render "$box" $small --integrator=asbdtp
-expect 2 'no integrator has a parameter "deltaa"' "$program" render "$box" $small -P deltaa=1 -o x.pfm
-expect 2 'delta' "$program" render "$box" $small -P delta=7 --integrator asbdpt -o x.pfm
 expect 1 'binpaths 7 is odd' "$program" render "$box" $small -P select=bins -P binpaths=7 --integrator asbdpt -o x.pfm
-expect 2 'select = "bin" is unknown: give "subspaces", "bins", "pool" or "vertices"' \
-    "$program" render "$box" $small -P select=bin --integrator asbdpt -o x.pfm
-expect 2 '^asbdpt: -P: heuristic = "max" is unknown: give "balance" or "power"' \
-    "$program" render "$box" $small -P heuristic=max -o x.pfm
 
 # --- parameters
 # pbrt's lightsamplestrategy: its three names are taken by every integrator; of a misspelling pbrt makes "spatial".
-for method in path bdpt asbdpt; do
-    printf 'Integrator "%s" "string lightsamplestrategy" "spacial"\nWorldBegin\nWorldEnd\n' $method >strategy.pbrt
-    for command in info "render --res 16x16 --spp 2 -o x.pfm"; do
-        expect 0 '^asbdpt: warning: strategy.pbrt:1:[0-9]+: "lightsamplestrategy" is "spatial": its value is unknown' \
-            "$program" $command strategy.pbrt
-        expect 2 '^asbdpt: -P: lightsamplestrategy = "spacial" is unknown: give "spatial", "power" or' \
-            "$program" $command strategy.pbrt -P lightsamplestrategy=spacial
-    done
-    for strategy in spatial power uniform; do
-        sed s/spacial/$strategy/ strategy.pbrt >known.pbrt
-        expect 0 '' "$program" render known.pbrt $small -o x.pfm
-    done
+strategy() { printf 'Integrator "%s" "string lightsamplestrategy" "%s"\nWorldBegin\nWorldEnd\n' "$1" "$2"; }
+strategy path spacial >strategy.pbrt
+expect 0 '^asbdpt: warning: strategy.pbrt:1:[0-9]+: "lightsamplestrategy" is "spatial": its value is unknown' \
+    "$program" info strategy.pbrt
+expect 2 '^asbdpt: -P: lightsamplestrategy = "spacial" is unknown: give "spatial", "power" or' \
+    "$program" info strategy.pbrt -P lightsamplestrategy=spacial
+for method in path asbdpt; do
+    strategy $method uniform >known.pbrt
+    expect 0 '^asbdpt: warning: known.pbrt:1:[0-9]+: "lightsamplestrategy" is "power" instead of "uniform"' \
+        "$program" render known.pbrt --res 16x16 --spp 2 -o x.pfm
 done
-expect 0 '^asbdpt: warning: known.pbrt:1:[0-9]+: "lightsamplestrategy" is "power" instead of "uniform"' \
-    "$program" info known.pbrt
 check grep -q '^asbdpt: warning: known.pbrt: there are no lights, so the picture is black' stderr.txt
-
-# Parameters of pbrt's integrators that have no effect here are said; those of -P must be right. info and render agree.
-printf 'Integrator "sppm" "integer numiterations" 3 "integer maxdepth" 100000 "bool visualizeweights" "true"
-"integer pixelbounds" [ 0 1 0 1 ] "bool visualizestrategies" "false"
-Film "image" "string filename" "x.jpg"\nWorldBegin\nLightSource "point"\nWorldEnd\n' >sppm.pbrt
-for command in info "render --res 16x16 --spp 1"; do
-    expect 0 'warning: sppm.pbrt:1:19: "numiterations" is not used: no integrator here' "$program" $command sppm.pbrt
-    check grep -q 'warning: sppm.pbrt:1:45: "maxdepth" is cut to 1000' stderr.txt
-    check grep -q 'warning: sppm.pbrt:1:[0-9]*: "visualizeweights" is not used; --strategies' stderr.txt
-    check grep -q 'warning: sppm.pbrt:2:1: "pixelbounds" is not used: .* --cropwindow' stderr.txt
-    check grep -q 'warning: sppm.pbrt: integrator "sppm" does not exist here; bdpt is used' stderr.txt
-    check grep -q 'warning: sppm.pbrt: the picture is written as .png: .*"x.jpg"' stderr.txt
-    check [ "$(grep -c warning: stderr.txt)" = 6 ]
-    expect 1 'sppm.pbrt:1:19: "numiterations" is not used' "$program" $command sppm.pbrt --strict
-    expect 2 '^asbdpt: -P: no integrator has a parameter "radiuss"' "$program" $command sppm.pbrt -P radiuss=3
-    expect 2 '^asbdpt: -P: maxdepth = 100000 is out of range' "$program" $command sppm.pbrt -P maxdepth=100000
-    expect 2 'delta = 7 is out of range' "$program" $command sppm.pbrt -P delta=7 --integrator asbdpt
-done
-check [ -f x.png ]
-
-# Parameters of another integrator than the one that renders: an error in -P, a warning in a file that names no other.
-other='"select" is a parameter of asbdpt, the integrator here is bdpt; try --integrator asbdpt$'
-printf 'Integrator "bdpt" "string select" "bins"\nWorldBegin\nLightSource "point"\nWorldEnd\n' >other.pbrt
-for command in info "render $small -o x.pfm" "trace --pixel 0,0 --res 16x16"; do
-    expect 2 "^asbdpt: -P: $other" "$program" $command "$box" --integrator bdpt -P select=bins
-    expect 0 '' "$program" $command "$box" --integrator asbdpt -P select=bins -P maxdepth=3
-    expect 0 '' "$program" $command "$box" --integrator bdpt -P rrthreshold=1 -P heuristic=power
-done
-expect 0 '^asbdpt: warning: other.pbrt:1:19: "select" is not used: it is a parameter of asbdpt$' \
-    "$program" info other.pbrt
-expect 1 '^asbdpt: other.pbrt:1:19: "select" is not used' "$program" info other.pbrt --strict
-expect 0 '' "$program" info other.pbrt --strict --integrator asbdpt
-sed s/bdpt/asbdpt/ other.pbrt >own.pbrt
-expect 0 '' "$program" info own.pbrt --strict --integrator bdpt
-sides="--res 12x12 --spp 8 --maxdepth 2 --quiet"
-expect 0 '' "$lab" verify "$box" --methods pt,asbdpt $sides -P select=vertices
-expect 2 '"select" is a parameter of asbdpt, the integrators here are pt and bdpt$' \
-    "$lab" verify "$box" --methods pt,bdpt $sides -P select=vertices
-
-# Types and numbers of values as of all other parameters: the default counts, an integer is cut.
-typed() { # PARAMETER WARNING DEPTH-IN-FORCE, nothing if the default
-    printf 'Integrator "bdpt" %s\nWorldBegin\nLightSource "point"\nWorldEnd\n' "$1" >typed.pbrt
-    expect 0 "^asbdpt: warning: typed.pbrt:1:19: $2\$" "$program" info typed.pbrt
-    check [ "$(sed -n 's/^  maxdepth    //p' stdout.txt)" = "$3" ]
-    expect 1 'typed.pbrt: refused' "$program" info typed.pbrt --strict
-}
-typed '"float maxdepth" [2]' '"maxdepth" cannot be of type "float", so it is not used' ''
-typed '"string maxdepth" ["6"]' '"maxdepth" cannot be of type "string", so it is not used' ''
-typed '"integer maxdepth" [6 7]' '"maxdepth" wants 1 value, not 2; it is passed over' ''
-typed '"integer maxdepth" []' '"maxdepth" wants 1 value, not 0; it is passed over' ''
-typed '"integer maxdepth" [6.7]' '"maxdepth" is 6.7, which counts as 6' 6
-typed '"float maxdepth" 2 "integer maxdepth" 7' '"maxdepth" cannot be of type "float", so it is not used' 7
-typed '"integer rrthreshold" 1' '"rrthreshold" cannot be of type "integer", so it is not used' ''
-
-printf 'Integrator "bdpt" "integer maxdepth" 1\nWorldBegin\nLightSource "point"\nWorldEnd\n' >depth.pbrt
-expect 0 '' "$program" info depth.pbrt -P maxdepth=7 --maxdepth 8
-check grep -q '^  maxdepth    8$' stdout.txt
-expect 0 '' "$program" info depth.pbrt -P maxdepth=6 -P maxdepth=7
-check grep -q '^  maxdepth    7$' stdout.txt
 for strategy in spatial power uniform; do
     expect 0 '' "$program" render "$scenes/living-room.pbrt" $small --integrator asbdpt \
         -P lightsamplestrategy=$strategy -o $strategy.pfm
 done
 check cmp -s power.pfm uniform.pfm
 check test -n "$(cmp power.pfm spatial.pfm 2>&1)"
+
+# Parameters of pbrt's integrators that have no effect here are said; those of -P must be right. info and render agree.
+printf 'Integrator "sppm" "integer numiterations" 3 "integer maxdepth" 100000
+Film "image" "string filename" "x.jpg"\nWorldBegin\nLightSource "point"\nWorldEnd\n' >sppm.pbrt
+for command in info "render --res 16x16 --spp 1"; do
+    expect 0 'warning: sppm.pbrt:1:19: "numiterations" is not used: no integrator here' "$program" $command sppm.pbrt
+    check grep -q 'warning: sppm.pbrt:1:45: "maxdepth" is 100000, which counts as 1000' stderr.txt
+    check grep -q 'warning: sppm.pbrt: integrator "sppm" does not exist here; bdpt is used' stderr.txt
+    check [ "$(grep -c warning: stderr.txt)" = 3 ]
+    expect 1 'sppm.pbrt:1:19: "numiterations" is not used' "$program" $command sppm.pbrt --strict
+    expect 2 '^asbdpt: -P: no integrator has a parameter "radiuss"' "$program" $command sppm.pbrt -P radiuss=3
+    expect 2 '^asbdpt: -P: maxdepth = "100000": give a whole number' "$program" $command sppm.pbrt -P maxdepth=100000
+done
+check [ -f x.png ]
+
+# Parameters of another integrator than the one that renders: an error in -P, a warning in a file that names no other.
+printf 'Integrator "bdpt" "string select" "bins"\nWorldBegin\nLightSource "point"\nWorldEnd\n' >other.pbrt
+for command in info "render $small -o x.pfm" "trace --pixel 0,0 --res 16x16"; do
+    expect 2 '^asbdpt: -P: "select" is a parameter of asbdpt, not of bdpt; see --integrator$' \
+        "$program" $command "$box" --integrator bdpt -P select=bins
+    expect 0 '' "$program" $command "$box" --integrator asbdpt -P select=bins -P maxdepth=3
+done
+expect 0 '^asbdpt: warning: other.pbrt:1:19: "select" is not used: it is a parameter of asbdpt$' \
+    "$program" info other.pbrt
+expect 0 '' "$program" info other.pbrt --strict --integrator asbdpt
+sed s/bdpt/asbdpt/ other.pbrt >own.pbrt
+expect 0 '' "$program" info own.pbrt --strict --integrator bdpt
+sides="--res 12x12 --spp 8 --maxdepth 2 --quiet"
+expect 0 '' "$lab" verify "$box" --methods pt,asbdpt $sides -P select=vertices
+expect 2 '"select" is a parameter of asbdpt, not of pt; see' \
+    "$lab" verify "$box" --methods pt,bdpt $sides -P select=vertices
+
+# Types and numbers of values as of all other parameters: the default counts, an integer is cut.
+depth() { sed -n 's/^  maxdepth    //p' stdout.txt; }
+typed() { # PARAMETER WARNING DEPTH-IN-FORCE, nothing if the default
+    printf 'Integrator "bdpt" %s\nWorldBegin\nLightSource "point"\nWorldEnd\n' "$1" >typed.pbrt
+    expect 0 "^asbdpt: warning: typed.pbrt:1:19: $2\$" "$program" info typed.pbrt
+    check [ "$(depth)" = "$3" ]
+    expect 1 'typed.pbrt: refused' "$program" info typed.pbrt --strict
+}
+typed '"string maxdepth" ["6"]' '"maxdepth" cannot be of type "string", so it is not used' ''
+typed '"integer maxdepth" [6 7]' '"maxdepth" wants 1 value, not 2; it is passed over' ''
+typed '"integer maxdepth" []' '"maxdepth" wants 1 value, not 0; it is passed over' ''
+typed '"integer maxdepth" [6.7]' '"maxdepth" is 6.7, which counts as 6' 6
+typed '"float maxdepth" 2 "integer maxdepth" 7' '"maxdepth" cannot be of type "float", so it is not used' 7
+typed '"integer rrthreshold" 1' '"rrthreshold" cannot be of type "integer", so it is not used' ''
+expect 0 '' "$program" info typed.pbrt -P maxdepth=7 --maxdepth 8
+check [ "$(depth)" = 8 ]
+expect 0 '' "$program" info typed.pbrt -P maxdepth=6 -P maxdepth=7
+check [ "$(depth)" = 7 ]
+
 # --- outputs
 if [ -e /dev/full ]; then
     ln -s /dev/full full.pfm
@@ -230,25 +189,18 @@ check cmp -s piped.pfm target.pfm
 
 # --- scenes
 # One line with place and caret for what a scene file can get wrong.
-printf 'WorldBegin\nShpae "sphere"\nWorldEnd\n' >typo.pbrt
-expect 1 '^asbdpt: typo.pbrt:2:1: ' "$program" render typo.pbrt
 # Warnings are errors by --strict, and all errors come in one run.
-printf 'WorldBegin\nShape "sphere" "float radus" 2\nMaterial "mate"\nWorldEnd\n' >warned.pbrt
+printf 'WorldBegin\nShape "sphere" "float radus" 2\nNamedMaterial "mate"\nWorldEnd\n' >warned.pbrt
 for command in info "render $small -o x.pfm"; do
     expect 0 '' "$program" $command warned.pbrt
-    expect 1 '^asbdpt: warned.pbrt:2:16: parameter "radus" of Shape "sphere" is not used; did you mean "radius"' \
+    expect 1 '^asbdpt: warned.pbrt:2:16: parameter "float radus" of Shape "sphere" is not used; did you mean "radius"' \
         "$program" $command warned.pbrt --strict
-    check grep -q '^asbdpt: warned.pbrt:3:10: unknown Material "mate"' stderr.txt
+    check grep -q '^asbdpt: warned.pbrt:3:15: there is no named material "mate"' stderr.txt
     check grep -q 'refused for what is said above' stderr.txt
 done
 printf 'WorldBegin\nShpae "sphere"\nShape "curve"\nWorldEnd\n' >errors.pbrt
 expect 1 '^asbdpt: errors.pbrt:2:1: unknown directive' "$program" render errors.pbrt --quiet
 check grep -q '^asbdpt: errors.pbrt:3:7: Shape "curve"' stderr.txt
-printf 'WorldBegin\nShape "nurbs"\nWorldEnd\n' >shape.pbrt
-expect 1 'shape.pbrt:2:[0-9]+: .*nurbs' "$program" render shape.pbrt
-printf 'WorldBegin\nShape "plymesh" "string filename" "cut.ply"\nWorldEnd\n' >ply.pbrt
-printf 'ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\n' >cut.ply
-expect 1 'cut.ply' "$program" render ply.pbrt
 
 # Bytes of a scene that mean something to a terminal do not reach it.
 printf 'Integrator "\033[31mx" "string maxdepth" "\033[31m"\nWorldBegin\nWorldEnd\n' >escape.pbrt
@@ -284,8 +236,6 @@ check cmp -s a.pfm b.pfm
 expect 0 '' "$program" render "$box" --res=16x16 --spp=2 --quiet -j3 --outfile b.pfm # other ways to write the same
 check cmp -s a.pfm b.pfm
 expect 0 '' "$program" render "$box" $small --cropwindow 0 0.5 0.25 1 -o crop.pfm
-expect 0 '' "$program" render "$box" $small --cropwindow 0,0.5,0.25,1 -o comma.pfm
-check cmp -s crop.pfm comma.pfm
 expect 0 '' "$program" render "$box" $small --cropwindow 0 0.5 0.25 1 -o crop.exr -o crop.part
 expect 0 '' "$program" convert crop.exr -o same.exr # OpenEXR keeps the window, other formats do not
 check cmp -s crop.exr same.exr
@@ -294,10 +244,6 @@ check cmp -s crop.exr sum.exr
 expect 0 '^asbdpt: warning: crop.exr lies at 0,4 of a picture of 16x16, as lost.pfm does not say$' \
     "$program" convert crop.exr -o same.exr -o lost.pfm
 check [ "$(grep -c warning stderr.txt)" = 1 ]
-expect 0 '' "$program" convert lost.pfm -o whole.exr
-check test -n "$(cmp whole.exr crop.exr 2>&1)"
-expect 0 '' "$program" convert whole.exr -o lost.png
-check [ ! -s stderr.txt ]
 check [ "$(head -c 2 a.ppm)" = P6 ]
 expect 0 '' "$program" compare a.pfm b.pfm --json
 check grep -q '"rmse": 0, "rmse8": 0, "relmse": 0, "mean_ratio": 1, "nonfinite": 0, "psnr": null}' stdout.txt
@@ -309,11 +255,8 @@ check [ ! -s stderr.txt ]
 expect 0 'a.png holds sRGB values from 0 to 1, a.pfm linear ones' \
     "$program" compare a.png a.pfm --heatmap heat.png --max 2
 check grep -q '^heatmap    0 to 2$' stdout.txt
-expect 0 'b.pfm linear ones' "$program" compare b.pfm a.ppm --json
 expect 0 '' "$program" compare "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" --json
 check grep -Eq ', "psnr": [0-9.]+\}$' stdout.txt
-expect 2 'expected a number from 1e-30' "$program" compare a.pfm b.pfm --heatmap heat.png --max 0
-expect 2 '[-]-max has no effect without --heatmap' "$program" compare a.pfm b.pfm --max 2
 expect 2 'exclude each other' "$program" compare a.pfm b.pfm --heatmap heat.png --max 2 --percentile 50
 expect 0 '' "$program" compare a.png a.pfm --max-rmse 1000
 expect 1 'rmse [0-9.e-]+ is more than 1e-09' "$program" compare a.png a.pfm --max-rmse 1e-9
@@ -329,7 +272,7 @@ check cmp -s scale.pfm s/d00_s00_t02_weighted.pfm
 
 # --- aov
 # --aov: a picture each beside the first, the same for any number of threads and whatever is rendered.
-expect 0 'wrote aov.variance.pfm' "$program" render "$box" --res 16x16 --spp 2 -j 1 \
+expect 0 'wrote aov.png, .*, aov.variance.pfm$' "$program" render "$box" --res 16x16 --spp 2 -j 1 \
     --aov variance,albedo,normal,depth,position -o aov.png
 expect 0 '' "$program" render "$box" $small --integrator pt -j 3 --aov depth,albedo,depth -o two.x.pfm -o a.png
 check cmp -s aov.depth.pfm two.x.depth.pfm
@@ -340,7 +283,6 @@ expect 2 'known are albedo' "$program" render "$box" $small --aov albedo,norml -
 expect 1 'few.variance.pfm: not written: one sample' "$program" render "$box" --spp 2 --samples 0:1 --res 8x8 --quiet \
     --aov variance -o few.png
 check [ -s few.png -a ! -e few.variance.pfm ]
-expect 2 'needs two samples' "$program" render "$box" --spp 1 --res 8x8 --quiet --aov variance -o aov.png
 expect 2 'a picture with a name' "$program" render "$box" $small --aov depth -o -
 mkdir taken.depth.pfm
 expect 1 'taken.depth.pfm' "$program" render "$box" $small --aov albedo,depth -o taken.png
@@ -383,7 +325,6 @@ check grep -q '^asbdpt .* spp .* s of CPU   rmse8' stdout.txt
 check [ -s demo.png ]
 expect 1 'there is no stored reference known.pfm' "$lab" demo known.pbrt -o demo.png
 expect 2 'there is no method bdtp; did you mean bdpt' "$lab" demo "$box" --methods bdtp,asbdpt -o demo.png
-expect 2 'demo needs a picture to write' "$lab" demo "$box"
 
 # --- help
 # help: as a whole no wider than a terminal, with every integrator once.
@@ -393,8 +334,6 @@ check [ "$(grep -c 'usage: asbdpt' stdout.txt)" = 7 ]
 expect 0 '' "$program" help integrators
 check [ "$(grep -c '^asbdpt$' stdout.txt)" = 1 ] # however many selections it has
 check grep -q '^    lightsamplestrategy *spatial ' stdout.txt
-expect 0 '' "$program" help render
-check grep -q 'usage: asbdpt render' stdout.txt
 expect 2 'there is no help on rendering' "$program" help rendering
 expect 0 '' "$program" info "$box" --json
 check grep -q '"triangles": ' stdout.txt
@@ -424,7 +363,6 @@ assert s == o["sum"] and o["sample"] == 3'
 fi
 expect 2 'pixel 12,0 is not rendered: x is 0 to 11' "$program" trace "$box" $one --pixel 12,0
 expect 2 'sample 4 is not taken: they are numbered 0 to 3' "$program" trace "$box" $one --spp 4 --sample 4
-expect 1 'no/paths.svg' "$program" trace "$box" $one --svg no/paths.svg
 
 # --- worth
 # worth: what was learnt, as a picture.
@@ -432,10 +370,7 @@ expect 0 '' "$program" worth "$box" --pixel 3,9 --res 12x12 --spp 4 --quiet -o w
 check [ -s worth.png ]
 expect 2 'pixel 12,0 lies outside' "$program" worth "$box" --pixel 12,0 --res 12x12 -o worth.png
 expect 1 'learns nothing about pairs' "$program" worth "$box" --pixel 3,9 --res 12x12 -P select=pool -o worth.png
-expect 2 'expected X,Y' "$program" worth "$box" --pixel 3x9 -o worth.png
 expect 2 'the whole film is shown' "$program" worth "$box" --pixel 3,9 --cropwindow 0 1 0 0.5 -o worth.png
-expect 0 '' "$program" info "$box"
-check grep -q triangles stdout.txt
 
 # --- verify
 # verify: agreement is status 0, a difference status 1.
@@ -502,8 +437,6 @@ expect 0 'does not say what scene it is of: measured at 48x48' \
     "$lab" equal-time bathroom/scene.pbrt $tiny -o foreign
 expect 1 'have the same name, bathroom' \
     "$lab" equal-time bathroom/scene.pbrt "$scenes/bathroom.pbrt" $tiny --quiet -o foreign
-expect 2 'unknown option -j' "$lab" equal-time "$box" -j 2 $tiny -o equal
-expect 2 '[-]-seconds 0: expected a number from 0.001' "$lab" equal-time "$box" --seconds 0 $tiny -o equal
 for command in experiment equal-time; do
     expect 2 'there is no method bdtp; did you mean bdpt' "$lab" $command "$box" --methods bdtp -o equal
 done
@@ -552,10 +485,6 @@ done
 expect 0 '' "$program" convert maps.x.float.exr -o maps.exr.pfm
 check cmp -s maps.light.pfm maps.exr.pfm
 expect 1 'nothing.exr' "$program" convert nothing.exr -o x.png
-expect 2 'x.jpg: pictures are written as' "$program" convert light.pfm -o x.jpg
-expect 1 'no/such/dir' "$program" convert light.pfm -o no/such/dir/x.png
-expect 2 'needs a picture to write' "$program" convert light.pfm
-check [ ! -e x.jpg ]
 
 # --exposure and --tonemap: of 8-bit pictures alone, the same in render and convert; without them nothing changes.
 expect 0 '' "$program" render "$box" --res 37x23 --spp 4 --quiet --exposure -2 --tonemap filmic -o dark.pfm -o dark.png
@@ -569,7 +498,6 @@ expect 0 '' "$program" convert light.pfm -o y.png --exposure 0 --tonemap none
 check cmp -s light.png y.png
 expect 2 'known are none, filmic' "$program" convert light.pfm -o y.png --tonemap film
 expect 2 'for 8-bit pictures' "$program" convert light.pfm -o y.exr --exposure 1
-expect 2 'expected a number from -100 to 100' "$program" convert light.pfm -o y.png --exposure nan
 
 # OpenEXR's own tools and ImageMagick, where they are installed, read our files and write ours.
 if command -v exrmaketiled >/dev/null; then

@@ -11,11 +11,11 @@
 
 #include "base/mem.h"
 #include "base/os.h"
-#include "base/parallel.h"
+#include "base/sampler.h"
+#include "base/warp.h"
 #include "lab/sides.h"
 #include "lab/stats.h"
 #include "parser/parser.h"
-#include "render/render.h"
 
 void write_bytes(const char *path, const void *data, size_t n)
 {
@@ -49,6 +49,37 @@ bool accepts(reader *read, const uint8_t *data, size_t n, struct error *err)
     bool ok = read_exactly(read, data, n, &img, err);
     image_free(&img);
     return ok;
+}
+
+bool near3(vec3 a, vec3 b, double tolerance) { return length(sub(a, b)) <= tolerance; }
+
+vec3 on_sphere(struct rng *r)
+{
+    double u1 = rng_uniform(r), u2 = rng_uniform(r);
+    return warp_sphere(u1, u2);
+}
+
+void check_no_picture(struct test *t, reader *read, const uint8_t *data, size_t n, const char *message)
+{
+    struct error err = {""};
+    CHECK(t, !accepts(read, data, n, &err) && strstr(err.text, message) != NULL && strchr(err.text, '\n') == NULL,
+          "\"%s\" expected, got \"%s\"", message, err.text);
+}
+
+int check_spoilt(struct test *t, const char *what, reader *read, const uint8_t *data, size_t n)
+{
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 30, n);
+    int accepted = 0;
+    for (size_t cut = 0; cut < n; cut += cut < 300 || n - cut < 20 ? 1 : 1 + n / 40)
+        CHECK(t, !accepts(read, data, cut, NULL), "%s: the first %lu bytes are accepted", what, (unsigned long)cut);
+    uint8_t *copy = mem_alloc(n, 1);
+    for (size_t round = 0; round < 200; round++) {
+        memcpy(copy, data, n);
+        copy[round < n ? round : rng_below(&r, (uint32_t)n)] ^= (uint8_t)(1 + rng_below(&r, 255));
+        accepted += accepts(read, copy, n, NULL);
+    }
+    free(copy);
+    return accepted;
 }
 
 struct transform random_affine(struct rng *r)
@@ -90,24 +121,68 @@ bool scene_from_text(struct test *t, const char *text, struct scene *out)
     return scene_from_file(t, path, 0, 0, out);
 }
 
+const char *set_method(struct scene *scene, const char *way)
+{
+    static char text[256];
+    snprintf(text, sizeof text, "%s", way);
+    settings_clear(&scene->settings);
+    const char *integrator = strtok(text, " ");
+    for (char *name; (name = strtok(NULL, " ")) != NULL;) {
+        char *equals = strchr(name, '=');
+        *equals = '\0';
+        settings_set(&scene->settings, name, equals + 1, "test");
+    }
+    return integrator;
+}
+
+const char *method_name(const struct method *m)
+{
+    static char text[64];
+    bool one = m->select == NULL;
+    snprintf(text, sizeof text, "%s%s%s", m->name, one ? "" : " select=", one ? "" : m->select);
+    return text;
+}
+
+void render_film(struct test *t, const struct scene *scene, const struct render_options *o, struct film *film)
+{
+    struct error err;
+    film_init(film, render_crop(scene), scene->width, scene->height);
+    CHECK(t, render_scene(scene, o, film, &err), "%s", err.text);
+}
+
+bool films_equal(const struct film *a, const struct film *b)
+{
+    size_t n = (size_t)rect_width(a->rect) * (size_t)rect_height(a->rect) * 3;
+    for (size_t i = 0; i < n; i++)
+        if (film_value(a, i) != film_value(b, i))
+            return false;
+    return true;
+}
+
 struct batches render_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth, int spp,
                               int n_batches, int tile, uint64_t seed)
 {
     struct pixel_rect crop = render_crop(scene);
     struct batches pixels = batches_new(n_batches, 3L * rect_width(crop) * rect_height(crop), false);
-    struct render_options o = {.integrator = integrator, .end = spp * test_effort(t), .max_depth = max_depth};
-    o.n_threads = os_cores();
+    struct render_options o = {.integrator = integrator, .max_depth = max_depth, .n_threads = os_cores()};
+    struct bytes learnt = {NULL, 0, 0}; /* by the first batch */
+    o.seed = test_seed(t) * 1000003 + seed;
     for (int k = 0; k < n_batches; k++) {
         struct film film;
         struct error err;
-        o.seed = (test_seed(t) * 1000003 + seed) * 1009 + (uint64_t)k;
+        o.first = (long)k * SAMPLER_POINTS;
+        o.end = o.first + spp * test_effort(t);
         film_init(&film, crop, scene->width, scene->height);
+        film.learnt = learnt;
         CHECK(t, render_scene(scene, &o, &film, &err), "%s", err.text);
         CHECK(t, film.nonfinite == 0, "%s: %ld contributions are not finite", integrator, film.nonfinite);
         for (long i = 0; i < pixels.n; i++)
             pixels.value[pixels.n * k + i] = film_value(&film, (size_t)i) / (double)film.iterations;
+        learnt = film.learnt;
+        film.learnt.data = NULL;
         film_free(&film);
     }
+    free(learnt.data);
     struct batches tiles = batches_tiles(&pixels, rect_width(crop), rect_height(crop), tile);
     batches_free(&pixels);
     return tiles;
@@ -146,6 +221,18 @@ double batches_p(const struct batches *a, const struct batches *b, double *ratio
 {
     *ratio = batches_mean(a, NULL) / batches_mean(b, NULL);
     return batches_smallest_p(a, b);
+}
+
+double batches_paired_p(const struct batches *a, const struct batches *b, double *ratio)
+{
+    struct batches d = batches_new(a->n_batches, a->n, false), zero = batches_new(1, a->n, true);
+    for (long i = 0; i < a->n * a->n_batches; i++)
+        d.value[i] = a->value[i] - b->value[i];
+    double one = batches_smallest_p(&d, &zero), whole = mean_p(&d, 0);
+    *ratio = batches_mean(a, NULL) / batches_mean(b, NULL);
+    batches_free(&d);
+    batches_free(&zero);
+    return stats_sidak(whole < one ? whole : one, 2);
 }
 
 double mean_p(const struct batches *b, double expected)

@@ -8,6 +8,7 @@
 #include "integrators/method.h"
 #include "lab/sides.h"
 #include "lab/verify.h"
+#include "render/render.h"
 #include "scene/scene.h"
 #include "test.h"
 
@@ -24,18 +25,42 @@ typedef bool reader(const uint8_t *data, size_t size, struct image *out, struct 
 bool read_exactly(reader *read, const uint8_t *data, size_t n, struct image *out, struct error *err);
 bool accepts(reader *read, const uint8_t *data, size_t n, struct error *err);
 
+/* check_no_picture: is the file refused in one line that holds this message?
+ * check_spoilt: every proper beginning of the file is refused, or some hundred of a longer one; changed bytes are
+ * survived. Returns how many changed files are accepted. */
+void check_no_picture(struct test *t, reader *read, const uint8_t *data, size_t n, const char *message);
+int check_spoilt(struct test *t, const char *what, reader *read, const uint8_t *data, size_t n);
+
 /* scene_from_text: parse and prepare a scene given as text. A failure is a failed check; returns false. */
 bool scene_from_text(struct test *t, const char *text, struct scene *out);
 
 /* scene_from_file: the same for a file, at the given resolution (0: as it is) with a box filter. */
 bool scene_from_file(struct test *t, const char *path, int width, int height, struct scene *out);
 
+/* near3: are two points, or directions, no farther from each other? on_sphere: a direction, uniform. */
+bool near3(vec3 a, vec3 b, double tolerance);
+vec3 on_sphere(struct rng *r);
+
 /* random_affine: a transform of uneven scale and shear, half of them mirrors, with some translation; no direction
  * becomes more than some ten times as long as another. */
 struct transform random_affine(struct rng *r);
 
-/* render_batches: render `n_batches` times with `spp` samples, times the effort, and seeds of their own, and average
- * over square tiles of `tile` pixels. Powers of two are best: low-discrepancy points lie evenly then. */
+/* set_method: choose by "asbdpt select=bins restart=16", say, whose parameters replace all settings of the scene.
+ * Returns the integrator's name, which the next call overwrites. */
+const char *set_method(struct scene *scene, const char *way);
+
+/* method_name: such words for a method with all its defaults, which the next call overwrites. */
+const char *method_name(const struct method *m);
+
+/* render_film: render into a fresh film of the scene's crop window, to be given to film_free. */
+void render_film(struct test *t, const struct scene *scene, const struct render_options *o, struct film *film);
+
+/* films_equal: the sums of all pixels of two films of one size, to the last bit. */
+bool films_equal(const struct film *a, const struct film *b);
+
+/* render_batches: render `n_batches` times with `spp` samples, times the effort, and average over square tiles of
+ * `tile` pixels. Powers of two are best: low-discrepancy points lie evenly then. Batches are parts of one long render,
+ * so far apart that their numbers have nothing in common (sampler.h), by what was learnt before it, once. */
 struct batches render_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth, int spp,
                               int n_batches, int tile, uint64_t seed);
 
@@ -50,6 +75,10 @@ void batches_scale(struct batches *b, double factor);
 
 /* batches_p: batches_smallest_p, and in *ratio the mean of a over the mean of b. */
 double batches_p(const struct batches *a, const struct batches *b, double *ratio);
+
+/* batches_paired_p: the same for batches that are not independent, as those of one seed, which share eye sub-paths and
+ * with them most of their noise: by Student's t over the differences, of every value and of the mean. */
+double batches_paired_p(const struct batches *a, const struct batches *b, double *ratio);
 
 /* remove_tree: a directory and all that is in it. False if something is left. */
 bool remove_tree(const char *path);

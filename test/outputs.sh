@@ -107,19 +107,6 @@ check [ "$(find all -name '*.pfm' | wc -l)" = 504 ]
 long=$(awk 'BEGIN { for (i = 0; i < 300; i++) printf "n" }')
 refused 1 'nnn.pfm: cannot be created' "$program" render nothing.pbrt -o "$long.pfm"
 refused 2 'expected a number from 1e-09' render --time 0 -o new.pfm
-# A signal between two strategies ends them; the picture is there.
-"$program" render "$box" --integrator pt --res 48x48 --spp 1 --quiet --strategies some --maxdepth 20 -o some.pfm \
-    2>stderr.txt &
-i=0
-while [ ! -e some/d00_s00_t02_weighted.pfm ] && [ $i -lt 300 ]; do
-    i=$((i + 1))
-    sleep 0.02
-done
-kill -s TERM $!
-wait $!
-check [ $? = 143 ]
-check grep -q 'stopped by SIGTERM before all strategies were in some' stderr.txt
-check [ -s some.pfm -a ! -e some/pyramid.png ]
 # A limit of CPU time, too, ends with what there is.
 (
     ulimit -S -t 1 && ulimit -S -c 0

@@ -42,10 +42,9 @@ static void camera(struct writer *w, const struct view *v)
     put_vec(w, fabs(normalize(sub(v->look, v->eye)).y) < 0.95 ? vec(0.1, 1, 0) : vec(1, 0, 0.1));
     put(w, "\nCamera ");
     if (kind == 3) {
-        put(w, "\"orthographic\" \"float screenwindow\" [ ");
         const double window[4] = {-1.5 * v->unit, 1.7 * v->unit, -1.6 * v->unit, 1.4 * v->unit};
-        put_numbers(w, 4, window);
-        put(w, "] ");
+        put(w, "\"orthographic\" ");
+        put_list(w, "float", "screenwindow", 4, window);
     } else if (kind == 4) {
         put(w, "\"environment\" ");
     } else {
@@ -71,9 +70,7 @@ static void film(struct writer *w, bool tiny)
     put(w, "Film \"image\" \"integer xresolution\" %d \"integer yresolution\" %d ", 10 + pick(w, 8), 10 + pick(w, 8));
     if (chance(w, 0.25)) {
         const double crop[4] = {between(w, 0, 0.4), between(w, 0.6, 1), between(w, 0, 0.4), between(w, 0.6, 1)};
-        put(w, "\"float cropwindow\" [ ");
-        put_numbers(w, 4, crop);
-        put(w, "] ");
+        put_list(w, "float", "cropwindow", 4, crop);
     }
     put(w, "\nPixelFilter \"%s\" ", FILTERS[pick(w, 5)]);
     if (chance(w, 0.5)) {
@@ -230,9 +227,8 @@ static double shine(struct writer *w, const struct patch *p, vec3 wi, double uni
         put_map(w, &m);
         put(w, "LightSource \"distant\" ");
         put_rgb(w, "L", strength, strength, strength);
-        put(w, "\"point from\" [ ");
-        put_vec(w, map_back(&m, wi));
-        put(w, "] \"point to\" [ 0 0 0 ] AttributeEnd\n");
+        put_point(w, "point", "from", map_back(&m, wi));
+        put(w, "\"point to\" [ 0 0 0 ] AttributeEnd\n");
         return strength;
     }
     /* The cone's axis misses the patch by a share of the cone. */
@@ -248,9 +244,8 @@ static double shine(struct writer *w, const struct patch *p, vec3 wi, double uni
     put_float(w, "coneangle", cone);
     if (edge != 5)
         put_float(w, "conedeltaangle", edge);
-    put(w, "\"point to\" [ ");
-    put_vec(w, axis);
-    put(w, "] AttributeEnd\n");
+    put_point(w, "point", "to", axis);
+    put(w, "AttributeEnd\n");
     return strength * spot_at(cos(miss * PI / 180), cone, edge) / (distance * distance);
 }
 

@@ -270,7 +270,7 @@ static rgb bdpt_of(struct bench *b, const struct tape *number)
     for (size_t i = 0; i < tile.n_splats; i++)
         if (floor(tile.splat[i].px) == 0 && floor(tile.splat[i].py) == 0)
             sum = rgb_add(sum, tile.splat[i].value);
-    sum = rgb_add(sum, rgb_make(tile.eye[0], tile.eye[1], tile.eye[2]));
+    sum = rgb_add(sum, rgb_make(exact_value(&tile.sum[0]), exact_value(&tile.sum[1]), exact_value(&tile.sum[2])));
     tile_free(&tile);
     free(all.number);
     return all.n == n ? sum : rgb_grey(NAN);

@@ -12,6 +12,7 @@
 #include "base/os.h"
 #include "base/json.h"
 #include "base/progress.h"
+#include "image/half.h"
 #include "image/image.h"
 #include "base/mem.h"
 #include "base/rng.h"
@@ -25,15 +26,16 @@ static const char *in_tmp(const struct test *t, const char *name, char *buffer, 
     return buffer;
 }
 
-/* A picture with a smooth part, noise, black, and numbers outside [0,1]. */
+/* A picture with a smooth part, noise, black, and numbers that are no light. */
 static float *make_pixels(const struct test *t, int width, int height)
 {
+    static const float ODD[] = {-1, 0, 1e30f, -1e30f, 65504, 65520, 1e-7f, INFINITY, 1e-40f, 0.1f};
     float *p = mem_alloc((size_t)width * (size_t)height * 3, sizeof *p);
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 20, 0);
     for (int i = 0; i < width * height * 3; i++) {
         int x = i / 3 % width, y = i / 3 / width;
-        double noise = rng_uniform(&r);
-        p[i] = (float)(y % 4 == 0 ? noise * 1.2 - 0.1 : y % 4 == 1 ? 0 : (x + 0.2 * (i % 3)) / width);
+        double noise = ldexp(rng_uniform(&r), (int)rng_below(&r, 30) - 15);
+        p[i] = i < 10 ? ODD[i] : (float)(y % 4 == 0 ? noise : y % 4 == 1 ? 0 : (x + 0.2 * (i % 3)) / width);
     }
     return p;
 }
@@ -44,6 +46,7 @@ static void check_written(struct test *t, const char *name, int width, int heigh
     struct image img;
     struct error err = {""};
     float *p = make_pixels(t, width, height);
+    bool halfs = file_has_extension(name, ".exr") && !file_has_extension(name, ".float.exr");
     in_tmp(t, name, path, sizeof path);
     write_bytes(path, "old", 3); /* is to be replaced */
     CHECK(t, image_write(path, width, height, p, &err), "%s", err.text);
@@ -51,7 +54,8 @@ static void check_written(struct test *t, const char *name, int width, int heigh
         CHECK(t, img.width == width && img.height == height && img.channels == 3, "%s: shape", name);
         int wrong = 0;
         for (int i = 0; i < width * height * 3; i++) {
-            bool same = img.u8 != NULL ? img.u8[i] == srgb_byte(p[i]) : img.f32[i] == p[i];
+            float kept = halfs ? half_to_float(float_to_half(p[i])) : p[i];
+            bool same = img.u8 != NULL ? img.u8[i] == srgb_byte(p[i]) : img.f32[i] == kept;
             wrong += !same;
         }
         CHECK(t, wrong == 0, "%s, %d x %d: %d samples differ", name, width, height, wrong);
@@ -64,7 +68,7 @@ static void check_written(struct test *t, const char *name, int width, int heigh
 
 static void test_written(struct test *t)
 {
-    static const char *const NAMES[] = {"a.pfm", "a.float.exr", "a.ppm", "a.png", "UPPER.PNG"};
+    static const char *const NAMES[] = {"a.pfm", "a.float.exr", "a.exr", "a.EXR", "a.ppm", "a.png", "UPPER.PNG"};
     for (size_t i = 0; i < sizeof NAMES / sizeof NAMES[0]; i++) {
         check_written(t, NAMES[i], 1, 1);
         check_written(t, NAMES[i], 7, 1);
@@ -159,22 +163,6 @@ static void test_commit(struct test *t)
     remove(path);
 }
 
-/* The target has become a directory when the file is finished: the temporary file must go. */
-static void test_failed_rename(struct test *t)
-{
-    char path[256], temporary[300];
-    struct error err = {""};
-    struct file_output f;
-    in_tmp(t, "taken.png", path, sizeof path);
-    if (!CHECK(t, file_create(path, &f, &err), "%s", err.text))
-        return;
-    snprintf(temporary, sizeof temporary, "%s", f.temporary);
-    CHECK(t, os_make_directory(path), "%s cannot be made", path);
-    CHECK(t, !file_commit(&f, &err) && strstr(err.text, "cannot be written") != NULL, "%s", err.text);
-    CHECK(t, os_kind_of(temporary) == OS_NOTHING, "%s is left behind", temporary);
-    remove_tree(path);
-}
-
 static void check_no_read(struct test *t, const char *path, const char *message)
 {
     struct image img;
@@ -198,7 +186,7 @@ static void test_unreadable(struct test *t)
     } CASES[] = {
         {"empty.png", "", "signature"},          {"empty.pfm", "", "not a PFM"},
         {"empty.ppm", "", "not a PPM"},          {"empty.tga", "", "truncated"},
-        {"what.jpg", "JFIF", "unknown picture"}, {"env.exr", "v/1\1", "header is damaged: it is truncated"},
+        {"what.jpg", "JFIF", "unknown picture"}, {"env.exr", "v/1\1", "header is damaged or truncated"},
         {"p.png", "P3 1 1 7 ", "do not fit"},
     };
     for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
@@ -316,6 +304,5 @@ void test_file(struct test *t)
     test_written_bytes(t);
     test_unwritable(t);
     test_commit(t);
-    test_failed_rename(t);
     test_unreadable(t);
 }

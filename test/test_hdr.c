@@ -1,9 +1,7 @@
 /* test_hdr.c: pictures of linear light and more than one unit of it: OpenEXR, Radiance, and the tone curve.
  *
  * Facts: files that OpenEXR's own library and ImageMagick made of picture.pfm have its pixels, compressed and laid out
- * in every way that is read; what is written is read back. Faults: every other kind is refused by name; truncation,
- * random changes, absurd sizes. Readers are called on blocks that end where the data end, so that a memory checker
- * (`make san`) sees any byte read beyond them. */
+ * in every way that is read. Faults: every other kind is refused; truncation, random changes, absurd sizes. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +10,6 @@
 #include "base/bits.h"
 #include "base/file.h"
 #include "base/mem.h"
-#include "base/rng.h"
 #include "image/formats.h"
 #include "image/half.h"
 #include "image/image.h"
@@ -21,13 +18,6 @@
 #include "tests.h"
 
 #define FIXTURES "test/fixtures/pictures/"
-
-static void check_refused(struct test *t, reader *read, const uint8_t *data, size_t n, const char *message)
-{
-    struct error err = {""};
-    CHECK(t, !accepts(read, data, n, &err) && strstr(err.text, message) != NULL, "\"%s\" expected, got \"%s\"", message,
-          err.text);
-}
 
 /* A fixture in memory, to be given to free(). */
 static uint8_t *load(struct test *t, const char *name, size_t *n)
@@ -38,24 +28,6 @@ static uint8_t *load(struct test *t, const char *name, size_t *n)
     snprintf(path, sizeof path, "%s%s", FIXTURES, name);
     CHECK(t, file_read(path, &data, n, &err), "%s", err.text);
     return data;
-}
-
-/* Cut the file at many places; then change random bytes of it, which must be survived, whatever comes out. */
-static void check_damaged(struct test *t, const char *what, reader *read, const uint8_t *data, size_t n, bool whole)
-{
-    struct rng r = rng_stream(test_seed(t), RNG_TEST, 30, (uint32_t)n);
-    struct error err;
-    for (size_t cut = 0; whole && cut < n; cut += cut < 400 || n - cut < 50 ? 1 : 23)
-        CHECK(t, !accepts(read, data, cut, &err), "%s: the first %lu bytes are accepted", what, (unsigned long)cut);
-    uint8_t *copy = mem_alloc(n, 1);
-    for (int round = 0; round < 150; round++) {
-        memcpy(copy, data, n);
-        uint32_t first = round % 2 == 0 ? 0 : (uint32_t)n / 2, changes = 1 + rng_below(&r, 4);
-        for (uint32_t k = 0; k < changes; k++)
-            copy[first + rng_below(&r, (uint32_t)n - first)] = (uint8_t)(rng_u32(&r) >> 24);
-        accepts(read, copy, n, &err);
-    }
-    free(copy);
 }
 
 /* --- halfs -------------------------------------------------------------------------------------------- */
@@ -83,8 +55,9 @@ static void test_half(struct test *t)
 
 /* --- OpenEXR files of another program ----------------------------------------------------------------- */
 
-/* What a fixture holds of picture.pfm. */
-enum content { ALL, ONLY_GREEN_AS_GREY, ONLY_RED, THOUSANDFOLD };
+/* What a fixture holds: of picture.pfm, or grey samples that are consecutive numbers as bits, more of them than 2^14 in
+ * a block, for the wide pairs of PIZ, or floats whose lower halves matter. */
+enum content { ALL, ONLY_GREEN_AS_GREY, ONLY_RED, THOUSANDFOLD, HALFS, FLOATS };
 
 static float expected(const struct image *picture, size_t i, enum content content)
 {
@@ -93,26 +66,30 @@ static float expected(const struct image *picture, size_t i, enum content conten
     case ONLY_GREEN_AS_GREY: return picture->f32[3 * i + 1];
     case ONLY_RED: return i % 3 == 0 ? picture->f32[i] : 0;
     case THOUSANDFOLD: return floorf(picture->f32[i] * 1000);
+    case HALFS: return half_to_float((uint16_t)(600 + i));
+    case FLOATS: return 1 + (float)(5 * i) * ldexpf(1, -23);
     }
     return 0;
 }
 
-static void check_fixture(struct test *t, const struct image *picture, const char *name, enum content content,
-                          bool whole)
+static void check_fixture(struct test *t, const struct image *picture, const char *name, enum content content)
 {
-    size_t n = 0, samples = (size_t)picture->width * (size_t)picture->height;
+    bool levels = strstr(name, "ip.exr") != NULL && name[0] == 't'; /* then the end of the file does not matter */
+    size_t n = 0, wrong = 0;
     uint8_t *data = load(t, name, &n);
     struct image img;
     struct error err = {""};
-    int channels = content == ONLY_GREEN_AS_GREY ? 1 : 3, wrong = 0;
     if (CHECK(t, data != NULL && read_exactly(exr_read, data, n, &img, &err), "%s: %s", name, err.text)) {
-        if (CHECK(t, img.width == picture->width && img.height == picture->height && img.channels == channels &&
-                         img.linear && img.f32 != NULL, "%s: shape", name))
-            for (size_t i = 0; i < samples * (size_t)channels; i++)
-                wrong += img.f32[i] != expected(picture, i, content);
-        CHECK(t, wrong == 0, "%s: %d samples are wrong", name, wrong);
+        if (content <= THOUSANDFOLD)
+            CHECK(t, img.width == picture->width && img.height == picture->height, "%s: shape", name);
+        bool grey = content == ONLY_GREEN_AS_GREY || content > THOUSANDFOLD;
+        CHECK(t, img.channels == (grey ? 1 : 3) && img.linear, "%s: %d channels", name, img.channels);
+        for (size_t i = 0; i < image_bytes(&img) / sizeof *img.f32; i++)
+            wrong += img.f32[i] != expected(picture, i, content);
+        CHECK(t, wrong == 0, "%s: %d samples are wrong", name, (int)wrong);
         image_free(&img);
-        check_damaged(t, name, exr_read, data, n, whole);
+        if (!levels)
+            check_spoilt(t, name, exr_read, data, n);
     }
     free(data);
 }
@@ -122,46 +99,20 @@ static void test_fixtures(struct test *t)
     static const struct {
         const char *name;
         enum content content;
-        bool levels; /* then the end of the file does not matter */
     } CASES[] = {
-        {"none.exr", ALL, false},       {"rle.exr", ALL, false},        {"zips.exr", ALL, false},
-        {"zip.exr", ALL, false},        {"piz.exr", ALL, false},        {"piz-float.exr", ALL, false},
-        {"zip-float.exr", ALL, false},  {"window.exr", ALL, false},     {"layer.exr", ALL, false},
-        {"tiles.exr", ALL, false},      {"tiles-piz.exr", ALL, false},  {"plain-and-layer.exr", ALL, false},
-        {"tiles-mip.exr", ALL, true},   {"red.exr", ONLY_RED, false},   {"tiles-rip.exr", ONLY_GREEN_AS_GREY, true},
-        {"uint.exr", THOUSANDFOLD, false}, {"grey.exr", ONLY_GREEN_AS_GREY, false},
+        {"none.exr", ALL},      {"rle.exr", ALL},       {"zips.exr", ALL},       {"zip.exr", ALL},
+        {"piz.exr", ALL},       {"piz-float.exr", ALL}, {"zip-float.exr", ALL},  {"window.exr", ALL},
+        {"tiles.exr", ALL},     {"tiles-piz.exr", ALL}, {"tiles-mip.exr", ALL},  {"plain-and-layer.exr", ALL},
+        {"red.exr", ONLY_RED},  {"grey.exr", ONLY_GREEN_AS_GREY}, {"tiles-rip.exr", ONLY_GREEN_AS_GREY},
+        {"uint.exr", THOUSANDFOLD}, {"ramp-piz.exr", HALFS}, {"ramp-float.exr", FLOATS},
     };
     struct image picture;
     struct error err;
     if (!CHECK(t, image_read(FIXTURES "picture.pfm", &picture, &err), "%s", err.text))
         return;
     for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++)
-        check_fixture(t, &picture, CASES[i].name, CASES[i].content, !CASES[i].levels);
+        check_fixture(t, &picture, CASES[i].name, CASES[i].content);
     image_free(&picture);
-}
-
-/* Grey pictures whose samples are consecutive numbers as bits: more of them than 2^14 in a block, for the wide pairs of
- * PIZ; and floats whose lower halves matter. */
-static void test_ramps(struct test *t)
-{
-    size_t n = 0;
-    struct image img;
-    struct error err = {""};
-    uint8_t *data = load(t, "ramp-piz.exr", &n);
-    if (CHECK(t, data != NULL && read_exactly(exr_read, data, n, &img, &err), "%s", err.text)) {
-        for (int i = 0; i < 520 * 32; i++)
-            CHECK(t, img.f32[i] == half_to_float((uint16_t)(600 + i)), "wide pairs: sample %d is %g", i, img.f32[i]);
-        image_free(&img);
-        check_damaged(t, "ramp-piz.exr", exr_read, data, n, false);
-    }
-    free(data);
-    data = load(t, "ramp-float.exr", &n);
-    if (CHECK(t, data != NULL && read_exactly(exr_read, data, n, &img, &err), "%s", err.text)) {
-        for (int i = 0; i < 41 * 23; i++)
-            CHECK(t, img.f32[i] == 1 + (float)(5 * i) * ldexpf(1, -23), "floats: sample %d is %g", i, img.f32[i]);
-        image_free(&img);
-    }
-    free(data);
 }
 
 /* --- OpenEXR files that are refused -------------------------------------------------------------------- */
@@ -178,63 +129,53 @@ static size_t value_of(const uint8_t *data, size_t n, const char *name)
 
 static void test_refused(struct test *t)
 {
+    static const char DAMAGED[] = "the OpenEXR header is damaged or truncated", BLOCK[] = "damaged in block 0";
     static const struct {
-        const char *name, *message;
-    } FILES[] = {
-        {"pxr24.exr", "compression PXR24 is not read"}, {"dwaa.exr", "compression DWAA is not read"},
-        {"parts.exr", "multi-part OpenEXR files"},      {"deep.exr", "deep OpenEXR pictures"},
-        {"chroma.exr", "\"BY\" is subsampled"},         {"layers.exr", "several layers (\"left\", \"right\")"},
-        {"depth.exr", "no channels R, G, B or Y, but e.g. \"Z\""},
-    };
-    static const struct {
-        const char *attribute; /* "": from the beginning of the file */
+        const char *name;
+        const char *attribute; /* "": from the beginning of the file; NULL: nothing is changed */
         long at; /* bytes changed: the first n of `bytes` at this offset */
         size_t n;
         const char *bytes, *message;
-    } CHANGES[] = {
-        {"", 0, 1, "w", "not an OpenEXR file"},
-        {"", 4, 1, "\3", "version 3"},
-        {"", 6, 1, "\1", "unknown kind"},
-        {"compression", 0, 1, "\6", "compression B44 is not read"},
-        {"compression", 0, 1, "\7", "compression B44A is not read"},
-        {"compression", 0, 1, "\11", "compression DWAB is not read"},
-        {"compression", 0, 1, "\12", "compression HTJ2K256 is not read"},
-        {"compression", 0, 1, "\14", "unknown OpenEXR compression 12"},
-        {"compression", 0, 1, "\3", "no valid zlib header"},
-        {"compression", 0, 1, "\4", "compressed data are truncated"},
-        {"compression", -28, 1, "x", "no attribute \"compression\""},
-        {"compression", -16, 1, "x", "attribute \"compression\" is of another type"},
-        {"channels", 2, 1, "\3", "unknown type 3"},
-        {"channels", 10, 1, "\2", "subsampled"},
-        {"channels", -4, 4, "\1\0\0\0", "list of channels has no end"},
-        {"channels", -4, 4, "\xff\xff\xff\xff", "truncated in its attribute \"channels\""},
-        {"channels", 0, 1, "\0", "names no channel"},
-        {"dataWindow", 8, 4, "\xff\xff\xff\xff", "empty"},
-        {"dataWindow", 12, 4, "\0\0\0\x80", "empty"},
-        {"dataWindow", 0, 16, "\0\0\0\x80\0\0\0\x80\xff\xff\xff\x7f\xff\xff\xff\x7f", "too many"},
-        {"dataWindow", 8, 8, "\xff\x3f\0\0\xff\x3f\0\0", "do not fit"},
-        {"dataWindow", 8, 8, "\xff\xff\xff\x0f\0\0\0\0", "do not fit"},
-        {"dataWindow", 4, 1, "\1", "block 0 is another"},
+    } CASES[] = {
+        {"pxr24.exr", NULL, 0, 0, "", "compression 5"},
+        {"dwaa.exr", NULL, 0, 0, "", "compression 8"},
+        {"parts.exr", NULL, 0, 0, "", "several parts"},
+        {"deep.exr", NULL, 0, 0, "", "deep ones"},
+        {"chroma.exr", NULL, 0, 0, "", "\"BY\" is subsampled"},
+        {"layers.exr", NULL, 0, 0, "", "no channels R, G, B or Y, but e.g. \"left.G\""},
+        {"tiles.exr", "tiles", 0, 4, "\0\0\0", DAMAGED},
+        {"none.exr", "", 0, 1, "w", DAMAGED},
+        {"none.exr", "", 4, 1, "\3", "other versions than 2"},
+        {"none.exr", "", 6, 1, "\1", "kind 10002"},
+        {"none.exr", "compression", 0, 1, "\14", "compression 12"},
+        {"none.exr", "compression", 0, 1, "\3", BLOCK},
+        {"none.exr", "compression", 0, 1, "\4", BLOCK},
+        {"none.exr", "compression", -28, 1, "x", DAMAGED},
+        {"none.exr", "channels", 2, 1, "\3", DAMAGED}, /* of unknown type */
+        {"none.exr", "channels", -4, 4, "\1\0\0\0", DAMAGED},
+        {"none.exr", "channels", -4, 4, "\xff\xff\xff\xff", DAMAGED},
+        {"none.exr", "channels", 0, 1, "\0", DAMAGED},
+        {"none.exr", "dataWindow", 8, 4, "\xff\xff\xff\xff", "empty"},
+        {"none.exr", "dataWindow", 0, 16, "\0\0\0\x80\0\0\0\x80\xff\xff\xff\x7f\xff\xff\xff\x7f", "too many"},
+        {"none.exr", "dataWindow", 8, 8, "\xff\x3f\0\0\xff\x3f\0\0", "do not fit"},
+        {"none.exr", "dataWindow", 8, 8, "\xff\xff\xff\x0f\0\0\0\0", "do not fit"},
+        {"none.exr", "dataWindow", 4, 1, "\1", BLOCK},
     };
-    size_t n = 0;
-    for (size_t i = 0; i < sizeof FILES / sizeof FILES[0]; i++) {
-        uint8_t *data = load(t, FILES[i].name, &n);
-        if (data != NULL)
-            check_refused(t, exr_read, data, n, FILES[i].message);
-        free(data);
-    }
-    for (size_t i = 0; i < sizeof CHANGES / sizeof CHANGES[0]; i++) {
-        uint8_t *data = load(t, "none.exr", &n);
+    for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
+        size_t n = 0;
+        const char *attribute = CASES[i].attribute;
+        uint8_t *data = load(t, CASES[i].name, &n);
         if (data == NULL)
             return;
-        size_t start = CHANGES[i].attribute[0] != '\0' ? value_of(data, n, CHANGES[i].attribute) : 0;
-        memcpy(data + (long)start + CHANGES[i].at, CHANGES[i].bytes, CHANGES[i].n);
-        check_refused(t, exr_read, data, n, CHANGES[i].message);
+        if (attribute != NULL)
+            memcpy(data + (long)(attribute[0] != '\0' ? value_of(data, n, attribute) : 0) + CASES[i].at, CASES[i].bytes,
+                   CASES[i].n);
+        check_no_picture(t, exr_read, data, n, CASES[i].message);
         free(data);
     }
 }
 
-/* The table of offsets, and the sizes of blocks and tiles. */
+/* The table of offsets, and the heads of blocks. */
 static void test_refused_blocks(struct test *t)
 {
     static const struct {
@@ -242,75 +183,22 @@ static void test_refused_blocks(struct test *t)
         uint64_t value;
         const char *message;
     } CASES[] = {
-        {0, 0, "incomplete: block 0 is missing"}, {8, UINT64_MAX, "block 1 lies outside"},
-        {8, (uint64_t)1 << 63, "block 1 lies outside"}, {19 * 8 + 4, 0xfffffff0, "truncated in block 0"},
-        {19 * 8 + 4, 29 * 6 + 1, "block 0 has 175 bytes instead of 174"},
-        {19 * 8 + 4, 29 * 6 - 1, "block 0 has 173 bytes instead of 174"},
-        {19 * 8, 1, "block 0 is another"},
+        {0, 0, "in block 0"},                       {8, UINT64_MAX, "in block 1"},
+        {8, (uint64_t)1 << 63, "in block 1"},       {19 * 8 + 4, 0xfffffff0, "in block 0"},
+        {19 * 8 + 4, 29 * 6 + 1, "in block 0"},     {19 * 8 + 4, 29 * 6 - 1, "in block 0"},
+        {19 * 8, 1, "in block 0"},
     };
     size_t n = 0, table = 0;
-    uint8_t *data = load(t, "none.exr", &n), *tiles;
-    if (data == NULL)
-        return;
+    uint8_t *data = load(t, "none.exr", &n), *copy = mem_alloc(n, 1);
     while (table + 8 < n && bits_of_bytes(data + table, 8, false) != table + 19 * 8)
         table++;
-    for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
-        uint8_t *copy = mem_alloc(n, 1);
+    for (size_t i = 0; data != NULL && i < sizeof CASES / sizeof CASES[0]; i++) {
         memcpy(copy, data, n);
-        for (size_t k = 0; k < (CASES[i].at < 19 * 8 ? 8 : 4); k++)
-            copy[table + CASES[i].at + k] = (uint8_t)(CASES[i].value >> 8 * k & 255);
-        check_refused(t, exr_read, copy, n, CASES[i].message);
-        free(copy);
+        bytes_of_bits(CASES[i].value, copy + table + CASES[i].at, CASES[i].at < 19 * 8 ? 8 : 4, false);
+        check_no_picture(t, exr_read, copy, n, CASES[i].message);
     }
+    free(copy);
     free(data);
-    if ((tiles = load(t, "tiles.exr", &n)) == NULL)
-        return;
-    memset(tiles + value_of(tiles, n, "tiles"), 0, 4);
-    check_refused(t, exr_read, tiles, n, "tiles are empty");
-    free(tiles);
-}
-
-/* --- written and read back ----------------------------------------------------------------------------- */
-
-/* Noise over many powers of two, numbers that are no light, and a part that packs well. */
-static float *make_pixels(struct test *t, int width, int height)
-{
-    static const float ODD[] = {-1, 0, 1e30f, -1e30f, 65504, 65520, 1e-7f, INFINITY, 1e-40f, 0.1f};
-    float *p = mem_alloc((size_t)width * (size_t)height * 3, sizeof *p);
-    struct rng r = rng_stream(test_seed(t), RNG_TEST, 31, 0);
-    for (int i = 0; i < width * height * 3; i++)
-        p[i] = i < 10 ? ODD[i] : i % 2 == 0 ? (float)ldexp(rng_uniform(&r), (int)rng_below(&r, 30) - 15) : 0.5f;
-    return p;
-}
-
-static void check_round_trip(struct test *t, const char *name, int width, int height)
-{
-    char path[256];
-    struct image img;
-    struct error err = {""};
-    float *p = make_pixels(t, width, height);
-    int wrong = 0;
-    snprintf(path, sizeof path, "%s/%s", test_tmp(t), name);
-    if (CHECK(t, image_write(path, width, height, p, &err) && image_read(path, &img, &err), "%s", err.text)) {
-        CHECK(t, img.width == width && img.height == height && img.channels == 3 && img.linear, "%s: shape", name);
-        for (int i = 0; i < width * height * 3; i++)
-            wrong += img.f32[i] != half_to_float(float_to_half(p[i]));
-        CHECK(t, wrong == 0, "%s, %d x %d: %d samples differ", name, width, height, wrong);
-        image_free(&img);
-    }
-    remove(path);
-    free(p);
-}
-
-static void test_round_trips(struct test *t)
-{
-    static const char *const NAMES[] = {"a.exr", "a.EXR"};
-    for (size_t i = 0; i < sizeof NAMES / sizeof NAMES[0]; i++) {
-        check_round_trip(t, NAMES[i], 1, 1);
-        check_round_trip(t, NAMES[i], 2, 16);
-        check_round_trip(t, NAMES[i], 1, 33);
-        check_round_trip(t, NAMES[i], 61, 47);
-    }
 }
 
 /* A fixture knows its place in a whole; a copy has the same; without a display window nobody knows. */
@@ -372,7 +260,7 @@ static void test_rgbe_fixture(struct test *t)
             wrong += fabsf(img.f32[i] - fminf(picture.f32[i], 1)) > 1.0f / 128;
         CHECK(t, wrong == 0, "picture.hdr: %d samples are wrong", wrong);
         image_free(&img);
-        check_damaged(t, "picture.hdr", rgbe_read, data, n, true);
+        check_spoilt(t, "picture.hdr", rgbe_read, data, n);
     }
     image_free(&picture);
     free(data);
@@ -391,51 +279,43 @@ static void test_rgbe_by_hand(struct test *t)
     static const struct {
         const char *size, *pixels;
         size_t n;
-        float first, last; /* reds */
+        const char *message; /* NULL: it is read */
+        float first, last;   /* reds */
     } CASES[] = {
-        {"-Y 1 +X 2", "\200\0\0\201\100\0\0\201", 8, 1, 0.5f},
-        {"-Y 1 -X 2", "\200\0\0\201\100\0\0\201", 8, 0.5f, 1},
-        {"+Y 2 +X 1", "\200\0\0\201\100\0\0\201", 8, 0.5f, 1},
-        {"-Y 1 +X 5", "\200\0\0\201\1\1\1\3\100\0\0\201", 12, 1, 0.5f},
-        {"-Y 1 +X 260", "\200\0\0\201\1\1\1\2\1\1\1\1\100\0\0\201", 16, 1, 0.5f}, /* 2 and 1 * 256 */
-        {"-Y 1 +X 8", "\2\2\0\10\207\200\1\100\210\0\210\0\210\201", 14, 1, 0.5f},
-        {"-Y 1 +X 1", "\200\0\0\0", 4, 0, 0},
-    };
-    static const struct {
-        const char *size, *pixels;
-        size_t n;
-        const char *message;
-    } REFUSED[] = {
-        {"+X 2 -Y 1", "", 0, "size \"+X 2 -Y 1\""},
-        {"-Y 2 +X ", "", 0, "empty"},
-        {"-Y 2 +X 3x", "", 0, "size \"-Y 2 +X 3x\""},
-        {"-Y 99999 +X 99999", "", 0, "too many"},
-        {"-Y 16384 +X 16384", "", 0, "do not fit"},
-        {"-Y 1 +X 2", "\200\0\0\201\100\0\0", 7, "truncated in its pixels"},
-        {"-Y 1 +X 2", "\200\0\0\201\1\1\1\2", 8, "beyond the end of its row"},
-        {"-Y 1 +X 500", "\200\0\0\201\1\1\1\0\1\1\1\0\1\1\1\0\1\1\1\0\1\1\1\1", 24, "beyond the end of its row"},
-        {"-Y 1 +X 8", "\2\2\0\10\211\200", 6, "beyond the end of its row"},
-        {"-Y 1 +X 8", "\2\2\0\10\0\200", 6, "empty run"},
-        {"-Y 1 +X 8", "\2\2\0\10\4\200\200", 7, "truncated in its pixels"},
+        {"-Y 1 +X 2", "\200\0\0\201\100\0\0\201", 8, NULL, 1, 0.5f},
+        {"-Y 1 +X 8", "\2\2\0\10\207\200\1\100\210\0\210\0\210\201", 14, NULL, 1, 0.5f},
+        {"-Y 1 +X 1", "\200\0\0\0", 4, NULL, 0, 0},
+        {"-Y 1 +X 5", "\200\0\0\201\1\1\1\3\100\0\0\201", 12, "in row 0", 0, 0},
+        {"-Y 1 +X 3", "\200\0\0\201\1\1\1\3\100\0\0\201", 12, "old kind of runs in row 0", 0, 0},
+        {"+X 2 -Y 1", "", 0, "size \"+X 2 -Y 1\"", 0, 0},
+        {"-Y 2 +X ", "", 0, "empty", 0, 0},
+        {"-Y 2 +X 3x", "", 0, "size \"-Y 2 +X 3x\"", 0, 0},
+        {"-Y 99999 +X 99999", "", 0, "too many", 0, 0},
+        {"-Y 16384 +X 16384", "", 0, "do not fit", 0, 0},
+        {"-Y 1 +X 2", "\200\0\0\201\100\0\0", 7, "in row 0", 0, 0},
+        {"-Y 1 +X 8", "\2\2\0\10\211\200", 6, "in row 0", 0, 0}, /* a run beyond the end */
+        {"-Y 1 +X 8", "\2\2\0\10\0\200", 6, "in row 0", 0, 0},  /* an empty run */
+        {"-Y 1 +X 8", "\2\2\0\10\4\200\200", 7, "in row 0", 0, 0},
     };
     uint8_t data[256];
     struct image img;
     struct error err = {""};
     for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
         size_t n = make_rgbe(data, CASES[i].size, CASES[i].pixels, CASES[i].n);
+        if (CASES[i].message != NULL) {
+            check_no_picture(t, rgbe_read, data, n, CASES[i].message);
+            continue;
+        }
         if (!CHECK(t, read_exactly(rgbe_read, data, n, &img, &err), "%s: %s", CASES[i].size, err.text))
             continue;
         const float *last = img.f32 + 3 * ((size_t)img.width * (size_t)img.height - 1);
         CHECK(t, img.f32[0] == CASES[i].first && last[0] == CASES[i].last && last[1] == 0, "%s: %g, %g",
               CASES[i].size, img.f32[0], last[0]);
         image_free(&img);
-        check_damaged(t, CASES[i].size, rgbe_read, data, n, true);
+        check_spoilt(t, CASES[i].size, rgbe_read, data, n);
     }
-    for (size_t i = 0; i < sizeof REFUSED / sizeof REFUSED[0]; i++)
-        check_refused(t, rgbe_read, data, make_rgbe(data, REFUSED[i].size, REFUSED[i].pixels, REFUSED[i].n),
-                      REFUSED[i].message);
     static const char XYZ[] = "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n";
-    check_refused(t, rgbe_read, (const uint8_t *)XYZ, sizeof XYZ - 1, "format \"32-bit_rle_xyze\"");
+    check_no_picture(t, rgbe_read, (const uint8_t *)XYZ, sizeof XYZ - 1, "format \"32-bit_rle_xyze\"");
 }
 
 /* --- tone ---------------------------------------------------------------------------------------------- */
@@ -465,10 +345,8 @@ void test_hdr(struct test *t)
 {
     test_half(t);
     test_fixtures(t);
-    test_ramps(t);
     test_refused(t);
     test_refused_blocks(t);
-    test_round_trips(t);
     test_place(t);
     test_rgbe_fixture(t);
     test_rgbe_by_hand(t);

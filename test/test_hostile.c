@@ -32,7 +32,7 @@ enum { RSS_UNIT = 1 }; /* bytes of ru_maxrss */
 #else
 enum { RSS_UNIT = 1024 };
 #endif
-enum { SCENES = 1200, EVIL_SCENES = 600, SECONDS = 20, MEGABYTES = 512 };
+enum { SCENES = 600, EVIL_SCENES = 300, SECONDS = 20, MEGABYTES = 512 };
 
 static const char *const INTEGRATORS[] = {"pt", "lt", "bdpt", "asbdpt"};
 
@@ -177,7 +177,7 @@ static const struct repetition REPETITIONS[] = {
     {"open blocks", "WorldBegin", "AttributeBegin", "WorldEnd", 300000, 0, 0},
     {"nested objects", "WorldBegin ObjectBegin \"o0\" Shape \"sphere\"",
      "ObjectEnd ObjectBegin \"o\" ObjectInstance \"o0\" ObjectInstance \"o\"",
-     "ObjectEnd ObjectInstance \"o\" WorldEnd", 10000, 0, 0},
+     "ObjectEnd ObjectInstance \"o\" WorldEnd", 10000, 1, 0},
     {"instances of nothing", "WorldBegin ObjectBegin \"o\" ObjectEnd", "ObjectInstance \"o\"", "WorldEnd", 100000,
      0, 0},
     {"unknown directives", "WorldBegin", "Shpae%d", "WorldEnd", 100000, 1, 0},

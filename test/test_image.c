@@ -8,10 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/zlib.h"
+#include "base/bits.h"
 #include "base/mem.h"
 #include "image/formats.h"
-#include "base/rng.h"
+#include "image/zlib.h"
 #include "helpers.h"
 #include "samples.h"
 #include "tests.h"
@@ -38,20 +38,16 @@ static void put_hex(struct small_file *b, const char *hex)
     }
 }
 
-/* The message of a refusal, or "" if the file is accepted. */
-static struct error refusal(reader *read, const struct small_file *b)
+/* Read a file that is a picture of this shape, 8 bits or floats. False if it is not. */
+static bool read_shape(struct test *t, const char *what, reader *read, const struct small_file *b, int width,
+                       int height, int channels, bool floats, struct image *img)
 {
     struct error err = {""};
-    if (accepts(read, b->data, b->n, &err))
-        err.text[0] = '\0';
-    return err;
-}
-
-static void check_refused(struct test *t, reader *read, const struct small_file *b, const char *message)
-{
-    struct error err = refusal(read, b);
-    CHECK(t, strstr(err.text, message) != NULL, "\"%s\" expected, got \"%s\"", message, err.text);
-    CHECK(t, strchr(err.text, '\n') == NULL, "the message is one line: %s", err.text);
+    return CHECK(t, read_exactly(read, b->data, b->n, img, &err), "%s: %s", what, err.text) &&
+           CHECK(t, img->width == width && img->height == height && img->channels == channels &&
+                        (img->f32 != NULL) == floats && (img->u8 == NULL) == floats &&
+                        img->linear == (read == pfm_read),
+                 "%s: %d x %d x %d", what, img->width, img->height, img->channels);
 }
 
 /* A text and what is said when it is refused as a picture. */
@@ -61,33 +57,8 @@ struct refusal {
 
 static void check_texts_refused(struct test *t, reader *read, const struct refusal *c, size_t n)
 {
-    for (size_t i = 0; i < n; i++) {
-        struct small_file b = {.n = 0};
-        put_text(&b, c[i].text);
-        check_refused(t, read, &b, c[i].message);
-    }
-}
-
-/* Every proper beginning of a file is refused. */
-static void check_truncations(struct test *t, const char *what, reader *read, const struct small_file *b)
-{
-    for (size_t n = 0; n < b->n; n++)
-        CHECK(t, !accepts(read, b->data, n, NULL), "%s: the first %lu bytes are accepted", what, (unsigned long)n);
-}
-
-/* Change each byte to a few others; returns how many of the changed files are accepted. */
-static int count_accepted_mutants(reader *read, const struct small_file *b)
-{
-    static const uint8_t CHANGE[] = {0x01, 0x80, 0xff, 0x10};
-    int accepted = 0;
-    struct small_file m = *b;
-    for (size_t i = 0; i < m.n; i++)
-        for (size_t k = 0; k < sizeof CHANGE; k++) {
-            m.data[i] ^= CHANGE[k];
-            accepted += accepts(read, m.data, m.n, NULL);
-            m.data[i] ^= CHANGE[k];
-        }
-    return accepted;
+    for (size_t i = 0; i < n; i++)
+        check_no_picture(t, read, (const uint8_t *)c[i].text, strlen(c[i].text), c[i].message);
 }
 
 /* --- sRGB -------------------------------------------------------------------------------------------- */
@@ -120,29 +91,22 @@ static unsigned expected_sample(const struct png_sample *s, int x, int y, int c)
 static void check_png_sample(struct test *t, const struct png_sample *s)
 {
     struct small_file file = {.n = 0};
-    put_hex(&file, s->hex);
     struct image img;
-    struct error err = {""};
     char what[64];
+    int channels = s->colour == 0 || s->colour == 4 ? 1 : 3;
+    put_hex(&file, s->hex);
     snprintf(what, sizeof what, "PNG colour type %d, %d bits%s", s->colour, s->depth,
              s->interlaced ? ", interlaced" : "");
-    if (!CHECK(t, read_exactly(png_read, file.data, file.n, &img, &err), "%s: %s", what, err.text))
+    if (!read_shape(t, what, png_read, &file, s->width, s->height, channels, s->depth == 16, &img))
         return;
-    int channels = s->colour == 0 || s->colour == 4 ? 1 : 3;
-    CHECK(t, img.width == s->width && img.height == s->height && img.channels == channels && !img.linear,
-          "%s: %d x %d x %d", what, img.width, img.height, img.channels);
-    CHECK(t, (img.f32 != NULL) == (s->depth == 16) && (img.u8 != NULL) == (s->depth != 16), "%s: storage", what);
-    for (int y = 0; y < s->height; y++)
-        for (int x = 0; x < s->width; x++)
-            for (int c = 0; c < channels; c++) {
-                int i = (y * s->width + x) * channels + c;
-                unsigned expected = expected_sample(s, x, y, c);
-                bool same = img.u8 != NULL ? img.u8[i] == expected : img.f32[i] == (float)(expected / 65535.0);
-                CHECK(t, same, "%s: pixel %d,%d channel %d is not %u", what, x, y, c, expected);
-            }
+    for (int i = 0; i < s->width * s->height * channels; i++) {
+        int x = i / channels % s->width, y = i / channels / s->width;
+        unsigned expected = expected_sample(s, x, y, i % channels);
+        bool same = img.u8 != NULL ? img.u8[i] == expected : img.f32[i] == (float)(expected / 65535.0);
+        CHECK(t, same, "%s: pixel %d,%d channel %d is not %u", what, x, y, i % channels, expected);
+    }
     image_free(&img);
-    check_truncations(t, what, png_read, &file);
-    CHECK(t, count_accepted_mutants(png_read, &file) == 0, "%s: a changed byte goes unnoticed", what);
+    CHECK(t, check_spoilt(t, what, png_read, file.data, file.n) == 0, "%s: a changed byte goes unnoticed", what);
 }
 
 /* Ties of the Paeth filter: left goes before above, above before above left. */
@@ -159,94 +123,49 @@ static void test_paeth_ties(struct test *t)
     image_free(&img);
 }
 
-/* Correct all chunk checksums, so that a changed byte reaches the code behind them. */
-static void repair_checksums(struct small_file *b)
+/* Give all chunks their checksums. */
+static void put_checksums(uint8_t *data, size_t size)
 {
-    for (size_t at = 8; at + 12 <= b->n;) {
-        size_t n = (size_t)b->data[at] << 24 | (size_t)b->data[at + 1] << 16 | (size_t)b->data[at + 2] << 8 |
-                   b->data[at + 3];
-        if (n > b->n - at - 12)
-            return;
-        uint32_t crc = checksum_crc32(0, b->data + at + 4, n + 4);
-        for (int i = 0; i < 4; i++)
-            b->data[at + 8 + n + (size_t)i] = (uint8_t)(crc >> (24 - 8 * i) & 255);
-        at += n + 12;
-    }
+    for (size_t at = 8, n; at + 12 <= size && (n = bits_of_bytes(data + at, 4, true)) <= size - at - 12; at += n + 12)
+        bytes_of_bits(checksum_crc32(0, data + at + 4, n + 4), data + at + 8 + n, 4, true);
 }
 
-/* Random changes behind right checksums. What is still a picture is accepted; nothing may crash or run away. */
-static void test_png_mutants(struct test *t)
-{
-    struct rng r = rng_stream(test_seed(t), RNG_TEST, 10, 0);
-    int accepted = 0;
-    for (int s = 0; s < N_PNG_SAMPLES; s++) {
-        struct small_file file = {.n = 0};
-        put_hex(&file, PNG_SAMPLES[s].hex);
-        for (int i = 0; i < 400; i++) {
-            struct small_file m = file;
-            for (uint32_t k = 0; k <= rng_below(&r, 3); k++) {
-                uint8_t value = (uint8_t)(rng_u32(&r) >> 24);
-                m.data[8 + rng_below(&r, (uint32_t)m.n - 8)] = value;
-            }
-            repair_checksums(&m);
-            accepted += accepts(png_read, m.data, m.n, NULL);
-        }
-    }
-    CHECK(t, accepted < 400 * N_PNG_SAMPLES / 2, "%d mutants accepted: adler and structure checks do not work",
-          accepted);
-}
-
-/* A PNG header for a picture of this size and kind, followed by chunks given in hexadecimal without checksums. */
-static struct small_file make_png(const char *header, const char *chunks)
-{
-    struct small_file b = {.n = 0};
-    put_hex(&b, "89504e470d0a1a0a0000000d49484452");
-    put_hex(&b, header);
-    put_hex(&b, "00000000");
-    put_hex(&b, chunks);
-    repair_checksums(&b);
-    return b;
-}
-
+/* Each a PNG header for a picture of this size and kind, followed by chunks without checksums. */
 static void test_png_refusals(struct test *t)
 {
-    static const char END[] = "0000000049454e4400000000";
+    static const char END[] = "0000000049454e4400000000", DAMAGED[] = "the PNG file is damaged or truncated";
     static const struct {
         const char *header, *chunks, *message;
     } CASES[] = {
         {"00000000000000050802000000", END, "empty"},
-        {"00000005000000000802000000", END, "empty"},
         {"ffffffffffffffff0802000000", END, "too many"},
-        {"10000001000000010802000000", END, "too many"},
         {"00004001000040000802000000", END, "too many"},
         {"00004000000040001006000000", "000000014944415400000000000000000049454e4400000000", "do not fit"},
-        {"00000001000000010302000000", END, "no colour type 2 with 3 bits"},
-        {"00000001000000011003000000", END, "no colour type 3 with 16 bits"},
-        {"00000001000000010805000000", END, "no colour type 5"},
-        {"00000001000000010802010000", END, "unknown compression"},
-        {"00000001000000010802000100", END, "unknown compression"},
-        {"00000001000000010802000002", END, "unknown compression"},
-        {"00000001000000010803000000", END, "no palette"},
+        {"00000001000000010302000000", END, "colour type 2, 3 bits"},
+        {"00000001000000011003000000", END, "colour type 3, 16 bits"},
+        {"00000001000000010805000000", END, "colour type 5"},
+        {"00000001000000010802010000", END, "unknown kind"},
+        {"00000001000000010802000002", END, "unknown kind"},
+        {"00000001000000010803000000", END, DAMAGED}, /* no palette */
         {"00000001000000010802000000", END, "truncated"},
-        {"00000001000000010802000000", "00000004504c54450000000000000000", "palette"},
-        {"00000001000000010802000000", "000000004162434400000000", "unknown or misplaced chunk AbCD"},
-        {"00000001000000010802000000", "000000003162434400000000", "no valid name"},
-        {"00000001000000010802000000", "7fffffff4944415400000000", "truncated"},
-        {"00000001000000010802000000",
-         "00000001494441540000000000" /* IDAT, tEXt, IDAT */
-         "0000000074455874000000000000000149444154000000000000000049454e4400000000",
-         "not in one piece"},
+        {"00000001000000010802000000", "000000004162434400000000", "unknown PNG chunk AbCD"},
+        {"00000001000000010802000000", "7fffffff4944415400000000", DAMAGED},
         /* one grey pixel in a stored block: filter 5; one palette pixel: colour 1 of 1 */
         {"00000001000000010800000000", "0000000d49444154789c010200fdff05070013000d000000000000000049454e4400000000",
-         "no such filter"},
+         DAMAGED},
         {"00000001000000010803000000",
          "00000003504c544501020300000000"
          "0000000d49444154789c010200fdff000100030002000000000000000049454e4400000000",
-         "colour 1 of 1"},
+         DAMAGED},
     };
     for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
-        struct small_file b = make_png(CASES[i].header, CASES[i].chunks);
-        check_refused(t, png_read, &b, CASES[i].message);
+        struct small_file b = {.n = 0};
+        put_hex(&b, "89504e470d0a1a0a0000000d49484452");
+        put_hex(&b, CASES[i].header);
+        put_hex(&b, "00000000");
+        put_hex(&b, CASES[i].chunks);
+        put_checksums(b.data, b.n);
+        check_no_picture(t, png_read, b.data, b.n, CASES[i].message);
     }
 }
 
@@ -288,22 +207,17 @@ static void check_tga(struct test *t, unsigned type, unsigned bits, unsigned ori
 {
     struct small_file file = make_tga(type, bits, origin);
     struct image img;
-    struct error err = {""};
     char what[64];
-    snprintf(what, sizeof what, "TGA type %u, %u bits, origin %u", type, bits, origin);
-    if (!CHECK(t, read_exactly(tga_read, file.data, file.n, &img, &err), "%s: %s", what, err.text))
-        return;
     int channels = type % 8 == 3 ? 1 : 3;
-    CHECK(t, img.width == 3 && img.height == 2 && img.channels == channels && img.u8 != NULL, "%s: shape", what);
-    for (int i = 0; i < 6; i++)
-        for (int c = 0; c < channels; c++) {
-            int expected = i % 3 * 10 + i / 3 + (channels == 3 ? 2 - c : 0) * 100;
-            CHECK(t, img.u8[i * channels + c] == expected, "%s: pixel %d channel %d is %d, not %d", what, i, c,
-                  img.u8[i * channels + c], expected);
-        }
+    snprintf(what, sizeof what, "TGA type %u, %u bits, origin %u", type, bits, origin);
+    if (!read_shape(t, what, tga_read, &file, 3, 2, channels, false, &img))
+        return;
+    for (int i = 0; i < 6 * channels; i++) {
+        int expected = i / channels % 3 * 10 + i / channels / 3 + (channels == 3 ? 2 - i % 3 : 0) * 100;
+        CHECK(t, img.u8[i] == expected, "%s: sample %d is %d, not %d", what, i, img.u8[i], expected);
+    }
     image_free(&img);
-    check_truncations(t, what, tga_read, &file);
-    count_accepted_mutants(tga_read, &file); /* no checksum: only that nothing breaks */
+    check_spoilt(t, what, tga_read, file.data, file.n);
 }
 
 static void test_tga(struct test *t)
@@ -316,65 +230,44 @@ static void test_tga(struct test *t)
             check_tga(t, run_length + 3, 8, origin);
         }
     static const struct {
-        size_t at;
+        unsigned type;
+        size_t at; /* of a byte that is changed */
         unsigned value;
         const char *message;
     } CASES[] = {
-        {2, 0, "image type 0"},       {2, 32, "image type 32"}, {16, 16, "16 bits are not supported"},
-        {17, 0xc0, "interleaved"},    {12, 0, "empty"},         {13, 0xff, "do not fit"},
-        {22, 0x84, "beyond the end"}, {22, 0x7f, "truncated"},  {0, 255, "truncated"},
+        {10, 2, 0, "type 0"},           {10, 2, 32, "type 32"},   {10, 16, 16, "16 bits"},
+        {10, 17, 0xc0, "this kind"},    {10, 12, 0, "empty"},     {10, 13, 0xff, "do not fit"},
+        {10, 22, 0x88, "damaged"},      {10, 22, 0x7f, "damaged"}, {10, 0, 255, "truncated"},
+        {1, 45, 4, "damaged"},          {1, 45, 11, "damaged"}, /* not in the map */
+        {1, 1, 0, "24 in its map"},     {1, 7, 16, "16 in its map"},
     };
     for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
-        struct small_file b = make_tga(10, 24, 0);
+        struct small_file b = make_tga(CASES[i].type, 24, 0);
         b.data[CASES[i].at] = (uint8_t)CASES[i].value;
-        if (CASES[i].value == 0x84) { /* a long run, then one too long: 5 + 5 pixels */
-            b.data[26] = 0x84;
-        }
-        check_refused(t, tga_read, &b, CASES[i].message);
+        check_no_picture(t, tga_read, b.data, b.n, CASES[i].message);
     }
-    struct small_file outside = make_tga(1, 24, 0), unmapped = outside, narrow = outside;
-    outside.data[outside.n - 1] = 4;
-    check_refused(t, tga_read, &outside, "not in the colour map");
-    outside.data[outside.n - 1] = 11;
-    check_refused(t, tga_read, &outside, "not in the colour map");
-    unmapped.data[1] = 0;
-    check_refused(t, tga_read, &unmapped, "colour map");
-    narrow.data[7] = 16;
-    check_refused(t, tga_read, &narrow, "colour maps of 16 bits");
 }
 
 /* --- PFM and PPM ------------------------------------------------------------------------------------- */
 
-static void put_float(struct small_file *b, float value, bool big_endian)
-{
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    for (int i = 0; i < 4; i++)
-        put_byte(b, bits >> (big_endian ? 24 - 8 * i : 8 * i) & 255);
-}
-
 static void check_pfm(struct test *t, int channels, const char *scale, double factor)
 {
     struct small_file file = {.n = 0};
+    struct image img;
     put_text(&file, channels == 3 ? "PF\n2 3\n" : "Pf 2\t3\r\n");
     put_text(&file, scale);
     put_text(&file, "\n");
-    for (int i = 0; i < 6 * channels; i++)
-        put_float(&file, (float)(i - 3), factor > 0);
-    struct image img;
-    struct error err = {""};
-    if (!CHECK(t, read_exactly(pfm_read, file.data, file.n, &img, &err), "PFM %d %s: %s", channels, scale,
-               err.text))
+    for (int i = 0; i < 6 * channels; i++, file.n += 4)
+        bytes_of_bits(bits_of_float((float)(i - 3)), file.data + file.n, 4, factor > 0);
+    if (!read_shape(t, "PFM", pfm_read, &file, 2, 3, channels, true, &img))
         return;
-    CHECK(t, img.width == 2 && img.height == 3 && img.channels == channels && img.linear, "PFM: shape");
     for (int i = 0; i < 6 * channels; i++) {
         int y = 2 - i / (2 * channels), place = y * 2 * channels + i % (2 * channels);
         CHECK(t, img.f32[place] == (float)((i - 3) * fabs(factor)), "PFM %s: sample %d is %g", scale, i,
               img.f32[place]);
     }
     image_free(&img);
-    check_truncations(t, "PFM", pfm_read, &file);
-    count_accepted_mutants(pfm_read, &file);
+    check_spoilt(t, "PFM", pfm_read, file.data, file.n);
 }
 
 static void test_pfm(struct test *t)
@@ -389,7 +282,6 @@ static void test_pfm(struct test *t)
         {"PX\n2 2\n-1\n", "not a PFM"},
         {"PF\n2\n", "incomplete"},
         {"PF\n0 2\n-1\n", "empty"},
-        {"PF\n-2 2\n-1\n", "incomplete"},
         {"PF\n2 2\n0\n", "scale"},
         {"PF\n2 2\nnan\n", "scale"},
         {"PF\n2 2\n1e999\n", "scale"},
@@ -397,7 +289,6 @@ static void test_pfm(struct test *t)
         {"PF\n2 2\n-1\n", "truncated"},
         {"PF\n99999999 99999999\n-1\n", "too many"},
         {"PF\n16384 16384\n-1\n", "do not fit"},
-        {"PF\n99999999999999999999999999999999 1\n-1\n", "too many"},
         {"PF\n18446744073709551617 1\n-1\n", "too many"},
     };
     check_texts_refused(t, pfm_read, CASES, sizeof CASES / sizeof CASES[0]);
@@ -422,11 +313,8 @@ static void check_ppm(struct test *t, int kind, unsigned most)
             put_byte(&file, i);
     }
     struct image img;
-    struct error err = {""};
-    if (!CHECK(t, read_exactly(ppm_read, file.data, file.n, &img, &err), "P%d, %u: %s", kind, most, err.text))
+    if (!read_shape(t, "PPM", ppm_read, &file, 2, 2, channels, most > 255, &img))
         return;
-    CHECK(t, img.width == 2 && img.height == 2 && img.channels == channels && !img.linear, "P%d: shape", kind);
-    CHECK(t, (img.u8 != NULL) == (most <= 255) && (img.f32 != NULL) == (most > 255), "P%d: storage", kind);
     for (int i = 0; i < 4 * channels; i++) {
         double value = img.u8 != NULL ? img.u8[i] / 255.0 : img.f32[i], bound = img.u8 != NULL ? 0.5 / 255 : 1e-7;
         CHECK(t, fabs(value - (double)i / most) <= bound + 1e-9, "P%d, %u: sample %d is %g", kind, most, i, value);
@@ -434,8 +322,7 @@ static void check_ppm(struct test *t, int kind, unsigned most)
     image_free(&img);
     if (kind <= 3) /* a blank, and then a digit, may be missing at the end of a text: 10 is still a number */
         file.n -= most > 9 && channels == 3 ? 3 : 1;
-    check_truncations(t, "PPM", ppm_read, &file);
-    count_accepted_mutants(ppm_read, &file);
+    check_spoilt(t, "PPM", ppm_read, file.data, file.n);
 }
 
 static void test_ppm(struct test *t)
@@ -448,17 +335,13 @@ static void test_ppm(struct test *t)
     }
     static const struct refusal CASES[] = {
         {"P4\n1 1\n1\n0", "not a PPM"},
-        {"P6\n", "incomplete"},
         {"P6 1 1", "incomplete"},
-        {"P6 1 1 255", "incomplete"},
-        {"P6 0 1 255\n", "empty"},
         {"P6 -1 1 255\nxxx", "incomplete"},
         {"P6 1 1 0\nxxx", "largest value"},
         {"P6 1 1 65536\nxxx", "largest value"},
-        {"P6 1 1 7\nxxx", "promises at most 7"},
-        {"P3 1 1 7\n1 2 8", "promises at most 7"},
+        {"P6 1 1 7\nxxx", "no number up to 7"},
+        {"P3 1 1 7\n1 2 8", "no number up to 7"},
         {"P3 1 1 7\n1 2 x", "no number"},
-        {"P3 1 1 7\n1 2 -1", "no number"},
         {"P3 2 1 7\n1 2 3", "do not fit"},
         {"P6 99999 99999 255\n", "too many"},
         {"P6 16384 16384 255\n", "do not fit"},
@@ -468,50 +351,33 @@ static void test_ppm(struct test *t)
 
 /* --- small files of large pictures ---------------------------------------------------------------------- */
 
-static void check_too_large(struct test *t, const char *what, reader *read, const uint8_t *data, size_t size)
-{
-    struct image img = {0};
-    struct error err = {"accepted"};
-    CHECK(t, !read(data, size, &img, &err) && strstr(err.text, "too much for a file of this size") != NULL, "%s: %s",
-          what, err.text);
-    image_free(&img);
-}
-
-/* 16384 x 16384 pixels that a codec might well have packed into 300 KB or 3 MB, and the limits themselves. */
+/* Pictures that a codec might well have packed into 3 MB, and the limits themselves. */
 static void test_memory(struct test *t)
 {
-    enum { HDR = 300000, PNG = 3000000, HEAD = 33 };
-    uint8_t *data = mem_alloc(PNG, 1);
-    strcpy((char *)data, "#?RADIANCE\n\n-Y 16384 +X 16384\n");
-    check_too_large(t, "hdr", rgbe_read, data, HDR);
-    memset(data, 0, PNG);
+    enum { N = 3000000 };
+    static const char MESSAGE[] = "too much for a file of this size";
+    uint8_t *data = mem_alloc(N, 1);
+    struct small_file png = {.n = 0};
+    strcpy((char *)data, "#?RADIANCE\n\n-Y 6000 +X 6000\n");
+    check_no_picture(t, rgbe_read, data, N, MESSAGE);
+    memset(data, 0, N);
     data[2] = 11; /* runs of grey */
     data[13] = data[15] = 0x36;
     data[16] = 8;
-    check_too_large(t, "tga", tga_read, data, PNG); /* 13824 x 13824 pixels, in packets of 2 bytes for 128 */
-    struct small_file png = {.n = 0};
+    check_no_picture(t, tga_read, data, N, MESSAGE); /* 13824 x 13824 pixels, in packets of 2 bytes for 128 */
     put_hex(&png, "89504e470d0a1a0a0000000d494844520000400000004000100600000000000000");
-    memset(data, 0, HDR);
-    memcpy(data, png.data, HEAD);
-    const size_t BODY = PNG - HEAD - 12 - 12; /* an IDAT that fills the file, but for an IEND */
-    for (int i = 0; i < 4; i++)
-        data[HEAD + i] = (uint8_t)(BODY >> (24 - 8 * i) & 255);
-    memcpy(data + HEAD + 4, "IDAT", 4);
-    memcpy(data + PNG - 8, "IEND", 4);
-    const size_t chunk[3][2] = {{8, 13}, {HEAD, BODY}, {PNG - 12, 0}};
-    for (int k = 0; k < 3; k++) {
-        uint32_t crc = checksum_crc32(0, data + chunk[k][0] + 4, chunk[k][1] + 4);
-        for (int i = 0; i < 4; i++)
-            data[chunk[k][0] + 8 + chunk[k][1] + (size_t)i] = (uint8_t)(crc >> (24 - 8 * i) & 255);
-    }
-    check_too_large(t, "png", png_read, data, PNG);
+    memcpy(data, png.data, png.n);
+    bytes_of_bits(N - png.n - 24, data + png.n, 4, true); /* an IDAT that fills the file, but for an IEND */
+    memcpy(data + png.n + 4, "IDAT", 4);
+    memcpy(data + N - 8, "IEND", 4);
+    put_checksums(data, N);
+    check_no_picture(t, png_read, data, N, MESSAGE);
     free(data);
     struct error err;
     const uint64_t each = PICTURE_BYTES_PER_BYTE;
     CHECK(t, picture_memory_ok(PICTURE_FREE_BYTES, 1, &err) && !picture_memory_ok(PICTURE_FREE_BYTES + 1ull, 1, &err) &&
                  picture_memory_ok((1 << 24) * each, 1 << 24, &err) &&
-                 !picture_memory_ok((1 << 24) * each + each, 1 << 24, &err),
-          "limits");
+                 !picture_memory_ok((1 << 24) * each + each, 1 << 24, &err), "limits");
 }
 
 void test_image(struct test *t)
@@ -521,7 +387,6 @@ void test_image(struct test *t)
     for (int i = 0; i < N_PNG_SAMPLES; i++)
         check_png_sample(t, &PNG_SAMPLES[i]);
     test_paeth_ties(t);
-    test_png_mutants(t);
     test_png_refusals(t);
     test_tga(t);
     test_pfm(t);

@@ -3,7 +3,6 @@
 #include "material/lobe.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "material/bsdf.h"
 #include "material/fresnel.h"
@@ -24,29 +23,29 @@ static vec3 direction(double cos_theta, double phi)
 
 static void fresnel_values(struct test *t)
 {
-    CHECK(t, near(fresnel_dielectric(1, 1, 1.5), 0.04, 1e-15), "glass, normal incidence");
-    CHECK(t, near(fresnel_dielectric(-1, 1, 1.5), 0.04, 1e-15), "glass, from inside");
-    CHECK(t, near(fresnel_dielectric(1e-9, 1, 1.5), 1, 1e-7), "glass, grazing");
-    CHECK(t, near(fresnel_dielectric(0.3, 1, 1), 0, 1e-15), "no boundary, no reflection");
-    double critical = sqrt(1 - sqr(1 / 1.5)); /* 41.8 degrees */
-    CHECK(t, fresnel_dielectric(-critical + 1e-9, 1, 1.5) == 1, "total internal reflection");
-    CHECK(t, fresnel_dielectric(-critical - 1e-3, 1, 1.5) < 0.9, "just not total");
-    /* Brewster's angle, tan = 1.5: the parallel part vanishes. */
-    double perpendicular = (1 - 2.25) / (1 + 2.25);
-    CHECK(t, near(fresnel_dielectric(1 / sqrt(1 + 2.25), 1, 1.5), 0.5 * sqr(perpendicular), 1e-15),
-          "Brewster's angle");
+    const double critical = sqrt(1 - sqr(1 / 1.5)), perpendicular = (1 - 2.25) / (1 + 2.25);
+    const struct {
+        double cos_i, eta_b, want, tolerance;
+    } cases[] = {
+        {1, 1.5, 0.04, 1e-15}, {-1, 1.5, 0.04, 1e-15}, /* normal incidence, from both sides */
+        {1e-9, 1.5, 1, 1e-7},                          /* grazing */
+        {0.3, 1, 0, 1e-15},                            /* no boundary */
+        {-critical + 1e-9, 1.5, 1, 0}, {-critical - 1e-3, 1.5, 0.8, 0.1}, /* total reflection, and just not */
+        {1 / sqrt(1 + 2.25), 1.5, 0.5 * sqr(perpendicular), 1e-15}, /* Brewster's angle: no parallel part */
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        double F = fresnel_dielectric(cases[i].cos_i, 1, cases[i].eta_b);
+        CHECK(t, near(F, cases[i].want, cases[i].tolerance), "cos %g: %g, not %g", cases[i].cos_i, F, cases[i].want);
+    }
     for (double c = 0.02; c < 1; c += 0.07) {
-        double cos_t = sqrt(1 - (1 - c * c) / 2.25);
-        CHECK(t, near(fresnel_dielectric(c, 1, 1.5), fresnel_dielectric(-cos_t, 1, 1.5), 1e-14),
-              "same from both sides");
-        rgb metal = fresnel_conductor(c, rgb_grey(1.5), rgb_black());
-        CHECK(t, near(metal.g, fresnel_dielectric(c, 1, 1.5), 1e-13), "a metal that does not absorb is glass");
+        double F = fresnel_dielectric(c, 1, 1.5), cos_t = sqrt(1 - (1 - c * c) / 2.25);
+        CHECK(t, near(F, fresnel_dielectric(-cos_t, 1, 1.5), 1e-14), "the same from both sides");
+        CHECK(t, near(fresnel_conductor(c, rgb_grey(1.5), rgb_black()).g, F, 1e-13), "metal that absorbs nothing");
     }
     /* Copper: ((n-1)^2 + k^2) / ((n+1)^2 + k^2) at normal incidence. */
     rgb n = rgb_make(0.200438, 0.924033, 1.102212), k = rgb_make(3.912949, 2.452848, 2.142188);
     rgb copper = fresnel_conductor(1, n, k);
-    CHECK(t, near(copper.r, (sqr(n.r - 1) + sqr(k.r)) / (sqr(n.r + 1) + sqr(k.r)), 1e-14), "copper, red: %g",
-          copper.r);
+    CHECK(t, near(copper.r, (sqr(n.r - 1) + sqr(k.r)) / (sqr(n.r + 1) + sqr(k.r)), 1e-14), "red: %g", copper.r);
     CHECK(t, near(copper.r, 0.952, 1e-3) && near(copper.g, 0.620, 1e-3) && near(copper.b, 0.511, 1e-3),
           "copper: %.6f %.6f %.6f", copper.r, copper.g, copper.b);
     CHECK(t, near(fresnel_conductor(0, n, k).r, 1, 1e-12), "copper, grazing");
@@ -107,13 +106,8 @@ static void facet_areas(struct test *t)
 
 static struct lobe facet_lobe(enum lobe_kind kind, double alpha_x, double alpha_y)
 {
-    struct lobe l;
-    memset(&l, 0, sizeof l);
-    l.kind = kind;
-    l.fresnel = FRESNEL_DIELECTRIC;
+    struct lobe l = {.kind = kind, .fresnel = FRESNEL_DIELECTRIC, .eta_a = 1, .eta_b = 1.5};
     l.scale = l.R = l.T = rgb_grey(1);
-    l.eta_a = 1;
-    l.eta_b = 1.5;
     l.alpha_x = alpha_x;
     l.alpha_y = alpha_y;
     return l;
@@ -250,12 +244,9 @@ static void delta_lobes(struct test *t)
         CHECK(t, near(refracted.f.g * fabs(refracted.wi.z), 1 - F, 1e-12), "and the rest");
     }
     l.R = rgb_black(); /* all samples go where there is something */
-    CHECK(t,
-          lobe_sample_delta(&l, direction(0.2, 1), 0, RADIANCE, &refracted) && refracted.wi.z < 0 &&
-              refracted.pdf == 1,
-          "glass that does not reflect");
-    CHECK(t, !lobe_sample_delta(&l, direction(-0.2, 1), 0, RADIANCE, &refracted),
-          "and nothing under total reflection");
+    CHECK(t, lobe_sample_delta(&l, direction(0.2, 1), 0, RADIANCE, &refracted) && refracted.wi.z < 0 &&
+                 refracted.pdf == 1 && !lobe_sample_delta(&l, direction(-0.2, 1), 0, RADIANCE, &refracted),
+          "glass that does not reflect, not even under total reflection");
     l.R = rgb_grey(1);
     l.T = rgb_black();
     CHECK(t, lobe_sample_delta(&l, direction(0.9, 1), 0.99, RADIANCE, &reflected) && reflected.wi.z > 0,

@@ -62,50 +62,30 @@ static void check_accepted(struct test *t)
     char words[1024];
     CHECK(t, read_line(TABLE, "", words, &o, &err), "%s", err.text);
     CHECK(t, o.seed == 7 && o.number == 1.5 && o.image == NULL && o.integer == 0, "the fallbacks, and zeros");
-    CHECK(t,
-          read_line(TABLE,
-                    "a.png --on --integer=2 --number -0.5 --window 0 1 0.25 1e0 --size 65536x4096 --width 65536 b c "
-                    "--seed=18446744073709551615 -i1073741824 --text -x",
-                    words, &o, &err),
-          "%s", err.text);
+    bool ok = read_line(TABLE, "a.png --on --integer=2 --number -0.5 --window 0 1 0.25 1e0 --size 65536x4096 "
+                        "--width 65536 b c --range 0:100 --seed=18446744073709551615 -i1073741824 --text -x",
+                        words, &o, &err);
+    if (!CHECK(t, ok, "%s", err.text))
+        return;
     CHECK(t, o.on && o.integer == 1 << 30 && o.number == -0.5, "flag, integer at its upper bound, number at its lower");
     CHECK(t, o.window[0] == 0 && o.window[1] == 1 && o.window[2] == 0.25 && o.window[3] == 1, "window");
     CHECK(t, o.size[0] == 65536 && o.size[1] == 4096 && o.width[0] == 65536 && o.width[1] == 0, "sizes");
     CHECK(t, o.seed == UINT64_MAX && strcmp(o.text, "-x") == 0, "seed, and a value that looks like an option");
     CHECK(t, strcmp(o.image, "a.png") == 0 && o.rest.n == 2 && strcmp(o.rest.item[1], "c") == 0, "operands in order");
+    CHECK(t, o.range[0] == 0 && o.range[1] == 100, "a range");
     options_free(TABLE, &o);
     memset(&o, 0, sizeof o);
-    CHECK(t, read_line(TABLE, "--range 0:100", words, &o, &err) && o.range[0] == 0 && o.range[1] == 100, "a range");
-    CHECK(t,
-          read_line(TABLE,
-                    "--on --window=0,0.5,0.25,1 --width 3x4 --texts 1 --texts=2=3 -Pa=b -P c= --list x - y -t=- "
-                    "-i 2 --number=2",
-                    words, &o, &err),
-          "%s", err.text);
+    ok = read_line(TABLE, "--on --window=0,0.5,0.25,1 --width 3x4 --texts 1 --texts=2=3 -Pa=b -P c= --list x - y -t=- "
+                   "-i 2 --number=2 --time .5m", words, &o, &err);
+    if (!CHECK(t, ok, "%s", err.text))
+        return;
     CHECK(t, o.on && o.window[1] == 0.5 && o.window[3] == 1 && o.width[1] == 4, "window with commas, height");
     CHECK(t, o.texts.n == 2 && strcmp(o.texts.item[1], "2=3") == 0, "only the first = belongs to the option");
-    CHECK(t, o.pairs.n == 2 && strcmp(o.pairs.item[0], "a=b") == 0, "pairs");
-    CHECK(t, strcmp(o.pairs.item[1], "c=") == 0, "a pair without a value");
+    CHECK(t, o.pairs.n == 2 && strcmp(o.pairs.item[0], "a=b") == 0 && strcmp(o.pairs.item[1], "c=") == 0, "pairs");
     CHECK(t, o.list.n == 3 && strcmp(o.list.item[1], "-") == 0, "a list ends at the next option; - is none");
     CHECK(t, strcmp(o.text, "-") == 0 && o.integer == 2 && o.number == 2, "a value behind =; other bounds");
+    CHECK(t, o.time == 30, "half a minute is %g s", o.time);
     options_free(TABLE, &o);
-}
-
-/* Seconds, and units. */
-static void check_times(struct test *t)
-{
-    static const struct {
-        const char *line;
-        double seconds;
-    } CASES[] = {{"--on --time 90", 90}, {"--time=1.5s --on", 1.5}, {"--on --time .5m", 30}, {"--on --time 2h", 7200}};
-    for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
-        struct target o = {0};
-        struct error err = {""};
-        char words[1024];
-        CHECK(t, read_line(TABLE, CASES[i].line, words, &o, &err), "%s: %s", CASES[i].line, err.text);
-        CHECK(t, o.time == CASES[i].seconds, "%s: %g", CASES[i].line, o.time);
-        options_free(TABLE, &o);
-    }
 }
 
 static void check_refused(struct test *t)
@@ -115,71 +95,44 @@ static void check_refused(struct test *t)
     } WRONG[] = {
         {"--range 3", "expected FIRST:END, integers from 0 to 100"},
         {"--range 3:101", "expected FIRST:END, integers from 0 to 100"},
-        {"--range 3x4", "expected FIRST:END, integers from 0 to 100"},
         {"--range -1:4", "expected FIRST:END, integers from 0 to 100"},
         {"--range 3:3", "nothing between 3 and 3"},
-        {"--range=4:3", "nothing between 4 and 3"},
         {"--integer 1", "--integer 1: expected an integer from 2 to 1073741824"},
         {"--integer 1073741825", "expected an integer"},
-        {"--integer 4294967298", "expected an integer"},
         {"--integer 99999999999999999999", "expected an integer"},
         {"--integer +4", "expected an integer"},
-        {"--integer -4", "expected an integer"},
         {"--integer 0x10", "expected an integer"},
-        {"--integer 3.0", "expected an integer"},
-        {"--integer 4,5", "expected an integer"},
         {"--integer=", "--integer: its value is empty"},
         {"-i4x", "expected an integer"},
         {"--number -0.6", "--number -0.6: expected a number from -0.5 to 2"},
-        {"--number 2.0000001", "expected a number"},
         {"--number nan", "expected a number"},
         {"--on --time 3h", "--time 3h: expected a number from 0.5 to 7200, of seconds, or with a unit: 90s, 5m, 1h"},
         {"--on --time 3d", "expected a number"},
-        {"--on --time 3ms", "expected a number"},
-        {"--on --time m", "expected a number"},
         {"--time 3", "--time has no effect without --on"},
         {"--number inf", "expected a number"},
-        {"--number -inf", "expected a number"},
         {"--number 1e999", "expected a number"},
-        {"--number 1,2", "expected a number"},
         {"--number x", "expected a number"},
         {"--window 0 1 0", "--window needs a value"},
-        {"--window 0,1,0", "--window needs a value"},
         {"--window 0,1,0,1,0", "expected X0 X1 Y0 Y1"},
         {"--window 0,,0,1", "expected X0 X1 Y0 Y1"},
-        {"--window 0,1,0,", "expected X0 X1 Y0 Y1"},
         {"--window 0 1 0 nan", "expected X0 X1 Y0 Y1, numbers from 0 to 1"},
-        {"--window 0 1 0 1.1", "expected X0 X1 Y0 Y1"},
         {"--window 0.5 0.5 0 1", "--window: there is nothing between"},
-        {"--window 0 1 1 0.5", "--window: there is nothing between"},
         {"--size 10", "expected WIDTHxHEIGHT, integers from 1 to 65536"},
         {"--size 10x", "expected WIDTHxHEIGHT"},
-        {"--size x10", "expected WIDTHxHEIGHT"},
-        {"--size 10x10x10", "expected WIDTHxHEIGHT"},
-        {"--size 4294967297x4", "expected WIDTHxHEIGHT"},
         {"--size 4x18446744073709551617", "expected WIDTHxHEIGHT"},
         {"--size 0x10", "expected WIDTHxHEIGHT"},
         {"--size 60000x60000", "60000 x 60000 pixels are too many"},
         {"--width 65537", "expected WIDTH[xHEIGHT]"},
         {"--width 4x0", "expected WIDTH[xHEIGHT]"},
         {"--seed 18446744073709551616", "expected a whole number from 0 to 18446744073709551615"},
-        {"--seed 12345678901234567890123", "expected a whole number"},
         {"--seed -1", "expected a whole number"},
-        {"--seed 1.5", "expected a whole number"},
         {"-P a", "expected name=value"},
-        {"-P =a", "expected name=value"},
         {"--text", "--text needs a value"},
-        {"--text=", "--text: its value is empty"},
-        {"--texts=", "--texts: its value is empty"},
-        {"-t", "--text needs a value"},
         {"--list", "--list needs a value"},
         {"--on=1", "--on takes no value"},
         {"--integr 4", "unknown option --integr (did you mean --integer?)"},
         {"--sede=4", "unknown option --sede=4 (did you mean --seed?)"},
         {"--zzzzzzzzzz", "unknown option --zzzzzzzzzz"},
-        {"--int 4", "unknown option"},
-        {"--crop 4", "unknown option --crop"},
-        {"-x", "unknown option -x"},
         {"--", "unknown option --"},
     };
     for (size_t i = 0; i < sizeof WRONG / sizeof WRONG[0]; i++) {
@@ -263,7 +216,6 @@ void test_options(struct test *t)
 {
     int rows = 0;
     check_accepted(t);
-    check_times(t);
     check_refused(t);
     check_required(t);
     for (const struct command *const *c = program.commands; *c != NULL; c++)

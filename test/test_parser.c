@@ -3,19 +3,22 @@
  * Every file of test/fixtures says in its first line what must come of it: "# expect: ok", or LINE:COL and a part
  * of the message of the first error; further lines "# also: ..." name parts of the other errors and "# warn: ..." of
  * the warnings, in order. What a scene must contain is
- * checked here for the fixtures ok-*. Then: numbers against strtod, spectra against known colours, and damaged
+ * checked here Then: numbers against strtod, spectra against known colours, and damaged
  * copies of all fixtures, which must be accepted or refused, never crash (run it with sanitizers).
  */
 #define _POSIX_C_SOURCE 200809L
 
 #include <dirent.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "parser/lexer.h"
+#include "parser/parse.h"
 #include "parser/parser.h"
 #include "parser/scene_files.h"
 #include "base/os.h"
@@ -90,6 +93,171 @@ static void head_comment(const char *text, const char *key, int k, char out[TEXT
     }
 }
 
+/* --- contents ------------------------------------------------------------------------------------------- */
+
+/* A scene in words, as far as these tests look at it. */
+struct words {
+    char text[16384];
+    size_t n;
+};
+
+static void put(struct words *w, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    int n = vsnprintf(w->text + w->n, sizeof w->text - w->n, format, args);
+    va_end(args);
+    w->n = w->n + (size_t)n < sizeof w->text ? w->n + (size_t)n : sizeof w->text - 1;
+}
+
+/* To nine digits behind the point, and no number is -0. */
+static void put3(struct words *w, const char *name, double x, double y, double z)
+{
+    put(w, " %s %g %g %g", name, rint(x * 1e9) / 1e9 + 0, rint(y * 1e9) / 1e9 + 0, rint(z * 1e9) / 1e9 + 0);
+}
+
+/* A texture parameter: its value if that is constant, else the texture's number; nothing for -1. */
+static void put_texture(struct words *w, const struct scene *s, const char *name, int id)
+{
+    const struct texture *t = &s->textures.texture[id];
+    if (id >= 0 && t->kind == TEXTURE_CONSTANT)
+        put3(w, name, t->constant.r, t->constant.g, t->constant.b);
+    else if (id >= 0)
+        put(w, " %s texture %d", name, id);
+}
+
+static const char *kind_name(const struct object_type *types, int kind, const char *fallback)
+{
+    while (types->name != NULL && types->kind != kind)
+        types++;
+    return types->name != NULL ? types->name : fallback;
+}
+
+static void put_options(struct words *w, const struct scene *s)
+{
+    const struct camera *c = &s->camera;
+    const struct filter *f = &s->filter;
+    put(w, "film %dx%d scale %g crop %g %g %g %g file %s\n", s->width, s->height, s->film_scale, s->crop[0], s->crop[1],
+        s->crop[2], s->crop[3], s->film_filename != NULL ? s->film_filename : "none");
+    vec3 world = transform_point(&c->world_to_camera, vec(0, 0, 0));
+    put(w, "camera %d fov %g aspect %g lens %g %g window %d %g %g %g %g", (int)c->kind, c->fov, c->frame_aspect_ratio,
+        c->lens_radius, c->focal_distance, c->has_screen_window, c->screen_window[0], c->screen_window[1],
+        c->screen_window[2], c->screen_window[3]);
+    put3(w, "world at", world.x, world.y, world.z);
+    put(w, "\nfilter %d radius %g %g alpha %g B %g C %g tau %g\n", (int)f->kind, f->radius[0], f->radius[1], f->alpha,
+        f->B, f->C, f->tau);
+    put(w, "spp %d integrator %s\n", s->spp, s->integrator != NULL ? s->integrator : "none");
+    for (int i = 0; i < s->settings.n; i++)
+        put(w, "setting %s %s %s\n", s->settings.item[i].name, s->settings.item[i].value, s->settings.item[i].origin);
+}
+
+static void put_textures(struct words *w, const struct scene *s)
+{
+    for (int i = 0; i < s->textures.n_textures; i++) {
+        const struct texture *t = &s->textures.texture[i];
+        if (t->kind == TEXTURE_CONSTANT)
+            continue;
+        put(w, "texture %d %s", i, kind_name(TEXTURE_TYPES, (int)t->kind, "cubes"));
+        if (t->kind == TEXTURE_IMAGEMAP)
+            put(w, " image %d wrap %d scale %g gamma %d", t->image, (int)t->wrap, t->scale, t->gamma);
+        else if (t->kind == TEXTURE_BILERP) {
+            const rgb v[4] = {t->v00, t->v01, t->v10, t->v11};
+            for (int k = 0; k < 4; k++)
+                put3(w, k == 0 ? "values" : "and", v[k].r, v[k].g, v[k].b);
+        } else {
+            put_texture(w, s, "tex1", t->tex1);
+            put_texture(w, s, "tex2", t->tex2);
+        }
+        if (t->kind == TEXTURE_MIX)
+            put_texture(w, s, "amount", t->amount);
+        put(w, " mapping %d %g %g %g %g\n", (int)t->map.kind, t->map.su, t->map.sv, t->map.du, t->map.dv);
+    }
+}
+
+#define FIELD(f) {#f, offsetof(struct material, f)}
+
+static void put_material(struct words *w, const struct scene *s, int i)
+{
+    static const struct {
+        const char *name;
+        size_t field;
+    } TEXTURES[] = {FIELD(Kd), FIELD(Ks), FIELD(Kr), FIELD(Kt), FIELD(sigma), FIELD(eta), FIELD(k), FIELD(index),
+                    FIELD(uroughness), FIELD(vroughness), FIELD(opacity), FIELD(reflect), FIELD(transmit),
+                    FIELD(amount), FIELD(bump)};
+    const struct material *m = &s->material[i];
+    put(w, "material %d %s", i, kind_name(MATERIAL_TYPES, (int)m->kind, ""));
+    for (size_t k = 0; k < sizeof TEXTURES / sizeof TEXTURES[0]; k++)
+        put_texture(w, s, TEXTURES[k].name, *(const int *)(const void *)((const char *)m + TEXTURES[k].field));
+    put(w, " remap %d mix %d %d\n", m->remap_roughness, m->mix1, m->mix2);
+}
+
+static void put_shapes(struct words *w, const struct scene *s)
+{
+    const struct geometry *geo = &s->geo;
+    for (int i = 0; i < geo->n_groups; i++) {
+        const struct shape_group *g = &geo->group[i];
+        put(w, "group of material %d light %d flip %d N %d uv %d", g->material, g->first_light, g->flip, g->has_n,
+            g->has_uv);
+        put_texture(w, s, "alpha", g->alpha);
+        put_texture(w, s, "shadow", g->shadow_alpha);
+        put(w, "\n");
+    }
+    for (int i = 0; i < geo->n_quadrics; i++) {
+        const struct quadric *q = &geo->quadric[i];
+        vec3 at = transform_point(&q->to_world, vec(0, 0, 0));
+        put(w, "quadric %d radius %g inner %g z %g %g phi %g", (int)q->kind, q->radius, q->inner_radius, q->zmin,
+            q->zmax, q->phi_max);
+        put3(w, "at", at.x, at.y, at.z);
+        put3(w, "from", q->p1.x, q->p1.y, q->p1.z);
+        put3(w, "to", q->p2.x, q->p2.y, q->p2.z);
+        put(w, "\n");
+    }
+    put(w, "%d triangles of %d points\n", geo->n_triangles, geo->n_vertices);
+    for (int i = 0; i < geo->n_vertices; i++) {
+        const float *P = geo->P + 3 * i, *uv = geo->UV + 2 * i;
+        put(w, "point %d: %.9g %.9g %.9g uv %g %g\n", i, (double)P[0], (double)P[1], (double)P[2], (double)uv[0],
+            (double)uv[1]);
+    }
+    for (const uint32_t *k = geo->index; k < geo->index + 3 * geo->n_triangles; k += 3)
+        put(w, "triangle %d %d %d\n", (int)k[0], (int)k[1], (int)k[2]);
+}
+
+static void put_lights(struct words *w, const struct scene *s)
+{
+    for (int i = 0; i < s->lights.n; i++) {
+        const struct light *l = &s->lights.light[i];
+        vec3 axis = transform_vector(&l->to_world, vec(0, 0, 1));
+        put(w, "light %d %s", i, kind_name(LIGHT_DIRECTIVES[1].types, (int)l->kind, "area"));
+        put3(w, "L", l->L.r, l->L.g, l->L.b);
+        put3(w, "at", l->position.x, l->position.y, l->position.z);
+        put3(w, "towards", l->direction.x, l->direction.y, l->direction.z);
+        put3(w, "axis", axis.x, axis.y, axis.z);
+        put(w, " cosines %.4f %.4f tan %.4f two-sided %d prim %d picture %d\n", l->cos_total, l->cos_falloff,
+            l->tan_half, l->two_sided, l->prim, l->env != NULL || l->slide != NULL);
+    }
+}
+
+/* "# has: ..." in a scene's comments are parts of its words, in their order. */
+static void check_contents(struct test *t, const char *name, const char *text, const struct scene *s)
+{
+    struct words *w = mem_alloc(1, sizeof *w);
+    put_options(w, s);
+    put_textures(w, s);
+    for (int i = 0; i < s->n_materials; i++)
+        put_material(w, s, i);
+    put_shapes(w, s);
+    put_lights(w, s);
+    const char *from = w->text;
+    for (const char *p = strstr(text, "# has: "); p != NULL; p = strstr(p + 1, "# has: ")) {
+        char want[TEXT];
+        snprintf(want, sizeof want, "%.*s", (int)strcspn(p + 7, "\n"), p + 7);
+        const char *found = strstr(from, want);
+        if (CHECK(t, found != NULL, "%s: no \"%s\" in\n%s", name, want, from))
+            from = found + strlen(want);
+    }
+    free(w);
+}
+
 /* --- expectations --------------------------------------------------------------------------------------- */
 
 /* The second line of a message must be the place's line, the third a caret under its column. */
@@ -158,372 +326,12 @@ static void check_fixture(struct test *t, const char *name)
     CHECK(t, ok || strncmp(heard->errors.text[0], err.text, TEXT - 1) == 0, "%s: the first error is another", name);
     check_heard(t, name, text, "also", &heard->errors, 1);
     check_heard(t, name, text, "warn", &heard->warnings, 0);
-    if (ok)
+    if (ok) {
+        check_contents(t, name, text, &s);
         scene_free(&s);
+    }
     free(heard);
     free(text);
-}
-
-/* --- contents ------------------------------------------------------------------------------------------- */
-
-/* Parse an ok-fixture; the caller frees the scene. */
-static bool open_scene(struct test *t, const char *name, struct scene *s)
-{
-    char path[TEXT];
-    struct error err = {""};
-    snprintf(path, sizeof path, "%s/ok-%s.pbrt", FIXTURES, name);
-    return CHECK(t, parse_scene(path, s, NULL, &err), "%s", err.text);
-}
-
-static bool near(double a, double b) { return fabs(a - b) <= 1e-9 * fmax(1, fabs(b)); }
-static bool same3(vec3 a, double x, double y, double z) { return near(a.x, x) && near(a.y, y) && near(a.z, z); }
-static bool same_rgb(rgb a, double r, double g, double b) { return near(a.r, r) && near(a.g, g) && near(a.b, b); }
-
-static bool is_constant(const struct scene *s, int texture, double r, double g, double b)
-{
-    const struct texture *x = &s->textures.texture[texture];
-    return texture >= 0 && x->kind == TEXTURE_CONSTANT && same_rgb(x->constant, r, g, b);
-}
-
-static bool is_grey(const struct scene *s, int texture, double v) { return is_constant(s, texture, v, v, v); }
-
-static void check_options(struct test *t)
-{
-    struct scene s;
-    if (!open_scene(t, "minimal", &s))
-        return;
-    CHECK(t, s.width == 1280 && s.height == 720 && s.spp == 0 && s.integrator == NULL && s.film_filename == NULL,
-          "defaults without directives");
-    CHECK(t, s.camera.fov == 90 && s.filter.kind == FILTER_BOX && s.filter.radius[0] == 0.5,
-          "default camera, filter");
-    scene_free(&s);
-    if (!open_scene(t, "options", &s))
-        return;
-    CHECK(t, s.width == 200 && s.height == 100 && s.film_scale == 2, "film");
-    CHECK(t, s.crop[0] == .25 && s.crop[1] == .75 && s.crop[2] == 0 && s.crop[3] == .5,
-          "crop window is put in order");
-    CHECK(t, strcmp(s.film_filename, "image.exr") == 0, "film name %s", s.film_filename);
-    CHECK(t,
-          s.camera.fov == 40 && s.camera.frame_aspect_ratio == 1.5 && s.camera.lens_radius == .1 &&
-              s.camera.focal_distance == 5,
-          "camera");
-    CHECK(t, s.camera.has_screen_window && s.camera.screen_window[0] == -1 && s.camera.screen_window[3] == 2,
-          "screen window");
-    CHECK(t, same3(transform_point(&s.camera.world_to_camera, vec(0, 0, 0)), 0, 0, 5), "world to camera");
-    CHECK(t,
-          s.filter.kind == FILTER_MITCHELL && s.filter.radius[0] == 3 && s.filter.radius[1] == 2.5 &&
-              s.filter.B == .5 && s.filter.C == .25,
-          "filter");
-    CHECK(t, s.spp == 24 && s.settings.n == 5, "samples per pixel");
-    CHECK(t, strcmp(s.integrator, "bdpt") == 0, "integrator");
-    static const char *const WANT[][2] = {{"maxdepth", "7"},
-                                          {"visualize", "true"},
-                                          {"threshold", "0.1"},
-                                          {"select", "vertices"},
-                                          {"pixelbounds", "0"}};
-    for (int i = 0; i < 5; i++)
-        CHECK(t, strcmp(settings_text(&s.settings, WANT[i][0], ""), WANT[i][1]) == 0, "setting %s is %s",
-              WANT[i][0], settings_text(&s.settings, WANT[i][0], "absent"));
-    CHECK(t, ends_in(s.settings.item[0].origin, "ok-options.pbrt:3:19"), "origin %s", s.settings.item[0].origin);
-    scene_free(&s);
-    if (!open_scene(t, "filters", &s))
-        return;
-    CHECK(t,
-          s.filter.kind == FILTER_GAUSSIAN && s.filter.radius[0] == 1.5 && s.filter.radius[1] == 2 &&
-              s.filter.alpha == 3 && s.camera.fov == 30,
-          "the last filter counts; halffov");
-    scene_free(&s);
-}
-
-static vec3 centre(const struct scene *s, int quadric)
-{
-    return transform_point(&s->geo.quadric[quadric].to_world, vec(0, 0, 0));
-}
-
-static void check_transforms(struct test *t)
-{
-    static const double WANT[][3] = {{0, 0, 0}, {1, 2, 3}, {3, 2, 3}, {0, 1, 0}, {0, 0, 0},   {3, 2, 3},
-                                     {5, 6, 7}, {6, 7, 8}, {0, 0, 0}, {9, 9, 9}, {-1, -2, -3}};
-    enum { N = sizeof WANT / sizeof WANT[0] };
-    struct scene s;
-    if (!open_scene(t, "transforms", &s))
-        return;
-    if (CHECK(t, s.geo.n_quadrics == N, "%d spheres", s.geo.n_quadrics))
-        for (int i = 0; i < N; i++) {
-            vec3 c = centre(&s, i);
-            CHECK(t, length(sub(c, vec(WANT[i][0], WANT[i][1], WANT[i][2]))) < 1e-12,
-                  "sphere %d is at %g %g %g, not %g %g %g", i, c.x, c.y, c.z, WANT[i][0], WANT[i][1], WANT[i][2]);
-        }
-    scene_free(&s);
-    if (!open_scene(t, "motion", &s))
-        return;
-    CHECK(t, same3(centre(&s, 0), 0, 0, 0) && same3(centre(&s, 1), 0, 1, 0), "end-time transforms are ignored");
-    scene_free(&s);
-    if (!open_scene(t, "objects", &s))
-        return;
-    if (CHECK(t, s.geo.n_quadrics == 2 && s.geo.n_triangles == 2, "two instances of two shapes"))
-        CHECK(t,
-              same3(centre(&s, 0), 1, 5, 0) && same3(centre(&s, 1), 2, 5, 0) && s.geo.P[9] == 2 && s.geo.P[10] == 5,
-              "instances are placed by instance transform times object transform");
-    scene_free(&s);
-}
-
-static void check_values(struct test *t)
-{
-    struct scene s;
-    if (!open_scene(t, "values", &s))
-        return;
-    const struct light *l = s.lights.light;
-    CHECK(t, same_rgb(l[0].L, 1, 2, 3) && same_rgb(l[1].L, 1, 2, 3), "rgb, color");
-    CHECK(t, rgb_max(rgb_sub(l[2].L, rgb_grey(1))) < 1e-3, "xyz of white is white: %g %g %g", l[2].L.r, l[2].L.g,
-          l[2].L.b);
-    rgb black = spectrum_blackbody(6500, 2);
-    CHECK(t, same_rgb(l[3].L, black.r, black.g, black.b), "blackbody");
-    double flat[1][2] = {{500, 1}};
-    rgb equal = spectrum_from_samples(flat, 1);
-    CHECK(t, same_rgb(l[4].L, equal.r, equal.g, equal.b) && same_rgb(l[5].L, equal.r, equal.g, equal.b), "spectra");
-    CHECK(t, same_rgb(l[6].L, 2, 2, 2) && same3(l[6].position, 1, 2, 3), "scale, from");
-    CHECK(t, s.lights.n == 8 && !l[7].two_sided && s.geo.n_triangles == 1, "the last area light counts");
-    CHECK(t, is_grey(&s, s.material[s.geo.group[0].material].sigma, .5), "a quoted name");
-    CHECK(t, s.geo.group[0].has_uv && s.geo.UV[2] == 1 && s.geo.UV[5] == 1, "st");
-    scene_free(&s);
-    if (!open_scene(t, "numbers", &s))
-        return;
-    static const float P[9] = {0, 1.74846e-7f, 3, .5f, -.25f, 1, 100, .01f, 123456789.125f};
-    for (int i = 0; i < 9; i++)
-        CHECK(t, s.geo.P[i] == P[i], "number %d is %.9g, not %.9g", i, (double)s.geo.P[i], (double)P[i]);
-    CHECK(t, s.geo.quadric[0].radius == 0.1, "a comment may touch a number");
-    scene_free(&s);
-}
-
-/* Texture coordinates for more points than there are serve those that there are; for fewer, none. */
-static void check_uv(struct test *t)
-{
-    struct scene s;
-    if (!open_scene(t, "mesh-uv", &s))
-        return;
-    CHECK(t, s.geo.n_groups == 2 && s.geo.group[0].has_uv && s.geo.UV[5] == 1 && !s.geo.group[1].has_uv,
-          "4 and 2 uv of 3 points");
-    scene_free(&s);
-}
-
-static void check_shapes(struct test *t)
-{
-    struct scene s;
-    if (!open_scene(t, "shapes", &s))
-        return;
-    const struct shape_group *g = s.geo.group;
-    if (!CHECK(t, s.geo.n_triangles == 15 && s.geo.n_quadrics == 7 && s.geo.n_groups == 11,
-               "alpha 0 and material none are left out")) {
-        scene_free(&s);
-        return;
-    }
-    CHECK(t, g[0].has_n && g[0].has_uv && g[0].alpha >= 0 && is_grey(&s, g[0].shadow_alpha, 0), "mesh group");
-    CHECK(t, !g[1].has_n && g[1].has_uv && g[1].alpha == -1 && g[1].shadow_alpha == g[0].alpha, "ply group");
-    CHECK(t, !g[2].flip && g[3].flip && g[0].first_light == -1 && g[2].material == 1, "quadric groups");
-    const struct quadric *q = s.geo.quadric;
-    CHECK(t, q[0].kind == QUADRIC_SPHERE && q[0].zmin == -2 && q[0].zmax == 1 && near(q[0].phi_max, PI), "sphere");
-    CHECK(t, q[1].kind == QUADRIC_DISK && q[1].zmin == 1 && q[1].inner_radius == 1 && near(q[1].phi_max, PI / 2),
-          "disk");
-    CHECK(t, q[2].kind == QUADRIC_CYLINDER && q[2].zmin == -1 && q[2].zmax == 2 && near(q[2].phi_max, 2 * PI),
-          "cylinder");
-    CHECK(t, q[3].kind == QUADRIC_CONE && q[3].radius == 2 && q[3].zmin == 0 && q[3].zmax == 3 &&
-                 near(q[3].phi_max, PI / 2), "cone");
-    CHECK(t, q[4].kind == QUADRIC_PARABOLOID && q[4].radius == 2 && q[4].zmin == 1 && q[4].zmax == 3, "paraboloid");
-    CHECK(t, q[5].kind == QUADRIC_HYPERBOLOID && same3(q[5].p1, 3, 0, 0) && same3(q[5].p2, 1, 2, 3) && q[5].zmax == 3,
-          "hyperboloid: from the end at height 0");
-    CHECK(t, same3(q[6].p1, 0, 0, 0) && same3(q[6].p2, 1, 1, 1) && near(q[6].radius, sqrt(2)), "default hyperboloid");
-    CHECK(t, g[9].has_n && !g[9].has_uv && g[10].first_prim - g[9].first_prim == 8, "one level of subdivision");
-    const int first = s.geo.n_vertices - 6;
-    const float *P = s.geo.P + 3 * (first + 3), *uv = s.geo.UV + 2 * (first + 3);
-    const uint32_t *last = s.geo.index + 3 * (s.geo.n_triangles - 1);
-    CHECK(t, P[0] == 0 && P[1] == 1 && P[2] == 13 && uv[0] == 0 && uv[1] == 1, "a point of the heightfield");
-    CHECK(t, last[0] == (uint32_t)first + 1 && last[1] == (uint32_t)first + 5 && last[2] == (uint32_t)first + 4,
-          "its last triangle");
-    scene_free(&s);
-}
-
-/* pbrt-v3's default of each parameter; NaN: the kind has none. */
-static void check_material_defaults(struct test *t, const struct scene *s)
-{
-    const double no = nan("");
-    const struct {
-        enum material_kind kind;
-        double Kd, Ks, Kr, Kt, sigma, index, roughness, opacity, reflect, transmit;
-    } WANT[] = {{MATERIAL_MATTE, .5, no, no, no, 0, no, no, no, no, no},
-                {MATERIAL_MIRROR, no, no, .9, no, no, no, no, no, no, no},
-                {MATERIAL_GLASS, no, no, 1, 1, no, 1.5, 0, no, no, no},
-                {MATERIAL_METAL, no, no, no, no, no, no, .01, no, no, no},
-                {MATERIAL_PLASTIC, .25, .25, no, no, no, no, .1, no, no, no},
-                {MATERIAL_SUBSTRATE, .5, .5, no, no, no, no, .1, no, no, no},
-                {MATERIAL_UBER, .25, .25, 0, 0, no, 1.5, .1, 1, no, no},
-                {MATERIAL_TRANSLUCENT, .25, .25, no, no, no, no, .1, no, .5, .5}};
-    for (int i = 0; i < 8; i++) {
-        const struct material *m = &s->material[i + 1];
-        const double want[] = {WANT[i].Kd,      WANT[i].Ks,      WANT[i].Kr,        WANT[i].Kt,
-                               WANT[i].sigma,   WANT[i].index,   WANT[i].roughness, WANT[i].roughness,
-                               WANT[i].opacity, WANT[i].reflect, WANT[i].transmit};
-        const int is[] = {m->Kd,         m->Ks,         m->Kr,      m->Kt,      m->sigma,   m->index,
-                          m->uroughness, m->vroughness, m->opacity, m->reflect, m->transmit};
-        bool ok = m->kind == WANT[i].kind && m->bump == -1 && m->remap_roughness && m->mix1 == -1;
-        for (int k = 0; k < 11; k++)
-            ok = ok && (isnan(want[k]) ? is[k] == -1 : is_grey(s, is[k], want[k]));
-        CHECK(t, ok, "defaults of material %d", i);
-    }
-    CHECK(t, is_constant(s, s->material[4].eta, 0.199990, 0.922086, 1.099876), "metal is copper");
-}
-
-static void check_materials(struct test *t)
-{
-    struct scene s;
-    if (!open_scene(t, "materials", &s))
-        return;
-    check_material_defaults(t, &s);
-    const struct material *m = s.material;
-    CHECK(t, is_constant(&s, m[9].Kd, .1, .2, .3) && is_grey(&s, m[9].sigma, 20), "matte");
-    CHECK(t, m[11].kind == MATERIAL_MIX && m[11].mix1 == 9 && m[11].mix2 == 10 && is_grey(&s, m[11].amount, .2),
-          "mix");
-    CHECK(t,
-          is_constant(&s, m[12].Kt, 1, 0, 0) && is_grey(&s, m[12].index, 1.33) &&
-              is_grey(&s, m[12].uroughness, .1) && is_grey(&s, m[12].vroughness, .3) &&
-              m[12].bump == m[12].vroughness && !m[12].remap_roughness,
-          "glass");
-    CHECK(t, is_grey(&s, m[13].eta, 1) && is_grey(&s, m[13].uroughness, .2) && is_grey(&s, m[13].vroughness, .4),
-          "metal: roughness for both, vroughness for one");
-    CHECK(t, is_grey(&s, m[14].vroughness, .5) && !m[14].remap_roughness, "plastic");
-    CHECK(t, is_grey(&s, m[15].uroughness, .2) && is_grey(&s, m[15].vroughness, .3), "substrate");
-    CHECK(t, is_grey(&s, m[16].uroughness, .3) && is_grey(&s, m[16].index, 1.2) && is_grey(&s, m[16].opacity, .5),
-          "uber");
-    CHECK(t, is_grey(&s, m[17].uroughness, .7) && is_grey(&s, m[17].reflect, 1) && is_grey(&s, m[17].transmit, 0),
-          "translucent");
-    CHECK(t, s.geo.n_quadrics == 1 && s.geo.group[0].material == 9,
-          "named material; shapes of \"none\" are left out");
-    scene_free(&s);
-    if (!open_scene(t, "scopes", &s))
-        return;
-    const struct shape_group *g = s.geo.group;
-    CHECK(t,
-          m != NULL && s.material[g[0].material].kind == MATERIAL_GLASS &&
-              s.material[g[1].material].kind == MATERIAL_MATTE &&
-              s.material[g[2].material].kind == MATERIAL_MIRROR && is_grey(&s, s.material[g[3].material].sigma, 10),
-          "names and material return at AttributeEnd");
-    scene_free(&s);
-}
-
-/* Shapes that change parameters of their material. */
-static void check_changed_materials(struct test *t)
-{
-    struct scene s;
-    if (!open_scene(t, "changed", &s))
-        return;
-    const struct shape_group *g = s.geo.group;
-    const struct material *m[5];
-    for (int i = 0; i < 5; i++)
-        m[i] = &s.material[g[i].material];
-    CHECK(t, is_constant(&s, m[0]->Kd, 1, 0, 0) && is_grey(&s, m[0]->sigma, 0), "of the material at the start");
-    CHECK(t, is_constant(&s, m[1]->Kd, 0, 0, 1) && is_grey(&s, m[1]->sigma, 10), "a colour for a texture");
-    CHECK(t, s.textures.texture[m[2]->Kd].kind == TEXTURE_SCALE, "what the material does not have changes nothing");
-    CHECK(t, s.textures.texture[m[3]->Kd].kind == TEXTURE_SCALE && is_grey(&s, m[3]->sigma, 20), "of a named one");
-    CHECK(t, is_grey(&s, m[4]->uroughness, 0.5) && m[4]->eta == m[4][-1].eta, "of one with a colour from a file");
-    CHECK(t, s.geo.quadric[1].radius == 2, "the shape's own parameters remain its own");
-    scene_free(&s);
-}
-
-/* The k-th texture that is not a plain constant. */
-static const struct texture *texture_number(const struct scene *s, int k)
-{
-    for (int i = 0; i < s->textures.n_textures; i++)
-        if (s->textures.texture[i].kind != TEXTURE_CONSTANT && k-- == 0)
-            return &s->textures.texture[i];
-    return NULL;
-}
-
-static void check_textures(struct test *t)
-{
-    struct scene s;
-    if (!open_scene(t, "textures", &s))
-        return;
-    const struct texture *x[8];
-    bool all = true;
-    for (int i = 0; i < 8; i++)
-        all = (x[i] = texture_number(&s, i)) != NULL && all;
-    if (CHECK(t, all, "eight textures that are not constant")) {
-        CHECK(t,
-              x[0]->kind == TEXTURE_SCALE && is_constant(&s, x[0]->tex1, .1, .2, .3) &&
-                  is_grey(&s, x[0]->tex2, 2),
-              "scale");
-        CHECK(t,
-              x[1]->kind == TEXTURE_MIX && is_grey(&s, x[1]->tex1, 1) &&
-                  is_grey(&s, x[1]->amount, .25),
-              "mix");
-        const struct mapping *m = &x[2]->map;
-        CHECK(t,
-              x[2]->kind == TEXTURE_CHECKERBOARD && is_grey(&s, x[2]->tex2, 0) && m->su == 4 &&
-                  m->sv == 2 && m->du == .5 && m->dv == .25,
-              "checkerboard and mapping");
-        CHECK(t, x[3]->wrap == WRAP_CLAMP && x[3]->scale == 2 && !x[3]->gamma,
-              "pfm");
-        CHECK(t,
-              x[4]->wrap == WRAP_BLACK && x[4]->gamma && !x[5]->gamma &&
-                  x[5]->wrap == WRAP_REPEAT,
-              "tga is decoded unless told otherwise");
-        CHECK(t, s.textures.n_images == 2 && x[4]->image == x[5]->image, "images are shared");
-        CHECK(t,
-              same_rgb(x[6]->v00, 1, 0, 0) && same_rgb(x[6]->v01, 1, 1, 1) &&
-                  same_rgb(x[6]->v10, 0, 0, 0) && x[7]->v01.r == 3,
-              "bilerp");
-    }
-    scene_free(&s);
-}
-
-static void check_cameras(struct test *t)
-{
-    struct scene s;
-    if (open_scene(t, "orthographic", &s)) {
-        CHECK(t, s.camera.kind == CAMERA_ORTHOGRAPHIC && s.camera.has_screen_window && s.camera.screen_window[3] == 4 &&
-                     s.camera.lens_radius == 0, "orthographic camera");
-        scene_free(&s);
-    }
-    if (open_scene(t, "environment", &s)) {
-        CHECK(t, s.camera.kind == CAMERA_ENVIRONMENT && s.camera.lens_radius == 0, "environment camera");
-        scene_free(&s);
-    }
-}
-
-static void check_lights(struct test *t)
-{
-    struct scene s;
-    if (!open_scene(t, "lights", &s))
-        return;
-    const struct light *l = s.lights.light;
-    if (CHECK(t, s.lights.n == 12, "%d lights", s.lights.n)) {
-        CHECK(t, l[0].kind == LIGHT_POINT && same3(l[0].position, 1, 2, 3) && same_rgb(l[0].L, 1, 2, 3), "point");
-        CHECK(t,
-              l[1].kind == LIGHT_SPOT && same3(transform_vector(&l[1].to_world, vec(0, 0, 1)), 0, 1, 0) &&
-                  near(l[1].cos_total, .5) && near(l[1].cos_falloff, sqrt(.5)),
-              "spot");
-        CHECK(t, l[2].kind == LIGHT_DISTANT && same3(l[2].direction, 0, 1, 0) && same_rgb(l[2].L, 2, 2, 2),
-              "distant");
-        CHECK(t, l[3].kind == LIGHT_INFINITE && l[3].env == NULL && same_rgb(l[3].L, .5, .5, .5), "infinite");
-        CHECK(t, l[4].kind == LIGHT_INFINITE && l[4].env != NULL && l[4].env == s.lights.picture[0].env,
-              "environment map");
-        CHECK(t,
-              l[5].kind == LIGHT_AREA && l[5].two_sided && same_rgb(l[5].L, 6, 4, 2) && l[5].prim == 0 &&
-                  l[6].prim == 1 && l[7].prim == FIRST_QUADRIC,
-              "one area light per primitive");
-        CHECK(t,
-              s.geo.group[0].first_light == 5 && s.geo.group[1].first_light == 7 &&
-                  s.geo.group[3].first_light == -1 && s.geo.n_groups == 4,
-              "groups know their lights; AttributeEnd ends the area light");
-        CHECK(t, s.geo.group[2].first_light == 8 && s.geo.group[2].material == -1 && s.geo.group[3].material >= 0,
-              "a light of material none stays, without a material");
-        CHECK(t, l[9].kind == LIGHT_GONIOMETRIC && same3(l[9].position, 1, 2, 3) && same_rgb(l[9].L, 1, 2, 3) &&
-                     l[9].slide == NULL, "goniometric");
-        CHECK(t, l[10].kind == LIGHT_PROJECTION && same_rgb(l[10].L, 2, 4, 6) && near(l[10].tan_half, 1) &&
-                     l[10].slide != NULL, "projection");
-        CHECK(t, near(l[11].tan_half, tan(PI / 8)) && l[11].slide == NULL, "default projection");
-    }
-    scene_free(&s);
 }
 
 /* --- pieces --------------------------------------------------------------------------------------------- */
@@ -540,27 +348,25 @@ static void check_nothing_quoted(struct test *t)
     free(heard);
 }
 
-/* As many chains as names: all are found, the newest first, and forgotten again. */
+/* More names than chains: all are found, the newest first, and forgotten again. */
 static void check_symbols(struct test *t)
 {
     enum { N = 5000 };
     struct symbols table = {0};
     char name[32];
-    int wrong = symbols_find(&table, "0") != -1;
+    int wrong = 0;
     for (int i = 0; i < 2 * N; i++) {
         snprintf(name, sizeof name, "%d", i % N);
+        wrong += symbols_find(&table, name) != (i < N ? -1 : i - N);
         symbols_add(&table, name, i);
     }
-    for (int half = 1; half >= 0; half--) {
-        for (int i = 0; i < N; i++) {
-            snprintf(name, sizeof name, "%d", i);
-            wrong += symbols_find(&table, name) != half * N + i;
-        }
-        symbols_forget(&table, N);
+    symbols_forget(&table, N);
+    for (int i = 0; i < N; i++) {
+        snprintf(name, sizeof name, "%d", i);
+        wrong += symbols_find(&table, name) != i;
     }
-    symbols_forget(&table, 0);
-    CHECK(t, wrong == 0 && symbols_find(&table, "0") == -1, "%d names are wrong", wrong);
     symbols_free(&table);
+    CHECK(t, wrong == 0 && symbols_find(&table, "0") == -1, "%d names are wrong", wrong);
 }
 
 /* One number through the lexer. */
@@ -594,33 +400,26 @@ static void check_numbers(struct test *t)
     CHECK(t, lex_number("-0", &got) && got == 0 && signbit(got), "-0 keeps its sign");
 }
 
+static bool within(rgb c, double r, double g, double b, double most)
+{
+    return fabs(c.r - r) <= most && fabs(c.g - g) <= most && fabs(c.b - b) <= most;
+}
+
+/* Expected colours were computed with the CIE 1931 tables in steps of 1 nm, scaled to Y = 1 for a constant spectrum. */
 static void check_spectra(struct test *t)
 {
-    double flat[1][2] = {{500, 2}};
-    CHECK(t,
-          near(rgb_luminance(spectrum_from_samples(flat, 1)), 2) ||
-              fabs(rgb_luminance(spectrum_from_samples(flat, 1)) - 2) < 1e-4,
-          "a constant spectrum has Y = its value");
-    /* Colours computed with the CIE 1931 tables in steps of 1 nm, scaled to Y = 1 for a constant spectrum. */
-    static const struct {
-        double kelvin, r, g, b;
-    } WANT[] = {{3000, 0.73663, 0.35123, 0.11322}, {6500, 0.92418, 0.87135, 0.91716}};
-    for (int i = 0; i < 2; i++) {
-        rgb c = spectrum_blackbody(WANT[i].kelvin, 1);
-        double off = rgb_max(rgb_make(fabs(c.r - WANT[i].r), fabs(c.g - WANT[i].g), fabs(c.b - WANT[i].b)));
-        CHECK(t, off < 0.01, "%g K: %g %g %g", WANT[i].kelvin, c.r, c.g, c.b);
-    }
-    double steps[4][2] = {{700, .6}, {500, .9}, {600, .2}, {400, .1}};
-    rgb c = spectrum_from_samples(steps, 4);
-    CHECK(t, fabs(c.r - .1745) < .01 && fabs(c.g - .6016) < .01 && fabs(c.b - .4721) < .01,
-          "unsorted samples: %g %g %g", c.r, c.g, c.b);
+    double flat[1][2] = {{500, 1}}, unsorted[4][2] = {{700, .6}, {500, .9}, {600, .2}, {400, .1}};
     double mixed[4][2] = {{700, 1}, {500, 1}, {500, 0}, {400, 0}}, up[4][2] = {{400, 0}, {500, 0}, {500, 1}, {700, 1}};
-    double down[4][2] = {{400, 1}, {500, 1}, {500, 0}, {700, 0}}, one[1][2] = {{500, 1}};
-    rgb a = spectrum_from_samples(mixed, 4), b = spectrum_from_samples(up, 4);
-    CHECK(t, a.r == b.r && a.g == b.g && a.b == b.b, "a step whose samples are out of order goes up");
-    rgb rest = rgb_sub(spectrum_from_samples(one, 1), rgb_add(spectrum_from_samples(down, 4), b));
-    CHECK(t, same_rgb(rest, 0, 0, 0), "steps up and down are the whole: %g %g %g", rest.r, rest.g, rest.b);
+    double down[4][2] = {{400, 1}, {500, 1}, {500, 0}, {700, 0}};
+    rgb whole = spectrum_from_samples(flat, 1), a = spectrum_from_samples(mixed, 4), b = spectrum_from_samples(up, 4);
+    CHECK(t, fabs(rgb_luminance(whole) - 1) < 1e-4, "a constant spectrum has Y = its value");
+    CHECK(t, within(spectrum_blackbody(3000, 1), 0.73663, 0.35123, 0.11322, 0.01), "3000 K");
+    CHECK(t, within(spectrum_blackbody(6500, 1), 0.92418, 0.87135, 0.91716, 0.01), "6500 K");
     CHECK(t, rgb_is_black(spectrum_blackbody(0, 1)), "0 K is black");
+    CHECK(t, within(spectrum_from_samples(unsorted, 4), .1745, .6016, .4721, 0.01), "unsorted samples");
+    CHECK(t, within(a, b.r, b.g, b.b, 0), "a step whose samples are out of order goes up");
+    a = rgb_add(spectrum_from_samples(down, 4), b);
+    CHECK(t, within(a, whole.r, whole.g, whole.b, 1e-9), "steps up and down are the whole");
 }
 
 /* Which of the parameters of a sphere is near, or "". */
@@ -790,17 +589,6 @@ static void check_unpacked(struct test *t)
     symbols_free(&f.known);
 }
 
-/* What a hundred unknown names were meant to be is said, not more: each is compared with all that are known. */
-static void check_suggested(struct test *t)
-{
-    struct messages m = {0};
-    int n = 0;
-    for (int i = 0; i < 3 * MOST_SUGGESTIONS; i++)
-        n += messages_suggest(&m);
-    CHECK(t, n == MOST_SUGGESTIONS, "%d suggestions", n);
-    messages_end(&m);
-}
-
 /* No more errors than are told are looked for. */
 static void check_many_errors(struct test *t)
 {
@@ -812,7 +600,7 @@ static void check_many_errors(struct test *t)
     snprintf(path, sizeof path, "%s/repeated.pbrt", test_tmp(t));
     struct scene s;
     CHECK(t, !parse_scene(path, &s, &sink, &err), "unknown directives are accepted");
-    CHECK(t, strstr(heard->errors.text[heard->errors.n - 1], "and 17 more errors") != NULL, "the last error is %s",
+    CHECK(t, strstr(heard->errors.text[heard->errors.n - 1], "and 19 more errors") != NULL, "the last error is %s",
           heard->errors.text[heard->errors.n - 1]);
     free(heard);
 }
@@ -822,11 +610,11 @@ static void check_no_files(struct test *t)
 {
     static const char *const NAMES[][2] = {
         {"fifo", "scenes name files, not devices or pipes"}, {"/dev/null", "scenes name files, not devices or pipes"},
-        {"parts", "scenes name files, not directories"}, {"-", "No such file"}};
+        {"directory", "scenes name files, not directories"}, {"-", "No such file"}};
     char path[TEXT], line[TEXT];
     snprintf(path, sizeof path, "%s/fifo", test_tmp(t));
     CHECK(t, mkfifo(path, 0600) == 0, "cannot make a pipe");
-    snprintf(path, sizeof path, "%s/parts", test_tmp(t));
+    snprintf(path, sizeof path, "%s/directory", test_tmp(t));
     CHECK(t, os_make_directory(path), "cannot make a directory");
     static const char *const LINES[] = {"Include \"%s\"", "LightSource \"infinite\" \"string mapname\" \"%s\"",
                                         "LightSource \"point\" \"spectrum I\" \"%s\"",
@@ -840,16 +628,6 @@ static void check_no_files(struct test *t)
 }
 
 /* --- damaged files -------------------------------------------------------------------------------------- */
-
-static void copy_file(const char *from, const char *to)
-{
-    struct error err;
-    size_t size;
-    char *text = text_read(from, &size, &err);
-    if (text != NULL)
-        write_bytes(to, text, size);
-    free(text);
-}
 
 /* Bytes that mean something to the parser, and some that do not. */
 static char odd_byte(struct rng *r)
@@ -880,18 +658,12 @@ static size_t damage(struct rng *r, char *text, size_t size)
 
 static void check_damaged(struct test *t, const struct fixtures *f, int rounds)
 {
-    static const char *const PARTS[] = {"triangle.ply", "broken.ply",   "map.pfm",  "grey.tga",
-                                        "equal.spd",    "broken.spd",   "box.pbrt", "options.pbrt",
-                                        "wrong.pbrt",   "through.pbrt", "a.pbrt",   "b.pbrt"};
     char path[TEXT], from[TEXT];
+    size_t n = strlen(top_directory(from, sizeof from));
+    snprintf(from + n, sizeof from - n, "%s/parts", FIXTURES);
     snprintf(path, sizeof path, "%s/parts", test_tmp(t));
-    if (!CHECK(t, os_make_directory(path), "cannot make a directory"))
+    if (!CHECK(t, symlink(from, path) == 0, "cannot make a link"))
         return;
-    for (size_t i = 0; i < sizeof PARTS / sizeof PARTS[0]; i++) {
-        snprintf(from, sizeof from, "%s/parts/%s", FIXTURES, PARTS[i]);
-        snprintf(path, sizeof path, "%s/parts/%s", test_tmp(t), PARTS[i]);
-        copy_file(from, path);
-    }
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 2, 0);
     int accepted = 0, refused = 0, first_ok = 0, n_ok = 0;
     for (int i = 0; i < f->n; i++)
@@ -938,19 +710,9 @@ void test_parser(struct test *t)
     if (CHECK(t, f->n >= 170, "only %d fixtures in %s: run the tests at the top of the tree", f->n, FIXTURES)) {
         for (int i = 0; i < f->n; i++)
             check_fixture(t, f->name[i]);
-        check_damaged(t, f, 4000);
+        check_damaged(t, f, 2000);
     }
     free(f);
-    check_options(t);
-    check_transforms(t);
-    check_values(t);
-    check_shapes(t);
-    check_uv(t);
-    check_materials(t);
-    check_changed_materials(t);
-    check_textures(t);
-    check_cameras(t);
-    check_lights(t);
     check_symbols(t);
     check_nothing_quoted(t);
     check_numbers(t);
@@ -961,7 +723,6 @@ void test_parser(struct test *t)
     check_subdivided(t);
     check_repeated(t);
     check_unpacked(t);
-    check_suggested(t);
     check_many_errors(t);
     check_no_files(t);
     struct error err;

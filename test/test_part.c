@@ -16,21 +16,61 @@
 #include "helpers.h"
 #include "tests.h"
 
-static struct part small_part(char *identity, int width, int height)
+/* A film, the part that it is of, and the file's name. */
+struct fixture {
+    char path[256], identity[32];
+    struct part part;
+    struct film film;
+};
+
+static void set_up(struct test *t, int width, int height, struct fixture *f)
 {
-    struct part p = {.identity = identity, .width = width, .height = height, .place = {0, 0, width, height}, .scale = 1,
-                     .planned = 8, .first = 2, .end = 7};
-    return p;
+    struct part p = {.width = width, .height = height, .place = {0, 0, width, height}, .scale = 1, .planned = 8,
+                     .first = 2, .end = 7};
+    struct pixel_rect rect = {0, 0, width, height};
+    snprintf(f->path, sizeof f->path, "%s/film.part", test_tmp(t));
+    strcpy(f->identity, "version 0\n");
+    f->part = p;
+    f->part.identity = f->identity;
+    film_init(&f->film, rect, width, height);
 }
 
-static bool load(const char *path, struct film *film, struct error *err)
+static void clean_up(struct fixture *f)
+{
+    film_free(&f->film);
+    remove(f->path);
+}
+
+/* The file as bytes, to be freed. */
+static uint8_t *bytes_of(struct test *t, const struct fixture *f, size_t *n)
+{
+    uint8_t *data = NULL;
+    struct error err = {""};
+    CHECK(t, part_save(f->path, &f->part, &f->film, &err) && file_read(f->path, &data, n, &err), "%s", err.text);
+    return data;
+}
+
+static bool load(const char *path, struct film *film)
 {
     struct part p;
-    FILE *f = part_open(path, &p, err);
+    struct error err;
+    FILE *f = part_open(path, &p, &err);
     if (f == NULL)
         return false;
-    bool ok = part_add(f, path, &p, film, err);
+    bool ok = part_add(f, path, &p, film, &err);
     part_free(&p);
+    return ok;
+}
+
+/* Do these bytes make a part for a film of this size? */
+static bool accepted(const struct fixture *f, const uint8_t *data, size_t n, int width, int height)
+{
+    struct pixel_rect rect = {0, 0, width, height};
+    struct film film;
+    write_bytes(f->path, data, n);
+    film_init(&film, rect, width, height);
+    bool ok = load(f->path, &film);
+    film_free(&film);
     return ok;
 }
 
@@ -42,80 +82,64 @@ static void test_bytes(struct test *t)
                                "scale 1\nspp 8\nlearnt 0000000000000000\nversion 0\ncheck ";
     static const uint8_t SUMS[] = {255, 7,   0,   1,   126, 12,  128, 1,   129, 1,
                                    128, 128, 128, 128, 128, 128, 128, 128, 128, 1};
+    const struct exact_sum sums[3] = {{{0, 0, 0}, 0}, {{0, -1, 63}, 7}, {{64, -65, INT64_MAX / 2 + 1}, 12}};
     struct pixel_rect one = {0, 0, 1, 1};
-    const struct exact_sum red = {{0, 0, 0}, 0}, green = {{0, -1, 63}, 7}, blue = {{64, -65, INT64_MAX / 2 + 1}, 12};
-    char path[256], identity[] = "version 0\n";
-    struct part p = small_part(identity, 1, 1);
-    struct film film, back;
-    struct error err = {""};
-    uint8_t *data = NULL;
-    size_t n = 0;
-    snprintf(path, sizeof path, "%s/bytes.part", test_tmp(t));
-    film_init(&film, one, 1, 1);
+    struct fixture f;
+    struct film back;
+    size_t n = 0, text = sizeof TEXT - 1 + 9;
+    set_up(t, 1, 1, &f);
     film_init(&back, one, 1, 1);
-    film.sum[0] = red;
-    film.sum[1] = green;
-    film.sum[2] = blue;
-    film.iterations = 3;
-    film.passes = 1;
-    film.nonfinite = 4;
-    CHECK(t, part_save(path, &p, &film, &err) && file_read(path, &data, &n, &err), "%s", err.text);
-    size_t text = sizeof TEXT - 1 + 9;
-    CHECK(t, n == text + sizeof SUMS + 4 && memcmp(data, TEXT, sizeof TEXT - 1) == 0, "the text, or the length %d",
-          (int)n);
-    CHECK(t, n == text + sizeof SUMS + 4 && memcmp(data + text, SUMS, sizeof SUMS) == 0, "the sums");
-    CHECK(t, load(path, &back, &err), "%s", err.text);
-    CHECK(t, memcmp(&back.sum[2].digit, &blue.digit, sizeof blue.digit) == 0, "large digits");
-    CHECK(t, back.iterations == 3 && back.passes == 1 && back.nonfinite == 4 && back.sum[1].digit[1] == -1, "numbers");
+    for (int i = 0; i < 3; i++)
+        f.film.sum[i] = sums[i];
+    f.film.iterations = 3;
+    f.film.passes = 1;
+    f.film.nonfinite = 4;
+    uint8_t *data = bytes_of(t, &f, &n);
+    CHECK(t, n == text + sizeof SUMS + 4 && memcmp(data, TEXT, sizeof TEXT - 1) == 0 &&
+                 memcmp(data + text, SUMS, sizeof SUMS) == 0, "the text, the sums, or the length %d", (int)n);
+    CHECK(t, load(f.path, &back) && back.iterations == 3 && back.passes == 1 && back.nonfinite == 4, "numbers");
+    for (int i = 0; i < 3; i++)
+        CHECK(t, memcmp(back.sum[i].digit, sums[i].digit, sizeof sums[i].digit) == 0, "the digits of sum %d", i);
     free(data);
-    film_free(&film);
     film_free(&back);
-    remove(path);
+    clean_up(&f);
 }
 
 /* A checkpoint carries what was learnt, a part only its hash; cut, changed or longer it is refused. */
 static void test_carried(struct test *t)
 {
     enum { N = 100000 };
-    struct pixel_rect one = {0, 0, 1, 1};
-    char path[256], identity[] = "version 0\n";
-    struct part p = small_part(identity, 1, 1), found;
-    struct film film, back;
-    struct error err = {""};
-    uint8_t *data = NULL;
+    struct fixture f;
     size_t n = 0;
-    snprintf(path, sizeof path, "%s/carried.part", test_tmp(t));
-    film_init(&film, one, 1, 1);
-    film.learnt.data = mem_alloc(N, 1);
-    film.learnt.n = N;
+    set_up(t, 1, 1, &f);
+    f.film.learnt.data = mem_alloc(N, 1);
+    f.film.learnt.n = N;
     for (int i = 0; i < N; i++)
-        film.learnt.data[i] = (uint8_t)(i % 251 * 7);
+        f.film.learnt.data[i] = (uint8_t)(i % 251 * 7);
     for (int carries = 0; carries < 2; carries++) {
-        p.carries = carries;
-        film_init(&back, one, 1, 1);
-        CHECK(t, part_save(path, &p, &film, &err) && load(path, &back, &err), "%s", err.text);
-        CHECK(t, back.learnt.n == (carries ? N : 0) &&
-                     (!carries || memcmp(back.learnt.data, film.learnt.data, N) == 0), "%lu bytes come back",
-              (unsigned long)back.learnt.n);
-        film_free(&back);
-        FILE *f = part_open(path, &found, &err);
-        if (CHECK(t, f != NULL && found.learnt != 0, "%s", err.text)) {
-            fclose(f);
-            part_free(&found);
-        }
+        struct fixture back;
+        struct part found = {.learnt = 0};
+        struct error err = {""};
+        set_up(t, 1, 1, &back);
+        f.part.carries = carries;
+        free(bytes_of(t, &f, &n));
+        CHECK(t, load(f.path, &back.film) && back.film.learnt.n == (carries ? N : 0) &&
+                     (!carries || memcmp(back.film.learnt.data, f.film.learnt.data, N) == 0), "%d bytes come back",
+              (int)back.film.learnt.n);
+        film_free(&back.film);
+        FILE *file = part_open(f.path, &found, &err);
+        CHECK(t, file != NULL && found.learnt != 0, "%s", err.text);
+        if (file != NULL)
+            fclose(file);
+        part_free(&found);
     }
-    CHECK(t, file_read(path, &data, &n, &err), "%s", err.text);
-    for (int way = 0; way < 3; way++) {
-        film_init(&back, one, 1, 1);
-        data[n - 7] ^= way == 1;
-        write_bytes(path, data, way == 0 ? n - 1 : way == 2 ? n + 1 : n); /* a zero byte follows what was read */
-        data[n - 7] ^= way == 1;
-        CHECK(t, !load(path, &back, &err), "damage of kind %d is not noticed", way);
-        film_free(&back);
-    }
+    uint8_t *data = bytes_of(t, &f, &n);
+    CHECK(t, accepted(&f, data, n, 1, 1) && !accepted(&f, data, n - 1, 1, 1), "cut by a byte");
+    CHECK(t, !accepted(&f, data, n + 1, 1, 1), "a byte behind the end"); /* file_read has put a zero there */
+    data[n - 7] ^= 1;
+    CHECK(t, !accepted(&f, data, n, 1, 1), "a byte changed");
     free(data);
-    film_free(&film);
-    remove(path);
+    clean_up(&f);
 }
 
 static void fill(struct film *film, struct rng *r, int terms)
@@ -137,68 +161,46 @@ static bool same(const struct film *a, const struct film *b)
 /* Larger than the buffers of writing and reading. */
 static void test_round_trip(struct test *t)
 {
-    struct pixel_rect rect = {3, 4, 103, 54};
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 30, 0);
-    char path[256], identity[] = "version 0\n";
-    struct part p = small_part(identity, 100, 50);
-    struct film a, b, sum;
-    struct error err = {""};
-    snprintf(path, sizeof path, "%s/large.part", test_tmp(t));
-    film_init(&a, rect, 200, 200);
-    film_init(&b, rect, 200, 200);
-    film_init(&sum, rect, 200, 200);
-    fill(&a, &r, 30000);
-    fill(&b, &r, 30000);
-    CHECK(t, part_save(path, &p, &a, &err) && load(path, &sum, &err) && same(&a, &sum), "read back: %s", err.text);
-    CHECK(t, part_save(path, &p, &b, &err) && load(path, &sum, &err) && !same(&a, &sum), "a second: %s", err.text);
+    struct fixture a, b, sum;
+    size_t n;
+    set_up(t, 100, 50, &a);
+    set_up(t, 100, 50, &b);
+    set_up(t, 100, 50, &sum);
+    fill(&a.film, &r, 30000);
+    fill(&b.film, &r, 30000);
+    free(bytes_of(t, &a, &n));
+    CHECK(t, load(a.path, &sum.film) && same(&a.film, &sum.film), "read back");
+    free(bytes_of(t, &b, &n));
+    CHECK(t, load(b.path, &sum.film) && !same(&a.film, &sum.film), "a second");
     for (int i = 0; i < 3 * 100 * 50; i++)
-        exact_join(&a.sum[i], &b.sum[i]);
-    CHECK(t, same(&a, &sum), "the sum of two parts");
-    film_free(&a);
-    film_free(&b);
-    film_free(&sum);
-    remove(path);
+        exact_join(&a.film.sum[i], &b.film.sum[i]);
+    CHECK(t, same(&a.film, &sum.film), "the sum of two parts");
+    clean_up(&a);
+    clean_up(&b);
+    clean_up(&sum);
 }
 
-static bool accepted(const char *path, const uint8_t *data, size_t n)
-{
-    struct pixel_rect rect = {0, 0, 4, 3};
-    struct film film;
-    struct error err;
-    write_bytes(path, data, n);
-    film_init(&film, rect, 4, 3);
-    bool ok = load(path, &film, &err);
-    film_free(&film);
-    return ok;
-}
-
+/* Every byte changed, every length; a film that differs in one side alone takes nothing. */
 static void test_damage(struct test *t)
 {
-    struct pixel_rect rect = {0, 0, 4, 3};
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 31, 0);
-    char path[256], identity[] = "version 0\n";
-    struct part p = small_part(identity, 4, 3);
-    struct film film;
-    struct error err = {""};
-    uint8_t *data = NULL;
+    struct fixture f;
     size_t n = 0;
-    snprintf(path, sizeof path, "%s/damaged.part", test_tmp(t));
-    film_init(&film, rect, 4, 3);
-    fill(&film, &r, 60);
-    if (CHECK(t, part_save(path, &p, &film, &err) && file_read(path, &data, &n, &err), "%s", err.text)) {
-        CHECK(t, accepted(path, data, n), "the file as it was written");
-        CHECK(t, !accepted(path, data, n + 1), "a byte behind the end"); /* file_read has put a zero there */
-        for (size_t i = 0; i < n; i++) {
-            uint8_t kept = data[i];
-            data[i] ^= (uint8_t)(1 << i % 8);
-            CHECK(t, !accepted(path, data, n), "byte %d changed", (int)i);
-            data[i] = kept;
-            CHECK(t, !accepted(path, data, i), "cut to %d bytes", (int)i);
-        }
+    set_up(t, 4, 3, &f);
+    fill(&f.film, &r, 60);
+    uint8_t *data = bytes_of(t, &f, &n);
+    CHECK(t, accepted(&f, data, n, 4, 3) && !accepted(&f, data, n + 1, 4, 3), "as it was written; a byte behind");
+    CHECK(t, !accepted(&f, data, n, 4, 4) && !accepted(&f, data, n, 5, 3), "for a film of another size");
+    for (size_t i = 0; i < n; i++) {
+        uint8_t kept = data[i];
+        data[i] ^= (uint8_t)(1 << i % 8);
+        CHECK(t, !accepted(&f, data, n, 4, 3), "byte %d changed", (int)i);
+        data[i] = kept;
+        CHECK(t, !accepted(&f, data, i, 4, 3), "cut to %d bytes", (int)i);
     }
     free(data);
-    film_free(&film);
-    remove(path);
+    clean_up(&f);
 }
 
 /* A program whose pictures are others has another estimator, and its films are not taken. */
@@ -255,96 +257,62 @@ static void forge_lines(struct rng *r, const char *const *line, int n, char *out
 static void test_forged(struct test *t)
 {
     static const char *const LINES[] = {"asbdpt part 3", "samples 2 7", "done 3 1", "left-out 4", "carried 0",
-                                        "size 4 3",
-                                        "film 4 3, window 0 0", "scale 1", "spp 8",
-                                        "learnt 0000000000000000", "version 0",
-                                        "seed 1"};
+                                        "size 4 3", "film 4 3, window 0 0", "scale 1", "spp 8",
+                                        "learnt 0000000000000000", "version 0", "seed 1"};
+    static const char SAME[] = "\nsize 4 3\nfilm 4 3, window 0 0\nscale 1\nspp 8\nlearnt 0000000000000000\n"
+                               "version 0\nseed 1\ncheck ";
     enum { N_LINES = 12, ROUNDS = 1000, SUMS = 36 };
-    char path[256], text[1024], identity[] = "version 0\nseed 1\n";
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 32, 0);
-    struct part whole = small_part(identity, 4, 3);
-    struct pixel_rect rect = {0, 0, 4, 3};
+    struct fixture whole;
+    char text[1024];
     int taken = 0, same_picture = 0;
-    snprintf(path, sizeof path, "%s/forged.part", test_tmp(t));
+    set_up(t, 4, 3, &whole);
+    strcat(whole.identity, "seed 1\n");
     for (int round = 0; round < ROUNDS; round++) {
         struct part p;
-        struct film film;
         struct error err = {""};
         forge_lines(&r, LINES, N_LINES, text);
         size_t n = strlen(text);
         n += (size_t)sprintf(text + n, "check %08lx\n", (unsigned long)checksum_crc32(0, (const uint8_t *)text, n));
         memset(text + n, 255, SUMS);
         bytes_of_bits(checksum_crc32(0, (const uint8_t *)text + n, SUMS), (uint8_t *)text + n + SUMS, 4, false);
-        write_bytes(path, (const uint8_t *)text, n + SUMS + 4);
-        FILE *f = part_open(path, &p, &err);
-        CHECK(t, f != NULL || strstr(err.text, path) == err.text, "refused without its name: %s", err.text);
+        bool added = accepted(&whole, (const uint8_t *)text, n + SUMS + 4, 4, 3);
+        FILE *f = part_open(whole.path, &p, &err);
+        CHECK(t, f != NULL || strstr(err.text, whole.path) == err.text, "refused without its name: %s", err.text);
         if (f == NULL)
             continue;
+        fclose(f);
         taken++;
-        bool same = part_same(&p, path, &whole, &err);
+        bool same = part_same(&p, whole.path, &whole.part, &err);
         same_picture += same;
-        CHECK(t, !same || strstr(text, "\nsize 4 3\nfilm 4 3, window 0 0\nscale 1\nspp 8\n"
-                                      "learnt 0000000000000000\nversion 0\nseed 1\ncheck "),
-              "taken for the same picture: %s", text);
+        CHECK(t, !same || strstr(text, SAME) != NULL, "taken for the same picture: %s", text);
         CHECK(t, p.done >= 0 && p.done <= p.end - p.first && p.end <= p.planned, "taken: %s", text);
-        film_init(&film, rect, 4, 3);
-        bool added = part_add(f, path, &p, &film, &err);
         CHECK(t, !added || (p.width == 4 && p.height == 3), "added to a film of another size: %s", text);
-        film_free(&film);
         part_free(&p);
     }
     CHECK(t, taken > 10 && same_picture > 3 && same_picture < taken && taken < ROUNDS / 2,
           "%d of %d forged parts are taken, %d for the same picture", taken, ROUNDS, same_picture);
-    remove(path);
+    clean_up(&whole);
 }
 
 /* A digit at the end of its range is refused, not left to overflow when the render goes on. */
 static void test_forged_digits(struct test *t)
 {
     static const int64_t DIGITS[] = {INT64_MAX, INT64_MIN, INT64_MAX / 2 + 2};
-    struct pixel_rect one = {0, 0, 1, 1};
-    char path[256], identity[] = "version 0\n";
-    struct part p = small_part(identity, 1, 1);
-    snprintf(path, sizeof path, "%s/digits.part", test_tmp(t));
     for (int i = 0; i < 3; i++) {
-        struct film film, back;
-        struct error err = {""};
-        film_init(&film, one, 1, 1);
-        film_init(&back, one, 1, 1);
-        film.sum[1].digit[0] = DIGITS[i];
-        CHECK(t, part_save(path, &p, &film, &err) && !load(path, &back, &err),
-              "a digit of %g is taken", (double)DIGITS[i]);
-        film_free(&film);
-        film_free(&back);
+        struct fixture f;
+        size_t n = 0;
+        set_up(t, 1, 1, &f);
+        f.film.sum[1].digit[0] = DIGITS[i];
+        uint8_t *data = bytes_of(t, &f, &n);
+        CHECK(t, !accepted(&f, data, n, 1, 1), "a digit of %g is taken", (double)DIGITS[i]);
+        free(data);
+        clean_up(&f);
     }
-    remove(path);
-}
-
-/* A film that differs in one side alone takes nothing. */
-static void test_other_size(struct test *t)
-{
-    struct pixel_rect whole = {0, 0, 4, 3};
-    const struct pixel_rect others[] = {{0, 0, 4, 4}, {0, 0, 5, 3}};
-    char path[256], identity[] = "version 0\n";
-    struct part p = small_part(identity, 4, 3);
-    struct film film;
-    struct error err = {""};
-    snprintf(path, sizeof path, "%s/size.part", test_tmp(t));
-    film_init(&film, whole, 4, 3);
-    CHECK(t, part_save(path, &p, &film, &err) && load(path, &film, &err), "%s", err.text);
-    film_free(&film);
-    for (int i = 0; i < 2; i++) {
-        film_init(&film, others[i], 5, 4);
-        CHECK(t, !load(path, &film, &err), "a film of %d x %d pixels takes a part of 4 x 3", others[i].x1,
-              others[i].y1);
-        film_free(&film);
-    }
-    remove(path);
 }
 
 void test_part(struct test *t)
 {
-    test_other_size(t);
     test_estimator(t);
     test_forged(t);
     test_forged_digits(t);

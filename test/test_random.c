@@ -19,7 +19,7 @@
 #include "render/render.h"
 #include "tests.h"
 
-enum { BATCHES = 12, TILE = 6, STAGES = 3 };
+enum { BATCHES = 8, TILE = 6, STAGES = 3 };
 static const double CUTOFF = 0.01, BEYOND_DOUBT = 1e-15;
 
 struct way {
@@ -169,6 +169,6 @@ static void test_range_of(struct test *t, uint64_t first, uint64_t cheap, uint64
     }
 }
 
-void test_random(struct test *t) { test_range_of(t, 0, 48, 800, 5e3); }
+void test_random(struct test *t) { test_range_of(t, 0, 48, 800, 3e3); }
 
 void test_random_long(struct test *t) { test_range_of(t, 1000, 3000, 9000, 1e4); }

@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "image/colormap.h"
+#include "look/colormap.h"
 #include "image/picture.h"
-#include "image/sheet.h"
+#include "look/sheet.h"
 #include "tests.h"
 
 /* A letter as 40 bits, row by row. */

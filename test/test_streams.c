@@ -1,13 +1,12 @@
 /* test_streams.c: random numbers have names (seed, purpose, pixel, iteration), and no two names may meet. Tested from
- * three sides: the numbers of a sampler, the sub-paths that the integrators trace, and the error of long renders, which
- * falls only as long as new iterations bring something new. */
+ * two sides: the numbers of a sampler, and the sub-paths that the integrators trace. And whoever plays a sample's
+ * numbers again gets the sample. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/mem.h"
 #include "base/sampler.h"
-#include "lab/stats.h"
 #include "render/render.h"
 #include "helpers.h"
 #include "tests.h"
@@ -140,17 +139,23 @@ static const char FLOOR[] = "Film \"image\" \"integer xresolution\" 2 \"integer 
 
 enum { ITERATIONS = 2048 };
 
-/* One key per sub-path: red and green of what it brings by the strategy that joins it to the lens (light) or the lamp
- * (eye). */
+/* Keys of places, in units coarser than the rounding of a float; tries of one sub-path follow each other. */
+static void add_place(struct keys *k, double x, double y)
+{
+    uint64_t a = (uint64_t)(x * 0x1p21), b = (uint64_t)(y * 0x1p21), last = k->n > 0 ? k->key[k->n - 1] : 0;
+    if (fabs((double)a - (double)(last >> 32)) > 1 || fabs((double)b - (double)(last & UINT32_MAX)) > 1)
+        add_key(k, a << 32 | b);
+}
+
+/* One key per sub-path: red and green relative to blue of what it brings by the strategy that joins it to the lens
+ * (light) or the lamp (eye), whatever point of these. */
 static void add_records(const struct tile *tile, struct keys *eye, struct keys *light)
 {
     for (size_t i = 0; i < tile->n_records; i++) {
         const struct strategy_record *r = &tile->record[i];
-        uint32_t part[2];
-        memcpy(&part[0], &r->unweighted[0], sizeof part[0]);
-        memcpy(&part[1], &r->unweighted[1], sizeof part[1]);
-        if ((r->s == 2 && r->t == 1) || (r->s == 1 && r->t == 2))
-            add_key(r->s == 2 ? light : eye, (uint64_t)part[0] << 32 | part[1]);
+        double red = r->unweighted[0], green = r->unweighted[1], blue = r->unweighted[2];
+        if (blue > 0 && ((r->s == 2 && r->t == 1) || (r->s == 1 && r->t == 2)))
+            add_place(r->s == 2 ? light : eye, red / blue, green / blue);
     }
 }
 
@@ -266,176 +271,9 @@ static void test_sub_paths(struct test *t)
     scene_free(&scene);
 }
 
-/* --- long renders ------------------------------------------------------------------------------------ */
-
-enum { FIRST = 64, STEPS = 4, LAST = FIRST << (STEPS - 1), SIDE = 5, VALUES = SIDE * SIDE * 3, PAIRS = 10 };
-
-/* Sums of one render after 64, 128, 256 and 512 iterations. */
-struct history {
-    const struct film *film;
-    double sum[STEPS][VALUES];
-};
-
-static bool note_sums(void *context, double done)
-{
-    struct history *h = context;
-    (void)done;
-    for (int k = 0; k < STEPS; k++)
-        if (h->film->passes == 0 && h->film->iterations == FIRST << k)
-            for (int i = 0; i < VALUES; i++)
-                h->sum[k][i] = film_value(h->film, (size_t)i);
-    return true;
-}
-
-static void render_history(struct test *t, const struct scene *scene, const char *integrator, uint64_t seed,
-                           struct history *out)
-{
-    struct film film;
-    struct error err;
-    struct render_options o = {.integrator = integrator, .seed = seed, .end = LAST, .n_threads = 2,
-                               .max_depth = 4};
-    o.progress = note_sums;
-    o.progress_context = out;
-    out->film = &film;
-    film_init(&film, render_crop(scene), scene->width, scene->height);
-    CHECK(t, render_scene(scene, &o, &film, &err), "%s", err.text);
-    film_free(&film);
-}
-
-/* P-value of "the expectation is at most 0", by Student's t over n values. */
-static double not_positive_p(const double *x, int n)
-{
-    double sum = 0, square = 0;
-    for (int i = 0; i < n; i++)
-        sum += x[i];
-    for (int i = 0; i < n; i++)
-        square += (x[i] - sum / n) * (x[i] - sum / n);
-    double t = sum / n / sqrt(square / (n - 1) / n), two_sided = stats_student_p(t, n - 1);
-    return t > 0 ? two_sided / 2 : 1 - two_sided / 2;
-}
-
-/* Renders 2k and 2k+1 with seeds of their own: their difference is free of the expectation, biased or not, and as
- * likely as its negative. */
-struct difference {
-    double sum[STEPS][VALUES];
-};
-
-struct differences {
-    const struct difference *of; /* [n] */
-    int n;                       /* PAIRS, times the effort */
-};
-
-/* What is compared of pair k and value i: the first n iterations, and the n after them or all. */
-struct two {
-    double a, b;
-};
-
-/* Correlation of the first n iterations and the n after them in what the renders of a pair differ by. `repeated` is
- * the share of the second half that is planted to be the first half again. */
-static struct two halves(const struct difference *d, int i, int step, double repeated)
-{
-    double a = d->sum[step][i];
-    struct two x = {a, (1 - repeated) * (d->sum[step + 1][i] - a) + repeated * a};
-    return x;
-}
-
-/* Mean over k of a^2 or b^2. */
-static struct two mean_squares(const struct differences *d, int i,
-                               struct two (*of)(const struct difference *, int, int, double),
-                               int step, double repeated)
-{
-    struct two mean = {0, 0};
-    for (int k = 0; k < d->n; k++) {
-        struct two x = of(&d->of[k], i, step, repeated);
-        mean.a += x.a * x.a / d->n;
-        mean.b += x.b * x.b / d->n;
-    }
-    return mean;
-}
-
-/* Every value is divided by its standard deviation, lest the few pixels at edges of the light decide everything. */
-static double halves_p(const struct differences *d, int step, double repeated)
-{
-    double *correlation = mem_alloc((size_t)d->n, sizeof *correlation);
-    for (int i = 0; i < VALUES; i++) {
-        struct two square = mean_squares(d, i, halves, step, repeated);
-        for (int k = 0; k < d->n && !(square.a <= 0 || square.b <= 0); k++) {
-            struct two x = halves(&d->of[k], i, step, repeated);
-            correlation[k] += x.a * x.b / sqrt(square.a * square.b);
-        }
-    }
-    double p = not_positive_p(correlation, d->n);
-    free(correlation);
-    return p;
-}
-
-/* Errors after the first and after all iterations, scaled so that they are alike if the error falls as 1/sqrt(n). */
-static struct two ends(const struct difference *d, int i, int step, double repeated)
-{
-    double a = d->sum[step][i] / sqrt(FIRST);
-    struct two x = {a, (1 - repeated) * d->sum[STEPS - 1][i] / sqrt(LAST) + repeated * a * sqrt((double)LAST / FIRST)};
-    return x;
-}
-
-/* n times the squared error after n iterations does not rise from the first step to the last. */
-static double falls_p(const struct differences *d, double repeated)
-{
-    double *rise = mem_alloc((size_t)d->n, sizeof *rise);
-    for (int i = 0; i < VALUES; i++) {
-        struct two square = mean_squares(d, i, ends, 0, repeated);
-        for (int k = 0; k < d->n && !(square.a + square.b <= 0); k++) {
-            struct two x = ends(&d->of[k], i, 0, repeated);
-            rise[k] += (x.b * x.b - x.a * x.a) / (square.a + square.b);
-        }
-    }
-    double p = not_positive_p(rise, d->n);
-    free(rise);
-    return p;
-}
-
-/* Low-discrepancy points may make the halves complement each other, so correlations below 0 and errors that fall faster
- * than 1/n are welcome; only the other side is tested. */
-static void test_way_falls(struct test *t, const struct scene *scene, const struct way *w)
-{
-    int n = PAIRS * test_effort(t);
-    struct difference *of = mem_alloc((size_t)n, sizeof *of);
-    struct history *h = mem_alloc(2, sizeof *h);
-    for (int k = 0; k < n; k++) {
-        for (uint64_t i = 0; i < 2; i++)
-            render_history(t, scene, w->integrator, test_seed(t) * 1000 + 2 * (uint64_t)k + i, &h[i]);
-        for (int step = 0; step < STEPS; step++)
-            for (int i = 0; i < VALUES; i++)
-                of[k].sum[step][i] = h[0].sum[step][i] - h[1].sum[step][i];
-    }
-    struct differences d = {of, n};
-    for (int step = 0; step + 1 < STEPS; step++)
-        TEST_ACCEPT(t, halves_p(&d, step, 0), "%s: iterations before and after %d are correlated", w->name,
-                    FIRST << step);
-    TEST_ACCEPT(t, falls_p(&d, 0), "%s: the squared error falls more slowly than 1/n", w->name);
-    TEST_REJECT(t, halves_p(&d, STEPS - 2, 0.5), "%s: half of the second half is the first", w->name);
-    TEST_REJECT(t, falls_p(&d, 0.5), "%s: half of all iterations repeat the first %d", w->name, FIRST);
-    free(h);
-    free(of);
-}
-
-static void test_falls(struct test *t)
-{
-    struct scene scene;
-    if (!scene_from_file(t, "scenes/cornell-box.pbrt", SIDE, SIDE, &scene))
-        return;
-    for (int i = 0; i < N_WAYS; i++) {
-        if (WAYS[i].restart != NULL && strcmp(WAYS[i].restart, "0") == 0)
-            continue; /* one block: there is nothing to see before its end */
-        choose_way(&scene, &WAYS[i]);
-        test_way_falls(t, &scene, &WAYS[i]);
-    }
-    scene_free(&scene);
-}
-
 void test_streams(struct test *t)
 {
     test_names(t);
     test_replay(t);
     test_sub_paths(t);
-    test_falls(t);
 }

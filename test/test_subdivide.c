@@ -7,6 +7,7 @@
 
 #include "base/mem.h"
 #include "base/number.h"
+#include "helpers.h"
 #include "tests.h"
 
 static struct mesh mesh_of(const float *P, int n_vertices, const uint32_t *index, int n_triangles)
@@ -18,10 +19,6 @@ static struct mesh mesh_of(const float *P, int n_vertices, const uint32_t *index
     memcpy(m.index, index, 3 * (size_t)n_triangles * sizeof *index);
     return m;
 }
-
-static vec3 point(const float *v, uint32_t i) { return vec(v[3 * i], v[3 * i + 1], v[3 * i + 2]); }
-
-static bool near3(vec3 a, vec3 b, double tolerance) { return length(sub(a, b)) <= tolerance; }
 
 /* Two tips of valence n over a ring of valence 4, its corners at odd heights: closed, counterclockwise from outside. */
 static struct mesh spindle(int n)
@@ -54,7 +51,7 @@ static vec3 *face_normals(const struct mesh *m)
     vec3 *sum = mem_alloc((size_t)m->n_vertices, sizeof *sum);
     for (int f = 0; f < m->n_triangles; f++) {
         const uint32_t *v = &m->index[3 * f];
-        vec3 p = point(m->P, v[0]), n = cross(sub(point(m->P, v[1]), p), sub(point(m->P, v[2]), p));
+        vec3 p = load3(m->P, v[0]), n = cross(sub(load3(m->P, v[1]), p), sub(load3(m->P, v[2]), p));
         for (int k = 0; k < 3; k++)
             sum[v[k]] = add(sum[v[k]], n);
     }
@@ -70,21 +67,21 @@ static void check_closed(struct test *t)
         CHECK(t, fine.n_triangles == 2 * n * 256 && fine.n_vertices == 2 + fine.n_triangles / 2, "Euler: %d vertices",
               fine.n_vertices);
         for (uint32_t v = 0; v < (uint32_t)n + 2; v++)
-            CHECK(t, near3(point(coarse.P, v), point(fine.P, v), 1e-6), "valence %d: vertex %u has two limits", n, v);
+            CHECK(t, near3(load3(coarse.P, v), load3(fine.P, v), 1e-6), "valence %d: vertex %u has two limits", n, v);
         for (int f = 0; f < 2 * n; f++)
             for (int k = 0; k < 3; k++)
                 CHECK(t, fine.index[3 * 256 * f + k * 3 * 85 + k] == coarse.index[3 * f + k], "corner %d of %d", k, f);
         struct mesh control = spindle(n);
-        vec3 tip = point(control.P, (uint32_t)n), mean = vec(0, 0, 0);
+        vec3 tip = load3(control.P, (uint32_t)n), mean = vec(0, 0, 0);
         for (uint32_t k = 0; k < (uint32_t)n; k++)
-            mean = add(mean, mul(point(control.P, k), 1.0 / n));
+            mean = add(mean, mul(load3(control.P, k), 1.0 / n));
         vec3 limit = lerp3(n == 3 ? 0.6 : 0.5, tip, mean); /* [PBRT3 3.8.2] */
-        CHECK(t, near3(point(coarse.P, (uint32_t)n), limit, 1e-6), "valence %d: limit of the tip", n);
+        CHECK(t, near3(load3(coarse.P, (uint32_t)n), limit, 1e-6), "valence %d: limit of the tip", n);
         mesh_free(&control);
         vec3 *want = face_normals(&fine);
         double worst = 1;
         for (uint32_t v = 0; v < (uint32_t)fine.n_vertices; v++)
-            worst = least_of(worst, -dot(normalize(want[v]), normalize(point(fine.N, v))));
+            worst = least_of(worst, -dot(normalize(want[v]), normalize(load3(fine.N, v))));
         CHECK(t, worst > 0.99, "valence %d: normal and triangles differ by %g degrees", n, acos(worst) * 180 / PI);
         free(want);
         mesh_free(&coarse);
@@ -108,15 +105,15 @@ static void check_boundary(struct test *t)
         }
         for (int levels = 0; levels < 3; levels++) {
             struct mesh m = subdivided(t, mesh_of(P, n + 2, index, n), levels);
-            vec3 ends = add(point(P, 1), point(P, (uint32_t)n + 1)); /* p is 0 */
+            vec3 ends = add(load3(P, 1), load3(P, (uint32_t)n + 1)); /* p is 0 */
             /* A level: 1/8, then the neighbours are halfway. The limit: 1/5. */
             double step = levels == 0 ? 0 : levels == 1 ? 1.0 / 8 : 1.0 / 8 + 1.0 / 32;
             double reach = levels == 0 ? 1 : levels == 1 ? 1.0 / 4 : 1.0 / 16;
             vec3 want = mul(ends, step + 0.2 * reach);
-            CHECK(t, near3(point(m.P, 0), want, 1e-6), "%d triangles, %d levels: boundary at (%g %g)", n, levels,
+            CHECK(t, near3(load3(m.P, 0), want, 1e-6), "%d triangles, %d levels: boundary at (%g %g)", n, levels,
                   (double)m.P[0], (double)m.P[1]);
             for (uint32_t v = 0; v < (uint32_t)m.n_vertices; v++)
-                CHECK(t, near3(normalize(point(m.N, v)), vec(0, 0, -1), 1e-6), "a flat mesh has one normal");
+                CHECK(t, near3(normalize(load3(m.N, v)), vec(0, 0, -1), 1e-6), "a flat mesh has one normal");
             mesh_free(&m);
         }
     }
@@ -151,8 +148,8 @@ static void check_normal_lengths(struct test *t)
         control.P[i] *= 2;
     struct mesh large = subdivided(t, control, 1);
     for (uint32_t v = 0; v < (uint32_t)small.n_vertices; v++) {
-        vec3 want = mul(point(small.N, v), 4);
-        CHECK(t, length(want) > 0 && near3(point(large.N, v), want, 1e-5 * length(want)), "normal %u", (unsigned)v);
+        vec3 want = mul(load3(small.N, v), 4);
+        CHECK(t, length(want) > 0 && near3(load3(large.N, v), want, 1e-5 * length(want)), "normal %u", (unsigned)v);
     }
     mesh_free(&small);
     mesh_free(&large);
@@ -166,7 +163,7 @@ static void check_odd(struct test *t)
     struct mesh m = subdivided(t, mesh_of(P, 6, index, 2), 3);
     for (int i = 0; i < 3 * m.n_vertices; i++)
         CHECK(t, isfinite(m.P[i]) && isfinite(m.N[i]), "number %d is none", i);
-    CHECK(t, near3(point(m.P, 5), vec(7, 7, 7), 0) && near3(point(m.N, 5), vec(0, 0, 0), 0), "a point of no triangle");
+    CHECK(t, near3(load3(m.P, 5), vec(7, 7, 7), 0) && near3(load3(m.N, 5), vec(0, 0, 0), 0), "a point of no triangle");
     mesh_free(&m);
 }
 

@@ -38,36 +38,25 @@ static void add_trace(const struct scene *scene, const struct trace *trace, stru
     tile_free(&tile);
 }
 
-/* What is told of each contribution: its factors make what was added, its choice is one of those told. */
-static void check_parts(struct test *t, int way, const struct trace *trace)
+/* What is told of each contribution: its factors make what was added, its choice is one of those told. Where weights
+ * make up for the choice, what is told of it is what they divide by: for all draws of first hits, and all of later
+ * ones, probability times scale is the same. */
+static void check_parts(struct test *t, const char *name, const struct trace *trace)
 {
+    double same[2] = {0, 0};
     for (int i = 0; i < trace->n_connections; i++) {
         const struct trace_connection *k = &trace->connection[i];
         double product = rgb_luminance(k->c.value) * k->scale * k->c.weight, added = rgb_luminance(k->added);
-        bool chosen = k->s >= 2 && k->t >= 2 && trace->why != NULL;
-        CHECK(t, fabs(product - added) <= 1e-12 * fabs(added), "%s: %g in parts, %g added", WAYS[way].name, product,
-              added);
-        CHECK(t, (k->light >= 0) == (k->s >= 2) && k->light < trace->n_lights, "%s: light sub-path %d", WAYS[way].name,
-              k->light);
-        CHECK(t, k->s < 2 || trace->light[k->light].n >= k->s, "%s: the light sub-path is cut", WAYS[way].name);
-        CHECK(t, k->pmf > 0 && (chosen || k->pmf == 1) && (k->pmf <= 1), "%s: chosen with probability %g",
-              WAYS[way].name, k->pmf);
-    }
-}
-
-/* Where weights make up for the choice, what is told of it is what they divide by: for all draws of first hits, and all
- * of later ones, probability times scale is the same. */
-static void check_choices(struct test *t, int way, const struct trace *trace)
-{
-    double same[2] = {0, 0};
-    for (int i = 0; i < trace->n_connections && strcmp(WAYS[way].name, "bins") != 0; i++) {
-        const struct trace_connection *k = &trace->connection[i];
-        double *first = &same[k->t > 2], product = k->pmf * k->scale;
-        if (k->s < 2 || k->t < 2)
-            continue;
-        *first = *first == 0 ? product : *first;
-        CHECK(t, fabs(product - *first) <= 1e-12 * *first, "%s: probability %g, scale %g, of others %g times as much",
-              WAYS[way].name, k->pmf, k->scale, *first / product);
+        double *first = &same[k->t > 2], draw = k->pmf * k->scale;
+        bool pair = k->s >= 2 && k->t >= 2, weighted = pair && strcmp(name, "bins") != 0;
+        CHECK(t, fabs(product - added) <= 1e-12 * fabs(added), "%s: %g in parts, %g added", name, product, added);
+        CHECK(t, (k->light >= 0) == (k->s >= 2) && k->light < trace->n_lights &&
+                     (k->s < 2 || trace->light[k->light].n >= k->s), "%s: light sub-path %d", name, k->light);
+        CHECK(t, k->pmf > 0 && ((pair && trace->why != NULL) || k->pmf == 1) && k->pmf <= 1,
+              "%s: chosen with probability %g", name, k->pmf);
+        *first = *first == 0 && weighted ? draw : *first;
+        CHECK(t, !weighted || fabs(draw - *first) <= 1e-12 * *first, "%s: probability %g, scale %g, of others %g times",
+              name, k->pmf, k->scale, *first / draw);
     }
 }
 
@@ -82,7 +71,7 @@ static int longest_pair(const struct trace *trace)
 }
 
 /* At the first hit as many light points are taken as the method has chosen, by default one. */
-static void check_light_points(struct test *t, int way, const struct trace *trace, const struct film *film)
+static void check_light_points(struct test *t, const char *name, const struct trace *trace, const struct film *film)
 {
     int chosen = 1, n = 0;
     for (const struct film_number *k = film->number; k->name != NULL; k++)
@@ -90,50 +79,48 @@ static void check_light_points(struct test *t, int way, const struct trace *trac
             chosen = (int)k->value;
     for (int i = 0; i < trace->n_connections; i++)
         n += trace->connection[i].s == 1 && trace->connection[i].t == 2;
-    CHECK(t, n == 0 || n == chosen, "%s: %d light points at the first hit, %d were chosen", WAYS[way].name, n, chosen);
+    CHECK(t, n == 0 || n == chosen, "%s: %d light points at the first hit, %d were chosen", name, n, chosen);
+}
+
+static int differing(const struct film *a, const struct film *b)
+{
+    int n = 0;
+    for (size_t k = 0; k < SIZE * SIZE * 3; k++)
+        n += film_value(a, k) != film_value(b, k);
+    return n;
 }
 
 /* Every pixel and sample told one by one gives the film of the render, and half of them do not. */
-static void test_film_from_traces(struct test *t)
+static void check_film(struct test *t, const struct scene *scene, int way)
 {
-    struct scene scene;
-    if (!scene_from_file(t, "scenes/cornell-box.pbrt", SIZE, SIZE, &scene))
-        return;
-    for (int way = 0; way < N_WAYS; way++) {
-        struct render_options options = options_of(way);
-        struct film rendered, told;
-        struct error err;
-        int differ = 0, halfway = 0, added = 0, longest = 0;
-        if (WAYS[way].select[0] != '\0')
-            settings_set(&scene.settings, "select", WAYS[way].select, "test");
-        film_init(&rendered, render_crop(&scene), SIZE, SIZE);
-        film_init(&told, render_crop(&scene), SIZE, SIZE);
-        CHECK(t, render_scene(&scene, &options, &rendered, &err), "%s", err.text);
-        for (int i = 0; i < SIZE * SIZE * SAMPLES; i++) {
-            struct trace trace = {.x = i % SIZE, .y = i / SIZE % SIZE, .iteration = i / (SIZE * SIZE)};
-            CHECK(t, render_trace(&scene, &options, &trace, &err), "%s", err.text);
-            check_parts(t, way, &trace);
-            check_choices(t, way, &trace);
-            check_light_points(t, way, &trace, &rendered);
-            added += trace.n_connections;
-            longest = longest_pair(&trace) > longest ? longest_pair(&trace) : longest;
-            for (size_t k = 0; 2 * i == SIZE * SIZE * SAMPLES && k < SIZE * SIZE * 3; k++)
-                halfway += film_value(&rendered, k) != film_value(&told, k);
-            add_trace(&scene, &trace, &told);
-            trace_free(&trace);
-        }
-        for (size_t k = 0; k < SIZE * SIZE * 3; k++)
-            differ += film_value(&rendered, k) != film_value(&told, k);
-        CHECK(t, added > SIZE * SIZE * SAMPLES, "%s: only %d connections told", WAYS[way].name, added);
-        bool seldom = strcmp(WAYS[way].name, "subspaces") == 0; /* less than one draw for a later vertex */
-        CHECK(t, seldom || longest == (way == 0 ? 0 : way == 1 ? 1 : options.max_depth),
-              "%s: no pair is longer than t = %d", WAYS[way].name, longest);
-        CHECK(t, differ == 0, "%s: %d of %d values differ from what was told", WAYS[way].name, differ, SIZE * SIZE * 3);
-        CHECK(t, halfway > 0, "%s: the second half makes no difference", WAYS[way].name);
-        film_free(&rendered);
-        film_free(&told);
+    const char *name = WAYS[way].name;
+    struct render_options options = options_of(way);
+    struct film rendered, told;
+    struct error err;
+    int halfway = 0, added = 0, longest = 0;
+    film_init(&rendered, render_crop(scene), SIZE, SIZE);
+    film_init(&told, render_crop(scene), SIZE, SIZE);
+    CHECK(t, render_scene(scene, &options, &rendered, &err), "%s", err.text);
+    for (int i = 0; i < SIZE * SIZE * SAMPLES; i++) {
+        struct trace trace = {.x = i % SIZE, .y = i / SIZE % SIZE, .iteration = i / (SIZE * SIZE)};
+        CHECK(t, render_trace(scene, &options, &trace, &err), "%s", err.text);
+        check_parts(t, name, &trace);
+        check_light_points(t, name, &trace, &rendered);
+        added += trace.n_connections;
+        longest = longest_pair(&trace) > longest ? longest_pair(&trace) : longest;
+        if (2 * i == SIZE * SIZE * SAMPLES)
+            halfway = differing(&rendered, &told);
+        add_trace(scene, &trace, &told);
+        trace_free(&trace);
     }
-    scene_free(&scene);
+    bool seldom = strcmp(name, "subspaces") == 0; /* less than one draw for a later vertex */
+    CHECK(t, added > SIZE * SIZE * SAMPLES, "%s: only %d connections told", name, added);
+    CHECK(t, seldom || longest == (way == 0 ? 0 : way == 1 ? 1 : options.max_depth),
+          "%s: no pair is longer than t = %d", name, longest);
+    CHECK(t, differing(&rendered, &told) == 0 && halfway > 0, "%s: %d values differ from what was told, half way %d",
+          name, differing(&rendered, &told), halfway);
+    film_free(&rendered);
+    film_free(&told);
 }
 
 /* --- densities --------------------------------------------------------------------------------------- */
@@ -157,29 +144,25 @@ static int check_path(struct test *t, const struct scene *scene, const struct tr
     return n;
 }
 
-static void test_pdf_rev(struct test *t)
+static void test_pdf_rev(struct test *t, const struct scene *scene)
 {
-    struct scene scene;
-    int n = 0;
-    if (!scene_from_file(t, "scenes/cornell-box.pbrt", SIZE, SIZE, &scene))
-        return;
     struct render_options options = options_of(2);
+    int n = 0;
     for (int i = 0; i < SIZE * SIZE; i++) {
         struct error err;
         struct trace trace = {.x = i % SIZE, .y = i / SIZE, .iteration = 1};
-        CHECK(t, render_trace(&scene, &options, &trace, &err), "%s", err.text);
-        n += check_path(t, &scene, &trace.eye);
+        CHECK(t, render_trace(scene, &options, &trace, &err), "%s", err.text);
+        n += check_path(t, scene, &trace.eye);
         for (int k = 0; k < trace.n_lights; k++)
-            n += check_path(t, &scene, &trace.light[k]);
+            n += check_path(t, scene, &trace.light[k]);
         trace_free(&trace);
     }
     CHECK(t, n > SIZE * SIZE, "only %d densities", n);
-    scene_free(&scene);
 }
 
 /* --- samples that there are not ---------------------------------------------------------------------- */
 
-static void test_refused(struct test *t)
+static void test_refused(struct test *t, const struct scene *scene)
 {
     static const struct {
         int x, y;
@@ -187,23 +170,27 @@ static void test_refused(struct test *t)
         const char *says;
     } cases[] = {{SIZE, 0, 0, "pixel 4,0"}, {0, -1, 0, "pixel 0,-1"}, {0, 0, SAMPLES, "sample 2"},
                  {0, 0, -1, "sample -1"}};
-    struct scene scene;
-    if (!scene_from_file(t, "scenes/cornell-box.pbrt", SIZE, SIZE, &scene))
-        return;
     struct render_options options = options_of(0);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct error err = {""};
         struct trace trace = {.x = cases[i].x, .y = cases[i].y, .iteration = cases[i].sample};
-        CHECK(t, !render_trace(&scene, &options, &trace, &err) && strstr(err.text, cases[i].says) != NULL,
+        CHECK(t, !render_trace(scene, &options, &trace, &err) && strstr(err.text, cases[i].says) != NULL,
               "%s: \"%s\"", cases[i].says, err.text);
         trace_free(&trace);
     }
-    scene_free(&scene);
 }
 
 void test_trace(struct test *t)
 {
-    test_film_from_traces(t);
-    test_pdf_rev(t);
-    test_refused(t);
+    struct scene scene;
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", SIZE, SIZE, &scene))
+        return;
+    test_pdf_rev(t, &scene);
+    test_refused(t, &scene);
+    for (int way = 0; way < N_WAYS; way++) {
+        if (WAYS[way].select[0] != '\0')
+            settings_set(&scene.settings, "select", WAYS[way].select, "test");
+        check_film(t, &scene, way);
+    }
+    scene_free(&scene);
 }

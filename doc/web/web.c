@@ -13,11 +13,10 @@
 #include "base/mem.h"
 #include "base/os.h"
 #include "cli/command.h"
-#include "cli/dispatch.h"
 #include "cli/job_options.h"
 #include "image/picture.h"
-#include "image/sheet.h"
-#include "lab/compare.h"
+#include "look/compare.h"
+#include "look/sheet.h"
 #include "render/parameters.h"
 
 char *web_words(int size);
@@ -120,7 +119,7 @@ static bool read_reference(struct watch *w, const char *path, struct error *err)
            error_set(err, "%s: the picture is no whole number of times as large", path);
 }
 
-static bool render(const struct job_options *o, const struct scene *scene, const struct integrator *integrator,
+static bool render(const struct job_options *o, const struct scene *scene, const struct method *integrator,
                    const char *reference, struct error *err)
 {
     struct film film;
@@ -154,7 +153,7 @@ int web_render(int n)
     char **argv = arguments(n);
     struct job_options o = {0};
     struct scene scene;
-    const struct integrator *integrator;
+    const struct method *integrator;
     struct error err;
     bool ok = options_read(OPTIONS, n - 1, argv + 1, &o, &err);
     int status = !ok ? usage_error(NULL, "%s", err.text) : job_load(&o, &scene, &integrator);

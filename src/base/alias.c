@@ -102,11 +102,7 @@ void alias_free(struct alias_table *t)
 {
     free(t->bin);
     free(t->work);
-    t->bin = NULL;
-    t->work = NULL;
-    t->capacity = 0;
-    t->n = 0;
-    t->total = 0;
+    *t = (struct alias_table){.n = 0};
 }
 
 int alias_sample_bin(const struct alias_table *t, int bin, double u, double *pmf, double *u_out)

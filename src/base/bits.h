@@ -25,18 +25,7 @@ static inline uint64_t hash_combine(uint64_t h, uint64_t value)
     return hash_mix(h * 0x9e3779b97f4a7c15u + value + 1);
 }
 
-/* hash_bytes: the hash FNV-1a of n bytes [Fowler 1991]. */
-static inline uint32_t hash_bytes(const void *data, size_t n)
-{
-    const uint8_t *byte = (const uint8_t *)data;
-    uint32_t h = 2166136261u;
-    for (size_t i = 0; i < n; i++)
-        h = (h ^ byte[i]) * 16777619u;
-    return h;
-}
-
-/* hash_content: a hash of n bytes, eight at a time: tells files apart that nobody has forged. The same on all machines.
- */
+/* hash_content: a hash of n bytes, eight at a time: tells apart what nobody has forged. The same on all machines. */
 static inline uint64_t hash_content(const void *data, size_t n)
 {
     const uint8_t *byte = (const uint8_t *)data;

@@ -17,11 +17,13 @@ bool error_set(struct error *err, const char *format, ...)
     return false;
 }
 
-/* The bytes of the UTF-8 character of more than one byte that begins at p (RFC 3629); 0 if there is none, or if it is a
- * control character (U+0080 to U+009F). A zero byte ends the text. */
-static int utf8_length(const unsigned char *p)
+/* [RFC 3629 4]. A zero byte ends the text. */
+int printable_length(const char *text)
 {
-    static const uint32_t LEAST[] = {0xa0, 0x800, 0x10000}; /* of 2, 3, 4 bytes */
+    static const uint32_t LEAST[] = {0xa0, 0x800, 0x10000}; /* of 2, 3, 4 bytes; before U+00A0: control codes */
+    const unsigned char *p = (const unsigned char *)text;
+    if (p[0] < 0x80)
+        return p[0] >= ' ' && p[0] < 0x7f;
     if (p[0] < 0xc2 || p[0] > 0xf4)
         return 0;
     int n = p[0] < 0xe0 ? 2 : p[0] < 0xf0 ? 3 : 4;
@@ -37,10 +39,10 @@ static int utf8_length(const unsigned char *p)
 
 void error_clean(char *text)
 {
-    for (unsigned char *p = (unsigned char *)text; *p != '\0';) {
-        int n = *p >= ' ' && *p < 0x7f ? 1 : utf8_length(p);
+    while (*text != '\0') {
+        int n = printable_length(text);
         if (n == 0)
-            *p = '?';
-        p += n > 0 ? n : 1;
+            *text = '?';
+        text += n > 0 ? n : 1;
     }
 }

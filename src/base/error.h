@@ -21,7 +21,10 @@ struct error {
 bool error_set(struct error *err, const char *format, ...);
 
 /* error_clean: make text that may come from a damaged or hostile file fit for a terminal, in place: every byte that is
- * neither printable ASCII nor part of a printable character in UTF-8 becomes '?'. */
+ * no part of a printable character becomes '?'. */
 void error_clean(char *text);
+
+/* printable_length: bytes of the printable character, in UTF-8, that a text begins with; 0 if there is none. */
+int printable_length(const char *text);
 
 #endif

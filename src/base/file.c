@@ -36,12 +36,6 @@ static bool read_pipe(FILE *f, uint8_t **data, size_t *size)
     return ferror(f) == 0;
 }
 
-static void close_input(FILE *f)
-{
-    if (f != stdin)
-        fclose(f);
-}
-
 bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err)
 {
     *data = NULL;
@@ -49,18 +43,14 @@ bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err
     FILE *f = strcmp(path, "-") == 0 ? stdin : os_open_input(path);
     if (f == NULL)
         return error_set(err, "%s: cannot be opened: %s", path, strerror(errno));
-    uint64_t length;
-    bool regular = os_regular(f, &length);
+    struct os_identity is = os_identify_stream(f);
     os_binary(f);
-    if (length >= SIZE_MAX / 2) {
-        close_input(f);
-        errno = 0;
-        return error_set(err, "%s: the file is too large for this machine's memory", path);
-    }
     errno = 0;
-    bool ok = regular ? read_length(f, (size_t)length, data, size) : read_pipe(f, data, size);
+    bool ok = is.kind != OS_FILE ? read_pipe(f, data, size)
+                                 : is.size < SIZE_MAX / 2 && read_length(f, (size_t)is.size, data, size);
     int reason = errno;
-    close_input(f);
+    if (f != stdin)
+        fclose(f);
     if (ok)
         return true;
     free(*data);
@@ -110,15 +100,17 @@ bool file_has_extension(const char *path, const char *extension)
 
 /* --- writing ----------------------------------------------------------------------------------------- */
 
-static void release(struct file_output *out)
+/* Forget it all, and remove the temporary file unless it has the target's name by now. */
+static void release(struct file_output *out, bool remove_it)
 {
+    if (out->temporary != NULL && remove_it)
+        remove(out->temporary);
     if (out->temporary != NULL)
         temporary_forget(out->temporary);
     free(out->path);
     free(out->target);
     free(out->temporary);
-    struct file_output none = {NULL, NULL, NULL, NULL};
-    *out = none;
+    *out = (struct file_output){.stream = NULL};
 }
 
 char *file_follow(const char *path)
@@ -140,26 +132,13 @@ char *file_follow(const char *path)
 /* A new file beside the target that nobody else has, with the rights of the one it is to replace. */
 static FILE *open_temporary(struct file_output *out)
 {
-    enum { ATTEMPTS = 100 };
+    char name[64];
     uint64_t hash = hash_combine(os_unique(), (uint64_t)(uintptr_t)out->path);
-    temporary_room();
-    for (int i = 0; i < ATTEMPTS; i++) {
-        char name[64];
-        hash = hash_combine(hash, (uint64_t)i);
-        snprintf(name, sizeof name, ".asbdpt-%08lx%08lx.tmp", (unsigned long)(hash >> 32),
-                 (unsigned long)(hash & 0xffffffffu));
-        out->temporary = file_beside(out->target, name);
-        FILE *f = os_create_new(out->temporary, out->target);
-        if (f != NULL) {
-            temporary_add(out->temporary);
-            return f;
-        }
-        free(out->temporary);
-        out->temporary = NULL;
-        if (errno != EEXIST)
-            break;
-    }
-    return NULL;
+    snprintf(name, sizeof name, ".asbdpt-%08lx%08lx.tmp", (unsigned long)(hash >> 32),
+             (unsigned long)(hash & 0xffffffffu));
+    out->temporary = file_beside(out->target, name);
+    temporary_add(out->temporary); /* before it is there: memory may run out */
+    return os_create_new(out->temporary, out->target);
 }
 
 /* Devices, pipes and standard output are written directly; a file that must not be written is not replaced either. */
@@ -185,13 +164,13 @@ static FILE *open_target(struct file_output *out)
 
 bool file_create(const char *path, struct file_output *out, struct error *err)
 {
-    struct file_output begun = {NULL, mem_copy_text(path), NULL, NULL};
-    *out = begun;
+    *out = (struct file_output){.path = mem_copy_text(path)};
     out->stream = open_target(out);
     if (out->stream != NULL)
         return true;
+    bool is_ours = errno != EEXIST;
     error_set(err, "%s: cannot be created: %s", path, strerror(errno));
-    release(out);
+    release(out, is_ours);
     return false;
 }
 
@@ -207,12 +186,9 @@ bool file_commit(struct file_output *out, struct error *err)
     if (ok && out->temporary != NULL)
         ok = os_rename(out->temporary, out->target);
     reason = reason != 0 ? reason : errno;
-    if (!ok) {
+    if (!ok)
         error_set(err, "%s: cannot be written: %s", out->path, reason != 0 ? strerror(reason) : "write error");
-        if (out->temporary != NULL)
-            remove(out->temporary);
-    }
-    release(out);
+    release(out, !ok);
     return ok;
 }
 
@@ -220,7 +196,5 @@ void file_abandon(struct file_output *out)
 {
     if (out->stream != stdout)
         fclose(out->stream);
-    if (out->temporary != NULL)
-        remove(out->temporary);
-    release(out);
+    release(out, true);
 }

@@ -34,7 +34,7 @@ static void note(int number)
         return;
     }
     remove_temporaries();
-    os_exit_at_once(128 + number);
+    _Exit(128 + number);
 }
 
 void interrupt_init(void)
@@ -56,15 +56,15 @@ static struct temporary *find(const char *path)
     return t;
 }
 
-void temporary_room(void)
+void temporary_add(const char *path)
 {
-    if (find(NULL) != NULL)
-        return;
-    struct temporary *t = mem_alloc(1, sizeof *t);
-    t->next = first;
-    first = t;
+    struct temporary *t = find(NULL);
+    if (t == NULL) {
+        t = mem_alloc(1, sizeof *t);
+        t->next = first;
+        first = t;
+    }
+    t->path = path;
 }
-
-void temporary_add(const char *path) { find(NULL)->path = path; }
 
 void temporary_forget(const char *path) { find(path)->path = NULL; }

@@ -21,9 +21,8 @@ void interrupt_defer(void);
 /* interrupt_caught: the signal noted, or 0. Thread-safe. */
 int interrupt_caught(void);
 
-/* temporary_room: make room for one more, before the file is there: memory may run out. temporary_add: a file to be
- * removed if the program ends; `path` must stay valid until temporary_forget(path). One thread at a time. */
-void temporary_room(void);
+/* temporary_add: a file, which need not be there yet, to be removed if the program ends; `path` must stay valid until
+ * temporary_forget(path). One thread at a time. */
 void temporary_add(const char *path);
 void temporary_forget(const char *path);
 

@@ -1,54 +1,35 @@
 /* json.c: see json.h. */
 #include "base/json.h"
 
+#include <assert.h>
 #include <inttypes.h>
 #include <math.h>
-#include <string.h>
+
+#include "base/error.h"
 
 struct json json_start(FILE *file)
 {
-    struct json j;
-    memset(&j, 0, sizeof j);
-    j.file = file;
-    j.empty = true;
+    struct json j = {.file = file, .empty = true};
     return j;
-}
-
-/* Bytes of the UTF-8 character that the text begins with: 0 if it is none [RFC 3629 4]. */
-static int utf8_length(const unsigned char *c)
-{
-    if (c[0] < 0x80)
-        return 1;
-    int n = c[0] >= 0xc2 && c[0] < 0xe0 ? 2 : c[0] >= 0xe0 && c[0] < 0xf0 ? 3 : c[0] >= 0xf0 && c[0] < 0xf5 ? 4 : 0;
-    for (int i = 1; i < n; i++)
-        if ((c[i] & 0xc0) != 0x80)
-            return 0;
-    bool longer = (c[0] == 0xe0 && c[1] < 0xa0) || (c[0] == 0xf0 && c[1] < 0x90);
-    bool surrogate = c[0] == 0xed && c[1] >= 0xa0, beyond = c[0] == 0xf4 && c[1] >= 0x90;
-    return longer || surrogate || beyond ? 0 : n;
 }
 
 static void quote(struct json *j, const char *text)
 {
     fputc('"', j->file);
-    for (; *text != '\0'; text++) {
+    for (int n; *text != '\0'; text += n > 0 ? n : 1) {
         unsigned char c = (unsigned char)*text;
+        n = printable_length(text);
         if (c == '"' || c == '\\')
             fprintf(j->file, "\\%c", c);
-        else if (c < 0x20 || c == 0x7f)
-            fprintf(j->file, "\\u%04x", (unsigned)c);
-        else if (utf8_length((const unsigned char *)text) == 0)
-            fputs("\\ufffd", j->file);
+        else if (n > 0)
+            fwrite(text, 1, (size_t)n, j->file);
         else
-            text += fwrite(text, 1, (size_t)utf8_length((const unsigned char *)text), j->file) - 1;
+            fprintf(j->file, "\\u%04x", c < 0x80 ? c : 0xfffdu);
     }
     fputc('"', j->file);
 }
 
-static void new_line(struct json *j)
-{
-    fprintf(j->file, "\n%*s", 2 * j->depth, "");
-}
+static void new_line(struct json *j) { fprintf(j->file, "\n%*s", 2 * j->depth, ""); }
 
 /* What stands before a value: comma, line, name. */
 static void begin(struct json *j, const char *name)
@@ -67,17 +48,14 @@ static void begin(struct json *j, const char *name)
 void json_open(struct json *j, const char *name, char kind)
 {
     begin(j, name);
-    if (j->depth == JSON_DEPTH)
-        return; /* callers nest less */
-    fputc(kind == '{' ? '{' : '[', j->file);
+    assert(j->depth < JSON_DEPTH);
+    fputc(kind, j->file);
     j->closing[j->depth++] = kind == '{' ? '}' : ']';
     j->empty = true;
 }
 
 void json_close(struct json *j)
 {
-    if (j->depth == 0)
-        return;
     j->depth--;
     if (!j->empty)
         new_line(j);

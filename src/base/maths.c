@@ -18,8 +18,7 @@ struct pair {
 static struct pair sum_of_ordered(double a, double b)
 {
     double s = a + b;
-    struct pair p = {s, b - (s - a)};
-    return p;
+    return (struct pair){s, b - (s - a)};
 }
 
 /* a b, exactly: each is cut into halves of 26 bits, whose products have room. |a|, |b| below 2^996. [Dekker 1971] */
@@ -28,8 +27,7 @@ static struct pair product(double a, double b)
     const double cut = 134217729; /* 2^27 + 1 */
     double a1 = cut * a - (cut * a - a), a2 = a - a1, b1 = cut * b - (cut * b - b), b2 = b - b1;
     double p = a * b;
-    struct pair out = {p, ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2};
-    return out;
+    return (struct pair){p, ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2};
 }
 
 /* The product of two pairs, to about 2^-100. */
@@ -207,11 +205,7 @@ static double exp_of_pair(struct pair x)
     return ldexp(first.high + (first.low + rest), power);
 }
 
-double m_exp(double x)
-{
-    struct pair p = {x, 0};
-    return exp_of_pair(p);
-}
+double m_exp(double x) { return exp_of_pair((struct pair){x, 0}); }
 
 double m_expm1(double x)
 {
@@ -262,23 +256,9 @@ static double log_to_base(double x, struct pair unit)
     return y.high;
 }
 
-double m_log(double x)
-{
-    struct pair unit = {1, 0};
-    return log_to_base(x, unit);
-}
-
-double m_log2(double x)
-{
-    struct pair unit = {0x1.71547652b82fep+0, 0x1.777d0ffda0d24p-56};
-    return log_to_base(x, unit);
-}
-
-double m_log10(double x)
-{
-    struct pair unit = {0x1.bcb7b1526e50ep-2, 0x1.95355baaafad3p-57};
-    return log_to_base(x, unit);
-}
+double m_log(double x) { return log_to_base(x, (struct pair){1, 0}); }
+double m_log2(double x) { return log_to_base(x, (struct pair){0x1.71547652b82fep+0, 0x1.777d0ffda0d24p-56}); }
+double m_log10(double x) { return log_to_base(x, (struct pair){0x1.bcb7b1526e50ep-2, 0x1.95355baaafad3p-57}); }
 
 double m_log1p(double x)
 {

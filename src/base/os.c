@@ -147,24 +147,25 @@ uint64_t os_unique(void)
 
 /* ---- signals ---- */
 
+/* Those that ask the program to end. */
+static const struct {
+    int number;
+    const char *name;
+    bool repeats;
+} SIGNALS[] = {{SIGINT, "SIGINT", false},
+               {SIGTERM, "SIGTERM", false},
+#ifdef SIGHUP
+               {SIGHUP, "SIGHUP", false},
+#endif
+#ifdef SIGXCPU
+               {SIGXCPU, "SIGXCPU", true}, /* every second, up to the hard limit */
+#endif
+};
+enum { N_SIGNALS = sizeof SIGNALS / sizeof SIGNALS[0] };
+
 #if defined _WIN32 || defined __wasi__
 
-void os_catch_signals(void (*handler)(int number))
-{
-    signal(SIGINT, handler);
-    signal(SIGTERM, handler);
-}
-
-const char *os_signal_name(int number)
-{
-    return number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : "a signal";
-}
-
-bool os_signal_repeats(int number)
-{
-    (void)number;
-    return false;
-}
+static void catch(int number, void (*handler)(int)) { signal(number, handler); }
 
 #else
 
@@ -179,27 +180,30 @@ static void catch(int number, void (*handler)(int))
     sigaction(number, &action, NULL);
 }
 
-void os_catch_signals(void (*handler)(int number))
-{
-    catch(SIGXFSZ, SIG_IGN);
-    catch(SIGPIPE, SIG_IGN);
-    catch(SIGINT, handler);
-    catch(SIGTERM, handler);
-    catch(SIGHUP, handler);
-    catch(SIGXCPU, handler);
-}
-
-const char *os_signal_name(int number)
-{
-    return number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : number == SIGHUP ? "SIGHUP"
-         : number == SIGXCPU ? "SIGXCPU" : "a signal";
-}
-
-bool os_signal_repeats(int number) { return number == SIGXCPU; } /* every second, up to the hard limit */
-
 #endif
 
-/* Safe in a handler [POSIX 2.4.3]; so is _Exit, unlike exit. */
+void os_catch_signals(void (*handler)(int number))
+{
+#ifdef SIGXFSZ
+    catch(SIGXFSZ, SIG_IGN);
+    catch(SIGPIPE, SIG_IGN);
+#endif
+    for (int i = 0; i < N_SIGNALS; i++)
+        catch(SIGNALS[i].number, handler);
+}
+
+static int find_signal(int number)
+{
+    int i = 0;
+    while (i < N_SIGNALS - 1 && SIGNALS[i].number != number)
+        i++;
+    return i;
+}
+
+const char *os_signal_name(int number) { return SIGNALS[find_signal(number)].name; }
+bool os_signal_repeats(int number) { return SIGNALS[find_signal(number)].repeats; }
+
+/* Safe in a handler [POSIX 2.4.3]. */
 void os_remove_at_once(const char *path)
 {
 #ifdef _WIN32
@@ -209,27 +213,30 @@ void os_remove_at_once(const char *path)
 #endif
 }
 
-void os_exit_at_once(int status) { _Exit(status); }
-
 /* ---- files ---- */
+
+static enum os_kind kind_of(const struct stat *info)
+{
+    return S_ISREG(info->st_mode) ? OS_FILE : S_ISDIR(info->st_mode) ? OS_DIRECTORY : OS_OTHER;
+}
 
 enum os_kind os_kind_of(const char *path)
 {
     struct stat info;
-    if (stat(path, &info) != 0)
-        return OS_NOTHING;
-    return S_ISREG(info.st_mode) ? OS_FILE : S_ISDIR(info.st_mode) ? OS_DIRECTORY : OS_OTHER;
+    return stat(path, &info) == 0 ? kind_of(&info) : OS_NOTHING;
 }
 
 #ifdef _WIN32
 
 void os_open_standard(void) {} /* its C library opens nothing in their place */
 
-static struct os_identity identity(HANDLE handle, enum os_kind kind)
+static struct os_identity identity(HANDLE handle)
 {
-    struct os_identity out = {kind, 0, 0};
+    struct os_identity out = {OS_OTHER, 0, 0, 0};
     BY_HANDLE_FILE_INFORMATION info;
-    if (handle != INVALID_HANDLE_VALUE && GetFileInformationByHandle(handle, &info)) {
+    if (GetFileType(handle) == FILE_TYPE_DISK && GetFileInformationByHandle(handle, &info)) {
+        out.kind = (info.dwFileAttributes & FILE_ATTRIBUTE_DIRECTORY) != 0 ? OS_DIRECTORY : OS_FILE;
+        out.size = (uint64_t)info.nFileSizeHigh << 32 | info.nFileSizeLow;
         out.device = info.dwVolumeSerialNumber;
         out.number = (uint64_t)info.nFileIndexHigh << 32 | info.nFileIndexLow;
     }
@@ -240,28 +247,18 @@ struct os_identity os_identify(const char *path)
 {
     HANDLE handle = CreateFileA(path, 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, NULL, OPEN_EXISTING,
                                 FILE_FLAG_BACKUP_SEMANTICS, NULL); /* which directories need */
-    struct os_identity out = identity(handle, os_kind_of(path));
+    struct os_identity out = identity(handle);
     if (handle != INVALID_HANDLE_VALUE)
         CloseHandle(handle);
+    else
+        out.kind = os_kind_of(path);
     return out;
 }
 
-struct os_identity os_identify_stream(FILE *f)
-{
-    uint64_t size;
-    return identity((HANDLE)_get_osfhandle(_fileno(f)), os_regular(f, &size) ? OS_FILE : OS_OTHER);
-}
+struct os_identity os_identify_stream(FILE *f) { return identity((HANDLE)_get_osfhandle(_fileno(f))); }
 
 bool os_terminal(FILE *f) { return _isatty(_fileno(f)) != 0; }
 void os_binary(FILE *f) { _setmode(_fileno(f), _O_BINARY); }
-
-bool os_regular(FILE *f, uint64_t *size)
-{
-    struct _stat64 info;
-    bool ok = _fstat64(_fileno(f), &info) == 0 && S_ISREG(info.st_mode);
-    *size = ok ? (uint64_t)info.st_size : 0;
-    return ok;
-}
 
 FILE *os_open_input(const char *path) { return fopen(path, "rb"); }
 bool os_may_write(const char *path) { return _access(path, 2) == 0; }
@@ -277,12 +274,8 @@ FILE *os_create_new(const char *path, const char *like)
     (void)like;
     int fd = _open(path, _O_WRONLY | _O_CREAT | _O_EXCL | _O_BINARY, _S_IREAD | _S_IWRITE);
     FILE *f = fd >= 0 ? _fdopen(fd, "wb") : NULL;
-    int reason = errno;
-    if (f == NULL && fd >= 0) {
+    if (f == NULL && fd >= 0)
         _close(fd);
-        _unlink(path);
-        errno = reason;
-    }
     return f;
 }
 
@@ -315,9 +308,10 @@ void os_open_standard(void)
 
 static struct os_identity identity(bool known, const struct stat *info)
 {
-    struct os_identity out = {OS_NOTHING, 0, 0};
+    struct os_identity out = {OS_NOTHING, 0, 0, 0};
     if (known) {
-        out.kind = S_ISREG(info->st_mode) ? OS_FILE : S_ISDIR(info->st_mode) ? OS_DIRECTORY : OS_OTHER;
+        out.kind = kind_of(info);
+        out.size = out.kind == OS_FILE ? (uint64_t)info->st_size : 0;
         out.device = (uint64_t)info->st_dev;
         out.number = (uint64_t)info->st_ino;
     }
@@ -339,32 +333,16 @@ struct os_identity os_identify_stream(FILE *f)
 bool os_terminal(FILE *f) { return isatty(fileno(f)) != 0; }
 void os_binary(FILE *f) { (void)f; }
 
-bool os_regular(FILE *f, uint64_t *size)
-{
-    struct stat info;
-    bool ok = fstat(fileno(f), &info) == 0 && S_ISREG(info.st_mode);
-    *size = ok ? (uint64_t)info.st_size : 0;
-    return ok;
-}
-
-static bool is_no_device(const struct stat *info)
-{
-    if (!S_ISCHR(info->st_mode) && !S_ISBLK(info->st_mode))
-        return true;
-    errno = EPERM;
-    return false;
-}
-
 FILE *os_open_input(const char *path)
 {
     struct stat info;
-    bool ok = stat(path, &info) == 0 && is_no_device(&info);
-    int fd = ok ? open(path, O_RDONLY | O_NONBLOCK) : -1;
-    ok = fd >= 0 && fstat(fd, &info) == 0 && is_no_device(&info); /* it may be another file by now */
-    ok = ok && fcntl(fd, F_SETFL, 0) == 0;
-    FILE *f = ok ? fdopen(fd, "rb") : NULL;
-    int reason = errno;
-    if (f == NULL && fd >= 0)
+    int fd = open(path, O_RDONLY | O_NONBLOCK);
+    if (fd < 0)
+        return NULL;
+    bool device = fstat(fd, &info) == 0 && (S_ISCHR(info.st_mode) || S_ISBLK(info.st_mode));
+    FILE *f = !device && fcntl(fd, F_SETFL, 0) == 0 ? fdopen(fd, "rb") : NULL;
+    int reason = device ? EPERM : errno;
+    if (f == NULL)
         close(fd);
     errno = reason;
     return f;
@@ -384,12 +362,8 @@ FILE *os_create_new(const char *path, const char *like)
     struct stat info;
     int fd = open(path, O_WRONLY | O_CREAT | O_EXCL, 0666);
     FILE *f = fd >= 0 ? fdopen(fd, "wb") : NULL;
-    int reason = errno;
-    if (f == NULL && fd >= 0) {
+    if (f == NULL && fd >= 0)
         close(fd);
-        unlink(path);
-        errno = reason;
-    }
 #ifndef __wasi__
     if (f != NULL && stat(like, &info) == 0)
         fchmod(fd, info.st_mode & 0777);

@@ -55,9 +55,8 @@ const char *os_signal_name(int number); /* "SIGINT" and so on */
 /* os_signal_repeats: does it come again and again by itself? */
 bool os_signal_repeats(int number);
 
-/* What a handler may do: remove a file, end the program at once. */
+/* os_remove_at_once: remove a file; a handler may do that. */
 void os_remove_at_once(const char *path);
-void os_exit_at_once(int status);
 
 /* ---- files ---- */
 
@@ -72,11 +71,8 @@ bool os_terminal(FILE *f);
 void os_binary(FILE *f);
 
 /* os_open_input: a file or a pipe for reading bytes. It does not wait for somebody to write to a pipe: where nobody
- * does, it is empty. Devices, which may never end, are refused with EPERM, unopened. NULL, and errno. */
+ * does, it is empty. Devices, which may never end, are refused with EPERM. NULL, and errno. */
 FILE *os_open_input(const char *path);
-
-/* os_regular: the length of an open file; false for pipes, devices and directories. */
-bool os_regular(FILE *f, uint64_t *size);
 
 enum os_kind { OS_NOTHING, OS_FILE, OS_DIRECTORY, OS_OTHER /* a device, a pipe */ };
 
@@ -86,6 +82,7 @@ enum os_kind os_kind_of(const char *path);
 /* What a file is, however it is called: two names with the same numbers are one file. */
 struct os_identity {
     enum os_kind kind;
+    uint64_t size;           /* bytes of an OS_FILE */
     uint64_t device, number; /* number 0: the system does not say */
 };
 

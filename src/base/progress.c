@@ -8,7 +8,6 @@
 #include "base/os.h"
 
 enum { BAR = 20, COLUMNS = 50 };
-static const double LINE_EVERY = 60, BAR_EVERY = 0.1; /* seconds */
 
 void progress_duration(double seconds, char *text, size_t size)
 {
@@ -32,24 +31,19 @@ void progress_start(struct progress *p, bool quiet)
     p->last = p->start;
 }
 
-/* `done` is a count over a count, 0 to 1. */
 bool progress_update(void *progress, double done)
 {
     struct progress *p = progress;
     double now = os_wall_seconds(), elapsed = now - p->start;
-    if (!p->shown || now - p->last < (p->bar ? BAR_EVERY : LINE_EVERY))
+    if (!p->shown || now - p->last < (p->bar ? 0.1 : 60))
         return true;
     p->last = now;
-    char left[32], bar[BAR + 1];
-    progress_duration(done > 0 ? elapsed / done - elapsed : 0, left, sizeof left);
-    for (int i = 0; i < BAR; i++)
-        bar[i] = i < (int)(done * BAR) ? '=' : ' ';
-    bar[BAR] = '\0';
-    int percent = (int)(done * 100);
+    char left[32] = "?";
+    if (done > 0)
+        progress_duration(elapsed / done - elapsed, left, sizeof left);
     if (p->bar)
-        fprintf(stderr, "\r[%s] %3d %%, %s left      ", bar, percent, done > 0 ? left : "?");
-    else
-        fprintf(stderr, "%3d %%, %s left\n", percent, done > 0 ? left : "?");
+        fprintf(stderr, "\r[%-*.*s] ", BAR, (int)(done * BAR), "====================");
+    fprintf(stderr, "%3d %%, %s left%s", (int)(done * 100), left, p->bar ? "      " : "\n");
     fflush(stderr);
     return true;
 }

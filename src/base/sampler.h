@@ -11,11 +11,8 @@
  * and over pixels and seeds all are independent, so nothing is biased. Within one pixel a weak correlation between two
  * decisions may remain, since the order is a hash.
  *
- * Any other number of samples is made of several nets, 48 of those of 32 and 16, and its error is about that of
- * independent nets with equal weights for all samples: the smaller have the larger share. So 20 samples of a smooth
- * integrand (x y) have twice the squared error of 16, 40 of 32; at an edge across the square all are as good as their
- * number, or nearly. Choose powers of two. No sequence can be good at all numbers: n times the error changes by f - I
- * with sample n + 1, so it is not small on both sides of it.
+ * Any other number of samples is made of several nets, 48 of those of 32 and 16, and is about as good as independent
+ * ones: 20 samples of a smooth integrand (x y) have twice the squared error of 16, 40 of 32. Choose powers of two.
  *
  * Tests: test_sampler.c (also of the points as sub-paths and connections have used them), test_streams.c.
  */

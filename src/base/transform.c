@@ -14,25 +14,6 @@ struct transform transform_identity(void)
     return t;
 }
 
-/* The row at or below `column` whose entry in that column is largest. */
-static int pivot_row(double a[4][4], int column)
-{
-    int best = column;
-    for (int r = column + 1; r < 4; r++)
-        if (fabs(a[r][column]) > fabs(a[best][column]))
-            best = r;
-    return best;
-}
-
-static void swap_rows(double a[4][4], int r, int s)
-{
-    for (int c = 0; c < 4; c++) {
-        double keep = a[r][c];
-        a[r][c] = a[s][c];
-        a[s][c] = keep;
-    }
-}
-
 static void multiply(const double a[4][4], const double b[4][4], double out[4][4])
 {
     for (int i = 0; i < 4; i++)
@@ -40,58 +21,58 @@ static void multiply(const double a[4][4], const double b[4][4], double out[4][4
             out[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j] + a[i][3] * b[3][j];
 }
 
-/* A singular matrix whose last pivot is not quite 0 shows by its product with the "inverse". */
-static bool is_inverse(const double m[4][4], double inv[4][4])
-{
-    double product[4][4];
-    multiply(m, (const double(*)[4])inv, product);
-    for (int i = 0; i < 16; i++)
-        if (!(fabs(product[i / 4][i % 4] - (i / 4 == i % 4)) < 1e-3))
-            return false;
-    return true;
-}
-
-/* Gauss-Jordan elimination with partial pivoting; false for a singular matrix. */
-static bool invert(const double m[4][4], double inv[4][4])
-{
-    double a[4][4];
-    memcpy(a, m, sizeof a);
-    struct transform id = transform_identity();
-    memcpy(inv, id.m, sizeof a);
-    for (int c = 0; c < 4; c++) {
-        int p = pivot_row(a, c);
-        if (a[p][c] == 0)
-            return false;
-        swap_rows(a, p, c);
-        swap_rows(inv, p, c);
-        double scale = 1 / a[c][c];
-        for (int k = 0; k < 4; k++) {
-            a[c][k] *= scale;
-            inv[c][k] *= scale;
-        }
-        for (int r = 0; r < 4; r++) {
-            double factor = r == c ? 0 : a[r][c];
-            for (int k = 0; k < 4; k++) {
-                a[r][k] -= factor * a[c][k];
-                inv[r][k] -= factor * inv[c][k];
-            }
-        }
-    }
-    return is_inverse(m, inv);
-}
-
-bool transform_is_usable(const struct transform *t)
+/* Is the inverse one in fact, in the first columns of their product? */
+static bool is_inverse(const struct transform *t, int columns)
 {
     double product[4][4];
     multiply((const double(*)[4])t->m, (const double(*)[4])t->inv, product);
     for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++) {
-            double limit = j < 3 ? NUMBER_MAX : DBL_MAX;
-            bool exact = j == 3 || fabs(product[i][j] - (i == j)) <= 1e-3;
-            if (!(fabs(t->m[i][j]) <= limit && fabs(t->inv[i][j]) <= limit && exact))
+        for (int j = 0; j < columns; j++)
+            if (!(fabs(product[i][j] - (i == j)) <= 1e-3))
                 return false;
-        }
     return true;
+}
+
+/* Fill t->inv by Gauss-Jordan elimination with partial pivoting; false for a singular matrix, also for one whose last
+ * pivot is not quite 0. */
+static bool invert(struct transform *t)
+{
+    double a[4][8]; /* the matrix, and beside it the identity, which becomes the inverse */
+    for (int i = 0; i < 32; i++)
+        a[i / 8][i % 8] = i % 8 < 4 ? t->m[i / 8][i % 8] : i % 8 - 4 == i / 8;
+    for (int c = 0; c < 4; c++) {
+        int pivot = c;
+        for (int r = c + 1; r < 4; r++)
+            if (fabs(a[r][c]) > fabs(a[pivot][c]))
+                pivot = r;
+        if (a[pivot][c] == 0)
+            return false;
+        double scale = 1 / a[pivot][c];
+        for (int k = 0; k < 8; k++) { /* the two rows change places */
+            double own = a[c][k];
+            a[c][k] = a[pivot][k] * scale;
+            if (pivot != c)
+                a[pivot][k] = own;
+        }
+        for (int r = 0; r < 4; r++) {
+            double factor = r == c ? 0 : a[r][c];
+            for (int k = 0; k < 8; k++)
+                a[r][k] -= factor * a[c][k];
+        }
+    }
+    for (int i = 0; i < 4; i++)
+        memcpy(t->inv[i], a[i] + 4, sizeof t->inv[i]);
+    return is_inverse(t, 4);
+}
+
+bool transform_is_usable(const struct transform *t)
+{
+    for (int i = 0; i < 16; i++) {
+        double limit = i % 4 < 3 ? NUMBER_MAX : DBL_MAX;
+        if (!(fabs(t->m[i / 4][i % 4]) <= limit && fabs(t->inv[i / 4][i % 4]) <= limit))
+            return false;
+    }
+    return is_inverse(t, 3);
 }
 
 bool transform_from_matrix(const double columns[16], struct transform *out)
@@ -102,7 +83,7 @@ bool transform_from_matrix(const double columns[16], struct transform *out)
             return false;
         t.m[i % 4][i / 4] = columns[i];
     }
-    if (!invert((const double(*)[4])t.m, t.inv))
+    if (!invert(&t))
         return false;
     *out = t;
     return true;
@@ -110,25 +91,15 @@ bool transform_from_matrix(const double columns[16], struct transform *out)
 
 struct transform transform_translate(vec3 delta)
 {
-    struct transform t = transform_identity();
-    t.m[0][3] = delta.x;
-    t.m[1][3] = delta.y;
-    t.m[2][3] = delta.z;
-    t.inv[0][3] = -delta.x;
-    t.inv[1][3] = -delta.y;
-    t.inv[2][3] = -delta.z;
+    struct transform t = {{{1, 0, 0, delta.x}, {0, 1, 0, delta.y}, {0, 0, 1, delta.z}, {0, 0, 0, 1}},
+                          {{1, 0, 0, -delta.x}, {0, 1, 0, -delta.y}, {0, 0, 1, -delta.z}, {0, 0, 0, 1}}};
     return t;
 }
 
 struct transform transform_scale(double x, double y, double z)
 {
-    struct transform t = transform_identity();
-    t.m[0][0] = x;
-    t.m[1][1] = y;
-    t.m[2][2] = z;
-    t.inv[0][0] = 1 / x;
-    t.inv[1][1] = 1 / y;
-    t.inv[2][2] = 1 / z;
+    struct transform t = {{{x, 0, 0, 0}, {0, y, 0, 0}, {0, 0, z, 0}, {0, 0, 0, 1}},
+                          {{1 / x, 0, 0, 0}, {0, 1 / y, 0, 0}, {0, 0, 1 / z, 0}, {0, 0, 0, 1}}};
     return t;
 }
 
@@ -188,9 +159,7 @@ static vec3 matrix_times_vector(const double (*m)[4], vec3 v)
 
 static vec3 matrix_times_point(const double (*m)[4], vec3 p)
 {
-    vec3 q = vec(m[0][0] * p.x + m[0][1] * p.y + m[0][2] * p.z + m[0][3],
-                 m[1][0] * p.x + m[1][1] * p.y + m[1][2] * p.z + m[1][3],
-                 m[2][0] * p.x + m[2][1] * p.y + m[2][2] * p.z + m[2][3]);
+    vec3 q = add(matrix_times_vector(m, p), vec(m[0][3], m[1][3], m[2][3]));
     double w = m[3][0] * p.x + m[3][1] * p.y + m[3][2] * p.z + m[3][3];
     return w == 1 ? q : mul(q, 1 / w);
 }

@@ -49,9 +49,8 @@ static int run(void *options)
         out.place = about.place;
         warn_of_place(o, &about.place, width, height);
         ok = outputs_write(&out, width, height, pixels, true, &err);
-    } else {
-        outputs_abandon(&out);
     }
+    outputs_abandon(&out); /* unless they are written */
     free(pixels);
     return ok ? EXIT_OK : fail(&err);
 }

@@ -8,14 +8,10 @@
 #include "base/mem.h"
 #include "base/os.h"
 #include "base/progress.h"
-#include "cli/aov_files.h"
 #include "cli/command.h"
 #include "cli/job_options.h"
 #include "cli/keep.h"
-#include "cli/names.h"
-#include "cli/outputs.h"
-#include "cli/stats_file.h"
-#include "cli/strategy_files.h"
+#include "cli/render_files.h"
 #include "image/image.h"
 #include "render/parameters.h"
 
@@ -61,12 +57,43 @@ static char *default_output(const struct scene *scene)
     return out;
 }
 
-/* Those that are named are open already. */
+/* All that a render writes but its strategies, opened before the work begins. */
+struct files {
+    struct outputs pictures;
+    struct aov_files aov;
+    struct file_output stats; /* its stream NULL: none; it is complete when all others are */
+};
+
+static void abandon(struct files *f)
+{
+    outputs_abandon(&f->pictures);
+    if (f->stats.stream != NULL)
+        file_abandon(&f->stats);
+}
+
+/* What can be said before the scene is loaded. What has no place in a part (render/part.h) is not there after
+ * --resume. */
+static bool check_options(const struct job_options *o, struct files *f, struct error *err)
+{
+    memset(f, 0, sizeof *f);
+    if (!aov_read(o->aov, &f->aov, err))
+        return false;
+    if (o->keep.resume != NULL && (o->strategies != NULL || f->aov.wanted[AOV_VARIANCE]))
+        return error_set(err, "%s: strategies and variance are not saved and cannot be resumed", o->keep.resume);
+    return strategies_possible(o->strategies, err) && keep_check(&o->keep, err);
+}
+
+/* What needs no scene to be opened. */
+static bool open_named(const struct job_options *o, struct files *f, struct error *err)
+{
+    enum outputs_parts parts = o->keep.samples[1] > 0 ? PARTS_OTHERS : PARTS_NAMED;
+    return (o->output.n == 0 || outputs_open(&o->output, &o->tone, parts, &f->pictures, err)) &&
+           (o->stats == NULL || file_create(o->stats, &f->stats, err));
+}
+
 static bool open_default_output(const struct job_options *o, const struct scene *scene, struct names *all,
                                 struct outputs *out, struct error *err)
 {
-    if (out->n > 0)
-        return true;
     struct texts names = {0};
     char *name = default_output(scene);
     texts_add(&names, name);
@@ -77,29 +104,25 @@ static bool open_default_output(const struct job_options *o, const struct scene 
     return ok;
 }
 
-static bool write_outputs(const struct job_options *o, const struct scene *scene, const struct film *film,
-                          struct outputs *out, struct error *err)
+/* Samples of a chain are neither a pixel's own nor independent. */
+static bool suits(const struct job_options *o, const struct method *m, const struct files *f, struct error *err)
 {
-    int width = rect_width(film->rect), height = rect_height(film->rect);
-    float *pixels = mem_alloc((size_t)width * (size_t)height * 3, sizeof *pixels);
-    film_warn(film, film_develop(film, scene->film_scale, pixels));
-    bool ok = outputs_write(out, width, height, pixels, o->quiet, err);
-    free(pixels);
+    const char *wanted = f->aov.wanted[AOV_VARIANCE] ? "--aov variance" : o->strategies != NULL ? "--strategies" : NULL;
+    return !m->chain || wanted == NULL ||
+           error_set(err, "%s: the samples of %s are a chain, and do not show that; render several --seed", wanted,
+                     m->name);
+}
+
+/* What the scene names, or what lies beside that, once the scene is loaded; all are different files. */
+static bool open_others(struct job_options *o, const struct scene *scene, struct files *f, struct error *err)
+{
+    struct names all = {0};
+    bool ok = names_add_options(&all, OPTIONS, o, err) &&
+              (f->pictures.n > 0 || open_default_output(o, scene, &all, &f->pictures, err)) &&
+              aov_open(&f->aov, &all, &f->pictures, err) &&
+              strategies_check(o->strategies, scene, o->max_depth, &all, err);
+    names_free(&all);
     return ok;
-}
-
-static bool wants_variance(const struct job_options *o)
-{
-    return o->aov != NULL && strstr(o->aov, aov_name(AOV_VARIANCE)) != NULL;
-}
-
-/* Beside the first picture. */
-static bool open_aovs(const struct job_options *o, const struct scene *scene, const struct outputs *pictures,
-                      struct names *all, struct aov_files *out, struct error *err)
-{
-    if (wants_variance(o) && job_spp(o, scene) < 2)
-        return error_set(err, "--aov variance needs two samples per pixel at least, see --spp");
-    return aov_open(o->aov, pictures->file[0].path, all, out, err);
 }
 
 static void report(const struct job_options *o, const char *integrator, const struct film *film,
@@ -113,67 +136,46 @@ static void report(const struct job_options *o, const char *integrator, const st
         fprintf(stderr, "%s: %s\n", integrator, film->note);
 }
 
-/* What has no place in a part (render/part.h) is not there after --resume. */
-static bool check_options(const struct job_options *o, struct error *err)
+/* Pictures, strategies, and when all are complete the statistics. `ok`: nothing has failed yet. */
+static bool write_files(const struct job_options *o, const struct scene *scene, const struct render_options *options,
+                        const struct film *film, struct files *f, bool ok, struct error *err)
 {
-    if (o->keep.resume != NULL && (o->strategies != NULL || wants_variance(o)))
-        return error_set(err, "%s: strategies and variance are not saved and cannot be resumed", o->keep.resume);
-    return strategies_possible(o->strategies, err) && keep_check(&o->keep, err) &&
-           (o->aov == NULL || aov_check(o->aov, err));
-}
-
-/* Samples of a chain are neither a pixel's own nor independent. */
-static bool suits(const struct job_options *o, const struct method *m, struct error *err)
-{
-    const char *wanted = wants_variance(o) ? "--aov variance" : o->strategies != NULL ? "--strategies" : NULL;
-    return !m->chain || wanted == NULL ||
-           error_set(err, "%s: the samples of %s are a chain, and do not show that; render several --seed", wanted,
-                     m->name);
-}
-
-/* All that a render writes, opened before the work begins. */
-struct files {
-    struct outputs pictures;
-    struct aov_files aov;
-    struct stats_file stats;
-};
-
-static void abandon(struct files *f)
-{
-    outputs_abandon(&f->pictures);
-    aov_abandon(&f->aov);
-    stats_abandon(&f->stats);
+    float *pixels = mem_alloc(rect_pixels(film->rect) * 3, sizeof *pixels);
+    film_warn(film, film_develop(film, scene->film_scale, pixels));
+    aov_make(&f->aov, scene, options, film, &f->pictures);
+    ok = outputs_write(&f->pictures, rect_width(film->rect), rect_height(film->rect), pixels, o->quiet,
+                       ok ? err : NULL) && ok;
+    aov_free(&f->aov);
+    free(pixels);
+    ok = strategies_write(o->strategies, film, scene->film_scale, ok ? err : NULL) && ok;
+    if (ok && f->stats.stream != NULL)
+        return file_commit(&f->stats, err);
+    abandon(f);
+    return ok;
 }
 
 /* From a film with nothing or something in it to all files. */
 static bool run_and_write(const struct job_options *o, const struct scene *scene, struct render_options *options,
-                          struct film *film, struct keep *keep, struct files *files, struct error *err)
+                          double load_seconds, struct film *film, struct keep *keep, struct files *files,
+                          struct error *err)
 {
-    struct render_times times = {.cpu = os_cpu_seconds(), .samples = film->iterations};
+    struct render_times times = {.load = load_seconds, .cpu = os_cpu_seconds(), .samples = film->iterations};
     bool ok = render_scene(scene, options, film, err);
     times.cpu = os_cpu_seconds() - times.cpu;
     times.wall = os_wall_seconds() - keep->bar.start;
     times.samples = film->iterations - times.samples;
     bool kept = keep_end(keep, ok, err);
     keep->part.carries = false; /* an output that is a part has what was learnt by its hash alone */
-    if (!ok) {
-        abandon(files);
-        return false;
-    }
-    report(o, options->integrator, film, &times);
-    stats_list(&files->stats, o, &files->pictures, &files->aov);
-    ok = kept;
-    ok = aov_write(&files->aov, scene, options, film, o->quiet, ok ? err : NULL) && ok;
-    ok = write_outputs(o, scene, film, &files->pictures, ok ? err : NULL) && ok;
-    ok = strategies_write(o->strategies, film, scene->film_scale, ok ? err : NULL) && ok;
     if (!ok)
-        stats_abandon(&files->stats);
-    return ok && stats_write(&files->stats, o, scene, options, film, &times, err);
+        return false;
+    report(o, options->integrator, film, &times);
+    if (files->stats.stream != NULL)
+        stats_write(files->stats.stream, o, scene, options, film, &files->pictures, &times);
+    return write_files(o, scene, options, film, files, kept, err);
 }
 
-/* Whatever comes of it, the outputs are written or abandoned. */
-static bool render_and_write(const struct job_options *o, const struct scene *scene, const struct method *m,
-                             struct files *files, struct error *err)
+static bool render(const struct job_options *o, const struct scene *scene, const struct method *m, double load_seconds,
+                   struct files *files, struct error *err)
 {
     struct render_options options = job_render(o, scene, m);
     struct film film;
@@ -184,42 +186,15 @@ static bool render_and_write(const struct job_options *o, const struct scene *sc
     if (ok) {
         if (o->strategies != NULL)
             film_keep_strategies(&film, options.max_depth);
-        if (files->aov.file[AOV_VARIANCE].n > 0)
+        if (files->aov.wanted[AOV_VARIANCE])
             film_keep_errors(&film);
         files->pictures.place = keep.part.place;
         files->pictures.part = &keep.part;
         files->pictures.film = &film;
-        ok = run_and_write(o, scene, &options, &film, &keep, files, err);
+        ok = run_and_write(o, scene, &options, load_seconds, &film, &keep, files, err);
         part_free(&keep.part);
-    } else {
-        abandon(files);
     }
     film_free(&film);
-    return ok;
-}
-
-/* What the scene names, or what lies beside that, once the scene is loaded; all are different files. */
-static bool open_others(struct job_options *o, const struct scene *scene, struct files *f, struct error *err)
-{
-    struct names all = {0};
-    bool ok = names_add_options(&all, OPTIONS, o, err) &&
-              open_default_output(o, scene, &all, &f->pictures, err) &&
-              open_aovs(o, scene, &f->pictures, &all, &f->aov, err) &&
-              strategies_check(o->strategies, scene, o->max_depth, &all, err);
-    names_free(&all);
-    return ok;
-}
-
-/* What needs no scene to be opened. False with a message; nothing is open then. */
-static bool open_named(const struct job_options *o, struct files *f, struct error *err)
-{
-    enum outputs_parts parts = o->keep.samples[1] > 0 ? PARTS_OTHERS : PARTS_NAMED;
-    memset(f, 0, sizeof *f);
-    if (o->output.n > 0 && !outputs_open(&o->output, &o->tone, parts, &f->pictures, err))
-        return false;
-    bool ok = stats_open(o->stats, &f->stats, err);
-    if (!ok)
-        outputs_abandon(&f->pictures);
     return ok;
 }
 
@@ -231,23 +206,17 @@ static int run(void *options)
     const struct method *integrator;
     struct files files;
     double start = os_wall_seconds();
-    if (!check_options(o, &err) || !open_named(o, &files, &err))
-        return fail(&err);
-    int status = job_load(o, &scene, &integrator);
-    if (status != EXIT_OK) {
-        abandon(&files);
-        return status;
+    bool ok = check_options(o, &files, &err) && open_named(o, &files, &err);
+    int status = ok ? job_load(o, &scene, &integrator) : fail(&err);
+    if (status == EXIT_OK) {
+        double load_seconds = os_wall_seconds() - start;
+        ok = suits(o, integrator, &files, &err) && open_others(o, &scene, &files, &err) &&
+             render(o, &scene, integrator, load_seconds, &files, &err);
+        scene_free(&scene);
+        status = ok ? EXIT_OK : fail(&err);
     }
-    files.stats.load_seconds = os_wall_seconds() - start;
-    bool ok = suits(o, integrator, &err) && open_others(o, &scene, &files, &err);
-    if (ok)
-        ok = render_and_write(o, &scene, integrator, &files, &err);
-    else
-        abandon(&files);
-    scene_free(&scene);
-    if (!ok)
-        return fail(&err);
-    return interrupt_caught() != 0 ? 128 + interrupt_caught() : EXIT_OK;
+    abandon(&files); /* what is not written yet */
+    return ok && interrupt_caught() != 0 ? 128 + interrupt_caught() : status;
 }
 
 const struct command command_render = {

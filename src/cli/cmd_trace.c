@@ -22,32 +22,25 @@ static const struct option OPTIONS[] = {
     {.others = RUN_OPTIONS},
 };
 
-/* `svg`: open for the drawing; NULL: none is wanted. */
-static bool tell(const struct trace_options *o, const struct trace_story *story, struct file_output *svg,
-                 struct error *err)
-{
-    if (o->json)
-        trace_json(stdout, story);
-    else
-        trace_text(stdout, story);
-    if (svg == NULL)
-        return true;
-    trace_svg(svg->stream, story);
-    return file_commit(svg, err);
-}
-
 /* The drawing's file is opened before the work. */
-static bool trace_and_tell(const struct trace_options *o, const struct render_options *render,
-                           const struct trace_story *story, struct trace *trace, struct error *err)
+static bool tell(const struct trace_options *o, const struct render_options *render, const struct trace_story *story,
+                 struct trace *trace, struct error *err)
 {
-    struct file_output file, *svg = o->svg != NULL ? &file : NULL;
-    if (svg != NULL && !file_create(o->svg, svg, err))
+    struct file_output svg = {.stream = NULL};
+    if (o->svg != NULL && !file_create(o->svg, &svg, err))
         return false;
-    if (render_trace(story->scene, render, trace, err))
-        return tell(o, story, svg, err);
-    if (svg != NULL)
-        file_abandon(svg);
-    return false;
+    bool ok = render_trace(story->scene, render, trace, err);
+    if (ok && o->json)
+        trace_json(stdout, story);
+    else if (ok)
+        trace_text(stdout, story);
+    if (svg.stream == NULL)
+        return ok;
+    if (ok)
+        trace_svg(svg.stream, story);
+    else
+        file_abandon(&svg);
+    return ok && file_commit(&svg, err);
 }
 
 static int run(void *options)
@@ -62,7 +55,7 @@ static int run(void *options)
     struct render_options render = job_render(&o->job, &scene, integrator);
     struct trace trace = {.x = o->pixel[0], .y = o->pixel[1], .iteration = o->sample};
     struct trace_story story = {o->job.scene_path, &scene, integrator, o->job.seed, &trace};
-    bool ok = trace_and_tell(o, &render, &story, &trace, &err);
+    bool ok = tell(o, &render, &story, &trace, &err);
     trace_free(&trace);
     scene_free(&scene);
     return ok ? EXIT_OK : fail(&err);

@@ -21,26 +21,13 @@ static const struct option OPTIONS[] = {
     {.others = RUN_OPTIONS},
 };
 
-static int draw(const struct worth_options *o, const struct scene *scene, const struct method *integrator,
-                struct outputs *out, struct error *err)
-{
-    struct render_options options = job_render(&o->job, scene, integrator);
-    struct sheet picture;
-    if (!worth_picture(scene, &options, o->pixel[0], o->pixel[1], o->scale, &picture, err)) {
-        outputs_abandon(out);
-        return fail(err);
-    }
-    bool ok = outputs_write(out, picture.width, picture.height, picture.pixels, o->job.quiet, err);
-    sheet_free(&picture);
-    return ok ? EXIT_OK : fail(err);
-}
-
 static int run(void *options)
 {
     struct worth_options *o = options;
     struct scene scene;
     const struct method *integrator;
     struct outputs out;
+    struct sheet picture = {0};
     struct error err;
     if (o->job.integrator == NULL)
         o->job.integrator = "asbdpt";
@@ -49,12 +36,15 @@ static int run(void *options)
     if (!outputs_open(&o->job.output, NULL, PARTS_NONE, &out, &err))
         return fail(&err);
     int status = job_load(&o->job, &scene, &integrator);
-    if (status != EXIT_OK) {
-        outputs_abandon(&out);
-        return status;
+    if (status == EXIT_OK) {
+        struct render_options render = job_render(&o->job, &scene, integrator);
+        bool ok = worth_picture(&scene, &render, o->pixel[0], o->pixel[1], o->scale, &picture, &err) &&
+                  outputs_write(&out, picture.width, picture.height, picture.pixels, o->job.quiet, &err);
+        sheet_free(&picture);
+        scene_free(&scene);
+        status = ok ? EXIT_OK : fail(&err);
     }
-    status = draw(o, &scene, integrator, &out, &err);
-    scene_free(&scene);
+    outputs_abandon(&out); /* unless they are written */
     return status;
 }
 

@@ -2,9 +2,20 @@
 #include "cli/command.h"
 
 #include <errno.h>
+#include <float.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+#include "base/file.h"
+#include "base/mem.h"
+#include "base/version.h"
+#include "cli/names.h"
+#include "parser/symbols.h"
+#include "render/parameters.h"
+
+/* --- messages ----------------------------------------------------------------------------------------- */
 
 int fail(const struct error *err)
 {
@@ -12,16 +23,6 @@ int fail(const struct error *err)
                   strncmp(err->text, "-o ", 3) == 0;
     fprintf(stderr, "asbdpt: %s\n", err->text);
     return option ? EXIT_USAGE : EXIT_JOB;
-}
-
-int command_end(int status)
-{
-    struct error err;
-    errno = 0;
-    if (fflush(stdout) == 0 && ferror(stdout) == 0)
-        return status;
-    error_set(&err, "standard output: cannot be written: %s", errno != 0 ? strerror(errno) : "write error");
-    return fail(&err);
 }
 
 int usage_error(const struct command *command, const char *format, ...)
@@ -35,4 +36,175 @@ int usage_error(const struct command *command, const char *format, ...)
     fprintf(stderr, "asbdpt: %s; try %s %s%s--help\n", err.text, program.name, command != NULL ? command->name : "",
             command != NULL ? " " : "");
     return EXIT_USAGE;
+}
+
+/* --- help --------------------------------------------------------------------------------------------- */
+
+static void print_command(const struct command *c)
+{
+    printf("%s %s: ", program.name, c->name);
+    print_wrapped(c->help, (int)(strlen(program.name) + strlen(c->name)) + 3, 4);
+    for (int i = 0; c->usage[i] != NULL; i++)
+        printf("%s %s %s %s\n", i == 0 ? "usage:" : "   or:", program.name, c->name, c->usage[i]);
+    printf(" e.g.: %s %s\n", program.name, c->example);
+    options_print(c->options);
+}
+
+static void print_parameters(const struct method_parameter *p)
+{
+    enum { HELP = 36 };
+    char fallback[64];
+    for (; p != NULL && p->name != NULL; p++) {
+        parameter_fallback(p, fallback, sizeof fallback);
+        printf("    %-20s %-10s ", p->name, fallback);
+        print_wrapped(p->help, HELP, HELP);
+    }
+}
+
+/* Rows of the table with the same name are one integrator, and as many selections. */
+static void print_integrators(void)
+{
+    const char *before = "";
+    printf("Integrators (--integrator NAME) and their parameters with defaults: -P NAME=VALUE, or in the\n"
+           "scene's Integrator directive. Of what is given twice, an option like --maxdepth counts before -P,\n"
+           "and -P before the scene.\n\nall\n");
+    print_parameters(parameters_common());
+    for (const struct method *const *m = method_list(); *m != NULL; before = (*m++)->name) {
+        if (strcmp((*m)->name, before) != 0)
+            printf("\n%s\n", (*m)->name);
+        if ((*m)->select != NULL)
+            printf("  -P select=%s\n", (*m)->select);
+        printf("    ");
+        print_wrapped((*m)->help, 4, 4);
+        print_parameters((*m)->parameters);
+    }
+}
+
+static void print_help(void)
+{
+    printf("%s: %s\n\n", VERSION, program.title);
+    print_wrapped(program.about, 0, 0);
+    printf("\n");
+    for (const struct command *const *c = program.commands; *c != NULL; c++) {
+        printf("    %-12s ", (*c)->name);
+        print_wrapped((*c)->help, 17, 17);
+    }
+    printf("\n%s COMMAND --help        its options, their defaults, an example\n"
+           "%s help integrators      integrators and their parameters\n", program.name, program.name);
+    if (program.unnamed != NULL)
+        printf("%s SCENE.pbrt ...        the same as %s %s SCENE.pbrt ...\n", program.name, program.name,
+               program.unnamed->name);
+    printf("exit status: 0 success, 1 the job failed, 2 wrong usage, 128 and the number of a signal\n");
+}
+
+/* All that there is, as for a man page. */
+static void print_all(void)
+{
+    print_help();
+    for (const struct command *const *c = program.commands; *c != NULL; c++) {
+        printf("\n");
+        print_command(*c);
+    }
+    printf("\n");
+    print_integrators();
+}
+
+/* --- the command line --------------------------------------------------------------------------------- */
+
+static bool asks_for_help(const char *word) { return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0; }
+
+/* Do results stay beyond a double's bits until they are stored, as on the x87? (C99's FLT_EVAL_METHOD says so too, but
+ * not all compilers have it.) */
+static bool keeps_more_bits(void)
+{
+    volatile double one = 1, tiny = DBL_EPSILON / 4;
+    return one + tiny - one != 0;
+}
+
+/* Is every file of the command line another one? */
+static bool files_apart(const struct command *c, void *options, struct error *err)
+{
+    struct names all = {0};
+    bool ok = (!c->prints || names_add(&all, FILE_WRITTEN, "what it prints to", "-", err)) &&
+              names_add_options(&all, c->options, options, err);
+    names_free(&all);
+    return ok;
+}
+
+static int run(const struct command *c, int argc, char **argv)
+{
+    for (int i = 1; i < argc; i++)
+        if (asks_for_help(argv[i])) {
+            print_command(c);
+            return EXIT_OK;
+        }
+    struct error err;
+    void *options = mem_alloc(1, c->size);
+    bool ok = options_read(c->options, argc, argv, options, &err) && files_apart(c, options, &err);
+    int status = ok ? c->run(options) : usage_error(c, "%s", err.text);
+    options_free(c->options, options);
+    free(options);
+    return status;
+}
+
+/* help, help COMMAND, help integrators, help all */
+static int help(const char *topic)
+{
+    for (const struct command *const *c = program.commands; topic != NULL && *c != NULL; c++)
+        if (strcmp(topic, (*c)->name) == 0) {
+            print_command(*c);
+            return EXIT_OK;
+        }
+    if (topic == NULL)
+        print_help();
+    else if (strcmp(topic, "integrators") == 0)
+        print_integrators();
+    else if (strcmp(topic, "all") == 0)
+        print_all();
+    else
+        return usage_error(NULL, "there is no help on %s", topic);
+    return EXIT_OK;
+}
+
+static void print_version(void)
+{
+    printf("%s\n", VERSION);
+    if (keeps_more_bits())
+        printf("built for arithmetic that keeps more bits than a double has (FLT_EVAL_METHOD is not 0): pictures\n"
+               "differ in their last bits from those of other builds\n");
+}
+
+/* What the arguments ask for. */
+static int obey(int argc, char **argv)
+{
+    if (argc < 2)
+        return usage_error(NULL, "which command?");
+    if (asks_for_help(argv[1]) || strcmp(argv[1], "help") == 0)
+        return help(argc > 2 ? argv[2] : NULL);
+    if (strcmp(argv[1], "--version") == 0) {
+        print_version();
+        return EXIT_OK;
+    }
+    struct suggestion s = suggest_start(argv[1]);
+    for (const struct command *const *c = program.commands; *c != NULL; c++) {
+        if (strcmp(argv[1], (*c)->name) == 0)
+            return run(*c, argc - 1, argv + 1);
+        suggest_offer(&s, (*c)->name);
+    }
+    if (program.unnamed != NULL && (argv[1][0] == '-' || file_has_extension(argv[1], ".pbrt")))
+        return run(program.unnamed, argc, argv);
+    if (s.name == NULL)
+        return usage_error(NULL, "unknown command %s", argv[1]);
+    return usage_error(NULL, "unknown command %s (did you mean %s?)", argv[1], s.name);
+}
+
+int command_line(int argc, char **argv)
+{
+    int status = obey(argc, argv);
+    struct error err;
+    errno = 0;
+    if (fflush(stdout) == 0 && ferror(stdout) == 0)
+        return status;
+    error_set(&err, "standard output: cannot be written: %s", errno != 0 ? strerror(errno) : "write error");
+    return fail(&err);
 }

@@ -42,8 +42,8 @@ extern const struct program program;
 int fail(const struct error *err);
 int usage_error(const struct command *command, const char *format, ...);
 
-/* command_end: the status of the program, in the end: `status`, but EXIT_JOB with a message where something that was
- * printed could not be written. */
-int command_end(int status);
+/* command_line: what the program does with its arguments, argv[0] being its own name. Returns the exit status, which is
+ * EXIT_JOB with a message where something that was printed could not be written. */
+int command_line(int argc, char **argv);
 
 #endif

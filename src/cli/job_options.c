@@ -7,7 +7,6 @@
 
 #include "base/mem.h"
 #include "cli/command.h"
-#include "image/image.h"
 #include "parser/parser.h"
 #include "parser/symbols.h"
 #include "render/parameters.h"
@@ -139,16 +138,6 @@ static const struct method *choose_method(const struct scene *scene, struct list
     return NULL;
 }
 
-/* What is the matter with a scene that can be rendered. */
-static void warn_of_scene(const struct scene *scene, struct listener *to)
-{
-    const char *name = scene->film_filename;
-    if (scene->lights.n == 0)
-        warn(to, "%s", "there are no lights, so the picture is black");
-    if (to->options->output.n == 0 && name != NULL && !image_writable(name))
-        warn(to, "the picture is written as .png: the format of the film's \"%.200s\" is none of this program's", name);
-}
-
 int job_load(const struct job_options *o, struct scene *scene, const struct method **method)
 {
     return job_load_for(o, NULL, scene, method);
@@ -169,8 +158,8 @@ int job_load_for(const struct job_options *o, job_readers *choose, struct scene 
         parameters_adapt(scene, readers, &sink);
         ok = parameters_belong(scene, readers, &err) && parameters_read(scene, *method, o->max_depth, &job, &err);
     }
-    if (ok)
-        warn_of_scene(scene, &listener);
+    if (ok && scene->lights.n == 0)
+        warn(&listener, "%s", "there are no lights, so the picture is black");
     if (ok && o->strict && listener.n_warnings > 0)
         ok = error_set(&err, "%s: refused for what is said above, by --strict", o->scene_path);
     if (!ok) {

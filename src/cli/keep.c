@@ -17,7 +17,6 @@ static bool resumes_its_own(const struct keep_options *o)
 
 bool keep_check(const struct keep_options *o, struct error *err)
 {
-    struct file_output probe;
     if (o->checkpoint == NULL)
         return true;
     enum os_kind kind = os_kind_of(o->checkpoint);
@@ -26,10 +25,7 @@ bool keep_check(const struct keep_options *o, struct error *err)
     if (kind == OS_FILE && !resumes_its_own(o))
         return error_set(err, "%s: there is such a file already; go on with it by --resume %s, or remove it",
                          o->checkpoint, o->checkpoint);
-    if (!file_create(o->checkpoint, &probe, err))
-        return false;
-    file_abandon(&probe);
-    return true;
+    return outputs_possible(o->checkpoint, err);
 }
 
 /* Where that is so, its absence is the beginning. */
@@ -98,9 +94,9 @@ static bool save_film(const struct keep *k, struct error *err)
 
 static void save(struct keep *k)
 {
-    k->unsaved = !save_film(k, &k->err);
-    if (k->unsaved)
-        fprintf(stderr, "asbdpt: warning: %s; rendering goes on\n", k->err.text);
+    struct error err;
+    if (!save_film(k, &err))
+        fprintf(stderr, "asbdpt: warning: %s; rendering goes on\n", err.text);
     k->saved = os_wall_seconds();
 }
 

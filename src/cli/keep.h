@@ -20,8 +20,6 @@ struct keep {
     bool hurried;  /* a checkpoint was saved for the signal's sake */
     bool late;     /* the time is over */
     bool teaches;  /* --learnt is to be written */
-    bool unsaved;  /* the last checkpoint could not be written; err says why */
-    struct error err;
 };
 
 /* keep_check: can the options be as they are, and the checkpoint's file be written? False with a message. */

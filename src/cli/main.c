@@ -1,13 +1,12 @@
-/* main.c: asbdpt's command line begins here; dispatch.c has everything that tests need too. */
+/* main.c: asbdpt's command line begins here; command.c has everything that tests need too. */
 #include "base/interrupt.h"
 #include "base/os.h"
 #include "cli/command.h"
-#include "cli/dispatch.h"
 
 int main(int argc, char **argv)
 {
     os_open_standard();
     interrupt_init();
     os_limit_memory();
-    return command_end(command_line(argc, argv));
+    return command_line(argc, argv);
 }

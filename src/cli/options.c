@@ -204,19 +204,12 @@ static const struct option *find(const struct option *table, const char *argumen
     return o;
 }
 
-/* What other programs call it, or the nearest name there is. */
 static bool unknown_option(const struct option *table, const char *argument, struct error *err)
 {
-    static const char *const ELSEWHERE[][2] = {{"--out", "-o"}, {"--output", "-o"}, {"--resolution", "--res"},
-                                               {"--crop", "--cropwindow"}, {"--threads", "--nthreads"}};
     struct suggestion s = suggest_start(argument);
     for (const struct option *o = table; o != NULL; o = options_next(o))
         if (o->name[1] == '-')
             suggest_offer(&s, o->name);
-    for (size_t i = 0; i < sizeof ELSEWHERE / sizeof ELSEWHERE[0]; i++)
-        if (is_called(ELSEWHERE[i][0], argument, strcspn(argument, "=")) &&
-            find(table, ELSEWHERE[i][1], strlen(ELSEWHERE[i][1])) != NULL)
-            s.name = ELSEWHERE[i][1];
     if (s.name == NULL)
         return error_set(err, "unknown option %s", argument);
     return error_set(err, "unknown option %s (did you mean %s?)", argument, s.name);

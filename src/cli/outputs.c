@@ -10,9 +10,10 @@
 
 static void release(struct outputs *o)
 {
-    free(o->file);
-    o->file = NULL;
+    free(o->item);
+    o->item = NULL;
     o->n = 0;
+    o->capacity = 0;
 }
 
 static bool read_tone(const struct tone_options *t, const struct texts *names, struct tone *out, struct error *err)
@@ -39,57 +40,66 @@ bool outputs_is_part(const char *name)
     return n > 5 && strcmp(name + n - 5, ".part") == 0;
 }
 
-static bool takes_part(const struct outputs *o, const char *name)
+bool outputs_add(struct outputs *out, const char *name, bool is_part, struct error *err)
 {
-    return o->parts == PARTS_NAMED ? outputs_is_part(name) : o->parts == PARTS_OTHERS && !image_writable(name);
+    struct output o = {.is_part = is_part};
+    if (!is_part && !image_writable(name))
+        return error_set(err, "-o %s: pictures are written as " IMAGE_WRITTEN "; end the name in one of these", name);
+    if (is_part ? !file_create(name, &o.file, err) : !image_create(name, &o.file, err))
+        return false;
+    out->item = mem_grow(out->item, &out->capacity, (size_t)out->n + 1, sizeof *out->item);
+    out->item[out->n++] = o;
+    return true;
 }
 
 bool outputs_open(const struct texts *names, const struct tone_options *tone, enum outputs_parts parts,
                   struct outputs *out, struct error *err)
 {
-    bool ok = true;
     memset(out, 0, sizeof *out);
-    out->parts = parts;
-    if (!read_tone(tone, names, &out->tone, err))
-        return false;
-    out->file = mem_alloc((size_t)names->n, sizeof *out->file);
-    for (out->n = 0; ok && out->n < names->n; out->n += ok) {
-        const char *name = names->item[out->n];
-        bool part = takes_part(out, name);
-        if (!part && !image_writable(name))
-            ok = error_set(err, "-o %s: pictures are written as " IMAGE_WRITTEN "; end the name in one of these", name);
-        else
-            ok = part ? file_create(name, &out->file[out->n], err) : image_create(name, &out->file[out->n], err);
+    bool ok = read_tone(tone, names, &out->tone, err);
+    for (int i = 0; ok && i < names->n; i++) {
+        const char *name = names->item[i];
+        bool named = parts == PARTS_NAMED && outputs_is_part(name), other = parts == PARTS_OTHERS;
+        ok = outputs_add(out, name, named || (other && !image_writable(name)), err);
     }
     if (!ok)
         outputs_abandon(out);
     return ok;
 }
 
+static bool write_one(struct outputs *o, struct output *one, int width, int height, const float *pixels,
+                      struct error *err)
+{
+    if (one->missing != NULL) {
+        error_set(err, "%s: not written: %s", one->file.path, one->missing);
+        file_abandon(&one->file);
+        return false;
+    }
+    if (one->is_part)
+        return part_write(&one->file, o->part, o->film, err);
+    return image_finish(&one->file, o->place, width, height, one->pixels != NULL ? one->pixels : pixels, err);
+}
+
 bool outputs_write(struct outputs *o, int width, int height, const float *pixels, bool quiet, struct error *err)
 {
     bool ok = true;
-    char *written = mem_alloc(1, 1);
+    const char *before = "wrote ";
     size_t n = (size_t)width * (size_t)height * 3;
     float *shown = tone_is_plain(&o->tone) ? NULL : mem_alloc(n, sizeof *shown);
     if (shown != NULL)
         tone_map(&o->tone, pixels, n, shown);
     for (int i = 0; i < o->n; i++) {
-        const char *name = strcmp(o->file[i].path, "-") == 0 ? "standard output" : o->file[i].path;
-        size_t size = strlen(written) + strlen(name) + 3;
-        char *more = mem_alloc(size, 1);
-        snprintf(more, size, "%s%s%s", written, written[0] != '\0' ? ", " : "", name);
-        const float *source = shown != NULL && image_is_8_bit(o->file[i].path) ? shown : pixels;
-        struct error *why = ok ? err : NULL;
-        bool done = takes_part(o, o->file[i].path) ? part_write(&o->file[i], o->part, o->film, why)
-                                                   : image_finish(&o->file[i], o->place, width, height, source, why);
-        free(done ? written : more);
-        written = done ? more : written;
+        char *name = mem_copy_text(o->item[i].file.path);
+        const float *source = shown != NULL && image_is_8_bit(name) ? shown : pixels;
+        bool done = write_one(o, &o->item[i], width, height, source, ok ? err : NULL);
+        if (done && !quiet) {
+            fprintf(stderr, "%s%s", before, strcmp(name, "-") == 0 ? "standard output" : name);
+            before = ", ";
+        }
         ok = ok && done;
+        free(name);
     }
-    if (!quiet && written[0] != '\0')
-        fprintf(stderr, "wrote %s\n", written);
-    free(written);
+    fputs(before[0] == ',' ? "\n" : "", stderr);
     free(shown);
     release(o);
     return ok;
@@ -98,6 +108,15 @@ bool outputs_write(struct outputs *o, int width, int height, const float *pixels
 void outputs_abandon(struct outputs *o)
 {
     for (int i = 0; i < o->n; i++)
-        file_abandon(&o->file[i]);
+        file_abandon(&o->item[i].file);
     release(o);
+}
+
+bool outputs_possible(const char *name, struct error *err)
+{
+    struct file_output probe;
+    bool ok = file_create(name, &probe, err);
+    if (ok)
+        file_abandon(&probe);
+    return ok;
 }

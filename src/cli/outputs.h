@@ -16,11 +16,18 @@
 /* Which names are those of parts (render/part.h) and not of pictures. */
 enum outputs_parts { PARTS_NONE, PARTS_NAMED /* NAME.part */, PARTS_OTHERS /* all that are no picture's */ };
 
+struct output {
+    struct file_output file;
+    bool is_part;
+    const float *pixels; /* where they are others than the picture's, else NULL; borrowed */
+    const char *missing; /* why there is nothing to write after all, or NULL */
+};
+
 struct outputs {
-    struct file_output *file; /* [n], owned */
+    struct output *item; /* [n], owned */
     int n;
+    size_t capacity;
     struct tone tone; /* of 8-bit pictures */
-    enum outputs_parts parts;
     /* Set before outputs_write: */
     struct placement place;  /* where the pictures lie in their whole */
     const struct part *part; /* what is written into parts; borrowed */
@@ -38,17 +45,23 @@ struct tone_options {
 #define EXPOSURE_HELP "8-bit pictures: brighter by so many stops, of a factor of two each"
 #define TONEMAP_HELP "8-bit pictures: none, or the curve of film: filmic"
 
-/* outputs_open: begin to write pictures of these names, at least one, that names.h has found to be different files.
+/* outputs_open: begin to write pictures of these names, that names.h has found to be different files.
  *   tone  of the 8-bit pictures, or NULL: as they are; if it changes anything, one of the pictures must be such
- * Returns false with a message; nothing is open then. After success one of outputs_write and outputs_abandon must
- * follow. */
+ * Returns false with a message; nothing is open then. After success outputs_abandon must follow in the end. */
 bool outputs_open(const struct texts *names, const struct tone_options *tone, enum outputs_parts parts,
                   struct outputs *out, struct error *err);
+
+/* outputs_add: one more. False with a message. */
+bool outputs_add(struct outputs *out, const char *name, bool is_part, struct error *err);
 
 /* outputs_write: the picture into all of them; unless `quiet` a last line on stderr names them. One that fails does not
  * keep the others from being written: the first message is kept and false returned. */
 bool outputs_write(struct outputs *o, int width, int height, const float *pixels, bool quiet, struct error *err);
 
+/* outputs_abandon: remove what outputs_write has not written. */
 void outputs_abandon(struct outputs *o);
+
+/* outputs_possible: can a file of this name be made? False with a message. */
+bool outputs_possible(const char *name, struct error *err);
 
 #endif

@@ -1,9 +1,9 @@
-/* stats_file.c: see stats_file.h. */
-#include "cli/stats_file.h"
+/* stats_file.c: render --stats; see render_files.h. */
+#include "cli/render_files.h"
 
 #include <stdlib.h>
-#include <string.h>
 
+#include "base/json.h"
 #include "base/os.h"
 #include "base/version.h"
 #include "render/parameters.h"
@@ -12,45 +12,6 @@ double render_us_per_path(const struct film *film, const struct render_times *ti
 {
     double paths = (double)times->samples * rect_width(film->rect) * rect_height(film->rect);
     return paths > 0 ? 1e6 * times->cpu / paths : 0;
-}
-
-bool stats_open(const char *path, struct stats_file *out, struct error *err)
-{
-    memset(out, 0, sizeof *out);
-    out->wanted = path != NULL && file_create(path, &out->file, err);
-    return out->wanted || path == NULL;
-}
-
-void stats_abandon(struct stats_file *f)
-{
-    if (f->wanted)
-        file_abandon(&f->file);
-    f->wanted = false;
-}
-
-static void put_outputs(struct json *j, const struct outputs *o)
-{
-    for (int i = 0; i < o->n; i++)
-        json_text(j, NULL, o->file[i].path);
-}
-
-void stats_list(struct stats_file *f, const struct job_options *o, const struct outputs *pictures,
-                const struct aov_files *aov)
-{
-    struct json *j = &f->json;
-    if (!f->wanted)
-        return;
-    *j = json_start(f->file.stream);
-    json_open(j, NULL, '{');
-    json_text(j, "version", VERSION);
-    json_text(j, "scene", o->scene_path);
-    json_open(j, "files", '[');
-    put_outputs(j, pictures);
-    for (int i = 0; i < N_AOVS; i++)
-        put_outputs(j, &aov->file[i]);
-    json_close(j);
-    json_text(j, "strategies", o->strategies); /* a directory, or null */
-    json_text(j, "checkpoint", o->keep.checkpoint);
 }
 
 /* A number where the text is one. */
@@ -100,22 +61,19 @@ static void put_film(struct json *j, const struct scene *scene, const struct fil
     json_numbers(j, "corner", (const double[]){film->rect.x0, film->rect.y0}, 2);
 }
 
-static void put_chosen(struct json *j, const struct film *film)
+void stats_write(FILE *f, const struct job_options *o, const struct scene *scene, const struct render_options *render,
+                 const struct film *film, const struct outputs *outputs, const struct render_times *times)
 {
-    json_text(j, "note", film->note);
-    json_open(j, "chosen", '{');
-    for (const struct film_number *n = film->number; n->name != NULL; n++)
-        json_number(j, n->name, n->value);
+    struct json json = json_start(f), *j = &json;
+    json_open(j, NULL, '{');
+    json_text(j, "version", VERSION);
+    json_text(j, "scene", o->scene_path);
+    json_open(j, "files", '[');
+    for (int i = 0; i < outputs->n; i++)
+        json_text(j, NULL, outputs->item[i].file.path);
     json_close(j);
-}
-
-bool stats_write(struct stats_file *f, const struct job_options *o, const struct scene *scene,
-                 const struct render_options *render, const struct film *film, const struct render_times *times,
-                 struct error *err)
-{
-    struct json *j = &f->json;
-    if (!f->wanted)
-        return true;
+    json_text(j, "strategies", o->strategies); /* a directory, or null */
+    json_text(j, "checkpoint", o->keep.checkpoint);
     json_text(j, "integrator", render->integrator);
     put_parameters(j, scene, render);
     json_count(j, "seed", render->seed);
@@ -124,15 +82,17 @@ bool stats_write(struct stats_file *f, const struct job_options *o, const struct
     json_number(j, "first_sample", o->keep.samples[0]);
     json_number(j, "spp_done", (double)film->iterations);
     json_number(j, "spp_done_now", (double)times->samples);
-    json_number(j, "load_seconds", f->load_seconds);
+    json_number(j, "load_seconds", times->load);
     json_number(j, "wall_seconds", times->wall);
     json_number(j, "cpu_seconds", times->cpu);
     json_number(j, "us_per_path", render_us_per_path(film, times));
     json_number(j, "threads", render->n_threads > 0 ? render->n_threads : os_cores());
     json_number(j, "peak_memory", os_peak_memory());
     json_number(j, "nonfinite", (double)film->nonfinite);
-    put_chosen(j, film);
+    json_text(j, "note", film->note);
+    json_open(j, "chosen", '{');
+    for (const struct film_number *n = film->number; n->name != NULL; n++)
+        json_number(j, n->name, n->value);
     json_close(j);
-    f->wanted = false;
-    return file_commit(&f->file, err);
+    json_close(j);
 }

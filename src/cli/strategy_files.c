@@ -1,12 +1,10 @@
-/* strategy_files.c: see strategy_files.h. */
-#include "cli/strategy_files.h"
+/* strategy_files.c: render --strategies; see render_files.h. */
+#include "cli/render_files.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/file.h"
-#include "base/interrupt.h"
 #include "base/mem.h"
 #include "base/os.h"
 #include "image/image.h"
@@ -14,6 +12,7 @@
 #include "render/parameters.h"
 
 enum { LONGEST_NAME = 64 };
+static const char SHEET[] = "pyramid.png";
 
 /* The path of a file in the directory; to be given to free(). */
 static char *path_of(const char *directory, const char *name)
@@ -24,8 +23,6 @@ static char *path_of(const char *directory, const char *name)
     return out;
 }
 
-static char *sheet_path(const char *directory) { return path_of(directory, "pyramid.png"); }
-
 static char *picture_path(const char *directory, int s, int t, bool weighted)
 {
     char name[LONGEST_NAME];
@@ -35,14 +32,11 @@ static char *picture_path(const char *directory, int s, int t, bool weighted)
 
 bool strategies_possible(const char *directory, struct error *err)
 {
-    struct file_output probe;
     if (directory == NULL)
         return true;
     os_make_directory(directory); /* if that fails, creating a file says why */
     char *path = path_of(directory, "probe");
-    bool ok = file_create(path, &probe, err);
-    if (ok)
-        file_abandon(&probe);
+    bool ok = outputs_possible(path, err);
     free(path);
     return ok;
 }
@@ -66,7 +60,7 @@ bool strategies_check(const char *directory, const struct scene *scene, int max_
     if (most > STRATEGIES_MAX_DEPTH)
         return error_set(err, "--strategies: paths of up to %d edges have %d pictures; --maxdepth %d is the most here",
                          most + 1, (most + 1) * (most + 4), STRATEGIES_MAX_DEPTH);
-    bool ok = add_name(all, sheet_path(directory), err);
+    bool ok = add_name(all, path_of(directory, SHEET), err);
     for (int edges = 1; edges <= most + 1; edges++)
         for (int s = 0; ok && s <= edges; s++)
             ok = add_name(all, picture_path(directory, s, edges + 1 - s, false), err) &&
@@ -87,22 +81,15 @@ static bool write_picture(const char *directory, const struct film *film, double
 
 bool strategies_write(const char *directory, const struct film *film, double scale, struct error *err)
 {
-    bool ok = true, go_on = true;
-    int signal = interrupt_caught(); /* of the render, which writes what it has */
+    bool ok = true;
     if (directory == NULL)
         return true;
     for (int edges = 1; edges <= film->strategies->max_depth + 1; edges++)
-        for (int s = 0; ok && go_on && s <= edges; s++) {
+        for (int s = 0; ok && s <= edges; s++)
             ok = write_picture(directory, film, scale, s, edges + 1 - s, false, err) &&
                  write_picture(directory, film, scale, s, edges + 1 - s, true, err);
-            go_on = interrupt_caught() == signal;
-        }
-    char *path = sheet_path(directory);
-    if (ok && go_on)
-        ok = pyramid_write(path, film, scale, err);
-    else if (ok)
-        fprintf(stderr, "asbdpt: stopped by %s before all strategies were in %s\n", os_signal_name(interrupt_caught()),
-                directory);
+    char *path = path_of(directory, SHEET);
+    ok = ok && pyramid_write(path, film, scale, err);
     free(path);
     return ok;
 }

@@ -1,9 +1,6 @@
 /* kd_build.c: the kd-tree's builder: cells are cut where the surface-area heuristic says so (see kd_plane.h), until a
  * leaf is cheaper. A triangle that the plane cuts is clipped to both parts [Wald & Havran 2006], so that a cell
  * holds only what really passes through it.
- *
- * The cells still to be cut are kept on a stack, each with the list of its items. Of the two parts of a cell the one
- * with fewer items is moved to the top of the stack and built first; the other stays where the whole was.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -21,68 +18,49 @@ static const double MAX_REFERENCES = 32;
 struct builder {
     const struct geometry *geo;
     struct kdtree *kd;
-    struct kd_ref *ref;  /* the items of the cells still to be cut, a stack */
     uint32_t *leaf_item; /* the items of the leaves in blocks of KD_LANES, filled up with KD_NONE */
-    size_t n_leaf_items, ref_capacity, node_capacity, leaf_capacity;
+    size_t n_leaf_items, node_capacity, leaf_capacity;
     int max_depth;
 };
 
 /* A cell still to be built. */
 struct kd_cell {
     struct box box;
-    size_t at, n; /* items: builder.ref[at .. at+n) */
-    double room;  /* how many references its leaves may hold together */
+    struct kd_ref *ref; /* [n] its items, owned */
+    size_t n;
+    double room; /* how many references its leaves may hold together */
     int depth;
 };
 
-/* What a shadow ray that crosses a cell may expect of it. */
-struct prospect {
-    double cost; /* of going through all of it, in tests of a block */
-    double hit;  /* probability of being stopped */
-};
-
-/* Bounds of the two parts of an item that the plane cuts; a quadric is represented by its bounding box. */
-static void split_item(const struct geometry *geo, const struct kd_ref *ref, const struct box *cell,
-                       const struct kd_plane *p, struct box part[2], bool filled[2])
+/* The two parts of an item that the plane cuts; a quadric is represented by its bounding box. */
+static void split_item(const struct geometry *geo, const struct kd_ref *whole, const struct box *cell,
+                       const struct kd_plane *p, struct kd_ref half[2], bool filled[2])
 {
-    if (ref->item < (uint32_t)geo->n_triangles) {
+    if (whole->item < (uint32_t)geo->n_triangles) {
         float v[9];
-        shape_vertices(geo, (int)ref->item, v);
+        struct box part[2];
+        shape_vertices(geo, (int)whole->item, v);
         kd_split_triangle(v, cell, p->axis, p->at, part, filled);
-        return;
+        half[0].box = part[0];
+        half[1].box = part[1];
+    } else {
+        half[0].box.hi[p->axis] = half[1].box.lo[p->axis] = p->at;
     }
-    filled[0] = filled[1] = true;
-    part[0] = part[1] = ref->box;
-    part[0].hi[p->axis] = part[1].lo[p->axis] = p->at;
 }
 
-/* Split the items of a cell between its parts; those of part[moved] go to the top of the stack. */
-static void split_items(struct builder *b, const struct kd_cell *cell, const struct kd_plane *p, int moved,
+/* Split the items of a cell between its parts, which have room for them. */
+static void split_items(const struct geometry *geo, const struct kd_cell *cell, const struct kd_plane *p,
                         struct kd_cell part[2])
 {
-    size_t top = cell->at + cell->n;
-    b->ref = mem_grow(b->ref, &b->ref_capacity, top + cell->n, sizeof *b->ref);
-    struct kd_ref *start[2], *out[2];
-    start[moved] = out[moved] = b->ref + top;
-    start[1 - moved] = out[1 - moved] = b->ref + cell->at;
-    for (size_t i = cell->at; i < top; i++) {
-        const struct kd_ref whole = b->ref[i];
-        bool in[2] = {kd_is_below(&whole, p), kd_is_above(&whole, p)};
-        if (in[0] && in[1]) {
-            struct box half[2];
-            split_item(b->geo, &whole, &cell->box, p, half, in);
-            for (int s = 0; s < 2; s++)
-                if (in[s]) {
-                    out[s]->box = half[s];
-                    out[s]++->item = whole.item;
-                }
-        } else {
-            *out[in[1]]++ = whole;
-        }
-    }
-    for (int s = 0; s < 2; s++) {
-        part[s].at = (size_t)(start[s] - b->ref);
-        part[s].n = (size_t)(out[s] - start[s]);
+    part[0].n = part[1].n = 0;
+    for (const struct kd_ref *whole = cell->ref; whole < cell->ref + cell->n; whole++) {
+        bool in[2] = {kd_is_below(whole, p), kd_is_above(whole, p)};
+        struct kd_ref half[2] = {*whole, *whole};
+        if (in[0] && in[1])
+            split_item(geo, whole, &cell->box, p, half, in);
+        for (int s = 0; s < 2; s++)
+            if (in[s])
+                part[s].ref[part[s].n++] = half[s];
     }
 }
 
@@ -90,7 +68,7 @@ static void split_items(struct builder *b, const struct kd_cell *cell, const str
 static void make_leaf(struct builder *b, uint32_t node, const struct kd_cell *cell)
 {
     struct kdtree *kd = b->kd;
-    const struct kd_ref *ref = b->ref + cell->at;
+    const struct kd_ref *ref = cell->ref;
     size_t first = b->n_leaf_items, n = 0;
     b->leaf_item = mem_grow(b->leaf_item, &b->leaf_capacity, first + cell->n + 2 * KD_LANES, sizeof *b->leaf_item);
     for (int quadrics = 0; quadrics < 2; quadrics++) {
@@ -106,32 +84,6 @@ static void make_leaf(struct builder *b, uint32_t node, const struct kd_cell *ce
     kd->n_items += (int)cell->n;
 }
 
-/* A line that crosses a cell of surface S meets a triangle of area A in it with probability 2 A / S. A quarter of the
- * surface of its bounds is good enough for A here. */
-static struct prospect leaf_prospect(const struct builder *b, const struct kd_cell *cell)
-{
-    double area = kd_half_area(&cell->box), sum = 0;
-    for (size_t i = cell->at; i < cell->at + cell->n; i++)
-        sum += kd_half_area(&b->ref[i].box) / 2;
-    struct prospect p = {kd_leaf_cost(cell->n), area > 0 ? 1 - m_exp(-sum / area) : 1};
-    return p;
-}
-
-/* Decide which child shadow rays visit first: as with any two chances, that with the better relation of probability to
- * cost. Returns the prospect of both together. */
-static struct prospect order_children(struct kd_node *node, const struct kd_cell *cell, const struct kd_cell part[2],
-                                      const struct prospect child[2])
-{
-    double area = kd_half_area(&cell->box), share[2];
-    for (int s = 0; s < 2; s++)
-        share[s] = area > 0 ? kd_half_area(&part[s].box) / area : 1;
-    if (child[1].hit * child[0].cost > child[0].hit * child[1].cost)
-        node->word |= KD_UPPER_FIRST;
-    struct prospect both = {KD_VISIT_COST + share[0] * child[0].cost + share[1] * child[1].cost,
-                            1 - (1 - share[0] * child[0].hit) * (1 - share[1] * child[1].hit)};
-    return both;
-}
-
 /* Two neighbouring nodes; returns the first. */
 static uint32_t add_children(struct builder *b, uint32_t parent, const struct kd_plane *p)
 {
@@ -139,7 +91,7 @@ static uint32_t add_children(struct builder *b, uint32_t parent, const struct kd
     uint32_t first = (uint32_t)kd->n_nodes;
     kd->node = mem_grow(kd->node, &b->node_capacity, (size_t)kd->n_nodes + 2, sizeof *kd->node);
     kd->n_nodes += 2;
-    kd->node[parent].word = (first >> 1) << 3 | (uint32_t)p->axis;
+    kd->node[parent].word = (first >> 1) << 2 | (uint32_t)p->axis;
     kd->node[parent].at.split = p->at;
     return first;
 }
@@ -150,42 +102,44 @@ static bool cut_cell(struct builder *b, const struct kd_cell *cell, struct kd_pl
     size_t n[2] = {0, 0};
     if (cell->depth >= b->max_depth)
         return false;
-    *p = kd_best_plane(b->ref + cell->at, cell->n, &cell->box);
+    *p = kd_best_plane(cell->ref, cell->n, &cell->box);
     if (p->axis < 0)
         return false;
-    for (size_t i = cell->at; i < cell->at + cell->n; i++) {
-        n[0] += kd_is_below(&b->ref[i], p);
-        n[1] += kd_is_above(&b->ref[i], p);
+    for (size_t i = 0; i < cell->n; i++) {
+        n[0] += kd_is_below(&cell->ref[i], p);
+        n[1] += kd_is_above(&cell->ref[i], p);
     }
     if ((double)(n[0] + n[1]) > cell->room)
         return false;
     part[0] = part[1] = *cell;
     part[0].box.hi[p->axis] = part[1].box.lo[p->axis] = p->at;
-    split_items(b, cell, p, n[0] <= n[1] ? 0 : 1, part);
     for (int s = 0; s < 2; s++) {
+        part[s].ref = mem_alloc(n[s], sizeof *part[s].ref);
         part[s].room = cell->room * (double)n[s] / (double)(n[0] + n[1]);
         part[s].depth = cell->depth + 1;
     }
+    split_items(b->geo, cell, p, part);
     return true;
 }
 
-/* Build what is below a node, taking the cell's items from the stack. */
-static struct prospect build_cell(struct builder *b, uint32_t node, const struct kd_cell *cell)
+/* Build what is below a node and free the cell's items; returns the cost of a ray that crosses it. */
+static double build_cell(struct builder *b, uint32_t node, const struct kd_cell *cell)
 {
     struct kd_plane p;
     struct kd_cell part[2];
-    struct prospect prospect[2];
     if (cell->depth > b->kd->depth)
         b->kd->depth = cell->depth;
-    if (!cut_cell(b, cell, &p, part)) {
+    bool cut = cut_cell(b, cell, &p, part);
+    if (!cut)
         make_leaf(b, node, cell);
-        return leaf_prospect(b, cell);
-    }
+    free(cell->ref);
+    if (!cut)
+        return kd_leaf_cost(cell->n);
     uint32_t child = add_children(b, node, &p);
-    int top = part[0].at > part[1].at ? 0 : 1;
-    prospect[top] = build_cell(b, child + (uint32_t)top, &part[top]);
-    prospect[1 - top] = build_cell(b, child + 1 - (uint32_t)top, &part[1 - top]);
-    return order_children(&b->kd->node[node], cell, part, prospect);
+    double area = kd_half_area(&cell->box), cost = KD_VISIT_COST;
+    for (uint32_t s = 0; s < 2; s++)
+        cost += build_cell(b, child + s, &part[s]) * (area > 0 ? kd_half_area(&part[s].box) / area : 1);
+    return cost;
 }
 
 static int prim_of_item(const struct geometry *geo, uint32_t item)
@@ -193,25 +147,26 @@ static int prim_of_item(const struct geometry *geo, uint32_t item)
     return item < (uint32_t)geo->n_triangles ? (int)item : FIRST_QUADRIC + (int)item - geo->n_triangles;
 }
 
-/* The items with their bounds, and the bounds of everything. Returns how many there are. */
-static int start_items(struct builder *b, bool see_through, struct box *bounds)
+/* The cell of everything. */
+static struct kd_cell root_cell(const struct geometry *geo, bool see_through)
 {
-    size_t n = 0, most = (size_t)geometry_primitives(b->geo);
-    b->ref = mem_grow(NULL, &b->ref_capacity, most + most / 2, sizeof *b->ref);
+    size_t most = (size_t)geometry_primitives(geo);
+    struct kd_cell root = {.box = {{1, 1, 1}, {-1, -1, -1}}, .ref = mem_alloc(most, sizeof *root.ref)};
     for (size_t i = 0; i < most; i++) {
-        int prim = prim_of_item(b->geo, (uint32_t)i);
-        if ((shape_group_of(b->geo, prim)->material < 0) != see_through)
+        int prim = prim_of_item(geo, (uint32_t)i);
+        if ((shape_group_of(geo, prim)->material < 0) != see_through)
             continue;
-        struct box *box = &b->ref[n].box;
-        b->ref[n].item = (uint32_t)i;
-        shape_bounds(b->geo, prim, box->lo, box->hi);
+        struct box *all = &root.box, *box = &root.ref[root.n].box;
+        root.ref[root.n].item = (uint32_t)i;
+        shape_bounds(geo, prim, box->lo, box->hi);
         for (int k = 0; k < 3; k++) {
-            bounds->lo[k] = n == 0 || box->lo[k] < bounds->lo[k] ? box->lo[k] : bounds->lo[k];
-            bounds->hi[k] = n == 0 || box->hi[k] > bounds->hi[k] ? box->hi[k] : bounds->hi[k];
+            all->lo[k] = root.n == 0 || box->lo[k] < all->lo[k] ? box->lo[k] : all->lo[k];
+            all->hi[k] = root.n == 0 || box->hi[k] > all->hi[k] ? box->hi[k] : all->hi[k];
         }
-        n++;
+        root.n++;
     }
-    return (int)n;
+    root.room = MAX_REFERENCES * (double)root.n;
+    return root;
 }
 
 static void fill_blocks(struct builder *b)
@@ -232,23 +187,21 @@ static void fill_blocks(struct builder *b)
 void kd_build(struct kdtree *kd, const struct geometry *geo, bool see_through)
 {
     struct kdtree empty = {0};
-    struct builder b = {0};
-    struct box bounds = {{1, 1, 1}, {-1, -1, -1}};
+    struct builder b = {.geo = geo, .kd = kd};
+    struct kd_cell root = root_cell(geo, see_through);
+    struct box bounds = root.box;
     *kd = empty;
-    b.geo = geo;
-    b.kd = kd;
-    int n = start_items(&b, see_through, &bounds);
-    if (n > 0) {
+    if (root.n > 0) {
         /* n is 1 to 2^31, so this is 8 to KD_MAX_DEPTH. */
-        b.max_depth = (int)fmin(KD_MAX_DEPTH, 8 + 2.0 * m_log2(n));
+        b.max_depth = (int)fmin(KD_MAX_DEPTH, 8 + 2.0 * m_log2((double)root.n));
         kd->node = mem_grow(NULL, &b.node_capacity, 2, sizeof *kd->node);
         kd->n_nodes = 2;
-        struct kd_cell root = {bounds, 0, (size_t)n, MAX_REFERENCES * n, 0};
-        kd->cost = build_cell(&b, 0, &root).cost;
+        kd->cost = build_cell(&b, 0, &root);
         fill_blocks(&b);
         free(b.leaf_item);
+    } else {
+        free(root.ref);
     }
-    free(b.ref);
     memcpy(kd->lo, bounds.lo, sizeof kd->lo);
     memcpy(kd->hi, bounds.hi, sizeof kd->hi);
     for (int k = 0; k < 3; k++)

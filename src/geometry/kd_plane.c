@@ -42,34 +42,29 @@ struct axis_bins {
     int planar_lo, planar_hi;   /* how many lie in the planes at lo, hi */
 };
 
-static void axis_start(struct axis_bins *a, int number, const struct box *cell, size_t n)
+static void axis_start(struct axis_bins *a, int k, const struct box *cell, const struct kd_ref *ref, size_t n)
 {
-    double u = (double)cell->hi[(number + 1) % 3] - cell->lo[(number + 1) % 3];
-    double v = (double)cell->hi[(number + 2) % 3] - cell->lo[(number + 2) % 3];
-    a->number = number;
-    a->cell_lo = cell->lo[number];
-    a->cell_hi = cell->hi[number];
-    a->fixed = KD_VISIT_COST * kd_half_area(cell);
-    a->slope = u + v;
-    a->below0 = u * v - a->slope * a->cell_lo;
-    a->above0 = u * v + a->slope * a->cell_hi;
-    a->n_bins = n <= FEW ? BINS_OF_FEW : BINS;
-    a->planar_lo = a->planar_hi = 0;
-    for (int i = 0; i < a->n_bins; i++)
-        a->begin[i] = a->end[i] = 0;
-}
-
-static void axis_bounds(struct axis_bins *a, const struct kd_ref *ref, size_t n)
-{
-    int k = a->number;
+    double u = (double)cell->hi[(k + 1) % 3] - cell->lo[(k + 1) % 3];
+    double v = (double)cell->hi[(k + 2) % 3] - cell->lo[(k + 2) % 3];
     float lo = ref[0].box.lo[k], hi = ref[0].box.hi[k];
     for (size_t i = 1; i < n; i++) {
         lo = ref[i].box.lo[k] < lo ? ref[i].box.lo[k] : lo;
         hi = ref[i].box.hi[k] > hi ? ref[i].box.hi[k] : hi;
     }
+    a->number = k;
+    a->cell_lo = cell->lo[k];
+    a->cell_hi = cell->hi[k];
+    a->fixed = KD_VISIT_COST * kd_half_area(cell);
+    a->slope = u + v;
+    a->below0 = u * v - a->slope * a->cell_lo;
+    a->above0 = u * v + a->slope * a->cell_hi;
     a->lo = lo;
     a->hi = hi;
+    a->n_bins = n <= FEW ? BINS_OF_FEW : BINS;
     a->scale = 0.999999f * (float)a->n_bins / (hi - lo); /* so that hi itself is in the last bin */
+    a->planar_lo = a->planar_hi = 0;
+    for (int i = 0; i < a->n_bins; i++)
+        a->begin[i] = a->end[i] = 0;
 }
 
 /* lo - a->lo is within [0, hi - lo], finite because shapes lie within 1e18 (shape.c), and scale is below 1e30: a bin's
@@ -132,8 +127,7 @@ struct kd_plane kd_best_plane(const struct kd_ref *ref, size_t n, const struct b
     struct kd_plane best = {-1, 0, false, kd_leaf_cost(n) * kd_half_area(cell)};
     for (int k = 0; k < 3 && n > 0; k++) {
         struct axis_bins a;
-        axis_start(&a, k, cell, n);
-        axis_bounds(&a, ref, n);
+        axis_start(&a, k, cell, ref, n);
         if (a.lo == a.hi) {
             a.planar_lo = a.planar_hi = (int)n;
             try_ends(&a, n, &best);

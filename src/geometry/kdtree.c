@@ -1,8 +1,7 @@
 /* kdtree.c: rays through the kd-tree. See kdtree.h; the tree is built in kd_build.c.
  *
- * A ray that asks for the first hit goes front to back: of an inner node's two cells the one on the ray's side is
- * visited first, the other waits on a stack. A shadow ray takes any hit: it visits first the cell that the builder
- * found more likely to stop it at little cost.
+ * A ray goes front to back: of an inner node's two cells the one on its side is visited first, the other waits on a
+ * stack. A ray that asks for the first hit does not visit cells behind it; a shadow ray takes any hit.
  *
  * No hit may be lost to rounding, so a plane is a slab: the ray enters it at t_lo and leaves it at t_hi, and both
  * cells extend over it. Its half width, 1e-14 of the scene's size, is a hundred times what the triangle test and
@@ -76,9 +75,8 @@ static bool traversal_start(struct traversal *w, const struct kdtree *kd, const 
     return true;
 }
 
-/* Go down to a leaf of the current cell, leaving the cells to be visited later on the stack: to the first leaf the
- * ray comes to, or, for shadow rays, to the one that most likely stops it. */
-static inline struct kd_node traversal_to_leaf(struct traversal *w, const struct kd_node *nodes, bool shadow)
+/* Go down to the first leaf of the current cell that the ray comes to, leaving the cells behind it on the stack. */
+static inline struct kd_node traversal_to_leaf(struct traversal *w, const struct kd_node *nodes)
 {
     struct kd_node n = nodes[w->cell.node];
     double tmin = w->cell.tmin, tmax = w->cell.tmax;
@@ -90,13 +88,6 @@ static inline struct kd_node traversal_to_leaf(struct traversal *w, const struct
         if (t_lo > tmax) {
             n = nodes[near_cell];
         } else if (t_hi < tmin) {
-            n = nodes[far_cell];
-        } else if (shadow && kd_upper_first(n) != w->near_child[axis]) {
-            struct kd_visit *near = &w->stack[w->waiting++];
-            near->node = near_cell;
-            near->tmin = tmin;
-            near->tmax = smaller(t_hi, tmax);
-            tmin = larger(t_lo, tmin);
             n = nodes[far_cell];
         } else {
             struct kd_visit *far = &w->stack[w->waiting++];
@@ -134,7 +125,7 @@ static inline bool traverse(const struct kdtree *kd, const struct geometry *geo,
     int near[KD_LANES];
     bool found = false;
     do {
-        struct kd_node leaf = traversal_to_leaf(&w, kd->node, shadow);
+        struct kd_node leaf = traversal_to_leaf(&w, kd->node);
         const struct kd_block *block = kd->block + leaf.at.first, *end = block + kd_blocks(leaf);
         for (; block < end; block++)
             if (kd_block_near(block, &w.ray, near) &&

@@ -16,7 +16,7 @@
 /* Elements of a file, of which two are of use, and its bytes for a triangle, which takes some 1000 as a lamp. */
 enum { PLY_MAX_ELEMENTS = 64, PLY_BYTES_PER_TRIANGLE = 2 };
 
-/* ply_read: read a mesh. Returns false with a message "PATH: ..." (line for the header and ascii files) on a
+/* ply_read: read a mesh. Returns false with a message "PATH: ..." (a line of the header, or a row of an element) on a
  * missing, truncated or malformed file, an index out of range, a non-finite position, or counts the file is
  * too short to hold, and when there are no faces; *out is then empty. */
 bool ply_read(const char *path, struct mesh *out, struct error *err);

@@ -220,7 +220,7 @@ bool quadric_intersect(const struct quadric *q, const struct ray *ray, bool begi
 
 /* --- the surface -------------------------------------------------------------------------------------- */
 
-/* Everything of a surface point in object space. n is of any length. */
+/* A surface point in object space, zeros at first. n is of any length. */
 struct object_point {
     vec3 n, dpdu, dpdv, dndu, dndv;
     double u, v;
@@ -252,7 +252,6 @@ static void disk_point(const struct quadric *q, vec3 p, struct object_point *at)
     at->n = vec(0, 0, 1);
     at->dpdu = mul(vec(-out.y, out.x, 0), q->phi_max * r);
     at->dpdv = mul(out, -width);
-    at->dndu = at->dndv = vec(0, 0, 0);
 }
 
 static void cylinder_point(const struct quadric *q, vec3 p, struct object_point *at)
@@ -262,7 +261,6 @@ static void cylinder_point(const struct quadric *q, vec3 p, struct object_point 
     at->dpdu = mul(vec(-p.y, p.x, 0), q->phi_max);
     at->dpdv = vec(0, 0, q->zmax - q->zmin);
     at->dndu = mul(at->dpdu, 1 / q->radius);
-    at->dndv = vec(0, 0, 0);
 }
 
 /* The normal does not change along the slope. */
@@ -393,18 +391,4 @@ double quadric_area(const struct quadric *q)
         sum += area_ratio(q, at.ng);
     }
     return object_area(q) * sum / (n * n);
-}
-
-/* |M^T n|^2 is a quadratic form of n: if it is the same at this many places, it is everywhere. */
-bool quadric_keeps_area(const struct quadric *q)
-{
-    enum { DOWN = 4, ROUND = 5 };
-    for (int i = 0; i < DOWN * ROUND; i++) {
-        struct surface at;
-        vec3 p = quadric_sample(q, (i / ROUND + 0.5) / DOWN, (i % ROUND + 0.5) / ROUND);
-        quadric_surface_at(q, false, p, &at);
-        if (!(fabs(area_ratio(q, at.ng) - 1) < 1e-3))
-            return false;
-    }
-    return true;
 }

@@ -59,10 +59,6 @@ vec3 quadric_sample(const struct quadric *q, double u1, double u2);
  * similarity or the quadric a disk, otherwise by numerical integration (relative error about 1e-4). */
 double quadric_area(const struct quadric *q);
 
-/* quadric_keeps_area: is every part of a sphere, disk or cylinder as large in the world as in object space, to a
- * thousandth? */
-bool quadric_keeps_area(const struct quadric *q);
-
 /* quadric_pdf_a: world-area density of quadric_sample where the unit world normal is ng, 1/m^2. */
 double quadric_pdf_a(const struct quadric *q, vec3 ng);
 

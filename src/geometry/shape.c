@@ -261,35 +261,18 @@ double shape_area(const struct geometry *geo, int prim)
     return triangle_area(&tri);
 }
 
-/* Position and normal as triangle_surface has them, and no more: every light sampled comes through here. */
-static bool sample_triangle(const struct geometry *geo, int prim, double u1, double u2, struct surface *out,
-                            double *pdf_a)
-{
-    const struct shape_group *group = shape_group_of(geo, prim);
-    const uint32_t *index = &geo->index[3 * (size_t)prim];
-    vec3 p[3], n[3];
-    double b1, b2;
-    load_corners(geo->P, index, p);
-    warp_triangle(u1, u2, &b1, &b2);
-    out->p = barycentric3(p, b1, b2);
-    vec3 normal = cross(sub(p[1], p[0]), sub(p[2], p[0]));
-    out->ng = normalize(group->flip ? neg(normal) : normal);
-    if (group->has_n) {
-        load_corners(geo->N, index, n);
-        out->ng = faceforward(out->ng, barycentric3(n, b1, b2));
-    }
-    *pdf_a = 1 / (0.5 * length(normal));
-    const struct hit hit = {0, b1, b2, prim};
-    return group->alpha < 0 || geo->opaque == NULL || geo->opaque(geo->opaque_context, geo, &hit, false);
-}
-
 bool shape_sample(const struct geometry *geo, int prim, double u1, double u2, struct surface *out, double *pdf_a)
 {
-    if (!is_quadric(prim))
-        return sample_triangle(geo, prim, u1, u2, out, pdf_a);
-    quadric_point(geo, prim, quadric_sample(quadric_of(geo, prim), u1, u2), out);
+    struct hit hit = {.prim = prim};
+    if (is_quadric(prim)) {
+        quadric_point(geo, prim, quadric_sample(quadric_of(geo, prim), u1, u2), out);
+    } else {
+        warp_triangle(u1, u2, &hit.b1, &hit.b2);
+        triangle_point(geo, prim, hit.b1, hit.b2, out);
+    }
     *pdf_a = shape_pdf_a(geo, prim, out);
-    return true;
+    return is_quadric(prim) || shape_group_of(geo, prim)->alpha < 0 || geo->opaque == NULL ||
+           geo->opaque(geo->opaque_context, geo, &hit, false);
 }
 
 double shape_pdf_a(const struct geometry *geo, int prim, const struct surface *at)

@@ -43,17 +43,15 @@ static int end_of(const struct level *l, int h) { return (int)l->corner[next_hal
 /* --- the control mesh ---------------------------------------------------------------------------------- */
 
 struct edge {
-    uint32_t low, high; /* its vertices */
+    uint64_t ends; /* the numbers of its vertices, the lower one in the upper half */
     int32_t half;
 };
 
-static int by_vertices(const void *a, const void *b)
+static int by_ends(const void *a, const void *b)
 {
     const struct edge *x = a, *y = b;
-    if (x->low != y->low)
-        return x->low < y->low ? -1 : 1;
-    if (x->high != y->high)
-        return x->high < y->high ? -1 : 1;
+    if (x->ends != y->ends)
+        return x->ends < y->ends ? -1 : 1;
     return x->half < y->half ? -1 : x->half > y->half;
 }
 
@@ -64,22 +62,23 @@ static bool join_edges(struct level *l, struct error *err)
     bool ok = true;
     struct edge *edge = mem_alloc((size_t)n, sizeof *edge);
     for (int h = 0; h < n; h++) {
-        uint32_t a = l->corner[h], b = l->corner[next_half(h)];
-        struct edge e = {a < b ? a : b, a < b ? b : a, h};
+        uint64_t a = l->corner[h], b = l->corner[next_half(h)];
+        struct edge e = {a < b ? a << 32 | b : b << 32 | a, h};
         edge[h] = e;
     }
-    qsort(edge, (size_t)n, sizeof *edge, by_vertices);
+    qsort(edge, (size_t)n, sizeof *edge, by_ends);
     for (int i = 0, k; i < n && ok; i = k) {
-        for (k = i + 1; k < n && edge[k].low == edge[i].low && edge[k].high == edge[i].high; k++)
+        for (k = i + 1; k < n && edge[k].ends == edge[i].ends; k++)
             ;
         bool paired = k - i == 2 && l->corner[edge[i].half] != l->corner[edge[i + 1].half];
+        uint32_t low = (uint32_t)(edge[i].ends >> 32), high = (uint32_t)edge[i].ends;
         l->opposite[edge[i].half] = paired ? edge[i + 1].half : -1;
         if (paired)
             l->opposite[edge[i + 1].half] = edge[i].half;
-        if (edge[i].low == edge[i].high || (k - i > 1 && !paired))
-            ok = error_set(err, "no surface can be made of this mesh: the edge between points %u and %u has %d "
-                           "triangles, or two that run along it the same way", (unsigned)edge[i].low,
-                           (unsigned)edge[i].high, k - i);
+        if (low == high || (k - i > 1 && !paired))
+            ok = error_set(err, "no surface can be made of this mesh: the edge between points %lu and %lu has %d "
+                           "triangles, or two that run along it the same way", (unsigned long)low, (unsigned long)high,
+                           k - i);
     }
     free(edge);
     return ok;

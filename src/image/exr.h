@@ -35,10 +35,9 @@ struct exr {
     size_t size, at; /* bytes, and how many are read */
     bool tiled;
     enum exr_compression compression;
-    int64_t left, top;        /* corner of the data window */
-    int64_t display[4];       /* left, top, right, bottom of the display window, all in it */
-    size_t width, height;     /* of the data window, not empty */
-    size_t tile[2];           /* width and height of a tile, not 0; only in tiled files */
+    int64_t data_window[4], display[4]; /* left, top, right, bottom, all in it */
+    size_t width, height;        /* of the data window, not empty */
+    size_t block[2];             /* usual width and height of a block, at most the picture's */
     struct exr_channel *channel; /* [n_channels], at least one; owned */
     size_t n_channels, capacity;
     size_t pixel_bytes; /* of all channels */
@@ -58,11 +57,11 @@ static inline int64_t exr_i32(const uint8_t *p)
  * on damage and on kinds of files that are not read. Either way e->channel is to be given to free(). */
 bool exr_read_header(struct exr *e);
 
-/* exr_unpack: the bytes of a block, [size] to out.
+/* exr_unpack: the bytes of a compressed block, [size] to out.
  *   in       [n], as stored
  *   scratch  [size]
  *   width, height  pixels of the block: size = width height e->pixel_bytes
- * Returns false with a message; never writes elsewhere. */
+ * Returns false on damage; never writes elsewhere. */
 bool exr_unpack(const struct exr *e, const uint8_t *in, size_t n, size_t width, size_t height, uint8_t *scratch,
                 uint8_t *out, size_t size);
 
@@ -76,7 +75,8 @@ uint8_t *exr_pack_zip(const uint8_t *in, size_t n, uint8_t *scratch, size_t *siz
 bool piz_unpack(const struct exr *e, const uint8_t *in, size_t n, size_t width, size_t height, uint8_t *out,
                 size_t size);
 
-/* piz_huffman_unpack: the 16-bit numbers of a Huffman-coded stream, [count] to out. Returns false with a message. */
-bool piz_huffman_unpack(const uint8_t *in, size_t n, uint16_t *out, size_t count, struct error *err);
+/* piz_huffman_unpack: the 16-bit numbers of a Huffman-coded stream, [count] to out. Returns false on
+ * damage. */
+bool piz_huffman_unpack(const uint8_t *in, size_t n, uint16_t *out, size_t count);
 
 #endif

@@ -26,7 +26,7 @@ static void make_differences(const uint8_t *in, size_t n, uint8_t *out)
 }
 
 /* Runs: a count 0..127 and a byte that occurs once more than that, or 256 minus a count of bytes that follow. */
-static bool undo_runs(const uint8_t *in, size_t n, uint8_t *out, size_t size, struct error *err)
+static bool undo_runs(const uint8_t *in, size_t n, uint8_t *out, size_t size)
 {
     size_t at = 0, done = 0;
     while (at < n) {
@@ -34,7 +34,7 @@ static bool undo_runs(const uint8_t *in, size_t n, uint8_t *out, size_t size, st
         bool same = head < 128;
         size_t count = same ? head + 1 : 256 - head, stored = same ? 1 : count;
         if (stored > n - at || count > size - done)
-            return error_set(err, "compressed data are damaged: a run does not fit");
+            return false;
         if (same)
             memset(out + done, in[at], count);
         else
@@ -42,7 +42,7 @@ static bool undo_runs(const uint8_t *in, size_t n, uint8_t *out, size_t size, st
         at += stored;
         done += count;
     }
-    return done == size || error_set(err, "compressed data hold less than the header says");
+    return done == size;
 }
 
 bool exr_unpack(const struct exr *e, const uint8_t *in, size_t n, size_t width, size_t height, uint8_t *scratch,
@@ -50,9 +50,9 @@ bool exr_unpack(const struct exr *e, const uint8_t *in, size_t n, size_t width, 
 {
     bool ok = false;
     switch (e->compression) {
-    case EXR_RLE: ok = undo_runs(in, n, scratch, size, e->err); break;
+    case EXR_RLE: ok = undo_runs(in, n, scratch, size); break;
     case EXR_ZIPS:
-    case EXR_ZIP: ok = inflate_zlib(in, n, scratch, size, e->err); break;
+    case EXR_ZIP: ok = inflate_zlib(in, n, scratch, size, NULL); break;
     case EXR_PIZ: return piz_unpack(e, in, n, width, height, out, size);
     case EXR_NONE:
     case EXR_READ: break;

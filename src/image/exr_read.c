@@ -8,43 +8,21 @@
 #include "image/half.h"
 #include "image/zlib.h"
 
-/* --- which channels are the picture ------------------------------------------------------------------- */
+enum { RED, GREEN, BLUE, GREY, COLOURS }; /* channels "R", "G", "B", "Y" */
 
-enum { RED, GREEN, BLUE, GREY, COLOURS }; /* channels "R", "G", "B", "Y", after the name of a layer and a dot if any */
-
-/* Which colour a channel is, COLOURS if none; `layer` becomes the length of its layer's name. */
-static int colour_of(const char *name, size_t *layer)
-{
-    const char *dot = strrchr(name, '.'), *last = dot != NULL ? dot + 1 : name;
-    *layer = dot != NULL ? (size_t)(dot - name) : 0;
-    const char *letter = last[0] != '\0' && last[1] == '\0' ? strchr("RGBY", last[0]) : NULL;
-    return letter != NULL ? (int)(letter - "RGBY") : COLOURS;
-}
-
-/* Find the colours: those without a layer, as pbrt-v3 reads them, or else those of the only layer that has some.
- *   colour  out, COLOURS of them; NULL where there is none */
+/* Find the colours: COLOURS of them; NULL where there is none. */
 static bool find_colours(const struct exr *e, const struct exr_channel **colour)
 {
-    const char *layer = NULL;
-    size_t n = 0, length;
-    bool plain = false;
-    memset(colour, 0, COLOURS * sizeof *colour);
-    for (size_t i = 0; i < e->n_channels; i++)
-        plain = plain || (colour_of(e->channel[i].name, &length) != COLOURS && length == 0);
-    for (size_t i = 0; i < e->n_channels; i++) {
-        const char *name = e->channel[i].name;
-        int which = colour_of(name, &length);
-        if (which == COLOURS || (plain && length > 0))
-            continue;
-        if (layer != NULL && (length != n || memcmp(layer, name, n) != 0))
-            return error_set(e->err, "the file has several layers (\"%.*s\", \"%.*s\"); keep one of them", (int)n,
-                             layer, (int)length, name);
-        layer = name;
-        n = length;
-        colour[which] = &e->channel[i];
+    bool any = false;
+    for (int c = 0; c < COLOURS; c++) {
+        colour[c] = NULL;
+        for (size_t i = 0; i < e->n_channels; i++)
+            if (e->channel[i].name[0] == "RGBY"[c] && e->channel[i].name[1] == '\0')
+                colour[c] = &e->channel[i];
+        any = any || colour[c] != NULL;
     }
-    return layer != NULL || error_set(e->err, "the file has no channels R, G, B or Y, but e.g. \"%s\"",
-                                      e->channel[0].name);
+    return any || error_set(e->err, "the file has no channels R, G, B or Y, but e.g. \"%s\"; save one layer of it",
+                            e->channel[0].name);
 }
 
 /* --- where the pixels are ----------------------------------------------------------------------------- */
@@ -56,21 +34,10 @@ struct block {
 
 static size_t ceil_div(size_t a, size_t b) { return (a - 1) / b + 1; } /* a > 0; no sum that could overflow */
 
-/* Usual width and height of a block; those at the right and bottom edges may be smaller. */
-static void block_size(const struct exr *e, size_t *width, size_t *height)
-{
-    size_t rows = e->compression == EXR_ZIP ? EXR_ZIP_ROWS : e->compression == EXR_PIZ ? EXR_PIZ_ROWS : 1;
-    *width = e->tiled && e->tile[0] < e->width ? e->tile[0] : e->width;
-    *height = e->tiled ? e->tile[1] : rows;
-    *height = *height < e->height ? *height : e->height;
-}
-
 static struct block block_at(const struct exr *e, size_t i)
 {
-    size_t width, height;
-    block_size(e, &width, &height);
-    size_t columns = ceil_div(e->width, width);
-    struct block b = {i % columns * width, i / columns * height, width, height};
+    size_t columns = ceil_div(e->width, e->block[0]);
+    struct block b = {i % columns * e->block[0], i / columns * e->block[1], e->block[0], e->block[1]};
     b.width = b.width < e->width - b.x ? b.width : e->width - b.x;
     b.height = b.height < e->height - b.y ? b.height : e->height - b.y;
     return b;
@@ -81,31 +48,22 @@ static struct block block_at(const struct exr *e, size_t i)
 static bool names_block(const struct exr *e, const uint8_t *head, const struct block *b)
 {
     if (!e->tiled)
-        return exr_i32(head) == e->top + (int64_t)b->y;
-    size_t width, height;
-    block_size(e, &width, &height);
-    return exr_u32(head) == b->x / width && exr_u32(head + 4) == b->y / height && exr_u32(head + 8) == 0 &&
+        return exr_i32(head) == e->data_window[1] + (int64_t)b->y;
+    return exr_u32(head) == b->x / e->block[0] && exr_u32(head + 4) == b->y / e->block[1] && exr_u32(head + 8) == 0 &&
            exr_u32(head + 12) == 0;
 }
 
-/* Find block i by the table of offsets at e->at and unpack it. */
+/* Find block i by the table of offsets at e->at and unpack it. False if it is not there, or damaged. */
 static bool read_block(const struct exr *e, size_t i, const struct block *b, uint8_t *scratch, uint8_t *out)
 {
     uint64_t offset = bits_of_bytes(e->data + e->at + 8 * i, 8, false);
     size_t head = e->tiled ? 20 : 8, bytes = b->width * b->height * e->pixel_bytes;
-    if (offset == 0)
-        return error_set(e->err, "the file is incomplete: block %lu is missing", (unsigned long)i);
     if (offset > e->size || e->size - offset < head)
-        return error_set(e->err, "the file is truncated or damaged: block %lu lies outside", (unsigned long)i);
+        return false;
     const uint8_t *p = e->data + offset;
     size_t n = exr_u32(p + head - 4), left = e->size - (size_t)offset - head;
-    if (!names_block(e, p, b))
-        return error_set(e->err, "the file is damaged: block %lu is another", (unsigned long)i);
-    if (n > left)
-        return error_set(e->err, "the file is truncated in block %lu", (unsigned long)i);
-    if (n > bytes || (n < bytes && e->compression == EXR_NONE))
-        return error_set(e->err, "the file is damaged: block %lu has %lu bytes instead of %lu", (unsigned long)i,
-                         (unsigned long)n, (unsigned long)bytes);
+    if (!names_block(e, p, b) || n > left || n > bytes || (n < bytes && e->compression == EXR_NONE))
+        return false;
     if (n < bytes)
         return exr_unpack(e, p + head, n, b->width, b->height, scratch, out, bytes);
     memcpy(out, p + head, n);
@@ -113,12 +71,6 @@ static bool read_block(const struct exr *e, size_t i, const struct block *b, uin
 }
 
 /* --- pixels ------------------------------------------------------------------------------------------- */
-
-static float sample(const uint8_t *p, enum exr_type type)
-{
-    uint32_t bits = exr_u32(p);
-    return type == EXR_FLOAT ? float_of_bits(bits) : (float)bits;
-}
 
 /* Put one channel of a block in its place, or leave it 0 where there is none. */
 static void place(const struct exr *e, const struct block *b, const uint8_t *bytes, const struct exr_channel *c,
@@ -130,27 +82,28 @@ static void place(const struct exr *e, const struct block *b, const uint8_t *byt
     for (size_t y = 0; y < b->height; y++) {
         const uint8_t *from = bytes + (y * e->pixel_bytes + c->start) * b->width;
         float *to = out->f32 + ((b->y + y) * e->width + b->x) * channels + k;
-        for (size_t x = 0; x < b->width; x++)
-            to[x * channels] = c->type == EXR_HALF ? half_to_float((uint16_t)bits_of_bytes(from + x * step, 2, false))
-                                                   : sample(from + x * step, c->type);
+        for (size_t x = 0; x < b->width; x++) {
+            uint32_t bits = (uint32_t)bits_of_bytes(from + x * step, step, false);
+            to[x * channels] = c->type == EXR_HALF ? half_to_float((uint16_t)bits)
+                             : c->type == EXR_FLOAT ? float_of_bits(bits) : (float)bits;
+        }
     }
 }
 
 static bool read_blocks(const struct exr *e, size_t n_blocks, const struct exr_channel *const *colour,
                         struct image *out)
 {
-    bool grey = colour[RED] == NULL && colour[GREEN] == NULL && colour[BLUE] == NULL;
-    size_t width, height;
-    block_size(e, &width, &height);
-    uint64_t blocks = 2 * (uint64_t)width * height * e->pixel_bytes;
+    bool grey = colour[RED] == NULL && colour[GREEN] == NULL && colour[BLUE] == NULL, ok = true;
+    size_t pixels = e->block[0] * e->block[1];
+    uint64_t blocks = 2 * (uint64_t)pixels * e->pixel_bytes;
     if (!picture_memory_ok(blocks + (uint64_t)e->width * e->height * 3 * sizeof *out->f32, e->size, e->err))
         return false;
-    uint8_t *bytes = mem_alloc(width * height, e->pixel_bytes), *scratch = mem_alloc(width * height, e->pixel_bytes);
-    bool ok = true;
+    uint8_t *bytes = mem_alloc(pixels, e->pixel_bytes), *scratch = mem_alloc(pixels, e->pixel_bytes);
     picture_alloc_f32(out, e->width, e->height, grey ? 1 : 3);
     for (size_t i = 0; ok && i < n_blocks; i++) {
         struct block b = block_at(e, i);
-        ok = read_block(e, i, &b, scratch, bytes);
+        ok = read_block(e, i, &b, scratch, bytes) ||
+             error_set(e->err, "the file is incomplete, truncated or damaged in block %lu", (unsigned long)i);
         for (size_t k = 0; ok && k < (size_t)out->channels; k++)
             place(e, &b, bytes, grey ? colour[GREY] : colour[k], out, k);
     }
@@ -168,9 +121,8 @@ static bool read_picture(struct exr *e, struct image *out)
     const struct exr_channel *colour[COLOURS];
     if (!exr_read_header(e) || !find_colours(e, colour))
         return false;
-    size_t width, height, left = e->size - e->at;
-    block_size(e, &width, &height);
-    uint64_t blocks = (uint64_t)ceil_div(e->width, width) * ceil_div(e->height, height);
+    size_t left = e->size - e->at;
+    uint64_t blocks = (uint64_t)ceil_div(e->width, e->block[0]) * ceil_div(e->height, e->block[1]);
     uint64_t bytes = (uint64_t)e->width * e->height * e->pixel_bytes;
     if (blocks > left / 8 || bytes / INFLATE_MAX_RATIO > left || bytes > SIZE_MAX / 2)
         return picture_truncated((unsigned long)e->width, (unsigned long)e->height, e->err);
@@ -180,9 +132,9 @@ static bool read_picture(struct exr *e, struct image *out)
 /* The data window within the display window, unless that is empty or far away. */
 static struct placement place_of(const struct exr *e)
 {
-    const int64_t far = 1 << 30;
-    int64_t x = e->left - e->display[0], y = e->top - e->display[1];
-    int64_t width = e->display[2] - e->display[0] + 1, height = e->display[3] - e->display[1] + 1;
+    const int64_t far = 1 << 30, *data = e->data_window, *whole = e->display;
+    int64_t x = data[0] - whole[0], y = data[1] - whole[1];
+    int64_t width = whole[2] - whole[0] + 1, height = whole[3] - whole[1] + 1;
     struct placement place = {0, 0, 0, 0};
     if (width > 0 && width < far && height > 0 && height < far && x > -far && x < far && y > -far && y < far)
         place = (struct placement){(int)x, (int)y, (int)width, (int)height};
@@ -191,9 +143,10 @@ static struct placement place_of(const struct exr *e)
 
 bool exr_read(const uint8_t *data, size_t size, struct image *out, struct error *err)
 {
-    struct exr e = {.data = data, .size = size, .err = err, .display = {0, 0, -1, -1}};
+    struct exr e = {.data = data, .size = size, .err = err};
     bool ok = read_picture(&e, out);
-    out->place = place_of(&e);
+    if (ok)
+        out->place = place_of(&e);
     free(e.channel);
     return ok;
 }

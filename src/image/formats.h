@@ -40,14 +40,13 @@ void png_write(FILE *f, int width, int height, const float *pixels);
 
 /* TGA, Truevision's Targa files: colour, grey and colour-mapped, run-length coded or not. TGA has no signature: the
  * file's name decides. Pixels of 24 or 32 bits (blue, green, red, alpha), grey and map indices of 8 bits; 15 and 16-bit
- * pixels are refused. Written: 24 bits, sRGB encoded, from the top left. */
+ * pixels are refused. */
 bool tga_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
 
 /* OpenEXR files [OpenEXR]. Read: one part, rows or tiles (of tiled files with several levels the first), channels of
  * halfs, floats and integers, uncompressed or by RLE, ZIPS, ZIP or PIZ; as pbrt-v3 does, the data window as the
- * picture, of the channels R, G, B (one that is missing is 0), or Y alone as grey; where there are none without a
- * layer's name, those of the only layer. Other compressions, several parts, deep pictures and subsampled channels are
- * refused by name.
+ * picture, of the channels R, G, B (one that is missing is 0), or Y alone as grey. Other compressions, several parts,
+ * deep pictures and subsampled channels are refused.
  * Written: R, G, B as halfs, where what is finite and beyond 65504 becomes that, or as floats, exactly; ZIP; as pbrt-v3
  * does, the picture as the data window and the whole as the display window. */
 bool exr_matches(const uint8_t *data, size_t size);
@@ -55,8 +54,8 @@ bool exr_read(const uint8_t *data, size_t size, struct image *out, struct error 
 void exr_write_half(FILE *f, struct placement at, int width, int height, const float *pixels);
 void exr_write_float(FILE *f, struct placement at, int width, int height, const float *pixels);
 
-/* Radiance pictures [Radiance], RGB with a common exponent: flat, with runs and with old runs; rows, from either side.
- * EXPOSURE and the like have no meaning. At most 1024 pixels for each byte of the file. */
+/* Radiance pictures [Radiance], RGB with a common exponent: flat or with runs; rows from the top, pixels from the left.
+ * EXPOSURE and the like have no meaning. */
 bool rgbe_matches(const uint8_t *data, size_t size);
 bool rgbe_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
 

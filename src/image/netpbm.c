@@ -124,12 +124,9 @@ static bool read_samples(struct netpbm *r, bool text, unsigned long most, struct
     size_t n = (size_t)out->width * (size_t)out->height * (size_t)out->channels;
     for (size_t i = 0; i < n; i++) {
         unsigned long value;
-        if (!next_sample(r, text, most > 255, &value))
-            return error_set(err, "the file is truncated or holds something that is no number: sample %lu of %lu",
-                             (unsigned long)i + 1, (unsigned long)n);
-        if (value > most)
-            return error_set(err, "sample %lu is %lu; the header promises at most %lu", (unsigned long)i + 1, value,
-                             most);
+        if (!next_sample(r, text, most > 255, &value) || value > most)
+            return error_set(err, "the file is truncated or damaged: sample %lu of %lu is no number up to %lu",
+                             (unsigned long)i + 1, (unsigned long)n, most);
         if (out->u8 != NULL)
             out->u8[i] = (uint8_t)((value * 255 + most / 2) / most);
         else

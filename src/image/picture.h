@@ -54,6 +54,7 @@ bool picture_truncated(unsigned long width, unsigned long height, struct error *
 void picture_alloc_u8(struct image *out, size_t width, size_t height, int channels);
 void picture_alloc_f32(struct image *out, size_t width, size_t height, int channels);
 
+/* image_free: its pixels; what is said of the file stays. */
 void image_free(struct image *img);
 
 /* image_bytes: what its pixels take. */

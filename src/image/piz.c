@@ -35,29 +35,18 @@ static int read_map(const uint8_t *in, size_t n, size_t *at, uint16_t *value)
     return used - 1;
 }
 
-/* A pair back from an average, in *a, and a difference, in *b, of numbers below 2^14: two's complement arithmetic. */
-static void undo_pair_narrow(uint16_t *a, uint16_t *b)
-{
-    unsigned difference = *b, half = difference >> 1 | (difference & 0x8000);
-    unsigned first = *a + (difference & 1) + half;
-    *a = (uint16_t)first;
-    *b = (uint16_t)(first - difference);
-}
-
-/* The same for numbers of all 16 bits: arithmetic modulo 2^16, the difference shifted by 2^15. */
-static void undo_pair_wide(uint16_t *a, uint16_t *b)
-{
-    unsigned second = (unsigned)*a - (*b >> 1), first = *b + second + 0x8000;
-    *a = (uint16_t)first;
-    *b = (uint16_t)second;
-}
-
+/* A pair back from an average, in *a, and a difference, in *b. Narrow: of numbers below 2^14, two's complement. Wide:
+ * of all 16 bits, modulo 2^16, the difference shifted by 2^15. */
 static void undo_pair(uint16_t *a, uint16_t *b, bool wide)
 {
-    if (wide)
-        undo_pair_wide(a, b);
-    else
-        undo_pair_narrow(a, b);
+    unsigned difference = *b, half = difference >> 1 | (difference & 0x8000), first = *a + (difference & 1) + half;
+    unsigned second = first - difference;
+    if (wide) {
+        second = (unsigned)*a - (difference >> 1);
+        first = difference + second + 0x8000;
+    }
+    *a = (uint16_t)first;
+    *b = (uint16_t)second;
 }
 
 /* Undo the wavelet transform of nx * ny numbers, `dx` apart in a row, `dy` from row to row. At a level, numbers `half`
@@ -107,10 +96,8 @@ bool piz_unpack(const struct exr *e, const uint8_t *in, size_t n, size_t width, 
     uint16_t *value = mem_alloc(NUMBERS, sizeof *value), *number = mem_alloc(size / 2, sizeof *number);
     size_t at = 0;
     int largest = read_map(in, n, &at, value);
-    bool ok = largest >= 0 && n - at >= 4 && exr_u32(in + at) <= n - at - 4;
-    if (!ok)
-        error_set(e->err, "compressed data are damaged or truncated in their map of numbers");
-    ok = ok && piz_huffman_unpack(in + at + 4, exr_u32(in + at), number, size / 2, e->err);
+    bool ok = largest >= 0 && n - at >= 4 && exr_u32(in + at) <= n - at - 4 &&
+              piz_huffman_unpack(in + at + 4, exr_u32(in + at), number, size / 2);
     for (size_t i = 0; ok && i < e->n_channels; i++) {
         const struct exr_channel *c = &e->channel[i];
         size_t words = exr_type_bytes(c->type) / 2;

@@ -68,7 +68,7 @@ struct png {
 };
 
 struct png_chunk {
-    char name[5];
+    char name[5]; /* four bytes, and a zero */
     const uint8_t *data; /* [size] */
     size_t size;
 };
@@ -83,25 +83,20 @@ static const struct adam7_pass ADAM7[7] = {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4,
 
 static uint32_t u32(const uint8_t *p) { return (uint32_t)bits_of_bytes(p, 4, true); }
 
+static bool damaged(const struct png *p) { return error_set(p->err, "the PNG file is damaged or truncated"); }
+
 static bool next_chunk(struct png *p, struct png_chunk *c)
 {
     size_t left = p->size - p->at;
     if (left < 12 || u32(p->data + p->at) > left - 12)
-        return error_set(p->err, "the file is truncated or a chunk's length is wrong");
+        return damaged(p);
     const uint8_t *start = p->data + p->at;
     c->size = u32(start);
     c->data = start + 8;
-    for (int i = 0; i < 4; i++) {
-        int letter = start[4 + i];
-        if (!((letter >= 'A' && letter <= 'Z') || (letter >= 'a' && letter <= 'z')))
-            return error_set(p->err, "the file is damaged: a chunk has no valid name");
-        c->name[i] = (char)letter;
-    }
+    memcpy(c->name, start + 4, 4);
     c->name[4] = '\0';
-    if (checksum_crc32(0, start + 4, c->size + 4) != u32(c->data + c->size))
-        return error_set(p->err, "the file is damaged: wrong checksum in chunk %s", c->name);
     p->at += c->size + 12;
-    return true;
+    return checksum_crc32(0, start + 4, c->size + 4) == u32(c->data + c->size) || damaged(p);
 }
 
 /* Samples of a pixel; 0 for a colour type or depth that does not exist [PNG 11.2.2]. */
@@ -124,70 +119,42 @@ static bool read_header(struct png *p)
     if (!next_chunk(p, &c))
         return false;
     if (strcmp(c.name, "IHDR") != 0 || c.size != 13)
-        return error_set(p->err, "the file is damaged: it does not begin with a header");
+        return damaged(p);
     p->width = u32(c.data);
     p->height = u32(c.data + 4);
     p->depth = c.data[8];
     p->samples = samples_of(c.data[9], p->depth);
-    if (p->samples == 0)
-        return error_set(p->err, "PNG has no colour type %u with %u bits", (unsigned)c.data[9], p->depth);
+    if (p->samples == 0 || c.data[10] != 0 || c.data[11] != 0 || c.data[12] > 1)
+        return error_set(p->err, "unknown kind of PNG file (colour type %u, %u bits)", (unsigned)c.data[9], p->depth);
     p->colour = (enum colour)c.data[9];
-    if (c.data[10] != 0 || c.data[11] != 0 || c.data[12] > 1)
-        return error_set(p->err, "unknown compression, filter or interlace method");
     p->interlaced = c.data[12] == 1;
     return picture_size_ok(p->width, p->height, p->err);
-}
-
-static bool read_palette(struct png *p, const struct png_chunk *c)
-{
-    if (p->palette != NULL || p->n_packed > 0 || c->size == 0 || c->size % 3 != 0 || c->size > 3 * 256)
-        return error_set(p->err, "the file is damaged: impossible palette");
-    p->palette = c->data;
-    p->n_palette = c->size / 3;
-    return true;
 }
 
 /* Collect what the chunks say until IEND. */
 static bool read_chunks(struct png *p)
 {
     struct png_chunk c;
-    bool data_ended = false;
-    for (;;) {
-        if (!next_chunk(p, &c))
-            return false;
+    while (next_chunk(p, &c)) {
         if (strcmp(c.name, "IEND") == 0)
-            break;
+            return p->colour != PALETTE || p->palette != NULL || damaged(p);
         if (strcmp(c.name, "IDAT") == 0) {
-            if (data_ended)
-                return error_set(p->err, "the file is damaged: its IDAT chunks are not in one piece");
             p->packed = mem_grow(p->packed, &p->packed_capacity, p->n_packed + c.size, 1);
             if (c.size > 0)
                 memcpy(p->packed + p->n_packed, c.data, c.size);
             p->n_packed += c.size;
-            continue;
-        }
-        data_ended = p->n_packed > 0;
-        if (strcmp(c.name, "PLTE") == 0) {
-            if (!read_palette(p, &c))
-                return false;
+        } else if (strcmp(c.name, "PLTE") == 0) {
+            p->palette = c.data;
+            p->n_palette = c.size / 3;
         } else if (c.name[0] <= 'Z') { /* a capital: cannot be ignored [PNG 5.4] */
-            return error_set(p->err, "unknown or misplaced chunk %s", c.name);
+            return error_set(p->err, "unknown PNG chunk %s", c.name);
         }
     }
-    if (p->colour == PALETTE && p->palette == NULL)
-        return error_set(p->err, "the file is damaged: it has no palette");
-    return true;
+    return false;
 }
 
-static size_t pass_width(const struct png *p, const struct adam7_pass *s)
-{
-    return p->width > s->x0 ? (p->width - s->x0 + s->dx - 1) / s->dx : 0;
-}
-
-static size_t pass_height(const struct png *p, const struct adam7_pass *s)
-{
-    return p->height > s->y0 ? (p->height - s->y0 + s->dy - 1) / s->dy : 0;
-}
+/* How many of n pixels a pass has that begins at `start` and takes every `step`-th. */
+static size_t pass_pixels(size_t n, size_t start, size_t step) { return n > start ? (n - start - 1) / step + 1 : 0; }
 
 /* Bytes of a row of a pass, without the filter's number. */
 static size_t row_bytes(const struct png *p, size_t width)
@@ -197,8 +164,8 @@ static size_t row_bytes(const struct png *p, size_t width)
 
 static size_t pass_bytes(const struct png *p, const struct adam7_pass *s)
 {
-    size_t width = pass_width(p, s);
-    return width > 0 ? pass_height(p, s) * (1 + row_bytes(p, width)) : 0;
+    size_t width = pass_pixels(p->width, s->x0, s->dx);
+    return width > 0 ? pass_pixels(p->height, s->y0, s->dy) * (1 + row_bytes(p, width)) : 0;
 }
 
 /* Sample number `i` of a row. */
@@ -219,8 +186,7 @@ static bool put_pixel(const struct png *p, const uint8_t *row, size_t i, struct 
     if (p->colour == PALETTE) {
         unsigned index = sample(row, i, p->depth);
         if (index >= p->n_palette)
-            return error_set(p->err, "the file is damaged: a pixel names colour %u of %u", index,
-                             (unsigned)p->n_palette);
+            return damaged(p);
         memcpy(out->u8 + to, p->palette + 3 * (size_t)index, 3);
         return true;
     }
@@ -238,12 +204,13 @@ static bool put_pixel(const struct png *p, const uint8_t *row, size_t i, struct 
 static bool read_pass(const struct png *p, const struct adam7_pass *s, const uint8_t *above, uint8_t *bytes,
                       struct image *out)
 {
-    size_t width = pass_width(p, s), height = pass_height(p, s), n = row_bytes(p, width);
+    size_t width = pass_pixels(p->width, s->x0, s->dx), height = pass_pixels(p->height, s->y0, s->dy);
+    size_t n = row_bytes(p, width);
     size_t step = p->samples * p->depth < 8 ? 1 : p->samples * p->depth / 8;
     for (size_t y = 0; y < height; y++) {
         uint8_t *row = bytes + y * (n + 1);
         if (row[0] >= FILTERS)
-            return error_set(p->err, "the file is damaged: no such filter");
+            return damaged(p);
         enum row_filter f = (enum row_filter)*row++;
         for (size_t i = 0; i < n; i++)
             row[i] = (uint8_t)(row[i] + predict_at(f, row, above, i, step));

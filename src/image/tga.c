@@ -6,7 +6,7 @@
 #include "image/formats.h"
 
 enum tga_kind { TGA_MAPPED = 1, TGA_COLOUR = 2, TGA_GREY = 3 };
-enum { HEADER = 18, RUN_LENGTH = 8, RIGHT_TO_LEFT = 0x10, TOP_TO_BOTTOM = 0x20 };
+enum { HEADER = 18, RUN_LENGTH = 8, RIGHT_TO_LEFT = 0x10, TOP_TO_BOTTOM = 0x20, INTERLEAVED = 0xc0 };
 
 struct tga {
     const uint8_t *data;
@@ -15,73 +15,40 @@ struct tga {
     bool run_length;
     size_t width, height, depth; /* depth: bytes of a pixel as stored */
     bool flip_x, flip_y;
-    const uint8_t *map; /* colour map entries from index map_first, or NULL */
+    const uint8_t *map; /* colours, from index map_first */
     size_t map_first, map_length, map_depth;
-    struct error *err;
 };
 
 static size_t u16(const uint8_t *p) { return (size_t)bits_of_bytes(p, 2, false); }
+static bool of_bytes(unsigned bits) { return bits == 24 || bits == 32; }
 
-/* Check that a stored pixel has a size this reader knows. */
-static bool check_depth(struct tga *t, unsigned bits)
-{
-    bool ok = false;
-    switch (t->kind) {
-    case TGA_COLOUR: ok = bits == 24 || bits == 32; break;
-    case TGA_GREY:
-    case TGA_MAPPED: ok = bits == 8; break;
-    }
-    t->depth = bits / 8;
-    return ok || error_set(t->err, "TGA pixels of %u bits are not supported for image type %d; convert to 24 bits",
-                           bits, (int)t->kind);
-}
-
-/* Step over the colour map, keeping it if it is used. */
-static bool read_map(struct tga *t)
-{
-    const uint8_t *d = t->data;
-    size_t length = u16(d + 5), bits = d[7];
-    if (d[1] > 1 || (d[1] == 0 && t->kind == TGA_MAPPED))
-        return error_set(t->err, "the TGA header names no valid colour map");
-    if (d[1] == 0)
-        return true;
-    size_t depth = (bits + 7) / 8;
-    if (length * depth > t->size - t->at)
-        return error_set(t->err, "the file is truncated in its colour map");
-    if (t->kind == TGA_MAPPED && bits != 24 && bits != 32)
-        return error_set(t->err, "TGA colour maps of %u bits are not supported; convert to 24 bits",
-                         (unsigned)bits);
-    t->map = t->kind == TGA_MAPPED ? d + t->at : NULL;
-    t->map_first = u16(d + 3);
-    t->map_length = length;
-    t->map_depth = depth;
-    t->at += length * depth;
-    return true;
-}
-
-static bool read_header(struct tga *t)
+/* The header, the picture's name and the colour map. */
+static bool read_header(struct tga *t, struct error *err)
 {
     const uint8_t *d = t->data;
     if (t->size < HEADER)
-        return error_set(t->err, "the file is truncated in its TGA header");
-    unsigned type = d[2];
-    t->run_length = (type & RUN_LENGTH) != 0;
-    type &= ~(unsigned)RUN_LENGTH;
-    if (type < TGA_MAPPED || type > TGA_GREY)
-        return error_set(t->err, "TGA image type %u is not supported (known: 1, 2, 3, 9, 10, 11)", (unsigned)d[2]);
-    t->kind = type == TGA_MAPPED ? TGA_MAPPED : type == TGA_COLOUR ? TGA_COLOUR : TGA_GREY;
+        return error_set(err, "the file is truncated in its TGA header");
+    unsigned type = d[2] & ~(unsigned)RUN_LENGTH;
+    bool known = (type == TGA_COLOUR && of_bytes(d[16])) || (type == TGA_GREY && d[16] == 8) ||
+                 (type == TGA_MAPPED && d[16] == 8 && d[1] == 1 && of_bytes(d[7]));
+    if (!known || d[1] > 1 || (d[17] & INTERLEAVED) != 0)
+        return error_set(err, "this kind of TGA file (type %u, %u bits, %u in its map) is not read; convert to 24 bits",
+                         (unsigned)d[2], (unsigned)d[16], (unsigned)d[7]);
+    t->kind = (enum tga_kind)type;
+    t->run_length = (d[2] & RUN_LENGTH) != 0;
+    t->depth = d[16] / 8u;
     t->width = u16(d + 12);
     t->height = u16(d + 14);
     t->flip_x = (d[17] & RIGHT_TO_LEFT) != 0;
     t->flip_y = (d[17] & TOP_TO_BOTTOM) == 0;
-    if ((d[17] & 0xc0) != 0)
-        return error_set(t->err, "interleaved TGA files are not supported");
-    if (!check_depth(t, d[16]) || !picture_size_ok(t->width, t->height, t->err))
-        return false;
-    t->at = HEADER + (size_t)d[0]; /* the name of the picture */
+    t->map_first = u16(d + 3);
+    t->map_length = d[1] == 1 ? u16(d + 5) : 0;
+    t->map_depth = (d[7] + 7u) / 8;
+    t->at = HEADER + (size_t)d[0] + t->map_length * t->map_depth;
     if (t->at > t->size)
-        return error_set(t->err, "the file is truncated in its TGA header");
-    return read_map(t);
+        return error_set(err, "the file is truncated in its TGA header");
+    t->map = d + HEADER + d[0];
+    return picture_size_ok(t->width, t->height, err);
 }
 
 /* Put one stored pixel at its place, number `i` in the order of the file. */
@@ -97,7 +64,7 @@ static bool put_pixel(const struct tga *t, struct image *out, size_t i, const ui
     }
     if (t->kind == TGA_MAPPED) {
         if (p[0] < t->map_first || p[0] - t->map_first >= t->map_length)
-            return error_set(t->err, "a pixel names colour %u, which is not in the colour map", (unsigned)p[0]);
+            return false;
         p = t->map + (p[0] - t->map_first) * t->map_depth;
     }
     to[0] = p[2];
@@ -107,14 +74,12 @@ static bool put_pixel(const struct tga *t, struct image *out, size_t i, const ui
 }
 
 /* One packet: a count, then one pixel for all of them or each its own. Files without run-length coding are one long
- * packet. */
+ * packet. False if the file is damaged. */
 static bool read_packet(struct tga *t, struct image *out, size_t *done, size_t count, bool same)
 {
     size_t stored = same ? 1 : count;
-    if (stored > (t->size - t->at) / t->depth)
-        return error_set(t->err, "the file is truncated in its pixels");
-    if (count > t->width * t->height - *done)
-        return error_set(t->err, "a run of pixels goes beyond the end of the picture");
+    if (stored > (t->size - t->at) / t->depth || count > t->width * t->height - *done)
+        return false;
     for (size_t i = 0; i < count; i++)
         if (!put_pixel(t, out, (*done)++, t->data + t->at + (same ? 0 : i) * t->depth))
             return false;
@@ -129,7 +94,7 @@ static bool read_pixels(struct tga *t, struct image *out)
         return read_packet(t, out, &done, pixels, false);
     while (done < pixels) {
         if (t->at == t->size)
-            return error_set(t->err, "the file is truncated in its pixels");
+            return false;
         unsigned packet = t->data[t->at++];
         if (!read_packet(t, out, &done, (packet & 127) + 1, packet >= 128))
             return false;
@@ -139,8 +104,8 @@ static bool read_pixels(struct tga *t, struct image *out)
 
 bool tga_read(const uint8_t *data, size_t size, struct image *out, struct error *err)
 {
-    struct tga t = {.data = data, .size = size, .err = err};
-    if (!read_header(&t))
+    struct tga t = {.data = data, .size = size};
+    if (!read_header(&t, err))
         return false;
     size_t left = t.size - t.at, most = t.run_length ? left / (1 + t.depth) * 128 + 128 : left / t.depth;
     if (most < t.width * t.height)
@@ -151,5 +116,5 @@ bool tga_read(const uint8_t *data, size_t size, struct image *out, struct error 
     if (read_pixels(&t, out))
         return true;
     image_free(out);
-    return false;
+    return error_set(err, "the file is truncated or damaged in its pixels");
 }

@@ -70,7 +70,8 @@ static void pixel_values(const struct tile *tile, double *out)
 {
     int n = rect_width(tile->rect) * rect_height(tile->rect);
     for (int i = 0; i < n; i++)
-        out[i] = rgb_luminance(rgb_make(tile->eye[3 * i], tile->eye[3 * i + 1], tile->eye[3 * i + 2]));
+        out[i] = rgb_luminance(rgb_make(exact_value(&tile->sum[3 * i]), exact_value(&tile->sum[3 * i + 1]),
+                                        exact_value(&tile->sum[3 * i + 2])));
     for (size_t k = 0; k < tile->n_splats; k++) {
         const struct splat *s = &tile->splat[k];
         struct pixel_rect r = tile->rect, range = splat_pixels(s, tile->filter, r);

@@ -7,7 +7,7 @@
 
 #include "base/maths.h"
 #include "base/mem.h"
-#include "image/colormap.h"
+#include "look/colormap.h"
 #include "image/image.h"
 
 struct difference compare_pixels(const float *x, const float *r, long n)

@@ -9,7 +9,7 @@
 #include "base/mem.h"
 #include "base/number.h"
 #include "image/image.h"
-#include "image/sheet.h"
+#include "look/sheet.h"
 #include "look/compare.h"
 
 enum { GAP = 4, LEFT = 64, TOP = 40, SHEET_WIDTH = 1024, CELL_MIN = 48, CELL_MAX = 192 };
@@ -25,7 +25,7 @@ struct layout {
 
 float *pyramid_strategy(const struct film *film, double scale, int s, int t, bool weighted)
 {
-    size_t n = (size_t)rect_width(film->rect) * (size_t)rect_height(film->rect) * 3;
+    size_t n = rect_pixels(film->rect) * 3;
     const double *sum = weighted ? film->strategies->weighted : film->strategies->unweighted;
     float *out = mem_alloc(n, sizeof *out);
     sum += n * (size_t)strategy_index(s, t);
@@ -52,7 +52,7 @@ static struct layout lay_out(const struct film *film, double scale)
 /* The power of two, at least 1, that brings most of all weighted shares of this length up to white. */
 static double row_exposure(const struct layout *l, const struct film *film, int depth)
 {
-    size_t n = (size_t)rect_width(film->rect) * (size_t)rect_height(film->rect) * 3;
+    size_t n = rect_pixels(film->rect) * 3;
     float *total = mem_alloc(n, sizeof *total);
     for (int s = 0; s <= depth + 1; s++) {
         float *share = pyramid_strategy(film, l->scale, s, depth + 2 - s, true);

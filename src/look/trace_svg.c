@@ -235,26 +235,6 @@ static vec3 place(const struct scene *scene, const struct trace_path *path, int 
     return v->p;
 }
 
-static void draw_edges(FILE *f, const struct view *v, const struct trace_path *path, const char *colour, double width,
-                       char letter)
-{
-    for (int i = 1; i < path->n; i++) {
-        char title[40];
-        snprintf(title, sizeof title, "%c%d to %c%d", letter, i - 1, letter, i);
-        draw_line(f, v, place(v->scene, path, i - 1), place(v->scene, path, i), colour, width, false, title);
-    }
-}
-
-static void draw_eye(FILE *f, const struct view *v, const struct trace_path *path)
-{
-    draw_edges(f, v, path, BLUE, 1.8, 'z');
-    for (int i = 0; i < path->n; i++) {
-        char name[16];
-        snprintf(name, sizeof name, "z%d", i);
-        draw_vertex(f, v, place(v->scene, path, i), BLUE, name);
-    }
-}
-
 /* Does anything come from vertex i of this light sub-path? */
 static bool brings(const struct trace *t, int light, int i)
 {
@@ -264,21 +244,24 @@ static bool brings(const struct trace *t, int light, int i)
     return false;
 }
 
-/* Where there are many, only what matters has a name. */
-static void draw_light(FILE *f, const struct view *v, const struct trace *t, int light)
+/* A light sub-path, or the eye's if `light` is -1. Where there are many, only what matters has a name. */
+static void draw_path(FILE *f, const struct view *v, const struct trace *t, int light)
 {
     enum { FEW = 3 };
-    const struct trace_path *path = &t->light[light];
-    bool few = t->n_lights <= FEW;
+    const struct trace_path *path = light < 0 ? &t->eye : &t->light[light];
+    const char *colour = light < 0 ? BLUE : ORANGE;
+    char letter = light < 0 ? 'z' : 'y', name[40];
+    bool few = light < 0 || t->n_lights <= FEW;
     if (path->n == 1 && vertex_at_infinity(v->scene, &path->vertex[0]))
         return; /* it is nowhere */
-    draw_edges(f, v, path, ORANGE, few ? 1.8 : 0.9, 'y');
+    for (int i = 1; i < path->n; i++) {
+        snprintf(name, sizeof name, "%c%d to %c%d", letter, i - 1, letter, i);
+        draw_line(f, v, place(v->scene, path, i - 1), place(v->scene, path, i), colour, few ? 1.8 : 0.9, false, name);
+    }
     for (int i = 0; i < path->n; i++) {
-        char name[40];
-        if (!few && !brings(t, light, i))
-            continue;
-        snprintf(name, sizeof name, t->n_lights > 1 ? "y%d (%d)" : "y%d", i, light + 1);
-        draw_vertex(f, v, place(v->scene, path, i), ORANGE, name);
+        snprintf(name, sizeof name, light >= 0 && t->n_lights > 1 ? "%c%d (%d)" : "%c%d", letter, i, light + 1);
+        if (few || brings(t, light, i))
+            draw_vertex(f, v, place(v->scene, path, i), colour, name);
     }
 }
 
@@ -317,8 +300,8 @@ static void draw_view(FILE *f, const struct view *v, const struct trace *t, doub
         if (t->connection[i].t > 1 || !rgb_is_black(t->connection[i].added))
             draw_connection(f, v, t, &t->connection[i], t->connection[i].t > 1 ? most : HUGE_VAL);
     for (int i = 0; i < t->n_lights; i++)
-        draw_light(f, v, t, i);
-    draw_eye(f, v, &t->eye);
+        draw_path(f, v, t, i);
+    draw_path(f, v, t, -1);
     xml_print(f, "</svg>\n");
 }
 

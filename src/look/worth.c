@@ -8,7 +8,7 @@
 #include "base/maths.h"
 #include "base/mem.h"
 #include "base/number.h"
-#include "image/colormap.h"
+#include "look/colormap.h"
 #include "learning/learnt.h"
 #include "render/aov.h"
 #include "transport/pixel_sample.h"

@@ -22,10 +22,15 @@ void bsdf_make(struct bsdf *b, struct frame shading, vec3 ng, struct lobe *lobe,
         lobe[i].choice = n == 1 ? 1 : even / n + (1 - even) * lobe_albedo_guess(&lobe[i]) / total;
 }
 
-struct bsdf_value bsdf_eval_lobes(const struct bsdf *b, vec3 wo, vec3 wi, enum transport mode)
+struct bsdf_value bsdf_eval(const struct bsdf *b, vec3 wo, vec3 wi, enum transport mode)
 {
-    if (b->n_smooth == 0)
+    if (b->n_smooth == 0 || !bsdf_may_scatter(b, wo, wi))
         return NOTHING;
+    if (b->n_lobes == 1 && b->lobe->kind == LOBE_LAMBERT_REFLECTION) { /* the commonest by far: two cosines */
+        struct bsdf_value v = {rgb_scale(rgb_mul(b->lobe->R, b->lobe->scale), INV_PI),
+                               abs_dot(wi, b->shading.n) * INV_PI, abs_dot(wo, b->shading.n) * INV_PI};
+        return v;
+    }
     bool reflect = dot(wi, b->ng) * dot(wo, b->ng) > 0;
     vec3 o = to_local(&b->shading, wo), i = to_local(&b->shading, wi);
     if (o.z == 0 || i.z == 0)

@@ -43,25 +43,10 @@ static inline bool bsdf_may_scatter(const struct bsdf *b, vec3 wo, vec3 wi)
     return b->transmits || dot(wi, b->ng) * dot(wo, b->ng) > 0;
 }
 
-/* bsdf_eval_lobes: the general case of bsdf_eval; for that only. */
-struct bsdf_value bsdf_eval_lobes(const struct bsdf *b, vec3 wo, vec3 wi, enum transport mode);
-
 /* bsdf_eval: value and both densities for a pair of directions, summed over all smooth lobes. Where the value is
  * black both densities are 0: bsdf_sample never returns such a pair. Swapping wo and wi swaps pdf and pdf_rev, and
  * f(wo, wi, RADIANCE) = f(wi, wo, IMPORTANCE). Cannot fail. */
-static inline struct bsdf_value bsdf_eval(const struct bsdf *b, vec3 wo, vec3 wi, enum transport mode)
-{
-    struct bsdf_value v = {{0, 0, 0}, 0, 0};
-    if (!bsdf_may_scatter(b, wo, wi))
-        return v;
-    if (b->n_lobes != 1 || b->lobe->kind != LOBE_LAMBERT_REFLECTION)
-        return bsdf_eval_lobes(b, wo, wi, mode);
-    /* The commonest BSDF by far is one Lambert lobe: nothing but two cosines. */
-    v.f = rgb_scale(rgb_mul(b->lobe->R, b->lobe->scale), INV_PI);
-    v.pdf = abs_dot(wi, b->shading.n) * INV_PI;
-    v.pdf_rev = abs_dot(wo, b->shading.n) * INV_PI;
-    return v;
-}
+struct bsdf_value bsdf_eval(const struct bsdf *b, vec3 wo, vec3 wi, enum transport mode);
 
 /* bsdf_sample: draw wi given wo.
  *   u  three uniform numbers in [0,1): lobe choice and direction

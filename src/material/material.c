@@ -60,13 +60,7 @@ double roughness_to_alpha(double roughness)
 
 static struct lobe lobe_of(enum lobe_kind kind, rgb R, rgb T)
 {
-    struct lobe l;
-    memset(&l, 0, sizeof l);
-    l.kind = kind;
-    l.fresnel = FRESNEL_NONE;
-    l.scale = rgb_grey(1);
-    l.R = R;
-    l.T = T;
+    struct lobe l = {.kind = kind, .fresnel = FRESNEL_NONE, .scale = rgb_grey(1), .R = R, .T = T};
     return l;
 }
 
@@ -200,10 +194,10 @@ static void add_material(struct lobe_list *list, int id)
     }
 }
 
-/* The most lobes a material of this kind has by itself. */
-static int lobes_of_kind(enum material_kind kind)
+int material_lobes(const struct material *materials, int id)
 {
-    switch (kind) {
+    const struct material *m = &materials[id];
+    switch (m->kind) {
     case MATERIAL_MATTE:
     case MATERIAL_MIRROR:
     case MATERIAL_METAL:
@@ -212,15 +206,9 @@ static int lobes_of_kind(enum material_kind kind)
     case MATERIAL_PLASTIC: return 2;
     case MATERIAL_TRANSLUCENT: return 4;
     case MATERIAL_UBER: return 5;
-    case MATERIAL_MIX: break;
+    case MATERIAL_MIX: return material_lobes(materials, m->mix1) + material_lobes(materials, m->mix2);
     }
     return 0;
-}
-
-int material_lobes(const struct material *materials, const struct material *m)
-{
-    int n = m->kind == MATERIAL_MIX ? materials[m->mix1].n_lobes + materials[m->mix2].n_lobes : lobes_of_kind(m->kind);
-    return n > MATERIAL_MAX_LOBES ? MATERIAL_MAX_LOBES + 1 : n;
 }
 
 /* --- bump maps --------------------------------------------------------------------------------------- */

@@ -34,7 +34,6 @@ struct material {
     bool remap_roughness;
     int opacity, reflect, transmit, amount;
     int mix1, mix2; /* numbers of materials that were made before */
-    int n_lobes;    /* material_lobes, set by scene_add_material */
     int bump;       /* float texture of displacement along the normal, in world units */
 };
 
@@ -51,9 +50,9 @@ enum { MATERIAL_MAX_LOBES = 16 };
 #define MATERIAL_MAX_INDEX 100.0
 #define MATERIAL_MAX_ROUGHNESS 1e3
 
-/* material_lobes: the most lobes the BSDF of a material can have, for its n_lobes; those that it mixes have theirs. It
- * stops counting at one more than MATERIAL_MAX_LOBES: the parser refuses such mixes. */
-int material_lobes(const struct material *materials, const struct material *m);
+/* material_lobes: the most lobes the BSDF of material `id` can have. The parser refuses mixes of more than
+ * MATERIAL_MAX_LOBES, so that none is made of such. */
+int material_lobes(const struct material *materials, int id);
 
 /* material_reads_partials: whether the BSDFs of material `id` depend on dpdu, dpdv, dndu or dndv: by a bump map, or by
  * a roughness that differs between u and v. May say so of one that does not. */

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/maths.h"
 #include "base/mem.h"
 #include "material/noise.h"
 
@@ -150,16 +151,40 @@ rgb image_bilinear(const struct image *img, double s, double t, enum texture_wra
     return bilinear(img, s, t, wrap, gamma, texel_rgb);
 }
 
+/* --- mappings ---------------------------------------------------------------------------------------- */
+
+/* May be NaN where coordinates are. */
+struct st {
+    double s, t;
+};
+
+static struct st st_of(double s, double t)
+{
+    struct st st = {s, t};
+    return st;
+}
+
+static struct st map_point(const struct texture_set *set, const struct mapping *m, const struct surface *at)
+{
+    switch (m->kind) {
+    case MAPPING_UV: return st_of(m->su * at->u + m->du, m->sv * at->v + m->dv);
+    case MAPPING_SPHERICAL: {
+        vec3 w = normalize(transform_point_back(&set->space[m->space], at->p));
+        double turns = m_atan2(w.y, w.x) / (2 * PI);
+        return st_of(m_acos(clamp(w.z, -1, 1)) / PI, turns < 0 ? turns + 1 : turns);
+    }
+    case MAPPING_CYLINDRICAL: {
+        vec3 w = normalize(transform_point_back(&set->space[m->space], at->p));
+        return st_of(0.5 + m_atan2(w.y, w.x) / (2 * PI), w.z);
+    }
+    case MAPPING_PLANAR: return st_of(dot(at->p, m->v1) + m->du, dot(at->p, m->v2) + m->dv);
+    }
+    return st_of(0, 0);
+}
+
 /* --- values ------------------------------------------------------------------------------------------ */
 
 static bool is_even(double whole) { return fmod(whole, 2) == 0; }
-
-static rgb bilerp(const struct texture *t, struct st st)
-{
-    rgb low = rgb_add(rgb_scale(t->v00, 1 - st.s), rgb_scale(t->v10, st.s));
-    rgb high = rgb_add(rgb_scale(t->v01, 1 - st.s), rgb_scale(t->v11, st.s));
-    return rgb_add(rgb_scale(low, 1 - st.t), rgb_scale(high, st.t));
-}
 
 static rgb mix(rgb a, rgb b, double amount) { return rgb_add(rgb_scale(a, 1 - amount), rgb_scale(b, amount)); }
 
@@ -194,7 +219,7 @@ static rgb evaluate(const struct texture_set *set, int id, const struct surface 
         return mix(evaluate(set, t->tex1, at, read), evaluate(set, t->tex2, at, read),
                    texture_float(set, t->amount, at));
     case TEXTURE_CHECKERBOARD: {
-        struct st st = map_point(&t->map, set->space, at);
+        struct st st = map_point(set, &t->map, at);
         bool even = is_even(floor(st.s) + floor(st.t));
         return evaluate(set, even ? t->tex1 : t->tex2, at, read);
     }
@@ -204,17 +229,20 @@ static rgb evaluate(const struct texture_set *set, int id, const struct surface 
         return evaluate(set, even ? t->tex1 : t->tex2, at, read);
     }
     case TEXTURE_DOTS: {
-        struct st st = map_point(&t->map, set->space, at);
+        struct st st = map_point(set, &t->map, at);
         return evaluate(set, noise_in_dot(st.s, st.t) ? t->tex1 : t->tex2, at, read);
     }
     case TEXTURE_IMAGEMAP: {
-        struct st st = map_point(&t->map, set->space, at);
+        struct st st = map_point(set, &t->map, at);
         const struct image *img = &set->image[t->image];
         return rgb_scale(bilinear(img, st.s, st.t, t->wrap, t->gamma, read), t->scale);
     }
-    case TEXTURE_BILERP: return bilerp(t, map_point(&t->map, set->space, at));
+    case TEXTURE_BILERP: {
+        struct st st = map_point(set, &t->map, at);
+        return mix(mix(t->v00, t->v10, st.s), mix(t->v01, t->v11, st.s), st.t);
+    }
     case TEXTURE_UV: {
-        struct st st = map_point(&t->map, set->space, at);
+        struct st st = map_point(set, &t->map, at);
         return rgb_make(st.s - floor(st.s), st.t - floor(st.t), 0);
     }
     case TEXTURE_FBM:
@@ -225,12 +253,12 @@ static rgb evaluate(const struct texture_set *set, int id, const struct surface 
     return rgb_black();
 }
 
-rgb texture_varying_rgb(const struct texture_set *set, int id, const struct surface *at)
+rgb texture_rgb(const struct texture_set *set, int id, const struct surface *at)
 {
     return evaluate(set, id, at, texel_rgb);
 }
 
-double texture_varying_float(const struct texture_set *set, int id, const struct surface *at)
+double texture_float(const struct texture_set *set, int id, const struct surface *at)
 {
     return evaluate(set, id, at, texel_grey).r;
 }

@@ -17,7 +17,22 @@
 #include "base/transform.h"
 #include "geometry/surface.h"
 #include "image/image.h"
-#include "material/mapping.h"
+
+/* Which point (s,t) of a two-dimensional texture lies at a point of a surface [PBRT3 10.2]. */
+enum mapping_kind {
+    MAPPING_UV,          /* s = su u + du, t = sv v + dv, of the surface's own u and v */
+    MAPPING_SPHERICAL,   /* s: angle from the z axis of texture space over pi, t: azimuth over 2 pi */
+    MAPPING_CYLINDRICAL, /* s: half a turn plus azimuth over 2 pi, t: cosine of that angle, as pbrt-v3 has it */
+    MAPPING_PLANAR       /* s = p v1 + du, t = p v2 + dv, of the point's position in the world */
+};
+
+/* What a kind does not use is 0. */
+struct mapping {
+    enum mapping_kind kind;
+    int space; /* spherical, cylindrical: which of the set's transforms takes the texture's space to the world */
+    double su, sv, du, dv;
+    vec3 v1, v2;
+};
 
 enum texture_kind {
     TEXTURE_CONSTANT,
@@ -79,25 +94,11 @@ int texture_add_space(struct texture_set *set, struct transform current);
 int texture_load_image(struct texture_set *set, const char *path, struct error *err);
 void texture_set_free(struct texture_set *set);
 
-/* texture_varying_rgb, texture_varying_float: the general case of the next two, for which every parameter of every
- * material asks at every hit, and most are constant; for them only. */
-rgb texture_varying_rgb(const struct texture_set *set, int id, const struct surface *at);
-double texture_varying_float(const struct texture_set *set, int id, const struct surface *at);
-
 /* texture_rgb, texture_float: the value at a surface point; may be negative, infinite or NaN. `id`: a valid texture
  * number. A float texture of a colour picture is the luminance of the stored values, decoded afterwards if `gamma` is
  * set, as in pbrt-v3. Cannot fail, thread-safe. */
-static inline rgb texture_rgb(const struct texture_set *set, int id, const struct surface *at)
-{
-    const struct texture *t = &set->texture[id];
-    return t->kind == TEXTURE_CONSTANT ? t->constant : texture_varying_rgb(set, id, at);
-}
-
-static inline double texture_float(const struct texture_set *set, int id, const struct surface *at)
-{
-    const struct texture *t = &set->texture[id];
-    return t->kind == TEXTURE_CONSTANT ? t->constant.r : texture_varying_float(set, id, at);
-}
+rgb texture_rgb(const struct texture_set *set, int id, const struct surface *at);
+double texture_float(const struct texture_set *set, int id, const struct surface *at);
 
 /* image_bilinear: the picture at (s,t), (0,0) being the lower left corner, texel centres at half-integers,
  * as pbrt-v3's MIPMap::Lookup at width 0; texels are decoded (`gamma`) before they are mixed. Also used by

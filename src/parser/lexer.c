@@ -137,11 +137,8 @@ static bool next_number(struct lexer *l, struct token *out)
         l->at = end;
         return true;
     }
-    if (scanned == end)
-        return source_error(l->messages, out->position, "the number %.*s is too large; numbers go up to 1.7e308", shown,
-                           l->at);
-    return source_error(l->messages, out->position, "'%.*s' is not a number; write it like 12, -0.5 or 1.5e-3", shown,
-                       l->at);
+    return source_error(l->messages, out->position,
+                        "'%.*s' is not a number, or beyond 1.7e308; write it like 12, -0.5 or 1.5e-3", shown, l->at);
 }
 
 static char *copy(struct lexer *l, const char *begin, const char *end)

@@ -9,7 +9,6 @@
 #include "base/file.h"
 #include "base/number.h"
 #include "parser/spectrum.h"
-#include "parser/symbols.h"
 
 bool params_fail(struct params *p, struct source_position at, const char *format, ...)
 {
@@ -26,42 +25,28 @@ bool params_fail(struct params *p, struct source_position at, const char *format
 
 /* --- asking ------------------------------------------------------------------------------------------- */
 
-static void remember_name(struct params *p, const char *name)
-{
-    for (int i = 0; i < p->n_asked; i++)
-        if (strcmp(p->asked[i], name) == 0)
-            return;
-    if (p->n_asked < MAX_PARAMETERS)
-        p->asked[p->n_asked++] = name;
-}
-
-/* The last parameter of this name and one of the types; like pbrt, a later one replaces an earlier one. */
-static struct param *find_in(struct params *p, struct param *list, int n, const char *name, unsigned types)
+/* The last parameter of this name and one of the types: as in pbrt, a later one replaces an earlier one. Without one,
+ * that of the list behind, unless this list has a value in place of its texture or the reverse. */
+static struct param *find(struct params *p, const char *name, unsigned types)
 {
     struct param *found = NULL;
-    for (struct param *item = list; item < list + n; item++) {
-        if ((types & 1u << item->type) == 0 || strcmp(item->name, name) != 0)
+    bool hidden = false, texture = types == 1u << PARAM_TEXTURE;
+    for (struct param *item = p->item; item < p->item + p->n; item++) {
+        if (strcmp(item->name, name) != 0)
+            continue;
+        hidden |= (item->type == PARAM_TEXTURE) != texture;
+        if ((types & 1u << item->type) == 0)
             continue;
         if (found != NULL)
             source_warn(p->messages, item->position, "parameter \"%s\" is given twice; the last one counts", name);
         item->used = true;
         found = item;
     }
-    return found;
-}
-
-/* The same, or of the list behind. What is a texture here is no value there, and the reverse. */
-static struct param *find(struct params *p, const char *name, unsigned types)
-{
-    remember_name(p, name);
-    struct param *found = find_in(p, p->item, p->n, name, types);
-    if (found != NULL || p->behind.n == 0)
+    if (found != NULL || hidden)
         return found;
-    found = find_in(p, p->behind.item, p->behind.n, name, types);
-    for (int i = 0; i < p->n && found != NULL; i++)
-        if (strcmp(p->item[i].name, name) == 0 &&
-            (p->item[i].type == PARAM_TEXTURE) != (found->type == PARAM_TEXTURE))
-            return NULL;
+    for (struct param *item = p->behind.item; item < p->behind.item + p->behind.n; item++)
+        if (strcmp(item->name, name) == 0 && (types & 1u << item->type) != 0)
+            found = item;
     return found;
 }
 
@@ -75,20 +60,17 @@ static bool numbers_usable(struct params *p, const struct param *item)
     return true;
 }
 
-/* A parameter of one thing that is n values, all of them usable. Of another number of things pbrt-v3 takes the default,
- * or the first where p->excess says so; what is left over of a thing it does not count. */
+/* A parameter that is n values, all of them usable; more are passed over, of fewer the default counts. */
 static struct param *find_n(struct params *p, const char *name, unsigned types, int n)
 {
     struct param *item = find(p, name, types);
     if (item == NULL || p->failed)
         return NULL;
-    int things = item->n / n;
-    bool taken = things == 1 || (p->excess && things > 1);
     if (item->n != n)
         source_warn(p->messages, item->position, "parameter \"%s %s\" of %s \"%s\" wants %d value%s, not %d; %s",
                     params_type_name(item->type), name, p->directive, p->type, n, n > 1 ? "s" : "", item->n,
-                    taken ? "the rest is passed over" : "it is passed over");
-    return taken && numbers_usable(p, item) ? item : NULL;
+                    item->n > n ? "the rest is passed over" : "it is passed over");
+    return item->n >= n && numbers_usable(p, item) ? item : NULL;
 }
 
 const struct param *params_ignore(struct params *p, const char *name) { return find(p, name, ~0u); }
@@ -107,12 +89,16 @@ double params_number(struct params *p, const char *name, double fallback, double
     double number = item->number[0];
     if (number >= low && number <= high)
         return number;
-    if (high <= NUMBER_MAX)
-        params_fail(p, item->position, "\"%s\" is %g; it must be from %g to %g", name, number, low, high);
-    else
-        params_fail(p, item->position, "\"%s\" is %g; it must be %sat least %g", name, number,
-                    low == NUMBER_MIN ? "greater than 0, and " : "", low);
+    params_fail(p, item->position, "\"%s\" is %g; it must be from %g to %g", name, number, low, high);
     return fallback;
+}
+
+bool params_numbers(struct params *p, const char *name, double *out, int n)
+{
+    const struct param *item = find_n(p, name, 1u << PARAM_FLOAT, n);
+    if (item != NULL)
+        memcpy(out, item->number, (size_t)n * sizeof *out);
+    return item != NULL;
 }
 
 int params_int(struct params *p, const char *name, int fallback, int low, int high)
@@ -272,20 +258,6 @@ static bool colour_usable(rgb c)
     return fabs(c.r) <= NUMBER_MAX && fabs(c.g) <= NUMBER_MAX && fabs(c.b) <= NUMBER_MAX;
 }
 
-/* The parameter is this colour from now on: it may be asked for again, and its file need not be read again. */
-static rgb remember_colour(struct params *p, struct param *item, rgb c)
-{
-    double *x = arena_alloc(p->arena, 3 * sizeof *x);
-    x[0] = c.r;
-    x[1] = c.g;
-    x[2] = c.b;
-    item->type = PARAM_RGB;
-    item->is_text = false;
-    item->number = x;
-    item->n = 3;
-    return c;
-}
-
 rgb params_rgb(struct params *p, const char *name, rgb fallback)
 {
     const unsigned types = 1u << PARAM_RGB | 1u << PARAM_XYZ | 1u << PARAM_BLACKBODY | 1u << PARAM_SPECTRUM;
@@ -299,37 +271,8 @@ rgb params_rgb(struct params *p, const char *name, rgb fallback)
     else
         colour = rgb_from_numbers(item->type, item->number, n);
     if (colour_usable(colour))
-        return item->type == PARAM_RGB ? colour : remember_colour(p, item, colour);
+        return colour;
     params_fail(p, item->position, "parameter \"%s\" gives the colour (%g %g %g); its numbers go up to %g here", name,
                 colour.r, colour.g, colour.b, NUMBER_MAX);
     return fallback;
-}
-
-/* --- the end ------------------------------------------------------------------------------------------ */
-
-/* A parameter nobody asked for: does the name exist with another type, or is another name near? */
-static void warn_of_unused(struct params *p, const struct param *item)
-{
-    struct suggestion near = suggest_start(messages_suggest(p->messages) ? item->name : "");
-    for (int i = 0; i < p->n_asked; i++) {
-        if (strcmp(p->asked[i], item->name) == 0) {
-            source_warn(p->messages, item->position,
-                        "parameter \"%s\" of %s \"%s\" cannot be of type \"%s\", so it is not used", item->name,
-                        p->directive, p->type, params_type_name(item->type));
-            return;
-        }
-        suggest_offer(&near, p->asked[i]);
-    }
-    bool is_near = near.name != NULL;
-    source_warn(p->messages, item->position, "parameter \"%.40s\" of %s \"%s\" is not used%s%s%s", item->name,
-                p->directive, p->type, is_near ? "; did you mean \"" : "", is_near ? near.name : "",
-                is_near ? "\"?" : "");
-}
-
-bool params_done(struct params *p)
-{
-    for (int i = 0; i < p->n && !p->failed; i++)
-        if (!p->item[i].used)
-            warn_of_unused(p, &p->item[i]);
-    return !p->failed;
 }

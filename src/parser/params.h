@@ -2,9 +2,8 @@
  *
  * The list is read whole, then asked for by name. Each question has a default, so the code that makes a sphere
  * reads like its documentation. Nothing is passed over in silence: where pbrt-v3 goes on with the default (a type that
- * does not fit, a wrong count, a parameter nobody asked for) there is a warning. What cannot be meant (a number out of
- * range, a file that is not there) is an error: the first is kept, later questions are answered with defaults, and
- * params_done reports it.
+ * does not fit, too few values) there is a warning. What cannot be meant (a number out of range, a file that is not
+ * there) is an error: the first is reported and noted in `failed`, and later questions are answered with defaults.
  *
  * Tests: test_parser.c.
  */
@@ -48,8 +47,8 @@ struct param {
 
 enum { MAX_PARAMETERS = 64 }; /* of a directive: more than any has names for */
 
-/* What is left of a list that has been read: the parameters that were used. */
-struct kept_params {
+/* A list that outlives its directive. */
+struct param_list {
     struct param *item; /* [n], in an arena, with their values */
     int n;
 };
@@ -61,17 +60,14 @@ struct params {
     struct messages *messages;
     struct scene_files *files;
     struct arena *arena;   /* for what outlives the list */
-    bool failed;           /* an error has been kept */
-    bool excess;           /* values beyond the first are passed over, as where a texture may stand */
+    bool failed;           /* there was an error */
 
     struct param item[MAX_PARAMETERS]; /* [n] */
     int n;
-    struct kept_params behind; /* another list that is asked for what this one does not have */
-    double *number;            /* all numbers of all items, owned */
-    const char **string;       /* all strings, owned array of texts in the lexer's arena */
+    struct param_list behind; /* another list that is asked for what this one does not have */
+    double *number;           /* all numbers of all items, owned */
+    const char **string;      /* all strings, owned array of texts in the lexer's arena */
     size_t n_number, n_string;
-    const char *asked[MAX_PARAMETERS]; /* names asked for so far, for suggestions */
-    int n_asked;
 };
 
 /* params_read: read the list that starts at the lexer's position, up to the first token that is not a declaration.
@@ -80,18 +76,14 @@ struct params {
  * Returns false with a message. */
 bool params_read(struct params *p, struct lexer *l);
 
-/* params_keep: copies of the parameters that were used, in the arena: of numbers the first three, of texts the first,
- * for more is never used of those that are one thing. */
-struct kept_params params_keep(const struct params *p);
+/* params_keep: a copy of the list, in the arena. */
+struct param_list params_keep(const struct params *p);
 
 /* params_free: release all lists. */
 void params_free(struct params *p);
 
-/* params_fail: keep an error, unless there is one already. Returns false. */
+/* params_fail: an error, unless there is one already. Returns false. */
 bool params_fail(struct params *p, struct source_position at, const char *format, ...);
-
-/* params_done: false if anything failed. Warns of parameters that were never asked for. */
-bool params_done(struct params *p);
 
 /* params_ignore: accept a parameter of any type without using it. Returns it, or NULL. */
 const struct param *params_ignore(struct params *p, const char *name);
@@ -104,9 +96,11 @@ rgb params_rgb(struct params *p, const char *name, rgb fallback); /* rgb, xyz, b
 /* params_int: a whole number from low to high; others are rounded towards 0. */
 int params_int(struct params *p, const char *name, int fallback, int low, int high);
 
-/* params_number: a number from low to high, each of which may be infinite; low = NUMBER_MIN means greater than 0. The
- * default need not lie within. */
+/* params_number: a number from low to high; the default need not lie within. params_numbers: n of them into out; false
+ * if there are not as many. */
 double params_number(struct params *p, const char *name, double fallback, double low, double high);
+
+bool params_numbers(struct params *p, const char *name, double *out, int n);
 
 /* params_list: numbers of a parameter of one of the types in the mask (1u << PARAM_FLOAT | ...), in groups of
  * `group`; NULL if there is none.

@@ -31,25 +31,18 @@ const char *params_type_name(enum param_type type)
  * used. */
 static void read_declaration(struct params *p, const struct token *t, struct param *item)
 {
-    char *text = arena_alloc(p->arena, strlen(t->text) + 1);
-    strcpy(text, t->text);
+    char *text = strcpy(arena_alloc(p->arena, strlen(t->text) + 1), t->text);
     const char *type = strtok(text, " \t"), *name = strtok(NULL, " \t");
     item->type = PARAM_TYPES;
-    item->name = t->text;
-    if (type == NULL || name == NULL) {
-        source_warn(p->messages, t->position, "the parameter \"%.40s\" is passed over: it is declared by its "
-                    "type and its name, like \"float radius\"", t->text);
-        return;
-    }
-    for (int i = 0; i < N_TYPES; i++)
-        if (strcmp(TYPES[i].name, type) == 0) {
+    item->name = name != NULL ? name : t->text;
+    for (int i = 0; i < N_TYPES && name != NULL; i++)
+        if (strcmp(TYPES[i].name, type) == 0)
             item->type = TYPES[i].type;
-            item->name = name;
-            return;
-        }
-    source_warn(p->messages, t->position, "the parameter \"%.40s\" is passed over: unknown type; types are "
-                "integer, float, bool, string, texture, point2, vector2, point, vector, normal, rgb, xyz, blackbody "
-                "and spectrum", t->text);
+    if (item->type == PARAM_TYPES)
+        source_warn(p->messages, t->position,
+                    "the parameter \"%.40s\" is passed over: it wants a type and a name, like \"float radius\"; types "
+                    "are integer, float, bool, string, texture, point2, vector2, point, vector, normal, rgb, xyz, "
+                    "blackbody and spectrum", t->text);
 }
 
 static bool wants_text(enum param_type type)
@@ -160,9 +153,9 @@ static bool read_items(struct params *p, struct lexer *l)
 
 bool params_read(struct params *p, struct lexer *l)
 {
-    p->n = p->n_asked = 0;
+    p->n = 0;
     p->n_number = p->n_string = 0;
-    p->failed = p->excess = false;
+    p->failed = false;
     bool ok = read_items(p, l);
     double *number = p->number;
     const char **text = p->string;
@@ -177,23 +170,21 @@ bool params_read(struct params *p, struct lexer *l)
     return ok;
 }
 
-struct kept_params params_keep(const struct params *p)
+/* n values in the arena. */
+static void *copy_values(struct arena *arena, const void *values, int n, size_t size)
 {
-    struct kept_params kept = {arena_alloc(p->arena, (size_t)p->n * sizeof *kept.item), 0};
-    for (int i = 0; i < p->n; i++) {
-        if (!p->item[i].used || p->item[i].n == 0)
-            continue;
-        struct param *copy = &kept.item[kept.n++];
-        *copy = p->item[i];
-        int most = copy->is_text ? 1 : 3;
-        copy->n = copy->n < most ? copy->n : most;
-        size_t n = (size_t)copy->n;
-        if (copy->is_text)
-            copy->text = memcpy(arena_alloc(p->arena, n * sizeof *copy->text), copy->text, n * sizeof *copy->text);
+    void *copy = arena_alloc(arena, (size_t)n * size);
+    return n > 0 ? memcpy(copy, values, (size_t)n * size) : copy;
+}
+
+struct param_list params_keep(const struct params *p)
+{
+    struct param_list kept = {copy_values(p->arena, p->item, p->n, sizeof *kept.item), p->n};
+    for (struct param *item = kept.item; item < kept.item + kept.n; item++)
+        if (item->is_text)
+            item->text = copy_values(p->arena, item->text, item->n, sizeof *item->text);
         else
-            copy->number = memcpy(arena_alloc(p->arena, n * sizeof *copy->number), copy->number,
-                                  n * sizeof *copy->number);
-    }
+            item->number = copy_values(p->arena, item->number, item->n, sizeof *item->number);
     return kept;
 }
 

@@ -2,6 +2,7 @@
  * reading its parameters by a table. See parse.h. */
 #include "parser/parse.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "base/bits.h"
@@ -56,52 +57,17 @@ int parse_named(struct parser *p, struct token *name, const struct symbols *tabl
 
 /* --- objects by tables ---------------------------------------------------------------------------------- */
 
-/* "a, b, c": the types of a table that are supported, cut at the buffer's end. */
-static void list_types(const struct object_type *types, char *buffer, size_t size)
-{
-    buffer[0] = '\0';
-    for (const struct object_type *t = types; t->name != NULL; t++)
-        if (t->parameter != NULL) {
-            strncat(buffer, buffer[0] != '\0' ? ", " : "", size - strlen(buffer) - 1);
-            strncat(buffer, t->name, size - strlen(buffer) - 1);
-        }
-}
-
-/* A type that neither pbrt-v3 nor this program knows; *end is the row behind the table, which says what to do: refuse
- * it, leave the directive out, or take the type of this row, by its name in the table if it has one. */
-static bool unknown_type(struct parser *p, const struct object_type *types, const struct object_type *end)
-{
-    struct params *q = &p->params;
-    char list[256];
-    const char *instead = NULL;
-    list_types(types, list, sizeof list);
-    for (const struct object_type *t = types; t != end && instead == NULL; t++)
-        if (t->parameter == end->parameter && t->kind == end->kind)
-            instead = t->name;
-    if (end->parameter == NULL && end->kind == REFUSE_OTHERS)
-        return type_error(q, "unknown %s \"%.40s\"; known are %s", q->directive, q->type, list);
-    if (end->parameter == NULL || instead == NULL)
-        source_warn(q->messages, q->position, "unknown %s \"%.40s\" is left out, as pbrt-v3 does; known are %s",
-                    q->directive, q->type, list);
-    else
-        source_warn(q->messages, q->position, "unknown %s \"%.40s\"; \"%s\" is taken instead; known are %s",
-                    q->directive, q->type, instead, list);
-    return end->parameter != NULL;
-}
-
 bool parse_type(struct parser *p, const struct object_type *types)
 {
     struct params *q = &p->params;
-    char list[256];
+    char known[256] = "";
     for (p->type = types; p->type->name != NULL; p->type++) {
-        if (strcmp(p->type->name, q->type) != 0)
-            continue;
-        if (p->type->parameter != NULL)
+        if (strcmp(p->type->name, q->type) == 0)
             return true;
-        list_types(types, list, sizeof list);
-        return type_error(q, "%s \"%s\" of pbrt-v3 is not supported; use one of %s", q->directive, q->type, list);
+        strncat(known, known[0] != '\0' ? ", " : "", sizeof known - strlen(known) - 1);
+        strncat(known, p->type->name, sizeof known - strlen(known) - 1);
     }
-    return unknown_type(p, types, p->type);
+    return type_error(q, "%s \"%.40s\" is not supported; use one of %s", q->directive, q->type, known);
 }
 
 void parse_fields(struct parser *p, void *object)
@@ -113,10 +79,33 @@ void parse_fields(struct parser *p, void *object)
         p->type->build(p, object);
 }
 
+/* A parameter nobody asked for: is its name known, or is another near? */
+static void warn_of_unused(struct parser *p, const struct param *item)
+{
+    struct suggestion near = suggest_start(item->name);
+    char hint[128] = "";
+    for (const struct parameter *row = p->type->parameter; row->name != NULL; row++)
+        suggest_offer(&near, row->name);
+    if (near.name != NULL && strcmp(near.name, item->name) == 0)
+        strcpy(hint, "; that has another type, or no meaning here");
+    else if (near.name != NULL)
+        snprintf(hint, sizeof hint, "; did you mean \"%s\"?", near.name);
+    source_warn(&p->messages, item->position, "parameter \"%s %.40s\" of %s \"%s\" is not used%s",
+                params_type_name(item->type), item->name, p->params.directive, p->params.type, hint);
+}
+
+bool parse_done(struct parser *p)
+{
+    for (const struct param *item = p->params.item; item < p->params.item + p->params.n && !p->params.failed; item++)
+        if (!item->used)
+            warn_of_unused(p, item);
+    return !p->params.failed;
+}
+
 bool parse_object(struct parser *p, void *object)
 {
     parse_fields(p, object);
-    return params_done(&p->params);
+    return parse_done(p);
 }
 
 /* --- readers of one parameter --------------------------------------------------------------------------- */
@@ -145,18 +134,15 @@ void parse_point(struct parser *p, const struct parameter *row, void *field)
 
 void parse_ignored(struct parser *p, const struct parameter *row, void *field)
 {
-    const struct param *item = params_ignore(&p->params, row->name);
+    params_ignore(&p->params, row->name);
     (void)field;
-    if (item != NULL && row->warning != NULL)
-        source_warn(&p->messages, item->position, "%s", row->warning);
 }
 
-/* --- textures ------------------------------------------------------------------------------------------- */
+/* --- textures and pictures ----------------------------------------------------------------------------- */
 
 int parse_constant(struct parser *p, rgb value)
 {
-    uint32_t h = hash_bytes(&value, sizeof value);
-    int *slot = &p->constant[(h ^ h >> 16) % CONSTANTS];
+    int *slot = &p->constant[hash_content(&value, sizeof value) % CONSTANTS];
     const struct texture *known = *slot > 0 ? &p->scene->textures.texture[*slot - 1] : NULL;
     if (known == NULL || memcmp(&known->constant, &value, sizeof value) != 0)
         *slot = texture_add_constant(&p->scene->textures, value) + 1;
@@ -167,22 +153,13 @@ int parse_named_texture(struct parser *p, const char *name, bool is_float)
 {
     struct params *q = &p->params;
     const struct symbols *table = is_float ? &p->float_textures : &p->spectrum_textures;
-    const struct symbols *other = is_float ? &p->spectrum_textures : &p->float_textures;
     struct source_position at;
     const char *texture = params_text(q, name, PARAM_TEXTURE, &at);
     if (texture == NULL)
         return -1;
     int id = symbols_find(table, texture);
-    if (id < 0 && symbols_find(other, texture) >= 0)
-        source_warn(q->messages, at,
-                    "\"%s\" wants a texture of type %s, but \"%.60s\" is of type %s; the default is taken", name,
-                    is_float ? "float" : "spectrum", texture, is_float ? "spectrum" : "float");
-    else if (id < 0)
+    if (id < 0)
         parse_no_such(p, at, texture, is_float ? "float texture" : "spectrum texture", "the default is taken");
-    const struct param *value = id < 0 ? NULL : params_ignore(q, name);
-    if (value != NULL && value->type != PARAM_TEXTURE) /* a texture wins over a value of the same name, as in pbrt */
-        source_warn(&p->messages, value->position, "\"%s\" is given as a texture and as a value; the texture counts",
-                    name);
     return id;
 }
 
@@ -204,9 +181,7 @@ static void check_range(struct parser *p, const struct parameter *row, int textu
 void parse_float_texture(struct parser *p, const struct parameter *row, void *field)
 {
     int *texture = field, id = parse_named_texture(p, row->name, true);
-    p->params.excess = true;
     double value = id < 0 ? params_number(&p->params, row->name, row->fallback.r, ANY_NUMBER) : 0;
-    p->params.excess = false;
     if (id < 0)
         id = isnan(value) ? *texture : parse_constant(p, rgb_grey(value));
     *texture = id;
@@ -216,10 +191,19 @@ void parse_float_texture(struct parser *p, const struct parameter *row, void *fi
 void parse_rgb_texture(struct parser *p, const struct parameter *row, void *field)
 {
     int id = parse_named_texture(p, row->name, false);
-    p->params.excess = true;
     if (id < 0)
         id = parse_constant(p, params_rgb(&p->params, row->name, row->fallback));
-    p->params.excess = false;
     *(int *)field = id;
     check_range(p, row, id);
+}
+
+bool parse_picture(struct params *q, struct source_position at, const struct image *image, bool is_new, uint64_t tables,
+                   struct error *why)
+{
+    if (image == NULL || (is_new && !scene_files_picture(q->files, image, tables, why)))
+        return params_fail(q, at, "%s", why->text);
+    if (image->replaced > 0)
+        source_warn(q->messages, at, "%ld numbers of this picture are not finite, or negative light; 0 instead",
+                    image->replaced);
+    return true;
 }

@@ -26,19 +26,19 @@ struct area_light {
 
 /* A material, and what it was made from, for shapes that change parameters of it. */
 struct material_source {
-    int id;                  /* index into scene->materials, or MATERIAL_NONE */
-    const char *type;        /* "matte" */
-    struct kept_params list;
+    int id;           /* index into scene->materials, or MATERIAL_NONE */
+    const char *type; /* "matte" */
+    struct param_list list;
 };
 
-/* What TransformBegin saves. */
+/* What every block saves. */
 struct transform_state {
-    struct transform ctm; /* current transformation matrix: object to world, before WorldBegin world to camera; of NaN
-                           * where it is of no use, which parse_placed tells */
+    struct transform ctm; /* current transformation matrix: object to world, before WorldBegin world to camera; whether
+                           * it is of use, parse_placed tells */
     bool start_active;    /* ActiveTransform: transforms act on the start of the shutter interval */
 };
 
-/* What AttributeBegin saves beside that. */
+/* What AttributeBegin and ObjectBegin save beside that. */
 struct graphics_state {
     struct material_source material;
     bool reverse; /* ReverseOrientation */
@@ -47,31 +47,24 @@ struct graphics_state {
 
 enum block_kind { BLOCK_ATTRIBUTE, BLOCK_TRANSFORM, BLOCK_OBJECT };
 
-/* The transform saved by an open AttributeBegin, TransformBegin or ObjectBegin. */
-struct pushed_transform {
+/* An open block. */
+struct block {
     enum block_kind kind;
     struct source_position position;
-    struct transform_state saved;
-};
-
-/* The rest that an open AttributeBegin or ObjectBegin has saved. pbrt-v3 has two stacks as well: blocks that cross are
- * not an error. */
-struct pushed_state {
-    struct graphics_state saved;
+    struct transform_state place;
+    struct graphics_state state;
     int n_float_textures, n_spectrum_textures, n_materials; /* named so far */
 };
 
 /* One Shape directive; stored where it belongs to an object, to be added once per instance. */
 struct shape_item {
     bool is_mesh;
-    bool absent;            /* alpha 0: nothing of it is there */
     struct mesh mesh;       /* owned */
     struct quadric quadric; /* to_world not yet set */
     struct shape_group group;
     struct transform to_world;
     bool reverse;
     struct area_light area;
-    struct source_position position;
 };
 
 struct shape_list {
@@ -83,13 +76,6 @@ enum { CONSTANTS = 256, MAX_INCLUDE_DEPTH = 32 };
 
 /* Where a directive may stand. */
 enum phase { BEFORE_WORLD = 1, IN_WORLD = 2, AFTER_WORLD = 4, ANYWHERE = BEFORE_WORLD | IN_WORLD };
-
-/* A file in memory. */
-struct loaded {
-    char *text; /* owned */
-    size_t size;
-    uint64_t content; /* its hash */
-};
 
 struct parser {
     struct scene *scene;
@@ -104,26 +90,20 @@ struct parser {
     struct source_file *source[MAX_INCLUDE_DEPTH]; /* [n_sources] files being read, main file first */
     int n_sources, n_includes;
     struct scene_files named; /* what may be read, and how often */
-    struct symbols files; /* path -> file[]: a file included twice is read once */
-    struct loaded *file;  /* [files.n], owned */
 
     struct transform_state place;
     struct graphics_state state;
-    struct pushed_transform *pushed; /* [n_pushed], innermost last, owned */
-    int n_pushed;
-    struct pushed_state *block; /* [n_blocks], innermost last, owned */
+    struct block *block; /* [n_blocks], innermost last, owned */
     int n_blocks;
 
     struct symbols float_textures, spectrum_textures, materials; /* scoped; materials -> material[] */
     struct material_source *material;                            /* [n_materials], owned */
     int n_materials;
-    struct symbols media;                                        /* -> 0 */
     struct symbols systems;                                      /* -> system[] */
     struct transform *system;                                    /* [systems.n], owned */
     struct symbols objects;    /* -> object[] */
     struct shape_list *object; /* [objects.n], owned */
-    struct source_position lamp;   /* the first see-through lamp; no file: none */
-    struct source_position medium; /* the first medium that a MediumInterface names; no file: none */
+    struct source_position medium; /* the last that a MediumInterface names; no file: none */
     int current_object; /* between ObjectBegin and ObjectEnd, else -1 */
     uint64_t copied_bytes; /* of all instances */
     int n_infinite;        /* lights */
@@ -142,40 +122,36 @@ struct parameter {
     size_t field;    /* offset within the object */
     rgb fallback;    /* of a number: r. NaN: what the object holds already */
     double low, high; /* what the numbers may be, of readers that care */
-    const char *warning; /* parse_ignored: what to say where it is given; NULL: nothing */
 };
 
-/* One type of object of a directive. A table of them ends with one without a name, which says what becomes of unknown
- * types. */
+/* One type of object of a directive. A table of them ends with one without a name. */
 struct object_type {
     const char *name;
-    const struct parameter *parameter; /* ended by one without a name. NULL: of pbrt-v3 but refused here */
+    const struct parameter *parameter; /* ended by one without a name */
     int kind;                          /* LIGHT_POINT, MATERIAL_MATTE and so on */
     void (*build)(struct parser *p, void *object); /* what the table cannot say, once it is read; or NULL */
 };
 
 #define GREY(x) {x, x, x}
 #define KEPT (double)NAN /* the object's own default */
-#define ANY_NUMBER -DBL_MAX, DBL_MAX
-#define POSITIVE NUMBER_MIN, (double)INFINITY
-#define AT_LEAST_0 0, (double)INFINITY
-#define IGNORED(name) {name, parse_ignored, 0, GREY(0), 0, 0, NULL} /* nothing here depends on it */
-#define BY_BUILD(name) {name, NULL, 0, GREY(0), 0, 0, NULL} /* for whoever lists what a type has */
-#define END_OF_PARAMETERS {NULL, NULL, 0, GREY(0), 0, 0, NULL}
-#define REFUSED(name) {name, NULL, 0, NULL}
-enum { REFUSE_OTHERS, LEAVE_OTHERS_OUT };                    /* kinds of a row behind a table without parameters */
-#define END_OF_TYPES {NULL, NULL, REFUSE_OTHERS, NULL}       /* unknown ones are an error */
-#define OTHERS_LEFT_OUT {NULL, NULL, LEAVE_OTHERS_OUT, NULL} /* pbrt-v3 goes on without them */
-#define OTHERS_LIKE(parameter, kind, build) {NULL, parameter, kind, build} /* pbrt-v3 takes this type instead */
+#define ANY_NUMBER -NUMBER_MAX, NUMBER_MAX
+#define POSITIVE NUMBER_MIN, NUMBER_MAX
+#define FIELD_OF_VIEW NUMBER_MIN, 179.999 /* degrees */
+#define AT_LEAST_0 0, NUMBER_MAX
+#define IGNORED(name) {name, parse_ignored, 0, GREY(0), 0, 0} /* nothing here depends on it */
+#define BY_BUILD(name) {name, NULL, 0, GREY(0), 0, 0}
+#define END_OF_PARAMETERS {NULL, NULL, 0, GREY(0), 0, 0}
+#define END_OF_TYPES {NULL, NULL, 0, NULL}
 
-/* parse_type: find params.type in a table and set p->type. Returns false with a message, which differs for the types of
- * pbrt-v3 that are refused here and for typos. */
+/* parse_type: find params.type in a table and set p->type. Returns false with a message. */
 bool parse_type(struct parser *p, const struct object_type *types);
 
-/* parse_object: read the parameters of p->type into *object, in the table's order, and build the rest of it.
- * parse_fields: the same, but nothing is said yet of parameters that nobody has asked for: params_done will. */
-bool parse_object(struct parser *p, void *object);
+/* parse_fields: read the parameters of p->type into *object, in the table's order, and build the rest of it.
+ * parse_done: warn of the parameters that nobody has asked for. False if anything failed.
+ * parse_object: both. */
 void parse_fields(struct parser *p, void *object);
+bool parse_done(struct parser *p);
+bool parse_object(struct parser *p, void *object);
 
 /* Readers of one parameter into a field. The textures are numbers of the scene. */
 void parse_number(struct parser *p, const struct parameter *row, void *field);        /* double */
@@ -210,15 +186,16 @@ int parse_named(struct parser *p, struct token *name, const struct symbols *tabl
 /* parse_placed: can anything stand where the current transform puts it? False with a message if not. */
 bool parse_placed(struct parser *p);
 
-/* parse_sees_media: is it an integrator of pbrt-v3 that sees media, or none of its, which may not be less exact?
- * NULL is its default. */
-bool parse_sees_media(const char *integrator);
-
 /* parse_constant: a constant texture. */
 int parse_constant(struct parser *p, rgb value);
 
 /* parse_named_texture: that of "texture NAME"; -1 without such a parameter or, with a warning, such a texture. */
 int parse_named_texture(struct parser *p, const char *name, bool is_float);
+
+/* parse_picture: a picture has been loaded, or, for the reason in *why, not (NULL). Counts it if it is new, with
+ * `tables` bytes that were made for it; false, with a message, if it cannot be had. */
+bool parse_picture(struct params *q, struct source_position at, const struct image *image, bool is_new, uint64_t tables,
+                   struct error *why);
 
 /* --- directives ----------------------------------------------------------------------------------------- */
 
@@ -240,12 +217,10 @@ extern const struct directive STATE_DIRECTIVES[], OPTION_DIRECTIVES[], TEXTURE_D
 /* parse_make_material: make a material of kind params.type. */
 bool parse_make_material(struct parser *p, struct material_source *out);
 
-/* parse_changed_material: the number of the current material, or, if parameters of the shape in p->params are some of
- * its, of one like it that looks up its parameters in the shape's list and then in the material's, as pbrt-v3 does. */
+/* parse_changed_material: the number of the current material, or, if the shape in p->params has parameters that it has
+ * no use for, of one like it that looks up its parameters in the shape's list and then in the material's, as pbrt-v3
+ * does. */
 int parse_changed_material(struct parser *p);
-
-/* parse_warn_of_lamps: at the end of the world, of what see-through lamps may hide that pbrt-v3 shows. */
-void parse_warn_of_lamps(struct parser *p);
 
 /* parse_place_shape: put a shape into the object that is open, else into the scene. Takes over its mesh. */
 bool parse_place_shape(struct parser *p, struct shape_item *item);

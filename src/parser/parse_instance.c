@@ -15,33 +15,6 @@ static void add_lights(struct scene *s, int group, int n, const struct area_ligh
     }
 }
 
-/* Does the picture depend on which side of its surface is outside? */
-static bool knows_sides(const struct scene *s, const struct shape_item *item)
-{
-    int m = item->group.material;
-    return (item->area.on && !item->area.two_sided) || (m >= 0 && s->material[m].kind == MATERIAL_GLASS);
-}
-
-/* The material whose frame counts has a bump map. */
-static bool is_bumped(const struct scene *s, int m)
-{
-    while (m >= 0 && s->material[m].kind == MATERIAL_MIX)
-        m = s->material[m].mix1;
-    return m >= 0 && s->material[m].bump >= 0;
-}
-
-/* Say so where pbrt-v3 gives this shape other normals. */
-static void warn_of_normals(struct parser *p, const struct shape_item *item, const struct transform *to_world)
-{
-    if (!item->is_mesh && transform_swaps_handedness(to_world) && knows_sides(p->scene, item))
-        source_warn(&p->messages, item->position,
-                    "pbrt-v3 turns the normals of a mirrored quadric round; here they point outwards");
-    if (item->is_mesh && item->mesh.N != NULL && is_bumped(p->scene, item->group.material))
-        source_warn(&p->messages, item->position,
-                    "pbrt-v3 inverts and scales bump maps on meshes that have normals; here they are as on "
-                    "other shapes");
-}
-
 /* Add one shape to the scene. A mesh inside the item stays the caller's. */
 static bool add_shape(struct parser *p, const struct shape_item *item, struct transform to_world,
                       struct source_position at)
@@ -51,7 +24,6 @@ static bool add_shape(struct parser *p, const struct shape_item *item, struct tr
     group.first_light = item->area.on ? s->lights.n : -1;
     struct error inner;
     int id, n = 1;
-    warn_of_normals(p, item, &to_world);
     if (item->is_mesh) {
         n = item->mesh.n_triangles;
         id = shape_add_mesh(&s->geo, &item->mesh, &to_world, group, item->reverse, &inner);
@@ -67,27 +39,22 @@ static bool add_shape(struct parser *p, const struct shape_item *item, struct tr
     return true;
 }
 
-static void shape_list_add(struct shape_list *list, const struct shape_item *item)
-{
-    list->item = mem_append(list->item, (size_t)list->n, sizeof *list->item);
-    list->item[list->n++] = *item;
-}
-
 void shape_list_free(struct shape_list *list)
 {
     for (int i = 0; i < list->n; i++)
         mesh_free(&list->item[i].mesh);
     free(list->item);
-    memset(list, 0, sizeof *list);
 }
 
 bool parse_place_shape(struct parser *p, struct shape_item *item)
 {
     if (p->current_object >= 0) {
-        shape_list_add(&p->object[p->current_object], item);
+        struct shape_list *list = &p->object[p->current_object];
+        list->item = mem_append(list->item, (size_t)list->n, sizeof *list->item);
+        list->item[list->n++] = *item;
         return true;
     }
-    bool ok = add_shape(p, item, item->to_world, item->position);
+    bool ok = add_shape(p, item, item->to_world, p->params.position);
     mesh_free(&item->mesh);
     return ok;
 }
@@ -100,8 +67,7 @@ static bool object_begin(struct parser *p)
     if (!parse_string(p, &name, "a name"))
         return false;
     if (p->current_object >= 0)
-        source_warn(&p->messages, p->directive.position,
-                    "ObjectBegin inside an object; as in pbrt-v3, the outer one ends here");
+        return directive_error(p, "objects do not nest; close the one before it with ObjectEnd");
     p->object = mem_append(p->object, (size_t)p->objects.n, sizeof *p->object);
     memset(&p->object[p->objects.n], 0, sizeof *p->object);
     p->current_object = p->objects.n;
@@ -111,10 +77,10 @@ static bool object_begin(struct parser *p)
 
 static bool object_end(struct parser *p)
 {
-    if (p->current_object < 0)
-        source_warn(&p->messages, p->directive.position, "ObjectEnd outside of an object ends an attribute block");
+    if (!parse_close_block(p, BLOCK_OBJECT))
+        return false;
     p->current_object = -1;
-    return parse_close_block(p, BLOCK_OBJECT);
+    return true;
 }
 
 /* Instances are copies: a few lines could ask for more than any machine has. */
@@ -137,11 +103,8 @@ static uint64_t instance_bytes(const struct shape_list *object)
 static bool object_instance(struct parser *p)
 {
     struct token name;
-    if (p->current_object >= 0) {
-        source_warn(&p->messages, p->directive.position,
-                    "ObjectInstance inside an object is passed over, as in pbrt-v3; objects do not nest");
-        return false;
-    }
+    if (p->current_object >= 0)
+        return directive_error(p, "objects do not nest; close the one before it with ObjectEnd");
     int i = parse_named(p, &name, &p->objects, "object", "this instance is left out");
     if (i < 0)
         return false;

@@ -16,17 +16,14 @@ struct light_item {
     double fov;        /* degrees */
 };
 
-/* "L" or "I" times "scale". */
+/* "L" or "I" times "scale". Its green may be negative, but not the sum that luminance is. */
 static void emitted(struct parser *p, const struct parameter *row, void *field)
 {
     struct params *q = &p->params;
     rgb value = rgb_mul(params_rgb(q, row->name, row->fallback), params_rgb(q, "scale", rgb_grey(1)));
-    if (!rgb_is_finite(value) || rgb_luminance(value) < 0)
-        type_error(q, "this light's %s times its scale is (%g %g %g); a light must not take light away",
-                    row->name, value.r, value.g, value.b);
-    if (!(rgb_max(value) <= NUMBER_MAX)) /* its green may be negative, but not the sum that luminance is */
-        type_error(q, "this light's %s times its scale is (%g %g %g); light goes up to %g here", row->name,
-                    value.r, value.g, value.b, NUMBER_MAX);
+    if (!(rgb_luminance(value) >= 0 && rgb_max(value) <= NUMBER_MAX))
+        type_error(q, "this light's %s times its scale is (%g %g %g): not a light, from 0 to %g", row->name, value.r,
+                   value.g, value.b, NUMBER_MAX);
     *(rgb *)field = value;
 }
 
@@ -54,8 +51,6 @@ static void spot_light(struct parser *p, void *object)
     struct light_item *item = object;
     struct light *l = &item->light;
     struct params *q = &p->params;
-    if (item->cone > 180)
-        type_error(q, "\"coneangle\" is %g degrees; the whole sphere is 180", item->cone);
     l->cos_total = m_cos(item->cone * PI / 180);
     l->cos_falloff = m_cos((item->cone - item->edge) * PI / 180); /* of an angle below 0 too, as in pbrt-v3 */
     if (!(l->cos_total < 1))
@@ -75,85 +70,67 @@ static void distant_light(struct parser *p, void *object)
         direction(&p->params, transform_vector(&item->light.to_world, sub(item->from, item->to)));
 }
 
-/* The picture of "mapname", if there is one: a map of an infinite light, a slide of the others. */
-static void map_of_light(struct params *q, struct light_set *lights, struct light *l)
+/* The picture of a light, if it names one. */
+static void picture(struct parser *p, const struct parameter *row, void *field)
 {
+    struct params *q = &p->params;
+    struct light_set *lights = &p->scene->lights;
+    struct light *l = field;
     struct source_position at;
     struct error inner;
-    char *path = params_file(q, "mapname", &at);
-    const struct image *image = NULL;
-    int known = lights->n_pictures;
-    if (path == NULL)
-        return;
-    if (!q->failed && l->kind == LIGHT_INFINITE)
-        image = light_read_map(lights, l, path, &inner);
-    else if (!q->failed)
-        image = light_read_slide(lights, l, path, &inner);
-    uint64_t tables = l->env != NULL ? envmap_bytes(l->env) : 0;
-    bool ok = image != NULL &&
-              (lights->n_pictures == known || scene_files_picture(q->files, image, tables, &inner));
-    if (!q->failed && !ok)
-        params_fail(q, at, "%s", inner.text);
-    else if (!q->failed && image->replaced > 0)
-        source_warn(q->messages, at, "%ld numbers of this picture are negative or not finite; 0 instead",
-                    image->replaced);
+    char *path = params_file(q, row->name, &at);
+    if (path != NULL && !q->failed) {
+        int known = lights->n_pictures;
+        const struct image *image = light_read_picture(lights, l, path, &inner);
+        uint64_t tables = l->env != NULL ? envmap_bytes(l->env) : 0;
+        parse_picture(q, at, image, lights->n_pictures > known, tables, &inner);
+    }
     free(path);
-}
-
-static void infinite_light(struct parser *p, void *object)
-{
-    map_of_light(&p->params, &p->scene->lights, &((struct light_item *)object)->light);
 }
 
 static void slide_light(struct parser *p, void *object)
 {
     struct light_item *item = object;
     struct light *l = &item->light;
-    map_of_light(&p->params, &p->scene->lights, l);
     l->position = transform_point(&l->to_world, vec(0, 0, 0));
     if (l->kind != LIGHT_PROJECTION)
         return;
-    if (!(item->fov < 180))
-        type_error(&p->params, "a field of view of %g degrees is too wide; it must be less than 180", item->fov);
     l->tan_half = m_tan(item->fov * PI / 360);
     l->cos_total = slide_cos_corner(l->slide, l->tan_half);
     if (!(l->cos_total < 1))
         type_error(&p->params, "\"fov\" is %g degrees: a picture without inside", item->fov);
 }
 
-#define EMITTED(name) {name, emitted, offsetof(struct light_item, light.L), GREY(1), 0, 0, NULL}
-#define POINT(f, x, y, z) {#f, parse_point, offsetof(struct light_item, f), {x, y, z}, 0, 0, NULL}
+#define EMITTED(name) {name, emitted, offsetof(struct light_item, light.L), GREY(1), 0, 0}, BY_BUILD("scale")
+#define PICTURE {"mapname", picture, offsetof(struct light_item, light), GREY(0), 0, 0}
+#define POINT(f, x, y, z) {#f, parse_point, offsetof(struct light_item, f), {x, y, z}, 0, 0}
 #define SAMPLES IGNORED("samples"), IGNORED("nsamples") /* how often pbrt-v3 samples a light per hit: no matter here */
 
-static const struct parameter POINT_LIGHT[] = {
-    EMITTED("I"), BY_BUILD("scale"), POINT(from, 0, 0, 0), END_OF_PARAMETERS};
+static const struct parameter POINT_LIGHT[] = {EMITTED("I"), POINT(from, 0, 0, 0), END_OF_PARAMETERS};
 static const struct parameter SPOT_LIGHT[] = {
     EMITTED("I"),
-    BY_BUILD("scale"),
-    {"coneangle", parse_number, offsetof(struct light_item, cone), GREY(30), POSITIVE, NULL},
-    {"conedeltaangle", parse_number, offsetof(struct light_item, edge), GREY(5), AT_LEAST_0, NULL},
+    {"coneangle", parse_number, offsetof(struct light_item, cone), GREY(30), NUMBER_MIN, 180},
+    {"conedeltaangle", parse_number, offsetof(struct light_item, edge), GREY(5), AT_LEAST_0},
     POINT(from, 0, 0, 0),
     POINT(to, 0, 0, 1),
     END_OF_PARAMETERS};
 static const struct parameter DISTANT_LIGHT[] = {
-    EMITTED("L"), BY_BUILD("scale"), POINT(from, 0, 0, 0), POINT(to, 0, 0, 1), END_OF_PARAMETERS};
-static const struct parameter INFINITE_LIGHT[] = {
-    EMITTED("L"), BY_BUILD("scale"), SAMPLES, BY_BUILD("mapname"), END_OF_PARAMETERS};
-static const struct parameter GONIOMETRIC_LIGHT[] = {
-    EMITTED("I"), BY_BUILD("scale"), BY_BUILD("mapname"), END_OF_PARAMETERS};
+    EMITTED("L"), POINT(from, 0, 0, 0), POINT(to, 0, 0, 1), END_OF_PARAMETERS};
+static const struct parameter INFINITE_LIGHT[] = {EMITTED("L"), PICTURE, SAMPLES, END_OF_PARAMETERS};
+static const struct parameter GONIOMETRIC_LIGHT[] = {EMITTED("I"), PICTURE, END_OF_PARAMETERS};
 static const struct parameter PROJECTION_LIGHT[] = {
-    EMITTED("I"), BY_BUILD("scale"), BY_BUILD("mapname"),
-    {"fov", parse_number, offsetof(struct light_item, fov), GREY(45), POSITIVE, NULL}, END_OF_PARAMETERS};
+    EMITTED("I"), PICTURE,
+    {"fov", parse_number, offsetof(struct light_item, fov), GREY(45), FIELD_OF_VIEW}, END_OF_PARAMETERS};
 
 static const struct object_type LIGHTS[] = {
     {"point", POINT_LIGHT, LIGHT_POINT, point_light},
     {"spot", SPOT_LIGHT, LIGHT_SPOT, spot_light},
     {"distant", DISTANT_LIGHT, LIGHT_DISTANT, distant_light},
-    {"infinite", INFINITE_LIGHT, LIGHT_INFINITE, infinite_light},
-    {"exinfinite", INFINITE_LIGHT, LIGHT_INFINITE, infinite_light},
+    {"infinite", INFINITE_LIGHT, LIGHT_INFINITE, NULL},
+    {"exinfinite", INFINITE_LIGHT, LIGHT_INFINITE, NULL},
     {"goniometric", GONIOMETRIC_LIGHT, LIGHT_GONIOMETRIC, slide_light},
     {"projection", PROJECTION_LIGHT, LIGHT_PROJECTION, slide_light},
-    OTHERS_LEFT_OUT};
+    END_OF_TYPES};
 
 static bool light(struct parser *p)
 {
@@ -161,34 +138,31 @@ static bool light(struct parser *p)
     struct light_item item = {.light = {.kind = (enum light_kind)p->type->kind, .to_world = p->place.ctm, .prim = -1}};
     if (!parse_placed(p))
         return false;
-    parse_object(p, &item);
+    parse_fields(p, &item);
     vec3 position = item.light.position;
     if (!is_place(position))
         type_error(q, "this light would stand at (%g %g %g); places go up to 1e18", position.x, position.y, position.z);
     if (item.light.kind == LIGHT_INFINITE && ++p->n_infinite > LIGHT_MAX_INFINITE)
         type_error(q, "more than %d infinite lights; use fewer", LIGHT_MAX_INFINITE);
-    if (!params_done(q))
+    if (!parse_done(p))
         return false;
     light_add(&p->scene->lights, item.light);
     return true;
 }
 
 static const struct parameter AREA_LIGHT[] = {
-    {"L", emitted, offsetof(struct area_light, L), GREY(1), 0, 0, NULL},
+    {"L", emitted, offsetof(struct area_light, L), GREY(1), 0, 0},
     BY_BUILD("scale"),
-    {"twosided", parse_bool, offsetof(struct area_light, two_sided), GREY(0), 0, 0, NULL},
+    {"twosided", parse_bool, offsetof(struct area_light, two_sided), GREY(0), 0, 0},
     SAMPLES,
     END_OF_PARAMETERS};
 
-enum { NO_AREA_LIGHT = -1 };
-
-static const struct object_type AREA_LIGHTS[] = {{"diffuse", AREA_LIGHT, LIGHT_AREA, NULL},
-                                                 {"area", AREA_LIGHT, LIGHT_AREA, NULL},
-                                                 OTHERS_LIKE(AREA_LIGHT, NO_AREA_LIGHT, NULL)};
+static const struct object_type AREA_LIGHTS[] = {
+    {"diffuse", AREA_LIGHT, LIGHT_AREA, NULL}, {"area", AREA_LIGHT, LIGHT_AREA, NULL}, END_OF_TYPES};
 
 static bool area_light(struct parser *p)
 {
-    p->state.area.on = p->type->kind != NO_AREA_LIGHT;
+    p->state.area.on = true;
     return parse_object(p, &p->state.area);
 }
 

@@ -6,38 +6,30 @@
 
 static void mixed_material(struct parser *p, const struct parameter *row, void *field)
 {
-    struct params *q = &p->params;
-    struct source_position at;
-    const char *name = params_text(q, row->name, PARAM_STRING, &at);
+    struct source_position at = p->params.position;
+    const char *name = params_text(&p->params, row->name, PARAM_STRING, &at);
     int k = name != NULL ? symbols_find(&p->materials, name) : -1;
-    *(int *)field = k >= 0 ? p->material[k].id : 0;
-    if (name == NULL)
-        source_warn(q->messages, q->position, "a mix needs \"string %s\"; a matte material is taken", row->name);
-    else if (k < 0)
-        parse_no_such(p, at, name, "named material", "a matte one is taken");
-    else if (p->material[k].id == MATERIAL_NONE)
-        params_fail(q, at, "the material \"%.60s\" is \"none\"; it cannot be mixed", name);
+    *(int *)field = k >= 0 ? p->material[k].id : MATERIAL_NONE;
+    if (*(int *)field == MATERIAL_NONE)
+        params_fail(&p->params, at, "\"%s\" of a mix must name a material that is not \"none\"", row->name);
 }
 
 /* Negative numbers of a colour count as 0: colours of the file that sRGB has not got have some. */
 #define RGB(f, r, g, b) \
-    {#f, parse_rgb_texture, offsetof(struct material, f), {r, g, b}, -MATERIAL_MAX_COLOUR, MATERIAL_MAX_COLOUR, NULL}
+    {#f, parse_rgb_texture, offsetof(struct material, f), {r, g, b}, -MATERIAL_MAX_COLOUR, MATERIAL_MAX_COLOUR}
 #define COLOUR(f, value) RGB(f, value, value, value)
 #define TEXTURE(name, f, value, range) \
-    {name, parse_float_texture, offsetof(struct material, f), GREY(value), range, NULL}
+    {name, parse_float_texture, offsetof(struct material, f), GREY(value), range}
 #define ROUGHNESSES 0, MATERIAL_MAX_ROUGHNESS
 #define INDICES MATERIAL_MIN_INDEX, MATERIAL_MAX_INDEX
 #define ROUGH(name, f, value) TEXTURE(name, f, value, ROUGHNESSES)
-#define REMAP {"remaproughness", parse_bool, offsetof(struct material, remap_roughness), GREY(1), 0, 0, NULL}
+#define REMAP {"remaproughness", parse_bool, offsetof(struct material, remap_roughness), GREY(1), 0, 0}
 #define INDEX /* of refraction; "eta" wins */ \
     TEXTURE("index", index, 1.5, INDICES), TEXTURE("eta", index, KEPT, INDICES)
 #define TWO_ROUGHNESSES(value) /* glass and substrate have no "roughness" in pbrt-v3: it passes over that, so do we */ \
-    ROUGH("uroughness", uroughness, value), ROUGH("vroughness", vroughness, value), REMAP, \
-    {"roughness", parse_ignored, 0, GREY(0), 0, 0, \
-     "pbrt-v3 does not read \"roughness\" of this material, so it is ignored; " \
-     "use \"uroughness\" and \"vroughness\""}
+    ROUGH("uroughness", uroughness, value), ROUGH("vroughness", vroughness, value), REMAP
 #define BUMP TEXTURE("bumpmap", bump, KEPT, ANY_NUMBER), END_OF_PARAMETERS
-#define MIXED(name, f) {name, mixed_material, offsetof(struct material, f), GREY(0), 0, 0, NULL}
+#define MIXED(name, f) {name, mixed_material, offsetof(struct material, f), GREY(0), 0, 0}
 
 static const struct parameter MATTE[] = {COLOUR(Kd, 0.5), TEXTURE("sigma", sigma, 0, ANY_NUMBER), BUMP};
 static const struct parameter MIRROR[] = {COLOUR(Kr, 0.9), BUMP};
@@ -84,8 +76,7 @@ const struct object_type MATERIAL_TYPES[] = {
     {"uber", UBER, MATERIAL_UBER, NULL},
     {"translucent", TRANSLUCENT, MATERIAL_TRANSLUCENT, NULL},
     {"mix", MIX, MATERIAL_MIX, NULL},
-    REFUSED("disney"), REFUSED("fourier"), REFUSED("hair"), REFUSED("kdsubsurface"), REFUSED("subsurface"),
-    OTHERS_LIKE(MATTE, MATERIAL_MATTE, NULL)};
+    END_OF_TYPES};
 
 static bool is_none(const char *type) { return type[0] == '\0' || strcmp(type, "none") == 0; }
 
@@ -109,7 +100,7 @@ static bool make(struct parser *p, int *out)
     if (m.vroughness < 0)
         m.vroughness = m.uroughness;
     *out = scene_add_material(p->scene, m);
-    if (p->scene->material[*out].n_lobes > MATERIAL_MAX_LOBES)
+    if (material_lobes(p->scene->material, *out) > MATERIAL_MAX_LOBES)
         return source_error(&p->messages, q->position,
                             "this mix has more than %d lobes in all; mix fewer materials", MATERIAL_MAX_LOBES);
     return true;
@@ -118,48 +109,30 @@ static bool make(struct parser *p, int *out)
 bool parse_make_material(struct parser *p, struct material_source *out)
 {
     out->type = p->params.type;
-    bool ok = make(p, &out->id) && params_done(&p->params);
+    bool ok = make(p, &out->id) && parse_done(p);
     out->list = params_keep(&p->params);
     return ok;
-}
-
-/* Does the material have a parameter of this name? */
-static bool has_parameter(const char *type, const char *name)
-{
-    const struct object_type *t = MATERIAL_TYPES;
-    while (t->name != NULL && strcmp(t->name, type) != 0)
-        t++;
-    if (is_none(type) || t->parameter == NULL)
-        return false;
-    for (const struct parameter *row = t->parameter; row->name != NULL; row++)
-        if (strcmp(row->name, name) == 0)
-            return true;
-    return false;
-}
-
-/* Is this parameter of a shape, which the shape has no use for, one of its material? */
-static bool is_change(const struct parser *p, const struct param *item)
-{
-    return !item->used && has_parameter(p->state.material.type, item->name);
 }
 
 int parse_changed_material(struct parser *p)
 {
     struct params *q = &p->params;
-    const struct material_source *current = &p->state.material;
+    const struct object_type *shape = p->type;
     const char *directive = q->directive, *type = q->type;
-    int id = current->id, changes = 0;
+    int id = p->state.material.id;
+    bool changes = false;
     for (int i = 0; i < q->n; i++)
-        changes += is_change(p, &q->item[i]);
-    if (q->failed || changes == 0)
+        changes |= !q->item[i].used;
+    if (q->failed || !changes || id == MATERIAL_NONE)
         return id;
     q->directive = "Material";
-    q->type = current->type;
-    q->behind = current->list;
+    q->type = p->state.material.type;
+    q->behind = p->state.material.list;
     q->failed = !make(p, &id);
     q->behind.n = 0;
     q->directive = directive;
     q->type = type;
+    p->type = shape;
     return id;
 }
 

@@ -9,56 +9,32 @@
 
 #include "image/picture.h"
 
-/* The resolution may still change, which shifts the scale by a few powers of ten: the limits are far from where numbers
- * end. */
-static void check_camera(struct params *q, struct camera c)
-{
-    camera_prepare(&c, 1, 1);
-    if (!q->failed && !camera_is_usable(&c))
-        type_error(q, "this camera is not usable: its place must be within 1e18, and its view at distance 1 %s",
-                    "from 1e-12 to 1e12 wide and high; change transform, field of view or window");
-}
-
-static void screen_window(struct params *q, struct camera *c)
-{
-    int n;
-    const struct param *item;
-    const double *window = params_list(q, "screenwindow", 1u << PARAM_FLOAT, 1, &n, &item);
-    if (window == NULL)
-        return;
-    if (n != 4) {
-        source_warn(q->messages, item->position, "\"screenwindow\" wants four numbers; it is passed over");
-        return;
-    }
-    if (!(window[0] < window[1] && window[2] < window[3]))
-        params_fail(q, item->position, "\"screenwindow\" wants four numbers: xmin < xmax, ymin < ymax");
-    c->has_screen_window = true;
-    memcpy(c->screen_window, window, sizeof c->screen_window);
-}
-
-/* Which camera it is, and its screen. */
+/* Which camera it is, and its screen. The resolution may still change, which shifts the scale by a few powers of ten;
+ * the limits of a usable camera are far from where numbers end. */
 static void framing(struct parser *p, void *object)
-{
-    struct camera *c = object;
-    c->kind = (enum camera_kind)p->type->kind;
-    if (c->kind != CAMERA_ENVIRONMENT)
-        screen_window(&p->params, c);
-    check_camera(&p->params, *c);
-}
-
-static void perspective(struct parser *p, void *object)
 {
     struct params *q = &p->params;
     struct camera *c = object;
-    double half = params_number(q, "halffov", -1, ANY_NUMBER);
-    if (half > 0)
-        c->fov = 2 * half;
-    if (!(c->fov < 180))
-        type_error(q, "a field of view of %g degrees is too wide; it must be less than 180", c->fov);
-    framing(p, object);
+    double *w = c->screen_window;
+    c->kind = (enum camera_kind)p->type->kind;
+    c->has_screen_window = c->kind != CAMERA_ENVIRONMENT && params_numbers(q, "screenwindow", w, 4);
+    if (c->has_screen_window && !(w[0] < w[1] && w[2] < w[3]))
+        type_error(q, "\"screenwindow\" wants four numbers: xmin < xmax, ymin < ymax");
+    struct camera prepared = *c;
+    camera_prepare(&prepared, 1, 1);
+    if (!camera_is_usable(&prepared))
+        type_error(q, "this camera is not usable: its place must be within 1e18, and its view at distance 1 "
+                   "from 1e-12 to 1e12 wide and high; change transform, field of view or window");
 }
 
-#define CAMERA(name, f, value, range) {name, parse_number, offsetof(struct camera, f), GREY(value), range, NULL}
+static void half_fov(struct parser *p, const struct parameter *row, void *field)
+{
+    double half = params_number(&p->params, row->name, -1, row->low, row->high);
+    if (half > 0)
+        *(double *)field = 2 * half;
+}
+
+#define CAMERA(name, f, value, range) {name, parse_number, offsetof(struct camera, f), GREY(value), range}
 
 #define SHUTTER IGNORED("shutteropen"), IGNORED("shutterclose") /* nothing moves */
 #define SCREEN                                                                                            \
@@ -66,17 +42,19 @@ static void perspective(struct parser *p, void *object)
         CAMERA("focaldistance", focal_distance, 1e6, POSITIVE), BY_BUILD("screenwindow"), SHUTTER
 
 static const struct parameter PERSPECTIVE[] = {
-    CAMERA("fov", fov, KEPT, POSITIVE), BY_BUILD("halffov"), SCREEN, END_OF_PARAMETERS};
+    CAMERA("fov", fov, KEPT, FIELD_OF_VIEW),
+    {"halffov", half_fov, offsetof(struct camera, fov), GREY(0), -NUMBER_MAX, 89.9995},
+    SCREEN, END_OF_PARAMETERS};
 static const struct parameter ORTHOGRAPHIC[] = {SCREEN, END_OF_PARAMETERS};
 static const struct parameter ENVIRONMENT[] = {
     IGNORED("frameaspectratio"), IGNORED("lensradius"), IGNORED("focaldistance"), IGNORED("screenwindow"), SHUTTER,
     END_OF_PARAMETERS};
 
 static const struct object_type CAMERA_TYPES[] = {
-    {"perspective", PERSPECTIVE, CAMERA_PERSPECTIVE, perspective},
+    {"perspective", PERSPECTIVE, CAMERA_PERSPECTIVE, framing},
     {"orthographic", ORTHOGRAPHIC, CAMERA_ORTHOGRAPHIC, framing},
     {"environment", ENVIRONMENT, CAMERA_ENVIRONMENT, framing},
-    REFUSED("realistic"), END_OF_TYPES};
+    END_OF_TYPES};
 
 static bool camera(struct parser *p)
 {
@@ -93,22 +71,14 @@ static double fraction(double x) { return clamp(x, 0, 1); }
 
 static void crop_window(struct params *q, double crop[4])
 {
-    int n;
-    const struct param *item;
-    const double *x = params_list(q, "cropwindow", 1u << PARAM_FLOAT, 1, &n, &item);
-    if (x == NULL)
-        return;
-    if (n != 4) {
-        source_warn(q->messages, item->position,
-                    "\"cropwindow\" wants four numbers, x0 x1 y0 y1, not %d; it is passed over", n);
-        return;
-    }
+    double x[4] = {0, 1, 0, 1};
+    params_numbers(q, "cropwindow", x, 4);
     crop[0] = fraction(fmin(x[0], x[1]));
     crop[1] = fraction(fmax(x[0], x[1]));
     crop[2] = fraction(fmin(x[2], x[3]));
     crop[3] = fraction(fmax(x[2], x[3]));
     if (!(crop[0] < crop[1] && crop[2] < crop[3]))
-        params_fail(q, item->position, "\"cropwindow\" leaves no pixel; give x0 < x1 and y0 < y1 within 0 and 1");
+        type_error(q, "\"cropwindow\" leaves no pixel; give x0 < x1 and y0 < y1 within 0 and 1");
 }
 
 static void image_film(struct parser *p, void *object)
@@ -118,8 +88,6 @@ static void image_film(struct parser *p, void *object)
     struct error why;
     if (!picture_size_ok((uint64_t)s->width, (uint64_t)s->height, &why))
         type_error(q, "%s", why.text);
-    static const double WHOLE[4] = {0, 1, 0, 1};
-    memcpy(s->crop, WHOLE, sizeof s->crop);
     crop_window(q, s->crop);
     free(s->film_filename);
     struct source_position at;
@@ -127,7 +95,7 @@ static void image_film(struct parser *p, void *object)
     s->film_filename = name != NULL && name[0] != '\0' ? mem_copy_text(name) : NULL;
 }
 
-#define SCENE(name, read, f, value, range) {name, read, offsetof(struct scene, f), GREY(value), range, NULL}
+#define SCENE(name, read, f, value, range) {name, read, offsetof(struct scene, f), GREY(value), range}
 #define PIXELS 1, 65536
 
 static const struct parameter IMAGE_FILM[] = {
@@ -137,29 +105,13 @@ static const struct parameter IMAGE_FILM[] = {
     BY_BUILD("cropwindow"),
     BY_BUILD("filename"),
     IGNORED("diagonal"), /* for realistic cameras only */
-    {"maxsampleluminance", parse_ignored, 0, GREY(0), 0, 0,
-     "\"maxsampleluminance\" is ignored: clamping samples would make the image darker than the truth"},
     END_OF_PARAMETERS};
 
 static const struct object_type FILM_TYPES[] = {{"image", IMAGE_FILM, 0, image_film}, END_OF_TYPES};
 
-static void check_radii(struct parser *p, void *object)
-{
-    double *radius = ((struct filter *)object)->radius;
-    struct params *q = &p->params;
-    for (int i = 0; i < 2; i++) {
-        double within = clamp(radius[i], 1e-3, 64);
-        if (within != radius[i])
-            source_warn(q->messages, q->position, "a filter radius of %g pixels is beyond 0.001 and 64; it is %g",
-                        radius[i], within);
-        radius[i] = within;
-    }
-}
-
 /* Within these limits the table of a profile (filter.c) is fine enough for it, and its integral is far from 0. */
-#define FILTER(name, f, low, high) {name, parse_number, offsetof(struct filter, f), GREY(KEPT), low, high, NULL}
-#define RADII FILTER("xwidth", radius[0], NUMBER_MIN, (double)INFINITY), \
-              FILTER("ywidth", radius[1], NUMBER_MIN, (double)INFINITY)
+#define FILTER(name, f, low, high) {name, parse_number, offsetof(struct filter, f), GREY(KEPT), low, high}
+#define RADII FILTER("xwidth", radius[0], 1e-3, 64), FILTER("ywidth", radius[1], 1e-3, 64)
 
 static const struct parameter BOX[] = {RADII, END_OF_PARAMETERS};
 static const struct parameter GAUSSIAN[] = {RADII, FILTER("alpha", alpha, 1e-6, 1e3), END_OF_PARAMETERS};
@@ -168,11 +120,11 @@ static const struct parameter MITCHELL[] = {
 static const struct parameter SINC[] = {RADII, FILTER("tau", tau, 0.1, 1e6), END_OF_PARAMETERS};
 
 static const struct object_type FILTER_TYPES[] = {
-    {"box", BOX, FILTER_BOX, check_radii},
-    {"triangle", BOX, FILTER_TRIANGLE, check_radii},
-    {"gaussian", GAUSSIAN, FILTER_GAUSSIAN, check_radii},
-    {"mitchell", MITCHELL, FILTER_MITCHELL, check_radii},
-    {"sinc", SINC, FILTER_SINC, check_radii},
+    {"box", BOX, FILTER_BOX, NULL},
+    {"triangle", BOX, FILTER_TRIANGLE, NULL},
+    {"gaussian", GAUSSIAN, FILTER_GAUSSIAN, NULL},
+    {"mitchell", MITCHELL, FILTER_MITCHELL, NULL},
+    {"sinc", SINC, FILTER_SINC, NULL},
     END_OF_TYPES};
 
 static bool filter(struct parser *p)
@@ -187,7 +139,7 @@ static void stratified(struct parser *p, void *object)
     s->spp = params_int(&p->params, "xsamples", 4, 1, 1 << 15) * params_int(&p->params, "ysamples", 4, 1, 1 << 15);
 }
 
-#define SAMPLES(value) {"pixelsamples", parse_integer, offsetof(struct scene, spp), GREY(value), 1, 1 << 30, NULL}
+#define SAMPLES(value) {"pixelsamples", parse_integer, offsetof(struct scene, spp), GREY(value), 1, 1 << 30}
 
 static const struct parameter RANDOM[] = {SAMPLES(4), END_OF_PARAMETERS};
 static const struct parameter STRATIFIED[] = {BY_BUILD("xsamples"), BY_BUILD("ysamples"), END_OF_PARAMETERS};
@@ -201,15 +153,10 @@ static const struct object_type SAMPLER_TYPES[] = {
     {"02sequence", SEQUENCE, 0, NULL},
     {"lowdiscrepancy", SEQUENCE, 0, NULL},
     {"maxmindist", SEQUENCE, 0, NULL},
-    OTHERS_LIKE(SEQUENCE, 0, NULL)};
+    END_OF_TYPES};
 
-/* Film and sampler are fields of the scene itself; of accelerators nothing is kept. */
+/* Film and sampler are fields of the scene itself. */
 static bool of_scene(struct parser *p) { return parse_object(p, p->scene); }
-
-static const struct parameter TREE[] = {END_OF_PARAMETERS};
-
-static const struct object_type ACCELERATOR_TYPES[] = {
-    {"kdtree", TREE, 0, NULL}, {"bvh", TREE, 0, NULL}, OTHERS_LIKE(TREE, 0, NULL)};
 
 /* Which parameters an integrator has is its own affair: the first value of each is kept as text, with its position;
  * none has several. */
@@ -229,15 +176,14 @@ static bool integrator(struct parser *p)
             snprintf(number, sizeof number, "%.15g", item->number[0]); /* what was written, if it had no more digits */
         settings_declare(&s->settings, item->name, item->is_text ? item->text[0] : number, origin,
                          params_type_name(item->type), item->n);
-        item->used = true;
     }
-    return params_done(q);
+    return true;
 }
 
 const struct directive OPTION_DIRECTIVES[] = {{"Camera", BEFORE_WORLD, camera, CAMERA_TYPES},
                                               {"Film", BEFORE_WORLD, of_scene, FILM_TYPES},
                                               {"PixelFilter", BEFORE_WORLD, filter, FILTER_TYPES},
                                               {"Sampler", BEFORE_WORLD, of_scene, SAMPLER_TYPES},
-                                              {"Accelerator", BEFORE_WORLD, of_scene, ACCELERATOR_TYPES},
+                                              {"Accelerator", BEFORE_WORLD, parse_typed, NULL},
                                               {"Integrator", BEFORE_WORLD, integrator, NULL},
                                               END_OF_DIRECTIVES};

@@ -75,22 +75,18 @@ static void points(struct params *q, struct mesh *m)
                     "a %s without usable \"point P\" and \"integer indices\" is left out, as in pbrt-v3", q->type);
 }
 
-/* The texture of "alpha" or "shadowalpha"; -1 if the surface is simply there, *absent if it is simply not. */
-static int alpha(struct parser *p, const char *name, bool *absent)
+/* The texture of where there are holes; -1 if there are none: of numbers 0 alone makes a hole. */
+static int alpha(struct parser *p, const char *name)
 {
     int texture = parse_named_texture(p, name, true);
-    *absent = texture < 0 && params_number(&p->params, name, 1, ANY_NUMBER) == 0;
-    return texture;
+    bool hole = texture < 0 && params_number(&p->params, name, 1, ANY_NUMBER) == 0;
+    return hole ? parse_constant(p, rgb_black()) : texture;
 }
 
-/* Where meshes that may have holes have them. */
 static void holes(struct parser *p, struct shape_item *item)
 {
-    bool no_shadow;
-    item->group.alpha = alpha(p, "alpha", &item->absent);
-    item->group.shadow_alpha = alpha(p, "shadowalpha", &no_shadow);
-    if (no_shadow)
-        item->group.shadow_alpha = parse_constant(p, rgb_black());
+    item->group.alpha = alpha(p, "alpha");
+    item->group.shadow_alpha = alpha(p, "shadowalpha");
 }
 
 static void trianglemesh(struct parser *p, void *object)
@@ -151,15 +147,6 @@ static void heightfield(struct parser *p, void *object)
     }
 }
 
-/* Faces that pbrt-v3 does not draw: here those of many corners are. */
-static void warn_of_faces(struct params *q, struct source_position at, const struct mesh *m)
-{
-    if (m->n_thin > 0)
-        source_warn(q->messages, at, "%d faces of fewer than 3 corners are left out", m->n_thin);
-    if (m->n_wide > 0)
-        source_warn(q->messages, at, "%d faces have more than 4 corners; pbrt-v3 leaves them out", m->n_wide);
-}
-
 static void plymesh(struct parser *p, void *object)
 {
     struct params *q = &p->params;
@@ -169,12 +156,10 @@ static void plymesh(struct parser *p, void *object)
     char *path = params_file(q, "filename", &at);
     if (path == NULL)
         type_error(q, "a plymesh needs its file: add \"string filename\" \"...\"");
-    else if (!ply_read(path, m, &inner))
+    else if (!ply_read(path, m, &inner) || !scene_files_count(q->files, m->content, m->file_size, &inner))
         params_fail(q, at, "%s", inner.text);
-    else if (!scene_files_count(q->files, m->content, m->file_size, &inner))
-        params_fail(q, at, "%s", inner.text);
-    else
-        warn_of_faces(q, at, m);
+    else if (m->n_thin > 0)
+        source_warn(q->messages, at, "%d faces of fewer than 3 corners are left out", m->n_thin);
     free(path);
     holes(p, object);
 }
@@ -220,8 +205,7 @@ static void disk(struct parser *p, void *object)
     struct quadric *s = quadric_of(p, object);
     s->zmax = s->zmin;
     if (!(s->inner_radius < s->radius))
-        params_fail(&p->params, p->params.position, "\"innerradius\" %g must be less than \"radius\" %g",
-                    s->inner_radius, s->radius);
+        type_error(&p->params, "\"innerradius\" %g must be less than \"radius\" %g", s->inner_radius, s->radius);
 }
 
 /* pbrt-v3 has no sampling of the others, so no light can sit on them. */
@@ -253,17 +237,15 @@ static void hyperboloid(struct parser *p, void *object)
 /* --- the table ---------------------------------------------------------------------------------------- */
 
 #define QUADRIC(name, read, f, value, range) \
-    {name, read, offsetof(struct shape_item, quadric.f), GREY(value), range, NULL}
+    {name, read, offsetof(struct shape_item, quadric.f), GREY(value), range}
 #define TURN QUADRIC("phimax", phi_max, phi_max, 360, POSITIVE)
 #define ROUND QUADRIC("radius", parse_number, radius, 1, POSITIVE), TURN
-#define SWEPT(f, x) {#f, parse_point, offsetof(struct shape_item, quadric.f), GREY(x), 0, 0, NULL}
+#define SWEPT(f, x) {#f, parse_point, offsetof(struct shape_item, quadric.f), GREY(x), 0, 0}
 #define ALPHA BY_BUILD("alpha"), BY_BUILD("shadowalpha"), END_OF_PARAMETERS
 
 static const struct parameter TRIANGLEMESH[] = {
     BY_BUILD("P"), BY_BUILD("N"), BY_BUILD("uv"), BY_BUILD("st"), BY_BUILD("indices"),
     IGNORED("faceIndices"), /* for Ptex only */
-    {"S", parse_ignored, 0, GREY(0), 0, 0,
-     "tangents \"S\" are ignored: anisotropic materials follow the texture coordinates"},
     ALPHA};
 static const struct parameter PLYMESH[] = {BY_BUILD("filename"), ALPHA};
 static const struct parameter SPHERE[] = {ROUND, BY_BUILD("zmin"), BY_BUILD("zmax"), END_OF_PARAMETERS};
@@ -289,95 +271,25 @@ static const struct object_type TYPES[] = {
     {"hyperboloid", HYPERBOLOID, QUADRIC_HYPERBOLOID, hyperboloid},
     {"loopsubdiv", LOOPSUBDIV, 0, loopsubdiv},
     {"heightfield", HEIGHTFIELD, 0, heightfield},
-    REFUSED("curve"), REFUSED("nurbs"), OTHERS_LEFT_OUT};
+    END_OF_TYPES};
 
 /* --- the directive ------------------------------------------------------------------------------------ */
 
-/* Is it as flat as a disk or a quad: does a line meet it once? */
-static bool is_flat(const struct shape_item *item)
+/* Is there anything to be seen of it? What has no material bounds media, of which there are none here. */
+static bool is_seen(const struct shape_item *item)
 {
-    return item->is_mesh ? item->mesh.n_triangles <= 2 : item->quadric.kind == QUADRIC_DISK;
-}
-
-/* pbrt-v3 draws points of lamps on quadrics by areas in object space. */
-static void warn_of_stretch(struct parser *p, const struct shape_item *item)
-{
-    struct quadric plain = item->quadric, placed = item->quadric;
-    plain.to_world = transform_identity();
-    placed.to_world = item->to_world;
-    if (!quadric_keeps_area(&placed))
-        source_warn(&p->messages, item->position,
-                    "pbrt-v3 overlooks that this light's transform stretches it, and has it light the scene about %.3g "
-                    "times as much as here", quadric_area(&plain) / quadric_area(&placed));
-}
-
-/* Say so where pbrt-v3 counts the light of this shape otherwise. */
-static void warn_of_light(struct parser *p, const struct shape_item *item)
-{
-    if (p->current_object >= 0)
-        source_warn(&p->messages, item->position,
-                    "pbrt-v3 shows this light of an object, but lights nothing with it; here its copies light "
-                    "the scene");
-    if (item->group.material == MATERIAL_NONE && p->lamp.file == NULL)
-        p->lamp = item->position;
-    if (item->group.material == MATERIAL_NONE && item->area.two_sided && !is_flat(item))
-        source_warn(&p->messages, item->position,
-                    "of the two sides of this lamp without material the nearer one is seen; pbrt-v3's "
-                    "\"path\" shows both");
-    if (!item->is_mesh)
-        warn_of_stretch(p, item);
-    if (item->group.alpha >= 0)
-        source_warn(&p->messages, item->position,
-                    "pbrt-v3 has this light shine from its holes too, where alpha is 0; here it does not");
-}
-
-/* Is there a see-through lamp, and another light that may stand behind it? */
-static bool lamp_hides_light(const struct scene *s)
-{
-    int lamps = 0, others = 0;
-    for (int i = 0; i < s->geo.n_groups; i++)
-        lamps += s->geo.group[i].material == MATERIAL_NONE;
-    for (int i = 0; i < s->lights.n; i++)
-        others += s->lights.light[i].kind != LIGHT_AREA ||
-                  shape_group_of(&s->geo, s->lights.light[i].prim)->material != MATERIAL_NONE;
-    return lamps > 1 || (lamps == 1 && others > 0);
-}
-
-void parse_warn_of_lamps(struct parser *p)
-{
-    if (lamp_hides_light(p->scene))
-        source_warn(&p->messages, p->lamp,
-                    "no light is seen through this lamp without material, nor shines through it; pbrt-v3's "
-                    "\"path\" shows "
-                    "what is behind, and its \"volpath\" and \"bdpt\" let that shine through");
-}
-
-/* Warns of what is left out. Returns false if nothing of the shape would be seen. */
-static bool complete_shape(struct parser *p, struct shape_item *item)
-{
-    bool absent = item->absent || (item->is_mesh && item->mesh.n_triangles == 0);
-    if (absent && item->area.on)
-        source_warn(&p->messages, item->position, "a light of alpha 0 or without triangles is left out");
-    if (absent)
-        return false;
-    if (item->area.on)
-        warn_of_light(p, item);
-    else if (item->group.material == MATERIAL_NONE && !parse_sees_media(p->scene->integrator))
-        source_warn(&p->messages, item->position,
-                    "a shape without material is left out; in pbrt-v3's \"%s\" it stops the light of lamps",
-                    p->scene->integrator != NULL ? p->scene->integrator : "path");
-    return item->group.material != MATERIAL_NONE || item->area.on;
+    bool empty = item->is_mesh && item->mesh.n_triangles == 0;
+    return !empty && (item->group.material != MATERIAL_NONE || item->area.on);
 }
 
 static bool shape(struct parser *p)
 {
-    struct shape_item item = {
-        .to_world = p->place.ctm, .reverse = p->state.reverse, .area = p->state.area, .position = p->params.position};
+    struct shape_item item = {.to_world = p->place.ctm, .reverse = p->state.reverse, .area = p->state.area};
     item.group.alpha = item.group.shadow_alpha = item.group.first_light = -1;
     parse_fields(p, &item);
     item.group.material = parse_changed_material(p);
-    bool ok = params_done(&p->params) && parse_placed(p);
-    if (ok && complete_shape(p, &item))
+    bool ok = parse_done(p) && parse_placed(p);
+    if (ok && is_seen(&item))
         return parse_place_shape(p, &item);
     mesh_free(&item.mesh);
     return ok;

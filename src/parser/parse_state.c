@@ -30,27 +30,14 @@ static bool read_numbers(struct parser *p, double *out, int n)
     return true;
 }
 
-/* Stays what it is whatever it is multiplied with. */
-static struct transform no_transform(void)
-{
-    struct transform t;
-    for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++)
-            t.m[i][j] = t.inv[i][j] = NAN;
-    return t;
-}
+/* One of no use is an error only where something stands in it. This one stays what it is whatever it is multiplied
+ * with. */
+static const struct transform SINGULAR = {{{0}}, {{0}}};
 
-/* One of no use is an error only where something stands in it. */
 static bool set_ctm(struct parser *p, struct transform t)
 {
-    if (!p->place.start_active)
-        return true;
-    bool usable = transform_is_usable(&t);
-    if (!usable && !isnan(p->place.ctm.m[0][0]))
-        source_warn(&p->messages, p->directive.position,
-                    "%s makes the current transform infinite or singular, or nearly so; nothing can stand in it",
-                    p->directive.text);
-    p->place.ctm = usable ? t : no_transform();
+    if (p->place.start_active)
+        p->place.ctm = t;
     return true;
 }
 
@@ -84,7 +71,7 @@ static bool scale(struct parser *p)
     if (!read_numbers(p, x, 3))
         return false;
     bool flat = x[0] == 0 || x[1] == 0 || x[2] == 0;
-    return apply(p, flat ? no_transform() : transform_scale(x[0], x[1], x[2]));
+    return apply(p, flat ? SINGULAR : transform_scale(x[0], x[1], x[2]));
 }
 
 static bool rotate(struct parser *p)
@@ -93,23 +80,17 @@ static bool rotate(struct parser *p)
     if (!read_numbers(p, x, 4))
         return false;
     vec3 axis = vec(x[1], x[2], x[3]);
-    return apply(p, length2(axis) > 0 ? transform_rotate(x[0], axis) : no_transform());
+    return apply(p, length2(axis) > 0 ? transform_rotate(x[0], axis) : SINGULAR);
 }
 
 static bool look_at(struct parser *p)
 {
     double x[9];
-    struct transform t;
+    struct transform t = SINGULAR;
     if (!read_numbers(p, x, 9))
         return false;
-    vec3 eye = vec(x[0], x[1], x[2]), look = vec(x[3], x[4], x[5]);
-    if (transform_look_at(eye, look, vec(x[6], x[7], x[8]), &t))
-        return apply(p, t);
-    if (!(length2(sub(look, eye)) > 0))
-        return apply(p, no_transform());
-    source_warn(&p->messages, p->directive.position,
-                "LookAt needs an up vector across the view; as in pbrt-v3, this one changes nothing");
-    return true;
+    transform_look_at(vec(x[0], x[1], x[2]), vec(x[3], x[4], x[5]), vec(x[6], x[7], x[8]), &t);
+    return apply(p, t);
 }
 
 static bool parse_matrix(struct parser *p, struct transform *out)
@@ -117,8 +98,8 @@ static bool parse_matrix(struct parser *p, struct transform *out)
     double x[16];
     if (!read_numbers(p, x, 16))
         return false;
-    if (!transform_from_matrix(x, out))
-        *out = no_transform();
+    *out = SINGULAR;
+    transform_from_matrix(x, out);
     return true;
 }
 
@@ -163,7 +144,7 @@ static bool active_transform(struct parser *p)
     if (!lexer_next(&p->lexer, &t))
         return false;
     bool end = strcmp(t.text, "EndTime") == 0;
-    if (t.kind != TOKEN_WORD || !(end || strcmp(t.text, "StartTime") == 0 || strcmp(t.text, "All") == 0))
+    if (!end && strcmp(t.text, "StartTime") != 0 && strcmp(t.text, "All") != 0)
         return source_error(&p->messages, t.position, "ActiveTransform wants StartTime, EndTime or All");
     if (end)
         source_warn(&p->messages, t.position, "nothing moves here: transforms of the end time are ignored");
@@ -185,77 +166,48 @@ static const char *const END[] = {"AttributeEnd", "TransformEnd", "ObjectEnd"};
 
 void parse_close_all(struct parser *p)
 {
-    for (; p->n_pushed > 0; p->n_pushed--) {
-        const struct pushed_transform *top = &p->pushed[p->n_pushed - 1];
-        source_warn(&p->messages, top->position, "%s is still open at WorldEnd; close it with %s", BEGIN[top->kind],
-                    END[top->kind]);
+    while (p->n_blocks > 0) {
+        const struct block *b = &p->block[--p->n_blocks];
+        source_warn(&p->messages, b->position, "%s is still open at WorldEnd; close it with %s", BEGIN[b->kind],
+                    END[b->kind]);
     }
-}
-
-static void push_transform(struct parser *p, enum block_kind kind)
-{
-    struct pushed_transform top = {kind, p->directive.position, p->place};
-    p->pushed = mem_append(p->pushed, (size_t)p->n_pushed, sizeof *p->pushed);
-    p->pushed[p->n_pushed++] = top;
-}
-
-static void pop_transform(struct parser *p, enum block_kind kind)
-{
-    if (p->n_pushed == 0)
-        return;
-    const struct pushed_transform *top = &p->pushed[--p->n_pushed];
-    if (top->kind != kind)
-        source_warn(&p->messages, p->directive.position,
-                    "%s does not match the %s of line %d; as in pbrt-v3, it takes back that one's transform",
-                    END[kind], BEGIN[top->kind], top->position.line);
-    p->place = top->saved;
-}
-
-/* Warns of an end without a beginning, which is passed over. */
-static bool is_open(struct parser *p, int n, enum block_kind kind)
-{
-    if (n == 0)
-        source_warn(&p->messages, p->directive.position, "%s without %s is passed over", END[kind], BEGIN[kind]);
-    return n > 0;
 }
 
 bool parse_open_block(struct parser *p, enum block_kind kind)
 {
-    struct pushed_state b = {p->state, p->float_textures.n, p->spectrum_textures.n, p->materials.n};
+    struct block b = {kind, p->directive.position, p->place, p->state,
+                      p->float_textures.n, p->spectrum_textures.n, p->materials.n};
     p->block = mem_append(p->block, (size_t)p->n_blocks, sizeof *p->block);
     p->block[p->n_blocks++] = b;
-    push_transform(p, kind);
     return true;
 }
 
 bool parse_close_block(struct parser *p, enum block_kind kind)
 {
-    if (!is_open(p, p->n_blocks, kind))
+    if (p->n_blocks == 0) {
+        source_warn(&p->messages, p->directive.position, "%s without %s is passed over", END[kind], BEGIN[kind]);
         return false;
-    const struct pushed_state *b = &p->block[--p->n_blocks];
-    p->state = b->saved;
+    }
+    const struct block *b = &p->block[p->n_blocks - 1];
+    if (b->kind != kind)
+        return directive_error(p, "the %s of line %d is still open; close it with %s", BEGIN[b->kind],
+                               b->position.line, END[b->kind]);
+    p->n_blocks--;
+    p->place = b->place;
+    if (kind == BLOCK_TRANSFORM)
+        return true;
+    p->state = b->state;
     symbols_forget(&p->float_textures, b->n_float_textures);
     symbols_forget(&p->spectrum_textures, b->n_spectrum_textures);
     symbols_forget(&p->materials, b->n_materials);
-    pop_transform(p, kind);
     return true;
 }
 
 static bool attribute_begin(struct parser *p) { return parse_open_block(p, BLOCK_ATTRIBUTE); }
 static bool attribute_end(struct parser *p) { return parse_close_block(p, BLOCK_ATTRIBUTE); }
 
-static bool transform_begin(struct parser *p)
-{
-    push_transform(p, BLOCK_TRANSFORM);
-    return true;
-}
-
-static bool transform_end(struct parser *p)
-{
-    if (is_open(p, p->n_pushed, BLOCK_TRANSFORM))
-        pop_transform(p, BLOCK_TRANSFORM);
-    return true;
-}
+static bool transform_begin(struct parser *p) { return parse_open_block(p, BLOCK_TRANSFORM); }
+static bool transform_end(struct parser *p) { return parse_close_block(p, BLOCK_TRANSFORM); }
 
 static bool reverse_orientation(struct parser *p)
 {

@@ -71,13 +71,6 @@ static void checkerboard(struct parser *p, void *object)
 
 static void noise_texture(struct parser *p, void *object) { ((struct texture *)object)->space = space(p); }
 
-static void marble(struct parser *p, void *object)
-{
-    noise_texture(p, object);
-    source_warn(p->params.messages, p->params.position,
-                "\"marble\" is the book's; that of pbrt-v3 since October 2019 is up to 40 times as bright");
-}
-
 static void wrap(struct parser *p, const struct parameter *row, void *field)
 {
     static const char *const WRAPS[] = {"repeat", "black", "clamp", NULL}; /* as in enum texture_wrap */
@@ -96,41 +89,38 @@ static void imagemap(struct parser *p, void *object)
         return;
     }
     t->gamma = params_bool(q, "gamma", file_has_extension(path, ".tga") || file_has_extension(path, ".png"));
-    struct error inner;
-    int image = 0, known = set->n_images;
-    if (!q->failed && (image = texture_load_image(set, path, &inner)) < 0)
-        params_fail(q, at, "%s", inner.text);
-    else if (!q->failed && image == known &&
-             !scene_files_picture(q->files, &set->image[image], 0, &inner))
-        params_fail(q, at, "%s", inner.text);
-    else if (!q->failed && set->image[image].replaced > 0)
-        source_warn(&p->messages, at, "%ld numbers of this picture are not finite; 0 instead",
-                    set->image[image].replaced);
-    t->image = image;
+    if (!q->failed) {
+        struct error inner;
+        int known = set->n_images;
+        t->image = texture_load_image(set, path, &inner);
+        parse_picture(q, at, t->image < 0 ? NULL : &set->image[t->image], t->image == known, 0, &inner);
+    }
     free(path);
 }
 
+#define OF_MAPPING \
+    BY_BUILD("uscale"), BY_BUILD("vscale"), BY_BUILD("udelta"), BY_BUILD("vdelta"), BY_BUILD("v1"), BY_BUILD("v2")
 #define FIELD(f) offsetof(struct texture, f)
-#define NUMBER(name, f, x) {name, parse_number, FIELD(f), GREY(x), ANY_NUMBER, NULL}
-#define MAPPING {"mapping", mapping, FIELD(map), GREY(0), 0, 0, NULL}
-#define OPERAND(name, f, x) {name, operand, FIELD(f), GREY(x), ANY_NUMBER, NULL}
+#define NUMBER(name, f, x) {name, parse_number, FIELD(f), GREY(x), ANY_NUMBER}
+#define MAPPING {"mapping", mapping, FIELD(map), GREY(0), 0, 0}, OF_MAPPING
+#define OPERAND(name, f, x) {name, operand, FIELD(f), GREY(x), ANY_NUMBER}
 #define OPERANDS(first, second) OPERAND("tex1", tex1, first), OPERAND("tex2", tex2, second)
-#define VALUE(name, f, x) {name, value, FIELD(f), GREY(x), 0, 0, NULL}
+#define VALUE(name, f, x) {name, value, FIELD(f), GREY(x), 0, 0}
 
 static const struct parameter CONSTANT[] = {VALUE("value", constant, 1), END_OF_PARAMETERS};
 static const struct parameter SCALE[] = {OPERANDS(1, 1), END_OF_PARAMETERS};
 static const struct parameter MIX[] = {
     OPERANDS(0, 1),
-    {"amount", parse_float_texture, FIELD(amount), GREY(0.5), ANY_NUMBER, NULL},
+    {"amount", parse_float_texture, FIELD(amount), GREY(0.5), ANY_NUMBER},
     END_OF_PARAMETERS};
 static const struct parameter CHECKERBOARD[] = {
-    OPERANDS(1, 0), BY_BUILD("mapping"), BY_BUILD("dimension"),
+    OPERANDS(1, 0), BY_BUILD("dimension"), BY_BUILD("mapping"), OF_MAPPING,
     IGNORED("aamode"), /* pixel samples do the filtering */
     END_OF_PARAMETERS};
 static const struct parameter IMAGEMAP[] = {
     MAPPING,
     NUMBER("scale", scale, 1),
-    {"wrap", wrap, FIELD(wrap), GREY(0), 0, 0, NULL},
+    {"wrap", wrap, FIELD(wrap), GREY(0), 0, 0},
     IGNORED("trilinear"), /* choices of pbrt's texture filter; here pixel samples filter */
     IGNORED("maxanisotropy"),
     BY_BUILD("filename"),
@@ -145,7 +135,7 @@ static const struct parameter UV[] = {MAPPING, END_OF_PARAMETERS};
 static const struct parameter DOTS[] = {
     MAPPING, OPERAND("inside", tex2, 1), OPERAND("outside", tex1, 0), END_OF_PARAMETERS};
 
-#define OCTAVES {"octaves", parse_integer, FIELD(octaves), GREY(8), 0, NOISE_MAX_OCTAVES, NULL}
+#define OCTAVES {"octaves", parse_integer, FIELD(octaves), GREY(8), 0, NOISE_MAX_OCTAVES}
 static const struct parameter OCTAVES_OF_NOISE[] = {OCTAVES, NUMBER("roughness", omega, 0.5), END_OF_PARAMETERS};
 static const struct parameter WINDY[] = {END_OF_PARAMETERS};
 static const struct parameter MARBLE[] = {
@@ -164,16 +154,25 @@ const struct object_type TEXTURE_TYPES[] = {
     {"fbm", OCTAVES_OF_NOISE, TEXTURE_FBM, noise_texture},
     {"wrinkled", OCTAVES_OF_NOISE, TEXTURE_WRINKLED, noise_texture},
     {"windy", WINDY, TEXTURE_WINDY, noise_texture},
-    {"marble", MARBLE, TEXTURE_MARBLE, marble},
-    REFUSED("ptex"), OTHERS_LEFT_OUT};
+    {"marble", MARBLE, TEXTURE_MARBLE, noise_texture},
+    END_OF_TYPES};
 
-/* Is a texture of the kind that this one is what its type says? */
-static bool fits_type(struct parser *p)
+/* The texture of params.type, or -1. */
+static int make(struct parser *p)
 {
-    bool colours = p->type->kind == TEXTURE_UV || p->type->kind == TEXTURE_MARBLE;
-    if (p->texture_is_float && colours)
-        return type_error(&p->params, "the texture \"%s\" is a colour; its type is \"spectrum\"", p->params.type);
-    return true;
+    struct params *q = &p->params;
+    if (!parse_type(p, TEXTURE_TYPES))
+        return -1;
+    struct texture t = {.kind = (enum texture_kind)p->type->kind};
+    if (p->texture_is_float && (t.kind == TEXTURE_UV || t.kind == TEXTURE_MARBLE))
+        type_error(q, "the texture \"%s\" is a colour; its type is \"spectrum\"", q->type);
+    if (!parse_object(p, &t))
+        return -1;
+    int id = texture_add(&p->scene->textures, t);
+    if (p->scene->textures.texture[id].cost <= TEXTURE_MAX_COST)
+        return id;
+    type_error(q, "this texture is built from more than %d others; use fewer, or fewer octaves", TEXTURE_MAX_COST);
+    return -1;
 }
 
 /* Texture "name" "float or spectrum or color" "class". */
@@ -184,26 +183,13 @@ static bool texture(struct parser *p)
         !parse_string(p, &class, "a kind of texture") || !parse_list(p, "Texture", &class))
         return false;
     p->texture_is_float = strcmp(type.text, "float") == 0;
-    if (!p->texture_is_float && strcmp(type.text, "spectrum") != 0 && strcmp(type.text, "color") != 0) {
-        source_warn(&p->messages, type.position, "unknown texture type \"%.40s\"; use \"float\" or \"spectrum\"",
-                    type.text);
-        return false;
-    }
-    struct texture t = {.kind = TEXTURE_CONSTANT};
-    bool known = parse_type(p, TEXTURE_TYPES) && fits_type(p);
-    if (known)
-        t.kind = (enum texture_kind)p->type->kind;
-    else if (!p->params.failed)
-        return false; /* left out */
-    bool ok = known && parse_object(p, &t);
-    int id = ok ? texture_add(&p->scene->textures, t) : -1;
-    if (ok && p->scene->textures.texture[id].cost > TEXTURE_MAX_COST)
-        ok = source_error(&p->messages, p->params.position,
-                          "this texture is built from more than %d others; use fewer, or fewer octaves",
-                          TEXTURE_MAX_COST);
+    if (!p->texture_is_float && strcmp(type.text, "spectrum") != 0 && strcmp(type.text, "color") != 0)
+        return source_error(&p->messages, type.position, "unknown texture type \"%.40s\"; use \"float\" or "
+                            "\"spectrum\"", type.text);
+    int id = make(p);
     symbols_add(p->texture_is_float ? &p->float_textures : &p->spectrum_textures, name.text,
-                ok ? id : parse_constant(p, rgb_black()));
-    return ok;
+                id >= 0 ? id : parse_constant(p, rgb_black()));
+    return id >= 0;
 }
 
 const struct directive TEXTURE_DIRECTIVES[] = {{"Texture", IN_WORLD, texture, NULL}, END_OF_DIRECTIVES};

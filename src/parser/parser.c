@@ -22,52 +22,39 @@ static bool world_begin(struct parser *p)
     return true;
 }
 
+/* What is in a medium does not matter: nothing of it can be rendered. */
 static bool medium_interface(struct parser *p)
 {
-    struct token name[2];
-    if (!parse_string(p, &name[0], "a medium"))
-        return false;
-    name[1] = name[0];
-    if (lexer_peek(&p->lexer) == TOKEN_STRING && !lexer_next(&p->lexer, &name[1]))
-        return false;
-    for (int i = 0; i < 2; i++)
-        if (name[i].text[0] != '\0' && symbols_find(&p->media, name[i].text) < 0)
-            parse_no_such(p, name[i].position, name[i].text, "medium", "vacuum is taken");
-        else if (name[i].text[0] != '\0' && p->medium.file == NULL)
-            p->medium = name[i].position;
-    return true;
-}
-
-/* Its parameters do not matter: nothing of it can be rendered. */
-static bool make_named_medium(struct parser *p)
-{
     struct token name;
-    if (!parse_string(p, &name, "a name") || !parse_list(p, "MakeNamedMedium", &name))
-        return false;
-    symbols_add(&p->media, name.text, 0);
+    for (int i = 0; i < 2 && (i == 0 || lexer_peek(&p->lexer) == TOKEN_STRING); i++) {
+        if (!parse_string(p, &name, "a medium"))
+            return false;
+        if (name.text[0] != '\0')
+            p->medium = name.position;
+    }
     return true;
 }
 
-bool parse_sees_media(const char *integrator)
+/* Is it an integrator of pbrt-v3 that sees no media? NULL is its default, "path". */
+static bool is_blind(const char *integrator)
 {
     static const char *const BLIND[] = {"path", "directlighting", "whitted", "ambientocclusion", "sppm", NULL};
     for (int i = 0; integrator != NULL && BLIND[i] != NULL; i++)
         if (strcmp(integrator, BLIND[i]) == 0)
-            return false;
-    return integrator != NULL;
+            return true;
+    return integrator == NULL;
 }
 
 static bool world_end(struct parser *p)
 {
     p->phase = AFTER_WORLD;
     parse_close_all(p);
-    parse_warn_of_lamps(p);
-    if (p->medium.file != NULL && parse_sees_media(p->scene->integrator))
+    if (p->medium.file == NULL)
+        return true;
+    if (!is_blind(p->scene->integrator))
         return source_error(&p->messages, p->medium,
                             "participating media are not supported; remove this MediumInterface");
-    if (p->medium.file != NULL)
-        source_warn(&p->messages, p->medium, "media are left out, as by pbrt-v3's integrator \"%s\"",
-                    p->scene->integrator != NULL ? p->scene->integrator : "path");
+    source_warn(&p->messages, p->medium, "media are left out, as by pbrt-v3's \"path\"");
     return true;
 }
 
@@ -75,7 +62,7 @@ static bool include(struct parser *p);
 
 static const struct directive FILE_DIRECTIVES[] = {{"Include", ANYWHERE, include, NULL},
                                                    {"MediumInterface", ANYWHERE, medium_interface, NULL},
-                                                   {"MakeNamedMedium", ANYWHERE, make_named_medium, NULL},
+                                                   {"MakeNamedMedium", ANYWHERE, parse_typed, NULL},
                                                    {"WorldBegin", BEFORE_WORLD, world_begin, NULL},
                                                    {"WorldEnd", IN_WORLD, world_end, NULL},
                                                    END_OF_DIRECTIVES};
@@ -105,7 +92,7 @@ static bool unknown_directive(struct parser *p)
     token_text(t, found, sizeof found);
     if (t->kind != TOKEN_WORD)
         return source_error(&p->messages, t->position, "here should be a directive like Shape, not %s", found);
-    struct suggestion near = suggest_start(messages_suggest(&p->messages) ? t->text : "");
+    struct suggestion near = suggest_start(t->text);
     find_directive(t->text, &near);
     if (near.name != NULL)
         return source_error(&p->messages, t->position, "unknown directive %s; did you mean %s?", found, near.name);
@@ -126,7 +113,7 @@ static bool run_directive(struct parser *p)
     const struct directive *d = t->kind == TOKEN_WORD ? find_directive(t->text, NULL) : NULL;
     if (d == NULL)
         return unknown_directive(p);
-    p->source[p->n_sources - 1]->is_scene = true;
+    p->source[p->n_sources - 1]->quotable = true;
     if ((d->phase & p->phase) == 0)
         return wrong_phase(p, d);
     if (d->types != NULL && !(parse_typed(p) && parse_type(p, d->types)))
@@ -138,12 +125,16 @@ static bool run_directive(struct parser *p)
 static void run_source(struct parser *p)
 {
     struct token *t = &p->directive;
-    while (p->phase != AFTER_WORLD && p->messages.n_errors + p->messages.more_errors < MOST_ERRORS) {
+    while (p->phase != AFTER_WORLD && p->messages.errors.n + p->messages.errors.more < MOST_ERRORS) {
         bool ok = lexer_next(&p->lexer, t);
-        if (ok && t->kind == TOKEN_END)
+        if (ok && t->kind == TOKEN_END) {
+            if (p->n_sources == 1 && p->messages.errors.n == 0)
+                directive_error(p, "the file ends without %s; add it",
+                                p->phase == BEFORE_WORLD ? "WorldBegin" : "WorldEnd");
             return;
+        }
         ok = ok && run_directive(p);
-        if (!p->source[p->n_sources - 1]->is_scene)
+        if (!p->source[p->n_sources - 1]->quotable)
             return;
         if (!ok)
             lexer_resume(&p->lexer);
@@ -154,41 +145,29 @@ static void run_source(struct parser *p)
 
 /* --- files -------------------------------------------------------------------------------------------- */
 
-/* The text of a file, from memory if it was read before. Returns its number, or -1 with a message in *err. */
-static int load(struct parser *p, const char *path, struct error *err)
+/* Read a file and carry it out. Its name lives as long as the parser, for all places in it; its text does not: of a
+ * place in a file that has been closed no line is quoted. Returns false with a message in *err if it cannot be read. */
+static bool run_file(struct parser *p, const char *path, struct source_position included_at, struct error *err)
 {
-    int i = symbols_find(&p->files, path);
-    if (i < 0) {
-        struct loaded f;
-        f.text = text_read(path, &f.size, err);
-        if (f.text == NULL)
-            return -1;
-        f.content = hash_content(f.text, f.size);
-        i = p->files.n;
-        p->file = mem_append(p->file, (size_t)i, sizeof *p->file);
-        p->file[i] = f;
-        symbols_add(&p->files, path, i);
+    size_t size;
+    char *text = text_read(path, &size, err);
+    if (text == NULL || !scene_files_count(&p->named, hash_content(text, size), size, err)) {
+        free(text);
+        return false;
     }
-    return scene_files_count(&p->named, p->file[i].content, p->file[i].size, err) ? i : -1;
-}
-
-/* Carry out a loaded file. Its path and text live as long as the parser, for all places that point into it. */
-static void run_file(struct parser *p, int file, const char *path, struct source_position included_at)
-{
     struct source_file *source = arena_alloc(&p->arena, sizeof *source);
-    char *kept = arena_alloc(&p->arena, strlen(path) + 1);
-    strcpy(kept, path);
-    source->path = kept;
-    source->text = p->file[file].text;
-    source->end = source->text + p->file[file].size;
-    source->included_at = included_at;
-    source->is_scene = included_at.file == NULL;
+    struct source_file opened = {strcpy(arena_alloc(&p->arena, strlen(path) + 1), path), text, text + size,
+                                 included_at, included_at.file == NULL};
+    *source = opened;
     struct lexer outer = p->lexer;
     p->lexer = lexer_start(source, &p->arena, &p->messages);
     p->source[p->n_sources++] = source;
     run_source(p);
     p->n_sources--;
     p->lexer = outer;
+    source->quotable = false;
+    free(text);
+    return true;
 }
 
 /* Relative names start in the directory of the main file, wherever the Include stands. */
@@ -207,11 +186,8 @@ static bool include(struct parser *p)
     for (int i = 0; i < p->n_sources && ok; i++)
         if (strcmp(p->source[i]->path, path) == 0)
             ok = source_error(&p->messages, name.position, "this file is being read already; it cannot include itself");
-    int file = ok ? load(p, path, &inner) : -1;
-    if (ok && file < 0)
+    if (ok && !run_file(p, path, name.position, &inner))
         ok = source_error(&p->messages, name.position, "%s", inner.text);
-    if (ok)
-        run_file(p, file, path, name.position);
     free(path);
     return ok;
 }
@@ -239,17 +215,13 @@ static void finish(struct parser *p)
 {
     for (int i = 0; i < p->objects.n; i++)
         shape_list_free(&p->object[i]);
-    for (int i = 0; i < p->files.n; i++)
-        free(p->file[i].text);
-    struct symbols *const tables[] = {&p->files,   &p->float_textures, &p->spectrum_textures, &p->materials,
-                                      &p->systems, &p->objects,        &p->media,          &p->named.known};
+    struct symbols *const tables[] = {&p->float_textures, &p->spectrum_textures, &p->materials,
+                                      &p->systems,        &p->objects,           &p->named.known};
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++)
         symbols_free(tables[i]);
     free(p->object);
-    free(p->file);
     free(p->system);
     free(p->block);
-    free(p->pushed);
     free(p->material);
     params_free(&p->params);
     messages_end(&p->messages);
@@ -264,14 +236,9 @@ bool parse_scene(const char *path, struct scene *out, const struct message_sink 
     struct error first;
     scene_init(out);
     start(p, path, out, sink, err != NULL ? err : &first);
-    int file = load(p, path, p->messages.err);
-    if (file < 0)
+    if (!run_file(p, path, NOWHERE, p->messages.err))
         messages_report(&p->messages);
-    else
-        run_file(p, file, path, NOWHERE);
-    if (p->messages.n_errors == 0 && p->phase != AFTER_WORLD)
-        directive_error(p, "the file ends without %s; add it", p->phase == BEFORE_WORLD ? "WorldBegin" : "WorldEnd");
-    bool ok = p->messages.n_errors == 0;
+    bool ok = p->messages.errors.n == 0;
     finish(p);
     if (!ok)
         scene_free(out);

@@ -11,7 +11,7 @@
 #include "base/file.h"
 #include "base/mem.h"
 
-enum { SHOWN_COLUMNS = 110, SHOWN_INCLUDES = 4 };
+enum { SHOWN_COLUMNS = 110 };
 
 /* A growing message in a buffer of fixed size. */
 struct writer {
@@ -62,12 +62,8 @@ static void write_excerpt(struct writer *w, struct source_position at)
 
 static void write_includes(struct writer *w, const struct source_file *file)
 {
-    for (int i = 0; file->included_at.file != NULL; i++, file = file->included_at.file) {
+    for (; file->included_at.file != NULL; file = file->included_at.file) {
         write_line_break(w);
-        if (i == SHOWN_INCLUDES) {
-            write_text(w, "...");
-            return;
-        }
         write_text(w, "included from %s:%d", file->included_at.file->path, file->included_at.line);
     }
 }
@@ -81,13 +77,29 @@ static size_t write_message(struct writer *w, struct source_position at, const c
     return begin;
 }
 
-/* How many of these texts are equal to this one. */
-static int count_equal(char *const *known, int n, const char *text)
+/* Is this sentence to be given? */
+static bool is_new(struct given *g, int most, const char *sentence)
 {
-    int equal = 0;
-    for (int i = 0; i < n; i++)
-        equal += strcmp(known[i], text) == 0;
-    return equal;
+    bool known = g->n == most;
+    for (int i = 0; i < g->n && !known; i++)
+        known = strcmp(g->sentence[i], sentence) == 0;
+    if (known)
+        g->more++;
+    else
+        g->sentence[g->n++] = mem_copy_text(sentence);
+    return !known;
+}
+
+static void tell_error(const struct messages *m, const char *text)
+{
+    if (m->sink != NULL && m->sink->error != NULL)
+        m->sink->error(m->sink->context, text);
+}
+
+static void tell_warning(const struct messages *m, const char *text)
+{
+    if (m->sink != NULL && m->sink->warn != NULL)
+        m->sink->warn(m->sink->context, text);
 }
 
 bool source_error(struct messages *m, struct source_position at, const char *format, ...)
@@ -98,18 +110,14 @@ bool source_error(struct messages *m, struct source_position at, const char *for
     va_start(args, format);
     const char *sentence = full.text + write_message(&w, at, format, args);
     va_end(args);
-    if (m->n_errors == MOST_ERRORS || count_equal(m->error, m->n_errors, sentence) == MOST_LIKE) {
-        m->more_errors++;
+    if (!is_new(&m->errors, MOST_ERRORS, sentence))
         return false;
-    }
-    m->error[m->n_errors++] = mem_copy_text(sentence);
-    if (at.file->is_scene)
+    if (at.file->quotable)
         write_excerpt(&w, at);
     write_includes(&w, at.file);
-    if (m->err != NULL && m->n_errors == 1)
+    if (m->err != NULL && m->errors.n == 1)
         *m->err = full;
-    if (m->sink != NULL && m->sink->error != NULL)
-        m->sink->error(m->sink->context, full.text);
+    tell_error(m, full.text);
     return false;
 }
 
@@ -121,44 +129,33 @@ void source_warn(struct messages *m, struct source_position at, const char *form
     va_start(args, format);
     const char *sentence = text + write_message(&w, at, format, args);
     va_end(args);
-    if (count_equal(m->warning, m->n_warnings, sentence) > 0)
-        return;
-    if (m->n_warnings == MOST_WARNINGS) {
-        m->more_warnings++;
-        return;
-    }
-    m->warning[m->n_warnings++] = mem_copy_text(sentence);
-    if (m->sink != NULL && m->sink->warn != NULL)
-        m->sink->warn(m->sink->context, text);
-}
-
-bool messages_suggest(struct messages *m)
-{
-    m->n_suggestions += m->n_suggestions < MOST_SUGGESTIONS + 1;
-    return m->n_suggestions <= MOST_SUGGESTIONS;
+    if (is_new(&m->warnings, MOST_WARNINGS, sentence))
+        tell_warning(m, text);
 }
 
 void messages_report(struct messages *m)
 {
-    m->error[m->n_errors++] = mem_copy_text("");
-    if (m->sink != NULL && m->sink->error != NULL && m->err != NULL)
-        m->sink->error(m->sink->context, m->err->text);
+    is_new(&m->errors, MOST_ERRORS, m->err->text);
+    tell_error(m, m->err->text);
+}
+
+static void forget(struct given *g)
+{
+    while (g->n > 0)
+        free(g->sentence[--g->n]);
 }
 
 void messages_end(struct messages *m)
 {
     char text[64];
-    snprintf(text, sizeof text, "and %ld more warnings", m->more_warnings);
-    if (m->more_warnings > 0 && m->sink != NULL && m->sink->warn != NULL)
-        m->sink->warn(m->sink->context, text);
-    snprintf(text, sizeof text, "and %ld more errors", m->more_errors);
-    if (m->more_errors > 0 && m->sink != NULL && m->sink->error != NULL)
-        m->sink->error(m->sink->context, text);
-    for (int i = 0; i < m->n_errors; i++)
-        free(m->error[i]);
-    for (int i = 0; i < m->n_warnings; i++)
-        free(m->warning[i]);
-    memset(m, 0, sizeof *m);
+    snprintf(text, sizeof text, "and %ld more warnings", m->warnings.more);
+    if (m->warnings.more > 0)
+        tell_warning(m, text);
+    snprintf(text, sizeof text, "and %ld more errors", m->errors.more);
+    if (m->errors.more > 0)
+        tell_error(m, text);
+    forget(&m->warnings);
+    forget(&m->errors);
 }
 
 void source_position_text(struct source_position at, char *buffer, size_t size)

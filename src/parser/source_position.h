@@ -1,7 +1,7 @@
 /* source_position.h: where something stands in a scene file, and messages that point there.
  *
  * Every token knows its position, so every message can say FILE:LINE:COL, show the line and put a caret under the
- * column. Texts of files are kept until the parse is over; positions point into them.
+ * column. It points into the text of the file, which is there while the file is read.
  *
  * Tests: test_parser.c.
  */
@@ -22,13 +22,13 @@ struct source_position {
     int line, column;       /* from 1; a tab counts as one column */
 };
 
-/* One reading of a file. A file included twice is two of these that share a text. */
+/* One reading of a file. */
 struct source_file {
     const char *path;
     const char *text, *end;  /* end[0] is a zero byte that does not belong to the file */
     struct source_position included_at; /* the Include directive; included_at.file is NULL for the main file */
-    bool is_scene; /* the main file, or one that begins with a directive. Messages quote no line of another: it may be
-                    * a file that is none of the scene's business */
+    bool quotable; /* being read, and the main file or one that begins with a directive. Messages quote no line of
+                    * another: it may be a file that is none of the scene's business */
 };
 
 /* Functions that receive each warning (one line) and each error (with its excerpt), without newline at the end;
@@ -39,28 +39,30 @@ struct message_sink {
     void *context;
 };
 
-enum { MOST_ERRORS = 20, MOST_LIKE = 3, MOST_WARNINGS = 100, MOST_SUGGESTIONS = 100 };
+enum { MOST_ERRORS = 20, MOST_WARNINGS = 100 };
 
-/* Where messages go while one scene is read. The first MOST_ERRORS errors are given, of equal ones MOST_LIKE, and the
- * rest is counted; of warnings each different one, up to MOST_WARNINGS. */
+/* The different sentences that have been given, and how many messages were not: their sentence had been, or there were
+ * enough. */
+struct given {
+    char *sentence[MOST_WARNINGS]; /* [n], owned */
+    int n;
+    long more;
+};
+
+/* Where messages go while one scene is read: each sentence once, up to MOST_ERRORS errors and MOST_WARNINGS
+ * warnings. */
 struct messages {
     struct error *err;               /* the first error; may be NULL */
     const struct message_sink *sink; /* may be NULL */
-    char *error[MOST_ERRORS];        /* [n_errors] the sentences given, owned */
-    char *warning[MOST_WARNINGS];    /* [n_warnings] the same of warnings */
-    int n_errors, n_warnings, n_suggestions;
-    long more_errors, more_warnings; /* not given */
+    struct given errors, warnings;
 };
 
 /* source_error: "FILE:LINE:COL: message", the line, a caret under the column, and from where the file was included.
  * Returns false, always. */
 bool source_error(struct messages *m, struct source_position at, const char *format, ...);
 
-/* source_warn: the same on one line, to the sink, each sentence once. */
+/* source_warn: the first line of such a message. */
 void source_warn(struct messages *m, struct source_position at, const char *format, ...);
-
-/* messages_suggest: may another name be compared with all known ones, to say which was meant? MOST_SUGGESTIONS may. */
-bool messages_suggest(struct messages *m);
 
 /* messages_report: an error that has been put into m->err already, without a place of its own, goes to the sink. */
 void messages_report(struct messages *m);

@@ -57,43 +57,20 @@ void suggest_offer(struct suggestion *s, const char *known)
 /* --- the table ---------------------------------------------------------------------------------------- */
 
 /* The chain a name is in. */
-static int *chain(const struct symbols *t, const char *name)
-{
-    return &t->newest[hash_bytes(name, strlen(name)) & (uint32_t)(t->n_chains - 1)];
-}
-
-/* Put entry i at the head of its chain. */
-static void link_entry(struct symbols *t, int i)
-{
-    int *newest = chain(t, t->entry[i].name);
-    t->entry[i].older = *newest - 1;
-    *newest = i + 1;
-}
-
-/* Twice as many chains, so that a name is found in constant time among any number. */
-static void add_chains(struct symbols *t)
-{
-    enum { FIRST_CHAINS = 64 };
-    t->n_chains = t->n_chains > 0 ? 2 * t->n_chains : FIRST_CHAINS;
-    free(t->newest);
-    t->newest = mem_alloc((size_t)t->n_chains, sizeof *t->newest);
-    for (int i = 0; i < t->n; i++)
-        link_entry(t, i);
-}
+static uint64_t chain(const char *name) { return hash_content(name, strlen(name)) % SYMBOL_CHAINS; }
 
 void symbols_add(struct symbols *t, const char *name, int value)
 {
-    if (t->n == t->n_chains)
-        add_chains(t);
+    int *newest = &t->newest[chain(name)];
+    struct symbol e = {mem_copy_text(name), value, *newest - 1};
     t->entry = mem_append(t->entry, (size_t)t->n, sizeof *t->entry);
-    struct symbol e = {mem_copy_text(name), value, -1};
-    t->entry[t->n] = e;
-    link_entry(t, t->n++);
+    t->entry[t->n++] = e;
+    *newest = t->n;
 }
 
 int symbols_find(const struct symbols *t, const char *name)
 {
-    for (int i = t->n > 0 ? *chain(t, name) - 1 : -1; i >= 0; i = t->entry[i].older)
+    for (int i = t->newest[chain(name)] - 1; i >= 0; i = t->entry[i].older)
         if (strcmp(t->entry[i].name, name) == 0)
             return t->entry[i].value;
     return -1;
@@ -103,7 +80,7 @@ void symbols_forget(struct symbols *t, int n)
 {
     while (t->n > n) {
         struct symbol *e = &t->entry[--t->n];
-        *chain(t, e->name) = e->older + 1;
+        t->newest[chain(e->name)] = e->older + 1;
         free(e->name);
     }
 }
@@ -112,6 +89,5 @@ void symbols_free(struct symbols *t)
 {
     symbols_forget(t, 0);
     free(t->entry);
-    free(t->newest);
-    memset(t, 0, sizeof *t);
+    t->entry = NULL;
 }

@@ -39,11 +39,12 @@ struct symbol {
     int older; /* next entry of the chain, -1 at its end */
 };
 
+enum { SYMBOL_CHAINS = 1 << 12 }; /* of a million names each has some 250 */
+
 struct symbols {
     struct symbol *entry; /* [n], in the order they were added, owned */
     int n;
-    int *newest; /* [n_chains], first entry of each chain plus 1; 0: empty; owned */
-    int n_chains; /* a power of two, never fewer than entries. All zeros is an empty table. */
+    int newest[SYMBOL_CHAINS]; /* first entry of each chain plus 1; 0: empty. All zeros is an empty table. */
 };
 
 /* symbols_add: append a name, which is copied, with its value, >= 0. */

@@ -125,6 +125,6 @@ void aov_render(const struct scene *scene, const struct render_options *options,
 void aov_variance(const struct film *film, double scale, float *out)
 {
     film_standard_error(film, scale, out);
-    for (size_t i = 0; i < (size_t)rect_width(film->rect) * (size_t)rect_height(film->rect) * 3; i++)
+    for (size_t i = 0; i < rect_pixels(film->rect) * 3; i++)
         out[i] = float_within((double)out[i] * (double)out[i]);
 }

@@ -1,5 +1,5 @@
-/* identity.c: what a render is of, in lines that must agree where its films are to be continued or added up: all that
- * changes a byte of them. See part.h. */
+/* identity.c: what a render is of, whatever its number of samples, in lines that must agree where its films are to be
+ * continued or added up (part.h): all that changes a byte of a sample. */
 #include <inttypes.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -9,7 +9,7 @@
 #include "base/bits.h"
 #include "base/mem.h"
 #include "base/version.h"
-#include "render/identity.h"
+#include "render/render.h"
 
 struct lines {
     char *text; /* owned */
@@ -58,20 +58,20 @@ static void add_filter(struct lines *l, const struct filter *f)
              f->B, f->C, f->tau);
 }
 
-char *identity_text(const struct scene *scene, struct picture_options o)
+char *identity_text(const struct scene *scene, const struct render_options *o)
 {
     struct lines l = {0};
     add_line(&l, "version %s, estimator %d", VERSION, ESTIMATOR);
     add_line(&l, "scene %016" PRIx64, scene->content);
-    add_line(&l, "integrator %s", o.integrator);
-    add_line(&l, "maxdepth %d", o.max_depth);
+    add_line(&l, "integrator %s", o->integrator);
+    add_line(&l, "maxdepth %d", o->max_depth);
     add_settings(&l, &scene->settings);
-    add_line(&l, "seed %" PRIu64, o.seed);
+    add_line(&l, "seed %" PRIu64, o->seed);
     add_filter(&l, &scene->filter);
     return l.text;
 }
 
-uint64_t picture_number(const struct scene *scene, struct picture_options o, struct pixel_rect r)
+uint64_t picture_number(const struct scene *scene, const struct render_options *o, struct pixel_rect r)
 {
     const int place[] = {r.x0, r.y0, r.x1, r.y1, scene->width, scene->height};
     char *text = identity_text(scene, o);

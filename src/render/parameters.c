@@ -54,23 +54,12 @@ static void warn(const struct message_sink *sink, const struct setting *item, co
         sink->warn(sink->context, line.text);
 }
 
-/* Parameters of pbrt-v3's integrators that choose what to show, and what does so here; NULL: none of them. */
-static const char *other_way(const char *name)
-{
-    static const char *const WAYS[][2] = {
-        {"pixelbounds", "is not used: the whole picture is rendered; --cropwindow renders a part of it"},
-        {"chains", "is not used: a tile has a chain of its own for every few samples"},
-        {"visualizestrategies", "is not used; --strategies DIR writes a picture of every strategy"},
-        {"visualizeweights", "is not used; --strategies DIR writes a picture of every strategy"}};
-    for (size_t i = 0; i < sizeof WAYS / sizeof WAYS[0]; i++)
-        if (strcmp(WAYS[i][0], name) == 0)
-            return WAYS[i][1];
-    return NULL;
-}
-
-static void replace(struct settings *s, const struct setting *item, const char *value)
+/* Say so, and let another value count. */
+static void replace(struct settings *s, const struct setting *item, const char *value, const struct message_sink *sink,
+                    const char *text)
 {
     char *name = mem_copy_text(item->name), *origin = mem_copy_text(item->origin);
+    warn(sink, item, text);
     settings_set(s, name, value, origin);
     free(name);
     free(origin);
@@ -82,115 +71,85 @@ static void adapt_strategy(struct settings *s, const struct setting *item, const
 {
     int which;
     bool known = settings_choice(s, item->name, 0, STRATEGIES, &which, NULL);
-    if ((known && which < 2) || (!known && !is_of_file(item)))
-        return;
-    warn(sink, item, known ? "is \"power\" instead of \"uniform\", which only has more noise"
-                           : "is \"spatial\": its value is unknown");
-    replace(s, item, STRATEGIES[known ? 1 : 0]);
+    if (known && which == 2)
+        replace(s, item, "power", sink, "is \"power\" instead of \"uniform\", which only has more noise");
+    else if (!known && is_of_file(item))
+        replace(s, item, "spatial", sink, "is \"spatial\": its value is unknown");
 }
 
-/* pbrt-v3 has no limit. */
-static void adapt_depth(struct settings *s, const struct setting *item, const struct message_sink *sink)
-{
-    char text[64];
-    if (!is_of_file(item) || !(strtod(item->value, NULL) > PATH_MAX_DEPTH))
-        return;
-    snprintf(text, sizeof text, "is cut to %d, the longest path here", PATH_MAX_DEPTH);
-    warn(sink, item, text);
-    snprintf(text, sizeof text, "%d", PATH_MAX_DEPTH);
-    replace(s, item, text);
-}
-
-/* As of all parameters in a file, with the wrong type or number of values the default counts. True, with a warning, if
- * it is to be taken out. */
-static bool mistyped(const struct setting *item, const struct message_sink *sink)
-{
-    const struct method_parameter *found;
-    char text[96];
-    if (item->type == NULL || owner(method_list(), item->name, &found) == NULL)
-        return false;
-    if (strcmp(item->type, parameter_type(found)) != 0)
-        snprintf(text, sizeof text, "cannot be of type \"%s\", so it is not used", item->type);
-    else if (item->n_values != 1)
-        snprintf(text, sizeof text, "wants 1 value, not %d; it is passed over", item->n_values);
-    else
-        return false;
-    warn(sink, item, text);
-    return true;
-}
-
-/* Whole numbers are cut; those that no parameter's range reaches stay as they are. */
+/* pbrt-v3 cuts what is no integer, and has no longest path; what no parameter's range reaches stays as it is. */
 static void adapt_integer(struct settings *s, const struct setting *item, const struct message_sink *sink)
 {
-    char text[96];
-    if (item->type == NULL || strcmp(item->type, "integer") != 0 || item->n_values != 1)
+    char text[96], value[32];
+    double number = strtod(item->value, NULL), used = trunc(number);
+    if (strcmp(item->name, "maxdepth") == 0)
+        used = fmin(used, PATH_MAX_DEPTH);
+    if (!is_of_file(item) || used == number || !(fabs(used) <= 1e15))
         return;
-    double number = strtod(item->value, NULL), whole = trunc(number);
-    if (whole == number || fabs(number) > 1e15)
-        return;
-    snprintf(text, sizeof text, "is %.12g, which counts as %.12g", number, whole);
-    warn(sink, item, text);
-    snprintf(text, sizeof text, "%.0f", whole + 0.0);
-    replace(s, item, text);
+    snprintf(text, sizeof text, "is %.12g, which counts as %.12g", number, used);
+    snprintf(value, sizeof value, "%.0f", used + 0.0);
+    replace(s, item, value, sink, text);
 }
 
-/* A parameter that nobody reads. One of the integrator that the file names is right there: --integrator may have
- * replaced it, or -P its selection. True, with a warning, if it is to be taken out. */
-static bool unread(const struct scene *scene, const struct setting *item, const struct method *const *readers,
-                   const struct message_sink *sink)
+/* Is it one of the integrator that the file names? There it is right: --integrator may have replaced that, or -P its
+ * selection. */
+static bool belongs_to_file(const struct scene *scene, const struct setting *item)
 {
-    const struct method *has = owner(method_list(), item->name, NULL);
-    char text[128];
-    if (!is_of_file(item) || owner(readers, item->name, NULL) != NULL)
-        return false;
     for (const struct method *const *m = method_list(); scene->integrator != NULL && *m != NULL; m++)
         if (strcmp((*m)->name, scene->integrator) == 0 && method_has(*m, item->name) != NULL)
-            return false;
-    snprintf(text, sizeof text, "is not used: it is a parameter of %s", has != NULL ? has->name : "");
-    warn(sink, item, has != NULL ? text : "is not used: no integrator here has such a parameter");
+            return true;
+    return false;
+}
+
+/* Of a parameter in a file that nobody reads, or, as of all parameters there, with the wrong type or number of values,
+ * the default counts. True, with a warning, if it is to be taken out. */
+static bool passed_over(const struct scene *scene, const struct setting *item, const struct method *const *readers,
+                        const struct message_sink *sink)
+{
+    const struct method_parameter *found;
+    const struct method *has = owner(method_list(), item->name, &found);
+    char text[128];
+    if (!is_of_file(item))
+        return false;
+    if (has == NULL)
+        snprintf(text, sizeof text, "is not used: no integrator here has such a parameter");
+    else if (item->type != NULL && strcmp(item->type, parameter_type(found)) != 0)
+        snprintf(text, sizeof text, "cannot be of type \"%s\", so it is not used", item->type);
+    else if (item->type != NULL && item->n_values != 1)
+        snprintf(text, sizeof text, "wants 1 value, not %d; it is passed over", item->n_values);
+    else if (owner(readers, item->name, NULL) == NULL && !belongs_to_file(scene, item))
+        snprintf(text, sizeof text, "is not used: it is a parameter of %s", has->name);
+    else
+        return false;
+    warn(sink, item, text);
     return true;
 }
 
-/* pbrt-v3's number of samples for its mlt. */
-static void adapt_mutations(struct scene *scene, const struct setting *item, const struct method *reader)
+/* pbrt-v3's number of samples for its mlt. True if it is to be taken out. */
+static bool adapt_mutations(struct scene *scene, const struct setting *item, const struct method *reader)
 {
-    if (reader->chain)
-        scene->spp = int_within(strtod(item->value, NULL), 1, 1 << 30);
-}
-
-/* True if the parameter is to be taken out. */
-static bool adapt(struct scene *scene, const struct setting *item, const struct method *const *readers,
-                  const struct message_sink *sink)
-{
-    const char *way = other_way(item->name);
-    if (mistyped(item, sink))
-        return true;
-    if (way != NULL) {
-        if (strcmp(item->value, "false") != 0)
-            warn(sink, item, way);
-        return true;
-    }
-    if (is_of_file(item) && strcmp(item->name, "mutationsperpixel") == 0) {
-        adapt_mutations(scene, item, readers[0]);
-        return true;
-    }
-    adapt_integer(&scene->settings, item, sink);
-    if (strcmp(item->name, "lightsamplestrategy") == 0)
-        adapt_strategy(&scene->settings, item, sink);
-    else if (strcmp(item->name, "maxdepth") == 0)
-        adapt_depth(&scene->settings, item, sink);
-    else
-        return unread(scene, item, readers, sink);
-    return false;
+    if (strcmp(item->name, "mutationsperpixel") != 0 || !is_of_file(item) || !reader->chain || item->n_values != 1)
+        return false;
+    scene->spp = int_within(strtod(item->value, NULL), 1, 1 << 30);
+    return true;
 }
 
 void parameters_adapt(struct scene *scene, const struct method *const *readers, const struct message_sink *sink)
 {
-    for (int i = 0; i < scene->settings.n;)
-        if (adapt(scene, &scene->settings.item[i], readers, sink))
-            settings_remove(&scene->settings, i);
-        else
-            i++;
+    struct settings *all = &scene->settings;
+    for (int i = 0; i < all->n;) {
+        const struct method_parameter *found;
+        if (adapt_mutations(scene, &all->item[i], readers[0]) || passed_over(scene, &all->item[i], readers, sink)) {
+            settings_remove(all, i);
+            continue;
+        }
+        owner(method_list(), all->item[i].name, &found);
+        if (found != NULL && found->kind == PARAMETER_INTEGER)
+            adapt_integer(all, &all->item[i], sink);
+        if (strcmp(all->item[i].name, "lightsamplestrategy") == 0)
+            adapt_strategy(all, &all->item[i], sink);
+        i++;
+    }
 }
 
 /* --- reading ----------------------------------------------------------------------------------------- */
@@ -222,18 +181,6 @@ static bool unknown(const struct setting *item, struct error *err)
                      item->origin, item->name, near ? " (did you mean " : "", near ? s.name : "", near ? "?)" : "");
 }
 
-/* Parameters of any integrator are known: --integrator may have replaced the scene's. */
-static bool all_known(const struct scene *scene, struct error *err)
-{
-    for (int i = 0; i < scene->settings.n; i++) {
-        const struct method_parameter *found;
-        owner(method_list(), scene->settings.item[i].name, &found);
-        if (found == NULL)
-            return unknown(&scene->settings.item[i], err);
-    }
-    return true;
-}
-
 /* "asbdpt", or "asbdpt with select=bins" where a name has several rows, which `select` itself belongs to alike. */
 static void name_method(const struct method *m, const char *parameter, char *out, size_t size)
 {
@@ -246,20 +193,14 @@ bool parameters_belong(const struct scene *scene, const struct method *const *re
     for (int i = 0; i < scene->settings.n; i++) {
         const struct setting *item = &scene->settings.item[i];
         const struct method *has = owner(method_list(), item->name, NULL);
-        char whose[64], first[64], second[64] = "";
+        char whose[64], here[64];
         if (is_of_file(item) || owner(readers, item->name, NULL) != NULL)
             continue;
         if (has == NULL)
             return unknown(item, err);
         name_method(has, item->name, whose, sizeof whose);
-        name_method(readers[0], item->name, first, sizeof first);
-        if (readers[1] != NULL)
-            name_method(readers[1], item->name, second, sizeof second);
-        if (readers[1] != NULL)
-            return error_set(err, "-P: \"%s\" is a parameter of %s, the integrators here are %s and %s", item->name,
-                             whose, first, second);
-        return error_set(err, "-P: \"%s\" is a parameter of %s, the integrator here is %s; try --integrator %s",
-                         item->name, whose, first, has->name);
+        name_method(readers[0], item->name, here, sizeof here);
+        return error_set(err, "-P: \"%s\" is a parameter of %s, not of %s; see --integrator", item->name, whose, here);
     }
     return true;
 }
@@ -269,7 +210,7 @@ bool parameters_read(const struct scene *scene, const struct method *m, int max_
 {
     const struct settings *s = &scene->settings;
     struct common c;
-    if (!all_known(scene, err) || !parameters_set(COMMON, s, &c, err) ||
+    if (!parameters_set(COMMON, s, &c, err) ||
         (m->parameters != NULL && !method_check(m, s, err)))
         return false;
     job->max_depth = max_depth > 0 ? max_depth : c.max_depth;

@@ -25,7 +25,7 @@ bool parameters_belong(const struct scene *scene, const struct method *const *re
 /* parameters_read: the settings that all integrators share, into max_depth, power_heuristic, spatial_lights and
  * rr_threshold of the job.
  *   max_depth  what the user wants, or 0: what the scene says, else 5
- * Returns false with a message on a setting that is unknown or wrong, also of those that this method alone has. */
+ * Returns false with a message on a setting that is wrong, also of those that this method alone has. */
 bool parameters_read(const struct scene *scene, const struct method *m, int max_depth, struct render_job *job,
                      struct error *err);
 

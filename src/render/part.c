@@ -13,7 +13,6 @@
 #include "base/number.h"
 #include "base/os.h"
 #include "image/zlib.h"
-#include "render/identity.h"
 
 static const char MAGIC[] = "asbdpt part 3\n";
 enum { MOST_TEXT = 1 << 20, MOST_LEARNT = 1 << 28, BUFFER = 1 << 16, EMPTY = 255, LONGEST_SUM = 1 + 10 * EXACT_DIGITS };
@@ -22,9 +21,8 @@ static size_t sums_of(const struct part *p) { return (size_t)p->width * (size_t)
 
 struct part part_describe(const struct scene *scene, const struct render_options *o)
 {
-    const struct picture_options picture = {o->integrator, o->max_depth, o->seed};
     struct pixel_rect r = render_crop(scene);
-    struct part p = {.identity = identity_text(scene, picture), .width = rect_width(r), .height = rect_height(r),
+    struct part p = {.identity = identity_text(scene, o), .width = rect_width(r), .height = rect_height(r),
                      .scale = scene->film_scale, .place = {r.x0, r.y0, scene->width, scene->height},
                      .planned = o->planned, .first = o->first, .end = o->end};
     return p;
@@ -256,9 +254,9 @@ FILE *part_open(const char *path, struct part *out, struct error *err)
         error_set(err, "%s: cannot be opened: %s", path, strerror(errno));
         return NULL;
     }
-    uint64_t size;
     if (read_header(f, path, out, err)) {
-        if (!os_regular(f, &size) || size >= sums_of(out)) /* a byte each at least: before memory is taken for them */
+        struct os_identity is = os_identify_stream(f);
+        if (is.kind != OS_FILE || is.size >= sums_of(out)) /* a byte each at least: before memory is taken for them */
             return f;
         error_set(err, "%s: the part is damaged or cut off", path);
         part_free(out);

@@ -7,7 +7,6 @@
 #include "base/number.h"
 #include "base/os.h"
 #include "base/parallel.h"
-#include "render/identity.h"
 #include "render/parameters.h"
 
 /* Fractions lie within [0,1]: readers of scenes and options see to it. */
@@ -183,9 +182,8 @@ static bool prepare(struct run *r, struct error *err)
         return false;
     r->job.watch = r->options->progress != NULL ? watch : NULL;
     r->job.watch_context = r;
-    const struct picture_options picture = {r->options->integrator, r->options->max_depth, r->options->seed};
     r->job.learnt = &r->film->learnt;
-    r->job.of = picture_number(r->job.scene, picture, r->film->rect);
+    r->job.of = picture_number(r->job.scene, r->options, r->film->rect);
     bool ok = method_prepare(m, &r->job, &r->prepared, err);
     r->film->learnt_short = r->stopping;
     return ok;

@@ -60,4 +60,12 @@ bool render_prepare(const struct scene *scene, const struct render_options *opti
 bool render_trace(const struct scene *scene, const struct render_options *options, struct trace *trace,
                   struct error *err);
 
+/* identity_text: what a picture by these options is of, whatever its number of samples; lines, each a word and what it
+ * says, to be given to free(). Threads, names of files and what is written do not belong to it; what the scene's files
+ * hold does. */
+char *identity_text(const struct scene *scene, const struct render_options *options);
+
+/* picture_number: a hash of these and of the film's size and window. */
+uint64_t picture_number(const struct scene *scene, const struct render_options *options, struct pixel_rect window);
+
 #endif

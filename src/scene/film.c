@@ -9,8 +9,6 @@
 #include "base/mem.h"
 #include "base/number.h"
 
-static size_t rect_pixels(struct pixel_rect r) { return (size_t)rect_width(r) * (size_t)rect_height(r); }
-
 /* What a float cannot hold is no part of a picture; squares of the rest stay far from overflow. */
 static bool fits(rgb c) { return fits_float(c.r) && fits_float(c.g) && fits_float(c.b); }
 
@@ -24,10 +22,8 @@ void tile_start(struct tile *t, struct pixel_rect rect, struct pixel_rect film_r
     t->film_rect = film_rect;
     t->filter = filter;
     t->sum = mem_grow(t->sum, &t->capacity, n, sizeof *t->sum);
-    t->eye = mem_grow(t->eye, &t->eye_capacity, n, sizeof *t->eye);
     t->square = mem_grow(t->square, &t->square_capacity, n, sizeof *t->square);
     memset(t->sum, 0, n * sizeof *t->sum);
-    memset(t->eye, 0, n * sizeof *t->eye);
     memset(t->square, 0, n * sizeof *t->square);
     t->n_splats = t->n_records = 0;
     t->keep_records = keep_records;
@@ -37,7 +33,6 @@ void tile_start(struct tile *t, struct pixel_rect rect, struct pixel_rect film_r
 void tile_free(struct tile *t)
 {
     free(t->sum);
-    free(t->eye);
     free(t->square);
     free(t->splat);
     free(t->record);
@@ -56,7 +51,6 @@ void tile_add_eye(struct tile *t, int x, int y, rgb value)
     const double v[3] = {value.r, value.g, value.b};
     for (size_t c = 0; c < 3; c++) {
         exact_add(&t->sum[i + c], v[c]);
-        t->eye[i + c] += v[c];
         t->square[i + c] += v[c] * v[c];
     }
 }
@@ -256,7 +250,7 @@ void film_merge_tile(struct film *f, struct tile *t)
         for (size_t x = 0; x < width; x++) {
             f->nonfinite += !exact_join(&f->sum[to + x], &t->sum[from + x]);
             if (f->errors != NULL) {
-                f->errors->eye[to + x] += t->eye[from + x];
+                f->errors->eye[to + x] += exact_value(&t->sum[from + x]);
                 f->errors->square[to + x] += t->square[from + x];
             }
         }

@@ -29,6 +29,7 @@ struct pixel_rect {
 
 static inline int rect_width(struct pixel_rect r) { return r.x1 - r.x0; }
 static inline int rect_height(struct pixel_rect r) { return r.y1 - r.y0; }
+static inline size_t rect_pixels(struct pixel_rect r) { return (size_t)rect_width(r) * (size_t)rect_height(r); }
 
 /* What a light sub-path sent to a raster point, all pixels having their part of it yet to come. */
 struct splat {
@@ -54,9 +55,8 @@ struct tile {
     struct pixel_rect film_rect; /* of the film: splats land anywhere in it */
     const struct filter *filter;
     struct exact_sum *sum; /* [pixels of rect * 3], sum over the iterations of the pass; owned */
-    double *eye;           /* [pixels of rect * 3], the same, rounded; owned */
     double *square;        /* [pixels of rect * 3], sum of squares of the per-iteration values; owned */
-    size_t capacity, eye_capacity, square_capacity;
+    size_t capacity, square_capacity;
     struct splat *splat; /* [n_splats], owned */
     size_t n_splats, splat_capacity;
     struct strategy_record *record; /* [n_records], owned */

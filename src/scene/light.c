@@ -32,34 +32,24 @@ void light_set_free(struct light_set *set)
 
 /* --- pictures ---------------------------------------------------------------------------------------- */
 
-/* The picture of this file in this role, or a new one without either. */
-static struct light_picture *picture_of(struct light_set *set, const char *path, bool map)
+const struct image *light_read_picture(struct light_set *set, struct light *l, const char *path, struct error *err)
 {
-    for (int i = 0; i < set->n_pictures; i++)
-        if ((set->picture[i].env != NULL) == map && strcmp(set->picture[i].path, path) == 0)
-            return &set->picture[i];
-    struct light_picture added = {mem_copy_text(path), NULL, NULL};
-    set->picture = mem_append(set->picture, (size_t)set->n_pictures, sizeof *set->picture);
-    set->picture[set->n_pictures] = added;
-    return &set->picture[set->n_pictures++];
-}
-
-const struct image *light_read_map(struct light_set *set, struct light *l, const char *path, struct error *err)
-{
-    struct light_picture *p = picture_of(set, path, true);
-    if (p->env == NULL)
-        p->env = envmap_load(path, err);
-    l->env = p->env;
-    return p->env != NULL ? &p->env->image : NULL;
-}
-
-const struct image *light_read_slide(struct light_set *set, struct light *l, const char *path, struct error *err)
-{
-    struct light_picture *p = picture_of(set, path, false);
-    if (p->slide == NULL)
-        p->slide = slide_load(path, err);
-    l->slide = p->slide;
-    return p->slide != NULL ? &p->slide->image : NULL;
+    bool map = l->kind == LIGHT_INFINITE;
+    int i = 0;
+    while (i < set->n_pictures &&
+           ((set->picture[i].env != NULL) != map || strcmp(set->picture[i].path, path) != 0))
+        i++;
+    if (i == set->n_pictures) {
+        struct light_picture added = {NULL, map ? envmap_load(path, err) : NULL, map ? NULL : slide_load(path, err)};
+        if (added.env == NULL && added.slide == NULL)
+            return NULL;
+        added.path = mem_copy_text(path);
+        set->picture = mem_append(set->picture, (size_t)set->n_pictures, sizeof *set->picture);
+        set->picture[set->n_pictures++] = added;
+    }
+    l->env = set->picture[i].env;
+    l->slide = set->picture[i].slide;
+    return map ? &l->env->image : &l->slide->image;
 }
 
 /* --- power and choice -------------------------------------------------------------------------------- */

@@ -106,10 +106,9 @@ enum { LIGHT_MAX_INFINITE = 1 << 12 };
 
 int light_add(struct light_set *set, struct light l);
 
-/* light_read_map, light_read_slide: give the light the picture of a file, which is read once for all lights that want
- * it. Return the picture, which stays the set's, or NULL with a message. */
-const struct image *light_read_map(struct light_set *set, struct light *l, const char *path, struct error *err);
-const struct image *light_read_slide(struct light_set *set, struct light *l, const char *path, struct error *err);
+/* light_read_picture: give the light the picture of a file, as its kind wants it; lights that want the same share it.
+ * Returns the picture, which stays the set's, or NULL with a message. */
+const struct image *light_read_picture(struct light_set *set, struct light *l, const char *path, struct error *err);
 
 /* light_prepare: powers, the choice table, the scene's sphere. Call once the geometry is complete. */
 void light_prepare(struct light_set *set, const struct geometry *geo, vec3 center, double radius);

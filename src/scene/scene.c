@@ -34,7 +34,6 @@ void scene_free(struct scene *s)
 int scene_add_material(struct scene *s, struct material m)
 {
     s->material = mem_append(s->material, (size_t)s->n_materials, sizeof *s->material);
-    m.n_lobes = material_lobes(s->material, &m);
     s->material[s->n_materials] = m;
     return s->n_materials++;
 }

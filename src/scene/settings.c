@@ -1,7 +1,7 @@
 /* settings.c: see settings.h. */
 #include "scene/settings.h"
 
-#include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -83,41 +83,35 @@ const char *settings_text(const struct settings *s, const char *name, const char
     return item != NULL ? item->value : fallback;
 }
 
-bool settings_int(const struct settings *s, const char *name, long fallback, long low, long high, long *out,
-                  struct error *err)
+/* The value as a number of which only a whole one will do, if `whole`. */
+static bool number(const struct settings *s, const char *name, bool whole, double low, double high, double *out,
+                   struct error *err)
 {
-    *out = fallback;
     const struct setting *item = find(s, name);
     if (item == NULL)
         return true;
     char *end;
-    errno = 0;
-    long value = strtol(item->value, &end, 10);
-    bool number = end != item->value && *end == '\0';
-    *out = value;
-    if (number && errno != ERANGE && value >= low && value <= high)
+    *out = strtod(item->value, &end);
+    if (end != item->value && *end == '\0' && *out >= low && *out <= high && (!whole || *out == floor(*out)))
         return true;
-    return error_set(err, number ? "%s: %s = %s is out of range: give a whole number from %ld to %ld"
-                                 : "%s: %s = \"%s\": give a whole number from %ld to %ld",
-                     item->origin, name, item->value, low, high);
+    return error_set(err, "%s: %s = \"%s\": give a %snumber from %.15g to %.15g", item->origin, name, item->value,
+                     whole ? "whole " : "", low, high);
+}
+
+bool settings_int(const struct settings *s, const char *name, long fallback, long low, long high, long *out,
+                  struct error *err)
+{
+    double value = (double)fallback;
+    bool ok = number(s, name, true, (double)low, (double)high, &value, err);
+    *out = ok ? (long)value : fallback;
+    return ok;
 }
 
 bool settings_real(const struct settings *s, const char *name, double fallback, double low, double high,
                    double *out, struct error *err)
 {
     *out = fallback;
-    const struct setting *item = find(s, name);
-    if (item == NULL)
-        return true;
-    char *end;
-    double value = strtod(item->value, &end);
-    bool number = end != item->value && *end == '\0';
-    *out = value;
-    if (number && value >= low && value <= high)
-        return true;
-    return error_set(err, number ? "%s: %s = %s is out of range: give a number from %g to %g"
-                                 : "%s: %s = \"%s\": give a number from %g to %g",
-                     item->origin, name, item->value, low, high);
+    return number(s, name, false, low, high, out, err);
 }
 
 bool settings_choice(const struct settings *s, const char *name, int fallback, const char *const *names, int *out,

@@ -37,24 +37,20 @@ static int run(void *options)
     struct equal_render took[METHODS_MAX];
     struct error err;
     struct outputs out;
-    struct sheet picture;
+    struct sheet picture = {0};
     o->demo.spp = o->spp;
     if (!methods_read(o->methods, &o->demo.methods, &err))
         return usage_error(&command_demo, "--methods: %s", err.text);
     if (!outputs_open(&o->output, NULL, PARTS_NONE, &out, &err))
         return fail(&err);
-    if (!demo_run(&o->demo, took, &picture, &err)) {
-        outputs_abandon(&out);
-        return fail(&err);
-    }
-    bool ok = outputs_write(&out, picture.width, picture.height, picture.pixels, o->quiet, &err);
+    bool ok = demo_run(&o->demo, took, &picture, &err) &&
+              outputs_write(&out, picture.width, picture.height, picture.pixels, o->quiet, &err);
+    outputs_abandon(&out); /* unless they are written */
     sheet_free(&picture);
-    if (!ok)
-        return fail(&err);
-    for (int i = 0; i < o->demo.methods.n; i++)
+    for (int i = 0; ok && i < o->demo.methods.n; i++)
         printf("%-8s %6ld spp %8.2f s of CPU   rmse8 %.3f\n", o->demo.methods.item[i].text, took[i].spp,
                took[i].seconds, took[i].rmse8);
-    return EXIT_OK;
+    return ok ? EXIT_OK : fail(&err);
 }
 
 const struct command command_demo = {

@@ -8,7 +8,7 @@
 
 #include "base/mem.h"
 #include "base/progress.h"
-#include "image/sheet.h"
+#include "look/sheet.h"
 #include "lab/plan_scene.h"
 #include "lab/timed.h"
 #include "look/compare.h"

@@ -7,7 +7,7 @@
  *
  * The text of one is its name in tables and files. No other file of the laboratory knows methods by name.
  *
- * Tests: test_report.c.
+ * Tests: test_plan.c.
  */
 #ifndef ASBDPT_LAB_METHODS_H
 #define ASBDPT_LAB_METHODS_H

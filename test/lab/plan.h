@@ -3,7 +3,7 @@
  * The first methods are compared everywhere, with the first of them; the others belong to sweeps, which move one
  * parameter.                                                                               [S24 4] [S24 appendix A]
  *
- * Tests: test_report.c.
+ * Tests: test_plan.c.
  */
 #ifndef ASBDPT_PLAN_H
 #define ASBDPT_PLAN_H

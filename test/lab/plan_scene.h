@@ -1,6 +1,6 @@
 /* plan_scene.h: the scenes of a plan as they are rendered, and their stored references.
  *
- * Tests: test_report.c.
+ * Tests: test_plan.c.
  */
 #ifndef ASBDPT_PLAN_SCENE_H
 #define ASBDPT_PLAN_SCENE_H

@@ -11,7 +11,7 @@
  * Where none is stored, one is rendered: two sides of independent batches (sides.h), their weighted mean, and the
  * errors that follow from how the batches scatter, stored as any other.
  *
- * Tests: test_report.c.
+ * Tests: test_plan.c.
  */
 #ifndef ASBDPT_REFERENCE_H
 #define ASBDPT_REFERENCE_H

@@ -2,17 +2,23 @@
 # run.sh: apply the faults of list.txt one by one to a copy of the tree; every one must be caught by the test suite.
 #   sh test/mutants/run.sh [WORKERS [NAME...]]      `make mutants` calls it; results in build-mutants/table.txt
 # A fault is caught when a test fails or crashes; one that keeps a test running for TIMEOUT seconds is reported as an
-# error. With WHOLE=no only the named tests are run. Exit status 0 only if all faults are caught.
+# error. With WHOLE=no only the named tests are run. With SOUND=no the tests are known to pass without any fault.
+#   sh test/mutants/run.sh choose COUNT WORD    prints the names of so many, chosen by the word
+# Exit status 0 only if all faults are caught.
 set -u
 list=test/mutants/list.txt
 work=build-mutants
-workers=${1:-2}
-[ $# -gt 0 ] && shift
-only=" $* "
 TIMEOUT=900
 limit=$(command -v timeout || command -v gtimeout) && limit="$limit $TIMEOUT" # else there is none
 rest=all
 [ "${WHOLE:-yes}" = no ] && rest=
+
+# choose COUNT WORD: any of them, always the same for one word.
+choose() {
+    names | while read -r name; do
+        echo "$(printf '%s %s' "$name" "$2" | cksum | cut -d ' ' -f 1) $name"
+    done | sort -n | head -n "$1" | cut -d ' ' -f 2
+}
 
 # names: the mutants to run, one a line.
 names() {
@@ -81,15 +87,22 @@ one() {
     printf '%-18s %s\n' "$1" "$verdict"
 }
 
-# plant TREE: a copy of all that tests need, built.
+# plant: WORKERS copies of all that tests need, built.
 plant() {
-    mkdir -p "$1"
-    cp -R Makefile src test scenes ref doc "$1/" 2>/dev/null
-    (cd "$1" && make -s LTO= asbdpt asbdpt-lab build/test)
+    mkdir -p $work/tree0
+    cp -R Makefile src test scenes ref doc $work/tree0/ 2>/dev/null
+    (cd $work/tree0 && make -s -j"$workers" LTO= asbdpt asbdpt-lab build/test) || return
+    w=1
+    while [ $w -lt "$workers" ]; do
+        rm -rf $work/tree$w
+        cp -Rp $work/tree0 $work/tree$w || return
+        w=$((w + 1))
+    done
 }
 
 # sound TREE: do the tests pass without any fault? One that does not would seem to catch them all.
 sound() {
+    [ "${SOUND:-yes}" = no ] && return
     for test in $(for name in $(names); do field "$name" 3; done | tr , '\n' | sort -u) $rest; do
         try "$1" "$test" || { echo "$test fails without any fault: $1/output.txt"; return 1; }
     done
@@ -98,7 +111,6 @@ sound() {
 # worker NUMBER: every WORKERS-th mutant in a tree of its own.
 worker() {
     tree=$work/tree$1
-    plant "$tree" || exit 1
     n=0
     for name in $(names); do
         [ $((n % workers)) -eq "$1" ] && one "$name" "$tree"
@@ -106,8 +118,16 @@ worker() {
     done >"$work/part$1.txt"
 }
 
+if [ "${1-}" = choose ]; then
+    only="  "
+    choose "$2" "$3"
+    exit
+fi
+workers=${1:-2}
+[ $# -gt 0 ] && shift
+only=" $* "
 rm -rf $work/part*.txt
-plant $work/tree0 && sound $work/tree0 || exit 1
+plant && sound $work/tree0 || exit 1
 w=0
 while [ $w -lt "$workers" ]; do
     worker $w &

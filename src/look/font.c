@@ -1,5 +1,5 @@
 /* font.c: see font.h. */
-#include "image/font.h"
+#include "look/font.h"
 
 #include <string.h>
 

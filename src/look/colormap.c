@@ -1,5 +1,5 @@
 /* colormap.c: see colormap.h. */
-#include "image/colormap.h"
+#include "look/colormap.h"
 
 #include "image/picture.h"
 

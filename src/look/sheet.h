@@ -5,7 +5,7 @@
 #ifndef ASBDPT_SHEET_H
 #define ASBDPT_SHEET_H
 
-#include "image/font.h"
+#include "look/font.h"
 
 struct sheet {
     int width, height;
