@@ -58,7 +58,7 @@ static struct bsdf make(struct bench *b, const struct material *materials, int i
 /* The kinds of the lobes as a string, for comparison. */
 static const char *kinds(const struct bsdf *b, char *text)
 {
-    static const char LETTER[] = "LtOMTGrfBDC"; /* in the order of enum lobe_kind */
+    static const char LETTER[] = "LtOMTGrfBDCF"; /* in the order of enum lobe_kind */
     for (int i = 0; i < b->n_lobes; i++)
         text[i] = LETTER[b->lobe[i].kind];
     text[b->n_lobes] = '\0';

@@ -4,6 +4,7 @@
 
 #include "base/warp.h"
 #include "material/disney.h"
+#include "material/fourier.h"
 #include "material/fresnel.h"
 #include "material/microfacet.h"
 
@@ -34,6 +35,7 @@ double lobe_albedo_guess(const struct lobe *l)
     case LOBE_MICROFACET_REFLECTION: return r * reflected_share(l);
     case LOBE_FRESNEL_SPECULAR: return fmax(r, t);
     case LOBE_FRESNEL_BLEND: return r + t;
+    case LOBE_FOURIER: return 0.5 * r;
     case LOBE_DISNEY_DIFFUSE: return r + t + 0.25 * rgb_mean(rgb_mul(l->scale, rgb_add(l->eta, l->k)));
     case LOBE_CLEARCOAT: return 0.1 * r;
     }
@@ -230,6 +232,11 @@ struct bsdf_value lobe_eval(const struct lobe *l, vec3 wo, vec3 wi, bool reflect
             v = diffuse(disney_diffuse(l->R, l->T, l->eta, l->k, l->A, wo, wi), wo, wi);
         break;
     case LOBE_CLEARCOAT: v = clearcoat(l, wo, wi, reflect); break;
+    case LOBE_FOURIER:
+        v.f = mode == RADIANCE ? fourier_eval(l->table, wo, wi) : fourier_eval(l->table, wi, wo);
+        v.pdf = fourier_pdf(l->table, wo, wi);
+        v.pdf_rev = fourier_pdf(l->table, wi, wo);
+        break;
     case LOBE_SPECULAR_REFLECTION:
     case LOBE_SPECULAR_TRANSMISSION:
     case LOBE_FRESNEL_SPECULAR: break;
@@ -246,6 +253,7 @@ bool lobe_sample(const struct lobe *l, vec3 wo, vec3 ng, const double u[3], vec3
     case LOBE_OREN_NAYAR: *wi = sample_diffuse(wo, ng, true, u[1], u[2]); return true;
     case LOBE_LAMBERT_TRANSMISSION: *wi = sample_diffuse(wo, ng, false, u[1], u[2]); return true;
     case LOBE_MICROFACET_REFLECTION: return sample_microfacet_reflection(l, wo, u[1], u[2], wi);
+    case LOBE_FOURIER: return fourier_sample(l->table, wo, u, wi);
     case LOBE_CLEARCOAT: return sample_clearcoat(l, wo, u[1], u[2], wi);
     case LOBE_MICROFACET_TRANSMISSION: return sample_microfacet_transmission(l, wo, u[1], u[2], wi);
     case LOBE_FRESNEL_BLEND:

@@ -38,10 +38,13 @@ enum lobe_kind {
     LOBE_MICROFACET_TRANSMISSION,
     LOBE_FRESNEL_BLEND, /* pbrt's substrate [Ashikhmin & Shirley 2000] */
     LOBE_DISNEY_DIFFUSE, /* see disney.h, as of the next */
-    LOBE_CLEARCOAT
+    LOBE_CLEARCOAT,
+    LOBE_FOURIER /* see fourier.h */
 };
 
 enum fresnel_kind { FRESNEL_NONE, FRESNEL_DIELECTRIC, FRESNEL_CONDUCTOR, FRESNEL_DISNEY };
+
+struct fourier_table;
 
 /* One lobe; which fields matter depends on kind. */
 struct lobe {
@@ -58,6 +61,7 @@ struct lobe {
     bool separate;           /* facets hide from wo and from wi independently */
     double A, B;             /* Oren-Nayar coefficients; A of FRESNEL_DISNEY: how much of a metal it is, of
                               * LOBE_DISNEY_DIFFUSE: roughness */
+    const struct fourier_table *table;
     double choice;           /* probability with which bsdf_sample takes this lobe; set by bsdf_make */
 };
 

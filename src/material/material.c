@@ -22,7 +22,7 @@ struct material material_blank(enum material_kind kind)
     m.opacity = m.reflect = m.transmit = m.amount = m.mix1 = m.mix2 = m.bump = -1;
     m.disney.metallic = m.disney.specular_tint = m.disney.anisotropic = m.disney.sheen = m.disney.sheen_tint = -1;
     m.disney.clearcoat = m.disney.clearcoat_gloss = m.disney.transmission = m.disney.scatter_distance = -1;
-    m.disney.flatness = m.disney.diffuse_transmission = -1;
+    m.disney.flatness = m.disney.diffuse_transmission = m.table = -1;
     return m;
 }
 
@@ -260,6 +260,12 @@ static void add_material(struct lobe_list *list, int id)
     case MATERIAL_UBER: add_uber(list, m); break;
     case MATERIAL_TRANSLUCENT: add_translucent(list, m); break;
     case MATERIAL_DISNEY: add_disney(list, m); break;
+    case MATERIAL_FOURIER: {
+        struct lobe l = lobe_of(LOBE_FOURIER, rgb_grey(1), rgb_black());
+        l.table = &list->textures->table[m->table];
+        add_lobe(list, l);
+        break;
+    }
     case MATERIAL_MIX: add_mix(list, m); break;
     }
 }
@@ -271,6 +277,7 @@ int material_lobes(const struct material *materials, int id)
     case MATERIAL_MATTE:
     case MATERIAL_MIRROR:
     case MATERIAL_METAL:
+    case MATERIAL_FOURIER:
     case MATERIAL_SUBSTRATE: return 1;
     case MATERIAL_GLASS:
     case MATERIAL_PLASTIC: return 2;

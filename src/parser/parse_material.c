@@ -2,6 +2,7 @@
 #include "parser/parse.h"
 
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 
 static void mixed_material(struct parser *p, const struct parameter *row, void *field)
@@ -60,6 +61,7 @@ static const struct parameter DISNEY[] = {
     TEXTURE("flatness", disney.flatness, 0, UNIT),
     TEXTURE("difftrans", disney.diffuse_transmission, 1, TWICE),
     BUMP};
+static const struct parameter FOURIER[] = {BY_BUILD("bsdffile"), BUMP};
 static const struct parameter METAL[] = {
     /* Complex index of copper in sRGB: pbrt-v3's default, its tabulated spectra reduced to RGB. */
     RGB(eta, 0.199990, 0.922086, 1.099876),
@@ -112,6 +114,25 @@ static void disney(struct parser *p, void *object)
         surface_alone(p);
 }
 
+static void fourier(struct parser *p, void *object)
+{
+    struct params *q = &p->params;
+    struct texture_set *set = &p->scene->textures;
+    struct source_position at = q->position;
+    struct error inner;
+    int known = set->n_tables, table;
+    char *path = params_file(q, "bsdffile", &at);
+    if (path == NULL) {
+        type_error(q, "a fourier material needs its table: add \"string bsdffile\" \"...\"");
+    } else if (!q->failed) {
+        ((struct material *)object)->table = table = texture_load_table(set, path, &inner);
+        const struct fourier_table *read = table == known ? &set->table[table] : NULL;
+        if (table < 0 || (read != NULL && !scene_files_count(q->files, read->content, read->file_size, &inner)))
+            params_fail(q, at, "%s", inner.text);
+    }
+    free(path);
+}
+
 const struct object_type MATERIAL_TYPES[] = {
     {"matte", MATTE, MATERIAL_MATTE, NULL},
     {"mirror", MIRROR, MATERIAL_MIRROR, NULL},
@@ -124,6 +145,7 @@ const struct object_type MATERIAL_TYPES[] = {
     {"subsurface", SUBSURFACE, MATERIAL_GLASS, subsurface},
     {"kdsubsurface", KDSUBSURFACE, MATERIAL_GLASS, subsurface},
     {"disney", DISNEY, MATERIAL_DISNEY, disney},
+    {"fourier", FOURIER, MATERIAL_FOURIER, fourier},
     {"mix", MIX, MATERIAL_MIX, NULL},
     END_OF_TYPES};
 

@@ -129,6 +129,7 @@ static const struct object WORLD[] = {
     {"Material", "disney", "rgb color|float roughness|float eta|float metallic|float speculartint|float anisotropic|"
                            "float sheen|float sheentint|float clearcoat|float clearcoatgloss|float spectrans|"
                            "rgb scatterdistance|bool thin:true,false|float flatness|float difftrans|" BUMP},
+    {"Material", "fourier", "string bsdffile:../../scenes/features/layered.bsdf,parts/broken.ply|" BUMP},
     {"Material", "none", ""},
     {"Material", "", ""},
     {"AreaLightSource", "diffuse", LIT "bool twosided:true,false"},
