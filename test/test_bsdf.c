@@ -72,7 +72,7 @@ struct specimen {
     struct lobe lobe[MAX_LOBES];
 };
 
-enum { N_SPECIMENS = 20 };
+enum { N_SPECIMENS = 19 };
 
 static void specimens(struct specimen *s, const struct fourier_table *table)
 {
@@ -115,7 +115,6 @@ static void specimens(struct specimen *s, const struct fourier_table *table)
         {"disney's glass", 1, {glass}},
         {"clear coat", 1, {gloss}},
         {"fourier", 1, {layered}},
-        {"fourier and a coat", 2, {dimmed(layered), dimmed(gloss)}},
         {"disney", 4, {dimmed(disney), dimmed(metal), gloss, dimmed(glass)}},
     };
     memcpy(s, all, sizeof all);

@@ -107,7 +107,7 @@ struct parser {
     int current_object; /* between ObjectBegin and ObjectEnd, else -1 */
     uint64_t copied_bytes; /* of all instances */
     int n_infinite;        /* lights */
-    int n_subdivided;      /* triangles of all subdivision surfaces, at most SUBDIVIDE_MAX_TRIANGLES */
+    int n_subdivided;      /* triangles of all subdivision surfaces and curves, at most SUBDIVIDE_MAX_TRIANGLES */
 
     bool texture_is_float;   /* of the Texture directive being carried out */
     int constant[CONSTANTS]; /* textures made for numbers, by hash, plus 1: equal ones are shared */
