@@ -8,6 +8,7 @@
 #include "geometry/subdivide.h"
 #include "tests.h"
 
+enum { MOST = 2 * 29 * 29 }; /* triangles of a NURBS surface */
 enum { RING = 9 }; /* points of a tube's row; the first and the last are one */
 
 static struct mesh mesh_of(struct test *t, const struct curve *c)
@@ -134,7 +135,7 @@ static void rational(struct test *t)
     struct nurbs_axis u = {3, 3, uk, 0, 1}, v = {2, 2, vk, 2, 3};
     struct mesh m = {0};
     struct error err = {""};
-    CHECK(t, nurbs_is_usable(&u) && nurbs_is_usable(&v) && nurbs_mesh(&u, &v, Pw, &m, &err), "%s", err.text);
+    CHECK(t, nurbs_is_usable(&u) && nurbs_is_usable(&v) && nurbs_mesh(&u, &v, Pw, &m, MOST, &err), "%s", err.text);
     for (size_t i = 0; i < (size_t)m.n_vertices; i++) {
         vec3 p = load3(m.P, i), n = load3(m.N, i), want = normalize(vec(p.x, p.y, -sqrt(p.x * p.x + p.y * p.y)));
         CHECK(t, fabs(sqrt(p.x * p.x + p.y * p.y) - 1 - p.z) < 1e-6, "a cone: %g %g %g", p.x, p.y, p.z);
@@ -160,13 +161,14 @@ static void knots(struct test *t)
     struct nurbs_axis u = {POINTS, ORDER, k, 0, 7}, v = {2, 2, line, 0, 1};
     struct mesh m = {0};
     struct error err = {""};
-    CHECK(t, nurbs_is_usable(&u) && nurbs_mesh(&u, &v, Pw, &m, &err), "%s", err.text);
+    CHECK(t, nurbs_is_usable(&u) && nurbs_mesh(&u, &v, Pw, &m, MOST, &err), "%s", err.text);
     for (size_t i = 0; i < (size_t)m.n_vertices; i++)
         CHECK(t, fabs(m.P[3 * i] - m.UV[2 * i]) < 1e-5 && m.N[3 * i + 2] > 0.9999, "at %g: %g", m.UV[2 * i],
               m.P[3 * i]);
     mesh_free(&m);
+    CHECK(t, !nurbs_mesh(&u, &v, Pw, &m, MOST - 1, &err) && m.P == NULL, "too many triangles are refused");
     Pw[4 * 2 + 3] = -9;
-    CHECK(t, !nurbs_mesh(&u, &v, Pw, &m, &err), "negative weights are refused");
+    CHECK(t, !nurbs_mesh(&u, &v, Pw, &m, MOST, &err), "negative weights are refused");
     mesh_free(&m);
     struct nurbs_axis wide = u, empty = u, falling = u;
     const double fall[] = {0, 0, 0, 0, 1, 3, 2, 4, 7, 7, 7.5, 8};

@@ -1,6 +1,8 @@
 /* nurbs.c: see nurbs.h. */
 #include "geometry/nurbs.h"
 
+#include "geometry/subdivide.h"
+
 bool nurbs_is_usable(const struct nurbs_axis *a)
 {
     for (int i = 1; i < a->n + a->order; i++)
@@ -65,11 +67,14 @@ static bool surface(const struct nurbs_axis *u, const struct basis *bu, const st
     return w > 0 && is_place(*p);
 }
 
-bool nurbs_mesh(const struct nurbs_axis *u, const struct nurbs_axis *v, const double *Pw, struct mesh *m,
+bool nurbs_mesh(const struct nurbs_axis *u, const struct nurbs_axis *v, const double *Pw, struct mesh *m, int most,
                 struct error *err)
 {
     struct basis bu, bv;
     vec3 p, n;
+    if (most < 2 * (NURBS_DICE - 1) * (NURBS_DICE - 1))
+        return error_set(err, "curves and other subdivided surfaces have more than %d triangles in all; leave some out",
+                         SUBDIVIDE_MAX_TRIANGLES);
     mesh_grid(m, NURBS_DICE, NURBS_DICE, true);
     for (int i = 0; i < NURBS_DICE * NURBS_DICE; i++) {
         double s = (i % NURBS_DICE) / (NURBS_DICE - 1.0), t = (i / NURBS_DICE) / (NURBS_DICE - 1.0);

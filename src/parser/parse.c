@@ -50,7 +50,7 @@ bool parse_newer(struct parser *p, struct source_position at, const char *name)
         "Option", "Attribute", "ColorSpace", /* directives; then types of films, cameras, samplers, shapes, materials */
         "rgb", "gbuffer", "spectral", "spherical", "zsobol", "independent", "paddedsobol", "pmj02bn", "bilinearmesh",
         "diffuse", "coateddiffuse", "diffusetransmission", "conductor", "coatedconductor", "dielectric",
-        "thindielectric", "measured", "interface"};
+        "thindielectric", "interface"};
     for (size_t i = 0; i < sizeof NEWER / sizeof NEWER[0]; i++)
         if (strcmp(NEWER[i], name) == 0) {
             source_error(&p->messages, at, "\"%s\" is of pbrt-v4, whose files are not read; take the version of this "

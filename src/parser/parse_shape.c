@@ -206,8 +206,9 @@ static void nurbs(struct parser *p, void *object)
     }
     if (!q->failed && n != u.n * v.n)
         type_error(q, "a nurbs needs nu nv = %d points \"P\" or \"Pw\", not %d", u.n * v.n, n);
-    if (!q->failed && !nurbs_mesh(&u, &v, Pw, m, &inner))
+    if (!q->failed && !nurbs_mesh(&u, &v, Pw, m, SUBDIVIDE_MAX_TRIANGLES - p->n_subdivided, &inner))
         type_error(q, "%s", inner.text);
+    p->n_subdivided += m->n_triangles;
     free(made);
 }
 
