@@ -21,8 +21,8 @@ bool nurbs_is_usable(const struct nurbs_axis *a);
 
 /* nurbs_mesh: fill *m, an empty mesh, with as many triangles as pbrt-v3 does, the corners' normals and parameters.
  *   Pw  [v.n][u.n][4] control points, x y z times their weight, and that
- * Returns false with a message if these are more than `most`, or a point of the surface is nowhere: where weights add up
- * to 0 or less. */
+ * Returns false with a message if these are more than `most`, or a point of the surface is nowhere: where weights add
+ * up to 0 or less. */
 bool nurbs_mesh(const struct nurbs_axis *u, const struct nurbs_axis *v, const double *Pw, struct mesh *m, int most,
                 struct error *err);
 
