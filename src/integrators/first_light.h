@@ -11,7 +11,7 @@
  * the same way, by trying some ratios of their counts on these samples: to go by second moments would be wrong, since
  * one of both may be far better spread.
  *
- * Tests: test_asbdpt.c.
+ * Tests: test_pilot.c.
  */
 #ifndef ASBDPT_FIRST_LIGHT_H
 #define ASBDPT_FIRST_LIGHT_H
