@@ -149,8 +149,8 @@ static void rational(struct test *t)
  * knots. */
 static void knots(struct test *t)
 {
-    const double k[] = {0, 0, 0, 0, 1, 3, 3, 4, 7, 7, 7.5, 8}, line[] = {0, 0, 1, 1};
-    enum { ORDER = 4, POINTS = 8 };
+    const double k[] = {0, 0, 0, 0, 0, 1, 3, 3, 4, 7, 7, 7.5, 8}, line[] = {0, 0, 1, 1};
+    enum { ORDER = 4, POINTS = 9 };
     double Pw[POINTS * 2 * 4];
     for (int i = 0; i < POINTS * 2; i++) {
         const double *at = k + i % POINTS;
@@ -171,7 +171,7 @@ static void knots(struct test *t)
     CHECK(t, !nurbs_mesh(&u, &v, Pw, &m, MOST, &err), "negative weights are refused");
     mesh_free(&m);
     struct nurbs_axis wide = u, empty = u, falling = u;
-    const double fall[] = {0, 0, 0, 0, 1, 3, 2, 4, 7, 7, 7.5, 8};
+    const double fall[] = {0, 0, 0, 0, 0, 1, 3, 2, 4, 7, 7, 7.5, 8};
     wide.to = 7.1;
     empty.to = 0;
     falling.knot = fall;
