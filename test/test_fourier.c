@@ -112,6 +112,16 @@ static void values(struct test *t)
         CHECK(t, fabs(back / blue - 1) < 0.03, "importance: %g, not %g", back, blue);
         CHECK(t, fourier_pdf(&table, wo, wi) > 0.04 * fabs(wi.z) * INV_PI, "drawn everywhere");
     }
+    /* A fifth of the way from one cosine to the next, that one's row is drawn from by a fifth of what is not even. */
+    vec3 wo = direction(0.92, 0), last, wi;
+    double u[3] = {0.9999, 0.4, 0.3};
+    int same = 0;
+    fourier_sample(&table, wo, u, &last);
+    for (int n = 0; n < 1000; n++) {
+        u[0] = 0.1 + 0.9 * (n + 0.5) / 1000;
+        same += fourier_sample(&table, wo, u, &wi) && near3(wi, last, 1e-12);
+    }
+    CHECK(t, same > 795 && same < 805, "%d of 1000 from the row below", same);
     fourier_free(&table);
 }
 
