@@ -284,7 +284,8 @@ static void hand(const struct tape *from, size_t first, struct tape *to)
 {
     to->n = from->n > first ? from->n - first : 0;
     to->number = mem_grow(to->number, &to->capacity, to->n + 1, sizeof *to->number);
-    memcpy(to->number, from->number + (to->n > 0 ? first : 0), to->n * sizeof *to->number);
+    if (to->n > 0)
+        memcpy(to->number, from->number + first, to->n * sizeof *to->number);
 }
 
 /* The same numbers for each strategy alone, whichever the length: together they are the sample. Strategies with s = 1
