@@ -109,7 +109,7 @@ static void test_memory(struct test *t)
     tile.context = &calls;
     for (int i = 0; i < 5 * TILE_FULL / 2; i++) {
         if (CHECK(t, tile_add_splat(&tile, 32, 32, rgb_grey(1)), "a splat is left out"))
-            tile_record_splat(&tile, 2, rgb_grey(2), 0.5);
+            tile_record_splat(&tile, 2, rgb_grey(2), 0.5, 1);
         tile_add_eye(&tile, 0, 0, rgb_black());
     }
     CHECK(t, calls == 2 && tile.n_splats == TILE_FULL / 2 && tile.n_records == TILE_FULL / 2,

@@ -89,7 +89,7 @@ static void render_pixel(const struct preparation *m, const struct tile_pass *pa
     pixel_sum_eye(&p.sample, p.eye, p.n);
     if (f->path_pixels > 0)
         use_pool(m, pass, &p);
-    tile_add_eye(pass->tile, x, y, p.sample.sum);
+    pixel_sample_end(&p.sample);
 }
 
 void pooled_render(const struct preparation *m, const struct tile_pass *pass)

@@ -41,6 +41,7 @@ static bool escape(const struct walk *w, struct vertex *v, const struct vertex *
     v->wo = neg(from->ray.d);
     v->beta = from->beta;
     v->pdf_fwd = from->pdf;
+    v->length = prev->length + light_distance(&w->scene->lights, from->ray.o, from->ray.d);
     v->pdf_origin = light_pdf_environment(&w->scene->lights, from->ray.d);
     double at_prev = prev->kind == VERTEX_LENS ? 1 : abs_dot(prev->ng, from->ray.d);
     v->mis = mis_step(w->counts, from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, at_prev);
@@ -61,6 +62,7 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
     v->p = at->p;
     v->ng = at->ng;
     v->prim_id = at->prim_id;
+    v->length = prev->length + sqrt(d2);
     v->wo = neg(from->ray.d);
     v->beta = from->beta;
     v->pdf_origin = mode == RADIANCE && at->light >= 0 ? light_pdf_surface(&w->scene->lights, &w->scene->geo, at) : 0;

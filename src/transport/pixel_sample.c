@@ -22,7 +22,7 @@ struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struc
 {
     const struct render_job *job = pass->job;
     struct sampler points = stream(job, job->seed, RNG_CONNECT, x, y, (uint64_t)iteration);
-    struct pixel_sample sample = {job->scene, counts, pass->tile, job->max_depth, x, y, 1, 1, points, rgb_black(),
+    struct pixel_sample sample = {job->scene, counts, pass->tile, job->max_depth, x, y, 1, 1, points, rgb_black(), rgb_black(),
                              trace_watches(pass->trace, x, y, iteration)};
     return sample;
 }
@@ -66,12 +66,16 @@ static void contribute(struct pixel_sample *sample, const struct connection *c, 
                        const struct vertex *light, struct choice choice)
 {
     rgb added = rgb_black();
-    if (!rgb_is_black(c->value)) {
+    struct gate gate = sample->tile->gate;
+    if (!rgb_is_black(c->value) && gate_before(c->length, gate.end)) {
         rgb value = rgb_scale(c->value, choice.scale * sample->filter_weight);
-        if (sample->tile->keep_records)
-            tile_record_eye(sample->tile, sample->x, sample->y, s, t, value, c->weight);
+        bool early = gate_before(c->length, gate.begin);
+        if (sample->tile->keep_records && !early)
+            tile_record_eye(sample->tile, sample->x, sample->y, s, t, value, c->weight, c->length);
         added = rgb_scale(value, c->weight);
         sample->sum = rgb_add(sample->sum, added);
+        if (early)
+            sample->before = rgb_add(sample->before, added);
     }
     if (sample->trace != NULL)
         trace_connect(sample->trace, s, t, light, c, choice.pmf, choice.scale * sample->filter_weight, added);
@@ -137,7 +141,7 @@ static void splat(struct pixel_sample *sample, const struct connection *c, int s
         struct connection image = *c;
         camera_image(&sample->scene->camera, radius, i, &image.px, &image.py);
         if (tile_add_splat(sample->tile, image.px, image.py, added))
-            tile_record_splat(sample->tile, s, rgb_scale(c->value, scale), c->weight);
+            tile_record_splat(sample->tile, s, rgb_scale(c->value, scale), c->weight, c->length);
         if (sample->trace != NULL)
             trace_connect(sample->trace, s, 1, light, &image, 1, scale, added);
     }
@@ -150,9 +154,14 @@ void pixel_splat_path(struct pixel_sample *sample, const struct vertex *light, i
         trace_light_path(sample->trace, light, n_light);
     for (int s = 2; s <= n_light && s <= sample->max_depth + 1; s++) {
         struct connection c = connect_lens(sample->scene, sample->counts, light, s, &sample->sampler);
-        if (!rgb_is_black(c.value))
+        if (!rgb_is_black(c.value) && gate_holds(sample->tile->gate, c.length))
             splat(sample, &c, s, light, each);
         else if (sample->trace != NULL)
             trace_connect(sample->trace, s, 1, light, &c, 1, each, rgb_black());
     }
+}
+
+void pixel_sample_end(const struct pixel_sample *sample)
+{
+    tile_add_between(sample->tile, sample->x, sample->y, sample->sum, sample->before);
 }
