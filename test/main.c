@@ -23,7 +23,7 @@ static const struct test_entry ENTRIES[] = {
     {"kdtree", test_kdtree, false}, {"texture", test_texture, false},
     {"lobe", test_lobe, false},       {"bsdf", test_bsdf, false},       {"material", test_material, false},
     {"light", test_light, false},   {"camera", test_camera, false},
-    {"film", test_film, false},       {"parser", test_parser, false}, {"sampler", test_sampler, false},
+    {"film", test_film, false}, {"gates", test_gates, false}, {"parser", test_parser, false}, {"sampler", test_sampler, false},
     {"mis", test_mis, false}, {"pairs", test_pairs, false}, {"pilot", test_pilot, false},
     {"learning", test_learning, false},
     {"options", test_options, false}, {"render", test_render, false}, {"asbdpt", test_asbdpt, false},
