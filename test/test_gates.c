@@ -102,6 +102,7 @@ static void test_left_out(struct test *t)
         exact_join(&sum, &tile.sum[0]);
     }
     CHECK(t, exact_value(&sum) == 2, "the rest adds up to %g", exact_value(&sum));
+    CHECK(t, gate_before(INFINITY, INFINITY) && gate_before(NAN, INFINITY), "the endless gate leaves something out");
     CHECK(t, tile.square[0] == 4, "the last gate's square is %g", tile.square[0]);
     tile_free(&tile);
 }
@@ -252,7 +253,8 @@ void test_gates(struct test *t)
     test_left_out(t);
     test_many(t);
     test_ring(t, "point light",
-              DOWN("\"perspective\" \"float fov\" 90") "LightSource \"point\" \"point from\" [0 1 0] WorldEnd\n", by_point);
+              DOWN("\"perspective\" \"float fov\" 90") "LightSource \"point\" \"point from\" [0 1 0] WorldEnd\n",
+              by_point);
     test_ring(t, "point light, orthographic", DOWN("\"orthographic\" \"float screenwindow\" [-3 3 -3 3]")
               "LightSource \"point\" \"point from\" [0 1 0] WorldEnd\n", by_point_parallel);
     test_ring(t, "distant light", DOWN("\"perspective\" \"float fov\" 90")

@@ -63,8 +63,8 @@ static double scan_unit(const char **text)
     return unit != NULL ? SECONDS[unit - UNITS] : 1;
 }
 
-/* The number at the beginning of *text, which moves behind it. False if there is none, or if it is out of range, as NaN is
- * of every range, and what overflows of every one with an end. */
+/* The number at the beginning of *text, which moves behind it. False if there is none, or if it is out of range, as NaN
+ * is of every range, and what overflows of every one with an end. */
 static bool scan_number(const char **text, const struct option *o, double *out)
 {
     bool real = o->kind == OPTION_NUMBER;

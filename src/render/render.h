@@ -66,8 +66,8 @@ bool render_trace(const struct scene *scene, const struct render_options *option
  * hold does. */
 char *identity_text(const struct scene *scene, const struct render_options *options);
 
-/* picture_number: a hash of these, but for the gate, which nothing that is learnt depends on, and of the film's size and
- * window. */
+/* picture_number: a hash of these, but for the gate, which nothing that is learnt depends on, and of the film's size
+ * and window. */
 uint64_t picture_number(const struct scene *scene, const struct render_options *options, struct pixel_rect window);
 
 #endif

@@ -101,8 +101,8 @@ void tile_free(struct tile *t);
 /* tile_add_eye: the whole value of pixel (x,y) of the tile for one iteration. Call once per pixel and iteration. */
 void tile_add_eye(struct tile *t, int x, int y, rgb value);
 
-/* tile_add_between: the same for one that is the difference of two: only what came `until` some length, without what came
- * `before` another, as a gate has it. Both are added, exactly: gates that follow each other add up to the whole. */
+/* tile_add_between: the same for the difference of two sums, of what came `until` the end of a gate and of what came
+ * `before` its beginning. Each is a term: of gates that follow each other, one's first cancels the next's second. */
 void tile_add_between(struct tile *t, int x, int y, rgb until, rgb before);
 
 /* tile_add_splat: a value arriving at raster point (px,py), to be spread over pixels by the filter. False if it was

@@ -114,9 +114,9 @@ const struct image *light_read_picture(struct light_set *set, struct light *l, c
 void light_prepare(struct light_set *set, const struct geometry *geo, vec3 center, double radius);
 void light_set_free(struct light_set *set);
 
-/* light_distance: how far light from infinity has come at p, in scene units, w being the unit direction towards it: from
- * the plane that touches the scene's sphere over there, where light sub-paths of such a light begin. Parallel rays that
- * are sent at once go through that plane at once. 0 beyond it, where the lens may be. */
+/* light_distance: how far light from infinity has come at p, in scene units; w is the unit direction towards it. It
+ * comes from the plane across w that touches the scene's sphere, where light sub-paths of such a light begin, too. 0 if
+ * p is beyond the plane, as a lens may be. */
 double light_distance(const struct light_set *set, vec3 p, vec3 w);
 
 /* Delta lights cannot be hit (s = 0 is impossible). */

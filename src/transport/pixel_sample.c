@@ -22,8 +22,8 @@ struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struc
 {
     const struct render_job *job = pass->job;
     struct sampler points = stream(job, job->seed, RNG_CONNECT, x, y, (uint64_t)iteration);
-    struct pixel_sample sample = {job->scene, counts, pass->tile, job->max_depth, x, y, 1, 1, points, rgb_black(), rgb_black(),
-                             trace_watches(pass->trace, x, y, iteration)};
+    struct pixel_sample sample = {job->scene, counts, pass->tile, job->max_depth, x, y, 1, 1, points, rgb_black(),
+                                  rgb_black(), trace_watches(pass->trace, x, y, iteration)};
     return sample;
 }
 

@@ -38,9 +38,9 @@ enum vertex_kind {
  *   bsdf         -            -                                 its scattering               -
  *   lamp         -            -                                 eye walk: see below              likewise
  *
- * The length of a sub-path that ends here is that of its edges, the first of which, if light comes from infinity, begins
- * where light_distance (light.h) says; that of a path, which gates choose by (film.h), goes from light to lens. Glass
- * does not make it longer.
+ * The length of a sub-path is that of its edges together, as far as this vertex; light from infinity begins where
+ * light_distance (light.h) says. By the length of a whole path, from light to lens, gates choose (film.h). It is of
+ * space alone: glass does not make it longer.
  *
  * See-through lamps (scene.h) scatter nothing, so no walk has vertices there, but that one may start on them. The first
  * that an eye walk meets on its way from one vertex to the next is the `lamp` of the next: the last vertex of a path of
