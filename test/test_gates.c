@@ -23,7 +23,7 @@ static void render_gate(struct test *t, const struct scene *scene, struct render
 /* Light of all sorts, a see-through lamp among them, by way of glass; a filter with negative lobes. */
 static const char MIXED[] =
     "LookAt 0 1.6 -4.5  0 .9 0  0 1 0 Camera \"perspective\" \"float fov\" 42\n"
-    "Film \"image\" \"integer xresolution\" 20 \"integer yresolution\" 18 PixelFilter \"mitchell\" WorldBegin\n"
+    "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 14 PixelFilter \"mitchell\" WorldBegin\n"
     "LightSource \"infinite\" \"rgb L\" [.3 .4 .5]\n"
     "LightSource \"distant\" \"rgb L\" [1 1 1] \"point from\" [1 4 -1] \"point to\" [0 0 0]\n"
     "LightSource \"point\" \"rgb I\" [3 2 1] \"point from\" [-1 2 0]\n"
@@ -31,6 +31,7 @@ static const char MIXED[] =
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 4 -2  2 4 -2  2 4 2  -2 4 2]\n"
     "AttributeEnd Material \"matte\" \"rgb Kd\" [.8 .7 .6] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
     "  \"point P\" [-1.5 0 -1.5  1.5 0 -1.5  1.5 0 1.5  -1.5 0 1.5]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 1.5  2 0 1.5  2 3 1.5  -2 3 1.5]\n"
     "Material \"glass\" Translate 0 .7 0 Shape \"sphere\" \"float radius\" .6 WorldEnd\n";
 
 static void add_up(struct test *t, struct film *sum, const struct film *film)
@@ -50,14 +51,11 @@ static double total(const struct film *film)
 
 static void test_sum(struct test *t, const struct scene *scene, const struct render_options *o, const char *what)
 {
-    static const double BOUND[] = {0, 6.5, 8, 10, INFINITY};
-    struct film whole, all, sum, gate;
+    static const double BOUND[] = {0, 8, 9.5, INFINITY};
+    struct film whole, sum, gate;
     render_film(t, scene, o, &whole);
-    render_gate(t, scene, *o, 0, INFINITY, &all);
-    CHECK(t, films_equal(&whole, &all) && whole.nonfinite == all.nonfinite, "%s: the endless gate has another picture",
-          what);
     film_init(&sum, render_crop(scene), scene->width, scene->height);
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 3; i++) {
         render_gate(t, scene, *o, BOUND[i], BOUND[i + 1], &gate);
         CHECK(t, total(&gate) > 1e-4 * total(&whole) && total(&gate) < 0.99 * total(&whole), "%s: gate %d has %g of %g",
               what, i, total(&gate), total(&whole));
@@ -67,7 +65,6 @@ static void test_sum(struct test *t, const struct scene *scene, const struct ren
     CHECK(t, films_equal(&whole, &sum), "%s: gates do not add up to the picture, %.17g and %.17g", what, total(&sum),
           total(&whole));
     film_free(&whole);
-    film_free(&all);
     film_free(&sum);
 }
 
@@ -122,6 +119,9 @@ static void test_many(struct test *t)
     film_init(&many, render_crop(&scene), scene.width, scene.height);
     film_keep_gates(&many, gates);
     CHECK(t, render_scene(&scene, &o, &many, &err), "%s", err.text);
+    render_gate(t, &scene, o, 0, INFINITY, &one);
+    CHECK(t, films_equal(&many, &one), "the endless gate has another picture");
+    film_free(&one);
     for (int i = 0; i < N; i++) {
         double worst = 0;
         size_t n = 3 * rect_pixels(many.rect);

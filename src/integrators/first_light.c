@@ -48,8 +48,8 @@ static void add_sample(const struct tile *tile, double *x)
 {
     memset(x, 0, N_SUMS * sizeof *x);
     for (const struct strategy_record *r = tile->record; r < tile->record + tile->n_records; r++) {
-        double value = rgb_luminance(rgb_make((double)r->unweighted[0], (double)r->unweighted[1], (double)r->unweighted[2]));
-        double w = (double)r->weight;
+        const float *c = r->unweighted;
+        double value = rgb_luminance(rgb_make((double)c[0], (double)c[1], (double)c[2])), w = (double)r->weight;
         x[ALL] += value * w;
         if (r->s + r->t != 3)
             continue;
@@ -150,7 +150,7 @@ static void choose(const struct first_light_job *f, struct first_light *out)
 
 void first_light_measure(const struct render_job *job, const struct count_model *model, struct first_light *out)
 {
-    struct first_light_job f = {.job = *job, .counts = {.hit = {1, 1}, .direct = {1, 1}, .delta = {1, 1}, .model = model}};
+    struct first_light_job f = {.job = *job, .counts = {{1, 1}, {1, 1}, {1, 1}, .model = model}};
     double pixels = (double)rect_width(job->film_rect) * rect_height(job->film_rect);
     f.n = int_within(SAMPLES_PER_PIXEL * pixels / (2 * SEQUENCE), 64, MOST_PIXELS);
     f.job.seed = hash_combine(job->seed, 0x9e3779b97f4a7c15u);

@@ -37,7 +37,7 @@ static struct costs costs_of(const struct importance *importance)
     return c;
 }
 
-/* Is the path tracer alone better at equal time? Light sub-paths cost more than rays: they are kept and chosen from.  */
+/* Is the path tracer alone better at equal time? Light sub-paths cost more than rays: they are kept and chosen from. */
 static bool light_paths_pay(const struct costs *c, const double *n, const struct noise *s)
 {
     const double KEEPING = 1.08;

@@ -102,13 +102,13 @@ bool splat_part(const struct splat *s, const struct filter *filter, int x, int y
     return true;
 }
 
-bool tile_add_splat(struct tile *t, double px, double py, rgb value)
+bool tile_add_splat(struct tile *t, double px, double py, rgb value, double length)
 {
     if (!fits(value)) {
         t->nonfinite++;
         return false;
     }
-    struct splat s = {px, py, value};
+    struct splat s = {px, py, value, length};
     t->splat = mem_grow(t->splat, &t->splat_capacity, t->n_splats + 1, sizeof *t->splat);
     t->splat[t->n_splats++] = s;
     return true;

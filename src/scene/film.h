@@ -59,6 +59,7 @@ struct gates {
 struct splat {
     double px, py;
     rgb value;
+    double length; /* of its path */
 };
 
 /* One contribution of one strategy, kept only for per-strategy images. */
@@ -107,7 +108,7 @@ void tile_add_between(struct tile *t, int x, int y, rgb until, rgb before);
 
 /* tile_add_splat: a value arriving at raster point (px,py), to be spread over pixels by the filter. False if it was
  * left out. */
-bool tile_add_splat(struct tile *t, double px, double py, rgb value);
+bool tile_add_splat(struct tile *t, double px, double py, rgb value, double length);
 
 /* splat_pixels: those of `within` whose filter covers the splat; none when x1 <= x0 or y1 <= y0.
  * splat_part: what it adds to one of them, as floats; false if no float holds it. */

@@ -22,8 +22,10 @@ struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struc
 {
     const struct render_job *job = pass->job;
     struct sampler points = stream(job, job->seed, RNG_CONNECT, x, y, (uint64_t)iteration);
-    struct pixel_sample sample = {job->scene, counts, pass->tile, job->max_depth, x, y, 1, 1, points, rgb_black(),
-                                  rgb_black(), trace_watches(pass->trace, x, y, iteration)};
+    struct pixel_sample sample = {.scene = job->scene, .counts = counts, .tile = pass->tile,
+                                  .max_depth = job->max_depth, .x = x, .y = y, .filter_weight = 1, .lights = 1,
+                                  .sampler = points, .gate = pass->tile->gate,
+                                  .trace = trace_watches(pass->trace, x, y, iteration)};
     return sample;
 }
 
@@ -66,15 +68,15 @@ static void contribute(struct pixel_sample *sample, const struct connection *c, 
                        const struct vertex *light, struct choice choice)
 {
     rgb added = rgb_black();
-    struct gate gate = sample->tile->gate;
-    if (!rgb_is_black(c->value) && gate_before(c->length, gate.end)) {
+    if (!rgb_is_black(c->value)) {
         rgb value = rgb_scale(c->value, choice.scale * sample->filter_weight);
-        bool early = gate_before(c->length, gate.begin);
-        if (sample->tile->keep_records && !early)
+        if (sample->tile->keep_records && gate_holds(sample->gate, c->length))
             tile_record_eye(sample->tile, sample->x, sample->y, s, t, value, c->weight, c->length);
         added = rgb_scale(value, c->weight);
         sample->sum = rgb_add(sample->sum, added);
-        if (early)
+        if (gate_before(c->length, sample->gate.end))
+            sample->until = rgb_add(sample->until, added);
+        if (gate_before(c->length, sample->gate.begin))
             sample->before = rgb_add(sample->before, added);
     }
     if (sample->trace != NULL)
@@ -83,7 +85,7 @@ static void contribute(struct pixel_sample *sample, const struct connection *c, 
 
 static void sum_direct(struct pixel_sample *sample, const struct vertex *z, int t)
 {
-    int n = z->eye_end == FIRST_HIT ? sample->lights : 1;
+    int n = z->eye_end == FIRST_HIT && sample->lights > 0 ? sample->lights : 1;
     const struct choice each = {1, 1.0 / n};
     for (int i = 0; i < n; i++) {
         struct connection c = connect_direct(sample->scene, sample->counts, z, &sample->sampler, i, n);
@@ -103,7 +105,8 @@ void pixel_sum_eye(struct pixel_sample *sample, const struct vertex *eye, int n)
         const struct vertex *z = &eye[t - 1];
         if (t == 2 || sample->counts->hit[LATER_HIT] > 0)
             sum_hit(sample, eye, t);
-        if (sample->counts->direct[FIRST_HIT] > 0 && t <= sample->max_depth + 1 && z->kind == VERTEX_SURFACE)
+        bool wanted = sample->counts->direct[FIRST_HIT] > 0 && (t > 2 || sample->lights > 0);
+        if (wanted && t <= sample->max_depth + 1 && z->kind == VERTEX_SURFACE)
             sum_direct(sample, z, t);
     }
 }
@@ -119,6 +122,13 @@ void pixel_sum_joint(struct pixel_sample *sample, const struct joint *j, int s, 
 {
     struct connection c = connect_joint(sample->scene, sample->counts, j);
     contribute(sample, &c, s, t, j->y - (s - 1), choice);
+}
+
+void pixel_sum_lit(struct pixel_sample *sample, const struct lit *l, int t, double scale)
+{
+    struct connection c = connect_lit(sample->scene, sample->counts, l);
+    const struct choice choice = {1, scale};
+    contribute(sample, &c, 1, t, NULL, choice);
 }
 
 void pixel_sum_pairs(struct pixel_sample *sample, const struct vertex *eye, int n_eye, const struct vertex *light,
@@ -140,7 +150,7 @@ static void splat(struct pixel_sample *sample, const struct connection *c, int s
     for (int i = 0; i < camera_images(&sample->scene->camera, radius); i++) {
         struct connection image = *c;
         camera_image(&sample->scene->camera, radius, i, &image.px, &image.py);
-        if (tile_add_splat(sample->tile, image.px, image.py, added))
+        if (tile_add_splat(sample->tile, image.px, image.py, added, c->length))
             tile_record_splat(sample->tile, s, rgb_scale(c->value, scale), c->weight, c->length);
         if (sample->trace != NULL)
             trace_connect(sample->trace, s, 1, light, &image, 1, scale, added);
@@ -163,5 +173,5 @@ void pixel_splat_path(struct pixel_sample *sample, const struct vertex *light, i
 
 void pixel_sample_end(const struct pixel_sample *sample)
 {
-    tile_add_between(sample->tile, sample->x, sample->y, sample->sum, sample->before);
+    tile_add_between(sample->tile, sample->x, sample->y, sample->until, sample->before);
 }

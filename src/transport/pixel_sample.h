@@ -21,10 +21,11 @@ struct pixel_sample {
     int max_depth;          /* longest path: s + t <= max_depth + 2 */
     int x, y;               /* the pixel */
     double filter_weight;   /* of its eye sample, see path_eye_pixel */
-    int lights;             /* samples of s = 1 for t = 2; 1 for t > 2 */
+    int lights;             /* samples of s = 1 for t = 2, 0: left to the method; 1 for t > 2 */
     struct sampler sampler; /* for light and lens points */
-    rgb sum, before;        /* of what the strategies with t >= 2 have brought so far: by paths shorter than the end of
-                               the tile's gate; and of these by those shorter than its beginning */
+    rgb sum;                /* of what the strategies with t >= 2 have brought so far, */
+    rgb until, before;      /* and of that what paths shorter than the gate's end, or its beginning, have */
+    struct gate gate;       /* the tile's */
     struct trace *trace;    /* who watches this sample; NULL: nobody */
 };
 
@@ -52,7 +53,7 @@ double pixel_light_count(const struct render_job *job);
 
 /* --- sums of connections ----------------------------------------------------------------------------- */
 
-/* All add to sample->sum and before, weighted and times filter_weight, but for pixel_splat_path.
+/* All add to the sample's sums, weighted and times filter_weight, but for pixel_splat_path.
  *
  * pixel_sum_eye: s = 0 and s = 1 for every vertex of the eye sub-path of n vertices. */
 void pixel_sum_eye(struct pixel_sample *sample, const struct vertex *eye, int n);
@@ -69,6 +70,9 @@ static const struct choice NO_CHOICE = {1, 1};
 void pixel_sum_pair(struct pixel_sample *sample, const struct vertex *y, int s, const struct vertex *z, int t,
                     struct choice choice);
 void pixel_sum_joint(struct pixel_sample *sample, const struct joint *j, int s, int t, struct choice choice);
+
+/* pixel_sum_lit: s = 1, z = z_{t-1} and a light point, times `scale`. */
+void pixel_sum_lit(struct pixel_sample *sample, const struct lit *l, int t, double scale);
 
 /* pixel_sum_pairs: s >= 2, t >= 2 for every pair of vertices of the two sub-paths. */
 void pixel_sum_pairs(struct pixel_sample *sample, const struct vertex *eye, int n_eye, const struct vertex *light,
