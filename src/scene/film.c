@@ -41,24 +41,46 @@ void tile_free(struct tile *t)
     memset(t, 0, sizeof *t);
 }
 
-void tile_add_eye(struct tile *t, int x, int y, rgb value) { tile_add_between(t, x, y, value, rgb_black()); }
+static void make_room(struct tile *t)
+{
+    if (t->full != NULL && (t->n_splats >= TILE_FULL || t->n_records >= TILE_FULL))
+        t->full(t->context, t);
+}
+
+static size_t place_of(const struct tile *t, int x, int y)
+{
+    return 3 * ((size_t)(y - t->rect.y0) * (size_t)rect_width(t->rect) + (size_t)(x - t->rect.x0));
+}
+
+void tile_add_eye(struct tile *t, int x, int y, rgb value)
+{
+    make_room(t);
+    if (!fits(value)) {
+        t->nonfinite++;
+        return;
+    }
+    size_t i = place_of(t, x, y);
+    const double v[3] = {value.r, value.g, value.b};
+    for (size_t c = 0; c < 3; c++) {
+        exact_add(&t->sum[i + c], v[c]);
+        t->square[i + c] += v[c] * v[c];
+    }
+}
 
 /* What no float holds is left out of every sum alike. */
 static rgb term(rgb c) { return fits(c) ? c : rgb_black(); }
 
 void tile_add_between(struct tile *t, int x, int y, rgb until, rgb before)
 {
-    if (t->full != NULL && (t->n_splats >= TILE_FULL || t->n_records >= TILE_FULL))
-        t->full(t->context, t);
+    make_room(t);
     t->nonfinite += !fits(until);
     until = term(until);
     before = term(before);
-    size_t i = 3 * ((size_t)(y - t->rect.y0) * (size_t)rect_width(t->rect) + (size_t)(x - t->rect.x0));
+    size_t i = place_of(t, x, y);
     const double u[3] = {until.r, until.g, until.b}, b[3] = {before.r, before.g, before.b};
     for (size_t c = 0; c < 3; c++) {
         exact_add(&t->sum[i + c], u[c]);
-        if (b[c] != 0)
-            exact_add(&t->sum[i + c], -b[c]);
+        exact_add(&t->sum[i + c], -b[c]);
         t->square[i + c] += sqr(u[c] - b[c]);
     }
 }

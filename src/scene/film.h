@@ -42,8 +42,9 @@ struct gate {
     double begin, end;
 };
 
-/* gate_before: is a length below a bound of a gate? */
+/* gate_before: is a length below a bound of a gate? gate_is_endless: does a gate hold every length? */
 static inline bool gate_before(double length, double bound) { return bound == INFINITY || length < bound; }
+static inline bool gate_is_endless(struct gate g) { return g.begin == 0 && g.end == INFINITY; }
 static inline bool gate_holds(struct gate g, double length)
 {
     return gate_before(length, g.end) && !gate_before(length, g.begin);

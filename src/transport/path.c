@@ -24,7 +24,6 @@ static void measure(const struct walk *w, struct vertex *v, const struct vertex 
     double spread = prev->kind == VERTEX_LENS ? camera_spread(&w->scene->camera, d2) : parallel ? 1 : 1 / d2;
     double at_prev = parallel || prev->kind == VERTEX_LENS ? 1 : abs_dot(prev->ng, from->ray.d) * spread;
     v->pdf_fwd = from->pdf * abs_dot(v->ng, from->ray.d) * spread;
-    v->length = prev->length + (parallel ? light_distance(&w->scene->lights, v->p, prev->wo) : sqrt(d2));
     v->mis = mis_step(w->counts, from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, at_prev);
 }
 
@@ -67,6 +66,7 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
     v->wo = neg(from->ray.d);
     v->beta = from->beta;
     v->pdf_origin = mode == RADIANCE && at->light >= 0 ? light_pdf_surface(&w->scene->lights, &w->scene->geo, at) : 0;
+    v->length = prev->length + sqrt(d2);
     measure(w, v, prev, from, d2);
     return true;
 }
@@ -257,6 +257,7 @@ int path_light_follow(const struct walk *w, const struct path_stop *stop, int n,
         v->wo = neg(d);
         v->beta = from.beta;
         v->pdf_rev = 0;
+        v->length = prev->length + (parallel ? light_distance(&w->scene->lights, v->p, prev->wo) : sqrt(d2));
         measure(w, v, prev, &from, d2);
         v->eye_end = LATER_HIT;
         v->mis_c = mis_count_before(w->counts, &w->scene->lights, prev, v, LATER_HIT);
