@@ -198,9 +198,9 @@ for command in info "render $small -o x.pfm"; do
     check grep -q '^asbdpt: warned.pbrt:3:15: there is no named material "mate"' stderr.txt
     check grep -q 'refused for what is said above' stderr.txt
 done
-printf 'WorldBegin\nShpae "sphere"\nShape "curve"\nWorldEnd\n' >errors.pbrt
+printf 'WorldBegin\nShpae "sphere"\nShape "cuboid"\nWorldEnd\n' >errors.pbrt
 expect 1 '^asbdpt: errors.pbrt:2:1: unknown directive' "$program" render errors.pbrt --quiet
-check grep -q '^asbdpt: errors.pbrt:3:7: Shape "curve"' stderr.txt
+check grep -q '^asbdpt: errors.pbrt:3:7: Shape "cuboid"' stderr.txt
 
 # Bytes of a scene that mean something to a terminal do not reach it.
 printf 'Integrator "\033[31mx" "string maxdepth" "\033[31m"\nWorldBegin\nWorldEnd\n' >escape.pbrt

@@ -20,6 +20,7 @@ static const struct test_entry ENTRIES[] = {
     {"file", test_file, false},       {"ply", test_ply, false},
     {"features", test_features, false}, {"format", test_format, false},
     {"shape", test_shape, false},     {"subdivide", test_subdivide, false},
+    {"curve", test_curve, false},     {"fourier", test_fourier, false},
     {"kdtree", test_kdtree, false}, {"texture", test_texture, false},
     {"lobe", test_lobe, false},       {"bsdf", test_bsdf, false},       {"material", test_material, false},
     {"light", test_light, false},   {"camera", test_camera, false},

@@ -56,6 +56,8 @@ void test_sheet(struct test *t);
 void test_shape(struct test *t);
 void test_stats(struct test *t);
 void test_subdivide(struct test *t);
+void test_curve(struct test *t);
+void test_fourier(struct test *t);
 void test_texture(struct test *t);
 void test_vec(struct test *t);
 void test_trace(struct test *t);
