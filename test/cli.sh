@@ -293,7 +293,7 @@ check [ ! -e taken.png -a ! -e taken.albedo.pfm ]
 expect 0 '' "$program" render "$box" --quick -j 2 --integrator asbdpt -P delta=0.25 --aov depth --stats stats.json \
     -o a.png
 check grep -q ': 120x120, 1 spp, asbdpt;' stderr.txt
-for line in '"version": "asbdpt ' '"integrator": "asbdpt",' '"select": "subspaces",' '"delta": 0.25$' '"maxdepth": 6,' \
+for line in '"version": "asbdpt ' '"integrator": "asbdpt",' '"select": "subspaces",' '"delta": 0.25,' '"maxdepth": 6,' \
     '"film": .120, 120.,' '"spp": 1,' '"spp_done": 1,' '"threads": 2,' '"nonfinite": 0,' '"draws_first_hit": [1-9]' \
     '"a.png",' '"a.depth.pfm"' '"note": "chosen per eye vertex: ' '"cpu_seconds": [0-9]' \
     '"us_per_path": [1-9]' '"peak_memory": [1-9]'; do
