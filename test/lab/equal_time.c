@@ -217,15 +217,8 @@ static void write_times(FILE *f, const struct equal_time *e)
     }
 }
 
-void equal_table(FILE *f, const struct equal_time *e)
+void equal_notes(FILE *f, const struct equal_time *e)
 {
-    struct table t;
-    begin_table(&t, e);
-    for (const struct equal_scene *s = e->scene; s < e->scene + e->n_scenes; s++)
-        add_scene(&t, e, s);
-    add_summaries(&t, e);
-    table_markdown(f, &t);
-    table_free(&t);
     fputs("rmse8: of the squared error of 8-bit values, that of the reference itself subtracted where known; relmse: "
           "of the relative squared error of linear values as it stands; 8x8: the same of means over 8x8 pixels, which "
           "pixels that err together do not hide. One thread. "
@@ -238,14 +231,26 @@ void equal_table(FILE *f, const struct equal_time *e)
     plan_write_command(f, e->plan);
 }
 
+void equal_table(FILE *f, const struct equal_time *e)
+{
+    struct table t;
+    begin_table(&t, e);
+    for (const struct equal_scene *s = e->scene; s < e->scene + e->n_scenes; s++)
+        add_scene(&t, e, s);
+    add_summaries(&t, e);
+    table_markdown(f, &t);
+    table_free(&t);
+    equal_notes(f, e);
+}
+
 void equal_picture(const struct equal_time *e, const struct equal_scene *s, int method, char *out, size_t size)
 {
     snprintf(out, size, "%s/images/%s-%s.pfm", e->plan->directory, s->name,
              method < 0 ? "reference" : e->plan->methods.item[method].file);
 }
 
-static bool write_file(const struct equal_time *e, const char *name, void (*write)(FILE *, const struct equal_time *),
-                       struct error *err)
+bool equal_write_file(const struct equal_time *e, const char *name, void (*write)(FILE *, const struct equal_time *),
+                      struct error *err)
 {
     struct file_output f;
     if (!plan_create(e->plan, name, &f, err))
@@ -256,5 +261,6 @@ static bool write_file(const struct equal_time *e, const char *name, void (*writ
 
 bool equal_write(const struct equal_time *e, struct error *err)
 {
-    return write_file(e, "equal-time.csv", equal_csv, err) && write_file(e, "equal-time.md", equal_table, err);
+    return equal_write_file(e, "equal-time.csv", equal_csv, err) &&
+           equal_write_file(e, "equal-time.md", equal_table, err);
 }

@@ -89,12 +89,16 @@ bool equal_keep(const char *path, const char *key, const struct equal_render *r,
 bool equal_recall(const char *path, const char *key, struct equal_render *r);
 
 void equal_csv(FILE *f, const struct equal_time *e);
-void equal_table(FILE *f, const struct equal_time *e); /* Markdown */
+void equal_table(FILE *f, const struct equal_time *e); /* Markdown: the table and its notes */
+void equal_notes(FILE *f, const struct equal_time *e); /* how the numbers came to be */
 
 /* equal_picture: images/..., below the plan's directory; of the reference if the method is below 0. */
 void equal_picture(const struct equal_time *e, const struct equal_scene *s, int method, char *out, size_t size);
 
-/* equal_write: both files, into plan->directory. Returns false with a message. */
+/* equal_write_file: what `write` writes, as a file of plan->directory. equal_write: both files. Both return false with
+ * a message. */
+bool equal_write_file(const struct equal_time *e, const char *name, void (*write)(FILE *, const struct equal_time *),
+                      struct error *err);
 bool equal_write(const struct equal_time *e, struct error *err);
 
 void equal_free(struct equal_time *e);
