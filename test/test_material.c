@@ -218,7 +218,7 @@ static void check_walks(struct test *t, const char *material)
 {
     char text[512];
     struct scene scene;
-    struct mis_counts counts = {.hit = 1};
+    struct mis_counts counts = {.hit = {1, 1}};
     struct arena arena = {0}, kept = {0};
     struct vertex path[3], first[3];
     struct mean walked = {0, 0}, uniform = {0, 0};

@@ -11,6 +11,7 @@ void test_alias(struct test *t);
 void test_bsdf(struct test *t);
 void test_camera(struct test *t);
 void test_devices(struct test *t);
+void test_emission(struct test *t);
 void test_equal_time(struct test *t); /* part of test_report */
 void test_plan(struct test *t); /* part of test_report */
 void test_features(struct test *t);
@@ -31,6 +32,7 @@ void test_maths(struct test *t);
 void test_mis(struct test *t);
 void test_options(struct test *t);
 void test_pairs(struct test *t);
+void test_pilot(struct test *t);
 void test_parser(struct test *t);
 void test_pictures(struct test *t);
 void test_ply(struct test *t);
@@ -40,6 +42,7 @@ void test_render(struct test *t);
 void test_references(struct test *t);
 void test_references_long(struct test *t);
 void test_report(struct test *t);
+void test_rivals(struct test *t);
 void test_scenes(struct test *t);
 void test_scenes_long(struct test *t);
 void test_strategies(struct test *t);

@@ -174,7 +174,11 @@ static void tell(const struct subspaces_state *s, struct preparation *out)
         {"light_points_first_hit", f->lights}, {"pixels_per_light_path", f->path_pixels},
         {"eye_regions", s->learnt.eye.n}, {"light_regions", s->learnt.light.n}};
     memcpy(out->number, numbers, sizeof numbers); /* fewer than there is room for: a NULL name stays behind them */
-    snprintf(out->note, sizeof out->note,
+    if (f->path_pixels == 0)
+        snprintf(out->note, sizeof out->note, "chosen: no light sub-paths; %d light point%s at the first hit",
+                 f->lights, f->lights == 1 ? "" : "s");
+    else
+        snprintf(out->note, sizeof out->note,
              "chosen per eye vertex: %.2f draws at the first hit, %.2f after; %d light point%s at the first hit; and "
              "%d pixel%s per light sub-path",
              s->draws[FIRST_HIT], s->draws[LATER_HIT], f->lights, f->lights == 1 ? "" : "s", f->path_pixels,
@@ -189,20 +193,20 @@ static void prepare(const struct render_job *job, struct preparation *out)
     int path_pixels = f->path_pixels;
     const struct wish wish = {.importance = true, .guide = asbdpt_guided(job), .pairs = true,
                               .eye_cells = GUIDE_CELLS, .light_cells = LIGHT_CELLS, .levels = REGION_LEVELS,
-                              .delta = s->delta};
+                              .delta = s->delta, .emission = s->emission};
     out->size.tile = MAX_TILE_SIZE; /* a larger pool */
-    bool known = s->learnt.eye.n > 0;
+    bool known = s->learnt.eye.n > 0, free_choice = path_pixels == 0 && s->connections == 0;
     learn(job, &wish, &s->learnt);
     f->counts.model = &s->learnt.model;
     if (known)
-        pilot_recall(s);
+        pilot_recall(job, s);
     else
-        pilot_run(job, out);
+        pilot_run(job, free_choice, out);
     if (s->connections > 0)
         pilot_set_draws(s, s->connections);
     if (path_pixels > 0)
         f->path_pixels = path_pixels;
-    f->counts.splat = pixel_light_count(job) / f->path_pixels;
+    f->counts.splat = f->path_pixels > 0 ? pixel_light_count(job) / f->path_pixels : 0;
     tell(s, out);
 }
 
@@ -225,6 +229,8 @@ static const struct method_parameter PARAMETERS[] = {
     {"pathpixels", PARAMETER_INTEGER, AT(frozen.path_pixels), 0, 0, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
      "pixels for each light sub-path; 0: chosen", NULL},
     {"delta", PARAMETER_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore what was learnt", NULL},
+    {"emission", PARAMETER_NUMBER, AT(emission), 0.2, 1e-6, 1,
+     "share of light sub-paths that leave lights as if nothing were learnt", NULL},
     {.name = NULL}};
 
 const struct method method_subspaces = {

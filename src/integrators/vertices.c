@@ -122,7 +122,7 @@ static void prepare(const struct render_job *job, struct preparation *out)
         f->path_pixels = 2;
     for (int end = 0; end < EYE_ENDS; end++) {
         f->counts.connect[end] = CREDIT * s->connections;
-        f->counts.direct[end] = CREDIT;
+        f->counts.direct[end] = f->counts.delta[end] = CREDIT;
     }
     f->counts.splat /= f->path_pixels;
     if (importance && s->learnt.importance.mean > 0 && !s->learnt.paired)

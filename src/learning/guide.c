@@ -7,50 +7,17 @@
 #include "base/cumulative.h"
 #include "base/mem.h"
 
-/* --- columns ----------------------------------------------------------------------------------------- */
-
-static struct guide_columns columns_new(const struct light_set *lights)
-{
-    struct guide_columns c = {0};
-    c.cells_each = (lights->n_cells + GUIDE_COLUMNS - 1) / GUIDE_COLUMNS;
-    c.n = c.cells_each > 0 ? (lights->n_cells + c.cells_each - 1) / c.cells_each : 0;
-    c.power = mem_alloc((size_t)c.n, sizeof *c.power);
-    c.before = mem_alloc((size_t)lights->n_cells, sizeof *c.before);
-    for (int i = 0; i < lights->n_cells; i++) {
-        c.before[i] = c.power[i / c.cells_each];
-        c.power[i / c.cells_each] += alias_pmf(&lights->choice, i);
-    }
-    return c;
-}
-
-static void columns_free(struct guide_columns *c)
-{
-    free(c->power);
-    free(c->before);
-}
-
-/* The cell within a column, by power: the last one that begins at or before u times the column's probability. */
-static int cell_of_column(const struct guide_columns *c, const struct light_set *lights, int column, double u)
-{
-    int low = column * c->cells_each, high = low + c->cells_each;
-    high = high < lights->n_cells ? high : lights->n_cells;
-    low += cumulative_find(&c->before[low], high - low, u * c->power[column]);
-    while (low > column * c->cells_each && alias_pmf(&lights->choice, low) == 0)
-        low--; /* rounding at the end of the column */
-    return low;
-}
-
 /* --- lessons ----------------------------------------------------------------------------------------- */
 
 void guide_lessons_init(struct guide_lessons *l, const struct light_set *lights)
 {
     memset(l, 0, sizeof *l);
-    l->columns = columns_new(lights);
+    l->columns = light_columns_new(lights, GUIDE_COLUMNS);
 }
 
 void guide_lessons_free(struct guide_lessons *l)
 {
-    columns_free(&l->columns);
+    light_columns_free(&l->columns);
     free(l->arrived);
     free(l->samples);
     memset(l, 0, sizeof *l);
@@ -86,10 +53,8 @@ void guide_lessons_add(struct guide_lessons *l, const struct regions *regions, i
 
 void guide_free(struct guide *g)
 {
-    for (int i = 0; i < g->n; i++)
-        alias_free(&g->table[i]);
-    free(g->table);
-    columns_free(&g->columns);
+    free(g->before);
+    light_columns_free(&g->columns);
     memset(g, 0, sizeof *g);
 }
 
@@ -141,7 +106,7 @@ static double *shares_of_regions(const struct guide_lessons *l, const struct reg
 void guide_start(struct guide *g, const struct light_set *lights)
 {
     guide_free(g);
-    g->columns = columns_new(lights);
+    g->columns = light_columns_new(lights, GUIDE_COLUMNS);
 }
 
 void guide_build(struct guide *g, struct guide_lessons *l, const struct regions *regions,
@@ -149,64 +114,75 @@ void guide_build(struct guide *g, struct guide_lessons *l, const struct regions 
 {
     make_room(l, regions->n);
     int n = l->columns.n;
-    double *t = shares_of_regions(l, regions), *q = mem_alloc((size_t)n, sizeof *q);
+    double *t = shares_of_regions(l, regions);
     guide_start(g, lights);
     g->n = l->n;
-    g->table = mem_alloc((size_t)l->n, sizeof *g->table);
+    g->before = mem_alloc((size_t)l->n * (size_t)(n + 1), sizeof *g->before);
     for (int i = 0; i < l->n; i++) {
+        double *before = &g->before[(size_t)i * (size_t)(n + 1)];
         for (int c = 0; c < n; c++)
-            q[c] = delta * l->columns.power[c] + (1 - delta) * t[(size_t)i * (size_t)n + (size_t)c];
-        alias_build(&g->table[i], q, n);
+            before[c + 1] =
+                before[c] + delta * l->columns.power[c] + (1 - delta) * t[(size_t)i * (size_t)n + (size_t)c];
     }
-    free(q);
     free(t);
 }
 
 /* --- use --------------------------------------------------------------------------------------------- */
 
-static const struct alias_table *table_of(const struct guide *g, int region)
+/* The sums of a region; NULL: there is no table for it. */
+static const double *row_of(const struct guide *g, int region)
 {
-    return g == NULL || region >= g->n || g->table[region].n == 0 ? NULL : &g->table[region];
+    if (g == NULL || region >= g->n)
+        return NULL;
+    const double *before = &g->before[(size_t)region * (size_t)(g->columns.n + 1)];
+    return before[g->columns.n] > 0 ? before : NULL;
+}
+
+static double pmf_of_column(const struct guide *g, const double *before, int column)
+{
+    return (before[column + 1] - before[column]) / before[g->columns.n];
 }
 
 int guide_choose(const struct guide *g, const struct light_set *lights, int region, double u, double *pmf)
 {
-    const struct alias_table *table = table_of(g, region);
+    const double *before = row_of(g, region);
     if (lights->choice.n == 0)
         return -1;
-    if (table == NULL)
+    if (before == NULL)
         return alias_sample(&lights->choice, u, pmf, NULL);
-    double q, rest;
-    int column = alias_sample(table, u, &q, &rest);
+    double target = u * before[g->columns.n];
+    int column = cumulative_find(before, g->columns.n, target);
+    double q = pmf_of_column(g, before, column);
     if (g->columns.cells_each == 1) {
         *pmf = q;
         return column;
     }
-    int cell = cell_of_column(&g->columns, lights, column, rest);
+    double rest = below_one((target - before[column]) / (before[column + 1] - before[column]));
+    int cell = light_columns_cell(&g->columns, lights, column, rest);
     *pmf = q * alias_pmf(&lights->choice, cell) / g->columns.power[column];
     return cell;
 }
 
-static double ratio_of_cell(const struct guide *g, const struct alias_table *table, int cell)
+static double ratio_of_cell(const struct guide *g, const double *before, int cell)
 {
     double e = g->columns.power[cell / g->columns.cells_each];
-    return e > 0 ? alias_pmf(table, cell / g->columns.cells_each) / e : 0;
+    return e > 0 ? pmf_of_column(g, before, cell / g->columns.cells_each) / e : 0;
 }
 
 double guide_ratio(const struct guide *g, const struct light_set *lights, int region, int cell, vec3 w)
 {
-    const struct alias_table *table = table_of(g, region);
-    if (table == NULL)
+    const double *before = row_of(g, region);
+    if (before == NULL)
         return 1;
     if (cell >= 0 && !(lights->several_infinite && lights->light[lights->light_of_cell[cell]].kind == LIGHT_INFINITE))
-        return ratio_of_cell(g, table, cell);
+        return ratio_of_cell(g, before, cell);
     /* An escaping ray cannot tell infinite lights apart: their densities are added (light.h). */
     double guided = 0, by_power = 0;
     for (int i = 0; i < lights->n; i++)
         if (lights->light[i].kind == LIGHT_INFINITE) {
             double pdf = light_pdf_towards(lights, i, w, &cell);
             by_power += pdf;
-            guided += pdf * ratio_of_cell(g, table, cell);
+            guided += pdf * ratio_of_cell(g, before, cell);
         }
     return by_power > 0 ? guided / by_power : 0;
 }

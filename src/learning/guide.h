@@ -3,13 +3,14 @@
  * s = 1 connects an eye vertex to a point on a light. Choosing the light by power alone wastes most shadow rays where
  * walls stand between, and an environment map seen through a window is mostly hidden. Learning tries light points
  * from eye vertices and adds up, per region (regions.h) and per light cell (light.h), the contributions that arrived.
- * Each region then has an alias table over all light cells,
+ * Each region then has a table over all light cells, from which they are drawn by cumulative sums, so that neighbours
+ * stay neighbours and well-spread numbers are spread over the lights,
  *     q(c) = delta e(c) + (1 - delta) t(c),      t(c) = (N own(c) + K above(c)) / (N + K),
  * e being the choice by power, own the region's shares after N contributions, and above the t of the region that holds
  * it (at the top: the shares of the whole scene), on which a region seldom visited relies.
  *
  * A scene with more than GUIDE_COLUMNS light cells is learnt in groups of consecutive cells; within a group the choice
- * is by power. So the memory is bounded, by 44 bytes for each of GUIDE_COLUMNS columns of each region.
+ * is by power. So the memory is bounded, by 24 bytes for each of GUIDE_COLUMNS columns of each region.
  *
  * The tables are frozen before the render, so any choice is unbiased; MIS needs the ratio of the two choices,
  * guide_ratio, as the count of strategy s = 1 (mis.h): its samples are that many times denser than those of emission.
@@ -19,22 +20,14 @@
 #ifndef ASBDPT_LEARNING_GUIDE_H
 #define ASBDPT_LEARNING_GUIDE_H
 
-#include "base/alias.h"
+#include "learning/columns.h"
 #include "learning/regions.h"
-#include "scene/light.h"
 
 enum { GUIDE_COLUMNS = 256 };
 
-/* The cells of a light set in columns of equal length, the last one perhaps shorter. */
-struct guide_columns {
-    int n, cells_each;
-    double *power;  /* [n], probability of the column when cells are chosen by power; owned */
-    double *before; /* [cells], probability by power of the cells before this one in its column; owned */
-};
-
 /* What has been found so far, per region. */
 struct guide_lessons {
-    struct guide_columns columns;
+    struct light_columns columns;
     double *arrived; /* [regions * columns.n] sums of contributions (luminance), owned */
     double *samples; /* [regions] number of contributions other than zero, owned */
     int n;           /* regions */
@@ -50,9 +43,9 @@ void guide_lessons_add(struct guide_lessons *l, const struct regions *regions, i
 
 /* The frozen tables. */
 struct guide {
-    struct guide_columns columns;
-    struct alias_table *table; /* [n], over the columns; owned */
-    int n;                     /* regions */
+    struct light_columns columns;
+    double *before; /* [n * (columns.n + 1)], per region: probability of the columns before, and of all; owned */
+    int n;          /* regions */
 };
 
 /* guide_build: make the tables from the lessons, with `delta` in (0,1].

@@ -103,26 +103,6 @@ static void regions(struct stream *s, struct regions *r)
     free(key);
 }
 
-static void table(struct stream *s, struct alias_table *t, int n)
-{
-    whole(s, &t->n, n, n);
-    real(s, &t->total, 0);
-    if (!s->writing) {
-        s->ok = s->ok && (s->bytes->n - s->at) / 32 >= (size_t)n;
-        t->bin = mem_alloc(s->ok ? (size_t)n : 0, sizeof *t->bin);
-        t->capacity = s->ok ? (size_t)n : 0;
-    }
-    for (int i = 0; s->ok && i < n; i++) {
-        struct alias_bin *b = &t->bin[i];
-        int alias = (int)b->alias;
-        real(s, &b->threshold, 0);
-        real(s, &b->pmf, 0);
-        real(s, &b->alias_pmf, 0);
-        whole(s, &alias, 0, n - 1);
-        b->alias = (uint32_t)alias;
-    }
-}
-
 static void guide(struct stream *s, struct learnt *l, const struct light_set *lights)
 {
     struct guide *g = &l->guide;
@@ -130,14 +110,24 @@ static void guide(struct stream *s, struct learnt *l, const struct light_set *li
     if (!s->writing)
         guide_start(g, lights);
     whole(s, &columns, g->columns.n, g->columns.n);
-    int n = g->n;
-    whole(s, &n, 1, l->eye.n);
-    if (!s->writing) {
-        g->table = mem_alloc((size_t)n, sizeof *g->table);
-        g->n = n;
-    }
-    for (int i = 0; s->ok && i < n; i++)
-        table(s, &g->table[i], columns);
+    whole(s, &g->n, 1, l->eye.n);
+    if (!s->ok)
+        g->n = 0;
+    reals(s, &g->before, g->n * (g->columns.n + 1));
+    for (int i = 1; s->ok && i < g->n * (g->columns.n + 1); i++) /* sums rise */
+        s->ok = i % (g->columns.n + 1) == 0 || g->before[i] >= g->before[i - 1];
+}
+
+static void emission(struct stream *s, struct learnt *l, const struct light_set *lights)
+{
+    struct emission *e = &l->emission;
+    int columns = e->columns.n;
+    if (!s->writing)
+        emission_start(e, lights);
+    whole(s, &columns, e->columns.n, e->columns.n);
+    for (int i = 0; s->ok && i < columns * EMISSION_BINS; i++)
+        real(s, &e->q[i], 0);
+    s->ok = s->ok && (s->writing || (columns > 0 && emission_freeze(e)));
 }
 
 static void pairs(struct stream *s, struct learnt *l)
@@ -163,9 +153,10 @@ static void importance(struct stream *s, struct importance *g)
 
 static void everything(struct stream *s, struct learnt *l, const struct light_set *lights)
 {
-    int guided = l->guided, paired = l->paired;
+    int guided = l->guided, paired = l->paired, aimed = l->aimed;
     whole(s, &guided, 0, 1);
     whole(s, &paired, 0, 1);
+    whole(s, &aimed, 0, 1);
     regions(s, &l->eye);
     regions(s, &l->light);
     if (s->ok)
@@ -174,15 +165,18 @@ static void everything(struct stream *s, struct learnt *l, const struct light_se
         guide(s, l, lights);
     if (s->ok && paired)
         pairs(s, l);
+    if (s->ok && aimed)
+        emission(s, l, lights);
     for (int i = 0; s->ok && i < LEARNT_NUMBERS; i++)
         real(s, &l->number[i], 0);
     l->guided = s->ok && guided;
     l->paired = s->ok && paired;
+    l->aimed = s->ok && aimed;
 }
 
 static int head(uint64_t of, char *text, size_t size)
 {
-    return snprintf(text, size, "asbdpt learnt 1\nof %016" PRIx64 "\n", of);
+    return snprintf(text, size, "asbdpt learnt 2\nof %016" PRIx64 "\n", of);
 }
 
 void learnt_write(const struct learnt *l, uint64_t of, struct bytes *out)

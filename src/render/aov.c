@@ -57,7 +57,7 @@ static void add_sample(const struct rows *r, struct arena *arena, int x, int y, 
     const struct scene *scene = r->scene;
     uint64_t pixel = (uint64_t)y * (uint64_t)scene->width + (uint64_t)x;
     struct sampler sampler = sampler_start(r->seed, RNG_EYE, pixel, (uint64_t)iteration);
-    struct mis_counts counts = {.hit = 1}; /* nobody asks for weights */
+    struct mis_counts counts = {.hit = {1, 1}}; /* nobody asks for weights */
     struct walk walk = {scene, &counts, arena, &sampler, 0};
     struct vertex eye[2], *z = &eye[1];
     double filter_weight;

@@ -17,7 +17,8 @@ static inline double mis_connect_count(const struct mis_counts *c, int y, int e,
 static inline double mis_direct_count(const struct mis_counts *c, const struct light_set *lights, int e,
                                       enum eye_end end, int cell, vec3 w)
 {
-    double n = c->direct[end];
+    bool delta = cell >= 0 && light_is_delta(&lights->light[lights->light_of_cell[cell]]);
+    double n = (delta ? c->delta : c->direct)[end];
     return c->model != 0 && c->model->direct != 0 && n > 0 ? n * c->model->direct(c->model->learnt, lights, e, cell, w)
                                                            : n;
 }

@@ -46,8 +46,10 @@
 #include "base/vec.h"
 
 struct light_set;
+struct light_point;
 
-/* Which eye vertex a strategy with t >= 2 ends at: what the camera sees, t = 2, or a later one. */
+/* Which eye vertex a strategy with t >= 2 ends at: what the camera sees, itself or by way of delta lobes alone, or a
+ * later one. */
 enum eye_end { FIRST_HIT, LATER_HIT, EYE_ENDS };
 
 /* What a method has learnt about places, as the weights need it: the n of an edge from its two ends. Surface points are
@@ -63,6 +65,30 @@ struct count_model {
      * a direction met by an escaping ray; w: of lights at infinity). NULL: as emission chooses, hence 1. */
     int (*choose_light)(const void *learnt, const struct light_set *lights, int e, double u, double *pmf);
     double (*direct)(const void *learnt, const struct light_set *lights, int e, int cell, vec3 w);
+    /* How light sub-paths choose a light cell with the uniform number u, and what of the unit square light.h is then
+     * given for `direction`; rho is the density of that choice over the usual one's. And rho again, of the ray of
+     * direction w through p that leaves y0 (y0->light -1: some infinite light in direction y0->w). NULL: as light.h
+     * has it, hence 1. See emit.h. */
+    int (*choose_emission)(const void *learnt, const struct light_set *lights, double u, double direction[2],
+                           double *rho);
+    double (*emission)(const void *learnt, const struct light_set *lights, const struct light_point *y0, vec3 p,
+                       vec3 w);
+};
+
+struct vertex;
+
+/* Where two sub-paths are joined: the last vertex of one, the vertex before it, and what of the former the other end
+ * decides: its density in the other walk, measured as its pdf_fwd, and that, 1/sr, of going on to the vertex before. */
+struct path_end {
+    const struct vertex *v, *before;
+    double pdf_other, pdf_rev;
+};
+
+/* Weights that are no O(1) recursion: whoever computes them sees all of the path.
+ *   s  0: y is NULL, z is on the light; 1: y is y_0; else 2: of s >= 2 */
+struct weigher {
+    void *context;
+    double (*weigh)(void *context, int s, const struct path_end *y, const struct path_end *z);
 };
 
 /* How many samples each kind of strategy takes per pixel and iteration; 0: the method does not use it. A method may
@@ -70,14 +96,17 @@ struct count_model {
  * so a strategy whose samples are better spread than independent ones, and whose variance is therefore smaller,
  * deserves such a credit [Grittmann 2019].
  *
- * A light side has no FIRST_HIT but at its last vertex, when the lens is next (connect_lens). */
+ * A light side has no FIRST_HIT but at its last vertex, when the lens is next (connect_lens): a delta lobe between the
+ * two leaves no other strategy that makes the path. */
 struct mis_counts {
-    double hit;                /* s = 0, t >= 3: the eye walk finds a light. (t = 2, a light seen directly: weight 1) */
-    double direct[EYE_ENDS];   /* s = 1: connection to fresh points on a light */
+    double hit[EYE_ENDS];      /* s = 0, t >= 3: the eye walk finds a light. (t = 2, a light seen directly: weight 1) */
+    double direct[EYE_ENDS];   /* s = 1: connection to fresh points on a light that s = 0 can find */
+    double delta[EYE_ENDS];    /* s = 1: connection to a light that it cannot, without extent or of one direction */
     double connect[EYE_ENDS];  /* s >= 2, t >= 2: connection to light vertices */
     double splat;              /* s >= 2, t = 1: light sub-paths connected to the lens: how many per iteration */
     const struct count_model *model; /* factors that vary over the scene; NULL: all counts are constants */
     bool power;                /* power heuristic instead of the balance heuristic */
+    const struct weigher *weigher; /* of strategies with t >= 2, in place of the recursion; NULL: the recursion */
 };
 
 /* mis_raise: the heuristic's power of a density or count. */

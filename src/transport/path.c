@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "transport/counts.h"
+#include "transport/emit.h"
 
 /* How the walk left its last vertex. */
 struct departure {
@@ -87,7 +88,9 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
     if (!meet(w, v, prev, from, at, mode))
         return false;
     const struct count_model *model = w->counts->model;
-    v->eye_end = prev->kind == VERTEX_LENS ? FIRST_HIT : LATER_HIT;
+    bool first =
+        prev->kind == VERTEX_LENS || (prev->kind == VERTEX_SURFACE && prev->eye_end == FIRST_HIT && from->delta);
+    v->eye_end = mode == RADIANCE && first ? FIRST_HIT : LATER_HIT;
     v->eye_region = v->light_region = 0;
     if (model != NULL)
         model->locate(model->learnt, v->p, v->ng, &v->eye_region, &v->light_region);
@@ -193,21 +196,19 @@ int path_eye_pixel(const struct walk *w, int x, int y, struct vertex *path, int 
 
 int path_light(const struct walk *w, struct vertex *path, int max_vertices)
 {
-    const struct light_set *lights = &w->scene->lights;
     double u[3], direction[2];
     u[0] = sampler_number(w->sampler, DRAW_LIGHT);
     sampler_pair(w->sampler, DRAW_LIGHT_POINT, &u[1]);
     sampler_pair(w->sampler, DRAW_EMISSION, direction);
     struct light_point at;
-    if (max_vertices < 1 || !light_sample_point(lights, &w->scene->geo, u, &at))
+    struct departure from = {.pdf = 0};
+    double pdf;
+    rgb emitted = emit_sample(w->scene, w->counts, u, direction, &at, &from.ray, &pdf, &from.pdf);
+    if (max_vertices < 1 || !(pdf > 0) || rgb_is_black(emitted))
         return 0;
     vertex_light_end(w->scene, w->counts, &at, &path[0]);
-    struct departure from = {.pdf = 0};
-    rgb emitted = light_sample_emission(lights, &at, direction, &from.ray, &from.pdf);
-    if (!(from.pdf > 0) || rgb_is_black(emitted))
-        return 0;
-    path[0].beta = light_Le(lights, &at, from.ray.d); /* not a throughput: nothing connects to this y_0 */
-    from.beta = rgb_scale(emitted, 1 / (at.pdf * from.pdf)); /* alpha_2 of [V97 eq. 10.6] */
+    path[0].beta = light_Le(&w->scene->lights, &at, from.ray.d); /* not a throughput: nothing connects to this y_0 */
+    from.beta = rgb_scale(emitted, 1 / (at.pdf * pdf)); /* alpha_2 of [V97 eq. 10.6] */
     from.ray.tmin = ray_margin(from.ray.o);
     return random_walk(w, from, path, max_vertices, IMPORTANCE);
 }

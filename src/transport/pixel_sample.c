@@ -79,10 +79,10 @@ static void contribute(struct pixel_sample *sample, const struct connection *c, 
 
 static void sum_direct(struct pixel_sample *sample, const struct vertex *z, int t)
 {
-    int n = z->eye_end == FIRST_HIT ? sample->lights : 1;
+    int n = z->eye_end == FIRST_HIT && sample->lights > 0 ? sample->lights : 1;
     const struct choice each = {1, 1.0 / n};
     for (int i = 0; i < n; i++) {
-        struct connection c = connect_direct(sample->scene, sample->counts, z, &sample->sampler);
+        struct connection c = connect_direct(sample->scene, sample->counts, z, &sample->sampler, i, n);
         contribute(sample, &c, 1, t, NULL, each);
     }
 }
@@ -97,9 +97,10 @@ void pixel_sum_eye(struct pixel_sample *sample, const struct vertex *eye, int n)
 {
     for (int t = 2; t <= n; t++) {
         const struct vertex *z = &eye[t - 1];
-        if (t == 2 || sample->counts->hit > 0)
+        if (t == 2 || sample->counts->hit[LATER_HIT] > 0)
             sum_hit(sample, eye, t);
-        if (sample->counts->direct[FIRST_HIT] > 0 && t <= sample->max_depth + 1 && z->kind == VERTEX_SURFACE)
+        bool wanted = sample->counts->direct[FIRST_HIT] > 0 && (t > 2 || sample->lights > 0);
+        if (wanted && t <= sample->max_depth + 1 && z->kind == VERTEX_SURFACE)
             sum_direct(sample, z, t);
     }
 }
@@ -115,6 +116,13 @@ void pixel_sum_joint(struct pixel_sample *sample, const struct joint *j, int s, 
 {
     struct connection c = connect_joint(sample->scene, sample->counts, j);
     contribute(sample, &c, s, t, j->y - (s - 1), choice);
+}
+
+void pixel_sum_lit(struct pixel_sample *sample, const struct lit *l, int t, double scale)
+{
+    struct connection c = connect_lit(sample->scene, sample->counts, l);
+    const struct choice choice = {1, scale};
+    contribute(sample, &c, 1, t, NULL, choice);
 }
 
 void pixel_sum_pairs(struct pixel_sample *sample, const struct vertex *eye, int n_eye, const struct vertex *light,

@@ -41,5 +41,5 @@ void vertex_light_end(const struct scene *scene, const struct mis_counts *counts
     out->pdf_fwd = scene->lights.several_infinite && l->kind == LIGHT_INFINITE
                        ? light_pdf_environment(&scene->lights, at->w)
                        : at->pdf;
-    out->mis_c = light_is_delta(l) ? 0 : counts->hit;
+    out->mis_c = light_is_delta(l) ? 0 : counts->hit[LATER_HIT];
 }

@@ -1,0 +1,168 @@
+/* first_light.c: see first_light.h. */
+#include "integrators/first_light.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/maths.h"
+#include "base/number.h"
+#include "base/parallel.h"
+
+enum {
+    SEQUENCE = 16,     /* samples; of the slope see below */
+    RATIOS = 11,       /* of hit over direct: 2^-4 ... 2^6 */
+    EVEN = 4,          /* number of 2^0 */
+    DELTA = RATIOS,    /* what is summed: direct light by each ratio, that of delta lights, */
+    ALL = RATIOS + 1,  /* and everything */
+    N_SUMS = RATIOS + 2,
+    MOST_PIXELS = 1024
+};
+static const double SAMPLES_PER_PIXEL = 1.28;
+static const double SLOPE = 1.5;       /* log 64 / log SEQUENCE */
+static const double RELUCTANCE = 1.15; /* to move from equal counts, for each power of two */
+static const double MOST_CREDIT = 64, OUTLIER = 25;
+
+/* Of one pixel, its two sequences together. */
+struct pixel_sums {
+    double mean[2][N_SUMS], square[N_SUMS]; /* square: mean over samples */
+};
+
+struct first_light_job {
+    struct render_job job;
+    struct mis_counts counts;
+    struct workspace *work;   /* [n_threads] */
+    struct tile *tile;        /* [n_threads] */
+    struct pixel_sums *pixel; /* [n] */
+    int64_t n;
+};
+
+/* A credit is found from moments that are means over pixels, relative to their brightness. */
+struct moments {
+    double square, single, sequence; /* second moment; variances of one sample, of the mean of SEQUENCE */
+};
+
+static double ratio(int i) { return ldexp(1, i - EVEN); }
+
+/* The sums of one sample, from what each strategy brought; the weights are those of counts 1. */
+static void add_sample(const struct tile *tile, double *x)
+{
+    memset(x, 0, N_SUMS * sizeof *x);
+    for (const struct strategy_record *r = tile->record; r < tile->record + tile->n_records; r++) {
+        const float *c = r->unweighted;
+        double value = rgb_luminance(rgb_make((double)c[0], (double)c[1], (double)c[2])), w = (double)r->weight;
+        x[ALL] += value * w;
+        if (r->s + r->t != 3)
+            continue;
+        if (r->s == 1 && w >= 1)
+            x[DELTA] += value;
+        else
+            for (int i = 0; i < RATIOS; i++) {
+                double own = r->s == 0 ? ratio(i) : 1, other = r->s == 0 ? 1 : ratio(i);
+                x[i] += value * own * w / (own * w + other * (1 - w));
+            }
+    }
+}
+
+/* One sample of a pixel by path tracing, from stream `seed`. */
+static void take_sample(const struct first_light_job *f, int x, int y, uint64_t seed, long iteration, int thread,
+                        double *value)
+{
+    struct render_job job = f->job;
+    struct tile *tile = &f->tile[thread];
+    struct pixel_rect rect = {x, y, x + 1, y + 1};
+    struct tile_pass pass = {&job, rect, iteration, iteration + 1, tile, &f->work[thread], NULL};
+    job.seed = job.eye_seed = seed;
+    tile_start(tile, rect, job.film_rect, &job.scene->filter, true);
+    arena_reset(&pass.work->arena);
+    struct pixel_sample sample = pixel_sample_begin(&pass, &f->counts, x, y, iteration);
+    int n = pixel_eye_path(&pass, &sample, iteration, pass.work->eye, job.max_depth + 2);
+    pixel_sum_eye(&sample, pass.work->eye, n);
+    add_sample(tile, value);
+}
+
+static void work(void *context, int64_t job, int slot, int thread)
+{
+    struct first_light_job *f = context;
+    struct pixel_rect all = f->job.film_rect;
+    struct pixel_sums *sums = &f->pixel[job];
+    double u, v, value[N_SUMS];
+    (void)slot;
+    sampler_r2(job, &u, &v);
+    int x = all.x0 + (int)(u * rect_width(all)), y = all.y0 + (int)(v * rect_height(all));
+    for (int k = 0; k < 2 * SEQUENCE; k++) {
+        uint64_t seed = hash_combine(f->job.seed, (uint64_t)(2 * job + k / SEQUENCE));
+        take_sample(f, x, y, seed, k % SEQUENCE, thread, value);
+        for (int i = 0; i < N_SUMS; i++) {
+            sums->mean[k / SEQUENCE][i] += value[i] / SEQUENCE;
+            sums->square[i] += sqr(value[i]) / (2 * SEQUENCE);
+        }
+    }
+}
+
+static bool commit(void *context, int64_t job, int slot)
+{
+    struct first_light_job *f = context;
+    (void)slot;
+    return f->job.watch == NULL || f->job.watch(f->job.watch_context, 2.0 * SEQUENCE * (double)(job + 1));
+}
+
+static struct moments moments_of(const struct first_light_job *f, int i, double bright)
+{
+    struct moments m = {0, 0, 0};
+    for (int64_t k = 0; k < f->n; k++) {
+        const struct pixel_sums *p = &f->pixel[k];
+        double scale = sqr(0.375 * (p->mean[0][ALL] + p->mean[1][ALL]) + 0.25 * bright) + 1e-30;
+        double V = sqr(p->mean[0][i] - p->mean[1][i]) / 2;
+        m.square += fmin(p->square[i] / scale, OUTLIER);
+        m.single += fmin(fmax(p->square[i] - p->mean[0][i] * p->mean[1][i], 0) / scale, OUTLIER);
+        m.sequence += fmin(V / scale, OUTLIER);
+    }
+    return m;
+}
+
+static double credit_of(struct moments m)
+{
+    if (!(m.square > 0))
+        return 1;
+    if (!(SEQUENCE * m.sequence * MOST_CREDIT > m.square))
+        return MOST_CREDIT;
+    double gain = fmax(m.single / (SEQUENCE * m.sequence), 1);
+    return clamp(m.square / m.single * m_pow(gain, SLOPE), 1, MOST_CREDIT);
+}
+
+static void choose(const struct first_light_job *f, struct first_light *out)
+{
+    double bright = 0, least = INFINITY;
+    int best = EVEN;
+    for (int64_t k = 0; k < f->n; k++)
+        bright += (f->pixel[k].mean[0][ALL] + f->pixel[k].mean[1][ALL]) / (2 * (double)f->n);
+    for (int i = 0; i < RATIOS; i++) {
+        double V = moments_of(f, i, bright).sequence * m_pow(RELUCTANCE, abs(i - EVEN));
+        if (V < least) {
+            least = V;
+            best = i;
+        }
+    }
+    out->direct = credit_of(moments_of(f, best, bright));
+    out->hit = out->direct * ratio(best);
+    out->delta = credit_of(moments_of(f, DELTA, bright));
+}
+
+void first_light_measure(const struct render_job *job, const struct count_model *model, struct first_light *out)
+{
+    struct first_light_job f = {.job = *job, .counts = {{1, 1}, {1, 1}, {1, 1}, .model = model}};
+    double pixels = (double)rect_width(job->film_rect) * rect_height(job->film_rect);
+    f.n = int_within(SAMPLES_PER_PIXEL * pixels / (2 * SEQUENCE), 64, MOST_PIXELS);
+    f.job.seed = hash_combine(job->seed, 0x9e3779b97f4a7c15u);
+    f.work = workspaces_new(job->n_threads, job->max_depth);
+    f.tile = mem_alloc((size_t)job->n_threads, sizeof *f.tile);
+    f.pixel = mem_alloc((size_t)f.n, sizeof *f.pixel);
+    struct parallel_jobs jobs = {f.n, job->n_threads, (int)f.n, &f, work, commit, NULL};
+    f.n = parallel_run(&jobs);
+    choose(&f, out);
+    for (int i = 0; i < job->n_threads; i++)
+        tile_free(&f.tile[i]);
+    workspaces_free(f.work, job->n_threads);
+    free(f.tile);
+    free(f.pixel);
+}

@@ -1,0 +1,30 @@
+/* first_light.h: how well do a pixel's numbers estimate the light that comes straight to its first hit?
+ *
+ * The weights compare samples by second moments, as if all were independent (mis.h). Those of the eye sub-path's first
+ * vertices are not: over the iterations of a pixel they are spread evenly (sampler.h), and the light of a lamp that is
+ * always there has hardly any variance at all. So strategies s = 0 and s = 1 deserve a credit there,
+ *     E[X^2] / (N V_N),
+ * where X is what a sample brings and V_N the variance of the mean of N samples of a pixel [Grittmann 2019]. It is
+ * measured: some pixels take SEQUENCE samples by path tracing, twice, with numbers of their own; half the squared
+ * difference of the two means is V. As N grows, E[X^2] / (N V_N) keeps the slope it has from 1 to SEQUENCE; it is
+ * taken where N = 64, whatever number is asked for. How s = 0 and s = 1 are best weighed against each other is found
+ * the same way, by trying some ratios of their counts on these samples: to go by second moments would be wrong, since
+ * one of both may be far better spread.
+ *
+ * Tests: test_asbdpt.c.
+ */
+#ifndef ASBDPT_FIRST_LIGHT_H
+#define ASBDPT_FIRST_LIGHT_H
+
+#include "transport/pixel_sample.h"
+
+struct first_light {
+    double hit, direct; /* counts of s = 0 and s = 1 for lights that both can find */
+    double delta;       /* of s = 1 for those that s = 0 cannot */
+};
+
+/* first_light_measure: for the lights as `model` chooses them. Traces as many eye
+ * sub-paths as the picture has pixels, or a few more, but at most 32768, unless job->watch ends it. */
+void first_light_measure(const struct render_job *job, const struct count_model *model, struct first_light *out);
+
+#endif

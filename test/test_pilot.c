@@ -1,0 +1,92 @@
+/* test_pilot.c: what is chosen before a render: light sub-paths where they pay, and where nothing else finds the light;
+ * credits for what hardly varies. */
+#include <stdio.h>
+
+#include "helpers.h"
+#include "integrators/method.h"
+#include "render/render.h"
+#include "tests.h"
+
+/* A floor that a point light shines on, the eye above it; something small of the given material out of sight. */
+static const char FLOOR[] = "LookAt 0 0 4  0 0 0  0 1 0\n"
+                            "Camera \"perspective\" \"float fov\" 40\n"
+                            "Film \"image\" \"integer xresolution\" 32 \"integer yresolution\" 32\n"
+                            "WorldBegin\n"
+                            "LightSource \"point\" \"point from\" [1 2 3] \"rgb I\" [20 20 20]\n"
+                            "Material \"matte\"\n"
+                            "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
+                            "  \"point P\" [-9 -9 0  9 -9 0  9 9 0  -9 9 0]\n"
+                            "Material \"%s\"\n"
+                            "Translate 0 8 1\n"
+                            "Shape \"sphere\" \"float radius\" 0.05\n"
+                            "WorldEnd\n";
+
+/* What asbdpt, by so many samples, has settled for the scene. */
+static bool settle(struct test *t, const struct scene *scene, struct frozen *out)
+{
+    struct render_options o = {.integrator = "asbdpt", .max_depth = 5, .n_threads = 2, .seed = test_seed(t)};
+    struct render_job job;
+    struct preparation prepared;
+    struct error err;
+    if (!CHECK(t, render_prepare(scene, &o, render_crop(scene), &job, &prepared, &err), "%s", err.text))
+        return false;
+    *out = *(const struct frozen *)prepared.state; /* but what counts.model points to */
+    method_release(&prepared);
+    return true;
+}
+
+static void test_where_they_pay(struct test *t)
+{
+    static const char *const scenes[] = {"scenes/cornell-box.pbrt", "scenes/bathroom.pbrt", "scenes/corridor.pbrt"};
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        struct scene scene;
+        struct frozen f;
+        if (!scene_from_file(t, scenes[i], 48, 32, &scene))
+            continue;
+        if (settle(t, &scene, &f))
+            CHECK(t, f.path_pixels > 0 && f.counts.connect[LATER_HIT] > 0 && f.counts.splat > 0,
+                  "%s has no light sub-paths", scenes[i]);
+        scene_free(&scene);
+    }
+}
+
+/* Paths that only light sub-paths find keep these alive, whatever was measured. */
+static void test_where_nothing_else_does(struct test *t)
+{
+    static const char *const materials[] = {"matte", "mirror", "glass", "uber"};
+    for (size_t i = 0; i < sizeof materials / sizeof materials[0]; i++) {
+        char text[2048];
+        struct scene scene;
+        struct frozen f;
+        snprintf(text, sizeof text, FLOOR, materials[i]);
+        if (!scene_from_text(t, text, &scene))
+            continue;
+        if (settle(t, &scene, &f)) {
+            CHECK(t, (f.path_pixels > 0) == (i > 0), "a point light beside %s: %d", materials[i], f.path_pixels);
+            double delta = f.counts.delta[FIRST_HIT];
+            CHECK(t, delta >= 16, "a point light's samples count for %g", delta);
+        }
+        scene_free(&scene);
+    }
+}
+
+/* Under an even sky neither strategy of direct light is given up. */
+static void test_even_sky(struct test *t)
+{
+    struct scene scene;
+    struct frozen f;
+    if (!scene_from_file(t, "scenes/features/light-infinite.pbrt", 32, 32, &scene))
+        return;
+    if (settle(t, &scene, &f)) {
+        double hit = f.counts.hit[FIRST_HIT], direct = f.counts.direct[FIRST_HIT];
+        CHECK(t, hit >= 1 && direct >= 1, "an even sky: s = 0 counts %g, s = 1 %g", hit, direct);
+    }
+    scene_free(&scene);
+}
+
+void test_pilot(struct test *t)
+{
+    test_where_they_pay(t);
+    test_where_nothing_else_does(t);
+    test_even_sky(t);
+}
