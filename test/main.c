@@ -29,6 +29,7 @@ static const struct test_entry ENTRIES[] = {
     {"learning", test_learning, false},
     {"options", test_options, false}, {"render", test_render, false}, {"asbdpt", test_asbdpt, false},
     {"rivals", test_rivals, false},
+    {"chains", test_chains, false},
     {"part", test_part, false}, {"trace", test_trace, false},
     {"report", test_report, false}, {"pictures", test_pictures, false},
     {"aov", test_aov, false},

@@ -9,6 +9,7 @@ void test_asbdpt(struct test *t);
 void test_aov(struct test *t);
 void test_alias(struct test *t);
 void test_bsdf(struct test *t);
+void test_chains(struct test *t);
 void test_camera(struct test *t);
 void test_devices(struct test *t);
 void test_emission(struct test *t);

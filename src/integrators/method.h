@@ -45,6 +45,7 @@ struct method {
     const char *name;   /* --integrator NAME */
     const char *select; /* asbdpt alone, whose rows share a name: the value of its parameter `select` */
     const char *help;   /* one line */
+    bool chain;         /* its samples are mutations of others, of no pixel and not independent: see chains/chain.h */
     const char *why;    /* for trace: how what an eye sub-path is joined to is chosen; NULL: it is not */
     const struct method_parameter *parameters; /* of the state; NULL: none */
     size_t state_size, scratch_size;    /* scratch_size 0: none; else all zeros at first */

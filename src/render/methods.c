@@ -5,13 +5,14 @@
 
 extern const struct method method_pt, method_lt, method_bdpt, method_bins, method_pool, method_vertices,
     method_subspaces, method_lvc, method_cbdpt, method_mbdpt, method_pcbdpt, method_ris, method_ris2,
-    method_restir;
+    method_restir, method_pssmlt, method_mmlt, method_mlt;
 
 static const struct method *const METHODS[] = {&method_pt,       &method_lt,   &method_bdpt,
                                                &method_subspaces, &method_bins, &method_pool,
                                                &method_vertices, &method_lvc,  &method_cbdpt,
                                                &method_mbdpt,    &method_pcbdpt, &method_ris,
-                                               &method_ris2,     &method_restir, NULL};
+                                               &method_ris2,     &method_restir, &method_pssmlt,
+                                               &method_mmlt,     &method_mlt,    NULL};
 
 const struct method *const *method_list(void) { return METHODS; }
 

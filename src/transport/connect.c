@@ -155,6 +155,13 @@ struct connection connect_lit(const struct scene *scene, const struct mis_counts
     return c;
 }
 
+struct connection connect_point(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
+                                const struct light_point *at, double pdf)
+{
+    struct lit l;
+    return vertex_connectible(z) && connect_light(scene, z, at, pdf, &l) ? connect_lit(scene, counts, &l) : nothing();
+}
+
 struct connection connect_direct(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
                                  struct sampler *sampler, int i, int n)
 {
