@@ -100,7 +100,7 @@ void family_tables(FILE *f, const struct equal_time *e)
 
 /* --- the figure -------------------------------------------------------------------------------------- */
 
-enum { LEFT = 96, TOP = 118, ROW = 20, COLUMN = 58, PANEL = 50, BELOW = 46 };
+enum { LEFT = 96, TOP = 118, ROW = 20, COLUMN = 58, PANEL = 50, LEAST_WIDTH = 560, BELOW = 60 };
 static const double LEAST = 0.02, MOST = 50; /* ratios outside stand at the edge */
 
 static double place(const struct plot_axis *a, int column, double ratio)
@@ -145,7 +145,8 @@ static void write_ratio(FILE *f, const struct equal_time *e, const struct plot_a
 void family_figure(FILE *f, const struct equal_time *e)
 {
     struct plot_axis axis = axis_make(true, LEAST, MOST);
-    int methods = e->plan->methods.n, bottom = TOP + ROW * (methods - 1), width = LEFT + COLUMN * e->n_scenes + 60;
+    int methods = e->plan->methods.n, bottom = TOP + ROW * (methods - 1), width = LEFT + 60 + COLUMN * e->n_scenes;
+    width = width < LEAST_WIDTH ? LEAST_WIDTH : width;
     xml_print(f, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" height=\"%d\" "
               "role=\"img\" aria-labelledby=\"t\" font-family=\"system-ui,sans-serif\" font-size=\"12\">\n<title "
               "id=\"t\">Squared error over that of %s after the same CPU time</title>\n", width, bottom + BELOW, width,
@@ -162,9 +163,9 @@ void family_figure(FILE *f, const struct equal_time *e)
         for (int c = 0; c < e->n_scenes; c++)
             write_ratio(f, e, &axis, c, v);
     }
-    xml_print(f, "<text x=\"%d\" y=\"%d\">Squared error over that of %s after the same CPU time, log scale. Dot and bar: "
-              "rmse8, 95 %s; diamond: means over 8x8 pixels. Left of the line is a gain.</text>\n</svg>\n", LEFT,
-              bottom + 36, short_name(e, 0), "%");
+    xml_print(f, "<text x=\"8\" y=\"%d\">Squared error over that of %s after the same CPU time: left of the line is a gain."
+              "</text>\n<text x=\"8\" y=\"%d\">Dot and bar: rmse8 and its 95 %s interval; diamond: means over 8x8 pixels."
+              "</text>\n</svg>\n", bottom + 34, short_name(e, 0), bottom + 50, "%");
 }
 
 /* --- the strip of crops ------------------------------------------------------------------------------ */
