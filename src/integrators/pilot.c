@@ -75,8 +75,8 @@ static void set_numbers(struct subspaces_state *s, const struct choice_of_number
     s->draws[LATER_HIT] = clamp(c->n[DRAW_LATER], 0.125, 8);
     f->lights = (int)clamp(c->n[LIGHT_FIRST] + 0.5, 1, 8);
     f->path_pixels = c->light_paths ? (int)clamp(1 / c->n[LIGHT_PATH] + 0.5, 1, 64) : 0;
-    f->counts.hit[FIRST_HIT] = light->hit;
-    f->counts.direct[FIRST_HIT] = light->direct * f->lights;
+    f->counts.hit[FIRST_HIT] = light->broad;
+    f->counts.direct[FIRST_HIT] = light->broad * f->lights;
     f->counts.delta[FIRST_HIT] = light->delta * f->lights;
     for (int end = 0; end < EYE_ENDS; end++)
         f->counts.connect[end] = c->light_paths ? c->credit[DRAW_FIRST + end] * s->draws[end] : 0;
