@@ -227,7 +227,7 @@ static void test_blocks(struct test *t)
     }
     double none = compare_blocks(noise, r, W, H), all = compare_blocks(shared, r, W, H);
     CHECK(t, none < 1e-12 && fabs(all - 0.25 / 1.01) < 1e-6, "errors of blocks: %g and %g", none, all);
-    CHECK(t, fabs(compare_blocks(noise, r, 1, 5) - 0.25 / 1.01) < 1e-6, "a picture of one column has blocks of a pixel");
+    CHECK(t, fabs(compare_blocks(noise, r, 1, 5) - 0.25 / 1.01) < 1e-6, "of one column: blocks of a pixel");
 }
 
 /* Errors of pixels, what percentile they have, and their colours. */

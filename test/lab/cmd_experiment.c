@@ -80,7 +80,8 @@ static const struct option FAMILY[] = {
     {"--methods", "LIST", OPTION_TEXT, AT(methods), .help = METHODS_HELP " (default: all there are)"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20,
      .help = "samples per pixel of the first method (default: 64; --quick: 16); the others are given its CPU time"},
-    {"--seeds", "N", OPTION_INTEGER, AT(seeds), 1, PLAN_MAX_SEEDS, .help = "renders per method (default: 5; --quick: 3)"},
+    {"--seeds", "N", OPTION_INTEGER, AT(seeds), 1, PLAN_MAX_SEEDS,
+     .help = "renders per method (default: 5; --quick: 3)"},
     {"--quick", NULL, OPTION_ON, AT(quick), .help = "at the sizes of stored references, not 160 pixels wide"},
     {.others = SHARED},
 };

@@ -45,8 +45,8 @@ static void add_of(struct table *t, double ratio, const char *of)
 static void summary_table(FILE *f, const struct equal_time *e)
 {
     struct table t;
-    table_begin(&t, "Squared error over that of %s after the same CPU time: geometric means over scenes, and the ends of "
-                    "rmse8; below 1 is a gain. Price: time of a sample over that of %s", short_name(e, 0),
+    table_begin(&t, "Squared error over that of %s after the same CPU time: geometric means over scenes, and the ends "
+                    "of rmse8; below 1 is a gain. Price: time of a sample over that of %s", short_name(e, 0),
                 short_name(e, 0));
     table_column(&t, "method");
     table_column(&t, "price");
@@ -163,9 +163,9 @@ void family_figure(FILE *f, const struct equal_time *e)
         for (int c = 0; c < e->n_scenes; c++)
             write_ratio(f, e, &axis, c, v);
     }
-    xml_print(f, "<text x=\"8\" y=\"%d\">Squared error over that of %s after the same CPU time: left of the line is a gain."
-              "</text>\n<text x=\"8\" y=\"%d\">Dot and bar: rmse8 and its 95 %s interval; diamond: means over 8x8 pixels."
-              "</text>\n</svg>\n", bottom + 34, short_name(e, 0), bottom + 50, "%");
+    xml_print(f, "<text x=\"8\" y=\"%d\">Squared error over that of %s after the same CPU time: left of the line is a "
+              "gain.</text>\n<text x=\"8\" y=\"%d\">Dot and bar: rmse8 and its 95 %s interval; diamond: means over 8x8 "
+              "pixels.</text>\n</svg>\n", bottom + 34, short_name(e, 0), bottom + 50, "%");
 }
 
 /* --- the strip of crops ------------------------------------------------------------------------------ */

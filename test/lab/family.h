@@ -13,7 +13,8 @@
 void family_tables(FILE *f, const struct equal_time *e); /* Markdown */
 void family_figure(FILE *f, const struct equal_time *e); /* SVG: a row for each method, a column for each scene */
 
-/* family_write: all files, into plan->directory, from pictures that equal_run has kept. Returns false with a message. */
+/* family_write: all files, into plan->directory, from pictures that equal_run has kept. Returns false with a
+ * message. */
 bool family_write(const struct equal_time *e, struct error *err);
 
 #endif
