@@ -100,7 +100,7 @@ void family_tables(FILE *f, const struct equal_time *e)
 
 /* --- the figure -------------------------------------------------------------------------------------- */
 
-enum { LEFT = 96, TOP = 118, ROW = 20, COLUMN = 58, PANEL = 50, LEAST_WIDTH = 560, BELOW = 60 };
+enum { LEFT = 96, TOP = 156, ROW = 20, COLUMN = 58, PANEL = 50, LEAST_WIDTH = 560, BELOW = 60 };
 static const double LEAST = 0.02, MOST = 50; /* ratios outside stand at the edge */
 
 static double place(const struct plot_axis *a, int column, double ratio)
@@ -145,7 +145,7 @@ static void write_ratio(FILE *f, const struct equal_time *e, const struct plot_a
 void family_figure(FILE *f, const struct equal_time *e)
 {
     struct plot_axis axis = axis_make(true, LEAST, MOST);
-    int methods = e->plan->methods.n, bottom = TOP + ROW * (methods - 1), width = LEFT + 60 + COLUMN * e->n_scenes;
+    int methods = e->plan->methods.n, bottom = TOP + ROW * (methods - 1), width = LEFT + 110 + COLUMN * e->n_scenes;
     width = width < LEAST_WIDTH ? LEAST_WIDTH : width;
     xml_print(f, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" height=\"%d\" "
               "role=\"img\" aria-labelledby=\"t\" font-family=\"system-ui,sans-serif\" font-size=\"12\">\n<title "
