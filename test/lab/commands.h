@@ -5,6 +5,6 @@
 #include "cli/command.h"
 
 extern const struct command command_verify, command_experiment, command_equal_time, command_family, command_demo,
-                            command_bench;
+    command_transient, command_bench;
 
 #endif
