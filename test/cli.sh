@@ -28,7 +28,7 @@ for command in render merge compare convert worth info trace; do # each its own 
     expect 0 '' "$program" $command --help
     check [ "$(grep -c "usage: asbdpt $command" stdout.txt)" = 1 ]
 done
-for command in verify experiment equal-time demo transient bench; do
+for command in verify experiment equal-time family demo transient bench; do
     expect 0 '' "$lab" $command -h
     check [ "$(grep -c "usage: asbdpt-lab $command" stdout.txt)" = 1 ]
 done
@@ -443,6 +443,11 @@ check grep -q '^cornell-box,bdpt,5002,2,' equal/equal-time.csv
 expect 0 '' "$lab" equal-time "$box" --methods bdpt,asbdpt:select=pool --seconds 0.01 $tiny -o equal
 check grep -q -e 'equal-time --seconds 0.01 --methods bdpt,asbdpt:select=pool --seeds 2' stdout.txt
 check [ "$(grep -c '^cornell-box,asbdpt:select=pool,' equal/equal-time.csv)" = 2 ]
+# family: once more, nothing is measured again.
+expect 0 'lvc, seed 5102' "$lab" family "$box" --methods bdpt,lvc --quick --spp 2 --res 8x8 --seeds 2 -o family
+check grep -q '^| lvc |' family/family.md
+expect 0 '' "$lab" family "$box" --methods bdpt,lvc --quick --spp 2 --res 8x8 --seeds 2 -o family
+check [ "$(grep -c 'seed 5' stderr.txt)" = 0 ]
 # A reference is of the scene, or it is none: another's of the same name is refused, and no reference is not kept quiet.
 mkdir -p bathroom/ref
 cp "$box" bathroom/scene.pbrt

@@ -5,8 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/mem.h"
 #include "lab/equal_run.h"
+#include "lab/family.h"
+#include "render/methods.h"
 #include "tests.h"
 
 /* --- bringing an error from the time taken to the time given ------------------------------------------ */
@@ -85,7 +88,7 @@ static void plant(struct plan *p, struct equal_time *e)
         for (int v = 0; v < 3; v++)
             for (int k = 0; k < SEEDS; k++) {
                 double square = ratio[v][i] * (1 + 0.1 * k);
-                struct equal_render r = {equal_seed(v, k + 1), 32 - 8 * v, 2, 2, 1, 0, square, 0};
+                struct equal_render r = {equal_seed(v, k + 1), 32 - 8 * v, 2, 2, 1, 0, square, square / 2, 0};
                 r.rmse8 = sqrt((v > 0 ? 2 : 1) * square + 9);
                 s->render[v][k] = r;
             }
@@ -141,11 +144,12 @@ static void check_ratios(struct test *t, const struct equal_time *e)
 static void check_files(struct test *t, const struct equal_time *e)
 {
     static const char *const lines[] = {
-        "| scene | seconds | spp of each | asbdpt, rmse8 | asbdpt, relmse | lvc, rmse8 | lvc, relmse |",
+        "| scene | seconds | spp of each | asbdpt, rmse8 | asbdpt, relmse | asbdpt, 8x8 | "
+        "lvc, rmse8 | lvc, relmse | lvc, 8x8 |",
         "| b | 2 | 32, 24, 16 | 8.000 [",
-        "| **geometric mean** | | | **2.520** of 3 | **1.260** of 3 |",
-        "| **best** | | | **1.000** a | **0.500** a |",
-        "| **WORST** | | | **8.000** b | **4.000** b |",
+        "| **geometric mean** | | | **2.520** of 3 | **1.260** of 3 | **1.260** of 3 |",
+        "| **best** | | | **1.000** a | **0.500** a | **0.500** a |",
+        "| **WORST** | | | **8.000** b | **4.000** b | **4.000** b |",
         "- asbdpt: 6 of 6 renders took the given time within 3 %",
         "    ./asbdpt-lab equal-time --spp 32 -o results \\\n",
         "\n        a.pbrt b.pbrt c.pbrt\n"};
@@ -201,6 +205,73 @@ static void check_run(struct test *t)
     equal_free(&e);
 }
 
+/* --- all methods side by side -------------------------------------------------------------------------- */
+
+static void check_family_tables(struct test *t, const struct equal_time *e)
+{
+    char *table = written(t, e, family_tables), *svg = written(t, e, family_figure);
+    CHECK(t, strstr(table, "| asbdpt | 1.33 | 2.52 of 3 | 1.26 of 3 | 1.26 of 3 | 1 a | 8 b |") != NULL,
+          "samples cost 32/24 times as much, means and ends as planted:\n%s", table);
+    CHECK(t, strstr(table, "| b, 0x0 | 8.000 [5.988, 10.689] | 0.500 [0.374, 0.668] |") != NULL, "a scene:\n%s", table);
+    int dots = 0, gains = 0;
+    for (const char *p = svg; (p = strstr(p, "<circle class=")) != NULL; p++, dots++)
+        gains += strncmp(p + 15, "gain", 4) == 0;
+    CHECK(t, dots == 6 && gains == 3 && strstr(svg, "nan") == NULL, "%d ratios in the figure, %d gains", dots, gains);
+    free(table);
+    free(svg);
+}
+
+/* Every row of the table of methods, the reference's first, as methods_read wants them. */
+static void check_all_methods(struct test *t)
+{
+    char text[METHODS_TEXT];
+    struct methods all;
+    struct error err = {""};
+    int rows = 0;
+    while (method_list()[rows] != NULL)
+        rows++;
+    methods_all(text);
+    CHECK(t, methods_read(text, &all, &err) && all.n == rows && strcmp(all.item[0].text, METHOD_REFERENCE) == 0,
+          "%d rows, %d methods in %s: %s", rows, all.n, text, err.text);
+}
+
+/* Started again, nothing is rendered twice, but what is lost or has another key. */
+static void check_family_run(struct test *t)
+{
+    static const char *const files[] = {"family.md", "family.csv", "family.svg", "family.png",
+                                        "images/cornell-box-published-lvc.pfm"};
+    const char *scenes[2] = {"scenes/cornell-box.pbrt", "scenes/cornell-box.pbrt"};
+    char directory[300], path[512];
+    struct error err = {""};
+    struct plan p = {.scene = scenes, .n_scenes = 2, .n_own = 1, .n_seeds = 2, .width = 8, .height = 8, .n_threads = 1};
+    struct equal_time first = {.plan = &p, .pictures = true}, again = first;
+    snprintf(directory, sizeof directory, "%s/family", test_tmp(t));
+    p.directory = directory;
+    p.quiet = true;
+    p.command = "";
+    plan_set_spp(&p, 32, 32, NULL);
+    plan_set_methods(&p, "bdpt,lvc", &err);
+    if (CHECK(t, equal_run(&first, &err) && family_write(&first, &err), "%s", err.text)) {
+        for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+            snprintf(path, sizeof path, "%s/%s", directory, files[i]);
+            CHECK(t, file_exists(path), "%s is not there", path);
+        }
+        snprintf(path, sizeof path, "%s/runs/cornell-box--lvc--seed2.csv", directory);
+        CHECK(t, remove(path) == 0 && equal_run(&again, &err), "%s: %s", path, err.text);
+        for (int k = 0; k < 8; k++) {
+            const struct equal_render *a = &first.scene[k / 4].render[k / 2 % 2][k % 2];
+            const struct equal_render *b = &again.scene[k / 4].render[k / 2 % 2][k % 2];
+            CHECK(t, k == 3 || (a->seconds == b->seconds && a->spp == b->spp && a->rmse8 == b->rmse8), "render %d", k);
+            CHECK(t, a->target == b->target && a->seed == b->seed && b->blocks > 0, "render %d, kept or not", k);
+        }
+        CHECK(t, file_exists(path), "what was lost is kept again");
+        struct equal_render r;
+        CHECK(t, !equal_recall(path, "cornell-box", &r), "a key that begins alike is another");
+    }
+    equal_free(&first);
+    equal_free(&again);
+}
+
 void test_equal_time(struct test *t)
 {
     struct plan p;
@@ -210,8 +281,11 @@ void test_equal_time(struct test *t)
     check_samples(t);
     plant(&p, &e);
     check_files(t, &e);
+    check_family_tables(t, &e);
     check_ratios(t, &e);
     equal_free(&e);
     free(p.scene);
     check_run(t);
+    check_all_methods(t);
+    check_family_run(t);
 }

@@ -215,6 +215,21 @@ static void test_compare(struct test *t)
     CHECK(t, fabs(d.psnr - 20) < 1e-12, "psnr of one in a hundred is %g", d.psnr);
 }
 
+/* Of two errors of the same size the one that alternates is no error of means over blocks, the one that does not is. */
+static void test_blocks(struct test *t)
+{
+    enum { W = 19, H = 10, N = 3 * W * H };
+    float r[N], noise[N], shared[N];
+    for (int i = 0; i < N; i++) {
+        r[i] = 1;
+        noise[i] = (i / 3 / W + i / 3 % W) % 2 == 0 ? 1.5f : 0.5f;
+        shared[i] = i / 3 / W < 8 && i / 3 % W < 16 ? 1.5f : 9; /* beyond the last whole block nothing counts */
+    }
+    double none = compare_blocks(noise, r, W, H), all = compare_blocks(shared, r, W, H);
+    CHECK(t, none < 1e-12 && fabs(all - 0.25 / 1.01) < 1e-6, "errors of blocks: %g and %g", none, all);
+    CHECK(t, fabs(compare_blocks(noise, r, 1, 5) - 0.25 / 1.01) < 1e-6, "of one column: blocks of a pixel");
+}
+
 /* Errors of pixels, what percentile they have, and their colours. */
 static void test_heatmap(struct test *t)
 {
@@ -257,6 +272,7 @@ void test_verify(struct test *t)
     test_tiles(t);
     test_store(t);
     test_compare(t);
+    test_blocks(t);
     test_heatmap(t);
     test_level(t, 0);
     test_level(t, 0.5);

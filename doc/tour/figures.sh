@@ -70,6 +70,9 @@ done
 # The alias table, step by step.
 awk -v weights="5 1 3 2 1" -f "$tour/alias.awk" </dev/null >"$out/alias.svg"
 
+# What the methods draw from what.
+awk -f "$tour/family.awk" </dev/null >"$out/family.svg"
+
 # Squared error at equal time, from the table of doc/selection.md: 1 is bdpt.
 awk -F '|' '/^\| scene, rmse8/ { on = 1; next }
     on && /^\| [a-z-]+ \|/ && $2 !~ /geometric|worst/ {

@@ -9,6 +9,7 @@
 #include "base/mem.h"
 #include "look/colormap.h"
 #include "image/image.h"
+#include "look/sheet.h"
 
 struct difference compare_pixels(const float *x, const float *r, long n)
 {
@@ -36,6 +37,16 @@ struct difference compare_pixels(const float *x, const float *r, long n)
         d.mean_ratio = sum_r != 0 || sum_x != 0 ? sum_x / sum_r : 1;
     }
     return d;
+}
+
+double compare_blocks(const float *x, const float *r, int width, int height)
+{
+    int least = width < height ? width : height, k = least < COMPARE_BLOCK ? least : COMPARE_BLOCK;
+    float *mean_x = sheet_shrink(x, width, height, k), *mean_r = sheet_shrink(r, width, height, k);
+    double relmse = compare_pixels(mean_x, mean_r, 3L * (width / k) * (height / k)).relmse;
+    free(mean_x);
+    free(mean_r);
+    return relmse;
 }
 
 void compare_errors(const float *x, const float *r, long pixels, float *out)

@@ -24,6 +24,13 @@ struct difference {
 /* compare_pixels: x and r are [n] linear values. */
 struct difference compare_pixels(const float *x, const float *r, long n);
 
+/* compare_blocks: the relative squared error of means over blocks of 8x8 pixels, or in smaller pictures of the largest
+ * that fit: errors that pixels nearby share stay, those that they do not are divided by 64. What is left at the right
+ * and lower edge does not count.
+ *   x, r  [height*width*3] linear values */
+enum { COMPARE_BLOCK = 8 };
+double compare_blocks(const float *x, const float *r, int width, int height);
+
 /* compare_errors: of each pixel the root mean square of its channels' errors; infinite where it is not finite.
  *   x, r  [pixels*3];  out  [pixels] */
 void compare_errors(const float *x, const float *r, long pixels, float *out);

@@ -1,12 +1,14 @@
 /* cmd_experiment.c: asbdpt-lab experiment: the dissertation's measurements, repeated; and asbdpt-lab equal-time:
- * methods given the same time. */
+ * methods given the same time; and asbdpt-lab family: all of them. */
 #include <stdio.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/parallel.h"
 #include "lab/commands.h"
 #include "lab/equal_run.h"
 #include "lab/experiment.h"
+#include "lab/family.h"
 #include "lab/report.h"
 
 /* The scenes measured when none is named, the first five of them by `experiment`; the program is run from the top of
@@ -16,6 +18,12 @@ static const char *const SCENES[] = {
     "scenes/living-room.pbrt", "scenes/caustic-glass.pbrt",        "scenes/sky.pbrt",        "scenes/spot.pbrt",
     "scenes/corridor.pbrt",    "scenes/many-lights.pbrt",          "scenes/forest.pbrt"};
 enum { N_SCENES = sizeof SCENES / sizeof SCENES[0], N_PUBLISHED = 5 };
+
+/* The dissertation's models, measured by `family` where they lie beside the tree. */
+static const char *const PUBLISHED[] = {
+    "../shared/scenes/cornell-box/scene.pbrt", "../shared/scenes/cornell-box-modified/scene.pbrt",
+    "../shared/scenes/veach-ajar/scene.pbrt", "../shared/scenes/bathroom/scene.pbrt",
+    "../shared/scenes/living-room/scene.pbrt"};
 
 /* What the options say; 0 and NULL: what the preset says. */
 struct plan_options {
@@ -62,6 +70,19 @@ static const struct option EQUAL_TIME[] = {
      .help = "samples per pixel of the first method; the others are given its CPU time"},
     {"--seconds", "T", OPTION_NUMBER, AT(seconds), 0.001, 1e6, .help = "instead: the CPU time that all are given"},
     {"--seeds", "N", OPTION_INTEGER, AT(seeds), 1, PLAN_MAX_SEEDS, .fallback = "5", .help = "renders per method"},
+    {.others = SHARED},
+};
+
+static const struct option FAMILY[] = {
+    {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes), .help = "scene files (default: eleven of scenes/, five published)"},
+    {"-o", "DIR", OPTION_TEXT, AT(directory), 1,
+     .help = "a directory for its results; started again with the same, it goes on"},
+    {"--methods", "LIST", OPTION_TEXT, AT(methods), .help = METHODS_HELP " (default: all there are)"},
+    {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20,
+     .help = "samples per pixel of the first method (default: 64; --quick: 16); the others are given its CPU time"},
+    {"--seeds", "N", OPTION_INTEGER, AT(seeds), 1, PLAN_MAX_SEEDS,
+     .help = "renders per method (default: 5; --quick: 3)"},
+    {"--quick", NULL, OPTION_ON, AT(quick), .help = "at the sizes of stored references, not 160 pixels wide"},
     {.others = SHARED},
 };
 
@@ -136,6 +157,28 @@ static bool plan_equal_time(struct plan_options *o, char command[1024], struct p
     return ok;
 }
 
+static bool plan_family(struct plan_options *o, char command[1024], struct plan *p, struct error *err)
+{
+    char how[64], all[METHODS_TEXT];
+    bool scenes_given = o->scenes.n > 0;
+    for (size_t i = 0; !scenes_given && i < N_SCENES; i++)
+        texts_add(&o->scenes, SCENES[i]);
+    for (size_t i = 0; !scenes_given && i < N_PUBLISHED; i++)
+        if (file_exists(PUBLISHED[i]))
+            texts_add(&o->scenes, PUBLISHED[i]);
+    methods_all(all);
+    o->methods = o->methods != NULL ? o->methods : all;
+    o->spp = o->spp > 0 ? o->spp : o->quick ? 16 : 64;
+    o->seeds = o->seeds > 0 ? o->seeds : o->quick ? 3 : 5;
+    o->res[0] = o->res[0] > 0 || o->quick ? o->res[0] : 160;
+    o->reference_spp = o->reference_spp > 0 ? o->reference_spp : o->quick ? 512 : 2048;
+    snprintf(how, sizeof how, "family%s --spp %d", o->quick ? " --quick" : "", o->spp);
+    bool ok = begin_plan(o, N_SCENES, how, command, p, err) && plan_set_spp(p, o->spp, o->spp, err);
+    p->n_own = scenes_given ? 0 : N_SCENES;
+    p->n_threads = 1;
+    return ok;
+}
+
 /* --- the commands ------------------------------------------------------------------------------------ */
 
 static int run_experiment(void *options)
@@ -172,6 +215,22 @@ static int run_equal_time(void *options)
     return ok ? EXIT_OK : fail(&err);
 }
 
+static int run_family(void *options)
+{
+    struct plan_options *o = options;
+    struct plan plan;
+    struct error err;
+    char command[1024];
+    if (!plan_family(o, command, &plan, &err))
+        return usage_error(&command_family, "%s", err.text);
+    struct equal_time results = {.plan = &plan, .pictures = true};
+    bool ok = equal_run(&results, &err) && family_write(&results, &err);
+    if (ok && !plan.quiet)
+        printf("%s/family.md\n", plan.directory);
+    equal_free(&results);
+    return ok ? EXIT_OK : fail(&err);
+}
+
 const struct command command_experiment = {
     "experiment", "measure methods as the dissertation does", {"[SCENE.pbrt...] -o DIR [options]"}, EXPERIMENT,
     sizeof(struct plan_options), run_experiment, true, "experiment --quick -o out/experiment"};
@@ -179,3 +238,7 @@ const struct command command_experiment = {
 const struct command command_equal_time = {
     "equal-time", "give methods the same CPU time", {"[SCENE.pbrt...] -o DIR [options]"}, EQUAL_TIME,
     sizeof(struct plan_options), run_equal_time, true, "equal-time scenes/spot.pbrt -o out/equal"};
+
+const struct command command_family = {
+    "family", "give all methods the same CPU time, in all scenes", {"[SCENE.pbrt...] -o DIR [options]"}, FAMILY,
+    sizeof(struct plan_options), run_family, true, "family --quick scenes/spot.pbrt -o out/family"};

@@ -8,6 +8,7 @@
 
 #include "base/mem.h"
 #include "base/progress.h"
+#include "image/image.h"
 #include "look/sheet.h"
 #include "lab/plan_scene.h"
 #include "lab/timed.h"
@@ -30,6 +31,7 @@ bool subject_render(struct subject *s, const struct measured *m, struct equal_re
         return false;
     float *small = sheet_shrink(took.pixels, s->scene.width, s->scene.height, s->scale);
     struct difference d = compare_pixels(small, ref->pixels, 3L * ref->width * ref->height);
+    r->blocks = compare_blocks(small, ref->pixels, ref->width, ref->height);
     free(small);
     r->seconds = took.seconds;
     r->rmse8 = d.rmse8;
@@ -83,29 +85,66 @@ struct part {
     struct equal_time *whole;
     struct equal_scene *out;
     struct subject subject;
+    unsigned long probe[METHODS_MAX]; /* what the program makes of the scene, see timed_probe; 0: not asked yet */
     struct progress *bar;
     struct error *err;
 };
 
+/* The key of a render: everything its numbers depend on. */
+static void render_key(struct part *s, int method, const struct equal_render *r, char key[EQUAL_KEY])
+{
+    const struct measured *m = &s->whole->plan->methods.item[method];
+    const struct reference *ref = &s->subject.reference;
+    struct render_options o = {.integrator = m->integrator, .n_threads = 1, .max_depth = s->out->max_depth};
+    settings_clear(&s->subject.scene.settings);
+    s->subject.scene.settings = measured_settings(m, NULL);
+    if (s->probe[method] == 0)
+        s->probe[method] = timed_probe(&s->subject.scene, &o);
+    snprintf(key, EQUAL_KEY, "%s %08lx %dx%d maxdepth=%d reference=%08lx %s seed=%ld spp=%ld target=%.17g",
+             s->out->name, s->probe[method], s->out->width, s->out->height, s->out->max_depth,
+             timed_checksum(ref->pixels, ref->width, ref->height), m->text, r->seed, r->spp, r->target);
+}
+
 /* The first method's samples are given unless its time is; what it takes for them is the time of this seed. A short
  * render before it warms up what it will use. */
+static bool render(struct part *s, int method, struct equal_render *r, float **pixels)
+{
+    const struct measured *m = &s->whole->plan->methods.item[method];
+    struct equal_render warm = {.seed = r->seed, .spp = EQUAL_CALIBRATION};
+    if (r->spp == 0)
+        return subject_render_in_time(&s->subject, m, r, pixels, s->err);
+    r->growth = 1;
+    bool ok = subject_render(&s->subject, m, &warm, NULL, s->err) && subject_render(&s->subject, m, r, pixels, s->err);
+    r->target = r->seconds;
+    return ok;
+}
+
+static bool keep_picture(const struct part *s, int method, const float *pixels)
+{
+    char path[4096];
+    equal_picture(s->whole, s->out, method, path, sizeof path);
+    return image_write(path, s->out->width, s->out->height, pixels, s->err);
+}
+
+/* One kept by an earlier start, or a new one. */
 static bool measure(struct part *s, int method, int seed)
 {
     const struct plan *p = s->whole->plan;
     const struct measured *m = &p->methods.item[method];
     struct equal_render *r = &s->out->render[method][seed - 1];
-    bool given = method > 0 || s->whole->seconds > 0, ok;
+    char key[EQUAL_KEY], file[4096];
+    float *pixels = NULL;
+    bool given = method > 0 || s->whole->seconds > 0, kept = s->whole->pictures && seed == 1;
     r->seed = equal_seed(method, seed);
-    r->target = s->whole->seconds > 0 ? s->whole->seconds : s->out->render[0][seed - 1].seconds;
-    if (given) {
-        ok = subject_render_in_time(&s->subject, m, r, NULL, s->err);
-    } else {
-        struct equal_render warm = {.seed = r->seed, .spp = EQUAL_CALIBRATION};
-        r->spp = plan_last_spp(p);
-        r->growth = 1;
-        ok = subject_render(&s->subject, m, &warm, NULL, s->err) && subject_render(&s->subject, m, r, NULL, s->err);
-        r->target = r->seconds;
-    }
+    r->spp = given ? 0 : plan_last_spp(p);
+    r->target = s->whole->seconds > 0 ? s->whole->seconds : given ? s->out->render[0][seed - 1].seconds : 0;
+    render_key(s, method, r, key);
+    snprintf(file, sizeof file, "%s/runs/%s--%s--seed%d.csv", p->directory, s->out->name, m->file, seed);
+    if (equal_recall(file, key, r))
+        return true;
+    bool ok = render(s, method, r, kept ? &pixels : NULL) && (!kept || keep_picture(s, method, pixels)) &&
+              equal_keep(file, key, r, s->err);
+    free(pixels);
     progress_end(s->bar);
     if (ok && !p->quiet)
         fprintf(stderr, "%s, %s, seed %ld: %ld spp in %.3f s of CPU for %.3f s, rmse8 %.3f, relmse %.4f\n",
@@ -151,7 +190,8 @@ static bool measure_scene(struct part *s, double done)
 {
     const struct plan *p = s->whole->plan;
     int methods = p->methods.n, n = p->n_seeds * methods;
-    bool ok = find_reference(s);
+    bool ok = find_reference(s) &&
+              (!s->whole->pictures || keep_picture(s, -1, s->subject.reference.pixels));
     for (int i = 0; ok && i < n; i++) {
         progress_update(s->bar, (done + (double)i / n) / p->n_scenes);
         ok = measure(s, i % methods, i / methods + 1);
@@ -160,17 +200,28 @@ static bool measure_scene(struct part *s, double done)
     return ok;
 }
 
+static bool make_directories(const struct equal_time *e, struct error *err)
+{
+    char path[4096];
+    bool ok = file_make_directory(e->plan->directory, err);
+    for (int i = 0; ok && i < 1 + e->pictures; i++) {
+        snprintf(path, sizeof path, "%s/%s", e->plan->directory, i == 0 ? "runs" : "images");
+        ok = file_make_directory(path, err);
+    }
+    return ok;
+}
+
 bool equal_run(struct equal_time *out, struct error *err)
 {
     const struct plan *p = out->plan;
     struct progress bar;
-    bool ok = plan_names_differ(p, err) && file_make_directory(p->directory, err);
+    bool ok = plan_names_differ(p, err) && make_directories(out, err);
     out->scene = mem_alloc((size_t)p->n_scenes, sizeof *out->scene);
     progress_start(&bar, p->quiet);
     for (out->n_scenes = 0; ok && out->n_scenes < p->n_scenes;) {
         struct part s = {.whole = out, .out = &out->scene[out->n_scenes], .bar = &bar, .err = err};
         s.out->path = p->scene[out->n_scenes];
-        plan_scene_name(s.out->path, s.out->name, sizeof s.out->name);
+        plan_name(p, out->n_scenes, s.out->name);
         ok = load_scene(&s) && measure_scene(&s, out->n_scenes);
         reference_free(&s.subject.reference);
         out->n_scenes += ok;

@@ -4,6 +4,7 @@
  * seconds as were asked for. A method renders 4 samples per pixel, by which its samples are chosen; it renders them,
  * and unless that took the given time within 3 %, it renders again with the samples corrected, at most three times. The
  * render whose time is nearest counts. No choice looks at an error. Times are CPU times of the process.
+ * Renders are kept in plan->directory/runs and used again when the same is started once more.
  *
  * Tests: test_equal_time.c, test_pictures.c, test/cli.sh.
  */

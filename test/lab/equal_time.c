@@ -3,9 +3,11 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/maths.h"
 #include "base/number.h"
+#include "base/os.h"
 #include "lab/csv.h"
 #include "lab/table.h"
 
@@ -44,7 +46,8 @@ long equal_samples(long spp, double seconds, double growth, double target)
 double equal_square(const struct equal_render *r, double noise8, enum equal_error which)
 {
     double noise = isfinite(noise8) ? noise8 : 0;
-    double square = which == EQUAL_RMSE8 ? r->rmse8 * r->rmse8 - noise * noise : r->relmse;
+    double square = which == EQUAL_RMSE8 ? r->rmse8 * r->rmse8 - noise * noise :
+                    which == EQUAL_RELMSE ? r->relmse : r->blocks;
     return equal_comparable(r->seconds, r->target) ? square * m_pow(r->seconds / r->target, r->growth) : NAN;
 }
 
@@ -85,23 +88,51 @@ struct equal_summary equal_summarize(const struct equal_time *e, int method, enu
 
 /* --- files ------------------------------------------------------------------------------------------- */
 
+/* Two lines: the key, the numbers. */
+bool equal_keep(const char *path, const char *key, const struct equal_render *r, struct error *err)
+{
+    struct file_output f;
+    if (!file_create(path, &f, err))
+        return false;
+    fprintf(f.stream, "# %s\n%ld,%ld,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%ld\n", key, r->seed, r->spp, r->seconds,
+            r->target, r->growth, r->rmse8, r->relmse, r->blocks, r->nonfinite);
+    return file_commit(&f, err);
+}
+
+bool equal_recall(const char *path, const char *key, struct equal_render *r)
+{
+    char line[EQUAL_KEY + 4] = "", end = 0;
+    struct equal_render in;
+    FILE *f = os_open_input(path);
+    if (f == NULL)
+        return false;
+    size_t n = strlen(key);
+    bool ok = fgets(line, sizeof line, f) != NULL && strncmp(line, "# ", 2) == 0 && strncmp(line + 2, key, n) == 0 &&
+              strcmp(line + 2 + n, "\n") == 0 &&
+              fscanf(f, "%ld,%ld,%lf,%lf,%lf,%lf,%lf,%lf,%ld%c", &in.seed, &in.spp, &in.seconds, &in.target,
+                     &in.growth, &in.rmse8, &in.relmse, &in.blocks, &in.nonfinite, &end) == 10 && end == '\n';
+    fclose(f);
+    if (ok)
+        *r = in;
+    return ok;
+}
+
 void equal_csv(FILE *f, const struct equal_time *e)
 {
-    fputs("scene,method,seed,spp,seconds,rmse8,relmse,target_seconds,growth,reference_noise8,nonfinite\n", f);
+    fputs("scene,method,seed,spp,seconds,rmse8,relmse,relmse8x8,target_seconds,growth,reference_noise8,nonfinite\n", f);
     for (const struct equal_scene *s = e->scene; s < e->scene + e->n_scenes; s++)
         for (int v = 0; v < e->plan->methods.n; v++)
             for (const struct equal_render *r = s->render[v]; r < s->render[v] + e->plan->n_seeds; r++) {
                 csv_text(f, s->name);
-                fprintf(f, ",%s,%ld,%ld,%.9g,%.9g,%.9g,%.9g,%.9g,", e->plan->methods.item[v].text,
-                        r->seed, r->spp,
-                        r->seconds, r->rmse8, r->relmse, r->target, r->growth);
+                fprintf(f, ",%s,%ld,%ld,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,", e->plan->methods.item[v].text, r->seed, r->spp,
+                        r->seconds, r->rmse8, r->relmse, r->blocks, r->target, r->growth);
                 if (isfinite(s->noise8))
                     fprintf(f, "%.9g", s->noise8);
                 fprintf(f, ",%ld\n", r->nonfinite);
             }
 }
 
-static const char *const ERROR_NAMES[N_EQUAL_ERRORS] = {"rmse8", "relmse"};
+const char *const EQUAL_NAMES[N_EQUAL_ERRORS] = {"rmse8", "relmse", "8x8"};
 
 /* The columns: the scene, T, samples per pixel, and for each method but the first both ratios. */
 static void begin_table(struct table *t, const struct equal_time *e)
@@ -114,7 +145,7 @@ static void begin_table(struct table *t, const struct equal_time *e)
     table_column(t, "spp of each");
     for (int v = 1; v < e->plan->methods.n; v++)
         for (int k = 0; k < N_EQUAL_ERRORS; k++)
-            table_column(t, "%s, %s", e->plan->methods.item[v].text, ERROR_NAMES[k]);
+            table_column(t, "%s, %s", e->plan->methods.item[v].text, EQUAL_NAMES[k]);
 }
 
 /* A scene: means over seeds of T and of the samples, then the ratios. */
@@ -186,17 +217,11 @@ static void write_times(FILE *f, const struct equal_time *e)
     }
 }
 
-void equal_table(FILE *f, const struct equal_time *e)
+void equal_notes(FILE *f, const struct equal_time *e)
 {
-    struct table t;
-    begin_table(&t, e);
-    for (const struct equal_scene *s = e->scene; s < e->scene + e->n_scenes; s++)
-        add_scene(&t, e, s);
-    add_summaries(&t, e);
-    table_markdown(f, &t);
-    table_free(&t);
     fputs("rmse8: of the squared error of 8-bit values, that of the reference itself subtracted where known; relmse: "
-          "of the relative squared error of linear values as it stands. One thread. "
+          "of the relative squared error of linear values as it stands; 8x8: the same of means over 8x8 pixels, which "
+          "pixels that err together do not hide. One thread. "
           "The samples per pixel were chosen by the time they take, with all that is prepared; what still differed "
           "between the time t taken and the given T is accounted for by error^2(T) = error^2(t) (t / T)^growth, growth "
           "being that of samples over time as measured.\n\n",
@@ -206,8 +231,26 @@ void equal_table(FILE *f, const struct equal_time *e)
     plan_write_command(f, e->plan);
 }
 
-static bool write_file(const struct equal_time *e, const char *name, void (*write)(FILE *, const struct equal_time *),
-                       struct error *err)
+void equal_table(FILE *f, const struct equal_time *e)
+{
+    struct table t;
+    begin_table(&t, e);
+    for (const struct equal_scene *s = e->scene; s < e->scene + e->n_scenes; s++)
+        add_scene(&t, e, s);
+    add_summaries(&t, e);
+    table_markdown(f, &t);
+    table_free(&t);
+    equal_notes(f, e);
+}
+
+void equal_picture(const struct equal_time *e, const struct equal_scene *s, int method, char *out, size_t size)
+{
+    snprintf(out, size, "%s/images/%s-%s.pfm", e->plan->directory, s->name,
+             method < 0 ? "reference" : e->plan->methods.item[method].file);
+}
+
+bool equal_write_file(const struct equal_time *e, const char *name, void (*write)(FILE *, const struct equal_time *),
+                      struct error *err)
 {
     struct file_output f;
     if (!plan_create(e->plan, name, &f, err))
@@ -218,5 +261,6 @@ static bool write_file(const struct equal_time *e, const char *name, void (*writ
 
 bool equal_write(const struct equal_time *e, struct error *err)
 {
-    return write_file(e, "equal-time.csv", equal_csv, err) && write_file(e, "equal-time.md", equal_table, err);
+    return equal_write_file(e, "equal-time.csv", equal_csv, err) &&
+           equal_write_file(e, "equal-time.md", equal_table, err);
 }

@@ -7,7 +7,7 @@
  * where growth is measured between two renders: 1 where every sample costs the same, more where something has to be
  * paid before the first.
  *
- * Files: equal-time.csv has one line per scene, method and seed; equal-time.md the table.
+ * Files: equal-time.csv has one line per scene, method and seed; equal-time.md the table; runs/ holds finished renders.
  *
  * Tests: test_equal_time.c.
  */
@@ -23,6 +23,7 @@ struct equal_render {
     double target;        /* T */
     double growth;        /* d ln samples / d ln time nearby */
     double rmse8, relmse; /* measured after `seconds` */
+    double blocks;        /* see compare_blocks */
     long nonfinite;       /* values that could not be compared */
 };
 
@@ -39,6 +40,7 @@ struct equal_time {
     double seconds;            /* T; 0: what the first takes for its samples */
     struct equal_scene *scene; /* [n_scenes], owned */
     int n_scenes;              /* done so far */
+    bool pictures;             /* keep those of the first seeds and of the references, as equal_picture says */
 };
 
 /* The first guess at the samples is made by the time that so few take; a time so near to the given one is met. One
@@ -60,10 +62,11 @@ double equal_growth(long spp0, double seconds0, long spp1, double seconds1);
  * has this growth there: farther away the law of powers would overshoot. */
 long equal_samples(long spp, double seconds, double growth, double target);
 
-enum equal_error { EQUAL_RMSE8, EQUAL_RELMSE, N_EQUAL_ERRORS };
+enum equal_error { EQUAL_RMSE8, EQUAL_RELMSE, EQUAL_BLOCKS, N_EQUAL_ERRORS };
+extern const char *const EQUAL_NAMES[N_EQUAL_ERRORS];
 
 /* equal_square: the squared error of a render at T: rmse8^2 - noise8^2, the reference's own error being no fault of
- * the render; relmse as it is. NaN if the time is not comparable. */
+ * the render; the others as they are. NaN if the time is not comparable. */
 double equal_square(const struct equal_render *r, double noise8, enum equal_error which);
 
 /* equal_ratio: mean over seeds of a method's squared error over that of the first, with the interval of results_ratio.
@@ -79,10 +82,23 @@ struct equal_summary {
 };
 struct equal_summary equal_summarize(const struct equal_time *e, int method, enum equal_error which);
 
-void equal_csv(FILE *f, const struct equal_time *e);
-void equal_table(FILE *f, const struct equal_time *e); /* Markdown */
+/* equal_keep: keep a render in a file, with a key that says all that its numbers depend on. equal_recall: read it back;
+ * false, without a message, when there is no such file, its key differs or it is damaged. */
+enum { EQUAL_KEY = 1024 }; /* a key has fewer characters */
+bool equal_keep(const char *path, const char *key, const struct equal_render *r, struct error *err);
+bool equal_recall(const char *path, const char *key, struct equal_render *r);
 
-/* equal_write: both files, into plan->directory. Returns false with a message. */
+void equal_csv(FILE *f, const struct equal_time *e);
+void equal_table(FILE *f, const struct equal_time *e); /* Markdown: the table and its notes */
+void equal_notes(FILE *f, const struct equal_time *e); /* how the numbers came to be */
+
+/* equal_picture: images/..., below the plan's directory; of the reference if the method is below 0. */
+void equal_picture(const struct equal_time *e, const struct equal_scene *s, int method, char *out, size_t size);
+
+/* equal_write_file: what `write` writes, as a file of plan->directory. equal_write: both files. Both return false with
+ * a message. */
+bool equal_write_file(const struct equal_time *e, const char *name, void (*write)(FILE *, const struct equal_time *),
+                      struct error *err);
 bool equal_write(const struct equal_time *e, struct error *err);
 
 void equal_free(struct equal_time *e);

@@ -10,7 +10,6 @@
 #include "base/os.h"
 #include "base/progress.h"
 #include "image/image.h"
-#include "image/zlib.h"
 #include "lab/plan_scene.h"
 #include "lab/timed.h"
 #include "look/compare.h"
@@ -32,7 +31,7 @@ struct scene_experiment {
     struct experiment *whole;
     struct scene scene;
     struct scene_results *out;
-    unsigned long probe[METHODS_MAX]; /* what the program makes of the scene, see probe; 0: not asked yet */
+    unsigned long probe[METHODS_MAX]; /* what the program makes of the scene, see timed_probe; 0: not asked yet */
 };
 
 static bool show_progress(void *context, double done)
@@ -85,20 +84,14 @@ static bool make_directories(const struct plan *p, struct error *err)
 
 static unsigned long crc_of(const float *pixels, const struct scene_results *r)
 {
-    return checksum_crc32(0, (const uint8_t *)pixels, (size_t)r->width * (size_t)r->height * 3 * sizeof *pixels);
+    return timed_checksum(pixels, r->width, r->height);
 }
 
-/* Checksum of a picture of one sample per pixel: it changes when the scene, its files or the program do, so that
- * results of another scene or another version of a method are not taken for this one's. 0 when it cannot be rendered,
- * which the run itself will report. */
 static unsigned long probe(struct scene_experiment *s, int method)
 {
     struct render_options o = options_of(s, method, 0, 1);
-    struct timed picture;
-    if (s->probe[method] == 0 && timed_render(&s->scene, &o, &picture, NULL)) {
-        s->probe[method] = crc_of(picture.pixels, s->out);
-        free(picture.pixels);
-    }
+    if (s->probe[method] == 0)
+        s->probe[method] = timed_probe(&s->scene, &o);
     return s->probe[method];
 }
 
@@ -122,8 +115,9 @@ static void measure(const struct scene_experiment *s, const struct film *film, l
     free(*pixels);
     *pixels = timed_develop(&s->scene, film);
     struct difference d = compare_pixels(*pixels, s->out->reference.pixels, (long)s->out->width * s->out->height * 3);
+    double blocks = compare_blocks(*pixels, s->out->reference.pixels, s->out->width, s->out->height);
     struct run_step step = {spp,
-                            {seconds, d.rmse, d.rmse8, d.relmse, d.mean_ratio - 1},
+                            {seconds, d.rmse, d.rmse8, d.relmse, blocks, d.mean_ratio - 1},
                             d.nonfinite + film->nonfinite};
     *out = step;
 }
@@ -313,7 +307,7 @@ static void name_scenes(const struct plan *p, struct results *r)
         struct scene_results *s = &r->scene[i];
         s->plan = p;
         s->path = p->scene[i];
-        plan_scene_name(s->path, s->name, sizeof s->name);
+        plan_name(p, i, s->name);
     }
 }
 

@@ -44,6 +44,10 @@ struct methods {
  * method is given twice. */
 bool methods_read(const char *text, struct methods *out, struct error *err);
 
+/* methods_all: such a list of all there are, METHOD_REFERENCE first. */
+enum { METHODS_TEXT = 1024 };
+void methods_all(char out[METHODS_TEXT]);
+
 /* methods_find: the number of the method of that text, or -1. */
 int methods_find(const struct methods *list, const char *text);
 

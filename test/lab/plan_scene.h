@@ -31,6 +31,10 @@ enum { WIDTH_WITHOUT_REFERENCE = 48 };
 bool plan_scene_load(const struct plan *p, const char *path, const char *name, struct scene *scene, int *depth,
                      struct reference *stored, struct error *err);
 
+/* plan_name: what the plan calls its scene i. */
+enum { PLAN_NAME = 256 };
+void plan_name(const struct plan *p, int i, char out[PLAN_NAME]);
+
 /* plan_names_differ: no two scenes of the plan have the same name, under which their results are kept. False with a
  * message. */
 bool plan_names_differ(const struct plan *p, struct error *err);

@@ -12,7 +12,7 @@
 #include "base/os.h"
 #include "lab/stats.h"
 
-static const char *const NAMES[N_QUANTITIES] = {"seconds", "rmse", "rmse8", "relmse", "mean_error"};
+static const char *const NAMES[N_QUANTITIES] = {"seconds", "rmse", "rmse8", "relmse", "relmse8x8", "mean_error"};
 
 void results_free(struct results *r)
 {

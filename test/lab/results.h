@@ -23,6 +23,7 @@ enum quantity {
     Q_RMSE,       /* linear */
     Q_RMSE8,      /* 8-bit sRGB */
     Q_RELMSE,     /* relative squared error */
+    Q_BLOCKS,     /* the same of means over blocks of 8x8 pixels, see compare_blocks */
     Q_MEAN_ERROR, /* mean of image over mean of reference, less 1 */
     N_QUANTITIES
 };
