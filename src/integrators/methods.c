@@ -4,6 +4,7 @@
 
 #include "integrators/method.h"
 #include "learning/learnt_file.h"
+#include "transport/caustic.h"
 
 extern const struct method method_pt, method_lt, method_bdpt, method_bins, method_pool, method_vertices,
     method_subspaces, method_lvc, method_cbdpt;
@@ -99,6 +100,8 @@ bool method_prepare(const struct method *m, const struct render_job *job, struct
         method_release(out);
         return false;
     }
+    if (job->caustics > 0)
+        f->counts.caustics = out->caustics = caustics_new(job->scene, job->caustics);
     if (m->prepare != NULL)
         m->prepare(job, out);
     if (m->learnt != NULL && job->learnt != NULL && job->learnt->n == 0 && m->learnt(out->state)->eye.n > 0)
@@ -111,6 +114,7 @@ void method_release(struct preparation *p)
     if (p->method->release != NULL)
         p->method->release(p->state);
     free(p->state);
+    caustics_free(p->caustics);
 }
 
 void *method_scratch(const struct preparation *p)

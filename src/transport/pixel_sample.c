@@ -1,6 +1,8 @@
 /* pixel_sample.c: see pixel_sample.h. */
 #include "transport/pixel_sample.h"
 
+#include "transport/caustic.h"
+
 /* --- sub-paths --------------------------------------------------------------------------------------- */
 
 static uint64_t pixel_number(const struct scene *scene, int x, int y)
@@ -22,8 +24,8 @@ struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struc
 {
     const struct render_job *job = pass->job;
     struct sampler points = stream(job, job->seed, RNG_CONNECT, x, y, (uint64_t)iteration);
-    struct pixel_sample sample = {job->scene, counts, pass->tile, job->max_depth, x, y, 1, 1, points, rgb_black(),
-                             trace_watches(pass->trace, x, y, iteration)};
+    struct pixel_sample sample = {job->scene, counts, pass->tile, job->max_depth, x, y, 1, 1, &pass->work->arena, points,
+                             rgb_black(), trace_watches(pass->trace, x, y, iteration)};
     return sample;
 }
 
@@ -89,8 +91,25 @@ static void sum_direct(struct pixel_sample *sample, const struct vertex *z, int 
 
 static void sum_hit(struct pixel_sample *sample, const struct vertex *eye, int t)
 {
+    const struct caustics *caustics = sample->counts->caustics;
     struct connection c = connect_hit(sample->scene, sample->counts, &eye[t - 2], &eye[t - 1], t);
+    if (caustics != NULL && !rgb_is_black(c.value)) {
+        double share = caustic_hit_share(sample->scene, caustics, sample->arena, eye, t);
+        c.weight = share < 1 ? share : c.weight;
+    }
     contribute(sample, &c, 0, t, NULL, NO_CHOICE);
+}
+
+/* Caustic connections end k vertices later, but the eye sub-path has none of these. */
+static void sum_caustics(struct pixel_sample *sample, const struct vertex *z, int t)
+{
+    struct caustic_connection made[CAUSTIC_KINDS];
+    if (z->eye_end != FIRST_HIT || !vertex_connectible(z))
+        return;
+    int n = caustic_connect(sample->scene, sample->counts->caustics, sample->arena, z, &sample->sampler,
+                            sample->max_depth + 1 - t, made);
+    for (int i = 0; i < n; i++)
+        contribute(sample, &made[i].c, 1, t + made[i].k, NULL, NO_CHOICE);
 }
 
 void pixel_sum_eye(struct pixel_sample *sample, const struct vertex *eye, int n)
@@ -101,6 +120,8 @@ void pixel_sum_eye(struct pixel_sample *sample, const struct vertex *eye, int n)
             sum_hit(sample, eye, t);
         if (sample->counts->direct[FIRST_HIT] > 0 && t <= sample->max_depth + 1 && z->kind == VERTEX_SURFACE)
             sum_direct(sample, z, t);
+        if (sample->counts->caustics != NULL && z->kind == VERTEX_SURFACE)
+            sum_caustics(sample, z, t);
     }
 }
 
@@ -145,11 +166,15 @@ static void splat(struct pixel_sample *sample, const struct connection *c, int s
 
 void pixel_splat_path(struct pixel_sample *sample, const struct vertex *light, int n_light, double scale)
 {
+    const struct caustics *caustics = sample->counts->caustics;
     double each = scale / sample->counts->splat;
     if (sample->trace != NULL)
         trace_light_path(sample->trace, light, n_light);
     for (int s = 2; s <= n_light && s <= sample->max_depth + 1; s++) {
         struct connection c = connect_lens(sample->scene, sample->counts, light, s, &sample->sampler);
+        if (caustics != NULL && !rgb_is_black(c.value) &&
+            caustic_makes(sample->scene, caustics, sample->arena, light, s))
+            c.value = rgb_black();
         if (!rgb_is_black(c.value))
             splat(sample, &c, s, light, each);
         else if (sample->trace != NULL)
