@@ -49,6 +49,7 @@ static void classify(const struct scene *scene, struct caustics *c, struct arena
     if (group->material < 0)
         return;
     some_point(&scene->geo, group->first_prim, middle, &at);
+    c->curved[g] = length2(shape_normal_change(&scene->geo, &at, frame_from_normal(at.ng).s)) > 0;
     material_bsdf(scene->material, group->material, &scene->textures, &at, arena, &bsdf);
     for (int i = 0; i < bsdf.n_lobes; i++) {
         enum lobe_kind kind = bsdf.lobe[i].kind;
@@ -67,13 +68,13 @@ struct caustics *caustics_new(const struct scene *scene, int longest)
 {
     struct caustics *c = mem_alloc(1, sizeof *c);
     struct arena arena = {NULL, NULL};
-    vec3 *middle = middles(&scene->geo);
+    c->middle = middles(&scene->geo);
     c->longest = longest;
+    c->curved = mem_alloc((size_t)scene->geo.n_groups, sizeof *c->curved);
     c->lets_through = mem_alloc((size_t)scene->geo.n_groups, sizeof *c->lets_through);
     for (int g = 0; g < scene->geo.n_groups; g++)
-        classify(scene, c, &arena, g, middle[g]);
+        classify(scene, c, &arena, g, c->middle[g]);
     arena_free(&arena);
-    free(middle);
     if (c->n_mirrors > 0 || c->any_through)
         return c;
     caustics_free(c);
@@ -83,6 +84,8 @@ struct caustics *caustics_new(const struct scene *scene, int longest)
 void caustics_free(struct caustics *c)
 {
     if (c != NULL) {
+        free(c->middle);
+        free(c->curved);
         free(c->lets_through);
         free(c->mirror);
     }
@@ -94,6 +97,7 @@ void caustics_free(struct caustics *c)
 /* What a chain is looked for in, and between what. */
 struct quest {
     const struct scene *scene;
+    const struct mis_counts *counts;
     const struct caustics *caustics;
     struct arena *arena;
     const struct vertex *z;
@@ -110,7 +114,8 @@ struct chain {
     vec3 p, d, dp[2], dd[2]; /* the last edge, and its derivatives */
     uint32_t prim_id;
     rgb kappa;
-    double choice; /* probability that a walk takes these lobes */
+    double choice; /* probability that a walk takes these lobes, either way */
+    double eta;    /* index of refraction here, relative to z's */
 };
 
 static int group_at(const struct scene *scene, const struct surface *at)
@@ -164,6 +169,7 @@ static bool scatter(const struct quest *q, struct chain *c, const struct surface
     turn(c, q->scene, at, &s, transmit);
     c->kappa = rgb_mul(c->kappa, s.f);
     c->choice *= s.pdf;
+    c->eta *= s.eta;
     return true;
 }
 
@@ -172,7 +178,7 @@ static bool shoot(const struct quest *q, vec3 w, struct chain *c)
 {
     const struct frame f = frame_from_normal(w);
     struct chain start = {.w = w, .p = q->z->p, .d = w, .dd = {f.s, f.t}, .prim_id = q->z->prim_id,
-                          .kappa = rgb_grey(1), .choice = 1};
+                          .kappa = rgb_grey(1), .choice = 1, .eta = 1};
     *c = start;
     for (int i = 0; i < q->k; i++) {
         struct ray ray = {c->p, c->d, ray_margin(c->p), INFINITY, c->prim_id, 0};
@@ -247,14 +253,14 @@ static bool search(const struct quest *q, vec3 w, struct chain *c)
     return false;
 }
 
-/* How many surfaces that let light through lie between z and y; 0 if there are none, too many, or others. */
-static int pierced(const struct quest *q, vec3 *w)
+/* How many surfaces that let light through lie between z and y; 0 if there are none, too many, or others. The first is
+ * of the group, and *p on it. */
+static int pierced(const struct quest *q, int *group, vec3 *p)
 {
     const struct vertex *z = q->z;
     vec3 to = q->parallel ? q->y->w : sub(q->y->p, z->p);
     double left = length(to);
-    *w = mul(to, 1 / left);
-    struct ray ray = {z->p, *w, ray_margin(z->p), INFINITY, z->prim_id, q->y->prim_id};
+    struct ray ray = {z->p, mul(to, 1 / left), ray_margin(z->p), INFINITY, z->prim_id, q->y->prim_id};
     for (int k = 0;; k++) {
         struct surface at;
         ray.tmax = q->parallel ? INFINITY : left - ray_margin(q->y->p);
@@ -262,6 +268,10 @@ static int pierced(const struct quest *q, vec3 *w)
             return k;
         if (k == q->caustics->longest || !q->caustics->lets_through[group_at(q->scene, &at)])
             return 0;
+        if (k == 0) {
+            *group = group_at(q->scene, &at);
+            *p = at.p;
+        }
         left -= length(sub(at.p, ray.o));
         ray.o = at.p;
         ray.tmin = ray_margin(at.p);
@@ -269,21 +279,45 @@ static int pierced(const struct quest *q, vec3 *w)
     }
 }
 
-static struct quest quest_for(const struct scene *scene, const struct caustics *caustics, struct arena *arena,
+static struct quest quest_for(const struct scene *scene, const struct mis_counts *counts, struct arena *arena,
                               const struct vertex *z, const struct light_point *y)
 {
     bool parallel = y->light < 0 || light_at_infinity(&scene->lights.light[y->light]);
-    struct quest q = {scene, caustics, arena, z, y, parallel, -1, 0};
+    struct quest q = {scene, counts, counts->caustics, arena, z, y, parallel, -1, 0};
     return q;
 }
 
-/* Psi: the chain through, or by mirror number m. */
-static bool psi_through(struct quest *q, struct chain *c)
+static bool same_chain(vec3 from, const vec3 *x, int k, const struct chain *c)
 {
-    vec3 w;
+    for (int i = 0; i < k; i++) {
+        vec3 p = x[i];
+        if (!(length(sub(p, c->at[i])) < 1e-4 * length(sub(p, from))))
+            return false;
+        from = p;
+    }
+    return true;
+}
+
+/* Psi: the chains through, at most CAUSTIC_STARTS of them; or that by mirror number m. */
+static int psi_through(struct quest *q, struct chain found[CAUSTIC_STARTS])
+{
+    int group, n = 0;
+    vec3 p;
     q->group = -1;
-    q->k = q->caustics->any_through ? pierced(q, &w) : 0;
-    return q->k > 0 && search(q, w, c);
+    q->k = q->caustics->any_through ? pierced(q, &group, &p) : 0;
+    if (q->k == 0)
+        return 0;
+    vec3 middle = q->caustics->middle[group];
+    vec3 axis = normalize(sub(middle, q->z->p)), out = sub(p, middle);
+    vec3 side = mul(normalize(sub(out, mul(axis, dot(out, axis)))), length(out) / 2);
+    const vec3 start[CAUSTIC_STARTS] = {p, add(middle, side), sub(middle, side)};
+    for (int i = 0; i < (q->caustics->curved[group] ? CAUSTIC_STARTS : 1); i++) {
+        bool known = !search(q, normalize(sub(start[i], q->z->p)), &found[n]);
+        for (int j = 0; j < n && !known; j++)
+            known = same_chain(q->z->p, found[n].at, q->k, &found[j]);
+        n += !known;
+    }
+    return n;
 }
 
 static bool psi_mirror(struct quest *q, int m, struct chain *c)
@@ -294,140 +328,154 @@ static bool psi_mirror(struct quest *q, int m, struct chain *c)
     return search(q, normalize(sub(mirror->middle, q->z->p)), c);
 }
 
-/* --- the strategy ------------------------------------------------------------------------------------ */
+/* --- the strategy, and the others that make its paths -------------------------------------------------- */
 
-/* Density of the same path by s = 0, as one of y: what z and the delta lobes choose, over the light's size. */
-static double hit_density(const struct quest *q, const struct chain *c, double cos_y)
-{
-    if (q->y->light >= 0 && light_is_delta(&q->scene->lights.light[q->y->light]))
-        return 0;
-    struct bsdf_value f = bsdf_eval(&q->z->bsdf, q->z->wo, c->w, RADIANCE);
-    return f.pdf * c->choice * cos_y / area_of(q, c);
-}
+/* Densities of a path of Psi, each times the number of samples: by caustic connection, by s = 0 and by t = 1, all as if
+ * y and, for the last, z were drawn and the rest followed. */
+struct makers {
+    double connect, hit, splat;
+};
 
-static double cosine_at(const struct quest *q, const struct chain *c)
-{
-    bool area = q->y->light >= 0 && q->scene->lights.light[q->y->light].kind == LIGHT_AREA;
-    return area ? abs_dot(q->y->n, c->d) : 1;
-}
-
-/* Density of y by caustic connection: if an infinite light, by any of these, which an escaping ray cannot tell apart. */
-static double connect_density(const struct quest *q)
+/*   lens  density of z per area by the walk from the lens, where t = 1 can make the path; else 0
+ * J is the same both ways but for the squared ratio of the refractive indices at the ends. */
+static struct makers makers_of(const struct quest *q, const struct chain *c, double lens)
 {
     const struct light_set *lights = &q->scene->lights;
-    bool sky = q->y->light >= 0 && lights->light[q->y->light].kind == LIGHT_INFINITE;
-    double pdf = sky ? light_pdf_environment(lights, q->y->w) : q->y->pdf;
-    return q->group < 0 ? pdf : pdf / q->caustics->n_mirrors;
+    const struct light_point *y = q->y;
+    const struct light *light = y->light >= 0 ? &lights->light[y->light] : NULL; /* NULL: infinite, as yet unknown */
+    bool delta = light != NULL && light_is_delta(light), sky = light == NULL || light->kind == LIGHT_INFINITE;
+    double J = area_of(q, c), cos_y = light != NULL && light->kind == LIGHT_AREA ? abs_dot(y->n, c->d) : 1;
+    double pdf_y = sky ? light_pdf_environment(lights, y->w) : y->pdf; /* of any infinite light, as escaping rays see it */
+    double walked = lens > 0 ? lens : 1;
+    struct makers m = {walked * pdf_y * (q->group < 0 ? 1 : 1.0 / q->caustics->n_mirrors), 0, 0};
+    if (!delta)
+        m.hit = q->counts->hit[LATER_HIT] * walked * c->choice * cos_y / J *
+                bsdf_eval(&q->z->bsdf, q->z->wo, c->w, RADIANCE).pdf;
+    if (lens > 0)
+        m.splat = q->counts->splat * pdf_y * c->choice * abs_dot(q->z->ng, c->w) / (J * sqr(c->eta)) *
+                  (sky ? 1 / (PI * sqr(lights->radius)) : light_pdf_emission(lights, y, neg(c->d)));
+    return m;
 }
 
-static struct connection contribution(const struct quest *q, const struct chain *c)
+static double share(const struct quest *q, double own, struct makers m)
+{
+    const struct mis_counts *n = q->counts;
+    return mis_raise(n, own) / (mis_raise(n, m.connect) + mis_raise(n, m.hit) + mis_raise(n, m.splat));
+}
+
+static struct connection contribution(const struct quest *q, const struct chain *c, double lens)
 {
     const struct scene *scene = q->scene;
     const struct vertex *z = q->z;
-    struct connection out = {.light = q->y->light, .cell = q->y->cell, .end = q->parallel ? q->y->w : q->y->p};
-    double cos_y = cosine_at(q, c), chosen = q->group < 0 ? 1 : 1.0 / q->caustics->n_mirrors;
-    rgb Le = light_Le(&scene->lights, q->y, neg(c->d));
-    struct bsdf_value f = bsdf_eval(&z->bsdf, z->wo, c->w, RADIANCE);
-    out.pdf = q->y->pdf;
-    out.value = rgb_mul(rgb_mul(z->beta, f.f), rgb_mul(c->kappa, Le));
-    out.value = rgb_scale(out.value, scatter_cosine(z, c->w, RADIANCE) * cos_y / (area_of(q, c) * q->y->pdf * chosen));
-    if (rgb_is_black(out.value) || !rgb_is_finite(out.value))
-        out.value = rgb_black();
-    else if (q->parallel ? !scene_lit_from(scene, c->p, c->prim_id, c->d)
-                         : !scene_lit(scene, c->p, c->prim_id, q->y->p, q->y->prim_id))
-        out.value = rgb_black();
-    double own = connect_density(q);
-    out.weight = own / (own + hit_density(q, c, cos_y));
+    struct connection out = {.light = q->y->light, .cell = q->y->cell, .end = q->parallel ? q->y->w : q->y->p,
+                             .pdf = q->y->pdf};
+    bool area = scene->lights.light[q->y->light].kind == LIGHT_AREA;
+    double cosines = scatter_cosine(z, c->w, RADIANCE) * (area ? abs_dot(q->y->n, c->d) : 1);
+    double chosen = q->group < 0 ? 1 : 1.0 / q->caustics->n_mirrors;
+    rgb Le = light_Le(&scene->lights, q->y, neg(c->d)), f = bsdf_eval(&z->bsdf, z->wo, c->w, RADIANCE).f;
+    rgb value = rgb_scale(rgb_mul(rgb_mul(z->beta, f), rgb_mul(c->kappa, Le)),
+                          cosines / (area_of(q, c) * q->y->pdf * chosen));
+    if (rgb_is_black(value) || !rgb_is_finite(value))
+        return out;
+    if (q->parallel ? scene_lit_from(scene, c->p, c->prim_id, c->d)
+                    : scene_lit(scene, c->p, c->prim_id, q->y->p, q->y->prim_id))
+        out.value = value;
+    struct makers m = makers_of(q, c, lens);
+    out.weight = share(q, m.connect, m);
     return out;
 }
 
-int caustic_connect(const struct scene *scene, const struct caustics *caustics, struct arena *arena,
-                    const struct vertex *z, struct sampler *sampler, int room,
-                    struct caustic_connection out[CAUSTIC_KINDS])
+int caustic_connect(const struct scene *scene, const struct mis_counts *counts, struct arena *arena,
+                    const struct vertex *z, int t, struct sampler *sampler, int room,
+                    struct caustic_connection out[CAUSTIC_MOST])
 {
-    double u[3];
+    double u[3], lens = t == 2 ? z->pdf_fwd : 0;
     struct light_point y;
-    struct chain c;
-    int n = 0;
+    struct chain c[CAUSTIC_MOST];
     u[0] = sampler_number(sampler, DRAW_LIGHT);
     sampler_pair(sampler, DRAW_LIGHT_POINT, &u[1]);
     if (room < 1 || !light_sample_point(&scene->lights, &scene->geo, u, &y) || !(y.pdf > 0))
         return 0;
-    struct quest q = quest_for(scene, caustics, arena, z, &y);
-    if (psi_through(&q, &c) && q.k <= room) {
-        out[n].c = contribution(&q, &c);
+    struct quest q = quest_for(scene, counts, arena, z, &y);
+    int n = 0, through = psi_through(&q, c);
+    for (int i = 0; i < through && q.k <= room; i++) {
+        out[n].c = contribution(&q, &c[i], lens);
         out[n++].k = q.k;
     }
-    if (caustics->n_mirrors == 0)
-        return n;
-    int m = (int)(sampler_number(sampler, DRAW_LIGHT_END) * caustics->n_mirrors);
-    if (psi_mirror(&q, m, &c)) {
-        out[n].c = contribution(&q, &c);
+    int mirrors = q.caustics->n_mirrors;
+    if (mirrors > 0 && psi_mirror(&q, (int)(sampler_number(sampler, DRAW_LIGHT_END) * mirrors), c)) {
+        out[n].c = contribution(&q, c, lens);
         out[n++].k = q.k;
     }
     return n;
 }
 
-/* --- the partition ----------------------------------------------------------------------------------- */
-
 /* Is the chain of a path in Psi? Its k vertices are x, x[step] ... from z on. */
 static bool in_psi(struct quest *q, const struct vertex *x, int step, int k, struct chain *c)
 {
-    vec3 next = k > 1 ? sub(x[step].p, x->p) : q->parallel ? q->y->w : sub(q->y->p, x->p);
-    bool found = false;
-    if (dot(x->ng, next) * dot(x->ng, sub(q->z->p, x->p)) < 0) {
-        found = psi_through(q, c);
-    } else {
-        int m = 0, group = (int)(shape_group_of(&q->scene->geo, (int)(x->prim_id - 1)) - q->scene->geo.group);
-        while (m < q->caustics->n_mirrors && q->caustics->mirror[m].group != group)
-            m++;
-        found = m < q->caustics->n_mirrors && psi_mirror(q, m, c);
-    }
-    vec3 from = q->z->p;
-    found = found && q->k == k;
-    for (int i = 0; found && i < k; i++) {
-        vec3 p = x[i * step].p;
-        found = length(sub(p, c->at[i])) < 1e-4 * length(sub(p, from));
-        from = p;
-    }
-    return found;
+    const struct caustics *caustics = q->caustics;
+    struct chain found[CAUSTIC_MOST];
+    vec3 p[CAUSTIC_LONGEST];
+    int n = 0, m = 0, group = (int)(shape_group_of(&q->scene->geo, (int)(x->prim_id - 1)) - q->scene->geo.group);
+    for (int i = 0; i < k; i++)
+        p[i] = x[i * step].p;
+    vec3 next = k > 1 ? sub(p[1], p[0]) : q->parallel ? q->y->w : sub(q->y->p, p[0]);
+    while (m < caustics->n_mirrors && caustics->mirror[m].group != group)
+        m++;
+    if (dot(x->ng, next) * dot(x->ng, sub(q->z->p, p[0])) < 0)
+        n = psi_through(q, found);
+    else if (m < caustics->n_mirrors)
+        n = psi_mirror(q, m, found);
+    for (int i = 0; i < n && q->k == k; i++)
+        if (same_chain(q->z->p, p, k, &found[i])) {
+            *c = found[i];
+            return true;
+        }
+    return false;
 }
 
-double caustic_hit_share(const struct scene *scene, const struct caustics *caustics, struct arena *arena,
-                         const struct vertex *eye, int t)
+bool caustic_weigh_hit(const struct scene *scene, const struct mis_counts *counts, struct arena *arena,
+                       const struct vertex *eye, int t, double *weight)
 {
-    const struct vertex *end = &eye[t - 1];
-    int k = 0;
-    while (end[-k].prev_delta)
-        k++;
-    const struct vertex *z = end - k - 1;
-    if (k == 0 || k > caustics->longest || z->kind != VERTEX_SURFACE || z->eye_end != FIRST_HIT)
-        return 1;
-    const struct vertex *lamp = end->lamp != NULL ? end->lamp : end;
-    if (lamp->kind == VERTEX_SURFACE && lamp->light < 0)
-        return 1;
-    struct light_point y = vertex_light_point(lamp);
-    y.w = neg(lamp->wo);
-    y.pdf = lamp->pdf_origin;
-    struct quest q = quest_for(scene, caustics, arena, z, &y);
+    const struct vertex *end = &eye[t - 1], *z = end - 1;
+    while (z[1].prev_delta)
+        z--;
+    int k = (int)(end - z) - 1;
+    end = end->lamp != NULL ? end->lamp : end;
+    if (k == 0 || k > counts->caustics->longest || z->kind != VERTEX_SURFACE || z->eye_end != FIRST_HIT)
+        return false;
+    struct light_point y = vertex_light_point(end);
+    y.w = neg(end->wo);
+    y.pdf = end->pdf_origin;
+    struct quest q = quest_for(scene, counts, arena, z, &y);
     struct chain c;
     if (!in_psi(&q, z + 1, 1, k, &c))
-        return 1;
-    double own = hit_density(&q, &c, cosine_at(&q, &c));
-    return own / (own + connect_density(&q));
+        return false;
+    struct makers m = makers_of(&q, &c, z == &eye[1] ? z->pdf_fwd : 0);
+    *weight = share(&q, m.hit, m);
+    return true;
 }
 
-bool caustic_makes(const struct scene *scene, const struct caustics *caustics, struct arena *arena,
-                   const struct vertex *light, int s)
+bool caustic_weigh_lens(const struct scene *scene, const struct mis_counts *counts, struct arena *arena,
+                        const struct vertex *light, int s, vec3 lens, double *weight)
 {
+    const struct vertex *z = &light[s - 1];
     int k = s - 2;
-    if (k < 1 || k > caustics->longest)
-        return false;
     for (int i = 2; i < s; i++)
         if (!light[i].prev_delta)
-            return false;
+            k = 0;
+    if (k < 1 || k > counts->caustics->longest)
+        return false;
     struct light_point y = vertex_light_point(&light[0]);
-    struct quest q = quest_for(scene, caustics, arena, &light[s - 1], &y);
+    y.pdf = light[0].pdf_fwd;
+    struct quest q = quest_for(scene, counts, arena, z, &y);
     struct chain c;
-    return in_psi(&q, &light[s - 2], -1, k, &c);
+    if (!in_psi(&q, z - 1, -1, k, &c))
+        return false;
+    double px, py;
+    vec3 d = sub(z->p, lens), w = normalize(d);
+    double pdf = camera_project(&scene->camera, lens, w, &px, &py) * camera_spread(&scene->camera, length2(d));
+    struct makers m = makers_of(&q, &c, pdf * abs_dot(z->ng, w));
+    *weight = share(&q, m.splat, m);
+    return true;
 }

@@ -32,11 +32,13 @@
 
 #include "transport/connect.h"
 
-enum { CAUSTIC_LONGEST = 2, CAUSTIC_KINDS = 2 };
+enum { CAUSTIC_LONGEST = 2, CAUSTIC_STARTS = 3, CAUSTIC_MOST = CAUSTIC_STARTS + 1 };
 
 /* What of a scene such chains may go through, found once. */
 struct caustics {
     int longest; /* K, 1 <= K <= CAUSTIC_LONGEST */
+    vec3 *middle;       /* [groups] of the bounds; owned */
+    bool *curved;       /* [groups]; owned */
     bool *lets_through; /* [groups of the geometry] has a refracting lobe; owned */
     bool any_through;
     struct mirror {
@@ -56,21 +58,21 @@ struct caustic_connection {
     int k;
 };
 
-/* caustic_connect: z is a first hit that can be connected to; the light point is drawn from `sampler`.
+/* caustic_connect: z is eye vertex t, a first hit that can be connected to; the light point is drawn from `sampler`.
  *   room   the longest chain the path has room for
  *   arena  for what is met on the way
  * Returns how many there are in `out`. */
-int caustic_connect(const struct scene *scene, const struct caustics *caustics, struct arena *arena,
-                    const struct vertex *z, struct sampler *sampler, int room,
-                    struct caustic_connection out[CAUSTIC_KINDS]);
+int caustic_connect(const struct scene *scene, const struct mis_counts *counts, struct arena *arena,
+                    const struct vertex *z, int t, struct sampler *sampler, int room,
+                    struct caustic_connection out[CAUSTIC_MOST]);
 
-/* caustic_hit_share: the weight that a path made by s = 0, of t eye vertices or its last one's lamp, has beside its
- * caustic connection; 1 if there is none. */
-double caustic_hit_share(const struct scene *scene, const struct caustics *caustics, struct arena *arena,
-                         const struct vertex *eye, int t);
+/* caustic_weigh_hit: the weight of s = 0 for a path of t eye vertices, or its last one's lamp, if a caustic connection
+ * makes it, too; else false. */
+bool caustic_weigh_hit(const struct scene *scene, const struct mis_counts *counts, struct arena *arena,
+                       const struct vertex *eye, int t, double *weight);
 
-/* caustic_makes: is the path of s light vertices joined to the lens one of the caustic connections'? */
-bool caustic_makes(const struct scene *scene, const struct caustics *caustics, struct arena *arena,
-                   const struct vertex *light, int s);
+/* caustic_weigh_lens: that of t = 1 for a path of s light vertices joined to a point of the lens. */
+bool caustic_weigh_lens(const struct scene *scene, const struct mis_counts *counts, struct arena *arena,
+                        const struct vertex *light, int s, vec3 lens, double *weight);
 
 #endif

@@ -91,22 +91,19 @@ static void sum_direct(struct pixel_sample *sample, const struct vertex *z, int 
 
 static void sum_hit(struct pixel_sample *sample, const struct vertex *eye, int t)
 {
-    const struct caustics *caustics = sample->counts->caustics;
     struct connection c = connect_hit(sample->scene, sample->counts, &eye[t - 2], &eye[t - 1], t);
-    if (caustics != NULL && !rgb_is_black(c.value)) {
-        double share = caustic_hit_share(sample->scene, caustics, sample->arena, eye, t);
-        c.weight = share < 1 ? share : c.weight;
-    }
+    if (sample->counts->caustics != NULL && !rgb_is_black(c.value))
+        caustic_weigh_hit(sample->scene, sample->counts, sample->arena, eye, t, &c.weight);
     contribute(sample, &c, 0, t, NULL, NO_CHOICE);
 }
 
 /* Caustic connections end k vertices later, but the eye sub-path has none of these. */
 static void sum_caustics(struct pixel_sample *sample, const struct vertex *z, int t)
 {
-    struct caustic_connection made[CAUSTIC_KINDS];
+    struct caustic_connection made[CAUSTIC_MOST];
     if (z->eye_end != FIRST_HIT || !vertex_connectible(z))
         return;
-    int n = caustic_connect(sample->scene, sample->counts->caustics, sample->arena, z, &sample->sampler,
+    int n = caustic_connect(sample->scene, sample->counts, sample->arena, z, t, &sample->sampler,
                             sample->max_depth + 1 - t, made);
     for (int i = 0; i < n; i++)
         contribute(sample, &made[i].c, 1, t + made[i].k, NULL, NO_CHOICE);
@@ -166,15 +163,13 @@ static void splat(struct pixel_sample *sample, const struct connection *c, int s
 
 void pixel_splat_path(struct pixel_sample *sample, const struct vertex *light, int n_light, double scale)
 {
-    const struct caustics *caustics = sample->counts->caustics;
     double each = scale / sample->counts->splat;
     if (sample->trace != NULL)
         trace_light_path(sample->trace, light, n_light);
     for (int s = 2; s <= n_light && s <= sample->max_depth + 1; s++) {
         struct connection c = connect_lens(sample->scene, sample->counts, light, s, &sample->sampler);
-        if (caustics != NULL && !rgb_is_black(c.value) &&
-            caustic_makes(sample->scene, caustics, sample->arena, light, s))
-            c.value = rgb_black();
+        if (sample->counts->caustics != NULL && !rgb_is_black(c.value))
+            caustic_weigh_lens(sample->scene, sample->counts, sample->arena, light, s, c.end, &c.weight);
         if (!rgb_is_black(c.value))
             splat(sample, &c, s, light, each);
         else if (sample->trace != NULL)
