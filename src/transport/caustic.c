@@ -222,33 +222,34 @@ static double area_of(const struct quest *q, const struct chain *c)
 /* From direction w on. */
 static bool search(const struct quest *q, vec3 w, struct chain *c)
 {
-    enum { SHOTS = 24 };
-    const double near = 1e-9;
-    double size = 1, x = 0, y = 0, missed = 0;
+    enum { SHOTS = 16 };
+    const double near = 1e-9, least = 1.0 / 16;
+    double missed = INFINITY;
+    vec3 miss, change[2], step = vec(0, 0, 0);
     struct chain next;
-    for (int i = 0; i < SHOTS; i++) {
-        vec3 miss, change[2];
-        bool better = shoot(q, i == 0 ? w : normalize(w), &next);
+    double size = 1;
+    for (int i = 0; i < SHOTS && size >= least; i++) {
+        bool better = shoot(q, normalize(sub(w, mul(step, size))), &next);
         if (better) {
             misses(q, &next, &miss, change);
-            better = i == 0 || length(miss) < missed;
+            better = length(miss) < missed;
         }
         if (!better && i == 0)
             return false;
-        if (better) {
-            *c = next;
-            missed = length(miss);
-            if (missed < near)
-                return true;
-            if (!combination(change[0], change[1], miss, &x, &y))
-                return false;
-            size = fmin(1, 2 * size);
-        } else {
-            size /= 2;
-        }
-        const struct frame f = frame_from_normal(c->w);
-        double limit = fmin(size, size / (1e-9 + sqrt(x * x + y * y)));
-        w = sub(c->w, mul(add(mul(f.s, x), mul(f.t, y)), limit));
+        size = better ? fmin(1, 2 * size) : size / 2;
+        if (!better)
+            continue;
+        *c = next;
+        w = next.w;
+        missed = length(miss);
+        if (missed < near)
+            return true;
+        double x, y;
+        const struct frame f = frame_from_normal(w);
+        if (!combination(change[0], change[1], miss, &x, &y))
+            return false;
+        step = add(mul(f.s, x), mul(f.t, y));
+        step = mul(step, 1 / fmax(1, length(step)));
     }
     return false;
 }
