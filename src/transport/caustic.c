@@ -45,7 +45,7 @@ static void classify(const struct scene *scene, struct caustics *c, struct arena
     const struct shape_group *group = &scene->geo.group[g];
     struct surface at;
     struct bsdf bsdf;
-    bool reflects = false;
+    double reflects = 0; /* a guess, so that no time goes into what glass reflects */
     if (group->material < 0)
         return;
     some_point(&scene->geo, group->first_prim, middle, &at);
@@ -53,12 +53,13 @@ static void classify(const struct scene *scene, struct caustics *c, struct arena
     material_bsdf(scene->material, group->material, &scene->textures, &at, arena, &bsdf);
     for (int i = 0; i < bsdf.n_lobes; i++) {
         enum lobe_kind kind = bsdf.lobe[i].kind;
-        reflects |= lobe_is_delta(kind) && kind != LOBE_SPECULAR_TRANSMISSION;
+        if (lobe_is_delta(kind) && kind != LOBE_SPECULAR_TRANSMISSION)
+            reflects = fmax(reflects, bsdf.lobe[i].fresnel == FRESNEL_DIELECTRIC || kind == LOBE_FRESNEL_SPECULAR ? 0.1 : 1);
         c->lets_through[g] |= lobe_is_delta(kind) && kind != LOBE_SPECULAR_REFLECTION;
     }
     c->any_through |= c->lets_through[g];
-    if (reflects) {
-        struct mirror mirror = {g, middle};
+    if (reflects > 0) {
+        struct mirror mirror = {g, reflects};
         c->mirror = mem_append(c->mirror, (size_t)c->n_mirrors, sizeof *c->mirror);
         c->mirror[c->n_mirrors++] = mirror;
     }
@@ -74,6 +75,11 @@ struct caustics *caustics_new(const struct scene *scene, int longest)
     c->lets_through = mem_alloc((size_t)scene->geo.n_groups, sizeof *c->lets_through);
     for (int g = 0; g < scene->geo.n_groups; g++)
         classify(scene, c, &arena, g, c->middle[g]);
+    double sum = 0;
+    for (int m = 0; m < c->n_mirrors; m++)
+        sum += c->mirror[m].pmf;
+    for (int m = 0; m < c->n_mirrors; m++)
+        c->mirror[m].pmf /= fmax(1, sum);
     arena_free(&arena);
     if (c->n_mirrors > 0 || c->any_through)
         return c;
@@ -104,6 +110,7 @@ struct quest {
     const struct light_point *y;
     bool parallel; /* y is a direction */
     int group;     /* the mirror's; -1: through k surfaces */
+    double chosen; /* probability with which it is looked for */
     int k;
 };
 
@@ -284,7 +291,7 @@ static struct quest quest_for(const struct scene *scene, const struct mis_counts
                               const struct vertex *z, const struct light_point *y)
 {
     bool parallel = y->light < 0 || light_at_infinity(&scene->lights.light[y->light]);
-    struct quest q = {scene, counts, counts->caustics, arena, z, y, parallel, -1, 0};
+    struct quest q = {scene, counts, counts->caustics, arena, z, y, parallel, -1, 1, 0};
     return q;
 }
 
@@ -305,6 +312,7 @@ static int psi_through(struct quest *q, struct chain found[CAUSTIC_STARTS])
     int group, n = 0;
     vec3 p;
     q->group = -1;
+    q->chosen = 1;
     q->k = q->caustics->any_through ? pierced(q, &group, &p) : 0;
     if (q->k == 0)
         return 0;
@@ -323,10 +331,10 @@ static int psi_through(struct quest *q, struct chain found[CAUSTIC_STARTS])
 
 static bool psi_mirror(struct quest *q, int m, struct chain *c)
 {
-    const struct mirror *mirror = &q->caustics->mirror[m];
-    q->group = mirror->group;
+    q->group = q->caustics->mirror[m].group;
+    q->chosen = q->caustics->mirror[m].pmf;
     q->k = 1;
-    return search(q, normalize(sub(mirror->middle, q->z->p)), c);
+    return search(q, normalize(sub(q->caustics->middle[q->group], q->z->p)), c);
 }
 
 /* --- the strategy, and the others that make its paths -------------------------------------------------- */
@@ -348,7 +356,7 @@ static struct makers makers_of(const struct quest *q, const struct chain *c, dou
     double J = area_of(q, c), cos_y = light != NULL && light->kind == LIGHT_AREA ? abs_dot(y->n, c->d) : 1;
     double pdf_y = sky ? light_pdf_environment(lights, y->w) : y->pdf; /* of any infinite light, as escaping rays see it */
     double walked = lens > 0 ? lens : 1;
-    struct makers m = {walked * pdf_y * (q->group < 0 ? 1 : 1.0 / q->caustics->n_mirrors), 0, 0};
+    struct makers m = {walked * pdf_y * q->chosen, 0, 0};
     if (!delta)
         m.hit = q->counts->hit[LATER_HIT] * walked * c->choice * cos_y / J *
                 bsdf_eval(&q->z->bsdf, q->z->wo, c->w, RADIANCE).pdf;
@@ -372,10 +380,9 @@ static struct connection contribution(const struct quest *q, const struct chain 
                              .pdf = q->y->pdf};
     bool area = scene->lights.light[q->y->light].kind == LIGHT_AREA;
     double cosines = scatter_cosine(z, c->w, RADIANCE) * (area ? abs_dot(q->y->n, c->d) : 1);
-    double chosen = q->group < 0 ? 1 : 1.0 / q->caustics->n_mirrors;
     rgb Le = light_Le(&scene->lights, q->y, neg(c->d)), f = bsdf_eval(&z->bsdf, z->wo, c->w, RADIANCE).f;
     rgb value = rgb_scale(rgb_mul(rgb_mul(z->beta, f), rgb_mul(c->kappa, Le)),
-                          cosines / (area_of(q, c) * q->y->pdf * chosen));
+                          cosines / (area_of(q, c) * q->y->pdf * q->chosen));
     if (rgb_is_black(value) || !rgb_is_finite(value))
         return out;
     if (q->parallel ? scene_lit_from(scene, c->p, c->prim_id, c->d)
@@ -384,6 +391,15 @@ static struct connection contribution(const struct quest *q, const struct chain 
     struct makers m = makers_of(q, c, lens);
     out.weight = share(q, m.connect, m);
     return out;
+}
+
+/* Which mirror to look at; their number: at none. */
+static int draw_mirror(const struct caustics *c, double u)
+{
+    int m = 0;
+    while (m < c->n_mirrors && u >= c->mirror[m].pmf)
+        u -= c->mirror[m++].pmf;
+    return m;
 }
 
 int caustic_connect(const struct scene *scene, const struct mis_counts *counts, struct arena *arena,
@@ -403,8 +419,8 @@ int caustic_connect(const struct scene *scene, const struct mis_counts *counts, 
         out[n].c = contribution(&q, &c[i], lens);
         out[n++].k = q.k;
     }
-    int mirrors = q.caustics->n_mirrors;
-    if (mirrors > 0 && psi_mirror(&q, (int)(sampler_number(sampler, DRAW_LIGHT_END) * mirrors), c)) {
+    int m = draw_mirror(q.caustics, sampler_number(sampler, DRAW_LIGHT_END));
+    if (m < q.caustics->n_mirrors && psi_mirror(&q, m, c)) {
         out[n].c = contribution(&q, c, lens);
         out[n++].k = q.k;
     }

@@ -43,7 +43,7 @@ struct caustics {
     bool any_through;
     struct mirror {
         int group;
-        vec3 middle;
+        double pmf; /* with which its chain is looked for; their sum may be less than 1 */
     } *mirror; /* [n_mirrors], owned */
     int n_mirrors;
 };
