@@ -53,8 +53,9 @@ static void classify(const struct scene *scene, struct caustics *c, struct arena
     material_bsdf(scene->material, group->material, &scene->textures, &at, arena, &bsdf);
     for (int i = 0; i < bsdf.n_lobes; i++) {
         enum lobe_kind kind = bsdf.lobe[i].kind;
+        bool dielectric = bsdf.lobe[i].fresnel == FRESNEL_DIELECTRIC || kind == LOBE_FRESNEL_SPECULAR;
         if (lobe_is_delta(kind) && kind != LOBE_SPECULAR_TRANSMISSION)
-            reflects = fmax(reflects, bsdf.lobe[i].fresnel == FRESNEL_DIELECTRIC || kind == LOBE_FRESNEL_SPECULAR ? 0.1 : 1);
+            reflects = fmax(reflects, dielectric ? 0.1 : 1);
         c->lets_through[g] |= lobe_is_delta(kind) && kind != LOBE_SPECULAR_REFLECTION;
     }
     c->any_through |= c->lets_through[g];
@@ -98,168 +99,7 @@ void caustics_free(struct caustics *c)
     free(c);
 }
 
-/* --- a ray and its derivatives by two directions across w at z ----------------------------------------- */
-
-/* What a chain is looked for in, and between what. */
-struct quest {
-    const struct scene *scene;
-    const struct mis_counts *counts;
-    const struct caustics *caustics;
-    struct arena *arena;
-    const struct vertex *z;
-    const struct light_point *y;
-    bool parallel; /* y is a direction */
-    int group;     /* the mirror's; -1: through k surfaces */
-    double chosen; /* probability with which it is looked for */
-    int k;
-};
-
-/* A ray through the chain. */
-struct chain {
-    vec3 w;                 /* unit, in which z was left */
-    vec3 at[CAUSTIC_LONGEST];
-    vec3 p, d, dp[2], dd[2]; /* the last edge, and its derivatives */
-    uint32_t prim_id;
-    rgb kappa;
-    double choice; /* probability that a walk takes these lobes, either way */
-    double eta;    /* index of refraction here, relative to z's */
-};
-
-static int group_at(const struct scene *scene, const struct surface *at)
-{
-    return (int)(shape_group_of(&scene->geo, (int)(at->prim_id - 1)) - scene->geo.group);
-}
-
-/* The ray arrives at a surface: its point moves by dp along that. */
-static void transfer(struct chain *c, const struct surface *at)
-{
-    double t = length(sub(at->p, c->p));
-    for (int i = 0; i < 2; i++) {
-        vec3 moved = add(c->dp[i], mul(c->dd[i], t));
-        c->dp[i] = sub(moved, mul(c->d, dot(moved, at->ng) / dot(c->d, at->ng)));
-    }
-    c->p = at->p;
-    c->prim_id = at->prim_id;
-}
-
-/* The ray goes on in direction s->wi. Reflection is d - 2 (d.n) n, refraction eta d + mu n with n on the side that the
- * ray comes from, mu = eta c - c_t. */
-static void turn(struct chain *c, const struct scene *scene, const struct surface *at, const struct bsdf_sample *s,
-                 bool transmit)
-{
-    vec3 n = dot(c->d, at->ns) > 0 ? neg(at->ns) : at->ns;
-    double cosine = -dot(c->d, n), eta = 1 / s->eta, cos_t = abs_dot(s->wi, n);
-    for (int i = 0; i < 2; i++) {
-        vec3 dn = shape_normal_change(&scene->geo, at, c->dp[i]);
-        dn = dot(c->d, at->ns) > 0 ? neg(dn) : dn;
-        double dc = -(dot(c->dd[i], n) + dot(c->d, dn));
-        if (transmit)
-            c->dd[i] = add(mul(c->dd[i], eta), add(mul(dn, eta * cosine - cos_t),
-                                                   mul(n, (eta - eta * eta * cosine / cos_t) * dc)));
-        else
-            c->dd[i] = add(c->dd[i], mul(add(mul(n, dc), mul(dn, cosine)), 2));
-    }
-    c->d = s->wi;
-}
-
-/* Scatter by the delta lobes of the surface; false where they, or the derivatives, do not do as the chain wants. */
-static bool scatter(const struct quest *q, struct chain *c, const struct surface *at)
-{
-    struct bsdf bsdf;
-    struct bsdf_sample s;
-    bool transmit = q->group < 0;
-    material_bsdf(q->scene->material, at->material, &q->scene->textures, at, q->arena, &bsdf);
-    if (dot(bsdf.shading.n, at->ns) < 1 - 1e-9 || !bsdf_delta(&bsdf, neg(c->d), transmit, RADIANCE, &s))
-        return false;
-    if ((dot(s.wi, at->ng) * dot(c->d, at->ng) > 0) != transmit)
-        return false;
-    turn(c, q->scene, at, &s, transmit);
-    c->kappa = rgb_mul(c->kappa, s.f);
-    c->choice *= s.pdf;
-    c->eta *= s.eta;
-    return true;
-}
-
-/* Trace the chain that leaves z in direction w. */
-static bool shoot(const struct quest *q, vec3 w, struct chain *c)
-{
-    const struct frame f = frame_from_normal(w);
-    struct chain start = {.w = w, .p = q->z->p, .d = w, .dd = {f.s, f.t}, .prim_id = q->z->prim_id,
-                          .kappa = rgb_grey(1), .choice = 1, .eta = 1};
-    *c = start;
-    for (int i = 0; i < q->k; i++) {
-        struct ray ray = {c->p, c->d, ray_margin(c->p), INFINITY, c->prim_id, 0};
-        struct surface at;
-        if (!scene_intersect(q->scene, &ray, &at) || at.material < 0 || dot(at.ng, c->d) == 0)
-            return false;
-        if (q->group >= 0 && group_at(q->scene, &at) != q->group)
-            return false;
-        transfer(c, &at);
-        c->at[i] = at.p;
-        if (!scatter(q, c, &at))
-            return false;
-    }
-    return true;
-}
-
-/* --- the search -------------------------------------------------------------------------------------- */
-
-/* How far the last edge misses y: d - u and its derivatives; the distance to y, at infinity 1. */
-static double misses(const struct quest *q, const struct chain *c, vec3 *miss, vec3 change[2])
-{
-    vec3 to = q->parallel ? q->y->w : sub(q->y->p, c->p);
-    double r = length(to);
-    vec3 u = mul(to, 1 / r);
-    *miss = sub(c->d, u);
-    for (int i = 0; i < 2; i++) {
-        vec3 across = sub(c->dp[i], mul(u, dot(u, c->dp[i])));
-        change[i] = q->parallel ? c->dd[i] : add(c->dd[i], mul(across, 1 / r));
-    }
-    return r;
-}
-
-/* The area of light per solid angle at z. */
-static double area_of(const struct quest *q, const struct chain *c)
-{
-    vec3 miss, change[2];
-    double r = misses(q, c, &miss, change);
-    return r * r * fabs(dot(cross(change[0], change[1]), c->d));
-}
-
-/* From direction w on. */
-static bool search(const struct quest *q, vec3 w, struct chain *c)
-{
-    enum { SHOTS = 16 };
-    const double near = 1e-9, least = 1.0 / 16;
-    double missed = INFINITY;
-    vec3 miss, change[2], step = vec(0, 0, 0);
-    struct chain next;
-    double size = 1;
-    for (int i = 0; i < SHOTS && size >= least; i++) {
-        bool better = shoot(q, normalize(sub(w, mul(step, size))), &next);
-        if (better) {
-            misses(q, &next, &miss, change);
-            better = length(miss) < missed;
-        }
-        if (!better && i == 0)
-            return false;
-        size = better ? fmin(1, 2 * size) : size / 2;
-        if (!better)
-            continue;
-        *c = next;
-        w = next.w;
-        missed = length(miss);
-        if (missed < near)
-            return true;
-        double x, y;
-        const struct frame f = frame_from_normal(w);
-        if (!combination(change[0], change[1], miss, &x, &y))
-            return false;
-        step = add(mul(f.s, x), mul(f.t, y));
-        step = mul(step, 1 / fmax(1, length(step)));
-    }
-    return false;
-}
+/* --- Psi --------------------------------------------------------------------------------------------- */
 
 /* How many surfaces that let light through lie between z and y; 0 if there are none, too many, or others. The first is
  * of the group, and *p on it. */
@@ -274,10 +114,10 @@ static int pierced(const struct quest *q, int *group, vec3 *p)
         ray.tmax = q->parallel ? INFINITY : left - ray_margin(q->y->p);
         if (!(ray.tmin < ray.tmax) || !scene_intersect(q->scene, &ray, &at))
             return k;
-        if (k == q->caustics->longest || !q->caustics->lets_through[group_at(q->scene, &at)])
+        if (k == q->counts->caustics->longest || !q->counts->caustics->lets_through[specular_group(q->scene, &at)])
             return 0;
         if (k == 0) {
-            *group = group_at(q->scene, &at);
+            *group = specular_group(q->scene, &at);
             *p = at.p;
         }
         left -= length(sub(at.p, ray.o));
@@ -291,7 +131,7 @@ static struct quest quest_for(const struct scene *scene, const struct mis_counts
                               const struct vertex *z, const struct light_point *y)
 {
     bool parallel = y->light < 0 || light_at_infinity(&scene->lights.light[y->light]);
-    struct quest q = {scene, counts, counts->caustics, arena, z, y, parallel, -1, 1, 0};
+    struct quest q = {scene, counts, arena, z, y, parallel, -1, 1, 0};
     return q;
 }
 
@@ -313,15 +153,15 @@ static int psi_through(struct quest *q, struct chain found[CAUSTIC_STARTS])
     vec3 p;
     q->group = -1;
     q->chosen = 1;
-    q->k = q->caustics->any_through ? pierced(q, &group, &p) : 0;
+    q->k = q->counts->caustics->any_through ? pierced(q, &group, &p) : 0;
     if (q->k == 0)
         return 0;
-    vec3 middle = q->caustics->middle[group];
+    vec3 middle = q->counts->caustics->middle[group];
     vec3 axis = normalize(sub(middle, q->z->p)), out = sub(p, middle);
     vec3 side = mul(normalize(sub(out, mul(axis, dot(out, axis)))), length(out) / 2);
     const vec3 start[CAUSTIC_STARTS] = {p, add(middle, side), sub(middle, side)};
-    for (int i = 0; i < (q->caustics->curved[group] ? CAUSTIC_STARTS : 1); i++) {
-        bool known = !search(q, normalize(sub(start[i], q->z->p)), &found[n]);
+    for (int i = 0; i < (q->counts->caustics->curved[group] ? CAUSTIC_STARTS : 1); i++) {
+        bool known = !specular_search(q, normalize(sub(start[i], q->z->p)), &found[n]);
         for (int j = 0; j < n && !known; j++)
             known = same_chain(q->z->p, found[n].at, q->k, &found[j]);
         n += !known;
@@ -331,10 +171,10 @@ static int psi_through(struct quest *q, struct chain found[CAUSTIC_STARTS])
 
 static bool psi_mirror(struct quest *q, int m, struct chain *c)
 {
-    q->group = q->caustics->mirror[m].group;
-    q->chosen = q->caustics->mirror[m].pmf;
+    q->group = q->counts->caustics->mirror[m].group;
+    q->chosen = q->counts->caustics->mirror[m].pmf;
     q->k = 1;
-    return search(q, normalize(sub(q->caustics->middle[q->group], q->z->p)), c);
+    return specular_search(q, normalize(sub(q->counts->caustics->middle[q->group], q->z->p)), c);
 }
 
 /* --- the strategy, and the others that make its paths -------------------------------------------------- */
@@ -353,8 +193,8 @@ static struct makers makers_of(const struct quest *q, const struct chain *c, dou
     const struct light_point *y = q->y;
     const struct light *light = y->light >= 0 ? &lights->light[y->light] : NULL; /* NULL: infinite, as yet unknown */
     bool delta = light != NULL && light_is_delta(light), sky = light == NULL || light->kind == LIGHT_INFINITE;
-    double J = area_of(q, c), cos_y = light != NULL && light->kind == LIGHT_AREA ? abs_dot(y->n, c->d) : 1;
-    double pdf_y = sky ? light_pdf_environment(lights, y->w) : y->pdf; /* of any infinite light, as escaping rays see it */
+    double J = specular_area(q, c), cos_y = light != NULL && light->kind == LIGHT_AREA ? abs_dot(y->n, c->d) : 1;
+    double pdf_y = sky ? light_pdf_environment(lights, y->w) : y->pdf; /* as an escaping ray sees it */
     double walked = lens > 0 ? lens : 1;
     struct makers m = {walked * pdf_y * q->chosen, 0, 0};
     if (!delta)
@@ -377,12 +217,12 @@ static struct connection contribution(const struct quest *q, const struct chain 
     const struct scene *scene = q->scene;
     const struct vertex *z = q->z;
     struct connection out = {.light = q->y->light, .cell = q->y->cell, .end = q->parallel ? q->y->w : q->y->p,
-                             .pdf = q->y->pdf};
+                             .pdf = q->y->pdf, .passed = q->k};
     bool area = scene->lights.light[q->y->light].kind == LIGHT_AREA;
     double cosines = scatter_cosine(z, c->w, RADIANCE) * (area ? abs_dot(q->y->n, c->d) : 1);
     rgb Le = light_Le(&scene->lights, q->y, neg(c->d)), f = bsdf_eval(&z->bsdf, z->wo, c->w, RADIANCE).f;
     rgb value = rgb_scale(rgb_mul(rgb_mul(z->beta, f), rgb_mul(c->kappa, Le)),
-                          cosines / (area_of(q, c) * q->y->pdf * q->chosen));
+                          cosines / (specular_area(q, c) * q->y->pdf * q->chosen));
     if (rgb_is_black(value) || !rgb_is_finite(value))
         return out;
     if (q->parallel ? scene_lit_from(scene, c->p, c->prim_id, c->d)
@@ -404,7 +244,7 @@ static int draw_mirror(const struct caustics *c, double u)
 
 int caustic_connect(const struct scene *scene, const struct mis_counts *counts, struct arena *arena,
                     const struct vertex *z, int t, struct sampler *sampler, int room,
-                    struct caustic_connection out[CAUSTIC_MOST])
+                    struct connection out[CAUSTIC_MOST])
 {
     double u[3], lens = t == 2 ? z->pdf_fwd : 0;
     struct light_point y;
@@ -415,22 +255,18 @@ int caustic_connect(const struct scene *scene, const struct mis_counts *counts, 
         return 0;
     struct quest q = quest_for(scene, counts, arena, z, &y);
     int n = 0, through = psi_through(&q, c);
-    for (int i = 0; i < through && q.k <= room; i++) {
-        out[n].c = contribution(&q, &c[i], lens);
-        out[n++].k = q.k;
-    }
-    int m = draw_mirror(q.caustics, sampler_number(sampler, DRAW_LIGHT_END));
-    if (m < q.caustics->n_mirrors && psi_mirror(&q, m, c)) {
-        out[n].c = contribution(&q, c, lens);
-        out[n++].k = q.k;
-    }
+    for (int i = 0; i < through && q.k <= room; i++)
+        out[n++] = contribution(&q, &c[i], lens);
+    int m = draw_mirror(counts->caustics, sampler_number(sampler, DRAW_LIGHT_END));
+    if (m < counts->caustics->n_mirrors && psi_mirror(&q, m, c))
+        out[n++] = contribution(&q, c, lens);
     return n;
 }
 
 /* Is the chain of a path in Psi? Its k vertices are x, x[step] ... from z on. */
 static bool in_psi(struct quest *q, const struct vertex *x, int step, int k, struct chain *c)
 {
-    const struct caustics *caustics = q->caustics;
+    const struct caustics *caustics = q->counts->caustics;
     struct chain found[CAUSTIC_MOST];
     vec3 p[CAUSTIC_LONGEST];
     int n = 0, m = 0, group = (int)(shape_group_of(&q->scene->geo, (int)(x->prim_id - 1)) - q->scene->geo.group);

@@ -71,7 +71,7 @@ static void contribute(struct pixel_sample *sample, const struct connection *c, 
     if (!rgb_is_black(c->value)) {
         rgb value = rgb_scale(c->value, choice.scale * sample->filter_weight);
         if (sample->tile->keep_records)
-            tile_record_eye(sample->tile, sample->x, sample->y, s, t, value, c->weight);
+            tile_record_eye(sample->tile, sample->x, sample->y, s, t + c->passed, value, c->weight);
         added = rgb_scale(value, c->weight);
         sample->sum = rgb_add(sample->sum, added);
     }
@@ -97,16 +97,15 @@ static void sum_hit(struct pixel_sample *sample, const struct vertex *eye, int t
     contribute(sample, &c, 0, t, NULL, NO_CHOICE);
 }
 
-/* Caustic connections end k vertices later, but the eye sub-path has none of these. */
 static void sum_caustics(struct pixel_sample *sample, const struct vertex *z, int t)
 {
-    struct caustic_connection made[CAUSTIC_MOST];
+    struct connection made[CAUSTIC_MOST];
     if (z->eye_end != FIRST_HIT || !vertex_connectible(z))
         return;
     int n = caustic_connect(sample->scene, sample->counts, sample->arena, z, t, &sample->sampler,
                             sample->max_depth + 1 - t, made);
     for (int i = 0; i < n; i++)
-        contribute(sample, &made[i].c, 1, t + made[i].k, NULL, NO_CHOICE);
+        contribute(sample, &made[i], 1, t, NULL, NO_CHOICE);
 }
 
 void pixel_sum_eye(struct pixel_sample *sample, const struct vertex *eye, int n)
