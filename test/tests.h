@@ -10,6 +10,7 @@ void test_aov(struct test *t);
 void test_alias(struct test *t);
 void test_bsdf(struct test *t);
 void test_camera(struct test *t);
+void test_caustic(struct test *t);
 void test_devices(struct test *t);
 void test_equal_time(struct test *t); /* part of test_report */
 void test_plan(struct test *t); /* part of test_report */
