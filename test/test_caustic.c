@@ -145,7 +145,7 @@ static void test_nothing_there(struct test *t)
 
 /* --- the partition ----------------------------------------------------------------------------------- */
 
-/* Do two ways agree? And would they if one of them were 15 %% brighter? */
+/* Do two ways agree? And would they if one of them were 15 % brighter? */
 static void agree(struct test *t, const char *path, const char *one, const char *other, int spp)
 {
     struct scene scene;
@@ -165,7 +165,7 @@ static void agree(struct test *t, const char *path, const char *one, const char 
 
 static void test_partition(struct test *t)
 {
-    agree(t, "scenes/test/caustic-ball.pbrt", "bdpt caustics=2", "lt", 64);
+    agree(t, "scenes/test/caustic-ball.pbrt", "bdpt caustics=2", "lt", 192);
     agree(t, "scenes/test/caustic-bulb.pbrt", "bdpt caustics=2", "bdpt", 64);
     agree(t, "scenes/test/mirror-glass.pbrt", "pt caustics=2", "bdpt", 64);
     agree(t, "scenes/test/mirror-glass.pbrt", "bdpt caustics=2", "bdpt heuristic=power", 64);
