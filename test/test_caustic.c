@@ -171,8 +171,59 @@ static void test_partition(struct test *t)
     agree(t, "scenes/test/mirror-glass.pbrt", "bdpt caustics=2", "bdpt heuristic=power", 64);
 }
 
+/* --- regularisation ---------------------------------------------------------------------------------- */
+
+/* FLOOR is lit by way of a mirror, too: the picture is that of caustic connections, to eps^2. */
+static void test_cones(struct test *t)
+{
+    static const char text[] =
+        FLOOR "Material \"mirror\" \"rgb Kr\" [1 1 1]\n"
+        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-9 0 1  9 0 1  9 9 1  -9 9 1] WorldEnd";
+    struct scene scene;
+    if (!scene_from_text(t, text, &scene))
+        return;
+    struct batches exact = render_batches(t, &scene, set_method(&scene, "pt caustics=1"), 3, 16, 8, 8, 31);
+    double error, wanted = batches_mean(&exact, NULL);
+    static const char *const ways[] = {"pt regularise=.3", "pt regularise=.2", "bdpt regularise=.2"};
+    for (int i = 0; i < 3; i++) {
+        struct batches b = render_batches(t, &scene, set_method(&scene, ways[i]), 3, 1024, 8, 8, 32);
+        double mean = batches_mean(&b, &error);
+        /* of bdpt light sub-paths make what the lens sees, so that there is nothing to regularise */
+        CHECK(t, fabs(mean / wanted - 1) < .02 + 4 * error / wanted, "%s: %.5f +- %.5f, not %.5f", ways[i], mean, error, wanted);
+        batches_free(&b);
+    }
+    batches_free(&exact);
+    scene_free(&scene);
+}
+
+/* Where area lights are, or light sub-paths make the path, no bit changes. */
+static void test_rivals(struct test *t)
+{
+    static const struct {
+        const char *scene, *with, *without;
+    } cases[] = {{"scenes/test/caustic-ball.pbrt", "bdpt regularise=.1", "bdpt"},
+                 {"scenes/test/mirror-glass.pbrt", "pt regularise=.1", "pt"}};
+    for (int i = 0; i < 2; i++) {
+        struct scene scene;
+        struct film film[2];
+        if (!scene_from_file(t, cases[i].scene, 16, 16, &scene))
+            return;
+        for (int k = 0; k < 2; k++) {
+            struct render_options o = {.integrator = set_method(&scene, k > 0 ? cases[i].with : cases[i].without),
+                                       .end = 8, .max_depth = 4, .n_threads = 1};
+            render_film(t, &scene, &o, &film[k]);
+        }
+        CHECK(t, films_equal(&film[0], &film[1]), "%s: %s changes the picture", cases[i].scene, cases[i].with);
+        film_free(&film[0]);
+        film_free(&film[1]);
+        scene_free(&scene);
+    }
+}
+
 void test_caustic(struct test *t)
 {
+    test_cones(t);
+    test_rivals(t);
     test_derivatives(t);
     test_closed_forms(t);
     test_nothing_there(t);

@@ -1,4 +1,5 @@
 /* methods.c: the table of all methods, and what is done with a row (method.h). A new method is a new line here. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -81,6 +82,12 @@ static bool recall(const struct method *m, const struct render_job *job, void *s
     return learnt_read(m->learnt(state), &job->scene->lights, job->of, job->learnt, "what was learnt", err);
 }
 
+static void add_note(char note[FILM_NOTE_SIZE], const char *text)
+{
+    size_t n = strlen(note);
+    snprintf(note + n, FILM_NOTE_SIZE - n, "%s%s", n > 0 ? "; " : "", text);
+}
+
 bool method_prepare(const struct method *m, const struct render_job *job, struct preparation *out, struct error *err)
 {
     struct preparation standard = {.method = m, .state = mem_alloc(1, m->state_size),
@@ -104,6 +111,8 @@ bool method_prepare(const struct method *m, const struct render_job *job, struct
         f->counts.caustics = out->caustics = caustics_new(job->scene, job->caustics);
     if (m->prepare != NULL)
         m->prepare(job, out);
+    if (job->regularise > 0)
+        add_note(out->note, "biased: mirrors and glass are blurred where nothing else finds a light");
     if (m->learnt != NULL && job->learnt != NULL && job->learnt->n == 0 && m->learnt(out->state)->eye.n > 0)
         learnt_write(m->learnt(out->state), job->of, job->learnt);
     return true;

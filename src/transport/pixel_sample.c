@@ -2,6 +2,7 @@
 #include "transport/pixel_sample.h"
 
 #include "transport/caustic.h"
+#include "transport/regularise.h"
 
 /* --- sub-paths --------------------------------------------------------------------------------------- */
 
@@ -24,8 +25,10 @@ struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struc
 {
     const struct render_job *job = pass->job;
     struct sampler points = stream(job, job->seed, RNG_CONNECT, x, y, (uint64_t)iteration);
-    struct pixel_sample sample = {job->scene, counts, pass->tile, job->max_depth, x, y, 1, 1, &pass->work->arena, points,
+    struct pixel_sample sample = {job->scene, counts, pass->tile, job->max_depth, x, y, 1, 1, 0, &pass->work->arena, points,
                              rgb_black(), trace_watches(pass->trace, x, y, iteration)};
+    if (job->regularise > 0)
+        sample.eps = regularise_eps(job->regularise, iteration);
     return sample;
 }
 
@@ -108,14 +111,25 @@ static void sum_caustics(struct pixel_sample *sample, const struct vertex *z, in
         contribute(sample, &made[i], 1, t, NULL, NO_CHOICE);
 }
 
+/* By a copy of the sampler: what other strategies draw is the same as without. */
+static void sum_regularised(struct pixel_sample *sample, const struct vertex *eye, int t)
+{
+    struct sampler draws = sample->sampler;
+    struct connection c = regularise_connect(sample->scene, sample->counts, eye, t, sample->eps, &draws);
+    contribute(sample, &c, 1, t, NULL, NO_CHOICE);
+}
+
 void pixel_sum_eye(struct pixel_sample *sample, const struct vertex *eye, int n)
 {
     for (int t = 2; t <= n; t++) {
         const struct vertex *z = &eye[t - 1];
         if (t == 2 || sample->counts->hit[LATER_HIT] > 0)
             sum_hit(sample, eye, t);
-        if (sample->counts->direct[FIRST_HIT] > 0 && t <= sample->max_depth + 1 && z->kind == VERTEX_SURFACE)
+        if (sample->counts->direct[FIRST_HIT] > 0 && t <= sample->max_depth + 1 && z->kind == VERTEX_SURFACE) {
             sum_direct(sample, z, t);
+            if (sample->eps > 0)
+                sum_regularised(sample, eye, t);
+        }
         if (sample->counts->caustics != NULL && z->kind == VERTEX_SURFACE)
             sum_caustics(sample, z, t);
     }

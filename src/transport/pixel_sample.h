@@ -22,6 +22,7 @@ struct pixel_sample {
     int x, y;               /* the pixel */
     double filter_weight;   /* of its eye sample, see path_eye_pixel */
     int lights;             /* samples of s = 1 for t = 2; 1 for t > 2 */
+    double eps;             /* of regularise.h, 0: none */
     struct arena *arena;    /* for what does not outlive the sample */
     struct sampler sampler; /* for light and lens points */
     rgb sum;                /* of what the strategies with t >= 2 have brought so far */
