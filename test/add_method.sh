@@ -13,7 +13,7 @@ plant() { # the code of the page, and its row
             print "extern const struct method method_resampling;"
             sub(/{/, "{\\&method_resampling, ")
         }
-        { print }' src/integrators/methods.c >"$dir/src/integrators/methods.c"
+        { print }' src/render/methods.c >"$dir/src/render/methods.c"
 }
 must() { "$@" >"$dir/log" 2>&1 || { echo "FAIL: $*"; cat "$dir/log"; exit 1; }; }
 says() { grep -q "$1" "$dir/log" || { echo "FAIL: no \"$1\" in:"; cat "$dir/log"; exit 1; }; }

@@ -46,6 +46,9 @@ done <<'END'
 0,7,41,70 --integrator asbdpt
 0,40,70 --integrator lvc
 0,40,70 --integrator cbdpt
+0,40,70 --integrator mbdpt
+0,40,70 --integrator ris
+0,40,70 --integrator ris2
 END
 check [ "$(done_in whole.part)" = 70 ]
 

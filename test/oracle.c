@@ -62,6 +62,26 @@ static double delta_density(const struct full_path *f, int from, int i, int to, 
     return reverse ? (1 - F) * eta_o * eta_o * fabs(cos_o) / (eta_i * eta_i * fabs(cos_i)) : 1 - F;
 }
 
+/* What is learnt makes the density of the first ray so many times as large: where several infinite lights may have sent
+ * it, with each one's share in doing so. */
+static double learnt_emission(const struct full_path *f, struct light_point y0)
+{
+    const struct count_model *m = f->counts->model;
+    const struct light_set *lights = &f->scene->lights;
+    double sum = 0, pdf, all = light_pdf_environment(lights, y0.w);
+    if (m == NULL || m->emission == NULL)
+        return 1;
+    if (f->x[0]->kind != VERTEX_ESCAPED && lights->light[y0.light].kind != LIGHT_INFINITE)
+        return m->emission(m->learnt, lights, &y0, f->x[1]->p, direction(f, 0, 1));
+    for (int i = 0; i < lights->n; i++)
+        if (lights->light[i].kind == LIGHT_INFINITE) {
+            y0.light = i;
+            pdf = light_pdf_towards(lights, i, y0.w, &y0.cell);
+            sum += pdf / all * m->emission(m->learnt, lights, &y0, f->x[1]->p, direction(f, 0, 1));
+        }
+    return sum;
+}
+
 /* Density of x_j when the light walk makes it. */
 static double light_density(const struct full_path *f, int j)
 {
@@ -74,7 +94,7 @@ static double light_density(const struct full_path *f, int j)
     if (j == 1) {
         double pdf = f->x[0]->kind == VERTEX_ESCAPED ? 1 / (PI * sqr(f->scene->lights.radius))
                                                      : light_pdf_emission(&f->scene->lights, &y0, direction(f, 0, 1));
-        return per_area(f, 0, 1, pdf);
+        return per_area(f, 0, 1, pdf * learnt_emission(f, y0));
     }
     const struct vertex *v = f->x[j - 1];
     double pdf = f->delta[j - 1]

@@ -15,7 +15,7 @@
 #include "tests.h"
 
 static const struct wish ALL = {.importance = true, .guide = true, .pairs = true, .eye_cells = 8, .light_cells = 16,
-                                .levels = REGION_LEVELS, .delta = 0.1};
+                                .levels = REGION_LEVELS, .delta = 0.1, .emission = 0.2};
 
 /* Who watches: how much was traced, and when to say stop. */
 struct watcher {
@@ -90,7 +90,11 @@ static void test_damage(struct test *t, const struct scene *scene, const struct 
             double pmf;
             vec3 p = vec(rng_uniform(&r), rng_uniform(&r), rng_uniform(&r));
             l.model.locate(&l, p, vec(0, 0, 1), &e, &y);
-            bool fine = (l.model.connect == NULL || l.model.connect(&l, y, e) >= 0) &&
+            double rho = 1, u[2] = {rng_uniform(&r), rng_uniform(&r)};
+            bool aims = l.model.choose_emission == NULL ||
+                        (l.model.choose_emission(&l, &scene->lights, rng_uniform(&r), u, &rho) <
+                             scene->lights.n_cells && rho > 0 && rho < 1e6);
+            bool fine = aims && (l.model.connect == NULL || l.model.connect(&l, y, e) >= 0) &&
                         (l.model.choose_light == NULL ||
                          l.model.choose_light(&l, &scene->lights, e, rng_uniform(&r), &pmf) < scene->lights.n_cells);
             CHECK(t, fine, "damage at byte %lu gives a table of no use", (unsigned long)at);
@@ -119,6 +123,25 @@ static void test_ends(struct test *t, const struct scene *scene, const struct by
               more[i]);
         learnt_free(&l);
         free(bad.data);
+    }
+}
+
+/* Tables of emission that somebody has made: a bin that is never drawn, and probabilities of more than 1 in all. */
+static void test_made_up(struct test *t, const struct scene *scene, struct learnt *l)
+{
+    static const double made_up[] = {0, 0.5, 1e300};
+    CHECK(t, l->aimed, "emission was not learnt");
+    for (int i = 0; i < 3; i++) {
+        struct bytes bytes = {NULL, 0, 0};
+        struct learnt again = {.guided = false};
+        struct error err;
+        double kept = l->emission.q[9];
+        l->emission.q[9] = made_up[i];
+        learnt_write(l, 5, &bytes);
+        CHECK(t, !learnt_read(&again, &scene->lights, 5, &bytes, "x", &err), "%g for a bin is taken", made_up[i]);
+        l->emission.q[9] = kept;
+        learnt_free(&again);
+        free(bytes.data);
     }
 }
 
@@ -164,6 +187,7 @@ static void test_budget(struct test *t)
           "what is learnt depends on the number of threads");
     CHECK(t, l[0]->guided && l[0]->paired, "nothing was learnt");
     test_bytes(t, &small, l[0]);
+    test_made_up(t, &small, l[0]);
     for (int i = 0; i < 4; i++)
         drop(l[i]);
     free(bytes[0].data);

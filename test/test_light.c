@@ -93,7 +93,7 @@ static const char LIGHTS[] =
     "LightSource \"spot\" \"rgb I\" [1 1 1] \"point from\" [0 0 0] \"point to\" [0 0 1] \"float coneangle\" 60\n"
     "WorldEnd\n";
 
-static void test_emission(struct test *t)
+static void test_emitted(struct test *t)
 {
     struct scene scene;
     if (!scene_from_text(t, LIGHTS, &scene))
@@ -414,7 +414,7 @@ static void test_spot(struct test *t)
 
 void test_light(struct test *t)
 {
-    test_emission(t);
+    test_emitted(t);
     test_slide_places(t);
     test_transformed(t);
     test_spot(t);

@@ -75,8 +75,8 @@ static const struct variant VARIANTS[] = {
      "LightSource \"infinite\" \"rgb L\" [3 3 3] LightSource \"infinite\" \"rgb L\" [1 1 1]"},
 };
 
-/* Regions met at random, a guide that prefers some cells in every one of them and pairs of random worth: learnt from
- * nothing. */
+/* Regions met at random, a guide that prefers some cells in every one of them, pairs of random worth and rays from
+ * lights that go some ways rather than others: learnt from nothing. */
 static void learn_nothing(const struct scene *scene, struct learnt *l)
 {
     struct guide_lessons lessons;
@@ -101,6 +101,14 @@ static void learn_nothing(const struct scene *scene, struct learnt *l)
     l->pairs.h = mem_alloc((size_t)l->eye.n * (size_t)l->light.n, sizeof *l->pairs.h);
     for (int i = 0; i < l->eye.n * l->light.n; i++)
         l->pairs.h[i] = exp(4 * rng_uniform(&r) - 2);
+    struct emission_lessons rays;
+    emission_lessons_init(&rays, lights);
+    for (int i = 0; i < 5000; i++) {
+        const double u[2] = {rng_uniform(&r), rng_uniform(&r)};
+        emission_lessons_add(&rays, (int)rng_below(&r, (uint32_t)lights->n_cells), u, exp(4 * (u[0] - u[1])) + i % 3);
+    }
+    emission_build(&l->emission, &rays, lights, 5000, 0.1);
+    emission_lessons_free(&rays);
 }
 
 struct comparison {
@@ -208,10 +216,11 @@ static void compare_paths(struct comparison *c, int n_paths)
 void test_mis(struct test *t)
 {
     const double bound = 1e-6;
-    const struct mis_counts all = {.hit = {1, 1}, .direct = {1, 1}, .delta = {1, 1}, .connect = {1, 1}, .splat = 1024};
-    const struct mis_counts pt = {.hit = {1, 1}, .direct = {1, 1}, .delta = {1, 1}}, lt = {.splat = 1024};
-    const struct mis_counts power = {.hit = {1, 1}, .direct = {1, 1}, .delta = {1, 1}, .connect = {1, 1}, .splat = 1024, .power = true};
-    const struct mis_counts uneven = {.hit = {3, 1}, .direct = {6, 1.5}, .delta = {9, 2}, .connect = {8, 0.7}, .splat = 300};
+    /* hit, direct, delta, connect, splat */
+    const struct mis_counts all = {{1, 1}, {1, 1}, {1, 1}, {1, 1}, .splat = 1024};
+    const struct mis_counts pt = {{1, 1}, {1, 1}, .delta = {1, 1}}, lt = {.splat = 1024};
+    const struct mis_counts power = {{1, 1}, {1, 1}, {1, 1}, {1, 1}, 1024, .power = true};
+    const struct mis_counts uneven = {{3, 1}, {6, 1.5}, {9, 2}, {8, 0.7}, .splat = 300};
     const struct {
         const char *name;
         const struct mis_counts *counts;
@@ -225,16 +234,18 @@ void test_mis(struct test *t)
             return;
         struct learnt learnt = {.guided = false};
         learn_nothing(&scene, &learnt);
-        for (size_t k = 0; k < 4 * (sizeof sets / sizeof sets[0]); k++) {
-            struct mis_counts counts = *sets[k / 4].counts;
+        for (size_t k = 0; k < 8 * (sizeof sets / sizeof sets[0]); k++) {
+            struct mis_counts counts = *sets[k / 8].counts;
             learnt.guided = k % 2 == 1;
             learnt.paired = k / 2 % 2 == 1;
+            learnt.aimed = k / 4 % 2 == 1;
             learnt_freeze(&learnt);
-            counts.model = k % 4 > 0 ? &learnt.model : NULL;
+            counts.model = k % 8 > 0 ? &learnt.model : NULL;
             struct comparison c = {t, VARIANTS[v].name, &scene, &counts, 0, 0, 0, 1};
             compare_paths(&c, 400);
-            CHECK(t, c.worst < bound && c.compared > 100, "%s, %s%s%s: %ld weights, largest difference %.3g (bound %g)",
-                  VARIANTS[v].name, sets[k / 4].name, learnt.guided ? ", guide" : "", learnt.paired ? ", pairs" : "",
+            CHECK(t, c.worst < bound && c.compared > 100,
+                  "%s, %s%s%s%s: %ld weights, largest difference %.3g (bound %g)", VARIANTS[v].name, sets[k / 8].name,
+                  learnt.guided ? ", guide" : "", learnt.paired ? ", pairs" : "", learnt.aimed ? ", emission" : "",
                   c.compared, c.worst, bound);
             CHECK(t, c.lamps > 100 || scene.kd_lamps.n_nodes == 0 || counts.hit == 0,
                   "%s: only %ld of see-through lamps",

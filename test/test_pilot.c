@@ -63,7 +63,8 @@ static void test_where_nothing_else_does(struct test *t)
             continue;
         if (settle(t, &scene, &f)) {
             CHECK(t, (f.path_pixels > 0) == (i > 0), "a point light beside %s: %d", materials[i], f.path_pixels);
-            CHECK(t, f.counts.delta[FIRST_HIT] >= 16, "a point light's samples count for %g", f.counts.delta[FIRST_HIT]);
+            double delta = f.counts.delta[FIRST_HIT];
+            CHECK(t, delta >= 16, "a point light's samples count for %g", delta);
         }
         scene_free(&scene);
     }

@@ -30,7 +30,12 @@ static const struct way SELECTIONS[] = {{"subspaces", "asbdpt", "subspaces"},
                                            {"vertices", "asbdpt", "vertices"},
                                            {"pool", "asbdpt", "pool"},
                                            {"cbdpt", "cbdpt", NULL},
-                                           {"lvc", "lvc", NULL}};
+                                           {"lvc", "lvc", NULL},
+                                           {"mbdpt", "mbdpt", NULL},
+                                           {"pcbdpt", "pcbdpt", NULL},
+                                           {"ris", "ris", NULL},
+                                           {"ris2", "ris2", NULL},
+                                           {"restir", "restir", NULL}};
 enum { N_SELECTIONS = sizeof SELECTIONS / sizeof SELECTIONS[0] };
 
 /* A scene that is looked at. */

@@ -23,6 +23,11 @@ static const struct way {
     {"subspaces", "asbdpt", "subspaces", NULL, NULL},
     {"lvc", "lvc", NULL, NULL, NULL},
     {"cbdpt", "cbdpt", NULL, NULL, "2"},
+    {"mbdpt", "mbdpt", NULL, NULL, NULL},
+    {"pcbdpt", "pcbdpt", NULL, NULL, "2"},
+    {"ris", "ris", NULL, NULL, NULL},
+    {"ris2", "ris2", NULL, NULL, NULL},
+    {"restir", "restir", NULL, NULL, NULL},
     {"bins", "asbdpt", "bins", "32", NULL},
     {"bins, restart 8", "asbdpt", "bins", "8", NULL},
     {"bins, never restarted", "asbdpt", "bins", "0", NULL},
@@ -92,7 +97,7 @@ static void add_names(struct keys *k, uint64_t seed, int second, uint64_t mask)
 {
     static const uint64_t far[] = {0, 1u << 8, 1u << 16, 1u << 24, UINT64_C(1) << 32,
                                    UINT64_C(1) << 40, UINT64_C(1) << 63};
-    for (int purpose = RNG_EYE; purpose < RNG_TEST; purpose++)
+    for (int purpose = RNG_EYE; purpose <= RNG_RECORD; purpose++)
         for (uint64_t other = 0; other < 6; other++)
             for (size_t f = 0; f < sizeof far / sizeof far[0]; f++)
                 for (uint64_t i = 0; i < 32; i++) {

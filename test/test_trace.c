@@ -12,7 +12,8 @@ static const struct {
     const char *name, *integrator, *select;
 } WAYS[] = {{"pt", "pt", ""}, {"lt", "lt", ""}, {"bdpt", "bdpt", ""}, {"bins", "asbdpt", "bins"},
             {"pool", "asbdpt", "pool"}, {"vertices", "asbdpt", "vertices"}, {"subspaces", "asbdpt", "subspaces"},
-            {"lvc", "lvc", ""}, {"cbdpt", "cbdpt", ""}};
+            {"lvc", "lvc", ""}, {"cbdpt", "cbdpt", ""}, {"mbdpt", "mbdpt", ""}, {"pcbdpt", "pcbdpt", ""},
+            {"ris", "ris", ""}, {"ris2", "ris2", ""}, {"restir", "restir", ""}};
 enum { N_WAYS = sizeof WAYS / sizeof WAYS[0] };
 
 static struct render_options options_of(int way)
@@ -40,7 +41,7 @@ static void add_trace(const struct scene *scene, const struct trace *trace, stru
 
 /* What is told of each contribution: its factors make what was added, its choice is one of those told. Where weights
  * make up for the choice, what is told of it is what they divide by: for all draws of first hits, and all of later
- * ones, probability times scale is the same. */
+ * ones, probability times scale is the same. (ris2 draws from what was drawn before, with a factor for it.) */
 static void check_parts(struct test *t, const char *name, const struct trace *trace)
 {
     double same[2] = {0, 0};
@@ -48,7 +49,7 @@ static void check_parts(struct test *t, const char *name, const struct trace *tr
         const struct trace_connection *k = &trace->connection[i];
         double product = rgb_luminance(k->c.value) * k->scale * k->c.weight, added = rgb_luminance(k->added);
         double *first = &same[k->t > 2], draw = k->pmf * k->scale;
-        bool pair = k->s >= 2 && k->t >= 2, weighted = pair && strcmp(name, "bins") != 0;
+        bool pair = k->s >= 2 && k->t >= 2, weighted = pair && strcmp(name, "bins") != 0 && strcmp(name, "ris2") != 0;
         CHECK(t, fabs(product - added) <= 1e-12 * fabs(added), "%s: %g in parts, %g added", name, product, added);
         CHECK(t, (k->light >= 0) == (k->s >= 2) && k->light < trace->n_lights &&
                      (k->s < 2 || trace->light[k->light].n >= k->s), "%s: light sub-path %d", name, k->light);

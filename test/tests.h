@@ -9,9 +9,11 @@ void test_asbdpt(struct test *t);
 void test_aov(struct test *t);
 void test_alias(struct test *t);
 void test_bsdf(struct test *t);
+void test_chains(struct test *t);
 void test_camera(struct test *t);
 void test_caustic(struct test *t);
 void test_devices(struct test *t);
+void test_emission(struct test *t);
 void test_equal_time(struct test *t); /* part of test_report */
 void test_plan(struct test *t); /* part of test_report */
 void test_features(struct test *t);
@@ -42,6 +44,7 @@ void test_render(struct test *t);
 void test_references(struct test *t);
 void test_references_long(struct test *t);
 void test_report(struct test *t);
+void test_rivals(struct test *t);
 void test_scenes(struct test *t);
 void test_scenes_long(struct test *t);
 void test_strategies(struct test *t);

@@ -18,7 +18,18 @@ struct rng {
 };
 
 /* What a stream is for: two purposes never share numbers. */
-enum rng_purpose { RNG_EYE = 1, RNG_LIGHT, RNG_SELECT, RNG_SHUFFLE, RNG_CONNECT, RNG_LEARN, RNG_TEST };
+enum rng_purpose {
+    RNG_EYE = 1,
+    RNG_LIGHT,
+    RNG_SELECT,
+    RNG_SHUFFLE,
+    RNG_CONNECT,
+    RNG_LEARN,
+    RNG_TEST,
+    RNG_RECORD,
+    RNG_START, /* independent states, of which Markov chains start */
+    RNG_CHAIN
+};
 
 static inline uint32_t rng_u32(struct rng *r)
 {

@@ -79,6 +79,9 @@ static void own_pair(struct sampler *s, enum decision d, double u[2])
     u[1] = fraction(scramble_digits(sobol_second(index), (uint32_t)hash_mix(h)));
 }
 
+/* Has the tape n numbers for whoever asks? Then there is no need to draw any. */
+static inline bool recorded(const struct tape *t, size_t n) { return t != NULL && t->n - t->at >= n; }
+
 /* What the tape has instead of n numbers, or appends. */
 static void play(struct tape *t, double *u, int n)
 {
@@ -92,14 +95,17 @@ static void play(struct tape *t, double *u, int n)
 
 void sampler_pair(struct sampler *s, enum decision d, double u[2])
 {
-    own_pair(s, d, u);
+    if (!recorded(s->tape, 2))
+        own_pair(s, d, u);
     if (s->tape != NULL)
         play(s->tape, u, 2);
 }
 
 double sampler_number(struct sampler *s, enum decision d)
 {
-    double u = own_number(s, d);
+    double u = 0;
+    if (!recorded(s->tape, 1))
+        u = own_number(s, d);
     if (s->tape != NULL)
         play(s->tape, &u, 1);
     return u;

@@ -20,6 +20,17 @@ static inline void warp_disk(double u1, double u2, double *x, double *y)
     *y = wide ? p.y : p.x;
 }
 
+/* warp_disk_inverse: the (u1,u2), in [0,1), that warp_disk maps to (x,y); beyond the disk, those of a point on its
+ * edge. */
+static inline void warp_disk_inverse(double x, double y, double *u1, double *u2)
+{
+    bool wide = fabs(x) > fabs(y);
+    double r = sqrt(x * x + y * y), near = wide ? x : y, far = wide ? y : x;
+    double a = near < 0 ? -r : r, b = near != 0 ? a * (4 / PI) * m_atan2(far / near, 1) : 0;
+    *u1 = below_one(fmax(((wide ? a : b) + 1) / 2, 0));
+    *u2 = below_one(fmax(((wide ? b : a) + 1) / 2, 0));
+}
+
 /* warp_cos_hemisphere: direction around +z with density cos(theta)/pi [PBRT3 13.6.3]. */
 static inline vec3 warp_cos_hemisphere(double u1, double u2)
 {
@@ -52,6 +63,15 @@ static inline vec3 warp_cone(double u1, double u2, double cos_max)
 {
     double z = 1 - u1 * (1 - cos_max), r = safe_sqrt(1 - z * z), phi = 2 * PI * u2;
     return cylindrical(r, phi, z);
+}
+
+/* warp_cone_inverse: the (u1,u2), in [0,1), that warp_cone maps to w; beyond the cone, those of a direction on its
+ * edge. 1 - z is written so that nothing cancels in a narrow cone. */
+static inline void warp_cone_inverse(vec3 w, double cos_max, double *u1, double *u2)
+{
+    double from_axis = w.z > 0 ? (w.x * w.x + w.y * w.y) / (1 + w.z) : 1 - w.z, phi = m_atan2(w.y, w.x) / (2 * PI);
+    *u1 = below_one(fmax(from_axis / (1 - cos_max), 0));
+    *u2 = below_one(phi < 0 ? phi + 1 : phi);
 }
 
 static inline double warp_cone_pdf_w(double cos_max) { return 1 / (2 * PI * (1 - cos_max)); }

@@ -104,6 +104,15 @@ static bool open_default_output(const struct job_options *o, const struct scene 
     return ok;
 }
 
+/* Samples of a chain are neither a pixel's own nor independent. */
+static bool suits(const struct job_options *o, const struct method *m, const struct files *f, struct error *err)
+{
+    const char *wanted = f->aov.wanted[AOV_VARIANCE] ? "--aov variance" : o->strategies != NULL ? "--strategies" : NULL;
+    return !m->chain || wanted == NULL ||
+           error_set(err, "%s: the samples of %s are a chain, and do not show that; render several --seed", wanted,
+                     m->name);
+}
+
 /* What the scene names, or what lies beside that, once the scene is loaded; all are different files. */
 static bool open_others(struct job_options *o, const struct scene *scene, struct files *f, struct error *err)
 {
@@ -201,7 +210,8 @@ static int run(void *options)
     int status = ok ? job_load(o, &scene, &integrator) : fail(&err);
     if (status == EXIT_OK) {
         double load_seconds = os_wall_seconds() - start;
-        ok = open_others(o, &scene, &files, &err) && render(o, &scene, integrator, load_seconds, &files, &err);
+        ok = suits(o, integrator, &files, &err) && open_others(o, &scene, &files, &err) &&
+             render(o, &scene, integrator, load_seconds, &files, &err);
         scene_free(&scene);
         status = ok ? EXIT_OK : fail(&err);
     }

@@ -113,11 +113,18 @@ static void warn(struct listener *to, const char *format, const char *what)
     print_warning(to, line.text);
 }
 
+/* What a file calls mlt is pbrt-v3's: mmlt. */
+static const char *name_in_file(const struct scene *scene)
+{
+    const char *name = scene->integrator != NULL ? scene->integrator : "bdpt";
+    return strcmp(name, "mlt") == 0 ? "mmlt" : name;
+}
+
 /* The method asked for; pbrt's integrators that do not exist here are replaced by the default. */
 static const struct method *choose_method(const struct scene *scene, struct listener *to, struct error *err)
 {
     const struct job_options *o = to->options;
-    const char *name = o->integrator != NULL ? o->integrator : scene->integrator != NULL ? scene->integrator : "bdpt";
+    const char *name = o->integrator != NULL ? o->integrator : name_in_file(scene);
     if (method_exists(name))
         return method_find(name, &scene->settings, err);
     if (o->integrator == NULL) {

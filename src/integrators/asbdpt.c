@@ -11,7 +11,7 @@ bool asbdpt_guided(const struct render_job *job)
 void asbdpt_learn(const struct render_job *job, bool importance, int cells, struct learnt *out, struct frozen *f)
 {
     struct wish wish = {.importance = importance, .guide = asbdpt_guided(job), .eye_cells = GUIDE_CELLS,
-                        .light_cells = cells, .levels = 1};
+                        .light_cells = cells, .levels = 1, .emission = 1};
     if (wish.importance || wish.guide)
         learn(job, &wish, out);
     learnt_freeze(out);

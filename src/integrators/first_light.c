@@ -8,18 +8,10 @@
 #include "base/number.h"
 #include "base/parallel.h"
 
-enum {
-    SEQUENCE = 16,     /* samples; of the slope see below */
-    RATIOS = 11,       /* of hit over direct: 2^-4 ... 2^6 */
-    EVEN = 4,          /* number of 2^0 */
-    DELTA = RATIOS,    /* what is summed: direct light by each ratio, that of delta lights, */
-    ALL = RATIOS + 1,  /* and everything */
-    N_SUMS = RATIOS + 2,
-    MOST_PIXELS = 1024
-};
+enum { SEQUENCE = 16, MOST_PIXELS = 1024 };
+enum sum { BROAD, DELTA, ALL, N_SUMS }; /* direct light that s = 0 can find; that it cannot; everything */
 static const double SAMPLES_PER_PIXEL = 1.28;
-static const double SLOPE = 1.5;       /* log 64 / log SEQUENCE */
-static const double RELUCTANCE = 1.15; /* to move from equal counts, for each power of two */
+static const double SLOPE = 1.5; /* log 64 / log SEQUENCE */
 static const double MOST_CREDIT = 64, OUTLIER = 25;
 
 /* Of one pixel, its two sequences together. */
@@ -41,25 +33,16 @@ struct moments {
     double square, single, sequence; /* second moment; variances of one sample, of the mean of SEQUENCE */
 };
 
-static double ratio(int i) { return ldexp(1, i - EVEN); }
-
 /* The sums of one sample, from what each strategy brought; the weights are those of counts 1. */
 static void add_sample(const struct tile *tile, double *x)
 {
     memset(x, 0, N_SUMS * sizeof *x);
     for (const struct strategy_record *r = tile->record; r < tile->record + tile->n_records; r++) {
-        double value = rgb_luminance(rgb_make((double)r->unweighted[0], (double)r->unweighted[1], (double)r->unweighted[2]));
-        double w = (double)r->weight;
+        const float *c = r->unweighted;
+        double value = rgb_luminance(rgb_make((double)c[0], (double)c[1], (double)c[2])), w = (double)r->weight;
         x[ALL] += value * w;
-        if (r->s + r->t != 3)
-            continue;
-        if (r->s == 1 && w >= 1)
-            x[DELTA] += value;
-        else
-            for (int i = 0; i < RATIOS; i++) {
-                double own = r->s == 0 ? ratio(i) : 1, other = r->s == 0 ? 1 : ratio(i);
-                x[i] += value * own * w / (own * w + other * (1 - w));
-            }
+        if (r->s + r->t == 3)
+            x[r->s == 1 && w >= 1 ? DELTA : BROAD] += value * w;
     }
 }
 
@@ -132,25 +115,16 @@ static double credit_of(struct moments m)
 
 static void choose(const struct first_light_job *f, struct first_light *out)
 {
-    double bright = 0, least = INFINITY;
-    int best = EVEN;
+    double bright = 0;
     for (int64_t k = 0; k < f->n; k++)
         bright += (f->pixel[k].mean[0][ALL] + f->pixel[k].mean[1][ALL]) / (2 * (double)f->n);
-    for (int i = 0; i < RATIOS; i++) {
-        double V = moments_of(f, i, bright).sequence * m_pow(RELUCTANCE, abs(i - EVEN));
-        if (V < least) {
-            least = V;
-            best = i;
-        }
-    }
-    out->direct = credit_of(moments_of(f, best, bright));
-    out->hit = out->direct * ratio(best);
+    out->broad = credit_of(moments_of(f, BROAD, bright));
     out->delta = credit_of(moments_of(f, DELTA, bright));
 }
 
 void first_light_measure(const struct render_job *job, const struct count_model *model, struct first_light *out)
 {
-    struct first_light_job f = {.job = *job, .counts = {.hit = {1, 1}, .direct = {1, 1}, .delta = {1, 1}, .model = model}};
+    struct first_light_job f = {.job = *job, .counts = {{1, 1}, {1, 1}, {1, 1}, .model = model}};
     double pixels = (double)rect_width(job->film_rect) * rect_height(job->film_rect);
     f.n = int_within(SAMPLES_PER_PIXEL * pixels / (2 * SEQUENCE), 64, MOST_PIXELS);
     f.job.seed = hash_combine(job->seed, 0x9e3779b97f4a7c15u);

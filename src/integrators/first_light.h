@@ -5,13 +5,11 @@
  * always there has hardly any variance at all. So strategies s = 0 and s = 1 deserve a credit there,
  *     E[X^2] / (N V_N),
  * where X is what a sample brings and V_N the variance of the mean of N samples of a pixel [Grittmann 2019]. It is
- * measured: some pixels take SEQUENCE samples by path tracing, twice, with numbers of their own; half the squared
- * difference of the two means is V. As N grows, E[X^2] / (N V_N) keeps the slope it has from 1 to SEQUENCE; it is
- * taken where N = 64, whatever number is asked for. How s = 0 and s = 1 are best weighed against each other is found
- * the same way, by trying some ratios of their counts on these samples: to go by second moments would be wrong, since
- * one of both may be far better spread.
+ * measured: some pixels take 16 samples by path tracing, twice, with numbers of their own; half the squared difference
+ * of the two means is V_16. As N grows, E[X^2] / (N V_N) is thought to keep the slope it has from 1 to 16; it is taken
+ * where N = 64, whatever number is asked for.
  *
- * Tests: test_asbdpt.c.
+ * Tests: test_pilot.c.
  */
 #ifndef ASBDPT_FIRST_LIGHT_H
 #define ASBDPT_FIRST_LIGHT_H
@@ -19,8 +17,8 @@
 #include "transport/pixel_sample.h"
 
 struct first_light {
-    double hit, direct; /* counts of s = 0 and s = 1 for lights that both can find */
-    double delta;       /* of s = 1 for those that s = 0 cannot */
+    double broad; /* of s = 0 and s = 1, for lights that both can find */
+    double delta; /* of s = 1, for those that s = 0 cannot */
 };
 
 /* first_light_measure: for the lights as `model` chooses them. Traces as many eye

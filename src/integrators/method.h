@@ -1,7 +1,7 @@
 /* method.h: a method is one file and one row.
  *
  * A row says all that anybody needs to know of a method: what --help, -P, scene files, experiments, trace and tests ask
- * for stands here and nowhere else. The table of all rows is in methods.c.
+ * for stands here and nowhere else. The table of all rows is render/methods.h.
  *
  * A render asks a method to prepare its state once, parameters being read already, and then to render tile passes
  * (tile_pass.h) on as many threads as there are, each with scratch memory of its own. Methods whose pixels share the
@@ -23,7 +23,7 @@
 struct frozen {
     struct mis_counts counts;
     int max_depth;
-    int lights;      /* samples of s = 1 at the first hit; 1 */
+    int lights;      /* samples of s = 1 at the first hit, 0: left to the method; 1 */
     int path_pixels; /* pooled methods: pixels for each light sub-path, 0: there are none; 1 */
 };
 
@@ -46,6 +46,7 @@ struct method {
     const char *name;   /* --integrator NAME */
     const char *select; /* asbdpt alone, whose rows share a name: the value of its parameter `select` */
     const char *help;   /* one line */
+    bool chain;         /* its samples are mutations of others, of no pixel and not independent: see chains/chain.h */
     const char *why;    /* for trace: how what an eye sub-path is joined to is chosen; NULL: it is not */
     const struct method_parameter *parameters; /* of the state; NULL: none */
     size_t state_size, scratch_size;    /* scratch_size 0: none; else all zeros at first */
@@ -63,23 +64,18 @@ struct method {
     void (*scratch_init)(void *scratch, const void *state); /* NULL: zeros will do */
     void (*scratch_free)(void *scratch);                    /* what the scratch owns; NULL: nothing */
 
-    /* For pooled_render, whose scratch begins with struct light_pool: the pool of an iteration has been filled; */
+    /* For pooled_render, whose scratch begins with struct light_pool: the pool of an iteration has been filled; NULL:
+     * that is all; */
     void (*begin)(void *scratch, const void *state, const struct tile_pass *pass, long iteration);
     /* add the strategies s >= 2, t >= 2 to p->sample, of all the pixel's eye sub-path or, called for every eye vertex
-     * that can be connected to, those of z = z_{t-1}. One of the two is NULL. */
+     * that can be connected to, those of z = z_{t-1}, */
     void (*connect)(void *scratch, const void *state, struct pooled_pixel *p);
     void (*draw)(void *scratch, const void *state, struct pooled_pixel *p, const struct vertex *z, int t);
+    /* or, when all eye sub-paths of the tile have been traced, all strategies t >= 2 of all n pixels. Two of the three
+     * are NULL. */
+    void (*connect_all)(void *scratch, const void *state, const struct tile_pass *pass, struct pooled_pixel *pixel,
+                        int n);
 };
-
-/* method_list: all rows, ended by NULL. Of rows that share a name the first is the default. */
-const struct method *const *method_list(void);
-
-/* method_exists: is there an integrator of that name ("path", pbrt's name of pt, among them)? */
-bool method_exists(const char *name);
-
-/* method_find: the row of an integrator; the setting `select` chooses among several. NULL with a message if there is
- * none. */
-const struct method *method_find(const char *name, const struct settings *s, struct error *err);
 
 /* method_has: the parameter of that name that a row has, or NULL; `select` is one, where rows share a name. */
 const struct method_parameter *method_has(const struct method *m, const char *name);

@@ -14,7 +14,7 @@
  * fireflies are foreseen by the strategies that make those paths often. P is found by a fourth render, with the numbers
  * of the first and the counts of s <= 1 twice as large: the weights of the others are smaller by 1 / (1 + P) then.
  *
- * Tests: test_asbdpt.c.
+ * Tests: test_pilot.c.
  */
 #ifndef ASBDPT_NOISE_H
 #define ASBDPT_NOISE_H

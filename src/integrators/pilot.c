@@ -37,7 +37,7 @@ static struct costs costs_of(const struct importance *importance)
     return c;
 }
 
-/* Is the path tracer alone better at equal time? Light sub-paths cost more than rays: they are kept and chosen from.  */
+/* Is the path tracer alone better at equal time? Light sub-paths cost more than rays: they are kept and chosen from. */
 static bool light_paths_pay(const struct costs *c, const double *n, const struct noise *s)
 {
     const double KEEPING = 1.08;
@@ -75,8 +75,8 @@ static void set_numbers(struct subspaces_state *s, const struct choice_of_number
     s->draws[LATER_HIT] = clamp(c->n[DRAW_LATER], 0.125, 8);
     f->lights = (int)clamp(c->n[LIGHT_FIRST] + 0.5, 1, 8);
     f->path_pixels = c->light_paths ? (int)clamp(1 / c->n[LIGHT_PATH] + 0.5, 1, 64) : 0;
-    f->counts.hit[FIRST_HIT] = light->hit;
-    f->counts.direct[FIRST_HIT] = light->direct * f->lights;
+    f->counts.hit[FIRST_HIT] = light->broad;
+    f->counts.direct[FIRST_HIT] = light->broad * f->lights;
     f->counts.delta[FIRST_HIT] = light->delta * f->lights;
     for (int end = 0; end < EYE_ENDS; end++)
         f->counts.connect[end] = c->light_paths ? c->credit[DRAW_FIRST + end] * s->draws[end] : 0;

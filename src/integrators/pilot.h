@@ -1,23 +1,17 @@
-/* pilot.h: how many samples should each kind of strategy take? Measured on a few tiles before the render.
+/* pilot.h: how many samples should each kind of strategy take? Chosen before the render, by what some tiles show.
  *
  * Let a pixel's estimate have the variance A + sum_c b_c / n_c and the cost k + sum_c n_c k_c, where c are the kinds of
- * samples whose number is free (draws for t = 2, draws for t > 2, light points for t = 2, light sub-paths), b_c is the
- * variance of one sample of the kind once the eye sub-path is given, and A is the variance that the eye sub-path
- * brings. The product
- * of both, which is the squared error at equal time, is smallest for
+ * samples whose number is free (draws for the first hit, draws for later ones, light points for the first hit, light
+ * sub-paths), b_c is the variance of one sample of the kind once the eye sub-path is given, and A is the variance that
+ * the eye sub-path brings. The product of both, which is the squared error at equal time, is smallest for
  *     n_c = sqrt(b_c / k_c) sqrt(k / A).
- * The pilot renders some tiles three times with random numbers of their own, two of them with the same eye sub-paths. A
- * is what the variance of independent renders has above that of renders which share eye sub-paths; b_c for draws and
- * light points is their spread at one eye vertex, for light sub-paths it is the rest. All are relative to the
- * brightness around the pixel. Costs are counted in rays, not measured in seconds: the choice must be the same on every
- * machine. [Grittmann 2022] chooses among given candidates by the same product.
+ * noise.h measures A and b_c. Costs are counted in rays, not in seconds: the choice must be the same on every machine.
+ * The same product says whether light sub-paths pay at all. [Grittmann 2022] chooses among given candidates by it.
  *
- * The pilot also finds the credit of each kind (mis.h): how much more a sample is worth to the weights than an
- * independent one, the ratio of its second moment to its variance [Grittmann 2019]. Draws, light points, and lights met
- * by the first bounce (s = 0, t = 3), whose directions are well spread too, have one. Without it the last would lose
- * weight where they serve best, under an even sky.
+ * It also settles the credit of each kind (mis.h): how much more a sample is worth to the weights than an independent
+ * one, the ratio of its second moment to its variance [Grittmann 2019]; first_light.h has those of s <= 1.
  *
- * Tests: test_asbdpt.c.
+ * Tests: test_pilot.c, test_asbdpt.c.
  */
 #ifndef ASBDPT_PILOT_H
 #define ASBDPT_PILOT_H

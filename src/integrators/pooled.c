@@ -2,6 +2,7 @@
 #include "integrators/pooled.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 void light_pool_free(struct light_pool *pool)
 {
@@ -9,8 +10,12 @@ void light_pool_free(struct light_pool *pool)
     free(pool->vertex);
 }
 
-/* Trace the sub-paths of the tile's pixels 0, path_pixels, 2 path_pixels ... for one iteration. */
-static void fill(struct light_pool *pool, const struct tile_pass *pass, const struct frozen *f, long iteration)
+static const struct mis_counts *counts_of(const struct light_pool *pool, const struct frozen *f)
+{
+    return pool->counts != NULL ? pool->counts : &f->counts;
+}
+
+void light_pool_fill(struct light_pool *pool, const struct tile_pass *pass, const struct frozen *f, long iteration)
 {
     size_t longest = (size_t)f->max_depth + 1;
     arena_reset(&pool->arena);
@@ -19,7 +24,7 @@ static void fill(struct light_pool *pool, const struct tile_pass *pass, const st
     for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i += f->path_pixels) {
         pool->vertex = mem_grow(pool->vertex, &pool->capacity, pool->used + longest, sizeof *pool->vertex);
         struct vertex *path = &pool->vertex[pool->used];
-        int length = pixel_light_path(pass, &f->counts, x, y, (uint64_t)iteration, &pool->arena, path);
+        int length = pixel_light_path(pass, counts_of(pool, f), x, y, (uint64_t)iteration, &pool->arena, path);
         pool->start[pool->n] = pool->used;
         pool->length[pool->n++] = length;
         pool->used += (size_t)length;
@@ -61,46 +66,80 @@ static void splat(const struct light_pool *pool, const struct tile_pass *pass, s
     pixel_splat_path(sample, light_pool_path(pool, k), pool->length[k], pixels / ((double)pool->n * path_pixels));
 }
 
-/* What the light sub-paths bring to a pixel, and to others by pixel `number`'s own. */
+/* Trace the eye sub-path. */
+static struct pooled_pixel begin_pixel(const struct preparation *m, const struct tile_pass *pass, int x, int y,
+                                       int number, long iteration)
+{
+    const struct frozen *f = m->state;
+    struct pooled_pixel p = {.eye = pass->work->eye, .number = number};
+    p.sample = pixel_sample_begin(pass, counts_of(pass->work->scratch, f), x, y, iteration);
+    p.sample.lights = f->lights;
+    p.n = pixel_eye_path(pass, &p.sample, iteration, pass->work->eye, f->max_depth + 2);
+    p.draws = pixel_sampler(pass, RNG_SELECT, x, y, iteration);
+    return p;
+}
+
+static void end_pixel(const struct preparation *m, const struct tile_pass *pass, struct pooled_pixel *p)
+{
+    const struct frozen *f = m->state;
+    if (f->path_pixels > 0 && p->number % f->path_pixels == 0)
+        splat(pass->work->scratch, pass, &p->sample, f->path_pixels, p->number / f->path_pixels);
+    tile_add_eye(pass->tile, p->sample.x, p->sample.y, p->sample.sum);
+}
+
+/* What the light sub-paths bring to the pixel. */
 static void use_pool(const struct preparation *m, const struct tile_pass *pass, struct pooled_pixel *p)
 {
     const struct method *method = m->method;
     const struct frozen *f = m->state;
-    struct light_pool *pool = pass->work->scratch;
     if (method->connect != NULL)
-        method->connect(pool, f, p);
+        method->connect(pass->work->scratch, f, p);
     for (int t = 2; method->draw != NULL && t <= p->n && t <= f->max_depth; t++)
         if (vertex_connectible(&p->eye[t - 1]))
-            method->draw(pool, f, p, &p->eye[t - 1], t);
-    if (p->number % f->path_pixels == 0)
-        splat(pool, pass, &p->sample, f->path_pixels, p->number / f->path_pixels);
+            method->draw(pass->work->scratch, f, p, &p->eye[t - 1], t);
 }
 
 static void render_pixel(const struct preparation *m, const struct tile_pass *pass, int x, int y, int number,
                          long iteration)
 {
     const struct frozen *f = m->state;
-    struct pooled_pixel p = {.eye = pass->work->eye, .number = number};
     arena_reset(&pass->work->arena);
-    p.sample = pixel_sample_begin(pass, &f->counts, x, y, iteration);
-    p.sample.lights = f->lights;
-    p.n = pixel_eye_path(pass, &p.sample, iteration, pass->work->eye, f->max_depth + 2);
-    p.draws = pixel_sampler(pass, RNG_SELECT, x, y, iteration);
+    struct pooled_pixel p = begin_pixel(m, pass, x, y, number, iteration);
     pixel_sum_eye(&p.sample, p.eye, p.n);
     if (f->path_pixels > 0)
         use_pool(m, pass, &p);
-    tile_add_eye(pass->tile, x, y, p.sample.sum);
+    end_pixel(m, pass, &p);
+}
+
+/* All eye sub-paths of the tile are traced before the first is connected. */
+static void render_together(const struct preparation *m, const struct tile_pass *pass, long iteration)
+{
+    struct arena *arena = &pass->work->arena;
+    int n = rect_width(pass->rect) * rect_height(pass->rect);
+    arena_reset(arena);
+    struct pooled_pixel *all = arena_alloc(arena, (size_t)n * sizeof *all);
+    for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
+        all[i] = begin_pixel(m, pass, x, y, i, iteration);
+        size_t size = (size_t)all[i].n * sizeof *all[i].eye;
+        all[i].eye = memcpy(arena_alloc(arena, size), all[i].eye, size);
+    }
+    m->method->connect_all(pass->work->scratch, m->state, pass, all, n);
+    for (int i = 0; i < n; i++)
+        end_pixel(m, pass, &all[i]);
 }
 
 void pooled_render(const struct preparation *m, const struct tile_pass *pass)
 {
+    const struct method *method = m->method;
     const struct frozen *f = m->state;
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
-        if (f->path_pixels > 0) {
-            fill(pass->work->scratch, pass, f, iteration);
-            m->method->begin(pass->work->scratch, f, pass, iteration);
-        }
-        for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++)
+        if (f->path_pixels > 0)
+            light_pool_fill(pass->work->scratch, pass, f, iteration);
+        if (f->path_pixels > 0 && method->begin != NULL)
+            method->begin(pass->work->scratch, m->state, pass, iteration);
+        if (method->connect_all != NULL)
+            render_together(m, pass, iteration);
+        for (int i = 0, x, y; method->connect_all == NULL && pass_pixel(pass, i, &x, &y); i++)
             render_pixel(m, pass, x, y, i, iteration);
     }
 }

@@ -4,8 +4,7 @@
  *              the dissertation's bins
  *   vertices   asbdpt: one alias table over light *vertices*, C draws per eye vertex, known to the MIS weights
  *   subspaces  asbdpt, its default: the same, but what is drawn depends on where the eye vertex is too
- *   lvc        all light vertices equally likely: the light vertex cache                            [Davidovic 2014]
- *   cbdpt      no choice: an eye sub-path is connected with M light sub-paths in all pairs              [Pajot 2011]
+ *   and all of rivals/
  *
  * In every iteration the pixels of a tile trace light sub-paths, one for every path_pixels of them; each pixel traces
  * its eye sub-path, takes the strategies s = 0 and s = 1 as BDPT does, and is joined to what its method draws; every
@@ -25,10 +24,14 @@ struct light_pool {
     size_t start[MAX_TILE_SIZE * MAX_TILE_SIZE]; /* first vertex of path k */
     int length[MAX_TILE_SIZE * MAX_TILE_SIZE];   /* vertices of path k */
     int n;                                       /* K */
+    const struct mis_counts *counts; /* of this thread's samples, if the method has set it; NULL: the frozen ones */
 };
 
 /* light_pool_free: release what the pool owns. A pool starts as zeros. */
 void light_pool_free(struct light_pool *pool);
+
+/* light_pool_fill: trace the sub-paths of the tile's pixels 0, path_pixels, 2 path_pixels ... for one iteration. */
+void light_pool_fill(struct light_pool *pool, const struct tile_pass *pass, const struct frozen *f, long iteration);
 
 static inline const struct vertex *light_pool_path(const struct light_pool *pool, int k)
 {

@@ -193,7 +193,7 @@ static void prepare(const struct render_job *job, struct preparation *out)
     int path_pixels = f->path_pixels;
     const struct wish wish = {.importance = true, .guide = asbdpt_guided(job), .pairs = true,
                               .eye_cells = GUIDE_CELLS, .light_cells = LIGHT_CELLS, .levels = REGION_LEVELS,
-                              .delta = s->delta};
+                              .delta = s->delta, .emission = s->emission};
     out->size.tile = MAX_TILE_SIZE; /* a larger pool */
     bool known = s->learnt.eye.n > 0, free_choice = path_pixels == 0 && s->connections == 0;
     learn(job, &wish, &s->learnt);
@@ -229,6 +229,8 @@ static const struct method_parameter PARAMETERS[] = {
     {"pathpixels", PARAMETER_INTEGER, AT(frozen.path_pixels), 0, 0, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
      "pixels for each light sub-path; 0: chosen", NULL},
     {"delta", PARAMETER_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore what was learnt", NULL},
+    {"emission", PARAMETER_NUMBER, AT(emission), 0.2, 1e-6, 1,
+     "share of light sub-paths that leave lights as if nothing were learnt", NULL},
     {.name = NULL}};
 
 const struct method method_subspaces = {

@@ -8,7 +8,7 @@ struct subspaces_state {
     struct frozen frozen;         /* lights and path_pixels are the pilot's to choose */
     int connections;              /* parameter: draws for each eye vertex; 0: chosen */
     double draws[EYE_ENDS];       /* C */
-    double delta;
+    double delta, emission;
     struct learnt learnt;
 };
 

@@ -7,50 +7,17 @@
 #include "base/cumulative.h"
 #include "base/mem.h"
 
-/* --- columns ----------------------------------------------------------------------------------------- */
-
-static struct guide_columns columns_new(const struct light_set *lights)
-{
-    struct guide_columns c = {0};
-    c.cells_each = (lights->n_cells + GUIDE_COLUMNS - 1) / GUIDE_COLUMNS;
-    c.n = c.cells_each > 0 ? (lights->n_cells + c.cells_each - 1) / c.cells_each : 0;
-    c.power = mem_alloc((size_t)c.n, sizeof *c.power);
-    c.before = mem_alloc((size_t)lights->n_cells, sizeof *c.before);
-    for (int i = 0; i < lights->n_cells; i++) {
-        c.before[i] = c.power[i / c.cells_each];
-        c.power[i / c.cells_each] += alias_pmf(&lights->choice, i);
-    }
-    return c;
-}
-
-static void columns_free(struct guide_columns *c)
-{
-    free(c->power);
-    free(c->before);
-}
-
-/* The cell within a column, by power: the last one that begins at or before u times the column's probability. */
-static int cell_of_column(const struct guide_columns *c, const struct light_set *lights, int column, double u)
-{
-    int low = column * c->cells_each, high = low + c->cells_each;
-    high = high < lights->n_cells ? high : lights->n_cells;
-    low += cumulative_find(&c->before[low], high - low, u * c->power[column]);
-    while (low > column * c->cells_each && alias_pmf(&lights->choice, low) == 0)
-        low--; /* rounding at the end of the column */
-    return low;
-}
-
 /* --- lessons ----------------------------------------------------------------------------------------- */
 
 void guide_lessons_init(struct guide_lessons *l, const struct light_set *lights)
 {
     memset(l, 0, sizeof *l);
-    l->columns = columns_new(lights);
+    l->columns = light_columns_new(lights, GUIDE_COLUMNS);
 }
 
 void guide_lessons_free(struct guide_lessons *l)
 {
-    columns_free(&l->columns);
+    light_columns_free(&l->columns);
     free(l->arrived);
     free(l->samples);
     memset(l, 0, sizeof *l);
@@ -87,7 +54,7 @@ void guide_lessons_add(struct guide_lessons *l, const struct regions *regions, i
 void guide_free(struct guide *g)
 {
     free(g->before);
-    columns_free(&g->columns);
+    light_columns_free(&g->columns);
     memset(g, 0, sizeof *g);
 }
 
@@ -139,7 +106,7 @@ static double *shares_of_regions(const struct guide_lessons *l, const struct reg
 void guide_start(struct guide *g, const struct light_set *lights)
 {
     guide_free(g);
-    g->columns = columns_new(lights);
+    g->columns = light_columns_new(lights, GUIDE_COLUMNS);
 }
 
 void guide_build(struct guide *g, struct guide_lessons *l, const struct regions *regions,
@@ -191,7 +158,7 @@ int guide_choose(const struct guide *g, const struct light_set *lights, int regi
         return column;
     }
     double rest = below_one((target - before[column]) / (before[column + 1] - before[column]));
-    int cell = cell_of_column(&g->columns, lights, column, rest);
+    int cell = light_columns_cell(&g->columns, lights, column, rest);
     *pmf = q * alias_pmf(&lights->choice, cell) / g->columns.power[column];
     return cell;
 }

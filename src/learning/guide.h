@@ -20,21 +20,14 @@
 #ifndef ASBDPT_LEARNING_GUIDE_H
 #define ASBDPT_LEARNING_GUIDE_H
 
+#include "learning/columns.h"
 #include "learning/regions.h"
-#include "scene/light.h"
 
 enum { GUIDE_COLUMNS = 256 };
 
-/* The cells of a light set in columns of equal length, the last one perhaps shorter. */
-struct guide_columns {
-    int n, cells_each;
-    double *power;  /* [n], probability of the column when cells are chosen by power; owned */
-    double *before; /* [cells], probability by power of the cells before this one in its column; owned */
-};
-
 /* What has been found so far, per region. */
 struct guide_lessons {
-    struct guide_columns columns;
+    struct light_columns columns;
     double *arrived; /* [regions * columns.n] sums of contributions (luminance), owned */
     double *samples; /* [regions] number of contributions other than zero, owned */
     int n;           /* regions */
@@ -50,7 +43,7 @@ void guide_lessons_add(struct guide_lessons *l, const struct regions *regions, i
 
 /* The frozen tables. */
 struct guide {
-    struct guide_columns columns;
+    struct light_columns columns;
     double *before; /* [n * (columns.n + 1)], per region: probability of the columns before, and of all; owned */
     int n;          /* regions */
 };

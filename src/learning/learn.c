@@ -36,8 +36,11 @@ void learn(const struct render_job *job, const struct wish *wish, struct learnt 
         l.counts.model = &out->model;
         visits_run(&l, wish->pairs ? n / 2 : n);
     }
+    long aiming = wish->importance && wish->emission < 1 ? n_light / 2 : 0;
+    if (aiming > 0)
+        visits_emission(&l, aiming);
     if (!visits || wish->importance)
-        visits_light(&l, visits ? n_light : COUNTED);
+        visits_light(&l, aiming, visits ? n_light - aiming : COUNTED);
     if (wish->pairs)
         trials_run(&l, n / 2, n / 2);
     workspaces_free(l.work, job->n_threads);

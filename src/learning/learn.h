@@ -7,8 +7,9 @@
  * and may end it: then there is what was found so far, which is a valid, if poor, thing to have learnt.
  *
  * Passes, each over sub-paths of its own: extent (where vertices are, so that the grid lies there), visits (where the
- * camera can use light, and which lights are seen from where), light walks (where light vertices are), trials (what
- * regions are worth to each other). visits.c, trials.c.
+ * camera can use light, and which lights are seen from where), emission (which light sub-paths go there: half of them),
+ * light walks (where the vertices of the others, which know that, are), trials (what regions are worth to each other).
+ * visits.c, trials.c.
  *
  * Tests: test_asbdpt.c (same result for any number of threads, unbiased renders), test_learning.c.
  */

@@ -28,12 +28,28 @@ static double direct_factor(const void *learnt, const struct light_set *lights, 
     return guide_ratio(&l->guide, lights, e, cell, w);
 }
 
+static int choose_emission(const void *learnt, const struct light_set *lights, double u, double direction[2],
+                           double *rho)
+{
+    const struct learnt *l = learnt;
+    return emission_choose(&l->emission, lights, u, direction, rho);
+}
+
+static double emission_factor(const void *learnt, const struct light_set *lights, const struct light_point *y0, vec3 p,
+                              vec3 w)
+{
+    const struct learnt *l = learnt;
+    return emission_ratio(&l->emission, lights, y0, p, w);
+}
+
 void learnt_freeze(struct learnt *l)
 {
     struct count_model m = {.learnt = l, .locate = locate};
     m.connect = l->paired ? connect_factor : NULL;
     m.choose_light = l->guided ? choose_light : NULL;
     m.direct = l->guided ? direct_factor : NULL;
+    m.choose_emission = l->aimed ? choose_emission : NULL;
+    m.emission = l->aimed ? emission_factor : NULL;
     l->model = m;
 }
 
@@ -43,6 +59,7 @@ void learnt_free(struct learnt *l)
     regions_free(&l->light);
     importance_free(&l->importance);
     guide_free(&l->guide);
+    emission_free(&l->emission);
     pairs_free(&l->pairs);
     memset(l, 0, sizeof *l);
 }

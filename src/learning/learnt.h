@@ -7,6 +7,7 @@
 #ifndef ASBDPT_LEARNT_H
 #define ASBDPT_LEARNT_H
 
+#include "learning/emission.h"
 #include "learning/guide.h"
 #include "learning/importance.h"
 #include "learning/pairs.h"
@@ -15,6 +16,7 @@
 /* What is wished to be learnt. Light vertices are counted in any case. */
 struct wish {
     bool importance, guide, pairs;
+    double emission; /* delta of emission, which needs importance; 1: it is not to be learnt */
     int eye_cells, light_cells; /* regions along the diagonal of where vertices are */
     int levels;                 /* of regions */
     double delta;               /* of the pairs, and of what guides their trials */
@@ -27,7 +29,8 @@ struct learnt {
     struct importance importance; /* how much of the camera's throughput comes to a light region */
     struct guide guide;           /* how s = 1 chooses lights, by eye region */
     struct pairs pairs;           /* how s >= 2 chooses light vertices, by both */
-    bool guided, paired;          /* are there a guide and pairs? */
+    struct emission emission;     /* how light sub-paths leave the lights */
+    bool guided, paired, aimed;   /* are there a guide, pairs, emission? */
     double number[LEARNT_NUMBERS]; /* what a method has chosen by trying, in an order of its own; >= 0 */
     struct count_model model;     /* all of it, as the weights see it; of no use once the struct has moved */
 };

@@ -118,6 +118,18 @@ static void guide(struct stream *s, struct learnt *l, const struct light_set *li
         s->ok = i % (g->columns.n + 1) == 0 || g->before[i] >= g->before[i - 1];
 }
 
+static void emission(struct stream *s, struct learnt *l, const struct light_set *lights)
+{
+    struct emission *e = &l->emission;
+    int columns = e->columns.n;
+    if (!s->writing)
+        emission_start(e, lights);
+    whole(s, &columns, e->columns.n, e->columns.n);
+    for (int i = 0; s->ok && i < columns * EMISSION_BINS; i++)
+        real(s, &e->q[i], 0);
+    s->ok = s->ok && (s->writing || (columns > 0 && emission_freeze(e)));
+}
+
 static void pairs(struct stream *s, struct learnt *l)
 {
     struct pairs *p = &l->pairs;
@@ -141,9 +153,10 @@ static void importance(struct stream *s, struct importance *g)
 
 static void everything(struct stream *s, struct learnt *l, const struct light_set *lights)
 {
-    int guided = l->guided, paired = l->paired;
+    int guided = l->guided, paired = l->paired, aimed = l->aimed;
     whole(s, &guided, 0, 1);
     whole(s, &paired, 0, 1);
+    whole(s, &aimed, 0, 1);
     regions(s, &l->eye);
     regions(s, &l->light);
     if (s->ok)
@@ -152,15 +165,18 @@ static void everything(struct stream *s, struct learnt *l, const struct light_se
         guide(s, l, lights);
     if (s->ok && paired)
         pairs(s, l);
+    if (s->ok && aimed)
+        emission(s, l, lights);
     for (int i = 0; s->ok && i < LEARNT_NUMBERS; i++)
         real(s, &l->number[i], 0);
     l->guided = s->ok && guided;
     l->paired = s->ok && paired;
+    l->aimed = s->ok && aimed;
 }
 
 static int head(uint64_t of, char *text, size_t size)
 {
-    return snprintf(text, size, "asbdpt learnt 1\nof %016" PRIx64 "\n", of);
+    return snprintf(text, size, "asbdpt learnt 2\nof %016" PRIx64 "\n", of);
 }
 
 void learnt_write(const struct learnt *l, uint64_t of, struct bytes *out)

@@ -1,6 +1,6 @@
 /* learnt_file.h: what has been learnt, as bytes: kept in checkpoints, or as a file that the parts of a picture share.
  *
- *     asbdpt learnt 1          a line
+ *     asbdpt learnt 2          a line
  *     of 0123456789abcdef      another: what picture it is for, by a number of the caller's
  *     numbers                  eight bytes each, the lowest first: whole numbers as they are, others as IEEE 754 bits
  *     check                    CRC-32 of all before, four bytes

@@ -10,12 +10,13 @@
 
 /* Something a sub-path found. */
 struct finding {
-    enum { VISIT, LIGHT_SEEN, LIGHT_VERTEX, TRIAL } kind;
+    enum { VISIT, LIGHT_SEEN, LIGHT_LEFT, LIGHT_VERTEX, TRIAL } kind;
     vec3 p, p_ng; /* the vertex; TRIAL: its eye end */
     vec3 y, y_ng; /* TRIAL: its light end */
-    int cell;     /* LIGHT_SEEN: the light cell */
+    int cell;     /* LIGHT_SEEN, LIGHT_LEFT: the light cell */
+    double u[2];  /* LIGHT_LEFT: where in emission's square */
     bool first;   /* VISIT: is it the first hit? */
-    double x;     /* VISIT, LIGHT_VERTEX: luminance of beta; LIGHT_SEEN: contribution; TRIAL: worth */
+    double x;     /* VISIT, LIGHT_VERTEX: luminance of beta; LIGHT_SEEN: contribution; LIGHT_LEFT, TRIAL: worth */
     double w;     /* TRIAL: weight */
 };
 
@@ -64,10 +65,12 @@ struct sampler lessons_sampler(const struct lessons *l, long i, enum stream stre
 int lessons_eye(const struct lessons *l, int thread, long i, enum stream stream, struct sampler *sampler);
 
 /* visits_extent: the box in which most vertices are. visits_run: n eye sub-paths, for importance and, if it is wished
- * for, the guide, which each round betters for the next. visits_light: n light sub-paths, for the means over them. */
+ * for, the guide, which each round betters for the next. visits_emission: light sub-paths 0 .. n-1, for emission.
+ * visits_light: n more from number first on, for the means over them. */
 void visits_extent(struct lessons *l, vec3 *low, vec3 *high);
 void visits_run(struct lessons *l, long n);
-void visits_light(struct lessons *l, long n);
+void visits_emission(struct lessons *l, long n);
+void visits_light(struct lessons *l, long first, long n);
 
 /* trials_run: eye sub-paths first .. first+n-1, from whose vertices connections are tried, for the pairs. */
 void trials_run(struct lessons *l, long first, long n);

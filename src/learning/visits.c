@@ -12,6 +12,7 @@ enum {
 static const double OUTSIDE = 0.01;     /* share of vertices beyond either side of the extent, along each axis */
 static const double GUIDE_DELTA = 0.2;  /* share of s = 1 samples that choose lights by power */
 static const double LEARN_DELTA = 0.5;  /* the same while learning */
+static const double FIRST_VERTEX = 0.2; /* what the first vertex of a light sub-path counts for in emission */
 
 /* --- extent ------------------------------------------------------------------------------------------ */
 
@@ -141,6 +142,46 @@ void visits_run(struct lessons *l, long n)
 
 /* --- light sub-paths --------------------------------------------------------------------------------- */
 
+/* What a light sub-path is worth is a lesson about how it begins. Its first vertex counts little: what comes from there
+ * is what s = 1 finds as well. */
+static void trace_emission(void *context, struct lessons *l, int thread, long i, struct findings *out)
+{
+    struct workspace *work = &l->work[thread];
+    struct sampler sampler = lessons_sampler(l, i, STREAM_LIGHT);
+    struct walk w = lessons_walk(l, &work->arena, &sampler);
+    int n = path_light(&w, work->light, l->job->max_depth + 1);
+    (void)context;
+    if (n < 2)
+        return;
+    struct light_point at = vertex_light_point(&work->light[0]);
+    struct finding f = {.kind = LIGHT_LEFT, .cell = at.cell};
+    light_emission_numbers(&l->job->scene->lights, &at, work->light[1].p, neg(work->light[1].wo), f.u);
+    f.x = FIRST_VERTEX * importance_of_path(&l->learnt->importance, work->light, 2) +
+          importance_of_path(&l->learnt->importance, work->light + 1, n - 1);
+    findings_add(out, f);
+}
+
+static void take_emission(void *context, struct lessons *l, const struct finding *f)
+{
+    (void)l;
+    emission_lessons_add(context, f->cell, f->u, f->x);
+}
+
+void visits_emission(struct lessons *l, long n)
+{
+    struct emission_lessons lessons;
+    const struct light_set *lights = &l->job->scene->lights;
+    struct pass pass = {l, 0, n, &lessons, NULL, trace_emission, take_emission};
+    if (lights->choice.n == 0)
+        return;
+    emission_lessons_init(&lessons, lights);
+    pass_run(&pass);
+    emission_build(&l->learnt->emission, &lessons, lights, (double)n, l->wish->emission);
+    l->learnt->aimed = true;
+    learnt_freeze(l->learnt);
+    emission_lessons_free(&lessons);
+}
+
 /* Sums over the connectible vertices of light sub-paths; I = luminance(beta) E. */
 struct light_sums {
     double vertices, E, I, square; /* square: of I */
@@ -179,13 +220,13 @@ static void take_light(void *context, struct lessons *l, const struct finding *f
         importance_add_light(importance, region, 1.0 / (double)s->n);
 }
 
-void visits_light(struct lessons *l, long n)
+void visits_light(struct lessons *l, long first, long n)
 {
     struct importance *importance = &l->learnt->importance;
     struct regions *known = &l->learnt->light;
     struct light_sums s = {.n = n};
     regions_copy(&s.light, known);
-    struct pass pass = {l, 0, n, &s, NULL, trace_light, take_light};
+    struct pass pass = {l, first, first + n, &s, NULL, trace_light, take_light};
     pass_run(&pass);
     regions_copy(known, &s.light);
     regions_free(&s.light);

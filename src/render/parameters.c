@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "parser/symbols.h"
 #include "transport/caustic.h"
 
@@ -129,12 +130,21 @@ static bool passed_over(const struct scene *scene, const struct setting *item, c
     return true;
 }
 
+/* pbrt-v3's number of samples for its mlt. True if it is to be taken out. */
+static bool adapt_mutations(struct scene *scene, const struct setting *item, const struct method *reader)
+{
+    if (strcmp(item->name, "mutationsperpixel") != 0 || !is_of_file(item) || !reader->chain || item->n_values != 1)
+        return false;
+    scene->spp = int_within(strtod(item->value, NULL), 1, 1 << 30);
+    return true;
+}
+
 void parameters_adapt(struct scene *scene, const struct method *const *readers, const struct message_sink *sink)
 {
     struct settings *all = &scene->settings;
     for (int i = 0; i < all->n;) {
         const struct method_parameter *found;
-        if (passed_over(scene, &all->item[i], readers, sink)) {
+        if (adapt_mutations(scene, &all->item[i], readers[0]) || passed_over(scene, &all->item[i], readers, sink)) {
             settings_remove(all, i);
             continue;
         }

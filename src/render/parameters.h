@@ -8,7 +8,7 @@
 #ifndef ASBDPT_PARAMETERS_H
 #define ASBDPT_PARAMETERS_H
 
-#include "integrators/method.h"
+#include "render/methods.h"
 #include "parser/source_position.h" /* struct message_sink */
 
 /* parameters_common: what all integrators have, ended by a NULL name. */

@@ -271,7 +271,11 @@ bool render_trace(const struct scene *scene, const struct render_options *option
 {
     struct run r = {.options = options};
     struct pixel_rect film = render_crop(scene);
-    if (!check_sample(options, film, trace, err) ||
+    const struct method *m = method_find(options->integrator, &scene->settings, err);
+    if (m != NULL && m->chain)
+        return error_set(err, "%s goes from sample to sample over the whole picture: no pixel has one to tell of",
+                         m->name);
+    if (m == NULL || !check_sample(options, film, trace, err) ||
         !render_prepare(scene, options, film, &r.job, &r.prepared, err))
         return false;
     trace->why = r.prepared.method->why;

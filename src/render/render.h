@@ -14,8 +14,8 @@
 #include <stdint.h>
 
 #include "base/error.h"
+#include "render/methods.h"
 #include "scene/film.h"
-#include "integrators/method.h"
 #include "scene/scene.h"
 #include "transport/trace.h"
 

@@ -299,6 +299,33 @@ double light_pdf_emission(const struct light_set *set, const struct light_point 
     return 0;
 }
 
+void light_emission_numbers(const struct light_set *set, const struct light_point *y0, vec3 p, vec3 w, double u[2])
+{
+    const struct light *l = &set->light[y0->light];
+    switch (l->kind) {
+    case LIGHT_AREA: {
+        bool back = l->two_sided && dot(y0->n, w) < 0;
+        struct frame f = frame_from_normal(mul(y0->n, back ? -1 : 1));
+        vec3 local = to_local(&f, w);
+        warp_disk_inverse(local.x, local.y, &u[0], &u[1]);
+        if (l->two_sided)
+            u[0] = (u[0] + back) / 2;
+        return;
+    }
+    case LIGHT_POINT:
+    case LIGHT_GONIOMETRIC: warp_sphere_inverse(w, &u[0], &u[1]); return;
+    case LIGHT_SPOT:
+    case LIGHT_PROJECTION: warp_cone_inverse(to_light_space(l, w), l->cos_total, &u[0], &u[1]); return;
+    case LIGHT_DISTANT:
+    case LIGHT_INFINITE: {
+        struct frame f = frame_from_normal(y0->w);
+        vec3 local = to_local(&f, mul(sub(p, set->center), 1 / set->radius));
+        warp_disk_inverse(local.x, local.y, &u[0], &u[1]);
+        return;
+    }
+    }
+}
+
 rgb light_Le(const struct light_set *set, const struct light_point *y0, vec3 w)
 {
     const struct light *l = &set->light[y0->light];

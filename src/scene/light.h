@@ -154,6 +154,10 @@ rgb light_sample_emission(const struct light_set *set, const struct light_point 
 /* light_pdf_emission: density of that second draw for a given direction w of travel, 1/sr; at infinity 1/m^2. */
 double light_pdf_emission(const struct light_set *set, const struct light_point *y0, vec3 w);
 
+/* light_emission_numbers: the u in [0,1)^2 for which light_sample_emission draws the ray of direction w from y0.
+ *   p  at infinity: a point of that ray; else of no use */
+void light_emission_numbers(const struct light_set *set, const struct light_point *y0, vec3 p, vec3 w, double u[2]);
+
 /* light_Le: what y0 sends in the unit direction w of travel: area, infinite: radiance; point, spot etc.: intensity
  * (its inverse square law is the connection's G); distant: irradiance. */
 rgb light_Le(const struct light_set *set, const struct light_point *y0, vec3 w);

@@ -2,6 +2,7 @@
 #include "transport/connect.h"
 
 #include "transport/counts.h"
+#include "transport/emit.h"
 
 static struct connection nothing(void)
 {
@@ -34,11 +35,12 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
         z = z->lamp;
     if (z->kind == VERTEX_ESCAPED) {
         Le = light_Le_environment(lights, neg(z->wo));
-        pdf_emit = 1 / (PI * sqr(lights->radius));
+        struct light_point anywhere = {.light = -1, .w = neg(z->wo)};
+        pdf_emit = emit_pdf(counts, lights, &anywhere, prev->p, z->wo);
     } else if (z->kind == VERTEX_SURFACE && z->light >= 0) {
         struct light_point at = vertex_light_point(z);
         Le = light_Le(lights, &at, z->wo);
-        pdf_emit = light_pdf_emission(lights, &at, z->wo);
+        pdf_emit = emit_pdf(counts, lights, &at, z->p, z->wo);
     } else {
         return nothing();
     }
@@ -57,6 +59,9 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
         before = mis_direct_count(counts, lights, prev->eye_region, prev->eye_end, z->cell, neg(z->wo));
     double eye_side = mis_side(counts, z->pdf_origin, z->pdf_fwd, before, pdf_emit, z->mis);
     c.weight = mis_weight(counts, counts->hit[prev->eye_end], 0, eye_side);
+    const struct path_end end = {z, prev, z->pdf_origin, pdf_emit};
+    if (counts->weigher != NULL)
+        c.weight = counts->weigher->weigh(counts->weigher->context, 0, NULL, &end);
     return c;
 }
 
@@ -67,55 +72,101 @@ static int choose_light(const struct count_model *model, const struct light_set 
                                                         : alias_sample(&lights->choice, u, pmf, NULL);
 }
 
-struct connection connect_direct(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
-                                 struct sampler *sampler, int i, int n)
+bool connect_light(const struct scene *scene, const struct vertex *z, const struct light_point *at, double pdf,
+                   struct lit *out)
+{
+    const struct light_set *lights = &scene->lights;
+    const struct light *light = &lights->light[at->light];
+    bool parallel = light_at_infinity(light);
+    vec3 d = parallel ? at->w : sub(at->p, z->p);
+    double d2 = length2(d);
+    out->value = rgb_black();
+    if (!(d2 > 0) || !bsdf_may_scatter(&z->bsdf, z->wo, d))
+        return false;
+    vec3 w = mul(d, 1 / sqrt(d2));
+
+    rgb Le = light_Le(lights, at, neg(w));
+    if (rgb_is_black(Le))
+        return false;
+    struct scatter at_z = scatter_towards(z, w, RADIANCE);
+    double spread = parallel ? 1 : 1 / d2;
+    /* area or solid angle at y_0 per steradian at z */
+    double at_light = light->kind == LIGHT_AREA ? abs_dot(at->n, w) * spread : spread;
+    rgb value = rgb_mul(rgb_mul(z->beta, at_z.factor), rgb_scale(Le, at_light / pdf));
+    struct lit l = {z, *at, pdf, value, at_z.pdf, at_z.pdf_rev, at_light};
+    *out = l;
+    return !rgb_is_black(value);
+}
+
+bool connect_light_point(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
+                         struct sampler *sampler, int i, int n, struct lit *out)
 {
     double u[3];
     u[0] = below_one((i + sampler_number(sampler, DRAW_LIGHT)) / n);
     sampler_pair(sampler, DRAW_LIGHT_POINT, &u[1]);
     const struct light_set *lights = &scene->lights;
-    if (!vertex_connectible(z) || lights->choice.n == 0)
-        return nothing();
     struct light_point at;
     double pmf;
+    out->value = rgb_black();
+    if (!vertex_connectible(z) || lights->choice.n == 0)
+        return false;
     int cell = choose_light(counts->model, lights, z->eye_region, u[0], &pmf);
     if (!light_sample_cell(lights, &scene->geo, cell, u[1], u[2], &at) || !(at.pdf > 0))
+        return false;
+    at.cell = cell;
+    return connect_light(scene, z, &at, pmf * at.pdf_cell, out);
+}
+
+bool lit_visible(const struct scene *scene, const struct lit *l)
+{
+    return light_at_infinity(&scene->lights.light[l->at.light])
+               ? scene_lit_from(scene, l->z->p, l->z->prim_id, l->at.w)
+               : scene_lit(scene, l->z->p, l->z->prim_id, l->at.p, l->at.prim_id);
+}
+
+struct connection connect_lit(const struct scene *scene, const struct mis_counts *counts, const struct lit *l)
+{
+    const struct light_set *lights = &scene->lights;
+    const struct vertex *z = l->z;
+    const struct light_point *at = &l->at;
+    if (rgb_is_black(l->value) || !lit_visible(scene, l))
         return nothing();
-    bool parallel = light_at_infinity(&lights->light[at.light]);
-    bool area = lights->light[at.light].kind == LIGHT_AREA;
-    vec3 d = parallel ? at.w : sub(at.p, z->p);
+    bool parallel = light_at_infinity(&lights->light[at->light]);
+    vec3 d = parallel ? at->w : sub(at->p, z->p);
     double d2 = length2(d);
-    if (!(d2 > 0) || !bsdf_may_scatter(&z->bsdf, z->wo, d))
-        return nothing();
     vec3 w = mul(d, 1 / sqrt(d2));
-
-    rgb Le = light_Le(lights, &at, neg(w));
-    if (rgb_is_black(Le))
-        return nothing();
-    struct scatter at_z = scatter_towards(z, w, RADIANCE);
-    double spread = parallel ? 1 : 1 / d2;
-    double at_light = area ? abs_dot(at.n, w) * spread : spread; /* area or solid angle at y_0 per steradian at z */
-    struct connection c = nothing();
-    c.value = rgb_mul(rgb_mul(z->beta, at_z.factor), rgb_scale(Le, at_light / (pmf * at.pdf_cell)));
-    if (rgb_is_black(c.value))
-        return nothing();
-    if (parallel ? !scene_lit_from(scene, z->p, z->prim_id, w)
-                 : !scene_lit(scene, z->p, z->prim_id, at.p, at.prim_id))
-        return nothing();
-
     struct vertex y;
-    vertex_light_end(scene, counts, &at, &y);
-    double hit = light_is_delta(&lights->light[at.light]) ? 0 : counts->hit[z->eye_end];
-    double light = mis_side(counts, at_z.pdf * at_light, y.pdf_fwd, hit, 0, 0);
-    double pdf_z = light_pdf_emission(lights, &at, neg(w)) * abs_dot(z->ng, w) * spread;
-    double eye = mis_side(counts, pdf_z, z->pdf_fwd, z->mis_c, at_z.pdf_rev, z->mis);
-    double count = mis_direct_count(counts, lights, z->eye_region, z->eye_end, cell, at.w);
+    vertex_light_end(scene, counts, at, &y);
+    double hit = light_is_delta(&lights->light[at->light]) ? 0 : counts->hit[z->eye_end];
+    double light = mis_side(counts, l->pdf_z * l->at_light, y.pdf_fwd, hit, 0, 0);
+    double pdf_z = emit_pdf(counts, lights, at, z->p, neg(w)) * abs_dot(z->ng, w) * (parallel ? 1 : 1 / d2);
+    double eye = mis_side(counts, pdf_z, z->pdf_fwd, z->mis_c, l->pdf_rev_z, z->mis);
+    double count = mis_direct_count(counts, lights, z->eye_region, z->eye_end, at->cell, at->w);
+    struct connection c = nothing();
+    c.value = l->value;
     c.weight = mis_weight(counts, count, light, eye);
-    c.end = parallel ? at.w : at.p;
-    c.light = at.light;
-    c.cell = cell;
-    c.pdf = pmf * at.pdf_cell;
+    const struct path_end end_y = {&y, NULL, l->pdf_z * l->at_light, 0}, end_z = {z, z - 1, pdf_z, l->pdf_rev_z};
+    if (counts->weigher != NULL)
+        c.weight = counts->weigher->weigh(counts->weigher->context, 1, &end_y, &end_z);
+    c.end = parallel ? at->w : at->p;
+    c.light = at->light;
+    c.cell = at->cell;
+    c.pdf = l->pdf;
     return c;
+}
+
+struct connection connect_point(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
+                                const struct light_point *at, double pdf)
+{
+    struct lit l;
+    return vertex_connectible(z) && connect_light(scene, z, at, pdf, &l) ? connect_lit(scene, counts, &l) : nothing();
+}
+
+struct connection connect_direct(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
+                                 struct sampler *sampler, int i, int n)
+{
+    struct lit l;
+    return connect_light_point(scene, counts, z, sampler, i, n, &l) ? connect_lit(scene, counts, &l) : nothing();
 }
 
 bool connect_join(const struct vertex *y, const struct vertex *z, struct joint *out)
@@ -149,6 +200,10 @@ struct connection connect_joint(const struct scene *scene, const struct mis_coun
     double eye = mis_side(counts, j->pdf_y * j->area_z, z->pdf_fwd, z->mis_c, j->pdf_rev_z, z->mis);
     c.value = j->value;
     c.weight = mis_weight(counts, mis_connect_count(counts, y->light_region, z->eye_region, z->eye_end), light, eye);
+    const struct path_end end_y = {y, y - 1, j->pdf_z * j->area_y, j->pdf_rev_y};
+    const struct path_end end_z = {z, z - 1, j->pdf_y * j->area_z, j->pdf_rev_z};
+    if (counts->weigher != NULL)
+        c.weight = counts->weigher->weigh(counts->weigher->context, 2, &end_y, &end_z);
     return c;
 }
 

@@ -38,6 +38,29 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
 struct connection connect_direct(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
                                  struct sampler *sampler, int i, int n);
 
+/* The same in two steps, for methods that compare many light points: value is C* as if the point were seen. */
+struct lit {
+    const struct vertex *z;
+    struct light_point at;
+    double pdf; /* of the point */
+    rgb value;
+    double pdf_z, pdf_rev_z; /* 1/sr, at z: of the direction to the light, of going on to the vertex before */
+    double at_light; /* what turns that of the direction into a density of the point */
+};
+
+/* connect_light: false if nothing can arrive from that point, found with that density; out->value is black then.
+ * connect_light_point: of a point drawn from `sampler`, as connect_direct draws it. connect_lit: visibility, weight. */
+bool connect_light(const struct scene *scene, const struct vertex *z, const struct light_point *at, double pdf,
+                   struct lit *out);
+bool connect_light_point(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
+                         struct sampler *sampler, int i, int n, struct lit *out);
+struct connection connect_lit(const struct scene *scene, const struct mis_counts *counts, const struct lit *l);
+bool lit_visible(const struct scene *scene, const struct lit *l);
+
+/* connect_point: connect_direct for a point that is known, found with that density. */
+struct connection connect_point(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
+                                const struct light_point *at, double pdf);
+
 /* connect_pair: y is a light vertex (s >= 2), z an eye vertex (t >= 2). */
 struct connection connect_pair(const struct scene *scene, const struct mis_counts *counts, const struct vertex *y,
                                const struct vertex *z);

@@ -47,6 +47,7 @@
 
 struct light_set;
 struct caustics;
+struct light_point;
 
 /* Which eye vertex a strategy with t >= 2 ends at: what the camera sees, itself or by way of delta lobes alone, or a
  * later one. */
@@ -65,6 +66,30 @@ struct count_model {
      * a direction met by an escaping ray; w: of lights at infinity). NULL: as emission chooses, hence 1. */
     int (*choose_light)(const void *learnt, const struct light_set *lights, int e, double u, double *pmf);
     double (*direct)(const void *learnt, const struct light_set *lights, int e, int cell, vec3 w);
+    /* How light sub-paths choose a light cell with the uniform number u, and what of the unit square light.h is then
+     * given for `direction`; rho is the density of that choice over the usual one's. And rho again, of the ray of
+     * direction w through p that leaves y0 (y0->light -1: some infinite light in direction y0->w). NULL: as light.h
+     * has it, hence 1. See emit.h. */
+    int (*choose_emission)(const void *learnt, const struct light_set *lights, double u, double direction[2],
+                           double *rho);
+    double (*emission)(const void *learnt, const struct light_set *lights, const struct light_point *y0, vec3 p,
+                       vec3 w);
+};
+
+struct vertex;
+
+/* Where two sub-paths are joined: the last vertex of one, the vertex before it, and what of the former the other end
+ * decides: its density in the other walk, measured as its pdf_fwd, and that, 1/sr, of going on to the vertex before. */
+struct path_end {
+    const struct vertex *v, *before;
+    double pdf_other, pdf_rev;
+};
+
+/* Weights that are no O(1) recursion: whoever computes them sees all of the path.
+ *   s  0: y is NULL, z is on the light; 1: y is y_0; else 2: of s >= 2 */
+struct weigher {
+    void *context;
+    double (*weigh)(void *context, int s, const struct path_end *y, const struct path_end *z);
 };
 
 /* How many samples each kind of strategy takes per pixel and iteration; 0: the method does not use it. A method may
@@ -83,6 +108,7 @@ struct mis_counts {
     const struct count_model *model; /* factors that vary over the scene; NULL: all counts are constants */
     const struct caustics *caustics; /* chains that caustic.h makes; NULL: none */
     bool power;                /* power heuristic instead of the balance heuristic */
+    const struct weigher *weigher; /* of strategies with t >= 2, in place of the recursion; NULL: the recursion */
 };
 
 /* mis_raise: the heuristic's power of a density or count. */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "transport/counts.h"
+#include "transport/emit.h"
 
 /* How the walk left its last vertex. */
 struct departure {
@@ -87,7 +88,8 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
     if (!meet(w, v, prev, from, at, mode))
         return false;
     const struct count_model *model = w->counts->model;
-    bool first = prev->kind == VERTEX_LENS || (prev->eye_end == FIRST_HIT && prev->kind == VERTEX_SURFACE && from->delta);
+    bool first =
+        prev->kind == VERTEX_LENS || (prev->kind == VERTEX_SURFACE && prev->eye_end == FIRST_HIT && from->delta);
     v->eye_end = mode == RADIANCE && first ? FIRST_HIT : LATER_HIT;
     v->eye_region = v->light_region = 0;
     if (model != NULL)
@@ -131,11 +133,10 @@ static bool depart(const struct walk *w, const struct vertex *v, enum transport 
     return true;
 }
 
-/* The random walk: path[0] is made, `from` says how it was left. Returns the number of vertices. */
-static int random_walk(const struct walk *w, struct departure from, struct vertex *path, int max_vertices,
+/* The random walk: n vertices are made, `from` says how the last was left. Returns the number of vertices. */
+static int random_walk(const struct walk *w, struct departure from, struct vertex *path, int n, int max_vertices,
                        enum transport mode)
 {
-    int n = 1;
     double first = rgb_max(from.beta);
     while (n < max_vertices) {
         struct surface at;
@@ -180,7 +181,7 @@ int path_eye(const struct walk *w, double px, double py, struct vertex *path, in
      * [PBRT3 16.1.1] */
     double x, y;
     from.pdf = camera_project(camera, from.ray.o, from.ray.d, &x, &y);
-    return random_walk(w, from, path, max_vertices, RADIANCE);
+    return random_walk(w, from, path, 1, max_vertices, RADIANCE);
 }
 
 int path_eye_pixel(const struct walk *w, int x, int y, struct vertex *path, int max_vertices,
@@ -194,21 +195,77 @@ int path_eye_pixel(const struct walk *w, int x, int y, struct vertex *path, int 
 
 int path_light(const struct walk *w, struct vertex *path, int max_vertices)
 {
-    const struct light_set *lights = &w->scene->lights;
     double u[3], direction[2];
     u[0] = sampler_number(w->sampler, DRAW_LIGHT);
     sampler_pair(w->sampler, DRAW_LIGHT_POINT, &u[1]);
     sampler_pair(w->sampler, DRAW_EMISSION, direction);
     struct light_point at;
-    if (max_vertices < 1 || !light_sample_point(lights, &w->scene->geo, u, &at))
+    struct departure from = {.pdf = 0};
+    double pdf;
+    rgb emitted = emit_sample(w->scene, w->counts, u, direction, &at, &from.ray, &pdf, &from.pdf);
+    if (max_vertices < 1 || !(pdf > 0) || rgb_is_black(emitted))
         return 0;
     vertex_light_end(w->scene, w->counts, &at, &path[0]);
-    struct departure from = {.pdf = 0};
-    rgb emitted = light_sample_emission(lights, &at, direction, &from.ray, &from.pdf);
-    if (!(from.pdf > 0) || rgb_is_black(emitted))
-        return 0;
-    path[0].beta = light_Le(lights, &at, from.ray.d); /* not a throughput: nothing connects to this y_0 */
-    from.beta = rgb_scale(emitted, 1 / (at.pdf * from.pdf)); /* alpha_2 of [V97 eq. 10.6] */
+    path[0].beta = light_Le(&w->scene->lights, &at, from.ray.d); /* not a throughput: nothing connects to this y_0 */
+    from.beta = rgb_scale(emitted, 1 / (at.pdf * pdf)); /* alpha_2 of [V97 eq. 10.6] */
     from.ray.tmin = ray_margin(from.ray.o);
-    return random_walk(w, from, path, max_vertices, IMPORTANCE);
+    return random_walk(w, from, path, 1, max_vertices, IMPORTANCE);
+}
+
+/* --- light sub-paths on given vertices --------------------------------------------------------------- */
+
+/* Leave y_0, or a surface by a lobe that is not delta, in a given direction. */
+static bool depart_towards(const struct walk *w, struct vertex *v, vec3 wi, struct departure *out)
+{
+    const struct light_set *lights = &w->scene->lights;
+    struct departure from = {.ray = {v->p, wi, ray_margin(v->p), INFINITY, v->prim_id, 0}};
+    if (v->kind == VERTEX_LIGHT) {
+        struct light_point at = vertex_light_point(v);
+        bool area = lights->light[v->light].kind == LIGHT_AREA;
+        v->beta = light_Le(lights, &at, wi);
+        from.pdf = light_pdf_emission(lights, &at, wi);
+        from.beta = rgb_scale(v->beta, (area ? abs_dot(v->ng, wi) : 1) / (v->pdf_fwd * from.pdf));
+    } else {
+        struct bsdf_value b = bsdf_eval(&v->bsdf, v->wo, wi, IMPORTANCE);
+        from.pdf = b.pdf;
+        from.pdf_rev = v->pdf_rev = b.pdf_rev;
+        from.beta = rgb_mul(v->beta, rgb_scale(b.f, scatter_cosine(v, wi, IMPORTANCE) / b.pdf));
+    }
+    *out = from;
+    return from.pdf > 0 && !rgb_is_black(from.beta) && rgb_is_finite(from.beta);
+}
+
+int path_light_follow(const struct walk *w, const struct path_stop *stop, int n, struct vertex *path)
+{
+    struct departure from;
+    path[0] = stop[0].v;
+    for (int i = 1; i < n; i++) {
+        struct vertex *prev = &path[i - 1], *v = &path[i];
+        bool parallel = vertex_at_infinity(w->scene, prev);
+        vec3 d = parallel ? neg(prev->wo) : sub(stop[i].v.p, prev->p);
+        double d2 = length2(d);
+        d = mul(d, 1 / sqrt(d2));
+        if (!(stop[i - 1].delta ? depart(w, prev, IMPORTANCE, &from) : depart_towards(w, prev, d, &from)))
+            return i;
+        prev->pdf_rev = from.pdf_rev;
+        from.ray.d = d;
+        *v = stop[i].v;
+        v->prev_delta = from.delta;
+        v->wo = neg(d);
+        v->beta = from.beta;
+        v->pdf_rev = 0;
+        measure(w, v, prev, &from, d2);
+        v->eye_end = LATER_HIT;
+        v->mis_c = mis_count_before(w->counts, &w->scene->lights, prev, v, LATER_HIT);
+    }
+    return n;
+}
+
+int path_light_on(const struct walk *w, struct vertex *path, int n, vec3 wi, int max_vertices, double *pdf)
+{
+    struct departure from;
+    if (!depart_towards(w, &path[n - 1], wi, &from))
+        return n;
+    *pdf = from.pdf;
+    return random_walk(w, from, path, n, max_vertices, IMPORTANCE);
 }

@@ -48,4 +48,19 @@ int path_eye_pixel(const struct walk *w, int x, int y, struct vertex *path, int 
 /* path_light: choose a light, emit, and walk. Returns the number of vertices; 0 when nothing is emitted. */
 int path_light(const struct walk *w, struct vertex *path, int max_vertices);
 
+/* A vertex that a sub-path is to go through again. */
+struct path_stop {
+    struct vertex v; /* its place, and how it scatters */
+    bool delta;      /* it is left by a delta lobe: the one that these numbers choose */
+    double u[3];     /* as the walk draws them: lobe and direction */
+};
+
+/* path_light_follow: the light sub-path of n >= 1 vertices on these places, with throughput, densities and weights as
+ * if a walk had come there. Visibility is not asked. stop[0] is as vertex_light_end fills it in; of delta lobes the
+ * numbers come from the sampler. Returns how many vertices light comes to.
+ * path_light_on: go on from n vertices, leaving the last (y_0, no light at infinity, or a surface by a lobe that is
+ * not delta) in direction wi, *pdf being that direction's density, 1/sr. Returns the number of vertices. */
+int path_light_follow(const struct walk *w, const struct path_stop *stop, int n, struct vertex *path);
+int path_light_on(const struct walk *w, struct vertex *path, int n, vec3 wi, int max_vertices, double *pdf);
+
 #endif

@@ -25,8 +25,9 @@ struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struc
 {
     const struct render_job *job = pass->job;
     struct sampler points = stream(job, job->seed, RNG_CONNECT, x, y, (uint64_t)iteration);
-    struct pixel_sample sample = {job->scene, counts, pass->tile, job->max_depth, x, y, 1, 1, 0, &pass->work->arena, points,
-                             rgb_black(), trace_watches(pass->trace, x, y, iteration)};
+    struct pixel_sample sample = {job->scene, counts, pass->tile, job->max_depth, x, y, 1, 1, points, rgb_black(),
+                                  trace_watches(pass->trace, x, y, iteration),
+                                  &pass->work->arena, 0};
     if (job->regularise > 0)
         sample.eps = regularise_eps(job->regularise, iteration);
     return sample;
@@ -84,7 +85,7 @@ static void contribute(struct pixel_sample *sample, const struct connection *c, 
 
 static void sum_direct(struct pixel_sample *sample, const struct vertex *z, int t)
 {
-    int n = z->eye_end == FIRST_HIT ? sample->lights : 1;
+    int n = z->eye_end == FIRST_HIT && sample->lights > 0 ? sample->lights : 1;
     const struct choice each = {1, 1.0 / n};
     for (int i = 0; i < n; i++) {
         struct connection c = connect_direct(sample->scene, sample->counts, z, &sample->sampler, i, n);
@@ -125,7 +126,8 @@ void pixel_sum_eye(struct pixel_sample *sample, const struct vertex *eye, int n)
         const struct vertex *z = &eye[t - 1];
         if (t == 2 || sample->counts->hit[LATER_HIT] > 0)
             sum_hit(sample, eye, t);
-        if (sample->counts->direct[FIRST_HIT] > 0 && t <= sample->max_depth + 1 && z->kind == VERTEX_SURFACE) {
+        bool wanted = sample->counts->direct[FIRST_HIT] > 0 && (t > 2 || sample->lights > 0);
+        if (wanted && t <= sample->max_depth + 1 && z->kind == VERTEX_SURFACE) {
             sum_direct(sample, z, t);
             if (sample->eps > 0)
                 sum_regularised(sample, eye, t);
@@ -146,6 +148,13 @@ void pixel_sum_joint(struct pixel_sample *sample, const struct joint *j, int s, 
 {
     struct connection c = connect_joint(sample->scene, sample->counts, j);
     contribute(sample, &c, s, t, j->y - (s - 1), choice);
+}
+
+void pixel_sum_lit(struct pixel_sample *sample, const struct lit *l, int t, double scale)
+{
+    struct connection c = connect_lit(sample->scene, sample->counts, l);
+    const struct choice choice = {1, scale};
+    contribute(sample, &c, 1, t, NULL, choice);
 }
 
 void pixel_sum_pairs(struct pixel_sample *sample, const struct vertex *eye, int n_eye, const struct vertex *light,

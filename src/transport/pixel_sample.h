@@ -21,12 +21,12 @@ struct pixel_sample {
     int max_depth;          /* longest path: s + t <= max_depth + 2 */
     int x, y;               /* the pixel */
     double filter_weight;   /* of its eye sample, see path_eye_pixel */
-    int lights;             /* samples of s = 1 for t = 2; 1 for t > 2 */
-    double eps;             /* of regularise.h, 0: none */
-    struct arena *arena;    /* for what does not outlive the sample */
+    int lights;             /* samples of s = 1 for t = 2, 0: left to the method; 1 for t > 2 */
     struct sampler sampler; /* for light and lens points */
     rgb sum;                /* of what the strategies with t >= 2 have brought so far */
     struct trace *trace;    /* who watches this sample; NULL: nobody */
+    struct arena *arena;    /* for what does not outlive the sample */
+    double eps;             /* of regularise.h, 0: none */
 };
 
 /* --- sub-paths --------------------------------------------------------------------------------------- */
@@ -70,6 +70,9 @@ static const struct choice NO_CHOICE = {1, 1};
 void pixel_sum_pair(struct pixel_sample *sample, const struct vertex *y, int s, const struct vertex *z, int t,
                     struct choice choice);
 void pixel_sum_joint(struct pixel_sample *sample, const struct joint *j, int s, int t, struct choice choice);
+
+/* pixel_sum_lit: s = 1, z = z_{t-1} and a light point, times `scale`. */
+void pixel_sum_lit(struct pixel_sample *sample, const struct lit *l, int t, double scale);
 
 /* pixel_sum_pairs: s >= 2, t >= 2 for every pair of vertices of the two sub-paths. */
 void pixel_sum_pairs(struct pixel_sample *sample, const struct vertex *eye, int n_eye, const struct vertex *light,

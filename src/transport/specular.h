@@ -1,5 +1,5 @@
-/* specular.h: a chain of k delta vertices between a point z and a light's point y: a direction w in which z may be left and
- * whose ray, traced through the chain, arrives at y.
+/* specular.h: a chain of k delta vertices between a point z and a light's point y: a direction w in which z may be left
+ * and whose ray, traced through the chain, arrives at y.
  *
  * The search. u being the direction from the chain's last vertex p to y, and d the one in which the ray goes on, the
  * sum of squares of d(w) - u(w) is minimised by Gauss and Newton, the step halved where it brings nothing. Its

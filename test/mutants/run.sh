@@ -26,26 +26,7 @@ names() {
 }
 
 # apply NAME TREE: replace the text in the tree's file. Prints an error unless the old text occurs exactly once.
-apply() {
-    awk -v name="$1" -v tree="$2" '
-        /^#/ { next }
-        /^[^-+ \t]/ && NF > 3 { here = ($1 == name); if (here) file = $2; next }
-        !here || /^$/ { next }
-        /^-/ { old = old (old == "" ? "" : "\n") substr($0, 3) }
-        /^\+/ { new = new (new == "" ? "" : "\n") substr($0, 3) }
-        END {
-            if (file == "") { print name ": no such mutant"; exit 1 }
-            path = tree "/" file
-            while ((getline line < path) > 0)
-                text = text line "\n"
-            close(path)
-            at = index(text, old)
-            if (old == "" || at == 0) { print name ": " file " does not hold the text to be replaced"; exit 1 }
-            rest = substr(text, at + length(old))
-            if (index(rest, old)) { print name ": " file " holds the text to be replaced more than once"; exit 1 }
-            printf "%s%s%s", substr(text, 1, at - 1), new, rest > path
-        }' $list
-}
+apply() { sh test/mutants/apply.sh $list "$1" "$2"; }
 
 # field NAME N: the N-th word of the mutant's first line; the description is the rest.
 field() { awk -v name="$1" -v n="$2" '/^[^-+# \t]/ && $1 == name { print $n }' $list; }

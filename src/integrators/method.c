@@ -1,54 +1,12 @@
-/* methods.c: the table of all methods, and what is done with a row (method.h). A new method is a new line here. */
+/* method.c: what is done with a row; see method.h. */
+#include "integrators/method.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "integrators/method.h"
 #include "learning/learnt_file.h"
 #include "transport/caustic.h"
-
-extern const struct method method_pt, method_lt, method_bdpt, method_bins, method_pool, method_vertices,
-    method_subspaces, method_lvc, method_cbdpt;
-
-static const struct method *const METHODS[] = {&method_pt,       &method_lt,   &method_bdpt,
-                                               &method_subspaces, &method_bins, &method_pool,
-                                               &method_vertices, &method_lvc,  &method_cbdpt, NULL};
-
-const struct method *const *method_list(void) { return METHODS; }
-
-/* The rows of a name, which stand side by side: the first, and how many. */
-static const struct method *const *rows_of(const char *name, int *n)
-{
-    const struct method *const *first = METHODS;
-    name = strcmp(name, "path") == 0 ? "pt" : name;
-    while (*first != NULL && strcmp((*first)->name, name) != 0)
-        first++;
-    for (*n = 0; first[*n] != NULL && strcmp(first[*n]->name, name) == 0;)
-        ++*n;
-    return first;
-}
-
-bool method_exists(const char *name)
-{
-    int n;
-    rows_of(name, &n);
-    return n > 0;
-}
-
-const struct method *method_find(const char *name, const struct settings *s, struct error *err)
-{
-    enum { MOST = 16 };
-    const char *words[MOST + 1] = {NULL};
-    int n, which = 0;
-    const struct method *const *row = rows_of(name, &n);
-    if (n == 0) {
-        error_set(err, "there is no integrator \"%s\"", name);
-        return NULL;
-    }
-    for (int i = 0; n > 1 && i < n && i < MOST; i++)
-        words[i] = row[i]->select;
-    return n == 1 || settings_choice(s, "select", 0, words, &which, err) ? row[which] : NULL;
-}
 
 const struct method_parameter *method_has(const struct method *m, const char *name)
 {
@@ -92,8 +50,7 @@ bool method_prepare(const struct method *m, const struct render_job *job, struct
 {
     struct preparation standard = {.method = m, .state = mem_alloc(1, m->state_size),
                                    .size = {0, DEFAULT_TILE_SIZE}};
-    struct mis_counts bdpt = {.hit = {1, 1}, .direct = {1, 1}, .delta = {1, 1}, .connect = {1, 1}, .splat = pixel_light_count(job),
-                              .power = job->power_heuristic};
+    struct mis_counts bdpt = {{1, 1}, {1, 1}, {1, 1}, {1, 1}, pixel_light_count(job), .power = job->power_heuristic};
     struct frozen *f = standard.state;
     *out = standard;
     f->counts = bdpt;

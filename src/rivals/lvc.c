@@ -12,8 +12,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-#include "integrators/pooled.h"
-#include "learning/learn.h"
+#include "rivals/records.h"
 
 struct lvc_state {
     struct frozen frozen;
@@ -59,16 +58,10 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *p, const
 static void prepare(const struct render_job *job, struct preparation *out)
 {
     struct lvc_state *s = out->state;
-    struct learnt counted = {.guided = false};
-    const struct wish nothing = {.eye_cells = 1};
-    struct render_job whole = *job;
-    whole.watch = NULL; /* it is soon done, and l is not kept: it must be the same whenever the render goes on */
-    learn(&whole, &nothing, &counted);
-    double l = counted.importance.light_vertices;
+    double l = light_vertices_expected(job);
     for (int end = 0; end < EYE_ENDS; end++)
         s->frozen.counts.connect[end] = l > 0 ? s->connections / l : s->connections;
     s->frozen.counts.splat /= s->frozen.path_pixels;
-    learnt_free(&counted);
 }
 
 #define AT(member) offsetof(struct lvc_state, member)

@@ -1,0 +1,102 @@
+/* chain.h: what the methods of Markov chains share: many samples that are each a small change of the one before.
+ *
+ * A state is what one sample brings: splats f, raster points with colours, of luminance I in all. A chain goes from
+ * state to state by proposals that it accepts with a probability a, such that it comes to each state as often as
+ * I says [Metropolis 1953]. Instead of one of the two, each gets its share: 1 - a is where the chain was, a where it
+ * may go [V97 11.3.3]. So a state counts as f / I, and a picture of M mutations for P pixels is
+ *     b / M sum f / I,   b = mean of I over independent states, luminance per unit of raster area,
+ * times the area of the raster that states lie on, over P: filters reach beyond the picture.
+ *
+ * No start-up bias [V97 11.3.1]: of N independent states, the starts are drawn with probability I / sum I and all count
+ * by the mean I of the same N: the expectation of b f(X_m) / I(X_m) is right for any m, whatever the chain does. What
+ * remains is an error of b, the same for the whole picture, which is printed; `bootstrapsamples` lowers it. [V97]'s
+ * other use of the independent states, as samples of the picture, and [Kelemen 2002]'s, where they go on with the
+ * chains, are left out: the second is unbiased only in the limit.
+ *
+ * A chain is a tile pass: it has as many mutations as the pass has samples of pixels,
+ * though it wanders over the whole picture. So bytes do not depend on threads, parts are whole chains, and a render
+ * ends or goes on as that of any other method. The starts of a block of iterations are drawn systematically: tiles are
+ * intervals of [0,1) as long as they have pixels, and the starts of all lie evenly in them.
+ *
+ * Tests: test_chains.c.
+ */
+#ifndef ASBDPT_CHAIN_H
+#define ASBDPT_CHAIN_H
+
+#include "integrators/method.h"
+
+/* Numbers of one kind do not move up when there are more of another: those of the eye sub-path, of the light sub-path,
+ * of light points, of lens points, and which strategy. */
+enum chain_stream { EYE_NUMBERS, LIGHT_NUMBERS, POINT_NUMBERS, LENS_NUMBERS, STRATEGY_NUMBERS, CHAIN_STREAMS };
+
+struct chain_state {
+    struct tile heard; /* its splats as those of an independent sample, none black or outside the raster */
+    double I;          /* their luminance; 0: no chain is ever here */
+    int length;        /* vertices of its paths, for methods that keep them apart */
+    struct tape number[CHAIN_STREAMS]; /* the random numbers it is made of (primary.h) */
+    void *own;         /* the method's, of rules->own_size bytes; NULL: nothing */
+};
+
+struct chain_rules;
+
+/* Frozen state of a method. */
+struct chains {
+    struct frozen frozen;   /* counts.splat is the area of the raster: one light sub-path for one eye sub-path on it */
+    int bootstrap;          /* parameters; 0: as chain_prepare thinks best */
+    double sigma, large_step;
+    const struct chain_rules *rules;
+    double x, y, width, height; /* the raster: the film, and as far around it as the filter reaches */
+    double scale;               /* raster area for each pixel */
+    int lengths, each;          /* independent states: so many of each of so many lengths, from 2 vertices on */
+    double *before;             /* [lengths * each + 1], sums of their I; owned */
+    double b;
+};
+
+/* The memory of one thread. */
+struct chain {
+    const struct chains *all;
+    const struct render_job *job;
+    struct workspace *work;
+    struct rng rng; /* of this chain */
+    long candidate; /* >= 0: `next` is to be this independent state of its length; -1: the chain is under way */
+    struct chain_state now, next;
+};
+
+/* What makes a method of it. */
+struct chain_rules {
+    bool roulette;  /* walks end by rrthreshold */
+    bool by_length; /* independent states are of one length each; else of all */
+    size_t own_size;
+    void (*own_free)(void *own); /* what that owns; NULL: nothing */
+    void (*fresh)(struct chain *c);    /* make `next` an independent state, of next.length if by_length */
+    double (*propose)(struct chain *c); /* make `next` from `now`; returns the probability to accept it */
+};
+
+/* chain_sampler: the numbers of one kind for `next`: plain random ones, but those of independent states, of which there
+ * are many, are of low discrepancy from one to the next. `key` is drawn from c->rng once for all kinds. */
+struct sampler chain_sampler(struct chain *c, enum chain_stream stream, uint64_t key);
+uint64_t chain_key(struct chain *c);
+
+/* chain_hear: begin with what a state brings; chain_heard: what it brings has been heard: leave out what is black or
+ * outside the raster, and sum up. */
+void chain_hear(const struct chain *c, struct chain_state *state);
+void chain_heard(const struct chain *c, struct chain_state *state);
+
+/* chain_accept: the probability to go where it is as likely to come from as to go to: min(1, I'/I). */
+double chain_accept(const struct chain *c);
+
+/* chain_candidate: make `next` independent state number i of all. */
+void chain_candidate(struct chain *c, long i);
+
+/* chain_position: where in [0,1) the chain of a pass takes its start from the running sum of the independent states:
+ * somewhere in an interval that the tile has to itself and that is as long as it has pixels. */
+double chain_position(const struct preparation *m, const struct tile_pass *pass);
+
+/* For rows of the table: prepare with these rules, render, and give back. The scratch of a method is a struct chain. */
+void chain_prepare(const struct chain_rules *rules, const struct render_job *job, struct preparation *out);
+void chain_render(const struct preparation *m, const struct tile_pass *pass);
+void chain_release(void *state);
+void chain_scratch(void *scratch, const void *state);
+void chain_scratch_free(void *scratch);
+
+#endif

@@ -1,0 +1,37 @@
+/* mmlt.c: multiplexed Metropolis light transport: a state is one strategy of bdpt.                    [Hachisuka 2014]
+ *
+ * A chain keeps the length of its paths, and one of its numbers says which of the strategies (s,t) that make such paths
+ * is taken, so that it stays where a strategy's weight is large, and does not pay for the others. N strategies each
+ * chosen with 1/N stand for their sum: a contribution counts N times. This is pbrt-v3's `mlt`.
+ *
+ * Tests: test_chains.c.
+ */
+#include "chains/primary.h"
+
+static void sample(struct chain *c, bool small)
+{
+    struct primary p;
+    struct strategy strategy;
+    primary_begin(&p, c, small);
+    primary_strategy(&p, &strategy);
+    primary_end(&p);
+}
+
+static void fresh(struct chain *c) { sample(c, false); }
+
+static double propose(struct chain *c)
+{
+    c->next.length = c->now.length;
+    sample(c, primary_small(c));
+    return chain_accept(c);
+}
+
+static const struct chain_rules RULES = {.roulette = true, .by_length = true, .fresh = fresh, .propose = propose};
+
+static void prepare(const struct render_job *job, struct preparation *out) { chain_prepare(&RULES, job, out); }
+
+const struct method method_mmlt = {
+    .name = "mmlt", .help = "a Markov chain over bdpt's single strategies and their numbers [Hachisuka 2014]",
+    .chain = true, .parameters = PRIMARY_PARAMETERS, .state_size = sizeof(struct chains),
+    .scratch_size = sizeof(struct chain), .rr_threshold = 0, .prepare = prepare, .render = chain_render,
+    .release = chain_release, .scratch_init = chain_scratch, .scratch_free = chain_scratch_free};

@@ -1,0 +1,137 @@
+/* primary.c: see primary.h. */
+#include "chains/primary.h"
+
+#include <stddef.h>
+
+#include "base/maths.h"
+#include "base/number.h"
+
+const struct method_parameter PRIMARY_PARAMETERS[] = {
+    {"bootstrapsamples", PARAMETER_INTEGER, offsetof(struct chains, bootstrap), 0, 0, 1 << 24,
+     "independent states (of each path length), for brightness and starts; 0: by the picture's size", NULL},
+    {"largestepprobability", PARAMETER_NUMBER, offsetof(struct chains, large_step), 0.3, 1e-3, 1,
+     "of a mutation that makes all numbers anew", NULL},
+    {"sigma", PARAMETER_NUMBER, offsetof(struct chains, sigma), 0.01, 1e-6, 1,
+     "standard deviation of a number's small step", NULL},
+    {.name = NULL}};
+
+/* Two numbers, normal with the given standard deviation.                                       [Box & Muller 1958] */
+static void normal_pair(struct rng *r, double sigma, double out[2])
+{
+    double radius = sigma * sqrt(-2 * m_log(1 - rng_uniform(r))), sine, cosine;
+    m_sincos(2 * PI * rng_uniform(r), &sine, &cosine);
+    out[0] = radius * cosine;
+    out[1] = radius * sine;
+}
+
+static void move(const struct tape *from, struct tape *to, double sigma, struct rng *r)
+{
+    double step[2] = {0, 0};
+    to->number = mem_grow(to->number, &to->capacity, from->n, sizeof *to->number);
+    for (size_t i = 0; i < from->n; i++) {
+        if (i % 2 == 0)
+            normal_pair(r, sigma, step);
+        double u = from->number[i] + step[i % 2];
+        to->number[i] = below_one(u - floor(u));
+    }
+    to->n = from->n;
+}
+
+void primary_begin(struct primary *p, struct chain *c, bool small)
+{
+    uint64_t key = chain_key(c);
+    p->chain = c;
+    p->state = &c->next;
+    chain_hear(c, p->state);
+    for (int i = 0; i < CHAIN_STREAMS; i++) {
+        struct tape *tape = &p->state->number[i];
+        tape->n = tape->at = 0;
+        if (small)
+            move(&c->now.number[i], tape, c->all->sigma, &c->rng);
+        p->sampler[i] = chain_sampler(c, (enum chain_stream)i, key);
+    }
+}
+
+void primary_end(struct primary *p)
+{
+    for (int i = 0; i < CHAIN_STREAMS; i++)
+        p->state->number[i].n = p->state->number[i].at;
+    chain_heard(p->chain, p->state);
+}
+
+bool primary_small(struct chain *c) { return rng_uniform(&c->rng) >= c->all->large_step; }
+
+struct walk primary_walk(struct primary *p, enum chain_stream stream)
+{
+    struct chain *c = p->chain;
+    struct walk w = {c->job->scene, &c->all->frozen.counts, &c->work->arena, &p->sampler[stream],
+                     c->all->rules->roulette ? c->job->rr_threshold : 0};
+    return w;
+}
+
+int primary_eye(struct primary *p, int n, double *px, double *py)
+{
+    const struct chains *all = p->chain->all;
+    struct walk w = primary_walk(p, EYE_NUMBERS);
+    double u[2];
+    sampler_pair(w.sampler, DRAW_FILM_POINT, u);
+    *px = all->x + u[0] * all->width;
+    *py = all->y + u[1] * all->height;
+    return path_eye(&w, *px, *py, p->chain->work->eye, n);
+}
+
+int primary_light(struct primary *p, int n)
+{
+    struct walk w = primary_walk(p, LIGHT_NUMBERS);
+    return path_light(&w, p->chain->work->light, n);
+}
+
+/* Join sub-paths of s and t vertices. */
+static struct connection join(struct primary *p, int s, int t)
+{
+    const struct scene *scene = p->chain->job->scene;
+    const struct mis_counts *counts = &p->chain->all->frozen.counts;
+    const struct vertex *y = &p->chain->work->light[s - 1], *z = &p->chain->work->eye[t - 1];
+    static const struct connection NOTHING = {.weight = 0};
+    if (s == 0)
+        return connect_hit(scene, counts, z - 1, z, t);
+    if (s == 1)
+        return z->kind == VERTEX_SURFACE ? connect_direct(scene, counts, z, &p->sampler[POINT_NUMBERS], 0, 1) : NOTHING;
+    if (t == 1)
+        return connect_lens(scene, counts, p->chain->work->light, s, &p->sampler[LENS_NUMBERS]);
+    return connect_pair(scene, counts, y, z);
+}
+
+/* What arrives from the light (t = 1) does so at every raster point that is the same ray. */
+bool primary_bring(struct primary *p, const struct connection *c, struct strategy *out)
+{
+    const struct scene *scene = p->chain->job->scene;
+    const double *radius = scene->filter.radius;
+    double each = out->t > 1 ? 1 : 1 / p->chain->all->frozen.counts.splat;
+    if (rgb_is_black(c->value))
+        return false;
+    out->value = rgb_scale(c->value, c->weight * out->n * each);
+    if (out->t == 1) {
+        out->px = c->px;
+        out->py = c->py;
+    }
+    for (int i = 0; i < (out->t > 1 ? 1 : camera_images(&scene->camera, radius)); i++) {
+        double px = out->px, py = out->py;
+        if (out->t == 1)
+            camera_image(&scene->camera, radius, i, &px, &py);
+        tile_add_splat(&p->state->heard, px, py, out->value);
+    }
+    return true;
+}
+
+bool primary_strategy(struct primary *p, struct strategy *out)
+{
+    int length = p->state->length;
+    out->n = length > 2 ? length : 1; /* a light that is seen directly: s = 0 alone */
+    out->s = (int)(sampler_number(&p->sampler[STRATEGY_NUMBERS], DRAW_HOW_MANY) * out->n);
+    out->t = length - out->s;
+    if (primary_eye(p, out->t, &out->px, &out->py) < out->t || (out->s > 1 && primary_light(p, out->s) < out->s))
+        return false;
+    struct connection c = join(p, out->s, out->t);
+    return primary_bring(p, &c, out);
+}

@@ -1,0 +1,45 @@
+/* pssmlt.c: primary sample space Metropolis light transport: a state is a whole sample of bdpt.          [Kelemen 2002]
+ *
+ * An eye and a light sub-path with all connections between them, each strategy with its weight. The eye sub-path's
+ * strategies go to its raster point, those with t = 1 elsewhere, so a state has up to maxdepth + 1 splats. With
+ * largestepprobability 1 its states are bdpt's samples, of independent numbers.
+ *
+ * Tests: test_chains.c.
+ */
+#include "chains/primary.h"
+
+static void sample(struct chain *c, bool small)
+{
+    const struct render_job *job = c->job;
+    struct workspace *work = c->work;
+    struct primary p;
+    double px, py;
+    primary_begin(&p, c, small);
+    struct pixel_sample s = {job->scene, &c->all->frozen.counts, &c->next.heard, job->max_depth, 0, 0, 1, 1,
+                             p.sampler[POINT_NUMBERS], rgb_black(), NULL, &work->arena, 0};
+    int n_eye = primary_eye(&p, job->max_depth + 2, &px, &py), n_light = primary_light(&p, job->max_depth + 1);
+    pixel_sum_eye(&s, work->eye, n_eye);
+    pixel_sum_pairs(&s, work->eye, n_eye, work->light, n_light, NO_CHOICE);
+    tile_add_splat(s.tile, px, py, s.sum);
+    s.sampler = p.sampler[LENS_NUMBERS];
+    pixel_splat_path(&s, work->light, n_light, 1);
+    primary_end(&p);
+}
+
+static void fresh(struct chain *c) { sample(c, false); }
+
+static double propose(struct chain *c)
+{
+    sample(c, primary_small(c));
+    return chain_accept(c);
+}
+
+static const struct chain_rules RULES = {.roulette = true, .fresh = fresh, .propose = propose};
+
+static void prepare(const struct render_job *job, struct preparation *out) { chain_prepare(&RULES, job, out); }
+
+const struct method method_pssmlt = {
+    .name = "pssmlt", .help = "a Markov chain over the random numbers of bdpt's samples [Kelemen 2002]", .chain = true,
+    .parameters = PRIMARY_PARAMETERS, .state_size = sizeof(struct chains), .scratch_size = sizeof(struct chain),
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = chain_render, .release = chain_release,
+    .scratch_init = chain_scratch, .scratch_free = chain_scratch_free};

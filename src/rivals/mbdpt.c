@@ -1,0 +1,131 @@
+/* mbdpt.c: matrix BDPT: the pairs of sub-paths are the elements of a matrix, from which a lattice is taken.
+ *
+ * Of the N eye and K light sub-paths of a tile and iteration, every pair joined by strategy (s,t) is an element of an
+ * N x K matrix, whose mean is what the pixels are to receive together [Chaitanya 2018]. Its rows are sorted by the
+ * lengths of the eye sub-paths' first t vertices, its columns by those of the light sub-paths' first s, so that
+ * neighbouring elements are alike, and a stratified choice is good for something. Chosen are the N elements
+ *     row i,  column floor(K frac(i A / N + U)),    A prime to N, near N times the golden section,
+ * a lattice [Roberts 2018] shifted at random: one in every row; with K = N one in every column, too. Given its row, a
+ * column is uniform since U is, so each pixel is joined with one light sub-path, any equally likely, as in BDPT: its
+ * expectation and its counts. What the stratification brings is that the errors of neighbours in path space cancel in
+ * sums over pixels; a pixel's own variance is BDPT's.
+ *
+ * s = 0, s = 1 and t = 1 are no matrices of pairs and stay as they are, as the paper advises. How it sorts and
+ * chooses could not be read; this is our reading. In a tile of a single pixel the method is BDPT to the byte.
+ *
+ * Tests: test_rivals.c.
+ */
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include "integrators/pooled.h"
+
+/* A sub-path in order of its first vertices. */
+struct ranked {
+    double length; /* of those; infinite if it has fewer, so that these gather at the end */
+    int number;
+};
+
+static int by_length(const void *a, const void *b)
+{
+    const struct ranked *x = a, *y = b;
+    return x->length != y->length ? (x->length > y->length) - (x->length < y->length)
+                                  : (x->number > y->number) - (x->number < y->number);
+}
+
+/* Length of the first m >= 2 of n vertices; a light at infinity, which has no place, is left out. */
+static double length_of(const struct vertex *path, int n, int m, bool far)
+{
+    double sum = 0;
+    for (int i = far ? 2 : 1; i < m && m <= n; i++)
+        sum += length(sub(path[i].p, path[i - 1].p));
+    return m <= n ? sum : INFINITY;
+}
+
+static void rank(struct ranked *r, int i, const struct vertex *path, int n, int m, bool far)
+{
+    r[i].length = length_of(path, n, m, far);
+    r[i].number = i;
+}
+
+/* A: the number prime to n that is next to n times the golden section from below; 0 for n = 1. */
+static int lattice_step(int n)
+{
+    for (int a = (int)(n * 0.6180339887498949); a > 1; a--) {
+        int x = n, y = a;
+        for (int rest; y > 0; x = y, y = rest)
+            rest = x % y;
+        if (x == 1)
+            return a;
+    }
+    return n > 1;
+}
+
+/* All strategies of eye sub-paths of t vertices, each with a shift of its own. */
+static void connect_length(const struct light_pool *pool, struct ranked **column, struct pooled_pixel *pixel, int n,
+                           struct ranked *row, int t, const double *shift)
+{
+    const struct choice choice = {1.0 / pool->n, 1};
+    int step = lattice_step(n), most = pixel[0].sample.max_depth + 2 - t;
+    for (int i = 0; i < n; i++)
+        rank(row, i, pixel[i].eye, pixel[i].n, t, false);
+    qsort(row, (size_t)n, sizeof *row, by_length);
+    for (int i = 0; i < n && row[i].length < INFINITY; i++)
+        for (int s = 2; s <= most; s++) {
+            double u = (double)((long)i * step % n) / n + shift[s];
+            int j = (int)((u - floor(u)) * pool->n), k = column[s][j < pool->n ? j : pool->n - 1].number;
+            if (pool->length[k] >= s)
+                pixel_sum_pair(&pixel[row[i].number].sample, &light_pool_path(pool, k)[s - 1], s,
+                               &pixel[row[i].number].eye[t - 1], t, choice);
+        }
+}
+
+static void connect_all(void *scratch, const void *state, const struct tile_pass *pass, struct pooled_pixel *pixel,
+                        int n)
+{
+    const struct light_pool *pool = scratch;
+    struct arena *arena = &pass->work->arena;
+    int depth = ((const struct frozen *)state)->max_depth;
+    struct ranked *row = arena_alloc(arena, (size_t)n * sizeof *row);
+    struct ranked **column = arena_alloc(arena, (size_t)(depth + 1) * sizeof *column);
+    double *shift = arena_alloc(arena, (size_t)(depth + 1) * sizeof *shift);
+    for (int i = 0; i < n; i++)
+        pixel_sum_eye(&pixel[i].sample, pixel[i].eye, pixel[i].n);
+    for (int s = 2; s <= depth; s++) {
+        column[s] = arena_alloc(arena, (size_t)pool->n * sizeof *column[s]);
+        for (int k = 0; k < pool->n; k++) {
+            const struct vertex *path = light_pool_path(pool, k);
+            int length = pool->length[k];
+            rank(column[s], k, path, length, s, length > 0 && vertex_at_infinity(pass->job->scene, path));
+        }
+        qsort(column[s], (size_t)pool->n, sizeof *column[s], by_length);
+    }
+    for (int t = 2; t <= depth; t++) {
+        for (int s = 2; s <= depth; s++)
+            shift[s] = sampler_number(&pixel[0].draws, DRAW_LIGHT_END);
+        connect_length(pool, column, pixel, n, row, t, shift);
+    }
+}
+
+static void free_scratch(void *scratch) { light_pool_free(scratch); }
+
+static void prepare(const struct render_job *job, struct preparation *out)
+{
+    struct frozen *f = out->state;
+    (void)job;
+    f->counts.splat /= f->path_pixels;
+}
+
+static const struct method_parameter PARAMETERS[] = {
+    {"pathpixels", PARAMETER_INTEGER, offsetof(struct frozen, path_pixels), 1, 1,
+     DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE, "pixels for each light sub-path", NULL},
+    {.name = NULL}};
+
+const struct method method_mbdpt = {
+    .name = "mbdpt", .help = "matrix BDPT [Chaitanya 2018]: pairs of sorted sub-paths, stratified",
+    .why = "one of the tile's K light sub-paths for each strategy, by a shifted lattice over eye and light sub-paths "
+           "sorted by length, each equally likely; scale 1",
+    .parameters = PARAMETERS, .state_size = sizeof(struct frozen), .scratch_size = sizeof(struct light_pool),
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render, .scratch_free = free_scratch,
+    .connect_all = connect_all};

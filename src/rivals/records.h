@@ -1,0 +1,70 @@
+/* records.h: places of a tile at which it is known what each light vertex of the pool is worth, for eye vertices nearby
+ * to choose by: importance records, after [Georgiev 2012b].
+ *
+ * Records are the vertices of a few eye sub-paths of their own, through a coarse raster over the tile. For record c and
+ * light vertex v of the pool
+ *     h_c(v) = L_v luminance(f_v towards c) G(v,c) Vis(v,c),    PMF_c(v) = h_c(v) / sum h_c,
+ * the BSDF at the record being left out, since at the eye vertex it is another. They see what a choice by power does
+ * not: cosine, distance, and what stands between; they cost a shadow ray for every pair of a record and a vertex.
+ *
+ * Tests: test_rivals.c.
+ */
+#ifndef ASBDPT_RECORDS_H
+#define ASBDPT_RECORDS_H
+
+#include "integrators/pooled.h"
+
+enum { RECORDS_NEAR = 3, RECORDS_DEPTH = 5, RECORDS_TILE = MAX_TILE_SIZE, RECORDS_SUB_PATHS = 200 };
+#define RECORDS_SHARE 0.004 /* of the pixels have a record's eye sub-path */
+
+struct record {
+    struct vertex z;
+    double sum;           /* of h over the light vertices */
+    double expected;      /* of that over one light sub-path; whoever asks for it sets it */
+    const double *h;      /* [V] */
+    const double *before; /* [V] sum of h before each */
+};
+
+struct records {
+    struct arena arena;  /* all of it */
+    struct record *item; /* [n] */
+    int n;
+};
+void records_free(struct records *r);
+
+/* records_place: where the records of an iteration are, of eye sub-paths through a share of the tile's pixels; no
+ * record's h is known yet. */
+void records_place(struct records *r, const struct tile_pass *pass, const struct frozen *f, long iteration,
+                   double share);
+
+/* records_fill: h of all records for these light vertices; u: [n] factors of L_v, or NULL. */
+void records_fill(struct records *r, const struct scene *scene, const struct candidates *found, const double *u);
+
+/* record_worth: h of one light vertex, which light reaches from wo, as if it and the record saw each other, over L_v;
+ * record_sees: do they? */
+double record_worth(const struct record *c, const struct vertex *v, vec3 wo, double least_distance2);
+bool record_sees(const struct record *c, const struct scene *scene, const struct vertex *v);
+double records_least_distance2(const struct scene *scene);
+
+/* records_near: the nearest records to an eye vertex into near [RECORDS_NEAR], nearest first; returns how many there
+ * are. Distances squared grow by `normals` times the scene's diagonal squared times 1 - cosine of the normals. */
+int records_near(const struct records *r, const struct scene *scene, const struct vertex *z, double normals, int *near);
+
+/* What an eye vertex draws from: m of its nearest records, and the uniform choice. records_mixture: with those that met
+ * no light (blind) or without. */
+struct mixture {
+    const struct record *record[RECORDS_NEAR];
+    int m, V;
+};
+struct mixture records_mixture(const struct records *r, const struct scene *scene, const struct vertex *z,
+                               double normals, bool blind, int V);
+
+/* mixture_draw: a light vertex with the number u in [0,1); *which: by which record, m for none.
+ * mixture_pmf: the probability of that, all taken together. */
+int mixture_draw(const struct mixture *m, double u, int *which);
+double mixture_pmf(const struct mixture *m, int v);
+
+/* light_vertices_expected: connectible vertices of a light sub-path, on average; found before the render. */
+double light_vertices_expected(const struct render_job *job);
+
+#endif

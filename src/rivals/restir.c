@@ -1,0 +1,149 @@
+/* restir.c: light points of the first hit are resampled, and shared with pixels nearby.
+ *
+ * Bitterli's reservoirs [Bitterli 2020] within one picture, without time. With f_i(y) the luminance of what light point
+ * y, seen or not, would contribute at pixel i's first vertex (s = 1, t = 2):
+ *  1. Each pixel draws M light points y with density p and keeps one in proportion to f_i / p. If it is seen, it stands
+ *     for the light with the weight
+ *         W_i = (1/f_i(y)) (1/M) sum f_i / p,    else W_i = 0:   E[h(y) W_i] = integral of h where f_i V_i > 0.
+ *  2. Pixel c keeps one of its own reservoir and those of up to N pixels of the tile with a like surface, the set S,
+ *     in proportion to f_c(y_j) W_j. Of the one kept, y from pixel s,
+ *         X = w F_c(y) (m / f_c(y)) sum_j f_c(y_j) W_j,    m = f_s(y) V_s(y) / sum over k in S of f_k(y) V_k(y),
+ *     since y could have come from any k that sees it. All N + 1 terms of m are tested for visibility, so X is exact;
+ *     without that what neighbours do not see comes out too dark.
+ * Given the weights w, E[X] = integral of w F_c; they are BDPT's, but that s = 1, t = 2 counts for several samples. All
+ * other strategies are BDPT's, with the pixel's own light sub-path. With M = 1, N = 0 and no credit the method is BDPT
+ * but for the order in which it adds.
+ *
+ * Densities cancel in f / p, so p is never asked for: f stands for f / p below.
+ *
+ * Tests: test_rivals.c.
+ */
+#include <stddef.h>
+
+#include "integrators/pooled.h"
+
+struct restir_state {
+    struct frozen frozen;
+    int candidates, neighbours; /* M, N */
+    double credit;
+};
+
+enum { MOST_NEIGHBOURS = 32 };
+
+struct reservoir {
+    struct lit y;
+    double weight; /* W; 0: nothing has been kept */
+    bool first;    /* is there a first vertex to connect to? */
+};
+
+/* f_i(y) for the reservoir's point seen from another pixel's first vertex. */
+static double value_at(const struct scene *scene, const struct vertex *z, const struct reservoir *from, struct lit *out)
+{
+    return connect_light(scene, z, &from->y.at, from->y.pdf, out) ? rgb_luminance(out->value) : 0;
+}
+
+/* Step 1. */
+static struct reservoir resample(struct pooled_pixel *p, int M)
+{
+    struct reservoir r = {.weight = 0, .first = p->n >= 2 && vertex_connectible(&p->eye[1])};
+    double sum = 0, own = 0;
+    bool surface = p->n >= 2 && p->eye[1].kind == VERTEX_SURFACE;
+    for (int m = 0; surface && m < M; m++) {
+        struct lit y;
+        bool lit = connect_light_point(p->sample.scene, p->sample.counts, &p->eye[1], &p->sample.sampler, m, M,
+                                       &y);
+        double f = lit ? rgb_luminance(y.value) : 0;
+        sum += f;
+        if (f > 0 && sampler_number(&p->draws, DRAW_ORDER) * sum < f) {
+            r.y = y;
+            own = f;
+        }
+    }
+    if (own > 0 && lit_visible(p->sample.scene, &r.y))
+        r.weight = sum / (M * own);
+    return r;
+}
+
+/* Normals within 25 degrees, depths within a tenth. */
+static bool alike(const struct vertex *a, const struct vertex *b)
+{
+    double da = length(sub(a[1].p, a[0].p)), db = length(sub(b[1].p, b[0].p));
+    return dot(a[1].ng, b[1].ng) > 0.9063 && fabs(da - db) < 0.1 * fmax(da, db);
+}
+
+/* Step 2. near: S, [n] numbers of pixels, the first this one. */
+static void reuse(struct pooled_pixel *pixel, const struct reservoir *all, const int *near, int n)
+{
+    struct pooled_pixel *c = &pixel[near[0]];
+    const struct scene *scene = c->sample.scene;
+    struct lit kept = {.z = NULL}, l;
+    double sum = 0, own = 0, others = 0;
+    int from = 0;
+    for (int j = 0; j < n; j++) {
+        const struct reservoir *r = &all[near[j]];
+        double f = r->weight > 0 ? value_at(scene, &c->eye[1], r, &l) : 0;
+        sum += f * r->weight;
+        if (f > 0 && sampler_number(&c->draws, DRAW_ORDER) * sum < f * r->weight) {
+            kept = l;
+            own = f;
+            from = j;
+        }
+    }
+    if (!(own > 0))
+        return;
+    for (int k = 0; k < n; k++) {
+        double f = value_at(scene, &pixel[near[k]].eye[1], &all[near[from]], &l);
+        others += f > 0 && lit_visible(scene, &l) ? f : 0;
+    }
+    double m = value_at(scene, &pixel[near[from]].eye[1], &all[near[from]], &l) / others;
+    pixel_sum_lit(&c->sample, &kept, 2, m * sum / own);
+}
+
+static void connect_all(void *scratch, const void *state, const struct tile_pass *pass, struct pooled_pixel *pixel,
+                        int n)
+{
+    const struct light_pool *pool = scratch;
+    const struct restir_state *s = state;
+    struct reservoir *all = arena_alloc(&pass->work->arena, (size_t)n * sizeof *all);
+    for (int i = 0; i < n; i++) {
+        all[i] = resample(&pixel[i], s->candidates);
+        pixel_sum_eye(&pixel[i].sample, pixel[i].eye, pixel[i].n);
+    }
+    for (int i = 0; i < n; i++) {
+        int near[MOST_NEIGHBOURS + 1] = {i}, found = 1;
+        for (int k = 0; all[i].first && k < s->neighbours; k++) {
+            int j = (int)(sampler_number(&pixel[i].draws, DRAW_LIGHT_END) * n);
+            if (j != i && all[j].first && alike(pixel[i].eye, pixel[j].eye))
+                near[found++] = j;
+        }
+        if (all[i].first)
+            reuse(pixel, all, near, found);
+        pixel_sum_pairs(&pixel[i].sample, pixel[i].eye, pixel[i].n, light_pool_path(pool, i), pool->length[i],
+                        NO_CHOICE);
+    }
+}
+
+static void free_scratch(void *scratch) { light_pool_free(scratch); }
+
+static void prepare(const struct render_job *job, struct preparation *out)
+{
+    struct restir_state *s = out->state;
+    (void)job;
+    out->size.tile = MAX_TILE_SIZE;
+    s->frozen.lights = 0;
+    s->frozen.counts.direct[FIRST_HIT] = s->frozen.counts.delta[FIRST_HIT] = s->credit;
+}
+
+#define AT(member) offsetof(struct restir_state, member)
+static const struct method_parameter PARAMETERS[] = {
+    {"candidates", PARAMETER_INTEGER, AT(candidates), 16, 1, 1024, "light points of which a pixel keeps one", NULL},
+    {"neighbours", PARAMETER_INTEGER, AT(neighbours), 5, 0, MOST_NEIGHBOURS, "pixels whose light points it shares",
+     NULL},
+    {"credit", PARAMETER_NUMBER, AT(credit), 4, 1e-3, 1e6, "samples that one kept counts for in the weights", NULL},
+    {.name = NULL}};
+
+const struct method method_restir = {
+    .name = "restir", .help = "reservoirs [Bitterli 2020]: light points resampled, and shared with pixels nearby",
+    .parameters = PARAMETERS, .state_size = sizeof(struct restir_state), .scratch_size = sizeof(struct light_pool),
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render, .scratch_free = free_scratch,
+    .connect_all = connect_all};

@@ -1,0 +1,55 @@
+/* ris2.c: two-stage resampling: of very many light vertices a few are drawn by their power, and resampled by records.
+ *
+ * The first stage draws M2 of all light vertices of the pool's K sub-paths, v with probability g_v / S, g_v = L_v,
+ * S = sum of g, and gives each the factor u = S / (M2 g_v). The second is ris.c with these for light vertices, h_c(v) u
+ * for their worth to record c, and [Nabata 2020b]
+ *     X = w_{s,c} F(v) u / (K P_c PMF_c(v)),
+ *     N_{s,c} = P_c / (1/K + (1 - 1/K) (Q_g / (M2 g_v) + (1 - 1/M2) Q_c / h_c)),
+ * Q_g being the expectation of the sum of g over a light sub-path: the second moment over both stages. So records cost
+ * M2 shadow rays each however many sub-paths there are. The paper's g could not be read; L_v is our choice.
+ *
+ * Tests: test_rivals.c.
+ */
+#include <stddef.h>
+
+#include "base/cumulative.h"
+#include "rivals/ris.h"
+
+void ris2_presample(struct ris *r, const struct tile_pass *pass, long iteration)
+{
+    int V = r->found.n, M2 = r->state->presampled;
+    struct sampler sampler = pixel_sampler(pass, RNG_SHUFFLE, pass->rect.x0, pass->rect.y0, iteration);
+    double *before = arena_alloc(&r->arena, (size_t)V * sizeof *before), S = 0;
+    struct candidate *all = arena_alloc(&r->arena, (size_t)V * sizeof *all);
+    r->u = arena_alloc(&r->arena, (size_t)M2 * sizeof *r->u);
+    for (int v = 0; v < V; v++) {
+        all[v] = r->found.item[v];
+        before[v] = S;
+        S += all[v].L;
+    }
+    r->found.n = 0;
+    r->found.item = mem_grow(r->found.item, &r->found.capacity, (size_t)M2, sizeof *r->found.item);
+    for (int i = 0; S > 0 && S < INFINITY && i < M2; i++) {
+        double at = (i + sampler_number(&sampler, DRAW_ORDER)) / M2;
+        const struct candidate *v = &all[cumulative_find(before, V, at * S)];
+        r->u[r->found.n] = S / (M2 * v->L);
+        if (v->L > 0)
+            r->found.item[r->found.n++] = *v;
+    }
+}
+
+#define AT(member) offsetof(struct ris_state, member)
+static const struct method_parameter PARAMETERS[] = {
+    {"weights", PARAMETER_WORD, AT(nabata), 1, 0, 0, "what draws count for", RIS_WEIGHTS},
+    {"presampled", PARAMETER_INTEGER, AT(presampled), 200, 1, 100000, "light vertices left by the first stage", NULL},
+    {"subpaths", PARAMETER_INTEGER, AT(sub_paths), 10000, 1, 1e6, "light sub-paths that are drawn from", NULL},
+    {"records", PARAMETER_NUMBER, AT(records), RECORDS_SHARE, 0, 1, "share of pixels that have records", NULL},
+    {.name = NULL}};
+
+const struct method method_ris2 = {
+    .name = "ris2", .help = "two-stage resampling [Nabata 2020b]: by power first, then by a record nearby",
+    .why = "one draw for each eye vertex, by one of the records nearby or uniformly, from light vertices drawn before "
+           "in proportion to luminance(beta), which have a factor u for that; scale u / (K P)",
+    .parameters = PARAMETERS, .state_size = sizeof(struct ris_state), .scratch_size = sizeof(struct ris),
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = ris_prepare, .render = pooled_render,
+    .scratch_init = ris_scratch_init, .scratch_free = ris_scratch_free, .begin = ris_begin, .draw = ris_draw};

@@ -1,0 +1,353 @@
+/* test_rivals.c: other ways of choosing what to connect (src/rivals): each has the expectation of path tracing, in
+ * pools of one, two and four light sub-paths, too, where a fault of 1/K is as large as what is measured; and each is
+ * another method where the two are one. test_asbdpt.c has lvc and cbdpt. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "render/render.h"
+#include "rivals/ris.h"
+#include "helpers.h"
+#include "oracle.h"
+#include "tests.h"
+
+/* --- expectation ------------------------------------------------------------------------------------- */
+
+/* Two rooms, where connections matter most, as one tile of 3x3 pixels, with one, two and four or five light sub-paths;
+ * a third of the pixels have records. */
+static void test_small_pools(struct test *t)
+{
+    static const char *const cases[] = {"mbdpt pathpixels=9", "mbdpt pathpixels=5", "pcbdpt records=.3 subpaths=1",
+                                        "pcbdpt records=.3 subpaths=4 connections=2", "ris records=.3 subpaths=1",
+                                        "ris records=.3 subpaths=2", "ris records=.3 subpaths=4",
+                                        "ris2 records=.3 presampled=2 subpaths=2", "restir candidates=1 neighbours=2",
+                                        "restir candidates=4 neighbours=8"};
+    struct scene scene;
+    if (!scene_from_file(t, "doc/mini/rooms.pbrt", 3, 3, &scene))
+        return;
+    struct batches pt = render_batches(t, &scene, "pt", 4, 2048, 32, 1, 163);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const char *integrator = set_method(&scene, cases[i]);
+        struct batches x = render_batches(t, &scene, integrator, 4, 256, 32, 1, 164);
+        double ratio, p = batches_p(&x, &pt, &ratio);
+        TEST_ACCEPT(t, p, "rooms in 9 pixels, %s against pt: ratio %.4f", cases[i], ratio);
+        batches_free(&x);
+    }
+    batches_free(&pt);
+    scene_free(&scene);
+}
+
+/* In three pixels, where sub-paths of a rank would meet too often if the lattice were not shifted at random. */
+static void test_three_pixels(struct test *t)
+{
+    struct scene scene;
+    if (!scene_from_file(t, "doc/mini/rooms.pbrt", 3, 1, &scene))
+        return;
+    struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 1024, 32, 3, 181);
+    struct batches x = render_batches(t, &scene, "mbdpt", 4, 1024, 32, 3, 182);
+    double ratio, p = batches_p(&x, &bdpt, &ratio);
+    TEST_ACCEPT(t, p, "rooms in three pixels, mbdpt against bdpt: ratio %.4f", ratio);
+    batches_free(&bdpt);
+    batches_free(&x);
+    scene_free(&scene);
+}
+
+/* The two rooms with pools of a hundred light vertices, in which records differ. */
+static void test_rooms(struct test *t)
+{
+    static const char *const ways[] = {"pcbdpt records=.02", "ris records=.02 subpaths=30",
+                                       "ris2 records=.02 presampled=30", "restir neighbours=20"};
+    struct scene scene;
+    if (!scene_from_file(t, "doc/mini/rooms.pbrt", 16, 16, &scene))
+        return;
+    struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 32, 16, 8, 191);
+    for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++) {
+        const char *integrator = set_method(&scene, ways[k]);
+        struct batches x = render_batches(t, &scene, integrator, 4, 16, 16, 8, 192);
+        double ratio, p = batches_p(&x, &bdpt, &ratio);
+        TEST_ACCEPT(t, p, "rooms, %s against bdpt: ratio %.4f", ways[k], ratio);
+        batches_free(&x);
+    }
+    batches_free(&bdpt);
+    scene_free(&scene);
+}
+
+static void test_every_scene(struct test *t)
+{
+    static const char *const scenes[] = {"light-kinds", "mirror-glass", "all-materials"};
+    static const char *const ways[] = {"mbdpt", "pcbdpt connections=2", "ris", "ris subpaths=2 records=.01",
+                                       "ris2 presampled=20 records=.01", "restir neighbours=20"};
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        char path[256];
+        struct scene scene;
+        snprintf(path, sizeof path, "scenes/test/%s.pbrt", scenes[i]);
+        if (!scene_from_file(t, path, 24, 24, &scene))
+            continue;
+        struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 8, 12, 12, 171);
+        for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++) {
+            const char *integrator = set_method(&scene, ways[k]);
+            struct batches x = render_batches(t, &scene, integrator, 4, 4, 10, 12, 172);
+            double ratio, p = batches_p(&x, &bdpt, &ratio);
+            TEST_ACCEPT(t, p, "%s, %s against bdpt: ratio %.4f", scenes[i], ways[k], ratio);
+            batches_free(&x);
+        }
+        batches_free(&bdpt);
+        scene_free(&scene);
+    }
+}
+
+/* --- limits ------------------------------------------------------------------------------------------ */
+
+enum { SIDE = 16 };
+
+static void render_image(struct test *t, struct scene *scene, const char *method, int depth, float *image)
+{
+    struct film film;
+    struct error err;
+    struct render_options o = {.integrator = set_method(scene, method), .end = 4, .n_threads = 2, .max_depth = depth};
+    film_init(&film, render_crop(scene), scene->width, scene->height);
+    CHECK(t, render_scene(scene, &o, &film, &err), "%s: %s", method, err.text);
+    film_develop(&film, 1, image);
+    film_free(&film);
+}
+
+/* Largest difference of two methods, relative. */
+static double differ(struct test *t, struct scene *scene, const char *a, const char *b, int depth)
+{
+    static float x[SIDE * SIDE * 3], y[SIDE * SIDE * 3];
+    double worst = 0;
+    render_image(t, scene, a, depth, x);
+    render_image(t, scene, b, depth, y);
+    for (int i = 0; i < scene->width * scene->height * 3; i++)
+        worst = fmax(worst, fabs((double)x[i] - (double)y[i]) / (fabs((double)x[i]) + 1e-6));
+    return worst;
+}
+
+/* A light in a closed white ball. */
+static const char WHITE[] =
+    "Camera \"perspective\" Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16\n"
+    "WorldBegin LightSource \"point\" Material \"matte\" \"rgb Kd\" [1 1 1] Shape \"sphere\" \"float radius\" 2\n"
+    "WorldEnd\n";
+
+/* Where one method is another: with the same random numbers they make the same picture, up to `bound`: where the same
+ * sums are added in another order that is not to the byte. Beside each stands one that is near, and is not. */
+static void test_limits(struct test *t)
+{
+    static const struct {
+        const char *scene;
+        int side, depth;
+        const char *a, *b, *other;
+        double bound;
+    } cases[] = {
+        {"light-kinds", 1, 4, "mbdpt", "bdpt", "cbdpt connections=2", 0},
+        {"mirror-glass", SIDE, 4, "restir candidates=1 neighbours=0 credit=1", "bdpt",
+         "restir candidates=1 neighbours=9 credit=1", 1e-6},
+        {"light-kinds", SIDE, 4, "restir candidates=1 neighbours=0 credit=1", "bdpt",
+         "restir candidates=2 neighbours=0 credit=1", 1e-6},
+        /* without records the choice is uniform; where light sub-paths have two vertices, two draws count like one */
+        {"white", SIDE, 2, "pcbdpt records=0 connections=2 subpaths=256", "lvc connections=2",
+         "pcbdpt records=.1 connections=2 subpaths=256", 0},
+        {"all-materials", SIDE, 4, "ris weights=counts records=.02", "pcbdpt normals=0 records=.02",
+         "pcbdpt records=.02", 0},
+        /* of one light sub-path every draw counts like one: the arrays of the path give what the recursion does */
+        {"light-kinds", SIDE, 4, "ris records=0 subpaths=1", "pcbdpt records=0 subpaths=1",
+         "ris records=0 subpaths=2", 1e-5},
+        {"mirror-glass", SIDE, 4, "ris records=0 subpaths=1", "pcbdpt records=0 subpaths=1",
+         "ris records=.1 subpaths=1", 1e-5},
+        {"all-materials", SIDE, 4, "ris records=0 subpaths=1", "pcbdpt records=0 subpaths=1",
+         "ris records=0 subpaths=100", 1e-5},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char path[256];
+        struct scene scene;
+        snprintf(path, sizeof path, "scenes/test/%s.pbrt", cases[i].scene);
+        if (!(strcmp(cases[i].scene, "white") == 0 ? scene_from_text(t, WHITE, &scene)
+                                                    : scene_from_file(t, path, cases[i].side, cases[i].side, &scene)))
+            continue;
+        double same = differ(t, &scene, cases[i].a, cases[i].b, cases[i].depth);
+        double other = differ(t, &scene, cases[i].other, cases[i].b, cases[i].depth);
+        CHECK(t, same <= cases[i].bound, "%s: %s is not %s: %g", cases[i].scene, cases[i].a, cases[i].b, same);
+        CHECK(t, other > 1e-3, "%s: %s is %s: %g", cases[i].scene, cases[i].other, cases[i].b, other);
+        scene_free(&scene);
+    }
+}
+
+/* --- the weights of ris ------------------------------------------------------------------------------ */
+
+/* The eye vertex that lies where light vertex x does, the eye walk coming from z with that density, 1/sr, there: what
+ * strategies with fewer light vertices have of the same path. */
+static struct vertex as_eye_vertex(const struct vertex *x, const struct vertex *z, double pdf)
+{
+    struct vertex v = *x;
+    vec3 d = sub(x->p, z->p);
+    v.wo = neg(normalize(d));
+    v.kind = VERTEX_SURFACE;
+    v.prev_delta = false;
+    v.pdf_fwd = pdf * abs_dot(x->ng, v.wo) / length2(d);
+    v.pdf_origin = x->kind == VERTEX_LIGHT ? x->pdf_fwd : 0;
+    v.beta = rgb_grey(1);
+    return v;
+}
+
+/* The strategies s, s - 1 ... 0 of the path of s light vertices and two eye vertices, all one after the other weighed
+ * by ris: each takes the last light vertex of the one before for an eye vertex. Returns the sum. */
+static double sum_weights(struct ris *r, const struct vertex *light, int s, struct vertex *eye)
+{
+    double sum = 0;
+    for (int t = 2; s >= 0; s--, t++) {
+        struct vertex *z = &eye[t - 1];
+        struct connection c;
+        if (s >= 2) {
+            struct joint j;
+            if (!connect_join(&light[s - 1], z, &j))
+                return NAN;
+            r->own = r->all = ris_worth(r, &light[s - 1], z);
+            c = connect_joint(r->scene, &r->counts, &j);
+            eye[t] = as_eye_vertex(&light[s - 1], z, j.pdf_z);
+            z->pdf_rev = j.pdf_rev_z;
+            eye[t].pdf_rev = 0;
+        } else if (s == 1) {
+            struct light_point at = vertex_light_point(light);
+            struct lit l;
+            at.pdf = at.pdf_cell = light->pdf_fwd;
+            if (!connect_light(r->scene, z, &at, at.pdf, &l))
+                return NAN;
+            c = connect_lit(r->scene, &r->counts, &l);
+            eye[t] = as_eye_vertex(light, z, l.pdf_z);
+            z->pdf_rev = l.pdf_rev_z;
+        } else {
+            c = connect_hit(r->scene, &r->counts, &eye[t - 2], z, t);
+        }
+        sum += rgb_is_black(c.value) ? NAN : c.weight;
+    }
+    return sum;
+}
+
+/* What an eye vertex draws from: probabilities sum to 1, and evenly spread numbers draw by them, each part of the
+ * mixture being off by less than one number. */
+static void check_mixture(struct test *t, const struct ris *r, const struct vertex *z)
+{
+    enum { NUMBERS = 5000, MOST = 4000 };
+    static int drawn[MOST];
+    int V = r->found.n, which, parts = RECORDS_NEAR + 1;
+    double sum = 0, worst = 0;
+    if (!CHECK(t, V > 0 && V <= MOST, "%d light vertices", V))
+        return;
+    struct mixture m = records_mixture(&r->records, r->scene, z, 0.5, false, V);
+    memset(drawn, 0, sizeof drawn);
+    for (int i = 0; i < NUMBERS; i++)
+        drawn[mixture_draw(&m, (i + 0.5) / NUMBERS, &which)]++;
+    for (int v = 0; v < V; v++) {
+        double P = mixture_pmf(&m, v);
+        sum += P;
+        worst = fmax(worst, fabs(drawn[v] - P * NUMBERS));
+    }
+    CHECK(t, fabs(sum - 1) < 1e-12 && worst <= parts, "P sums to 1 but for %g, draws are off by %g", sum - 1, worst);
+}
+
+/* Given the pool, the mean of what an eye vertex z_1 draws is the sum over all it could draw, over K. */
+static void check_draws(struct test *t, struct ris *r, const struct method *method, struct pixel_sample sample,
+                        const struct vertex *eye)
+{
+    enum { BATCHES = 32, DRAWS = 300 };
+    struct batches drawn = batches_new(BATCHES, 1, false);
+    struct pooled_pixel p = {.sample = sample, .eye = eye, .n = 2};
+    double expected = 0;
+    p.draws = sampler_start(test_seed(t), RNG_TEST, (uint64_t)sample.x, (uint64_t)sample.y);
+    p.sample.filter_weight = 1;
+    for (int v = 0; v < r->found.n; v++) {
+        const struct candidate *c = &r->found.item[v];
+        struct joint j;
+        r->own = r->all = ris_worth(r, c->y, &eye[1]);
+        if (c->s + 2 > sample.max_depth + 2 || !connect_join(c->y, &eye[1], &j))
+            continue;
+        struct connection k = connect_joint(r->scene, &r->counts, &j);
+        expected += rgb_is_black(k.value) ? 0 : rgb_luminance(k.value) * k.weight * (r->u != NULL ? r->u[v] : 1) / r->K;
+    }
+    for (int b = 0; b < BATCHES; b++) {
+        p.sample.sum = rgb_black();
+        for (int i = 0; i < DRAWS * test_effort(t); i++)
+            method->draw(r, r->state, &p, &eye[1], 2);
+        drawn.value[b] = rgb_luminance(p.sample.sum) / (DRAWS * test_effort(t));
+    }
+    if (expected > 0)
+        TEST_ACCEPT(t, mean_p(&drawn, expected), "%s, pixel (%d,%d): %g drawn, %g expected", method->name, sample.x,
+                    sample.y, batches_mean(&drawn, NULL), expected);
+    batches_free(&drawn);
+}
+
+/* Q of a record is what records of another iteration have met, not those of its own. */
+static void check_expected(struct test *t, const struct ris *r)
+{
+    int same = 0;
+    for (int i = 0; i < r->records.n; i++) {
+        int near[RECORDS_NEAR], n = records_near(&r->records, r->scene, &r->records.item[i].z, 0, near);
+        double sum = 0;
+        for (int k = 0; k < n; k++)
+            sum += r->records.item[near[k]].sum / r->K / n;
+        same += fabs(sum - r->records.item[i].expected) < 1e-9 * sum;
+    }
+    CHECK(t, r->records.n > 0 && same == 0, "%d of %d records know what they have met", same, r->records.n);
+}
+
+/* Sums of weights, t = 1 being BDPT's by the oracle, of all light sub-paths of a pool of the given number of them, each
+ * joined to the first hit of a pixel; twice, since what roulette has done must not matter. */
+static void test_weights(struct test *t, const char *path, const char *method)
+{
+    struct scene scene;
+    struct error err;
+    if (!scene_from_file(t, path, SIDE, SIDE, &scene))
+        return;
+    struct render_options o = {.integrator = set_method(&scene, method), .max_depth = 5, .n_threads = 1};
+    struct render_job job;
+    struct preparation prepared;
+    if (!CHECK(t, render_prepare(&scene, &o, render_crop(&scene), &job, &prepared, &err), "%s", err.text))
+        return;
+    struct tile tile = {.rect = job.film_rect};
+    struct workspace *work = workspaces_new(1, job.max_depth);
+    struct ris *r = work->scratch = method_scratch(&prepared);
+    struct tile_pass pass = {&job, job.film_rect, 3, 4, &tile, work, NULL};
+    tile_start(&tile, job.film_rect, job.film_rect, &scene.filter, false);
+    prepared.method->render(&prepared, &pass);
+    check_expected(t, r);
+    double worst = 0, weight[16];
+    int n = 0;
+    for (int k = 0; k < r->K; k++)
+        for (int s = 2, x, y; s <= r->pool.length[k] && pass_pixel(&pass, k, &x, &y); s++) {
+            const struct vertex *light = light_pool_path(&r->pool, k);
+            if (light[s - 1].prev_delta)
+                break;
+            struct mis_counts plain = r->counts;
+            struct pixel_sample sample = pixel_sample_begin(&pass, &r->counts, x, y, 3);
+            struct vertex eye[16];
+            plain.weigher = NULL;
+            if (pixel_eye_path(&pass, &sample, 3, eye, 2) < 2 ||
+                !oracle_weights(&scene, &plain, light, s, eye, 2, weight))
+                continue;
+            if (s == 2)
+                check_mixture(t, r, &eye[1]);
+            if (s == 2 && k % 20 == 0)
+                check_draws(t, r, prepared.method, sample, eye);
+            double sum = sum_weights(r, light, s, eye) + weight[s + 1];
+            worst = sum == sum ? fmax(worst, fabs(sum - 1)) : worst; /* NaN: they do not see each other */
+            n += sum == sum;
+        }
+    CHECK(t, n > 20 && worst < 1e-6, "%s: weights of %d paths sum to 1 but for %g", method, n, worst);
+    tile_free(&tile);
+    method_scratch_free(&prepared, work->scratch);
+    workspaces_free(work, 1);
+    method_release(&prepared);
+    scene_free(&scene);
+}
+
+void test_rivals(struct test *t)
+{
+    test_weights(t, "scenes/cornell-box-modified.pbrt", "ris records=.02 rrthreshold=1");
+    test_weights(t, "scenes/cornell-box-modified.pbrt", "ris2 records=.02 presampled=30");
+    test_weights(t, "scenes/veach-ajar.pbrt", "ris records=.02");
+    test_small_pools(t);
+    test_three_pixels(t);
+    test_rooms(t);
+    test_every_scene(t);
+    test_limits(t);
+}
