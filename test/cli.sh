@@ -28,7 +28,7 @@ for command in render merge compare convert worth info trace; do # each its own 
     expect 0 '' "$program" $command --help
     check [ "$(grep -c "usage: asbdpt $command" stdout.txt)" = 1 ]
 done
-for command in verify experiment equal-time demo bench; do
+for command in verify experiment equal-time demo transient bench; do
     expect 0 '' "$lab" $command -h
     check [ "$(grep -c "usage: asbdpt-lab $command" stdout.txt)" = 1 ]
 done
@@ -198,9 +198,9 @@ for command in info "render $small -o x.pfm"; do
     check grep -q '^asbdpt: warned.pbrt:3:15: there is no named material "mate"' stderr.txt
     check grep -q 'refused for what is said above' stderr.txt
 done
-printf 'WorldBegin\nShpae "sphere"\nShape "curve"\nWorldEnd\n' >errors.pbrt
+printf 'WorldBegin\nShpae "sphere"\nShape "cuboid"\nWorldEnd\n' >errors.pbrt
 expect 1 '^asbdpt: errors.pbrt:2:1: unknown directive' "$program" render errors.pbrt --quiet
-check grep -q '^asbdpt: errors.pbrt:3:7: Shape "curve"' stderr.txt
+check grep -q '^asbdpt: errors.pbrt:3:7: Shape "cuboid"' stderr.txt
 
 # Bytes of a scene that mean something to a terminal do not reach it.
 printf 'Integrator "\033[31mx" "string maxdepth" "\033[31m"\nWorldBegin\nWorldEnd\n' >escape.pbrt
@@ -325,6 +325,26 @@ check grep -q '^asbdpt .* spp .* s of CPU   rmse8' stdout.txt
 check [ -s demo.png ]
 expect 1 'there is no stored reference known.pfm' "$lab" demo known.pbrt -o demo.png
 expect 2 'there is no method bdtp; did you mean bdpt' "$lab" demo "$box" --methods bdtp,asbdpt -o demo.png
+
+# --- gates
+# gates: light by how far it has come; of gates, films are not added up; a sequence of pictures in one render.
+expect 0 '' "$program" render "$box" $small --gate 0:inf -o all.pfm
+expect 0 '' "$program" render "$box" $small -o whole.pfm
+check cmp -s all.pfm whole.pfm
+expect 0 '' "$program" render "$box" $small --gate 0:1e3 -o dark.pfm
+check [ "$(tail -c 3072 dark.pfm | tr -d '\000' | wc -c)" = 0 ] # nothing is as near
+expect 2 'there is nothing between 3 and 2' "$program" render "$box" $small --gate 3:2 -o a.pfm
+expect 2 'expected L0:L1, numbers from 0 to inf' "$program" render "$box" $small --gate 1:nan -o a.pfm
+expect 0 '' "$program" render "$box" $small --gate 0:1500 --samples 0:1 --stats - -o 0.part
+check grep -q '"gate": \[0, *1500\]' stdout.txt
+expect 0 '' "$program" render "$box" $small --gate 1500:2000 --samples 1:2 -o 1.part
+expect 1 'gate' "$program" merge 0.part 1.part -o a.pfm
+expect 0 '' "$lab" transient "$box" $small --gates 3 --gate 1000:2500 -o flight
+check [ -s flight/gate002.pfm -a -s flight/transient.png -a ! -e flight/gate003.pfm ]
+expect 0 '' "$program" render "$box" $small --gate 1500:2000 -o one.pfm
+expect 0 '' "$program" compare flight/gate001.pfm one.pfm --max-rmse 1e-5
+expect 0 '' "$lab" transient "$box" $small -o flight/found # where light is
+check [ -s flight/found/gate015.pfm ]
 
 # --- help
 # help: as a whole no wider than a terminal, with every integrator once.

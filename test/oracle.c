@@ -195,3 +195,17 @@ bool oracle_weights(const struct scene *scene, const struct mis_counts *counts, 
         weight[i] = sum > 0 ? (double)(p[i] / sum) : 0;
     return sum > 0;
 }
+
+double oracle_length(const struct scene *scene, const struct vertex *light, int s, const struct vertex *eye, int t)
+{
+    struct full_path f = {.scene = scene};
+    double sum = 0;
+    join(&f, light, s, eye, t);
+    for (int i = 1; i < f.n; i++) {
+        vec3 w = direction(&f, i, i - 1), from = f.x[i - 1]->p;
+        if (at_infinity(&f, i - 1))
+            from = add(scene->lights.center, mul(w, scene->lights.radius));
+        sum += at_infinity(&f, i - 1) ? fmax(dot(sub(from, f.x[i]->p), w), 0) : length(sub(from, f.x[i]->p));
+    }
+    return sum;
+}

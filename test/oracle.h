@@ -1,4 +1,4 @@
-/* oracle.h: the MIS weight computed the slow and plain way, from all p_i of a path. */
+/* oracle.h: the MIS weight computed the slow and plain way, from all p_i of a path; and the path's length. */
 #ifndef ASBDPT_TEST_ORACLE_H
 #define ASBDPT_TEST_ORACLE_H
 
@@ -10,5 +10,9 @@
  * Returns false for paths the oracle does not cover: delta vertices other than a mirror or smooth glass. */
 bool oracle_weights(const struct scene *scene, const struct mis_counts *counts, const struct vertex *light, int s,
                     const struct vertex *eye, int t, double *weight);
+
+/* oracle_length: of the same path: all its edges measured anew, what comes from infinity from the plane that touches
+ * the scene's sphere; meaningless for a path that the oracle does not cover. */
+double oracle_length(const struct scene *scene, const struct vertex *light, int s, const struct vertex *eye, int t);
 
 #endif

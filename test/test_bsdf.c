@@ -17,6 +17,7 @@
 
 #include "base/rng.h"
 #include "lab/stats.h"
+#include "material/fourier.h"
 #include "material/fresnel.h"
 #include "tests.h"
 
@@ -59,15 +60,21 @@ static struct lobe copper(double alpha_x, double alpha_y)
     return l;
 }
 
+static struct lobe dimmed(struct lobe l)
+{
+    l.scale = rgb_grey(0.4);
+    return l;
+}
+
 struct specimen {
     const char *name;
     int n;
     struct lobe lobe[MAX_LOBES];
 };
 
-enum { N_SPECIMENS = 13 };
+enum { N_SPECIMENS = 19 };
 
-static void specimens(struct specimen *s)
+static void specimens(struct specimen *s, const struct fourier_table *table)
 {
     struct lobe diffuse = lobe(LOBE_LAMBERT_REFLECTION, 0.5, 0), through = lobe(LOBE_LAMBERT_TRANSMISSION, 0, 0.4);
     struct lobe mirror = lobe(LOBE_SPECULAR_REFLECTION, 0.3, 0);
@@ -77,6 +84,18 @@ static void specimens(struct specimen *s)
     coat.R = rgb_grey(0.4);
     faint.R = weak.T = rgb_grey(0.1);
     weak.scale = rgb_make(0.5, 0.7, 0.9);
+    struct lobe disney = lobe(LOBE_DISNEY_DIFFUSE, 0.5, 0.2), metal = copper(0.4, 0.2), glass = refract;
+    struct lobe gloss = lobe(LOBE_CLEARCOAT, 1, 0);
+    disney.eta = rgb_grey(0.5);
+    disney.k = rgb_make(0.1, 0.2, 0);
+    metal.fresnel = FRESNEL_DISNEY;
+    metal.eta = rgb_make(0.9, 0.5, 0.2);
+    metal.A = 0.6;
+    metal.eta_b = 1.5;
+    gloss.alpha_x = 0.1;
+    metal.separate = glass.separate = true;
+    struct lobe layered = lobe(LOBE_FOURIER, 1, 0);
+    layered.table = table;
     struct specimen all[N_SPECIMENS] = {
         {"lambert", 1, {diffuse}},
         {"lambert transmission", 1, {through}},
@@ -91,6 +110,12 @@ static void specimens(struct specimen *s)
         {"plastic", 2, {diffuse, coat}},
         {"translucent", 4, {diffuse, through, faint, weak}},
         {"half a mirror", 2, {diffuse, mirror}},
+        {"disney's diffuse part", 1, {disney}},
+        {"disney's facets", 1, {metal}},
+        {"disney's glass", 1, {glass}},
+        {"clear coat", 1, {gloss}},
+        {"fourier", 1, {layered}},
+        {"disney", 4, {dimmed(disney), dimmed(metal), gloss, dimmed(glass)}},
     };
     memcpy(s, all, sizeof all);
 }
@@ -196,11 +221,11 @@ static double chi2_p(const struct bsdf *drawn, const struct bsdf *claimed, vec3 
     return stats_chi2_test(h.cell, in->expected.cell, CELLS + 1);
 }
 
-static void samples_follow_pdf(struct test *t, struct rng *r)
+static void samples_follow_pdf(struct test *t, struct rng *r, const struct fourier_table *table)
 {
     static const double COS[] = {0.95, 0.5, 0.15, -0.7, -0.2}, TILT[] = {0, 0.35};
     struct specimen s[N_SPECIMENS];
-    specimens(s);
+    specimens(s, table);
     for (int n = 0; n < N_SPECIMENS * 10; n++) {
         int c = n / 2 % 5, k = n % 2, inconsistent;
         struct specimen *one = &s[n / 10];
@@ -228,10 +253,10 @@ static void reject(struct test *t, struct rng *r, const struct bsdf *drawn, cons
     TEST_REJECT(t, chi2_p(drawn, claimed, wo, RADIANCE, fault, r, &in, &inconsistent), "%s", what);
 }
 
-static void planted_faults(struct test *t, struct rng *r)
+static void planted_faults(struct test *t, struct rng *r, const struct fourier_table *table)
 {
     struct specimen s[N_SPECIMENS];
-    specimens(s);
+    specimens(s, table);
     struct bsdf lambert = mount(&s[0], 0), brushed = mount(&s[4], 0), glass = mount(&s[9], 0);
     reject(t, r, &lambert, &lambert, 0.5, TIMES_COS, "lambert, one cosine too many");
     reject(t, r, &lambert, &lambert, 0.5, PER_COS, "lambert, a cosine missing");
@@ -262,10 +287,10 @@ static void planted_faults(struct test *t, struct rng *r)
 static bool agree(double a, double b) { return fabs(a - b) <= 1e-6 * (fabs(a) + fabs(b)) + 1e-15; }
 
 /* Random pairs, most of them with a value: half of them are drawn by the BSDF. */
-static void swapped_pairs(struct test *t, struct rng *r)
+static void swapped_pairs(struct test *t, struct rng *r, const struct fourier_table *table)
 {
     struct specimen s[N_SPECIMENS];
-    specimens(s);
+    specimens(s, table);
     for (int i = 0; i < N_SPECIMENS; i++) {
         int bad_pdf = 0, bad_f = 0, bad_eta = 0, black_pdf = 0, met = 0;
         for (int k = 0; k < 3000; k++) {
@@ -284,6 +309,8 @@ static void swapped_pairs(struct test *t, struct rng *r)
                        !agree(there.pdf, there_i.pdf);
             bad_f += !agree(there.f.r, back_i.f.r) || !agree(there_i.f.b, back.f.b);
             bool reflected = dot(wo, b.ng) * dot(wi, b.ng) > 0;
+            if (s[i].lobe[0].kind == LOBE_FOURIER)
+                continue; /* symmetric as its table is: test_fourier.c */
             if (reflected || s[i].lobe[0].kind == LOBE_LAMBERT_TRANSMISSION)
                 bad_eta += !agree(there.f.g, back.f.g) || !agree(there.f.g, there_i.f.g);
             else if (s[i].lobe[0].kind == LOBE_MICROFACET_TRANSMISSION && there.f.g > 0) {
@@ -381,10 +408,15 @@ static void world_frame(struct test *t)
 void test_bsdf(struct test *t)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 22, 0);
-    samples_follow_pdf(t, &r);
-    planted_faults(t, &r);
-    swapped_pairs(t, &r);
+    struct fourier_table table;
+    struct error err = {""};
+    if (!CHECK(t, fourier_read("scenes/features/layered.bsdf", &table, &err), "%s", err.text))
+        return;
+    samples_follow_pdf(t, &r, &table);
+    planted_faults(t, &r, &table);
+    swapped_pairs(t, &r, &table);
     short_cut(t, &r);
     choice_among_lobes(t);
     world_frame(t);
+    fourier_free(&table);
 }

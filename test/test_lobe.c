@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "material/bsdf.h"
+#include "material/disney.h"
 #include "material/fresnel.h"
 #include "material/microfacet.h"
 #include "base/number.h"
@@ -139,7 +140,7 @@ static double jacobian_error(const struct lobe *sampled, const struct lobe *clai
             vec3 wi;
             if (area < 0 || !lobe_sample(sampled, wo, vec(0, 0, 1), u, &wi))
                 continue;
-            if ((wo.z * wi.z > 0) != (sampled->kind == LOBE_MICROFACET_REFLECTION))
+            if ((wo.z * wi.z > 0) != (sampled->kind != LOBE_MICROFACET_TRANSMISSION))
                 continue; /* through the facet but not through the surface: absorbed */
             double pdf = lobe_eval(claimed, wo, wi, wo.z * wi.z > 0, RADIANCE).pdf;
             worst = most_of(worst, fabs(pdf * area - 1));
@@ -172,6 +173,64 @@ static void narrow_lobes(struct test *t)
                     CHECK(t, jacobian_error(&l, &other, wo) > 0.01, "a wrong index must show");
                 }
             }
+}
+
+/* The clear coat's facets: they project to the area of the surface, and are drawn with the claimed density. */
+static void clear_coat(struct test *t)
+{
+    static const double ALPHA[] = {0.1, 0.03, 0.001}, COS[] = {0.999, 0.6, 0.1, -0.8};
+    enum { STEPS = 20000 };
+    for (int a = 0; a < 3; a++) {
+        double down = 0, last = 0;
+        for (int i = 1; i <= STEPS; i++) { /* by tan(theta), as many steps in every decade */
+            double tan_theta = pow(10, 12.0 * i / STEPS - 6), cos_theta = 1 / sqrt(1 + sqr(tan_theta));
+            double middle = sqrt(last * tan_theta), c = 1 / sqrt(1 + sqr(middle));
+            down += disney_coat_d(direction(c, 1), ALPHA[a]) * 2 * PI * c * (1 / sqrt(1 + sqr(last)) - cos_theta);
+            last = tan_theta;
+        }
+        CHECK(t, near(down, 1, 1e-3), "coat of alpha %g: facets project to %g of the surface", ALPHA[a], down);
+        for (int c = 0; c < 4; c++) {
+            struct lobe l = facet_lobe(LOBE_CLEARCOAT, ALPHA[a], 0), other = l;
+            double e = jacobian_error(&l, &l, direction(COS[c], 0.7));
+            CHECK(t, e < 2e-3, "coat of alpha %g, cos %g: pdf off by %g", ALPHA[a], COS[c], e);
+            other.alpha_x *= 1.5;
+            CHECK(t, jacobian_error(&l, &other, direction(COS[c], 0.7)) > 0.1, "another gloss must show");
+        }
+    }
+}
+
+/* Values of pbrt-v3's formulas, worked out by hand for wo and wi at 60 degrees from the normal, opposite each other. */
+static void disney_values(struct test *t)
+{
+    struct lobe l = {.kind = LOBE_DISNEY_DIFFUSE, .scale = rgb_grey(1), .A = 0.5};
+    vec3 wo = direction(0.5, 0.4), wi = direction(0.5, 0.4 + PI), up = vec(0, 0, 1);
+    const double s = pow(0.5, 5), f = 1 - 0.875 * s; /* Schlick's weight; and what the flat look makes of it */
+    const struct {
+        double base, flat, retro, sheen, want;
+    } cases[] = {{1, 0, 0, 0, INV_PI * sqr(1 - s / 2)},
+                 {0, 1, 0, 0, INV_PI * 1.25 * (f * f * 0.5 + 0.5)},
+                 {0, 0, 1, 0, INV_PI * 0.25 * (2 * s + s * s * -0.75)},
+                 {0, 0, 0, 1, s}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        l.R = rgb_grey(cases[i].base);
+        l.T = rgb_grey(cases[i].flat);
+        l.eta = rgb_grey(cases[i].retro);
+        l.k = rgb_grey(cases[i].sheen);
+        double value = lobe_eval(&l, wo, wi, true, RADIANCE).f.g;
+        CHECK(t, near(value, cases[i].want, 1e-12), "part %d: %g, not %g", (int)i, value, cases[i].want);
+    }
+    CHECK(t, near(disney_fresnel(1, rgb_grey(0.5), 0.5, 1, 1.5).g, 0.27, 1e-12), "half a metal, at normal incidence");
+    CHECK(t, near(disney_fresnel(1e-9, rgb_grey(0.5), 0.5, 1, 1.5).g, 1, 1e-6), "half a metal, grazing");
+    struct lobe coat = facet_lobe(LOBE_CLEARCOAT, 0.1, 0);
+    double d = 0.99 / (-PI * log(0.01) * 0.01), g = 1 / (0.5 + sqrt(0.0625 + 0.9375 * 0.25));
+    double want = d * (0.04 + 0.96 * s) * g * g / 4, value = lobe_eval(&coat, wo, wi, true, RADIANCE).f.g;
+    CHECK(t, near(value, want, 1e-9), "coat: %g, not %g", value, want);
+    struct lobe apart = facet_lobe(LOBE_MICROFACET_REFLECTION, 0.5, 0.5), together = apart;
+    apart.separate = true;
+    double lambda = microfacet_lambda(wo, 0.5, 0.5), ratio = lobe_eval(&apart, wo, wi, true, RADIANCE).f.g /
+                                                             lobe_eval(&together, wo, wi, true, RADIANCE).f.g;
+    CHECK(t, near(ratio, (1 + 2 * lambda) / sqr(1 + lambda), 1e-12), "masked one by one: %g", ratio);
+    CHECK(t, rgb_is_black(lobe_eval(&coat, wo, up, false, RADIANCE).f), "nothing goes through a coat");
 }
 
 /* --- delta lobes ------------------------------------------------------------------------------------- */
@@ -277,6 +336,8 @@ void test_lobe(struct test *t)
     snell(t);
     facet_areas(t);
     narrow_lobes(t);
+    clear_coat(t);
+    disney_values(t);
     delta_lobes(t);
     oren_nayar_as_printed(t);
 }

@@ -42,6 +42,9 @@ static struct material all_same(enum material_kind kind, int texture)
     struct material m = {.kind = kind, .bump = -1};
     m.Kd = m.Ks = m.Kr = m.Kt = m.sigma = m.eta = m.k = m.index = m.uroughness = m.vroughness = texture;
     m.opacity = m.reflect = m.transmit = m.amount = texture;
+    m.disney.metallic = m.disney.specular_tint = m.disney.anisotropic = m.disney.sheen = m.disney.sheen_tint = texture;
+    m.disney.clearcoat = m.disney.clearcoat_gloss = m.disney.transmission = m.disney.scatter_distance = texture;
+    m.disney.flatness = m.disney.diffuse_transmission = texture;
     return m;
 }
 
@@ -55,7 +58,7 @@ static struct bsdf make(struct bench *b, const struct material *materials, int i
 /* The kinds of the lobes as a string, for comparison. */
 static const char *kinds(const struct bsdf *b, char *text)
 {
-    static const char LETTER[] = "LtOMTGrfB"; /* in the order of enum lobe_kind */
+    static const char LETTER[] = "LtOMTGrfBDCF"; /* in the order of enum lobe_kind */
     for (int i = 0; i < b->n_lobes; i++)
         text[i] = LETTER[b->lobe[i].kind];
     text[b->n_lobes] = '\0';
@@ -66,10 +69,10 @@ static void lobes_of_materials(struct test *t)
 {
     struct bench b;
     set_up(&b);
-    static const char *const LOBES[] = {"O", "M", "rf", "r", "Lr", "B", "TLrMT", "Ltrf", ""};
-    static const char *const BLACK[] = {"", "", "", "r", "", "", "T", "", ""};
+    static const char *const LOBES[] = {"O", "M", "rf", "r", "Lr", "B", "TLrMT", "Ltrf", "DTrCf", ""};
+    static const char *const BLACK[] = {"", "", "", "r", "", "", "T", "", "r", ""};
     char text[MATERIAL_MAX_LOBES + 1];
-    for (int kind = MATERIAL_MATTE; kind <= MATERIAL_TRANSLUCENT; kind++) {
+    for (int kind = MATERIAL_MATTE; kind <= MATERIAL_DISNEY; kind++) {
         struct material m = all_same((enum material_kind)kind, b.grey[5]), black = all_same(m.kind, b.grey[0]);
         struct bsdf bsdf = make(&b, &m, 0);
         CHECK(t, strcmp(kinds(&bsdf, text), LOBES[kind]) == 0, "material %d has lobes %s, not %s", kind, text,
@@ -110,6 +113,39 @@ static void roughness(struct test *t)
     struct bsdf mapped = make(&b, &m, 0);
     CHECK(t, mapped.lobe[0].alpha_x == roughness_to_alpha(0.1) && mapped.lobe[0].alpha_y == roughness_to_alpha(0),
           "roughness remapped");
+    tear_down(&b);
+}
+
+/* What Disney's parameters become: colours tinted, dimmed and shared out, roughness squared and stretched. */
+static void disney(struct test *t)
+{
+    struct bench b;
+    char text[MATERIAL_MAX_LOBES + 1];
+    set_up(&b);
+    rgb c = rgb_make(0.4, 0.6, 0.2), tint = rgb_scale(c, 1 / rgb_luminance(c));
+    struct material m = all_same(MATERIAL_DISNEY, b.grey[5]);
+    m.Kd = texture_add_constant(&b.textures, c);
+    m.index = texture_add_constant(&b.textures, rgb_grey(1.5));
+    m.disney.metallic = b.grey[2];
+    struct bsdf solid = make(&b, &m, 0);
+    CHECK(t, strcmp(kinds(&solid, text), "DTrCf") == 0, "lobes %s", text);
+    const struct lobe *l = solid.lobe;
+    CHECK(t, l[0].scale.g == 0.4 && l[0].R.g == 0 && l[0].eta.r == 0.4 && l[0].A == 0.5, "base of scattered light");
+    CHECK(t, fabs(l[0].k.r - 0.25 * (1 + tint.r)) < 1e-12 && l[1].T.g == 1 && l[1].eta_b == 1.5, "sheen, and beneath");
+    double plain = 0.04 * 0.5 * (1 + tint.b), aspect = sqrt(1 - 0.45);
+    CHECK(t, l[2].fresnel == FRESNEL_DISNEY && l[2].separate && l[2].A == 0.2 &&
+                 fabs(l[2].eta.b - (0.8 * plain + 0.2 * c.b)) < 1e-12, "facets");
+    CHECK(t, fabs(l[2].alpha_x - 0.25 / aspect) < 1e-12 && fabs(l[2].alpha_y - 0.25 * aspect) < 1e-12, "brushed");
+    CHECK(t, l[3].R.g == 0.5 && fabs(l[3].alpha_x - 0.0505) < 1e-12, "clear coat");
+    CHECK(t, l[4].T.r == 0.5 * sqrt(0.4) && l[4].separate && l[4].alpha_x == l[2].alpha_x, "glass");
+    m.disney.thin = true;
+    m.disney.flatness = b.grey[3];
+    struct bsdf thin = make(&b, &m, 0);
+    CHECK(t, strcmp(kinds(&thin, text), "DrCft") == 0, "lobes %s", text);
+    l = thin.lobe;
+    CHECK(t, fabs(l[0].R.g - 0.6 * 0.75 * 0.7) < 1e-12 && fabs(l[0].T.g - 0.6 * 0.75 * 0.3) < 1e-12, "flat");
+    CHECK(t, !l[3].separate && fabs(l[3].alpha_x - sqr(0.625 * 0.5) / aspect) < 1e-12, "thin glass scatters less");
+    CHECK(t, l[4].T.g == 0.25 * 0.6, "light from behind");
     tear_down(&b);
 }
 
@@ -250,7 +286,9 @@ static void walks(struct test *t)
     static const char *const materials[] = {
         "\"matte\"", "\"matte\" \"float sigma\" 40", "\"substrate\" \"float uroughness\" .3 \"float vroughness\" .2",
         "\"plastic\" \"float roughness\" .3", "\"metal\" \"float roughness\" .3",
-        "\"translucent\" \"float roughness\" .4", "\"uber\" \"float roughness\" .3 \"rgb opacity\" [1 1 1]"};
+        "\"translucent\" \"float roughness\" .4", "\"uber\" \"float roughness\" .3 \"rgb opacity\" [1 1 1]",
+        "\"disney\" \"float metallic\" .4 \"float sheen\" .5 \"float clearcoat\" 1 \"float clearcoatgloss\" .1",
+        "\"disney\" \"bool thin\" \"true\" \"float spectrans\" .5 \"float flatness\" .5"};
     for (size_t i = 0; i < sizeof materials / sizeof materials[0]; i++)
         check_walks(t, materials[i]);
 }
@@ -260,6 +298,7 @@ void test_material(struct test *t)
     walks(t);
     lobes_of_materials(t);
     roughness(t);
+    disney(t);
     mixing(t);
     too_many(t);
     bump(t);

@@ -130,6 +130,9 @@ static void compare(struct comparison *c, struct connection got, const struct ve
     double difference = fabs(got.weight * c->skew - weight[s]) / (weight[s] + 1e-3);
     if (!(difference <= c->worst))
         c->worst = difference;
+    double expected = oracle_length(c->scene, light, s, eye, t);
+    CHECK(c->t, fabs(got.length - expected) < 1e-9 * expected, "%s: a path by (%d,%d) is %.12g long, not %.12g",
+          c->name, s, t, got.length, expected);
     c->compared++;
 }
 

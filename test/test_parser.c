@@ -175,6 +175,7 @@ static void put_textures(struct words *w, const struct scene *s)
 }
 
 #define FIELD(f) {#f, offsetof(struct material, f)}
+#define DISNEY(f) {#f, offsetof(struct material, disney.f)}
 
 static void put_material(struct words *w, const struct scene *s, int i)
 {
@@ -183,7 +184,10 @@ static void put_material(struct words *w, const struct scene *s, int i)
         size_t field;
     } TEXTURES[] = {FIELD(Kd), FIELD(Ks), FIELD(Kr), FIELD(Kt), FIELD(sigma), FIELD(eta), FIELD(k), FIELD(index),
                     FIELD(uroughness), FIELD(vroughness), FIELD(opacity), FIELD(reflect), FIELD(transmit),
-                    FIELD(amount), FIELD(bump)};
+                    FIELD(amount), FIELD(bump), DISNEY(metallic), DISNEY(specular_tint),
+                    DISNEY(anisotropic), DISNEY(sheen), DISNEY(sheen_tint), DISNEY(clearcoat),
+                    DISNEY(clearcoat_gloss), DISNEY(transmission), DISNEY(scatter_distance), DISNEY(flatness),
+                    DISNEY(diffuse_transmission)};
     const struct material *m = &s->material[i];
     put(w, "material %d %s", i, kind_name(MATERIAL_TYPES, (int)m->kind, ""));
     for (size_t k = 0; k < sizeof TEXTURES / sizeof TEXTURES[0]; k++)

@@ -24,7 +24,9 @@ static const double BOOTSTRAP_PER_PIXEL = 4;
 
 void chain_hear(const struct chain *c, struct chain_state *state)
 {
+    static const struct gate ALL = {0, INFINITY};
     (void)c;
+    state->heard.gate = ALL;
     state->heard.n_splats = 0;
     state->I = 0;
 }
@@ -252,7 +254,11 @@ static void send(const struct chain *c, const struct tile_pass *pass, const stru
     double factor = share > 0 ? share * c->all->scale * c->all->b / state->I : 0;
     for (size_t i = 0; factor > 0 && i < state->heard.n_splats; i++) {
         const struct splat *s = &state->heard.splat[i];
-        tile_add_splat(tile, s->px, s->py, rgb_scale(s->value, factor));
+        bool many = isnan(s->length);
+        if (many || gate_holds(c->gate, s->length))
+            tile_add_splat(tile, s->px, s->py, rgb_scale(many ? state->until : s->value, factor), s->length);
+        if (many && !rgb_is_black(state->before))
+            tile_add_splat(tile, s->px, s->py, rgb_scale(state->before, -factor), s->length);
     }
     if (tile->full != NULL && tile->n_splats >= TILE_FULL)
         tile->full(tile->context, tile);
@@ -268,6 +274,7 @@ void chain_render(const struct preparation *m, const struct tile_pass *pass)
         return;
     c->job = pass->job;
     c->work = pass->work;
+    c->gate = pass->tile->gate;
     for (start(c, m, pass); n > 0; n--) {
         arena_reset(&c->work->arena);
         double a = all->rules->propose(c);

@@ -34,6 +34,7 @@ struct chain_state {
     double I;          /* their luminance; 0: no chain is ever here */
     int length;        /* vertices of its paths, for methods that keep them apart */
     struct tape number[CHAIN_STREAMS]; /* the random numbers it is made of (primary.h) */
+    rgb until, before; /* of a splat of many paths, whose length is NaN: these sums (pixel_sample.h) */
     void *own;         /* the method's, of rules->own_size bytes; NULL: nothing */
 };
 
@@ -58,6 +59,7 @@ struct chain {
     const struct render_job *job;
     struct workspace *work;
     struct rng rng; /* of this chain */
+    struct gate gate; /* what goes into the picture; a chain goes by all light, so it is the same for all gates */
     long candidate; /* >= 0: `next` is to be this independent state of its length; -1: the chain is under way */
     struct chain_state now, next;
 };

@@ -15,12 +15,18 @@ static void sample(struct chain *c, bool small)
     struct primary p;
     double px, py;
     primary_begin(&p, c, small);
-    struct pixel_sample s = {job->scene, &c->all->frozen.counts, &c->next.heard, job->max_depth, 0, 0, 1, 1,
-                             p.sampler[POINT_NUMBERS], rgb_black(), NULL, &work->arena, 0};
+    struct pixel_sample s = {.scene = job->scene, .counts = &c->all->frozen.counts, .tile = &c->next.heard,
+                             .max_depth = job->max_depth, .filter_weight = 1, .lights = 1, .arena = &work->arena,
+                             .sampler = p.sampler[POINT_NUMBERS]};
+    const struct gate all = c->next.heard.gate;
+    c->next.heard.gate = c->gate; /* for the sums alone */
     int n_eye = primary_eye(&p, job->max_depth + 2, &px, &py), n_light = primary_light(&p, job->max_depth + 1);
     pixel_sum_eye(&s, work->eye, n_eye);
     pixel_sum_pairs(&s, work->eye, n_eye, work->light, n_light, NO_CHOICE);
-    tile_add_splat(s.tile, px, py, s.sum);
+    tile_add_splat(s.tile, px, py, s.sum, NAN);
+    c->next.until = pixel_sample_until(&s);
+    c->next.before = s.before;
+    c->next.heard.gate = all;
     s.sampler = p.sampler[LENS_NUMBERS];
     pixel_splat_path(&s, work->light, n_light, 1);
     primary_end(&p);

@@ -1,5 +1,6 @@
 /* cmd_render.c: asbdpt render: a scene to pictures. */
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,6 +26,8 @@ static const struct option OPTIONS[] = {
     {"--aov", "LIST", OPTION_TEXT, AT(aov), .help = "also NAME.albedo.pfm ...: albedo,normal,depth,position,variance"},
     {"--strategies", "DIR", OPTION_TEXT, AT(strategies),
      .help = "write every strategy (s,t), and all as DIR/pyramid.png"},
+    {"--gate", "L0:L1", OPTION_NUMBER, AT(gate), 0, INFINITY,
+     .help = "only light whose way from lamp to lens is from L0 to below L1 long, in scene units; L1 may be inf"},
     {"--time", "TIME", OPTION_NUMBER, AT(keep.time), 1e-9, 1e9,
      .help = "stop after so long, and write what there is"},
     {"--checkpoint", "FILE", OPTION_TEXT, AT(keep.checkpoint), .file = FILE_KEPT,

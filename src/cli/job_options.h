@@ -37,6 +37,7 @@ struct job_options {
     struct texts output; /* of render and worth */
     /* Of render alone: */
     const char *strategies; /* directory or NULL */
+    double gate[2];         /* lengths of paths, the second excluded; 0, 0: all */
     const char *aov;        /* list or NULL */
     const char *stats;      /* file or NULL */
     struct tone_options tone;

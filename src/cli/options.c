@@ -64,7 +64,7 @@ static double scan_unit(const char **text)
 }
 
 /* The number at the beginning of *text, which moves behind it. False if there is none, or if it is out of range, as NaN
- * and what overflows are of every range. */
+ * is of every range, and what overflows of every one with an end. */
 static bool scan_number(const char **text, const struct option *o, double *out)
 {
     bool real = o->kind == OPTION_NUMBER;

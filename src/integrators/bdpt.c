@@ -23,7 +23,7 @@ static void render_pixel(const struct tile_pass *pass, const struct mis_counts *
     if (counts->connect[FIRST_HIT] > 0)
         pixel_sum_pairs(&sample, work->eye, n_eye, work->light, n_light, NO_CHOICE);
     pixel_splat_path(&sample, work->light, n_light, 1);
-    tile_add_eye(pass->tile, x, y, sample.sum);
+    pixel_sample_end(&sample);
 }
 
 static void render(const struct preparation *m, const struct tile_pass *pass)

@@ -134,7 +134,7 @@ static void render_iteration(struct pixel *p, double shift, long iteration)
     pixel_sum_eye(&sample, work->eye, n);
     pixel_sum_pairs(&sample, work->eye, n, e->vertex, e->length, unweighted);
     pixel_splat_path(&sample, e->vertex, e->length, 1);
-    tile_add_eye(p->pass->tile, p->x, p->y, sample.sum);
+    pixel_sample_end(&sample);
     replace(p, e, iteration);
 }
 

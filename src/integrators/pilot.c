@@ -98,7 +98,8 @@ static bool paths_suffice(const struct scene *scene)
         delta_light |= light_is_delta(&scene->lights.light[i]);
     for (int i = 0; i < scene->n_materials; i++) {
         enum material_kind kind = scene->material[i].kind;
-        delta_lobe |= kind == MATERIAL_MIRROR || kind == MATERIAL_GLASS || kind == MATERIAL_UBER;
+        delta_lobe |= kind == MATERIAL_MIRROR || kind == MATERIAL_GLASS || kind == MATERIAL_UBER ||
+                      kind == MATERIAL_DISNEY;
     }
     return !(delta_light && delta_lobe);
 }

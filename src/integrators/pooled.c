@@ -84,7 +84,7 @@ static void end_pixel(const struct preparation *m, const struct tile_pass *pass,
     const struct frozen *f = m->state;
     if (f->path_pixels > 0 && p->number % f->path_pixels == 0)
         splat(pass->work->scratch, pass, &p->sample, f->path_pixels, p->number / f->path_pixels);
-    tile_add_eye(pass->tile, p->sample.x, p->sample.y, p->sample.sum);
+    pixel_sample_end(&p->sample);
 }
 
 /* What the light sub-paths bring to the pixel. */

@@ -14,7 +14,8 @@ const char *trace_what(const struct scene *scene, const struct vertex *v)
     static const char *const materials[] = {
         [MATERIAL_MATTE] = "matte", [MATERIAL_MIRROR] = "mirror", [MATERIAL_GLASS] = "glass",
         [MATERIAL_METAL] = "metal", [MATERIAL_PLASTIC] = "plastic", [MATERIAL_SUBSTRATE] = "substrate",
-        [MATERIAL_UBER] = "uber", [MATERIAL_TRANSLUCENT] = "translucent", [MATERIAL_MIX] = "mix"};
+        [MATERIAL_UBER] = "uber", [MATERIAL_TRANSLUCENT] = "translucent", [MATERIAL_DISNEY] = "disney",
+        [MATERIAL_FOURIER] = "fourier", [MATERIAL_MIX] = "mix"};
     switch (v->kind) {
     case VERTEX_LENS: return "lens";
     case VERTEX_LIGHT: return lights[scene->lights.light[v->light].kind];

@@ -16,7 +16,8 @@ void bsdf_make(struct bsdf *b, struct frame shading, vec3 ng, struct lobe *lobe,
     for (int i = 0; i < n; i++) {
         total += lobe_albedo_guess(&lobe[i]);
         b->n_smooth += !lobe_is_delta(lobe[i].kind);
-        b->transmits |= lobe[i].kind == LOBE_LAMBERT_TRANSMISSION || lobe[i].kind == LOBE_MICROFACET_TRANSMISSION;
+        b->transmits |= lobe[i].kind == LOBE_LAMBERT_TRANSMISSION || lobe[i].kind == LOBE_MICROFACET_TRANSMISSION ||
+                        lobe[i].kind == LOBE_FOURIER;
     }
     for (int i = 0; i < n; i++)
         lobe[i].choice = n == 1 ? 1 : even / n + (1 - even) * lobe_albedo_guess(&lobe[i]) / total;

@@ -3,6 +3,8 @@
 #include "material/lobe.h"
 
 #include "base/warp.h"
+#include "material/disney.h"
+#include "material/fourier.h"
 #include "material/fresnel.h"
 #include "material/microfacet.h"
 
@@ -15,7 +17,10 @@ bool lobe_is_delta(enum lobe_kind kind)
 
 /* A dielectric reflects 0.04 at normal incidence and 1 at grazing; a quarter is never wrong by more than a factor
  * of 6, and errs towards the highlights. */
-static double reflected_share(const struct lobe *l) { return l->fresnel == FRESNEL_DIELECTRIC ? 0.25 : 1; }
+static double reflected_share(const struct lobe *l)
+{
+    return l->fresnel == FRESNEL_DIELECTRIC ? 0.25 : l->fresnel == FRESNEL_DISNEY ? 0.25 + 0.75 * l->A : 1;
+}
 
 double lobe_albedo_guess(const struct lobe *l)
 {
@@ -30,6 +35,9 @@ double lobe_albedo_guess(const struct lobe *l)
     case LOBE_MICROFACET_REFLECTION: return r * reflected_share(l);
     case LOBE_FRESNEL_SPECULAR: return fmax(r, t);
     case LOBE_FRESNEL_BLEND: return r + t;
+    case LOBE_FOURIER: return 0.5 * r;
+    case LOBE_DISNEY_DIFFUSE: return r + t + 0.25 * rgb_mean(rgb_mul(l->scale, rgb_add(l->eta, l->k)));
+    case LOBE_CLEARCOAT: return 0.1 * r;
     }
     return 0;
 }
@@ -67,8 +75,15 @@ static rgb facet_fresnel(const struct lobe *l, double cos_h)
     case FRESNEL_NONE: break;
     case FRESNEL_DIELECTRIC: return rgb_grey(fresnel_dielectric(cos_h, l->eta_a, l->eta_b));
     case FRESNEL_CONDUCTOR: return fresnel_conductor(cos_h, l->eta, l->k);
+    case FRESNEL_DISNEY: return disney_fresnel(cos_h, l->eta, l->A, l->eta_a, l->eta_b);
     }
     return rgb_grey(1);
+}
+
+/* The area of all facets per area of those that both directions see. */
+static double masking(const struct lobe *l, double lambda_o, double lambda_i)
+{
+    return 1 + lambda_o + lambda_i + (l->separate ? lambda_o * lambda_i : 0);
 }
 
 /* f = R F D G / (4 cos_o cos_i). The density of wh given wo is D |wo.wh| / ((1 + lambda_o) |cos_o|), and
@@ -86,7 +101,7 @@ static struct bsdf_value microfacet_reflection(const struct lobe *l, vec3 wo, ve
     v.pdf_rev = d4 / ((1 + lambda_i) * fabs(wi.z));
     if (reflect) {
         double cos_h = dot(wi, wh) * (wh.z < 0 ? -1 : 1); /* positive above, on the eta_a side */
-        double dg = d4 / ((1 + lambda_o + lambda_i) * wo.z * wi.z);
+        double dg = d4 / (masking(l, lambda_o, lambda_i) * wo.z * wi.z);
         v.f = rgb_scale(rgb_mul(l->R, facet_fresnel(l, cos_h)), dg);
     }
     return v;
@@ -130,7 +145,7 @@ static struct bsdf_value microfacet_transmission(const struct lobe *l, vec3 wo, 
     if (!reflect) {
         double cos_h = wo.z > 0 ? cos_oh : -cos_oh; /* positive above, on the eta_a side */
         double through = 1 - fresnel_dielectric(cos_h, l->eta_a, l->eta_b);
-        double scale = (mode == RADIANCE ? 1 : eta * eta) * j / ((1 + lambda_o + lambda_i) * fabs(wo.z * wi.z));
+        double scale = (mode == RADIANCE ? 1 : eta * eta) * j / (masking(l, lambda_o, lambda_i) * fabs(wo.z * wi.z));
         v.f = rgb_scale(l->T, through * scale);
     }
     return v;
@@ -170,6 +185,27 @@ static struct bsdf_value substrate(const struct lobe *l, vec3 wo, vec3 wi, bool 
     return v;
 }
 
+/* --- clear coat -------------------------------------------------------------------------------------- */
+
+/* Normals are drawn as there are facets, seen or not: pdf = D cos_h / (4 wo.wh). */
+static struct bsdf_value clearcoat(const struct lobe *l, vec3 wo, vec3 wi, bool reflect)
+{
+    if (!(wo.z * wi.z > 0))
+        return NOTHING;
+    vec3 wh = normalize(add(wo, wi));
+    double pdf = disney_coat_d(wh, l->alpha_x) * fabs(wh.z) / (4 * dot(wo, wh));
+    double value = reflect ? disney_coat(l->alpha_x, wo, wi, wh) : 0;
+    struct bsdf_value v = {rgb_scale(l->R, value), pdf, pdf};
+    return v;
+}
+
+static bool sample_clearcoat(const struct lobe *l, vec3 wo, double u1, double u2, vec3 *wi)
+{
+    vec3 wh = disney_coat_sample(l->alpha_x, u1, u2);
+    *wi = sub(mul(wh, 2 * dot(wo, wh)), wo);
+    return wo.z * wi->z > 0;
+}
+
 /* --- all lobes that are not delta -------------------------------------------------------------------- */
 
 struct bsdf_value lobe_eval(const struct lobe *l, vec3 wo, vec3 wi, bool reflect, enum transport mode)
@@ -191,6 +227,16 @@ struct bsdf_value lobe_eval(const struct lobe *l, vec3 wo, vec3 wi, bool reflect
     case LOBE_MICROFACET_REFLECTION: v = microfacet_reflection(l, wo, wi, reflect); break;
     case LOBE_MICROFACET_TRANSMISSION: v = microfacet_transmission(l, wo, wi, reflect, mode); break;
     case LOBE_FRESNEL_BLEND: v = substrate(l, wo, wi, reflect); break;
+    case LOBE_DISNEY_DIFFUSE:
+        if (reflect)
+            v = diffuse(disney_diffuse(l->R, l->T, l->eta, l->k, l->A, wo, wi), wo, wi);
+        break;
+    case LOBE_CLEARCOAT: v = clearcoat(l, wo, wi, reflect); break;
+    case LOBE_FOURIER:
+        v.f = mode == RADIANCE ? fourier_eval(l->table, wo, wi) : fourier_eval(l->table, wi, wo);
+        v.pdf = fourier_pdf(l->table, wo, wi);
+        v.pdf_rev = fourier_pdf(l->table, wi, wo);
+        break;
     case LOBE_SPECULAR_REFLECTION:
     case LOBE_SPECULAR_TRANSMISSION:
     case LOBE_FRESNEL_SPECULAR: break;
@@ -203,9 +249,12 @@ bool lobe_sample(const struct lobe *l, vec3 wo, vec3 ng, const double u[3], vec3
 {
     switch (l->kind) {
     case LOBE_LAMBERT_REFLECTION:
+    case LOBE_DISNEY_DIFFUSE:
     case LOBE_OREN_NAYAR: *wi = sample_diffuse(wo, ng, true, u[1], u[2]); return true;
     case LOBE_LAMBERT_TRANSMISSION: *wi = sample_diffuse(wo, ng, false, u[1], u[2]); return true;
     case LOBE_MICROFACET_REFLECTION: return sample_microfacet_reflection(l, wo, u[1], u[2], wi);
+    case LOBE_FOURIER: return fourier_sample(l->table, wo, u, wi);
+    case LOBE_CLEARCOAT: return sample_clearcoat(l, wo, u[1], u[2], wi);
     case LOBE_MICROFACET_TRANSMISSION: return sample_microfacet_transmission(l, wo, u[1], u[2], wi);
     case LOBE_FRESNEL_BLEND:
         if (u[0] >= 0.5)

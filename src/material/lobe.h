@@ -36,10 +36,15 @@ enum lobe_kind {
     LOBE_FRESNEL_SPECULAR,      /* delta; smooth glass: reflection or transmission by Fresnel's share */
     LOBE_MICROFACET_REFLECTION,
     LOBE_MICROFACET_TRANSMISSION,
-    LOBE_FRESNEL_BLEND /* pbrt's substrate [Ashikhmin & Shirley 2000] */
+    LOBE_FRESNEL_BLEND, /* pbrt's substrate [Ashikhmin & Shirley 2000] */
+    LOBE_DISNEY_DIFFUSE, /* see disney.h, as of the next */
+    LOBE_CLEARCOAT,
+    LOBE_FOURIER /* see fourier.h */
 };
 
-enum fresnel_kind { FRESNEL_NONE, FRESNEL_DIELECTRIC, FRESNEL_CONDUCTOR };
+enum fresnel_kind { FRESNEL_NONE, FRESNEL_DIELECTRIC, FRESNEL_CONDUCTOR, FRESNEL_DISNEY };
+
+struct fourier_table;
 
 /* One lobe; which fields matter depends on kind. */
 struct lobe {
@@ -47,11 +52,16 @@ struct lobe {
     enum fresnel_kind fresnel;
     rgb scale;               /* multiplies the lobe's value: shares of mix materials; 1 otherwise */
     rgb R;                   /* reflectance of a reflecting lobe; diffuse part of LOBE_FRESNEL_BLEND */
-    rgb T;                   /* transmittance of a transmitting lobe; specular part of LOBE_FRESNEL_BLEND */
-    rgb eta, k;              /* conductor: complex index relative to the outside */
+    rgb T;                   /* transmittance of a transmitting lobe; specular part of LOBE_FRESNEL_BLEND; flat part of
+                              * LOBE_DISNEY_DIFFUSE */
+    rgb eta, k;              /* conductor: complex index relative to the outside; FRESNEL_DISNEY: eta is the reflectance
+                              * at normal incidence; LOBE_DISNEY_DIFFUSE: retro-reflection and sheen */
     double eta_a, eta_b;     /* dielectric: index above (side of the normal) and below */
     double alpha_x, alpha_y; /* Trowbridge-Reitz roughness along s and t, > 0 */
-    double A, B;             /* Oren-Nayar coefficients */
+    bool separate;           /* facets hide from wo and from wi independently */
+    double A, B;             /* Oren-Nayar coefficients; A of FRESNEL_DISNEY: how much of a metal it is, of
+                              * LOBE_DISNEY_DIFFUSE: roughness */
+    const struct fourier_table *table;
     double choice;           /* probability with which bsdf_sample takes this lobe; set by bsdf_make */
 };
 

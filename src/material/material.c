@@ -20,6 +20,9 @@ struct material material_blank(enum material_kind kind)
     struct material m = {.kind = kind, .remap_roughness = true};
     m.Kd = m.Ks = m.Kr = m.Kt = m.sigma = m.eta = m.k = m.index = m.uroughness = m.vroughness = -1;
     m.opacity = m.reflect = m.transmit = m.amount = m.mix1 = m.mix2 = m.bump = -1;
+    m.disney.metallic = m.disney.specular_tint = m.disney.anisotropic = m.disney.sheen = m.disney.sheen_tint = -1;
+    m.disney.clearcoat = m.disney.clearcoat_gloss = m.disney.transmission = m.disney.scatter_distance = -1;
+    m.disney.flatness = m.disney.diffuse_transmission = m.table = -1;
     return m;
 }
 
@@ -43,6 +46,8 @@ static double number(const struct lobe_list *list, int texture)
 {
     return texture_float(list->textures, texture, list->at);
 }
+
+static double fraction(const struct lobe_list *list, int texture) { return limited(number(list, texture), 0, 1); }
 
 static double refraction(const struct lobe_list *list, const struct material *m)
 {
@@ -156,6 +161,70 @@ static void add_translucent(struct lobe_list *list, const struct material *m)
     add_lobe(list, rough(list, m, dielectric(lobe_of(LOBE_MICROFACET_TRANSMISSION, none, rgb_mul(down, Ks)), 1, eta)));
 }
 
+static rgb blend(double t, rgb a, rgb b) { return rgb_add(rgb_scale(a, 1 - t), rgb_scale(b, t)); }
+
+/* What is diffuse of it, of colour c, and has this share of the whole. */
+static void add_disney_diffuse(struct lobe_list *list, const struct material *m, double whole, rgb c, rgb tint)
+{
+    bool beneath = !m->disney.thin && !rgb_is_black(colour(list, m->disney.scatter_distance));
+    double sheen = limited(number(list, m->disney.sheen), 0, MATERIAL_MAX_COLOUR);
+    struct lobe l = lobe_of(LOBE_DISNEY_DIFFUSE, beneath ? rgb_black() : c, rgb_black());
+    l.scale = rgb_grey(whole);
+    l.A = limited(number(list, m->uroughness), 0, MATERIAL_MAX_ROUGHNESS);
+    l.eta = c;
+    l.k = rgb_scale(blend(fraction(list, m->disney.sheen_tint), rgb_grey(1), tint), sheen);
+    if (m->disney.thin) {
+        double flat = fraction(list, m->disney.flatness);
+        rgb reflected = rgb_scale(c, 1 - 0.5 * limited(number(list, m->disney.diffuse_transmission), 0, 2));
+        l.R = rgb_scale(reflected, 1 - flat);
+        l.T = rgb_scale(reflected, flat);
+    }
+    add_lobe(list, l);
+    struct lobe below = lobe_of(LOBE_SPECULAR_TRANSMISSION, rgb_black(), rgb_grey(beneath));
+    add_lobe(list, dielectric(below, 1, refraction(list, m)));
+}
+
+/* Roughnesses along and across, as Disney remaps them. */
+static struct lobe disney_rough(const struct lobe_list *list, const struct material *m, double roughness, struct lobe l)
+{
+    double aspect = sqrt(1 - 0.9 * fraction(list, m->disney.anisotropic));
+    l.alpha_x = fmax(1e-3, sqr(roughness) / aspect);
+    l.alpha_y = fmax(1e-3, sqr(roughness) * aspect);
+    return l;
+}
+
+static void add_disney(struct lobe_list *list, const struct material *m)
+{
+    rgb c = colour(list, m->Kd), white = rgb_grey(1), none = rgb_black();
+    rgb tint = rgb_luminance(c) > 0 ? rgb_scale(c, 1 / rgb_luminance(c)) : white;
+    double eta = refraction(list, m), roughness = limited(number(list, m->uroughness), 0, MATERIAL_MAX_ROUGHNESS);
+    double metallic = fraction(list, m->disney.metallic), through = fraction(list, m->disney.transmission);
+    double base = (1 - metallic) * (1 - through);
+    if (base > 0)
+        add_disney_diffuse(list, m, base, c, tint);
+    struct lobe facets = lobe_of(LOBE_MICROFACET_REFLECTION, white, none);
+    facets = disney_rough(list, m, roughness, dielectric(facets, 1, eta));
+    facets.fresnel = FRESNEL_DISNEY;
+    facets.separate = true;
+    facets.A = metallic;
+    rgb plain = rgb_scale(blend(fraction(list, m->disney.specular_tint), white, tint), sqr((eta - 1) / (eta + 1)));
+    facets.eta = blend(metallic, plain, c);
+    add_lobe(list, facets);
+    struct lobe coat = lobe_of(LOBE_CLEARCOAT, rgb_grey(number(list, m->disney.clearcoat)), none);
+    coat.R = clamped(coat.R);
+    coat.alpha_x = 0.1 - (0.1 - 0.001) * fraction(list, m->disney.clearcoat_gloss);
+    add_lobe(list, coat);
+    /* Two refractions bring the colour. Thin ones scatter less, as the index does. [Burley 2015] */
+    rgb T = rgb_scale(rgb_make(sqrt(c.r), sqrt(c.g), sqrt(c.b)), through);
+    double refracted = m->disney.thin ? (0.65 * eta - 0.35) * roughness : roughness;
+    struct lobe glass = dielectric(lobe_of(LOBE_MICROFACET_TRANSMISSION, none, T), 1, eta);
+    glass.separate = !m->disney.thin;
+    add_lobe(list, disney_rough(list, m, refracted, glass));
+    double behind = 0.5 * limited(number(list, m->disney.diffuse_transmission), 0, 2);
+    if (m->disney.thin)
+        add_lobe(list, lobe_of(LOBE_LAMBERT_TRANSMISSION, none, rgb_scale(c, behind)));
+}
+
 static void add_material(struct lobe_list *list, int id);
 
 /* The lobes of both materials, those of the first times `amount`, those of the second times the rest. */
@@ -190,6 +259,13 @@ static void add_material(struct lobe_list *list, int id)
         break;
     case MATERIAL_UBER: add_uber(list, m); break;
     case MATERIAL_TRANSLUCENT: add_translucent(list, m); break;
+    case MATERIAL_DISNEY: add_disney(list, m); break;
+    case MATERIAL_FOURIER: {
+        struct lobe l = lobe_of(LOBE_FOURIER, rgb_grey(1), rgb_black());
+        l.table = &list->textures->table[m->table];
+        add_lobe(list, l);
+        break;
+    }
     case MATERIAL_MIX: add_mix(list, m); break;
     }
 }
@@ -201,10 +277,12 @@ int material_lobes(const struct material *materials, int id)
     case MATERIAL_MATTE:
     case MATERIAL_MIRROR:
     case MATERIAL_METAL:
+    case MATERIAL_FOURIER:
     case MATERIAL_SUBSTRATE: return 1;
     case MATERIAL_GLASS:
     case MATERIAL_PLASTIC: return 2;
     case MATERIAL_TRANSLUCENT: return 4;
+    case MATERIAL_DISNEY:
     case MATERIAL_UBER: return 5;
     case MATERIAL_MIX: return material_lobes(materials, m->mix1) + material_lobes(materials, m->mix2);
     }
@@ -254,7 +332,7 @@ static int bump_of(const struct material *materials, int id)
 bool material_reads_partials(const struct material *materials, int id, const struct texture_set *textures)
 {
     const struct material *m = &materials[id];
-    if (m->kind == MATERIAL_MIX || m->bump >= 0)
+    if (m->kind == MATERIAL_MIX || m->kind == MATERIAL_DISNEY || m->bump >= 0)
         return true;
     if (m->uroughness == m->vroughness)
         return false;

@@ -20,10 +20,12 @@ enum material_kind {
     MATERIAL_SUBSTRATE,   /* Kd, Ks, roughness */
     MATERIAL_UBER,        /* Kd, Ks, Kr, Kt, roughness, index, opacity */
     MATERIAL_TRANSLUCENT, /* Kd, Ks, reflect, transmit, roughness */
+    MATERIAL_DISNEY,      /* Kd, index, uroughness and those of its own */
+    MATERIAL_FOURIER,     /* table */
     MATERIAL_MIX          /* mix1, mix2, amount */
 };
 
-/* All parameters are texture numbers; -1 where a kind does not use one. The parser fills in the defaults. */
+/* All parameters but `table` are texture numbers; -1 where a kind does not use one. The parser fills in defaults. */
 struct material {
     enum material_kind kind;
     int Kd, Ks, Kr, Kt;
@@ -33,6 +35,13 @@ struct material {
     int uroughness, vroughness; /* always both set where used ("roughness" sets both) */
     bool remap_roughness;
     int opacity, reflect, transmit, amount;
+    struct {
+        int metallic, specular_tint, anisotropic, sheen, sheen_tint, clearcoat, clearcoat_gloss, transmission;
+        int scatter_distance; /* what is beneath begins where it is not black; not there if thin */
+        bool thin;
+        int flatness, diffuse_transmission; /* of thin ones; the transmission from 0 to 2 */
+    } disney;
+    int table; /* of the texture set */
     int mix1, mix2; /* numbers of materials that were made before */
     int bump;       /* float texture of displacement along the normal, in world units */
 };

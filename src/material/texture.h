@@ -17,6 +17,7 @@
 #include "base/transform.h"
 #include "geometry/surface.h"
 #include "image/image.h"
+#include "material/fourier.h"
 
 /* Which point (s,t) of a two-dimensional texture lies at a point of a surface [PBRT3 10.2]. */
 enum mapping_kind {
@@ -78,7 +79,8 @@ struct texture_set {
     struct transform *space; /* [n_spaces], owned: the current transform where a texture was defined */
     struct image *image;     /* [n_images], owned */
     char **image_path;       /* [n_images], owned */
-    int n_textures, n_spaces, n_images;
+    struct fourier_table *table; /* [n_tables], owned: what materials look up beside textures */
+    int n_textures, n_spaces, n_images, n_tables;
 };
 
 /* texture_add: append a texture; returns its number. Textures it names must have been added before.
@@ -90,8 +92,10 @@ int texture_add_constant(struct texture_set *set, rgb value);
 int texture_add_space(struct texture_set *set, struct transform current);
 
 /* texture_load_image: the number of the image with this path, reading it if it is new; -1 with a message.
+ * texture_load_table: the same of a table of a material.
  * texture_set_free: releases all images, textures and transforms; the set is empty and usable again. */
 int texture_load_image(struct texture_set *set, const char *path, struct error *err);
+int texture_load_table(struct texture_set *set, const char *path, struct error *err);
 void texture_set_free(struct texture_set *set);
 
 /* texture_rgb, texture_float: the value at a surface point; may be negative, infinite or NaN. `id`: a valid texture

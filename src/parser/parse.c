@@ -44,6 +44,23 @@ void parse_no_such(struct parser *p, struct source_position at, const char *name
     source_warn(&p->messages, at, "there is no %s \"%.60s\"; %s", what, name, instead);
 }
 
+bool parse_newer(struct parser *p, struct source_position at, const char *name)
+{
+    static const char *const NEWER[] = {
+        "Option", "Attribute", "ColorSpace", /* directives; then types of films, cameras, samplers, shapes, materials */
+        "rgb", "gbuffer", "spectral", "spherical", "zsobol", "independent", "paddedsobol", "pmj02bn", "bilinearmesh",
+        "diffuse", "coateddiffuse", "diffusetransmission", "conductor", "coatedconductor", "dielectric",
+        "thindielectric", "interface"};
+    for (size_t i = 0; i < sizeof NEWER / sizeof NEWER[0]; i++)
+        if (strcmp(NEWER[i], name) == 0) {
+            source_error(&p->messages, at, "\"%s\" is of pbrt-v4, whose files are not read; take the version of this "
+                         "scene that was made for pbrt-v3", name);
+            p->phase = GIVEN_UP;
+            return true;
+        }
+    return false;
+}
+
 int parse_named(struct parser *p, struct token *name, const struct symbols *table, const char *what,
                 const char *instead)
 {
@@ -67,6 +84,8 @@ bool parse_type(struct parser *p, const struct object_type *types)
         strncat(known, known[0] != '\0' ? ", " : "", sizeof known - strlen(known) - 1);
         strncat(known, p->type->name, sizeof known - strlen(known) - 1);
     }
+    if (parse_newer(p, q->position, q->type))
+        return false;
     return type_error(q, "%s \"%.40s\" is not supported; use one of %s", q->directive, q->type, known);
 }
 

@@ -75,7 +75,7 @@ struct shape_list {
 enum { CONSTANTS = 256, MAX_INCLUDE_DEPTH = 32 };
 
 /* Where a directive may stand. */
-enum phase { BEFORE_WORLD = 1, IN_WORLD = 2, AFTER_WORLD = 4, ANYWHERE = BEFORE_WORLD | IN_WORLD };
+enum phase { BEFORE_WORLD = 1, IN_WORLD = 2, AFTER_WORLD = 4, GIVEN_UP = 8, ANYWHERE = BEFORE_WORLD | IN_WORLD };
 
 struct parser {
     struct scene *scene;
@@ -107,7 +107,7 @@ struct parser {
     int current_object; /* between ObjectBegin and ObjectEnd, else -1 */
     uint64_t copied_bytes; /* of all instances */
     int n_infinite;        /* lights */
-    int n_subdivided;      /* triangles of all subdivision surfaces, at most SUBDIVIDE_MAX_TRIANGLES */
+    int n_subdivided;      /* triangles of all subdivision surfaces and curves, at most SUBDIVIDE_MAX_TRIANGLES */
 
     bool texture_is_float;   /* of the Texture directive being carried out */
     int constant[CONSTANTS]; /* textures made for numbers, by hash, plus 1: equal ones are shared */
@@ -178,6 +178,10 @@ bool parse_typed(struct parser *p);
 /* parse_no_such: warn that there is no WHAT of this name, and what is done instead. */
 void parse_no_such(struct parser *p, struct source_position at, const char *name, const char *what,
                    const char *instead);
+
+/* parse_newer: whether this name, unknown here, is one of pbrt-v4. If so, that is said and reading ends: whatever else
+ * stands in the file is not meant for us either. */
+bool parse_newer(struct parser *p, struct source_position at, const char *name);
 
 /* parse_named: the number of what the directive's one argument names; *name is that argument. -1 with a message. */
 int parse_named(struct parser *p, struct token *name, const struct symbols *table, const char *what,

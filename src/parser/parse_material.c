@@ -2,6 +2,7 @@
 #include "parser/parse.h"
 
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 
 static void mixed_material(struct parser *p, const struct parameter *row, void *field)
@@ -34,6 +35,33 @@ static void mixed_material(struct parser *p, const struct parameter *row, void *
 static const struct parameter MATTE[] = {COLOUR(Kd, 0.5), TEXTURE("sigma", sigma, 0, ANY_NUMBER), BUMP};
 static const struct parameter MIRROR[] = {COLOUR(Kr, 0.9), BUMP};
 static const struct parameter GLASS[] = {COLOUR(Kr, 1), COLOUR(Kt, 1), INDEX, TWO_ROUGHNESSES(0), BUMP};
+/* Of what is beneath the surface pbrt-v3's bdpt sees nothing. */
+#define BENEATH \
+    COLOUR(Kr, 1), COLOUR(Kt, 1), TEXTURE("eta", index, 1.33, INDICES), TWO_ROUGHNESSES(0), IGNORED("scale"), \
+        IGNORED("g"), BUMP
+static const struct parameter SUBSURFACE[] = {IGNORED("name"), IGNORED("sigma_a"), IGNORED("sigma_s"), BENEATH};
+static const struct parameter KDSUBSURFACE[] = {IGNORED("Kd"), IGNORED("mfp"), BENEATH};
+#define UNIT 0, 1
+#define TWICE 0, 2
+#define FACTORS 0, MATERIAL_MAX_COLOUR
+static const struct parameter DISNEY[] = {
+    {"color", parse_rgb_texture, offsetof(struct material, Kd), GREY(0.5), -MATERIAL_MAX_COLOUR, MATERIAL_MAX_COLOUR},
+    TEXTURE("eta", index, 1.5, INDICES),
+    ROUGH("roughness", uroughness, 0.5),
+    TEXTURE("metallic", disney.metallic, 0, UNIT),
+    TEXTURE("speculartint", disney.specular_tint, 0, UNIT),
+    TEXTURE("anisotropic", disney.anisotropic, 0, UNIT),
+    TEXTURE("sheen", disney.sheen, 0, FACTORS),
+    TEXTURE("sheentint", disney.sheen_tint, 0.5, UNIT),
+    TEXTURE("clearcoat", disney.clearcoat, 0, FACTORS),
+    TEXTURE("clearcoatgloss", disney.clearcoat_gloss, 1, UNIT),
+    TEXTURE("spectrans", disney.transmission, 0, UNIT),
+    {"scatterdistance", parse_rgb_texture, offsetof(struct material, disney.scatter_distance), GREY(0), ANY_NUMBER},
+    {"thin", parse_bool, offsetof(struct material, disney.thin), GREY(0), 0, 0},
+    TEXTURE("flatness", disney.flatness, 0, UNIT),
+    TEXTURE("difftrans", disney.diffuse_transmission, 1, TWICE),
+    BUMP};
+static const struct parameter FOURIER[] = {BY_BUILD("bsdffile"), BUMP};
 static const struct parameter METAL[] = {
     /* Complex index of copper in sRGB: pbrt-v3's default, its tabulated spectra reduced to RGB. */
     RGB(eta, 0.199990, 0.922086, 1.099876),
@@ -66,6 +94,45 @@ static const struct parameter TRANSLUCENT[] = {
 static const struct parameter MIX[] = {
     MIXED("namedmaterial1", mix1), MIXED("namedmaterial2", mix2), COLOUR(amount, 0.5), END_OF_PARAMETERS};
 
+static void surface_alone(struct parser *p)
+{
+    source_warn(&p->messages, p->params.position, "\"%s\" is its surface alone, as in pbrt-v3's \"bdpt\": no light "
+                "goes through what is beneath", p->params.type);
+}
+
+static void subsurface(struct parser *p, void *object)
+{
+    surface_alone(p);
+    (void)object;
+}
+
+static void disney(struct parser *p, void *object)
+{
+    const struct material *m = object;
+    const struct texture *distance = &p->scene->textures.texture[m->disney.scatter_distance];
+    if (!m->disney.thin && !(distance->kind == TEXTURE_CONSTANT && rgb_is_black(distance->constant)))
+        surface_alone(p);
+}
+
+static void fourier(struct parser *p, void *object)
+{
+    struct params *q = &p->params;
+    struct texture_set *set = &p->scene->textures;
+    struct source_position at = q->position;
+    struct error inner;
+    int known = set->n_tables, table;
+    char *path = params_file(q, "bsdffile", &at);
+    if (path == NULL) {
+        type_error(q, "a fourier material needs its table: add \"string bsdffile\" \"...\"");
+    } else if (!q->failed) {
+        ((struct material *)object)->table = table = texture_load_table(set, path, &inner);
+        const struct fourier_table *read = table == known ? &set->table[table] : NULL;
+        if (table < 0 || (read != NULL && !scene_files_count(q->files, read->content, read->file_size, &inner)))
+            params_fail(q, at, "%s", inner.text);
+    }
+    free(path);
+}
+
 const struct object_type MATERIAL_TYPES[] = {
     {"matte", MATTE, MATERIAL_MATTE, NULL},
     {"mirror", MIRROR, MATERIAL_MIRROR, NULL},
@@ -75,6 +142,10 @@ const struct object_type MATERIAL_TYPES[] = {
     {"substrate", SUBSTRATE, MATERIAL_SUBSTRATE, NULL},
     {"uber", UBER, MATERIAL_UBER, NULL},
     {"translucent", TRANSLUCENT, MATERIAL_TRANSLUCENT, NULL},
+    {"subsurface", SUBSURFACE, MATERIAL_GLASS, subsurface},
+    {"kdsubsurface", KDSUBSURFACE, MATERIAL_GLASS, subsurface},
+    {"disney", DISNEY, MATERIAL_DISNEY, disney},
+    {"fourier", FOURIER, MATERIAL_FOURIER, fourier},
     {"mix", MIX, MATERIAL_MIX, NULL},
     END_OF_TYPES};
 

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "geometry/curve.h"
+#include "geometry/nurbs.h"
 #include "geometry/ply.h"
 #include "geometry/subdivide.h"
 
@@ -118,7 +120,7 @@ static void loopsubdiv(struct parser *p, void *object)
         type_error(q, "%s", inner.text);
 }
 
-/* Heights "Pz" over nu x nv points of the unit square, the first row at y = 0; two triangles between each four. */
+/* Heights "Pz" over nu x nv points of the unit square, the first row at y = 0. */
 static void heightfield(struct parser *p, void *object)
 {
     struct params *q = &p->params;
@@ -130,21 +132,84 @@ static void heightfield(struct parser *p, void *object)
         type_error(q, "a heightfield needs \"nu\" and \"nv\" of 2 at least, and nu nv heights \"Pz\"");
         return;
     }
-    m->n_vertices = n;
-    m->P = mem_alloc((size_t)n, 3 * sizeof *m->P);
-    m->UV = mem_alloc((size_t)n, 2 * sizeof *m->UV);
-    m->index = mem_alloc((size_t)n, 6 * sizeof *m->index);
+    mesh_grid(m, nu, nv, false);
     for (int i = 0; i < n; i++) {
         m->P[3 * i] = m->UV[2 * i] = (float)(i % nu) / (float)(nu - 1);
         m->P[3 * i + 1] = m->UV[2 * i + 1] = (float)(i / nu) / (float)(nv - 1);
         m->P[3 * i + 2] = (float)z[i]; /* within NUMBER_MAX */
-        if (i % nu == nu - 1 || i / nu == nv - 1)
-            continue;
-        const int corner[6] = {i, i + 1, i + 1 + nu, i, i + 1 + nu, i + nu};
-        for (int k = 0; k < 6; k++)
-            m->index[3 * m->n_triangles + k] = (uint32_t)corner[k];
-        m->n_triangles += 2;
     }
+}
+
+/* What turns to each ray in pbrt-v3 is drawn as a tube, of which "cylinder" has the normals already. */
+static void curve(struct parser *p, void *object)
+{
+    static const char *const KINDS[] = {"flat", "ribbon", "cylinder", NULL};
+    static const char *const BASES[] = {"bezier", "bspline", NULL};
+    struct params *q = &p->params;
+    struct mesh *m = mesh_of(object);
+    struct error inner;
+    struct curve c = {.degree = params_int(q, "degree", 3, 2, 3), .bspline = params_choice(q, "basis", BASES) == 1};
+    double width = params_number(q, "width", 1, AT_LEAST_0);
+    int n_normals, type = params_choice(q, "type", KINDS);
+    c.width[0] = params_number(q, "width0", width, AT_LEAST_0);
+    c.width[1] = params_number(q, "width1", width, AT_LEAST_0);
+    c.P = params_list(q, "P", 1u << PARAM_POINT, 3, &c.n, NULL);
+    c.N = type == 1 ? params_list(q, "N", 1u << PARAM_NORMAL, 3, &n_normals, NULL) : NULL;
+    if (p->state.area.on)
+        type_error(q, "a curve cannot be an area light, here as in pbrt-v3; end the AreaLightSource before it");
+    else if (curve_segments(&c) == 0)
+        type_error(q, "%d points \"P\" are no curve of degree %d: of a bezier one there are 1 + a multiple of it, of a "
+                   "bspline more than it", c.n, c.degree);
+    else if (type == 1 && (c.N == NULL || n_normals != curve_segments(&c) + 1))
+        type_error(q, "this ribbon needs %d normals \"N\", one at each end of a segment", curve_segments(&c) + 1);
+    else if (!q->failed && !curve_mesh(&c, m, SUBDIVIDE_MAX_TRIANGLES - p->n_subdivided, &inner))
+        type_error(q, "%s", inner.text);
+    p->n_subdivided += m->n_triangles;
+    if (type == 0 && !q->failed)
+        source_warn(q->messages, q->position, "a flat curve turns to whoever looks, which no surface does: it is "
+                    "drawn as the tube that looks as wide");
+}
+
+static struct nurbs_axis nurbs_axis(struct params *q, const char *const name[5])
+{
+    struct nurbs_axis a = {.n = params_int(q, name[0], 0, 0, 1 << 14),
+                           .order = params_int(q, name[1], 0, 0, NURBS_MOST_ORDER)};
+    int n;
+    a.knot = params_list(q, name[2], 1u << PARAM_FLOAT, 1, &n, NULL);
+    bool ok = a.knot != NULL && a.order >= 2 && a.n >= a.order && n == a.n + a.order;
+    a.from = params_number(q, name[3], ok ? a.knot[a.order - 1] : 0, ANY_NUMBER);
+    a.to = params_number(q, name[4], ok ? a.knot[a.n] : 0, ANY_NUMBER);
+    if (!ok || !nurbs_is_usable(&a))
+        type_error(q, "a nurbs needs \"%s\" from 2 to %d, \"%s\" not less than that, as many numbers as both together "
+                   "in \"%s\" that never fall, and \"%s\" < \"%s\" within the inner ones", name[1], NURBS_MOST_ORDER,
+                   name[0], name[2], name[3], name[4]);
+    return a;
+}
+
+static void nurbs(struct parser *p, void *object)
+{
+    static const char *const U[] = {"nu", "uorder", "uknots", "u0", "u1"};
+    static const char *const V[] = {"nv", "vorder", "vknots", "v0", "v1"};
+    struct params *q = &p->params;
+    struct mesh *m = mesh_of(object);
+    struct error inner;
+    int n;
+    struct nurbs_axis u = nurbs_axis(q, U), v = nurbs_axis(q, V);
+    const double *P = params_list(q, "P", 1u << PARAM_POINT, 3, &n, NULL), *Pw = NULL;
+    double *made = NULL;
+    if (P != NULL) {
+        Pw = made = mem_alloc((size_t)n, 4 * sizeof *made);
+        for (int i = 0; i < 4 * n; i++)
+            made[i] = i % 4 == 3 ? 1 : P[i / 4 * 3 + i % 4];
+    } else {
+        Pw = params_list(q, "Pw", 1u << PARAM_FLOAT, 4, &n, NULL);
+    }
+    if (!q->failed && n != u.n * v.n)
+        type_error(q, "a nurbs needs nu nv = %d points \"P\" or \"Pw\", not %d", u.n * v.n, n);
+    if (!q->failed && !nurbs_mesh(&u, &v, Pw, m, SUBDIVIDE_MAX_TRIANGLES - p->n_subdivided, &inner))
+        type_error(q, "%s", inner.text);
+    p->n_subdivided += m->n_triangles;
+    free(made);
 }
 
 static void plymesh(struct parser *p, void *object)
@@ -260,6 +325,15 @@ static const struct parameter LOOPSUBDIV[] = {
 
 static const struct parameter HEIGHTFIELD[] = {BY_BUILD("nu"), BY_BUILD("nv"), BY_BUILD("Pz"), END_OF_PARAMETERS};
 
+static const struct parameter CURVE[] = {
+    BY_BUILD("P"), BY_BUILD("N"), BY_BUILD("width"), BY_BUILD("width0"), BY_BUILD("width1"), BY_BUILD("degree"),
+    BY_BUILD("basis"), BY_BUILD("type"), IGNORED("splitdepth"), END_OF_PARAMETERS};
+
+static const struct parameter NURBS[] = {
+    BY_BUILD("P"),      BY_BUILD("Pw"), BY_BUILD("nu"), BY_BUILD("uorder"), BY_BUILD("uknots"), BY_BUILD("u0"),
+    BY_BUILD("u1"),     BY_BUILD("nv"), BY_BUILD("vorder"), BY_BUILD("vknots"), BY_BUILD("v0"), BY_BUILD("v1"),
+    END_OF_PARAMETERS};
+
 static const struct object_type TYPES[] = {
     {"trianglemesh", TRIANGLEMESH, 0, trianglemesh},
     {"plymesh", PLYMESH, 0, plymesh},
@@ -271,6 +345,8 @@ static const struct object_type TYPES[] = {
     {"hyperboloid", HYPERBOLOID, QUADRIC_HYPERBOLOID, hyperboloid},
     {"loopsubdiv", LOOPSUBDIV, 0, loopsubdiv},
     {"heightfield", HEIGHTFIELD, 0, heightfield},
+    {"curve", CURVE, 0, curve},
+    {"nurbs", NURBS, 0, nurbs},
     END_OF_TYPES};
 
 /* --- the directive ------------------------------------------------------------------------------------ */

@@ -92,6 +92,8 @@ static bool unknown_directive(struct parser *p)
     token_text(t, found, sizeof found);
     if (t->kind != TOKEN_WORD)
         return source_error(&p->messages, t->position, "here should be a directive like Shape, not %s", found);
+    if (parse_newer(p, t->position, t->text))
+        return false;
     struct suggestion near = suggest_start(t->text);
     find_directive(t->text, &near);
     if (near.name != NULL)
@@ -125,18 +127,18 @@ static bool run_directive(struct parser *p)
 static void run_source(struct parser *p)
 {
     struct token *t = &p->directive;
-    while (p->phase != AFTER_WORLD && p->messages.errors.n + p->messages.errors.more < MOST_ERRORS) {
+    while ((p->phase & ANYWHERE) != 0 && p->messages.errors.n + p->messages.errors.more < MOST_ERRORS) {
         bool ok = lexer_next(&p->lexer, t);
         if (ok && t->kind == TOKEN_END) {
             if (p->n_sources == 1 && p->messages.errors.n == 0)
-                directive_error(p, "the file ends without %s; add it",
+                directive_error(p, "the file ends without %s; add it, or take a pbrt-v3 scene if it is pbrt-v4's",
                                 p->phase == BEFORE_WORLD ? "WorldBegin" : "WorldEnd");
             return;
         }
         ok = ok && run_directive(p);
         if (!p->source[p->n_sources - 1]->quotable)
             return;
-        if (!ok)
+        if (!ok && p->phase != GIVEN_UP)
             lexer_resume(&p->lexer);
     }
     if (p->phase == AFTER_WORLD && lexer_peek(&p->lexer) != TOKEN_END)

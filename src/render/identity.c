@@ -1,6 +1,8 @@
 /* identity.c: what a render is of, whatever its number of samples, in lines that must agree where its films are to be
  * continued or added up (part.h): all that changes a byte of a sample. */
+#include <float.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -68,13 +70,17 @@ char *identity_text(const struct scene *scene, const struct render_options *o)
     add_settings(&l, &scene->settings);
     add_line(&l, "seed %" PRIu64, o->seed);
     add_filter(&l, &scene->filter);
+    if (o->gate.begin > 0 || (o->gate.end > 0 && o->gate.end < INFINITY))
+        add_line(&l, "gate %.17g %.17g", o->gate.begin, fmin(o->gate.end, DBL_MAX));
     return l.text;
 }
 
 uint64_t picture_number(const struct scene *scene, const struct render_options *o, struct pixel_rect r)
 {
     const int place[] = {r.x0, r.y0, r.x1, r.y1, scene->width, scene->height};
-    char *text = identity_text(scene, o);
+    struct render_options ungated = *o;
+    ungated.gate.begin = ungated.gate.end = 0;
+    char *text = identity_text(scene, &ungated);
     uint64_t number = hash_content(text, strlen(text));
     for (size_t i = 0; i < sizeof place / sizeof place[0]; i++)
         number = hash_combine(number, (uint64_t)place[i]);

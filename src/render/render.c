@@ -85,7 +85,9 @@ static void run_pass(void *context, int64_t job, int slot, int thread)
     struct tile_pass pass = {.job = &r->job, .tile = &r->tile[slot], .work = &r->work[thread]};
     pass.rect = tile_rect(r, (r->begun + job) % tiles_per_block(r));
     block_range(r, (r->begun + job) / tiles_per_block(r), &pass.first, &pass.end);
-    tile_start(pass.tile, pass.rect, r->job.film_rect, &r->job.scene->filter, r->film->strategies != NULL);
+    tile_start(pass.tile, pass.rect, r->job.film_rect, &r->job.scene->filter, film_keeps_records(r->film));
+    if (r->options->gate.end > 0)
+        pass.tile->gate = r->options->gate;
     pass.tile->full = take_splats;
     pass.tile->context = &this;
     r->prepared.method->render(&r->prepared, &pass);
@@ -131,7 +133,7 @@ static void run_all(struct run *r)
             end_block = ((int64_t)o->end + r->prepared.size.block - 1) / r->prepared.size.block;
     r->n_jobs = tiles_per_block(r) * (end_block - first_block);
 
-    int slots = r->film->strategies != NULL ? 2 : SLOTS_PER_THREAD; /* records of strategies are large */
+    int slots = film_keeps_records(r->film) ? 2 : SLOTS_PER_THREAD; /* records of strategies are large */
     int n_slots = slots * r->job.n_threads;
     struct parallel_jobs jobs = {r->n_jobs - r->begun, r->job.n_threads, n_slots, r, run_pass, merge_pass, NULL};
     r->jobs = jobs;
@@ -180,6 +182,8 @@ static bool prepare(struct run *r, struct error *err)
     const struct method *m = begin_job(r->job.scene, r->options, r->film->rect, &r->job, err);
     if (m == NULL)
         return false;
+    if (m->chain && r->film->gates != NULL)
+        return error_set(err, "%s keeps no record of its paths: render one gate at a time", m->name);
     r->job.watch = r->options->progress != NULL ? watch : NULL;
     r->job.watch_context = r;
     r->job.learnt = &r->film->learnt;

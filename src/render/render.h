@@ -28,6 +28,7 @@ struct render_options {
     int block;     /* iterations of a block where the method leaves that open; 0: by the picture's size */
     int n_threads; /* 0: one per processor */
     int max_depth; /* 0: what the scene says, else 5 */
+    struct gate gate; /* only light that has come so far (film.h); its end 0: all */
     /* Called after each tile pass with the share of the work done, in (0,1], one call at a time and while nothing else
      * touches the film. NULL: not called. Returns false to stop when the current block of iterations is complete.
      * While the method learns it is called, too, learning being a part of the work; then false ends that with what has
@@ -65,7 +66,8 @@ bool render_trace(const struct scene *scene, const struct render_options *option
  * hold does. */
 char *identity_text(const struct scene *scene, const struct render_options *options);
 
-/* picture_number: a hash of these and of the film's size and window. */
+/* picture_number: a hash of these, but for the gate, which nothing that is learnt depends on, and of the film's size
+ * and window. */
 uint64_t picture_number(const struct scene *scene, const struct render_options *options, struct pixel_rect window);
 
 #endif

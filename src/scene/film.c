@@ -27,6 +27,8 @@ void tile_start(struct tile *t, struct pixel_rect rect, struct pixel_rect film_r
     memset(t->square, 0, n * sizeof *t->square);
     t->n_splats = t->n_records = 0;
     t->keep_records = keep_records;
+    t->gate.begin = 0;
+    t->gate.end = INFINITY;
     t->nonfinite = 0;
 }
 
@@ -39,19 +41,47 @@ void tile_free(struct tile *t)
     memset(t, 0, sizeof *t);
 }
 
-void tile_add_eye(struct tile *t, int x, int y, rgb value)
+static void make_room(struct tile *t)
 {
     if (t->full != NULL && (t->n_splats >= TILE_FULL || t->n_records >= TILE_FULL))
         t->full(t->context, t);
+}
+
+static size_t place_of(const struct tile *t, int x, int y)
+{
+    return 3 * ((size_t)(y - t->rect.y0) * (size_t)rect_width(t->rect) + (size_t)(x - t->rect.x0));
+}
+
+void tile_add_eye(struct tile *t, int x, int y, rgb value)
+{
+    make_room(t);
     if (!fits(value)) {
         t->nonfinite++;
         return;
     }
-    size_t i = 3 * ((size_t)(y - t->rect.y0) * (size_t)rect_width(t->rect) + (size_t)(x - t->rect.x0));
+    size_t i = place_of(t, x, y);
     const double v[3] = {value.r, value.g, value.b};
     for (size_t c = 0; c < 3; c++) {
         exact_add(&t->sum[i + c], v[c]);
         t->square[i + c] += v[c] * v[c];
+    }
+}
+
+/* What no float holds is left out of every sum alike. */
+static rgb term(rgb c) { return fits(c) ? c : rgb_black(); }
+
+void tile_add_between(struct tile *t, int x, int y, rgb until, rgb before)
+{
+    make_room(t);
+    t->nonfinite += !fits(until);
+    until = term(until);
+    before = term(before);
+    size_t i = place_of(t, x, y);
+    const double u[3] = {until.r, until.g, until.b}, b[3] = {before.r, before.g, before.b};
+    for (size_t c = 0; c < 3; c++) {
+        exact_add(&t->sum[i + c], u[c]);
+        exact_add(&t->sum[i + c], -b[c]);
+        t->square[i + c] += sqr(u[c] - b[c]);
     }
 }
 
@@ -94,19 +124,19 @@ bool splat_part(const struct splat *s, const struct filter *filter, int x, int y
     return true;
 }
 
-bool tile_add_splat(struct tile *t, double px, double py, rgb value)
+bool tile_add_splat(struct tile *t, double px, double py, rgb value, double length)
 {
     if (!fits(value)) {
         t->nonfinite++;
         return false;
     }
-    struct splat s = {px, py, value};
+    struct splat s = {px, py, value, length};
     t->splat = mem_grow(t->splat, &t->splat_capacity, t->n_splats + 1, sizeof *t->splat);
     t->splat[t->n_splats++] = s;
     return true;
 }
 
-static void record(struct tile *tile, int32_t at, int s, int t, rgb unweighted, double weight)
+static void record(struct tile *tile, int32_t at, int s, int t, rgb unweighted, double weight, double length)
 {
     if (!tile->keep_records || !fits(unweighted) || !fits_float(weight))
         return;
@@ -119,16 +149,17 @@ static void record(struct tile *tile, int32_t at, int s, int t, rgb unweighted, 
     r->unweighted[1] = (float)unweighted.g;
     r->unweighted[2] = (float)unweighted.b;
     r->weight = (float)weight;
+    r->length = length;
 }
 
-void tile_record_eye(struct tile *tile, int x, int y, int s, int t, rgb unweighted, double weight)
+void tile_record_eye(struct tile *tile, int x, int y, int s, int t, rgb unweighted, double weight, double length)
 {
-    record(tile, film_pixel(tile, x, y), s, t, unweighted, weight);
+    record(tile, film_pixel(tile, x, y), s, t, unweighted, weight, length);
 }
 
-void tile_record_splat(struct tile *tile, int s, rgb unweighted, double weight)
+void tile_record_splat(struct tile *tile, int s, rgb unweighted, double weight, double length)
 {
-    record(tile, (int32_t)tile->n_splats - 1, s, 1, unweighted, weight);
+    record(tile, (int32_t)tile->n_splats - 1, s, 1, unweighted, weight, length);
 }
 
 /* --- the film ---------------------------------------------------------------------------------------- */
@@ -155,6 +186,10 @@ void film_free(struct film *f)
         free(f->strategies->unweighted);
         free(f->strategies->weighted);
         free(f->strategies);
+    }
+    if (f->gates != NULL) {
+        free(f->gates->sum);
+        free(f->gates);
     }
     memset(f, 0, sizeof *f);
 }
@@ -184,12 +219,19 @@ void film_keep_strategies(struct film *f, int max_depth)
     f->strategies->weighted = mem_alloc(n, sizeof(double));
 }
 
+void film_keep_gates(struct film *f, struct gates gates)
+{
+    f->gates = mem_alloc(1, sizeof *f->gates);
+    f->gates->gates = gates;
+    f->gates->sum = mem_alloc(rect_pixels(f->rect) * 3 * (size_t)gates.n, sizeof(double));
+}
+
 static size_t pixel_of(const struct film *f, int x, int y)
 {
     return (size_t)(y - f->rect.y0) * (size_t)rect_width(f->rect) + (size_t)(x - f->rect.x0);
 }
 
-static void add_record(struct film *f, const struct strategy_record *r, size_t pixel, double h)
+static void add_to_strategy(struct film *f, const struct strategy_record *r, size_t pixel, double h)
 {
     size_t at = 3 * ((size_t)strategy_index(r->s, r->t) * rect_pixels(f->rect) + pixel);
     for (size_t c = 0; c < 3; c++) {
@@ -197,6 +239,25 @@ static void add_record(struct film *f, const struct strategy_record *r, size_t p
         f->strategies->unweighted[at + c] += unweighted;
         f->strategies->weighted[at + c] += unweighted * (double)r->weight;
     }
+}
+
+static void add_to_gate(struct film *f, const struct strategy_record *r, size_t pixel, double h)
+{
+    const struct gates *g = &f->gates->gates;
+    double number = floor((r->length - g->begin) / g->width);
+    if (!(number >= 0 && number < g->n))
+        return;
+    size_t at = 3 * ((size_t)number * rect_pixels(f->rect) + pixel);
+    for (size_t c = 0; c < 3; c++)
+        f->gates->sum[at + c] += (double)r->unweighted[c] * (double)r->weight * h;
+}
+
+static void add_record(struct film *f, const struct strategy_record *r, size_t pixel, double h)
+{
+    if (f->strategies != NULL)
+        add_to_strategy(f, r, pixel, h);
+    if (f->gates != NULL)
+        add_to_gate(f, r, pixel, h);
 }
 
 static void add_records(struct film *f, const struct tile *t)
@@ -236,7 +297,7 @@ void film_take_splats(struct film *f, struct tile *t)
 {
     for (size_t i = 0; i < t->n_splats; i++)
         add_splat(f, &t->splat[i], t->filter);
-    if (f->strategies != NULL)
+    if (film_keeps_records(f))
         add_records(f, t);
     t->n_splats = t->n_records = 0;
 }

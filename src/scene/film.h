@@ -6,6 +6,10 @@
  * (exact_sum.h): they depend on which values came in, not on their order, nor on how the iterations were cut into
  * blocks or parts. What else is kept on request is summed in a fixed order, whatever the number of threads.
  *
+ * A gate keeps what light brings that has come so far, and no farther. What is in it is the difference of what two
+ * running sums of a pixel's sample hold, and splats: so films of gates that follow each other add up to the ungated
+ * film, to the bit.
+ *
  * Standard errors: eye values of different iterations are independent draws; splats are many rare events, whose
  * variance is the sum of their squares.
  *
@@ -14,6 +18,7 @@
 #ifndef ASBDPT_FILM_H
 #define ASBDPT_FILM_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -31,10 +36,31 @@ static inline int rect_width(struct pixel_rect r) { return r.x1 - r.x0; }
 static inline int rect_height(struct pixel_rect r) { return r.y1 - r.y0; }
 static inline size_t rect_pixels(struct pixel_rect r) { return (size_t)rect_width(r) * (size_t)rect_height(r); }
 
+/* Of a path's length, in scene units (vertex.h): all from `begin` to below `end`. An infinite end takes in all that is
+ * not below `begin`. */
+struct gate {
+    double begin, end;
+};
+
+/* gate_before: is a length below a bound of a gate? gate_is_endless: does a gate hold every length? */
+static inline bool gate_before(double length, double bound) { return bound == INFINITY || length < bound; }
+static inline bool gate_is_endless(struct gate g) { return g.begin == 0 && g.end == INFINITY; }
+static inline bool gate_holds(struct gate g, double length)
+{
+    return gate_before(length, g.end) && !gate_before(length, g.begin);
+}
+
+/* Neighbouring gates of one width: number i is [begin + i width, begin + (i + 1) width). */
+struct gates {
+    double begin, width; /* width > 0 */
+    int n;
+};
+
 /* What a light sub-path sent to a raster point, all pixels having their part of it yet to come. */
 struct splat {
     double px, py;
     rgb value;
+    double length; /* of its path */
 };
 
 /* One contribution of one strategy, kept only for per-strategy images. */
@@ -43,6 +69,7 @@ struct strategy_record {
     int16_t s, t;
     float unweighted[3];
     float weight; /* its MIS weight, [0,1] */
+    double length;
 };
 
 /* So many splats, or records, do not wait for the end of a pass: paths may have a thousand bounces, a pass any number
@@ -62,6 +89,7 @@ struct tile {
     struct strategy_record *record; /* [n_records], owned */
     size_t n_records, record_capacity;
     bool keep_records;
+    struct gate gate; /* what goes in; tile_start: all lengths */
     void (*full)(void *context, struct tile *tile); /* empties full lists; NULL: they grow */
     void *context;
     long nonfinite; /* contributions that were NaN, infinite or beyond FLT_MAX, and were left out */
@@ -75,9 +103,13 @@ void tile_free(struct tile *t);
 /* tile_add_eye: the whole value of pixel (x,y) of the tile for one iteration. Call once per pixel and iteration. */
 void tile_add_eye(struct tile *t, int x, int y, rgb value);
 
+/* tile_add_between: the same for the difference of two sums, of what came `until` the end of a gate and of what came
+ * `before` its beginning. Each is a term: of gates that follow each other, one's first cancels the next's second. */
+void tile_add_between(struct tile *t, int x, int y, rgb until, rgb before);
+
 /* tile_add_splat: a value arriving at raster point (px,py), to be spread over pixels by the filter. False if it was
  * left out. */
-bool tile_add_splat(struct tile *t, double px, double py, rgb value);
+bool tile_add_splat(struct tile *t, double px, double py, rgb value, double length);
 
 /* splat_pixels: those of `within` whose filter covers the splat; none when x1 <= x0 or y1 <= y0.
  * splat_part: what it adds to one of them, as floats; false if no float holds it. */
@@ -86,13 +118,19 @@ bool splat_part(const struct splat *s, const struct filter *filter, int x, int y
 
 /* tile_record_eye, tile_record_splat: note a contribution of strategy (s,t) and its MIS weight, at a pixel of the tile,
  * or of (s,1) for the splat that was added last, if records are kept. */
-void tile_record_eye(struct tile *tile, int x, int y, int s, int t, rgb unweighted, double weight);
-void tile_record_splat(struct tile *tile, int s, rgb unweighted, double weight);
+void tile_record_eye(struct tile *tile, int x, int y, int s, int t, rgb unweighted, double weight, double length);
+void tile_record_splat(struct tile *tile, int s, rgb unweighted, double weight, double length);
 
 /* Images of single strategies, [strategy_count(max_depth)][pixels*3], numbered by strategy_index. */
 struct strategy_images {
     int max_depth;
     double *unweighted, *weighted; /* owned */
+};
+
+/* Pictures by gates. */
+struct gate_images {
+    struct gates gates;
+    double *sum; /* [gates.n][pixels*3], owned */
 };
 
 /* What standard errors are made of, [pixels*3]. */
@@ -118,6 +156,7 @@ struct film {
     char note[FILM_NOTE_SIZE]; /* what the method chose for itself, for people */
     struct film_number number[FILM_NUMBERS]; /* and for programs, ended by a NULL name */
     struct strategy_images *strategies; /* NULL unless asked for; owned */
+    struct gate_images *gates;          /* likewise */
     struct bytes learnt; /* what the method has learnt, to go on with (learning/learnt_file.h); n = 0: nothing; owned */
     bool learnt_short;   /* its learning was ended early */
 };
@@ -131,6 +170,12 @@ void film_keep_errors(struct film *f);
 
 /* film_keep_strategies: from now on sum every strategy on its own, for paths up to max_depth. */
 void film_keep_strategies(struct film *f, int max_depth);
+
+/* film_keep_gates: from now on sum what goes into each of these gates on its own. */
+void film_keep_gates(struct film *f, struct gates gates);
+
+/* film_keeps_records: does it need those of tiles? */
+static inline bool film_keeps_records(const struct film *f) { return f->strategies != NULL || f->gates != NULL; }
 
 /* strategy_index: number of strategy (s,t), s >= 0, t >= 1, among those with s + t <= max_depth + 2; strategies are
  * ordered by path length. strategy_count: how many there are. */

@@ -226,6 +226,11 @@ static rgb area_Le(const struct light *l, vec3 n, vec3 w)
     return l->two_sided || dot(n, w) > 0 ? l->L : rgb_black();
 }
 
+double light_distance(const struct light_set *set, vec3 p, vec3 w)
+{
+    return fmax(set->radius - dot(sub(p, set->center), w), 0);
+}
+
 /* Parallel rays enter through a disk as wide as the scene, placed before it. [PBRT3 16.1.2] */
 static struct ray ray_from_infinity(const struct light_set *set, vec3 towards_light, const double u[2])
 {

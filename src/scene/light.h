@@ -114,6 +114,11 @@ const struct image *light_read_picture(struct light_set *set, struct light *l, c
 void light_prepare(struct light_set *set, const struct geometry *geo, vec3 center, double radius);
 void light_set_free(struct light_set *set);
 
+/* light_distance: how far light from infinity has come at p, in scene units; w is the unit direction towards it. It
+ * comes from the plane across w that touches the scene's sphere, where light sub-paths of such a light begin, too. 0 if
+ * p is beyond the plane, as a lens may be. */
+double light_distance(const struct light_set *set, vec3 p, vec3 w);
+
 /* Delta lights cannot be hit (s = 0 is impossible). */
 static inline bool light_is_delta(const struct light *l)
 {

@@ -228,6 +228,8 @@ static struct connection contribution(const struct quest *q, const struct chain 
     if (q->parallel ? scene_lit_from(scene, c->p, c->prim_id, c->d)
                     : scene_lit(scene, c->p, c->prim_id, q->y->p, q->y->prim_id))
         out.value = value;
+    double last = q->parallel ? light_distance(&scene->lights, c->p, c->d) : length(sub(q->y->p, c->p));
+    out.length = z->length + c->length + last;
     struct makers m = makers_of(q, c, lens);
     out.weight = share(q, m.connect, m);
     return out;

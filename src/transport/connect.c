@@ -6,7 +6,7 @@
 
 static struct connection nothing(void)
 {
-    struct connection c = {{0, 0, 0}, 0, 0, 0, {0, 0, 0}, -1, -1, 0, 0};
+    struct connection c = {{0, 0, 0}, 0, 0, 0, 0, {0, 0, 0}, -1, -1, 0, 0};
     return c;
 }
 
@@ -46,6 +46,7 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
     }
     struct connection c = nothing();
     c.value = rgb_mul(z->beta, Le);
+    c.length = z->length;
     if (rgb_is_black(c.value))
         return nothing();
     if (t == 2) {
@@ -134,7 +135,8 @@ struct connection connect_lit(const struct scene *scene, const struct mis_counts
     bool parallel = light_at_infinity(&lights->light[at->light]);
     vec3 d = parallel ? at->w : sub(at->p, z->p);
     double d2 = length2(d);
-    vec3 w = mul(d, 1 / sqrt(d2));
+    double distance = sqrt(d2);
+    vec3 w = mul(d, 1 / distance);
     struct vertex y;
     vertex_light_end(scene, counts, at, &y);
     double hit = light_is_delta(&lights->light[at->light]) ? 0 : counts->hit[z->eye_end];
@@ -144,6 +146,7 @@ struct connection connect_lit(const struct scene *scene, const struct mis_counts
     double count = mis_direct_count(counts, lights, z->eye_region, z->eye_end, at->cell, at->w);
     struct connection c = nothing();
     c.value = l->value;
+    c.length = z->length + (parallel ? light_distance(lights, z->p, w) : distance);
     c.weight = mis_weight(counts, count, light, eye);
     const struct path_end end_y = {&y, NULL, l->pdf_z * l->at_light, 0}, end_z = {z, z - 1, pdf_z, l->pdf_rev_z};
     if (counts->weigher != NULL)
@@ -178,14 +181,15 @@ bool connect_join(const struct vertex *y, const struct vertex *z, struct joint *
         return false;
     if (!bsdf_may_scatter(&z->bsdf, z->wo, d) || !bsdf_may_scatter(&y->bsdf, y->wo, neg(d)))
         return false;
-    vec3 w = mul(d, 1 / sqrt(d2));
+    double distance = sqrt(d2);
+    vec3 w = mul(d, 1 / distance);
     struct scatter at_z = scatter_towards(z, w, RADIANCE);
     if (rgb_is_black(at_z.factor))
         return false;
     struct scatter at_y = scatter_towards(y, neg(w), IMPORTANCE);
     rgb value = rgb_mul(rgb_mul(y->beta, at_y.factor), rgb_scale(rgb_mul(z->beta, at_z.factor), 1 / d2));
-    struct joint j = {y, z, value, at_y.pdf, at_z.pdf, at_y.pdf_rev, at_z.pdf_rev, abs_dot(y->ng, w) / d2,
-                      abs_dot(z->ng, w) / d2};
+    struct joint j = {y, z, value, at_y.pdf, at_z.pdf, at_y.pdf_rev, at_z.pdf_rev, distance,
+                      abs_dot(y->ng, w) / d2, abs_dot(z->ng, w) / d2};
     *out = j;
     return !rgb_is_black(value);
 }
@@ -199,6 +203,7 @@ struct connection connect_joint(const struct scene *scene, const struct mis_coun
     double light = mis_side(counts, j->pdf_z * j->area_y, y->pdf_fwd, y->mis_c, j->pdf_rev_y, y->mis);
     double eye = mis_side(counts, j->pdf_y * j->area_z, z->pdf_fwd, z->mis_c, j->pdf_rev_z, z->mis);
     c.value = j->value;
+    c.length = y->length + j->length + z->length;
     c.weight = mis_weight(counts, mis_connect_count(counts, y->light_region, z->eye_region, z->eye_end), light, eye);
     const struct path_end end_y = {y, y - 1, j->pdf_z * j->area_y, j->pdf_rev_y};
     const struct path_end end_z = {z, z - 1, j->pdf_y * j->area_z, j->pdf_rev_z};
@@ -228,8 +233,10 @@ struct connection connect_lens(const struct scene *scene, const struct mis_count
     double d2 = length2(d);
     if (!(d2 > 0) || !bsdf_may_scatter(&y->bsdf, y->wo, neg(d)))
         return nothing();
-    vec3 w = mul(d, 1 / sqrt(d2));
+    double distance = sqrt(d2);
+    vec3 w = mul(d, 1 / distance);
     struct connection c = nothing();
+    c.length = y->length + distance;
     double J = camera_project(&scene->camera, lens, w, &c.px, &c.py);
     const double rx = scene->filter.radius[0], ry = scene->filter.radius[1];
     if (J == 0 || c.px < -rx || c.py < -ry || c.px > scene->width + rx || c.py > scene->height + ry)

@@ -20,6 +20,7 @@
 struct connection {
     rgb value;       /* W/(sr m^2), a pixel's radiance; black if the vertices cannot see each other */
     double weight;   /* [0,1]; meaningless when value is black */
+    double length;   /* of the path, see vertex.h */
     double px, py;   /* connect_lens: a raster point it arrives at, see camera_images */
     vec3 end;        /* connect_direct: the point on the light, at infinity its direction; connect_lens: on the lens */
     int light, cell; /* connect_direct: which, and the light cell of the point */
@@ -72,6 +73,7 @@ struct joint {
     rgb value;
     double pdf_y, pdf_z;         /* 1/sr, at y and at z, of the direction to the other */
     double pdf_rev_y, pdf_rev_z; /* 1/sr, of going on from there to the vertex before */
+    double length;               /* of the edge */
     double area_y, area_z;       /* what turns a density per steradian at the other end into one per area here */
 };
 

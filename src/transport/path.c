@@ -42,6 +42,7 @@ static bool escape(const struct walk *w, struct vertex *v, const struct vertex *
     v->wo = neg(from->ray.d);
     v->beta = from->beta;
     v->pdf_fwd = from->pdf;
+    v->length = prev->length + light_distance(&w->scene->lights, from->ray.o, from->ray.d);
     v->pdf_origin = light_pdf_environment(&w->scene->lights, from->ray.d);
     double at_prev = prev->kind == VERTEX_LENS ? 1 : abs_dot(prev->ng, from->ray.d);
     v->mis = mis_step(w->counts, from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, at_prev);
@@ -65,6 +66,7 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
     v->wo = neg(from->ray.d);
     v->beta = from->beta;
     v->pdf_origin = mode == RADIANCE && at->light >= 0 ? light_pdf_surface(&w->scene->lights, &w->scene->geo, at) : 0;
+    v->length = prev->length + sqrt(d2);
     measure(w, v, prev, from, d2);
     return true;
 }
@@ -239,6 +241,7 @@ int path_light_follow(const struct walk *w, const struct path_stop *stop, int n,
 {
     struct departure from;
     path[0] = stop[0].v;
+    path[0].length = 0;
     for (int i = 1; i < n; i++) {
         struct vertex *prev = &path[i - 1], *v = &path[i];
         bool parallel = vertex_at_infinity(w->scene, prev);
@@ -254,6 +257,7 @@ int path_light_follow(const struct walk *w, const struct path_stop *stop, int n,
         v->wo = neg(d);
         v->beta = from.beta;
         v->pdf_rev = 0;
+        v->length = prev->length + (parallel ? light_distance(&w->scene->lights, v->p, prev->wo) : sqrt(d2));
         measure(w, v, prev, &from, d2);
         v->eye_end = LATER_HIT;
         v->mis_c = mis_count_before(w->counts, &w->scene->lights, prev, v, LATER_HIT);

@@ -26,7 +26,7 @@ struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struc
     const struct render_job *job = pass->job;
     struct sampler points = stream(job, job->seed, RNG_CONNECT, x, y, (uint64_t)iteration);
     struct pixel_sample sample = {job->scene, counts, pass->tile, job->max_depth, x, y, 1, 1, points, rgb_black(),
-                                  trace_watches(pass->trace, x, y, iteration),
+                                  rgb_black(), rgb_black(), trace_watches(pass->trace, x, y, iteration),
                                   &pass->work->arena, 0};
     if (job->regularise > 0)
         sample.eps = regularise_eps(job->regularise, iteration);
@@ -65,6 +65,15 @@ double pixel_light_count(const struct render_job *job)
 
 /* --- sums of connections ----------------------------------------------------------------------------- */
 
+/* What a gate tells apart. */
+static void add_by_length(struct pixel_sample *sample, double length, rgb added)
+{
+    if (gate_before(length, sample->tile->gate.end))
+        sample->until = rgb_add(sample->until, added);
+    if (gate_before(length, sample->tile->gate.begin))
+        sample->before = rgb_add(sample->before, added);
+}
+
 /* Add a strategy's weighted share to the pixel; what it is made of is kept where pictures of single strategies are
  * wanted, or where somebody watches.
  *   light  the light sub-path whose first s vertices were joined; NULL for s <= 1 */
@@ -74,10 +83,12 @@ static void contribute(struct pixel_sample *sample, const struct connection *c, 
     rgb added = rgb_black();
     if (!rgb_is_black(c->value)) {
         rgb value = rgb_scale(c->value, choice.scale * sample->filter_weight);
-        if (sample->tile->keep_records)
-            tile_record_eye(sample->tile, sample->x, sample->y, s, t + c->passed, value, c->weight);
+        if (sample->tile->keep_records && gate_holds(sample->tile->gate, c->length))
+            tile_record_eye(sample->tile, sample->x, sample->y, s, t + c->passed, value, c->weight, c->length);
         added = rgb_scale(value, c->weight);
         sample->sum = rgb_add(sample->sum, added);
+        if (!gate_is_endless(sample->tile->gate))
+            add_by_length(sample, c->length, added);
     }
     if (sample->trace != NULL)
         trace_connect(sample->trace, s, t, light, c, choice.pmf, choice.scale * sample->filter_weight, added);
@@ -176,8 +187,8 @@ static void splat(struct pixel_sample *sample, const struct connection *c, int s
     for (int i = 0; i < camera_images(&sample->scene->camera, radius); i++) {
         struct connection image = *c;
         camera_image(&sample->scene->camera, radius, i, &image.px, &image.py);
-        if (tile_add_splat(sample->tile, image.px, image.py, added))
-            tile_record_splat(sample->tile, s, rgb_scale(c->value, scale), c->weight);
+        if (tile_add_splat(sample->tile, image.px, image.py, added, c->length))
+            tile_record_splat(sample->tile, s, rgb_scale(c->value, scale), c->weight, c->length);
         if (sample->trace != NULL)
             trace_connect(sample->trace, s, 1, light, &image, 1, scale, added);
     }
@@ -192,9 +203,17 @@ void pixel_splat_path(struct pixel_sample *sample, const struct vertex *light, i
         struct connection c = connect_lens(sample->scene, sample->counts, light, s, &sample->sampler);
         if (sample->counts->caustics != NULL && !rgb_is_black(c.value))
             caustic_weigh_lens(sample->scene, sample->counts, sample->arena, light, s, c.end, &c.weight);
-        if (!rgb_is_black(c.value))
+        if (!rgb_is_black(c.value) && gate_holds(sample->tile->gate, c.length))
             splat(sample, &c, s, light, each);
         else if (sample->trace != NULL)
             trace_connect(sample->trace, s, 1, light, &c, 1, each, rgb_black());
     }
+}
+
+void pixel_sample_end(const struct pixel_sample *sample)
+{
+    if (gate_is_endless(sample->tile->gate))
+        tile_add_eye(sample->tile, sample->x, sample->y, sample->sum);
+    else
+        tile_add_between(sample->tile, sample->x, sample->y, sample->until, sample->before);
 }

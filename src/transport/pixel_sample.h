@@ -23,7 +23,8 @@ struct pixel_sample {
     double filter_weight;   /* of its eye sample, see path_eye_pixel */
     int lights;             /* samples of s = 1 for t = 2, 0: left to the method; 1 for t > 2 */
     struct sampler sampler; /* for light and lens points */
-    rgb sum;                /* of what the strategies with t >= 2 have brought so far */
+    rgb sum;                /* of what the strategies with t >= 2 have brought so far, */
+    rgb until, before;      /* and of that paths shorter than the gate's end, or its beginning; 0 of an endless gate */
     struct trace *trace;    /* who watches this sample; NULL: nobody */
     struct arena *arena;    /* for what does not outlive the sample */
     double eps;             /* of regularise.h, 0: none */
@@ -53,7 +54,7 @@ double pixel_light_count(const struct render_job *job);
 
 /* --- sums of connections ----------------------------------------------------------------------------- */
 
-/* All add to sample->sum, weighted and times filter_weight, but for pixel_splat_path.
+/* All add to the sample's sums, weighted and times filter_weight, but for pixel_splat_path.
  *
  * pixel_sum_eye: s = 0 and s = 1 for every vertex of the eye sub-path of n vertices. */
 void pixel_sum_eye(struct pixel_sample *sample, const struct vertex *eye, int n);
@@ -81,5 +82,13 @@ void pixel_sum_pairs(struct pixel_sample *sample, const struct vertex *eye, int 
 /* pixel_splat_path: s >= 2, t = 1 for every vertex of a light sub-path, each times `scale`; the sums go to the
  * tile's splats. */
 void pixel_splat_path(struct pixel_sample *sample, const struct vertex *light, int n_light, double scale);
+
+/* pixel_sample_until: what paths shorter than the gate's end have brought.
+ * pixel_sample_end: the sample goes into its tile. Call once. */
+static inline rgb pixel_sample_until(const struct pixel_sample *sample)
+{
+    return gate_is_endless(sample->tile->gate) ? sample->sum : sample->until;
+}
+void pixel_sample_end(const struct pixel_sample *sample);
 
 #endif

@@ -53,6 +53,7 @@ struct connection regularise_connect(const struct scene *scene, const struct mis
         return c;
     c.value = value;
     c.weight = 1;
+    c.length = z->length + (parallel ? light_distance(&scene->lights, z->p, w) : length(d));
     c.end = parallel ? w : y.p;
     c.light = y.light;
     c.cell = y.cell;

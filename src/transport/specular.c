@@ -16,6 +16,7 @@ static void transfer(struct chain *c, const struct surface *at)
         vec3 moved = add(c->dp[i], mul(c->dd[i], t));
         c->dp[i] = sub(moved, mul(c->d, dot(moved, at->ng) / dot(c->d, at->ng)));
     }
+    c->length += t;
     c->p = at->p;
     c->prim_id = at->prim_id;
 }

@@ -34,6 +34,7 @@ struct chain {
     vec3 at[SPECULAR_LONGEST];
     vec3 p, d, dp[2], dd[2]; /* the last edge, and its derivatives */
     uint32_t prim_id;
+    double length; /* from z to p */
     rgb kappa;
     double choice; /* probability that a walk takes these lobes, either way */
     double eta;    /* index of refraction here, relative to z's */

@@ -25,6 +25,7 @@ enum vertex_kind {
  *   p            on the lens  on the light; at infinity -       the point                    -
  *   ng           0            area light: its normal; else 0    geometric normal             0
  *   prim_id      0            area light: see shape.h; else 0   see shape.h                  0
+ *   length       0            0                                 scene units, see below       likewise
  *   wo           0            at infinity: towards the light    towards the previous vertex  inwards
  *   beta         1            radiance or intensity emitted;    throughput on arrival        throughput on arrival
  *                             as a connection's end 1/density
@@ -37,6 +38,10 @@ enum vertex_kind {
  *   bsdf         -            -                                 its scattering               -
  *   lamp         -            -                                 eye walk: see below              likewise
  *
+ * The length of a sub-path is that of its edges together, as far as this vertex; light from infinity begins where
+ * light_distance (light.h) says. By the length of a whole path, from light to lens, gates choose (film.h). It is of
+ * space alone: glass does not make it longer.
+ *
  * See-through lamps (scene.h) scatter nothing, so no walk has vertices there, but that one may start on them. The first
  * that an eye walk meets on its way from one vertex to the next is the `lamp` of the next: the last vertex of a path of
  * its own, and in no sub-path. Its kind is SURFACE, it has what connect_hit needs, and no scattering.
@@ -48,6 +53,7 @@ struct vertex {
     int light, cell;
     vec3 p, ng;
     uint32_t prim_id;
+    double length;
     vec3 wo; /* unit */
     rgb beta;
     double pdf_fwd, pdf_origin, pdf_rev;

@@ -112,6 +112,10 @@ static const struct object WORLD[] = {
     {"Shape", "trianglemesh", "integer indices*6|point P*12|float uv*8|texture alpha"},
     {"Shape", "loopsubdiv", "integer levels|integer indices*6|point P*12"},
     {"Shape", "heightfield", "integer nu|integer nv|float Pz*4"},
+    {"Shape", "curve", "point P*12|normal N*6|float width0|integer degree|string type:flat,ribbon,cylinder|"
+                       "string basis:bspline"},
+    {"Shape", "nurbs", "integer nu|integer nv|integer uorder|integer vorder|float uknots*4|float vknots*4|float Pw*16|"
+                       "point P*12|float u0|float v1"},
     {"Shape", "plymesh", "string filename:parts/triangle.ply,parts/broken.ply|texture alpha"},
     {"Material", "matte", REFLECT BUMP},
     {"Material", "mirror", "rgb Kr|" BUMP},
@@ -121,6 +125,11 @@ static const struct object WORLD[] = {
     {"Material", "substrate", REFLECT ROUGH},
     {"Material", "uber", REFLECT ROUGH GLASS},
     {"Material", "translucent", REFLECT ROUGH "rgb reflect|rgb transmit"},
+    {"Material", "subsurface", "rgb Kr|rgb Kt|" ROUGH "float eta|" BUMP},
+    {"Material", "disney", "rgb color|float roughness|float eta|float metallic|float speculartint|float anisotropic|"
+                           "float sheen|float sheentint|float clearcoat|float clearcoatgloss|float spectrans|"
+                           "rgb scatterdistance|bool thin:true,false|float flatness|float difftrans|" BUMP},
+    {"Material", "fourier", "string bsdffile:../../scenes/features/layered.bsdf,parts/broken.ply|" BUMP},
     {"Material", "none", ""},
     {"Material", "", ""},
     {"AreaLightSource", "diffuse", LIT "bool twosided:true,false"},

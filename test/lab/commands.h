@@ -4,6 +4,7 @@
 
 #include "cli/command.h"
 
-extern const struct command command_verify, command_experiment, command_equal_time, command_demo, command_bench;
+extern const struct command command_verify, command_experiment, command_equal_time, command_demo, command_transient,
+    command_bench;
 
 #endif

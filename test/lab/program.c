@@ -2,7 +2,7 @@
 #include "lab/commands.h"
 
 static const struct command *const COMMANDS[] = {&command_verify, &command_experiment, &command_equal_time,
-                                                &command_demo,   &command_bench,      NULL};
+                                                &command_demo,   &command_transient, &command_bench, NULL};
 
 const struct program program = {
     "asbdpt-lab", "the laboratory of asbdpt: what measures its pictures and its speed",

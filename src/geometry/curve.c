@@ -1,0 +1,128 @@
+/* curve.c: see curve.h. */
+#include "geometry/curve.h"
+
+#include "base/frame.h"
+#include "geometry/subdivide.h"
+
+enum { SIDES = 8, MOST_PIECES = 1024 }; /* of the tube's cross section; of a segment */
+
+int curve_segments(const struct curve *c)
+{
+    if (c->n < c->degree + 1)
+        return 0;
+    if (c->bspline)
+        return c->n - c->degree;
+    return (c->n - 1) % c->degree == 0 ? (c->n - 1) / c->degree : 0;
+}
+
+static vec3 point(const struct curve *c, int i) { return vec(c->P[3 * i], c->P[3 * i + 1], c->P[3 * i + 2]); }
+
+/* The Bezier points of a segment: of a B-spline its blossom at the knots around; a quadratic is a cubic, too. */
+static void bezier(const struct curve *c, int segment, vec3 b[4])
+{
+    int first = c->bspline ? segment : segment * c->degree;
+    vec3 p[4];
+    for (int i = 0; i <= c->degree; i++)
+        p[i] = point(c, first + i);
+    if (c->bspline && c->degree == 3) {
+        b[1] = lerp3(1.0 / 3, p[1], p[2]);
+        b[2] = lerp3(2.0 / 3, p[1], p[2]);
+        b[0] = lerp3(0.5, lerp3(2.0 / 3, p[0], p[1]), b[1]);
+        b[3] = lerp3(0.5, b[2], lerp3(1.0 / 3, p[2], p[3]));
+    } else if (c->degree == 3) {
+        for (int i = 0; i < 4; i++)
+            b[i] = p[i];
+    } else {
+        b[0] = c->bspline ? lerp3(0.5, p[0], p[1]) : p[0];
+        b[3] = c->bspline ? lerp3(0.5, p[1], p[2]) : p[2];
+        b[1] = lerp3(2.0 / 3, b[0], p[1]);
+        b[2] = lerp3(2.0 / 3, b[3], p[1]);
+    }
+}
+
+/* A point of a segment, and the unit tangent there. Where that vanishes, as at coinciding points, the chord. */
+static vec3 evaluate(const vec3 b[4], double u, vec3 *tangent)
+{
+    vec3 q[3], r[2];
+    for (int i = 0; i < 3; i++)
+        q[i] = lerp3(u, b[i], b[i + 1]);
+    for (int i = 0; i < 2; i++)
+        r[i] = lerp3(u, q[i], q[i + 1]);
+    vec3 d = sub(r[1], r[0]), chord = sub(b[3], b[0]);
+    d = length2(d) > 0 ? d : chord;
+    *tangent = length2(d) > 0 ? normalize(d) : vec(0, 0, 1);
+    return lerp3(u, r[0], r[1]);
+}
+
+/* So many straight pieces stay within a twentieth of the width. [PBRT3 3.7] */
+static int pieces(const vec3 b[4], double width)
+{
+    double bend = 0;
+    for (int i = 0; i < 2; i++)
+        bend = fmax(bend, length(add(sub(b[i], mul(b[i + 1], 2)), b[i + 2])));
+    double n = ceil(sqrt(sqrt(2) * 6 * bend / (8 * 0.05 * width)));
+    return n >= 1 ? n < MOST_PIECES ? (int)n : MOST_PIECES : 1;
+}
+
+/* A row of the mesh around or across the curve at p, where x is a normal of it and y across both. */
+static void put_row(struct mesh *m, int row, bool tube, vec3 p, vec3 x, vec3 y, double width)
+{
+    int n = tube ? SIDES + 1 : 2;
+    /* A tube of many sides is seen as wide as a round one, on average over all directions, if as long around. */
+    double radius = tube ? width * PI / (2 * SIDES * m_sin(PI / SIDES)) : width / 2;
+    for (int i = 0; i < n; i++) {
+        double v = (double)i / (n - 1);
+        vec3 around = cylindrical(1, 2 * PI * (i % SIDES) / SIDES, 0);
+        vec3 across = tube ? add(mul(x, around.x), mul(y, around.y)) : mul(y, 2 * v - 1);
+        size_t k = (size_t)(row * n + i);
+        store3(m->P, k, add(p, mul(across, radius)));
+        store3(m->N, k, tube ? across : x);
+        m->UV[2 * k + 1] = (float)v;
+    }
+}
+
+/* A ribbon's normal, turned evenly from one end of the segment to the other. */
+static vec3 ribbon_normal(const struct curve *c, int segment, double u)
+{
+    vec3 n[2];
+    for (int i = 0; i < 2; i++) {
+        const double *at = c->N + 3 * (segment + i);
+        n[i] = normalize(vec(at[0], at[1], at[2]));
+    }
+    double angle = m_acos(fmin(fmax(dot(n[0], n[1]), 0), 1));
+    if (!(angle > 1e-6))
+        return n[0];
+    return add(mul(n[0], m_sin((1 - u) * angle)), mul(n[1], m_sin(u * angle)));
+}
+
+bool curve_mesh(const struct curve *c, struct mesh *m, int most, struct error *err)
+{
+    int segments = curve_segments(c), columns = c->N == NULL ? SIDES + 1 : 2, row = 0;
+    double widest = fmax(c->width[0], c->width[1]);
+    vec3 b[4], tangent, x = vec(0, 0, 0);
+    int64_t rows = 0; /* of which a curve may have more than an int */
+    for (int s = 0; s < segments; s++) {
+        bezier(c, s, b);
+        rows += pieces(b, widest) + 1;
+    }
+    if (widest == 0)
+        return true;
+    if (2 * rows * (columns - 1) > most)
+        return error_set(err, "curves and other subdivided surfaces have more than %d triangles in all; leave some out",
+                         SUBDIVIDE_MAX_TRIANGLES);
+    mesh_grid(m, columns, (int)rows, true);
+    for (int s = 0; s < segments; s++) {
+        bezier(c, s, b);
+        int n = pieces(b, widest);
+        for (int i = 0; i <= n; i++) {
+            double u = (double)i / n, along = (s + u) / segments;
+            vec3 p = evaluate(b, u, &tangent);
+            /* The tube's frame is the one before, turned as little as can be. */
+            x = frame_from_tangent(tangent, c->N != NULL ? ribbon_normal(c, s, u) : x).s;
+            for (int k = 0; k < columns; k++)
+                m->UV[2 * (row * columns + k)] = (float)u;
+            put_row(m, row++, c->N == NULL, p, x, cross(x, tangent), (1 - along) * c->width[0] + along * c->width[1]);
+        }
+    }
+    return true;
+}

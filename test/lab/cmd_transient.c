@@ -1,0 +1,120 @@
+/* cmd_transient.c: asbdpt-lab transient: light in flight: a picture for each of some gates that follow each other
+ * (film.h), all from one render, and a contact sheet. */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/mem.h"
+#include "base/number.h"
+#include "cli/job_options.h"
+#include "image/image.h"
+#include "lab/commands.h"
+#include "look/compare.h"
+#include "look/sheet.h"
+
+struct transient_options {
+    struct job_options job;
+    const char *directory;
+    double range[2]; /* 0, 0: to be found */
+    int n;
+};
+
+#define AT(member) offsetof(struct transient_options, member)
+static const struct option OPTIONS[] = {
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .file = FILE_READ, .help = "a scene file"},
+    {"-o", "DIR", OPTION_TEXT, AT(directory), 1, .help = "a directory for gate000.pfm ... and transient.png"},
+    {"--gates", "N", OPTION_INTEGER, AT(n), 1, 256, .fallback = "16", .help = "how many pictures"},
+    {"--gate", "L0:L1", OPTION_NUMBER, AT(range), 0, 1e30, .help = "what they divide (default: where light is)"},
+    {.others = RUN_OPTIONS},
+};
+
+/* One render by all gates. Pictures, [gates.n][pixels*3], to be freed; NULL with a message. */
+static float *render(const struct scene *scene, const struct render_options *o, struct gates gates, struct error *err)
+{
+    struct film film;
+    size_t n = 3 * rect_pixels(render_crop(scene)) * (size_t)gates.n;
+    float *out = NULL;
+    film_init(&film, render_crop(scene), scene->width, scene->height);
+    film_keep_gates(&film, gates);
+    if (render_scene(scene, o, &film, err)) {
+        out = mem_alloc(n, sizeof *out);
+        for (size_t i = 0; i < n; i++)
+            out[i] = float_within(film.gates->sum[i] * scene->film_scale / (double)film.iterations);
+    }
+    film_free(&film);
+    return out;
+}
+
+/* N gates where light is: from the first hundredth of it to nine tenths, by one sample per pixel. */
+static bool find_range(const struct scene *scene, struct render_options o, struct gates *out, struct error *err)
+{
+    enum { FINE = 256 };
+    const struct light_set *l = &scene->lights;
+    struct gates fine = {0, 8 * (l->radius + length(sub(scene->camera.position, l->center))) / FINE, FINE};
+    double until[FINE + 1] = {0};
+    size_t n = 3 * rect_pixels(render_crop(scene));
+    o.end = 1;
+    float *picture = render(scene, &o, fine, err);
+    for (size_t i = 0; picture != NULL && i < n * FINE; i++)
+        until[i / n + 1] = (i % n == 0 ? until[i / n] : until[i / n + 1]) + (double)picture[i];
+    int first = 0, end = 1;
+    for (; end < FINE && until[end] < 0.9 * until[FINE]; end++)
+        first = until[end] < 0.01 * until[FINE] ? end : first;
+    out->begin = first * fine.width;
+    out->width = (end - first) * fine.width / out->n;
+    free(picture);
+    return picture != NULL;
+}
+
+/* A file for each picture, and a sheet of all in rows of four, by one exposure. */
+static bool write_all(const char *directory, struct gates g, const float *pixels, int w, int h, struct error *err)
+{
+    enum { COLUMNS = 4, CELL = 240, GAP = 8, LABEL = 20, PERCENTILE = 99 };
+    size_t n = 3 * (size_t)w * (size_t)h;
+    double white = fmax(compare_percentile(pixels, (long)n * g.n, PERCENTILE), 1e-30);
+    int shrink = int_within(w / CELL, 1, h), k = int_within(CELL / w, 1, CELL);
+    int width = w / shrink * k + GAP, height = h / shrink * k + GAP + LABEL;
+    char text[4096];
+    struct sheet sheet;
+    sheet_init(&sheet, COLUMNS * width + GAP, (g.n + COLUMNS - 1) / COLUMNS * height + GAP, SHEET_PAPER);
+    bool ok = true;
+    for (int i = 0; ok && i < g.n; i++, pixels += n) {
+        float *cell = sheet_shrink(pixels, w, h, shrink);
+        int x = GAP + i % COLUMNS * width, y = GAP + i / COLUMNS * height;
+        for (int c = 0; c < 3 * (w / shrink) * (h / shrink); c++)
+            cell[c] = float_within((double)cell[c] / white);
+        snprintf(text, sizeof text, "%.4g to %.4g", g.begin + i * g.width, g.begin + (i + 1) * g.width);
+        sheet_text(&sheet, x, y, 2, SHEET_INK, text);
+        sheet_paste(&sheet, x, y + LABEL, cell, w / shrink, h / shrink, k);
+        free(cell);
+        snprintf(text, sizeof text, "%s/gate%03d.pfm", directory, i);
+        ok = image_write(text, w, h, pixels, err);
+    }
+    snprintf(text, sizeof text, "%s/transient.png", directory);
+    ok = ok && image_write(text, sheet.width, sheet.height, sheet.pixels, err);
+    sheet_free(&sheet);
+    return ok;
+}
+
+static int run(void *options)
+{
+    struct transient_options *o = options;
+    struct gates gates = {o->range[0], (o->range[1] - o->range[0]) / o->n, o->n};
+    struct scene scene;
+    const struct method *method;
+    struct error err;
+    int status = file_make_directory(o->directory, &err) ? job_load(&o->job, &scene, &method) : fail(&err);
+    if (status != EXIT_OK)
+        return status;
+    struct pixel_rect r = render_crop(&scene);
+    struct render_options by = job_render(&o->job, &scene, method);
+    bool ok = o->range[1] > 0 || find_range(&scene, by, &gates, &err);
+    float *pictures = ok ? render(&scene, &by, gates, &err) : NULL;
+    ok = pictures != NULL && write_all(o->directory, gates, pictures, rect_width(r), rect_height(r), &err);
+    free(pictures);
+    scene_free(&scene);
+    return ok ? EXIT_OK : fail(&err);
+}
+
+const struct command command_transient = {
+    "transient", "light in flight: pictures by how far light has come", {"SCENE.pbrt -o DIR [options]"}, OPTIONS,
+    sizeof(struct transient_options), run, false, "transient scenes/cornell-box.pbrt --quick --spp 64 -o out/flight"};

@@ -1,0 +1,188 @@
+/* test_curve.c: curves and NURBS as triangles: points and normals against closed forms. */
+#include "geometry/curve.h"
+
+#include <math.h>
+
+#include "base/rng.h"
+#include "geometry/nurbs.h"
+#include "geometry/subdivide.h"
+#include "tests.h"
+
+enum { MOST = 2 * 29 * 29 }; /* triangles of a NURBS surface */
+enum { RING = 9 }; /* points of a tube's row; the first and the last are one */
+
+static struct mesh mesh_of(struct test *t, const struct curve *c)
+{
+    struct mesh m = {0};
+    struct error err = {""};
+    CHECK(t, curve_mesh(c, &m, SUBDIVIDE_MAX_TRIANGLES, &err), "%s", err.text);
+    return m;
+}
+
+static vec3 row_centre(const struct mesh *m, int row)
+{
+    vec3 sum = vec(0, 0, 0);
+    for (int i = 0; i < RING - 1; i++)
+        sum = add(sum, load3(m->P, (size_t)(row * RING + i)));
+    return mul(sum, 1.0 / (RING - 1));
+}
+
+/* A straight tube of growing width: how wide it looks from all sides on average, its normals, u and v. */
+static void straight(struct test *t)
+{
+    const double P[] = {0, 0, 0, 0, 0, 1, 0, 0, 2, 0, 0, 3};
+    struct curve c = {.P = P, .n = 4, .degree = 3, .width = {0.2, 0.4}};
+    struct mesh m = mesh_of(t, &c);
+    CHECK(t, m.n_vertices == 2 * RING && m.n_triangles == 4 * (RING - 1) / 2, "one piece: %d points, %d triangles",
+          m.n_vertices, m.n_triangles);
+    double mean = 0;
+    enum { VIEWS = 1000 };
+    for (int k = 0; k < VIEWS; k++) {
+        double most = 0, least = 0;
+        for (size_t i = 0; i < RING - 1; i++) {
+            double x = dot(load3(m.P, i), vec(cos(PI * k / VIEWS), sin(PI * k / VIEWS), 0));
+            most = fmax(most, x);
+            least = fmin(least, x);
+        }
+        mean += (most - least) / VIEWS;
+    }
+    CHECK(t, fabs(mean - 0.2) < 1e-6, "looks %g wide, not 0.2", mean);
+    for (size_t i = 0; i < 2 * RING; i++) {
+        vec3 p = load3(m.P, i), n = load3(m.N, i), out = vec(p.x, p.y, 0);
+        bool far = i >= RING;
+        CHECK(t, fabs(p.z - 3 * far) < 1e-6 && fabs(length(out) / length(load3(m.P, 0)) - 1 - far) < 1e-5, "point");
+        CHECK(t, length(sub(n, normalize(out))) < 1e-5, "normals point outwards");
+        CHECK(t, m.UV[2 * i] == (float)far && m.UV[2 * i + 1] == (float)(i % RING) / (RING - 1), "u and v");
+    }
+    mesh_free(&m);
+}
+
+/* Where the segments of each basis and degree begin and end, and that the tube stays near what they are. */
+static void bases(struct test *t)
+{
+    double P[18];
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 70, 0);
+    for (int i = 0; i < 18; i++)
+        P[i] = rng_uniform(&r);
+    /* Weights of the first four points at u = 0 and at u = 1/2 of the first segment. */
+    static const struct {
+        int degree, n, segments;
+        bool bspline;
+        double start[4], middle[4];
+    } CASES[] = {{3, 4, 1, false, {1, 0, 0, 0}, {0.125, 0.375, 0.375, 0.125}},
+                 {2, 5, 2, false, {1, 0, 0, 0}, {0.25, 0.5, 0.25, 0}},
+                 {3, 6, 3, true, {1 / 6.0, 4 / 6.0, 1 / 6.0, 0}, {1 / 48.0, 23 / 48.0, 23 / 48.0, 1 / 48.0}},
+                 {2, 4, 2, true, {0.5, 0.5, 0, 0}, {0.125, 0.75, 0.125, 0}}};
+    for (int k = 0; k < 4; k++) {
+        struct curve c = {P, CASES[k].n, CASES[k].degree, CASES[k].bspline, {0.01, 0.01}, NULL};
+        CHECK(t, curve_segments(&c) == CASES[k].segments, "case %d: %d segments", k, curve_segments(&c));
+        struct mesh m = mesh_of(t, &c);
+        int pieces = 0;
+        while (m.UV[2 * RING * pieces] < 1)
+            pieces++;
+        vec3 start = vec(0, 0, 0), middle = vec(0, 0, 0);
+        for (int i = 0; i < 4; i++) {
+            start = add(start, mul(vec(P[3 * i], P[3 * i + 1], P[3 * i + 2]), CASES[k].start[i]));
+            middle = add(middle, mul(vec(P[3 * i], P[3 * i + 1], P[3 * i + 2]), CASES[k].middle[i]));
+        }
+        CHECK(t, length(sub(row_centre(&m, 0), start)) < 1e-6, "case %d: where it begins", k);
+        vec3 chord = lerp3(pieces % 2 * 0.5, row_centre(&m, pieces / 2), row_centre(&m, (pieces + 1) / 2));
+        CHECK(t, length(sub(chord, middle)) < 0.01 / 20, "case %d: %g off in the middle", k,
+              length(sub(chord, middle)));
+        CHECK(t, pieces > 4 && pieces < 100, "case %d: %d pieces", k, pieces);
+        CHECK(t, length(sub(row_centre(&m, pieces), row_centre(&m, pieces + 1))) < 1e-6 || CASES[k].segments == 1,
+              "case %d: segments meet", k);
+        mesh_free(&m);
+    }
+    struct curve short_one = {P, 3, 3, true, {1, 1}, NULL}, uneven = {P, 6, 3, false, {1, 1}, NULL};
+    CHECK(t, curve_segments(&short_one) == 0 && curve_segments(&uneven) == 0, "points that make no whole segments");
+}
+
+/* A straight ribbon whose normal turns by a quarter: its width, its normal half way, and that it is refused. */
+static void ribbon(struct test *t)
+{
+    const double P[] = {0, 0, 0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 1, 4, 0, 0, 5, 0, 0, 6};
+    const double N[] = {1, 0, 0, 0, 2, 0, 0, 1, 0};
+    struct curve c = {P, 7, 3, false, {0.2, 0.2}, N};
+    struct mesh m = mesh_of(t, &c);
+    struct error err;
+    vec3 a = load3(m.P, 0), b = load3(m.P, 1);
+    CHECK(t, length(sub(sub(b, a), vec(0, -0.2, 0))) < 1e-6, "across the normal and the curve");
+    CHECK(t, m.N[0] == 1 && m.UV[1] == 0 && m.UV[3] == 1, "normal, v");
+    mesh_free(&m);
+    c.P = P + 0;
+    c.n = 4;
+    c.width[0] = c.width[1] = 1e-3;
+    double bent[12] = {0, 0, 0, 0, 0, 1, 0, 0, 1.1, 0, 0, 3};
+    c.P = bent;
+    m = mesh_of(t, &c);
+    for (int i = 0; i < m.n_vertices; i += 2) {
+        double angle = m.UV[2 * i] * PI / 2;
+        CHECK(t, length(sub(load3(m.N, (size_t)i), vec(cos(angle), sin(angle), 0))) < 1e-5, "turns evenly");
+    }
+    int most = m.n_triangles - 1;
+    mesh_free(&m);
+    CHECK(t, !curve_mesh(&c, &m, most, &err) && m.P == NULL, "too many triangles are refused");
+    c.width[0] = c.width[1] = 0;
+    CHECK(t, curve_mesh(&c, &m, most, &err) && m.n_triangles == 0, "no width, no triangles");
+}
+
+/* A quarter of a cone, exact as a rational surface: points, normals, parameters. */
+static void rational(struct test *t)
+{
+    const double h = sqrt(0.5), uk[] = {0, 0, 0, 1, 1, 1}, vk[] = {2, 2, 4, 4};
+    const double Pw[] = {1, 0, 0, 1, h, h, 0, h, 0, 1, 0, 1, 2, 0, 1, 1, 2 * h, 2 * h, h, h, 0, 2, 1, 1};
+    struct nurbs_axis u = {3, 3, uk, 0, 1}, v = {2, 2, vk, 2, 3};
+    struct mesh m = {0};
+    struct error err = {""};
+    CHECK(t, nurbs_is_usable(&u) && nurbs_is_usable(&v) && nurbs_mesh(&u, &v, Pw, &m, MOST, &err), "%s", err.text);
+    for (size_t i = 0; i < (size_t)m.n_vertices; i++) {
+        vec3 p = load3(m.P, i), n = load3(m.N, i), want = normalize(vec(p.x, p.y, -sqrt(p.x * p.x + p.y * p.y)));
+        CHECK(t, fabs(sqrt(p.x * p.x + p.y * p.y) - 1 - p.z) < 1e-6, "a cone: %g %g %g", p.x, p.y, p.z);
+        CHECK(t, length(sub(n, want)) < 1e-5 && fabs(p.z - (m.UV[2 * i + 1] - 2) / 2) < 1e-6, "normal and v");
+    }
+    CHECK(t, m.P[3 * 29] == 0 && m.UV[2 * 29] == 1 && m.n_triangles == 2 * 29 * 29, "u runs first");
+    mesh_free(&m);
+}
+
+/* The spline of control points that lie on a line, at the means of the knots behind them, is that line, whatever the
+ * knots. */
+static void knots(struct test *t)
+{
+    const double k[] = {0, 0, 0, 0, 0, 1, 3, 3, 4, 7, 7, 7.5, 8}, line[] = {0, 0, 1, 1};
+    enum { ORDER = 4, POINTS = 9 };
+    double Pw[POINTS * 2 * 4];
+    for (int i = 0; i < POINTS * 2; i++) {
+        const double *at = k + i % POINTS;
+        const double p[4] = {(at[1] + at[2] + at[3]) / 3, i / POINTS, 0, 1};
+        for (int j = 0; j < 4; j++)
+            Pw[4 * i + j] = p[j];
+    }
+    struct nurbs_axis u = {POINTS, ORDER, k, 0, 7}, v = {2, 2, line, 0, 1};
+    struct mesh m = {0};
+    struct error err = {""};
+    CHECK(t, nurbs_is_usable(&u) && nurbs_mesh(&u, &v, Pw, &m, MOST, &err), "%s", err.text);
+    for (size_t i = 0; i < (size_t)m.n_vertices; i++)
+        CHECK(t, fabs(m.P[3 * i] - m.UV[2 * i]) < 1e-5 && m.N[3 * i + 2] > 0.9999, "at %g: %g", m.UV[2 * i],
+              m.P[3 * i]);
+    mesh_free(&m);
+    CHECK(t, !nurbs_mesh(&u, &v, Pw, &m, MOST - 1, &err) && m.P == NULL, "too many triangles are refused");
+    Pw[4 * 2 + 3] = -9;
+    CHECK(t, !nurbs_mesh(&u, &v, Pw, &m, MOST, &err), "negative weights are refused");
+    mesh_free(&m);
+    struct nurbs_axis wide = u, empty = u, falling = u;
+    const double fall[] = {0, 0, 0, 0, 0, 1, 3, 2, 4, 7, 7, 7.5, 8};
+    wide.to = 7.1;
+    empty.to = 0;
+    falling.knot = fall;
+    CHECK(t, !nurbs_is_usable(&wide) && !nurbs_is_usable(&empty) && !nurbs_is_usable(&falling), "axes of no use");
+}
+
+void test_curve(struct test *t)
+{
+    straight(t);
+    bases(t);
+    ribbon(t);
+    rational(t);
+    knots(t);
+}

@@ -1,0 +1,264 @@
+/* Gates: light whose way to the lens is of a given length (film.h). Gates that follow each other add up to the ungated
+ * film, to the bit, by every method; pictures of many gates from one render are those of one gate each; and of a point
+ * light over a plane a gate has the ring that closed form says. That all strategies agree about a path's length is in
+ * test_mis.c. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/os.h"
+#include "helpers.h"
+#include "tests.h"
+
+static void render_gate(struct test *t, const struct scene *scene, struct render_options o, double begin, double end,
+                        struct film *film)
+{
+    o.gate.begin = begin;
+    o.gate.end = end;
+    render_film(t, scene, &o, film);
+}
+
+/* --- the sum ------------------------------------------------------------------------------------------ */
+
+/* Light of all sorts, a see-through lamp among them, by way of glass; a filter with negative lobes. */
+static const char MIXED[] =
+    "LookAt 0 1.6 -4.5  0 .9 0  0 1 0 Camera \"perspective\" \"float fov\" 42\n"
+    "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 14 PixelFilter \"mitchell\" WorldBegin\n"
+    "LightSource \"infinite\" \"rgb L\" [.3 .4 .5]\n"
+    "LightSource \"distant\" \"rgb L\" [1 1 1] \"point from\" [1 4 -1] \"point to\" [0 0 0]\n"
+    "LightSource \"point\" \"rgb I\" [3 2 1] \"point from\" [-1 2 0]\n"
+    "Material \"none\" AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] \"bool twosided\" \"true\"\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 4 -2  2 4 -2  2 4 2  -2 4 2]\n"
+    "AttributeEnd Material \"matte\" \"rgb Kd\" [.8 .7 .6] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
+    "  \"point P\" [-1.5 0 -1.5  1.5 0 -1.5  1.5 0 1.5  -1.5 0 1.5]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 1.5  2 0 1.5  2 3 1.5  -2 3 1.5]\n"
+    "Material \"glass\" Translate 0 .7 0 Shape \"sphere\" \"float radius\" .6 WorldEnd\n";
+
+static void add_up(struct test *t, struct film *sum, const struct film *film)
+{
+    for (size_t i = 0; i < 3 * rect_pixels(film->rect); i++)
+        CHECK(t, exact_join(&sum->sum[i], &film->sum[i]), "sums do not fit together");
+    sum->nonfinite += film->nonfinite;
+}
+
+static double total(const struct film *film)
+{
+    double sum = 0;
+    for (size_t i = 0; i < 3 * rect_pixels(film->rect); i++)
+        sum += film_value(film, i);
+    return sum;
+}
+
+static void test_sum(struct test *t, const struct scene *scene, const struct render_options *o, const char *what)
+{
+    static const double BOUND[] = {0, 8, 9.5, INFINITY};
+    struct film whole, sum, gate;
+    render_film(t, scene, o, &whole);
+    film_init(&sum, render_crop(scene), scene->width, scene->height);
+    for (int i = 0; i < 3; i++) {
+        render_gate(t, scene, *o, BOUND[i], BOUND[i + 1], &gate);
+        CHECK(t, total(&gate) > 1e-4 * total(&whole) && total(&gate) < 0.99 * total(&whole), "%s: gate %d has %g of %g",
+              what, i, total(&gate), total(&whole));
+        add_up(t, &sum, &gate);
+        film_free(&gate);
+    }
+    CHECK(t, films_equal(&whole, &sum), "%s: gates do not add up to the picture, %.17g and %.17g", what, total(&sum),
+          total(&whole));
+    film_free(&whole);
+    film_free(&sum);
+}
+
+static void test_methods(struct test *t)
+{
+    struct scene scene;
+    if (!scene_from_text(t, MIXED, &scene))
+        return;
+    for (const struct method *const *m = method_list(); *m != NULL; m++) {
+        struct render_options o = {.n_threads = os_cores(), .seed = test_seed(t), .end = 8, .max_depth = 4};
+        char what[64];
+        snprintf(what, sizeof what, "%s", method_name(*m));
+        o.integrator = set_method(&scene, what);
+        test_sum(t, &scene, &o, what);
+    }
+    scene_free(&scene);
+}
+
+/* What no float holds is left out of every film alike, so that the rest still adds up. */
+static void test_left_out(struct test *t)
+{
+    static const double UNTIL[] = {0, 1, 1e39, NAN, 2}; /* running sums at the bounds of four gates */
+    struct pixel_rect one = {0, 0, 1, 1};
+    struct filter box;
+    struct tile tile = {.rect = {0, 0, 0, 0}};
+    struct exact_sum sum = {{0, 0, 0}, 0};
+    filter_default("box", &box);
+    for (int i = 0; i < 4; i++) {
+        tile_start(&tile, one, one, &box, false);
+        tile_add_between(&tile, 0, 0, rgb_grey(UNTIL[i + 1]), rgb_grey(UNTIL[i]));
+        CHECK(t, tile.nonfinite == (i == 1 || i == 2), "gate %d: %ld left out", i, tile.nonfinite);
+        exact_join(&sum, &tile.sum[0]);
+    }
+    CHECK(t, exact_value(&sum) == 2, "the rest adds up to %g", exact_value(&sum));
+    CHECK(t, gate_before(INFINITY, INFINITY) && gate_before(NAN, INFINITY), "the endless gate leaves something out");
+    CHECK(t, tile.square[0] == 4, "the last gate's square is %g", tile.square[0]);
+    tile_free(&tile);
+}
+
+/* --- many gates at once ------------------------------------------------------------------------------- */
+
+static void test_many(struct test *t)
+{
+    enum { N = 5 };
+    const struct gates gates = {5, 1.5, N};
+    struct scene scene;
+    struct film many, one;
+    struct render_options o = {.integrator = "bdpt", .n_threads = os_cores(), .end = 16, .max_depth = 4};
+    if (!scene_from_text(t, MIXED, &scene))
+        return;
+    struct error err;
+    film_init(&many, render_crop(&scene), scene.width, scene.height);
+    film_keep_gates(&many, gates);
+    CHECK(t, render_scene(&scene, &o, &many, &err), "%s", err.text);
+    render_gate(t, &scene, o, 0, INFINITY, &one);
+    CHECK(t, films_equal(&many, &one), "the endless gate has another picture");
+    film_free(&one);
+    for (int i = 0; i < N; i++) {
+        double worst = 0;
+        size_t n = 3 * rect_pixels(many.rect);
+        render_gate(t, &scene, o, gates.begin + i * gates.width, gates.begin + (i + 1) * gates.width, &one);
+        for (size_t k = 0; k < n; k++)
+            worst = fmax(worst, fabs(film_value(&one, k) - many.gates->sum[(size_t)i * n + k]));
+        CHECK(t, worst < 1e-5 * total(&one) / (double)n, "gate %d: from one render of many differs by %g", i, worst);
+        film_free(&one);
+    }
+    film_free(&many);
+    scene_free(&scene);
+}
+
+/* --- closed form -------------------------------------------------------------------------------------- */
+
+/* A plane seen from 3 above it, straight down, with light from right above. */
+#define DOWN(camera)                                                                                                   \
+    "LookAt 0 3 0  0 0 0  0 0 1 Camera " camera "\n"                                                                   \
+    "Film \"image\" \"integer xresolution\" 33 \"integer yresolution\" 33 PixelFilter \"box\" WorldBegin\n"            \
+    "Material \"matte\" \"rgb Kd\" [.5 .5 .5] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"              \
+    "  \"point P\" [-4 0 -4  4 0 -4  4 0 4  -4 0 4]\n"
+enum { SIDE = 33 };
+static const double HALF = 3; /* of what the film sees of the plane: fov 90 from 3 above it */
+
+/* Lengths of light's ways by the plane at distance r from the axis. */
+static double by_point(double r) { return sqrt(1 + r * r) + sqrt(9 + r * r); }
+static double by_point_parallel(double r) { return sqrt(1 + r * r) + 3; }
+static double by_sky(double r) { return 4 * sqrt(2) + sqrt(9 + r * r); } /* the sphere's radius, light at infinity */
+
+/* The nearest and the farthest point of a pixel from the axis. */
+static void pixel_distances(int x, int y, double *near, double *far)
+{
+    double side = 2 * HALF / SIDE, dx = fabs(x + 0.5 - SIDE / 2.0) * side, dy = fabs(y + 0.5 - SIDE / 2.0) * side;
+    *near = sqrt(sqr(fmax(dx - side / 2, 0)) + sqr(fmax(dy - side / 2, 0)));
+    *far = sqrt(sqr(dx + side / 2) + sqr(dy + side / 2));
+}
+
+/* Pixels within the ring are those of the whole picture, to the bit, pixels outside are black. */
+static void check_ring(struct test *t, const char *what, double (*length_at)(double), const struct film *whole,
+                       const struct film *gate, double begin, double end)
+{
+    int inside = 0, outside = 0, wrong = 0;
+    for (int p = 0; p < SIDE * SIDE; p++) {
+        double near, far, here = film_value(gate, 3 * (size_t)p), full = film_value(whole, 3 * (size_t)p);
+        pixel_distances(p % SIDE, p / SIDE, &near, &far);
+        bool in = length_at(near) > begin + 1e-9 && length_at(far) < end - 1e-9;
+        bool out = length_at(far) < begin - 1e-9 || length_at(near) > end + 1e-9;
+        inside += in;
+        outside += out;
+        wrong += (in && !(here == full && full > 0)) || (out && here != 0) || here < 0 || here > full;
+    }
+    CHECK(t, inside > 20 && outside > 20 && wrong == 0, "%s, %g to %g: %d pixels inside, %d outside, %d wrong", what,
+          begin, end, inside, outside, wrong);
+}
+
+static void test_ring(struct test *t, const char *what, const char *text, double (*length_at)(double))
+{
+    static const char *const METHODS[] = {"pt", "lt", "bdpt"};
+    struct scene scene;
+    struct film whole, gate;
+    if (!scene_from_text(t, text, &scene))
+        return;
+    for (int i = 0; i < 3; i++) {
+        struct render_options o = {.integrator = METHODS[i], .n_threads = 1, .end = 64, .max_depth = 1};
+        render_film(t, &scene, &o, &whole);
+        for (int k = 0; k < 3; k++) {
+            double begin = length_at(0.8 * k), end = length_at(0.8 * (k + 1));
+            render_gate(t, &scene, o, begin, end, &gate);
+            check_ring(t, what, length_at, &whole, &gate, begin, end);
+            film_free(&gate);
+        }
+        film_free(&whole);
+    }
+    scene_free(&scene);
+}
+
+/* The sky all around a lens far outside the scene's sphere: nothing is lost of what it sees on the side away from the
+ * scene, where light is at the lens before it is at the sphere. */
+static void test_outside(struct test *t)
+{
+    static const char TEXT[] =
+        "LookAt 0 0 50  0 0 0  0 1 0 Camera \"environment\" Film \"image\" \"integer xresolution\" 16\n"
+        "\"integer yresolution\" 8 WorldBegin LightSource \"infinite\" \"rgb L\" [1 1 1]\n"
+        "Material \"matte\" \"rgb Kd\" [0 0 0] Shape \"sphere\" \"float radius\" .01 WorldEnd\n";
+    struct scene scene;
+    struct film whole, early;
+    struct render_options o = {.integrator = "pt", .n_threads = 1, .end = 16, .max_depth = 1};
+    if (!scene_from_text(t, TEXT, &scene))
+        return;
+    render_film(t, &scene, &o, &whole);
+    render_gate(t, &scene, o, 0, 1e-6, &early);
+    double all = 3.0 * 16 * 8 * 16, share = total(&early) / all;
+    CHECK(t, total(&whole) > 0.99 * all && share > 0.49 && share < 0.51, "of the sky %g, before the sphere %g of it",
+          total(&whole) / all, share);
+    film_free(&whole);
+    film_free(&early);
+    scene_free(&scene);
+}
+
+/* --- names -------------------------------------------------------------------------------------------- */
+
+/* Films of different gates are not to be added up as if they were samples; what is learnt serves all. */
+static void test_identity(struct test *t)
+{
+    struct scene scene;
+    if (!scene_from_text(t, MIXED, &scene))
+        return;
+    struct render_options o = {.integrator = "bdpt"};
+    char *text[4];
+    static const double GATE[4][2] = {{0, 0}, {0, INFINITY}, {1, INFINITY}, {1, 2}};
+    for (int i = 0; i < 4; i++) {
+        o.gate.begin = GATE[i][0];
+        o.gate.end = GATE[i][1];
+        text[i] = identity_text(&scene, &o);
+        struct render_options whole = {.integrator = "bdpt"};
+        CHECK(t, picture_number(&scene, &o, render_crop(&scene)) == picture_number(&scene, &whole, render_crop(&scene)),
+              "what is learnt is of one gate");
+    }
+    CHECK(t, strcmp(text[0], text[1]) == 0, "the endless gate is another picture's");
+    CHECK(t, strcmp(text[1], text[2]) != 0 && strcmp(text[2], text[3]) != 0, "gates have one identity");
+    for (int i = 0; i < 4; i++)
+        free(text[i]);
+    scene_free(&scene);
+}
+
+void test_gates(struct test *t)
+{
+    test_methods(t);
+    test_left_out(t);
+    test_many(t);
+    test_ring(t, "point light",
+              DOWN("\"perspective\" \"float fov\" 90") "LightSource \"point\" \"point from\" [0 1 0] WorldEnd\n",
+              by_point);
+    test_ring(t, "point light, orthographic", DOWN("\"orthographic\" \"float screenwindow\" [-3 3 -3 3]")
+              "LightSource \"point\" \"point from\" [0 1 0] WorldEnd\n", by_point_parallel);
+    test_ring(t, "distant light", DOWN("\"perspective\" \"float fov\" 90")
+              "LightSource \"distant\" \"point from\" [0 1 0] \"point to\" [0 0 0] WorldEnd\n", by_sky);
+    test_outside(t);
+    test_identity(t);
+}
