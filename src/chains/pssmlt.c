@@ -16,7 +16,7 @@ static void sample(struct chain *c, bool small)
     double px, py;
     primary_begin(&p, c, small);
     struct pixel_sample s = {.scene = job->scene, .counts = &c->all->frozen.counts, .tile = &c->next.heard,
-                             .max_depth = job->max_depth, .filter_weight = 1, .lights = 1,
+                             .max_depth = job->max_depth, .filter_weight = 1, .lights = 1, .arena = &work->arena,
                              .sampler = p.sampler[POINT_NUMBERS]};
     const struct gate all = c->next.heard.gate;
     c->next.heard.gate = c->gate; /* for the sums alone */

@@ -1,10 +1,12 @@
 /* method.c: what is done with a row; see method.h. */
 #include "integrators/method.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "learning/learnt_file.h"
+#include "transport/caustic.h"
 
 const struct method_parameter *method_has(const struct method *m, const char *name)
 {
@@ -38,6 +40,12 @@ static bool recall(const struct method *m, const struct render_job *job, void *s
     return learnt_read(m->learnt(state), &job->scene->lights, job->of, job->learnt, "what was learnt", err);
 }
 
+static void add_note(char note[FILM_NOTE_SIZE], const char *text)
+{
+    size_t n = strlen(note);
+    snprintf(note + n, FILM_NOTE_SIZE - n, "%s%s", n > 0 ? "; " : "", text);
+}
+
 bool method_prepare(const struct method *m, const struct render_job *job, struct preparation *out, struct error *err)
 {
     struct preparation standard = {.method = m, .state = mem_alloc(1, m->state_size),
@@ -56,8 +64,12 @@ bool method_prepare(const struct method *m, const struct render_job *job, struct
         method_release(out);
         return false;
     }
+    if (job->caustics > 0)
+        f->counts.caustics = out->caustics = caustics_new(job->scene, job->caustics);
     if (m->prepare != NULL)
         m->prepare(job, out);
+    if (job->regularise > 0)
+        add_note(out->note, "biased: mirrors and glass are blurred where nothing else finds a light");
     if (m->learnt != NULL && job->learnt != NULL && job->learnt->n == 0 && m->learnt(out->state)->eye.n > 0)
         learnt_write(m->learnt(out->state), job->of, job->learnt);
     return true;
@@ -68,6 +80,7 @@ void method_release(struct preparation *p)
     if (p->method->release != NULL)
         p->method->release(p->state);
     free(p->state);
+    caustics_free(p->caustics);
 }
 
 void *method_scratch(const struct preparation *p)

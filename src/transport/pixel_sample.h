@@ -26,6 +26,8 @@ struct pixel_sample {
     rgb sum;                /* of what the strategies with t >= 2 have brought so far, */
     rgb until, before;      /* and of that paths shorter than the gate's end, or its beginning; 0 of an endless gate */
     struct trace *trace;    /* who watches this sample; NULL: nobody */
+    struct arena *arena;    /* for what does not outlive the sample */
+    double eps;             /* of regularise.h, 0: none */
 };
 
 /* --- sub-paths --------------------------------------------------------------------------------------- */

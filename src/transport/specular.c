@@ -1,0 +1,138 @@
+/* specular.c: see specular.h. */
+#include "transport/specular.h"
+
+/* --- a ray and its derivatives ------------------------------------------------------------------------- */
+
+int specular_group(const struct scene *scene, const struct surface *at)
+{
+    return (int)(shape_group_of(&scene->geo, (int)(at->prim_id - 1)) - scene->geo.group);
+}
+
+/* The ray arrives at a surface: its point moves by dp along that. */
+static void transfer(struct chain *c, const struct surface *at)
+{
+    double t = length(sub(at->p, c->p));
+    for (int i = 0; i < 2; i++) {
+        vec3 moved = add(c->dp[i], mul(c->dd[i], t));
+        c->dp[i] = sub(moved, mul(c->d, dot(moved, at->ng) / dot(c->d, at->ng)));
+    }
+    c->length += t;
+    c->p = at->p;
+    c->prim_id = at->prim_id;
+}
+
+/* The ray goes on in direction s->wi. Reflection is d - 2 (d.n) n, refraction eta d + mu n with n on the side that the
+ * ray comes from, mu = eta c - c_t. */
+static void turn(struct chain *c, const struct scene *scene, const struct surface *at, const struct bsdf_sample *s,
+                 bool transmit)
+{
+    vec3 n = dot(c->d, at->ns) > 0 ? neg(at->ns) : at->ns;
+    double cosine = -dot(c->d, n), eta = 1 / s->eta, cos_t = abs_dot(s->wi, n);
+    for (int i = 0; i < 2; i++) {
+        vec3 dn = shape_normal_change(&scene->geo, at, c->dp[i]);
+        dn = dot(c->d, at->ns) > 0 ? neg(dn) : dn;
+        double dc = -(dot(c->dd[i], n) + dot(c->d, dn));
+        if (transmit)
+            c->dd[i] = add(mul(c->dd[i], eta), add(mul(dn, eta * cosine - cos_t),
+                                                   mul(n, (eta - eta * eta * cosine / cos_t) * dc)));
+        else
+            c->dd[i] = add(c->dd[i], mul(add(mul(n, dc), mul(dn, cosine)), 2));
+    }
+    c->d = s->wi;
+}
+
+/* Scatter by the delta lobes of the surface; false where they, or the derivatives, do not do as the chain wants. */
+static bool scatter(const struct quest *q, struct chain *c, const struct surface *at)
+{
+    struct bsdf bsdf;
+    struct bsdf_sample s;
+    bool transmit = q->group < 0;
+    material_bsdf(q->scene->material, at->material, &q->scene->textures, at, q->arena, &bsdf);
+    if (dot(bsdf.shading.n, at->ns) < 1 - 1e-9 || !bsdf_delta(&bsdf, neg(c->d), transmit, RADIANCE, &s))
+        return false;
+    if ((dot(s.wi, at->ng) * dot(c->d, at->ng) > 0) != transmit)
+        return false;
+    turn(c, q->scene, at, &s, transmit);
+    c->kappa = rgb_mul(c->kappa, s.f);
+    c->choice *= s.pdf;
+    c->eta *= s.eta;
+    return true;
+}
+
+bool specular_trace(const struct quest *q, vec3 w, struct chain *c)
+{
+    const struct frame f = frame_from_normal(w);
+    struct chain start = {.w = w, .p = q->z->p, .d = w, .dd = {f.s, f.t}, .prim_id = q->z->prim_id,
+                          .kappa = rgb_grey(1), .choice = 1, .eta = 1};
+    *c = start;
+    for (int i = 0; i < q->k; i++) {
+        struct ray ray = {c->p, c->d, ray_margin(c->p), INFINITY, c->prim_id, 0};
+        struct surface at;
+        if (!scene_intersect(q->scene, &ray, &at) || at.material < 0 || dot(at.ng, c->d) == 0)
+            return false;
+        if (q->group >= 0 && specular_group(q->scene, &at) != q->group)
+            return false;
+        transfer(c, &at);
+        c->at[i] = at.p;
+        if (!scatter(q, c, &at))
+            return false;
+    }
+    return true;
+}
+
+/* --- the search -------------------------------------------------------------------------------------- */
+
+/* How far the last edge misses y: d - u and its derivatives; the distance to y, at infinity 1. */
+static double misses(const struct quest *q, const struct chain *c, vec3 *miss, vec3 change[2])
+{
+    vec3 to = q->parallel ? q->y->w : sub(q->y->p, c->p);
+    double r = length(to);
+    vec3 u = mul(to, 1 / r);
+    *miss = sub(c->d, u);
+    for (int i = 0; i < 2; i++) {
+        vec3 across = sub(c->dp[i], mul(u, dot(u, c->dp[i])));
+        change[i] = q->parallel ? c->dd[i] : add(c->dd[i], mul(across, 1 / r));
+    }
+    return r;
+}
+
+double specular_area(const struct quest *q, const struct chain *c)
+{
+    vec3 miss, change[2];
+    double r = misses(q, c, &miss, change);
+    return r * r * fabs(dot(cross(change[0], change[1]), c->d));
+}
+
+bool specular_search(const struct quest *q, vec3 w, struct chain *c)
+{
+    enum { SHOTS = 16 };
+    const double near = 1e-9, least = 1.0 / 16;
+    double missed = INFINITY;
+    vec3 miss, change[2], step = vec(0, 0, 0);
+    struct chain next;
+    double size = 1;
+    for (int i = 0; i < SHOTS && size >= least; i++) {
+        bool better = specular_trace(q, normalize(sub(w, mul(step, size))), &next);
+        if (better) {
+            misses(q, &next, &miss, change);
+            better = length(miss) < missed;
+        }
+        if (!better && i == 0)
+            return false;
+        size = better ? fmin(1, 2 * size) : size / 2;
+        if (!better)
+            continue;
+        *c = next;
+        w = next.w;
+        missed = length(miss);
+        if (missed < near)
+            return true;
+        double x, y;
+        const struct frame f = frame_from_normal(w);
+        if (!combination(change[0], change[1], miss, &x, &y))
+            return false;
+        step = add(mul(f.s, x), mul(f.t, y));
+        step = mul(step, 1 / fmax(1, length(step)));
+    }
+    return false;
+}

@@ -1,0 +1,56 @@
+/* specular.h: a chain of k delta vertices between a point z and a light's point y: a direction w in which z may be left
+ * and whose ray, traced through the chain, arrives at y.
+ *
+ * The search. u being the direction from the chain's last vertex p to y, and d the one in which the ray goes on, the
+ * sum of squares of d(w) - u(w) is minimised by Gauss and Newton, the step halved where it brings nothing. Its
+ * derivatives are those of a ray [Igehy 1999], by two directions across w; each step is a ray traced through the scene,
+ * so what is found is visible. Bump maps are not differentiated: no chain goes over them.
+ *
+ * Which root is found is a function of z, y and the start (caustic.h). Tests: test_caustic.c.
+ */
+#ifndef ASBDPT_SPECULAR_H
+#define ASBDPT_SPECULAR_H
+
+#include "transport/vertex.h"
+
+enum { SPECULAR_LONGEST = 2 };
+
+/* What a chain is looked for in, and between what. */
+struct quest {
+    const struct scene *scene;
+    const struct mis_counts *counts; /* of those who ask */
+    struct arena *arena;
+    const struct vertex *z;
+    const struct light_point *y;
+    bool parallel; /* y is a direction */
+    int group;     /* the mirror's; -1: through k surfaces */
+    double chosen; /* probability with which it is looked for */
+    int k;
+};
+
+/* A ray through the chain. */
+struct chain {
+    vec3 w;                 /* unit, in which z was left */
+    vec3 at[SPECULAR_LONGEST];
+    vec3 p, d, dp[2], dd[2]; /* the last edge, and its derivatives */
+    uint32_t prim_id;
+    double length; /* from z to p */
+    rgb kappa;
+    double choice; /* probability that a walk takes these lobes, either way */
+    double eta;    /* index of refraction here, relative to z's */
+};
+
+/* specular_trace: the chain that leaves z in direction w, unit; false if there is none. */
+bool specular_trace(const struct quest *q, vec3 w, struct chain *out);
+
+/* specular_search: the chain from direction w on; false if none is found. */
+bool specular_search(const struct quest *q, vec3 w, struct chain *out);
+
+/* specular_area: |det J|, the area of light per solid angle at z, across the last edge, m^2; of light from infinity the
+ * solid angle. */
+double specular_area(const struct quest *q, const struct chain *c);
+
+/* specular_group: the group that a surface point is of. */
+int specular_group(const struct scene *scene, const struct surface *at);
+
+#endif

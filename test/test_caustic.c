@@ -1,0 +1,261 @@
+/* test_caustic.c: chains of mirrors and glass: their derivatives, closed forms, and that nothing is counted twice or
+ * lost. */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/exact_sum.h"
+#include "helpers.h"
+#include "tests.h"
+#include "transport/caustic.h"
+
+/* --- one chain --------------------------------------------------------------------------------------- */
+
+/* Where the chain left in direction w meets the plane across the last edge of `c` through y. */
+static vec3 arrival(const struct quest *q, vec3 w, const struct chain *c)
+{
+    struct chain moved;
+    if (!specular_trace(q, normalize(w), &moved))
+        return vec(NAN, NAN, NAN);
+    if (q->parallel)
+        return moved.d;
+    return add(moved.p, mul(moved.d, dot(sub(q->y->p, moved.p), c->d) / dot(moved.d, c->d)));
+}
+
+/* |det J| by differences. */
+static double area_by_differences(const struct quest *q, const struct chain *c)
+{
+    const double h = 1e-5;
+    const struct frame f = frame_from_normal(c->w);
+    vec3 s = mul(f.s, h), t = mul(f.t, h);
+    vec3 ds = sub(arrival(q, add(c->w, s), c), arrival(q, sub(c->w, s), c));
+    vec3 dt = sub(arrival(q, add(c->w, t), c), arrival(q, sub(c->w, t), c));
+    return fabs(dot(cross(ds, dt), c->d)) / (4 * h * h);
+}
+
+/* From many points below a thing to many above it, or to directions: chains through it, or by way of it. */
+static void test_derivatives(struct test *t)
+{
+    static const struct {
+        const char *what, *thing;
+        int group, k;
+        double below; /* height of z */
+    } cases[] = {
+        {"glass ball", "Material \"glass\" Shape \"sphere\" \"float radius\" .5", -1, 2, -1},
+        {"glass egg", "Scale .8 1.2 1 Material \"glass\" Shape \"sphere\" \"float radius\" .5", -1, 2, -1},
+        {"one surface", "Material \"glass\" Shape \"sphere\" \"float radius\" 1 \"float zmin\" .2", -1, 1, -1},
+        {"mirror ball", "Material \"mirror\" Shape \"sphere\" \"float radius\" .5", 0, 1, 1},
+        {"mirror bowl", "Material \"mirror\" Shape \"paraboloid\" \"float radius\" 1 \"float zmax\" .4", 0, 1, 1},
+        {"smooth mesh", "Material \"mirror\" Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]"
+                        "\"point P\" [-1 -1 0  1 -1 0  1 1 0.1  -1 1 0]"
+                        "\"normal N\" [-.2 -.2 1  .2 -.3 1  .2 .3 1  -.1 .2 1]", 0, 1, 1},
+        {"smooth pane", "Material \"glass\" Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]"
+                        "\"point P\" [-1 -1 0  1 -1 0  1 1 0.1  -1 1 0]"
+                        "\"normal N\" [-.2 -.2 1  .2 -.3 1  .2 .3 1  -.1 .2 1]", -1, 1, -1}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[1024];
+        struct scene scene;
+        struct arena arena = {NULL, NULL};
+        struct rng r = rng_stream(test_seed(t), RNG_TEST, i, 0);
+        struct mis_counts counts = {.splat = 1};
+        int found = 0;
+        double worst = 0;
+        snprintf(text, sizeof text, "WorldBegin LightSource \"point\" Rotate 20 1 1 0 %s WorldEnd", cases[i].thing);
+        if (!scene_from_text(t, text, &scene))
+            continue;
+        for (int n = 0; n < 200; n++) {
+            struct vertex z = {.p = vec(rng_uniform(&r) - .5, rng_uniform(&r) - .5, 1 + rng_uniform(&r))};
+            z.p.z *= cases[i].below;
+            struct light_point y = {.p = vec(rng_uniform(&r) - .5, rng_uniform(&r) - .5, 1.5 + rng_uniform(&r))};
+            y.w = normalize(y.p);
+            struct quest q = {&scene, &counts, &arena, &z, &y, n % 2 == 1, cases[i].group, 1, cases[i].k};
+            vec3 middle = vec(0.1 * rng_uniform(&r), 0.1 * rng_uniform(&r), cases[i].below > 0 ? 0 : 0.3);
+            struct chain c;
+            if (!specular_search(&q, normalize(sub(middle, z.p)), &c))
+                continue;
+            double area = specular_area(&q, &c), differences = area_by_differences(&q, &c);
+            if (isnan(differences))
+                continue;
+            found++;
+            worst = fmax(worst, fabs(area - differences) / (differences + 1e-3));
+        }
+        CHECK(t, found > 40, "%s: only %d chains found", cases[i].what, found);
+        CHECK(t, worst < 1e-3, "%s: J is wrong by a factor of %g", cases[i].what, 1 + worst);
+        arena_free(&arena);
+        scene_free(&scene);
+    }
+}
+
+/* --- closed forms ------------------------------------------------------------------------------------ */
+
+/* Chains count in the length of a path. */
+static void test_depth(struct test *t)
+{
+    struct scene scene;
+    if (!scene_from_file(t, "scenes/test/caustic-pane.pbrt", 0, 0, &scene))
+        return;
+    for (int depth = 2; depth <= 3; depth++) {
+        struct batches b = render_batches(t, &scene, set_method(&scene, "pt caustics=2"), depth, 1, 2, 4, 3);
+        CHECK(t, (batches_mean(&b, NULL) > 0) == (depth == 3), "a chain of two at maxdepth %d", depth);
+        batches_free(&b);
+    }
+    scene_free(&scene);
+}
+
+static void test_closed_forms(struct test *t)
+{
+    static const struct {
+        const char *scene;
+        double radiance;
+    } cases[] = {{"scenes/test/caustic-pane.pbrt", 1.3637342561791495},
+                 {"scenes/test/caustic-mirror.pbrt", 4.536155547174597}};
+    static const char *const ways[] = {"pt caustics=2", "bdpt caustics=2", "asbdpt caustics=2"};
+    for (int i = 0; i < 6; i++) {
+        struct scene scene;
+        if (!scene_from_file(t, cases[i % 2].scene, 0, 0, &scene))
+            return;
+        struct batches b = render_batches(t, &scene, set_method(&scene, ways[i / 2]), 5, 1, 2, 4, 3);
+        double mean = batches_mean(&b, NULL), wanted = cases[i % 2].radiance;
+        CHECK(t, fabs(mean / wanted - 1) < 1e-4, "%s by %s: %.6f, not %.6f", cases[i % 2].scene,
+              ways[i / 2], mean, wanted);
+        batches_free(&b);
+        scene_free(&scene);
+    }
+}
+
+#define FLOOR                                                                                                          \
+    "LookAt 0 2 -2  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 20\n"                                            \
+    "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 PixelFilter \"box\"\n"                         \
+    "WorldBegin LightSource \"point\" \"point from\" [0 3 0] \"rgb I\" [9 9 9] Material \"matte\"\n"                   \
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  2 0 -2  2 0 2  -2 0 2]\n"
+
+static struct film floor_under(struct test *t, const char *things, const char *way, long spp)
+{
+    struct scene scene;
+    struct film film = {.sum = NULL};
+    char text[2048];
+    snprintf(text, sizeof text, FLOOR "%s WorldEnd", things);
+    if (scene_from_text(t, text, &scene)) {
+        struct render_options o = {.integrator = set_method(&scene, way), .end = spp, .max_depth = 3, .n_threads = 1};
+        render_film(t, &scene, &o, &film);
+        scene_free(&scene);
+    }
+    return film;
+}
+
+/* A pane of index 1 is not there; where nothing is specular caustics change no bit. */
+static void test_nothing_there(struct test *t)
+{
+    static const char pane[] = "Material \"glass\" \"float index\" 1 \"rgb Kr\" [0 0 0]\n"
+                               "Shape \"sphere\" \"float radius\" 1.9\n";
+    struct film bare = floor_under(t, "", "pt", 2), with = floor_under(t, "", "pt caustics=2", 2),
+                behind = floor_under(t, pane, "pt caustics=1", 2);
+    double worst = 0;
+    CHECK(t, films_equal(&bare, &with), "caustics change a scene without specular surfaces");
+    for (int i = 0; i < 8 * 8 * 3; i++)
+        worst = fmax(worst, fabs(exact_value(&bare.sum[i]) / exact_value(&behind.sum[i]) - 1));
+    CHECK(t, worst < 1e-6, "through a ball of index 1: off by %g", worst);
+    film_free(&bare);
+    film_free(&with);
+    film_free(&behind);
+}
+
+/* --- the partition ----------------------------------------------------------------------------------- */
+
+/* Do two ways agree? And would they if one of them were 15 % brighter? */
+static void agree(struct test *t, const char *path, const char *one, const char *other, int spp)
+{
+    struct scene scene;
+    if (!scene_from_file(t, path, 12, 8, &scene))
+        return;
+    struct batches a = render_batches(t, &scene, set_method(&scene, one), 4, spp, 12, 4, 11);
+    struct batches b = render_batches(t, &scene, set_method(&scene, other), 4, spp, 12, 4, 12);
+    double ratio, p = batches_p(&a, &b, &ratio);
+    TEST_ACCEPT(t, p, "%s: %s against %s: ratio %.4f", path, one, other, ratio);
+    batches_scale(&a, 1.15);
+    p = batches_p(&a, &b, &ratio);
+    TEST_REJECT(t, p, "%s: %s made 15 %% brighter", path, one);
+    batches_free(&a);
+    batches_free(&b);
+    scene_free(&scene);
+}
+
+static void test_partition(struct test *t)
+{
+    agree(t, "scenes/test/caustic-ball.pbrt", "bdpt caustics=2", "lt", 160);
+    agree(t, "scenes/test/caustic-bulb.pbrt", "bdpt caustics=2", "bdpt", 64);
+    agree(t, "scenes/test/mirror-glass.pbrt", "pt caustics=2", "bdpt", 48);
+    agree(t, "scenes/test/mirror-glass.pbrt", "bdpt caustics=2 heuristic=power", "bdpt", 32);
+}
+
+/* --- regularisation ---------------------------------------------------------------------------------- */
+
+/* Mean of a film. */
+static double mean_of(const struct film *film)
+{
+    double sum = 0;
+    for (int i = 0; i < 8 * 8 * 3; i++)
+        sum += exact_value(&film->sum[i]);
+    return sum / (8 * 8 * 3) / (double)film->iterations;
+}
+
+#define MIRROR                                                                                                         \
+    "Material \"mirror\" \"rgb Kr\" [1 1 1]\n"                                                                         \
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-9 0 1  9 0 1  9 9 1  -9 9 1]\n"
+
+/* FLOOR is lit by way of a mirror, too: cones give the picture of caustic connections, to eps^2, and so do these if
+ * they have to look for another mirror, far away, half of the time. By bdpt light sub-paths make what the lens sees, so
+ * that there is nothing to regularise. */
+static void test_cones(struct test *t)
+{
+    static const struct {
+        const char *things, *way;
+        long spp;
+    } cases[] = {{MIRROR, "pt caustics=1", 2},
+                 {MIRROR "Translate 90 0 0 Shape \"sphere\"", "pt caustics=1", 64},
+                 {MIRROR, "pt regularise=.4", 1024},
+                 {MIRROR, "pt regularise=.3", 1024},
+                 {MIRROR, "bdpt regularise=.3", 256}};
+    double wanted = 0;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct film film = floor_under(t, cases[i].things, cases[i].way, cases[i].spp);
+        double mean = mean_of(&film);
+        wanted = i == 0 ? mean : wanted;
+        CHECK(t, fabs(mean / wanted - 1) < .06, "%s: %.5f, not %.5f", cases[i].way, mean, wanted);
+        film_free(&film);
+    }
+}
+
+/* Where area lights are, or light sub-paths make the path, no bit changes. */
+static void test_no_rival(struct test *t)
+{
+    static const struct {
+        const char *scene, *with, *without;
+    } cases[] = {{"scenes/test/caustic-ball.pbrt", "bdpt regularise=.1", "bdpt"},
+                 {"scenes/test/mirror-glass.pbrt", "pt regularise=.1", "pt"}};
+    for (int i = 0; i < 2; i++) {
+        struct scene scene;
+        struct film film[2];
+        if (!scene_from_file(t, cases[i].scene, 16, 16, &scene))
+            return;
+        for (int k = 0; k < 2; k++) {
+            struct render_options o = {.integrator = set_method(&scene, k > 0 ? cases[i].with : cases[i].without),
+                                       .end = 8, .max_depth = 4, .n_threads = 1};
+            render_film(t, &scene, &o, &film[k]);
+        }
+        CHECK(t, films_equal(&film[0], &film[1]), "%s: %s changes the picture", cases[i].scene, cases[i].with);
+        film_free(&film[0]);
+        film_free(&film[1]);
+        scene_free(&scene);
+    }
+}
+
+void test_caustic(struct test *t)
+{
+    test_cones(t);
+    test_no_rival(t);
+    test_derivatives(t);
+    test_closed_forms(t);
+    test_depth(t);
+    test_nothing_there(t);
+    test_partition(t);
+}
