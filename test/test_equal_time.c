@@ -144,8 +144,8 @@ static void check_ratios(struct test *t, const struct equal_time *e)
 static void check_files(struct test *t, const struct equal_time *e)
 {
     static const char *const lines[] = {
-        "| scene | seconds | spp of each | asbdpt, rmse8 | asbdpt, relmse | asbdpt, 8x8 | "
-        "lvc, rmse8 | lvc, relmse | lvc, 8x8 |",
+        ("| scene | seconds | spp of each | asbdpt, rmse8 | asbdpt, relmse | asbdpt, 8x8 | "
+         "lvc, rmse8 | lvc, relmse | lvc, 8x8 |"),
         "| b | 2 | 32, 24, 16 | 8.000 [",
         "| **geometric mean** | | | **2.520** of 3 | **1.260** of 3 | **1.260** of 3 |",
         "| **best** | | | **1.000** a | **0.500** a | **0.500** a |",
