@@ -13,6 +13,22 @@
 
 /* --- expectation ------------------------------------------------------------------------------------- */
 
+/* What render_batches is given. */
+struct plan {
+    int spp, batches, tile;
+    uint64_t seed;
+};
+
+static void agree(struct test *t, struct scene *scene, const char *what, const char *way, struct plan plan,
+                  const struct batches *expected)
+{
+    const char *integrator = set_method(scene, way);
+    struct batches x = render_batches(t, scene, integrator, 4, plan.spp, plan.batches, plan.tile, plan.seed);
+    double ratio, p = batches_p(&x, expected, &ratio);
+    TEST_ACCEPT(t, p, "%s: %s, ratio %.4f", what, way, ratio);
+    batches_free(&x);
+}
+
 /* Two rooms, where connections matter most, as one tile of 3x3 pixels, with one, two and four or five light sub-paths;
  * a third of the pixels have records. */
 static void test_small_pools(struct test *t)
@@ -26,13 +42,9 @@ static void test_small_pools(struct test *t)
     if (!scene_from_file(t, "doc/mini/rooms.pbrt", 3, 3, &scene))
         return;
     struct batches pt = render_batches(t, &scene, "pt", 4, 2048, 32, 1, 163);
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        const char *integrator = set_method(&scene, cases[i]);
-        struct batches x = render_batches(t, &scene, integrator, 4, 256, 32, 1, 164);
-        double ratio, p = batches_p(&x, &pt, &ratio);
-        TEST_ACCEPT(t, p, "rooms in 9 pixels, %s against pt: ratio %.4f", cases[i], ratio);
-        batches_free(&x);
-    }
+    const struct plan plan = {256, 32, 1, 164};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        agree(t, &scene, "rooms in 9 pixels, against pt", cases[i], plan, &pt);
     batches_free(&pt);
     scene_free(&scene);
 }
@@ -44,11 +56,9 @@ static void test_three_pixels(struct test *t)
     if (!scene_from_file(t, "doc/mini/rooms.pbrt", 3, 1, &scene))
         return;
     struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 1024, 32, 3, 181);
-    struct batches x = render_batches(t, &scene, "mbdpt", 4, 1024, 32, 3, 182);
-    double ratio, p = batches_p(&x, &bdpt, &ratio);
-    TEST_ACCEPT(t, p, "rooms in three pixels, mbdpt against bdpt: ratio %.4f", ratio);
+    const struct plan plan = {1024, 32, 3, 182};
+    agree(t, &scene, "rooms in three pixels, against bdpt", "mbdpt", plan, &bdpt);
     batches_free(&bdpt);
-    batches_free(&x);
     scene_free(&scene);
 }
 
@@ -61,13 +71,9 @@ static void test_rooms(struct test *t)
     if (!scene_from_file(t, "doc/mini/rooms.pbrt", 16, 16, &scene))
         return;
     struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 32, 16, 8, 191);
-    for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++) {
-        const char *integrator = set_method(&scene, ways[k]);
-        struct batches x = render_batches(t, &scene, integrator, 4, 16, 16, 8, 192);
-        double ratio, p = batches_p(&x, &bdpt, &ratio);
-        TEST_ACCEPT(t, p, "rooms, %s against bdpt: ratio %.4f", ways[k], ratio);
-        batches_free(&x);
-    }
+    const struct plan plan = {16, 16, 8, 192};
+    for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++)
+        agree(t, &scene, "rooms, against bdpt", ways[k], plan, &bdpt);
     batches_free(&bdpt);
     scene_free(&scene);
 }
@@ -84,13 +90,9 @@ static void test_every_scene(struct test *t)
         if (!scene_from_file(t, path, 24, 24, &scene))
             continue;
         struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 8, 12, 12, 171);
-        for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++) {
-            const char *integrator = set_method(&scene, ways[k]);
-            struct batches x = render_batches(t, &scene, integrator, 4, 4, 10, 12, 172);
-            double ratio, p = batches_p(&x, &bdpt, &ratio);
-            TEST_ACCEPT(t, p, "%s, %s against bdpt: ratio %.4f", scenes[i], ways[k], ratio);
-            batches_free(&x);
-        }
+        const struct plan plan = {4, 10, 12, 172};
+        for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++)
+            agree(t, &scene, scenes[i], ways[k], plan, &bdpt);
         batches_free(&bdpt);
         scene_free(&scene);
     }

@@ -38,8 +38,7 @@ static void add_sample(const struct tile *tile, double *x)
 {
     memset(x, 0, N_SUMS * sizeof *x);
     for (const struct strategy_record *r = tile->record; r < tile->record + tile->n_records; r++) {
-        const float *c = r->unweighted;
-        double value = rgb_luminance(rgb_make((double)c[0], (double)c[1], (double)c[2])), w = (double)r->weight;
+        double value = rgb_luminance(rgb_of_floats(r->unweighted)), w = (double)r->weight;
         x[ALL] += value * w;
         if (r->s + r->t == 3)
             x[r->s == 1 && w >= 1 ? DELTA : BROAD] += value * w;

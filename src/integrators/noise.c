@@ -31,14 +31,9 @@ struct measure {
     bool stopped;
 };
 
-static double luminance_of(const float *c)
-{
-    return rgb_luminance(rgb_make((double)c[0], (double)c[1], (double)c[2]));
-}
-
 static double luminance_added(const struct strategy_record *r)
 {
-    return luminance_of(r->unweighted) * (double)r->weight;
+    return rgb_luminance(rgb_of_floats(r->unweighted)) * (double)r->weight;
 }
 
 /* Where the pixel of a record lies in the tile. */
@@ -63,7 +58,7 @@ static void pixel_values(const struct tile *tile, double *out)
             for (int x = range.x0; x < range.x1; x++) {
                 float part[3];
                 if (splat_part(s, tile->filter, x, y, part))
-                    out[(y - r.y0) * rect_width(r) + (x - r.x0)] += luminance_of(part);
+                    out[(y - r.y0) * rect_width(r) + (x - r.x0)] += rgb_luminance(rgb_of_floats(part));
             }
     }
 }

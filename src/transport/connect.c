@@ -29,18 +29,18 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
                               const struct vertex *z, int t)
 {
     const struct light_set *lights = &scene->lights;
+    struct light_point at = {.light = -1};
+    vec3 start = prev->p; /* where the light sub-path's ray would begin, or pass */
     rgb Le;
-    double pdf_emit; /* density of the light sub-path's direction (or origin, at infinity) from here */
     if (z->lamp != NULL)
         z = z->lamp;
     if (z->kind == VERTEX_ESCAPED) {
         Le = light_Le_environment(lights, neg(z->wo));
-        struct light_point anywhere = {.light = -1, .w = neg(z->wo)};
-        pdf_emit = emit_pdf(counts, lights, &anywhere, prev->p, z->wo);
+        at.w = neg(z->wo);
     } else if (z->kind == VERTEX_SURFACE && z->light >= 0) {
-        struct light_point at = vertex_light_point(z);
+        at = vertex_light_point(z);
         Le = light_Le(lights, &at, z->wo);
-        pdf_emit = emit_pdf(counts, lights, &at, z->p, z->wo);
+        start = z->p;
     } else {
         return nothing();
     }
@@ -58,6 +58,8 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
     double before = 0;
     if (!z->prev_delta)
         before = mis_direct_count(counts, lights, prev->eye_region, prev->eye_end, z->cell, neg(z->wo));
+    /* density of the light sub-path's direction (or origin, at infinity) from here */
+    double pdf_emit = emit_pdf(counts, lights, &at, start, z->wo);
     double eye_side = mis_side(counts, z->pdf_origin, z->pdf_fwd, before, pdf_emit, z->mis);
     c.weight = mis_weight(counts, counts->hit[prev->eye_end], 0, eye_side);
     const struct path_end end = {z, prev, z->pdf_origin, pdf_emit};
