@@ -211,10 +211,10 @@ static void test_place(struct test *t)
     snprintf(path, sizeof path, "%s/place.float.exr", test_tmp(t));
     if (!CHECK(t, image_read(FIXTURES "window.exr", &img, &err), "%s", err.text))
         return;
+    const struct raster raster = {img.place, img.width, img.height, img.f32, NULL, 0};
     CHECK(t, img.place.x == -7 && img.place.y == 20 && img.place.width == 100 && img.place.height == 80,
           "at %d,%d of %dx%d", img.place.x, img.place.y, img.place.width, img.place.height);
-    if (CHECK(t, image_create(path, &file, &err) &&
-                     image_finish(&file, img.place, img.width, img.height, img.f32, &err) &&
+    if (CHECK(t, image_create(path, &file, &err) && image_finish(&file, &raster, &err) &&
                      image_read(path, &copy, &err), "%s", err.text)) {
         CHECK(t, memcmp(&copy.place, &img.place, sizeof img.place) == 0 && copy.height == img.height &&
                      memcmp(copy.f32, img.f32, 3 * (size_t)img.width * (size_t)img.height * sizeof *img.f32) == 0,

@@ -34,7 +34,7 @@ static void add_trace(const struct scene *scene, const struct trace *trace, stru
     tile_add_eye(&tile, trace->x, trace->y, trace_sum(trace));
     for (int i = 0; i < trace->n_connections; i++)
         if (trace->connection[i].t == 1)
-            tile_add_splat(&tile, trace->connection[i].c.px, trace->connection[i].c.py, trace->connection[i].added, 0);
+            tile_add_splat(&tile, trace->connection[i].c.px, trace->connection[i].c.py, trace->connection[i].added, 0, 0);
     film_merge_tile(film, &tile);
     tile_free(&tile);
 }

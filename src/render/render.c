@@ -138,6 +138,8 @@ static void run_all(struct run *r)
     struct parallel_jobs jobs = {r->n_jobs - r->begun, r->job.n_threads, n_slots, r, run_pass, merge_pass, NULL};
     r->jobs = jobs;
     r->tile = mem_alloc((size_t)n_slots, sizeof *r->tile);
+    for (int i = 0; i < n_slots; i++)
+        r->tile[i].planes = r->film->planes;
     make_workspaces(r);
     parallel_run(&r->jobs);
     free_workspaces(r);
