@@ -9,7 +9,6 @@
 #include "cli/command.h"
 #include "cli/outputs.h"
 #include "image/image.h"
-#include "look/compare.h"
 
 struct convert_options {
     struct texts in, out;
@@ -54,7 +53,7 @@ static bool add_picture(const char *path, double weight, double **sum, int *widt
                         struct error *err)
 {
     int w, h;
-    float *pixels = load_linear(path, &w, &h, *sum == NULL ? about : NULL, err);
+    float *pixels = image_read_linear(path, &w, &h, *sum == NULL ? about : NULL, err);
     if (pixels == NULL)
         return false;
     size_t n = 3 * (size_t)w * (size_t)h;
@@ -98,8 +97,9 @@ static int run(void *options)
     int width, height;
     if (!outputs_open(&o->out, &o->tone, PARTS_NONE, &out, &err))
         return fail(&err);
-    float *pixels = o->in.n == 1 && o->weights == NULL ? load_linear(o->in.item[0], &width, &height, &about, &err)
-                                                       : add_up(o, &width, &height, &about, &err);
+    bool one = o->in.n == 1 && o->weights == NULL;
+    float *pixels = one ? image_read_linear(o->in.item[0], &width, &height, &about, &err)
+                        : add_up(o, &width, &height, &about, &err);
     bool ok = pixels != NULL;
     if (ok) {
         out.place = about.place;
