@@ -26,8 +26,8 @@ struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struc
     const struct render_job *job = pass->job;
     struct sampler points = stream(job, job->seed, RNG_CONNECT, x, y, (uint64_t)iteration);
     struct pixel_sample sample = {job->scene, counts, pass->tile, job->max_depth, x, y, 1, 0, 1, points, rgb_black(),
-                                  rgb_black(), rgb_black(), trace_watches(pass->trace, x, y, iteration),
-                                  &pass->work->arena, 0};
+                                  rgb_black(), rgb_black(), iteration, trace_watches(pass->trace, x, y, iteration),
+                                  pass->worst, &pass->work->arena, 0};
     if (job->regularise > 0)
         sample.eps = regularise_eps(job->regularise, iteration);
     return sample;
@@ -198,6 +198,23 @@ void pixel_sum_pairs(struct pixel_sample *sample, const struct vertex *eye, int 
             pixel_sum_pair(sample, &light[s - 1], s, &eye[t - 1], t, choice);
 }
 
+static void offer(const struct pixel_sample *s, rgb value, int x, int y)
+{
+    const struct brought b = {rgb_luminance(value), s->x, s->y, s->iteration, x, y};
+    worst_offer(s->worst, b);
+}
+
+static void offer_splat(const struct pixel_sample *sample, const struct splat *s)
+{
+    const struct tile *tile = sample->tile;
+    struct pixel_rect range = splat_pixels(s, tile->filter, tile->film_rect);
+    float part[3];
+    for (int y = range.y0; y < range.y1; y++)
+        for (int x = range.x0; x < range.x1; x++)
+            if (splat_part(s, tile->filter, x, y, part))
+                offer(sample, rgb_make((double)part[0], (double)part[1], (double)part[2]), x, y);
+}
+
 /* A light sub-path of s vertices arrives at every raster point that is the same ray. */
 static void splat(struct pixel_sample *sample, const struct connection *c, int s, const struct vertex *light,
                   double scale)
@@ -208,8 +225,11 @@ static void splat(struct pixel_sample *sample, const struct connection *c, int s
     for (int i = 0; i < camera_images(&sample->scene->camera, radius); i++) {
         struct connection image = *c;
         camera_image(&sample->scene->camera, radius, i, &image.px, &image.py);
-        if (tile_add_splat(sample->tile, image.px, image.py, added, c->length, group))
+        if (tile_add_splat(sample->tile, image.px, image.py, added, c->length, group)) {
             tile_record_splat(sample->tile, s, rgb_scale(c->value, scale), c->weight, c->length);
+            if (sample->worst != NULL)
+                offer_splat(sample, &sample->tile->splat[sample->tile->n_splats - 1]);
+        }
         if (sample->trace != NULL)
             trace_connect(sample->trace, s, 1, light, &image, 1, scale, added);
     }
@@ -234,6 +254,8 @@ void pixel_splat_path(struct pixel_sample *sample, const struct vertex *light, i
 void pixel_sample_end(const struct pixel_sample *sample)
 {
     tile_add_between(sample->tile, sample->x, sample->y, sample->until, sample->before);
+    if (sample->worst != NULL)
+        offer(sample, rgb_sub(sample->until, sample->before), sample->x, sample->y);
     if (sample->tile->planes.alpha)
         tile_add_alpha(sample->tile, sample->x, sample->y, sample->alpha);
 }

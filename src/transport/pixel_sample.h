@@ -26,7 +26,9 @@ struct pixel_sample {
     struct sampler sampler; /* for light and lens points */
     rgb sum;                /* of what the strategies with t >= 2 have brought so far, */
     rgb until, before;      /* and of that paths shorter than the gate's end, or its beginning */
+    long iteration;
     struct trace *trace;    /* who watches this sample; NULL: nobody */
+    struct worst *worst;    /* who is told of all samples; NULL: nobody */
     struct arena *arena;    /* for what does not outlive the sample */
     double eps;             /* of regularise.h, 0: none */
 };
