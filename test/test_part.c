@@ -256,10 +256,10 @@ static void forge_lines(struct rng *r, const char *const *line, int n, char *out
 
 static void test_forged(struct test *t)
 {
-    static const char *const LINES[] = {"asbdpt part 3", "samples 2 7", "done 3 1", "left-out 4", "carried 0",
-                                        "size 4 3", "film 4 3, window 0 0", "scale 1", "spp 8",
+    static const char *const LINES[] = {"asbdpt part 4", "samples 2 7", "done 3 1", "left-out 4", "carried 0",
+                                        "size 4 3, planes 0 0", "film 4 3, window 0 0", "scale 1", "spp 8",
                                         "learnt 0000000000000000", "version 0", "seed 1"};
-    static const char SAME[] = "\nsize 4 3\nfilm 4 3, window 0 0\nscale 1\nspp 8\nlearnt 0000000000000000\n"
+    static const char SAME[] = "\nsize 4 3, planes 0 0\nfilm 4 3, window 0 0\nscale 1\nspp 8\nlearnt 0000000000000000\n"
                                "version 0\nseed 1\ncheck ";
     enum { N_LINES = 12, ROUNDS = 1000, SUMS = 36 };
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 32, 0);

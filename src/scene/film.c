@@ -219,7 +219,7 @@ void film_keep_planes(struct film *f, struct planes planes)
 {
     free(f->sum);
     f->planes = planes;
-    f->sum = mem_alloc(rect_pixels(f->rect) * 3 * (size_t)plane_count(planes), sizeof *f->sum);
+    f->sum = mem_alloc(rect_pixels(f->rect) * 3, (size_t)plane_count(planes) * sizeof *f->sum);
 }
 
 void film_keep_errors(struct film *f)
