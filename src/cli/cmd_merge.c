@@ -146,7 +146,6 @@ static bool write_film(const struct merge_options *o, struct merge *m, struct fi
     float *pixels = mem_alloc((size_t)whole.width * (size_t)whole.height * 3, sizeof *pixels);
     float *alpha = film_alpha(film);
     whole.end = reached(m);
-    whole.carries = true; /* what the last part did, the same for all */
     film_warn(film, film_develop(film, whole.scale, pixels));
     out->place = whole.place;
     out->alpha = alpha;
