@@ -119,55 +119,53 @@ static void test_left_out(struct test *t)
     tile_free(&tile);
 }
 
-/* Batches of one plane, averaged over quarters of the picture. */
-static struct batches batches_of(struct test *t, const struct scene *scene, const char *integrator, int plane,
-                                 uint64_t seed)
+/* Batches of some planes of the same renders, averaged over quarters of the picture. */
+static void make_batches(struct test *t, const struct scene *scene, const char *integrator, int first, int n,
+                         uint64_t seed, struct batches *out)
 {
     enum { BATCHES = 12, SPP = 16 };
-    struct batches pixels = batches_new(BATCHES, SUMS, false);
+    struct batches pixels[GROUPS];
+    for (int g = 0; g < n; g++)
+        pixels[g] = batches_new(BATCHES, SUMS, false);
     for (int k = 0; k < BATCHES; k++) {
         struct render_options o = {.integrator = integrator, .n_threads = os_cores(), .max_depth = 4,
                                    .seed = (test_seed(t) * 64 + seed) * BATCHES + (uint64_t)k,
                                    .end = SPP * test_effort(t)};
         struct film film;
         render_planes(t, scene, &o, GROUPS, false, &film);
-        for (size_t i = 0; i < SUMS; i++)
-            pixels.value[SUMS * k + (long)i] = film_value(&film, (size_t)plane * SUMS + i) / (double)film.iterations;
+        for (int i = 0; i < n * SUMS; i++)
+            pixels[i / SUMS].value[SUMS * k + i % SUMS] =
+                film_value(&film, (size_t)(first * SUMS + i)) / (double)film.iterations;
         film_free(&film);
     }
-    struct batches tiles = batches_tiles(&pixels, SIDE, SIDE, SIDE / 2);
-    batches_free(&pixels);
-    return tiles;
+    for (int g = 0; g < n; g++) {
+        out[g] = batches_tiles(&pixels[g], SIDE, SIDE, SIDE / 2);
+        batches_free(&pixels[g]);
+    }
 }
 
-/* Each light's plane, and the picture of the scene with the others off; and what must fail, with another light on. */
+/* Each light's plane, and the picture of the scene with the others off; what must fail: with another one on. */
 static void test_alone(struct test *t, const char *way)
 {
-    struct scene all, alone, other;
-    if (!load(t, "gaussian", true, true, true, &all))
-        return;
-    for (int g = 0; g < GROUPS; g++) {
-        int next = (g + 1) % GROUPS;
-        if (!load(t, "gaussian", g == 0, g == 1, g == 2, &alone) ||
-            !load(t, "gaussian", next == 0, next == 1, next == 2, &other))
-            break;
-        set_method(&alone, way);
-        set_method(&other, way);
-        const char *integrator = set_method(&all, way);
-        struct batches plane = batches_of(t, &all, integrator, 1 + g, 1);
-        struct batches same = batches_of(t, &alone, integrator, 0, 2 + (uint64_t)g);
-        struct batches wrong = batches_of(t, &other, integrator, 0, 2 + GROUPS + (uint64_t)g);
-        double ratio, p = batches_p(&plane, &same, &ratio);
-        TEST_ACCEPT(t, p, "%s: light %d apart over alone: %g", way, g, ratio);
-        p = batches_p(&plane, &wrong, &ratio);
-        TEST_REJECT(t, p, "%s: light %d over another: %g", way, g, ratio);
-        batches_free(&plane);
-        batches_free(&same);
-        batches_free(&wrong);
-        scene_free(&alone);
-        scene_free(&other);
+    struct scene scene;
+    struct batches apart[GROUPS], alone[GROUPS];
+    for (int g = -1; g < GROUPS; g++) {
+        if (!load(t, "gaussian", g < 0 || g == 0, g < 0 || g == 1, g < 0 || g == 2, &scene))
+            return;
+        make_batches(t, &scene, set_method(&scene, way), g < 0, g < 0 ? GROUPS : 1, (uint64_t)(g + 1),
+                     g < 0 ? apart : &alone[g]);
+        scene_free(&scene);
     }
-    scene_free(&all);
+    for (int g = 0; g < GROUPS; g++) {
+        double ratio, p = batches_p(&apart[g], &alone[g], &ratio);
+        TEST_ACCEPT(t, p, "%s: light %d apart over alone: %g", way, g, ratio);
+        p = batches_p(&apart[g], &alone[(g + 1) % GROUPS], &ratio);
+        TEST_REJECT(t, p, "%s: light %d over another: %g", way, g, ratio);
+    }
+    for (int g = 0; g < GROUPS; g++) {
+        batches_free(&apart[g]);
+        batches_free(&alone[g]);
+    }
 }
 
 /* --- what the lens sees ------------------------------------------------------------------------------- */
