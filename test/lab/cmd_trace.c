@@ -1,4 +1,5 @@
-/* cmd_trace.c: asbdpt-lab trace SCENE --pixel X,Y: one sample of a pixel, or those that bring most, told in full. See trace_report.h. */
+/* cmd_trace.c: asbdpt-lab trace SCENE --pixel X,Y: one sample of a pixel, or those that bring most, told in full. See
+ * trace_report.h. */
 #include <stdio.h>
 
 #include "lab/commands.h"
