@@ -116,6 +116,6 @@ static int run(void *options)
 
 const struct command command_trace = {
     "trace", "one sample of a pixel, told in full: sub-paths, choices, connections, weights",
-    {"SCENE.pbrt --pixel X,Y [--sample K] | --worst N [--json] [--svg FILE] [options]"}, OPTIONS, sizeof(struct trace_options),
-    run, true,
+    {"SCENE.pbrt --pixel X,Y [--sample K] [--json] [--svg FILE] [options]", "SCENE.pbrt --worst N [--json] [options]"},
+    OPTIONS, sizeof(struct trace_options), run, true,
     "trace scenes/bathroom.pbrt --pixel 150,120 --svg paths.svg"};
