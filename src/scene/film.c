@@ -178,7 +178,6 @@ void film_free(struct film *f)
 {
     free(f->sum);
     free(f->half);
-    free(f->learnt.data);
     if (f->errors != NULL) {
         free(f->errors->eye);
         free(f->errors->square);
