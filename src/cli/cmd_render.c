@@ -30,6 +30,10 @@ static const struct option OPTIONS[] = {
      .help = "only light whose way from lamp to lens is from L0 to below L1 long, in scene units; L1 may be inf"},
     {"--time", "TIME", OPTION_NUMBER, AT(keep.time), 1e-9, 1e9,
      .help = "stop after so long, and write what there is"},
+    {"--noise", "X", OPTION_NUMBER, AT(keep.noise[NOISE_RELATIVE]), 1e-9, 1e9,
+     .help = "stop when the noise is below X of the brightness around, e.g. 0.05; asked every 64 samples"},
+    {"--noise8", "X", OPTION_NUMBER, AT(keep.noise[NOISE_8_BIT]), 1e-9, 1e9,
+     .help = "the same in levels of the 255 that 8-bit pictures have; with both, when both are so"},
     {"--checkpoint", "FILE", OPTION_TEXT, AT(keep.checkpoint), .file = FILE_KEPT,
      .help = "save the render now and then, and at signals"},
     {"--interval", "TIME", OPTION_NUMBER, AT(keep.interval), 0, 1e9, .with = "--checkpoint", .fallback = "60",
@@ -108,7 +112,8 @@ static bool open_default_output(const struct job_options *o, const struct scene 
 /* Samples of a chain are neither a pixel's own nor independent. */
 static bool suits(const struct job_options *o, const struct method *m, const struct files *f, struct error *err)
 {
-    const char *wanted = f->aov.wanted[AOV_VARIANCE] ? "--aov variance" : o->strategies != NULL ? "--strategies" : NULL;
+    const char *wanted = f->aov.wanted[AOV_VARIANCE] ? "--aov variance" : o->strategies != NULL ? "--strategies"
+                       : keep_asks_noise(&o->keep) ? "--noise" : NULL;
     return !m->chain || wanted == NULL ||
            error_set(err, "%s: the samples of %s are a chain, and do not show that; render several --seed", wanted,
                      m->name);
