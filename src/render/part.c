@@ -214,7 +214,8 @@ static bool possible(const struct part *p)
 static bool read_numbers(const char *text, struct part *p)
 {
     int begin = 0, halves = 0;
-    sscanf(text + sizeof MAGIC - 1, "samples %ld %ld done %ld %" SCNd64 " left-out %ld halves %d size %d %d film %d %d, window %d %d scale %lf spp %ld %n",
+    sscanf(text + sizeof MAGIC - 1, "samples %ld %ld done %ld %" SCNd64 " left-out %ld halves %d"
+           " size %d %d film %d %d, window %d %d scale %lf spp %ld %n",
            &p->first, &p->end, &p->done, &p->passes, &p->left_out, &halves, &p->width, &p->height, &p->place.width,
            &p->place.height, &p->place.x, &p->place.y, &p->scale, &p->planned, &begin);
     p->halves = halves != 0;
