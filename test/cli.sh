@@ -346,6 +346,42 @@ expect 0 '' "$lab" compare flight/gate001.pfm one.pfm --max-rmse 1e-5
 expect 0 '' "$lab" transient "$box" $small -o flight/found # where light is
 check [ -s flight/found/gate015.pfm ]
 
+# --- lights
+# lights: of one light all that there is; of several, pictures that convert adds up, each times a weight.
+expect 0 '' "$program" render "$box" $small --lights one -o a.pfm
+check cmp -s one/light00_area.pfm whole.pfm
+cat >lamps.pbrt <<END
+LookAt 0 0 -5 0 0 0 0 1 0 WorldBegin LightSource "infinite" "bool visible" "false" LightSource "point" "string group" "key"
+LightSource "distant" "string group" "key" AttributeBegin AreaLightSource "diffuse" Translate 2 0 0 Shape "sphere"
+AttributeEnd Shape "sphere" WorldEnd
+END
+expect 0 '' "$program" render lamps.pbrt --res 24x16 --spp 4 --quiet --lights lit --alpha -o a.pfm -o a.png -o a.exr
+check [ -s lit/light00_infinite.pfm -a -s lit/light01_key.pfm -a -s lit/light02_area.pfm -a ! -e lit/light03.pfm ]
+expect 0 '' "$program" convert lit/light0?_*.pfm -o sum.pfm
+expect 0 '' "$lab" compare sum.pfm a.pfm --max-rmse 1e-6
+expect 0 '' "$program" convert a.pfm sum.pfm a.pfm --weights 2,0,-1 -o b.pfm
+check cmp -s a.pfm b.pfm
+check [ "$(od -An -tu1 -j25 -N1 a.png | tr -d ' ')" = 6 ] # RGB and alpha
+expect 2 'weights 1,2: expected 3 numbers' "$program" convert a.pfm sum.pfm a.pfm --weights 1,2 -o b.pfm
+expect 2 'weights 1,nan: expected 2 numbers' "$program" convert a.pfm sum.pfm --weights 1,nan -o b.pfm
+expect 1 'is 16x16, the pictures before it 24x16|whole.pfm is ' "$program" convert a.pfm whole.pfm -o b.pfm
+{
+    echo WorldBegin
+    for i in 0 1 2 3 4 5 6 7 8 9 a b c; do
+        for k in 1 2 3 4 5; do echo "LightSource \"point\" \"string group\" \"$i$k\""; done
+    done
+    echo WorldEnd
+} >many.pbrt
+expect 2 'lights: 65 pictures, one for each light, and 64 are the most' \
+    "$program" render many.pbrt --res 2x2 --spp 1 --quiet --lights many -o b.pfm
+expect 0 '' "$program" render many.pbrt --res 2x2 --spp 1 --quiet --alpha -o b.pfm
+expect 2 'alpha: the samples of mmlt are a chain' "$lab" render lamps.pbrt --integrator mmlt --alpha -o b.png
+expect 0 '' "$lab" trace lamps.pbrt --res 24x16 --spp 4 --worst 3 --json
+check [ "$(grep -c '"sample"' stdout.txt)" = 3 ]
+expect 0 '' "$lab" trace lamps.pbrt --res 24x16 --spp 4 --worst 1 --svg worst.svg
+check grep -q 'SAMPLES\|bring most' stdout.txt
+check [ -s worst.svg ]
+
 # --- help
 # help: as a whole no wider than a terminal, with every integrator once.
 expect 0 '' "$program" help all

@@ -44,6 +44,7 @@ done <<'END'
 0,1,70 --integrator asbdpt -P select=pool
 0,40,70 --integrator asbdpt -P select=vertices
 0,7,41,70 --integrator asbdpt
+0,7,41,70 --integrator asbdpt --alpha --lights lit
 0,40,70 --integrator lvc
 0,40,70 --integrator cbdpt
 0,40,70 --integrator mbdpt

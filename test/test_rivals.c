@@ -308,7 +308,7 @@ static void test_weights(struct test *t, const char *path, const char *method)
     struct tile tile = {.rect = job.film_rect};
     struct workspace *work = workspaces_new(1, job.max_depth);
     struct ris *r = work->scratch = method_scratch(&prepared);
-    struct tile_pass pass = {&job, job.film_rect, 3, 4, &tile, work, NULL};
+    struct tile_pass pass = {&job, job.film_rect, 3, 4, &tile, work, NULL, NULL};
     tile_start(&tile, job.film_rect, job.film_rect, &scene.filter, false);
     prepared.method->render(&prepared, &pass);
     check_expected(t, r);

@@ -30,6 +30,7 @@ void test_image(struct test *t);
 void test_kdtree(struct test *t);
 void test_learning(struct test *t);
 void test_light(struct test *t);
+void test_lights(struct test *t);
 void test_lobe(struct test *t);
 void test_material(struct test *t);
 void test_maths(struct test *t);

@@ -26,6 +26,10 @@ static const struct option OPTIONS[] = {
     {"--aov", "LIST", OPTION_TEXT, AT(aov), .help = "also NAME.albedo.pfm ...: albedo,normal,depth,position,variance"},
     {"--strategies", "DIR", OPTION_TEXT, AT(strategies),
      .help = "write every strategy (s,t), and all as DIR/pyramid.png"},
+    {"--lights", "DIR", OPTION_TEXT, AT(lights),
+     .help = "write a picture of what each light brings, see convert --weights; or each \"string group\" of lights"},
+    {"--alpha", NULL, OPTION_ON, AT(alpha),
+     .help = ".exr and .png with alpha: 0 where the lens sees nothing, lights of \"bool visible\" \"false\" among it"},
     {"--gate", "L0:L1", OPTION_NUMBER, AT(gate), 0, INFINITY,
      .help = "only light whose way from lamp to lens is from L0 to below L1 long, in scene units; L1 may be inf"},
     {"--time", "TIME", OPTION_NUMBER, AT(keep.time), 1e-9, 1e9,
@@ -85,7 +89,7 @@ static bool check_options(const struct job_options *o, struct files *f, struct e
         return false;
     if (o->keep.resume != NULL && (o->strategies != NULL || f->aov.wanted[AOV_VARIANCE]))
         return error_set(err, "%s: strategies and variance are not saved and cannot be resumed", o->keep.resume);
-    return strategies_possible(o->strategies, err) && keep_check(&o->keep, err);
+    return directory_possible(o->strategies, err) && directory_possible(o->lights, err) && keep_check(&o->keep, err);
 }
 
 /* What needs no scene to be opened. */
@@ -113,7 +117,8 @@ static bool open_default_output(const struct job_options *o, const struct scene 
 static bool suits(const struct job_options *o, const struct method *m, const struct files *f, struct error *err)
 {
     const char *wanted = f->aov.wanted[AOV_VARIANCE] ? "--aov variance" : o->strategies != NULL ? "--strategies"
-                       : keep_asks_noise(&o->keep) ? "--noise" : NULL;
+                         : o->lights != NULL ? "--lights" : o->alpha ? "--alpha"
+                         : keep_asks_noise(&o->keep) ? "--noise" : NULL;
     return !m->chain || wanted == NULL ||
            error_set(err, "%s: the samples of %s are a chain, and do not show that; render several --seed", wanted,
                      m->name);
@@ -126,7 +131,8 @@ static bool open_others(struct job_options *o, const struct scene *scene, struct
     bool ok = names_add_options(&all, OPTIONS, o, err) &&
               (f->pictures.n > 0 || open_default_output(o, scene, &all, &f->pictures, err)) &&
               aov_open(&f->aov, &all, &f->pictures, err) &&
-              strategies_check(o->strategies, scene, o->max_depth, &all, err);
+              strategies_check(o->strategies, scene, o->max_depth, &all, err) &&
+              lights_check(o->lights, scene, &all, err);
     names_free(&all);
     return ok;
 }
@@ -146,14 +152,17 @@ static void report(const struct job_options *o, const char *integrator, const st
 static bool write_files(const struct job_options *o, const struct scene *scene, const struct render_options *options,
                         const struct film *film, struct files *f, bool ok, struct error *err)
 {
-    float *pixels = mem_alloc(rect_pixels(film->rect) * 3, sizeof *pixels);
+    float *pixels = mem_alloc(rect_pixels(film->rect) * 3, sizeof *pixels), *alpha = film_alpha(film);
     film_warn(film, film_develop(film, scene->film_scale, pixels));
+    f->pictures.alpha = alpha;
     aov_make(&f->aov, scene, options, film, &f->pictures);
     ok = outputs_write(&f->pictures, rect_width(film->rect), rect_height(film->rect), pixels, o->quiet,
                        ok ? err : NULL) && ok;
     aov_free(&f->aov);
+    free(alpha);
     free(pixels);
     ok = strategies_write(o->strategies, film, scene->film_scale, ok ? err : NULL) && ok;
+    ok = lights_write(o->lights, scene, film, ok ? err : NULL) && ok;
     if (ok && f->stats.stream != NULL)
         return file_commit(&f->stats, err);
     abandon(f);
@@ -185,7 +194,9 @@ static bool render(const struct job_options *o, const struct scene *scene, const
     struct render_options options = job_render(o, scene, m);
     struct film film;
     struct keep keep;
+    const struct planes planes = {o->lights != NULL ? scene->lights.n_groups : 0, o->alpha};
     film_init(&film, render_crop(scene), scene->width, scene->height);
+    film_keep_planes(&film, planes);
     bool ok = parameters_max_depth(scene, o->max_depth, &options.max_depth, err) &&
               keep_begin(&keep, &o->keep, o->quiet, scene, &options, &film, err);
     if (ok) {

@@ -69,6 +69,7 @@ static bool save_film(const struct keep *k, struct error *err)
     if (!f->learnt_short)
         return part_save(k->options->checkpoint, &k->part, f, err);
     film_init(&none, f->rect, f->full_width, f->full_height);
+    film_keep_planes(&none, f->planes);
     bool ok = part_save(k->options->checkpoint, &k->part, &none, err);
     film_free(&none);
     return ok;
@@ -139,6 +140,7 @@ bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const 
     k->options = o;
     k->film = film;
     k->part = part_describe(scene, render);
+    k->part.planes = film->planes;
     if (!resume(k, err)) {
         part_free(&k->part);
         return false;

@@ -30,6 +30,7 @@ struct outputs {
     struct tone tone; /* of 8-bit pictures */
     /* Set before outputs_write: */
     struct placement place;  /* where the pictures lie in their whole */
+    const float *alpha;      /* [height*width*3], grey, by which pixels are multiplied already; NULL: none; borrowed */
     const struct part *part; /* what is written into parts; borrowed */
     const struct film *film;
 };

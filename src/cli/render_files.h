@@ -1,4 +1,4 @@
-/* render_files.h: what asbdpt render writes beside its picture: first-hit pictures, strategies, and how it went.
+/* render_files.h: what asbdpt render writes beside its picture: first-hit pictures, strategies, lights, and how it went.
  *
  * Tests: test/cli.sh, test/outputs.sh.
  */
@@ -35,12 +35,15 @@ void aov_free(struct aov_files *f);
 
 /* --- --strategies: a directory, or NULL: nothing is done (strategy_files.c) ------------------------------ */
 
+/* path_in: of a file in the directory; to be given to free(). */
+char *path_in(const char *directory, const char *name);
+
 /* Two pictures of each (s,t), its whole estimate and its weighted share: (d + 1) (d + 4) for paths of up to d + 1
  * edges; and all of them on one sheet. */
 enum { STRATEGIES_MAX_DEPTH = 20 };
 
-/* strategies_possible: make the directory; can files be made in it? False with a message. */
-bool strategies_possible(const char *directory, struct error *err);
+/* directory_possible: make the directory; can files be made in it? False with a message. */
+bool directory_possible(const char *directory, struct error *err);
 
 /* strategies_check: once the scene is loaded: are there not too many, and none of them another file?
  *   max_depth  of the options, 0: the scene's
@@ -50,6 +53,12 @@ bool strategies_check(const char *directory, const struct scene *scene, int max_
 
 /* strategies_write: of a film that has kept them. */
 bool strategies_write(const char *directory, const struct film *film, double scale, struct error *err);
+
+/* --- --lights: a directory, or NULL: nothing is done (light_files.c) -------------------------------------- */
+
+/* lights_check, lights_write: the same for a picture of each group of lights (scene/light.h). */
+bool lights_check(const char *directory, const struct scene *scene, struct names *all, struct error *err);
+bool lights_write(const char *directory, const struct scene *scene, const struct film *film, struct error *err);
 
 /* --- --stats (stats_file.c) ------------------------------------------------------------------------------ */
 

@@ -11,13 +11,11 @@
 #include "look/pyramid.h"
 #include "render/parameters.h"
 
-enum { LONGEST_NAME = 64 };
 static const char SHEET[] = "pyramid.png";
 
-/* The path of a file in the directory; to be given to free(). */
-static char *path_of(const char *directory, const char *name)
+char *path_in(const char *directory, const char *name)
 {
-    size_t size = strlen(directory) + LONGEST_NAME + 2;
+    size_t size = strlen(directory) + strlen(name) + 2;
     char *out = mem_alloc(size, 1);
     snprintf(out, size, "%s/%s", directory, name);
     return out;
@@ -25,17 +23,17 @@ static char *path_of(const char *directory, const char *name)
 
 static char *picture_path(const char *directory, int s, int t, bool weighted)
 {
-    char name[LONGEST_NAME];
+    char name[64];
     snprintf(name, sizeof name, "d%02d_s%02d_t%02d_%s.pfm", s + t - 2, s, t, weighted ? "weighted" : "unweighted");
-    return path_of(directory, name);
+    return path_in(directory, name);
 }
 
-bool strategies_possible(const char *directory, struct error *err)
+bool directory_possible(const char *directory, struct error *err)
 {
     if (directory == NULL)
         return true;
     os_make_directory(directory); /* if that fails, creating a file says why */
-    char *path = path_of(directory, "probe");
+    char *path = path_in(directory, "probe");
     bool ok = outputs_possible(path, err);
     free(path);
     return ok;
@@ -60,7 +58,7 @@ bool strategies_check(const char *directory, const struct scene *scene, int max_
     if (most > STRATEGIES_MAX_DEPTH)
         return error_set(err, "--strategies: paths of up to %d edges have %d pictures; --maxdepth %d is the most here",
                          most + 1, (most + 1) * (most + 4), STRATEGIES_MAX_DEPTH);
-    bool ok = add_name(all, path_of(directory, SHEET), err);
+    bool ok = add_name(all, path_in(directory, SHEET), err);
     for (int edges = 1; edges <= most + 1; edges++)
         for (int s = 0; ok && s <= edges; s++)
             ok = add_name(all, picture_path(directory, s, edges + 1 - s, false), err) &&
@@ -88,7 +86,7 @@ bool strategies_write(const char *directory, const struct film *film, double sca
         for (int s = 0; ok && s <= edges; s++)
             ok = write_picture(directory, film, scale, s, edges + 1 - s, false, err) &&
                  write_picture(directory, film, scale, s, edges + 1 - s, true, err);
-    char *path = path_of(directory, SHEET);
+    char *path = path_in(directory, SHEET);
     ok = ok && pyramid_write(path, film, scale, err);
     free(path);
     return ok;

@@ -168,7 +168,7 @@ static void render_one(struct measure *m, int64_t number, int i, struct pixel_re
     struct render_job job = m->job;
     job.seed = hash_combine(m->job.seed, (uint64_t)(i % INDEPENDENT));
     job.eye_seed = hash_combine(m->job.seed, INDEPENDENT + (i == OTHER));
-    struct tile_pass pass = {&job, rect, (long)number, (long)number + 1, tile, work, NULL};
+    struct tile_pass pass = {&job, rect, (long)number, (long)number + 1, tile, work, NULL, NULL};
     tile_start(tile, rect, job.film_rect, &job.scene->filter, true);
     m->method->method->render(i == AGAIN ? m->again : m->method, &pass);
 }

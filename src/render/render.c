@@ -33,6 +33,7 @@ struct run {
     double learning; /* share of all work that learning has been */
     struct workspace *work; /* [n_threads] */
     struct tile *tile;      /* [n_slots] */
+    struct worst *worst;    /* [n_threads], or NULL */
     struct parallel_jobs jobs;
 };
 
@@ -86,7 +87,8 @@ static void run_pass(void *context, int64_t job, int slot, int thread)
 {
     struct run *r = context;
     struct run_job this = {r, job};
-    struct tile_pass pass = {.job = &r->job, .tile = &r->tile[slot], .work = &r->work[thread]};
+    struct tile_pass pass = {.job = &r->job, .tile = &r->tile[slot], .work = &r->work[thread],
+                             .worst = r->worst != NULL ? &r->worst[thread] : NULL};
     pass.rect = tile_rect(r, (r->begun + job) % tiles_per_block(r));
     block_range(r, (r->begun + job) / tiles_per_block(r), &pass.first, &pass.end);
     tile_start(pass.tile, pass.rect, r->job.film_rect, &r->job.scene->filter, film_keeps_records(r->film));
@@ -144,6 +146,22 @@ static void free_workspaces(struct run *r)
     workspaces_free(r->work, r->job.n_threads);
 }
 
+/* Every thread has a list of its own. */
+static void begin_worst(struct run *r)
+{
+    r->worst = r->options->worst != NULL ? mem_alloc((size_t)r->job.n_threads, sizeof *r->worst) : NULL;
+    for (int i = 0; r->worst != NULL && i < r->job.n_threads; i++)
+        r->worst[i].most = r->options->worst->most;
+}
+
+static void end_worst(struct run *r)
+{
+    for (int i = 0; r->worst != NULL && i < r->job.n_threads; i++)
+        for (int k = 0; k < r->worst[i].n; k++)
+            worst_offer(r->options->worst, r->worst[i].item[k]);
+    free(r->worst);
+}
+
 static void run_all(struct run *r)
 {
     const struct render_options *o = r->options;
@@ -156,8 +174,12 @@ static void run_all(struct run *r)
     struct parallel_jobs jobs = {r->n_jobs - r->begun, r->job.n_threads, n_slots, r, run_pass, merge_pass, NULL};
     r->jobs = jobs;
     r->tile = mem_alloc((size_t)n_slots, sizeof *r->tile);
+    for (int i = 0; i < n_slots; i++)
+        r->tile[i].planes = r->film->planes;
     make_workspaces(r);
+    begin_worst(r);
     parallel_run(&r->jobs);
+    end_worst(r);
     free_workspaces(r);
     for (int i = 0; i < n_slots; i++)
         tile_free(&r->tile[i]);

@@ -21,11 +21,14 @@ struct pixel_sample {
     int max_depth;          /* longest path: s + t <= max_depth + 2 */
     int x, y;               /* the pixel */
     double filter_weight;   /* of its eye sample, see path_eye_pixel */
+    double alpha;           /* the same, or 0 where the lens sees nothing */
     int lights;             /* samples of s = 1 for t = 2, 0: left to the method; 1 for t > 2 */
     struct sampler sampler; /* for light and lens points */
     rgb sum;                /* of what the strategies with t >= 2 have brought so far, */
-    rgb until, before;      /* and of that paths shorter than the gate's end, or its beginning; 0 of an endless gate */
+    rgb until, before;      /* and of that paths shorter than the gate's end, or its beginning */
+    long iteration;
     struct trace *trace;    /* who watches this sample; NULL: nobody */
+    struct worst *worst;    /* who is told of all samples; NULL: nobody */
     struct arena *arena;    /* for what does not outlive the sample */
     double eps;             /* of regularise.h, 0: none */
 };
@@ -83,12 +86,7 @@ void pixel_sum_pairs(struct pixel_sample *sample, const struct vertex *eye, int 
  * tile's splats. */
 void pixel_splat_path(struct pixel_sample *sample, const struct vertex *light, int n_light, double scale);
 
-/* pixel_sample_until: what paths shorter than the gate's end have brought.
- * pixel_sample_end: the sample goes into its tile. Call once. */
-static inline rgb pixel_sample_until(const struct pixel_sample *sample)
-{
-    return gate_is_endless(sample->tile->gate) ? sample->sum : sample->until;
-}
+/* pixel_sample_end: the sample goes into its tile. Call once. */
 void pixel_sample_end(const struct pixel_sample *sample);
 
 #endif
