@@ -81,38 +81,41 @@ static void measure(const float *picture, const struct side *ref, double out[N_N
     }
 }
 
-/* The noise that is told by the noise that there is lies within [LOW, HIGH]; pictures of four times as many samples,
- * whose noise is at most half as large, do not have what was told. */
+/* The noise that is told by the noise that there is lies within [LOW, HIGH]; the mean of four pictures, whose noise is
+ * half as large, does not have what was told. */
 static void test_told(struct test *t, const struct scene *scene, const struct side *ref, const char *integrator)
 {
-    enum { SPP = 64, SEEDS = 2 };
+    enum { SPP = 64, SEEDS = 4 };
     const double LOW = 0.85, HIGH = 1.7;
-    double told[N_NOISE_SCALES] = {0, 0}, is[2][N_NOISE_SCALES] = {{0, 0}, {0, 0}};
-    float *picture = mem_alloc(3 * (size_t)ref->width * (size_t)ref->height, sizeof *picture);
-    for (int seed = 0; seed < SEEDS; seed++)
-        for (int more = 0; more < 2; more++) {
-            struct render_options o = {.integrator = integrator, .seed = test_seed(t) + (uint64_t)seed,
-                                       .end = SPP << 2 * more, .n_threads = os_cores()};
-            struct film film;
-            struct error err = {""};
-            double error[N_NOISE_SCALES];
-            film_init(&film, render_crop(scene), scene->width, scene->height);
-            film_keep_halves(&film);
-            CHECK(t, render_scene(scene, &o, &film, &err) && film.iterations == o.end, "%s", err.text);
-            film_develop(&film, scene->film_scale, picture);
-            measure(picture, ref, error);
-            for (int s = 0; s < N_NOISE_SCALES; s++) {
-                is[more][s] += error[s];
-                told[s] += more ? 0 : sqr(film.noise[s].value);
-            }
-            film_free(&film);
+    double told[N_NOISE_SCALES] = {0, 0}, is[N_NOISE_SCALES] = {0, 0}, error[N_NOISE_SCALES];
+    size_t n = 3 * (size_t)ref->width * (size_t)ref->height;
+    float *picture = mem_alloc(n, sizeof *picture), *mean = mem_alloc(n, sizeof *mean);
+    for (int seed = 0; seed < SEEDS; seed++) {
+        struct render_options o = {.integrator = integrator, .seed = test_seed(t) + (uint64_t)seed, .end = SPP,
+                                   .n_threads = os_cores()};
+        struct film film;
+        struct error err = {""};
+        film_init(&film, render_crop(scene), scene->width, scene->height);
+        film_keep_halves(&film);
+        CHECK(t, render_scene(scene, &o, &film, &err) && film.iterations == SPP, "%s", err.text);
+        film_develop(&film, scene->film_scale, picture);
+        for (size_t i = 0; i < n; i++)
+            mean[i] += picture[i] / SEEDS;
+        measure(picture, ref, error);
+        for (int s = 0; s < N_NOISE_SCALES; s++) {
+            is[s] += error[s] / SEEDS;
+            told[s] += sqr(film.noise[s].value) / SEEDS;
         }
+        film_free(&film);
+    }
+    measure(mean, ref, error);
     for (int s = 0; s < N_NOISE_SCALES; s++) {
-        double ratio = sqrt(told[s] / is[0][s]), fewer = sqrt(told[s] / is[1][s]);
+        double ratio = sqrt(told[s] / is[s]), fewer = sqrt(told[s] / error[s]);
         CHECK(t, ratio > LOW && ratio < HIGH, "%s, scale %d: the noise told is %g of the noise", integrator, s, ratio);
         CHECK(t, fewer > HIGH, "%s, scale %d: so it is with four times the samples, %g", integrator, s, fewer);
     }
     free(picture);
+    free(mean);
 }
 
 static void test_pictures_told(struct test *t)

@@ -222,7 +222,7 @@ static uint8_t *written(struct test *t, const char *name, const struct raster *r
 static void test_alpha(struct test *t)
 {
     static const float PIXELS[6] = {0.1f, 0.2f, 0.05f, 0.3f, 0, 3}, ALPHA[2] = {0.25f, 0};
-    const struct channel more[2] = {{"Z", PIXELS, 3}, {"A", ALPHA, 1}};
+    const struct channel more[2] = {{"Z", PIXELS, 3, true}, {"A", ALPHA, 1, false}};
     const struct raster plain = {{0, 0, 0, 0}, 2, 1, PIXELS, NULL, 0}, with = {{0, 0, 0, 0}, 2, 1, PIXELS, more, 2};
     struct image img;
     struct error err = {""};

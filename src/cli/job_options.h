@@ -46,6 +46,7 @@ struct job_options {
     bool alpha;
     double gate[2];         /* lengths of paths, the second excluded; 0, 0: all */
     const char *aov;        /* list or NULL */
+    bool layers, seen;      /* they go into the picture's own file; see render/aov.h */
     const char *stats;      /* file or NULL */
     struct tone_options tone;
     struct keep_options keep;
