@@ -74,6 +74,17 @@ static struct pixel_rect tile_rect(const struct run *r, int64_t tile)
     return rect;
 }
 
+/* Whenever the halves are of one size. */
+static bool good_enough(const struct run *r)
+{
+    const double *limit = r->options->noise;
+    struct film *f = r->film;
+    bool good = halves_noise(f, r->job.scene->film_scale);
+    for (int i = 0; i < N_NOISE_SCALES; i++)
+        good = good && (limit[i] == 0 || f->noise[i].value < limit[i]);
+    return good && limit[NOISE_RELATIVE] + limit[NOISE_8_BIT] > 0;
+}
+
 /* More splats than a tile holds go into the film before their pass is complete, when it is the next to do so. */
 static void take_splats(void *context, struct tile *tile)
 {
@@ -99,17 +110,6 @@ static void run_pass(void *context, int64_t job, int slot, int thread)
     pass.tile->full = take_splats;
     pass.tile->context = &this;
     r->prepared.method->render(&r->prepared, &pass);
-}
-
-/* Whenever the halves are of one size. */
-static bool good_enough(const struct run *r)
-{
-    const double *limit = r->options->noise;
-    struct film *f = r->film;
-    bool good = halves_noise(f, r->job.scene->film_scale);
-    for (int i = 0; i < N_NOISE_SCALES; i++)
-        good = good && (limit[i] == 0 || f->noise[i].value < limit[i]);
-    return good && limit[NOISE_RELATIVE] + limit[NOISE_8_BIT] > 0;
 }
 
 static bool merge_pass(void *context, int64_t job, int slot)
