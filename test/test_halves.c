@@ -81,7 +81,7 @@ static void measure(const float *picture, const struct side *ref, double out[N_N
     }
 }
 
-/* The noise that is told by the noise that there is lies within [LOW, HIGH]; the mean of four pictures, whose noise is
+/* The noise that is told by the noise that there is lies between LOW and HIGH; the mean of four pictures, whose noise is
  * half as large, does not have what was told. */
 static void test_told(struct test *t, const struct scene *scene, const struct side *ref, const char *integrator)
 {
@@ -162,8 +162,33 @@ static void test_end(struct test *t, const char *way, long runs)
     scene_free(&scene);
 }
 
+/* Halves are the same however samples are cut into blocks: a picture of this size has some of less than a run. */
+static void test_blocks(struct test *t)
+{
+    struct scene scene;
+    struct film film[2];
+    struct error err = {""};
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 75, 75, &scene))
+        return;
+    struct render_options o = {.integrator = "pt", .end = 64, .max_depth = 1, .n_threads = 2};
+    for (int i = 0; i < 2; i++) {
+        film_init(&film[i], render_crop(&scene), scene.width, scene.height);
+        film_keep_halves(&film[i]);
+        o.block = i;
+        CHECK(t, render_scene(&scene, &o, &film[i], &err), "%s", err.text);
+    }
+    size_t differ = 0, n = 3 * rect_pixels(film[0].rect);
+    for (size_t i = 0; i < n; i++)
+        differ += exact_value(&film[0].half[i]) != exact_value(&film[1].half[i]);
+    CHECK(t, differ == 0, "%d of the first half's sums depend on the blocks", (int)differ);
+    for (int i = 0; i < 2; i++)
+        film_free(&film[i]);
+    scene_free(&scene);
+}
+
 void test_halves(struct test *t)
 {
+    test_blocks(t);
     test_known(t);
     test_pictures_told(t);
     test_end(t, "bdpt", 64);

@@ -10,6 +10,7 @@
 #include "base/bits.h"
 #include "base/file.h"
 #include "base/mem.h"
+#include "image/exr.h"
 #include "image/formats.h"
 #include "image/half.h"
 #include "image/image.h"
@@ -241,6 +242,10 @@ static void test_alpha(struct test *t)
             image_free(&img);
         }
     }
+    free(data);
+    data = written(t, "alpha.exr", &with, &n);
+    const char *half = (const char *)data + 8 + sizeof "channels" + sizeof "chlist" + 4;
+    CHECK(t, data != NULL && half[2] == EXR_HALF && half[74] == EXR_FLOAT, "types of A and Z, one of which is exact");
     free(data);
     data = written(t, "alpha.png", &with, &n);
     if (CHECK(t, data != NULL && png_read(data, n, &img, &err), "%s", err.text)) {
