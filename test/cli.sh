@@ -394,9 +394,9 @@ check [ -s flight/found/gate015.pfm ]
 expect 0 '' "$program" render "$box" $small --lights one -o a.pfm
 check cmp -s one/light00_area.pfm whole.pfm
 cat >lamps.pbrt <<END
-LookAt 0 0 -5 0 0 0 0 1 0 WorldBegin LightSource "infinite" "bool visible" "false" LightSource "point" "string group" "key"
-LightSource "distant" "string group" "key" AttributeBegin AreaLightSource "diffuse" Translate 2 0 0 Shape "sphere"
-AttributeEnd Shape "sphere" WorldEnd
+LookAt 0 0 -5 0 0 0 0 1 0 WorldBegin LightSource "infinite" "bool visible" "false"
+LightSource "point" "string group" "key" LightSource "distant" "string group" "key"
+AttributeBegin AreaLightSource "diffuse" Translate 2 0 0 Shape "sphere" AttributeEnd Shape "sphere" WorldEnd
 END
 expect 0 '' "$program" render lamps.pbrt --res 24x16 --spp 4 --quiet --lights lit --alpha -o a.pfm -o a.png -o a.exr
 check [ -s lit/light00_infinite.pfm -a -s lit/light01_key.pfm -a -s lit/light02_area.pfm -a ! -e lit/light03.pfm ]

@@ -317,7 +317,8 @@ static bool light_under(struct test *t, const char *light, const char *path, con
 /* What the light sends in direction w, or what comes from there. */
 static double light_along(const struct scene *s, const struct light_point *at, vec3 w)
 {
-    return rgb_luminance(s->lights.any_infinite ? light_Le_environment(&s->lights, w, true) : light_Le(&s->lights, at, w));
+    rgb Le = s->lights.any_infinite ? light_Le_environment(&s->lights, w, true) : light_Le(&s->lights, at, w);
+    return rgb_luminance(Le);
 }
 
 /* Light that comes from all directions of a map, drawn by light_sample_point, against the sum over a fine grid. */

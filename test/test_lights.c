@@ -1,6 +1,6 @@
-/* Lights apart, and what the lens does not see. The planes of all lights are the picture, to the bit, by every method and
- * within gates; each is what a render by that light alone expects. Alpha: 0 of an empty scene, 1 of a closed one, else
- * what is covered; a light that is hidden is missing where the lens meets it first, and nowhere else. */
+/* Lights apart, and what the lens does not see. The planes of all lights are the picture, to the bit, by every method
+ * and within gates; each is what a render by that light alone expects. Alpha: 0 of an empty scene, 1 of a closed one,
+ * else what is covered; a light that is hidden is missing where the lens meets it first, and nowhere else. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -39,8 +39,10 @@ static const char SCENE[] =
     "LookAt 0 1.6 -4.5  0 .9 0  0 1 0 Camera \"perspective\" \"float fov\" 42\n"
     "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16 PixelFilter \"%s\" WorldBegin\n"
     "LightSource \"infinite\" \"rgb L\" [.3 .4 .5] \"rgb scale\" [%d %d %d]\n"
-    "LightSource \"distant\" \"rgb L\" [1 1 1] \"point from\" [1 4 -1] \"string group\" \"warm\" \"rgb scale\" [%d %d %d]\n"
-    "LightSource \"point\" \"rgb I\" [3 2 1] \"point from\" [-1 2 0] \"string group\" \"warm\" \"rgb scale\" [%d %d %d]\n"
+    "LightSource \"distant\" \"rgb L\" [1 1 1] \"point from\" [1 4 -1] \"rgb scale\" [%d %d %d]\n"
+    "\"string group\" \"warm\"\n"
+    "LightSource \"point\" \"rgb I\" [3 2 1] \"point from\" [-1 2 0] \"rgb scale\" [%d %d %d]\n"
+    "\"string group\" \"warm\"\n"
     "LightSource \"infinite\" \"rgb L\" [.1 0 0] \"rgb scale\" [%d %d %d]\n"
     "Material \"none\" AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] \"rgb scale\" [%d %d %d]\n"
     "\"bool twosided\" \"true\" Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
@@ -260,8 +262,8 @@ static void test_unseen(struct test *t)
 {
     test_hidden(t, "a sky", CAMERA HALF "LightSource \"infinite\" \"bool visible\" \"false\" WorldEnd", once);
     test_hidden(t, "a see-through lamp", CAMERA "AttributeBegin Material \"none\" AreaLightSource \"diffuse\" "
-                "\"bool twosided\" \"true\" \"bool visible\" \"false\" Translate 0 -9 0 " HALF "AttributeEnd Translate 0 0 1 " HALF "WorldEnd",
-                once);
+                "\"bool twosided\" \"true\" \"bool visible\" \"false\" Translate 0 -9 0 " HALF "AttributeEnd "
+                "Translate 0 0 1 " HALF "WorldEnd", once);
 }
 
 void test_lights(struct test *t)

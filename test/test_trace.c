@@ -32,9 +32,11 @@ static void add_trace(const struct scene *scene, const struct trace *trace, stru
     struct pixel_rect one = {trace->x, trace->y, trace->x + 1, trace->y + 1};
     tile_start(&tile, one, film->rect, &scene->filter, false);
     tile_add_eye(&tile, trace->x, trace->y, trace_sum(trace));
-    for (int i = 0; i < trace->n_connections; i++)
-        if (trace->connection[i].t == 1)
-            tile_add_splat(&tile, trace->connection[i].c.px, trace->connection[i].c.py, trace->connection[i].added, 0, 0);
+    for (int i = 0; i < trace->n_connections; i++) {
+        const struct trace_connection *k = &trace->connection[i];
+        if (k->t == 1)
+            tile_add_splat(&tile, k->c.px, k->c.py, k->added, 0, 0);
+    }
     film_merge_tile(film, &tile);
     tile_free(&tile);
 }

@@ -1,4 +1,4 @@
-/* render_files.h: what asbdpt render writes beside its picture: first-hit pictures, strategies, lights, and how it went.
+/* render_files.h: what asbdpt render writes beside its picture: first-hit pictures, strategies, lights, how it went.
  *
  * Tests: test/cli.sh, test/outputs.sh.
  */

@@ -33,7 +33,8 @@ bool ppm_read(const uint8_t *data, size_t size, struct image *out, struct error 
 void ppm_write(FILE *f, const struct raster *r);
 
 /* PNG files [PNG]. Read: every colour type and depth, interlaced or not. Alpha, transparency and colour profiles are
- * not used; checksums are checked. Written: 8 bits, sRGB encoded, RGB or RGB with alpha, by which colours are divided. */
+ * not used; checksums are checked. Written: 8 bits, sRGB encoded; with alpha, if there is, by which colours are
+ * divided. */
 bool png_matches(const uint8_t *data, size_t size);
 bool png_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
 void png_write(FILE *f, const struct raster *r);
@@ -47,8 +48,8 @@ bool tga_read(const uint8_t *data, size_t size, struct image *out, struct error 
  * halfs, floats and integers, uncompressed or by RLE, ZIPS, ZIP or PIZ; as pbrt-v3 does, the data window as the
  * picture, of the channels R, G, B (one that is missing is 0), or Y alone as grey. Other compressions, several parts,
  * deep pictures and subsampled channels are refused.
- * Written: R, G, B and all other channels as halfs, where what is finite and beyond 65504 becomes that, or as floats, exactly; ZIP; as pbrt-v3
- * does, the picture as the data window and the whole as the display window. */
+ * Written: R, G, B and all other channels as halfs, where what is finite and beyond 65504 becomes that, or as floats,
+ * exactly; ZIP; as pbrt-v3 does, the picture as the data window and the whole as the display window. */
 bool exr_matches(const uint8_t *data, size_t size);
 bool exr_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
 void exr_write_half(FILE *f, const struct raster *r);

@@ -15,20 +15,20 @@ struct format {
     bool (*matches)(const uint8_t *data, size_t size); /* by content; NULL where the format has no signature */
     bool (*read)(const uint8_t *data, size_t size, struct image *out, struct error *err);
     void (*write)(FILE *f, const struct raster *r); /* NULL where it is not written */
-    bool is_8_bit, keeps_place, keeps_alpha;
+    bool is_8_bit, keeps_place;
 };
 
 /* The first whose extension fits counts. */
 static const struct format FORMATS[] = {
-    {".pfm", pfm_matches, pfm_read, pfm_write, false, false, false},
-    {".float.exr", exr_matches, exr_read, exr_write_float, false, true, true},
-    {".exr", exr_matches, exr_read, exr_write_half, false, true, true},
-    {".hdr", rgbe_matches, rgbe_read, NULL, false, false, false},
-    {".pic", rgbe_matches, rgbe_read, NULL, false, false, false},
-    {".ppm", ppm_matches, ppm_read, ppm_write, true, false, false},
-    {".pgm", ppm_matches, ppm_read, NULL, true, false, false},
-    {".png", png_matches, png_read, png_write, true, false, true},
-    {".tga", NULL, tga_read, NULL, true, false, false},
+    {".pfm", pfm_matches, pfm_read, pfm_write, false, false},
+    {".float.exr", exr_matches, exr_read, exr_write_float, false, true},
+    {".exr", exr_matches, exr_read, exr_write_half, false, true},
+    {".hdr", rgbe_matches, rgbe_read, NULL, false, false},
+    {".pic", rgbe_matches, rgbe_read, NULL, false, false},
+    {".ppm", ppm_matches, ppm_read, ppm_write, true, false},
+    {".pgm", ppm_matches, ppm_read, NULL, true, false},
+    {".png", png_matches, png_read, png_write, true, false},
+    {".tga", NULL, tga_read, NULL, true, false},
 };
 enum { N_FORMATS = sizeof FORMATS / sizeof FORMATS[0] };
 
@@ -120,12 +120,6 @@ bool image_keeps_place(const char *path)
 {
     const struct format *format = format_to_write(path);
     return format != NULL && format->keeps_place;
-}
-
-bool image_keeps_alpha(const char *path)
-{
-    const struct format *format = format_to_write(path);
-    return format != NULL && format->keeps_alpha;
 }
 
 bool image_write(const char *path, int width, int height, const float *pixels, struct error *err)

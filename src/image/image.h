@@ -40,11 +40,10 @@ bool image_finish(struct file_output *f, const struct raster *r, struct error *e
 void image_mend(struct image *img, bool negative_too);
 
 /* image_writable: does `path` end in an extension image_write knows? image_is_8_bit: in one of 8-bit sRGB pictures?
- * image_keeps_place, image_keeps_alpha: in one of those that say where the picture lies in its whole, or keep alpha? */
+ * image_keeps_place: in one of those that say where the picture lies in its whole? */
 bool image_writable(const char *path);
 bool image_is_8_bit(const char *path);
 bool image_keeps_place(const char *path);
-bool image_keeps_alpha(const char *path);
 
 /* image_read_linear: any picture as linear RGB floats [height*width*3], top row first, to be freed. 8-bit files are
  * decoded from sRGB. NULL with a message.

@@ -87,8 +87,8 @@ struct light_picture {
     struct slide *slide;
 };
 
-/* Lights whose contributions a film can keep apart from others' (film.h). All infinite lights are of one group, since an
- * eye sub-path that leaves the scene meets them together. */
+/* Lights whose contributions a film can keep apart from others' (film.h). All infinite lights are of one group, since
+ * an eye sub-path that leaves the scene meets them together. */
 struct light_group {
     char *name; /* owned; NULL: it has none */
     enum light_kind kind; /* of its first light */

@@ -1,4 +1,5 @@
-/* cmd_trace.c: asbdpt-lab trace SCENE --pixel X,Y: one sample of a pixel, or those that bring most, told in full. See trace_report.h. */
+/* cmd_trace.c: asbdpt-lab trace SCENE --pixel X,Y: one sample of a pixel, or those that bring most, told in full. See
+ * trace_report.h. */
 #include <stdio.h>
 
 #include "lab/commands.h"
@@ -115,6 +116,6 @@ static int run(void *options)
 
 const struct command command_trace = {
     "trace", "one sample of a pixel, told in full: sub-paths, choices, connections, weights",
-    {"SCENE.pbrt --pixel X,Y [--sample K] | --worst N [--json] [--svg FILE] [options]"}, OPTIONS, sizeof(struct trace_options),
-    run, true,
+    {"SCENE.pbrt --pixel X,Y [--sample K] [--json] [--svg FILE] [options]", "SCENE.pbrt --worst N [--json] [options]"},
+    OPTIONS, sizeof(struct trace_options), run, true,
     "trace scenes/bathroom.pbrt --pixel 150,120 --svg paths.svg"};
