@@ -127,8 +127,8 @@ static void test_glass(struct test *t)
     }
 }
 
-/* What is asked of a mirror is what it shows, a wall behind the camera, dimmed by it; of a pane of glass the wall behind
- * it, but for what it reflects of the sky; where a mirror shows nothing it is itself. Depth is that of mirror and glass. */
+/* What is asked of a mirror is what it shows, a wall behind the camera, dimmed by it; of a pane of glass the wall
+ * behind it; where a mirror shows nothing it is itself. Depth is that of mirror and glass. */
 static void test_seen(struct test *t)
 {
     static const char BEHIND[] =

@@ -81,8 +81,8 @@ static void measure(const float *picture, const struct side *ref, double out[N_N
     }
 }
 
-/* The noise that is told by the noise that there is lies between LOW and HIGH; the mean of four pictures, whose noise is
- * half as large, does not have what was told. */
+/* The noise that is told by the noise that there is lies between LOW and HIGH; the mean of four pictures, whose noise
+ * is half as large, does not have what was told. */
 static void test_told(struct test *t, const struct scene *scene, const struct side *ref, const char *integrator)
 {
     enum { SPP = 64, SEEDS = 4 };

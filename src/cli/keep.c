@@ -159,8 +159,8 @@ static void say_noise(const struct keep *k)
     const struct noise_estimate *relative = &f->noise[NOISE_RELATIVE], *levels = &f->noise[NOISE_8_BIT];
     long every = 2L * f->run;
     if (relative->value < INFINITY)
-        fprintf(stderr, "asbdpt: noise %.3g +- %.1g of the brightness around, %.3g +- %.1g of 255 levels, at %ld samples "
-                "per pixel: %s\n", relative->value, relative->error, levels->value, levels->error,
+        fprintf(stderr, "asbdpt: noise %.3g +- %.1g of the brightness around, %.3g +- %.1g of 255 levels, at %ld "
+                "samples per pixel: %s\n", relative->value, relative->error, levels->value, levels->error,
                 f->iterations - f->iterations % every, share_by_noise(k) > 1 ? "below what was asked for"
                                                                              : "more than was asked for");
     else

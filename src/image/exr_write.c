@@ -116,7 +116,8 @@ static int by_name(const void *a, const void *b)
 
 static void write_file(FILE *f, const struct raster *r, enum exr_type type)
 {
-    const struct channel rgb[3] = {{"R", r->pixels, 3, false}, {"G", r->pixels + 1, 3, false}, {"B", r->pixels + 2, 3, false}};
+    const struct channel rgb[3] = {{"R", r->pixels, 3, false}, {"G", r->pixels + 1, 3, false},
+                                   {"B", r->pixels + 2, 3, false}};
     size_t rows = (size_t)r->height, n = (rows + EXR_ZIP_ROWS - 1) / EXR_ZIP_ROWS;
     int n_channels = 3 + r->n_more;
     struct channel *channel = mem_alloc((size_t)n_channels, sizeof *channel);

@@ -11,7 +11,7 @@
  * that the render draws, so that their edges are smooth where the picture's are. Depth and position are means over
  * those that hit something. Where nothing is hit all are 0.
  *
- * Denoisers want albedo and normal to show what the picture does, in mirrors and behind glass, too. On request these two
+ * Denoisers want albedo and normal to show what the picture does, in mirrors and behind glass, too. On request these
  * are those of the first surface on the eye sub-path that does not only mirror and refract, or else of the last that it
  * meets; the albedo times what the way there leaves of light. Glass lets chance choose the way: so there are
  * AOV_SEEN_SAMPLES then, whatever the render has.

@@ -179,7 +179,7 @@ struct film {
     int64_t passes;              /* tile passes of the next block of iterations that are in already */
     struct planes planes;
     struct exact_sum *sum;       /* [planes][pixels*3] of eye values and splats; owned */
-    struct exact_sum *half;      /* [pixels*3], the picture's of every other `run` iterations, from the first on; or NULL */
+    struct exact_sum *half;      /* [pixels*3], the picture's of every other `run` iterations, or NULL; owned */
     int run;                     /* set when the render begins */
     struct noise_estimate noise[N_NOISE_SCALES]; /* when the halves were of one size the last time */
     struct film_errors *errors;  /* NULL unless asked for; owned */
