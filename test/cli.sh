@@ -288,6 +288,49 @@ mkdir taken.depth.pfm
 expect 1 'taken.depth.pfm' "$program" render "$box" $small --aov albedo,depth -o taken.png
 check [ ! -e taken.png -a ! -e taken.albedo.pfm ]
 
+# --layers: the same in the picture's own .exr, beside the colours; --seen: what mirrors show.
+expect 0 'wrote l.float.exr, l.pfm$' "$program" render "$box" --res 16x16 --spp 2 -j 2 --layers \
+    --aov variance,albedo,normal,depth,position -o l.float.exr -o l.pfm
+check "$program" convert l.float.exr -o back.pfm
+check cmp -s l.pfm back.pfm
+for name in R albedo.R albedo.G albedo.B normal.X normal.Y normal.Z depth.Z position.X position.Z variance.B; do
+    check grep -aq "$name" l.float.exr
+done
+check [ ! -e l.albedo.pfm ]
+expect 2 'no other format has them' "$program" render "$box" $small --aov depth --layers -o a.png
+expect 2 'no effect without --aov' "$program" render "$box" $small --layers -o a.exr
+expect 0 '' "$program" render "$scenes/bathroom.pbrt" $small --aov albedo,depth --seen -o seen.pfm
+expect 0 '' "$program" render "$scenes/bathroom.pbrt" $small --aov albedo,depth -o first.pfm
+check cmp -s seen.pfm first.pfm
+check [ -n "$(cmp seen.albedo.pfm first.albedo.pfm)" ]
+
+# --- noise
+# --noise: the render ends when it is low enough, at the same sample whatever the threads; --spp is the most.
+noisy="--res 20x16 --integrator bdpt --maxdepth 3"
+expect 0 '128 spp' "$program" render "$box" $noisy --spp 1000 --noise 0.055 -j 1 -o noise1.pfm
+check grep -q 'noise 0.0[0-9]* +- .* of the brightness around, .* at 128 samples per pixel: below' stderr.txt
+expect 0 '128 spp' "$program" render "$box" $noisy --spp 1000 --noise8 5 --noise 0.055 -j 3 -o noise3.pfm
+check cmp -s noise1.pfm noise3.pfm
+check "$program" render "$box" $noisy --spp 128 -o noise0.pfm --quiet
+check cmp -s noise1.pfm noise0.pfm
+expect 0 'at 64 samples per pixel: more than' "$program" render "$box" $noisy --spp 70 --noise 0.001 -o a.pfm
+expect 0 'noise is not known' "$program" render "$box" $noisy --spp 60 --noise 0.5 -o a.pfm
+expect 2 'noise is that of the whole' "$program" render "$box" $noisy --spp 60 --noise 0.5 --samples 0:4 -o a.part
+expect 2 'are a chain' "$lab" render "$box" $small --integrator mmlt --noise 0.1 -o a.pfm
+# It goes on from a checkpoint to the same end, also from the end itself; one without halves is refused.
+rm -f noise.state
+for spp in 16 100 1000 1000; do
+    check "$program" render "$box" $noisy --spp $spp --noise 0.055 -o a.pfm --quiet \
+        --checkpoint noise.state --resume noise.state
+done
+check cmp -s noise1.pfm a.pfm
+check "$program" render "$box" $noisy --spp 20 --noise 0.055 -o a.pfm --quiet --checkpoint half.state
+check "$program" render "$box" $noisy --spp 48 -o a.pfm --quiet --resume half.state
+check "$program" render "$box" $noisy --spp 48 -o noise0.pfm --quiet
+check cmp -s noise0.pfm a.pfm
+check "$program" render "$box" $noisy --spp 16 -o a.pfm --quiet --checkpoint plain.state
+expect 1 'was made without --noise' "$program" render "$box" $noisy --spp 64 --noise 0.1 -o a.pfm --resume plain.state
+
 # --- stats
 # --stats: what was rendered and how it went; --quick: what pbrt's does, but options of one's own count first.
 expect 0 '' "$program" render "$box" --quick -j 2 --integrator asbdpt -P delta=0.25 --aov depth --stats stats.json \
@@ -578,8 +621,10 @@ if command -v exrmaketiled >/dev/null; then
         expect 0 '' exrheader $kind
         check grep -q 'compression (type compression): zip' stdout.txt
     done
+    expect 0 '' exrheader l.float.exr
+    check grep -q 'normal.X, 32-bit floating-point' stdout.txt
     expect 0 '' exrmaketiled -z pxr24 x.exr tiled.exr
-    expect 1 'tiled.exr: OpenEXR compression PXR24 is not read' "$program" convert tiled.exr -o y.png
+    expect 1 'tiled.exr: OpenEXR compression 5 .* is not read' "$program" convert tiled.exr -o y.png
 else
     echo "skipped: files of OpenEXR's tools (exrmaketiled is not installed)"
 fi

@@ -25,6 +25,7 @@ static const struct test_entry ENTRIES[] = {
     {"lobe", test_lobe, false},       {"bsdf", test_bsdf, false},       {"material", test_material, false},
     {"light", test_light, false},   {"camera", test_camera, false},
     {"film", test_film, false}, {"gates", test_gates, false}, {"lights", test_lights, false},
+    {"halves", test_halves, false},
     {"parser", test_parser, false},
     {"sampler", test_sampler, false},
     {"mis", test_mis, false}, {"pairs", test_pairs, false}, {"pilot", test_pilot, false},

@@ -10,6 +10,7 @@
 #include "base/bits.h"
 #include "base/file.h"
 #include "base/mem.h"
+#include "image/exr.h"
 #include "image/formats.h"
 #include "image/half.h"
 #include "image/image.h"
@@ -222,7 +223,7 @@ static uint8_t *written(struct test *t, const char *name, const struct raster *r
 static void test_alpha(struct test *t)
 {
     static const float PIXELS[6] = {0.1f, 0.2f, 0.05f, 0.3f, 0, 3}, ALPHA[2] = {0.25f, 0};
-    const struct channel more[2] = {{"Z", PIXELS, 3}, {"A", ALPHA, 1}};
+    const struct channel more[2] = {{"Z", PIXELS, 3, true}, {"A", ALPHA, 1, false}};
     const struct raster plain = {{0, 0, 0, 0}, 2, 1, PIXELS, NULL, 0}, with = {{0, 0, 0, 0}, 2, 1, PIXELS, more, 2};
     struct image img;
     struct error err = {""};
@@ -241,6 +242,10 @@ static void test_alpha(struct test *t)
             image_free(&img);
         }
     }
+    free(data);
+    data = written(t, "alpha.exr", &with, &n);
+    const char *half = (const char *)data + 8 + sizeof "channels" + sizeof "chlist" + 4;
+    CHECK(t, data != NULL && half[2] == EXR_HALF && half[74] == EXR_FLOAT, "types of A and Z, one of which is exact");
     free(data);
     data = written(t, "alpha.png", &with, &n);
     if (CHECK(t, data != NULL && png_read(data, n, &img, &err), "%s", err.text)) {

@@ -23,6 +23,7 @@ void test_film(struct test *t);
 void test_frame(struct test *t);
 void test_fuzz(struct test *t);
 void test_gates(struct test *t);
+void test_halves(struct test *t);
 void test_hdr(struct test *t);
 void test_hostile(struct test *t);
 void test_image(struct test *t);

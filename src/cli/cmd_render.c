@@ -24,6 +24,9 @@ static const struct option OPTIONS[] = {
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
     {"--aov", "LIST", OPTION_TEXT, AT(aov), .help = "also NAME.albedo.pfm ...: albedo,normal,depth,position,variance"},
+    {"--layers", NULL, OPTION_ON, AT(layers), .with = "--aov", .help = "--aov into the .exr itself, as layers"},
+    {"--seen", NULL, OPTION_ON, AT(seen), .with = "--aov",
+     .help = "albedo and normal of what is seen in mirrors and through glass, as denoisers want them"},
     {"--strategies", "DIR", OPTION_TEXT, AT(strategies),
      .help = "write every strategy (s,t), and all as DIR/pyramid.png"},
     {"--lights", "DIR", OPTION_TEXT, AT(lights),
@@ -34,6 +37,10 @@ static const struct option OPTIONS[] = {
      .help = "only light whose way from lamp to lens is from L0 to below L1 long, in scene units; L1 may be inf"},
     {"--time", "TIME", OPTION_NUMBER, AT(keep.time), 1e-9, 1e9,
      .help = "stop after so long, and write what there is"},
+    {"--noise", "X", OPTION_NUMBER, AT(keep.noise[NOISE_RELATIVE]), 1e-9, 1e9,
+     .help = "stop when the noise is below X of the brightness around, e.g. 0.05; asked every 64 samples"},
+    {"--noise8", "X", OPTION_NUMBER, AT(keep.noise[NOISE_8_BIT]), 1e-9, 1e9,
+     .help = "the same in levels of the 255 that 8-bit pictures have; with both, when both are so"},
     {"--checkpoint", "FILE", OPTION_TEXT, AT(keep.checkpoint), .file = FILE_KEPT,
      .help = "save the render now and then, and at signals"},
     {"--interval", "TIME", OPTION_NUMBER, AT(keep.interval), 0, 1e9, .with = "--checkpoint", .fallback = "60",
@@ -113,7 +120,8 @@ static bool open_default_output(const struct job_options *o, const struct scene 
 static bool suits(const struct job_options *o, const struct method *m, const struct files *f, struct error *err)
 {
     const char *wanted = f->aov.wanted[AOV_VARIANCE] ? "--aov variance" : o->strategies != NULL ? "--strategies"
-                         : o->lights != NULL ? "--lights" : o->alpha ? "--alpha" : NULL;
+                         : o->lights != NULL ? "--lights" : o->alpha ? "--alpha"
+                         : keep_asks_noise(&o->keep) ? "--noise" : NULL;
     return !m->chain || wanted == NULL ||
            error_set(err, "%s: the samples of %s are a chain, and do not show that; render several --seed", wanted,
                      m->name);
@@ -125,7 +133,7 @@ static bool open_others(struct job_options *o, const struct scene *scene, struct
     struct names all = {0};
     bool ok = names_add_options(&all, OPTIONS, o, err) &&
               (f->pictures.n > 0 || open_default_output(o, scene, &all, &f->pictures, err)) &&
-              aov_open(&f->aov, &all, &f->pictures, err) &&
+              aov_open(&f->aov, o->layers, &all, &f->pictures, err) &&
               strategies_check(o->strategies, scene, o->max_depth, &all, err) &&
               lights_check(o->lights, scene, &all, err);
     names_free(&all);
@@ -150,7 +158,7 @@ static bool write_files(const struct job_options *o, const struct scene *scene, 
     float *pixels = mem_alloc(rect_pixels(film->rect) * 3, sizeof *pixels), *alpha = film_alpha(film);
     film_warn(film, film_develop(film, scene->film_scale, pixels));
     f->pictures.alpha = alpha;
-    aov_make(&f->aov, scene, options, film, &f->pictures);
+    aov_make(&f->aov, scene, options, film, o->seen, &f->pictures);
     ok = outputs_write(&f->pictures, rect_width(film->rect), rect_height(film->rect), pixels, o->quiet,
                        ok ? err : NULL) && ok;
     aov_free(&f->aov);

@@ -77,9 +77,10 @@ static bool write_one(struct outputs *o, struct output *one, int width, int heig
     }
     if (one->is_part)
         return part_write(&one->file, o->part, o->film, err);
-    const struct channel alpha = {"A", o->alpha, 3};
-    const struct raster r = {o->place, width, height, one->pixels != NULL ? one->pixels : pixels, &alpha,
-                             o->alpha != NULL && one->pixels == NULL};
+    struct channel more[1 + OUTPUTS_LAYERS] = {{"A", o->alpha, 3, false}};
+    memcpy(more + 1, o->layer, sizeof o->layer);
+    int first = o->alpha != NULL ? 0 : 1, n = one->pixels == NULL ? 1 + o->n_layers - first : 0;
+    const struct raster r = {o->place, width, height, one->pixels != NULL ? one->pixels : pixels, more + first, n};
     return image_finish(&one->file, &r, err);
 }
 

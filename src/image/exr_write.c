@@ -44,6 +44,8 @@ static void put_window(struct bytes *b, const char *name, int x, int y, int widt
     put_number(b, (uint64_t)(y + height - 1), 4);
 }
 
+static enum exr_type type_of(const struct channel *c, enum exr_type type) { return c->exact ? EXR_FLOAT : type; }
+
 /* All attributes that every file must have.
  *   channel  [n], in the order of the alphabet */
 static void put_header(struct bytes *b, const struct raster *r, const struct channel *channel, int n,
@@ -58,7 +60,7 @@ static void put_header(struct bytes *b, const struct raster *r, const struct cha
     put_attribute(b, "channels", "chlist", list);
     for (int i = 0; i < n; i++) {
         put(b, channel[i].name, strlen(channel[i].name) + 1);
-        put_number(b, (uint64_t)type, 4);
+        put_number(b, (uint64_t)type_of(&channel[i], type), 4);
         put_number(b, 0, 4); /* of no matter */
         put_number(b, 1, 4); /* every pixel in x */
         put_number(b, 1, 4); /* and y */
@@ -89,7 +91,7 @@ static void put_block(struct bytes *b, const struct raster *r, const struct chan
     for (; y < end; y++)
         for (int c = 0; c < n; c++)
             for (size_t x = 0; x < width; x++)
-                put_float(&raw, channel[c].value[(y * width + x) * channel[c].step], type);
+                put_float(&raw, channel[c].value[(y * width + x) * channel[c].step], type_of(&channel[c], type));
     uint8_t *scratch = mem_alloc(raw.n, 1);
     size_t size;
     uint8_t *packed = exr_pack_zip(raw.data, raw.n, scratch, &size);
@@ -114,7 +116,8 @@ static int by_name(const void *a, const void *b)
 
 static void write_file(FILE *f, const struct raster *r, enum exr_type type)
 {
-    const struct channel rgb[3] = {{"R", r->pixels, 3}, {"G", r->pixels + 1, 3}, {"B", r->pixels + 2, 3}};
+    const struct channel rgb[3] = {{"R", r->pixels, 3, false}, {"G", r->pixels + 1, 3, false},
+                                   {"B", r->pixels + 2, 3, false}};
     size_t rows = (size_t)r->height, n = (rows + EXR_ZIP_ROWS - 1) / EXR_ZIP_ROWS;
     int n_channels = 3 + r->n_more;
     struct channel *channel = mem_alloc((size_t)n_channels, sizeof *channel);

@@ -23,6 +23,7 @@ struct channel {
     const char *name; /* "R"; of "A", alpha, premultiplied colours are multiples */
     const float *value;
     size_t step;
+    bool exact; /* floats, also where OpenEXR's others are halfs */
 };
 
 /* A picture to be written. */

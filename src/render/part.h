@@ -2,10 +2,11 @@
  *
  * A file begins with lines of text, each ended by a line feed:
  *
- *     asbdpt part 4                    the format and its version
+ *     asbdpt part 5                    the format and its version
  *     samples A B                      samples A .. B-1 of each pixel are to be in the file when it is complete,
  *     done N P                         the first N of them are, and P tile passes of the next block
  *     left-out K                       contributions that were not finite or too large
+ *     halves N                         1: behind the sums are those of half the samples (render/halves.h); 0: not
  *     size W H, planes L A             pixels of the film's rectangle; groups of lights and alphas beside the picture
  *     film W H, window X Y             the whole frame, and where in it the rectangle begins
  *     scale X                          by which pixels are multiplied when they are written
@@ -46,6 +47,7 @@ struct part {
     long first, end, done; /* samples first .. first + done - 1 of first .. end - 1 */
     int64_t passes;
     long left_out;
+    bool halves; /* the sums of one half are there, too */
 };
 
 /* part_describe: the part that a render with these options is to fill, nothing being done yet. Threads, names of files

@@ -28,6 +28,7 @@ void tile_start(struct tile *t, struct pixel_rect rect, struct pixel_rect film_r
     memset(t->square, 0, n * sizeof *t->square);
     t->n_splats = t->n_records = 0;
     t->keep_records = keep_records;
+    t->first_half = false;
     t->gate.begin = 0;
     t->gate.end = INFINITY;
     t->nonfinite = 0;
@@ -188,6 +189,7 @@ void film_init(struct film *f, struct pixel_rect rect, int full_width, int full_
 void film_free(struct film *f)
 {
     free(f->sum);
+    free(f->half);
     if (f->errors != NULL) {
         free(f->errors->eye);
         free(f->errors->square);
@@ -226,6 +228,13 @@ void film_keep_errors(struct film *f)
     f->errors = mem_alloc(1, sizeof *f->errors);
     f->errors->eye = mem_alloc(rect_pixels(f->rect) * 3, sizeof(double));
     f->errors->square = mem_alloc(rect_pixels(f->rect) * 3, sizeof(double));
+}
+
+void film_keep_halves(struct film *f)
+{
+    f->half = mem_alloc(rect_pixels(f->rect) * 3, sizeof *f->half);
+    for (int i = 0; i < N_NOISE_SCALES; i++)
+        f->noise[i].value = f->noise[i].error = INFINITY;
 }
 
 void film_keep_strategies(struct film *f, int max_depth)
@@ -294,7 +303,7 @@ static void add_records(struct film *f, const struct tile *t)
     }
 }
 
-static void add_splat(struct film *f, const struct splat *s, const struct filter *filter)
+static void add_splat(struct film *f, const struct splat *s, const struct filter *filter, bool first_half)
 {
     struct pixel_rect range = splat_pixels(s, filter, f->rect);
     size_t plane = (size_t)(1 + s->lights) * 3 * rect_pixels(f->rect);
@@ -306,6 +315,8 @@ static void add_splat(struct film *f, const struct splat *s, const struct filter
             f->nonfinite += !ok;
             for (size_t c = 0; ok && c < 3; c++) {
                 exact_add(&f->sum[at + c], (double)part[c]);
+                if (first_half)
+                    exact_add(&f->half[at + c], (double)part[c]);
                 if (f->planes.lights > 0)
                     exact_add(&f->sum[plane + at + c], (double)part[c]);
                 if (f->errors != NULL)
@@ -317,7 +328,7 @@ static void add_splat(struct film *f, const struct splat *s, const struct filter
 void film_take_splats(struct film *f, struct tile *t)
 {
     for (size_t i = 0; i < t->n_splats; i++)
-        add_splat(f, &t->splat[i], t->filter);
+        add_splat(f, &t->splat[i], t->filter, f->half != NULL && t->first_half);
     if (film_keeps_records(f))
         add_records(f, t);
     t->n_splats = t->n_records = 0;
@@ -333,6 +344,8 @@ void film_merge_tile(struct film *f, struct tile *t)
         for (size_t p = 0; p < (size_t)plane_count(f->planes); p++)
             for (size_t x = 0; x < width; x++)
                 f->nonfinite += !exact_join(&f->sum[p * film_plane + to + x], &t->sum[p * tile_plane + from + x]);
+        for (size_t x = 0; f->half != NULL && t->first_half && x < width; x++)
+            exact_join(&f->half[to + x], &t->sum[from + x]); /* part of the sum: it cannot overflow before it */
         for (size_t x = 0; f->errors != NULL && x < width; x++) {
             f->errors->eye[to + x] += exact_value(&t->sum[from + x]);
             f->errors->square[to + x] += t->square[from + x];

@@ -17,7 +17,8 @@
  * together are the picture, to the bit.
  *
  * Standard errors: eye values of different iterations are independent draws; splats are many rare events, whose
- * variance is the sum of their squares.
+ * variance is the sum of their squares. Halves of the samples say the same of the picture as a whole, and nothing is
+ * left out of them (render/halves.h).
  *
  * Tests: test_film.c.
  */
@@ -104,6 +105,7 @@ struct tile {
     size_t n_records, record_capacity;
     bool keep_records;
     struct gate gate; /* what goes in; tile_start: all lengths */
+    bool first_half;  /* its iterations belong to the first of two halves; tile_start: no */
     void (*full)(void *context, struct tile *tile); /* empties full lists; NULL: they grow */
     void *context;
     long nonfinite; /* contributions that were NaN, infinite or beyond FLT_MAX, and were left out */
@@ -157,6 +159,12 @@ struct film_errors {
     double *eye, *square; /* sums of eye values, and of squares of these and of splats; owned */
 };
 
+/* How far the picture is from what it converges to, as halves.h finds it. */
+enum noise_scale { NOISE_RELATIVE, NOISE_8_BIT, N_NOISE_SCALES };
+struct noise_estimate {
+    double value, error; /* its standard error; both infinite where nothing is known */
+};
+
 enum { FILM_NOTE_SIZE = 200, FILM_NUMBERS = 8 };
 
 struct film_number {
@@ -171,6 +179,9 @@ struct film {
     int64_t passes;              /* tile passes of the next block of iterations that are in already */
     struct planes planes;
     struct exact_sum *sum;       /* [planes][pixels*3] of eye values and splats; owned */
+    struct exact_sum *half;      /* [pixels*3], the picture's of every other `run` iterations, or NULL; owned */
+    int run;                     /* set when the render begins */
+    struct noise_estimate noise[N_NOISE_SCALES]; /* when the halves were of one size the last time */
     struct film_errors *errors;  /* NULL unless asked for; owned */
     long nonfinite;
     char note[FILM_NOTE_SIZE]; /* what the method chose for itself, for people */
@@ -189,6 +200,9 @@ void film_keep_planes(struct film *f, struct planes planes);
 
 /* film_keep_errors: from now on keep what film_standard_error needs. */
 void film_keep_errors(struct film *f);
+
+/* film_keep_halves: from now on sum every other run of iterations on its own, too. */
+void film_keep_halves(struct film *f);
 
 /* film_keep_strategies: from now on sum every strategy on its own, for paths up to max_depth. */
 void film_keep_strategies(struct film *f, int max_depth);
