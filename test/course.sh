@@ -24,10 +24,10 @@ names() { awk -v kind="$1" '$1 == kind { print $2 }' $list; }
 fault() { awk -v name="$1" '!/^[-+]/ { here = $1 == name } here' test/mutants/list.txt; }
 
 # ---- copies of the tree ----
-# build TREE: a dot for each file, and what the compiler says. -O1, because the compiler is what one waits for here.
+# build TREE [TARGET]: a dot for each file, and what the compiler says. -O1, because the compiler is what one waits for here.
 build() {
     (cd "$1" && ${MAKE:-make} -s LTO= OPT=-O1 CFLAGS="${CFLAGS-} -Wno-unused-parameter -Wno-unused-function" \
-        asbdpt asbdpt-lab build/test 2>&1 || echo "no build") |
+        ${2-asbdpt-lab build/test} 2>&1 || echo "no build") |
         awk '/^  (build|asbdpt)/ { printf "."; dots++; next } /^no build$/ { bad = 1; next } { print }
             END { if (dots) print ""; exit bad }'
 }
@@ -62,14 +62,14 @@ dig() {
 shot() {
     case $view in
     mini*) run "$1/mini" "${view#mini }" 4 "$3" "$2" ;;
-    *) run "$1/asbdpt" render $view --quiet --seed "$2" -o "$3" ;; # the words of the view are arguments
+    *) run "$1/asbdpt-lab" render $view --quiet --seed "$2" -o "$3" ;; # the words of the view are arguments
     esac
 }
 
 # noise DIR SIDE: the root mean square difference of two pictures of one side, over four pairs.
 noise() {
     for pair in "1 2" "3 4" "5 6" "7 8"; do
-        $work/original/asbdpt compare "$1/$2-${pair% *}.pfm" "$1/$2-${pair#* }.pfm"
+        $work/original/asbdpt-lab compare "$1/$2-${pair% *}.pfm" "$1/$2-${pair#* }.pfm"
     done | awk '$1 == "rmse" { sum += $2 * $2 } END { print sqrt(sum / 4) }'
 }
 
@@ -89,9 +89,9 @@ measure() {
             { say "" "The changed program does not render (status $?)."; return 1; }
     done
     shot $work/original 1 "$3/before.pfm" # of the same seed: what differs is the change, and little of it noise
-    $work/original/asbdpt compare "$3/yours-1.pfm" "$3/before.pfm" --heatmap "$3/difference.png" >/dev/null
-    $work/original/asbdpt convert "$3/before.pfm" -o "$3/original.png"
-    $work/original/asbdpt convert "$3/yours-1.pfm" -o "$3/changed.png"
+    $work/original/asbdpt-lab compare "$3/yours-1.pfm" "$3/before.pfm" --heatmap "$3/difference.png" >/dev/null
+    $work/original/asbdpt-lab convert "$3/before.pfm" -o "$3/original.png"
+    $work/original/asbdpt-lab convert "$3/yours-1.pfm" -o "$3/changed.png"
     $work/original/asbdpt-lab verify doc/mini/rooms.pbrt --tile 8 --quiet \
         --files "$3"/yours-*.pfm --against "$3"/original-*.pfm >"$3/verify.txt" 2>&1
     awk -v before="$(noise "$3" original)" -v after="$(noise "$3" yours)" '
@@ -109,22 +109,20 @@ measure() {
             exit verdict != "agree" }' "$3/verify.txt"
 }
 
-# suites NAME TREE DIR LIST: tests of the tree; what failed, and what that means. Status 0: all pass.
+# suites NAME TREE DIR LIST: tests of the tree, as far as the first that fails, and what that means. Status 0: all pass.
 suites() {
-    failed=0
     for suite in $4; do
         printf 'Test %s ... ' "$suite"
         if [ -f "$2/test/$suite.sh" ]; then
-            (cd "$2" && run sh "test/$suite.sh" ./asbdpt)
+            build "$2" asbdpt && (cd "$2" && run sh "test/$suite.sh" ./asbdpt)
         else
             (cd "$2" && run build/test "$suite")
         fi >"$3/$suite.txt" 2>&1 && say "passed" && continue
-        failed=1
         say "FAILED:"
         grep -E 'FAIL|^ *p = ' "$3/$suite.txt" | head -n 3 | sed 's/^\(.\{150\}\).*/\1 .../; s/^ */    /'
         get "$1" "$suite"
+        return 1
     done
-    return $failed
 }
 
 # answer NAME TREE TESTS: measure and test a built tree. Status 0: all is well.
