@@ -201,9 +201,9 @@ struct counts { /* the number n of samples per pixel; 0: the method does not use
     double connect;      /* s > 1, t > 1: it is joined to a light sub-path */
     double splat;        /* t = 1: all light sub-paths of the picture are joined to the lens */
     const double *worth; /* `vertices`: `connect` is times the worth of the light end's cell; else NULL */
-    int row;             /* subspaces.c has a row of worths for each cell of an eye end, this long; else 0 */
 };
 
+enum { CELLS = 16 }; /* of space, along each axis (src/learning/regions.c) */
 static int cell(double x) { return (int)fmin(fmax(x * CELLS, 0), CELLS - 1); }
 static int place(vec3 p) { return (cell(p.x) * CELLS + cell(p.y)) * CELLS + cell(p.z / 2); }
 
@@ -212,7 +212,7 @@ static double count(const struct counts *n, const struct vertex *y, const struct
 {
     if (!connectible(y) || !connectible(z))
         return 0;
-    double worth = n->worth != NULL ? n->worth[place(z->p) * n->row + place(y->p)] : 1;
+    double worth = n->worth != NULL ? n->worth[place(y->p)] : 1;
     return z->kind == LENS ? n->splat : y->kind == LIGHT ? n->direct : n->connect * worth;
 }
 
