@@ -6,8 +6,7 @@
 #   sh test/course.sh exercise MUTANT      what the fault of an exercise does: pictures, the mean, tests, reasoning
 #   sh test/course.sh check                does every hole apply, has every exercise an answer? (seconds)
 #   sh test/course.sh prove                does every assignment fail with its hole and pass without? (minutes)
-# DIR is ../asbdpt-course/N if none is named. All that is known of an assignment or exercise is its entry in
-# test/course/list.txt; the solutions are the tree itself.
+# DIR is ../asbdpt-course/N if none is named. What is known of an assignment or exercise is in test/course/list.txt.
 set -u
 list=test/course/list.txt
 work=build-course
@@ -16,15 +15,16 @@ limit=$(command -v timeout || command -v gtimeout) && limit="$limit 600" # secon
 
 say() { printf '%s\n' "$@"; }
 die() { say "course: $*" >&2; exit 2; }
-run() { $limit "$@"; }
 
 # get NAME KEY: what the entry says under that key, a line for each time. names KIND: all entries of a kind.
-get() { awk -v name="$1" -v key="$2" '/^[ae]/ { here = $2 == name } here && $1 == key { sub(/^ *[a-z]+ */, ""); print }' $list; }
+get() {
+    awk -v n="$1" -v key="$2" '/^[ae]/ { here = $2 == n } here && $1 == key { sub(/^ *[a-z]+ */, ""); print }' $list
+}
 names() { awk -v kind="$1" '$1 == kind { print $2 }' $list; }
 fault() { awk -v name="$1" '!/^[-+]/ { here = $1 == name } here' test/mutants/list.txt; }
 
 # ---- copies of the tree ----
-# build TREE [TARGET]: a dot for each file, and what the compiler says. -O1, because the compiler is what one waits for here.
+# build TREE [TARGET]: a dot for each file, and what the compiler says. -O1: it is the compiler one waits for here.
 build() {
     (cd "$1" && ${MAKE:-make} -s LTO= OPT=-O1 CFLAGS="${CFLAGS-} -Wno-unused-parameter -Wno-unused-function" \
         ${2-asbdpt-lab build/test} 2>&1 || echo "no build") |
@@ -61,8 +61,8 @@ dig() {
 # shot TREE SEED OUT: a picture of the view, by the program of that tree.
 shot() {
     case $view in
-    mini*) run "$1/mini" "${view#mini }" 4 "$3" "$2" ;;
-    *) run "$1/asbdpt-lab" render $view --quiet --seed "$2" -o "$3" ;; # the words of the view are arguments
+    mini*) $limit "$1/mini" "${view#mini }" 4 "$3" "$2" ;;
+    *) $limit "$1/asbdpt-lab" render $view --quiet --seed "$2" -o "$3" ;; # the words of the view are arguments
     esac
 }
 
@@ -76,11 +76,11 @@ noise() {
 # measure NAME TREE DIR: pictures of the original and of TREE, and in words how they differ. Status 0: they agree.
 measure() {
     view=$(get "$1" view)
-    [ -n "$view" ] || return 0
+    [ -n "$view" ] || return 0 # nothing to be seen
     case $view in
     mini*) for tree in $work/original "$2"; do
-        ${CC:-cc} -std=c99 -O2 -o "$tree/mini" "$tree/doc/mini/asbdpt.c" -lm || return
-    done ;;
+            ${CC:-cc} -std=c99 -O2 -o "$tree/mini" "$tree/doc/mini/asbdpt.c" -lm || return
+        done ;;
     esac
     printf 'Rendering %s, original and changed:' "$view"
     for k in $SEEDS; do
@@ -109,15 +109,13 @@ measure() {
             exit verdict != "agree" }' "$3/verify.txt"
 }
 
-# suites NAME TREE DIR LIST: tests of the tree, as far as the first that fails, and what that means. Status 0: all pass.
+# suites NAME TREE DIR LIST: tests of the tree, up to the first that fails, and what that means. Status 0: all pass.
 suites() {
     for suite in $4; do
         printf 'Test %s ... ' "$suite"
-        if [ -f "$2/test/$suite.sh" ]; then
-            build "$2" asbdpt && (cd "$2" && run sh "test/$suite.sh" ./asbdpt)
-        else
-            (cd "$2" && run build/test "$suite")
-        fi >"$3/$suite.txt" 2>&1 && say "passed" && continue
+        command="build/test $suite"
+        [ -f "$2/test/$suite.sh" ] && command="sh test/$suite.sh ./asbdpt" && build "$2" asbdpt
+        (cd "$2" && $limit $command) >"$3/$suite.txt" 2>&1 && say "passed" && continue
         say "FAILED:"
         grep -E 'FAIL|^ *p = ' "$3/$suite.txt" | head -n 3 | sed 's/^\(.\{150\}\).*/\1 .../; s/^ */    /'
         get "$1" "$suite"
@@ -127,10 +125,9 @@ suites() {
 
 # answer NAME TREE TESTS: measure and test a built tree. Status 0: all is well.
 answer() {
-    good=0
-    measure "$1" "$2" "$2/report" || good=1
-    suites "$1" "$2" "$2/report" "$3" || good=1
-    return $good
+    measure "$1" "$2" "$2/report"
+    agree=$?
+    suites "$1" "$2" "$2/report" "$3" && [ $agree -eq 0 ]
 }
 
 # page DIR TITLE: DIR/index.html has the pictures and the words of DIR/report.txt.
@@ -153,7 +150,7 @@ start() {
     [ ! -e "$2" ] || die "$2 is there already: remove it, or name another folder"
     original
     mkdir -p "$(dirname "$2")" && cp -Rp $work/original "$2" && dig "$1" "$2" || exit
-    say "$(get "$1" title), doc/course/$1.md. Yours to write in $2:"
+    say "$(get "$1" title). Read doc/course/$1.md. Yours to write in $2:"
     get "$1" hole | sed 's/^\([^ ]*\) \([^ ]*\).*/    \1: \2/'
     say "Then: sh test/course.sh grade ${1%%-*} $2"
 }
@@ -185,7 +182,7 @@ exercise() {
     rm -rf "$tree" && cp -Rp $work/original "$tree" && mkdir "$tree/report" || exit
     sh test/mutants/apply.sh test/mutants/list.txt "$1" "$tree" || exit
     {
-        say "$(fault "$1" | awk 'NR == 1 { file = $2; $1 = $2 = $3 = ""; $0 = "The fault, in " file ":" $0 } { print }')"
+        fault "$1" | awk 'NR == 1 { file = $2; $1 = $2 = $3 = ""; sub(/ */, ""); $0 = "In " file ": " $0 } { print }'
         build "$tree" && answer "$1" "$tree" "$(fault "$1" | awk 'NR == 1 { gsub(/,/, " ", $3); print $3 }')"
         say "" "Is it biased, how much, and where would one see it?" "$(get "$1" answer)"
     } | tee "$tree/report/report.txt"
@@ -199,5 +196,5 @@ start | grade) name=$(names assignment | grep "^${2:-none}")
 exercise) exercise "${2-}" ;;
 check | prove) . test/course/check.sh && "$1" ;;
 list) for name in $(names assignment); do say "$name: $(get "$name" title)"; done; names exercise ;;
-*) sed -n '2,10s/^# \{0,1\}//p' "$0"; exit 2 ;;
+*) sed -n '2,9s/^# \{0,1\}//p' "$0"; exit 2 ;;
 esac
