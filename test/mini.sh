@@ -1,5 +1,5 @@
 #!/bin/sh
-# mini.sh PROGRAM [CC...]: does doc/mini/asbdpt.c, the renderer in one file, with subspaces.c, which adds a method to it,
+# mini.sh PROGRAM [CC...]: do doc/mini/asbdpt.c, the renderer in one file, and subspaces.c, which adds a method to it,
 # compile without a warning under every compiler at hand, and make the pictures that PROGRAM makes of the same scene?
 #
 # Each side renders 8 pictures with seeds of their own; `verify` (test/lab/verify.h) tests the mean, every block of 8x8
