@@ -26,8 +26,8 @@ fault() { awk -v name="$1" '!/^[-+]/ { here = $1 == name } here' test/mutants/li
 # ---- copies of the tree ----
 # build TREE [TARGET]: a dot for each file, and what the compiler says. -O1: it is the compiler one waits for here.
 build() {
-    (cd "$1" && ${MAKE:-make} -s LTO= OPT=-O1 CFLAGS="${CFLAGS-} -Wno-unused-parameter -Wno-unused-function" \
-        ${2-asbdpt-lab build/test} 2>&1 || echo "no build") |
+    (cd "$1" && MAKEFLAGS='' ${MAKE:-make} -s -j2 CC="${CC:-cc}" BUILD=build LTO= OPT=-O1 \
+        CFLAGS='-Wno-unused-parameter -Wno-unused-function' ${2-asbdpt-lab build/test} 2>&1 || echo "no build") |
         awk '/^  (build|asbdpt)/ { printf "."; dots++; next } /^no build$/ { bad = 1; next } { print }
             END { if (dots) print ""; exit bad }'
 }
@@ -35,7 +35,7 @@ build() {
 # original: a copy of all that is needed, built. Others are copies of it, and compared with it.
 original() {
     [ -d $work/original ] || say "Building the original in $work (half a minute or more, the first time) ..."
-    mkdir -p $work/original
+    mkdir -p $work/original && (cd $work/original && rm -rf src test scenes ref doc) # what is no longer in the tree
     cp -Rp Makefile src test scenes ref doc $work/original/ && build $work/original || die "the original does not build"
 }
 
@@ -43,8 +43,8 @@ original() {
 hollow() {
     awk -v name="$2" -v stub="$3" -v page="$4" '
         !held && $0 ~ "^[a-z].*[ *]" name "\\(" && !/;$/ { held = 1; n++ }
-        held == 1 && /^{/ { print "{\n    /* Yours to write: " page " */\n    " stub; held = 2 }
-        held == 2 && /^}/ { held = 0 }
+        held == 1 && /^[{]/ { print "{\n    /* Yours to write: " page " */\n    " stub; held = 2 }
+        held == 2 && /^[}]/ { held = 0 }
         held < 2
         END { exit n != 1 }' "$1"
 }
@@ -186,7 +186,7 @@ exercise() {
         build "$tree" && answer "$1" "$tree" "$(fault "$1" | awk 'NR == 1 { gsub(/,/, " ", $3); print $3 }')"
         say "" "Is it biased, how much, and where would one see it?" "$(get "$1" answer)"
     } | tee "$tree/report/report.txt"
-    page "$tree/report" "$1"
+    page "$tree/report" "$1" && rm -rf "$tree/build"
 }
 
 case ${1-} in

@@ -1,5 +1,4 @@
-/* subspaces.c: the default method, draws that know who asks; an addition to asbdpt.c, to be read after it.
- *
+/* subspaces.c: the default method, draws that know who asks, in an addition to asbdpt.c, to be read after it:
  *     cc -O2 -o mini subspaces.c -lm && ./mini subspaces 64 out.ppm
  *
  * `vertices` gives a light vertex one worth, whoever asks. But the wall behind the gap is worth much to the floor that
@@ -7,7 +6,8 @@
  * to an eye vertex in cell e. An eye vertex z draws light vertex v of the row's pool with probability
  *     P(v|z) = (1 - delta) h(e(z),l(v)) L_v / sum + delta / size,     L_v = luminance(beta_v),
  * and divides by it: unbiased whatever h is. The weights count n = DRAWS h(e,l) samples, a function of both ends of the
- * edge, on which all strategies of a path agree. (In src, regions are found, and a pilot chooses how many to draw.) */
+ * edge, on which all strategies of a path agree. A table for every cell that asks costs more time here than it saves; in
+ * src a tile shares them, regions are found, and a pilot chooses how many to draw. */
 #define main main_of_asbdpt
 #include "asbdpt.c"
 #undef main
