@@ -6,7 +6,7 @@
  * to an eye vertex in cell e. An eye vertex z draws light vertex v of the row's pool with probability
  *     P(v|z) = (1 - delta) h(e(z),l(v)) L_v / sum + delta / size,     L_v = luminance(beta_v),
  * and divides by it: unbiased whatever h is. The weights count n = DRAWS h(e,l) samples, a function of both ends of the
- * edge, on which all strategies of a path agree. A table for every cell that asks costs more time here than it saves; in
+ * edge, on which all strategies of a path agree. A table for each cell that asks costs more time here than it saves; in
  * src a tile shares them, regions are found, and a pilot chooses how many to draw. */
 #define main main_of_asbdpt
 #include "asbdpt.c"
