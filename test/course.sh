@@ -103,7 +103,7 @@ measure() {
             if (verdict == "") print "the pictures cannot be compared."
             else if (verdict == "agree") print "no difference in expectation is seen."
             else if (ratio > 1 + 4 * error) printf "too bright by %.1f %%.\n", 100 * (ratio - 1)
-            else if (ratio < 1 - 4 * error) printf "too dark by %.1f %%.\n", 100 * (1 - ratio)
+            else if (ratio + 0 == 0 || ratio < 1 - 4 * error) printf "too dark by %.1f %%.\n", 100 * (1 - ratio)
             else print "nearly right as a whole, but not everywhere: see the " place "."
             if (before > 0) printf "Noise: %.2f times that of the original.\n", after / before
             exit verdict != "agree" }' "$3/verify.txt"
