@@ -28,7 +28,7 @@ for command in render merge convert info; do # each its own help
     expect 0 '' "$program" $command --help
     check [ "$(grep -c "usage: asbdpt $command" stdout.txt)" = 1 ]
 done
-for command in compare trace worth verify experiment equal-time family demo transient bench; do
+for command in compare trace worth strategies verify experiment equal-time family demo transient bench; do
     expect 0 '' "$lab" $command -h
     check [ "$(grep -c "usage: asbdpt-lab $command" stdout.txt)" = 1 ]
 done
@@ -152,7 +152,7 @@ fi
 for wrong in no/such/dir/x.pfm /proc/x.pfm stdout.txt/x.pfm; do
     expect 1 "^asbdpt: $wrong: cannot be created" "$program" render nothing.pbrt -o good.pfm -o $wrong
 done
-expect 1 '^asbdpt: good.ppm/s/probe: cannot be created' "$program" render nothing.pbrt --strategies good.ppm/s
+expect 1 '^asbdpt: good.ppm/s/probe: cannot be created' "$program" render nothing.pbrt --lights good.ppm/s
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt -o good.pfm
 expect 1 'is odd' "$program" render "$box" $small -P select=bins -P binpaths=7 --integrator asbdpt -o good.pfm
 check [ ! -e good.pfm ]
@@ -263,11 +263,12 @@ expect 1 'rmse [0-9.e-]+ is more than 1e-09' "$lab" compare a.png a.pfm --max-rm
 expect 0 '' "$program" render "$box" --res 8x8 --spp 1 --quiet -o c.pfm
 expect 1 'equal size' "$lab" compare a.pfm c.pfm
 expect 1 cornell-box.pbrt "$lab" compare "$box" a.pfm
-expect 0 '' "$program" render "$box" $small --maxdepth 2 --strategies s -o a.pfm
+expect 0 '' "$lab" strategies "$box" $small --maxdepth 2 -o s
 check [ -s s/d02_s02_t02_weighted.pfm ]
 check [ -s s/pyramid.png ]
 printf 'Film "image" "float scale" 3 WorldBegin LightSource "infinite" "rgb L" [ 1 2 3 ] WorldEnd\n' >scale.pbrt
-expect 0 '' "$program" render scale.pbrt $small --maxdepth 1 --strategies s -o scale.pfm
+expect 0 '' "$program" render scale.pbrt $small --maxdepth 1 -o scale.pfm
+expect 0 '' "$lab" strategies scale.pbrt $small --maxdepth 1 -o s
 check cmp -s scale.pfm s/d00_s00_t02_weighted.pfm
 
 # --- aov

@@ -26,7 +26,7 @@ for select in bins pool vertices subspaces; do
 done
 
 # Every strategy alone, as it is and weighted.
-render --integrator bdpt --spp 64 --res 80x80 --maxdepth 4 --strategies pyramid -o x.png
+"$lab" strategies "$scene" --integrator bdpt --spp 64 --res 80x80 --maxdepth 4 -o pyramid --quiet
 cp pyramid/pyramid.png "$out/"
 
 # What selection has learnt, seen from the floor.

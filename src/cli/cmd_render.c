@@ -27,8 +27,6 @@ static const struct option OPTIONS[] = {
     {"--layers", NULL, OPTION_ON, AT(layers), .with = "--aov", .help = "--aov into the .exr itself, as layers"},
     {"--seen", NULL, OPTION_ON, AT(seen), .with = "--aov",
      .help = "albedo and normal of what is seen in mirrors and through glass, as denoisers want them"},
-    {"--strategies", "DIR", OPTION_TEXT, AT(strategies),
-     .help = "write every strategy (s,t), and all as DIR/pyramid.png"},
     {"--lights", "DIR", OPTION_TEXT, AT(lights),
      .help = "write a picture of what each light brings, see convert --weights; or each \"string group\" of lights"},
     {"--alpha", NULL, OPTION_ON, AT(alpha),
@@ -69,7 +67,7 @@ static char *default_output(const struct scene *scene)
     return out;
 }
 
-/* All that a render writes but its strategies, opened before the work begins. */
+/* All that a render writes but --lights, opened before the work begins. */
 struct files {
     struct outputs pictures;
     struct aov_files aov;
@@ -90,9 +88,9 @@ static bool check_options(const struct job_options *o, struct files *f, struct e
     memset(f, 0, sizeof *f);
     if (!aov_read(o->aov, &f->aov, err))
         return false;
-    if (o->keep.resume != NULL && (o->strategies != NULL || f->aov.wanted[AOV_VARIANCE]))
-        return error_set(err, "%s: strategies and variance are not saved and cannot be resumed", o->keep.resume);
-    return directory_possible(o->strategies, err) && directory_possible(o->lights, err) && keep_check(&o->keep, err);
+    if (o->keep.resume != NULL && f->aov.wanted[AOV_VARIANCE])
+        return error_set(err, "%s: variance is not saved and cannot be resumed", o->keep.resume);
+    return lights_possible(o->lights, err) && keep_check(&o->keep, err);
 }
 
 /* What needs no scene to be opened. */
@@ -119,7 +117,7 @@ static bool open_default_output(const struct job_options *o, const struct scene 
 /* Samples of a chain are neither a pixel's own nor independent. */
 static bool suits(const struct job_options *o, const struct method *m, const struct files *f, struct error *err)
 {
-    const char *wanted = f->aov.wanted[AOV_VARIANCE] ? "--aov variance" : o->strategies != NULL ? "--strategies"
+    const char *wanted = f->aov.wanted[AOV_VARIANCE] ? "--aov variance"
                          : o->lights != NULL ? "--lights" : o->alpha ? "--alpha"
                          : keep_asks_noise(&o->keep) ? "--noise" : NULL;
     return !m->chain || wanted == NULL ||
@@ -134,7 +132,6 @@ static bool open_others(struct job_options *o, const struct scene *scene, struct
     bool ok = names_add_options(&all, OPTIONS, o, err) &&
               (f->pictures.n > 0 || open_default_output(o, scene, &all, &f->pictures, err)) &&
               aov_open(&f->aov, o->layers, &all, &f->pictures, err) &&
-              strategies_check(o->strategies, scene, o->max_depth, &all, err) &&
               lights_check(o->lights, scene, &all, err);
     names_free(&all);
     return ok;
@@ -151,7 +148,7 @@ static void report(const struct job_options *o, const char *integrator, const st
         fprintf(stderr, "%s: %s\n", integrator, film->note);
 }
 
-/* Pictures, strategies, and when all are complete the statistics. `ok`: nothing has failed yet. */
+/* Pictures, and when all are complete the statistics. `ok`: nothing has failed yet. */
 static bool write_files(const struct job_options *o, const struct scene *scene, const struct render_options *options,
                         const struct film *film, struct files *f, bool ok, struct error *err)
 {
@@ -164,7 +161,6 @@ static bool write_files(const struct job_options *o, const struct scene *scene, 
     aov_free(&f->aov);
     free(alpha);
     free(pixels);
-    ok = strategies_write(o->strategies, film, scene->film_scale, ok ? err : NULL) && ok;
     ok = lights_write(o->lights, scene, film, ok ? err : NULL) && ok;
     if (ok && f->stats.stream != NULL)
         return file_commit(&f->stats, err);
@@ -203,8 +199,6 @@ static bool render(const struct job_options *o, const struct scene *scene, const
     bool ok = parameters_max_depth(scene, o->max_depth, &options.max_depth, err) &&
               keep_begin(&keep, &o->keep, o->quiet, scene, &options, &film, err);
     if (ok) {
-        if (o->strategies != NULL)
-            film_keep_strategies(&film, options.max_depth);
         if (files->aov.wanted[AOV_VARIANCE])
             film_keep_errors(&film);
         files->pictures.place = keep.part.place;

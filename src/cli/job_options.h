@@ -42,7 +42,7 @@ struct job_options {
     bool strict, quiet;
     struct texts output; /* of render and worth */
     /* Of render alone: */
-    const char *strategies, *lights; /* directories or NULL */
+    const char *lights; /* directory or NULL */
     bool alpha;
     double gate[2];         /* lengths of paths, the second excluded; 0, 0: all */
     const char *aov;        /* list or NULL */

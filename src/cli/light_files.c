@@ -3,9 +3,30 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/mem.h"
+#include "base/os.h"
 #include "image/image.h"
+
+static char *path_in(const char *directory, const char *name)
+{
+    size_t size = strlen(directory) + strlen(name) + 2;
+    char *out = mem_alloc(size, 1);
+    snprintf(out, size, "%s/%s", directory, name);
+    return out;
+}
+
+bool lights_possible(const char *directory, struct error *err)
+{
+    if (directory == NULL)
+        return true;
+    os_make_directory(directory); /* if that fails, creating a file says why */
+    char *path = path_in(directory, "probe");
+    bool ok = outputs_possible(path, err);
+    free(path);
+    return ok;
+}
 
 /* A group is called by its name, or by what it is. */
 static char *picture_path(const char *directory, const struct light_set *lights, int i)

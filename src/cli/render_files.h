@@ -1,4 +1,4 @@
-/* render_files.h: what asbdpt render writes beside its picture: first-hit pictures, strategies, lights, how it went.
+/* render_files.h: what asbdpt render writes beside its picture: first-hit pictures, lights, how it went.
  *
  * Tests: test/cli.sh, test/outputs.sh.
  */
@@ -36,30 +36,13 @@ void aov_make(struct aov_files *f, const struct scene *scene, const struct rende
               const struct film *film, bool seen, struct outputs *out);
 void aov_free(struct aov_files *f);
 
-/* --- --strategies: a directory, or NULL: nothing is done (strategy_files.c) ------------------------------ */
-
-/* path_in: of a file in the directory; to be given to free(). */
-char *path_in(const char *directory, const char *name);
-
-/* Two pictures of each (s,t), its whole estimate and its weighted share: (d + 1) (d + 4) for paths of up to d + 1
- * edges; and all of them on one sheet. */
-enum { STRATEGIES_MAX_DEPTH = 20 };
-
-/* directory_possible: make the directory; can files be made in it? False with a message. */
-bool directory_possible(const char *directory, struct error *err);
-
-/* strategies_check: once the scene is loaded: are there not too many, and none of them another file?
- *   max_depth  of the options, 0: the scene's
- *   all        the files of the command; in-out */
-bool strategies_check(const char *directory, const struct scene *scene, int max_depth, struct names *all,
-                      struct error *err);
-
-/* strategies_write: of a film that has kept them. */
-bool strategies_write(const char *directory, const struct film *film, double scale, struct error *err);
-
 /* --- --lights: a directory, or NULL: nothing is done (light_files.c) -------------------------------------- */
 
-/* lights_check, lights_write: the same for a picture of each group of lights (scene/light.h). */
+/* lights_possible: make the directory; can files be made in it? lights_check: once the scene is loaded: are there not
+ * too many groups of lights (scene/light.h), and none of their pictures another file? lights_write: of a film that has
+ * kept them. False with a message.
+ *   all  the files of the command; in-out */
+bool lights_possible(const char *directory, struct error *err);
 bool lights_check(const char *directory, const struct scene *scene, struct names *all, struct error *err);
 bool lights_write(const char *directory, const struct scene *scene, const struct film *film, struct error *err);
 
