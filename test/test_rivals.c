@@ -37,7 +37,7 @@ static void test_small_pools(struct test *t)
                                         "pcbdpt records=.3 subpaths=4 connections=2", "ris records=.3 subpaths=1",
                                         "ris records=.3 subpaths=2", "ris records=.3 subpaths=4",
                                         "ris2 records=.3 presampled=2 subpaths=2", "restir candidates=1 neighbours=2",
-                                        "restir candidates=4 neighbours=8"};
+                                        "restir candidates=4 neighbours=8", "restirgi neighbours=8"};
     struct scene scene;
     if (!scene_from_file(t, "doc/mini/rooms.pbrt", 3, 3, &scene))
         return;
@@ -66,7 +66,8 @@ static void test_three_pixels(struct test *t)
 static void test_rooms(struct test *t)
 {
     static const char *const ways[] = {"pcbdpt records=.02", "ris records=.02 subpaths=30",
-                                       "ris2 records=.02 presampled=30", "restir neighbours=20"};
+                                       "ris2 records=.02 presampled=30", "restir neighbours=20",
+                                       "restirgi neighbours=20 heuristic=power"};
     struct scene scene;
     if (!scene_from_file(t, "doc/mini/rooms.pbrt", 16, 16, &scene))
         return;
@@ -96,6 +97,73 @@ static void test_every_scene(struct test *t)
         batches_free(&bdpt);
         scene_free(&scene);
     }
+}
+
+/* Methods that share what eye sub-paths find, in tiles of 16x16 pixels; pathgraph with a bias too small to be seen. */
+static void test_reuse(struct test *t)
+{
+    static const char *const scenes[] = {"light-kinds", "mirror-glass", "all-materials"};
+    static const char *const ways[] = {"restirgi", "restirgi neighbours=20", "pathgraph radius=.01"};
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        char path[256];
+        struct scene scene;
+        snprintf(path, sizeof path, "scenes/test/%s.pbrt", scenes[i]);
+        if (!scene_from_file(t, path, 16, 16, &scene))
+            continue;
+        struct batches pt = render_batches(t, &scene, "pt", 4, 64, 16, 8, 201);
+        const struct plan plan = {64, 16, 8, 202};
+        for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++)
+            agree(t, &scene, scenes[i], ways[k], plan, &pt);
+        batches_free(&pt);
+        scene_free(&scene);
+    }
+}
+
+/* The bias of pathgraph falls with the radius: it is seen where vertices share across half a room, and not with the
+ * same samples where they share nearby. */
+static void test_bias(struct test *t)
+{
+    struct scene scene;
+    if (!scene_from_file(t, "doc/mini/rooms.pbrt", 16, 16, &scene))
+        return;
+    struct batches pt = render_batches(t, &scene, "pt", 4, 128, 16, 4, 211);
+    const struct plan plan = {128, 16, 4, 212};
+    agree(t, &scene, "rooms, against pt", "pathgraph radius=.02", plan, &pt);
+    struct batches far = render_batches(t, &scene, set_method(&scene, "pathgraph radius=.5 cluster=64"), 4, plan.spp,
+                                        plan.batches, plan.tile, plan.seed);
+    double ratio, p = batches_p(&far, &pt, &ratio);
+    TEST_REJECT(t, p, "pathgraph shares across the room, ratio %.4f", ratio);
+    batches_free(&far);
+    batches_free(&pt);
+    scene_free(&scene);
+}
+
+/* Under an even sky all that is white shines like it: nothing is wrong with a neighbour's light. */
+static const char CORNER[] =
+    "LookAt 1 2 3  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 20\n"
+    "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16 WorldBegin\n"
+    "LightSource \"infinite\" \"rgb L\" [1 1 1] Material \"matte\" \"rgb Kd\" [1 1 1]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-4 0 0  4 0 0  4 0 4  -4 0 4]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-4 0 0  4 0 0  4 4 0  -4 4 0]\n"
+    "WorldEnd\n";
+
+static void test_furnace(struct test *t)
+{
+    static const char *const ways[] = {"pathgraph radius=1 cluster=64", "pathgraph radius=.1 heuristic=power",
+                                       "restirgi neighbours=20"};
+    struct scene scene;
+    if (!scene_from_text(t, CORNER, &scene))
+        return;
+    for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++) {
+        const char *integrator = set_method(&scene, ways[k]);
+        struct batches b = render_batches(t, &scene, integrator, 30, 64, 16, 16, 221);
+        double error, mean = batches_mean(&b, &error);
+        TEST_ACCEPT(t, mean_p(&b, 1), "furnace by %s: %.5f +- %.5f", ways[k], mean, error);
+        batches_scale(&b, 1.01);
+        TEST_REJECT(t, mean_p(&b, 1), "furnace by %s made 1 %% brighter", ways[k]);
+        batches_free(&b);
+    }
+    scene_free(&scene);
 }
 
 /* --- limits ------------------------------------------------------------------------------------------ */
@@ -158,6 +226,14 @@ static void test_limits(struct test *t)
          "ris records=.1 subpaths=1", 1e-5},
         {"all-materials", SIDE, 4, "ris records=0 subpaths=1", "pcbdpt records=0 subpaths=1",
          "ris records=0 subpaths=100", 1e-5},
+        {"mirror-glass", SIDE, 4, "restirgi neighbours=0", "pt", "restirgi neighbours=5", 0},
+        {"all-materials", SIDE, 4, "restirgi neighbours=0", "pt", "restirgi neighbours=1", 0},
+        {"mirror-glass", SIDE, 4, "restirgi caustics=1", "pt caustics=1", "restirgi", 0},
+        {"mirror-glass", SIDE, 4, "pathgraph cluster=1", "pt", "pathgraph cluster=2", 1e-6},
+        {"all-materials", SIDE, 4, "pathgraph cluster=1", "pt", "pathgraph radius=.2", 1e-6},
+        {"light-kinds", SIDE, 6, "pathgraph cluster=1 heuristic=power", "pt heuristic=power", "pt", 1e-6},
+        {"all-materials", SIDE, 4, "pathgraph radius=1e-6", "pt", "pathgraph radius=.2", 1e-6},
+        {"mirror-glass", SIDE, 4, "pathgraph regularise=.1", "pt regularise=.1", "pathgraph", 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char path[256];
@@ -351,5 +427,8 @@ void test_rivals(struct test *t)
     test_three_pixels(t);
     test_rooms(t);
     test_every_scene(t);
+    test_reuse(t);
+    test_bias(t);
+    test_furnace(t);
     test_limits(t);
 }

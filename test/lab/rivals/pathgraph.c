@@ -1,0 +1,255 @@
+/* pathgraph.c: eye vertices nearby take each other's light for their own. Biased.
+ *
+ * Path graphs [Deng 2021]. From each vertex j of an eye sub-path two edges lead: one to a point on a light, drawn with
+ * density q (1/sr), and the one along which the walk went on, with density p. Vertices of a tile that lie in one cell
+ * of a grid, face one way and have as many vertices before them form clusters, in which each takes over the edges of
+ * all M, as if what comes along an edge to one came to the others, too. Over the edges i, of direction w_i,
+ *     L_j = sum f_j(w_i) |cos| Le_i / sum_m (p_m + q_m)(w_i) + sum f_j(w_i) |cos| L_i / sum_m p_m(w_i),
+ * Le_i being what lights send along the edge and L_i, of edges of the second kind, what the next vertex sends on: the
+ * balance heuristic over members m. The bias is that of another's light and visibility; it falls with the radius, and
+ * in a cluster of one L_j is what path tracing finds.
+ *
+ * The paper's graph has circles, and is gone through again and again. Here vertices are joined with those of equal
+ * depth alone, as the longest path asks for, so that one sweep from the last vertices to the first has it all. What the
+ * camera sees, itself or in mirrors, is in no cluster: pixels share what lies behind it, so that edges stay sharp. The
+ * grid lies elsewhere in every iteration.
+ *
+ * The light of an edge is that of many paths: it has no length, and nothing can be left out of it. Where a gate, or
+ * caustics, ask for paths the method is `pt`. To strategies and trace the first vertex is a lamp.
+ *
+ * Tests: test_rivals.c.
+ */
+#include <stddef.h>
+#include <stdlib.h>
+
+#include "lab/rivals/reuse.h"
+
+enum { LARGEST_CLUSTER = 64, ALONE = 6 };
+
+struct pathgraph_state {
+    struct frozen frozen;
+    int cluster;   /* most vertices of one */
+    double radius; /* side of the grid's cells over the radius of the scene's bounding sphere */
+};
+
+struct node {
+    const struct vertex *z;
+    bool ends;       /* there is no next vertex: else it is z + 1, and the next node is its own */
+    vec3 w;          /* to the point on a light, unit */
+    rgb Le;          /* what comes from there; black if nothing does */
+    double q;        /* of w, 1/sr; 0: of a light without extent, and Le is over its density */
+    rgb L;           /* what it sends on towards the vertex before */
+    vec3 cell;       /* of the grid */
+    int face;        /* which way it faces, ALONE: it is in no cluster; */
+    int number;      /* so that no two are equal */
+    rgb f;           /* at work: towards an edge, with the cosine; */
+    double p;        /* and the density of the walk's going there */
+};
+
+/* --- edges ------------------------------------------------------------------------------------------- */
+
+/* The edge to a light: as connect_light_point draws it, but that others may scatter where this vertex has f = 0. */
+static void draw_light(struct pixel_sample *sample, struct node *node)
+{
+    const struct light_set *lights = &sample->scene->lights;
+    const struct vertex *z = node->z;
+    struct lit l = {.z = z};
+    double u[3], pmf;
+    u[0] = sampler_number(&sample->sampler, DRAW_LIGHT);
+    sampler_pair(&sample->sampler, DRAW_LIGHT_POINT, &u[1]);
+    if (!vertex_connectible(z) || lights->choice.n == 0)
+        return;
+    l.at.cell = alias_sample(&lights->choice, u[0], &pmf, NULL);
+    if (!light_sample_cell(lights, &sample->scene->geo, l.at.cell, u[1], u[2], &l.at) || !(l.at.pdf > 0))
+        return;
+    const struct light *light = &lights->light[l.at.light];
+    bool parallel = light_at_infinity(light);
+    vec3 d = parallel ? l.at.w : sub(l.at.p, z->p);
+    double d2 = length2(d);
+    if (!(d2 > 0) || !bsdf_may_scatter(&z->bsdf, z->wo, d))
+        return;
+    node->w = mul(d, 1 / sqrt(d2));
+    rgb Le = light_Le(lights, &l.at, neg(node->w));
+    double at_light = (light->kind == LIGHT_AREA ? abs_dot(l.at.n, node->w) : 1) / (parallel ? 1 : d2);
+    double density = pmf * l.at.pdf_cell / at_light;
+    if (rgb_is_black(Le) || !(at_light > 0) || !lit_visible(sample->scene, &l))
+        return;
+    bool delta = light_is_delta(light);
+    node->Le = delta ? rgb_scale(Le, 1 / density) : Le;
+    node->q = delta ? 0 : density;
+}
+
+/* Ask the members for f and p towards w. Returns the sum of their p, raised as the heuristic has it; *able: how many
+ * take light from there. */
+static double ask(struct node **member, int n, const struct mis_counts *counts, vec3 w, int *able)
+{
+    double sum = 0;
+    *able = 0;
+    for (int m = 0; m < n; m++) {
+        const struct vertex *z = member[m]->z;
+        struct bsdf_value b = bsdf_eval(&z->bsdf, z->wo, w, RADIANCE);
+        member[m]->f = rgb_scale(b.f, scatter_cosine(z, w, RADIANCE));
+        member[m]->p = b.pdf;
+        sum += mis_raise(counts, b.pdf);
+        *able += bsdf_may_scatter(&z->bsdf, z->wo, w);
+    }
+    return sum;
+}
+
+/* What comes along an edge goes on from all members. */
+static void share(struct node **member, int n, rgb light)
+{
+    for (int m = 0; m < n; m++)
+        member[m]->L = rgb_add(member[m]->L, rgb_mul(member[m]->f, light));
+}
+
+/* The edges of one member to all. */
+static void aggregate(const struct pixel_sample *sample, struct node **member, int n, struct node *from)
+{
+    const struct mis_counts *counts = sample->counts;
+    const struct vertex *next = from->z + 1;
+    int able;
+    if (!rgb_is_black(from->Le)) {
+        double sum = ask(member, n, counts, from->w, &able), own = mis_raise(counts, from->q);
+        share(member, n, rgb_scale(from->Le, from->q > 0 ? own / ((sum + able * own) * from->q) : 1.0 / able));
+    }
+    if (from->ends)
+        return;
+    double roulette;
+    rgb step = reuse_step(from->z, next, &roulette), Le = reuse_hit(sample, from->z, next, 3, rgb_grey(1)).value;
+    if (next->prev_delta) {
+        from->L = rgb_add(from->L, rgb_mul(step, rgb_add(Le, from[1].L)));
+        return;
+    }
+    double sum = ask(member, n, counts, neg(next->wo), &able), p = from->p;
+    double all = sum + able * mis_raise(counts, p * reuse_hit_density(next));
+    rgb light = rgb_add(rgb_scale(Le, sum / all), from[1].L);
+    share(member, n, rgb_scale(light, roulette * mis_raise(counts, p) / (sum * p)));
+}
+
+/* --- clusters ---------------------------------------------------------------------------------------- */
+
+static int by_number(double a, double b) { return (a > b) - (a < b); }
+
+static int by_place(const void *a, const void *b)
+{
+    const struct node *x = *(struct node *const *)a, *y = *(struct node *const *)b;
+    int order[] = {x->face - y->face, by_number(x->cell.x, y->cell.x), by_number(x->cell.y, y->cell.y),
+                   by_number(x->cell.z, y->cell.z), x->number - y->number};
+    int k = 0;
+    while (k < 4 && order[k] == 0)
+        k++;
+    return order[k];
+}
+
+/* Which cell, and which of the six ways its side that is seen faces. */
+static void place(struct node *node, const struct scene *scene, double side, vec3 shift)
+{
+    node->face = ALONE;
+    if (node->z->eye_end == FIRST_HIT || !vertex_connectible(node->z))
+        return;
+    vec3 p = add(mul(sub(node->z->p, scene->lights.center), 1 / side), shift);
+    vec3 n = dot(node->z->ng, node->z->wo) < 0 ? neg(node->z->ng) : node->z->ng;
+    vec3 cell = {floor(p.x), floor(p.y), floor(p.z)}, a = {fabs(n.x), fabs(n.y), fabs(n.z)};
+    node->cell = cell;
+    if (a.x >= a.y && a.x >= a.z)
+        node->face = n.x > 0;
+    else
+        node->face = a.y >= a.z ? 2 + (n.y > 0) : 4 + (n.z > 0);
+}
+
+static bool together(const struct node *a, const struct node *b)
+{
+    return a->face == b->face && a->cell.x == b->cell.x && a->cell.y == b->cell.y && a->cell.z == b->cell.z;
+}
+
+/* What n vertices of equal depth send on. */
+static void aggregate_all(const struct pathgraph_state *s, const struct pixel_sample *sample, struct node **node, int n,
+                          vec3 shift)
+{
+    for (int i = 0; i < n; i++)
+        place(node[i], sample->scene, s->radius * sample->scene->lights.radius, shift);
+    qsort(node, (size_t)n, sizeof *node, by_place);
+    for (int i = 0, end; i < n; i = end) {
+        end = i + 1;
+        while (node[i]->face != ALONE && end < n && end - i < s->cluster && together(node[i], node[end]))
+            end++;
+        for (int k = i; k < end; k++)
+            aggregate(sample, &node[i], end - i, node[k]);
+    }
+}
+
+/* --- tiles ------------------------------------------------------------------------------------------- */
+
+/* The graph, from the last vertices to the first; longest: vertices of the longest eye sub-path. */
+static void sweep(const struct pathgraph_state *s, struct pooled_pixel *pixel, struct node **of, int n, int longest,
+                  struct arena *arena, vec3 shift)
+{
+    struct node **level = arena_alloc(arena, (size_t)n * sizeof *level);
+    for (int t = longest; t >= 2; t--) {
+        int here = 0;
+        for (int i = 0; i < n; i++)
+            if (t <= pixel[i].n && pixel[i].eye[t - 1].kind == VERTEX_SURFACE)
+                level[here++] = &of[i][t - 1];
+        aggregate_all(s, &pixel[0].sample, level, here, shift);
+    }
+}
+
+static void connect_all(void *scratch, const void *state, const struct tile_pass *pass, struct pooled_pixel *pixel,
+                        int n)
+{
+    const struct pathgraph_state *s = state;
+    struct arena *arena = &pass->work->arena;
+    struct node **of = arena_alloc(arena, (size_t)n * sizeof *of);
+    bool whole = !gate_is_endless(pass->tile->gate) || pass->job->caustics > 0 || pass->job->regularise > 0;
+    int longest = 0;
+    (void)scratch;
+    for (int i = 0; i < n; i++) {
+        struct pooled_pixel *p = &pixel[i];
+        if (whole)
+            pixel_sum_eye(&p->sample, p->eye, p->n);
+        of[i] = arena_alloc(arena, (size_t)p->n * sizeof **of);
+        for (int t = 1; t <= p->n; t++) {
+            struct node node = {.z = &p->eye[t - 1], .ends = t == p->n, .number = i};
+            if (!whole && node.z->kind == VERTEX_SURFACE && t <= p->sample.max_depth + 1)
+                draw_light(&p->sample, &node);
+            of[i][t - 1] = node;
+        }
+        longest = p->n > longest ? p->n : longest;
+    }
+    if (whole)
+        return;
+    vec3 shift = {sampler_number(&pixel[0].draws, DRAW_ORDER), sampler_number(&pixel[0].draws, DRAW_ORDER),
+                  sampler_number(&pixel[0].draws, DRAW_ORDER)};
+    sweep(s, pixel, of, n, longest, arena, shift);
+    for (int i = 0; i < n; i++) {
+        struct pooled_pixel *p = &pixel[i];
+        if (p->n < 2)
+            continue;
+        struct connection c = connect_hit(p->sample.scene, p->sample.counts, &p->eye[0], &p->eye[1], 2);
+        c.value = rgb_add(c.value, rgb_mul(p->eye[1].beta, of[i][1].L));
+        c.weight = 1;
+        pixel_sum_connection(&p->sample, &c, 0, 2, 1);
+    }
+}
+
+static void prepare(const struct render_job *job, struct preparation *out)
+{
+    struct pathgraph_state *s = out->state;
+    (void)job;
+    out->size.tile = MAX_TILE_SIZE;
+    s->frozen.path_pixels = 0;
+    s->frozen.counts.connect[FIRST_HIT] = s->frozen.counts.connect[LATER_HIT] = s->frozen.counts.splat = 0;
+}
+
+#define AT(member) offsetof(struct pathgraph_state, member)
+static const struct method_parameter PARAMETERS[] = {
+    {"cluster", PARAMETER_INTEGER, AT(cluster), 16, 1, LARGEST_CLUSTER, "most vertices that share their light; 1: pt",
+     NULL},
+    {"radius", PARAMETER_NUMBER, AT(radius), 0.05, 1e-6, 10, "how far apart they may be, in radii of the scene", NULL},
+    {.name = NULL}};
+
+const struct method method_pathgraph = {
+    .name = "pathgraph", .help = "path graphs [Deng 2021]: pt whose vertices share what lights them with others; biased",
+    .parameters = PARAMETERS, .state_size = sizeof(struct pathgraph_state), .scratch_size = sizeof(struct light_pool),
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render, .connect_all = connect_all};
