@@ -119,6 +119,29 @@ static void test_reuse(struct test *t)
     }
 }
 
+/* A floor seen from above, beside the wall that lights it: how much comes from there, and how the densities of what is
+ * taken over change, differs by more than ten from the first to the last of the pixels, and they are all alike. */
+static const char FLOOR[] =
+    "LookAt .5 10 0  .5 0 0  0 0 1 Camera \"perspective\" \"float fov\" .72\n"
+    "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 1 PixelFilter \"box\" WorldBegin\n"
+    "LightSource \"spot\" \"point from\" [1.5 .5 0] \"point to\" [0 .4 0] \"rgb I\" [9 9 9] \"float coneangle\" 20\n"
+    "Material \"matte\" \"rgb Kd\" [.8 .8 .8]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [0 0 -2  0 0 2  0 1 2  0 1 -2]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [0 0 -2  0 0 2  2 0 2  2 0 -2]\n"
+    "WorldEnd\n";
+
+static void test_gradient(struct test *t)
+{
+    struct scene scene;
+    if (!scene_from_text(t, FLOOR, &scene))
+        return;
+    struct batches pt = render_batches(t, &scene, "pt", 4, 1024, 16, 1, 231);
+    const struct plan plan = {1024, 16, 1, 232};
+    agree(t, &scene, "a floor beside a wall", "restirgi neighbours=8", plan, &pt);
+    batches_free(&pt);
+    scene_free(&scene);
+}
+
 /* The bias of pathgraph falls with the radius: it is seen where vertices share across half a room, and not with the
  * same samples where they share nearby. */
 static void test_bias(struct test *t)
@@ -428,6 +451,7 @@ void test_rivals(struct test *t)
     test_rooms(t);
     test_every_scene(t);
     test_reuse(t);
+    test_gradient(t);
     test_bias(t);
     test_furnace(t);
     test_limits(t);

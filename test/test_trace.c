@@ -13,7 +13,8 @@ static const struct {
 } WAYS[] = {{"pt", "pt", ""}, {"lt", "lt", ""}, {"bdpt", "bdpt", ""}, {"bins", "asbdpt", "bins"},
             {"pool", "asbdpt", "pool"}, {"vertices", "asbdpt", "vertices"}, {"subspaces", "asbdpt", "subspaces"},
             {"lvc", "lvc", ""}, {"cbdpt", "cbdpt", ""}, {"mbdpt", "mbdpt", ""}, {"pcbdpt", "pcbdpt", ""},
-            {"ris", "ris", ""}, {"ris2", "ris2", ""}, {"restir", "restir", ""}};
+            {"ris", "ris", ""}, {"ris2", "ris2", ""}, {"restir", "restir", ""},
+            {"restirgi", "restirgi", ""}, {"pathgraph", "pathgraph", ""}};
 enum { N_WAYS = sizeof WAYS / sizeof WAYS[0] };
 
 static struct render_options options_of(int way)
