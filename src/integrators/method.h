@@ -28,7 +28,6 @@ struct frozen {
 };
 
 struct method;
-struct learnt;
 
 /* What `prepare` has settled. */
 struct preparation {
@@ -47,6 +46,7 @@ struct method {
     const char *select; /* asbdpt alone, whose rows share a name: the value of its parameter `select` */
     const char *help;   /* one line */
     bool chain;         /* its samples are mutations of others, of no pixel and not independent: see chains/chain.h */
+    bool merges;        /* what it adds to a pixel is of many paths at once, of any length */
     const char *why;    /* for trace: how what an eye sub-path is joined to is chosen; NULL: it is not */
     const struct method_parameter *parameters; /* of the state; NULL: none */
     size_t state_size, scratch_size;    /* scratch_size 0: none; else all zeros at first */
@@ -57,7 +57,6 @@ struct method {
     /* Settle counts and whatever is frozen; out->state is zero but for struct frozen and the parameters. NULL: all is
      * settled. */
     void (*prepare)(const struct render_job *job, struct preparation *out);
-    struct learnt *(*learnt)(void *state); /* what it has learnt, there before prepare if known; NULL: nothing */
     void (*release)(void *state); /* what the state owns, but not the state; NULL: nothing */
 
     void (*render)(const struct preparation *m, const struct tile_pass *pass);

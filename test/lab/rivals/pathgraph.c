@@ -14,15 +14,15 @@
  * camera sees, itself or in mirrors, is in no cluster: pixels share what lies behind it, so that edges stay sharp. The
  * grid lies elsewhere in every iteration.
  *
- * The light of an edge is that of many paths: it has no length, and nothing can be left out of it. Where a gate, or
- * caustics, ask for paths the method is `pt`. To strategies and trace the first vertex is a lamp.
+ * Light that comes over an edge has the length of the path that found it. To strategies and trace the first vertex is a
+ * lamp. Where caustics or cones are asked for, which are made of whole paths, the method is `pt`.
  *
  * Tests: test_rivals.c.
  */
 #include <stddef.h>
 #include <stdlib.h>
 
-#include "lab/rivals/reuse.h"
+#include "rivals/reuse.h"
 
 enum { LARGEST_CLUSTER = 64, ALONE = 6 };
 
@@ -38,7 +38,8 @@ struct node {
     vec3 w;          /* to the point on a light, unit */
     rgb Le;          /* what comes from there; black if nothing does */
     double q;        /* of w, 1/sr; 0: of a light without extent, and Le is over its density */
-    rgb L;           /* what it sends on towards the vertex before */
+    double length;   /* of the path by way of it */
+    rgb L[2];        /* what it sends on towards the vertex before, of paths shorter than the gate's end, its beginning */
     vec3 cell;       /* of the grid */
     int face;        /* which way it faces, ALONE: it is in no cluster; */
     int number;      /* so that no two are equal */
@@ -75,6 +76,7 @@ static void draw_light(struct pixel_sample *sample, struct node *node)
     if (rgb_is_black(Le) || !(at_light > 0) || !lit_visible(sample->scene, &l))
         return;
     bool delta = light_is_delta(light);
+    node->length = z->length + (parallel ? light_distance(lights, z->p, node->w) : sqrt(d2));
     node->Le = delta ? rgb_scale(Le, 1 / density) : Le;
     node->q = delta ? 0 : density;
 }
@@ -97,34 +99,47 @@ static double ask(struct node **member, int n, const struct mis_counts *counts, 
 }
 
 /* What comes along an edge goes on from all members. */
-static void share(struct node **member, int n, rgb light)
+static void share(struct node **member, int n, rgb light, int k)
 {
     for (int m = 0; m < n; m++)
-        member[m]->L = rgb_add(member[m]->L, rgb_mul(member[m]->f, light));
+        member[m]->L[k] = rgb_add(member[m]->L[k], rgb_mul(member[m]->f, light));
 }
 
-/* The edges of one member to all. */
-static void aggregate(const struct pixel_sample *sample, struct node **member, int n, struct node *from)
+/* Is a path one of L[k]? */
+static bool counts_for(const struct pixel_sample *sample, double length, int k)
+{
+    return gate_before(length, k == 0 ? sample->tile->gate.end : sample->tile->gate.begin);
+}
+
+/* The edge of one member to a light, to all. */
+static void aggregate_light(const struct pixel_sample *sample, struct node **member, int n, const struct node *from)
+{
+    int able;
+    double sum = ask(member, n, sample->counts, from->w, &able), own = mis_raise(sample->counts, from->q);
+    rgb light = rgb_scale(from->Le, from->q > 0 ? own / ((sum + able * own) * from->q) : 1.0 / able);
+    for (int k = 0; k < 2; k++)
+        if (counts_for(sample, from->length, k))
+            share(member, n, light, k);
+}
+
+/* The edge that leads on, to all; to the member alone if it left by a delta lobe. */
+static void aggregate_next(const struct pixel_sample *sample, struct node **member, int n, struct node *from)
 {
     const struct mis_counts *counts = sample->counts;
     const struct vertex *next = from->z + 1;
+    const struct connection hit = reuse_hit(sample, from->z, next, 3, rgb_grey(1));
     int able;
-    if (!rgb_is_black(from->Le)) {
-        double sum = ask(member, n, counts, from->w, &able), own = mis_raise(counts, from->q);
-        share(member, n, rgb_scale(from->Le, from->q > 0 ? own / ((sum + able * own) * from->q) : 1.0 / able));
-    }
-    if (from->ends)
-        return;
-    double roulette;
-    rgb step = reuse_step(from->z, next, &roulette), Le = reuse_hit(sample, from->z, next, 3, rgb_grey(1)).value;
-    if (next->prev_delta) {
-        from->L = rgb_add(from->L, rgb_mul(step, rgb_add(Le, from[1].L)));
-        return;
-    }
-    double sum = ask(member, n, counts, neg(next->wo), &able), p = from->p;
+    double roulette, sum = ask(member, n, counts, neg(next->wo), &able), p = from->p;
     double all = sum + able * mis_raise(counts, p * reuse_hit_density(next));
-    rgb light = rgb_add(rgb_scale(Le, sum / all), from[1].L);
-    share(member, n, rgb_scale(light, roulette * mis_raise(counts, p) / (sum * p)));
+    rgb step = reuse_step(from->z, next, &roulette);
+    for (int k = 0; k < 2; k++) {
+        rgb Le = counts_for(sample, hit.length, k) ? hit.value : rgb_black();
+        if (next->prev_delta)
+            from->L[k] = rgb_add(from->L[k], rgb_mul(step, rgb_add(Le, from[1].L[k])));
+        else
+            share(member, n, rgb_scale(rgb_add(rgb_scale(Le, sum / all), from[1].L[k]),
+                                       roulette * mis_raise(counts, p) / (sum * p)), k);
+    }
 }
 
 /* --- clusters ---------------------------------------------------------------------------------------- */
@@ -174,8 +189,12 @@ static void aggregate_all(const struct pathgraph_state *s, const struct pixel_sa
         end = i + 1;
         while (node[i]->face != ALONE && end < n && end - i < s->cluster && together(node[i], node[end]))
             end++;
-        for (int k = i; k < end; k++)
-            aggregate(sample, &node[i], end - i, node[k]);
+        for (int k = i; k < end; k++) {
+            if (!rgb_is_black(node[k]->Le))
+                aggregate_light(sample, &node[i], end - i, node[k]);
+            if (!node[k]->ends)
+                aggregate_next(sample, &node[i], end - i, node[k]);
+        }
     }
 }
 
@@ -195,13 +214,28 @@ static void sweep(const struct pathgraph_state *s, struct pooled_pixel *pixel, s
     }
 }
 
+/* What the first vertex shines, and sends on. */
+static void add_pixel(struct pooled_pixel *p, const struct node *first)
+{
+    struct pixel_sample *sample = &p->sample;
+    const struct vertex *z = first->z;
+    struct connection c = connect_hit(sample->scene, sample->counts, z - 1, z, 2);
+    pixel_sum_connection(sample, &c, 0, 2, 1);
+    c.value = rgb_mul(z->beta, first->L[0]);
+    c.weight = 1;
+    c.length = sample->tile->gate.begin; /* not shorter than that: of what is the sum holds another */
+    pixel_sum_connection(sample, &c, 0, 2, 1);
+    rgb before = rgb_scale(rgb_mul(z->beta, first->L[1]), sample->filter_weight);
+    sample->before = rgb_add(sample->before, before);
+}
+
 static void connect_all(void *scratch, const void *state, const struct tile_pass *pass, struct pooled_pixel *pixel,
                         int n)
 {
     const struct pathgraph_state *s = state;
     struct arena *arena = &pass->work->arena;
     struct node **of = arena_alloc(arena, (size_t)n * sizeof *of);
-    bool whole = !gate_is_endless(pass->tile->gate) || pass->job->caustics > 0 || pass->job->regularise > 0;
+    bool whole = pass->job->caustics > 0 || pass->job->regularise > 0;
     int longest = 0;
     (void)scratch;
     for (int i = 0; i < n; i++) {
@@ -222,15 +256,9 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
     vec3 shift = {sampler_number(&pixel[0].draws, DRAW_ORDER), sampler_number(&pixel[0].draws, DRAW_ORDER),
                   sampler_number(&pixel[0].draws, DRAW_ORDER)};
     sweep(s, pixel, of, n, longest, arena, shift);
-    for (int i = 0; i < n; i++) {
-        struct pooled_pixel *p = &pixel[i];
-        if (p->n < 2)
-            continue;
-        struct connection c = connect_hit(p->sample.scene, p->sample.counts, &p->eye[0], &p->eye[1], 2);
-        c.value = rgb_add(c.value, rgb_mul(p->eye[1].beta, of[i][1].L));
-        c.weight = 1;
-        pixel_sum_connection(&p->sample, &c, 0, 2, 1);
-    }
+    for (int i = 0; i < n; i++)
+        if (pixel[i].n >= 2)
+            add_pixel(&pixel[i], &of[i][1]);
 }
 
 static void prepare(const struct render_job *job, struct preparation *out)
@@ -250,6 +278,7 @@ static const struct method_parameter PARAMETERS[] = {
     {.name = NULL}};
 
 const struct method method_pathgraph = {
-    .name = "pathgraph", .help = "path graphs [Deng 2021]: pt whose vertices share what lights them with others; biased",
+    .name = "pathgraph", .merges = true,
+    .help = "path graphs [Deng 2021]: pt whose vertices share what lights them with others; biased",
     .parameters = PARAMETERS, .state_size = sizeof(struct pathgraph_state), .scratch_size = sizeof(struct light_pool),
     .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render, .connect_all = connect_all};

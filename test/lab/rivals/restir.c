@@ -20,7 +20,7 @@
  */
 #include <stddef.h>
 
-#include "lab/rivals/reuse.h"
+#include "rivals/reuse.h"
 
 struct restir_state {
     struct frozen frozen;

@@ -22,7 +22,7 @@
  */
 #include <stddef.h>
 
-#include "lab/rivals/reuse.h"
+#include "rivals/reuse.h"
 
 struct restirgi_state {
     struct frozen frozen;

@@ -1,5 +1,5 @@
 /* reuse.c: see reuse.h. */
-#include "lab/rivals/reuse.h"
+#include "rivals/reuse.h"
 
 /* Normals within 25 degrees, depths within a tenth. */
 static bool alike(const struct vertex *a, const struct vertex *b)
