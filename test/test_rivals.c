@@ -99,11 +99,11 @@ static void test_every_scene(struct test *t)
     }
 }
 
-/* Methods that share what eye sub-paths find, in tiles of 16x16 pixels; pathgraph with a bias too small to be seen. */
+/* Second vertices shared by 16x16 pixels. */
 static void test_reuse(struct test *t)
 {
     static const char *const scenes[] = {"light-kinds", "mirror-glass", "all-materials"};
-    static const char *const ways[] = {"restirgi", "restirgi neighbours=20", "pathgraph radius=.01"};
+    static const char *const ways[] = {"restirgi", "restirgi neighbours=20"};
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         char path[256];
         struct scene scene;
@@ -119,25 +119,27 @@ static void test_reuse(struct test *t)
     }
 }
 
-/* A floor seen from above, beside the wall that lights it: how much comes from there, and how the densities of what is
- * taken over change, differs by more than ten from the first to the last of the pixels, and they are all alike. */
-static const char FLOOR[] =
+/* A slope beside the wall that lights it, and behind a low fence, from above: what comes from there, and the density of
+ * what is taken over, differs by more than ten from the first to the last of the pixels, and they are all alike. */
+static const char SLOPE[] =
     "LookAt .5 10 0  .5 0 0  0 0 1 Camera \"perspective\" \"float fov\" .72\n"
     "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 1 PixelFilter \"box\" WorldBegin\n"
-    "LightSource \"spot\" \"point from\" [1.5 .5 0] \"point to\" [0 .4 0] \"rgb I\" [9 9 9] \"float coneangle\" 20\n"
-    "Material \"matte\" \"rgb Kd\" [.8 .8 .8]\n"
+    "LightSource \"spot\" \"point from\" [1 1.6 0] \"point to\" [0 .1 0] \"rgb I\" [9 9 9]\n"
+    "\"float coneangle\" 15 Material \"matte\" \"rgb Kd\" [.6 .6 .6]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [.5 .5 -2  .5 .5 2  .5 .6 2  .5 .6 -2]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [0 0 -2  0 0 2  2 2 2  2 2 -2]\n"
+    "Material \"uber\" \"rgb Kd\" [.5 .5 .5] \"rgb Kr\" [.4 .4 .4] \"rgb Ks\" [0 0 0]\n"
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [0 0 -2  0 0 2  0 1 2  0 1 -2]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [0 0 -2  0 0 2  2 0 2  2 0 -2]\n"
     "WorldEnd\n";
 
 static void test_gradient(struct test *t)
 {
     struct scene scene;
-    if (!scene_from_text(t, FLOOR, &scene))
+    if (!scene_from_text(t, SLOPE, &scene))
         return;
-    struct batches pt = render_batches(t, &scene, "pt", 4, 1024, 16, 1, 231);
-    const struct plan plan = {1024, 16, 1, 232};
-    agree(t, &scene, "a floor beside a wall", "restirgi neighbours=8", plan, &pt);
+    struct batches pt = render_batches(t, &scene, "pt", 4, 4096, 16, 1, 231);
+    const struct plan plan = {4096, 16, 1, 232};
+    agree(t, &scene, "a slope beside a wall", "restirgi neighbours=8", plan, &pt);
     batches_free(&pt);
     scene_free(&scene);
 }
@@ -151,7 +153,7 @@ static void test_bias(struct test *t)
         return;
     struct batches pt = render_batches(t, &scene, "pt", 4, 128, 16, 4, 211);
     const struct plan plan = {128, 16, 4, 212};
-    agree(t, &scene, "rooms, against pt", "pathgraph radius=.02", plan, &pt);
+    agree(t, &scene, "rooms, against pt", "pathgraph radius=.1", plan, &pt);
     struct batches far = render_batches(t, &scene, set_method(&scene, "pathgraph radius=.5 cluster=64"), 4, plan.spp,
                                         plan.batches, plan.tile, plan.seed);
     double ratio, p = batches_p(&far, &pt, &ratio);
@@ -254,6 +256,7 @@ static void test_limits(struct test *t)
         {"mirror-glass", SIDE, 4, "restirgi caustics=1", "pt caustics=1", "restirgi", 0},
         {"mirror-glass", SIDE, 4, "pathgraph cluster=1", "pt", "pathgraph cluster=2", 1e-6},
         {"all-materials", SIDE, 4, "pathgraph cluster=1", "pt", "pathgraph radius=.2", 1e-6},
+        {"white", SIDE, 4, "pathgraph radius=.1", "pt", "pathgraph radius=1", 0.1}, /* the same light everywhere */
         {"light-kinds", SIDE, 6, "pathgraph cluster=1 heuristic=power", "pt heuristic=power", "pt", 1e-6},
         {"all-materials", SIDE, 4, "pathgraph radius=1e-6", "pt", "pathgraph radius=.2", 1e-6},
         {"mirror-glass", SIDE, 4, "pathgraph regularise=.1", "pt regularise=.1", "pathgraph", 0},

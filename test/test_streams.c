@@ -29,7 +29,6 @@ static const struct way {
     {"ris2", "ris2", NULL, NULL, NULL},
     {"restir", "restir", NULL, NULL, NULL},
     {"restirgi", "restirgi", NULL, NULL, NULL},
-    {"pathgraph", "pathgraph", NULL, NULL, NULL},
     {"bins", "asbdpt", "bins", "32", NULL},
     {"bins, restart 8", "asbdpt", "bins", "8", NULL},
     {"bins, never restarted", "asbdpt", "bins", "0", NULL},

@@ -67,13 +67,14 @@ static void draw_light(struct pixel_sample *sample, struct node *node)
     bool parallel = light_at_infinity(light);
     vec3 d = parallel ? l.at.w : sub(l.at.p, z->p);
     double d2 = length2(d);
-    if (!(d2 > 0) || !bsdf_may_scatter(&z->bsdf, z->wo, d))
+    if (!(d2 > 0))
         return;
     node->w = mul(d, 1 / sqrt(d2));
     rgb Le = light_Le(lights, &l.at, neg(node->w));
     double at_light = (light->kind == LIGHT_AREA ? abs_dot(l.at.n, node->w) : 1) / (parallel ? 1 : d2);
     double density = pmf * l.at.pdf_cell / at_light;
-    if (rgb_is_black(Le) || !(at_light > 0) || !lit_visible(sample->scene, &l))
+    if (rgb_is_black(Le) || !(at_light > 0) || !bsdf_may_scatter(&z->bsdf, z->wo, node->w) ||
+        !lit_visible(sample->scene, &l))
         return;
     bool delta = light_is_delta(light);
     node->length = z->length + (parallel ? light_distance(lights, z->p, node->w) : sqrt(d2));
@@ -223,7 +224,7 @@ static void add_pixel(struct pooled_pixel *p, const struct node *first)
     pixel_sum_connection(sample, &c, 0, 2, 1);
     c.value = rgb_mul(z->beta, first->L[0]);
     c.weight = 1;
-    c.length = sample->tile->gate.begin; /* not shorter than that: of what is the sum holds another */
+    c.length = sample->tile->gate.begin; /* so that it is added to `until` and not to `before` */
     pixel_sum_connection(sample, &c, 0, 2, 1);
     rgb before = rgb_scale(rgb_mul(z->beta, first->L[1]), sample->filter_weight);
     sample->before = rgb_add(sample->before, before);
