@@ -39,7 +39,7 @@ struct node {
     rgb Le;          /* what comes from there; black if nothing does */
     double q;        /* of w, 1/sr; 0: of a light without extent, and Le is over its density */
     double length;   /* of the path by way of it */
-    rgb L[2];        /* what it sends on towards the vertex before, of paths shorter than the gate's end, its beginning */
+    rgb L[2];        /* what it sends on: of paths shorter than the gate's end; than its beginning */
     vec3 cell;       /* of the grid */
     int face;        /* which way it faces, ALONE: it is in no cluster; */
     int number;      /* so that no two are equal */
