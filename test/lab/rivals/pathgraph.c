@@ -10,9 +10,9 @@
  * in a cluster of one L_j is what path tracing finds.
  *
  * The paper's graph has circles, and is gone through again and again. Here vertices are joined with those of equal
- * depth alone, as the longest path asks for, so that one sweep from the last vertices to the first has it all. What the
- * camera sees, itself or in mirrors, is in no cluster: pixels share what lies behind it, so that edges stay sharp. The
- * grid lies elsewhere in every iteration.
+ * depth alone, since paths have a longest length, and one sweep from the last vertices to the first has it all. What
+ * the camera sees, itself or in mirrors, is in no cluster: pixels share what lies behind it, so that edges stay sharp.
+ * The grid lies elsewhere in every iteration.
  *
  * Light that comes over an edge has the length of the path that found it. To strategies and trace the first vertex is a
  * lamp. Where caustics or cones are asked for, which are made of whole paths, the method is `pt`.
@@ -254,21 +254,14 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
     }
     if (whole)
         return;
-    vec3 shift = {sampler_number(&pixel[0].draws, DRAW_ORDER), sampler_number(&pixel[0].draws, DRAW_ORDER),
-                  sampler_number(&pixel[0].draws, DRAW_ORDER)};
+    vec3 shift;
+    shift.x = sampler_number(&pixel[0].draws, DRAW_ORDER);
+    shift.y = sampler_number(&pixel[0].draws, DRAW_ORDER);
+    shift.z = sampler_number(&pixel[0].draws, DRAW_ORDER);
     sweep(s, pixel, of, n, longest, arena, shift);
     for (int i = 0; i < n; i++)
         if (pixel[i].n >= 2)
             add_pixel(&pixel[i], &of[i][1]);
-}
-
-static void prepare(const struct render_job *job, struct preparation *out)
-{
-    struct pathgraph_state *s = out->state;
-    (void)job;
-    out->size.tile = MAX_TILE_SIZE;
-    s->frozen.path_pixels = 0;
-    s->frozen.counts.connect[FIRST_HIT] = s->frozen.counts.connect[LATER_HIT] = s->frozen.counts.splat = 0;
 }
 
 #define AT(member) offsetof(struct pathgraph_state, member)
@@ -282,4 +275,4 @@ const struct method method_pathgraph = {
     .name = "pathgraph", .merges = true,
     .help = "path graphs [Deng 2021]: pt whose vertices share what lights them with others; biased",
     .parameters = PARAMETERS, .state_size = sizeof(struct pathgraph_state), .scratch_size = sizeof(struct light_pool),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render, .connect_all = connect_all};
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = reuse_prepare, .render = pooled_render, .connect_all = connect_all};

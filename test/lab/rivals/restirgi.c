@@ -217,15 +217,6 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
             reuse(pixel, all, &near[i * (s->neighbours + 1)], found[i]);
 }
 
-static void prepare(const struct render_job *job, struct preparation *out)
-{
-    struct restirgi_state *s = out->state;
-    (void)job;
-    out->size.tile = MAX_TILE_SIZE;
-    s->frozen.path_pixels = 0;
-    s->frozen.counts.connect[FIRST_HIT] = s->frozen.counts.connect[LATER_HIT] = s->frozen.counts.splat = 0;
-}
-
 static const struct method_parameter PARAMETERS[] = {
     {"neighbours", PARAMETER_INTEGER, offsetof(struct restirgi_state, neighbours), 5, 0, MOST_NEIGHBOURS,
      "pixels whose second vertices it shares", NULL},
@@ -234,4 +225,5 @@ static const struct method_parameter PARAMETERS[] = {
 const struct method method_restirgi = {
     .name = "restirgi", .help = "reservoirs [Ouyang 2021]: second vertices resampled, and shared with pixels nearby",
     .parameters = PARAMETERS, .state_size = sizeof(struct restirgi_state), .scratch_size = sizeof(struct light_pool),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render, .connect_all = connect_all};
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = reuse_prepare, .render = pooled_render,
+    .connect_all = connect_all};

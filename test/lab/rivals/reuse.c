@@ -22,16 +22,28 @@ int reuse_neighbours(struct pooled_pixel *pixel, int n, int i, int tries, int *n
     return found;
 }
 
+/* Of a delta step: channels to which nothing has come so far have what all delta lobes of that side make of the
+ * direction; to that, too, the walk's roulette belongs. */
+static rgb delta_step(const struct vertex *z, const struct vertex *next)
+{
+    const rgb *b = &z->beta, *a = &next->beta;
+    bool passed = dot(next->wo, z->bsdf.shading.n) * dot(z->wo, z->bsdf.shading.n) > 0;
+    struct bsdf_sample s;
+    rgb guess = bsdf_delta(&z->bsdf, z->wo, passed, RADIANCE, &s) ? s.f : rgb_black();
+    double most = rgb_max(rgb_mul(*b, guess));
+    guess = rgb_scale(guess, most > 0 ? rgb_max(*a) / most : 0);
+    rgb factor = {b->r > 0 ? a->r / b->r : guess.r, b->g > 0 ? a->g / b->g : guess.g, b->b > 0 ? a->b / b->b : guess.b};
+    return factor;
+}
+
 rgb reuse_step(const struct vertex *z, const struct vertex *next, double *roulette)
 {
     vec3 w = neg(next->wo);
+    *roulette = 1;
+    if (next->prev_delta)
+        return delta_step(z, next);
     struct bsdf_value b = bsdf_eval(&z->bsdf, z->wo, w, RADIANCE);
     rgb factor = rgb_scale(b.f, scatter_cosine(z, w, RADIANCE) / b.pdf);
-    struct bsdf_sample s;
-    if (next->prev_delta) {
-        bool passed = dot(w, z->bsdf.shading.n) * dot(z->wo, z->bsdf.shading.n) < 0;
-        factor = bsdf_delta(&z->bsdf, z->wo, passed, RADIANCE, &s) ? rgb_scale(s.f, 1 / s.pdf) : rgb_black();
-    }
     *roulette = rgb_max(next->beta) / rgb_max(rgb_mul(z->beta, factor));
     return rgb_scale(factor, *roulette);
 }
@@ -43,4 +55,13 @@ struct connection reuse_hit(const struct pixel_sample *sample, const struct vert
     at.lamp = NULL;
     at.beta = beta;
     return connect_hit(sample->scene, sample->counts, prev, &at, t);
+}
+
+void reuse_prepare(const struct render_job *job, struct preparation *out)
+{
+    struct frozen *f = out->state;
+    (void)job;
+    out->size.tile = MAX_TILE_SIZE;
+    f->path_pixels = 0;
+    f->counts.connect[FIRST_HIT] = f->counts.connect[LATER_HIT] = f->counts.splat = 0;
 }
