@@ -275,4 +275,5 @@ const struct method method_pathgraph = {
     .name = "pathgraph", .merges = true,
     .help = "path graphs [Deng 2021]: pt whose vertices share what lights them with others; biased",
     .parameters = PARAMETERS, .state_size = sizeof(struct pathgraph_state), .scratch_size = sizeof(struct light_pool),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = reuse_prepare, .render = pooled_render, .connect_all = connect_all};
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = reuse_prepare, .render = pooled_render,
+    .connect_all = connect_all};

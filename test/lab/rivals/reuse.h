@@ -20,8 +20,8 @@ static inline bool reuse_first(const struct pooled_pixel *p)
  * vertices alone. */
 int reuse_neighbours(struct pooled_pixel *pixel, int n, int i, int tries, int *near);
 
-/* reuse_step: the factor by which an eye walk's throughput has changed from one vertex to the next, in channels, too, in
- * which it was 0; *roulette: the part of it that roulette is, unless a delta lobe was taken. */
+/* reuse_step: the factor by which an eye walk's throughput has changed from one vertex to the next, in channels, too,
+ * in which it was 0; *roulette: the part of it that roulette is, unless a delta lobe was taken. */
 rgb reuse_step(const struct vertex *z, const struct vertex *next, double *roulette);
 
 /* reuse_hit: s = 0 for the last, z, of t eye vertices as if that throughput had come there. */
