@@ -28,6 +28,7 @@ static const struct way {
     {"ris", "ris", NULL, NULL, NULL},
     {"ris2", "ris2", NULL, NULL, NULL},
     {"restir", "restir", NULL, NULL, NULL},
+    {"restirgi", "restirgi", NULL, NULL, NULL},
     {"bins", "asbdpt", "bins", "32", NULL},
     {"bins, restart 8", "asbdpt", "bins", "8", NULL},
     {"bins, never restarted", "asbdpt", "bins", "0", NULL},

@@ -46,6 +46,7 @@ struct method {
     const char *select; /* asbdpt alone, whose rows share a name: the value of its parameter `select` */
     const char *help;   /* one line */
     bool chain;         /* its samples are mutations of others, of no pixel and not independent: see chains/chain.h */
+    bool merges;        /* what it adds to a pixel is of many paths at once, of any length */
     const char *why;    /* for trace: how what an eye sub-path is joined to is chosen; NULL: it is not */
     const struct method_parameter *parameters; /* of the state; NULL: none */
     size_t state_size, scratch_size;    /* scratch_size 0: none; else all zeros at first */

@@ -181,11 +181,10 @@ void pixel_sum_joint(struct pixel_sample *sample, const struct joint *j, int s, 
     contribute(sample, &c, s, t, j->y - (s - 1), choice);
 }
 
-void pixel_sum_lit(struct pixel_sample *sample, const struct lit *l, int t, double scale)
+void pixel_sum_connection(struct pixel_sample *sample, const struct connection *c, int s, int t, double scale)
 {
-    struct connection c = connect_lit(sample->scene, sample->counts, l);
     const struct choice choice = {1, scale};
-    contribute(sample, &c, 1, t, NULL, choice);
+    contribute(sample, c, s, t, NULL, choice);
 }
 
 void pixel_sum_pairs(struct pixel_sample *sample, const struct vertex *eye, int n_eye, const struct vertex *light,

@@ -75,8 +75,8 @@ void pixel_sum_pair(struct pixel_sample *sample, const struct vertex *y, int s, 
                     struct choice choice);
 void pixel_sum_joint(struct pixel_sample *sample, const struct joint *j, int s, int t, struct choice choice);
 
-/* pixel_sum_lit: s = 1, z = z_{t-1} and a light point, times `scale`. */
-void pixel_sum_lit(struct pixel_sample *sample, const struct lit *l, int t, double scale);
+/* pixel_sum_connection: one that is made already, s <= 1, times `scale`. */
+void pixel_sum_connection(struct pixel_sample *sample, const struct connection *c, int s, int t, double scale);
 
 /* pixel_sum_pairs: s >= 2, t >= 2 for every pair of vertices of the two sub-paths. */
 void pixel_sum_pairs(struct pixel_sample *sample, const struct vertex *eye, int n_eye, const struct vertex *light,
