@@ -16,15 +16,14 @@
  *
  * Tests: test_asbdpt.c.
  */
-#include "integrators/subspaces_state.h"
-
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/cumulative.h"
-#include "integrators/pilot.h"
+#include "integrators/asbdpt.h"
+#include "pilot/pilot.h"
 
 /* The candidates that lie in one region. */
 struct group {
@@ -185,6 +184,24 @@ static void tell(const struct subspaces_state *s, struct preparation *out)
              f->path_pixels == 1 ? "" : "s");
 }
 
+static void render_for_pilot(const void *method, struct subspaces_state *s, const struct tile_pass *pass)
+{
+    struct preparation p = *(const struct preparation *)method;
+    p.state = s;
+    pooled_render(&p, pass);
+}
+
+static void run_pilot(const struct render_job *job, bool free_choice, const struct preparation *p)
+{
+    struct pilot_method method = {render_for_pilot, p, workspaces_new(job->n_threads, job->max_depth)};
+    for (int i = 0; i < job->n_threads; i++)
+        method.work[i].scratch = method_scratch(p);
+    pilot_run(job, &method, free_choice, p->state);
+    for (int i = 0; i < job->n_threads; i++)
+        method_scratch_free(p, method.work[i].scratch);
+    workspaces_free(method.work, job->n_threads);
+}
+
 /* What the user gave is kept; the pilot chooses the rest. */
 static void prepare(const struct render_job *job, struct preparation *out)
 {
@@ -201,7 +218,7 @@ static void prepare(const struct render_job *job, struct preparation *out)
     if (known)
         pilot_recall(job, s);
     else
-        pilot_run(job, free_choice, out);
+        run_pilot(job, free_choice, out);
     if (s->connections > 0)
         pilot_set_draws(s, s->connections);
     if (path_pixels > 0)

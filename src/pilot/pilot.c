@@ -1,12 +1,11 @@
 /* pilot.c: see pilot.h. */
-#include "integrators/pilot.h"
+#include "pilot/pilot.h"
 
 #include <string.h>
 
 #include "base/maths.h"
 #include "base/number.h"
-#include "integrators/first_light.h"
-#include "integrators/noise.h"
+#include "pilot/first_light.h"
 
 /* Samples per eye vertex (per pixel) of each kind while the pilot runs, and in its absence. The choice moves from the
  * latter by BOLDNESS of the way, on a logarithmic scale: more samples of a kind also take over weight from others, so
@@ -132,20 +131,20 @@ void pilot_recall(const struct render_job *job, struct subspaces_state *s)
         f->counts.connect[FIRST_HIT] = f->counts.connect[LATER_HIT] = 0;
 }
 
-void pilot_run(const struct render_job *job, bool free_choice, struct preparation *method)
+void pilot_run(const struct render_job *job, const struct pilot_method *method, bool free_choice,
+               struct subspaces_state *s)
 {
-    struct subspaces_state *s = method->state;
     struct choice_of_numbers choice = {.credit = {1.5, 1.5}, .light_paths = true};
     struct first_light light;
     struct noise sums;
     struct costs costs = costs_of(&s->learnt.importance);
     struct render_job other = *job;
     other.seed = hash_combine(job->seed, 0x3c6ef372fe94f82bu); /* unlike the render's */
-    first_light_measure(&other, &s->learnt.model, &light);
+    first_light_measure(&other, &s->learnt.model, method->work, &light);
     memcpy(choice.n, TRIED, sizeof choice.n);
     set_numbers(s, &choice, &light);
     s->frozen.counts.splat = pixel_light_count(job) / s->frozen.path_pixels;
-    bool complete = noise_measure(&other, method, TRIED, noise_tiles(job), &sums);
+    bool complete = noise_measure(&other, method, s, TRIED, noise_tiles(job), &sums);
     memcpy(choice.n, USUAL, sizeof choice.n);
     if (sums.total > 0 && complete)
         choose(&costs, &sums, &choice);

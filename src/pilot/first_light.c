@@ -1,5 +1,5 @@
 /* first_light.c: see first_light.h. */
-#include "integrators/first_light.h"
+#include "pilot/first_light.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +22,7 @@ struct pixel_sums {
 struct first_light_job {
     struct render_job job;
     struct mis_counts counts;
-    struct workspace *work;   /* [n_threads] */
+    struct workspace *work;   /* [n_threads], the pilot's */
     struct tile *tile;        /* [n_threads] */
     struct pixel_sums *pixel; /* [n] */
     int64_t n;
@@ -62,7 +62,7 @@ static void take_sample(const struct first_light_job *f, int x, int y, uint64_t 
     add_sample(tile, value);
 }
 
-static void work(void *context, int64_t job, int slot, int thread)
+static void measure_pixel(void *context, int64_t job, int slot, int thread)
 {
     struct first_light_job *f = context;
     struct pixel_rect all = f->job.film_rect;
@@ -121,21 +121,20 @@ static void choose(const struct first_light_job *f, struct first_light *out)
     out->delta = credit_of(moments_of(f, DELTA, bright));
 }
 
-void first_light_measure(const struct render_job *job, const struct count_model *model, struct first_light *out)
+void first_light_measure(const struct render_job *job, const struct count_model *model, struct workspace *work,
+                         struct first_light *out)
 {
-    struct first_light_job f = {.job = *job, .counts = {{1, 1}, {1, 1}, {1, 1}, .model = model}};
+    struct first_light_job f = {.job = *job, .counts = {{1, 1}, {1, 1}, {1, 1}, .model = model}, .work = work};
     double pixels = (double)rect_width(job->film_rect) * rect_height(job->film_rect);
     f.n = int_within(SAMPLES_PER_PIXEL * pixels / (2 * SEQUENCE), 64, MOST_PIXELS);
     f.job.seed = hash_combine(job->seed, 0x9e3779b97f4a7c15u);
-    f.work = workspaces_new(job->n_threads, job->max_depth);
     f.tile = mem_alloc((size_t)job->n_threads, sizeof *f.tile);
     f.pixel = mem_alloc((size_t)f.n, sizeof *f.pixel);
-    struct parallel_jobs jobs = {f.n, job->n_threads, (int)f.n, &f, work, commit, NULL};
+    struct parallel_jobs jobs = {f.n, job->n_threads, (int)f.n, &f, measure_pixel, commit, NULL};
     f.n = parallel_run(&jobs);
     choose(&f, out);
     for (int i = 0; i < job->n_threads; i++)
         tile_free(&f.tile[i]);
-    workspaces_free(f.work, job->n_threads);
     free(f.tile);
     free(f.pixel);
 }

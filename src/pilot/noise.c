@@ -1,5 +1,5 @@
 /* noise.c: see noise.h. */
-#include "integrators/noise.h"
+#include "pilot/noise.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -22,11 +22,11 @@ static const double OUTLIER = 25, OUTLIER_PATHS = 400, OUTLIER_TAIL = 1e4;
 
 struct measure {
     struct render_job job;
-    const struct preparation *method, *again; /* again: with the counts of s <= 1 twice as large */
+    const struct pilot_method *method;
+    struct subspaces_state *state, *again; /* again: with the counts of s <= 1 twice as large */
     const double *tried;
-    struct workspace *work;       /* [n_threads] */
     struct tile (*tile)[RENDERS]; /* [n_slots] */
-    struct noise *found;      /* [n_slots] */
+    struct noise *found;          /* [n_slots] */
     struct noise sums;
     bool stopped;
 };
@@ -170,7 +170,7 @@ static void render_one(struct measure *m, int64_t number, int i, struct pixel_re
     job.eye_seed = hash_combine(m->job.seed, INDEPENDENT + (i == OTHER));
     struct tile_pass pass = {&job, rect, (long)number, (long)number + 1, tile, work, NULL};
     tile_start(tile, rect, job.film_rect, &job.scene->filter, true);
-    m->method->method->render(i == AGAIN ? m->again : m->method, &pass);
+    m->method->render(m->method->method, i == AGAIN ? m->again : m->state, &pass);
 }
 
 static void render_tile(void *context, int64_t job, int slot, int thread)
@@ -184,7 +184,7 @@ static void render_tile(void *context, int64_t job, int slot, int thread)
     struct noise *found = &m->found[slot];
     memset(found, 0, sizeof *found);
     for (int i = 0; i < RENDERS; i++)
-        render_one(m, job, i, rect, &tile[i], &m->work[thread]);
+        render_one(m, job, i, rect, &tile[i], &m->method->work[thread]);
     for (int i = 0; i < INDEPENDENT; i++)
         pixel_values(&tile[i], value + (size_t)i * n);
     brightness(rect, value, other, scale);
@@ -228,44 +228,25 @@ int noise_tiles(const struct render_job *job)
     return int_within(SAMPLES_PER_PIXEL * pixel_light_count(job) / (INDEPENDENT * tile) + 0.75, 1, MOST_TILES);
 }
 
-static void make_memory(struct measure *m, int n_slots)
-{
-    m->work = workspaces_new(m->job.n_threads, m->job.max_depth);
-    for (int i = 0; i < m->job.n_threads; i++)
-        m->work[i].scratch = method_scratch(m->method);
-    m->tile = mem_alloc((size_t)n_slots, sizeof *m->tile);
-    m->found = mem_alloc((size_t)n_slots, sizeof *m->found);
-}
-
-static void free_memory(struct measure *m, int n_slots)
-{
-    for (int i = 0; i < n_slots; i++)
-        for (int k = 0; k < RENDERS; k++)
-            tile_free(&m->tile[i][k]);
-    for (int i = 0; i < m->job.n_threads; i++)
-        method_scratch_free(m->method, m->work[i].scratch);
-    workspaces_free(m->work, m->job.n_threads);
-    free(m->tile);
-    free(m->found);
-}
-
-bool noise_measure(const struct render_job *job, const struct preparation *method, const double *tried, int n,
-                   struct noise *out)
+bool noise_measure(const struct render_job *job, const struct pilot_method *method, struct subspaces_state *state,
+                   const double *tried, int n, struct noise *out)
 {
     int n_slots = 2 * job->n_threads;
-    struct preparation again = *method;
-    struct subspaces_state twice = *(struct subspaces_state *)method->state;
-    struct measure m = {.job = *job, .method = method, .again = &again, .tried = tried};
-    again.state = &twice;
+    struct subspaces_state twice = *state;
+    struct measure m = {.job = *job, .method = method, .state = state, .again = &twice, .tried = tried};
     for (int end = 0; end < EYE_ENDS; end++) {
         twice.frozen.counts.hit[end] *= 2;
         twice.frozen.counts.direct[end] *= 2;
         twice.frozen.counts.delta[end] *= 2;
     }
     struct parallel_jobs jobs = {n, job->n_threads, n_slots, &m, render_tile, add_tile, NULL};
-    make_memory(&m, n_slots);
+    m.tile = mem_alloc((size_t)n_slots, sizeof *m.tile);
+    m.found = mem_alloc((size_t)n_slots, sizeof *m.found);
     parallel_run(&jobs);
-    free_memory(&m, n_slots);
+    for (int i = 0; i < n_slots * RENDERS; i++)
+        tile_free(&m.tile[i / RENDERS][i % RENDERS]);
+    free(m.tile);
+    free(m.found);
     *out = m.sums;
     return !m.stopped;
 }

@@ -16,12 +16,14 @@
 #ifndef ASBDPT_PILOT_H
 #define ASBDPT_PILOT_H
 
-#include "integrators/subspaces_state.h"
+#include "pilot/noise.h"
 
 /* pilot_run: choose draws, lights, path_pixels and the counts that go with them.
- *   p  of method_subspaces; all but these complete. It renders a number of tiles that the picture's size alone decides,
- *      unless job->watch ends it; then usual numbers are taken */
-void pilot_run(const struct render_job *job, bool free_choice, struct preparation *p);
+ *   free_choice  may there be no light sub-paths?
+ *   s            all but these complete. A number of tiles that the picture's size alone decides is rendered by
+ *                `method`, unless job->watch ends it; then usual numbers are taken */
+void pilot_run(const struct render_job *job, const struct pilot_method *method, bool free_choice,
+               struct subspaces_state *s);
 
 /* pilot_recall: what it chose when s->learnt was learnt. */
 void pilot_recall(const struct render_job *job, struct subspaces_state *s);
