@@ -1,6 +1,6 @@
 /* lessons.h: the passes of learning and what they have in common: sub-paths are traced in chunks on all threads, each
  * chunk lists what it found, and the lists are taken in in order (parallel.h): sums and the numbers of regions are the
- * same for any number of threads. What was learnt is put to use between passes only, while no thread reads it.
+ * same for any number of threads. What was learnt is put to use by later passes only, and regions are added while no walk looks them up.
  */
 #ifndef ASBDPT_LESSONS_H
 #define ASBDPT_LESSONS_H
@@ -65,7 +65,7 @@ struct sampler lessons_sampler(const struct lessons *l, long i, enum stream stre
 int lessons_eye(const struct lessons *l, int thread, long i, enum stream stream, struct sampler *sampler);
 
 /* visits_extent: the box in which most vertices are. visits_run: n eye sub-paths, for importance and, if it is wished
- * for, the guide, which each round betters for the next. visits_emission: light sub-paths 0 .. n-1, for emission.
+ * for, the guide. visits_emission: light sub-paths 0 .. n-1, for emission.
  * visits_light: n more from number first on, for the means over them. */
 void visits_extent(struct lessons *l, vec3 *low, vec3 *high);
 void visits_run(struct lessons *l, long n);

@@ -45,9 +45,6 @@ enum { REGION_LEVELS = 4 };
 void regions_init(struct regions *r, vec3 low, vec3 high, int cells, int n_levels, int limit);
 void regions_free(struct regions *r);
 
-/* regions_copy: make *to, initialised before, the same with memory of its own. */
-void regions_copy(struct regions *to, const struct regions *from);
-
 /* What a file of regions needs (learnt_file.h): regions_keys lists the keys [n] of all but region 0, by number;
  * regions_start leaves region 0 alone, grid and limits being set; regions_restore adds the next region by its key,
  * those that hold it being there, and returns its number, or -1 if that cannot be one. */
