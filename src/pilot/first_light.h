@@ -6,8 +6,7 @@
  *     E[X^2] / (N V_N),
  * where X is what a sample brings and V_N the variance of the mean of N samples of a pixel [Grittmann 2019]. It is
  * measured: some pixels take 16 samples by path tracing, twice, with numbers of their own; half the squared difference
- * of the two means is V_16. As N grows, E[X^2] / (N V_N) is thought to keep the slope it has from 1 to 16; it is taken
- * where N = 64, whatever number is asked for.
+ * of the two means is V_16.
  *
  * Tests: test_pilot.c.
  */

@@ -110,7 +110,6 @@ static void add_records(const struct tile *tile, const double *tried, const doub
             continue;
         long at = place_in_tile(tile, first);
         out->spread[kind] += fmin((x2 - x * x / n) * n / (n - 1) / scale[at], OUTLIER);
-        out->square[kind] += fmin(x2 / scale[at], OUTLIER);
     }
 }
 
@@ -212,10 +211,8 @@ static bool add_tile(void *context, int64_t job, int slot)
     m->sums.given_paths += s->given_paths;
     m->sums.blocks += s->blocks;
     m->sums.tail += s->tail;
-    for (int k = 0; k < N_KINDS; k++) {
+    for (int k = 0; k < N_KINDS; k++)
         m->sums.spread[k] += s->spread[k] / INDEPENDENT;
-        m->sums.square[k] += s->square[k] / INDEPENDENT;
-    }
     m->stopped = m->job.watch != NULL && !m->job.watch(m->job.watch_context, n);
     return !m->stopped;
 }

@@ -30,7 +30,7 @@ struct noise {
     double given_paths;              /* the latter with more leave for outliers */
     double blocks;                   /* the latter of means over blocks, times their pixels */
     double tail;                     /* what there would be more without light sub-paths, see above */
-    double spread[N_KINDS], square[N_KINDS]; /* of the samples of one eye vertex: variance and squares of their sum */
+    double spread[N_KINDS];          /* of the sum of the samples of one eye vertex */
 };
 
 /* The method that tiles are rendered by, and the memory of its threads. */

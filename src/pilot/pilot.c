@@ -12,13 +12,11 @@
  * its variance falls more slowly than 1/n. */
 static const double TRIED[N_KINDS] = {4, 4, 4, 0.25}, USUAL[N_KINDS] = {3, 1, 2, 0.25};
 static const double BOLDNESS = 2.0 / 3;
-static const double MOST_CREDIT = 4;
 
 /* What the pilot finds. */
 struct choice_of_numbers {
-    double n[N_KINDS];      /* samples */
-    double credit[N_KINDS]; /* of DRAW_FIRST and DRAW_LATER */
-    bool light_paths;       /* are there to be any? */
+    double n[N_KINDS]; /* samples */
+    bool light_paths;  /* are there to be any? */
 };
 
 /* In units of a ray that looks for the closest hit; the factors were measured. */
@@ -46,12 +44,6 @@ static bool light_paths_pay(const struct costs *c, const double *n, const struct
     return (s->total + s->tail) * paths > KEEPING * s->total * all;
 }
 
-/* What samples are worth to the weights, compared with independent ones: second moment over variance. */
-static double credit_of(double square, double spread)
-{
-    return spread > 0 ? clamp(square / spread, 1, MOST_CREDIT) : 1;
-}
-
 static void choose(const struct costs *c, const struct noise *s, struct choice_of_numbers *out)
 {
     const double LEAST = 0.2, LEAST_PATH = 0.02; /* shares of the variance that A and light sub-paths have at least */
@@ -62,7 +54,6 @@ static void choose(const struct costs *c, const struct noise *s, struct choice_o
     for (int k = 0; k < N_KINDS; k++) {
         double best = c->each[k] > 0 ? sqrt(b[k] * TRIED[k] / c->each[k] * c->fixed / A) : USUAL[k];
         out->n[k] = USUAL[k] * m_pow(fmax(best, 1e-3) / USUAL[k], BOLDNESS);
-        out->credit[k] = credit_of(s->square[k], s->spread[k]);
     }
     out->light_paths = light_paths_pay(c, out->n, s);
 }
@@ -78,7 +69,7 @@ static void set_numbers(struct subspaces_state *s, const struct choice_of_number
     f->counts.direct[FIRST_HIT] = light->broad * f->lights;
     f->counts.delta[FIRST_HIT] = light->delta * f->lights;
     for (int end = 0; end < EYE_ENDS; end++)
-        f->counts.connect[end] = c->light_paths ? c->credit[DRAW_FIRST + end] * s->draws[end] : 0;
+        f->counts.connect[end] = c->light_paths ? s->draws[end] : 0;
 }
 
 void pilot_set_draws(struct subspaces_state *s, double C)
@@ -134,7 +125,7 @@ void pilot_recall(const struct render_job *job, struct subspaces_state *s)
 void pilot_run(const struct render_job *job, const struct pilot_method *method, bool free_choice,
                struct subspaces_state *s)
 {
-    struct choice_of_numbers choice = {.credit = {1.5, 1.5}, .light_paths = true};
+    struct choice_of_numbers choice = {.light_paths = true};
     struct first_light light;
     struct noise sums;
     struct costs costs = costs_of(&s->learnt.importance);

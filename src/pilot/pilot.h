@@ -8,8 +8,7 @@
  * noise.h measures A and b_c. Costs are counted in rays, not in seconds: the choice must be the same on every machine.
  * The same product says whether light sub-paths pay at all. [Grittmann 2022] chooses among given candidates by it.
  *
- * It also settles the credit of each kind (mis.h): how much more a sample is worth to the weights than an independent
- * one, the ratio of its second moment to its variance [Grittmann 2019]; first_light.h has those of s <= 1.
+ * It also settles how much more the samples of s <= 1 are worth to the weights than independent ones: first_light.h.
  *
  * Tests: test_pilot.c, test_asbdpt.c.
  */
