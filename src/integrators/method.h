@@ -19,7 +19,6 @@
 #define DEFAULT_RR_THRESHOLD 0.5
 
 struct method;
-struct learnt;
 
 /* What `prepare` has settled. */
 struct preparation {
@@ -48,7 +47,6 @@ struct method {
     /* Settle counts and whatever is frozen; out->state is zero but for struct frozen and the parameters. NULL: all is
      * settled. */
     void (*prepare)(const struct render_job *job, struct preparation *out);
-    struct learnt *(*learnt)(void *state); /* what it has learnt, there before prepare if known; NULL: nothing */
     void (*release)(void *state); /* what the state owns, but not the state; NULL: nothing */
 
     void (*render)(const struct preparation *m, const struct tile_pass *pass);

@@ -24,9 +24,6 @@
 void pilot_run(const struct render_job *job, const struct pilot_method *method, bool free_choice,
                struct subspaces_state *s);
 
-/* pilot_recall: what it chose when s->learnt was learnt. */
-void pilot_recall(const struct render_job *job, struct subspaces_state *s);
-
 /* pilot_set_draws: C draws per eye vertex, whatever was chosen. */
 void pilot_set_draws(struct subspaces_state *s, double C);
 
