@@ -58,14 +58,6 @@ void guide_free(struct guide *g)
     memset(g, 0, sizeof *g);
 }
 
-static double sum_of(const double *x, int n)
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += x[i];
-    return sum;
-}
-
 /* t of every region, each from that of the region above it, region 0 from its own lessons. K is SMOOTHING times the number of columns that the region
  * above effectively has [Kish 1965]: the more there are, the more contributions it takes to tell them apart. */
 static double *shares_of_regions(const struct guide_lessons *l, const struct regions *regions)

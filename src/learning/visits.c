@@ -135,9 +135,7 @@ void visits_run(struct lessons *l, long n)
 static void trace_emission(void *context, struct lessons *l, int thread, long i, struct findings *out)
 {
     struct workspace *work = &l->work[thread];
-    struct sampler sampler = lessons_sampler(l, i, STREAM_LIGHT);
-    struct walk w = lessons_walk(l, &work->arena, &sampler);
-    int n = path_light(&w, work->light, l->job->max_depth + 1);
+    int n = lessons_light(l, &work->arena, i, STREAM_LIGHT, work->light);
     (void)context;
     if (n < 2)
         return;
@@ -179,9 +177,7 @@ struct light_sums {
 static void trace_light(void *context, struct lessons *l, int thread, long i, struct findings *out)
 {
     struct workspace *work = &l->work[thread];
-    struct sampler sampler = lessons_sampler(l, i, STREAM_LIGHT);
-    struct walk w = lessons_walk(l, &work->arena, &sampler);
-    int n = path_light(&w, work->light, l->job->max_depth + 1);
+    int n = lessons_light(l, &work->arena, i, STREAM_LIGHT, work->light);
     (void)context;
     for (int k = 1; k < n; k++) {
         const struct vertex *y = &work->light[k];

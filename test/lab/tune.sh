@@ -20,9 +20,11 @@ command -v ccache >/dev/null && compiler="ccache cc"
 
 # build NAME: its program is DIR/programs/NAME. The tree is then as it was, and make sees by its dates what was another.
 build() {
-    file=$(awk -v name="$1" '$1 == name && NF > 3 { print $2 }' $list)
+    file=$(awk -v name="$1" '$1 == name && NF > 3 { print $2 }' $list) program=asbdpt
+    [ "$1" != asbdpt-lab ] || program=asbdpt-lab
     [ -z "$file" ] || sh test/mutants/apply.sh $list "$1" "$dir/tree" || return
-    make -s -C "$dir/tree" CC="$compiler" LTO= asbdpt >"$dir/log.txt" 2>&1 && mv "$dir/tree/asbdpt" "$dir/programs/$1"
+    make -s -C "$dir/tree" CC="$compiler" LTO= $program >"$dir/log.txt" 2>&1 &&
+        mv "$dir/tree/$program" "$dir/programs/$1"
     built=$?
     [ -z "$file" ] || cp "$file" "$dir/tree/$file"
     return $built
@@ -62,7 +64,7 @@ measure() {
     grep -q "^$1 $2 $3 " "$dir/runs.txt" && return
     [ -f "$reference" ] || render as-it-is "$2" 1 "$REFERENCE_SPP" "$reference" || return
     render "$1" "$2" "$3" "$SPP" "$picture" || return
-    errors=$("$dir/programs/as-it-is" compare "$picture" "$reference" --json) || return
+    errors=$("$dir/programs/asbdpt-lab" compare "$picture" "$reference" --json) || return
     seconds=$(sed -n 's/.*"cpu_seconds": \([0-9.e-]*\).*/\1/p' "$picture.json")
     echo "$1 $2 $3 $(echo "$errors" | tr -d ',' | awk '{ print $4, $6 }') $(blocks "$picture" "$reference") $seconds" \
         >>"$dir/runs.txt"
@@ -72,7 +74,7 @@ measure() {
 mkdir -p "$dir/tree" "$dir/programs" "$REFERENCES"
 touch "$dir/runs.txt"
 cp -R Makefile src test "$dir/tree/"
-for name in $names; do
+for name in asbdpt-lab $names; do
     [ -x "$dir/programs/$name" ] || build "$name" || { echo "$name: see $dir/log.txt"; exit 1; }
 done
 for seed in $SEEDS; do
