@@ -15,10 +15,9 @@ enum { MOST_TILES = 8 };
  * counts. */
 enum { FIRST, OTHER, SAME_EYE, INDEPENDENT, AGAIN = INDEPENDENT, RENDERS };
 
-/* No squared relative deviation counts for more: a picture's white is not far off. Light sub-paths have more leave:
- * what they splat is rare and strong (caustics), and their number is all that is decided by it; and what the path
- * tracer would bring still more, since nothing else warns of it. */
-static const double OUTLIER = 25, OUTLIER_PATHS = 400, OUTLIER_TAIL = 1e4;
+/* No squared relative deviation counts for more: a picture's white is not far off. What the path tracer would bring has
+ * more leave, since nothing else warns of it. */
+static const double OUTLIER = 25, OUTLIER_TAIL = 1e4;
 
 struct measure {
     struct render_job job;
@@ -156,7 +155,7 @@ static double of_blocks(struct pixel_rect rect, const double *a, const double *b
                 difference += a[at] - b[at];
                 bright += scale[at] / PIXELS;
             }
-            all += fmin(sqr(difference) / 2 / bright, OUTLIER_PATHS * PIXELS);
+            all += fmin(sqr(difference) / 2 / bright, OUTLIER * PIXELS);
         }
     return all;
 }
@@ -191,9 +190,7 @@ static void render_tile(void *context, int64_t job, int slot, int thread)
         add_records(&tile[i], m->tried, scale, found);
     for (size_t i = 0; i < n; i++) {
         found->total += fmin(sqr(value[i] - other[i]) / 2 / scale[i], OUTLIER);
-        double given = sqr(value[i] - same_eye[i]) / 2 / scale[i];
-        found->given_eye += fmin(given, OUTLIER);
-        found->given_paths += fmin(given, OUTLIER_PATHS);
+        found->given_eye += fmin(sqr(value[i] - same_eye[i]) / 2 / scale[i], OUTLIER);
         mean_scale += scale[i] / (double)n;
     }
     found->blocks = of_blocks(rect, value, same_eye, scale);
@@ -208,7 +205,6 @@ static bool add_tile(void *context, int64_t job, int slot)
     double n = RENDERS * (double)(job + 1) * MAX_TILE_SIZE * MAX_TILE_SIZE;
     m->sums.total += s->total;
     m->sums.given_eye += s->given_eye;
-    m->sums.given_paths += s->given_paths;
     m->sums.blocks += s->blocks;
     m->sums.tail += s->tail;
     for (int k = 0; k < N_KINDS; k++)

@@ -27,7 +27,6 @@ enum kind { DRAW_FIRST, DRAW_LATER, LIGHT_FIRST, LIGHT_PATH, N_KINDS };
 /* Variances of one iteration, added up over the pixels of all tiles. */
 struct noise {
     double total, given_eye;         /* of a pixel; of one whose eye sub-path is given */
-    double given_paths;              /* the latter with more leave for outliers */
     double blocks;                   /* the latter of means over blocks, times their pixels */
     double tail;                     /* what there would be more without light sub-paths, see above */
     double spread[N_KINDS];          /* of the sum of the samples of one eye vertex */

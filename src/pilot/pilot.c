@@ -50,7 +50,7 @@ static void choose(const struct costs *c, const struct noise *s, struct choice_o
     double A = fmax(s->total - s->given_eye, LEAST * s->total), b[N_KINDS], drawn = 0;
     for (int k = 0; k < LIGHT_PATH; k++)
         drawn += b[k] = s->spread[k];
-    b[LIGHT_PATH] = fmax(fmax(s->given_paths, s->blocks) - drawn, LEAST_PATH * s->total);
+    b[LIGHT_PATH] = fmax(fmax(s->given_eye, s->blocks) - drawn, LEAST_PATH * s->total);
     for (int k = 0; k < N_KINDS; k++) {
         double best = c->each[k] > 0 ? sqrt(b[k] * TRIED[k] / c->each[k] * c->fixed / A) : USUAL[k];
         out->n[k] = USUAL[k] * m_pow(fmax(best, 1e-3) / USUAL[k], BOLDNESS);
