@@ -9,8 +9,8 @@
  * cumulative sums, so that the C strata of one eye vertex lie over space. (One alias table for each region e that is
  * met would have to list all vertices; the sums of a region e list only the regions that hold any.)
  *
- * The MIS weights know it: the strategies count as C h(e(z), l(y)) samples, a function of the two surface points at the
- * ends of the edge (mis.h).
+ * The MIS weights know it: the strategies count as 2 C h(e(z), l(y)) samples, a function of the two surface points at
+ * the ends of the edge; 2 is what a draw is worth beside an independent sample (mis.h, pilot.c).
  * [Su 2022] has subspaces of both kinds and a matrix of probabilities between them; here the regions are cells of
  * grids, and the table is learnt from trial connections.
  *

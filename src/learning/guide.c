@@ -58,8 +58,9 @@ void guide_free(struct guide *g)
     memset(g, 0, sizeof *g);
 }
 
-/* t of every region, each from that of the region above it, region 0 from its own lessons. K is SMOOTHING times the number of columns that the region
- * above effectively has [Kish 1965]: the more there are, the more contributions it takes to tell them apart. */
+/* t of every region, each from that of the region above it, region 0 from its own lessons. K is SMOOTHING times the
+ * number of columns that the region above effectively has [Kish 1965]: the more there are, the more contributions it
+ * takes to tell them apart. */
 static double *shares_of_regions(const struct guide_lessons *l, const struct regions *regions)
 {
     const double SMOOTHING = 16;

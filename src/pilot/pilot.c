@@ -13,6 +13,9 @@
 static const double TRIED[N_KINDS] = {4, 4, 4, 0.25}, USUAL[N_KINDS] = {3, 1, 2, 0.25};
 static const double BOLDNESS = 2.0 / 3;
 
+/* Draws are stratified over the pool: the weights count them for more than as many independent samples. */
+static const double DRAW_CREDIT = 2;
+
 /* What the pilot finds. */
 struct choice_of_numbers {
     double n[N_KINDS]; /* samples */
@@ -69,7 +72,7 @@ static void set_numbers(struct subspaces_state *s, const struct choice_of_number
     f->counts.direct[FIRST_HIT] = light->broad * f->lights;
     f->counts.delta[FIRST_HIT] = light->delta * f->lights;
     for (int end = 0; end < EYE_ENDS; end++)
-        f->counts.connect[end] = c->light_paths ? s->draws[end] : 0;
+        f->counts.connect[end] = c->light_paths ? DRAW_CREDIT * s->draws[end] : 0;
 }
 
 void pilot_set_draws(struct subspaces_state *s, double C)

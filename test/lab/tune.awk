@@ -1,53 +1,63 @@
-# tune.awk: the table of tune.sh, from tune.txt and runs.txt.
+# tune.awk: the table of tune.sh, from tune.txt and runs.txt, whatever scenes and seeds are there.
 FNR == NR {
-    if (/^[^-+# \t]/ && NF > 3) {
-        for (i = 4; i <= NF; i++)
-            about[$1] = about[$1] " " $i
-    }
+    for (i = 4; /^[^-+# \t]/ && i <= NF; i++)
+        about[$1] = about[$1] " " $i
     next
 }
 {
+    if (!(($1, $2) in seconds) || $7 < seconds[$1, $2])
+        seconds[$1, $2] = $7
     error[$1, $2, $3, 1] = $4 * $4
     error[$1, $2, $3, 2] = $5
     error[$1, $2, $3, 3] = $6
-    seconds[$1, $2] = ($1, $2) in seconds && seconds[$1, $2] < $7 ? seconds[$1, $2] : $7
+    known[$2]
+    seed[$3]
 }
 END {
     n = split(names, name)
-    n_scenes = split(scenes, scene)
-    n_seeds = split(seeds, seed)
-    print "| variant | rmse8, squared | +- | relmse | in blocks | CPU | rmse8 times CPU | worst | best | |"
-    print "|---|---:|---:|---:|---:|---:|---:|---|---|---|"
+    print "| variant | scenes | rmse8 squared | +- | relmse | blocks | CPU | product | worst | best | |"
+    print "|---|---:|---:|---:|---:|---:|---:|---:|---|---|---|"
     for (i = 2; i <= n; i++)
         row(name[i])
 }
 
-# How much worse is v than the tree as it is? The mean logarithm over seeds of error k in a scene; `spread`: its square.
+# Error k of v in scene s beside that of the tree as it is: the mean logarithm over n_seeds that both have; `spread`:
+# the variance of that mean.
 function worse(v, s, k,    j, e, sum, sum2) {
-    for (j = 1; j <= n_seeds; j++) {
-        e = log(error[v, s, seed[j], k] / error[name[1], s, seed[j], k])
-        sum += e / n_seeds
-        sum2 += e * e / n_seeds
-    }
-    spread = n_seeds > 1 ? (sum2 - sum * sum) / (n_seeds - 1) : 0
-    return sum
+    n_seeds = 0
+    for (j in seed)
+        if (error[v, s, j, k] > 0 && error[name[1], s, j, k] > 0) {
+            e = log(error[v, s, j, k] / error[name[1], s, j, k])
+            sum += e
+            sum2 += e * e
+            n_seeds++
+        }
+    spread = n_seeds > 1 ? (sum2 - sum * sum / n_seeds) / (n_seeds - 1) / n_seeds : 0
+    return n_seeds > 0 ? sum / n_seeds : 0
 }
 
-# Geometric means over scenes; +-: standard error of the first, by how much the seeds of a scene differ.
-function row(v,    s, k, cpu, mean, variance, total, p, worst, best) {
-    worst = 0
-    best = 1e9
-    for (s = 1; s <= n_scenes; s++) {
-        for (k = 3; k >= 1; k--)
-            mean[k] += worse(v, scene[s], k) / n_scenes
-        variance += spread / n_scenes ^ 2
-        cpu = log(seconds[v, scene[s]] / seconds[name[1], scene[s]])
-        total += cpu / n_scenes
-        p = exp(worse(v, scene[s], 1) + cpu)
-        if (p > worst) { worst = p; at_worst = scene[s] }
-        if (p < best) { best = p; at_best = scene[s] }
+# Geometric means over scenes, worst and best of the first error; +-: its standard error, by how much the seeds of a
+# scene differ.
+function row(v,    s, k, e, mean, count, variance, total, worst, best) {
+    worst = -99
+    best = 99
+    for (s in known) {
+        for (k = 3; k >= 1; k--) {
+            mean[k] += e = worse(v, s, k)
+            count[k] += n_seeds > 0
+        }
+        if (n_seeds == 0)
+            continue
+        variance += n_seeds > 1 ? spread : 1e9
+        total += log(seconds[v, s] / seconds[name[1], s])
+        if (e > worst) { worst = e; at_worst = s }
+        if (e < best) { best = e; at_best = s }
     }
-    printf "| %s | %.3f | %.3f | %.3f | %.3f | %.3f | **%.3f** | %.2f %s | %.2f %s |%s |\n", v, exp(mean[1]),
-        sqrt(variance), exp(mean[2]), exp(mean[3]), exp(total), exp(mean[1] + total), worst, at_worst, best, at_best,
-        about[v]
+    for (k = 1; k <= 3; k++)
+        mean[k] = count[k] > 0 ? exp(mean[k] / count[k]) : 0
+    total = exp(total / count[1])
+    printf "| %s | %d | **%.3f** | %s | %.3f | %s | %.2f | %.3f | %.2f %s | %.2f %s |%s |\n", v, count[1], mean[1],
+        (variance < 1e9 ? sprintf("%.3f", mean[1] * sqrt(variance) / count[1]) : ""), mean[2],
+        (count[3] > 0 ? sprintf("%.3f", mean[3]) : ""), total, mean[1] * total,
+        exp(worst), at_worst, exp(best), at_best, about[v]
 }

@@ -84,5 +84,4 @@ for seed in $SEEDS; do
         done
     done
 done
-awk -v names="$names" -v scenes="$SCENES" -v seeds="$SEEDS" -f test/lab/tune.awk $list "$dir/runs.txt" |
-    tee "$dir/tune.md"
+awk -v names="$names" -f test/lab/tune.awk $list "$dir/runs.txt" | tee "$dir/tune.md"
