@@ -44,7 +44,7 @@ function word(s, name, with,    out, before, after, at, w) {
 function target(url, label) {
     if (url ~ /^(https?:|mailto:|#)/) return url
     if (url ~ /\.md(#.*)?$/) { sub(/\.md/, ".html", url); return url }
-    return url ~ /\.(png|svg|jpg)$/ ? url : url ".html" line_of(url, label)
+    return url ~ /\.(png|svg|jpg|html)$/ ? url : url ".html" line_of(url, label)
 }
 # "#L" and the number of the line on which the function is defined; "" if none is named or found.
 function line_of(url, label,    name, folder, line, n) {

@@ -73,7 +73,7 @@ page() {
     *.md) math=0 && case $1 in doc/tour/* | doc/course/* | doc/selection.md | doc/add-a-method.md) math=1 ;; esac
         awk -v root="$root" -v math=$math -v title="$(sed -n 's/^# //p;/^# /q' "$1")" -f doc/math.awk -f doc/html.awk "$1" \
             >"$out/${1%.md}.html" ;;
-    *.png | *.svg) cp "$1" "$out/$1" ;;
+    *.png | *.svg | *.html) cp "$1" "$out/$1" ;;
     *) awk -v root="$root" -v title="$1" -v source=1 -f doc/math.awk -f doc/html.awk "$1" >"$out/$1.html" ;;
     esac
 }
