@@ -62,7 +62,9 @@ blocks() {
 measure() {
     reference=$REFERENCES/$(echo "$2" | tr / -).pfm picture=$dir/$1-$3.pfm
     grep -q "^$1 $2 $3 " "$dir/runs.txt" && return
-    [ -f "$reference" ] || render as-it-is "$2" 1 "$REFERENCE_SPP" "$reference" || return
+    [ -f "$reference" ] || {
+        render as-it-is "$2" 1 "$REFERENCE_SPP" "$picture" && mv "$picture" "$reference" # only if it is complete
+    } || return
     render "$1" "$2" "$3" "$SPP" "$picture" || return
     errors=$("$dir/programs/asbdpt-lab" compare "$picture" "$reference" --json) || return
     seconds=$(sed -n 's/.*"cpu_seconds": \([0-9.e-]*\).*/\1/p' "$picture.json")
