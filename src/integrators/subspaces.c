@@ -184,6 +184,7 @@ static void tell(const struct subspaces_state *s, struct preparation *out)
              f->path_pixels == 1 ? "" : "s");
 }
 
+/* The pilot renders by this method, its numbers being others. */
 static void render_for_pilot(const void *method, struct subspaces_state *s, const struct tile_pass *pass)
 {
     struct preparation p = *(const struct preparation *)method;

@@ -29,7 +29,7 @@ struct noise {
     double total, given_eye;         /* of a pixel; of one whose eye sub-path is given */
     double blocks;                   /* the latter of means over blocks, times their pixels */
     double tail;                     /* what there would be more without light sub-paths, see above */
-    double spread[N_KINDS];          /* of the sum of the samples of one eye vertex */
+    double spread[N_KINDS];          /* variance of the sum of the samples of one eye vertex */
 };
 
 /* The method that tiles are rendered by, and the memory of its threads. */
