@@ -9,30 +9,30 @@ no_temporaries() { [ -z "$(find . -name '.asbdpt-*')" ] || fault "temporary file
 done_in() { LC_ALL=C sed -n 's/^done \([0-9]*\) .*/\1/p' "$1" | head -n 1; } # samples
 work_in() { LC_ALL=C awk '/^done / { print 1000 * $2 + $3; exit }' "$1"; }      # and tile passes
 
-# ---- every integrator: parts add up to the whole, and a checkpoint goes on to it ----
+# ---- every integrator, which the laboratory has: parts add up to the whole, and a checkpoint goes on to it ----
 size="--res 12x20 --spp 70 --maxdepth 3 --quiet"
 while read -r cuts options; do
     # shellcheck disable=SC2086
     {
         rm -f ./*.part
-        check "$program" render "$box" $size $options -j 2 -o whole.part -o whole.pfm
+        check "$lab" render "$box" $size $options -j 2 -o whole.part -o whole.pfm
         from=
         for to in $(echo "$cuts" | tr , ' '); do
-            [ -z "$from" ] || check "$program" render "$box" $size $options -j 1 --samples "$from:$to" -o "part$to.part"
+            [ -z "$from" ] || check "$lab" render "$box" $size $options -j 1 --samples "$from:$to" -o "part$to.part"
             from=$to
         done
         set -- part*.part
-        check "$program" merge -o sum.part -o sum.pfm "$@" --quiet
+        check "$lab" merge -o sum.part -o sum.pfm "$@" --quiet
         same whole.part sum.part "$options in parts"
         same whole.pfm sum.pfm "$options in parts"
         rm -f state
         expect 0 'at (32|64) of 70' \
-            "$program" render "$box" $size $options -j 3 --time 1e-6 --checkpoint state -o early.part
+            "$lab" render "$box" $size $options -j 3 --time 1e-6 --checkpoint state -o early.part
         case $options in
-        *asbdpt*) ;; # a checkpoint carries what was learnt
+        *asbdpt*) ;; # a checkpoint does not keep what was made by lessons cut short
         *) same state early.part "a checkpoint and a part" ;;
         esac
-        check "$program" render "$box" $size $options -j 2 --resume state -o sum.pfm -o sum.part
+        check "$lab" render "$box" $size $options -j 2 --resume state -o sum.pfm -o sum.part
         same whole.pfm sum.pfm "$options resumed"
         same whole.part sum.part "$options resumed"
     }
@@ -52,27 +52,23 @@ done <<'END'
 END
 check [ "$(done_in whole.part)" = 70 ]
 
-# ---- what is learnt is a value: a picture is gone on with, parts share it, and each has the bytes of the whole ----
+# ---- a picture is gone on with, parts are of one whole: each learns the same, and has the same bytes ----
+rm -f state
 check "$program" render "$box" $size --integrator asbdpt --spp 64 -o whole.pfm
-rm -f state learnt
 check "$program" render "$box" $size --integrator asbdpt --spp 24 -o x.pfm --checkpoint state
 check "$program" render "$box" $size --integrator asbdpt --spp 64 -o x.pfm --checkpoint state --resume state
 same whole.pfm x.pfm "more samples of a finished picture"
-for range in 0:16 16:64; do
-    check "$program" render "$box" $size --integrator asbdpt --spp 64 --samples $range -o $range.part --learnt learnt
-done
-check "$program" merge -o x.pfm 0:16.part 16:64.part
-same whole.pfm x.pfm "parts by what one of them has learnt"
-expect 1 'another picture' "$program" render "$box" $size --integrator asbdpt --seed 1 --spp 2 --learnt learnt -o x.pfm
-expect 2 'bdpt learns nothing' "$program" render "$box" $size --integrator bdpt --spp 2 --learnt new -o x.pfm
-head -c 5000 learnt >cut
-expect 1 'the file is damaged' "$program" render "$box" $size --integrator asbdpt --spp 2 --learnt cut -o x.pfm
+check "$program" render "$box" $size --integrator asbdpt --spp 24 -o x.pfm --checkpoint short
+check "$program" render "$box" $size --integrator asbdpt --spp 64 --time 1e-6 -o x.pfm --checkpoint short --resume short
+check [ "$(done_in short)" -gt 0 ] # which is not lost when the time is over before all is learnt anew
+check "$program" render "$box" $size --integrator asbdpt --spp 64 -o x.pfm --resume short
+same whole.pfm x.pfm "what was gone on with in haste"
 check "$program" render "$box" $size --integrator asbdpt -P select=bins --spp 40 -o x.pfm --checkpoint bins.state
 expect 1 'ends at sample 40: here they come in blocks of 32' "$program" render "$box" $size --integrator asbdpt \
     -P select=bins --spp 64 -o x.pfm --resume bins.state
 check "$program" render "$box" $size --integrator asbdpt --spp 1000000 --time 1e-6 -o early.pfm
 check [ -s early.pfm ]
-rm -f state learnt cut new bins.state
+rm -f state short bins.state
 expect 1 'samples 0:40: here they come in blocks of 32' \
     "$program" render "$box" $size --integrator asbdpt -P select=bins --samples 0:40 -o x.part
 expect 2 'there are 70 per pixel' "$program" render "$box" $size --samples 0:71 -o x.part

@@ -29,7 +29,7 @@ static struct render_options options_of(int way)
 static void add_trace(const struct scene *scene, const struct trace *trace, struct film *film)
 {
     struct tile tile = {.rect = film->rect};
-    struct pixel_rect one = {trace->x, trace->y, trace->x + 1, trace->y + 1};
+    struct pixel_rect one = {trace->x, trace->y, trace->x + 1, trace->y + 1, 0, 0};
     tile_start(&tile, one, film->rect, &scene->filter, false);
     tile_add_eye(&tile, trace->x, trace->y, trace_sum(trace));
     for (int i = 0; i < trace->n_connections; i++)

@@ -145,7 +145,6 @@ static bool write_film(const struct merge_options *o, struct merge *m, struct fi
     struct part whole = m->part[0].part; /* its identity is borrowed */
     float *pixels = mem_alloc((size_t)whole.width * (size_t)whole.height * 3, sizeof *pixels);
     whole.end = reached(m);
-    whole.carries = true; /* what the last part did, the same for all */
     film_warn(film, film_develop(film, whole.scale, pixels));
     out->place = whole.place;
     out->part = &whole;
@@ -163,7 +162,7 @@ static bool merge(const struct merge_options *o, struct merge *m, bool picture, 
     if (m->n_wrong == 0) {
         struct film film;
         const struct part *first = &m->part[0].part;
-        struct pixel_rect rect = {0, 0, first->width, first->height};
+        struct pixel_rect rect = {0, 0, first->width, first->height, 0, 0};
         check_ranges(m, picture ? 0 : first->first, picture ? first->planned : 0, o->partial);
         film_init(&film, rect, rect.x1, rect.y1);
         add_parts(m, &film);

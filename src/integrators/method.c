@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "learning/learnt_file.h"
 #include "transport/caustic.h"
 
 const struct method_parameter *method_has(const struct method *m, const char *name)
@@ -30,16 +29,6 @@ bool method_check(const struct method *m, const struct settings *s, struct error
     return ok;
 }
 
-/* What was learnt before, if anybody has it. */
-static bool recall(const struct method *m, const struct render_job *job, void *state, struct error *err)
-{
-    if (job->learnt == NULL || job->learnt->n == 0)
-        return true;
-    if (m->learnt == NULL)
-        return error_set(err, "%s learns nothing, so there is nothing to go on with", m->name);
-    return learnt_read(m->learnt(state), &job->scene->lights, job->of, job->learnt, "what was learnt", err);
-}
-
 static void add_note(char note[FILM_NOTE_SIZE], const char *text)
 {
     size_t n = strlen(note);
@@ -60,18 +49,12 @@ bool method_prepare(const struct method *m, const struct render_job *job, struct
         free(out->state);
         return false;
     }
-    if (!recall(m, job, out->state, err)) {
-        method_release(out);
-        return false;
-    }
     if (job->caustics > 0)
         f->counts.caustics = out->caustics = caustics_new(job->scene, job->caustics);
     if (m->prepare != NULL)
         m->prepare(job, out);
     if (job->regularise > 0)
         add_note(out->note, "biased: mirrors and glass are blurred where nothing else finds a light");
-    if (m->learnt != NULL && job->learnt != NULL && job->learnt->n == 0 && m->learnt(out->state)->eye.n > 0)
-        learnt_write(m->learnt(out->state), job->of, job->learnt);
     return true;
 }
 

@@ -1,5 +1,5 @@
 /* worth.c: see worth.h. */
-#include "look/worth.h"
+#include "lab/worth.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 #include "base/maths.h"
 #include "base/mem.h"
 #include "base/number.h"
-#include "look/colormap.h"
+#include "lab/colormap.h"
 #include "learning/learnt.h"
 #include "render/aov.h"
 #include "transport/pixel_sample.h"
@@ -101,11 +101,11 @@ bool worth_values(const struct scene *scene, const struct render_options *option
 {
     struct view v = {.worth = worth, .draws = draws};
     struct preparation prepared;
-    struct pixel_rect all = {0, 0, scene->width, scene->height};
+    struct pixel_rect all = {0, 0, scene->width, scene->height, 0, 0};
     if (!render_prepare(scene, options, all, &v.job, &prepared, err))
         return false;
     v.counts = ((const struct frozen *)prepared.state)->counts;
-    v.learnt = prepared.method->learnt != NULL ? prepared.method->learnt(prepared.state) : NULL;
+    v.learnt = v.counts.model != NULL ? v.counts.model->learnt : NULL;
     v.work = workspaces_new(1, v.job.max_depth);
     bool ok = fill(&v, x, y, err);
     workspaces_free(v.work, 1);
