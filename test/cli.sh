@@ -452,7 +452,7 @@ expect 0 '' "$lab" equal-time "$box" $tiny --spp 2 -o equal
 check grep -q 'geometric mean' stdout.txt
 sed '$d' stdout.txt | sed '$d' | sed '$d' >table.txt
 check cmp -s table.txt equal/equal-time.md
-check [ "$(sed -n '$s/^Verdict: squared error of \(.*\) over that of bdpt .*; picture of 8x8 pixels.$/said/p' stdout.txt)" = said ]
+check grep -q '^Verdict: squared error of .* over that of bdpt .*; picture of 8x8 pixels.$' stdout.txt
 for made in equal-time.html family.png errors.png; do check [ -s equal/$made ]; done
 check [ "$(grep -c '^cornell-box,' equal/equal-time.csv)" = 10 ]
 check grep -q '^cornell-box,bdpt,5002,2,' equal/equal-time.csv
@@ -474,7 +474,7 @@ expect 0 'bathroom.pfm.* is of another scene: measured at 160x160 pixels' \
 expect 1 'bathroom.pfm.* is of another scene$' \
     "$lab" equal-time bathroom/scene.pbrt --reference bathroom/ref $tiny --quiet -o foreign
 sed -i.old '/^content/d' bathroom/ref/bathroom.txt
-expect 0 'does not say what scene it is of: measured at 48x48' \
+expect 0 'does not say what scene it is of: measured at 160x160' \
     "$lab" equal-time bathroom/scene.pbrt $tiny -o foreign
 expect 1 'have the same name, bathroom' \
     "$lab" equal-time bathroom/scene.pbrt "$scenes/bathroom.pbrt" $tiny --quiet -o foreign

@@ -34,7 +34,7 @@ struct render_job {
 struct pass_size {
     int block;  /* iterations; 0: any number */
     int tile;   /* pixels along the side, at most MAX_TILE_SIZE */
-    int spread; /* on each axis up to so many tiles are interleaved: what pixels of a tile have in common forms no squares */
+    int spread; /* on each axis up to so many tiles are interleaved: what their pixels share forms no squares */
 };
 enum { LONGEST_BLOCK = 32, DEFAULT_TILE_SIZE = 16, MAX_TILE_SIZE = 32, POOL_SPREAD = 4 };
 

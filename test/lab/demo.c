@@ -84,11 +84,11 @@ static void draw(const struct demo *d, const struct subject *s, const struct equ
     sheet_init(sheet, (n + 1) * (width * k + COLUMN_GAP) + COLUMN_GAP, COLUMN_LABEL + height * k + 2 * COLUMN_GAP,
                SHEET_PAPER);
     for (int i = 0; i < n; i++) {
-        snprintf(cost, sizeof cost, "%ld samples, %.1f s, 8x8 relmse %.2g", out[i].spp, out[i].seconds, out[i].blocks);
+        snprintf(cost, sizeof cost, "%ld spp, %.1f s, 8x8 %.2g", out[i].spp, out[i].seconds, out[i].blocks);
         draw_column(sheet, i, d->methods.item[i].text, "error", out[i].rmse8, cost, picture[i], width, height, k);
     }
     if (d->scale > 1)
-        snprintf(cost, sizeof cost, "%.20s, %d x %d of its pixels for one", r->origin, d->scale, d->scale);
+        snprintf(cost, sizeof cost, "%.20s; %d x %d in one", r->origin, d->scale, d->scale);
     else
         snprintf(cost, sizeof cost, "%.20s", r->origin);
     draw_column(sheet, n, "reference", "noise", r->noise8, cost, r->pixels, r->width, r->height, k * d->scale);
