@@ -273,7 +273,7 @@ static void trace_pass(struct run *r, struct trace *trace)
 {
     struct pass_size size = r->prepared.size;
     struct pixel_rect film = r->job.film_rect;
-    struct tile tile = {.rect = {0, 0, 0, 0}};
+    struct tile tile = {.rect = {0, 0, 0, 0, 0, 0}};
     long block = size.block > 0 ? size.block : 1;
     count_tiles(r);
     make_workspaces(r);

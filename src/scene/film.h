@@ -33,7 +33,7 @@ struct pixel_rect {
     int skip_x, skip_y; /* 0 unless said otherwise */
 };
 
-/* rect_width, rect_height: columns and rows that are not left out; of a rect, x1 > x0 and y1 > y0 where some are. */
+/* rect_width, rect_height: columns and rows that are not left out. rect_has: is a pixel one of them? */
 static inline int rect_width(struct pixel_rect r) { return (r.x1 - r.x0 + r.skip_x) / (r.skip_x + 1); }
 static inline int rect_height(struct pixel_rect r) { return (r.y1 - r.y0 + r.skip_y) / (r.skip_y + 1); }
 static inline bool rect_has(struct pixel_rect r, int x, int y)
