@@ -364,8 +364,8 @@ check grep -q '^size          3x2$' stdout.txt
 check grep -q '^B             0 to 1, mean 0.166667$' stdout.txt
 expect 0 '' "$program" info picture.ppm --pixel 2,1
 check grep -qx '0 1 1' stdout.txt
-expect 1 'the picture is 3x2' "$program" info picture.ppm --pixel 2,2
-expect 1 'two numbers are wanted' "$program" info picture.ppm --pixel 2
+expect 2 'the picture is 3x2' "$program" info picture.ppm --pixel 2,2
+expect 2 'two numbers are wanted' "$program" info picture.ppm --pixel 2
 expect 2 'is for pictures' "$program" info "$box" --pixel 1,1
 printf 'PF\n1 1\n-1\n\0\0\300\177\0\0\200\077\0\0\0\0' >nan.pfm
 expect 0 '' "$program" info nan.pfm
