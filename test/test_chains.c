@@ -401,7 +401,7 @@ static void test_starts(struct test *t)
     for (long first = 0; first < 40; first += 4) {
         double before = 0, place = -1;
         for (int k = 0; k < 6; k++) {
-            struct pixel_rect r = {16 * (k % 3), 16 * (k / 3), 16 * (k % 3) + 16, 16 * (k / 3) + 16};
+            struct pixel_rect r = {16 * (k % 3), 16 * (k / 3), 16 * (k % 3) + 16, 16 * (k / 3) + 16, 0, 0};
             r.x1 = r.x1 > 40 ? 40 : r.x1;
             r.y1 = r.y1 > 20 ? 20 : r.y1;
             struct tile_pass pass = {.job = &b.job, .rect = r, .first = first, .end = first + 4};

@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 #include "base/mem.h"
+#include "lab/equal_page.h"
 #include "lab/equal_run.h"
 #include "lab/family.h"
 #include "render/methods.h"
@@ -221,6 +222,22 @@ static void check_family_tables(struct test *t, const struct equal_time *e)
     free(svg);
 }
 
+/* asbdpt's planted ratios have the mean cbrt(2), lvc's 1/4, each over three scenes of the same interval. */
+static void check_verdict(struct test *t, const struct equal_time *e)
+{
+    struct interval one = equal_ratio(e, &e->scene[0], 2, EQUAL_RELMSE), all = equal_overall(e, 2, EQUAL_RELMSE);
+    CHECK(t, near(all.value, 0.25) && near(log(all.high / all.value), log(one.high / one.value) / sqrt(3)) &&
+          near(all.low * all.high, all.value * all.value), "%g [%g, %g]", all.value, all.low, all.high);
+    const struct interval wide = {exp(0.1), exp(-0.1), exp(0.3)};
+    CHECK(t, equal_seeds_wanted(wide, 2) == 8, "half the width, four times the seeds: %g", equal_seeds_wanted(wide, 2));
+    char *said = written(t, e, equal_verdict);
+    CHECK(t, strstr(said, "lvc over that of bdpt after the same time: 0.25 [") != NULL &&
+          strstr(said, "] per pixel, a gain; ") != NULL && strstr(said, "1.26 [") != NULL &&
+          strstr(said, "] per pixel, a loss; ") != NULL, "%s", said);
+    CHECK(t, strchr(said, '\n') == said + strlen(said) - 1, "one sentence: %s", said);
+    free(said);
+}
+
 /* Every row of the table of methods, the reference's first, as methods_read wants them. */
 static void check_all_methods(struct test *t)
 {
@@ -282,6 +299,7 @@ void test_equal_time(struct test *t)
     plant(&p, &e);
     check_files(t, &e);
     check_family_tables(t, &e);
+    check_verdict(t, &e);
     check_ratios(t, &e);
     equal_free(&e);
     free(p.scene);

@@ -96,7 +96,7 @@ static void count_full(void *context, struct tile *tile)
 /* A splat is one, however many pixels it covers, and a tile that is full is emptied before an iteration is added. */
 static void test_memory(struct test *t)
 {
-    struct pixel_rect all = {0, 0, 64, 64}, one = {0, 0, 1, 1};
+    struct pixel_rect all = {0, 0, 64, 64, 0, 0}, one = {0, 0, 1, 1, 0, 0};
     struct filter f;
     struct tile tile;
     int calls = 0;
@@ -121,7 +121,7 @@ static void test_memory(struct test *t)
 /* A splat of value 1 spread over the film, summed: 1 inside, less at the edges; a box puts it in exactly one pixel. */
 static void test_splats(struct test *t)
 {
-    struct pixel_rect all = {0, 0, 20, 12};
+    struct pixel_rect all = {0, 0, 20, 12, 0, 0};
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 3, 0);
     for (int i = 0; i < N_FILTERS; i++) {
         struct filter f;
@@ -154,7 +154,7 @@ static void test_splats(struct test *t)
 /* Standard errors of known noise: own values uniform in [0,1) plus rare splats. */
 static void test_errors(struct test *t)
 {
-    struct pixel_rect all = {0, 0, 8, 8};
+    struct pixel_rect all = {0, 0, 8, 8, 0, 0};
     enum { ITERATIONS = 500, SPLATS = 20, PIXELS = 64 };
     struct filter box;
     filter_default("box", &box);
@@ -193,7 +193,7 @@ static void test_errors(struct test *t)
 /* What no float holds is left out and counted, or cut and counted; a raster point that is no number covers nothing. */
 static void test_overflow(struct test *t)
 {
-    struct pixel_rect all = {0, 0, 4, 4};
+    struct pixel_rect all = {0, 0, 4, 4, 0, 0};
     struct filter f;
     filter_default("gaussian", &f);
     filter_prepare(&f);

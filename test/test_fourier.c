@@ -154,7 +154,8 @@ static void damaged(struct test *t)
                  {28, 2, "two bases"},
                  {44, 0, "no index"},
                  {64, 0xbf8ccccd, "a cosine below -1"},
-                 {68, 0xbf800000, "a cosine twice"},
+                 {72, 0xbf800000, "cosines that fall"},
+                 {64 + 4 * (N_MU - 2), 0x3f800000, "the last cosine twice"},
                  {64 + 4 * (N_MU + N_MU * N_MU), COEFFICIENTS - 8, "a series that ends behind all coefficients"},
                  {64 + 4 * (N_MU + N_MU * N_MU), 0xffffffff, "a series that begins there"},
                  {64 + 4 * (N_MU + N_MU * N_MU) + 4, ORDERS + 1, "series that share coefficients"},
@@ -174,7 +175,7 @@ static void damaged(struct test *t)
         CHECK(t, !read_bytes(t, byte, size, &table), "%d bytes are accepted", (int)size);
 }
 
-/* Tables of random coefficients: negative values, black rows. */
+/* Tables of random coefficients: negative values, black rows, and the horizon twice, as files of pbrt-v3 have it. */
 static void wild(struct test *t)
 {
     uint8_t byte[SIZE];
@@ -184,11 +185,13 @@ static void wild(struct test *t)
         make(byte);
         for (int i = 0; i < COEFFICIENTS; i++)
             put_float(byte + SIZE - 4 * (i + 1), n == 0 ? 0 : (rng_uniform(&r) - 0.4) * (n == 1 ? 1e9 : 3));
+        for (int i = 0; n % 3 == 2 && i < 2; i++)
+            put_float(byte + 64 + 4 * (N_MU / 2 - i), 0);
         if (!CHECK(t, read_bytes(t, byte, SIZE, &table), "table %d", n))
             continue;
         for (int k = 0; k < 200; k++) {
             double u[3] = {rng_uniform(&r), rng_uniform(&r), rng_uniform(&r)};
-            vec3 wo = k == 0 ? vec(0, 0, 1) : warp_sphere(rng_uniform(&r), rng_uniform(&r)), wi;
+            vec3 wo = k == 0 ? vec(0, 0, 1) : k == 1 ? vec(1, 0, 0) : warp_sphere(rng_uniform(&r), rng_uniform(&r)), wi;
             bool drawn = fourier_sample(&table, wo, u, &wi);
             CHECK(t, drawn || n == 0 || u[0] > 0.1, "nothing is drawn");
             CHECK(t, !drawn || (fabs(length(wi) - 1) < 1e-9 && fourier_pdf(&table, wo, wi) > 0), "a direction");

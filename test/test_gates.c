@@ -87,9 +87,9 @@ static void test_methods(struct test *t)
 static void test_left_out(struct test *t)
 {
     static const double UNTIL[] = {0, 1, 1e39, NAN, 2}; /* running sums at the bounds of four gates */
-    struct pixel_rect one = {0, 0, 1, 1};
+    struct pixel_rect one = {0, 0, 1, 1, 0, 0};
     struct filter box;
-    struct tile tile = {.rect = {0, 0, 0, 0}};
+    struct tile tile = {.rect = {0, 0, 0, 0, 0, 0}};
     struct exact_sum sum = {{0, 0, 0}, 0};
     filter_default("box", &box);
     for (int i = 0; i < 4; i++) {

@@ -17,7 +17,7 @@
 static void test_known(struct test *t)
 {
     enum { SIDE = 64, ITERATIONS = 8, SPLATS = SIDE * SIDE / 4 };
-    struct pixel_rect all = {0, 0, SIDE, SIDE};
+    struct pixel_rect all = {0, 0, SIDE, SIDE, 0, 0};
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 61, 0);
     struct filter box;
     struct tile tile = {.splat = NULL};

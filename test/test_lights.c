@@ -109,7 +109,7 @@ static void test_sum(struct test *t)
 static void test_left_out(struct test *t)
 {
     static const double STEP[] = {0, 1, 1e39, NAN, 2};
-    struct pixel_rect one = {0, 0, 1, 1};
+    struct pixel_rect one = {0, 0, 1, 1, 0, 0};
     struct filter box;
     struct tile tile = {.planes = {2, false}};
     filter_default("box", &box);

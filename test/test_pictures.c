@@ -41,7 +41,7 @@ static void test_pyramid(struct test *t)
     struct image img;
     struct error err = {""};
     char path[512];
-    struct pixel_rect rect = {0, 0, 8, 4};
+    struct pixel_rect rect = {0, 0, 8, 4, 0, 0};
     film_init(&film, rect, 8, 4);
     film_keep_strategies(&film, 2);
     film.iterations = 4;

@@ -69,7 +69,7 @@ static void test_planned_scene(struct test *t)
         bool fits; /* the stored one */
     } cases[] = {{0, 0, "bathroom", {36, 24, 10}, true}, {0, 3, "bathroom", {36, 24, 3}, false},
                  {72, 0, "bathroom", {72, 48, 10}, false}, {18, 0, "bathroom", {18, 12, 10}, true},
-                 {0, 0, "no-such-name", {WIDTH_WITHOUT_REFERENCE, 32, 10}, false}};
+                 {0, 0, "no-such-name", {WIDTH_WITHOUT_REFERENCE, 107, 10}, false}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct plan p = {.width = cases[i].width, .max_depth = cases[i].max_depth, .quiet = true};
         const int *expected = cases[i].expected;

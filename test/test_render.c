@@ -29,6 +29,31 @@ static void all_see(struct test *t, const char *text, rgb expected)
 static const char EMPTY[] = "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8\n"
                             "WorldBegin LightSource \"infinite\" \"rgb L\" [.25 .5 .75] WorldEnd\n";
 
+/* However the picture is cut into tiles, and these are interleaved: every sample of every pixel sees the sky once. */
+static void test_tiles(struct test *t)
+{
+    static const int sizes[][2] = {{161, 90}, {33, 130}, {300, 7}, {1, 1}};
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
+        for (const struct method *const *m = method_rows; *m != NULL; m++) {
+            struct render_options o = {.end = 2, .n_threads = 2};
+            struct scene scene;
+            struct film film;
+            long wrong = 0;
+            if ((*m)->chain || !scene_from_text(t, EMPTY, &scene))
+                continue;
+            scene.width = sizes[i][0];
+            scene.height = sizes[i][1];
+            o.integrator = set_method(&scene, method_name(*m));
+            render_film(t, &scene, &o, &film);
+            for (size_t k = 0; k < rect_pixels(film.rect) * 3; k += 3)
+                wrong += !(fabs(film_value(&film, k) - 2 * .25) < 1e-6);
+            CHECK(t, wrong == 0, "%s: %ld of %d x %d pixels have more than their samples, or less", o.integrator,
+                  wrong, scene.width, scene.height);
+            film_free(&film);
+            scene_free(&scene);
+        }
+}
+
 /* Lamps on one side of a wall, the camera on the other: no strategy may see through it. */
 static const char WALL[] =
     "LookAt 0 2 -4  0 .5 -1  0 1 0 Camera \"perspective\" \"float fov\" 60\n"
@@ -249,6 +274,7 @@ void test_render(struct test *t)
 {
     all_see(t, EMPTY, rgb_make(.25, .5, .75));
     all_see(t, WALL, rgb_black());
+    test_tiles(t);
     test_agreement(t);
     test_blocks(t);
     test_roulette_defaults(t);

@@ -30,7 +30,7 @@ static struct render_options options_of(int way)
 static void add_trace(const struct scene *scene, const struct trace *trace, struct film *film)
 {
     struct tile tile = {.rect = film->rect};
-    struct pixel_rect one = {trace->x, trace->y, trace->x + 1, trace->y + 1};
+    struct pixel_rect one = {trace->x, trace->y, trace->x + 1, trace->y + 1, 0, 0};
     tile_start(&tile, one, film->rect, &scene->filter, false);
     tile_add_eye(&tile, trace->x, trace->y, trace_sum(trace));
     for (int i = 0; i < trace->n_connections; i++) {
@@ -133,7 +133,7 @@ static void check_film(struct test *t, const struct scene *scene, int way)
 /* The most that a sample brings to a pixel, by what its witness says. */
 static struct brought most_of_trace(const struct scene *scene, const struct trace *trace)
 {
-    const struct pixel_rect all = {0, 0, SIZE, SIZE};
+    const struct pixel_rect all = {0, 0, SIZE, SIZE, 0, 0};
     struct brought most = {rgb_luminance(trace_sum(trace)), trace->x, trace->y, trace->iteration, trace->x, trace->y};
     for (int i = 0; i < trace->n_connections; i++) {
         const struct trace_connection *k = &trace->connection[i];

@@ -1,11 +1,14 @@
-/* cmd_info.c: asbdpt info SCENE: what is in a scene and how it was prepared. */
+/* cmd_info.c: asbdpt info: what is in a scene and how it was prepared, or what is in a picture. */
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "base/json.h"
 #include "base/os.h"
 #include "base/progress.h"
 #include "cli/command.h"
 #include "cli/job_options.h"
+#include "image/image.h"
 
 static const char *const LIGHT_NAMES[] = {
     [LIGHT_AREA] = "area", [LIGHT_POINT] = "point", [LIGHT_SPOT] = "spot",
@@ -102,10 +105,58 @@ static void print_json(const struct scene *s, const char *path, const struct met
     json_close(&j);
 }
 
+/* --- pictures ------------------------------------------------------------------------------------------ */
+
 struct info_options {
     struct job_options job;
+    const char *pixel; /* NULL: all of the picture */
     bool json;
 };
+
+/* Least, largest, mean of the finite values of a channel, and how many the others are. */
+static void print_channel(const float *value, int channel, long pixels)
+{
+    double least = INFINITY, most = -INFINITY, sum = 0;
+    long n = 0;
+    for (long i = 0; i < pixels; i++) {
+        double v = (double)value[3 * i + channel];
+        if (!isfinite(v))
+            continue;
+        least = fmin(least, v);
+        most = fmax(most, v);
+        sum += v;
+        n++;
+    }
+    printf("%-13c %.6g to %.6g, mean %.6g", "RGB"[channel], least, most, sum / (double)n);
+    printf(n < pixels ? "; %ld NaN or infinite\n" : "\n", pixels - n);
+}
+
+static bool print_picture(const struct info_options *o, struct error *err)
+{
+    int width, height, x = 0, y = 0;
+    char more;
+    struct image about;
+    if (o->pixel != NULL && (sscanf(o->pixel, "%5d,%5d%c", &x, &y, &more) != 2 || x < 0 || y < 0))
+        return error_set(err, "--pixel %s: two numbers are wanted, as in 20,10", o->pixel);
+    float *value = image_read_linear(o->job.scene_path, &width, &height, &about, err);
+    if (value == NULL)
+        return false;
+    bool ok = x < width && y < height;
+    if (ok && o->pixel != NULL) {
+        const float *p = value + 3 * ((size_t)y * (size_t)width + (size_t)x);
+        printf("%.9g %.9g %.9g\n", (double)p[0], (double)p[1], (double)p[2]);
+    } else if (ok) {
+        printf("format        %s, %s\nsize          %dx%d\nchannels      %s\n", image_extension(o->job.scene_path),
+               about.linear ? "linear" : "sRGB, here made linear", width, height,
+               about.channels == 1 ? "1, grey" : "3, RGB");
+        for (int c = 0; c < 3; c++)
+            print_channel(value, c, (long)width * height);
+    }
+    free(value);
+    return ok || error_set(err, "--pixel %s: the picture is %dx%d, and 0,0 at its top left", o->pixel, width, height);
+}
+
+/* --- the command --------------------------------------------------------------------------------------- */
 
 static int run(void *options)
 {
@@ -113,6 +164,11 @@ static int run(void *options)
     struct scene scene;
     const struct method *integrator;
     double start = os_wall_seconds();
+    struct error err;
+    if (image_extension(o->job.scene_path) != NULL)
+        return print_picture(o, &err) ? EXIT_OK : fail(&err);
+    if (o->pixel != NULL)
+        return usage_error(&command_info, "--pixel is for pictures; asbdpt-lab trace tells of a scene's");
     int status = job_load(&o->job, &scene, &integrator);
     if (status != EXIT_OK)
         return status;
@@ -126,11 +182,12 @@ static int run(void *options)
 
 #define AT(member) offsetof(struct info_options, member)
 static const struct option OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .help = "a scene file"},
+    {"FILE", NULL, OPTION_TEXT, AT(job.scene_path), 1, .help = "a scene file, or a picture"},
+    {"--pixel", "X,Y", OPTION_TEXT, AT(pixel), .help = "of a picture: only this pixel's values; 0,0 is top left"},
     {"--json", NULL, OPTION_ON, AT(json), .help = "print an object of JSON"},
     {.others = JOB_OPTIONS},
 };
 
 const struct command command_info = {
-    "info", "describe a scene", {"SCENE.pbrt [--json] [options]"}, OPTIONS, sizeof(struct info_options), run, true,
-    "info scenes/bathroom.pbrt"};
+    "info", "describe a scene, or a picture", {"SCENE.pbrt [--json] [options]", "PICTURE [--pixel X,Y]"}, OPTIONS,
+    sizeof(struct info_options), run, true, "info scenes/bathroom.pbrt"};

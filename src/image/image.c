@@ -90,6 +90,12 @@ static const struct format *format_to_write(const char *path)
     return format != NULL && format->write != NULL ? format : NULL;
 }
 
+const char *image_extension(const char *path)
+{
+    const struct format *format = format_by_name(path);
+    return format != NULL ? format->extension : NULL;
+}
+
 bool image_writable(const char *path) { return format_to_write(path) != NULL; }
 
 bool image_create(const char *path, struct file_output *out, struct error *err)

@@ -39,8 +39,10 @@ bool image_finish(struct file_output *f, const struct raster *r, struct error *e
 /* image_mend: make samples that are NaN or infinite 0, and negative ones too if asked; `replaced` counts them. */
 void image_mend(struct image *img, bool negative_too);
 
-/* image_writable: does `path` end in an extension image_write knows? image_is_8_bit: in one of 8-bit sRGB pictures?
+/* image_extension: that of a format of pictures that `path` ends in, or NULL.
+ * image_writable: does it end in an extension image_write knows? image_is_8_bit: in one of 8-bit sRGB pictures?
  * image_keeps_place: in one of those that say where the picture lies in its whole? */
+const char *image_extension(const char *path);
 bool image_writable(const char *path);
 bool image_is_8_bit(const char *path);
 bool image_keeps_place(const char *path);

@@ -38,7 +38,7 @@ static void add_note(char note[FILM_NOTE_SIZE], const char *text)
 bool method_prepare(const struct method *m, const struct render_job *job, struct preparation *out, struct error *err)
 {
     struct preparation standard = {.method = m, .state = mem_alloc(1, m->state_size),
-                                   .size = {0, DEFAULT_TILE_SIZE}};
+                                   .size = {0, DEFAULT_TILE_SIZE, 1}};
     struct mis_counts bdpt = {{1, 1}, {1, 1}, {1, 1}, {1, 1}, pixel_light_count(job), .power = job->power_heuristic};
     struct frozen *f = standard.state;
     *out = standard;

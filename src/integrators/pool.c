@@ -77,6 +77,7 @@ static void connect(void *scratch, const void *state, struct pooled_pixel *p)
 static void prepare(const struct render_job *job, struct preparation *out)
 {
     struct pool_state *s = out->state;
+    out->size.spread = POOL_SPREAD;
     asbdpt_learn(job, s->metric == METRIC_IMPORTANCE, s->grid, &s->learnt, &s->frozen);
 }
 

@@ -213,6 +213,7 @@ static void prepare(const struct render_job *job, struct preparation *out)
                               .eye_cells = GUIDE_CELLS, .light_cells = LIGHT_CELLS, .levels = REGION_LEVELS,
                               .delta = s->delta, .emission = s->emission};
     out->size.tile = MAX_TILE_SIZE; /* a larger pool */
+    out->size.spread = POOL_SPREAD;
     learn(job, &wish, &s->learnt);
     f->counts.model = &s->learnt.model;
     run_pilot(job, path_pixels == 0 && s->connections == 0, out);

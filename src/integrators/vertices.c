@@ -115,6 +115,7 @@ static void prepare(const struct render_job *job, struct preparation *out)
     struct vertices_state *s = out->state;
     struct frozen *f = &s->frozen;
     bool importance = s->metric == METRIC_IMPORTANCE;
+    out->size.spread = POOL_SPREAD;
     asbdpt_learn(job, importance, s->grid, &s->learnt, f);
     if (s->connections == 0)
         s->connections = importance ? choose_connections(&s->learnt.importance) : 4;

@@ -36,7 +36,7 @@ static void series(const struct fourier_table *t, int o, int i, double cos_phi, 
     }
 }
 
-/* The interval that a cosine is in, or -1, and where in it. */
+/* The interval that a cosine is in, never one without width, or -1, and where in it. */
 static int interval(const struct fourier_table *t, double mu, double *where)
 {
     int low = 0, high = t->n_mu - 1;
@@ -196,8 +196,8 @@ static bool read_body(const uint8_t *byte, size_t n_a, struct fourier_table *t)
     t->length = mem_alloc(pairs, sizeof *t->length);
     t->a = mem_alloc(n_a, sizeof *t->a);
     bool ok = numbers(byte, n, -1, 1, t->mu);
-    for (size_t i = 1; i < n; i++)
-        ok = ok && t->mu[i - 1] < t->mu[i];
+    for (size_t i = 1; i < n; i++) /* the horizon is there twice, for what is above it and below; the last only once */
+        ok = ok && (i < n - 1 ? t->mu[i - 1] <= t->mu[i] : t->mu[i - 1] < t->mu[i]);
     byte += 4 * (n + pairs);
     for (size_t i = 0; i < pairs && ok; i++, byte += 8) {
         size_t length = t->length[i] = word(byte + 4);

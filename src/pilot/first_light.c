@@ -49,7 +49,7 @@ static void take_sample(const struct first_light_job *f, int x, int y, uint64_t 
 {
     struct render_job job = f->job;
     struct tile *tile = &f->tile[thread];
-    struct pixel_rect rect = {x, y, x + 1, y + 1};
+    struct pixel_rect rect = {x, y, x + 1, y + 1, 0, 0};
     struct tile_pass pass = {&job, rect, iteration, iteration + 1, tile, &f->work[thread], NULL, NULL};
     job.seed = job.eye_seed = seed;
     tile_start(tile, rect, job.film_rect, &job.scene->filter, true);

@@ -15,7 +15,7 @@ struct pixel_rect render_crop(const struct scene *scene)
 {
     const double *c = scene->crop;
     struct pixel_rect r = {(int)ceil(scene->width * c[0]), (int)ceil(scene->height * c[2]),
-                           (int)ceil(scene->width * c[1]), (int)ceil(scene->height * c[3])};
+                           (int)ceil(scene->width * c[1]), (int)ceil(scene->height * c[3]), 0, 0};
     return r;
 }
 
@@ -54,6 +54,13 @@ static int choose_block(struct pixel_rect film)
     return block;
 }
 
+static void count_tiles(struct run *r)
+{
+    int tile = r->prepared.size.tile;
+    r->tiles_x = (rect_width(r->job.film_rect) + tile - 1) / tile;
+    r->tiles_y = (rect_height(r->job.film_rect) + tile - 1) / tile;
+}
+
 static int64_t tiles_per_block(const struct run *r) { return (int64_t)r->tiles_x * r->tiles_y; }
 
 /* The iterations of block number b of this run. */
@@ -64,13 +71,24 @@ static void block_range(const struct run *r, int64_t b, long *first, long *end)
     *end = begin + r->prepared.size.block < r->options->end ? (long)(begin + r->prepared.size.block) : r->options->end;
 }
 
+/* On one axis, of `n` tiles: number `tile` takes every so manieth pixel of [*begin, *end), together with its group.
+ * Groups are of up to `spread` tiles, and as like in size as can be. */
+static void interleave(const struct pass_size *size, int n, int tile, int *begin, int *end, int *skip)
+{
+    int groups = (n + size->spread - 1) / size->spread, group = (int)((int64_t)tile * groups / n);
+    int first = (int)(((int64_t)group * n + groups - 1) / groups);
+    int next = (int)((((int64_t)group + 1) * n + groups - 1) / groups);
+    if (next < n)
+        *end = *begin + next * size->tile;
+    *begin += first * size->tile + tile - first;
+    *skip = next - first - 1;
+}
+
 static struct pixel_rect tile_rect(const struct run *r, int64_t tile)
 {
-    struct pixel_rect all = r->job.film_rect, rect;
-    rect.x0 = all.x0 + (int)(tile % r->tiles_x) * r->prepared.size.tile;
-    rect.y0 = all.y0 + (int)(tile / r->tiles_x) * r->prepared.size.tile;
-    rect.x1 = rect.x0 + r->prepared.size.tile < all.x1 ? rect.x0 + r->prepared.size.tile : all.x1;
-    rect.y1 = rect.y0 + r->prepared.size.tile < all.y1 ? rect.y0 + r->prepared.size.tile : all.y1;
+    struct pixel_rect rect = r->job.film_rect;
+    interleave(&r->prepared.size, r->tiles_x, (int)(tile % r->tiles_x), &rect.x0, &rect.x1, &rect.skip_x);
+    interleave(&r->prepared.size, r->tiles_y, (int)(tile / r->tiles_x), &rect.y0, &rect.y1, &rect.skip_y);
     return rect;
 }
 
@@ -254,8 +272,7 @@ static bool cut(struct run *r, struct error *err)
     struct pass_size *size = &r->prepared.size;
     if (size->block == 0)
         size->block = r->options->block > 0 ? r->options->block : choose_block(r->job.film_rect);
-    r->tiles_x = (rect_width(r->job.film_rect) + size->tile - 1) / size->tile;
-    r->tiles_y = (rect_height(r->job.film_rect) + size->tile - 1) / size->tile;
+    count_tiles(r);
     r->film->run = halves_run(size->block);
     r->begun = r->film->passes;
     return r->begun < tiles_per_block(r) ||
@@ -297,13 +314,15 @@ static void trace_pass(struct run *r, struct trace *trace)
 {
     struct pass_size size = r->prepared.size;
     struct pixel_rect film = r->job.film_rect;
-    struct tile tile = {.rect = {0, 0, 0, 0}};
+    struct tile tile = {.rect = {0, 0, 0, 0, 0, 0}};
     long block = size.block > 0 ? size.block : 1;
-    r->tiles_x = (rect_width(film) + size.tile - 1) / size.tile;
+    count_tiles(r);
     make_workspaces(r);
     struct tile_pass pass = {.job = &r->job, .tile = &tile, .work = r->work, .trace = trace};
-    int column = (trace->x - film.x0) / size.tile, row = (trace->y - film.y0) / size.tile;
-    pass.rect = tile_rect(r, (int64_t)row * r->tiles_x + column);
+    int64_t number = 0;
+    do
+        pass.rect = tile_rect(r, number++);
+    while (!rect_has(pass.rect, trace->x, trace->y));
     pass.first = trace->iteration / block * block;
     pass.end = trace->iteration + 1;
     tile_start(&tile, pass.rect, film, &r->job.scene->filter, false);

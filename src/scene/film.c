@@ -51,7 +51,8 @@ static void make_room(struct tile *t)
 
 static size_t place_of(const struct tile *t, int x, int y)
 {
-    return 3 * ((size_t)(y - t->rect.y0) * (size_t)rect_width(t->rect) + (size_t)(x - t->rect.x0));
+    int column = (x - t->rect.x0) / (t->rect.skip_x + 1), row = (y - t->rect.y0) / (t->rect.skip_y + 1);
+    return 3 * ((size_t)row * (size_t)rect_width(t->rect) + (size_t)column);
 }
 
 void tile_add_eye(struct tile *t, int x, int y, rgb value) { tile_add_between(t, x, y, value, rgb_black()); }
@@ -336,21 +337,19 @@ void film_take_splats(struct film *f, struct tile *t)
 
 void film_merge_tile(struct film *f, struct tile *t)
 {
-    size_t width = (size_t)rect_width(t->rect) * 3, height = (size_t)rect_height(t->rect);
-    size_t film_plane = 3 * rect_pixels(f->rect), tile_plane = width * height;
-    for (size_t y = 0; y < height; y++) {
-        size_t row = (size_t)(t->rect.y0 - f->rect.y0) + y, from = y * width;
-        size_t to = 3 * (row * (size_t)rect_width(f->rect) + (size_t)(t->rect.x0 - f->rect.x0));
-        for (size_t p = 0; p < (size_t)plane_count(f->planes); p++)
-            for (size_t x = 0; x < width; x++)
-                f->nonfinite += !exact_join(&f->sum[p * film_plane + to + x], &t->sum[p * tile_plane + from + x]);
-        for (size_t x = 0; f->half != NULL && t->first_half && x < width; x++)
-            exact_join(&f->half[to + x], &t->sum[from + x]); /* part of the sum: it cannot overflow before it */
-        for (size_t x = 0; f->errors != NULL && x < width; x++) {
-            f->errors->eye[to + x] += exact_value(&t->sum[from + x]);
-            f->errors->square[to + x] += t->square[from + x];
-        }
-    }
+    size_t from = 0, film_plane = 3 * rect_pixels(f->rect), tile_plane = 3 * rect_pixels(t->rect);
+    for (int y = t->rect.y0; y < t->rect.y1; y += t->rect.skip_y + 1)
+        for (int x = t->rect.x0; x < t->rect.x1; x += t->rect.skip_x + 1)
+            for (size_t to = 3 * pixel_of(f, x, y), c = 0; c < 3; c++, to++, from++) {
+                for (size_t p = 0; p < (size_t)plane_count(f->planes); p++)
+                    f->nonfinite += !exact_join(&f->sum[p * film_plane + to], &t->sum[p * tile_plane + from]);
+                if (f->half != NULL && t->first_half) /* part of the sum: it cannot overflow before it */
+                    exact_join(&f->half[to], &t->sum[from]);
+                if (f->errors != NULL) {
+                    f->errors->eye[to] += exact_value(&t->sum[from]);
+                    f->errors->square[to] += t->square[from];
+                }
+            }
     film_take_splats(f, t);
     f->nonfinite += t->nonfinite;
 }

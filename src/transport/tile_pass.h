@@ -33,10 +33,11 @@ struct render_job {
 
 /* How a method wants its work cut. */
 struct pass_size {
-    int block; /* iterations; 0: any number */
-    int tile;  /* pixels along the side, at most MAX_TILE_SIZE */
+    int block;  /* iterations; 0: any number */
+    int tile;   /* pixels along the side, at most MAX_TILE_SIZE */
+    int spread; /* on each axis up to so many tiles are interleaved: what their pixels share forms no squares */
 };
-enum { LONGEST_BLOCK = 32, DEFAULT_TILE_SIZE = 16, MAX_TILE_SIZE = 32 };
+enum { LONGEST_BLOCK = 32, DEFAULT_TILE_SIZE = 16, MAX_TILE_SIZE = 32, POOL_SPREAD = 4 };
 
 /* Memory of one thread, made once and reused by all its tile passes. */
 struct workspace {
@@ -64,8 +65,8 @@ struct tile_pass {
 static inline bool pass_pixel(const struct tile_pass *pass, int i, int *x, int *y)
 {
     int width = rect_width(pass->rect);
-    *x = pass->rect.x0 + i % width;
-    *y = pass->rect.y0 + i / width;
+    *x = pass->rect.x0 + i % width * (pass->rect.skip_x + 1);
+    *y = pass->rect.y0 + i / width * (pass->rect.skip_y + 1);
     return *y < pass->rect.y1;
 }
 

@@ -15,7 +15,7 @@ struct demo_options {
 
 #define AT(member) offsetof(struct demo_options, member)
 static const struct option OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(demo.scene), 1, .file = FILE_READ, .help = "a scene with a stored reference"},
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(demo.scene), 1, .file = FILE_READ, .help = "a scene"},
     {"--outfile", "FILE.png", OPTION_TEXTS, AT(output), 1, .alias = "-o", .file = FILE_WRITTEN,
      .help = "a picture to write"},
     {"--methods", "LIST", OPTION_TEXT, AT(methods), .fallback = METHODS_DEMO, .help = METHODS_HELP},
@@ -24,7 +24,7 @@ static const struct option OPTIONS[] = {
     {"--scale", "K", OPTION_INTEGER, AT(demo.scale), 1, 64, .fallback = "1",
      .help = "the pictures are K times as wide and high as the reference"},
     {"--reference", "PATH", OPTION_TEXT, AT(demo.reference),
-     .file = FILE_READ, .help = "picture, or directory of NAME.pfm (default: ref/ beside the scene)"},
+     .file = FILE_READ, .help = "picture, or directory of NAME.pfm (default: ref/ beside the scene, else rendered)"},
     {"--nthreads", "N", OPTION_INTEGER, AT(demo.n_threads), 1, 1024, .alias = "-j", .help = "threads (default: all)"},
     {"--seed", "N", OPTION_SEED, AT(demo.seed), .fallback = "0", .help = "another set of random numbers"},
     {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "no messages"},

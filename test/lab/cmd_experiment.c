@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/parallel.h"
 #include "lab/commands.h"
+#include "lab/equal_page.h"
 #include "lab/equal_run.h"
 #include "lab/experiment.h"
 #include "lab/family.h"
@@ -207,10 +208,13 @@ static int run_equal_time(void *options)
     char command[1024];
     if (!plan_equal_time(o, command, &plan, &err))
         return usage_error(&command_equal_time, "%s", err.text);
-    struct equal_time results = {.plan = &plan, .seconds = o->seconds};
-    bool ok = equal_run(&results, &err);
-    if (ok)
+    struct equal_time results = {.plan = &plan, .seconds = o->seconds, .pictures = true};
+    bool ok = equal_run(&results, &err) && equal_page_write(&results, &err);
+    if (ok) {
         equal_table(stdout, &results);
+        printf("\n%s/equal-time.html\n", plan.directory);
+        equal_verdict(stdout, &results);
+    }
     equal_free(&results);
     return ok ? EXIT_OK : fail(&err);
 }

@@ -1,12 +1,39 @@
 /* demo.c: see demo.h. */
 #include "lab/demo.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "image/picture.h"
 #include "lab/pictures.h"
 #include "lab/plan_scene.h"
+#include "lab/timed.h"
+
+enum { REFERENCE_TIMES = 32 }; /* as many samples as the first picture has */
+
+/* The one that nobody has stored. */
+static bool make_reference(const struct demo *d, struct reference *r, struct error *err)
+{
+    struct render_options o = {.integrator = METHOD_REFERENCE, .seed = ~d->seed, .end = REFERENCE_TIMES * d->spp,
+                               .n_threads = d->n_threads};
+    struct scene scene;
+    struct timed took;
+    if (!plan_scene_read(d->scene, 0, 0, 0, &scene, &o.max_depth, err))
+        return false;
+    settings_clear(&scene.settings);
+    bool ok = timed_render(&scene, &o, &took, err);
+    if (ok) {
+        r->pixels = took.pixels;
+        r->width = scene.width;
+        r->height = scene.height;
+        r->max_depth = o.max_depth;
+        r->content = scene.content;
+        r->noise8 = NAN;
+    }
+    scene_free(&scene);
+    return ok;
+}
 
 /* The reference, and the scene at its size times the scale. */
 static bool load_scene(const struct demo *d, struct subject *s, struct error *err)
@@ -18,8 +45,10 @@ static bool load_scene(const struct demo *d, struct subject *s, struct error *er
     s->n_threads = d->n_threads;
     if (!reference_find(d->reference, d->scene, name, r, err))
         return false;
-    if (r->pixels == NULL)
-        return error_set(err, "%s: there is no stored reference %s.pfm; give one with --reference", d->scene, name);
+    bool stored = r->pixels != NULL;
+    if (!stored && !make_reference(d, r, err))
+        return false;
+    snprintf(r->origin, sizeof r->origin, "%s", stored ? "stored" : "rendered here");
     if (!picture_size_ok((uint64_t)r->width * (uint64_t)d->scale, (uint64_t)r->height * (uint64_t)d->scale, err))
         return false;
     if (!plan_scene_read(d->scene, r->width * d->scale, r->height * d->scale, (int)r->max_depth, &s->scene,
@@ -55,10 +84,13 @@ static void draw(const struct demo *d, const struct subject *s, const struct equ
     sheet_init(sheet, (n + 1) * (width * k + COLUMN_GAP) + COLUMN_GAP, COLUMN_LABEL + height * k + 2 * COLUMN_GAP,
                SHEET_PAPER);
     for (int i = 0; i < n; i++) {
-        snprintf(cost, sizeof cost, "%ld samples per pixel, %.1f s of CPU", out[i].spp, out[i].seconds);
+        snprintf(cost, sizeof cost, "%ld spp, %.1f s, 8x8 %.2g", out[i].spp, out[i].seconds, out[i].blocks);
         draw_column(sheet, i, d->methods.item[i].text, "error", out[i].rmse8, cost, picture[i], width, height, k);
     }
-    snprintf(cost, sizeof cost, d->scale > 1 ? "means of %d x %d pixels" : "stored", d->scale, d->scale);
+    if (d->scale > 1)
+        snprintf(cost, sizeof cost, "%.20s; %d x %d in one", r->origin, d->scale, d->scale);
+    else
+        snprintf(cost, sizeof cost, "%.20s", r->origin);
     draw_column(sheet, n, "reference", "noise", r->noise8, cost, r->pixels, r->width, r->height, k * d->scale);
 }
 

@@ -1,5 +1,6 @@
-/* demo.h: methods at the same CPU time in one picture: what each made of a scene, side by side with the stored
- * reference, labelled with the root mean square of the errors of all 8-bit values.
+/* demo.h: methods at the same CPU time in one picture: what each made of a scene, side by side with the
+ * reference, which is rendered where none is stored, labelled with the root mean square of the errors of all 8-bit
+ * values, and with the relative squared error of means over 8x8 pixels.
  *
  * Where the reference is small, pictures may be rendered k times as wide and high: then the mean of k x k of their
  * pixels is compared with one of the reference. With a box filter both have the same expectation.

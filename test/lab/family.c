@@ -189,7 +189,7 @@ static void paste_crop(const struct equal_time *e, const struct equal_scene *s, 
     free(pixels);
 }
 
-static bool write_strip(const struct equal_time *e, struct error *err)
+bool family_strip(const struct equal_time *e, struct error *err)
 {
     struct sheet sheet;
     char path[4096];
@@ -212,5 +212,5 @@ static bool write_strip(const struct equal_time *e, struct error *err)
 bool family_write(const struct equal_time *e, struct error *err)
 {
     return equal_write_file(e, "family.csv", equal_csv, err) && equal_write_file(e, "family.md", family_tables, err) &&
-           equal_write_file(e, "family.svg", family_figure, err) && write_strip(e, err);
+           equal_write_file(e, "family.svg", family_figure, err) && family_strip(e, err);
 }

@@ -30,6 +30,8 @@ bool plan_scene_read(const char *path, int width, int height, int max_depth, str
     if (!parse_scene(path, scene, NULL, err))
         return false;
     parameters_adapt(scene, method_rows, NULL);
+    if (width == 0)
+        width = scene->width < WIDTH_WITHOUT_REFERENCE ? scene->width : WIDTH_WITHOUT_REFERENCE;
     /* Widths of plans go up to 8192 and films up to 65536 a side: below 2^30. */
     int by_aspect = (int)(0.5 + (double)width * scene->height / scene->width);
     memcpy(scene->crop, whole, sizeof whole);
@@ -54,14 +56,14 @@ static bool read_planned(const struct plan *p, const char *path, const struct re
         height = stored->height;
         max_depth = max_depth > 0 ? max_depth : (int)stored->max_depth;
     }
-    return plan_scene_read(path, width > 0 ? width : WIDTH_WITHOUT_REFERENCE, height, max_depth, scene, depth, err);
+    return plan_scene_read(path, width, height, max_depth, scene, depth, err);
 }
 
 static void warn(const struct plan *p, const struct scene *scene, const char *path, const char *why)
 {
     if (!p->quiet)
-        fprintf(stderr, "asbdpt: warning: %s: %s: measured at %dx%d pixels (see --res) against a picture rendered "
-                        "here\n", path, why, scene->width, scene->height);
+        fprintf(stderr, "asbdpt: warning: %s: %s: measured at %dx%d pixels, whatever the film's own are (see --res), "
+                        "against a picture rendered here\n", path, why, scene->width, scene->height);
 }
 
 bool plan_scene_load(const struct plan *p, const char *path, const char *name, struct scene *scene, int *depth,

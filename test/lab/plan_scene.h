@@ -14,20 +14,21 @@
 void plan_scene_name(const char *path, char *out, int size);
 
 /* plan_scene_read: read a scene as experiments render it, whole and with a box filter, and prepare it.
+ *   width      0: the film's own, or WIDTH_WITHOUT_REFERENCE if that is less
  *   height     0: by the scene's aspect ratio
  *   max_depth  0: the scene's; *depth is the one in force
  * Returns false with a message, then nothing needs release. */
+enum { WIDTH_WITHOUT_REFERENCE = 160 };
 bool plan_scene_read(const char *path, int width, int height, int max_depth, struct scene *scene, int *depth,
                      struct error *err);
 
 /* plan_scene_load: the same at the plan's size and depth, with its stored reference. Where the plan leaves the width
- * open, size and depth are the reference's; without one it is WIDTH_WITHOUT_REFERENCE wide, with a warning. What is
+ * open, size and depth are the reference's; without one the width is 0, with a warning. What is
  * found beside the scene is taken only if it says that it is of this scene, size and depth.
  *   name    what the reference is called
  *   stored  out, to be given to reference_free; its pixels are NULL where there is none, or none that fits
  * Returns false with a message, also when a reference was given that cannot be used; then the scene is not to be
  * released. */
-enum { WIDTH_WITHOUT_REFERENCE = 48 };
 bool plan_scene_load(const struct plan *p, const char *path, const char *name, struct scene *scene, int *depth,
                      struct reference *stored, struct error *err);
 

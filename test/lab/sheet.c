@@ -1,9 +1,11 @@
 /* sheet.c: see sheet.h. */
 #include "lab/sheet.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "base/mem.h"
 #include "image/picture.h"
 
@@ -44,14 +46,48 @@ void sheet_paste(struct sheet *s, int x, int y, const float *pixels, int width, 
             fill(s, x + i * k, y + j * k, k, pixels + 3 * ((size_t)j * (size_t)width + (size_t)i));
 }
 
+static void blend(struct sheet *s, int x, int y, float value, float share)
+{
+    if (x < 0 || x >= s->width || y < 0 || y >= s->height)
+        return;
+    float *p = pixel_at(s, x, y);
+    for (int c = 0; c < 3; c++)
+        p[c] += share * (value - p[c]);
+}
+
+static bool ink(char letter, int x, int y)
+{
+    return x >= 0 && x < FONT_WIDTH && y >= 0 && y < FONT_HEIGHT && font_pixel(letter, x, y);
+}
+
+/* How far a point, in the font's pixels, is from a letter's strokes: lines between neighbouring pixels of ink, across
+ * corners where no straight way joins them. */
+static double from_stroke(char letter, double x, double y)
+{
+    static const int way[5][2] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}, {-1, 1}};
+    double least = 9;
+    for (int j = (int)y - 2; j <= (int)y + 2; j++)
+        for (int i = (int)x - 2; i <= (int)x + 2; i++)
+            for (int k = 0; k < 5 && ink(letter, i, j); k++) {
+                int dx = way[k][0], dy = way[k][1], length2 = dx * dx + dy * dy;
+                bool joined = ink(letter, i + dx, j + dy) &&
+                              (length2 < 2 || (!ink(letter, i + dx, j) && !ink(letter, i, j + dy)));
+                double along = length2 > 0 ? clamp(((x - i) * dx + (y - j) * dy) / length2, 0, 1) : 0;
+                if (joined)
+                    least = fmin(least, sqr(x - i - along * dx) + sqr(y - j - along * dy));
+            }
+    return sqrt(least);
+}
+
 void sheet_text(struct sheet *s, int x, int y, int size, double grey, const char *text)
 {
-    float value = (float)srgb_decode(grey), ink[3] = {value, value, value};
+    float value = (float)srgb_decode(grey);
     for (; *text != '\0'; text++, x += FONT_ADVANCE * size)
-        for (int j = 0; j < FONT_HEIGHT; j++)
-            for (int i = 0; i < FONT_WIDTH; i++)
-                if (font_pixel(*text, i, j))
-                    fill(s, x + i * size, y + j * size, size, ink);
+        for (int j = 0; j < FONT_HEIGHT * size; j++)
+            for (int i = 0; i < FONT_WIDTH * size; i++) {
+                double far = from_stroke(*text, (i + 0.5) / size - 0.5, (j + 0.5) / size - 0.5);
+                blend(s, x + i, y + j, value, (float)clamp((0.5 - far) * size + 0.5, 0, 1));
+            }
 }
 
 int sheet_text_width(const char *text, int size) { return (int)strlen(text) * FONT_ADVANCE * size; }
