@@ -6,7 +6,7 @@
 #include "base/exact_sum.h"
 #include "helpers.h"
 #include "tests.h"
-#include "transport/caustic.h"
+#include "caustics/specular.h"
 
 /* --- one chain --------------------------------------------------------------------------------------- */
 
@@ -56,7 +56,6 @@ static void test_derivatives(struct test *t)
         struct scene scene;
         struct arena arena = {NULL, NULL};
         struct rng r = rng_stream(test_seed(t), RNG_TEST, i, 0);
-        struct mis_counts counts = {.splat = 1};
         int found = 0;
         double worst = 0;
         snprintf(text, sizeof text, "WorldBegin LightSource \"point\" Rotate 20 1 1 0 %s WorldEnd", cases[i].thing);
@@ -67,7 +66,7 @@ static void test_derivatives(struct test *t)
             z.p.z *= cases[i].below;
             struct light_point y = {.p = vec(rng_uniform(&r) - .5, rng_uniform(&r) - .5, 1.5 + rng_uniform(&r))};
             y.w = normalize(y.p);
-            struct quest q = {&scene, &counts, &arena, &z, &y, n % 2 == 1, cases[i].group, 1, cases[i].k};
+            struct quest q = {&scene, &arena, &z, &y, n % 2 == 1, cases[i].group, 1, cases[i].k};
             vec3 middle = vec(0.1 * rng_uniform(&r), 0.1 * rng_uniform(&r), cases[i].below > 0 ? 0 : 0.3);
             struct chain c;
             if (!specular_search(&q, normalize(sub(middle, z.p)), &c))

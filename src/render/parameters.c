@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "caustics/caustic.h"
 #include "parser/symbols.h"
-#include "transport/caustic.h"
 
 static bool is_of_file(const struct setting *item) { return strcmp(item->origin, "-P") != 0; }
 
