@@ -18,11 +18,11 @@ LTO     = $(eval LTO := $$(shell sh test/lto.sh $$(CC)))$(LTO)# asked of the com
 
 SOURCES  = $(wildcard src/*/*.c)
 OBJECTS  = $(SOURCES:src/%.c=$(BUILD)/obj/%.o)
-LIBRARY  = $(filter-out %/main.o,$(OBJECTS))
-LABS     = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/lab/*.c)) $(filter-out %/cli/program.o,$(OBJECTS))
+LABS     = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/lab/*.c test/lab/*/*.c)) \
+           $(filter-out %/cli/program.o %/render/rows.o,$(OBJECTS))
 TARGETS  = $(BUILD)/obj/test/fuzz/targets.o $(BUILD)/obj/test/fuzz/hostile.o
 TESTS    = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/*.c)) $(TARGETS) $(filter-out %/main.o,$(LABS))
-FUZZED   = $(BUILD)/obj/test/fuzz/libfuzzer.o $(TARGETS) $(LIBRARY)
+FUZZED   = $(BUILD)/obj/test/fuzz/libfuzzer.o $(TARGETS) $(filter-out %/main.o,$(LABS))
 
 .BEGIN: # which other makes do before anything else, and GNU make never
 	@echo "This Makefile needs GNU make (gmake); README.md has a line that builds without any make." >&2; exit 1
@@ -55,13 +55,13 @@ $(BUILD)/inject-lab: $(LABS) $(BUILD)/obj/test/fuzz/inject.o
 
 $(BUILD)/obj/test/%.o: test/%.c
 	@mkdir -p $(@D)
-	$(SAY)$(CC) $(FLAGS) -Itest -MMD -MP $(CFLAGS) -c -o $@ $<
+	$(SAY)$(CC) $(FLAGS) -Itest -Itest/lab -MMD -MP $(CFLAGS) -c -o $@ $<
 
 $(BUILD)/obj/%.o: src/%.c
 	@mkdir -p $(@D)
 	$(SAY)$(CC) $(FLAGS) -MMD -MP $(CFLAGS) -c -o $@ $<
 
--include $(wildcard $(BUILD)/obj/*/*.d $(BUILD)/obj/*/*/*.d)
+-include $(wildcard $(BUILD)/obj/*/*.d $(BUILD)/obj/*/*/*.d $(BUILD)/obj/*/*/*/*.d)
 
 # ---- what it is for ----
 # Paths come to the shell as variables, for they may hold blanks and quotes. Whatever the umask, everybody may read.
@@ -105,6 +105,7 @@ test: asbdpt asbdpt-lab $(BUILD)/test layers standard references columns faults 
 	sh test/keep.sh $(PROGRAM)
 	sh test/hashes_test.sh
 	sh test/hashes.sh $(PROGRAM)
+	LIST=test/lab/hashes.txt sh test/hashes.sh $(LAB)
 	sh test/readme.sh $(PROGRAM) doc/scene-format.md doc/tour/trace.md
 	$(BUILD)/test
 
@@ -123,14 +124,15 @@ check-ref: asbdpt asbdpt-lab ## are the stored references still what the program
 portability: ## build by every compiler, and for every system, that is at hand or emulated; the pictures must be the same
 	sh test/portability.sh
 
-hashes: asbdpt ## write the list of pictures' checksums anew, after a change that is meant to change pictures
+hashes: asbdpt asbdpt-lab ## write the list of pictures' checksums anew, after a change that is meant to change pictures
 	sh test/hashes.sh $(PROGRAM) renew
+	LIST=test/lab/hashes.txt sh test/hashes.sh $(LAB) renew
 
 mutants: ## apply small faults one by one; the tests must catch every one
 	sh test/mutants/run.sh 2
 
 layers: ## check that no file includes a higher room, that no room holds a circle, that headers compile alone
-	@ABOVE=test/lab sh test/layers.sh src $(CC)
+	@ABOVE="test/lab/rivals test/lab/chains test/lab" sh test/layers.sh src $(CC)
 
 standard: ## check that src calls and includes nothing that differs from machine to machine, but in one place
 	@sh test/standard.sh

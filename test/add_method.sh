@@ -8,12 +8,12 @@ trap 'rm -rf "$dir"' EXIT
 mkdir "$dir/doc" && cp -R -p Makefile src scenes ref test "$build" "$dir" && cp -R -p doc/*.md "$dir/doc" || exit 1
 
 plant() { # the code of the page, and its row
-    sed -n '/^```c$/,/^```$/p' doc/add-a-method.md | sed '1d;$d' >"$dir/src/integrators/resampling.c"
-    awk '/^static const struct method \*const METHODS\[\] = {/ {
+    sed -n '/^```c$/,/^```$/p' doc/add-a-method.md | sed '1d;$d' >"$dir/test/lab/rivals/resampling.c"
+    awk '/^const struct method \*const method_rows\[\] = {/ {
             print "extern const struct method method_resampling;"
             sub(/{/, "{\\&method_resampling, ")
         }
-        { print }' src/render/methods.c >"$dir/src/render/methods.c"
+        { print }' test/lab/rows.c >"$dir/test/lab/rows.c"
 }
 must() { "$@" >"$dir/log" 2>&1 || { echo "FAIL: $*"; cat "$dir/log"; exit 1; }; }
 says() { grep -q "$1" "$dir/log" || { echo "FAIL: no \"$1\" in:"; cat "$dir/log"; exit 1; }; }
@@ -21,11 +21,11 @@ says() { grep -q "$1" "$dir/log" || { echo "FAIL: no \"$1\" in:"; cat "$dir/log"
 plant
 cd "$dir" || exit 1
 must make BUILD="$build" LTO=
-must ./asbdpt --help
+must ./asbdpt-lab help integrators
 says 'resampling'
 says 'candidates'
-must ./asbdpt render scenes/cornell-box.pbrt --integrator resampling -P candidates=2 --quick -o x.pfm
-must ./asbdpt trace scenes/cornell-box.pbrt --integrator resampling --pixel 32,32
+must ./asbdpt-lab render scenes/cornell-box.pbrt --integrator resampling -P candidates=2 --quick -o x.pfm
+must ./asbdpt-lab trace scenes/cornell-box.pbrt --integrator resampling --pixel 32,32
 says 'CHOICE'
 must ./asbdpt-lab verify scenes/cornell-box.pbrt --methods pt,resampling --res 24x24 --spp 64 --quiet
 says 'agree'
@@ -34,7 +34,7 @@ must ./asbdpt-lab equal-time scenes/cornell-box.pbrt --methods pt,resampling:can
 says 'resampling:candidates=2'
 must ./asbdpt-lab demo scenes/cornell-box.pbrt --methods pt,resampling --spp 4 --quiet -o x.png
 says 'resampling'
-sed 's/(L \* M \*/(L */' src/integrators/resampling.c >x.c && mv x.c src/integrators/resampling.c
+sed 's/(L \* M \*/(L */' test/lab/rivals/resampling.c >x.c && mv x.c test/lab/rivals/resampling.c
 must make BUILD="$build" LTO=
 if ./asbdpt-lab verify scenes/cornell-box.pbrt --methods pt,resampling --res 24x24 --spp 64 --quiet >log 2>&1; then
     echo "FAIL: a method without 1/M is accepted"

@@ -24,11 +24,11 @@ expect 0 '' "$program" --help
 check grep -q '^asbdpt SCENE.pbrt' stdout.txt
 expect 0 '' "$lab" --help
 check grep -q '^    experiment  ' stdout.txt
-for command in render merge compare convert worth info trace; do # each its own help
+for command in render merge convert info; do # each its own help
     expect 0 '' "$program" $command --help
     check [ "$(grep -c "usage: asbdpt $command" stdout.txt)" = 1 ]
 done
-for command in verify experiment equal-time family demo transient bench; do
+for command in compare trace worth verify experiment equal-time family demo transient bench; do
     expect 0 '' "$lab" $command -h
     check [ "$(grep -c "usage: asbdpt-lab $command" stdout.txt)" = 1 ]
 done
@@ -52,7 +52,6 @@ refuse '[-]-samples has no effect without -o' render "$box" --samples 0:1
 refuse 'one argument too many' render "$box" "$box"
 refuse 'expected an integer from 1 to 1024' render "$box" -j99999999999999999999
 refuse '60000 x 60000 pixels are too many \(at most 268435456\)' render "$box" --res 60000x60000
-refuse 'compare needs a picture of the same size' compare a.pfm
 refuse 'unknown option --seed' info "$box" --seed 1
 refuse 'x.jpg: pictures are written as .pfm, .exr' render "$box" $small -o x.jpg
 refuse 'did you mean asbdpt\? known are' render "$box" $small --integrator=asbdtp
@@ -63,8 +62,9 @@ refuse 'select = "bin" is unknown: give "subspaces", "bins", "pool" or "vertices
 refuse '^asbdpt: -P: heuristic = "max" is unknown: give "balance" or "power"' \
     render "$box" $small -P heuristic=max -o x.pfm
 for command in info trace worth; do # what a command would ignore it does not take
-    refuse 'unknown option --aov' $command "$box" --aov depth
+    expect 2 'unknown option --aov' "$lab" $command "$box" --aov depth
 done
+expect 2 'compare needs a picture of the same size' "$lab" compare a.pfm
 expect 2 'expected a number from 1e-12 to 0.5' "$lab" verify "$box" --alpha nan
 expect 2 '[-]-res .*: expected WIDTH.xHEIGHT., integers from 1' "$lab" experiment -o x --res -4
 expect 2 'experiment needs a directory for its results' "$lab" experiment --quick
@@ -110,8 +110,8 @@ check [ -f x.png ]
 printf 'Integrator "bdpt" "string select" "bins"\nWorldBegin\nLightSource "point"\nWorldEnd\n' >other.pbrt
 for command in info "render $small -o x.pfm" "trace --pixel 0,0 --res 16x16"; do
     expect 2 '^asbdpt: -P: "select" is a parameter of asbdpt, not of bdpt; see --integrator$' \
-        "$program" $command "$box" --integrator bdpt -P select=bins
-    expect 0 '' "$program" $command "$box" --integrator asbdpt -P select=bins -P maxdepth=3
+        "$lab" $command "$box" --integrator bdpt -P select=bins
+    expect 0 '' "$lab" $command "$box" --integrator asbdpt -P select=bins -P maxdepth=3
 done
 expect 0 '^asbdpt: warning: other.pbrt:1:19: "select" is not used: it is a parameter of asbdpt$' \
     "$program" info other.pbrt
@@ -210,7 +210,7 @@ check test -z "$(cat stdout.txt stderr.txt | tr -d '\n -~')"
 printf 'Film "image" "float scale" 1e20\nWorldBegin LightSource "infinite" "rgb L" [ 1e30 1 1e30 ]\nWorldEnd\n' \
     >bright.pbrt
 expect 0 'warning: 512 pixel values were beyond' "$program" render bright.pbrt $small -o bright.pfm
-expect 0 '' "$program" compare bright.pfm bright.pfm --json
+expect 0 '' "$lab" compare bright.pfm bright.pfm --json
 check grep -q '"nonfinite": 0' stdout.txt
 cat >mirrors.pbrt <<'END'
 Camera "perspective" "float fov" 5
@@ -225,7 +225,7 @@ WorldEnd
 END
 expect 0 'warning: [0-9]+ contributions were not finite, or too large' \
     "$program" render mirrors.pbrt $small -o mirrors.pfm
-expect 0 '' "$program" compare mirrors.pfm mirrors.pfm --json
+expect 0 '' "$lab" compare mirrors.pfm mirrors.pfm --json
 check grep -q '"nonfinite": 0' stdout.txt
 
 # --- render
@@ -245,24 +245,24 @@ expect 0 '^asbdpt: warning: crop.exr lies at 0,4 of a picture of 16x16, as lost.
     "$program" convert crop.exr -o same.exr -o lost.pfm
 check [ "$(grep -c warning stderr.txt)" = 1 ]
 check [ "$(head -c 2 a.ppm)" = P6 ]
-expect 0 '' "$program" compare a.pfm b.pfm --json
+expect 0 '' "$lab" compare a.pfm b.pfm --json
 check grep -q '"rmse": 0, "rmse8": 0, "relmse": 0, "mean_ratio": 1, "nonfinite": 0, "psnr": null}' stdout.txt
-expect 0 '' "$program" compare a.png a.ppm --heatmap heat.png
+expect 0 '' "$lab" compare a.png a.ppm --heatmap heat.png
 check [ -s heat.png ]
 check grep -q '^psnr       inf' stdout.txt
 check grep -q '^heatmap    0 to 0 (percentile)' stdout.txt
 check [ ! -s stderr.txt ]
 expect 0 'a.png holds sRGB values from 0 to 1, a.pfm linear ones' \
-    "$program" compare a.png a.pfm --heatmap heat.png --max 2
+    "$lab" compare a.png a.pfm --heatmap heat.png --max 2
 check grep -q '^heatmap    0 to 2$' stdout.txt
-expect 0 '' "$program" compare "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" --json
+expect 0 '' "$lab" compare "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" --json
 check grep -Eq ', "psnr": [0-9.]+\}$' stdout.txt
-expect 2 'exclude each other' "$program" compare a.pfm b.pfm --heatmap heat.png --max 2 --percentile 50
-expect 0 '' "$program" compare a.png a.pfm --max-rmse 1000
-expect 1 'rmse [0-9.e-]+ is more than 1e-09' "$program" compare a.png a.pfm --max-rmse 1e-9
+expect 2 'exclude each other' "$lab" compare a.pfm b.pfm --heatmap heat.png --max 2 --percentile 50
+expect 0 '' "$lab" compare a.png a.pfm --max-rmse 1000
+expect 1 'rmse [0-9.e-]+ is more than 1e-09' "$lab" compare a.png a.pfm --max-rmse 1e-9
 expect 0 '' "$program" render "$box" --res 8x8 --spp 1 --quiet -o c.pfm
-expect 1 'equal size' "$program" compare a.pfm c.pfm
-expect 1 cornell-box.pbrt "$program" compare "$box" a.pfm
+expect 1 'equal size' "$lab" compare a.pfm c.pfm
+expect 1 cornell-box.pbrt "$lab" compare "$box" a.pfm
 expect 0 '' "$program" render "$box" $small --maxdepth 2 --strategies s -o a.pfm
 check [ -s s/d02_s02_t02_weighted.pfm ]
 check [ -s s/pyramid.png ]
@@ -342,7 +342,7 @@ expect 1 'gate' "$program" merge 0.part 1.part -o a.pfm
 expect 0 '' "$lab" transient "$box" $small --gates 3 --gate 1000:2500 -o flight
 check [ -s flight/gate002.pfm -a -s flight/transient.png -a ! -e flight/gate003.pfm ]
 expect 0 '' "$program" render "$box" $small --gate 1500:2000 -o one.pfm
-expect 0 '' "$program" compare flight/gate001.pfm one.pfm --max-rmse 1e-5
+expect 0 '' "$lab" compare flight/gate001.pfm one.pfm --max-rmse 1e-5
 expect 0 '' "$lab" transient "$box" $small -o flight/found # where light is
 check [ -s flight/found/gate015.pfm ]
 
@@ -350,7 +350,7 @@ check [ -s flight/found/gate015.pfm ]
 # help: as a whole no wider than a terminal, with every integrator once.
 expect 0 '' "$program" help all
 check [ -z "$(awk 'length > 100' stdout.txt)" ]
-check [ "$(grep -c 'usage: asbdpt' stdout.txt)" = 7 ]
+check [ "$(grep -c 'usage: asbdpt' stdout.txt)" = 4 ]
 expect 0 '' "$program" help integrators
 check [ "$(grep -c '^asbdpt$' stdout.txt)" = 1 ] # however many selections it has
 check grep -q '^    lightsamplestrategy *spatial ' stdout.txt
@@ -364,16 +364,16 @@ check grep -q 'bounds  *(4, 5, 6) to (6, 7, 8)' stdout.txt
 # --- trace
 # trace: a sample told in words, as JSON and drawn; what it says to have added is what a render's film holds.
 one="--res 12x12 --integrator bdpt --maxdepth 3 --pixel 3,9"
-expect 1 'cannot be created' "$program" trace "$box" --pixel 3,9 --svg no/such/dir.svg # before the work
+expect 1 'cannot be created' "$lab" trace "$box" --pixel 3,9 --svg no/such/dir.svg # before the work
 check [ ! -s stdout.txt ]
-expect 0 '' "$program" trace "$box" $one --spp 1 --svg paths.svg
+expect 0 '' "$lab" trace "$box" $one --spp 1 --svg paths.svg
 check grep -q 'pixel 3,9, sample 0: bdpt' stdout.txt
 check grep -q '^(s,t): a path of s vertices' stdout.txt
 check grep -Eq '^  z_1 +matte .*/m\^2' stdout.txt
 check grep -Eq '^  \(1,2\) +light - z_1 ' stdout.txt
 check grep -q '^  sum, which the film receives ' stdout.txt
 check awk '/<svg/ { open++ } /<\/svg>/ { open-- } /z1<\/text>/ { n++ } END { exit open != 0 || n != 2 }' paths.svg
-expect 0 '' "$program" trace "$box" $one --spp 4 --sample 3 -P select=vertices --integrator asbdpt --json
+expect 0 '' "$lab" trace "$box" $one --spp 4 --sample 3 -P select=vertices --integrator asbdpt --json
 check grep -q '"probability": 0' stdout.txt
 if command -v python3 >/dev/null; then
     check python3 -c 'import json; o = json.load(open("stdout.txt")); s = [0, 0, 0]
@@ -381,16 +381,16 @@ for c in o["connections"]:
     if c["t"] > 1: s = [a + b for a, b in zip(s, c["added"])]
 assert s == o["sum"] and o["sample"] == 3'
 fi
-expect 2 'pixel 12,0 is not rendered: x is 0 to 11' "$program" trace "$box" $one --pixel 12,0
-expect 2 'sample 4 is not taken: they are numbered 0 to 3' "$program" trace "$box" $one --spp 4 --sample 4
+expect 2 'pixel 12,0 is not rendered: x is 0 to 11' "$lab" trace "$box" $one --pixel 12,0
+expect 2 'sample 4 is not taken: they are numbered 0 to 3' "$lab" trace "$box" $one --spp 4 --sample 4
 
 # --- worth
 # worth: what was learnt, as a picture.
-expect 0 '' "$program" worth "$box" --pixel 3,9 --res 12x12 --spp 4 --quiet -o worth.png
+expect 0 '' "$lab" worth "$box" --pixel 3,9 --res 12x12 --spp 4 --quiet -o worth.png
 check [ -s worth.png ]
-expect 2 'pixel 12,0 lies outside' "$program" worth "$box" --pixel 12,0 --res 12x12 -o worth.png
-expect 1 'learns nothing about pairs' "$program" worth "$box" --pixel 3,9 --res 12x12 -P select=pool -o worth.png
-expect 2 'the whole film is shown' "$program" worth "$box" --pixel 3,9 --cropwindow 0 1 0 0.5 -o worth.png
+expect 2 'pixel 12,0 lies outside' "$lab" worth "$box" --pixel 12,0 --res 12x12 -o worth.png
+expect 1 'learns nothing about pairs' "$lab" worth "$box" --pixel 3,9 --res 12x12 -P select=pool -o worth.png
+expect 2 'the whole film is shown' "$lab" worth "$box" --pixel 3,9 --cropwindow 0 1 0 0.5 -o worth.png
 
 # --- verify
 # verify: agreement is status 0, a difference status 1.
@@ -419,8 +419,8 @@ for nan in nan corner; do
         check grep -q '^verdict: DIFFER' stdout.txt
     done
 done
-expect 1 'rmse .* is more than 1' "$program" compare nan.pfm nan.pfm --max-rmse 1
-expect 0 '' "$program" compare nan.pfm nan.pfm --json
+expect 1 'rmse .* is more than 1' "$lab" compare nan.pfm nan.pfm --max-rmse 1
+expect 0 '' "$lab" compare nan.pfm nan.pfm --json
 check grep -q '"mean_ratio": null, "nonfinite": 2592,' stdout.txt
 expect 1 'same size' "$lab" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" \
     a.pfm a.pfm
@@ -482,7 +482,7 @@ expect 2 'x.tga: pictures are written as' "$program" convert light.pfm -o x.tga
 "$program" convert - -o - <light.pfm >through.pfm
 check cmp -s light.pfm through.pfm
 close() { # A B MOST: their relative mean squared error, of all values, is at most so large
-    "$program" compare "$1" "$2" >stdout.txt 2>&1 && awk -v most="$3" '
+    "$lab" compare "$1" "$2" >stdout.txt 2>&1 && awk -v most="$3" '
         $1 == "relmse" { near = $2 ~ /^[0-9.e+-]+$/ && $2 + 0 <= most }
         $1 == "nonfinite" { all = $2 == "0" }
         END { exit !(near && all) }' stdout.txt

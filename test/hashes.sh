@@ -3,6 +3,7 @@
 # several words, such as an emulator's; it is called from the top of the tree. Every line of the list is a checksum
 # (POSIX cksum of the PFM), a scene and options of `render`. Exit status 0 if all agree, or if PROGRAM says that its
 # arithmetic differs.
+# The integrators that only the laboratory has are in a list of their own: LIST=test/lab/hashes.txt, with asbdpt-lab.
 # With `renew` the checksums are written anew instead: for changes that are meant to change pictures. Films of programs
 # that make other pictures must not be added up, so it refuses that unless ESTIMATOR of src/base/version.h has changed;
 # the list begins with that number and a checksum of all its checksums. A line that is new to it begins with the word

@@ -9,30 +9,30 @@ no_temporaries() { [ -z "$(find . -name '.asbdpt-*')" ] || fault "temporary file
 done_in() { LC_ALL=C sed -n 's/^done \([0-9]*\) .*/\1/p' "$1" | head -n 1; } # samples
 work_in() { LC_ALL=C awk '/^done / { print 1000 * $2 + $3; exit }' "$1"; }      # and tile passes
 
-# ---- every integrator: parts add up to the whole, and a checkpoint goes on to it ----
+# ---- every integrator, which the laboratory has: parts add up to the whole, and a checkpoint goes on to it ----
 size="--res 12x20 --spp 70 --maxdepth 3 --quiet"
 while read -r cuts options; do
     # shellcheck disable=SC2086
     {
         rm -f ./*.part
-        check "$program" render "$box" $size $options -j 2 -o whole.part -o whole.pfm
+        check "$lab" render "$box" $size $options -j 2 -o whole.part -o whole.pfm
         from=
         for to in $(echo "$cuts" | tr , ' '); do
-            [ -z "$from" ] || check "$program" render "$box" $size $options -j 1 --samples "$from:$to" -o "part$to.part"
+            [ -z "$from" ] || check "$lab" render "$box" $size $options -j 1 --samples "$from:$to" -o "part$to.part"
             from=$to
         done
         set -- part*.part
-        check "$program" merge -o sum.part -o sum.pfm "$@" --quiet
+        check "$lab" merge -o sum.part -o sum.pfm "$@" --quiet
         same whole.part sum.part "$options in parts"
         same whole.pfm sum.pfm "$options in parts"
         rm -f state
         expect 0 'at (32|64) of 70' \
-            "$program" render "$box" $size $options -j 3 --time 1e-6 --checkpoint state -o early.part
+            "$lab" render "$box" $size $options -j 3 --time 1e-6 --checkpoint state -o early.part
         case $options in
         *asbdpt*) ;; # a checkpoint carries what was learnt
         *) same state early.part "a checkpoint and a part" ;;
         esac
-        check "$program" render "$box" $size $options -j 2 --resume state -o sum.pfm -o sum.part
+        check "$lab" render "$box" $size $options -j 2 --resume state -o sum.pfm -o sum.part
         same whole.pfm sum.pfm "$options resumed"
         same whole.part sum.part "$options resumed"
     }

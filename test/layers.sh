@@ -3,7 +3,7 @@
 #   1. every file lies in a room that is listed, and includes only files of its own room and of rooms below;
 #   2. inside a room there is no circle, a .c and its .h counting as one;
 #   3. every header compiles alone.
-# ABOVE names a folder elsewhere that is a room over all these, and that they know nothing of.
+# ABOVE names folders elsewhere that are rooms over all these, bottom up, and that they know nothing of.
 # Prints what is wrong; exit status 0 only if nothing is.
 src=${1:-src}
 [ $# -gt 0 ] && shift
@@ -14,12 +14,13 @@ trap 'rm -f "$pairs" "$pairs.circle"' EXIT
 awk -v pairs="$pairs" -v top="$src/" -v above="$ABOVE" '
     NR == FNR { rank[$1] = NR; next }
     FNR == 1 {
-        if (n++ == 0 && above != "") rank[last_part(above)] = 1000
-        me = above != "" && index(FILENAME, above "/") == 1 ? last_part(above) substr(FILENAME, length(above) + 1) : \
-            substr(FILENAME, length(top) + 1)
+        if (n++ == 0)
+            for (i = split(above, over, " "); i > 0; i--) rank[last_part(over[i])] = 1000 + i
+        me = last_part(FILENAME)
+        room = substr(FILENAME, 1, length(FILENAME) - length(me) - 1)
         sub(/\.[ch]$/, "", me)
-        room = me
-        if (!sub(/\/.*/, "", room) || !(room in rank)) { print FILENAME ": not in a room of LAYERS"; bad = 1 }
+        if (!((room = last_part(room)) in rank)) { print FILENAME ": not in a room of LAYERS"; bad = 1 }
+        me = room "/" me
         print me, me > pairs
     }
     /^[ \t]*#[ \t]*include[ \t]*"/ {
@@ -39,7 +40,7 @@ awk -v pairs="$pairs" -v top="$src/" -v above="$ABOVE" '
         if (other == room && dep != me) print me, dep > pairs
     }
     function last_part(path) { sub(/.*\//, "", path); return path }
-    END { exit bad }' "$src/LAYERS" $(find "$src" $ABOVE -name '*.[ch]' | sort) || exit 1
+    END { exit bad }' "$src/LAYERS" $(find "$src" $ABOVE -name '*.[ch]' | sort -u) || exit 1
 
 if ! tsort "$pairs" >/dev/null 2>"$pairs.circle" || [ -s "$pairs.circle" ]; then
     echo "$src: files of a room include each other in a circle:"
@@ -47,9 +48,12 @@ if ! tsort "$pairs" >/dev/null 2>"$pairs.circle" || [ -s "$pairs.circle" ]; then
     exit 1
 fi
 
-for header in "$src"/*/*.h ${ABOVE:+"$ABOVE"/*.h}; do
+for room in "$src"/*/ $ABOVE; do
+    set -- "$@" "-I$room/.."
+done
+for header in $(find "$src" $ABOVE -name '*.h' | sort -u); do
     printf '#include "%s/%s"\nint main(void);\n' "$(basename "$(dirname "$header")")" "$(basename "$header")" |
-        "$@" -std=c99 -pedantic "-I$src" ${ABOVE:+"-I$ABOVE/.."} -fsyntax-only -x c - || {
+        "$@" -std=c99 -pedantic -fsyntax-only -x c - || {
         echo "$header does not compile alone"
         exit 1
     }

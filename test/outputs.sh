@@ -2,7 +2,7 @@
 # outputs.sh: no output takes another file's place, nothing is mixed or lost in silence, nothing is left behind.
 # Run from the top: sh test/outputs.sh ./asbdpt
 . test/expect.sh
-export ASBDPT="$program"
+export ASBDPT="$program" LAB="$lab"
 tiny="--res 8x8 --spp 1 --maxdepth 2 --quiet"
 render() { "$program" render scene.pbrt $tiny "$@"; }
 files() { find . -type f ! -name 'std*.txt' ! -name '*.list' -exec cksum {} + | sort; }
@@ -35,9 +35,9 @@ refused 2 "$same" render --stats - -o -
 refused 2 "$same" render -o - -o -
 refused 2 "$same" "$program" merge c.part -o c.part
 refused 2 "$same" "$program" convert a.pfm -o ./a.pfm
-refused 2 "$same" "$program" compare a.pfm b.pfm --heatmap b.pfm
-refused 2 "$same" "$program" compare - -
-refused 2 "$same" "$program" trace scene.pbrt --svg scene.pbrt
+refused 2 "$same" "$lab" compare a.pfm b.pfm --heatmap b.pfm
+refused 2 "$same" "$lab" compare - -
+refused 2 "$same" "$lab" trace scene.pbrt --svg scene.pbrt
 refused 2 "$same" "$lab" bench scene.pbrt --json new --baseline new
 refused 2 "$same" sh -c '"$ASBDPT" render scene.pbrt -o a.pfm --stats - >>a.pfm'
 # Some are known when the scene is.
@@ -66,8 +66,8 @@ refused 2 'its value is empty' render --stats=
 
 # ---- standard streams ----
 # One stream carries one thing: what a command prints is not mixed with what it writes.
-refused 2 "what it prints to - and --heatmap - $same" "$program" compare a.pfm b.pfm --heatmap -
-refused 2 "$same" "$program" trace scene.pbrt --svg -
+refused 2 "what it prints to - and --heatmap - $same" "$lab" compare a.pfm b.pfm --heatmap -
+refused 2 "$same" "$lab" trace scene.pbrt --svg -
 refused 2 "$same" "$lab" bench scene.pbrt --json -
 refused 2 "$same" "$lab" demo scene.pbrt -o -
 # Closed ones do not become files that are opened.
@@ -83,7 +83,7 @@ expect 1 'Bad file descriptor|cannot be read' sh -c '"$ASBDPT" render - -o x.png
 if [ -e /dev/full ]; then
     for words in --help --version 'help all' 'info scene.pbrt' 'info scene.pbrt --json' 'compare a.pfm b.pfm --json' \
         'trace scene.pbrt --res 8x8'; do
-        expect 1 'asbdpt: standard output: cannot be written' sh -c "\"\$ASBDPT\" $words >/dev/full"
+        expect 1 'asbdpt: standard output: cannot be written' sh -c "\"\$LAB\" $words >/dev/full"
         check [ "$(wc -l <stderr.txt)" = 1 ]
     done
 fi

@@ -79,7 +79,8 @@ compile() {
         set -- "$@" -isystem "$directory"
     done
     if clang --target="$target" -nostdlibinc "$@" -std=c99 -pedantic -Wall -Wextra -Wconversion -Werror -Isrc -Itest \
-        -fsyntax-only src/*/*.c test/*.c test/lab/*.c test/fuzz/targets.c test/fuzz/hostile.c 2>"$dir/log"; then
+        -Itest/lab -fsyntax-only src/*/*.c test/*.c test/lab/*.c test/lab/*/*.c test/fuzz/targets.c \
+        test/fuzz/hostile.c 2>"$dir/log"; then
         say "$name" "compiles; cannot be run here"
     else
         say "$name" "FAIL: does not compile"
@@ -94,9 +95,9 @@ suites() {
     shift 3
     asked "$name" && able "$name" "$runner" "$build" || return
     program=$dir/$name.exe
-    sources="$(ls test/*.c test/lab/*.c | grep -v -e devices -e fuzz -e hostile)
-        $(ls src/*/*.c | grep -v -e src/cli/main.c -e src/cli/program.c)"
-    command=$(echo "$build" | sed "s|-o [^ ]*|-Itest -o $program|; s|src/[^ ]*\.c|$(echo $sources)|")
+    sources="$(ls test/*.c test/lab/*.c test/lab/*/*.c | grep -v -e devices -e fuzz -e hostile)
+        $(ls src/*/*.c | grep -v -e src/cli/main.c -e src/cli/program.c -e src/render/rows.c)"
+    command=$(echo "$build" | sed "s|-o [^ ]*|-Itest -Itest/lab -o $program|; s|src/[^ ]*\.c|$(echo $sources)|")
     if ! $command 2>"$dir/log"; then
         say "$name" "FAIL: the tests do not compile"
         head -5 "$dir/log"

@@ -73,7 +73,7 @@ static void test_methods(struct test *t)
     struct scene scene;
     if (!scene_from_text(t, MIXED, &scene))
         return;
-    for (const struct method *const *m = method_list(); *m != NULL; m++) {
+    for (const struct method *const *m = method_rows; *m != NULL; m++) {
         struct render_options o = {.n_threads = os_cores(), .seed = test_seed(t), .end = 8, .max_depth = 4};
         char what[64];
         snprintf(what, sizeof what, "%s", method_name(*m));

@@ -5,10 +5,10 @@
 #include <string.h>
 
 #include "image/image.h"
-#include "look/compare.h"
+#include "lab/compare.h"
 #include "lab/demo.h"
 #include "look/pyramid.h"
-#include "look/worth.h"
+#include "lab/worth.h"
 #include "parser/parser.h"
 #include "helpers.h"
 #include "tests.h"
@@ -80,7 +80,7 @@ static void test_demo(struct test *t)
     snprintf(demo.methods.item[0].integrator, 32, "bdpt");
     demo.methods.item[1] = demo.methods.item[0];
     int width, height;
-    float *ref = load_linear("ref/cornell-box.pfm", &width, &height, NULL, &err);
+    float *ref = image_read_linear("ref/cornell-box.pfm", &width, &height, NULL, &err);
     bool ok = CHECK(t, ref != NULL && demo_run(&demo, side, &sheet, &err), "%s", err.text);
     for (int i = 0; ok && i < SIDES; i++) {
         /* Pictures of 64 x 64 pixels, each a square of k x k, 24 pixels apart: take one back out of the sheet. */

@@ -15,7 +15,7 @@ static void all_see(struct test *t, const char *text, rgb expected)
     struct scene scene;
     if (!scene_from_text(t, text, &scene))
         return;
-    for (const struct method *const *m = method_list(); *m != NULL; m++) {
+    for (const struct method *const *m = method_rows; *m != NULL; m++) {
         struct batches b = render_batches(t, &scene, set_method(&scene, method_name(*m)), 4, 8, 1, 8, 12);
         rgb seen = {b.value[0], b.value[1], b.value[2]};
         CHECK(t, fabs(seen.r - expected.r) + fabs(seen.g - expected.g) + fabs(seen.b - expected.b) < 1e-6,

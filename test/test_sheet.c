@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "look/colormap.h"
+#include "lab/colormap.h"
 #include "image/picture.h"
 #include "look/sheet.h"
 #include "tests.h"

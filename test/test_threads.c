@@ -179,7 +179,7 @@ void test_threads(struct test *t)
     test_uneven(t);
     if (!scene_from_file(t, "scenes/test/light-kinds.pbrt", 24, 18, &scene)) /* four tiles */
         return;
-    for (const struct method *const *m = method_list(); *m != NULL; m++)
+    for (const struct method *const *m = method_rows; *m != NULL; m++)
         test_method(t, &scene, set_method(&scene, method_name(*m)), method_name(*m));
     scene_free(&scene);
 }

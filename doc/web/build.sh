@@ -12,8 +12,8 @@ if ! command -v "$clang" >/dev/null || ! "$clang" $target -o "$dir/a.wasm" "$dir
     echo "web: skipped, $clang cannot compile for wasm32-wasi here"
     exit 0
 fi
-sources=$(ls src/*/*.c | grep -v '^src/cli/main\.c$')
-"$clang" $target -std=c99 -O3 -Isrc -ffp-contract=off -D_WASI_EMULATED_SIGNAL -Wl,-z,stack-size=4194304,-s \
+sources="$(ls src/*/*.c | grep -v -e '/main\.c' -e '/program\.c' -e '/rows\.c') $(ls test/lab/*.c test/lab/*/*.c)"
+"$clang" $target -std=c99 -O3 -Isrc -Itest -Itest/lab -ffp-contract=off -D_WASI_EMULATED_SIGNAL -Wl,-z,stack-size=4194304,-s \
     -Wl,--allow-undefined,--export=web_words,--export=web_command,--export=web_render \
     -o "$dir/web.wasm" $sources doc/web/web.c -lm -lwasi-emulated-signal || exit 1
 

@@ -15,7 +15,7 @@
 #include "cli/command.h"
 #include "cli/job_options.h"
 #include "image/picture.h"
-#include "look/compare.h"
+#include "lab/compare.h"
 #include "look/sheet.h"
 #include "render/parameters.h"
 
@@ -111,7 +111,7 @@ static bool read_reference(struct watch *w, const char *path, struct error *err)
     int width, height;
     if (path[0] == '\0')
         return true;
-    w->reference = load_linear(path, &width, &height, NULL, err);
+    w->reference = image_read_linear(path, &width, &height, NULL, err);
     if (w->reference == NULL)
         return false;
     w->k = w->scene->width / width;

@@ -5,7 +5,6 @@
 #include "cli/command.h"
 #include "cli/outputs.h"
 #include "image/image.h"
-#include "look/compare.h"
 
 struct convert_options {
     const char *in;
@@ -43,7 +42,7 @@ static int run(void *options)
     int width, height;
     if (!outputs_open(&o->out, &o->tone, PARTS_NONE, &out, &err))
         return fail(&err);
-    float *pixels = load_linear(o->in, &width, &height, &about, &err);
+    float *pixels = image_read_linear(o->in, &width, &height, &about, &err);
     bool ok = pixels != NULL;
     if (ok) {
         out.place = about.place;

@@ -69,7 +69,7 @@ static void print_integrators(void)
            "scene's Integrator directive. Of what is given twice, an option like --maxdepth counts before -P,\n"
            "and -P before the scene.\n\nall\n");
     print_parameters(parameters_common());
-    for (const struct method *const *m = method_list(); *m != NULL; before = (*m++)->name) {
+    for (const struct method *const *m = method_rows; *m != NULL; before = (*m++)->name) {
         if (strcmp((*m)->name, before) != 0)
             printf("\n%s\n", (*m)->name);
         if ((*m)->select != NULL)

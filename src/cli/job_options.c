@@ -94,7 +94,7 @@ void integrator_unknown(const char *wanted, struct error *out)
 {
     struct suggestion s = suggest_start(wanted);
     char known[256] = "";
-    for (const struct method *const *m = method_list(), *before = NULL; *m != NULL; before = *m++) {
+    for (const struct method *const *m = method_rows, *before = NULL; *m != NULL; before = *m++) {
         if (before != NULL && strcmp((*m)->name, before->name) == 0)
             continue;
         suggest_offer(&s, (*m)->name);

@@ -1,11 +1,11 @@
 /* program.c: what asbdpt is made of. A new subcommand is a new word in COMMANDS. */
 #include "cli/command.h"
 
-static const struct command *const COMMANDS[] = {
-    &command_render, &command_merge, &command_compare, &command_convert, &command_info, &command_trace, &command_worth,
-    NULL};
+static const struct command *const COMMANDS[] = {&command_render, &command_merge, &command_convert, &command_info,
+                                                 NULL};
 
 const struct program program = {
     "asbdpt", "Alias Sampled Bidirectional Path Tracing, a reference implementation",
-    "Renders scenes of pbrt-v3 with path tracing, light tracing, bidirectional path tracing and its alias sampled kin, "
-    "compares and converts pictures, and tells how a sample came about.", COMMANDS, &command_render};
+    "Renders scenes of pbrt-v3 with path tracing, light tracing, bidirectional path tracing and its alias sampled kin; "
+    "adds up and converts pictures. What compares, explains and measures them is asbdpt-lab.", COMMANDS,
+    &command_render};

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/bits.h"
+#include "base/mem.h"
 #include "base/os.h"
 #include "image/formats.h"
 
@@ -132,4 +133,29 @@ bool image_write(const char *path, int width, int height, const float *pixels, s
     struct file_output f;
     struct placement unknown = {0, 0, 0, 0};
     return image_create(path, &f, err) && image_finish(&f, unknown, width, height, pixels, err);
+}
+
+static float linear_value(const struct image *img, size_t i)
+{
+    if (img->u8 != NULL)
+        return img->decode[img->u8[i]];
+    return img->linear ? img->f32[i] : (float)srgb_decode((double)img->f32[i]);
+}
+
+float *image_read_linear(const char *path, int *width, int *height, struct image *about, struct error *err)
+{
+    struct image img;
+    if (!image_read(path, &img, err))
+        return NULL;
+    size_t pixels = (size_t)img.width * (size_t)img.height;
+    float *out = mem_alloc(pixels * 3, sizeof *out);
+    for (size_t i = 0; i < pixels; i++)
+        for (size_t c = 0; c < 3; c++)
+            out[3 * i + c] = linear_value(&img, img.channels == 3 ? 3 * i + c : i);
+    *width = img.width;
+    *height = img.height;
+    image_free(&img);
+    if (about != NULL)
+        *about = img;
+    return out;
 }

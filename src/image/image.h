@@ -47,4 +47,9 @@ bool image_writable(const char *path);
 bool image_is_8_bit(const char *path);
 bool image_keeps_place(const char *path);
 
+/* image_read_linear: any picture as linear RGB floats [height*width*3], top row first, to be freed. 8-bit files are
+ * decoded from sRGB. NULL with a message.
+ *   about  becomes what image_read says of the file, without its pixels; may be NULL */
+float *image_read_linear(const char *path, int *width, int *height, struct image *about, struct error *err);
+
 #endif

@@ -10,7 +10,6 @@
 #include "base/number.h"
 #include "image/image.h"
 #include "look/sheet.h"
-#include "look/compare.h"
 
 enum { GAP = 4, LEFT = 64, TOP = 40, SHEET_WIDTH = 1024, CELL_MIN = 48, CELL_MAX = 192 };
 static const double PERCENTILE = 90; /* of a row's values that stay below white */
@@ -60,7 +59,7 @@ static double row_exposure(const struct layout *l, const struct film *film, int 
             total[i] += share[i];
         free(share);
     }
-    double bright = compare_percentile(total, (long)n, PERCENTILE);
+    double bright = picture_percentile(total, (long)n, PERCENTILE);
     free(total);
     return bright > 0 && bright < 1 ? ldexp(1, int_within(floor(-m_log2(bright)), 0, 16)) : 1;
 }

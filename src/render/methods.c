@@ -1,25 +1,12 @@
-/* methods.c: the table of all methods; see methods.h. A new method is a new line here. */
+/* methods.c: see methods.h. */
 #include "render/methods.h"
 
 #include <string.h>
 
-extern const struct method method_pt, method_lt, method_bdpt, method_bins, method_pool, method_vertices,
-    method_subspaces, method_lvc, method_cbdpt, method_mbdpt, method_pcbdpt, method_ris, method_ris2,
-    method_restir, method_pssmlt, method_mmlt, method_mlt;
-
-static const struct method *const METHODS[] = {&method_pt,       &method_lt,   &method_bdpt,
-                                               &method_subspaces, &method_bins, &method_pool,
-                                               &method_vertices, &method_lvc,  &method_cbdpt,
-                                               &method_mbdpt,    &method_pcbdpt, &method_ris,
-                                               &method_ris2,     &method_restir, &method_pssmlt,
-                                               &method_mmlt,     &method_mlt,    NULL};
-
-const struct method *const *method_list(void) { return METHODS; }
-
 /* The rows of a name, which stand side by side: the first, and how many. */
 static const struct method *const *rows_of(const char *name, int *n)
 {
-    const struct method *const *first = METHODS;
+    const struct method *const *first = method_rows;
     name = strcmp(name, "path") == 0 ? "pt" : name;
     while (*first != NULL && strcmp((*first)->name, name) != 0)
         first++;

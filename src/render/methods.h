@@ -7,8 +7,9 @@
 
 #include "integrators/method.h"
 
-/* method_list: all rows, ended by NULL. Of rows that share a name the first is the default. */
-const struct method *const *method_list(void);
+/* What is linked into an executable, ended by NULL; of rows that share a name, which stand together, the first is the
+ * default. asbdpt has its own in rows.c, the laboratory one that is longer. */
+extern const struct method *const method_rows[];
 
 /* method_exists: is there an integrator of that name ("path", pbrt's name of pt, among them)? */
 bool method_exists(const char *name);

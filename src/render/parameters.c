@@ -100,7 +100,7 @@ static void adapt_integer(struct settings *s, const struct setting *item, const 
  * selection. */
 static bool belongs_to_file(const struct scene *scene, const struct setting *item)
 {
-    for (const struct method *const *m = method_list(); scene->integrator != NULL && *m != NULL; m++)
+    for (const struct method *const *m = method_rows; scene->integrator != NULL && *m != NULL; m++)
         if (strcmp((*m)->name, scene->integrator) == 0 && method_has(*m, item->name) != NULL)
             return true;
     return false;
@@ -112,7 +112,7 @@ static bool passed_over(const struct scene *scene, const struct setting *item, c
                         const struct message_sink *sink)
 {
     const struct method_parameter *found;
-    const struct method *has = owner(method_list(), item->name, &found);
+    const struct method *has = owner(method_rows, item->name, &found);
     char text[128];
     if (!is_of_file(item))
         return false;
@@ -148,7 +148,7 @@ void parameters_adapt(struct scene *scene, const struct method *const *readers, 
             settings_remove(all, i);
             continue;
         }
-        owner(method_list(), all->item[i].name, &found);
+        owner(method_rows, all->item[i].name, &found);
         if (found != NULL && found->kind == PARAMETER_INTEGER)
             adapt_integer(all, &all->item[i], sink);
         if (strcmp(all->item[i].name, "lightsamplestrategy") == 0)
@@ -179,7 +179,7 @@ static bool unknown(const struct setting *item, struct error *err)
     struct suggestion s = suggest_start(item->name);
     suggest_offer(&s, "select");
     offer(&s, COMMON);
-    for (const struct method *const *m = method_list(); *m != NULL; m++)
+    for (const struct method *const *m = method_rows; *m != NULL; m++)
         offer(&s, (*m)->parameters);
     bool near = s.name != NULL;
     return error_set(err, "%s: no integrator has a parameter \"%s\"%s%s%s; asbdpt help integrators lists them",
@@ -197,7 +197,7 @@ bool parameters_belong(const struct scene *scene, const struct method *const *re
 {
     for (int i = 0; i < scene->settings.n; i++) {
         const struct setting *item = &scene->settings.item[i];
-        const struct method *has = owner(method_list(), item->name, NULL);
+        const struct method *has = owner(method_rows, item->name, NULL);
         char whose[64], here[64];
         if (is_of_file(item) || owner(readers, item->name, NULL) != NULL)
             continue;

@@ -253,9 +253,9 @@ static void render_all(struct scene *scene)
     scene->width = WIDTH;
     scene->height = HEIGHT;
     memcpy(scene->crop, WHOLE, sizeof scene->crop);
-    parameters_adapt(scene, method_list(), NULL);
+    parameters_adapt(scene, method_rows, NULL);
     scene_prepare(scene);
-    for (const struct method *const *m = method_list(); *m != NULL; m++) {
+    for (const struct method *const *m = method_rows; *m != NULL; m++) {
         render(scene, (*m)->name);
         settings_clear(&scene->settings);
         if (m[1] != NULL && m[1]->select != NULL)

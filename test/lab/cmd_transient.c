@@ -8,7 +8,7 @@
 #include "cli/job_options.h"
 #include "image/image.h"
 #include "lab/commands.h"
-#include "look/compare.h"
+#include "lab/compare.h"
 #include "look/sheet.h"
 
 struct transient_options {
@@ -70,7 +70,7 @@ static bool write_all(const char *directory, struct gates g, const float *pixels
 {
     enum { COLUMNS = 4, CELL = 240, GAP = 8, LABEL = 20, PERCENTILE = 99 };
     size_t n = 3 * (size_t)w * (size_t)h;
-    double white = fmax(compare_percentile(pixels, (long)n * g.n, PERCENTILE), 1e-30);
+    double white = fmax(picture_percentile(pixels, (long)n * g.n, PERCENTILE), 1e-30);
     int shrink = int_within(w / CELL, 1, h), k = int_within(CELL / w, 1, CELL);
     int width = w / shrink * k + GAP, height = h / shrink * k + GAP + LABEL;
     char text[4096];

@@ -1,10 +1,10 @@
-/* commands.h: the subcommands of asbdpt-lab, each in its cmd_*.c. */
+/* commands.h: the subcommands that asbdpt-lab has and asbdpt has not, each in its cmd_*.c. */
 #ifndef ASBDPT_LAB_COMMANDS_H
 #define ASBDPT_LAB_COMMANDS_H
 
 #include "cli/command.h"
 
 extern const struct command command_verify, command_experiment, command_equal_time, command_family, command_demo,
-    command_transient, command_bench;
+    command_transient, command_bench, command_compare, command_trace, command_worth;
 
 #endif

@@ -12,7 +12,7 @@
 #include "look/sheet.h"
 #include "lab/plan_scene.h"
 #include "lab/timed.h"
-#include "look/compare.h"
+#include "lab/compare.h"
 
 enum { CORRECTIONS = 3, REFERENCE_SEED = 100001 };
 

@@ -12,7 +12,7 @@
 #include "image/image.h"
 #include "lab/plan_scene.h"
 #include "lab/timed.h"
-#include "look/compare.h"
+#include "lab/compare.h"
 #include "look/pyramid.h"
 
 enum { PATH_SIZE = 4096, KEY_SIZE = 1024, REFERENCE_SEED = 100001, PYRAMID_SPP = 64, PYRAMID_LENGTH = 5 };
@@ -203,7 +203,7 @@ static bool render_run(struct scene_experiment *s, int method, int seed, const c
 static float *read_picture(const struct scene_experiment *s, const char *path)
 {
     int w, h;
-    float *pixels = load_linear(path, &w, &h, NULL, NULL);
+    float *pixels = image_read_linear(path, &w, &h, NULL, NULL);
     if (pixels == NULL || (w == s->out->width && h == s->out->height))
         return pixels;
     free(pixels);

@@ -10,8 +10,8 @@
 #include "image/image.h"
 #include "lab/figures.h"
 #include "lab/table.h"
-#include "look/compare.h"
-#include "look/markup.h"
+#include "lab/compare.h"
+#include "lab/markup.h"
 #include "look/sheet.h"
 
 /* "subspaces" of "asbdpt:select=subspaces". */
@@ -179,7 +179,7 @@ static void paste_crop(const struct equal_time *e, const struct equal_scene *s, 
     int width, height;
     float crop[CROP * CROP * 3], *pixels;
     equal_picture(e, s, method, path, sizeof path);
-    if ((pixels = load_linear(path, &width, &height, NULL, NULL)) == NULL)
+    if ((pixels = image_read_linear(path, &width, &height, NULL, NULL)) == NULL)
         return;
     int w = width < CROP ? width : CROP, h = height < CROP ? height : CROP;
     for (int row = 0; row < h; row++)

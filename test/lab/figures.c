@@ -6,7 +6,7 @@
 
 #include "base/maths.h"
 #include "base/number.h"
-#include "look/markup.h"
+#include "lab/markup.h"
 
 /* The picture's size and the frame of the data in it, in SVG units. */
 enum { WIDTH = 640, LEFT = 68, RIGHT = 624, TOP = 40, BOTTOM = 330 };

@@ -103,7 +103,7 @@ bool methods_read(const char *text, struct methods *out, struct error *err)
 void methods_all(char out[METHODS_TEXT])
 {
     int n = snprintf(out, METHODS_TEXT, "%s", METHOD_REFERENCE);
-    for (const struct method *const *m = method_list(); *m != NULL && n < METHODS_TEXT; m++)
+    for (const struct method *const *m = method_rows; *m != NULL && n < METHODS_TEXT; m++)
         if (strcmp((*m)->name, METHOD_REFERENCE) != 0)
             n += snprintf(out + n, (size_t)(METHODS_TEXT - n), ",%s%s%s", (*m)->name,
                           (*m)->select != NULL ? ":select=" : "", (*m)->select != NULL ? (*m)->select : "");

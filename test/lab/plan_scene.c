@@ -29,7 +29,7 @@ bool plan_scene_read(const char *path, int width, int height, int max_depth, str
     static const double whole[4] = {0, 1, 0, 1};
     if (!parse_scene(path, scene, NULL, err))
         return false;
-    parameters_adapt(scene, method_list(), NULL);
+    parameters_adapt(scene, method_rows, NULL);
     /* Widths of plans go up to 8192 and films up to 65536 a side: below 2^30. */
     int by_aspect = (int)(0.5 + (double)width * scene->height / scene->width);
     memcpy(scene->crop, whole, sizeof whole);

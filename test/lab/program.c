@@ -1,11 +1,14 @@
-/* program.c: what asbdpt-lab is made of. A new subcommand is a new word in COMMANDS. */
+/* program.c: what asbdpt-lab is made of: the renderer's commands, and those that look closer and measure. A new
+ * subcommand is a new word in COMMANDS. */
 #include "lab/commands.h"
 
-static const struct command *const COMMANDS[] = {&command_verify, &command_experiment, &command_equal_time,
-                                                &command_family, &command_demo, &command_transient,
-                                                &command_bench,  NULL};
+static const struct command *const COMMANDS[] = {
+    &command_render,     &command_merge,  &command_convert, &command_info, &command_compare,   &command_trace,
+    &command_worth,      &command_verify, &command_demo,    &command_equal_time, &command_experiment, &command_family,
+    &command_transient,  &command_bench,  NULL};
 
 const struct program program = {
     "asbdpt-lab", "the laboratory of asbdpt: what measures its pictures and its speed",
-    "Tests whether pictures have the same expectation, repeats the dissertation's measurements, gives methods the same "
-    "time, and measures the speed of the renderer's parts.", COMMANDS, NULL};
+    "Does what asbdpt does, with more integrators. Compares pictures, tells how a sample came about, tests whether "
+    "methods have the same expectation, gives them the same time, repeats the dissertation's measurements.", COMMANDS,
+    &command_render};

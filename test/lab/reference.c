@@ -13,7 +13,7 @@
 #include "image/image.h"
 #include "look/sheet.h"
 #include "lab/sides.h"
-#include "look/compare.h"
+#include "lab/compare.h"
 
 enum { PATH_SIZE = 4096 };
 
@@ -65,7 +65,7 @@ static void read_text(const char *picture, struct reference_text *s)
 /* Read one picture, and *text beside it. */
 static bool load(const char *path, struct reference *out, struct reference_text *text, struct error *err)
 {
-    out->pixels = load_linear(path, &out->width, &out->height, NULL, err);
+    out->pixels = image_read_linear(path, &out->width, &out->height, NULL, err);
     if (out->pixels == NULL)
         return false;
     read_text(path, text);

@@ -14,7 +14,7 @@
 #include "base/rng.h"
 #include "image/image.h"
 #include "lab/timed.h"
-#include "look/compare.h"
+#include "lab/compare.h"
 
 enum {
     PIXELS = 1024,    /* of the pictures, unless somebody says otherwise */
@@ -32,7 +32,7 @@ bool side_read(const char *const *file, int n, bool with_errors, const struct si
     bool ok = true;
     for (int k = 0; ok && k < n; k++) {
         int w, h;
-        float *pixels = load_linear(file[k], &w, &h, NULL, err);
+        float *pixels = image_read_linear(file[k], &w, &h, NULL, err);
         if ((ok = pixels != NULL) && side.width != 0 && (side.width != w || side.height != h))
             ok = error_set(err, "%s is %dx%d, the picture before it %dx%d; all must have the same size", file[k], w, h,
                            side.width, side.height);

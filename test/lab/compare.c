@@ -1,5 +1,5 @@
 /* compare.c: see compare.h. */
-#include "look/compare.h"
+#include "lab/compare.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 
 #include "base/maths.h"
 #include "base/mem.h"
-#include "look/colormap.h"
+#include "lab/colormap.h"
 #include "image/image.h"
 #include "look/sheet.h"
 
@@ -61,54 +61,8 @@ void compare_errors(const float *x, const float *r, long pixels, float *out)
     }
 }
 
-static int by_size(const void *a, const void *b)
-{
-    float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
-
-double compare_percentile(const float *error, long n, double percent)
-{
-    float *sorted = mem_alloc((size_t)n, sizeof *sorted);
-    memcpy(sorted, error, (size_t)n * sizeof *sorted);
-    qsort(sorted, (size_t)n, sizeof *sorted, by_size);
-    /* The nearest rank, from 1; n at most. Divided last: 7 % of 100 are 7.000000000000001 the other way round. */
-    long rank = (long)ceil(percent * (double)n / 100);
-    long at = rank > 0 ? rank - 1 : 0;
-    while (at > 0 && isinf(sorted[at]))
-        at--;
-    double found = n > 0 && isfinite(sorted[at]) ? (double)sorted[at] : 0;
-    free(sorted);
-    return found;
-}
-
 void compare_heatmap(const float *error, long pixels, double most, float *out)
 {
     for (long i = 0; i < pixels; i++)
         viridis(most > 0 ? (double)error[i] / most : 0, out + 3 * i);
-}
-
-static float linear_value(const struct image *img, size_t i)
-{
-    if (img->u8 != NULL)
-        return img->decode[img->u8[i]];
-    return img->linear ? img->f32[i] : (float)srgb_decode((double)img->f32[i]);
-}
-
-float *load_linear(const char *path, int *width, int *height, struct image *about, struct error *err)
-{
-    struct image img;
-    if (!image_read(path, &img, err))
-        return NULL;
-    size_t pixels = (size_t)img.width * (size_t)img.height;
-    float *out = mem_alloc(pixels * 3, sizeof *out);
-    for (size_t i = 0; i < pixels; i++)
-        for (size_t c = 0; c < 3; c++)
-            out[3 * i + c] = linear_value(&img, img.channels == 3 ? 3 * i + c : i);
-    *width = img.width;
-    *height = img.height;
-    image_free(&img);
-    if (about != NULL)
-        *about = img;
-    return out;
 }

@@ -1,5 +1,5 @@
 /* markup.c: see markup.h. */
-#include "look/markup.h"
+#include "lab/markup.h"
 
 #include <stdarg.h>
 #include <string.h>

@@ -1,12 +1,12 @@
-/* cmd_compare.c: asbdpt compare IMAGE REFERENCE: how far apart two pictures are. */
+/* cmd_compare.c: asbdpt-lab compare IMAGE REFERENCE: how far apart two pictures are. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "base/mem.h"
-#include "cli/command.h"
+#include "lab/commands.h"
 #include "image/image.h"
-#include "look/compare.h"
+#include "lab/compare.h"
 
 struct compare_options {
     const char *image, *reference, *heatmap;
@@ -60,7 +60,7 @@ static bool write_heatmap(const struct compare_options *o, struct file_output *f
     long pixels = (long)width * height;
     float *error = mem_alloc((size_t)pixels, sizeof *error), *map = mem_alloc((size_t)pixels * 3, sizeof *map);
     compare_errors(x, r, pixels, error);
-    double most = o->most > 0 ? o->most : compare_percentile(error, pixels, o->percentile > 0 ? o->percentile : 99);
+    double most = o->most > 0 ? o->most : picture_percentile(error, pixels, o->percentile > 0 ? o->percentile : 99);
     compare_heatmap(error, pixels, most, map);
     bool ok = image_finish(f, whole, width, height, map, err);
     if (ok)
@@ -85,8 +85,8 @@ static bool compare_files(const struct compare_options *o, struct error *err)
     if (mapped && !image_create(o->heatmap, &map, err))
         return false;
     struct image about1, about2;
-    float *x = load_linear(o->image, &w1, &h1, &about1, err), *r = NULL;
-    bool ok = x != NULL && (r = load_linear(o->reference, &w2, &h2, &about2, err)) != NULL;
+    float *x = image_read_linear(o->image, &w1, &h1, &about1, err), *r = NULL;
+    bool ok = x != NULL && (r = image_read_linear(o->reference, &w2, &h2, &about2, err)) != NULL;
     if (ok && (w1 != w2 || h1 != h2))
         ok = error_set(err, "%s is %dx%d but %s is %dx%d; only images of equal size can be compared", o->image, w1, h1,
                        o->reference, w2, h2);

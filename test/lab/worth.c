@@ -1,5 +1,5 @@
 /* worth.c: see worth.h. */
-#include "look/worth.h"
+#include "lab/worth.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 #include "base/maths.h"
 #include "base/mem.h"
 #include "base/number.h"
-#include "look/colormap.h"
+#include "lab/colormap.h"
 #include "learning/learnt.h"
 #include "render/aov.h"
 #include "transport/pixel_sample.h"

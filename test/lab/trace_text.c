@@ -1,7 +1,7 @@
 /* trace_text.c: a pixel sample as a page to read; see trace_report.h. */
 #include <stdio.h>
 
-#include "look/trace_report.h"
+#include "lab/trace_report.h"
 
 /* --- words ------------------------------------------------------------------------------------------- */
 

@@ -1,10 +1,11 @@
-/* cmd_worth.c: asbdpt worth SCENE: what light vertices are worth to one surface point, as a picture. See worth.h. */
+/* cmd_worth.c: asbdpt-lab worth SCENE: what light vertices are worth to one surface point, as a picture. See
+ * worth.h. */
 #include <string.h>
 
-#include "cli/command.h"
+#include "lab/commands.h"
 #include "cli/job_options.h"
 #include "cli/outputs.h"
-#include "look/worth.h"
+#include "lab/worth.h"
 
 struct worth_options {
     struct job_options job;

@@ -35,18 +35,9 @@ double compare_blocks(const float *x, const float *r, int width, int height);
  *   x, r  [pixels*3];  out  [pixels] */
 void compare_errors(const float *x, const float *r, long pixels, float *out);
 
-/* compare_percentile: the smallest of n errors that at least `percent` % of them, 0 to 100, do not exceed. Infinite
- * ones count as the largest finite one. 0 if there is none. */
-double compare_percentile(const float *error, long n, double percent);
-
 /* compare_heatmap: errors as colours, from viridis' dark end for none to its bright end for `most` and above; all dark
  * if that is 0.
  *   out  [pixels*3], linear values ready for image_write */
 void compare_heatmap(const float *error, long pixels, double most, float *out);
-
-/* load_linear: read any picture as linear RGB floats [height*width*3], top row first, to be freed. 8-bit files are
- * decoded from sRGB. NULL with a message.
- *   about  becomes what image_read says of the file, without its pixels; may be NULL */
-float *load_linear(const char *path, int *width, int *height, struct image *about, struct error *err);
 
 #endif

@@ -1,9 +1,9 @@
-/* cmd_trace.c: asbdpt trace SCENE --pixel X,Y: one sample of a pixel, told in full. See trace_report.h. */
+/* cmd_trace.c: asbdpt-lab trace SCENE --pixel X,Y: one sample of a pixel, told in full. See trace_report.h. */
 #include <stdio.h>
 
-#include "cli/command.h"
+#include "lab/commands.h"
 #include "cli/job_options.h"
-#include "look/trace_report.h"
+#include "lab/trace_report.h"
 
 struct trace_options {
     struct job_options job;

@@ -1,7 +1,7 @@
 /* trace_json.c: a pixel sample as JSON, every number with all its digits; see trace_report.h. doc/trace.md has a table
  * of the keys. */
 #include "base/json.h"
-#include "look/trace_report.h"
+#include "lab/trace_report.h"
 
 static void put_vec(struct json *j, const char *name, vec3 v)
 {

@@ -1,5 +1,5 @@
 /* colormap.c: see colormap.h. */
-#include "look/colormap.h"
+#include "lab/colormap.h"
 
 #include "image/picture.h"
 
