@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/cumulative.h"
+#include "base/number.h"
 #include "caustics/specular.h"
 #include "transport/emit.h"
 
@@ -24,6 +25,7 @@ struct caustics {
     double *mirror; /* [groups + 1], owned: sums of the probabilities with which those before are looked at; the last
                      * may be less than 1 */
     bool any_through;
+    bool left[2]; /* to s = 0 and t = 1: the paths whose z the lens sees, [0], or is led to by delta lobes, [1] */
 };
 
 /* --- what is specular -------------------------------------------------------------------------------- */
@@ -210,7 +212,7 @@ static int connect(const struct extra *self, struct pixel_sample *sample, const 
     double u[3], lens = t == 2 ? z->pdf_fwd : 0;
     struct light_point y;
     struct chain c[EXTRA_MOST];
-    if (z->eye_end != FIRST_HIT || !vertex_connectible(z))
+    if (z->eye_end != FIRST_HIT || !vertex_connectible(z) || all->left[t > 2])
         return 0;
     u[0] = sampler_number(&sample->sampler, DRAW_LIGHT);
     sampler_pair(&sample->sampler, DRAW_LIGHT_POINT, &u[1]);
@@ -235,7 +237,7 @@ static bool in_psi(const struct caustics *all, const struct pixel_sample *sample
     struct quest q = quest_for(sample, z, y);
     struct chain found[STARTS];
     vec3 p[SPECULAR_LONGEST];
-    if (k < 1 || k > all->longest)
+    if (k < 1 || k > all->longest || all->left[!(lens > 0)])
         return false;
     for (int i = 0; i < k; i++)
         p[i] = z[(i + 1) * step].p;
@@ -331,5 +333,77 @@ struct extra *caustics_new(const struct scene *scene, int longest)
     if (any)
         return &all->extra;
     release(&all->extra);
+    return NULL;
+}
+
+/* --- does it pay? ------------------------------------------------------------------------------------ */
+
+/* A sample of the picture: what it brings, and what its square would be larger by without chains, by eye ends as in
+ * `left`. */
+struct trial {
+    double brings, tail[2];
+};
+
+/* Without a chain of weight w, which brings X, the second moment is larger by X^2 / (1 - w); and others bring the rest
+ * of what the chain found, t = 1 with them, which is not tried. */
+static struct trial try_chains(const struct extra *self, struct pixel_sample *sample, const struct vertex *eye, int n)
+{
+    const double MOST = 100; /* chance decides whether more is seen */
+    struct connection made[EXTRA_MOST];
+    struct trial out = {rgb_luminance(sample->sum), {0, 0}};
+    for (int t = 2; t <= n; t++)
+        for (int i = eye[t - 1].kind == VERTEX_SURFACE ? connect(self, sample, eye, t, made) : 0; i-- > 0;) {
+            double C = rgb_luminance(made[i].value), w = made[i].weight;
+            out.brings += C * (1 - w);
+            out.tail[t > 2] += sqr(C * w) * fmin(1 / (1 - w), MOST);
+        }
+    return out;
+}
+
+/* The mean of tails, relative to brightness there and, by a quarter, of the picture. */
+static double relative_tail(const struct trial *trial, int n, int which)
+{
+    double mean = 1e-30, sum = 0;
+    for (int i = 0; i < n; i++)
+        mean += trial[i].brings / n;
+    for (int i = 0; i < n; i++)
+        sum += trial[i].tail[which] / sqr(0.75 * trial[i].brings + 0.25 * mean) / n;
+    return sum;
+}
+
+struct extra *caustics_settle(struct extra *self, const struct render_job *job, const struct mis_counts *counts)
+{
+    const double LEAST = 0.5; /* chains make a sample several times as dear */
+    struct caustics *all = (void *)self;
+    struct render_job other = *job;
+    struct pixel_rect film = job->film_rect;
+    struct workspace *work = workspaces_new(1, job->max_depth);
+    struct tile tile = {.sum = NULL};
+    int n = int_within(pixel_light_count(job) / 8, 256, 4096);
+    struct trial *trial = mem_alloc((size_t)n, sizeof *trial);
+    bool delta = false;
+    other.seed = other.eye_seed = hash_combine(job->seed, 0xbb67ae8584caa73bu); /* unlike the render's */
+    for (int i = 0; i < n; i++) {
+        double u, v;
+        sampler_r2(i, &u, &v);
+        int x = film.x0 + (int)(u * rect_width(film)), y = film.y0 + (int)(v * rect_height(film));
+        struct tile_pass pass = {&other, {x, y, x + 1, y + 1}, i, i + 1, &tile, work, NULL};
+        tile_start(&tile, pass.rect, film, &job->scene->filter, false);
+        arena_reset(&work->arena);
+        struct pixel_sample sample = pixel_sample_begin(&pass, counts, x, y, i);
+        int length = pixel_eye_path(&pass, &sample, i, work->eye, job->max_depth + 2);
+        pixel_sum_eye(&sample, work->eye, length);
+        trial[i] = try_chains(self, &sample, work->eye, length);
+    }
+    tile_free(&tile);
+    workspaces_free(work, 1);
+    for (int i = 0; i < job->scene->lights.n; i++)
+        delta |= light_is_delta(&job->scene->lights.light[i]);
+    for (int i = 0; i < 2; i++)
+        all->left[i] = !(relative_tail(trial, n, i) > LEAST) && !(delta && (i > 0 || counts->splat == 0));
+    free(trial);
+    if (!all->left[0] || !all->left[1])
+        return self;
+    release(self);
     return NULL;
 }

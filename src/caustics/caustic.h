@@ -38,4 +38,8 @@ enum { CAUSTIC_LONGEST = SPECULAR_LONGEST };
 /* caustics_new: chains of at most `longest` vertices; NULL if nothing in the scene is specular. */
 struct extra *caustics_new(const struct scene *scene, int longest);
 
+/* caustics_settle: leave to s = 0 and t = 1 what they make well enough by the counts that the method has settled;
+ * nothing that they cannot make. Returns `self`, or, where that leaves nothing, NULL: it is released. */
+struct extra *caustics_settle(struct extra *self, const struct render_job *job, const struct mis_counts *counts);
+
 #endif

@@ -72,6 +72,8 @@ bool method_prepare(const struct method *m, const struct render_job *job, struct
     f->counts.extra = out->extra;
     if (m->prepare != NULL)
         m->prepare(job, out);
+    if (job->caustics > 0 && out->extra != NULL)
+        f->counts.extra = out->extra = caustics_settle(out->extra, job, &f->counts);
     if (job->regularise > 0)
         add_note(out->note, "biased: mirrors and glass are blurred where nothing else finds a light");
     if (m->learnt != NULL && job->learnt != NULL && job->learnt->n == 0 && m->learnt(out->state)->eye.n > 0)
