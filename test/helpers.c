@@ -165,7 +165,6 @@ struct batches render_batches(struct test *t, const struct scene *scene, const c
     struct pixel_rect crop = render_crop(scene);
     struct batches pixels = batches_new(n_batches, 3L * rect_width(crop) * rect_height(crop), false);
     struct render_options o = {.integrator = integrator, .max_depth = max_depth, .n_threads = os_cores()};
-    struct bytes learnt = {NULL, 0, 0}; /* by the first batch */
     o.seed = test_seed(t) * 1000003 + seed;
     for (int k = 0; k < n_batches; k++) {
         struct film film;
@@ -173,16 +172,12 @@ struct batches render_batches(struct test *t, const struct scene *scene, const c
         o.first = (long)k * SAMPLER_POINTS;
         o.end = o.first + spp * test_effort(t);
         film_init(&film, crop, scene->width, scene->height);
-        film.learnt = learnt;
         CHECK(t, render_scene(scene, &o, &film, &err), "%s", err.text);
         CHECK(t, film.nonfinite == 0, "%s: %ld contributions are not finite", integrator, film.nonfinite);
         for (long i = 0; i < pixels.n; i++)
             pixels.value[pixels.n * k + i] = film_value(&film, (size_t)i) / (double)film.iterations;
-        learnt = film.learnt;
-        film.learnt.data = NULL;
         film_free(&film);
     }
-    free(learnt.data);
     struct batches tiles = batches_tiles(&pixels, rect_width(crop), rect_height(crop), tile);
     batches_free(&pixels);
     return tiles;

@@ -255,8 +255,27 @@ static void test_no_rival(struct test *t)
     }
 }
 
+/* What would be of no use is refused. */
+static void test_refused(struct test *t)
+{
+    static const char *const ways[] = {"pt caustics=1 regularise=.1", "mlt caustics=1", "pssmlt regularise=.1"};
+    for (int i = 0; i < 3; i++) {
+        struct scene scene;
+        struct film film = {.sum = NULL};
+        struct error err;
+        if (!scene_from_file(t, "scenes/test/caustic-pane.pbrt", 4, 4, &scene))
+            return;
+        struct render_options o = {.integrator = set_method(&scene, ways[i]), .end = 1, .n_threads = 1};
+        film_init(&film, render_crop(&scene), scene.width, scene.height);
+        CHECK(t, !render_scene(&scene, &o, &film, &err), "%s is taken", ways[i]);
+        film_free(&film);
+        scene_free(&scene);
+    }
+}
+
 void test_caustic(struct test *t)
 {
+    test_refused(t);
     test_cones(t);
     test_no_rival(t);
     test_derivatives(t);

@@ -77,9 +77,9 @@ static bool accepted(const struct fixture *f, const uint8_t *data, size_t n, int
 /* Digits 0, -1, 63, 64, -65 and 2^62, of which the last has nine bytes. */
 static void test_bytes(struct test *t)
 {
-    static const char TEXT[] = "asbdpt part 3\nsamples 2 7\ndone 3 1\nleft-out 4\ncarried 0\nsize 1 1\n"
+    static const char TEXT[] = "asbdpt part 4\nsamples 2 7\ndone 3 1\nleft-out 4\nsize 1 1\n"
                                "film 1 1, window 0 0\n"
-                               "scale 1\nspp 8\nlearnt 0000000000000000\nversion 0\ncheck ";
+                               "scale 1\nspp 8\nversion 0\ncheck ";
     static const uint8_t SUMS[] = {255, 7,   0,   1,   126, 12,  128, 1,   129, 1,
                                    128, 128, 128, 128, 128, 128, 128, 128, 128, 1};
     const struct exact_sum sums[3] = {{{0, 0, 0}, 0}, {{0, -1, 63}, 7}, {{64, -65, INT64_MAX / 2 + 1}, 12}};
@@ -102,43 +102,6 @@ static void test_bytes(struct test *t)
         CHECK(t, memcmp(back.sum[i].digit, sums[i].digit, sizeof sums[i].digit) == 0, "the digits of sum %d", i);
     free(data);
     film_free(&back);
-    clean_up(&f);
-}
-
-/* A checkpoint carries what was learnt, a part only its hash; cut, changed or longer it is refused. */
-static void test_carried(struct test *t)
-{
-    enum { N = 100000 };
-    struct fixture f;
-    size_t n = 0;
-    set_up(t, 1, 1, &f);
-    f.film.learnt.data = mem_alloc(N, 1);
-    f.film.learnt.n = N;
-    for (int i = 0; i < N; i++)
-        f.film.learnt.data[i] = (uint8_t)(i % 251 * 7);
-    for (int carries = 0; carries < 2; carries++) {
-        struct fixture back;
-        struct part found = {.learnt = 0};
-        struct error err = {""};
-        set_up(t, 1, 1, &back);
-        f.part.carries = carries;
-        free(bytes_of(t, &f, &n));
-        CHECK(t, load(f.path, &back.film) && back.film.learnt.n == (carries ? N : 0) &&
-                     (!carries || memcmp(back.film.learnt.data, f.film.learnt.data, N) == 0), "%d bytes come back",
-              (int)back.film.learnt.n);
-        film_free(&back.film);
-        FILE *file = part_open(f.path, &found, &err);
-        CHECK(t, file != NULL && found.learnt != 0, "%s", err.text);
-        if (file != NULL)
-            fclose(file);
-        part_free(&found);
-    }
-    uint8_t *data = bytes_of(t, &f, &n);
-    CHECK(t, accepted(&f, data, n, 1, 1) && !accepted(&f, data, n - 1, 1, 1), "cut by a byte");
-    CHECK(t, !accepted(&f, data, n + 1, 1, 1), "a byte behind the end"); /* file_read has put a zero there */
-    data[n - 7] ^= 1;
-    CHECK(t, !accepted(&f, data, n, 1, 1), "a byte changed");
-    free(data);
     clean_up(&f);
 }
 
@@ -256,12 +219,12 @@ static void forge_lines(struct rng *r, const char *const *line, int n, char *out
 
 static void test_forged(struct test *t)
 {
-    static const char *const LINES[] = {"asbdpt part 3", "samples 2 7", "done 3 1", "left-out 4", "carried 0",
+    static const char *const LINES[] = {"asbdpt part 4", "samples 2 7", "done 3 1", "left-out 4",
                                         "size 4 3", "film 4 3, window 0 0", "scale 1", "spp 8",
-                                        "learnt 0000000000000000", "version 0", "seed 1"};
-    static const char SAME[] = "\nsize 4 3\nfilm 4 3, window 0 0\nscale 1\nspp 8\nlearnt 0000000000000000\n"
+                                        "version 0", "seed 1"};
+    static const char SAME[] = "\nsize 4 3\nfilm 4 3, window 0 0\nscale 1\nspp 8\n"
                                "version 0\nseed 1\ncheck ";
-    enum { N_LINES = 12, ROUNDS = 1000, SUMS = 36 };
+    enum { N_LINES = 10, ROUNDS = 1000, SUMS = 36 };
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 32, 0);
     struct fixture whole;
     char text[1024];
@@ -317,7 +280,6 @@ void test_part(struct test *t)
     test_forged(t);
     test_forged_digits(t);
     test_bytes(t);
-    test_carried(t);
     test_round_trip(t);
     test_damage(t);
 }

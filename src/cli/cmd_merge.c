@@ -145,7 +145,6 @@ static bool write_film(const struct merge_options *o, struct merge *m, struct fi
     struct part whole = m->part[0].part; /* its identity is borrowed */
     float *pixels = mem_alloc((size_t)whole.width * (size_t)whole.height * 3, sizeof *pixels);
     whole.end = reached(m);
-    whole.carries = true; /* what the last part did, the same for all */
     film_warn(film, film_develop(film, whole.scale, pixels));
     out->place = whole.place;
     out->part = &whole;

@@ -35,8 +35,6 @@ static const struct option OPTIONS[] = {
     {"--interval", "TIME", OPTION_NUMBER, AT(keep.interval), 0, 1e9, .with = "--checkpoint", .fallback = "60",
      .help = "between checkpoints"},
     {"--resume", "FILE", OPTION_TEXT, AT(keep.resume), .file = FILE_KEPT, .help = "go on from a checkpoint"},
-    {"--learnt", "FILE", OPTION_TEXT, AT(keep.learnt), .file = FILE_WRITTEN,
-     .help = "what the method learns: read, if there is such a file, else written; for the parts of a picture"},
     {"--samples", "FIRST:END", OPTION_INTEGER, AT(keep.samples), 0, 1 << 30, .with = "-o",
      .help = "only the samples FIRST to END-1, for merge: -o NAME.part"},
     {"--stats", "FILE", OPTION_TEXT, AT(stats), .file = FILE_WRITTEN, .help = "JSON: parameters, times, memory"},
@@ -168,7 +166,6 @@ static bool run_and_write(const struct job_options *o, const struct scene *scene
     times.wall = os_wall_seconds() - keep->bar.start;
     times.samples = film->iterations - times.samples;
     bool kept = keep_end(keep, ok, err);
-    keep->part.carries = false; /* an output that is a part has what was learnt by its hash alone */
     if (!ok)
         return false;
     report(o, options->integrator, film, &times);

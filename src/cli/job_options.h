@@ -16,7 +16,6 @@ struct keep_options {
     const char *checkpoint;  /* file or NULL */
     double interval;         /* seconds between checkpoints */
     const char *resume;      /* file or NULL */
-    const char *learnt;      /* file or NULL */
     int samples[2];          /* of each pixel, the second excluded; 0, 0: all */
 };
 

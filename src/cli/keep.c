@@ -38,9 +38,8 @@ static bool resume(struct keep *k, struct error *err)
     FILE *file = part_open(o->resume, &found, err);
     if (file == NULL)
         return false;
-    struct part asked = k->part; /* the same picture, of however many samples, by what was learnt then */
+    struct part asked = k->part; /* the same picture, of however many samples */
     asked.planned = found.planned;
-    asked.learnt = found.learnt;
     bool ok = part_same(&found, o->resume, &asked, err);
     if (ok && (found.first != k->part.first || found.end > k->part.end))
         ok = error_set(err, "%s: it is for the samples %ld:%ld, not %ld:%ld", o->resume, found.first, found.end,
@@ -51,32 +50,6 @@ static bool resume(struct keep *k, struct error *err)
         fclose(file);
     part_free(&found);
     return ok;
-}
-
-/* The file is read if it is there; nothing else may have been learnt for what is resumed. */
-static bool recall(struct keep *k, const struct scene *scene, const struct render_options *render, struct error *err)
-{
-    const char *path = k->options->learnt;
-    const struct method *m = method_find(render->integrator, &scene->settings, err);
-    struct bytes *b = &k->film->learnt;
-    if (path == NULL || m == NULL)
-        return m != NULL;
-    if (m->learnt == NULL)
-        return error_set(err, "--learnt %s: %s learns nothing", path, m->name);
-    k->teaches = !file_exists(path);
-    return k->teaches || b->n > 0 || file_read(path, &b->data, &b->n, err);
-}
-
-static bool teach(const struct keep *k, struct error *err)
-{
-    struct file_output file;
-    const struct bytes *b = &k->film->learnt;
-    if (!k->teaches || b->n == 0 || k->film->learnt_short)
-        return true;
-    if (!file_create(k->options->learnt, &file, err))
-        return false;
-    fwrite(b->data, 1, b->n, file.stream);
-    return file_commit(&file, err);
 }
 
 /* Samples by what was learnt in haste are for the picture at hand alone: it is gone on with from the beginning. */
@@ -133,8 +106,7 @@ bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const 
     k->options = o;
     k->film = film;
     k->part = part_describe(scene, render);
-    k->part.carries = true;
-    if (!resume(k, err) || !recall(k, scene, render, err)) {
+    if (!resume(k, err)) {
         part_free(&k->part);
         return false;
     }
@@ -158,7 +130,5 @@ bool keep_end(struct keep *k, bool ok, struct error *err)
     else if (ok && k->late && f->iterations < wanted)
         fprintf(stderr, "asbdpt: stopped after %.1f s, at %ld of %ld samples per pixel\n",
                 os_wall_seconds() - k->bar.start, f->iterations, wanted);
-    if (ok && k->options->checkpoint != NULL)
-        ok = save_film(k, err);
-    return ok && teach(k, err);
+    return ok && (k->options->checkpoint == NULL || save_film(k, err));
 }

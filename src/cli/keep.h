@@ -19,21 +19,20 @@ struct keep {
     double saved;  /* time of the last checkpoint, seconds of os_wall_seconds */
     bool hurried;  /* a checkpoint was saved for the signal's sake */
     bool late;     /* the time is over */
-    bool teaches;  /* --learnt is to be written */
 };
 
 /* keep_check: can the options be as they are, and the checkpoint's file be written? False with a message. */
 bool keep_check(const struct keep_options *o, struct error *err);
 
-/* keep_begin: cut the render to the samples asked for, continue what --resume names, and read what --learnt names.
+/* keep_begin: cut the render to the samples asked for, and continue what --resume names.
  *   render   in-out: its samples, and what is called after each tile pass, which is given `k`
  *   film     initialised, empty
  * Returns false with a message; after success keep_end must follow. */
 bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const struct scene *scene,
                 struct render_options *render, struct film *film, struct error *err);
 
-/* keep_end: remove the progress bar, say on stderr if and why the render has stopped early, save the last checkpoint
- * and --learnt if `ok`. False with a message where it cannot be written; err may be NULL. The caller releases
+/* keep_end: remove the progress bar, say on stderr if and why the render has stopped early, save the last checkpoint if
+ * `ok`. False with a message where it cannot be written; err may be NULL. The caller releases
  * k->part. */
 bool keep_end(struct keep *k, bool ok, struct error *err);
 

@@ -7,7 +7,6 @@
 
 #include "caustics/caustic.h"
 #include "caustics/regularise.h"
-#include "learning/learnt_file.h"
 
 const struct method_parameter *method_has(const struct method *m, const char *name)
 {
@@ -31,16 +30,6 @@ bool method_check(const struct method *m, const struct settings *s, struct error
     return ok;
 }
 
-/* What was learnt before, if anybody has it. */
-static bool recall(const struct method *m, const struct render_job *job, void *state, struct error *err)
-{
-    if (job->learnt == NULL || job->learnt->n == 0)
-        return true;
-    if (m->learnt == NULL)
-        return error_set(err, "%s learns nothing, so there is nothing to go on with", m->name);
-    return learnt_read(m->learnt(state), &job->scene->lights, job->of, job->learnt, "what was learnt", err);
-}
-
 static void add_note(char note[FILM_NOTE_SIZE], const char *text)
 {
     size_t n = strlen(note);
@@ -61,10 +50,6 @@ bool method_prepare(const struct method *m, const struct render_job *job, struct
         free(out->state);
         return false;
     }
-    if (!recall(m, job, out->state, err)) {
-        method_release(out);
-        return false;
-    }
     if (job->caustics > 0)
         out->extra = caustics_new(job->scene, job->caustics);
     else if (job->regularise > 0)
@@ -76,8 +61,6 @@ bool method_prepare(const struct method *m, const struct render_job *job, struct
         f->counts.extra = out->extra = caustics_settle(out->extra, job, &f->counts);
     if (job->regularise > 0)
         add_note(out->note, "biased: mirrors and glass are blurred where nothing else finds a light");
-    if (m->learnt != NULL && job->learnt != NULL && job->learnt->n == 0 && m->learnt(out->state)->eye.n > 0)
-        learnt_write(m->learnt(out->state), job->of, job->learnt);
     return true;
 }
 

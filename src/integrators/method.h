@@ -28,7 +28,6 @@ struct frozen {
 };
 
 struct method;
-struct learnt;
 
 /* What `prepare` has settled. */
 struct preparation {
@@ -57,7 +56,6 @@ struct method {
     /* Settle counts and whatever is frozen; out->state is zero but for struct frozen and the parameters. NULL: all is
      * settled. */
     void (*prepare)(const struct render_job *job, struct preparation *out);
-    struct learnt *(*learnt)(void *state); /* what it has learnt, there before prepare if known; NULL: nothing */
     void (*release)(void *state); /* what the state owns, but not the state; NULL: nothing */
 
     void (*render)(const struct preparation *m, const struct tile_pass *pass);

@@ -104,34 +104,6 @@ static bool paths_suffice(const struct scene *scene)
     return !(delta_light && delta_lobe);
 }
 
-/* What was chosen, as struct learnt keeps it. */
-static void exchange(struct subspaces_state *s, bool store)
-{
-    struct mis_counts *c = &s->frozen.counts;
-    double lights = s->frozen.lights, path_pixels = s->frozen.path_pixels, *kept = s->learnt.number;
-    double *const chosen[] = {&s->draws[FIRST_HIT], &s->draws[LATER_HIT], &lights, &path_pixels, &c->hit[FIRST_HIT],
-                              &c->direct[FIRST_HIT], &c->delta[FIRST_HIT], &c->connect[FIRST_HIT],
-                              &c->connect[LATER_HIT]};
-    for (size_t i = 0; i < sizeof chosen / sizeof chosen[0]; i++)
-        *(store ? &kept[i] : chosen[i]) = *(store ? chosen[i] : &kept[i]);
-    for (int end = 0; end < EYE_ENDS; end++)
-        s->draws[end] = clamp(s->draws[end], 0.125, 16);
-    s->frozen.lights = int_within(lights, 1, 8);
-    s->frozen.path_pixels = int_within(path_pixels, 0, MAX_TILE_SIZE * MAX_TILE_SIZE);
-}
-
-/* Whatever a file says, no strategy that is needed is without weight. */
-void pilot_recall(const struct render_job *job, struct subspaces_state *s)
-{
-    struct frozen *f = &s->frozen;
-    exchange(s, false);
-    f->counts.hit[FIRST_HIT] = clamp(f->counts.hit[FIRST_HIT], 1e-6, 1e6);
-    if (!paths_suffice(job->scene) && f->path_pixels == 0)
-        f->path_pixels = 1;
-    if (f->path_pixels == 0)
-        f->counts.connect[FIRST_HIT] = f->counts.connect[LATER_HIT] = 0;
-}
-
 void pilot_run(const struct render_job *job, bool free_choice, struct preparation *method)
 {
     struct subspaces_state *s = method->state;
@@ -151,5 +123,4 @@ void pilot_run(const struct render_job *job, bool free_choice, struct preparatio
         choose(&costs, &sums, &choice);
     choice.light_paths |= !free_choice || !paths_suffice(job->scene);
     set_numbers(s, &choice, &light);
-    exchange(s, true);
 }

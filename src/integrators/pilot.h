@@ -23,9 +23,6 @@
  *      unless job->watch ends it; then usual numbers are taken */
 void pilot_run(const struct render_job *job, bool free_choice, struct preparation *p);
 
-/* pilot_recall: what it chose when s->learnt was learnt. */
-void pilot_recall(const struct render_job *job, struct subspaces_state *s);
-
 /* pilot_set_draws: C draws per eye vertex, whatever was chosen. */
 void pilot_set_draws(struct subspaces_state *s, double C);
 

@@ -80,12 +80,6 @@ static void prepare(const struct render_job *job, struct preparation *out)
     asbdpt_learn(job, s->metric == METRIC_IMPORTANCE, s->grid, &s->learnt, &s->frozen);
 }
 
-static struct learnt *learnt_of(void *state)
-{
-    struct pool_state *s = state;
-    return &s->learnt;
-}
-
 static void release(void *state)
 {
     struct pool_state *s = state;
@@ -105,5 +99,5 @@ const struct method method_pool = {
     .why = "alias table over the K light sub-paths of the tile, one bin for each pixel; q_k = (1 - delta) I_k / sum I "
            "+ delta / K, I the sub-path's importance; scale 1 / (K q)",
     .parameters = PARAMETERS, .state_size = sizeof(struct pool_state), .scratch_size = sizeof(struct pool),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .learnt = learnt_of, .release = release,
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .release = release,
     .render = pooled_render, .scratch_free = free_scratch, .begin = begin, .connect = connect};

@@ -195,25 +195,15 @@ static void prepare(const struct render_job *job, struct preparation *out)
                               .eye_cells = GUIDE_CELLS, .light_cells = LIGHT_CELLS, .levels = REGION_LEVELS,
                               .delta = s->delta, .emission = s->emission};
     out->size.tile = MAX_TILE_SIZE; /* a larger pool */
-    bool known = s->learnt.eye.n > 0, free_choice = path_pixels == 0 && s->connections == 0;
     learn(job, &wish, &s->learnt);
     f->counts.model = &s->learnt.model;
-    if (known)
-        pilot_recall(job, s);
-    else
-        pilot_run(job, free_choice, out);
+    pilot_run(job, path_pixels == 0 && s->connections == 0, out);
     if (s->connections > 0)
         pilot_set_draws(s, s->connections);
     if (path_pixels > 0)
         f->path_pixels = path_pixels;
     f->counts.splat = f->path_pixels > 0 ? pixel_light_count(job) / f->path_pixels : 0;
     tell(s, out);
-}
-
-static struct learnt *learnt_of(void *state)
-{
-    struct subspaces_state *s = state;
-    return &s->learnt;
 }
 
 static void release(void *state)
@@ -238,5 +228,5 @@ const struct method method_subspaces = {
     .why = "C draws for each eye vertex from the connectible vertices of the tile's K light sub-paths, in proportion "
            "to h(e,l) luminance(beta), by the regions of both; scale 1 / (C K P)",
     .parameters = PARAMETERS, .state_size = sizeof(struct subspaces_state), .scratch_size = sizeof(struct subspaces),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .learnt = learnt_of, .release = release,
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .release = release,
     .render = pooled_render, .scratch_init = init_scratch, .scratch_free = free_scratch, .begin = begin, .draw = draw};

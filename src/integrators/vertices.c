@@ -125,14 +125,8 @@ static void prepare(const struct render_job *job, struct preparation *out)
         f->counts.direct[end] = f->counts.delta[end] = CREDIT;
     }
     f->counts.splat /= f->path_pixels;
-    if (importance && s->learnt.importance.mean > 0 && !s->learnt.paired)
+    if (importance && s->learnt.importance.mean > 0)
         pairs_from_importance(s);
-}
-
-static struct learnt *learnt_of(void *state)
-{
-    struct vertices_state *s = state;
-    return &s->learnt;
 }
 
 static void release(void *state)
@@ -157,5 +151,5 @@ const struct method method_vertices = {
     .why = "C draws for each eye vertex from an alias table over the connectible vertices of the tile's K light "
            "sub-paths, q in proportion to luminance(beta) n(x); scale 1 / (C K q)",
     .parameters = PARAMETERS, .state_size = sizeof(struct vertices_state), .scratch_size = sizeof(struct vertices),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .learnt = learnt_of, .release = release,
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .release = release,
     .render = pooled_render, .scratch_free = free_scratch, .begin = begin, .draw = draw};

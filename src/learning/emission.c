@@ -65,10 +65,24 @@ static void mean_squares(const double *square, double n, double above, double *m
     }
 }
 
+/* The sums that draws go by. */
+static void sum_up(struct emission *e)
+{
+    int n = e->columns.n;
+    e->row = mem_alloc((size_t)n * SIDE, sizeof *e->row);
+    e->before = mem_alloc((size_t)n + 1, sizeof *e->before);
+    for (int i = 0; i < n * SIDE; i++)
+        e->row[i] = sum_of(&e->q[i * SIDE], SIDE);
+    for (int c = 0; c < n; c++)
+        e->before[c + 1] = e->before[c] + sum_of(&e->row[c * SIDE], SIDE);
+}
+
 void emission_build(struct emission *e, const struct emission_lessons *l, const struct light_set *lights, double rays,
                     double delta)
 {
-    emission_start(e, lights);
+    emission_free(e);
+    e->columns = light_columns_new(lights, EMISSION_COLUMNS);
+    e->q = mem_alloc((size_t)e->columns.n * BINS, sizeof *e->q);
     int n = e->columns.n;
     double m[BINS] = {0}, total = 0, all = n * BINS > 0 ? sum_of(l->square, n * BINS) / rays : 0;
     for (int c = 0; c < n; c++) {
@@ -80,7 +94,7 @@ void emission_build(struct emission *e, const struct emission_lessons *l, const 
         double even = e->columns.power[i / BINS] / BINS;
         e->q[i] = total > 0 ? delta * even + (1 - delta) * e->q[i] / total : even;
     }
-    emission_freeze(e);
+    sum_up(e);
 }
 
 void emission_free(struct emission *e)
@@ -90,31 +104,6 @@ void emission_free(struct emission *e)
     free(e->row);
     free(e->before);
     memset(e, 0, sizeof *e);
-}
-
-void emission_start(struct emission *e, const struct light_set *lights)
-{
-    emission_free(e);
-    e->columns = light_columns_new(lights, EMISSION_COLUMNS);
-    e->q = mem_alloc((size_t)e->columns.n * BINS, sizeof *e->q);
-    e->row = mem_alloc((size_t)e->columns.n * SIDE, sizeof *e->row);
-    e->before = mem_alloc((size_t)e->columns.n + 1, sizeof *e->before);
-}
-
-bool emission_freeze(struct emission *e)
-{
-    bool good = true;
-    int n = e->columns.n;
-    for (int i = 0; i < n * BINS; i++) {
-        double power = e->columns.power[i / BINS];
-        good = good && (power > 0 ? e->q[i] > 1e-9 * power : e->q[i] == 0);
-    }
-    for (int i = 0; i < n * SIDE; i++)
-        e->row[i] = sum_of(&e->q[i * SIDE], SIDE);
-    e->before[0] = 0;
-    for (int c = 0; c < n; c++)
-        e->before[c + 1] = e->before[c] + sum_of(&e->row[c * SIDE], SIDE);
-    return good && fabs(e->before[n] - 1) < 1e-6;
 }
 
 /* --- use --------------------------------------------------------------------------------------------- */

@@ -49,11 +49,6 @@ void emission_build(struct emission *e, const struct emission_lessons *l, const 
                     double delta);
 void emission_free(struct emission *e);
 
-/* emission_start: columns for these lights, and room for q. emission_freeze: q is there; all else follows from it.
- * False if q is not what the comment on it says, or its sum is not 1. */
-void emission_start(struct emission *e, const struct light_set *lights);
-bool emission_freeze(struct emission *e);
-
 /* emission_choose: a light cell by the uniform number u, and what light_sample_emission is to be given.
  *   direction  in-out, [0,1)^2: uniform; where it lies in the square then
  *   rho        out: > 0 */

@@ -103,19 +103,14 @@ static double *shares_of_regions(const struct guide_lessons *l, const struct reg
     return t;
 }
 
-void guide_start(struct guide *g, const struct light_set *lights)
-{
-    guide_free(g);
-    g->columns = light_columns_new(lights, GUIDE_COLUMNS);
-}
-
 void guide_build(struct guide *g, struct guide_lessons *l, const struct regions *regions,
                  const struct light_set *lights, double delta)
 {
     make_room(l, regions->n);
     int n = l->columns.n;
     double *t = shares_of_regions(l, regions);
-    guide_start(g, lights);
+    guide_free(g);
+    g->columns = light_columns_new(lights, GUIDE_COLUMNS);
     g->n = l->n;
     g->before = mem_alloc((size_t)l->n * (size_t)(n + 1), sizeof *g->before);
     for (int i = 0; i < l->n; i++) {

@@ -54,9 +54,6 @@ void guide_build(struct guide *g, struct guide_lessons *l, const struct regions 
                  const struct light_set *lights, double delta);
 void guide_free(struct guide *g);
 
-/* guide_start: columns for these lights, and no tables yet. */
-void guide_start(struct guide *g, const struct light_set *lights);
-
 /* guide_choose: draw a light cell for an eye vertex of `region` with the uniform number u.
  *   g       NULL: by power
  *   pmf     out: its probability

@@ -27,8 +27,6 @@ void learn(const struct render_job *job, const struct wish *wish, struct learnt 
     struct lessons l = {.job = job, .wish = wish, .learnt = out, .counts = {.direct = {1, 1}, .delta = {1, 1}}};
     double pixels = (double)rect_width(job->film_rect) * rect_height(job->film_rect);
     long n = int_within(LEARN_PER_PIXEL * pixels, LEARN_LEAST, LEARN_MOST), n_light = n < LIGHT_MOST ? n : LIGHT_MOST;
-    if (out->eye.n > 0)
-        return; /* it is known already */
     bool visits = wish->importance || wish->guide || wish->pairs;
     l.work = workspaces_new(job->n_threads, job->max_depth);
     if (visits) {

@@ -19,7 +19,7 @@
 #include "learning/learnt.h"
 #include "transport/tile_pass.h"
 
-/* learn: out is zero-initialised, or was read from a file: then that is all. learnt_free releases it. */
+/* learn: out is zero-initialised; learnt_free releases it. */
 void learn(const struct render_job *job, const struct wish *wish, struct learnt *out);
 
 #endif

@@ -1,8 +1,8 @@
 /* learnt.h: what has been learnt about a scene before its first sample, frozen from then on, so that no choice made by
  * it is biased.
  *
- * A value: it depends on scene, film, seed and depth, not on the samples asked for, nor on threads; it can be written
- * to a file and read again (learnt_file.h).
+ * A value: it depends on scene, film, seed and depth, not on the samples asked for, nor on threads: all who
+ * render a part of a picture learn the same.
  */
 #ifndef ASBDPT_LEARNT_H
 #define ASBDPT_LEARNT_H
@@ -22,8 +22,6 @@ struct wish {
     double delta;               /* of the pairs, and of what guides their trials */
 };
 
-enum { LEARNT_NUMBERS = 16 };
-
 struct learnt {
     struct regions eye, light;    /* where eye vertices and light vertices lie */
     struct importance importance; /* how much of the camera's throughput comes to a light region */
@@ -31,7 +29,6 @@ struct learnt {
     struct pairs pairs;           /* how s >= 2 chooses light vertices, by both */
     struct emission emission;     /* how light sub-paths leave the lights */
     bool guided, paired, aimed;   /* are there a guide, pairs, emission? */
-    double number[LEARNT_NUMBERS]; /* what a method has chosen by trying, in an order of its own; >= 0 */
     struct count_model model;     /* all of it, as the weights see it; of no use once the struct has moved */
 };
 

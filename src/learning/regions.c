@@ -26,14 +26,9 @@ void regions_init(struct regions *r, vec3 low, vec3 high, int cells, int n_level
     r->last[2] = int_within((size.z + shift) * r->per_metre, 0, cells);
     r->n_levels = n_levels;
     r->limit = limit;
-    regions_start(r);
-}
-
-void regions_start(struct regions *r)
-{
     r->region = mem_grow(r->region, &r->capacity, 1, sizeof *r->region);
     r->region[0].above = -1;
-    r->region[0].level = r->n_levels;
+    r->region[0].level = n_levels;
     r->n = 1;
 }
 
@@ -122,20 +117,6 @@ static int add_region(struct regions *r, uint64_t key, int level)
     s->key = key;
     s->number = r->n++;
     return s->number;
-}
-
-void regions_keys(const struct regions *r, uint64_t *key)
-{
-    for (size_t i = 0; i < r->n_slots; i++)
-        if (r->slot[i].key != 0)
-            key[r->slot[i].number] = r->slot[i].key;
-}
-
-int regions_restore(struct regions *r, uint64_t key)
-{
-    int level = (int)(key >> LEVEL_SHIFT), n = r->n;
-    bool known = key == 0 || (r->n_slots > 0 && slot_of(r, key)->key == key);
-    return !known && level < r->n_levels && add_region(r, key, level) == n ? n : -1;
 }
 
 int regions_add(struct regions *r, uint64_t key) { return add_region(r, key, 0); }

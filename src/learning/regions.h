@@ -48,13 +48,6 @@ void regions_free(struct regions *r);
 /* regions_copy: make *to, initialised before, the same with memory of its own. */
 void regions_copy(struct regions *to, const struct regions *from);
 
-/* What a file of regions needs (learnt_file.h): regions_keys lists the keys [n] of all but region 0, by number;
- * regions_start leaves region 0 alone, grid and limits being set; regions_restore adds the next region by its key,
- * those that hold it being there, and returns its number, or -1 if that cannot be one. */
-void regions_keys(const struct regions *r, uint64_t *key);
-void regions_start(struct regions *r);
-int regions_restore(struct regions *r, uint64_t key);
-
 /* regions_key: names the region of level 0 of a surface point with unit geometric normal ng. */
 uint64_t regions_key(const struct regions *r, vec3 p, vec3 ng);
 

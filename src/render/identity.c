@@ -74,16 +74,3 @@ char *identity_text(const struct scene *scene, const struct render_options *o)
         add_line(&l, "gate %.17g %.17g", o->gate.begin, fmin(o->gate.end, DBL_MAX));
     return l.text;
 }
-
-uint64_t picture_number(const struct scene *scene, const struct render_options *o, struct pixel_rect r)
-{
-    const int place[] = {r.x0, r.y0, r.x1, r.y1, scene->width, scene->height};
-    struct render_options ungated = *o;
-    ungated.gate.begin = ungated.gate.end = 0;
-    char *text = identity_text(scene, &ungated);
-    uint64_t number = hash_content(text, strlen(text));
-    for (size_t i = 0; i < sizeof place / sizeof place[0]; i++)
-        number = hash_combine(number, (uint64_t)place[i]);
-    free(text);
-    return number;
-}

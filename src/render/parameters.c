@@ -224,6 +224,8 @@ bool parameters_read(const struct scene *scene, const struct method *m, int max_
     job->regularise = c.regularise;
     if (c.caustics > 0 && c.regularise > 0)
         return error_set(err, "\"caustics\" and \"regularise\" make the same paths; choose one");
+    if (m->chain && (c.caustics > 0 || c.regularise > 0))
+        return error_set(err, "%s is a Markov chain, which has no \"caustics\" and no \"regularise\"", m->name);
     job->power_heuristic = c.heuristic == 1;
     job->spatial_lights = c.strategy == 0;
     return true;

@@ -14,8 +14,8 @@
 #include "base/os.h"
 #include "image/zlib.h"
 
-static const char MAGIC[] = "asbdpt part 3\n";
-enum { MOST_TEXT = 1 << 20, MOST_LEARNT = 1 << 28, BUFFER = 1 << 16, EMPTY = 255, LONGEST_SUM = 1 + 10 * EXACT_DIGITS };
+static const char MAGIC[] = "asbdpt part 4\n";
+enum { MOST_TEXT = 1 << 20, BUFFER = 1 << 16, EMPTY = 255, LONGEST_SUM = 1 + 10 * EXACT_DIGITS };
 
 static size_t sums_of(const struct part *p) { return (size_t)p->width * (size_t)p->height * 3; }
 
@@ -127,9 +127,9 @@ static char *picture_text(const struct part *p)
 {
     size_t room = strlen(p->identity) + 256;
     char *text = mem_alloc(room, 1);
-    snprintf(text, room, "size %d %d\nfilm %d %d, window %d %d\nscale %.17g\nspp %ld\nlearnt %016" PRIx64 "\n%s",
+    snprintf(text, room, "size %d %d\nfilm %d %d, window %d %d\nscale %.17g\nspp %ld\n%s",
              p->width, p->height, p->place.width, p->place.height,
-             p->place.x, p->place.y, p->scale, p->planned, p->learnt, p->identity);
+             p->place.x, p->place.y, p->scale, p->planned, p->identity);
     return text;
 }
 
@@ -139,8 +139,8 @@ static char *header_text(const struct part *p)
     char *picture = picture_text(p);
     size_t room = strlen(picture) + 256;
     char *text = mem_alloc(room, 1);
-    snprintf(text, room, "%ssamples %ld %ld\ndone %ld %" PRId64 "\nleft-out %ld\ncarried %" PRIu64 "\n%s", MAGIC,
-             p->first, p->end, p->done, p->passes, p->left_out, p->carried, picture);
+    snprintf(text, room, "%ssamples %ld %ld\ndone %ld %" PRId64 "\nleft-out %ld\n%s", MAGIC,
+             p->first, p->end, p->done, p->passes, p->left_out, picture);
     size_t n = strlen(text);
     snprintf(text + n, room - n, "check %08lx\n", (unsigned long)checksum_crc32(0, (const uint8_t *)text, n));
     free(picture);
@@ -153,9 +153,6 @@ bool part_write(struct file_output *file, const struct part *p, const struct fil
     now.done = film->iterations;
     now.passes = film->passes;
     now.left_out = film->nonfinite;
-    if (film->learnt.n > 0)
-        now.learnt = hash_content((const char *)film->learnt.data, film->learnt.n);
-    now.carried = p->carries ? film->learnt.n : 0;
     char *text = header_text(&now);
     struct stream *s = mem_alloc(1, sizeof *s);
     s->file = file->stream;
@@ -166,8 +163,6 @@ bool part_write(struct file_output *file, const struct part *p, const struct fil
     uint8_t end[4];
     bytes_of_bits(s->crc, end, 4, false);
     fwrite(end, 1, sizeof end, s->file);
-    if (now.carried > 0)
-        fwrite(film->learnt.data, 1, film->learnt.n, s->file);
     free(s);
     free(text);
     return file_commit(file, err);
@@ -209,8 +204,7 @@ static bool possible(const struct part *p)
            at->x >= 0 && at->y >= 0 && at->width > 0 && at->height > 0 && p->width <= at->width - at->x &&
            p->height <= at->height - at->y && p->scale >= 0 && p->scale <= NUMBER_MAX && p->first >= 0 &&
            p->end > p->first && p->end <= p->planned && p->done >= 0 && p->done <= p->end - p->first &&
-           p->passes >= 0 && (p->passes == 0 || p->done < p->end - p->first) && p->left_out >= 0 &&
-           p->carried <= MOST_LEARNT;
+           p->passes >= 0 && (p->passes == 0 || p->done < p->end - p->first) && p->left_out >= 0;
 }
 
 /* The text must be, byte for byte, what the program writes for the numbers that it reads in it: so no line can be
@@ -218,10 +212,10 @@ static bool possible(const struct part *p)
 static bool read_numbers(const char *text, struct part *p)
 {
     int begin = 0;
-    sscanf(text + sizeof MAGIC - 1, "samples %ld %ld done %ld %" SCNd64 " left-out %ld carried %" SCNu64
-           " size %d %d film %d %d, window %d %d scale %lf spp %ld learnt %" SCNx64 " %n",
-           &p->first, &p->end, &p->done, &p->passes, &p->left_out, &p->carried, &p->width, &p->height, &p->place.width,
-           &p->place.height, &p->place.x, &p->place.y, &p->scale, &p->planned, &p->learnt, &begin);
+    sscanf(text + sizeof MAGIC - 1, "samples %ld %ld done %ld %" SCNd64 " left-out %ld"
+           " size %d %d film %d %d, window %d %d scale %lf spp %ld %n",
+           &p->first, &p->end, &p->done, &p->passes, &p->left_out, &p->width, &p->height, &p->place.width,
+           &p->place.height, &p->place.x, &p->place.y, &p->scale, &p->planned, &begin);
     const char *identity = text + sizeof MAGIC - 1 + begin, *check = identity;
     while (strncmp(check, "check ", 6) != 0)
         check = strchr(check, '\n') + 1;
@@ -265,25 +259,7 @@ FILE *part_open(const char *path, struct part *out, struct error *err)
     return NULL;
 }
 
-/* What was learnt stands behind the sums, and nothing behind it. */
-static bool add_learnt(struct stream *s, const struct part *p, struct film *film)
-{
-    struct bytes *b = &film->learnt;
-    b->n = 0;
-    for (; b->n < p->carried; refill(s)) {
-        size_t n = s->filled - s->used;
-        n = n < p->carried - b->n ? n : (size_t)p->carried - b->n;
-        if (n == 0)
-            return false;
-        b->data = mem_grow(b->data, &b->capacity, b->n + n, 1);
-        memcpy(b->data + b->n, s->byte + s->used, n);
-        b->n += n;
-        s->used += n;
-    }
-    return get(s) < 0 && (b->n == 0 || hash_content((const char *)b->data, b->n) == p->learnt);
-}
-
-/* Every sum, the right check behind them, and nothing more but what was learnt. */
+/* Every sum, the right check behind them, and nothing more. */
 static bool add_sums(struct stream *s, const struct part *p, struct film *film)
 {
     for (size_t i = 0; i < sums_of(p); i++) {
@@ -299,7 +275,7 @@ static bool add_sums(struct stream *s, const struct part *p, struct film *film)
             return false;
         said |= (uint32_t)byte << (8 * i);
     }
-    return said == crc && add_learnt(s, p, film);
+    return said == crc && get(s) < 0;
 }
 
 bool part_add(FILE *file, const char *path, const struct part *p, struct film *film, struct error *err)

@@ -2,16 +2,14 @@
  *
  * A file begins with lines of text, each ended by a line feed:
  *
- *     asbdpt part 3                    the format and its version
+ *     asbdpt part 4                    the format and its version
  *     samples A B                      samples A .. B-1 of each pixel are to be in the file when it is complete,
  *     done N P                         the first N of them are, and P tile passes of the next block
  *     left-out K                       contributions that were not finite or too large
- *     carried N                        bytes behind the sums: what the method had learnt (learning/learnt_file.h)
  *     size W H                         pixels of the film's rectangle
  *     film W H, window X Y             the whole frame, and where in it the rectangle begins
  *     scale X                          by which pixels are multiplied when they are written
  *     spp N                            samples per pixel of the whole picture
- *     learnt XXXXXXXXXXXXXXXX          a hash of what was learnt, 0: nothing
  *     version asbdpt 0.1, estimator 1  what was rendered, in some lines, each a word and what it says:
  *     ...                              program, scene, integrator and its parameters, seed, filter
  *     check XXXXXXXX                   CRC-32 of all lines before, hexadecimal
@@ -20,8 +18,8 @@
  * write for what they say, to the byte. The file goes on with the sums of all pixels, row by row from the top, red,
  * green and blue: 255 for an empty sum, else a byte `top` and three digits (exact_sum.h), the highest first. A digit d
  * is written as the whole number 2d, or -2d - 1 if it is negative, seven bits to the byte from the lowest on, 128 being
- * added to all bytes but the last. The CRC-32 of these bytes follows, four bytes, the lowest first, and what was
- * learnt, in checkpoints. Nothing depends on the machine's byte order.
+ * added to all bytes but the last. The CRC-32 of these bytes follows, four bytes, the lowest first.
+ * Nothing depends on the machine's byte order.
  *
  * The same film gives the same bytes, and sums are exact, so parts added up in any order give the bytes of the whole.
  * Parts are read as a stream: whoever adds them needs the memory of one film. Files appear whole or not at all.
@@ -47,9 +45,6 @@ struct part {
     long first, end, done; /* samples first .. first + done - 1 of first .. end - 1 */
     int64_t passes;
     long left_out;
-    uint64_t learnt;  /* hash of what the method had learnt; 0: nothing */
-    uint64_t carried; /* bytes of it behind the sums */
-    bool carries;     /* part_write: write them */
 };
 
 /* part_describe: the part that a render with these options is to fill, nothing being done yet. Threads, names of files

@@ -177,6 +177,8 @@ static bool watch(void *context, double traced)
     return !r->stopping;
 }
 
+static bool begun(const struct film *film) { return film->iterations > 0 || film->passes > 0; }
+
 static bool prepare(struct run *r, struct error *err)
 {
     const struct method *m = begin_job(r->job.scene, r->options, r->film->rect, &r->job, err);
@@ -186,10 +188,8 @@ static bool prepare(struct run *r, struct error *err)
         return error_set(err, "%s keeps no record of its paths: render one gate at a time", m->name);
     r->job.watch = r->options->progress != NULL ? watch : NULL;
     r->job.watch_context = r;
-    r->job.learnt = &r->film->learnt;
-    r->job.of = picture_number(r->job.scene, r->options, r->film->rect);
     bool ok = method_prepare(m, &r->job, &r->prepared, err);
-    r->film->learnt_short = r->stopping;
+    r->film->learnt_short = r->stopping && !begun(r->film);
     return ok;
 }
 
@@ -230,7 +230,8 @@ bool render_scene(const struct scene *scene, const struct render_options *option
     memcpy(film->note, r.prepared.note, sizeof film->note);
     memcpy(film->number, r.prepared.number, sizeof film->number);
     bool ok = check_range(&r, err) && cut(&r, err);
-    if (ok && options->end > options->first)
+    bool in_haste = r.stopping && begun(film); /* samples by what was learnt so are none of the film's */
+    if (ok && options->end > options->first && !in_haste)
         run_all(&r);
     method_release(&r.prepared);
     return ok;

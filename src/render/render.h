@@ -32,7 +32,7 @@ struct render_options {
     /* Called after each tile pass with the share of the work done, in (0,1], one call at a time and while nothing else
      * touches the film. NULL: not called. Returns false to stop when the current block of iterations is complete.
      * While the method learns it is called, too, learning being a part of the work; then false ends that with what has
-     * been learnt, and one block is rendered by it. */
+     * been learnt, and one block is rendered by it, if the film is empty. */
     bool (*progress)(void *context, double done);
     void *progress_context;
 };
@@ -43,7 +43,7 @@ struct pixel_rect render_crop(const struct scene *scene);
 /* render_scene: render into a film.
  *   scene  prepared
  *   film   initialised by film_init for render_crop(scene), possibly holding earlier iterations already, and
- *          film->passes tile passes of the block that begins at options->first, and what was learnt before them
+ *          film->passes tile passes of the block that begins at options->first
  * Returns false with a message when a parameter is bad. */
 bool render_scene(const struct scene *scene, const struct render_options *options, struct film *film,
                   struct error *err);
@@ -65,9 +65,5 @@ bool render_trace(const struct scene *scene, const struct render_options *option
  * says, to be given to free(). Threads, names of files and what is written do not belong to it; what the scene's files
  * hold does. */
 char *identity_text(const struct scene *scene, const struct render_options *options);
-
-/* picture_number: a hash of these, but for the gate, which nothing that is learnt depends on, and of the film's size
- * and window. */
-uint64_t picture_number(const struct scene *scene, const struct render_options *options, struct pixel_rect window);
 
 #endif

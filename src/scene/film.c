@@ -176,7 +176,6 @@ void film_init(struct film *f, struct pixel_rect rect, int full_width, int full_
 void film_free(struct film *f)
 {
     free(f->sum);
-    free(f->learnt.data);
     if (f->errors != NULL) {
         free(f->errors->eye);
         free(f->errors->square);

@@ -157,8 +157,7 @@ struct film {
     struct film_number number[FILM_NUMBERS]; /* and for programs, ended by a NULL name */
     struct strategy_images *strategies; /* NULL unless asked for; owned */
     struct gate_images *gates;          /* likewise */
-    struct bytes learnt; /* what the method has learnt, to go on with (learning/learnt_file.h); n = 0: nothing; owned */
-    bool learnt_short;   /* its learning was ended early */
+    bool learnt_short;   /* its samples are by what was learnt in haste */
 };
 
 /* film_init: black, for the pixels of `rect` out of a frame of full_width x full_height. Release with film_free. */

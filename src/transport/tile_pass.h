@@ -27,10 +27,6 @@ struct render_job {
      * that. False: it is to come to an end, with what it has. NULL: nobody watches. */
     bool (*watch)(void *context, double traced);
     void *watch_context;
-    /* What the method had learnt for this picture, `of` naming it, as bytes; n = 0: it is to learn, and then leaves it
-     * here. NULL: nobody wants it. */
-    struct bytes *learnt;
-    uint64_t of;
     struct tape *tape; /* where the numbers of samples are recorded, or come from (sampler.h), by one thread; or NULL */
 };
 

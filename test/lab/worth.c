@@ -105,7 +105,7 @@ bool worth_values(const struct scene *scene, const struct render_options *option
     if (!render_prepare(scene, options, all, &v.job, &prepared, err))
         return false;
     v.counts = ((const struct frozen *)prepared.state)->counts;
-    v.learnt = prepared.method->learnt != NULL ? prepared.method->learnt(prepared.state) : NULL;
+    v.learnt = v.counts.model != NULL ? v.counts.model->learnt : NULL;
     v.work = workspaces_new(1, v.job.max_depth);
     bool ok = fill(&v, x, y, err);
     workspaces_free(v.work, 1);
