@@ -294,7 +294,7 @@ static void weigh(const struct extra *self, const struct pixel_sample *sample, c
 {
     if (s == 0)
         weigh_hit((const void *)self, sample, path, t, &c->weight);
-    else
+    else if (t == 1)
         weigh_lens((const void *)self, sample, path, s, c->end, &c->weight);
 }
 

@@ -89,23 +89,25 @@ static void contribute(struct pixel_sample *sample, const struct connection *c, 
         trace_connect(sample->trace, s, t, light, c, choice.pmf, choice.scale * sample->filter_weight, added);
 }
 
-static void sum_direct(struct pixel_sample *sample, const struct vertex *z, int t)
-{
-    int n = z->eye_end == FIRST_HIT && sample->lights > 0 ? sample->lights : 1;
-    const struct choice each = {1, 1.0 / n};
-    for (int i = 0; i < n; i++) {
-        struct connection c = connect_direct(sample->scene, sample->counts, z, &sample->sampler, i, n);
-        contribute(sample, &c, 1, t, NULL, each);
-    }
-}
-
-/* What s = 0 or t = 1 makes, if another strategy makes it, too. */
+/* What s <= 1 or t = 1 makes, if another strategy makes it, too. */
 static void weigh_again(const struct pixel_sample *sample, const struct vertex *path, int s, int t,
                         struct connection *c)
 {
     const struct extra *extra = sample->counts->extra;
     if (extra != NULL && extra->weigh != NULL && !rgb_is_black(c->value))
         extra->weigh(extra, sample, path, s, t, c);
+}
+
+static void sum_direct(struct pixel_sample *sample, const struct vertex *eye, int t)
+{
+    const struct vertex *z = &eye[t - 1];
+    int n = z->eye_end == FIRST_HIT && sample->lights > 0 ? sample->lights : 1;
+    const struct choice each = {1, 1.0 / n};
+    for (int i = 0; i < n; i++) {
+        struct connection c = connect_direct(sample->scene, sample->counts, z, &sample->sampler, i, n);
+        weigh_again(sample, eye, 1, t, &c);
+        contribute(sample, &c, 1, t, NULL, each);
+    }
 }
 
 static void sum_hit(struct pixel_sample *sample, const struct vertex *eye, int t)
@@ -134,7 +136,7 @@ void pixel_sum_eye(struct pixel_sample *sample, const struct vertex *eye, int n)
         if (z->kind != VERTEX_SURFACE || t > sample->max_depth + 1)
             continue;
         if (wanted)
-            sum_direct(sample, z, t);
+            sum_direct(sample, eye, t);
         if (sample->counts->extra != NULL)
             sum_extra(sample, eye, t);
     }

@@ -38,8 +38,8 @@ struct extra {
     /* What it makes of the eye sub-path's first t vertices; returns how many. */
     int (*connect)(const struct extra *self, struct pixel_sample *sample, const struct vertex *eye, int t,
                    struct connection out[EXTRA_MOST]);
-    /* c->weight of a path that it makes, too: by s = 0 of t eye vertices, or by t = 1 of s light vertices. NULL: it
-     * makes no such paths. */
+    /* c->weight of a path that it makes, too: by s <= 1 from t eye vertices, or by t = 1 from s light vertices. NULL:
+     * it makes no such paths. */
     void (*weigh)(const struct extra *self, const struct pixel_sample *sample, const struct vertex *path, int s, int t,
                   struct connection *c);
     void (*release)(struct extra *self); /* all of it */
