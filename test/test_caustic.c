@@ -225,6 +225,19 @@ static void test_cones(struct test *t)
     }
 }
 
+/* What nothing else makes is never left out, however dim. */
+static void test_dim(struct test *t)
+{
+    static const char DIM[] =
+        "Material \"mirror\" \"rgb Kr\" [.05 .05 .05]\n"
+        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-9 0 1  9 0 1  9 9 1  -9 9 1]\n";
+    struct film with = floor_under(t, DIM, "pt caustics=1", 2), without = floor_under(t, DIM, "pt", 2);
+    double ratio = mean_of(&with) / mean_of(&without);
+    CHECK(t, ratio > 1.02 && ratio < 1.05, "a dim mirror's light makes a picture %g times as bright", ratio);
+    film_free(&with);
+    film_free(&without);
+}
+
 /* Where area lights are, or light sub-paths make the path, no bit changes; nor where light sub-paths make what chains
  * would so well that chains do not pay; but for a small ball of glass they do. */
 static void test_no_rival(struct test *t)
@@ -277,6 +290,7 @@ void test_caustic(struct test *t)
 {
     test_refused(t);
     test_cones(t);
+    test_dim(t);
     test_no_rival(t);
     test_derivatives(t);
     test_closed_forms(t);
