@@ -1,7 +1,7 @@
 #!/bin/sh
 # portability.sh [NAME...]: the one-line builds of doc/portability.md, by whichever compilers are at hand, for whichever
 # machines these or emulators can run: all of them make the pictures of test/hashes.txt, byte for byte. Of every target
-# one line is said: the same bytes, skipped (and why), or FAIL. Where there is no fork the test suites that need none are
+# one line is said: the same bytes, skipped (and why), or FAIL. Where there is no fork the suites that need none are
 # run too. With NAMEs only those; -l lists them. Run from the top.
 #
 # Systems that no emulator here runs are compiled for alone, where a variable names the directories of their headers:
