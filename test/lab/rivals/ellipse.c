@@ -2,9 +2,10 @@
  * path is as long as the gate wants.                                                              [Pediredla 2019]
  *
  * z being an eye vertex, y a light point, tau uniform in what the gate leaves for both edges, x is drawn where the
- * ellipsoid |y - x| + |x - z| = tau cuts a triangle: that is chosen by area; where the ellipsoid is the unit sphere its
- * plane cuts a circle of which up to three arcs are inside; on them the angle phi is uniform. As dA = |dx/dphi| dphi dtau
- * / |g|, g being the part along the triangle of the gradient of the length, the density per area is
+ * ellipsoid |y - x| + |x - z| = tau cuts a triangle: that is chosen by area; squeezed, so that the ellipsoid is the unit
+ * sphere, its plane cuts a circle, of which up to three arcs are inside; on them the angle phi is uniform. As
+ * dA = |dx/dphi| dphi dtau / |g|, g being the part along the triangle of the gradient of the length, the density per
+ * area is
  *     p(x) = P(triangle) |g| / ((tau_1 - tau_0) Phi |dx/dphi|),   Phi: the angle of all arcs.
  *
  * Paths are divided: those whose last two vertices before a light's point x and z are joined by this are its own, and
@@ -118,8 +119,8 @@ static bool cut(const struct ellipsoid *e, const vec3 corner[3], double u, vec3 
 /* --- the strategy ------------------------------------------------------------------------------------- */
 
 /* The point x of a triangle as a vertex that comes after z with this density per area. */
-static bool arrive(const struct pixel_sample *sample, const struct vertex *z, int triangle, vec3 x, const vec3 corner[3],
-                   double pdf, struct vertex *out)
+static bool arrive(const struct pixel_sample *sample, const struct vertex *z, int triangle, vec3 x,
+                   const vec3 corner[3], double pdf, struct vertex *out)
 {
     const struct scene *scene = sample->scene;
     const struct geometry *geo = &scene->geo;
