@@ -2,7 +2,7 @@
  * path is as long as the gate wants.                                                              [Pediredla 2019]
  *
  * z being an eye vertex, y a light point, tau uniform in what the gate leaves for both edges, x is drawn where the
- * ellipsoid |y - x| + |x - z| = tau cuts a triangle: that is chosen by area; squeezed, so that the ellipsoid is the unit
+ * ellipsoid |y - x| + |x - z| = tau cuts a triangle, which is chosen by area; squeezed, so that the ellipsoid is a
  * sphere, its plane cuts a circle, of which up to three arcs are inside; on them the angle phi is uniform. As
  * dA = |dx/dphi| dphi dtau / |g|, g being the part along the triangle of the gradient of the length, the density per
  * area is
@@ -18,6 +18,7 @@
 #include <stdlib.h>
 
 #include "base/alias.h"
+#include "base/maths.h"
 #include "integrators/method.h"
 
 extern const struct method method_pt, method_ellipse;
@@ -63,8 +64,8 @@ static int arcs_inside(const struct circle *c, const vec3 p[3], double from[6], 
     for (int i = 0; i < 3; i++) { /* inside is |phi - lean| < half */
         vec3 in = normalize(cross(normal, sub(p[(i + 1) % 3], p[i])));
         double depth = dot(in, sub(c->middle, p[i])) / c->radius;
-        lean[i] = atan2(dot(in, c->t), dot(in, c->s));
-        half[i] = acos(clamp(-depth, -1, 1));
+        lean[i] = m_atan2(dot(in, c->t), dot(in, c->s));
+        half[i] = m_acos(clamp(-depth, -1, 1));
         for (int k = -1; k <= 1; k += 2)
             at[n++] = fmod(lean[i] + k * half[i] + 4 * PI, 2 * PI);
     }
@@ -108,7 +109,7 @@ static bool cut(const struct ellipsoid *e, const vec3 corner[3], double u, vec3 
     double left = u * Phi;
     for (; i < n_arcs - 1 && left >= to[i] - from[i]; i++)
         left -= to[i] - from[i];
-    double phi = from[i] + left, co = cos(phi), si = sin(phi);
+    double phi = from[i] + left, co = m_cos(phi), si = m_sin(phi);
     vec3 out = add(mul(c.s, c.radius * co), mul(c.t, c.radius * si));
     vec3 change = add(mul(c.s, -c.radius * si), mul(c.t, c.radius * co));
     *x = add(e->middle, scale(e, add(c.middle, out), e->longer, e->wider));
