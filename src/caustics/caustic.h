@@ -25,6 +25,11 @@
  * the probability of choosing the lobes; of t = 1 p_emit(w_y) |cos_z| / J times the same: J, but for indices of
  * refraction, is the same both ways. At a focus, where J is 0, t = 1 has all the weight.
  *
+ * Does it pay? A search costs tens of rays. The second moment of a sample would be larger by the sum of X^2 / (1 - w)
+ * over the chains of weight w that bring X, if they were not made; a few hundred samples before the render say how much
+ * that is, beside brightness. Where it is little, s = 0 and t = 1 are left to make those paths: those whose z the lens
+ * sees, those whose z it sees by delta lobes, or both; but none that they cannot make.
+ *
  * Tests: test_caustic.c.
  */
 #ifndef ASBDPT_CAUSTIC_H

@@ -31,7 +31,7 @@ static const struct method_parameter COMMON[] = {
     {"lightsamplestrategy", PARAMETER_WORD, AT(strategy), 0, 0, 0,
      "asbdpt: s = 1 picks lights by what is seen, or by power", STRATEGIES},
     {"caustics", PARAMETER_INTEGER, AT(caustics), 0, 0, CAUSTIC_LONGEST,
-     "most mirrors or glass surfaces between a first hit and a light that are joined; 0: none", NULL},
+     "most mirrors or glass surfaces between a first hit and a light that are joined, if it pays; 0: none", NULL},
     {"regularise", PARAMETER_NUMBER, AT(regularise), 0, 0, 1,
      "biased: angle by which mirrors and glass are blurred where nothing else finds a light; 0: none", NULL},
     {.name = NULL}};
