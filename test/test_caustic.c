@@ -6,7 +6,7 @@
 #include "base/exact_sum.h"
 #include "helpers.h"
 #include "tests.h"
-#include "transport/caustic.h"
+#include "caustics/specular.h"
 
 /* --- one chain --------------------------------------------------------------------------------------- */
 
@@ -56,7 +56,6 @@ static void test_derivatives(struct test *t)
         struct scene scene;
         struct arena arena = {NULL, NULL};
         struct rng r = rng_stream(test_seed(t), RNG_TEST, i, 0);
-        struct mis_counts counts = {.splat = 1};
         int found = 0;
         double worst = 0;
         snprintf(text, sizeof text, "WorldBegin LightSource \"point\" Rotate 20 1 1 0 %s WorldEnd", cases[i].thing);
@@ -67,7 +66,7 @@ static void test_derivatives(struct test *t)
             z.p.z *= cases[i].below;
             struct light_point y = {.p = vec(rng_uniform(&r) - .5, rng_uniform(&r) - .5, 1.5 + rng_uniform(&r))};
             y.w = normalize(y.p);
-            struct quest q = {&scene, &counts, &arena, &z, &y, n % 2 == 1, cases[i].group, 1, cases[i].k};
+            struct quest q = {&scene, &arena, &z, &y, n % 2 == 1, cases[i].group, 1, cases[i].k};
             vec3 middle = vec(0.1 * rng_uniform(&r), 0.1 * rng_uniform(&r), cases[i].below > 0 ? 0 : 0.3);
             struct chain c;
             if (!specular_search(&q, normalize(sub(middle, z.p)), &c))
@@ -182,7 +181,8 @@ static void agree(struct test *t, const char *path, const char *one, const char 
 static void test_partition(struct test *t)
 {
     agree(t, "scenes/test/caustic-ball.pbrt", "bdpt caustics=2", "lt", 160);
-    agree(t, "scenes/test/caustic-bulb.pbrt", "bdpt caustics=2", "bdpt", 64);
+    agree(t, "scenes/test/caustic-bulb.pbrt", "pt caustics=2", "bdpt", 96);
+    agree(t, "scenes/test/caustic-diver.pbrt", "asbdpt caustics=1", "lt", 64);
     agree(t, "scenes/test/mirror-glass.pbrt", "pt caustics=2", "bdpt", 48);
     agree(t, "scenes/test/mirror-glass.pbrt", "bdpt caustics=2 heuristic=power", "bdpt", 32);
 }
@@ -225,14 +225,32 @@ static void test_cones(struct test *t)
     }
 }
 
-/* Where area lights are, or light sub-paths make the path, no bit changes. */
+/* What nothing else makes is never left out, however dim. */
+static void test_dim(struct test *t)
+{
+    static const char DIM[] =
+        "Material \"mirror\" \"rgb Kr\" [.05 .05 .05]\n"
+        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-9 0 1  9 0 1  9 9 1  -9 9 1]\n";
+    struct film with = floor_under(t, DIM, "pt caustics=1", 2), without = floor_under(t, DIM, "pt", 2);
+    double ratio = mean_of(&with) / mean_of(&without);
+    CHECK(t, ratio > 1.02 && ratio < 1.05, "a dim mirror's light makes a picture %g times as bright", ratio);
+    film_free(&with);
+    film_free(&without);
+}
+
+/* Where area lights are, or light sub-paths make the path, no bit changes; nor where light sub-paths make what chains
+ * would so well that chains do not pay; but for a small ball of glass they do. */
 static void test_no_rival(struct test *t)
 {
     static const struct {
         const char *scene, *with, *without;
-    } cases[] = {{"scenes/test/caustic-ball.pbrt", "bdpt regularise=.1", "bdpt"},
-                 {"scenes/test/mirror-glass.pbrt", "pt regularise=.1", "pt"}};
-    for (int i = 0; i < 2; i++) {
+        bool same;
+    } cases[] = {{"scenes/test/caustic-ball.pbrt", "bdpt regularise=.1", "bdpt", true},
+                 {"scenes/test/mirror-glass.pbrt", "pt regularise=.1", "pt", true},
+                 {"scenes/test/caustic-lens.pbrt", "bdpt caustics=2", "bdpt", true},
+                 {"scenes/test/caustic-lens.pbrt", "pt caustics=2", "pt", false},
+                 {"scenes/test/caustic-ball.pbrt", "bdpt caustics=2", "bdpt", false}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct scene scene;
         struct film film[2];
         if (!scene_from_file(t, cases[i].scene, 16, 16, &scene))
@@ -242,16 +260,37 @@ static void test_no_rival(struct test *t)
                                        .end = 8, .max_depth = 4, .n_threads = 1};
             render_film(t, &scene, &o, &film[k]);
         }
-        CHECK(t, films_equal(&film[0], &film[1]), "%s: %s changes the picture", cases[i].scene, cases[i].with);
+        CHECK(t, films_equal(&film[0], &film[1]) == cases[i].same, "%s: %s %s the picture", cases[i].scene,
+              cases[i].with, cases[i].same ? "changes" : "does not change");
         film_free(&film[0]);
         film_free(&film[1]);
         scene_free(&scene);
     }
 }
 
+/* What would be of no use is refused. */
+static void test_refused(struct test *t)
+{
+    static const char *const ways[] = {"pt caustics=1 regularise=.1", "mlt caustics=1", "pssmlt regularise=.1"};
+    for (int i = 0; i < 3; i++) {
+        struct scene scene;
+        struct film film = {.sum = NULL};
+        struct error err;
+        if (!scene_from_file(t, "scenes/test/caustic-pane.pbrt", 4, 4, &scene))
+            return;
+        struct render_options o = {.integrator = set_method(&scene, ways[i]), .end = 1, .n_threads = 1};
+        film_init(&film, render_crop(&scene), scene.width, scene.height);
+        CHECK(t, !render_scene(&scene, &o, &film, &err), "%s is taken", ways[i]);
+        film_free(&film);
+        scene_free(&scene);
+    }
+}
+
 void test_caustic(struct test *t)
 {
+    test_refused(t);
     test_cones(t);
+    test_dim(t);
     test_no_rival(t);
     test_derivatives(t);
     test_closed_forms(t);

@@ -68,19 +68,29 @@ static void test_sum(struct test *t, const struct scene *scene, const struct ren
     film_free(&sum);
 }
 
-static void test_methods(struct test *t)
+static void test_method(struct test *t, const char *name)
 {
+    char way[64];
     struct scene scene;
+    struct render_options o = {.n_threads = os_cores(), .seed = test_seed(t), .end = 8, .max_depth = 4};
     if (!scene_from_text(t, MIXED, &scene))
         return;
-    for (const struct method *const *m = method_rows; *m != NULL; m++) {
-        struct render_options o = {.n_threads = os_cores(), .seed = test_seed(t), .end = 8, .max_depth = 4};
-        char what[64];
-        snprintf(what, sizeof what, "%s", method_name(*m));
-        o.integrator = set_method(&scene, what);
-        test_sum(t, &scene, &o, what);
-    }
+    snprintf(way, sizeof way, "%s", name);
+    o.integrator = set_method(&scene, way);
+    test_sum(t, &scene, &o, way);
     scene_free(&scene);
+}
+
+static void test_methods(struct test *t)
+{
+    for (const struct method *const *m = method_rows; *m != NULL; m++)
+        if (strcmp((*m)->name, "ellipse") != 0) /* which is another method without a gate */
+            test_method(t, method_name(*m));
+    test_method(t, "pt caustics=2");
+    test_method(t, "bdpt caustics=2");
+    test_method(t, "asbdpt caustics=2");
+    test_method(t, "pt regularise=.2");
+    test_method(t, "bdpt regularise=.2");
 }
 
 /* What no float holds is left out of every film alike, so that the rest still adds up. */
@@ -221,6 +231,85 @@ static void test_outside(struct test *t)
     scene_free(&scene);
 }
 
+/* --- chains and cones --------------------------------------------------------------------------------- */
+
+/* The share of a method's light that is shorter than `end`. */
+static double share(struct test *t, const char *text, const char *way, long spp, double end)
+{
+    struct scene scene;
+    struct film whole, gate;
+    struct render_options o = {.n_threads = os_cores(), .end = spp, .max_depth = 3};
+    if (!scene_from_text(t, text, &scene))
+        return NAN;
+    o.integrator = set_method(&scene, way);
+    render_film(t, &scene, &o, &whole);
+    render_gate(t, &scene, o, 0, end, &gate);
+    double out = total(&gate) / total(&whole);
+    film_free(&whole);
+    film_free(&gate);
+    scene_free(&scene);
+    return out;
+}
+
+/* A point light 3 above the middle of a floor, which the lens sees from 2 above, and its image in a mirror, sqrt(13)
+ * away, which chains and cones make. */
+static void test_mirror(struct test *t)
+{
+    static const char MIRROR[] =
+        "LookAt 0 2 0  0 0 0  0 0 1 Camera \"perspective\" \"float fov\" 2\n"
+        "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 PixelFilter \"box\" WorldBegin\n"
+        "LightSource \"point\" \"point from\" [0 3 0] Material \"matte\"\n"
+        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  2 0 -2  2 0 1  -2 0 1]\n"
+        "Material \"mirror\" \"rgb Kr\" [1 1 1] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
+        "  \"point P\" [-9 0 1  9 0 1  9 9 1  -9 9 1] WorldEnd\n";
+    static const double END[] = {4.9, 5.1, 5.5, 5.9};
+    const double direct = 1.0 / 9, image = 3 / sqrt(13) / 13; /* cosine over distance^2 */
+    for (int i = 0; i < 4; i++) {
+        double wanted = i == 0 ? 0 : i == 3 ? 1 : direct / (direct + image);
+        double chains = share(t, MIRROR, "pt caustics=1", 4, END[i]);
+        double cones = share(t, MIRROR, "pt regularise=.2", 2048, END[i]);
+        CHECK(t, fabs(chains - wanted) < 1e-3 && fabs(cones - wanted) < 0.06,
+              "shorter than %g: %g by chains, %g by cones, not %g", END[i], chains, cones, wanted);
+    }
+}
+
+/* --- ellipsoidal connections -------------------------------------------------------------------------- */
+
+static struct batches gated_batches(struct test *t, const struct scene *scene, const char *way, long spp, uint64_t seed)
+{
+    enum { BATCHES = 12, TILE = 4 };
+    struct batches pixels = batches_new(BATCHES, 3L * scene->width * scene->height, false);
+    for (int k = 0; k < BATCHES; k++) {
+        struct film film;
+        struct render_options o = {.integrator = set_method((struct scene *)scene, way), .n_threads = os_cores(),
+                                   .end = spp, .max_depth = 4, .seed = seed + (uint64_t)k};
+        render_gate(t, scene, o, 9, 9.3, &film);
+        for (long i = 0; i < pixels.n; i++)
+            pixels.value[pixels.n * k + i] = film_value(&film, (size_t)i) / (double)spp;
+        film_free(&film);
+    }
+    struct batches tiles = batches_tiles(&pixels, scene->width, scene->height, TILE);
+    batches_free(&pixels);
+    return tiles;
+}
+
+static void test_ellipse(struct test *t)
+{
+    struct scene scene;
+    if (!scene_from_text(t, MIXED, &scene))
+        return;
+    struct batches a = gated_batches(t, &scene, "ellipse", 128, 100 * test_seed(t)), b =
+                       gated_batches(t, &scene, "pt", 256, 100 * test_seed(t) + 50);
+    double ratio, p = batches_p(&a, &b, &ratio);
+    TEST_ACCEPT(t, p, "ellipse against pt: ratio %.4f", ratio);
+    batches_scale(&a, 1.25);
+    p = batches_p(&a, &b, &ratio);
+    TEST_REJECT(t, p, "ellipse made 25 %% brighter: ratio %.4f", ratio);
+    batches_free(&a);
+    batches_free(&b);
+    scene_free(&scene);
+}
+
 /* --- names -------------------------------------------------------------------------------------------- */
 
 /* Films of different gates are not to be added up as if they were samples. */
@@ -247,6 +336,8 @@ static void test_identity(struct test *t)
 void test_gates(struct test *t)
 {
     test_methods(t);
+    test_mirror(t);
+    test_ellipse(t);
     test_left_out(t);
     test_many(t);
     test_ring(t, "point light",

@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "transport/caustic.h"
+#include "caustics/caustic.h"
+#include "caustics/regularise.h"
 
 const struct method_parameter *method_has(const struct method *m, const char *name)
 {
@@ -50,9 +51,14 @@ bool method_prepare(const struct method *m, const struct render_job *job, struct
         return false;
     }
     if (job->caustics > 0)
-        f->counts.caustics = out->caustics = caustics_new(job->scene, job->caustics);
+        out->extra = caustics_new(job->scene, job->caustics);
+    else if (job->regularise > 0)
+        out->extra = regularise_new(job->regularise);
+    f->counts.extra = out->extra;
     if (m->prepare != NULL)
         m->prepare(job, out);
+    if (job->caustics > 0 && out->extra != NULL)
+        f->counts.extra = out->extra = caustics_settle(out->extra, job, &f->counts);
     if (job->regularise > 0)
         add_note(out->note, "biased: mirrors and glass are blurred where nothing else finds a light");
     return true;
@@ -63,7 +69,8 @@ void method_release(struct preparation *p)
     if (p->method->release != NULL)
         p->method->release(p->state);
     free(p->state);
-    caustics_free(p->caustics);
+    if (p->extra != NULL)
+        p->extra->release(p->extra);
 }
 
 void *method_scratch(const struct preparation *p)

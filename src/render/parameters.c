@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "caustics/caustic.h"
 #include "parser/symbols.h"
-#include "transport/caustic.h"
 
 static bool is_of_file(const struct setting *item) { return strcmp(item->origin, "-P") != 0; }
 
@@ -31,7 +31,7 @@ static const struct method_parameter COMMON[] = {
     {"lightsamplestrategy", PARAMETER_WORD, AT(strategy), 0, 0, 0,
      "asbdpt: s = 1 picks lights by what is seen, or by power", STRATEGIES},
     {"caustics", PARAMETER_INTEGER, AT(caustics), 0, 0, CAUSTIC_LONGEST,
-     "most mirrors or glass surfaces between a first hit and a light that are joined; 0: none", NULL},
+     "most mirrors or glass surfaces between a first hit and a light that are joined, if it pays; 0: none", NULL},
     {"regularise", PARAMETER_NUMBER, AT(regularise), 0, 0, 1,
      "biased: angle by which mirrors and glass are blurred where nothing else finds a light; 0: none", NULL},
     {.name = NULL}};
@@ -224,6 +224,8 @@ bool parameters_read(const struct scene *scene, const struct method *m, int max_
     job->regularise = c.regularise;
     if (c.caustics > 0 && c.regularise > 0)
         return error_set(err, "\"caustics\" and \"regularise\" make the same paths; choose one");
+    if (m->chain && (c.caustics > 0 || c.regularise > 0))
+        return error_set(err, "%s is a Markov chain, which has no \"caustics\" and no \"regularise\"", m->name);
     job->power_heuristic = c.heuristic == 1;
     job->spatial_lights = c.strategy == 0;
     return true;

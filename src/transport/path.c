@@ -241,7 +241,6 @@ int path_light_follow(const struct walk *w, const struct path_stop *stop, int n,
 {
     struct departure from;
     path[0] = stop[0].v;
-    path[0].length = 0;
     for (int i = 1; i < n; i++) {
         struct vertex *prev = &path[i - 1], *v = &path[i];
         bool parallel = vertex_at_infinity(w->scene, prev);

@@ -1,9 +1,6 @@
 /* pixel_sample.c: see pixel_sample.h. */
 #include "transport/pixel_sample.h"
 
-#include "transport/caustic.h"
-#include "transport/regularise.h"
-
 /* --- sub-paths --------------------------------------------------------------------------------------- */
 
 static uint64_t pixel_number(const struct scene *scene, int x, int y)
@@ -27,9 +24,7 @@ struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struc
     struct sampler points = stream(job, job->seed, RNG_CONNECT, x, y, (uint64_t)iteration);
     struct pixel_sample sample = {job->scene, counts, pass->tile, job->max_depth, x, y, 1, 0, 1, points, rgb_black(),
                                   rgb_black(), rgb_black(), iteration, trace_watches(pass->trace, x, y, iteration),
-                                  pass->worst, &pass->work->arena, 0};
-    if (job->regularise > 0)
-        sample.eps = regularise_eps(job->regularise, iteration);
+                                  pass->worst, &pass->work->arena};
     return sample;
 }
 
@@ -114,12 +109,23 @@ static void contribute(struct pixel_sample *sample, const struct connection *c, 
         trace_connect(sample->trace, s, t, light, c, choice.pmf, choice.scale * sample->filter_weight, added);
 }
 
-static void sum_direct(struct pixel_sample *sample, const struct vertex *z, int t)
+/* What s <= 1 or t = 1 makes, if another strategy makes it, too. */
+static void weigh_again(const struct pixel_sample *sample, const struct vertex *path, int s, int t,
+                        struct connection *c)
 {
+    const struct extra *extra = sample->counts->extra;
+    if (extra != NULL && extra->weigh != NULL && !rgb_is_black(c->value))
+        extra->weigh(extra, sample, path, s, t, c);
+}
+
+static void sum_direct(struct pixel_sample *sample, const struct vertex *eye, int t)
+{
+    const struct vertex *z = &eye[t - 1];
     int n = z->eye_end == FIRST_HIT && sample->lights > 0 ? sample->lights : 1;
     const struct choice each = {1, 1.0 / n};
     for (int i = 0; i < n; i++) {
         struct connection c = connect_direct(sample->scene, sample->counts, z, &sample->sampler, i, n);
+        weigh_again(sample, eye, 1, t, &c);
         contribute(sample, &c, 1, t, NULL, each);
     }
 }
@@ -127,28 +133,17 @@ static void sum_direct(struct pixel_sample *sample, const struct vertex *z, int 
 static void sum_hit(struct pixel_sample *sample, const struct vertex *eye, int t)
 {
     struct connection c = connect_hit(sample->scene, sample->counts, &eye[t - 2], &eye[t - 1], t);
-    if (sample->counts->caustics != NULL && !rgb_is_black(c.value))
-        caustic_weigh_hit(sample->scene, sample->counts, sample->arena, eye, t, &c.weight);
+    weigh_again(sample, eye, 0, t, &c);
     contribute(sample, &c, 0, t, NULL, NO_CHOICE);
 }
 
-static void sum_caustics(struct pixel_sample *sample, const struct vertex *z, int t)
+static void sum_extra(struct pixel_sample *sample, const struct vertex *eye, int t)
 {
-    struct connection made[CAUSTIC_MOST];
-    if (z->eye_end != FIRST_HIT || !vertex_connectible(z))
-        return;
-    int n = caustic_connect(sample->scene, sample->counts, sample->arena, z, t, &sample->sampler,
-                            sample->max_depth + 1 - t, made);
+    const struct extra *extra = sample->counts->extra;
+    struct connection made[EXTRA_MOST];
+    int n = extra->connect(extra, sample, eye, t, made);
     for (int i = 0; i < n; i++)
         contribute(sample, &made[i], 1, t, NULL, NO_CHOICE);
-}
-
-/* By a copy of the sampler: what other strategies draw is the same as without. */
-static void sum_regularised(struct pixel_sample *sample, const struct vertex *eye, int t)
-{
-    struct sampler draws = sample->sampler;
-    struct connection c = regularise_connect(sample->scene, sample->counts, eye, t, sample->eps, &draws);
-    contribute(sample, &c, 1, t, NULL, NO_CHOICE);
 }
 
 void pixel_sum_eye(struct pixel_sample *sample, const struct vertex *eye, int n)
@@ -158,13 +153,12 @@ void pixel_sum_eye(struct pixel_sample *sample, const struct vertex *eye, int n)
         if (t == 2 || sample->counts->hit[LATER_HIT] > 0)
             sum_hit(sample, eye, t);
         bool wanted = sample->counts->direct[FIRST_HIT] > 0 && (t > 2 || sample->lights > 0);
-        if (wanted && t <= sample->max_depth + 1 && z->kind == VERTEX_SURFACE) {
-            sum_direct(sample, z, t);
-            if (sample->eps > 0)
-                sum_regularised(sample, eye, t);
-        }
-        if (sample->counts->caustics != NULL && z->kind == VERTEX_SURFACE)
-            sum_caustics(sample, z, t);
+        if (z->kind != VERTEX_SURFACE || t > sample->max_depth + 1)
+            continue;
+        if (wanted)
+            sum_direct(sample, eye, t);
+        if (sample->counts->extra != NULL)
+            sum_extra(sample, eye, t);
     }
 }
 
@@ -241,8 +235,7 @@ void pixel_splat_path(struct pixel_sample *sample, const struct vertex *light, i
         trace_light_path(sample->trace, light, n_light);
     for (int s = 2; s <= n_light && s <= sample->max_depth + 1; s++) {
         struct connection c = connect_lens(sample->scene, sample->counts, light, s, &sample->sampler);
-        if (sample->counts->caustics != NULL && !rgb_is_black(c.value))
-            caustic_weigh_lens(sample->scene, sample->counts, sample->arena, light, s, c.end, &c.weight);
+        weigh_again(sample, light, s, 1, &c);
         if (!rgb_is_black(c.value) && gate_holds(sample->tile->gate, c.length))
             splat(sample, &c, s, light, each);
         else if (sample->trace != NULL)

@@ -25,49 +25,26 @@
  * the probability of choosing the lobes; of t = 1 p_emit(w_y) |cos_z| / J times the same: J, but for indices of
  * refraction, is the same both ways. At a focus, where J is 0, t = 1 has all the weight.
  *
+ * Does it pay? A search costs tens of rays. The second moment of a sample would be larger by the sum of X^2 / (1 - w)
+ * over the chains of weight w that bring X, if they were not made; a few hundred samples before the render say how much
+ * that is, beside brightness. Where it is little, s = 0 and t = 1 are left to make those paths: those whose z the lens
+ * sees, those whose z it sees by delta lobes, or both; but none that they cannot make.
+ *
  * Tests: test_caustic.c.
  */
 #ifndef ASBDPT_CAUSTIC_H
 #define ASBDPT_CAUSTIC_H
 
-#include "transport/connect.h"
-#include "transport/specular.h"
+#include "caustics/specular.h"
+#include "transport/pixel_sample.h"
 
-enum { CAUSTIC_LONGEST = SPECULAR_LONGEST, CAUSTIC_STARTS = 3, CAUSTIC_MOST = CAUSTIC_STARTS + 1 };
+enum { CAUSTIC_LONGEST = SPECULAR_LONGEST };
 
-/* What of a scene such chains may go through, found once. */
-struct caustics {
-    int longest;        /* K, 1 <= K <= CAUSTIC_LONGEST */
-    vec3 *middle;       /* [groups of the geometry] of their bounds; owned */
-    bool *curved;       /* [groups] normals change along it; owned */
-    bool *lets_through; /* [groups] it has a refracting lobe; owned */
-    bool any_through;
-    struct mirror {
-        int group;
-        double pmf; /* with which its chain is looked for; their sum may be less than 1 */
-    } *mirror; /* [n_mirrors], owned */
-    int n_mirrors;
-};
+/* caustics_new: chains of at most `longest` vertices; NULL if nothing in the scene is specular. */
+struct extra *caustics_new(const struct scene *scene, int longest);
 
-/* caustics_new: NULL if nothing in the scene is specular. caustics_free may be given NULL. */
-struct caustics *caustics_new(const struct scene *scene, int longest);
-void caustics_free(struct caustics *c);
-
-/* caustic_connect: z is eye vertex t, a first hit that can be connected to; the light point is drawn from `sampler`.
- *   room   the longest chain the path has room for
- *   arena  for what is met on the way
- * Returns how many there are in `out`. */
-int caustic_connect(const struct scene *scene, const struct mis_counts *counts, struct arena *arena,
-                    const struct vertex *z, int t, struct sampler *sampler, int room,
-                    struct connection out[CAUSTIC_MOST]);
-
-/* caustic_weigh_hit: the weight of s = 0 for a path of t eye vertices, or its last one's lamp, if a caustic connection
- * makes it, too; else false. */
-bool caustic_weigh_hit(const struct scene *scene, const struct mis_counts *counts, struct arena *arena,
-                       const struct vertex *eye, int t, double *weight);
-
-/* caustic_weigh_lens: that of t = 1 for a path of s light vertices joined to a point of the lens. */
-bool caustic_weigh_lens(const struct scene *scene, const struct mis_counts *counts, struct arena *arena,
-                        const struct vertex *light, int s, vec3 lens, double *weight);
+/* caustics_settle: leave to s = 0 and t = 1 what they make well enough by the counts that the method has settled;
+ * nothing that they cannot make. Returns `self`, or, where that leaves nothing, NULL: it is released. */
+struct extra *caustics_settle(struct extra *self, const struct render_job *job, const struct mis_counts *counts);
 
 #endif

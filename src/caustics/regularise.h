@@ -15,13 +15,9 @@
 #ifndef ASBDPT_REGULARISE_H
 #define ASBDPT_REGULARISE_H
 
-#include "transport/connect.h"
+#include "transport/pixel_sample.h"
 
-/* regularise_eps: the cone's angle in an iteration, from 0 on. */
-double regularise_eps(double eps_1, long iteration);
-
-/* regularise_connect: the eye sub-path's last of t vertices joined to a light point drawn from `sampler`. */
-struct connection regularise_connect(const struct scene *scene, const struct mis_counts *counts,
-                                     const struct vertex *eye, int t, double eps, struct sampler *sampler);
+/* regularise_new: cones that begin with the angle eps_1. */
+struct extra *regularise_new(double eps_1);
 
 #endif

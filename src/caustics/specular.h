@@ -18,7 +18,6 @@ enum { SPECULAR_LONGEST = 2 };
 /* What a chain is looked for in, and between what. */
 struct quest {
     const struct scene *scene;
-    const struct mis_counts *counts; /* of those who ask */
     struct arena *arena;
     const struct vertex *z;
     const struct light_point *y;

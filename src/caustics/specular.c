@@ -1,5 +1,5 @@
 /* specular.c: see specular.h. */
-#include "transport/specular.h"
+#include "caustics/specular.h"
 
 /* --- a ray and its derivatives ------------------------------------------------------------------------- */
 

@@ -1,0 +1,409 @@
+/* caustic.c: see caustic.h. */
+#include "caustics/caustic.h"
+
+#include <stdlib.h>
+
+#include "base/cumulative.h"
+#include "base/number.h"
+#include "caustics/specular.h"
+#include "transport/emit.h"
+
+/* What of a shape group chains may go by. */
+struct caster {
+    vec3 middle;       /* mean of its primitives' */
+    int n;             /* of them */
+    bool curved;       /* its normals change along it */
+    bool lets_through; /* it has a refracting lobe */
+};
+
+enum { STARTS = EXTRA_MOST - 1 };
+
+struct caustics {
+    struct extra extra;
+    int longest;           /* K */
+    struct caster *caster; /* [groups of the geometry], owned */
+    double *mirror; /* [groups + 1], owned: sums of the probabilities with which those before are looked at; the last
+                     * may be less than 1 */
+    bool any_through;
+    bool left[2]; /* to s = 0 and t = 1: the paths whose z the lens sees, [0], or is led to by delta lobes, [1] */
+};
+
+/* --- what is specular -------------------------------------------------------------------------------- */
+
+static void find_middles(const struct geometry *geo, struct caster *caster)
+{
+    for (int i = 0; i < geometry_primitives(geo); i++) {
+        int prim = i < geo->n_triangles ? i : FIRST_QUADRIC + (i - geo->n_triangles);
+        struct caster *c = &caster[shape_group_of(geo, prim) - geo->group];
+        float lo[3], hi[3];
+        shape_bounds(geo, prim, lo, hi);
+        vec3 here = lerp3(0.5, vec((double)lo[0], (double)lo[1], (double)lo[2]),
+                          vec((double)hi[0], (double)hi[1], (double)hi[2]));
+        c->middle = lerp3(1.0 / ++c->n, c->middle, here);
+    }
+}
+
+/* A group counts as what its first primitive is at one point; where it is not, no chain is found. Returns roughly how
+ * much it reflects, so that no time goes into what glass reflects. */
+static double classify(const struct scene *scene, struct arena *arena, const struct shape_group *group,
+                       struct caster *c)
+{
+    const struct hit hit = {0, 1.0 / 3, 1.0 / 3, group->first_prim};
+    const struct ray ray = {c->middle, vec(0, 0, 1), 0, INFINITY, 0, 0};
+    struct surface at;
+    struct bsdf bsdf;
+    double reflects = 0;
+    if (group->material < 0)
+        return 0;
+    shape_surface(&scene->geo, &hit, &ray, &at);
+    c->curved = length2(shape_normal_change(&scene->geo, &at, frame_from_normal(at.ng).s)) > 0;
+    material_bsdf(scene->material, group->material, &scene->textures, &at, arena, &bsdf);
+    for (int i = 0; i < bsdf.n_lobes; i++) {
+        enum lobe_kind kind = bsdf.lobe[i].kind;
+        bool dielectric = bsdf.lobe[i].fresnel == FRESNEL_DIELECTRIC || kind == LOBE_FRESNEL_SPECULAR;
+        if (lobe_is_delta(kind) && kind != LOBE_SPECULAR_TRANSMISSION)
+            reflects = fmax(reflects, dielectric ? 0.1 : 1);
+        c->lets_through |= lobe_is_delta(kind) && kind != LOBE_SPECULAR_REFLECTION;
+    }
+    return reflects;
+}
+
+/* --- Psi --------------------------------------------------------------------------------------------- */
+
+/* How many surfaces that let light through lie between z and y; 0 if there are none, too many, or others. The first is
+ * of the group, and *p on it. */
+static int pierced(const struct caustics *all, const struct quest *q, int *group, vec3 *p)
+{
+    const struct vertex *z = q->z;
+    vec3 to = q->parallel ? q->y->w : sub(q->y->p, z->p);
+    double left = length(to);
+    struct ray ray = {z->p, mul(to, 1 / left), ray_margin(z->p), INFINITY, z->prim_id, q->y->prim_id};
+    for (int k = 0;; k++) {
+        struct surface at;
+        ray.tmax = q->parallel ? INFINITY : left - ray_margin(q->y->p);
+        if (!(ray.tmin < ray.tmax) || !scene_intersect(q->scene, &ray, &at))
+            return k;
+        if (k == all->longest || !all->caster[specular_group(q->scene, &at)].lets_through)
+            return 0;
+        if (k == 0) {
+            *group = specular_group(q->scene, &at);
+            *p = at.p;
+        }
+        left -= length(sub(at.p, ray.o));
+        ray.o = at.p;
+        ray.tmin = ray_margin(at.p);
+        ray.from = at.prim_id;
+    }
+}
+
+static struct quest quest_for(const struct pixel_sample *sample, const struct vertex *z, const struct light_point *y)
+{
+    bool parallel = y->light < 0 || light_at_infinity(&sample->scene->lights.light[y->light]);
+    struct quest q = {sample->scene, sample->arena, z, y, parallel, -1, 1, 0};
+    return q;
+}
+
+static bool same_chain(vec3 from, const vec3 *x, int k, const struct chain *c)
+{
+    for (int i = 0; i < k; i++) {
+        vec3 p = x[i];
+        if (!(length(sub(p, c->at[i])) < 1e-4 * length(sub(p, from))))
+            return false;
+        from = p;
+    }
+    return true;
+}
+
+/* Psi: the chains through, at most STARTS of them; or that by way of a group. */
+static int psi_through(const struct caustics *all, struct quest *q, struct chain found[STARTS])
+{
+    int group, n = 0;
+    vec3 p;
+    q->group = -1;
+    q->chosen = 1;
+    q->k = all->any_through ? pierced(all, q, &group, &p) : 0;
+    if (q->k == 0)
+        return 0;
+    vec3 middle = all->caster[group].middle, axis = normalize(sub(middle, q->z->p)), out = sub(p, middle);
+    vec3 side = mul(normalize(sub(out, mul(axis, dot(out, axis)))), length(out) / 2);
+    const vec3 start[STARTS] = {p, add(middle, side), sub(middle, side)};
+    for (int i = 0; i < (all->caster[group].curved ? STARTS : 1); i++) {
+        bool known = !specular_search(q, normalize(sub(start[i], q->z->p)), &found[n]);
+        for (int j = 0; j < n && !known; j++)
+            known = same_chain(q->z->p, found[n].at, q->k, &found[j]);
+        n += !known;
+    }
+    return n;
+}
+
+static int psi_mirror(const struct caustics *all, struct quest *q, int group, struct chain *found)
+{
+    q->group = group;
+    q->chosen = all->mirror[group + 1] - all->mirror[group];
+    q->k = 1;
+    return q->chosen > 0 && specular_search(q, normalize(sub(all->caster[group].middle, q->z->p)), found);
+}
+
+/* --- the strategy, and the others that make its paths -------------------------------------------------- */
+
+/* Densities of a path of Psi, each times the number of samples: by caustic connection, by s = 0 and by t = 1, all as if
+ * y and, for the last, z were drawn and the rest followed. */
+struct makers {
+    double connect, hit, splat;
+};
+
+/*   lens  density of z per area by the walk from the lens, where t = 1 can make the path; else 0
+ * J is the same both ways but for the squared ratio of the refractive indices at the ends. */
+static struct makers makers_of(const struct mis_counts *n, const struct quest *q, const struct chain *c, double lens)
+{
+    const struct light_set *lights = &q->scene->lights;
+    const struct light_point *y = q->y;
+    const struct light *light = y->light >= 0 ? &lights->light[y->light] : NULL; /* NULL: infinite, as yet unknown */
+    double J = specular_area(q, c), cos_y = light != NULL && light->kind == LIGHT_AREA ? abs_dot(y->n, c->d) : 1;
+    bool sky = light == NULL || light->kind == LIGHT_INFINITE;
+    double pdf_y = sky ? light_pdf_environment(lights, y->w) : y->pdf; /* as an escaping ray sees it */
+    double walked = lens > 0 ? lens : 1;
+    struct makers m = {walked * pdf_y * q->chosen, 0, 0};
+    if (light == NULL || !light_is_delta(light))
+        m.hit = n->hit[LATER_HIT] * walked * c->choice * cos_y / J *
+                bsdf_eval(&q->z->bsdf, q->z->wo, c->w, RADIANCE).pdf;
+    if (lens > 0)
+        m.splat = n->splat * pdf_y * c->choice * abs_dot(q->z->ng, c->w) / (J * sqr(c->eta)) *
+                  emit_pdf(n, lights, y, c->p, neg(c->d));
+    return m;
+}
+
+static double share(const struct mis_counts *n, double own, struct makers m)
+{
+    return mis_raise(n, own) / (mis_raise(n, m.connect) + mis_raise(n, m.hit) + mis_raise(n, m.splat));
+}
+
+static struct connection contribution(const struct mis_counts *counts, const struct quest *q, const struct chain *c,
+                                      double lens)
+{
+    const struct scene *scene = q->scene;
+    const struct light_point *y = q->y;
+    const struct vertex *z = q->z;
+    struct connection out = {.light = y->light, .cell = y->cell, .end = q->parallel ? y->w : y->p, .pdf = y->pdf,
+                             .passed = q->k};
+    bool area = scene->lights.light[y->light].kind == LIGHT_AREA;
+    double cosines = scatter_cosine(z, c->w, RADIANCE) * (area ? abs_dot(y->n, c->d) : 1);
+    rgb Le = light_Le(&scene->lights, y, neg(c->d)), f = bsdf_eval(&z->bsdf, z->wo, c->w, RADIANCE).f;
+    rgb value = rgb_scale(rgb_mul(rgb_mul(z->beta, f), rgb_mul(c->kappa, Le)),
+                          cosines / (specular_area(q, c) * y->pdf * q->chosen));
+    if (rgb_is_black(value) || !rgb_is_finite(value))
+        return out;
+    if (q->parallel ? scene_lit_from(scene, c->p, c->prim_id, c->d)
+                    : scene_lit(scene, c->p, c->prim_id, y->p, y->prim_id))
+        out.value = value;
+    out.length = z->length + c->length +
+                 (q->parallel ? light_distance(&scene->lights, c->p, c->d) : length(sub(y->p, c->p)));
+    struct makers m = makers_of(counts, q, c, lens);
+    out.weight = share(counts, m.connect, m);
+    return out;
+}
+
+static int connect(const struct extra *self, struct pixel_sample *sample, const struct vertex *eye, int t,
+                   struct connection out[EXTRA_MOST])
+{
+    const struct caustics *all = (const void *)self;
+    const struct scene *scene = sample->scene;
+    const struct vertex *z = &eye[t - 1];
+    double u[3], lens = t == 2 ? z->pdf_fwd : 0;
+    struct light_point y;
+    struct chain c[EXTRA_MOST];
+    if (z->eye_end != FIRST_HIT || !vertex_connectible(z) || all->left[t > 2])
+        return 0;
+    u[0] = sampler_number(&sample->sampler, DRAW_LIGHT);
+    sampler_pair(&sample->sampler, DRAW_LIGHT_POINT, &u[1]);
+    if (!light_sample_point(&scene->lights, &scene->geo, u, &y) || !(y.pdf > 0))
+        return 0;
+    struct quest q = quest_for(sample, z, &y);
+    int n = 0, room = sample->max_depth + 1 - t, through = psi_through(all, &q, c);
+    for (int i = 0; i < through && q.k <= room; i++)
+        out[n++] = contribution(sample->counts, &q, &c[i], lens);
+    double which = sampler_number(&sample->sampler, DRAW_LIGHT_END);
+    int groups = scene->geo.n_groups;
+    if (room >= 1 && which < all->mirror[groups] &&
+        psi_mirror(all, &q, cumulative_find(all->mirror, groups, which), c) > 0)
+        out[n++] = contribution(sample->counts, &q, c, lens);
+    return n;
+}
+
+/* A path that others have made: its k vertices from z on are x, x[step] ..., then y. False if Psi has no such chain. */
+static bool in_psi(const struct caustics *all, const struct pixel_sample *sample, const struct vertex *z, int step,
+                   int k, const struct light_point *y, double lens, struct makers *out)
+{
+    struct quest q = quest_for(sample, z, y);
+    struct chain found[STARTS];
+    vec3 p[SPECULAR_LONGEST];
+    if (k < 1 || k > all->longest || all->left[!(lens > 0)])
+        return false;
+    for (int i = 0; i < k; i++)
+        p[i] = z[(i + 1) * step].p;
+    const struct vertex *x = &z[step];
+    vec3 next = k > 1 ? sub(p[1], p[0]) : q.parallel ? y->w : sub(y->p, p[0]);
+    int group = (int)(shape_group_of(&q.scene->geo, (int)(x->prim_id - 1)) - q.scene->geo.group);
+    bool through = dot(x->ng, next) * dot(x->ng, sub(z->p, p[0])) < 0;
+    int n = through ? psi_through(all, &q, found) : psi_mirror(all, &q, group, found);
+    for (int i = 0; i < n && q.k == k; i++)
+        if (same_chain(z->p, p, k, &found[i])) {
+            *out = makers_of(sample->counts, &q, &found[i], lens);
+            return true;
+        }
+    return false;
+}
+
+static void weigh_hit(const struct caustics *all, const struct pixel_sample *sample, const struct vertex *eye, int t,
+                      double *weight)
+{
+    const struct vertex *end = &eye[t - 1], *z = end - 1;
+    struct makers m;
+    while (z[1].prev_delta)
+        z--;
+    int k = (int)(end - z) - 1;
+    end = end->lamp != NULL ? end->lamp : end;
+    struct light_point y = vertex_light_point(end);
+    y.w = neg(end->wo);
+    y.pdf = end->pdf_origin;
+    if (z->kind == VERTEX_SURFACE && z->eye_end == FIRST_HIT &&
+        in_psi(all, sample, z, 1, k, &y, z == &eye[1] ? z->pdf_fwd : 0, &m))
+        *weight = share(sample->counts, m.hit, m);
+}
+
+static void weigh_lens(const struct caustics *all, const struct pixel_sample *sample, const struct vertex *light,
+                       int s, vec3 lens, double *weight)
+{
+    const struct camera *camera = &sample->scene->camera;
+    const struct vertex *z = &light[s - 1];
+    struct light_point y = vertex_light_point(&light[0]);
+    struct makers m;
+    double px, py;
+    vec3 d = sub(z->p, lens), w = normalize(d);
+    double pdf = camera_project(camera, lens, w, &px, &py) * camera_spread(camera, length2(d));
+    y.pdf = light[0].pdf_fwd;
+    for (int i = 2; i < s; i++)
+        if (!light[i].prev_delta)
+            return;
+    if (in_psi(all, sample, z, -1, s - 2, &y, pdf * abs_dot(z->ng, w), &m))
+        *weight = share(sample->counts, m.splat, m);
+}
+
+static void weigh(const struct extra *self, const struct pixel_sample *sample, const struct vertex *path, int s, int t,
+                  struct connection *c)
+{
+    if (s == 0)
+        weigh_hit((const void *)self, sample, path, t, &c->weight);
+    else if (t == 1)
+        weigh_lens((const void *)self, sample, path, s, c->end, &c->weight);
+}
+
+/* --- the row ----------------------------------------------------------------------------------------- */
+
+static void release(struct extra *self)
+{
+    struct caustics *all = (void *)self;
+    free(all->caster);
+    free(all->mirror);
+    free(all);
+}
+
+struct extra *caustics_new(const struct scene *scene, int longest)
+{
+    const int n = scene->geo.n_groups;
+    struct caustics *all = mem_alloc(1, sizeof *all);
+    struct arena arena = {NULL, NULL};
+    all->extra.connect = connect;
+    all->extra.weigh = weigh;
+    all->extra.release = release;
+    all->longest = longest;
+    all->caster = mem_alloc((size_t)n, sizeof *all->caster);
+    all->mirror = mem_alloc((size_t)n + 1, sizeof *all->mirror);
+    find_middles(&scene->geo, all->caster);
+    for (int g = 0; g < n; g++) {
+        struct caster *c = &all->caster[g];
+        all->mirror[g + 1] = all->mirror[g] + classify(scene, &arena, &scene->geo.group[g], c);
+        all->any_through |= c->lets_through;
+    }
+    arena_free(&arena);
+    double sum = all->mirror[n];
+    bool any = all->any_through || sum > 0;
+    for (int g = 0; sum > 1 && g <= n; g++)
+        all->mirror[g] /= sum;
+    if (any)
+        return &all->extra;
+    release(&all->extra);
+    return NULL;
+}
+
+/* --- does it pay? ------------------------------------------------------------------------------------ */
+
+/* A sample of the picture: what it brings, and what its square would be larger by without chains, by eye ends as in
+ * `left`. */
+struct trial {
+    double brings, tail[2];
+};
+
+/* Without a chain of weight w, which brings X, the second moment is larger by X^2 / (1 - w); and others bring the rest
+ * of what the chain found, t = 1 with them, which is not tried. */
+static struct trial try_chains(const struct extra *self, struct pixel_sample *sample, const struct vertex *eye, int n)
+{
+    const double MOST = 100; /* chance decides whether more is seen */
+    struct connection made[EXTRA_MOST];
+    struct trial out = {rgb_luminance(sample->sum), {0, 0}};
+    for (int t = 2; t <= n; t++)
+        for (int i = eye[t - 1].kind == VERTEX_SURFACE ? connect(self, sample, eye, t, made) : 0; i-- > 0;) {
+            double C = rgb_luminance(made[i].value), w = made[i].weight;
+            out.brings += C * (1 - w);
+            out.tail[t > 2] += sqr(C * w) * fmin(1 / (1 - w), MOST);
+        }
+    return out;
+}
+
+/* The mean of tails, relative to brightness there and, by a quarter, of the picture. */
+static double relative_tail(const struct trial *trial, int n, int which)
+{
+    double mean = 1e-30, sum = 0;
+    for (int i = 0; i < n; i++)
+        mean += trial[i].brings / n;
+    for (int i = 0; i < n; i++)
+        sum += trial[i].tail[which] / sqr(0.75 * trial[i].brings + 0.25 * mean) / n;
+    return sum;
+}
+
+struct extra *caustics_settle(struct extra *self, const struct render_job *job, const struct mis_counts *counts)
+{
+    const double LEAST = 0.5; /* chains make a sample several times as dear */
+    struct caustics *all = (void *)self;
+    struct render_job other = *job;
+    struct pixel_rect film = job->film_rect;
+    struct workspace *work = workspaces_new(1, job->max_depth);
+    struct tile tile = {.sum = NULL};
+    int n = int_within(pixel_light_count(job) / 8, 256, 4096);
+    struct trial *trial = mem_alloc((size_t)n, sizeof *trial);
+    bool delta = false;
+    other.seed = other.eye_seed = hash_combine(job->seed, 0xbb67ae8584caa73bu); /* unlike the render's */
+    for (int i = 0; i < n; i++) {
+        double u, v;
+        sampler_r2(i, &u, &v);
+        int x = film.x0 + (int)(u * rect_width(film)), y = film.y0 + (int)(v * rect_height(film));
+        struct tile_pass pass = {&other, {x, y, x + 1, y + 1}, i, i + 1, &tile, work, NULL, NULL};
+        tile_start(&tile, pass.rect, film, &job->scene->filter, false);
+        arena_reset(&work->arena);
+        struct pixel_sample sample = pixel_sample_begin(&pass, counts, x, y, i);
+        int length = pixel_eye_path(&pass, &sample, i, work->eye, job->max_depth + 2);
+        pixel_sum_eye(&sample, work->eye, length);
+        trial[i] = try_chains(self, &sample, work->eye, length);
+    }
+    tile_free(&tile);
+    workspaces_free(work, 1);
+    for (int i = 0; i < job->scene->lights.n; i++)
+        delta |= light_is_delta(&job->scene->lights.light[i]);
+    for (int i = 0; i < 2; i++)
+        all->left[i] = !(relative_tail(trial, n, i) > LEAST) && !(delta && (i > 0 || counts->splat == 0));
+    free(trial);
+    if (!all->left[0] || !all->left[1])
+        return self;
+    release(self);
+    return NULL;
+}

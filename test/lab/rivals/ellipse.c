@@ -1,0 +1,239 @@
+/* ellipse.c: ellipsoidal connections, for narrow gates: a vertex between eye vertex and light point, drawn so that the
+ * path is as long as the gate wants.                                                              [Pediredla 2019]
+ *
+ * z being an eye vertex, y a light point, tau uniform in what the gate leaves for both edges, x is drawn where the
+ * ellipsoid |y - x| + |x - z| = tau cuts a triangle, which is chosen by area; squeezed, so that the ellipsoid is a
+ * sphere, its plane cuts a circle, of which up to three arcs are inside; on them the angle phi is uniform. As
+ * dA = |dx/dphi| dphi dtau / |g|, g being the part along the triangle of the gradient of the length, the density per
+ * area is
+ *     p(x) = P(triangle) |g| / ((tau_1 - tau_0) Phi |dx/dphi|),   Phi: the angle of all arcs.
+ *
+ * Paths are divided: those whose last two vertices before a light's point x and z are joined by this are its own, and
+ * what s = 0 and s = 1 make of them counts for nothing; all others are theirs. Its own are those that end on a light in
+ * space, with no delta lobe at x or z, x being on a triangle. The original finds triangles that are cut by a hierarchy;
+ * here most draws miss in scenes of many triangles. Without an end of the gate this is pt.
+ *
+ * Tests: test_gates.c.
+ */
+#include <stdlib.h>
+
+#include "base/alias.h"
+#include "base/maths.h"
+#include "integrators/method.h"
+
+extern const struct method method_pt, method_ellipse;
+
+struct ellipse {
+    struct extra extra;
+    struct alias_table by_area; /* of triangles */
+};
+
+struct ellipse_state {
+    struct frozen frozen;
+    struct ellipse own;
+};
+
+/* --- where the ellipsoid cuts a triangle --------------------------------------------------------------- */
+
+/* About its middle, along its axis long, across it wide. */
+struct ellipsoid {
+    vec3 middle, axis;
+    double longer, wider; /* semi-axes */
+};
+
+/* Lengths along the axis times `a`, across it times `b`. */
+static vec3 scale(const struct ellipsoid *e, vec3 v, double a, double b)
+{
+    double along = dot(v, e->axis);
+    return add(mul(v, b), mul(e->axis, along * (a - b)));
+}
+
+/* The circle in which the unit sphere cuts a plane: middle + radius (cos phi s + sin phi t). */
+struct circle {
+    vec3 middle, s, t;
+    double radius;
+};
+
+/* Angles of the arcs inside all three edges, [from, to) each; their number. */
+static int arcs_inside(const struct circle *c, const vec3 p[3], double from[6], double to[6])
+{
+    double at[8], lean[3], half[3];
+    int n = 0, n_arcs = 0;
+    vec3 normal = cross(sub(p[1], p[0]), sub(p[2], p[0]));
+    at[n++] = 0;
+    for (int i = 0; i < 3; i++) { /* inside is |phi - lean| < half */
+        vec3 in = normalize(cross(normal, sub(p[(i + 1) % 3], p[i])));
+        double depth = dot(in, sub(c->middle, p[i])) / c->radius;
+        lean[i] = m_atan2(dot(in, c->t), dot(in, c->s));
+        half[i] = m_acos(clamp(-depth, -1, 1));
+        for (int k = -1; k <= 1; k += 2)
+            at[n++] = fmod(lean[i] + k * half[i] + 4 * PI, 2 * PI);
+    }
+    at[n++] = 2 * PI;
+    for (int i = 1; i < n; i++)
+        for (int j = i; j > 0 && at[j] < at[j - 1]; j--) {
+            double swap = at[j];
+            at[j] = at[j - 1];
+            at[j - 1] = swap;
+        }
+    for (int i = 0; i + 1 < n; i++) {
+        double mid = (at[i] + at[i + 1]) / 2;
+        bool inside = at[i + 1] > at[i];
+        for (int k = 0; k < 3; k++)
+            inside &= fabs(remainder(mid - lean[k], 2 * PI)) < half[k];
+        from[n_arcs] = at[i];
+        to[n_arcs] = at[i + 1];
+        n_arcs += inside;
+    }
+    return n_arcs;
+}
+
+/* A point where it cuts the triangle, with the number u, and |dx/dphi| Phi; false if it does not. */
+static bool cut(const struct ellipsoid *e, const vec3 corner[3], double u, vec3 *x, double *span)
+{
+    vec3 p[3];
+    double from[7], to[7], Phi = 0;
+    for (int i = 0; i < 3; i++)
+        p[i] = scale(e, sub(corner[i], e->middle), 1 / e->longer, 1 / e->wider);
+    vec3 n = normalize(cross(sub(p[1], p[0]), sub(p[2], p[0])));
+    double h = dot(n, p[0]);
+    if (!(fabs(h) < 1))
+        return false;
+    const struct frame f = frame_from_normal(n);
+    struct circle c = {mul(n, h), f.s, f.t, sqrt(1 - h * h)};
+    int n_arcs = arcs_inside(&c, p, from, to), i = 0;
+    for (int k = 0; k < n_arcs; k++)
+        Phi += to[k] - from[k];
+    if (!(Phi > 0))
+        return false;
+    double left = u * Phi;
+    for (; i < n_arcs - 1 && left >= to[i] - from[i]; i++)
+        left -= to[i] - from[i];
+    double phi = from[i] + left, co = m_cos(phi), si = m_sin(phi);
+    vec3 out = add(mul(c.s, c.radius * co), mul(c.t, c.radius * si));
+    vec3 change = add(mul(c.s, -c.radius * si), mul(c.t, c.radius * co));
+    *x = add(e->middle, scale(e, add(c.middle, out), e->longer, e->wider));
+    *span = Phi * length(scale(e, change, e->longer, e->wider));
+    return true;
+}
+
+/* --- the strategy ------------------------------------------------------------------------------------- */
+
+/* The point x of a triangle as a vertex that comes after z with this density per area. */
+static bool arrive(const struct pixel_sample *sample, const struct vertex *z, int triangle, vec3 x,
+                   const vec3 corner[3], double pdf, struct vertex *out)
+{
+    const struct scene *scene = sample->scene;
+    const struct geometry *geo = &scene->geo;
+    const struct shape_group *group = shape_group_of(geo, triangle);
+    struct hit hit = {.prim = triangle};
+    struct surface at;
+    if (group->material < 0 ||
+        !combination(sub(corner[1], corner[0]), sub(corner[2], corner[0]), sub(x, corner[0]), &hit.b1, &hit.b2) ||
+        (group->alpha >= 0 && geo->opaque != NULL && !geo->opaque(geo->opaque_context, geo, &hit, false)))
+        return false;
+    const struct ray none = {z->p, vec(0, 0, 1), 0, INFINITY, 0, 0};
+    shape_surface(geo, &hit, &none, &at);
+    vec3 d = sub(at.p, z->p);
+    double d2 = length2(d);
+    vec3 w = mul(d, 1 / sqrt(d2));
+    if (!(d2 > 0) || !bsdf_may_scatter(&z->bsdf, z->wo, w))
+        return false;
+    rgb f = bsdf_eval(&z->bsdf, z->wo, w, RADIANCE).f;
+    const struct vertex v = {.kind = VERTEX_SURFACE, .light = -1, .cell = -1, .p = at.p, .ng = at.ng,
+                             .prim_id = at.prim_id, .length = z->length + sqrt(d2), .wo = neg(w),
+                             .beta = rgb_scale(rgb_mul(z->beta, f),
+                                               scatter_cosine(z, w, RADIANCE) * abs_dot(at.ng, w) / (d2 * pdf)),
+                             .pdf_fwd = 1};
+    *out = v;
+    if (rgb_is_black(v.beta) || !rgb_is_finite(v.beta) || !scene_visible(scene, z->p, z->prim_id, at.p, at.prim_id))
+        return false;
+    material_bsdf(scene->material, group->material, &scene->textures, &at, sample->arena, &out->bsdf);
+    return vertex_connectible(out);
+}
+
+static int connect(const struct extra *self, struct pixel_sample *sample, const struct vertex *eye, int t,
+                   struct connection out[EXTRA_MOST])
+{
+    const struct ellipse *own = (const void *)self;
+    const struct scene *scene = sample->scene;
+    const struct gate gate = sample->tile->gate;
+    const struct vertex *z = &eye[t - 1];
+    double u[3], v[2], P, span;
+    float P9[9];
+    struct light_point y;
+    struct vertex at;
+    vec3 corner[3], x;
+    if (!isfinite(gate.end) || t > sample->max_depth || !vertex_connectible(z) || own->by_area.n == 0)
+        return 0;
+    u[0] = sampler_number(&sample->sampler, DRAW_LIGHT);
+    sampler_pair(&sample->sampler, DRAW_LIGHT_POINT, &u[1]);
+    sampler_pair(&sample->sampler, DRAW_SCATTERING, v);
+    int triangle = alias_sample(&own->by_area, sampler_number(&sample->sampler, DRAW_LIGHT_END), &P, NULL);
+    if (!light_sample_point(&scene->lights, &scene->geo, u, &y) || light_at_infinity(&scene->lights.light[y.light]))
+        return 0;
+    double apart = length(sub(y.p, z->p)), least = fmax(gate.begin - z->length, apart), most = gate.end - z->length;
+    double tau = least + (most - least) * v[0];
+    if (!(apart > 0 && least < most && tau > apart))
+        return 0;
+    const struct ellipsoid e = {lerp3(0.5, y.p, z->p), mul(sub(y.p, z->p), 1 / apart), tau / 2,
+                                sqrt(sqr(tau) - sqr(apart)) / 2};
+    shape_vertices(&scene->geo, triangle, P9);
+    for (int i = 0; i < 3; i++)
+        corner[i] = vec((double)P9[3 * i], (double)P9[3 * i + 1], (double)P9[3 * i + 2]);
+    if (!cut(&e, corner, v[1], &x, &span))
+        return 0;
+    vec3 n = normalize(cross(sub(corner[1], corner[0]), sub(corner[2], corner[0])));
+    vec3 g = add(normalize(sub(x, y.p)), normalize(sub(x, z->p)));
+    double pdf = P * length(sub(g, mul(n, dot(g, n)))) / ((most - least) * span);
+    if (!(pdf > 0) || !arrive(sample, z, triangle, x, corner, pdf, &at))
+        return 0;
+    out[0] = connect_point(scene, sample->counts, &at, &y, y.pdf);
+    out[0].weight = 1;
+    out[0].passed = 1;
+    return 1;
+}
+
+/* Of others' paths those that are its own count for nothing. */
+static void weigh(const struct extra *self, const struct pixel_sample *sample, const struct vertex *path, int s, int t,
+                  struct connection *c)
+{
+    (void)self;
+    const struct vertex *x = &path[t - 2 + s], *z = x - 1, *end = x + 1;
+    if (!isfinite(sample->tile->gate.end) || s > 1 || t + s < 4)
+        return;
+    bool in_space = s > 0 ? !light_at_infinity(&sample->scene->lights.light[c->light])
+                          : (end->kind == VERTEX_SURFACE || end->lamp != NULL) && !end->prev_delta;
+    if (in_space && z->kind == VERTEX_SURFACE && !x->prev_delta && x->prim_id - 1 < FIRST_QUADRIC)
+        c->weight = 0;
+}
+
+/* --- the row ------------------------------------------------------------------------------------------ */
+
+static void prepare(const struct render_job *job, struct preparation *out)
+{
+    struct ellipse_state *s = out->state;
+    const struct geometry *geo = &job->scene->geo;
+    double *area = mem_alloc((size_t)geo->n_triangles, sizeof *area);
+    method_pt.prepare(job, out);
+    for (int i = 0; i < geo->n_triangles; i++)
+        area[i] = shape_area(geo, i);
+    alias_build(&s->own.by_area, area, geo->n_triangles);
+    free(area);
+    s->own.extra.connect = connect;
+    s->own.extra.weigh = weigh;
+    s->frozen.counts.extra = &s->own.extra;
+}
+
+static void release(void *state)
+{
+    struct ellipse_state *s = state;
+    alias_free(&s->own.by_area);
+}
+
+static void render(const struct preparation *m, const struct tile_pass *pass) { method_pt.render(m, pass); }
+
+const struct method method_ellipse = {
+    .name = "ellipse", .help = "ellipsoidal connections [Pediredla 2019]: for narrow gates; else pt",
+    .state_size = sizeof(struct ellipse_state), .rr_threshold = DEFAULT_RR_THRESHOLD,
+    .prepare = prepare, .release = release, .render = render};
