@@ -24,11 +24,11 @@ expect 0 '' "$program" --help
 check grep -q '^asbdpt SCENE.pbrt' stdout.txt
 expect 0 '' "$lab" --help
 check grep -q '^    experiment  ' stdout.txt
-for command in render merge convert info; do # each its own help
+for command in render merge convert; do # each its own help
     expect 0 '' "$program" $command --help
     check [ "$(grep -c "usage: asbdpt $command" stdout.txt)" = 1 ]
 done
-for command in compare trace worth strategies verify experiment equal-time family demo transient bench; do
+for command in info compare trace worth strategies verify experiment equal-time family demo transient bench; do
     expect 0 '' "$lab" $command -h
     check [ "$(grep -c "usage: asbdpt-lab $command" stdout.txt)" = 1 ]
 done
@@ -52,7 +52,7 @@ refuse '[-]-samples has no effect without -o' render "$box" --samples 0:1
 refuse 'one argument too many' render "$box" "$box"
 refuse 'expected an integer from 1 to 1024' render "$box" -j99999999999999999999
 refuse '60000 x 60000 pixels are too many \(at most 268435456\)' render "$box" --res 60000x60000
-refuse 'unknown option --seed' info "$box" --seed 1
+expect 2 'unknown option --seed' "$lab" info "$box" --seed 1
 refuse 'x.jpg: pictures are written as .pfm, .exr' render "$box" $small -o x.jpg
 refuse 'did you mean asbdpt\? known are' render "$box" $small --integrator=asbdtp
 refuse 'no integrator has a parameter "selct" \(did you mean select\?\)' render "$box" -P selct=bins
@@ -76,9 +76,9 @@ expect 1 'binpaths 7 is odd' "$program" render "$box" $small -P select=bins -P b
 strategy() { printf 'Integrator "%s" "string lightsamplestrategy" "%s"\nWorldBegin\nWorldEnd\n' "$1" "$2"; }
 strategy path spacial >strategy.pbrt
 expect 0 '^asbdpt: warning: strategy.pbrt:1:[0-9]+: "lightsamplestrategy" is "spatial": its value is unknown' \
-    "$program" info strategy.pbrt
+    "$lab" info strategy.pbrt
 expect 2 '^asbdpt: -P: lightsamplestrategy = "spacial" is unknown: give "spatial", "power" or' \
-    "$program" info strategy.pbrt -P lightsamplestrategy=spacial
+    "$lab" info strategy.pbrt -P lightsamplestrategy=spacial
 for method in path asbdpt; do
     strategy $method uniform >known.pbrt
     expect 0 '^asbdpt: warning: known.pbrt:1:[0-9]+: "lightsamplestrategy" is "power" instead of "uniform"' \
@@ -96,13 +96,13 @@ check test -n "$(cmp power.pfm spatial.pfm 2>&1)"
 printf 'Integrator "sppm" "integer numiterations" 3 "integer maxdepth" 100000
 Film "image" "string filename" "x.jpg"\nWorldBegin\nLightSource "point"\nWorldEnd\n' >sppm.pbrt
 for command in info "render --res 16x16 --spp 1"; do
-    expect 0 'warning: sppm.pbrt:1:19: "numiterations" is not used: no integrator here' "$program" $command sppm.pbrt
+    expect 0 'warning: sppm.pbrt:1:19: "numiterations" is not used: no integrator here' "$lab" $command sppm.pbrt
     check grep -q 'warning: sppm.pbrt:1:45: "maxdepth" is 100000, which counts as 1000' stderr.txt
     check grep -q 'warning: sppm.pbrt: integrator "sppm" does not exist here; bdpt is used' stderr.txt
     check [ "$(grep -c warning: stderr.txt)" = 3 ]
-    expect 1 'sppm.pbrt:1:19: "numiterations" is not used' "$program" $command sppm.pbrt --strict
-    expect 2 '^asbdpt: -P: no integrator has a parameter "radiuss"' "$program" $command sppm.pbrt -P radiuss=3
-    expect 2 '^asbdpt: -P: maxdepth = "100000": give a whole number' "$program" $command sppm.pbrt -P maxdepth=100000
+    expect 1 'sppm.pbrt:1:19: "numiterations" is not used' "$lab" $command sppm.pbrt --strict
+    expect 2 '^asbdpt: -P: no integrator has a parameter "radiuss"' "$lab" $command sppm.pbrt -P radiuss=3
+    expect 2 '^asbdpt: -P: maxdepth = "100000": give a whole number' "$lab" $command sppm.pbrt -P maxdepth=100000
 done
 check [ -f x.png ]
 
@@ -114,10 +114,10 @@ for command in info "render $small -o x.pfm" "trace --pixel 0,0 --res 16x16"; do
     expect 0 '' "$lab" $command "$box" --integrator asbdpt -P select=bins -P maxdepth=3
 done
 expect 0 '^asbdpt: warning: other.pbrt:1:19: "select" is not used: it is a parameter of asbdpt$' \
-    "$program" info other.pbrt
-expect 0 '' "$program" info other.pbrt --strict --integrator asbdpt
+    "$lab" info other.pbrt
+expect 0 '' "$lab" info other.pbrt --strict --integrator asbdpt
 sed s/bdpt/asbdpt/ other.pbrt >own.pbrt
-expect 0 '' "$program" info own.pbrt --strict --integrator bdpt
+expect 0 '' "$lab" info own.pbrt --strict --integrator bdpt
 sides="--res 12x12 --spp 8 --maxdepth 2 --quiet"
 expect 0 '' "$lab" verify "$box" --methods pt,asbdpt $sides -P select=vertices
 expect 2 '"select" is a parameter of asbdpt, not of pt; see' \
@@ -127,9 +127,9 @@ expect 2 '"select" is a parameter of asbdpt, not of pt; see' \
 depth() { sed -n 's/^  maxdepth    //p' stdout.txt; }
 typed() { # PARAMETER WARNING DEPTH-IN-FORCE, nothing if the default
     printf 'Integrator "bdpt" %s\nWorldBegin\nLightSource "point"\nWorldEnd\n' "$1" >typed.pbrt
-    expect 0 "^asbdpt: warning: typed.pbrt:1:19: $2\$" "$program" info typed.pbrt
+    expect 0 "^asbdpt: warning: typed.pbrt:1:19: $2\$" "$lab" info typed.pbrt
     check [ "$(depth)" = "$3" ]
-    expect 1 'typed.pbrt: refused' "$program" info typed.pbrt --strict
+    expect 1 'typed.pbrt: refused' "$lab" info typed.pbrt --strict
 }
 typed '"string maxdepth" ["6"]' '"maxdepth" cannot be of type "string", so it is not used' ''
 typed '"integer maxdepth" [6 7]' '"maxdepth" wants 1 value, not 2; it is passed over' ''
@@ -137,9 +137,9 @@ typed '"integer maxdepth" []' '"maxdepth" wants 1 value, not 0; it is passed ove
 typed '"integer maxdepth" [6.7]' '"maxdepth" is 6.7, which counts as 6' 6
 typed '"float maxdepth" 2 "integer maxdepth" 7' '"maxdepth" cannot be of type "float", so it is not used' 7
 typed '"integer rrthreshold" 1' '"rrthreshold" cannot be of type "integer", so it is not used' ''
-expect 0 '' "$program" info typed.pbrt -P maxdepth=7 --maxdepth 8
+expect 0 '' "$lab" info typed.pbrt -P maxdepth=7 --maxdepth 8
 check [ "$(depth)" = 8 ]
-expect 0 '' "$program" info typed.pbrt -P maxdepth=6 -P maxdepth=7
+expect 0 '' "$lab" info typed.pbrt -P maxdepth=6 -P maxdepth=7
 check [ "$(depth)" = 7 ]
 
 # --- outputs
@@ -163,7 +163,7 @@ expect 0 'wrote -\.png' "$program" render dash.pbrt --res 16x16 --spp 2
 check [ ! -s stdout.txt ]
 rm -f ./-.png
 echo 'Include "-" WorldBegin WorldEnd' >dash.pbrt
-expect 1 'dash.pbrt:1:9: \./-: cannot open' "$program" info dash.pbrt </dev/null
+expect 1 'dash.pbrt:1:9: \./-: cannot open' "$lab" info dash.pbrt </dev/null
 if command -v script >/dev/null && script -qec true /dev/null >/dev/null 2>&1; then
     expect 0 '' script -qec "'$program' render '$box' $small -o -; echo status \$?" /dev/null
     check grep -q 'a picture is nothing for a terminal' stdout.txt
@@ -192,9 +192,9 @@ check cmp -s piped.pfm target.pfm
 # Warnings are errors by --strict, and all errors come in one run.
 printf 'WorldBegin\nShape "sphere" "float radus" 2\nNamedMaterial "mate"\nWorldEnd\n' >warned.pbrt
 for command in info "render $small -o x.pfm"; do
-    expect 0 '' "$program" $command warned.pbrt
+    expect 0 '' "$lab" $command warned.pbrt
     expect 1 '^asbdpt: warned.pbrt:2:16: parameter "float radus" of Shape "sphere" is not used; did you mean "radius"' \
-        "$program" $command warned.pbrt --strict
+        "$lab" $command warned.pbrt --strict
     check grep -q '^asbdpt: warned.pbrt:3:15: there is no named material "mate"' stderr.txt
     check grep -q 'refused for what is said above' stderr.txt
 done
@@ -204,7 +204,7 @@ check grep -q '^asbdpt: errors.pbrt:3:7: Shape "cuboid"' stderr.txt
 
 # Bytes of a scene that mean something to a terminal do not reach it.
 printf 'Integrator "\033[31mx" "string maxdepth" "\033[31m"\nWorldBegin\nWorldEnd\n' >escape.pbrt
-expect 0 'integrator "[?]\[31mx" does not exist here' "$program" info escape.pbrt
+expect 0 'integrator "[?]\[31mx" does not exist here' "$lab" info escape.pbrt
 check test -z "$(cat stdout.txt stderr.txt | tr -d '\n -~')"
 # What overflows on the way is said, and no picture holds anything but numbers.
 printf 'Film "image" "float scale" 1e20\nWorldBegin LightSource "infinite" "rgb L" [ 1e30 1 1e30 ]\nWorldEnd\n' \
@@ -430,28 +430,28 @@ check [ -s worst.svg ]
 # help: as a whole no wider than a terminal, with every integrator once.
 expect 0 '' "$program" help all
 check [ -z "$(awk 'length > 100' stdout.txt)" ]
-check [ "$(grep -c 'usage: asbdpt' stdout.txt)" = 4 ]
+check [ "$(grep -c 'usage: asbdpt' stdout.txt)" = 3 ]
 expect 0 '' "$program" help integrators
 check [ "$(grep -c '^asbdpt$' stdout.txt)" = 1 ] # however many selections it has
 check grep -q '^    lightsamplestrategy *spatial ' stdout.txt
 expect 2 'there is no help on rendering' "$program" help rendering
-expect 0 '' "$program" info "$box" --json
+expect 0 '' "$lab" info "$box" --json
 check grep -q '"triangles": ' stdout.txt
 printf 'P3\n3 2\n255\n0 0 0 255 0 0 0 0 0\n0 0 0 0 0 0 0 255 255\n' >picture.ppm
-expect 0 '' "$program" info picture.ppm
+expect 0 '' "$lab" info picture.ppm
 check grep -q '^format        .ppm, sRGB, here made linear$' stdout.txt
 check grep -q '^size          3x2$' stdout.txt
 check grep -q '^B             0 to 1, mean 0.166667$' stdout.txt
-expect 0 '' "$program" info picture.ppm --pixel 2,1
+expect 0 '' "$lab" info picture.ppm --pixel 2,1
 check grep -qx '0 1 1' stdout.txt
-expect 2 'the picture is 3x2' "$program" info picture.ppm --pixel 2,2
-expect 2 'two numbers are wanted' "$program" info picture.ppm --pixel 2
-expect 2 'is for pictures' "$program" info "$box" --pixel 1,1
-printf 'PF\n1 1\n-1\n\0\0\300\177\0\0\200\077\0\0\0\0' >nan.pfm
-expect 0 '' "$program" info nan.pfm
+expect 2 'the picture is 3x2' "$lab" info picture.ppm --pixel 2,2
+expect 2 'two numbers are wanted' "$lab" info picture.ppm --pixel 2
+expect 2 'is for pictures' "$lab" info "$box" --pixel 1,1
+printf 'PF\n1 1\n-1\n\0\0\300\177\0\0\200\077\0\0\0\0' >one-nan.pfm
+expect 0 '' "$lab" info one-nan.pfm
 check grep -q '^R .*1 NaN or infinite$' stdout.txt
 printf 'WorldBegin Translate 5 6 7 Material "none" AreaLightSource "diffuse" Shape "sphere" WorldEnd\n' >lamp.pbrt
-expect 0 '' "$program" info lamp.pbrt # bounds are those of the surfaces that rays pass through, too
+expect 0 '' "$lab" info lamp.pbrt # bounds are those of the surfaces that rays pass through, too
 check grep -q 'bounds  *(4, 5, 6) to (6, 7, 8)' stdout.txt
 
 # --- trace

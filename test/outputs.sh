@@ -76,7 +76,7 @@ for closed in '2>&-' '>&-' '<&-' '<&- >&- 2>&-'; do
     check sh -c "\"\$ASBDPT\" render scene.pbrt ${tiny% --quiet} -o x.png $closed" 2>/dev/null
     check cmp -s good.png x.png
 done
-expect 1 'standard output: cannot be written' sh -c '"$ASBDPT" info scene.pbrt >&-'
+expect 1 'standard output: cannot be written' sh -c '"$LAB" info scene.pbrt >&-'
 expect 1 'Bad file descriptor|cannot be read' sh -c '"$ASBDPT" render - -o x.png <&-'
 # What cannot be printed is said.
 if [ -e /dev/full ]; then

@@ -387,7 +387,7 @@ struct extra *caustics_settle(struct extra *self, const struct render_job *job, 
         double u, v;
         sampler_r2(i, &u, &v);
         int x = film.x0 + (int)(u * rect_width(film)), y = film.y0 + (int)(v * rect_height(film));
-        struct tile_pass pass = {&other, {x, y, x + 1, y + 1}, i, i + 1, &tile, work, NULL, NULL};
+        struct tile_pass pass = {&other, {x, y, x + 1, y + 1, 0, 0}, i, i + 1, &tile, work, NULL, NULL};
         tile_start(&tile, pass.rect, film, &job->scene->filter, false);
         arena_reset(&work->arena);
         struct pixel_sample sample = pixel_sample_begin(&pass, counts, x, y, i);

@@ -23,7 +23,7 @@ struct command {
     const char *example;          /* what follows the program's name */
 };
 
-extern const struct command command_render, command_merge, command_convert, command_info;
+extern const struct command command_render, command_merge, command_convert;
 
 /* What is linked into an executable beside main; all that is shared asks this for names. asbdpt has its own in
  * program.c, the laboratory another one. */

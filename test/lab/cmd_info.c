@@ -1,4 +1,4 @@
-/* cmd_info.c: asbdpt info: what is in a scene and how it was prepared, or what is in a picture. */
+/* cmd_info.c: asbdpt-lab info: what is in a scene and how it was prepared, or what is in a picture. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,9 +6,9 @@
 #include "base/json.h"
 #include "base/os.h"
 #include "base/progress.h"
-#include "cli/command.h"
 #include "cli/job_options.h"
 #include "image/image.h"
+#include "lab/commands.h"
 
 static const char *const LIGHT_NAMES[] = {
     [LIGHT_AREA] = "area", [LIGHT_POINT] = "point", [LIGHT_SPOT] = "spot",
