@@ -1,9 +1,11 @@
-/* test_chains.c: Markov chains: mutations keep the balance, states are bdpt's samples, pictures are bdpt's. */
+/* test_chains.c: Markov chains: mutations keep the balance, states are bdpt's samples, chains stay where they should,
+ * pictures are bdpt's. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/cumulative.h"
 #include "base/mem.h"
 #include "base/number.h"
 #include "chains/mlt.h"
@@ -12,8 +14,8 @@
 #include "helpers.h"
 #include "tests.h"
 
-/* Two rooms' worth of surfaces: a matte floor and wall, a glossy and a glass ball, a lamp, and a lamp that nobody sees.
- * Of some size, through some filter, with some sampling of roulette. */
+/* A matte floor and wall, a mirror for a side wall, a glossy and a glass ball, a lamp, and a lamp that nobody sees. Of
+ * some size, through some filter, with some sampling of roulette. */
 static const char ROOM[] =
     "LookAt 0 1.5 -4  0 1 0  0 1 0 Camera \"perspective\" \"float fov\" 50 %s\n"
     "Film \"image\" \"integer xresolution\" %d \"integer yresolution\" %d PixelFilter \"%s\"\n"
@@ -24,6 +26,8 @@ static const char ROOM[] =
     "Material \"matte\" \"rgb Kd\" [.7 .6 .5]\n"
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  2 0 -2  2 0 2  -2 0 2]\n"
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 2  2 0 2  2 3 2  -2 3 2]\n"
+    "Material \"mirror\"\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  -2 0 2  -2 3 2  -2 3 -2]\n"
     "Material \"metal\" \"float roughness\" .1\n"
     "TransformBegin Translate .8 .6 .5 Shape \"sphere\" \"float radius\" .6 TransformEnd\n"
     "Material \"glass\" TransformBegin Translate -.7 .7 0 Shape \"sphere\" \"float radius\" .5 TransformEnd WorldEnd\n";
@@ -46,9 +50,10 @@ struct bench {
 
 enum { DEPTH = 4 };
 
-static bool bench_new(struct test *t, const struct scene *scene, const char *integrator, struct bench *out)
+static bool bench_new(struct test *t, const struct scene *scene, const char *integrator, uint64_t seed,
+                      struct bench *out)
 {
-    struct render_options o = {.integrator = integrator, .seed = test_seed(t), .max_depth = DEPTH, .n_threads = 1};
+    struct render_options o = {.integrator = integrator, .seed = test_seed(t) + seed, .max_depth = DEPTH, .n_threads = 1};
     struct error err = {""};
     memset(out, 0, sizeof *out);
     out->scene = scene;
@@ -59,7 +64,7 @@ static bool bench_new(struct test *t, const struct scene *scene, const char *int
     if (out->chain != NULL) {
         out->chain->job = &out->job;
         out->chain->work = out->work;
-        out->chain->rng = rng_stream(test_seed(t), RNG_TEST, 1, 0);
+        out->chain->rng = rng_stream(o.seed, RNG_TEST, 1, 0);
     }
     return true;
 }
@@ -87,7 +92,7 @@ static void test_steps(struct test *t)
     double where[CELLS] = {0}, how[CELLS] = {0}, even_where[CELLS], even_how[CELLS];
     struct scene scene;
     struct bench b;
-    if (!room(t, 4, 4, "", "box", &scene) || !bench_new(t, &scene, "pssmlt", &b))
+    if (!room(t, 4, 4, "", "box", &scene) || !bench_new(t, &scene, "pssmlt", 0, &b))
         return;
     struct chain *c = b.chain;
     const struct chains *all = b.prepared.state;
@@ -159,36 +164,37 @@ static double contribution(struct chain *c, const struct mlt_path *path, enum ml
                                                    : bsdf_eval(&x->bsdf, x->wo, move->wi, IMPORTANCE).pdf);
 }
 
-/* What the chain goes by where it goes from a to b by this mutation: I, or L of a perturbation of mlt. Then, too, the
- * way back leads back: b moved to where a is counts as a. */
-static double goes_by(struct test *t, struct chain *c, bool paths, double *there)
+/* What the latest proposal of mlt was: a perturbation, or MLT_PERTURBATIONS for a new path. */
+static int mutation(const struct mlt_path *to)
 {
-    struct mlt_path *from = c->now.own, *to = c->next.own;
     int which = 0;
-    while (which < MLT_PERTURBATIONS && paths && to->L[which] < 0)
+    while (which < MLT_PERTURBATIONS && to->L[which] < 0)
         which++;
-    if (!paths || which == MLT_PERTURBATIONS) {
-        *there = c->next.I * (paths ? chance(c, to) : 1);
-        return c->now.I * (paths ? chance(c, from) : 1);
-    }
-    if (which == CAUSTIC_PERTURBATION) {
-        double most = sqrt(0.05 * c->all->width * c->all->height / PI);
-        double cosine = dot(mlt_stay(from, CAUSTIC_PERTURBATION).wi, mlt_stay(to, CAUSTIC_PERTURBATION).wi);
-        double pixels = acos(fmin(1, cosine)) * mlt_pixels_per_angle(c, to);
-        CHECK(t, pixels > 0.0999 && pixels < most * 1.001, "a caustic perturbation by %g pixels, seen from there",
-              pixels);
-    }
-    *there = to->L[which];
+    return which;
+}
+
+/* Could b's caustic perturbation be by the angle that lies between a and b? */
+static bool in_range(const struct chain *c, const struct mlt_path *a, const struct mlt_path *b)
+{
+    vec3 wa = mlt_stay(a, CAUSTIC_PERTURBATION).wi, wb = mlt_stay(b, CAUSTIC_PERTURBATION).wi;
+    double angle = atan2(length(cross(wa, wb)), dot(wa, wb)), pixels = angle * mlt_pixels_per_angle(c, b);
+    return pixels >= 0.1 && pixels <= sqrt(0.05 * c->all->width * c->all->height / PI);
+}
+
+/* The way back of a perturbation leads back: b moved to where a is counts as a. */
+static void check_back(struct test *t, struct chain *c, enum mlt_perturbation which)
+{
+    const struct mlt_path *from = c->now.own, *to = c->next.own;
     double L = from->L[which], I = c->now.I;
-    struct mlt_move move = mlt_stay(from, (enum mlt_perturbation)which);
+    struct mlt_move move = mlt_stay(from, which);
     swap(c);
     struct strategy strategy = {.n = c->now.length > 2 ? c->now.length : 1};
     struct primary p = {.chain = c};
     struct chain_state kept = c->next, room = {.length = kept.length};
     c->next = room; /* where the path from which it came is, is none of this one's business */
-    double back = mlt_remake(&p, to, (enum mlt_perturbation)which, &move, &strategy);
+    double back = mlt_remake(&p, to, which, &move, &strategy);
     primary_end(&p);
-    double plain = contribution(c, from, (enum mlt_perturbation)which, &move, &p, &strategy);
+    double plain = contribution(c, from, which, &move, &p, &strategy);
     CHECK(t, fabs(plain / back - 1) < 1e-9, "L is %g, not %g", back, plain);
     CHECK(t, fabs(back / L - 1) < 1e-6 && fabs(c->next.I / I - 1) < 1e-6,
           "the way back of a %s perturbation leads elsewhere: %g, %g",
@@ -198,46 +204,146 @@ static double goes_by(struct test *t, struct chain *c, bool paths, double *there
     tile_free(&c->next.heard);
     c->next = kept;
     swap(c);
-    return L;
 }
 
-/* Independent states first, and then steps of a chain from them: proposals leave the present state alone, and what is
- * accepted one way is accepted back in proportion: T f a is the same both ways, T being so already. */
+/* How many moves there were, in all and such as put a rule to the test. */
+struct moves {
+    long all, doubtful;   /* accepted with less than 1 */
+    long unlike, no_back; /* of mlt: new paths between states of other mutations; there, but not back */
+};
+
+/* One proposal: it leaves the present state alone, and T f a is the same both ways: what T is not alike both ways in is
+ * the probability to choose the mutation; where there is no way back there is none there. */
+static void check_proposal(struct test *t, struct chain *c, bool paths, struct moves *n)
+{
+    struct mlt_path *from = c->now.own, *to = c->next.own;
+    double I = c->now.I, here = I, there;
+    int which = MLT_PERTURBATIONS;
+    if (paths)
+        to->k = 0;
+    arena_reset(&c->work->arena);
+    double a = c->all->rules->propose(c);
+    CHECK(t, c->now.I == I && a >= 0 && a <= 1, "a proposal changes the present state");
+    if (!((there = c->next.I) > 0) || (paths && to->k == 0))
+        return;
+    if (paths && (which = mutation(to)) < MLT_PERTURBATIONS) {
+        here = from->L[which];
+        there = to->L[which];
+    } else if (paths) {
+        n->unlike += chance(c, from) < chance(c, to) || chance(c, from) > chance(c, to);
+        here *= chance(c, from);
+        there *= chance(c, to);
+    }
+    if (which == CAUSTIC_PERTURBATION && !in_range(c, from, to)) {
+        n->no_back++;
+        there = 0;
+    } else if (which < MLT_PERTURBATIONS) {
+        check_back(t, c, (enum mlt_perturbation)which);
+    }
+    double back = there > 0 ? there * fmin(1, here / there) : 0;
+    CHECK(t, fabs(here * a - back) < 1e-9 * here, "mutation %d: there %g, back %g", which, here * a, back);
+    n->doubtful += a < 1;
+    n->all++;
+}
+
+/* From independent states, a few steps of a chain each; of mlt, from all that have a caustic or only new paths. */
 static void test_balance(struct test *t, const char *integrator)
 {
     struct scene scene;
     struct bench b;
-    long moved = 0, refused = 0;
+    struct moves n = {0, 0, 0, 0};
     bool paths = strcmp(integrator, "mlt") == 0;
     if (!room(t, 16, 16, "\"float lensradius\" .05 \"float focaldistance\" 4", "gaussian", &scene) ||
-        !bench_new(t, &scene, integrator, &b))
+        !bench_new(t, &scene, integrator, 0, &b))
         return;
     struct chain *c = b.chain;
     const struct chains *all = b.prepared.state;
-    for (long i = 0; i < (long)all->lengths * all->each; i += 23) {
+    for (long i = 0; i < (long)all->lengths * all->each; i += paths ? 1 : 23) {
         double I = all->before[i + 1] - all->before[i];
         if (!(I > 0))
             continue;
         chain_candidate(c, i);
         CHECK(t, fabs(c->next.I - I) < 1e-9 * all->before[all->lengths * all->each], "%s: a start is another",
               integrator);
+        const struct mlt_path *path = c->next.own;
+        if (i % 23 != 0 && !path->can[CAUSTIC_PERTURBATION] && path->can[LENS_PERTURBATION])
+            continue;
         swap(c);
-        for (int k = 0; k < 4; k++) {
-            I = c->now.I;
-            arena_reset(&b.work->arena);
-            double a = all->rules->propose(c), there = 0, here;
-            CHECK(t, c->now.I == I && a >= 0 && a <= 1, "%s: a proposal changes the present state", integrator);
-            if (!(c->next.I > 0) || !(a > 0))
-                continue;
-            here = goes_by(t, c, paths, &there);
-            CHECK(t, fabs(here * a / (there * fmin(1, here / there)) - 1) < 1e-9, "%s: there %g, back %g",
-                  integrator, here * a, there * fmin(1, here / there));
-            refused += a < 1;
-            moved++;
-        }
+        for (int k = 0; k < (paths && chance(c, c->now.own) >= 1 ? 60 : 4); k++)
+            check_proposal(t, c, paths, &n);
     }
-    CHECK(t, refused > 30 && moved > 2 * refused / 3, "%s: %ld moves, %ld doubtful", integrator, moved, refused);
+    CHECK(t, n.doubtful > 30 && n.all > 2 * n.doubtful / 3, "%s: %ld moves, %ld doubtful", integrator, n.all,
+          n.doubtful);
+    CHECK(t, !paths || (n.unlike > 30 && n.no_back > 10), "only %ld moves to other mutations, %ld without a way back",
+          n.unlike, n.no_back);
     bench_free(&b);
+    scene_free(&scene);
+}
+
+/* --- where chains are -------------------------------------------------------------------------------- */
+
+enum { BLOCKS = 2, CELLS = BLOCKS * BLOCKS * 8 };
+
+/* Where a state is: which part of the picture it begins with, whether it is bright, and of mlt what it can do. */
+static int cell(const struct chain *c)
+{
+    const struct splat *s = &c->now.heard.splat[0];
+    const struct mlt_path *path = c->now.own;
+    int x = int_within((s->px - c->all->x) / c->all->width * BLOCKS, 0, BLOCKS - 1);
+    int y = int_within((s->py - c->all->y) / c->all->height * BLOCKS, 0, BLOCKS - 1);
+    int kind = (c->now.I > c->all->b) + 2 * (path != NULL ? path->can[0] + 2 * path->can[1] : 0);
+    return (kind * BLOCKS + y) * BLOCKS + x;
+}
+
+/* What becomes of chains that start by I, or at any state: how many more are in each cell some steps later. */
+static void follow(struct bench *b, bool by_I, double *more)
+{
+    enum { STARTS = 600, STEPS = 6 };
+    struct chain *c = b->chain;
+    const struct chains *all = b->prepared.state;
+    int n = all->lengths * all->each;
+    for (int k = 0; k < STARTS; k++) {
+        double at = (k + rng_uniform(&c->rng)) / STARTS;
+        int i = by_I ? cumulative_find(all->before, n, at * all->before[n]) : (int)(at * n);
+        while (i < n - 1 && !(all->before[i + 1] > all->before[i]))
+            i++;
+        chain_candidate(c, i);
+        swap(c);
+        more[cell(c)]--;
+        for (int step = 0; step < STEPS; step++) {
+            arena_reset(&b->work->arena);
+            double a = all->rules->propose(c);
+            if (rng_uniform(&c->rng) < a)
+                swap(c);
+        }
+        more[cell(c)]++;
+    }
+}
+
+/* Chains that start as often at each state as I says go on so. In a picture a few states may bring most of a dark
+ * pixel's light, and its batches are far from normal; these are counts. */
+static void test_stays(struct test *t, const char *integrator)
+{
+    enum { BATCHES = 24 };
+    struct scene scene;
+    if (!room(t, 16, 16, "", "box", &scene))
+        return;
+    settings_set(&scene.settings, "bootstrapsamples", "1024", "test");
+    struct batches more = batches_new(BATCHES, CELLS, false), less = batches_new(BATCHES, CELLS, false),
+                   none = batches_new(2, CELLS, false);
+    for (int k = 0; k < BATCHES; k++) {
+        struct bench b;
+        if (!bench_new(t, &scene, integrator, 1 + (uint64_t)k, &b))
+            break;
+        follow(&b, true, more.value + CELLS * k);
+        follow(&b, false, less.value + CELLS * k);
+        bench_free(&b);
+    }
+    TEST_ACCEPT(t, batches_smallest_p(&more, &none), "%s: chains stay where they start", integrator);
+    TEST_REJECT(t, batches_smallest_p(&less, &none), "%s: chains stay where they should not start", integrator);
+    batches_free(&more);
+    batches_free(&less);
+    batches_free(&none);
     scene_free(&scene);
 }
 
@@ -321,8 +427,8 @@ static void test_samples(struct test *t)
     struct scene scene;
     struct bench pssmlt, mmlt, bdpt;
     int bright = 0;
-    if (!room(t, 1, 1, "", "box", &scene) || !bench_new(t, &scene, "pssmlt", &pssmlt) ||
-        !bench_new(t, &scene, "mmlt", &mmlt) || !bench_new(t, &scene, "bdpt", &bdpt))
+    if (!room(t, 1, 1, "", "box", &scene) || !bench_new(t, &scene, "pssmlt", 0, &pssmlt) ||
+        !bench_new(t, &scene, "mmlt", 0, &mmlt) || !bench_new(t, &scene, "bdpt", 0, &bdpt))
         return;
     for (int i = 0; i < 500; i++) {
         chain_candidate(pssmlt.chain, i);
@@ -346,7 +452,7 @@ static void test_samples(struct test *t)
 static void test_remake(struct test *t, struct scene *scene, long made[MLT_PERTURBATIONS])
 {
     struct bench b;
-    if (!bench_new(t, scene, "mlt", &b))
+    if (!bench_new(t, scene, "mlt", 0, &b))
         return;
     struct chain *c = b.chain;
     const struct chains *all = b.prepared.state;
@@ -396,7 +502,7 @@ static void test_starts(struct test *t)
 {
     struct scene scene;
     struct bench b;
-    if (!room(t, 40, 20, "", "box", &scene) || !bench_new(t, &scene, "mmlt", &b))
+    if (!room(t, 40, 20, "", "box", &scene) || !bench_new(t, &scene, "mmlt", 0, &b))
         return;
     for (long first = 0; first < 40; first += 4) {
         double before = 0, place = -1;
@@ -474,6 +580,7 @@ void test_chains(struct test *t)
     test_starts(t);
     for (size_t i = 0; i < sizeof METHODS / sizeof METHODS[0]; i++) {
         test_balance(t, METHODS[i]);
+        test_stays(t, METHODS[i]);
         test_luminance(t, METHODS[i]);
         test_means(t, METHODS[i]);
     }
