@@ -1,5 +1,5 @@
-/* test_chains.c: Markov chains: mutations keep the balance, states are bdpt's samples, chains stay where they should,
- * pictures are bdpt's. */
+/* test_chains.c: Markov chains: states are bdpt's samples, chains stay where they should, pictures are bdpt's.
+ * test_balance.c has what they accept. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,79 +11,23 @@
 #include "chains/mlt.h"
 #include "lab/stats.h"
 #include "render/render.h"
+#include "chain_bench.h"
 #include "helpers.h"
 #include "tests.h"
 
-/* A matte floor and wall, a mirror for a side wall, a glossy and a glass ball, a lamp, and a lamp that nobody sees. Of
- * some size, through some filter, with some sampling of roulette. */
-static const char ROOM[] =
-    "LookAt 0 1.5 -4  0 1 0  0 1 0 Camera \"perspective\" \"float fov\" 50 %s\n"
-    "Film \"image\" \"integer xresolution\" %d \"integer yresolution\" %d PixelFilter \"%s\"\n"
-    "Integrator \"bdpt\" \"float rrthreshold\" 0\n"
-    "WorldBegin AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [6 5 4]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 3 -1  1 3 -1  1 3 1  -1 3 1]\n"
-    "AttributeEnd LightSource \"point\" \"rgb I\" [1 2 3] \"point from\" [-1.5 1 -1]\n"
-    "Material \"matte\" \"rgb Kd\" [.7 .6 .5]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  2 0 -2  2 0 2  -2 0 2]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 2  2 0 2  2 3 2  -2 3 2]\n"
-    "Material \"mirror\"\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  -2 0 2  -2 3 2  -2 3 -2]\n"
-    "Material \"metal\" \"float roughness\" .1\n"
-    "TransformBegin Translate .8 .6 .5 Shape \"sphere\" \"float radius\" .6 TransformEnd\n"
-    "Material \"glass\" TransformBegin Translate -.7 .7 0 Shape \"sphere\" \"float radius\" .5 TransformEnd WorldEnd\n";
+/* --- numbers ----------------------------------------------------------------------------------------- */
 
-static bool room(struct test *t, int width, int height, const char *lens, const char *filter, struct scene *out)
+/* Are all numbers of `next` as near to those of `now` as those of a small step are? */
+static bool is_near(const struct chain *c)
 {
-    char text[4096];
-    snprintf(text, sizeof text, ROOM, lens, width, height, filter);
-    return scene_from_text(t, text, out);
-}
-
-/* A method made ready to take single steps. */
-struct bench {
-    const struct scene *scene;
-    struct render_job job;
-    struct preparation prepared;
-    struct workspace *work;
-    struct chain *chain;
-};
-
-enum { DEPTH = 4 };
-
-static bool bench_new(struct test *t, const struct scene *scene, const char *integrator, uint64_t seed,
-                      struct bench *out)
-{
-    struct render_options o = {.integrator = integrator, .seed = test_seed(t) + seed, .max_depth = DEPTH, .n_threads = 1};
-    struct error err = {""};
-    memset(out, 0, sizeof *out);
-    out->scene = scene;
-    if (!CHECK(t, render_prepare(scene, &o, render_crop(scene), &out->job, &out->prepared, &err), "%s", err.text))
-        return false;
-    out->work = workspaces_new(1, DEPTH);
-    out->chain = out->work->scratch = method_scratch(&out->prepared);
-    if (out->chain != NULL) {
-        out->chain->job = &out->job;
-        out->chain->work = out->work;
-        out->chain->rng = rng_stream(o.seed, RNG_TEST, 1, 0);
-    }
+    for (int i = 0; i < CHAIN_STREAMS; i++)
+        for (size_t k = 0; k < c->now.number[i].n && k < c->next.number[i].n; k++) {
+            double d = fabs(c->next.number[i].number[k] - c->now.number[i].number[k]);
+            if (fmin(d, 1 - d) > 8 * c->all->sigma)
+                return false;
+        }
     return true;
 }
-
-static void bench_free(struct bench *b)
-{
-    method_scratch_free(&b->prepared, b->work->scratch);
-    workspaces_free(b->work, 1);
-    method_release(&b->prepared);
-}
-
-static void swap(struct chain *c)
-{
-    struct chain_state s = c->now;
-    c->now = c->next;
-    c->next = s;
-}
-
-/* --- numbers ----------------------------------------------------------------------------------------- */
 
 /* Small steps are normal, around the ends; after many of them, all accepted, a number may be anywhere. */
 static void test_steps(struct test *t)
@@ -92,7 +36,7 @@ static void test_steps(struct test *t)
     double where[CELLS] = {0}, how[CELLS] = {0}, even_where[CELLS], even_how[CELLS];
     struct scene scene;
     struct bench b;
-    if (!room(t, 4, 4, "", "box", &scene) || !bench_new(t, &scene, "pssmlt", 0, &b))
+    if (!bench_room(t, 4, 4, "", "box", &scene) || !bench_new(t, &scene, "pssmlt", 0, &b))
         return;
     struct chain *c = b.chain;
     const struct chains *all = b.prepared.state;
@@ -102,10 +46,9 @@ static void test_steps(struct test *t)
     for (int i = 0; i < NUMBERS; i++)
         sampler_number(&p.sampler[EYE_NUMBERS], DRAW_LOBE);
     primary_end(&p);
-    swap(c);
+    chain_swap(c);
     long large = 0;
     for (int k = 0; k < STEPS; k++) {
-        large += !primary_small(c);
         primary_begin(&p, c, true);
         for (int i = 0; i < NUMBERS; i++) {
             double u = sampler_number(&p.sampler[EYE_NUMBERS], DRAW_LOBE);
@@ -118,11 +61,17 @@ static void test_steps(struct test *t)
                 where[(int)(u * CELLS)]++;
         }
         primary_end(&p);
-        swap(c);
+        chain_swap(c);
     }
     for (int i = 0; i < CELLS; i++) {
         even_where[i] = (double)NUMBERS * (STEPS / EVERY) / CELLS;
         even_how[i] = (double)NUMBERS * STEPS / CELLS;
+    }
+    chain_candidate(c, 1);
+    chain_swap(c);
+    for (int k = 0; k < STEPS; k++) {
+        chain_propose(c);
+        large += !is_near(c);
     }
     double z = ((double)large - all->large_step * STEPS) / sqrt(STEPS * all->large_step * (1 - all->large_step));
     TEST_ACCEPT(t, stats_chi2_test(how, even_how, CELLS), "steps are normal");
@@ -132,150 +81,6 @@ static void test_steps(struct test *t)
         chi += (where[i] - even_where[i]) * (where[i] - even_where[i]) / even_where[i];
     CHECK(t, chi < 6 * CELLS, "numbers are not uniform: chi-square %g of %d cells", chi, CELLS);
     TEST_ACCEPT(t, stats_normal_p(z), "large steps are as frequent as wanted: %ld of %d", large, STEPS);
-    bench_free(&b);
-    scene_free(&scene);
-}
-
-/* The probability of a new path, of mlt. */
-static double chance(const struct chain *c, const struct mlt_path *path)
-{
-    return path->can[LENS_PERTURBATION] || path->can[CAUSTIC_PERTURBATION] ? c->all->large_step : 1;
-}
-
-/* L of the path whose sub-paths have just been made again, by its strategy's own functions. */
-static double contribution(struct chain *c, const struct mlt_path *path, enum mlt_perturbation which,
-                           const struct mlt_move *move, struct primary *p, const struct strategy *strategy)
-{
-    const struct scene *scene = c->job->scene;
-    const struct mis_counts *counts = &c->all->frozen.counts;
-    const struct vertex *light = c->work->light, *eye = c->work->eye, *x = &light[path->l];
-    int s = strategy->s, n = strategy->t;
-    struct light_point at = vertex_light_point(&path->x[0].v);
-    at.pdf = path->x[0].v.pdf_fwd;
-    if (which == LENS_PERTURBATION) {
-        struct connection c2 = s == 0   ? connect_hit(scene, counts, &eye[n - 2], &eye[n - 1], n)
-                               : s == 1 ? connect_point(scene, counts, &eye[n - 1], &at, at.pdf)
-                                        : connect_pair(scene, counts, &light[s - 1], &eye[n - 1]);
-        return rgb_luminance(c2.value);
-    }
-    p->state->number[LENS_NUMBERS].at = 0;
-    struct connection c1 = connect_lens(scene, counts, light, s, &p->sampler[LENS_NUMBERS]);
-    return rgb_luminance(c1.value) * (path->l == 0 ? light_pdf_emission(&scene->lights, &at, move->wi)
-                                                   : bsdf_eval(&x->bsdf, x->wo, move->wi, IMPORTANCE).pdf);
-}
-
-/* What the latest proposal of mlt was: a perturbation, or MLT_PERTURBATIONS for a new path. */
-static int mutation(const struct mlt_path *to)
-{
-    int which = 0;
-    while (which < MLT_PERTURBATIONS && to->L[which] < 0)
-        which++;
-    return which;
-}
-
-/* Could b's caustic perturbation be by the angle that lies between a and b? */
-static bool in_range(const struct chain *c, const struct mlt_path *a, const struct mlt_path *b)
-{
-    vec3 wa = mlt_stay(a, CAUSTIC_PERTURBATION).wi, wb = mlt_stay(b, CAUSTIC_PERTURBATION).wi;
-    double angle = atan2(length(cross(wa, wb)), dot(wa, wb)), pixels = angle * mlt_pixels_per_angle(c, b);
-    return pixels >= 0.1 && pixels <= sqrt(0.05 * c->all->width * c->all->height / PI);
-}
-
-/* The way back of a perturbation leads back: b moved to where a is counts as a. */
-static void check_back(struct test *t, struct chain *c, enum mlt_perturbation which)
-{
-    const struct mlt_path *from = c->now.own, *to = c->next.own;
-    double L = from->L[which], I = c->now.I;
-    struct mlt_move move = mlt_stay(from, which);
-    swap(c);
-    struct strategy strategy = {.n = c->now.length > 2 ? c->now.length : 1};
-    struct primary p = {.chain = c};
-    struct chain_state kept = c->next, room = {.length = kept.length};
-    c->next = room; /* where the path from which it came is, is none of this one's business */
-    double back = mlt_remake(&p, to, which, &move, &strategy);
-    primary_end(&p);
-    double plain = contribution(c, from, which, &move, &p, &strategy);
-    CHECK(t, fabs(plain / back - 1) < 1e-9, "L is %g, not %g", back, plain);
-    CHECK(t, fabs(back / L - 1) < 1e-6 && fabs(c->next.I / I - 1) < 1e-6,
-          "the way back of a %s perturbation leads elsewhere: %g, %g",
-          which == LENS_PERTURBATION ? "lens" : "caustic", back / L, c->next.I / I);
-    for (int i = 0; i < CHAIN_STREAMS; i++)
-        free(c->next.number[i].number);
-    tile_free(&c->next.heard);
-    c->next = kept;
-    swap(c);
-}
-
-/* How many moves there were, in all and such as put a rule to the test. */
-struct moves {
-    long all, doubtful;   /* accepted with less than 1 */
-    long unlike, no_back; /* of mlt: new paths between states of other mutations; there, but not back */
-};
-
-/* One proposal: it leaves the present state alone, and T f a is the same both ways: what T is not alike both ways in is
- * the probability to choose the mutation; where there is no way back there is none there. */
-static void check_proposal(struct test *t, struct chain *c, bool paths, struct moves *n)
-{
-    struct mlt_path *from = c->now.own, *to = c->next.own;
-    double I = c->now.I, here = I, there;
-    int which = MLT_PERTURBATIONS;
-    if (paths)
-        to->k = 0;
-    arena_reset(&c->work->arena);
-    double a = c->all->rules->propose(c);
-    CHECK(t, c->now.I == I && a >= 0 && a <= 1, "a proposal changes the present state");
-    if (!((there = c->next.I) > 0) || (paths && to->k == 0))
-        return;
-    if (paths && (which = mutation(to)) < MLT_PERTURBATIONS) {
-        here = from->L[which];
-        there = to->L[which];
-    } else if (paths) {
-        n->unlike += chance(c, from) < chance(c, to) || chance(c, from) > chance(c, to);
-        here *= chance(c, from);
-        there *= chance(c, to);
-    }
-    if (which == CAUSTIC_PERTURBATION && !in_range(c, from, to)) {
-        n->no_back++;
-        there = 0;
-    } else if (which < MLT_PERTURBATIONS) {
-        check_back(t, c, (enum mlt_perturbation)which);
-    }
-    double back = there > 0 ? there * fmin(1, here / there) : 0;
-    CHECK(t, fabs(here * a - back) < 1e-9 * here, "mutation %d: there %g, back %g", which, here * a, back);
-    n->doubtful += a < 1;
-    n->all++;
-}
-
-/* From independent states, a few steps of a chain each; of mlt, from all that have a caustic or only new paths. */
-static void test_balance(struct test *t, const char *integrator)
-{
-    struct scene scene;
-    struct bench b;
-    struct moves n = {0, 0, 0, 0};
-    bool paths = strcmp(integrator, "mlt") == 0;
-    if (!room(t, 16, 16, "\"float lensradius\" .05 \"float focaldistance\" 4", "gaussian", &scene) ||
-        !bench_new(t, &scene, integrator, 0, &b))
-        return;
-    struct chain *c = b.chain;
-    const struct chains *all = b.prepared.state;
-    for (long i = 0; i < (long)all->lengths * all->each; i += paths ? 1 : 23) {
-        double I = all->before[i + 1] - all->before[i];
-        if (!(I > 0))
-            continue;
-        chain_candidate(c, i);
-        CHECK(t, fabs(c->next.I - I) < 1e-9 * all->before[all->lengths * all->each], "%s: a start is another",
-              integrator);
-        const struct mlt_path *path = c->next.own;
-        if (i % 23 != 0 && !path->can[CAUSTIC_PERTURBATION] && path->can[LENS_PERTURBATION])
-            continue;
-        swap(c);
-        for (int k = 0; k < (paths && chance(c, c->now.own) >= 1 ? 60 : 4); k++)
-            check_proposal(t, c, paths, &n);
-    }
-    CHECK(t, n.doubtful > 30 && n.all > 2 * n.doubtful / 3, "%s: %ld moves, %ld doubtful", integrator, n.all,
-          n.doubtful);
-    CHECK(t, !paths || (n.unlike > 30 && n.no_back > 10), "only %ld moves to other mutations, %ld without a way back",
-          n.unlike, n.no_back);
     bench_free(&b);
     scene_free(&scene);
 }
@@ -308,13 +113,12 @@ static void follow(struct bench *b, bool by_I, double *more)
         while (i < n - 1 && !(all->before[i + 1] > all->before[i]))
             i++;
         chain_candidate(c, i);
-        swap(c);
+        chain_swap(c);
         more[cell(c)]--;
         for (int step = 0; step < STEPS; step++) {
-            arena_reset(&b->work->arena);
-            double a = all->rules->propose(c);
+            double a = chain_propose(c);
             if (rng_uniform(&c->rng) < a)
-                swap(c);
+                chain_swap(c);
         }
         more[cell(c)]++;
     }
@@ -326,7 +130,7 @@ static void test_stays(struct test *t, const char *integrator)
 {
     enum { BATCHES = 24 };
     struct scene scene;
-    if (!room(t, 16, 16, "", "box", &scene))
+    if (!bench_room(t, 16, 16, "", "box", &scene))
         return;
     settings_set(&scene.settings, "bootstrapsamples", "1024", "test");
     struct batches more = batches_new(BATCHES, CELLS, false), less = batches_new(BATCHES, CELLS, false),
@@ -400,7 +204,7 @@ static rgb all_strategies(struct bench *b, const struct chain_state *whole)
 {
     struct chain *c = b->chain;
     rgb sum = rgb_black();
-    for (int n = 2; n <= DEPTH + 2; n++)
+    for (int n = 2; n <= BENCH_DEPTH + 2; n++)
         for (int s = 0; s < (n > 2 ? n : 1); s++) {
             struct primary p;
             struct strategy strategy;
@@ -427,7 +231,7 @@ static void test_samples(struct test *t)
     struct scene scene;
     struct bench pssmlt, mmlt, bdpt;
     int bright = 0;
-    if (!room(t, 1, 1, "", "box", &scene) || !bench_new(t, &scene, "pssmlt", 0, &pssmlt) ||
+    if (!bench_room(t, 1, 1, "", "box", &scene) || !bench_new(t, &scene, "pssmlt", 0, &pssmlt) ||
         !bench_new(t, &scene, "mmlt", 0, &mmlt) || !bench_new(t, &scene, "bdpt", 0, &bdpt))
         return;
     for (int i = 0; i < 500; i++) {
@@ -445,55 +249,6 @@ static void test_samples(struct test *t)
     scene_free(&scene);
 }
 
-/* --- paths ------------------------------------------------------------------------------------------- */
-
-/* A path made again where it is, by whichever strategy a perturbation uses, counts as it did when another had made it:
- * that depends on the path alone. */
-static void test_remake(struct test *t, struct scene *scene, long made[MLT_PERTURBATIONS])
-{
-    struct bench b;
-    if (!bench_new(t, scene, "mlt", 0, &b))
-        return;
-    struct chain *c = b.chain;
-    const struct chains *all = b.prepared.state;
-    for (long i = 0; i < (long)all->lengths * all->each; i += 4) {
-        chain_candidate(c, i);
-        if (!(c->next.I > 0))
-            continue;
-        swap(c);
-        const struct mlt_path *path = c->now.own;
-        for (int which = 0; which < MLT_PERTURBATIONS; which++) {
-            struct strategy to = {.n = c->now.length > 2 ? c->now.length : 1};
-            struct primary p = {.chain = c};
-            if (!path->can[which])
-                continue;
-            struct mlt_move stay = mlt_stay(path, (enum mlt_perturbation)which);
-            double L = mlt_remake(&p, path, (enum mlt_perturbation)which, &stay, &to);
-            primary_end(&p);
-            CHECK(t, L > 0 && fabs(c->next.I / c->now.I - 1) < 1e-9,
-                  "path %ld, k %d, m %d, l %d, strategy %d,%d: %g, not %g", i, path->k, path->m, path->l, to.s, to.t,
-                  c->next.I, c->now.I);
-            double far = c->next.heard.splat[0].length, was = c->now.heard.splat[0].length;
-            CHECK(t, fabs(far / was - 1) < 1e-9, "path %ld, strategy %d,%d: %g long, not %g", i, to.s, to.t, far, was);
-            made[which]++;
-        }
-    }
-    bench_free(&b);
-}
-
-static void test_paths(struct test *t)
-{
-    static const char *const LENS[] = {"", "\"float lensradius\" .05 \"float focaldistance\" 4"};
-    long made[MLT_PERTURBATIONS] = {0, 0};
-    struct scene scene;
-    for (int i = 0; i < 2; i++)
-        if (room(t, 16, 16, LENS[i], "gaussian", &scene)) {
-            test_remake(t, &scene, made);
-            scene_free(&scene);
-        }
-    CHECK(t, made[0] > 1000 && made[1] > 40, "only %ld and %ld paths", made[0], made[1]);
-}
-
 /* --- pictures ---------------------------------------------------------------------------------------- */
 
 /* Tiles of several sizes: each has its own interval, and in it a place of which the position in the interval is the
@@ -502,7 +257,7 @@ static void test_starts(struct test *t)
 {
     struct scene scene;
     struct bench b;
-    if (!room(t, 40, 20, "", "box", &scene) || !bench_new(t, &scene, "mmlt", 0, &b))
+    if (!bench_room(t, 40, 20, "", "box", &scene) || !bench_new(t, &scene, "mmlt", 0, &b))
         return;
     for (long first = 0; first < 40; first += 4) {
         double before = 0, place = -1;
@@ -530,9 +285,9 @@ static void test_luminance(struct test *t, const char *integrator)
     struct error err = {""};
     struct film film;
     double sum = 0;
-    if (!room(t, 20, 12, "", "box", &scene))
+    if (!bench_room(t, 20, 12, "", "box", &scene))
         return;
-    struct render_options o = {.integrator = integrator, .end = 10, .max_depth = DEPTH, .n_threads = 1};
+    struct render_options o = {.integrator = integrator, .end = 10, .max_depth = BENCH_DEPTH, .n_threads = 1};
     film_init(&film, render_crop(&scene), scene.width, scene.height);
     CHECK(t, render_scene(&scene, &o, &film, &err), "%s", err.text);
     for (size_t i = 0; i < 20 * 12; i++)
@@ -547,9 +302,9 @@ static void test_luminance(struct test *t, const char *integrator)
 static void agree(struct test *t, struct scene *scene, const char *what, const char *integrator)
 {
     settings_clear(&scene->settings);
-    settings_set(&scene->settings, "bootstrapsamples", "2048", "test");
-    struct batches one = render_batches(t, scene, integrator, DEPTH, 64, 20, 8, 61),
-                   two = render_batches(t, scene, "bdpt", DEPTH, 16, 8, 8, 62);
+    settings_set(&scene->settings, "bootstrapsamples", "512", "test");
+    struct batches one = independent_batches(t, scene, integrator, BENCH_DEPTH, 64, 20, 8, 61),
+                   two = render_batches(t, scene, "bdpt", BENCH_DEPTH, 16, 8, 8, 62);
     double ratio, p = batches_p(&one, &two, &ratio);
     TEST_ACCEPT(t, p, "%s: %s is %.5f of bdpt", what, integrator, ratio);
     batches_scale(&one, 1.3);
@@ -561,7 +316,7 @@ static void agree(struct test *t, struct scene *scene, const char *what, const c
 static void test_means(struct test *t, const char *integrator)
 {
     struct scene scene;
-    if (room(t, 16, 16, "\"float lensradius\" .05 \"float focaldistance\" 4", "gaussian", &scene)) {
+    if (bench_room(t, 16, 16, "\"float lensradius\" .05 \"float focaldistance\" 4", "gaussian", &scene)) {
         agree(t, &scene, "room", integrator);
         scene_free(&scene);
     }
@@ -576,10 +331,8 @@ void test_chains(struct test *t)
     static const char *const METHODS[] = {"pssmlt", "mmlt", "mlt"};
     test_steps(t);
     test_samples(t);
-    test_paths(t);
     test_starts(t);
     for (size_t i = 0; i < sizeof METHODS / sizeof METHODS[0]; i++) {
-        test_balance(t, METHODS[i]);
         test_stays(t, METHODS[i]);
         test_luminance(t, METHODS[i]);
         test_means(t, METHODS[i]);

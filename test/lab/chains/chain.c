@@ -22,10 +22,9 @@ static const double BOOTSTRAP_PER_PIXEL = 4;
 
 /* --- states ------------------------------------------------------------------------------------------ */
 
-void chain_hear(const struct chain *c, struct chain_state *state)
+void chain_hear(struct chain_state *state)
 {
     static const struct gate ALL = {0, INFINITY};
-    (void)c;
     state->heard.gate = ALL;
     state->heard.n_splats = 0;
     state->I = 0;
@@ -46,7 +45,23 @@ void chain_heard(const struct chain *c, struct chain_state *state)
     state->heard.n_splats = kept;
 }
 
-double chain_accept(const struct chain *c) { return c->next.I < c->now.I ? c->next.I / c->now.I : 1; }
+double chain_propose(struct chain *c)
+{
+    const struct chain_rules *rules = c->all->rules;
+    arena_reset(&c->work->arena);
+    if (rules->propose != NULL)
+        return rules->propose(c);
+    c->next.length = c->now.length;
+    rules->sample(c, rng_uniform(&c->rng) >= c->all->large_step);
+    return c->next.I < c->now.I ? c->next.I / c->now.I : 1;
+}
+
+void chain_swap(struct chain *c)
+{
+    struct chain_state s = c->now;
+    c->now = c->next;
+    c->next = s;
+}
 
 void chain_candidate(struct chain *c, long i)
 {
@@ -54,7 +69,7 @@ void chain_candidate(struct chain *c, long i)
     c->candidate = i % each;
     c->next.length = 2 + (int)(i / each);
     arena_reset(&c->work->arena);
-    c->all->rules->fresh(c);
+    c->all->rules->sample(c, false);
     c->candidate = -1;
 }
 
@@ -227,13 +242,6 @@ double chain_position(const struct preparation *m, const struct tile_pass *pass)
     return (before + (u - floor(u)) * rect_width(r) * rect_height(r)) / pixels;
 }
 
-static void swap_states(struct chain *c)
-{
-    struct chain_state s = c->now;
-    c->now = c->next;
-    c->next = s;
-}
-
 /* The chain's first state, made again as it was. */
 static void start(struct chain *c, const struct preparation *m, const struct tile_pass *pass)
 {
@@ -242,7 +250,7 @@ static void start(struct chain *c, const struct preparation *m, const struct til
     int i = cumulative_find(all->before, n, chain_position(m, pass) * all->before[n]);
     chain_candidate(c, i);
     assert(c->next.I > 0 && fabs(c->next.I - (all->before[i + 1] - all->before[i])) <= 1e-9 * all->before[n]);
-    swap_states(c);
+    chain_swap(c);
     uint64_t tile = (uint64_t)pass->rect.y0 * (uint64_t)pass->job->scene->width + (uint64_t)pass->rect.x0;
     c->rng = rng_stream(pass->job->seed, RNG_CHAIN, 1 + tile, (uint64_t)pass->first);
 }
@@ -276,12 +284,11 @@ void chain_render(const struct preparation *m, const struct tile_pass *pass)
     c->work = pass->work;
     c->gate = pass->tile->gate;
     for (start(c, m, pass); n > 0; n--) {
-        arena_reset(&c->work->arena);
-        double a = all->rules->propose(c);
+        double a = chain_propose(c);
         held += 1 - a;
         if (rng_uniform(&c->rng) < a) {
             send(c, pass, &c->now, held);
-            swap_states(c);
+            chain_swap(c);
             held = a;
         } else {
             send(c, pass, &c->next, a);

@@ -283,7 +283,7 @@ static double perturb(struct chain *c, enum mlt_perturbation which)
     struct mlt_move move = draw_move(c, old, which, &angle);
     double L = in_raster(move.raster) ? mlt_remake(&p, old, which, &move, &to) : 0;
     if (!(L > 0)) {
-        chain_hear(c, &c->next);
+        chain_hear(&c->next);
         return 0;
     }
     primary_end(&p);
@@ -302,11 +302,11 @@ static double chance_of_new(const struct chain *c, const struct mlt_path *path)
     return path->can[LENS_PERTURBATION] || path->can[CAUSTIC_PERTURBATION] ? c->all->large_step : 1;
 }
 
-static void fresh(struct chain *c)
+static void sample(struct chain *c, bool small)
 {
     struct primary p;
     struct strategy strategy;
-    primary_begin(&p, c, false);
+    primary_begin(&p, c, small);
     bool made = primary_strategy(&p, &strategy);
     primary_end(&p);
     if (made)
@@ -323,14 +323,14 @@ static double propose(struct chain *c)
                        (!old->can[LENS_PERTURBATION] || u - chance >= (1 - chance) / 2);
         return perturb(c, caustic ? CAUSTIC_PERTURBATION : LENS_PERTURBATION);
     }
-    fresh(c);
+    sample(c, false);
     return c->next.I > 0 ? fmin(1, c->next.I * chance_of_new(c, path) / (c->now.I * chance)) : 0;
 }
 
 static void own_free(void *own) { arena_free(&((struct mlt_path *)own)->arena); }
 
 static const struct chain_rules RULES = {.by_length = true, .own_size = sizeof(struct mlt_path), .own_free = own_free,
-                                         .fresh = fresh, .propose = propose};
+                                         .sample = sample, .propose = propose};
 
 static void prepare(const struct render_job *job, struct preparation *out) { chain_prepare(&RULES, job, out); }
 
@@ -343,6 +343,4 @@ static const struct method_parameter PARAMETERS[] = {
 
 const struct method method_mlt = {
     .name = "mlt", .help = "a Markov chain over paths: new ones, lens and caustic perturbations [Veach 1997]",
-    .chain = true, .parameters = PARAMETERS, .state_size = sizeof(struct chains),
-    .scratch_size = sizeof(struct chain), .rr_threshold = 0, .prepare = prepare, .render = chain_render,
-    .release = chain_release, .scratch_init = chain_scratch, .scratch_free = chain_scratch_free};
+    .parameters = PARAMETERS, .rr_threshold = 0, .prepare = prepare, CHAIN_ROW};

@@ -42,7 +42,7 @@ void primary_begin(struct primary *p, struct chain *c, bool small)
     uint64_t key = chain_key(c);
     p->chain = c;
     p->state = &c->next;
-    chain_hear(c, p->state);
+    chain_hear(p->state);
     for (int i = 0; i < CHAIN_STREAMS; i++) {
         struct tape *tape = &p->state->number[i];
         tape->n = tape->at = 0;
@@ -58,8 +58,6 @@ void primary_end(struct primary *p)
         p->state->number[i].n = p->state->number[i].at;
     chain_heard(p->chain, p->state);
 }
-
-bool primary_small(struct chain *c) { return rng_uniform(&c->rng) >= c->all->large_step; }
 
 struct walk primary_walk(struct primary *p, enum chain_stream stream)
 {

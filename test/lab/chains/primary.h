@@ -28,9 +28,6 @@ void primary_end(struct primary *p);
 /* The parameters of a row whose state is a struct chains. */
 extern const struct method_parameter PRIMARY_PARAMETERS[];
 
-/* primary_small: is the next mutation a small step? */
-bool primary_small(struct chain *c);
-
 /* primary_eye: an eye sub-path of at most n vertices through a raster point that is uniform over the raster.
  * primary_light: a light sub-path likewise. Both into the thread's memory, both return their lengths. */
 int primary_eye(struct primary *p, int n, double *px, double *py);
