@@ -82,16 +82,6 @@ struct chain_rules {
     .chain = true, .state_size = sizeof(struct chains), .scratch_size = sizeof(struct chain),                          \
     .render = chain_render, .release = chain_release, .scratch_init = chain_scratch, .scratch_free = chain_scratch_free
 
-/* chain_sampler: the numbers of one kind for `next`: plain random ones, but those of independent states, of which there
- * are many, are of low discrepancy from one to the next. `key` is drawn from c->rng once for all kinds. */
-struct sampler chain_sampler(struct chain *c, enum chain_stream stream, uint64_t key);
-uint64_t chain_key(struct chain *c);
-
-/* chain_hear: begin with what a state brings; chain_heard: what it brings has been heard: leave out what is black or
- * outside the raster, and sum up. */
-void chain_hear(struct chain_state *state);
-void chain_heard(const struct chain *c, struct chain_state *state);
-
 /* chain_propose: what is proposed, by the rules. chain_swap: go there. */
 double chain_propose(struct chain *c);
 void chain_swap(struct chain *c);

@@ -22,7 +22,6 @@
  */
 #include "chains/mlt.h"
 
-#include <stddef.h>
 #include <string.h>
 
 #include "base/frame.h"
@@ -283,7 +282,7 @@ static double perturb(struct chain *c, enum mlt_perturbation which)
     struct mlt_move move = draw_move(c, old, which, &angle);
     double L = in_raster(move.raster) ? mlt_remake(&p, old, which, &move, &to) : 0;
     if (!(L > 0)) {
-        chain_hear(&c->next);
+        c->next.I = 0;
         return 0;
     }
     primary_end(&p);
@@ -334,13 +333,6 @@ static const struct chain_rules RULES = {.by_length = true, .own_size = sizeof(s
 
 static void prepare(const struct render_job *job, struct preparation *out) { chain_prepare(&RULES, job, out); }
 
-static const struct method_parameter PARAMETERS[] = {
-    {"bootstrapsamples", PARAMETER_INTEGER, offsetof(struct chains, bootstrap), 0, 0, 1 << 24,
-     "independent states of each path length, for brightness and starts; 0: by the picture's size", NULL},
-    {"largestepprobability", PARAMETER_NUMBER, offsetof(struct chains, large_step), 0.3, 1e-3, 1,
-     "of a new path, where there is another mutation", NULL},
-    {.name = NULL}};
-
 const struct method method_mlt = {
     .name = "mlt", .help = "a Markov chain over paths: new ones, lens and caustic perturbations [Veach 1997]",
-    .parameters = PARAMETERS, .rr_threshold = 0, .prepare = prepare, CHAIN_ROW};
+    .parameters = &CHAIN_PARAMETERS[1], .rr_threshold = 0, .prepare = prepare, CHAIN_ROW};

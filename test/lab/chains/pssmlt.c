@@ -38,4 +38,4 @@ static void prepare(const struct render_job *job, struct preparation *out) { cha
 
 const struct method method_pssmlt = {
     .name = "pssmlt", .help = "a Markov chain over the random numbers of bdpt's samples [Kelemen 2002]",
-    .parameters = PRIMARY_PARAMETERS, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, CHAIN_ROW};
+    .parameters = CHAIN_PARAMETERS, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, CHAIN_ROW};
