@@ -25,7 +25,7 @@ TESTS    = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/*.c)) $(TAR
 FUZZED   = $(BUILD)/obj/test/fuzz/libfuzzer.o $(TARGETS) $(filter-out %/main.o,$(LABS))
 
 .BEGIN: # which other makes do before anything else, and GNU make never
-	@echo "This Makefile needs GNU make (gmake); README.md has a line that builds without any make." >&2; exit 1
+	@echo "This Makefile needs GNU make (gmake); doc/portability.md has a line that builds without any make." >&2; exit 1
 
 all: asbdpt asbdpt-lab ## build ./asbdpt, the renderer, and ./asbdpt-lab, the laboratory (the default)
 	@echo "Built. Next: make demo (half a minute), ./asbdpt --help, make test, make help."

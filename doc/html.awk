@@ -1,8 +1,8 @@
 # html.awk: a page of Markdown, or a source file (-v source=1), as HTML that needs nothing but itself and its pictures.
-#   awk -v root=../.. -v title=NAME [-v math=1] [-v source=1] [-v nav=0] -f doc/html.awk FILE >FILE.html
+#   awk -v root=../.. -v title=NAME [-v math=1] [-v source=1] [-v nav=0] -f doc/math.awk -f doc/html.awk FILE >FILE.html
 # root is the way from the page to the top of the HTML tree. The subset of Markdown is that of this tree's documents:
 # headings, paragraphs, lists of one level, tables, indented and fenced code, pictures, links, emphasis, code.
-# With math, plain-text formulas get indices and Greek letters: p_s, y_(s-1), x^2, sum_k, beta.
+# With math, plain-text formulas are typeset: those of a line of text by indices and Greek letters, blocks by math.awk.
 
 function escape(s) { gsub(/&/, "\\&amp;", s); gsub(/</, "\\&lt;", s); gsub(/>/, "\\&gt;", s); return s }
 
@@ -44,7 +44,7 @@ function word(s, name, with,    out, before, after, at, w) {
 function target(url, label) {
     if (url ~ /^(https?:|mailto:|#)/) return url
     if (url ~ /\.md(#.*)?$/) { sub(/\.md/, ".html", url); return url }
-    return url ~ /\.(png|svg|jpg)$/ ? url : url ".html" line_of(url, label)
+    return url ~ /\.(png|svg|jpg|html)$/ ? url : url ".html" line_of(url, label)
 }
 # "#L" and the number of the line on which the function is defined; "" if none is named or found.
 function line_of(url, label,    name, folder, line, n) {
@@ -111,11 +111,38 @@ function pairs(s, pattern, n, tag,    out) {
     return out s
 }
 
+# C, a line at a time: comments and keywords marked. commented: inside a comment that began on a line before.
+function colour(s,    out, at, code) {
+    while (s != "") {
+        if (commented) {
+            at = index(s, "*/")
+            commented = !at
+            code = at ? substr(s, 1, at + 1) : s
+            out = out "<i>" escape(code) "</i>"
+        } else {
+            at = index(s, "/*")
+            commented = at > 0
+            code = at ? substr(s, 1, at - 1) : s
+            out = out keywords(escape(code))
+        }
+        s = substr(s, length(code) + 1)
+    }
+    return out
+}
+function keywords(s,    out, name) {
+    while (match(s, /[A-Za-z_][A-Za-z0-9_]*/)) {
+        name = substr(s, RSTART, RLENGTH)
+        out = out substr(s, 1, RSTART - 1) (index(KEYWORDS, " " name " ") ? "<b>" name "</b>" : name)
+        s = substr(s, RSTART + RLENGTH)
+    }
+    return out s
+}
+
 # A block of indented lines: a formula unless it looks like commands or a listing.
 function block(text,    is_code) {
     is_code = !math || text ~ /(^|\n)(\.\/|make|cc |sh |build\/|WHOLE=|asbdpt)/
     sub(/\n$/, "", text)
-    print is_code ? "<pre>" escape(text) "</pre>" : "<pre class=\"math\">" formula(escape(text), 0) "</pre>"
+    print is_code ? "<pre>" escape(text) "</pre>" : math_block(text)
 }
 
 function flush(    i, n, cell, tag) {
@@ -148,6 +175,8 @@ function head(line,    n, i, cell) {
 }
 
 BEGIN {
+    KEYWORDS = " bool break case char const continue default do double else enum extern float for if int long return short" \
+        " sizeof static struct switch union unsigned void while "
     print "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
     print "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>" title "</title>"
     print "<link rel=\"stylesheet\" href=\"" root "/style.css\"></head><body" (source ? " class=\"source\"" : "") ">"
@@ -155,11 +184,11 @@ BEGIN {
         "<a href=\"" root "/doc/tour/glossary.html\">glossary</a></nav>"
     if (source) print "<h1>" title "</h1><pre>"
 }
-source { printf "<span id=\"L%d\" class=\"n\">%4d</span> %s\n", FNR, FNR, escape($0); next }
+source { printf "<span id=\"L%d\" class=\"n\">%4d</span> %s\n", FNR, FNR, title ~ /\.[ch]$/ ? colour($0) : escape($0); next }
 
 fence && /^ *```/ { fence = 0; print "</pre>"; next }
-fence { print escape($0); next }
-/^ *```/ { flush(); fence = 1; printf "<pre>"; next }
+fence { print fence == 2 ? colour($0) : escape($0); next }
+/^ *```/ { flush(); fence = /```c$/ ? 2 : 1; printf "<pre>"; next }
 /^ *$/ {
     blank = 1
     if (kind == "pre") buffer = buffer "\n"
@@ -173,6 +202,7 @@ fence { print escape($0); next }
     text = substr($0, n + 2)
     id = tolower(text); gsub(/[^a-z0-9 -]/, "", id); gsub(/ /, "-", id)
     print "<h" n " id=\"" id "\">" inline(text) "</h" n ">"
+    if (n == 2) contents = contents "<a href=\"#" id "\">" inline(text) "</a>\n"
     blank = 0
     next
 }
@@ -212,5 +242,6 @@ fence { print escape($0); next }
 END {
     end_list(); flush()
     if (source) print "</pre>"
+    if (contents != "") print "<aside>" contents "</aside>"
     print "</body></html>"
 }

@@ -17,10 +17,19 @@ pre, code { font-family: "DejaVu Sans Mono", Menlo, Consolas, monospace; font-si
 code { white-space: nowrap; }
 code.long { white-space: normal; overflow-wrap: anywhere; }
 pre { overflow-x: auto; padding: 0.7em 1em; background: #8881; border-radius: 4px; line-height: 1.4; }
-pre.math { background: none; border-left: 3px solid #0b62b8; border-radius: 0; font-size: 0.98em; line-height: 1.7; }
-pre.math, .wide td, .wide th { font-family: "DejaVu Serif", Georgia, serif; }
+.math { border-left: 3px solid #0b62b8; }
+.math td { border: none; padding: 0.2em 1.2em; vertical-align: middle; font-size: 1em; }
+math { font-size: 1.08em; margin: 0; }
 .wide { overflow-x: auto; }
 .wide td, .wide th { font-size: 0.92em; }
+pre i { color: #487; font-style: normal; }
+pre b { color: #a26; font-weight: normal; }
+aside { display: none; }
+@media screen and (min-width: 78em) {
+    aside { display: block; position: fixed; top: 5em; left: 1em; width: calc(50vw - 26em); max-width: 15em;
+        font: 0.85rem/1.4 sans-serif; }
+    aside a { display: block; padding: 0.25em 0; }
+}
 @media screen and (min-width: 60em) {
     pre, .many { width: max-content; box-sizing: border-box; min-width: 100%; max-width: max(100%, 50vw + 21rem); }
 }
@@ -35,13 +44,12 @@ sub, sup { font-size: 0.72em; line-height: 0; }
 .source { max-width: none; }
 .n { color: #888; }
 :target { background: #fd08; }
-@media (prefers-color-scheme: dark) { a { color: #7db8f2; } }
+@media (prefers-color-scheme: dark) { a { color: #7db8f2; } pre i { color: #7b9; } pre b { color: #e8a; } }
 @media print {
     body { max-width: none; font-size: 10.5pt; }
     nav { display: none; }
     a { color: inherit; }
     pre { white-space: pre-wrap; font-size: 7pt; padding: 0.5em; }
-    pre.math { font-size: 10pt; }
     .wide { overflow: visible; }
     .many td, .many th { font-size: 7.5pt; padding: 0.2em 0.4em; }
     .many code { white-space: normal; }
@@ -51,7 +59,7 @@ sub, sup { font-size: 0.72em; line-height: 0; }
 STYLE
 
 if [ -n "$alone" ]; then
-    awk -v root=. -v nav=0 -v title="$(sed -n 's/^# //p;/^# /q' "$out/$alone")" -f doc/html.awk "$out/$alone" >"$out/${alone%.md}.html"
+    awk -v root=. -v nav=0 -v title="$(sed -n 's/^# //p;/^# /q' "$out/$alone")" -f doc/math.awk -f doc/html.awk "$out/$alone" >"$out/${alone%.md}.html"
     echo "$out/${alone%.md}.html"
     exit
 fi
@@ -62,11 +70,11 @@ page() {
     root=$(dirname "$1" | sed 's/[^/]\{1,\}/../g; s/^\.$/./; s/^\.\.$/../')
     [ "$(dirname "$1")" = . ] && root=.
     case $1 in
-    *.md) math=0 && case $1 in doc/tour/* | doc/selection.md) math=1 ;; esac
-        awk -v root="$root" -v math=$math -v title="$(sed -n 's/^# //p;/^# /q' "$1")" -f doc/html.awk "$1" \
+    *.md) math=0 && case $1 in doc/tour/* | doc/course/* | doc/selection.md | doc/add-a-method.md) math=1 ;; esac
+        awk -v root="$root" -v math=$math -v title="$(sed -n 's/^# //p;/^# /q' "$1")" -f doc/math.awk -f doc/html.awk "$1" \
             >"$out/${1%.md}.html" ;;
-    *.png | *.svg) cp "$1" "$out/$1" ;;
-    *) awk -v root="$root" -v title="$1" -v source=1 -f doc/html.awk "$1" >"$out/$1.html" ;;
+    *.png | *.svg | *.html) cp "$1" "$out/$1" ;;
+    *) awk -v root="$root" -v title="$1" -v source=1 -f doc/math.awk -f doc/html.awk "$1" >"$out/$1.html" ;;
     esac
 }
 

@@ -20,7 +20,7 @@ whole() {
             for (i = 1; i <= n_tags; i++)
                 if (opened[i] != closed[i]) print page ": " opened[i] " times <" tag[i] ">, " closed[i] " times closed"
         }
-        BEGIN { n_tags = split("p ul ol li table tr td th pre div strong em sub sup code a", tag, " ") }
+        BEGIN { n_tags = split("p ul ol li table tr td th pre div strong em sub sup code a math mrow mfrac msub", tag) }
         FNR == 1 {
             check()
             page = folder = FILENAME
@@ -49,8 +49,8 @@ sh doc/html.sh "$dir/html" >/dev/null || exit 1
 wrong=$(whole "$dir/html")
 [ -z "$wrong" ] || { echo "$wrong"; exit 1; }
 weights="$dir/html/doc/tour/07-weights.html"
-for text in 'w<sub>s</sub>(x) = p<sub>s</sub>(x) / &Sigma;<sub>i</sub> p<sub>i</sub>(x)' \
-    'mis<sub>e+1</sub> = g (c<sub>e</sub>' \
+for text in '<msub><mi>p</mi><mrow><mi>s</mi></mrow></msub>' '<mo>&#x2211;</mo><mrow><mi>i</mi></mrow></munder>' \
+    '<mrow><mi>light</mi></mrow></msub><mo>+</mo>' '</mrow></mfrac></math>' '<aside><a href="#the-formula">' \
     '<li><a href="../../src/transport/mis.h.html#L' '<td>dVCM</td>' '<img src="figures/' '<h2 id="mirrors">'; do
     grep -qF "$text" "$weights" "$dir/html/doc/tour/06-connections.html" || { echo "html: no $text"; exit 1; }
 done

@@ -1,8 +1,8 @@
 #!/bin/sh
-# portability.sh [NAME...]: README's one-line builds, by whichever compilers are at hand, for whichever machines these
-# or emulators can run: all of them make the pictures of test/hashes.txt, byte for byte. Of every target one line is
-# said: the same bytes, skipped (and why), or FAIL. Where there is no fork the test suites that need none are run too.
-# With NAMEs only those; -l lists them. Run from the top.
+# portability.sh [NAME...]: the one-line builds of doc/portability.md, by whichever compilers are at hand, for whichever
+# machines these or emulators can run: all of them make the pictures of test/hashes.txt, byte for byte. Of every target
+# one line is said: the same bytes, skipped (and why), or FAIL. Where there is no fork the suites that need none are
+# run too. With NAMEs only those; -l lists them. Run from the top.
 #
 # Systems that no emulator here runs are compiled for alone, where a variable names the directories of their headers:
 #   MACOS_HEADERS=SDK/usr/include FREEBSD_HEADERS=... NETBSD_HEADERS=... OPENBSD_HEADERS="..." sh test/portability.sh
@@ -11,8 +11,8 @@ dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
 failures=0
 
-# line WORDS: the build line of README.md's list that follows these WORDS.
-line() { tr '\n' ' ' <README.md | sed -n "s/.*- $1: \`\([^\`]*\)\`.*/\1/p"; }
+# line WORDS: the build line of doc/portability.md that follows these WORDS.
+line() { tr '\n' ' ' <doc/portability.md | sed -n "s/.*- $1: \`\([^\`]*\)\`.*/\1/p"; }
 plain=$(line 'Without make') windows=$(line Windows) wasi=$(line WASI)
 
 say() { printf '%-14s %s\n' "$1" "$2"; }
@@ -41,7 +41,7 @@ able() {
     return 1
 }
 
-# try NAME RUNNER COMPILER BUILD FLAG...: BUILD is a line of README; its compiler and output are replaced, FLAGs added.
+# try NAME RUNNER COMPILER BUILD FLAG...: BUILD is such a line; its compiler and output are replaced, FLAGs added.
 try() {
     name=$1 runner=$2 compiler=$3 build=$4
     shift 4
@@ -89,7 +89,7 @@ compile() {
     fi
 }
 
-# suites NAME RUNNER BUILD SUITE...: the test program, built as BUILD, a line of README, builds the other, passes them.
+# suites NAME RUNNER BUILD SUITE...: the test program, built as BUILD builds the other, passes them.
 suites() {
     name=$1 runner=$2 build=$3
     shift 3

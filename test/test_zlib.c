@@ -160,46 +160,25 @@ static void test_round_trips(struct test *t)
     enum { N = 300000 };
     uint8_t *data = mem_alloc(N, 1);
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 2, 0);
-    for (size_t n = 0; n < 300; n += n < 10 || n > 250 ? 1 : 9) /* 165 bytes of each block state its codes */
-        check_round_trip(t, "zeros", data, n, 185);
-    check_round_trip(t, "many zeros", data, N, N / 500);
+    for (size_t n = 0; n < 300; n += n < 10 || n > 250 ? 1 : 9)
+        check_round_trip(t, "zeros", data, n, 16);
+    check_round_trip(t, "many zeros", data, N, N / 150);
     for (size_t i = 0; i < N; i++)
         data[i] = (uint8_t)(rng_u32(&r) >> 24);
     for (size_t n = 0; n < 300; n += 13)
-        check_round_trip(t, "noise", data, n, n + 185);
-    check_round_trip(t, "much noise", data, N, N + N / 100);
+        check_round_trip(t, "noise", data, n, n + n / 8 + 16); /* of 8 and 9 bits to the byte */
+    check_round_trip(t, "much noise", data, N, N + N / 16);
     memcpy(data + 32768, data, 1000); /* just beyond and just within the window */
     memcpy(data + 70000, data + 70000 - 32767, 1000);
-    check_round_trip(t, "repeats at the window's edge", data, N, N + N / 100);
+    check_round_trip(t, "repeats at the window's edge", data, N, N + N / 19);
     for (size_t i = 0; i < N; i++)
         data[i] = (uint8_t)(rng_u32(&r) >> 24 & 3);
-    check_round_trip(t, "two bits of noise", data, N, N / 3);
+    check_round_trip(t, "two bits of noise", data, N, N / 2);
     for (size_t period = 1; period < 300; period += 37) {
         for (size_t i = period; i < N; i++)
             data[i] = data[i - period];
         check_round_trip(t, "periodic", data, N, N / 100);
     }
-    free(data);
-}
-
-/* Byte frequencies that double make a Huffman tree as deep as there are symbols: deeper than the 15 bits allowed.
- * The order is shuffled so that the packer finds few copies to replace them. */
-static void test_deep_tree(struct test *t)
-{
-    enum { SYMBOLS = 17, N = (1 << SYMBOLS) - 1 };
-    uint8_t *data = mem_alloc(N, 1);
-    size_t n = 0;
-    for (int s = 0; s < SYMBOLS; s++)
-        for (int k = 0; k < 1 << s; k++)
-            data[n++] = (uint8_t)(10 * s);
-    struct rng r = rng_stream(test_seed(t), RNG_TEST, 3, 0);
-    for (size_t i = N - 1; i > 0; i--) {
-        size_t j = rng_below(&r, (uint32_t)i + 1);
-        uint8_t swap = data[i];
-        data[i] = data[j];
-        data[j] = swap;
-    }
-    check_round_trip(t, "frequencies 1 2 4 ...", data, N, N * 3 / 8);
     free(data);
 }
 
@@ -209,5 +188,4 @@ void test_zlib(struct test *t)
     test_foreign_streams(t);
     test_impossible_streams(t);
     test_round_trips(t);
-    test_deep_tree(t);
 }

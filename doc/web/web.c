@@ -14,6 +14,7 @@
 #include "base/os.h"
 #include "cli/command.h"
 #include "cli/job_options.h"
+#include "lab/commands.h"
 #include "image/picture.h"
 #include "lab/compare.h"
 #include "look/sheet.h"
@@ -30,6 +31,9 @@ int web_render(int n);
  *   rmse8, mean_ratio  against the reference, see compare.h; NaN without one */
 extern int web_show(const uint8_t *rgba, const float *pixels, int width, int height, int iterations, double seconds,
                     double rmse8, double mean_ratio);
+
+static const struct command *const COMMANDS[] = {&command_trace, NULL};
+const struct program program = {"asbdpt", "the page that renders", "Renders, and tells of a sample.", COMMANDS, NULL};
 
 static char *words; /* of the page; one buffer for all calls */
 

@@ -212,7 +212,8 @@ static bool possible(const struct part *p)
 static bool read_numbers(const char *text, struct part *p)
 {
     int begin = 0;
-    sscanf(text + sizeof MAGIC - 1, "samples %ld %ld done %ld %" SCNd64 " left-out %ld size %d %d film %d %d, window %d %d scale %lf spp %ld %n",
+    sscanf(text + sizeof MAGIC - 1, "samples %ld %ld done %ld %" SCNd64 " left-out %ld"
+           " size %d %d film %d %d, window %d %d scale %lf spp %ld %n",
            &p->first, &p->end, &p->done, &p->passes, &p->left_out, &p->width, &p->height, &p->place.width,
            &p->place.height, &p->place.x, &p->place.y, &p->scale, &p->planned, &begin);
     const char *identity = text + sizeof MAGIC - 1 + begin, *check = identity;
