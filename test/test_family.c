@@ -36,7 +36,7 @@ static void compare(struct test *t, const char *what, const char *way, const str
 static const struct {
     const char *path;
     long pt, spp, states;
-} SCENES[] = {{"doc/mini/rooms.pbrt", 16384, 4096, 1 << 20},
+} SCENES[] = {{"doc/mini/rooms.pbrt", 32768, 16384, 1 << 20},
               {"scenes/cornell-box.pbrt", 4096, 8192, 1 << 20},
               {"scenes/forest.pbrt", 2048, 2048, 1 << 18},
               {"scenes/sky.pbrt", 2048, 2048, 1 << 19},
