@@ -164,8 +164,9 @@ void family_figure(FILE *f, const struct equal_time *e)
             write_ratio(f, e, &axis, c, v);
     }
     xml_print(f, "<text x=\"8\" y=\"%d\">Squared error over that of %s after the same CPU time: left of the line is a "
-              "gain.</text>\n<text x=\"8\" y=\"%d\">Dot and bar: rmse8 and its 95 %s interval; diamond: means over 8x8 "
-              "pixels. What is beyond a panel stands at its edge.</text>\n</svg>\n", bottom + 34, short_name(e, 0), bottom + 50, "%");
+              "gain; what is beyond a panel stands at its edge.</text>\n<text x=\"8\" y=\"%d\">Dot and bar: rmse8 and "
+              "its 95 %s interval; diamond: means over 8x8 pixels.</text>\n</svg>\n", bottom + 34, short_name(e, 0),
+              bottom + 50, "%");
 }
 
 /* --- the strip of crops ------------------------------------------------------------------------------ */
