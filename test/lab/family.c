@@ -100,7 +100,7 @@ void family_tables(FILE *f, const struct equal_time *e)
 
 /* --- the figure -------------------------------------------------------------------------------------- */
 
-enum { LEFT = 96, TOP = 156, ROW = 20, COLUMN = 72, PANEL = 64, LEAST_WIDTH = 560, BELOW = 60 };
+enum { LEFT = 96, TOP = 156, ROW = 20, COLUMN = 72, PANEL = 64, LEAST_WIDTH = 680, BELOW = 60 };
 static const double LEAST = 0.05, MOST = 20; /* ratios outside stand at the edge */
 
 static double place(const struct plot_axis *a, int column, double ratio)
@@ -164,8 +164,8 @@ void family_figure(FILE *f, const struct equal_time *e)
             write_ratio(f, e, &axis, c, v);
     }
     xml_print(f, "<text x=\"8\" y=\"%d\">Squared error over that of %s after the same CPU time: left of the line is a "
-              "gain; what is beyond a panel stands at its edge.</text>\n<text x=\"8\" y=\"%d\">Dot and bar: rmse8 and "
-              "its 95 %s interval; diamond: means over 8x8 pixels.</text>\n</svg>\n", bottom + 34, short_name(e, 0),
+              "gain.</text>\n<text x=\"8\" y=\"%d\">Dot and bar: rmse8, its 95 %s interval; diamond: means over 8x8 "
+              "pixels; what is beyond stands at the edge.</text>\n</svg>\n", bottom + 34, short_name(e, 0),
               bottom + 50, "%");
 }
 
