@@ -115,6 +115,7 @@ check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject #
 	sh test/cluster.sh $(PROGRAM)
 	sh test/readme.sh $(PROGRAM)
 	BUILD=$(BUILD) sh test/add_method.sh
+	CC="$(CC)" sh test/course.sh prove
 	sh doc/tour/figures.sh $(PROGRAM) out/figures
 	diff -r doc/tour/figures out/figures
 
@@ -140,8 +141,9 @@ standard: ## check that src calls and includes nothing that differs from machine
 references: ## check that every source named in a comment is in doc/references.md, and that all there are used
 	@sh test/references.sh
 
-faults: ## check that every fault of the list of mutants still applies
+faults: ## check that every fault of the list of mutants still applies, and every hole of the course
 	@sh test/mutants/check.sh
+	@CC="$(CC)" sh test/course.sh check
 
 .PHONY: limits
 limits: ## check that doc/SECURITY.md says what the limits of the program are

@@ -28,7 +28,7 @@ for command in render merge convert info; do # each its own help
     expect 0 '' "$program" $command --help
     check [ "$(grep -c "usage: asbdpt $command" stdout.txt)" = 1 ]
 done
-for command in compare trace worth verify experiment equal-time family demo transient bench; do
+for command in compare trace worth strategies verify experiment equal-time family demo transient bench; do
     expect 0 '' "$lab" $command -h
     check [ "$(grep -c "usage: asbdpt-lab $command" stdout.txt)" = 1 ]
 done
@@ -152,7 +152,7 @@ fi
 for wrong in no/such/dir/x.pfm /proc/x.pfm stdout.txt/x.pfm; do
     expect 1 "^asbdpt: $wrong: cannot be created" "$program" render nothing.pbrt -o good.pfm -o $wrong
 done
-expect 1 '^asbdpt: good.ppm/s/probe: cannot be created' "$program" render nothing.pbrt --strategies good.ppm/s
+expect 1 '^asbdpt: good.ppm/s/probe: cannot be created' "$program" render nothing.pbrt --lights good.ppm/s
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt -o good.pfm
 expect 1 'is odd' "$program" render "$box" $small -P select=bins -P binpaths=7 --integrator asbdpt -o good.pfm
 check [ ! -e good.pfm ]
@@ -263,11 +263,12 @@ expect 1 'rmse [0-9.e-]+ is more than 1e-09' "$lab" compare a.png a.pfm --max-rm
 expect 0 '' "$program" render "$box" --res 8x8 --spp 1 --quiet -o c.pfm
 expect 1 'equal size' "$lab" compare a.pfm c.pfm
 expect 1 cornell-box.pbrt "$lab" compare "$box" a.pfm
-expect 0 '' "$program" render "$box" $small --maxdepth 2 --strategies s -o a.pfm
+expect 0 '' "$lab" strategies "$box" $small --maxdepth 2 -o s
 check [ -s s/d02_s02_t02_weighted.pfm ]
 check [ -s s/pyramid.png ]
 printf 'Film "image" "float scale" 3 WorldBegin LightSource "infinite" "rgb L" [ 1 2 3 ] WorldEnd\n' >scale.pbrt
-expect 0 '' "$program" render scale.pbrt $small --maxdepth 1 --strategies s -o scale.pfm
+expect 0 '' "$program" render scale.pbrt $small --maxdepth 1 -o scale.pfm
+expect 0 '' "$lab" strategies scale.pbrt $small --maxdepth 1 -o s
 check cmp -s scale.pfm s/d00_s00_t02_weighted.pfm
 
 # --- aov
@@ -287,6 +288,49 @@ expect 2 'a picture with a name' "$program" render "$box" $small --aov depth -o 
 mkdir taken.depth.pfm
 expect 1 'taken.depth.pfm' "$program" render "$box" $small --aov albedo,depth -o taken.png
 check [ ! -e taken.png -a ! -e taken.albedo.pfm ]
+
+# --layers: the same in the picture's own .exr, beside the colours; --seen: what mirrors show.
+expect 0 'wrote l.float.exr, l.pfm$' "$program" render "$box" --res 16x16 --spp 2 -j 2 --layers \
+    --aov variance,albedo,normal,depth,position -o l.float.exr -o l.pfm
+check "$program" convert l.float.exr -o back.pfm
+check cmp -s l.pfm back.pfm
+for name in R albedo.R albedo.G albedo.B normal.X normal.Y normal.Z depth.Z position.X position.Z variance.B; do
+    check grep -aq "$name" l.float.exr
+done
+check [ ! -e l.albedo.pfm ]
+expect 2 'no other format has them' "$program" render "$box" $small --aov depth --layers -o a.png
+expect 2 'no effect without --aov' "$program" render "$box" $small --layers -o a.exr
+expect 0 '' "$program" render "$scenes/bathroom.pbrt" $small --aov albedo,depth --seen -o seen.pfm
+expect 0 '' "$program" render "$scenes/bathroom.pbrt" $small --aov albedo,depth -o first.pfm
+check cmp -s seen.pfm first.pfm
+check [ -n "$(cmp seen.albedo.pfm first.albedo.pfm)" ]
+
+# --- noise
+# --noise: the render ends when it is low enough, at the same sample whatever the threads; --spp is the most.
+noisy="--res 20x16 --integrator bdpt --maxdepth 3"
+expect 0 '128 spp' "$program" render "$box" $noisy --spp 1000 --noise 0.055 -j 1 -o noise1.pfm
+check grep -q 'noise 0.0[0-9]* +- .* of the brightness around, .* at 128 samples per pixel: below' stderr.txt
+expect 0 '128 spp' "$program" render "$box" $noisy --spp 1000 --noise8 5 --noise 0.055 -j 3 -o noise3.pfm
+check cmp -s noise1.pfm noise3.pfm
+check "$program" render "$box" $noisy --spp 128 -o noise0.pfm --quiet
+check cmp -s noise1.pfm noise0.pfm
+expect 0 'at 64 samples per pixel: more than' "$program" render "$box" $noisy --spp 70 --noise 0.001 -o a.pfm
+expect 0 'noise is not known' "$program" render "$box" $noisy --spp 60 --noise 0.5 -o a.pfm
+expect 2 'noise is that of the whole' "$program" render "$box" $noisy --spp 60 --noise 0.5 --samples 0:4 -o a.part
+expect 2 'are a chain' "$lab" render "$box" $small --integrator mmlt --noise 0.1 -o a.pfm
+# It goes on from a checkpoint to the same end, also from the end itself; one without halves is refused.
+rm -f noise.state
+for spp in 16 100 1000 1000; do
+    check "$program" render "$box" $noisy --spp $spp --noise 0.055 -o a.pfm --quiet \
+        --checkpoint noise.state --resume noise.state
+done
+check cmp -s noise1.pfm a.pfm
+check "$program" render "$box" $noisy --spp 20 --noise 0.055 -o a.pfm --quiet --checkpoint half.state
+check "$program" render "$box" $noisy --spp 48 -o a.pfm --quiet --resume half.state
+check "$program" render "$box" $noisy --spp 48 -o noise0.pfm --quiet
+check cmp -s noise0.pfm a.pfm
+check "$program" render "$box" $noisy --spp 16 -o a.pfm --quiet --checkpoint plain.state
+expect 1 'was made without --noise' "$program" render "$box" $noisy --spp 64 --noise 0.1 -o a.pfm --resume plain.state
 
 # --- stats
 # --stats: what was rendered and how it went; --quick: what pbrt's does, but options of one's own count first.
@@ -345,6 +389,42 @@ expect 0 '' "$program" render "$box" $small --gate 1500:2000 -o one.pfm
 expect 0 '' "$lab" compare flight/gate001.pfm one.pfm --max-rmse 1e-5
 expect 0 '' "$lab" transient "$box" $small -o flight/found # where light is
 check [ -s flight/found/gate015.pfm ]
+
+# --- lights
+# lights: of one light all that there is; of several, pictures that convert adds up, each times a weight.
+expect 0 '' "$program" render "$box" $small --lights one -o a.pfm
+check cmp -s one/light00_area.pfm whole.pfm
+cat >lamps.pbrt <<END
+LookAt 0 0 -5 0 0 0 0 1 0 WorldBegin LightSource "infinite" "bool visible" "false"
+LightSource "point" "string group" "key" LightSource "distant" "string group" "key"
+AttributeBegin AreaLightSource "diffuse" Translate 2 0 0 Shape "sphere" AttributeEnd Shape "sphere" WorldEnd
+END
+expect 0 '' "$program" render lamps.pbrt --res 24x16 --spp 4 --quiet --lights lit --alpha -o a.pfm -o a.png -o a.exr
+check [ -s lit/light00_infinite.pfm -a -s lit/light01_key.pfm -a -s lit/light02_area.pfm -a ! -e lit/light03.pfm ]
+expect 0 '' "$program" convert lit/light0?_*.pfm -o sum.pfm
+expect 0 '' "$lab" compare sum.pfm a.pfm --max-rmse 1e-6
+expect 0 '' "$program" convert a.pfm sum.pfm a.pfm --weights 2,0,-1 -o b.pfm
+check cmp -s a.pfm b.pfm
+check [ "$(od -An -tu1 -j25 -N1 a.png | tr -d ' ')" = 6 ] # RGB and alpha
+expect 2 'weights 1,2: expected 3 numbers' "$program" convert a.pfm sum.pfm a.pfm --weights 1,2 -o b.pfm
+expect 2 'weights 1,nan: expected 2 numbers' "$program" convert a.pfm sum.pfm --weights 1,nan -o b.pfm
+expect 1 'is 16x16, the pictures before it 24x16|whole.pfm is ' "$program" convert a.pfm whole.pfm -o b.pfm
+{
+    echo WorldBegin
+    for i in 0 1 2 3 4 5 6 7 8 9 a b c; do
+        for k in 1 2 3 4 5; do echo "LightSource \"point\" \"string group\" \"$i$k\""; done
+    done
+    echo WorldEnd
+} >many.pbrt
+expect 2 'lights: 65 pictures, one for each light, and 64 are the most' \
+    "$program" render many.pbrt --res 2x2 --spp 1 --quiet --lights many -o b.pfm
+expect 0 '' "$program" render many.pbrt --res 2x2 --spp 1 --quiet --alpha -o b.pfm
+expect 2 'alpha: the samples of mmlt are a chain' "$lab" render lamps.pbrt --integrator mmlt --alpha -o b.png
+expect 0 '' "$lab" trace lamps.pbrt --res 24x16 --spp 4 --worst 3 --json
+check [ "$(grep -c '"sample"' stdout.txt)" = 3 ]
+expect 0 '' "$lab" trace lamps.pbrt --res 24x16 --spp 4 --worst 1 --svg worst.svg
+check grep -q 'SAMPLES\|bring most' stdout.txt
+check [ -s worst.svg ]
 
 # --- help
 # help: as a whole no wider than a terminal, with every integrator once.
@@ -542,8 +622,10 @@ if command -v exrmaketiled >/dev/null; then
         expect 0 '' exrheader $kind
         check grep -q 'compression (type compression): zip' stdout.txt
     done
+    expect 0 '' exrheader l.float.exr
+    check grep -q 'normal.X, 32-bit floating-point' stdout.txt
     expect 0 '' exrmaketiled -z pxr24 x.exr tiled.exr
-    expect 1 'tiled.exr: OpenEXR compression PXR24 is not read' "$program" convert tiled.exr -o y.png
+    expect 1 'tiled.exr: OpenEXR compression 5 .* is not read' "$program" convert tiled.exr -o y.png
 else
     echo "skipped: files of OpenEXR's tools (exrmaketiled is not installed)"
 fi

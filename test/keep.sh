@@ -52,6 +52,22 @@ done <<'END'
 END
 check [ "$(done_in whole.part)" = 70 ]
 
+# ---- lights that are kept apart, and alpha, are in parts and checkpoints ----
+lit="$top/test/fixtures/parts/hidden.pbrt $size --integrator bdpt --lights lit"
+check "$program" render $lit --alpha -o whole.png
+cp lit/light01_key.pfm whole.pfm
+for range in 0:32 32:70; do
+    check "$program" render $lit --alpha --samples $range -o $range.part
+done
+check "$program" merge -o sum.png -o sum.part 32:70.part 0:32.part --quiet
+same whole.png sum.png "alpha in parts"
+check "$program" render $lit --alpha -o sum.png --resume sum.part
+same whole.png sum.png "alpha resumed"
+same whole.pfm lit/light01_key.pfm "a light in parts"
+check "$program" render $lit --samples 32:70 -o 32:70.part
+expect 1 'another picture: it has "size 12 20, planes 3 0", not "size 12 20, planes 3 1"' \
+    "$program" merge -o sum.png 0:32.part 32:70.part
+
 # ---- a picture is gone on with, parts are of one whole: each learns the same, and has the same bytes ----
 rm -f state
 check "$program" render "$box" $size --integrator asbdpt --spp 64 -o whole.pfm

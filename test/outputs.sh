@@ -45,8 +45,7 @@ sed 's/cornell-box.png/film.png/' "$box" >film.pbrt
 refused 2 "the film's film.png and --stats ./film.png $same|--stats ./film.png and the film's film.png $same" \
     "$program" render film.pbrt $tiny --stats ./film.png
 refused 2 "-o x.albedo.pfm and --aov x.albedo.pfm $same" render --aov albedo -o x.pfm -o x.albedo.pfm
-refused 2 "$same" render --strategies sub -o sub/pyramid.png
-refused 2 "$same" render --strategies sub -o ./sub/d00_s00_t02_weighted.pfm
+refused 2 "$same" render --lights sub -o ./sub/light00_area.pfm
 # What may be the same: a checkpoint and what is resumed, however they are called; devices.
 expect 0 '' render --checkpoint sub/../state --resume "$PWD/state" -o new.pfm
 expect 0 '' render --checkpoint state --resume ./state -o new.pfm
@@ -55,10 +54,10 @@ refused 1 'state: there is such a file already' render --checkpoint ./state -o n
 refused 2 'it needs a file' render --checkpoint /dev/null -o new.pfm
 refused 2 'it needs a file' render --checkpoint - -o new.pfm
 # What is to be written comes after -o: a shell's *.pfm may be many.
-refused 2 'one argument too many' "$program" convert a.pfm b.pfm
+refused 2 'needs a picture' "$program" convert a.pfm b.pfm
 refused 2 'needs a picture' "$program" merge b.part c.part
 # An empty name is a variable that is not set.
-for option in -o --checkpoint --resume --stats --strategies --aov; do
+for option in -o --checkpoint --resume --stats --lights --aov; do
     refused 2 "${option#-}.*: its value is empty" render $option ''
 done
 refused 2 'SCENE.pbrt: its value is empty' "$program" render ''
@@ -99,9 +98,9 @@ sys.exit(subprocess.run(words, stdout=pty.openpty()[1]).returncode)'
 fi
 
 # ---- sizes and numbers ----
-refused 2 'have 550 pictures; --maxdepth 20 is the most' \
-    "$program" render scene.pbrt --res 1x1 --spp 1 --strategies sub --maxdepth 21 -o new.pfm
-expect 0 '' "$program" render scene.pbrt --res 1x1 --spp 1 --quiet --strategies all --maxdepth 20 -o new.pfm
+refused 1 'have 550 pictures; --maxdepth 20 is the most' \
+    "$lab" strategies scene.pbrt --res 1x1 --spp 1 --maxdepth 21 -o sub
+expect 0 '' "$lab" strategies scene.pbrt --res 1x1 --spp 1 --quiet --maxdepth 20 -o all
 check [ "$(find all -name '*.pfm' | wc -l)" = 504 ]
 # A name is wrong before the work, not after it.
 long=$(awk 'BEGIN { for (i = 0; i < 300; i++) printf "n" }')

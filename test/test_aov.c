@@ -16,14 +16,19 @@ struct pictures {
     float *of[N_FIRST_HIT];
 };
 
-static struct pictures render_aovs(const struct scene *scene, long spp, int threads)
+static struct pictures render_seen(const struct scene *scene, long spp, int threads, bool seen)
 {
     struct pictures p;
     struct render_options o = {.seed = 5, .end = spp, .n_threads = threads};
     for (int i = 0; i < N_FIRST_HIT; i++)
         p.of[i] = mem_alloc(VALUES, sizeof *p.of[i]);
-    aov_render(scene, &o, p.of);
+    aov_render(scene, &o, seen, p.of);
     return p;
+}
+
+static struct pictures render_aovs(const struct scene *scene, long spp, int threads)
+{
+    return render_seen(scene, spp, threads, false);
 }
 
 static void pictures_free(struct pictures *p)
@@ -122,6 +127,41 @@ static void test_glass(struct test *t)
     }
 }
 
+/* What is asked of a mirror is what it shows, a wall behind the camera, dimmed by it; of a pane of glass the wall
+ * behind it; where a mirror shows nothing it is itself. Depth is that of mirror and glass. */
+static void test_seen(struct test *t)
+{
+    static const char BEHIND[] =
+        "Material \"matte\" \"rgb Kd\" [.2 .4 .6] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
+        "\"point P\" [%d -%d -%d  %d %d -%d  %d %d %d  %d -%d %d]\n%s";
+    static const struct {
+        int x, size; /* of the wall */
+        const char *material;
+        double albedo, normal; /* in the second channel; along x */
+    } CASES[] = {{-3, 500, "Material \"mirror\" \"rgb Kr\" [.5 .5 .5]", 0.2, 1},
+                 {9, 500, "Material \"glass\" \"float index\" 1.0001", 0.4, -1},
+                 {900, 1, "Material \"mirror\" \"rgb Kr\" [.5 .5 .5]", 0.5, -1}};
+    for (int i = 0; i < 3; i++) {
+        struct scene scene;
+        char material[600];
+        int x = CASES[i].x, s = CASES[i].size;
+        snprintf(material, sizeof material, BEHIND, x, s, s, x, s, s, x, s, s, x, s, s, CASES[i].material);
+        if (!wall_scene(t, material, -50, &scene))
+            continue;
+        struct pictures p = render_seen(&scene, 1, 2, true), first = render_aovs(&scene, 1, 2);
+        double off = deviation(p.of[AOV_ALBEDO], 1, CASES[i].albedo, 0, W);
+        CHECK(t, off < 1e-3, "case %d: albedo is off by %g", i, off);
+        off = deviation(p.of[AOV_NORMAL], 0, CASES[i].normal, 0, W);
+        CHECK(t, off < 1e-3, "case %d: the normal is off by %g", i, off);
+        CHECK(t, deviation(p.of[AOV_DEPTH], 0, 4, 0, W) < 1e-5, "case %d: depth", i);
+        off = deviation(first.of[AOV_ALBEDO], 1, CASES[i].albedo, 0, W);
+        CHECK(t, i == 2 ? off < 1e-6 : off > 0.2, "case %d: the first hit has the same albedo", i);
+        pictures_free(&p);
+        pictures_free(&first);
+        scene_free(&scene);
+    }
+}
+
 /* The same bytes for any number of threads, and a crop window holds its part of the whole. */
 static void test_same(struct test *t)
 {
@@ -201,6 +241,7 @@ void test_aov(struct test *t)
     test_wall(t);
     test_edge(t);
     test_glass(t);
+    test_seen(t);
     test_same(t);
     test_path(t);
     test_variance(t);

@@ -174,7 +174,7 @@ static rgb bdpt_of(struct bench *b, const struct tape *number)
         }
     size_t n = all.n;
     b->job.tape = &all;
-    struct tile_pass pass = {&b->job, b->job.film_rect, 0, 1, &tile, b->work, NULL};
+    struct tile_pass pass = {&b->job, b->job.film_rect, 0, 1, &tile, b->work, NULL, NULL};
     tile_start(&tile, b->job.film_rect, b->job.film_rect, &b->scene->filter, false);
     b->prepared.method->render(&b->prepared, &pass);
     for (size_t i = 0; i < tile.n_splats; i++)

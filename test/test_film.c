@@ -108,7 +108,7 @@ static void test_memory(struct test *t)
     tile.full = count_full;
     tile.context = &calls;
     for (int i = 0; i < 5 * TILE_FULL / 2; i++) {
-        if (CHECK(t, tile_add_splat(&tile, 32, 32, rgb_grey(1), 0), "a splat is left out"))
+        if (CHECK(t, tile_add_splat(&tile, 32, 32, rgb_grey(1), 0, 0), "a splat is left out"))
             tile_record_splat(&tile, 2, rgb_grey(2), 0.5, 1);
         tile_add_eye(&tile, 0, 0, rgb_black());
     }
@@ -133,19 +133,19 @@ static void test_splats(struct test *t)
         int pixels;
         for (int k = 0; k < 2000; k++) {
             tile_start(&tile, all, all, &f, false);
-            tile_add_splat(&tile, 6 + 8 * rng_uniform(&r), 5 + 2 * rng_uniform(&r), rgb_grey(1), 0);
+            tile_add_splat(&tile, 6 + 8 * rng_uniform(&r), 5 + 2 * rng_uniform(&r), rgb_grey(1), 0, 0);
             total += spread(&tile, &pixels);
             CHECK(t, f.kind != FILTER_BOX || pixels == 1, "a box splat fell on %d pixels", pixels);
         }
         /* Averaged over positions, the sum over pixels is the filter's integral. */
         CHECK(t, fabs(total / 2000 - 1) < 0.02, "%s: a splat of 1 sums to %g", NAMES[i], total / 2000);
         tile_start(&tile, all, all, &f, false);
-        tile_add_splat(&tile, 20, 5, rgb_grey(1), 0);
-        tile_add_splat(&tile, -1e30, 5, rgb_grey(1), 0);
-        tile_add_splat(&tile, 1e30, 1e30, rgb_grey(1), 0);
+        tile_add_splat(&tile, 20, 5, rgb_grey(1), 0, 0);
+        tile_add_splat(&tile, -1e30, 5, rgb_grey(1), 0, 0);
+        tile_add_splat(&tile, 1e30, 1e30, rgb_grey(1), 0, 0);
         spread(&tile, &pixels);
         CHECK(t, f.kind != FILTER_BOX || pixels == 0, "a splat beyond the film was kept");
-        tile_add_splat(&tile, 5, 5, rgb_grey(NAN), 0);
+        tile_add_splat(&tile, 5, 5, rgb_grey(NAN), 0, 0);
         CHECK(t, tile.nonfinite == 1, "a NaN splat was not counted");
         tile_free(&tile);
     }
@@ -170,7 +170,7 @@ static void test_errors(struct test *t)
         for (int p = 0; p < PIXELS; p++)
             tile_add_eye(&tile, p % 8, p / 8, rgb_grey(rng_uniform(&r)));
         for (int k = 0; k < SPLATS; k++)
-            tile_add_splat(&tile, 8 * rng_uniform(&r), 8 * rng_uniform(&r), rgb_grey(1), 0);
+            tile_add_splat(&tile, 8 * rng_uniform(&r), 8 * rng_uniform(&r), rgb_grey(1), 0, 0);
     }
     film_merge_tile(&film, &tile);
     film.iterations = ITERATIONS;
@@ -206,10 +206,10 @@ static void test_overflow(struct test *t)
     tile_start(&tile, all, all, &f, false);
     tile_add_eye(&tile, 0, 0, rgb_grey(1e39));
     tile_add_eye(&tile, 1, 0, rgb_grey(NAN));
-    tile_add_splat(&tile, 2, 2, rgb_grey(-1e39), 0);
+    tile_add_splat(&tile, 2, 2, rgb_grey(-1e39), 0, 0);
     CHECK(t, tile.nonfinite == 3 && tile.n_splats == 0, "%ld of 3 contributions were left out", tile.nonfinite);
-    tile_add_splat(&tile, NAN, 2, rgb_grey(1), 0);
-    tile_add_splat(&tile, 2, INFINITY, rgb_grey(1), 0);
+    tile_add_splat(&tile, NAN, 2, rgb_grey(1), 0, 0);
+    tile_add_splat(&tile, 2, INFINITY, rgb_grey(1), 0, 0);
     spread(&tile, &pixels_met);
     CHECK(t, pixels_met == 0, "a splat that is nowhere fell on %d pixels", pixels_met);
     tile_add_eye(&tile, 2, 0, rgb_make(3e38, 1, -3e38));

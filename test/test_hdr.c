@@ -10,10 +10,12 @@
 #include "base/bits.h"
 #include "base/file.h"
 #include "base/mem.h"
+#include "image/exr.h"
 #include "image/formats.h"
 #include "image/half.h"
 #include "image/image.h"
 #include "image/tone.h"
+#include "image/zlib.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -202,6 +204,68 @@ static void test_refused_blocks(struct test *t)
 }
 
 /* A fixture knows its place in a whole; a copy has the same; without a display window nobody knows. */
+/* The bytes of a picture that is written with these channels; to be given to free(). */
+static uint8_t *written(struct test *t, const char *name, const struct raster *r, size_t *n)
+{
+    struct file_output file;
+    struct error err = {""};
+    char path[256];
+    uint8_t *data = NULL;
+    snprintf(path, sizeof path, "%s/%s", test_tmp(t), name);
+    CHECK(t, image_create(path, &file, &err) && image_finish(&file, r, &err) && file_read(path, &data, n, &err), "%s",
+          err.text);
+    remove(path);
+    return data;
+}
+
+/* Alpha in OpenEXR is one more channel, beside colours as they are; in PNG a fourth sample, and colours are divided by
+ * it. Other formats are as without. */
+static void test_alpha(struct test *t)
+{
+    static const float PIXELS[6] = {0.1f, 0.2f, 0.05f, 0.3f, 0, 3}, ALPHA[2] = {0.25f, 0};
+    const struct channel more[2] = {{"Z", PIXELS, 3, true}, {"A", ALPHA, 1, false}};
+    const struct raster plain = {{0, 0, 0, 0}, 2, 1, PIXELS, NULL, 0}, with = {{0, 0, 0, 0}, 2, 1, PIXELS, more, 2};
+    struct image img;
+    struct error err = {""};
+    size_t n, n_plain;
+    uint8_t *data = written(t, "alpha.float.exr", &with, &n);
+    if (CHECK(t, data != NULL && exr_read(data, n, &img, &err), "%s", err.text)) {
+        CHECK(t, memcmp(img.f32, PIXELS, sizeof PIXELS) == 0, "colours change by the side of alpha");
+        image_free(&img);
+        char *list = (char *)data + 8 + sizeof "channels" + sizeof "chlist" + 4;
+        CHECK(t, list[0] == 'A' && list[18] == 'B' && list[36] == 'G' && list[54] == 'R' && list[72] == 'Z', "order");
+        list[0] = 'Y'; /* a channel that is read, and three that are not */
+        list[18] = list[36] = list[54] = 'x';
+        if (CHECK(t, exr_read(data, n, &img, &err), "%s", err.text)) {
+            CHECK(t, img.channels == 1 && img.f32[0] == ALPHA[0] && img.f32[1] == ALPHA[1], "alpha is %g, %g",
+                  (double)img.f32[0], (double)img.f32[1]);
+            image_free(&img);
+        }
+    }
+    free(data);
+    data = written(t, "alpha.exr", &with, &n);
+    const char *half = (const char *)data + 8 + sizeof "channels" + sizeof "chlist" + 4;
+    CHECK(t, data != NULL && half[2] == EXR_HALF && half[74] == EXR_FLOAT, "types of A and Z, one of which is exact");
+    free(data);
+    data = written(t, "alpha.png", &with, &n);
+    if (CHECK(t, data != NULL && png_read(data, n, &img, &err), "%s", err.text)) {
+        const uint8_t expected[6] = {srgb_byte(0.1f / 0.25), srgb_byte(0.2f / 0.25), srgb_byte(0.05f / 0.25), 0, 0, 0};
+        CHECK(t, data[25] == 6 && memcmp(img.u8, expected, sizeof expected) == 0, "colour type %d, %d %d %d", data[25],
+              img.u8[0], img.u8[1], img.u8[2]);
+        image_free(&img);
+    }
+    uint8_t row[9] = {0}; /* a filter's number, and two pixels, of which the second is 0 */
+    const uint8_t *size = data + 8 + 25 + 13; /* behind the signature, IHDR and sRGB */
+    bool ok = data != NULL && inflate_zlib(size + 8, (size_t)bits_of_bytes(size, 4, true), row, sizeof row, &err);
+    CHECK(t, ok && row[4] == 64, "%s: alpha is %d of 255", err.text, row[4]);
+    free(data);
+    data = written(t, "alpha.pfm", &with, &n);
+    uint8_t *other = written(t, "alpha.pfm", &plain, &n_plain);
+    CHECK(t, n == n_plain && memcmp(data, other, n) == 0, "a PFM changes by alpha");
+    free(data);
+    free(other);
+}
+
 static void test_place(struct test *t)
 {
     struct image img, copy;
@@ -211,10 +275,10 @@ static void test_place(struct test *t)
     snprintf(path, sizeof path, "%s/place.float.exr", test_tmp(t));
     if (!CHECK(t, image_read(FIXTURES "window.exr", &img, &err), "%s", err.text))
         return;
+    const struct raster raster = {img.place, img.width, img.height, img.f32, NULL, 0};
     CHECK(t, img.place.x == -7 && img.place.y == 20 && img.place.width == 100 && img.place.height == 80,
           "at %d,%d of %dx%d", img.place.x, img.place.y, img.place.width, img.place.height);
-    if (CHECK(t, image_create(path, &file, &err) &&
-                     image_finish(&file, img.place, img.width, img.height, img.f32, &err) &&
+    if (CHECK(t, image_create(path, &file, &err) && image_finish(&file, &raster, &err) &&
                      image_read(path, &copy, &err), "%s", err.text)) {
         CHECK(t, memcmp(&copy.place, &img.place, sizeof img.place) == 0 && copy.height == img.height &&
                      memcmp(copy.f32, img.f32, 3 * (size_t)img.width * (size_t)img.height * sizeof *img.f32) == 0,
@@ -347,6 +411,7 @@ void test_hdr(struct test *t)
     test_fixtures(t);
     test_refused(t);
     test_refused_blocks(t);
+    test_alpha(t);
     test_place(t);
     test_rgbe_fixture(t);
     test_rgbe_by_hand(t);

@@ -171,13 +171,13 @@ static void test_damaged_map(struct test *t)
     CHECK(t, scene.lights.choice.n == scene.lights.n_cells, "there is no table of choices");
     check_directions(t, s, "damaged environment light");
     for (int i = 0; i < 500; i++) {
-        rgb L = light_Le_environment(&scene.lights, warp_sphere((i + 0.5) / 500, i * 0.618 - floor(i * 0.618)));
+        rgb L = light_Le_environment(&scene.lights, warp_sphere((i + 0.5) / 500, i * 0.618 - floor(i * 0.618)), true);
         CHECK(t, L.r >= 0.3 && L.g >= 0.3 && L.b >= 0.3 && rgb_is_finite(L), "light of (%g %g %g)", L.r, L.g, L.b);
     }
     const double none[] = {NAN, INFINITY, -INFINITY, 0, 1e308};
     for (int i = 0; i < 5; i++) { /* a direction that is none stays in the tables */
         vec3 w = vec(none[i], none[(i + 1) % 5], none[i]);
-        rgb L = light_Le_environment(&scene.lights, w);
+        rgb L = light_Le_environment(&scene.lights, w, true);
         CHECK(t, rgb_is_finite(L) && !(light_pdf_environment(&scene.lights, w) < 0), "direction %d", i);
     }
     scene_free(&scene);
@@ -317,7 +317,8 @@ static bool light_under(struct test *t, const char *light, const char *path, con
 /* What the light sends in direction w, or what comes from there. */
 static double light_along(const struct scene *s, const struct light_point *at, vec3 w)
 {
-    return rgb_luminance(s->lights.any_infinite ? light_Le_environment(&s->lights, w) : light_Le(&s->lights, at, w));
+    rgb Le = s->lights.any_infinite ? light_Le_environment(&s->lights, w, true) : light_Le(&s->lights, at, w);
+    return rgb_luminance(Le);
 }
 
 /* Light that comes from all directions of a map, drawn by light_sample_point, against the sum over a fine grid. */

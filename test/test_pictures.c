@@ -7,7 +7,7 @@
 #include "image/image.h"
 #include "lab/compare.h"
 #include "lab/demo.h"
-#include "look/pyramid.h"
+#include "lab/pyramid.h"
 #include "lab/worth.h"
 #include "parser/parser.h"
 #include "helpers.h"

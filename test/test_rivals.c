@@ -37,7 +37,7 @@ static void test_small_pools(struct test *t)
                                         "pcbdpt records=.3 subpaths=4 connections=2", "ris records=.3 subpaths=1",
                                         "ris records=.3 subpaths=2", "ris records=.3 subpaths=4",
                                         "ris2 records=.3 presampled=2 subpaths=2", "restir candidates=1 neighbours=2",
-                                        "restir candidates=4 neighbours=8"};
+                                        "restir candidates=4 neighbours=8", "restirgi neighbours=8"};
     struct scene scene;
     if (!scene_from_file(t, "doc/mini/rooms.pbrt", 3, 3, &scene))
         return;
@@ -66,7 +66,8 @@ static void test_three_pixels(struct test *t)
 static void test_rooms(struct test *t)
 {
     static const char *const ways[] = {"pcbdpt records=.02", "ris records=.02 subpaths=30",
-                                       "ris2 records=.02 presampled=30", "restir neighbours=20"};
+                                       "ris2 records=.02 presampled=30", "restir neighbours=20",
+                                       "restirgi neighbours=20 heuristic=power"};
     struct scene scene;
     if (!scene_from_file(t, "doc/mini/rooms.pbrt", 16, 16, &scene))
         return;
@@ -78,24 +79,105 @@ static void test_rooms(struct test *t)
     scene_free(&scene);
 }
 
-static void test_every_scene(struct test *t)
+/* Three test scenes by these ways, ended by NULL, and with twice the samples by another. */
+static void test_scenes_by(struct test *t, const char *other, const char *const *ways, int spp)
 {
     static const char *const scenes[] = {"light-kinds", "mirror-glass", "all-materials"};
-    static const char *const ways[] = {"mbdpt", "pcbdpt connections=2", "ris", "ris subpaths=2 records=.01",
-                                       "ris2 presampled=20 records=.01", "restir neighbours=20"};
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         char path[256];
         struct scene scene;
         snprintf(path, sizeof path, "scenes/test/%s.pbrt", scenes[i]);
         if (!scene_from_file(t, path, 24, 24, &scene))
             continue;
-        struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 8, 12, 12, 171);
-        const struct plan plan = {4, 10, 12, 172};
-        for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++)
-            agree(t, &scene, scenes[i], ways[k], plan, &bdpt);
-        batches_free(&bdpt);
+        struct batches expected = render_batches(t, &scene, other, 4, 2 * spp, 12, 12, 171);
+        const struct plan plan = {spp, 10, 12, 172};
+        for (const char *const *way = ways; *way != NULL; way++)
+            agree(t, &scene, scenes[i], *way, plan, &expected);
+        batches_free(&expected);
         scene_free(&scene);
     }
+}
+
+/* Paths that pt does not make, of delta lights behind specular surfaces, those that share its eye sub-paths do not. */
+static void test_every_scene(struct test *t)
+{
+    static const char *const ways[] = {"mbdpt", "pcbdpt connections=2", "ris", "ris subpaths=2 records=.01",
+                                       "ris2 presampled=20 records=.01", "restir neighbours=20", NULL};
+    static const char *const shared[] = {"restirgi", "restirgi neighbours=20", NULL};
+    test_scenes_by(t, "bdpt", ways, 4);
+    test_scenes_by(t, "pt", shared, 32);
+}
+
+/* A slope beside the wall that lights it, and behind a low fence, from above: what comes from there, and the density of
+ * what is taken over, differs by more than ten from the first to the last of the pixels, and they are all alike. */
+static const char SLOPE[] =
+    "LookAt .5 10 0  .5 0 0  0 0 1 Camera \"perspective\" \"float fov\" .72\n"
+    "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 1 PixelFilter \"box\" WorldBegin\n"
+    "LightSource \"spot\" \"point from\" [1 1.6 0] \"point to\" [0 .1 0] \"rgb I\" [9 9 9]\n"
+    "\"float coneangle\" 15 Material \"matte\" \"rgb Kd\" [.6 .6 .6]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [.5 .5 -2  .5 .5 2  .5 .6 2  .5 .6 -2]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [0 0 -2  0 0 2  2 2 2  2 2 -2]\n"
+    "Material \"uber\" \"rgb Kd\" [.5 .5 .5] \"rgb Kr\" [.4 .4 .4] \"rgb Ks\" [0 0 0]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [0 0 -2  0 0 2  0 1 2  0 1 -2]\n"
+    "WorldEnd\n";
+
+static void test_gradient(struct test *t)
+{
+    struct scene scene;
+    if (!scene_from_text(t, SLOPE, &scene))
+        return;
+    struct batches pt = render_batches(t, &scene, "pt", 4, 4096, 16, 1, 231);
+    const struct plan plan = {4096, 16, 1, 232};
+    agree(t, &scene, "a slope beside a wall", "restirgi neighbours=8", plan, &pt);
+    batches_free(&pt);
+    scene_free(&scene);
+}
+
+/* The bias of pathgraph falls with the radius: it is seen where vertices share across half a room, and not with the
+ * same samples where they share nearby. */
+static void test_bias(struct test *t)
+{
+    struct scene scene;
+    if (!scene_from_file(t, "doc/mini/rooms.pbrt", 16, 16, &scene))
+        return;
+    struct batches pt = render_batches(t, &scene, "pt", 4, 128, 16, 4, 211);
+    const struct plan plan = {128, 16, 4, 212};
+    agree(t, &scene, "rooms, against pt", "pathgraph radius=.1", plan, &pt);
+    struct batches far = render_batches(t, &scene, set_method(&scene, "pathgraph radius=.5 cluster=64"), 4, plan.spp,
+                                        plan.batches, plan.tile, plan.seed);
+    double ratio, p = batches_p(&far, &pt, &ratio);
+    TEST_REJECT(t, p, "pathgraph shares across the room, ratio %.4f", ratio);
+    batches_free(&far);
+    batches_free(&pt);
+    scene_free(&scene);
+}
+
+/* Under an even sky all that is white shines like it: nothing is wrong with a neighbour's light. */
+static const char CORNER[] =
+    "LookAt 1 2 3  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 20\n"
+    "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16 WorldBegin\n"
+    "LightSource \"infinite\" \"rgb L\" [1 1 1] Material \"matte\" \"rgb Kd\" [1 1 1]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-4 0 0  4 0 0  4 0 4  -4 0 4]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-4 0 0  4 0 0  4 4 0  -4 4 0]\n"
+    "WorldEnd\n";
+
+static void test_furnace(struct test *t)
+{
+    static const char *const ways[] = {"pathgraph radius=1 cluster=64", "pathgraph radius=.1 heuristic=power",
+                                       "restirgi neighbours=20"};
+    struct scene scene;
+    if (!scene_from_text(t, CORNER, &scene))
+        return;
+    for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++) {
+        const char *integrator = set_method(&scene, ways[k]);
+        struct batches b = render_batches(t, &scene, integrator, 30, 64, 16, 16, 221);
+        double error, mean = batches_mean(&b, &error);
+        TEST_ACCEPT(t, mean_p(&b, 1), "furnace by %s: %.5f +- %.5f", ways[k], mean, error);
+        batches_scale(&b, 1.01);
+        TEST_REJECT(t, mean_p(&b, 1), "furnace by %s made 1 %% brighter", ways[k]);
+        batches_free(&b);
+    }
+    scene_free(&scene);
 }
 
 /* --- limits ------------------------------------------------------------------------------------------ */
@@ -158,6 +240,14 @@ static void test_limits(struct test *t)
          "ris records=.1 subpaths=1", 1e-5},
         {"all-materials", SIDE, 4, "ris records=0 subpaths=1", "pcbdpt records=0 subpaths=1",
          "ris records=0 subpaths=100", 1e-5},
+        {"mirror-glass", SIDE, 4, "restirgi neighbours=0", "pt", "restirgi neighbours=5", 0},
+        {"mirror-glass", SIDE, 4, "restirgi caustics=1", "pt caustics=1", "restirgi", 0},
+        {"mirror-glass", SIDE, 4, "pathgraph cluster=1", "pt", "pathgraph cluster=2", 1e-6},
+        {"all-materials", SIDE, 4, "pathgraph cluster=1", "pt", "pathgraph radius=.2", 1e-6},
+        {"white", SIDE, 4, "pathgraph radius=.1", "pt", "pathgraph radius=1", 0.1}, /* the same light everywhere */
+        {"light-kinds", SIDE, 6, "pathgraph cluster=1 heuristic=power", "pt heuristic=power", "pt", 1e-6},
+        {"all-materials", SIDE, 4, "pathgraph radius=1e-6", "pt", "pathgraph radius=.2", 1e-6},
+        {"mirror-glass", SIDE, 4, "pathgraph regularise=.1", "pt regularise=.1", "pathgraph", 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char path[256];
@@ -336,7 +426,7 @@ static void test_weights(struct test *t, const char *path, const char *method)
     struct tile tile = {.rect = job.film_rect};
     struct workspace *work = workspaces_new(1, job.max_depth);
     struct ris *r = work->scratch = method_scratch(&prepared);
-    struct tile_pass pass = {&job, job.film_rect, 3, 4, &tile, work, NULL};
+    struct tile_pass pass = {&job, job.film_rect, 3, 4, &tile, work, NULL, NULL};
     tile_start(&tile, job.film_rect, job.film_rect, &scene.filter, false);
     prepared.method->render(&prepared, &pass);
     check_expected(t, r);
@@ -379,6 +469,9 @@ void test_rivals(struct test *t)
     test_three_pixels(t);
     test_rooms(t);
     test_every_scene(t);
+    test_gradient(t);
+    test_bias(t);
+    test_furnace(t);
     test_limits(t);
     test_useless(t);
 }

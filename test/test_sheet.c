@@ -6,7 +6,7 @@
 #include "base/number.h"
 #include "lab/colormap.h"
 #include "image/picture.h"
-#include "look/sheet.h"
+#include "lab/sheet.h"
 #include "tests.h"
 
 /* A letter as 40 bits, row by row. */

@@ -28,6 +28,7 @@ static const struct way {
     {"ris", "ris", NULL, NULL, NULL},
     {"ris2", "ris2", NULL, NULL, NULL},
     {"restir", "restir", NULL, NULL, NULL},
+    {"restirgi", "restirgi", NULL, NULL, NULL},
     {"bins", "asbdpt", "bins", "32", NULL},
     {"bins, restart 8", "asbdpt", "bins", "8", NULL},
     {"bins, never restarted", "asbdpt", "bins", "0", NULL},
@@ -180,7 +181,7 @@ static void trace_all(struct test *t, const struct scene *scene, const char *int
     struct workspace *work = workspaces_new(1, job.max_depth);
     work->scratch = method_scratch(&prepared);
     for (long first = 0; first < ITERATIONS; first += block) {
-        struct tile_pass pass = {&job, job.film_rect, first, first + block, &tile, work, NULL};
+        struct tile_pass pass = {&job, job.film_rect, first, first + block, &tile, work, NULL, NULL};
         tile_start(&tile, job.film_rect, job.film_rect, &scene->filter, true);
         prepared.method->render(&prepared, &pass);
         add_records(&tile, eye, light);
@@ -213,7 +214,7 @@ static double *play_back(struct test *t, const struct scene *scene, const char *
     job.seed = job.eye_seed = seed; /* what was learnt stays as it is */
     job.tape = tape;
     tape->at = 0;
-    struct tile_pass pass = {&job, all, 0, 2, &tile, work, NULL};
+    struct tile_pass pass = {&job, all, 0, 2, &tile, work, NULL, NULL};
     film_init(&film, all, scene->width, scene->height);
     tile_start(&tile, all, all, &scene->filter, false);
     prepared.method->render(&prepared, &pass);

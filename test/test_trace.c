@@ -13,7 +13,8 @@ static const struct {
 } WAYS[] = {{"pt", "pt", ""}, {"lt", "lt", ""}, {"bdpt", "bdpt", ""}, {"bins", "asbdpt", "bins"},
             {"pool", "asbdpt", "pool"}, {"vertices", "asbdpt", "vertices"}, {"subspaces", "asbdpt", "subspaces"},
             {"lvc", "lvc", ""}, {"cbdpt", "cbdpt", ""}, {"mbdpt", "mbdpt", ""}, {"pcbdpt", "pcbdpt", ""},
-            {"ris", "ris", ""}, {"ris2", "ris2", ""}, {"restir", "restir", ""}};
+            {"ris", "ris", ""}, {"ris2", "ris2", ""}, {"restir", "restir", ""},
+            {"restirgi", "restirgi", ""}, {"pathgraph", "pathgraph", ""}};
 enum { N_WAYS = sizeof WAYS / sizeof WAYS[0] };
 
 static struct render_options options_of(int way)
@@ -32,9 +33,11 @@ static void add_trace(const struct scene *scene, const struct trace *trace, stru
     struct pixel_rect one = {trace->x, trace->y, trace->x + 1, trace->y + 1};
     tile_start(&tile, one, film->rect, &scene->filter, false);
     tile_add_eye(&tile, trace->x, trace->y, trace_sum(trace));
-    for (int i = 0; i < trace->n_connections; i++)
-        if (trace->connection[i].t == 1)
-            tile_add_splat(&tile, trace->connection[i].c.px, trace->connection[i].c.py, trace->connection[i].added, 0);
+    for (int i = 0; i < trace->n_connections; i++) {
+        const struct trace_connection *k = &trace->connection[i];
+        if (k->t == 1)
+            tile_add_splat(&tile, k->c.px, k->c.py, k->added, 0, 0);
+    }
     film_merge_tile(film, &tile);
     tile_free(&tile);
 }
@@ -116,12 +119,122 @@ static void check_film(struct test *t, const struct scene *scene, int way)
     }
     bool seldom = strcmp(name, "subspaces") == 0; /* less than one draw for a later vertex */
     CHECK(t, added > SIZE * SIZE * SAMPLES, "%s: only %d connections told", name, added);
-    CHECK(t, seldom || longest == (way == 0 ? 0 : way == 1 ? 1 : options.max_depth),
+    bool none = way == 0 || way >= N_WAYS - 2; /* pt, and those that share its eye sub-paths */
+    CHECK(t, seldom || longest == (none ? 0 : way == 1 ? 1 : options.max_depth),
           "%s: no pair is longer than t = %d", name, longest);
     CHECK(t, differing(&rendered, &told) == 0 && halfway > 0, "%s: %d values differ from what was told, half way %d",
           name, differing(&rendered, &told), halfway);
     film_free(&rendered);
     film_free(&told);
+}
+
+/* --- what brings most -------------------------------------------------------------------------------- */
+
+/* The most that a sample brings to a pixel, by what its witness says. */
+static struct brought most_of_trace(const struct scene *scene, const struct trace *trace)
+{
+    const struct pixel_rect all = {0, 0, SIZE, SIZE};
+    struct brought most = {rgb_luminance(trace_sum(trace)), trace->x, trace->y, trace->iteration, trace->x, trace->y};
+    for (int i = 0; i < trace->n_connections; i++) {
+        const struct trace_connection *k = &trace->connection[i];
+        const struct splat s = {k->c.px, k->c.py, k->added, 0, 0};
+        struct pixel_rect r = splat_pixels(&s, &scene->filter, all);
+        float part[3];
+        for (int n = 0; k->t == 1 && r.x1 > r.x0 && n < (int)rect_pixels(r); n++) {
+            int x = r.x0 + n % rect_width(r), y = r.y0 + n / rect_width(r);
+            splat_part(&s, &scene->filter, x, y, part);
+            double brought = rgb_luminance(rgb_make((double)part[0], (double)part[1], (double)part[2]));
+            if (brought > most.luminance) {
+                most.luminance = brought;
+                most.to_x = x;
+                most.to_y = y;
+            }
+        }
+    }
+    return most;
+}
+
+static int by_luminance(const void *a, const void *b)
+{
+    const struct brought *x = a, *y = b;
+    return x->luminance > y->luminance ? -1 : x->luminance < y->luminance;
+}
+
+static void sort_by_luminance(struct brought *item, int n) { qsort(item, (size_t)n, sizeof *item, by_luminance); }
+
+/* Those that a render finds, on any number of threads, are those of all samples told one by one. */
+static void check_worst(struct test *t, const struct scene *scene, int way)
+{
+    enum { ALL = SIZE * SIZE * SAMPLES, MOST = 10 };
+    struct brought told[ALL];
+    struct render_options o = options_of(way);
+    struct error err;
+    int splats = 0;
+    for (int i = 0; i < ALL; i++) {
+        struct trace trace = {.x = i % SIZE, .y = i / SIZE % SIZE, .iteration = i / (SIZE * SIZE)};
+        CHECK(t, render_trace(scene, &o, &trace, &err), "%s", err.text);
+        told[i] = most_of_trace(scene, &trace);
+        trace_free(&trace);
+    }
+    sort_by_luminance(told, ALL);
+    for (o.n_threads = 1; o.n_threads <= 3; o.n_threads++) {
+        struct worst found = {.most = MOST};
+        struct film film;
+        o.worst = &found;
+        film_init(&film, render_crop(scene), SIZE, SIZE);
+        CHECK(t, render_scene(scene, &o, &film, &err), "%s", err.text);
+        film_free(&film);
+        CHECK(t, found.n == MOST, "%s: %d samples", WAYS[way].name, found.n);
+        for (int i = 0; i < found.n; i++) {
+            const struct brought *f = &found.item[i], *b = &told[i];
+            splats += f->to_x != f->x || f->to_y != f->y;
+            CHECK(t, f->luminance == b->luminance && f->x == b->x && f->y == b->y && f->iteration == b->iteration &&
+                         f->to_x == b->to_x && f->to_y == b->to_y,
+                  "%s: the worst but %d brings %g, of all samples told it is %g", WAYS[way].name, i, f->luminance,
+                  b->luminance);
+        }
+    }
+    CHECK(t, strcmp(WAYS[way].integrator, "lt") != 0 || splats > 0, "%s: no splat is among the worst", WAYS[way].name);
+}
+
+/* Offers in any order leave the same list, equal ones among them and several of one sample. */
+static void test_offers(struct test *t)
+{
+    enum { N = 200, MOST = 20, ROUNDS = 20 };
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 77, 0);
+    struct brought offer[N];
+    struct worst first = {.most = MOST}, nothing = {.most = MOST};
+    const double NONE[] = {0, -1, NAN, INFINITY};
+    for (int i = 0; i < N; i++) {
+        struct brought b = {1 + (int)(30 * rng_uniform(&r)), (int)(5 * rng_uniform(&r)), (int)(5 * rng_uniform(&r)),
+                            (int)(5 * rng_uniform(&r)), 0, 0};
+        offer[i] = b;
+    }
+    for (int round = 0; round < ROUNDS; round++) {
+        struct worst w = {.most = MOST};
+        for (int i = N - 1; i >= 0; i--) {
+            int k = (int)((i + 1) * rng_uniform(&r));
+            struct brought b = offer[k];
+            offer[k] = offer[i];
+            offer[i] = b;
+            worst_offer(&w, b);
+        }
+        first = round == 0 ? w : first;
+        int wrong = 0;
+        for (int i = 0; i < MOST; i++) {
+            const struct brought *a = &w.item[i], *b = &first.item[i];
+            wrong += a->luminance != b->luminance || a->x != b->x || a->y != b->y || a->iteration != b->iteration;
+            wrong += i > 0 && a->luminance > w.item[i - 1].luminance;
+            for (int k = 0; k < i; k++)
+                wrong += w.item[k].x == a->x && w.item[k].y == a->y && w.item[k].iteration == a->iteration;
+        }
+        CHECK(t, w.n == MOST && wrong == 0, "another order, another list: %d differ of %d", wrong, w.n);
+    }
+    for (int i = 0; i < 4; i++) {
+        struct brought b = {NONE[i], 0, 0, i, 0, 0};
+        worst_offer(&nothing, b);
+    }
+    CHECK(t, nothing.n == 0, "%d that no film takes", nothing.n);
 }
 
 /* --- densities --------------------------------------------------------------------------------------- */
@@ -188,10 +301,12 @@ void test_trace(struct test *t)
         return;
     test_pdf_rev(t, &scene);
     test_refused(t, &scene);
+    test_offers(t);
     for (int way = 0; way < N_WAYS; way++) {
         if (WAYS[way].select[0] != '\0')
             settings_set(&scene.settings, "select", WAYS[way].select, "test");
         check_film(t, &scene, way);
+        check_worst(t, &scene, way);
     }
     scene_free(&scene);
 }

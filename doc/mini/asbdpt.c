@@ -14,7 +14,7 @@
  * the same path is found by every strategy with s + t = k + 1, each gets a weight; the weights of a path add up to 1.
  *
  * The dissertation [Silva 2024] asks: must an eye sub-path be joined to whatever light sub-path was traced for it, or
- * may it choose a promising one? `bins` is its answer; `pool` and `vertices` choose without bias (section 11). */
+ * may it choose a promising one? `bins` is its answer; the others, and subspaces.c, choose without bias (section 11). */
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -201,9 +201,9 @@ struct counts { /* the number n of samples per pixel; 0: the method does not use
     double connect;      /* s > 1, t > 1: it is joined to a light sub-path */
     double splat;        /* t = 1: all light sub-paths of the picture are joined to the lens */
     const double *worth; /* `vertices`: `connect` is times the worth of the light end's cell; else NULL */
+    int row;             /* 0; in subspaces.c, worth has a row, this long, for each cell of the eye end */
 };
-
-enum { CELLS = 16 }; /* of space, along each axis (src/learning/regions.c) */
+enum { CELLS = 8 }; /* of space, along each axis (src/learning/regions.c) */
 static int cell(double x) { return (int)fmin(fmax(x * CELLS, 0), CELLS - 1); }
 static int place(vec3 p) { return (cell(p.x) * CELLS + cell(p.y)) * CELLS + cell(p.z / 2); }
 
@@ -212,7 +212,7 @@ static double count(const struct counts *n, const struct vertex *y, const struct
 {
     if (!connectible(y) || !connectible(z))
         return 0;
-    double worth = n->worth != NULL ? n->worth[place(y->p)] : 1;
+    double worth = n->worth != NULL ? n->worth[place(z->p) * n->row + place(y->p)] : 1;
     return z->kind == LENS ? n->splat : y->kind == LIGHT ? n->direct : n->connect * worth;
 }
 
@@ -369,7 +369,7 @@ struct work { /* all memory there is */
  * that the vertices of a light sub-path are worth 1 on average; frozen before the first sample. (visits.c) */
 static void learn(double *worth, uint64_t *rng)
 {
-    const struct counts n = {0, 0, 0, 0, NULL};
+    const struct counts n = {0, 0, 0, 0, NULL, 0};
     struct vertex eye[EYE_VERTICES];
     struct light_path light;
     double sum = 0;
@@ -431,7 +431,7 @@ static rgb sum_draws(const struct work *w, const struct counts *n, const struct 
 static void render(struct work *w, enum method method, int spp, uint64_t *rng)
 {
     const bool pt = method == PT, vertices = method == VERTICES;
-    const struct counts n = {1, 1, pt ? 0 : vertices ? DRAWS : 1, pt ? 0 : SIZE * SIZE, vertices ? w->worth : NULL};
+    const struct counts n = {1, 1, pt ? 0 : vertices ? DRAWS : 1, pt ? 0 : SIZE * SIZE, vertices ? w->worth : NULL, 0};
     if (method == POOL || vertices)
         learn(w->worth, rng);
     for (int y = 0; y < SIZE; y++)

@@ -11,6 +11,7 @@ END {
     source("own", "a light sub-path of its own", "y_0 y_1 ... y_(s-1)", "#3d444d")
     source("paths", "K light sub-paths", "a tile shares them", "#0b62a8")
     source("vertices", "their V vertices", "each stands for its sub-path", "#12733a")
+    source("eye", "vertices of its neighbours", "eye sub-paths of the tile", "#6a3d9a")
     source("state", "the sample before", "a Markov chain", "#b3400a")
     method("lamp", "pt", "one point, the lamp by its power")
     method("lamp", "restir", "one of M, shared by N + 1 pixels: f W / sum")
@@ -26,10 +27,12 @@ END {
     method("vertices", "pcbdpt", "mean of three records' PMF and 1 / V")
     method("vertices", "ris", "one record's PMF; weights that know Q / h")
     method("vertices", "ris2", "M2 by power, then as ris")
+    method("eye", "restirgi", "one second vertex of N + 1 pixels: f W / sum")
+    method("eye", "pathgraph", "all M of a cluster: 1 / sum of p_m; biased")
     method("state", "pssmlt", "all its numbers, moved a little: I' / I")
     method("state", "mmlt", "one strategy's numbers: I' / I")
     method("state", "mlt", "a path, part of its vertices kept: R' / R")
-    print "<svg xmlns='http://www.w3.org/2000/svg' width='740' height='512' viewBox='0 0 740 512' " \
+    print "<svg xmlns='http://www.w3.org/2000/svg' width='740' height='574' viewBox='0 0 740 574' " \
         "font-family='sans-serif' font-size='13'><rect width='100%' height='100%' fill='white'/>"
     print "<text x='12' y='22' font-weight='bold'>an eye sub-path is joined to</text>" \
         "<text x='300' y='22' font-weight='bold'>by</text><text x='392' y='22' font-weight='bold'>which chooses</text>"

@@ -11,10 +11,10 @@ cd "$dir" || exit 1
 set -e
 mkdir -p "$out"
 render() { "$program" render "$scene" --quiet "$@"; }
-# chart NAME TITLE ZERO: table.txt as a picture.
+# chart NAME TITLE ZERO [AXIS]: table.txt as a picture.
 chart() {
     [ -s table.txt ]
-    awk -v title="$2" -v zero="$3" -f "$tour/chart.awk" table.txt >"$out/$1.svg"
+    awk -v title="$2" -v zero="$3" -v axis="$4" -f "$tour/chart.awk" table.txt >"$out/$1.svg"
 }
 
 # The same scene by every method, 16 samples per pixel.
@@ -26,34 +26,42 @@ for select in bins pool vertices subspaces; do
 done
 
 # Every strategy alone, as it is and weighted.
-render --integrator bdpt --spp 64 --res 80x80 --maxdepth 4 --strategies pyramid -o x.png
+"$lab" strategies "$scene" --integrator bdpt --spp 64 --res 80x80 --maxdepth 4 -o pyramid --quiet
 cp pyramid/pyramid.png "$out/"
 
 # What selection has learnt, seen from the floor.
-"$program" worth "$scene" --pixel 64,100 --spp 64 --quiet -o "$out/worth.png"
+"$lab" worth "$scene" --pixel 64,100 --spp 64 --quiet -o "$out/worth.png"
 
 # One sample, seen in the left sphere.
-(cd "$tour/../.." && "$program" trace doc/mini/rooms.pbrt --integrator bdpt --pixel 60,80 --sample 22 --maxdepth 4 \
+(cd "$tour/../.." && "$lab" trace doc/mini/rooms.pbrt --integrator bdpt --pixel 60,80 --sample 22 --maxdepth 4 \
     --svg "$out/trace.svg" >/dev/null)
 
-# One pixel, on the floor beside the gap: its red value after 1, 4, 16 ... samples.
-for method in pt bdpt; do
+# How the error falls: root mean square of 8-bit values, of 16 x 16 pixels.
+render --integrator bdpt --spp 16384 --res 16x16 --seed 7 -o truth.pfm
+for method in pt bdpt asbdpt; do
     for spp in 1 4 16 64 256 1024; do
-        render --integrator $method --spp $spp --cropwindow 0.75 0.753 0.875 0.878 -o pixel.pfm
-        red=$(tail -c 12 pixel.pfm | od -An -tf4 | awk '{ print $1; exit }')
-        echo "${method},_$spp ${red:?}" | awk '{ printf "%s %.3f\n", $1, $2 }'
+        render --integrator $method --spp $spp --res 16x16 -o x.pfm
+        "$lab" compare x.pfm truth.pfm | awk -v method=$method -v spp=$spp '$1 == "rmse8" { print method, spp, $2 }'
     done
 done >table.txt
-chart pixel "One pixel's red value after so many samples" 0
+awk -v title="Error over samples; dashed: falling as 1/sqrt(N)" -f "$tour/fall.awk" table.txt >"$out/fall.svg"
 
-# How far off the mean of bins is, for several numbers of iterations between restarts.
-render --integrator bdpt --spp 1024 --res 32x32 -o truth.pfm
-for restart in 4 8 16 32; do
-    render --integrator asbdpt -P select=bins -P restart=$restart --spp 1024 --res 32x32 -o bins.pfm
-    "$program" compare bins.pfm truth.pfm |
-        awk -v n=$restart '$1 == "mean_ratio" { printf "restart_%d %.2f\n", n, 100 * ($2 - 1) }'
+# How far off the mean of bins is, for several numbers of iterations between restarts: eight seeds, two standard errors.
+for restart in 0 4 8 16 32; do
+    for seed in 1 2 3 4 5 6 7 8; do
+        method=bdpt
+        [ $restart = 0 ] || method="asbdpt -P select=bins -P restart=$restart"
+        # shellcheck disable=SC2086
+        render --integrator $method --spp 512 --res 16x16 --seed $seed -o x.pfm
+        "$lab" compare x.pfm truth.pfm | awk '$1 == "mean_ratio" { print 100 * ($2 - 1) }'
+    done | awk -v n=$restart '
+        { sum += $1; square += $1 * $1 }
+        END {
+            mean = sum / NR; error = 2 * sqrt((square / NR - mean * mean) / (NR - 1))
+            printf "%s %.2f %.3f %.3f\n", n ? "restart_" n : "bdpt", mean, mean - error, mean + error
+        }'
 done >table.txt
-chart bias "Mean of bins against bdpt, in per cent" 0
+chart bias "Mean of bins against the truth, in per cent; whiskers: two standard errors" 0
 
 # p-values of two methods that agree, and of bins.
 for seed in 1 2 3 4 5 6 7 8; do
@@ -70,13 +78,18 @@ done
 # The alias table, step by step.
 awk -v weights="5 1 3 2 1" -f "$tour/alias.awk" </dev/null >"$out/alias.svg"
 
+# Drawings.
+for drawing in "$tour"/drawings/*.draw; do
+    awk -f "$tour/draw.awk" "$drawing" >"$out/$(basename "$drawing" .draw).svg"
+done
+
 # What the methods draw from what.
 awk -f "$tour/family.awk" </dev/null >"$out/family.svg"
 
 # Squared error at equal time, from the table of doc/selection.md: 1 is bdpt.
 awk -F '|' '/^\| scene, rmse8/ { on = 1; next }
     on && /^\| [a-z-]+ \|/ && $2 !~ /geometric|worst/ {
-        gsub(/[ *]/, "", $2); gsub(/\*/, "", $4); sub(/\[.*/, "", $4); print $2, $4
+        gsub(/[ *]/, "", $2); gsub(/[][*,]/, "", $4); print $2, $4 # a value and its interval
     }
     on && /^$/ { exit }' "$tour/../selection.md" >table.txt
-chart gains "Squared error of subspaces in bdpt's time; bdpt is 1" 1
+chart gains "Squared error of asbdpt in bdpt's time; bdpt is 1; whiskers: 95 %" 1 log

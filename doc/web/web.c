@@ -17,7 +17,7 @@
 #include "lab/commands.h"
 #include "image/picture.h"
 #include "lab/compare.h"
-#include "look/sheet.h"
+#include "lab/sheet.h"
 #include "render/parameters.h"
 
 char *web_words(int size);

@@ -21,4 +21,12 @@ static inline int cumulative_find(const double *before, int n, double target)
     return low;
 }
 
+static inline double sum_of(const double *x, int n)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += x[i];
+    return sum;
+}
+
 #endif

@@ -27,6 +27,7 @@ void progress_start(struct progress *p, bool quiet)
 {
     p->shown = !quiet;
     p->bar = os_terminal(stderr);
+    p->note[0] = '\0';
     p->start = os_wall_seconds();
     p->last = p->start;
 }
@@ -41,9 +42,10 @@ bool progress_update(void *progress, double done)
     char left[32] = "?";
     if (done > 0)
         progress_duration(elapsed / done - elapsed, left, sizeof left);
+    int bar = p->note[0] != '\0' ? BAR / 4 : BAR;
     if (p->bar)
-        fprintf(stderr, "\r[%-*.*s] ", BAR, (int)(done * BAR), "====================");
-    fprintf(stderr, "%3d %%, %s left%s", (int)(done * 100), left, p->bar ? "      " : "\n");
+        fprintf(stderr, "\r[%-*.*s] ", bar, (int)(done * bar), "====================");
+    fprintf(stderr, "%3d %%%s, %s left%s", (int)(done * 100), p->note, left, p->bar ? "      " : "\n");
     fflush(stderr);
     return true;
 }

@@ -12,6 +12,7 @@
 
 struct progress {
     bool shown, bar;    /* at all; on a terminal */
+    char note[32];      /* what else is to be shown; may be empty */
     double start, last; /* seconds of os_wall_seconds */
 };
 

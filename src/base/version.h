@@ -8,6 +8,6 @@
 #define ASBDPT_VERSION_H
 
 #define VERSION "asbdpt 0.1"
-#define ESTIMATOR 3
+#define ESTIMATOR 4
 
 #endif

@@ -7,6 +7,7 @@
 
 #include "base/mem.h"
 #include "base/os.h"
+#include "image/image.h"
 
 bool aov_read(const char *list, struct aov_files *out, struct error *err)
 {
@@ -37,10 +38,21 @@ static bool open_one(const char *picture, enum aov which, struct names *all, str
     return ok;
 }
 
-bool aov_open(struct aov_files *f, struct names *all, struct outputs *out, struct error *err)
+static bool has_exr(const struct outputs *out, struct error *err)
+{
+    for (int i = 0; i < out->n; i++)
+        if (!out->item[i].is_part && image_keeps_place(out->item[i].file.path))
+            return true;
+    return error_set(err, "--layers: no other format has them than .exr; name one by -o");
+}
+
+bool aov_open(struct aov_files *f, bool layers, struct names *all, struct outputs *out, struct error *err)
 {
     bool ok = true;
     f->first = out->n;
+    f->layers = layers;
+    if (layers)
+        return has_exr(out, err);
     for (int i = 0; ok && i < N_AOVS; i++) {
         const char *picture = out->item[0].file.path;
         if (f->wanted[i] && strcmp(picture, "-") == 0)
@@ -50,22 +62,37 @@ bool aov_open(struct aov_files *f, struct names *all, struct outputs *out, struc
     return ok;
 }
 
+/* The channels of a picture, at most three. */
+static void add_layer(struct outputs *out, enum aov which, const float *picture)
+{
+    static const char *const NAMES[N_AOVS][3] = {{"albedo.R", "albedo.G", "albedo.B"},
+                                                 {"normal.X", "normal.Y", "normal.Z"},
+                                                 {"depth.Z", NULL, NULL},
+                                                 {"position.X", "position.Y", "position.Z"},
+                                                 {"variance.R", "variance.G", "variance.B"}};
+    for (int c = 0; c < 3 && NAMES[which][c] != NULL; c++)
+        out->layer[out->n_layers++] = (struct channel){NAMES[which][c], picture + c, 3, true};
+}
+
 void aov_make(struct aov_files *f, const struct scene *scene, const struct render_options *options,
-              const struct film *film, struct outputs *out)
+              const struct film *film, bool seen, struct outputs *out)
 {
     bool first_hit = false;
-    if (f->first == out->n)
+    if (f->first == out->n && !f->layers)
         return;
     for (int i = 0, at = f->first; i < N_AOVS; i++) {
         f->picture[i] = mem_alloc(rect_pixels(film->rect) * 3, sizeof *f->picture[i]);
         first_hit |= i < N_FIRST_HIT && f->wanted[i];
-        if (f->wanted[i] && i == AOV_VARIANCE && film->iterations < 2)
-            out->item[at].missing = "one sample per pixel shows no variance";
-        if (f->wanted[i])
+        if (f->wanted[i] && f->layers) {
+            add_layer(out, (enum aov)i, f->picture[i]);
+        } else if (f->wanted[i]) {
+            if (i == AOV_VARIANCE && film->iterations < 2)
+                out->item[at].missing = "one sample per pixel shows no variance";
             out->item[at++].pixels = f->picture[i];
+        }
     }
     if (first_hit)
-        aov_render(scene, options, f->picture);
+        aov_render(scene, options, seen, f->picture);
     if (f->wanted[AOV_VARIANCE])
         aov_variance(film, scene->film_scale, f->picture[AOV_VARIANCE]);
 }

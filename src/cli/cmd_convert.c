@@ -1,21 +1,26 @@
-/* cmd_convert.c: asbdpt convert IN -o OUT: a picture in other formats. */
+/* cmd_convert.c: asbdpt convert IN... -o OUT: a picture in other formats, or several added up, each times a weight: of
+ * those that render --lights writes the picture under other lights. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/mem.h"
+#include "base/number.h"
 #include "cli/command.h"
 #include "cli/outputs.h"
 #include "image/image.h"
 
 struct convert_options {
-    const char *in;
-    struct texts out;
+    struct texts in, out;
+    const char *weights; /* numbers with commas between them, or NULL: all 1 */
     struct tone_options tone;
 };
 
 #define AT(member) offsetof(struct convert_options, member)
 static const struct option OPTIONS[] = {
-    {"IN", NULL, OPTION_TEXT, AT(in), 1, .file = FILE_READ,
-     .help = "a picture to read: .exr .pfm .hdr .pic .png .tga .ppm .pgm"},
+    {"IN", NULL, OPTION_TEXTS, AT(in), 1, .file = FILE_READ,
+     .help = "a picture to read: .exr .pfm .hdr .pic .png .tga .ppm .pgm; several are added up"},
+    {"--weights", "LIST", OPTION_TEXT, AT(weights), .help = "what they are multiplied by, as 1,0.5,2 (default: 1)"},
     {"-o", "FILE", OPTION_TEXTS, AT(out), 1, .alias = "--outfile", .file = FILE_WRITTEN,
      .help = "a picture to write: linear .pfm .exr, sRGB .png .ppm; repeatable"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
@@ -29,8 +34,58 @@ static void warn_of_place(const struct convert_options *o, const struct placemen
     bool part = at->width > 0 && (at->x != 0 || at->y != 0 || at->width != width || at->height != height);
     for (int i = 0; part && i < o->out.n; i++)
         if (!image_keeps_place(o->out.item[i]))
-            fprintf(stderr, "asbdpt: warning: %s lies at %d,%d of a picture of %dx%d, as %s does not say\n", o->in,
-                    at->x, at->y, at->width, at->height, o->out.item[i]);
+            fprintf(stderr, "asbdpt: warning: %s lies at %d,%d of a picture of %dx%d, as %s does not say\n",
+                    o->in.item[0], at->x, at->y, at->width, at->height, o->out.item[i]);
+}
+
+/* A weight of the list at *text, which moves behind it. */
+static bool next_weight(const char **text, bool last, double *out)
+{
+    char *end;
+    *out = strtod(*text, &end);
+    bool ok = end != *text && fabs(*out) <= NUMBER_MAX && *end == (last ? '\0' : ',');
+    *text = end + !last;
+    return ok;
+}
+
+/* Add a picture times a weight to the sum, which the first one begins. */
+static bool add_picture(const char *path, double weight, double **sum, int *width, int *height, struct image *about,
+                        struct error *err)
+{
+    int w, h;
+    float *pixels = image_read_linear(path, &w, &h, *sum == NULL ? about : NULL, err);
+    if (pixels == NULL)
+        return false;
+    size_t n = 3 * (size_t)w * (size_t)h;
+    bool fits = *sum == NULL || (w == *width && h == *height);
+    if (*sum == NULL)
+        *sum = mem_alloc(n, sizeof **sum);
+    for (size_t i = 0; fits && i < n; i++)
+        (*sum)[i] += weight * (double)pixels[i];
+    free(pixels);
+    if (!fits)
+        return error_set(err, "%s is %dx%d, the pictures before it %dx%d", path, w, h, *width, *height);
+    *width = w;
+    *height = h;
+    return true;
+}
+
+/* All pictures, added up; to be given to free(). NULL with a message. */
+static float *add_up(const struct convert_options *o, int *width, int *height, struct image *about, struct error *err)
+{
+    const char *text = o->weights;
+    double weight = 1, *sum = NULL;
+    bool ok = true;
+    for (int i = 0; ok && i < o->in.n; i++)
+        ok = (text == NULL || next_weight(&text, i + 1 == o->in.n, &weight) ||
+              error_set(err, "--weights %s: expected %d numbers with commas between them", o->weights, o->in.n)) &&
+             add_picture(o->in.item[i], weight, &sum, width, height, about, err);
+    size_t n = ok ? 3 * (size_t)*width * (size_t)*height : 0;
+    float *out = ok ? mem_alloc(n, sizeof *out) : NULL;
+    for (size_t i = 0; i < n; i++)
+        out[i] = float_within(sum[i]);
+    free(sum);
+    return out;
 }
 
 static int run(void *options)
@@ -42,7 +97,9 @@ static int run(void *options)
     int width, height;
     if (!outputs_open(&o->out, &o->tone, PARTS_NONE, &out, &err))
         return fail(&err);
-    float *pixels = image_read_linear(o->in, &width, &height, &about, &err);
+    bool one = o->in.n == 1 && o->weights == NULL;
+    float *pixels = one ? image_read_linear(o->in.item[0], &width, &height, &about, &err)
+                        : add_up(o, &width, &height, &about, &err);
     bool ok = pixels != NULL;
     if (ok) {
         out.place = about.place;
@@ -55,6 +112,6 @@ static int run(void *options)
 }
 
 const struct command command_convert = {
-    "convert", "a picture in other formats", {"IN -o FILE... [--exposure EV] [--tonemap NAME]"}, OPTIONS,
+    "convert", "a picture in other formats, or the weighted sum of several", {"IN... -o FILE... [options]"}, OPTIONS,
     sizeof(struct convert_options), run, false,
     "convert picture.exr -o picture.png --exposure 1 --tonemap filmic"};

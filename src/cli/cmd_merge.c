@@ -144,12 +144,15 @@ static bool write_film(const struct merge_options *o, struct merge *m, struct fi
 {
     struct part whole = m->part[0].part; /* its identity is borrowed */
     float *pixels = mem_alloc((size_t)whole.width * (size_t)whole.height * 3, sizeof *pixels);
+    float *alpha = film_alpha(film);
     whole.end = reached(m);
     film_warn(film, film_develop(film, whole.scale, pixels));
     out->place = whole.place;
+    out->alpha = alpha;
     out->part = &whole;
     out->film = film;
     bool ok = outputs_write(out, whole.width, whole.height, pixels, o->quiet, err);
+    free(alpha);
     free(pixels);
     return ok;
 }
@@ -165,6 +168,7 @@ static bool merge(const struct merge_options *o, struct merge *m, bool picture, 
         struct pixel_rect rect = {0, 0, first->width, first->height};
         check_ranges(m, picture ? 0 : first->first, picture ? first->planned : 0, o->partial);
         film_init(&film, rect, rect.x1, rect.y1);
+        film_keep_planes(&film, first->planes);
         add_parts(m, &film);
         ok = m->n_wrong == 0 && write_film(o, m, &film, out, err);
         film_free(&film);

@@ -24,12 +24,21 @@ static const struct option OPTIONS[] = {
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
     {"--aov", "LIST", OPTION_TEXT, AT(aov), .help = "also NAME.albedo.pfm ...: albedo,normal,depth,position,variance"},
-    {"--strategies", "DIR", OPTION_TEXT, AT(strategies),
-     .help = "write every strategy (s,t), and all as DIR/pyramid.png"},
+    {"--layers", NULL, OPTION_ON, AT(layers), .with = "--aov", .help = "--aov into the .exr itself, as layers"},
+    {"--seen", NULL, OPTION_ON, AT(seen), .with = "--aov",
+     .help = "albedo and normal of what is seen in mirrors and through glass, as denoisers want them"},
+    {"--lights", "DIR", OPTION_TEXT, AT(lights),
+     .help = "write a picture of what each light brings, see convert --weights; or each \"string group\" of lights"},
+    {"--alpha", NULL, OPTION_ON, AT(alpha),
+     .help = ".exr and .png with alpha: 0 where the lens sees nothing, lights of \"bool visible\" \"false\" among it"},
     {"--gate", "L0:L1", OPTION_NUMBER, AT(gate), 0, INFINITY,
      .help = "only light whose way from lamp to lens is from L0 to below L1 long, in scene units; L1 may be inf"},
     {"--time", "TIME", OPTION_NUMBER, AT(keep.time), 1e-9, 1e9,
      .help = "stop after so long, and write what there is"},
+    {"--noise", "X", OPTION_NUMBER, AT(keep.noise[NOISE_RELATIVE]), 1e-9, 1e9,
+     .help = "stop when the noise is below X of the brightness around, e.g. 0.05; asked every 64 samples"},
+    {"--noise8", "X", OPTION_NUMBER, AT(keep.noise[NOISE_8_BIT]), 1e-9, 1e9,
+     .help = "the same in levels of the 255 that 8-bit pictures have; with both, when both are so"},
     {"--checkpoint", "FILE", OPTION_TEXT, AT(keep.checkpoint), .file = FILE_KEPT,
      .help = "save the render now and then, and at signals"},
     {"--interval", "TIME", OPTION_NUMBER, AT(keep.interval), 0, 1e9, .with = "--checkpoint", .fallback = "60",
@@ -58,7 +67,7 @@ static char *default_output(const struct scene *scene)
     return out;
 }
 
-/* All that a render writes but its strategies, opened before the work begins. */
+/* All that a render writes but --lights, opened before the work begins. */
 struct files {
     struct outputs pictures;
     struct aov_files aov;
@@ -79,9 +88,9 @@ static bool check_options(const struct job_options *o, struct files *f, struct e
     memset(f, 0, sizeof *f);
     if (!aov_read(o->aov, &f->aov, err))
         return false;
-    if (o->keep.resume != NULL && (o->strategies != NULL || f->aov.wanted[AOV_VARIANCE]))
-        return error_set(err, "%s: strategies and variance are not saved and cannot be resumed", o->keep.resume);
-    return strategies_possible(o->strategies, err) && keep_check(&o->keep, err);
+    if (o->keep.resume != NULL && f->aov.wanted[AOV_VARIANCE])
+        return error_set(err, "%s: variance is not saved and cannot be resumed", o->keep.resume);
+    return lights_possible(o->lights, err) && keep_check(&o->keep, err);
 }
 
 /* What needs no scene to be opened. */
@@ -108,7 +117,9 @@ static bool open_default_output(const struct job_options *o, const struct scene 
 /* Samples of a chain are neither a pixel's own nor independent. */
 static bool suits(const struct job_options *o, const struct method *m, const struct files *f, struct error *err)
 {
-    const char *wanted = f->aov.wanted[AOV_VARIANCE] ? "--aov variance" : o->strategies != NULL ? "--strategies" : NULL;
+    const char *wanted = f->aov.wanted[AOV_VARIANCE] ? "--aov variance"
+                         : o->lights != NULL ? "--lights" : o->alpha ? "--alpha"
+                         : keep_asks_noise(&o->keep) ? "--noise" : NULL;
     return !m->chain || wanted == NULL ||
            error_set(err, "%s: the samples of %s are a chain, and do not show that; render several --seed", wanted,
                      m->name);
@@ -120,8 +131,8 @@ static bool open_others(struct job_options *o, const struct scene *scene, struct
     struct names all = {0};
     bool ok = names_add_options(&all, OPTIONS, o, err) &&
               (f->pictures.n > 0 || open_default_output(o, scene, &all, &f->pictures, err)) &&
-              aov_open(&f->aov, &all, &f->pictures, err) &&
-              strategies_check(o->strategies, scene, o->max_depth, &all, err);
+              aov_open(&f->aov, o->layers, &all, &f->pictures, err) &&
+              lights_check(o->lights, scene, &all, err);
     names_free(&all);
     return ok;
 }
@@ -137,18 +148,20 @@ static void report(const struct job_options *o, const char *integrator, const st
         fprintf(stderr, "%s: %s\n", integrator, film->note);
 }
 
-/* Pictures, strategies, and when all are complete the statistics. `ok`: nothing has failed yet. */
+/* Pictures, and when all are complete the statistics. `ok`: nothing has failed yet. */
 static bool write_files(const struct job_options *o, const struct scene *scene, const struct render_options *options,
                         const struct film *film, struct files *f, bool ok, struct error *err)
 {
-    float *pixels = mem_alloc(rect_pixels(film->rect) * 3, sizeof *pixels);
+    float *pixels = mem_alloc(rect_pixels(film->rect) * 3, sizeof *pixels), *alpha = film_alpha(film);
     film_warn(film, film_develop(film, scene->film_scale, pixels));
-    aov_make(&f->aov, scene, options, film, &f->pictures);
+    f->pictures.alpha = alpha;
+    aov_make(&f->aov, scene, options, film, o->seen, &f->pictures);
     ok = outputs_write(&f->pictures, rect_width(film->rect), rect_height(film->rect), pixels, o->quiet,
                        ok ? err : NULL) && ok;
     aov_free(&f->aov);
+    free(alpha);
     free(pixels);
-    ok = strategies_write(o->strategies, film, scene->film_scale, ok ? err : NULL) && ok;
+    ok = lights_write(o->lights, scene, film, ok ? err : NULL) && ok;
     if (ok && f->stats.stream != NULL)
         return file_commit(&f->stats, err);
     abandon(f);
@@ -180,12 +193,12 @@ static bool render(const struct job_options *o, const struct scene *scene, const
     struct render_options options = job_render(o, scene, m);
     struct film film;
     struct keep keep;
+    const struct planes planes = {o->lights != NULL ? scene->lights.n_groups : 0, o->alpha};
     film_init(&film, render_crop(scene), scene->width, scene->height);
+    film_keep_planes(&film, planes);
     bool ok = parameters_max_depth(scene, o->max_depth, &options.max_depth, err) &&
               keep_begin(&keep, &o->keep, o->quiet, scene, &options, &film, err);
     if (ok) {
-        if (o->strategies != NULL)
-            film_keep_strategies(&film, options.max_depth);
         if (files->aov.wanted[AOV_VARIANCE])
             film_keep_errors(&film);
         files->pictures.place = keep.part.place;

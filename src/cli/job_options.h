@@ -13,11 +13,18 @@
 /* How a render is stopped, saved and resumed. */
 struct keep_options {
     double time;             /* seconds; 0: no limit */
+    double noise[N_NOISE_SCALES]; /* 0: no limit */
     const char *checkpoint;  /* file or NULL */
     double interval;         /* seconds between checkpoints */
     const char *resume;      /* file or NULL */
     int samples[2];          /* of each pixel, the second excluded; 0, 0: all */
 };
+
+/* keep_asks_noise: is there a limit of noise? */
+static inline bool keep_asks_noise(const struct keep_options *o)
+{
+    return o->noise[NOISE_RELATIVE] > 0 || o->noise[NOISE_8_BIT] > 0;
+}
 
 /* A subcommand with options of its own has this as the first member of its struct: offsets count from there. */
 struct job_options {
@@ -35,9 +42,11 @@ struct job_options {
     bool strict, quiet;
     struct texts output; /* of render and worth */
     /* Of render alone: */
-    const char *strategies; /* directory or NULL */
+    const char *lights; /* directory or NULL */
+    bool alpha;
     double gate[2];         /* lengths of paths, the second excluded; 0, 0: all */
     const char *aov;        /* list or NULL */
+    bool layers, seen;      /* they go into the picture's own file; see render/aov.h */
     const char *stats;      /* file or NULL */
     struct tone_options tone;
     struct keep_options keep;

@@ -1,11 +1,13 @@
 /* keep.c: see keep.h. */
 #include "cli/keep.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/file.h"
 #include "base/interrupt.h"
+#include "base/number.h"
 #include "base/os.h"
 #include "cli/names.h"
 
@@ -17,6 +19,8 @@ static bool resumes_its_own(const struct keep_options *o)
 
 bool keep_check(const struct keep_options *o, struct error *err)
 {
+    if (o->samples[1] > 0 && keep_asks_noise(o))
+        return error_set(err, "--noise is that of the whole picture; --samples takes a part of it");
     if (o->checkpoint == NULL)
         return true;
     enum os_kind kind = os_kind_of(o->checkpoint);
@@ -38,6 +42,11 @@ static bool resume(struct keep *k, struct error *err)
     FILE *file = part_open(o->resume, &found, err);
     if (file == NULL)
         return false;
+    if (k->film->half != NULL && !found.halves && found.done + found.passes > 0) {
+        fclose(file);
+        part_free(&found);
+        return error_set(err, "%s: it was made without --noise, and cannot be gone on with by it", o->resume);
+    }
     struct part asked = k->part; /* the same picture, of however many samples */
     asked.planned = found.planned;
     bool ok = part_same(&found, o->resume, &asked, err);
@@ -60,9 +69,31 @@ static bool save_film(const struct keep *k, struct error *err)
     if (!f->learnt_short)
         return part_save(k->options->checkpoint, &k->part, f, err);
     film_init(&none, f->rect, f->full_width, f->full_height);
+    film_keep_planes(&none, f->planes);
     bool ok = part_save(k->options->checkpoint, &k->part, &none, err);
     film_free(&none);
     return ok;
+}
+
+/* The share of the work, where noise ends it: its square falls with the samples. */
+static double share_by_noise(const struct keep *k)
+{
+    double share = HUGE_VAL;
+    for (int i = 0; i < N_NOISE_SCALES; i++)
+        if (k->options->noise[i] > 0)
+            share = fmin(share, sqr(k->options->noise[i] / k->film->noise[i].value));
+    return share;
+}
+
+static void show(struct keep *k, double done)
+{
+    bool relative = k->options->noise[NOISE_RELATIVE] > 0;
+    double noise = k->film->noise[relative ? NOISE_RELATIVE : NOISE_8_BIT].value;
+    if (k->film->half != NULL && noise < INFINITY) {
+        snprintf(k->bar.note, sizeof k->bar.note, relative ? ", noise %.3g" : ", noise %.3g of 255", noise);
+        done = fmax(done, fmin(share_by_noise(k), 1));
+    }
+    progress_update(&k->bar, done);
 }
 
 static void save(struct keep *k)
@@ -81,7 +112,7 @@ static bool watch(void *context, double done)
     double now = os_wall_seconds();
     interrupt_defer();
     bool signal = interrupt_caught() != 0;
-    progress_update(&k->bar, done);
+    show(k, done);
     if (o->checkpoint != NULL && ((signal && !k->hurried) || now - k->saved >= o->interval)) {
         k->hurried = signal;
         save(k);
@@ -103,9 +134,13 @@ bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const 
         render->end = o->samples[1];
         render->is_part = true;
     }
+    if (keep_asks_noise(o))
+        film_keep_halves(film);
+    memcpy(render->noise, o->noise, sizeof render->noise);
     k->options = o;
     k->film = film;
     k->part = part_describe(scene, render);
+    k->part.planes = film->planes;
     if (!resume(k, err)) {
         part_free(&k->part);
         return false;
@@ -116,6 +151,20 @@ bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const 
     progress_start(&k->bar, quiet);
     k->saved = k->bar.start;
     return true;
+}
+
+static void say_noise(const struct keep *k)
+{
+    const struct film *f = k->film;
+    const struct noise_estimate *relative = &f->noise[NOISE_RELATIVE], *levels = &f->noise[NOISE_8_BIT];
+    long every = 2L * f->run;
+    if (relative->value < INFINITY)
+        fprintf(stderr, "asbdpt: noise %.3g +- %.1g of the brightness around, %.3g +- %.1g of 255 levels, at %ld "
+                "samples per pixel: %s\n", relative->value, relative->error, levels->value, levels->error,
+                f->iterations - f->iterations % every, share_by_noise(k) > 1 ? "below what was asked for"
+                                                                             : "more than was asked for");
+    else
+        fprintf(stderr, "asbdpt: the noise is not known: it is estimated every %ld samples per pixel\n", every);
 }
 
 bool keep_end(struct keep *k, bool ok, struct error *err)
@@ -130,5 +179,7 @@ bool keep_end(struct keep *k, bool ok, struct error *err)
     else if (ok && k->late && f->iterations < wanted)
         fprintf(stderr, "asbdpt: stopped after %.1f s, at %ld of %ld samples per pixel\n",
                 os_wall_seconds() - k->bar.start, f->iterations, wanted);
+    if (ok && k->bar.shown && f->half != NULL)
+        say_noise(k);
     return ok && (k->options->checkpoint == NULL || save_film(k, err));
 }

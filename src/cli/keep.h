@@ -1,7 +1,8 @@
 /* keep.h: nothing rendered is lost: what watches over a render while it runs, stops it, saves and resumes it.
  *
- * A render ends early at a signal (base/interrupt.h) or when its time is over, once its block of samples is complete;
- * if its method still learns, it ends that with what it has learnt and makes one block.
+ * A render ends early when its noise is below what was asked for (render/halves.h), and, once its block of samples is
+ * complete, at a signal (base/interrupt.h) or when its time is over; if its method still learns, it ends that with what
+ * it has learnt and makes one block.
  * Its film is saved from time to time (render/part.h), and goes on from there to the same bytes. Tests: test/keep.sh.
  */
 #ifndef ASBDPT_KEEP_H

@@ -77,7 +77,21 @@ static bool write_one(struct outputs *o, struct output *one, int width, int heig
     }
     if (one->is_part)
         return part_write(&one->file, o->part, o->film, err);
-    return image_finish(&one->file, o->place, width, height, one->pixels != NULL ? one->pixels : pixels, err);
+    struct channel more[1 + OUTPUTS_LAYERS] = {{"A", o->alpha, 3, false}};
+    memcpy(more + 1, o->layer, sizeof o->layer);
+    int first = o->alpha != NULL ? 0 : 1, n = one->pixels == NULL ? 1 + o->n_layers - first : 0;
+    const struct raster r = {o->place, width, height, one->pixels != NULL ? one->pixels : pixels, more + first, n};
+    return image_finish(&one->file, &r, err);
+}
+
+/* The picture as it is to be shown: it is the colours that a curve is for, not their multiples by alpha. */
+static void show(const struct outputs *o, const float *pixels, size_t n, float *out)
+{
+    for (size_t i = 0; i < n; i++)
+        out[i] = o->alpha == NULL ? pixels[i] : o->alpha[i] > 0 ? pixels[i] / o->alpha[i] : 0;
+    tone_map(&o->tone, out, n, out);
+    for (size_t i = 0; o->alpha != NULL && i < n; i++)
+        out[i] *= o->alpha[i];
 }
 
 bool outputs_write(struct outputs *o, int width, int height, const float *pixels, bool quiet, struct error *err)
@@ -87,7 +101,7 @@ bool outputs_write(struct outputs *o, int width, int height, const float *pixels
     size_t n = (size_t)width * (size_t)height * 3;
     float *shown = tone_is_plain(&o->tone) ? NULL : mem_alloc(n, sizeof *shown);
     if (shown != NULL)
-        tone_map(&o->tone, pixels, n, shown);
+        show(o, pixels, n, shown);
     for (int i = 0; i < o->n; i++) {
         char *name = mem_copy_text(o->item[i].file.path);
         const float *source = shown != NULL && image_is_8_bit(name) ? shown : pixels;

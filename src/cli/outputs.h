@@ -23,6 +23,8 @@ struct output {
     const char *missing; /* why there is nothing to write after all, or NULL */
 };
 
+enum { OUTPUTS_LAYERS = 16 };
+
 struct outputs {
     struct output *item; /* [n], owned */
     int n;
@@ -30,6 +32,9 @@ struct outputs {
     struct tone tone; /* of 8-bit pictures */
     /* Set before outputs_write: */
     struct placement place;  /* where the pictures lie in their whole */
+    const float *alpha;      /* [height*width*3], grey, by which pixels are multiplied already; NULL: none; borrowed */
+    struct channel layer[OUTPUTS_LAYERS]; /* [n_layers], more channels of OpenEXR; values borrowed */
+    int n_layers;
     const struct part *part; /* what is written into parts; borrowed */
     const struct film *film;
 };

@@ -1,4 +1,4 @@
-/* render_files.h: what asbdpt render writes beside its picture: first-hit pictures, strategies, and how it went.
+/* render_files.h: what asbdpt render writes beside its picture: first-hit pictures, lights, how it went.
  *
  * Tests: test/cli.sh, test/outputs.sh.
  */
@@ -10,46 +10,41 @@
 #include "cli/outputs.h"
 #include "render/aov.h"
 
-/* --- --aov: beside NAME.png lie NAME.albedo.pfm, NAME.normal.pfm, ... (aov_files.c) --------------------- */
+/* --- --aov: beside NAME.png lie NAME.albedo.pfm, NAME.normal.pfm, ..., or NAME.exr has them as layers, with the
+ * channels albedo.R, .G, .B, normal.X, .Y, .Z, depth.Z and so on, as compositors name them (aov_files.c) ---- */
 
 struct aov_files {
     bool wanted[N_AOVS];
-    int first;              /* of the outputs that are theirs, in this order */
+    bool layers;
+    int first;              /* else: of the outputs that are theirs, in this order */
     float *picture[N_AOVS]; /* owned, NULL before aov_make */
 };
 
 /* aov_read: names of aov_name with commas between them; NULL: none. False with a message. */
 bool aov_read(const char *list, struct aov_files *out, struct error *err);
 
-/* aov_open: begin to write them beside the first of the pictures.
+/* aov_open: begin to write them beside the first of the pictures; as layers: is one of these an .exr?
  *   all  the files of the command; in-out
  *   out  the pictures of the command; in-out
  * Returns false with a message. */
-bool aov_open(struct aov_files *f, struct names *all, struct outputs *out, struct error *err);
+bool aov_open(struct aov_files *f, bool layers, struct names *all, struct outputs *out, struct error *err);
 
 /* aov_make: make them, for outputs_write; aov_free after that.
- *   options, film  of the render that is done; for the variance the film must have kept errors */
+ *   options, film  of the render that is done; for the variance the film must have kept errors
+ *   seen           see aov.h */
 void aov_make(struct aov_files *f, const struct scene *scene, const struct render_options *options,
-              const struct film *film, struct outputs *out);
+              const struct film *film, bool seen, struct outputs *out);
 void aov_free(struct aov_files *f);
 
-/* --- --strategies: a directory, or NULL: nothing is done (strategy_files.c) ------------------------------ */
+/* --- --lights: a directory, or NULL: nothing is done (light_files.c) -------------------------------------- */
 
-/* Two pictures of each (s,t), its whole estimate and its weighted share: (d + 1) (d + 4) for paths of up to d + 1
- * edges; and all of them on one sheet. */
-enum { STRATEGIES_MAX_DEPTH = 20 };
-
-/* strategies_possible: make the directory; can files be made in it? False with a message. */
-bool strategies_possible(const char *directory, struct error *err);
-
-/* strategies_check: once the scene is loaded: are there not too many, and none of them another file?
- *   max_depth  of the options, 0: the scene's
- *   all        the files of the command; in-out */
-bool strategies_check(const char *directory, const struct scene *scene, int max_depth, struct names *all,
-                      struct error *err);
-
-/* strategies_write: of a film that has kept them. */
-bool strategies_write(const char *directory, const struct film *film, double scale, struct error *err);
+/* lights_possible: make the directory; can files be made in it? lights_check: once the scene is loaded: are there not
+ * too many groups of lights (scene/light.h), and none of their pictures another file? lights_write: of a film that has
+ * kept them. False with a message.
+ *   all  the files of the command; in-out */
+bool lights_possible(const char *directory, struct error *err);
+bool lights_check(const char *directory, const struct scene *scene, struct names *all, struct error *err);
+bool lights_write(const char *directory, const struct scene *scene, const struct film *film, struct error *err);
 
 /* --- --stats (stats_file.c) ------------------------------------------------------------------------------ */
 

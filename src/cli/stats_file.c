@@ -72,7 +72,7 @@ void stats_write(FILE *f, const struct job_options *o, const struct scene *scene
     for (int i = 0; i < outputs->n; i++)
         json_text(j, NULL, outputs->item[i].file.path);
     json_close(j);
-    json_text(j, "strategies", o->strategies); /* a directory, or null */
+    json_text(j, "lights", o->lights); /* a directory, or null */
     json_text(j, "checkpoint", o->keep.checkpoint);
     json_text(j, "integrator", render->integrator);
     put_parameters(j, scene, render);

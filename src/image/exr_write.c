@@ -44,15 +44,23 @@ static void put_window(struct bytes *b, const char *name, int x, int y, int widt
     put_number(b, (uint64_t)(y + height - 1), 4);
 }
 
-/* All attributes that every file must have. */
-static void put_header(struct bytes *b, struct placement at, int width, int height, enum exr_type type)
+static enum exr_type type_of(const struct channel *c, enum exr_type type) { return c->exact ? EXR_FLOAT : type; }
+
+/* All attributes that every file must have.
+ *   channel  [n], in the order of the alphabet */
+static void put_header(struct bytes *b, const struct raster *r, const struct channel *channel, int n,
+                       enum exr_type type)
 {
+    const struct placement at = r->at;
+    size_t list = 1;
+    for (int i = 0; i < n; i++)
+        list += strlen(channel[i].name) + 17;
     put_number(b, 0x01312f76, 4); /* magic number */
     put_number(b, 2, 4);          /* version */
-    put_attribute(b, "channels", "chlist", 3 * 18 + 1);
-    for (const char *name = "BGR"; *name != '\0'; name++) { /* in the order of the alphabet */
-        put_number(b, (uint64_t)*name, 2);
-        put_number(b, (uint64_t)type, 4);
+    put_attribute(b, "channels", "chlist", list);
+    for (int i = 0; i < n; i++) {
+        put(b, channel[i].name, strlen(channel[i].name) + 1);
+        put_number(b, (uint64_t)type_of(&channel[i], type), 4);
         put_number(b, 0, 4); /* of no matter */
         put_number(b, 1, 4); /* every pixel in x */
         put_number(b, 1, 4); /* and y */
@@ -60,8 +68,8 @@ static void put_header(struct bytes *b, struct placement at, int width, int heig
     put_number(b, 0, 1);
     put_attribute(b, "compression", "compression", 1);
     put_number(b, EXR_ZIP, 1);
-    put_window(b, "dataWindow", at.x, at.y, width, height);
-    put_window(b, "displayWindow", 0, 0, at.width > 0 ? at.width : width, at.width > 0 ? at.height : height);
+    put_window(b, "dataWindow", at.x, at.y, r->width, r->height);
+    put_window(b, "displayWindow", 0, 0, at.width > 0 ? at.width : r->width, at.width > 0 ? at.height : r->height);
     put_attribute(b, "lineOrder", "lineOrder", 1);
     put_number(b, 0, 1); /* from the top */
     put_attribute(b, "pixelAspectRatio", "float", 4);
@@ -73,16 +81,17 @@ static void put_header(struct bytes *b, struct placement at, int width, int heig
     put_number(b, 0, 1);
 }
 
-/* Append the block of rows y to end - 1 of a picture whose first is `top`: y, size, data. */
-static void put_block(struct bytes *b, int top, size_t width, size_t y, size_t end, const float *pixels,
-                      enum exr_type type)
+/* Append the block of rows y to end - 1: y, size, data. */
+static void put_block(struct bytes *b, const struct raster *r, const struct channel *channel, int n, size_t y,
+                      size_t end, enum exr_type type)
 {
     struct bytes raw = {NULL, 0, 0};
-    uint64_t first = (uint64_t)top + y;
+    uint64_t first = (uint64_t)r->at.y + y;
+    size_t width = (size_t)r->width;
     for (; y < end; y++)
-        for (int c = 2; c >= 0; c--)
+        for (int c = 0; c < n; c++)
             for (size_t x = 0; x < width; x++)
-                put_float(&raw, pixels[(y * width + x) * 3 + (size_t)c], type);
+                put_float(&raw, channel[c].value[(y * width + x) * channel[c].step], type_of(&channel[c], type));
     uint8_t *scratch = mem_alloc(raw.n, 1);
     size_t size;
     uint8_t *packed = exr_pack_zip(raw.data, raw.n, scratch, &size);
@@ -99,28 +108,35 @@ static void put_block(struct bytes *b, int top, size_t width, size_t y, size_t e
     free(raw.data);
 }
 
-static void write_file(FILE *f, struct placement at, int width, int height, const float *pixels, enum exr_type type)
+static int by_name(const void *a, const void *b)
 {
-    size_t rows = (size_t)height, n = (rows + EXR_ZIP_ROWS - 1) / EXR_ZIP_ROWS;
+    const struct channel *x = a, *y = b;
+    return strcmp(x->name, y->name);
+}
+
+static void write_file(FILE *f, const struct raster *r, enum exr_type type)
+{
+    const struct channel rgb[3] = {{"R", r->pixels, 3, false}, {"G", r->pixels + 1, 3, false},
+                                   {"B", r->pixels + 2, 3, false}};
+    size_t rows = (size_t)r->height, n = (rows + EXR_ZIP_ROWS - 1) / EXR_ZIP_ROWS;
+    int n_channels = 3 + r->n_more;
+    struct channel *channel = mem_alloc((size_t)n_channels, sizeof *channel);
     struct bytes head = {NULL, 0, 0}, blocks = {NULL, 0, 0};
-    put_header(&head, at, width, height, type);
+    for (int i = 0; i < n_channels; i++)
+        channel[i] = i < 3 ? rgb[i] : r->more[i - 3];
+    qsort(channel, (size_t)n_channels, sizeof *channel, by_name);
+    put_header(&head, r, channel, n_channels, type);
     size_t start = head.n + 8 * n;
     for (size_t y = 0; y < rows; y += EXR_ZIP_ROWS) {
         put_number(&head, start + blocks.n, 8); /* the table of offsets */
-        put_block(&blocks, at.y, (size_t)width, y, y + EXR_ZIP_ROWS < rows ? y + EXR_ZIP_ROWS : rows, pixels, type);
+        put_block(&blocks, r, channel, n_channels, y, y + EXR_ZIP_ROWS < rows ? y + EXR_ZIP_ROWS : rows, type);
     }
     fwrite(head.data, 1, head.n, f);
     fwrite(blocks.data, 1, blocks.n, f);
     free(head.data);
     free(blocks.data);
+    free(channel);
 }
 
-void exr_write_half(FILE *f, struct placement at, int width, int height, const float *pixels)
-{
-    write_file(f, at, width, height, pixels, EXR_HALF);
-}
-
-void exr_write_float(FILE *f, struct placement at, int width, int height, const float *pixels)
-{
-    write_file(f, at, width, height, pixels, EXR_FLOAT);
-}
+void exr_write_half(FILE *f, const struct raster *r) { write_file(f, r, EXR_HALF); }
+void exr_write_float(FILE *f, const struct raster *r) { write_file(f, r, EXR_FLOAT); }

@@ -22,7 +22,7 @@
  *     scale     (negative: little-endian, positive: big-endian; samples are multiplied by its size) */
 bool pfm_matches(const uint8_t *data, size_t size);
 bool pfm_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
-void pfm_write(FILE *f, int width, int height, const float *pixels);
+void pfm_write(FILE *f, const struct raster *r);
 
 /* PPM and PGM, portable pix maps and grey maps: P6 and P5 binary, P3 and P2 as text; 8 or 16 bits a sample. Written:
  * P6, 8 bits, sRGB encoded.
@@ -30,13 +30,14 @@ void pfm_write(FILE *f, int width, int height, const float *pixels);
  *     P6  width height  maxval  samples     (a # begins a comment that ends with its line) */
 bool ppm_matches(const uint8_t *data, size_t size);
 bool ppm_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
-void ppm_write(FILE *f, int width, int height, const float *pixels);
+void ppm_write(FILE *f, const struct raster *r);
 
 /* PNG files [PNG]. Read: every colour type and depth, interlaced or not. Alpha, transparency and colour profiles are
- * not used; checksums are checked. Written: 8-bit RGB, sRGB encoded. */
+ * not used; checksums are checked. Written: 8 bits, sRGB encoded; with alpha, if there is, by which colours are
+ * divided. */
 bool png_matches(const uint8_t *data, size_t size);
 bool png_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
-void png_write(FILE *f, int width, int height, const float *pixels);
+void png_write(FILE *f, const struct raster *r);
 
 /* TGA, Truevision's Targa files: colour, grey and colour-mapped, run-length coded or not. TGA has no signature: the
  * file's name decides. Pixels of 24 or 32 bits (blue, green, red, alpha), grey and map indices of 8 bits; 15 and 16-bit
@@ -47,12 +48,12 @@ bool tga_read(const uint8_t *data, size_t size, struct image *out, struct error 
  * halfs, floats and integers, uncompressed or by RLE, ZIPS, ZIP or PIZ; as pbrt-v3 does, the data window as the
  * picture, of the channels R, G, B (one that is missing is 0), or Y alone as grey. Other compressions, several parts,
  * deep pictures and subsampled channels are refused.
- * Written: R, G, B as halfs, where what is finite and beyond 65504 becomes that, or as floats, exactly; ZIP; as pbrt-v3
- * does, the picture as the data window and the whole as the display window. */
+ * Written: R, G, B and all other channels as halfs, where what is finite and beyond 65504 becomes that, or as floats,
+ * exactly; ZIP; as pbrt-v3 does, the picture as the data window and the whole as the display window. */
 bool exr_matches(const uint8_t *data, size_t size);
 bool exr_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
-void exr_write_half(FILE *f, struct placement at, int width, int height, const float *pixels);
-void exr_write_float(FILE *f, struct placement at, int width, int height, const float *pixels);
+void exr_write_half(FILE *f, const struct raster *r);
+void exr_write_float(FILE *f, const struct raster *r);
 
 /* Radiance pictures [Radiance], RGB with a common exponent: flat or with runs; rows from the top, pixels from the left.
  * EXPOSURE and the like have no meaning. */

@@ -14,22 +14,21 @@ struct format {
     const char *extension;
     bool (*matches)(const uint8_t *data, size_t size); /* by content; NULL where the format has no signature */
     bool (*read)(const uint8_t *data, size_t size, struct image *out, struct error *err);
-    void (*write)(FILE *f, int width, int height, const float *pixels); /* NULL where it is not written, or below */
-    bool is_8_bit;
-    void (*write_at)(FILE *f, struct placement at, int width, int height, const float *pixels); /* with its place */
+    void (*write)(FILE *f, const struct raster *r); /* NULL where it is not written */
+    bool is_8_bit, keeps_place;
 };
 
 /* The first whose extension fits counts. */
 static const struct format FORMATS[] = {
-    {".pfm", pfm_matches, pfm_read, pfm_write, false, NULL},
-    {".float.exr", exr_matches, exr_read, NULL, false, exr_write_float},
-    {".exr", exr_matches, exr_read, NULL, false, exr_write_half},
-    {".hdr", rgbe_matches, rgbe_read, NULL, false, NULL},
-    {".pic", rgbe_matches, rgbe_read, NULL, false, NULL},
-    {".ppm", ppm_matches, ppm_read, ppm_write, true, NULL},
-    {".pgm", ppm_matches, ppm_read, NULL, true, NULL},
-    {".png", png_matches, png_read, png_write, true, NULL},
-    {".tga", NULL, tga_read, NULL, true, NULL},
+    {".pfm", pfm_matches, pfm_read, pfm_write, false, false},
+    {".float.exr", exr_matches, exr_read, exr_write_float, false, true},
+    {".exr", exr_matches, exr_read, exr_write_half, false, true},
+    {".hdr", rgbe_matches, rgbe_read, NULL, false, false},
+    {".pic", rgbe_matches, rgbe_read, NULL, false, false},
+    {".ppm", ppm_matches, ppm_read, ppm_write, true, false},
+    {".pgm", ppm_matches, ppm_read, NULL, true, false},
+    {".png", png_matches, png_read, png_write, true, false},
+    {".tga", NULL, tga_read, NULL, true, false},
 };
 enum { N_FORMATS = sizeof FORMATS / sizeof FORMATS[0] };
 
@@ -88,7 +87,7 @@ void image_mend(struct image *img, bool negative_too)
 static const struct format *format_to_write(const char *path)
 {
     const struct format *format = strcmp(path, "-") == 0 ? &FORMATS[0] : format_by_name(path);
-    return format != NULL && (format->write != NULL || format->write_at != NULL) ? format : NULL;
+    return format != NULL && format->write != NULL ? format : NULL;
 }
 
 bool image_writable(const char *path) { return format_to_write(path) != NULL; }
@@ -105,14 +104,9 @@ bool image_create(const char *path, struct file_output *out, struct error *err)
     return error_set(err, "%s: a picture is nothing for a terminal; send it into a file or another program", path);
 }
 
-bool image_finish(struct file_output *f, struct placement at, int width, int height, const float *pixels,
-                  struct error *err)
+bool image_finish(struct file_output *f, const struct raster *r, struct error *err)
 {
-    const struct format *format = format_to_write(f->path);
-    if (format->write_at != NULL)
-        format->write_at(f->stream, at, width, height, pixels);
-    else
-        format->write(f->stream, width, height, pixels);
+    format_to_write(f->path)->write(f->stream, r);
     return file_commit(f, err);
 }
 
@@ -125,14 +119,14 @@ bool image_is_8_bit(const char *path)
 bool image_keeps_place(const char *path)
 {
     const struct format *format = format_to_write(path);
-    return format != NULL && format->write_at != NULL;
+    return format != NULL && format->keeps_place;
 }
 
 bool image_write(const char *path, int width, int height, const float *pixels, struct error *err)
 {
     struct file_output f;
-    struct placement unknown = {0, 0, 0, 0};
-    return image_create(path, &f, err) && image_finish(&f, unknown, width, height, pixels, err);
+    const struct raster r = {{0, 0, 0, 0}, width, height, pixels, NULL, 0};
+    return image_create(path, &f, err) && image_finish(&f, &r, err);
 }
 
 static float linear_value(const struct image *img, size_t i)

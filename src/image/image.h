@@ -32,11 +32,9 @@ bool image_read(const char *path, struct image *out, struct error *err);
 bool image_write(const char *path, int width, int height, const float *pixels, struct error *err);
 
 /* image_create, image_finish: the same in two steps. The first says what is wrong with the name or the place, as of
- * a terminal, and is to be followed by image_finish or file_abandon; the second may come hours later.
- *   at  where the picture lies in its whole */
+ * a terminal, and is to be followed by image_finish or file_abandon; the second may come hours later. */
 bool image_create(const char *path, struct file_output *out, struct error *err);
-bool image_finish(struct file_output *f, struct placement at, int width, int height, const float *pixels,
-                  struct error *err);
+bool image_finish(struct file_output *f, const struct raster *r, struct error *err);
 
 /* image_mend: make samples that are NaN or infinite 0, and negative ones too if asked; `replaced` counts them. */
 void image_mend(struct image *img, bool negative_too);

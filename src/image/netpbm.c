@@ -86,14 +86,14 @@ bool pfm_read(const uint8_t *data, size_t size, struct image *out, struct error 
     return true;
 }
 
-void pfm_write(FILE *f, int width, int height, const float *pixels)
+void pfm_write(FILE *f, const struct raster *r)
 {
-    size_t row = 3 * (size_t)width;
+    size_t row = 3 * (size_t)r->width;
     uint8_t *bytes = mem_alloc(row, 4);
-    fprintf(f, "PF\n%d %d\n-1.000000\n", width, height);
-    for (int y = height - 1; y >= 0; y--) {
+    fprintf(f, "PF\n%d %d\n-1.000000\n", r->width, r->height);
+    for (int y = r->height - 1; y >= 0; y--) {
         for (size_t i = 0; i < row; i++)
-            bytes_of_bits(bits_of_float(pixels[(size_t)y * row + i]), bytes + 4 * i, 4, false);
+            bytes_of_bits(bits_of_float(r->pixels[(size_t)y * row + i]), bytes + 4 * i, 4, false);
         fwrite(bytes, 4, row, f);
     }
     free(bytes);
@@ -166,14 +166,14 @@ bool ppm_read(const uint8_t *data, size_t size, struct image *out, struct error 
     return false;
 }
 
-void ppm_write(FILE *f, int width, int height, const float *pixels)
+void ppm_write(FILE *f, const struct raster *r)
 {
-    size_t row = 3 * (size_t)width;
+    size_t row = 3 * (size_t)r->width;
     uint8_t *bytes = mem_alloc(row, 1);
-    fprintf(f, "P6\n%d %d\n255\n", width, height);
-    for (size_t y = 0; y < (size_t)height; y++) {
+    fprintf(f, "P6\n%d %d\n255\n", r->width, r->height);
+    for (size_t y = 0; y < (size_t)r->height; y++) {
         for (size_t i = 0; i < row; i++)
-            bytes[i] = srgb_byte(pixels[y * row + i]);
+            bytes[i] = srgb_byte(r->pixels[y * row + i]);
         fwrite(bytes, 1, row, f);
     }
     free(bytes);

@@ -63,6 +63,14 @@ void image_free(struct image *img)
     img->width = img->height = img->channels = 0;
 }
 
+const struct channel *raster_alpha(const struct raster *r)
+{
+    for (int i = 0; i < r->n_more; i++)
+        if (strcmp(r->more[i].name, "A") == 0)
+            return &r->more[i];
+    return NULL;
+}
+
 double srgb_encode(double linear)
 {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * m_pow(linear, 1 / 2.4) - 0.055;

@@ -18,6 +18,26 @@ struct placement {
     int x, y, width, height;
 };
 
+/* One channel of a picture that is to be written: sample i is value[i * step]. */
+struct channel {
+    const char *name; /* "R"; of "A", alpha, premultiplied colours are multiples */
+    const float *value;
+    size_t step;
+    bool exact; /* floats, also where OpenEXR's others are halfs */
+};
+
+/* A picture to be written. */
+struct raster {
+    struct placement at;
+    int width, height;
+    const float *pixels;        /* [height*width*3], linear RGB, top row first */
+    const struct channel *more; /* [n_more] beside R, G, B: OpenEXR keeps all, PNG "A", the others none */
+    int n_more;
+};
+
+/* raster_alpha: the channel "A", or NULL. */
+const struct channel *raster_alpha(const struct raster *r);
+
 /* A picture, top row first, channels interleaved. Exactly one of u8 and f32 is set. */
 struct image {
     int width, height;

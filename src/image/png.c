@@ -3,6 +3,7 @@
  * A file is a signature and chunks (length, name, data, CRC). The data of all IDAT chunks together are a zlib
  * stream of rows, each a filter's number and the row's bytes less what a filter predicts from their neighbours [PNG 9].
  */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -290,29 +291,41 @@ static void put_chunk(FILE *f, const char *name, const uint8_t *data, size_t siz
 
 /* Write the filter's number and the filtered row to out[0..n]; returns the sum of the sizes of the residuals, taken as
  * signed numbers. */
-static uint64_t filter_row(enum row_filter f, const uint8_t *row, const uint8_t *above, size_t n, uint8_t *out)
+static uint64_t filter_row(enum row_filter f, const uint8_t *row, const uint8_t *above, size_t n, size_t step,
+                           uint8_t *out)
 {
     uint64_t sum = 0;
     *out++ = (uint8_t)f;
     for (size_t i = 0; i < n; i++) {
-        out[i] = (uint8_t)(row[i] - predict_at(f, row, above, i, 3));
+        out[i] = (uint8_t)(row[i] - predict_at(f, row, above, i, step));
         sum += out[i] < 128 ? out[i] : 256u - out[i];
     }
     return sum;
 }
 
-/* All rows filtered, each with what probably packs best: what leaves the least residuals [PNG 12.8]. */
-static uint8_t *filter_rows(int width, int height, const float *pixels)
+/* Pixel i of the picture. Of premultiplied light PNG keeps the colour, and what covers the pixel as a share of 255. */
+static void put_rgba(const struct raster *r, size_t i, uint8_t *out)
 {
-    size_t n = 3 * (size_t)width;
-    uint8_t *all = mem_alloc((size_t)height, n + 1);
+    const struct channel *a = raster_alpha(r);
+    double alpha = a == NULL ? 1 : (double)a->value[i * a->step];
+    for (size_t c = 0; c < 3; c++)
+        out[c] = alpha > 0 ? srgb_byte((double)r->pixels[3 * i + c] / alpha) : 0;
+    if (a != NULL)
+        out[3] = (uint8_t)(255 * fmin(fmax(alpha, 0), 1) + 0.5);
+}
+
+/* All rows filtered, each with what probably packs best: what leaves the least residuals [PNG 12.8]. */
+static uint8_t *filter_rows(const struct raster *r, size_t step)
+{
+    size_t n = step * (size_t)r->width;
+    uint8_t *all = mem_alloc((size_t)r->height, n + 1);
     uint8_t *row = mem_alloc(n, 1), *above = mem_alloc(n, 1), *trial = mem_alloc(n + 1, 1);
-    for (size_t y = 0; y < (size_t)height; y++) {
-        for (size_t i = 0; i < n; i++)
-            row[i] = srgb_byte(pixels[y * n + i]);
+    for (size_t y = 0; y < (size_t)r->height; y++) {
+        for (size_t x = 0; x < (size_t)r->width; x++)
+            put_rgba(r, y * (size_t)r->width + x, row + step * x);
         uint64_t least = UINT64_MAX;
         for (int f = FILTER_NONE; f < FILTERS; f++) {
-            uint64_t sum = filter_row((enum row_filter)f, row, above, n, trial);
+            uint64_t sum = filter_row((enum row_filter)f, row, above, n, step, trial);
             if (sum < least)
                 memcpy(all + y * (n + 1), trial, n + 1);
             least = sum < least ? sum : least;
@@ -327,17 +340,19 @@ static uint8_t *filter_rows(int width, int height, const float *pixels)
     return all;
 }
 
-void png_write(FILE *f, int width, int height, const float *pixels)
+void png_write(FILE *f, const struct raster *r)
 {
     static const uint8_t INTENT[1] = {0}; /* of chunk sRGB: perceptual */
     uint8_t header[13] = {0};
-    put_u32(header, (uint32_t)width);
-    put_u32(header + 4, (uint32_t)height);
+    bool alpha = raster_alpha(r) != NULL;
+    size_t step = alpha ? 4 : 3;
+    put_u32(header, (uint32_t)r->width);
+    put_u32(header + 4, (uint32_t)r->height);
     header[8] = 8;
-    header[9] = RGB;
-    uint8_t *rows = filter_rows(width, height, pixels);
+    header[9] = alpha ? RGB_ALPHA : RGB;
+    uint8_t *rows = filter_rows(r, step);
     size_t packed_size;
-    uint8_t *packed = deflate_zlib(rows, (size_t)height * (3 * (size_t)width + 1), &packed_size);
+    uint8_t *packed = deflate_zlib(rows, (size_t)r->height * (step * (size_t)r->width + 1), &packed_size);
     free(rows);
     fwrite(SIGNATURE, 1, sizeof SIGNATURE, f);
     put_chunk(f, "IHDR", header, sizeof header);

@@ -18,15 +18,6 @@
 
 #define DEFAULT_RR_THRESHOLD 0.5
 
-/* What every method has settled before the first sample: its own state begins with it. All 0 but the counts, which are
- * BDPT's, when it is to be prepared. */
-struct frozen {
-    struct mis_counts counts;
-    int max_depth;
-    int lights;      /* samples of s = 1 at the first hit, 0: left to the method; 1 */
-    int path_pixels; /* pooled methods: pixels for each light sub-path, 0: there are none; 1 */
-};
-
 struct method;
 
 /* What `prepare` has settled. */
@@ -46,6 +37,7 @@ struct method {
     const char *select; /* asbdpt alone, whose rows share a name: the value of its parameter `select` */
     const char *help;   /* one line */
     bool chain;         /* its samples are mutations of others, of no pixel and not independent: see chains/chain.h */
+    bool merges;        /* what it adds to a pixel is of many paths at once, of any length */
     const char *why;    /* for trace: how what an eye sub-path is joined to is chosen; NULL: it is not */
     const struct method_parameter *parameters; /* of the state; NULL: none */
     size_t state_size, scratch_size;    /* scratch_size 0: none; else all zeros at first */

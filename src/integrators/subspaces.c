@@ -9,22 +9,21 @@
  * cumulative sums, so that the C strata of one eye vertex lie over space. (One alias table for each region e that is
  * met would have to list all vertices; the sums of a region e list only the regions that hold any.)
  *
- * The MIS weights know it: the strategies count as credit C h(e(z), l(y)) samples, a function of the two surface points
- * at the ends of the edge; the credit says what a draw is worth beside an independent one (mis.h, pilot.h).
+ * The MIS weights know it: the strategies count as 2 C h(e(z), l(y)) samples, a function of the two surface points at
+ * the ends of the edge; 2 is what a draw is worth beside an independent sample (mis.h, pilot.c).
  * [Su 2022] has subspaces of both kinds and a matrix of probabilities between them; here the regions are cells of
  * grids, and the table is learnt from trial connections.
  *
  * Tests: test_asbdpt.c.
  */
-#include "integrators/subspaces_state.h"
-
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/cumulative.h"
-#include "integrators/pilot.h"
+#include "integrators/asbdpt.h"
+#include "pilot/pilot.h"
 
 /* The candidates that lie in one region. */
 struct group {
@@ -185,6 +184,25 @@ static void tell(const struct subspaces_state *s, struct preparation *out)
              f->path_pixels == 1 ? "" : "s");
 }
 
+/* The pilot renders by this method, its numbers being others. */
+static void render_for_pilot(const void *method, struct subspaces_state *s, const struct tile_pass *pass)
+{
+    struct preparation p = *(const struct preparation *)method;
+    p.state = s;
+    pooled_render(&p, pass);
+}
+
+static void run_pilot(const struct render_job *job, bool free_choice, const struct preparation *p)
+{
+    struct pilot_method method = {render_for_pilot, p, workspaces_new(job->n_threads, job->max_depth)};
+    for (int i = 0; i < job->n_threads; i++)
+        method.work[i].scratch = method_scratch(p);
+    pilot_run(job, &method, free_choice, p->state);
+    for (int i = 0; i < job->n_threads; i++)
+        method_scratch_free(p, method.work[i].scratch);
+    workspaces_free(method.work, job->n_threads);
+}
+
 /* What the user gave is kept; the pilot chooses the rest. */
 static void prepare(const struct render_job *job, struct preparation *out)
 {
@@ -197,7 +215,7 @@ static void prepare(const struct render_job *job, struct preparation *out)
     out->size.tile = MAX_TILE_SIZE; /* a larger pool */
     learn(job, &wish, &s->learnt);
     f->counts.model = &s->learnt.model;
-    pilot_run(job, path_pixels == 0 && s->connections == 0, out);
+    run_pilot(job, path_pixels == 0 && s->connections == 0, out);
     if (s->connections > 0)
         pilot_set_draws(s, s->connections);
     if (path_pixels > 0)

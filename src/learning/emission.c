@@ -37,14 +37,6 @@ void emission_lessons_add(struct emission_lessons *l, int cell, const double u[2
 
 /* --- the table --------------------------------------------------------------------------------------- */
 
-static double sum_of(const double *x, int n)
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += x[i];
-    return sum;
-}
-
 static double shrunk(double sum, double n, double above)
 {
     const double K = 4;

@@ -58,38 +58,17 @@ void guide_free(struct guide *g)
     memset(g, 0, sizeof *g);
 }
 
-static double sum_of(const double *x, int n)
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += x[i];
-    return sum;
-}
-
-/* t of region 0: every region right below it counts by its samples, not by how bright it is. */
-static void shares_of_scene(const struct guide_lessons *l, const struct regions *regions, double *t)
-{
-    double total = 0;
-    for (int i = 1; i < l->n; i++) {
-        double sum = sum_of(arrived_in(l, i), l->columns.n);
-        if (regions->region[i].above != 0 || !(sum > 0))
-            continue;
-        for (int c = 0; c < l->columns.n; c++)
-            t[c] += arrived_in(l, i)[c] * l->samples[i] / sum;
-        total += l->samples[i];
-    }
-    for (int c = 0; c < l->columns.n; c++)
-        t[c] = total > 0 ? t[c] / total : l->columns.power[c];
-}
-
-/* t of every region, each from that of the region above it. K is SMOOTHING times the number of columns that the region
- * above effectively has [Kish 1965]: the more there are, the more contributions it takes to tell them apart. */
+/* t of every region, each from that of the region above it, region 0 from its own lessons. K is SMOOTHING times the
+ * number of columns that the region above effectively has [Kish 1965]: the more there are, the more contributions it
+ * takes to tell them apart. */
 static double *shares_of_regions(const struct guide_lessons *l, const struct regions *regions)
 {
     const double SMOOTHING = 16;
     size_t n = (size_t)l->columns.n;
     double *t = mem_alloc((size_t)l->n * n, sizeof *t);
-    shares_of_scene(l, regions, t);
+    double all = sum_of(arrived_in(l, 0), l->columns.n);
+    for (size_t c = 0; c < n; c++)
+        t[c] = all > 0 ? arrived_in(l, 0)[c] / all : l->columns.power[c];
     for (int i = 1; i < l->n; i++) {
         const double *above = &t[(size_t)regions->region[i].above * n], *arrived = arrived_in(l, i);
         double samples = l->samples[i], sum = sum_of(arrived, l->columns.n), square = 0;

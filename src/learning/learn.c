@@ -31,8 +31,8 @@ void learn(const struct render_job *job, const struct wish *wish, struct learnt 
     l.work = workspaces_new(job->n_threads, job->max_depth);
     if (visits) {
         lay_grids(&l);
-        l.counts.model = &out->model;
         visits_run(&l, wish->pairs ? n / 2 : n);
+        l.counts.model = &out->model;
     }
     long aiming = wish->importance && wish->emission < 1 ? n_light / 2 : 0;
     if (aiming > 0)

@@ -62,25 +62,28 @@ void pass_run(const struct pass *p)
     free(r.found);
 }
 
-struct walk lessons_walk(const struct lessons *l, struct arena *arena, struct sampler *sampler)
+static struct walk walk_of(const struct lessons *l, struct arena *arena, long i, enum stream stream,
+                           struct sampler *sampler)
 {
     struct walk w = {l->job->scene, &l->counts, arena, sampler, l->job->rr_threshold};
+    *sampler = sampler_start(l->job->seed, RNG_LEARN, (uint64_t)i, (uint64_t)stream);
     return w;
-}
-
-struct sampler lessons_sampler(const struct lessons *l, long i, enum stream stream)
-{
-    return sampler_start(l->job->seed, RNG_LEARN, (uint64_t)i, (uint64_t)stream);
 }
 
 int lessons_eye(const struct lessons *l, int thread, long i, enum stream stream, struct sampler *sampler)
 {
     struct workspace *work = &l->work[thread];
     struct pixel_rect film = l->job->film_rect;
-    struct walk w = lessons_walk(l, &work->arena, sampler);
+    struct walk w = walk_of(l, &work->arena, i, stream, sampler);
     double u, v;
-    *sampler = lessons_sampler(l, i, stream);
     sampler_r2(i, &u, &v);
     return path_eye(&w, film.x0 + u * rect_width(film), film.y0 + v * rect_height(film), work->eye,
                     l->job->max_depth + 1);
+}
+
+int lessons_light(const struct lessons *l, struct arena *arena, long i, enum stream stream, struct vertex *path)
+{
+    struct sampler sampler;
+    struct walk w = walk_of(l, arena, i, stream, &sampler);
+    return path_light(&w, path, l->job->max_depth + 1);
 }

@@ -1,6 +1,7 @@
 /* lessons.h: the passes of learning and what they have in common: sub-paths are traced in chunks on all threads, each
  * chunk lists what it found, and the lists are taken in in order (parallel.h): sums and the numbers of regions are the
- * same for any number of threads. What was learnt is put to use between passes only, while no thread reads it.
+ * same for any number of threads. What was learnt is put to use by later passes only; none adds regions while its walks
+ * look them up.
  */
 #ifndef ASBDPT_LESSONS_H
 #define ASBDPT_LESSONS_H
@@ -55,17 +56,15 @@ struct pass {
 /* pass_run: all of it, unless job->watch ends it. */
 void pass_run(const struct pass *p);
 
-/* lessons_walk: a walk of the thread's own, its numbers being those of stream (i, kind). */
-enum stream { STREAM_EYE, STREAM_LIGHT, STREAM_POOL, STREAM_EXTENT };
-struct walk lessons_walk(const struct lessons *l, struct arena *arena, struct sampler *sampler);
-struct sampler lessons_sampler(const struct lessons *l, long i, enum stream stream);
-
 /* lessons_eye: eye sub-path number i, through point i of an even sequence over the film, into the thread's workspace;
- * *sampler goes on with its numbers. Returns its length. */
+ * *sampler goes on with its numbers, those of (i, stream). lessons_light: light sub-path number i into path
+ * [max_depth + 1], its lobes into `arena`. Both return its length. */
+enum stream { STREAM_EYE, STREAM_LIGHT, STREAM_POOL, STREAM_EXTENT };
 int lessons_eye(const struct lessons *l, int thread, long i, enum stream stream, struct sampler *sampler);
+int lessons_light(const struct lessons *l, struct arena *arena, long i, enum stream stream, struct vertex *path);
 
 /* visits_extent: the box in which most vertices are. visits_run: n eye sub-paths, for importance and, if it is wished
- * for, the guide, which each round betters for the next. visits_emission: light sub-paths 0 .. n-1, for emission.
+ * for, the guide. visits_emission: light sub-paths 0 .. n-1, for emission.
  * visits_light: n more from number first on, for the means over them. */
 void visits_extent(struct lessons *l, vec3 *low, vec3 *high);
 void visits_run(struct lessons *l, long n);

@@ -39,18 +39,6 @@ void regions_free(struct regions *r)
     memset(r, 0, sizeof *r);
 }
 
-void regions_copy(struct regions *to, const struct regions *from)
-{
-    regions_free(to);
-    *to = *from;
-    to->slot = mem_alloc(from->n_slots, sizeof *to->slot);
-    to->region = mem_alloc(from->capacity, sizeof *to->region);
-    if (from->n_slots > 0)
-        memcpy(to->slot, from->slot, from->n_slots * sizeof *to->slot);
-    if (from->n > 0)
-        memcpy(to->region, from->region, (size_t)from->n * sizeof *to->region);
-}
-
 /* 1..6, the axis and sign a unit normal is nearest to. */
 static uint64_t face_of(vec3 n)
 {

@@ -45,9 +45,6 @@ enum { REGION_LEVELS = 4 };
 void regions_init(struct regions *r, vec3 low, vec3 high, int cells, int n_levels, int limit);
 void regions_free(struct regions *r);
 
-/* regions_copy: make *to, initialised before, the same with memory of its own. */
-void regions_copy(struct regions *to, const struct regions *from);
-
 /* regions_key: names the region of level 0 of a surface point with unit geometric normal ng. */
 uint64_t regions_key(const struct regions *r, vec3 p, vec3 ng);
 

@@ -59,10 +59,8 @@ static void fill_stock(void *context, struct lessons *l, int thread, long chunk)
     s->n = 0;
     s->total = 0;
     for (long k = 0; k < STOCK; k++) {
-        struct sampler sampler = lessons_sampler(l, chunk * STOCK + k, STREAM_POOL);
-        struct walk w = lessons_walk(l, &s->arena, &sampler);
         struct vertex *path = &s->vertex[k * longest];
-        int n = path_light(&w, path, longest);
+        int n = lessons_light(l, &s->arena, chunk * STOCK + k, STREAM_POOL, path);
         for (int i = 1; i < n; i++)
             add_choosable(l, s, &path[i]);
     }

@@ -6,12 +6,10 @@
 
 enum {
     EXTENT_PATHS = 1024,
-    ROUNDS = 2,          /* of eye sub-paths: each finds light with what the ones before have learnt */
     LIGHTS_PER_VERTEX = 2 /* light points tried from each eye vertex for the guide */
 };
 static const double OUTSIDE = 0.01;     /* share of vertices beyond either side of the extent, along each axis */
 static const double GUIDE_DELTA = 0.2;  /* share of s = 1 samples that choose lights by power */
-static const double LEARN_DELTA = 0.5;  /* the same while learning */
 static const double FIRST_VERTEX = 0.2; /* what the first vertex of a light sub-path counts for in emission */
 
 /* --- extent ------------------------------------------------------------------------------------------ */
@@ -72,9 +70,7 @@ void visits_extent(struct lessons *l, vec3 *low, vec3 *high)
 
 /* --- eye sub-paths ----------------------------------------------------------------------------------- */
 
-/* What was met until now, and seen; walks look things up in what was known before this round. */
 struct visits {
-    struct regions eye, light;
     struct guide_lessons lights;
     long n;
 };
@@ -105,39 +101,31 @@ static void take_visit(void *context, struct lessons *l, const struct finding *f
 {
     struct visits *v = context;
     struct importance *importance = &l->learnt->importance;
-    int eye = regions_add(&v->eye, regions_key(&v->eye, f->p, f->p_ng));
+    struct regions *eye = &l->learnt->eye, *light = &l->learnt->light;
+    int region = regions_add(eye, regions_key(eye, f->p, f->p_ng));
     if (f->kind == LIGHT_SEEN) {
-        guide_lessons_add(&v->lights, &v->eye, eye, f->cell, f->x);
+        guide_lessons_add(&v->lights, eye, region, f->cell, f->x);
         return;
     }
     importance->eye_vertices += 1.0 / (double)v->n;
     importance->first_vertices += f->first / (double)v->n;
     if (l->wish->importance)
-        importance_add(importance, regions_add(&v->light, regions_key(&v->light, f->p, f->p_ng)), f->x);
+        importance_add(importance, regions_add(light, regions_key(light, f->p, f->p_ng)), f->x);
 }
 
 void visits_run(struct lessons *l, long n)
 {
     struct learnt *learnt = l->learnt;
+    const struct light_set *lights = &l->job->scene->lights;
     struct visits v = {.n = n};
-    regions_copy(&v.eye, &learnt->eye);
-    regions_copy(&v.light, &learnt->light);
-    guide_lessons_init(&v.lights, &l->job->scene->lights);
-    for (int round = 0; round < ROUNDS && !l->stopped; round++) {
-        struct pass pass = {l, n * round / ROUNDS, n * (round + 1) / ROUNDS, &v, NULL, trace_visits, take_visit};
-        pass_run(&pass);
-        regions_copy(&learnt->eye, &v.eye);
-        regions_copy(&learnt->light, &v.light);
-        if (l->wish->guide) {
-            bool last = l->stopped || round + 1 == ROUNDS;
-            guide_build(&learnt->guide, &v.lights, &v.eye, &l->job->scene->lights, last ? GUIDE_DELTA : LEARN_DELTA);
-            learnt->guided = true;
-        }
-        learnt_freeze(learnt);
-    }
+    struct pass pass = {l, 0, n, &v, NULL, trace_visits, take_visit};
+    guide_lessons_init(&v.lights, lights);
+    pass_run(&pass);
+    if (l->wish->guide)
+        guide_build(&learnt->guide, &v.lights, &learnt->eye, lights, GUIDE_DELTA);
+    learnt->guided = l->wish->guide;
+    learnt_freeze(learnt);
     guide_lessons_free(&v.lights);
-    regions_free(&v.eye);
-    regions_free(&v.light);
 }
 
 /* --- light sub-paths --------------------------------------------------------------------------------- */
@@ -147,9 +135,7 @@ void visits_run(struct lessons *l, long n)
 static void trace_emission(void *context, struct lessons *l, int thread, long i, struct findings *out)
 {
     struct workspace *work = &l->work[thread];
-    struct sampler sampler = lessons_sampler(l, i, STREAM_LIGHT);
-    struct walk w = lessons_walk(l, &work->arena, &sampler);
-    int n = path_light(&w, work->light, l->job->max_depth + 1);
+    int n = lessons_light(l, &work->arena, i, STREAM_LIGHT, work->light);
     (void)context;
     if (n < 2)
         return;
@@ -186,15 +172,12 @@ void visits_emission(struct lessons *l, long n)
 struct light_sums {
     double vertices, E, I, square; /* square: of I */
     long n;                        /* sub-paths */
-    struct regions light;          /* with those met now; walks look things up in what was known before */
 };
 
 static void trace_light(void *context, struct lessons *l, int thread, long i, struct findings *out)
 {
     struct workspace *work = &l->work[thread];
-    struct sampler sampler = lessons_sampler(l, i, STREAM_LIGHT);
-    struct walk w = lessons_walk(l, &work->arena, &sampler);
-    int n = path_light(&w, work->light, l->job->max_depth + 1);
+    int n = lessons_light(l, &work->arena, i, STREAM_LIGHT, work->light);
     (void)context;
     for (int k = 1; k < n; k++) {
         const struct vertex *y = &work->light[k];
@@ -208,7 +191,7 @@ static void take_light(void *context, struct lessons *l, const struct finding *f
 {
     struct light_sums *s = context;
     struct importance *importance = &l->learnt->importance;
-    struct regions *light = &s->light;
+    struct regions *light = &l->learnt->light;
     uint64_t key = regions_key(light, f->p, f->p_ng);
     int region = l->wish->pairs ? regions_add(light, key) : regions_find(light, key);
     double E = importance_in(importance, region), I = f->x * E;
@@ -223,13 +206,11 @@ static void take_light(void *context, struct lessons *l, const struct finding *f
 void visits_light(struct lessons *l, long first, long n)
 {
     struct importance *importance = &l->learnt->importance;
-    struct regions *known = &l->learnt->light;
     struct light_sums s = {.n = n};
-    regions_copy(&s.light, known);
     struct pass pass = {l, first, first + n, &s, NULL, trace_light, take_light};
+    l->learnt->model.locate = NULL; /* while regions are added */
     pass_run(&pass);
-    regions_copy(known, &s.light);
-    regions_free(&s.light);
+    learnt_freeze(l->learnt);
     importance->light_vertices = s.vertices / (double)n;
     importance->mean = s.E / (double)n;
     importance->useful = s.square > 0 ? s.I * s.I / (s.square * s.vertices) : 1;

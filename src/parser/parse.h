@@ -20,8 +20,9 @@ enum { MATERIAL_NONE = -1 }; /* Material "none": rays pass through; a shape that
 
 /* The current AreaLightSource. */
 struct area_light {
-    bool on, two_sided;
+    bool on, two_sided, hidden;
     rgb L;
+    int group; /* -1: one for each shape */
 };
 
 /* A material, and what it was made from, for shapes that change parameters of it. */
@@ -106,7 +107,8 @@ struct parser {
     struct source_position medium; /* the last that a MediumInterface names; no file: none */
     int current_object; /* between ObjectBegin and ObjectEnd, else -1 */
     uint64_t copied_bytes; /* of all instances */
-    int n_infinite;        /* lights */
+    int n_infinite;        /* lights, */
+    int infinite_group;    /* all of one group */
     int n_subdivided;      /* triangles of all subdivision surfaces and curves, at most SUBDIVIDE_MAX_TRIANGLES */
 
     bool texture_is_float;   /* of the Texture directive being carried out */

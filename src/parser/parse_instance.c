@@ -8,7 +8,8 @@
 /* One light for each primitive of the group. */
 static void add_lights(struct scene *s, int group, int n, const struct area_light *area, const struct transform *t)
 {
-    struct light l = {.kind = LIGHT_AREA, .L = area->L, .to_world = *t, .two_sided = area->two_sided};
+    struct light l = {.kind = LIGHT_AREA, .L = area->L, .to_world = *t, .two_sided = area->two_sided,
+                      .hidden = area->hidden, .group = area->group};
     for (int i = 0; i < n; i++) {
         l.prim = s->geo.group[group].first_prim + i;
         light_add(&s->lights, l);

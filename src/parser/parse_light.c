@@ -14,6 +14,7 @@ struct light_item {
     vec3 from, to;     /* in light space */
     double cone, edge; /* degrees */
     double fov;        /* degrees */
+    int group;         /* -1: its own */
 };
 
 /* "L" or "I" times "scale". Its green may be negative, but not the sum that luminance is. */
@@ -101,7 +102,32 @@ static void slide_light(struct parser *p, void *object)
         type_error(&p->params, "\"fov\" is %g degrees: a picture without inside", item->fov);
 }
 
-#define EMITTED(name) {name, emitted, offsetof(struct light_item, light.L), GREY(1), 0, 0}, BY_BUILD("scale")
+/* A name that lights share whose pictures are to be one (light_group); pbrt-v3 warns of it and goes on. */
+static void group(struct parser *p, const struct parameter *row, void *field)
+{
+    enum { LONGEST = 40 };
+    static const char FIT[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
+    struct source_position at;
+    const char *name = params_text(&p->params, row->name, PARAM_STRING, &at);
+    *(int *)field = -1;
+    if (name == NULL)
+        return;
+    if (name[0] == '\0' || strlen(name) > LONGEST || name[strspn(name, FIT)] != '\0')
+        params_fail(&p->params, at, "\"%s\" becomes the name of a file: up to %d letters, digits, - and _", row->name,
+                    LONGEST);
+    else
+        *(int *)field = light_group(&p->scene->lights, name, (enum light_kind)p->type->kind);
+}
+
+static void hidden(struct parser *p, const struct parameter *row, void *field)
+{
+    *(bool *)field = !params_bool(&p->params, row->name, true);
+}
+
+#define GROUP(type) {"group", group, offsetof(type, group), GREY(0), 0, 0} /* these two are no parameters of pbrt-v3 */
+#define VISIBLE(type, field) {"visible", hidden, offsetof(type, field), GREY(0), 0, 0}
+#define EMITTED(name) \
+    {name, emitted, offsetof(struct light_item, light.L), GREY(1), 0, 0}, BY_BUILD("scale"), GROUP(struct light_item)
 #define PICTURE {"mapname", picture, offsetof(struct light_item, light), GREY(0), 0, 0}
 #define POINT(f, x, y, z) {#f, parse_point, offsetof(struct light_item, f), {x, y, z}, 0, 0}
 #define SAMPLES IGNORED("samples"), IGNORED("nsamples") /* how often pbrt-v3 samples a light per hit: no matter here */
@@ -116,7 +142,8 @@ static const struct parameter SPOT_LIGHT[] = {
     END_OF_PARAMETERS};
 static const struct parameter DISTANT_LIGHT[] = {
     EMITTED("L"), POINT(from, 0, 0, 0), POINT(to, 0, 0, 1), END_OF_PARAMETERS};
-static const struct parameter INFINITE_LIGHT[] = {EMITTED("L"), PICTURE, SAMPLES, END_OF_PARAMETERS};
+static const struct parameter INFINITE_LIGHT[] = {
+    EMITTED("L"), PICTURE, SAMPLES, VISIBLE(struct light_item, light.hidden), END_OF_PARAMETERS};
 static const struct parameter GONIOMETRIC_LIGHT[] = {EMITTED("I"), PICTURE, END_OF_PARAMETERS};
 static const struct parameter PROJECTION_LIGHT[] = {
     EMITTED("I"), PICTURE,
@@ -146,7 +173,13 @@ static bool light(struct parser *p)
         type_error(q, "more than %d infinite lights; use fewer", LIGHT_MAX_INFINITE);
     if (!parse_done(p))
         return false;
-    light_add(&p->scene->lights, item.light);
+    struct light_set *set = &p->scene->lights;
+    if (item.light.kind == LIGHT_INFINITE && p->n_infinite > 1)
+        item.group = p->infinite_group;
+    item.light.group = item.group >= 0 ? item.group : light_group(set, NULL, item.light.kind);
+    if (item.light.kind == LIGHT_INFINITE)
+        p->infinite_group = item.light.group;
+    light_add(set, item.light);
     return true;
 }
 
@@ -154,6 +187,8 @@ static const struct parameter AREA_LIGHT[] = {
     {"L", emitted, offsetof(struct area_light, L), GREY(1), 0, 0},
     BY_BUILD("scale"),
     {"twosided", parse_bool, offsetof(struct area_light, two_sided), GREY(0), 0, 0},
+    VISIBLE(struct area_light, hidden),
+    GROUP(struct area_light),
     SAMPLES,
     END_OF_PARAMETERS};
 

@@ -365,8 +365,11 @@ static bool shape(struct parser *p)
     parse_fields(p, &item);
     item.group.material = parse_changed_material(p);
     bool ok = parse_done(p) && parse_placed(p);
-    if (ok && is_seen(&item))
+    if (ok && is_seen(&item)) {
+        if (item.area.on && item.area.group < 0)
+            item.area.group = light_group(&p->scene->lights, NULL, LIGHT_AREA);
         return parse_place_shape(p, &item);
+    }
     mesh_free(&item.mesh);
     return ok;
 }

@@ -22,7 +22,7 @@ struct rows {
     const struct scene *scene;
     struct pixel_rect rect;
     uint64_t seed;
-    int samples;
+    int samples, surfaces; /* of a pixel; of an eye sub-path that are looked at */
     double draw[ALBEDO_DRAWS][3];
     float *const *out;   /* [N_FIRST_HIT] */
     struct arena *arena; /* [n_threads] */
@@ -51,6 +51,18 @@ static rgb albedo(const struct bsdf *b, vec3 wo, const double draw[ALBEDO_DRAWS]
     return rgb_make(clamp(sum.r, 0, 1), clamp(sum.g, 0, 1), clamp(sum.b, 0, 1));
 }
 
+/* Of the n >= 2 vertices, the first being on the lens: the surface whose albedo and normal count. */
+static const struct vertex *seen_surface(const struct vertex *eye, int n)
+{
+    int i = 1;
+    while (i + 1 < n && eye[i + 1].kind == VERTEX_SURFACE && !vertex_connectible(&eye[i]))
+        i++;
+    return &eye[i];
+}
+
+/* What the way from the first surface to another leaves of light. */
+static double left_of(double to, double from) { return from > 0 ? to / from : 0; }
+
 /* What the eye sub-path of this iteration meets first. */
 static void add_sample(const struct rows *r, struct arena *arena, int x, int y, int iteration, struct sums *sums)
 {
@@ -59,14 +71,19 @@ static void add_sample(const struct rows *r, struct arena *arena, int x, int y, 
     struct sampler sampler = sampler_start(r->seed, RNG_EYE, pixel, (uint64_t)iteration);
     struct mis_counts counts = {.hit = {1, 1}}; /* nobody asks for weights */
     struct walk walk = {scene, &counts, arena, &sampler, 0};
-    struct vertex eye[2], *z = &eye[1];
+    struct vertex eye[1 + AOV_SEEN_DEPTH], *first = &eye[1];
     double filter_weight;
-    if (path_eye_pixel(&walk, x, y, eye, 2, &filter_weight) == 2 && z->kind == VERTEX_SURFACE) {
-        vec3 n = z->bsdf.shading.n, seen = sub(z->p, scene->camera.position);
+    int n = path_eye_pixel(&walk, x, y, eye, 1 + r->surfaces, &filter_weight);
+    if (n > 1 && first->kind == VERTEX_SURFACE) {
+        const struct vertex *z = seen_surface(eye, n);
+        vec3 normal = z->bsdf.shading.n, seen = sub(first->p, scene->camera.position);
+        rgb a = albedo(&z->bsdf, z->wo, r->draw), to = z->beta, from = first->beta;
         sums->hits++;
-        sums->albedo = rgb_add(sums->albedo, albedo(&z->bsdf, z->wo, r->draw));
-        sums->normal = add(sums->normal, dot(n, z->wo) < 0 ? neg(n) : n);
-        sums->position = add(sums->position, z->p);
+        sums->albedo.r += a.r * clamp(left_of(to.r, from.r), 0, 1);
+        sums->albedo.g += a.g * clamp(left_of(to.g, from.g), 0, 1);
+        sums->albedo.b += a.b * clamp(left_of(to.b, from.b), 0, 1);
+        sums->normal = add(sums->normal, dot(normal, z->wo) < 0 ? neg(normal) : normal);
+        sums->position = add(sums->position, first->p);
         sums->depth += scene->camera.kind == CAMERA_ENVIRONMENT ? length(seen) : dot(seen, scene->camera.forward);
     }
     arena_reset(arena);
@@ -104,11 +121,13 @@ static bool row_done(void *context, int64_t row, int slot)
     return true;
 }
 
-void aov_render(const struct scene *scene, const struct render_options *options, float *const out[N_FIRST_HIT])
+void aov_render(const struct scene *scene, const struct render_options *options, bool seen,
+                float *const out[N_FIRST_HIT])
 {
     struct rows r = {.scene = scene, .rect = render_crop(scene), .seed = options->seed, .out = out};
     int threads = options->n_threads < 1 ? os_cores() : options->n_threads;
-    r.samples = options->end < AOV_SAMPLES ? (int)options->end : AOV_SAMPLES;
+    r.samples = seen ? AOV_SEEN_SAMPLES : options->end < AOV_SAMPLES ? (int)options->end : AOV_SAMPLES;
+    r.surfaces = seen ? AOV_SEEN_DEPTH : 1;
     for (int i = 0; i < ALBEDO_DRAWS; i++) {
         struct sampler sampler = sampler_start(0, RNG_SELECT, 0, (uint64_t)i);
         r.draw[i][0] = sampler_number(&sampler, DRAW_LOBE);

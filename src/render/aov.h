@@ -11,6 +11,11 @@
  * that the render draws, so that their edges are smooth where the picture's are. Depth and position are means over
  * those that hit something. Where nothing is hit all are 0.
  *
+ * Denoisers want albedo and normal to show what the picture does, in mirrors and behind glass, too. On request these
+ * are those of the first surface on the eye sub-path that does not only mirror and refract, or else of the last that it
+ * meets; the albedo times what the way there leaves of light. Glass lets chance choose the way: so there are
+ * AOV_SEEN_SAMPLES then, whatever the render has.
+ *
  * Tests: test_aov.c.
  */
 #ifndef ASBDPT_AOV_H
@@ -19,7 +24,7 @@
 #include "render/render.h"
 
 enum aov { AOV_ALBEDO, AOV_NORMAL, AOV_DEPTH, AOV_POSITION, N_FIRST_HIT, AOV_VARIANCE = N_FIRST_HIT, N_AOVS };
-enum { AOV_SAMPLES = 64 };
+enum { AOV_SAMPLES = 64, AOV_SEEN_SAMPLES = 256, AOV_SEEN_DEPTH = 12 /* surfaces looked for */ };
 
 /* aov_name: for options and file names. */
 const char *aov_name(enum aov which);
@@ -27,9 +32,11 @@ const char *aov_name(enum aov which);
 /* aov_render: the first-hit pictures.
  *   scene    prepared
  *   options  of the render: its seed, its threads, and the samples [0, end)
+ *   seen     albedo and normal of what is seen in mirrors and through glass
  *   out      [N_FIRST_HIT] pictures of render_crop's size, each [height*width*3], filled
  * The same numbers for any number of threads. */
-void aov_render(const struct scene *scene, const struct render_options *options, float *const out[N_FIRST_HIT]);
+void aov_render(const struct scene *scene, const struct render_options *options, bool seen,
+                float *const out[N_FIRST_HIT]);
 
 /* aov_variance: of each value of film_develop at this scale, [height*width*3]; two iterations at least. The
  * film must have kept errors. */

@@ -14,10 +14,18 @@
 #include "base/os.h"
 #include "image/zlib.h"
 
-static const char MAGIC[] = "asbdpt part 4\n";
+static const char MAGIC[] = "asbdpt part 5\n";
 enum { MOST_TEXT = 1 << 20, BUFFER = 1 << 16, EMPTY = 255, LONGEST_SUM = 1 + 10 * EXACT_DIGITS };
 
-static size_t sums_of(const struct part *p) { return (size_t)p->width * (size_t)p->height * 3; }
+/* Of all planes; of half the picture's samples. */
+static size_t planes_of(const struct part *p)
+{
+    return (size_t)p->width * (size_t)p->height * 3 * (size_t)plane_count(p->planes);
+}
+static size_t sums_of(const struct part *p)
+{
+    return planes_of(p) + (p->halves ? (size_t)p->width * (size_t)p->height * 3 : 0);
+}
 
 struct part part_describe(const struct scene *scene, const struct render_options *o)
 {
@@ -127,9 +135,9 @@ static char *picture_text(const struct part *p)
 {
     size_t room = strlen(p->identity) + 256;
     char *text = mem_alloc(room, 1);
-    snprintf(text, room, "size %d %d\nfilm %d %d, window %d %d\nscale %.17g\nspp %ld\n%s",
-             p->width, p->height, p->place.width, p->place.height,
-             p->place.x, p->place.y, p->scale, p->planned, p->identity);
+    snprintf(text, room, "size %d %d, planes %d %d\nfilm %d %d, window %d %d\nscale %.17g\nspp %ld\n%s", p->width,
+             p->height, p->planes.lights, p->planes.alpha, p->place.width, p->place.height, p->place.x, p->place.y,
+             p->scale, p->planned, p->identity);
     return text;
 }
 
@@ -139,8 +147,8 @@ static char *header_text(const struct part *p)
     char *picture = picture_text(p);
     size_t room = strlen(picture) + 256;
     char *text = mem_alloc(room, 1);
-    snprintf(text, room, "%ssamples %ld %ld\ndone %ld %" PRId64 "\nleft-out %ld\n%s", MAGIC,
-             p->first, p->end, p->done, p->passes, p->left_out, picture);
+    snprintf(text, room, "%ssamples %ld %ld\ndone %ld %" PRId64 "\nleft-out %ld\nhalves %d\n%s", MAGIC,
+             p->first, p->end, p->done, p->passes, p->left_out, p->halves, picture);
     size_t n = strlen(text);
     snprintf(text + n, room - n, "check %08lx\n", (unsigned long)checksum_crc32(0, (const uint8_t *)text, n));
     free(picture);
@@ -153,12 +161,13 @@ bool part_write(struct file_output *file, const struct part *p, const struct fil
     now.done = film->iterations;
     now.passes = film->passes;
     now.left_out = film->nonfinite;
+    now.halves = film->half != NULL;
     char *text = header_text(&now);
     struct stream *s = mem_alloc(1, sizeof *s);
     s->file = file->stream;
     fwrite(text, 1, strlen(text), s->file);
-    for (size_t i = 0; i < sums_of(p); i++)
-        put_sum(s, &film->sum[i]);
+    for (size_t i = 0, n = planes_of(p); i < sums_of(&now); i++)
+        put_sum(s, i < n ? &film->sum[i] : &film->half[i - n]);
     flush(s);
     uint8_t end[4];
     bytes_of_bits(s->crc, end, 4, false);
@@ -201,6 +210,7 @@ static bool possible(const struct part *p)
     const struct placement *at = &p->place;
     struct error ignored;
     return p->width > 0 && p->height > 0 && picture_size_ok((uint64_t)p->width, (uint64_t)p->height, &ignored) &&
+           p->planes.lights >= 0 && p->planes.lights <= LIGHT_MAX_GROUPS &&
            at->x >= 0 && at->y >= 0 && at->width > 0 && at->height > 0 && p->width <= at->width - at->x &&
            p->height <= at->height - at->y && p->scale >= 0 && p->scale <= NUMBER_MAX && p->first >= 0 &&
            p->end > p->first && p->end <= p->planned && p->done >= 0 && p->done <= p->end - p->first &&
@@ -211,11 +221,13 @@ static bool possible(const struct part *p)
  * twice, missing, elsewhere, or read otherwise than it is compared. */
 static bool read_numbers(const char *text, struct part *p)
 {
-    int begin = 0;
-    sscanf(text + sizeof MAGIC - 1, "samples %ld %ld done %ld %" SCNd64 " left-out %ld"
-           " size %d %d film %d %d, window %d %d scale %lf spp %ld %n",
-           &p->first, &p->end, &p->done, &p->passes, &p->left_out, &p->width, &p->height, &p->place.width,
-           &p->place.height, &p->place.x, &p->place.y, &p->scale, &p->planned, &begin);
+    int begin = 0, alpha = 0, halves = 0;
+    sscanf(text + sizeof MAGIC - 1, "samples %ld %ld done %ld %" SCNd64 " left-out %ld halves %d size %d %d, planes "
+           "%d %d film %d %d, window %d %d scale %lf spp %ld %n", &p->first, &p->end, &p->done, &p->passes,
+           &p->left_out, &halves, &p->width, &p->height, &p->planes.lights, &alpha, &p->place.width, &p->place.height,
+           &p->place.x, &p->place.y, &p->scale, &p->planned, &begin);
+    p->planes.alpha = alpha != 0;
+    p->halves = halves != 0;
     const char *identity = text + sizeof MAGIC - 1 + begin, *check = identity;
     while (strncmp(check, "check ", 6) != 0)
         check = strchr(check, '\n') + 1;
@@ -262,9 +274,9 @@ FILE *part_open(const char *path, struct part *out, struct error *err)
 /* Every sum, the right check behind them, and nothing more. */
 static bool add_sums(struct stream *s, const struct part *p, struct film *film)
 {
-    for (size_t i = 0; i < sums_of(p); i++) {
-        struct exact_sum sum;
-        if (!get_sum(s, &sum) || !exact_join(&film->sum[i], &sum))
+    for (size_t i = 0, n = planes_of(p); i < sums_of(p); i++) {
+        struct exact_sum sum, *to = i < n ? &film->sum[i] : film->half != NULL ? &film->half[i - n] : NULL;
+        if (!get_sum(s, &sum) || (to != NULL && !exact_join(to, &sum)))
             return false;
     }
     refill(s);
@@ -280,7 +292,8 @@ static bool add_sums(struct stream *s, const struct part *p, struct film *film)
 
 bool part_add(FILE *file, const char *path, const struct part *p, struct film *film, struct error *err)
 {
-    if (p->width != rect_width(film->rect) || p->height != rect_height(film->rect)) {
+    if (p->width != rect_width(film->rect) || p->height != rect_height(film->rect) ||
+        plane_count(p->planes) != plane_count(film->planes)) {
         fclose(file);
         return error_set(err, "%s: the part has another size than the film", path);
     }

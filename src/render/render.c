@@ -7,6 +7,7 @@
 #include "base/number.h"
 #include "base/os.h"
 #include "base/parallel.h"
+#include "render/halves.h"
 #include "render/parameters.h"
 
 /* Fractions lie within [0,1]: readers of scenes and options see to it. */
@@ -28,10 +29,11 @@ struct run {
     struct preparation prepared; /* blocks begin at multiples of their length, maybe INT_MAX: counted in 64 bits */
     int64_t begun;  /* tile passes of the first block that the film holds already */
     int64_t n_jobs; /* all tile passes, with these */
-    bool stopping;  /* progress said so: stop when the block is complete */
+    bool stopping;  /* progress, or the noise, said so: stop when the block is complete */
     double learning; /* share of all work that learning has been */
     struct workspace *work; /* [n_threads] */
     struct tile *tile;      /* [n_slots] */
+    struct worst *worst;    /* [n_threads], or NULL */
     struct parallel_jobs jobs;
 };
 
@@ -40,13 +42,16 @@ struct run_job {
     int64_t job;
 };
 
-/* Samples of a block that may have any length: few enough for a render to be stopped soon. */
+/* Samples of a block that may have any length: few enough for a render to be stopped soon. A power of two divides the
+ * runs of halves. */
 enum { BLOCK_SAMPLES = 1 << 17 };
 
 static int choose_block(struct pixel_rect film)
 {
-    double pixels = (double)rect_width(film) * rect_height(film);
-    return int_within(BLOCK_SAMPLES / pixels, 1, LONGEST_BLOCK);
+    int block = LONGEST_BLOCK;
+    while (block > 1 && rect_pixels(film) > (size_t)(BLOCK_SAMPLES / block))
+        block /= 2;
+    return block;
 }
 
 static int64_t tiles_per_block(const struct run *r) { return (int64_t)r->tiles_x * r->tiles_y; }
@@ -69,6 +74,17 @@ static struct pixel_rect tile_rect(const struct run *r, int64_t tile)
     return rect;
 }
 
+/* Whenever the halves are of one size. */
+static bool good_enough(const struct run *r)
+{
+    const double *limit = r->options->noise;
+    struct film *f = r->film;
+    bool good = halves_noise(f, r->job.scene->film_scale);
+    for (int i = 0; i < N_NOISE_SCALES; i++)
+        good = good && (limit[i] == 0 || f->noise[i].value < limit[i]);
+    return good && limit[NOISE_RELATIVE] + limit[NOISE_8_BIT] > 0;
+}
+
 /* More splats than a tile holds go into the film before their pass is complete, when it is the next to do so. */
 static void take_splats(void *context, struct tile *tile)
 {
@@ -82,12 +98,15 @@ static void run_pass(void *context, int64_t job, int slot, int thread)
 {
     struct run *r = context;
     struct run_job this = {r, job};
-    struct tile_pass pass = {.job = &r->job, .tile = &r->tile[slot], .work = &r->work[thread]};
+    struct tile_pass pass = {.job = &r->job, .tile = &r->tile[slot], .work = &r->work[thread],
+                             .worst = r->worst != NULL ? &r->worst[thread] : NULL};
     pass.rect = tile_rect(r, (r->begun + job) % tiles_per_block(r));
     block_range(r, (r->begun + job) / tiles_per_block(r), &pass.first, &pass.end);
     tile_start(pass.tile, pass.rect, r->job.film_rect, &r->job.scene->filter, film_keeps_records(r->film));
     if (r->options->gate.end > 0)
         pass.tile->gate = r->options->gate;
+    if (r->film->half != NULL)
+        pass.tile->first_half = pass.first / r->film->run % 2 == 0;
     pass.tile->full = take_splats;
     pass.tile->context = &this;
     r->prepared.method->render(&r->prepared, &pass);
@@ -105,6 +124,7 @@ static bool merge_pass(void *context, int64_t job, int slot)
         block_range(r, (done - 1) / tiles_per_block(r), &first, &end);
         r->film->iterations += end - first;
         r->film->passes = 0;
+        r->stopping = r->stopping || good_enough(r);
     }
     double share = r->learning + (1 - r->learning) * (double)done / (double)r->n_jobs;
     if (o->progress != NULL && !o->progress(o->progress_context, share))
@@ -126,6 +146,22 @@ static void free_workspaces(struct run *r)
     workspaces_free(r->work, r->job.n_threads);
 }
 
+/* Every thread has a list of its own. */
+static void begin_worst(struct run *r)
+{
+    r->worst = r->options->worst != NULL ? mem_alloc((size_t)r->job.n_threads, sizeof *r->worst) : NULL;
+    for (int i = 0; r->worst != NULL && i < r->job.n_threads; i++)
+        r->worst[i].most = r->options->worst->most;
+}
+
+static void end_worst(struct run *r)
+{
+    for (int i = 0; r->worst != NULL && i < r->job.n_threads; i++)
+        for (int k = 0; k < r->worst[i].n; k++)
+            worst_offer(r->options->worst, r->worst[i].item[k]);
+    free(r->worst);
+}
+
 static void run_all(struct run *r)
 {
     const struct render_options *o = r->options;
@@ -138,8 +174,12 @@ static void run_all(struct run *r)
     struct parallel_jobs jobs = {r->n_jobs - r->begun, r->job.n_threads, n_slots, r, run_pass, merge_pass, NULL};
     r->jobs = jobs;
     r->tile = mem_alloc((size_t)n_slots, sizeof *r->tile);
+    for (int i = 0; i < n_slots; i++)
+        r->tile[i].planes = r->film->planes;
     make_workspaces(r);
+    begin_worst(r);
     parallel_run(&r->jobs);
+    end_worst(r);
     free_workspaces(r);
     for (int i = 0; i < n_slots; i++)
         tile_free(&r->tile[i]);
@@ -184,7 +224,7 @@ static bool prepare(struct run *r, struct error *err)
     const struct method *m = begin_job(r->job.scene, r->options, r->film->rect, &r->job, err);
     if (m == NULL)
         return false;
-    if (m->chain && r->film->gates != NULL)
+    if ((m->chain || m->merges) && r->film->gates != NULL)
         return error_set(err, "%s keeps no record of its paths: render one gate at a time", m->name);
     r->job.watch = r->options->progress != NULL ? watch : NULL;
     r->job.watch_context = r;
@@ -216,6 +256,7 @@ static bool cut(struct run *r, struct error *err)
         size->block = r->options->block > 0 ? r->options->block : choose_block(r->job.film_rect);
     r->tiles_x = (rect_width(r->job.film_rect) + size->tile - 1) / size->tile;
     r->tiles_y = (rect_height(r->job.film_rect) + size->tile - 1) / size->tile;
+    r->film->run = halves_run(size->block);
     r->begun = r->film->passes;
     return r->begun < tiles_per_block(r) ||
            error_set(err, "the film has more tile passes in it than a block of samples has");
@@ -231,7 +272,7 @@ bool render_scene(const struct scene *scene, const struct render_options *option
     memcpy(film->number, r.prepared.number, sizeof film->number);
     bool ok = check_range(&r, err) && cut(&r, err);
     bool in_haste = r.stopping && begun(film); /* samples by what was learnt so are none of the film's */
-    if (ok && options->end > options->first && !in_haste)
+    if (ok && options->end > options->first && !in_haste && !good_enough(&r)) /* what is resumed may be */
         run_all(&r);
     method_release(&r.prepared);
     return ok;

@@ -28,7 +28,9 @@ struct render_options {
     int block;     /* iterations of a block where the method leaves that open; 0: by the picture's size */
     int n_threads; /* 0: one per processor */
     int max_depth; /* 0: what the scene says, else 5 */
+    double noise[N_NOISE_SCALES]; /* stop when the film's are below; 0: never. The film must keep halves */
     struct gate gate; /* only light that has come so far (film.h); its end 0: all */
+    struct worst *worst; /* is told of all samples; NULL: nobody is */
     /* Called after each tile pass with the share of the work done, in (0,1], one call at a time and while nothing else
      * touches the film. NULL: not called. Returns false to stop when the current block of iterations is complete.
      * While the method learns it is called, too, learning being a part of the work; then false ends that with what has

@@ -21,12 +21,14 @@ void tile_start(struct tile *t, struct pixel_rect rect, struct pixel_rect film_r
     t->rect = rect;
     t->film_rect = film_rect;
     t->filter = filter;
-    t->sum = mem_grow(t->sum, &t->capacity, n, sizeof *t->sum);
+    size_t sums = n * (size_t)plane_count(t->planes);
+    t->sum = mem_grow(t->sum, &t->capacity, sums, sizeof *t->sum);
     t->square = mem_grow(t->square, &t->square_capacity, n, sizeof *t->square);
-    memset(t->sum, 0, n * sizeof *t->sum);
+    memset(t->sum, 0, sums * sizeof *t->sum);
     memset(t->square, 0, n * sizeof *t->square);
     t->n_splats = t->n_records = 0;
     t->keep_records = keep_records;
+    t->first_half = false;
     t->gate.begin = 0;
     t->gate.end = INFINITY;
     t->nonfinite = 0;
@@ -52,23 +54,20 @@ static size_t place_of(const struct tile *t, int x, int y)
     return 3 * ((size_t)(y - t->rect.y0) * (size_t)rect_width(t->rect) + (size_t)(x - t->rect.x0));
 }
 
-void tile_add_eye(struct tile *t, int x, int y, rgb value)
-{
-    make_room(t);
-    if (!fits(value)) {
-        t->nonfinite++;
-        return;
-    }
-    size_t i = place_of(t, x, y);
-    const double v[3] = {value.r, value.g, value.b};
-    for (size_t c = 0; c < 3; c++) {
-        exact_add(&t->sum[i + c], v[c]);
-        t->square[i + c] += v[c] * v[c];
-    }
-}
+void tile_add_eye(struct tile *t, int x, int y, rgb value) { tile_add_between(t, x, y, value, rgb_black()); }
 
 /* What no float holds is left out of every sum alike. */
 static rgb term(rgb c) { return fits(c) ? c : rgb_black(); }
+
+/* Add the difference to three sums, as two terms each. */
+static void add_difference(struct exact_sum *sum, rgb a, rgb b)
+{
+    const double plus[3] = {a.r, a.g, a.b}, minus[3] = {b.r, b.g, b.b};
+    for (size_t c = 0; c < 3; c++) {
+        exact_add(&sum[c], plus[c]);
+        exact_add(&sum[c], -minus[c]);
+    }
+}
 
 void tile_add_between(struct tile *t, int x, int y, rgb until, rgb before)
 {
@@ -77,12 +76,26 @@ void tile_add_between(struct tile *t, int x, int y, rgb until, rgb before)
     until = term(until);
     before = term(before);
     size_t i = place_of(t, x, y);
-    const double u[3] = {until.r, until.g, until.b}, b[3] = {before.r, before.g, before.b};
-    for (size_t c = 0; c < 3; c++) {
-        exact_add(&t->sum[i + c], u[c]);
-        exact_add(&t->sum[i + c], -b[c]);
-        t->square[i + c] += sqr(u[c] - b[c]);
-    }
+    add_difference(&t->sum[i], until, before);
+    t->square[i] += sqr(until.r - before.r);
+    t->square[i + 1] += sqr(until.g - before.g);
+    t->square[i + 2] += sqr(until.b - before.b);
+}
+
+/* Where a pixel has its place in a plane. */
+static struct exact_sum *in_plane(struct tile *t, int plane, int x, int y)
+{
+    return &t->sum[(size_t)plane * 3 * rect_pixels(t->rect) + place_of(t, x, y)];
+}
+
+void tile_add_light(struct tile *t, int x, int y, int lights, rgb after, rgb before)
+{
+    add_difference(in_plane(t, 1 + lights, x, y), term(after), term(before));
+}
+
+void tile_add_alpha(struct tile *t, int x, int y, double alpha)
+{
+    add_difference(in_plane(t, 1 + t->planes.lights, x, y), rgb_grey(alpha), rgb_black());
 }
 
 static int32_t film_pixel(const struct tile *t, int x, int y)
@@ -124,13 +137,13 @@ bool splat_part(const struct splat *s, const struct filter *filter, int x, int y
     return true;
 }
 
-bool tile_add_splat(struct tile *t, double px, double py, rgb value, double length)
+bool tile_add_splat(struct tile *t, double px, double py, rgb value, double length, int lights)
 {
     if (!fits(value)) {
         t->nonfinite++;
         return false;
     }
-    struct splat s = {px, py, value, length};
+    struct splat s = {px, py, value, length, lights};
     t->splat = mem_grow(t->splat, &t->splat_capacity, t->n_splats + 1, sizeof *t->splat);
     t->splat[t->n_splats++] = s;
     return true;
@@ -176,6 +189,7 @@ void film_init(struct film *f, struct pixel_rect rect, int full_width, int full_
 void film_free(struct film *f)
 {
     free(f->sum);
+    free(f->half);
     if (f->errors != NULL) {
         free(f->errors->eye);
         free(f->errors->square);
@@ -202,11 +216,25 @@ int strategy_index(int s, int t)
     return n * (n - 1) / 2 - 1 + s;
 }
 
+void film_keep_planes(struct film *f, struct planes planes)
+{
+    free(f->sum);
+    f->planes = planes;
+    f->sum = mem_alloc(rect_pixels(f->rect) * 3, (size_t)plane_count(planes) * sizeof *f->sum);
+}
+
 void film_keep_errors(struct film *f)
 {
     f->errors = mem_alloc(1, sizeof *f->errors);
     f->errors->eye = mem_alloc(rect_pixels(f->rect) * 3, sizeof(double));
     f->errors->square = mem_alloc(rect_pixels(f->rect) * 3, sizeof(double));
+}
+
+void film_keep_halves(struct film *f)
+{
+    f->half = mem_alloc(rect_pixels(f->rect) * 3, sizeof *f->half);
+    for (int i = 0; i < N_NOISE_SCALES; i++)
+        f->noise[i].value = f->noise[i].error = INFINITY;
 }
 
 void film_keep_strategies(struct film *f, int max_depth)
@@ -275,9 +303,10 @@ static void add_records(struct film *f, const struct tile *t)
     }
 }
 
-static void add_splat(struct film *f, const struct splat *s, const struct filter *filter)
+static void add_splat(struct film *f, const struct splat *s, const struct filter *filter, bool first_half)
 {
     struct pixel_rect range = splat_pixels(s, filter, f->rect);
+    size_t plane = (size_t)(1 + s->lights) * 3 * rect_pixels(f->rect);
     for (int y = range.y0; y < range.y1; y++)
         for (int x = range.x0; x < range.x1; x++) {
             float part[3];
@@ -286,6 +315,10 @@ static void add_splat(struct film *f, const struct splat *s, const struct filter
             f->nonfinite += !ok;
             for (size_t c = 0; ok && c < 3; c++) {
                 exact_add(&f->sum[at + c], (double)part[c]);
+                if (first_half)
+                    exact_add(&f->half[at + c], (double)part[c]);
+                if (f->planes.lights > 0)
+                    exact_add(&f->sum[plane + at + c], (double)part[c]);
                 if (f->errors != NULL)
                     f->errors->square[at + c] += sqr((double)part[c]);
             }
@@ -295,7 +328,7 @@ static void add_splat(struct film *f, const struct splat *s, const struct filter
 void film_take_splats(struct film *f, struct tile *t)
 {
     for (size_t i = 0; i < t->n_splats; i++)
-        add_splat(f, &t->splat[i], t->filter);
+        add_splat(f, &t->splat[i], t->filter, f->half != NULL && t->first_half);
     if (film_keeps_records(f))
         add_records(f, t);
     t->n_splats = t->n_records = 0;
@@ -304,15 +337,18 @@ void film_take_splats(struct film *f, struct tile *t)
 void film_merge_tile(struct film *f, struct tile *t)
 {
     size_t width = (size_t)rect_width(t->rect) * 3, height = (size_t)rect_height(t->rect);
+    size_t film_plane = 3 * rect_pixels(f->rect), tile_plane = width * height;
     for (size_t y = 0; y < height; y++) {
         size_t row = (size_t)(t->rect.y0 - f->rect.y0) + y, from = y * width;
         size_t to = 3 * (row * (size_t)rect_width(f->rect) + (size_t)(t->rect.x0 - f->rect.x0));
-        for (size_t x = 0; x < width; x++) {
-            f->nonfinite += !exact_join(&f->sum[to + x], &t->sum[from + x]);
-            if (f->errors != NULL) {
-                f->errors->eye[to + x] += exact_value(&t->sum[from + x]);
-                f->errors->square[to + x] += t->square[from + x];
-            }
+        for (size_t p = 0; p < (size_t)plane_count(f->planes); p++)
+            for (size_t x = 0; x < width; x++)
+                f->nonfinite += !exact_join(&f->sum[p * film_plane + to + x], &t->sum[p * tile_plane + from + x]);
+        for (size_t x = 0; f->half != NULL && t->first_half && x < width; x++)
+            exact_join(&f->half[to + x], &t->sum[from + x]); /* part of the sum: it cannot overflow before it */
+        for (size_t x = 0; f->errors != NULL && x < width; x++) {
+            f->errors->eye[to + x] += exact_value(&t->sum[from + x]);
+            f->errors->square[to + x] += t->square[from + x];
         }
     }
     film_take_splats(f, t);
@@ -321,17 +357,28 @@ void film_merge_tile(struct film *f, struct tile *t)
 
 double film_value(const struct film *f, size_t i) { return exact_value(&f->sum[i]); }
 
-long film_develop(const struct film *f, double scale, float *out)
+long film_develop(const struct film *f, double scale, float *out) { return film_develop_plane(f, 0, scale, out); }
+
+long film_develop_plane(const struct film *f, int plane, double scale, float *out)
 {
     long cut = 0;
-    size_t n = rect_pixels(f->rect) * 3;
+    size_t n = rect_pixels(f->rect) * 3, first = (size_t)plane * n;
     double per_iteration = f->iterations > 0 ? scale / (double)f->iterations : 0;
     for (size_t i = 0; i < n; i++) {
-        double value = film_value(f, i) * per_iteration;
+        double value = film_value(f, first + i) * per_iteration;
         cut += !fits_float(value);
         out[i] = float_within(value);
     }
     return cut;
+}
+
+float *film_alpha(const struct film *f)
+{
+    if (!f->planes.alpha)
+        return NULL;
+    float *out = mem_alloc(rect_pixels(f->rect) * 3, sizeof *out);
+    film_develop_plane(f, 1 + f->planes.lights, 1, out);
+    return out;
 }
 
 void film_warn(const struct film *f, long cut)

@@ -10,8 +10,15 @@
  * running sums of a pixel's sample hold, and splats: so films of gates that follow each other add up to the ungated
  * film, to the bit.
  *
+ * On request a film has more planes than the picture: one for what each group of lights (light.h) brings, and one for
+ * alpha. They are sums of the same kind, so that whatever is done with films is done with all of them. A sample's value
+ * grows from 0 by what its paths bring, one after the other; to the plane of its light every step brings two terms, the
+ * value after it less the value before it. Added up, all but the last value cancel: so the planes of all lights
+ * together are the picture, to the bit.
+ *
  * Standard errors: eye values of different iterations are independent draws; splats are many rare events, whose
- * variance is the sum of their squares.
+ * variance is the sum of their squares. Halves of the samples say the same of the picture as a whole, and nothing is
+ * left out of them (render/halves.h).
  *
  * Tests: test_film.c.
  */
@@ -42,9 +49,8 @@ struct gate {
     double begin, end;
 };
 
-/* gate_before: is a length below a bound of a gate? gate_is_endless: does a gate hold every length? */
+/* gate_before: is a length below a bound of a gate? */
 static inline bool gate_before(double length, double bound) { return bound == INFINITY || length < bound; }
-static inline bool gate_is_endless(struct gate g) { return g.begin == 0 && g.end == INFINITY; }
 static inline bool gate_holds(struct gate g, double length)
 {
     return gate_before(length, g.end) && !gate_before(length, g.begin);
@@ -56,11 +62,19 @@ struct gates {
     int n;
 };
 
+/* What a film, or a tile, has beside the picture. Planes are numbered: the picture, groups of lights, alpha. */
+struct planes {
+    int lights; /* groups of lights; 0: none is told apart */
+    bool alpha;
+};
+static inline int plane_count(struct planes p) { return 1 + p.lights + p.alpha; }
+
 /* What a light sub-path sent to a raster point, all pixels having their part of it yet to come. */
 struct splat {
     double px, py;
     rgb value;
     double length; /* of its path */
+    int lights;    /* the group of lights it comes from */
 };
 
 /* One contribution of one strategy, kept only for per-strategy images. */
@@ -81,7 +95,8 @@ struct tile {
     struct pixel_rect rect;
     struct pixel_rect film_rect; /* of the film: splats land anywhere in it */
     const struct filter *filter;
-    struct exact_sum *sum; /* [pixels of rect * 3], sum over the iterations of the pass; owned */
+    struct planes planes;  /* set before tile_start */
+    struct exact_sum *sum; /* [planes][pixels of rect * 3], sum over the iterations of the pass; owned */
     double *square;        /* [pixels of rect * 3], sum of squares of the per-iteration values; owned */
     size_t capacity, square_capacity;
     struct splat *splat; /* [n_splats], owned */
@@ -90,6 +105,7 @@ struct tile {
     size_t n_records, record_capacity;
     bool keep_records;
     struct gate gate; /* what goes in; tile_start: all lengths */
+    bool first_half;  /* its iterations belong to the first of two halves; tile_start: no */
     void (*full)(void *context, struct tile *tile); /* empties full lists; NULL: they grow */
     void *context;
     long nonfinite; /* contributions that were NaN, infinite or beyond FLT_MAX, and were left out */
@@ -107,9 +123,14 @@ void tile_add_eye(struct tile *t, int x, int y, rgb value);
  * `before` its beginning. Each is a term: of gates that follow each other, one's first cancels the next's second. */
 void tile_add_between(struct tile *t, int x, int y, rgb until, rgb before);
 
+/* tile_add_light: a sample's value has come from `before` to `after` by what a group of lights has brought.
+ * tile_add_alpha: the sample's alpha. For tiles that have such planes. */
+void tile_add_light(struct tile *t, int x, int y, int lights, rgb after, rgb before);
+void tile_add_alpha(struct tile *t, int x, int y, double alpha);
+
 /* tile_add_splat: a value arriving at raster point (px,py), to be spread over pixels by the filter. False if it was
  * left out. */
-bool tile_add_splat(struct tile *t, double px, double py, rgb value, double length);
+bool tile_add_splat(struct tile *t, double px, double py, rgb value, double length, int lights);
 
 /* splat_pixels: those of `within` whose filter covers the splat; none when x1 <= x0 or y1 <= y0.
  * splat_part: what it adds to one of them, as floats; false if no float holds it. */
@@ -138,6 +159,12 @@ struct film_errors {
     double *eye, *square; /* sums of eye values, and of squares of these and of splats; owned */
 };
 
+/* How far the picture is from what it converges to, as halves.h finds it. */
+enum noise_scale { NOISE_RELATIVE, NOISE_8_BIT, N_NOISE_SCALES };
+struct noise_estimate {
+    double value, error; /* its standard error; both infinite where nothing is known */
+};
+
 enum { FILM_NOTE_SIZE = 200, FILM_NUMBERS = 8 };
 
 struct film_number {
@@ -150,7 +177,11 @@ struct film {
     int full_width, full_height;
     long iterations;             /* samples per pixel taken so far */
     int64_t passes;              /* tile passes of the next block of iterations that are in already */
-    struct exact_sum *sum;       /* [pixels*3] of eye values and splats; owned */
+    struct planes planes;
+    struct exact_sum *sum;       /* [planes][pixels*3] of eye values and splats; owned */
+    struct exact_sum *half;      /* [pixels*3], the picture's of every other `run` iterations, or NULL; owned */
+    int run;                     /* set when the render begins */
+    struct noise_estimate noise[N_NOISE_SCALES]; /* when the halves were of one size the last time */
     struct film_errors *errors;  /* NULL unless asked for; owned */
     long nonfinite;
     char note[FILM_NOTE_SIZE]; /* what the method chose for itself, for people */
@@ -164,8 +195,14 @@ struct film {
 void film_init(struct film *f, struct pixel_rect rect, int full_width, int full_height);
 void film_free(struct film *f);
 
+/* film_keep_planes: of a film that has nothing in it yet. */
+void film_keep_planes(struct film *f, struct planes planes);
+
 /* film_keep_errors: from now on keep what film_standard_error needs. */
 void film_keep_errors(struct film *f);
+
+/* film_keep_halves: from now on sum every other run of iterations on its own, too. */
+void film_keep_halves(struct film *f);
 
 /* film_keep_strategies: from now on sum every strategy on its own, for paths up to max_depth. */
 void film_keep_strategies(struct film *f, int max_depth);
@@ -188,12 +225,17 @@ void film_take_splats(struct film *f, struct tile *t);
  * in. */
 void film_merge_tile(struct film *f, struct tile *t);
 
-/* film_value: the sum so far in place i of [pixels*3]. */
+/* film_value: the sum so far in place i of [planes][pixels*3]. */
 double film_value(const struct film *f, size_t i);
 
 /* film_develop: the image so far: [height*width*3] linear floats, top row first, each pixel times `scale`. Values that
- * no float holds are cut to FLT_MAX; returns how many. */
+ * no float holds are cut to FLT_MAX; returns how many. film_develop_plane: the same of another plane than the
+ * picture. */
 long film_develop(const struct film *f, double scale, float *out);
+long film_develop_plane(const struct film *f, int plane, double scale, float *out);
+
+/* film_alpha: the plane of alpha, grey, [height*width*3], to be given to free(); NULL if there is none. */
+float *film_alpha(const struct film *f);
 
 /* film_warn: say on stderr how many contributions were left out and how many values film_develop cut, if any. */
 void film_warn(const struct film *f, long cut);

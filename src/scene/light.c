@@ -16,8 +16,22 @@ int light_add(struct light_set *set, struct light l)
     return set->n++;
 }
 
+int light_group(struct light_set *set, const char *name, enum light_kind kind)
+{
+    for (int i = 0; name != NULL && i < set->n_groups && i < LIGHT_MAX_GROUPS; i++)
+        if (set->group[i].name != NULL && strcmp(set->group[i].name, name) == 0)
+            return i;
+    const struct light_group added = {name != NULL ? mem_copy_text(name) : NULL, kind};
+    set->group = mem_append(set->group, (size_t)set->n_groups, sizeof *set->group);
+    set->group[set->n_groups] = added;
+    return set->n_groups++;
+}
+
 void light_set_free(struct light_set *set)
 {
+    for (int i = 0; i < set->n_groups; i++)
+        free(set->group[i].name);
+    free(set->group);
     for (int i = 0; i < set->n_pictures; i++) {
         free(set->picture[i].path);
         envmap_free(set->picture[i].env);
@@ -126,7 +140,8 @@ void light_prepare(struct light_set *set, const struct geometry *geo, vec3 cente
 {
     set->center = center;
     set->radius = radius;
-    set->any_infinite = set->several_infinite = false;
+    set->any_infinite = set->several_infinite = set->seen_infinite = false;
+    set->infinite = -1;
     set->n_cells = 0;
     for (int i = 0; i < set->n; i++) {
         struct light *l = &set->light[i];
@@ -137,6 +152,8 @@ void light_prepare(struct light_set *set, const struct geometry *geo, vec3 cente
         set->n_cells += l->n_cells;
         set->several_infinite |= set->any_infinite && l->kind == LIGHT_INFINITE;
         set->any_infinite |= l->kind == LIGHT_INFINITE;
+        set->seen_infinite |= l->kind == LIGHT_INFINITE && !l->hidden;
+        set->infinite = l->kind == LIGHT_INFINITE ? i : set->infinite;
     }
     double *power = mem_alloc((size_t)set->n_cells, sizeof *power);
     set->light_of_cell = mem_alloc((size_t)set->n_cells, sizeof *set->light_of_cell);
@@ -356,11 +373,11 @@ double light_pdf_surface(const struct light_set *set, const struct geometry *geo
     return alias_pmf(&set->choice, l->first_cell) * shape_pdf_a(geo, l->prim, at);
 }
 
-rgb light_Le_environment(const struct light_set *set, vec3 w)
+rgb light_Le_environment(const struct light_set *set, vec3 w, bool seen)
 {
     rgb sum = rgb_black();
     for (int i = 0; set->any_infinite && i < set->n; i++)
-        if (set->light[i].kind == LIGHT_INFINITE)
+        if (set->light[i].kind == LIGHT_INFINITE && !(seen && set->light[i].hidden))
             sum = rgb_add(sum, infinite_Le(&set->light[i], w));
     return sum;
 }

@@ -73,6 +73,8 @@ struct light {
     vec3 direction;
     const struct envmap *env;  /* the set's */
     const struct slide *slide; /* goniometric, projection: the set's, NULL: 1 */
+    bool hidden; /* from the lens: no path of two vertices has its light */
+    int group;   /* see light_group */
     double volume;           /* that to_world makes of 1; set by light_prepare */
     double power;            /* estimate, W, luminance; set by light_prepare */
     int first_cell, n_cells; /* its cells, see below; set by light_prepare */
@@ -85,6 +87,14 @@ struct light_picture {
     struct slide *slide;
 };
 
+/* Lights whose contributions a film can keep apart from others' (film.h). All infinite lights are of one group, since
+ * an eye sub-path that leaves the scene meets them together. */
+struct light_group {
+    char *name; /* owned; NULL: it has none */
+    enum light_kind kind; /* of its first light */
+};
+enum { LIGHT_MAX_GROUPS = 64 }; /* that films keep */
+
 /* All lights of a scene and what sampling them needs. Sampling is done in cells: an infinite light is cut into cells of
  * directions, every other light is one cell. A cell is chosen first, then a point within it. */
 struct light_set {
@@ -92,12 +102,16 @@ struct light_set {
     int n;
     struct light_picture *picture; /* [n_pictures], owned */
     int n_pictures;
+    struct light_group *group; /* [n_groups], owned */
+    int n_groups;
     int n_cells;
     int *light_of_cell;        /* [n_cells], owned */
     struct alias_table choice; /* of a cell, by power */
     vec3 center;               /* bounding sphere of the scene */
     double radius;             /* > 0 */
-    bool any_infinite;         /* some light of kind LIGHT_INFINITE */
+    int infinite;              /* a light of kind LIGHT_INFINITE, or -1 */
+    bool any_infinite;         /* some light of that kind */
+    bool seen_infinite;        /* one of them is not hidden */
     bool several_infinite;     /* two or more of them */
 };
 
@@ -105,6 +119,10 @@ struct light_set {
 enum { LIGHT_MAX_INFINITE = 1 << 12 };
 
 int light_add(struct light_set *set, struct light l);
+
+/* light_group: the group of that name, or, if there is none, or the name is NULL, a new one. Names are looked for among
+ * the first LIGHT_MAX_GROUPS groups alone: if there are more, no film keeps any. */
+int light_group(struct light_set *set, const char *name, enum light_kind kind);
 
 /* light_read_picture: give the light the picture of a file, as its kind wants it; lights that want the same share it.
  * Returns the picture, which stays the set's, or NULL with a message. */
@@ -167,8 +185,9 @@ void light_emission_numbers(const struct light_set *set, const struct light_poin
  * (its inverse square law is the connection's G); distant: irradiance. */
 rgb light_Le(const struct light_set *set, const struct light_point *y0, vec3 w);
 
-/* light_Le_environment: radiance of all infinite lights for a ray leaving the scene in unit direction w. */
-rgb light_Le_environment(const struct light_set *set, vec3 w);
+/* light_Le_environment: radiance of all infinite lights, or of those alone that the lens sees, for a ray leaving the
+ * scene in unit direction w. */
+rgb light_Le_environment(const struct light_set *set, vec3 w, bool seen);
 
 /* light_pdf_towards: density with which light_sample_point returns infinite light number i and direction w (from the
  * scene towards the light), 1/sr.  cell: out, the one it lies in */

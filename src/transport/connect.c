@@ -35,9 +35,9 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
     if (z->lamp != NULL)
         z = z->lamp;
     if (z->kind == VERTEX_ESCAPED) {
-        Le = light_Le_environment(lights, neg(z->wo));
+        Le = light_Le_environment(lights, neg(z->wo), t == 2);
         at.w = neg(z->wo);
-    } else if (z->kind == VERTEX_SURFACE && z->light >= 0) {
+    } else if (z->kind == VERTEX_SURFACE && z->light >= 0 && !(t == 2 && lights->light[z->light].hidden)) {
         at = vertex_light_point(z);
         Le = light_Le(lights, &at, z->wo);
         start = z->p;
@@ -47,6 +47,7 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
     struct connection c = nothing();
     c.value = rgb_mul(z->beta, Le);
     c.length = z->length;
+    c.light = at.light < 0 ? lights->infinite : at.light;
     if (rgb_is_black(c.value))
         return nothing();
     if (t == 2) {

@@ -23,7 +23,7 @@ struct connection {
     double length;   /* of the path, see vertex.h */
     double px, py;   /* connect_lens: a raster point it arrives at, see camera_images */
     vec3 end;        /* connect_direct: the point on the light, at infinity its direction; connect_lens: on the lens */
-    int light, cell; /* connect_direct: which, and the light cell of the point */
+    int light, cell; /* connect_direct: which, and the light cell of the point; connect_hit: one of its group */
     double pdf;      /* connect_direct: of the point, see light.h */
     int passed;      /* delta vertices between the two ends: of caustic connections (caustic.h), else 0 */
 };

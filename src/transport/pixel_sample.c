@@ -25,12 +25,21 @@ struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struc
 {
     const struct render_job *job = pass->job;
     struct sampler points = stream(job, job->seed, RNG_CONNECT, x, y, (uint64_t)iteration);
-    struct pixel_sample sample = {job->scene, counts, pass->tile, job->max_depth, x, y, 1, 1, points, rgb_black(),
-                                  rgb_black(), rgb_black(), trace_watches(pass->trace, x, y, iteration),
-                                  &pass->work->arena, 0};
+    struct pixel_sample sample = {job->scene, counts, pass->tile, job->max_depth, x, y, 1, 0, 1, points, rgb_black(),
+                                  rgb_black(), rgb_black(), iteration, trace_watches(pass->trace, x, y, iteration),
+                                  pass->worst, &pass->work->arena, 0};
     if (job->regularise > 0)
         sample.eps = regularise_eps(job->regularise, iteration);
     return sample;
+}
+
+/* Does the lens see anything there, be it light? */
+static bool covered(const struct scene *scene, const struct vertex *eye, int n)
+{
+    const struct light_set *lights = &scene->lights;
+    const struct vertex *z = n > 1 ? &eye[1] : NULL;
+    return z != NULL && (z->kind == VERTEX_SURFACE || (z->lamp != NULL && !lights->light[z->lamp->light].hidden) ||
+                         (z->lamp == NULL && lights->seen_infinite));
 }
 
 int pixel_eye_path(const struct tile_pass *pass, struct pixel_sample *sample, long iteration, struct vertex *path,
@@ -39,6 +48,7 @@ int pixel_eye_path(const struct tile_pass *pass, struct pixel_sample *sample, lo
     struct sampler sampler = stream(pass->job, pass->job->eye_seed, RNG_EYE, sample->x, sample->y, (uint64_t)iteration);
     struct walk w = {sample->scene, sample->counts, &pass->work->arena, &sampler, pass->job->rr_threshold};
     int n = path_eye_pixel(&w, sample->x, sample->y, path, max_vertices, &sample->filter_weight);
+    sample->alpha = covered(sample->scene, path, n) ? sample->filter_weight : 0;
     if (sample->trace != NULL)
         trace_eye_path(sample->trace, path, n, sample->filter_weight);
     return n;
@@ -65,13 +75,24 @@ double pixel_light_count(const struct render_job *job)
 
 /* --- sums of connections ----------------------------------------------------------------------------- */
 
-/* What a gate tells apart. */
-static void add_by_length(struct pixel_sample *sample, double length, rgb added)
+/* What gates and groups of lights tell apart: of the step from `from` to `to` the group has its share. */
+static void tell_light(const struct pixel_sample *sample, int light, rgb from, rgb to)
 {
-    if (gate_before(length, sample->tile->gate.end))
-        sample->until = rgb_add(sample->until, added);
-    if (gate_before(length, sample->tile->gate.begin))
-        sample->before = rgb_add(sample->before, added);
+    if (sample->tile->planes.lights > 0)
+        tile_add_light(sample->tile, sample->x, sample->y, sample->scene->lights.light[light].group, to, from);
+}
+
+static void add_by_length(struct pixel_sample *sample, double length, int light, rgb added)
+{
+    rgb until = sample->until, before = sample->before;
+    if (gate_before(length, sample->tile->gate.end)) {
+        sample->until = rgb_add(until, added);
+        tell_light(sample, light, until, sample->until);
+    }
+    if (gate_before(length, sample->tile->gate.begin)) {
+        sample->before = rgb_add(before, added);
+        tell_light(sample, light, sample->before, before);
+    }
 }
 
 /* Add a strategy's weighted share to the pixel; what it is made of is kept where pictures of single strategies are
@@ -87,8 +108,7 @@ static void contribute(struct pixel_sample *sample, const struct connection *c, 
             tile_record_eye(sample->tile, sample->x, sample->y, s, t + c->passed, value, c->weight, c->length);
         added = rgb_scale(value, c->weight);
         sample->sum = rgb_add(sample->sum, added);
-        if (!gate_is_endless(sample->tile->gate))
-            add_by_length(sample, c->length, added);
+        add_by_length(sample, c->length, s > 1 ? light->light : c->light, added);
     }
     if (sample->trace != NULL)
         trace_connect(sample->trace, s, t, light, c, choice.pmf, choice.scale * sample->filter_weight, added);
@@ -161,11 +181,10 @@ void pixel_sum_joint(struct pixel_sample *sample, const struct joint *j, int s, 
     contribute(sample, &c, s, t, j->y - (s - 1), choice);
 }
 
-void pixel_sum_lit(struct pixel_sample *sample, const struct lit *l, int t, double scale)
+void pixel_sum_connection(struct pixel_sample *sample, const struct connection *c, int s, int t, double scale)
 {
-    struct connection c = connect_lit(sample->scene, sample->counts, l);
     const struct choice choice = {1, scale};
-    contribute(sample, &c, 1, t, NULL, choice);
+    contribute(sample, c, s, t, NULL, choice);
 }
 
 void pixel_sum_pairs(struct pixel_sample *sample, const struct vertex *eye, int n_eye, const struct vertex *light,
@@ -178,17 +197,38 @@ void pixel_sum_pairs(struct pixel_sample *sample, const struct vertex *eye, int 
             pixel_sum_pair(sample, &light[s - 1], s, &eye[t - 1], t, choice);
 }
 
+static void offer(const struct pixel_sample *s, rgb value, int x, int y)
+{
+    const struct brought b = {rgb_luminance(value), s->x, s->y, s->iteration, x, y};
+    worst_offer(s->worst, b);
+}
+
+static void offer_splat(const struct pixel_sample *sample, const struct splat *s)
+{
+    const struct tile *tile = sample->tile;
+    struct pixel_rect range = splat_pixels(s, tile->filter, tile->film_rect);
+    float part[3];
+    for (int y = range.y0; y < range.y1; y++)
+        for (int x = range.x0; x < range.x1; x++)
+            if (splat_part(s, tile->filter, x, y, part))
+                offer(sample, rgb_make((double)part[0], (double)part[1], (double)part[2]), x, y);
+}
+
 /* A light sub-path of s vertices arrives at every raster point that is the same ray. */
 static void splat(struct pixel_sample *sample, const struct connection *c, int s, const struct vertex *light,
                   double scale)
 {
     const double *radius = sample->scene->filter.radius;
     rgb added = rgb_scale(c->value, scale * c->weight);
+    int group = sample->scene->lights.light[light->light].group;
     for (int i = 0; i < camera_images(&sample->scene->camera, radius); i++) {
         struct connection image = *c;
         camera_image(&sample->scene->camera, radius, i, &image.px, &image.py);
-        if (tile_add_splat(sample->tile, image.px, image.py, added, c->length))
+        if (tile_add_splat(sample->tile, image.px, image.py, added, c->length, group)) {
             tile_record_splat(sample->tile, s, rgb_scale(c->value, scale), c->weight, c->length);
+            if (sample->worst != NULL)
+                offer_splat(sample, &sample->tile->splat[sample->tile->n_splats - 1]);
+        }
         if (sample->trace != NULL)
             trace_connect(sample->trace, s, 1, light, &image, 1, scale, added);
     }
@@ -212,8 +252,9 @@ void pixel_splat_path(struct pixel_sample *sample, const struct vertex *light, i
 
 void pixel_sample_end(const struct pixel_sample *sample)
 {
-    if (gate_is_endless(sample->tile->gate))
-        tile_add_eye(sample->tile, sample->x, sample->y, sample->sum);
-    else
-        tile_add_between(sample->tile, sample->x, sample->y, sample->until, sample->before);
+    tile_add_between(sample->tile, sample->x, sample->y, sample->until, sample->before);
+    if (sample->worst != NULL)
+        offer(sample, rgb_sub(sample->until, sample->before), sample->x, sample->y);
+    if (sample->tile->planes.alpha)
+        tile_add_alpha(sample->tile, sample->x, sample->y, sample->alpha);
 }

@@ -13,6 +13,15 @@
 #include "transport/tile_pass.h"
 #include "transport/trace.h"
 
+/* What every method has settled before the first sample: its own state begins with it. All 0 but the counts, which are
+ * BDPT's, when it is to be prepared. */
+struct frozen {
+    struct mis_counts counts;
+    int max_depth;
+    int lights;      /* samples of s = 1 at the first hit, 0: left to the method; 1 */
+    int path_pixels; /* pooled methods: pixels for each light sub-path, 0: there are none; 1 */
+};
+
 /* One pixel of one iteration. */
 struct pixel_sample {
     const struct scene *scene;
@@ -21,11 +30,14 @@ struct pixel_sample {
     int max_depth;          /* longest path: s + t <= max_depth + 2 */
     int x, y;               /* the pixel */
     double filter_weight;   /* of its eye sample, see path_eye_pixel */
+    double alpha;           /* the same, or 0 where the lens sees nothing */
     int lights;             /* samples of s = 1 for t = 2, 0: left to the method; 1 for t > 2 */
     struct sampler sampler; /* for light and lens points */
     rgb sum;                /* of what the strategies with t >= 2 have brought so far, */
-    rgb until, before;      /* and of that paths shorter than the gate's end, or its beginning; 0 of an endless gate */
+    rgb until, before;      /* and of that paths shorter than the gate's end, or its beginning */
+    long iteration;
     struct trace *trace;    /* who watches this sample; NULL: nobody */
+    struct worst *worst;    /* who is told of all samples; NULL: nobody */
     struct arena *arena;    /* for what does not outlive the sample */
     double eps;             /* of regularise.h, 0: none */
 };
@@ -72,8 +84,8 @@ void pixel_sum_pair(struct pixel_sample *sample, const struct vertex *y, int s, 
                     struct choice choice);
 void pixel_sum_joint(struct pixel_sample *sample, const struct joint *j, int s, int t, struct choice choice);
 
-/* pixel_sum_lit: s = 1, z = z_{t-1} and a light point, times `scale`. */
-void pixel_sum_lit(struct pixel_sample *sample, const struct lit *l, int t, double scale);
+/* pixel_sum_connection: one that is made already, s <= 1, times `scale`. */
+void pixel_sum_connection(struct pixel_sample *sample, const struct connection *c, int s, int t, double scale);
 
 /* pixel_sum_pairs: s >= 2, t >= 2 for every pair of vertices of the two sub-paths. */
 void pixel_sum_pairs(struct pixel_sample *sample, const struct vertex *eye, int n_eye, const struct vertex *light,
@@ -83,12 +95,7 @@ void pixel_sum_pairs(struct pixel_sample *sample, const struct vertex *eye, int 
  * tile's splats. */
 void pixel_splat_path(struct pixel_sample *sample, const struct vertex *light, int n_light, double scale);
 
-/* pixel_sample_until: what paths shorter than the gate's end have brought.
- * pixel_sample_end: the sample goes into its tile. Call once. */
-static inline rgb pixel_sample_until(const struct pixel_sample *sample)
-{
-    return gate_is_endless(sample->tile->gate) ? sample->sum : sample->until;
-}
+/* pixel_sample_end: the sample goes into its tile. Call once. */
 void pixel_sample_end(const struct pixel_sample *sample);
 
 #endif

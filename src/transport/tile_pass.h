@@ -9,6 +9,7 @@
 #include "transport/path.h"
 
 struct trace;
+struct worst;
 
 /* What does not change during a render. */
 struct render_job {
@@ -56,6 +57,7 @@ struct tile_pass {
     struct tile *tile; /* started; receives the result */
     struct workspace *work;
     struct trace *trace; /* see trace.h; NULL: nobody watches */
+    struct worst *worst; /* likewise */
 };
 
 /* pass_pixel: the pass' pixel number i in row order; false if there are not so many. */

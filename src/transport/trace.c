@@ -65,6 +65,35 @@ rgb trace_sum(const struct trace *trace)
     return sum;
 }
 
+static bool before(const struct brought *a, const struct brought *b)
+{
+    if (a->luminance != b->luminance)
+        return a->luminance > b->luminance;
+    if (a->iteration != b->iteration)
+        return a->iteration < b->iteration;
+    return a->y != b->y ? a->y < b->y : a->x < b->x;
+}
+
+static bool same_sample(const struct brought *a, const struct brought *b)
+{
+    return a->x == b->x && a->y == b->y && a->iteration == b->iteration;
+}
+
+void worst_offer(struct worst *w, struct brought b)
+{
+    int i = 0;
+    while (i < w->n && !same_sample(&w->item[i], &b))
+        i++;
+    if (i == w->most) /* a sample that is not among them: it takes the place of the last, or none */
+        i--;
+    if (!(b.luminance > 0) || !fits_float(b.luminance) || (i < w->n && !before(&b, &w->item[i])))
+        return;
+    w->n += i == w->n;
+    for (; i > 0 && before(&b, &w->item[i - 1]); i--)
+        w->item[i] = w->item[i - 1];
+    w->item[i] = b;
+}
+
 /* The walk from the other end leaves vertex i+1 towards i; what it is per steradian there was found on the way. */
 double trace_pdf_rev(const struct scene *scene, const struct trace_path *path, int i)
 {

@@ -5,6 +5,8 @@
  * second computation that might differ: added up in their order, the contributions are the film's value to the last
  * bit.
  *
+ * Which samples are worth that, a list of those that bring most tells, kept of all samples of a render.
+ *
  * Tests: test_trace.c.
  */
 #ifndef ASBDPT_TRACE_H
@@ -66,6 +68,25 @@ void trace_connect(struct trace *trace, int s, int t, const struct vertex *light
 
 /* trace_sum: what was added to the sample's own pixel: all with t >= 2, in their order. */
 rgb trace_sum(const struct trace *trace);
+
+/* What a sample brings to one pixel: its own, or, of its light sub-path, another. */
+struct brought {
+    double luminance;
+    int x, y; /* the sample */
+    long iteration;
+    int to_x, to_y; /* the pixel */
+};
+
+/* The samples that bring most to a pixel, each with its most, in that order; equal ones by iteration and pixel: what is
+ * in the list does not depend on the order of offers. All zeros but for `most`: empty. */
+enum { WORST_MOST = 64 };
+struct worst {
+    int n, most; /* 1 <= most <= WORST_MOST */
+    struct brought item[WORST_MOST];
+};
+
+/* worst_offer: take it in, if it is among them. What no film takes is not. */
+void worst_offer(struct worst *worst, struct brought b);
 
 /* trace_pdf_rev: the density with which a walk from the other end would have made vertex i, measured as its pdf_fwd,
  * given the two vertices after it; below 0 where the sub-path does not have them. */

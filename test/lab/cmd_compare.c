@@ -56,13 +56,13 @@ static void print(const struct difference *d, bool json)
 static bool write_heatmap(const struct compare_options *o, struct file_output *f, const float *x, const float *r,
                           int width, int height, struct error *err)
 {
-    const struct placement whole = {0, 0, 0, 0};
     long pixels = (long)width * height;
     float *error = mem_alloc((size_t)pixels, sizeof *error), *map = mem_alloc((size_t)pixels * 3, sizeof *map);
     compare_errors(x, r, pixels, error);
     double most = o->most > 0 ? o->most : picture_percentile(error, pixels, o->percentile > 0 ? o->percentile : 99);
     compare_heatmap(error, pixels, most, map);
-    bool ok = image_finish(f, whole, width, height, map, err);
+    const struct raster picture = {{0, 0, 0, 0}, width, height, map, NULL, 0};
+    bool ok = image_finish(f, &picture, err);
     if (ok)
         fprintf(o->json ? stderr : stdout, "heatmap    0 to %.6g%s\n", most, o->most > 0 ? "" : " (percentile)");
     free(error);

@@ -9,7 +9,7 @@
 #include "image/image.h"
 #include "lab/commands.h"
 #include "lab/compare.h"
-#include "look/sheet.h"
+#include "lab/sheet.h"
 
 struct transient_options {
     struct job_options job;

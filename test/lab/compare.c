@@ -9,7 +9,7 @@
 #include "base/mem.h"
 #include "lab/colormap.h"
 #include "image/image.h"
-#include "look/sheet.h"
+#include "lab/sheet.h"
 
 struct difference compare_pixels(const float *x, const float *r, long n)
 {

@@ -9,7 +9,7 @@
 #ifndef ASBDPT_DEMO_H
 #define ASBDPT_DEMO_H
 
-#include "look/sheet.h"
+#include "lab/sheet.h"
 #include "lab/equal_run.h"
 
 struct demo {

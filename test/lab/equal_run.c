@@ -9,7 +9,7 @@
 #include "base/mem.h"
 #include "base/progress.h"
 #include "image/image.h"
-#include "look/sheet.h"
+#include "lab/sheet.h"
 #include "lab/plan_scene.h"
 #include "lab/timed.h"
 #include "lab/compare.h"

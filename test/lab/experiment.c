@@ -13,7 +13,7 @@
 #include "lab/plan_scene.h"
 #include "lab/timed.h"
 #include "lab/compare.h"
-#include "look/pyramid.h"
+#include "lab/pyramid.h"
 
 enum { PATH_SIZE = 4096, KEY_SIZE = 1024, REFERENCE_SEED = 100001, PYRAMID_SPP = 64, PYRAMID_LENGTH = 5 };
 

@@ -12,7 +12,7 @@
 #include "lab/table.h"
 #include "lab/compare.h"
 #include "lab/markup.h"
-#include "look/sheet.h"
+#include "lab/sheet.h"
 
 /* "subspaces" of "asbdpt:select=subspaces". */
 static const char *short_name(const struct equal_time *e, int method)

@@ -9,7 +9,7 @@
 #ifndef ASBDPT_PICTURES_H
 #define ASBDPT_PICTURES_H
 
-#include "look/sheet.h"
+#include "lab/sheet.h"
 #include "lab/results.h"
 
 enum { COLUMN_GAP = 24, COLUMN_LABEL = 60, COLUMN_WIDTH = 480, PICTURES_PERCENTILE = 99 };

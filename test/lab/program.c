@@ -3,9 +3,9 @@
 #include "lab/commands.h"
 
 static const struct command *const COMMANDS[] = {
-    &command_render,     &command_merge,  &command_convert, &command_info, &command_compare,   &command_trace,
-    &command_worth,      &command_verify, &command_demo,    &command_equal_time, &command_experiment, &command_family,
-    &command_transient,  &command_bench,  NULL};
+    &command_render,     &command_merge,      &command_convert, &command_info,   &command_compare, &command_trace,
+    &command_worth,      &command_strategies, &command_verify,  &command_demo,   &command_equal_time,
+    &command_experiment, &command_family,     &command_transient, &command_bench, NULL};
 
 const struct program program = {
     "asbdpt-lab", "the laboratory of asbdpt: what measures its pictures and its speed",

@@ -11,7 +11,7 @@
 #include "base/mem.h"
 #include "base/os.h"
 #include "image/image.h"
-#include "look/sheet.h"
+#include "lab/sheet.h"
 #include "lab/sides.h"
 #include "lab/compare.h"
 

@@ -1,56 +1,89 @@
 #!/bin/sh
 # tune.sh: how good is asbdpt with another constant, or without one of its parts?
-#   sh test/lab/tune.sh [DIR [NAME...]]      NAME: an entry of tune.txt; default: all; DIR: default build-tune
-# Every variant is built and renders the training scenes for the CPU time that bdpt takes for SPP samples, by SEEDS
-# seeds; its squared error, relative to bdpt's, stands in DIR/table.txt: geometric mean and worst of the scenes. What is
-# there already is not made again. The scenes and seeds on which a claim is made are others (doc/selection.md).
+#   sh test/lab/tune.sh [DIR [NAME...]]      NAME: an entry of tune.txt, bdpt or pt; default: all entries;
+#                                            DIR: default build-tune
+# Every variant renders the training scenes with SPP samples by SEEDS. Beside each other stand its squared error and its
+# CPU time, both relative to the tree as it is, seed by seed; of a scene the time is the least of its seeds'. What DIR
+# holds already is not made again: references (of which several DIRs may share one, REFERENCES) and programs stay, and
+# renders are lines of DIR/runs.txt. The table goes to DIR/tune.md. The scenes and seeds on which a claim is made are
+# others (doc/selection.md).
 list=test/lab/tune.txt
 dir=${1:-build-tune}
 [ $# -gt 0 ] && shift
-only=" $* "
-train="cornell-box bathroom living-room caustic-glass many-lights sky forest spot features/light-point \
-    features/light-infinite"
-scenes=${SCENES:-$(printf 'scenes/%s.pbrt ' $train)}
-SPP=${SPP:-64} SEEDS=${SEEDS:-3} RES=${RES:-96x64}
+names="as-it-is ${*:-$(awk '/^[^-+# \t]/ && NF > 3 { print $1 }' $list)}"
+SCENES=${SCENES:-cornell-box bathroom living-room caustic-glass many-lights sky forest spot features/light-point \
+    features/light-infinite}
+SEEDS=${SEEDS:-61 62 63} SPP=${SPP:-64} RES=${RES:-72x48} REFERENCE_SPP=${REFERENCE_SPP:-1024}
+REFERENCES=${REFERENCES:-$dir/reference}
+compiler=cc
+command -v ccache >/dev/null && compiler="ccache cc"
 
-names() {
-    echo as-it-is
-    awk -v only="$only" '/^[^-+# \t]/ && NF > 3 && (only == "  " || index(only, " " $1 " ")) { print $1 }' $list
+# build NAME: its program is DIR/programs/NAME. The tree is then as it was, and make sees by its dates what was another.
+build() {
+    file=$(awk -v name="$1" '$1 == name && NF > 3 { print $2 }' $list) program=asbdpt
+    [ "$1" != asbdpt-lab ] || program=asbdpt-lab
+    [ -z "$file" ] || sh test/mutants/apply.sh $list "$1" "$dir/tree" || return
+    make -s -C "$dir/tree" CC="$compiler" LTO= $program >"$dir/log.txt" 2>&1 &&
+        mv "$dir/tree/$program" "$dir/programs/$1"
+    built=$?
+    [ -z "$file" ] || cp "$file" "$dir/tree/$file"
+    return $built
 }
 
-# measure NAME: build the variant and let its laboratory measure it.
-measure() {
-    tree=$dir/tree
-    cp -Rp src test "$tree/"
-    [ "$1" = as-it-is ] || sh test/mutants/apply.sh $list "$1" "$tree" || return 1
-    make -s -C "$tree" asbdpt-lab >"$dir/log.txt" 2>&1 || return 1
-    "$tree/asbdpt-lab" equal-time $scenes --methods bdpt,asbdpt --spp "$SPP" --seeds "$SEEDS" --res "$RES" \
-        --reference-spp 2048 --quiet -o "$dir/$1" >"$dir/log.txt" 2>&1
+# render NAME SCENE SEED SPP FILE: the CPU time goes to FILE.json.
+render() {
+    integrator=asbdpt
+    case $1 in bdpt | pt) integrator=$1 ;; esac
+    "$dir/programs/$1" render "scenes/$2.pbrt" --integrator $integrator --res "$RES" --spp "$4" --seed "$3" -j1 \
+        -o "$5" --stats "$5.json" >"$dir/log.txt" 2>&1
 }
 
-# row NAME: its line of the table.
-row() {
-    about=$(awk -v name="$1" '$1 == name { for (i = 4; i <= NF; i++) printf "%s ", $i }' $list)
-    awk -F '|' -v name="$1" -v about="$about" '
-        /geometric mean/ { mean = $5 }
-        /WORST/ { worst = $5 }
+# blocks FILE REFERENCE: the mean of (a - b)^2 / (b^2 + 0.01) over blocks of 8x8 pixels of two PFM files.
+blocks() {
+    for file in "$1" "$2"; do
+        od -An -v -tf4 -w12 -j "$(head -n 3 "$file" | wc -c)" "$file"
+    done | awk -v res="$RES" '
+        BEGIN { split(res, size, "x") }
+        {
+            n = (NR - 1) % (size[1] * size[2])
+            sum[NR > size[1] * size[2], int(n / size[1] / 8), int(n % size[1] / 8)] += ($1 + $2 + $3) / 192
+        }
         END {
-            gsub(/\*\*/, "", mean)
-            gsub(/\*\*/, "", worst)
-            printf "| %s |%s|%s| %s|\n", name, mean, worst, about
-        }' \
-        "$dir/$1/equal-time.md"
+            for (y = 0; y < int(size[2] / 8); y++)
+                for (x = 0; x < int(size[1] / 8); x++) {
+                    total += (sum[0, y, x] - sum[1, y, x]) ^ 2 / (sum[1, y, x] ^ 2 + 0.01)
+                    count++
+                }
+            print total / count
+        }'
 }
 
-mkdir -p "$dir/tree"
-cp -R Makefile scenes "$dir/tree/"
-for name in $(names); do
-    [ -f "$dir/$name/equal-time.md" ] || measure "$name" || { echo "$name: see $dir/log.txt"; exit 1; }
+# measure NAME SCENE SEED: a line "NAME SCENE SEED rmse8 relmse blocks seconds" of runs.txt.
+measure() {
+    reference=$REFERENCES/$(echo "$2" | tr / -).pfm picture=$dir/$1-$3.pfm
+    grep -q "^$1 $2 $3 " "$dir/runs.txt" && return
+    [ -f "$reference" ] || {
+        render as-it-is "$2" 1 "$REFERENCE_SPP" "$picture" && mv "$picture" "$reference" # only if it is complete
+    } || return
+    render "$1" "$2" "$3" "$SPP" "$picture" || return
+    errors=$("$dir/programs/asbdpt-lab" compare "$picture" "$reference" --json) || return
+    seconds=$(sed -n 's/.*"cpu_seconds": \([0-9.e-]*\).*/\1/p' "$picture.json")
+    echo "$1 $2 $3 $(echo "$errors" | tr -d ',' | awk '{ print $4, $6 }') $(blocks "$picture" "$reference") $seconds" \
+        >>"$dir/runs.txt"
+    rm "$picture" "$picture.json"
+}
+
+mkdir -p "$dir/tree" "$dir/programs" "$REFERENCES"
+touch "$dir/runs.txt"
+cp -R Makefile src test "$dir/tree/"
+for name in asbdpt-lab $names; do
+    [ -x "$dir/programs/$name" ] || build "$name" || { echo "$name: see $dir/log.txt"; exit 1; }
 done
-{
-    echo "| variant | squared error, rmse8, of bdpt's at equal time | worst | |"
-    echo "|---|---:|---:|---|"
-    for name in $(names); do
-        row "$name"
+for seed in $SEEDS; do
+    for scene in $SCENES; do
+        for name in $names; do
+            measure "$name" "$scene" "$seed" || { echo "$name, $scene, $seed: see $dir/log.txt"; exit 1; }
+        done
     done
-} | tee "$dir/table.txt"
+done
+awk -v names="$names" -f test/lab/tune.awk $list "$dir/runs.txt" | tee "$dir/tune.md"

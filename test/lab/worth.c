@@ -179,7 +179,7 @@ bool worth_picture(const struct scene *scene, const struct render_options *optio
         const double all[4] = {0, 1, 0, 1};
         struct scene whole = *scene; /* whatever its crop window is */
         memcpy(whole.crop, all, sizeof all);
-        aov_render(&whole, options, aov);
+        aov_render(&whole, options, false, aov);
         shade(scene, aov, n);
         colour(value, n, pixels);
         colour(value + n, n, pixels + 3 * n);

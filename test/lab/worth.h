@@ -12,7 +12,7 @@
 #ifndef ASBDPT_WORTH_H
 #define ASBDPT_WORTH_H
 
-#include "look/sheet.h"
+#include "lab/sheet.h"
 #include "render/render.h"
 
 enum { WORTH_RANGE = 1000 };

@@ -219,9 +219,9 @@ static void send(const struct chain *c, const struct tile_pass *pass, const stru
         const struct splat *s = &state->heard.splat[i];
         bool many = isnan(s->length);
         if (many || gate_holds(c->gate, s->length))
-            tile_add_splat(tile, s->px, s->py, rgb_scale(many ? state->until : s->value, factor), s->length);
+            tile_add_splat(tile, s->px, s->py, rgb_scale(many ? state->until : s->value, factor), s->length, 0);
         if (many && !rgb_is_black(state->before))
-            tile_add_splat(tile, s->px, s->py, rgb_scale(state->before, -factor), s->length);
+            tile_add_splat(tile, s->px, s->py, rgb_scale(state->before, -factor), s->length, 0);
     }
     if (tile->full != NULL && tile->n_splats >= TILE_FULL)
         tile->full(tile->context, tile);

@@ -23,8 +23,8 @@ static void sample(struct chain *c, bool small)
     int n_eye = primary_eye(&p, job->max_depth + 2, &px, &py), n_light = primary_light(&p, job->max_depth + 1);
     pixel_sum_eye(&s, work->eye, n_eye);
     pixel_sum_pairs(&s, work->eye, n_eye, work->light, n_light, NO_CHOICE);
-    tile_add_splat(s.tile, px, py, s.sum, NAN);
-    c->next.until = pixel_sample_until(&s);
+    tile_add_splat(s.tile, px, py, s.sum, NAN, 0);
+    c->next.until = s.until;
     c->next.before = s.before;
     c->next.heard.gate = all;
     s.sampler = p.sampler[LENS_NUMBERS];

@@ -20,7 +20,7 @@
  */
 #include <stddef.h>
 
-#include "integrators/pooled.h"
+#include "rivals/reuse.h"
 
 struct restir_state {
     struct frozen frozen;
@@ -28,12 +28,9 @@ struct restir_state {
     double credit;
 };
 
-enum { MOST_NEIGHBOURS = 32 };
-
 struct reservoir {
     struct lit y;
     double weight; /* W; 0: nothing has been kept */
-    bool first;    /* is there a first vertex to connect to? */
 };
 
 /* f_i(y) for the reservoir's point seen from another pixel's first vertex. */
@@ -45,7 +42,7 @@ static double value_at(const struct scene *scene, const struct vertex *z, const 
 /* Step 1. */
 static struct reservoir resample(struct pooled_pixel *p, int M)
 {
-    struct reservoir r = {.weight = 0, .first = p->n >= 2 && vertex_connectible(&p->eye[1])};
+    struct reservoir r = {.weight = 0};
     double sum = 0, own = 0;
     bool surface = p->n >= 2 && p->eye[1].kind == VERTEX_SURFACE;
     for (int m = 0; surface && m < M; m++) {
@@ -62,13 +59,6 @@ static struct reservoir resample(struct pooled_pixel *p, int M)
     if (own > 0 && lit_visible(p->sample.scene, &r.y))
         r.weight = sum / (M * own);
     return r;
-}
-
-/* Normals within 25 degrees, depths within a tenth. */
-static bool alike(const struct vertex *a, const struct vertex *b)
-{
-    double da = length(sub(a[1].p, a[0].p)), db = length(sub(b[1].p, b[0].p));
-    return dot(a[1].ng, b[1].ng) > 0.9063 && fabs(da - db) < 0.1 * fmax(da, db);
 }
 
 /* Step 2. near: S, [n] numbers of pixels, the first this one. */
@@ -96,7 +86,8 @@ static void reuse(struct pooled_pixel *pixel, const struct reservoir *all, const
         others += f > 0 && lit_visible(scene, &l) ? f : 0;
     }
     double m = value_at(scene, &pixel[near[from]].eye[1], &all[near[from]], &l) / others;
-    pixel_sum_lit(&c->sample, &kept, 2, m * sum / own);
+    struct connection made = connect_lit(scene, c->sample.counts, &kept);
+    pixel_sum_connection(&c->sample, &made, 1, 2, m * sum / own);
 }
 
 static void connect_all(void *scratch, const void *state, const struct tile_pass *pass, struct pooled_pixel *pixel,
@@ -110,13 +101,8 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
         pixel_sum_eye(&pixel[i].sample, pixel[i].eye, pixel[i].n);
     }
     for (int i = 0; i < n; i++) {
-        int near[MOST_NEIGHBOURS + 1] = {i}, found = 1;
-        for (int k = 0; all[i].first && k < s->neighbours; k++) {
-            int j = (int)(sampler_number(&pixel[i].draws, DRAW_LIGHT_END) * n);
-            if (j != i && all[j].first && alike(pixel[i].eye, pixel[j].eye))
-                near[found++] = j;
-        }
-        if (all[i].first)
+        int near[MOST_NEIGHBOURS + 1], found = reuse_neighbours(pixel, n, i, s->neighbours, near);
+        if (found > 0)
             reuse(pixel, all, near, found);
         pixel_sum_pairs(&pixel[i].sample, pixel[i].eye, pixel[i].n, light_pool_path(pool, i), pool->length[i],
                         NO_CHOICE);

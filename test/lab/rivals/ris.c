@@ -102,7 +102,7 @@ static double emitted(const struct scene *scene, const struct vertex *x0, vec3 w
     struct light_point at = vertex_light_point(x0);
     bool sky = x0->kind == VERTEX_ESCAPED || lights->light[x0->light].kind == LIGHT_INFINITE;
     if (sky)
-        return rgb_luminance(light_Le_environment(lights, neg(w))) * PI * sqr(lights->radius) /
+        return rgb_luminance(light_Le_environment(lights, neg(w), false)) * PI * sqr(lights->radius) /
                light_pdf_environment(lights, neg(w));
     double pdf = (x0->kind == VERTEX_LIGHT ? x0->pdf_fwd : x0->pdf_origin) * light_pdf_emission(lights, &at, w);
     double cosine = length2(x0->ng) > 0 ? abs_dot(x0->ng, w) : 1;

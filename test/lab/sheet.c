@@ -1,5 +1,5 @@
 /* sheet.c: see sheet.h. */
-#include "look/sheet.h"
+#include "lab/sheet.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* noise.c: see noise.h. */
-#include "integrators/noise.h"
+#include "pilot/noise.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -15,18 +15,17 @@ enum { MOST_TILES = 8 };
  * counts. */
 enum { FIRST, OTHER, SAME_EYE, INDEPENDENT, AGAIN = INDEPENDENT, RENDERS };
 
-/* No squared relative deviation counts for more: a picture's white is not far off. Light sub-paths have more leave:
- * what they splat is rare and strong (caustics), and their number is all that is decided by it; and what the path
- * tracer would bring still more, since nothing else warns of it. */
-static const double OUTLIER = 25, OUTLIER_PATHS = 400, OUTLIER_TAIL = 1e4;
+/* No squared relative deviation counts for more: a picture's white is not far off. What the path tracer would bring has
+ * more leave, since nothing else warns of it. */
+static const double OUTLIER = 25, OUTLIER_TAIL = 1e4;
 
 struct measure {
     struct render_job job;
-    const struct preparation *method, *again; /* again: with the counts of s <= 1 twice as large */
+    const struct pilot_method *method;
+    struct subspaces_state *state, *again; /* again: with the counts of s <= 1 twice as large */
     const double *tried;
-    struct workspace *work;       /* [n_threads] */
     struct tile (*tile)[RENDERS]; /* [n_slots] */
-    struct noise *found;      /* [n_slots] */
+    struct noise *found;          /* [n_slots] */
     struct noise sums;
     bool stopped;
 };
@@ -110,7 +109,6 @@ static void add_records(const struct tile *tile, const double *tried, const doub
             continue;
         long at = place_in_tile(tile, first);
         out->spread[kind] += fmin((x2 - x * x / n) * n / (n - 1) / scale[at], OUTLIER);
-        out->square[kind] += fmin(x2 / scale[at], OUTLIER);
     }
 }
 
@@ -157,7 +155,7 @@ static double of_blocks(struct pixel_rect rect, const double *a, const double *b
                 difference += a[at] - b[at];
                 bright += scale[at] / PIXELS;
             }
-            all += fmin(sqr(difference) / 2 / bright, OUTLIER_PATHS * PIXELS);
+            all += fmin(sqr(difference) / 2 / bright, OUTLIER * PIXELS);
         }
     return all;
 }
@@ -168,9 +166,9 @@ static void render_one(struct measure *m, int64_t number, int i, struct pixel_re
     struct render_job job = m->job;
     job.seed = hash_combine(m->job.seed, (uint64_t)(i % INDEPENDENT));
     job.eye_seed = hash_combine(m->job.seed, INDEPENDENT + (i == OTHER));
-    struct tile_pass pass = {&job, rect, (long)number, (long)number + 1, tile, work, NULL};
+    struct tile_pass pass = {&job, rect, (long)number, (long)number + 1, tile, work, NULL, NULL};
     tile_start(tile, rect, job.film_rect, &job.scene->filter, true);
-    m->method->method->render(i == AGAIN ? m->again : m->method, &pass);
+    m->method->render(m->method->method, i == AGAIN ? m->again : m->state, &pass);
 }
 
 static void render_tile(void *context, int64_t job, int slot, int thread)
@@ -184,7 +182,7 @@ static void render_tile(void *context, int64_t job, int slot, int thread)
     struct noise *found = &m->found[slot];
     memset(found, 0, sizeof *found);
     for (int i = 0; i < RENDERS; i++)
-        render_one(m, job, i, rect, &tile[i], &m->work[thread]);
+        render_one(m, job, i, rect, &tile[i], &m->method->work[thread]);
     for (int i = 0; i < INDEPENDENT; i++)
         pixel_values(&tile[i], value + (size_t)i * n);
     brightness(rect, value, other, scale);
@@ -192,9 +190,7 @@ static void render_tile(void *context, int64_t job, int slot, int thread)
         add_records(&tile[i], m->tried, scale, found);
     for (size_t i = 0; i < n; i++) {
         found->total += fmin(sqr(value[i] - other[i]) / 2 / scale[i], OUTLIER);
-        double given = sqr(value[i] - same_eye[i]) / 2 / scale[i];
-        found->given_eye += fmin(given, OUTLIER);
-        found->given_paths += fmin(given, OUTLIER_PATHS);
+        found->given_eye += fmin(sqr(value[i] - same_eye[i]) / 2 / scale[i], OUTLIER);
         mean_scale += scale[i] / (double)n;
     }
     found->blocks = of_blocks(rect, value, same_eye, scale);
@@ -209,13 +205,10 @@ static bool add_tile(void *context, int64_t job, int slot)
     double n = RENDERS * (double)(job + 1) * MAX_TILE_SIZE * MAX_TILE_SIZE;
     m->sums.total += s->total;
     m->sums.given_eye += s->given_eye;
-    m->sums.given_paths += s->given_paths;
     m->sums.blocks += s->blocks;
     m->sums.tail += s->tail;
-    for (int k = 0; k < N_KINDS; k++) {
+    for (int k = 0; k < N_KINDS; k++)
         m->sums.spread[k] += s->spread[k] / INDEPENDENT;
-        m->sums.square[k] += s->square[k] / INDEPENDENT;
-    }
     m->stopped = m->job.watch != NULL && !m->job.watch(m->job.watch_context, n);
     return !m->stopped;
 }
@@ -228,44 +221,25 @@ int noise_tiles(const struct render_job *job)
     return int_within(SAMPLES_PER_PIXEL * pixel_light_count(job) / (INDEPENDENT * tile) + 0.75, 1, MOST_TILES);
 }
 
-static void make_memory(struct measure *m, int n_slots)
-{
-    m->work = workspaces_new(m->job.n_threads, m->job.max_depth);
-    for (int i = 0; i < m->job.n_threads; i++)
-        m->work[i].scratch = method_scratch(m->method);
-    m->tile = mem_alloc((size_t)n_slots, sizeof *m->tile);
-    m->found = mem_alloc((size_t)n_slots, sizeof *m->found);
-}
-
-static void free_memory(struct measure *m, int n_slots)
-{
-    for (int i = 0; i < n_slots; i++)
-        for (int k = 0; k < RENDERS; k++)
-            tile_free(&m->tile[i][k]);
-    for (int i = 0; i < m->job.n_threads; i++)
-        method_scratch_free(m->method, m->work[i].scratch);
-    workspaces_free(m->work, m->job.n_threads);
-    free(m->tile);
-    free(m->found);
-}
-
-bool noise_measure(const struct render_job *job, const struct preparation *method, const double *tried, int n,
-                   struct noise *out)
+bool noise_measure(const struct render_job *job, const struct pilot_method *method, struct subspaces_state *state,
+                   const double *tried, int n, struct noise *out)
 {
     int n_slots = 2 * job->n_threads;
-    struct preparation again = *method;
-    struct subspaces_state twice = *(struct subspaces_state *)method->state;
-    struct measure m = {.job = *job, .method = method, .again = &again, .tried = tried};
-    again.state = &twice;
+    struct subspaces_state twice = *state;
+    struct measure m = {.job = *job, .method = method, .state = state, .again = &twice, .tried = tried};
     for (int end = 0; end < EYE_ENDS; end++) {
         twice.frozen.counts.hit[end] *= 2;
         twice.frozen.counts.direct[end] *= 2;
         twice.frozen.counts.delta[end] *= 2;
     }
     struct parallel_jobs jobs = {n, job->n_threads, n_slots, &m, render_tile, add_tile, NULL};
-    make_memory(&m, n_slots);
+    m.tile = mem_alloc((size_t)n_slots, sizeof *m.tile);
+    m.found = mem_alloc((size_t)n_slots, sizeof *m.found);
     parallel_run(&jobs);
-    free_memory(&m, n_slots);
+    for (int i = 0; i < n_slots * RENDERS; i++)
+        tile_free(&m.tile[i / RENDERS][i % RENDERS]);
+    free(m.tile);
+    free(m.found);
     *out = m.sums;
     return !m.stopped;
 }

@@ -19,7 +19,7 @@
 #ifndef ASBDPT_NOISE_H
 #define ASBDPT_NOISE_H
 
-#include "integrators/subspaces_state.h"
+#include "pilot/subspaces_state.h"
 
 /* The kinds of samples whose number is free. */
 enum kind { DRAW_FIRST, DRAW_LATER, LIGHT_FIRST, LIGHT_PATH, N_KINDS };
@@ -27,16 +27,22 @@ enum kind { DRAW_FIRST, DRAW_LATER, LIGHT_FIRST, LIGHT_PATH, N_KINDS };
 /* Variances of one iteration, added up over the pixels of all tiles. */
 struct noise {
     double total, given_eye;         /* of a pixel; of one whose eye sub-path is given */
-    double given_paths;              /* the latter with more leave for outliers */
     double blocks;                   /* the latter of means over blocks, times their pixels */
     double tail;                     /* what there would be more without light sub-paths, see above */
-    double spread[N_KINDS], square[N_KINDS]; /* of the samples of one eye vertex: variance and squares of their sum */
+    double spread[N_KINDS];          /* variance of the sum of the samples of one eye vertex */
 };
 
-/* noise_measure: render so many tiles with the preparation's method, `tried` samples of each kind being taken.
- * Returns false if job->watch ended it. */
-bool noise_measure(const struct render_job *job, const struct preparation *method, const double *tried, int n,
-                   struct noise *out);
+/* The method that tiles are rendered by, and the memory of its threads. */
+struct pilot_method {
+    void (*render)(const void *method, struct subspaces_state *s, const struct tile_pass *pass);
+    const void *method;     /* for `render` */
+    struct workspace *work; /* [n_threads] */
+};
+
+/* noise_measure: render so many tiles with the state, `tried` samples of each kind being taken. Returns false if
+ * job->watch ended it. */
+bool noise_measure(const struct render_job *job, const struct pilot_method *method, struct subspaces_state *state,
+                   const double *tried, int n, struct noise *out);
 
 /* noise_tiles: how many there are to be, by the size of the picture alone. */
 int noise_tiles(const struct render_job *job);

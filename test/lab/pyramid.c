@@ -1,5 +1,5 @@
 /* pyramid.c: see pyramid.h. */
-#include "look/pyramid.h"
+#include "lab/pyramid.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -9,7 +9,7 @@
 #include "base/mem.h"
 #include "base/number.h"
 #include "image/image.h"
-#include "look/sheet.h"
+#include "lab/sheet.h"
 
 enum { GAP = 4, LEFT = 64, TOP = 40, SHEET_WIDTH = 1024, CELL_MIN = 48, CELL_MAX = 192 };
 static const double PERCENTILE = 90; /* of a row's values that stay below white */

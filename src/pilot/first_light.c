@@ -1,17 +1,15 @@
 /* first_light.c: see first_light.h. */
-#include "integrators/first_light.h"
+#include "pilot/first_light.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/maths.h"
 #include "base/number.h"
 #include "base/parallel.h"
 
 enum { SEQUENCE = 16, MOST_PIXELS = 1024 };
 enum sum { BROAD, DELTA, ALL, N_SUMS }; /* direct light that s = 0 can find; that it cannot; everything */
 static const double SAMPLES_PER_PIXEL = 1.28;
-static const double SLOPE = 1.5; /* log 64 / log SEQUENCE */
 static const double MOST_CREDIT = 64, OUTLIER = 25;
 
 /* Of one pixel, its two sequences together. */
@@ -22,7 +20,7 @@ struct pixel_sums {
 struct first_light_job {
     struct render_job job;
     struct mis_counts counts;
-    struct workspace *work;   /* [n_threads] */
+    struct workspace *work;   /* [n_threads], the pilot's */
     struct tile *tile;        /* [n_threads] */
     struct pixel_sums *pixel; /* [n] */
     int64_t n;
@@ -30,7 +28,7 @@ struct first_light_job {
 
 /* A credit is found from moments that are means over pixels, relative to their brightness. */
 struct moments {
-    double square, single, sequence; /* second moment; variances of one sample, of the mean of SEQUENCE */
+    double square, sequence; /* second moment; variance of the mean of SEQUENCE */
 };
 
 /* The sums of one sample, from what each strategy brought; the weights are those of counts 1. */
@@ -52,7 +50,7 @@ static void take_sample(const struct first_light_job *f, int x, int y, uint64_t 
     struct render_job job = f->job;
     struct tile *tile = &f->tile[thread];
     struct pixel_rect rect = {x, y, x + 1, y + 1};
-    struct tile_pass pass = {&job, rect, iteration, iteration + 1, tile, &f->work[thread], NULL};
+    struct tile_pass pass = {&job, rect, iteration, iteration + 1, tile, &f->work[thread], NULL, NULL};
     job.seed = job.eye_seed = seed;
     tile_start(tile, rect, job.film_rect, &job.scene->filter, true);
     arena_reset(&pass.work->arena);
@@ -62,7 +60,7 @@ static void take_sample(const struct first_light_job *f, int x, int y, uint64_t 
     add_sample(tile, value);
 }
 
-static void work(void *context, int64_t job, int slot, int thread)
+static void measure_pixel(void *context, int64_t job, int slot, int thread)
 {
     struct first_light_job *f = context;
     struct pixel_rect all = f->job.film_rect;
@@ -90,13 +88,12 @@ static bool commit(void *context, int64_t job, int slot)
 
 static struct moments moments_of(const struct first_light_job *f, int i, double bright)
 {
-    struct moments m = {0, 0, 0};
+    struct moments m = {0, 0};
     for (int64_t k = 0; k < f->n; k++) {
         const struct pixel_sums *p = &f->pixel[k];
         double scale = sqr(0.375 * (p->mean[0][ALL] + p->mean[1][ALL]) + 0.25 * bright) + 1e-30;
         double V = sqr(p->mean[0][i] - p->mean[1][i]) / 2;
         m.square += fmin(p->square[i] / scale, OUTLIER);
-        m.single += fmin(fmax(p->square[i] - p->mean[0][i] * p->mean[1][i], 0) / scale, OUTLIER);
         m.sequence += fmin(V / scale, OUTLIER);
     }
     return m;
@@ -104,12 +101,7 @@ static struct moments moments_of(const struct first_light_job *f, int i, double 
 
 static double credit_of(struct moments m)
 {
-    if (!(m.square > 0))
-        return 1;
-    if (!(SEQUENCE * m.sequence * MOST_CREDIT > m.square))
-        return MOST_CREDIT;
-    double gain = fmax(m.single / (SEQUENCE * m.sequence), 1);
-    return clamp(m.square / m.single * m_pow(gain, SLOPE), 1, MOST_CREDIT);
+    return m.square > 0 ? fmax(m.square / fmax(SEQUENCE * m.sequence, m.square / MOST_CREDIT), 1) : 1;
 }
 
 static void choose(const struct first_light_job *f, struct first_light *out)
@@ -121,21 +113,20 @@ static void choose(const struct first_light_job *f, struct first_light *out)
     out->delta = credit_of(moments_of(f, DELTA, bright));
 }
 
-void first_light_measure(const struct render_job *job, const struct count_model *model, struct first_light *out)
+void first_light_measure(const struct render_job *job, const struct count_model *model, struct workspace *work,
+                         struct first_light *out)
 {
-    struct first_light_job f = {.job = *job, .counts = {{1, 1}, {1, 1}, {1, 1}, .model = model}};
+    struct first_light_job f = {.job = *job, .counts = {{1, 1}, {1, 1}, {1, 1}, .model = model}, .work = work};
     double pixels = (double)rect_width(job->film_rect) * rect_height(job->film_rect);
     f.n = int_within(SAMPLES_PER_PIXEL * pixels / (2 * SEQUENCE), 64, MOST_PIXELS);
     f.job.seed = hash_combine(job->seed, 0x9e3779b97f4a7c15u);
-    f.work = workspaces_new(job->n_threads, job->max_depth);
     f.tile = mem_alloc((size_t)job->n_threads, sizeof *f.tile);
     f.pixel = mem_alloc((size_t)f.n, sizeof *f.pixel);
-    struct parallel_jobs jobs = {f.n, job->n_threads, (int)f.n, &f, work, commit, NULL};
+    struct parallel_jobs jobs = {f.n, job->n_threads, (int)f.n, &f, measure_pixel, commit, NULL};
     f.n = parallel_run(&jobs);
     choose(&f, out);
     for (int i = 0; i < job->n_threads; i++)
         tile_free(&f.tile[i]);
-    workspaces_free(f.work, job->n_threads);
     free(f.tile);
     free(f.pixel);
 }

@@ -1,8 +1,9 @@
-/* subspaces_state.h: the state of `select = subspaces`, which the pilot completes. */
+/* subspaces_state.h: the state of `select = subspaces` (integrators/subspaces.c), which the pilot completes. */
 #ifndef ASBDPT_SUBSPACES_STATE_H
 #define ASBDPT_SUBSPACES_STATE_H
 
-#include "integrators/asbdpt.h"
+#include "learning/learnt.h"
+#include "transport/pixel_sample.h"
 
 struct subspaces_state {
     struct frozen frozen;         /* lights and path_pixels are the pilot's to choose */

@@ -1,5 +1,5 @@
 /* font.c: see font.h. */
-#include "look/font.h"
+#include "lab/font.h"
 
 #include <string.h>
 

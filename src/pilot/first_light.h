@@ -6,8 +6,7 @@
  *     E[X^2] / (N V_N),
  * where X is what a sample brings and V_N the variance of the mean of N samples of a pixel [Grittmann 2019]. It is
  * measured: some pixels take 16 samples by path tracing, twice, with numbers of their own; half the squared difference
- * of the two means is V_16. As N grows, E[X^2] / (N V_N) is thought to keep the slope it has from 1 to 16; it is taken
- * where N = 64, whatever number is asked for.
+ * of the two means is V_16.
  *
  * Tests: test_pilot.c.
  */
@@ -21,8 +20,10 @@ struct first_light {
     double delta; /* of s = 1, for those that s = 0 cannot */
 };
 
-/* first_light_measure: for the lights as `model` chooses them. Traces as many eye
- * sub-paths as the picture has pixels, or a few more, but at most 32768, unless job->watch ends it. */
-void first_light_measure(const struct render_job *job, const struct count_model *model, struct first_light *out);
+/* first_light_measure: for the lights as `model` chooses them. Traces as many eye sub-paths as the picture has pixels,
+ * or a few more, but at most 32768, unless job->watch ends it.
+ *   work  [job->n_threads] */
+void first_light_measure(const struct render_job *job, const struct count_model *model, struct workspace *work,
+                         struct first_light *out);
 
 #endif

@@ -1,25 +1,25 @@
 /* pilot.c: see pilot.h. */
-#include "integrators/pilot.h"
+#include "pilot/pilot.h"
 
 #include <string.h>
 
 #include "base/maths.h"
 #include "base/number.h"
-#include "integrators/first_light.h"
-#include "integrators/noise.h"
+#include "pilot/first_light.h"
 
 /* Samples per eye vertex (per pixel) of each kind while the pilot runs, and in its absence. The choice moves from the
  * latter by BOLDNESS of the way, on a logarithmic scale: more samples of a kind also take over weight from others, so
  * its variance falls more slowly than 1/n. */
 static const double TRIED[N_KINDS] = {4, 4, 4, 0.25}, USUAL[N_KINDS] = {3, 1, 2, 0.25};
 static const double BOLDNESS = 2.0 / 3;
-static const double MOST_CREDIT = 4;
+
+/* Draws are stratified over the pool: the weights count them for more than as many independent samples. */
+static const double DRAW_CREDIT = 2;
 
 /* What the pilot finds. */
 struct choice_of_numbers {
-    double n[N_KINDS];      /* samples */
-    double credit[N_KINDS]; /* of DRAW_FIRST and DRAW_LATER */
-    bool light_paths;       /* are there to be any? */
+    double n[N_KINDS]; /* samples */
+    bool light_paths;  /* are there to be any? */
 };
 
 /* In units of a ray that looks for the closest hit; the factors were measured. */
@@ -47,23 +47,16 @@ static bool light_paths_pay(const struct costs *c, const double *n, const struct
     return (s->total + s->tail) * paths > KEEPING * s->total * all;
 }
 
-/* What samples are worth to the weights, compared with independent ones: second moment over variance. */
-static double credit_of(double square, double spread)
-{
-    return spread > 0 ? clamp(square / spread, 1, MOST_CREDIT) : 1;
-}
-
 static void choose(const struct costs *c, const struct noise *s, struct choice_of_numbers *out)
 {
     const double LEAST = 0.2, LEAST_PATH = 0.02; /* shares of the variance that A and light sub-paths have at least */
     double A = fmax(s->total - s->given_eye, LEAST * s->total), b[N_KINDS], drawn = 0;
     for (int k = 0; k < LIGHT_PATH; k++)
         drawn += b[k] = s->spread[k];
-    b[LIGHT_PATH] = fmax(fmax(s->given_paths, s->blocks) - drawn, LEAST_PATH * s->total);
+    b[LIGHT_PATH] = fmax(fmax(s->given_eye, s->blocks) - drawn, LEAST_PATH * s->total);
     for (int k = 0; k < N_KINDS; k++) {
         double best = c->each[k] > 0 ? sqrt(b[k] * TRIED[k] / c->each[k] * c->fixed / A) : USUAL[k];
         out->n[k] = USUAL[k] * m_pow(fmax(best, 1e-3) / USUAL[k], BOLDNESS);
-        out->credit[k] = credit_of(s->square[k], s->spread[k]);
     }
     out->light_paths = light_paths_pay(c, out->n, s);
 }
@@ -79,7 +72,7 @@ static void set_numbers(struct subspaces_state *s, const struct choice_of_number
     f->counts.direct[FIRST_HIT] = light->broad * f->lights;
     f->counts.delta[FIRST_HIT] = light->delta * f->lights;
     for (int end = 0; end < EYE_ENDS; end++)
-        f->counts.connect[end] = c->light_paths ? c->credit[DRAW_FIRST + end] * s->draws[end] : 0;
+        f->counts.connect[end] = c->light_paths ? DRAW_CREDIT * s->draws[end] : 0;
 }
 
 void pilot_set_draws(struct subspaces_state *s, double C)
@@ -104,20 +97,20 @@ static bool paths_suffice(const struct scene *scene)
     return !(delta_light && delta_lobe);
 }
 
-void pilot_run(const struct render_job *job, bool free_choice, struct preparation *method)
+void pilot_run(const struct render_job *job, const struct pilot_method *method, bool free_choice,
+               struct subspaces_state *s)
 {
-    struct subspaces_state *s = method->state;
-    struct choice_of_numbers choice = {.credit = {1.5, 1.5}, .light_paths = true};
+    struct choice_of_numbers choice = {.light_paths = true};
     struct first_light light;
     struct noise sums;
     struct costs costs = costs_of(&s->learnt.importance);
     struct render_job other = *job;
     other.seed = hash_combine(job->seed, 0x3c6ef372fe94f82bu); /* unlike the render's */
-    first_light_measure(&other, &s->learnt.model, &light);
+    first_light_measure(&other, &s->learnt.model, method->work, &light);
     memcpy(choice.n, TRIED, sizeof choice.n);
     set_numbers(s, &choice, &light);
     s->frozen.counts.splat = pixel_light_count(job) / s->frozen.path_pixels;
-    bool complete = noise_measure(&other, method, TRIED, noise_tiles(job), &sums);
+    bool complete = noise_measure(&other, method, s, TRIED, noise_tiles(job), &sums);
     memcpy(choice.n, USUAL, sizeof choice.n);
     if (sums.total > 0 && complete)
         choose(&costs, &sums, &choice);

@@ -8,20 +8,21 @@
  * noise.h measures A and b_c. Costs are counted in rays, not in seconds: the choice must be the same on every machine.
  * The same product says whether light sub-paths pay at all. [Grittmann 2022] chooses among given candidates by it.
  *
- * It also settles the credit of each kind (mis.h): how much more a sample is worth to the weights than an independent
- * one, the ratio of its second moment to its variance [Grittmann 2019]; first_light.h has those of s <= 1.
+ * It also settles how much more the samples of s <= 1 are worth to the weights than independent ones: first_light.h.
  *
  * Tests: test_pilot.c, test_asbdpt.c.
  */
 #ifndef ASBDPT_PILOT_H
 #define ASBDPT_PILOT_H
 
-#include "integrators/subspaces_state.h"
+#include "pilot/noise.h"
 
 /* pilot_run: choose draws, lights, path_pixels and the counts that go with them.
- *   p  of method_subspaces; all but these complete. It renders a number of tiles that the picture's size alone decides,
- *      unless job->watch ends it; then usual numbers are taken */
-void pilot_run(const struct render_job *job, bool free_choice, struct preparation *p);
+ *   free_choice  may there be no light sub-paths?
+ *   s            all but these complete. A number of tiles that the picture's size alone decides is rendered by
+ *                `method`, unless job->watch ends it; then usual numbers are taken */
+void pilot_run(const struct render_job *job, const struct pilot_method *method, bool free_choice,
+               struct subspaces_state *s);
 
 /* pilot_set_draws: C draws per eye vertex, whatever was chosen. */
 void pilot_set_draws(struct subspaces_state *s, double C);

@@ -5,7 +5,7 @@
 #ifndef ASBDPT_SHEET_H
 #define ASBDPT_SHEET_H
 
-#include "look/font.h"
+#include "lab/font.h"
 
 struct sheet {
     int width, height;

@@ -1,0 +1,32 @@
+/* halves.h: how noisy is a picture? What the difference of two halves of its samples says.
+ *
+ * The film sums every other run of iterations on its own. Of the halves A and B the picture is the mean, and (A - B)/2
+ * has the variance of that mean, if samples of different runs are independent. Nothing that is in the picture is left
+ * out: neither splats nor what strategies, and neighbouring pixels, have in common. A single pixel tells little so. The
+ * picture is cut into blocks; the noise is the root of the mean, over all values of the picture, of
+ *     NOISE_RELATIVE  ((A - B)/2)^2 / (m^2 + 0.01), m being the mean of the block: relative to the brightness around
+ *     NOISE_8_BIT     the same difference squared in levels of 8-bit pictures: what `compare` measures as rmse8.
+ *
+ * It is no bias, of which both halves have the same. It is too high where runs fill each other's gaps (sampler.h): by
+ * a factor of 1.1 to 1.5 where lighting is smooth (doc/noise.md). And it is too low, as all that samples say of
+ * themselves, where fireflies are still to come.
+ *
+ * The noise's own standard error comes from the sums over blocks, which are as large as the largest tile, where the
+ * picture is large enough, since pixels of a tile may share light sub-paths: from half the squared difference of each
+ * block from the one before. Where blocks differ by more than chance it is too large.
+ *
+ * Tests: test_halves.c.
+ */
+#ifndef ASBDPT_HALVES_H
+#define ASBDPT_HALVES_H
+
+#include "scene/film.h"
+
+/* halves_run: iterations of a run where tile passes have blocks of so many. */
+int halves_run(int block);
+
+/* halves_noise: set film->noise, for the picture at this scale, if the film keeps halves and they are of one size and
+ * not empty. Returns whether it has. */
+bool halves_noise(struct film *film, double scale);
+
+#endif

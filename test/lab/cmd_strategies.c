@@ -1,0 +1,87 @@
+/* cmd_strategies.c: asbdpt-lab strategies: a picture of every strategy (s,t) alone, unweighted and weighted, all from
+ * one render, and all of them on one sheet. */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "cli/job_options.h"
+#include "image/image.h"
+#include "lab/commands.h"
+#include "lab/pyramid.h"
+#include "render/parameters.h"
+
+/* Two pictures of each: (d + 1) (d + 4) for paths of up to d + 1 edges. */
+enum { STRATEGIES_MAX_DEPTH = 20 };
+
+struct strategies_options {
+    struct job_options job;
+    const char *directory;
+};
+
+#define AT(member) offsetof(struct strategies_options, member)
+static const struct option OPTIONS[] = {
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .file = FILE_READ, .help = "a scene file"},
+    {"-o", "DIR", OPTION_TEXT, AT(directory), 1,
+     .help = "a directory for d01_s00_t03_weighted.pfm and so on, and pyramid.png"},
+    {.others = RUN_OPTIONS},
+};
+
+static bool write_picture(const char *directory, const struct film *film, double scale, int s, int t, bool weighted,
+                          struct error *err)
+{
+    char path[4096];
+    float *pixels = pyramid_strategy(film, scale, s, t, weighted);
+    snprintf(path, sizeof path, "%s/d%02d_s%02d_t%02d_%s.pfm", directory, s + t - 2, s, t,
+             weighted ? "weighted" : "unweighted");
+    bool ok = image_write(path, rect_width(film->rect), rect_height(film->rect), pixels, err);
+    free(pixels);
+    return ok;
+}
+
+static bool write_all(const char *directory, const struct film *film, double scale, struct error *err)
+{
+    bool ok = true;
+    char path[4096];
+    for (int edges = 1; edges <= film->strategies->max_depth + 1; edges++)
+        for (int s = 0; ok && s <= edges; s++)
+            ok = write_picture(directory, film, scale, s, edges + 1 - s, false, err) &&
+                 write_picture(directory, film, scale, s, edges + 1 - s, true, err);
+    snprintf(path, sizeof path, "%s/pyramid.png", directory);
+    return ok && pyramid_write(path, film, scale, err);
+}
+
+static bool render(const struct scene *scene, const struct method *m, struct render_options o, const char *directory,
+                   struct error *err)
+{
+    struct film film;
+    if (m->chain)
+        return error_set(err, "%s keeps no record of its paths", m->name);
+    if (!parameters_max_depth(scene, o.max_depth, &o.max_depth, err))
+        return false;
+    if (o.max_depth > STRATEGIES_MAX_DEPTH)
+        return error_set(err, "paths of up to %d edges have %d pictures; --maxdepth %d is the most here",
+                         o.max_depth + 1, (o.max_depth + 1) * (o.max_depth + 4), STRATEGIES_MAX_DEPTH);
+    film_init(&film, render_crop(scene), scene->width, scene->height);
+    film_keep_strategies(&film, o.max_depth);
+    bool ok = render_scene(scene, &o, &film, err) && write_all(directory, &film, scene->film_scale, err);
+    film_free(&film);
+    return ok;
+}
+
+static int run(void *options)
+{
+    struct strategies_options *o = options;
+    struct scene scene;
+    const struct method *m;
+    struct error err;
+    int status = file_make_directory(o->directory, &err) ? job_load(&o->job, &scene, &m) : fail(&err);
+    if (status != EXIT_OK)
+        return status;
+    bool ok = render(&scene, m, job_render(&o->job, &scene, m), o->directory, &err);
+    scene_free(&scene);
+    return ok ? EXIT_OK : fail(&err);
+}
+
+const struct command command_strategies = {
+    "strategies", "every strategy (s,t) alone, unweighted and weighted", {"SCENE.pbrt -o DIR [options]"}, OPTIONS,
+    sizeof(struct strategies_options), run, false,
+    "strategies scenes/cornell-box.pbrt --quick --spp 64 --maxdepth 3 -o out/box"};

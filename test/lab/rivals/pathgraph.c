@@ -1,0 +1,279 @@
+/* pathgraph.c: eye vertices nearby take each other's light for their own. Biased.
+ *
+ * Path graphs [Deng 2021]. From each vertex j of an eye sub-path two edges lead: one to a point on a light, drawn with
+ * density q (1/sr), and the one along which the walk went on, with density p. Vertices of a tile that lie in one cell
+ * of a grid, face one way and have as many vertices before them form clusters, in which each takes over the edges of
+ * all M, as if what comes along an edge to one came to the others, too. Over the edges i, of direction w_i,
+ *     L_j = sum f_j(w_i) |cos| Le_i / sum_m (p_m + q_m)(w_i) + sum f_j(w_i) |cos| L_i / sum_m p_m(w_i),
+ * Le_i being what lights send along the edge and L_i, of edges of the second kind, what the next vertex sends on: the
+ * balance heuristic over members m. The bias is that of another's light and visibility; it falls with the radius, and
+ * in a cluster of one L_j is what path tracing finds.
+ *
+ * The paper's graph has circles, and is gone through again and again. Here vertices are joined with those of equal
+ * depth alone, since paths have a longest length, and one sweep from the last vertices to the first has it all. What
+ * the camera sees, itself or in mirrors, is in no cluster: pixels share what lies behind it, so that edges stay sharp.
+ * The grid lies elsewhere in every iteration.
+ *
+ * Light that comes over an edge has the length of the path that found it. To strategies and trace the first vertex is a
+ * lamp. Where caustics or cones are asked for, which are made of whole paths, the method is `pt`.
+ *
+ * Tests: test_rivals.c.
+ */
+#include <stddef.h>
+#include <stdlib.h>
+
+#include "rivals/reuse.h"
+
+enum { LARGEST_CLUSTER = 64, ALONE = 6 };
+
+struct pathgraph_state {
+    struct frozen frozen;
+    int cluster;   /* most vertices of one */
+    double radius; /* side of the grid's cells over the radius of the scene's bounding sphere */
+};
+
+struct node {
+    const struct vertex *z;
+    bool ends;       /* there is no next vertex: else it is z + 1, and the next node is its own */
+    vec3 w;          /* to the point on a light, unit */
+    rgb Le;          /* what comes from there; black if nothing does */
+    double q;        /* of w, 1/sr; 0: of a light without extent, and Le is over its density */
+    double length;   /* of the path by way of it */
+    rgb L[2];        /* what it sends on: of paths shorter than the gate's end; than its beginning */
+    vec3 cell;       /* of the grid */
+    int face;        /* which way it faces, ALONE: it is in no cluster; */
+    int number;      /* so that no two are equal */
+    rgb f;           /* at work: towards an edge, with the cosine; */
+    double p;        /* and the density of the walk's going there */
+};
+
+/* --- edges ------------------------------------------------------------------------------------------- */
+
+/* The edge to a light: as connect_light_point draws it, but that others may scatter where this vertex has f = 0. */
+static void draw_light(struct pixel_sample *sample, struct node *node)
+{
+    const struct light_set *lights = &sample->scene->lights;
+    const struct vertex *z = node->z;
+    struct lit l = {.z = z};
+    double u[3], pmf;
+    u[0] = sampler_number(&sample->sampler, DRAW_LIGHT);
+    sampler_pair(&sample->sampler, DRAW_LIGHT_POINT, &u[1]);
+    if (!vertex_connectible(z) || lights->choice.n == 0)
+        return;
+    l.at.cell = alias_sample(&lights->choice, u[0], &pmf, NULL);
+    if (!light_sample_cell(lights, &sample->scene->geo, l.at.cell, u[1], u[2], &l.at) || !(l.at.pdf > 0))
+        return;
+    const struct light *light = &lights->light[l.at.light];
+    bool parallel = light_at_infinity(light);
+    vec3 d = parallel ? l.at.w : sub(l.at.p, z->p);
+    double d2 = length2(d);
+    if (!(d2 > 0))
+        return;
+    node->w = mul(d, 1 / sqrt(d2));
+    rgb Le = light_Le(lights, &l.at, neg(node->w));
+    double at_light = (light->kind == LIGHT_AREA ? abs_dot(l.at.n, node->w) : 1) / (parallel ? 1 : d2);
+    double density = pmf * l.at.pdf_cell / at_light;
+    if (rgb_is_black(Le) || !(at_light > 0) || !bsdf_may_scatter(&z->bsdf, z->wo, node->w) ||
+        !lit_visible(sample->scene, &l))
+        return;
+    bool delta = light_is_delta(light);
+    node->length = z->length + (parallel ? light_distance(lights, z->p, node->w) : sqrt(d2));
+    node->Le = delta ? rgb_scale(Le, 1 / density) : Le;
+    node->q = delta ? 0 : density;
+}
+
+/* Ask the members for f and p towards w. Returns the sum of their p, raised as the heuristic has it; *able: how many
+ * take light from there. */
+static double ask(struct node **member, int n, const struct mis_counts *counts, vec3 w, int *able)
+{
+    double sum = 0;
+    *able = 0;
+    for (int m = 0; m < n; m++) {
+        const struct vertex *z = member[m]->z;
+        struct bsdf_value b = bsdf_eval(&z->bsdf, z->wo, w, RADIANCE);
+        member[m]->f = rgb_scale(b.f, scatter_cosine(z, w, RADIANCE));
+        member[m]->p = b.pdf;
+        sum += mis_raise(counts, b.pdf);
+        *able += bsdf_may_scatter(&z->bsdf, z->wo, w);
+    }
+    return sum;
+}
+
+/* What comes along an edge goes on from all members. */
+static void share(struct node **member, int n, rgb light, int k)
+{
+    for (int m = 0; m < n; m++)
+        member[m]->L[k] = rgb_add(member[m]->L[k], rgb_mul(member[m]->f, light));
+}
+
+/* Is a path one of L[k]? */
+static bool counts_for(const struct pixel_sample *sample, double length, int k)
+{
+    return gate_before(length, k == 0 ? sample->tile->gate.end : sample->tile->gate.begin);
+}
+
+/* The edge of one member to a light, to all. */
+static void aggregate_light(const struct pixel_sample *sample, struct node **member, int n, const struct node *from)
+{
+    int able;
+    double sum = ask(member, n, sample->counts, from->w, &able), own = mis_raise(sample->counts, from->q);
+    rgb light = rgb_scale(from->Le, from->q > 0 ? own / ((sum + able * own) * from->q) : 1.0 / able);
+    for (int k = 0; k < 2; k++)
+        if (counts_for(sample, from->length, k))
+            share(member, n, light, k);
+}
+
+/* The edge that leads on, to all; to the member alone if it left by a delta lobe. */
+static void aggregate_next(const struct pixel_sample *sample, struct node **member, int n, struct node *from)
+{
+    const struct mis_counts *counts = sample->counts;
+    const struct vertex *next = from->z + 1;
+    const struct connection hit = reuse_hit(sample, from->z, next, 3, rgb_grey(1));
+    int able;
+    double roulette, sum = ask(member, n, counts, neg(next->wo), &able), p = from->p;
+    double all = sum + able * mis_raise(counts, p * reuse_hit_density(next));
+    rgb step = reuse_step(from->z, next, &roulette);
+    for (int k = 0; k < 2; k++) {
+        rgb Le = counts_for(sample, hit.length, k) ? hit.value : rgb_black();
+        if (next->prev_delta)
+            from->L[k] = rgb_add(from->L[k], rgb_mul(step, rgb_add(Le, from[1].L[k])));
+        else
+            share(member, n, rgb_scale(rgb_add(rgb_scale(Le, sum / all), from[1].L[k]),
+                                       roulette * mis_raise(counts, p) / (sum * p)), k);
+    }
+}
+
+/* --- clusters ---------------------------------------------------------------------------------------- */
+
+static int by_number(double a, double b) { return (a > b) - (a < b); }
+
+static int by_place(const void *a, const void *b)
+{
+    const struct node *x = *(struct node *const *)a, *y = *(struct node *const *)b;
+    int order[] = {x->face - y->face, by_number(x->cell.x, y->cell.x), by_number(x->cell.y, y->cell.y),
+                   by_number(x->cell.z, y->cell.z), x->number - y->number};
+    int k = 0;
+    while (k < 4 && order[k] == 0)
+        k++;
+    return order[k];
+}
+
+/* Which cell, and which of the six ways its side that is seen faces. */
+static void place(struct node *node, const struct scene *scene, double side, vec3 shift)
+{
+    node->face = ALONE;
+    if (node->z->eye_end == FIRST_HIT || !vertex_connectible(node->z))
+        return;
+    vec3 p = add(mul(sub(node->z->p, scene->lights.center), 1 / side), shift);
+    vec3 n = dot(node->z->ng, node->z->wo) < 0 ? neg(node->z->ng) : node->z->ng;
+    vec3 cell = {floor(p.x), floor(p.y), floor(p.z)}, a = {fabs(n.x), fabs(n.y), fabs(n.z)};
+    node->cell = cell;
+    if (a.x >= a.y && a.x >= a.z)
+        node->face = n.x > 0;
+    else
+        node->face = a.y >= a.z ? 2 + (n.y > 0) : 4 + (n.z > 0);
+}
+
+static bool together(const struct node *a, const struct node *b)
+{
+    return a->face == b->face && a->cell.x == b->cell.x && a->cell.y == b->cell.y && a->cell.z == b->cell.z;
+}
+
+/* What n vertices of equal depth send on. */
+static void aggregate_all(const struct pathgraph_state *s, const struct pixel_sample *sample, struct node **node, int n,
+                          vec3 shift)
+{
+    for (int i = 0; i < n; i++)
+        place(node[i], sample->scene, s->radius * sample->scene->lights.radius, shift);
+    qsort(node, (size_t)n, sizeof *node, by_place);
+    for (int i = 0, end; i < n; i = end) {
+        end = i + 1;
+        while (node[i]->face != ALONE && end < n && end - i < s->cluster && together(node[i], node[end]))
+            end++;
+        for (int k = i; k < end; k++) {
+            if (!rgb_is_black(node[k]->Le))
+                aggregate_light(sample, &node[i], end - i, node[k]);
+            if (!node[k]->ends)
+                aggregate_next(sample, &node[i], end - i, node[k]);
+        }
+    }
+}
+
+/* --- tiles ------------------------------------------------------------------------------------------- */
+
+/* The graph, from the last vertices to the first; longest: vertices of the longest eye sub-path. */
+static void sweep(const struct pathgraph_state *s, struct pooled_pixel *pixel, struct node **of, int n, int longest,
+                  struct arena *arena, vec3 shift)
+{
+    struct node **level = arena_alloc(arena, (size_t)n * sizeof *level);
+    for (int t = longest; t >= 2; t--) {
+        int here = 0;
+        for (int i = 0; i < n; i++)
+            if (t <= pixel[i].n && pixel[i].eye[t - 1].kind == VERTEX_SURFACE)
+                level[here++] = &of[i][t - 1];
+        aggregate_all(s, &pixel[0].sample, level, here, shift);
+    }
+}
+
+/* What the first vertex shines, and sends on. */
+static void add_pixel(struct pooled_pixel *p, const struct node *first)
+{
+    struct pixel_sample *sample = &p->sample;
+    const struct vertex *z = first->z;
+    struct connection c = connect_hit(sample->scene, sample->counts, z - 1, z, 2);
+    pixel_sum_connection(sample, &c, 0, 2, 1);
+    c.value = rgb_mul(z->beta, first->L[0]);
+    c.weight = 1;
+    c.length = sample->tile->gate.begin; /* so that it is added to `until` and not to `before` */
+    pixel_sum_connection(sample, &c, 0, 2, 1);
+    rgb before = rgb_scale(rgb_mul(z->beta, first->L[1]), sample->filter_weight);
+    sample->before = rgb_add(sample->before, before);
+}
+
+static void connect_all(void *scratch, const void *state, const struct tile_pass *pass, struct pooled_pixel *pixel,
+                        int n)
+{
+    const struct pathgraph_state *s = state;
+    struct arena *arena = &pass->work->arena;
+    struct node **of = arena_alloc(arena, (size_t)n * sizeof *of);
+    bool whole = pass->job->caustics > 0 || pass->job->regularise > 0;
+    int longest = 0;
+    (void)scratch;
+    for (int i = 0; i < n; i++) {
+        struct pooled_pixel *p = &pixel[i];
+        if (whole)
+            pixel_sum_eye(&p->sample, p->eye, p->n);
+        of[i] = arena_alloc(arena, (size_t)p->n * sizeof **of);
+        for (int t = 1; t <= p->n; t++) {
+            struct node node = {.z = &p->eye[t - 1], .ends = t == p->n, .number = i};
+            if (!whole && node.z->kind == VERTEX_SURFACE && t <= p->sample.max_depth + 1)
+                draw_light(&p->sample, &node);
+            of[i][t - 1] = node;
+        }
+        longest = p->n > longest ? p->n : longest;
+    }
+    if (whole)
+        return;
+    vec3 shift;
+    shift.x = sampler_number(&pixel[0].draws, DRAW_ORDER);
+    shift.y = sampler_number(&pixel[0].draws, DRAW_ORDER);
+    shift.z = sampler_number(&pixel[0].draws, DRAW_ORDER);
+    sweep(s, pixel, of, n, longest, arena, shift);
+    for (int i = 0; i < n; i++)
+        if (pixel[i].n >= 2)
+            add_pixel(&pixel[i], &of[i][1]);
+}
+
+#define AT(member) offsetof(struct pathgraph_state, member)
+static const struct method_parameter PARAMETERS[] = {
+    {"cluster", PARAMETER_INTEGER, AT(cluster), 16, 1, LARGEST_CLUSTER, "most vertices that share their light; 1: pt",
+     NULL},
+    {"radius", PARAMETER_NUMBER, AT(radius), 0.05, 1e-6, 10, "how far apart they may be, in radii of the scene", NULL},
+    {.name = NULL}};
+
+const struct method method_pathgraph = {
+    .name = "pathgraph", .merges = true,
+    .help = "path graphs [Deng 2021]: pt whose vertices share what lights them with others; biased",
+    .parameters = PARAMETERS, .state_size = sizeof(struct pathgraph_state), .scratch_size = sizeof(struct light_pool),
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = reuse_prepare, .render = pooled_render,
+    .connect_all = connect_all};

@@ -1,0 +1,229 @@
+/* restirgi.c: what second vertices are lit by is resampled, and shared with pixels nearby.
+ *
+ * Reservoirs for paths [Ouyang 2021] within one picture, without time, and unbiased. A path goes from the lens to the
+ * pixel's first vertex z1, to z2, and on along a tail: a point on a light (s = 1), or a next vertex with all that the
+ * walk finds from there on. With f_i(x) the luminance, weighed, of what z2 and tail x bring to pixel i:
+ *  1. Each pixel i makes one eye sub-path, whose tails it offers, each with density p; one is kept in proportion to
+ *     f_i / p, with the weight
+ *         W_i = (1/f_i(x)) sum f_i / p:    E[h(x) W_i] = integral of h where f_i V_i > 0.
+ *  2. Pixel c keeps one of its own and those of up to N pixels of the tile with a like first vertex, the set S, in
+ *     proportion to f_c(x_j) W_j. Of the one kept, x from pixel s,
+ *         X = F_c(x) (m / f_c(x)) sum_j f_c(x_j) W_j,    m = f_s(x) V_s(x) / sum over k in S of f_k(x) V_k(x),
+ *     V: do z1 and z2 see each other? S depends on first vertices alone, so X is exact.
+ *
+ * Densities are of z2's area: a walk's, 1/sr, times g = |cos| / distance^2. The ratio of two pixels' g is the Jacobian
+ * of taking over a direction; where it is below a tenth or above ten nothing is taken over, which m must know, too. How
+ * z2 scatters is found anew for each pixel, and with it the weight of s = 0 against s = 1 there.
+ *
+ * What does not go by z1 and z2 so that both scatter smoothly is path tracing's, as are all paths of pixels that are
+ * alone: without neighbours the method is `pt` to the bit.
+ *
+ * Tests: test_rivals.c.
+ */
+#include <stddef.h>
+
+#include "rivals/reuse.h"
+
+struct restirgi_state {
+    struct frozen frozen;
+    int neighbours; /* N */
+};
+
+/* z2, and one way in which light comes to it. */
+struct tail {
+    enum { POINT, HIT, LATER } kind; /* a point drawn on a light, s = 0 at the next vertex, anything behind that */
+    const struct vertex *z;          /* z2 */
+    vec3 w;                          /* from there on, unit */
+    rgb L;                           /* what comes from there, over its density from the next vertex on */
+    double light;  /* density, 1/sr, with which w is drawn on lights; LATER: the weight, which is known */
+    double length; /* of what follows z2 */
+    int s, t;
+};
+
+struct reservoir {
+    struct tail x;
+    double weight; /* W; 0: nothing has been kept */
+    double g;      /* of its own pixel */
+    bool shares;   /* is the pixel of those that share? */
+};
+
+/* What pixel p has of a tail, if z1 and z2 see each other. Returns f; *g as above. */
+static double value_at(const struct pooled_pixel *p, const struct tail *x, struct connection *out, double *g)
+{
+    const struct vertex *z = &p->eye[1];
+    const struct mis_counts *counts = p->sample.counts;
+    vec3 d = sub(x->z->p, z->p);
+    double d2 = length2(d);
+    struct connection c = {.light = -1, .cell = -1, .weight = x->light, .length = z->length + sqrt(d2) + x->length};
+    *out = c;
+    *g = 0;
+    if (!(d2 > 0) || !bsdf_may_scatter(&z->bsdf, z->wo, d) || !bsdf_may_scatter(&x->z->bsdf, neg(d), x->w))
+        return 0;
+    vec3 w = mul(d, 1 / sqrt(d2));
+    struct bsdf_value at1 = bsdf_eval(&z->bsdf, z->wo, w, RADIANCE);
+    struct bsdf_value at2 = bsdf_eval(&x->z->bsdf, neg(w), x->w, RADIANCE);
+    double cosines = scatter_cosine(z, w, RADIANCE) * scatter_cosine(x->z, x->w, RADIANCE);
+    *g = abs_dot(x->z->ng, w) / d2;
+    c.value = rgb_scale(rgb_mul(rgb_mul(z->beta, at1.f), rgb_mul(at2.f, x->L)), cosines * *g);
+    double both = mis_raise(counts, x->light) + mis_raise(counts, at2.pdf);
+    if (x->kind != LATER && both > 0)
+        c.weight = mis_raise(counts, x->kind == POINT ? x->light : at2.pdf) / both;
+    *out = c;
+    return rgb_luminance(c.value) * c.weight;
+}
+
+/* --- step 1 ------------------------------------------------------------------------------------------ */
+
+/* A tail of the pixel's own, made with that density; *sum of f / p of those before. */
+static void offer(struct pooled_pixel *p, struct reservoir *r, const struct tail *x, double density, double *sum)
+{
+    struct connection c;
+    double g, f = value_at(p, x, &c, &g);
+    if (!(f > 0))
+        return;
+    *sum += f / density;
+    if (sampler_number(&p->draws, DRAW_ORDER) * *sum < f / density) {
+        r->x = *x;
+        r->g = g;
+        r->weight = 1 / f; /* times the sum, in the end */
+    }
+}
+
+/* z2's own light point. */
+static void offer_point(struct pooled_pixel *p, struct reservoir *r, const struct vertex *z, double *sum)
+{
+    const struct scene *scene = p->sample.scene;
+    struct lit l;
+    if (p->sample.max_depth < 2 ||
+        !connect_light_point(scene, p->sample.counts, z, &p->sample.sampler, 0, 1, &l) || !lit_visible(scene, &l))
+        return;
+    const struct light *light = &scene->lights.light[l.at.light];
+    bool parallel = light_at_infinity(light), delta = light_is_delta(light);
+    vec3 d = parallel ? l.at.w : sub(l.at.p, z->p);
+    double distance = length(d), density = l.pdf / l.at_light;
+    vec3 w = mul(d, 1 / distance);
+    struct tail x = {delta ? LATER : POINT, z, w, light_Le(&scene->lights, &l.at, neg(w)), delta ? 1 : density,
+                     parallel ? light_distance(&scene->lights, z->p, w) : distance, 1, 3};
+    offer(p, r, &x, z->pdf_fwd * density, sum);
+}
+
+/* What the walk has found behind z2: shared, if z2 was not left by a delta lobe, else the pixel's own. */
+static void offer_later(struct pooled_pixel *p, struct reservoir *r, const struct vertex *z, double *sum)
+{
+    struct pixel_sample *sample = &p->sample;
+    bool own = z[1].prev_delta;
+    double roulette, later;
+    struct tail x = {.z = z, .w = neg(z[1].wo)};
+    rgb beta = own ? z[1].beta : rgb_grey(1);
+    reuse_step(z, &z[1], &roulette);
+    double pdf = bsdf_eval(&z->bsdf, z->wo, x.w, RADIANCE).pdf, density = z->pdf_fwd * pdf / roulette;
+    for (x.t = 4; x.t <= p->n; x.t++) {
+        struct vertex at = p->eye[x.t - 1];
+        at.beta = beta;
+        for (x.s = 0; x.s <= (at.kind == VERTEX_SURFACE && x.t <= sample->max_depth + 1); x.s++) {
+            struct connection c =
+                x.s == 0 ? reuse_hit(sample, &p->eye[x.t - 2], &p->eye[x.t - 1], x.t, beta)
+                         : connect_direct(sample->scene, sample->counts, &at, &sample->sampler, 0, 1);
+            x.kind = x.s == 0 && x.t == 4 ? HIT : LATER;
+            x.light = x.kind == HIT ? pdf * reuse_hit_density(&z[1]) : c.weight;
+            x.L = c.value;
+            x.length = c.length - z->length;
+            if (own)
+                pixel_sum_connection(sample, &c, x.s, x.t, 1);
+            else if (!rgb_is_black(c.value))
+                offer(p, r, &x, density, sum);
+        }
+        if (x.t < p->n)
+            beta = rgb_mul(beta, reuse_step(&p->eye[x.t - 1], &p->eye[x.t], &later));
+    }
+}
+
+/* The pixel's own reservoir; what is not shared is added. */
+static struct reservoir resample(struct pooled_pixel *p, bool shares)
+{
+    const struct vertex *eye = p->eye, *z = &eye[2];
+    struct reservoir r = {.weight = 0, .shares = shares};
+    double sum = 0;
+    if (!shares || p->n < 3 || z->prev_delta || z->kind != VERTEX_SURFACE || !vertex_connectible(z)) {
+        pixel_sum_eye(&p->sample, eye, p->n);
+        return r;
+    }
+    pixel_sum_eye(&p->sample, eye, 2);
+    struct connection hit = connect_hit(p->sample.scene, p->sample.counts, &eye[1], z, 3);
+    pixel_sum_connection(&p->sample, &hit, 0, 3, 1);
+    offer_point(p, &r, z, &sum);
+    if (p->n > 3)
+        offer_later(p, &r, z, &sum);
+    r.weight *= sum;
+    return r;
+}
+
+/* --- step 2 ------------------------------------------------------------------------------------------ */
+
+/* May one pixel take over what the other has found, their densities being g and h? */
+static bool near_enough(double g, double h) { return g < 10 * h && h < 10 * g; }
+
+/* near: S, [n] numbers of pixels, the first this one. */
+static void reuse(struct pooled_pixel *pixel, const struct reservoir *all, const int *near, int n)
+{
+    struct pooled_pixel *c = &pixel[near[0]];
+    struct connection kept = {.weight = 0}, made;
+    double sum = 0, own = 0, others = 0, offered = 0, g = 0, h;
+    int from = 0;
+    for (int j = 0; j < n; j++) {
+        const struct reservoir *r = &all[near[j]];
+        double f = r->weight > 0 ? value_at(c, &r->x, &made, &h) : 0;
+        if (!(f > 0) || !near_enough(h, r->g))
+            continue;
+        sum += f * r->weight;
+        if (sampler_number(&c->draws, DRAW_ORDER) * sum < f * r->weight) {
+            kept = made;
+            own = f;
+            g = h;
+            from = j;
+        }
+    }
+    const struct tail *x = &all[near[from]].x;
+    for (int k = 0; own > 0 && k < n; k++) {
+        const struct vertex *z = &pixel[near[k]].eye[1];
+        double f = all[near[k]].shares ? value_at(&pixel[near[k]], x, &made, &h) : 0;
+        bool seen = f > 0 && near_enough(h, g) &&
+                    (k == from || scene_visible(c->sample.scene, z->p, z->prim_id, x->z->p, x->z->prim_id));
+        if (k == 0 && !seen)
+            return;
+        others += seen ? f : 0;
+        offered = k == from ? f : offered;
+    }
+    if (own > 0)
+        pixel_sum_connection(&c->sample, &kept, x->s, x->t, offered / others * sum / own);
+}
+
+static void connect_all(void *scratch, const void *state, const struct tile_pass *pass, struct pooled_pixel *pixel,
+                        int n)
+{
+    const struct restirgi_state *s = state;
+    bool whole = pass->job->caustics > 0 || pass->job->regularise > 0; /* which add to whole eye sub-paths */
+    struct arena *arena = &pass->work->arena;
+    struct reservoir *all = arena_alloc(arena, (size_t)n * sizeof *all);
+    int *near = arena_alloc(arena, (size_t)n * (size_t)(s->neighbours + 1) * sizeof *near);
+    int *found = arena_alloc(arena, (size_t)n * sizeof *found);
+    (void)scratch;
+    for (int i = 0; i < n; i++) {
+        found[i] = reuse_neighbours(pixel, n, i, whole ? 0 : s->neighbours, &near[i * (s->neighbours + 1)]);
+        all[i] = resample(&pixel[i], found[i] > 1);
+    }
+    for (int i = 0; i < n; i++)
+        if (all[i].shares)
+            reuse(pixel, all, &near[i * (s->neighbours + 1)], found[i]);
+}
+
+static const struct method_parameter PARAMETERS[] = {
+    {"neighbours", PARAMETER_INTEGER, offsetof(struct restirgi_state, neighbours), 5, 0, MOST_NEIGHBOURS,
+     "pixels whose second vertices it shares", NULL},
+    {.name = NULL}};
+
+const struct method method_restirgi = {
+    .name = "restirgi", .help = "reservoirs [Ouyang 2021]: second vertices resampled, and shared with pixels nearby",
+    .parameters = PARAMETERS, .state_size = sizeof(struct restirgi_state), .scratch_size = sizeof(struct light_pool),
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = reuse_prepare, .render = pooled_render,
+    .connect_all = connect_all};

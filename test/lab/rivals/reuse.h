@@ -1,0 +1,41 @@
+/* reuse.h: what methods need that take over what the eye sub-paths of other pixels have found.
+ *
+ * Tests: test_rivals.c.
+ */
+#ifndef ASBDPT_REUSE_H
+#define ASBDPT_REUSE_H
+
+#include "integrators/pooled.h"
+
+enum { MOST_NEIGHBOURS = 32 };
+
+/* reuse_first: is the pixel's first vertex one to connect to? */
+static inline bool reuse_first(const struct pooled_pixel *p)
+{
+    return p->n >= 2 && vertex_connectible(&p->eye[1]);
+}
+
+/* reuse_neighbours: pixel i, and of `tries` others of the tile's n those whose first vertex is like its own in depth
+ * and normal, into near [tries + 1]; of a pixel without such a vertex none. Returns how many. They are chosen by first
+ * vertices alone. */
+int reuse_neighbours(struct pooled_pixel *pixel, int n, int i, int tries, int *near);
+
+/* reuse_step: the factor by which an eye walk's throughput has changed from one vertex to the next, in channels, too,
+ * in which it was 0; *roulette: the part of it that roulette is, unless a delta lobe was taken. */
+rgb reuse_step(const struct vertex *z, const struct vertex *next, double *roulette);
+
+/* reuse_hit: s = 0 for the last, z, of t eye vertices as if that throughput had come there. */
+struct connection reuse_hit(const struct pixel_sample *sample, const struct vertex *prev, const struct vertex *z, int t,
+                            rgb beta);
+
+/* reuse_hit_density: where s = 1 draws what s = 0 hits at z: density there over that of the walk. */
+static inline double reuse_hit_density(const struct vertex *z)
+{
+    z = z->lamp != NULL ? z->lamp : z;
+    return z->pdf_origin / z->pdf_fwd;
+}
+
+/* reuse_prepare: path tracing's strategies, in large tiles. */
+void reuse_prepare(const struct render_job *job, struct preparation *out);
+
+#endif

@@ -1,0 +1,278 @@
+/* Lights apart, and what the lens does not see. The planes of all lights are the picture, to the bit, by every method
+ * and within gates; each is what a render by that light alone expects. Alpha: 0 of an empty scene, 1 of a closed one,
+ * else what is covered; a light that is hidden is missing where the lens meets it first, and nowhere else. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/os.h"
+#include "helpers.h"
+#include "tests.h"
+
+enum { SIDE = 16, PIXELS = SIDE * SIDE, SUMS = 3 * PIXELS };
+
+static void render_planes(struct test *t, const struct scene *scene, const struct render_options *o, int lights,
+                          bool alpha, struct film *film)
+{
+    const struct planes planes = {lights, alpha};
+    struct error err;
+    film_init(film, render_crop(scene), scene->width, scene->height);
+    film_keep_planes(film, planes);
+    CHECK(t, render_scene(scene, o, film, &err), "%s", err.text);
+}
+
+static double plane_total(const struct film *film, int plane)
+{
+    double sum = 0;
+    for (size_t i = 0; i < SUMS; i++)
+        sum += film_value(film, (size_t)plane * SUMS + i);
+    return sum;
+}
+
+/* --- lights apart ------------------------------------------------------------------------------------- */
+
+/* Three groups, in this order: two skies, which are always one; a sun and a lamp of one name; a see-through lamp of two
+ * triangles. Each is on or off. */
+enum { GROUPS = 3 };
+static const char SCENE[] =
+    "LookAt 0 1.6 -4.5  0 .9 0  0 1 0 Camera \"perspective\" \"float fov\" 42\n"
+    "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16 PixelFilter \"%s\" WorldBegin\n"
+    "LightSource \"infinite\" \"rgb L\" [.3 .4 .5] \"rgb scale\" [%d %d %d]\n"
+    "LightSource \"distant\" \"rgb L\" [1 1 1] \"point from\" [1 4 -1] \"rgb scale\" [%d %d %d]\n"
+    "\"string group\" \"warm\"\n"
+    "LightSource \"point\" \"rgb I\" [3 2 1] \"point from\" [-1 2 0] \"rgb scale\" [%d %d %d]\n"
+    "\"string group\" \"warm\"\n"
+    "LightSource \"infinite\" \"rgb L\" [.1 0 0] \"rgb scale\" [%d %d %d]\n"
+    "Material \"none\" AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] \"rgb scale\" [%d %d %d]\n"
+    "\"bool twosided\" \"true\" Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
+    "  \"point P\" [-2 4 -2  2 4 -2  2 4 2  -2 4 2] AttributeEnd\n"
+    "Material \"matte\" \"rgb Kd\" [.8 .7 .6] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
+    "  \"point P\" [-1.5 0 -1.5  1.5 0 -1.5  1.5 0 1.5  -1.5 0 1.5]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 1.5  2 0 1.5  2 3 1.5  -2 3 1.5]\n"
+    "Material \"glass\" Translate 0 .7 0 Shape \"sphere\" \"float radius\" .6 WorldEnd\n";
+
+static bool load(struct test *t, const char *filter, bool sky, bool warm, bool lamp, struct scene *out)
+{
+    char text[4096];
+    snprintf(text, sizeof text, SCENE, filter, sky, sky, sky, warm, warm, warm, warm, warm, warm, sky, sky, sky, lamp,
+             lamp, lamp);
+    return scene_from_text(t, text, out) &&
+           CHECK(t, out->lights.n_groups == GROUPS && strcmp(out->lights.group[1].name, "warm") == 0 &&
+                     out->lights.group[2].name == NULL && out->lights.group[2].kind == LIGHT_AREA,
+                 "%d groups of %d lights", out->lights.n_groups, out->lights.n);
+}
+
+/* Planes of light add up to the picture, and this is what it is without them. */
+static void check_sum(struct test *t, const struct scene *scene, const struct render_options *o, const char *what)
+{
+    struct film film, plain;
+    int wrong = 0;
+    render_planes(t, scene, o, GROUPS, true, &film);
+    render_film(t, scene, o, &plain);
+    for (size_t i = 0; i < SUMS; i++) {
+        struct exact_sum sum = {{0, 0, 0}, 0};
+        for (size_t g = 1; g <= GROUPS; g++)
+            exact_join(&sum, &film.sum[g * SUMS + i]);
+        wrong += exact_value(&sum) != film_value(&film, i);
+    }
+    CHECK(t, wrong == 0, "%s: lights do not add up to %d values of the picture", what, wrong);
+    CHECK(t, films_equal(&film, &plain), "%s: keeping lights apart changes the picture", what);
+    for (int g = 1; g <= GROUPS; g++)
+        CHECK(t, plane_total(&film, g) > 1e-3 * plane_total(&film, 0), "%s: light %d has %g of %g", what, g - 1,
+              plane_total(&film, g), plane_total(&film, 0));
+    film_free(&film);
+    film_free(&plain);
+}
+
+static void test_sum(struct test *t)
+{
+    struct scene scene;
+    if (!load(t, "mitchell", true, true, true, &scene))
+        return;
+    for (const struct method *const *m = method_rows; *m != NULL; m++) {
+        struct render_options o = {.n_threads = os_cores(), .seed = test_seed(t), .end = 8, .max_depth = 4};
+        char what[64];
+        snprintf(what, sizeof what, "%s", method_name(*m));
+        o.integrator = set_method(&scene, what);
+        if ((*m)->chain)
+            continue;
+        check_sum(t, &scene, &o, what);
+        o.gate.begin = 6;
+        o.gate.end = 12;
+        check_sum(t, &scene, &o, what);
+    }
+    scene_free(&scene);
+}
+
+/* What no float holds is left out of the lights' planes as it is of the picture. */
+static void test_left_out(struct test *t)
+{
+    static const double STEP[] = {0, 1, 1e39, NAN, 2};
+    struct pixel_rect one = {0, 0, 1, 1};
+    struct filter box;
+    struct tile tile = {.planes = {2, false}};
+    filter_default("box", &box);
+    tile_start(&tile, one, one, &box, false);
+    for (int i = 0; i < 4; i++)
+        tile_add_light(&tile, 0, 0, i % 2, rgb_grey(STEP[i + 1]), rgb_grey(STEP[i]));
+    CHECK(t, exact_value(&tile.sum[3]) == 1 && exact_value(&tile.sum[6]) == 1, "lights of %g and %g",
+          exact_value(&tile.sum[3]), exact_value(&tile.sum[6]));
+    tile_free(&tile);
+}
+
+/* Batches of some planes of the same renders, averaged over quarters of the picture. */
+static void make_batches(struct test *t, const struct scene *scene, const char *integrator, int first, int n,
+                         uint64_t seed, struct batches *out)
+{
+    enum { BATCHES = 12, SPP = 16 };
+    struct batches pixels[GROUPS];
+    for (int g = 0; g < n; g++)
+        pixels[g] = batches_new(BATCHES, SUMS, false);
+    for (int k = 0; k < BATCHES; k++) {
+        struct render_options o = {.integrator = integrator, .n_threads = os_cores(), .max_depth = 4,
+                                   .seed = (test_seed(t) * 64 + seed) * BATCHES + (uint64_t)k,
+                                   .end = SPP * test_effort(t)};
+        struct film film;
+        render_planes(t, scene, &o, GROUPS, false, &film);
+        for (int i = 0; i < n * SUMS; i++)
+            pixels[i / SUMS].value[SUMS * k + i % SUMS] =
+                film_value(&film, (size_t)(first * SUMS + i)) / (double)film.iterations;
+        film_free(&film);
+    }
+    for (int g = 0; g < n; g++) {
+        out[g] = batches_tiles(&pixels[g], SIDE, SIDE, SIDE / 2);
+        batches_free(&pixels[g]);
+    }
+}
+
+/* Each light's plane, and the picture of the scene with the others off; what must fail: with another one on. */
+static void test_alone(struct test *t, const char *way)
+{
+    struct scene scene;
+    struct batches apart[GROUPS], alone[GROUPS];
+    for (int g = -1; g < GROUPS; g++) {
+        if (!load(t, "gaussian", g < 0 || g == 0, g < 0 || g == 1, g < 0 || g == 2, &scene))
+            return;
+        make_batches(t, &scene, set_method(&scene, way), g < 0, g < 0 ? GROUPS : 1, (uint64_t)(g + 1),
+                     g < 0 ? apart : &alone[g]);
+        scene_free(&scene);
+    }
+    for (int g = 0; g < GROUPS; g++) {
+        double ratio, p = batches_p(&apart[g], &alone[g], &ratio);
+        TEST_ACCEPT(t, p, "%s: light %d apart over alone: %g", way, g, ratio);
+        p = batches_p(&apart[g], &alone[(g + 1) % GROUPS], &ratio);
+        TEST_REJECT(t, p, "%s: light %d over another: %g", way, g, ratio);
+    }
+    for (int g = 0; g < GROUPS; g++) {
+        batches_free(&apart[g]);
+        batches_free(&alone[g]);
+    }
+}
+
+/* --- what the lens sees ------------------------------------------------------------------------------- */
+
+#define CAMERA                                                                                                         \
+    "LookAt 0 0 -4  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 40\n"                                            \
+    "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16 PixelFilter \"%s\" WorldBegin\n"
+#define HALF "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-9 0 0  9 0 0  9 9 0  -9 9 0]\n"
+
+static bool render_text(struct test *t, const char *text, const char *filter, int spp, struct film *film)
+{
+    char full[2048];
+    struct scene scene;
+    struct render_options o = {.integrator = "pt", .n_threads = 1, .end = spp, .max_depth = 2};
+    snprintf(full, sizeof full, text, filter);
+    if (!scene_from_text(t, full, &scene))
+        return false;
+    render_planes(t, &scene, &o, 0, true, film);
+    scene_free(&scene);
+    return true;
+}
+
+/* Alpha of every pixel, where it is the same for all: of each row above `rows`, or in all rows. */
+static void check_alpha(struct test *t, const char *what, const char *text, int rows, double above, double below)
+{
+    static const char *const FILTERS[] = {"box", "triangle", "gaussian"};
+    static const double OFF[] = {0, 0.01, 0.01}; /* the weights of the last two are 1 but for tables' steps */
+    for (int k = 0; k < 3; k++) {
+        struct film film;
+        int wrong = 0;
+        if (!render_text(t, text, FILTERS[k], 64, &film))
+            return;
+        float *alpha = film_alpha(&film);
+        for (int i = 0; i < SUMS; i++) {
+            int row = i / 3 / SIDE;
+            bool edge = k > 0 && (row - rows) * (row - rows + 1) <= 2; /* the filters reach two pixels */
+            wrong += !edge && !(fabs((double)alpha[i] - (row < rows ? above : below)) <= OFF[k]);
+        }
+        CHECK(t, wrong == 0, "%s, %s: %d values of alpha are wrong, the first %g, the last %g", what, FILTERS[k], wrong,
+              (double)alpha[0], (double)alpha[SUMS - 1]);
+        free(alpha);
+        film_free(&film);
+    }
+}
+
+static void test_alpha(struct test *t)
+{
+    static const char SKY[] = CAMERA "LightSource \"infinite\" WorldEnd";
+    static const char HIDDEN[] = CAMERA "LightSource \"infinite\" \"bool visible\" \"false\" WorldEnd";
+    static const char BEFORE_HIDDEN[] = CAMERA HALF "LightSource \"infinite\" \"bool visible\" \"false\" WorldEnd";
+    static const char LAMP[] = CAMERA "Material \"none\" AreaLightSource \"diffuse\" " HALF "WorldEnd";
+    static const char HIDDEN_LAMP[] =
+        CAMERA "Material \"none\" AreaLightSource \"diffuse\" \"bool visible\" \"false\" " HALF "WorldEnd";
+    check_alpha(t, "nothing", CAMERA "WorldEnd", 0, 0, 0);
+    check_alpha(t, "a closed scene", CAMERA "Shape \"sphere\" \"float radius\" 9 WorldEnd", 0, 1, 1);
+    check_alpha(t, "half a plane", CAMERA HALF "WorldEnd", SIDE / 2, 1, 0);
+    check_alpha(t, "a sky", SKY, 0, 1, 1);
+    check_alpha(t, "a hidden sky", HIDDEN, 0, 0, 0);
+    check_alpha(t, "half a plane before a hidden sky", BEFORE_HIDDEN, SIDE / 2, 1, 0);
+    check_alpha(t, "a see-through lamp", LAMP, SIDE / 2, 1, 0);
+    check_alpha(t, "a hidden see-through lamp", HIDDEN_LAMP, 0, 0, 0);
+}
+
+/* What a light brings where the lens meets it first is what is missing when it is hidden: L times what is not covered,
+ * of a sky; of a lamp L where it is. All other light stays. */
+static void test_hidden(struct test *t, const char *what, const char *text, double (*missing)(double alpha))
+{
+    struct film seen, hidden;
+    char without[2048], *visible;
+    snprintf(without, sizeof without, "%s", text);
+    if ((visible = strstr(without, "\"bool visible\" \"false\"")) == NULL)
+        return;
+    memset(visible, ' ', strlen("\"bool visible\" \"false\""));
+    if (!render_text(t, without, "gaussian", 16, &seen))
+        return;
+    if (render_text(t, text, "gaussian", 16, &hidden)) {
+        double worst = 0, light = plane_total(&hidden, 0);
+        for (size_t i = 0; i < SUMS; i++) {
+            double alpha = film_value(&hidden, SUMS + i) / 16, full = film_value(&seen, SUMS + i) / 16;
+            double difference = (film_value(&seen, i) - film_value(&hidden, i)) / 16;
+            worst = fmax(worst, fabs(difference - missing(full - alpha)));
+        }
+        CHECK(t, worst < 1e-9 && light > 1, "%s: off by %g, light of %g is left", what, worst, light);
+        film_free(&hidden);
+    }
+    film_free(&seen);
+}
+
+static double once(double share) { return share; }
+
+static void test_unseen(struct test *t)
+{
+    test_hidden(t, "a sky", CAMERA HALF "LightSource \"infinite\" \"bool visible\" \"false\" WorldEnd", once);
+    test_hidden(t, "a see-through lamp", CAMERA "AttributeBegin Material \"none\" AreaLightSource \"diffuse\" "
+                "\"bool twosided\" \"true\" \"bool visible\" \"false\" Translate 0 -9 0 " HALF "AttributeEnd "
+                "Translate 0 0 1 " HALF "WorldEnd", once);
+}
+
+void test_lights(struct test *t)
+{
+    static const char *const WAYS[] = {"pt", "lt", "bdpt", "asbdpt select=subspaces"};
+    test_sum(t);
+    test_left_out(t);
+    for (int i = 0; i < 4; i++)
+        test_alone(t, WAYS[i]);
+    test_alpha(t);
+    test_unseen(t);
+}
