@@ -183,6 +183,19 @@ struct batches render_batches(struct test *t, const struct scene *scene, const c
     return tiles;
 }
 
+struct batches independent_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth,
+                                   long spp, int n_batches, int tile, uint64_t seed)
+{
+    struct side side = {.name = ""};
+    struct error err = {""};
+    struct render_options o = {.integrator = integrator, .seed = seed, .max_depth = max_depth,
+                               .end = spp * test_effort(t), .n_threads = 2};
+    CHECK(t, side_render(scene, &o, 0, n_batches, true, &side, &err), "%s: %s", integrator, err.text);
+    struct batches tiles = batches_tiles(&side.pixels, side.width, side.height, tile);
+    batches_free(&side.pixels);
+    return tiles;
+}
+
 bool read_reference(struct test *t, const char *path, struct side *out)
 {
     char errors[300];

@@ -64,6 +64,11 @@ bool films_equal(const struct film *a, const struct film *b);
 struct batches render_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth, int spp,
                               int n_batches, int tile, uint64_t seed);
 
+/* independent_batches: the same by renders with seeds of their own, which share nothing that was found before the first
+ * sample either: the brightness of a chain's picture, above all. */
+struct batches independent_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth,
+                                   long spp, int n_batches, int tile, uint64_t seed);
+
 /* read_reference: a stored picture, NAME.pfm, with its errors. A failure is a failed check; returns false. */
 bool read_reference(struct test *t, const char *path, struct side *out);
 

@@ -41,10 +41,11 @@ static const struct test_entry ENTRIES[] = {
     {"devices", test_devices, false}, {"fuzz", test_fuzz, false}, {"hostile", test_hostile, true},
 #endif
     {"threads", test_threads, false}, {"verify", test_verify, false},
-    {"strategies", test_strategies, false}, {"caustic", test_caustic, false},
+    {"balance", test_balance, false}, {"strategies", test_strategies, false}, {"caustic", test_caustic, false},
     {"streams", test_streams, false},
     {"scenes", test_scenes, false},   {"reference", test_references, false},
     {"random", test_random, false}, {"random-long", test_random_long, true},
+    {"family-long", test_family_long, true},
     {"scenes-long", test_scenes_long, true}, {"reference-long", test_references_long, true},
 };
 enum { N_ENTRIES = sizeof ENTRIES / sizeof ENTRIES[0] };

@@ -1,84 +1,33 @@
-/* test_chains.c: Markov chains: mutations keep the balance, states are bdpt's samples, pictures are bdpt's. */
+/* test_chains.c: Markov chains: states are bdpt's samples, chains stay where they should, pictures are bdpt's.
+ * test_balance.c has what they accept. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/cumulative.h"
 #include "base/mem.h"
 #include "base/number.h"
 #include "chains/mlt.h"
 #include "lab/stats.h"
 #include "render/render.h"
+#include "chain_bench.h"
 #include "helpers.h"
 #include "tests.h"
 
-/* Two rooms' worth of surfaces: a matte floor and wall, a glossy and a glass ball, a lamp, and a lamp that nobody sees.
- * Of some size, through some filter, with some sampling of roulette. */
-static const char ROOM[] =
-    "LookAt 0 1.5 -4  0 1 0  0 1 0 Camera \"perspective\" \"float fov\" 50 %s\n"
-    "Film \"image\" \"integer xresolution\" %d \"integer yresolution\" %d PixelFilter \"%s\"\n"
-    "Integrator \"bdpt\" \"float rrthreshold\" 0\n"
-    "WorldBegin AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [6 5 4]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 3 -1  1 3 -1  1 3 1  -1 3 1]\n"
-    "AttributeEnd LightSource \"point\" \"rgb I\" [1 2 3] \"point from\" [-1.5 1 -1]\n"
-    "Material \"matte\" \"rgb Kd\" [.7 .6 .5]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  2 0 -2  2 0 2  -2 0 2]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 2  2 0 2  2 3 2  -2 3 2]\n"
-    "Material \"metal\" \"float roughness\" .1\n"
-    "TransformBegin Translate .8 .6 .5 Shape \"sphere\" \"float radius\" .6 TransformEnd\n"
-    "Material \"glass\" TransformBegin Translate -.7 .7 0 Shape \"sphere\" \"float radius\" .5 TransformEnd WorldEnd\n";
+/* --- numbers ----------------------------------------------------------------------------------------- */
 
-static bool room(struct test *t, int width, int height, const char *lens, const char *filter, struct scene *out)
+/* Are all numbers of `next` as near to those of `now` as those of a small step are? */
+static bool is_near(const struct chain *c)
 {
-    char text[4096];
-    snprintf(text, sizeof text, ROOM, lens, width, height, filter);
-    return scene_from_text(t, text, out);
-}
-
-/* A method made ready to take single steps. */
-struct bench {
-    const struct scene *scene;
-    struct render_job job;
-    struct preparation prepared;
-    struct workspace *work;
-    struct chain *chain;
-};
-
-enum { DEPTH = 4 };
-
-static bool bench_new(struct test *t, const struct scene *scene, const char *integrator, struct bench *out)
-{
-    struct render_options o = {.integrator = integrator, .seed = test_seed(t), .max_depth = DEPTH, .n_threads = 1};
-    struct error err = {""};
-    memset(out, 0, sizeof *out);
-    out->scene = scene;
-    if (!CHECK(t, render_prepare(scene, &o, render_crop(scene), &out->job, &out->prepared, &err), "%s", err.text))
-        return false;
-    out->work = workspaces_new(1, DEPTH);
-    out->chain = out->work->scratch = method_scratch(&out->prepared);
-    if (out->chain != NULL) {
-        out->chain->job = &out->job;
-        out->chain->work = out->work;
-        out->chain->rng = rng_stream(test_seed(t), RNG_TEST, 1, 0);
-    }
+    for (int i = 0; i < CHAIN_STREAMS; i++)
+        for (size_t k = 0; k < c->now.number[i].n && k < c->next.number[i].n; k++) {
+            double d = fabs(c->next.number[i].number[k] - c->now.number[i].number[k]);
+            if (fmin(d, 1 - d) > 8 * c->all->sigma)
+                return false;
+        }
     return true;
 }
-
-static void bench_free(struct bench *b)
-{
-    method_scratch_free(&b->prepared, b->work->scratch);
-    workspaces_free(b->work, 1);
-    method_release(&b->prepared);
-}
-
-static void swap(struct chain *c)
-{
-    struct chain_state s = c->now;
-    c->now = c->next;
-    c->next = s;
-}
-
-/* --- numbers ----------------------------------------------------------------------------------------- */
 
 /* Small steps are normal, around the ends; after many of them, all accepted, a number may be anywhere. */
 static void test_steps(struct test *t)
@@ -87,7 +36,7 @@ static void test_steps(struct test *t)
     double where[CELLS] = {0}, how[CELLS] = {0}, even_where[CELLS], even_how[CELLS];
     struct scene scene;
     struct bench b;
-    if (!room(t, 4, 4, "", "box", &scene) || !bench_new(t, &scene, "pssmlt", &b))
+    if (!bench_room(t, 4, 4, "", "box", &scene) || !bench_new(t, &scene, "pssmlt", 0, &b))
         return;
     struct chain *c = b.chain;
     const struct chains *all = b.prepared.state;
@@ -97,10 +46,9 @@ static void test_steps(struct test *t)
     for (int i = 0; i < NUMBERS; i++)
         sampler_number(&p.sampler[EYE_NUMBERS], DRAW_LOBE);
     primary_end(&p);
-    swap(c);
+    chain_swap(c);
     long large = 0;
     for (int k = 0; k < STEPS; k++) {
-        large += !primary_small(c);
         primary_begin(&p, c, true);
         for (int i = 0; i < NUMBERS; i++) {
             double u = sampler_number(&p.sampler[EYE_NUMBERS], DRAW_LOBE);
@@ -113,11 +61,17 @@ static void test_steps(struct test *t)
                 where[(int)(u * CELLS)]++;
         }
         primary_end(&p);
-        swap(c);
+        chain_swap(c);
     }
     for (int i = 0; i < CELLS; i++) {
         even_where[i] = (double)NUMBERS * (STEPS / EVERY) / CELLS;
         even_how[i] = (double)NUMBERS * STEPS / CELLS;
+    }
+    chain_candidate(c, 1);
+    chain_swap(c);
+    for (int k = 0; k < STEPS; k++) {
+        chain_propose(c);
+        large += !is_near(c);
     }
     double z = ((double)large - all->large_step * STEPS) / sqrt(STEPS * all->large_step * (1 - all->large_step));
     TEST_ACCEPT(t, stats_chi2_test(how, even_how, CELLS), "steps are normal");
@@ -131,113 +85,69 @@ static void test_steps(struct test *t)
     scene_free(&scene);
 }
 
-/* The probability of a new path, of mlt. */
-static double chance(const struct chain *c, const struct mlt_path *path)
+/* --- where chains are -------------------------------------------------------------------------------- */
+
+enum { BLOCKS = 2, CELLS = BLOCKS * BLOCKS * 8 };
+
+/* Where a state is: which part of the picture it begins with, whether it is bright, and of mlt what it can do. */
+static int cell(const struct chain *c)
 {
-    return path->can[LENS_PERTURBATION] || path->can[CAUSTIC_PERTURBATION] ? c->all->large_step : 1;
+    const struct splat *s = &c->now.heard.splat[0];
+    const struct mlt_path *path = c->now.own;
+    int x = int_within((s->px - c->all->x) / c->all->width * BLOCKS, 0, BLOCKS - 1);
+    int y = int_within((s->py - c->all->y) / c->all->height * BLOCKS, 0, BLOCKS - 1);
+    int kind = (c->now.I > c->all->b) + 2 * (path != NULL ? path->can[0] + 2 * path->can[1] : 0);
+    return (kind * BLOCKS + y) * BLOCKS + x;
 }
 
-/* L of the path whose sub-paths have just been made again, by its strategy's own functions. */
-static double contribution(struct chain *c, const struct mlt_path *path, enum mlt_perturbation which,
-                           const struct mlt_move *move, struct primary *p, const struct strategy *strategy)
+/* What becomes of chains that start by I, or at any state: how many more are in each cell some steps later. */
+static void follow(struct bench *b, bool by_I, double *more)
 {
-    const struct scene *scene = c->job->scene;
-    const struct mis_counts *counts = &c->all->frozen.counts;
-    const struct vertex *light = c->work->light, *eye = c->work->eye, *x = &light[path->l];
-    int s = strategy->s, n = strategy->t;
-    struct light_point at = vertex_light_point(&path->x[0].v);
-    at.pdf = path->x[0].v.pdf_fwd;
-    if (which == LENS_PERTURBATION) {
-        struct connection c2 = s == 0   ? connect_hit(scene, counts, &eye[n - 2], &eye[n - 1], n)
-                               : s == 1 ? connect_point(scene, counts, &eye[n - 1], &at, at.pdf)
-                                        : connect_pair(scene, counts, &light[s - 1], &eye[n - 1]);
-        return rgb_luminance(c2.value);
-    }
-    p->state->number[LENS_NUMBERS].at = 0;
-    struct connection c1 = connect_lens(scene, counts, light, s, &p->sampler[LENS_NUMBERS]);
-    return rgb_luminance(c1.value) * (path->l == 0 ? light_pdf_emission(&scene->lights, &at, move->wi)
-                                                   : bsdf_eval(&x->bsdf, x->wo, move->wi, IMPORTANCE).pdf);
-}
-
-/* What the chain goes by where it goes from a to b by this mutation: I, or L of a perturbation of mlt. Then, too, the
- * way back leads back: b moved to where a is counts as a. */
-static double goes_by(struct test *t, struct chain *c, bool paths, double *there)
-{
-    struct mlt_path *from = c->now.own, *to = c->next.own;
-    int which = 0;
-    while (which < MLT_PERTURBATIONS && paths && to->L[which] < 0)
-        which++;
-    if (!paths || which == MLT_PERTURBATIONS) {
-        *there = c->next.I * (paths ? chance(c, to) : 1);
-        return c->now.I * (paths ? chance(c, from) : 1);
-    }
-    if (which == CAUSTIC_PERTURBATION) {
-        double most = sqrt(0.05 * c->all->width * c->all->height / PI);
-        double cosine = dot(mlt_stay(from, CAUSTIC_PERTURBATION).wi, mlt_stay(to, CAUSTIC_PERTURBATION).wi);
-        double pixels = acos(fmin(1, cosine)) * mlt_pixels_per_angle(c, to);
-        CHECK(t, pixels > 0.0999 && pixels < most * 1.001, "a caustic perturbation by %g pixels, seen from there",
-              pixels);
-    }
-    *there = to->L[which];
-    double L = from->L[which], I = c->now.I;
-    struct mlt_move move = mlt_stay(from, (enum mlt_perturbation)which);
-    swap(c);
-    struct strategy strategy = {.n = c->now.length > 2 ? c->now.length : 1};
-    struct primary p = {.chain = c};
-    struct chain_state kept = c->next, room = {.length = kept.length};
-    c->next = room; /* where the path from which it came is, is none of this one's business */
-    double back = mlt_remake(&p, to, (enum mlt_perturbation)which, &move, &strategy);
-    primary_end(&p);
-    double plain = contribution(c, from, (enum mlt_perturbation)which, &move, &p, &strategy);
-    CHECK(t, fabs(plain / back - 1) < 1e-9, "L is %g, not %g", back, plain);
-    CHECK(t, fabs(back / L - 1) < 1e-6 && fabs(c->next.I / I - 1) < 1e-6,
-          "the way back of a %s perturbation leads elsewhere: %g, %g",
-          which == LENS_PERTURBATION ? "lens" : "caustic", back / L, c->next.I / I);
-    for (int i = 0; i < CHAIN_STREAMS; i++)
-        free(c->next.number[i].number);
-    tile_free(&c->next.heard);
-    c->next = kept;
-    swap(c);
-    return L;
-}
-
-/* Independent states first, and then steps of a chain from them: proposals leave the present state alone, and what is
- * accepted one way is accepted back in proportion: T f a is the same both ways, T being so already. */
-static void test_balance(struct test *t, const char *integrator)
-{
-    struct scene scene;
-    struct bench b;
-    long moved = 0, refused = 0;
-    bool paths = strcmp(integrator, "mlt") == 0;
-    if (!room(t, 16, 16, "\"float lensradius\" .05 \"float focaldistance\" 4", "gaussian", &scene) ||
-        !bench_new(t, &scene, integrator, &b))
-        return;
-    struct chain *c = b.chain;
-    const struct chains *all = b.prepared.state;
-    for (long i = 0; i < (long)all->lengths * all->each; i += 23) {
-        double I = all->before[i + 1] - all->before[i];
-        if (!(I > 0))
-            continue;
+    enum { STARTS = 600, STEPS = 6 };
+    struct chain *c = b->chain;
+    const struct chains *all = b->prepared.state;
+    int n = all->lengths * all->each;
+    for (int k = 0; k < STARTS; k++) {
+        double at = (k + rng_uniform(&c->rng)) / STARTS;
+        int i = by_I ? cumulative_find(all->before, n, at * all->before[n]) : (int)(at * n);
+        while (i < n - 1 && !(all->before[i + 1] > all->before[i]))
+            i++;
         chain_candidate(c, i);
-        CHECK(t, fabs(c->next.I - I) < 1e-9 * all->before[all->lengths * all->each], "%s: a start is another",
-              integrator);
-        swap(c);
-        for (int k = 0; k < 4; k++) {
-            I = c->now.I;
-            arena_reset(&b.work->arena);
-            double a = all->rules->propose(c), there = 0, here;
-            CHECK(t, c->now.I == I && a >= 0 && a <= 1, "%s: a proposal changes the present state", integrator);
-            if (!(c->next.I > 0) || !(a > 0))
-                continue;
-            here = goes_by(t, c, paths, &there);
-            CHECK(t, fabs(here * a / (there * fmin(1, here / there)) - 1) < 1e-9, "%s: there %g, back %g",
-                  integrator, here * a, there * fmin(1, here / there));
-            refused += a < 1;
-            moved++;
+        chain_swap(c);
+        more[cell(c)]--;
+        for (int step = 0; step < STEPS; step++) {
+            double a = chain_propose(c);
+            if (rng_uniform(&c->rng) < a)
+                chain_swap(c);
         }
+        more[cell(c)]++;
     }
-    CHECK(t, refused > 30 && moved > 2 * refused / 3, "%s: %ld moves, %ld doubtful", integrator, moved, refused);
-    bench_free(&b);
+}
+
+/* Chains that start as often at each state as I says go on so. In a picture a few states may bring most of a dark
+ * pixel's light, and its batches are far from normal; these are counts. */
+static void test_stays(struct test *t, const char *integrator)
+{
+    enum { BATCHES = 24 };
+    struct scene scene;
+    if (!bench_room(t, 16, 16, "", "box", &scene))
+        return;
+    settings_set(&scene.settings, "bootstrapsamples", "1024", "test");
+    struct batches more = batches_new(BATCHES, CELLS, false), less = batches_new(BATCHES, CELLS, false),
+                   none = batches_new(2, CELLS, false);
+    for (int k = 0; k < BATCHES; k++) {
+        struct bench b;
+        if (!bench_new(t, &scene, integrator, 1 + (uint64_t)k, &b))
+            break;
+        follow(&b, true, more.value + CELLS * k);
+        follow(&b, false, less.value + CELLS * k);
+        bench_free(&b);
+    }
+    TEST_ACCEPT(t, batches_smallest_p(&more, &none), "%s: chains stay where they start", integrator);
+    TEST_REJECT(t, batches_smallest_p(&less, &none), "%s: chains stay where they should not start", integrator);
+    batches_free(&more);
+    batches_free(&less);
+    batches_free(&none);
     scene_free(&scene);
 }
 
@@ -294,7 +204,7 @@ static rgb all_strategies(struct bench *b, const struct chain_state *whole)
 {
     struct chain *c = b->chain;
     rgb sum = rgb_black();
-    for (int n = 2; n <= DEPTH + 2; n++)
+    for (int n = 2; n <= BENCH_DEPTH + 2; n++)
         for (int s = 0; s < (n > 2 ? n : 1); s++) {
             struct primary p;
             struct strategy strategy;
@@ -321,8 +231,8 @@ static void test_samples(struct test *t)
     struct scene scene;
     struct bench pssmlt, mmlt, bdpt;
     int bright = 0;
-    if (!room(t, 1, 1, "", "box", &scene) || !bench_new(t, &scene, "pssmlt", &pssmlt) ||
-        !bench_new(t, &scene, "mmlt", &mmlt) || !bench_new(t, &scene, "bdpt", &bdpt))
+    if (!bench_room(t, 1, 1, "", "box", &scene) || !bench_new(t, &scene, "pssmlt", 0, &pssmlt) ||
+        !bench_new(t, &scene, "mmlt", 0, &mmlt) || !bench_new(t, &scene, "bdpt", 0, &bdpt))
         return;
     for (int i = 0; i < 500; i++) {
         chain_candidate(pssmlt.chain, i);
@@ -339,55 +249,6 @@ static void test_samples(struct test *t)
     scene_free(&scene);
 }
 
-/* --- paths ------------------------------------------------------------------------------------------- */
-
-/* A path made again where it is, by whichever strategy a perturbation uses, counts as it did when another had made it:
- * that depends on the path alone. */
-static void test_remake(struct test *t, struct scene *scene, long made[MLT_PERTURBATIONS])
-{
-    struct bench b;
-    if (!bench_new(t, scene, "mlt", &b))
-        return;
-    struct chain *c = b.chain;
-    const struct chains *all = b.prepared.state;
-    for (long i = 0; i < (long)all->lengths * all->each; i += 4) {
-        chain_candidate(c, i);
-        if (!(c->next.I > 0))
-            continue;
-        swap(c);
-        const struct mlt_path *path = c->now.own;
-        for (int which = 0; which < MLT_PERTURBATIONS; which++) {
-            struct strategy to = {.n = c->now.length > 2 ? c->now.length : 1};
-            struct primary p = {.chain = c};
-            if (!path->can[which])
-                continue;
-            struct mlt_move stay = mlt_stay(path, (enum mlt_perturbation)which);
-            double L = mlt_remake(&p, path, (enum mlt_perturbation)which, &stay, &to);
-            primary_end(&p);
-            CHECK(t, L > 0 && fabs(c->next.I / c->now.I - 1) < 1e-9,
-                  "path %ld, k %d, m %d, l %d, strategy %d,%d: %g, not %g", i, path->k, path->m, path->l, to.s, to.t,
-                  c->next.I, c->now.I);
-            double far = c->next.heard.splat[0].length, was = c->now.heard.splat[0].length;
-            CHECK(t, fabs(far / was - 1) < 1e-9, "path %ld, strategy %d,%d: %g long, not %g", i, to.s, to.t, far, was);
-            made[which]++;
-        }
-    }
-    bench_free(&b);
-}
-
-static void test_paths(struct test *t)
-{
-    static const char *const LENS[] = {"", "\"float lensradius\" .05 \"float focaldistance\" 4"};
-    long made[MLT_PERTURBATIONS] = {0, 0};
-    struct scene scene;
-    for (int i = 0; i < 2; i++)
-        if (room(t, 16, 16, LENS[i], "gaussian", &scene)) {
-            test_remake(t, &scene, made);
-            scene_free(&scene);
-        }
-    CHECK(t, made[0] > 1000 && made[1] > 40, "only %ld and %ld paths", made[0], made[1]);
-}
-
 /* --- pictures ---------------------------------------------------------------------------------------- */
 
 /* Tiles of several sizes: each has its own interval, and in it a place of which the position in the interval is the
@@ -396,7 +257,7 @@ static void test_starts(struct test *t)
 {
     struct scene scene;
     struct bench b;
-    if (!room(t, 40, 20, "", "box", &scene) || !bench_new(t, &scene, "mmlt", &b))
+    if (!bench_room(t, 40, 20, "", "box", &scene) || !bench_new(t, &scene, "mmlt", 0, &b))
         return;
     for (long first = 0; first < 40; first += 4) {
         double before = 0, place = -1;
@@ -424,9 +285,9 @@ static void test_luminance(struct test *t, const char *integrator)
     struct error err = {""};
     struct film film;
     double sum = 0;
-    if (!room(t, 20, 12, "", "box", &scene))
+    if (!bench_room(t, 20, 12, "", "box", &scene))
         return;
-    struct render_options o = {.integrator = integrator, .end = 10, .max_depth = DEPTH, .n_threads = 1};
+    struct render_options o = {.integrator = integrator, .end = 10, .max_depth = BENCH_DEPTH, .n_threads = 1};
     film_init(&film, render_crop(&scene), scene.width, scene.height);
     CHECK(t, render_scene(&scene, &o, &film, &err), "%s", err.text);
     for (size_t i = 0; i < 20 * 12; i++)
@@ -441,9 +302,9 @@ static void test_luminance(struct test *t, const char *integrator)
 static void agree(struct test *t, struct scene *scene, const char *what, const char *integrator)
 {
     settings_clear(&scene->settings);
-    settings_set(&scene->settings, "bootstrapsamples", "2048", "test");
-    struct batches one = render_batches(t, scene, integrator, DEPTH, 64, 20, 8, 61),
-                   two = render_batches(t, scene, "bdpt", DEPTH, 16, 8, 8, 62);
+    settings_set(&scene->settings, "bootstrapsamples", "512", "test");
+    struct batches one = independent_batches(t, scene, integrator, BENCH_DEPTH, 64, 20, 8, 61),
+                   two = render_batches(t, scene, "bdpt", BENCH_DEPTH, 16, 8, 8, 62);
     double ratio, p = batches_p(&one, &two, &ratio);
     TEST_ACCEPT(t, p, "%s: %s is %.5f of bdpt", what, integrator, ratio);
     batches_scale(&one, 1.3);
@@ -455,7 +316,7 @@ static void agree(struct test *t, struct scene *scene, const char *what, const c
 static void test_means(struct test *t, const char *integrator)
 {
     struct scene scene;
-    if (room(t, 16, 16, "\"float lensradius\" .05 \"float focaldistance\" 4", "gaussian", &scene)) {
+    if (bench_room(t, 16, 16, "\"float lensradius\" .05 \"float focaldistance\" 4", "gaussian", &scene)) {
         agree(t, &scene, "room", integrator);
         scene_free(&scene);
     }
@@ -470,10 +331,9 @@ void test_chains(struct test *t)
     static const char *const METHODS[] = {"pssmlt", "mmlt", "mlt"};
     test_steps(t);
     test_samples(t);
-    test_paths(t);
     test_starts(t);
     for (size_t i = 0; i < sizeof METHODS / sizeof METHODS[0]; i++) {
-        test_balance(t, METHODS[i]);
+        test_stays(t, METHODS[i]);
         test_luminance(t, METHODS[i]);
         test_means(t, METHODS[i]);
     }

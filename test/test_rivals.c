@@ -264,6 +264,34 @@ static void test_limits(struct test *t)
     }
 }
 
+/* A lamp in the void, and one inside a ball: all light vertices lie in the ball, where nobody sees them. */
+static const char HIDDEN[] =
+    "Camera \"perspective\" Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16\n"
+    "WorldBegin AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [3 2 1] ReverseOrientation\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2] \"point P\" [-1 -1 5  2 -1 5  -1 2 5]\n"
+    "AttributeEnd Translate 0 0 9 LightSource \"point\" Shape \"sphere\" \"float radius\" 1 WorldEnd\n";
+
+/* Records that meet no light leave the choice to the others, and to chance: the picture is the lamp's, as by bdpt. */
+static void test_useless(struct test *t)
+{
+    static const char *const ways[] = {"mbdpt", "pcbdpt records=.1", "ris records=.1", "ris2 records=.1", "lvc",
+                                       "cbdpt", "ris records=.1 weights=counts"};
+    float image[SIDE * SIDE * 3];
+    double sum = 0;
+    struct scene scene;
+    if (!scene_from_text(t, HIDDEN, &scene))
+        return;
+    for (size_t i = 0; i < sizeof ways / sizeof ways[0]; i++) {
+        double off = differ(t, &scene, ways[i], "bdpt", 4);
+        CHECK(t, off < 1e-5, "%s: hidden light is off by %g", ways[i], off);
+    }
+    render_image(t, &scene, "bdpt", 4, image);
+    for (int i = 0; i < SIDE * SIDE * 3; i++)
+        sum += (double)image[i];
+    CHECK(t, sum > 50, "the lamp is not seen: %g", sum);
+    scene_free(&scene);
+}
+
 /* --- the weights of ris ------------------------------------------------------------------------------ */
 
 /* The eye vertex that lies where light vertex x does, the eye walk coming from z with that density, 1/sr, there: what
@@ -445,4 +473,5 @@ void test_rivals(struct test *t)
     test_bias(t);
     test_furnace(t);
     test_limits(t);
+    test_useless(t);
 }

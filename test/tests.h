@@ -50,6 +50,8 @@ void test_report(struct test *t);
 void test_rivals(struct test *t);
 void test_scenes(struct test *t);
 void test_scenes_long(struct test *t);
+void test_family_long(struct test *t);
+void test_balance(struct test *t);
 void test_strategies(struct test *t);
 void test_streams(struct test *t);
 void test_threads(struct test *t);

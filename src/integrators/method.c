@@ -50,6 +50,8 @@ bool method_prepare(const struct method *m, const struct render_job *job, struct
         free(out->state);
         return false;
     }
+    if (f->path_pixels > 0)
+        f->counts.splat /= f->path_pixels;
     if (job->caustics > 0)
         out->extra = caustics_new(job->scene, job->caustics);
     else if (job->regularise > 0)

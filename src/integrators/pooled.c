@@ -4,8 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-void light_pool_free(struct light_pool *pool)
+void light_pool_free(void *scratch)
 {
+    struct light_pool *pool = scratch;
     arena_free(&pool->arena);
     free(pool->vertex);
 }

@@ -27,8 +27,9 @@ struct light_pool {
     const struct mis_counts *counts; /* of this thread's samples, if the method has set it; NULL: the frozen ones */
 };
 
-/* light_pool_free: release what the pool owns. A pool starts as zeros. */
-void light_pool_free(struct light_pool *pool);
+/* light_pool_free: release what the pool owns. A pool starts as zeros. The `scratch_free` of methods whose scratch owns
+ * nothing else. */
+void light_pool_free(void *pool);
 
 /* light_pool_fill: trace the sub-paths of the tile's pixels 0, path_pixels, 2 path_pixels ... for one iteration. */
 void light_pool_fill(struct light_pool *pool, const struct tile_pass *pass, const struct frozen *f, long iteration);

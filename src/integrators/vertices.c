@@ -119,13 +119,14 @@ static void prepare(const struct render_job *job, struct preparation *out)
     asbdpt_learn(job, importance, s->grid, &s->learnt, f);
     if (s->connections == 0)
         s->connections = importance ? choose_connections(&s->learnt.importance) : 4;
-    if (f->path_pixels == 0)
+    if (f->path_pixels == 0) {
         f->path_pixels = 2;
+        f->counts.splat /= 2;
+    }
     for (int end = 0; end < EYE_ENDS; end++) {
         f->counts.connect[end] = CREDIT * s->connections;
         f->counts.direct[end] = f->counts.delta[end] = CREDIT;
     }
-    f->counts.splat /= f->path_pixels;
     if (importance && s->learnt.importance.mean > 0)
         pairs_from_importance(s);
 }

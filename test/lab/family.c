@@ -100,8 +100,8 @@ void family_tables(FILE *f, const struct equal_time *e)
 
 /* --- the figure -------------------------------------------------------------------------------------- */
 
-enum { LEFT = 96, TOP = 156, ROW = 20, COLUMN = 58, PANEL = 50, LEAST_WIDTH = 560, BELOW = 60 };
-static const double LEAST = 0.02, MOST = 50; /* ratios outside stand at the edge */
+enum { LEFT = 96, TOP = 156, ROW = 20, COLUMN = 72, PANEL = 64, LEAST_WIDTH = 680, BELOW = 60 };
+static const double LEAST = 0.05, MOST = 20; /* ratios outside stand at the edge */
 
 static double place(const struct plot_axis *a, int column, double ratio)
 {
@@ -164,13 +164,14 @@ void family_figure(FILE *f, const struct equal_time *e)
             write_ratio(f, e, &axis, c, v);
     }
     xml_print(f, "<text x=\"8\" y=\"%d\">Squared error over that of %s after the same CPU time: left of the line is a "
-              "gain.</text>\n<text x=\"8\" y=\"%d\">Dot and bar: rmse8 and its 95 %s interval; diamond: means over 8x8 "
-              "pixels.</text>\n</svg>\n", bottom + 34, short_name(e, 0), bottom + 50, "%");
+              "gain.</text>\n<text x=\"8\" y=\"%d\">Dot and bar: rmse8, its 95 %s interval; diamond: means over 8x8 "
+              "pixels; what is beyond stands at the edge.</text>\n</svg>\n", bottom + 34, short_name(e, 0),
+              bottom + 50, "%");
 }
 
 /* --- the strip of crops ------------------------------------------------------------------------------ */
 
-enum { CROP = 24, SCALE = 4, GAP = 6, NAMES = 22 };
+enum { CROP = 48, SCALE = 2, GAP = 6, NAMES = 22 };
 
 /* The middle of a picture of the scene, in column method + 1; nothing where it was not kept. */
 static void paste_crop(const struct equal_time *e, const struct equal_scene *s, int method, struct sheet *sheet, int y)

@@ -14,6 +14,10 @@
  * the deviations of the batches from their mean, each batch multiplied by a random sign ("wild bootstrap" [Liu 1988]).
  * Kolmogorov's distribution is stretched until its 90 % quantile is the one found that way.
  *
+ * Welch's test takes the means of batches for nearly normal. Where a rare sample brings most of the light they are not:
+ * in a dark pixel of a Markov chain, or of few samples, all batches may miss it alike, and then even equal expectations
+ * DIFFER. Such tiles are others with another --seed, and none with larger tiles or more samples; a bias stays.
+ *
  * Tests: test_verify.c.
  */
 #ifndef ASBDPT_VERIFY_H

@@ -22,31 +22,23 @@ static const double BOOTSTRAP_PER_PIXEL = 4;
 
 /* --- states ------------------------------------------------------------------------------------------ */
 
-void chain_hear(const struct chain *c, struct chain_state *state)
+double chain_propose(struct chain *c)
 {
-    static const struct gate ALL = {0, INFINITY};
-    (void)c;
-    state->heard.gate = ALL;
-    state->heard.n_splats = 0;
-    state->I = 0;
+    const struct chain_rules *rules = c->all->rules;
+    arena_reset(&c->work->arena);
+    if (rules->propose != NULL)
+        return rules->propose(c);
+    c->next.length = c->now.length;
+    rules->sample(c, rng_uniform(&c->rng) >= c->all->large_step);
+    return c->next.I < c->now.I ? c->next.I / c->now.I : 1;
 }
 
-void chain_heard(const struct chain *c, struct chain_state *state)
+void chain_swap(struct chain *c)
 {
-    const struct chains *all = c->all;
-    size_t kept = 0;
-    for (size_t i = 0; i < state->heard.n_splats; i++) {
-        struct splat s = state->heard.splat[i];
-        double x = s.px - all->x, y = s.py - all->y, L = rgb_luminance(s.value);
-        if (!(L > 0) || x < 0 || y < 0 || x > all->width || y > all->height)
-            continue;
-        state->heard.splat[kept++] = s;
-        state->I += L;
-    }
-    state->heard.n_splats = kept;
+    struct chain_state s = c->now;
+    c->now = c->next;
+    c->next = s;
 }
-
-double chain_accept(const struct chain *c) { return c->next.I < c->now.I ? c->next.I / c->now.I : 1; }
 
 void chain_candidate(struct chain *c, long i)
 {
@@ -54,27 +46,8 @@ void chain_candidate(struct chain *c, long i)
     c->candidate = i % each;
     c->next.length = 2 + (int)(i / each);
     arena_reset(&c->work->arena);
-    c->all->rules->fresh(c);
+    c->all->rules->sample(c, false);
     c->candidate = -1;
-}
-
-uint64_t chain_key(struct chain *c)
-{
-    if (c->candidate >= 0)
-        return c->job->seed;
-    uint64_t high = rng_u32(&c->rng);
-    return high << 32 | rng_u32(&c->rng);
-}
-
-struct sampler chain_sampler(struct chain *c, enum chain_stream stream, uint64_t key)
-{
-    struct chain_state *next = &c->next;
-    struct sampler s =
-        c->candidate >= 0
-            ? sampler_start(key, RNG_START, (uint64_t)next->length * CHAIN_STREAMS + stream, (uint64_t)c->candidate)
-            : sampler_start(key, RNG_CHAIN, stream, 0);
-    s.tape = &next->number[stream];
-    return s;
 }
 
 /* --- independent states ------------------------------------------------------------------------------ */
@@ -109,21 +82,18 @@ static bool candidates_done(void *context, int64_t job, int slot)
     return true;
 }
 
-static void run_bootstrap(struct chains *all, const struct render_job *job)
+static void run_bootstrap(const struct preparation *m, const struct render_job *job)
 {
+    struct chains *all = m->state;
     struct bootstrap b = {all, job, workspaces_new(job->n_threads, job->max_depth)};
     long n = (long)all->lengths * all->each;
     struct parallel_jobs jobs = {(n + BOOTSTRAP_JOB - 1) / BOOTSTRAP_JOB, job->n_threads,
                                  SLOTS_PER_THREAD * job->n_threads, &b, run_candidates, candidates_done, NULL};
-    for (int i = 0; i < job->n_threads; i++) {
-        b.work[i].scratch = mem_alloc(1, sizeof(struct chain));
-        chain_scratch(b.work[i].scratch, all);
-    }
+    for (int i = 0; i < job->n_threads; i++)
+        b.work[i].scratch = method_scratch(m);
     parallel_run(&jobs);
-    for (int i = 0; i < job->n_threads; i++) {
-        chain_scratch_free(b.work[i].scratch);
-        free(b.work[i].scratch);
-    }
+    for (int i = 0; i < job->n_threads; i++)
+        method_scratch_free(m, b.work[i].scratch);
     workspaces_free(b.work, job->n_threads);
 }
 
@@ -176,7 +146,7 @@ void chain_prepare(const struct chain_rules *rules, const struct render_job *job
     all->rules = rules;
     choose_numbers(all, job);
     all->before = mem_alloc((size_t)all->lengths * (size_t)all->each + 1, sizeof *all->before);
-    run_bootstrap(all, job);
+    run_bootstrap(out, job);
     double error = sum_up(all), share = all->b > 0 ? error / all->b : 0;
     const struct film_number b = {"bootstrap", all->b}, e = {"bootstrap_error", error};
     out->number[0] = b;
@@ -227,13 +197,6 @@ double chain_position(const struct preparation *m, const struct tile_pass *pass)
     return (before + (u - floor(u)) * rect_width(r) * rect_height(r)) / pixels;
 }
 
-static void swap_states(struct chain *c)
-{
-    struct chain_state s = c->now;
-    c->now = c->next;
-    c->next = s;
-}
-
 /* The chain's first state, made again as it was. */
 static void start(struct chain *c, const struct preparation *m, const struct tile_pass *pass)
 {
@@ -242,7 +205,7 @@ static void start(struct chain *c, const struct preparation *m, const struct til
     int i = cumulative_find(all->before, n, chain_position(m, pass) * all->before[n]);
     chain_candidate(c, i);
     assert(c->next.I > 0 && fabs(c->next.I - (all->before[i + 1] - all->before[i])) <= 1e-9 * all->before[n]);
-    swap_states(c);
+    chain_swap(c);
     uint64_t tile = (uint64_t)pass->rect.y0 * (uint64_t)pass->job->scene->width + (uint64_t)pass->rect.x0;
     c->rng = rng_stream(pass->job->seed, RNG_CHAIN, 1 + tile, (uint64_t)pass->first);
 }
@@ -276,12 +239,11 @@ void chain_render(const struct preparation *m, const struct tile_pass *pass)
     c->work = pass->work;
     c->gate = pass->tile->gate;
     for (start(c, m, pass); n > 0; n--) {
-        arena_reset(&c->work->arena);
-        double a = all->rules->propose(c);
+        double a = chain_propose(c);
         held += 1 - a;
         if (rng_uniform(&c->rng) < a) {
             send(c, pass, &c->now, held);
-            swap_states(c);
+            chain_swap(c);
             held = a;
         } else {
             send(c, pass, &c->next, a);

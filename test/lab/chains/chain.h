@@ -70,22 +70,21 @@ struct chain_rules {
     bool by_length; /* independent states are of one length each; else of all */
     size_t own_size;
     void (*own_free)(void *own); /* what that owns; NULL: nothing */
-    void (*fresh)(struct chain *c);    /* make `next` an independent state, of next.length if by_length */
-    double (*propose)(struct chain *c); /* make `next` from `now`; returns the probability to accept it */
+    /* Make `next` an independent state, of next.length if by_length, or by a small step from `now`. */
+    void (*sample)(struct chain *c, bool small);
+    /* Make `next` from `now`; returns the probability to accept it. NULL: by a sample, such that it is as likely to
+     * come from there as to go there: min(1, I'/I). */
+    double (*propose)(struct chain *c);
 };
 
-/* chain_sampler: the numbers of one kind for `next`: plain random ones, but those of independent states, of which there
- * are many, are of low discrepancy from one to the next. `key` is drawn from c->rng once for all kinds. */
-struct sampler chain_sampler(struct chain *c, enum chain_stream stream, uint64_t key);
-uint64_t chain_key(struct chain *c);
+/* Of a row of the table. */
+#define CHAIN_ROW                                                                                                      \
+    .chain = true, .state_size = sizeof(struct chains), .scratch_size = sizeof(struct chain),                          \
+    .render = chain_render, .release = chain_release, .scratch_init = chain_scratch, .scratch_free = chain_scratch_free
 
-/* chain_hear: begin with what a state brings; chain_heard: what it brings has been heard: leave out what is black or
- * outside the raster, and sum up. */
-void chain_hear(const struct chain *c, struct chain_state *state);
-void chain_heard(const struct chain *c, struct chain_state *state);
-
-/* chain_accept: the probability to go where it is as likely to come from as to go to: min(1, I'/I). */
-double chain_accept(const struct chain *c);
+/* chain_propose: what is proposed, by the rules. chain_swap: go there. */
+double chain_propose(struct chain *c);
+void chain_swap(struct chain *c);
 
 /* chain_candidate: make `next` independent state number i of all. */
 void chain_candidate(struct chain *c, long i);

@@ -22,7 +22,6 @@
  */
 #include "chains/mlt.h"
 
-#include <stddef.h>
 #include <string.h>
 
 #include "base/frame.h"
@@ -283,7 +282,7 @@ static double perturb(struct chain *c, enum mlt_perturbation which)
     struct mlt_move move = draw_move(c, old, which, &angle);
     double L = in_raster(move.raster) ? mlt_remake(&p, old, which, &move, &to) : 0;
     if (!(L > 0)) {
-        chain_hear(c, &c->next);
+        c->next.I = 0;
         return 0;
     }
     primary_end(&p);
@@ -302,11 +301,11 @@ static double chance_of_new(const struct chain *c, const struct mlt_path *path)
     return path->can[LENS_PERTURBATION] || path->can[CAUSTIC_PERTURBATION] ? c->all->large_step : 1;
 }
 
-static void fresh(struct chain *c)
+static void sample(struct chain *c, bool small)
 {
     struct primary p;
     struct strategy strategy;
-    primary_begin(&p, c, false);
+    primary_begin(&p, c, small);
     bool made = primary_strategy(&p, &strategy);
     primary_end(&p);
     if (made)
@@ -323,26 +322,17 @@ static double propose(struct chain *c)
                        (!old->can[LENS_PERTURBATION] || u - chance >= (1 - chance) / 2);
         return perturb(c, caustic ? CAUSTIC_PERTURBATION : LENS_PERTURBATION);
     }
-    fresh(c);
+    sample(c, false);
     return c->next.I > 0 ? fmin(1, c->next.I * chance_of_new(c, path) / (c->now.I * chance)) : 0;
 }
 
 static void own_free(void *own) { arena_free(&((struct mlt_path *)own)->arena); }
 
 static const struct chain_rules RULES = {.by_length = true, .own_size = sizeof(struct mlt_path), .own_free = own_free,
-                                         .fresh = fresh, .propose = propose};
+                                         .sample = sample, .propose = propose};
 
 static void prepare(const struct render_job *job, struct preparation *out) { chain_prepare(&RULES, job, out); }
 
-static const struct method_parameter PARAMETERS[] = {
-    {"bootstrapsamples", PARAMETER_INTEGER, offsetof(struct chains, bootstrap), 0, 0, 1 << 24,
-     "independent states of each path length, for brightness and starts; 0: by the picture's size", NULL},
-    {"largestepprobability", PARAMETER_NUMBER, offsetof(struct chains, large_step), 0.3, 1e-3, 1,
-     "of a new path, where there is another mutation", NULL},
-    {.name = NULL}};
-
 const struct method method_mlt = {
     .name = "mlt", .help = "a Markov chain over paths: new ones, lens and caustic perturbations [Veach 1997]",
-    .chain = true, .parameters = PARAMETERS, .state_size = sizeof(struct chains),
-    .scratch_size = sizeof(struct chain), .rr_threshold = 0, .prepare = prepare, .render = chain_render,
-    .release = chain_release, .scratch_init = chain_scratch, .scratch_free = chain_scratch_free};
+    .parameters = &CHAIN_PARAMETERS[1], .rr_threshold = 0, .prepare = prepare, CHAIN_ROW};

@@ -17,21 +17,10 @@ static void sample(struct chain *c, bool small)
     primary_end(&p);
 }
 
-static void fresh(struct chain *c) { sample(c, false); }
-
-static double propose(struct chain *c)
-{
-    c->next.length = c->now.length;
-    sample(c, primary_small(c));
-    return chain_accept(c);
-}
-
-static const struct chain_rules RULES = {.roulette = true, .by_length = true, .fresh = fresh, .propose = propose};
+static const struct chain_rules RULES = {.roulette = true, .by_length = true, .sample = sample};
 
 static void prepare(const struct render_job *job, struct preparation *out) { chain_prepare(&RULES, job, out); }
 
 const struct method method_mmlt = {
     .name = "mmlt", .help = "a Markov chain over bdpt's single strategies and their numbers [Hachisuka 2014]",
-    .chain = true, .parameters = PRIMARY_PARAMETERS, .state_size = sizeof(struct chains),
-    .scratch_size = sizeof(struct chain), .rr_threshold = 0, .prepare = prepare, .render = chain_render,
-    .release = chain_release, .scratch_init = chain_scratch, .scratch_free = chain_scratch_free};
+    .parameters = CHAIN_PARAMETERS, .rr_threshold = 0, .prepare = prepare, CHAIN_ROW};

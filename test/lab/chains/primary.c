@@ -6,13 +6,13 @@
 #include "base/maths.h"
 #include "base/number.h"
 
-const struct method_parameter PRIMARY_PARAMETERS[] = {
+const struct method_parameter CHAIN_PARAMETERS[] = {
+    {"sigma", PARAMETER_NUMBER, offsetof(struct chains, sigma), 0.01, 1e-6, 1,
+     "standard deviation of a number's small step", NULL},
     {"bootstrapsamples", PARAMETER_INTEGER, offsetof(struct chains, bootstrap), 0, 0, 1 << 24,
      "independent states (of each path length), for brightness and starts; 0: by the picture's size", NULL},
     {"largestepprobability", PARAMETER_NUMBER, offsetof(struct chains, large_step), 0.3, 1e-3, 1,
-     "of a mutation that makes all numbers anew", NULL},
-    {"sigma", PARAMETER_NUMBER, offsetof(struct chains, sigma), 0.01, 1e-6, 1,
-     "standard deviation of a number's small step", NULL},
+     "of a mutation that makes all anew", NULL},
     {.name = NULL}};
 
 /* Two numbers, normal with the given standard deviation.                                       [Box & Muller 1958] */
@@ -37,29 +37,53 @@ static void move(const struct tape *from, struct tape *to, double sigma, struct 
     to->n = from->n;
 }
 
+/* Numbers of one kind for `next`: plain random ones, but those of independent states, of which there are many, are of
+ * low discrepancy from one to the next. */
+static struct sampler numbers(const struct chain *c, enum chain_stream stream, uint64_t key)
+{
+    uint64_t kind = (uint64_t)c->next.length * CHAIN_STREAMS + stream;
+    return c->candidate >= 0 ? sampler_start(c->job->seed, RNG_START, kind, (uint64_t)c->candidate)
+                             : sampler_start(key, RNG_CHAIN, stream, 0);
+}
+
 void primary_begin(struct primary *p, struct chain *c, bool small)
 {
-    uint64_t key = chain_key(c);
+    static const struct gate ALL = {0, INFINITY};
+    uint64_t key = 0;
+    for (int i = 0; i < 2 && c->candidate < 0; i++)
+        key = key << 32 | rng_u32(&c->rng);
     p->chain = c;
     p->state = &c->next;
-    chain_hear(c, p->state);
+    p->state->heard.gate = ALL;
+    p->state->heard.n_splats = 0;
     for (int i = 0; i < CHAIN_STREAMS; i++) {
         struct tape *tape = &p->state->number[i];
         tape->n = tape->at = 0;
         if (small)
             move(&c->now.number[i], tape, c->all->sigma, &c->rng);
-        p->sampler[i] = chain_sampler(c, (enum chain_stream)i, key);
+        p->sampler[i] = numbers(c, (enum chain_stream)i, key);
+        p->sampler[i].tape = tape;
     }
 }
 
 void primary_end(struct primary *p)
 {
+    const struct chains *all = p->chain->all;
+    struct tile *heard = &p->state->heard;
+    size_t kept = 0;
     for (int i = 0; i < CHAIN_STREAMS; i++)
         p->state->number[i].n = p->state->number[i].at;
-    chain_heard(p->chain, p->state);
+    p->state->I = 0;
+    for (size_t i = 0; i < heard->n_splats; i++) {
+        struct splat s = heard->splat[i];
+        double x = s.px - all->x, y = s.py - all->y, L = rgb_luminance(s.value);
+        if (!(L > 0) || x < 0 || y < 0 || x > all->width || y > all->height)
+            continue;
+        heard->splat[kept++] = s;
+        p->state->I += L;
+    }
+    heard->n_splats = kept;
 }
-
-bool primary_small(struct chain *c) { return rng_uniform(&c->rng) >= c->all->large_step; }
 
 struct walk primary_walk(struct primary *p, enum chain_stream stream)
 {

@@ -21,15 +21,13 @@ struct primary {
 };
 
 /* primary_begin: numbers for c->next: those of c->now, moved (small), or fresh ones. What it brings is heard from
- * here on. primary_end: forget what the sample has not taken, and sum up. */
+ * here on. primary_end: forget the numbers that the sample has not taken, and what it brings that is black or outside
+ * the raster; sum up. */
 void primary_begin(struct primary *p, struct chain *c, bool small);
 void primary_end(struct primary *p);
 
-/* The parameters of a row whose state is a struct chains. */
-extern const struct method_parameter PRIMARY_PARAMETERS[];
-
-/* primary_small: is the next mutation a small step? */
-bool primary_small(struct chain *c);
+/* The parameters of a row; without small steps: but the first. */
+extern const struct method_parameter CHAIN_PARAMETERS[];
 
 /* primary_eye: an eye sub-path of at most n vertices through a raster point that is uniform over the raster.
  * primary_light: a light sub-path likewise. Both into the thread's memory, both return their lengths. */

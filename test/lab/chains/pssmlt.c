@@ -32,20 +32,10 @@ static void sample(struct chain *c, bool small)
     primary_end(&p);
 }
 
-static void fresh(struct chain *c) { sample(c, false); }
-
-static double propose(struct chain *c)
-{
-    sample(c, primary_small(c));
-    return chain_accept(c);
-}
-
-static const struct chain_rules RULES = {.roulette = true, .fresh = fresh, .propose = propose};
+static const struct chain_rules RULES = {.roulette = true, .sample = sample};
 
 static void prepare(const struct render_job *job, struct preparation *out) { chain_prepare(&RULES, job, out); }
 
 const struct method method_pssmlt = {
-    .name = "pssmlt", .help = "a Markov chain over the random numbers of bdpt's samples [Kelemen 2002]", .chain = true,
-    .parameters = PRIMARY_PARAMETERS, .state_size = sizeof(struct chains), .scratch_size = sizeof(struct chain),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = chain_render, .release = chain_release,
-    .scratch_init = chain_scratch, .scratch_free = chain_scratch_free};
+    .name = "pssmlt", .help = "a Markov chain over the random numbers of bdpt's samples [Kelemen 2002]",
+    .parameters = CHAIN_PARAMETERS, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, CHAIN_ROW};

@@ -50,18 +50,11 @@ static void connect(void *scratch, const void *state, struct pooled_pixel *p)
     }
 }
 
-static void free_scratch(void *scratch)
-{
-    struct cbdpt *c = scratch;
-    light_pool_free(&c->pool);
-}
-
 static void prepare(const struct render_job *job, struct preparation *out)
 {
     struct cbdpt_state *s = out->state;
     (void)job;
     s->frozen.counts.connect[FIRST_HIT] = s->frozen.counts.connect[LATER_HIT] = s->connections;
-    s->frozen.counts.splat /= s->frozen.path_pixels;
 }
 
 #define AT(member) offsetof(struct cbdpt_state, member)
@@ -75,5 +68,5 @@ const struct method method_cbdpt = {
     .name = "cbdpt", .help = "combinatorial BDPT [Pajot 2011]: all pairs with M of a tile's light sub-paths",
     .why = "M of the tile's K light sub-paths, in random order, all used equally often; scale 1 / M",
     .parameters = PARAMETERS, .state_size = sizeof(struct cbdpt_state), .scratch_size = sizeof(struct cbdpt),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render, .scratch_free = free_scratch,
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render, .scratch_free = light_pool_free,
     .begin = begin, .connect = connect};

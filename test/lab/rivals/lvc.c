@@ -61,7 +61,6 @@ static void prepare(const struct render_job *job, struct preparation *out)
     double l = light_vertices_expected(job);
     for (int end = 0; end < EYE_ENDS; end++)
         s->frozen.counts.connect[end] = l > 0 ? s->connections / l : s->connections;
-    s->frozen.counts.splat /= s->frozen.path_pixels;
 }
 
 #define AT(member) offsetof(struct lvc_state, member)

@@ -108,15 +108,6 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
     }
 }
 
-static void free_scratch(void *scratch) { light_pool_free(scratch); }
-
-static void prepare(const struct render_job *job, struct preparation *out)
-{
-    struct frozen *f = out->state;
-    (void)job;
-    f->counts.splat /= f->path_pixels;
-}
-
 static const struct method_parameter PARAMETERS[] = {
     {"pathpixels", PARAMETER_INTEGER, offsetof(struct frozen, path_pixels), 1, 1,
      DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE, "pixels for each light sub-path", NULL},
@@ -127,5 +118,5 @@ const struct method method_mbdpt = {
     .why = "one of the tile's K light sub-paths for each strategy, by a shifted lattice over eye and light sub-paths "
            "sorted by length, each equally likely; scale 1",
     .parameters = PARAMETERS, .state_size = sizeof(struct frozen), .scratch_size = sizeof(struct light_pool),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render, .scratch_free = free_scratch,
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .render = pooled_render, .scratch_free = light_pool_free,
     .connect_all = connect_all};

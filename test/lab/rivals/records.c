@@ -39,9 +39,7 @@ void records_place(struct records *r, const struct tile_pass *pass, const struct
 }
 
 /* Nearer than a thousandth of the scene's radius nothing is worth more. */
-double records_least_distance2(const struct scene *scene) { return sqr(1e-3 * scene->lights.radius); }
-
-double record_worth(const struct record *c, const struct vertex *v, vec3 wo, double least_distance2)
+double record_worth(const struct record *c, const struct scene *scene, const struct vertex *v, vec3 wo)
 {
     vec3 d = sub(c->z.p, v->p);
     double d2 = length2(d), wo_ng = abs_dot(wo, v->ng);
@@ -49,7 +47,8 @@ double record_worth(const struct record *c, const struct vertex *v, vec3 wo, dou
         return 0;
     vec3 w = mul(d, 1 / sqrt(d2));
     double f = rgb_luminance(bsdf_eval(&v->bsdf, wo, w, IMPORTANCE).f), at_c = abs_dot(c->z.ng, w);
-    return f * abs_dot(wo, v->bsdf.shading.n) * abs_dot(w, v->ng) / wo_ng * at_c / fmax(d2, least_distance2);
+    double cosines = abs_dot(wo, v->bsdf.shading.n) * abs_dot(w, v->ng) / wo_ng * at_c;
+    return f * cosines / fmax(d2, sqr(1e-3 * scene->lights.radius));
 }
 
 bool record_sees(const struct record *c, const struct scene *scene, const struct vertex *v)
@@ -59,7 +58,6 @@ bool record_sees(const struct record *c, const struct scene *scene, const struct
 
 void records_fill(struct records *r, const struct scene *scene, const struct candidates *found, const double *u)
 {
-    double least = records_least_distance2(scene);
     for (int i = 0; i < r->n; i++) {
         struct record *c = &r->item[i];
         double *h = arena_alloc(&r->arena, (size_t)found->n * sizeof *h), *before = NULL;
@@ -67,7 +65,7 @@ void records_fill(struct records *r, const struct scene *scene, const struct can
         c->sum = 0;
         for (int v = 0; v < found->n; v++) {
             const struct vertex *y = found->item[v].y;
-            h[v] = found->item[v].L * (u != NULL ? u[v] : 1) * record_worth(c, y, y->wo, least);
+            h[v] = found->item[v].L * (u != NULL ? u[v] : 1) * record_worth(c, scene, y, y->wo);
             if (!(h[v] > 0 && h[v] < INFINITY && record_sees(c, scene, y)))
                 h[v] = 0;
             before[v] = c->sum;

@@ -42,9 +42,8 @@ void records_fill(struct records *r, const struct scene *scene, const struct can
 
 /* record_worth: h of one light vertex, which light reaches from wo, as if it and the record saw each other, over L_v;
  * record_sees: do they? */
-double record_worth(const struct record *c, const struct vertex *v, vec3 wo, double least_distance2);
+double record_worth(const struct record *c, const struct scene *scene, const struct vertex *v, vec3 wo);
 bool record_sees(const struct record *c, const struct scene *scene, const struct vertex *v);
-double records_least_distance2(const struct scene *scene);
 
 /* records_near: the nearest records to an eye vertex into near [RECORDS_NEAR], nearest first; returns how many there
  * are. Distances squared grow by `normals` times the scene's diagonal squared times 1 - cosine of the normals. */

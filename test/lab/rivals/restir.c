@@ -109,8 +109,6 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
     }
 }
 
-static void free_scratch(void *scratch) { light_pool_free(scratch); }
-
 static void prepare(const struct render_job *job, struct preparation *out)
 {
     struct restir_state *s = out->state;
@@ -131,5 +129,5 @@ static const struct method_parameter PARAMETERS[] = {
 const struct method method_restir = {
     .name = "restir", .help = "reservoirs [Bitterli 2020]: light points resampled, and shared with pixels nearby",
     .parameters = PARAMETERS, .state_size = sizeof(struct restir_state), .scratch_size = sizeof(struct light_pool),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render, .scratch_free = free_scratch,
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render, .scratch_free = light_pool_free,
     .connect_all = connect_all};

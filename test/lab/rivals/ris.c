@@ -74,7 +74,7 @@ static double worth_edge(const struct ris *r, const struct sight *s, double L, c
     for (int i = 0; i < s->n; i++) {
         const struct record *c = &r->records.item[s->near[i]];
         if (s->sees[i])
-            sum += worth(r, P, L, L * record_worth(c, y, wo, records_least_distance2(r->scene)), c->expected);
+            sum += worth(r, P, L, L * record_worth(c, r->scene, y, wo), c->expected);
     }
     return sum;
 }

@@ -1,0 +1,58 @@
+/* chain_bench.c: see chain_bench.h. */
+#include "chain_bench.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "helpers.h"
+
+/* A matte floor and wall, a mirror for a side wall, a glossy and a glass ball, a lamp, and a lamp that nobody sees. */
+static const char ROOM[] =
+    "LookAt 0 1.5 -4  0 1 0  0 1 0 Camera \"perspective\" \"float fov\" 50 %s\n"
+    "Film \"image\" \"integer xresolution\" %d \"integer yresolution\" %d PixelFilter \"%s\"\n"
+    "Integrator \"bdpt\" \"float rrthreshold\" 0\n"
+    "WorldBegin AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [6 5 4]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 3 -1  1 3 -1  1 3 1  -1 3 1]\n"
+    "AttributeEnd LightSource \"point\" \"rgb I\" [1 2 3] \"point from\" [-1.5 1 -1]\n"
+    "Material \"matte\" \"rgb Kd\" [.7 .6 .5]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  2 0 -2  2 0 2  -2 0 2]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 2  2 0 2  2 3 2  -2 3 2]\n"
+    "Material \"mirror\"\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  -2 0 2  -2 3 2  -2 3 -2]\n"
+    "Material \"metal\" \"float roughness\" .1\n"
+    "TransformBegin Translate .8 .6 .5 Shape \"sphere\" \"float radius\" .6 TransformEnd\n"
+    "Material \"glass\" TransformBegin Translate -.7 .7 0 Shape \"sphere\" \"float radius\" .5 TransformEnd WorldEnd\n";
+
+bool bench_room(struct test *t, int width, int height, const char *lens, const char *filter, struct scene *out)
+{
+    char text[4096];
+    snprintf(text, sizeof text, ROOM, lens, width, height, filter);
+    return scene_from_text(t, text, out);
+}
+
+bool bench_new(struct test *t, const struct scene *scene, const char *integrator, uint64_t seed,
+               struct bench *out)
+{
+    struct render_options o = {.integrator = integrator, .seed = test_seed(t) + seed, .max_depth = BENCH_DEPTH,
+                               .n_threads = 1};
+    struct error err = {""};
+    memset(out, 0, sizeof *out);
+    out->scene = scene;
+    if (!CHECK(t, render_prepare(scene, &o, render_crop(scene), &out->job, &out->prepared, &err), "%s", err.text))
+        return false;
+    out->work = workspaces_new(1, BENCH_DEPTH);
+    out->chain = out->work->scratch = method_scratch(&out->prepared);
+    if (out->chain != NULL) {
+        out->chain->job = &out->job;
+        out->chain->work = out->work;
+        out->chain->rng = rng_stream(o.seed, RNG_TEST, 1, 0);
+    }
+    return true;
+}
+
+void bench_free(struct bench *b)
+{
+    method_scratch_free(&b->prepared, b->work->scratch);
+    workspaces_free(b->work, 1);
+    method_release(&b->prepared);
+}
