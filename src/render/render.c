@@ -242,6 +242,8 @@ static bool prepare(struct run *r, struct error *err)
     const struct method *m = begin_job(r->job.scene, r->options, r->film->rect, &r->job, err);
     if (m == NULL)
         return false;
+    if (m->merges && r->film->planes.lights > 0)
+        return error_set(err, "%s adds what comes of many lights at once: render one of them at a time", m->name);
     if ((m->chain || m->merges) && r->film->gates != NULL)
         return error_set(err, "%s keeps no record of its paths: render one gate at a time", m->name);
     r->job.watch = r->options->progress != NULL ? watch : NULL;

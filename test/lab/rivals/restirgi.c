@@ -37,7 +37,7 @@ struct tail {
     rgb L;                           /* what comes from there, over its density from the next vertex on */
     double light;  /* density, 1/sr, with which w is drawn on lights; LATER: the weight, which is known */
     double length; /* of what follows z2 */
-    int s, t;
+    int s, t, ends_on; /* the last a light */
 };
 
 struct reservoir {
@@ -54,7 +54,7 @@ static double value_at(const struct pooled_pixel *p, const struct tail *x, struc
     const struct mis_counts *counts = p->sample.counts;
     vec3 d = sub(x->z->p, z->p);
     double d2 = length2(d);
-    struct connection c = {.light = -1, .cell = -1, .weight = x->light, .length = z->length + sqrt(d2) + x->length};
+    struct connection c = {.light = x->ends_on, .cell = -1, .weight = x->light, .length = z->length + sqrt(d2) + x->length};
     *out = c;
     *g = 0;
     if (!(d2 > 0) || !bsdf_may_scatter(&z->bsdf, z->wo, d) || !bsdf_may_scatter(&x->z->bsdf, neg(d), x->w))
@@ -103,7 +103,7 @@ static void offer_point(struct pooled_pixel *p, struct reservoir *r, const struc
     double distance = length(d), density = l.pdf / l.at_light;
     vec3 w = mul(d, 1 / distance);
     struct tail x = {delta ? LATER : POINT, z, w, light_Le(&scene->lights, &l.at, neg(w)), delta ? 1 : density,
-                     parallel ? light_distance(&scene->lights, z->p, w) : distance, 1, 3};
+                     parallel ? light_distance(&scene->lights, z->p, w) : distance, 1, 3, l.at.light};
     offer(p, r, &x, z->pdf_fwd * density, sum);
 }
 
@@ -127,6 +127,7 @@ static void offer_later(struct pooled_pixel *p, struct reservoir *r, const struc
             x.kind = x.s == 0 && x.t == 4 ? HIT : LATER;
             x.light = x.kind == HIT ? pdf * reuse_hit_density(&z[1]) : c.weight;
             x.L = c.value;
+            x.ends_on = c.light;
             x.length = c.length - z->length;
             if (own)
                 pixel_sum_connection(sample, &c, x.s, x.t, 1);
