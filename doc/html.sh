@@ -18,7 +18,7 @@ code { white-space: nowrap; }
 code.long { white-space: normal; overflow-wrap: anywhere; }
 pre { overflow-x: auto; padding: 0.7em 1em; background: #8881; border-radius: 4px; line-height: 1.4; }
 .math { border-left: 3px solid #0b62b8; }
-.math td { border: none; padding: 0.2em 1.2em; vertical-align: middle; font-size: 1em; }
+.math td { border: none; padding: 0.3em 1.2em; vertical-align: middle; font-size: 1em; }
 math { font-size: 1.08em; margin: 0; }
 .wide { overflow-x: auto; }
 .wide td, .wide th { font-size: 0.92em; }
@@ -40,10 +40,17 @@ td a, td code.long { overflow-wrap: normal; }
 td.right { white-space: nowrap; }
 img { max-width: 100%; height: auto; vertical-align: middle; }
 img[src$=".svg"] { background: white; }
+img[src^="figures/"][src$=".png"] { min-width: min(14em, 48%); }
 sub, sup { font-size: 0.72em; line-height: 0; }
 .source { max-width: none; }
 .n { color: #888; }
 :target { background: #fd08; }
+@media screen and (max-width: 45em) {
+    td code { white-space: normal; }
+    .math td { display: inline-block; padding: 0.2em 0.8em; }
+    .wide img[src$=".svg"] { max-width: none; width: 38em; }
+    .wide td, .wide th { padding: 0.25em 0.4em; }
+}
 @media (prefers-color-scheme: dark) { a { color: #7db8f2; } pre i { color: #7b9; } pre b { color: #e8a; } }
 @media print {
     body { max-width: none; font-size: 10.5pt; }
