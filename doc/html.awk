@@ -76,7 +76,7 @@ function inline(s,    out, at, code, label, url, i) {
     s = escape(s)
     while (match(s, /`[^`]+`/)) {
         code = substr(s, RSTART + 1, RLENGTH - 2)
-        kept[++n_kept] = "<code" (RLENGTH > 38 ? " class=\"long\"" : "") ">" breakable(code) "</code>"
+        kept[++n_kept] = "<code" (RLENGTH > 38 && kind != "table" ? " class=\"long\"" : "") ">" breakable(code) "</code>"
         s = substr(s, 1, RSTART - 1) "\001" n_kept "\002" substr(s, RSTART + RLENGTH)
     }
     while (match(s, /!?\[[^][]*\]\([^() ]*\)/)) {
@@ -85,7 +85,7 @@ function inline(s,    out, at, code, label, url, i) {
         url = substr(code, at + 2, length(code) - at - 2)
         label = substr(code, 1, at - 1)
         sub(/^!?\[/, "", label)
-        if (substr(code, 1, 1) == "!") kept[++n_kept] = "<img src=\"" url "\" alt=\"" label "\">"
+        if (substr(code, 1, 1) == "!") kept[++n_kept] = "<img src=\"" url "\" alt=\"" label "\"" (is_drawing(url) ? " class=\"drawing\"" : "") ">"
         else kept[++n_kept] = "<a href=\"" target(url, plain(label)) "\">" label "</a>"
         s = substr(s, 1, RSTART - 1) "\001" n_kept "\002" substr(s, RSTART + RLENGTH)
     }
@@ -103,8 +103,16 @@ function inline(s,    out, at, code, label, url, i) {
     }
     return s
 }
+# Is it a picture of words and lines that nobody could read if it were made as narrow as a phone?
+function is_drawing(url,    folder, line) {
+    folder = FILENAME
+    sub(/[^\/]*$/, "", folder)
+    if (url !~ /[.]svg$/ || (getline line < (folder url)) <= 0) return 0
+    close(folder url)
+    return substr(line, index(line, " width=") + 8) + 0 > 600
+}
 # Where a narrow table may break a long name.
-function breakable(code) { if (kind == "table" && length(code) > 16) gsub(/[\/_]/, "&<wbr>", code); return code }
+function breakable(code) { if (kind == "table" && length(code) > 12) gsub(/[\/_ ]/, "&<wbr>", code); return code }
 function pairs(s, pattern, n, tag,    out) {
     while (match(s, pattern)) {
         out = out substr(s, 1, RSTART - 1) "<" tag ">" substr(s, RSTART + n, RLENGTH - 2 * n) "</" tag ">"

@@ -15,6 +15,7 @@ a { color: #0b62b8; text-decoration: none; overflow-wrap: anywhere; }
 a:hover { text-decoration: underline; }
 pre, code { font-family: "DejaVu Sans Mono", Menlo, Consolas, monospace; font-size: 0.86em; }
 code { white-space: nowrap; }
+wbr { display: none; }
 code.long { white-space: normal; overflow-wrap: anywhere; }
 pre { overflow-x: auto; padding: 0.7em 1em; background: #8881; border-radius: 4px; line-height: 1.4; }
 .math { border-left: 3px solid #0b62b8; }
@@ -35,7 +36,7 @@ aside { display: none; }
 }
 table { border-collapse: collapse; margin: 1em 0; }
 td, th { padding: 0.25em 0.7em; border-bottom: 1px solid #8884; text-align: left; vertical-align: top; }
-td a, td code.long { overflow-wrap: normal; }
+td a { overflow-wrap: normal; }
 .right { text-align: right; }
 td.right { white-space: nowrap; }
 img { max-width: 100%; height: auto; vertical-align: middle; }
@@ -46,10 +47,11 @@ sub, sup { font-size: 0.72em; line-height: 0; }
 .n { color: #888; }
 :target { background: #fd08; }
 @media screen and (max-width: 45em) {
-    td code { white-space: normal; }
     .math td { display: inline-block; padding: 0.2em 0.8em; }
-    .wide img[src$=".svg"] { max-width: none; width: 38em; }
-    .wide td, .wide th { padding: 0.25em 0.4em; }
+    wbr { display: inline; }
+    td code { font-size: 0.8em; }
+    .drawing { max-width: none; width: 38em; }
+    .wide td, .wide th { padding: 0.25em 0.35em; font-size: 0.85em; }
 }
 @media (prefers-color-scheme: dark) { a { color: #7db8f2; } pre i { color: #7b9; } pre b { color: #e8a; } }
 @media print {
