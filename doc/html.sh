@@ -47,11 +47,11 @@ sub, sup { font-size: 0.72em; line-height: 0; }
 .n { color: #888; }
 :target { background: #fd08; }
 @media screen and (max-width: 45em) {
-    .math td { display: inline-block; padding: 0.2em 0.8em; }
     wbr { display: inline; }
     td code { font-size: 0.8em; }
     .drawing { max-width: none; width: 38em; }
     .wide td, .wide th { padding: 0.25em 0.35em; font-size: 0.85em; }
+    .math td { display: inline-block; padding: 0.2em 0.8em; font-size: 1em; }
 }
 @media (prefers-color-scheme: dark) { a { color: #7db8f2; } pre i { color: #7b9; } pre b { color: #e8a; } }
 @media print {
