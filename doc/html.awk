@@ -76,7 +76,7 @@ function inline(s,    out, at, code, label, url, i) {
     s = escape(s)
     while (match(s, /`[^`]+`/)) {
         code = substr(s, RSTART + 1, RLENGTH - 2)
-        kept[++n_kept] = "<code" (RLENGTH > 38 ? " class=\"long\"" : "") ">" code "</code>"
+        kept[++n_kept] = "<code" (RLENGTH > 38 && kind != "table" ? " class=\"long\"" : "") ">" breakable(code) "</code>"
         s = substr(s, 1, RSTART - 1) "\001" n_kept "\002" substr(s, RSTART + RLENGTH)
     }
     while (match(s, /!?\[[^][]*\]\([^() ]*\)/)) {
@@ -85,7 +85,7 @@ function inline(s,    out, at, code, label, url, i) {
         url = substr(code, at + 2, length(code) - at - 2)
         label = substr(code, 1, at - 1)
         sub(/^!?\[/, "", label)
-        if (substr(code, 1, 1) == "!") kept[++n_kept] = "<img src=\"" url "\" alt=\"" label "\">"
+        if (substr(code, 1, 1) == "!") kept[++n_kept] = "<img src=\"" url "\" alt=\"" label "\"" (is_drawing(url) ? " class=\"drawing\"" : "") ">"
         else kept[++n_kept] = "<a href=\"" target(url, plain(label)) "\">" label "</a>"
         s = substr(s, 1, RSTART - 1) "\001" n_kept "\002" substr(s, RSTART + RLENGTH)
     }
@@ -103,6 +103,16 @@ function inline(s,    out, at, code, label, url, i) {
     }
     return s
 }
+# Is it a picture of words and lines that nobody could read if it were made as narrow as a phone?
+function is_drawing(url,    folder, line) {
+    folder = FILENAME
+    sub(/[^\/]*$/, "", folder)
+    if (url !~ /[.]svg$/ || (getline line < (folder url)) <= 0) return 0
+    close(folder url)
+    return substr(line, index(line, " width=") + 8) + 0 > 600
+}
+# Where a narrow table may break a long name.
+function breakable(code) { if (kind == "table" && length(code) > 12) gsub(/[\/_ ]/, "&<wbr>", code); return code }
 function pairs(s, pattern, n, tag,    out) {
     while (match(s, pattern)) {
         out = out substr(s, 1, RSTART - 1) "<" tag ">" substr(s, RSTART + n, RLENGTH - 2 * n) "</" tag ">"
@@ -140,13 +150,13 @@ function keywords(s,    out, name) {
 
 # A block of indented lines: a formula unless it looks like commands or a listing.
 function block(text,    is_code) {
-    is_code = !math || text ~ /(^|\n)(\.\/|make|cc |sh |build\/|WHOLE=|asbdpt)/
-    sub(/\n$/, "", text)
+    is_code = !math || text ~ /(^|\n) *(\.\/|make|cc |sh |build\/|WHOLE=|asbdpt|static |extern )/
+    sub(/\n$/, "", text); sub(/^ /, "", text) # a numbered item's block stands a blank further in
     print is_code ? "<pre>" escape(text) "</pre>" : math_block(text)
 }
 
 function flush(    i, n, cell, tag) {
-    if (kind == "p") print "<p>" inline(buffer) "</p>"
+    if (kind == "p") print (buffer ~ /^!\[/ ? "<p class=\"wide\">" : "<p>") inline(buffer) "</p>"
     if (kind == "item") printf "%s", inline(buffer)
     if (kind == "pre") block(buffer)
     if (kind == "table") print "</table></div>"
@@ -181,7 +191,7 @@ BEGIN {
     print "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>" title "</title>"
     print "<link rel=\"stylesheet\" href=\"" root "/style.css\"></head><body" (source ? " class=\"source\"" : "") ">"
     if (nav != "0") print "<nav><a href=\"" root "/README.html\">asbdpt</a> <a href=\"" root "/doc/tour/README.html\">tour</a> " \
-        "<a href=\"" root "/doc/tour/glossary.html\">glossary</a></nav>"
+        "<a href=\"" root "/doc/course/README.html\">course</a> <a href=\"" root "/doc/tour/glossary.html\">glossary</a></nav>"
     if (source) print "<h1>" title "</h1><pre>"
 }
 source { printf "<span id=\"L%d\" class=\"n\">%4d</span> %s\n", FNR, FNR, title ~ /\.[ch]$/ ? colour($0) : escape($0); next }

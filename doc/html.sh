@@ -15,10 +15,11 @@ a { color: #0b62b8; text-decoration: none; overflow-wrap: anywhere; }
 a:hover { text-decoration: underline; }
 pre, code { font-family: "DejaVu Sans Mono", Menlo, Consolas, monospace; font-size: 0.86em; }
 code { white-space: nowrap; }
+wbr { display: none; }
 code.long { white-space: normal; overflow-wrap: anywhere; }
 pre { overflow-x: auto; padding: 0.7em 1em; background: #8881; border-radius: 4px; line-height: 1.4; }
 .math { border-left: 3px solid #0b62b8; }
-.math td { border: none; padding: 0.2em 1.2em; vertical-align: middle; font-size: 1em; }
+.math td { border: none; padding: 0.3em 1.2em; vertical-align: middle; font-size: 1em; }
 math { font-size: 1.08em; margin: 0; }
 .wide { overflow-x: auto; }
 .wide td, .wide th { font-size: 0.92em; }
@@ -35,15 +36,23 @@ aside { display: none; }
 }
 table { border-collapse: collapse; margin: 1em 0; }
 td, th { padding: 0.25em 0.7em; border-bottom: 1px solid #8884; text-align: left; vertical-align: top; }
-td a, td code.long { overflow-wrap: normal; }
+td a { overflow-wrap: normal; }
 .right { text-align: right; }
 td.right { white-space: nowrap; }
 img { max-width: 100%; height: auto; vertical-align: middle; }
 img[src$=".svg"] { background: white; }
+img[src^="figures/"][src$=".png"] { min-width: min(14em, 48%); }
 sub, sup { font-size: 0.72em; line-height: 0; }
 .source { max-width: none; }
 .n { color: #888; }
 :target { background: #fd08; }
+@media screen and (max-width: 45em) {
+    wbr { display: inline; }
+    td code { font-size: 0.8em; }
+    .drawing { max-width: none; width: 38em; }
+    .wide td, .wide th { padding: 0.25em 0.35em; font-size: 0.85em; }
+    .math td { display: inline-block; padding: 0.2em 0.8em; font-size: 1em; }
+}
 @media (prefers-color-scheme: dark) { a { color: #7db8f2; } pre i { color: #7b9; } pre b { color: #e8a; } }
 @media print {
     body { max-width: none; font-size: 10.5pt; }

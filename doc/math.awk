@@ -4,11 +4,10 @@
 # of quantities stay words. math_block(text) is the HTML of some lines; three blanks or more begin another column.
 
 function math_init(    i, n, pair, greek, part) {
-    n = split("beta:03B2 theta:03B8 kappa:03BA delta:03B4 eta:03B7 pi:03C0 eps:03B5 rho:03C1 phi:03C6 sigma:03C3 alpha:03B1", greek, " ")
+    n = split("beta:03B2 theta:03B8 kappa:03BA delta:03B4 eta:03B7 pi:03C0 eps:03B5 rho:03C1 phi:03C6 sigma:03C3 alpha:03B1 lambda:03BB", greek, " ")
     for (i = 1; i <= n; i++) { split(greek[i], part, ":"); MI[part[1]] = "&#x" part[2] ";" }
-    n = split("cos sin tan min max floor log exp luminance var mean mis pdf rev dx dA", pair, " ")
+    n = split("cos sin tan min max floor log exp luminance var mean mis pdf rev dx dA dw", pair, " ")
     for (i = 1; i <= n; i++) MI[pair[i]] = pair[i]
-    MI["dw"] = "d&#x03C9;"
     ready = 1
 }
 
@@ -56,14 +55,17 @@ function math_product(closer,    out, top, n) {
     while (I <= N && T[I] != closer) {
         if (math_sums(I)) {
             out = out top math_sign(); top = ""; n = 0
-        } else if (is_text(I)) { # words are no part of a fraction
-            out = out top math_factor(); top = ""; n = 0
+        } else if (is_text(I)) { # words are no part of a fraction, unless a slash follows
+            out = out top; top = math_factor()
+            n = T[I] == "/"
+            if (!n) { out = out top; top = "" }
         } else if (T[I] == "/") {
             I++
             if (n == 1) top = math_bare(top)
             top = "<mfrac><mrow>" top "</mrow><mrow>" math_bare(math_factor()) "</mrow></mfrac>"
             n = 2
         } else if (math_begins(I)) {
+            if (top ~ /^<mfrac>.*<\/mfrac>$/) { out = out top "<mspace width=\"0.17em\"/>"; top = ""; n = 0 } # what follows is beside it
             top = top (n++ > 0 ? "<mspace width=\"0.17em\"/>" : "") math_factor()
         } else break
     }
@@ -100,7 +102,7 @@ function math_factor(    out, low, high, kept) {
     } else if (T[I] == "|") { I++; inside = 1; out = "<mrow><mo>|</mo>" math_terms("|") "<mo>|</mo></mrow>"; inside = 0; I++ }
     else if (T[I] ~ /^[0-9]/) out = "<mn>" T[I++] "</mn>"
     else if (T[I] ~ /^(wi|wo|ns|ng)$/) {
-        out = "<msub><mi>" (T[I] ~ /^w/ ? "&#x03C9;" : "n") "</mi><mi>" substr(T[I], 2) "</mi></msub>"
+        out = "<msub><mi>" substr(T[I], 1, 1) "</mi><mi>" substr(T[I], 2) "</mi></msub>"
         I++
     }
     else if (is_text(I)) {
@@ -111,7 +113,7 @@ function math_factor(    out, low, high, kept) {
     if (T[I] == "'" && B[I] == 0) { out = "<msup>" out "<mo>&#x2032;</mo></msup>"; I++ }
     if (T[I] == "_" ) { I++; low = math_index() }
     if (T[I] == "^") { I++; high = math_index() }
-    if (T[I] == "*" && T[I + 1] == "(" && B[I] == 0) { I++; high = "<mo>*</mo>" }
+    if (T[I] == "*" && B[I] == 0 && (T[I + 1] == "(" || B[I + 1] > 0 || I == N)) { I++; high = "<mo>*</mo>" }
     if (low != "" && high != "") out = "<msubsup>" out low high "</msubsup>"
     else if (low != "") out = "<msub>" out low "</msub>"
     else if (high != "") out = "<msup>" out high "</msup>"
@@ -123,7 +125,7 @@ function math_chunk(s,    i, words) {
     for (i = 1; i <= N; i++) words += is_text(i)
     if (s ~ /^\[[A-Z][A-Za-z]*[0-9]/ || (words > N / 2 && s !~ /[=<]/)) return ""
     I = 1; inside = 0
-    return "<math display=\"block\">" math_terms("") "</math>"
+    return "<math displaystyle=\"true\">" math_terms("") "</math>"
 }
 function math_block(text,    line, n, i, rest, chunk, cell, out) {
     if (!ready) math_init()

@@ -69,7 +69,7 @@ static double warp_p(enum warp_kind sampled, enum warp_kind claimed, int n, stru
 {
     double count[ROWS * COLUMNS] = {0}, expected[ROWS * COLUMNS];
     for (int i = 0; i < n; i++) {
-        double a, b, u1 = rng_uniform(r), u2 = rng_uniform(r);
+        double a = 0, b = 0, u1 = rng_uniform(r), u2 = rng_uniform(r);
         locate(sampled, u1, u2, &a, &b);
         int row = (int)(clamp(a, 0, 1) * ROWS), column = (int)(clamp(b, 0, 1) * COLUMNS);
         row = row < ROWS ? row : ROWS - 1;

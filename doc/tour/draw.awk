@@ -1,7 +1,7 @@
 # draw.awk: a drawing as SVG, from lines of words; lengths in pixels, y downwards, # begins a comment:
 #   size W H | line CLASS X Y X Y ... | dash ... | arrow CLASS X Y X Y ... | dot CLASS X Y | box CLASS X Y W H
 #   shape CLASS X Y X Y ... | arc CLASS X Y R FROM TO (degrees, counterclockwise) | text WHERE X Y WORDS (left, middle, right, bold)
-# Classes are colours: eye, light, link, ink, grey, pale, wall. In texts x_0, y_(s-1) and d^2 have indices.
+# Classes are colours: eye, light, link, ink, grey, pale, wall. In texts x_0 and d^2 have indices (indices.awk).
 BEGIN {
     split("eye #1d5fbf light #c96f00 link #23823b ink #222 grey #888 pale #e8e8e8 wall #555 warm #fbe3c2 cool #d6e4f7 leaf #d9efdd", c, " ")
     for (i = 1; i in c; i += 2) colour[c[i]] = c[i + 1]
@@ -38,22 +38,8 @@ $1 == "arc" {
 $1 == "text" {
     words = $0
     sub(/^ *text +[a-z]+ +[-0-9.]+ +[-0-9.]+ +/, "", words)
-    gsub(/&/, "\\&amp;", words); gsub(/</, "\\&lt;", words)
-    gsub(/beta/, "\\&#946;", words); gsub(/theta/, "\\&#952;", words); gsub(/sqrt/, "\\&#8730;", words)
-    out = ""
-    while (match(words, /(^|[^A-Za-z_])[A-Za-z;)][_^](\([^()]*\)|[A-Za-z0-9]+)/)) { # longer names are the program's
-        at = RSTART + RLENGTH
-        name = substr(words, RSTART, RLENGTH)
-        out = out substr(words, 1, RSTART - 1)
-        n = match(name, /[_^]/)
-        index_ = substr(name, n + 1)
-        gsub(/^\(|\)$/, "", index_)
-        sign = substr(name, n, 1) == "_" ? 4 : -5
-        out = out substr(name, 1, n - 1) "<tspan dy='" sign "' font-size='10'>" index_ "</tspan><tspan dy='" (-sign) "'>&#8203;</tspan>"
-        words = substr(words, at)
-    }
     printf "<text x='%g' y='%g'%s>%s</text>\n", $3, $4, $2 == "middle" ? " text-anchor='middle'" : $2 == "right" ? " text-anchor='end'" : \
-        $2 == "bold" ? " font-weight='bold'" : "", out words
+        $2 == "bold" ? " font-weight='bold'" : "", indices(words)
     next
 }
 { print "draw.awk: line " NR ": what is " $1 "?" > "/dev/stderr"; bad = 1; exit 1 }

@@ -2,6 +2,8 @@
 # "NAME N ERROR", those of a name together; -v title=.
 function X(n) { return 60 + 420 * log(n / first) / log(last / first) }
 function Y(e) { return 300 - 250 * log(e / least) / log(most / least) }
+# Where a name stands: below the one before, if that is too near.
+function label(y) { return below = below > 0 && y < below + 14 && y > below - 14 ? below + 14 : y }
 { name[NR] = $1; n[NR] = $2; e[NR] = $3 }
 NR == 1 { first = last = $2; least = most = $3 }
 { if ($2 < first) first = $2; if ($2 > last) last = $2; if ($3 < least) least = $3; if ($3 > most) most = $3 }
@@ -30,7 +32,7 @@ END {
                 d = d (j > i ? "L" : "M") sprintf("%.1f %.1f", X(n[j]), Y(e[j]))
                 printf "<circle cx='%.1f' cy='%.1f' r='3.5' fill='%s'/>\n", X(n[j]), Y(e[j]), c
             }
-            printf "<path d='%s' fill='none' stroke='%s' stroke-width='2'/><text x='490' y='%.1f' fill='%s'>%s</text>\n", d, c, Y(e[j - 1]) + 4, c, name[i]
+            printf "<path d='%s' fill='none' stroke='%s' stroke-width='2'/><text x='490' y='%.1f' fill='%s'>%s</text>\n", d, c, label(Y(e[j - 1]) + 4), c, name[i]
         }
     print "</svg>"
 }

@@ -1,5 +1,5 @@
 # family.awk: draws what each method joins an eye sub-path to, and by which choice, as SVG.
-#   awk -f family.awk </dev/null >family.svg
+#   awk -f indices.awk -f family.awk </dev/null >family.svg
 function source(key, text, note, stroke) {
     name[++sources] = key; words[key] = text; under[key] = note; colour[key] = stroke
 }
@@ -45,13 +45,13 @@ END {
         key = name[i]
         printf "<rect x='12' y='%g' width='190' height='40' rx='4' fill='white' stroke='%s' stroke-width='2'/>" \
             "<text x='20' y='%g'>%s</text><text x='20' y='%g' font-size='11' fill='#555'>%s</text>\n",
-            middle[key] - 24, colour[key], middle[key] - 7, words[key], middle[key] + 9, under[key]
+            middle[key] - 24, colour[key], middle[key] - 7, words[key], middle[key] + 9, indices(under[key])
     }
     for (i = 1; i <= methods; i++) {
         key = of[i]
         printf "<path d='M202 %g C250 %g 250 %g 294 %g' fill='none' stroke='%s' stroke-width='2'/>" \
             "<text x='300' y='%g' font-weight='bold'>%s</text><text x='392' y='%g'>%s</text>\n", middle[key] - 4,
-            middle[key] - 4, y[i] - 4, y[i] - 4, colour[key], y[i], label[i], y[i], how[i]
+            middle[key] - 4, y[i] - 4, y[i] - 4, colour[key], y[i], label[i], y[i], indices(how[i])
     }
     print "</svg>"
 }

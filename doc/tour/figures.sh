@@ -80,11 +80,11 @@ awk -v weights="5 1 3 2 1" -f "$tour/alias.awk" </dev/null >"$out/alias.svg"
 
 # Drawings.
 for drawing in "$tour"/drawings/*.draw; do
-    awk -f "$tour/draw.awk" "$drawing" >"$out/$(basename "$drawing" .draw).svg"
+    awk -f "$tour/indices.awk" -f "$tour/draw.awk" "$drawing" >"$out/$(basename "$drawing" .draw).svg"
 done
 
 # What the methods draw from what.
-awk -f "$tour/family.awk" </dev/null >"$out/family.svg"
+awk -f "$tour/indices.awk" -f "$tour/family.awk" </dev/null >"$out/family.svg"
 
 # Squared error at equal time, from the table of doc/selection.md: 1 is bdpt.
 awk -F '|' '/^\| scene, rmse8/ { on = 1; next }
