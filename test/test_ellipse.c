@@ -10,7 +10,7 @@
 #include "lab/stats.h"
 #include "tests.h"
 
-enum { TRIANGLES = 8 };
+enum { TRIANGLES = 8, SIDE = 6 };
 
 /* Two points and a triangle that does not come near them, and all lengths of the ways by it. */
 struct setting {
@@ -43,11 +43,11 @@ static vec3 point(const struct setting *s, double b1, double b2)
 }
 
 /* Which of SIDE^2 equal parts of the triangle x is in; -1 if it is not in it, or the way by x is not tau long. */
-enum { SIDE = 6 };
 static int part_of(const struct setting *s, vec3 x, double tau)
 {
     double b1, b2;
-    if (!combination(sub(s->corner[1], s->corner[0]), sub(s->corner[2], s->corner[0]), sub(x, s->corner[0]), &b1, &b2) ||
+    vec3 a = sub(s->corner[1], s->corner[0]), b = sub(s->corner[2], s->corner[0]);
+    if (!combination(a, b, sub(x, s->corner[0]), &b1, &b2) ||
         !(b1 > -1e-9 && b2 > -1e-9 && b1 + b2 < 1 + 1e-9 && fabs(way(s, x) / tau - 1) < 1e-9) ||
         length(sub(point(s, b1, b2), x)) > 1e-9)
         return -1;
@@ -100,8 +100,8 @@ static double arrives(const struct setting *s, vec3 x)
     return 1 / (length2(sub(x, s->y)) * length2(sub(x, s->z)));
 }
 
-/* In each of some gates, and hence in all, f over density has the mean that a sum over small parts of the triangle has:
- * both within what is left out by steps of this size. */
+/* In each of some gates, and in all together, what is drawn brings as much as a sum over small parts of the triangle
+ * has; no numbers are random here. */
 static void integrals(struct test *t, const struct setting *s)
 {
     enum { GATES = 4, FINE = 300, LENGTHS = 256, ANGLES = 64 };
