@@ -98,7 +98,21 @@ static void bases(struct test *t)
     CHECK(t, curve_segments(&short_one) == 0 && curve_segments(&uneven) == 0, "points that make no whole segments");
 }
 
-/* A straight ribbon whose normal turns by a quarter: its width, its normal half way, and that it is refused. */
+/* How large a mesh looks from far away in the direction x. */
+static double seen(const struct mesh *m)
+{
+    double area = 0;
+    for (int i = 0; i < m->n_triangles; i++) {
+        vec3 p[3];
+        for (int k = 0; k < 3; k++)
+            p[k] = load3(m->P, (size_t)m->index[3 * i + k]);
+        area += fabs(cross(sub(p[1], p[0]), sub(p[2], p[0])).x) / 2;
+    }
+    return area;
+}
+
+/* A straight ribbon whose normal turns by a quarter: its width, its normals, how wide it looks, and that it is
+ * refused. */
 static void ribbon(struct test *t)
 {
     const double P[] = {0, 0, 0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 1, 4, 0, 0, 5, 0, 0, 6};
@@ -110,8 +124,11 @@ static void ribbon(struct test *t)
     CHECK(t, length(sub(sub(b, a), vec(0, -0.2, 0))) < 1e-6, "across the normal and the curve");
     CHECK(t, m.N[0] == 1 && m.UV[1] == 0 && m.UV[3] == 1, "normal, v");
     mesh_free(&m);
-    c.P = P + 0;
     c.n = 4;
+    m = mesh_of(t, &c);
+    double wide = seen(&m) / (3 * 0.2 * 2 / PI); /* 2/PI: the mean of the cosine over a quarter */
+    CHECK(t, fabs(wide - 1) < 1e-3, "looks %g times as wide as it is", wide);
+    mesh_free(&m);
     c.width[0] = c.width[1] = 1e-3;
     double bent[12] = {0, 0, 0, 0, 0, 1, 0, 0, 1.1, 0, 0, 3};
     c.P = bent;

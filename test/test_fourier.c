@@ -48,6 +48,35 @@ static uint8_t *put(uint8_t *at, uint32_t bits)
 
 static uint8_t *put_float(uint8_t *at, double x) { return put(at, bits_of_float((float)x)); }
 
+/* Coefficient k as the file has it: times the cosine, and the first of three is of luminance. */
+static double stored(double mu_i, double mu_o, int c, int k)
+{
+    double a[CHANNELS];
+    for (int j = 0; j < CHANNELS; j++)
+        a[j] = coefficient(mu_i, mu_o, j, k) * fabs(mu_i);
+    a[0] = (a[0] + 0.100913 * a[2] + 0.297375 * a[1]) / 1.39829;
+    return a[c];
+}
+
+/* What pbrt-v3 draws by: up to each cosine of wi the integral of the spline through the means over all azimuths. */
+static uint8_t *put_integrals(uint8_t *at, double mu_o)
+{
+    double y[N_MU], slope[N_MU], sum = 0;
+    for (int i = 0; i < N_MU; i++)
+        y[i] = stored(MU[i], mu_o, 0, 0);
+    for (int i = 0; i < N_MU; i++) {
+        int before = i > 0 ? i - 1 : 0, after = i < N_MU - 1 ? i + 1 : i;
+        slope[i] = (y[after] - y[before]) / (MU[after] - MU[before]);
+    }
+    at = put_float(at, 0);
+    for (int i = 1; i < N_MU; i++) {
+        double width = MU[i] - MU[i - 1];
+        sum += width * ((y[i - 1] + y[i]) / 2 + width * (slope[i - 1] - slope[i]) / 12);
+        at = put_float(at, sum);
+    }
+    return at;
+}
+
 static void make(uint8_t byte[SIZE])
 {
     const uint32_t header[] = {1, N_MU, COEFFICIENTS, ORDERS, CHANNELS, 1, 0, 0, 0};
@@ -59,18 +88,14 @@ static void make(uint8_t byte[SIZE])
     at = put_float(at, ETA) + 16;
     for (int i = 0; i < N_MU; i++)
         at = put_float(at, MU[i]);
-    at += 4 * N_MU * N_MU;
+    for (int o = 0; o < N_MU; o++)
+        at = put_integrals(at, MU[o]);
     for (uint32_t i = 0; i < N_MU * N_MU; i++)
         at = put(put(at, i * ORDERS * CHANNELS), ORDERS);
     for (int i = 0; i < N_MU * N_MU; i++)
         for (int c = 0; c < CHANNELS; c++)
-            for (int k = 0; k < ORDERS; k++) {
-                double mu_i = MU[i % N_MU], mu_o = MU[i / N_MU], a[CHANNELS];
-                for (int j = 0; j < CHANNELS; j++)
-                    a[j] = coefficient(mu_i, mu_o, j, k) * fabs(mu_i);
-                a[0] = (a[0] + 0.100913 * a[2] + 0.297375 * a[1]) / 1.39829;
-                at = put_float(at, a[c]);
-            }
+            for (int k = 0; k < ORDERS; k++)
+                at = put_float(at, stored(MU[i % N_MU], MU[i / N_MU], c, k));
 }
 
 static void file_is_made_here(struct test *t)

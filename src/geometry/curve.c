@@ -54,13 +54,24 @@ static vec3 evaluate(const vec3 b[4], double u, vec3 *tangent)
     return lerp3(u, r[0], r[1]);
 }
 
-/* So many straight pieces stay within a twentieth of the width. [PBRT3 3.7] */
-static int pieces(const vec3 b[4], double width)
+/* A ribbon's normals at both ends of a segment, and the angle between them; that of a tube is 0. */
+static double ribbon_turn(const struct curve *c, int segment, vec3 n[2])
+{
+    for (int i = 0; i < 2 && c->N != NULL; i++) {
+        const double *at = c->N + 3 * (segment + i);
+        n[i] = normalize(vec(at[0], at[1], at[2]));
+    }
+    return c->N != NULL ? m_acos(fmin(fmax(dot(n[0], n[1]), 0), 1)) : 0;
+}
+
+/* So many straight pieces stay within a twentieth of the width. [PBRT3 3.7] Where a ribbon turns by a tenth, what is
+ * seen of it lies within a thousandth of what is seen of a straight piece. */
+static int pieces(const vec3 b[4], double width, double turn)
 {
     double bend = 0;
     for (int i = 0; i < 2; i++)
         bend = fmax(bend, length(add(sub(b[i], mul(b[i + 1], 2)), b[i + 2])));
-    double n = ceil(sqrt(sqrt(2) * 6 * bend / (8 * 0.05 * width)));
+    double n = ceil(fmax(sqrt(sqrt(2) * 6 * bend / (8 * 0.05 * width)), turn / 0.1));
     return n >= 1 ? n < MOST_PIECES ? (int)n : MOST_PIECES : 1;
 }
 
@@ -82,14 +93,8 @@ static void put_row(struct mesh *m, int row, bool tube, vec3 p, vec3 x, vec3 y, 
 }
 
 /* A ribbon's normal, turned evenly from one end of the segment to the other. */
-static vec3 ribbon_normal(const struct curve *c, int segment, double u)
+static vec3 ribbon_normal(const vec3 n[2], double angle, double u)
 {
-    vec3 n[2];
-    for (int i = 0; i < 2; i++) {
-        const double *at = c->N + 3 * (segment + i);
-        n[i] = normalize(vec(at[0], at[1], at[2]));
-    }
-    double angle = m_acos(fmin(fmax(dot(n[0], n[1]), 0), 1));
     if (!(angle > 1e-6))
         return n[0];
     return add(mul(n[0], m_sin((1 - u) * angle)), mul(n[1], m_sin(u * angle)));
@@ -99,11 +104,11 @@ bool curve_mesh(const struct curve *c, struct mesh *m, int most, struct error *e
 {
     int segments = curve_segments(c), columns = c->N == NULL ? SIDES + 1 : 2, row = 0;
     double widest = fmax(c->width[0], c->width[1]);
-    vec3 b[4], tangent, x = vec(0, 0, 0);
+    vec3 b[4], ends[2], tangent, x = vec(0, 0, 0);
     int64_t rows = 0; /* of which a curve may have more than an int */
     for (int s = 0; s < segments; s++) {
         bezier(c, s, b);
-        rows += pieces(b, widest) + 1;
+        rows += pieces(b, widest, ribbon_turn(c, s, ends)) + 1;
     }
     if (widest == 0)
         return true;
@@ -113,12 +118,13 @@ bool curve_mesh(const struct curve *c, struct mesh *m, int most, struct error *e
     mesh_grid(m, columns, (int)rows, true);
     for (int s = 0; s < segments; s++) {
         bezier(c, s, b);
-        int n = pieces(b, widest);
+        double turn = ribbon_turn(c, s, ends);
+        int n = pieces(b, widest, turn);
         for (int i = 0; i <= n; i++) {
             double u = (double)i / n, along = (s + u) / segments;
             vec3 p = evaluate(b, u, &tangent);
             /* The tube's frame is the one before, turned as little as can be. */
-            x = frame_from_tangent(tangent, c->N != NULL ? ribbon_normal(c, s, u) : x).s;
+            x = frame_from_tangent(tangent, c->N != NULL ? ribbon_normal(ends, turn, u) : x).s;
             for (int k = 0; k < columns; k++)
                 m->UV[2 * (row * columns + k)] = (float)u;
             put_row(m, row++, c->N == NULL, p, x, cross(x, tangent), (1 - along) * c->width[0] + along * c->width[1]);

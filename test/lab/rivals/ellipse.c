@@ -13,8 +13,10 @@
  * space, with no delta lobe at x or z, x being on a triangle. The original finds triangles that are cut by a hierarchy;
  * here most draws miss in scenes of many triangles. Without an end of the gate this is pt.
  *
- * Tests: test_gates.c.
+ * Tests: test_ellipse.c, test_gates.c.
  */
+#include "rivals/ellipse.h"
+
 #include <stdlib.h>
 
 #include "base/alias.h"
@@ -117,6 +119,18 @@ static bool cut(const struct ellipsoid *e, const vec3 corner[3], double u, vec3 
     return true;
 }
 
+bool ellipse_draw(vec3 y, vec3 z, const vec3 corner[3], double tau, double range, double u, vec3 *x, double *pdf)
+{
+    double apart = length(sub(y, z)), span;
+    const struct ellipsoid e = {lerp3(0.5, y, z), mul(sub(y, z), 1 / apart), tau / 2, sqrt(sqr(tau) - sqr(apart)) / 2};
+    if (!(apart > 0 && tau > apart) || !cut(&e, corner, u, x, &span))
+        return false;
+    vec3 n = normalize(cross(sub(corner[1], corner[0]), sub(corner[2], corner[0])));
+    vec3 g = add(normalize(sub(*x, y)), normalize(sub(*x, z)));
+    *pdf = length(sub(g, mul(n, dot(g, n)))) / (range * span);
+    return *pdf > 0;
+}
+
 /* --- the strategy ------------------------------------------------------------------------------------- */
 
 /* The point x of a triangle as a vertex that comes after z with this density per area. */
@@ -159,7 +173,7 @@ static int connect(const struct extra *self, struct pixel_sample *sample, const 
     const struct scene *scene = sample->scene;
     const struct gate gate = sample->tile->gate;
     const struct vertex *z = &eye[t - 1];
-    double u[3], v[2], P, span;
+    double u[3], v[2], P, pdf;
     float P9[9];
     struct light_point y;
     struct vertex at;
@@ -174,19 +188,13 @@ static int connect(const struct extra *self, struct pixel_sample *sample, const 
         return 0;
     double apart = length(sub(y.p, z->p)), least = fmax(gate.begin - z->length, apart), most = gate.end - z->length;
     double tau = least + (most - least) * v[0];
-    if (!(apart > 0 && least < most && tau > apart))
+    if (!(least < most))
         return 0;
-    const struct ellipsoid e = {lerp3(0.5, y.p, z->p), mul(sub(y.p, z->p), 1 / apart), tau / 2,
-                                sqrt(sqr(tau) - sqr(apart)) / 2};
     shape_vertices(&scene->geo, triangle, P9);
     for (int i = 0; i < 3; i++)
         corner[i] = vec((double)P9[3 * i], (double)P9[3 * i + 1], (double)P9[3 * i + 2]);
-    if (!cut(&e, corner, v[1], &x, &span))
-        return 0;
-    vec3 n = normalize(cross(sub(corner[1], corner[0]), sub(corner[2], corner[0])));
-    vec3 g = add(normalize(sub(x, y.p)), normalize(sub(x, z->p)));
-    double pdf = P * length(sub(g, mul(n, dot(g, n)))) / ((most - least) * span);
-    if (!(pdf > 0) || !arrive(sample, z, triangle, x, corner, pdf, &at))
+    if (!ellipse_draw(y.p, z->p, corner, tau, most - least, v[1], &x, &pdf) ||
+        !arrive(sample, z, triangle, x, corner, P * pdf, &at))
         return 0;
     out[0] = connect_point(scene, sample->counts, &at, &y, y.pdf);
     out[0].weight = 1;
