@@ -89,7 +89,7 @@ static void plant(struct plan *p, struct equal_time *e)
         for (int v = 0; v < 3; v++)
             for (int k = 0; k < SEEDS; k++) {
                 double square = ratio[v][i] * (1 + 0.1 * k);
-                struct equal_render r = {equal_seed(v, k + 1), 32 - 8 * v, 2, 2, 1, 0, square, square / 2, 0};
+                struct equal_render r = {equal_seed(v, k + 1), 32 - 8 * v, 2, 2, 1, 0, square, square / 2, 0, 0};
                 r.rmse8 = sqrt((v > 0 ? 2 : 1) * square + 9);
                 s->render[v][k] = r;
             }

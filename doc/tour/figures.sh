@@ -21,9 +21,9 @@ chart() {
 for method in pt lt bdpt; do
     render --integrator $method --spp 16 -o "$out/$method.png"
 done
-for select in bins pool vertices subspaces; do
-    render --integrator asbdpt -P select=$select --spp 16 -o "$out/$select.png"
-done
+
+# The same scene in the same CPU time: how many samples that is depends on the machine.
+"$lab" demo "$scene" --spp 16 --quiet -o "$out/equal.png"
 
 # Every strategy alone, as it is and weighted.
 "$lab" strategies "$scene" --integrator bdpt --spp 64 --res 80x80 --maxdepth 4 -o pyramid --quiet

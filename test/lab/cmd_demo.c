@@ -48,8 +48,8 @@ static int run(void *options)
     outputs_abandon(&out); /* unless they are written */
     sheet_free(&picture);
     for (int i = 0; ok && i < o->demo.methods.n; i++)
-        printf("%-8s %6ld spp %8.2f s of CPU   rmse8 %.3f   relmse8x8 %.3g\n", o->demo.methods.item[i].text,
-               took[i].spp, took[i].seconds, took[i].rmse8, took[i].blocks);
+        printf("%-8s %6ld spp %8.2f s of CPU   rmse8 %.3f   of 8x8 pixels %.3f\n", o->demo.methods.item[i].text,
+               took[i].spp, took[i].seconds, took[i].rmse8, took[i].shown_blocks);
     return ok ? EXIT_OK : fail(&err);
 }
 

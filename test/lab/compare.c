@@ -39,6 +39,28 @@ struct difference compare_pixels(const float *x, const float *r, long n)
     return d;
 }
 
+/* As a screen shows it. */
+static float *clipped(const float *x, long n)
+{
+    float *out = mem_alloc((size_t)n, sizeof *out);
+    for (long i = 0; i < n; i++)
+        out[i] = x[i] > 0 ? fminf(x[i], 1) : 0;
+    return out;
+}
+
+double compare_shown_blocks(const float *x, const float *r, int width, int height)
+{
+    int least = width < height ? width : height, k = least < COMPARE_BLOCK ? least : COMPARE_BLOCK;
+    float *shown_x = clipped(x, 3L * width * height), *shown_r = clipped(r, 3L * width * height);
+    float *mean_x = sheet_shrink(shown_x, width, height, k), *mean_r = sheet_shrink(shown_r, width, height, k);
+    double rmse8 = compare_pixels(mean_x, mean_r, 3L * (width / k) * (height / k)).rmse8;
+    free(shown_x);
+    free(shown_r);
+    free(mean_x);
+    free(mean_r);
+    return rmse8;
+}
+
 double compare_blocks(const float *x, const float *r, int width, int height)
 {
     int least = width < height ? width : height, k = least < COMPARE_BLOCK ? least : COMPARE_BLOCK;

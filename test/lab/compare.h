@@ -31,6 +31,10 @@ struct difference compare_pixels(const float *x, const float *r, long n);
 enum { COMPARE_BLOCK = 8 };
 double compare_blocks(const float *x, const float *r, int width, int height);
 
+/* compare_shown_blocks: rmse8 of such means, of what a screen shows: light beyond white, which an 8-bit reference has
+ * not, counts as white. */
+double compare_shown_blocks(const float *x, const float *r, int width, int height);
+
 /* compare_errors: of each pixel the root mean square of its channels' errors; infinite where it is not finite.
  *   x, r  [pixels*3];  out  [pixels] */
 void compare_errors(const float *x, const float *r, long pixels, float *out);

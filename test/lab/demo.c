@@ -84,7 +84,7 @@ static void draw(const struct demo *d, const struct subject *s, const struct equ
     sheet_init(sheet, (n + 1) * (width * k + COLUMN_GAP) + COLUMN_GAP, COLUMN_LABEL + height * k + 2 * COLUMN_GAP,
                SHEET_PAPER);
     for (int i = 0; i < n; i++) {
-        snprintf(cost, sizeof cost, "%ld spp, %.1f s, 8x8 %.2g", out[i].spp, out[i].seconds, out[i].blocks);
+        snprintf(cost, sizeof cost, "%ld spp, %.1f s; in 8x8 %.1f", out[i].spp, out[i].seconds, out[i].shown_blocks);
         draw_column(sheet, i, d->methods.item[i].text, "error", out[i].rmse8, cost, picture[i], width, height, k);
     }
     if (d->scale > 1)

@@ -32,6 +32,7 @@ bool subject_render(struct subject *s, const struct measured *m, struct equal_re
     float *small = sheet_shrink(took.pixels, s->scene.width, s->scene.height, s->scale);
     struct difference d = compare_pixels(small, ref->pixels, 3L * ref->width * ref->height);
     r->blocks = compare_blocks(small, ref->pixels, ref->width, ref->height);
+    r->shown_blocks = compare_shown_blocks(small, ref->pixels, ref->width, ref->height);
     free(small);
     r->seconds = took.seconds;
     r->rmse8 = d.rmse8;

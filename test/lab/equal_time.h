@@ -23,7 +23,7 @@ struct equal_render {
     double target;        /* T */
     double growth;        /* d ln samples / d ln time nearby */
     double rmse8, relmse; /* measured after `seconds` */
-    double blocks;        /* see compare_blocks */
+    double blocks, shown_blocks; /* see compare_blocks, compare_shown_blocks; the second is not kept in files */
     long nonfinite;       /* values that could not be compared */
 };
 

@@ -21,7 +21,7 @@ void draw_column(struct sheet *sheet, int number, const char *name, const char *
         snprintf(text, sizeof text, "%s %.1f", kind, error);
     sheet_text(sheet, x, COLUMN_GAP, size, SHEET_INK, name);
     sheet_text(sheet, x + width * k - sheet_text_width(text, size), COLUMN_GAP, size, SHEET_INK, text);
-    sheet_text(sheet, x, COLUMN_GAP + 30, sheet_text_width(cost, 3) <= width * k ? 3 : 2, SOFT, cost);
+    sheet_text(sheet, x, COLUMN_GAP + 30, 2, SOFT, cost);
     sheet_paste(sheet, x, COLUMN_GAP + COLUMN_LABEL, pixels, width, height, k);
 }
 

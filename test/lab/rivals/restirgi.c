@@ -54,7 +54,8 @@ static double value_at(const struct pooled_pixel *p, const struct tail *x, struc
     const struct mis_counts *counts = p->sample.counts;
     vec3 d = sub(x->z->p, z->p);
     double d2 = length2(d);
-    struct connection c = {.light = x->ends_on, .cell = -1, .weight = x->light, .length = z->length + sqrt(d2) + x->length};
+    struct connection c = {.light = x->ends_on, .cell = -1, .weight = x->light,
+                           .length = z->length + sqrt(d2) + x->length};
     *out = c;
     *g = 0;
     if (!(d2 > 0) || !bsdf_may_scatter(&z->bsdf, z->wo, d) || !bsdf_may_scatter(&x->z->bsdf, neg(d), x->w))
