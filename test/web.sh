@@ -57,9 +57,9 @@ async function rendered(settings) {
 }
 (async () => {
   await until(() => SCENES.length > 0, 'the unpacked scenes');
-  check(SCENES.length === 10, 'scenes: ' + SCENES);
+  check(SCENES.length === 9, 'scenes: ' + SCENES);
   await until(() => sides.every(s => s.worker), 'its start');
-  check($('reference').width > 20 && $('select').length === 16, 'reference and methods');
+  check($('reference').width > 20 && $('select').length === 18, 'reference and methods');
   turn('scale', 2);
   turn('spp', 4);
   await rendered([['scene', 'cornell-box'], ['select', 'vertices']]);

@@ -48,27 +48,29 @@ static float *clipped(const float *x, long n)
     return out;
 }
 
-double compare_shown_blocks(const float *x, const float *r, int width, int height)
+/* Of means over blocks. */
+static struct difference between_blocks(const float *x, const float *r, int width, int height)
 {
     int least = width < height ? width : height, k = least < COMPARE_BLOCK ? least : COMPARE_BLOCK;
-    float *shown_x = clipped(x, 3L * width * height), *shown_r = clipped(r, 3L * width * height);
-    float *mean_x = sheet_shrink(shown_x, width, height, k), *mean_r = sheet_shrink(shown_r, width, height, k);
-    double rmse8 = compare_pixels(mean_x, mean_r, 3L * (width / k) * (height / k)).rmse8;
-    free(shown_x);
-    free(shown_r);
+    float *mean_x = sheet_shrink(x, width, height, k), *mean_r = sheet_shrink(r, width, height, k);
+    struct difference d = compare_pixels(mean_x, mean_r, 3L * (width / k) * (height / k));
     free(mean_x);
     free(mean_r);
+    return d;
+}
+
+double compare_shown_blocks(const float *x, const float *r, int width, int height)
+{
+    float *shown_x = clipped(x, 3L * width * height), *shown_r = clipped(r, 3L * width * height);
+    double rmse8 = between_blocks(shown_x, shown_r, width, height).rmse8;
+    free(shown_x);
+    free(shown_r);
     return rmse8;
 }
 
 double compare_blocks(const float *x, const float *r, int width, int height)
 {
-    int least = width < height ? width : height, k = least < COMPARE_BLOCK ? least : COMPARE_BLOCK;
-    float *mean_x = sheet_shrink(x, width, height, k), *mean_r = sheet_shrink(r, width, height, k);
-    double relmse = compare_pixels(mean_x, mean_r, 3L * (width / k) * (height / k)).relmse;
-    free(mean_x);
-    free(mean_r);
-    return relmse;
+    return between_blocks(x, r, width, height).relmse;
 }
 
 void compare_errors(const float *x, const float *r, long pixels, float *out)
