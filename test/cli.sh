@@ -299,6 +299,9 @@ for name in R albedo.R albedo.G albedo.B normal.X normal.Y normal.Z depth.Z posi
 done
 check [ ! -e l.albedo.pfm ]
 expect 2 'no other format has them' "$program" render "$box" $small --aov depth --layers -o a.png
+expect 0 'no such layer' "$program" render "$box" --res 4x4 --spp 1 --layers --aov variance,depth -o one.exr
+check grep -aq depth.Z one.exr
+check [ "$(grep -ac variance one.exr)" = 0 ]
 expect 2 'no effect without --aov' "$program" render "$box" $small --layers -o a.exr
 expect 0 '' "$program" render "$scenes/bathroom.pbrt" $small --aov albedo,depth --seen -o seen.pfm
 expect 0 '' "$program" render "$scenes/bathroom.pbrt" $small --aov albedo,depth -o first.pfm
@@ -425,6 +428,11 @@ check [ "$(grep -c '"sample"' stdout.txt)" = 3 ]
 expect 0 '' "$lab" trace lamps.pbrt --res 24x16 --spp 4 --worst 1 --svg worst.svg
 check grep -q 'SAMPLES\|bring most' stdout.txt
 check [ -s worst.svg ]
+expect 1 'no pixel has one to tell of' "$lab" trace lamps.pbrt --res 4x4 --spp 4 --worst 1 --integrator pssmlt
+for extra in caustics=1 regularise=.1; do
+    expect 1 'ellipse makes such paths its own way' \
+        "$lab" render "$top/scenes/caustic-glass.pbrt" --res 4x4 --spp 1 --integrator ellipse -P $extra -o b.pfm
+done
 
 # --- help
 # help: as a whole no wider than a terminal, with every integrator once.

@@ -110,7 +110,7 @@ static void test_memory(struct test *t)
     for (int i = 0; i < 5 * TILE_FULL / 2; i++) {
         if (CHECK(t, tile_add_splat(&tile, 32, 32, rgb_grey(1), 0, 0), "a splat is left out"))
             tile_record_splat(&tile, 2, rgb_grey(2), 0.5, 1);
-        tile_add_eye(&tile, 0, 0, rgb_black());
+        tile_add_between(&tile, 0, 0, rgb_black(), rgb_black());
     }
     CHECK(t, calls == 2 && tile.n_splats == TILE_FULL / 2 && tile.n_records == TILE_FULL / 2,
           "emptied %d times, %d splats and %d records are left", calls, (int)tile.n_splats, (int)tile.n_records);
@@ -168,7 +168,7 @@ static void test_errors(struct test *t)
     tile_start(&tile, all, all, &box, false);
     for (int i = 0; i < ITERATIONS; i++) {
         for (int p = 0; p < PIXELS; p++)
-            tile_add_eye(&tile, p % 8, p / 8, rgb_grey(rng_uniform(&r)));
+            tile_add_between(&tile, p % 8, p / 8, rgb_grey(rng_uniform(&r)), rgb_black());
         for (int k = 0; k < SPLATS; k++)
             tile_add_splat(&tile, 8 * rng_uniform(&r), 8 * rng_uniform(&r), rgb_grey(1), 0, 0);
     }
@@ -204,15 +204,15 @@ static void test_overflow(struct test *t)
     film_init(&film, all, 4, 4);
     film_keep_errors(&film);
     tile_start(&tile, all, all, &f, false);
-    tile_add_eye(&tile, 0, 0, rgb_grey(1e39));
-    tile_add_eye(&tile, 1, 0, rgb_grey(NAN));
+    tile_add_between(&tile, 0, 0, rgb_grey(1e39), rgb_black());
+    tile_add_between(&tile, 1, 0, rgb_grey(NAN), rgb_black());
     tile_add_splat(&tile, 2, 2, rgb_grey(-1e39), 0, 0);
     CHECK(t, tile.nonfinite == 3 && tile.n_splats == 0, "%ld of 3 contributions were left out", tile.nonfinite);
     tile_add_splat(&tile, NAN, 2, rgb_grey(1), 0, 0);
     tile_add_splat(&tile, 2, INFINITY, rgb_grey(1), 0, 0);
     spread(&tile, &pixels_met);
     CHECK(t, pixels_met == 0, "a splat that is nowhere fell on %d pixels", pixels_met);
-    tile_add_eye(&tile, 2, 0, rgb_make(3e38, 1, -3e38));
+    tile_add_between(&tile, 2, 0, rgb_make(3e38, 1, -3e38), rgb_black());
     film_merge_tile(&film, &tile);
     film.iterations = 1;
     float pixels[4 * 4 * 3], errors[4 * 4 * 3];

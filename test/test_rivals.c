@@ -1,4 +1,4 @@
-/* test_rivals.c: other ways of choosing what to connect (src/rivals): each has the expectation of path tracing, in
+/* test_rivals.c: other ways of choosing what to connect (test/lab/rivals): each has the expectation of path tracing, in
  * pools of one, two and four light sub-paths, too, where a fault of 1/K is as large as what is measured; and each is
  * another method where the two are one. test_asbdpt.c has lvc and cbdpt. */
 #include <math.h>

@@ -32,7 +32,7 @@ static void add_trace(const struct scene *scene, const struct trace *trace, stru
     struct tile tile = {.rect = film->rect};
     struct pixel_rect one = {trace->x, trace->y, trace->x + 1, trace->y + 1, 0, 0};
     tile_start(&tile, one, film->rect, &scene->filter, false);
-    tile_add_eye(&tile, trace->x, trace->y, trace_sum(trace));
+    tile_add_between(&tile, trace->x, trace->y, trace_sum(trace), rgb_black());
     for (int i = 0; i < trace->n_connections; i++) {
         const struct trace_connection *k = &trace->connection[i];
         if (k->t == 1)

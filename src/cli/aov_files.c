@@ -9,6 +9,8 @@
 #include "base/os.h"
 #include "image/image.h"
 
+static const char NO_VARIANCE[] = "one sample per pixel shows no variance";
+
 bool aov_read(const char *list, struct aov_files *out, struct error *err)
 {
     memset(out, 0, sizeof *out);
@@ -83,11 +85,13 @@ void aov_make(struct aov_files *f, const struct scene *scene, const struct rende
     for (int i = 0, at = f->first; i < N_AOVS; i++) {
         f->picture[i] = mem_alloc(rect_pixels(film->rect) * 3, sizeof *f->picture[i]);
         first_hit |= i < N_FIRST_HIT && f->wanted[i];
-        if (f->wanted[i] && f->layers) {
+        bool missing = i == AOV_VARIANCE && film->iterations < 2;
+        if (f->wanted[i] && f->layers && missing) {
+            fprintf(stderr, "asbdpt: warning: %s, so there is no such layer\n", NO_VARIANCE);
+        } else if (f->wanted[i] && f->layers) {
             add_layer(out, (enum aov)i, f->picture[i]);
         } else if (f->wanted[i]) {
-            if (i == AOV_VARIANCE && film->iterations < 2)
-                out->item[at].missing = "one sample per pixel shows no variance";
+            out->item[at].missing = missing ? NO_VARIANCE : NULL;
             out->item[at++].pixels = f->picture[i];
         }
     }

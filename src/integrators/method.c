@@ -59,6 +59,10 @@ bool method_prepare(const struct method *m, const struct render_job *job, struct
     f->counts.extra = out->extra;
     if (m->prepare != NULL)
         m->prepare(job, out);
+    if (out->extra != NULL && f->counts.extra != out->extra) {
+        method_release(out);
+        return error_set(err, "%s makes such paths its own way, without \"caustics\" and \"regularise\"", m->name);
+    }
     if (job->caustics > 0 && out->extra != NULL)
         f->counts.extra = out->extra = caustics_settle(out->extra, job, &f->counts);
     if (job->regularise > 0)

@@ -129,7 +129,7 @@ static void add_tail(const struct tile *tile, const struct tile *again, const do
 /* Tile k lies around point k of an even sequence over the film. */
 static struct pixel_rect rect_of(const struct measure *p, int64_t k)
 {
-    struct pixel_rect all = p->job.film_rect, r;
+    struct pixel_rect all = p->job.film_rect, r = {0, 0, 0, 0, 0, 0};
     double u, v;
     sampler_r2(k, &u, &v);
     int w = rect_width(all) < MAX_TILE_SIZE ? rect_width(all) : MAX_TILE_SIZE;

@@ -223,6 +223,13 @@ bool render_prepare(const struct scene *scene, const struct render_options *opti
     return m != NULL && method_prepare(m, job, out, err);
 }
 
+/* Can it be said of its samples which pixel they belong to? */
+static bool has_samples(const struct method *m, struct error *err)
+{
+    return !m->chain ||
+           error_set(err, "%s goes from sample to sample over the whole picture: no pixel has one to tell of", m->name);
+}
+
 /* Learning counts as work, a sub-path as a sample. */
 static bool watch(void *context, double traced)
 {
@@ -240,7 +247,7 @@ static bool begun(const struct film *film) { return film->iterations > 0 || film
 static bool prepare(struct run *r, struct error *err)
 {
     const struct method *m = begin_job(r->job.scene, r->options, r->film->rect, &r->job, err);
-    if (m == NULL)
+    if (m == NULL || (r->options->worst != NULL && !has_samples(m, err)))
         return false;
     if (m->merges && r->film->planes.lights > 0)
         return error_set(err, "%s adds what comes of many lights at once: render one of them at a time", m->name);
@@ -339,10 +346,7 @@ bool render_trace(const struct scene *scene, const struct render_options *option
     struct run r = {.options = options};
     struct pixel_rect film = render_crop(scene);
     const struct method *m = method_find(options->integrator, &scene->settings, err);
-    if (m != NULL && m->chain)
-        return error_set(err, "%s goes from sample to sample over the whole picture: no pixel has one to tell of",
-                         m->name);
-    if (m == NULL || !check_sample(options, film, trace, err) ||
+    if (m == NULL || !has_samples(m, err) || !check_sample(options, film, trace, err) ||
         !render_prepare(scene, options, film, &r.job, &r.prepared, err))
         return false;
     trace->why = r.prepared.method->why;

@@ -55,8 +55,6 @@ static size_t place_of(const struct tile *t, int x, int y)
     return 3 * ((size_t)row * (size_t)rect_width(t->rect) + (size_t)column);
 }
 
-void tile_add_eye(struct tile *t, int x, int y, rgb value) { tile_add_between(t, x, y, value, rgb_black()); }
-
 /* What no float holds is left out of every sum alike. */
 static rgb term(rgb c) { return fits(c) ? c : rgb_black(); }
 
@@ -116,7 +114,7 @@ static void filter_span(double p, double radius, int low, int high, int *first, 
 
 struct pixel_rect splat_pixels(const struct splat *s, const struct filter *filter, struct pixel_rect within)
 {
-    struct pixel_rect r;
+    struct pixel_rect r = {0, 0, 0, 0, 0, 0};
     filter_span(s->px, filter->radius[0], within.x0, within.x1, &r.x0, &r.x1);
     filter_span(s->py, filter->radius[1], within.y0, within.y1, &r.y0, &r.y1);
     return r;

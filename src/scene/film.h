@@ -123,11 +123,9 @@ void tile_start(struct tile *t, struct pixel_rect rect, struct pixel_rect film_r
                 bool keep_records);
 void tile_free(struct tile *t);
 
-/* tile_add_eye: the whole value of pixel (x,y) of the tile for one iteration. Call once per pixel and iteration. */
-void tile_add_eye(struct tile *t, int x, int y, rgb value);
-
-/* tile_add_between: the same for the difference of two sums, of what came `until` the end of a gate and of what came
- * `before` its beginning. Each is a term: of gates that follow each other, one's first cancels the next's second. */
+/* tile_add_between: the whole value of pixel (x,y) of the tile for one iteration, the difference of two sums, of what
+ * came `until` the end of a gate and of what came `before` its beginning. Each is a term: of gates that follow each
+ * other, one's first cancels the next's second. Call once per pixel and iteration. */
 void tile_add_between(struct tile *t, int x, int y, rgb until, rgb before);
 
 /* tile_add_light: a sample's value has come from `before` to `after` by what a group of lights has brought.
