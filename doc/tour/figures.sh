@@ -87,7 +87,7 @@ done
 awk -f "$tour/indices.awk" -f "$tour/family.awk" </dev/null >"$out/family.svg"
 
 # Squared error at equal time, from the table of doc/selection.md: 1 is bdpt.
-awk -F '|' '/^\| scene, rmse8/ { on = 1; next }
+awk -F '|' '/^\| scene \| pt, rmse8/ { on = 1; next }
     on && /^\| [a-z-]+ \|/ && $2 !~ /geometric|worst/ {
         gsub(/[ *]/, "", $2); gsub(/[][*,]/, "", $4); print $2, $4 # a value and its interval
     }
