@@ -139,7 +139,7 @@ static struct brought most_of_trace(const struct scene *scene, const struct trac
         const struct trace_connection *k = &trace->connection[i];
         const struct splat s = {k->c.px, k->c.py, k->added, 0, 0};
         struct pixel_rect r = splat_pixels(&s, &scene->filter, all);
-        float part[3];
+        float part[3] = {0, 0, 0};
         for (int n = 0; k->t == 1 && r.x1 > r.x0 && n < (int)rect_pixels(r); n++) {
             int x = r.x0 + n % rect_width(r), y = r.y0 + n / rect_width(r);
             splat_part(&s, &scene->filter, x, y, part);
