@@ -29,6 +29,16 @@ static void agree(struct test *t, struct scene *scene, const char *what, const c
     batches_free(&x);
 }
 
+/* These ways, ended by NULL, against another that is right, which takes samples by a plan of its own. */
+static void all_agree(struct test *t, struct scene *scene, const char *what, const char *other, struct plan right,
+                      const char *const *ways, struct plan plan)
+{
+    struct batches expected = render_batches(t, scene, other, 4, right.spp, right.batches, right.tile, right.seed);
+    for (; *ways != NULL; ways++)
+        agree(t, scene, what, *ways, plan, &expected);
+    batches_free(&expected);
+}
+
 /* Two rooms, where connections matter most, as one tile of 3x3 pixels, with one, two and four or five light sub-paths;
  * a third of the pixels have records. */
 static void test_small_pools(struct test *t)
@@ -37,28 +47,25 @@ static void test_small_pools(struct test *t)
                                         "pcbdpt records=.3 subpaths=4 connections=2", "ris records=.3 subpaths=1",
                                         "ris records=.3 subpaths=2", "ris records=.3 subpaths=4",
                                         "ris2 records=.3 presampled=2 subpaths=2", "restir candidates=1 neighbours=2",
-                                        "restir candidates=4 neighbours=8", "restirgi neighbours=8"};
+                                        "restir candidates=4 neighbours=8", "restirgi neighbours=8",
+                                        NULL};
     struct scene scene;
     if (!scene_from_file(t, "doc/mini/rooms.pbrt", 3, 3, &scene))
         return;
-    struct batches pt = render_batches(t, &scene, "pt", 4, 2048, 32, 1, 163);
-    const struct plan plan = {256, 32, 1, 164};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
-        agree(t, &scene, "rooms in 9 pixels, against pt", cases[i], plan, &pt);
-    batches_free(&pt);
+    const struct plan right = {2048, 32, 1, 163}, plan = {256, 32, 1, 164};
+    all_agree(t, &scene, "rooms in 9 pixels, against pt", "pt", right, cases, plan);
     scene_free(&scene);
 }
 
 /* In three pixels, where sub-paths of a rank would meet too often if the lattice were not shifted at random. */
 static void test_three_pixels(struct test *t)
 {
+    static const char *const ways[] = {"mbdpt", NULL};
     struct scene scene;
     if (!scene_from_file(t, "doc/mini/rooms.pbrt", 3, 1, &scene))
         return;
-    struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 1024, 32, 3, 181);
-    const struct plan plan = {1024, 32, 3, 182};
-    agree(t, &scene, "rooms in three pixels, against bdpt", "mbdpt", plan, &bdpt);
-    batches_free(&bdpt);
+    const struct plan right = {1024, 32, 3, 181}, plan = {1024, 32, 3, 182};
+    all_agree(t, &scene, "rooms in three pixels, against bdpt", "bdpt", right, ways, plan);
     scene_free(&scene);
 }
 
@@ -67,15 +74,12 @@ static void test_rooms(struct test *t)
 {
     static const char *const ways[] = {"pcbdpt records=.02", "ris records=.02 subpaths=30",
                                        "ris2 records=.02 presampled=30", "restir neighbours=20",
-                                       "restirgi neighbours=20 heuristic=power"};
+                                       "restirgi neighbours=20 heuristic=power", NULL};
     struct scene scene;
     if (!scene_from_file(t, "doc/mini/rooms.pbrt", 16, 16, &scene))
         return;
-    struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 32, 16, 8, 191);
-    const struct plan plan = {16, 16, 8, 192};
-    for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++)
-        agree(t, &scene, "rooms, against bdpt", ways[k], plan, &bdpt);
-    batches_free(&bdpt);
+    const struct plan right = {32, 16, 8, 191}, plan = {16, 16, 8, 192};
+    all_agree(t, &scene, "rooms, against bdpt", "bdpt", right, ways, plan);
     scene_free(&scene);
 }
 
@@ -89,11 +93,8 @@ static void test_scenes_by(struct test *t, const char *other, const char *const 
         snprintf(path, sizeof path, "scenes/test/%s.pbrt", scenes[i]);
         if (!scene_from_file(t, path, 24, 24, &scene))
             continue;
-        struct batches expected = render_batches(t, &scene, other, 4, 2 * spp, 12, 12, 171);
-        const struct plan plan = {spp, 10, 12, 172};
-        for (const char *const *way = ways; *way != NULL; way++)
-            agree(t, &scene, scenes[i], *way, plan, &expected);
-        batches_free(&expected);
+        const struct plan right = {2 * spp, 12, 12, 171}, plan = {spp, 10, 12, 172};
+        all_agree(t, &scene, scenes[i], other, right, ways, plan);
         scene_free(&scene);
     }
 }
@@ -123,13 +124,12 @@ static const char SLOPE[] =
 
 static void test_gradient(struct test *t)
 {
+    static const char *const ways[] = {"restirgi neighbours=8", NULL};
     struct scene scene;
     if (!scene_from_text(t, SLOPE, &scene))
         return;
-    struct batches pt = render_batches(t, &scene, "pt", 4, 4096, 16, 1, 231);
-    const struct plan plan = {4096, 16, 1, 232};
-    agree(t, &scene, "a slope beside a wall", "restirgi neighbours=8", plan, &pt);
-    batches_free(&pt);
+    const struct plan right = {4096, 16, 1, 231}, plan = {4096, 16, 1, 232};
+    all_agree(t, &scene, "a slope beside a wall", "pt", right, ways, plan);
     scene_free(&scene);
 }
 
