@@ -14,7 +14,7 @@
 
 enum { PLACES = CELLS * CELLS * CELLS, PARENTS = PLACES / 8, TRIALS = 2 * SIZE * SIZE, KAPPA = 4 };
 
-/* ---- Learning (src/learning/trials.c, pairs.c) ---------------------------------------------------------------------
+/* ---- Learning (src/learning/pairs_pass.c)   ---------------------------------------------------------------------
  * A trial joins an eye vertex z in e to a light vertex y in l, unweighted, and notes what arrives,
  *     x = luminance(connection) / w,     with the weight w = luminance(beta_z) luminance(beta_y).
  * There are more pairs than trials, so the mean of a pair leans on that of the cells twice as large that hold the two:

@@ -34,7 +34,7 @@ enum vertex_kind {
  *                                                               light_sample_point, 1/m^2
  *   pdf_rev      -            -                                 1/sr: of the other walk's    -
  *                                                               going back, if this went on
- *   regions      -            -                                 as count_model.locate says    -
+ *   regions      -            -                                 by tables.h                  -
  *   bsdf         -            -                                 its scattering               -
  *   lamp         -            -                                 eye walk: see below              likewise
  *
