@@ -1,14 +1,15 @@
 #!/bin/sh
-# mini.sh PROGRAM [CC...]: do the eight programs of doc/mini compile without a warning under every compiler at hand, draw
-# the pictures of their page, and have the expectation that PROGRAM has of the same scene?
+# mini.sh PROGRAM [CC...]: do the eight programs of doc/mini compile without a warning under every compiler at hand,
+# draw the pictures of their page, and have the expectation that PROGRAM has of the same scene?
 #
 # Each side renders 8 pictures with seeds of their own; `verify` (test/lab/verify.h) tests the mean, every block of 8x8
 # pixels and the uniformity of the p-values, corrected for their number. LEVEL makes one false alarm in 1,000 of all 16
-# comparisons. What is unbiased must agree with PROGRAM's bdpt; bins, which is biased, must differ from it and agree with
-# PROGRAM's own bins; light tracing, which sees nothing in a mirror, must differ.
+# comparisons. What is unbiased must agree with PROGRAM's bdpt; bins, which is biased, must differ from it and agree
+# with PROGRAM's own bins; light tracing, which sees nothing in a mirror, must differ.
 . test/expect.sh
 [ $# -gt 0 ] && shift
-mini=$top/doc/mini scene=$top/doc/mini/rooms.pbrt steps="1-rays 2-paths 3-lamp 4-light 5-bdpt 6-choice 7-vertices asbdpt"
+mini=$top/doc/mini scene=$top/doc/mini/rooms.pbrt
+steps="1-rays 2-paths 3-lamp 4-light 5-bdpt 6-choice 7-vertices asbdpt"
 compilers=${*:-$(command -v gcc clang || echo cc)}
 LEVEL=6.2e-5 SEEDS="1 2 3 4 5 6 7 8"
 
@@ -25,7 +26,7 @@ for step in $steps; do
     lines=$(wc -l <"$mini/$step.c" | tr -d ' ')
     more=$((lines - before))
     { [ $more -ge 35 ] && [ $more -le 105 ]; } || fault "$step.c has $more lines more than the one before it"
-    grep -q "(\($step\|asbdpt\).c).* | $lines |$" "$mini/README.md" || fault "README.md of the mini: $step.c has $lines lines"
+    grep -q "($step.c).* | $lines |$" "$mini/README.md" || fault "doc/mini/README.md: $step.c has $lines lines"
     before=$lines
 done
 ./asbdpt 2>/dev/null && fault "no usage is printed"
@@ -41,7 +42,8 @@ done
 for picture in p?.png; do
     k=${picture#p}
     "$lab" compare "$picture" "$mini/figures/$k" >compare.txt 2>&1
-    awk '$1 == "rmse8" { good = $2 < 1 } END { exit !good }' compare.txt || fault "figures/$k is another: $(cat compare.txt)"
+    awk '$1 == "rmse8" { good = $2 < 1 } END { exit !good }' compare.txt ||
+        fault "figures/$k is another: $(cat compare.txt)"
 done
 "$lab" compare p2.png "$mini/figures/3.png" | awk '$1 == "rmse8" { other = $2 > 1 } END { exit !other }' ||
     fault "another picture is not noticed"
@@ -57,7 +59,8 @@ main() {
 }
 # compare A B VERDICT [TILE]: agree or DIFFER.
 compare() {
-    "$lab" verify "$scene" --files "$1"-[1-8].pfm --against "$2"-[1-8].pfm --tile "${4:-8}" --alpha $LEVEL --quiet >verdict.txt 2>&1
+    "$lab" verify "$scene" --files "$1"-[1-8].pfm --against "$2"-[1-8].pfm --tile "${4:-8}" --alpha $LEVEL \
+        --quiet >verdict.txt 2>&1
     grep -q "^verdict: $3" verdict.txt ||
         fault "$1 and $2 should $3: $(cat verdict.txt); repeat with: sh test/mini.sh ./asbdpt"
 }

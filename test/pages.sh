@@ -1,6 +1,6 @@
 #!/bin/sh
-# pages.sh: is what the documents take from elsewhere still what stands there? The programs of doc/mini are what steps.in
-# makes. Prints what is wrong, or one line; exit status 0 only if nothing is. Run from the top.
+# pages.sh: is what the documents take from elsewhere still what stands there? The programs of doc/mini are what
+# steps.in makes. Prints what is wrong, or one line; exit status 0 only if nothing is. Run from the top.
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
 bad=0
