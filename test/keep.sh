@@ -160,7 +160,8 @@ for pair in TERM:143 HUP:129 TERM:143; do
     heard "$signal" || continue
     at=0
     [ ! -e state ] || at=$(work_in state)
-    "$program" render "$box" $stopped -j 2 --checkpoint state --resume state --interval 0.02 -o caught.pfm 2>stderr.txt &
+    "$program" render "$box" $stopped -j 2 --checkpoint state --resume state --interval 0.02 -o caught.pfm \
+        2>stderr.txt &
     further() { [ -e state ] && [ "$(work_in state)" -gt "$at" ]; }
     wait_until further
     kill -s "$signal" $!
@@ -179,8 +180,8 @@ same whole.part sum.part "after signals"
 # However large the picture is.
 if heard TERM; then
     rm -f state
-    "$program" render "$box" --integrator bdpt --res 1000x1000 --spp 16 --quiet --checkpoint state --interval 0.1 -o caught.pfm \
-        2>stderr.txt &
+    "$program" render "$box" --integrator bdpt --res 1000x1000 --spp 16 --quiet --checkpoint state --interval 0.1 \
+        -o caught.pfm 2>stderr.txt &
     wait_until [ -e state ]
     kill -s TERM $!
     wait $!

@@ -235,8 +235,8 @@ int strategy_count(int max_depth);
 /* film_take_splats: add a tile's splats and records, and empty its lists. */
 void film_take_splats(struct film *f, struct tile *t);
 
-/* film_merge_tile: add these and a tile's sums. film_mark: its pixels are in. film_end_block: all tiles of the block are
- * in, and count from now on. */
+/* film_merge_tile: add these and a tile's sums. film_mark: its pixels are in. film_end_block: all tiles of the block
+ * are in, and count from now on. */
 void film_merge_tile(struct film *f, struct tile *t);
 void film_mark(struct film *f, struct pixel_rect tile);
 void film_end_block(struct film *f);
