@@ -48,7 +48,7 @@ static double true_worth(vec3 e, vec3 y) { return 1 + (e.x > 0) + 2 * (y.x > 0) 
 /* Learn from `trials` between points of the sides x < 0 and x > 0; each trial brings k times its worth with
  * probability 1/k. */
 static void learn(struct rng *r, struct regions *eye, struct regions *light, int trials,
-                  struct sums *vertices, struct pairs *out)
+                  struct row_sums *vertices, struct pairs *out)
 {
     struct pair_sums l;
     const vec3 up = vec(0, 0, 1);
@@ -96,7 +96,7 @@ static void test_worth_learnt(struct test *t, struct rng *r, int trials, double 
 {
     struct regions eye, light;
     struct pairs p;
-    struct sums vertices = {.columns = 1};
+    struct row_sums vertices = {.columns = 1};
     centred_grid(&eye, 4);
     centred_grid(&light, CELLS);
     learn(r, &eye, &light, trials, &vertices, &p);

@@ -421,7 +421,7 @@ static void learn(double *worth, uint64_t *rng)
         worth[i] = (1 - DELTA) * worth[i] / (sum / (SIZE * SIZE)) + DELTA;
 }
 
-/* ---- Learning pairs (src/learning/trials.c, pairs.c) ---------------------------------------------------------------
+/* ---- Learning pairs (src/learning/pairs_pass.c) -------------------------------------------------------------------
  * A trial joins an eye vertex z in e to a light vertex y in l, unweighted, and notes what arrives,
  *     x = luminance(connection) / w,     with the weight w = luminance(beta_z) luminance(beta_y).
  * There are more pairs than trials, so the mean of a pair leans on that of the cells twice as large that hold the two:

@@ -4,15 +4,6 @@
 
 static const double FIRST_VERTEX = 0.2; /* what the first vertex of a light sub-path counts for in emission */
 
-double path_importance(const struct importance *importance, const struct vertex *light, int n)
-{
-    double sum = 0;
-    for (int i = 1; i < n; i++)
-        if (vertex_connectible(&light[i]))
-            sum += rgb_luminance(light[i].beta) * importance_in(importance, light[i].light_region);
-    return sum;
-}
-
 /* --- emission ---------------------------------------------------------------------------------------- */
 
 /* What a light sub-path is worth says how others should begin. Its first vertex counts little: what comes from there is

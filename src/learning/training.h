@@ -7,7 +7,9 @@
 #ifndef ASBDPT_TRAINING_H
 #define ASBDPT_TRAINING_H
 
-#include "learning/learn.h"
+#include "learning/options.h"
+#include "tables/tables.h"
+#include "transport/tile_pass.h"
 
 /* Something a sub-path found. */
 struct finding {

@@ -11,8 +11,8 @@
 #include "tables/sums.h"
 
 struct importance {
-    struct sums E;        /* by light region; owned */
-    struct sums vertices; /* connectible vertices y_1, y_2 ... of a light sub-path in each light region; owned */
+    struct row_sums E;        /* by light region; owned */
+    struct row_sums vertices; /* connectible vertices y_1, y_2 ... of a light sub-path in each light region; owned */
     /* Means over sub-paths: */
     double light_vertices;               /* connectible vertices of a light sub-path altogether */
     double eye_vertices, first_vertices; /* of an eye sub-path, and first hits among them */

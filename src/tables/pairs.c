@@ -46,7 +46,7 @@ void pair_sums_add(struct pair_sums *s, const struct regions *eye, const struct 
 }
 
 /* m(e,l) of all pairs into `m`, by eye and light region. A pair comes after the one above it. */
-static void shrink(struct pair_sums *s, const struct regions *eye, const struct regions *light, struct sums *m)
+static void shrink(struct pair_sums *s, const struct regions *eye, const struct regions *light, struct row_sums *m)
 {
     sums_row(m, eye->n - 1);
     double prior = s->trials > 0 ? KAPPA * s->weight.x[0] / s->trials : 1; /* all trials count in the pair on top */
@@ -59,9 +59,9 @@ static void shrink(struct pair_sums *s, const struct regions *eye, const struct 
 }
 
 struct pairs pairs_build(struct pair_sums *s, const struct regions *eye, const struct regions *light,
-                         const struct sums *vertices, double delta)
+                         const struct row_sums *vertices, double delta)
 {
-    struct sums m = {.columns = light->n};
+    struct row_sums m = {.columns = light->n};
     double all = sum_of(vertices->x, vertices->rows);
     shrink(s, eye, light, &m);
     for (int e = 0; e < eye->n; e++) {

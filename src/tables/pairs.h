@@ -25,7 +25,7 @@
 
 /* Sums over trials, for pairs of regions of the same level. */
 struct pair_sums {
-    struct sums worth, weight; /* by eye and light region, of w x and of w; owned */
+    struct row_sums worth, weight; /* by eye and light region, of w x and of w; owned */
     double trials;
 };
 
@@ -47,7 +47,7 @@ struct pairs {
  *   vertices  N(l) by light region, those of a region counted in the finest region they lie in
  *   delta     (0,1] */
 struct pairs pairs_build(struct pair_sums *s, const struct regions *eye, const struct regions *light,
-                         const struct sums *vertices, double delta);
+                         const struct row_sums *vertices, double delta);
 
 /* pairs_from_row: a table that does not look at the eye vertex: h(e,l) = row[l].
  *   row  [n_light], handed over */

@@ -6,14 +6,14 @@
 
 #include "base/mem.h"
 
-struct sums {
+struct row_sums {
     double *x; /* [rows * columns], owned: free(x) releases it */
     int rows, columns;
     size_t capacity;
 };
 
 /* sums_row: the sums of a row, [columns]; valid until the next row comes. */
-static inline double *sums_row(struct sums *s, int row)
+static inline double *sums_row(struct row_sums *s, int row)
 {
     size_t columns = (size_t)s->columns, had = (size_t)s->rows * columns, need = ((size_t)row + 1) * columns;
     if (row >= s->rows) {
