@@ -29,7 +29,7 @@ enum { GUIDE_COLUMNS = 256 };
 /* What has been found so far. */
 struct guide_sums {
     struct light_columns columns;
-    struct row_sums arrived; /* by region and column the contributions (luminance), and, last, how many there were; owned */
+    struct row_sums arrived; /* contributions (luminance) by region and column, and last how many there were; owned */
 };
 
 /* guide_sums_init: nothing yet. */
