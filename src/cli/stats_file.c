@@ -26,11 +26,11 @@ static void put_value(struct json *j, const char *name, const char *text)
 }
 
 /* Those in force, whoever set them. */
-static void put_table(struct json *j, const struct scene *scene, const struct method_parameter *p)
+static void put_table(struct json *j, const struct scene *scene, const struct field *p)
 {
     char fallback[64];
     for (; p != NULL && p->name != NULL; p++) {
-        parameter_fallback(p, fallback, sizeof fallback);
+        field_fallback(p, fallback, sizeof fallback);
         put_value(j, p->name, settings_text(&scene->settings, p->name, fallback));
     }
 }
