@@ -232,7 +232,8 @@ static void test_shared_picture(struct test *t)
     CHECK(t, l[1].env != NULL && l[1].slide == NULL && l[3].slide != NULL && l[3].env == NULL, "each in its role");
     snprintf(other, sizeof other, "%s/missing.pfm", test_tmp(t));
     for (int i = 0; i < 4; i++)
-        CHECK(t, light_read_picture(&set, KINDS[i], &l[i], other, &err) == NULL && set.n_pictures == 3, "a missing file");
+        CHECK(t, light_read_picture(&set, KINDS[i], &l[i], other, &err) == NULL && set.n_pictures == 3,
+              "a missing file");
     light_set_free(&set);
     CHECK(t, envmap_size_ok(2048, 2048, 1, &err) && !envmap_size_ok(2049, 2048, 1, &err) &&
                  envmap_size_ok(8192, 4096, 1 << 24, &err) && !envmap_size_ok(8194, 4096, 1 << 24, &err),

@@ -365,7 +365,8 @@ rgb light_Le(const struct light_set *set, const struct light_point *y0, vec3 w)
     case LIGHT_POINT: return l->L;
     case LIGHT_SPOT: return rgb_scale(l->L, spot_falloff(l, w));
     case LIGHT_GONIOMETRIC: return rgb_mul(l->L, slide_goniometric(l->frame->slide, to_light_space(l, w)));
-    case LIGHT_PROJECTION: return rgb_mul(l->L, slide_projection(l->frame->slide, l->frame->tan_half, to_light_space(l, w)));
+    case LIGHT_PROJECTION:
+        return rgb_mul(l->L, slide_projection(l->frame->slide, l->frame->tan_half, to_light_space(l, w)));
     case LIGHT_DISTANT: return l->L;
     case LIGHT_INFINITE: return infinite_Le(l, neg(w));
     }
