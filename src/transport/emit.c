@@ -16,7 +16,7 @@ rgb emit_sample(const struct scene *scene, const struct mis_counts *counts, cons
         return rgb_black();
     rgb emitted = light_sample_emission(lights, at, direction, ray, pdf);
     *pdf *= rho;
-    bool several = lights->several_infinite && lights->light[at->light].kind == LIGHT_INFINITE;
+    bool several = lights->n_infinite > 1 && lights->light[at->light].kind == LIGHT_INFINITE;
     *pdf_mis = several ? emit_pdf(counts, lights, at, ray->o, ray->d) : *pdf;
     return emitted;
 }
@@ -27,7 +27,7 @@ double emit_pdf(const struct mis_counts *counts, const struct light_set *lights,
     bool infinite = y0->light < 0 || lights->light[y0->light].kind == LIGHT_INFINITE;
     double pdf = infinite ? 1 / (PI * sqr(lights->radius)) : light_pdf_emission(lights, y0, w);
     struct light_point at = *y0;
-    if (infinite && lights->several_infinite)
+    if (infinite && lights->n_infinite > 1)
         at.light = -1;
     return pdf > 0 ? pdf * emission_density(&counts_tables(counts)->emission, lights, &at, p, w) : pdf;
 }
