@@ -51,8 +51,8 @@ static void test_statistics(struct test *t)
     CHECK(t, isnan(results_ratio(below, 2, b, 2).value), "error below the reference's noise has no ratio");
 }
 
-/* Of values of a known variance their pairs tell it: the mean of seeds' squares is that of all pairs; each seed's is its
- * own squared deviation but for noise. */
+/* Of values of a known variance their pairs tell it: the mean of seeds' squares is that of all pairs; each seed's is
+ * its own squared deviation but for noise. */
 static void test_pairs_of_seeds(struct test *t)
 {
     enum { SEEDS = 4 };

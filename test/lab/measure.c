@@ -37,10 +37,11 @@ struct subject {
     float *picture[METHODS_MAX][PLAN_MAX_SEEDS]; /* after all samples, of the reference's size */
 };
 
-static bool show_progress(void *context, double done)
+static enum render_wish show_progress(void *context, double done)
 {
     struct measuring *m = context;
-    return progress_update(&m->bar, (m->done + done * m->share) / m->total);
+    progress_update(&m->bar, (m->done + done * m->share) / m->total);
+    return RENDER_GO_ON;
 }
 
 static int scale_of(const struct plan *p) { return p->scale > 1 ? p->scale : 1; }
