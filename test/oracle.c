@@ -132,6 +132,14 @@ static enum eye_end end_of(const struct full_path *f, int i)
     return FIRST_HIT;
 }
 
+/* The normal of x_i on the side of x_next, the next vertex of the walk that comes from there; of a surface that lets
+ * light through the one it has. */
+static vec3 side(const struct full_path *f, int i, int next)
+{
+    vec3 n = f->x[i]->ng;
+    return f->x[i]->bsdf.transmits || dot(n, direction(f, i, next)) > 0 ? n : neg(n);
+}
+
 /* n of the strategy with i light vertices, 0 if it cannot make this path. */
 static double samples(const struct full_path *f, int i)
 {
@@ -145,15 +153,16 @@ static double samples(const struct full_path *f, int i)
         return 0;
     if (t == 1)
         return m->splat;
-    /* Regions are looked up anew, from the surface points at both ends of the edge. */
+    /* Regions are looked up anew, from the surface points at both ends of the edge, as the walks of this strategy come
+     * to them. */
     int e = 0, y = 0, other;
     enum eye_end end = end_of(f, i);
     if (m->model != NULL)
-        m->model->locate(m->model->learnt, f->x[i]->p, f->x[i]->ng, &e, &other);
+        m->model->locate(m->model->learnt, f->x[i]->p, side(f, i, i + 1), &e, &other);
     if (i == 1)
         return mis_direct_count(m, &f->scene->lights, e, end, f->x[0]->cell, direction(f, 1, 0));
     if (m->model != NULL)
-        m->model->locate(m->model->learnt, f->x[i - 1]->p, f->x[i - 1]->ng, &other, &y);
+        m->model->locate(m->model->learnt, f->x[i - 1]->p, side(f, i - 1, i - 2), &other, &y);
     return mis_connect_count(m, y, e, end);
 }
 

@@ -2,11 +2,13 @@
  * lost. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "base/exact_sum.h"
+#include "caustics/caustic.h"
 #include "helpers.h"
+#include "random_parts.h"
 #include "tests.h"
-#include "caustics/specular.h"
 
 /* --- one chain --------------------------------------------------------------------------------------- */
 
@@ -187,6 +189,115 @@ static void test_partition(struct test *t)
     agree(t, "scenes/test/mirror-glass.pbrt", "bdpt caustics=2 heuristic=power", "bdpt", 32);
 }
 
+/* --- any receiver -------------------------------------------------------------------------------------- */
+
+/* A floor of any material at y = 0; above it a pane that is not there, of index 1, or a mirror behind; a lamp, which
+ * points are seldom drawn on, since there is a bright point light, too. To be given to free(). */
+static char *receiver(uint64_t number, const char *top, bool mirror)
+{
+    struct writer w = {.rng = rng_stream(number, RNG_TEST, 8, mirror), .top = top};
+    put(&w, "LookAt %g 3 -4  0 0 0  0 1 0 Camera \"perspective\" WorldBegin\n", between(&w, -1, 1));
+    put(&w, "LightSource \"point\" \"point from\" [0 9 0] \"float scale\" %g AttributeBegin\n", across(&w, 1, 1e4));
+    put(&w, "AreaLightSource \"diffuse\" \"bool twosided\" \"true\" Translate 0 3 %g Rotate 90 1 0 0\n"
+            "Shape \"disk\" \"float radius\" %g AttributeEnd\nAttributeBegin ", mirror ? 1.5 : 3, across(&w, 0.3, 1));
+    put(&w, mirror ? "Material \"mirror\" Translate 0 0 4 Shape \"disk\" \"float radius\" 9 AttributeEnd\n"
+                   : "Material \"glass\" \"float index\" 1 Translate 0 1.5 1.7 Rotate 90 1 0 0\n"
+                     "Shape \"disk\" \"float radius\" 1.2 AttributeEnd\n");
+    put_textures(&w);
+    put_material(&w, false);
+    put(&w, "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-3 0 -3 3 0 -3 3 0 3 -3 0 3]\n"
+            "WorldEnd");
+    return w.text;
+}
+
+static bool meet(const struct scene *scene, vec3 from, vec3 to, uint32_t left, struct surface *at)
+{
+    struct ray ray = {from, normalize(sub(to, from)), ray_margin(from), INFINITY, left, 0};
+    return scene_intersect(scene, &ray, at);
+}
+
+/* Where the eye's walk arrives at the floor. */
+static bool first_hit(const struct scene *scene, struct arena *arena, vec3 eye, vec3 at, struct vertex *z)
+{
+    struct surface hit;
+    double px, py;
+    if (!meet(scene, eye, at, 0, &hit) || length(sub(hit.p, at)) > 1e-6)
+        return false;
+    vec3 d = sub(hit.p, eye), w = normalize(d);
+    double pdf = camera_project(&scene->camera, eye, w, &px, &py) * camera_spread(&scene->camera, length2(d));
+    *z = (struct vertex){.kind = VERTEX_SURFACE, .eye_end = FIRST_HIT, .light = -1, .cell = -1, .p = hit.p,
+                         .ng = hit.ng, .prim_id = hit.prim_id, .wo = neg(w), .beta = rgb_grey(1),
+                         .pdf_fwd = pdf * abs_dot(hit.ng, w)};
+    material_bsdf(scene->material, hit.material, &scene->textures, &hit, arena, &z->bsdf);
+    return true;
+}
+
+/* What the three that make the path weigh it, together, where a chain of one vertex leads to y by way of `image`. */
+static double all_weights(const struct extra *extra, struct pixel_sample *sample, vec3 eye, const struct vertex *z,
+                          const struct connection *c, vec3 image)
+{
+    struct surface at;
+    if (!meet(sample->scene, z->p, image, z->prim_id, &at))
+        return 0;
+    struct vertex x = {.kind = VERTEX_SURFACE, .light = -1, .p = at.p, .ng = at.ng, .prim_id = at.prim_id};
+    struct vertex y = {.kind = VERTEX_SURFACE, .prev_delta = true, .light = c->light, .cell = c->cell, .p = c->end,
+                       .ng = vec(0, 1, 0), .wo = normalize(sub(x.p, c->end)), .pdf_origin = c->pdf};
+    struct vertex seen[4] = {{.kind = VERTEX_LENS, .p = eye}, *z, x, y}, sent[3] = {y, x, *z};
+    sent[0].kind = VERTEX_LIGHT;
+    sent[0].prev_delta = false;
+    sent[0].pdf_fwd = c->pdf;
+    sent[2].prev_delta = true;
+    sent[2].wo = normalize(sub(x.p, z->p));
+    struct connection hit = {.weight = -1}, splat = {.weight = -1, .end = eye};
+    extra->weigh(extra, sample, seen, 0, 4, &hit);
+    extra->weigh(extra, sample, sent, 3, 1, &splat);
+    return c->weight + hit.weight + splat.weight;
+}
+
+/* Whoever makes a path of Psi, and from whichever end: the weights add up to 1, on all that scatters. */
+static void test_receivers(struct test *t)
+{
+    char top[1024];
+    int met = 0;
+    top_directory(top, sizeof top);
+    for (uint64_t i = 0; i < 100; i++) {
+        bool mirror = i % 2 == 1;
+        struct scene scene;
+        struct arena arena = {NULL, NULL};
+        char *text = receiver(i, top, mirror);
+        struct rng r = rng_stream(test_seed(t), RNG_TEST, i, 9);
+        if (!scene_from_text(t, text, &scene))
+            continue;
+        vec3 eye = scene.camera.position;
+        struct extra *extra = caustics_new(&scene, 1);
+        struct mis_counts counts = {.hit = {1, 1}, .direct = {1, 1}, .connect = {1, 1}, .splat = 640 * 480,
+                                    .power = i % 4 > 1};
+        struct pixel_sample sample = {.scene = &scene, .counts = &counts, .max_depth = 5, .arena = &arena};
+        for (int n = 0; n < 40; n++) {
+            vec3 at = vec(4 * rng_uniform(&r) - 2, 0, 4 * rng_uniform(&r) - 2);
+            struct vertex z, path[2];
+            struct connection c[EXTRA_MOST];
+            if (!first_hit(&scene, &arena, eye, at, &z))
+                continue;
+            path[1] = z;
+            sample.sampler = sampler_start(test_seed(t), RNG_TEST, i, (uint64_t)n);
+            for (int k = extra->connect(extra, &sample, path, 2, c); k-- > 0;)
+                if (!rgb_is_black(c[k].value) && c[k].end.y < 9) {
+                    vec3 image = c[k].end;
+                    image.z = mirror ? 8 - image.z : image.z;
+                    double sum = all_weights(extra, &sample, eye, &z, &c[k], image);
+                    met++;
+                    CHECK(t, fabs(sum - 1) < 1e-6, "receiver %d: weights add up to %.9f", (int)i, sum);
+                }
+        }
+        extra->release(extra);
+        arena_free(&arena);
+        scene_free(&scene);
+        free(text);
+    }
+    CHECK(t, met > 1000, "only %d chains", met);
+}
+
 /* --- regularisation ---------------------------------------------------------------------------------- */
 
 /* Mean of a film. */
@@ -297,4 +408,5 @@ void test_caustic(struct test *t)
     test_depth(t);
     test_nothing_there(t);
     test_partition(t);
+    test_receivers(t);
 }

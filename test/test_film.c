@@ -151,6 +151,63 @@ static void test_splats(struct test *t)
     }
 }
 
+/* One of the four tiles of a picture of 8x8 pixels, some iterations. Every iteration brings a pixel 3 by its eye
+ * sub-path and the first light, and 2 by splats of the second, a quarter of them from each tile; and it is opaque. */
+static void even_tile(struct tile *tile, int number, int iterations, const struct filter *box)
+{
+    struct pixel_rect all = {0, 0, 8, 8, 0, 0}, rect = {4 * (number % 2), 4 * (number / 2), 0, 0, 0, 0};
+    rect.x1 = rect.x0 + 4;
+    rect.y1 = rect.y0 + 4;
+    tile_start(tile, rect, all, box, false);
+    for (int i = 0; i < iterations; i++) {
+        for (int y = rect.y0; y < rect.y1; y++)
+            for (int x = rect.x0; x < rect.x1; x++) {
+                tile_add_between(tile, x, y, rgb_grey(3), rgb_black());
+                tile_add_light(tile, x, y, 0, rgb_grey(3), rgb_black());
+                tile_add_alpha(tile, x, y, 1);
+            }
+        for (int p = 0; p < 64; p++)
+            tile_add_splat(tile, p % 8 + 0.5, p / 8 + 0.5, rgb_grey(0.5), 0, 1);
+    }
+}
+
+/* A picture in the middle of a block: what it has is not too bright where samples are in, nor too dark elsewhere. */
+static void test_unfinished(struct test *t)
+{
+    static const float MEANS[] = {5, 3, 2, 1};
+    struct pixel_rect all = {0, 0, 8, 8, 0, 0};
+    const struct planes planes = {2, true};
+    struct filter box;
+    filter_default("box", &box);
+    filter_prepare(&box);
+    for (int whole = 0; whole < 3; whole++)
+        for (int in = 0; in < 4; in++) {
+            struct film film;
+            struct tile tile = {.planes = planes};
+            float out[8 * 8 * 3];
+            film_init(&film, all, 8, 8);
+            film_keep_planes(&film, planes);
+            for (int i = 0; i < 4 * whole + in; i++) {
+                film.block.iterations = 1 + i / 4 % 2;
+                even_tile(&tile, i % 4, (int)film.block.iterations, &box);
+                film_merge_tile(&film, &tile);
+                if (i % 4 == 3)
+                    film_end_block(&film);
+            }
+            for (int plane = 0; plane < 4; plane++) {
+                film_develop_plane(&film, plane, 2, out);
+                for (int i = 0; i < 8 * 8 * 3; i++) {
+                    int column = i / 3 % 8, row = i / 24, number = row / 4 * 2 + column / 4;
+                    float expected = whole > 0 || number < in ? 2 * MEANS[plane] : 0;
+                    CHECK(t, fabsf(out[i] - expected) < 1e-5f, "%d blocks, %d tiles, plane %d: %g at %d,%d, not %g",
+                          whole, in, plane, (double)out[i], column, row, (double)expected);
+                }
+            }
+            tile_free(&tile);
+            film_free(&film);
+        }
+}
+
 /* Standard errors of known noise: own values uniform in [0,1) plus rare splats. */
 static void test_errors(struct test *t)
 {
@@ -304,6 +361,7 @@ void test_film(struct test *t)
     test_filters(t);
     test_splats(t);
     test_memory(t);
+    test_unfinished(t);
     test_errors(t);
     test_overflow(t);
     test_exact_order(t);

@@ -101,11 +101,11 @@ static void test_bounds(struct test *t)
 }
 
 /* A render whose time is over while it learns has a picture of one block all the same. */
-static bool impatient(void *context, double done)
+static enum render_wish impatient(void *context, double done)
 {
     double *asked_first = context;
     *asked_first = *asked_first < 0 ? done : *asked_first;
-    return false;
+    return RENDER_END_BLOCK;
 }
 
 static void test_early_end(struct test *t)

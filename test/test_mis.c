@@ -15,7 +15,7 @@
 
 #define PERSPECTIVE "\"perspective\" \"float fov\" 50 "
 
-/* A room with every kind of vertex; %s takes the camera and the lights. */
+/* A room with every kind of vertex, and sheets that walks meet on both sides; %s takes the camera and the lights. */
 static const char ROOM[] =
     "LookAt 0 1 -3.2  0 1 0  0 1 0\n"
     "Camera %s\n"
@@ -31,6 +31,10 @@ static const char ROOM[] =
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  -2 0 2  -2 3 2  -2 3 -2]\n"
     "Material \"metal\" \"float roughness\" .2\n"
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [2 0 -2  2 0 2  2 3 2  2 3 -2]\n"
+    "Material \"matte\" Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
+    "  \"point P\" [1 .3 1  1.8 .3 -.6  1.8 1.8 -.6  1 1.8 1]\n"
+    "Material \"translucent\" \"rgb Ks\" [0 0 0] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
+    "  \"point P\" [-1.5 1.2 1  -.5 1.2 1.5  -.5 2.4 1.5  -1.5 2.4 1]\n"
     "Material \"glass\" \"float index\" 1.3\n"
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 .2 -2  0 .2 -2  0 .2 2  -2 .2 2]\n"
     "Material \"glass\" \"float index\" 1.5\n"

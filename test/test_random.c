@@ -1,13 +1,13 @@
 /* test_random.c: random scenes (random_scene.h): all methods must see the same, and what is known if anything is.
  *
- * bdpt is compared with one other method, and with some of its parameters, drawn from the number as the heuristic is,
- * each by itself; with pt where no delta light could be behind a specular surface, and with lt where no specular surface
- * is. Renders are made in independent batches; Welch's test compares the means of the picture and of its tiles. Where
- * light is found rarely such p-values are too small (doc/evidence.md), so the comparison goes by stages: if p is below
- * CUTOFF the scene is rendered again, with new seeds and ten times the samples, and what comes out then counts alone. Of
- * true hypotheses fewer are rejected than by the last stage itself, and means of a hundred times the samples are nearer
- * to normal. A fault that is not seen at the first stage is not looked for at the second: doc/evidence.md has how large
- * it must be. Many scenes together see more: the mean over scenes of what one method has more than another must be 0.
+ * bdpt is compared with one other method and some of its parameters, drawn from the number as the heuristic is, each by
+ * itself; with pt where no delta light could be behind a specular surface, and with lt where no specular surface is.
+ * Renders are made in independent batches; Welch's test compares the means of the picture and of its tiles. Where light
+ * is found rarely such p-values are too small (doc/evidence.md), so the comparison goes by stages: if p is below CUTOFF
+ * the scene is rendered again, with new seeds and ten times the samples, and what comes out then counts alone. Of true
+ * hypotheses fewer are rejected than by the last stage itself, and means of a hundred times the samples are nearer to
+ * normal. A fault that one scene is too short to see is left to all scenes together: the mean of what a method has more
+ * than another, relative, must be 0.
  */
 #include <math.h>
 #include <stdio.h>
@@ -25,15 +25,55 @@
 enum { BATCHES = 8, TILE = 6, STAGES = 3 };
 static const double CUTOFF = 0.01, BEYOND_DOUBT = 1e-15;
 
-/* As set_method wants it, but for the heuristic. */
+/* A method's name, and all that set_method wants, but for the heuristic. */
 struct way {
-    char text[128];
+    char name[64], text[128];
 };
-static const struct way BDPT = {"bdpt"}, PT = {"pt"}, LT = {"lt"};
+static const struct way BDPT = {"bdpt", "bdpt"}, PT = {"pt", "pt"}, LT = {"lt", "lt"};
+
+/* What methods had more than others, relative to both, in all scenes where both are settled. */
+struct together {
+    struct difference {
+        char name[160];
+        int n;
+        double sum, square;
+    } of[64];
+    int n;
+};
+
+static void together_add(struct together *all, const char *a, const char *b, double x, double y)
+{
+    char name[160];
+    int i = 0;
+    double d = 2 * (x - y) / (x + y);
+    snprintf(name, sizeof name, "%s against %s", a, b);
+    while (i < all->n && strcmp(all->of[i].name, name) != 0)
+        i++;
+    if (i == 64 || !(x + y > 0))
+        return;
+    struct difference *of = &all->of[i];
+    all->n += i == all->n;
+    memcpy(of->name, name, sizeof name);
+    of->n++;
+    of->sum += d;
+    of->square += d * d;
+}
+
+/* Of a few scenes nothing can be said. */
+static void together_judge(struct test *t, const struct together *all)
+{
+    for (const struct difference *of = all->of; of < all->of + all->n; of++) {
+        double n = of->n, mean = of->sum / n, error = sqrt((of->square / n - mean * mean) / (n - 1));
+        if (of->n >= 10)
+            TEST_ACCEPT(t, stats_student_p(mean / error, n - 1), "%s: %.3f +- %.3f %% more in %d scenes", of->name,
+                        100 * mean, 100 * error, of->n);
+    }
+}
 
 /* A scene that is looked at. */
 struct subject {
     struct test *t;
+    struct together *all;
     struct random_scene made;
     struct scene scene;
     uint64_t number;
@@ -116,7 +156,7 @@ static void report(struct subject *s, double p, const char *what, double found, 
     TEST_ACCEPT(s->t, p, "%s", text);
 }
 
-/* Two methods, or one (b NULL) and the truth. */
+/* Two methods, or one (b NULL) and the truth. What lt brings comes so unevenly that no few samples are its mean. */
 static void compare(struct subject *s, const struct way *a, const struct way *b)
 {
     double p = 1, found = 0, expected = s->made.high;
@@ -127,6 +167,8 @@ static void compare(struct subject *s, const struct way *a, const struct way *b)
             y = render(s, b, stage);
             expected = batches_mean(&y, NULL);
             p = batches_differ_p(&x, &y);
+            if (stage == 0 && a != &LT && settled(&x) && settled(&y))
+                together_add(s->all, a->name, b->name, found, expected);
             batches_free(&y);
         } else {
             p = known_p(&x, s->made.low, s->made.high);
@@ -166,7 +208,8 @@ static struct way draw_other(struct rng *r)
             other[n++] = method_rows[i];
     const struct method *m = other[rng_below(r, n)];
     struct way way;
-    snprintf(way.text, sizeof way.text, "%s", method_name(m));
+    snprintf(way.name, sizeof way.name, "%s", method_name(m));
+    snprintf(way.text, sizeof way.text, "%s", way.name);
     for (size_t i = 0; i < sizeof DRAWN / sizeof DRAWN[0]; i++)
         if (method_has(m, DRAWN[i].name) != NULL && rng_below(r, 2) == 0) {
             size_t used = strlen(way.text);
@@ -186,7 +229,7 @@ static void look_at(struct subject *s)
         compare(s, &PT, NULL);
     if (s->made.one_ray)
         return;
-    compare(s, &other, strncmp(other.text, "restirgi", 8) == 0 ? &PT : &BDPT); /* which shares pt's paths */
+    compare(s, &other, strcmp(other.name, "restirgi") == 0 ? &PT : &BDPT); /* which shares pt's paths */
     if (pt)
         compare(s, &BDPT, &PT);
     if (lt)
@@ -200,8 +243,9 @@ static void test_range_of(struct test *t, uint64_t first, uint64_t cheap, uint64
     top_directory(top, sizeof top);
     if (test_range(t, &first, &end))
         cheap = end;
+    struct together all = {.n = 0};
     for (uint64_t i = first; i < end; i++) {
-        struct subject s = {.t = t, .number = i, .samples = samples};
+        struct subject s = {.t = t, .all = &all, .number = i, .samples = samples};
         s.made = random_scene(i, top, false);
         if ((i < cheap || s.made.one_ray) &&
             CHECK(t, scene_from_text(t, s.made.text, &s.scene), "scene %llu is refused", (unsigned long long)i)) {
@@ -210,6 +254,7 @@ static void test_range_of(struct test *t, uint64_t first, uint64_t cheap, uint64
         }
         free(s.made.text);
     }
+    together_judge(t, &all);
 }
 
 void test_random(struct test *t) { test_range_of(t, 0, 48, 800, 3e3); }

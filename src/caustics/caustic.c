@@ -147,14 +147,20 @@ static int psi_mirror(const struct caustics *all, struct quest *q, int group, st
 /* --- the strategy, and the others that make its paths -------------------------------------------------- */
 
 /* Densities of a path of Psi, each times the number of samples: by caustic connection, by s = 0 and by t = 1, all as if
- * y and, for the last, z were drawn and the rest followed. */
+ * y and, for the last, z were drawn and the rest followed; all times J, for at a focus J is 0. */
 struct makers {
     double connect, hit, splat;
 };
 
-/*   lens  density of z per area by the walk from the lens, where t = 1 can make the path; else 0
- * J is the same both ways but for the squared ratio of the refractive indices at the ends. */
-static struct makers makers_of(const struct mis_counts *n, const struct quest *q, const struct chain *c, double lens)
+/* How the walk from the lens comes to z, whoever made the path. */
+struct arrival {
+    vec3 wo;    /* unit, back to where it came from: not what a light sub-path's vertex calls so */
+    double pdf; /* of z per area where t = 1 can make the path; else 0 */
+};
+
+/* J is the same both ways but for the squared ratio of the refractive indices at the ends. */
+static struct makers makers_of(const struct mis_counts *n, const struct quest *q, const struct chain *c,
+                               struct arrival at)
 {
     const struct light_set *lights = &q->scene->lights;
     const struct light_point *y = q->y;
@@ -162,24 +168,24 @@ static struct makers makers_of(const struct mis_counts *n, const struct quest *q
     double J = specular_area(q, c), cos_y = light != NULL && light->kind == LIGHT_AREA ? abs_dot(y->n, c->d) : 1;
     bool sky = light == NULL || light->kind == LIGHT_INFINITE;
     double pdf_y = sky ? light_pdf_environment(lights, y->w) : y->pdf; /* as an escaping ray sees it */
-    double walked = lens > 0 ? lens : 1;
-    struct makers m = {walked * pdf_y * q->chosen, 0, 0};
+    double walked = at.pdf > 0 ? at.pdf : 1;
+    struct makers m = {walked * pdf_y * q->chosen * J, 0, 0};
     if (light == NULL || !light_is_delta(light))
-        m.hit = n->hit[LATER_HIT] * walked * c->choice * cos_y / J *
-                bsdf_eval(&q->z->bsdf, q->z->wo, c->w, RADIANCE).pdf;
-    if (lens > 0)
-        m.splat = n->splat * pdf_y * c->choice * abs_dot(q->z->ng, c->w) / (J * sqr(c->eta)) *
+        m.hit = n->hit[LATER_HIT] * walked * c->choice * cos_y * bsdf_eval(&q->z->bsdf, at.wo, c->w, RADIANCE).pdf;
+    if (at.pdf > 0)
+        m.splat = n->splat * pdf_y * c->choice * abs_dot(q->z->ng, c->w) / sqr(c->eta) *
                   emit_pdf(n, lights, y, c->p, neg(c->d));
     return m;
 }
 
 static double share(const struct mis_counts *n, double own, struct makers m)
 {
-    return mis_raise(n, own) / (mis_raise(n, m.connect) + mis_raise(n, m.hit) + mis_raise(n, m.splat));
+    double all = mis_raise(n, m.connect) + mis_raise(n, m.hit) + mis_raise(n, m.splat);
+    return all > 0 ? mis_raise(n, own) / all : 0;
 }
 
 static struct connection contribution(const struct mis_counts *counts, const struct quest *q, const struct chain *c,
-                                      double lens)
+                                      double pdf)
 {
     const struct scene *scene = q->scene;
     const struct light_point *y = q->y;
@@ -198,7 +204,7 @@ static struct connection contribution(const struct mis_counts *counts, const str
         out.value = value;
     out.length = z->length + c->length +
                  (q->parallel ? light_distance(&scene->lights, c->p, c->d) : length(sub(y->p, c->p)));
-    struct makers m = makers_of(counts, q, c, lens);
+    struct makers m = makers_of(counts, q, c, (struct arrival){z->wo, pdf});
     out.weight = share(counts, m.connect, m);
     return out;
 }
@@ -209,7 +215,7 @@ static int connect(const struct extra *self, struct pixel_sample *sample, const 
     const struct caustics *all = (const void *)self;
     const struct scene *scene = sample->scene;
     const struct vertex *z = &eye[t - 1];
-    double u[3], lens = t == 2 ? z->pdf_fwd : 0;
+    double u[3], pdf = t == 2 ? z->pdf_fwd : 0;
     struct light_point y;
     struct chain c[EXTRA_MOST];
     if (z->eye_end != FIRST_HIT || !vertex_connectible(z) || all->left[t > 2])
@@ -221,23 +227,23 @@ static int connect(const struct extra *self, struct pixel_sample *sample, const 
     struct quest q = quest_for(sample, z, &y);
     int n = 0, room = sample->max_depth + 1 - t, through = psi_through(all, &q, c);
     for (int i = 0; i < through && q.k <= room; i++)
-        out[n++] = contribution(sample->counts, &q, &c[i], lens);
+        out[n++] = contribution(sample->counts, &q, &c[i], pdf);
     double which = sampler_number(&sample->sampler, DRAW_LIGHT_END);
     int groups = scene->geo.n_groups;
     if (room >= 1 && which < all->mirror[groups] &&
         psi_mirror(all, &q, cumulative_find(all->mirror, groups, which), c) > 0)
-        out[n++] = contribution(sample->counts, &q, c, lens);
+        out[n++] = contribution(sample->counts, &q, c, pdf);
     return n;
 }
 
 /* A path that others have made: its k vertices from z on are x, x[step] ..., then y. False if Psi has no such chain. */
 static bool in_psi(const struct caustics *all, const struct pixel_sample *sample, const struct vertex *z, int step,
-                   int k, const struct light_point *y, double lens, struct makers *out)
+                   int k, const struct light_point *y, struct arrival at, struct makers *out)
 {
     struct quest q = quest_for(sample, z, y);
     struct chain found[STARTS];
     vec3 p[SPECULAR_LONGEST];
-    if (k < 1 || k > all->longest || all->left[!(lens > 0)])
+    if (k < 1 || k > all->longest || all->left[!(at.pdf > 0)])
         return false;
     for (int i = 0; i < k; i++)
         p[i] = z[(i + 1) * step].p;
@@ -248,7 +254,7 @@ static bool in_psi(const struct caustics *all, const struct pixel_sample *sample
     int n = through ? psi_through(all, &q, found) : psi_mirror(all, &q, group, found);
     for (int i = 0; i < n && q.k == k; i++)
         if (same_chain(z->p, p, k, &found[i])) {
-            *out = makers_of(sample->counts, &q, &found[i], lens);
+            *out = makers_of(sample->counts, &q, &found[i], at);
             return true;
         }
     return false;
@@ -266,8 +272,8 @@ static void weigh_hit(const struct caustics *all, const struct pixel_sample *sam
     struct light_point y = vertex_light_point(end);
     y.w = neg(end->wo);
     y.pdf = end->pdf_origin;
-    if (z->kind == VERTEX_SURFACE && z->eye_end == FIRST_HIT &&
-        in_psi(all, sample, z, 1, k, &y, z == &eye[1] ? z->pdf_fwd : 0, &m))
+    struct arrival at = {z->wo, z == &eye[1] ? z->pdf_fwd : 0};
+    if (z->kind == VERTEX_SURFACE && z->eye_end == FIRST_HIT && in_psi(all, sample, z, 1, k, &y, at, &m))
         *weight = share(sample->counts, m.hit, m);
 }
 
@@ -285,7 +291,7 @@ static void weigh_lens(const struct caustics *all, const struct pixel_sample *sa
     for (int i = 2; i < s; i++)
         if (!light[i].prev_delta)
             return;
-    if (in_psi(all, sample, z, -1, s - 2, &y, pdf * abs_dot(z->ng, w), &m))
+    if (in_psi(all, sample, z, -1, s - 2, &y, (struct arrival){neg(w), pdf * abs_dot(z->ng, w)}, &m))
         *weight = share(sample->counts, m.splat, m);
 }
 

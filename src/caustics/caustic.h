@@ -23,7 +23,7 @@
  *     C* = beta_z f_z |cos| kappa_1 ... kappa_k Le |cos_y| / (J p_y)
  * The weights are the balance (or power) heuristic's. As densities of y they are p_y; of s = 0 p_z(w) |cos_y| / J times
  * the probability of choosing the lobes; of t = 1 p_emit(w_y) |cos_z| / J times the same: J, but for indices of
- * refraction, is the same both ways. At a focus, where J is 0, t = 1 has all the weight.
+ * refraction, is the same both ways. At a focus, where J is 0, these two have all the weight.
  *
  * Does it pay? A search costs tens of rays. The second moment of a sample would be larger by the sum of X^2 / (1 - w)
  * over the chains of weight w that bring X, if they were not made; a few hundred samples before the render say how much

@@ -50,12 +50,12 @@ static void print_command(const struct command *c)
     options_print(c->options);
 }
 
-static void print_parameters(const struct method_parameter *p)
+static void print_parameters(const struct field *p)
 {
     enum { HELP = 36 };
     char fallback[64];
     for (; p != NULL && p->name != NULL; p++) {
-        parameter_fallback(p, fallback, sizeof fallback);
+        field_fallback(p, fallback, sizeof fallback);
         printf("    %-20s %-10s ", p->name, fallback);
         print_wrapped(p->help, HELP, HELP);
     }

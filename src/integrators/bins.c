@@ -167,11 +167,11 @@ static void prepare(const struct render_job *job, struct preparation *out)
 }
 
 #define AT(member) offsetof(struct bins_state, member)
-static const struct method_parameter PARAMETERS[] = {
-    {"binpaths", PARAMETER_INTEGER, AT(bin_paths), 8, 2, 4096, "light sub-paths per pixel, even", NULL},
-    {"maxage", PARAMETER_INTEGER, AT(max_age), 24, 0, INT_MAX,
+static const struct field PARAMETERS[] = {
+    {"binpaths", FIELD_INTEGER, AT(bin_paths), 8, 2, 4096, "light sub-paths per pixel, even", NULL},
+    {"maxage", FIELD_INTEGER, AT(max_age), 24, 0, INT_MAX,
      "iterations after which an unused sub-path is replaced, 0: never", NULL},
-    {"restart", PARAMETER_INTEGER, AT(restart), 32, 0, INT_MAX,
+    {"restart", FIELD_INTEGER, AT(restart), 32, 0, INT_MAX,
      "iterations after which all bins are rebuilt, 0: never", NULL},
     {.name = NULL}};
 

@@ -8,18 +8,18 @@
 #include "caustics/caustic.h"
 #include "caustics/regularise.h"
 
-const struct method_parameter *method_has(const struct method *m, const char *name)
+const struct field *method_has(const struct method *m, const char *name)
 {
-    static const struct method_parameter select = {"select", PARAMETER_WORD, 0, 0, 0, 0, "", NULL};
+    static const struct field select = {"select", FIELD_WORD, 0, 0, 0, 0, "", NULL};
     if (m->select != NULL && strcmp(name, select.name) == 0)
         return &select;
-    return m->parameters != NULL ? parameter_find(m->parameters, name) : NULL;
+    return m->parameters != NULL ? field_find(m->parameters, name) : NULL;
 }
 
 static bool read(const struct method *m, const struct settings *s, void *state, struct error *err)
 {
     return m->parameters == NULL ||
-           (parameters_set(m->parameters, s, state, err) && (m->check == NULL || m->check(state, err)));
+           (settings_fields(s, m->parameters, state, err) && (m->check == NULL || m->check(state, err)));
 }
 
 bool method_check(const struct method *m, const struct settings *s, struct error *err)

@@ -13,7 +13,7 @@
 #define ASBDPT_METHOD_H
 
 #include "base/error.h"
-#include "integrators/parameter.h"
+#include "base/field.h"
 #include "transport/pixel_sample.h"
 
 #define DEFAULT_RR_THRESHOLD 0.5
@@ -39,7 +39,7 @@ struct method {
     bool chain;         /* its samples are mutations of others, of no pixel and not independent: see chains/chain.h */
     bool merges;        /* what it adds to a pixel is of many paths at once, of any length */
     const char *why;    /* for trace: how what an eye sub-path is joined to is chosen; NULL: it is not */
-    const struct method_parameter *parameters; /* of the state; NULL: none */
+    const struct field *parameters; /* of the state; NULL: none */
     size_t state_size, scratch_size;    /* scratch_size 0: none; else all zeros at first */
     double rr_threshold;                /* of Russian roulette unless the user gives one (path.h) */
 
@@ -68,7 +68,7 @@ struct method {
 };
 
 /* method_has: the parameter of that name that a row has, or NULL; `select` is one, where rows share a name. */
-const struct method_parameter *method_has(const struct method *m, const char *name);
+const struct field *method_has(const struct method *m, const char *name);
 
 /* method_check: are the settings right that are the method's own? False with a message if not. */
 bool method_check(const struct method *m, const struct settings *s, struct error *err);

@@ -88,10 +88,10 @@ static void release(void *state)
 }
 
 #define AT(member) offsetof(struct pool_state, member)
-static const struct method_parameter PARAMETERS[] = {
-    {"metric", PARAMETER_WORD, AT(metric), METRIC_IMPORTANCE, 0, 0, "what a light sub-path is chosen by", METRICS},
-    {"delta", PARAMETER_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore it", NULL},
-    {"grid", PARAMETER_INTEGER, AT(grid), 64, 1, 100000, "cells of the importance along the scene's diagonal", NULL},
+static const struct field PARAMETERS[] = {
+    {"metric", FIELD_WORD, AT(metric), METRIC_IMPORTANCE, 0, 0, "what a light sub-path is chosen by", METRICS},
+    {"delta", FIELD_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore it", NULL},
+    {"grid", FIELD_INTEGER, AT(grid), 64, 1, 100000, "cells of the importance along the scene's diagonal", NULL},
     {.name = NULL}};
 
 const struct method method_pool = {

@@ -232,13 +232,13 @@ static void release(void *state)
 }
 
 #define AT(member) offsetof(struct subspaces_state, member)
-static const struct method_parameter PARAMETERS[] = {
-    {"connections", PARAMETER_INTEGER, AT(connections), 0, 0, 1024,
+static const struct field PARAMETERS[] = {
+    {"connections", FIELD_INTEGER, AT(connections), 0, 0, 1024,
      "light vertices drawn for each eye vertex; 0: chosen", NULL},
-    {"pathpixels", PARAMETER_INTEGER, AT(frozen.path_pixels), 0, 0, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
+    {"pathpixels", FIELD_INTEGER, AT(frozen.path_pixels), 0, 0, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
      "pixels for each light sub-path; 0: chosen", NULL},
-    {"delta", PARAMETER_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore what was learnt", NULL},
-    {"emission", PARAMETER_NUMBER, AT(emission), 0.2, 1e-6, 1,
+    {"delta", FIELD_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore what was learnt", NULL},
+    {"emission", FIELD_NUMBER, AT(emission), 0.2, 1e-6, 1,
      "share of light sub-paths that leave lights as if nothing were learnt", NULL},
     {.name = NULL}};
 

@@ -138,14 +138,14 @@ static void release(void *state)
 }
 
 #define AT(member) offsetof(struct vertices_state, member)
-static const struct method_parameter PARAMETERS[] = {
-    {"connections", PARAMETER_INTEGER, AT(connections), 0, 0, 1024,
+static const struct field PARAMETERS[] = {
+    {"connections", FIELD_INTEGER, AT(connections), 0, 0, 1024,
      "light vertices drawn for each eye vertex; 0: chosen", NULL},
-    {"pathpixels", PARAMETER_INTEGER, AT(frozen.path_pixels), 0, 0, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
+    {"pathpixels", FIELD_INTEGER, AT(frozen.path_pixels), 0, 0, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
      "pixels for each light sub-path; 0: 2", NULL},
-    {"metric", PARAMETER_WORD, AT(metric), METRIC_IMPORTANCE, 0, 0, "what a light vertex is chosen by", METRICS},
-    {"delta", PARAMETER_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore it", NULL},
-    {"grid", PARAMETER_INTEGER, AT(grid), 64, 1, 100000, "cells of the importance along the scene's diagonal", NULL},
+    {"metric", FIELD_WORD, AT(metric), METRIC_IMPORTANCE, 0, 0, "what a light vertex is chosen by", METRICS},
+    {"delta", FIELD_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore it", NULL},
+    {"grid", FIELD_INTEGER, AT(grid), 64, 1, 100000, "cells of the importance along the scene's diagonal", NULL},
     {.name = NULL}};
 
 const struct method method_vertices = {

@@ -3,11 +3,11 @@
 
 #include <string.h>
 
-static void locate(const void *learnt, vec3 p, vec3 ng, int *eye_region, int *light_region)
+static void locate(const void *learnt, vec3 p, vec3 side, int *eye_region, int *light_region)
 {
     const struct learnt *l = learnt;
-    *eye_region = region_at(&l->eye, p, ng);
-    *light_region = region_at(&l->light, p, ng);
+    *eye_region = region_at(&l->eye, p, side);
+    *light_region = region_at(&l->light, p, side);
 }
 
 static double connect_factor(const void *learnt, int y, int e)

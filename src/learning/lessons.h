@@ -12,8 +12,8 @@
 /* Something a sub-path found. */
 struct finding {
     enum { VISIT, LIGHT_SEEN, LIGHT_LEFT, LIGHT_VERTEX, TRIAL } kind;
-    vec3 p, p_ng; /* the vertex; TRIAL: its eye end */
-    vec3 y, y_ng; /* TRIAL: its light end */
+    vec3 p, p_side; /* the vertex; TRIAL: its eye end */
+    vec3 y, y_side; /* TRIAL: its light end */
     int cell;     /* LIGHT_SEEN, LIGHT_LEFT: the light cell */
     double u[2];  /* LIGHT_LEFT: where in emission's square */
     bool first;   /* VISIT: is it the first hit? */

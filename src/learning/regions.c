@@ -50,12 +50,12 @@ static uint64_t face_of(vec3 n)
     return n.z > 0 ? 5 : 6;
 }
 
-uint64_t regions_key(const struct regions *r, vec3 p, vec3 ng)
+uint64_t regions_key(const struct regions *r, vec3 p, vec3 side)
 {
     vec3 c = mul(sub(p, r->origin), r->per_metre);
     uint64_t x = (uint64_t)int_within(c.x, 0, r->last[0]), y = (uint64_t)int_within(c.y, 0, r->last[1]);
     uint64_t z = (uint64_t)int_within(c.z, 0, r->last[2]);
-    return x << (FACE_BITS + 2 * AXIS_BITS) | y << (FACE_BITS + AXIS_BITS) | z << FACE_BITS | face_of(ng);
+    return x << (FACE_BITS + 2 * AXIS_BITS) | y << (FACE_BITS + AXIS_BITS) | z << FACE_BITS | face_of(side);
 }
 
 /* The region of the next level that holds it: all coordinates halved. */

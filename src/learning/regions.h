@@ -1,10 +1,10 @@
 /* regions.h: surface points sorted into regions of the scene, so that something can be learnt about each.
  *
- * Space is cut into cubes, and a cube is split by the side that surfaces in it face (the two sides of a wall have
- * nothing in common). Cubes come in levels, each twice as wide as the one below; a region that was never met is
- * represented by the finest known one that holds it, at last by the whole scene, which is region 0. Only regions met so
- * far exist, in a hash table with open addressing; they are numbered in the order they were met, those of all levels
- * together, a region after those that hold it.
+ * Space is cut into cubes, and a cube is split by the side that surfaces in it face: the two sides of a wall have
+ * nothing in common (vertex_side of vertex.h says on which of them a walk is). Cubes come in levels, each twice as wide
+ * as the one below; a region that was never met is represented by the finest known one that holds it, at last by the
+ * whole scene, which is region 0. Only regions met so far exist, in a hash table with open addressing; they are
+ * numbered in the order they were met, those of all levels together, a region after those that hold it.
  */
 #ifndef ASBDPT_LEARNING_REGIONS_H
 #define ASBDPT_LEARNING_REGIONS_H
@@ -45,8 +45,8 @@ enum { REGION_LEVELS = 4 };
 void regions_init(struct regions *r, vec3 low, vec3 high, int cells, int n_levels, int limit);
 void regions_free(struct regions *r);
 
-/* regions_key: names the region of level 0 of a surface point with unit geometric normal ng. */
-uint64_t regions_key(const struct regions *r, vec3 p, vec3 ng);
+/* regions_key: names the region of level 0 of a surface point, `side` being the unit normal of the side it is on. */
+uint64_t regions_key(const struct regions *r, vec3 p, vec3 side);
 
 /* regions_add: the number of a region of level 0, a new one, with those that hold it, if it was never met; beyond the
  * limit that of the finest known region that holds it. */
@@ -56,6 +56,9 @@ int regions_add(struct regions *r, uint64_t key);
 int regions_find(const struct regions *r, uint64_t key);
 
 /* region_at: the same for a surface point. */
-static inline int region_at(const struct regions *r, vec3 p, vec3 ng) { return regions_find(r, regions_key(r, p, ng)); }
+static inline int region_at(const struct regions *r, vec3 p, vec3 side)
+{
+    return regions_find(r, regions_key(r, p, side));
+}
 
 #endif

@@ -78,7 +78,8 @@ static void try_vertex(const struct lessons *l, const struct stock *s, const str
         const struct vertex *y = c->y;
         struct connection found = connect_pair(l->job->scene, &l->counts, y, z);
         double d2 = length2(sub(y->p, z->p));
-        struct finding f = {.kind = TRIAL, .p = z->p, .p_ng = z->ng, .y = y->p, .y_ng = y->ng, .w = beta / c->useful};
+        struct finding f = {.kind = TRIAL, .p = z->p, .p_side = vertex_side(z), .y = y->p, .y_side = vertex_side(y)};
+        f.w = beta / c->useful;
         f.x = rgb_luminance(found.value) / (beta * c->L) * (d2 > 0 ? d2 / (d2 + near2) : 0);
         findings_add(out, f);
     }
@@ -98,7 +99,7 @@ static void take_trial(void *context, struct lessons *l, const struct finding *f
 {
     struct trials *t = context;
     const struct regions *eye = &l->learnt->eye, *light = &l->learnt->light;
-    pair_lessons_add(&t->lessons, eye, light, region_at(eye, f->p, f->p_ng), region_at(light, f->y, f->y_ng), f->x,
+    pair_lessons_add(&t->lessons, eye, light, region_at(eye, f->p, f->p_side), region_at(light, f->y, f->y_side), f->x,
                      f->w);
 }
 

@@ -84,7 +84,7 @@ static void trace_visits(void *context, struct lessons *l, int thread, long i, s
         const struct vertex *z = &l->work[thread].eye[k];
         if (!vertex_connectible(z))
             continue;
-        struct finding f = {.kind = VISIT, .p = z->p, .p_ng = z->ng, .first = z->eye_end == FIRST_HIT};
+        struct finding f = {.kind = VISIT, .p = z->p, .p_side = vertex_side(z), .first = z->eye_end == FIRST_HIT};
         f.x = rgb_luminance(z->beta);
         findings_add(out, f);
         f.kind = LIGHT_SEEN;
@@ -102,7 +102,7 @@ static void take_visit(void *context, struct lessons *l, const struct finding *f
     struct visits *v = context;
     struct importance *importance = &l->learnt->importance;
     struct regions *eye = &l->learnt->eye, *light = &l->learnt->light;
-    int region = regions_add(eye, regions_key(eye, f->p, f->p_ng));
+    int region = regions_add(eye, regions_key(eye, f->p, f->p_side));
     if (f->kind == LIGHT_SEEN) {
         guide_lessons_add(&v->lights, eye, region, f->cell, f->x);
         return;
@@ -110,7 +110,7 @@ static void take_visit(void *context, struct lessons *l, const struct finding *f
     importance->eye_vertices += 1.0 / (double)v->n;
     importance->first_vertices += f->first / (double)v->n;
     if (l->wish->importance)
-        importance_add(importance, regions_add(light, regions_key(light, f->p, f->p_ng)), f->x);
+        importance_add(importance, regions_add(light, regions_key(light, f->p, f->p_side)), f->x);
 }
 
 void visits_run(struct lessons *l, long n)
@@ -181,7 +181,7 @@ static void trace_light(void *context, struct lessons *l, int thread, long i, st
     (void)context;
     for (int k = 1; k < n; k++) {
         const struct vertex *y = &work->light[k];
-        struct finding f = {.kind = LIGHT_VERTEX, .p = y->p, .p_ng = y->ng, .x = rgb_luminance(y->beta)};
+        struct finding f = {.kind = LIGHT_VERTEX, .p = y->p, .p_side = vertex_side(y), .x = rgb_luminance(y->beta)};
         if (vertex_connectible(y))
             findings_add(out, f);
     }
@@ -192,7 +192,7 @@ static void take_light(void *context, struct lessons *l, const struct finding *f
     struct light_sums *s = context;
     struct importance *importance = &l->learnt->importance;
     struct regions *light = &l->learnt->light;
-    uint64_t key = regions_key(light, f->p, f->p_ng);
+    uint64_t key = regions_key(light, f->p, f->p_side);
     int region = l->wish->pairs ? regions_add(light, key) : regions_find(light, key);
     double E = importance_in(importance, region), I = f->x * E;
     s->vertices++;

@@ -22,26 +22,26 @@ static const char *const HEURISTICS[] = {"balance", "power", NULL};
 static const char *const STRATEGIES[] = {"spatial", "power", "uniform", NULL};
 
 #define AT(member) offsetof(struct common, member)
-static const struct method_parameter COMMON[] = {
-    {"maxdepth", PARAMETER_INTEGER, AT(max_depth), DEFAULT_MAX_DEPTH, 0, PATH_MAX_DEPTH,
+static const struct field COMMON[] = {
+    {"maxdepth", FIELD_INTEGER, AT(max_depth), DEFAULT_MAX_DEPTH, 0, PATH_MAX_DEPTH,
      "edges of a path less one", NULL},
-    {"heuristic", PARAMETER_WORD, AT(heuristic), 0, 0, 0, "of the weights: balance or power", HEURISTICS},
-    {"rrthreshold", PARAMETER_NUMBER, AT(rr_threshold), DEFAULT_RR_THRESHOLD, 0, 1e6,
+    {"heuristic", FIELD_WORD, AT(heuristic), 0, 0, 0, "of the weights: balance or power", HEURISTICS},
+    {"rrthreshold", FIELD_NUMBER, AT(rr_threshold), DEFAULT_RR_THRESHOLD, 0, 1e6,
      "relative throughput at which Russian roulette begins, 0: never; asbdpt's bins: 0", NULL},
-    {"lightsamplestrategy", PARAMETER_WORD, AT(strategy), 0, 0, 0,
+    {"lightsamplestrategy", FIELD_WORD, AT(strategy), 0, 0, 0,
      "asbdpt: s = 1 picks lights by what is seen, or by power", STRATEGIES},
-    {"caustics", PARAMETER_INTEGER, AT(caustics), 0, 0, CAUSTIC_LONGEST,
+    {"caustics", FIELD_INTEGER, AT(caustics), 0, 0, CAUSTIC_LONGEST,
      "most mirrors or glass surfaces between a first hit and a light that are joined, if it pays; 0: none", NULL},
-    {"regularise", PARAMETER_NUMBER, AT(regularise), 0, 0, 1,
+    {"regularise", FIELD_NUMBER, AT(regularise), 0, 0, 1,
      "biased: angle by which mirrors and glass are blurred where nothing else finds a light; 0: none", NULL},
     {.name = NULL}};
 
-const struct method_parameter *parameters_common(void) { return COMMON; }
+const struct field *parameters_common(void) { return COMMON; }
 
 /* The first of these methods that has such a parameter, or NULL; *out, unless NULL, is the parameter. */
-static const struct method *owner(const struct method *const *m, const char *name, const struct method_parameter **out)
+static const struct method *owner(const struct method *const *m, const char *name, const struct field **out)
 {
-    const struct method_parameter *found = parameter_find(COMMON, name);
+    const struct field *found = field_find(COMMON, name);
     for (; found == NULL && *m != NULL; m += found == NULL)
         found = method_has(*m, name);
     if (out != NULL)
@@ -111,14 +111,14 @@ static bool belongs_to_file(const struct scene *scene, const struct setting *ite
 static bool passed_over(const struct scene *scene, const struct setting *item, const struct method *const *readers,
                         const struct message_sink *sink)
 {
-    const struct method_parameter *found;
+    const struct field *found;
     const struct method *has = owner(method_rows, item->name, &found);
     char text[128];
     if (!is_of_file(item))
         return false;
     if (has == NULL)
         snprintf(text, sizeof text, "is not used: no integrator here has such a parameter");
-    else if (item->type != NULL && strcmp(item->type, parameter_type(found)) != 0)
+    else if (item->type != NULL && strcmp(item->type, field_type(found)) != 0)
         snprintf(text, sizeof text, "cannot be of type \"%s\", so it is not used", item->type);
     else if (item->type != NULL && item->n_values != 1)
         snprintf(text, sizeof text, "wants 1 value, not %d; it is passed over", item->n_values);
@@ -143,13 +143,13 @@ void parameters_adapt(struct scene *scene, const struct method *const *readers, 
 {
     struct settings *all = &scene->settings;
     for (int i = 0; i < all->n;) {
-        const struct method_parameter *found;
+        const struct field *found;
         if (adapt_mutations(scene, &all->item[i], readers[0]) || passed_over(scene, &all->item[i], readers, sink)) {
             settings_remove(all, i);
             continue;
         }
         owner(method_rows, all->item[i].name, &found);
-        if (found != NULL && found->kind == PARAMETER_INTEGER)
+        if (found != NULL && found->kind == FIELD_INTEGER)
             adapt_integer(all, &all->item[i], sink);
         if (strcmp(all->item[i].name, "lightsamplestrategy") == 0)
             adapt_strategy(all, &all->item[i], sink);
@@ -162,13 +162,13 @@ void parameters_adapt(struct scene *scene, const struct method *const *readers, 
 bool parameters_max_depth(const struct scene *scene, int wanted, int *out, struct error *err)
 {
     struct common c = {.max_depth = wanted};
-    const struct method_parameter table[] = {COMMON[0], {.name = NULL}};
-    bool ok = wanted > 0 || parameters_set(table, &scene->settings, &c, err);
+    const struct field table[] = {COMMON[0], {.name = NULL}};
+    bool ok = wanted > 0 || settings_fields(&scene->settings, table, &c, err);
     *out = c.max_depth;
     return ok;
 }
 
-static void offer(struct suggestion *s, const struct method_parameter *p)
+static void offer(struct suggestion *s, const struct field *p)
 {
     for (; p != NULL && p->name != NULL; p++)
         suggest_offer(s, p->name);
@@ -215,7 +215,7 @@ bool parameters_read(const struct scene *scene, const struct method *m, int max_
 {
     const struct settings *s = &scene->settings;
     struct common c;
-    if (!parameters_set(COMMON, s, &c, err) ||
+    if (!settings_fields(s, COMMON, &c, err) ||
         (m->parameters != NULL && !method_check(m, s, err)))
         return false;
     job->max_depth = max_depth > 0 ? max_depth : c.max_depth;

@@ -12,7 +12,7 @@
 #include "parser/source_position.h" /* struct message_sink */
 
 /* parameters_common: what all integrators have, ended by a NULL name. */
-const struct method_parameter *parameters_common(void);
+const struct field *parameters_common(void);
 
 /* parameters_adapt: take out and replace what pbrt-v3 knows and this program does not, or pbrt-v3 would pass over.
  *   readers  the methods that will read them, ended by NULL

@@ -30,6 +30,7 @@ struct run {
     int64_t begun;  /* tile passes of the first block that the film holds already */
     int64_t n_jobs; /* all tile passes, with these */
     bool stopping;  /* progress, or the noise, said so: stop when the block is complete */
+    bool at_once;   /* or before */
     double learning; /* share of all work that learning has been */
     struct workspace *work; /* [n_threads] */
     struct tile *tile;      /* [n_slots] */
@@ -103,6 +104,14 @@ static bool good_enough(const struct run *r)
     return good && limit[NOISE_RELATIVE] + limit[NOISE_8_BIT] > 0;
 }
 
+static void ask_progress(struct run *r, double share)
+{
+    const struct render_options *o = r->options;
+    enum render_wish wish = o->progress != NULL ? o->progress(o->progress_context, share) : RENDER_GO_ON;
+    r->at_once = r->at_once || wish == RENDER_STOP;
+    r->stopping = r->stopping || wish != RENDER_GO_ON;
+}
+
 /* More splats than a tile holds go into the film before their pass is complete, when it is the next to do so. */
 static void take_splats(void *context, struct tile *tile)
 {
@@ -133,21 +142,18 @@ static void run_pass(void *context, int64_t job, int slot, int thread)
 static bool merge_pass(void *context, int64_t job, int slot)
 {
     struct run *r = context;
-    const struct render_options *o = r->options;
     int64_t done = r->begun + job + 1;
+    long first, end;
+    block_range(r, (done - 1) / tiles_per_block(r), &first, &end);
+    r->film->block.iterations = end - first;
     film_merge_tile(r->film, &r->tile[slot]);
     r->film->passes++;
     if (r->film->passes == tiles_per_block(r)) {
-        long first, end;
-        block_range(r, (done - 1) / tiles_per_block(r), &first, &end);
-        r->film->iterations += end - first;
-        r->film->passes = 0;
+        film_end_block(r->film);
         r->stopping = r->stopping || good_enough(r);
     }
-    double share = r->learning + (1 - r->learning) * (double)done / (double)r->n_jobs;
-    if (o->progress != NULL && !o->progress(o->progress_context, share))
-        r->stopping = true;
-    return !r->stopping || r->film->passes > 0;
+    ask_progress(r, r->learning + (1 - r->learning) * (double)done / (double)r->n_jobs);
+    return !(r->stopping && (r->film->passes == 0 || r->at_once));
 }
 
 static void make_workspaces(struct run *r)
@@ -237,8 +243,7 @@ static bool watch(void *context, double traced)
     const struct render_options *o = r->options;
     double samples = pixel_light_count(&r->job) * (double)(o->end - o->first);
     r->learning = fmax(r->learning, traced / (traced + samples)); /* each pass counts its own; a bar never goes back */
-    if (!o->progress(o->progress_context, r->learning))
-        r->stopping = true;
+    ask_progress(r, r->learning);
     return !r->stopping;
 }
 
@@ -284,6 +289,8 @@ static bool cut(struct run *r, struct error *err)
     count_tiles(r);
     r->film->run = halves_run(size->block);
     r->begun = r->film->passes;
+    for (int64_t i = 0; i < r->begun && i < tiles_per_block(r); i++)
+        film_mark(r->film, tile_rect(r, i));
     return r->begun < tiles_per_block(r) ||
            error_set(err, "the film has more tile passes in it than a block of samples has");
 }

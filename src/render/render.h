@@ -19,6 +19,9 @@
 #include "scene/scene.h"
 #include "transport/trace.h"
 
+/* Go on, stop when the block of iterations under way is complete, stop at once, between two tile passes. */
+enum render_wish { RENDER_GO_ON, RENDER_END_BLOCK, RENDER_STOP };
+
 struct render_options {
     const char *integrator; /* as method_find knows it */
     uint64_t seed;
@@ -32,10 +35,10 @@ struct render_options {
     struct gate gate; /* only light that has come so far (film.h); its end 0: all */
     struct worst *worst; /* is told of all samples; NULL: nobody is */
     /* Called after each tile pass with the share of the work done, in (0,1], one call at a time and while nothing else
-     * touches the film. NULL: not called. Returns false to stop when the current block of iterations is complete.
-     * While the method learns it is called, too, learning being a part of the work; then false ends that with what has
-     * been learnt, and one block is rendered by it, if the film is empty. */
-    bool (*progress)(void *context, double done);
+     * touches the film. NULL: not called. While the method learns it is called, too, learning being a part of the work;
+     * if it is not to go on then, that ends with what has been learnt, by which one block is rendered, or at
+     * RENDER_STOP one tile pass, if the film is empty. */
+    enum render_wish (*progress)(void *context, double done);
     void *progress_context;
 };
 

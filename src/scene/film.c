@@ -182,12 +182,15 @@ void film_init(struct film *f, struct pixel_rect rect, int full_width, int full_
     f->rect = rect;
     f->full_width = full_width;
     f->full_height = full_height;
-    f->sum = mem_alloc(rect_pixels(rect) * 3, sizeof *f->sum);
+    f->block.in = mem_alloc(rect_pixels(rect), sizeof *f->block.in);
+    film_keep_planes(f, f->planes);
 }
 
 void film_free(struct film *f)
 {
     free(f->sum);
+    free(f->block.in);
+    free(f->block.splat);
     free(f->half);
     if (f->errors != NULL) {
         free(f->errors->eye);
@@ -218,8 +221,10 @@ int strategy_index(int s, int t)
 void film_keep_planes(struct film *f, struct planes planes)
 {
     free(f->sum);
+    free(f->block.splat);
     f->planes = planes;
     f->sum = mem_alloc(rect_pixels(f->rect) * 3, (size_t)plane_count(planes) * sizeof *f->sum);
+    f->block.splat = mem_alloc(film_splat_sums(f), sizeof *f->block.splat);
 }
 
 void film_keep_errors(struct film *f)
@@ -302,6 +307,12 @@ static void add_records(struct film *f, const struct tile *t)
     }
 }
 
+static void add_to_plane(struct film *f, size_t i, float part)
+{
+    exact_add(&f->sum[i], (double)part);
+    f->block.splat[i] += part;
+}
+
 static void add_splat(struct film *f, const struct splat *s, const struct filter *filter, bool first_half)
 {
     struct pixel_rect range = splat_pixels(s, filter, f->rect);
@@ -313,11 +324,11 @@ static void add_splat(struct film *f, const struct splat *s, const struct filter
             bool ok = splat_part(s, filter, x, y, part);
             f->nonfinite += !ok;
             for (size_t c = 0; ok && c < 3; c++) {
-                exact_add(&f->sum[at + c], (double)part[c]);
+                add_to_plane(f, at + c, part[c]);
                 if (first_half)
                     exact_add(&f->half[at + c], (double)part[c]);
                 if (f->planes.lights > 0)
-                    exact_add(&f->sum[plane + at + c], (double)part[c]);
+                    add_to_plane(f, plane + at + c, part[c]);
                 if (f->errors != NULL)
                     f->errors->square[at + c] += sqr((double)part[c]);
             }
@@ -349,20 +360,59 @@ void film_merge_tile(struct film *f, struct tile *t)
                 }
             }
     film_take_splats(f, t);
+    film_mark(f, t->rect);
     f->nonfinite += t->nonfinite;
+}
+
+void film_mark(struct film *f, struct pixel_rect tile)
+{
+    for (int y = tile.y0; y < tile.y1; y += tile.skip_y + 1)
+        for (int x = tile.x0; x < tile.x1; x += tile.skip_x + 1)
+            f->block.in[pixel_of(f, x, y)] = true;
+    f->block.n_in += rect_pixels(tile);
+}
+
+void film_end_block(struct film *f)
+{
+    f->iterations += f->block.iterations;
+    f->passes = 0;
+    f->block.n_in = 0;
+    memset(f->block.in, 0, rect_pixels(f->rect) * sizeof *f->block.in);
+    memset(f->block.splat, 0, film_splat_sums(f) * sizeof *f->block.splat);
+}
+
+double film_samples(const struct film *f)
+{
+    double share = (double)f->block.n_in / (double)rect_pixels(f->rect);
+    return (double)f->iterations + share * (double)f->block.iterations;
 }
 
 double film_value(const struct film *f, size_t i) { return exact_value(&f->sum[i]); }
 
 long film_develop(const struct film *f, double scale, float *out) { return film_develop_plane(f, 0, scale, out); }
 
+static long samples_of(const struct film *f, size_t pixel)
+{
+    return f->iterations + (f->block.in[pixel] ? f->block.iterations : 0);
+}
+
+/* A pixel's value in a plane. Of a block under way pixels that are in have their own samples, but every pixel has the
+ * splats of all that are in: where its samples count these are made to stand for the splats of all, else taken out. */
+static double mean_in_plane(const struct film *f, size_t plane, size_t i, double scale)
+{
+    size_t n = rect_pixels(f->rect);
+    long iterations = samples_of(f, i / 3);
+    double sum = film_value(f, plane * 3 * n + i), all = f->block.in[i / 3] ? (double)n / (double)f->block.n_in : 0;
+    if (f->block.n_in > 0 && plane <= (size_t)f->planes.lights)
+        sum += (all - 1) * (double)f->block.splat[plane * 3 * n + i];
+    return iterations > 0 ? sum * (scale / (double)iterations) : 0;
+}
+
 long film_develop_plane(const struct film *f, int plane, double scale, float *out)
 {
     long cut = 0;
-    size_t n = rect_pixels(f->rect) * 3, first = (size_t)plane * n;
-    double per_iteration = f->iterations > 0 ? scale / (double)f->iterations : 0;
-    for (size_t i = 0; i < n; i++) {
-        double value = film_value(f, first + i) * per_iteration;
+    for (size_t i = 0; i < rect_pixels(f->rect) * 3; i++) {
+        double value = mean_in_plane(f, (size_t)plane, i, scale);
         cut += !fits_float(value);
         out[i] = float_within(value);
     }
@@ -390,9 +440,9 @@ void film_warn(const struct film *f, long cut)
 void film_standard_error(const struct film *f, double scale, float *out)
 {
     size_t n = rect_pixels(f->rect) * 3;
-    double k = (double)f->iterations;
     for (size_t i = 0; i < n; i++) {
+        double k = (double)samples_of(f, i / 3);
         double variance = (f->errors->square[i] - sqr(f->errors->eye[i]) / k) / (k * (k - 1));
-        out[i] = f->iterations < 2 ? INFINITY : float_within(scale * sqrt(fmax(variance, 0)));
+        out[i] = k < 2 ? INFINITY : float_within(scale * sqrt(fmax(variance, 0)));
     }
 }

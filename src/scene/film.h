@@ -164,6 +164,14 @@ struct film_errors {
     double *eye, *square; /* sums of eye values, and of squares of these and of splats; owned */
 };
 
+/* The block of iterations under way, for a picture that is wanted before it is complete. */
+struct film_block {
+    long iterations;
+    size_t n_in;  /* pixels whose samples are in the film */
+    bool *in;     /* [pixels]: which these are; owned */
+    float *splat; /* [1 + planes.lights][pixels*3], what its splats have brought; owned */
+};
+
 /* How far the picture is from what it converges to, as halves.h finds it. */
 enum noise_scale { NOISE_RELATIVE, NOISE_8_BIT, N_NOISE_SCALES };
 struct noise_estimate {
@@ -182,6 +190,7 @@ struct film {
     int full_width, full_height;
     long iterations;             /* samples per pixel taken so far */
     int64_t passes;              /* tile passes of the next block of iterations that are in already */
+    struct film_block block;     /* that block */
     struct planes planes;
     struct exact_sum *sum;       /* [planes][pixels*3] of eye values and splats; owned */
     struct exact_sum *half;      /* [pixels*3], the picture's of every other `run` iterations, or NULL; owned */
@@ -226,16 +235,27 @@ int strategy_count(int max_depth);
 /* film_take_splats: add a tile's splats and records, and empty its lists. */
 void film_take_splats(struct film *f, struct tile *t);
 
-/* film_merge_tile: add these and a tile's sums. Iterations are counted by the caller once all tiles of a block are
- * in. */
+/* film_merge_tile: add these and a tile's sums. film_mark: its pixels are in. film_end_block: all tiles of the block
+ * are in, and count from now on. */
 void film_merge_tile(struct film *f, struct tile *t);
+void film_mark(struct film *f, struct pixel_rect tile);
+void film_end_block(struct film *f);
+
+/* film_splat_sums: places of block.splat. */
+static inline size_t film_splat_sums(const struct film *f)
+{
+    return (size_t)(1 + f->planes.lights) * rect_pixels(f->rect) * 3;
+}
 
 /* film_value: the sum so far in place i of [planes][pixels*3]. */
 double film_value(const struct film *f, size_t i);
 
-/* film_develop: the image so far: [height*width*3] linear floats, top row first, each pixel times `scale`. Values that
- * no float holds are cut to FLT_MAX; returns how many. film_develop_plane: the same of another plane than the
- * picture. */
+/* film_samples: per pixel, in the mean. */
+double film_samples(const struct film *f);
+
+/* film_develop: the image so far: [height*width*3] linear floats, top row first, each pixel times `scale`, the mean of
+ * all samples that it has; black if that is none. Values that no float holds are cut to FLT_MAX; returns how many.
+ * film_develop_plane: the same of another plane than the picture. */
 long film_develop(const struct film *f, double scale, float *out);
 long film_develop_plane(const struct film *f, int plane, double scale, float *out);
 

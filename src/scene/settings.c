@@ -83,35 +83,19 @@ const char *settings_text(const struct settings *s, const char *name, const char
     return item != NULL ? item->value : fallback;
 }
 
-/* The value as a number of which only a whole one will do, if `whole`. */
-static bool number(const struct settings *s, const char *name, bool whole, double low, double high, double *out,
-                   struct error *err)
+static bool number(const struct settings *s, const struct field *f, double *out, struct error *err)
 {
-    const struct setting *item = find(s, name);
+    const struct setting *item = find(s, f->name);
+    bool whole = f->kind == FIELD_INTEGER;
+    *out = f->fallback;
     if (item == NULL)
         return true;
     char *end;
     *out = strtod(item->value, &end);
-    if (end != item->value && *end == '\0' && *out >= low && *out <= high && (!whole || *out == floor(*out)))
+    if (end != item->value && *end == '\0' && *out >= f->low && *out <= f->high && (!whole || *out == floor(*out)))
         return true;
-    return error_set(err, "%s: %s = \"%s\": give a %snumber from %.15g to %.15g", item->origin, name, item->value,
-                     whole ? "whole " : "", low, high);
-}
-
-bool settings_int(const struct settings *s, const char *name, long fallback, long low, long high, long *out,
-                  struct error *err)
-{
-    double value = (double)fallback;
-    bool ok = number(s, name, true, (double)low, (double)high, &value, err);
-    *out = ok ? (long)value : fallback;
-    return ok;
-}
-
-bool settings_real(const struct settings *s, const char *name, double fallback, double low, double high,
-                   double *out, struct error *err)
-{
-    *out = fallback;
-    return number(s, name, false, low, high, out, err);
+    return error_set(err, "%s: %s = \"%s\": give a %snumber from %.15g to %.15g", item->origin, f->name, item->value,
+                     whole ? "whole " : "", f->low, f->high);
 }
 
 bool settings_choice(const struct settings *s, const char *name, int fallback, const char *const *names, int *out,
@@ -131,4 +115,26 @@ bool settings_choice(const struct settings *s, const char *name, int fallback, c
         snprintf(list + used, sizeof list - used, "%s\"%s\"", join, names[i]);
     }
     return error_set(err, "%s: %s = \"%s\" is unknown: give %s", item->origin, name, item->value, list);
+}
+
+static bool set(const struct settings *s, const struct field *f, char *into, struct error *err)
+{
+    double value;
+    if (f->kind == FIELD_WORD)
+        return settings_choice(s, f->name, (int)f->fallback, f->words, (int *)(void *)(into + f->place), err);
+    if (!number(s, f, &value, err))
+        return false;
+    if (f->kind == FIELD_INTEGER)
+        *(int *)(void *)(into + f->place) = (int)value; /* high is an int */
+    else
+        *(double *)(void *)(into + f->place) = value;
+    return true;
+}
+
+bool settings_fields(const struct settings *s, const struct field *table, void *into, struct error *err)
+{
+    for (; table->name != NULL; table++)
+        if (!set(s, table, into, err))
+            return false;
+    return true;
 }

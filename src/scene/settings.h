@@ -11,6 +11,7 @@
 #include <stddef.h>
 
 #include "base/error.h"
+#include "base/field.h"
 
 struct setting {
     char *name, *value; /* owned */
@@ -39,16 +40,13 @@ void settings_declare(struct settings *s, const char *name, const char *value, c
 /* settings_text: the value, or `fallback` when the name is not set. */
 const char *settings_text(const struct settings *s, const char *name, const char *fallback);
 
-/* settings_int / settings_real: the value as a number within [low, high]; *out = fallback when not set.
- * Return false with a message naming origin, name, value and the allowed range. */
-bool settings_int(const struct settings *s, const char *name, long fallback, long low, long high, long *out,
-                  struct error *err);
-bool settings_real(const struct settings *s, const char *name, double fallback, double low, double high,
-                   double *out, struct error *err);
-
 /* settings_choice: which of the names, ended by NULL, the value is; *out = fallback when not set. Returns false with a
  * message naming origin, name, value and the names. */
 bool settings_choice(const struct settings *s, const char *name, int fallback, const char *const *names, int *out,
                      struct error *err);
+
+/* settings_fields: all fields of a table of integers, numbers and words into the struct at `into`. Returns false with a
+ * message naming origin, name, value and what is allowed. */
+bool settings_fields(const struct settings *s, const struct field *table, void *into, struct error *err);
 
 #endif

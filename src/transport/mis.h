@@ -58,8 +58,8 @@ enum eye_end { FIRST_HIT, LATER_HIT, EYE_ENDS };
  * has arrived at the second, so that every strategy finds the same number for the same path. */
 struct count_model {
     const void *learnt; /* handed to all of these */
-    /* The regions of a surface point. NULL: 0. */
-    void (*locate)(const void *learnt, vec3 p, vec3 ng, int *eye_region, int *light_region);
+    /* The regions of a surface point whose normal is turned as vertex_side (vertex.h) does. NULL: 0. */
+    void (*locate)(const void *learnt, vec3 p, vec3 side, int *eye_region, int *light_region);
     /* Factor of counts.connect for a light end in region y and an eye end in region e. NULL: 1. */
     double (*connect)(const void *learnt, int y, int e);
     /* How s = 1 chooses a light cell for an eye end in region e with the uniform number u, -1: there is none; and the

@@ -93,14 +93,14 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
     bool first =
         prev->kind == VERTEX_LENS || (prev->kind == VERTEX_SURFACE && prev->eye_end == FIRST_HIT && from->delta);
     v->eye_end = mode == RADIANCE && first ? FIRST_HIT : LATER_HIT;
-    v->eye_region = v->light_region = 0;
-    if (model != NULL && model->locate != NULL)
-        model->locate(model->learnt, v->p, v->ng, &v->eye_region, &v->light_region);
-    v->mis_c = mode == RADIANCE ? mis_count_behind(w->counts, prev, v)
-                                : mis_count_before(w->counts, &w->scene->lights, prev, v, LATER_HIT);
     v->material = at->material;
     v->pdf_rev = 0;
     material_bsdf(w->scene->material, at->material, &w->scene->textures, at, w->arena, &v->bsdf);
+    v->eye_region = v->light_region = 0;
+    if (model != NULL && model->locate != NULL)
+        model->locate(model->learnt, v->p, vertex_side(v), &v->eye_region, &v->light_region);
+    v->mis_c = mode == RADIANCE ? mis_count_behind(w->counts, prev, v)
+                                : mis_count_before(w->counts, &w->scene->lights, prev, v, LATER_HIT);
     return true;
 }
 

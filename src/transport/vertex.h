@@ -88,6 +88,16 @@ static inline bool vertex_connectible(const struct vertex *v)
     return v->kind == VERTEX_SURFACE ? v->bsdf.n_smooth > 0 : v->kind != VERTEX_ESCAPED;
 }
 
+/* vertex_side: the normal by which a surface point is sorted into regions: ng, turned to where the walk came from,
+ * since the two sides of a sheet have nothing in common. The other walk through the same points comes from the next
+ * vertex. It finds the same region, and the weights the same counts, if both neighbours lie on one side; they do where
+ * no lobe transmits, for the geometric normal decides on that (bsdf.h), whatever the shading normal is. Elsewhere ng
+ * stays as it is. (Delta lobes may transmit: nothing is connected where a path passes by them.) */
+static inline vec3 vertex_side(const struct vertex *v)
+{
+    return v->bsdf.transmits || dot(v->ng, v->wo) >= 0 ? v->ng : neg(v->ng);
+}
+
 /* scatter_cosine: the factor that turns a BSDF's f into throughput for leaving v in direction wi. Walking from the eye
  * it is |cos(wi, ns)|; from a light the adjoint BSDF of shading normals makes it
  * |cos(wo, ns)| |cos(wi, ng)| / |cos(wo, ng)|                                                          [V97 5.3] */

@@ -34,10 +34,11 @@ struct scene_experiment {
     unsigned long probe[METHODS_MAX]; /* what the program makes of the scene, see timed_probe; 0: not asked yet */
 };
 
-static bool show_progress(void *context, double done)
+static enum render_wish show_progress(void *context, double done)
 {
     struct experiment *e = context;
-    return progress_update(&e->bar, (e->done + done * e->share) / e->total);
+    progress_update(&e->bar, (e->done + done * e->share) / e->total);
+    return RENDER_GO_ON;
 }
 
 /* The scene's settings become the method's, without Russian roulette unless it asks for that: what is compared is the

@@ -42,7 +42,7 @@ static bool check(const struct measured *m, struct error *err)
     bool ok = set_pairs(m->text, &s, err);
     const struct method *row = ok ? method_find(m->integrator, &s, err) : NULL;
     for (int i = 0; row != NULL && ok && i < s.n; i++)
-        if (parameter_find(parameters_common(), s.item[i].name) == NULL && method_has(row, s.item[i].name) == NULL)
+        if (field_find(parameters_common(), s.item[i].name) == NULL && method_has(row, s.item[i].name) == NULL)
             ok = error_set(err, "%s: there is no parameter \"%s\"", m->text, s.item[i].name);
     ok = ok && row != NULL && method_check(row, &s, err);
     settings_clear(&s);

@@ -6,12 +6,12 @@
 #include "base/maths.h"
 #include "base/number.h"
 
-const struct method_parameter CHAIN_PARAMETERS[] = {
-    {"sigma", PARAMETER_NUMBER, offsetof(struct chains, sigma), 0.01, 1e-6, 1,
+const struct field CHAIN_PARAMETERS[] = {
+    {"sigma", FIELD_NUMBER, offsetof(struct chains, sigma), 0.01, 1e-6, 1,
      "standard deviation of a number's small step", NULL},
-    {"bootstrapsamples", PARAMETER_INTEGER, offsetof(struct chains, bootstrap), 0, 0, 1 << 24,
+    {"bootstrapsamples", FIELD_INTEGER, offsetof(struct chains, bootstrap), 0, 0, 1 << 24,
      "independent states (of each path length), for brightness and starts; 0: by the picture's size", NULL},
-    {"largestepprobability", PARAMETER_NUMBER, offsetof(struct chains, large_step), 0.3, 1e-3, 1,
+    {"largestepprobability", FIELD_NUMBER, offsetof(struct chains, large_step), 0.3, 1e-3, 1,
      "of a mutation that makes all anew", NULL},
     {.name = NULL}};
 

@@ -27,7 +27,7 @@ void primary_begin(struct primary *p, struct chain *c, bool small);
 void primary_end(struct primary *p);
 
 /* The parameters of a row; without small steps: but the first. */
-extern const struct method_parameter CHAIN_PARAMETERS[];
+extern const struct field CHAIN_PARAMETERS[];
 
 /* primary_eye: an eye sub-path of at most n vertices through a raster point that is uniform over the raster.
  * primary_light: a light sub-path likewise. Both into the thread's memory, both return their lengths. */

@@ -108,8 +108,8 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
     }
 }
 
-static const struct method_parameter PARAMETERS[] = {
-    {"pathpixels", PARAMETER_INTEGER, offsetof(struct frozen, path_pixels), 1, 1,
+static const struct field PARAMETERS[] = {
+    {"pathpixels", FIELD_INTEGER, offsetof(struct frozen, path_pixels), 1, 1,
      DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE, "pixels for each light sub-path", NULL},
     {.name = NULL}};
 

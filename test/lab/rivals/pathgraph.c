@@ -265,10 +265,10 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
 }
 
 #define AT(member) offsetof(struct pathgraph_state, member)
-static const struct method_parameter PARAMETERS[] = {
-    {"cluster", PARAMETER_INTEGER, AT(cluster), 16, 1, LARGEST_CLUSTER, "most vertices that share their light; 1: pt",
+static const struct field PARAMETERS[] = {
+    {"cluster", FIELD_INTEGER, AT(cluster), 16, 1, LARGEST_CLUSTER, "most vertices that share their light; 1: pt",
      NULL},
-    {"radius", PARAMETER_NUMBER, AT(radius), 0.05, 1e-6, 10, "how far apart they may be, in radii of the scene", NULL},
+    {"radius", FIELD_NUMBER, AT(radius), 0.05, 1e-6, 10, "how far apart they may be, in radii of the scene", NULL},
     {.name = NULL}};
 
 const struct method method_pathgraph = {

@@ -38,12 +38,12 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *pixel, c
 }
 
 #define AT(member) offsetof(struct pcbdpt_state, member)
-static const struct method_parameter PARAMETERS[] = {
-    {"connections", PARAMETER_INTEGER, AT(connections), 1, 1, 1024, "light vertices drawn for each eye vertex", NULL},
-    {"subpaths", PARAMETER_INTEGER, AT(ris.sub_paths), RECORDS_SUB_PATHS, 1, 1e6, "light sub-paths that are drawn from",
+static const struct field PARAMETERS[] = {
+    {"connections", FIELD_INTEGER, AT(connections), 1, 1, 1024, "light vertices drawn for each eye vertex", NULL},
+    {"subpaths", FIELD_INTEGER, AT(ris.sub_paths), RECORDS_SUB_PATHS, 1, 1e6, "light sub-paths that are drawn from",
      NULL},
-    {"records", PARAMETER_NUMBER, AT(ris.records), RECORDS_SHARE, 0, 1, "share of pixels that have records", NULL},
-    {"normals", PARAMETER_NUMBER, AT(normals), 0.5, 0, 1e6, "what normals count beside places in looking for records",
+    {"records", FIELD_NUMBER, AT(ris.records), RECORDS_SHARE, 0, 1, "share of pixels that have records", NULL},
+    {"normals", FIELD_NUMBER, AT(normals), 0.5, 0, 1e6, "what normals count beside places in looking for records",
      NULL},
     {.name = NULL}};
 

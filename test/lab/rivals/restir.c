@@ -119,11 +119,11 @@ static void prepare(const struct render_job *job, struct preparation *out)
 }
 
 #define AT(member) offsetof(struct restir_state, member)
-static const struct method_parameter PARAMETERS[] = {
-    {"candidates", PARAMETER_INTEGER, AT(candidates), 16, 1, 1024, "light points of which a pixel keeps one", NULL},
-    {"neighbours", PARAMETER_INTEGER, AT(neighbours), 5, 0, MOST_NEIGHBOURS, "pixels whose light points it shares",
+static const struct field PARAMETERS[] = {
+    {"candidates", FIELD_INTEGER, AT(candidates), 16, 1, 1024, "light points of which a pixel keeps one", NULL},
+    {"neighbours", FIELD_INTEGER, AT(neighbours), 5, 0, MOST_NEIGHBOURS, "pixels whose light points it shares",
      NULL},
-    {"credit", PARAMETER_NUMBER, AT(credit), 4, 1e-3, 1e6, "samples that one kept counts for in the weights", NULL},
+    {"credit", FIELD_NUMBER, AT(credit), 4, 1e-3, 1e6, "samples that one kept counts for in the weights", NULL},
     {.name = NULL}};
 
 const struct method method_restir = {

@@ -219,8 +219,8 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
             reuse(pixel, all, &near[i * (s->neighbours + 1)], found[i]);
 }
 
-static const struct method_parameter PARAMETERS[] = {
-    {"neighbours", PARAMETER_INTEGER, offsetof(struct restirgi_state, neighbours), 5, 0, MOST_NEIGHBOURS,
+static const struct field PARAMETERS[] = {
+    {"neighbours", FIELD_INTEGER, offsetof(struct restirgi_state, neighbours), 5, 0, MOST_NEIGHBOURS,
      "pixels whose second vertices it shares", NULL},
     {.name = NULL}};
 

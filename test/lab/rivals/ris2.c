@@ -39,11 +39,11 @@ void ris2_presample(struct ris *r, const struct tile_pass *pass, long iteration)
 }
 
 #define AT(member) offsetof(struct ris_state, member)
-static const struct method_parameter PARAMETERS[] = {
-    {"weights", PARAMETER_WORD, AT(nabata), 1, 0, 0, "what draws count for", RIS_WEIGHTS},
-    {"presampled", PARAMETER_INTEGER, AT(presampled), 200, 1, 100000, "light vertices left by the first stage", NULL},
-    {"subpaths", PARAMETER_INTEGER, AT(sub_paths), 10000, 1, 1e6, "light sub-paths that are drawn from", NULL},
-    {"records", PARAMETER_NUMBER, AT(records), RECORDS_SHARE, 0, 1, "share of pixels that have records", NULL},
+static const struct field PARAMETERS[] = {
+    {"weights", FIELD_WORD, AT(nabata), 1, 0, 0, "what draws count for", RIS_WEIGHTS},
+    {"presampled", FIELD_INTEGER, AT(presampled), 200, 1, 100000, "light vertices left by the first stage", NULL},
+    {"subpaths", FIELD_INTEGER, AT(sub_paths), 10000, 1, 1e6, "light sub-paths that are drawn from", NULL},
+    {"records", FIELD_NUMBER, AT(records), RECORDS_SHARE, 0, 1, "share of pixels that have records", NULL},
     {.name = NULL}};
 
 const struct method method_ris2 = {
