@@ -330,8 +330,8 @@ static void oren_nayar_as_printed(struct test *t)
     }
 }
 
-/* Facets as printed [Walter 2007], with tangents, angles and Fresnel's amplitudes: above the surface and below it, where
- * most of what meets a facet is totally reflected. Isotropic: alpha is one number. */
+/* Facets as printed [Walter 2007], with tangents, angles and Fresnel's amplitudes: above the surface and below it,
+ * where much is totally reflected. Isotropic: alpha is one number. */
 static double facets_at(vec3 h, double alpha)
 {
     double theta = acos(fabs(h.z));
