@@ -1,6 +1,6 @@
-/* test_cost.c: faults that change no expectation. What a render costs and what it brings for that are counted, no clock
- * is asked, and compared with what they were when the figures below were written down: a change that is meant to move
- * them writes them anew. */
+/* test_figures.c: faults that change no expectation. What a render costs and what it brings for that are counted, no
+ * clock is asked, and compared with what they were when the figures below were written down: a change that is meant to
+ * move them writes them anew. */
 #include <math.h>
 #include <stdio.h>
 
@@ -64,7 +64,7 @@ static void test_pairs_learnt(struct test *t)
     }
 }
 
-void test_cost(struct test *t)
+void test_figures(struct test *t)
 {
     test_trees(t);
     test_pairs_learnt(t);
