@@ -176,7 +176,7 @@ static void check_run(struct test *t)
 {
     const char *scene[1] = {"scenes/cornell-box.pbrt"};
     char directory[300];
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct plan p = {.scene = scene, .n_scenes = 1, .n_seeds = 2, .width = 8, .height = 8, .n_threads = 1};
     struct equal_time e = {.plan = &p, .seconds = 0.02};
     snprintf(directory, sizeof directory, "%s/equal-time", test_tmp(t));
@@ -243,7 +243,7 @@ static void check_all_methods(struct test *t)
 {
     char text[METHODS_TEXT];
     struct methods all;
-    struct error err = {""};
+    struct error err = {.text = ""};
     int rows = 0;
     while (method_rows[rows] != NULL)
         rows++;
@@ -259,7 +259,7 @@ static void check_family_run(struct test *t)
                                         "images/cornell-box-published-lvc.pfm"};
     const char *scenes[2] = {"scenes/cornell-box.pbrt", "scenes/cornell-box.pbrt"};
     char directory[300], path[512];
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct plan p = {.scene = scenes, .n_scenes = 2, .n_own = 1, .n_seeds = 2, .width = 8, .height = 8, .n_threads = 1};
     struct equal_time first = {.plan = &p, .pictures = true}, again = first;
     snprintf(directory, sizeof directory, "%s/family", test_tmp(t));
