@@ -8,5 +8,5 @@ const struct program program = {
     "Renders scenes of pbrt-v3 with path tracing, light tracing, bidirectional path tracing and its alias sampled kin; "
     "adds up and converts pictures. What describes, compares, explains and measures is asbdpt-lab.", COMMANDS,
     &command_render,
-    " info compare trace worth strategies verify demo equal-time experiment family transient bench lvc cbdpt mbdpt pcbdpt "
-    "ris ris2 restir restirgi pathgraph pssmlt mmlt mlt ellipse "};
+    " info compare trace worth strategies verify demo equal-time experiment family transient bench "
+    "lvc cbdpt mbdpt pcbdpt ris ris2 restir restirgi pathgraph pssmlt mmlt mlt ellipse "};
