@@ -68,7 +68,7 @@ check grep -q '^film  *24x14,' stdout.txt
 expect 0 '' "$program" render "$ajar" --spp 1 --maxdepth 1 --quiet --res 24 -o shape.pfm
 check [ "$(head -n 2 shape.pfm | tail -n 1)" = "24 14" ]
 expect 0 '' "$lab" equal-time "$ajar" --methods bdpt --seeds 1 --spp 1 --reference-spp 4 --quiet --res 24 -o shape
-check grep -q 'picture of 24x14 pixels' stdout.txt
+check grep -q 'picture of veach-ajar 24x14 pixels' stdout.txt
 refuse 'asbdpt: which command'
 refuse 'unknown command rendr \(did you mean render\?\); try asbdpt --help' rendr
 refuse 'needs a scene' render

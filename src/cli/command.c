@@ -11,7 +11,6 @@
 #include "base/file.h"
 #include "base/mem.h"
 #include "base/version.h"
-#include "cli/job_options.h"
 #include "cli/names.h"
 #include "parser/symbols.h"
 #include "render/parameters.h"
@@ -183,7 +182,7 @@ static void print_version(void)
 /* A word where a command is expected, and the nearest of these or NULL. */
 static int unknown(const char *word, const char *nearest)
 {
-    char *scene = job_scene_meant(word);
+    char *scene = file_meant(word, ".pbrt");
     nearest = scene != NULL ? scene : nearest;
     int status = in_laboratory(word) ? usage_error(NULL, "%s is a command of asbdpt-lab", word)
                  : nearest != NULL   ? usage_error(NULL, "unknown command %s (did you mean %s?)", word, nearest)

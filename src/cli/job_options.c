@@ -146,17 +146,6 @@ static const struct method *choose_method(const struct scene *scene, struct list
     return NULL;
 }
 
-char *job_scene_meant(const char *path)
-{
-    size_t size = strlen(path) + sizeof ".pbrt";
-    char *name = mem_alloc(size, 1);
-    snprintf(name, size, "%s.pbrt", path);
-    if (!file_exists(path) && file_exists(name))
-        return name;
-    free(name);
-    return NULL;
-}
-
 int job_load(const struct job_options *o, struct scene *scene, const struct method **method)
 {
     return job_load_for(o, NULL, scene, method);
@@ -169,7 +158,7 @@ int job_load_for(const struct job_options *o, job_readers *choose, struct scene 
     struct listener listener = {o, 0};
     struct message_sink sink = {print_warning, print_error, &listener};
     struct render_job job;
-    char *meant = job_scene_meant(o->scene_path);
+    char *meant = file_meant(o->scene_path, ".pbrt");
     if (meant != NULL) {
         error_set(&err, "%s: there is no such file; did you mean %s?", o->scene_path, meant);
         free(meant);

@@ -53,10 +53,6 @@ struct job_options {
 };
 extern const struct option JOB_OPTIONS[], RUN_OPTIONS[]; /* the second, for what takes samples, lead on to the first */
 
-/* job_scene_meant: the name of the scene that is there if .pbrt is added to one that is not, to be given to free();
- * else NULL. */
-char *job_scene_meant(const char *path);
-
 /* job_load: parse the scene, apply the options, prepare it, and find the method. Returns EXIT_OK, or EXIT_JOB or
  * EXIT_USAGE after printing why (then nothing needs release). */
 int job_load(const struct job_options *o, struct scene *scene, const struct method **method);
