@@ -91,7 +91,7 @@ web: asbdpt ## build and test the page that renders, out/asbdpt.html, where clan
 
 bench: asbdpt-lab ## measure speed and memory on the scenes (or SCENES="..."), beside doc/bench-baseline.json
 	@mkdir -p out
-	$(LAB) bench $(SCENES) --json out/bench.json --baseline doc/bench-baseline.json
+	$(LAB) bench $(SCENES) scenes/test/many-lamps.pbrt --json out/bench.json --baseline doc/bench-baseline.json
 
 ref: asbdpt asbdpt-lab ## render the stored references of ref/ again (an hour; goes on where it stopped)
 	sh ref/make-ref.sh $(PROGRAM)
@@ -114,6 +114,7 @@ check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject #
 	sh test/keep.sh $(PROGRAM) 100
 	sh test/cluster.sh $(PROGRAM)
 	sh test/readme.sh $(PROGRAM)
+	PICTURES=all sh test/mini.sh $(PROGRAM)
 	BUILD=$(BUILD) sh test/add_method.sh
 	CC="$(CC)" sh test/course.sh prove
 	sh doc/tour/figures.sh $(PROGRAM) out/figures
@@ -153,8 +154,9 @@ limits: ## check that doc/SECURITY.md says what the limits of the program are
 columns: ## check that no line is longer than .clang-format allows, and that all are ASCII
 	@sh test/columns.sh
 
-links: ## check that links, functions, tests and mutants named in the documents exist, and their HTML
+links: ## check that links, functions, tests and mutants named in the documents exist, what these take from sources, and their HTML
 	@sh test/links.sh
+	@sh test/pages.sh
 	@sh test/html.sh
 
 san: ## run the tests (or SUITES="...") under the address and undefined-behaviour sanitizers

@@ -137,27 +137,62 @@ check [ ! -e x.pfm ]
 no_temporaries "after errors"
 
 # ---- signals ----
-long="--integrator bdpt --res 64x64 --spp 4000 --quiet" some='at ([1-9][0-9]{0,2}|[1-3][0-9]{3}) of 4000'
-wait_for() { # FILE: until it is there, but no longer than some seconds
+# heard SIGNAL: does it end a program here? Not if whoever started this has it ignored, as nohup does.
+heard() {
+    { sh -c "kill -s $1 \$\$"; } 2>/dev/null || return 0
+    echo "skipped: SIG$1 (it is ignored here)"
+    return 1
+}
+# wait_until COMMAND...: until it succeeds, but no longer than some seconds
+wait_until() {
     i=0
-    while [ ! -e "$1" ] && [ $i -lt 300 ]; do
+    while ! "$@" && [ $i -lt 3000 ]; do
         i=$((i + 1))
         sleep 0.02
     done
 }
-for pair in TERM:143 HUP:129; do
-    rm -f state
-    "$program" render "$box" $long -j 2 --checkpoint state --interval 0.05 -o caught.pfm 2>stderr.txt &
-    wait_for state
-    kill -s "${pair%:*}" $!
+# A render stops between two tile passes, says so at once, and goes on from there to the same bytes.
+stopped="--integrator bdpt --res 200x200 --spp 8 --maxdepth 3 --quiet" end=8000 # passes and thousandths of samples
+check "$program" render "$box" $stopped -o whole.pfm -o whole.part
+rm -f state
+for pair in TERM:143 HUP:129 TERM:143; do
+    signal=${pair%:*}
+    heard "$signal" || continue
+    at=0
+    [ ! -e state ] || at=$(work_in state)
+    "$program" render "$box" $stopped -j 2 --checkpoint state --resume state --interval 0.02 -o caught.pfm \
+        2>stderr.txt &
+    further() { [ -e state ] && [ "$(work_in state)" -gt "$at" ]; }
+    wait_until further
+    kill -s "$signal" $!
     wait $!
     got=$?
-    [ $got = "${pair#*:}" ] || fault "SIG${pair%:*}: status $got"
-    check grep -Eq "stopped by SIG${pair%:*}, $some" stderr.txt
-    check "$program" merge --partial --quiet -o again.pfm state
-    same caught.pfm again.pfm "what was written at a signal"
+    [ "$(work_in state)" = $end ] && echo "skipped: SIG$signal in the middle of a render (it was over)" && continue
+    [ $got = "${pair#*:}" ] || fault "SIG$signal: status $got"
+    check grep -q '^asbdpt: stopping, and writing' stderr.txt
+    check grep -Eq "stopped by SIG$signal, at [0-7] of 8" stderr.txt
+    expect 0 '' "$lab" compare caught.pfm whole.pfm
+    check awk '$1 == "mean_ratio" && $2 < 1.1 { near = 1 } END { exit !near }' stdout.txt
 done
-if command -v timeout >/dev/null && timeout --preserve-status 5 true 2>/dev/null; then
+check "$program" render "$box" $stopped --resume state -o sum.pfm -o sum.part --checkpoint state
+same whole.pfm sum.pfm "after signals"
+same whole.part sum.part "after signals"
+# However large the picture is.
+if heard TERM; then
+    rm -f state
+    "$program" render "$box" --integrator bdpt --res 1000x1000 --spp 16 --quiet --checkpoint state --interval 0.1 \
+        -o caught.pfm 2>stderr.txt &
+    wait_until [ -e state ]
+    kill -s TERM $!
+    wait $!
+    check grep -Eq 'stopped by SIGTERM, at 0 of 16 samples per pixel, [0-9.]+ % of the pixels at 1$' stderr.txt
+    check [ -s caught.pfm ]
+    expect 1 'state: stands in the middle of a block' "$program" merge --partial -o again.pfm state
+fi
+long="--integrator bdpt --res 64x64 --spp 4000 --quiet" some='at ([1-9][0-9]{0,2}|[1-3][0-9]{3}) of 4000'
+if ! command -v timeout >/dev/null || ! timeout --preserve-status 5 true 2>/dev/null; then
+    echo "skipped: a render stopped by timeout (not installed)"
+elif heard INT; then
     for seconds in 0.5 4 16; do # the last is for a machine that is very busy
         timeout --preserve-status -s INT $seconds "$program" render "$box" $long -o caught.pfm 2>stderr.txt
         got=$?
@@ -165,36 +200,34 @@ if command -v timeout >/dev/null && timeout --preserve-status 5 true 2>/dev/null
     done
     [ $got = 130 ] && grep -Eq "stopped by SIGINT, $some" stderr.txt ||
         fault "stopped by timeout: status $got, $(cat stderr.txt)"
-else
-    echo "skipped: a render stopped by timeout (not installed)"
 fi
-# A signal while a method learns ends that, and the picture is of one block by what there is.
-"$program" render "$box" --integrator asbdpt --res 200x200 --spp 1000000 --quiet -o learning.pfm 2>stderr.txt &
-sleep 0.1
-kill -s TERM $!
-wait $!
-got=$?
-[ $got = 143 ] || fault "a signal while a method learns: status $got"
-check grep -Eq 'stopped by SIGTERM, at [0-9]+ of 1000000' stderr.txt
-check [ -s learning.pfm ]
-no_temporaries "after a signal before the first pass"
-# A block without end: the first signal, once it has begun, lets it go on, the second ends the program at once.
-rm -f state caught.pfm
-"$program" render "$box" --integrator asbdpt -P select=bins -P restart=0 --res 96x96 --spp 400 --quiet -j 2 \
-    --checkpoint state --interval 0.01 -o caught.pfm 2>stderr.txt &
-waited=0
-while [ ! -s state ] && [ $waited -lt 300 ]; do
+if heard TERM; then
+    # A signal while a method learns ends that, and the picture is of what there is.
+    "$program" render "$box" --integrator asbdpt --res 200x200 --spp 1000000 --quiet -o learning.pfm 2>stderr.txt &
     sleep 0.1
-    waited=$((waited + 1))
-done
-kill -s TERM $!
-sleep 0.2
-check kill -s TERM $!
-wait $!
-got=$?
-[ $got = 143 ] || fault "two signals: status $got"
-check [ ! -e caught.pfm ]
-no_temporaries "after two signals"
+    kill -s TERM $!
+    wait $!
+    got=$?
+    [ $got = 143 ] || fault "a signal while a method learns: status $got"
+    check grep -Eq 'stopped by SIGTERM, at [0-9]+ of 1000000' stderr.txt
+    check [ -s learning.pfm ]
+    no_temporaries "after a signal before the first pass"
+    # In a long tile pass the first signal is answered at once, and lets it go on; the second ends the program.
+    rm -f state caught.pfm
+    "$program" render "$box" --integrator asbdpt -P select=bins -P restart=0 --res 96x96 --spp 2000 --maxdepth 3 \
+        --quiet -j 1 --checkpoint state --interval 0.01 -o caught.pfm 2>stderr.txt &
+    wait_until [ -s state ]
+    kill -s TERM $!
+    wait_until grep -q stopping stderr.txt
+    check kill -s TERM $!
+    wait $!
+    got=$?
+    [ $got = 143 ] || fault "two signals: status $got"
+    check [ ! -e caught.pfm ]
+    check grep -q 'asbdpt: stopping' stderr.txt
+    check [ "$(grep -c 'stopped' stderr.txt)" = 0 ]
+    no_temporaries "after two signals"
+fi
 # Writes that fail say so.
 (
     ulimit -f 1

@@ -1,32 +1,55 @@
 #!/bin/sh
-# mini.sh PROGRAM [CC...]: do doc/mini/asbdpt.c, the renderer in one file, and subspaces.c, which adds a method to it,
-# compile without a warning under every compiler at hand, and make the pictures that PROGRAM makes of the same scene?
+# mini.sh PROGRAM [CC...]: do the eight programs of doc/mini compile without a warning under every compiler at hand,
+# draw the pictures of their page, and have the expectation that PROGRAM has of the same scene?
 #
 # Each side renders 8 pictures with seeds of their own; `verify` (test/lab/verify.h) tests the mean, every block of 8x8
-# pixels and the uniformity of the p-values, corrected for their number. LEVEL makes one false alarm in 1,000 of all 9
-# comparisons. Of the mini's methods pt, bdpt, pool, vertices and subspaces must agree with PROGRAM's
-# bdpt, pt also with its pt; bins, which is biased, must differ from both bdpt but agree with PROGRAM's own bins.
+# pixels and the uniformity of the p-values, corrected for their number. LEVEL makes one false alarm in 1,000 of all 16
+# comparisons. What is unbiased must agree with PROGRAM's bdpt; bins, which is biased, must differ from it and agree
+# with PROGRAM's own bins; light tracing, which sees nothing in a mirror, must differ.
 . test/expect.sh
 [ $# -gt 0 ] && shift
-scene=$top/doc/mini/rooms.pbrt source=$top/doc/mini/asbdpt.c addition=$top/doc/mini/subspaces.c
+mini=$top/doc/mini scene=$top/doc/mini/rooms.pbrt
+steps="1-rays 2-paths 3-lamp 4-light 5-bdpt 6-choice 7-vertices asbdpt"
 compilers=${*:-$(command -v gcc clang || echo cc)}
-LEVEL=1.1e-4 SEEDS="1 2 3 4 5 6 7 8"
+LEVEL=6.2e-5 SEEDS="1 2 3 4 5 6 7 8"
 
-for cc in $compilers; do
-    for file in "$source" "$addition"; do
-        warnings=$($cc -std=c99 -pedantic -Wall -Wextra -Wshadow -Wconversion -O2 -o mini "$file" -lm 2>&1) ||
-            fault "$cc does not compile $file"
+before=90
+for step in $steps; do
+    made="-O2 -lm -o $step" # by the first of the compilers
+    for cc in $compilers; do
+        # shellcheck disable=SC2086
+        warnings=$($cc -std=c99 -pedantic -Wall -Wextra -Wshadow -Wconversion "$mini/$step.c" $made 2>&1) ||
+            fault "$cc does not compile $step.c"
         [ -z "$warnings" ] || fault "$cc warns: $warnings"
+        made=-fsyntax-only
     done
+    lines=$(wc -l <"$mini/$step.c" | tr -d ' ')
+    more=$((lines - before))
+    { [ $more -ge 35 ] && [ $more -le 105 ]; } || fault "$step.c has $more lines more than the one before it"
+    grep -q "($step.c).* | $lines |$" "$mini/README.md" || fault "doc/mini/README.md: $step.c has $lines lines"
+    before=$lines
 done
-[ "$(wc -l <"$addition")" -le 150 ] || fault "$addition has more than 150 lines"
-[ "$(wc -l <"$source")" -le 500 ] || fault "$source has more than 500 lines"
-./mini 2>/dev/null && fault "no usage is printed"
-./mini pt 0 x.pfm 2>/dev/null && fault "no samples are taken for some"
-./mini pt 1 no/such/x.pfm 2>/dev/null && fault "an impossible output is not noticed"
+./asbdpt 2>/dev/null && fault "no usage is printed"
+./asbdpt pt 0 x.pfm 2>/dev/null && fault "no samples are taken for some"
+./asbdpt pt 1 no/such/x.pfm 2>/dev/null && fault "an impossible output is not noticed"
 
-# mini METHOD SPP, main METHOD SPP OPTION...: pictures of all seeds.
-mini() { for k in $SEEDS; do ./mini "$1" "$2" "mini-$1-$k.pfm" "$k"; done; }
+# The pictures of the page; those of steps 6 to 8, which take longer, if PICTURES is set.
+{
+    ./1-rays p1.png && ./2-paths 64 p2.png && ./3-lamp 64 p3.png && ./4-light lt 64 p4.png && ./5-bdpt bdpt 64 p5.png &&
+        { [ -z "${PICTURES-}" ] || { ./6-choice pool 64 p6.png && ./7-vertices vertices 64 p7.png &&
+            ./asbdpt subspaces 64 p8.png; }; } || fault "a program ends with an error"
+} 2>/dev/null
+for picture in p?.png; do
+    k=${picture#p}
+    "$lab" compare "$picture" "$mini/figures/$k" >compare.txt 2>&1
+    awk '$1 == "rmse8" { good = $2 < 1 } END { exit !good }' compare.txt ||
+        fault "figures/$k is another: $(cat compare.txt)"
+done
+"$lab" compare p2.png "$mini/figures/3.png" | awk '$1 == "rmse8" { other = $2 > 1 } END { exit !other }' ||
+    fault "another picture is not noticed"
+
+# mini STEP METHOD SPP, main METHOD SPP OPTION...: pictures of all seeds.
+mini() { for k in $SEEDS; do ./$1 $2 "$3" "$1-${2:-pt}-$k.pfm" "$k" 2>/dev/null; done; }
 main() {
     method=$1 spp=$2
     shift 2
@@ -34,24 +57,35 @@ main() {
         "$program" render "$scene" --quiet -j 1 --spp "$spp" --seed "$k" "$@" -o "main-$method-$k.pfm"
     done
 }
-# compare A B VERDICT: agree or DIFFER.
+# compare A B VERDICT [TILE]: agree or DIFFER.
 compare() {
-    "$lab" verify "$scene" --files "$1"-*.pfm --against "$2"-*.pfm --tile 8 --alpha $LEVEL --quiet >verdict.txt 2>&1
+    "$lab" verify "$scene" --files "$1"-[1-8].pfm --against "$2"-[1-8].pfm --tile "${4:-8}" --alpha $LEVEL \
+        --quiet >verdict.txt 2>&1
     grep -q "^verdict: $3" verdict.txt ||
         fault "$1 and $2 should $3: $(cat verdict.txt); repeat with: sh test/mini.sh ./asbdpt"
 }
 
-{ mini pt 4; mini bdpt 1; mini bins 1; mini pool 1; mini vertices 1; mini subspaces 1; } &
+{
+    mini 2-paths "" 24; mini 3-lamp "" 4; mini 4-light pt 4; mini 4-light lt 8; mini 5-bdpt bdpt 1; mini 6-choice pool 1
+    mini 7-vertices vertices 1
+} &
+{
+    mini asbdpt pt 4; mini asbdpt bdpt 3; mini asbdpt bins 3; mini asbdpt pool 1; mini asbdpt vertices 1
+    mini asbdpt subspaces 1
+} &
 main pt 4 --integrator pt
-main bdpt 1 --integrator bdpt
-main bins 1 --integrator asbdpt -P select=bins
+main bdpt 3 --integrator bdpt
+main bins 3 --integrator asbdpt -P select=bins
 wait
-for method in pt bdpt pool vertices subspaces; do
-    compare mini-$method main-bdpt agree
+compare 2-paths-pt main-bdpt agree 32 # of so few finds the means of small squares are no normal numbers
+for one in 3-lamp-pt 4-light-pt 5-bdpt-bdpt 6-choice-pool 7-vertices-vertices \
+    asbdpt-pt asbdpt-bdpt asbdpt-pool asbdpt-vertices asbdpt-subspaces; do
+    compare $one main-bdpt agree
 done
-compare mini-pt main-pt agree
-compare mini-bins main-bins agree
-compare mini-bins main-bdpt DIFFER
-compare mini-bins mini-bdpt DIFFER
-[ $failures -eq 0 ] && echo "mini: one file and an addition, the same pictures"
+compare asbdpt-pt main-pt agree
+compare asbdpt-bins main-bins agree
+compare asbdpt-bins main-bdpt DIFFER
+compare asbdpt-bins asbdpt-bdpt DIFFER
+compare 4-light-lt main-bdpt DIFFER
+[ $failures -eq 0 ] && echo "mini: eight programs, the same pictures"
 [ $failures -eq 0 ]

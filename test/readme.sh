@@ -1,5 +1,6 @@
 #!/bin/sh
-# readme.sh PROGRAM [DOCUMENT...]: the commands of the documents (README.md, doc/*.md, doc/tour/*.md) do what these say.
+# readme.sh PROGRAM [DOCUMENT...]: the commands of the documents (README.md, doc/*.md, doc/tour/*.md,
+# doc/mini/*.md) do what these say.
 # Run are all indented lines that begin as commands of this tree do, in order, in a scratch directory where the tree is
 # linked, so that they write nothing into it: each must end without an error. What follows a command in the same listing
 # is quoted from its output: each line but "..." must be there, letter by letter, and if one names the place of an error
@@ -19,7 +20,7 @@ done
 ln -s "$program" "$dir/asbdpt"
 ln -s "$program-lab" "$dir/asbdpt-lab"
 cd "$dir" && mkdir out || exit 1
-[ $all -gt 0 ] || set -- README.md doc/*.md doc/tour/*.md
+[ $all -gt 0 ] || set -- README.md doc/*.md doc/tour/*.md doc/mini/*.md
 
 # why COMMAND: a reason not to run it, or nothing.
 why() {

@@ -77,11 +77,12 @@ static bool accepted(const struct fixture *f, const uint8_t *data, size_t n, int
 /* Digits 0, -1, 63, 64, -65 and 2^62, of which the last has nine bytes. */
 static void test_bytes(struct test *t)
 {
-    static const char TEXT[] = "asbdpt part 5\nsamples 2 7\ndone 3 1\nleft-out 4\nhalves 0\nsize 1 1, planes 0 0\n"
+    static const char TEXT[] = "asbdpt part 6\nsamples 2 7\ndone 3 1\nleft-out 4\nhalves 0\nsize 1 1, planes 0 0\n"
                                "film 1 1, window 0 0\n"
                                "scale 1\nspp 8\nversion 0\ncheck ";
     static const uint8_t SUMS[] = {255, 7,   0,   1,   126, 12,  128, 1,   129, 1,
-                                   128, 128, 128, 128, 128, 128, 128, 128, 128, 1};
+                                   128, 128, 128, 128, 128, 128, 128, 128, 128, 1,
+                                   255, 7,   6,   0,   0,   255}; /* and what splats have brought */
     const struct exact_sum sums[3] = {{{0, 0, 0}, 0}, {{0, -1, 63}, 7}, {{64, -65, INT64_MAX / 2 + 1}, 12}};
     struct pixel_rect one = {0, 0, 1, 1, 0, 0};
     struct fixture f;
@@ -93,11 +94,13 @@ static void test_bytes(struct test *t)
         f.film.sum[i] = sums[i];
     f.film.iterations = 3;
     f.film.passes = 1;
+    f.film.block.splat[1] = 3;
     f.film.nonfinite = 4;
     uint8_t *data = bytes_of(t, &f, &n);
     CHECK(t, n == text + sizeof SUMS + 4 && memcmp(data, TEXT, sizeof TEXT - 1) == 0 &&
                  memcmp(data + text, SUMS, sizeof SUMS) == 0, "the text, the sums, or the length %d", (int)n);
-    CHECK(t, load(f.path, &back) && back.iterations == 3 && back.passes == 1 && back.nonfinite == 4, "numbers");
+    CHECK(t, load(f.path, &back) && back.iterations == 3 && back.passes == 1 && back.nonfinite == 4 &&
+                 back.block.splat[0] == 0 && back.block.splat[1] == 3, "numbers");
     for (int i = 0; i < 3; i++)
         CHECK(t, memcmp(back.sum[i].digit, sums[i].digit, sizeof sums[i].digit) == 0, "the digits of sum %d", i);
     free(data);
@@ -219,12 +222,12 @@ static void forge_lines(struct rng *r, const char *const *line, int n, char *out
 
 static void test_forged(struct test *t)
 {
-    static const char *const LINES[] = {"asbdpt part 5", "samples 2 7", "done 3 1", "left-out 4", "halves 0",
+    static const char *const LINES[] = {"asbdpt part 6", "samples 2 7", "done 3 1", "left-out 4", "halves 0",
                                         "size 4 3, planes 0 0", "film 4 3, window 0 0", "scale 1", "spp 8",
                                         "version 0", "seed 1"};
     static const char SAME[] = "\nsize 4 3, planes 0 0\nfilm 4 3, window 0 0\nscale 1\nspp 8\n"
                                "version 0\nseed 1\ncheck ";
-    enum { N_LINES = 11, ROUNDS = 1000, SUMS = 36 };
+    enum { N_LINES = 11, ROUNDS = 1000, SUMS = 72 };
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 32, 0);
     struct fixture whole;
     char text[1024];

@@ -145,11 +145,11 @@ struct ends {
     long n;
 };
 
-static bool count_end(void *context, double done)
+static enum render_wish count_end(void *context, double done)
 {
     struct ends *e = context;
     e->n += done > 0 && e->film->passes == 0;
-    return true;
+    return RENDER_GO_ON;
 }
 
 static void blocks(struct test *t, const char *integrator, int size, int spp, int longest)

@@ -1,10 +1,10 @@
 /* asbdpt.c: Alias Sampled Bidirectional Path Tracing in one file, to be read from top to bottom.
  *
- *     cc -O2 -o mini asbdpt.c -lm
- *     ./mini bdpt 64 out.ppm
+ *     cc -O2 -o mini asbdpt.c -lm && ./mini subspaces 64 out.png
  *
- * The renderer around this file does the same for any scene, on all cores, with tests for every line: headings name the
- * file of `src` in which an idea is grown up. rooms.pbrt is the same scene; test/mini.sh compares the pictures.
+ * It is the last of eight programs that grow from one another (README.md beside it). The renderer around this file
+ * does the same for any scene, on all cores, with tests for every line: headings name the file of `src` in which an
+ * idea is grown up. rooms.pbrt is the same scene; test/mini.sh compares the pictures.
  *
  * The question. Light leaves a lamp, is scattered by some surfaces and enters the camera: a path x_0 x_1 ... x_k, x_0
  * on the lamp, x_k the lens. The colour of a pixel is the sum of what all such paths carry, an integral over all places
@@ -14,7 +14,7 @@
  * the same path is found by every strategy with s + t = k + 1, each gets a weight; the weights of a path add up to 1.
  *
  * The dissertation [Silva 2024] asks: must an eye sub-path be joined to whatever light sub-path was traced for it, or
- * may it choose a promising one? `bins` is its answer; the others, and subspaces.c, choose without bias (section 11). */
+ * may it choose a promising one? `bins` is its answer; the others choose without bias (heading "Choosing"). */
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -25,7 +25,7 @@
 enum { SIZE = 128, DEPTH = 5, LIGHT_VERTICES = DEPTH + 1, EYE_VERTICES = DEPTH + 2 }; /* pixels; longest path */
 static const double PI = 3.14159265358979323846;
 
-/* ---- 1. Vectors: points, directions and colours (src/base/vec.h, rgb.h) ------------------------------------------ */
+/* ---- Vectors: points, directions and colours (src/base/vec.h, rgb.h) --------------------------------------------- */
 typedef struct { double x, y, z; } vec3;
 typedef vec3 rgb; /* red, green, blue; linear */
 
@@ -39,7 +39,7 @@ static vec3 cross(vec3 a, vec3 b) { return vec(a.y * b.z - a.z * b.y, a.z * b.x 
 static vec3 unit(vec3 a) { return mul(a, 1 / sqrt(dot(a, a))); }
 static double luminance(rgb a) { return 0.2126 * a.x + 0.7152 * a.y + 0.0722 * a.z; }
 
-/* ---- 2. Random numbers in [0,1): SplitMix64 counts in large steps and scrambles the bits (src/base/rng.h) -------- */
+/* ---- Random numbers in [0,1): SplitMix64 counts in large steps and scrambles the bits (src/base/rng.h) ----------- */
 static double next(uint64_t *rng)
 {
     uint64_t x = *rng += 0x9e3779b97f4a7c15u;
@@ -48,7 +48,7 @@ static double next(uint64_t *rng)
     return (double)((x ^ (x >> 31)) >> 11) / 9007199254740992.0; /* 53 bits, over 2^53 */
 }
 
-/* ---- 3. The alias table (src/base/alias.c) -------------------------------------------------------------------------
+/* ---- The alias table (src/base/alias.c) ----------------------------------------------------------------------------
  * Draw i with probability q[i], for any q, in constant time. Imagine n bins of size 1/n. An element with q < 1/n cannot
  * fill its bin; a rich one fills it up and is left with less. So every bin holds at most two elements: its own, up to a
  * threshold, and one other. To draw, pick a bin, then one of its two.                     [Walker 1977] [Vose 1991] */
@@ -74,7 +74,7 @@ static void alias_build(struct bin *bin, const double *q, int n, int *work) /* q
 
 static int alias_choose(const struct bin *bin, int b, double u) { return u < bin[b].threshold ? b : bin[b].other; }
 
-/* ---- 4. The scene (src/scene) --------------------------------------------------------------------------------------
+/* ---- The scene (src/scene) -----------------------------------------------------------------------------------------
  * Two Cornell boxes, one behind the other, joined by a gap: x to the right, y up, z away. The lamp is in the far one,
  * so most light sub-paths never meet what the camera sees. Surfaces are matte, or perfect mirrors. */
 struct shape {
@@ -97,11 +97,19 @@ static const struct shape SCENE[] = {
     {{0.70, 0.17, 0.35}, BLACK, BLACK, 0.17, {0.3, 0.4, 0.7}, BLACK, false},
 };
 static const struct shape *const LAMP = &SCENE[0];
+#define PINHOLE_AT {0.5, 0.5, -1.5} /* the lens, which looks along z */
 static const double SCREEN = 0.36;  /* half of the picture's height, at distance 1 */
 static const double EPSILON = 1e-9; /* a hit is exact to about 1e-15; nothing here is as thin as this */
 
 static vec3 lamp_normal(void) { return cross(LAMP->a, LAMP->b); } /* its length is the lamp's area */
 static double lamp_area(void) { return sqrt(dot(lamp_normal(), lamp_normal())); }
+
+/* The direction that is seen at a place of the picture, in pixels from its upper left corner. */
+static vec3 camera_direction(double px, double py)
+{
+    double width = 2 * SCREEN / SIZE; /* of a pixel */
+    return unit(vec((px - SIZE * 0.5) * width, (SIZE * 0.5 - py) * width, 1));
+}
 
 /* Where direction w enters the picture, in pixels, and J, the pixels that a steradian covers there: seen from the
  * pinhole, an area dx dy of the screen at distance 1 fills dx dy cos^3. 0: outside. (src/scene/camera.c) */
@@ -114,7 +122,7 @@ static double camera_project(vec3 w, double *x, double *y)
     return inside ? pixels * pixels / pow(cosine, 3) : 0;
 }
 
-/* ---- 5. Rays (src/geometry/kdtree.c) -------------------------------------------------------------------------------
+/* ---- Rays (src/geometry/kdtree.c) ----------------------------------------------------------------------------------
  * Where does the ray o + t d, d of length 1, meet the shape? Nowhere is infinitely far. */
 static double hit(const struct shape *s, vec3 o, vec3 d)
 {
@@ -145,17 +153,24 @@ static const struct shape *nearest(vec3 o, vec3 d, double *t)
     return found;
 }
 
-/* ---- 6. Vertices, and how they scatter (src/transport/path.h, src/material/bsdf.h) ------------------------------- */
+/* The shape's unit normal at p, on the side that direction d comes from. */
+static vec3 normal(const struct shape *s, vec3 p, vec3 d)
+{
+    vec3 n = unit(s->radius > 0 ? sub(p, s->p) : cross(s->a, s->b));
+    return mul(n, dot(n, d) > 0 ? -1 : 1);
+}
+
+/* ---- Vertices, and how they scatter (src/transport/path.h, src/material/bsdf.h) ---------------------------------- */
 struct vertex {
     enum { LENS, LIGHT, SURFACE } kind;
     const struct shape *shape;
     vec3 p, n, wo; /* place; unit normal, on the side the walk came from; unit direction back to where it came from */
     rgb beta;      /* all factors that the walk has met up to here, over the density of having gone so */
     double F;      /* density per area with which its walk chose this place */
-    double c, mis; /* c_e and mis_e of section 7 */
+    double c, mis; /* c_e and mis_e of "Weights" */
 };
 /* The camera. No light sub-path ever finds a pinhole by chance, so nothing is asked of its density: F = 1, c = 0. */
-static const struct vertex PINHOLE = {LENS, NULL, {0.5, 0.5, -1.5}, {0, 0, 1}, BLACK, {1, 1, 1}, 1, 0, 0};
+static const struct vertex PINHOLE = {LENS, NULL, PINHOLE_AT, {0, 0, 1}, BLACK, {1, 1, 1}, 1, 0, 0};
 
 /* A mirror is no end for a connection: the other end would have to lie just where it points. */
 static bool connectible(const struct vertex *v) { return v->kind != SURFACE || !v->shape->mirror; }
@@ -186,7 +201,7 @@ static vec3 cosine_hemisphere(vec3 n, uint64_t *rng)
     return add(mul(add(mul(a, cos(phi)), mul(b, sin(phi))), sqrt(r2)), mul(n, sqrt(1 - r2)));
 }
 
-/* ---- 7. Weights (src/transport/mis.h) ------------------------------------------------------------------------------
+/* ---- Weights (src/transport/mis.h) ---------------------------------------------------------------------------------
  * Let p_s be the density of strategy (s,t) times n_s, the samples it takes. The balance heuristic gives it the weight
  *     w_s = p_s / (p_0 + p_1 + ... + p_k):                                                          [Veach 1997, 9.2.2]
  * paths are left to those who find them easily. p_i and p_(i+1) differ in one vertex, x_i, which has density F in its
@@ -200,27 +215,32 @@ struct counts { /* the number n of samples per pixel; 0: the method does not use
     double direct;       /* s = 1: it is joined to a fresh point on the lamp */
     double connect;      /* s > 1, t > 1: it is joined to a light sub-path */
     double splat;        /* t = 1: all light sub-paths of the picture are joined to the lens */
-    const double *worth; /* `vertices`: `connect` is times the worth of the light end's cell; else NULL */
-    int row;             /* 0; in subspaces.c, worth has a row, this long, for each cell of the eye end */
+    const double *worth; /* of the light end's cell: `connect` is times this; NULL: 1 */
+    int row;             /* `subspaces`: worth has a row, this long, for each cell of the eye end; else 0 */
 };
-enum { CELLS = 8 }; /* of space, along each axis (src/learning/regions.c) */
+enum { CELLS = 8, PLACES = CELLS * CELLS * CELLS }; /* of space, along each axis (src/learning/regions.c) */
 static int cell(double x) { return (int)fmin(fmax(x * CELLS, 0), CELLS - 1); }
 static int place(vec3 p) { return (cell(p.x) * CELLS + cell(p.y)) * CELLS + cell(p.z / 2); }
+
+/* What a light vertex at y is worth to an eye vertex at z. */
+static double worth_of(const struct counts *n, const struct vertex *y, const struct vertex *z)
+{
+    return n->worth != NULL ? n->worth[place(z->p) * n->row + place(y->p)] : 1;
+}
 
 /* n of the strategy that joins y, the end of a light sub-path, and z, the end of an eye sub-path. */
 static double count(const struct counts *n, const struct vertex *y, const struct vertex *z)
 {
     if (!connectible(y) || !connectible(z))
         return 0;
-    double worth = n->worth != NULL ? n->worth[place(z->p) * n->row + place(y->p)] : 1;
-    return z->kind == LENS ? n->splat : y->kind == LIGHT ? n->direct : n->connect * worth;
+    return z->kind == LENS ? n->splat : y->kind == LIGHT ? n->direct : n->connect * worth_of(n, y, z);
 }
 
 /* A_e = R_e * this, of vertex v = x_e, and mis_(e+1) = g * this, where g makes a density per steradian at x_(e+1) one
  * per area at x_e. pdf_rev: per steradian, of going back from v to the vertex before it. */
 static double sum_over_F(const struct vertex *v, double pdf_rev) { return (v->c + pdf_rev * v->mis) / v->F; }
 
-/* ---- 8. The walk (src/transport/path.c) ----------------------------------------------------------------------------
+/* ---- The walk (src/transport/path.c) -------------------------------------------------------------------------------
  * Nature does not mind which way light goes, so one function makes both kinds of sub-path. It leaves path[0], which is
  * made, in direction d, chosen with density pdf per steradian. Returns the number of vertices, at most max. */
 static int walk(const struct counts *n, struct vertex *path, int max, vec3 d, double pdf, rgb beta, uint64_t *rng)
@@ -234,8 +254,7 @@ static int walk(const struct counts *n, struct vertex *path, int max, vec3 d, do
         if (v->shape == NULL)
             return e;
         v->p = add(from->p, mul(d, t));
-        v->n = unit(v->shape->radius > 0 ? sub(v->p, v->shape->p) : cross(v->shape->a, v->shape->b));
-        v->n = mul(v->n, dot(v->n, d) > 0 ? -1 : 1);
+        v->n = normal(v->shape, v->p, d);
         v->wo = mul(d, -1);
         v->beta = beta;
         v->F = pdf * dot(v->n, v->wo) / (t * t); /* per steradian at `from`, times cosine / distance^2: per area here */
@@ -276,13 +295,13 @@ static void path_light(const struct counts *n, struct light_path *path, int iter
 
 static int path_eye(const struct counts *n, int x, int y, struct vertex *path, uint64_t *rng)
 {
-    double px = x + next(rng), py = y + next(rng), width = 2 * SCREEN / SIZE; /* of a pixel */
-    vec3 d = unit(vec((px - SIZE * 0.5) * width, (SIZE * 0.5 - py) * width, 1));
+    double px = x + next(rng), py = y + next(rng);
+    vec3 d = camera_direction(px, py);
     path[0] = PINHOLE;
     return walk(n, path, EYE_VERTICES, d, camera_project(d, &px, &py), path[0].beta, rng);
 }
 
-/* ---- 9. What a strategy contributes (src/transport/connect.c) ------------------------------------------------------
+/* ---- What a strategy contributes (src/transport/connect.c) ---------------------------------------------------------
  * s > 0: join y and z. Both throughputs, both scatterings, 1/distance^2, if nothing is in between; times the weight. */
 static rgb connect(const struct counts *n, const struct vertex *y, const struct vertex *z)
 {
@@ -308,7 +327,7 @@ static rgb connect_hit(const struct counts *n, const struct vertex *eye, int t)
     return mul(tint(z.beta, LAMP->emission), n->hit / (n->hit + eye_side));
 }
 
-/* ---- 10. Sums over strategies (src/transport/pixel_sample.c) ----------------------------------------------------- */
+/* ---- Sums over strategies (src/transport/pixel_sample.c) --------------------------------------------------------- */
 static rgb sum_eye(const struct counts *n, const struct vertex *eye, int n_eye, uint64_t *rng) /* s = 0 and s = 1 */
 {
     rgb sum = BLACK;
@@ -342,7 +361,7 @@ static void splat_path(const struct counts *n, const struct light_path *light, r
     }
 }
 
-/* ---- 11. Choosing light sub-paths (src/integrators) ----------------------------------------------------------------
+/* ---- Choosing light sub-paths (src/integrators) --------------------------------------------------------------------
  * The picture is made row by row. In every iteration a light sub-path is traced for each pixel of the row, and each
  * pixel's eye sub-path is joined to one of them: that is where the methods differ. bdpt: its own.
  *   bins      The dissertation: a pixel owns 8 sub-paths in bins of two. Bins are visited in turn; of the two, number 0
@@ -351,18 +370,35 @@ static void splat_path(const struct counts *n, const struct light_path *light, r
  *   pool      Number k of the row's K with probability q_k, as much as the camera can use of it; times 1 / (K q_k).
  *             Unbiased: sum_k q_k F_k / (K q_k) is the mean of F over the pool, which is what bdpt estimates.
  *   vertices  A vertex y_(s-1) stands for the sub-path that ends there: an eye vertex draws single vertices, where they
- *             are worth much. The weights know: n(y) samples are taken, a function of the place that all agree on. */
-enum method { PT, BDPT, BINS, POOL, VERTICES, METHODS };
+ *             are worth much. The weights know: n(y) samples are taken, a function of the place that all agree on.
+ *   subspaces `vertices` gives a light vertex one worth, whoever asks. But the wall behind the gap is worth much to the
+ *             floor that faces it, and nothing to the wall beside it. So learn a table h(e,l): what a light vertex in
+ *             cell l of space is worth to an eye vertex in cell e. Vertex v of the pool is drawn with probability
+ *                 P(v|z) = (1 - delta) h(e(z),l(v)) L_v / sum + delta / size,     L_v = luminance(beta_v).
+ *             Unbiased whatever h is. The weights count n = DRAWS h(e,l) samples, a function of both ends of the edge.
+ *             A table for each cell that asks costs more time here than it saves; in src a tile shares them, regions
+ *             are found, and a pilot chooses how many to draw. */
+enum method { PT, BDPT, BINS, POOL, VERTICES, SUBSPACES, METHODS };
+static const char *const NAMES[METHODS] = {"pt", "bdpt", "bins", "pool", "vertices", "subspaces"};
+#define CHOICES "pt|bdpt|bins|pool|vertices|subspaces"
 enum { BIN_PATHS = 8, MAX_AGE = 24, RESTART = 32, DRAWS = 4, TABLE = SIZE * DEPTH };
 static const double DELTA = 0.1; /* share of the draws that goes by nothing learnt, so that none becomes impossible */
 
+struct table { /* a probability for sub-path k at [k], or for its vertex y_j at [k * DEPTH + j - 1]; to draw by it */
+    double q[TABLE];
+    struct bin bin[TABLE];
+    bool made;
+};
+enum { PARENTS = PLACES / 8, TRIALS = 2 * SIZE * SIZE, KAPPA = 4 };
+struct lesson { double wx, w; }; /* see try_pairs */
 struct work { /* all memory there is */
     rgb image[SIZE * SIZE];                   /* sums over samples, top row first */
-    double worth[CELLS * CELLS * CELLS];      /* of a light vertex in that cell */
+    double worth[PLACES];                     /* of a light vertex in that cell */
     struct light_path path[SIZE * BIN_PATHS]; /* of a row; all but bins: one per pixel */
-    double q[TABLE];                          /* of sub-path k at [k], or of its vertex y_j at [k * DEPTH + j - 1] */
-    struct bin bin[TABLE];                    /* the alias table over q */
+    struct table table[PLACES];               /* for the cell that asks; all but subspaces: [0] */
     int scratch[TABLE];
+    double h[PLACES * PLACES];                /* a row for each cell that asks */
+    struct lesson pair[PLACES][PLACES], parent[PARENTS][PARENTS];
 };
 
 /* Where can the camera use light? In proportion to the throughput with which eye sub-paths arrive there. Normalised so
@@ -381,8 +417,64 @@ static void learn(double *worth, uint64_t *rng)
         for (int j = 1; j < light.n; j++)
             sum += connectible(&light.v[j]) ? worth[place(light.v[j].p)] : 0;
     }
-    for (int i = 0; i < CELLS * CELLS * CELLS; i++)
+    for (int i = 0; i < PLACES; i++)
         worth[i] = (1 - DELTA) * worth[i] / (sum / (SIZE * SIZE)) + DELTA;
+}
+
+/* ---- Learning pairs (src/learning/trials.c, pairs.c) ---------------------------------------------------------------
+ * A trial joins an eye vertex z in e to a light vertex y in l, unweighted, and notes what arrives,
+ *     x = luminance(connection) / w,     with the weight w = luminance(beta_z) luminance(beta_y).
+ * There are more pairs than trials, so the mean of a pair leans on that of the cells twice as large that hold the two:
+ *     m(e,l) = (sum w x + kappa w_mean m(e',l')) / (sum w + kappa w_mean). */
+static int parent(int at) /* the cell twice as large that holds this one */
+{
+    return (at / CELLS / CELLS / 2 * (CELLS / 2) + at / CELLS % CELLS / 2) * (CELLS / 2) + at % CELLS / 2;
+}
+
+/* Every pair of vertices is a trial. Adds to `all` their weights. Returns how many there were. */
+static int try_pairs(struct work *k, const struct vertex *eye, int n_eye, const struct light_path *light, double *all)
+{
+    const struct counts alone = {0, 0, 1, 0, NULL, 0}; /* no other strategy: the weight is 1 */
+    for (int j = 1; j < light->n; j++)
+        for (int i = 1; i < n_eye; i++) {
+            const struct vertex *y = &light->v[j], *z = &eye[i];
+            int e = place(z->p), l = place(y->p);
+            struct lesson *to[] = {&k->pair[e][l], &k->parent[parent(e)][parent(l)]};
+            double wx = luminance(connect(&alone, y, z)), w = luminance(z->beta) * luminance(y->beta);
+            for (int half = 0; half < 2 && connectible(y) && connectible(z); half++) {
+                to[half]->wx += wx;
+                to[half]->w += w;
+            }
+            *all += w;
+        }
+    return (light->n - 1) * (n_eye - 1);
+}
+
+/* h: m, such that a light sub-path is worth 1 to every e, mixed with delta. Frozen from here on. */
+static void learn_pairs(struct work *k, uint64_t *rng)
+{
+    const struct counts n = {0, 0, 0, 0, NULL, 0};
+    struct vertex eye[EYE_VERTICES];
+    struct light_path light;
+    double visits[PLACES] = {0}, trials = 0, all = 0; /* light vertices there, per light sub-path */
+    for (int i = 0; i < TRIALS; i++) {
+        path_light(&n, &light, 0, rng);
+        for (int j = 1; j < light.n; j++)
+            visits[place(light.v[j].p)] += connectible(&light.v[j]) ? 1.0 / TRIALS : 0;
+        trials += try_pairs(k, eye, path_eye(&n, i % SIZE, i / SIZE % SIZE, eye, rng), &light, &all);
+    }
+    double lean = KAPPA * all / trials;
+    for (int e = 0; e < PLACES; e++) {
+        double sum = 0, *row = k->h + e * PLACES;
+        for (int l = 0; l < PLACES; l++) {
+            const struct lesson *own = &k->pair[e][l], *large = &k->parent[parent(e)][parent(l)];
+            double mean = large->w > 0 ? large->wx / large->w : 0;
+            row[l] = (own->wx + lean * mean) / (own->w + lean);
+            sum += row[l] * visits[l];
+        }
+        for (int l = 0; l < PLACES; l++)
+            row[l] = sum > 0 ? (1 - DELTA) * row[l] / sum + DELTA : 1;
+    }
 }
 
 /* The dissertation's choice for a pixel that owns these sub-paths. (bins.c) */
@@ -396,62 +488,91 @@ static struct light_path *choose_of_bins(const struct counts *n, struct light_pa
     return next(rng) * (b0 + b1) < b0 ? &pair[0] : &pair[1];
 }
 
-/* Trace a row's light sub-paths; make the table over them, or over all their vertices. (pool.c, vertices.c; not bdpt) */
-static void fill(struct work *w, const struct counts *n, int i, uint64_t *rng)
+/* What is in q, made probabilities, and the alias table over them. */
+static void table_make(struct table *t, int size, int *scratch)
 {
-    int size = n->worth != NULL ? TABLE : SIZE;
     double sum = 0;
-    memset(w->q, 0, sizeof w->q);
-    for (int k = 0; k < SIZE; k++) {
-        path_light(n, &w->path[k], i, rng);
-        for (int j = 1; j < w->path[k].n; j++) {
-            const struct vertex *y = &w->path[k].v[j];
-            double usable = connectible(y) ? luminance(y->beta) * w->worth[place(y->p)] : 0;
-            w->q[size == SIZE ? k : k * DEPTH + j - 1] += usable;
-            sum += usable;
-        }
-    }
-    for (int k = 0; k < size; k++)
-        w->q[k] = sum > 0 ? (1 - DELTA) * w->q[k] / sum + DELTA / size : 1.0 / size;
-    alias_build(w->bin, w->q, size, w->scratch);
+    for (int i = 0; i < size; i++)
+        sum += t->q[i];
+    for (int i = 0; i < size; i++)
+        t->q[i] = sum > 0 ? (1 - DELTA) * t->q[i] / sum + DELTA / size : 1.0 / size;
+    alias_build(t->bin, t->q, size, scratch);
+    t->made = true;
 }
 
-static rgb sum_draws(const struct work *w, const struct counts *n, const struct vertex *eye, int n_eye, uint64_t *rng)
+/* A table over the row's sub-paths, by what the camera can use of them. (pool.c) */
+static void fill(struct work *w, struct table *t)
+{
+    for (int k = 0; k < SIZE; k++) {
+        t->q[k] = 0;
+        for (int j = 1; j < w->path[k].n; j++) {
+            const struct vertex *y = &w->path[k].v[j];
+            t->q[k] += connectible(y) ? luminance(y->beta) * w->worth[place(y->p)] : 0;
+        }
+    }
+    table_make(t, SIZE, w->scratch);
+}
+
+/* A table over all vertices of the row's sub-paths, by what they are worth to z. (vertices.c, subspaces.c) */
+static void fill_vertices(struct work *w, struct table *t, const struct counts *n, const struct vertex *z)
+{
+    for (int v = 0; v < TABLE; v++) {
+        const struct light_path *path = &w->path[v / DEPTH];
+        const struct vertex *y = &path->v[v % DEPTH + 1];
+        t->q[v] = v % DEPTH + 1 < path->n && connectible(y) ? luminance(y->beta) * worth_of(n, y, z) : 0;
+    }
+    table_make(t, TABLE, w->scratch);
+}
+
+/* DRAWS light vertices for each eye vertex; each draw is worth 1 / (K q). */
+static rgb sum_draws(struct work *w, const struct counts *n, const struct vertex *eye, int n_eye, uint64_t *rng)
 {
     rgb sum = BLACK;
-    for (int t = 2; t <= n_eye && t <= DEPTH; t++)
+    for (int t = 2; t <= n_eye && t <= DEPTH; t++) {
+        struct table *table = &w->table[n->row > 0 ? place(eye[t - 1].p) : 0]; /* made for the first who asks */
+        if (!table->made)
+            fill_vertices(w, table, n, &eye[t - 1]);
         for (int c = 0; c < DRAWS; c++) {
-            int b = (int)(next(rng) * TABLE), v = alias_choose(w->bin, b, next(rng)), k = v / DEPTH, s = v % DEPTH + 2;
+            int b = (int)(next(rng) * TABLE), v = alias_choose(table->bin, b, next(rng)), k = v / DEPTH;
+            int s = v % DEPTH + 2;
             if (s <= w->path[k].n && s + t <= DEPTH + 2)
-                sum = add(sum, mul(connect(n, &w->path[k].v[s - 1], &eye[t - 1]), 1 / (DRAWS * SIZE * w->q[v])));
+                sum = add(sum, mul(connect(n, &w->path[k].v[s - 1], &eye[t - 1]), 1 / (DRAWS * SIZE * table->q[v])));
         }
+    }
     return sum;
 }
 
 static void render(struct work *w, enum method method, int spp, uint64_t *rng)
 {
-    const bool pt = method == PT, vertices = method == VERTICES;
-    const struct counts n = {1, 1, pt ? 0 : vertices ? DRAWS : 1, pt ? 0 : SIZE * SIZE, vertices ? w->worth : NULL, 0};
-    if (method == POOL || vertices)
+    const bool pt = method == PT, pairs = method == SUBSPACES, draws = method == VERTICES || pairs;
+    const struct counts n = {1, 1, pt ? 0 : draws ? DRAWS : 1, pt ? 0 : SIZE * SIZE,
+                             draws ? pairs ? w->h : w->worth : NULL, pairs ? PLACES : 0};
+    if (method == POOL || method == VERTICES)
         learn(w->worth, rng);
-    for (int y = 0; y < SIZE; y++)
+    if (pairs)
+        learn_pairs(w, rng);
+    for (int y = 0; y < SIZE; y++) {
         for (int i = 0; i < spp; i++) {
             int shift = (int)(next(rng) * SIZE);
-            if (!pt && method != BINS) /* path tracing makes do with sub-paths of no vertices */
-                fill(w, &n, i, rng);
+            for (int k = 0; k < SIZE && !pt && method != BINS; k++) /* path tracing makes do with none */
+                path_light(&n, &w->path[k], i, rng);
+            for (int e = 0; e < PLACES; e++)
+                w->table[e].made = false;
+            if (method == POOL)
+                fill(w, &w->table[0]);
             for (int x = 0; x < SIZE; x++) {
                 struct light_path *own = &w->path[x], *used = own;
                 double W = 1;
                 if (method == BINS)
                     own = used = choose_of_bins(&n, &w->path[x * BIN_PATHS], i, rng);
                 if (method == POOL) { /* every bin is visited by one pixel, no one knows which */
-                    int k = alias_choose(w->bin, (x + shift) % SIZE, next(rng));
+                    int k = alias_choose(w->table[0].bin, (x + shift) % SIZE, next(rng));
                     used = &w->path[k];
-                    W = 1 / (SIZE * w->q[k]);
+                    W = 1 / (SIZE * w->table[0].q[k]);
                 }
                 struct vertex eye[EYE_VERTICES];
                 int n_eye = path_eye(&n, x, y, eye, rng);
-                rgb joined = vertices ? sum_draws(w, &n, eye, n_eye, rng) : sum_pairs(&n, eye, n_eye, used);
+                rgb joined = draws ? sum_draws(w, &n, eye, n_eye, rng) : sum_pairs(&n, eye, n_eye, used);
                 rgb sum = add(sum_eye(&n, eye, n_eye, rng), mul(joined, W)), *pixel = &w->image[y * SIZE + x];
                 *pixel = add(*pixel, sum);
                 splat_path(&n, own, w->image); /* each once, whoever was chosen */
@@ -459,41 +580,98 @@ static void render(struct work *w, enum method method, int spp, uint64_t *rng)
                     path_light(&n, own, i, rng);
             }
         }
+        fprintf(stderr, "\r%3d %%%s", 100 * (y + 1) / SIZE, y + 1 < SIZE ? "" : "\n");
+    }
 }
 
-/* ---- 12. Pictures (src/image/netpbm.c) -----------------------------------------------------------------------------
- * PFM: linear floats, bottom row first, in the machine's order of bytes. PPM: bytes on a screen's sRGB curve. */
-static void write_picture(FILE *f, bool linear, const rgb *image, double scale)
+/* ---- Pictures (src/image/png.c) ------------------------------------------------------------------------------------
+ * PNG: chunks, each with a checksum. Its pixels are a zlib stream, here of blocks that are stored as they are. */
+static void put(FILE *f, uint32_t *crc, unsigned byte)
+{
+    fputc((int)byte, f);
+    *crc ^= byte;
+    for (int k = 0; k < 8; k++)
+        *crc = (*crc >> 1) ^ (*crc & 1 ? 0xedb88320u : 0);
+}
+
+static void put32(FILE *f, uint32_t *crc, uint32_t x) /* highest byte first */
+{
+    for (int shift = 24; shift >= 0; shift -= 8)
+        put(f, crc, x >> shift & 255);
+}
+
+static void chunk_begin(FILE *f, uint32_t *crc, uint32_t size, const char *name)
+{
+    put32(f, crc, size);
+    *crc = 0xffffffffu;
+    for (int k = 0; k < 4; k++)
+        put(f, crc, (unsigned)name[k]);
+}
+
+static unsigned screen_byte(double x) /* on a screen's sRGB curve */
+{
+    double y = x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055;
+    return (unsigned)(fmin(fmax(y, 0), 1) * 255 + 0.5);
+}
+
+static void write_png(FILE *f, const rgb *image, double scale)
+{
+    enum { ROW = 1 + 3 * SIZE }; /* a row is a filter, none, and its pixels: one block */
+    uint32_t crc = 0, a = 1, b = 0;
+    fputs("\x89PNG\r\n\x1a\n", f);
+    chunk_begin(f, &crc, 13, "IHDR");
+    put32(f, &crc, SIZE);
+    put32(f, &crc, SIZE);
+    put32(f, &crc, 0x08020000u); /* 8 bits, RGB */
+    put(f, &crc, 0);
+    put32(f, &crc, ~crc);
+    chunk_begin(f, &crc, 2 + SIZE * (5 + ROW) + 4, "IDAT");
+    put(f, &crc, 0x78);
+    put(f, &crc, 0x01);
+    for (int y = 0; y < SIZE; y++) {
+        const unsigned head[5] = {y == SIZE - 1, ROW & 255, ROW >> 8, ~ROW & 255, ~ROW >> 8 & 255};
+        for (int k = 0; k < 5; k++)
+            put(f, &crc, head[k]);
+        for (int k = 0; k < ROW; k++) {
+            rgb c = mul(image[y * SIZE + (k > 0 ? (k - 1) / 3 : 0)], scale);
+            unsigned byte = k == 0 ? 0 : screen_byte(k % 3 == 1 ? c.x : k % 3 == 2 ? c.y : c.z);
+            put(f, &crc, byte);
+            a = (a + byte) % 65521;
+            b = (b + a) % 65521;
+        }
+    }
+    put32(f, &crc, b << 16 | a);
+    put32(f, &crc, ~crc);
+    chunk_begin(f, &crc, 0, "IEND");
+    put32(f, &crc, ~crc);
+}
+
+/* PFM, to compute with: linear floats, bottom row first, in the machine's order of bytes. */
+static void write_pfm(FILE *f, const rgb *image, double scale)
 {
     const int one = 1, order = *(const char *)&one == 1 ? -1 : 1; /* -1: little-endian */
-    fprintf(f, "%s\n%d %d\n%d\n", linear ? "PF" : "P6", SIZE, SIZE, linear ? order : 255);
+    fprintf(f, "PF\n%d %d\n%d\n", SIZE, SIZE, order);
     for (int i = 0; i < SIZE * SIZE; i++) {
-        rgb c = mul(image[linear ? (SIZE - 1 - i / SIZE) * SIZE + i % SIZE : i], scale);
+        rgb c = mul(image[(SIZE - 1 - i / SIZE) * SIZE + i % SIZE], scale);
         float value[3] = {(float)c.x, (float)c.y, (float)c.z};
-        for (int k = 0; k < 3 && !linear; k++) {
-            double screen = value[k] <= 0.0031308f ? 12.92 * value[k] : 1.055 * pow(value[k], 1 / 2.4) - 0.055;
-            fputc((int)(fmin(screen, 1) * 255 + 0.5), f);
-        }
-        if (linear)
-            fwrite(value, sizeof value, 1, f);
+        fwrite(value, sizeof value, 1, f);
     }
 }
 
 int main(int argc, char **argv)
 {
-    static const char *const names[METHODS] = {"pt", "bdpt", "bins", "pool", "vertices"};
     int method = 0, spp = argc > 2 ? atoi(argv[2]) : 0;
-    while (argc > 1 && method < METHODS && strcmp(argv[1], names[method]) != 0)
+    while (argc > 1 && method < METHODS && strcmp(argv[1], NAMES[method]) != 0)
         method++;
     if (argc < 4 || argc > 5 || method == METHODS || spp < 1)
-        return fprintf(stderr, "usage: %s pt|bdpt|bins|pool|vertices SAMPLES OUT.ppm|OUT.pfm [SEED]\n", argv[0]), 2;
+        return fprintf(stderr, "usage: %s " CHOICES " SAMPLES OUT.png|OUT.pfm [SEED]\n", argv[0]), 2;
     uint64_t rng = argc > 4 ? (uint64_t)strtoul(argv[4], NULL, 10) << 40 : 0; /* no picture takes 2^40 numbers */
-    struct work *work = calloc(1, sizeof *work);
     FILE *f = fopen(argv[3], "wb");
+    struct work *work = calloc(1, sizeof *work);
     if (work == NULL || f == NULL)
         return perror(argv[3]), 1;
     render(work, (enum method)method, spp, &rng);
-    write_picture(f, strstr(argv[3], ".pfm") != NULL, work->image, 1.0 / spp);
+    (strstr(argv[3], ".pfm") != NULL ? write_pfm : write_png)(f, work->image, 1.0 / spp);
     free(work);
     bool good = !ferror(f);
     return fclose(f) == 0 && good ? 0 : (perror(argv[3]), 1);

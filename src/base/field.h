@@ -9,8 +9,9 @@
 #include <math.h>
 #include <stddef.h>
 
-/* What a parameter is, and what stands at its place in the struct. Methods have those of the first line alone. */
+/* What a parameter is, and what stands at its place in the struct. Methods have those of the second line alone. */
 enum field_kind {
+    FIELD_OTHER,         /* nothing: who makes the object reads it */
     FIELD_INTEGER, FIELD_NUMBER, FIELD_WORD, /* int; double; int: which of the words */
     FIELD_SWITCH,        /* bool */
     FIELD_POINT,         /* vec3 */
@@ -20,7 +21,6 @@ enum field_kind {
     FIELD_VALUE,         /* rgb: a value of that type */
     FIELD_MATERIAL,      /* int: a material made before */
     FIELD_FOURIER_TABLE, /* int: of the texture set, from a file */
-    FIELD_OTHER,         /* nothing: who makes the object reads it */
     FIELD_IGNORED        /* nothing depends on it */
 };
 

@@ -14,7 +14,8 @@ struct temporary {
     struct temporary *next;
 };
 
-static volatile sig_atomic_t caught, deferred;
+static volatile sig_atomic_t caught;
+static const char *volatile deferred; /* what is to be said; NULL: no signal is kept */
 static struct temporary *volatile first; /* never given back */
 
 static void remove_temporaries(void)
@@ -29,7 +30,10 @@ static void remove_temporaries(void)
 /* Everything called here is safe in a handler. The status is that of a program killed by the signal. */
 static void note(int number)
 {
-    if (deferred && (caught == 0 || os_signal_repeats(number))) {
+    const char *notice = deferred;
+    if (notice != NULL && (caught == 0 || os_signal_repeats(number))) {
+        if (caught == 0)
+            os_say_at_once(notice);
         caught = caught != 0 ? caught : number;
         return;
     }
@@ -43,7 +47,7 @@ void interrupt_init(void)
     atexit(remove_temporaries); /* out of memory */
 }
 
-void interrupt_defer(void) { deferred = 1; }
+void interrupt_defer(const char *notice) { deferred = notice; }
 
 int interrupt_caught(void) { return (int)caught; }
 

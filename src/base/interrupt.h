@@ -1,7 +1,7 @@
 /* interrupt.h: what happens when somebody ends the program: signals, and the temporary files that must go.
  *
  * Until interrupt_defer the first SIGINT, SIGTERM, SIGHUP or SIGXCPU (a limit of CPU time) ends the program; after it
- * the first is kept for the work to look at, so that a render can finish its block and write what there is, and only
+ * the first is kept for the work to look at, so that a render can stop and write what there is, and only
  * the second ends the program at once, unless it is a further SIGXCPU, which nobody sends. Whichever way the program
  * ends, short of SIGKILL, temporary files are removed: file.h registers them here.
  *
@@ -15,8 +15,8 @@
  * (nohup) stay ignored; SIGXFSZ and SIGPIPE are too, so that the write that caused one fails and is reported. */
 void interrupt_init(void);
 
-/* interrupt_defer: from now on the first signal is only noted. */
-void interrupt_defer(void);
+/* interrupt_defer: from now on the first signal is only noted, and this said on stderr at once; borrowed for ever. */
+void interrupt_defer(const char *notice);
 
 /* interrupt_caught: the signal noted, or 0. Thread-safe. */
 int interrupt_caught(void);

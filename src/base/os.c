@@ -213,6 +213,16 @@ void os_remove_at_once(const char *path)
 #endif
 }
 
+void os_say_at_once(const char *text)
+{
+#ifdef _WIN32
+    if (_write(2, text, (unsigned)strlen(text)) < 0)
+#else
+    if (write(2, text, strlen(text)) < 0)
+#endif
+        return; /* there is nobody else to tell */
+}
+
 /* ---- files ---- */
 
 static enum os_kind kind_of(const struct stat *info)

@@ -55,8 +55,9 @@ const char *os_signal_name(int number); /* "SIGINT" and so on */
 /* os_signal_repeats: does it come again and again by itself? */
 bool os_signal_repeats(int number);
 
-/* os_remove_at_once: remove a file; a handler may do that. */
+/* os_remove_at_once, os_say_at_once: remove a file, write to standard error; a handler may do that. */
 void os_remove_at_once(const char *path);
+void os_say_at_once(const char *text);
 
 /* ---- files ---- */
 

@@ -32,12 +32,11 @@ void progress_start(struct progress *p, bool quiet)
     p->last = p->start;
 }
 
-bool progress_update(void *progress, double done)
+void progress_update(struct progress *p, double done)
 {
-    struct progress *p = progress;
     double now = os_wall_seconds(), elapsed = now - p->start;
     if (!p->shown || now - p->last < (p->bar ? 0.1 : 60))
-        return true;
+        return;
     p->last = now;
     char left[32] = "?";
     if (done > 0)
@@ -47,7 +46,6 @@ bool progress_update(void *progress, double done)
         fprintf(stderr, "\r[%-*.*s] ", bar, (int)(done * bar), "====================");
     fprintf(stderr, "%3d %%%s, %s left%s", (int)(done * 100), p->note, left, p->bar ? "      " : "\n");
     fflush(stderr);
-    return true;
 }
 
 void progress_end(struct progress *p)

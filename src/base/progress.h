@@ -19,9 +19,8 @@ struct progress {
 /* progress_start: show nothing yet; nothing at all if `quiet`. */
 void progress_start(struct progress *p, bool quiet);
 
-/* progress_update: redraw, at most ten times a second; `done` in [0,1]. Always returns true, so that it can serve as
- * render_options.progress. */
-bool progress_update(void *progress, double done);
+/* progress_update: redraw, at most ten times a second; `done` in [0,1]. */
+void progress_update(struct progress *p, double done);
 
 /* progress_end: remove the bar. */
 void progress_end(struct progress *p);

@@ -7,6 +7,7 @@
 #include "cli/command.h"
 #include "cli/outputs.h"
 #include "render/part.h"
+#include "scene/develop.h"
 
 struct merge_options {
     struct texts output, part;
@@ -77,7 +78,8 @@ static void read_headers(struct merge *m, const struct texts *names)
         if (!part_same(&p->part, p->path, &m->part[0].part, &err))
             wrong(m, err.text);
         else if (p->part.passes > 0)
-            wrong_range(m, p->path, "stands in the middle of a block, of the", p->part.first, p->part.end);
+            wrong_range(m, p->path, "stands in the middle of a block (see --resume) of the", p->part.first,
+                        p->part.end);
     }
     qsort(m->part, (size_t)m->n, sizeof *m->part, by_first);
 }

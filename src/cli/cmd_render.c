@@ -15,6 +15,7 @@
 #include "cli/render_files.h"
 #include "image/image.h"
 #include "render/parameters.h"
+#include "scene/develop.h"
 
 #define AT(member) offsetof(struct job_options, member)
 static const struct option OPTIONS[] = {
@@ -173,11 +174,11 @@ static bool run_and_write(const struct job_options *o, const struct scene *scene
                           double load_seconds, struct film *film, struct keep *keep, struct files *files,
                           struct error *err)
 {
-    struct render_times times = {.load = load_seconds, .cpu = os_cpu_seconds(), .samples = film->iterations};
+    struct render_times times = {.load = load_seconds, .cpu = os_cpu_seconds(), .samples = film_samples(film)};
     bool ok = render_scene(scene, options, film, err);
     times.cpu = os_cpu_seconds() - times.cpu;
     times.wall = os_wall_seconds() - keep->bar.start;
-    times.samples = film->iterations - times.samples;
+    times.samples = film_samples(film) - times.samples;
     bool kept = keep_end(keep, ok, err);
     if (!ok)
         return false;

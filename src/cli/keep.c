@@ -104,21 +104,23 @@ static void save(struct keep *k)
     k->saved = os_wall_seconds();
 }
 
+/* In place of a bar, or without the first character. */
+static const char STOPPING[] = "\rasbdpt: stopping, and writing what there is; once more to quit without\n";
+
 /* While the method learns, and after each tile pass. */
-static bool watch(void *context, double done)
+static enum render_wish watch(void *context, double done)
 {
     struct keep *k = context;
     const struct keep_options *o = k->options;
     double now = os_wall_seconds();
-    interrupt_defer();
-    bool signal = interrupt_caught() != 0;
+    interrupt_defer(STOPPING + !k->bar.bar);
+    if (interrupt_caught() != 0)
+        return RENDER_STOP;
     show(k, done);
-    if (o->checkpoint != NULL && ((signal && !k->hurried) || now - k->saved >= o->interval)) {
-        k->hurried = signal;
+    if (o->checkpoint != NULL && now - k->saved >= o->interval)
         save(k);
-    }
     k->late = o->time > 0 && now - k->bar.start >= o->time;
-    return !signal && !k->late;
+    return k->late ? RENDER_END_BLOCK : RENDER_GO_ON;
 }
 
 bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const struct scene *scene,
@@ -172,10 +174,14 @@ bool keep_end(struct keep *k, bool ok, struct error *err)
     const struct film *f = k->film;
     int signal = interrupt_caught();
     long wanted = k->part.end - k->part.first;
+    char more[64] = "";
     progress_end(&k->bar);
+    if (f->passes > 0)
+        snprintf(more, sizeof more, ", %.3g %% of the pixels at %ld",
+                 100 * (double)f->block.n_in / (double)rect_pixels(f->rect), f->iterations + f->block.iterations);
     if (ok && signal != 0)
-        fprintf(stderr, "asbdpt: stopped by %s, at %ld of %ld samples per pixel\n", os_signal_name(signal),
-                f->iterations, wanted);
+        fprintf(stderr, "asbdpt: stopped by %s, at %ld of %ld samples per pixel%s\n", os_signal_name(signal),
+                f->iterations, wanted, more);
     else if (ok && k->late && f->iterations < wanted)
         fprintf(stderr, "asbdpt: stopped after %.1f s, at %ld of %ld samples per pixel\n",
                 os_wall_seconds() - k->bar.start, f->iterations, wanted);

@@ -1,8 +1,8 @@
 /* keep.h: nothing rendered is lost: what watches over a render while it runs, stops it, saves and resumes it.
  *
- * A render ends early when its noise is below what was asked for (render/halves.h), and, once its block of samples is
- * complete, at a signal (base/interrupt.h) or when its time is over; if its method still learns, it ends that with what
- * it has learnt and makes one block.
+ * A render ends early when its noise is below what was asked for (render/halves.h), or when its time is over, once its
+ * block of samples is complete; if its method still learns, it ends that with what it has learnt and makes one block.
+ * At a signal (base/interrupt.h) it ends between two tile passes: pixels may have different numbers of samples then.
  * Its film is saved from time to time (render/part.h), and goes on from there to the same bytes. Tests: test/keep.sh.
  */
 #ifndef ASBDPT_KEEP_H
@@ -18,7 +18,6 @@ struct keep {
     struct film *film;
     struct progress bar;
     double saved;  /* time of the last checkpoint, seconds of os_wall_seconds */
-    bool hurried;  /* a checkpoint was saved for the signal's sake */
     bool late;     /* the time is over */
 };
 

@@ -51,7 +51,7 @@ bool lights_write(const char *directory, const struct scene *scene, const struct
 /* How long a render took, and how many samples per pixel in that time. */
 struct render_times {
     double load, wall, cpu; /* seconds */
-    long samples;
+    double samples;
 };
 
 /* render_us_per_path: microseconds of CPU per sample of a pixel; 0 if there was none. */

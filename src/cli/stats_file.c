@@ -10,7 +10,7 @@
 
 double render_us_per_path(const struct film *film, const struct render_times *times)
 {
-    double paths = (double)times->samples * rect_width(film->rect) * rect_height(film->rect);
+    double paths = times->samples * rect_width(film->rect) * rect_height(film->rect);
     return paths > 0 ? 1e6 * times->cpu / paths : 0;
 }
 
@@ -83,7 +83,7 @@ void stats_write(FILE *f, const struct job_options *o, const struct scene *scene
     json_number(j, "spp", (double)render->planned);
     json_number(j, "first_sample", o->keep.samples[0]);
     json_number(j, "spp_done", (double)film->iterations);
-    json_number(j, "spp_done_now", (double)times->samples);
+    json_number(j, "spp_done_now", times->samples);
     json_number(j, "load_seconds", times->load);
     json_number(j, "wall_seconds", times->wall);
     json_number(j, "cpu_seconds", times->cpu);

@@ -49,11 +49,8 @@ static const struct field GLASS[] = {
     {.name = NULL}};
 
 static const struct field SUBSURFACE[] = {
-    {"name", .kind = FIELD_IGNORED},
-    {"sigma_a", .kind = FIELD_IGNORED},
-    {"sigma_s", .kind = FIELD_IGNORED},
-    {"scale", .kind = FIELD_IGNORED},
-    {"g", .kind = FIELD_IGNORED},
+    {"name", .kind = FIELD_IGNORED}, {"sigma_a", .kind = FIELD_IGNORED}, {"sigma_s", .kind = FIELD_IGNORED},
+    {"scale", .kind = FIELD_IGNORED}, {"g", .kind = FIELD_IGNORED},
     {"Kr", FIELD_RGB_TEXTURE, AT(Kr), 1, -MATERIAL_MAX_COLOUR, .high = MATERIAL_MAX_COLOUR},
     {"Kt", FIELD_RGB_TEXTURE, AT(Kt), 1, -MATERIAL_MAX_COLOUR, .high = MATERIAL_MAX_COLOUR},
     {"eta", FIELD_FLOAT_TEXTURE, AT(index), 1.33, MATERIAL_MIN_INDEX, .high = MATERIAL_MAX_INDEX},
@@ -64,9 +61,7 @@ static const struct field SUBSURFACE[] = {
     {.name = NULL}};
 
 static const struct field KDSUBSURFACE[] = {
-    {"Kd", .kind = FIELD_IGNORED},
-    {"mfp", .kind = FIELD_IGNORED},
-    {"scale", .kind = FIELD_IGNORED},
+    {"Kd", .kind = FIELD_IGNORED}, {"mfp", .kind = FIELD_IGNORED}, {"scale", .kind = FIELD_IGNORED},
     {"g", .kind = FIELD_IGNORED},
     {"Kr", FIELD_RGB_TEXTURE, AT(Kr), 1, -MATERIAL_MAX_COLOUR, .high = MATERIAL_MAX_COLOUR},
     {"Kt", FIELD_RGB_TEXTURE, AT(Kt), 1, -MATERIAL_MAX_COLOUR, .high = MATERIAL_MAX_COLOUR},

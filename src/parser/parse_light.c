@@ -11,6 +11,7 @@
 /* A light in the making. */
 struct light_item {
     struct light light;
+    struct light_frame frame;
     vec3 from, to;     /* in light space */
     double cone, edge; /* degrees */
     double fov;        /* degrees */
@@ -32,7 +33,7 @@ static void point_light(struct parser *p, void *object)
 {
     struct light_item *item = object;
     (void)p;
-    item->light.position = add(item->from, transform_point(&item->light.to_world, vec(0, 0, 0)));
+    item->frame.position = add(item->from, transform_point(&item->frame.to_world, vec(0, 0, 0)));
 }
 
 /* The unit vector along w, which leads from one point to another; fails where they coincide. */
@@ -49,7 +50,7 @@ static vec3 direction(struct params *q, vec3 w)
 static void spot_light(struct parser *p, void *object)
 {
     struct light_item *item = object;
-    struct light *l = &item->light;
+    struct light_frame *l = &item->frame;
     struct params *q = &p->params;
     l->cos_total = m_cos(item->cone * PI / 180);
     l->cos_falloff = m_cos((item->cone - item->edge) * PI / 180); /* of an angle below 0 too, as in pbrt-v3 */
@@ -66,12 +67,12 @@ static void spot_light(struct parser *p, void *object)
 static void distant_light(struct parser *p, void *object)
 {
     struct light_item *item = object;
-    item->light.direction =
-        direction(&p->params, transform_vector(&item->light.to_world, sub(item->from, item->to)));
+    item->frame.direction =
+        direction(&p->params, transform_vector(&item->frame.to_world, sub(item->from, item->to)));
 }
 
 /* The picture of a light, if it names one. */
-static void picture(struct parser *p, struct light *l)
+static void picture(struct parser *p, struct light_frame *l)
 {
     struct params *q = &p->params;
     struct light_set *lights = &p->scene->lights;
@@ -80,7 +81,7 @@ static void picture(struct parser *p, struct light *l)
     char *path = params_file(q, "mapname", &at);
     if (path != NULL && !q->failed) {
         int known = lights->n_pictures;
-        const struct image *image = light_read_picture(lights, l, path, &inner);
+        const struct image *image = light_read_picture(lights, (enum light_kind)p->type.kind, l, path, &inner);
         uint64_t tables = l->env != NULL ? envmap_bytes(l->env) : 0;
         parse_picture(q, at, image, lights->n_pictures > known, tables, &inner);
     }
@@ -90,10 +91,10 @@ static void picture(struct parser *p, struct light *l)
 static void slide_light(struct parser *p, void *object)
 {
     struct light_item *item = object;
-    struct light *l = &item->light;
+    struct light_frame *l = &item->frame;
     picture(p, l);
     l->position = transform_point(&l->to_world, vec(0, 0, 0));
-    if (l->kind != LIGHT_PROJECTION)
+    if (item->light.kind != LIGHT_PROJECTION)
         return;
     l->tan_half = m_tan(item->fov * PI / 360);
     l->cos_total = slide_cos_corner(l->slide, l->tan_half);
@@ -104,7 +105,7 @@ static void slide_light(struct parser *p, void *object)
 static void infinite_light(struct parser *p, void *object)
 {
     struct light_item *item = object;
-    picture(p, &item->light);
+    picture(p, &item->frame);
     item->light.hidden = !params_bool(&p->params, "visible", true);
 }
 
@@ -126,42 +127,28 @@ static int group(struct parser *p)
 /* "group" and "visible" are no parameters of pbrt-v3; its "samples" say how often it samples a light per hit. */
 #define AT(member) offsetof(struct light_item, member)
 static const struct field POINT_LIGHT[] = {
-    {"I", .kind = FIELD_OTHER},
-    {"scale", .kind = FIELD_OTHER},
-    {"group", .kind = FIELD_OTHER},
+    {.name = "I"}, {.name = "scale"}, {.name = "group"},
     {"from", .kind = FIELD_POINT, .place = AT(from)},
     {.name = NULL}};
 static const struct field SPOT_LIGHT[] = {
-    {"I", .kind = FIELD_OTHER},
-    {"scale", .kind = FIELD_OTHER},
-    {"group", .kind = FIELD_OTHER},
+    {.name = "I"}, {.name = "scale"}, {.name = "group"},
     {"coneangle", FIELD_NUMBER, AT(cone), 30, NUMBER_MIN, .high = 180},
     {"conedeltaangle", FIELD_NUMBER, AT(edge), 5, 0, .high = NUMBER_MAX},
     {"from", .kind = FIELD_POINT, .place = AT(from)},
     {"to", FIELD_POINT, AT(to), .fallback = FIELD_KEPT},
     {.name = NULL}};
 static const struct field DISTANT_LIGHT[] = {
-    {"L", .kind = FIELD_OTHER},
-    {"scale", .kind = FIELD_OTHER},
-    {"group", .kind = FIELD_OTHER},
+    {.name = "L"}, {.name = "scale"}, {.name = "group"},
     {"from", .kind = FIELD_POINT, .place = AT(from)},
     {"to", FIELD_POINT, AT(to), .fallback = FIELD_KEPT},
     {.name = NULL}};
 static const struct field INFINITE_LIGHT[] = {
-    {"L", .kind = FIELD_OTHER},
-    {"scale", .kind = FIELD_OTHER},
-    {"group", .kind = FIELD_OTHER},
-    {"mapname", .kind = FIELD_OTHER},
-    {"visible", .kind = FIELD_OTHER},
-    {"samples", .kind = FIELD_IGNORED},
-    {"nsamples", .kind = FIELD_IGNORED},
+    {.name = "L"}, {.name = "scale"}, {.name = "group"}, {.name = "mapname"}, {.name = "visible"},
+    {"samples", .kind = FIELD_IGNORED}, {"nsamples", .kind = FIELD_IGNORED},
     {.name = NULL}};
 static const struct field SLIDE[] = {
     {"fov", FIELD_NUMBER, AT(fov), 45, NUMBER_MIN, .high = 179.999}, /* of a projection alone */
-    {"I", .kind = FIELD_OTHER},
-    {"scale", .kind = FIELD_OTHER},
-    {"group", .kind = FIELD_OTHER},
-    {"mapname", .kind = FIELD_OTHER},
+    {.name = "I"}, {.name = "scale"}, {.name = "group"}, {.name = "mapname"},
     {.name = NULL}};
 
 static const struct object_type LIGHTS[] = {
@@ -177,14 +164,14 @@ static const struct object_type LIGHTS[] = {
 static bool light(struct parser *p)
 {
     struct params *q = &p->params;
-    struct light_item item = {.light = {.kind = (enum light_kind)p->type.kind, .to_world = p->place.ctm, .prim = -1},
-                              .to = {0, 0, 1}};
+    struct light_item item = {.light = {.kind = (enum light_kind)p->type.kind, .prim = -1},
+                              .frame.to_world = p->place.ctm, .to = {0, 0, 1}};
     if (!parse_placed(p))
         return false;
     parse_fields(p, &item);
     item.light.L = emitted(q, field_find(p->type.fields, "L") != NULL ? "L" : "I");
     item.group = group(p);
-    vec3 position = item.light.position;
+    vec3 position = item.frame.position;
     if (!is_place(position))
         type_error(q, "this light would stand at (%g %g %g); places go up to 1e18", position.x, position.y, position.z);
     if (item.light.kind == LIGHT_INFINITE && ++p->n_infinite > LIGHT_MAX_INFINITE)
@@ -197,7 +184,7 @@ static bool light(struct parser *p)
     item.light.group = item.group >= 0 ? item.group : light_group(set, NULL, item.light.kind);
     if (item.light.kind == LIGHT_INFINITE)
         p->infinite_group = item.light.group;
-    light_add(set, item.light);
+    light_add(set, item.light, &item.frame);
     return true;
 }
 
@@ -212,12 +199,8 @@ static void emitter(struct parser *p, void *object)
 
 static const struct field AREA_LIGHT[] = {
     {"twosided", .kind = FIELD_SWITCH, .place = offsetof(struct area_light, two_sided)},
-    {"L", .kind = FIELD_OTHER},
-    {"scale", .kind = FIELD_OTHER},
-    {"visible", .kind = FIELD_OTHER},
-    {"group", .kind = FIELD_OTHER},
-    {"samples", .kind = FIELD_IGNORED},
-    {"nsamples", .kind = FIELD_IGNORED},
+    {.name = "L"}, {.name = "scale"}, {.name = "visible"}, {.name = "group"},
+    {"samples", .kind = FIELD_IGNORED}, {"nsamples", .kind = FIELD_IGNORED},
     {.name = NULL}};
 
 static const struct object_type AREA_LIGHTS[] = {

@@ -34,21 +34,17 @@ static void framing(struct parser *p, void *object)
 /* Nothing moves here, so that shutters do not matter. */
 static const struct field PERSPECTIVE[] = {
     {"fov", FIELD_NUMBER, AT(fov), FIELD_KEPT, NUMBER_MIN, .high = 179.999},
-    {"halffov", .kind = FIELD_OTHER},
+    {.name = "halffov"},
     {"frameaspectratio", FIELD_NUMBER, AT(frame_aspect_ratio), 0, NUMBER_MIN, .high = NUMBER_MAX},
     {"lensradius", FIELD_NUMBER, AT(lens_radius), 0, 0, .high = NUMBER_MAX},
     {"focaldistance", FIELD_NUMBER, AT(focal_distance), 1e6, NUMBER_MIN, .high = NUMBER_MAX},
-    {"screenwindow", .kind = FIELD_OTHER},
-    {"shutteropen", .kind = FIELD_IGNORED},
-    {"shutterclose", .kind = FIELD_IGNORED},
+    {.name = "screenwindow"},
+    {"shutteropen", .kind = FIELD_IGNORED}, {"shutterclose", .kind = FIELD_IGNORED},
     {.name = NULL}};
 static const struct field ENVIRONMENT[] = {
-    {"frameaspectratio", .kind = FIELD_IGNORED},
-    {"lensradius", .kind = FIELD_IGNORED},
-    {"focaldistance", .kind = FIELD_IGNORED},
-    {"screenwindow", .kind = FIELD_IGNORED},
-    {"shutteropen", .kind = FIELD_IGNORED},
-    {"shutterclose", .kind = FIELD_IGNORED},
+    {"frameaspectratio", .kind = FIELD_IGNORED}, {"lensradius", .kind = FIELD_IGNORED},
+    {"focaldistance", .kind = FIELD_IGNORED}, {"screenwindow", .kind = FIELD_IGNORED},
+    {"shutteropen", .kind = FIELD_IGNORED}, {"shutterclose", .kind = FIELD_IGNORED},
     {.name = NULL}};
 #undef AT
 
@@ -102,8 +98,7 @@ static const struct field IMAGE_FILM[] = {
     {"xresolution", FIELD_INTEGER, AT(width), 1280, 1, .high = 65536},
     {"yresolution", FIELD_INTEGER, AT(height), 720, 1, .high = 65536},
     {"scale", FIELD_NUMBER, AT(film_scale), 1, 0, .high = NUMBER_MAX},
-    {"cropwindow", .kind = FIELD_OTHER},
-    {"filename", .kind = FIELD_OTHER},
+    {.name = "cropwindow"}, {.name = "filename"},
     {"diagonal", .kind = FIELD_IGNORED}, /* for realistic cameras only */
     {.name = NULL}};
 
@@ -152,7 +147,7 @@ static const struct field RANDOM[] = {{"pixelsamples", FIELD_INTEGER, AT(spp), 4
 static const struct field SEQUENCE[] = {{"pixelsamples", FIELD_INTEGER, AT(spp), 16, 1, .high = 1 << 30},
                                         {.name = NULL}};
 static const struct field STRATIFIED[] = {
-    {"xsamples", .kind = FIELD_OTHER}, {"ysamples", .kind = FIELD_OTHER}, {.name = NULL}};
+    {.name = "xsamples"}, {.name = "ysamples"}, {.name = NULL}};
 
 static const struct object_type SAMPLER_TYPES[] = {
     {"sobol", SEQUENCE, 0, NULL},

@@ -302,8 +302,7 @@ static void hyperboloid(struct parser *p, void *object)
 static const struct field SPHERE[] = {
     {"radius", FIELD_NUMBER, AT(radius), 1, NUMBER_MIN, .high = NUMBER_MAX},
     {"phimax", FIELD_NUMBER, AT(phi_max), 360, NUMBER_MIN, .high = NUMBER_MAX}, /* degrees */
-    {"zmin", .kind = FIELD_OTHER},
-    {"zmax", .kind = FIELD_OTHER},
+    {.name = "zmin"}, {.name = "zmax"},
     {.name = NULL}};
 static const struct field DISK[] = {
     {"radius", FIELD_NUMBER, AT(radius), 1, NUMBER_MIN, .high = NUMBER_MAX},
@@ -323,56 +322,28 @@ static const struct field HYPERBOLOID[] = {
     {.name = NULL}};
 
 static const struct field TRIANGLEMESH[] = {
-    {"P", .kind = FIELD_OTHER},
-    {"N", .kind = FIELD_OTHER},
-    {"uv", .kind = FIELD_OTHER},
-    {"st", .kind = FIELD_OTHER},
-    {"indices", .kind = FIELD_OTHER},
+    {.name = "P"}, {.name = "N"}, {.name = "uv"}, {.name = "st"}, {.name = "indices"},
     {"faceIndices", .kind = FIELD_IGNORED}, /* for Ptex only */
-    {"alpha", .kind = FIELD_OTHER},
-    {"shadowalpha", .kind = FIELD_OTHER},
+    {.name = "alpha"}, {.name = "shadowalpha"},
     {.name = NULL}};
 static const struct field PLYMESH[] = {
-    {"filename", .kind = FIELD_OTHER},
-    {"alpha", .kind = FIELD_OTHER},
-    {"shadowalpha", .kind = FIELD_OTHER},
+    {.name = "filename"}, {.name = "alpha"}, {.name = "shadowalpha"},
     {.name = NULL}};
 static const struct field LOOPSUBDIV[] = {
-    {"levels", .kind = FIELD_OTHER},
-    {"nlevels", .kind = FIELD_OTHER},
-    {"indices", .kind = FIELD_OTHER},
-    {"P", .kind = FIELD_OTHER},
+    {.name = "levels"}, {.name = "nlevels"}, {.name = "indices"}, {.name = "P"},
     {"scheme", .kind = FIELD_IGNORED}, /* there is but one */
     {.name = NULL}};
 static const struct field HEIGHTFIELD[] = {
-    {"nu", .kind = FIELD_OTHER},
-    {"nv", .kind = FIELD_OTHER},
-    {"Pz", .kind = FIELD_OTHER},
+    {.name = "nu"}, {.name = "nv"}, {.name = "Pz"},
     {.name = NULL}};
 static const struct field CURVE[] = {
-    {"P", .kind = FIELD_OTHER},
-    {"N", .kind = FIELD_OTHER},
-    {"width", .kind = FIELD_OTHER},
-    {"width0", .kind = FIELD_OTHER},
-    {"width1", .kind = FIELD_OTHER},
-    {"degree", .kind = FIELD_OTHER},
-    {"basis", .kind = FIELD_OTHER},
-    {"type", .kind = FIELD_OTHER},
+    {.name = "P"}, {.name = "N"}, {.name = "width"}, {.name = "width0"}, {.name = "width1"},
+    {.name = "degree"}, {.name = "basis"}, {.name = "type"},
     {"splitdepth", .kind = FIELD_IGNORED},
     {.name = NULL}};
 static const struct field NURBS[] = {
-    {"P", .kind = FIELD_OTHER},
-    {"Pw", .kind = FIELD_OTHER},
-    {"nu", .kind = FIELD_OTHER},
-    {"uorder", .kind = FIELD_OTHER},
-    {"uknots", .kind = FIELD_OTHER},
-    {"u0", .kind = FIELD_OTHER},
-    {"u1", .kind = FIELD_OTHER},
-    {"nv", .kind = FIELD_OTHER},
-    {"vorder", .kind = FIELD_OTHER},
-    {"vknots", .kind = FIELD_OTHER},
-    {"v0", .kind = FIELD_OTHER},
-    {"v1", .kind = FIELD_OTHER},
+    {.name = "P"}, {.name = "Pw"}, {.name = "nu"}, {.name = "uorder"}, {.name = "uknots"}, {.name = "u0"},
+    {.name = "u1"}, {.name = "nv"}, {.name = "vorder"}, {.name = "vknots"}, {.name = "v0"}, {.name = "v1"},
     {.name = NULL}};
 
 static const struct object_type TYPES[] = {

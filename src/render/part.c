@@ -14,17 +14,16 @@
 #include "base/os.h"
 #include "image/zlib.h"
 
-static const char MAGIC[] = "asbdpt part 5\n";
+static const char MAGIC[] = "asbdpt part 6\n";
 enum { MOST_TEXT = 1 << 20, BUFFER = 1 << 16, EMPTY = 255, LONGEST_SUM = 1 + 10 * EXACT_DIGITS };
 
-/* Of all planes; of half the picture's samples. */
-static size_t planes_of(const struct part *p)
-{
-    return (size_t)p->width * (size_t)p->height * 3 * (size_t)plane_count(p->planes);
-}
+/* Of one plane; of all; with half the picture's samples; and with the splats of a block under way. */
+static size_t plane_of(const struct part *p) { return (size_t)p->width * (size_t)p->height * 3; }
+static size_t planes_of(const struct part *p) { return plane_of(p) * (size_t)plane_count(p->planes); }
+static size_t samples_of(const struct part *p) { return planes_of(p) + (p->halves ? plane_of(p) : 0); }
 static size_t sums_of(const struct part *p)
 {
-    return planes_of(p) + (p->halves ? (size_t)p->width * (size_t)p->height * 3 : 0);
+    return samples_of(p) + (p->passes > 0 ? plane_of(p) * (size_t)(1 + p->planes.lights) : 0);
 }
 
 struct part part_describe(const struct scene *scene, const struct render_options *o)
@@ -166,8 +165,11 @@ bool part_write(struct file_output *file, const struct part *p, const struct fil
     struct stream *s = mem_alloc(1, sizeof *s);
     s->file = file->stream;
     fwrite(text, 1, strlen(text), s->file);
-    for (size_t i = 0, n = planes_of(p); i < sums_of(&now); i++)
-        put_sum(s, i < n ? &film->sum[i] : &film->half[i - n]);
+    for (size_t i = 0, n = planes_of(p), m = samples_of(&now); i < sums_of(&now); i++) {
+        struct exact_sum splat = {{0}, 0};
+        exact_add(&splat, i < m ? 0 : (double)film->block.splat[i - m]);
+        put_sum(s, i < n ? &film->sum[i] : i < m ? &film->half[i - n] : &splat);
+    }
     flush(s);
     uint8_t end[4];
     bytes_of_bits(s->crc, end, 4, false);
@@ -274,10 +276,12 @@ FILE *part_open(const char *path, struct part *out, struct error *err)
 /* Every sum, the right check behind them, and nothing more. */
 static bool add_sums(struct stream *s, const struct part *p, struct film *film)
 {
-    for (size_t i = 0, n = planes_of(p); i < sums_of(p); i++) {
-        struct exact_sum sum, *to = i < n ? &film->sum[i] : film->half != NULL ? &film->half[i - n] : NULL;
+    for (size_t i = 0, n = planes_of(p), m = samples_of(p); i < sums_of(p); i++) {
+        struct exact_sum sum, *to = i < n ? &film->sum[i] : i < m && film->half != NULL ? &film->half[i - n] : NULL;
         if (!get_sum(s, &sum) || (to != NULL && !exact_join(to, &sum)))
             return false;
+        if (i >= m)
+            film->block.splat[i - m] = float_within(exact_value(&sum));
     }
     refill(s);
     uint32_t crc = s->crc, said = 0;

@@ -1,0 +1,595 @@
+/* 7-vertices.c: which light vertex? The seventh of eight programs.
+ *
+ *     cc -O2 -o mini 7-vertices.c -lm && ./mini vertices 64 out.png
+ *
+ * New: what is worth choosing is learnt before the first sample, by looking where eye sub-paths go; and what is chosen
+ * is a single vertex, for each vertex of the eye sub-path. The weights are told how many samples that is. */
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SIZE = 128, DEPTH = 5, LIGHT_VERTICES = DEPTH + 1, EYE_VERTICES = DEPTH + 2 }; /* pixels; longest path */
+static const double PI = 3.14159265358979323846;
+
+/* ---- Vectors: points, directions and colours (src/base/vec.h, rgb.h) --------------------------------------------- */
+typedef struct { double x, y, z; } vec3;
+typedef vec3 rgb; /* red, green, blue; linear */
+
+static vec3 vec(double x, double y, double z) { return (vec3){x, y, z}; }
+static vec3 add(vec3 a, vec3 b) { return vec(a.x + b.x, a.y + b.y, a.z + b.z); }
+static vec3 sub(vec3 a, vec3 b) { return vec(a.x - b.x, a.y - b.y, a.z - b.z); }
+static vec3 mul(vec3 a, double k) { return vec(a.x * k, a.y * k, a.z * k); }
+static rgb tint(rgb a, rgb b) { return vec(a.x * b.x, a.y * b.y, a.z * b.z); }
+static double dot(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static vec3 cross(vec3 a, vec3 b) { return vec(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); }
+static vec3 unit(vec3 a) { return mul(a, 1 / sqrt(dot(a, a))); }
+static double luminance(rgb a) { return 0.2126 * a.x + 0.7152 * a.y + 0.0722 * a.z; }
+
+/* ---- Random numbers in [0,1): SplitMix64 counts in large steps and scrambles the bits (src/base/rng.h) ----------- */
+static double next(uint64_t *rng)
+{
+    uint64_t x = *rng += 0x9e3779b97f4a7c15u;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return (double)((x ^ (x >> 31)) >> 11) / 9007199254740992.0; /* 53 bits, over 2^53 */
+}
+
+/* ---- The alias table (src/base/alias.c) ----------------------------------------------------------------------------
+ * Draw i with probability q[i], for any q, in constant time. Imagine n bins of size 1/n. An element with q < 1/n cannot
+ * fill its bin; a rich one fills it up and is left with less. So every bin holds at most two elements: its own, up to a
+ * threshold, and one other. To draw, pick a bin, then one of its two.                     [Walker 1977] [Vose 1991] */
+struct bin { double threshold; int other; }; /* the share that the bin's own element has; who has the rest */
+static void alias_build(struct bin *bin, const double *q, int n, int *work) /* q adds up to 1; work[n] is scratch */
+{
+    int poor = 0, rich = n; /* the poor are listed in work[0 .. poor), the rich in work[rich .. n) */
+    for (int i = 0; i < n; i++) {
+        bin[i].threshold = q[i] * n;
+        bin[i].other = i;
+        work[bin[i].threshold < 1 ? poor++ : --rich] = i;
+    }
+    while (poor > 0 && rich < n) {
+        int small = work[--poor], large = work[rich];
+        bin[small].other = large;
+        bin[large].threshold -= 1 - bin[small].threshold;
+        if (bin[large].threshold < 1)
+            work[poor++] = work[rich++]; /* the rich one has become poor */
+    }
+    while (poor > 0 || rich < n) /* what is left weighs 1 but for rounding: nobody else may have a part of its bin */
+        bin[poor > 0 ? work[--poor] : work[rich++]].threshold = 1;
+}
+
+static int alias_choose(const struct bin *bin, int b, double u) { return u < bin[b].threshold ? b : bin[b].other; }
+
+/* ---- The scene (src/scene) -----------------------------------------------------------------------------------------
+ * Two Cornell boxes, one behind the other, joined by a gap: x to the right, y up, z away. The lamp is in the far one,
+ * so most light sub-paths never meet what the camera sees. Surfaces are matte, or perfect mirrors. */
+struct shape {
+    vec3 p, a, b;         /* a rectangle's corner and the two edges that meet there; p: a ball's centre */
+    double radius;        /* of a ball; a rectangle has none */
+    rgb albedo, emission; /* share of light reflected; radiance in W/(sr m^2), on the side of a x b */
+    bool mirror;
+};
+#define BLACK {0, 0, 0}
+#define WHITE {0.75, 0.75, 0.75}
+static const struct shape SCENE[] = {
+    {{0.2, 0.98, 1.3}, {0.4, 0, 0}, {0, 0, 0.4}, 0, WHITE, {120, 102, 72}, false}, /* the lamp, facing down */
+    {{0, 0, 1}, {0.8, 0, 0}, {0, 1, 0}, 0, WHITE, BLACK, false},                 /* the wall between the rooms */
+    {{0, 0, 2}, {1, 0, 0}, {0, 1, 0}, 0, WHITE, BLACK, false},                   /* the far wall */
+    {{0, 0, 0}, {1, 0, 0}, {0, 0, 2}, 0, WHITE, BLACK, false},                   /* floor */
+    {{0, 1, 0}, {1, 0, 0}, {0, 0, 2}, 0, WHITE, BLACK, false},                   /* ceiling */
+    {{0, 0, 0}, {0, 1, 0}, {0, 0, 2}, 0, {0.65, 0.06, 0.05}, BLACK, false},      /* left wall, red */
+    {{1, 0, 0}, {0, 1, 0}, {0, 0, 2}, 0, {0.12, 0.45, 0.10}, BLACK, false},      /* right wall, green */
+    {{0.30, 0.20, 0.65}, BLACK, BLACK, 0.20, {0.9, 0.9, 0.9}, BLACK, true},
+    {{0.70, 0.17, 0.35}, BLACK, BLACK, 0.17, {0.3, 0.4, 0.7}, BLACK, false},
+};
+static const struct shape *const LAMP = &SCENE[0];
+#define PINHOLE_AT {0.5, 0.5, -1.5} /* the lens, which looks along z */
+static const double SCREEN = 0.36;  /* half of the picture's height, at distance 1 */
+static const double EPSILON = 1e-9; /* a hit is exact to about 1e-15; nothing here is as thin as this */
+
+static vec3 lamp_normal(void) { return cross(LAMP->a, LAMP->b); } /* its length is the lamp's area */
+static double lamp_area(void) { return sqrt(dot(lamp_normal(), lamp_normal())); }
+
+/* The direction that is seen at a place of the picture, in pixels from its upper left corner. */
+static vec3 camera_direction(double px, double py)
+{
+    double width = 2 * SCREEN / SIZE; /* of a pixel */
+    return unit(vec((px - SIZE * 0.5) * width, (SIZE * 0.5 - py) * width, 1));
+}
+
+/* Where direction w enters the picture, in pixels, and J, the pixels that a steradian covers there: seen from the
+ * pinhole, an area dx dy of the screen at distance 1 fills dx dy cos^3. 0: outside. (src/scene/camera.c) */
+static double camera_project(vec3 w, double *x, double *y)
+{
+    double pixels = SIZE / (2 * SCREEN), cosine = w.z / sqrt(dot(w, w));
+    *x = SIZE * 0.5 + pixels * w.x / w.z;
+    *y = SIZE * 0.5 - pixels * w.y / w.z;
+    bool inside = w.z > 0 && *x >= 0 && *x < SIZE && *y >= 0 && *y < SIZE;
+    return inside ? pixels * pixels / pow(cosine, 3) : 0;
+}
+
+/* ---- Rays (src/geometry/kdtree.c) ----------------------------------------------------------------------------------
+ * Where does the ray o + t d, d of length 1, meet the shape? Nowhere is infinitely far. */
+static double hit(const struct shape *s, vec3 o, vec3 d)
+{
+    vec3 to = sub(s->p, o);
+    if (s->radius > 0) {
+        double half = dot(to, d), under_root = half * half - dot(to, to) + s->radius * s->radius;
+        double root = under_root < 0 ? INFINITY : sqrt(under_root);
+        return half - root > EPSILON ? half - root : half + root;
+    }
+    vec3 n = cross(s->a, s->b);
+    double t = dot(n, to) / dot(n, d);
+    vec3 at = sub(mul(d, t), to); /* from the corner to the hit */
+    double u = dot(at, s->a) / dot(s->a, s->a), v = dot(at, s->b) / dot(s->b, s->b);
+    return u >= 0 && u <= 1 && v >= 0 && v <= 1 ? t : INFINITY;
+}
+
+/* The nearest shape closer than *t, which becomes its distance; NULL if there is none. With nine, one asks them all. */
+static const struct shape *nearest(vec3 o, vec3 d, double *t)
+{
+    const struct shape *found = NULL;
+    for (int i = 0; i < (int)(sizeof SCENE / sizeof SCENE[0]); i++) {
+        double here = hit(&SCENE[i], o, d);
+        if (here > EPSILON && here < *t) {
+            *t = here;
+            found = &SCENE[i];
+        }
+    }
+    return found;
+}
+
+/* The shape's unit normal at p, on the side that direction d comes from. */
+static vec3 normal(const struct shape *s, vec3 p, vec3 d)
+{
+    vec3 n = unit(s->radius > 0 ? sub(p, s->p) : cross(s->a, s->b));
+    return mul(n, dot(n, d) > 0 ? -1 : 1);
+}
+
+/* ---- Vertices, and how they scatter (src/transport/path.h, src/material/bsdf.h) ---------------------------------- */
+struct vertex {
+    enum { LENS, LIGHT, SURFACE } kind;
+    const struct shape *shape;
+    vec3 p, n, wo; /* place; unit normal, on the side the walk came from; unit direction back to where it came from */
+    rgb beta;      /* all factors that the walk has met up to here, over the density of having gone so */
+    double F;      /* density per area with which its walk chose this place */
+    double c, mis; /* c_e and mis_e of "Weights" */
+};
+/* The camera. No light sub-path ever finds a pinhole by chance, so nothing is asked of its density: F = 1, c = 0. */
+static const struct vertex PINHOLE = {LENS, NULL, PINHOLE_AT, {0, 0, 1}, BLACK, {1, 1, 1}, 1, 0, 0};
+
+/* A mirror is no end for a connection: the other end would have to lie just where it points. */
+static bool connectible(const struct vertex *v) { return v->kind != SURFACE || !v->shape->mirror; }
+
+/* What v does to light between its wo and w, a direction to something that it is joined to: BSDF (lamp: emission) times
+ * cosine; densities per steradian of a walk going on to w, and of one that comes from w going on to wo. */
+struct scatter { rgb factor; double pdf, pdf_rev; };
+static struct scatter scatter_towards(const struct vertex *v, vec3 w)
+{
+    struct scatter s = {BLACK, 0, 0};
+    double cosine = dot(v->n, w), x, y;
+    if (v->kind == LENS) { /* eye rays are uniform over pixels, and each counts 1 */
+        s.pdf = camera_project(w, &x, &y);
+        s.factor = vec(s.pdf, s.pdf, s.pdf);
+    } else if (cosine > 0 && connectible(v)) {
+        s.factor = v->kind == LIGHT ? mul(v->shape->emission, cosine) : mul(v->shape->albedo, cosine / PI);
+        s.pdf = cosine / PI;
+        s.pdf_rev = v->kind == LIGHT ? 0 : dot(v->n, v->wo) / PI;
+    }
+    return s;
+}
+
+/* A unit vector about n with density cos / pi: a point of a disk, lifted to the hemisphere. (src/base/warp.h) */
+static vec3 cosine_hemisphere(vec3 n, uint64_t *rng)
+{
+    double r2 = next(rng), phi = 2 * PI * next(rng);
+    vec3 a = unit(cross(fabs(n.x) > 0.5 ? vec(0, 1, 0) : vec(1, 0, 0), n)), b = cross(n, a);
+    return add(mul(add(mul(a, cos(phi)), mul(b, sin(phi))), sqrt(r2)), mul(n, sqrt(1 - r2)));
+}
+
+/* ---- Weights (src/transport/mis.h) ---------------------------------------------------------------------------------
+ * Let p_s be the density of strategy (s,t) times n_s, the samples it takes. The balance heuristic gives it the weight
+ *     w_s = p_s / (p_0 + p_1 + ... + p_k):                                                          [Veach 1997, 9.2.2]
+ * paths are left to those who find them easily. p_i and p_(i+1) differ in one vertex, x_i, which has density F in its
+ * own walk and would have R in the other's: p_i / p_(i+1) = (n_i R_i) / (n_(i+1) F_i). Multiply such ratios outwards
+ * from the connection; then the p of all strategies on one side add up, relative to one sample of strategy s, to
+ *     A_e = R_e/F_e (c_e + R_(e-1)/F_(e-1) (c_(e-1) + ...)),     c_e: n of the strategy that joins x_(e-1) and x_e.
+ * A walk can add up as it goes, but for R_e and R_(e-1), which depend on what e will be joined to. So it stores the
+ * rest, mis_e, and a one-line function finishes it: a weight costs O(1), however long the path. */
+struct counts { /* the number n of samples per pixel; 0: the method does not use the strategy */
+    double hit;          /* s = 0: the eye sub-path meets the lamp by itself */
+    double direct;       /* s = 1: it is joined to a fresh point on the lamp */
+    double connect;      /* s > 1, t > 1: it is joined to a light sub-path */
+    double splat;        /* t = 1: all light sub-paths of the picture are joined to the lens */
+    const double *worth; /* `vertices`: `connect` is times the worth of the light end's cell; else NULL */
+};
+enum { CELLS = 8, PLACES = CELLS * CELLS * CELLS }; /* of space, along each axis (src/learning/regions.c) */
+static int cell(double x) { return (int)fmin(fmax(x * CELLS, 0), CELLS - 1); }
+static int place(vec3 p) { return (cell(p.x) * CELLS + cell(p.y)) * CELLS + cell(p.z / 2); }
+
+/* What a light vertex at y is worth to an eye vertex at z. */
+static double worth_of(const struct counts *n, const struct vertex *y)
+{
+    return n->worth != NULL ? n->worth[place(y->p)] : 1;
+}
+
+/* n of the strategy that joins y, the end of a light sub-path, and z, the end of an eye sub-path. */
+static double count(const struct counts *n, const struct vertex *y, const struct vertex *z)
+{
+    if (!connectible(y) || !connectible(z))
+        return 0;
+    return z->kind == LENS ? n->splat : y->kind == LIGHT ? n->direct : n->connect * worth_of(n, y);
+}
+
+/* A_e = R_e * this, of vertex v = x_e, and mis_(e+1) = g * this, where g makes a density per steradian at x_(e+1) one
+ * per area at x_e. pdf_rev: per steradian, of going back from v to the vertex before it. */
+static double sum_over_F(const struct vertex *v, double pdf_rev) { return (v->c + pdf_rev * v->mis) / v->F; }
+
+/* ---- The walk (src/transport/path.c) -------------------------------------------------------------------------------
+ * Nature does not mind which way light goes, so one function makes both kinds of sub-path. It leaves path[0], which is
+ * made, in direction d, chosen with density pdf per steradian. Returns the number of vertices, at most max. */
+static int walk(const struct counts *n, struct vertex *path, int max, vec3 d, double pdf, rgb beta, uint64_t *rng)
+{
+    double pdf_rev = 0;
+    for (int e = 1; e < max; e++) {
+        struct vertex *v = &path[e], *from = &path[e - 1];
+        double t = INFINITY;
+        v->kind = SURFACE;
+        v->shape = nearest(from->p, d, &t);
+        if (v->shape == NULL)
+            return e;
+        v->p = add(from->p, mul(d, t));
+        v->n = normal(v->shape, v->p, d);
+        v->wo = mul(d, -1);
+        v->beta = beta;
+        v->F = pdf * dot(v->n, v->wo) / (t * t); /* per steradian at `from`, times cosine / distance^2: per area here */
+        v->mis = fabs(dot(from->n, d)) / (t * t) * sum_over_F(from, pdf_rev);
+        v->c = path[0].kind == LIGHT ? count(n, from, v) : count(n, v, from);
+
+        beta = tint(beta, v->shape->albedo); /* BSDF times cosine over density: what is sampled well cancels */
+        d = v->shape->mirror ? sub(d, mul(v->n, 2 * dot(v->n, d))) : cosine_hemisphere(v->n, rng);
+        pdf = v->shape->mirror ? 1 : dot(v->n, d) / PI; /* mirror: a delta function in F and in R, which cancels too */
+        pdf_rev = v->shape->mirror ? 1 : dot(v->n, v->wo) / PI;
+    }
+    return max;
+}
+
+/* y_0, uniform on the lamp: beta is 1/density; c is the count of s = 0, which would find the point by chance. */
+static struct vertex light_point(const struct counts *n, uint64_t *rng)
+{
+    double area = lamp_area(), u = next(rng), v = next(rng);
+    vec3 p = add(LAMP->p, add(mul(LAMP->a, u), mul(LAMP->b, v)));
+    return (struct vertex){LIGHT, LAMP, p, unit(lamp_normal()), BLACK, {area, area, area}, 1 / area, n->hit, 0};
+}
+
+struct light_path {
+    struct vertex v[LIGHT_VERTICES]; /* y_0, y_1 ... y_(n-1) */
+    int n, born;                     /* how many; iteration in which it was traced */
+    double beta;                     /* of eq. 3.1: the mean over RGB at y_(n-1); of a lamp alone, of what it emits */
+};
+
+static void path_light(const struct counts *n, struct light_path *path, int iteration, uint64_t *rng)
+{
+    struct vertex *y = path->v;
+    y[0] = light_point(n, rng);
+    vec3 d = cosine_hemisphere(y[0].n, rng); /* emission cos / (cos / pi) is emission pi */
+    path->n = walk(n, y, LIGHT_VERTICES, d, dot(y[0].n, d) / PI, mul(tint(y[0].beta, LAMP->emission), PI), rng);
+    path->beta = dot(path->n == 1 ? LAMP->emission : y[path->n - 1].beta, vec(1, 1, 1)) / 3;
+    path->born = iteration;
+}
+
+static int path_eye(const struct counts *n, int x, int y, struct vertex *path, uint64_t *rng)
+{
+    double px = x + next(rng), py = y + next(rng);
+    vec3 d = camera_direction(px, py);
+    path[0] = PINHOLE;
+    return walk(n, path, EYE_VERTICES, d, camera_project(d, &px, &py), path[0].beta, rng);
+}
+
+/* ---- What a strategy contributes (src/transport/connect.c) ---------------------------------------------------------
+ * s > 0: join y and z. Both throughputs, both scatterings, 1/distance^2, if nothing is in between; times the weight. */
+static rgb connect(const struct counts *n, const struct vertex *y, const struct vertex *z)
+{
+    vec3 d = sub(y->p, z->p), w = unit(d);
+    double d2 = dot(d, d), t = sqrt(d2) - EPSILON, own = count(n, y, z);
+    struct scatter at_y = scatter_towards(y, mul(w, -1)), at_z = scatter_towards(z, w);
+    if (own == 0 || at_y.pdf == 0 || at_z.pdf == 0 || nearest(z->p, w, &t) != NULL)
+        return vec(0, 0, 0);
+    rgb value = mul(tint(tint(y->beta, at_y.factor), tint(z->beta, at_z.factor)), 1 / d2);
+    double light_side = at_z.pdf * fabs(dot(y->n, w)) / d2 * sum_over_F(y, at_y.pdf_rev);
+    double eye_side = at_y.pdf * fabs(dot(z->n, w)) / d2 * sum_over_F(z, at_z.pdf_rev);
+    return mul(value, own / (own + light_side + eye_side));
+}
+
+/* s = 0: the last of t eye vertices is on the lamp. If it is seen directly (t = 2), no other strategy cares. */
+static rgb connect_hit(const struct counts *n, const struct vertex *eye, int t)
+{
+    struct vertex z = eye[t - 1];
+    if (z.shape != LAMP || dot(lamp_normal(), z.wo) <= 0)
+        return vec(0, 0, 0);
+    z.c = connectible(&eye[t - 2]) ? n->direct : 0; /* here z is the end of s = 1, not a surface */
+    double eye_side = t == 2 ? 0 : sum_over_F(&z, dot(z.n, z.wo) / PI) / lamp_area();
+    return mul(tint(z.beta, LAMP->emission), n->hit / (n->hit + eye_side));
+}
+
+/* ---- Sums over strategies (src/transport/pixel_sample.c) --------------------------------------------------------- */
+static rgb sum_eye(const struct counts *n, const struct vertex *eye, int n_eye, uint64_t *rng) /* s = 0 and s = 1 */
+{
+    rgb sum = BLACK;
+    for (int t = 2; t <= n_eye; t++) {
+        struct vertex y = light_point(n, rng);
+        sum = add(sum, connect_hit(n, eye, t));
+        sum = t <= DEPTH + 1 ? add(sum, connect(n, &y, &eye[t - 1])) : sum;
+    }
+    return sum;
+}
+
+/* s > 1, t > 1: every pair of vertices that makes no path too long. */
+static rgb sum_pairs(const struct counts *n, const struct vertex *eye, int n_eye, const struct light_path *light)
+{
+    rgb sum = BLACK;
+    for (int t = 2; t <= n_eye; t++)
+        for (int s = 2; s <= light->n && s + t <= DEPTH + 2; s++)
+            sum = add(sum, connect(n, &light->v[s - 1], &eye[t - 1]));
+    return sum;
+}
+
+/* t = 1: each vertex of a light sub-path, as the camera sees it, somewhere in the picture. */
+static void splat_path(const struct counts *n, const struct light_path *light, rgb *image)
+{
+    for (int s = 2; s <= light->n; s++) {
+        double x, y;
+        if (camera_project(sub(light->v[s - 1].p, PINHOLE.p), &x, &y) == 0)
+            continue;
+        rgb *pixel = &image[(int)y * SIZE + (int)x];
+        *pixel = add(*pixel, mul(connect(n, &light->v[s - 1], &PINHOLE), 1 / n->splat));
+    }
+}
+
+/* ---- Choosing light sub-paths (src/integrators) --------------------------------------------------------------------
+ * The picture is made row by row. In every iteration a light sub-path is traced for each pixel of the row, and each
+ * pixel's eye sub-path is joined to one of them: that is where the methods differ. bdpt: its own.
+ *   bins      The dissertation: a pixel owns 8 sub-paths in bins of two. Bins are visited in turn; of the two, number 0
+ *             is taken with probability beta_0^2 / (beta_0^2 + beta_1^2), used as in bdpt, and traced anew (eq. 3.1).
+ *             BIASED: those thrown away, by age or at a restart, are mostly of low beta; nothing makes up for it.
+ *   pool      Number k of the row's K with probability q_k, as much as the camera can use of it; times 1 / (K q_k).
+ *             Unbiased: sum_k q_k F_k / (K q_k) is the mean of F over the pool, which is what bdpt estimates.
+ *   vertices  A vertex y_(s-1) stands for the sub-path that ends there: an eye vertex draws single vertices, where they
+ *             are worth much. The weights know: n(y) samples are taken, a function of the place that all agree on. */
+enum method { PT, BDPT, BINS, POOL, VERTICES, METHODS };
+static const char *const NAMES[METHODS] = {"pt", "bdpt", "bins", "pool", "vertices"};
+#define CHOICES "pt|bdpt|bins|pool|vertices"
+enum { BIN_PATHS = 8, MAX_AGE = 24, RESTART = 32, DRAWS = 4, TABLE = SIZE * DEPTH };
+static const double DELTA = 0.1; /* share of the draws that goes by nothing learnt, so that none becomes impossible */
+
+struct table { /* a probability for sub-path k at [k], or for its vertex y_j at [k * DEPTH + j - 1]; to draw by it */
+    double q[TABLE];
+    struct bin bin[TABLE];
+    bool made;
+};
+struct work { /* all memory there is */
+    rgb image[SIZE * SIZE];                   /* sums over samples, top row first */
+    double worth[PLACES];                     /* of a light vertex in that cell */
+    struct light_path path[SIZE * BIN_PATHS]; /* of a row; all but bins: one per pixel */
+    struct table table;
+    int scratch[TABLE];
+};
+
+/* Where can the camera use light? In proportion to the throughput with which eye sub-paths arrive there. Normalised so
+ * that the vertices of a light sub-path are worth 1 on average; frozen before the first sample. (visits.c) */
+static void learn(double *worth, uint64_t *rng)
+{
+    const struct counts n = {0, 0, 0, 0, NULL};
+    struct vertex eye[EYE_VERTICES];
+    struct light_path light;
+    double sum = 0;
+    for (int i = 0; i < SIZE * SIZE; i++)
+        for (int t = path_eye(&n, i % SIZE, i / SIZE, eye, rng); t > 1; t--)
+            worth[place(eye[t - 1].p)] += connectible(&eye[t - 1]) ? luminance(eye[t - 1].beta) : 0;
+    for (int i = 0; i < SIZE * SIZE; i++) {
+        path_light(&n, &light, 0, rng);
+        for (int j = 1; j < light.n; j++)
+            sum += connectible(&light.v[j]) ? worth[place(light.v[j].p)] : 0;
+    }
+    for (int i = 0; i < PLACES; i++)
+        worth[i] = (1 - DELTA) * worth[i] / (sum / (SIZE * SIZE)) + DELTA;
+}
+
+/* The dissertation's choice for a pixel that owns these sub-paths. (bins.c) */
+static struct light_path *choose_of_bins(const struct counts *n, struct light_path *own, int i, uint64_t *rng)
+{
+    for (int e = 0; e < BIN_PATHS; e++)
+        if (i % RESTART == 0 || i - own[e].born > MAX_AGE)
+            path_light(n, &own[e], i, rng);
+    struct light_path *pair = &own[i % (BIN_PATHS / 2) * 2];
+    double b0 = pair[0].beta * pair[0].beta, b1 = pair[1].beta * pair[1].beta;
+    return next(rng) * (b0 + b1) < b0 ? &pair[0] : &pair[1];
+}
+
+/* What is in q, made probabilities, and the alias table over them. */
+static void table_make(struct table *t, int size, int *scratch)
+{
+    double sum = 0;
+    for (int i = 0; i < size; i++)
+        sum += t->q[i];
+    for (int i = 0; i < size; i++)
+        t->q[i] = sum > 0 ? (1 - DELTA) * t->q[i] / sum + DELTA / size : 1.0 / size;
+    alias_build(t->bin, t->q, size, scratch);
+    t->made = true;
+}
+
+/* A table over the row's sub-paths, by what the camera can use of them. (pool.c) */
+static void fill(struct work *w, struct table *t)
+{
+    for (int k = 0; k < SIZE; k++) {
+        t->q[k] = 0;
+        for (int j = 1; j < w->path[k].n; j++) {
+            const struct vertex *y = &w->path[k].v[j];
+            t->q[k] += connectible(y) ? luminance(y->beta) * w->worth[place(y->p)] : 0;
+        }
+    }
+    table_make(t, SIZE, w->scratch);
+}
+
+/* A table over all vertices of the row's sub-paths. (vertices.c) */
+static void fill_vertices(struct work *w, struct table *t, const struct counts *n)
+{
+    for (int v = 0; v < TABLE; v++) {
+        const struct light_path *path = &w->path[v / DEPTH];
+        const struct vertex *y = &path->v[v % DEPTH + 1];
+        t->q[v] = v % DEPTH + 1 < path->n && connectible(y) ? luminance(y->beta) * worth_of(n, y) : 0;
+    }
+    table_make(t, TABLE, w->scratch);
+}
+
+/* DRAWS light vertices for each eye vertex; each draw is worth 1 / (K q). */
+static rgb sum_draws(struct work *w, const struct counts *n, const struct vertex *eye, int n_eye, uint64_t *rng)
+{
+    rgb sum = BLACK;
+    for (int t = 2; t <= n_eye && t <= DEPTH; t++) {
+        struct table *table = &w->table;
+        if (!table->made)
+            fill_vertices(w, table, n);
+        for (int c = 0; c < DRAWS; c++) {
+            int b = (int)(next(rng) * TABLE), v = alias_choose(table->bin, b, next(rng)), k = v / DEPTH;
+            int s = v % DEPTH + 2;
+            if (s <= w->path[k].n && s + t <= DEPTH + 2)
+                sum = add(sum, mul(connect(n, &w->path[k].v[s - 1], &eye[t - 1]), 1 / (DRAWS * SIZE * table->q[v])));
+        }
+    }
+    return sum;
+}
+
+static void render(struct work *w, enum method method, int spp, uint64_t *rng)
+{
+    const bool pt = method == PT, draws = method == VERTICES;
+    const struct counts n = {1, 1, pt ? 0 : draws ? DRAWS : 1, pt ? 0 : SIZE * SIZE, draws ? w->worth : NULL};
+    if (method == POOL || draws)
+        learn(w->worth, rng);
+    for (int y = 0; y < SIZE; y++) {
+        for (int i = 0; i < spp; i++) {
+            int shift = (int)(next(rng) * SIZE);
+            for (int k = 0; k < SIZE && !pt && method != BINS; k++) /* path tracing makes do with none */
+                path_light(&n, &w->path[k], i, rng);
+            w->table.made = false;
+            if (method == POOL)
+                fill(w, &w->table);
+            for (int x = 0; x < SIZE; x++) {
+                struct light_path *own = &w->path[x], *used = own;
+                double W = 1;
+                if (method == BINS)
+                    own = used = choose_of_bins(&n, &w->path[x * BIN_PATHS], i, rng);
+                if (method == POOL) { /* every bin is visited by one pixel, no one knows which */
+                    int k = alias_choose(w->table.bin, (x + shift) % SIZE, next(rng));
+                    used = &w->path[k];
+                    W = 1 / (SIZE * w->table.q[k]);
+                }
+                struct vertex eye[EYE_VERTICES];
+                int n_eye = path_eye(&n, x, y, eye, rng);
+                rgb joined = draws ? sum_draws(w, &n, eye, n_eye, rng) : sum_pairs(&n, eye, n_eye, used);
+                rgb sum = add(sum_eye(&n, eye, n_eye, rng), mul(joined, W)), *pixel = &w->image[y * SIZE + x];
+                *pixel = add(*pixel, sum);
+                splat_path(&n, own, w->image); /* each once, whoever was chosen */
+                if (method == BINS)
+                    path_light(&n, own, i, rng);
+            }
+        }
+        fprintf(stderr, "\r%3d %%%s", 100 * (y + 1) / SIZE, y + 1 < SIZE ? "" : "\n");
+    }
+}
+
+/* ---- Pictures (src/image/png.c) ------------------------------------------------------------------------------------
+ * PNG: chunks, each with a checksum. Its pixels are a zlib stream, here of blocks that are stored as they are. */
+static void put(FILE *f, uint32_t *crc, unsigned byte)
+{
+    fputc((int)byte, f);
+    *crc ^= byte;
+    for (int k = 0; k < 8; k++)
+        *crc = (*crc >> 1) ^ (*crc & 1 ? 0xedb88320u : 0);
+}
+
+static void put32(FILE *f, uint32_t *crc, uint32_t x) /* highest byte first */
+{
+    for (int shift = 24; shift >= 0; shift -= 8)
+        put(f, crc, x >> shift & 255);
+}
+
+static void chunk_begin(FILE *f, uint32_t *crc, uint32_t size, const char *name)
+{
+    put32(f, crc, size);
+    *crc = 0xffffffffu;
+    for (int k = 0; k < 4; k++)
+        put(f, crc, (unsigned)name[k]);
+}
+
+static unsigned screen_byte(double x) /* on a screen's sRGB curve */
+{
+    double y = x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055;
+    return (unsigned)(fmin(fmax(y, 0), 1) * 255 + 0.5);
+}
+
+static void write_png(FILE *f, const rgb *image, double scale)
+{
+    enum { ROW = 1 + 3 * SIZE }; /* a row is a filter, none, and its pixels: one block */
+    uint32_t crc = 0, a = 1, b = 0;
+    fputs("\x89PNG\r\n\x1a\n", f);
+    chunk_begin(f, &crc, 13, "IHDR");
+    put32(f, &crc, SIZE);
+    put32(f, &crc, SIZE);
+    put32(f, &crc, 0x08020000u); /* 8 bits, RGB */
+    put(f, &crc, 0);
+    put32(f, &crc, ~crc);
+    chunk_begin(f, &crc, 2 + SIZE * (5 + ROW) + 4, "IDAT");
+    put(f, &crc, 0x78);
+    put(f, &crc, 0x01);
+    for (int y = 0; y < SIZE; y++) {
+        const unsigned head[5] = {y == SIZE - 1, ROW & 255, ROW >> 8, ~ROW & 255, ~ROW >> 8 & 255};
+        for (int k = 0; k < 5; k++)
+            put(f, &crc, head[k]);
+        for (int k = 0; k < ROW; k++) {
+            rgb c = mul(image[y * SIZE + (k > 0 ? (k - 1) / 3 : 0)], scale);
+            unsigned byte = k == 0 ? 0 : screen_byte(k % 3 == 1 ? c.x : k % 3 == 2 ? c.y : c.z);
+            put(f, &crc, byte);
+            a = (a + byte) % 65521;
+            b = (b + a) % 65521;
+        }
+    }
+    put32(f, &crc, b << 16 | a);
+    put32(f, &crc, ~crc);
+    chunk_begin(f, &crc, 0, "IEND");
+    put32(f, &crc, ~crc);
+}
+
+/* PFM, to compute with: linear floats, bottom row first, in the machine's order of bytes. */
+static void write_pfm(FILE *f, const rgb *image, double scale)
+{
+    const int one = 1, order = *(const char *)&one == 1 ? -1 : 1; /* -1: little-endian */
+    fprintf(f, "PF\n%d %d\n%d\n", SIZE, SIZE, order);
+    for (int i = 0; i < SIZE * SIZE; i++) {
+        rgb c = mul(image[(SIZE - 1 - i / SIZE) * SIZE + i % SIZE], scale);
+        float value[3] = {(float)c.x, (float)c.y, (float)c.z};
+        fwrite(value, sizeof value, 1, f);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    int method = 0, spp = argc > 2 ? atoi(argv[2]) : 0;
+    while (argc > 1 && method < METHODS && strcmp(argv[1], NAMES[method]) != 0)
+        method++;
+    if (argc < 4 || argc > 5 || method == METHODS || spp < 1)
+        return fprintf(stderr, "usage: %s " CHOICES " SAMPLES OUT.png|OUT.pfm [SEED]\n", argv[0]), 2;
+    uint64_t rng = argc > 4 ? (uint64_t)strtoul(argv[4], NULL, 10) << 40 : 0; /* no picture takes 2^40 numbers */
+    FILE *f = fopen(argv[3], "wb");
+    struct work *work = calloc(1, sizeof *work);
+    if (work == NULL || f == NULL)
+        return perror(argv[3]), 1;
+    render(work, (enum method)method, spp, &rng);
+    (strstr(argv[3], ".pfm") != NULL ? write_pfm : write_png)(f, work->image, 1.0 / spp);
+    free(work);
+    bool good = !ferror(f);
+    return fclose(f) == 0 && good ? 0 : (perror(argv[3]), 1);
+}
