@@ -203,7 +203,7 @@ static void disney(struct test *t)
 /* What materials make of their parameters, which are all different: the colours of the lobes, as pbrt-v3 has them. */
 static void colours(struct test *t)
 {
-    static const char *const NAME[] = {"transmit", "reflect", "opacity", "Kt", "Kr", "Ks", "Kd"}; /* 0.3, 0.4 and so on */
+    static const char *const NAME[] = {"transmit", "reflect", "opacity", "Kt", "Kr", "Ks", "Kd"}; /* from 0.3 on */
     static const struct {
         const char *name;
         int n;
