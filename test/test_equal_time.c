@@ -231,10 +231,13 @@ static void check_verdict(struct test *t, const struct equal_time *e)
     const struct interval wide = {exp(0.1), exp(-0.1), exp(0.3)};
     CHECK(t, equal_seeds_wanted(wide, 2) == 8, "half the width, four times the seeds: %g", equal_seeds_wanted(wide, 2));
     char *said = written(t, e, equal_verdict);
-    CHECK(t, strstr(said, "lvc over that of bdpt after the same time: 0.25 [") != NULL &&
-          strstr(said, "] per pixel, a gain; ") != NULL && strstr(said, "1.26 [") != NULL &&
-          strstr(said, "] per pixel, a loss; ") != NULL, "%s", said);
-    CHECK(t, strchr(said, '\n') == said + strlen(said) - 1, "one sentence: %s", said);
+    CHECK(t, strstr(said, "lvc over that of bdpt after the same time, per pixel: 0.25 (95 %: ") != NULL &&
+          strstr(said, "): a gain.\nIn means over 8x8") != NULL && strstr(said, "per pixel: 1.26 (95 %: ") != NULL &&
+          strstr(said, "): a loss.\n") != NULL, "%s", said);
+    int lines = 0;
+    for (const char *p = said; (p = strchr(p, '\n')) != NULL; p++)
+        lines++;
+    CHECK(t, lines == 2 * (e->plan->methods.n - 1) + 1, "two lines for a method, and one: %s", said);
     free(said);
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/maths.h"
 #include "base/mem.h"
+#include "base/progress.h"
 #include "image/image.h"
 #include "lab/compare.h"
 #include "lab/family.h"
@@ -32,37 +33,53 @@ double equal_seeds_wanted(struct interval r, int n_seeds)
     return ceil(n_seeds * sqr((m_log(r.high) - m_log(r.low)) / (2 * m_log(r.value))));
 }
 
-/* "0.8 [0.6, 1.1] per pixel, undecided (--seeds 12 may do)". */
-static void say(FILE *f, struct interval r, int n_seeds, const char *what)
+/* What one seed more costs: the CPU time of all methods' renders of a seed, on average. */
+static double seconds_per_seed(const struct equal_time *e)
 {
-    bool decided = r.high < 1 || r.low > 1;
-    double seeds = equal_seeds_wanted(r, n_seeds);
-    if (!isfinite(r.value)) {
-        fprintf(f, "unknown %s, the times being too far apart (more --spp)", what);
-        return;
-    }
-    fprintf(f, "%.3g [%.3g, %.3g] %s, %s", r.value, r.low, r.high, what,
-            !decided ? "undecided" : r.high < 1 ? "a gain" : "a loss");
-    if (!decided && seeds <= PLAN_MAX_SEEDS)
-        fprintf(f, " (--seeds %.0f may do)", seeds);
-    else if (!decided)
-        fputs(n_seeds < PLAN_MAX_SEEDS ? " (more --seeds, or more --spp)" : " (more --spp)", f);
+    double sum = 0;
+    for (const struct equal_scene *s = e->scene; s < e->scene + e->n_scenes; s++)
+        for (int v = 0; v < e->plan->methods.n; v++)
+            for (int i = 0; i < e->plan->n_seeds; i++)
+                sum += s->render[v][i].seconds / e->plan->n_seeds;
+    return sum;
 }
 
+/* "0.8 (95 %: 0.6 to 1.1): undecided, 12 seeds may decide, some 40 s more". */
+static void say(FILE *f, const struct equal_time *e, struct interval r)
+{
+    bool decided = r.high < 1 || r.low > 1;
+    int n = e->plan->n_seeds;
+    double seeds = equal_seeds_wanted(r, n);
+    char more[32];
+    if (!isfinite(r.value)) {
+        fputs("unknown, the times being too far apart: give it more --spp", f);
+        return;
+    }
+    fprintf(f, "%.3g (95 %%: %.3g to %.3g): %s", r.value, r.low, r.high,
+            !decided ? "undecided" : r.high < 1 ? "a gain" : "a loss");
+    if (!decided && seeds <= PLAN_MAX_SEEDS) {
+        progress_duration(2 * (seeds - n) * seconds_per_seed(e), more, sizeof more); /* 2: most are rendered twice */
+        fprintf(f, ", --seeds %.0f may decide, some %s of CPU more", seeds, more);
+    } else if (!decided)
+        fputs(", and so near 1 that it hardly matters; a larger --res sees smaller differences", f);
+}
+
+/* Two lines for each method, and one. */
 void equal_verdict(FILE *f, const struct equal_time *e)
 {
-    fputs("Verdict:", f);
+    const char *first = e->plan->methods.item[0].text;
     for (int v = 1; v < e->plan->methods.n; v++) {
-        fprintf(f, "%s squared error of %s over that of %s after the same time: ", v > 1 ? ";" : "",
-                e->plan->methods.item[v].text, e->plan->methods.item[0].text);
-        say(f, equal_overall(e, v, EQUAL_RELMSE), e->plan->n_seeds, "per pixel");
-        fputs("; ", f);
-        say(f, equal_overall(e, v, EQUAL_BLOCKS), e->plan->n_seeds, "in means over 8x8");
+        fprintf(f, "Squared error of %s over that of %s after the same time, per pixel: ",
+                e->plan->methods.item[v].text, first);
+        say(f, e, equal_overall(e, v, EQUAL_RELMSE));
+        fputs(".\nIn means over 8x8 pixels, where errors that neighbours share do not hide: ", f);
+        say(f, e, equal_overall(e, v, EQUAL_BLOCKS));
+        fputs(".\n", f);
     }
-    fputs(e->n_scenes == 1 ? "; picture of" : "; pictures of", f);
+    fprintf(f, "Measured with %d seed%s on", e->plan->n_seeds, e->plan->n_seeds == 1 ? "" : "s");
     for (int i = 0; i < e->n_scenes; i++)
-        fprintf(f, "%s %dx%d", i > 0 ? "," : "", e->scene[i].width, e->scene[i].height);
-    fputs(" pixels.\n", f);
+        fprintf(f, "%s %s %dx%d", i > 0 ? "," : "", e->scene[i].name, e->scene[i].width, e->scene[i].height);
+    fputs(".\n", f);
 }
 
 /* --- where the errors are ---------------------------------------------------------------------------- */
@@ -132,7 +149,7 @@ static void write_page(FILE *f, const struct equal_time *e)
 {
     fputs("<!DOCTYPE html>\n<html lang=\"en\"><meta charset=\"utf-8\"><title>Equal time</title>\n"
           "<style>body{max-width:60em;margin:2em auto;font:1rem/1.5 Georgia,serif}img{max-width:100%}</style>\n"
-          "<h1>Equal time</h1>\n<p><strong>", f);
+          "<h1>Equal time</h1>\n<p style=\"white-space:pre-line\"><strong>", f);
     equal_verdict(f, e);
     fputs("</strong></p>\n", f);
     family_figure(f, e);

@@ -18,6 +18,13 @@ enum { CORRECTIONS = 3, REFERENCE_SEED = 100001 };
 
 /* --- one method and seed ----------------------------------------------------------------------------- */
 
+static enum render_wish show_progress(void *context, double done)
+{
+    const struct subject *s = context;
+    progress_update(s->bar, s->done + s->share * done);
+    return RENDER_GO_ON;
+}
+
 bool subject_render(struct subject *s, const struct measured *m, struct equal_render *r, float **pixels,
                     struct error *err)
 {
@@ -25,6 +32,10 @@ bool subject_render(struct subject *s, const struct measured *m, struct equal_re
     struct render_options o = {.integrator = m->integrator, .seed = (uint64_t)r->seed, .end = r->spp,
                                .n_threads = s->n_threads, .max_depth = s->max_depth};
     struct timed took;
+    if (s->bar != NULL && r->spp > EQUAL_CALIBRATION) {
+        o.progress = show_progress;
+        o.progress_context = s;
+    }
     settings_clear(&s->scene.settings);
     s->scene.settings = measured_settings(m, NULL);
     if (!timed_render(&s->scene, &o, &took, err))
@@ -186,15 +197,43 @@ static bool find_reference(struct part *s)
     return ok;
 }
 
+/* How long it will take, before anything that takes long: by what the first method takes for a few samples. */
+static bool announce(struct part *s)
+{
+    const struct plan *p = s->whole->plan;
+    struct render_options o = {.integrator = p->methods.item[0].integrator, .end = EQUAL_CALIBRATION, .n_threads = 1,
+                               .max_depth = s->out->max_depth};
+    int n = p->n_seeds * p->methods.n;
+    struct timed took;
+    char all[32];
+    settings_clear(&s->subject.scene.settings);
+    s->subject.scene.settings = measured_settings(&p->methods.item[0], NULL);
+    if (p->quiet)
+        return true;
+    if (!timed_render(&s->subject.scene, &o, &took, s->err))
+        return false;
+    free(took.pixels);
+    double sample = took.seconds / EQUAL_CALIBRATION; /* of each pixel */
+    double each = s->whole->seconds > 0 ? s->whole->seconds : sample * (double)plan_last_spp(p);
+    double reference = s->subject.reference.pixels != NULL ? 0 : sample * (double)p->reference_spp;
+    progress_duration(n * each * 1.5 + reference, all, sizeof all); /* 1.5: half of them are rendered twice */
+    fprintf(stderr, "%s, %dx%d: %d renders of %.2g s%s; some %s of CPU in all, unless some are kept from before\n",
+            s->out->name, s->out->width, s->out->height, n, each, reference > 0 ? " and a reference" : "", all);
+    return true;
+}
+
 /* Seeds come before methods, so that a machine that slows down slows down all alike. */
 static bool measure_scene(struct part *s, double done)
 {
     const struct plan *p = s->whole->plan;
     int methods = p->methods.n, n = p->n_seeds * methods;
-    bool ok = find_reference(s) &&
+    bool ok = announce(s) && find_reference(s) &&
               (!s->whole->pictures || keep_picture(s, -1, s->subject.reference.pixels));
     for (int i = 0; ok && i < n; i++) {
-        progress_update(s->bar, (done + (double)i / n) / p->n_scenes);
+        s->subject.bar = s->bar;
+        s->subject.done = (done + (double)i / n) / p->n_scenes;
+        s->subject.share = 1.0 / n / p->n_scenes;
+        progress_update(s->bar, s->subject.done);
         ok = measure(s, i % methods, i / methods + 1);
     }
     scene_free(&s->subject.scene);

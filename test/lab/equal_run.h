@@ -12,6 +12,7 @@
 #define ASBDPT_EQUAL_RUN_H
 
 #include "lab/equal_time.h"
+#include "base/progress.h"
 #include "scene/scene.h"
 
 /* A scene being measured; methods have their default parameters beside what they are given. */
@@ -20,6 +21,8 @@ struct subject {
     struct reference reference;
     int scale; /* the scene's picture is so many times as wide and high as the reference */
     int max_depth, n_threads;
+    struct progress *bar;    /* NULL: none. It goes from `done` on, by `share` while a method renders */
+    double done, share;
 };
 
 /* subject_render: r->spp samples with r->seed; the rest of *r but target and growth is filled.
