@@ -73,12 +73,11 @@ static double learnt_emission(const struct full_path *f, struct light_point y0)
         return 1;
     if (f->x[0]->kind != VERTEX_ESCAPED && lights->light[y0.light].kind != LIGHT_INFINITE)
         return m->emission(m->learnt, lights, &y0, f->x[1]->p, direction(f, 0, 1));
-    for (int i = 0; i < lights->n; i++)
-        if (lights->light[i].kind == LIGHT_INFINITE) {
-            y0.light = i;
-            pdf = light_pdf_towards(lights, i, y0.w, &y0.cell);
-            sum += pdf / all * m->emission(m->learnt, lights, &y0, f->x[1]->p, direction(f, 0, 1));
-        }
+    for (int i = 0; i < lights->n_infinite; i++) {
+        y0.light = lights->infinite[i];
+        pdf = light_pdf_towards(lights, y0.light, y0.w, &y0.cell);
+        sum += pdf / all * m->emission(m->learnt, lights, &y0, f->x[1]->p, direction(f, 0, 1));
+    }
     return sum;
 }
 

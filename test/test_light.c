@@ -5,11 +5,13 @@
 #include <stdlib.h>
 
 #include "base/mem.h"
+#include "base/os.h"
 #include "base/rng.h"
 #include "base/warp.h"
 #include "image/image.h"
 #include "lab/stats.h"
 #include "helpers.h"
+#include "random_writer.h"
 #include "tests.h"
 
 enum { ROWS = 24, COLUMNS = 32, CELLS = ROWS * COLUMNS, SAMPLES = 60000, SUB = 8 };
@@ -215,15 +217,14 @@ static void test_shared_picture(struct test *t)
     struct light_set set = {0};
     static const enum light_kind KINDS[] = {LIGHT_INFINITE, LIGHT_INFINITE, LIGHT_PROJECTION, LIGHT_GONIOMETRIC,
                                             LIGHT_INFINITE};
-    struct light l[5];
+    struct light_frame l[5];
     const struct image *got[5];
     snprintf(path, sizeof path, "%s/shared.pfm", test_tmp(t));
     snprintf(other, sizeof other, "%s/other.pfm", test_tmp(t));
     CHECK(t, image_write(path, 2, 1, pixels, &err) && image_write(other, 2, 1, pixels, &err), "%s", err.text);
     for (int i = 0; i < 5; i++) {
-        struct light start = {.kind = KINDS[i]};
-        l[i] = start;
-        got[i] = light_read_picture(&set, &l[i], i < 4 ? path : other, &err);
+        l[i] = (struct light_frame){.env = NULL};
+        got[i] = light_read_picture(&set, KINDS[i], &l[i], i < 4 ? path : other, &err);
         CHECK(t, got[i] != NULL, "%s", err.text);
     }
     CHECK(t, got[0] == got[1] && got[2] == got[3] && got[0] != got[2] && got[4] != got[0] && set.n_pictures == 3,
@@ -231,7 +232,8 @@ static void test_shared_picture(struct test *t)
     CHECK(t, l[1].env != NULL && l[1].slide == NULL && l[3].slide != NULL && l[3].env == NULL, "each in its role");
     snprintf(other, sizeof other, "%s/missing.pfm", test_tmp(t));
     for (int i = 0; i < 4; i++)
-        CHECK(t, light_read_picture(&set, &l[i], other, &err) == NULL && set.n_pictures == 3, "a missing file");
+        CHECK(t, light_read_picture(&set, KINDS[i], &l[i], other, &err) == NULL && set.n_pictures == 3,
+              "a missing file");
     light_set_free(&set);
     CHECK(t, envmap_size_ok(2048, 2048, 1, &err) && !envmap_size_ok(2049, 2048, 1, &err) &&
                  envmap_size_ok(8192, 4096, 1 << 24, &err) && !envmap_size_ok(8194, 4096, 1 << 24, &err),
@@ -317,7 +319,7 @@ static bool light_under(struct test *t, const char *light, const char *path, con
 /* What the light sends in direction w, or what comes from there. */
 static double light_along(const struct scene *s, const struct light_point *at, vec3 w)
 {
-    rgb Le = s->lights.any_infinite ? light_Le_environment(&s->lights, w, true) : light_Le(&s->lights, at, w);
+    rgb Le = s->lights.n_infinite > 0 ? light_Le_environment(&s->lights, w, true) : light_Le(&s->lights, at, w);
     return rgb_luminance(Le);
 }
 
@@ -380,7 +382,7 @@ static void test_transformed(struct test *t)
             worst = fmax(worst, fabs(light_along(&plain, &at, v) - light_along(&moved, &at, w)));
         }
         CHECK(t, worst < 1e-9, "light %d: its space is off by %g", i, worst);
-        if (moved.lights.any_infinite)
+        if (moved.lights.n_infinite > 0)
             check_sky(t, &moved, &r);
         else
             check_energy(t, &moved.lights, &at, "a transformed light");
@@ -413,8 +415,57 @@ static void test_spot(struct test *t)
     }
 }
 
+/* --- what many lights cost ---------------------------------------------------------------------------- */
+
+/* CPU seconds of a picture under two skies beside a mesh that shines, or as many lights without extent.
+ *   n  triangles or lights */
+static double cost_beside(struct test *t, enum light_kind kind, int n, const char *integrator)
+{
+    static const char *const NAMES[] = {"", "point", "spot", "goniometric", "projection", "distant"};
+    struct writer w = {.top = ""};
+    struct scene scene;
+    struct film film;
+    double start = 0;
+    put(&w, "LookAt 0 0 -5 0 0 0 0 1 0 Camera \"perspective\" PixelFilter \"box\"\n"
+            "Film \"image\" \"integer xresolution\" 24 \"integer yresolution\" 24 WorldBegin\n"
+            "LightSource \"infinite\" LightSource \"infinite\" Shape \"sphere\"\n");
+    if (kind == LIGHT_AREA)
+        put(&w, "AreaLightSource \"diffuse\" Shape \"trianglemesh\" \"point P\" [0 2 0 1 2 0 0 2 1]\n"
+                "\"integer indices\" [");
+    for (int i = 0; i < n; i++)
+        if (kind == LIGHT_AREA)
+            put(&w, "0 1 2 ");
+        else
+            put(&w, "LightSource \"%s\" ", NAMES[kind]);
+    put(&w, kind == LIGHT_AREA ? "]\nWorldEnd" : "WorldEnd");
+    if (scene_from_text(t, w.text, &scene)) {
+        struct render_options o = {.integrator = integrator, .end = 64, .max_depth = 3, .n_threads = 1};
+        start = os_cpu_seconds();
+        render_film(t, &scene, &o, &film);
+        start = os_cpu_seconds() - start;
+        film_free(&film);
+        scene_free(&scene);
+    }
+    free(w.text);
+    return start;
+}
+
+/* A ray that leaves the scene asks the skies, not all lights: a hundred times as many are no tenth as dear. */
+static void test_cost(struct test *t)
+{
+    for (int kind = LIGHT_AREA; kind <= LIGHT_DISTANT; kind++)
+        for (int i = 0; i < 2; i++) {
+            const char *name = i == 0 ? "pt" : "bdpt";
+            double few = cost_beside(t, (enum light_kind)kind, 100, name);
+            double many = cost_beside(t, (enum light_kind)kind, 10000, name);
+            CHECK(t, many < 4 * few + 0.05, "%s: %.3f s beside 10000 lights of kind %d, %.3f s beside 100", name, many,
+kind, few);
+        }
+}
+
 void test_light(struct test *t)
 {
+    test_cost(t);
     test_emitted(t);
     test_slide_places(t);
     test_transformed(t);

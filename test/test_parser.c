@@ -230,14 +230,15 @@ static void put_lights(struct words *w, const struct scene *s)
 {
     for (int i = 0; i < s->lights.n; i++) {
         const struct light *l = &s->lights.light[i];
-        vec3 axis = transform_vector(&l->to_world, vec(0, 0, 1));
+        const struct light_frame none = {.to_world = transform_identity()}, *f = l->frame != NULL ? l->frame : &none;
+        vec3 axis = transform_vector(&f->to_world, vec(0, 0, 1));
         put(w, "light %d %s", i, kind_name(LIGHT_DIRECTIVES[1].types, (int)l->kind, "area"));
         put3(w, "L", l->L.r, l->L.g, l->L.b);
-        put3(w, "at", l->position.x, l->position.y, l->position.z);
-        put3(w, "towards", l->direction.x, l->direction.y, l->direction.z);
+        put3(w, "at", f->position.x, f->position.y, f->position.z);
+        put3(w, "towards", f->direction.x, f->direction.y, f->direction.z);
         put3(w, "axis", axis.x, axis.y, axis.z);
-        put(w, " cosines %.4f %.4f tan %.4f two-sided %d prim %d picture %d\n", l->cos_total, l->cos_falloff,
-            l->tan_half, l->two_sided, l->prim, l->env != NULL || l->slide != NULL);
+        put(w, " cosines %.4f %.4f tan %.4f two-sided %d prim %d picture %d\n", f->cos_total, f->cos_falloff,
+            f->tan_half, l->two_sided, l->prim, f->env != NULL || f->slide != NULL);
     }
 }
 

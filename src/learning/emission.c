@@ -148,12 +148,11 @@ double emission_ratio(const struct emission *e, const struct light_set *lights, 
         return ratio_of_cell(e, lights, y0, p, w);
     double guided = 0, by_power = 0;
     struct light_point at = *y0;
-    for (int i = 0; i < lights->n; i++)
-        if (lights->light[i].kind == LIGHT_INFINITE) {
-            double pdf = light_pdf_towards(lights, i, y0->w, &at.cell);
-            at.light = i;
-            by_power += pdf;
-            guided += pdf > 0 ? pdf * ratio_of_cell(e, lights, &at, p, w) : 0;
-        }
+    for (int i = 0; i < lights->n_infinite; i++) {
+        at.light = lights->infinite[i];
+        double pdf = light_pdf_towards(lights, at.light, y0->w, &at.cell);
+        by_power += pdf;
+        guided += pdf > 0 ? pdf * ratio_of_cell(e, lights, &at, p, w) : 0;
+    }
     return by_power > 0 ? guided / by_power : 0;
 }

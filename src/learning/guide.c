@@ -148,15 +148,14 @@ double guide_ratio(const struct guide *g, const struct light_set *lights, int re
     const double *before = row_of(g, region);
     if (before == NULL)
         return 1;
-    if (cell >= 0 && !(lights->several_infinite && lights->light[lights->light_of_cell[cell]].kind == LIGHT_INFINITE))
+    if (cell >= 0 && !(lights->n_infinite > 1 && lights->light[lights->light_of_cell[cell]].kind == LIGHT_INFINITE))
         return ratio_of_cell(g, before, cell);
     /* An escaping ray cannot tell infinite lights apart: their densities are added (light.h). */
     double guided = 0, by_power = 0;
-    for (int i = 0; i < lights->n; i++)
-        if (lights->light[i].kind == LIGHT_INFINITE) {
-            double pdf = light_pdf_towards(lights, i, w, &cell);
-            by_power += pdf;
-            guided += pdf * ratio_of_cell(g, before, cell);
-        }
+    for (int i = 0; i < lights->n_infinite; i++) {
+        double pdf = light_pdf_towards(lights, lights->infinite[i], w, &cell);
+        by_power += pdf;
+        guided += pdf * ratio_of_cell(g, before, cell);
+    }
     return by_power > 0 ? guided / by_power : 0;
 }

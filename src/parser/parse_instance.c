@@ -6,13 +6,13 @@
 #include <string.h>
 
 /* One light for each primitive of the group. */
-static void add_lights(struct scene *s, int group, int n, const struct area_light *area, const struct transform *t)
+static void add_lights(struct scene *s, int group, int n, const struct area_light *area)
 {
-    struct light l = {.kind = LIGHT_AREA, .L = area->L, .to_world = *t, .two_sided = area->two_sided,
-                      .hidden = area->hidden, .group = area->group};
+    struct light l = {.kind = LIGHT_AREA, .L = area->L, .two_sided = area->two_sided, .hidden = area->hidden,
+                      .group = area->group};
     for (int i = 0; i < n; i++) {
         l.prim = s->geo.group[group].first_prim + i;
-        light_add(&s->lights, l);
+        light_add(&s->lights, l, NULL);
     }
 }
 
@@ -36,7 +36,7 @@ static bool add_shape(struct parser *p, const struct shape_item *item, struct tr
     if (id < 0)
         return source_error(&p->messages, at, "%s", inner.text);
     if (item->area.on)
-        add_lights(s, id, n, &item->area, &to_world);
+        add_lights(s, id, n, &item->area);
     return true;
 }
 

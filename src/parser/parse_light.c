@@ -11,6 +11,7 @@
 /* A light in the making. */
 struct light_item {
     struct light light;
+    struct light_frame frame;
     vec3 from, to;     /* in light space */
     double cone, edge; /* degrees */
     double fov;        /* degrees */
@@ -33,7 +34,7 @@ static void point_light(struct parser *p, void *object)
 {
     struct light_item *item = object;
     (void)p;
-    item->light.position = add(item->from, transform_point(&item->light.to_world, vec(0, 0, 0)));
+    item->frame.position = add(item->from, transform_point(&item->frame.to_world, vec(0, 0, 0)));
 }
 
 /* The unit vector along w, which leads from one point to another; fails where they coincide. */
@@ -50,7 +51,7 @@ static vec3 direction(struct params *q, vec3 w)
 static void spot_light(struct parser *p, void *object)
 {
     struct light_item *item = object;
-    struct light *l = &item->light;
+    struct light_frame *l = &item->frame;
     struct params *q = &p->params;
     l->cos_total = m_cos(item->cone * PI / 180);
     l->cos_falloff = m_cos((item->cone - item->edge) * PI / 180); /* of an angle below 0 too, as in pbrt-v3 */
@@ -67,8 +68,8 @@ static void spot_light(struct parser *p, void *object)
 static void distant_light(struct parser *p, void *object)
 {
     struct light_item *item = object;
-    item->light.direction =
-        direction(&p->params, transform_vector(&item->light.to_world, sub(item->from, item->to)));
+    item->frame.direction =
+        direction(&p->params, transform_vector(&item->frame.to_world, sub(item->from, item->to)));
 }
 
 /* The picture of a light, if it names one. */
@@ -76,13 +77,13 @@ static void picture(struct parser *p, const struct parameter *row, void *field)
 {
     struct params *q = &p->params;
     struct light_set *lights = &p->scene->lights;
-    struct light *l = field;
+    struct light_frame *l = field;
     struct source_position at;
     struct error inner;
     char *path = params_file(q, row->name, &at);
     if (path != NULL && !q->failed) {
         int known = lights->n_pictures;
-        const struct image *image = light_read_picture(lights, l, path, &inner);
+        const struct image *image = light_read_picture(lights, (enum light_kind)p->type->kind, l, path, &inner);
         uint64_t tables = l->env != NULL ? envmap_bytes(l->env) : 0;
         parse_picture(q, at, image, lights->n_pictures > known, tables, &inner);
     }
@@ -92,9 +93,9 @@ static void picture(struct parser *p, const struct parameter *row, void *field)
 static void slide_light(struct parser *p, void *object)
 {
     struct light_item *item = object;
-    struct light *l = &item->light;
+    struct light_frame *l = &item->frame;
     l->position = transform_point(&l->to_world, vec(0, 0, 0));
-    if (l->kind != LIGHT_PROJECTION)
+    if (item->light.kind != LIGHT_PROJECTION)
         return;
     l->tan_half = m_tan(item->fov * PI / 360);
     l->cos_total = slide_cos_corner(l->slide, l->tan_half);
@@ -128,7 +129,7 @@ static void hidden(struct parser *p, const struct parameter *row, void *field)
 #define VISIBLE(type, field) {"visible", hidden, offsetof(type, field), GREY(0), 0, 0}
 #define EMITTED(name) \
     {name, emitted, offsetof(struct light_item, light.L), GREY(1), 0, 0}, BY_BUILD("scale"), GROUP(struct light_item)
-#define PICTURE {"mapname", picture, offsetof(struct light_item, light), GREY(0), 0, 0}
+#define PICTURE {"mapname", picture, offsetof(struct light_item, frame), GREY(0), 0, 0}
 #define POINT(f, x, y, z) {#f, parse_point, offsetof(struct light_item, f), {x, y, z}, 0, 0}
 #define SAMPLES IGNORED("samples"), IGNORED("nsamples") /* how often pbrt-v3 samples a light per hit: no matter here */
 
@@ -162,11 +163,12 @@ static const struct object_type LIGHTS[] = {
 static bool light(struct parser *p)
 {
     struct params *q = &p->params;
-    struct light_item item = {.light = {.kind = (enum light_kind)p->type->kind, .to_world = p->place.ctm, .prim = -1}};
+    struct light_item item = {.light = {.kind = (enum light_kind)p->type->kind, .prim = -1},
+                              .frame.to_world = p->place.ctm};
     if (!parse_placed(p))
         return false;
     parse_fields(p, &item);
-    vec3 position = item.light.position;
+    vec3 position = item.frame.position;
     if (!is_place(position))
         type_error(q, "this light would stand at (%g %g %g); places go up to 1e18", position.x, position.y, position.z);
     if (item.light.kind == LIGHT_INFINITE && ++p->n_infinite > LIGHT_MAX_INFINITE)
@@ -179,7 +181,7 @@ static bool light(struct parser *p)
     item.light.group = item.group >= 0 ? item.group : light_group(set, NULL, item.light.kind);
     if (item.light.kind == LIGHT_INFINITE)
         p->infinite_group = item.light.group;
-    light_add(set, item.light);
+    light_add(set, item.light, &item.frame);
     return true;
 }
 

@@ -9,9 +9,15 @@
 #include "base/number.h"
 #include "base/warp.h"
 
-int light_add(struct light_set *set, struct light l)
+int light_add(struct light_set *set, struct light l, const struct light_frame *frame)
 {
     set->light = mem_append(set->light, (size_t)set->n, sizeof *set->light);
+    l.frame = NULL;
+    if (frame != NULL) {
+        l.frame = mem_alloc(1, sizeof *l.frame);
+        *l.frame = *frame;
+        l.frame->volume = fabs(transform_determinant(&frame->to_world));
+    }
     set->light[set->n] = l;
     return set->n++;
 }
@@ -38,7 +44,10 @@ void light_set_free(struct light_set *set)
         slide_free(set->picture[i].slide);
     }
     free(set->picture);
+    for (int i = 0; i < set->n; i++)
+        free(set->light[i].frame);
     free(set->light);
+    free(set->infinite);
     alias_free(&set->choice);
     free(set->light_of_cell);
     memset(set, 0, sizeof *set);
@@ -46,9 +55,10 @@ void light_set_free(struct light_set *set)
 
 /* --- pictures ---------------------------------------------------------------------------------------- */
 
-const struct image *light_read_picture(struct light_set *set, struct light *l, const char *path, struct error *err)
+const struct image *light_read_picture(struct light_set *set, enum light_kind kind, struct light_frame *frame,
+                                       const char *path, struct error *err)
 {
-    bool map = l->kind == LIGHT_INFINITE;
+    bool map = kind == LIGHT_INFINITE;
     int i = 0;
     while (i < set->n_pictures &&
            ((set->picture[i].env != NULL) != map || strcmp(set->picture[i].path, path) != 0))
@@ -61,16 +71,16 @@ const struct image *light_read_picture(struct light_set *set, struct light *l, c
         set->picture = mem_append(set->picture, (size_t)set->n_pictures, sizeof *set->picture);
         set->picture[set->n_pictures++] = added;
     }
-    l->env = set->picture[i].env;
-    l->slide = set->picture[i].slide;
-    return map ? &l->env->image : &l->slide->image;
+    frame->env = set->picture[i].env;
+    frame->slide = set->picture[i].slide;
+    return map ? &frame->env->image : &frame->slide->image;
 }
 
 /* --- power and choice -------------------------------------------------------------------------------- */
 
 static vec3 to_light_space(const struct light *l, vec3 w)
 {
-    return normalize(transform_vector_back(&l->to_world, w));
+    return normalize(transform_vector_back(&l->frame->to_world, w));
 }
 
 /* Steradians of light space per steradian of the world, around the direction that is v in light space, and there as
@@ -78,26 +88,26 @@ static vec3 to_light_space(const struct light *l, vec3 w)
 static double solid_angle_back(const struct light *l, vec3 v)
 {
     double size = length(v);
-    return 1 / (l->volume * size * size * size);
+    return 1 / (l->frame->volume * size * size * size);
 }
 
 /* Smooth step from 1 inside the inner cone to 0 outside the outer one. [PBRT3 12.3.1] */
 static double spot_falloff(const struct light *l, vec3 w)
 {
-    vec3 v = transform_vector_back(&l->to_world, w);
+    vec3 v = transform_vector_back(&l->frame->to_world, w);
     double c = v.z / length(v);
-    if (c < l->cos_total)
+    if (c < l->frame->cos_total)
         return 0;
-    if (c >= l->cos_falloff)
+    if (c >= l->frame->cos_falloff)
         return 1;
-    double delta = (c - l->cos_total) / (l->cos_falloff - l->cos_total);
+    double delta = (c - l->frame->cos_total) / (l->frame->cos_falloff - l->frame->cos_total);
     return sqr(sqr(delta));
 }
 
 /* Mean luminance of L times the slide. */
 static double slide_luminance(const struct light *l)
 {
-    return rgb_luminance(l->slide != NULL ? rgb_mul(l->L, l->slide->mean) : l->L);
+    return rgb_luminance(l->frame->slide != NULL ? rgb_mul(l->L, l->frame->slide->mean) : l->L);
 }
 
 /* Powers are those of [PBRT3 12.1-12.6]; of lights at infinity, what meets the disk of the scene's sphere. */
@@ -108,11 +118,11 @@ static double light_power(const struct light *l, const struct geometry *geo, dou
     switch (l->kind) {
     case LIGHT_AREA: return lum * PI * shape_area(geo, l->prim) * (l->two_sided ? 2 : 1);
     case LIGHT_POINT: return lum * 4 * PI;
-    case LIGHT_SPOT: return lum * 2 * PI * (1 - 0.5 * (l->cos_falloff + l->cos_total));
+    case LIGHT_SPOT: return lum * 2 * PI * (1 - 0.5 * (l->frame->cos_falloff + l->frame->cos_total));
     case LIGHT_GONIOMETRIC: return 4 * PI * slide_luminance(l);
-    case LIGHT_PROJECTION: return 2 * PI * (1 - l->cos_total) * slide_luminance(l);
+    case LIGHT_PROJECTION: return 2 * PI * (1 - l->frame->cos_total) * slide_luminance(l);
     case LIGHT_DISTANT: return lum * disk;
-    case LIGHT_INFINITE: return disk * PI * rgb_luminance(l->env ? rgb_mul(l->L, l->env->mean) : l->L);
+    case LIGHT_INFINITE: return disk * PI * rgb_luminance(l->frame->env ? rgb_mul(l->L, l->frame->env->mean) : l->L);
     }
     return 0;
 }
@@ -122,38 +132,37 @@ enum { SKY_BANDS = 8, SKY_SECTORS = 16, SKY_CELLS = SKY_BANDS * SKY_SECTORS };
 
 static int cell_count(const struct light *l)
 {
-    return l->kind != LIGHT_INFINITE ? 1 : l->env != NULL ? envmap_blocks(l->env) : SKY_CELLS;
+    return l->kind != LIGHT_INFINITE ? 1 : l->frame->env != NULL ? envmap_blocks(l->frame->env) : SKY_CELLS;
 }
 
 /* The power of each cell of a light, a share of the light's. */
 static void cell_powers(const struct light *l, double *power)
 {
-    bool map = l->kind == LIGHT_INFINITE && l->env != NULL;
+    bool map = l->kind == LIGHT_INFINITE && l->frame->env != NULL;
     double all = 0;
     for (int c = 0; map && c < l->n_cells; c++)
-        all += l->env->block[c].total;
+        all += l->frame->env->block[c].total;
     for (int c = 0; c < l->n_cells; c++)
-        power[c] = l->power * (!map ? 1.0 / l->n_cells : all > 0 ? l->env->block[c].total / all : 0);
+        power[c] = l->power * (!map ? 1.0 / l->n_cells : all > 0 ? l->frame->env->block[c].total / all : 0);
 }
 
 void light_prepare(struct light_set *set, const struct geometry *geo, vec3 center, double radius)
 {
     set->center = center;
     set->radius = radius;
-    set->any_infinite = set->several_infinite = set->seen_infinite = false;
-    set->infinite = -1;
-    set->n_cells = 0;
+    set->seen_infinite = false;
+    set->n_infinite = set->n_cells = 0;
     for (int i = 0; i < set->n; i++) {
         struct light *l = &set->light[i];
-        l->volume = fabs(transform_determinant(&l->to_world));
         l->power = light_power(l, geo, radius);
         l->first_cell = set->n_cells;
         l->n_cells = cell_count(l);
         set->n_cells += l->n_cells;
-        set->several_infinite |= set->any_infinite && l->kind == LIGHT_INFINITE;
-        set->any_infinite |= l->kind == LIGHT_INFINITE;
-        set->seen_infinite |= l->kind == LIGHT_INFINITE && !l->hidden;
-        set->infinite = l->kind == LIGHT_INFINITE ? i : set->infinite;
+        if (l->kind != LIGHT_INFINITE)
+            continue;
+        set->infinite = mem_append(set->infinite, (size_t)set->n_infinite, sizeof *set->infinite);
+        set->infinite[set->n_infinite++] = i;
+        set->seen_infinite |= !l->hidden;
     }
     double *power = mem_alloc((size_t)set->n_cells, sizeof *power);
     set->light_of_cell = mem_alloc((size_t)set->n_cells, sizeof *set->light_of_cell);
@@ -170,21 +179,21 @@ void light_prepare(struct light_set *set, const struct geometry *geo, vec3 cente
 
 static vec3 infinite_sample(const struct light *l, int cell, double u1, double u2, double *pdf_dir)
 {
-    if (l->env == NULL) {
+    if (l->frame->env == NULL) {
         *pdf_dir = warp_sphere_pdf_w() * SKY_CELLS;
         return warp_sphere((cell / SKY_SECTORS + u1) / SKY_BANDS, (cell % SKY_SECTORS + u2) / SKY_SECTORS);
     }
-    vec3 w = normalize(transform_vector(&l->to_world, envmap_sample(l->env, cell, u1, u2, pdf_dir)));
-    *pdf_dir *= solid_angle_back(l, transform_vector_back(&l->to_world, w));
+    vec3 w = normalize(transform_vector(&l->frame->to_world, envmap_sample(l->frame->env, cell, u1, u2, pdf_dir)));
+    *pdf_dir *= solid_angle_back(l, transform_vector_back(&l->frame->to_world, w));
     return w;
 }
 
 /* Density of w within its cell; *cell is that cell's number within the light. */
 static double infinite_pdf(const struct light *l, vec3 w, int *cell)
 {
-    if (l->env != NULL) {
-        vec3 v = transform_vector_back(&l->to_world, w);
-        return envmap_pdf(l->env, normalize(v), cell) * solid_angle_back(l, v);
+    if (l->frame->env != NULL) {
+        vec3 v = transform_vector_back(&l->frame->to_world, w);
+        return envmap_pdf(l->frame->env, normalize(v), cell) * solid_angle_back(l, v);
     }
     double u1, u2;
     warp_sphere_inverse(w, &u1, &u2);
@@ -195,7 +204,7 @@ static double infinite_pdf(const struct light *l, vec3 w, int *cell)
 
 static rgb infinite_Le(const struct light *l, vec3 w)
 {
-    return l->env == NULL ? l->L : rgb_mul(l->L, envmap_lookup(l->env, to_light_space(l, w)));
+    return l->frame->env == NULL ? l->L : rgb_mul(l->L, envmap_lookup(l->frame->env, to_light_space(l, w)));
 }
 
 bool light_sample_cell(const struct light_set *set, const struct geometry *geo, int cell, double u1, double u2,
@@ -219,8 +228,8 @@ bool light_sample_cell(const struct light_set *set, const struct geometry *geo, 
     case LIGHT_POINT:
     case LIGHT_SPOT:
     case LIGHT_GONIOMETRIC:
-    case LIGHT_PROJECTION: out->p = l->position; break;
-    case LIGHT_DISTANT: out->w = l->direction; break;
+    case LIGHT_PROJECTION: out->p = l->frame->position; break;
+    case LIGHT_DISTANT: out->w = l->frame->direction; break;
     case LIGHT_INFINITE: out->w = infinite_sample(l, cell - l->first_cell, u1, u2, &pdf); break;
     }
     out->pdf_cell = pdf;
@@ -282,7 +291,7 @@ rgb light_sample_emission(const struct light_set *set, const struct light_point 
     case LIGHT_GONIOMETRIC: w = warp_sphere(u[0], u[1]); break;
     case LIGHT_SPOT:
     case LIGHT_PROJECTION:
-        w = normalize(transform_vector(&l->to_world, warp_cone(u[0], u[1], l->cos_total)));
+        w = normalize(transform_vector(&l->frame->to_world, warp_cone(u[0], u[1], l->frame->cos_total)));
         break;
     case LIGHT_DISTANT:
     case LIGHT_INFINITE:
@@ -299,8 +308,8 @@ rgb light_sample_emission(const struct light_set *set, const struct light_point 
 /* Uniform in a cone of light space. */
 static double cone_pdf(const struct light *l, vec3 w)
 {
-    vec3 v = transform_vector_back(&l->to_world, w);
-    return v.z >= l->cos_total * length(v) ? warp_cone_pdf_w(l->cos_total) * solid_angle_back(l, v) : 0;
+    vec3 v = transform_vector_back(&l->frame->to_world, w);
+    return v.z >= l->frame->cos_total * length(v) ? warp_cone_pdf_w(l->frame->cos_total) * solid_angle_back(l, v) : 0;
 }
 
 double light_pdf_emission(const struct light_set *set, const struct light_point *y0, vec3 w)
@@ -337,7 +346,7 @@ void light_emission_numbers(const struct light_set *set, const struct light_poin
     case LIGHT_POINT:
     case LIGHT_GONIOMETRIC: warp_sphere_inverse(w, &u[0], &u[1]); return;
     case LIGHT_SPOT:
-    case LIGHT_PROJECTION: warp_cone_inverse(to_light_space(l, w), l->cos_total, &u[0], &u[1]); return;
+    case LIGHT_PROJECTION: warp_cone_inverse(to_light_space(l, w), l->frame->cos_total, &u[0], &u[1]); return;
     case LIGHT_DISTANT:
     case LIGHT_INFINITE: {
         struct frame f = frame_from_normal(y0->w);
@@ -355,8 +364,9 @@ rgb light_Le(const struct light_set *set, const struct light_point *y0, vec3 w)
     case LIGHT_AREA: return area_Le(l, y0->n, w);
     case LIGHT_POINT: return l->L;
     case LIGHT_SPOT: return rgb_scale(l->L, spot_falloff(l, w));
-    case LIGHT_GONIOMETRIC: return rgb_mul(l->L, slide_goniometric(l->slide, to_light_space(l, w)));
-    case LIGHT_PROJECTION: return rgb_mul(l->L, slide_projection(l->slide, l->tan_half, to_light_space(l, w)));
+    case LIGHT_GONIOMETRIC: return rgb_mul(l->L, slide_goniometric(l->frame->slide, to_light_space(l, w)));
+    case LIGHT_PROJECTION:
+        return rgb_mul(l->L, slide_projection(l->frame->slide, l->frame->tan_half, to_light_space(l, w)));
     case LIGHT_DISTANT: return l->L;
     case LIGHT_INFINITE: return infinite_Le(l, neg(w));
     }
@@ -376,9 +386,11 @@ double light_pdf_surface(const struct light_set *set, const struct geometry *geo
 rgb light_Le_environment(const struct light_set *set, vec3 w, bool seen)
 {
     rgb sum = rgb_black();
-    for (int i = 0; set->any_infinite && i < set->n; i++)
-        if (set->light[i].kind == LIGHT_INFINITE && !(seen && set->light[i].hidden))
-            sum = rgb_add(sum, infinite_Le(&set->light[i], w));
+    for (int i = 0; i < set->n_infinite; i++) {
+        const struct light *l = &set->light[set->infinite[i]];
+        if (!(seen && l->hidden))
+            sum = rgb_add(sum, infinite_Le(l, w));
+    }
     return sum;
 }
 
@@ -393,8 +405,7 @@ double light_pdf_environment(const struct light_set *set, vec3 w)
 {
     double sum = 0;
     int cell;
-    for (int i = 0; set->any_infinite && i < set->n; i++)
-        if (set->light[i].kind == LIGHT_INFINITE)
-            sum += light_pdf_towards(set, i, w, &cell);
+    for (int i = 0; i < set->n_infinite; i++)
+        sum += light_pdf_towards(set, set->infinite[i], w, &cell);
     return sum;
 }

@@ -34,9 +34,10 @@ enum light_kind {
  *              area                point              spot                  distant                infinite
  *   L          radiance,           intensity, W/sr    intensity, W/sr       irradiance on a        factor of the map,
  *              W/(m^2 sr)                                                   facing surface, W/m^2  else radiance
- *   to_world   -                   -                  light space to world  -                      light space to world
  *   prim       the surface         -                  -                     -                      -
  *   two_sided  emits on both       -                  -                     -                      -
+ *  and of its frame, which area lights have none of:
+ *   to_world   -                   -                  light space to world  -                      light space to world
  *   position   -                   where it is        where it is           -                      -
  *   cos_total  -                   -                  dark beyond it        -                      -
  *   cos_falloff  -                 -                  full within it        -                      -
@@ -61,23 +62,26 @@ enum light_kind {
  *   pdf        pdf_cell times the probability of the cell under `choice`, in all kinds
  *   emission's second draw is      a direction, 1/sr (area, point, spot)    an origin on a disk, 1/m^2
  */
-struct light {
-    enum light_kind kind;
-    rgb L;
+struct light_frame {
     struct transform to_world;
-    int prim;
-    bool two_sided;
+    double volume;                 /* that to_world makes of 1; set by light_add */
     double cos_total, cos_falloff; /* projection: cos_total is of the cone around the picture */
     double tan_half;               /* projection: half a shorter side of the picture at distance 1 */
-    vec3 position;
-    vec3 direction;
+    vec3 position, direction;
     const struct envmap *env;  /* the set's */
     const struct slide *slide; /* goniometric, projection: the set's, NULL: 1 */
+};
+
+struct light {
+    enum light_kind kind;
+    bool two_sided;
     bool hidden; /* from the lens: no path of two vertices has its light */
-    int group;   /* see light_group */
-    double volume;           /* that to_world makes of 1; set by light_prepare */
-    double power;            /* estimate, W, luminance; set by light_prepare */
+    int prim;
+    int group;               /* see light_group */
     int first_cell, n_cells; /* its cells, see below; set by light_prepare */
+    rgb L;
+    double power;             /* estimate, W, luminance; set by light_prepare */
+    struct light_frame *frame; /* owned by the set; area: NULL, for there may be one for each triangle of a mesh */
 };
 
 /* The picture of all lights that name the same file in the same role. */
@@ -109,24 +113,25 @@ struct light_set {
     struct alias_table choice; /* of a cell, by power */
     vec3 center;               /* bounding sphere of the scene */
     double radius;             /* > 0 */
-    int infinite;              /* a light of kind LIGHT_INFINITE, or -1 */
-    bool any_infinite;         /* some light of that kind */
+    int *infinite;             /* [n_infinite], owned: the lights of kind LIGHT_INFINITE */
+    int n_infinite;
     bool seen_infinite;        /* one of them is not hidden */
-    bool several_infinite;     /* two or more of them */
 };
 
 /* Of each up to 512 cells are made, and every ray that leaves the scene asks all of them. */
 enum { LIGHT_MAX_INFINITE = 1 << 12 };
 
-int light_add(struct light_set *set, struct light l);
+/* light_add: returns its number.  frame: copied; NULL for area lights */
+int light_add(struct light_set *set, struct light l, const struct light_frame *frame);
 
 /* light_group: the group of that name, or, if there is none, or the name is NULL, a new one. Names are looked for among
  * the first LIGHT_MAX_GROUPS groups alone: if there are more, no film keeps any. */
 int light_group(struct light_set *set, const char *name, enum light_kind kind);
 
-/* light_read_picture: give the light the picture of a file, as its kind wants it; lights that want the same share it.
+/* light_read_picture: give a light the picture of a file, as its kind wants it; lights that want the same share it.
  * Returns the picture, which stays the set's, or NULL with a message. */
-const struct image *light_read_picture(struct light_set *set, struct light *l, const char *path, struct error *err);
+const struct image *light_read_picture(struct light_set *set, enum light_kind kind, struct light_frame *frame,
+                                       const char *path, struct error *err);
 
 /* light_prepare: powers, the choice table, the scene's sphere. Call once the geometry is complete. */
 void light_prepare(struct light_set *set, const struct geometry *geo, vec3 center, double radius);

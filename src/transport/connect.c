@@ -47,7 +47,7 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
     struct connection c = nothing();
     c.value = rgb_mul(z->beta, Le);
     c.length = z->length;
-    c.light = at.light < 0 ? lights->infinite : at.light;
+    c.light = at.light < 0 ? lights->infinite[0] : at.light;
     if (rgb_is_black(c.value))
         return nothing();
     if (t == 2) {

@@ -17,7 +17,7 @@ rgb emit_sample(const struct scene *scene, const struct mis_counts *counts, cons
         return rgb_black();
     rgb emitted = light_sample_emission(lights, at, direction, ray, pdf);
     *pdf *= rho;
-    bool several = lights->several_infinite && lights->light[at->light].kind == LIGHT_INFINITE;
+    bool several = lights->n_infinite > 1 && lights->light[at->light].kind == LIGHT_INFINITE;
     *pdf_mis = learnt && several ? emit_pdf(counts, lights, at, ray->o, ray->d) : *pdf;
     return emitted;
 }
@@ -31,7 +31,7 @@ double emit_pdf(const struct mis_counts *counts, const struct light_set *lights,
     if (m == NULL || m->emission == NULL || !(pdf > 0))
         return pdf;
     struct light_point at = *y0;
-    if (infinite && lights->several_infinite)
+    if (infinite && lights->n_infinite > 1)
         at.light = -1;
     return pdf * m->emission(m->learnt, lights, &at, p, w);
 }

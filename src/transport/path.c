@@ -32,7 +32,7 @@ static void measure(const struct walk *w, struct vertex *v, const struct vertex 
 static bool escape(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
                    const struct vertex *lamp)
 {
-    if (!w->scene->lights.any_infinite && lamp == NULL)
+    if (w->scene->lights.n_infinite == 0 && lamp == NULL)
         return false;
     memset(v, 0, sizeof *v);
     v->kind = VERTEX_ESCAPED;

@@ -38,7 +38,7 @@ void vertex_light_end(const struct scene *scene, const struct mis_counts *counts
     out->beta = rgb_grey(1 / at->pdf);
     /* An escaping eye ray cannot tell infinite lights apart, so their densities are added up for the weight.
      * [PBRT3 16.3.5] */
-    out->pdf_fwd = scene->lights.several_infinite && l->kind == LIGHT_INFINITE
+    out->pdf_fwd = scene->lights.n_infinite > 1 && l->kind == LIGHT_INFINITE
                        ? light_pdf_environment(&scene->lights, at->w)
                        : at->pdf;
     out->mis_c = light_is_delta(l) ? 0 : counts->hit[LATER_HIT];

@@ -64,8 +64,7 @@ static void light_end(const struct chain *c, const struct vertex *z, const doubl
     if (z == NULL) {
         light_sample_point(lights, &scene->geo, u, &at);
     } else if (z->lamp == NULL && z->kind == VERTEX_ESCAPED) {
-        while (lights->light[at.light].kind != LIGHT_INFINITE)
-            at.light++;
+        at.light = lights->infinite[0];
         at.w = neg(z->wo);
         at.pdf = light_pdf_towards(lights, at.light, at.w, &at.cell);
     } else {
@@ -86,7 +85,7 @@ static void sort_path(const struct chain *c, struct mlt_path *path)
         path->m--;
     for (path->l = k - 2; path->l > 0 && path->x[path->l].delta;)
         path->l--;
-    bool one = end->pdf_fwd > 0 && !(lights->several_infinite && lights->light[end->light].kind == LIGHT_INFINITE);
+    bool one = end->pdf_fwd > 0 && !(lights->n_infinite > 1 && lights->light[end->light].kind == LIGHT_INFINITE);
     path->can[LENS_PERTURBATION] = one && (path->m < 2 || !path->x[path->m - 1].delta);
     path->can[CAUSTIC_PERTURBATION] = one && path->m == k - 1 && path->l >= 0 && path->l < k - 2 &&
                                       !(path->l == 0 && vertex_at_infinity(c->job->scene, end));
