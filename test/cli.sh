@@ -467,7 +467,13 @@ check grep -q 'bounds  *(4, 5, 6) to (6, 7, 8)' stdout.txt
 one="--res 12x12 --integrator bdpt --maxdepth 3 --pixel 3,9"
 expect 1 'cannot be created' "$lab" trace "$box" --pixel 3,9 --svg no/such/dir.svg # before the work
 check [ ! -s stdout.txt ]
-expect 0 '' "$lab" trace "$box" $one --spp 1 --svg paths.svg
+expect 0 '' "$lab" trace "$box" $one --spp 1
+check [ "$(wc -l <stdout.txt)" -le 11 ]
+check grep -q '^The pixel receives [0-9.e-]* [0-9.e-]* [0-9.e-]*\.' stdout.txt
+check grep -q 'what they mean: --all$' stdout.txt
+grep '^The pixel receives' stdout.txt >brief.txt
+expect 0 '' "$lab" trace "$box" $one --spp 1 --svg paths.svg --all
+check grep -qxF "$(cat brief.txt)" stdout.txt
 check grep -q 'pixel 3,9, sample 0: bdpt' stdout.txt
 check grep -q '^(s,t): a path of s vertices' stdout.txt
 check grep -Eq '^  z_1 +matte .*/m\^2' stdout.txt
