@@ -11,15 +11,10 @@ const char *trace_what(const struct scene *scene, const struct vertex *v)
         [LIGHT_AREA] = "area light", [LIGHT_POINT] = "point light", [LIGHT_SPOT] = "spot light",
         [LIGHT_GONIOMETRIC] = "goniometric light", [LIGHT_PROJECTION] = "projection light",
         [LIGHT_DISTANT] = "distant light", [LIGHT_INFINITE] = "infinite light"};
-    static const char *const materials[] = {
-        [MATERIAL_MATTE] = "matte", [MATERIAL_MIRROR] = "mirror", [MATERIAL_GLASS] = "glass",
-        [MATERIAL_METAL] = "metal", [MATERIAL_PLASTIC] = "plastic", [MATERIAL_SUBSTRATE] = "substrate",
-        [MATERIAL_UBER] = "uber", [MATERIAL_TRANSLUCENT] = "translucent", [MATERIAL_DISNEY] = "disney",
-        [MATERIAL_FOURIER] = "fourier", [MATERIAL_MIX] = "mix"};
     switch (v->kind) {
     case VERTEX_LENS: return "lens";
     case VERTEX_LIGHT: return lights[scene->lights.light[v->light].kind];
-    case VERTEX_SURFACE: return v->light >= 0 ? "area light" : materials[scene->material[v->material].kind];
+    case VERTEX_SURFACE: return v->light >= 0 ? "area light" : scene->material[v->material]->row->name;
     case VERTEX_ESCAPED: return "escaped";
     }
     return "";

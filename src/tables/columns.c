@@ -1,5 +1,5 @@
 /* columns.c: see columns.h. */
-#include "learning/columns.h"
+#include "tables/columns.h"
 
 #include <stdlib.h>
 

@@ -3,8 +3,8 @@
  *
  * Tests: test_learning.c, test_mis.c.
  */
-#ifndef ASBDPT_LEARNING_COLUMNS_H
-#define ASBDPT_LEARNING_COLUMNS_H
+#ifndef ASBDPT_TABLES_COLUMNS_H
+#define ASBDPT_TABLES_COLUMNS_H
 
 #include "scene/light.h"
 

@@ -17,47 +17,48 @@
  *
  * Tests: test_pairs.c, test_mis.c.
  */
-#ifndef ASBDPT_LEARNING_PAIRS_H
-#define ASBDPT_LEARNING_PAIRS_H
+#ifndef ASBDPT_TABLES_PAIRS_H
+#define ASBDPT_TABLES_PAIRS_H
 
-#include "learning/regions.h"
+#include "tables/regions.h"
+#include "tables/sums.h"
 
 /* Sums over trials, for pairs of regions of the same level. */
-struct pair_lessons {
-    int n_eye, n_light;
-    double *worth, *weight; /* [n_eye * n_light] sums of w x and of w; owned */
-    double total, trials;   /* sum of w, number */
+struct pair_sums {
+    struct row_sums worth, weight; /* by eye and light region, of w x and of w; owned */
+    double trials;
 };
 
-/* pair_lessons_init: for these regions; none may be added afterwards. */
-void pair_lessons_init(struct pair_lessons *l, const struct regions *eye, const struct regions *light);
-void pair_lessons_free(struct pair_lessons *l);
+/* pair_sums_init: for these regions; none may be added afterwards. */
+void pair_sums_init(struct pair_sums *s, const struct regions *eye, const struct regions *light);
+void pair_sums_free(struct pair_sums *s);
 
-/* pair_lessons_add: a trial between regions e and y of worth x >= 0 and weight w > 0. */
-void pair_lessons_add(struct pair_lessons *l, const struct regions *eye, const struct regions *light, int e, int y,
-                      double x, double w);
+/* pair_sums_add: a trial between regions e and y of worth x >= 0 and weight w > 0. */
+void pair_sums_add(struct pair_sums *s, const struct regions *eye, const struct regions *light, int e, int y, double x,
+                   double w);
 
 /* The frozen table. */
 struct pairs {
     int n_eye, n_light;
-    double *h; /* [n_eye * n_light], > 0; owned */
+    double *h; /* [n_eye * n_light], > 0; NULL: nothing is known; owned */
 };
 
-/* pairs_build: make the table.
- *   vertices  [n <= light->n] N(l), those of a region counted in the finest region they lie in; beyond n none
+/* pairs_build: the table; pairs_free releases it.
+ *   vertices  N(l) by light region, those of a region counted in the finest region they lie in
  *   delta     (0,1] */
-void pairs_build(struct pairs *p, const struct pair_lessons *l, const struct regions *eye, const struct regions *light,
-                 const double *vertices, int n_vertices, double delta);
+struct pairs pairs_build(struct pair_sums *s, const struct regions *eye, const struct regions *light,
+                         const struct row_sums *vertices, double delta);
 
 /* pairs_from_row: a table that does not look at the eye vertex: h(e,l) = row[l].
- *   row  [n_light] */
-void pairs_from_row(struct pairs *p, const double *row, int n_light);
+ *   row  [n_light], handed over */
+struct pairs pairs_from_row(double *row, int n_light);
 void pairs_free(struct pairs *p);
 
-/* pairs_row: h(e,.), [n_light]. */
+/* pairs_row: h(e,.), [n_light]. pairs_worth: h(e,l). */
 static inline const double *pairs_row(const struct pairs *p, int e)
 {
     return &p->h[(size_t)(p->n_eye == 1 ? 0 : e) * (size_t)p->n_light];
 }
+static inline double pairs_worth(const struct pairs *p, int e, int l) { return p->h != NULL ? pairs_row(p, e)[l] : 1; }
 
 #endif

@@ -1,5 +1,5 @@
 /* emission.c: see emission.h. */
-#include "learning/emission.h"
+#include "tables/emission.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -15,24 +15,23 @@ static int bin_of(const double u[2])
     return int_within(u[0] * SIDE, 0, SIDE - 1) * SIDE + int_within(u[1] * SIDE, 0, SIDE - 1);
 }
 
-/* --- lessons ----------------------------------------------------------------------------------------- */
+/* --- sums -------------------------------------------------------------------------------------------- */
 
-void emission_lessons_init(struct emission_lessons *l, const struct light_set *lights)
+void emission_sums_init(struct emission_sums *s, const struct light_set *lights)
 {
-    l->columns = light_columns_new(lights, EMISSION_COLUMNS);
-    l->square = mem_alloc((size_t)l->columns.n * BINS, sizeof *l->square);
+    s->columns = light_columns_new(lights, EMISSION_COLUMNS);
+    s->square = mem_alloc((size_t)s->columns.n * BINS, sizeof *s->square);
 }
 
-void emission_lessons_free(struct emission_lessons *l)
+void emission_sums_free(struct emission_sums *s)
 {
-    light_columns_free(&l->columns);
-    free(l->square);
-    memset(l, 0, sizeof *l);
+    light_columns_free(&s->columns);
+    free(s->square);
 }
 
-void emission_lessons_add(struct emission_lessons *l, int cell, const double u[2], double I)
+void emission_sums_add(struct emission_sums *s, int cell, const double u[2], double I)
 {
-    l->square[(size_t)(cell / l->columns.cells_each) * BINS + (size_t)bin_of(u)] += I * I;
+    s->square[(size_t)(cell / s->columns.cells_each) * BINS + (size_t)bin_of(u)] += I * I;
 }
 
 /* --- the table --------------------------------------------------------------------------------------- */
@@ -69,24 +68,24 @@ static void sum_up(struct emission *e)
         e->before[c + 1] = e->before[c] + sum_of(&e->row[c * SIDE], SIDE);
 }
 
-void emission_build(struct emission *e, const struct emission_lessons *l, const struct light_set *lights, double rays,
-                    double delta)
+struct emission emission_build(const struct emission_sums *s, const struct light_set *lights, double rays,
+                               double delta)
 {
-    emission_free(e);
-    e->columns = light_columns_new(lights, EMISSION_COLUMNS);
-    e->q = mem_alloc((size_t)e->columns.n * BINS, sizeof *e->q);
-    int n = e->columns.n;
-    double m[BINS] = {0}, total = 0, all = n * BINS > 0 ? sum_of(l->square, n * BINS) / rays : 0;
+    struct emission e = {.columns = light_columns_new(lights, EMISSION_COLUMNS)};
+    int n = e.columns.n;
+    double m[BINS] = {0}, total = 0, all = n * BINS > 0 ? sum_of(s->square, n * BINS) / rays : 0;
+    e.q = mem_alloc((size_t)n * BINS, sizeof *e.q);
     for (int c = 0; c < n; c++) {
-        mean_squares(&l->square[c * BINS], rays * e->columns.power[c], all, m);
+        mean_squares(&s->square[c * BINS], rays * e.columns.power[c], all, m);
         for (int b = 0; b < BINS; b++)
-            total += e->q[c * BINS + b] = e->columns.power[c] * sqrt(m[b]);
+            total += e.q[c * BINS + b] = e.columns.power[c] * sqrt(m[b]);
     }
     for (int i = 0; i < n * BINS; i++) {
-        double even = e->columns.power[i / BINS] / BINS;
-        e->q[i] = total > 0 ? delta * even + (1 - delta) * e->q[i] / total : even;
+        double even = e.columns.power[i / BINS] / BINS;
+        e.q[i] = total > 0 ? delta * even + (1 - delta) * e.q[i] / total : even;
     }
-    sum_up(e);
+    sum_up(&e);
+    return e;
 }
 
 void emission_free(struct emission *e)
@@ -117,10 +116,13 @@ static double per_q(const struct emission *e, int column)
     return e->columns.power[column] > 0 ? BINS / e->columns.power[column] : 0;
 }
 
-int emission_choose(const struct emission *e, const struct light_set *lights, double u, double direction[2],
-                    double *rho)
+int emission_draw(const struct emission *e, const struct light_set *lights, double u, double direction[2],
+                  double *rho)
 {
     int n = e->columns.n;
+    *rho = 1;
+    if (e->q == NULL)
+        return alias_sample(&lights->choice, u, NULL, NULL);
     double target = u * e->before[n];
     int column = cumulative_find(e->before, n, target);
     while (e->columns.power[column] == 0)
@@ -141,9 +143,11 @@ static double ratio_of_cell(const struct emission *e, const struct light_set *li
     return per_q(e, column) * e->q[column * BINS + bin_of(u)];
 }
 
-double emission_ratio(const struct emission *e, const struct light_set *lights, const struct light_point *y0, vec3 p,
-                      vec3 w)
+double emission_density(const struct emission *e, const struct light_set *lights, const struct light_point *y0, vec3 p,
+                        vec3 w)
 {
+    if (e->q == NULL)
+        return 1;
     if (y0->light >= 0)
         return ratio_of_cell(e, lights, y0, p, w);
     double guided = 0, by_power = 0;

@@ -13,57 +13,52 @@
  * is by power. So the memory is bounded, by 24 bytes for each of GUIDE_COLUMNS columns of each region.
  *
  * The tables are frozen before the render, so any choice is unbiased; MIS needs the ratio of the two choices,
- * guide_ratio, as the count of strategy s = 1 (mis.h): its samples are that many times denser than those of emission.
+ * guide_density, as the count of strategy s = 1 (mis.h): its samples are that many times denser than those of emission.
  *
  * Tests: test_asbdpt.c, test_mis.c.
  */
-#ifndef ASBDPT_LEARNING_GUIDE_H
-#define ASBDPT_LEARNING_GUIDE_H
+#ifndef ASBDPT_TABLES_GUIDE_H
+#define ASBDPT_TABLES_GUIDE_H
 
-#include "learning/columns.h"
-#include "learning/regions.h"
+#include "tables/columns.h"
+#include "tables/regions.h"
+#include "tables/sums.h"
 
 enum { GUIDE_COLUMNS = 256 };
 
-/* What has been found so far, per region. */
-struct guide_lessons {
+/* What has been found so far. */
+struct guide_sums {
     struct light_columns columns;
-    double *arrived; /* [regions * columns.n] sums of contributions (luminance), owned */
-    double *samples; /* [regions] number of contributions other than zero, owned */
-    int n;           /* regions */
-    size_t arrived_capacity, samples_capacity;
+    struct row_sums arrived; /* contributions (luminance) by region and column, and last how many there were; owned */
 };
 
-/* guide_lessons_init: no lessons yet. */
-void guide_lessons_init(struct guide_lessons *l, const struct light_set *lights);
-void guide_lessons_free(struct guide_lessons *l);
+/* guide_sums_init: nothing yet. */
+void guide_sums_init(struct guide_sums *s, const struct light_set *lights);
+void guide_sums_free(struct guide_sums *s);
 
-/* guide_lessons_add: a light point of `cell` brought `value` > 0 to a vertex of the region, and of all above. */
-void guide_lessons_add(struct guide_lessons *l, const struct regions *regions, int region, int cell, double value);
+/* guide_sums_add: a light point of `cell` brought `value` > 0 to a vertex of the region, and of all above. */
+void guide_sums_add(struct guide_sums *s, const struct regions *regions, int region, int cell, double value);
 
 /* The frozen tables. */
 struct guide {
     struct light_columns columns;
     double *before; /* [n * (columns.n + 1)], per region: probability of the columns before, and of all; owned */
-    int n;          /* regions */
+    int n;          /* regions; 0: nothing is known */
 };
 
-/* guide_build: make the tables from the lessons, with `delta` in (0,1].
- *   g  zero-initialised or built before; guide_free releases it */
-void guide_build(struct guide *g, struct guide_lessons *l, const struct regions *regions,
-                 const struct light_set *lights, double delta);
+/* guide_build: the tables of these regions, with `delta` in (0,1]; guide_free releases them. */
+struct guide guide_build(struct guide_sums *s, const struct regions *regions, const struct light_set *lights,
+                         double delta);
 void guide_free(struct guide *g);
 
-/* guide_choose: draw a light cell for an eye vertex of `region` with the uniform number u.
- *   g       NULL: by power
- *   pmf     out: its probability
+/* guide_draw: draw a light cell for an eye vertex of `region` with the uniform number u; *pmf is its probability.
  * Returns -1 if the scene has no light. */
-int guide_choose(const struct guide *g, const struct light_set *lights, int region, double u, double *pmf);
+int guide_draw(const struct guide *g, const struct light_set *lights, int region, double u, double *pmf);
 
-/* guide_ratio: density of y0 under guided choice over that under the choice by power; 0 where the latter is 0.
+/* guide_density: of y0 under guided choice, over that under the choice by power; 0 where the latter is 0.
  *   region  of the surface point that y0 is connected to
  *   cell    of y0; -1 for a direction met by an escaping ray
  *   w       lights at infinity: unit direction towards the light */
-double guide_ratio(const struct guide *g, const struct light_set *lights, int region, int cell, vec3 w);
+double guide_density(const struct guide *g, const struct light_set *lights, int region, int cell, vec3 w);
 
 #endif

@@ -1,5 +1,5 @@
 /* regions.c: see regions.h. */
-#include "learning/regions.h"
+#include "tables/regions.h"
 
 #include <stdbool.h>
 #include <stdlib.h>

@@ -6,8 +6,8 @@
  * whole scene, which is region 0. Only regions met so far exist, in a hash table with open addressing; they are
  * numbered in the order they were met, those of all levels together, a region after those that hold it.
  */
-#ifndef ASBDPT_LEARNING_REGIONS_H
-#define ASBDPT_LEARNING_REGIONS_H
+#ifndef ASBDPT_TABLES_REGIONS_H
+#define ASBDPT_TABLES_REGIONS_H
 
 #include <stddef.h>
 #include <stdint.h>
@@ -58,7 +58,7 @@ int regions_find(const struct regions *r, uint64_t key);
 /* region_at: the same for a surface point. */
 static inline int region_at(const struct regions *r, vec3 p, vec3 side)
 {
-    return regions_find(r, regions_key(r, p, side));
+    return r->n_slots > 0 ? regions_find(r, regions_key(r, p, side)) : 0;
 }
 
 #endif
