@@ -44,7 +44,8 @@ struct interval equal_bootstrap(const struct results *r, int method, int over, e
 /* equal_seconds: CPU seconds of one seed of all methods, by their prices. */
 double equal_seconds(const struct scene_results *s);
 
-/* equal_seeds_wanted: how many seeds may make the interval of r, which has n, leave 1: it shrinks as one over the root. */
+/* equal_seeds_wanted: how many seeds may make the interval of r, which has n, leave 1: it shrinks as one over the
+ * root. */
 double equal_seeds_wanted(struct interval r, int n);
 
 /* equal_verdict: is the first method beaten? Two lines for each other, and one; where that is undecided, what would

@@ -18,7 +18,8 @@ struct trace_story {
     const struct trace *trace;
 };
 
-/* trace_tell: some ten lines, and with `all` a page to read after them, which is trace_text. trace_json: one JSON object with every number; doc/trace.md names its keys. */
+/* trace_tell: some ten lines, and with `all` trace_text after them, a page to read. trace_json: one JSON object with
+ * every number; doc/tour/trace.md names its keys. */
 void trace_tell(FILE *f, const struct trace_story *story, bool all);
 void trace_text(FILE *f, const struct trace_story *story);
 void trace_json(FILE *f, const struct trace_story *story);
