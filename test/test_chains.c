@@ -254,7 +254,7 @@ static void test_samples(struct test *t)
 /* The luminance of a picture of so many samples, over bdpt's. */
 static double luminance(struct test *t, const struct scene *scene, const char *integrator, long spp)
 {
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct film film;
     double sum = 0;
     struct render_options o = {.integrator = integrator, .end = spp, .max_depth = BENCH_DEPTH, .n_threads = 2,

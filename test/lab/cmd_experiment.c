@@ -66,7 +66,8 @@ static const struct option EXPERIMENT[] = {
 static const struct option EQUAL_TIME[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes), .help = "scene files (default: eleven of scenes/)"},
     {"-o", "DIR", OPTION_TEXT, AT(directory), 1, .help = "a directory for its results"},
-    {"--methods", "LIST", OPTION_TEXT, AT(methods), .fallback = METHODS_EQUAL_TIME, .help = METHODS_HELP},
+    {"--methods", "LIST", OPTION_TEXT, AT(methods), .help = METHODS_HELP " (default: " METHODS_DEMO
+     "; of eleven scenes more)"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20, .fallback = "32",
      .help = "samples per pixel of the first method; the others are given its CPU time"},
     {"--seconds", "T", OPTION_NUMBER, AT(seconds), 0.001, 1e6, .help = "instead: the CPU time that all are given"},
@@ -131,7 +132,7 @@ static bool plan_experiment(struct plan_options *o, char command[COMMAND], struc
     static const char *const sweeps[2][2] = {{SWEEPS_QUICK}, {SWEEPS_FULL}};
     char how[64];
     if (o->quick && o->full)
-        return error_set(err, "--quick and --full exclude each other");
+        return error_usage(err, "--quick and --full exclude each other");
     long first = o->full ? 32 : 8, last = o->spp > 0 ? o->spp : o->full ? 512 : 64;
     if (o->methods == NULL && o->sweeps.n == 0)
         for (int i = 0; i < 2; i++)
@@ -154,6 +155,8 @@ static bool plan_experiment(struct plan_options *o, char command[COMMAND], struc
 static bool plan_equal_time(struct plan_options *o, char command[COMMAND], struct plan *p, struct error *err)
 {
     char how[64];
+    if (o->methods == NULL) /* of one's own scene one asks which of the two to use */
+        o->methods = o->scenes.n > 0 ? METHODS_DEMO : METHODS_EQUAL_TIME;
     if (o->reference_spp == 0)
         o->reference_spp = 256;
     snprintf(how, sizeof how, "equal-time --spp %d", o->spp);
