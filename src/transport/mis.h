@@ -46,7 +46,6 @@
 #include "base/vec.h"
 
 struct light_set;
-struct extra;
 struct light_point;
 
 /* Which eye vertex a strategy with t >= 2 ends at: what the camera sees, itself or by way of delta lobes alone, or a
@@ -107,7 +106,6 @@ struct mis_counts {
     double connect[EYE_ENDS];  /* s >= 2, t >= 2: connection to light vertices */
     double splat;              /* s >= 2, t = 1: light sub-paths connected to the lens: how many per iteration */
     const struct count_model *model; /* factors that vary over the scene; NULL: all counts are constants */
-    const struct extra *extra;       /* one more strategy (pixel_sample.h); NULL: none */
     bool power;                /* power heuristic instead of the balance heuristic */
     const struct weigher *weigher; /* of strategies with t >= 2, in place of the recursion; NULL: the recursion */
 };
