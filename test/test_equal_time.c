@@ -193,10 +193,15 @@ static void check_tables(struct test *t, struct results *r)
     CHECK(t, dots == 6 && gains == 4 && strstr(svg, "nan") == NULL, "%d ratios in the figure, %d gains", dots, gains);
     free(svg);
     char *said = written(t, r, equal_verdict);
-    CHECK(t, strstr(said, "lvc over that of bdpt after the same time: 0.25 [") != NULL &&
-          strstr(said, "] per pixel, a gain; ") != NULL && strstr(said, "1.26 [") != NULL &&
-          strstr(said, "] per pixel, undecided") != NULL, "%s", said);
-    CHECK(t, strchr(said, '\n') == said + strlen(said) - 1, "one sentence: %s", said);
+    int lines_said = 0;
+    for (const char *p = said; (p = strchr(p, '\n')) != NULL; p++)
+        lines_said++;
+    CHECK(t, strstr(said, "lvc over that of bdpt after the same time, per pixel: 0.25 (95 %: ") != NULL &&
+          strstr(said, "): a gain.\nIn means over 8x8 ") != NULL && strstr(said, "per pixel: 1.26 (95 %: ") != NULL &&
+          strstr(said, "): undecided; ") != NULL, "%s", said);
+    CHECK(t, lines_said == 2 * (r->plan->methods.n - 1) + 1, "two lines for a method, and one: %s", said);
+    const struct interval wide = {exp(0.1), exp(-0.1), exp(0.3)};
+    CHECK(t, equal_seeds_wanted(wide, 2) == 8, "half the width, four times the seeds: %g", equal_seeds_wanted(wide, 2));
     free(said);
 }
 

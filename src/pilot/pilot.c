@@ -89,11 +89,8 @@ static bool paths_suffice(const struct scene *scene)
     bool delta_light = false, delta_lobe = false;
     for (int i = 0; i < scene->lights.n; i++)
         delta_light |= light_is_delta(&scene->lights.light[i]);
-    for (int i = 0; i < scene->n_materials; i++) {
-        enum material_kind kind = scene->material[i].kind;
-        delta_lobe |= kind == MATERIAL_MIRROR || kind == MATERIAL_GLASS || kind == MATERIAL_UBER ||
-                      kind == MATERIAL_DISNEY;
-    }
+    for (int i = 0; i < scene->n_materials; i++)
+        delta_lobe |= scene->material[i]->row->may_be_delta;
     return !(delta_light && delta_lobe);
 }
 

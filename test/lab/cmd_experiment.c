@@ -66,7 +66,8 @@ static const struct option EXPERIMENT[] = {
 static const struct option EQUAL_TIME[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes), .help = "scene files (default: eleven of scenes/)"},
     {"-o", "DIR", OPTION_TEXT, AT(directory), 1, .help = "a directory for its results"},
-    {"--methods", "LIST", OPTION_TEXT, AT(methods), .fallback = METHODS_EQUAL_TIME, .help = METHODS_HELP},
+    {"--methods", "LIST", OPTION_TEXT, AT(methods), .help = METHODS_HELP " (default: " METHODS_DEMO
+     "; of eleven scenes more)"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20, .fallback = "32",
      .help = "samples per pixel of the first method; the others are given its CPU time"},
     {"--seconds", "T", OPTION_NUMBER, AT(seconds), 0.001, 1e6, .help = "instead: the CPU time that all are given"},
@@ -152,6 +153,8 @@ static bool plan_experiment(struct plan_options *o, char command[COMMAND], struc
 static bool plan_equal_time(struct plan_options *o, char command[COMMAND], struct plan *p, struct error *err)
 {
     char how[64];
+    if (o->methods == NULL) /* of one's own scene one asks which of the two to use */
+        o->methods = o->scenes.n > 0 ? METHODS_DEMO : METHODS_EQUAL_TIME;
     if (o->reference_spp == 0)
         o->reference_spp = 256;
     snprintf(how, sizeof how, "equal-time --spp %d", o->spp);

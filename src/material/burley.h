@@ -1,10 +1,10 @@
-/* disney.h: the formulas of the Disney BSDF [Burley 2012] [Burley 2015] that other materials do not have, as pbrt-v3's.
+/* burley.h: the formulas of the Disney BSDF [Burley 2012] [Burley 2015] that other materials do not have, as pbrt-v3's.
  * Directions are unit and in the shading frame.
  *
  * Tests: test_lobe.c, test_bsdf.c.
  */
-#ifndef ASBDPT_DISNEY_H
-#define ASBDPT_DISNEY_H
+#ifndef ASBDPT_BURLEY_H
+#define ASBDPT_BURLEY_H
 
 #include "base/rgb.h"
 #include "base/vec.h"
