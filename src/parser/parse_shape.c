@@ -29,7 +29,7 @@ static float *floats(const double *number, int n)
     return out;
 }
 
-/* Data per vertex beside P: where there is less of it than of P, or of N more, pbrt-v3 goes on without it. */
+/* Data per vertex beside P: where there is less of it than of P, or of N or S more, pbrt-v3 goes on without it. */
 static float *vertex_data(struct params *q, const char *name, unsigned types, int width, int n_vertices)
 {
     int n;
@@ -98,6 +98,7 @@ static void trianglemesh(struct parser *p, void *object)
     const unsigned uv_types = 1u << PARAM_FLOAT | 1u << PARAM_POINT2;
     points(q, m);
     m->N = vertex_data(q, "N", 1u << PARAM_NORMAL, 3, m->n_vertices);
+    m->S = vertex_data(q, "S", 1u << PARAM_VECTOR, 3, m->n_vertices);
     m->UV = vertex_data(q, "uv", uv_types, 2, m->n_vertices);
     if (m->UV == NULL)
         m->UV = vertex_data(q, "st", uv_types, 2, m->n_vertices);
@@ -309,7 +310,7 @@ static void hyperboloid(struct parser *p, void *object)
 #define ALPHA BY_BUILD("alpha"), BY_BUILD("shadowalpha"), END_OF_PARAMETERS
 
 static const struct parameter TRIANGLEMESH[] = {
-    BY_BUILD("P"), BY_BUILD("N"), BY_BUILD("uv"), BY_BUILD("st"), BY_BUILD("indices"),
+    BY_BUILD("P"), BY_BUILD("N"), BY_BUILD("S"), BY_BUILD("uv"), BY_BUILD("st"), BY_BUILD("indices"),
     IGNORED("faceIndices"), /* for Ptex only */
     ALPHA};
 static const struct parameter PLYMESH[] = {BY_BUILD("filename"), ALPHA};
