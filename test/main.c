@@ -28,7 +28,7 @@ static const struct test_entry ENTRIES[] = {
     {"halves", test_halves, false},
     {"parser", test_parser, false},
     {"sampler", test_sampler, false},
-    {"mis", test_mis, false}, {"pairs", test_pairs, false}, {"pilot", test_pilot, false},
+    {"mis", test_mis, false}, {"pairs", test_pairs, false}, {"pilot", test_pilot, false}, {"cost", test_cost, false},
     {"emission", test_emission, false},
     {"learning", test_learning, false},
     {"options", test_options, false}, {"render", test_render, false}, {"asbdpt", test_asbdpt, false},

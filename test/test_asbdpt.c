@@ -86,6 +86,38 @@ static void test_constant_pool(struct test *t)
     scene_free(&scene);
 }
 
+/* --- bins age ----------------------------------------------------------------------------------------- */
+
+/* Until something is older than `maxage` iterations nobody could tell whether it would be replaced; then pictures
+ * differ, as they do from where the bins are thrown away. */
+static void test_age(struct test *t)
+{
+    static const struct {
+        const char *a, *b;
+        int same; /* iterations */
+    } cases[] = {{"maxage=24 restart=0", "maxage=0 restart=0", 25}, {"maxage=3 restart=0", "maxage=0 restart=0", 4},
+                 {"maxage=5 restart=0", "maxage=7 restart=0", 6}, {"maxage=0 restart=8", "maxage=0 restart=0", 8}};
+    struct scene scene;
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 12, 12, &scene))
+        return;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        for (int more = 0; more < 2; more++) {
+            struct film film[2];
+            for (int k = 0; k < 2; k++) {
+                char way[64];
+                snprintf(way, sizeof way, "asbdpt select=bins %s", k == 0 ? cases[i].a : cases[i].b);
+                struct render_options o = {.integrator = set_method(&scene, way), .end = cases[i].same + more,
+                                           .max_depth = 4, .n_threads = 1};
+                render_film(t, &scene, &o, &film[k]);
+            }
+            CHECK(t, films_equal(&film[0], &film[1]) == (more == 0), "bins, %s and %s: after %d iterations pictures %s",
+                  cases[i].a, cases[i].b, cases[i].same + more, more == 0 ? "differ" : "are the same");
+            film_free(&film[0]);
+            film_free(&film[1]);
+        }
+    scene_free(&scene);
+}
+
 /* --- light sub-paths for a share of the pixels -------------------------------------------------------- */
 
 /* One tile of 3x3 pixels, whose light sub-paths are one for every 1, 2, 5 or 8 of them: 9, 5, 2 and 2. */
@@ -223,6 +255,7 @@ void test_asbdpt(struct test *t)
 {
     test_bias(t);
     test_constant_pool(t);
+    test_age(t);
     test_few_light_paths(t);
     test_one_path(t);
     test_expected_vertices(t);

@@ -174,8 +174,8 @@ static rgb bdpt_of(struct bench *b, const struct tape *number)
         }
     size_t n = all.n;
     b->job.tape = &all;
-    struct tile_pass pass = {&b->job, b->job.film_rect, 0, 1, &tile, b->work, NULL, NULL};
-    tile_start(&tile, b->job.film_rect, b->job.film_rect, &b->scene->filter, false);
+    struct tile_pass pass = {&b->job, b->job.film_rect, 0, 1, &tile, b->work, NULL};
+    tile_start(&tile, b->job.film_rect, b->job.film_rect, &b->scene->filter);
     b->prepared.method->render(&b->prepared, &pass);
     for (size_t i = 0; i < tile.n_splats; i++)
         if (floor(tile.splat[i].px) == 0 && floor(tile.splat[i].py) == 0)

@@ -8,7 +8,7 @@
 #include "base/rng.h"
 #include "base/vec.h"
 #include "lab/stats.h"
-#include "scene/film.h"
+#include "scene/develop.h"
 #include "tests.h"
 
 #include <stdlib.h>
@@ -90,7 +90,7 @@ static void count_full(void *context, struct tile *tile)
 {
     int *calls = context;
     ++*calls;
-    tile->n_splats = tile->n_records = 0;
+    tile->n_splats = 0;
 }
 
 /* A splat is one, however many pixels it covers, and a tile that is full is emptied before an iteration is added. */
@@ -104,16 +104,15 @@ static void test_memory(struct test *t)
     filter_default("gaussian", &f);
     f.radius[0] = f.radius[1] = 32;
     filter_prepare(&f);
-    tile_start(&tile, one, all, &f, true);
+    tile_start(&tile, one, all, &f);
     tile.full = count_full;
     tile.context = &calls;
     for (int i = 0; i < 5 * TILE_FULL / 2; i++) {
-        if (CHECK(t, tile_add_splat(&tile, 32, 32, rgb_grey(1), 0, 0), "a splat is left out"))
-            tile_record_splat(&tile, 2, rgb_grey(2), 0.5, 1);
+        CHECK(t, tile_add_splat(&tile, 32, 32, rgb_grey(1), 0, 0), "a splat is left out");
         tile_add_between(&tile, 0, 0, rgb_black(), rgb_black());
     }
-    CHECK(t, calls == 2 && tile.n_splats == TILE_FULL / 2 && tile.n_records == TILE_FULL / 2,
-          "emptied %d times, %d splats and %d records are left", calls, (int)tile.n_splats, (int)tile.n_records);
+    CHECK(t, calls == 2 && tile.n_splats == TILE_FULL / 2, "emptied %d times, %d splats are left", calls,
+          (int)tile.n_splats);
     CHECK(t, tile.splat_capacity * sizeof *tile.splat <= 4 << 20, "%d splats of memory", (int)tile.splat_capacity);
     tile_free(&tile);
 }
@@ -132,14 +131,14 @@ static void test_splats(struct test *t)
         double total = 0;
         int pixels;
         for (int k = 0; k < 2000; k++) {
-            tile_start(&tile, all, all, &f, false);
+            tile_start(&tile, all, all, &f);
             tile_add_splat(&tile, 6 + 8 * rng_uniform(&r), 5 + 2 * rng_uniform(&r), rgb_grey(1), 0, 0);
             total += spread(&tile, &pixels);
             CHECK(t, f.kind != FILTER_BOX || pixels == 1, "a box splat fell on %d pixels", pixels);
         }
         /* Averaged over positions, the sum over pixels is the filter's integral. */
         CHECK(t, fabs(total / 2000 - 1) < 0.02, "%s: a splat of 1 sums to %g", NAMES[i], total / 2000);
-        tile_start(&tile, all, all, &f, false);
+        tile_start(&tile, all, all, &f);
         tile_add_splat(&tile, 20, 5, rgb_grey(1), 0, 0);
         tile_add_splat(&tile, -1e30, 5, rgb_grey(1), 0, 0);
         tile_add_splat(&tile, 1e30, 1e30, rgb_grey(1), 0, 0);
@@ -158,7 +157,7 @@ static void even_tile(struct tile *tile, int number, int iterations, const struc
     struct pixel_rect all = {0, 0, 8, 8, 0, 0}, rect = {4 * (number % 2), 4 * (number / 2), 0, 0, 0, 0};
     rect.x1 = rect.x0 + 4;
     rect.y1 = rect.y0 + 4;
-    tile_start(tile, rect, all, box, false);
+    tile_start(tile, rect, all, box);
     for (int i = 0; i < iterations; i++) {
         for (int y = rect.y0; y < rect.y1; y++)
             for (int x = rect.x0; x < rect.x1; x++) {
@@ -222,7 +221,7 @@ static void test_errors(struct test *t)
     film_keep_errors(&film);
     struct tile tile;
     memset(&tile, 0, sizeof tile);
-    tile_start(&tile, all, all, &box, false);
+    tile_start(&tile, all, all, &box);
     for (int i = 0; i < ITERATIONS; i++) {
         for (int p = 0; p < PIXELS; p++)
             tile_add_between(&tile, p % 8, p / 8, rgb_grey(rng_uniform(&r)), rgb_black());
@@ -260,7 +259,7 @@ static void test_overflow(struct test *t)
     memset(&tile, 0, sizeof tile);
     film_init(&film, all, 4, 4);
     film_keep_errors(&film);
-    tile_start(&tile, all, all, &f, false);
+    tile_start(&tile, all, all, &f);
     tile_add_between(&tile, 0, 0, rgb_grey(1e39), rgb_black());
     tile_add_between(&tile, 1, 0, rgb_grey(NAN), rgb_black());
     tile_add_splat(&tile, 2, 2, rgb_grey(-1e39), 0, 0);
@@ -346,16 +345,6 @@ static void test_exact_range(struct test *t)
     CHECK(t, !exact_join(&full, &empty) && exact_join(&full, &s), "an overflow below is refused");
 }
 
-static void test_strategy_numbers(struct test *t)
-{
-    int next = 0;
-    for (int depth = 0; depth < 6; depth++)
-        for (int s = 0; s <= depth + 1; s++, next++)
-            CHECK(t, strategy_index(s, depth + 2 - s) == next, "strategy (%d,%d) has number %d, not %d", s,
-                  depth + 2 - s, strategy_index(s, depth + 2 - s), next);
-    CHECK(t, strategy_count(5) == next, "%d strategies, not %d", strategy_count(5), next);
-}
-
 void test_film(struct test *t)
 {
     test_filters(t);
@@ -366,5 +355,4 @@ void test_film(struct test *t)
     test_overflow(t);
     test_exact_order(t);
     test_exact_range(t);
-    test_strategy_numbers(t);
 }

@@ -10,6 +10,7 @@
 #include "base/rng.h"
 #include "helpers.h"
 #include "render/halves.h"
+#include "scene/develop.h"
 #include "tests.h"
 
 /* Pixels of uniform numbers and splats, some 20 deviations of the estimate's own error apart from a noise that lacks
@@ -31,7 +32,7 @@ static void test_known(struct test *t)
     for (int i = 0; i < ITERATIONS; i++) {
         bool whole = i > 0 && i % 4 == 0;
         CHECK(t, halves_noise(&film, 1) == whole, "an estimate at %d iterations", i);
-        tile_start(&tile, all, all, &box, false);
+        tile_start(&tile, all, all, &box);
         tile.first_half = i / 2 % 2 == 0;
         for (int p = 0; p < SIDE * SIDE; p++)
             tile_add_between(&tile, p % SIDE, p / SIDE,

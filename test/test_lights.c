@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/os.h"
+#include "scene/develop.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -113,7 +114,7 @@ static void test_left_out(struct test *t)
     struct filter box;
     struct tile tile = {.planes = {2, false}};
     filter_default("box", &box);
-    tile_start(&tile, one, one, &box, false);
+    tile_start(&tile, one, one, &box);
     for (int i = 0; i < 4; i++)
         tile_add_light(&tile, 0, 0, i % 2, rgb_grey(STEP[i + 1]), rgb_grey(STEP[i]));
     CHECK(t, exact_value(&tile.sum[3]) == 1 && exact_value(&tile.sum[6]) == 1, "lights of %g and %g",

@@ -330,8 +330,61 @@ static void oren_nayar_as_printed(struct test *t)
     }
 }
 
+/* Facets as printed [Walter 2007], with tangents, angles and Fresnel's amplitudes: above the surface and below it,
+ * where much is totally reflected. Isotropic: alpha is one number. */
+static double facets_at(vec3 h, double alpha)
+{
+    double theta = acos(fabs(h.z));
+    return alpha * alpha / (PI * pow(cos(theta), 4) * sqr(alpha * alpha + sqr(tan(theta))));
+}
+
+static double shadowed(vec3 w, double alpha) { return (sqrt(1 + sqr(alpha * tan(acos(fabs(w.z))))) - 1) / 2; }
+
+/* The reflected share at the angle acos(c), from the side of index n1 to that of n2. */
+static double reflected(double c, double n1, double n2)
+{
+    double angle = acos(fmin(c, 1)), sine = n1 / n2 * sin(angle);
+    if (sine >= 1)
+        return 1;
+    double other = asin(sine), parallel = tan(angle - other) / tan(angle + other);
+    return (sqr(parallel) + sqr(sin(angle - other) / sin(angle + other))) / 2;
+}
+
+static void facets_as_printed(struct test *t)
+{
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 23, 0);
+    int total = 0, met = 0;
+    for (int i = 0; i < 4000; i++) {
+        double alpha = 0.2 + 0.5 * rng_uniform(&r), index = 1.2 + 0.6 * rng_uniform(&r);
+        bool through = i % 2 == 1;
+        struct lobe l = facet_lobe(through ? LOBE_MICROFACET_TRANSMISSION : LOBE_MICROFACET_REFLECTION, alpha, alpha);
+        l.eta_b = index;
+        l.R = l.T = rgb_grey(0.7);
+        vec3 wo = direction(0.05 + 0.9 * rng_uniform(&r), 7 * rng_uniform(&r));
+        vec3 wi = direction(0.05 + 0.9 * rng_uniform(&r), 7 * rng_uniform(&r));
+        double side = i % 4 < 2 ? 1 : -1, no = side > 0 ? 1 : index, ni = side > 0 ? index : 1;
+        wo = mul(wo, side);
+        wi = mul(wi, through ? -side : side);
+        vec3 h = normalize(through ? neg(add(mul(wo, no), mul(wi, ni))) : add(wo, wi));
+        h = h.z < 0 ? neg(h) : h;
+        double o = dot(wo, h), in = dot(wi, h), F = reflected(fabs(o), no, ni), want = 0;
+        double DG = facets_at(h, alpha) / (1 + shadowed(wo, alpha) + shadowed(wi, alpha));
+        if (!through)
+            want = F * DG / (4 * fabs(wo.z * wi.z));
+        else if (o * wo.z > 0 && in * wi.z > 0) /* for importance; eq. 21 is for radiance that goes the other way */
+            want = fabs(o * in / (wo.z * wi.z)) * ni * ni * (1 - F) * DG / sqr(no * o + ni * in);
+        double f = lobe_eval(&l, wo, wi, !through, IMPORTANCE).f.g;
+        CHECK(t, near(f, 0.7 * want, 1e-9 * (1 + want)), "%s, %s: %.12g, printed form %.12g",
+              through ? "transmission" : "reflection", side > 0 ? "above" : "below", f, 0.7 * want);
+        total += !through && side < 0 && F >= 1;
+        met += through && want > 0;
+    }
+    CHECK(t, total > 200 && met > 200, "%d are totally reflected, %d come through", total, met);
+}
+
 void test_lobe(struct test *t)
 {
+    facets_as_printed(t);
     fresnel_values(t);
     snell(t);
     facet_areas(t);

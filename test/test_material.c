@@ -90,6 +90,12 @@ static void lobes_of_materials(struct test *t)
     CHECK(t, strcmp(kinds(&bsdf, text), "L") == 0 && bsdf.lobe[0].R.g == 0.5, "matte without sigma is Lambert's");
     bsdf = make(&b, &smooth, 0);
     CHECK(t, strcmp(kinds(&bsdf, text), "G") == 0 && bsdf.n_smooth == 0, "smooth glass");
+    for (int i = 0; i < 2; i++) {
+        *(i == 0 ? &smooth.uroughness : &smooth.vroughness) = b.grey[2];
+        bsdf = make(&b, &smooth, 0);
+        CHECK(t, strcmp(kinds(&bsdf, text), "rf") == 0, "glass that is rough along one axis alone");
+        smooth.uroughness = smooth.vroughness = b.grey[0];
+    }
     bsdf = make(&b, &even, 0);
     CHECK(t, strcmp(kinds(&bsdf, text), "G") == 0, "glass of index 1 does not scatter");
     struct material negative = all_same(MATERIAL_MATTE, texture_add_constant(&b.textures, rgb_make(-1, -2, 0)));
@@ -146,6 +152,48 @@ static void disney(struct test *t)
     CHECK(t, fabs(l[0].R.g - 0.6 * 0.75 * 0.7) < 1e-12 && fabs(l[0].T.g - 0.6 * 0.75 * 0.3) < 1e-12, "flat");
     CHECK(t, !l[3].separate && fabs(l[3].alpha_x - sqr(0.625 * 0.5) / aspect) < 1e-12, "thin glass scatters less");
     CHECK(t, l[4].T.g == 0.25 * 0.6, "light from behind");
+    tear_down(&b);
+}
+
+/* What materials make of their parameters, which are all different: the colours of the lobes, as pbrt-v3 has them. */
+static void colours(struct test *t)
+{
+    enum { Kd = 9, Ks = 8, Kr = 7, Kt = 6, OPACITY = 5, REFLECT = 4, TRANSMIT = 3 }; /* tenths */
+    static const struct {
+        enum material_kind kind;
+        int n;
+        double R[5], T[5];
+    } cases[] = {{MATERIAL_MATTE, 1, {.9}, {0}},
+                 {MATERIAL_GLASS, 2, {.7, 0}, {0, .6}},
+                 {MATERIAL_MIRROR, 1, {.7}, {0}},
+                 {MATERIAL_PLASTIC, 2, {.9, .8}, {0}},
+                 {MATERIAL_TRANSLUCENT, 4, {.4 * .9, 0, .4 * .8, 0}, {0, .3 * .9, 0, .3 * .8}},
+                 {MATERIAL_UBER, 5, {0, .5 * .9, .5 * .8, .5 * .7, 0}, {.5, 0, 0, 0, .5 * .6}}};
+    struct bench b;
+    set_up(&b);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct material m = all_same(cases[i].kind, b.grey[2]);
+        m.Kd = b.grey[Kd];
+        m.Ks = b.grey[Ks];
+        m.Kr = b.grey[Kr];
+        m.Kt = b.grey[Kt];
+        m.opacity = b.grey[OPACITY];
+        m.reflect = b.grey[REFLECT];
+        m.transmit = b.grey[TRANSMIT];
+        struct bsdf bsdf = make(&b, &m, 0);
+        double R = 0, T = 0, R_wanted = 0, T_wanted = 0; /* sums of squares: lobes may be in any order */
+        for (int k = 0; k < bsdf.n_lobes; k++) {
+            R += sqr(bsdf.lobe[k].R.g * bsdf.lobe[k].scale.g);
+            T += sqr(bsdf.lobe[k].T.g * bsdf.lobe[k].scale.g);
+        }
+        for (int k = 0; k < 5; k++) {
+            R_wanted += sqr(cases[i].R[k]);
+            T_wanted += sqr(cases[i].T[k]);
+        }
+        CHECK(t, bsdf.n_lobes == cases[i].n && fabs(R - R_wanted) < 1e-12 && fabs(T - T_wanted) < 1e-12,
+              "material %d: colours of %d lobes have squares of %g and %g, not %g and %g", cases[i].kind, bsdf.n_lobes,
+              R, T, R_wanted, T_wanted);
+    }
     tear_down(&b);
 }
 
@@ -298,6 +346,7 @@ void test_material(struct test *t)
     walks(t);
     lobes_of_materials(t);
     roughness(t);
+    colours(t);
     disney(t);
     mixing(t);
     too_many(t);

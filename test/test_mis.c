@@ -222,16 +222,18 @@ static void compare_paths(struct comparison *c, int n_paths)
 
 void test_mis(struct test *t)
 {
-    const double bound = 1e-6;
+    const double bound = 1e-9;
     /* hit, direct, delta, connect, splat */
     const struct mis_counts all = {{1, 1}, {1, 1}, {1, 1}, {1, 1}, .splat = 1024};
     const struct mis_counts pt = {{1, 1}, {1, 1}, .delta = {1, 1}}, lt = {.splat = 1024};
     const struct mis_counts power = {{1, 1}, {1, 1}, {1, 1}, {1, 1}, 1024, .power = true};
     const struct mis_counts uneven = {{3, 1}, {6, 1.5}, {9, 2}, {8, 0.7}, .splat = 300};
+    const struct mis_counts both = {{3, 1}, {6, 1.5}, {9, 2}, {8, 0.7}, .splat = 300, .power = true};
     const struct {
         const char *name;
         const struct mis_counts *counts;
-    } sets[] = {{"bdpt", &all}, {"pt", &pt}, {"lt", &lt}, {"power", &power}, {"uneven counts", &uneven}};
+    } sets[] = {{"bdpt", &all}, {"pt", &pt}, {"lt", &lt}, {"power", &power}, {"uneven counts", &uneven},
+                {"uneven counts, power", &both}};
 
     for (size_t v = 0; v < sizeof VARIANTS / sizeof VARIANTS[0]; v++) {
         char text[8192];
@@ -257,9 +259,9 @@ void test_mis(struct test *t)
             CHECK(t, c.lamps > 100 || scene.kd_lamps.n_nodes == 0 || counts.hit[LATER_HIT] == 0,
                   "%s: only %ld of see-through lamps", VARIANTS[v].name, c.lamps);
         }
-        struct comparison planted = {t, VARIANTS[v].name, &scene, &all, 0, 0, 0, 1.001};
+        struct comparison planted = {t, VARIANTS[v].name, &scene, &all, 0, 0, 0, 1 + 1e-8};
         compare_paths(&planted, 50);
-        CHECK(t, planted.worst > bound, "a weight wrong by 0.1 %% was not noticed");
+        CHECK(t, planted.worst > bound, "a weight wrong by 1e-8 was not noticed");
         learnt_free(&learnt);
         scene_free(&scene);
     }

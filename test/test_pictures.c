@@ -15,13 +15,13 @@
 
 /* --- the pyramid ------------------------------------------------------------------------------------- */
 
-/* A film of 4 iterations in which strategy (s,t) has this mean everywhere, unweighted and weighted. */
-static void plant(struct film *film, int s, int t, double unweighted, double weighted)
+/* Images of 4 iterations in which strategy (s,t) has this mean everywhere, unweighted and weighted. */
+static void plant(struct strategy_images *images, int s, int t, double unweighted, double weighted)
 {
-    long n = 3L * rect_width(film->rect) * rect_height(film->rect);
+    long n = 3L * rect_width(images->rect) * rect_height(images->rect);
     for (long i = 0; i < n; i++) {
-        film->strategies->unweighted[n * strategy_index(s, t) + i] = 4 * unweighted;
-        film->strategies->weighted[n * strategy_index(s, t) + i] = 4 * weighted;
+        images->unweighted[n * strategy_index(s, t) + i] = 4 * unweighted;
+        images->weighted[n * strategy_index(s, t) + i] = 4 * weighted;
     }
 }
 
@@ -37,23 +37,22 @@ static long count_grey(const struct image *img, int byte)
 /* Every strategy has a cell on both halves; a row whose shares sum to 1/8 is brightened by 8, above and below. */
 static void test_pyramid(struct test *t)
 {
-    struct film film;
+    struct strategy_images images;
     struct image img;
     struct error err = {""};
     char path[512];
     struct pixel_rect rect = {0, 0, 8, 4, 0, 0};
-    film_init(&film, rect, 8, 4);
-    film_keep_strategies(&film, 2);
-    film.iterations = 4;
-    plant(&film, 1, 3, 0.015625, 0.015625); /* depth 2: 1/64 + 3/64, twice as bright 1/8 */
-    plant(&film, 2, 2, 0.03125, 0.046875);
-    float *one = pyramid_strategy(&film, 2, 2, 2, true);
+    strategies_init(&images, rect, 2);
+    images.iterations = 4;
+    plant(&images, 1, 3, 0.015625, 0.015625); /* depth 2: 1/64 + 3/64, twice as bright 1/8 */
+    plant(&images, 2, 2, 0.03125, 0.046875);
+    float *one = strategies_picture(&images, 2, 2, 2, true);
     CHECK(t, one[0] == 0.09375f && one[95] == 0.09375f, "the image of (2,2) holds %g", (double)one[0]);
     free(one);
     snprintf(path, sizeof path, "%s/pyramid.png", test_tmp(t));
-    bool ok = CHECK(t, pyramid_write(path, &film, 2, &err), "%s", err.text) &&
+    bool ok = CHECK(t, pyramid_write(path, &images, 2, &err), "%s", err.text) &&
               CHECK(t, image_read(path, &img, &err), "%s", err.text);
-    film_free(&film);
+    strategies_free(&images);
     if (!ok)
         return;
     long cell = count_grey(&img, 0) / 14, letters = cell / 20; /* whose edges have all greys */

@@ -1,5 +1,6 @@
 /* test_pilot.c: what is chosen before a render: light sub-paths where they pay, and where nothing else finds the light;
  * credits for what hardly varies. */
+#include <math.h>
 #include <stdio.h>
 
 #include "helpers.h"
@@ -21,7 +22,7 @@ static const char FLOOR[] = "LookAt 0 0 4  0 0 0  0 1 0\n"
                             "Shape \"sphere\" \"float radius\" 0.05\n"
                             "WorldEnd\n";
 
-/* What asbdpt, by so many samples, has settled for the scene. */
+/* What asbdpt has settled for the scene and its settings. */
 static bool settle(struct test *t, const struct scene *scene, struct frozen *out)
 {
     struct render_options o = {.integrator = "asbdpt", .max_depth = 5, .n_threads = 2, .seed = test_seed(t)};
@@ -70,23 +71,52 @@ static void test_where_nothing_else_does(struct test *t)
     }
 }
 
-/* Under an even sky neither strategy of direct light is given up. */
-static void test_even_sky(struct test *t)
+/* What the user asks for is done, where the pilot would have none of it, too. */
+static void test_wishes(struct test *t)
 {
-    struct scene scene;
-    struct frozen f;
-    if (!scene_from_file(t, "scenes/features/light-infinite.pbrt", 32, 32, &scene))
-        return;
-    if (settle(t, &scene, &f)) {
-        double hit = f.counts.hit[FIRST_HIT], direct = f.counts.direct[FIRST_HIT];
-        CHECK(t, hit >= 1 && direct >= 1, "an even sky: s = 0 counts %g, s = 1 %g", hit, direct);
+    static const struct {
+        const char *name, *value;
+    } wishes[] = {{"connections", "3"}, {"pathpixels", "5"}};
+    for (int i = 0; i < 2; i++) {
+        char text[2048];
+        struct scene scene;
+        struct frozen f;
+        snprintf(text, sizeof text, FLOOR, "matte");
+        if (!scene_from_text(t, text, &scene))
+            continue;
+        settings_set(&scene.settings, wishes[i].name, wishes[i].value, "test");
+        if (settle(t, &scene, &f))
+            CHECK(t, f.counts.splat > 0 && f.counts.connect[FIRST_HIT] > 0 && f.counts.connect[LATER_HIT] > 0 &&
+                         (i == 0 ? f.path_pixels > 0 : f.path_pixels == 5),
+                  "%s=%s leaves %g splats, %d pixels for a light sub-path", wishes[i].name, wishes[i].value,
+                  f.counts.splat, f.path_pixels);
+        scene_free(&scene);
     }
-    scene_free(&scene);
+}
+
+/* The light of an even sky has hardly any variance, and counts for many samples; that of a bathroom comes by chance. */
+static void test_credit(struct test *t)
+{
+    static const char *const scenes[] = {"scenes/features/light-infinite.pbrt", "scenes/bathroom.pbrt"};
+    for (int i = 0; i < 2; i++) {
+        struct scene scene;
+        struct frozen f;
+        if (!scene_from_file(t, scenes[i], 32, 32, &scene))
+            continue;
+        if (settle(t, &scene, &f)) {
+            double credit = f.counts.hit[FIRST_HIT];
+            CHECK(t, (credit > 4) == (i == 0) && fabs(f.counts.direct[FIRST_HIT] / f.lights / credit - 1) < 1e-12,
+                  "%s: s = 0 counts for %g, each of %d samples of s = 1 for %g", scenes[i], credit, f.lights,
+                  f.counts.direct[FIRST_HIT] / f.lights);
+        }
+        scene_free(&scene);
+    }
 }
 
 void test_pilot(struct test *t)
 {
     test_where_they_pay(t);
     test_where_nothing_else_does(t);
-    test_even_sky(t);
+    test_wishes(t);
+    test_credit(t);
 }

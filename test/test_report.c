@@ -9,6 +9,7 @@
 #include "base/mem.h"
 #include "lab/stats.h"
 #include "image/image.h"
+#include "scene/develop.h"
 #include "lab/compare.h"
 #include "lab/experiment.h"
 #include "lab/figures.h"

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "render/render.h"
+#include "scene/develop.h"
 #include "rivals/ris.h"
 #include "helpers.h"
 #include "oracle.h"
@@ -385,10 +386,10 @@ static void check_draws(struct test *t, struct ris *r, const struct method *meth
         expected += rgb_is_black(k.value) ? 0 : rgb_luminance(k.value) * k.weight * (r->u != NULL ? r->u[v] : 1) / r->K;
     }
     for (int b = 0; b < BATCHES; b++) {
-        p.sample.sum = rgb_black();
+        p.sample.until = rgb_black();
         for (int i = 0; i < DRAWS * test_effort(t); i++)
             method->draw(r, r->state, &p, &eye[1], 2);
-        drawn.value[b] = rgb_luminance(p.sample.sum) / (DRAWS * test_effort(t));
+        drawn.value[b] = rgb_luminance(p.sample.until) / (DRAWS * test_effort(t));
     }
     if (expected > 0)
         TEST_ACCEPT(t, mean_p(&drawn, expected), "%s, pixel (%d,%d): %g drawn, %g expected", method->name, sample.x,
@@ -426,8 +427,8 @@ static void test_weights(struct test *t, const char *path, const char *method)
     struct tile tile = {.rect = job.film_rect};
     struct workspace *work = workspaces_new(1, job.max_depth);
     struct ris *r = work->scratch = method_scratch(&prepared);
-    struct tile_pass pass = {&job, job.film_rect, 3, 4, &tile, work, NULL, NULL};
-    tile_start(&tile, job.film_rect, job.film_rect, &scene.filter, false);
+    struct tile_pass pass = {&job, job.film_rect, 3, 4, &tile, work, NULL};
+    tile_start(&tile, job.film_rect, job.film_rect, &scene.filter);
     prepared.method->render(&prepared, &pass);
     check_expected(t, r);
     double worst = 0, weight[16];

@@ -11,7 +11,7 @@
 #include "base/sampler.h"
 #include "base/warp.h"
 #include "lab/stats.h"
-#include "render/render.h"
+#include "lab/trace.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -243,7 +243,7 @@ static void watch(struct test *t, struct usage *all, const char *integrator, uin
     for (int i = 0; i < SAMPLES; i++) {
         struct trace trace = {.iteration = i * stride};
         struct error err;
-        if (!CHECK(t, render_trace(all->scene, &o, &trace, &err), "%s", err.text))
+        if (!CHECK(t, trace_render(all->scene, &o, &trace, &err), "%s", err.text))
             return;
         note_sub_paths(all, &trace, i);
         note_connections(all, &trace, i);

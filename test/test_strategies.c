@@ -12,8 +12,8 @@
 
 #include "base/mem.h"
 #include "base/os.h"
-#include "base/parallel.h"
 #include "lab/stats.h"
+#include "lab/strategies.h"
 #include "render/render.h"
 #include "helpers.h"
 #include "tests.h"
@@ -76,14 +76,14 @@ static const char HOLED[] = PERSPECTIVE
     "  \"point P\" [-1.5 0 -1.5  1.5 0 -1.5  1.5 0 1.5  -1.5 0 1.5]\n" WALL;
 
 /* Mean of the unweighted image of each strategy. */
-static void strategy_means(const struct film *film, double *out)
+static void strategy_means(const struct strategy_images *images, double *out)
 {
-    size_t pixels = (size_t)rect_width(film->rect) * (size_t)rect_height(film->rect) * 3;
+    size_t pixels = (size_t)rect_width(images->rect) * (size_t)rect_height(images->rect) * 3;
     for (int i = 0; i < strategy_count(DEPTH); i++) {
         double sum = 0;
         for (size_t k = 0; k < pixels; k++)
-            sum += film->strategies->unweighted[pixels * (size_t)i + k];
-        out[i] = sum / ((double)pixels * (double)film->iterations);
+            sum += images->unweighted[pixels * (size_t)i + k];
+        out[i] = sum / ((double)pixels * (double)images->iterations);
     }
 }
 
@@ -107,16 +107,15 @@ static void test_scene(struct test *t, const char *name, const char *text)
     if (!scene_from_text(t, text, &scene) || !CHECK(t, strategy_count(DEPTH) <= 64, "too many strategies"))
         return;
     for (int k = 0; k < BATCHES; k++) {
-        struct film film;
+        struct strategy_images images;
         struct error err;
         struct render_options o = {.integrator = "bdpt", .end = SPP * test_effort(t), .max_depth = DEPTH};
         o.n_threads = os_cores();
         o.seed = test_seed(t) * 7919 + (uint64_t)k;
-        film_init(&film, render_crop(&scene), scene.width, scene.height);
-        film_keep_strategies(&film, DEPTH);
-        CHECK(t, render_scene(&scene, &o, &film, &err), "%s", err.text);
-        strategy_means(&film, mean[k]);
-        film_free(&film);
+        strategies_init(&images, render_crop(&scene), DEPTH);
+        CHECK(t, strategies_render(&scene, &o, &images, &err), "%s", err.text);
+        strategy_means(&images, mean[k]);
+        strategies_free(&images);
     }
     for (int depth = 1; depth <= DEPTH; depth++)
         for (int s = 1; s <= depth + 1; s++)
@@ -135,8 +134,19 @@ static void test_scene(struct test *t, const char *name, const char *text)
     scene_free(&scene);
 }
 
+static void test_strategy_numbers(struct test *t)
+{
+    int next = 0;
+    for (int depth = 0; depth < 6; depth++)
+        for (int s = 0; s <= depth + 1; s++, next++)
+            CHECK(t, strategy_index(s, depth + 2 - s) == next, "strategy (%d,%d) has number %d, not %d", s,
+                  depth + 2 - s, strategy_index(s, depth + 2 - s), next);
+    CHECK(t, strategy_count(5) == next, "%d strategies, not %d", strategy_count(5), next);
+}
+
 void test_strategies(struct test *t)
 {
+    test_strategy_numbers(t);
     test_scene(t, "plain normals", PLAIN);
     test_scene(t, "leaning normals", LEANING);
     test_scene(t, "orthographic camera", PARALLEL);

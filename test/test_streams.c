@@ -155,17 +155,16 @@ static void add_place(struct keys *k, double x, double y)
 
 /* One key per sub-path: red and green relative to blue of what it brings by the strategy that joins it to the lens
  * (light) or the lamp (eye), whatever point of these. */
-static void add_records(const struct tile *tile, struct keys *eye, struct keys *light)
+static void joined(void *context, const struct pixel_sample *sample, const struct joined *p)
 {
-    for (size_t i = 0; i < tile->n_records; i++) {
-        const struct strategy_record *r = &tile->record[i];
-        double red = r->unweighted[0], green = r->unweighted[1], blue = r->unweighted[2];
-        if (blue > 0 && ((r->s == 2 && r->t == 1) || (r->s == 1 && r->t == 2)))
-            add_place(r->s == 2 ? light : eye, red / blue, green / blue);
-    }
+    struct keys *const *light_or_eye = context;
+    rgb c = p->c->value;
+    (void)sample;
+    if (c.b > 0 && p->s + p->t == 3 && p->s > 0)
+        add_place(light_or_eye[p->s == 1], c.r / c.b, c.g / c.b);
 }
 
-/* Render by hand, block by block, as render.c does, but look at the records of each tile pass. */
+/* Render by hand, block by block, as render.c does. */
 static void trace_all(struct test *t, const struct scene *scene, const char *integrator, uint64_t seed,
                       struct keys *eye, struct keys *light)
 {
@@ -178,13 +177,14 @@ static void trace_all(struct test *t, const struct scene *scene, const char *int
     int block = prepared.size.block == 0 ? LONGEST_BLOCK : prepared.size.block;
     block = block < ITERATIONS ? block : ITERATIONS;
     struct tile tile = {.rect = job.film_rect};
+    struct keys *light_or_eye[] = {light, eye};
+    const struct observer observer = {.context = light_or_eye, .joined = joined};
     struct workspace *work = workspaces_new(1, job.max_depth);
     work->scratch = method_scratch(&prepared);
     for (long first = 0; first < ITERATIONS; first += block) {
-        struct tile_pass pass = {&job, job.film_rect, first, first + block, &tile, work, NULL, NULL};
-        tile_start(&tile, job.film_rect, job.film_rect, &scene->filter, true);
+        struct tile_pass pass = {&job, job.film_rect, first, first + block, &tile, work, &observer};
+        tile_start(&tile, job.film_rect, job.film_rect, &scene->filter);
         prepared.method->render(&prepared, &pass);
-        add_records(&tile, eye, light);
     }
     tile_free(&tile);
     method_scratch_free(&prepared, work->scratch);
@@ -214,9 +214,9 @@ static double *play_back(struct test *t, const struct scene *scene, const char *
     job.seed = job.eye_seed = seed; /* what was learnt stays as it is */
     job.tape = tape;
     tape->at = 0;
-    struct tile_pass pass = {&job, all, 0, 2, &tile, work, NULL, NULL};
+    struct tile_pass pass = {&job, all, 0, 2, &tile, work, NULL};
     film_init(&film, all, scene->width, scene->height);
-    tile_start(&tile, all, all, &scene->filter, false);
+    tile_start(&tile, all, all, &scene->filter);
     prepared.method->render(&prepared, &pass);
     film_merge_tile(&film, &tile);
     for (size_t i = 0; i < n; i++)

@@ -20,7 +20,6 @@ static void test_method(struct test *t, const struct scene *scene, const char *i
         struct error err;
         bool ok;
         film_init(&film[i], render_crop(scene), scene->width, scene->height);
-        film_keep_strategies(&film[i], o.max_depth);
         while ((ok = render_scene(scene, &o, &film[i], &err)) && o.end < END) {
             o.first = o.end;
             o.end = END;

@@ -2,7 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/render.h"
+#include "lab/trace.h"
+#include "lab/worst.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -31,7 +32,7 @@ static void add_trace(const struct scene *scene, const struct trace *trace, stru
 {
     struct tile tile = {.rect = film->rect};
     struct pixel_rect one = {trace->x, trace->y, trace->x + 1, trace->y + 1, 0, 0};
-    tile_start(&tile, one, film->rect, &scene->filter, false);
+    tile_start(&tile, one, film->rect, &scene->filter);
     tile_add_between(&tile, trace->x, trace->y, trace_sum(trace), rgb_black());
     for (int i = 0; i < trace->n_connections; i++) {
         const struct trace_connection *k = &trace->connection[i];
@@ -107,7 +108,7 @@ static void check_film(struct test *t, const struct scene *scene, int way)
     CHECK(t, render_scene(scene, &options, &rendered, &err), "%s", err.text);
     for (int i = 0; i < SIZE * SIZE * SAMPLES; i++) {
         struct trace trace = {.x = i % SIZE, .y = i / SIZE % SIZE, .iteration = i / (SIZE * SIZE)};
-        CHECK(t, render_trace(scene, &options, &trace, &err), "%s", err.text);
+        CHECK(t, trace_render(scene, &options, &trace, &err), "%s", err.text);
         check_parts(t, name, &trace);
         check_light_points(t, name, &trace, &rendered);
         added += trace.n_connections;
@@ -172,7 +173,7 @@ static void check_worst(struct test *t, const struct scene *scene, int way)
     int splats = 0;
     for (int i = 0; i < ALL; i++) {
         struct trace trace = {.x = i % SIZE, .y = i / SIZE % SIZE, .iteration = i / (SIZE * SIZE)};
-        CHECK(t, render_trace(scene, &o, &trace, &err), "%s", err.text);
+        CHECK(t, trace_render(scene, &o, &trace, &err), "%s", err.text);
         told[i] = most_of_trace(scene, &trace);
         trace_free(&trace);
     }
@@ -180,9 +181,8 @@ static void check_worst(struct test *t, const struct scene *scene, int way)
     for (o.n_threads = 1; o.n_threads <= 3; o.n_threads++) {
         struct worst found = {.most = MOST};
         struct film film;
-        o.worst = &found;
         film_init(&film, render_crop(scene), SIZE, SIZE);
-        CHECK(t, render_scene(scene, &o, &film, &err), "%s", err.text);
+        CHECK(t, worst_render(scene, &o, &film, &found, &err), "%s", err.text);
         film_free(&film);
         CHECK(t, found.n == MOST, "%s: %d samples", WAYS[way].name, found.n);
         for (int i = 0; i < found.n; i++) {
@@ -265,7 +265,7 @@ static void test_pdf_rev(struct test *t, const struct scene *scene)
     for (int i = 0; i < SIZE * SIZE; i++) {
         struct error err;
         struct trace trace = {.x = i % SIZE, .y = i / SIZE, .iteration = 1};
-        CHECK(t, render_trace(scene, &options, &trace, &err), "%s", err.text);
+        CHECK(t, trace_render(scene, &options, &trace, &err), "%s", err.text);
         n += check_path(t, scene, &trace.eye);
         for (int k = 0; k < trace.n_lights; k++)
             n += check_path(t, scene, &trace.light[k]);
@@ -288,7 +288,7 @@ static void test_refused(struct test *t, const struct scene *scene)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct error err = {""};
         struct trace trace = {.x = cases[i].x, .y = cases[i].y, .iteration = cases[i].sample};
-        CHECK(t, !render_trace(scene, &options, &trace, &err) && strstr(err.text, cases[i].says) != NULL,
+        CHECK(t, !trace_render(scene, &options, &trace, &err) && strstr(err.text, cases[i].says) != NULL,
               "%s: \"%s\"", cases[i].says, err.text);
         trace_free(&trace);
     }

@@ -356,7 +356,7 @@ static struct trial try_chains(const struct extra *self, struct pixel_sample *sa
 {
     const double MOST = 100; /* chance decides whether more is seen */
     struct connection made[EXTRA_MOST];
-    struct trial out = {rgb_luminance(sample->sum), {0, 0}};
+    struct trial out = {rgb_luminance(sample->until), {0, 0}};
     for (int t = 2; t <= n; t++)
         for (int i = eye[t - 1].kind == VERTEX_SURFACE ? connect(self, sample, eye, t, made) : 0; i-- > 0;) {
             double C = rgb_luminance(made[i].value), w = made[i].weight;
@@ -393,8 +393,8 @@ struct extra *caustics_settle(struct extra *self, const struct render_job *job, 
         double u, v;
         sampler_r2(i, &u, &v);
         int x = film.x0 + (int)(u * rect_width(film)), y = film.y0 + (int)(v * rect_height(film));
-        struct tile_pass pass = {&other, {x, y, x + 1, y + 1, 0, 0}, i, i + 1, &tile, work, NULL, NULL};
-        tile_start(&tile, pass.rect, film, &job->scene->filter, false);
+        struct tile_pass pass = {&other, {x, y, x + 1, y + 1, 0, 0}, i, i + 1, &tile, work, NULL};
+        tile_start(&tile, pass.rect, film, &job->scene->filter);
         arena_reset(&work->arena);
         struct pixel_sample sample = pixel_sample_begin(&pass, counts, x, y, i);
         int length = pixel_eye_path(&pass, &sample, i, work->eye, job->max_depth + 2);

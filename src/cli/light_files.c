@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "base/os.h"
 #include "image/image.h"
+#include "scene/develop.h"
 
 static char *path_in(const char *directory, const char *name)
 {

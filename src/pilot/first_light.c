@@ -31,16 +31,19 @@ struct moments {
     double square, sequence; /* second moment; variance of the mean of SEQUENCE */
 };
 
-/* The sums of one sample, from what each strategy brought; the weights are those of counts 1. */
-static void add_sample(const struct tile *tile, double *x)
+/* Into the sums of one sample, what each strategy brought; the weights are those of counts 1. */
+static void add_path(void *context, const struct pixel_sample *sample, const struct joined *path)
 {
-    memset(x, 0, N_SUMS * sizeof *x);
-    for (const struct strategy_record *r = tile->record; r < tile->record + tile->n_records; r++) {
-        double value = rgb_luminance(rgb_of_floats(r->unweighted)), w = (double)r->weight;
-        x[ALL] += value * w;
-        if (r->s + r->t == 3)
-            x[r->s == 1 && w >= 1 ? DELTA : BROAD] += value * w;
-    }
+    double *x = context;
+    rgb value = rgb_scale(path->c->value, path->scale);
+    (void)sample;
+    if (rgb_is_black(value) || !rgb_fits_float(value))
+        return;
+    const float unweighted[3] = {(float)value.r, (float)value.g, (float)value.b};
+    double w = (double)(float)path->c->weight, added = rgb_luminance(rgb_of_floats(unweighted)) * w;
+    x[ALL] += added;
+    if (path->s + path->t == 3)
+        x[path->s == 1 && w >= 1 ? DELTA : BROAD] += added;
 }
 
 /* One sample of a pixel by path tracing, from stream `seed`. */
@@ -50,14 +53,15 @@ static void take_sample(const struct first_light_job *f, int x, int y, uint64_t 
     struct render_job job = f->job;
     struct tile *tile = &f->tile[thread];
     struct pixel_rect rect = {x, y, x + 1, y + 1, 0, 0};
-    struct tile_pass pass = {&job, rect, iteration, iteration + 1, tile, &f->work[thread], NULL, NULL};
+    const struct observer observer = {.context = value, .joined = add_path};
+    struct tile_pass pass = {&job, rect, iteration, iteration + 1, tile, &f->work[thread], &observer};
     job.seed = job.eye_seed = seed;
-    tile_start(tile, rect, job.film_rect, &job.scene->filter, true);
+    tile_start(tile, rect, job.film_rect, &job.scene->filter);
+    memset(value, 0, N_SUMS * sizeof *value);
     arena_reset(&pass.work->arena);
     struct pixel_sample sample = pixel_sample_begin(&pass, &f->counts, x, y, iteration);
     int n = pixel_eye_path(&pass, &sample, iteration, pass.work->eye, job.max_depth + 2);
     pixel_sum_eye(&sample, pass.work->eye, n);
-    add_sample(tile, value);
 }
 
 static void measure_pixel(void *context, int64_t job, int slot, int thread)

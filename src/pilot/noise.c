@@ -19,28 +19,49 @@ enum { FIRST, OTHER, SAME_EYE, INDEPENDENT, AGAIN = INDEPENDENT, RENDERS };
  * more leave, since nothing else warns of it. */
 static const double OUTLIER = 25, OUTLIER_TAIL = 1e4;
 
+/* A path that a strategy made. */
+struct record {
+    int x, y, s, t; /* of the sample's pixel */
+    float unweighted[3], weight;
+};
+struct records {
+    struct record *item; /* [n] in the order of adding; owned */
+    size_t n, capacity;
+};
+
 struct measure {
     struct render_job job;
     const struct pilot_method *method;
     struct subspaces_state *state, *again; /* again: with the counts of s <= 1 twice as large */
     const double *tried;
-    struct tile (*tile)[RENDERS]; /* [n_slots] */
+    struct tile (*tile)[RENDERS];      /* [n_slots] */
+    struct records (*records)[RENDERS]; /* [n_slots] */
     struct noise *found;          /* [n_slots] */
     struct noise sums;
     bool stopped;
 };
 
-static double luminance_added(const struct strategy_record *r)
+static void note(void *context, const struct pixel_sample *sample, const struct joined *path)
+{
+    struct records *all = context;
+    rgb value = rgb_scale(path->c->value, path->scale);
+    if (rgb_is_black(value) || !rgb_fits_float(value) || !rgb_fits_float(path->added))
+        return;
+    all->item = mem_grow(all->item, &all->capacity, all->n + 1, sizeof *all->item);
+    const struct record r = {sample->x, sample->y, path->s, path->t,
+                             {(float)value.r, (float)value.g, (float)value.b}, (float)path->c->weight};
+    all->item[all->n++] = r;
+}
+
+static double luminance_added(const struct record *r)
 {
     return rgb_luminance(rgb_of_floats(r->unweighted)) * (double)r->weight;
 }
 
 /* Where the pixel of a record lies in the tile. */
-static long place_in_tile(const struct tile *tile, const struct strategy_record *r)
+static long place_in_tile(const struct tile *tile, const struct record *r)
 {
-    int width = rect_width(tile->film_rect);
-    int x = r->at % width + tile->film_rect.x0, y = r->at / width + tile->film_rect.y0;
-    return (long)(y - tile->rect.y0) * rect_width(tile->rect) + (x - tile->rect.x0);
+    return (long)(r->y - tile->rect.y0) * rect_width(tile->rect) + (r->x - tile->rect.x0);
 }
 
 /* Luminance of every pixel of the tile, splats included. */
@@ -83,7 +104,7 @@ static void brightness(struct pixel_rect rect, const double *a, const double *b,
 }
 
 /* -1: a strategy whose number of samples is not free, or whose samples are not those of one eye vertex. */
-static int kind_of(const struct strategy_record *r)
+static int kind_of(const struct record *r)
 {
     if (r->s == 1)
         return r->t == 2 ? LIGHT_FIRST : -1;
@@ -91,15 +112,16 @@ static int kind_of(const struct strategy_record *r)
 }
 
 /* Records of one eye vertex and kind stand in a row; samples that brought nothing have none. */
-static void add_records(const struct tile *tile, const double *tried, const double *scale, struct noise *out)
+static void add_records(const struct tile *tile, const struct records *all, const double *tried, const double *scale,
+                        struct noise *out)
 {
-    for (size_t i = 0; i < tile->n_records;) {
-        const struct strategy_record *first = &tile->record[i];
+    for (size_t i = 0; i < all->n;) {
+        const struct record *first = &all->item[i];
         int kind = kind_of(first);
         double x = 0, x2 = 0, n = kind >= 0 ? tried[kind] : 1;
-        for (; i < tile->n_records; i++) {
-            const struct strategy_record *r = &tile->record[i];
-            if (r->at != first->at || r->t != first->t || kind_of(r) != kind)
+        for (; i < all->n; i++) {
+            const struct record *r = &all->item[i];
+            if (r->x != first->x || r->y != first->y || r->t != first->t || kind_of(r) != kind)
                 break;
             double one = luminance_added(r);
             x += one;
@@ -113,11 +135,11 @@ static void add_records(const struct tile *tile, const double *tried, const doub
 }
 
 /* See noise.h; splats come from the whole tile, wherever they land. */
-static void add_tail(const struct tile *tile, const struct tile *again, const double *scale, double mean_scale,
-                     struct noise *out)
+static void add_tail(const struct tile *tile, const struct records *all, const struct records *again,
+                     const double *scale, double mean_scale, struct noise *out)
 {
-    for (size_t i = 0; i < tile->n_records && i < again->n_records; i++) {
-        const struct strategy_record *r = &tile->record[i], *a = &again->record[i];
+    for (size_t i = 0; i < all->n && i < again->n; i++) {
+        const struct record *r = &all->item[i], *a = &again->item[i];
         if (r->s + r->t < 4 || !(r->weight > 0) || !(a->weight > 0))
             continue; /* light that comes straight to the first hit has credits of its own */
         double grown = (double)a->weight / (double)r->weight, P = clamp((r->s <= 1 ? 2 : 1) / grown - 1, 1e-6, 1);
@@ -161,13 +183,15 @@ static double of_blocks(struct pixel_rect rect, const double *a, const double *b
 }
 
 static void render_one(struct measure *m, int64_t number, int i, struct pixel_rect rect, struct tile *tile,
-                       struct workspace *work)
+                       struct records *records, struct workspace *work)
 {
     struct render_job job = m->job;
     job.seed = hash_combine(m->job.seed, (uint64_t)(i % INDEPENDENT));
     job.eye_seed = hash_combine(m->job.seed, INDEPENDENT + (i == OTHER));
-    struct tile_pass pass = {&job, rect, (long)number, (long)number + 1, tile, work, NULL, NULL};
-    tile_start(tile, rect, job.film_rect, &job.scene->filter, true);
+    const struct observer observer = {.context = records, .joined = note};
+    struct tile_pass pass = {&job, rect, (long)number, (long)number + 1, tile, work, &observer};
+    records->n = 0;
+    tile_start(tile, rect, job.film_rect, &job.scene->filter);
     m->method->render(m->method->method, i == AGAIN ? m->again : m->state, &pass);
 }
 
@@ -176,25 +200,26 @@ static void render_tile(void *context, int64_t job, int slot, int thread)
     struct measure *m = context;
     struct pixel_rect rect = rect_of(m, job);
     struct tile *tile = m->tile[slot];
+    struct records *records = m->records[slot];
     size_t n = (size_t)rect_width(rect) * (size_t)rect_height(rect);
     double *value = mem_alloc((INDEPENDENT + 1) * n, sizeof *value), *scale = value + INDEPENDENT * n, mean_scale = 0;
     const double *other = value + OTHER * n, *same_eye = value + SAME_EYE * n;
     struct noise *found = &m->found[slot];
     memset(found, 0, sizeof *found);
     for (int i = 0; i < RENDERS; i++)
-        render_one(m, job, i, rect, &tile[i], &m->method->work[thread]);
+        render_one(m, job, i, rect, &tile[i], &records[i], &m->method->work[thread]);
     for (int i = 0; i < INDEPENDENT; i++)
         pixel_values(&tile[i], value + (size_t)i * n);
     brightness(rect, value, other, scale);
     for (int i = 0; i < INDEPENDENT; i++)
-        add_records(&tile[i], m->tried, scale, found);
+        add_records(&tile[i], &records[i], m->tried, scale, found);
     for (size_t i = 0; i < n; i++) {
         found->total += fmin(sqr(value[i] - other[i]) / 2 / scale[i], OUTLIER);
         found->given_eye += fmin(sqr(value[i] - same_eye[i]) / 2 / scale[i], OUTLIER);
         mean_scale += scale[i] / (double)n;
     }
     found->blocks = of_blocks(rect, value, same_eye, scale);
-    add_tail(&tile[FIRST], &tile[AGAIN], scale, mean_scale, found);
+    add_tail(&tile[FIRST], &records[FIRST], &records[AGAIN], scale, mean_scale, found);
     free(value);
 }
 
@@ -234,11 +259,15 @@ bool noise_measure(const struct render_job *job, const struct pilot_method *meth
     }
     struct parallel_jobs jobs = {n, job->n_threads, n_slots, &m, render_tile, add_tile, NULL};
     m.tile = mem_alloc((size_t)n_slots, sizeof *m.tile);
+    m.records = mem_alloc((size_t)n_slots, sizeof *m.records);
     m.found = mem_alloc((size_t)n_slots, sizeof *m.found);
     parallel_run(&jobs);
-    for (int i = 0; i < n_slots * RENDERS; i++)
+    for (int i = 0; i < n_slots * RENDERS; i++) {
         tile_free(&m.tile[i / RENDERS][i % RENDERS]);
+        free(m.records[i / RENDERS][i % RENDERS].item);
+    }
     free(m.tile);
+    free(m.records);
     free(m.found);
     *out = m.sums;
     return !m.stopped;

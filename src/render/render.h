@@ -17,7 +17,17 @@
 #include "render/methods.h"
 #include "scene/film.h"
 #include "scene/scene.h"
-#include "transport/trace.h"
+#include "transport/observer.h"
+
+/* Who looks on: an observer for each tile pass. So many passes for each thread are under way or wait for their turn. */
+enum { OBSERVED_SLOTS = 2 };
+struct observers {
+    void *context;
+    /* The observer of a pass, whose result will wait in this slot; called by any thread. */
+    struct observer (*begin)(void *context, int slot);
+    /* Its tile has gone into the film: in the order of passes, one call at a time. */
+    void (*end)(void *context, int slot);
+};
 
 /* Go on, stop when the block of iterations under way is complete, stop at once, between two tile passes. */
 enum render_wish { RENDER_GO_ON, RENDER_END_BLOCK, RENDER_STOP };
@@ -33,7 +43,7 @@ struct render_options {
     int max_depth; /* 0: what the scene says, else 5 */
     double noise[N_NOISE_SCALES]; /* stop when the film's are below; 0: never. The film must keep halves */
     struct gate gate; /* only light that has come so far (film.h); its end 0: all */
-    struct worst *worst; /* is told of all samples; NULL: nobody is */
+    const struct observers *observers; /* who looks on at every path; NULL: nobody */
     /* Called after each tile pass with the share of the work done, in (0,1], one call at a time and while nothing else
      * touches the film. NULL: not called. While the method learns it is called, too, learning being a part of the work;
      * if it is not to go on then, that ends with what has been learnt, by which one block is rendered, or at
@@ -59,12 +69,6 @@ bool render_scene(const struct scene *scene, const struct render_options *option
  * Returns false with a message when a parameter is bad; nothing needs release then. */
 bool render_prepare(const struct scene *scene, const struct render_options *options, struct pixel_rect rect,
                     struct render_job *job, struct preparation *out, struct error *err);
-
-/* render_trace: render one pixel sample, the one named in trace->x, y and iteration, exactly as render_scene with these
- * options would, and have it witnessed; the rest of its tile comes along where it has light sub-paths in common.
- * Returns false with a message when there is no such sample or a parameter is bad. Either way trace_free follows. */
-bool render_trace(const struct scene *scene, const struct render_options *options, struct trace *trace,
-                  struct error *err);
 
 /* identity_text: what a picture by these options is of, whatever its number of samples; lines, each a word and what it
  * says, to be given to free(). Threads, names of files and what is written do not belong to it; what the scene's files

@@ -9,9 +9,8 @@
 #ifndef ASBDPT_TRANSPORT_PIXEL_SAMPLE_H
 #define ASBDPT_TRANSPORT_PIXEL_SAMPLE_H
 
-#include "transport/connect.h"
+#include "transport/observer.h"
 #include "transport/tile_pass.h"
-#include "transport/trace.h"
 
 enum { EXTRA_MOST = 4 };
 
@@ -29,17 +28,15 @@ struct pixel_sample {
     const struct scene *scene;
     const struct mis_counts *counts;
     struct tile *tile;
+    const struct observer *observer; /* who looks on; NULL: nobody */
     int max_depth;          /* longest path: s + t <= max_depth + 2 */
     int x, y;               /* the pixel */
+    long iteration;
     double filter_weight;   /* of its eye sample, see path_eye_pixel */
-    double alpha;           /* the same, or 0 where the lens sees nothing */
     int lights;             /* samples of s = 1 for t = 2, 0: left to the method; 1 for t > 2 */
     struct sampler sampler; /* for light and lens points */
-    rgb sum;                /* of what the strategies with t >= 2 have brought so far, */
-    rgb until, before;      /* and of that paths shorter than the gate's end, or its beginning */
-    long iteration;
-    struct trace *trace;    /* who watches this sample; NULL: nobody */
-    struct worst *worst;    /* who is told of all samples; NULL: nobody */
+    rgb until, before;      /* what paths with t >= 2 have brought so far that are shorter than the gate's end, or its
+                             * beginning (film.h): without a gate all, and none */
     struct arena *arena;    /* for what does not outlive the sample */
 };
 
@@ -80,9 +77,7 @@ double pixel_light_count(const struct render_job *job);
 
 /* --- sums of connections ----------------------------------------------------------------------------- */
 
-/* All add to the sample's sums, weighted and times filter_weight, but for pixel_splat_path.
- *
- * pixel_sum_eye: s = 0 and s = 1 for every vertex of the eye sub-path of n vertices. */
+/* pixel_sum_eye: s = 0 and s = 1 for every vertex of the eye sub-path of n vertices. */
 void pixel_sum_eye(struct pixel_sample *sample, const struct vertex *eye, int n);
 
 /* What a method drew to join an eye sub-path with. */
@@ -98,9 +93,6 @@ void pixel_sum_pair(struct pixel_sample *sample, const struct vertex *y, int s, 
                     struct choice choice);
 void pixel_sum_joint(struct pixel_sample *sample, const struct joint *j, int s, int t, struct choice choice);
 
-/* pixel_sum_connection: one that is made already, s <= 1, times `scale`. */
-void pixel_sum_connection(struct pixel_sample *sample, const struct connection *c, int s, int t, double scale);
-
 /* pixel_sum_pairs: s >= 2, t >= 2 for every pair of vertices of the two sub-paths. */
 void pixel_sum_pairs(struct pixel_sample *sample, const struct vertex *eye, int n_eye, const struct vertex *light,
                      int n_light, struct choice choice);
@@ -108,6 +100,13 @@ void pixel_sum_pairs(struct pixel_sample *sample, const struct vertex *eye, int 
 /* pixel_splat_path: s >= 2, t = 1 for every vertex of a light sub-path, each times `scale`; the sums go to the
  * tile's splats. */
 void pixel_splat_path(struct pixel_sample *sample, const struct vertex *light, int n_light, double scale);
+
+/* pixel_add: the one place where a path with t >= 2 is added to the sample, C* weighted, and told of.
+ * pixel_splat: the same of one with t = 1: it arrives at every raster point that is the same ray.
+ *   y, z  as in struct joined */
+void pixel_add(struct pixel_sample *sample, const struct connection *c, int s, int t, const struct vertex *y,
+               const struct vertex *z, struct choice choice);
+void pixel_splat(struct pixel_sample *sample, const struct connection *c, int s, const struct vertex *y, double scale);
 
 /* pixel_sample_end: the sample goes into its tile. Call once. */
 void pixel_sample_end(const struct pixel_sample *sample);

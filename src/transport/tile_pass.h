@@ -8,8 +8,7 @@
 #include "scene/film.h"
 #include "transport/path.h"
 
-struct trace;
-struct worst;
+struct observer;
 
 /* What does not change during a render. */
 struct render_job {
@@ -57,8 +56,7 @@ struct tile_pass {
     long first, end;
     struct tile *tile; /* started; receives the result */
     struct workspace *work;
-    struct trace *trace; /* see trace.h; NULL: nobody watches */
-    struct worst *worst; /* likewise */
+    const struct observer *observer; /* who looks on (observer.h); NULL: nobody */
 };
 
 /* pass_pixel: the pass' pixel number i in row order; false if there are not so many. */

@@ -25,45 +25,41 @@ static const struct option OPTIONS[] = {
     {.others = RUN_OPTIONS},
 };
 
-static bool write_picture(const char *directory, const struct film *film, double scale, int s, int t, bool weighted,
-                          struct error *err)
+static bool write_picture(const char *directory, const struct strategy_images *images, double scale, int s, int t,
+                          bool weighted, struct error *err)
 {
     char path[4096];
-    float *pixels = pyramid_strategy(film, scale, s, t, weighted);
+    float *pixels = strategies_picture(images, scale, s, t, weighted);
     snprintf(path, sizeof path, "%s/d%02d_s%02d_t%02d_%s.pfm", directory, s + t - 2, s, t,
              weighted ? "weighted" : "unweighted");
-    bool ok = image_write(path, rect_width(film->rect), rect_height(film->rect), pixels, err);
+    bool ok = image_write(path, rect_width(images->rect), rect_height(images->rect), pixels, err);
     free(pixels);
     return ok;
 }
 
-static bool write_all(const char *directory, const struct film *film, double scale, struct error *err)
+static bool write_all(const char *directory, const struct strategy_images *images, double scale, struct error *err)
 {
     bool ok = true;
     char path[4096];
-    for (int edges = 1; edges <= film->strategies->max_depth + 1; edges++)
+    for (int edges = 1; edges <= images->max_depth + 1; edges++)
         for (int s = 0; ok && s <= edges; s++)
-            ok = write_picture(directory, film, scale, s, edges + 1 - s, false, err) &&
-                 write_picture(directory, film, scale, s, edges + 1 - s, true, err);
+            ok = write_picture(directory, images, scale, s, edges + 1 - s, false, err) &&
+                 write_picture(directory, images, scale, s, edges + 1 - s, true, err);
     snprintf(path, sizeof path, "%s/pyramid.png", directory);
-    return ok && pyramid_write(path, film, scale, err);
+    return ok && pyramid_write(path, images, scale, err);
 }
 
-static bool render(const struct scene *scene, const struct method *m, struct render_options o, const char *directory,
-                   struct error *err)
+static bool render(const struct scene *scene, struct render_options o, const char *directory, struct error *err)
 {
-    struct film film;
-    if (m->chain)
-        return error_set(err, "%s keeps no record of its paths", m->name);
+    struct strategy_images images;
     if (!parameters_max_depth(scene, o.max_depth, &o.max_depth, err))
         return false;
     if (o.max_depth > STRATEGIES_MAX_DEPTH)
         return error_set(err, "paths of up to %d edges have %d pictures; --maxdepth %d is the most here",
                          o.max_depth + 1, (o.max_depth + 1) * (o.max_depth + 4), STRATEGIES_MAX_DEPTH);
-    film_init(&film, render_crop(scene), scene->width, scene->height);
-    film_keep_strategies(&film, o.max_depth);
-    bool ok = render_scene(scene, &o, &film, err) && write_all(directory, &film, scene->film_scale, err);
-    film_free(&film);
+    strategies_init(&images, render_crop(scene), o.max_depth);
+    bool ok = strategies_render(scene, &o, &images, err) && write_all(directory, &images, scene->film_scale, err);
+    strategies_free(&images);
     return ok;
 }
 
@@ -76,7 +72,7 @@ static int run(void *options)
     int status = file_make_directory(o->directory, &err) ? job_load(&o->job, &scene, &m) : fail(&err);
     if (status != EXIT_OK)
         return status;
-    bool ok = render(&scene, m, job_render(&o->job, &scene, m), o->directory, &err);
+    bool ok = render(&scene, job_render(&o->job, &scene, m), o->directory, &err);
     scene_free(&scene);
     return ok ? EXIT_OK : fail(&err);
 }

@@ -5,6 +5,7 @@
 #include "lab/commands.h"
 #include "cli/job_options.h"
 #include "lab/trace_report.h"
+#include "lab/worst.h"
 
 struct trace_options {
     struct job_options job;
@@ -51,9 +52,8 @@ static bool find(const struct trace_options *o, const struct scene *scene, struc
         worst_offer(out, named);
         return true;
     }
-    by.worst = out;
     film_init(&film, render_crop(scene), scene->width, scene->height);
-    bool ok = render_scene(scene, &by, &film, err);
+    bool ok = worst_render(scene, &by, &film, out, err);
     if (ok && !o->json)
         print_worst(out, &film, scene->film_scale);
     film_free(&film);
@@ -65,7 +65,7 @@ static bool tell(const struct trace_options *o, const struct render_options *ren
                  const struct brought *sample, FILE *svg, struct error *err)
 {
     struct trace trace = {.x = sample->x, .y = sample->y, .iteration = sample->iteration};
-    bool ok = render_trace(story->scene, render, &trace, err);
+    bool ok = trace_render(story->scene, render, &trace, err);
     story->trace = &trace;
     if (ok && o->json)
         trace_json(stdout, story);

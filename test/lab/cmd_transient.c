@@ -1,5 +1,5 @@
 /* cmd_transient.c: asbdpt-lab transient: light in flight: a picture for each of some gates that follow each other
- * (film.h), all from one render, and a contact sheet. */
+ * (gates.h), all from one render, and a contact sheet. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -8,7 +8,7 @@
 #include "cli/job_options.h"
 #include "image/image.h"
 #include "lab/commands.h"
-#include "lab/compare.h"
+#include "lab/gates.h"
 #include "lab/sheet.h"
 
 struct transient_options {
@@ -34,12 +34,13 @@ static float *render(const struct scene *scene, const struct render_options *o, 
     size_t n = 3 * rect_pixels(render_crop(scene)) * (size_t)gates.n;
     float *out = NULL;
     film_init(&film, render_crop(scene), scene->width, scene->height);
-    film_keep_gates(&film, gates);
-    if (render_scene(scene, o, &film, err)) {
+    double *sum = mem_alloc(n, sizeof *sum);
+    if (gates_render(scene, o, &gates, &film, sum, err)) {
         out = mem_alloc(n, sizeof *out);
         for (size_t i = 0; i < n; i++)
-            out[i] = float_within(film.gates->sum[i] * scene->film_scale / (double)film.iterations);
+            out[i] = float_within(sum[i] * scene->film_scale / (double)film.iterations);
     }
+    free(sum);
     film_free(&film);
     return out;
 }

@@ -276,17 +276,16 @@ static bool render_pyramid(struct scene_experiment *s)
     const struct plan *p = s->whole->plan;
     struct measured m = {.text = METHOD_REFERENCE};
     struct render_options o = {.integrator = METHOD_REFERENCE, .n_threads = p->n_threads};
-    struct film film;
+    struct strategy_images images;
     char path[PATH_SIZE];
     o.end = plan_last_spp(p) < PYRAMID_SPP ? plan_last_spp(p) : PYRAMID_SPP;
     o.max_depth = s->out->max_depth < PYRAMID_LENGTH ? s->out->max_depth : PYRAMID_LENGTH;
     take_settings(&s->scene, &m);
-    begin_film(s, &film);
-    film_keep_strategies(&film, o.max_depth);
+    strategies_init(&images, render_crop(&s->scene), o.max_depth);
     snprintf(path, sizeof path, "%s/images/%s-strategies.png", p->directory, s->out->name);
-    bool ok = render_scene(&s->scene, &o, &film, s->whole->err) &&
-              pyramid_write(path, &film, s->scene.film_scale, s->whole->err);
-    film_free(&film);
+    bool ok = strategies_render(&s->scene, &o, &images, s->whole->err) &&
+              pyramid_write(path, &images, s->scene.film_scale, s->whole->err);
+    strategies_free(&images);
     return ok;
 }
 

@@ -14,34 +14,23 @@
 enum { GAP = 4, LEFT = 64, TOP = 40, SHEET_WIDTH = 1024, CELL_MIN = 48, CELL_MAX = 192 };
 static const double PERCENTILE = 90; /* of a row's values that stay below white */
 
-/* How strategies are laid out: pictures of film size, shrunk or enlarged by whole factors. */
+/* How strategies are laid out: pictures of one size, shrunk or enlarged by whole factors. */
 struct layout {
     int depth, columns;
     int shrink, enlarge;
     int width, height; /* of a cell */
-    double scale;      /* of the film's values */
+    double scale;      /* of the images' values */
 };
 
-float *pyramid_strategy(const struct film *film, double scale, int s, int t, bool weighted)
+static struct layout lay_out(const struct strategy_images *images, double scale)
 {
-    size_t n = rect_pixels(film->rect) * 3;
-    const double *sum = weighted ? film->strategies->weighted : film->strategies->unweighted;
-    float *out = mem_alloc(n, sizeof *out);
-    sum += n * (size_t)strategy_index(s, t);
-    for (size_t i = 0; i < n; i++)
-        out[i] = float_within(scale * sum[i] / (double)film->iterations);
-    return out;
-}
-
-static struct layout lay_out(const struct film *film, double scale)
-{
-    int w = rect_width(film->rect), h = rect_height(film->rect), depth = film->strategies->max_depth;
+    int w = rect_width(images->rect), h = rect_height(images->rect), depth = images->max_depth;
     struct layout l = {.depth = depth < PYRAMID_DEPTH ? depth : PYRAMID_DEPTH, .scale = scale};
     l.columns = l.depth + 2;
     int wanted = (SHEET_WIDTH - LEFT) / l.columns - GAP;
     wanted = wanted < CELL_MIN ? CELL_MIN : wanted > CELL_MAX ? CELL_MAX : wanted;
     l.shrink = w > wanted ? (w + wanted / 2) / wanted : 1; /* to the nearest */
-    l.shrink = l.shrink < h ? l.shrink : h;                /* a film may be wide and low */
+    l.shrink = l.shrink < h ? l.shrink : h;                /* a picture may be wide and low */
     l.enlarge = w < wanted ? wanted / w : 1;
     l.width = w / l.shrink * l.enlarge;
     l.height = h / l.shrink * l.enlarge;
@@ -49,12 +38,12 @@ static struct layout lay_out(const struct film *film, double scale)
 }
 
 /* The power of two, at least 1, that brings most of all weighted shares of this length up to white. */
-static double row_exposure(const struct layout *l, const struct film *film, int depth)
+static double row_exposure(const struct layout *l, const struct strategy_images *images, int depth)
 {
-    size_t n = rect_pixels(film->rect) * 3;
+    size_t n = rect_pixels(images->rect) * 3;
     float *total = mem_alloc(n, sizeof *total);
     for (int s = 0; s <= depth + 1; s++) {
-        float *share = pyramid_strategy(film, l->scale, s, depth + 2 - s, true);
+        float *share = strategies_picture(images, l->scale, s, depth + 2 - s, true);
         for (size_t i = 0; i < n; i++)
             total[i] += share[i];
         free(share);
@@ -64,11 +53,11 @@ static double row_exposure(const struct layout *l, const struct film *film, int 
     return bright > 0 && bright < 1 ? ldexp(1, int_within(floor(-m_log2(bright)), 0, 16)) : 1;
 }
 
-static void paste_strategy(struct sheet *sheet, const struct layout *l, const struct film *film, int x, int y, int s,
-                           int t, bool weighted, double exposure)
+static void paste_strategy(struct sheet *sheet, const struct layout *l, const struct strategy_images *images, int x,
+                           int y, int s, int t, bool weighted, double exposure)
 {
-    int w = rect_width(film->rect), h = rect_height(film->rect);
-    float *whole = pyramid_strategy(film, l->scale, s, t, weighted), *cell = sheet_shrink(whole, w, h, l->shrink);
+    int w = rect_width(images->rect), h = rect_height(images->rect);
+    float *whole = strategies_picture(images, l->scale, s, t, weighted), *cell = sheet_shrink(whole, w, h, l->shrink);
     w /= l->shrink;
     h /= l->shrink;
     for (size_t i = 0; i < (size_t)w * (size_t)h * 3; i++)
@@ -79,7 +68,8 @@ static void paste_strategy(struct sheet *sheet, const struct layout *l, const st
 }
 
 /* One pyramid, its top left at (0,y). */
-static void draw_pyramid(struct sheet *sheet, const struct layout *l, const struct film *film, int y, bool weighted)
+static void draw_pyramid(struct sheet *sheet, const struct layout *l, const struct strategy_images *images, int y,
+                         bool weighted)
 {
     char text[100];
     sheet_text(sheet, GAP, y + GAP, 2, SHEET_INK, weighted ? "weighted" : "unweighted");
@@ -88,25 +78,25 @@ static void draw_pyramid(struct sheet *sheet, const struct layout *l, const stru
         sheet_text(sheet, LEFT + s * (l->width + GAP), y + TOP - FONT_HEIGHT - GAP, 1, SHEET_INK, text);
     }
     for (int depth = 0; depth <= l->depth; depth++) {
-        double exposure = row_exposure(l, film, depth);
+        double exposure = row_exposure(l, images, depth);
         int top = y + TOP + depth * (l->height + GAP);
         snprintf(text, sizeof text, "depth %d", depth);
         sheet_text(sheet, GAP, top, 1, SHEET_INK, text);
         snprintf(text, sizeof text, "x%.0f", exposure);
         sheet_text(sheet, GAP, top + FONT_HEIGHT + GAP, 1, SHEET_INK, text);
         for (int s = 0; s <= depth + 1; s++)
-            paste_strategy(sheet, l, film, LEFT + s * (l->width + GAP), top, s, depth + 2 - s, weighted, exposure);
+            paste_strategy(sheet, l, images, LEFT + s * (l->width + GAP), top, s, depth + 2 - s, weighted, exposure);
     }
 }
 
-bool pyramid_write(const char *path, const struct film *film, double scale, struct error *err)
+bool pyramid_write(const char *path, const struct strategy_images *images, double scale, struct error *err)
 {
-    struct layout l = lay_out(film, scale);
+    struct layout l = lay_out(images, scale);
     struct sheet sheet;
     int half = TOP + (l.depth + 1) * (l.height + GAP);
     sheet_init(&sheet, LEFT + l.columns * (l.width + GAP), 2 * half, SHEET_PAPER);
-    draw_pyramid(&sheet, &l, film, 0, false);
-    draw_pyramid(&sheet, &l, film, half, true);
+    draw_pyramid(&sheet, &l, images, 0, false);
+    draw_pyramid(&sheet, &l, images, half, true);
     bool ok = image_write(path, sheet.width, sheet.height, sheet.pixels, err);
     sheet_free(&sheet);
     return ok;

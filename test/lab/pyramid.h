@@ -9,17 +9,13 @@
 #define ASBDPT_PYRAMID_H
 
 #include "base/error.h"
-#include "scene/film.h"
+#include "lab/strategies.h"
 
 enum { PYRAMID_DEPTH = 15 }; /* longer paths are left out */
 
 /* pyramid_write: as a picture whose extension image_write knows.
- *   film   rendered with film_keep_strategies, some iterations of it
  *   scale  as film_develop takes it
  * Returns false with a message. */
-bool pyramid_write(const char *path, const struct film *film, double scale, struct error *err);
-
-/* pyramid_strategy: the image of one strategy, [height*width*3] linear, to be freed. */
-float *pyramid_strategy(const struct film *film, double scale, int s, int t, bool weighted);
+bool pyramid_write(const char *path, const struct strategy_images *images, double scale, struct error *err);
 
 #endif

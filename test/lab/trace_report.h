@@ -1,4 +1,4 @@
-/* trace_report.h: what the witness of a pixel sample (transport/trace.h) has to tell, for people and for programs.
+/* trace_report.h: what the witness of a pixel sample (trace.h) has to tell, for people and for programs.
  *
  * Tests: test_trace.c, test/cli.sh.
  */
@@ -7,8 +7,7 @@
 
 #include <stdio.h>
 
-#include "integrators/method.h"
-#include "transport/trace.h"
+#include "lab/trace.h"
 
 /* What is told, and of what. */
 struct trace_story {

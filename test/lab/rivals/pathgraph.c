@@ -221,11 +221,11 @@ static void add_pixel(struct pooled_pixel *p, const struct node *first)
     struct pixel_sample *sample = &p->sample;
     const struct vertex *z = first->z;
     struct connection c = connect_hit(sample->scene, sample->counts, z - 1, z, 2);
-    pixel_sum_connection(sample, &c, 0, 2, 1);
+    reuse_add(sample, &c, 0, 2, 1);
     c.value = rgb_mul(z->beta, first->L[0]);
     c.weight = 1;
     c.length = sample->tile->gate.begin; /* so that it is added to `until` and not to `before` */
-    pixel_sum_connection(sample, &c, 0, 2, 1);
+    reuse_add(sample, &c, 0, 2, 1);
     rgb before = rgb_scale(rgb_mul(z->beta, first->L[1]), sample->filter_weight);
     sample->before = rgb_add(sample->before, before);
 }

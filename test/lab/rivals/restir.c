@@ -87,7 +87,7 @@ static void reuse(struct pooled_pixel *pixel, const struct reservoir *all, const
     }
     double m = value_at(scene, &pixel[near[from]].eye[1], &all[near[from]], &l) / others;
     struct connection made = connect_lit(scene, c->sample.counts, &kept);
-    pixel_sum_connection(&c->sample, &made, 1, 2, m * sum / own);
+    reuse_add(&c->sample, &made, 1, 2, m * sum / own);
 }
 
 static void connect_all(void *scratch, const void *state, const struct tile_pass *pass, struct pooled_pixel *pixel,

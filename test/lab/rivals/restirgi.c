@@ -131,7 +131,7 @@ static void offer_later(struct pooled_pixel *p, struct reservoir *r, const struc
             x.ends_on = c.light;
             x.length = c.length - z->length;
             if (own)
-                pixel_sum_connection(sample, &c, x.s, x.t, 1);
+                reuse_add(sample, &c, x.s, x.t, 1);
             else if (!rgb_is_black(c.value))
                 offer(p, r, &x, density, sum);
         }
@@ -152,7 +152,7 @@ static struct reservoir resample(struct pooled_pixel *p, bool shares)
     }
     pixel_sum_eye(&p->sample, eye, 2);
     struct connection hit = connect_hit(p->sample.scene, p->sample.counts, &eye[1], z, 3);
-    pixel_sum_connection(&p->sample, &hit, 0, 3, 1);
+    reuse_add(&p->sample, &hit, 0, 3, 1);
     offer_point(p, &r, z, &sum);
     if (p->n > 3)
         offer_later(p, &r, z, &sum);
@@ -197,7 +197,7 @@ static void reuse(struct pooled_pixel *pixel, const struct reservoir *all, const
         offered = k == from ? f : offered;
     }
     if (own > 0)
-        pixel_sum_connection(&c->sample, &kept, x->s, x->t, offered / others * sum / own);
+        reuse_add(&c->sample, &kept, x->s, x->t, offered / others * sum / own);
 }
 
 static void connect_all(void *scratch, const void *state, const struct tile_pass *pass, struct pooled_pixel *pixel,

@@ -35,6 +35,13 @@ static inline double reuse_hit_density(const struct vertex *z)
     return z->pdf_origin / z->pdf_fwd;
 }
 
+/* reuse_add: a connection, s <= 1, that others' sub-paths have part in, times `scale`. */
+static inline void reuse_add(struct pixel_sample *sample, const struct connection *c, int s, int t, double scale)
+{
+    const struct choice choice = {1, scale};
+    pixel_add(sample, c, s, t, NULL, NULL, choice);
+}
+
 /* reuse_prepare: path tracing's strategies, in large tiles. */
 void reuse_prepare(const struct render_job *job, struct preparation *out);
 

@@ -1,0 +1,99 @@
+/* tile.c: see tile.h. */
+#include "scene/tile.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/number.h"
+
+void tile_start(struct tile *t, struct pixel_rect rect, struct pixel_rect film_rect, const struct filter *filter)
+{
+    size_t n = rect_pixels(rect) * 3;
+    t->rect = rect;
+    t->film_rect = film_rect;
+    t->filter = filter;
+    size_t sums = n * (size_t)plane_count(t->planes);
+    t->sum = mem_grow(t->sum, &t->capacity, sums, sizeof *t->sum);
+    t->square = mem_grow(t->square, &t->square_capacity, n, sizeof *t->square);
+    memset(t->sum, 0, sums * sizeof *t->sum);
+    memset(t->square, 0, n * sizeof *t->square);
+    t->n_splats = 0;
+    t->first_half = false;
+    t->gate.begin = 0;
+    t->gate.end = INFINITY;
+    t->nonfinite = 0;
+}
+
+void tile_free(struct tile *t)
+{
+    free(t->sum);
+    free(t->square);
+    free(t->splat);
+    memset(t, 0, sizeof *t);
+}
+
+static void make_room(struct tile *t)
+{
+    if (t->full != NULL && t->n_splats >= TILE_FULL)
+        t->full(t->context, t);
+}
+
+static size_t place_of(const struct tile *t, int x, int y)
+{
+    int column = (x - t->rect.x0) / (t->rect.skip_x + 1), row = (y - t->rect.y0) / (t->rect.skip_y + 1);
+    return 3 * ((size_t)row * (size_t)rect_width(t->rect) + (size_t)column);
+}
+
+/* NaN, infinities and values beyond FLT_MAX are left out of every sum alike. */
+static rgb term(rgb c) { return rgb_fits_float(c) ? c : rgb_black(); }
+
+/* Add the difference to three sums, as two terms each. */
+static void add_difference(struct exact_sum *sum, rgb a, rgb b)
+{
+    const double plus[3] = {a.r, a.g, a.b}, minus[3] = {b.r, b.g, b.b};
+    for (size_t c = 0; c < 3; c++) {
+        exact_add(&sum[c], plus[c]);
+        exact_add(&sum[c], -minus[c]);
+    }
+}
+
+void tile_add_between(struct tile *t, int x, int y, rgb until, rgb before)
+{
+    make_room(t);
+    t->nonfinite += !rgb_fits_float(until);
+    until = term(until);
+    before = term(before);
+    size_t i = place_of(t, x, y);
+    add_difference(&t->sum[i], until, before);
+    t->square[i] += sqr(until.r - before.r);
+    t->square[i + 1] += sqr(until.g - before.g);
+    t->square[i + 2] += sqr(until.b - before.b);
+}
+
+/* Where a pixel has its place in a plane. */
+static struct exact_sum *in_plane(struct tile *t, int plane, int x, int y)
+{
+    return &t->sum[(size_t)plane * 3 * rect_pixels(t->rect) + place_of(t, x, y)];
+}
+
+void tile_add_light(struct tile *t, int x, int y, int lights, rgb after, rgb before)
+{
+    add_difference(in_plane(t, 1 + lights, x, y), term(after), term(before));
+}
+
+void tile_add_alpha(struct tile *t, int x, int y, double alpha)
+{
+    add_difference(in_plane(t, 1 + t->planes.lights, x, y), rgb_grey(alpha), rgb_black());
+}
+
+bool tile_add_splat(struct tile *t, double px, double py, rgb value, double length, int lights)
+{
+    if (!rgb_fits_float(value)) {
+        t->nonfinite++;
+        return false;
+    }
+    struct splat s = {px, py, value, length, lights};
+    t->splat = mem_grow(t->splat, &t->splat_capacity, t->n_splats + 1, sizeof *t->splat);
+    t->splat[t->n_splats++] = s;
+    return true;
+}

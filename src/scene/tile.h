@@ -1,0 +1,73 @@
+/* tile.h: what a tile pass (one tile of pixels, a block of iterations) adds up, before the film takes it in.
+ *
+ * A pixel's estimate has two parts. `eye`: per iteration, what its own eye sub-path brought (all strategies with
+ * t >= 2). `splat`: what light sub-paths of any pixel sent straight to the lens (t = 1), spread by the pixel filter.
+ *
+ * A gate keeps what light brings that has come so far, and no farther. What is in it is the difference of what two
+ * running sums of a pixel's sample hold, and splats: so films of gates that follow each other add up to the ungated
+ * film, to the bit.
+ *
+ * On request there are more planes than the picture: one for what each group of lights (light.h) brings, and one for
+ * alpha. They are sums of the same kind, so that whatever is done with films is done with all of them. A sample's value
+ * grows from 0 by what its paths bring, one after the other; to the plane of its light every step brings two terms, the
+ * value after it less the value before it. Added up, all but the last value cancel: so the planes of all lights
+ * together are the picture, to the bit.
+ *
+ * Tests: test_film.c, test_gates.c, test_lights.c.
+ */
+#ifndef ASBDPT_TILE_H
+#define ASBDPT_TILE_H
+
+#include "base/exact_sum.h"
+#include "base/mem.h"
+#include "scene/gate.h"
+#include "scene/splat.h"
+
+/* What a film, or a tile, has beside the picture. Planes are numbered: the picture, groups of lights, alpha. */
+struct planes {
+    int lights; /* groups of lights; 0: none is told apart */
+    bool alpha;
+};
+static inline int plane_count(struct planes p) { return 1 + p.lights + p.alpha; }
+
+/* So many splats do not wait for the end of a pass: paths may have a thousand bounces, a pass any number of
+ * iterations. */
+enum { TILE_FULL = 1 << 16 };
+
+/* What a tile pass produces. Reused from pass to pass. */
+struct tile {
+    struct pixel_rect rect;
+    struct pixel_rect film_rect; /* of the film: splats land anywhere in it */
+    const struct filter *filter;
+    struct planes planes;  /* set before tile_start */
+    struct exact_sum *sum; /* [planes][pixels of rect * 3], sum over the iterations of the pass; owned */
+    double *square;        /* [pixels of rect * 3], sum of squares of the per-iteration values; owned */
+    size_t capacity, square_capacity;
+    struct splat *splat; /* [n_splats], owned */
+    size_t n_splats, splat_capacity;
+    struct gate gate; /* what goes in; tile_start: all lengths */
+    bool first_half;  /* its iterations belong to the first of two halves; tile_start: no */
+    void (*full)(void *context, struct tile *tile); /* empties a full list of splats; NULL: it grows */
+    void *context;
+    long nonfinite; /* contributions that were NaN, infinite or beyond FLT_MAX, and were left out */
+};
+
+/* tile_start: begin a pass: clear the sums. */
+void tile_start(struct tile *t, struct pixel_rect rect, struct pixel_rect film_rect, const struct filter *filter);
+void tile_free(struct tile *t);
+
+/* tile_add_between: the whole value of pixel (x,y) of the tile for one iteration, the difference of two sums, of what
+ * came `until` the end of a gate and of what came `before` its beginning. Each is a term: of gates that follow each
+ * other, one's first cancels the next's second. Call once per pixel and iteration. */
+void tile_add_between(struct tile *t, int x, int y, rgb until, rgb before);
+
+/* tile_add_light: a sample's value has come from `before` to `after` by what a group of lights has brought.
+ * tile_add_alpha: the sample's alpha. For tiles that have such planes. */
+void tile_add_light(struct tile *t, int x, int y, int lights, rgb after, rgb before);
+void tile_add_alpha(struct tile *t, int x, int y, double alpha);
+
+/* tile_add_splat: a value arriving at raster point (px,py), to be spread over pixels by the filter. False if it was
+ * left out. */
+bool tile_add_splat(struct tile *t, double px, double py, rgb value, double length, int lights);
+
+#endif

@@ -1,0 +1,150 @@
+/* trace.c: see trace.h. */
+#include "lab/trace.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/tiling.h"
+
+void trace_free(struct trace *trace)
+{
+    for (int i = 0; i < trace->n_lights; i++)
+        free(trace->light[i].vertex);
+    free(trace->eye.vertex);
+    free(trace->light);
+    free(trace->connection);
+    memset(trace, 0, sizeof *trace);
+}
+
+/* Copy the vertices that are not there yet. */
+static void copy(struct trace_path *to, const struct vertex *path, int n)
+{
+    to->source = path;
+    to->vertex = mem_grow(to->vertex, &to->capacity, (size_t)n, sizeof *to->vertex);
+    for (; to->n < n; to->n++) {
+        to->vertex[to->n] = path[to->n];
+        to->vertex[to->n].bsdf.lobe = NULL;
+        to->vertex[to->n].lamp = NULL;
+    }
+}
+
+/* The number of a light sub-path, of which so many vertices are known by now. */
+static int light_path(struct trace *trace, const struct vertex *path, int n)
+{
+    int i = 0;
+    while (i < trace->n_lights && trace->light[i].source != path)
+        i++;
+    if (i == trace->n_lights) {
+        struct trace_path empty = {NULL, 0, 0, NULL};
+        trace->light = mem_grow(trace->light, &trace->light_capacity, (size_t)i + 1, sizeof *trace->light);
+        trace->light[trace->n_lights++] = empty;
+    }
+    copy(&trace->light[i], path, n);
+    return i;
+}
+
+static bool watches(const struct trace *trace, const struct pixel_sample *sample)
+{
+    return trace->x == sample->x && trace->y == sample->y && trace->iteration == sample->iteration;
+}
+
+static void walked(void *context, const struct pixel_sample *sample, enum transport mode, const struct vertex *path,
+                   int n)
+{
+    struct trace *trace = context;
+    if (!watches(trace, sample))
+        return;
+    if (mode == IMPORTANCE) {
+        light_path(trace, path, n);
+        return;
+    }
+    trace->filter_weight = sample->filter_weight;
+    copy(&trace->eye, path, n);
+}
+
+static void joined(void *context, const struct pixel_sample *sample, const struct joined *p)
+{
+    struct trace *trace = context;
+    if (!watches(trace, sample))
+        return;
+    int light = p->s > 1 ? light_path(trace, p->y - (p->s - 1), p->s) : -1;
+    struct trace_connection made = {p->s, p->t, light, p->pmf, *p->c, p->scale, p->added};
+    size_t n = (size_t)trace->n_connections + 1;
+    trace->connection = mem_grow(trace->connection, &trace->connection_capacity, n, sizeof *trace->connection);
+    trace->connection[trace->n_connections++] = made;
+}
+
+rgb trace_sum(const struct trace *trace)
+{
+    rgb sum = rgb_black();
+    for (int i = 0; i < trace->n_connections; i++)
+        if (trace->connection[i].t > 1)
+            sum = rgb_add(sum, trace->connection[i].added);
+    return sum;
+}
+
+/* The walk from the other end leaves vertex i+1 towards i; what it is per steradian there was found on the way. */
+double trace_pdf_rev(const struct scene *scene, const struct trace_path *path, int i)
+{
+    if (i + 2 >= path->n || path->vertex[i].kind == VERTEX_LENS)
+        return -1;
+    const struct vertex *v = &path->vertex[i], *next = &path->vertex[i + 1];
+    if (vertex_at_infinity(scene, v))
+        return next->pdf_rev;
+    double cosine = length2(v->ng) > 0 ? abs_dot(v->ng, next->wo) : 1;
+    double spread = next->kind == VERTEX_ESCAPED ? 1 : 1 / length2(sub(v->p, next->p));
+    return next->pdf_rev * cosine * spread;
+}
+
+/* --- rendering --------------------------------------------------------------------------------------- */
+
+static bool check_sample(const struct render_options *o, struct pixel_rect film, const struct trace *t,
+                         struct error *err)
+{
+    if (t->x < film.x0 || t->x >= film.x1 || t->y < film.y0 || t->y >= film.y1)
+        return error_set(err, "--pixel %d,%d is not rendered: x is %d to %d here, y is %d to %d", t->x, t->y, film.x0,
+                         film.x1 - 1, film.y0, film.y1 - 1);
+    return (t->iteration >= 0 && t->iteration < o->end) ||
+           error_set(err, "--sample %ld is not taken: they are numbered 0 to %ld, see --spp", t->iteration,
+                     o->end - 1);
+}
+
+/* The tile pass that holds the sample, from where what it depends on begins: in blocks of a length that the integrator
+ * has chosen one iteration builds on another. */
+static void render_pass(const struct render_job *job, const struct preparation *prepared, struct trace *trace)
+{
+    const struct tiling tiling = tiling_of(job->film_rect, &prepared->size);
+    const struct observer observer = {trace, walked, joined, NULL, NULL};
+    struct tile tile = {.rect = {0, 0, 0, 0, 0, 0}};
+    struct workspace *work = workspaces_new(1, job->max_depth);
+    long block = prepared->size.block > 0 ? prepared->size.block : 1;
+    int64_t number = 0;
+    while (!rect_has(tiling_rect(&tiling, number), trace->x, trace->y))
+        number++;
+    work->scratch = method_scratch(prepared);
+    struct tile_pass pass = {job, tiling_rect(&tiling, number), trace->iteration / block * block, trace->iteration + 1,
+                             &tile, work, &observer};
+    tile_start(&tile, pass.rect, job->film_rect, &job->scene->filter);
+    prepared->method->render(prepared, &pass);
+    tile_free(&tile);
+    method_scratch_free(prepared, work->scratch);
+    workspaces_free(work, 1);
+}
+
+bool trace_render(const struct scene *scene, const struct render_options *options, struct trace *trace,
+                  struct error *err)
+{
+    struct pixel_rect film = render_crop(scene);
+    struct render_job job;
+    struct preparation prepared;
+    const struct method *m = method_find(options->integrator, &scene->settings, err);
+    if (m == NULL || (m->chain && error_set(err, "%s goes from sample to sample over the whole picture: no pixel has "
+                                            "one to tell of", m->name)) ||
+        !check_sample(options, film, trace, err) || !render_prepare(scene, options, film, &job, &prepared, err))
+        return false;
+    trace->why = m->why;
+    memcpy(trace->note, prepared.note, sizeof trace->note);
+    render_pass(&job, &prepared, trace);
+    method_release(&prepared);
+    return true;
+}

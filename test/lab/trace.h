@@ -1,0 +1,60 @@
+/* trace.h: a witness of one pixel sample: what was walked, connected and added to the film, by an observer
+ * (transport/observer.h). What comes of it is no second computation that might differ: added up in their order, the
+ * contributions are the film's value to the last bit.
+ *
+ * Tests: test_trace.c.
+ */
+#ifndef ASBDPT_TRACE_H
+#define ASBDPT_TRACE_H
+
+#include "render/render.h"
+
+/* Copies of vertices, without their lobes and `lamp`, which do not outlive the sample. */
+struct trace_path {
+    struct vertex *vertex; /* [n], owned */
+    int n;
+    size_t capacity;
+    const struct vertex *source; /* what was copied: how a sub-path is recognised */
+};
+
+/* One connection that was tried. */
+struct trace_connection {
+    int s, t;
+    int light;           /* number of the light sub-path; -1: none (s <= 1) */
+    double pmf;          /* probability with which it was chosen; 1: there was no choice */
+    struct connection c; /* value C*, weight, end point */
+    double scale;        /* what else C* is multiplied by: numbers of samples, filter, 1/probabilities of a choice */
+    rgb added;           /* C* times scale times weight, as it was added; t = 1: at raster point (c.px, c.py) */
+};
+
+struct trace {
+    int x, y;       /* the sample to watch */
+    long iteration;
+    double filter_weight;
+    struct trace_path eye;
+    struct trace_path *light; /* [n_lights], those that were connected or chosen; owned */
+    int n_lights;
+    struct trace_connection *connection; /* [n_connections] in the order of adding; owned */
+    int n_connections;
+    size_t light_capacity, connection_capacity;
+    const char *why;   /* how the method chooses what to connect with; NULL: it does not */
+    char note[FILM_NOTE_SIZE]; /* what it has chosen for itself */
+};
+
+/* A trace starts as zeros but for the sample to watch. trace_free releases what it owns. */
+void trace_free(struct trace *trace);
+
+/* trace_render: render one pixel sample, the one named in trace->x, y and iteration, exactly as render_scene with these
+ * options would, and witness it; the rest of its tile comes along where it has light sub-paths in common.
+ * Returns false with a message when there is no such sample or a parameter is bad. Either way trace_free follows. */
+bool trace_render(const struct scene *scene, const struct render_options *options, struct trace *trace,
+                  struct error *err);
+
+/* trace_sum: what was added to the sample's own pixel: all with t >= 2, in their order. */
+rgb trace_sum(const struct trace *trace);
+
+/* trace_pdf_rev: the density with which a walk from the other end would have made vertex i, measured as its pdf_fwd,
+ * given the two vertices after it; below 0 where the sub-path does not have them. */
+double trace_pdf_rev(const struct scene *scene, const struct trace_path *path, int i);
+
+#endif
