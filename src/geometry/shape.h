@@ -58,12 +58,13 @@ struct geometry {
 
 /* A mesh as a Shape directive or a PLY file describes it, in object space. Owned arrays; see mesh_free. */
 struct mesh {
-    float *P, *N, *S, *UV; /* [n_vertices * 3, 3, 3, 2]; all but P may be NULL */
+    float *P, *N, *UV;  /* [n_vertices * 3, 3, 2]; N and UV may be NULL */
     uint32_t *index;    /* [n_triangles*3], every entry < n_vertices */
     int n_vertices, n_triangles;
     int n_thin, n_wide; /* faces of the file of fewer than 3 corners, which are left out, and of more than 4 */
     uint64_t content;   /* hash_content of the file it was read from; 0: none */
     size_t file_size;   /* bytes of it */
+    float *S;           /* [n_vertices*3] tangents; or NULL */
 };
 
 /* mesh_free: release its arrays; the mesh is empty then. geometry_free: the same of a geometry. */
