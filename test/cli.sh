@@ -467,7 +467,13 @@ check grep -q 'bounds  *(4, 5, 6) to (6, 7, 8)' stdout.txt
 one="--res 12x12 --integrator bdpt --maxdepth 3 --pixel 3,9"
 expect 1 'cannot be created' "$lab" trace "$box" --pixel 3,9 --svg no/such/dir.svg # before the work
 check [ ! -s stdout.txt ]
-expect 0 '' "$lab" trace "$box" $one --spp 1 --svg paths.svg
+expect 0 '' "$lab" trace "$box" $one --spp 1
+check [ "$(wc -l <stdout.txt)" -le 11 ]
+check grep -q '^The pixel receives [0-9.e-]* [0-9.e-]* [0-9.e-]*\.' stdout.txt
+check grep -q 'what they mean: --all$' stdout.txt
+grep '^The pixel receives' stdout.txt >brief.txt
+expect 0 '' "$lab" trace "$box" $one --spp 1 --svg paths.svg --all
+check grep -qxF "$(cat brief.txt)" stdout.txt
 check grep -q 'pixel 3,9, sample 0: bdpt' stdout.txt
 check grep -q '^(s,t): a path of s vertices' stdout.txt
 check grep -Eq '^  z_1 +matte .*/m\^2' stdout.txt
@@ -538,20 +544,22 @@ check grep -q '^B  asbdpt:select=vertices ' stdout.txt
 tiny="--res 8x8 --seeds 2 --quiet"
 expect 0 '' "$lab" equal-time "$box" $tiny --spp 2 -o equal
 check grep -q 'geometric mean' stdout.txt
-sed '$d' stdout.txt | sed '$d' | sed '$d' >table.txt
+sed '/^equal\/equal-time.md$/,$d' stdout.txt >table.txt
 check cmp -s table.txt equal/equal-time.md
-check grep -q '^Verdict: squared error of .* over that of bdpt .*; picture of 8x8 pixels.$' stdout.txt
-for made in equal-time.html family.png errors.png; do check [ -s equal/$made ]; done
-check [ "$(grep -c '^cornell-box,' equal/equal-time.csv)" = 10 ]
-check grep -q '^cornell-box,bdpt,5002,2,' equal/equal-time.csv
+check grep -q '^Squared error of asbdpt over that of bdpt after the same time, per pixel: ' stdout.txt
+check grep -q '^In means over 8x8 pixels, .*: .*\.$' stdout.txt
+check grep -q '^Measured with 2 seeds on cornell-box 8x8\.$' stdout.txt
+for made in family.svg family.png images/cornell-box.png; do check [ -s equal/$made ]; done
+check [ "$(grep -c '^cornell-box,' equal/runs.csv)" = 4 ]
+check [ "$(grep -c '^cornell-box,bdpt,.*,2,' equal/runs.csv)" = 2 ]
 expect 0 '' "$lab" equal-time "$box" --methods bdpt,asbdpt:select=pool --seconds 0.01 $tiny -o equal
 check grep -q -e 'equal-time --seconds 0.01 --methods bdpt,asbdpt:select=pool --seeds 2' stdout.txt
-check [ "$(grep -c '^cornell-box,asbdpt:select=pool,' equal/equal-time.csv)" = 2 ]
+check [ "$(grep -c '^cornell-box,asbdpt:select=pool,' equal/runs.csv)" = 2 ]
 # family: once more, nothing is measured again.
-expect 0 'lvc, seed 5102' "$lab" family "$box" --methods bdpt,lvc --quick --spp 2 --res 8x8 --seeds 2 -o family
+expect 0 'cornell-box, lvc, seed' "$lab" family "$box" --methods bdpt,lvc --quick --spp 2 --res 8x8 --seeds 3 -o family
 check grep -q '^| lvc |' family/family.md
-expect 0 '' "$lab" family "$box" --methods bdpt,lvc --quick --spp 2 --res 8x8 --seeds 2 -o family
-check [ "$(grep -c 'seed 5' stderr.txt)" = 0 ]
+expect 0 '' "$lab" family "$box" --methods bdpt,lvc --quick --spp 2 --res 8x8 --seeds 3 -o family
+check [ "$(grep -c ', seed ' stderr.txt)" = 0 ]
 # A reference is of the scene, or it is none: another's of the same name is refused, and no reference is not kept quiet.
 mkdir -p bathroom/ref
 cp "$box" bathroom/scene.pbrt

@@ -3,7 +3,7 @@
  *
  * The table is scenes/features/layered.bsdf: it must be the bytes that are made here.
  */
-#include "material/fourier.h"
+#include "material/fourier_table.h"
 
 #include <math.h>
 #include <stdio.h>

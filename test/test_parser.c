@@ -174,25 +174,29 @@ static void put_textures(struct words *w, const struct scene *s)
     }
 }
 
-#define FIELD(f) {#f, offsetof(struct material, f)}
-#define DISNEY(f) {#f, offsetof(struct material, disney.f)}
+static const struct field *first_at(const struct field *f, size_t place)
+{
+    while (f->place != place)
+        f++;
+    return f;
+}
 
 static void put_material(struct words *w, const struct scene *s, int i)
 {
-    static const struct {
-        const char *name;
-        size_t field;
-    } TEXTURES[] = {FIELD(Kd), FIELD(Ks), FIELD(Kr), FIELD(Kt), FIELD(sigma), FIELD(eta), FIELD(k), FIELD(index),
-                    FIELD(uroughness), FIELD(vroughness), FIELD(opacity), FIELD(reflect), FIELD(transmit),
-                    FIELD(amount), FIELD(bump), DISNEY(metallic), DISNEY(specular_tint),
-                    DISNEY(anisotropic), DISNEY(sheen), DISNEY(sheen_tint), DISNEY(clearcoat),
-                    DISNEY(clearcoat_gloss), DISNEY(transmission), DISNEY(scatter_distance), DISNEY(flatness),
-                    DISNEY(diffuse_transmission)};
-    const struct material *m = &s->material[i];
-    put(w, "material %d %s", i, kind_name(MATERIAL_TYPES, (int)m->kind, ""));
-    for (size_t k = 0; k < sizeof TEXTURES / sizeof TEXTURES[0]; k++)
-        put_texture(w, s, TEXTURES[k].name, *(const int *)(const void *)((const char *)m + TEXTURES[k].field));
-    put(w, " remap %d mix %d %d\n", m->remap_roughness, m->mix1, m->mix2);
+    const struct material *m = s->material[i];
+    put(w, "material %d %s", i, m->row->name);
+    for (const struct field *f = m->row->fields; f->name != NULL; f++) {
+        if (first_at(m->row->fields, f->place) != f) /* another name of what is there already */
+            continue;
+        const void *place = (const char *)m + f->place;
+        if (f->kind == FIELD_FLOAT_TEXTURE || f->kind == FIELD_RGB_TEXTURE)
+            put_texture(w, s, f->name, *(const int *)place);
+        else if (f->kind == FIELD_MATERIAL)
+            put(w, " %s %d", f->name, *(const int *)place);
+        else if (f->kind == FIELD_SWITCH)
+            put(w, " %s %d", f->name, *(const bool *)place);
+    }
+    put(w, "\n");
 }
 
 static void put_shapes(struct words *w, const struct scene *s)

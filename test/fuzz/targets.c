@@ -17,7 +17,7 @@
 #include "image/formats.h"
 #include "image/image.h"
 #include "image/zlib.h"
-#include "lab/results.h"
+#include "lab/store.h"
 #include "parser/parser.h"
 #include "render/parameters.h"
 #include "render/part.h"
@@ -172,13 +172,17 @@ static void fuzz_ply(const uint8_t *data, size_t size, const char *directory)
     free(path);
 }
 
-/* A file of a run, which the program itself has written and somebody may have changed. */
-static void fuzz_run(const uint8_t *data, size_t size, const char *directory)
+/* A record of a measurement, which the program itself has written and somebody may have changed. */
+static void fuzz_record(const uint8_t *data, size_t size, const char *directory)
 {
-    char *path = put_file(directory, "run.csv", data, size);
-    struct seed_run run;
-    if (run_read(path, "key", 2, &run) && run.n != 2)
-        broken("a run of another number of steps is accepted");
+    char *path = put_file(directory, "record.txt", data, size);
+    struct record r;
+    if (store_read(directory, "record", "key", &r)) {
+        for (int i = 0; i < STORE_NUMBERS; i++)
+            if (!isfinite(r.number[i]))
+                broken("a record holds what is no number");
+        free(r.pixels);
+    }
     free(path);
 }
 
@@ -304,7 +308,7 @@ static void fuzz_hostile(const uint8_t *data, size_t size, const char *directory
 const struct fuzz_target fuzz_targets[] = {
     {"png", fuzz_png},   {"tga", fuzz_tga}, {"pfm", fuzz_pfm},     {"ppm", fuzz_ppm},
     {"exr", fuzz_exr},   {"hdr", fuzz_hdr}, {"inflate", fuzz_inflate}, {"ply", fuzz_ply},
-    {"part", fuzz_part}, {"run", fuzz_run},   {"scene", fuzz_scene}, {"hostile", fuzz_hostile}, {NULL, NULL}};
+    {"part", fuzz_part}, {"record", fuzz_record}, {"scene", fuzz_scene}, {"hostile", fuzz_hostile}, {NULL, NULL}};
 
 const struct fuzz_target *fuzz_find(const char *name)
 {

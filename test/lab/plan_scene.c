@@ -62,8 +62,8 @@ static bool read_planned(const struct plan *p, const char *path, const struct re
 static void warn(const struct plan *p, const struct scene *scene, const char *path, const char *why)
 {
     if (!p->quiet)
-        fprintf(stderr, "asbdpt: warning: %s: %s: measured at %dx%d pixels, whatever the film's own are (see --res), "
-                        "against a picture rendered here\n", path, why, scene->width, scene->height);
+        fprintf(stderr, "asbdpt: warning: %s: %s: measured at %dx%d pixels, whatever the film's own are (see --res)\n",
+                path, why, scene->width, scene->height);
 }
 
 bool plan_scene_load(const struct plan *p, const char *path, const char *name, struct scene *scene, int *depth,
