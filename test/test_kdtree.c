@@ -255,8 +255,8 @@ static void compare(struct test *t, const char *name, const struct geometry *geo
     }
     CHECK(t, wrong == 0, "%s: %d of %d rays wrong", name, wrong, n_rays);
     CHECK(t, hits > n_rays / 20, "%s: only %d of %d rays hit anything: a poor test", name, hits, n_rays);
-    CHECK(t, kd.n_items <= 32 * (size_t)geometry_primitives(geo), "%s: %zu references for %d primitives", name, kd.n_items,
-          geometry_primitives(geo));
+    CHECK(t, kd.n_items <= 32 * (size_t)geometry_primitives(geo), "%s: %zu references for %d primitives", name,
+          kd.n_items, geometry_primitives(geo));
     kd_free(&kd);
 }
 

@@ -508,8 +508,8 @@ static void check_subdivided(struct test *t)
  * one makes one. */
 static void check_copies(struct test *t)
 {
-    static const char *const KINDS[] = {"matte", "mirror", "glass", "metal", "plastic", "substrate", "uber", "translucent",
-                                        "subsurface", "kdsubsurface", "disney", "mix", "none", "matte"};
+    static const char *const KINDS[] = {"matte", "mirror", "glass", "metal", "plastic", "substrate", "uber",
+                                        "translucent", "subsurface", "kdsubsurface", "disney", "mix", "none", "matte"};
     enum { LAST = sizeof KINDS / sizeof KINDS[0] - 1, SHAPES = 20 };
     for (int k = 0; k <= LAST; k++) {
         char text[4 * TEXT];

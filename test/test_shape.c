@@ -29,7 +29,8 @@ static uint32_t corner_index[] = {0, 1, 2};
 static int add_triangle(struct test *t, struct geometry *geo, bool with_n, bool with_uv, struct transform to_world,
                         bool reverse)
 {
-    struct mesh m = {corner, with_n ? corner_normal : NULL, with_uv ? corner_uv : NULL, corner_index, 3, 1, 0, 0, 0, 0, NULL};
+    struct mesh m = {corner, with_n ? corner_normal : NULL, with_uv ? corner_uv : NULL, corner_index, 3, 1, 0, 0, 0, 0,
+                     NULL};
     struct error err = {""};
     int group = shape_add_mesh(geo, &m, &to_world, group_of(7, 40), reverse, &err);
     CHECK(t, group == geo->n_groups - 1, "%s", err.text);

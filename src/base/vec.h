@@ -87,8 +87,8 @@ static inline bool combination(vec3 a, vec3 b, vec3 v, double *x, double *y)
     return true;
 }
 
-/* is_place: can something of the scene be at p? A kd-tree's planes are as thick as 1e-14 of the scene (kdtree.c): beside
- * something farther away than this, what is of everyday size could not be told apart. */
+/* is_place: can something of the scene be at p? A kd-tree's planes are as thick as 1e-14 of the scene (kdtree.c):
+ * beside something farther away than this, what is of everyday size could not be told apart. */
 static inline bool is_place(vec3 p)
 {
     const double limit = 1e12;
