@@ -38,8 +38,8 @@ double os_cpu_seconds(void);  /* of all threads of this process; does not wrap. 
 double os_peak_memory(void);  /* bytes this process has held at most, 0 where that is not told */
 
 /* os_limit_memory: from now on allocations fail once this process has as much as the machine, swap with it, so that a
- * scene that wants more ends with a message instead of bringing the machine down. A lower limit (ulimit -d) stays. Where the
- * system cannot do that, nothing happens. */
+ * scene that wants more ends with a message instead of bringing the machine down. A lower limit (ulimit -d) stays.
+ * Where the system cannot do that, nothing happens. */
 void os_limit_memory(void);
 
 /* os_unique: a number that no other process, and no other moment of this one, is likely to have. */
