@@ -468,10 +468,6 @@ expect 0 '' "$lab" trace lamps.pbrt --res 24x16 --spp 4 --worst 1 --svg worst.sv
 check grep -q 'SAMPLES\|bring most' stdout.txt
 check [ -s worst.svg ]
 expect 1 'no pixel has one to tell of' "$lab" trace lamps.pbrt --res 4x4 --spp 4 --worst 1 --integrator pssmlt
-for extra in caustics=1 regularise=.1; do
-    expect 1 'ellipse makes such paths its own way' \
-        "$lab" render "$top/scenes/caustic-glass.pbrt" --res 4x4 --spp 1 --integrator ellipse -P $extra -o b.pfm
-done
 
 # --- help
 # help: as a whole no wider than a terminal, with every integrator once.
