@@ -123,7 +123,8 @@ void methods_all(char out[METHODS_TEXT])
 /* Services are parameters that several methods have: what they are called, and how they are off and on. */
 static const struct {
     const char *name, *value[N_HALVES];
-} SERVICES[] = {{"no-such", {"0", "1"}}};
+} SERVICES[] = {{"guide", {"off", "on"}}, {"emission", {"1", "0.2"}}, {"credit", {"off", "on"}},
+                {"pilot", {"off", "on"}}, {"tile", {"16", "32"}},     {"spread", {"1", "4"}}};
 
 const char *const HALVES[N_HALVES] = {"The choice alone", "With all services"};
 
