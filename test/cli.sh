@@ -312,7 +312,7 @@ check cmp -s scale.pfm s/d00_s00_t02_weighted.pfm
 
 # --- aov
 # --aov: a picture each beside the first, the same for any number of threads and whatever is rendered.
-expect 0 'wrote aov.png, .*, aov.variance.pfm$' "$program" render "$box" --res 16x16 --spp 2 -j 1 \
+expect 0 '^wrote aov.albedo.pfm, .*, aov.variance.pfm$' "$program" render "$box" --res 16x16 --spp 2 -j 1 \
     --aov variance,albedo,normal,depth,position -o aov.png
 expect 0 '' "$program" render "$box" $small --integrator pt -j 3 --aov depth,albedo,depth -o two.x.pfm -o a.png
 check cmp -s aov.depth.pfm two.x.depth.pfm
