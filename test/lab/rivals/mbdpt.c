@@ -19,7 +19,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-#include "integrators/pooled.h"
+#include "rivals/together.h"
 
 /* A sub-path in order of its first vertices. */
 struct ranked {
@@ -113,10 +113,14 @@ static const struct field PARAMETERS[] = {
      DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE, "pixels for each light sub-path", NULL},
     {.name = NULL}};
 
+static void render(const struct preparation *m, const struct tile_pass *pass)
+{
+    together_render(m, pass, connect_all);
+}
+
 const struct method method_mbdpt = {
     .name = "mbdpt", .help = "matrix BDPT [Chaitanya 2018]: pairs of sorted sub-paths, stratified",
     .why = "one of the tile's K light sub-paths for each strategy, by a shifted lattice over eye and light sub-paths "
            "sorted by length, each equally likely; scale 1",
     .parameters = PARAMETERS, .state_size = sizeof(struct frozen), .scratch_size = sizeof(struct light_pool),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .render = pooled_render, .scratch_free = light_pool_free,
-    .connect_all = connect_all};
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .render = render, .scratch_free = light_pool_free};
