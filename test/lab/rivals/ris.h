@@ -37,8 +37,8 @@ void ris_prepare(const struct render_job *job, struct preparation *out);
 void ris_begin(void *scratch, const void *state, const struct tile_pass *pass, long iteration);
 void ris_draw(void *scratch, const void *state, struct pooled_pixel *pixel, const struct vertex *z, int t);
 
-/* ris_hit, ris_lit, ris_joint: as connect_hit, connect_lit and connect_joint, with the weights of ris.c; ris_joint takes
- * r->own and r->all for n. */
+/* ris_hit, ris_lit, ris_joint: as connect_hit, connect_lit and connect_joint, with the weights of ris.c; ris_joint
+ * takes r->own and r->all for n. */
 struct connection ris_hit(struct ris *r, const struct vertex *prev, const struct vertex *z, int t);
 struct connection ris_lit(struct ris *r, const struct lit *l);
 struct connection ris_joint(struct ris *r, const struct joint *j);
