@@ -29,7 +29,7 @@ static uint32_t corner_index[] = {0, 1, 2};
 static int add_triangle(struct test *t, struct geometry *geo, bool with_n, bool with_uv, struct transform to_world,
                         bool reverse)
 {
-    struct mesh m = {corner, with_n ? corner_normal : NULL, with_uv ? corner_uv : NULL, corner_index, 3, 1, 0, 0, 0, 0};
+    struct mesh m = {corner, with_n ? corner_normal : NULL, with_uv ? corner_uv : NULL, corner_index, 3, 1, 0, 0, 0};
     struct error err = {""};
     int group = shape_add_mesh(geo, &m, &to_world, group_of(7, 40), reverse, &err);
     CHECK(t, group == geo->n_groups - 1, "%s", err.text);
@@ -137,7 +137,7 @@ static void check_vertex_normals(struct test *t, struct rng *r)
         vec3 n[3];
         for (int k = 0; k < 9; k++)
             normal[k] = corner_normal[k] * (float)(k / 3 + 1);
-        struct mesh mesh = {corner, normal, corner_uv, corner_index, 3, 1, 0, 0, 0, 0};
+        struct mesh mesh = {corner, normal, corner_uv, corner_index, 3, 1, 0, 0, 0};
         CHECK(t, shape_add_mesh(&geo, &mesh, &m, group_of(7, 40), false, &err) == 0, "%s", err.text);
         for (size_t k = 0; k < 3; k++)
             n[k] = load3(normal, k);
@@ -159,7 +159,7 @@ static void check_degenerate_uv(struct test *t)
     struct geometry geo = {0};
     struct transform id = transform_identity();
     float same[] = {0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f};
-    struct mesh m = {corner, corner_normal, same, corner_index, 3, 1, 0, 0, 0, 0};
+    struct mesh m = {corner, corner_normal, same, corner_index, 3, 1, 0, 0, 0};
     for (int i = 0; i < 2; i++, m.N = NULL) {
         shape_add_mesh(&geo, &m, &id, group_of(0, -1), false, NULL);
         struct surface at = surface_at(&geo, i, 0.3, 0.3);
@@ -314,7 +314,7 @@ static void check_refused(struct test *t)
     for (size_t i = 0; i < sizeof q / sizeof q[0]; i++)
         CHECK(t, shape_add_quadric(&geo, q[i], group_of(0, -1), false, &err) == -1 && geo.n_quadrics == 0 &&
                      strstr(err.text, "not a usable position") != NULL, "quadric %d: \"%s\"", (int)i, err.text);
-    struct mesh m = {corner, NULL, NULL, corner_index, 3, 1, 0, 0, 0, 0};
+    struct mesh m = {corner, NULL, NULL, corner_index, 3, 1, 0, 0, 0};
     struct transform far = transform_translate(vec(1e30, 0, 0));
     CHECK(t, shape_add_mesh(&geo, &m, &far, group_of(0, -1), false, &err) == -1 && geo.n_triangles == 0 &&
                  geo.n_groups == 0 && strstr(err.text, "vertex 0") != NULL, "a vertex at 1e30: %s", err.text);

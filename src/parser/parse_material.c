@@ -37,10 +37,11 @@ int parse_fourier_table(struct parser *p, const char *field)
 void parse_material_types(struct object_type out[MOST_TYPES])
 {
     for (int i = 0; i < MOST_TYPES; i++) {
-        const struct material_row *row = material_rows[i];
-        out[i] = (struct object_type){row != NULL ? row->name : NULL, row != NULL ? row->fields : NULL, i, NULL};
-        if (row == NULL)
+        out[i] = (struct object_type){.kind = i};
+        if (material_rows[i] == NULL)
             break;
+        out[i].name = material_rows[i]->name;
+        out[i].fields = material_rows[i]->fields;
     }
 }
 
