@@ -23,7 +23,7 @@ enum field_kind {
     FIELD_FOURIER_TABLE, /* int: of the texture set, from a file */
     FIELD_FILE,          /* const char *: a path that may be read, or NULL; borrowed */
     FIELD_FLOATS,        /* struct field_list, and the next, too: `low` of them make an entry */
-    FIELD_INDICES, FIELD_POINTS, FIELD_NORMALS, FIELD_PAIRS, /* entries of three, and of two */
+    FIELD_INDICES, FIELD_POINTS, FIELD_VECTORS, FIELD_NORMALS, FIELD_PAIRS, /* entries of three, and of two */
     FIELD_IGNORED        /* nothing depends on it */
 };
 

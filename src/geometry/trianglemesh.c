@@ -5,7 +5,7 @@
 #include "geometry/mesh.h"
 
 struct trianglemesh {
-    struct field_list P, N, uv, st, indices;
+    struct field_list P, N, S, uv, st, indices;
 };
 
 /* A list of numbers as floats. */
@@ -17,7 +17,7 @@ static float *floats(const double *number, int n)
     return out;
 }
 
-/* Data per vertex beside P: where there is less of it than of P, or of N more, pbrt-v3 goes on without it. */
+/* Data per vertex beside P: where there is less of it than of P, or of N or S more, pbrt-v3 goes on without it. */
 static float *vertex_data(struct mesh_task *task, const char *name, struct field_list list, int width, int n_vertices)
 {
     if (list.number == NULL)
@@ -59,6 +59,7 @@ static bool mesh(const void *fields, struct mesh_task *task, struct mesh *out)
     const struct trianglemesh *t = fields;
     mesh_triangles(t->P, t->indices, task, out);
     out->N = vertex_data(task, "N", t->N, 3, out->n_vertices);
+    out->S = vertex_data(task, "S", t->S, 3, out->n_vertices);
     out->UV = vertex_data(task, "uv", t->uv, 2, out->n_vertices);
     if (out->UV == NULL)
         out->UV = vertex_data(task, "st", t->st, 2, out->n_vertices);
@@ -69,6 +70,7 @@ static bool mesh(const void *fields, struct mesh_task *task, struct mesh *out)
 static const struct field FIELDS[] = {
     {"P", .kind = FIELD_POINTS, .place = AT(P)},
     {"N", .kind = FIELD_NORMALS, .place = AT(N)},
+    {"S", .kind = FIELD_VECTORS, .place = AT(S)},
     {"uv", .kind = FIELD_PAIRS, .place = AT(uv)},
     {"st", .kind = FIELD_PAIRS, .place = AT(st)},
     {"indices", .kind = FIELD_INDICES, .place = AT(indices)},

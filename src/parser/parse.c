@@ -235,6 +235,7 @@ static void read_field(struct parser *p, const struct field *f, void *place)
     case FIELD_FLOATS: *(struct field_list *)place = list_of(q, f->name, 1u << PARAM_FLOAT, (int)f->low); break;
     case FIELD_INDICES: *(struct field_list *)place = list_of(q, f->name, 1u << PARAM_INTEGER, 3); break;
     case FIELD_POINTS: *(struct field_list *)place = list_of(q, f->name, 1u << PARAM_POINT, 3); break;
+    case FIELD_VECTORS: *(struct field_list *)place = list_of(q, f->name, 1u << PARAM_VECTOR, 3); break;
     case FIELD_NORMALS: *(struct field_list *)place = list_of(q, f->name, 1u << PARAM_NORMAL, 3); break;
     case FIELD_PAIRS:
         *(struct field_list *)place = list_of(q, f->name, 1u << PARAM_FLOAT | 1u << PARAM_POINT2, 2);
