@@ -170,7 +170,7 @@ static void check_vertex_tangents(struct test *t, struct rng *r)
             store3(tangent, (size_t)k, v);
             s[k] = load3(tangent, (size_t)k);
         }
-        struct mesh mesh = {corner, i % 2 ? corner_normal : NULL, corner_uv, corner_index, 3, 1, 0, 0, 0, 0, NULL};
+        struct mesh mesh = {corner, i % 2 ? corner_normal : NULL, corner_uv, corner_index, 3, 1, 0, 0, 0, NULL};
         CHECK(t, shape_add_mesh(&geo, &mesh, &m, group_of(7, 40), i % 3 == 0, &err) == 0, "%s", err.text);
         mesh.S = tangent;
         CHECK(t, shape_add_mesh(&geo, &mesh, &m, group_of(7, 40), i % 3 == 0, &err) == 1, "%s", err.text);
