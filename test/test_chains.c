@@ -299,6 +299,35 @@ static void test_luminance(struct test *t, const char *integrator)
     scene_free(&scene);
 }
 
+/* That mean luminance, found before the picture, is bdpt's; a twentieth more is not. */
+static void test_brightness(struct test *t, const char *integrator)
+{
+    enum { BATCHES = 16 };
+    struct scene scene;
+    if (!bench_room(t, 20, 12, "", "box", &scene))
+        return;
+    struct batches bdpt = render_batches(t, &scene, "bdpt", BENCH_DEPTH, 128, 8, 20, 63), L = batches_new(8, 1, false),
+                   found = batches_new(BATCHES, 1, false);
+    for (int k = 0; k < 8; k++)
+        L.value[k] = rgb_luminance(rgb_make(bdpt.value[3 * k], bdpt.value[3 * k + 1], bdpt.value[3 * k + 2]));
+    settings_set(&scene.settings, "bootstrapsamples", "8192", "test");
+    for (int k = 0; k < BATCHES; k++) {
+        struct bench b;
+        if (!bench_new(t, &scene, integrator, 100 + (uint64_t)k, &b))
+            break;
+        found.value[k] = b.prepared.number[0].value;
+        bench_free(&b);
+    }
+    double ratio, p = batches_p(&found, &L, &ratio);
+    TEST_ACCEPT(t, p, "%s: the brightness is %.4f of bdpt's", integrator, ratio);
+    batches_scale(&found, 1.05);
+    TEST_REJECT(t, batches_p(&found, &L, &ratio), "%s: a brightness of %.4f of bdpt's", integrator, ratio);
+    batches_free(&bdpt);
+    batches_free(&L);
+    batches_free(&found);
+    scene_free(&scene);
+}
+
 static void agree(struct test *t, struct scene *scene, const char *what, const char *integrator)
 {
     settings_clear(&scene->settings);
@@ -335,6 +364,7 @@ void test_chains(struct test *t)
     for (size_t i = 0; i < sizeof METHODS / sizeof METHODS[0]; i++) {
         test_stays(t, METHODS[i]);
         test_luminance(t, METHODS[i]);
+        test_brightness(t, METHODS[i]);
         test_means(t, METHODS[i]);
     }
 }
