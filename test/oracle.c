@@ -66,17 +66,15 @@ static double delta_density(const struct full_path *f, int from, int i, int to, 
  * it, with each one's share in doing so. */
 static double learnt_emission(const struct full_path *f, struct light_point y0)
 {
-    const struct count_model *m = f->counts->model;
     const struct light_set *lights = &f->scene->lights;
     double sum = 0, pdf, all = light_pdf_environment(lights, y0.w);
-    if (m == NULL || m->emission == NULL)
-        return 1;
+    const struct emission *table = &counts_tables(f->counts)->emission;
     if (f->x[0]->kind != VERTEX_ESCAPED && lights->light[y0.light].kind != LIGHT_INFINITE)
-        return m->emission(m->learnt, lights, &y0, f->x[1]->p, direction(f, 0, 1));
+        return emission_density(table, lights, &y0, f->x[1]->p, direction(f, 0, 1));
     for (int i = 0; i < lights->n_infinite; i++) {
         y0.light = lights->infinite[i];
         pdf = light_pdf_towards(lights, y0.light, y0.w, &y0.cell);
-        sum += pdf / all * m->emission(m->learnt, lights, &y0, f->x[1]->p, direction(f, 0, 1));
+        sum += pdf / all * emission_density(table, lights, &y0, f->x[1]->p, direction(f, 0, 1));
     }
     return sum;
 }
@@ -154,15 +152,15 @@ static double samples(const struct full_path *f, int i)
         return m->splat;
     /* Regions are looked up anew, from the surface points at both ends of the edge, as the walks of this strategy come
      * to them. */
-    int e = 0, y = 0, other;
+    int e = 0, y = 0;
     enum eye_end end = end_of(f, i);
-    if (m->model != NULL)
-        m->model->locate(m->model->learnt, f->x[i]->p, side(f, i, i + 1), &e, &other);
+    if (m->tables != NULL)
+        e = region_at(&m->tables->eye, f->x[i]->p, side(f, i, i + 1));
     if (i == 1)
-        return mis_direct_count(m, &f->scene->lights, e, end, f->x[0]->cell, direction(f, 1, 0));
-    if (m->model != NULL)
-        m->model->locate(m->model->learnt, f->x[i - 1]->p, side(f, i - 1, i - 2), &other, &y);
-    return mis_connect_count(m, y, e, end);
+        return n_direct(m, &f->scene->lights, e, end, f->x[0]->cell, direction(f, 1, 0));
+    if (m->tables != NULL)
+        y = region_at(&m->tables->light, f->x[i - 1]->p, side(f, i - 1, i - 2));
+    return n_connect(m, y, e, end);
 }
 
 /* A vertex whose walk goes on (not the end of a connection) passed by delta if the next vertex says so. */

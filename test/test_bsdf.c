@@ -17,7 +17,7 @@
 
 #include "base/rng.h"
 #include "lab/stats.h"
-#include "material/fourier.h"
+#include "material/fourier_table.h"
 #include "material/fresnel.h"
 #include "tests.h"
 
@@ -35,7 +35,11 @@ enum {
 
 static struct lobe lobe(enum lobe_kind kind, double R, double T)
 {
-    struct lobe l = {.kind = kind, .scale = rgb_grey(1), .R = rgb_grey(R), .T = rgb_grey(T), .A = 0.85, .B = 0.25};
+    struct lobe l = {.kind = kind, .scale = rgb_grey(1), .R = rgb_grey(R), .T = rgb_grey(T)};
+    if (kind == LOBE_OREN_NAYAR) {
+        l.of.oren_nayar.A = 0.85;
+        l.of.oren_nayar.B = 0.25;
+    }
     l.alpha_x = l.alpha_y = 0.3;
     return l;
 }
@@ -55,8 +59,8 @@ static struct lobe copper(double alpha_x, double alpha_y)
 {
     struct lobe l = rough_glass(LOBE_MICROFACET_REFLECTION, alpha_x, alpha_y, 1);
     l.fresnel = FRESNEL_CONDUCTOR;
-    l.eta = rgb_make(0.2, 0.92, 1.1);
-    l.k = rgb_make(3.9, 2.45, 2.14);
+    l.of.conductor.eta = rgb_make(0.2, 0.92, 1.1);
+    l.of.conductor.k = rgb_make(3.9, 2.45, 2.14);
     return l;
 }
 
@@ -84,18 +88,22 @@ static void specimens(struct specimen *s, const struct fourier_table *table)
     coat.R = rgb_grey(0.4);
     faint.R = weak.T = rgb_grey(0.1);
     weak.scale = rgb_make(0.5, 0.7, 0.9);
-    struct lobe disney = lobe(LOBE_DISNEY_DIFFUSE, 0.5, 0.2), metal = copper(0.4, 0.2), glass = refract;
+    struct lobe disney = lobe(LOBE_DISNEY_DIFFUSE, 0.5, 0), metal = copper(0.4, 0.2), glass = refract;
     struct lobe gloss = lobe(LOBE_CLEARCOAT, 1, 0);
-    disney.eta = rgb_grey(0.5);
-    disney.k = rgb_make(0.1, 0.2, 0);
+    disney.of.disney.flat = rgb_grey(0.2);
+    disney.of.disney.retro = rgb_grey(0.5);
+    disney.of.disney.sheen = rgb_make(0.1, 0.2, 0);
+    disney.of.disney.roughness = 0.85;
     metal.fresnel = FRESNEL_DISNEY;
-    metal.eta = rgb_make(0.9, 0.5, 0.2);
-    metal.A = 0.6;
+    metal.of.tinted.normal = rgb_make(0.9, 0.5, 0.2);
+    metal.of.tinted.metallic = 0.6;
     metal.eta_b = 1.5;
-    gloss.alpha_x = 0.1;
+    gloss.of.gloss = 0.1;
     metal.separate = glass.separate = true;
+    struct lobe coated = lobe(LOBE_FRESNEL_BLEND, 0.5, 0);
+    coated.of.coat = rgb_grey(0.4);
     struct lobe layered = lobe(LOBE_FOURIER, 1, 0);
-    layered.table = table;
+    layered.of.table = table;
     struct specimen all[N_SPECIMENS] = {
         {"lambert", 1, {diffuse}},
         {"lambert transmission", 1, {through}},
@@ -105,7 +113,7 @@ static void specimens(struct specimen *s, const struct fourier_table *table)
         {"rough dielectric, reflection", 1, {reflect}},
         {"rough dielectric, transmission", 1, {refract}},
         {"brushed dielectric, transmission", 1, {rough_glass(LOBE_MICROFACET_TRANSMISSION, 0.5, 0.2, 1.3)}},
-        {"substrate", 1, {lobe(LOBE_FRESNEL_BLEND, 0.5, 0.4)}},
+        {"substrate", 1, {coated}},
         {"rough glass", 2, {reflect, refract}},
         {"plastic", 2, {diffuse, coat}},
         {"translucent", 4, {diffuse, through, faint, weak}},
@@ -409,7 +417,7 @@ void test_bsdf(struct test *t)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 22, 0);
     struct fourier_table table;
-    struct error err = {""};
+    struct error err = {.text = ""};
     if (!CHECK(t, fourier_read("scenes/features/layered.bsdf", &table, &err), "%s", err.text))
         return;
     samples_follow_pdf(t, &r, &table);

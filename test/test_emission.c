@@ -1,6 +1,6 @@
 /* test_emission.c: how light sub-paths leave the lights (emission.h): numbers of rays are found again for every kind of
  * light; what is drawn has the density stated and, whatever the table, the same expectation; what is learnt is what
- * the lessons say. */
+ * the rays say. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #include "base/mem.h"
 #include "base/rng.h"
 #include "lab/stats.h"
-#include "learning/learnt.h"
+#include "tables/tables.h"
 #include "transport/path.h"
 #include "helpers.h"
 #include "tests.h"
@@ -77,33 +77,33 @@ static void test_numbers(struct test *t, const struct scene *s)
 /* --- what is drawn ----------------------------------------------------------------------------------- */
 
 /* Some bins and some lights are worth much more than others, some nothing. */
-static void random_table(const struct scene *s, struct rng *r, double delta, struct emission *out)
+static struct emission random_table(const struct scene *s, struct rng *r, double delta)
 {
-    struct emission_lessons l;
+    struct emission_sums l;
     enum { RAYS = 1000000, WORTH = 50000 };
-    emission_lessons_init(&l, &s->lights);
+    emission_sums_init(&l, &s->lights);
     for (int i = 0; i < WORTH; i++) {
         int cell = (int)rng_below(r, (uint32_t)s->lights.n_cells), bin = (int)rng_below(r, EMISSION_BINS);
         const double u[2] = {(bin / EMISSION_SIDE + rng_uniform(r)) / EMISSION_SIDE,
                              (bin % EMISSION_SIDE + rng_uniform(r)) / EMISSION_SIDE};
-        emission_lessons_add(&l, cell, u, bin % 7 * (1 + s->lights.light_of_cell[cell]));
+        emission_sums_add(&l, cell, u, bin % 7 * (1 + s->lights.light_of_cell[cell]));
     }
-    emission_build(out, &l, &s->lights, RAYS, delta);
-    emission_lessons_free(&l);
+    struct emission out = emission_build(&l, &s->lights, RAYS, delta);
+    emission_sums_free(&l);
+    return out;
 }
 
 /* Columns and bins come as often as q says, not as often as e does; rho is q over e. */
 static void test_draws(struct test *t, const struct scene *s)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 31, 0);
-    struct emission e = {.q = NULL};
-    random_table(s, &r, 0.2, &e);
+    struct emission e = random_table(s, &r, 0.2);
     size_t n = (size_t)e.columns.n * EMISSION_BINS;
     double *count = mem_alloc(3 * n, sizeof *count), *wanted = count + n, *power = wanted + n, over = 0;
     long draws = 400000L * test_effort(t);
     for (long i = 0; i < draws; i++) {
         double u[2] = {rng_uniform(&r), rng_uniform(&r)}, rho;
-        int column = emission_choose(&e, &s->lights, rng_uniform(&r), u, &rho) / e.columns.cells_each;
+        int column = emission_draw(&e, &s->lights, rng_uniform(&r), u, &rho) / e.columns.cells_each;
         size_t at = (size_t)(column * EMISSION_BINS + (int)(u[0] * EMISSION_SIDE) * EMISSION_SIDE +
                              (int)(u[1] * EMISSION_SIDE));
         count[at]++;
@@ -156,12 +156,10 @@ static void carry(const struct scene *s, const struct mis_counts *counts, uint64
 static void test_expectation(struct test *t, const struct scene *s)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 32, 0);
-    struct learnt learnt = {.aimed = true};
-    struct mis_counts plain = {.hit = {1, 1}}, aimed = {.hit = {1, 1}, .delta = {1, 1}, .model = &learnt.model};
+    struct tables known = {.emission = random_table(s, &r, 0.2)};
+    struct mis_counts plain = {.hit = {1, 1}}, aimed = {.hit = {1, 1}, .delta = {1, 1}, .tables = &known};
     double mean[2][PARTS], variance[2][PARTS];
     long n = 200000L * test_effort(t);
-    random_table(s, &r, 0.2, &learnt.emission);
-    learnt_freeze(&learnt);
     carry(s, &plain, test_seed(t), 0, n, mean[0], variance[0]);
     carry(s, &aimed, test_seed(t), n, n, mean[1], variance[1]);
     double most = 1;
@@ -173,7 +171,7 @@ static void test_expectation(struct test *t, const struct scene *s)
         most = least_of(most, wrong);
     }
     TEST_REJECT(t, most, "20 %% more light");
-    learnt_free(&learnt);
+    tables_free(&known);
 }
 
 /* --- the table --------------------------------------------------------------------------------------- */
@@ -185,56 +183,54 @@ static const char ONE[] = "WorldBegin LightSource \"point\" Shape \"sphere\" Wor
 static void test_limits(struct test *t)
 {
     struct scene s;
-    struct emission even = {.q = NULL}, e = {.q = NULL};
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 33, 0);
     double rho, before[2] = {0, 0};
     if (!scene_from_text(t, ONE, &s))
         return;
-    random_table(&s, &r, 1, &even);
-    random_table(&s, &r, 0.1, &e);
+    struct emission even = random_table(&s, &r, 1), e = random_table(&s, &r, 0.1);
     for (int i = 0; i < 1000; i++) {
         const double u[2] = {rng_uniform(&r), rng_uniform(&r)};
         double same[2] = {u[0], u[1]}, rising[2] = {i / 1000.0, i / 1000.0};
-        emission_choose(&even, &s.lights, rng_uniform(&r), same, &rho);
+        emission_draw(&even, &s.lights, rng_uniform(&r), same, &rho);
         CHECK(t, same[0] == u[0] && same[1] == u[1] && rho == 1, "(%g,%g) becomes (%g,%g), rho %g", u[0], u[1], same[0],
               same[1], rho);
-        emission_choose(&e, &s.lights, 0.5, rising, &rho);
+        emission_draw(&e, &s.lights, 0.5, rising, &rho);
         CHECK(t, rising[0] > before[0] || i == 0, "a number that is larger becomes %g after %g", rising[0], before[0]);
         before[0] = rising[0];
     }
     double last[2] = {1 - DBL_EPSILON / 2, 1 - DBL_EPSILON / 2};
-    emission_choose(&e, &s.lights, last[0], last, &rho);
+    emission_draw(&e, &s.lights, last[0], last, &rho);
     CHECK(t, last[0] < 1 && last[1] < 1 && rho > 0, "the last number becomes (%g,%g)", last[0], last[1]);
     emission_free(&even);
     emission_free(&e);
     scene_free(&s);
 }
 
-/* With many lessons t goes as the root of the mean square, with none of it known all is even. */
+/* With many rays t goes as the root of the mean square, with none of it known all is even. */
 static void test_root(struct test *t)
 {
     struct scene s;
-    struct emission_lessons l;
-    struct emission e = {.q = NULL};
+    struct emission_sums l;
     enum { RAYS = 64000 };
     const double delta = 0.25;
     if (!scene_from_text(t, ONE, &s))
         return;
-    emission_lessons_init(&l, &s.lights);
-    emission_build(&e, &l, &s.lights, RAYS, delta);
+    emission_sums_init(&l, &s.lights);
+    struct emission e = emission_build(&l, &s.lights, RAYS, delta);
     CHECK(t, e.q[0] == 1.0 / EMISSION_BINS && e.q[63] == 1.0 / EMISSION_BINS, "%g and %g of nothing", e.q[0], e.q[63]);
     for (int i = 0; i < RAYS; i++) { /* on one half 3, on the other every fourth time 8, whose root of the mean is 4 */
         const double u[2] = {(i % 64 + 0.5) / 64, (i / 64 % 8 + 0.5) / 8};
-        emission_lessons_add(&l, 0, u, u[0] < 0.5 ? 3 : i % 4 == 0 ? 8 : 0);
+        emission_sums_add(&l, 0, u, u[0] < 0.5 ? 3 : i % 4 == 0 ? 8 : 0);
     }
-    emission_build(&e, &l, &s.lights, RAYS, delta);
+    emission_free(&e);
+    e = emission_build(&l, &s.lights, RAYS, delta);
     double expected[2];
     for (int k = 0; k < 2; k++)
         expected[k] = (delta + (1 - delta) * (3 + k) / 3.5) / EMISSION_BINS;
     CHECK(t, fabs(e.q[0] / expected[0] - 1) < 2e-3 && fabs(e.q[63] / expected[1] - 1) < 2e-3,
           "%g and %g, not %g and %g", e.q[0], e.q[63], expected[0], expected[1]);
     emission_free(&e);
-    emission_lessons_free(&l);
+    emission_sums_free(&l);
     scene_free(&s);
 }
 

@@ -39,27 +39,26 @@ static void test_trees(struct test *t)
 /* How far the worth of pairs of regions is from even: the mean of h^2 over that of h, squared. */
 static void test_pairs_learnt(struct test *t)
 {
-    static const struct wish wish = {.importance = true, .guide = true, .pairs = true, .eye_cells = 8,
-                                     .light_cells = 16, .levels = REGION_LEVELS, .delta = 0.1, .emission = 0.2};
+    static const struct learn_options all = {.importance = true, .guide = true, .pairs = true, .eye_cells = 8,
+                                             .light_cells = 16, .levels = REGION_LEVELS, .delta = 0.1, .emission = 0.2};
     static const struct {
         const char *path;
         double unevenness;
     } cases[] = {{"scenes/veach-ajar.pbrt", 5.01}, {"scenes/corridor.pbrt", 6.70}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct scene scene;
-        struct learnt l = {0};
         double sum = 0, square = 0;
         if (!scene_from_file(t, cases[i].path, 32, 24, &scene))
             continue;
         struct render_job job = {.scene = &scene, .film_rect = render_crop(&scene), .seed = 3, .eye_seed = 3,
                                  .max_depth = 5, .n_threads = 2, .rr_threshold = 0.5, .spatial_lights = true};
-        learn(&job, &wish, &l);
+        struct tables l = learn(&job, &all);
         for (int k = 0; k < l.pairs.n_eye * l.pairs.n_light; k++) {
             sum += l.pairs.h[k] / (l.pairs.n_eye * l.pairs.n_light);
             square += sqr(l.pairs.h[k]) / (l.pairs.n_eye * l.pairs.n_light);
         }
         figure(t, cases[i].path, square / sqr(sum), cases[i].unevenness, 0.03);
-        learnt_free(&l);
+        tables_free(&l);
         scene_free(&scene);
     }
 }

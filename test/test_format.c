@@ -42,7 +42,7 @@ static bool find_row(const char *section, const char *type, char types[2000], ch
 static bool has_parameter(const struct object_type *type, const char *types, const char *name)
 {
     for (; type->name != NULL; type++)
-        for (const struct parameter *row = type->parameter; row->name != NULL; row++)
+        for (const struct field *row = type->fields; row->name != NULL; row++)
             if (holds(types, type->name) && strcmp(row->name, name) == 0)
                 return true;
     return false;
@@ -56,7 +56,7 @@ static void check_type(struct test *t, const char *page, const char *section, co
         return;
     if (strstr(listed, "mapping") != NULL) /* whose parameters are a table of their own */
         strncat(listed, strstr(page, "\nMapping, "), 1200);
-    for (const struct parameter *row = type->parameter; row->name != NULL; row++)
+    for (const struct field *row = type->fields; row->name != NULL; row++)
         CHECK(t, holds(listed, row->name), "`%s`: the page does not list `%s`", type->name, row->name);
     int depth = 0, used;
     for (const char *p = listed; *p != '\0' && *p != '\n'; p++) {
@@ -94,7 +94,9 @@ void test_format(struct test *t)
         return;
     check_directives(t, page, "\n## Options\n", OPTION_DIRECTIVES);
     check_directives(t, page, "\n## Shapes\n", SHAPE_DIRECTIVES);
-    check_types(t, page, "\n## Materials\n", MATERIAL_TYPES);
+    struct object_type materials[MOST_TYPES];
+    parse_material_types(materials);
+    check_types(t, page, "\n## Materials\n", materials);
     check_types(t, page, "\n## Textures\n", TEXTURE_TYPES);
     check_directives(t, page, "\n## Lights\n", LIGHT_DIRECTIVES);
     free(page);

@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "material/bsdf.h"
-#include "material/disney.h"
+#include "material/burley.h"
 #include "material/fresnel.h"
 #include "material/microfacet.h"
 #include "base/number.h"
@@ -114,6 +114,13 @@ static struct lobe facet_lobe(enum lobe_kind kind, double alpha_x, double alpha_
     return l;
 }
 
+static struct lobe coat_lobe(double gloss)
+{
+    struct lobe l = facet_lobe(LOBE_CLEARCOAT, 0, 0);
+    l.of.gloss = gloss;
+    return l;
+}
+
 /* The area on the sphere that a small square around (u1,u2) is mapped to, per area of the square. Negative if some
  * corner is absorbed. */
 static double stretch(const struct lobe *l, vec3 wo, double u1, double u2)
@@ -190,10 +197,10 @@ static void clear_coat(struct test *t)
         }
         CHECK(t, near(down, 1, 1e-3), "coat of alpha %g: facets project to %g of the surface", ALPHA[a], down);
         for (int c = 0; c < 4; c++) {
-            struct lobe l = facet_lobe(LOBE_CLEARCOAT, ALPHA[a], 0), other = l;
+            struct lobe l = coat_lobe(ALPHA[a]), other = l;
             double e = jacobian_error(&l, &l, direction(COS[c], 0.7));
             CHECK(t, e < 2e-3, "coat of alpha %g, cos %g: pdf off by %g", ALPHA[a], COS[c], e);
-            other.alpha_x *= 1.5;
+            other.of.gloss *= 1.5;
             CHECK(t, jacobian_error(&l, &other, direction(COS[c], 0.7)) > 0.1, "another gloss must show");
         }
     }
@@ -202,7 +209,7 @@ static void clear_coat(struct test *t)
 /* Values of pbrt-v3's formulas, worked out by hand for wo and wi at 60 degrees from the normal, opposite each other. */
 static void disney_values(struct test *t)
 {
-    struct lobe l = {.kind = LOBE_DISNEY_DIFFUSE, .scale = rgb_grey(1), .A = 0.5};
+    struct lobe l = {.kind = LOBE_DISNEY_DIFFUSE, .scale = rgb_grey(1), .of.disney.roughness = 0.5};
     vec3 wo = direction(0.5, 0.4), wi = direction(0.5, 0.4 + PI), up = vec(0, 0, 1);
     const double s = pow(0.5, 5), f = 1 - 0.875 * s; /* Schlick's weight; and what the flat look makes of it */
     const struct {
@@ -213,15 +220,15 @@ static void disney_values(struct test *t)
                  {0, 0, 0, 1, s}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         l.R = rgb_grey(cases[i].base);
-        l.T = rgb_grey(cases[i].flat);
-        l.eta = rgb_grey(cases[i].retro);
-        l.k = rgb_grey(cases[i].sheen);
+        l.of.disney.flat = rgb_grey(cases[i].flat);
+        l.of.disney.retro = rgb_grey(cases[i].retro);
+        l.of.disney.sheen = rgb_grey(cases[i].sheen);
         double value = lobe_eval(&l, wo, wi, true, RADIANCE).f.g;
         CHECK(t, near(value, cases[i].want, 1e-12), "part %d: %g, not %g", (int)i, value, cases[i].want);
     }
     CHECK(t, near(disney_fresnel(1, rgb_grey(0.5), 0.5, 1, 1.5).g, 0.27, 1e-12), "half a metal, at normal incidence");
     CHECK(t, near(disney_fresnel(1e-9, rgb_grey(0.5), 0.5, 1, 1.5).g, 1, 1e-6), "half a metal, grazing");
-    struct lobe coat = facet_lobe(LOBE_CLEARCOAT, 0.1, 0);
+    struct lobe coat = coat_lobe(0.1);
     double d = 0.99 / (-PI * log(0.01) * 0.01), g = 1 / (0.5 + sqrt(0.0625 + 0.9375 * 0.25));
     double want = d * (0.04 + 0.96 * s) * g * g / 4, value = lobe_eval(&coat, wo, wi, true, RADIANCE).f.g;
     CHECK(t, near(value, want, 1e-9), "coat: %g, not %g", value, want);
@@ -319,12 +326,12 @@ static void oren_nayar_as_printed(struct test *t)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 21, 0);
     struct lobe l = facet_lobe(LOBE_OREN_NAYAR, 0, 0);
-    l.A = 0.8;
-    l.B = 0.3;
+    l.of.oren_nayar.A = 0.8;
+    l.of.oren_nayar.B = 0.3;
     for (int i = 0; i < 500; i++) {
         double theta_o = 1.5 * rng_uniform(&r), theta_i = 1.5 * rng_uniform(&r), phi = 7 * rng_uniform(&r);
         double alpha = fmax(theta_o, theta_i), beta = fmin(theta_o, theta_i);
-        double expected = INV_PI * (l.A + l.B * fmax(0, cos(phi)) * sin(alpha) * tan(beta));
+        double expected = INV_PI * (0.8 + 0.3 * fmax(0, cos(phi)) * sin(alpha) * tan(beta));
         rgb f = lobe_eval(&l, direction(cos(theta_o), 0.4), direction(cos(theta_i), 0.4 + phi), true, RADIANCE).f;
         CHECK(t, near(f.r, expected, 1e-12), "Oren-Nayar: %g, printed form %g", f.r, expected);
     }

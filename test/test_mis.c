@@ -6,9 +6,10 @@
 #include <string.h>
 
 #include "transport/connect.h"
+#include "transport/counts.h"
 #include "base/mem.h"
 #include "base/warp.h"
-#include "learning/learnt.h"
+#include "tables/tables.h"
 #include "helpers.h"
 #include "oracle.h"
 #include "tests.h"
@@ -81,38 +82,40 @@ static const struct variant VARIANTS[] = {
 
 /* Regions met at random, a guide that prefers some cells in every one of them, pairs of random worth and rays from
  * lights that go some ways rather than others: learnt from nothing. */
-static void learn_nothing(const struct scene *scene, struct learnt *l)
+static struct tables learn_nothing(const struct scene *scene)
 {
-    struct guide_lessons lessons;
+    struct tables l = NO_TABLES;
+    struct guide_sums seen;
     struct rng r = rng_stream(7, RNG_TEST, 0, 0);
     const struct light_set *lights = &scene->lights;
     const vec3 low = vec(-2, 0, -2), high = vec(2, 3, 2);
-    regions_init(&l->eye, low, high, 4, 2, 1000);
-    regions_init(&l->light, low, high, 9, REGION_LEVELS, 1000);
-    guide_lessons_init(&lessons, lights);
+    regions_init(&l.eye, low, high, 4, 2, 1000);
+    regions_init(&l.light, low, high, 9, REGION_LEVELS, 1000);
+    guide_sums_init(&seen, lights);
     for (int i = 0; i < 2000; i++) {
         vec3 p = vec(4 * rng_uniform(&r) - 2, 3 * rng_uniform(&r), 4 * rng_uniform(&r) - 2);
         vec3 n = warp_sphere(rng_uniform(&r), rng_uniform(&r));
         int cell = (int)rng_below(&r, (uint32_t)lights->n_cells);
-        regions_add(&l->light, regions_key(&l->light, p, n));
-        int region = regions_add(&l->eye, regions_key(&l->eye, p, n));
-        guide_lessons_add(&lessons, &l->eye, region, cell, 1 + cell % 3 + i % 5);
+        regions_add(&l.light, regions_key(&l.light, p, n));
+        int region = regions_add(&l.eye, regions_key(&l.eye, p, n));
+        guide_sums_add(&seen, &l.eye, region, cell, 1 + cell % 3 + i % 5);
     }
-    guide_build(&l->guide, &lessons, &l->eye, lights, 0.1);
-    guide_lessons_free(&lessons);
-    l->pairs.n_eye = l->eye.n;
-    l->pairs.n_light = l->light.n;
-    l->pairs.h = mem_alloc((size_t)l->eye.n * (size_t)l->light.n, sizeof *l->pairs.h);
-    for (int i = 0; i < l->eye.n * l->light.n; i++)
-        l->pairs.h[i] = exp(4 * rng_uniform(&r) - 2);
-    struct emission_lessons rays;
-    emission_lessons_init(&rays, lights);
+    l.guide = guide_build(&seen, &l.eye, lights, 0.1);
+    guide_sums_free(&seen);
+    l.pairs.n_eye = l.eye.n;
+    l.pairs.n_light = l.light.n;
+    l.pairs.h = mem_alloc((size_t)l.eye.n * (size_t)l.light.n, sizeof *l.pairs.h);
+    for (int i = 0; i < l.eye.n * l.light.n; i++)
+        l.pairs.h[i] = exp(4 * rng_uniform(&r) - 2);
+    struct emission_sums rays;
+    emission_sums_init(&rays, lights);
     for (int i = 0; i < 5000; i++) {
         const double u[2] = {rng_uniform(&r), rng_uniform(&r)};
-        emission_lessons_add(&rays, (int)rng_below(&r, (uint32_t)lights->n_cells), u, exp(4 * (u[0] - u[1])) + i % 3);
+        emission_sums_add(&rays, (int)rng_below(&r, (uint32_t)lights->n_cells), u, exp(4 * (u[0] - u[1])) + i % 3);
     }
-    emission_build(&l->emission, &rays, lights, 5000, 0.1);
-    emission_lessons_free(&rays);
+    l.emission = emission_build(&rays, lights, 5000, 0.1);
+    emission_sums_free(&rays);
+    return l;
 }
 
 struct comparison {
@@ -162,11 +165,8 @@ static void compare_direct(struct comparison *c, const struct vertex *eye, int t
     u[0] = sampler_number(&same, DRAW_LIGHT);
     sampler_pair(&same, DRAW_LIGHT_POINT, &u[1]);
     const struct light_set *lights = &c->scene->lights;
-    const struct count_model *m = c->counts->model;
     double pmf;
-    int cell = m != NULL && m->choose_light != NULL
-                   ? m->choose_light(m->learnt, lights, eye[t - 1].eye_region, u[0], &pmf)
-                   : alias_sample(&lights->choice, u[0], &pmf, NULL);
+    int cell = guide_draw(&counts_tables(c->counts)->guide, lights, eye[t - 1].eye_region, u[0], &pmf);
     if (!light_sample_cell(lights, &c->scene->geo, cell, u[1], u[2], &at))
         return;
     struct vertex y;
@@ -241,20 +241,20 @@ void test_mis(struct test *t)
         struct scene scene;
         if (!scene_from_text(t, text, &scene))
             return;
-        struct learnt learnt = {.guided = false};
-        learn_nothing(&scene, &learnt);
+        struct tables all_known = learn_nothing(&scene);
         for (size_t k = 0; k < 8 * (sizeof sets / sizeof sets[0]); k++) {
             struct mis_counts counts = *sets[k / 8].counts;
-            learnt.guided = k % 2 == 1;
-            learnt.paired = k / 2 % 2 == 1;
-            learnt.aimed = k / 4 % 2 == 1;
-            learnt_freeze(&learnt);
-            counts.model = k % 8 > 0 ? &learnt.model : NULL;
+            bool guide = k % 2 == 1, pairs = k / 2 % 2 == 1, emission = k / 4 % 2 == 1;
+            struct tables known = all_known;
+            known.guide = guide ? all_known.guide : NO_TABLES.guide;
+            known.pairs = pairs ? all_known.pairs : NO_TABLES.pairs;
+            known.emission = emission ? all_known.emission : NO_TABLES.emission;
+            counts.tables = k % 8 > 0 ? &known : NULL;
             struct comparison c = {t, VARIANTS[v].name, &scene, &counts, 0, 0, 0, 1};
             compare_paths(&c, 400);
             CHECK(t, c.worst < bound && c.compared > 100,
                   "%s, %s%s%s%s: %ld weights, largest difference %.3g (bound %g)", VARIANTS[v].name, sets[k / 8].name,
-                  learnt.guided ? ", guide" : "", learnt.paired ? ", pairs" : "", learnt.aimed ? ", emission" : "",
+                  guide ? ", guide" : "", pairs ? ", pairs" : "", emission ? ", emission" : "",
                   c.compared, c.worst, bound);
             CHECK(t, c.lamps > 100 || scene.kd_lamps.n_nodes == 0 || counts.hit[LATER_HIT] == 0,
                   "%s: only %ld of see-through lamps", VARIANTS[v].name, c.lamps);
@@ -262,7 +262,7 @@ void test_mis(struct test *t)
         struct comparison planted = {t, VARIANTS[v].name, &scene, &all, 0, 0, 0, 1 + 1e-8};
         compare_paths(&planted, 50);
         CHECK(t, planted.worst > bound, "a weight wrong by 1e-8 was not noticed");
-        learnt_free(&learnt);
+        tables_free(&all_known);
         scene_free(&scene);
     }
 }

@@ -6,7 +6,7 @@
 #include "base/mem.h"
 #include "base/rng.h"
 #include "base/warp.h"
-#include "learning/pairs.h"
+#include "tables/pairs.h"
 #include "tests.h"
 
 enum { CELLS = 8, POINTS = 3000 };
@@ -47,23 +47,23 @@ static double true_worth(vec3 e, vec3 y) { return 1 + (e.x > 0) + 2 * (y.x > 0) 
 
 /* Learn from `trials` between points of the sides x < 0 and x > 0; each trial brings k times its worth with
  * probability 1/k. */
-static void learn(struct rng *r, struct regions *eye, struct regions *light, int trials, double *vertices,
-                  struct pairs *out)
+static void learn(struct rng *r, struct regions *eye, struct regions *light, int trials,
+                  struct row_sums *vertices, struct pairs *out)
 {
-    struct pair_lessons l;
+    struct pair_sums l;
     const vec3 up = vec(0, 0, 1);
     for (int i = 0; i < POINTS; i++) {
         regions_add(eye, regions_key(eye, random_point(r), up));
-        vertices[regions_add(light, regions_key(light, random_point(r), up))] += 3.0 / POINTS;
+        *sums_row(vertices, regions_add(light, regions_key(light, random_point(r), up))) += 3.0 / POINTS;
     }
-    pair_lessons_init(&l, eye, light);
+    pair_sums_init(&l, eye, light);
     for (int i = 0; i < trials; i++) {
         vec3 e = random_point(r), y = random_point(r);
         double x = rng_below(r, 4) == 0 ? 4 * true_worth(e, y) : 0;
-        pair_lessons_add(&l, eye, light, region_at(eye, e, up), region_at(light, y, up), x, 0.5 + rng_uniform(r));
+        pair_sums_add(&l, eye, light, region_at(eye, e, up), region_at(light, y, up), x, 0.5 + rng_uniform(r));
     }
-    pairs_build(out, &l, eye, light, vertices, light->n, 0.1);
-    pair_lessons_free(&l);
+    *out = pairs_build(&l, eye, light, vertices, 0.1);
+    pair_sums_free(&l);
 }
 
 /* Root mean square of the relative error of h, and, in *planted, of h as seen from the other side. */
@@ -96,20 +96,21 @@ static void test_worth_learnt(struct test *t, struct rng *r, int trials, double 
 {
     struct regions eye, light;
     struct pairs p;
-    double vertices[8192] = {0};
+    struct row_sums vertices = {.columns = 1};
     centred_grid(&eye, 4);
     centred_grid(&light, CELLS);
-    learn(r, &eye, &light, trials, vertices, &p);
+    learn(r, &eye, &light, trials, &vertices, &p);
     for (int e = 0; e < p.n_eye; e++) {
         double sum = 0;
         for (int y = 0; y < p.n_light; y++)
-            sum += vertices[y] * pairs_row(&p, e)[y];
+            sum += *sums_row(&vertices, y) * pairs_row(&p, e)[y];
         CHECK(t, fabs(sum - 1) < 1e-9, "worth of region %d over a light sub-path is %.12f", e, sum);
     }
     double planted, error = error_of(r, &eye, &light, &p, &planted);
     CHECK(t, error < bound, "%d trials: the worth of pairs is off by %.0f %%", trials, 100 * error);
     CHECK(t, planted > 0.5, "%d trials: seen from the wrong side the worth passes: %.0f %%", trials, 100 * planted);
     pairs_free(&p);
+    free(vertices.x);
     regions_free(&eye);
     regions_free(&light);
 }

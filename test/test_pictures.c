@@ -7,6 +7,7 @@
 #include "image/image.h"
 #include "lab/compare.h"
 #include "lab/demo.h"
+#include "lab/measure.h"
 #include "lab/pyramid.h"
 #include "lab/worth.h"
 #include "parser/parser.h"
@@ -39,7 +40,7 @@ static void test_pyramid(struct test *t)
 {
     struct strategy_images images;
     struct image img;
-    struct error err = {""};
+    struct error err = {.text = ""};
     char path[512];
     struct pixel_rect rect = {0, 0, 8, 4, 0, 0};
     strategies_init(&images, rect, 2);
@@ -72,18 +73,20 @@ static void test_pyramid(struct test *t)
 /* What it says is what it shows. */
 static void test_demo(struct test *t)
 {
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct sheet sheet;
     enum { SIDES = 2 };
-    struct equal_render side[SIDES];
-    struct demo demo = {.scene = "scenes/cornell-box.pbrt", .spp = 2, .scale = 2, .n_threads = 1, .seed = 7};
-    demo.methods.n = SIDES; /* the same twice, which a list has not */
-    snprintf(demo.methods.item[0].text, METHOD_TEXT, "bdpt");
-    snprintf(demo.methods.item[0].integrator, 32, "bdpt");
-    demo.methods.item[1] = demo.methods.item[0];
+    const char *scene = "scenes/cornell-box.pbrt";
+    struct plan plan = {.scene = &scene, .n_scenes = 1, .n_seeds = 1, .equal = true, .scale = 2, .n_threads = 1,
+                        .seed = 7, .quiet = true};
+    struct results r = {0};
+    plan_set_spp(&plan, 2, 2, &err);
+    plan_set_methods(&plan, "bdpt,lvc", &err);
     int width, height;
     float *ref = image_read_linear("ref/cornell-box.pfm", &width, &height, NULL, &err);
-    bool ok = CHECK(t, ref != NULL && demo_run(&demo, side, &sheet, &err), "%s", err.text);
+    bool ok = CHECK(t, ref != NULL && measure(&plan, &r, &err), "%s", err.text);
+    if (ok)
+        demo_draw(&r, &sheet);
     for (int i = 0; ok && i < SIDES; i++) {
         /* Pictures of 64 x 64 pixels, each a square of k x k, 24 pixels apart: take one back out of the sheet. */
         int k = (sheet.width - 4 * 24) / 3 / 64, left = 24 + i * (64 * k + 24), top = sheet.height - 24 - 64 * k;
@@ -93,19 +96,19 @@ static void test_demo(struct test *t)
                 for (int c = 0; c < 3; c++)
                     mean[3 * (y / 2 * 32 + x / 2) + c] +=
                         0.25f * sheet.pixels[3 * ((top + y * k) * sheet.width + left + x * k) + c];
-        double rmse8 = compare_pixels(mean, ref, 32 * 32 * 3).rmse8;
-        CHECK(t, fabs(rmse8 - side[i].rmse8) < 0.01, "label %d says %g, the picture has %g", i, side[i].rmse8, rmse8);
+        double rmse8 = compare_pixels(mean, ref, 32 * 32 * 3).rmse8, said = r.scene[0].run[i][0].step[0].value[Q_RMSE8];
+        CHECK(t, fabs(rmse8 - said) < 0.01 && said > 1, "label %d says %g, the picture has %g", i, said, rmse8);
     }
     if (ok) {
-        CHECK(t, side[0].spp == 2 && side[1].spp >= 1, "%ld and %ld samples", side[0].spp, side[1].spp);
-        CHECK(t, side[0].rmse8 > 1 && side[0].rmse8 != side[1].rmse8, "two seeds, two pictures: errors %g and %g",
-              side[0].rmse8, side[1].rmse8);
+        CHECK(t, r.scene[0].run[0][0].step[0].spp == 2 && r.scene[0].run[1][0].step[0].spp >= 1, "samples");
         sheet_free(&sheet);
     }
     free(ref);
-    demo.scene = "scenes/test/nothing.pbrt";
-    ok = demo_run(&demo, side, &sheet, &err);
+    results_free(&r);
+    scene = "scenes/test/nothing.pbrt";
+    ok = measure(&plan, &r, &err);
     CHECK(t, !ok && strstr(err.text, "cannot open the file") != NULL, "says \"%s\"", err.text);
+    results_free(&r);
 }
 
 /* --- what was learnt --------------------------------------------------------------------------------- */
@@ -127,7 +130,7 @@ static void test_worth(struct test *t)
 {
     static float worth[SIZE * SIZE], draws[SIZE * SIZE];
     struct scene scene;
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct render_options options = {.integrator = "asbdpt", .end = 256, .n_threads = 2};
     if (!CHECK(t, parse_scene("scenes/cornell-box.pbrt", &scene, NULL, &err), "%s", err.text))
         return;

@@ -1,5 +1,6 @@
 /* test_report.c: experiments: statistics, plots, a tiny experiment carried out, resumed and written, its files
  * read. */
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,9 +12,9 @@
 #include "image/image.h"
 #include "scene/develop.h"
 #include "lab/compare.h"
-#include "lab/experiment.h"
 #include "lab/figures.h"
 #include "lab/markup.h"
+#include "lab/measure.h"
 #include "lab/pictures.h"
 #include "lab/published.h"
 #include "lab/report.h"
@@ -49,6 +50,27 @@ static void test_statistics(struct test *t)
           "ratio %g of means, from %g to %g: symmetric in the logarithm", i.value, i.low, i.high);
     CHECK(t, isnan(one.low) && isfinite(one.value), "one seed has no interval");
     CHECK(t, isnan(results_ratio(below, 2, b, 2).value), "error below the reference's noise has no ratio");
+}
+
+/* Of values of a known variance their pairs tell it: the mean of seeds' squares is that of all pairs; each seed's is
+ * its own squared deviation but for noise. */
+static void test_pairs_of_seeds(struct test *t)
+{
+    enum { SEEDS = 4 };
+    static const double x[SEEDS] = {1, 2, 4, 9};
+    double half[SEEDS * SEEDS] = {0}, out[SEEDS], sum = 0, variance = 0;
+    for (int i = 0; i < SEEDS; i++)
+        for (int j = 0; j < SEEDS; j++)
+            half[i * SEEDS + j] = i == j ? NAN : (x[i] - x[j]) * (x[i] - x[j]) / 2;
+    results_pairs(half, SEEDS, out);
+    for (int i = 0; i < SEEDS; i++) {
+        variance += (x[i] - 4) * (x[i] - 4) / (SEEDS - 1);
+        sum += out[i];
+        /* Of one number: (x - mean)^2 S / (S-2) less what the others' scatter says. */
+        double own = (x[i] - 4) * (x[i] - 4) * SEEDS / (SEEDS - 2.0) - 38.0 / (SEEDS - 1) / (SEEDS - 2);
+        CHECK(t, fabs(out[i] - own) < 1e-12, "seed %d: %g, not %g", i, out[i], own);
+    }
+    CHECK(t, fabs(sum / SEEDS - variance) < 1e-12, "pairs give %g, the variance is %g", sum / SEEDS, variance);
 }
 
 /* --- plots ------------------------------------------------------------------------------------------- */
@@ -173,8 +195,9 @@ static void write_scene(const char *path, const char *emission)
 static void set_up(struct test *t, struct setup *s)
 {
     const struct plan plan = {.command = "experiment", .scene = s->scene, .n_scenes = 1, .n_seeds = 2, .width = 8,
-                              .reference_spp = 64, .n_threads = 1, .quiet = true, .directory = s->directory};
-    struct error err = {""};
+                              .reference_spp = 64, .n_threads = 1, .quiet = true, .directory = s->directory,
+                              .no_roulette = true};
+    struct error err = {.text = ""};
     snprintf(s->scene_path, sizeof s->scene_path, "%s/cornell-box.pbrt", test_tmp(t));
     snprintf(s->directory, sizeof s->directory, "%s/experiment", test_tmp(t));
     write_scene(s->scene_path, "[6 6 6]");
@@ -186,9 +209,9 @@ static void set_up(struct test *t, struct setup *s)
 
 static bool carry_out(struct test *t, struct setup *s, struct results *out)
 {
-    struct error err = {""};
+    struct error err = {.text = ""};
     memset(out, 0, sizeof *out);
-    return CHECK(t, experiment_run(&s->plan, out, &err), "experiment: %s", err.text);
+    return CHECK(t, measure(&s->plan, out, &err), "experiment: %s", err.text);
 }
 
 /* Are all measurements but the times the same, and the times too if `times`? */
@@ -215,7 +238,7 @@ static double direct_rmse8(struct test *t, const struct results *r, int method, 
     const struct measured *m = &r->plan->methods.item[method];
     struct scene scene;
     struct film film;
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct settings base = {0};
     float pixels[8 * 6 * 3];
     if (!scene_from_file(t, r->scene[0].path, 8, 6, &scene))
@@ -225,7 +248,7 @@ static double direct_rmse8(struct test *t, const struct results *r, int method, 
     scene.settings = measured_settings(m, &base);
     settings_clear(&base);
     struct render_options o = {.integrator = m->integrator, .n_threads = 2, .max_depth = 4,
-                               .seed = (uint64_t)plan_seed(method, 1), .end = r->plan->spp[step]};
+                               .seed = plan_seed(r->plan, method, 1), .end = r->plan->spp[step]};
     film_init(&film, render_crop(&scene), 8, 6);
     CHECK(t, render_scene(&scene, &o, &film, &err), "%s", err.text);
     film_develop(&film, scene.film_scale, pixels);
@@ -247,6 +270,10 @@ static void check_runs(struct test *t, const struct results *r)
                   r->plan->methods.item[v].text, r->plan->spp[i], ours, direct);
         }
     const struct run_step *step = s->run[0][0].step;
+    double rmse8 = step[0].value[Q_RMSE8], noise8 = s->reference.noise8;
+    CHECK(t, fabs(step[0].square[SQUARE_RMSE8] - (rmse8 * rmse8 - noise8 * noise8)) < 1e-6 * rmse8 * rmse8,
+          "squared error %g, of %g with the reference's %g", step[0].square[SQUARE_RMSE8], rmse8, noise8);
+    CHECK(t, step[0].square[SQUARE_RELMSE] < step[0].value[Q_RELMSE] - 1e-9, "the reference has noise in relmse, too");
     double seconds[2] = {step[0].value[Q_SECONDS], step[r->plan->n_steps - 1].value[Q_SECONDS]};
     CHECK(t, seconds[0] > 0 && seconds[1] > seconds[0], "time rises: %g, %g s", seconds[0], seconds[1]);
 }
@@ -275,7 +302,7 @@ static void check_sheet(struct test *t, const struct results *r)
 {
     const struct scene_results *s = &r->scene[0];
     struct image img;
-    struct error err = {""};
+    struct error err = {.text = ""};
     char path[512];
     snprintf(path, sizeof path, "%s/images/cornell-box.png", r->plan->directory);
     if (!CHECK(t, image_read(path, &img, &err), "%s", err.text))
@@ -300,7 +327,7 @@ static void check_sheet(struct test *t, const struct results *r)
 static void check_output(struct test *t, const struct results *r)
 {
     static const char *const plots[] = {"convergence", "samples", "bias", "sweep-1"};
-    struct error err = {""};
+    struct error err = {.text = ""};
     CHECK(t, report_write(r, &err), "output: %s", err.text);
     check_sheet(t, r);
     for (size_t i = 0; i < sizeof plots / sizeof plots[0]; i++) {
@@ -326,7 +353,7 @@ static void check_output(struct test *t, const struct results *r)
         snprintf(path, sizeof path, "%s/%.*s", r->plan->directory, (int)strcspn(p + 2, ")"), p + 2);
         CHECK(t, file_exists(path), "%s, which the page names, is not there", path);
     }
-    CHECK(t, named == 2 + 2 + 4 && strstr(page, "nan") == NULL, "the page names %d files", named);
+    CHECK(t, named == 2 + 1 + 4 && strstr(page, "nan") == NULL, "the page names %d files", named);
     free(page);
 }
 
@@ -340,6 +367,13 @@ static void check_again(struct test *t, struct setup *s, const struct results *f
     again.scene[0].run[POOL][0] = again.scene[0].run[POOL][1];
     CHECK(t, !same_results(first, &again, false), "two seeds have different results");
     results_free(&again);
+}
+
+/* A file of the store: of a method's seed after so many samples. */
+static void record_path(const struct setup *s, int method, int seed, long spp, const char *extension, char out[512])
+{
+    snprintf(out, 512, "%s/store/cornell-box--%s--8--seed%" PRIu64 "--%ld.%s", s->directory,
+             s->plan.methods.item[method].file, plan_seed(&s->plan, method, seed), spp, extension);
 }
 
 static void test_experiment(struct test *t)
@@ -359,19 +393,18 @@ static void test_experiment(struct test *t)
 
     /* Started again, nothing is done twice: even the times are the old ones. */
     check_again(t, &s, &first, true, true, "an experiment started again has the same results");
-    /* Interrupted: one run is lost, one is damaged. */
-    snprintf(path, sizeof path, "%s/runs/cornell-box--asbdpt-select-bins--seed1.csv", s.directory);
+    /* Interrupted: of one run the last step is lost, one picture is damaged. */
+    record_path(&s, 1, 1, 64, "txt", path);
     CHECK(t, remove(path) == 0, "%s exists", path);
-    snprintf(path, sizeof path, "%s/runs/cornell-box--asbdpt-select-pool--seed2.csv", s.directory);
-    FILE *f = fopen(path, "a");
-    fputs("64,1", f);
-    fclose(f);
+    record_path(&s, POOL, 2, 16, "pfm", path);
+    FILE *f = fopen(path, "r+b");
+    if (CHECK(t, f != NULL, "%s exists", path)) {
+        fseek(f, -4, SEEK_END);
+        fputs("....", f);
+        fclose(f);
+    }
     check_again(t, &s, &first, true, false, "an interrupted experiment ends with the same results");
     /* A scene that has changed begins anew. */
-    f = fopen(s.scene_path, "a");
-    fputs("# nothing\n", f);
-    fclose(f);
-    check_again(t, &s, &first, true, false, "a comment in the scene changes nothing");
     write_scene(s.scene_path, "[9 9 9]");
     check_again(t, &s, &first, false, false, "a brighter light does");
     first.scene[0].reference.mean_error = NAN; /* what is not known of a reference is said to be so */
@@ -384,6 +417,7 @@ static void test_experiment(struct test *t)
 void test_report(struct test *t)
 {
     test_statistics(t);
+    test_pairs_of_seeds(t);
     test_bias(t);
     test_axes(t);
     test_markup(t);

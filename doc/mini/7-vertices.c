@@ -206,7 +206,7 @@ struct counts { /* the number n of samples per pixel; 0: the method does not use
     double splat;        /* t = 1: all light sub-paths of the picture are joined to the lens */
     const double *worth; /* `vertices`: `connect` is times the worth of the light end's cell; else NULL */
 };
-enum { CELLS = 8, PLACES = CELLS * CELLS * CELLS }; /* of space, along each axis (src/learning/regions.c) */
+enum { CELLS = 8, PLACES = CELLS * CELLS * CELLS }; /* of space, along each axis (src/tables/regions.c) */
 static int cell(double x) { return (int)fmin(fmax(x * CELLS, 0), CELLS - 1); }
 static int place(vec3 p) { return (cell(p.x) * CELLS + cell(p.y)) * CELLS + cell(p.z / 2); }
 
@@ -379,7 +379,7 @@ struct work { /* all memory there is */
 };
 
 /* Where can the camera use light? In proportion to the throughput with which eye sub-paths arrive there. Normalised so
- * that the vertices of a light sub-path are worth 1 on average; frozen before the first sample. (visits.c) */
+ * that the vertices of a light sub-path are worth 1 on average; frozen before the first sample. (eye_pass.c) */
 static void learn(double *worth, uint64_t *rng)
 {
     const struct counts n = {0, 0, 0, 0, NULL};

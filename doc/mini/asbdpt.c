@@ -218,7 +218,7 @@ struct counts { /* the number n of samples per pixel; 0: the method does not use
     const double *worth; /* of the light end's cell: `connect` is times this; NULL: 1 */
     int row;             /* `subspaces`: worth has a row, this long, for each cell of the eye end; else 0 */
 };
-enum { CELLS = 8, PLACES = CELLS * CELLS * CELLS }; /* of space, along each axis (src/learning/regions.c) */
+enum { CELLS = 8, PLACES = CELLS * CELLS * CELLS }; /* of space, along each axis (src/tables/regions.c) */
 static int cell(double x) { return (int)fmin(fmax(x * CELLS, 0), CELLS - 1); }
 static int place(vec3 p) { return (cell(p.x) * CELLS + cell(p.y)) * CELLS + cell(p.z / 2); }
 
@@ -402,7 +402,7 @@ struct work { /* all memory there is */
 };
 
 /* Where can the camera use light? In proportion to the throughput with which eye sub-paths arrive there. Normalised so
- * that the vertices of a light sub-path are worth 1 on average; frozen before the first sample. (visits.c) */
+ * that the vertices of a light sub-path are worth 1 on average; frozen before the first sample. (eye_pass.c) */
 static void learn(double *worth, uint64_t *rng)
 {
     const struct counts n = {0, 0, 0, 0, NULL, 0};
@@ -421,7 +421,7 @@ static void learn(double *worth, uint64_t *rng)
         worth[i] = (1 - DELTA) * worth[i] / (sum / (SIZE * SIZE)) + DELTA;
 }
 
-/* ---- Learning pairs (src/learning/trials.c, pairs.c) ---------------------------------------------------------------
+/* ---- Learning pairs (src/learning/pairs_pass.c) -------------------------------------------------------------------
  * A trial joins an eye vertex z in e to a light vertex y in l, unweighted, and notes what arrives,
  *     x = luminance(connection) / w,     with the weight w = luminance(beta_z) luminance(beta_y).
  * There are more pairs than trials, so the mean of a pair leans on that of the cells twice as large that hold the two:

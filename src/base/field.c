@@ -13,7 +13,8 @@ const struct field *field_find(const struct field *table, const char *name)
 
 const char *field_type(const struct field *f)
 {
-    static const char *const types[] = {"integer", "float", "string"};
+    static const char *const types[] = {
+        [FIELD_INTEGER] = "integer", [FIELD_NUMBER] = "float", [FIELD_WORD] = "string"};
     return types[f->kind];
 }
 

@@ -6,23 +6,34 @@
 #ifndef ASBDPT_FIELD_H
 #define ASBDPT_FIELD_H
 
+#include <math.h>
 #include <stddef.h>
 
-/* What a parameter is, and what stands at its place in the struct. */
+/* What a parameter is, and what stands at its place in the struct. Methods have those of the second line alone. */
 enum field_kind {
-    FIELD_INTEGER, /* int */
-    FIELD_NUMBER,  /* double */
-    FIELD_WORD     /* int: which of the words */
+    FIELD_OTHER,         /* nothing: who makes the object reads it */
+    FIELD_INTEGER, FIELD_NUMBER, FIELD_WORD, /* int; double; int: which of the words */
+    FIELD_SWITCH,        /* bool */
+    FIELD_POINT,         /* vec3 */
+    FIELD_FLOAT_TEXTURE, /* int: a texture of numbers, or one made for a number, each from low to high */
+    FIELD_RGB_TEXTURE,   /* int: of colours */
+    FIELD_OPERAND,       /* int: of what the texture is that is being made; */
+    FIELD_VALUE,         /* rgb: a value of that type */
+    FIELD_MATERIAL,      /* int: a material made before */
+    FIELD_FOURIER_TABLE, /* int: of the texture set, from a file */
+    FIELD_IGNORED        /* nothing depends on it */
 };
 
 struct field {
     const char *name;
     enum field_kind kind;
     size_t place;               /* in the struct to be filled */
-    double fallback, low, high; /* integers and numbers: low <= value <= high; words: the fallback's number */
+    double fallback, low, high; /* low <= value <= high, any where both are 0; words: the fallback's number */
     const char *help;
     const char *const *words;   /* words: all there are, ended by NULL */
 };
+
+#define FIELD_KEPT ((double)NAN) /* the fallback is what stands there already; of numbers, points and textures */
 
 /* field_find: the one of that name in a table, which ends with one without, or NULL. */
 const struct field *field_find(const struct field *table, const char *name);

@@ -8,12 +8,11 @@ bool asbdpt_guided(const struct render_job *job)
     return job->spatial_lights && job->scene->lights.n_cells >= MIN_GUIDED_CELLS;
 }
 
-void asbdpt_learn(const struct render_job *job, bool importance, int cells, struct learnt *out, struct frozen *f)
+void asbdpt_learn(const struct render_job *job, bool importance, int cells, struct tables *out, struct frozen *f)
 {
-    struct wish wish = {.importance = importance, .guide = asbdpt_guided(job), .eye_cells = GUIDE_CELLS,
-                        .light_cells = cells, .levels = 1, .emission = 1};
-    if (wish.importance || wish.guide)
-        learn(job, &wish, out);
-    learnt_freeze(out);
-    f->counts.model = &out->model;
+    struct learn_options options = {.importance = importance, .guide = asbdpt_guided(job), .eye_cells = GUIDE_CELLS,
+                                    .light_cells = cells, .levels = 1, .emission = 1};
+    if (options.importance || options.guide)
+        *out = learn(job, &options);
+    f->counts.tables = out;
 }

@@ -24,7 +24,7 @@ enum {
 /* asbdpt_guided: does s = 1 choose lights by what is seen? */
 bool asbdpt_guided(const struct render_job *job);
 
-/* asbdpt_learn: importance, if wanted, on a grid of so many cells, and the guide; counts follow what is learnt. */
-void asbdpt_learn(const struct render_job *job, bool importance, int cells, struct learnt *out, struct frozen *f);
+/* asbdpt_learn: importance, if wanted, on a grid of so many cells, and the guide; counts go by *out from then on. */
+void asbdpt_learn(const struct render_job *job, bool importance, int cells, struct tables *out, struct frozen *f);
 
 #endif

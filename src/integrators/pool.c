@@ -22,7 +22,7 @@ struct pool_state {
     struct frozen frozen;
     int metric, grid;
     double delta;
-    struct learnt learnt;
+    struct tables tables;
 };
 
 struct pool {
@@ -39,11 +39,11 @@ static void free_scratch(void *scratch)
     alias_free(&p->table);
 }
 
-static double path_importance(const struct pool_state *s, const struct vertex *path, int n)
+static double importance_of(const struct pool_state *s, const struct vertex *path, int n)
 {
     return s->metric == METRIC_CONSTANT     ? 1
            : s->metric == METRIC_THROUGHPUT ? path_throughput(path, n)
-                                            : importance_of_path(&s->learnt.importance, path, n);
+                                            : path_importance(&s->tables.importance, path, n);
 }
 
 static void begin(void *scratch, const void *state, const struct tile_pass *pass, long iteration)
@@ -53,7 +53,7 @@ static void begin(void *scratch, const void *state, const struct tile_pass *pass
     int K = p->paths.n;
     double sum = 0;
     for (int k = 0; k < K; k++) {
-        double q = path_importance(s, light_pool_path(&p->paths, k), p->paths.length[k]);
+        double q = importance_of(s, light_pool_path(&p->paths, k), p->paths.length[k]);
         sum += p->q[k] = q >= 0 && fits_float(q) ? q : 0; /* what delta leaves to all is enough to choose it by */
     }
     double delta = sum > 0 ? s->delta : 1;
@@ -78,13 +78,13 @@ static void prepare(const struct render_job *job, struct preparation *out)
 {
     struct pool_state *s = out->state;
     out->size.spread = POOL_SPREAD;
-    asbdpt_learn(job, s->metric == METRIC_IMPORTANCE, s->grid, &s->learnt, &s->frozen);
+    asbdpt_learn(job, s->metric == METRIC_IMPORTANCE, s->grid, &s->tables, &s->frozen);
 }
 
 static void release(void *state)
 {
     struct pool_state *s = state;
-    learnt_free(&s->learnt);
+    tables_free(&s->tables);
 }
 
 #define AT(member) offsetof(struct pool_state, member)

@@ -50,8 +50,8 @@ static void init_scratch(void *scratch, const void *state)
 {
     const struct subspaces_state *s = state;
     struct subspaces *v = scratch;
-    v->group_of = mem_alloc((size_t)s->learnt.light.n, sizeof *v->group_of);
-    v->row_of = mem_alloc((size_t)s->learnt.eye.n, sizeof *v->row_of);
+    v->group_of = mem_alloc((size_t)s->tables.light.n, sizeof *v->group_of);
+    v->row_of = mem_alloc((size_t)s->tables.eye.n, sizeof *v->row_of);
 }
 
 static void free_scratch(void *scratch)
@@ -95,7 +95,7 @@ static void begin(void *scratch, const void *state, const struct tile_pass *pass
     (void)pass;
     (void)iteration;
     candidates_find(&v->found, &v->pool);
-    make_groups(v, s->learnt.light.n);
+    make_groups(v, s->tables.light.n);
     size_t n = (size_t)v->found.n;
     v->candidate = mem_grow(v->candidate, &v->candidate_capacity, n, sizeof *v->candidate);
     v->before = mem_grow(v->before, &v->before_capacity, n, sizeof *v->before);
@@ -109,18 +109,18 @@ static void begin(void *scratch, const void *state, const struct tile_pass *pass
         g->L += c.L;
     }
     v->n_rows = 0;
-    for (int e = 0; e < s->learnt.eye.n; e++)
+    for (int e = 0; e < s->tables.eye.n; e++)
         v->row_of[e] = -1;
 }
 
 /* --- drawing ----------------------------------------------------------------------------------------- */
 
 /* The cumulative sums of an eye region, made when it is first met. */
-static const double *row_of_region(struct subspaces *v, const struct learnt *learnt, int e)
+static const double *row_of_region(struct subspaces *v, const struct tables *tables, int e)
 {
     size_t n = (size_t)v->n_groups;
     if (v->row_of[e] < 0) {
-        const double *h = pairs_row(&learnt->pairs, e);
+        const double *h = pairs_row(&tables->pairs, e);
         v->row = mem_grow(v->row, &v->row_capacity, (size_t)(v->n_rows + 1) * (n + 1), sizeof *v->row);
         double *row = &v->row[(size_t)v->n_rows * (n + 1)];
         row[0] = 0;
@@ -152,7 +152,7 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *p, const
         return;
     double C = s->draws[z->eye_end], whole = floor(C);
     int n = (int)whole + (C > whole && sampler_number(&p->draws, DRAW_HOW_MANY) < C - whole);
-    const double *row = n > 0 ? row_of_region(v, &s->learnt, z->eye_region) : NULL;
+    const double *row = n > 0 ? row_of_region(v, &s->tables, z->eye_region) : NULL;
     for (int c = 0; c < n; c++) {
         struct choice choice;
         const struct candidate *y = find(v, row, (c + sampler_number(&p->draws, DRAW_LIGHT_END)) / n, &choice.pmf);
@@ -171,7 +171,7 @@ static void tell(const struct subspaces_state *s, struct preparation *out)
     const struct film_number numbers[] = {
         {"draws_first_hit", s->draws[FIRST_HIT]}, {"draws_after", s->draws[LATER_HIT]},
         {"light_points_first_hit", f->lights}, {"pixels_per_light_path", f->path_pixels},
-        {"eye_regions", s->learnt.eye.n}, {"light_regions", s->learnt.light.n}};
+        {"eye_regions", s->tables.eye.n}, {"light_regions", s->tables.light.n}};
     memcpy(out->number, numbers, sizeof numbers); /* fewer than there is room for: a NULL name stays behind them */
     if (f->path_pixels == 0)
         snprintf(out->note, sizeof out->note, "chosen: no light sub-paths; %d light point%s at the first hit",
@@ -209,13 +209,13 @@ static void prepare(const struct render_job *job, struct preparation *out)
     struct subspaces_state *s = out->state;
     struct frozen *f = &s->frozen;
     int path_pixels = f->path_pixels;
-    const struct wish wish = {.importance = true, .guide = asbdpt_guided(job), .pairs = true,
+    const struct learn_options options = {.importance = true, .guide = asbdpt_guided(job), .pairs = true,
                               .eye_cells = GUIDE_CELLS, .light_cells = LIGHT_CELLS, .levels = REGION_LEVELS,
                               .delta = s->delta, .emission = s->emission};
     out->size.tile = MAX_TILE_SIZE; /* a larger pool */
     out->size.spread = POOL_SPREAD;
-    learn(job, &wish, &s->learnt);
-    f->counts.model = &s->learnt.model;
+    s->tables = learn(job, &options);
+    f->counts.tables = &s->tables;
     run_pilot(job, path_pixels == 0 && s->connections == 0, out);
     if (s->connections > 0)
         pilot_set_draws(s, s->connections);
@@ -228,7 +228,7 @@ static void prepare(const struct render_job *job, struct preparation *out)
 static void release(void *state)
 {
     struct subspaces_state *s = state;
-    learnt_free(&s->learnt);
+    tables_free(&s->tables);
 }
 
 #define AT(member) offsetof(struct subspaces_state, member)

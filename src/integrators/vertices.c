@@ -29,7 +29,7 @@ struct vertices_state {
     struct frozen frozen; /* path_pixels 0, connections 0: chosen */
     int metric, grid, connections;
     double delta;
-    struct learnt learnt;
+    struct tables tables;
 };
 
 struct vertices {
@@ -61,7 +61,7 @@ static void begin(void *scratch, const void *state, const struct tile_pass *pass
     v->q = mem_grow(v->q, &v->q_capacity, (size_t)v->found.n, sizeof *v->q);
     for (int i = 0; i < v->found.n; i++) {
         const struct candidate *c = &v->found.item[i];
-        double q = c->L * mis_connect_count(&s->frozen.counts, c->y->light_region, 0, FIRST_HIT);
+        double q = c->L * n_connect(&s->frozen.counts, c->y->light_region, 0, FIRST_HIT);
         bool usable = q >= 0 && fits_float(q);
         v->q[i] = usable ? q : 0;
         pass->tile->nonfinite += !usable;
@@ -100,14 +100,11 @@ static int choose_connections(const struct importance *importance)
 /* h(l) = (1 - delta) E(l) / mean + delta, for every eye vertex alike. */
 static void pairs_from_importance(struct vertices_state *s)
 {
-    struct learnt *l = &s->learnt;
-    double *row = mem_alloc((size_t)l->light.n, sizeof *row);
-    for (int y = 0; y < l->light.n; y++)
-        row[y] = (1 - s->delta) * importance_in(&l->importance, y) / l->importance.mean + s->delta;
-    pairs_from_row(&l->pairs, row, l->light.n);
-    l->paired = true;
-    learnt_freeze(l);
-    free(row);
+    struct tables *t = &s->tables;
+    double *row = mem_alloc((size_t)t->light.n, sizeof *row);
+    for (int y = 0; y < t->light.n; y++)
+        row[y] = (1 - s->delta) * importance_in(&t->importance, y) / t->importance.mean + s->delta;
+    t->pairs = pairs_from_row(row, t->light.n);
 }
 
 static void prepare(const struct render_job *job, struct preparation *out)
@@ -116,9 +113,9 @@ static void prepare(const struct render_job *job, struct preparation *out)
     struct frozen *f = &s->frozen;
     bool importance = s->metric == METRIC_IMPORTANCE;
     out->size.spread = POOL_SPREAD;
-    asbdpt_learn(job, importance, s->grid, &s->learnt, f);
+    asbdpt_learn(job, importance, s->grid, &s->tables, f);
     if (s->connections == 0)
-        s->connections = importance ? choose_connections(&s->learnt.importance) : 4;
+        s->connections = importance ? choose_connections(&s->tables.importance) : 4;
     if (f->path_pixels == 0) {
         f->path_pixels = 2;
         f->counts.splat /= 2;
@@ -127,14 +124,14 @@ static void prepare(const struct render_job *job, struct preparation *out)
         f->counts.connect[end] = CREDIT * s->connections;
         f->counts.direct[end] = f->counts.delta[end] = CREDIT;
     }
-    if (importance && s->learnt.importance.mean > 0)
+    if (importance && s->tables.importance.mean > 0)
         pairs_from_importance(s);
 }
 
 static void release(void *state)
 {
     struct vertices_state *s = state;
-    learnt_free(&s->learnt);
+    tables_free(&s->tables);
 }
 
 #define AT(member) offsetof(struct vertices_state, member)

@@ -1,25 +1,26 @@
-/* learn.h: look at a scene before it is rendered, and keep what was found (learnt.h).
+/* learn.h: look at a scene before it is rendered, and keep what was found (tables.h).
  *
  * The contract. A fixed number of sub-paths is traced, LEARN_PER_PIXEL for each pixel of the picture between
  * LEARN_LEAST and LEARN_MOST eye sub-paths and at most as many light sub-paths, whatever number of samples is asked
  * for: a picture that is continued, or made in parts, is made by one and the same estimator. Memory is bounded: 1024
  * eye regions and 2048 light regions, 64 MiB while learning and a quarter of that after it. job->watch sees it go on
- * and may end it: then there is what was found so far, which is a valid, if poor, thing to have learnt.
+ * and may end it: then there is what was found so far, which is a valid, if poor, thing to have learnt. Tables are not
+ * stored: every render learns them anew.
  *
- * Passes, each over sub-paths of its own: extent (where vertices are, so that the grid lies there), visits (where the
- * camera can use light, and which lights are seen from where), emission (which light sub-paths go there: half of them),
- * light walks (where the vertices of the others, which know that, are), trials (what regions are worth to each other).
- * visits.c, trials.c.
+ * Passes, each over sub-paths of its own: extent (where vertices are, so that the grid lies there), importance (where
+ * the camera can use light, and which lights are seen from where), emission (which light sub-paths go there: half of
+ * them), vertices (where those of the others, which know that, are), pairs (what regions are worth to each other).
  *
  * Tests: test_asbdpt.c (same result for any number of threads, unbiased renders), test_learning.c.
  */
 #ifndef ASBDPT_LEARN_H
 #define ASBDPT_LEARN_H
 
-#include "learning/learnt.h"
+#include "learning/options.h"
+#include "tables/tables.h"
 #include "transport/tile_pass.h"
 
-/* learn: out is zero-initialised; learnt_free releases it. */
-void learn(const struct render_job *job, const struct wish *wish, struct learnt *out);
+/* learn: the tables; tables_free releases them. */
+struct tables learn(const struct render_job *job, const struct learn_options *options);
 
 #endif

@@ -9,18 +9,23 @@ void bsdf_make(struct bsdf *b, struct frame shading, vec3 ng, struct lobe *lobe,
     b->shading = shading;
     b->ng = ng;
     b->lobe = lobe;
-    b->n_lobes = n;
-    b->n_smooth = 0;
+    b->n_lobes = b->n_smooth = 0;
     b->transmits = false;
     double total = 0;
     for (int i = 0; i < n; i++) {
-        total += lobe_albedo_guess(&lobe[i]);
+        double guess = lobe[i].choice = lobe_albedo_guess(&lobe[i]);
+        if (!(guess > 0))
+            continue;
+        total += guess;
         b->n_smooth += !lobe_is_delta(lobe[i].kind);
         b->transmits |= lobe[i].kind == LOBE_LAMBERT_TRANSMISSION || lobe[i].kind == LOBE_MICROFACET_TRANSMISSION ||
                         lobe[i].kind == LOBE_FOURIER;
+        if (i > b->n_lobes)
+            lobe[b->n_lobes] = lobe[i];
+        b->n_lobes++;
     }
-    for (int i = 0; i < n; i++)
-        lobe[i].choice = n == 1 ? 1 : even / n + (1 - even) * lobe_albedo_guess(&lobe[i]) / total;
+    for (int i = 0; i < b->n_lobes; i++)
+        lobe[i].choice = b->n_lobes == 1 ? 1 : even / b->n_lobes + (1 - even) * lobe[i].choice / total;
 }
 
 struct bsdf_value bsdf_eval(const struct bsdf *b, vec3 wo, vec3 wi, enum transport mode)

@@ -1,65 +1,113 @@
-/* disney.c: see disney.h. */
-#include "material/disney.h"
+/* disney.c: the Disney BSDF [Burley 2012] [Burley 2015], as pbrt-v3 has it; burley.h has its formulas. */
+#include <math.h>
+#include <stddef.h>
 
-#include "base/maths.h"
-#include "base/number.h"
-#include "material/fresnel.h"
+#include "base/vec.h"
+#include "material/lobe_list.h"
 
-static double mix(double t, double a, double b) { return (1 - t) * a + t * b; }
+struct disney {
+    struct material is;
+    int colour, index, roughness, metallic, specular_tint, anisotropic, sheen, sheen_tint, clearcoat, clearcoat_gloss;
+    int transmission;
+    int scatter_distance; /* what is beneath begins where it is not black; not there if thin */
+    bool thin;
+    int flatness, diffuse_transmission; /* of thin ones; the transmission from 0 to 2 */
+};
 
-/* What Schlick adds to the reflectance at normal incidence, of what is left to 1. */
-static double schlick(double cosine)
+static rgb blend(double t, rgb a, rgb b) { return rgb_add(rgb_scale(a, 1 - t), rgb_scale(b, t)); }
+
+/* What is diffuse of it, of colour c, and has this share of the whole. */
+static void diffuse(struct lobe_list *list, const struct disney *d, double whole, rgb c, rgb tint)
 {
-    double m = clamp(1 - cosine, 0, 1);
-    return sqr(sqr(m)) * m;
+    bool beneath = !d->thin && !rgb_is_black(colour_at(list, d->scatter_distance));
+    double sheen = limited(number_at(list, d->sheen), 0, MATERIAL_MAX_COLOUR);
+    struct lobe *l = lobe_add(list, LOBE_DISNEY_DIFFUSE, beneath ? rgb_black() : c, rgb_black());
+    l->scale = rgb_grey(whole);
+    l->of.disney.roughness = roughness_at(list, d->roughness);
+    l->of.disney.retro = c;
+    l->of.disney.sheen = rgb_scale(blend(fraction_at(list, d->sheen_tint), rgb_grey(1), tint), sheen);
+    if (d->thin) {
+        double flat = fraction_at(list, d->flatness);
+        rgb reflected = rgb_scale(c, 1 - 0.5 * limited(number_at(list, d->diffuse_transmission), 0, 2));
+        l->R = rgb_scale(reflected, 1 - flat);
+        l->of.disney.flat = rgb_scale(reflected, flat);
+    }
+    if (beneath)
+        lobe_dielectric(lobe_add(list, LOBE_SPECULAR_TRANSMISSION, rgb_black(), rgb_grey(1)), 1,
+                        index_at(list, d->index));
 }
 
-/* Darker at grazing angles; what retro-reflection adds there on rough surfaces; a flat look, as if light was scattered
- * beneath; the sheen of cloth. The angle between wi and half way to wo has the cosine
- * sqrt((1 + wo.wi)/2). [Burley 2012 5.3] [Burley 2015 3] */
-rgb disney_diffuse(rgb base, rgb flat, rgb retro, rgb sheen, double roughness, vec3 wo, vec3 wi)
+/* Roughnesses along and across, as Disney remaps them. */
+static void rough(struct lobe *l, const struct lobe_list *list, const struct disney *d, double roughness)
 {
-    double cos2_d = fmax(0, 0.5 * (1 + dot(wo, wi)));
-    double cos_o = fabs(wo.z), cos_i = fabs(wi.z), fo = schlick(cos_o), fi = schlick(cos_i);
-    double grazing = roughness * cos2_d, back = 2 * grazing;
-    double beneath = mix(fo, 1, grazing) * mix(fi, 1, grazing);
-    rgb f = rgb_scale(base, INV_PI * (1 - 0.5 * fo) * (1 - 0.5 * fi));
-    f = rgb_add(f, rgb_scale(flat, INV_PI * 1.25 * (beneath * (1 / (cos_o + cos_i) - 0.5) + 0.5)));
-    f = rgb_add(f, rgb_scale(retro, INV_PI * back * (fo + fi + fo * fi * (back - 1))));
-    return rgb_add(f, rgb_scale(sheen, schlick(sqrt(cos2_d))));
+    double aspect = sqrt(1 - 0.9 * fraction_at(list, d->anisotropic));
+    l->alpha_x = fmax(1e-3, sqr(roughness) / aspect);
+    l->alpha_y = fmax(1e-3, sqr(roughness) * aspect);
 }
 
-rgb disney_fresnel(double cos_h, rgb colour, double metallic, double eta_a, double eta_b)
+static void lobes(struct lobe_list *list, const struct material *m)
 {
-    double weight = schlick(cos_h);
-    rgb metal = rgb_add(rgb_scale(colour, 1 - weight), rgb_grey(weight));
-    double clear = fresnel_dielectric(cos_h, eta_a, eta_b);
-    return rgb_add(rgb_scale(metal, metallic), rgb_grey((1 - metallic) * clear));
+    const struct disney *d = (const struct disney *)m;
+    rgb c = colour_at(list, d->colour), white = rgb_grey(1), none = rgb_black();
+    rgb tint = rgb_luminance(c) > 0 ? rgb_scale(c, 1 / rgb_luminance(c)) : white;
+    double eta = index_at(list, d->index), roughness = roughness_at(list, d->roughness);
+    double metallic = fraction_at(list, d->metallic), through = fraction_at(list, d->transmission);
+    double base = (1 - metallic) * (1 - through);
+    if (base > 0)
+        diffuse(list, d, base, c, tint);
+    struct lobe *facets = lobe_dielectric(lobe_add(list, LOBE_MICROFACET_REFLECTION, white, none), 1, eta);
+    rough(facets, list, d, roughness);
+    facets->fresnel = FRESNEL_DISNEY;
+    facets->separate = true;
+    facets->of.tinted.metallic = metallic;
+    rgb plain = rgb_scale(blend(fraction_at(list, d->specular_tint), white, tint), sqr((eta - 1) / (eta + 1)));
+    facets->of.tinted.normal = blend(metallic, plain, c);
+    struct lobe *coat = lobe_add(list, LOBE_CLEARCOAT, limited_rgb(rgb_grey(number_at(list, d->clearcoat))), none);
+    coat->of.gloss = 0.1 - (0.1 - 0.001) * fraction_at(list, d->clearcoat_gloss);
+    /* Two refractions bring the colour. Thin ones scatter less, as the index does. [Burley 2015] */
+    rgb T = rgb_scale(rgb_make(sqrt(c.r), sqrt(c.g), sqrt(c.b)), through);
+    struct lobe *glass = lobe_dielectric(lobe_add(list, LOBE_MICROFACET_TRANSMISSION, none, T), 1, eta);
+    rough(glass, list, d, d->thin ? (0.65 * eta - 0.35) * roughness : roughness);
+    glass->separate = !d->thin;
+    double behind = 0.5 * limited(number_at(list, d->diffuse_transmission), 0, 2);
+    if (d->thin)
+        lobe_add(list, LOBE_LAMBERT_TRANSMISSION, none, rgb_scale(c, behind));
 }
 
-/* The distribution "GTR1", of longer tails than Trowbridge and Reitz's. [Burley 2012 appendix B] */
-double disney_coat_d(vec3 wh, double alpha)
+static bool is_brushed(const struct material *m, const struct texture_set *textures)
 {
-    double alpha2 = alpha * alpha;
-    return (1 - alpha2) / (-PI * m_log(alpha2) * (sqr(wh.x) + sqr(wh.y) + alpha2 * sqr(wh.z)));
+    (void)m;
+    (void)textures;
+    return true;
 }
 
-/* sin^2 = (alpha2^(1-u) - alpha2) / (1 - alpha2) turns the cumulative distribution round. */
-vec3 disney_coat_sample(double alpha, double u1, double u2)
+static bool is_deep(const struct material *m, const struct texture_set *textures)
 {
-    double alpha2 = alpha * alpha, sin2 = alpha2 * m_expm1(-u1 * m_log(alpha2)) / (1 - alpha2);
-    return cylindrical(sqrt(sin2), 2 * PI * u2, safe_sqrt(1 - sin2));
+    const struct disney *d = (const struct disney *)m;
+    const struct texture *distance = &textures->texture[d->scatter_distance];
+    return !d->thin && !(distance->kind == TEXTURE_CONSTANT && rgb_is_black(distance->constant));
 }
 
-/* Masking of a roughness of 0.25, over 4 cos_o cos_i. [Burley 2012 5.6] */
-static double coat_masking(double cosine)
-{
-    const double alpha2 = 0.25 * 0.25;
-    return 1 / (cosine + sqrt(alpha2 + (1 - alpha2) * sqr(cosine)));
-}
+#define AT(member) offsetof(struct disney, member)
+static const struct field FIELDS[] = {
+    {"color", FIELD_RGB_TEXTURE, AT(colour), 0.5, -MATERIAL_MAX_COLOUR, .high = MATERIAL_MAX_COLOUR},
+    {"eta", FIELD_FLOAT_TEXTURE, AT(index), 1.5, MATERIAL_MIN_INDEX, .high = MATERIAL_MAX_INDEX},
+    {"roughness", FIELD_FLOAT_TEXTURE, AT(roughness), 0.5, .high = MATERIAL_MAX_ROUGHNESS},
+    {"metallic", FIELD_FLOAT_TEXTURE, AT(metallic), 0, .high = 1},
+    {"speculartint", FIELD_FLOAT_TEXTURE, AT(specular_tint), 0, .high = 1},
+    {"anisotropic", FIELD_FLOAT_TEXTURE, AT(anisotropic), 0, .high = 1},
+    {"sheen", FIELD_FLOAT_TEXTURE, AT(sheen), 0, .high = MATERIAL_MAX_COLOUR},
+    {"sheentint", FIELD_FLOAT_TEXTURE, AT(sheen_tint), 0.5, .high = 1},
+    {"clearcoat", FIELD_FLOAT_TEXTURE, AT(clearcoat), 0, .high = MATERIAL_MAX_COLOUR},
+    {"clearcoatgloss", FIELD_FLOAT_TEXTURE, AT(clearcoat_gloss), 1, .high = 1},
+    {"spectrans", FIELD_FLOAT_TEXTURE, AT(transmission), 0, .high = 1},
+    {"scatterdistance", .kind = FIELD_RGB_TEXTURE, .place = AT(scatter_distance)},
+    {"thin", .kind = FIELD_SWITCH, .place = AT(thin)},
+    {"flatness", FIELD_FLOAT_TEXTURE, AT(flatness), 0, .high = 1},
+    {"difftrans", FIELD_FLOAT_TEXTURE, AT(diffuse_transmission), 1, .high = 2},
+    {"bumpmap", FIELD_FLOAT_TEXTURE, AT(is.bump), .fallback = FIELD_KEPT},
+    {.name = NULL}};
 
-double disney_coat(double alpha, vec3 wo, vec3 wi, vec3 wh)
-{
-    double fresnel = mix(schlick(dot(wo, wh)), 0.04, 1);
-    return 0.25 * disney_coat_d(wh, alpha) * fresnel * coat_masking(fabs(wo.z)) * coat_masking(fabs(wi.z));
-}
+const struct material_row material_disney = {.name = "disney", .fields = FIELDS, .size = sizeof(struct disney),
+                                             .most_lobes = 5, .may_be_delta = true, .lobes = lobes,
+                                             .is_brushed = is_brushed, .is_deep = is_deep};

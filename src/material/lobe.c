@@ -3,8 +3,8 @@
 #include "material/lobe.h"
 
 #include "base/warp.h"
-#include "material/disney.h"
-#include "material/fourier.h"
+#include "material/burley.h"
+#include "material/fourier_table.h"
 #include "material/fresnel.h"
 #include "material/microfacet.h"
 
@@ -19,7 +19,9 @@ bool lobe_is_delta(enum lobe_kind kind)
  * of 6, and errs towards the highlights. */
 static double reflected_share(const struct lobe *l)
 {
-    return l->fresnel == FRESNEL_DIELECTRIC ? 0.25 : l->fresnel == FRESNEL_DISNEY ? 0.25 + 0.75 * l->A : 1;
+    if (l->fresnel == FRESNEL_DISNEY)
+        return 0.25 + 0.75 * l->of.tinted.metallic;
+    return l->fresnel == FRESNEL_DIELECTRIC ? 0.25 : 1;
 }
 
 double lobe_albedo_guess(const struct lobe *l)
@@ -34,9 +36,11 @@ double lobe_albedo_guess(const struct lobe *l)
     case LOBE_SPECULAR_REFLECTION:
     case LOBE_MICROFACET_REFLECTION: return r * reflected_share(l);
     case LOBE_FRESNEL_SPECULAR: return fmax(r, t);
-    case LOBE_FRESNEL_BLEND: return r + t;
+    case LOBE_FRESNEL_BLEND: return r + rgb_mean(rgb_mul(l->scale, l->of.coat));
     case LOBE_FOURIER: return 0.5 * r;
-    case LOBE_DISNEY_DIFFUSE: return r + t + 0.25 * rgb_mean(rgb_mul(l->scale, rgb_add(l->eta, l->k)));
+    case LOBE_DISNEY_DIFFUSE:
+        return r + rgb_mean(rgb_mul(l->scale, l->of.disney.flat)) +
+               0.25 * rgb_mean(rgb_mul(l->scale, rgb_add(l->of.disney.retro, l->of.disney.sheen)));
     case LOBE_CLEARCOAT: return 0.1 * r;
     }
     return 0;
@@ -56,7 +60,7 @@ static rgb oren_nayar(const struct lobe *l, vec3 wo, vec3 wi)
 {
     double azimuth = fmax(0, wo.x * wi.x + wo.y * wi.y); /* sin_o sin_i cos(phi_o - phi_i) */
     double slant = azimuth / fmax(fabs(wo.z), fabs(wi.z));
-    return rgb_scale(l->R, INV_PI * (l->A + l->B * slant));
+    return rgb_scale(l->R, INV_PI * (l->of.oren_nayar.A + l->of.oren_nayar.B * slant));
 }
 
 static vec3 sample_diffuse(vec3 wo, vec3 ng, bool reflect, double u1, double u2)
@@ -74,8 +78,9 @@ static rgb facet_fresnel(const struct lobe *l, double cos_h)
     switch (l->fresnel) {
     case FRESNEL_NONE: break;
     case FRESNEL_DIELECTRIC: return rgb_grey(fresnel_dielectric(cos_h, l->eta_a, l->eta_b));
-    case FRESNEL_CONDUCTOR: return fresnel_conductor(cos_h, l->eta, l->k);
-    case FRESNEL_DISNEY: return disney_fresnel(cos_h, l->eta, l->A, l->eta_a, l->eta_b);
+    case FRESNEL_CONDUCTOR: return fresnel_conductor(cos_h, l->of.conductor.eta, l->of.conductor.k);
+    case FRESNEL_DISNEY:
+        return disney_fresnel(cos_h, l->of.tinted.normal, l->of.tinted.metallic, l->eta_a, l->eta_b);
     }
     return rgb_grey(1);
 }
@@ -166,10 +171,10 @@ static double pow5(double x) { return sqr(sqr(x)) * x; }
 static rgb fresnel_blend(const struct lobe *l, vec3 wo, vec3 wi, vec3 wh)
 {
     double cos_o = fabs(wo.z), cos_i = fabs(wi.z), cos_h = dot(wi, wh);
-    rgb white = rgb_grey(1);
+    rgb white = rgb_grey(1), coat = l->of.coat;
     double base = 28 / (23 * PI) * (1 - pow5(1 - 0.5 * cos_i)) * (1 - pow5(1 - 0.5 * cos_o));
-    rgb diffuse_part = rgb_scale(rgb_mul(l->R, rgb_sub(white, l->T)), base);
-    rgb schlick = rgb_add(l->T, rgb_scale(rgb_sub(white, l->T), pow5(1 - cos_h)));
+    rgb diffuse_part = rgb_scale(rgb_mul(l->R, rgb_sub(white, coat)), base);
+    rgb schlick = rgb_add(coat, rgb_scale(rgb_sub(white, coat), pow5(1 - cos_h)));
     double d = microfacet_d(wh, l->alpha_x, l->alpha_y) / (4 * fabs(cos_h) * fmax(cos_o, cos_i));
     return rgb_add(diffuse_part, rgb_scale(schlick, d));
 }
@@ -193,15 +198,15 @@ static struct bsdf_value clearcoat(const struct lobe *l, vec3 wo, vec3 wi, bool 
     if (!(wo.z * wi.z > 0))
         return NOTHING;
     vec3 wh = normalize(add(wo, wi));
-    double pdf = disney_coat_d(wh, l->alpha_x) * fabs(wh.z) / (4 * dot(wo, wh));
-    double value = reflect ? disney_coat(l->alpha_x, wo, wi, wh) : 0;
+    double pdf = disney_coat_d(wh, l->of.gloss) * fabs(wh.z) / (4 * dot(wo, wh));
+    double value = reflect ? disney_coat(l->of.gloss, wo, wi, wh) : 0;
     struct bsdf_value v = {rgb_scale(l->R, value), pdf, pdf};
     return v;
 }
 
 static bool sample_clearcoat(const struct lobe *l, vec3 wo, double u1, double u2, vec3 *wi)
 {
-    vec3 wh = disney_coat_sample(l->alpha_x, u1, u2);
+    vec3 wh = disney_coat_sample(l->of.gloss, u1, u2);
     *wi = sub(mul(wh, 2 * dot(wo, wh)), wo);
     return wo.z * wi->z > 0;
 }
@@ -229,13 +234,14 @@ struct bsdf_value lobe_eval(const struct lobe *l, vec3 wo, vec3 wi, bool reflect
     case LOBE_FRESNEL_BLEND: v = substrate(l, wo, wi, reflect); break;
     case LOBE_DISNEY_DIFFUSE:
         if (reflect)
-            v = diffuse(disney_diffuse(l->R, l->T, l->eta, l->k, l->A, wo, wi), wo, wi);
+            v = diffuse(disney_diffuse(l->R, l->of.disney.flat, l->of.disney.retro, l->of.disney.sheen,
+                                       l->of.disney.roughness, wo, wi), wo, wi);
         break;
     case LOBE_CLEARCOAT: v = clearcoat(l, wo, wi, reflect); break;
     case LOBE_FOURIER:
-        v.f = mode == RADIANCE ? fourier_eval(l->table, wo, wi) : fourier_eval(l->table, wi, wo);
-        v.pdf = fourier_pdf(l->table, wo, wi);
-        v.pdf_rev = fourier_pdf(l->table, wi, wo);
+        v.f = mode == RADIANCE ? fourier_eval(l->of.table, wo, wi) : fourier_eval(l->of.table, wi, wo);
+        v.pdf = fourier_pdf(l->of.table, wo, wi);
+        v.pdf_rev = fourier_pdf(l->of.table, wi, wo);
         break;
     case LOBE_SPECULAR_REFLECTION:
     case LOBE_SPECULAR_TRANSMISSION:
@@ -253,7 +259,7 @@ bool lobe_sample(const struct lobe *l, vec3 wo, vec3 ng, const double u[3], vec3
     case LOBE_OREN_NAYAR: *wi = sample_diffuse(wo, ng, true, u[1], u[2]); return true;
     case LOBE_LAMBERT_TRANSMISSION: *wi = sample_diffuse(wo, ng, false, u[1], u[2]); return true;
     case LOBE_MICROFACET_REFLECTION: return sample_microfacet_reflection(l, wo, u[1], u[2], wi);
-    case LOBE_FOURIER: return fourier_sample(l->table, wo, u, wi);
+    case LOBE_FOURIER: return fourier_sample(l->of.table, wo, u, wi);
     case LOBE_CLEARCOAT: return sample_clearcoat(l, wo, u[1], u[2], wi);
     case LOBE_MICROFACET_TRANSMISSION: return sample_microfacet_transmission(l, wo, u[1], u[2], wi);
     case LOBE_FRESNEL_BLEND:

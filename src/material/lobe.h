@@ -37,32 +37,44 @@ enum lobe_kind {
     LOBE_MICROFACET_REFLECTION,
     LOBE_MICROFACET_TRANSMISSION,
     LOBE_FRESNEL_BLEND, /* pbrt's substrate [Ashikhmin & Shirley 2000] */
-    LOBE_DISNEY_DIFFUSE, /* see disney.h, as of the next */
+    LOBE_DISNEY_DIFFUSE, /* see burley.h, as of the next */
     LOBE_CLEARCOAT,
-    LOBE_FOURIER /* see fourier.h */
+    LOBE_FOURIER /* see fourier_table.h */
 };
 
 enum fresnel_kind { FRESNEL_NONE, FRESNEL_DIELECTRIC, FRESNEL_CONDUCTOR, FRESNEL_DISNEY };
 
 struct fourier_table;
 
-/* One lobe; which fields matter depends on kind. */
+/* One lobe. */
 struct lobe {
     enum lobe_kind kind;
-    enum fresnel_kind fresnel;
-    rgb scale;               /* multiplies the lobe's value: shares of mix materials; 1 otherwise */
-    rgb R;                   /* reflectance of a reflecting lobe; diffuse part of LOBE_FRESNEL_BLEND */
-    rgb T;                   /* transmittance of a transmitting lobe; specular part of LOBE_FRESNEL_BLEND; flat part of
-                              * LOBE_DISNEY_DIFFUSE */
-    rgb eta, k;              /* conductor: complex index relative to the outside; FRESNEL_DISNEY: eta is the reflectance
-                              * at normal incidence; LOBE_DISNEY_DIFFUSE: retro-reflection and sheen */
-    double eta_a, eta_b;     /* dielectric: index above (side of the normal) and below */
-    double alpha_x, alpha_y; /* Trowbridge-Reitz roughness along s and t, > 0 */
-    bool separate;           /* facets hide from wo and from wi independently */
-    double A, B;             /* Oren-Nayar coefficients; A of FRESNEL_DISNEY: how much of a metal it is, of
-                              * LOBE_DISNEY_DIFFUSE: roughness */
-    const struct fourier_table *table;
-    double choice;           /* probability with which bsdf_sample takes this lobe; set by bsdf_make */
+    enum fresnel_kind fresnel; /* what share facets and mirrors reflect */
+    bool separate;             /* facets hide from wo and from wi independently */
+    rgb scale;                 /* multiplies the lobe's value: shares of mix materials; 1 otherwise */
+    rgb R, T;                  /* reflectance, transmittance; black where there is none */
+    double eta_a, eta_b;       /* dielectric: index above (side of the normal) and below */
+    double alpha_x, alpha_y;   /* Trowbridge-Reitz roughness along s and t, > 0 */
+    double choice;             /* probability with which bsdf_sample takes this lobe; set by bsdf_make */
+    union {
+        struct {
+            double A, B; /* the two coefficients of the formula */
+        } oren_nayar;
+        struct {
+            rgb eta, k; /* complex index relative to the outside */
+        } conductor;    /* of FRESNEL_CONDUCTOR */
+        struct {
+            rgb normal;      /* reflectance at normal incidence */
+            double metallic; /* how much of a metal it is */
+        } tinted;            /* of FRESNEL_DISNEY */
+        rgb coat;            /* reflectance of the layer above, of LOBE_FRESNEL_BLEND; R is of what is below */
+        struct {
+            rgb flat, retro, sheen; /* the three parts beside R */
+            double roughness;
+        } disney;     /* of LOBE_DISNEY_DIFFUSE */
+        double gloss; /* alpha of LOBE_CLEARCOAT's own distribution */
+        const struct fourier_table *table;
+    } of;
 };
 
 /* What is known about a pair of directions. */

@@ -17,7 +17,7 @@
 #include "base/transform.h"
 #include "geometry/surface.h"
 #include "image/image.h"
-#include "material/fourier.h"
+#include "material/fourier_table.h"
 
 /* Which point (s,t) of a two-dimensional texture lies at a point of a surface [PBRT3 10.2]. */
 enum mapping_kind {

@@ -78,24 +78,16 @@ bool parse_type(struct parser *p, const struct object_type *types)
 {
     struct params *q = &p->params;
     char known[256] = "";
-    for (p->type = types; p->type->name != NULL; p->type++) {
-        if (strcmp(p->type->name, q->type) == 0)
+    for (; types->name != NULL; types++) {
+        p->type = *types;
+        if (strcmp(types->name, q->type) == 0)
             return true;
         strncat(known, known[0] != '\0' ? ", " : "", sizeof known - strlen(known) - 1);
-        strncat(known, p->type->name, sizeof known - strlen(known) - 1);
+        strncat(known, types->name, sizeof known - strlen(known) - 1);
     }
     if (parse_newer(p, q->position, q->type))
         return false;
     return type_error(q, "%s \"%.40s\" is not supported; use one of %s", q->directive, q->type, known);
-}
-
-void parse_fields(struct parser *p, void *object)
-{
-    for (const struct parameter *row = p->type->parameter; row->name != NULL; row++)
-        if (row->read != NULL)
-            row->read(p, row, (char *)object + row->field);
-    if (p->type->build != NULL)
-        p->type->build(p, object);
 }
 
 /* A parameter nobody asked for: is its name known, or is another near? */
@@ -103,8 +95,8 @@ static void warn_of_unused(struct parser *p, const struct param *item)
 {
     struct suggestion near = suggest_start(item->name);
     char hint[128] = "";
-    for (const struct parameter *row = p->type->parameter; row->name != NULL; row++)
-        suggest_offer(&near, row->name);
+    for (const struct field *f = p->type.fields; f->name != NULL; f++)
+        suggest_offer(&near, f->name);
     if (near.name != NULL && strcmp(near.name, item->name) == 0)
         strcpy(hint, "; that has another type, or no meaning here");
     else if (near.name != NULL)
@@ -119,42 +111,6 @@ bool parse_done(struct parser *p)
         if (!item->used)
             warn_of_unused(p, item);
     return !p->params.failed;
-}
-
-bool parse_object(struct parser *p, void *object)
-{
-    parse_fields(p, object);
-    return parse_done(p);
-}
-
-/* --- readers of one parameter --------------------------------------------------------------------------- */
-
-void parse_number(struct parser *p, const struct parameter *row, void *field)
-{
-    double *x = field;
-    *x = params_number(&p->params, row->name, isnan(row->fallback.r) ? *x : row->fallback.r, row->low, row->high);
-}
-
-void parse_integer(struct parser *p, const struct parameter *row, void *field)
-{
-    *(int *)field = params_int(&p->params, row->name, (int)row->fallback.r, (int)row->low, (int)row->high);
-}
-
-void parse_bool(struct parser *p, const struct parameter *row, void *field)
-{
-    *(bool *)field = params_bool(&p->params, row->name, row->fallback.r != 0);
-}
-
-void parse_point(struct parser *p, const struct parameter *row, void *field)
-{
-    vec3 fallback = vec(row->fallback.r, row->fallback.g, row->fallback.b);
-    *(vec3 *)field = params_vec3(&p->params, row->name, PARAM_POINT, fallback);
-}
-
-void parse_ignored(struct parser *p, const struct parameter *row, void *field)
-{
-    params_ignore(&p->params, row->name);
-    (void)field;
 }
 
 /* --- textures and pictures ----------------------------------------------------------------------------- */
@@ -182,40 +138,6 @@ int parse_named_texture(struct parser *p, const char *name, bool is_float)
     return id;
 }
 
-/* Refuse a texture that is the same everywhere and outside the row's range. */
-static void check_range(struct parser *p, const struct parameter *row, int texture)
-{
-    const struct texture *t = texture < 0 ? NULL : &p->scene->textures.texture[texture];
-    if (t == NULL || t->kind != TEXTURE_CONSTANT)
-        return;
-    const double value[3] = {t->constant.r, t->constant.g, t->constant.b};
-    for (int i = 0; i < 3 && !p->params.failed; i++)
-        if (!(value[i] >= row->low && value[i] <= row->high)) {
-            const struct param *item = params_ignore(&p->params, row->name);
-            params_fail(&p->params, item != NULL ? item->position : p->params.position,
-                        "\"%s\" is %g; it must be from %g to %g", row->name, value[i], row->low, row->high);
-        }
-}
-
-void parse_float_texture(struct parser *p, const struct parameter *row, void *field)
-{
-    int *texture = field, id = parse_named_texture(p, row->name, true);
-    double value = id < 0 ? params_number(&p->params, row->name, row->fallback.r, ANY_NUMBER) : 0;
-    if (id < 0)
-        id = isnan(value) ? *texture : parse_constant(p, rgb_grey(value));
-    *texture = id;
-    check_range(p, row, id);
-}
-
-void parse_rgb_texture(struct parser *p, const struct parameter *row, void *field)
-{
-    int id = parse_named_texture(p, row->name, false);
-    if (id < 0)
-        id = parse_constant(p, params_rgb(&p->params, row->name, row->fallback));
-    *(int *)field = id;
-    check_range(p, row, id);
-}
-
 bool parse_picture(struct params *q, struct source_position at, const struct image *image, bool is_new, uint64_t tables,
                    struct error *why)
 {
@@ -225,4 +147,87 @@ bool parse_picture(struct params *q, struct source_position at, const struct ima
         source_warn(q->messages, at, "%ld numbers of this picture are not finite, or negative light; 0 instead",
                     image->replaced);
     return true;
+}
+
+/* --- one parameter ------------------------------------------------------------------------------------ */
+
+static double least(const struct field *f) { return f->low == 0 && f->high == 0 ? -NUMBER_MAX : f->low; }
+static double most(const struct field *f) { return f->low == 0 && f->high == 0 ? NUMBER_MAX : f->high; }
+
+/* Refuse a texture that is the same everywhere and outside the field's range. */
+static int checked(struct parser *p, const struct field *f, int texture)
+{
+    const struct texture *t = texture < 0 ? NULL : &p->scene->textures.texture[texture];
+    if (t == NULL || t->kind != TEXTURE_CONSTANT)
+        return texture;
+    const double value[3] = {t->constant.r, t->constant.g, t->constant.b};
+    for (int i = 0; i < 3 && !p->params.failed; i++)
+        if (!(value[i] >= least(f) && value[i] <= most(f))) {
+            const struct param *item = params_ignore(&p->params, f->name);
+            params_fail(&p->params, item != NULL ? item->position : p->params.position,
+                        "\"%s\" is %g; it must be from %g to %g", f->name, value[i], least(f), most(f));
+        }
+    return texture;
+}
+
+static int float_texture(struct parser *p, const struct field *f, int kept)
+{
+    int id = parse_named_texture(p, f->name, true);
+    double value = id < 0 ? params_number(&p->params, f->name, f->fallback, -NUMBER_MAX, NUMBER_MAX) : 0;
+    if (id < 0)
+        id = isnan(value) ? kept : parse_constant(p, rgb_grey(value));
+    return checked(p, f, id);
+}
+
+static int rgb_texture(struct parser *p, const struct field *f, int kept)
+{
+    int id = parse_named_texture(p, f->name, false);
+    rgb value = id < 0 ? params_rgb(&p->params, f->name, rgb_grey(f->fallback)) : rgb_black();
+    if (id < 0)
+        id = isnan(value.r) ? kept : parse_constant(p, value);
+    return checked(p, f, id);
+}
+
+static void read_field(struct parser *p, const struct field *f, void *place)
+{
+    struct params *q = &p->params;
+    double *number = place;
+    int *whole = place;
+    vec3 *point = place;
+    double x = f->fallback;
+    bool is_float = p->texture_is_float;
+    switch (f->kind) {
+    case FIELD_INTEGER: *whole = params_int(q, f->name, (int)x, (int)f->low, (int)f->high); break;
+    case FIELD_NUMBER:
+        *number = params_number(q, f->name, isnan(x) ? *number : x, least(f), most(f));
+        break;
+    case FIELD_WORD: *whole = params_choice(q, f->name, f->words); break;
+    case FIELD_SWITCH: *(bool *)place = params_bool(q, f->name, x != 0); break;
+    case FIELD_POINT: *point = params_vec3(q, f->name, PARAM_POINT, isnan(x) ? *point : vec(x, x, x)); break;
+    case FIELD_FLOAT_TEXTURE: *whole = float_texture(p, f, *whole); break;
+    case FIELD_RGB_TEXTURE: *whole = rgb_texture(p, f, *whole); break;
+    case FIELD_OPERAND: *whole = is_float ? float_texture(p, f, *whole) : rgb_texture(p, f, *whole); break;
+    case FIELD_VALUE:
+        *(rgb *)place = is_float ? rgb_grey(params_number(q, f->name, x, least(f), most(f)))
+                                 : params_rgb(q, f->name, rgb_grey(x));
+        break;
+    case FIELD_MATERIAL: *whole = parse_part(p, f->name); break;
+    case FIELD_FOURIER_TABLE: *whole = parse_fourier_table(p, f->name); break;
+    case FIELD_IGNORED: params_ignore(q, f->name); break;
+    case FIELD_OTHER: break;
+    }
+}
+
+void parse_fields(struct parser *p, void *object)
+{
+    for (const struct field *f = p->type.fields; f->name != NULL; f++)
+        read_field(p, f, (char *)object + f->place);
+    if (p->type.build != NULL)
+        p->type.build(p, object);
+}
+
+bool parse_object(struct parser *p, void *object)
+{
+    parse_fields(p, object);
+    return parse_done(p);
 }

@@ -11,6 +11,7 @@
 #ifndef ASBDPT_PARSE_H
 #define ASBDPT_PARSE_H
 
+#include "base/field.h"
 #include "base/number.h"
 #include "parser/params.h"
 #include "parser/symbols.h"
@@ -78,6 +79,16 @@ enum { CONSTANTS = 256, MAX_INCLUDE_DEPTH = 32 };
 /* Where a directive may stand. */
 enum phase { BEFORE_WORLD = 1, IN_WORLD = 2, AFTER_WORLD = 4, GIVEN_UP = 8, ANYWHERE = BEFORE_WORLD | IN_WORLD };
 
+struct parser;
+
+/* One type of object of a directive. A table of them ends with one without a name. */
+struct object_type {
+    const char *name;
+    const struct field *fields; /* ended by one without a name */
+    int kind;                   /* LIGHT_POINT, or the number of a row, and so on */
+    void (*build)(struct parser *p, void *object); /* what the table cannot say, once it is read; or NULL */
+};
+
 struct parser {
     struct scene *scene;
     struct messages messages;
@@ -86,7 +97,7 @@ struct parser {
     struct params params;
     enum phase phase;
     struct token directive;         /* the one being carried out */
-    const struct object_type *type; /* what its params.type stands for */
+    struct object_type type;        /* what its params.type stands for */
 
     struct source_file *source[MAX_INCLUDE_DEPTH]; /* [n_sources] files being read, main file first */
     int n_sources, n_includes;
@@ -117,34 +128,6 @@ struct parser {
 
 /* --- tables: which types a directive knows, and which parameters each has ------------------------------- */
 
-/* One parameter: how it is read, and into which field of the object. */
-struct parameter {
-    const char *name;
-    void (*read)(struct parser *p, const struct parameter *row, void *field); /* NULL: the type's build reads it */
-    size_t field;    /* offset within the object */
-    rgb fallback;    /* of a number: r. NaN: what the object holds already */
-    double low, high; /* what the numbers may be, of readers that care */
-};
-
-/* One type of object of a directive. A table of them ends with one without a name. */
-struct object_type {
-    const char *name;
-    const struct parameter *parameter; /* ended by one without a name */
-    int kind;                          /* LIGHT_POINT, MATERIAL_MATTE and so on */
-    void (*build)(struct parser *p, void *object); /* what the table cannot say, once it is read; or NULL */
-};
-
-#define GREY(x) {x, x, x}
-#define KEPT (double)NAN /* the object's own default */
-#define ANY_NUMBER -NUMBER_MAX, NUMBER_MAX
-#define POSITIVE NUMBER_MIN, NUMBER_MAX
-#define FIELD_OF_VIEW NUMBER_MIN, 179.999 /* degrees */
-#define AT_LEAST_0 0, NUMBER_MAX
-#define IGNORED(name) {name, parse_ignored, 0, GREY(0), 0, 0} /* nothing here depends on it */
-#define BY_BUILD(name) {name, NULL, 0, GREY(0), 0, 0}
-#define END_OF_PARAMETERS {NULL, NULL, 0, GREY(0), 0, 0}
-#define END_OF_TYPES {NULL, NULL, 0, NULL}
-
 /* parse_type: find params.type in a table and set p->type. Returns false with a message. */
 bool parse_type(struct parser *p, const struct object_type *types);
 
@@ -154,15 +137,6 @@ bool parse_type(struct parser *p, const struct object_type *types);
 void parse_fields(struct parser *p, void *object);
 bool parse_done(struct parser *p);
 bool parse_object(struct parser *p, void *object);
-
-/* Readers of one parameter into a field. The textures are numbers of the scene. */
-void parse_number(struct parser *p, const struct parameter *row, void *field);        /* double */
-void parse_integer(struct parser *p, const struct parameter *row, void *field);       /* int */
-void parse_bool(struct parser *p, const struct parameter *row, void *field);          /* bool, false by default */
-void parse_point(struct parser *p, const struct parameter *row, void *field);         /* vec3 */
-void parse_float_texture(struct parser *p, const struct parameter *row, void *field); /* int: a texture number */
-void parse_rgb_texture(struct parser *p, const struct parameter *row, void *field);   /* int: a texture number */
-void parse_ignored(struct parser *p, const struct parameter *row, void *field);
 
 /* A message at the directive, or at the type of the list. Both return false. */
 #define directive_error(p, ...) source_error(&(p)->messages, (p)->directive.position, __VA_ARGS__)
@@ -214,11 +188,16 @@ struct directive {
                                       * all of it */
 };
 
-#define END_OF_DIRECTIVES {NULL, ANYWHERE, NULL, NULL}
-
-extern const struct object_type MATERIAL_TYPES[], TEXTURE_TYPES[]; /* their directives read more than type and list */
+extern const struct object_type TEXTURE_TYPES[]; /* whose directive reads more than type and list */
 extern const struct directive STATE_DIRECTIVES[], OPTION_DIRECTIVES[], TEXTURE_DIRECTIVES[], MATERIAL_DIRECTIVES[],
     LIGHT_DIRECTIVES[], SHAPE_DIRECTIVES[], INSTANCE_DIRECTIVES[];
+
+/* parse_part: the material that a parameter names. parse_fourier_table: that of the file that a parameter names.
+ * parse_material_types: the rows of materials as types, ended by one without a name. */
+enum { MOST_TYPES = 32 };
+int parse_part(struct parser *p, const char *field);
+int parse_fourier_table(struct parser *p, const char *field);
+void parse_material_types(struct object_type out[MOST_TYPES]);
 
 /* parse_make_material: make a material of kind params.type. */
 bool parse_make_material(struct parser *p, struct material_source *out);

@@ -131,4 +131,4 @@ static bool object_instance(struct parser *p)
 const struct directive INSTANCE_DIRECTIVES[] = {{"ObjectInstance", IN_WORLD, object_instance, NULL},
                                                 {"ObjectBegin", IN_WORLD, object_begin, NULL},
                                                 {"ObjectEnd", IN_WORLD, object_end, NULL},
-                                                END_OF_DIRECTIVES};
+                                                {.name = NULL}};

@@ -19,14 +19,13 @@ struct light_item {
 };
 
 /* "L" or "I" times "scale". Its green may be negative, but not the sum that luminance is. */
-static void emitted(struct parser *p, const struct parameter *row, void *field)
+static rgb emitted(struct params *q, const char *name)
 {
-    struct params *q = &p->params;
-    rgb value = rgb_mul(params_rgb(q, row->name, row->fallback), params_rgb(q, "scale", rgb_grey(1)));
+    rgb value = rgb_mul(params_rgb(q, name, rgb_grey(1)), params_rgb(q, "scale", rgb_grey(1)));
     if (!(rgb_luminance(value) >= 0 && rgb_max(value) <= NUMBER_MAX))
-        type_error(q, "this light's %s times its scale is (%g %g %g): not a light, from 0 to %g", row->name, value.r,
+        type_error(q, "this light's %s times its scale is (%g %g %g): not a light, from 0 to %g", name, value.r,
                    value.g, value.b, NUMBER_MAX);
-    *(rgb *)field = value;
+    return value;
 }
 
 /* pbrt-v3 adds "from" after the transform, so that CTM rotations and scales do not act on it. */
@@ -73,17 +72,16 @@ static void distant_light(struct parser *p, void *object)
 }
 
 /* The picture of a light, if it names one. */
-static void picture(struct parser *p, const struct parameter *row, void *field)
+static void picture(struct parser *p, struct light_frame *l)
 {
     struct params *q = &p->params;
     struct light_set *lights = &p->scene->lights;
-    struct light_frame *l = field;
     struct source_position at;
     struct error inner;
-    char *path = params_file(q, row->name, &at);
+    char *path = params_file(q, "mapname", &at);
     if (path != NULL && !q->failed) {
         int known = lights->n_pictures;
-        const struct image *image = light_read_picture(lights, (enum light_kind)p->type->kind, l, path, &inner);
+        const struct image *image = light_read_picture(lights, (enum light_kind)p->type.kind, l, path, &inner);
         uint64_t tables = l->env != NULL ? envmap_bytes(l->env) : 0;
         parse_picture(q, at, image, lights->n_pictures > known, tables, &inner);
     }
@@ -94,6 +92,7 @@ static void slide_light(struct parser *p, void *object)
 {
     struct light_item *item = object;
     struct light_frame *l = &item->frame;
+    picture(p, l);
     l->position = transform_point(&l->to_world, vec(0, 0, 0));
     if (item->light.kind != LIGHT_PROJECTION)
         return;
@@ -103,71 +102,75 @@ static void slide_light(struct parser *p, void *object)
         type_error(&p->params, "\"fov\" is %g degrees: a picture without inside", item->fov);
 }
 
-/* A name that lights share whose pictures are to be one (light_group); pbrt-v3 warns of it and goes on. */
-static void group(struct parser *p, const struct parameter *row, void *field)
+static void infinite_light(struct parser *p, void *object)
+{
+    struct light_item *item = object;
+    picture(p, &item->frame);
+    item->light.hidden = !params_bool(&p->params, "visible", true);
+}
+
+/* A name that lights share whose pictures are to be one (light_group), or -1; pbrt-v3 warns of it and goes on. */
+static int group(struct parser *p)
 {
     enum { LONGEST = 40 };
     static const char FIT[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
     struct source_position at;
-    const char *name = params_text(&p->params, row->name, PARAM_STRING, &at);
-    *(int *)field = -1;
+    const char *name = params_text(&p->params, "group", PARAM_STRING, &at);
     if (name == NULL)
-        return;
-    if (name[0] == '\0' || strlen(name) > LONGEST || name[strspn(name, FIT)] != '\0')
-        params_fail(&p->params, at, "\"%s\" becomes the name of a file: up to %d letters, digits, - and _", row->name,
-                    LONGEST);
-    else
-        *(int *)field = light_group(&p->scene->lights, name, (enum light_kind)p->type->kind);
+        return -1;
+    if (name[0] != '\0' && strlen(name) <= LONGEST && name[strspn(name, FIT)] == '\0')
+        return light_group(&p->scene->lights, name, (enum light_kind)p->type.kind);
+    params_fail(&p->params, at, "\"group\" becomes the name of a file: up to %d letters, digits, - and _", LONGEST);
+    return -1;
 }
 
-static void hidden(struct parser *p, const struct parameter *row, void *field)
-{
-    *(bool *)field = !params_bool(&p->params, row->name, true);
-}
-
-#define GROUP(type) {"group", group, offsetof(type, group), GREY(0), 0, 0} /* these two are no parameters of pbrt-v3 */
-#define VISIBLE(type, field) {"visible", hidden, offsetof(type, field), GREY(0), 0, 0}
-#define EMITTED(name) \
-    {name, emitted, offsetof(struct light_item, light.L), GREY(1), 0, 0}, BY_BUILD("scale"), GROUP(struct light_item)
-#define PICTURE {"mapname", picture, offsetof(struct light_item, frame), GREY(0), 0, 0}
-#define POINT(f, x, y, z) {#f, parse_point, offsetof(struct light_item, f), {x, y, z}, 0, 0}
-#define SAMPLES IGNORED("samples"), IGNORED("nsamples") /* how often pbrt-v3 samples a light per hit: no matter here */
-
-static const struct parameter POINT_LIGHT[] = {EMITTED("I"), POINT(from, 0, 0, 0), END_OF_PARAMETERS};
-static const struct parameter SPOT_LIGHT[] = {
-    EMITTED("I"),
-    {"coneangle", parse_number, offsetof(struct light_item, cone), GREY(30), NUMBER_MIN, 180},
-    {"conedeltaangle", parse_number, offsetof(struct light_item, edge), GREY(5), AT_LEAST_0},
-    POINT(from, 0, 0, 0),
-    POINT(to, 0, 0, 1),
-    END_OF_PARAMETERS};
-static const struct parameter DISTANT_LIGHT[] = {
-    EMITTED("L"), POINT(from, 0, 0, 0), POINT(to, 0, 0, 1), END_OF_PARAMETERS};
-static const struct parameter INFINITE_LIGHT[] = {
-    EMITTED("L"), PICTURE, SAMPLES, VISIBLE(struct light_item, light.hidden), END_OF_PARAMETERS};
-static const struct parameter GONIOMETRIC_LIGHT[] = {EMITTED("I"), PICTURE, END_OF_PARAMETERS};
-static const struct parameter PROJECTION_LIGHT[] = {
-    EMITTED("I"), PICTURE,
-    {"fov", parse_number, offsetof(struct light_item, fov), GREY(45), FIELD_OF_VIEW}, END_OF_PARAMETERS};
+/* "group" and "visible" are no parameters of pbrt-v3; its "samples" say how often it samples a light per hit. */
+#define AT(member) offsetof(struct light_item, member)
+static const struct field POINT_LIGHT[] = {
+    {.name = "I"}, {.name = "scale"}, {.name = "group"},
+    {"from", .kind = FIELD_POINT, .place = AT(from)},
+    {.name = NULL}};
+static const struct field SPOT_LIGHT[] = {
+    {.name = "I"}, {.name = "scale"}, {.name = "group"},
+    {"coneangle", FIELD_NUMBER, AT(cone), 30, NUMBER_MIN, .high = 180},
+    {"conedeltaangle", FIELD_NUMBER, AT(edge), 5, 0, .high = NUMBER_MAX},
+    {"from", .kind = FIELD_POINT, .place = AT(from)},
+    {"to", FIELD_POINT, AT(to), .fallback = FIELD_KEPT},
+    {.name = NULL}};
+static const struct field DISTANT_LIGHT[] = {
+    {.name = "L"}, {.name = "scale"}, {.name = "group"},
+    {"from", .kind = FIELD_POINT, .place = AT(from)},
+    {"to", FIELD_POINT, AT(to), .fallback = FIELD_KEPT},
+    {.name = NULL}};
+static const struct field INFINITE_LIGHT[] = {
+    {.name = "L"}, {.name = "scale"}, {.name = "group"}, {.name = "mapname"}, {.name = "visible"},
+    {"samples", .kind = FIELD_IGNORED}, {"nsamples", .kind = FIELD_IGNORED},
+    {.name = NULL}};
+static const struct field SLIDE[] = {
+    {"fov", FIELD_NUMBER, AT(fov), 45, NUMBER_MIN, .high = 179.999}, /* of a projection alone */
+    {.name = "I"}, {.name = "scale"}, {.name = "group"}, {.name = "mapname"},
+    {.name = NULL}};
 
 static const struct object_type LIGHTS[] = {
     {"point", POINT_LIGHT, LIGHT_POINT, point_light},
     {"spot", SPOT_LIGHT, LIGHT_SPOT, spot_light},
     {"distant", DISTANT_LIGHT, LIGHT_DISTANT, distant_light},
-    {"infinite", INFINITE_LIGHT, LIGHT_INFINITE, NULL},
-    {"exinfinite", INFINITE_LIGHT, LIGHT_INFINITE, NULL},
-    {"goniometric", GONIOMETRIC_LIGHT, LIGHT_GONIOMETRIC, slide_light},
-    {"projection", PROJECTION_LIGHT, LIGHT_PROJECTION, slide_light},
-    END_OF_TYPES};
+    {"infinite", INFINITE_LIGHT, LIGHT_INFINITE, infinite_light},
+    {"exinfinite", INFINITE_LIGHT, LIGHT_INFINITE, infinite_light},
+    {"goniometric", SLIDE + 1, LIGHT_GONIOMETRIC, slide_light},
+    {"projection", SLIDE, LIGHT_PROJECTION, slide_light},
+    {.name = NULL}};
 
 static bool light(struct parser *p)
 {
     struct params *q = &p->params;
-    struct light_item item = {.light = {.kind = (enum light_kind)p->type->kind, .prim = -1},
-                              .frame.to_world = p->place.ctm};
+    struct light_item item = {.light = {.kind = (enum light_kind)p->type.kind, .prim = -1},
+                              .frame.to_world = p->place.ctm, .to = {0, 0, 1}};
     if (!parse_placed(p))
         return false;
     parse_fields(p, &item);
+    item.light.L = emitted(q, field_find(p->type.fields, "L") != NULL ? "L" : "I");
+    item.group = group(p);
     vec3 position = item.frame.position;
     if (!is_place(position))
         type_error(q, "this light would stand at (%g %g %g); places go up to 1e18", position.x, position.y, position.z);
@@ -185,24 +188,26 @@ static bool light(struct parser *p)
     return true;
 }
 
-static const struct parameter AREA_LIGHT[] = {
-    {"L", emitted, offsetof(struct area_light, L), GREY(1), 0, 0},
-    BY_BUILD("scale"),
-    {"twosided", parse_bool, offsetof(struct area_light, two_sided), GREY(0), 0, 0},
-    VISIBLE(struct area_light, hidden),
-    GROUP(struct area_light),
-    SAMPLES,
-    END_OF_PARAMETERS};
+static void emitter(struct parser *p, void *object)
+{
+    struct area_light *area = object;
+    area->on = true;
+    area->L = emitted(&p->params, "L");
+    area->hidden = !params_bool(&p->params, "visible", true);
+    area->group = group(p);
+}
+
+static const struct field AREA_LIGHT[] = {
+    {"twosided", .kind = FIELD_SWITCH, .place = offsetof(struct area_light, two_sided)},
+    {.name = "L"}, {.name = "scale"}, {.name = "visible"}, {.name = "group"},
+    {"samples", .kind = FIELD_IGNORED}, {"nsamples", .kind = FIELD_IGNORED},
+    {.name = NULL}};
 
 static const struct object_type AREA_LIGHTS[] = {
-    {"diffuse", AREA_LIGHT, LIGHT_AREA, NULL}, {"area", AREA_LIGHT, LIGHT_AREA, NULL}, END_OF_TYPES};
+    {"diffuse", AREA_LIGHT, LIGHT_AREA, emitter}, {"area", AREA_LIGHT, LIGHT_AREA, emitter}, {.name = NULL}};
 
-static bool area_light(struct parser *p)
-{
-    p->state.area.on = true;
-    return parse_object(p, &p->state.area);
-}
+static bool area_light(struct parser *p) { return parse_object(p, &p->state.area); }
 
 const struct directive LIGHT_DIRECTIVES[] = {{"AreaLightSource", IN_WORLD, area_light, AREA_LIGHTS},
                                              {"LightSource", IN_WORLD, light, LIGHTS},
-                                             END_OF_DIRECTIVES};
+                                             {.name = NULL}};

@@ -16,7 +16,10 @@ static void framing(struct parser *p, void *object)
     struct params *q = &p->params;
     struct camera *c = object;
     double *w = c->screen_window;
-    c->kind = (enum camera_kind)p->type->kind;
+    c->kind = (enum camera_kind)p->type.kind;
+    double half = c->kind == CAMERA_PERSPECTIVE ? params_number(q, "halffov", -1, -NUMBER_MAX, 89.9995) : -1;
+    if (half > 0)
+        c->fov = 2 * half;
     c->has_screen_window = c->kind != CAMERA_ENVIRONMENT && params_numbers(q, "screenwindow", w, 4);
     if (c->has_screen_window && !(w[0] < w[1] && w[2] < w[3]))
         type_error(q, "\"screenwindow\" wants four numbers: xmin < xmax, ymin < ymax");
@@ -27,34 +30,29 @@ static void framing(struct parser *p, void *object)
                    "from 1e-12 to 1e12 wide and high; change transform, field of view or window");
 }
 
-static void half_fov(struct parser *p, const struct parameter *row, void *field)
-{
-    double half = params_number(&p->params, row->name, -1, row->low, row->high);
-    if (half > 0)
-        *(double *)field = 2 * half;
-}
-
-#define CAMERA(name, f, value, range) {name, parse_number, offsetof(struct camera, f), GREY(value), range}
-
-#define SHUTTER IGNORED("shutteropen"), IGNORED("shutterclose") /* nothing moves */
-#define SCREEN                                                                                            \
-    CAMERA("frameaspectratio", frame_aspect_ratio, 0, POSITIVE), CAMERA("lensradius", lens_radius, 0, AT_LEAST_0), \
-        CAMERA("focaldistance", focal_distance, 1e6, POSITIVE), BY_BUILD("screenwindow"), SHUTTER
-
-static const struct parameter PERSPECTIVE[] = {
-    CAMERA("fov", fov, KEPT, FIELD_OF_VIEW),
-    {"halffov", half_fov, offsetof(struct camera, fov), GREY(0), -NUMBER_MAX, 89.9995},
-    SCREEN, END_OF_PARAMETERS};
-static const struct parameter ORTHOGRAPHIC[] = {SCREEN, END_OF_PARAMETERS};
-static const struct parameter ENVIRONMENT[] = {
-    IGNORED("frameaspectratio"), IGNORED("lensradius"), IGNORED("focaldistance"), IGNORED("screenwindow"), SHUTTER,
-    END_OF_PARAMETERS};
+#define AT(member) offsetof(struct camera, member)
+/* Nothing moves here, so that shutters do not matter. */
+static const struct field PERSPECTIVE[] = {
+    {"fov", FIELD_NUMBER, AT(fov), FIELD_KEPT, NUMBER_MIN, .high = 179.999},
+    {.name = "halffov"},
+    {"frameaspectratio", FIELD_NUMBER, AT(frame_aspect_ratio), 0, NUMBER_MIN, .high = NUMBER_MAX},
+    {"lensradius", FIELD_NUMBER, AT(lens_radius), 0, 0, .high = NUMBER_MAX},
+    {"focaldistance", FIELD_NUMBER, AT(focal_distance), 1e6, NUMBER_MIN, .high = NUMBER_MAX},
+    {.name = "screenwindow"},
+    {"shutteropen", .kind = FIELD_IGNORED}, {"shutterclose", .kind = FIELD_IGNORED},
+    {.name = NULL}};
+static const struct field ENVIRONMENT[] = {
+    {"frameaspectratio", .kind = FIELD_IGNORED}, {"lensradius", .kind = FIELD_IGNORED},
+    {"focaldistance", .kind = FIELD_IGNORED}, {"screenwindow", .kind = FIELD_IGNORED},
+    {"shutteropen", .kind = FIELD_IGNORED}, {"shutterclose", .kind = FIELD_IGNORED},
+    {.name = NULL}};
+#undef AT
 
 static const struct object_type CAMERA_TYPES[] = {
     {"perspective", PERSPECTIVE, CAMERA_PERSPECTIVE, framing},
-    {"orthographic", ORTHOGRAPHIC, CAMERA_ORTHOGRAPHIC, framing},
+    {"orthographic", PERSPECTIVE + 2, CAMERA_ORTHOGRAPHIC, framing}, /* all but the two of the angle */
     {"environment", ENVIRONMENT, CAMERA_ENVIRONMENT, framing},
-    END_OF_TYPES};
+    {.name = NULL}};
 
 static bool camera(struct parser *p)
 {
@@ -95,29 +93,35 @@ static void image_film(struct parser *p, void *object)
     s->film_filename = name != NULL && name[0] != '\0' ? mem_copy_text(name) : NULL;
 }
 
-#define SCENE(name, read, f, value, range) {name, read, offsetof(struct scene, f), GREY(value), range}
-#define PIXELS 1, 65536
+#define AT(member) offsetof(struct scene, member)
+static const struct field IMAGE_FILM[] = {
+    {"xresolution", FIELD_INTEGER, AT(width), 1280, 1, .high = 65536},
+    {"yresolution", FIELD_INTEGER, AT(height), 720, 1, .high = 65536},
+    {"scale", FIELD_NUMBER, AT(film_scale), 1, 0, .high = NUMBER_MAX},
+    {.name = "cropwindow"}, {.name = "filename"},
+    {"diagonal", .kind = FIELD_IGNORED}, /* for realistic cameras only */
+    {.name = NULL}};
 
-static const struct parameter IMAGE_FILM[] = {
-    SCENE("xresolution", parse_integer, width, 1280, PIXELS),
-    SCENE("yresolution", parse_integer, height, 720, PIXELS),
-    SCENE("scale", parse_number, film_scale, 1, AT_LEAST_0),
-    BY_BUILD("cropwindow"),
-    BY_BUILD("filename"),
-    IGNORED("diagonal"), /* for realistic cameras only */
-    END_OF_PARAMETERS};
-
-static const struct object_type FILM_TYPES[] = {{"image", IMAGE_FILM, 0, image_film}, END_OF_TYPES};
+static const struct object_type FILM_TYPES[] = {{"image", IMAGE_FILM, 0, image_film}, {.name = NULL}};
 
 /* Within these limits the table of a profile (filter.c) is fine enough for it, and its integral is far from 0. */
-#define FILTER(name, f, low, high) {name, parse_number, offsetof(struct filter, f), GREY(KEPT), low, high}
-#define RADII FILTER("xwidth", radius[0], 1e-3, 64), FILTER("ywidth", radius[1], 1e-3, 64)
-
-static const struct parameter BOX[] = {RADII, END_OF_PARAMETERS};
-static const struct parameter GAUSSIAN[] = {RADII, FILTER("alpha", alpha, 1e-6, 1e3), END_OF_PARAMETERS};
-static const struct parameter MITCHELL[] = {
-    RADII, FILTER("B", B, -100, 100), FILTER("C", C, -100, 100), END_OF_PARAMETERS};
-static const struct parameter SINC[] = {RADII, FILTER("tau", tau, 0.1, 1e6), END_OF_PARAMETERS};
+#define OF(member) offsetof(struct filter, member)
+static const struct field BOX[] = {{"xwidth", FIELD_NUMBER, OF(radius[0]), FIELD_KEPT, 1e-3, .high = 64},
+                                   {"ywidth", FIELD_NUMBER, OF(radius[1]), FIELD_KEPT, 1e-3, .high = 64},
+                                   {.name = NULL}};
+static const struct field GAUSSIAN[] = {{"xwidth", FIELD_NUMBER, OF(radius[0]), FIELD_KEPT, 1e-3, .high = 64},
+                                        {"ywidth", FIELD_NUMBER, OF(radius[1]), FIELD_KEPT, 1e-3, .high = 64},
+                                        {"alpha", FIELD_NUMBER, OF(alpha), FIELD_KEPT, 1e-6, .high = 1e3},
+                                        {.name = NULL}};
+static const struct field MITCHELL[] = {{"xwidth", FIELD_NUMBER, OF(radius[0]), FIELD_KEPT, 1e-3, .high = 64},
+                                        {"ywidth", FIELD_NUMBER, OF(radius[1]), FIELD_KEPT, 1e-3, .high = 64},
+                                        {"B", FIELD_NUMBER, OF(B), FIELD_KEPT, -100, .high = 100},
+                                        {"C", FIELD_NUMBER, OF(C), FIELD_KEPT, -100, .high = 100},
+                                        {.name = NULL}};
+static const struct field SINC[] = {{"xwidth", FIELD_NUMBER, OF(radius[0]), FIELD_KEPT, 1e-3, .high = 64},
+                                    {"ywidth", FIELD_NUMBER, OF(radius[1]), FIELD_KEPT, 1e-3, .high = 64},
+                                    {"tau", FIELD_NUMBER, OF(tau), FIELD_KEPT, 0.1, .high = 1e6},
+                                    {.name = NULL}};
 
 static const struct object_type FILTER_TYPES[] = {
     {"box", BOX, FILTER_BOX, NULL},
@@ -125,7 +129,7 @@ static const struct object_type FILTER_TYPES[] = {
     {"gaussian", GAUSSIAN, FILTER_GAUSSIAN, NULL},
     {"mitchell", MITCHELL, FILTER_MITCHELL, NULL},
     {"sinc", SINC, FILTER_SINC, NULL},
-    END_OF_TYPES};
+    {.name = NULL}};
 
 static bool filter(struct parser *p)
 {
@@ -139,11 +143,11 @@ static void stratified(struct parser *p, void *object)
     s->spp = params_int(&p->params, "xsamples", 4, 1, 1 << 15) * params_int(&p->params, "ysamples", 4, 1, 1 << 15);
 }
 
-#define SAMPLES(value) {"pixelsamples", parse_integer, offsetof(struct scene, spp), GREY(value), 1, 1 << 30}
-
-static const struct parameter RANDOM[] = {SAMPLES(4), END_OF_PARAMETERS};
-static const struct parameter STRATIFIED[] = {BY_BUILD("xsamples"), BY_BUILD("ysamples"), END_OF_PARAMETERS};
-static const struct parameter SEQUENCE[] = {SAMPLES(16), END_OF_PARAMETERS};
+static const struct field RANDOM[] = {{"pixelsamples", FIELD_INTEGER, AT(spp), 4, 1, .high = 1 << 30}, {.name = NULL}};
+static const struct field SEQUENCE[] = {{"pixelsamples", FIELD_INTEGER, AT(spp), 16, 1, .high = 1 << 30},
+                                        {.name = NULL}};
+static const struct field STRATIFIED[] = {
+    {.name = "xsamples"}, {.name = "ysamples"}, {.name = NULL}};
 
 static const struct object_type SAMPLER_TYPES[] = {
     {"sobol", SEQUENCE, 0, NULL},
@@ -153,7 +157,7 @@ static const struct object_type SAMPLER_TYPES[] = {
     {"02sequence", SEQUENCE, 0, NULL},
     {"lowdiscrepancy", SEQUENCE, 0, NULL},
     {"maxmindist", SEQUENCE, 0, NULL},
-    END_OF_TYPES};
+    {.name = NULL}};
 
 /* Film and sampler are fields of the scene itself. */
 static bool of_scene(struct parser *p) { return parse_object(p, p->scene); }
@@ -186,4 +190,4 @@ const struct directive OPTION_DIRECTIVES[] = {{"Camera", BEFORE_WORLD, camera, C
                                               {"Sampler", BEFORE_WORLD, of_scene, SAMPLER_TYPES},
                                               {"Accelerator", BEFORE_WORLD, parse_typed, NULL},
                                               {"Integrator", BEFORE_WORLD, integrator, NULL},
-                                              END_OF_DIRECTIVES};
+                                              {.name = NULL}};

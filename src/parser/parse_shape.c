@@ -81,7 +81,7 @@ static void points(struct params *q, struct mesh *m)
 static int alpha(struct parser *p, const char *name)
 {
     int texture = parse_named_texture(p, name, true);
-    bool hole = texture < 0 && params_number(&p->params, name, 1, ANY_NUMBER) == 0;
+    bool hole = texture < 0 && params_number(&p->params, name, 1, -NUMBER_MAX, NUMBER_MAX) == 0;
     return hole ? parse_constant(p, rgb_black()) : texture;
 }
 
@@ -149,10 +149,10 @@ static void curve(struct parser *p, void *object)
     struct mesh *m = mesh_of(object);
     struct error inner;
     struct curve c = {.degree = params_int(q, "degree", 3, 2, 3), .bspline = params_choice(q, "basis", BASES) == 1};
-    double width = params_number(q, "width", 1, AT_LEAST_0);
+    double width = params_number(q, "width", 1, 0, NUMBER_MAX);
     int n_normals, type = params_choice(q, "type", KINDS);
-    c.width[0] = params_number(q, "width0", width, AT_LEAST_0);
-    c.width[1] = params_number(q, "width1", width, AT_LEAST_0);
+    c.width[0] = params_number(q, "width0", width, 0, NUMBER_MAX);
+    c.width[1] = params_number(q, "width1", width, 0, NUMBER_MAX);
     c.P = params_list(q, "P", 1u << PARAM_POINT, 3, &c.n, NULL);
     c.N = type == 1 ? params_list(q, "N", 1u << PARAM_NORMAL, 3, &n_normals, NULL) : NULL;
     if (p->state.area.on)
@@ -177,8 +177,8 @@ static struct nurbs_axis nurbs_axis(struct params *q, const char *const name[5])
     int n;
     a.knot = params_list(q, name[2], 1u << PARAM_FLOAT, 1, &n, NULL);
     bool ok = a.knot != NULL && a.order >= 2 && a.n >= a.order && n == a.n + a.order;
-    a.from = params_number(q, name[3], ok ? a.knot[a.order - 1] : 0, ANY_NUMBER);
-    a.to = params_number(q, name[4], ok ? a.knot[a.n] : 0, ANY_NUMBER);
+    a.from = params_number(q, name[3], ok ? a.knot[a.order - 1] : 0, -NUMBER_MAX, NUMBER_MAX);
+    a.to = params_number(q, name[4], ok ? a.knot[a.n] : 0, -NUMBER_MAX, NUMBER_MAX);
     if (!ok || !nurbs_is_usable(&a))
         type_error(q, "a nurbs needs \"%s\" from 2 to %d, \"%s\" not less than that, as many numbers as both together "
                    "in \"%s\" that never fall, and \"%s\" < \"%s\" within the inner ones", name[1], NURBS_MOST_ORDER,
@@ -231,22 +231,19 @@ static void plymesh(struct parser *p, void *object)
 
 /* --- quadrics ----------------------------------------------------------------------------------------- */
 
-static void phi_max(struct parser *p, const struct parameter *row, void *field)
-{
-    *(double *)field = params_number(&p->params, row->name, row->fallback.r, row->low, row->high) * PI / 180;
-}
-
 static struct quadric *quadric_of(struct parser *p, void *object)
 {
     struct quadric *s = &((struct shape_item *)object)->quadric;
-    s->kind = (enum quadric_kind)p->type->kind;
+    s->kind = (enum quadric_kind)p->type.kind;
+    s->phi_max = s->phi_max * PI / 180;
     return s;
 }
 
 /* The part between two heights. */
 static void heights(struct params *q, struct quadric *s, double low, double high)
 {
-    double a = params_number(q, "zmin", low, ANY_NUMBER), b = params_number(q, "zmax", high, ANY_NUMBER);
+    double a = params_number(q, "zmin", low, -NUMBER_MAX, NUMBER_MAX);
+    double b = params_number(q, "zmax", high, -NUMBER_MAX, NUMBER_MAX);
     s->zmin = a;
     s->zmax = b;
     quadric_normalise(s);
@@ -301,38 +298,53 @@ static void hyperboloid(struct parser *p, void *object)
 
 /* --- the table ---------------------------------------------------------------------------------------- */
 
-#define QUADRIC(name, read, f, value, range) \
-    {name, read, offsetof(struct shape_item, quadric.f), GREY(value), range}
-#define TURN QUADRIC("phimax", phi_max, phi_max, 360, POSITIVE)
-#define ROUND QUADRIC("radius", parse_number, radius, 1, POSITIVE), TURN
-#define SWEPT(f, x) {#f, parse_point, offsetof(struct shape_item, quadric.f), GREY(x), 0, 0}
-#define ALPHA BY_BUILD("alpha"), BY_BUILD("shadowalpha"), END_OF_PARAMETERS
+#define AT(member) offsetof(struct shape_item, quadric.member)
+static const struct field SPHERE[] = {
+    {"radius", FIELD_NUMBER, AT(radius), 1, NUMBER_MIN, .high = NUMBER_MAX},
+    {"phimax", FIELD_NUMBER, AT(phi_max), 360, NUMBER_MIN, .high = NUMBER_MAX}, /* degrees */
+    {.name = "zmin"}, {.name = "zmax"},
+    {.name = NULL}};
+static const struct field DISK[] = {
+    {"radius", FIELD_NUMBER, AT(radius), 1, NUMBER_MIN, .high = NUMBER_MAX},
+    {"phimax", FIELD_NUMBER, AT(phi_max), 360, NUMBER_MIN, .high = NUMBER_MAX}, /* degrees */
+    {"innerradius", FIELD_NUMBER, AT(inner_radius), 0, 0, .high = NUMBER_MAX},
+    {"height", .kind = FIELD_NUMBER, .place = AT(zmin)},
+    {.name = NULL}};
+static const struct field CONE[] = {
+    {"radius", FIELD_NUMBER, AT(radius), 1, NUMBER_MIN, .high = NUMBER_MAX},
+    {"phimax", FIELD_NUMBER, AT(phi_max), 360, NUMBER_MIN, .high = NUMBER_MAX}, /* degrees */
+    {"height", FIELD_NUMBER, AT(zmax), 1, NUMBER_MIN, .high = NUMBER_MAX},
+    {.name = NULL}};
+static const struct field HYPERBOLOID[] = {
+    {"p1", .kind = FIELD_POINT, .place = AT(p1)},
+    {"p2", FIELD_POINT, AT(p2), .fallback = 1},
+    {"phimax", FIELD_NUMBER, AT(phi_max), 360, NUMBER_MIN, .high = NUMBER_MAX}, /* degrees */
+    {.name = NULL}};
 
-static const struct parameter TRIANGLEMESH[] = {
-    BY_BUILD("P"), BY_BUILD("N"), BY_BUILD("uv"), BY_BUILD("st"), BY_BUILD("indices"),
-    IGNORED("faceIndices"), /* for Ptex only */
-    ALPHA};
-static const struct parameter PLYMESH[] = {BY_BUILD("filename"), ALPHA};
-static const struct parameter SPHERE[] = {ROUND, BY_BUILD("zmin"), BY_BUILD("zmax"), END_OF_PARAMETERS};
-static const struct parameter DISK[] = {ROUND, QUADRIC("innerradius", parse_number, inner_radius, 0, AT_LEAST_0),
-                                        QUADRIC("height", parse_number, zmin, 0, ANY_NUMBER), END_OF_PARAMETERS};
-static const struct parameter CONE[] = {ROUND, QUADRIC("height", parse_number, zmax, 1, POSITIVE), END_OF_PARAMETERS};
-static const struct parameter HYPERBOLOID[] = {SWEPT(p1, 0), SWEPT(p2, 1), TURN, END_OF_PARAMETERS};
-static const struct parameter LOOPSUBDIV[] = {
-    BY_BUILD("levels"), BY_BUILD("nlevels"), BY_BUILD("indices"), BY_BUILD("P"),
-    IGNORED("scheme"), /* there is but one */
-    END_OF_PARAMETERS};
-
-static const struct parameter HEIGHTFIELD[] = {BY_BUILD("nu"), BY_BUILD("nv"), BY_BUILD("Pz"), END_OF_PARAMETERS};
-
-static const struct parameter CURVE[] = {
-    BY_BUILD("P"), BY_BUILD("N"), BY_BUILD("width"), BY_BUILD("width0"), BY_BUILD("width1"), BY_BUILD("degree"),
-    BY_BUILD("basis"), BY_BUILD("type"), IGNORED("splitdepth"), END_OF_PARAMETERS};
-
-static const struct parameter NURBS[] = {
-    BY_BUILD("P"),      BY_BUILD("Pw"), BY_BUILD("nu"), BY_BUILD("uorder"), BY_BUILD("uknots"), BY_BUILD("u0"),
-    BY_BUILD("u1"),     BY_BUILD("nv"), BY_BUILD("vorder"), BY_BUILD("vknots"), BY_BUILD("v0"), BY_BUILD("v1"),
-    END_OF_PARAMETERS};
+static const struct field TRIANGLEMESH[] = {
+    {.name = "P"}, {.name = "N"}, {.name = "uv"}, {.name = "st"}, {.name = "indices"},
+    {"faceIndices", .kind = FIELD_IGNORED}, /* for Ptex only */
+    {.name = "alpha"}, {.name = "shadowalpha"},
+    {.name = NULL}};
+static const struct field PLYMESH[] = {
+    {.name = "filename"}, {.name = "alpha"}, {.name = "shadowalpha"},
+    {.name = NULL}};
+static const struct field LOOPSUBDIV[] = {
+    {.name = "levels"}, {.name = "nlevels"}, {.name = "indices"}, {.name = "P"},
+    {"scheme", .kind = FIELD_IGNORED}, /* there is but one */
+    {.name = NULL}};
+static const struct field HEIGHTFIELD[] = {
+    {.name = "nu"}, {.name = "nv"}, {.name = "Pz"},
+    {.name = NULL}};
+static const struct field CURVE[] = {
+    {.name = "P"}, {.name = "N"}, {.name = "width"}, {.name = "width0"}, {.name = "width1"},
+    {.name = "degree"}, {.name = "basis"}, {.name = "type"},
+    {"splitdepth", .kind = FIELD_IGNORED},
+    {.name = NULL}};
+static const struct field NURBS[] = {
+    {.name = "P"}, {.name = "Pw"}, {.name = "nu"}, {.name = "uorder"}, {.name = "uknots"}, {.name = "u0"},
+    {.name = "u1"}, {.name = "nv"}, {.name = "vorder"}, {.name = "vknots"}, {.name = "v0"}, {.name = "v1"},
+    {.name = NULL}};
 
 static const struct object_type TYPES[] = {
     {"trianglemesh", TRIANGLEMESH, 0, trianglemesh},
@@ -347,7 +359,7 @@ static const struct object_type TYPES[] = {
     {"heightfield", HEIGHTFIELD, 0, heightfield},
     {"curve", CURVE, 0, curve},
     {"nurbs", NURBS, 0, nurbs},
-    END_OF_TYPES};
+    {.name = NULL}};
 
 /* --- the directive ------------------------------------------------------------------------------------ */
 
@@ -374,4 +386,4 @@ static bool shape(struct parser *p)
     return ok;
 }
 
-const struct directive SHAPE_DIRECTIVES[] = {{"Shape", IN_WORLD, shape, TYPES}, END_OF_DIRECTIVES};
+const struct directive SHAPE_DIRECTIVES[] = {{"Shape", IN_WORLD, shape, TYPES}, {.name = NULL}};

@@ -232,4 +232,4 @@ const struct directive STATE_DIRECTIVES[] = {
     {"ActiveTransform", ANYWHERE, active_transform, NULL},
     {"TransformTimes", BEFORE_WORLD, transform_times, NULL},
     {"ReverseOrientation", IN_WORLD, reverse_orientation, NULL},
-    END_OF_DIRECTIVES};
+    {.name = NULL}};

@@ -8,23 +8,6 @@
 #include "base/file.h"
 #include "material/noise.h"
 
-/* A value or a texture of the type being defined. */
-static void operand(struct parser *p, const struct parameter *row, void *field)
-{
-    if (p->texture_is_float)
-        parse_float_texture(p, row, field);
-    else
-        parse_rgb_texture(p, row, field);
-}
-
-/* A value of the type being defined. */
-static void value(struct parser *p, const struct parameter *row, void *field)
-{
-    *(rgb *)field = p->texture_is_float
-                        ? rgb_grey(params_number(&p->params, row->name, row->fallback.r, ANY_NUMBER))
-                        : params_rgb(&p->params, row->name, row->fallback);
-}
-
 /* The current transform, kept for textures that look through it. */
 static int space(struct parser *p)
 {
@@ -34,35 +17,35 @@ static int space(struct parser *p)
 }
 
 /* Each kind reads what it has a use for. */
-static void mapping(struct parser *p, const struct parameter *row, void *field)
+static void mapping(struct parser *p, struct mapping *m)
 {
     static const char *const KINDS[] = {"uv", "spherical", "cylindrical", "planar", NULL}; /* as in enum mapping_kind */
     struct params *q = &p->params;
-    struct mapping *m = field;
     m->kind = (enum mapping_kind)params_choice(q, "mapping", KINDS);
-    (void)row;
     if (m->kind == MAPPING_UV) {
-        m->su = params_number(q, "uscale", 1, ANY_NUMBER);
-        m->sv = params_number(q, "vscale", 1, ANY_NUMBER);
+        m->su = params_number(q, "uscale", 1, -NUMBER_MAX, NUMBER_MAX);
+        m->sv = params_number(q, "vscale", 1, -NUMBER_MAX, NUMBER_MAX);
     }
     if (m->kind == MAPPING_PLANAR) {
         m->v1 = params_vec3(q, "v1", PARAM_VECTOR, vec(1, 0, 0));
         m->v2 = params_vec3(q, "v2", PARAM_VECTOR, vec(0, 1, 0));
     }
     if (m->kind == MAPPING_UV || m->kind == MAPPING_PLANAR) {
-        m->du = params_number(q, "udelta", 0, ANY_NUMBER);
-        m->dv = params_number(q, "vdelta", 0, ANY_NUMBER);
+        m->du = params_number(q, "udelta", 0, -NUMBER_MAX, NUMBER_MAX);
+        m->dv = params_number(q, "vdelta", 0, -NUMBER_MAX, NUMBER_MAX);
     } else {
         m->space = space(p);
     }
 }
+
+static void mapped(struct parser *p, void *object) { mapping(p, &((struct texture *)object)->map); }
 
 /* Squares, on a surface, or cubes, in space, which no mapping acts on. */
 static void checkerboard(struct parser *p, void *object)
 {
     struct texture *t = object;
     if (params_int(&p->params, "dimension", 2, 2, 3) == 2) {
-        mapping(p, NULL, &t->map);
+        mapping(p, &t->map);
     } else {
         t->kind = TEXTURE_CUBES;
         t->space = space(p);
@@ -71,18 +54,15 @@ static void checkerboard(struct parser *p, void *object)
 
 static void noise_texture(struct parser *p, void *object) { ((struct texture *)object)->space = space(p); }
 
-static void wrap(struct parser *p, const struct parameter *row, void *field)
-{
-    static const char *const WRAPS[] = {"repeat", "black", "clamp", NULL}; /* as in enum texture_wrap */
-    *(enum texture_wrap *)field = (enum texture_wrap)params_choice(&p->params, row->name, WRAPS);
-}
-
 static void imagemap(struct parser *p, void *object)
 {
+    static const char *const WRAPS[] = {"repeat", "black", "clamp", NULL}; /* as in enum texture_wrap */
     struct params *q = &p->params;
     struct texture *t = object;
     struct texture_set *set = &p->scene->textures;
     struct source_position at = q->position;
+    mapping(p, &t->map);
+    t->wrap = (enum texture_wrap)params_choice(q, "wrap", WRAPS);
     char *path = params_file(q, "filename", &at);
     if (path == NULL) {
         type_error(q, "an imagemap needs its picture: add \"string filename\" \"...\"");
@@ -98,49 +78,63 @@ static void imagemap(struct parser *p, void *object)
     free(path);
 }
 
-#define OF_MAPPING \
-    BY_BUILD("uscale"), BY_BUILD("vscale"), BY_BUILD("udelta"), BY_BUILD("vdelta"), BY_BUILD("v1"), BY_BUILD("v2")
-#define FIELD(f) offsetof(struct texture, f)
-#define NUMBER(name, f, x) {name, parse_number, FIELD(f), GREY(x), ANY_NUMBER}
-#define MAPPING {"mapping", mapping, FIELD(map), GREY(0), 0, 0}, OF_MAPPING
-#define OPERAND(name, f, x) {name, operand, FIELD(f), GREY(x), ANY_NUMBER}
-#define OPERANDS(first, second) OPERAND("tex1", tex1, first), OPERAND("tex2", tex2, second)
-#define VALUE(name, f, x) {name, value, FIELD(f), GREY(x), 0, 0}
-
-static const struct parameter CONSTANT[] = {VALUE("value", constant, 1), END_OF_PARAMETERS};
-static const struct parameter SCALE[] = {OPERANDS(1, 1), END_OF_PARAMETERS};
-static const struct parameter MIX[] = {
-    OPERANDS(0, 1),
-    {"amount", parse_float_texture, FIELD(amount), GREY(0.5), ANY_NUMBER},
-    END_OF_PARAMETERS};
-static const struct parameter CHECKERBOARD[] = {
-    OPERANDS(1, 0), BY_BUILD("dimension"), BY_BUILD("mapping"), OF_MAPPING,
-    IGNORED("aamode"), /* pixel samples do the filtering */
-    END_OF_PARAMETERS};
-static const struct parameter IMAGEMAP[] = {
-    MAPPING,
-    NUMBER("scale", scale, 1),
-    {"wrap", wrap, FIELD(wrap), GREY(0), 0, 0},
-    IGNORED("trilinear"), /* choices of pbrt's texture filter; here pixel samples filter */
-    IGNORED("maxanisotropy"),
-    BY_BUILD("filename"),
-    BY_BUILD("gamma"),
-    END_OF_PARAMETERS};
-static const struct parameter BILERP[] = {
-    MAPPING, VALUE("v00", v00, 0), VALUE("v01", v01, 1),
-    VALUE("v10", v10, 0), VALUE("v11", v11, 1), END_OF_PARAMETERS};
-
-static const struct parameter UV[] = {MAPPING, END_OF_PARAMETERS};
+#define AT(member) offsetof(struct texture, member)
+static const struct field CONSTANT[] = {{"value", FIELD_VALUE, AT(constant), .fallback = 1}, {.name = NULL}};
+static const struct field SCALE[] = {
+    {"tex1", FIELD_OPERAND, AT(tex1), .fallback = 1},
+    {"tex2", FIELD_OPERAND, AT(tex2), .fallback = 1},
+    {.name = NULL}};
+static const struct field MIX[] = {
+    {"tex1", FIELD_OPERAND, AT(tex1), .fallback = 0},
+    {"tex2", FIELD_OPERAND, AT(tex2), .fallback = 1},
+    {"amount", FIELD_FLOAT_TEXTURE, AT(amount), .fallback = 0.5},
+    {.name = NULL}};
+static const struct field CHECKERBOARD[] = {
+    {"tex1", FIELD_OPERAND, AT(tex1), .fallback = 1},
+    {"tex2", FIELD_OPERAND, AT(tex2), .fallback = 0},
+    {.name = "dimension"}, {.name = "mapping"}, {.name = "uscale"}, {.name = "vscale"}, {.name = "udelta"},
+    {.name = "vdelta"}, {.name = "v1"}, {.name = "v2"},
+    {"aamode", .kind = FIELD_IGNORED}, /* pixel samples do the filtering */
+    {.name = NULL}};
+static const struct field IMAGEMAP[] = {
+    {.name = "mapping"}, {.name = "uscale"}, {.name = "vscale"}, {.name = "udelta"}, {.name = "vdelta"},
+    {.name = "v1"}, {.name = "v2"},
+    {"scale", FIELD_NUMBER, AT(scale), .fallback = 1},
+    {.name = "wrap"},
+    {"trilinear", .kind = FIELD_IGNORED}, /* choices of pbrt's texture filter; here pixel samples filter */
+    {"maxanisotropy", .kind = FIELD_IGNORED},
+    {.name = "filename"}, {.name = "gamma"},
+    {.name = NULL}};
+static const struct field BILERP[] = {
+    {.name = "mapping"}, {.name = "uscale"}, {.name = "vscale"}, {.name = "udelta"}, {.name = "vdelta"},
+    {.name = "v1"}, {.name = "v2"},
+    {"v00", FIELD_VALUE, AT(v00), .fallback = 0},
+    {"v01", FIELD_VALUE, AT(v01), .fallback = 1},
+    {"v10", FIELD_VALUE, AT(v10), .fallback = 0},
+    {"v11", FIELD_VALUE, AT(v11), .fallback = 1},
+    {.name = NULL}};
+static const struct field UV[] = {
+    {.name = "mapping"}, {.name = "uscale"}, {.name = "vscale"}, {.name = "udelta"}, {.name = "vdelta"},
+    {.name = "v1"}, {.name = "v2"},
+    {.name = NULL}};
 /* pbrt-v3 paints the dots with "outside" and what is around them with "inside". */
-static const struct parameter DOTS[] = {
-    MAPPING, OPERAND("inside", tex2, 1), OPERAND("outside", tex1, 0), END_OF_PARAMETERS};
-
-#define OCTAVES {"octaves", parse_integer, FIELD(octaves), GREY(8), 0, NOISE_MAX_OCTAVES}
-static const struct parameter OCTAVES_OF_NOISE[] = {OCTAVES, NUMBER("roughness", omega, 0.5), END_OF_PARAMETERS};
-static const struct parameter WINDY[] = {END_OF_PARAMETERS};
-static const struct parameter MARBLE[] = {
-    OCTAVES, NUMBER("roughness", omega, 0.5), NUMBER("scale", scale, 1),
-    NUMBER("variation", variation, 0.2), END_OF_PARAMETERS};
+static const struct field DOTS[] = {
+    {.name = "mapping"}, {.name = "uscale"}, {.name = "vscale"}, {.name = "udelta"}, {.name = "vdelta"},
+    {.name = "v1"}, {.name = "v2"},
+    {"inside", FIELD_OPERAND, AT(tex2), .fallback = 1},
+    {"outside", FIELD_OPERAND, AT(tex1), .fallback = 0},
+    {.name = NULL}};
+static const struct field OCTAVES[] = {
+    {"octaves", FIELD_INTEGER, AT(octaves), 8, 0, .high = NOISE_MAX_OCTAVES},
+    {"roughness", FIELD_NUMBER, AT(omega), .fallback = 0.5},
+    {.name = NULL}};
+static const struct field WINDY[] = {{.name = NULL}};
+static const struct field MARBLE[] = {
+    {"octaves", FIELD_INTEGER, AT(octaves), 8, 0, .high = NOISE_MAX_OCTAVES},
+    {"roughness", FIELD_NUMBER, AT(omega), .fallback = 0.5},
+    {"scale", FIELD_NUMBER, AT(scale), .fallback = 1},
+    {"variation", FIELD_NUMBER, AT(variation), .fallback = 0.2},
+    {.name = NULL}};
 
 const struct object_type TEXTURE_TYPES[] = {
     {"constant", CONSTANT, TEXTURE_CONSTANT, NULL},
@@ -148,14 +142,14 @@ const struct object_type TEXTURE_TYPES[] = {
     {"mix", MIX, TEXTURE_MIX, NULL},
     {"checkerboard", CHECKERBOARD, TEXTURE_CHECKERBOARD, checkerboard},
     {"imagemap", IMAGEMAP, TEXTURE_IMAGEMAP, imagemap},
-    {"bilerp", BILERP, TEXTURE_BILERP, NULL},
-    {"uv", UV, TEXTURE_UV, NULL},
-    {"dots", DOTS, TEXTURE_DOTS, NULL},
-    {"fbm", OCTAVES_OF_NOISE, TEXTURE_FBM, noise_texture},
-    {"wrinkled", OCTAVES_OF_NOISE, TEXTURE_WRINKLED, noise_texture},
+    {"bilerp", BILERP, TEXTURE_BILERP, mapped},
+    {"uv", UV, TEXTURE_UV, mapped},
+    {"dots", DOTS, TEXTURE_DOTS, mapped},
+    {"fbm", OCTAVES, TEXTURE_FBM, noise_texture},
+    {"wrinkled", OCTAVES, TEXTURE_WRINKLED, noise_texture},
     {"windy", WINDY, TEXTURE_WINDY, noise_texture},
     {"marble", MARBLE, TEXTURE_MARBLE, noise_texture},
-    END_OF_TYPES};
+    {.name = NULL}};
 
 /* The texture of params.type, or -1. */
 static int make(struct parser *p)
@@ -163,7 +157,7 @@ static int make(struct parser *p)
     struct params *q = &p->params;
     if (!parse_type(p, TEXTURE_TYPES))
         return -1;
-    struct texture t = {.kind = (enum texture_kind)p->type->kind};
+    struct texture t = {.kind = (enum texture_kind)p->type.kind};
     if (p->texture_is_float && (t.kind == TEXTURE_UV || t.kind == TEXTURE_MARBLE))
         type_error(q, "the texture \"%s\" is a colour; its type is \"spectrum\"", q->type);
     if (!parse_object(p, &t))
@@ -192,4 +186,4 @@ static bool texture(struct parser *p)
     return id >= 0;
 }
 
-const struct directive TEXTURE_DIRECTIVES[] = {{"Texture", IN_WORLD, texture, NULL}, END_OF_DIRECTIVES};
+const struct directive TEXTURE_DIRECTIVES[] = {{"Texture", IN_WORLD, texture, NULL}, {.name = NULL}};

@@ -65,7 +65,7 @@ static const struct directive FILE_DIRECTIVES[] = {{"Include", ANYWHERE, include
                                                    {"MakeNamedMedium", ANYWHERE, parse_typed, NULL},
                                                    {"WorldBegin", BEFORE_WORLD, world_begin, NULL},
                                                    {"WorldEnd", IN_WORLD, world_end, NULL},
-                                                   END_OF_DIRECTIVES};
+                                                   {.name = NULL}};
 
 /* All directives, the commonest first. */
 static const struct directive *const TABLES[] = {SHAPE_DIRECTIVES,    MATERIAL_DIRECTIVES, STATE_DIRECTIVES,

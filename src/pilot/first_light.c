@@ -117,10 +117,10 @@ static void choose(const struct first_light_job *f, struct first_light *out)
     out->delta = credit_of(moments_of(f, DELTA, bright));
 }
 
-void first_light_measure(const struct render_job *job, const struct count_model *model, struct workspace *work,
+void first_light_measure(const struct render_job *job, const struct tables *tables, struct workspace *work,
                          struct first_light *out)
 {
-    struct first_light_job f = {.job = *job, .counts = {{1, 1}, {1, 1}, {1, 1}, .model = model}, .work = work};
+    struct first_light_job f = {.job = *job, .counts = {{1, 1}, {1, 1}, {1, 1}, .tables = tables}, .work = work};
     double pixels = (double)rect_width(job->film_rect) * rect_height(job->film_rect);
     f.n = int_within(SAMPLES_PER_PIXEL * pixels / (2 * SEQUENCE), 64, MOST_PIXELS);
     f.job.seed = hash_combine(job->seed, 0x9e3779b97f4a7c15u);

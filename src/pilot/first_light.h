@@ -20,10 +20,10 @@ struct first_light {
     double delta; /* of s = 1, for those that s = 0 cannot */
 };
 
-/* first_light_measure: for the lights as `model` chooses them. Traces as many eye sub-paths as the picture has pixels,
+/* first_light_measure: for the lights as `tables` choose them. Traces as many eye sub-paths as the picture has pixels,
  * or a few more, but at most 32768, unless job->watch ends it.
  *   work  [job->n_threads] */
-void first_light_measure(const struct render_job *job, const struct count_model *model, struct workspace *work,
+void first_light_measure(const struct render_job *job, const struct tables *tables, struct workspace *work,
                          struct first_light *out);
 
 #endif

@@ -89,11 +89,8 @@ static bool paths_suffice(const struct scene *scene)
     bool delta_light = false, delta_lobe = false;
     for (int i = 0; i < scene->lights.n; i++)
         delta_light |= light_is_delta(&scene->lights.light[i]);
-    for (int i = 0; i < scene->n_materials; i++) {
-        enum material_kind kind = scene->material[i].kind;
-        delta_lobe |= kind == MATERIAL_MIRROR || kind == MATERIAL_GLASS || kind == MATERIAL_UBER ||
-                      kind == MATERIAL_DISNEY;
-    }
+    for (int i = 0; i < scene->n_materials; i++)
+        delta_lobe |= scene->material[i]->row->may_be_delta;
     return !(delta_light && delta_lobe);
 }
 
@@ -103,10 +100,10 @@ void pilot_run(const struct render_job *job, const struct pilot_method *method, 
     struct choice_of_numbers choice = {.light_paths = true};
     struct first_light light;
     struct noise sums;
-    struct costs costs = costs_of(&s->learnt.importance);
+    struct costs costs = costs_of(&s->tables.importance);
     struct render_job other = *job;
     other.seed = hash_combine(job->seed, 0x3c6ef372fe94f82bu); /* unlike the render's */
-    first_light_measure(&other, &s->learnt.model, method->work, &light);
+    first_light_measure(&other, &s->tables, method->work, &light);
     memcpy(choice.n, TRIED, sizeof choice.n);
     set_numbers(s, &choice, &light);
     s->frozen.counts.splat = pixel_light_count(job) / s->frozen.path_pixels;

@@ -2,7 +2,7 @@
 #ifndef ASBDPT_SUBSPACES_STATE_H
 #define ASBDPT_SUBSPACES_STATE_H
 
-#include "learning/learnt.h"
+#include "tables/tables.h"
 #include "transport/pixel_sample.h"
 
 struct subspaces_state {
@@ -10,7 +10,7 @@ struct subspaces_state {
     int connections;              /* parameter: draws for each eye vertex; 0: chosen */
     double draws[EYE_ENDS];       /* C */
     double delta, emission;
-    struct learnt learnt;
+    struct tables tables;
 };
 
 #endif

@@ -10,8 +10,6 @@
 #include "caustics/caustic.h"
 #include "parser/symbols.h"
 
-static bool is_of_file(const struct setting *item) { return strcmp(item->origin, "-P") != 0; }
-
 /* What all integrators have. */
 struct common {
     int max_depth, heuristic, strategy, caustics;
@@ -78,7 +76,7 @@ static void adapt_strategy(struct settings *s, const struct setting *item, const
     bool known = settings_choice(s, item->name, 0, STRATEGIES, &which, NULL);
     if (known && which == 2)
         replace(s, item, "power", sink, "is \"power\" instead of \"uniform\", which only has more noise");
-    else if (!known && is_of_file(item))
+    else if (!known && setting_is_of_file(item))
         replace(s, item, "spatial", sink, "is \"spatial\": its value is unknown");
 }
 
@@ -89,7 +87,7 @@ static void adapt_integer(struct settings *s, const struct setting *item, const 
     double number = strtod(item->value, NULL), used = trunc(number);
     if (strcmp(item->name, "maxdepth") == 0)
         used = fmin(used, PATH_MAX_DEPTH);
-    if (!is_of_file(item) || used == number || !(fabs(used) <= 1e15))
+    if (!setting_is_of_file(item) || used == number || !(fabs(used) <= 1e15))
         return;
     snprintf(text, sizeof text, "is %.12g, which counts as %.12g", number, used);
     snprintf(value, sizeof value, "%.0f", used + 0.0);
@@ -114,7 +112,7 @@ static bool passed_over(const struct scene *scene, const struct setting *item, c
     const struct field *found;
     const struct method *has = owner(method_rows, item->name, &found);
     char text[128];
-    if (!is_of_file(item))
+    if (!setting_is_of_file(item))
         return false;
     if (has == NULL)
         snprintf(text, sizeof text, "is not used: no integrator here has such a parameter");
@@ -133,7 +131,8 @@ static bool passed_over(const struct scene *scene, const struct setting *item, c
 /* pbrt-v3's number of samples for its mlt. True if it is to be taken out. */
 static bool adapt_mutations(struct scene *scene, const struct setting *item, const struct method *reader)
 {
-    if (strcmp(item->name, "mutationsperpixel") != 0 || !is_of_file(item) || !reader->chain || item->n_values != 1)
+    if (strcmp(item->name, "mutationsperpixel") != 0 || !setting_is_of_file(item) || !reader->chain ||
+        item->n_values != 1)
         return false;
     scene->spp = int_within(strtod(item->value, NULL), 1, 1 << 30);
     return true;
@@ -182,7 +181,7 @@ static bool unknown(const struct setting *item, struct error *err)
     for (const struct method *const *m = method_rows; *m != NULL; m++)
         offer(&s, (*m)->parameters);
     bool near = s.name != NULL;
-    return error_set(err, "%s: no integrator has a parameter \"%s\"%s%s%s; asbdpt help integrators lists them",
+    return error_usage(err, "%s: no integrator has a parameter \"%s\"%s%s%s; asbdpt help integrators lists them",
                      item->origin, item->name, near ? " (did you mean " : "", near ? s.name : "", near ? "?)" : "");
 }
 
@@ -199,13 +198,14 @@ bool parameters_belong(const struct scene *scene, const struct method *const *re
         const struct setting *item = &scene->settings.item[i];
         const struct method *has = owner(method_rows, item->name, NULL);
         char whose[64], here[64];
-        if (is_of_file(item) || owner(readers, item->name, NULL) != NULL)
+        if (setting_is_of_file(item) || owner(readers, item->name, NULL) != NULL)
             continue;
         if (has == NULL)
             return unknown(item, err);
         name_method(has, item->name, whose, sizeof whose);
         name_method(readers[0], item->name, here, sizeof here);
-        return error_set(err, "-P: \"%s\" is a parameter of %s, not of %s; see --integrator", item->name, whose, here);
+        return error_usage(err, "-P: \"%s\" is a parameter of %s, not of %s; see --integrator", item->name, whose,
+                           here);
     }
     return true;
 }

@@ -23,6 +23,8 @@ void scene_free(struct scene *s)
     kd_free(&s->kd_lamps);
     geometry_free(&s->geo);
     texture_set_free(&s->textures);
+    for (int i = 0; i < s->n_materials; i++)
+        free(s->material[i]);
     free(s->material);
     light_set_free(&s->lights);
     free(s->film_filename);
@@ -31,8 +33,9 @@ void scene_free(struct scene *s)
     memset(s, 0, sizeof *s);
 }
 
-int scene_add_material(struct scene *s, struct material m)
+int scene_add_material(struct scene *s, struct material *m)
 {
+    material_settle(m, s->material);
     s->material = mem_append(s->material, (size_t)s->n_materials, sizeof *s->material);
     s->material[s->n_materials] = m;
     return s->n_materials++;
@@ -74,6 +77,12 @@ void scene_bounds(const struct scene *s, vec3 *lo, vec3 *hi)
     widen(&s->kd_lamps, lo, hi);
 }
 
+void scene_resize(struct scene *s, int width, int height)
+{
+    s->height = height > 0 ? height : int_within((double)width * s->height / s->width + 0.5, 1, 1 << 30);
+    s->width = width;
+}
+
 void scene_prepare(struct scene *s)
 {
     s->geo.opaque = opaque_at;
@@ -81,7 +90,7 @@ void scene_prepare(struct scene *s)
     for (int i = 0; i < s->geo.n_groups; i++)
         s->geo.group[i].skip_partials =
             s->geo.group[i].material < 0 ||
-            !material_reads_partials(s->material, s->geo.group[i].material, &s->textures);
+            !material_reads_partials(s->material[s->geo.group[i].material], &s->textures);
     kd_build(&s->kd, &s->geo, false);
     kd_build(&s->kd_lamps, &s->geo, true);
     vec3 lo, hi;

@@ -33,7 +33,7 @@ struct scene {
     struct kdtree kd;       /* of the surfaces that have a material */
     struct kdtree kd_lamps; /* of those that have none: the see-through lamps */
     struct texture_set textures;
-    struct material *material; /* [n_materials], owned */
+    struct material **material; /* [n_materials], owned with what they point to */
     int n_materials;
     struct light_set lights;
 
@@ -55,8 +55,11 @@ struct scene {
 void scene_init(struct scene *s);
 void scene_free(struct scene *s);
 
-/* scene_add_material: append a material; returns its number. */
-int scene_add_material(struct scene *s, struct material m);
+/* scene_add_material: append a material, settle and own it; returns its number. */
+int scene_add_material(struct scene *s, struct material *m);
+
+/* scene_resize: another size of the film, before it is prepared; height 0: of the same shape, 2^30 at most. */
+void scene_resize(struct scene *s, int width, int height);
 
 /* scene_prepare: build the kd-tree, light tables, camera and filter for the final resolution. Call once; from then on
  * the scene stays where it is in memory. */

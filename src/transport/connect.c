@@ -58,7 +58,7 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
      * surface. */
     double before = 0;
     if (!z->prev_delta)
-        before = mis_direct_count(counts, lights, prev->eye_region, prev->eye_end, z->cell, neg(z->wo));
+        before = n_direct(counts, lights, prev->eye_region, prev->eye_end, z->cell, neg(z->wo));
     /* density of the light sub-path's direction (or origin, at infinity) from here */
     double pdf_emit = emit_pdf(counts, lights, &at, start, z->wo);
     double eye_side = mis_side(counts, z->pdf_origin, z->pdf_fwd, before, pdf_emit, z->mis);
@@ -67,13 +67,6 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
     if (counts->weigher != NULL)
         c.weight = counts->weigher->weigh(counts->weigher->context, 0, NULL, &end);
     return c;
-}
-
-static int choose_light(const struct count_model *model, const struct light_set *lights, int region, double u,
-                        double *pmf)
-{
-    return model != NULL && model->choose_light != NULL ? model->choose_light(model->learnt, lights, region, u, pmf)
-                                                        : alias_sample(&lights->choice, u, pmf, NULL);
 }
 
 bool connect_light(const struct scene *scene, const struct vertex *z, const struct light_point *at, double pdf,
@@ -114,7 +107,7 @@ bool connect_light_point(const struct scene *scene, const struct mis_counts *cou
     out->value = rgb_black();
     if (!vertex_connectible(z) || lights->choice.n == 0)
         return false;
-    int cell = choose_light(counts->model, lights, z->eye_region, u[0], &pmf);
+    int cell = guide_draw(&counts_tables(counts)->guide, lights, z->eye_region, u[0], &pmf);
     if (!light_sample_cell(lights, &scene->geo, cell, u[1], u[2], &at) || !(at.pdf > 0))
         return false;
     at.cell = cell;
@@ -146,7 +139,7 @@ struct connection connect_lit(const struct scene *scene, const struct mis_counts
     double light = mis_side(counts, l->pdf_z * l->at_light, y.pdf_fwd, hit, 0, 0);
     double pdf_z = emit_pdf(counts, lights, at, z->p, neg(w)) * abs_dot(z->ng, w) * (parallel ? 1 : 1 / d2);
     double eye = mis_side(counts, pdf_z, z->pdf_fwd, z->mis_c, l->pdf_rev_z, z->mis);
-    double count = mis_direct_count(counts, lights, z->eye_region, z->eye_end, at->cell, at->w);
+    double count = n_direct(counts, lights, z->eye_region, z->eye_end, at->cell, at->w);
     struct connection c = nothing();
     c.value = l->value;
     c.length = z->length + (parallel ? light_distance(lights, z->p, w) : distance);
@@ -207,7 +200,7 @@ struct connection connect_joint(const struct scene *scene, const struct mis_coun
     double eye = mis_side(counts, j->pdf_y * j->area_z, z->pdf_fwd, z->mis_c, j->pdf_rev_z, z->mis);
     c.value = j->value;
     c.length = y->length + j->length + z->length;
-    c.weight = mis_weight(counts, mis_connect_count(counts, y->light_region, z->eye_region, z->eye_end), light, eye);
+    c.weight = mis_weight(counts, n_connect(counts, y->light_region, z->eye_region, z->eye_end), light, eye);
     const struct path_end end_y = {y, y - 1, j->pdf_z * j->area_y, j->pdf_rev_y};
     const struct path_end end_z = {z, z - 1, j->pdf_y * j->area_z, j->pdf_rev_z};
     if (counts->weigher != NULL)
@@ -252,7 +245,7 @@ struct connection connect_lens(const struct scene *scene, const struct mis_count
         return nothing();
     /* The strategy one shorter on the light side has t = 2, which the light walk could not know; of s = 2 nor could it
      * the one before, s = 0. */
-    double before = mis_count_before(counts, &scene->lights, &light[s - 2], y, FIRST_HIT);
+    double before = n_before(counts, &scene->lights, &light[s - 2], y, FIRST_HIT);
     double mis = y->mis;
     if (s == 2 && mis > 0)
         mis *= mis_raise(counts, counts->hit[FIRST_HIT]) / mis_raise(counts, counts->hit[LATER_HIT]);

@@ -1,33 +1,39 @@
 /* counts.h: how many samples a strategy takes for a path (mis.h): n of its connecting edge, from the edge's two
- * ends. */
+ * ends. Both are known when a walk has arrived at the second, so every strategy finds the same number for the same
+ * path: the numbers of struct mis_counts, times what is known about the places of the two ends (tables.h).
+ */
 #ifndef ASBDPT_COUNTS_H
 #define ASBDPT_COUNTS_H
 
+#include "tables/tables.h"
 #include "transport/vertex.h"
 
-/* mis_connect_count: n of the strategy s >= 2, t >= 2 whose light end is in region y and whose eye end in region e. */
-static inline double mis_connect_count(const struct mis_counts *c, int y, int e, enum eye_end end)
+static inline const struct tables *counts_tables(const struct mis_counts *c)
 {
-    double n = c->connect[end];
-    return c->model != 0 && c->model->connect != 0 ? n * c->model->connect(c->model->learnt, y, e) : n;
+    return c->tables != NULL ? c->tables : &NO_TABLES;
 }
 
-/* mis_direct_count: n of the strategy s = 1, t >= 2 that joins a surface point in region e to the end point y0.
- *   cell, w  of y0, see count_model */
-static inline double mis_direct_count(const struct mis_counts *c, const struct light_set *lights, int e,
-                                      enum eye_end end, int cell, vec3 w)
+/* n_connect: n of the strategy s >= 2, t >= 2 whose light end is in region l and whose eye end in region e. */
+static inline double n_connect(const struct mis_counts *c, int l, int e, enum eye_end end)
+{
+    return c->connect[end] * pairs_worth(&counts_tables(c)->pairs, e, l);
+}
+
+/* n_direct: n of the strategy s = 1, t >= 2 that joins a surface point in region e to the end point y0.
+ *   cell, w  of y0, see guide_density */
+static inline double n_direct(const struct mis_counts *c, const struct light_set *lights, int e, enum eye_end end,
+                              int cell, vec3 w)
 {
     bool delta = cell >= 0 && light_is_delta(&lights->light[lights->light_of_cell[cell]]);
     double n = (delta ? c->delta : c->direct)[end];
-    return c->model != 0 && c->model->direct != 0 && n > 0 ? n * c->model->direct(c->model->learnt, lights, e, cell, w)
-                                                           : n;
+    return n > 0 ? n * guide_density(&counts_tables(c)->guide, lights, e, cell, w) : 0;
 }
 
-/* mis_count_before: c_e of a light sub-path's vertex y with prev before it: n of the strategy that joins prev to y, y
- * being an eye end of the given kind; 0 after a delta lobe. mis_count_behind: c_e of an eye sub-path's vertex z: n of
- * the strategy that joins z, as its light end, to prev. */
-double mis_count_before(const struct mis_counts *c, const struct light_set *lights, const struct vertex *prev,
-                        const struct vertex *y, enum eye_end end);
-double mis_count_behind(const struct mis_counts *c, const struct vertex *prev, const struct vertex *z);
+/* n_before: c_e of a light sub-path's vertex y with prev before it: n of the strategy that joins prev to y, y being an
+ * eye end of the given kind; 0 after a delta lobe. n_behind: c_e of an eye sub-path's vertex z: n of the strategy that
+ * joins z, as its light end, to prev. */
+double n_before(const struct mis_counts *c, const struct light_set *lights, const struct vertex *prev,
+                const struct vertex *y, enum eye_end end);
+double n_behind(const struct mis_counts *c, const struct vertex *prev, const struct vertex *z);
 
 #endif

@@ -1,37 +1,33 @@
 /* emit.c: see emit.h. */
 #include "transport/emit.h"
 
+#include "transport/counts.h"
+
 rgb emit_sample(const struct scene *scene, const struct mis_counts *counts, const double u[3], double direction[2],
                 struct light_point *at, struct ray *ray, double *pdf, double *pdf_mis)
 {
     const struct light_set *lights = &scene->lights;
-    const struct count_model *m = counts->model;
-    bool learnt = m != NULL && m->choose_emission != NULL;
-    double rho = 1;
+    double rho;
     *pdf = *pdf_mis = 0;
     if (lights->choice.n == 0)
         return rgb_black();
-    int cell = learnt ? m->choose_emission(m->learnt, lights, u[0], direction, &rho)
-                      : alias_sample(&lights->choice, u[0], NULL, NULL);
+    int cell = emission_draw(&counts_tables(counts)->emission, lights, u[0], direction, &rho);
     if (!light_sample_cell(lights, &scene->geo, cell, u[1], u[2], at))
         return rgb_black();
     rgb emitted = light_sample_emission(lights, at, direction, ray, pdf);
     *pdf *= rho;
     bool several = lights->n_infinite > 1 && lights->light[at->light].kind == LIGHT_INFINITE;
-    *pdf_mis = learnt && several ? emit_pdf(counts, lights, at, ray->o, ray->d) : *pdf;
+    *pdf_mis = several ? emit_pdf(counts, lights, at, ray->o, ray->d) : *pdf;
     return emitted;
 }
 
 double emit_pdf(const struct mis_counts *counts, const struct light_set *lights, const struct light_point *y0, vec3 p,
                 vec3 w)
 {
-    const struct count_model *m = counts->model;
     bool infinite = y0->light < 0 || lights->light[y0->light].kind == LIGHT_INFINITE;
     double pdf = infinite ? 1 / (PI * sqr(lights->radius)) : light_pdf_emission(lights, y0, w);
-    if (m == NULL || m->emission == NULL || !(pdf > 0))
-        return pdf;
     struct light_point at = *y0;
     if (infinite && lights->n_infinite > 1)
         at.light = -1;
-    return pdf * m->emission(m->learnt, lights, &at, p, w);
+    return pdf > 0 ? pdf * emission_density(&counts_tables(counts)->emission, lights, &at, p, w) : pdf;
 }

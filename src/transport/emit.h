@@ -1,5 +1,5 @@
-/* emit.h: how a light sub-path leaves its light: as light.h has it, or as a count_model has learnt (mis.h), which makes
- * the density of the ray rho times light_pdf_emission's. That of y_0 remains. So p_i has rho for every i >= 2, p_0 and
+/* emit.h: how a light sub-path leaves its light: as light.h has it, or by the table of emission.h, which makes the
+ * density of the ray rho times light_pdf_emission's. That of y_0 remains. So p_i has rho for every i >= 2, p_0 and
  * p_1 have it not, and the recursions of mis.h need no other change.
  *
  * Tests: test_mis.c.

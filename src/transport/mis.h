@@ -43,39 +43,12 @@
 
 #include <stdbool.h>
 
-#include "base/vec.h"
-
-struct light_set;
 struct extra;
-struct light_point;
+struct tables;
 
 /* Which eye vertex a strategy with t >= 2 ends at: what the camera sees, itself or by way of delta lobes alone, or a
  * later one. */
 enum eye_end { FIRST_HIT, LATER_HIT, EYE_ENDS };
-
-/* What a method has learnt about places, as the weights need it: the n of an edge from its two ends. Surface points are
- * sorted into regions, as eye ends and as light ends; both ends of a strategy's connecting edge are known when a walk
- * has arrived at the second, so that every strategy finds the same number for the same path. */
-struct count_model {
-    const void *learnt; /* handed to all of these */
-    /* The regions of a surface point whose normal is turned as vertex_side (vertex.h) does. NULL: 0. */
-    void (*locate)(const void *learnt, vec3 p, vec3 side, int *eye_region, int *light_region);
-    /* Factor of counts.connect for a light end in region y and an eye end in region e. NULL: 1. */
-    double (*connect)(const void *learnt, int y, int e);
-    /* How s = 1 chooses a light cell for an eye end in region e with the uniform number u, -1: there is none; and the
-     * density of y0 under that choice over the one under emission's, its factor of counts.direct (cell: of y0, -1 for
-     * a direction met by an escaping ray; w: of lights at infinity). NULL: as emission chooses, hence 1. */
-    int (*choose_light)(const void *learnt, const struct light_set *lights, int e, double u, double *pmf);
-    double (*direct)(const void *learnt, const struct light_set *lights, int e, int cell, vec3 w);
-    /* How light sub-paths choose a light cell with the uniform number u, and what of the unit square light.h is then
-     * given for `direction`; rho is the density of that choice over the usual one's. And rho again, of the ray of
-     * direction w through p that leaves y0 (y0->light -1: some infinite light in direction y0->w). NULL: as light.h
-     * has it, hence 1. See emit.h. */
-    int (*choose_emission)(const void *learnt, const struct light_set *lights, double u, double direction[2],
-                           double *rho);
-    double (*emission)(const void *learnt, const struct light_set *lights, const struct light_point *y0, vec3 p,
-                       vec3 w);
-};
 
 struct vertex;
 
@@ -106,7 +79,8 @@ struct mis_counts {
     double delta[EYE_ENDS];    /* s = 1: connection to a light that it cannot, without extent or of one direction */
     double connect[EYE_ENDS];  /* s >= 2, t >= 2: connection to light vertices */
     double splat;              /* s >= 2, t = 1: light sub-paths connected to the lens: how many per iteration */
-    const struct count_model *model; /* factors that vary over the scene; NULL: all counts are constants */
+    const struct tables *tables;     /* what is known about places: factors of connect and direct, and of the density
+                                      * of the light walk's first ray (counts.h, emit.h); NULL: nothing */
     const struct extra *extra;       /* one more strategy (pixel_sample.h); NULL: none */
     bool power;                /* power heuristic instead of the balance heuristic */
     const struct weigher *weigher; /* of strategies with t >= 2, in place of the recursion; NULL: the recursion */

@@ -89,18 +89,17 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
 {
     if (!meet(w, v, prev, from, at, mode))
         return false;
-    const struct count_model *model = w->counts->model;
+    const struct tables *tables = counts_tables(w->counts);
     bool first =
         prev->kind == VERTEX_LENS || (prev->kind == VERTEX_SURFACE && prev->eye_end == FIRST_HIT && from->delta);
     v->eye_end = mode == RADIANCE && first ? FIRST_HIT : LATER_HIT;
     v->material = at->material;
     v->pdf_rev = 0;
     material_bsdf(w->scene->material, at->material, &w->scene->textures, at, w->arena, &v->bsdf);
-    v->eye_region = v->light_region = 0;
-    if (model != NULL && model->locate != NULL)
-        model->locate(model->learnt, v->p, vertex_side(v), &v->eye_region, &v->light_region);
-    v->mis_c = mode == RADIANCE ? mis_count_behind(w->counts, prev, v)
-                                : mis_count_before(w->counts, &w->scene->lights, prev, v, LATER_HIT);
+    v->eye_region = region_at(&tables->eye, v->p, vertex_side(v));
+    v->light_region = region_at(&tables->light, v->p, vertex_side(v));
+    v->mis_c = mode == RADIANCE ? n_behind(w->counts, prev, v)
+                                : n_before(w->counts, &w->scene->lights, prev, v, LATER_HIT);
     return true;
 }
 
@@ -259,7 +258,7 @@ int path_light_follow(const struct walk *w, const struct path_stop *stop, int n,
         v->length = prev->length + (parallel ? light_distance(&w->scene->lights, v->p, prev->wo) : sqrt(d2));
         measure(w, v, prev, &from, d2);
         v->eye_end = LATER_HIT;
-        v->mis_c = mis_count_before(w->counts, &w->scene->lights, prev, v, LATER_HIT);
+        v->mis_c = n_before(w->counts, &w->scene->lights, prev, v, LATER_HIT);
     }
     return n;
 }

@@ -9,6 +9,15 @@ struct light_point vertex_light_point(const struct vertex *v)
     return at;
 }
 
+double path_importance(const struct importance *importance, const struct vertex *light, int n)
+{
+    double sum = 0;
+    for (int i = 1; i < n; i++)
+        if (vertex_connectible(&light[i]))
+            sum += rgb_luminance(light[i].beta) * importance_in(importance, light[i].light_region);
+    return sum;
+}
+
 bool vertex_at_infinity(const struct scene *scene, const struct vertex *v)
 {
     return v->kind == VERTEX_LIGHT && light_at_infinity(&scene->lights.light[v->light]);

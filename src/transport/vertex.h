@@ -8,6 +8,7 @@
 #include "material/bsdf.h"
 #include "scene/light.h"
 #include "scene/scene.h"
+#include "tables/importance.h"
 #include "transport/mis.h"
 
 enum vertex_kind {
@@ -34,7 +35,7 @@ enum vertex_kind {
  *                                                               light_sample_point, 1/m^2
  *   pdf_rev      -            -                                 1/sr: of the other walk's    -
  *                                                               going back, if this went on
- *   regions      -            -                                 as count_model.locate says    -
+ *   regions      -            -                                 by tables.h                  -
  *   bsdf         -            -                                 its scattering               -
  *   lamp         -            -                                 eye walk: see below              likewise
  *
@@ -71,6 +72,10 @@ static inline double path_throughput(const struct vertex *light, int n)
 {
     return n < 1 ? 0 : rgb_mean(light[n - 1].beta);
 }
+
+/* path_importance: what the camera can use of a light sub-path: the sum of I (importance.h) over its connectible
+ * vertices y_1 .. */
+double path_importance(const struct importance *importance, const struct vertex *light, int n);
 
 /* vertex_light_end: fill in a y_0 for a point drawn by light_sample_point; its beta is 1/density. */
 void vertex_light_end(const struct scene *scene, const struct mis_counts *counts, const struct light_point *at,

@@ -17,7 +17,7 @@
 #include "image/formats.h"
 #include "image/image.h"
 #include "image/zlib.h"
-#include "lab/results.h"
+#include "lab/store.h"
 #include "parser/parser.h"
 #include "render/parameters.h"
 #include "render/part.h"
@@ -61,7 +61,7 @@ static void read_picture(picture_reader read, const uint8_t *data, size_t size, 
 {
     static const char *const FORMATS[] = {"o.pfm", "o.exr", "o.ppm", "o.png"};
     struct image img;
-    struct error err = {""};
+    struct error err = {.text = ""};
     memset(&img, 0, sizeof img);
     if (!read(data, size, &img, &err)) {
         if (err.text[0] == '\0' || img.u8 != NULL || img.f32 != NULL)
@@ -157,7 +157,7 @@ static void fuzz_ply(const uint8_t *data, size_t size, const char *directory)
 {
     char *path = put_file(directory, "m.ply", data, size);
     struct mesh m;
-    struct error err = {""};
+    struct error err = {.text = ""};
     if (ply_read(path, &m, &err)) {
         for (int i = 0; i < 3 * m.n_triangles; i++)
             if (m.index[i] >= (uint32_t)m.n_vertices)
@@ -172,13 +172,17 @@ static void fuzz_ply(const uint8_t *data, size_t size, const char *directory)
     free(path);
 }
 
-/* A file of a run, which the program itself has written and somebody may have changed. */
-static void fuzz_run(const uint8_t *data, size_t size, const char *directory)
+/* A record of a measurement, which the program itself has written and somebody may have changed. */
+static void fuzz_record(const uint8_t *data, size_t size, const char *directory)
 {
-    char *path = put_file(directory, "run.csv", data, size);
-    struct seed_run run;
-    if (run_read(path, "key", 2, &run) && run.n != 2)
-        broken("a run of another number of steps is accepted");
+    char *path = put_file(directory, "record.txt", data, size);
+    struct record r;
+    if (store_read(directory, "record", "key", &r)) {
+        for (int i = 0; i < STORE_NUMBERS; i++)
+            if (!isfinite(r.number[i]))
+                broken("a record holds what is no number");
+        free(r.pixels);
+    }
     free(path);
 }
 
@@ -199,7 +203,7 @@ static void fuzz_part(const uint8_t *data, size_t size, const char *directory)
     char *path = put_file(directory, "x.part", bytes, size);
     struct part part;
     struct film film;
-    struct error err = {""};
+    struct error err = {.text = ""};
     FILE *f = part_open(path, &part, &err);
     if (f != NULL && (int64_t)part.width * part.height <= (int64_t)size) {
         struct pixel_rect all = {0, 0, part.width, part.height, 0, 0};
@@ -232,7 +236,7 @@ static void render(const struct scene *scene, const char *integrator)
 {
     struct render_options o = {.integrator = integrator, .end = SAMPLES, .n_threads = 1, .max_depth = DEPTH};
     struct film film;
-    struct error err = {""};
+    struct error err = {.text = ""};
     float pixels[3 * WIDTH * HEIGHT];
     film_init(&film, render_crop(scene), scene->width, scene->height);
     if (render_scene(scene, &o, &film, &err)) {
@@ -278,7 +282,7 @@ static void fuzz_scene(const uint8_t *data, size_t size, const char *directory)
     char *path = put_file(directory, "scene.pbrt", data, size);
     struct message_sink sink = {hear, hear, NULL};
     struct scene scene;
-    struct error err = {""};
+    struct error err = {.text = ""};
     if (parse_scene(path, &scene, &sink, &err)) {
         render_all(&scene);
         scene_free(&scene);
@@ -304,7 +308,7 @@ static void fuzz_hostile(const uint8_t *data, size_t size, const char *directory
 const struct fuzz_target fuzz_targets[] = {
     {"png", fuzz_png},   {"tga", fuzz_tga}, {"pfm", fuzz_pfm},     {"ppm", fuzz_ppm},
     {"exr", fuzz_exr},   {"hdr", fuzz_hdr}, {"inflate", fuzz_inflate}, {"ply", fuzz_ply},
-    {"part", fuzz_part}, {"run", fuzz_run},   {"scene", fuzz_scene}, {"hostile", fuzz_hostile}, {NULL, NULL}};
+    {"part", fuzz_part}, {"record", fuzz_record}, {"scene", fuzz_scene}, {"hostile", fuzz_hostile}, {NULL, NULL}};
 
 const struct fuzz_target *fuzz_find(const char *name)
 {

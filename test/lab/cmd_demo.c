@@ -4,52 +4,62 @@
 #include "cli/outputs.h"
 #include "lab/commands.h"
 #include "lab/demo.h"
+#include "lab/measure.h"
 
 struct demo_options {
-    struct demo demo;
+    struct plan plan;
+    const char *scene;
     struct texts output;
     const char *methods;
     int spp;
-    bool quiet;
 };
+
+enum { REFERENCE_TIMES = 32 }; /* as many samples as the first picture has */
 
 #define AT(member) offsetof(struct demo_options, member)
 static const struct option OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(demo.scene), 1, .file = FILE_READ, .help = "a scene"},
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene), 1, .file = FILE_READ, .help = "a scene"},
     {"--outfile", "FILE.png", OPTION_TEXTS, AT(output), 1, .alias = "-o", .file = FILE_WRITTEN,
      .help = "a picture to write"},
     {"--methods", "LIST", OPTION_TEXT, AT(methods), .fallback = METHODS_DEMO, .help = METHODS_HELP},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20, .fallback = "24",
      .help = "samples per pixel of the first; the others are given the same time"},
-    {"--scale", "K", OPTION_INTEGER, AT(demo.scale), 1, 64, .fallback = "1",
+    {"--scale", "K", OPTION_INTEGER, AT(plan.scale), 1, 64, .fallback = "1",
      .help = "the pictures are K times as wide and high as the reference"},
-    {"--reference", "PATH", OPTION_TEXT, AT(demo.reference),
+    {"--reference", "PATH", OPTION_TEXT, AT(plan.reference),
      .file = FILE_READ, .help = "picture, or directory of NAME.pfm (default: ref/ beside the scene, else rendered)"},
-    {"--nthreads", "N", OPTION_INTEGER, AT(demo.n_threads), 1, 1024, .alias = "-j", .help = "threads (default: all)"},
-    {"--seed", "N", OPTION_SEED, AT(demo.seed), .fallback = "0", .help = "another set of random numbers"},
-    {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "no messages"},
+    {"--nthreads", "N", OPTION_INTEGER, AT(plan.n_threads), 1, 1024, .alias = "-j", .help = "threads (default: all)"},
+    {"--seed", "N", OPTION_SEED, AT(plan.seed), .fallback = "0", .help = "another set of random numbers"},
+    {"--quiet", NULL, OPTION_ON, AT(plan.quiet), .help = "no messages"},
     {.name = NULL},
 };
 
 static int run(void *options)
 {
     struct demo_options *o = options;
-    struct equal_render took[METHODS_MAX];
+    struct plan *p = &o->plan;
+    struct results results = {0};
     struct error err;
     struct outputs out;
     struct sheet picture = {0};
-    o->demo.spp = o->spp;
-    if (!methods_read(o->methods, &o->demo.methods, &err))
+    p->scene = &o->scene;
+    p->n_scenes = p->n_seeds = 1;
+    p->equal = true;
+    p->reference_spp = (long)REFERENCE_TIMES * o->spp;
+    if (!plan_set_methods(p, o->methods, &err) || !plan_set_spp(p, o->spp, o->spp, &err))
         return usage_error(&command_demo, "--methods: %s", err.text);
     if (!outputs_open(&o->output, NULL, PARTS_NONE, &out, &err))
         return fail(&err);
-    bool ok = demo_run(&o->demo, took, &picture, &err) &&
-              outputs_write(&out, picture.width, picture.height, picture.pixels, o->quiet, &err);
+    bool ok = measure(p, &results, &err);
+    if (ok) {
+        demo_draw(&results, &picture);
+        ok = outputs_write(&out, picture.width, picture.height, picture.pixels, p->quiet, &err);
+    }
     outputs_abandon(&out); /* unless they are written */
     sheet_free(&picture);
-    for (int i = 0; ok && i < o->demo.methods.n; i++)
-        printf("%-8s %6ld spp %8.2f s of CPU   rmse8 %.3f   of 8x8 pixels %.3f\n", o->demo.methods.item[i].text,
-               took[i].spp, took[i].seconds, took[i].rmse8, took[i].shown_blocks);
+    if (ok)
+        demo_print(stdout, &results);
+    results_free(&results);
     return ok ? EXIT_OK : fail(&err);
 }
 

@@ -6,10 +6,10 @@
 #include "base/file.h"
 #include "base/parallel.h"
 #include "lab/commands.h"
-#include "lab/equal_page.h"
-#include "lab/equal_run.h"
-#include "lab/experiment.h"
+#include "lab/equal.h"
 #include "lab/family.h"
+#include "lab/measure.h"
+#include "lab/pictures.h"
 #include "lab/report.h"
 
 /* The scenes measured when none is named, the first five of them by `experiment`; the program is run from the top of
@@ -18,7 +18,7 @@ static const char *const SCENES[] = {
     "scenes/cornell-box.pbrt", "scenes/cornell-box-modified.pbrt", "scenes/veach-ajar.pbrt", "scenes/bathroom.pbrt",
     "scenes/living-room.pbrt", "scenes/caustic-glass.pbrt",        "scenes/sky.pbrt",        "scenes/spot.pbrt",
     "scenes/corridor.pbrt",    "scenes/many-lights.pbrt",          "scenes/forest.pbrt"};
-enum { N_SCENES = sizeof SCENES / sizeof SCENES[0], N_PUBLISHED = 5 };
+enum { N_SCENES = sizeof SCENES / sizeof SCENES[0], N_PUBLISHED = 5, COMMAND = 4096 };
 
 /* The dissertation's models, measured by `family` where they lie beside the tree. */
 static const char *const PUBLISHED[] = {
@@ -44,6 +44,7 @@ static const struct option SHARED[] = {
     {"--reference", "PATH", OPTION_TEXT, AT(reference),
      .help = "picture, or directory of NAME.pfm (default: ref/ beside the scene if of it, else rendered)"},
     {"--reference-spp", "N", OPTION_INTEGER, AT(reference_spp), 4, 1 << 24, .help = "samples of one rendered here"},
+    {"--nthreads", "N", OPTION_INTEGER, AT(n_threads), 1, 1024, .alias = "-j", .help = "threads (default: all)"},
     {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "no progress, no warnings"},
     {.name = NULL},
 };
@@ -59,14 +60,14 @@ static const struct option EXPERIMENT[] = {
     {"--full", NULL, OPTION_ON, AT(full), .help = "320 pixels wide, 32 to 512 spp, and longer sweeps"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20, .help = "most samples per pixel"},
     {"--seeds", "N", OPTION_INTEGER, AT(seeds), 1, PLAN_MAX_SEEDS, .fallback = "3", .help = "renders per method"},
-    {"--nthreads", "N", OPTION_INTEGER, AT(n_threads), 1, 1024, .alias = "-j", .help = "threads (default: all)"},
     {.others = SHARED},
 };
 
 static const struct option EQUAL_TIME[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes), .help = "scene files (default: eleven of scenes/)"},
     {"-o", "DIR", OPTION_TEXT, AT(directory), 1, .help = "a directory for its results"},
-    {"--methods", "LIST", OPTION_TEXT, AT(methods), .fallback = METHODS_EQUAL_TIME, .help = METHODS_HELP},
+    {"--methods", "LIST", OPTION_TEXT, AT(methods), .help = METHODS_HELP " (default: " METHODS_DEMO
+     "; of eleven scenes more)"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20, .fallback = "32",
      .help = "samples per pixel of the first method; the others are given its CPU time"},
     {"--seconds", "T", OPTION_NUMBER, AT(seconds), 0.001, 1e6, .help = "instead: the CPU time that all are given"},
@@ -90,7 +91,7 @@ static const struct option FAMILY[] = {
 /* --- the plan ---------------------------------------------------------------------------------------- */
 
 /* What both commands have in common. `command` becomes the command that carries the plan out again, after `how`. */
-static bool begin_plan(struct plan_options *o, int n_scenes, const char *how, char command[1024], struct plan *p,
+static bool begin_plan(struct plan_options *o, int n_scenes, const char *how, char command[COMMAND], struct plan *p,
                        struct error *err)
 {
     memset(p, 0, sizeof *p);
@@ -103,29 +104,33 @@ static bool begin_plan(struct plan_options *o, int n_scenes, const char *how, ch
     p->reference = o->reference;
     p->reference_spp = o->reference_spp;
     p->quiet = o->quiet;
+    p->n_threads = o->n_threads;
     p->max_depth = o->max_depth;
     p->n_seeds = o->seeds;
     p->width = o->res[0];
     p->height = o->res[1];
     p->command = command;
-    int n = snprintf(command, 1024, "%s --methods %s --seeds %d --reference-spp %ld", how, o->methods, p->n_seeds,
+    int n = snprintf(command, COMMAND, "%s --methods %s --seeds %d --reference-spp %ld", how, o->methods, p->n_seeds,
                      p->reference_spp);
     if (p->width > 0)
-        n += snprintf(command + n, 1024 - (size_t)n, p->height > 0 ? " --res %dx%d" : " --res %d", p->width, p->height);
+        n += snprintf(command + n, COMMAND - (size_t)n, p->height > 0 ? " --res %dx%d" : " --res %d", p->width,
+                      p->height);
     if (p->max_depth > 0)
-        n += snprintf(command + n, 1024 - (size_t)n, " --maxdepth %d", p->max_depth);
+        n += snprintf(command + n, COMMAND - (size_t)n, " --maxdepth %d", p->max_depth);
     if (p->reference != NULL)
-        n += snprintf(command + n, 1024 - (size_t)n, " --reference %.400s", p->reference);
+        n += snprintf(command + n, COMMAND - (size_t)n, " --reference %.400s", p->reference);
     for (int i = 0; i < o->sweeps.n && n < 800; i++)
-        n += snprintf(command + n, 1024 - (size_t)n, " --sweep %.200s", o->sweeps.item[i]);
+        n += snprintf(command + n, COMMAND - (size_t)n, " --sweep %.200s", o->sweeps.item[i]);
     return plan_set_methods(p, o->methods, err);
 }
 
 /* The steps of the samples are doublings of the preset's first, up to --spp. */
-static bool plan_experiment(struct plan_options *o, char command[1024], struct plan *p, struct error *err)
+static bool plan_experiment(struct plan_options *o, char command[COMMAND], struct plan *p, struct error *err)
 {
     static const char *const sweeps[2][2] = {{SWEEPS_QUICK}, {SWEEPS_FULL}};
     char how[64];
+    if (o->quick && o->full)
+        return error_usage(err, "--quick and --full exclude each other");
     long first = o->full ? 32 : 8, last = o->spp > 0 ? o->spp : o->full ? 512 : 64;
     if (o->methods == NULL && o->sweeps.n == 0)
         for (int i = 0; i < 2; i++)
@@ -139,26 +144,29 @@ static bool plan_experiment(struct plan_options *o, char command[1024], struct p
     snprintf(how, sizeof how, "experiment --%s --spp %ld", o->full ? "full" : "quick", last);
     bool ok = begin_plan(o, N_PUBLISHED, how, command, p, err) &&
               plan_set_spp(p, last < first ? last : first, last, err);
-    p->n_threads = o->n_threads;
+    p->no_roulette = true;
     for (int i = 0; ok && i < o->sweeps.n; i++)
         ok = plan_add_sweep(p, o->sweeps.item[i], err);
     return ok;
 }
 
-static bool plan_equal_time(struct plan_options *o, char command[1024], struct plan *p, struct error *err)
+static bool plan_equal_time(struct plan_options *o, char command[COMMAND], struct plan *p, struct error *err)
 {
     char how[64];
+    if (o->methods == NULL) /* of one's own scene one asks which of the two to use */
+        o->methods = o->scenes.n > 0 ? METHODS_DEMO : METHODS_EQUAL_TIME;
     if (o->reference_spp == 0)
         o->reference_spp = 256;
     snprintf(how, sizeof how, "equal-time --spp %d", o->spp);
     if (o->seconds > 0)
         snprintf(how, sizeof how, "equal-time --seconds %g", o->seconds);
     bool ok = begin_plan(o, N_SCENES, how, command, p, err) && plan_set_spp(p, o->spp, o->spp, err);
-    p->n_threads = 1;
+    p->equal = true;
+    p->seconds = o->seconds;
     return ok;
 }
 
-static bool plan_family(struct plan_options *o, char command[1024], struct plan *p, struct error *err)
+static bool plan_family(struct plan_options *o, char command[COMMAND], struct plan *p, struct error *err)
 {
     char how[64], all[METHODS_TEXT];
     bool scenes_given = o->scenes.n > 0;
@@ -176,64 +184,60 @@ static bool plan_family(struct plan_options *o, char command[1024], struct plan 
     snprintf(how, sizeof how, "family%s --spp %d", o->quick ? " --quick" : "", o->spp);
     bool ok = begin_plan(o, N_SCENES, how, command, p, err) && plan_set_spp(p, o->spp, o->spp, err);
     p->n_own = scenes_given ? 0 : N_SCENES;
-    p->n_threads = 1;
+    p->equal = true;
     return ok;
 }
 
 /* --- the commands ------------------------------------------------------------------------------------ */
 
-static int run_experiment(void *options)
+static bool write_equal(const struct results *r, struct error *err)
 {
-    struct plan_options *o = options;
+    bool ok = family_write(r, "equal-time.md", family_tables, err);
+    for (int i = 0; ok && i < r->plan->n_scenes; i++)
+        ok = pictures_write(&r->scene[i], err);
+    if (ok) {
+        family_tables(stdout, r);
+        printf("%s/equal-time.md\n", r->plan->directory);
+        equal_verdict(stdout, r);
+    }
+    return ok;
+}
+
+static bool write_family(const struct results *r, struct error *err)
+{
+    bool ok = family_write(r, "family.md", family_tables, err);
+    if (ok && !r->plan->quiet)
+        printf("%s/family.md\n", r->plan->directory);
+    return ok;
+}
+
+static bool write_experiment(const struct results *r, struct error *err)
+{
+    bool ok = report_write(r, err);
+    if (ok && !r->plan->quiet)
+        printf("%s/results.md\n", r->plan->directory);
+    return ok;
+}
+
+/* Plan, measure, write. */
+static int run(struct plan_options *o, const struct command *c,
+               bool (*make_plan)(struct plan_options *, char command[COMMAND], struct plan *, struct error *),
+               bool (*write)(const struct results *, struct error *))
+{
     struct plan plan;
-    struct error err;
     struct results results = {0};
-    char command[1024];
-    if (o->quick && o->full)
-        return usage_error(&command_experiment, "--quick and --full exclude each other");
-    if (!plan_experiment(o, command, &plan, &err))
-        return usage_error(&command_experiment, "%s", err.text);
-    bool ok = experiment_run(&plan, &results, &err) && report_write(&results, &err);
-    if (ok && !plan.quiet)
-        printf("%s/results.md\n", plan.directory);
+    struct error err;
+    char command[COMMAND];
+    if (!make_plan(o, command, &plan, &err))
+        return usage_error(c, "%s", err.text);
+    bool ok = measure(&plan, &results, &err) && write(&results, &err);
     results_free(&results);
     return ok ? EXIT_OK : fail(&err);
 }
 
-static int run_equal_time(void *options)
-{
-    struct plan_options *o = options;
-    struct plan plan;
-    struct error err;
-    char command[1024];
-    if (!plan_equal_time(o, command, &plan, &err))
-        return usage_error(&command_equal_time, "%s", err.text);
-    struct equal_time results = {.plan = &plan, .seconds = o->seconds, .pictures = true};
-    bool ok = equal_run(&results, &err) && equal_page_write(&results, &err);
-    if (ok) {
-        equal_table(stdout, &results);
-        printf("\n%s/equal-time.html\n", plan.directory);
-        equal_verdict(stdout, &results);
-    }
-    equal_free(&results);
-    return ok ? EXIT_OK : fail(&err);
-}
-
-static int run_family(void *options)
-{
-    struct plan_options *o = options;
-    struct plan plan;
-    struct error err;
-    char command[1024];
-    if (!plan_family(o, command, &plan, &err))
-        return usage_error(&command_family, "%s", err.text);
-    struct equal_time results = {.plan = &plan, .pictures = true};
-    bool ok = equal_run(&results, &err) && family_write(&results, &err);
-    if (ok && !plan.quiet)
-        printf("%s/family.md\n", plan.directory);
-    equal_free(&results);
-    return ok ? EXIT_OK : fail(&err);
-}
+static int run_experiment(void *o) { return run(o, &command_experiment, plan_experiment, write_experiment); }
+static int run_equal_time(void *o) { return run(o, &command_equal_time, plan_equal_time, write_equal); }
+static int run_family(void *o) { return run(o, &command_family, plan_family, write_family); }
 
 const struct command command_experiment = {
     "experiment", "measure methods as the dissertation does", {"[SCENE.pbrt...] -o DIR [options]"}, EXPERIMENT,

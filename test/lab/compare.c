@@ -48,15 +48,49 @@ static float *clipped(const float *x, long n)
     return out;
 }
 
+static int block_of(int width, int height)
+{
+    int least = width < height ? width : height;
+    return least < COMPARE_BLOCK ? least : COMPARE_BLOCK;
+}
+
 /* Of means over blocks. */
 static struct difference between_blocks(const float *x, const float *r, int width, int height)
 {
-    int least = width < height ? width : height, k = least < COMPARE_BLOCK ? least : COMPARE_BLOCK;
+    int k = block_of(width, height);
     float *mean_x = sheet_shrink(x, width, height, k), *mean_r = sheet_shrink(r, width, height, k);
     struct difference d = compare_pixels(mean_x, mean_r, 3L * (width / k) * (height / k));
     free(mean_x);
     free(mean_r);
     return d;
+}
+
+static double relative_square(const float *x, const float *y, const float *r, long n)
+{
+    double sum = 0;
+    long finite = 0;
+    for (long i = 0; i < n; i++) {
+        double e = (double)x[i] - (double)y[i], square = e * e / ((double)r[i] * (double)r[i] + 0.01);
+        sum += isfinite(square) ? square : 0;
+        finite += isfinite(square);
+    }
+    return finite > 0 ? sum / (double)finite : HUGE_VAL;
+}
+
+void compare_squares(const float *x, const float *y, const float *r, int width, int height, double out[N_SQUARES])
+{
+    int k = block_of(width, height);
+    long n = 3L * width * height;
+    const float *picture[3] = {x, y, r};
+    float *mean[3];
+    double rmse8 = compare_pixels(x, y, n).rmse8;
+    for (int i = 0; i < 3; i++)
+        mean[i] = sheet_shrink(picture[i], width, height, k);
+    out[SQUARE_RMSE8] = rmse8 * rmse8;
+    out[SQUARE_RELMSE] = relative_square(x, y, r, n);
+    out[SQUARE_BLOCKS] = relative_square(mean[0], mean[1], mean[2], 3L * (width / k) * (height / k));
+    for (int i = 0; i < 3; i++)
+        free(mean[i]);
 }
 
 double compare_shown_blocks(const float *x, const float *r, int width, int height)
@@ -70,7 +104,9 @@ double compare_shown_blocks(const float *x, const float *r, int width, int heigh
 
 double compare_blocks(const float *x, const float *r, int width, int height)
 {
-    return between_blocks(x, r, width, height).relmse;
+    double square[N_SQUARES];
+    compare_squares(x, r, r, width, height, square);
+    return square[SQUARE_BLOCKS];
 }
 
 void compare_errors(const float *x, const float *r, long pixels, float *out)

@@ -35,6 +35,12 @@ double compare_blocks(const float *x, const float *r, int width, int height);
  * not, counts as white. */
 double compare_shown_blocks(const float *x, const float *r, int width, int height);
 
+/* compare_squares: squared differences of two pictures: of 8-bit values; relative, of linear values; the same of means
+ * over blocks of 8x8 pixels. Half of them are the squared errors of two independent renders of one expectation.
+ *   r  what they are relative to */
+enum square { SQUARE_RMSE8, SQUARE_RELMSE, SQUARE_BLOCKS, N_SQUARES };
+void compare_squares(const float *x, const float *y, const float *r, int width, int height, double out[N_SQUARES]);
+
 /* compare_errors: of each pixel the root mean square of its channels' errors; infinite where it is not finite.
  *   x, r  [pixels*3];  out  [pixels] */
 void compare_errors(const float *x, const float *r, long pixels, float *out);

@@ -2,36 +2,26 @@
 #include "lab/family.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/maths.h"
-#include "base/mem.h"
+#include "base/number.h"
 #include "image/image.h"
+#include "lab/equal.h"
 #include "lab/figures.h"
-#include "lab/table.h"
-#include "lab/compare.h"
 #include "lab/markup.h"
+#include "lab/measure.h"
 #include "lab/sheet.h"
+#include "lab/table.h"
 
 /* "subspaces" of "asbdpt:select=subspaces". */
-static const char *short_name(const struct equal_time *e, int method)
+static const char *short_name(const struct results *e, int method)
 {
     const char *text = e->plan->methods.item[method].text, *select = strstr(text, "select=");
     return select != NULL ? select + strlen("select=") : text;
 }
 
 /* --- tables ------------------------------------------------------------------------------------------ */
-
-/* Samples of a method over those of the first, geometric mean over scenes: its price. */
-static double price(const struct equal_time *e, int method)
-{
-    double sum = 0;
-    for (const struct equal_scene *s = e->scene; s < e->scene + e->n_scenes; s++)
-        for (int i = 0; i < e->plan->n_seeds; i++)
-            sum += m_log((double)s->render[0][i].spp / (double)s->render[method][i].spp);
-    return m_exp(sum / (e->n_scenes * e->plan->n_seeds));
-}
 
 /* A ratio and what it is of. */
 static void add_of(struct table *t, double ratio, const char *of)
@@ -42,60 +32,88 @@ static void add_of(struct table *t, double ratio, const char *of)
         table_add_missing(t, 1);
 }
 
-static void summary_table(FILE *f, const struct equal_time *e)
+static void summary_table(FILE *f, const struct results *e)
 {
     struct table t;
-    table_begin(&t, "Squared error over that of %s after the same CPU time: geometric means over scenes, and the ends "
-                    "of rmse8; below 1 is a gain. Price: time of a sample over that of %s", short_name(e, 0),
-                short_name(e, 0));
+    table_begin(&t, "Squared error over that of %s after the same CPU time: geometric mean over %d scene%s with "
+                    "its 95 %% interval, and the ends of relmse; below 1 is a gain. Price: time of a sample over that "
+                    "of %s",
+                short_name(e, 0), e->plan->n_scenes, e->plan->n_scenes == 1 ? "" : "s", short_name(e, 0));
     table_column(&t, "method");
     table_column(&t, "price");
-    for (int k = 0; k < N_EQUAL_ERRORS; k++)
+    for (int k = 0; k < N_SQUARES; k++)
         table_column(&t, "%s", EQUAL_NAMES[k]);
     table_column(&t, "best");
     table_column(&t, "worst");
     for (int v = 1; v < e->plan->methods.n; v++) {
-        struct equal_summary s[N_EQUAL_ERRORS];
-        char of[32];
+        struct equal_summary s = equal_summarize(e, v, SQUARE_RELMSE);
+        int n;
         table_add(&t, NAN, "%s", short_name(e, v));
-        table_add(&t, price(e, v), "%.2f", price(e, v));
-        for (int k = 0; k < N_EQUAL_ERRORS; k++) {
-            s[k] = equal_summarize(e, v, (enum equal_error)k);
-            snprintf(of, sizeof of, "of %d", s[k].n);
-            add_of(&t, s[k].mean, of);
-        }
-        add_of(&t, s[0].best, s[0].best_scene);
-        add_of(&t, s[0].worst, s[0].worst_scene);
+        table_add(&t, equal_price(e, v), "%.2f", equal_price(e, v));
+        for (int k = 0; k < N_SQUARES; k++)
+            table_add_interval(&t, equal_bootstrap(e, v, 0, (enum square)k, NULL, &n));
+        add_of(&t, s.best, s.best_scene);
+        add_of(&t, s.worst, s.worst_scene);
     }
     table_markdown(f, &t);
     table_free(&t);
 }
 
-static void ratio_table(FILE *f, const struct equal_time *e, enum equal_error which)
+static void ratio_table(FILE *f, const struct results *e, enum square which)
 {
     struct table t;
     table_begin(&t, "%s: squared error over that of %s, with its 95 %% interval over %d seed%s", EQUAL_NAMES[which],
                 short_name(e, 0), e->plan->n_seeds, e->plan->n_seeds == 1 ? "" : "s");
-    table_column(&t, "scene");
-    for (int v = 1; v < e->plan->methods.n; v++)
-        table_column(&t, "%s", short_name(e, v));
-    for (const struct equal_scene *s = e->scene; s < e->scene + e->n_scenes; s++) {
-        table_add(&t, NAN, "%s, %dx%d", s->name, s->width, s->height);
-        for (int v = 1; v < e->plan->methods.n; v++)
-            table_add_interval(&t, equal_ratio(e, s, v, which));
+    table_column(&t, "method");
+    for (int i = 0; i < e->plan->n_scenes; i++)
+        table_column(&t, "%s, %dx%d", e->scene[i].name, e->scene[i].width, e->scene[i].height);
+    for (int v = 1; v < e->plan->methods.n; v++) {
+        table_add(&t, NAN, "%s", short_name(e, v));
+        for (int i = 0; i < e->plan->n_scenes; i++)
+            table_add_interval(&t, equal_ratio(&e->scene[i], v, 0, which));
     }
     table_markdown(f, &t);
     table_free(&t);
 }
 
-void family_tables(FILE *f, const struct equal_time *e)
+/* What was given, and what it came to. */
+static void write_samples(FILE *f, const struct results *e)
 {
-    fputs("# The family at equal time\n\n", f);
+    double spread = 0;
+    for (const struct scene_results *s = e->scene; s < e->scene + e->plan->n_scenes; s++) {
+        double seconds = (s->price[0].before + (double)equal_samples(s, 0)) * s->seconds;
+        fprintf(f, "- %s: %.3g s of CPU; samples of each:", s->name, seconds);
+        for (int v = 0; v < e->plan->methods.n; v++) {
+            fprintf(f, "%s %ld", v > 0 ? "," : "", s->run[v][0].step[0].spp);
+            spread = fmax(spread, s->price[v].spread);
+        }
+        fputs("\n", f);
+    }
+    fprintf(f, "\nPrices of a sample by rounds differ by %.0f %% at most.\n\n", 100 * spread);
+}
+
+static void write_notes(FILE *f, const struct results *e)
+{
+    fputs("rmse8: of the squared error of 8-bit values, which clip what is very bright; relmse: of the relative "
+          "squared error of linear values; 8x8: the same of means over 8x8 pixels, which pixels that err together do "
+          "not hide. ", f);
+    fputs(measure_by_pairs(e->plan, 0) ?
+          "Errors of unbiased methods are half the squared differences of pairs of renders; those of biased ones are "
+          "against the mean of all unbiased pictures, whose own noise is subtracted. " :
+          "Errors are against a reference, whose own noise is subtracted as far as it is known. ", f);
+    fputs("Prices were measured by turns with the first method, on one thread, in three rounds, of which the medians "
+          "count. Samples are those that the time affords, all that is prepared included.\n\n", f);
+    write_samples(f, e);
+    plan_write_command(f, e->plan);
+}
+
+void family_tables(FILE *f, const struct results *e)
+{
     summary_table(f, e);
     fputs("![Ratios of all methods in all scenes](family.svg)\n\n![Crops of all pictures](family.png)\n\n", f);
-    for (int k = 0; k < N_EQUAL_ERRORS; k++)
-        ratio_table(f, e, (enum equal_error)k);
-    equal_notes(f, e);
+    for (int k = 0; k < N_SQUARES; k++)
+        ratio_table(f, e, (enum square)k);
+    write_notes(f, e);
 }
 
 /* --- the figure -------------------------------------------------------------------------------------- */
@@ -109,7 +127,7 @@ static double place(const struct plot_axis *a, int column, double ratio)
 }
 
 /* A panel's frame: a line for each power of ten. */
-static void write_panel(FILE *f, const struct equal_time *e, const struct plot_axis *a, int column, int bottom)
+static void write_panel(FILE *f, const struct results *e, const struct plot_axis *a, int column, int bottom)
 {
     int x = LEFT + column * COLUMN;
     double tick[AXIS_MAX_TICKS];
@@ -126,11 +144,11 @@ static void write_panel(FILE *f, const struct equal_time *e, const struct plot_a
 }
 
 /* A method in a scene: its interval, its ratio, and hollow that of means over 8x8 pixels. */
-static void write_ratio(FILE *f, const struct equal_time *e, const struct plot_axis *a, int column, int method)
+static void write_ratio(FILE *f, const struct results *e, const struct plot_axis *a, int column, int method)
 {
-    const struct equal_scene *s = &e->scene[column];
-    struct interval r = equal_ratio(e, s, method, EQUAL_RMSE8);
-    double blocks = equal_ratio(e, s, method, EQUAL_BLOCKS).value, y = TOP + ROW * (method - 0.5);
+    const struct scene_results *s = &e->scene[column];
+    struct interval r = equal_ratio(s, method, 0, SQUARE_RELMSE);
+    double blocks = equal_ratio(s, method, 0, SQUARE_BLOCKS).value, y = TOP + ROW * (method - 0.5);
     const char *class = r.high < 1 ? "gain" : r.low > 1 ? "loss" : "open";
     if (isfinite(r.value) && isfinite(r.high))
         fprintf(f, "<path class=\"%s\" d=\"M%.1f %.1fH%.1f\"/>\n", class, place(a, column, r.low), y,
@@ -142,10 +160,11 @@ static void write_ratio(FILE *f, const struct equal_time *e, const struct plot_a
         fprintf(f, "<path class=\"blocks\" d=\"M%.1f %.1fl4 4l-4 4l-4 -4z\"/>\n", place(a, column, blocks), y - 4);
 }
 
-void family_figure(FILE *f, const struct equal_time *e)
+void family_figure(FILE *f, const struct results *e)
 {
     struct plot_axis axis = axis_make(true, LEAST, MOST);
-    int methods = e->plan->methods.n, bottom = TOP + ROW * (methods - 1), width = LEFT + 110 + COLUMN * e->n_scenes;
+    int methods = e->plan->methods.n, bottom = TOP + ROW * (methods - 1);
+    int width = LEFT + 110 + COLUMN * e->plan->n_scenes;
     width = width < LEAST_WIDTH ? LEAST_WIDTH : width;
     xml_print(f, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" height=\"%d\" "
               "role=\"img\" aria-labelledby=\"t\" font-family=\"system-ui,sans-serif\" font-size=\"12\">\n<title "
@@ -156,15 +175,15 @@ void family_figure(FILE *f, const struct equal_time *e)
           "circle.loss{fill:#b3400a}path.loss{stroke:#b3400a}circle.open{fill:#3d444d}path.open{stroke:#3d444d}"
           ".blocks{stroke:#12733a;stroke-width:1}.m{text-anchor:end}</style>\n"
           "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n", f);
-    for (int c = 0; c < e->n_scenes; c++)
+    for (int c = 0; c < e->plan->n_scenes; c++)
         write_panel(f, e, &axis, c, bottom);
     for (int v = 1; v < methods; v++) {
         xml_print(f, "<text class=\"m\" x=\"%d\" y=\"%d\">%s</text>\n", LEFT - 8, TOP + ROW * v - 6, short_name(e, v));
-        for (int c = 0; c < e->n_scenes; c++)
+        for (int c = 0; c < e->plan->n_scenes; c++)
             write_ratio(f, e, &axis, c, v);
     }
     xml_print(f, "<text x=\"8\" y=\"%d\">Squared error over that of %s after the same CPU time: left of the line is a "
-              "gain.</text>\n<text x=\"8\" y=\"%d\">Dot and bar: rmse8, its 95 %s interval; diamond: means over 8x8 "
+              "gain.</text>\n<text x=\"8\" y=\"%d\">Dot and bar: relmse, its 95 %s interval; diamond: means over 8x8 "
               "pixels; what is beyond stands at the edge.</text>\n</svg>\n", bottom + 34, short_name(e, 0),
               bottom + 50, "%");
 }
@@ -173,36 +192,33 @@ void family_figure(FILE *f, const struct equal_time *e)
 
 enum { CROP = 48, SCALE = 2, GAP = 6, NAMES = 22 };
 
-/* The middle of a picture of the scene, in column method + 1; nothing where it was not kept. */
-static void paste_crop(const struct equal_time *e, const struct equal_scene *s, int method, struct sheet *sheet, int y)
+/* The middle of a picture, in this column; nothing where there is none. */
+static void paste_crop(const float *pixels, int width, int height, struct sheet *sheet, int column, int y)
 {
-    char path[4096];
-    int width, height;
-    float crop[CROP * CROP * 3], *pixels;
-    equal_picture(e, s, method, path, sizeof path);
-    if ((pixels = image_read_linear(path, &width, &height, NULL, NULL)) == NULL)
-        return;
+    float crop[CROP * CROP * 3];
     int w = width < CROP ? width : CROP, h = height < CROP ? height : CROP;
-    for (int row = 0; row < h; row++)
+    for (int row = 0; pixels != NULL && row < h; row++)
         memcpy(crop + 3 * w * row, pixels + 3 * ((height - h) / 2 + row) * width + 3 * ((width - w) / 2),
                (size_t)w * 3 * sizeof *crop);
-    sheet_paste(sheet, GAP + (method + 1) * (CROP * SCALE + GAP), y, crop, w, h, SCALE);
-    free(pixels);
+    if (pixels != NULL)
+        sheet_paste(sheet, GAP + column * (CROP * SCALE + GAP), y, crop, w, h, SCALE);
 }
 
-bool family_strip(const struct equal_time *e, struct error *err)
+static bool write_strip(const struct results *e, struct error *err)
 {
     struct sheet sheet;
     char path[4096];
     int methods = e->plan->methods.n, row = CROP * SCALE + NAMES;
-    sheet_init(&sheet, GAP + (methods + 1) * (CROP * SCALE + GAP), NAMES + row * e->n_scenes, SHEET_PAPER);
+    sheet_init(&sheet, GAP + (methods + 1) * (CROP * SCALE + GAP), NAMES + row * e->plan->n_scenes, SHEET_PAPER);
     for (int v = -1; v < methods; v++)
         sheet_text(&sheet, GAP + (v + 1) * (CROP * SCALE + GAP), GAP, 1, SHEET_INK,
                    v < 0 ? "reference" : short_name(e, v));
-    for (int i = 0; i < e->n_scenes; i++) {
-        sheet_text(&sheet, GAP, NAMES + row * i + GAP, 1, SHEET_INK, e->scene[i].name);
+    for (int i = 0; i < e->plan->n_scenes; i++) {
+        const struct scene_results *s = &e->scene[i];
+        sheet_text(&sheet, GAP, NAMES + row * i + GAP, 1, SHEET_INK, s->name);
         for (int v = -1; v < methods; v++)
-            paste_crop(e, &e->scene[i], v, &sheet, 2 * NAMES + row * i);
+            paste_crop(v < 0 ? s->reference.pixels : s->image[v], s->width, s->height, &sheet, v + 1,
+                       2 * NAMES + row * i);
     }
     snprintf(path, sizeof path, "%s/family.png", e->plan->directory);
     bool ok = image_write(path, sheet.width, sheet.height, sheet.pixels, err);
@@ -210,8 +226,9 @@ bool family_strip(const struct equal_time *e, struct error *err)
     return ok;
 }
 
-bool family_write(const struct equal_time *e, struct error *err)
+bool family_write(const struct results *r, const char *page, void (*write)(FILE *, const struct results *),
+                  struct error *err)
 {
-    return equal_write_file(e, "family.csv", equal_csv, err) && equal_write_file(e, "family.md", family_tables, err) &&
-           equal_write_file(e, "family.svg", family_figure, err) && family_strip(e, err);
+    return results_write(r, "runs.csv", results_runs_csv, err) && results_write(r, page, write, err) &&
+           results_write(r, "family.svg", family_figure, err) && write_strip(r, err);
 }

@@ -30,6 +30,15 @@ struct settings measured_settings(const struct measured *m, const struct setting
     return out;
 }
 
+bool measured_biased(const struct measured *m)
+{
+    static const char *const biased[] = {"select=bins", "pathgraph", "vcm", "regularise="};
+    bool found = false;
+    for (size_t i = 0; i < sizeof biased / sizeof biased[0]; i++)
+        found = found || strstr(m->text, biased[i]) != NULL;
+    return found;
+}
+
 /* Is there such an integrator, and has it these parameters, with such values? */
 static bool check(const struct measured *m, struct error *err)
 {

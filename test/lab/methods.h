@@ -14,7 +14,7 @@
 
 #include "integrators/method.h"
 
-enum { METHODS_MAX = 24, METHOD_TEXT = 128 };
+enum { METHODS_MAX = 64, METHOD_TEXT = 128 };
 
 struct measured {
     char text[METHOD_TEXT];
@@ -45,11 +45,14 @@ struct methods {
 bool methods_read(const char *text, struct methods *out, struct error *err);
 
 /* methods_all: such a list of all there are, METHOD_REFERENCE first. */
-enum { METHODS_TEXT = 1024 };
+enum { METHODS_TEXT = 8192 };
 void methods_all(char out[METHODS_TEXT]);
 
 /* methods_find: the number of the method of that text, or -1. */
 int methods_find(const struct methods *list, const char *text);
+
+/* measured_biased: has it another expectation than the picture? Its error is then more than its noise. */
+bool measured_biased(const struct measured *m);
 
 /* measured_settings: its settings, over those of `base` (NULL: none). To be given to settings_clear. */
 struct settings measured_settings(const struct measured *m, const struct settings *base);

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "image/zlib.h"
+
 bool plan_set_spp(struct plan *p, long first, long last, struct error *err)
 {
     p->n_steps = 0;
@@ -46,7 +48,12 @@ bool plan_add_sweep(struct plan *p, const char *list, struct error *err)
 }
 
 int plan_seeds(const struct plan *p, int method) { return method < p->n_compared ? p->n_seeds : 1; }
-long plan_seed(int method, int i) { return 100L * method + i; }
+
+uint64_t plan_seed(const struct plan *p, int method, int i)
+{
+    const char *text = p->methods.item[method].text;
+    return p->seed + 1000 * (uint64_t)(checksum_crc32(0, (const uint8_t *)text, strlen(text)) % 999983) + (uint64_t)i;
+}
 
 bool plan_create(const struct plan *p, const char *name, struct file_output *out, struct error *err)
 {

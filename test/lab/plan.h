@@ -30,13 +30,18 @@ struct plan {
     int n_sweeps;
     long spp[PLAN_MAX_STEPS]; /* [n_steps] rising; errors are measured at each */
     int n_steps;
+    bool equal;               /* these are the first method's samples; the others are given its time, see equal.h */
+    double seconds;           /* of CPU, that all are given; 0: what the first takes for its samples */
+    bool no_roulette;         /* no walk is ended by Russian roulette, unless a method says otherwise */
     int n_seeds;              /* repetitions of what is compared; what is in sweeps alone has one */
     int width, height;        /* width 0: the stored reference's; height 0: from the scene's aspect ratio */
     int max_depth;            /* 0: the stored reference's if the width is 0 too, else the scene's */
+    int scale;                /* pictures are so many times as wide and high, and their errors of means; 0: 1 */
+    uint64_t seed;            /* 0, or another set of random numbers */
     long reference_spp;       /* of a reference made here */
     int n_threads;
     bool quiet;
-    const char *directory; /* where everything is written */
+    const char *directory; /* where everything is written; NULL: nothing is kept */
     const char *reference; /* file or directory of stored references; NULL: ref/ beside the scene */
     const char *command;   /* that carries it out again, without -o and scenes */
 };
@@ -55,9 +60,9 @@ static inline int plan_last_step(const struct plan *p) { return p->n_steps - 1; 
 static inline long plan_last_spp(const struct plan *p) { return p->spp[p->n_steps - 1]; }
 
 /* plan_seeds: how often the plan renders a method. plan_seed: the seed of repetition i = 1, 2, ... Methods have seeds
- * of their own, so that their errors are independent. */
+ * of their own, so that their errors are independent, whatever else is measured. */
 int plan_seeds(const struct plan *p, int method);
-long plan_seed(int method, int i);
+uint64_t plan_seed(const struct plan *p, int method, int i);
 
 /* plan_create: begin to write a file of the plan's directory, as file_create does. */
 bool plan_create(const struct plan *p, const char *name, struct file_output *out, struct error *err);

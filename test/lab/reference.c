@@ -10,10 +10,11 @@
 #include "base/file.h"
 #include "base/mem.h"
 #include "base/os.h"
+#include "base/rng.h"
 #include "image/image.h"
 #include "lab/sheet.h"
 #include "lab/sides.h"
-#include "lab/compare.h"
+#include "lab/timed.h"
 
 enum { PATH_SIZE = 4096 };
 
@@ -62,6 +63,26 @@ static void read_text(const char *picture, struct reference_text *s)
 
 /* --- stored references ------------------------------------------------------------------------------- */
 
+/* What a picture of errors, if there is one, is of the squared errors against the picture: it is shifted by as much,
+ * up or down as chance has it. */
+static void read_noise(const char *path, struct reference *r)
+{
+    char stem[PATH_SIZE], errors[PATH_SIZE + 16];
+    int width, height;
+    snprintf(stem, sizeof stem, "%.*s", (int)(strrchr(path, '.') != NULL ? strrchr(path, '.') - path : 0), path);
+    snprintf(errors, sizeof errors, "%s.error.pfm", stem);
+    memset(r->noise, 0, sizeof r->noise);
+    float *shifted = image_read_linear(errors, &width, &height, NULL, NULL);
+    if (shifted != NULL && width == r->width && height == r->height) {
+        for (size_t i = 0; i < 3 * (size_t)width * (size_t)height; i++)
+            shifted[i] = r->pixels[i] + (hash_mix(i) % 2 == 0 ? shifted[i] : -shifted[i]);
+        compare_squares(shifted, r->pixels, r->pixels, width, height, r->noise);
+    }
+    if (isfinite(r->noise8)) /* which is known better */
+        r->noise[SQUARE_RMSE8] = r->noise8 * r->noise8;
+    free(shifted);
+}
+
 /* Read one picture, and *text beside it. */
 static bool load(const char *path, struct reference *out, struct reference_text *text, struct error *err)
 {
@@ -73,6 +94,7 @@ static bool load(const char *path, struct reference *out, struct reference_text 
     out->content = text->content;
     out->noise8 = text->noise8;
     out->mean_error = text->mean_error;
+    read_noise(path, out);
     snprintf(out->origin, sizeof out->origin, "stored picture %.1000s of %dx%d pixels", path, out->width, out->height);
     return true;
 }
@@ -94,6 +116,8 @@ bool reference_fit(struct reference *r, int width, int height, int max_depth, st
     r->width = width;
     r->height = height;
     r->noise8 /= k;
+    for (int i = 0; i < N_SQUARES; i++)
+        r->noise[i] /= (double)k * k;
     return true;
 }
 
@@ -145,6 +169,20 @@ bool reference_find(const char *given, const char *scene_path, const char *name,
 
 enum { BATCHES = 4 }; /* of each side */
 
+static bool render_unkept(const struct scene *scene, const struct render_options *options, long spp,
+                          struct reference *out, struct error *err)
+{
+    struct reference made = {.width = scene->width, .height = scene->height, .max_depth = options->max_depth,
+                             .content = scene->content, .noise8 = NAN, .mean_error = NAN, .origin = "rendered here"};
+    struct render_options o = *options;
+    struct timed took;
+    o.end = spp;
+    bool ok = timed_render(scene, &o, &took, err);
+    made.pixels = took.pixels;
+    *out = made;
+    return ok;
+}
+
 bool reference_make(const struct scene *scene, const struct render_options *options, long spp, const char *directory,
                     const char *name, const char *key, struct reference *out, struct error *err)
 {
@@ -152,6 +190,8 @@ bool reference_make(const struct scene *scene, const struct render_options *opti
     struct reference_text text;
     struct render_options o = *options;
     struct side a = {0}, b = {0};
+    if (directory == NULL)
+        return render_unkept(scene, options, spp, out, err);
     snprintf(stem, sizeof stem, "%s/%s", directory, name);
     snprintf(path, sizeof path, "%s.pfm", stem);
     read_text(path, &text);

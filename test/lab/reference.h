@@ -5,8 +5,9 @@
  *     maxdepth    N   it holds paths up to this length
  *     noise8      X   root mean square of the standard errors of its 8-bit values
  *     mean_error  X   standard error of its mean, relative to the mean
- * are read and the others kept for people. It fits a wanted size when its own is the same or a whole multiple: with a
- * box filter the mean of k x k pixels is exactly the pixel of the smaller picture.
+ * are read and the others kept for people, and a picture NAME.error.pfm of its standard errors. It fits a wanted size
+ * when its own is the same or a whole multiple: with a box filter the mean of k x k pixels is exactly the pixel of the
+ * smaller picture.
  *
  * Where none is stored, one is rendered: two sides of independent batches (sides.h), their weighted mean, and the
  * errors that follow from how the batches scatter, stored as any other.
@@ -17,6 +18,7 @@
 #define ASBDPT_REFERENCE_H
 
 #include "base/error.h"
+#include "lab/compare.h"
 #include "render/render.h"
 
 struct reference {
@@ -25,6 +27,7 @@ struct reference {
     long max_depth;    /* 0: not said */
     uint64_t content;  /* of the scene; 0: not said */
     double noise8;     /* of its 8-bit values; NaN when unknown */
+    double noise[N_SQUARES]; /* its own part of squared errors against it; 0 when unknown */
     double mean_error; /* relative standard error of its mean; NaN when unknown */
     char origin[1200]; /* one sentence for readers */
 };
@@ -47,7 +50,8 @@ bool reference_fit(struct reference *r, int width, int height, int max_depth, st
 /* reference_make: render one of about `spp` samples per pixel, of the whole scene, and store it as DIRECTORY/NAME.pfm,
  * .error.pfm and .txt, or read back the one that is stored there with the same key, which says what it depends on, size
  * and depth too.
- *   options  who renders it, from which seed, how deep, on how many threads
+ *   options    who renders it, from which seed, how deep, on how many threads
+ *   directory  NULL: it is not stored, and its errors are not known
  * Returns false with a message. */
 bool reference_make(const struct scene *scene, const struct render_options *options, long spp, const char *directory,
                     const char *name, const char *key, struct reference *out, struct error *err);

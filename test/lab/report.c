@@ -33,9 +33,8 @@ static void write_scene(FILE *f, const struct results *r, const struct scene_res
         figure_path(s, k, path, sizeof path);
         fprintf(f, "![%s](%s)\n", path, path);
     }
-    fprintf(f, "\nBars: one standard error over seeds. The strategies of %s, one by one, in rows by path length:\n\n"
-            "![Each strategy by itself, and below it what the weights leave of it](images/%s-strategies.png)\n\n",
-            METHOD_REFERENCE, s->name);
+    fprintf(f, "\nBars: one standard error over seeds. The strategies of %s, one by one: `./asbdpt-lab strategies %s "
+            "-o DIR`.\n\n", METHOD_REFERENCE, s->path);
 }
 
 static void write_page(FILE *f, const struct results *r)
@@ -50,16 +49,6 @@ static void write_page(FILE *f, const struct results *r)
     for (int i = 0; i < p->n_scenes; i++)
         write_scene(f, r, &r->scene[i]);
     fputs(NOTES, f);
-}
-
-static bool write_file(const struct results *r, const char *name, void (*write)(FILE *, const struct results *),
-                       struct error *err)
-{
-    struct file_output f;
-    if (!plan_create(r->plan, name, &f, err))
-        return false;
-    write(f.stream, r);
-    return file_commit(&f, err);
 }
 
 static bool write_plots(const struct scene_results *s, struct error *err)
@@ -82,6 +71,6 @@ bool report_write(const struct results *r, struct error *err)
     for (int i = 0; i < r->plan->n_scenes; i++)
         if (!pictures_write(&r->scene[i], err) || !write_plots(&r->scene[i], err))
             return false;
-    return write_file(r, "results.csv", results_csv, err) && write_file(r, "runs.csv", results_runs_csv, err) &&
-           write_file(r, "results.md", write_page, err);
+    return results_write(r, "results.csv", results_csv, err) && results_write(r, "runs.csv", results_runs_csv, err) &&
+           results_write(r, "results.md", write_page, err);
 }

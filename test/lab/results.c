@@ -3,13 +3,12 @@
 
 #include "lab/csv.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/file.h"
 #include "base/maths.h"
-#include "base/os.h"
 #include "lab/stats.h"
 
 static const char *const NAMES[N_QUANTITIES] = {"seconds", "rmse", "rmse8", "relmse", "relmse8x8", "mean_error"};
@@ -27,79 +26,19 @@ void results_free(struct results *r)
 
 /* --- files ------------------------------------------------------------------------------------------- */
 
-/* The head of a file of steps, after `first`. */
-static void step_columns(char out[256], const char *first)
-{
-    int n = snprintf(out, 256, "%sspp", first);
-    for (int q = 0; q < N_QUANTITIES; q++)
-        n += snprintf(out + n, 256 - (size_t)n, ",%s", NAMES[q]);
-    snprintf(out + n, 256 - (size_t)n, ",nonfinite\n");
-}
-
-static void write_number(FILE *f, double v, int digits, const char *missing)
+static void write_number(FILE *f, double v)
 {
     if (isfinite(v))
-        fprintf(f, ",%.*g", digits, v);
+        fprintf(f, ",%.9g", v);
     else
-        fprintf(f, ",%s", missing);
-}
-
-static void write_step(FILE *f, const struct run_step *s, int digits, const char *missing)
-{
-    fprintf(f, "%ld", s->spp);
-    for (int q = 0; q < N_QUANTITIES; q++)
-        write_number(f, s->value[q], digits, missing);
-    fprintf(f, ",%ld\n", s->nonfinite);
-}
-
-bool run_write(const char *path, const char *key, const struct seed_run *run, struct error *err)
-{
-    struct file_output f;
-    char columns[256];
-    if (!file_create(path, &f, err))
-        return false;
-    step_columns(columns, "");
-    fprintf(f.stream, "# %s\n%s", key, columns);
-    for (int i = 0; i < run->n; i++)
-        write_step(f.stream, &run->step[i], 17, "nan");
-    return file_commit(&f, err);
-}
-
-static bool read_step(const char *line, struct run_step *s)
-{
-    int at = 0, used = 0;
-    if (sscanf(line, "%ld%n", &s->spp, &at) != 1)
-        return false;
-    for (int q = 0; q < N_QUANTITIES; q++, at += used)
-        if (sscanf(line + at, ",%lf%n", &s->value[q], &used) != 1)
-            return false;
-    return sscanf(line + at, ",%ld%n", &s->nonfinite, &used) == 1 && line[at + used] == '\n';
-}
-
-bool run_read(const char *path, const char *key, int n_steps, struct seed_run *out)
-{
-    char line[4096], columns[256];
-    memset(out, 0, sizeof *out);
-    FILE *f = os_open_input(path);
-    if (f == NULL)
-        return false;
-    step_columns(columns, "");
-    size_t n = strlen(key);
-    bool ok = fgets(line, sizeof line, f) != NULL && strncmp(line, "# ", 2) == 0 && strncmp(line + 2, key, n) == 0 &&
-              strcmp(line + 2 + n, "\n") == 0 && fgets(line, sizeof line, f) != NULL && strcmp(line, columns) == 0;
-    while (ok && fgets(line, sizeof line, f) != NULL)
-        ok = out->n < n_steps && read_step(line, &out->step[out->n++]);
-    fclose(f);
-    if (!ok || out->n != n_steps)
-        out->n = 0;
-    return out->n > 0;
+        fputc(',', f);
 }
 
 static void write_interval(FILE *f, struct interval i)
 {
-    write_number(f, i.value, 9, "");
-    write_number(f, i.low, 9, "");
-    write_number(f, i.high, 9, "");
+    write_number(f, i.value);
+    write_number(f, i.low);
+    write_number(f, i.high);
 }
 
 void results_csv(FILE *f, const struct results *r)
@@ -116,8 +55,8 @@ void results_csv(FILE *f, const struct results *r)
                         plan_seeds(r->plan, v));
                 for (int q = 0; q < N_QUANTITIES; q++) {
                     struct estimate e = results_mean(s, v, step, (enum quantity)q);
-                    write_number(f, e.mean, 9, "");
-                    write_number(f, e.error, 9, "");
+                    write_number(f, e.mean);
+                    write_number(f, e.error);
                 }
                 write_interval(f, results_rmse_ratio(s, v, step));
                 write_interval(f, results_cost_ratio(s, v, step));
@@ -125,19 +64,40 @@ void results_csv(FILE *f, const struct results *r)
             }
 }
 
+static void write_step(FILE *f, const struct run_step *s)
+{
+    fprintf(f, "%ld", s->spp);
+    for (int q = 0; q < N_QUANTITIES; q++)
+        write_number(f, s->value[q]);
+    for (int k = 0; k < N_SQUARES; k++)
+        write_number(f, s->square[k]);
+    fprintf(f, ",%ld\n", s->nonfinite);
+}
+
 void results_runs_csv(FILE *f, const struct results *r)
 {
-    char columns[256];
-    step_columns(columns, "scene,method,seed,");
-    fputs(columns, f);
+    fputs("scene,method,seed,spp", f);
+    for (int q = 0; q < N_QUANTITIES; q++)
+        fprintf(f, ",%s", NAMES[q]);
+    fputs(",square8,square,square8x8,nonfinite\n", f);
     for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++)
         for (int v = 0; v < r->plan->methods.n; v++)
             for (int i = 0; i < plan_seeds(r->plan, v); i++)
                 for (int step = 0; step < s->run[v][i].n; step++) {
                     csv_text(f, s->name);
-                    fprintf(f, ",%s,%ld,", r->plan->methods.item[v].text, plan_seed(v, i + 1));
-                    write_step(f, &s->run[v][i].step[step], 9, "");
+                    fprintf(f, ",%s,%" PRIu64 ",", r->plan->methods.item[v].text, plan_seed(r->plan, v, i + 1));
+                    write_step(f, &s->run[v][i].step[step]);
                 }
+}
+
+bool results_write(const struct results *r, const char *name, void (*write)(FILE *, const struct results *),
+                   struct error *err)
+{
+    struct file_output f;
+    if (!plan_create(r->plan, name, &f, err))
+        return false;
+    write(f.stream, r);
+    return file_commit(&f, err);
 }
 
 /* --- statistics over seeds --------------------------------------------------------------------------- */
@@ -164,6 +124,28 @@ struct estimate results_mean(const struct scene_results *s, int method, int step
     for (int i = 0; i < n; i++)
         x[i] = s->run[method][i].step[step].value[q];
     return mean_of(x, n);
+}
+
+struct estimate results_square(const struct scene_results *s, int method, int step, enum square k)
+{
+    double x[PLAN_MAX_SEEDS];
+    int n = plan_seeds(s->plan, method);
+    for (int i = 0; i < n; i++)
+        x[i] = s->run[method][i].step[step].square[k];
+    return mean_of(x, n);
+}
+
+void results_pairs(const double *half, int n, double *out)
+{
+    double all = 0;
+    for (int i = 0; i < n; i++) {
+        out[i] = 0;
+        for (int j = 0; j < n; j++)
+            out[i] += i != j ? half[i * n + j] / (n - 1) : 0;
+        all += out[i] / n;
+    }
+    for (int i = 0; i < n; i++)
+        out[i] = all + 2.0 * (n - 1) / (n - 2) * (out[i] - all);
 }
 
 double student_quantile(double p, double dof)
@@ -203,14 +185,13 @@ struct interval results_ratio(const double *a, int na, const double *b, int nb)
 /* The ratio of a method's mean to the first one's: of its errors, or of squared error times seconds. */
 static struct interval over_first(const struct scene_results *s, int method, int step, bool paid)
 {
-    double x[2][PLAN_MAX_SEEDS], noise = isfinite(s->reference.noise8) ? s->reference.noise8 : 0;
+    double x[2][PLAN_MAX_SEEDS];
     int compared[2] = {method, 0}, n[2];
     for (int k = 0; k < 2; k++) {
         n[k] = plan_seeds(s->plan, compared[k]);
         for (int i = 0; i < n[k]; i++) {
-            const double *value = s->run[compared[k]][i].step[step].value;
-            double square = value[Q_RMSE8] * value[Q_RMSE8] - noise * noise;
-            x[k][i] = paid ? square * value[Q_SECONDS] : value[Q_RMSE8];
+            const struct run_step *r = &s->run[compared[k]][i].step[step];
+            x[k][i] = paid ? r->square[SQUARE_RMSE8] * r->value[Q_SECONDS] : r->value[Q_RMSE8];
         }
     }
     return results_ratio(x[0], n[0], x[1], n[1]);

@@ -1,11 +1,8 @@
-/* results.h: the measurements of an experiment in memory and in files, and the statistics over its seeds.
+/* results.h: what was measured, in memory and in files, and the statistics over its seeds.
  *
  * Every number shown anywhere (tables, plots, CSV) comes from the functions here. On disk there are
- *     runs/SCENE--METHOD--seedN.csv
- *                   one run, written when it is finished, read back when the experiment is started again; its first
- *                   line is a key that says everything the numbers depend on
- *     results.csv   one line per scene, method and number of samples: means over seeds with standard errors, ratios
- *                   to the first method with 95 % intervals; empty where unknown
+ *     results.csv   of an experiment one line per scene, method and number of samples: means over seeds with standard
+ *                   errors, ratios to the first method with 95 % intervals; empty where unknown
  *     runs.csv      one line per scene, method, seed and number of samples: what was measured
  *
  * Tests: test_report.c.
@@ -15,6 +12,7 @@
 
 #include <stdio.h>
 
+#include "lab/compare.h"
 #include "lab/plan.h"
 #include "lab/reference.h"
 
@@ -28,10 +26,15 @@ enum quantity {
     N_QUANTITIES
 };
 
-/* Measured after `spp` samples per pixel, against the reference. */
+/* Measured after `spp` samples per pixel. The values are against the reference; the squares are the squared errors of
+ * the picture itself, in two ways: against a reference, whose own noise is subtracted, which sees all errors; or by
+ * pairs of renders with unlike seeds, whose half squared difference sees all but a bias, and needs no reference.
+ *     Of S seeds with half squared differences d_ij, V is the mean of all pairs, and seed i has
+ *     V + 2 (S-1)/(S-2) (mean_j d_ij - V): these have the mean V and scatter as independent errors would.
+ * A square may be below 0. */
 struct run_step {
     long spp;
-    double value[N_QUANTITIES];
+    double value[N_QUANTITIES], square[N_SQUARES];
     long nonfinite; /* values that could not be compared */
 };
 
@@ -41,12 +44,20 @@ struct seed_run {
     int n;                                /* 0: not done */
 };
 
+/* What a method costs, in CPU time of a sample of the first method, by medians over rounds in which both were timed:
+ * what it prepares, and each sample per pixel. spread: how far the rounds' prices of a sample are apart, relative. */
+struct price {
+    double before, each, spread;
+};
+
 struct scene_results {
     const struct plan *plan; /* borrowed */
     const char *path;
     char name[256];
     int width, height, max_depth;
-    struct reference reference;
+    struct reference reference; /* without a stored or rendered one, what the methods agree on: see measure.h */
+    struct price price[METHODS_MAX]; /* of equal time */
+    double seconds;                  /* of equal time: CPU seconds of a sample of the first method */
     struct seed_run run[METHODS_MAX][PLAN_MAX_SEEDS]; /* the first plan_seeds() of each */
     float *image[METHODS_MAX];                        /* of what is compared: first seed, all samples; owned */
 };
@@ -58,12 +69,9 @@ struct results {
 
 void results_free(struct results *r);
 
-/* run_write: all or nothing. Returns false with a message. */
-bool run_write(const char *path, const char *key, const struct seed_run *run, struct error *err);
-
-/* run_read: returns false, without a message, when there is no such file, its key differs or it is damaged; the run
- * must then be done again. */
-bool run_read(const char *path, const char *key, int n_steps, struct seed_run *out);
+/* results_pairs: the squares of n >= 3 seeds from their pairs, as above.
+ *   half  [n*n] half squared differences, of which those beside the diagonal are read;  out  [n] */
+void results_pairs(const double *half, int n, double *out);
 
 void results_csv(FILE *f, const struct results *r);
 void results_runs_csv(FILE *f, const struct results *r);
@@ -74,21 +82,26 @@ struct estimate {
     int n;              /* seeds; 0: mean is NaN */
 };
 
+/* results_mean: of a value; results_square: of a square. */
 struct estimate results_mean(const struct scene_results *s, int method, int step, enum quantity q);
+struct estimate results_square(const struct scene_results *s, int method, int step, enum square k);
 
 /* A ratio of two means with its 95 % confidence interval; NaN where it cannot be told. */
 struct interval {
     double value, low, high;
 };
 
+/* results_write: what `write` writes, as a file of the plan's directory. False with a message. */
+bool results_write(const struct results *r, const char *name, void (*write)(FILE *, const struct results *),
+                   struct error *err);
+
 /* results_ratio: mean of a[na] over mean of b[nb], both independent and positive on average. The interval is Welch's,
  * on the logarithm of the ratio. */
 struct interval results_ratio(const double *a, int na, const double *b, int nb);
 
 /* results_rmse_ratio: rmse8 of a method over the first one's after the same number of samples, the dissertation's
- * comparison. results_cost_ratio: the same of squared error times seconds, (MSE - noise^2) T: what a method pays for
- * the inverse of its variance, as the squared error falls as one over the time; noise8 of the reference is subtracted
- * if known. */
+ * comparison. results_cost_ratio: the same of squared error times seconds: what a method pays for the inverse of its
+ * variance, as the squared error falls as one over the time. */
 struct interval results_rmse_ratio(const struct scene_results *s, int method, int step);
 struct interval results_cost_ratio(const struct scene_results *s, int method, int step);
 

@@ -74,8 +74,11 @@ static void markdown_text(FILE *f, const char *text)
 void table_markdown(FILE *f, const struct table *t)
 {
     fprintf(f, "%s\n\n|", t->caption);
-    for (size_t c = 0; c < t->columns; c++)
-        fprintf(f, " %s |", t->head[c]);
+    for (size_t c = 0; c < t->columns; c++) {
+        fputc(' ', f);
+        markdown_text(f, t->head[c]);
+        fputs(" |", f);
+    }
     fputs("\n|", f);
     for (size_t c = 0; c < t->columns; c++)
         fputs(c == 0 ? "---|" : "---:|", f);

@@ -12,7 +12,7 @@
 
 #include "lab/results.h"
 
-enum { TABLE_MAX_COLUMNS = 3 * METHODS_MAX + 4, TABLE_CELL = 256 };
+enum { TABLE_MAX_COLUMNS = 2 * METHODS_MAX + 4, TABLE_CELL = 256 };
 
 struct table_cell {
     char text[TABLE_CELL];

@@ -9,7 +9,7 @@
 #include "base/mem.h"
 #include "base/number.h"
 #include "lab/colormap.h"
-#include "learning/learnt.h"
+#include "tables/tables.h"
 #include "render/aov.h"
 #include "transport/pixel_sample.h"
 
@@ -17,7 +17,7 @@ enum { LIGHT_PATHS = 64 * 1024, GAP = 8, LABEL = 24, TEXT = 2 };
 
 struct view {
     struct render_job job;
-    const struct learnt *learnt;
+    const struct tables *tables;
     struct mis_counts counts; /* for the walks, which look regions up; the weights are not used */
     struct workspace *work;
     const double *h; /* [light regions], of the eye region of the point */
@@ -84,13 +84,13 @@ static void map_draws(const struct view *v)
 static bool fill(struct view *v, int x, int y, struct error *err)
 {
     const struct scene *s = v->job.scene;
-    if (v->learnt == NULL || !v->learnt->paired)
+    if (v->tables == NULL || v->tables->pairs.h == NULL)
         return error_set(err, "this selection learns nothing about pairs of places; select=subspaces does");
     if (x < 0 || y < 0 || x >= s->width || y >= s->height)
-        return error_set(err, "--pixel %d,%d lies outside the film of %dx%d", x, y, s->width, s->height);
+        return error_usage(err, "--pixel %d,%d lies outside the film of %dx%d", x, y, s->width, s->height);
     if (!look(v, x, y))
         return error_set(err, "no surface that can be connected to is seen through pixel %d,%d", x, y);
-    v->h = pairs_row(&v->learnt->pairs, v->work->eye[1].eye_region);
+    v->h = pairs_row(&v->tables->pairs, v->work->eye[1].eye_region);
     map_worth(v);
     map_draws(v);
     return true;
@@ -105,7 +105,7 @@ bool worth_values(const struct scene *scene, const struct render_options *option
     if (!render_prepare(scene, options, all, &v.job, &prepared, err))
         return false;
     v.counts = ((const struct frozen *)prepared.state)->counts;
-    v.learnt = v.counts.model != NULL ? v.counts.model->learnt : NULL;
+    v.tables = v.counts.tables;
     v.work = workspaces_new(1, v.job.max_depth);
     bool ok = fill(&v, x, y, err);
     workspaces_free(v.work, 1);

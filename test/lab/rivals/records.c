@@ -128,12 +128,11 @@ double mixture_pmf(const struct mixture *m, int v)
 
 double light_vertices_expected(const struct render_job *job)
 {
-    struct learnt counted = {.guided = false};
-    const struct wish nothing = {.eye_cells = 1};
+    const struct learn_options nothing = {.eye_cells = 1};
     struct render_job whole = *job;
     whole.watch = NULL; /* it is soon done, and l is not kept: it must be the same whenever the render goes on */
-    learn(&whole, &nothing, &counted);
+    struct tables counted = learn(&whole, &nothing);
     double l = counted.importance.light_vertices;
-    learnt_free(&counted);
+    tables_free(&counted);
     return l;
 }

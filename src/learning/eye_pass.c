@@ -1,0 +1,67 @@
+/* eye_pass.c: the pass that looks where the camera can use light (importance.h), and which lights are seen from there
+ * (guide.h); see training.h. */
+#include "learning/training.h"
+#include "transport/connect.h"
+
+enum { LIGHTS_PER_VERTEX = 2 };        /* light points tried from each eye vertex for the guide */
+static const double GUIDE_DELTA = 0.2; /* share of s = 1 samples that choose lights by power */
+
+struct eye_pass {
+    struct tables tables; /* so far */
+    struct guide_sums lights;
+    bool guide, importance;
+    long n;
+};
+
+static void trace(const struct pass *p, int thread, long i, struct findings *out)
+{
+    const struct eye_pass *e = p->context;
+    struct training *l = p->training;
+    struct sampler sampler;
+    const struct mis_counts counts = {.direct = {1, 1}, .delta = {1, 1}};
+    int n = pass_eye(p, thread, i, STREAM_EYE, &sampler);
+    for (const struct vertex *z = l->work[thread].eye + 1; z < l->work[thread].eye + n; z++) {
+        if (!vertex_connectible(z))
+            continue;
+        struct finding f = {.kind = EYE_VERTEX, .x = rgb_luminance(z->beta), .first = z->eye_end == FIRST_HIT};
+        f.eye = regions_key(&e->tables.eye, z->p, vertex_side(z));
+        f.light = regions_key(&e->tables.light, z->p, vertex_side(z));
+        findings_add(out, f);
+        f.kind = LIGHT_SEEN;
+        for (int j = 0; e->guide && j < LIGHTS_PER_VERTEX; j++) {
+            struct connection light = connect_direct(l->job->scene, &counts, z, &sampler, j, LIGHTS_PER_VERTEX);
+            f.cell = light.cell;
+            f.x = rgb_luminance(light.value);
+            findings_add(out, f);
+        }
+    }
+}
+
+static void take(void *context, const struct finding *f)
+{
+    struct eye_pass *e = context;
+    struct tables *t = &e->tables;
+    int region = regions_add(&t->eye, f->eye);
+    if (f->kind == LIGHT_SEEN) {
+        guide_sums_add(&e->lights, &t->eye, region, f->cell, f->x);
+        return;
+    }
+    t->importance.eye_vertices += 1.0 / (double)e->n;
+    t->importance.first_vertices += f->first / (double)e->n;
+    if (e->importance)
+        *sums_row(&t->importance.E, regions_add(&t->light, f->light)) += f->x;
+}
+
+struct tables train_importance(struct training *t, struct tables known, long n)
+{
+    const struct light_set *lights = &t->job->scene->lights;
+    struct eye_pass e = {.tables = known, .guide = t->options->guide, .importance = t->options->importance, .n = n};
+    struct pass pass = {t, &NO_TABLES, 0, n, &e, NULL, trace, take};
+    e.tables.importance.E.columns = 1;
+    guide_sums_init(&e.lights, lights);
+    pass_run(&pass);
+    if (e.guide)
+        e.tables.guide = guide_build(&e.lights, &e.tables.eye, lights, GUIDE_DELTA);
+    guide_sums_free(&e.lights);
+    return e.tables;
+}

@@ -1,0 +1,94 @@
+/* light_pass.c: the passes that look which light sub-paths are of use to the camera (emission.h), and where the
+ * vertices of those are that know it; see training.h. */
+#include "learning/training.h"
+
+static const double FIRST_VERTEX = 0.2; /* what the first vertex of a light sub-path counts for in emission */
+
+/* --- emission ---------------------------------------------------------------------------------------- */
+
+/* What a light sub-path is worth says how others should begin. Its first vertex counts little: what comes from there is
+ * what s = 1 finds as well. */
+static void trace_emission(const struct pass *p, int thread, long i, struct findings *out)
+{
+    const struct importance *importance = &p->known->importance;
+    struct workspace *work = &p->training->work[thread];
+    int n = pass_light(p, &work->arena, i, STREAM_LIGHT, work->light);
+    if (n < 2)
+        return;
+    struct light_point at = vertex_light_point(&work->light[0]);
+    struct finding f = {.kind = RAY_LEFT, .cell = at.cell};
+    light_emission_numbers(&p->training->job->scene->lights, &at, work->light[1].p, neg(work->light[1].wo), f.u);
+    f.x = FIRST_VERTEX * path_importance(importance, work->light, 2) +
+          path_importance(importance, work->light + 1, n - 1);
+    findings_add(out, f);
+}
+
+static void take_emission(void *context, const struct finding *f) { emission_sums_add(context, f->cell, f->u, f->x); }
+
+struct tables train_emission(struct training *t, struct tables known, long n)
+{
+    struct emission_sums sums;
+    const struct light_set *lights = &t->job->scene->lights;
+    struct pass pass = {t, &known, 0, n, &sums, NULL, trace_emission, take_emission};
+    if (lights->choice.n == 0)
+        return known;
+    emission_sums_init(&sums, lights);
+    pass_run(&pass);
+    known.emission = emission_build(&sums, lights, (double)n, t->options->emission);
+    emission_sums_free(&sums);
+    return known;
+}
+
+/* --- vertices ---------------------------------------------------------------------------------------- */
+
+/* Sums over the connectible vertices of light sub-paths; I = luminance(beta) E. */
+struct light_pass {
+    struct tables tables; /* so far */
+    bool pairs;           /* are there to be any? */
+    double vertices, E, I, square; /* square: of I */
+    long n;                        /* sub-paths */
+};
+
+static void trace_vertices(const struct pass *p, int thread, long i, struct findings *out)
+{
+    const struct light_pass *l = p->context;
+    struct workspace *work = &p->training->work[thread];
+    int n = pass_light(p, &work->arena, i, STREAM_LIGHT, work->light);
+    for (const struct vertex *y = work->light + 1; y < work->light + n; y++) {
+        struct finding f = {.kind = LIGHT_VERTEX, .x = rgb_luminance(y->beta)};
+        if (!vertex_connectible(y))
+            continue;
+        f.light = regions_key(&l->tables.light, y->p, vertex_side(y));
+        findings_add(out, f);
+    }
+}
+
+static void take_vertex(void *context, const struct finding *f)
+{
+    struct light_pass *l = context;
+    struct importance *importance = &l->tables.importance;
+    struct regions *light = &l->tables.light;
+    int region = l->pairs ? regions_add(light, f->light) : regions_find(light, f->light);
+    double E = importance_in(importance, region), I = f->x * E;
+    l->vertices++;
+    l->E += E;
+    l->I += I;
+    l->square += I * I;
+    if (l->pairs)
+        *sums_row(&importance->vertices, region) += 1.0 / (double)l->n;
+}
+
+/* Walks need not know regions here, which are added meanwhile. */
+struct tables train_vertices(struct training *t, struct tables known, long first, long n)
+{
+    struct light_pass l = {.tables = known, .pairs = t->options->pairs, .n = n};
+    struct importance *importance = &l.tables.importance;
+    const struct tables aim = {.emission = known.emission};
+    struct pass pass = {t, &aim, first, first + n, &l, NULL, trace_vertices, take_vertex};
+    importance->vertices.columns = 1;
+    pass_run(&pass);
+    importance->light_vertices = l.vertices / (double)n;
+    importance->mean = l.E / (double)n;
+    importance->useful = l.square > 0 ? l.I * l.I / (l.square * l.vertices) : 1;
+    return l.tables;
+}

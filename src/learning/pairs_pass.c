@@ -1,0 +1,134 @@
+/* pairs_pass.c: the pass that tries connections between regions (pairs.h); see training.h.
+ *
+ * An eye vertex is connected to a few vertices of a pool of light sub-paths, drawn by how much the camera can use where
+ * they are.
+ */
+#include <stdlib.h>
+
+#include "base/cumulative.h"
+#include "base/number.h"
+#include "learning/training.h"
+#include "transport/connect.h"
+
+enum {
+    POOL = 64, /* light sub-paths of a chunk */
+    TRIALS = 4 /* connections tried from each eye vertex */
+};
+
+/* A light vertex that trials may draw. */
+struct end {
+    const struct vertex *y;
+    double L, useful; /* luminance(beta); (1 - delta) E / mean + delta, see importance.h */
+};
+
+/* Memory of one thread for the light sub-paths of a chunk. */
+struct trial_pool {
+    struct arena arena;
+    struct vertex *vertex; /* POOL times max_depth + 1 of them; owned */
+    struct end *end;       /* [n], owned */
+    double *before;        /* [n] sum of L useful of the ends before it; owned */
+    int n;
+    double total;
+};
+
+struct pairs_pass {
+    struct trial_pool *pool; /* [n_threads], owned */
+    const struct tables *tables;
+    struct pair_sums sums;
+};
+
+static void add_end(const struct pass *p, struct trial_pool *pool, const struct vertex *y)
+{
+    const struct importance *importance = &p->known->importance;
+    double L = rgb_luminance(y->beta), E = importance_in(importance, y->light_region);
+    double delta = p->training->options->delta;
+    double useful = (1 - delta) * (importance->mean > 0 ? E / importance->mean : 0) + delta;
+    if (!vertex_connectible(y) || !(L * useful > 1e-290) || !fits_float(L * useful))
+        return;
+    struct end end = {y, L, useful};
+    pool->before[pool->n] = pool->total;
+    pool->end[pool->n++] = end;
+    pool->total += L * useful;
+}
+
+/* The light sub-paths of the chunk whose first eye sub-path is number `chunk`: a name no other chunk has. */
+static void fill_pool(const struct pass *p, int thread, long chunk)
+{
+    const struct pairs_pass *t = p->context;
+    struct trial_pool *pool = &t->pool[thread];
+    int longest = p->training->job->max_depth + 1;
+    arena_reset(&pool->arena);
+    pool->n = 0;
+    pool->total = 0;
+    for (long k = 0; k < POOL; k++) {
+        struct vertex *path = &pool->vertex[k * longest];
+        int n = pass_light(p, &pool->arena, chunk * POOL + k, STREAM_POOL, path);
+        for (int i = 1; i < n; i++)
+            add_end(p, pool, &path[i]);
+    }
+}
+
+/* Connect z to a few light vertices. The worth of a pair falls as 1/d^2, so that near ones would hide all others: the
+ * square of a quarter of a region's width is added to that d^2. */
+static void try_vertex(const struct pass *p, const struct trial_pool *pool, const struct vertex *z,
+                       struct sampler *sampler, struct findings *out)
+{
+    const struct mis_counts counts = {.direct = {1, 1}};
+    const struct tables *tables = p->known;
+    double near2 = sqr(0.25 / tables->eye.per_metre), beta = rgb_luminance(z->beta);
+    for (int i = 0; i < TRIALS && pool->n > 0 && beta > 0; i++) {
+        double u = (i + sampler_number(sampler, DRAW_LIGHT_END)) / TRIALS;
+        const struct end *end = &pool->end[cumulative_find(pool->before, pool->n, u * pool->total)];
+        const struct vertex *y = end->y;
+        struct connection found = connect_pair(p->training->job->scene, &counts, y, z);
+        double d2 = length2(sub(y->p, z->p));
+        struct finding f = {.kind = TRIAL, .w = beta / end->useful};
+        f.eye = regions_key(&tables->eye, z->p, vertex_side(z));
+        f.light = regions_key(&tables->light, y->p, vertex_side(y));
+        f.x = rgb_luminance(found.value) / (beta * end->L) * (d2 > 0 ? d2 / (d2 + near2) : 0);
+        findings_add(out, f);
+    }
+}
+
+static void trace(const struct pass *p, int thread, long i, struct findings *out)
+{
+    const struct pairs_pass *t = p->context;
+    const struct vertex *eye = p->training->work[thread].eye;
+    struct sampler sampler;
+    int n = pass_eye(p, thread, i, STREAM_EYE, &sampler);
+    for (int k = 1; k < n; k++)
+        if (vertex_connectible(&eye[k]))
+            try_vertex(p, &t->pool[thread], &eye[k], &sampler, out);
+}
+
+static void take(void *context, const struct finding *f)
+{
+    struct pairs_pass *t = context;
+    const struct regions *eye = &t->tables->eye, *light = &t->tables->light;
+    pair_sums_add(&t->sums, eye, light, regions_find(eye, f->eye), regions_find(light, f->light), f->x, f->w);
+}
+
+struct tables train_pairs(struct training *t, struct tables known, long first, long n)
+{
+    struct pairs_pass p = {.pool = mem_alloc((size_t)t->job->n_threads, sizeof *p.pool), .tables = &known};
+    size_t vertices = POOL * ((size_t)t->job->max_depth + 1);
+    struct pass pass = {t, &known, first, first + n, &p, fill_pool, trace, take};
+    for (struct trial_pool *pool = p.pool; pool < p.pool + t->job->n_threads; pool++) {
+        pool->vertex = mem_alloc(vertices, sizeof *pool->vertex);
+        pool->end = mem_alloc(vertices, sizeof *pool->end);
+        pool->before = mem_alloc(vertices, sizeof *pool->before);
+    }
+    pair_sums_init(&p.sums, &known.eye, &known.light);
+    pass_run(&pass);
+    for (struct trial_pool *pool = p.pool; pool < p.pool + t->job->n_threads; pool++) {
+        arena_free(&pool->arena);
+        free(pool->vertex);
+        free(pool->end);
+        free(pool->before);
+    }
+    free(p.pool);
+    known.pairs = pairs_build(&p.sums, &known.eye, &known.light, &known.importance.vertices,
+                              t->options->delta);
+    pair_sums_free(&p.sums);
+    return known;
+}

@@ -1,0 +1,92 @@
+/* training.c: see training.h. */
+#include "learning/training.h"
+
+#include <stdlib.h>
+
+#include "base/number.h"
+#include "base/parallel.h"
+
+void findings_add(struct findings *list, struct finding f)
+{
+    bool nothing = f.kind != TRIAL && !(f.x > 1e-290); /* sums of them, and their shares of sums, stay finite */
+    if (nothing || !(f.x >= 0) || !fits_float(f.x))
+        return;
+    list->item = mem_grow(list->item, &list->capacity, list->n + 1, sizeof *list->item);
+    list->item[list->n++] = f;
+}
+
+/* A pass while it runs. */
+struct run {
+    const struct pass *pass;
+    struct findings *found; /* [n_slots] */
+};
+
+static void trace_chunk(void *context, int64_t job, int slot, int thread)
+{
+    struct run *r = context;
+    const struct pass *p = r->pass;
+    long first = p->first + (long)job * CHUNK, end = first + CHUNK < p->end ? first + CHUNK : p->end;
+    r->found[slot].n = 0;
+    if (p->begin != NULL)
+        p->begin(p, thread, first);
+    for (long i = first; i < end; i++) {
+        arena_reset(&p->training->work[thread].arena);
+        p->trace(p, thread, i, &r->found[slot]);
+    }
+}
+
+static bool take_chunk(void *context, int64_t job, int slot)
+{
+    struct run *r = context;
+    struct training *t = r->pass->training;
+    (void)job;
+    for (size_t i = 0; i < r->found[slot].n; i++)
+        r->pass->take(r->pass->context, &r->found[slot].item[i]);
+    t->traced += CHUNK;
+    t->stopped = t->job->watch != NULL && !t->job->watch(t->job->watch_context, (double)t->traced);
+    return !t->stopped;
+}
+
+void pass_run(const struct pass *p)
+{
+    struct run r = {.pass = p};
+    int n_threads = p->training->job->n_threads, n_slots = 4 * n_threads;
+    struct parallel_jobs jobs = {(p->end - p->first + CHUNK - 1) / CHUNK, n_threads, n_slots, &r, trace_chunk,
+                                 take_chunk, NULL};
+    if (p->training->stopped)
+        return;
+    r.found = mem_alloc((size_t)n_slots, sizeof *r.found);
+    parallel_run(&jobs);
+    for (int i = 0; i < n_slots; i++)
+        free(r.found[i].item);
+    free(r.found);
+}
+
+/* The weights are not used here: any counts will do. */
+static struct mis_counts counts_of(const struct pass *p)
+{
+    struct mis_counts counts = {.direct = {1, 1}, .delta = {1, 1}, .tables = p->known};
+    return counts;
+}
+
+int pass_eye(const struct pass *p, int thread, long i, enum stream stream, struct sampler *sampler)
+{
+    const struct render_job *job = p->training->job;
+    struct workspace *work = &p->training->work[thread];
+    const struct mis_counts counts = counts_of(p);
+    const struct walk w = {job->scene, &counts, &work->arena, sampler, job->rr_threshold};
+    double u, v;
+    *sampler = sampler_start(job->seed, RNG_LEARN, (uint64_t)i, (uint64_t)stream);
+    sampler_r2(i, &u, &v);
+    return path_eye(&w, job->film_rect.x0 + u * rect_width(job->film_rect),
+                    job->film_rect.y0 + v * rect_height(job->film_rect), work->eye, job->max_depth + 1);
+}
+
+int pass_light(const struct pass *p, struct arena *arena, long i, enum stream stream, struct vertex *path)
+{
+    const struct render_job *job = p->training->job;
+    const struct mis_counts counts = counts_of(p);
+    struct sampler sampler = sampler_start(job->seed, RNG_LEARN, (uint64_t)i, (uint64_t)stream);
+    const struct walk w = {job->scene, &counts, arena, &sampler, job->rr_threshold};
+    return path_light(&w, path, job->max_depth + 1);
+}

@@ -1,0 +1,49 @@
+/* fourier_table.h: layered materials as pbrt-v3's .bsdf files have them [Jakob 2014]: for pairs of cosines to the
+ * normal a Fourier series in the difference of azimuths, between them splines.
+ *
+ * wo and wi are unit vectors in the shading frame, away from the surface.
+ *
+ * Tests: test_fourier.c, test_bsdf.c.
+ */
+#ifndef ASBDPT_FOURIER_TABLE_H
+#define ASBDPT_FOURIER_TABLE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/error.h"
+#include "base/rgb.h"
+#include "base/vec.h"
+
+struct fourier_table {
+    char *path;         /* owned, as the arrays are */
+    uint64_t content;   /* hash_content of the file */
+    size_t file_size;
+    int n_mu, channels; /* channels: 1 (luminance) or 3 (luminance, red, blue) */
+    double eta;         /* index below over index above */
+    double *mu;         /* [n_mu] cosines, rising from -1 to 1 at most */
+    uint32_t *first;    /* [n_mu][n_mu] of wo and of -wi: where in a the series begins */
+    uint32_t *length;   /* [n_mu][n_mu] its coefficients in each channel */
+    double *a;          /* the coefficients of f |cos(wi)| */
+    float *cdf;         /* [n_mu][(n_mu - 1)*FOURIER_AZIMUTHS + 1] to draw -wi by, for each cosine of wo: of all cells
+                         * between cosines and azimuths up to pi, from 0 to 1; all 0 where nothing is scattered */
+};
+
+enum { FOURIER_AZIMUTHS = 32 };
+
+/* fourier_read: a table, to be given to fourier_free. Returns false with a message if there is none, or it is damaged
+ * or of a kind that pbrt-v3 does not read either. */
+bool fourier_read(const char *path, struct fourier_table *out, struct error *err);
+void fourier_free(struct fourier_table *t);
+
+/* fourier_eval: what of radiance from wi goes to wo, 1/sr. wi.z != 0. Of importance the same with wo and wi exchanged:
+ * files are reciprocal only as well as their splines are. */
+rgb fourier_eval(const struct fourier_table *t, vec3 wo, vec3 wi);
+
+/* fourier_sample, fourier_pdf: draw wi given wo, about as radiance goes, nowhere with density 0; that density, 1/sr.
+ * False where nothing is scattered. u: three numbers in [0,1). */
+bool fourier_sample(const struct fourier_table *t, vec3 wo, const double u[3], vec3 *wi);
+double fourier_pdf(const struct fourier_table *t, vec3 wo, vec3 wi);
+
+#endif

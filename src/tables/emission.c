@@ -1,0 +1,162 @@
+/* emission.c: see emission.h. */
+#include "tables/emission.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/cumulative.h"
+#include "base/mem.h"
+#include "base/number.h"
+
+enum { SIDE = EMISSION_SIDE, BINS = EMISSION_BINS };
+
+static int bin_of(const double u[2])
+{
+    return int_within(u[0] * SIDE, 0, SIDE - 1) * SIDE + int_within(u[1] * SIDE, 0, SIDE - 1);
+}
+
+/* --- sums -------------------------------------------------------------------------------------------- */
+
+void emission_sums_init(struct emission_sums *s, const struct light_set *lights)
+{
+    s->columns = light_columns_new(lights, EMISSION_COLUMNS);
+    s->square = mem_alloc((size_t)s->columns.n * BINS, sizeof *s->square);
+}
+
+void emission_sums_free(struct emission_sums *s)
+{
+    light_columns_free(&s->columns);
+    free(s->square);
+}
+
+void emission_sums_add(struct emission_sums *s, int cell, const double u[2], double I)
+{
+    s->square[(size_t)(cell / s->columns.cells_each) * BINS + (size_t)bin_of(u)] += I * I;
+}
+
+/* --- the table --------------------------------------------------------------------------------------- */
+
+static double shrunk(double sum, double n, double above)
+{
+    const double K = 4;
+    return (sum + K * above) / (n + K);
+}
+
+/* m of a column's bins, by 2 x 2, 4 x 4, 8 x 8, each from those above; n rays left the column in all. */
+static void mean_squares(const double *square, double n, double above, double *m)
+{
+    m[0] = shrunk(sum_of(square, BINS), n, above);
+    for (int side = 2; side <= SIDE; side *= 2) {
+        double wider[BINS], sum[BINS] = {0};
+        memcpy(wider, m, BINS * sizeof *m);
+        for (int b = 0; b < BINS; b++)
+            sum[b / SIDE * side / SIDE * side + b % SIDE * side / SIDE] += square[b];
+        for (int i = 0; i < side * side; i++)
+            m[i] = shrunk(sum[i], n / (side * side), wider[i / side / 2 * (side / 2) + i % side / 2]);
+    }
+}
+
+/* The sums that draws go by. */
+static void sum_up(struct emission *e)
+{
+    int n = e->columns.n;
+    e->row = mem_alloc((size_t)n * SIDE, sizeof *e->row);
+    e->before = mem_alloc((size_t)n + 1, sizeof *e->before);
+    for (int i = 0; i < n * SIDE; i++)
+        e->row[i] = sum_of(&e->q[i * SIDE], SIDE);
+    for (int c = 0; c < n; c++)
+        e->before[c + 1] = e->before[c] + sum_of(&e->row[c * SIDE], SIDE);
+}
+
+struct emission emission_build(const struct emission_sums *s, const struct light_set *lights, double rays,
+                               double delta)
+{
+    struct emission e = {.columns = light_columns_new(lights, EMISSION_COLUMNS)};
+    int n = e.columns.n;
+    double m[BINS] = {0}, total = 0, all = n * BINS > 0 ? sum_of(s->square, n * BINS) / rays : 0;
+    e.q = mem_alloc((size_t)n * BINS, sizeof *e.q);
+    for (int c = 0; c < n; c++) {
+        mean_squares(&s->square[c * BINS], rays * e.columns.power[c], all, m);
+        for (int b = 0; b < BINS; b++)
+            total += e.q[c * BINS + b] = e.columns.power[c] * sqrt(m[b]);
+    }
+    for (int i = 0; i < n * BINS; i++) {
+        double even = e.columns.power[i / BINS] / BINS;
+        e.q[i] = total > 0 ? delta * even + (1 - delta) * e.q[i] / total : even;
+    }
+    sum_up(&e);
+    return e;
+}
+
+void emission_free(struct emission *e)
+{
+    light_columns_free(&e->columns);
+    free(e->q);
+    free(e->row);
+    free(e->before);
+    memset(e, 0, sizeof *e);
+}
+
+/* --- use --------------------------------------------------------------------------------------------- */
+
+/* Into which of SIDE parts the uniform number u falls; it becomes, again uniform, the place in all of them. */
+static int fall(const double *part, double *u)
+{
+    double rest = *u * sum_of(part, SIDE);
+    int i = 0;
+    while (i < SIDE - 1 && rest >= part[i])
+        rest -= part[i++];
+    *u = below_one((i + fmin(rest / part[i], 1)) / SIDE);
+    return i;
+}
+
+/* The column's rho per q; 0 if it is dark. */
+static double per_q(const struct emission *e, int column)
+{
+    return e->columns.power[column] > 0 ? BINS / e->columns.power[column] : 0;
+}
+
+int emission_draw(const struct emission *e, const struct light_set *lights, double u, double direction[2],
+                  double *rho)
+{
+    int n = e->columns.n;
+    *rho = 1;
+    if (e->q == NULL)
+        return alias_sample(&lights->choice, u, NULL, NULL);
+    double target = u * e->before[n];
+    int column = cumulative_find(e->before, n, target);
+    while (e->columns.power[column] == 0)
+        column--; /* rounding at the end */
+    double within = (target - e->before[column]) / (e->before[column + 1] - e->before[column]);
+    const double *row = &e->row[column * SIDE], *q = &e->q[column * BINS];
+    q += SIDE * fall(row, &direction[0]);
+    *rho = per_q(e, column) * q[fall(q, &direction[1])];
+    return light_columns_cell(&e->columns, lights, column, below_one(within));
+}
+
+static double ratio_of_cell(const struct emission *e, const struct light_set *lights, const struct light_point *y0,
+                            vec3 p, vec3 w)
+{
+    double u[2];
+    int column = y0->cell / e->columns.cells_each;
+    light_emission_numbers(lights, y0, p, w, u);
+    return per_q(e, column) * e->q[column * BINS + bin_of(u)];
+}
+
+double emission_density(const struct emission *e, const struct light_set *lights, const struct light_point *y0, vec3 p,
+                        vec3 w)
+{
+    if (e->q == NULL)
+        return 1;
+    if (y0->light >= 0)
+        return ratio_of_cell(e, lights, y0, p, w);
+    double guided = 0, by_power = 0;
+    struct light_point at = *y0;
+    for (int i = 0; i < lights->n_infinite; i++) {
+        at.light = lights->infinite[i];
+        double pdf = light_pdf_towards(lights, at.light, y0->w, &at.cell);
+        by_power += pdf;
+        guided += pdf > 0 ? pdf * ratio_of_cell(e, lights, &at, p, w) : 0;
+    }
+    return by_power > 0 ? guided / by_power : 0;
+}

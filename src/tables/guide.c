@@ -1,0 +1,143 @@
+/* guide.c: see guide.h. */
+#include "tables/guide.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/cumulative.h"
+#include "base/mem.h"
+
+/* --- sums -------------------------------------------------------------------------------------------- */
+
+void guide_sums_init(struct guide_sums *s, const struct light_set *lights)
+{
+    memset(s, 0, sizeof *s);
+    s->columns = light_columns_new(lights, GUIDE_COLUMNS);
+    s->arrived.columns = s->columns.n + 1;
+}
+
+void guide_sums_free(struct guide_sums *s)
+{
+    light_columns_free(&s->columns);
+    free(s->arrived.x);
+}
+
+void guide_sums_add(struct guide_sums *s, const struct regions *regions, int region, int cell, double value)
+{
+    for (int r = region; r >= 0; r = regions->region[r].above) {
+        double *arrived = sums_row(&s->arrived, r);
+        arrived[cell / s->columns.cells_each] += value;
+        arrived[s->columns.n]++;
+    }
+}
+
+/* --- the tables -------------------------------------------------------------------------------------- */
+
+/* t of every region, each from that of the region above it, region 0 from its own sums. K is SMOOTHING times the
+ * number of columns that the region above effectively has [Kish 1965]: the more there are, the more contributions it
+ * takes to tell them apart. */
+static double *shares_of_regions(struct guide_sums *s, const struct regions *regions)
+{
+    const double SMOOTHING = 16;
+    int n = s->columns.n;
+    double *shares = mem_alloc((size_t)regions->n * (size_t)n, sizeof *shares);
+    for (int i = 0; i < regions->n; i++) {
+        const double *arrived = sums_row(&s->arrived, i), samples = arrived[n], sum = sum_of(arrived, n);
+        double *t = &shares[(size_t)i * (size_t)n], square = 0;
+        if (i == 0) {
+            for (int c = 0; c < n; c++)
+                t[c] = sum > 0 ? arrived[c] / sum : s->columns.power[c];
+            continue;
+        }
+        const double *above = &shares[(size_t)regions->region[i].above * (size_t)n];
+        for (int c = 0; c < n; c++)
+            square += above[c] * above[c];
+        double K = SMOOTHING / square, own = sum > 0 ? samples / (samples + K) / sum : 0, others = K / (samples + K);
+        for (int c = 0; c < n; c++)
+            t[c] = own * arrived[c] + others * above[c];
+    }
+    return shares;
+}
+
+struct guide guide_build(struct guide_sums *s, const struct regions *regions, const struct light_set *lights,
+                         double delta)
+{
+    struct guide g = {light_columns_new(lights, GUIDE_COLUMNS), NULL, regions->n};
+    int n = g.columns.n;
+    double *t = shares_of_regions(s, regions);
+    g.before = mem_alloc((size_t)g.n * (size_t)(n + 1), sizeof *g.before);
+    for (int i = 0; i < g.n; i++) {
+        double *before = &g.before[(size_t)i * (size_t)(n + 1)];
+        for (int c = 0; c < n; c++)
+            before[c + 1] =
+                before[c] + delta * g.columns.power[c] + (1 - delta) * t[(size_t)i * (size_t)n + (size_t)c];
+    }
+    free(t);
+    return g;
+}
+
+void guide_free(struct guide *g)
+{
+    free(g->before);
+    light_columns_free(&g->columns);
+    memset(g, 0, sizeof *g);
+}
+
+/* --- use --------------------------------------------------------------------------------------------- */
+
+/* The sums of a region; NULL: nothing is known of it. */
+static const double *row_of(const struct guide *g, int region)
+{
+    if (region >= g->n)
+        return NULL;
+    const double *before = &g->before[(size_t)region * (size_t)(g->columns.n + 1)];
+    return before[g->columns.n] > 0 ? before : NULL;
+}
+
+static double pmf_of_column(const struct guide *g, const double *before, int column)
+{
+    return (before[column + 1] - before[column]) / before[g->columns.n];
+}
+
+int guide_draw(const struct guide *g, const struct light_set *lights, int region, double u, double *pmf)
+{
+    const double *before = row_of(g, region);
+    if (lights->choice.n == 0)
+        return -1;
+    if (before == NULL)
+        return alias_sample(&lights->choice, u, pmf, NULL);
+    double target = u * before[g->columns.n];
+    int column = cumulative_find(before, g->columns.n, target);
+    double q = pmf_of_column(g, before, column);
+    if (g->columns.cells_each == 1) {
+        *pmf = q;
+        return column;
+    }
+    double rest = below_one((target - before[column]) / (before[column + 1] - before[column]));
+    int cell = light_columns_cell(&g->columns, lights, column, rest);
+    *pmf = q * alias_pmf(&lights->choice, cell) / g->columns.power[column];
+    return cell;
+}
+
+static double ratio_of_cell(const struct guide *g, const double *before, int cell)
+{
+    double e = g->columns.power[cell / g->columns.cells_each];
+    return e > 0 ? pmf_of_column(g, before, cell / g->columns.cells_each) / e : 0;
+}
+
+double guide_density(const struct guide *g, const struct light_set *lights, int region, int cell, vec3 w)
+{
+    const double *before = row_of(g, region);
+    if (before == NULL)
+        return 1;
+    if (cell >= 0 && !(lights->n_infinite > 1 && lights->light[lights->light_of_cell[cell]].kind == LIGHT_INFINITE))
+        return ratio_of_cell(g, before, cell);
+    /* An escaping ray cannot tell infinite lights apart: their densities are added (light.h). */
+    double guided = 0, by_power = 0;
+    for (int i = 0; i < lights->n_infinite; i++) {
+        double pdf = light_pdf_towards(lights, lights->infinite[i], w, &cell);
+        by_power += pdf;
+        guided += pdf * ratio_of_cell(g, before, cell);
+    }
+    return by_power > 0 ? guided / by_power : 0;
+}

@@ -1,0 +1,31 @@
+/* importance.h: where in space can the camera make use of light?
+ *
+ * E of a region (regions.h) is the sum of the luminances of the throughputs with which eye sub-paths arrive there:
+ * large where many or strong ones pass. A light vertex y is worth about I = luminance(beta_y) E(region of y).
+ *
+ * Tests: test_asbdpt.c.
+ */
+#ifndef ASBDPT_IMPORTANCE_H
+#define ASBDPT_IMPORTANCE_H
+
+#include "tables/sums.h"
+
+struct importance {
+    struct row_sums E;        /* by light region; owned */
+    struct row_sums vertices; /* connectible vertices y_1, y_2 ... of a light sub-path in each light region; owned */
+    /* Means over sub-paths: */
+    double light_vertices;               /* connectible vertices of a light sub-path altogether */
+    double eye_vertices, first_vertices; /* of an eye sub-path, and first hits among them */
+    double mean;                         /* sum of E over the vertices of a light sub-path */
+    double useful; /* share of light vertices that carries I: (mean I)^2 / mean(I^2), (0,1] */
+};
+
+void importance_free(struct importance *importance);
+
+/* importance_in: E of a region, >= 0; 0 where no eye sub-path came. */
+static inline double importance_in(const struct importance *importance, int region)
+{
+    return region < importance->E.rows ? importance->E.x[region] : 0;
+}
+
+#endif

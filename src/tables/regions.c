@@ -1,0 +1,120 @@
+/* regions.c: see regions.h. */
+#include "tables/regions.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "base/number.h"
+#include "base/rng.h"
+
+/* A key: level (2 bits), x, y, z (19 bits each), face (3 bits, never 0). */
+enum { FACE_BITS = 3, AXIS_BITS = 19, LEVEL_SHIFT = FACE_BITS + 3 * AXIS_BITS };
+
+void regions_init(struct regions *r, vec3 low, vec3 high, int cells, int n_levels, int limit)
+{
+    const double SHIFT = 0.3819660112501051; /* of a cube; 2 minus the golden ratio */
+    vec3 size = sub(high, low);
+    double diagonal = sqrt(length2(size));
+    memset(r, 0, sizeof *r);
+    r->per_metre = diagonal > 0 ? cells / diagonal : 1;
+    double shift = SHIFT / r->per_metre;
+    r->origin = sub(low, vec(shift, shift, shift));
+    r->last[0] = int_within((size.x + shift) * r->per_metre, 0, cells);
+    r->last[1] = int_within((size.y + shift) * r->per_metre, 0, cells);
+    r->last[2] = int_within((size.z + shift) * r->per_metre, 0, cells);
+    r->n_levels = n_levels;
+    r->limit = limit;
+    r->region = mem_grow(r->region, &r->capacity, 1, sizeof *r->region);
+    r->region[0].above = -1;
+    r->region[0].level = n_levels;
+    r->n = 1;
+}
+
+void regions_free(struct regions *r)
+{
+    free(r->slot);
+    free(r->region);
+    memset(r, 0, sizeof *r);
+}
+
+/* 1..6, the axis and sign a unit normal is nearest to. */
+static uint64_t face_of(vec3 n)
+{
+    double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);
+    if (x >= y && x >= z)
+        return n.x > 0 ? 1 : 2;
+    if (y >= z)
+        return n.y > 0 ? 3 : 4;
+    return n.z > 0 ? 5 : 6;
+}
+
+uint64_t regions_key(const struct regions *r, vec3 p, vec3 side)
+{
+    vec3 c = mul(sub(p, r->origin), r->per_metre);
+    uint64_t x = (uint64_t)int_within(c.x, 0, r->last[0]), y = (uint64_t)int_within(c.y, 0, r->last[1]);
+    uint64_t z = (uint64_t)int_within(c.z, 0, r->last[2]);
+    return x << (FACE_BITS + 2 * AXIS_BITS) | y << (FACE_BITS + AXIS_BITS) | z << FACE_BITS | face_of(side);
+}
+
+/* The region of the next level that holds it: all coordinates halved. */
+static uint64_t key_above(uint64_t key)
+{
+    const uint64_t axis = ((uint64_t)1 << (AXIS_BITS - 1)) - 1;
+    const uint64_t halves =
+        (axis << FACE_BITS) | (axis << (FACE_BITS + AXIS_BITS)) | (axis << (FACE_BITS + 2 * AXIS_BITS));
+    const uint64_t face = (1 << FACE_BITS) - 1, level = (uint64_t)3 << LEVEL_SHIFT;
+    return ((key >> 1) & halves) | (key & face) | ((key & level) + ((uint64_t)1 << LEVEL_SHIFT));
+}
+
+/* The slot that holds the key, or the free one where it belongs. */
+static struct region_slot *slot_of(const struct regions *r, uint64_t key)
+{
+    size_t mask = r->n_slots - 1, i = (size_t)hash_mix(key) & mask;
+    while (r->slot[i].key != 0 && r->slot[i].key != key)
+        i = (i + 1) & mask;
+    return &r->slot[i];
+}
+
+static void grow(struct regions *r)
+{
+    struct regions old = *r;
+    r->n_slots = old.n_slots == 0 ? 1024 : 2 * old.n_slots;
+    r->slot = mem_alloc(r->n_slots, sizeof *r->slot);
+    for (size_t i = 0; i < old.n_slots; i++)
+        if (old.slot[i].key != 0)
+            *slot_of(r, old.slot[i].key) = old.slot[i];
+    free(old.slot);
+}
+
+/* A region of the given level, after those that hold it. */
+static int add_region(struct regions *r, uint64_t key, int level)
+{
+    if (r->n_slots > 0 && slot_of(r, key)->key == key)
+        return slot_of(r, key)->number;
+    int above = level + 1 < r->n_levels ? add_region(r, key_above(key), level + 1) : 0;
+    if (r->n >= r->limit)
+        return above;
+    if (2 * (size_t)r->n >= r->n_slots)
+        grow(r);
+    r->region = mem_grow(r->region, &r->capacity, (size_t)r->n + 1, sizeof *r->region);
+    r->region[r->n].above = above;
+    r->region[r->n].level = level;
+    struct region_slot *s = slot_of(r, key);
+    s->key = key;
+    s->number = r->n++;
+    return s->number;
+}
+
+int regions_add(struct regions *r, uint64_t key) { return add_region(r, key, 0); }
+
+int regions_find(const struct regions *r, uint64_t key)
+{
+    for (int level = 0; r->n_slots > 0 && level < r->n_levels; level++, key = key_above(key)) {
+        const struct region_slot *s = slot_of(r, key);
+        if (s->key == key)
+            return s->number;
+    }
+    return 0;
+}

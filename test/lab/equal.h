@@ -1,0 +1,55 @@
+/* equal.h: methods after the same CPU time, by arithmetic.
+ *
+ * The first method has N samples per pixel, or all have as many seconds as were asked for. Time is counted in samples
+ * of the first method: T = before_1 + N. A method that prepares for `before` and pays `each` per sample (struct price)
+ * can afford n = (T - before) / each, and is rendered with the nearest whole number of samples. The squared error of an
+ * unbiased method falls as 1 / samples, so at T it is that of the render times samples / n: nothing but the rounding.
+ * (A bias does not fall; half a sample of some dozen is not seen in it.)
+ *
+ * Tests: test_equal_time.c.
+ */
+#ifndef ASBDPT_LAB_EQUAL_H
+#define ASBDPT_LAB_EQUAL_H
+
+#include "lab/results.h"
+
+/* equal_afforded: n; equal_samples: as rendered, at least 1. */
+double equal_afforded(const struct scene_results *s, int method);
+long equal_samples(const struct scene_results *s, int method);
+
+/* equal_squares: of all seeds, the squared errors at T, into out [PLAN_MAX_SEEDS]; NaN where not even one sample can be
+ * afforded. equal_ratio: their mean over that of another method, with the interval of results_ratio. */
+extern const char *const EQUAL_NAMES[N_SQUARES];
+void equal_squares(const struct scene_results *s, int method, enum square which, double *out);
+struct interval equal_ratio(const struct scene_results *s, int method, int over, enum square which);
+
+/* equal_summarize: a method over the first in all scenes together; those without a ratio are left out. */
+struct equal_summary {
+    double mean, best, worst;             /* geometric mean; smallest and largest ratio */
+    const char *best_scene, *worst_scene; /* "-" if there is none */
+    int n;                                /* scenes with a ratio */
+};
+struct equal_summary equal_summarize(const struct results *r, int method, enum square which);
+
+/* equal_price: of a sample over one of the first, geometric mean over scenes. */
+double equal_price(const struct results *r, int method);
+
+/* equal_bootstrap: the geometric mean over scenes of a method's ratio to another, with a 95 % interval: scenes are
+ * drawn again with replacement, and in each the seeds of both methods; deviations are widened by sqrt(k/(k-1)), k the
+ * number of scenes. Of one scene it is equal_ratio. NaN where a scene has no ratio.
+ *   wanted  only scenes whose name begins so; NULL: all;  n  out: how many these are */
+struct interval equal_bootstrap(const struct results *r, int method, int over, enum square which, const char *wanted,
+                                int *n);
+
+/* equal_seconds: CPU seconds of one seed of all methods, by their prices. */
+double equal_seconds(const struct scene_results *s);
+
+/* equal_seeds_wanted: how many seeds may make the interval of r, which has n, leave 1: it shrinks as one over the
+ * root. */
+double equal_seeds_wanted(struct interval r, int n);
+
+/* equal_verdict: is the first method beaten? Two lines for each other, and one; where that is undecided, what would
+ * decide it and how long that takes. */
+void equal_verdict(FILE *f, const struct results *r);
+
+#endif

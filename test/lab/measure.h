@@ -1,0 +1,32 @@
+/* measure.h: the one engine of all measurements: it carries out a plan.
+ *
+ * Every picture is a record of the store (store.h): of a scene, a method with its settings, a seed, a size and a number
+ * of samples; so is every price. What is there is not measured again, whichever command left it there; what was
+ * interrupted goes on where it stopped. A scene or a method that makes another picture begins anew; a program that
+ * is only faster does not notice: delete store/ to measure its prices again.
+ *
+ * Pictures after a rising number of samples come from one film, so that a run yields a whole convergence curve.
+ *
+ * At equal time prices come first: in three rounds the first method and another are timed by turns on one thread, with
+ * few samples, and what each prepares by itself. Then the samples that each can have are arithmetic, and pictures may
+ * be rendered on as many threads as there are, on a busy machine: no time is taken of them that counts.
+ *
+ * Squared errors (results.h) are those against a reference, stored, given or rendered, which is kept in reference/; but
+ * at equal time, of unbiased methods with three seeds or more, they come from pairs, unless a reference was given. Then
+ * none is rendered. What biased methods are compared with is the mean of all that the others made, each weighted by the
+ * inverse of its squared error, whose own noise is known by these.
+ *
+ * Tests: test_report.c, test_equal_time.c.
+ */
+#ifndef ASBDPT_LAB_MEASURE_H
+#define ASBDPT_LAB_MEASURE_H
+
+#include "lab/results.h"
+
+/* measure: fill `out`, to be released with results_free also on failure. Returns false with a message. */
+bool measure(const struct plan *plan, struct results *out, struct error *err);
+
+/* measure_by_pairs: do a method's squared errors come from pairs? */
+bool measure_by_pairs(const struct plan *p, int method);
+
+#endif
