@@ -1,5 +1,6 @@
-/* test_family.c: every method but pathgraph, whose bias is known, against pt, to a thousandth of the mean: in six scenes, and
- * in pools of one, two and four light sub-paths; the dissertation's bins, with the same samples, are found out. */
+/* test_family.c: every method but pathgraph, whose bias is known, against pt, to a thousandth of the mean: in six
+ * scenes, and in pools of one, two and four light sub-paths; the dissertation's bins, with the same samples, are found
+ * out. */
 #include <stdio.h>
 #include <string.h>
 
