@@ -106,7 +106,7 @@ static void test_scenes_by(struct test *t, const char *other, const char *const 
         snprintf(path, sizeof path, "scenes/test/%s.pbrt", scenes[i]);
         if (!scene_from_file(t, path, 24, 24, &scene))
             continue;
-        const struct plan plan = {spp, 16, 12, 171};
+        const struct plan plan = {spp, 12, 12, 171};
         all_agree(t, &scene, scenes[i], other, plan, ways, plan);
         scene_free(&scene);
     }
@@ -119,7 +119,7 @@ static void test_every_scene(struct test *t)
                                        "ris2 presampled=20 records=.01", "restir neighbours=20", NULL};
     static const char *const shared[] = {"restirgi", "restirgi neighbours=20", NULL};
     test_scenes_by(t, "bdpt", ways, 4);
-    test_scenes_by(t, "pt", shared, 32);
+    test_scenes_by(t, "pt", shared, 8);
 }
 
 /* A slope beside the wall that lights it, and behind a low fence, from above: what comes from there, and the density of
