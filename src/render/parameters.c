@@ -7,13 +7,12 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "caustics/caustic.h"
 #include "parser/symbols.h"
 
 /* What all integrators have. */
 struct common {
-    int max_depth, heuristic, strategy, caustics;
-    double rr_threshold, regularise;
+    int max_depth, heuristic, strategy;
+    double rr_threshold;
 };
 enum { DEFAULT_MAX_DEPTH = 5 }; /* pbrt-v3's */
 static const char *const HEURISTICS[] = {"balance", "power", NULL};
@@ -28,10 +27,6 @@ static const struct field COMMON[] = {
      "relative throughput at which Russian roulette begins, 0: never; asbdpt's bins: 0", NULL},
     {"lightsamplestrategy", FIELD_WORD, AT(strategy), 0, 0, 0,
      "asbdpt: s = 1 picks lights by what is seen, or by power", STRATEGIES},
-    {"caustics", FIELD_INTEGER, AT(caustics), 0, 0, CAUSTIC_LONGEST,
-     "most mirrors or glass surfaces between a first hit and a light that are joined, if it pays; 0: none", NULL},
-    {"regularise", FIELD_NUMBER, AT(regularise), 0, 0, 1,
-     "biased: angle by which mirrors and glass are blurred where nothing else finds a light; 0: none", NULL},
     {.name = NULL}};
 
 const struct field *parameters_common(void) { return COMMON; }
@@ -220,12 +215,6 @@ bool parameters_read(const struct scene *scene, const struct method *m, int max_
         return false;
     job->max_depth = max_depth > 0 ? max_depth : c.max_depth;
     job->rr_threshold = settings_text(s, "rrthreshold", NULL) != NULL ? c.rr_threshold : m->rr_threshold;
-    job->caustics = c.caustics;
-    job->regularise = c.regularise;
-    if (c.caustics > 0 && c.regularise > 0)
-        return error_set(err, "\"caustics\" and \"regularise\" make the same paths; choose one");
-    if (m->chain && (c.caustics > 0 || c.regularise > 0))
-        return error_set(err, "%s is a Markov chain, which has no \"caustics\" and no \"regularise\"", m->name);
     job->power_heuristic = c.heuristic == 1;
     job->spatial_lights = c.strategy == 0;
     return true;
