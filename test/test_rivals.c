@@ -56,8 +56,9 @@ static void all_agree(struct test *t, struct scene *scene, const char *what, con
  * a third of the pixels have records. */
 static void test_small_pools(struct test *t)
 {
-    static const char *const cases[] = {"mbdpt pathpixels=9", "mbdpt pathpixels=5", "pcbdpt records=.3 subpaths=1",
-                                        "pcbdpt records=.3 subpaths=4 connections=2", "ris records=.3 subpaths=1",
+    static const char *const cases[] = {"mbdpt pathpixels=9", "mbdpt pathpixels=5 key=throughput", "lvc connections=0",
+                                        "pcbdpt records=.3 subpaths=1", "pcbdpt records=.3 subpaths=4 connections=2",
+                                        "ris records=.3 subpaths=1",
                                         "ris records=.3 subpaths=2", "ris records=.3 subpaths=4",
                                         "ris2 records=.3 presampled=2 subpaths=2", "restir candidates=1 neighbours=2",
                                         "restir candidates=4 neighbours=8", "restirgi neighbours=8",
