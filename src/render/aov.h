@@ -8,8 +8,8 @@
  *   variance  of the rendered pixel itself, the mean of its samples: the square of its standard error
  *
  * The first four are means over the first AOV_SAMPLES samples of a pixel, if the render has so many, through the very
- * points of pixel and lens that it draws, so that their edges are smooth where the picture's are. Depth and position are means over
- * those that hit something. Where nothing is hit all are 0.
+ * points of pixel and lens that it draws, so that their edges are smooth where the picture's are. Depth and position
+ * are means over those that hit something. Where nothing is hit all are 0.
  *
  * Denoisers want albedo and normal to show what the picture does, in mirrors and behind glass, too. On request these
  * are those of the first surface on the eye sub-path that does not only mirror and refract, or else of the last that it
