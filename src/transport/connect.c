@@ -178,9 +178,8 @@ bool connect_join(const struct vertex *y, const struct vertex *z, struct joint *
         return false;
     struct scatter at_y = scatter_towards(y, neg(w), IMPORTANCE);
     rgb value = rgb_mul(rgb_mul(y->beta, at_y.factor), rgb_scale(rgb_mul(z->beta, at_z.factor), 1 / d2));
-    struct joint j = {y, z, value, at_y.pdf, at_z.pdf, at_y.pdf_rev, at_z.pdf_rev, distance,
-                      abs_dot(y->ng, w) / d2, abs_dot(z->ng, w) / d2};
-    *out = j;
+    *out = (struct joint){y, z, value, at_y.pdf, at_z.pdf, at_y.pdf_rev, at_z.pdf_rev, distance,
+                          abs_dot(y->ng, w) / d2, abs_dot(z->ng, w) / d2};
     return !rgb_is_black(value);
 }
 
