@@ -23,7 +23,7 @@
 #include <string.h>
 
 #include "base/maths.h"
-#include "integrators/pooled.h"
+#include "rivals/together.h"
 
 struct vcm_state {
     struct frozen frozen;
@@ -207,6 +207,11 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
     }
 }
 
+static void render(const struct preparation *m, const struct tile_pass *pass)
+{
+    together_render(m, pass, connect_all);
+}
+
 static void free_scratch(void *scratch)
 {
     struct vcm *m = scratch;
@@ -233,5 +238,5 @@ const struct method method_vcm = {
     .why = "the pixel's own light sub-path, and all of the tile's light vertices within the radius; scale 1, of merges "
            "1 / (K pi r^2)",
     .parameters = PARAMETERS, .state_size = sizeof(struct vcm_state), .scratch_size = sizeof(struct vcm),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render, .scratch_free = free_scratch,
-    .begin = begin, .connect_all = connect_all};
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = render, .scratch_free = free_scratch,
+    .begin = begin};
