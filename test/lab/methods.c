@@ -120,7 +120,7 @@ void methods_all(char out[METHODS_TEXT])
                           (*m)->select != NULL ? ":select=" : "", (*m)->select != NULL ? (*m)->select : "");
 }
 
-/* Services are parameters that several methods have: what they are called, and how they are off and on. */
+/* Services are parameters that several methods have, all of them or none: how they are off and on. */
 static const struct {
     const char *name, *value[N_HALVES];
 } SERVICES[] = {{"guide", {"off", "on"}}, {"emission", {"1", "0.2"}}, {"credit", {"off", "on"}},
@@ -137,7 +137,8 @@ static void in_half(const char *text, enum half half, char out[METHOD_TEXT])
     set_pairs(text, &s, NULL);
     const struct method *row = method_find(integrator, &s, NULL);
     int n = snprintf(out, METHOD_TEXT, "%s", text);
-    for (size_t i = 0; row != NULL && i < sizeof SERVICES / sizeof SERVICES[0]; i++)
+    bool serves = row != NULL && method_has(row, "guide") != NULL;
+    for (size_t i = 0; serves && i < sizeof SERVICES / sizeof SERVICES[0]; i++)
         if (method_has(row, SERVICES[i].name) != NULL && settings_text(&s, SERVICES[i].name, NULL) == NULL &&
             n < METHOD_TEXT)
             n += snprintf(out + n, (size_t)(METHOD_TEXT - n), ":%s=%s", SERVICES[i].name, SERVICES[i].value[half]);
