@@ -1,5 +1,5 @@
 /* vcm.c: vertex connection and merging: bdpt, and light vertices that lie so near to an eye vertex that they are taken
- * for it. Biased; right in the limit, as the radius shrinks.                          [Georgiev 2012] [Hachisuka 2012]
+ * for it. Biased; right in the limit, as the radius shrinks.                          [Georgiev 2012c]
  *
  * A path x_0 ... x_k can also be made by a light sub-path to y near x_i and an eye sub-path to z near it. If y is within
  * r of z, that pair stands for a path of one vertex, x_i:
@@ -9,10 +9,10 @@
  * eta = K pi r^2. So in the sums of mis.h the merge at x_e is one more strategy that ends just before vertex e:
  *     c_e' = c_e + eta F_e,
  * in both walks, at vertices where something can be merged; all that the heart weighs then knows of it. A merge has
- *     w = 1 / (1 + (c_y + pdf_rev_y mis_y) / (eta F_y) + (c_z + pdf_rev_z mis_z) / (eta F_z)).   [Georgiev 2012 eq. 9]
+ *     w = 1 / (1 + (c_y + pdf_rev_y mis_y) / (eta F_y) + (c_z + pdf_rev_z mis_z) / (eta F_z)).   [Georgiev 2012c]
  *
  * Unlike in the paper the K sub-paths are those of a tile, so no map of the whole picture is needed, nor anything between
- * iterations: the radius of iteration i is r_0 (i + 1)^((alpha - 1) / 2)            [Knaus & Zwicker 2011]. With fewer
+ * iterations: the radius of iteration i is r_0 (i + 1)^((alpha - 1) / 2); [Georgiev 2012c]. With fewer
  * sub-paths a merge brings more at a time; over iterations it is the same. Only the balance heuristic is right here.
  *
  * Tests: test_vcm.c.
@@ -234,7 +234,7 @@ static const struct field PARAMETERS[] = {
     {.name = NULL}};
 
 const struct method method_vcm = {
-    .name = "vcm", .help = "vertex connection and merging [Georgiev 2012]: bdpt, and vertices that meet; biased",
+    .name = "vcm", .help = "vertex connection and merging [Georgiev 2012c]: bdpt, and vertices that meet; biased",
     .why = "the pixel's own light sub-path, and all of the tile's light vertices within the radius; scale 1, of merges "
            "1 / (K pi r^2)",
     .parameters = PARAMETERS, .state_size = sizeof(struct vcm_state), .scratch_size = sizeof(struct vcm),
