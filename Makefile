@@ -135,7 +135,7 @@ mutants: ## apply small faults one by one; the tests must catch every one
 	sh test/mutants/run.sh 2
 
 layers: ## check that no file includes a higher room, that no room holds a circle, that headers compile alone
-	@ABOVE="test/lab/rivals test/lab/chains test/lab" sh test/layers.sh src $(CC)
+	@ABOVE="test/lab/caustics test/lab/rivals test/lab/chains test/lab" sh test/layers.sh src $(CC)
 
 standard: ## check that src calls and includes nothing that differs from machine to machine, but in one place
 	@sh test/standard.sh

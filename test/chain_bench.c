@@ -35,7 +35,7 @@ bool bench_new(struct test *t, const struct scene *scene, const char *integrator
 {
     struct render_options o = {.integrator = integrator, .seed = test_seed(t) + seed, .max_depth = BENCH_DEPTH,
                                .n_threads = 1};
-    struct error err = {""};
+    struct error err = {.text = ""};
     memset(out, 0, sizeof *out);
     out->scene = scene;
     if (!CHECK(t, render_prepare(scene, &o, render_crop(scene), &out->job, &out->prepared, &err), "%s", err.text))

@@ -282,7 +282,7 @@ static void test_starts(struct test *t)
 static void test_luminance(struct test *t, const char *integrator)
 {
     struct scene scene;
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct film film;
     double sum = 0;
     if (!bench_room(t, 20, 12, "", "box", &scene))

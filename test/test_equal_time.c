@@ -27,7 +27,7 @@ static void plant(struct plan *p, struct results *r)
     static const double ratio[3][SCENES] = {{1, 1, 1}, {0.5, 4, 1}, {0.25, 0.25, 0.25}};
     static const struct price price[3] = {{0, 1, 0}, {8, 1.5, 0.1}, {0, 0.5, 0}};
     static const char *const paths[SCENES] = {"a.pbrt", "b.pbrt", "c.pbrt"};
-    struct error err = {""};
+    struct error err = {.text = ""};
     memset(p, 0, sizeof *p);
     p->n_scenes = SCENES;
     p->n_seeds = SEEDS;
@@ -210,7 +210,7 @@ static void check_all_methods(struct test *t)
 {
     char text[METHODS_TEXT];
     struct methods all;
-    struct error err = {""};
+    struct error err = {.text = ""};
     int rows = 0;
     while (method_rows[rows] != NULL)
         rows++;
@@ -224,7 +224,7 @@ static void check_all_methods(struct test *t)
 /* A plan of the Cornell box, once as one's own and once as published, 8x8 pixels. */
 static void small_plan(struct plan *p, const char **scenes, const char *directory, const char *methods)
 {
-    struct error err = {""};
+    struct error err = {.text = ""};
     memset(p, 0, sizeof *p);
     scenes[0] = scenes[1] = "scenes/cornell-box.pbrt";
     p->scene = scenes;
@@ -253,7 +253,7 @@ static void check_resumed(struct test *t)
     static const char *const files[] = {"family.md", "runs.csv", "family.svg", "family.png"};
     const char *scenes[2];
     char directory[300], path[512];
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct plan p, more;
     struct results first = {0}, again = {0}, third = {0};
     snprintf(directory, sizeof directory, "%s/family", test_tmp(t));
@@ -295,7 +295,7 @@ static void check_resumed(struct test *t)
 static void check_both_ways(struct test *t)
 {
     const char *scenes[2];
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct plan p;
     struct results by_pairs = {0}, by_reference = {0};
     small_plan(&p, scenes, NULL, "bdpt,pt,lvc,asbdpt:select=bins:restart=0:maxage=1000");

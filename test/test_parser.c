@@ -320,7 +320,7 @@ static void check_fixture(struct test *t, const char *name)
     char path[TEXT], expect[TEXT];
     snprintf(path, sizeof path, "%s/%s", FIXTURES, name);
     size_t size;
-    struct error err = {""};
+    struct error err = {.text = ""};
     char *text = text_read(path, &size, &err);
     struct scene s;
     struct hearing *heard = mem_alloc(1, sizeof *heard);
@@ -349,7 +349,7 @@ static void check_fixture(struct test *t, const char *name)
 static void check_nothing_quoted(struct test *t)
 {
     struct scene s;
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct hearing *heard = mem_alloc(1, sizeof *heard);
     struct message_sink sink = {hear_warning, hear_error, heard};
     CHECK(t, !parse_scene("test/fixtures/include-no-scene.pbrt", &s, &sink, &err) && heard->errors.n == 1 &&
@@ -474,7 +474,7 @@ static void check_odd_bytes(struct test *t)
     char path[TEXT], want[2 * TEXT];
     snprintf(path, sizeof path, "%s/odd.pbrt", test_tmp(t));
     write_bytes(path, TEXT_OF, sizeof TEXT_OF - 1);
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct scene s;
     CHECK(t, !parse_scene(path, &s, NULL, &err), "an odd name is accepted");
     snprintf(want, sizeof want, "%s:2:10: %s/gr\xc3\xbcn?[31m??: cannot open", path, test_tmp(t));
@@ -495,7 +495,7 @@ static void check_subdivided(struct test *t)
     char path[TEXT];
     snprintf(path, sizeof path, "%s/subdivided.pbrt", test_tmp(t));
     write_bytes(path, TEXT_OF, sizeof TEXT_OF - 1);
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct scene s;
     static const char WANT[] = ":3:7: 11 levels would make 8.39e+06 triangles of 2; of this scene yet 8388607 are made";
     CHECK(t, !parse_scene(path, &s, NULL, &err) && strstr(err.text, WANT) != NULL,
@@ -565,7 +565,7 @@ static void check_repeated(struct test *t)
                  "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
                  "element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0 1 0 0 0 1 0 3 0 1 2 ");
     for (size_t i = 0; i < sizeof CASE / sizeof CASE[0]; i++) {
-        struct error err = {""};
+        struct error err = {.text = ""};
         CHECK(t, parse_repeated(t, CASE[i].line, CASE[i].most, &err), "%s: %s", CASE[i].line, err.text);
         CHECK(t, !parse_repeated(t, CASE[i].line, CASE[i].most + 1, &err), "%s is accepted",
               CASE[i].line);
@@ -583,7 +583,7 @@ static void check_unpacked(struct test *t)
     struct image large = small;
     large.content = 2;
     large.file_size = 1 << 21;
-    struct error err = {""};
+    struct error err = {.text = ""};
     bool ok = true;
     for (int i = 0; i < 3; i++) {
         small.content = 3 + (uint64_t)i;
@@ -603,7 +603,7 @@ static void check_many_errors(struct test *t)
 {
     struct hearing *heard = mem_alloc(1, sizeof *heard);
     struct message_sink sink = {hear_warning, hear_error, heard};
-    struct error err = {""};
+    struct error err = {.text = ""};
     char path[TEXT];
     parse_repeated(t, "Shpae", 1000, &err);
     snprintf(path, sizeof path, "%s/repeated.pbrt", test_tmp(t));
@@ -629,7 +629,7 @@ static void check_no_files(struct test *t)
                                         "LightSource \"point\" \"spectrum I\" \"%s\"",
                                         "Shape \"plymesh\" \"string filename\" \"%s\""};
     for (int i = 0; i < 16; i++) {
-        struct error err = {""};
+        struct error err = {.text = ""};
         snprintf(line, sizeof line, LINES[i / 4], NAMES[i % 4][0]);
         CHECK(t, !parse_repeated(t, line, 1, &err) && strstr(err.text, NAMES[i % 4][1]) != NULL, "%s: %s", line,
               err.text);
@@ -681,7 +681,7 @@ static void check_damaged(struct test *t, const struct fixtures *f, int rounds)
     if (!CHECK(t, n_ok > 0, "no fixture is ok"))
         return;
     for (int i = 0; i < rounds; i++) {
-        struct error err = {""};
+        struct error err = {.text = ""};
         size_t size;
         int pick = i % 2 == 0 ? i / 2 % f->n : first_ok + i / 2 % n_ok; /* every other one was whole before */
         snprintf(from, sizeof from, "%s/%s", FIXTURES, f->name[pick]);

@@ -30,7 +30,7 @@ static int add_triangle(struct test *t, struct geometry *geo, bool with_n, bool 
                         bool reverse)
 {
     struct mesh m = {corner, with_n ? corner_normal : NULL, with_uv ? corner_uv : NULL, corner_index, 3, 1, 0, 0, 0, 0};
-    struct error err = {""};
+    struct error err = {.text = ""};
     int group = shape_add_mesh(geo, &m, &to_world, group_of(7, 40), reverse, &err);
     CHECK(t, group == geo->n_groups - 1, "%s", err.text);
     return geo->group[group].first_prim;
@@ -130,7 +130,7 @@ static void check_vertex_normals(struct test *t, struct rng *r)
     const double h = 1e-5;
     for (int i = 0; i < 50; i++) {
         struct geometry geo = {0};
-        struct error err = {""};
+        struct error err = {.text = ""};
         struct transform m = random_affine(r);
         double b1 = 0.1 + 0.4 * rng_uniform(r), b2 = 0.1 + 0.3 * rng_uniform(r);
         float normal[9];
@@ -310,7 +310,7 @@ static void check_refused(struct test *t)
                           quadric(QUADRIC_SPHERE, transform_scale(1, 1, 1e19), 1, 0, -1, 1, 2 * PI),
                           quadric(QUADRIC_SPHERE, transform_translate(vec(NAN, 0, 0)), 1, 0, -1, 1, 2 * PI)};
     struct geometry geo = {0};
-    struct error err = {""};
+    struct error err = {.text = ""};
     for (size_t i = 0; i < sizeof q / sizeof q[0]; i++)
         CHECK(t, shape_add_quadric(&geo, q[i], group_of(0, -1), false, &err) == -1 && geo.n_quadrics == 0 &&
                      strstr(err.text, "not a usable position") != NULL, "quadric %d: \"%s\"", (int)i, err.text);

@@ -122,7 +122,7 @@ static bool suits(const struct job_options *o, const struct method *m, const str
                          : o->lights != NULL ? "--lights" : o->alpha ? "--alpha"
                          : keep_asks_noise(&o->keep) ? "--noise" : NULL;
     return !m->chain || wanted == NULL ||
-           error_set(err, "%s: the samples of %s are a chain, and do not show that; render several --seed", wanted,
+           error_usage(err, "%s: the samples of %s are a chain, and do not show that; render several --seed", wanted,
                      m->name);
 }
 

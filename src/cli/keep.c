@@ -20,12 +20,12 @@ static bool resumes_its_own(const struct keep_options *o)
 bool keep_check(const struct keep_options *o, struct error *err)
 {
     if (o->samples[1] > 0 && keep_asks_noise(o))
-        return error_set(err, "--noise is that of the whole picture; --samples takes a part of it");
+        return error_usage(err, "--noise is that of the whole picture; --samples takes a part of it");
     if (o->checkpoint == NULL)
         return true;
     enum os_kind kind = os_kind_of(o->checkpoint);
     if (strcmp(o->checkpoint, "-") == 0 || (kind != OS_NOTHING && kind != OS_FILE))
-        return error_set(err, "--checkpoint %s: it needs a file", o->checkpoint);
+        return error_usage(err, "--checkpoint %s: it needs a file", o->checkpoint);
     if (kind == OS_FILE && !resumes_its_own(o))
         return error_set(err, "%s: there is such a file already; go on with it by --resume %s, or remove it",
                          o->checkpoint, o->checkpoint);
@@ -130,7 +130,7 @@ bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const 
     render->planned = render->end;
     if (o->samples[1] > 0) {
         if (o->samples[1] > render->planned)
-            return error_set(err, "--samples %d:%d: there are %ld per pixel, see --spp", o->samples[0], o->samples[1],
+            return error_usage(err, "--samples %d:%d: there are %ld per pixel, see --spp", o->samples[0], o->samples[1],
                              render->planned);
         render->first = o->samples[0];
         render->end = o->samples[1];

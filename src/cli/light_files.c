@@ -45,7 +45,7 @@ bool lights_check(const char *directory, const struct scene *scene, struct names
 {
     const struct light_set *lights = &scene->lights;
     bool ok = directory == NULL || lights->n_groups <= LIGHT_MAX_GROUPS ||
-              error_set(err, "--lights: %d pictures, one for each light, and %d are the most here; lights with the "
+              error_usage(err, "--lights: %d pictures, one for each light, and %d are the most here; lights with the "
                         "same \"string group\" are one", lights->n_groups, LIGHT_MAX_GROUPS);
     for (int i = 0; ok && directory != NULL && i < lights->n_groups; i++) {
         char *path = picture_path(directory, lights, i);

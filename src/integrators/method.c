@@ -5,9 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "caustics/caustic.h"
-#include "caustics/regularise.h"
-
 const struct field *method_has(const struct method *m, const char *name)
 {
     static const struct field select = {"select", FIELD_WORD, 0, 0, 0, 0, "", NULL};
@@ -30,12 +27,6 @@ bool method_check(const struct method *m, const struct settings *s, struct error
     return ok;
 }
 
-static void add_note(char note[FILM_NOTE_SIZE], const char *text)
-{
-    size_t n = strlen(note);
-    snprintf(note + n, FILM_NOTE_SIZE - n, "%s%s", n > 0 ? "; " : "", text);
-}
-
 bool method_prepare(const struct method *m, const struct render_job *job, struct preparation *out, struct error *err)
 {
     struct preparation standard = {.method = m, .state = mem_alloc(1, m->state_size),
@@ -52,21 +43,8 @@ bool method_prepare(const struct method *m, const struct render_job *job, struct
     }
     if (f->path_pixels > 0)
         f->counts.splat /= f->path_pixels;
-    if (job->caustics > 0)
-        out->extra = caustics_new(job->scene, job->caustics);
-    else if (job->regularise > 0)
-        out->extra = regularise_new(job->regularise);
-    f->counts.extra = out->extra;
     if (m->prepare != NULL)
         m->prepare(job, out);
-    if (out->extra != NULL && f->counts.extra != out->extra) {
-        method_release(out);
-        return error_set(err, "%s makes such paths its own way, without \"caustics\" and \"regularise\"", m->name);
-    }
-    if (job->caustics > 0 && out->extra != NULL)
-        f->counts.extra = out->extra = caustics_settle(out->extra, job, &f->counts);
-    if (job->regularise > 0)
-        add_note(out->note, "biased: mirrors and glass are blurred where nothing else finds a light");
     return true;
 }
 
@@ -75,8 +53,6 @@ void method_release(struct preparation *p)
     if (p->method->release != NULL)
         p->method->release(p->state);
     free(p->state);
-    if (p->extra != NULL)
-        p->extra->release(p->extra);
 }
 
 void *method_scratch(const struct preparation *p)

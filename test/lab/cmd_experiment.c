@@ -130,7 +130,7 @@ static bool plan_experiment(struct plan_options *o, char command[COMMAND], struc
     static const char *const sweeps[2][2] = {{SWEEPS_QUICK}, {SWEEPS_FULL}};
     char how[64];
     if (o->quick && o->full)
-        return error_set(err, "--quick and --full exclude each other");
+        return error_usage(err, "--quick and --full exclude each other");
     long first = o->full ? 32 : 8, last = o->spp > 0 ? o->spp : o->full ? 512 : 64;
     if (o->methods == NULL && o->sweeps.n == 0)
         for (int i = 0; i < 2; i++)
