@@ -49,14 +49,16 @@ static double mass_error(const struct alias_table *t, const double *weight, int 
 }
 
 /* Bins that say of their other element what is not so: its probability; that it is their own, or none, while they are
- * not full. */
+ * not full, or that they are more than full. */
 static int wrong_bins(const struct alias_table *t, bool probability)
 {
     int wrong = 0;
     for (int i = 0; i < t->n; i++) {
         const struct alias_bin *b = &t->bin[i];
         bool other = b->alias < (uint32_t)t->n && b->alias != (uint32_t)i;
-        if (b->threshold < 1)
+        if (!(b->threshold >= 0 && b->threshold <= 1))
+            wrong += !probability;
+        else if (b->threshold < 1)
             wrong += probability ? other && b->alias_pmf != alias_pmf(t, (int)b->alias) : !other;
     }
     return wrong;
@@ -135,7 +137,7 @@ static void every_shape(struct test *t)
             if (!CHECK(t, alias_build(&table, w, n), "%s, n %d: builds", SHAPE_NAME[shape], n))
                 continue;
             int alone = wrong_bins(&table, false), told = wrong_bins(&table, true);
-            CHECK(t, alone == 0, "%s, n %d: %d bins with a threshold below 1 have no other item as their alias",
+            CHECK(t, alone == 0, "%s, n %d: %d bins have a threshold above 1, or one below and no other item as alias",
                   SHAPE_NAME[shape], n, alone);
             CHECK(t, told == 0, "%s, n %d: %d bins have an alias_pmf that is not their alias' probability",
                   SHAPE_NAME[shape], n, told);
