@@ -46,6 +46,7 @@ bool bench_new(struct test *t, const struct scene *scene, const char *integrator
         out->chain->job = &out->job;
         out->chain->work = out->work;
         out->chain->rng = rng_stream(o.seed, RNG_TEST, 1, 0);
+        chain_start(out->chain, 0);
     }
     return true;
 }

@@ -9,6 +9,8 @@
 #include "base/file.h"
 #include "base/mem.h"
 #include "base/rng.h"
+#include "lab/claims.h"
+#include "helpers.h"
 #include "lab/equal.h"
 #include "lab/family.h"
 #include "lab/measure.h"
@@ -160,6 +162,34 @@ static void check_coverage(struct test *t)
     free(p.scene);
 }
 
+/* lvc has a quarter of bdpt's error everywhere; asbdpt half, four times and as much. */
+static void check_claims(struct test *t, struct results *r)
+{
+    static const struct {
+        struct claim claim;
+        enum verdict_of verdict;
+        int scenes;
+    } cases[] = {{{"lvc", "bdpt", 0.5, NULL, ""}, CLAIM_FOUND, 3},
+                 {{"lvc", "bdpt", 0.1, NULL, ""}, CLAIM_NOT_FOUND, 3},
+                 {{"asbdpt", "bdpt", 1, NULL, ""}, CLAIM_OPEN, 3},
+                 {{"asbdpt", "bdpt", 1, "b", ""}, CLAIM_NOT_FOUND, 1},
+                 {{"asbdpt", "bdpt", 1, "a", ""}, CLAIM_FOUND, 1},
+                 {{"pt", "bdpt", 1, NULL, ""}, CLAIM_UNMEASURED, 0},
+                 {{"lvc", "bdpt", 1, "no-such", ""}, CLAIM_UNMEASURED, 0}};
+    struct interval ratio[N_SQUARES];
+    int n;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        enum verdict_of v = claim_judge(r, &cases[i].claim, HALF_CHOICE, ratio, &n);
+        CHECK(t, v == cases[i].verdict && n == cases[i].scenes, "claim %d: verdict %d, %d scenes", (int)i, (int)v, n);
+    }
+    for (int k = 0; k < SEEDS; k++) /* what one of the three says against is not found */
+        r->scene[0].run[1][k].step[0].square[SQUARE_BLOCKS] *= 8;
+    CHECK(t, claim_judge(r, &cases[4].claim, HALF_CHOICE, ratio, &n) == CLAIM_NOT_FOUND, "8x8 does not count");
+    for (int k = 0; k < SEEDS; k++)
+        r->scene[0].run[1][k].step[0].square[SQUARE_BLOCKS] /= 4;
+    CHECK(t, claim_judge(r, &cases[4].claim, HALF_CHOICE, ratio, &n) == CLAIM_OPEN, "two of three are enough");
+}
+
 /* --- what is written ----------------------------------------------------------------------------------- */
 
 static void check_tables(struct test *t, struct results *r)
@@ -246,6 +276,43 @@ static bool same(const struct results *a, const struct results *b, int scene, in
     return x->spp == y->spp && x->square[SQUARE_RELMSE] == y->square[SQUARE_RELMSE];
 }
 
+/* A record that is cut anywhere, or of which a byte has changed, is none, or still the same. */
+static void check_damage(struct test *t, const char *directory)
+{
+    static const char *const ENDS[] = {"txt", "pfm"};
+    static const char OTHERS[] = "-0719n \n";
+    float pixels[2 * 1 * 3] = {0, 1, 2, 3, 0.5f, 0.25f};
+    const struct record kept = {{1, 2.5, 0, 1e-3}, pixels, 2, 1};
+    struct error err = {.text = ""};
+    int tried = 0;
+    CHECK(t, store_write(directory, "z", "key", &kept, &err), "%s", err.text);
+    for (int end = 0; end < 2; end++) {
+        char path[512];
+        uint8_t *data;
+        size_t n;
+        snprintf(path, sizeof path, "%s/z.%s", directory, ENDS[end]);
+        CHECK(t, file_read(path, &data, &n, &err), "%s", err.text);
+        for (size_t at = 0; data != NULL && at < n; at++)
+            for (size_t other = 0; other < sizeof OTHERS; other++) {
+                struct record r = {{0}, NULL, 0, 0};
+                uint8_t was = data[at];
+                data[at] = (uint8_t)OTHERS[other];
+                write_bytes(path, data, other > 0 ? n : at); /* the first time cut */
+                bool same = store_read(directory, "z", "key", &r) &&
+                            memcmp(r.number, kept.number, sizeof r.number) == 0 && r.width == 2 && r.height == 1 &&
+                            memcmp(r.pixels, pixels, sizeof pixels) == 0;
+                CHECK(t, same || r.pixels == NULL, "byte %d of z.%s is now %d", (int)at, ENDS[end], data[at]);
+                free(r.pixels);
+                data[at] = was;
+                tried++;
+            }
+        write_bytes(path, data, n);
+        free(data);
+    }
+    CHECK(t, tried > 500, "%d damages", tried);
+}
+
+
 /* Started again, nothing is rendered twice, but what is lost or has another key; with one more method, all the others
  * stay as they are. */
 static void check_resumed(struct test *t)
@@ -284,6 +351,7 @@ static void check_resumed(struct test *t)
     CHECK(t, store_write(directory, "x", "key of it", &kept, &err) && store_read(directory, "x", "key of it", &r) &&
           r.number[3] == 4, "%s", err.text);
     CHECK(t, !store_read(directory, "x", "key", &r), "a key that begins alike is another");
+    check_damage(t, directory);
     CHECK(t, first.scene[0].price[1].each == third.scene[0].price[2].each, "a price is measured once");
     results_free(&first);
     results_free(&again);
@@ -329,6 +397,7 @@ void test_equal_time(struct test *t)
     check_tables(t, &r);
     check_ratios(t, &r);
     check_time(t, &r);
+    check_claims(t, &r);
     results_free(&r);
     free(p.scene);
     check_coverage(t);

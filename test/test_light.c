@@ -451,7 +451,7 @@ static double cost_beside(struct test *t, enum light_kind kind, int n, const cha
 }
 
 /* A ray that leaves the scene asks the skies, not all lights: a hundred times as many are no tenth as dear. */
-static void test_cost(struct test *t)
+static void test_many_lights(struct test *t)
 {
     for (int kind = LIGHT_AREA; kind <= LIGHT_DISTANT; kind++)
         for (int i = 0; i < 2; i++) {
@@ -465,7 +465,7 @@ kind, few);
 
 void test_light(struct test *t)
 {
-    test_cost(t);
+    test_many_lights(t);
     test_emitted(t);
     test_slide_places(t);
     test_transformed(t);

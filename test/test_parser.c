@@ -504,6 +504,61 @@ static void check_subdivided(struct test *t)
 
 /* --- what a scene may repeat ---------------------------------------------------------------------------- */
 
+/* What is no parameter of a shape is none of its material either, of whatever kind that is: no copy is made. What is
+ * one makes one. */
+static void check_copies(struct test *t)
+{
+    static const char *const KINDS[] = {"matte", "mirror", "glass", "metal", "plastic", "substrate", "uber",
+                                        "translucent", "subsurface", "kdsubsurface", "disney", "mix", "none", "matte"};
+    enum { LAST = sizeof KINDS / sizeof KINDS[0] - 1, SHAPES = 20 };
+    for (int k = 0; k <= LAST; k++) {
+        char text[4 * TEXT];
+        struct scene s;
+        int n = snprintf(text, sizeof text, "WorldBegin MakeNamedMaterial \"a\" \"string type\" \"matte\"\nMaterial "
+                         "\"%s\" \"string namedmaterial1\" \"a\" \"string namedmaterial2\" \"a\"\n", KINDS[k]);
+        for (int i = 0; i < SHAPES; i++)
+            n += snprintf(text + n, sizeof text - (size_t)n, "Shape \"sphere\" \"float %s\" .%d\n",
+                          k == LAST ? "sigma" : "nosuchthing", i + 1);
+        snprintf(text + n, sizeof text - (size_t)n, "WorldEnd");
+        if (!scene_from_text(t, text, &s))
+            continue;
+        CHECK(t, k == LAST ? s.n_materials > SHAPES : s.n_materials <= 3, "%s: %d materials", KINDS[k], s.n_materials);
+        scene_free(&s);
+    }
+}
+
+/* A matrix may be given times any number. */
+static void check_matrices(struct test *t, struct rng *r)
+{
+    static const char THINGS[] = "Shape \"sphere\" Shape \"trianglemesh\" \"integer indices\" [0 1 2] "
+                                 "\"point P\" [0 0 0 1 0 0 0 1 0] WorldEnd";
+    for (int i = 0; i < 50; i++) {
+        struct scene s[2];
+        struct transform m = random_affine(r);
+        double w = i % 3 == 0 ? -0.5 : exp(8 * rng_uniform(r) - 4);
+        for (int k = 0; k < 2; k++) {
+            char text[4 * TEXT];
+            int n = snprintf(text, sizeof text, "WorldBegin %s [", i % 2 ? "Transform" : "ConcatTransform");
+            for (int c = 0; c < 16; c++)
+                n += snprintf(text + n, sizeof text - (size_t)n, "%.17g ", m.m[c % 4][c / 4] * (k == 0 ? 1 : w));
+            snprintf(text + n, sizeof text - (size_t)n, "] %s", THINGS);
+            if (!scene_from_text(t, text, &s[k]))
+                return;
+        }
+        for (int prim = 0; prim < 2; prim++) {
+            float lo[2][3], hi[2][3];
+            for (int k = 0; k < 2; k++)
+                shape_bounds(&s[k].geo, prim ? FIRST_QUADRIC : 0, lo[k], hi[k]);
+            for (int k = 0; k < 3; k++)
+                CHECK(t, fabsf(lo[0][k] - lo[1][k]) + fabsf(hi[0][k] - hi[1][k]) < 1e-5f * (hi[0][k] - lo[0][k] + 1),
+                      "a matrix times %g: %s from %g to %g, not from %g to %g", w, prim ? "sphere" : "mesh",
+                      (double)lo[1][k], (double)hi[1][k], (double)lo[0][k], (double)hi[0][k]);
+        }
+        scene_free(&s[0]);
+        scene_free(&s[1]);
+    }
+}
+
 /* A world of n times `line`, in which "@" stands for another way each to write "", is parsed. */
 static bool parse_repeated(struct test *t, const char *line, int n, struct error *err)
 {
@@ -715,6 +770,7 @@ static void check_damaged(struct test *t, const struct fixtures *f, int rounds)
 void test_parser(struct test *t)
 {
     struct fixtures *f = mem_alloc(1, sizeof *f);
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 0, 0);
     list_fixtures(f);
     if (CHECK(t, f->n >= 170, "only %d fixtures in %s: run the tests at the top of the tree", f->n, FIXTURES)) {
         for (int i = 0; i < f->n; i++)
@@ -730,6 +786,8 @@ void test_parser(struct test *t)
     check_cleaning(t);
     check_odd_bytes(t);
     check_subdivided(t);
+    check_copies(t);
+    check_matrices(t, &r);
     check_repeated(t);
     check_unpacked(t);
     check_many_errors(t);

@@ -46,7 +46,9 @@ static uint8_t *bytes_of(struct test *t, const struct fixture *f, size_t *n)
 {
     uint8_t *data = NULL;
     struct error err = {.text = ""};
-    CHECK(t, part_save(f->path, &f->part, &f->film, &err) && file_read(f->path, &data, n, &err), "%s", err.text);
+    struct file_output file;
+    CHECK(t, file_create(f->path, &file, &err) && part_write(&file, &f->part, &f->film, &err) &&
+             file_read(f->path, &data, n, &err), "%s", err.text);
     return data;
 }
 

@@ -14,6 +14,7 @@ struct convert_options {
     struct texts in, out;
     const char *weights; /* numbers with commas between them, or NULL: all 1 */
     struct tone_options tone;
+    bool quiet;
 };
 
 #define AT(member) offsetof(struct convert_options, member)
@@ -25,6 +26,7 @@ static const struct option OPTIONS[] = {
      .help = "a picture to write: linear .pfm .exr, sRGB .png .ppm; repeatable"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
+    {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "do not say what was written"},
     {.name = NULL},
 };
 
@@ -104,7 +106,7 @@ static int run(void *options)
     if (ok) {
         out.place = about.place;
         warn_of_place(o, &about.place, width, height);
-        ok = outputs_write(&out, width, height, pixels, true, &err);
+        ok = outputs_write(&out, width, height, pixels, o->quiet, &err);
     }
     outputs_abandon(&out); /* unless they are written */
     free(pixels);

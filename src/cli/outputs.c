@@ -7,6 +7,7 @@
 
 #include "base/mem.h"
 #include "image/image.h"
+#include "scene/develop.h"
 
 static void release(struct outputs *o)
 {
@@ -70,6 +71,13 @@ bool outputs_open(const struct texts *names, const struct tone_options *tone, en
 static bool write_one(struct outputs *o, struct output *one, int width, int height, const float *pixels,
                       struct error *err)
 {
+    if (one->plane > 0) {
+        float *own = mem_alloc((size_t)width * (size_t)height * 3, sizeof *own);
+        film_develop_plane(o->film, one->plane, o->part->scale, own);
+        bool ok = image_finish(&one->file, &(struct raster){o->place, width, height, own, NULL, 0}, err);
+        free(own);
+        return ok;
+    }
     if (one->missing != NULL) {
         error_set(err, "%s: not written: %s", one->file.path, one->missing);
         file_abandon(&one->file);

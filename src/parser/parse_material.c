@@ -37,10 +37,11 @@ int parse_fourier_table(struct parser *p, const char *field)
 void parse_material_types(struct object_type out[MOST_TYPES])
 {
     for (int i = 0; i < MOST_TYPES; i++) {
-        const struct material_row *row = material_rows[i];
-        out[i] = (struct object_type){row != NULL ? row->name : NULL, row != NULL ? row->fields : NULL, i, NULL};
-        if (row == NULL)
+        out[i] = (struct object_type){.kind = i};
+        if (material_rows[i] == NULL)
             break;
+        out[i].name = material_rows[i]->name;
+        out[i].fields = material_rows[i]->fields;
     }
 }
 
@@ -85,16 +86,21 @@ bool parse_make_material(struct parser *p, struct material_source *out)
     return ok;
 }
 
+static int n_unused(const struct params *q)
+{
+    int n = 0;
+    for (int i = 0; i < q->n; i++)
+        n += !q->item[i].used;
+    return n;
+}
+
 int parse_changed_material(struct parser *p)
 {
     struct params *q = &p->params;
     struct object_type shape = p->type;
     const char *directive = q->directive, *type = q->type;
-    int id = p->state.material.id;
-    bool changes = false;
-    for (int i = 0; i < q->n; i++)
-        changes |= !q->item[i].used;
-    if (q->failed || !changes || id == MATERIAL_NONE)
+    int id = p->state.material.id, before = n_unused(q), n_materials = p->scene->n_materials;
+    if (q->failed || before == 0 || id == MATERIAL_NONE)
         return id;
     q->directive = "Material";
     q->type = p->state.material.type;
@@ -104,6 +110,11 @@ int parse_changed_material(struct parser *p)
     q->directive = directive;
     q->type = type;
     p->type = shape;
+    if (n_unused(q) == before) { /* none was the material's */
+        while (p->scene->n_materials > n_materials)
+            free(p->scene->material[--p->scene->n_materials]);
+        id = p->state.material.id;
+    }
     return id;
 }
 

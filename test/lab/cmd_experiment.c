@@ -29,7 +29,7 @@ static const char *const PUBLISHED[] = {
 /* What the options say; 0 and NULL: what the preset says. */
 struct plan_options {
     struct texts scenes, sweeps;
-    const char *directory, *reference, *methods;
+    const char *directory, *reference, *methods, *half;
     bool quick, full, quiet;
     double seconds;
     int spp, reference_spp, seeds, max_depth, n_threads, res[2];
@@ -84,6 +84,8 @@ static const struct option FAMILY[] = {
      .help = "samples per pixel of the first method (default: 64; --quick: 16); the others are given its CPU time"},
     {"--seeds", "N", OPTION_INTEGER, AT(seeds), 1, PLAN_MAX_SEEDS,
      .help = "renders per method (default: 5; --quick: 3)"},
+    {"--half", "HALF", OPTION_TEXT, AT(half), .fallback = "both",
+     .help = "choice: all services off; services: each method with all it can have; or both"},
     {"--quick", NULL, OPTION_ON, AT(quick), .help = "at the sizes of stored references, not 160 pixels wide"},
     {.others = SHARED},
 };
@@ -176,13 +178,16 @@ static bool plan_family(struct plan_options *o, char command[COMMAND], struct pl
         if (file_exists(PUBLISHED[i]))
             texts_add(&o->scenes, PUBLISHED[i]);
     methods_all(all);
+    strcat(all, METHODS_ALSO);
     o->methods = o->methods != NULL ? o->methods : all;
     o->spp = o->spp > 0 ? o->spp : o->quick ? 16 : 64;
     o->seeds = o->seeds > 0 ? o->seeds : o->quick ? 3 : 5;
     o->res[0] = o->res[0] > 0 || o->quick ? o->res[0] : 160;
     o->reference_spp = o->reference_spp > 0 ? o->reference_spp : o->quick ? 512 : 2048;
     snprintf(how, sizeof how, "family%s --spp %d", o->quick ? " --quick" : "", o->spp);
-    bool ok = begin_plan(o, N_SCENES, how, command, p, err) && plan_set_spp(p, o->spp, o->spp, err);
+    bool ok = begin_plan(o, N_SCENES, how, command, p, err) && plan_set_spp(p, o->spp, o->spp, err) &&
+              methods_add_halves(o->methods, o->half[0] == 'c' ? 1 : o->half[0] == 's' ? 2 : 3, &p->methods, err);
+    p->n_compared = p->methods.n;
     p->n_own = scenes_given ? 0 : N_SCENES;
     p->equal = true;
     return ok;

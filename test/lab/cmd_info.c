@@ -53,7 +53,7 @@ static void print_scene(const struct scene *s, const struct method *m, double se
     vec3 lo, hi;
     scene_bounds(s, &lo, &hi);
     printf("bounds        (%g, %g, %g) to (%g, %g, %g)\n", lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
-    printf("kd-tree       %d nodes, %d references, depth %d, expected cost %.1f\n", kd->n_nodes, kd->n_items,
+    printf("kd-tree       %d nodes, %zu references, depth %d, expected cost %.1f\n", kd->n_nodes, kd->n_items,
            kd->depth, kd->cost);
     printf("loaded in     %.2f s\n", seconds);
 }

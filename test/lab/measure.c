@@ -452,23 +452,6 @@ static void judge(struct subject *s)
     compare_all_pairs(s);
 }
 
-static bool measure_scene(struct measuring *m, struct scene_results *out)
-{
-    struct subject s = {.whole = m, .out = out};
-    if (!load_scene(&s))
-        return false;
-    bool ok = make_reference(&s) && enlarge(&s) && measure_methods(&s);
-    if (ok)
-        judge(&s);
-    for (int v = 0; v < METHODS_MAX; v++)
-        for (int i = 0; i < PLAN_MAX_SEEDS; i++)
-            free(s.picture[v][i]);
-    scene_free(&s.scene);
-    return ok;
-}
-
-/* --- the whole --------------------------------------------------------------------------------------- */
-
 static bool make_directories(const struct plan *p, struct error *err)
 {
     static const char *const names[] = {"store", "images", "plots"};
@@ -481,12 +464,29 @@ static bool make_directories(const struct plan *p, struct error *err)
     return ok;
 }
 
+static bool measure_scene(struct measuring *m, struct scene_results *out)
+{
+    struct subject s = {.whole = m, .out = out};
+    if (!load_scene(&s))
+        return false;
+    bool ok = make_directories(m->plan, m->err) && make_reference(&s) && enlarge(&s) && measure_methods(&s);
+    if (ok)
+        judge(&s);
+    for (int v = 0; v < METHODS_MAX; v++)
+        for (int i = 0; i < PLAN_MAX_SEEDS; i++)
+            free(s.picture[v][i]);
+    scene_free(&s.scene);
+    return ok;
+}
+
+/* --- the whole --------------------------------------------------------------------------------------- */
+
 bool measure(const struct plan *plan, struct results *out, struct error *err)
 {
     struct measuring m = {.plan = plan, .err = err};
     out->plan = plan;
     out->scene = mem_alloc((size_t)plan->n_scenes, sizeof *out->scene);
-    if (!plan_names_differ(plan, err) || !make_directories(plan, err))
+    if (!plan_names_differ(plan, err))
         return false;
     for (int v = 0; v < plan->methods.n; v++)
         m.total += plan->n_scenes * plan_seeds(plan, v);
