@@ -224,8 +224,8 @@ suites() {
     done
 }
 
-# hints NAME CHECK FILE: what to think of if CHECK (a test, or "picture") fails and says what is in FILE: the hints whose
-# pattern is there; if there is none, those without one.
+# hints NAME CHECK FILE: what to think of if CHECK (a test, or "picture") fails and says what is in FILE: the hints
+# whose pattern is there; if there is none, those without one.
 hints() {
     get "$1" hint | awk -v check="$2" -v said="$3" '
         BEGIN { while ((getline line < said) > 0) text = text line "\n" }

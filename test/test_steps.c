@@ -119,12 +119,14 @@ static void ends(struct test *t)
     struct room r;
     struct vertex path[MAX];
     int n;
-    if (build(t, OPEN, "Material \"matte\" \"rgb Kd\" [0 0 0] Translate 0 0 5 Shape \"sphere\" \"float radius\" 3", &r)) {
+    if (build(t, OPEN, "Material \"matte\" \"rgb Kd\" [0 0 0] Translate 0 0 5 Shape \"sphere\" \"float radius\" 3",
+              &r)) {
         n = walk_eye(t, &r, 1, 0, path, MAX);
         CHECK(t, n == 2, "black: a walk that meets a black ball has %d vertices, not 2", n);
         tear_down(&r);
     }
-    if (build(t, OPEN, "Material \"mirror\" \"rgb Kr\" [1 1 1] Translate 0 0 5 Shape \"sphere\" \"float radius\" 3", &r)) {
+    if (build(t, OPEN, "Material \"mirror\" \"rgb Kr\" [1 1 1] Translate 0 0 5 Shape \"sphere\" \"float radius\" 3",
+              &r)) {
         n = walk_eye(t, &r, 1, 0, path, MAX);
         CHECK(t, n == 3 && path[2].kind == VERTEX_ESCAPED, "sky: by way of a mirror it is the third vertex, not %d", n);
         CHECK(t, n < 3 || path[2].prev_delta, "delta: what a mirror leads to does not say so");
@@ -245,8 +247,8 @@ void test_formulas(struct test *t)
             pdf = most_of(pdf, k > 1 ? off : 0);
             camera = most_of(camera, k == 1 ? off : 0);
             if (k > 1)
-                recursion = most_of(recursion, fabs(v->mis / (at_prev * spread * (prev->mis_c + prev->pdf_rev * prev->mis) /
-                                                              prev->pdf_fwd) - 1));
+                recursion = most_of(recursion, fabs(v->mis * prev->pdf_fwd / (at_prev * spread) /
+                                                    (prev->mis_c + prev->pdf_rev * prev->mis) - 1));
         }
     }
     CHECK(t, pdf < 1e-9, "pdf_fwd of a vertex on a matte wall is off by a factor of %g", pdf + 1);

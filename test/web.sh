@@ -41,7 +41,7 @@ END
 const wrong = [], check = (ok, text) => { if (!ok) wrong.push(text); };
 const sleep = ms => new Promise(done => setTimeout(done, ms));
 const until = async (what, text) => {
-  for (let i = 0; i < 600; i++) {
+  for (let i = 0; i < 1800; i++) {
     if (what()) return;
     await sleep(100);
   }
@@ -148,7 +148,7 @@ END
     --enable-logging=stderr --window-size=1200,1500 "file://$dir/reader.html" >/dev/null 2>"$dir/log" &
 pid=$!
 i=0
-while [ $i -lt 150 ] && ! grep -q 'WEB .* END' "$dir/log" && kill -0 $pid 2>/dev/null; do
+while [ $i -lt 600 ] && ! grep -q 'WEB .* END' "$dir/log" && kill -0 $pid 2>/dev/null; do
     sleep 1
     i=$((i + 1))
 done

@@ -49,7 +49,10 @@ plants_of() {
 
 # steps NAME: the numbered steps of an assignment's page, as hints and plants call them.
 steps() {
-    awk '/^## / { on = /^## Step by step|^## `measure`/; prefix = /depart/ ? "d" : /random_walk/ ? "w" : /measure/ ? "measure-" : "" }
+    awk '/^## / {
+            on = /^## Step by step|^## `measure`/
+            prefix = /depart/ ? "d" : /random_walk/ ? "w" : /measure/ ? "measure-" : ""
+        }
         on && /^[1-9]\. / { sub(/\..*/, ""); print prefix $0 }' "doc/course/$1.md"
 }
 
@@ -61,8 +64,8 @@ asked() {
         doc/tour/[01]*.md
 }
 
-# prove [N]: every assignment (or assignment N) fails with its hole and passes with the original; every step that is left
-# out is found, and named.
+# prove [N]: every assignment (or assignment N) fails with its hole and passes with the original; every step that is
+# left out is found, and named.
 prove() {
     bad=0
     for n in $(names assignment | grep "^${1-}"); do
