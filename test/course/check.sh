@@ -51,7 +51,7 @@ plants_of() {
 steps() {
     awk '/^## / {
             on = /^## Step by step|^## `measure`/
-            prefix = /depart/ ? "d" : /random_walk/ ? "w" : /measure/ ? "measure-" : ""
+            prefix = /walk_leave/ ? "d" : /walk_on/ ? "w" : /measure/ ? "measure-" : ""
         }
         on && /^[1-9]\. / { sub(/\..*/, ""); print prefix $0 }' "doc/course/$1.md"
 }
