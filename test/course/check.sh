@@ -50,8 +50,8 @@ plants_of() {
 # steps NAME: the numbered steps of an assignment's page, as hints and plants call them.
 steps() {
     awk '/^## / {
-            on = /^## Step by step|^## `measure`/
-            prefix = /walk_leave/ ? "d" : /walk_on/ ? "w" : /measure/ ? "measure-" : ""
+            on = /^## Step by step|^## `walk_measure`/
+            prefix = /walk_leave/ ? "d" : /walk_on/ ? "w" : /walk_measure/ ? "measure-" : ""
         }
         on && /^[1-9]\. / { sub(/\..*/, ""); print prefix $0 }' "doc/course/$1.md"
 }
