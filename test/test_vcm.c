@@ -48,7 +48,8 @@ static void test_even(struct test *t)
     static const char text[] =
         "LookAt 0 0 0 0 0 1 0 1 0\nCamera \"perspective\" \"float fov\" 60\nFilm \"image\" \"integer xresolution\" 16\n"
         "\"integer yresolution\" 16\nPixelFilter \"box\"\nWorldBegin\nMaterial \"matte\" \"rgb Kd\" [.5 .5 .5]\n"
-        "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\nReverseOrientation\nShape \"sphere\" \"float radius\" 1\nWorldEnd\n";
+        "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\nReverseOrientation\nShape \"sphere\" \"float radius\" 1\n"
+        "WorldEnd\n";
     char path[300];
     struct scene scene;
     snprintf(path, sizeof path, "%s/sphere.pbrt", test_tmp(t));
@@ -58,7 +59,8 @@ static void test_even(struct test *t)
     if (!scene_from_file(t, path, SIDE, SIDE, &scene))
         return;
     struct batches even = render_batches(t, &scene, "bdpt", DEPTH, 64, 12, 4, 71);
-    struct batches merged = render_batches(t, &scene, set_method(&scene, "vcm radius=.05 alpha=1"), DEPTH, 64, 12, 4, 72);
+    const char *vcm = set_method(&scene, "vcm radius=.05 alpha=1");
+    struct batches merged = render_batches(t, &scene, vcm, DEPTH, 64, 12, 4, 72);
     double ratio, p = batches_p(&merged, &even, &ratio);
     TEST_ACCEPT(t, p, "in a sphere that shines vcm is %.5f of bdpt", ratio);
     batches_scale(&merged, 1.02);

@@ -32,7 +32,7 @@ struct settings measured_settings(const struct measured *m, const struct setting
 
 bool measured_biased(const struct measured *m)
 {
-    static const char *const biased[] = {"select=bins", "pathgraph", "vcm", "regularise="};
+    static const char *const biased[] = {"select=bins", "pathgraph", "vcm", "regularise"};
     bool found = false;
     for (size_t i = 0; i < sizeof biased / sizeof biased[0]; i++)
         found = found || strstr(m->text, biased[i]) != NULL;

@@ -1,19 +1,19 @@
 /* vcm.c: vertex connection and merging: bdpt, and light vertices that lie so near to an eye vertex that they are taken
  * for it. Biased; right in the limit, as the radius shrinks.                          [Georgiev 2012c]
  *
- * A path x_0 ... x_k can also be made by a light sub-path to y near x_i and an eye sub-path to z near it. If y is within
- * r of z, that pair stands for a path of one vertex, x_i:
+ * A path x_0 ... x_k can also be made by a light sub-path to y near x_i and an eye sub-path to z near it. If y is
+ * within r of z, that pair stands for a path of one vertex, x_i:
  *     X = beta_y beta_z f_z(wo_z, wo_y) / (K pi r^2),     each of K light sub-paths being such a chance,
- * beta arriving there per area, so that f needs no cosine but what shading normals change of it. Its density is that of
- * the connection next to it times the chance to come near: p_i' = p_i F_i eta, F_i the density of x_i in the light walk,
- * eta = K pi r^2. So in the sums of mis.h the merge at x_e is one more strategy that ends just before vertex e:
+ * beta arriving there per area, so that f needs no cosine but what shading normals change of it. Its density is that
+ * of the connection next to it times the chance to come near: p_i' = p_i F_i eta, F_i the density of x_i in the light
+ * walk, eta = K pi r^2. So in the sums of mis.h the merge at x_e is one more strategy that ends just before vertex e:
  *     c_e' = c_e + eta F_e,
  * in both walks, at vertices where something can be merged; all that the heart weighs then knows of it. A merge has
  *     w = 1 / (1 + (c_y + pdf_rev_y mis_y) / (eta F_y) + (c_z + pdf_rev_z mis_z) / (eta F_z)).   [Georgiev 2012c]
  *
- * Unlike in the paper the K sub-paths are those of a tile, so no map of the whole picture is needed, nor anything between
- * iterations: the radius of iteration i is r_0 (i + 1)^((alpha - 1) / 2); [Georgiev 2012c]. With fewer
- * sub-paths a merge brings more at a time; over iterations it is the same. Only the balance heuristic is right here.
+ * Unlike in the paper the K sub-paths are those of a tile, so no map of the whole picture is needed, nor anything
+ * between iterations: the radius of iteration i is r_0 (i + 1)^((alpha - 1) / 2). With fewer sub-paths a merge brings
+ * more at a time; over iterations it is the same. Only the balance heuristic is right here.
  *
  * Tests: test_vcm.c.
  */
