@@ -14,7 +14,9 @@ SIZES="0.03 0.003 0.3" # the second is tried where the first is found by far, th
 # faults: their numbers. field N K: the K-th word of fault N; words N: what is wrong.
 faults() { awk '/^[^-+# \t]/ { print ++n }' $list; }
 field() { awk -v n="$1" -v k="$2" '/^[^-+# \t]/ && ++i == n { print $k }' $list; }
-words() { awk -v n="$1" '/^[^-+# \t]/ && ++i == n { for (k = 4; k <= NF; k++) printf "%s%s", $k, k < NF ? " " : "\n" }' $list; }
+words() {
+    awk -v n="$1" '/^[^-+# \t]/ && ++i == n { for (k = 4; k <= NF; k++) printf "%s ", $k }' $list | sed 's/ $//'
+}
 
 # plant N: the list with its lines numbered as names, for apply.sh.
 plant() {
@@ -67,9 +69,14 @@ row() {
         awk -v suite="$suite" -v what="$(words "$1")" -v class="$(field "$1" 1)" '
             $1 == suite && $3 == "exact" && (least == "" || $2 < least) { least = $2 }
             $1 == suite && $3 + 0 > 3.8 { e = $2 * (3.89 + 1.64) / $3; found = found == "" || e < found ? e : found }
-            END { text = least != "" && (found == "" || least < found) ? sprintf("at most %g", 100 * least) :
-                         found != "" ? sprintf("%.2g", 100 * found) : "above 30"
-                  printf "| %s | %s | %s | %s |\n", class, what, suite, text }' $work/seen.txt
+            END {
+                text = "above 30"
+                if (found != "")
+                    text = sprintf("%.2g", 100 * found)
+                if (least != "" && (found == "" || least < found))
+                    text = "at most " 100 * least
+                printf "| %s | %s | %s | %s |\n", class, what, suite, text
+            }' $work/seen.txt
     done
 }
 
