@@ -1,5 +1,6 @@
-/* main.c: the test runner: build/test [-l] [--slow] [--seed N] [--scenes FIRST:END] [NAME...]
- * or build/test --scene N, which prints random scene N; --evil N prints it with numbers that no scene should have.
+/* main.c: the test runner: build/test [-l] [--slow] [--once] [--seed N] [--scenes FIRST:END] [NAME...]
+ * (--once: doubtful hypotheses fail at once), or build/test --scene N, which prints random scene N; --evil N prints it
+ * with numbers that no scene should have.
  * Exit status 0 only if every check and every hypothesis came out as it must. The last line is
  * "N passed, N failed". */
 #include <stdio.h>
@@ -81,6 +82,8 @@ int main(int argc, char **argv)
             return 0;
         } else if (strcmp(argv[first], "--slow") == 0) {
             slow = true;
+        } else if (strcmp(argv[first], "--once") == 0) {
+            setting.once = true;
         } else if (strcmp(argv[first], "--seed") == 0 && first + 1 < argc) {
             setting.seed = strtoull(argv[++first], NULL, 10);
         } else if (strcmp(argv[first], "--scenes") == 0 && first + 1 < argc) {
@@ -94,7 +97,7 @@ int main(int argc, char **argv)
             free(scene.text);
             return 0;
         } else {
-            fprintf(stderr, "usage: build/test [-l] [--slow] [--seed N] [--scenes FIRST:END] [NAME...]\n"
+            fprintf(stderr, "usage: build/test [-l] [--slow] [--once] [--seed N] [--scenes FIRST:END] [NAME...]\n"
                             "       build/test --scene N | --evil N\n");
             return 2;
         }
