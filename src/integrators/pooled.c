@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+const char *const METRICS[] = {"constant", "throughput", "importance", NULL};
+
 void light_pool_free(void *scratch)
 {
     struct light_pool *pool = scratch;

@@ -20,6 +20,7 @@
 #include <stdlib.h>
 
 #include "integrators/pooled.h"
+#include "integrators/services.h"
 
 /* A sub-path in order of its first vertices. */
 struct ranked {
@@ -117,6 +118,7 @@ const struct method method_mbdpt = {
     .name = "mbdpt", .help = "matrix BDPT [Chaitanya 2018]: pairs of sorted sub-paths, stratified",
     .why = "one of the tile's K light sub-paths for each strategy, by a shifted lattice over eye and light sub-paths "
            "sorted by length, each equally likely; scale 1",
-    .parameters = PARAMETERS, .state_size = sizeof(struct frozen), .scratch_size = sizeof(struct light_pool),
+    .parameters = PARAMETERS, .services = {.emission = 1, .tile = DEFAULT_TILE_SIZE, .spread = 1},
+    .prepare = services_prepare, .state_size = sizeof(struct frozen), .scratch_size = sizeof(struct light_pool),
     .rr_threshold = DEFAULT_RR_THRESHOLD, .render = pooled_render, .scratch_free = light_pool_free,
     .connect_all = connect_all};
