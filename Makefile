@@ -77,9 +77,10 @@ install: asbdpt ## install the program and its man page below PREFIX (/usr/local
 uninstall: ## remove what install put there
 	rm -f "$$TO_BIN/asbdpt" "$$TO_MAN/asbdpt.1"
 
-demo: asbdpt-lab ## render Ajar with bdpt and asbdpt, the same time for each, into one picture, out/demo.png
+demo: ## build both programs with all cores, and render the corridor by bdpt and asbdpt in the same time: out/demo.png
+	@$(MAKE) -j$$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2) asbdpt asbdpt-lab
 	@mkdir -p out
-	$(LAB) demo scenes/veach-ajar.pbrt --reference ref/demo/veach-ajar.png -o out/demo.png
+	$(LAB) demo scenes/corridor.pbrt --reference ref/demo/corridor.png --spp 16 -o out/demo.png
 
 experiments: asbdpt-lab ## measure all integrators on the five scenes, quickly, into out/experiments/results.html
 	$(LAB) experiment --quick -o out/experiments
@@ -134,7 +135,7 @@ mutants: ## apply small faults one by one; the tests must catch every one
 	sh test/mutants/run.sh 2
 
 layers: ## check that no file includes a higher room, that no room holds a circle, that headers compile alone
-	@ABOVE="test/lab/rivals test/lab/chains test/lab" sh test/layers.sh src $(CC)
+	@ABOVE="test/lab/caustics test/lab/rivals test/lab/chains test/lab" sh test/layers.sh src $(CC)
 
 standard: ## check that src calls and includes nothing that differs from machine to machine, but in one place
 	@sh test/standard.sh

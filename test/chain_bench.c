@@ -35,7 +35,7 @@ bool bench_new(struct test *t, const struct scene *scene, const char *integrator
 {
     struct render_options o = {.integrator = integrator, .seed = test_seed(t) + seed, .max_depth = BENCH_DEPTH,
                                .n_threads = 1};
-    struct error err = {""};
+    struct error err = {.text = ""};
     memset(out, 0, sizeof *out);
     out->scene = scene;
     if (!CHECK(t, render_prepare(scene, &o, render_crop(scene), &out->job, &out->prepared, &err), "%s", err.text))
@@ -46,6 +46,7 @@ bool bench_new(struct test *t, const struct scene *scene, const char *integrator
         out->chain->job = &out->job;
         out->chain->work = out->work;
         out->chain->rng = rng_stream(o.seed, RNG_TEST, 1, 0);
+        chain_start(out->chain, 0);
     }
     return true;
 }

@@ -19,7 +19,8 @@ struct bench {
 
 enum { BENCH_DEPTH = 4 };
 
-/* bench_new: a method, prepared with the test's seed and so much more. A failure is a failed check; returns false. */
+/* bench_new: a method, prepared with the test's seed and so much more; a chain has its independent states, of which the
+ * scene's settings may say how many. A failure is a failed check; returns false. */
 bool bench_new(struct test *t, const struct scene *scene, const char *integrator, uint64_t seed, struct bench *out);
 void bench_free(struct bench *b);
 

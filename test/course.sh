@@ -190,7 +190,7 @@ exercise() {
 }
 
 case ${1-} in
-start | grade) name=$(names assignment | grep "^${2:-none}")
+start | grade) name=$(names assignment | awk -v word="${2:-none}" '$0 == word || index($0, word "-") == 1')
     [ -n "$name" ] || die "the assignments are $(names assignment | tr '\n' ' ')"
     "$1" "$name" "${3:-../asbdpt-course/$2}" ;;
 exercise) exercise "${2-}" ;;

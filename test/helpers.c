@@ -61,7 +61,7 @@ vec3 on_sphere(struct rng *r)
 
 void check_no_picture(struct test *t, reader *read, const uint8_t *data, size_t n, const char *message)
 {
-    struct error err = {""};
+    struct error err = {.text = ""};
     CHECK(t, !accepts(read, data, n, &err) && strstr(err.text, message) != NULL && strchr(err.text, '\n') == NULL,
           "\"%s\" expected, got \"%s\"", message, err.text);
 }
@@ -187,7 +187,7 @@ struct batches independent_batches(struct test *t, const struct scene *scene, co
                                    long spp, int n_batches, int tile, uint64_t seed)
 {
     struct side side = {.name = ""};
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct render_options o = {.integrator = integrator, .seed = seed, .max_depth = max_depth,
                                .end = spp * test_effort(t), .n_threads = 2};
     CHECK(t, side_render(scene, &o, 0, n_batches, true, &side, &err), "%s: %s", integrator, err.text);
@@ -200,7 +200,7 @@ bool read_reference(struct test *t, const char *path, struct side *out)
 {
     char errors[300];
     const char *both[2] = {path, errors};
-    struct error err = {""};
+    struct error err = {.text = ""};
     return CHECK(t, side_errors_path(path, errors, sizeof errors, &err) && side_read(both, 2, true, NULL, out, &err),
                  "%s", err.text);
 }

@@ -97,6 +97,38 @@ words = [os.environ["ASBDPT"], "render", "scene.pbrt", "--res", "8x8", "-o", "-"
 sys.exit(subprocess.run(words, stdout=pty.openpty()[1]).returncode)'
 fi
 
+# ---- directories ----
+# What comes into one is said, all of it is written in spite of one failure, with the reason; and where nothing comes
+# into it, it is not left.
+printf 'WorldBegin LightSource "point" LightSource "distant" LightSource "infinite" WorldEnd\n' >three.pbrt
+expect 0 'wrote x.pfm, lit/light00_point.pfm, lit/light01_distant.pfm, lit/light02_infinite.pfm$' \
+    "$program" render three.pbrt ${tiny% --quiet} -o x.pfm --lights lit
+expect 0 'into told$' "$lab" strategies scene.pbrt ${tiny% --quiet} -o told
+expect 0 'into told$' "$lab" transient scene.pbrt ${tiny% --quiet} -o told
+expect 0 '^wrote x.png, x.ppm$' "$program" convert a.pfm -o x.png -o x.ppm
+if [ -e /dev/full ]; then
+    rm lit/*
+    ln -s /dev/full lit/light00_point.pfm
+    for size in 8x8 99x99; do # the write that fails is the last, or an earlier one
+        rm -f lit/light02*
+        expect 1 'lit/light00_point.pfm: cannot be written: No space left' \
+            "$program" render three.pbrt --res $size --spp 1 -o x.pfm --lights lit
+        check grep -q 'wrote x.pfm, lit/light01_distant.pfm, lit/light02_infinite.pfm$' stderr.txt
+        check [ -s lit/light02_infinite.pfm ]
+    done
+fi
+mkdir -p bad/light01_distant.pfm
+cp three.pbrt scene3.pbrt
+refused 1 'bad/light01_distant.pfm: cannot be created: Is a directory' \
+    "$program" render scene3.pbrt $tiny --lights bad -o new.pfm
+refused 1 'here they come in blocks' "$program" render scene.pbrt $tiny --spp 64 --integrator asbdpt -P select=bins \
+    --samples 0:7 -o new.part --lights none
+expect 1 'nothing.pbrt' "$program" render nothing.pbrt --lights none
+for command in strategies transient equal-time experiment family; do
+    expect 1 'nothing.pbrt' "$lab" $command nothing.pbrt -o none
+done
+check [ ! -e none ]
+
 # ---- sizes and numbers ----
 refused 1 'have 550 pictures; --maxdepth 20 is the most' \
     "$lab" strategies scene.pbrt --res 1x1 --spp 1 --maxdepth 21 -o sub
@@ -113,7 +145,7 @@ refused 2 'expected a number from 1e-09' render --time 0 -o new.pfm
     echo $? >status.txt
 )
 check [ "$(cat status.txt)" = 152 -o "$(uname)" != Linux ]
-check grep -Eq 'stopped by SIGXCPU, at [1-9]' stderr.txt
+check grep -Eq 'stopped by SIGXCPU, at [0-9]' stderr.txt
 check [ -s late.pfm ]
 # A second signal leaves nothing behind, however many outputs there are.
 many=$(awk 'BEGIN { for (i = 0; i < 100; i++) printf " -o m%d.pfm", i }')

@@ -417,7 +417,7 @@ void test_bsdf(struct test *t)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 22, 0);
     struct fourier_table table;
-    struct error err = {""};
+    struct error err = {.text = ""};
     if (!CHECK(t, fourier_read("scenes/features/layered.bsdf", &table, &err), "%s", err.text))
         return;
     samples_follow_pdf(t, &r, &table);

@@ -13,9 +13,9 @@
 /* --- one chain --------------------------------------------------------------------------------------- */
 
 /* Where the chain left in direction w meets the plane across the last edge of `c` through y. */
-static vec3 arrival(const struct quest *q, vec3 w, const struct chain *c)
+static vec3 arrival(const struct quest *q, vec3 w, const struct specular_chain *c)
 {
-    struct chain moved;
+    struct specular_chain moved;
     if (!specular_trace(q, normalize(w), &moved))
         return vec(NAN, NAN, NAN);
     if (q->parallel)
@@ -24,7 +24,7 @@ static vec3 arrival(const struct quest *q, vec3 w, const struct chain *c)
 }
 
 /* |det J| by differences. */
-static double area_by_differences(const struct quest *q, const struct chain *c)
+static double area_by_differences(const struct quest *q, const struct specular_chain *c)
 {
     const double h = 1e-5;
     const struct frame f = frame_from_normal(c->w);
@@ -70,7 +70,7 @@ static void test_derivatives(struct test *t)
             y.w = normalize(y.p);
             struct quest q = {&scene, &arena, &z, &y, n % 2 == 1, cases[i].group, 1, cases[i].k};
             vec3 middle = vec(0.1 * rng_uniform(&r), 0.1 * rng_uniform(&r), cases[i].below > 0 ? 0 : 0.3);
-            struct chain c;
+            struct specular_chain c;
             if (!specular_search(&q, normalize(sub(middle, z.p)), &c))
                 continue;
             double area = specular_area(&q, &c), differences = area_by_differences(&q, &c);
@@ -95,7 +95,8 @@ static void test_depth(struct test *t)
     if (!scene_from_file(t, "scenes/test/caustic-pane.pbrt", 0, 0, &scene))
         return;
     for (int depth = 2; depth <= 3; depth++) {
-        struct batches b = render_batches(t, &scene, set_method(&scene, "pt caustics=2"), depth, 1, 2, 4, 3);
+        const char *way = set_method(&scene, "caustics with=pt longest=2");
+        struct batches b = render_batches(t, &scene, way, depth, 1, 2, 4, 3);
         CHECK(t, (batches_mean(&b, NULL) > 0) == (depth == 3), "a chain of two at maxdepth %d", depth);
         batches_free(&b);
     }
@@ -109,7 +110,7 @@ static void test_closed_forms(struct test *t)
         double radiance;
     } cases[] = {{"scenes/test/caustic-pane.pbrt", 1.3637342561791495},
                  {"scenes/test/caustic-mirror.pbrt", 4.536155547174597}};
-    static const char *const ways[] = {"pt caustics=2", "bdpt caustics=2", "asbdpt caustics=2"};
+    static const char *const ways[] = {"caustics with=pt", "caustics with=bdpt", "caustics with=asbdpt"};
     for (int i = 0; i < 6; i++) {
         struct scene scene;
         if (!scene_from_file(t, cases[i % 2].scene, 0, 0, &scene))
@@ -148,8 +149,8 @@ static void test_nothing_there(struct test *t)
 {
     static const char pane[] = "Material \"glass\" \"float index\" 1 \"rgb Kr\" [0 0 0]\n"
                                "Shape \"sphere\" \"float radius\" 1.9\n";
-    struct film bare = floor_under(t, "", "pt", 2), with = floor_under(t, "", "pt caustics=2", 2),
-                behind = floor_under(t, pane, "pt caustics=1", 2);
+    struct film bare = floor_under(t, "", "pt", 2), with = floor_under(t, "", "caustics with=pt longest=2", 2),
+                behind = floor_under(t, pane, "caustics with=pt longest=1", 2);
     double worst = 0;
     CHECK(t, films_equal(&bare, &with), "caustics change a scene without specular surfaces");
     for (int i = 0; i < 8 * 8 * 3; i++)
@@ -182,11 +183,11 @@ static void agree(struct test *t, const char *path, const char *one, const char 
 
 static void test_partition(struct test *t)
 {
-    agree(t, "scenes/test/caustic-ball.pbrt", "bdpt caustics=2", "lt", 160);
-    agree(t, "scenes/test/caustic-bulb.pbrt", "pt caustics=2", "bdpt", 96);
-    agree(t, "scenes/test/caustic-diver.pbrt", "asbdpt caustics=1", "lt", 64);
-    agree(t, "scenes/test/mirror-glass.pbrt", "pt caustics=2", "bdpt", 48);
-    agree(t, "scenes/test/mirror-glass.pbrt", "bdpt caustics=2 heuristic=power", "bdpt", 32);
+    agree(t, "scenes/test/caustic-ball.pbrt", "caustics with=bdpt longest=2", "lt", 160);
+    agree(t, "scenes/test/caustic-bulb.pbrt", "caustics with=pt longest=2", "bdpt", 96);
+    agree(t, "scenes/test/caustic-diver.pbrt", "caustics with=asbdpt longest=1", "lt", 64);
+    agree(t, "scenes/test/mirror-glass.pbrt", "caustics with=pt longest=2", "bdpt", 48);
+    agree(t, "scenes/test/mirror-glass.pbrt", "caustics with=bdpt longest=2 heuristic=power", "bdpt", 32);
 }
 
 /* --- any receiver -------------------------------------------------------------------------------------- */
@@ -233,7 +234,7 @@ static bool first_hit(const struct scene *scene, struct arena *arena, vec3 eye, 
 }
 
 /* What the three that make the path weigh it, together, where a chain of one vertex leads to y by way of `image`. */
-static double all_weights(const struct extra *extra, struct pixel_sample *sample, vec3 eye, const struct vertex *z,
+static double all_weights(const struct one_more *extra, struct pixel_sample *sample, vec3 eye, const struct vertex *z,
                           const struct connection *c, vec3 image)
 {
     struct surface at;
@@ -269,28 +270,28 @@ static void test_receivers(struct test *t)
         if (!scene_from_text(t, text, &scene))
             continue;
         vec3 eye = scene.camera.position;
-        struct extra *extra = caustics_new(&scene, 1);
+        struct one_more *extra = caustics_new(&scene, 1);
         struct mis_counts counts = {.hit = {1, 1}, .direct = {1, 1}, .connect = {1, 1}, .splat = 640 * 480,
                                     .power = i % 4 > 1};
         struct pixel_sample sample = {.scene = &scene, .counts = &counts, .max_depth = 5, .arena = &arena};
         for (int n = 0; n < 40; n++) {
             vec3 at = vec(4 * rng_uniform(&r) - 2, 0, 4 * rng_uniform(&r) - 2);
             struct vertex z, path[2];
-            struct connection c[EXTRA_MOST];
+            struct one_more_path c[ONE_MORE_MOST];
             if (!first_hit(&scene, &arena, eye, at, &z))
                 continue;
             path[1] = z;
             sample.sampler = sampler_start(test_seed(t), RNG_TEST, i, (uint64_t)n);
             for (int k = extra->connect(extra, &sample, path, 2, c); k-- > 0;)
-                if (!rgb_is_black(c[k].value) && c[k].end.y < 9) {
-                    vec3 image = c[k].end;
+                if (!rgb_is_black(c[k].c.value) && c[k].c.end.y < 9) {
+                    vec3 image = c[k].c.end;
                     image.z = mirror ? 8 - image.z : image.z;
-                    double sum = all_weights(extra, &sample, eye, &z, &c[k], image);
+                    double sum = all_weights(extra, &sample, eye, &z, &c[k].c, image);
                     met++;
                     CHECK(t, fabs(sum - 1) < 1e-6, "receiver %d: weights add up to %.9f", (int)i, sum);
                 }
         }
-        extra->release(extra);
+        caustics_free(extra);
         arena_free(&arena);
         scene_free(&scene);
         free(text);
@@ -321,11 +322,11 @@ static void test_cones(struct test *t)
     static const struct {
         const char *things, *way;
         long spp;
-    } cases[] = {{MIRROR, "pt caustics=1", 2},
-                 {MIRROR "Translate 90 0 0 Shape \"sphere\"", "pt caustics=1", 64},
-                 {MIRROR, "pt regularise=.4", 1024},
-                 {MIRROR, "pt regularise=.3", 1024},
-                 {MIRROR, "bdpt regularise=.3", 256}};
+    } cases[] = {{MIRROR, "caustics with=pt longest=1", 2},
+                 {MIRROR "Translate 90 0 0 Shape \"sphere\"", "caustics with=pt longest=1", 64},
+                 {MIRROR, "regularise with=pt angle=.4", 1024},
+                 {MIRROR, "regularise with=pt angle=.3", 1024},
+                 {MIRROR, "regularise with=bdpt angle=.3", 256}};
     double wanted = 0;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct film film = floor_under(t, cases[i].things, cases[i].way, cases[i].spp);
@@ -342,7 +343,7 @@ static void test_dim(struct test *t)
     static const char DIM[] =
         "Material \"mirror\" \"rgb Kr\" [.05 .05 .05]\n"
         "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-9 0 1  9 0 1  9 9 1  -9 9 1]\n";
-    struct film with = floor_under(t, DIM, "pt caustics=1", 2), without = floor_under(t, DIM, "pt", 2);
+    struct film with = floor_under(t, DIM, "caustics with=pt longest=1", 2), without = floor_under(t, DIM, "pt", 2);
     double ratio = mean_of(&with) / mean_of(&without);
     CHECK(t, ratio > 1.02 && ratio < 1.05, "a dim mirror's light makes a picture %g times as bright", ratio);
     film_free(&with);
@@ -356,11 +357,11 @@ static void test_no_rival(struct test *t)
     static const struct {
         const char *scene, *with, *without;
         bool same;
-    } cases[] = {{"scenes/test/caustic-ball.pbrt", "bdpt regularise=.1", "bdpt", true},
-                 {"scenes/test/mirror-glass.pbrt", "pt regularise=.1", "pt", true},
-                 {"scenes/test/caustic-lens.pbrt", "bdpt caustics=2", "bdpt", true},
-                 {"scenes/test/caustic-lens.pbrt", "pt caustics=2", "pt", false},
-                 {"scenes/test/caustic-ball.pbrt", "bdpt caustics=2", "bdpt", false}};
+    } cases[] = {{"scenes/test/caustic-ball.pbrt", "regularise with=bdpt angle=.1", "bdpt", true},
+                 {"scenes/test/mirror-glass.pbrt", "regularise with=pt angle=.1", "pt", true},
+                 {"scenes/test/caustic-lens.pbrt", "caustics with=bdpt longest=2", "bdpt", true},
+                 {"scenes/test/caustic-lens.pbrt", "caustics with=pt longest=2", "pt", false},
+                 {"scenes/test/caustic-ball.pbrt", "caustics with=bdpt longest=2", "bdpt", false}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct scene scene;
         struct film film[2];
@@ -379,27 +380,8 @@ static void test_no_rival(struct test *t)
     }
 }
 
-/* What would be of no use is refused. */
-static void test_refused(struct test *t)
-{
-    static const char *const ways[] = {"pt caustics=1 regularise=.1", "mlt caustics=1", "pssmlt regularise=.1"};
-    for (int i = 0; i < 3; i++) {
-        struct scene scene;
-        struct film film = {.sum = NULL};
-        struct error err;
-        if (!scene_from_file(t, "scenes/test/caustic-pane.pbrt", 4, 4, &scene))
-            return;
-        struct render_options o = {.integrator = set_method(&scene, ways[i]), .end = 1, .n_threads = 1};
-        film_init(&film, render_crop(&scene), scene.width, scene.height);
-        CHECK(t, !render_scene(&scene, &o, &film, &err), "%s is taken", ways[i]);
-        film_free(&film);
-        scene_free(&scene);
-    }
-}
-
 void test_caustic(struct test *t)
 {
-    test_refused(t);
     test_cones(t);
     test_dim(t);
     test_no_rival(t);

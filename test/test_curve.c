@@ -14,7 +14,7 @@ enum { RING = 9 }; /* points of a tube's row; the first and the last are one */
 static struct mesh mesh_of(struct test *t, const struct curve *c)
 {
     struct mesh m = {0};
-    struct error err = {""};
+    struct error err = {.text = ""};
     CHECK(t, curve_mesh(c, &m, SUBDIVIDE_MAX_TRIANGLES, &err), "%s", err.text);
     return m;
 }
@@ -151,7 +151,7 @@ static void rational(struct test *t)
     const double Pw[] = {1, 0, 0, 1, h, h, 0, h, 0, 1, 0, 1, 2, 0, 1, 1, 2 * h, 2 * h, h, h, 0, 2, 1, 1};
     struct nurbs_axis u = {3, 3, uk, 0, 1}, v = {2, 2, vk, 2, 3};
     struct mesh m = {0};
-    struct error err = {""};
+    struct error err = {.text = ""};
     CHECK(t, nurbs_is_usable(&u) && nurbs_is_usable(&v) && nurbs_mesh(&u, &v, Pw, &m, MOST, &err), "%s", err.text);
     for (size_t i = 0; i < (size_t)m.n_vertices; i++) {
         vec3 p = load3(m.P, i), n = load3(m.N, i), want = normalize(vec(p.x, p.y, -sqrt(p.x * p.x + p.y * p.y)));
@@ -177,7 +177,7 @@ static void knots(struct test *t)
     }
     struct nurbs_axis u = {POINTS, ORDER, k, 0, 7}, v = {2, 2, line, 0, 1};
     struct mesh m = {0};
-    struct error err = {""};
+    struct error err = {.text = ""};
     CHECK(t, nurbs_is_usable(&u) && nurbs_mesh(&u, &v, Pw, &m, MOST, &err), "%s", err.text);
     for (size_t i = 0; i < (size_t)m.n_vertices; i++)
         CHECK(t, fabs(m.P[3 * i] - m.UV[2 * i]) < 1e-5 && m.N[3 * i + 2] > 0.9999, "at %g: %g", m.UV[2 * i],

@@ -17,7 +17,7 @@
 
 static void check_no_write(struct test *t, const char *path, int size)
 {
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct stat info;
     float *p = mem_alloc(3 * (size_t)size * (size_t)size, sizeof *p);
     CHECK(t, !image_write(path, size, size, p, &err) && strstr(err.text, "cannot be written") != NULL, "%s: \"%s\"",
@@ -48,7 +48,7 @@ static void test_endless(struct test *t)
     char path[256];
     uint8_t *data = NULL;
     size_t size = 1;
-    struct error err = {""};
+    struct error err = {.text = ""};
     snprintf(path, sizeof path, "%s/pipe", test_tmp(t));
     alarm(20); /* who waits is ended */
     CHECK(t, mkfifo(path, 0600) == 0 && file_read(path, &data, &size, &err) && size == 0, "%s", err.text);

@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/mem.h"
 #include "base/rng.h"
+#include "helpers.h"
 #include "lab/equal.h"
 #include "lab/family.h"
 #include "lab/measure.h"
@@ -27,7 +28,7 @@ static void plant(struct plan *p, struct results *r)
     static const double ratio[3][SCENES] = {{1, 1, 1}, {0.5, 4, 1}, {0.25, 0.25, 0.25}};
     static const struct price price[3] = {{0, 1, 0}, {8, 1.5, 0.1}, {0, 0.5, 0}};
     static const char *const paths[SCENES] = {"a.pbrt", "b.pbrt", "c.pbrt"};
-    struct error err = {""};
+    struct error err = {.text = ""};
     memset(p, 0, sizeof *p);
     p->n_scenes = SCENES;
     p->n_seeds = SEEDS;
@@ -193,10 +194,15 @@ static void check_tables(struct test *t, struct results *r)
     CHECK(t, dots == 6 && gains == 4 && strstr(svg, "nan") == NULL, "%d ratios in the figure, %d gains", dots, gains);
     free(svg);
     char *said = written(t, r, equal_verdict);
-    CHECK(t, strstr(said, "lvc over that of bdpt after the same time: 0.25 [") != NULL &&
-          strstr(said, "] per pixel, a gain; ") != NULL && strstr(said, "1.26 [") != NULL &&
-          strstr(said, "] per pixel, undecided") != NULL, "%s", said);
-    CHECK(t, strchr(said, '\n') == said + strlen(said) - 1, "one sentence: %s", said);
+    int lines_said = 0;
+    for (const char *p = said; (p = strchr(p, '\n')) != NULL; p++)
+        lines_said++;
+    CHECK(t, strstr(said, "lvc over that of bdpt after the same time, per pixel: 0.25 (95 %: ") != NULL &&
+          strstr(said, "): a gain.\nIn means over 8x8 ") != NULL && strstr(said, "per pixel: 1.26 (95 %: ") != NULL &&
+          strstr(said, "): undecided; ") != NULL, "%s", said);
+    CHECK(t, lines_said == 2 * (r->plan->methods.n - 1) + 1, "two lines for a method, and one: %s", said);
+    const struct interval wide = {exp(0.1), exp(-0.1), exp(0.3)};
+    CHECK(t, equal_seeds_wanted(wide, 2) == 8, "half the width, four times the seeds: %g", equal_seeds_wanted(wide, 2));
     free(said);
 }
 
@@ -205,7 +211,7 @@ static void check_all_methods(struct test *t)
 {
     char text[METHODS_TEXT];
     struct methods all;
-    struct error err = {""};
+    struct error err = {.text = ""};
     int rows = 0;
     while (method_rows[rows] != NULL)
         rows++;
@@ -219,7 +225,7 @@ static void check_all_methods(struct test *t)
 /* A plan of the Cornell box, once as one's own and once as published, 8x8 pixels. */
 static void small_plan(struct plan *p, const char **scenes, const char *directory, const char *methods)
 {
-    struct error err = {""};
+    struct error err = {.text = ""};
     memset(p, 0, sizeof *p);
     scenes[0] = scenes[1] = "scenes/cornell-box.pbrt";
     p->scene = scenes;
@@ -241,6 +247,43 @@ static bool same(const struct results *a, const struct results *b, int scene, in
     return x->spp == y->spp && x->square[SQUARE_RELMSE] == y->square[SQUARE_RELMSE];
 }
 
+/* A record that is cut anywhere, or of which a byte has changed, is none, or still the same. */
+static void check_damage(struct test *t, const char *directory)
+{
+    static const char *const ENDS[] = {"txt", "pfm"};
+    static const char OTHERS[] = "-0719n \n";
+    float pixels[2 * 1 * 3] = {0, 1, 2, 3, 0.5f, 0.25f};
+    const struct record kept = {{1, 2.5, 0, 1e-3}, pixels, 2, 1};
+    struct error err = {.text = ""};
+    int tried = 0;
+    CHECK(t, store_write(directory, "z", "key", &kept, &err), "%s", err.text);
+    for (int end = 0; end < 2; end++) {
+        char path[512];
+        uint8_t *data;
+        size_t n;
+        snprintf(path, sizeof path, "%s/z.%s", directory, ENDS[end]);
+        CHECK(t, file_read(path, &data, &n, &err), "%s", err.text);
+        for (size_t at = 0; data != NULL && at < n; at++)
+            for (size_t other = 0; other < sizeof OTHERS; other++) {
+                struct record r = {{0}, NULL, 0, 0};
+                uint8_t was = data[at];
+                data[at] = (uint8_t)OTHERS[other];
+                write_bytes(path, data, other > 0 ? n : at); /* the first time cut */
+                bool same = store_read(directory, "z", "key", &r) &&
+                            memcmp(r.number, kept.number, sizeof r.number) == 0 && r.width == 2 && r.height == 1 &&
+                            memcmp(r.pixels, pixels, sizeof pixels) == 0;
+                CHECK(t, same || r.pixels == NULL, "byte %d of z.%s is now %d", (int)at, ENDS[end], data[at]);
+                free(r.pixels);
+                data[at] = was;
+                tried++;
+            }
+        write_bytes(path, data, n);
+        free(data);
+    }
+    CHECK(t, tried > 500, "%d damages", tried);
+}
+
+
 /* Started again, nothing is rendered twice, but what is lost or has another key; with one more method, all the others
  * stay as they are. */
 static void check_resumed(struct test *t)
@@ -248,7 +291,7 @@ static void check_resumed(struct test *t)
     static const char *const files[] = {"family.md", "runs.csv", "family.svg", "family.png"};
     const char *scenes[2];
     char directory[300], path[512];
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct plan p, more;
     struct results first = {0}, again = {0}, third = {0};
     snprintf(directory, sizeof directory, "%s/family", test_tmp(t));
@@ -279,6 +322,7 @@ static void check_resumed(struct test *t)
     CHECK(t, store_write(directory, "x", "key of it", &kept, &err) && store_read(directory, "x", "key of it", &r) &&
           r.number[3] == 4, "%s", err.text);
     CHECK(t, !store_read(directory, "x", "key", &r), "a key that begins alike is another");
+    check_damage(t, directory);
     CHECK(t, first.scene[0].price[1].each == third.scene[0].price[2].each, "a price is measured once");
     results_free(&first);
     results_free(&again);
@@ -290,7 +334,7 @@ static void check_resumed(struct test *t)
 static void check_both_ways(struct test *t)
 {
     const char *scenes[2];
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct plan p;
     struct results by_pairs = {0}, by_reference = {0};
     small_plan(&p, scenes, NULL, "bdpt,pt,lvc,asbdpt:select=bins:restart=0:maxage=1000");

@@ -60,8 +60,8 @@ static void test_six_scenes(struct test *t)
             batches_free(&b);
         }
         for (size_t k = 0; k < sizeof chains / sizeof chains[0]; k++) {
-            char way[128];
-            snprintf(way, sizeof way, "%s bootstrapsamples=%ld", chains[k], SCENES[i].states * test_effort(t));
+            char way[128]; /* a chain has four samples of each pixel */
+            snprintf(way, sizeof way, "%s starts=%ld", chains[k], 4 * SCENES[i].states / SCENES[i].spp * test_effort(t));
             struct batches b = by(t, &scene, way, SCENES[i].spp);
             compare(t, path, way, &b, &pt, 0.001);
             batches_free(&b);

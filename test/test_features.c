@@ -49,7 +49,7 @@ static void hear(void *context, const char *text)
 static bool load(struct test *t, const char *name, struct scene *scene)
 {
     char path[TEXT], missed[TEXT];
-    struct error err = {""};
+    struct error err = {.text = ""};
     snprintf(path, sizeof path, "%s/%s", FEATURES, name);
     struct expected expected = {t, name, fopen(path, "r")};
     struct message_sink sink = {hear, NULL, &expected};

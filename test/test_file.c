@@ -44,7 +44,7 @@ static void check_written(struct test *t, const char *name, int width, int heigh
 {
     char path[256];
     struct image img;
-    struct error err = {""};
+    struct error err = {.text = ""};
     float *p = make_pixels(t, width, height);
     bool halfs = file_has_extension(name, ".exr") && !file_has_extension(name, ".float.exr");
     in_tmp(t, name, path, sizeof path);
@@ -94,7 +94,7 @@ static void test_written_bytes(struct test *t)
         char path[256];
         uint8_t *data = NULL;
         size_t n = 0;
-        struct error err = {""};
+        struct error err = {.text = ""};
         in_tmp(t, CASES[i].name, path, sizeof path);
         CHECK(t, image_write(path, 1, 2, PIXEL, &err) && file_read(path, &data, &n, &err), "%s", err.text);
         CHECK(t, data != NULL && n == CASES[i].n && memcmp(data, CASES[i].bytes, n) == 0,
@@ -107,7 +107,7 @@ static void test_written_bytes(struct test *t)
 
 static void check_no_write(struct test *t, const char *path, int size, const char *message)
 {
-    struct error err = {""};
+    struct error err = {.text = ""};
     float *p = make_pixels(t, size, size);
     CHECK(t,
           !image_write(path, size, size, p, &err) && strstr(err.text, message) != NULL &&
@@ -136,7 +136,7 @@ static void test_unwritable(struct test *t)
 static void test_commit(struct test *t)
 {
     char path[256];
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct file_output f;
     uint8_t *data = NULL;
     size_t n = 0;
@@ -166,7 +166,7 @@ static void test_commit(struct test *t)
 static void check_no_read(struct test *t, const char *path, const char *message)
 {
     struct image img;
-    struct error err = {""};
+    struct error err = {.text = ""};
     CHECK(t,
           !image_read(path, &img, &err) && strstr(err.text, message) != NULL &&
               strncmp(err.text, path, strlen(path)) == 0,
@@ -178,7 +178,7 @@ static void test_unreadable(struct test *t)
 {
     char path[256];
     struct image img;
-    struct error err = {""};
+    struct error err = {.text = ""};
     check_no_read(t, in_tmp(t, "absent.png", path, sizeof path), "cannot be opened");
     check_no_read(t, test_tmp(t), "cannot be"); /* read, or opened */
     static const struct {

@@ -9,6 +9,7 @@
 #include "base/vec.h"
 #include "lab/stats.h"
 #include "scene/develop.h"
+#include "transport/pixel_sample.h"
 #include "tests.h"
 
 #include <stdlib.h>
@@ -345,8 +346,33 @@ static void test_exact_range(struct test *t)
     CHECK(t, !exact_join(&full, &empty) && exact_join(&full, &s), "an overflow below is refused");
 }
 
+/* A connection that is not finite is left out, and counted; what else the sample has brought stays. */
+static void test_one_lost(struct test *t)
+{
+    static const double BAD[] = {NAN, INFINITY, -INFINITY};
+    struct pixel_rect one = {0, 0, 1, 1, 0, 0};
+    const struct vertex z = {.kind = VERTEX_SURFACE};
+    for (int i = 0; i < 6; i++) {
+        struct filter box;
+        struct tile tile = {.rect = {0, 0, 0, 0, 0, 0}};
+        filter_default("box", &box);
+        tile_start(&tile, one, one, &box);
+        struct pixel_sample sample = {.tile = &tile, .filter_weight = 1};
+        for (int k = 0; k < 3; k++) {
+            double x = k == 1 ? BAD[i / 2] : 1;
+            struct connection c = {.value = rgb_grey(i % 2 ? 1 : x), .weight = i % 2 ? x : 1};
+            pixel_add(&sample, &c, 1, 2, NULL, &z, NO_CHOICE);
+        }
+        pixel_sample_end(&sample);
+        CHECK(t, tile.nonfinite == 1 && exact_value(&tile.sum[0]) == 2, "%g: %ld lost, %g left", BAD[i / 2],
+              tile.nonfinite, exact_value(&tile.sum[0]));
+        tile_free(&tile);
+    }
+}
+
 void test_film(struct test *t)
 {
+    test_one_lost(t);
     test_filters(t);
     test_splats(t);
     test_memory(t);

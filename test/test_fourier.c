@@ -102,7 +102,7 @@ static void file_is_made_here(struct test *t)
 {
     uint8_t byte[SIZE], *file;
     size_t size;
-    struct error err = {""};
+    struct error err = {.text = ""};
     make(byte);
     if (!CHECK(t, file_read(LAYERED, &file, &size, &err), "%s", err.text))
         return;
@@ -115,7 +115,7 @@ static vec3 direction(double z, double phi) { return cylindrical(sqrt(1 - z * z)
 static void values(struct test *t)
 {
     struct fourier_table table;
-    struct error err = {""};
+    struct error err = {.text = ""};
     if (!CHECK(t, fourier_read(LAYERED, &table, &err), "%s", err.text))
         return;
     for (int n = 0; n < N_MU * N_MU * 4; n++) {

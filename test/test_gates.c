@@ -87,11 +87,11 @@ static void test_methods(struct test *t)
     for (const struct method *const *m = method_rows; *m != NULL; m++)
         if (strcmp((*m)->name, "ellipse") != 0) /* which is another method without a gate */
             test_method(t, method_name(*m));
-    test_method(t, "pt caustics=2");
-    test_method(t, "bdpt caustics=2");
-    test_method(t, "asbdpt caustics=2");
-    test_method(t, "pt regularise=.2");
-    test_method(t, "bdpt regularise=.2");
+    test_method(t, "caustics with=pt longest=2");
+    test_method(t, "caustics with=bdpt longest=2");
+    test_method(t, "caustics with=asbdpt longest=2");
+    test_method(t, "regularise with=pt angle=.2");
+    test_method(t, "regularise with=bdpt angle=.2");
 }
 
 /* What no float holds is left out of every film alike, so that the rest still adds up. */
@@ -268,8 +268,8 @@ static void test_mirror(struct test *t)
     const double direct = 1.0 / 9, image = 3 / sqrt(13) / 13; /* cosine over distance^2 */
     for (int i = 0; i < 4; i++) {
         double wanted = i == 0 ? 0 : i == 3 ? 1 : direct / (direct + image);
-        double chains = share(t, MIRROR, "pt caustics=1", 4, END[i]);
-        double cones = share(t, MIRROR, "pt regularise=.2", 2048, END[i]);
+        double chains = share(t, MIRROR, "caustics with=pt longest=1", 4, END[i]);
+        double cones = share(t, MIRROR, "regularise with=pt angle=.2", 2048, END[i]);
         CHECK(t, fabs(chains - wanted) < 1e-3 && fabs(cones - wanted) < 0.06,
               "shorter than %g: %g by chains, %g by cones, not %g", END[i], chains, cones, wanted);
     }

@@ -96,7 +96,7 @@ static void test_told(struct test *t, const struct scene *scene, const struct si
         struct render_options o = {.integrator = integrator, .seed = test_seed(t) + (uint64_t)seed, .end = SPP,
                                    .n_threads = os_cores()};
         struct film film;
-        struct error err = {""};
+        struct error err = {.text = ""};
         film_init(&film, render_crop(scene), scene->width, scene->height);
         film_keep_halves(&film);
         CHECK(t, render_scene(scene, &o, &film, &err) && film.iterations == SPP, "%s", err.text);
@@ -141,7 +141,7 @@ static void test_end(struct test *t, const char *way, long runs)
 {
     struct scene scene;
     struct film film[3];
-    struct error err = {""};
+    struct error err = {.text = ""};
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 24, 20, &scene))
         return;
     struct render_options o = {.integrator = set_method(&scene, way), .seed = 3, .end = 1024};
@@ -169,7 +169,7 @@ static void test_blocks(struct test *t)
 {
     struct scene scene;
     struct film film[2];
-    struct error err = {""};
+    struct error err = {.text = ""};
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 75, 75, &scene))
         return;
     struct render_options o = {.integrator = "pt", .end = 64, .max_depth = 1, .n_threads = 2};

@@ -26,7 +26,7 @@ static uint8_t *load(struct test *t, const char *name, size_t *n)
 {
     char path[128];
     uint8_t *data = NULL;
-    struct error err = {""};
+    struct error err = {.text = ""};
     snprintf(path, sizeof path, "%s%s", FIXTURES, name);
     CHECK(t, file_read(path, &data, n, &err), "%s", err.text);
     return data;
@@ -80,7 +80,7 @@ static void check_fixture(struct test *t, const struct image *picture, const cha
     size_t n = 0, wrong = 0;
     uint8_t *data = load(t, name, &n);
     struct image img;
-    struct error err = {""};
+    struct error err = {.text = ""};
     if (CHECK(t, data != NULL && read_exactly(exr_read, data, n, &img, &err), "%s: %s", name, err.text)) {
         if (content <= THOUSANDFOLD)
             CHECK(t, img.width == picture->width && img.height == picture->height, "%s: shape", name);
@@ -208,7 +208,7 @@ static void test_refused_blocks(struct test *t)
 static uint8_t *written(struct test *t, const char *name, const struct raster *r, size_t *n)
 {
     struct file_output file;
-    struct error err = {""};
+    struct error err = {.text = ""};
     char path[256];
     uint8_t *data = NULL;
     snprintf(path, sizeof path, "%s/%s", test_tmp(t), name);
@@ -226,7 +226,7 @@ static void test_alpha(struct test *t)
     const struct channel more[2] = {{"Z", PIXELS, 3, true}, {"A", ALPHA, 1, false}};
     const struct raster plain = {{0, 0, 0, 0}, 2, 1, PIXELS, NULL, 0}, with = {{0, 0, 0, 0}, 2, 1, PIXELS, more, 2};
     struct image img;
-    struct error err = {""};
+    struct error err = {.text = ""};
     size_t n, n_plain;
     uint8_t *data = written(t, "alpha.float.exr", &with, &n);
     if (CHECK(t, data != NULL && exr_read(data, n, &img, &err), "%s", err.text)) {
@@ -270,7 +270,7 @@ static void test_place(struct test *t)
 {
     struct image img, copy;
     struct file_output file;
-    struct error err = {""};
+    struct error err = {.text = ""};
     char path[256];
     snprintf(path, sizeof path, "%s/place.float.exr", test_tmp(t));
     if (!CHECK(t, image_read(FIXTURES "window.exr", &img, &err), "%s", err.text))
@@ -313,7 +313,7 @@ static void test_rgbe_fixture(struct test *t)
 {
     size_t n = 0;
     struct image picture, img;
-    struct error err = {""};
+    struct error err = {.text = ""};
     int wrong = 0;
     uint8_t *data = load(t, "picture.hdr", &n);
     if (data == NULL || !CHECK(t, image_read(FIXTURES "picture.pfm", &picture, &err), "%s", err.text))
@@ -363,7 +363,7 @@ static void test_rgbe_by_hand(struct test *t)
     };
     uint8_t data[256];
     struct image img;
-    struct error err = {""};
+    struct error err = {.text = ""};
     for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
         size_t n = make_rgbe(data, CASES[i].size, CASES[i].pixels, CASES[i].n);
         if (CASES[i].message != NULL) {

@@ -42,7 +42,7 @@ static void put_hex(struct small_file *b, const char *hex)
 static bool read_shape(struct test *t, const char *what, reader *read, const struct small_file *b, int width,
                        int height, int channels, bool floats, struct image *img)
 {
-    struct error err = {""};
+    struct error err = {.text = ""};
     return CHECK(t, read_exactly(read, b->data, b->n, img, &err), "%s: %s", what, err.text) &&
            CHECK(t, img->width == width && img->height == height && img->channels == channels &&
                         (img->f32 != NULL) == floats && (img->u8 == NULL) == floats &&
@@ -115,7 +115,7 @@ static void test_paeth_ties(struct test *t)
     static const uint8_t EXPECTED[8] = {10, 11, 10, 8, 8, 13, 11, 99};
     struct small_file file = {.n = 0};
     struct image img;
-    struct error err = {""};
+    struct error err = {.text = ""};
     put_hex(&file, PNG_PAETH_TIES);
     if (!CHECK(t, read_exactly(png_read, file.data, file.n, &img, &err), "%s", err.text))
         return;

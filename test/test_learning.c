@@ -113,7 +113,7 @@ static void test_early_end(struct test *t)
 {
     struct scene scene;
     struct film film;
-    struct error err = {""};
+    struct error err = {.text = ""};
     double asked_first = -1; /* at what share of all work */
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 48, 32, &scene)) /* two tiles */
         return;

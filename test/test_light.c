@@ -133,7 +133,7 @@ static void test_emitted(struct test *t)
 static bool scene_with_map(struct test *t, int width, int height, const float *pixels, struct scene *out)
 {
     char path[256], text[1024];
-    struct error err = {""};
+    struct error err = {.text = ""};
     snprintf(path, sizeof path, "%s/map.pfm", test_tmp(t));
     if (!CHECK(t, image_write(path, width, height, pixels, &err), "%s", err.text))
         return false;
@@ -194,7 +194,7 @@ static void test_stored_map(struct test *t)
         pixels[i] = 0.5f;
     for (int i = 0; i < 3; i++) {
         char path[256];
-        struct error err = {""};
+        struct error err = {.text = ""};
         snprintf(path, sizeof path, "%s/%s", test_tmp(t), names[i]);
         CHECK(t, image_write(path, 2, 1, pixels, &err), "%s", err.text);
         struct envmap *e = envmap_load(path, &err);
@@ -213,7 +213,7 @@ static void test_shared_picture(struct test *t)
 {
     static const float pixels[2 * 3] = {1, 2, 3, 4, 5, 6};
     char path[256], other[256];
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct light_set set = {0};
     static const enum light_kind KINDS[] = {LIGHT_INFINITE, LIGHT_INFINITE, LIGHT_PROJECTION, LIGHT_GONIOMETRIC,
                                             LIGHT_INFINITE};
@@ -278,7 +278,7 @@ static void test_slide_places(struct test *t)
 {
     static const float pixels[] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 0}; /* red green, blue yellow */
     char path[256];
-    struct error err = {""};
+    struct error err = {.text = ""};
     snprintf(path, sizeof path, "%s/four.pfm", test_tmp(t));
     CHECK(t, image_write(path, 2, 2, pixels, &err), "%s", err.text);
     struct slide *s = slide_load(path, &err);
@@ -360,7 +360,7 @@ static void test_transformed(struct test *t)
         "LightSource \"infinite\" \"string mapname\" \"%s\""};
     static float pixels[W * H * 3];
     char path[256];
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 8, 0);
     struct transform id = transform_identity();
     for (int i = 0; i < W * H * 3; i++)
@@ -451,7 +451,7 @@ static double cost_beside(struct test *t, enum light_kind kind, int n, const cha
 }
 
 /* A ray that leaves the scene asks the skies, not all lights: a hundred times as many are no tenth as dear. */
-static void test_cost(struct test *t)
+static void test_many_lights(struct test *t)
 {
     for (int kind = LIGHT_AREA; kind <= LIGHT_DISTANT; kind++)
         for (int i = 0; i < 2; i++) {
@@ -465,7 +465,7 @@ kind, few);
 
 void test_light(struct test *t)
 {
-    test_cost(t);
+    test_many_lights(t);
     test_emitted(t);
     test_slide_places(t);
     test_transformed(t);

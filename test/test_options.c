@@ -58,7 +58,7 @@ static bool read_line(const struct option *table, const char *line, char *words,
 static void check_accepted(struct test *t)
 {
     struct target o = {0};
-    struct error err = {""};
+    struct error err = {.text = ""};
     char words[1024];
     CHECK(t, read_line(TABLE, "", words, &o, &err), "%s", err.text);
     CHECK(t, o.seed == 7 && o.number == 1.5 && o.image == NULL && o.integer == 0, "the fallbacks, and zeros");
@@ -137,7 +137,7 @@ static void check_refused(struct test *t)
     };
     for (size_t i = 0; i < sizeof WRONG / sizeof WRONG[0]; i++) {
         struct target o = {0};
-        struct error err = {""};
+        struct error err = {.text = ""};
         char words[1024];
         CHECK(t, !read_line(TABLE, WRONG[i].line, words, &o, &err), "%s is wrong", WRONG[i].line);
         CHECK(t, strstr(err.text, WRONG[i].message) != NULL, "%s: %s", WRONG[i].line, err.text);
@@ -156,7 +156,7 @@ static void check_required(struct test *t)
                                            {"x", "test needs a directory (-o)"},
                                            {"x -o y z", "z is one argument too many"}};
     for (int i = 0; i < 3; i++) {
-        struct error err = {""};
+        struct error err = {.text = ""};
         struct target o = {0};
         char words[64];
         CHECK(t, !read_line(NEEDS, WRONG[i][0], words, &o, &err), "%s is wrong", WRONG[i][0]);
@@ -197,7 +197,7 @@ static void check_row(struct test *t, const struct command *c, const struct opti
             strcat(strcat(line, o->name[0] == '-' ? o->name : ""), o->kind == OPTION_ON ? " " : " x ");
     for (int alias = 0; alias < (row->alias != NULL ? 2 : 1); alias++) {
         char whole[512];
-        struct error err = {""};
+        struct error err = {.text = ""};
         char *target = mem_alloc(1, c->size), *before = mem_alloc(1, c->size);
         const char *name = alias ? row->alias : row->name[0] == '-' ? row->name : "";
         snprintf(whole, sizeof whole, "%s%s %s", line, name, value);

@@ -320,7 +320,7 @@ static void check_fixture(struct test *t, const char *name)
     char path[TEXT], expect[TEXT];
     snprintf(path, sizeof path, "%s/%s", FIXTURES, name);
     size_t size;
-    struct error err = {""};
+    struct error err = {.text = ""};
     char *text = text_read(path, &size, &err);
     struct scene s;
     struct hearing *heard = mem_alloc(1, sizeof *heard);
@@ -349,7 +349,7 @@ static void check_fixture(struct test *t, const char *name)
 static void check_nothing_quoted(struct test *t)
 {
     struct scene s;
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct hearing *heard = mem_alloc(1, sizeof *heard);
     struct message_sink sink = {hear_warning, hear_error, heard};
     CHECK(t, !parse_scene("test/fixtures/include-no-scene.pbrt", &s, &sink, &err) && heard->errors.n == 1 &&
@@ -474,7 +474,7 @@ static void check_odd_bytes(struct test *t)
     char path[TEXT], want[2 * TEXT];
     snprintf(path, sizeof path, "%s/odd.pbrt", test_tmp(t));
     write_bytes(path, TEXT_OF, sizeof TEXT_OF - 1);
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct scene s;
     CHECK(t, !parse_scene(path, &s, NULL, &err), "an odd name is accepted");
     snprintf(want, sizeof want, "%s:2:10: %s/gr\xc3\xbcn?[31m??: cannot open", path, test_tmp(t));
@@ -495,7 +495,7 @@ static void check_subdivided(struct test *t)
     char path[TEXT];
     snprintf(path, sizeof path, "%s/subdivided.pbrt", test_tmp(t));
     write_bytes(path, TEXT_OF, sizeof TEXT_OF - 1);
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct scene s;
     static const char WANT[] = ":3:7: 11 levels would make 8.39e+06 triangles of 2; of this scene yet 8388607 are made";
     CHECK(t, !parse_scene(path, &s, NULL, &err) && strstr(err.text, WANT) != NULL,
@@ -503,6 +503,61 @@ static void check_subdivided(struct test *t)
 }
 
 /* --- what a scene may repeat ---------------------------------------------------------------------------- */
+
+/* What is no parameter of a shape is none of its material either, of whatever kind that is: no copy is made. What is
+ * one makes one. */
+static void check_copies(struct test *t)
+{
+    static const char *const KINDS[] = {"matte", "mirror", "glass", "metal", "plastic", "substrate", "uber",
+                                        "translucent", "subsurface", "kdsubsurface", "disney", "mix", "none", "matte"};
+    enum { LAST = sizeof KINDS / sizeof KINDS[0] - 1, SHAPES = 20 };
+    for (int k = 0; k <= LAST; k++) {
+        char text[4 * TEXT];
+        struct scene s;
+        int n = snprintf(text, sizeof text, "WorldBegin MakeNamedMaterial \"a\" \"string type\" \"matte\"\nMaterial "
+                         "\"%s\" \"string namedmaterial1\" \"a\" \"string namedmaterial2\" \"a\"\n", KINDS[k]);
+        for (int i = 0; i < SHAPES; i++)
+            n += snprintf(text + n, sizeof text - (size_t)n, "Shape \"sphere\" \"float %s\" .%d\n",
+                          k == LAST ? "sigma" : "nosuchthing", i + 1);
+        snprintf(text + n, sizeof text - (size_t)n, "WorldEnd");
+        if (!scene_from_text(t, text, &s))
+            continue;
+        CHECK(t, k == LAST ? s.n_materials > SHAPES : s.n_materials <= 3, "%s: %d materials", KINDS[k], s.n_materials);
+        scene_free(&s);
+    }
+}
+
+/* A matrix may be given times any number. */
+static void check_matrices(struct test *t, struct rng *r)
+{
+    static const char THINGS[] = "Shape \"sphere\" Shape \"trianglemesh\" \"integer indices\" [0 1 2] "
+                                 "\"point P\" [0 0 0 1 0 0 0 1 0] WorldEnd";
+    for (int i = 0; i < 50; i++) {
+        struct scene s[2];
+        struct transform m = random_affine(r);
+        double w = i % 3 == 0 ? -0.5 : exp(8 * rng_uniform(r) - 4);
+        for (int k = 0; k < 2; k++) {
+            char text[4 * TEXT];
+            int n = snprintf(text, sizeof text, "WorldBegin %s [", i % 2 ? "Transform" : "ConcatTransform");
+            for (int c = 0; c < 16; c++)
+                n += snprintf(text + n, sizeof text - (size_t)n, "%.17g ", m.m[c % 4][c / 4] * (k == 0 ? 1 : w));
+            snprintf(text + n, sizeof text - (size_t)n, "] %s", THINGS);
+            if (!scene_from_text(t, text, &s[k]))
+                return;
+        }
+        for (int prim = 0; prim < 2; prim++) {
+            float lo[2][3], hi[2][3];
+            for (int k = 0; k < 2; k++)
+                shape_bounds(&s[k].geo, prim ? FIRST_QUADRIC : 0, lo[k], hi[k]);
+            for (int k = 0; k < 3; k++)
+                CHECK(t, fabsf(lo[0][k] - lo[1][k]) + fabsf(hi[0][k] - hi[1][k]) < 1e-5f * (hi[0][k] - lo[0][k] + 1),
+                      "a matrix times %g: %s from %g to %g, not from %g to %g", w, prim ? "sphere" : "mesh",
+                      (double)lo[1][k], (double)hi[1][k], (double)lo[0][k], (double)hi[0][k]);
+        }
+        scene_free(&s[0]);
+        scene_free(&s[1]);
+    }
+}
 
 /* A world of n times `line`, in which "@" stands for another way each to write "", is parsed. */
 static bool parse_repeated(struct test *t, const char *line, int n, struct error *err)
@@ -565,7 +620,7 @@ static void check_repeated(struct test *t)
                  "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
                  "element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0 1 0 0 0 1 0 3 0 1 2 ");
     for (size_t i = 0; i < sizeof CASE / sizeof CASE[0]; i++) {
-        struct error err = {""};
+        struct error err = {.text = ""};
         CHECK(t, parse_repeated(t, CASE[i].line, CASE[i].most, &err), "%s: %s", CASE[i].line, err.text);
         CHECK(t, !parse_repeated(t, CASE[i].line, CASE[i].most + 1, &err), "%s is accepted",
               CASE[i].line);
@@ -583,7 +638,7 @@ static void check_unpacked(struct test *t)
     struct image large = small;
     large.content = 2;
     large.file_size = 1 << 21;
-    struct error err = {""};
+    struct error err = {.text = ""};
     bool ok = true;
     for (int i = 0; i < 3; i++) {
         small.content = 3 + (uint64_t)i;
@@ -603,7 +658,7 @@ static void check_many_errors(struct test *t)
 {
     struct hearing *heard = mem_alloc(1, sizeof *heard);
     struct message_sink sink = {hear_warning, hear_error, heard};
-    struct error err = {""};
+    struct error err = {.text = ""};
     char path[TEXT];
     parse_repeated(t, "Shpae", 1000, &err);
     snprintf(path, sizeof path, "%s/repeated.pbrt", test_tmp(t));
@@ -629,7 +684,7 @@ static void check_no_files(struct test *t)
                                         "LightSource \"point\" \"spectrum I\" \"%s\"",
                                         "Shape \"plymesh\" \"string filename\" \"%s\""};
     for (int i = 0; i < 16; i++) {
-        struct error err = {""};
+        struct error err = {.text = ""};
         snprintf(line, sizeof line, LINES[i / 4], NAMES[i % 4][0]);
         CHECK(t, !parse_repeated(t, line, 1, &err) && strstr(err.text, NAMES[i % 4][1]) != NULL, "%s: %s", line,
               err.text);
@@ -681,7 +736,7 @@ static void check_damaged(struct test *t, const struct fixtures *f, int rounds)
     if (!CHECK(t, n_ok > 0, "no fixture is ok"))
         return;
     for (int i = 0; i < rounds; i++) {
-        struct error err = {""};
+        struct error err = {.text = ""};
         size_t size;
         int pick = i % 2 == 0 ? i / 2 % f->n : first_ok + i / 2 % n_ok; /* every other one was whole before */
         snprintf(from, sizeof from, "%s/%s", FIXTURES, f->name[pick]);
@@ -715,6 +770,7 @@ static void check_damaged(struct test *t, const struct fixtures *f, int rounds)
 void test_parser(struct test *t)
 {
     struct fixtures *f = mem_alloc(1, sizeof *f);
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 0, 0);
     list_fixtures(f);
     if (CHECK(t, f->n >= 170, "only %d fixtures in %s: run the tests at the top of the tree", f->n, FIXTURES)) {
         for (int i = 0; i < f->n; i++)
@@ -730,6 +786,8 @@ void test_parser(struct test *t)
     check_cleaning(t);
     check_odd_bytes(t);
     check_subdivided(t);
+    check_copies(t);
+    check_matrices(t, &r);
     check_repeated(t);
     check_unpacked(t);
     check_many_errors(t);

@@ -45,8 +45,10 @@ static void clean_up(struct fixture *f)
 static uint8_t *bytes_of(struct test *t, const struct fixture *f, size_t *n)
 {
     uint8_t *data = NULL;
-    struct error err = {""};
-    CHECK(t, part_save(f->path, &f->part, &f->film, &err) && file_read(f->path, &data, n, &err), "%s", err.text);
+    struct error err = {.text = ""};
+    struct file_output file;
+    CHECK(t, file_create(f->path, &file, &err) && part_write(&file, &f->part, &f->film, &err) &&
+             file_read(f->path, &data, n, &err), "%s", err.text);
     return data;
 }
 
@@ -173,7 +175,7 @@ static void test_damage(struct test *t)
 static void test_estimator(struct test *t)
 {
     struct scene scene;
-    struct error err = {""};
+    struct error err = {.text = ""};
     char line[64];
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 4, 4, &scene))
         return;
@@ -236,7 +238,7 @@ static void test_forged(struct test *t)
     strcat(whole.identity, "seed 1\n");
     for (int round = 0; round < ROUNDS; round++) {
         struct part p;
-        struct error err = {""};
+        struct error err = {.text = ""};
         forge_lines(&r, LINES, N_LINES, text);
         size_t n = strlen(text);
         n += (size_t)sprintf(text + n, "check %08lx\n", (unsigned long)checksum_crc32(0, (const uint8_t *)text, n));

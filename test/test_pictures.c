@@ -40,7 +40,7 @@ static void test_pyramid(struct test *t)
 {
     struct strategy_images images;
     struct image img;
-    struct error err = {""};
+    struct error err = {.text = ""};
     char path[512];
     struct pixel_rect rect = {0, 0, 8, 4, 0, 0};
     strategies_init(&images, rect, 2);
@@ -73,7 +73,7 @@ static void test_pyramid(struct test *t)
 /* What it says is what it shows. */
 static void test_demo(struct test *t)
 {
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct sheet sheet;
     enum { SIDES = 2 };
     const char *scene = "scenes/cornell-box.pbrt";
@@ -130,7 +130,7 @@ static void test_worth(struct test *t)
 {
     static float worth[SIZE * SIZE], draws[SIZE * SIZE];
     struct scene scene;
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct render_options options = {.integrator = "asbdpt", .end = 256, .n_threads = 2};
     if (!CHECK(t, parse_scene("scenes/cornell-box.pbrt", &scene, NULL, &err), "%s", err.text))
         return;

@@ -5,6 +5,7 @@
 
 #include "helpers.h"
 #include "integrators/method.h"
+#include "learning/plan.h"
 #include "render/render.h"
 #include "tests.h"
 
@@ -113,8 +114,37 @@ static void test_credit(struct test *t)
     }
 }
 
+/* --- plans --------------------------------------------------------------------------------------------- */
+
+/* Pure functions: what noise of one pixel leads to which numbers, none being 0 or beyond its bounds. */
+static void test_plan(struct test *t)
+{
+    const struct costs costs = {10, {1, 4, 1, 8}}; /* rays */
+    static const struct {
+        const char *name;
+        struct noise noise; /* total, given_eye, blocks, splats, tail, spread of draws at the first hit, later, lights */
+        double n[N_KINDS];
+        bool pay;
+    } cases[] = {
+        {"nothing measured", {0, 0, 0, 0, 0, {0, 0, 0}}, {3, 1, 2, 1}, false},
+        /* n = usual^(1/3) best^(2/3), best = sqrt(b tried / cost * 10 / A), A = 1 */
+        {"all alike", {2, 1, 0.25, 0, 0, {0.25, 0.25, 0.25}}, {3.1072, 1.3572, 2.7144, 0.4275}, false},
+        {"draws alone", {2, 1, 0, 0, 0, {1, 0, 0}}, {4.9324, 0.125, 1, 0.2321}, false},
+        {"blocks share noise", {2, 1, 4, 0, 0, {0, 0, 0}}, {0.25, 0.125, 1, 1}, false},
+        {"fireflies else", {2, 1, 0.25, 0, 50, {0.25, 0.25, 0.25}}, {3.1072, 1.3572, 2.7144, 0.4275}, true}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct plan p = plan_numbers(&costs, &cases[i].noise);
+        for (int k = 0; k < N_KINDS; k++)
+            CHECK(t, fabs(p.n[k] / cases[i].n[k] - 1) < 1e-3, "%s: %g of kind %d, not %g", cases[i].name, p.n[k], k,
+                  cases[i].n[k]);
+        CHECK(t, plan_paths_pay(&costs, &cases[i].noise, &p) == cases[i].pay, "%s: light sub-paths %s", cases[i].name,
+              cases[i].pay ? "do not pay" : "pay");
+    }
+}
+
 void test_pilot(struct test *t)
 {
+    test_plan(t);
     test_where_they_pay(t);
     test_where_nothing_else_does(t);
     test_wishes(t);

@@ -19,7 +19,7 @@ static void test_methods(struct test *t)
                                         METHOD_REFERENCE "," METHOD_PARTNER "," METHOD_PRINTED, METHODS_BENCH};
     static const char *const set[][2] = {{"restart", "0"}, {"binpaths", "16"}, {"rrthreshold", "0"}};
     struct methods m;
-    struct error err = {""};
+    struct error err = {.text = ""};
     CHECK(t, methods_read("bdpt,asbdpt:select=bins/pool,asbdpt:select=bins:restart=0/8:binpaths=4/16", &m, &err), "%s",
           err.text);
     CHECK(t, m.n == 7 && strcmp(m.item[2].text, "asbdpt:select=pool") == 0 &&
@@ -45,7 +45,7 @@ static void test_lists(struct test *t)
 {
     struct plan p = {0};
     char name[64];
-    struct error err = {""};
+    struct error err = {.text = ""};
     CHECK(t, plan_set_spp(&p, 32, 100, NULL) && p.n_steps == 3 && p.spp[2] == 100,
           "the last step is what was asked for");
     CHECK(t, !plan_set_spp(&p, 1, 1L << 24, NULL), "too many steps are refused");
@@ -75,7 +75,7 @@ static void test_planned_scene(struct test *t)
         const int *expected = cases[i].expected;
         struct scene scene;
         struct reference stored;
-        struct error err = {""};
+        struct error err = {.text = ""};
         int depth;
         bool ok = plan_scene_load(&p, "scenes/bathroom.pbrt", cases[i].name, &scene, &depth, &stored, &err);
         if (!CHECK(t, ok, "%s", err.text))
@@ -93,7 +93,7 @@ static void test_stored(struct test *t)
     char path[300];
     float pixels[4 * 4 * 3];
     struct reference r = {0};
-    struct error err = {""};
+    struct error err = {.text = ""};
     for (int i = 0; i < 48; i++)
         pixels[i] = (float)(i / 12 * 4 + i / 3 % 4); /* row * 4 + column */
     snprintf(path, sizeof path, "%s/room.txt", test_tmp(t));

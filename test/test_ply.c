@@ -272,6 +272,25 @@ static void check_odd(struct test *t)
     mesh_free(&m);
 }
 
+/* A number of any length is one number, or the file is refused: never two. */
+static void check_long_numbers(struct test *t)
+{
+    for (int digits = 1; digits < 1200; digits += 37) {
+        struct text f = {.n = 0};
+        struct mesh m;
+        struct error err;
+        put(&f, "ply\nformat ascii 1.0\nelement vertex 3\n" XYZ FACE "0 0 0 0.5");
+        for (int i = 0; i < digits; i++)
+            put(&f, "0");
+        put(&f, "1 0 0 0 1 0 3 0 1 2 ");
+        bool ok = read_bytes(t, f.data, f.n, &m, &err);
+        CHECK(t, ok ? fabsf(m.P[3] - 0.5f) < 0.01f && m.P[4] == 0 : strstr(err.text, "no number here") != NULL,
+              "%d digits: %g %g, %s", digits, ok ? (double)m.P[3] : 0, ok ? (double)m.P[4] : 0, err.text);
+        CHECK(t, ok || digits > 500, "%d digits are refused", digits);
+        mesh_free(&m);
+    }
+}
+
 /* As many elements as a file may have, and one more. */
 static void check_elements(struct test *t)
 {
@@ -294,4 +313,5 @@ void test_ply(struct test *t)
     check_refused(t);
     check_odd(t);
     check_elements(t);
+    check_long_numbers(t);
 }

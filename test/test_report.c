@@ -197,7 +197,7 @@ static void set_up(struct test *t, struct setup *s)
     const struct plan plan = {.command = "experiment", .scene = s->scene, .n_scenes = 1, .n_seeds = 2, .width = 8,
                               .reference_spp = 64, .n_threads = 1, .quiet = true, .directory = s->directory,
                               .no_roulette = true};
-    struct error err = {""};
+    struct error err = {.text = ""};
     snprintf(s->scene_path, sizeof s->scene_path, "%s/cornell-box.pbrt", test_tmp(t));
     snprintf(s->directory, sizeof s->directory, "%s/experiment", test_tmp(t));
     write_scene(s->scene_path, "[6 6 6]");
@@ -209,7 +209,7 @@ static void set_up(struct test *t, struct setup *s)
 
 static bool carry_out(struct test *t, struct setup *s, struct results *out)
 {
-    struct error err = {""};
+    struct error err = {.text = ""};
     memset(out, 0, sizeof *out);
     return CHECK(t, measure(&s->plan, out, &err), "experiment: %s", err.text);
 }
@@ -238,7 +238,7 @@ static double direct_rmse8(struct test *t, const struct results *r, int method, 
     const struct measured *m = &r->plan->methods.item[method];
     struct scene scene;
     struct film film;
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct settings base = {0};
     float pixels[8 * 6 * 3];
     if (!scene_from_file(t, r->scene[0].path, 8, 6, &scene))
@@ -302,7 +302,7 @@ static void check_sheet(struct test *t, const struct results *r)
 {
     const struct scene_results *s = &r->scene[0];
     struct image img;
-    struct error err = {""};
+    struct error err = {.text = ""};
     char path[512];
     snprintf(path, sizeof path, "%s/images/cornell-box.png", r->plan->directory);
     if (!CHECK(t, image_read(path, &img, &err), "%s", err.text))
@@ -327,7 +327,7 @@ static void check_sheet(struct test *t, const struct results *r)
 static void check_output(struct test *t, const struct results *r)
 {
     static const char *const plots[] = {"convergence", "samples", "bias", "sweep-1"};
-    struct error err = {""};
+    struct error err = {.text = ""};
     CHECK(t, report_write(r, &err), "output: %s", err.text);
     check_sheet(t, r);
     for (size_t i = 0; i < sizeof plots / sizeof plots[0]; i++) {

@@ -242,13 +242,11 @@ static void test_limits(struct test *t)
         {"all-materials", SIDE, 4, "ris records=0 subpaths=1", "pcbdpt records=0 subpaths=1",
          "ris records=0 subpaths=100", 1e-5},
         {"mirror-glass", SIDE, 4, "restirgi neighbours=0", "pt", "restirgi neighbours=5", 0},
-        {"mirror-glass", SIDE, 4, "restirgi caustics=1", "pt caustics=1", "restirgi", 0},
         {"mirror-glass", SIDE, 4, "pathgraph cluster=1", "pt", "pathgraph cluster=2", 1e-6},
         {"all-materials", SIDE, 4, "pathgraph cluster=1", "pt", "pathgraph radius=.2", 1e-6},
         {"white", SIDE, 4, "pathgraph radius=.1", "pt", "pathgraph radius=1", 0.1}, /* the same light everywhere */
         {"light-kinds", SIDE, 6, "pathgraph cluster=1 heuristic=power", "pt heuristic=power", "pt", 1e-6},
         {"all-materials", SIDE, 4, "pathgraph radius=1e-6", "pt", "pathgraph radius=.2", 1e-6},
-        {"mirror-glass", SIDE, 4, "pathgraph regularise=.1", "pt regularise=.1", "pathgraph", 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char path[256];

@@ -29,8 +29,9 @@ static uint32_t corner_index[] = {0, 1, 2};
 static int add_triangle(struct test *t, struct geometry *geo, bool with_n, bool with_uv, struct transform to_world,
                         bool reverse)
 {
-    struct mesh m = {corner, with_n ? corner_normal : NULL, with_uv ? corner_uv : NULL, corner_index, 3, 1, 0, 0, 0, 0};
-    struct error err = {""};
+    struct mesh m = {corner, with_n ? corner_normal : NULL, with_uv ? corner_uv : NULL, corner_index, 3, 1, 0, 0, 0, 0,
+                     NULL};
+    struct error err = {.text = ""};
     int group = shape_add_mesh(geo, &m, &to_world, group_of(7, 40), reverse, &err);
     CHECK(t, group == geo->n_groups - 1, "%s", err.text);
     return geo->group[group].first_prim;
@@ -130,14 +131,14 @@ static void check_vertex_normals(struct test *t, struct rng *r)
     const double h = 1e-5;
     for (int i = 0; i < 50; i++) {
         struct geometry geo = {0};
-        struct error err = {""};
+        struct error err = {.text = ""};
         struct transform m = random_affine(r);
         double b1 = 0.1 + 0.4 * rng_uniform(r), b2 = 0.1 + 0.3 * rng_uniform(r);
         float normal[9];
         vec3 n[3];
         for (int k = 0; k < 9; k++)
             normal[k] = corner_normal[k] * (float)(k / 3 + 1);
-        struct mesh mesh = {corner, normal, corner_uv, corner_index, 3, 1, 0, 0, 0, 0};
+        struct mesh mesh = {corner, normal, corner_uv, corner_index, 3, 1, 0, 0, 0, 0, NULL};
         CHECK(t, shape_add_mesh(&geo, &mesh, &m, group_of(7, 40), false, &err) == 0, "%s", err.text);
         for (size_t k = 0; k < 3; k++)
             n[k] = load3(normal, k);
@@ -154,12 +155,48 @@ static void check_vertex_normals(struct test *t, struct rng *r)
     }
 }
 
+/* Vertex tangents of any length under any transform: what comes of their mean across ns is where dpdu points, and no
+ * normal, length or handedness changes; where nothing comes of it, nothing does. */
+static void check_vertex_tangents(struct test *t, struct rng *r)
+{
+    for (int i = 0; i < 50; i++) {
+        struct geometry geo = {0};
+        struct error err = {.text = ""};
+        struct transform m = random_affine(r);
+        float tangent[9];
+        vec3 s[3], s0 = on_sphere(r);
+        for (int k = 0; k < 3; k++) {
+            vec3 v = mul(i % 5 == 4 ? vec(0, 0, 0) : add(s0, mul(on_sphere(r), 0.3)), k + 1);
+            store3(tangent, (size_t)k, v);
+            s[k] = load3(tangent, (size_t)k);
+        }
+        struct mesh mesh = {corner, i % 2 ? corner_normal : NULL, corner_uv, corner_index, 3, 1, 0, 0, 0, 0, NULL};
+        CHECK(t, shape_add_mesh(&geo, &mesh, &m, group_of(7, 40), i % 3 == 0, &err) == 0, "%s", err.text);
+        mesh.S = tangent;
+        CHECK(t, shape_add_mesh(&geo, &mesh, &m, group_of(7, 40), i % 3 == 0, &err) == 1, "%s", err.text);
+        double b1 = 0.1 + 0.4 * rng_uniform(r), b2 = 0.1 + 0.3 * rng_uniform(r);
+        struct surface without = surface_at(&geo, 0, b1, b2), with = surface_at(&geo, 1, b1, b2);
+        vec3 mean = transform_vector(&m, barycentric3(s, b1, b2));
+        vec3 want = normalize(sub(mean, mul(with.ns, dot(mean, with.ns))));
+        vec3 old = cross(without.dpdu, without.dpdv), new = cross(with.dpdu, with.dpdv);
+        CHECK(t, near3(with.ns, without.ns, 0) && near3(with.ng, without.ng, 0), "tangents %d turn a normal", i);
+        if (i % 5 == 4)
+            CHECK(t, near3(with.dpdu, without.dpdu, 0) && near3(with.dpdv, without.dpdv, 0), "tangents of 0 count");
+        else
+            CHECK(t, near3(normalize(with.dpdu), want, 1e-5) && dot(old, with.ns) * dot(new, with.ns) > 0 &&
+                         fabs(length(with.dpdu) / length(without.dpdu) - 1) < 1e-9 &&
+                         fabs(length(with.dpdv) / length(without.dpdv) - 1) < 1e-9 &&
+                         fabs(dot(with.dpdv, want)) < 1e-5 * length(with.dpdv), "tangents %d", i);
+        geometry_free(&geo);
+    }
+}
+
 static void check_degenerate_uv(struct test *t)
 {
     struct geometry geo = {0};
     struct transform id = transform_identity();
     float same[] = {0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f};
-    struct mesh m = {corner, corner_normal, same, corner_index, 3, 1, 0, 0, 0, 0};
+    struct mesh m = {corner, corner_normal, same, corner_index, 3, 1, 0, 0, 0, 0, NULL};
     for (int i = 0; i < 2; i++, m.N = NULL) {
         shape_add_mesh(&geo, &m, &id, group_of(0, -1), false, NULL);
         struct surface at = surface_at(&geo, i, 0.3, 0.3);
@@ -310,11 +347,11 @@ static void check_refused(struct test *t)
                           quadric(QUADRIC_SPHERE, transform_scale(1, 1, 1e19), 1, 0, -1, 1, 2 * PI),
                           quadric(QUADRIC_SPHERE, transform_translate(vec(NAN, 0, 0)), 1, 0, -1, 1, 2 * PI)};
     struct geometry geo = {0};
-    struct error err = {""};
+    struct error err = {.text = ""};
     for (size_t i = 0; i < sizeof q / sizeof q[0]; i++)
         CHECK(t, shape_add_quadric(&geo, q[i], group_of(0, -1), false, &err) == -1 && geo.n_quadrics == 0 &&
-                     strstr(err.text, "not a usable position") != NULL, "quadric %d: \"%s\"", (int)i, err.text);
-    struct mesh m = {corner, NULL, NULL, corner_index, 3, 1, 0, 0, 0, 0};
+                     strstr(err.text, "places go up to 1e12") != NULL, "quadric %d: \"%s\"", (int)i, err.text);
+    struct mesh m = {corner, NULL, NULL, corner_index, 3, 1, 0, 0, 0, 0, NULL};
     struct transform far = transform_translate(vec(1e30, 0, 0));
     CHECK(t, shape_add_mesh(&geo, &m, &far, group_of(0, -1), false, &err) == -1 && geo.n_triangles == 0 &&
                  geo.n_groups == 0 && strstr(err.text, "vertex 0") != NULL, "a vertex at 1e30: %s", err.text);
@@ -433,6 +470,7 @@ void test_shape(struct test *t)
     check_triangle_random(t, &r);
     check_triangle_partials(t);
     check_vertex_normals(t, &r);
+    check_vertex_tangents(t, &r);
     check_degenerate_uv(t);
     check_refused(t);
     for (int i = 0; i < N_QUADRICS; i++) {

@@ -361,7 +361,7 @@ static void test_decoding(struct test *t)
     static const char *const TEXELS[] = {"P3 1 1 255 200 100 20\n", "P3 1 1 255 50 50 50\n"};
     char path[3][256]; /* there is no third file */
     struct texture_set set = {.n_textures = 0};
-    struct error err = {""};
+    struct error err = {.text = ""};
     for (int i = 0; i < 3; i++) {
         snprintf(path[i], sizeof path[i], "%s/texel%d.ppm", test_tmp(t), i);
         if (i < 2)

@@ -286,7 +286,7 @@ static void test_refused(struct test *t, const struct scene *scene)
                  {0, 0, -1, "sample -1"}};
     struct render_options options = options_of(0);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        struct error err = {""};
+        struct error err = {.text = ""};
         struct trace trace = {.x = cases[i].x, .y = cases[i].y, .iteration = cases[i].sample};
         CHECK(t, !trace_render(scene, &options, &trace, &err) && strstr(err.text, cases[i].says) != NULL,
               "%s: \"%s\"", cases[i].says, err.text);

@@ -158,7 +158,7 @@ static void test_tiles(struct test *t)
 static void test_store(struct test *t)
 {
     char name[256], path[280];
-    struct error err = {""};
+    struct error err = {.text = ""};
     struct side a = {"a", 2, 1, batches_new(2, 6, false)}, b = {"b", 2, 1, batches_new(1, 6, true)}, stored = {0};
     for (int i = 0; i < 6; i++) {
         a.pixels.value[i] = 1 + i; /* 1 + i +- 1: the mean's variance is 1 */

@@ -147,7 +147,7 @@ static void check_round_trip(struct test *t, const char *what, const uint8_t *da
 {
     size_t size;
     uint8_t *packed = deflate_zlib(data, n, &size), *out = mem_alloc(n, 1);
-    struct error err = {""};
+    struct error err = {.text = ""};
     CHECK(t, inflate_zlib(packed, size, out, n, &err) && memcmp(out, data, n) == 0, "%s: %s", what, err.text);
     CHECK(t, size <= most, "%s: %lu bytes packed to %lu, expected at most %lu", what, (unsigned long)n,
           (unsigned long)size, (unsigned long)most);

@@ -57,7 +57,7 @@ async function rendered(settings) {
 }
 (async () => {
   await until(() => SCENES.length > 0, 'the unpacked scenes');
-  check(SCENES.length === 9, 'scenes: ' + SCENES);
+  check(SCENES.length === 10 && SCENES.includes('rooms'), 'scenes: ' + SCENES);
   await until(() => sides.every(s => s.worker), 'its start');
   check($('reference').width > 20 && $('select').length === 18, 'reference and methods');
   turn('scale', 2);
@@ -91,16 +91,50 @@ async function rendered(settings) {
   await rendered([['binpaths', 4], ['restart', 0]]);
   check(sum(sides[1].last.pixels) !== bins, 'restart changes nothing');
 
-  // A click.
-  for (const [i, words] of [[0, 'pixel 32,16, sample 0: bdpt'], [1, 'pixel 32,16, sample 0: asbdpt']]) {
+  // Pause: nothing comes, and then it goes on to the same bytes.
+  await rendered([['spp', 3], ['binpaths', 4], ['restart', 4], ['select', 'pool']]);
+  const whole = sum(sides[0].last.pixels);
+  turn('spp', 9);
+  await sleep(300);
+  await until(() => sides.every(s => s.points.length > 2), 'a long render');
+  $('pause').click();
+  await sleep(600);
+  const held = sides.map(s => s.points.length);
+  await sleep(600);
+  check(sides.every((s, i) => s.points.length === held[i] && !s.done), 'a pause does not hold: ' + held);
+  $('pause').click();
+  await until(() => sides.every((s, i) => s.points.length > held[i]), 'its going on');
+  await rendered([['spp', 3]]);
+  check(sum(sides[0].last.pixels) === whole, 'after a pause another picture');
+
+  // A link sets controls. The means that leave the plot are not drawn at its edge.
+  location.hash = '#scene=rooms&select=bins&spp=5&scale=2';
+  await sleep(400);
+  await until(done, 'the scene of a link');
+  check($('scene').value === 'rooms' && $('select').value === 'bins' && sides[1].points.length > 0, 'a link');
+  sides[0].points[1][2] = 1e6;
+  plot();
+  const path = $('plot1').querySelector('path[stroke="#1d5fbf"]').getAttribute('d');
+  check(!/e|NaN/.test(path) && path.split('M').length > 2, 'a mean outside is drawn: ' + path.slice(0, 60));
+  location.hash = '#scene=cornell-box&select=bins&spp=3&scale=2&binpaths=4&restart=0';
+  await sleep(400);
+  await until(done, 'the box again');
+
+  // A click shows a sample that brings light, and the button the next one.
+  for (const [i, words] of [[0, /pixel 32,16, sample \d+: bdpt/], [1, /pixel 32,16, sample \d+: asbdpt/]]) {
     const box = $(`picture${i}`).getBoundingClientRect();
     $(`picture${i}`).dispatchEvent(new MouseEvent('click', { bubbles: true,
       clientX: box.left + 32.5 / 64 * box.width, clientY: box.top + 16.5 / 64 * box.height }));
-    await until(() => $('story').textContent.includes(words), words);
+    await until(() => words.test($('story').textContent), words);
     check($('story').textContent.endsWith('outside the picture\n'), 'the story is cut');
     await until(() => $('drawing').naturalWidth > 1000, 'the drawing');
   }
   check(/the pixel's bins/.test($('choice').textContent), 'the choice is not told');
+  const first = Number($('sample').value);
+  check(!/receives 0 0 0/.test($('story').textContent), 'the first sample shown brings nothing');
+  $('next').click();
+  await until(() => Number($('sample').value) > first && /^The pixel rec/m.test($('story').textContent), 'the next');
+  check(!/receives 0 0 0/.test($('story').textContent), 'the next sample brings nothing');
   $('sample').value = 5;
   $('sample').dispatchEvent(new Event('change'));
   await until(() => $('story').textContent.includes('sample 5'), 'another sample');

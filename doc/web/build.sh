@@ -15,9 +15,9 @@ if ! command -v "$clang" >/dev/null || ! "$clang" $target -o "$dir/a.wasm" "$dir
 fi
 # Of the laboratory the other methods, and what tells of a sample.
 sources="$(ls src/*/*.c | grep -v -e '/main\.c' -e '/program\.c' -e '/rows\.c') $(ls test/lab/rivals/*.c test/lab/chains/*.c)
-    test/lab/rows.c test/lab/compare.c test/lab/colormap.c test/lab/sheet.c test/lab/font.c test/lab/cmd_trace.c test/lab/markup.c test/lab/trace_text.c
-    test/lab/trace_json.c test/lab/trace_svg.c"
-"$clang" $target -std=c99 -Oz -Isrc -Itest -Itest/lab -ffp-contract=off -D_WASI_EMULATED_SIGNAL -Wl,-z,stack-size=4194304,-s \
+    test/lab/rows.c test/lab/compare.c test/lab/colormap.c test/lab/sheet.c test/lab/font.c test/lab/cmd_trace.c test/lab/markup.c test/lab/trace.c test/lab/worst.c
+    test/lab/trace_brief.c test/lab/trace_text.c test/lab/trace_json.c test/lab/trace_svg.c"
+"$clang" $target -std=c99 -Werror -Oz -Isrc -Itest -Itest/lab -ffp-contract=off -D_WASI_EMULATED_SIGNAL -Wl,-z,stack-size=4194304,-s \
     -Wl,--allow-undefined,--export=web_words,--export=web_command,--export=web_render \
     -o "$dir/web.wasm" $sources doc/web/web.c -lm -lwasi-emulated-signal || exit 1
 
@@ -39,6 +39,8 @@ embed() { # ATTRIBUTES FILE: a script that is none, with the file in it
             [ -f "$file" ] && embed "data-path=\"$file\"" "$file"
         done
     done
+    embed 'data-path="scenes/rooms.pbrt"' doc/mini/rooms.pbrt # of the tour
+    embed 'data-path="ref/rooms.pfm"' doc/web/rooms.pfm
     sed '1,/^<!-- EMBEDDED -->$/d' doc/web/page.html
     echo "<!-- built by $("$clang" --version | head -n 1) -->"
 } >"$dir/page.html" && mkdir -p "$(dirname "$out")" && mv "$dir/page.html" "$out" &&

@@ -19,6 +19,7 @@
 #include "lab/compare.h"
 #include "lab/sheet.h"
 #include "render/parameters.h"
+#include "scene/develop.h"
 
 char *web_words(int size);
 int web_command(int n);
@@ -88,13 +89,13 @@ static struct difference compare(const struct watch *w)
     return d;
 }
 
-static bool show(void *context, double done)
+static enum render_wish show(void *context, double done)
 {
     struct watch *w = context;
     double now = os_wall_seconds();
     (void)done;
     if (w->film->passes > 0 || w->film->iterations == w->shown)
-        return true;
+        return RENDER_GO_ON;
     w->shown = w->film->iterations;
     film_develop(w->film, w->scene->film_scale, w->pixels);
     int width = w->scene->width, height = w->scene->height;
@@ -107,7 +108,7 @@ static bool show(void *context, double done)
     bool go_on = web_show(w->rgba, w->pixels, width, height, (int)w->shown, now - w->start - w->lost, d.rmse8,
                           d.mean_ratio);
     w->lost += os_wall_seconds() - now;
-    return go_on;
+    return go_on ? RENDER_GO_ON : RENDER_END_BLOCK;
 }
 
 static bool read_reference(struct watch *w, const char *path, struct error *err)

@@ -5,15 +5,30 @@
 #include <stdint.h>
 #include <stdio.h>
 
+static void fill(struct error *err, bool usage, const char *format, va_list args)
+{
+    if (err == NULL)
+        return;
+    err->usage = usage;
+    vsnprintf(err->text, sizeof err->text, format, args);
+    error_clean(err->text);
+}
+
 bool error_set(struct error *err, const char *format, ...)
 {
-    if (err != NULL) {
-        va_list args;
-        va_start(args, format);
-        vsnprintf(err->text, sizeof err->text, format, args);
-        va_end(args);
-        error_clean(err->text);
-    }
+    va_list args;
+    va_start(args, format);
+    fill(err, false, format, args);
+    va_end(args);
+    return false;
+}
+
+bool error_usage(struct error *err, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    fill(err, true, format, args);
+    va_end(args);
     return false;
 }
 

@@ -98,6 +98,16 @@ bool file_has_extension(const char *path, const char *extension)
     return n >= m;
 }
 
+char *file_meant(const char *path, const char *extension)
+{
+    char *name = mem_alloc(strlen(path) + strlen(extension) + 1, 1);
+    strcat(strcpy(name, path), extension);
+    if (!file_exists(path) && file_exists(name))
+        return name;
+    free(name);
+    return NULL;
+}
+
 /* --- writing ----------------------------------------------------------------------------------------- */
 
 /* Forget it all, and remove the temporary file unless it has the target's name by now. */
@@ -178,6 +188,11 @@ bool file_commit(struct file_output *out, struct error *err)
 {
     errno = 0;
     bool ok = fflush(out->stream) == 0 && ferror(out->stream) == 0;
+    if (!ok && errno == 0) { /* it was an earlier write that failed: another says why */
+        clearerr(out->stream);
+        if (fputc(0, out->stream) != EOF)
+            fflush(out->stream);
+    }
     /* On the disk before it has the target's name, so that not even a power failure leaves half a file there. */
     ok = ok && (out->temporary == NULL || os_store(out->stream));
     int reason = ok ? 0 : errno; /* os_store may leave a number in errno where it finds nothing to do */

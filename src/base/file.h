@@ -41,6 +41,10 @@ char *file_follow(const char *path);
 /* file_has_extension: does a path end in this extension (lower case, with its dot), in whatever case? */
 bool file_has_extension(const char *path, const char *extension);
 
+/* file_meant: the name of the file that is there if the extension is added to one that is not, to be given to free();
+ * else NULL. */
+char *file_meant(const char *path, const char *extension);
+
 /* A file being written. */
 struct file_output {
     FILE *stream;    /* where to write, binary; write errors stick to it and are found by file_commit */

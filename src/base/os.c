@@ -13,6 +13,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -118,6 +119,19 @@ static bool can_map(void)
     return p != MAP_FAILED && munmap(p, 1) == 0;
 }
 
+/* Bytes that the machine can move out of memory; 0 where it does not say. */
+static rlim_t swap_size(void)
+{
+    char line[128];
+    unsigned long kib = 0;
+    FILE *f = fopen("/proc/meminfo", "r");
+    while (f != NULL && fgets(line, sizeof line, f) != NULL && sscanf(line, "SwapTotal: %lu", &kib) != 1)
+        kib = 0;
+    if (f != NULL)
+        fclose(f);
+    return (rlim_t)kib * 1024;
+}
+
 void os_limit_memory(void)
 {
 #if defined _SC_PHYS_PAGES && defined RLIMIT_DATA
@@ -126,7 +140,7 @@ void os_limit_memory(void)
     if (pages <= 0 || page <= 0 || getrlimit(RLIMIT_DATA, &old) != 0)
         return;
     limit = old;
-    limit.rlim_cur = (rlim_t)pages * (rlim_t)page;
+    limit.rlim_cur = (rlim_t)pages * (rlim_t)page + swap_size();
     if (old.rlim_cur != RLIM_INFINITY && old.rlim_cur <= limit.rlim_cur)
         return;
     if (setrlimit(RLIMIT_DATA, &limit) == 0 && !can_map())

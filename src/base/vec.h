@@ -87,11 +87,11 @@ static inline bool combination(vec3 a, vec3 b, vec3 v, double *x, double *y)
     return true;
 }
 
-/* is_place: can something of the scene be at p? Coordinates beyond 1e18 could overflow float arithmetic such as a box's
- * extent. */
+/* is_place: can something of the scene be at p? A kd-tree's planes are as thick as 1e-14 of the scene (kdtree.c):
+ * beside something farther away than this, what is of everyday size could not be told apart. */
 static inline bool is_place(vec3 p)
 {
-    const double limit = 1e18;
+    const double limit = 1e12;
     return fabs(p.x) <= limit && fabs(p.y) <= limit && fabs(p.z) <= limit;
 }
 

@@ -20,8 +20,8 @@ bool aov_read(const char *list, struct aov_files *out, struct error *err)
         while (i < N_AOVS && (strlen(aov_name((enum aov)i)) != n || strncmp(word, aov_name((enum aov)i), n) != 0))
             i++;
         if (i == N_AOVS)
-            return error_set(err, "--aov %s: known are albedo, normal, depth, position, variance, with commas between "
-                                  "them", list);
+            return error_usage(err, "--aov %s: known are albedo, normal, depth, position, variance, with commas "
+                                    "between them", list);
         out->wanted[i] = true;
         word = word[n] == ',' ? word + n + 1 : NULL;
     }
@@ -45,7 +45,7 @@ static bool has_exr(const struct outputs *out, struct error *err)
     for (int i = 0; i < out->n; i++)
         if (!out->item[i].is_part && image_keeps_place(out->item[i].file.path))
             return true;
-    return error_set(err, "--layers: no other format has them than .exr; name one by -o");
+    return error_usage(err, "--layers: no other format has them than .exr; name one by -o");
 }
 
 bool aov_open(struct aov_files *f, bool layers, struct names *all, struct outputs *out, struct error *err)
@@ -58,7 +58,7 @@ bool aov_open(struct aov_files *f, bool layers, struct names *all, struct output
     for (int i = 0; ok && i < N_AOVS; i++) {
         const char *picture = out->item[0].file.path;
         if (f->wanted[i] && strcmp(picture, "-") == 0)
-            return error_set(err, "--aov needs a picture with a name (-o), to write beside it");
+            return error_usage(err, "--aov needs a picture with a name (-o), to write beside it");
         ok = !f->wanted[i] || open_one(picture, (enum aov)i, all, out, err);
     }
     return ok;

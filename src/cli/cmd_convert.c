@@ -14,6 +14,7 @@ struct convert_options {
     struct texts in, out;
     const char *weights; /* numbers with commas between them, or NULL: all 1 */
     struct tone_options tone;
+    bool quiet;
 };
 
 #define AT(member) offsetof(struct convert_options, member)
@@ -25,6 +26,7 @@ static const struct option OPTIONS[] = {
      .help = "a picture to write: linear .pfm .exr, sRGB .png .ppm; repeatable"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
+    {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "do not say what was written"},
     {.name = NULL},
 };
 
@@ -78,7 +80,7 @@ static float *add_up(const struct convert_options *o, int *width, int *height, s
     bool ok = true;
     for (int i = 0; ok && i < o->in.n; i++)
         ok = (text == NULL || next_weight(&text, i + 1 == o->in.n, &weight) ||
-              error_set(err, "--weights %s: expected %d numbers with commas between them", o->weights, o->in.n)) &&
+              error_usage(err, "--weights %s: expected %d numbers with commas between them", o->weights, o->in.n)) &&
              add_picture(o->in.item[i], weight, &sum, width, height, about, err);
     size_t n = ok ? 3 * (size_t)*width * (size_t)*height : 0;
     float *out = ok ? mem_alloc(n, sizeof *out) : NULL;
@@ -104,7 +106,7 @@ static int run(void *options)
     if (ok) {
         out.place = about.place;
         warn_of_place(o, &about.place, width, height);
-        ok = outputs_write(&out, width, height, pixels, true, &err);
+        ok = outputs_write(&out, width, height, pixels, o->quiet, &err);
     }
     outputs_abandon(&out); /* unless they are written */
     free(pixels);

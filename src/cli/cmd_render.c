@@ -73,6 +73,7 @@ struct files {
     struct outputs pictures;
     struct aov_files aov;
     struct file_output stats; /* its stream NULL: none; it is complete when all others are */
+    const char *made;         /* a directory that was not there before; NULL: none */
 };
 
 static void abandon(struct files *f)
@@ -80,6 +81,8 @@ static void abandon(struct files *f)
     outputs_abandon(&f->pictures);
     if (f->stats.stream != NULL)
         file_abandon(&f->stats);
+    if (f->made != NULL)
+        remove(f->made); /* if nothing has come into it */
 }
 
 /* What can be said before the scene is loaded. What has no place in a part (render/part.h) is not there after
@@ -91,7 +94,8 @@ static bool check_options(const struct job_options *o, struct files *f, struct e
         return false;
     if (o->keep.resume != NULL && f->aov.wanted[AOV_VARIANCE])
         return error_set(err, "%s: variance is not saved and cannot be resumed", o->keep.resume);
-    return lights_possible(o->lights, err) && keep_check(&o->keep, err);
+    f->made = o->lights != NULL && !file_exists(o->lights) ? o->lights : NULL;
+    return keep_check(&o->keep, err);
 }
 
 /* What needs no scene to be opened. */
@@ -122,7 +126,7 @@ static bool suits(const struct job_options *o, const struct method *m, const str
                          : o->lights != NULL ? "--lights" : o->alpha ? "--alpha"
                          : keep_asks_noise(&o->keep) ? "--noise" : NULL;
     return !m->chain || wanted == NULL ||
-           error_set(err, "%s: the samples of %s are a chain, and do not show that; render several --seed", wanted,
+           error_usage(err, "%s: the samples of %s are a chain, and do not show that; render several --seed", wanted,
                      m->name);
 }
 
@@ -133,7 +137,7 @@ static bool open_others(struct job_options *o, const struct scene *scene, struct
     bool ok = names_add_options(&all, OPTIONS, o, err) &&
               (f->pictures.n > 0 || open_default_output(o, scene, &all, &f->pictures, err)) &&
               aov_open(&f->aov, o->layers, &all, &f->pictures, err) &&
-              lights_check(o->lights, scene, &all, err);
+              lights_open(o->lights, scene, &all, &f->pictures, err);
     names_free(&all);
     return ok;
 }
@@ -162,7 +166,6 @@ static bool write_files(const struct job_options *o, const struct scene *scene, 
     aov_free(&f->aov);
     free(alpha);
     free(pixels);
-    ok = lights_write(o->lights, scene, film, ok ? err : NULL) && ok;
     if (ok && f->stats.stream != NULL)
         return file_commit(&f->stats, err);
     abandon(f);

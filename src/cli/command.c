@@ -19,10 +19,8 @@
 
 int fail(const struct error *err)
 {
-    bool option = strncmp(err->text, "--", 2) == 0 || strncmp(err->text, "-P:", 3) == 0 ||
-                  strncmp(err->text, "-o ", 3) == 0;
     fprintf(stderr, "asbdpt: %s\n", err->text);
-    return option ? EXIT_USAGE : EXIT_JOB;
+    return err->usage ? EXIT_USAGE : EXIT_JOB;
 }
 
 int usage_error(const struct command *command, const char *format, ...)
@@ -36,6 +34,13 @@ int usage_error(const struct command *command, const char *format, ...)
     fprintf(stderr, "asbdpt: %s; try %s %s%s--help\n", err.text, program.name, command != NULL ? command->name : "",
             command != NULL ? " " : "");
     return EXIT_USAGE;
+}
+
+bool in_laboratory(const char *name)
+{
+    char word[32];
+    snprintf(word, sizeof word, " %s ", name);
+    return program.laboratory != NULL && strstr(program.laboratory, word) != NULL;
 }
 
 /* --- help --------------------------------------------------------------------------------------------- */
@@ -176,6 +181,18 @@ static void print_version(void)
                "differ in their last bits from those of other builds\n");
 }
 
+/* A word where a command is expected, and the nearest of these or NULL. */
+static int unknown(const char *word, const char *nearest)
+{
+    char *scene = file_meant(word, ".pbrt");
+    nearest = scene != NULL ? scene : nearest;
+    int status = in_laboratory(word) ? usage_error(NULL, "%s is a command of asbdpt-lab", word)
+                 : nearest != NULL   ? usage_error(NULL, "unknown command %s (did you mean %s?)", word, nearest)
+                                     : usage_error(NULL, "unknown command %s", word);
+    free(scene);
+    return status;
+}
+
 /* What the arguments ask for. */
 static int obey(int argc, char **argv)
 {
@@ -195,9 +212,7 @@ static int obey(int argc, char **argv)
     }
     if (program.unnamed != NULL && (argv[1][0] == '-' || file_has_extension(argv[1], ".pbrt")))
         return run(program.unnamed, argc, argv);
-    if (s.name == NULL)
-        return usage_error(NULL, "unknown command %s", argv[1]);
-    return usage_error(NULL, "unknown command %s (did you mean %s?)", argv[1], s.name);
+    return unknown(argv[1], s.name);
 }
 
 int command_line(int argc, char **argv)

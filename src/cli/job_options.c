@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/mem.h"
 #include "cli/command.h"
 #include "parser/parser.h"
@@ -27,7 +28,8 @@ const struct option JOB_OPTIONS[] = {
      .help = "as pbrt's: a quarter of the width and height (but --res), one sample per pixel (but --spp)"},
     {"--maxdepth", "N", OPTION_INTEGER, AT(max_depth), 1, PATH_MAX_DEPTH,
      .help = "longest path, 1 = direct light (default: the scene's, else 5)"},
-    {"--res", "WIDTHxHEIGHT", OPTION_INTEGER, AT(res), 1, 65536, .help = "pixels of the film (default: the scene's)"},
+    {"--res", "WIDTH[xHEIGHT]", OPTION_INTEGER, AT(res), 1, 65536,
+     .help = "pixels of the film; a width keeps its shape (default: the scene's)"},
     {"--filter", "NAME", OPTION_TEXT, AT(filter),
      .help = "of pixels: box, triangle, gaussian, mitchell or sinc (default: the scene's)"},
     {"--cropwindow", "X0 X1 Y0 Y1", OPTION_NUMBER, AT(crop), 0, 1,
@@ -68,14 +70,16 @@ static void override(const char *pair, struct settings *settings)
 static bool apply(const struct job_options *o, struct scene *scene, struct error *err)
 {
     if (o->res[0] > 0) {
-        scene->width = o->res[0];
-        scene->height = o->res[1];
+        struct error why;
+        scene_resize(scene, o->res[0], o->res[1]);
+        if (!picture_size_ok((uint64_t)scene->width, (uint64_t)scene->height, &why))
+            return error_usage(err, "--res: %s", why.text);
     } else if (o->quick) {
         scene->width = scene->width > 4 ? scene->width / 4 : 1;
         scene->height = scene->height > 4 ? scene->height / 4 : 1;
     }
     if (o->filter != NULL && !filter_default(o->filter, &scene->filter))
-        return error_set(err, "--filter %s: known are box, triangle, gaussian, mitchell, sinc", o->filter);
+        return error_usage(err, "--filter %s: known are box, triangle, gaussian, mitchell, sinc", o->filter);
     if (o->crop[1] > 0)
         memcpy(scene->crop, o->crop, sizeof o->crop);
     for (int i = 0; i < o->overrides.n; i++)
@@ -86,7 +90,8 @@ static bool apply(const struct job_options *o, struct scene *scene, struct error
         override(depth, &scene->settings);
     struct pixel_rect crop = render_crop(scene);
     if (rect_width(crop) < 1 || rect_height(crop) < 1)
-        return error_set(err, "%s holds no pixel", o->crop[1] > 0 ? "--cropwindow" : "the crop window");
+        return o->crop[1] > 0 ? error_usage(err, "--cropwindow holds no pixel")
+                              : error_set(err, "the crop window holds no pixel");
     return true;
 }
 
@@ -134,7 +139,10 @@ static const struct method *choose_method(const struct scene *scene, struct list
     }
     struct error known;
     integrator_unknown(name, &known);
-    error_set(err, "--integrator %s does not exist; %s", name, known.text);
+    if (in_laboratory(name))
+        error_usage(err, "--integrator %s is in asbdpt-lab", name);
+    else
+        error_usage(err, "--integrator %s does not exist; %s", name, known.text);
     return NULL;
 }
 
@@ -150,6 +158,12 @@ int job_load_for(const struct job_options *o, job_readers *choose, struct scene 
     struct listener listener = {o, 0};
     struct message_sink sink = {print_warning, print_error, &listener};
     struct render_job job;
+    char *meant = file_meant(o->scene_path, ".pbrt");
+    if (meant != NULL) {
+        error_set(&err, "%s: there is no such file; did you mean %s?", o->scene_path, meant);
+        free(meant);
+        return fail(&err);
+    }
     if (!parse_scene(o->scene_path, scene, &sink, NULL))
         return EXIT_JOB;
     bool ok = apply(o, scene, &err) && (*method = readers[0] = choose_method(scene, &listener, &err)) != NULL &&

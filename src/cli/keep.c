@@ -20,12 +20,12 @@ static bool resumes_its_own(const struct keep_options *o)
 bool keep_check(const struct keep_options *o, struct error *err)
 {
     if (o->samples[1] > 0 && keep_asks_noise(o))
-        return error_set(err, "--noise is that of the whole picture; --samples takes a part of it");
+        return error_usage(err, "--noise is that of the whole picture; --samples takes a part of it");
     if (o->checkpoint == NULL)
         return true;
     enum os_kind kind = os_kind_of(o->checkpoint);
     if (strcmp(o->checkpoint, "-") == 0 || (kind != OS_NOTHING && kind != OS_FILE))
-        return error_set(err, "--checkpoint %s: it needs a file", o->checkpoint);
+        return error_usage(err, "--checkpoint %s: it needs a file", o->checkpoint);
     if (kind == OS_FILE && !resumes_its_own(o))
         return error_set(err, "%s: there is such a file already; go on with it by --resume %s, or remove it",
                          o->checkpoint, o->checkpoint);
@@ -62,15 +62,23 @@ static bool resume(struct keep *k, struct error *err)
 }
 
 /* Samples by what was learnt in haste are for the picture at hand alone: it is gone on with from the beginning. */
-static bool save_film(const struct keep *k, struct error *err)
+static bool save_film(struct keep *k, struct error *err)
 {
     const struct film *f = k->film;
-    struct film none;
-    if (!f->learnt_short)
-        return part_save(k->options->checkpoint, &k->part, f, err);
-    film_init(&none, f->rect, f->full_width, f->full_height);
-    film_keep_planes(&none, f->planes);
-    bool ok = part_save(k->options->checkpoint, &k->part, &none, err);
+    const char *name = k->options->checkpoint;
+    struct film none = {.rect = f->rect};
+    struct file_output file;
+    struct os_identity there = os_identify(name);
+    if (there.kind != OS_NOTHING && (there.device != k->own.device || there.number != k->own.number))
+        return error_set(err, "%s: somebody else has made this file meanwhile: it is not replaced", name);
+    if (!file_create(name, &file, err))
+        return false;
+    k->own = os_identify_stream(file.stream); /* a new name does not change that */
+    if (f->learnt_short) {
+        film_init(&none, f->rect, f->full_width, f->full_height);
+        film_keep_planes(&none, f->planes);
+    }
+    bool ok = part_write(&file, &k->part, f->learnt_short ? &none : f, err);
     film_free(&none);
     return ok;
 }
@@ -130,7 +138,7 @@ bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const 
     render->planned = render->end;
     if (o->samples[1] > 0) {
         if (o->samples[1] > render->planned)
-            return error_set(err, "--samples %d:%d: there are %ld per pixel, see --spp", o->samples[0], o->samples[1],
+            return error_usage(err, "--samples %d:%d: there are %ld per pixel, see --spp", o->samples[0], o->samples[1],
                              render->planned);
         render->first = o->samples[0];
         render->end = o->samples[1];
@@ -140,6 +148,8 @@ bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const 
         film_keep_halves(film);
     memcpy(render->noise, o->noise, sizeof render->noise);
     k->options = o;
+    if (resumes_its_own(o))
+        k->own = os_identify(o->checkpoint);
     k->film = film;
     k->part = part_describe(scene, render);
     k->part.planes = film->planes;

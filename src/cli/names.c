@@ -66,7 +66,7 @@ bool names_add(struct names *all, enum option_file use, const char *what, const 
     locate(&n, path);
     for (int i = 0; i < all->n; i++)
         if (clash(&all->item[i], &n)) {
-            error_set(err, "%s and %s are the same file", all->item[i].label, n.label);
+            error_usage(err, "%s and %s are the same file", all->item[i].label, n.label);
             release(&n);
             return false;
         }

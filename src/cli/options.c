@@ -274,6 +274,10 @@ static bool is_complete(const struct reader *r, void *target)
     for (int i = 0; i < r->n_seen; i++)
         if (r->seen[i]->with != NULL && !was_seen(r, r->seen[i]->with))
             return error_set(r->err, "%s has no effect without %s", r->seen[i]->name, r->seen[i]->with);
+    for (int i = 0; i < r->n_seen; i++)
+        for (int k = 0; k < r->n_seen; k++)
+            if (r->seen[i]->without != NULL && strstr(r->seen[i]->without, r->seen[k]->name) != NULL)
+                return error_set(r->err, "%s has no effect with %s", r->seen[k]->name, r->seen[i]->name);
     return true;
 }
 

@@ -59,6 +59,7 @@ struct option {
     const char *help;            /* where one must be given: what it is, with an article */
     enum option_file file;
     const char *with;            /* the option without which this one has no effect, or NULL */
+    const char *without;         /* options that would have no effect beside it, with blanks between them, or NULL */
     const struct option *others; /* in the row without a name: the table that goes on, or NULL */
 };
 

@@ -7,6 +7,7 @@
 
 #include "base/mem.h"
 #include "image/image.h"
+#include "scene/develop.h"
 
 static void release(struct outputs *o)
 {
@@ -23,7 +24,7 @@ static bool read_tone(const struct tone_options *t, const struct texts *names, s
     if (t != NULL) {
         bool filmic = t->curve != NULL && strcmp(t->curve, "filmic") == 0;
         if (t->curve != NULL && !filmic && strcmp(t->curve, "none") != 0)
-            return error_set(err, "--tonemap %s: known are none, filmic", t->curve);
+            return error_usage(err, "--tonemap %s: known are none, filmic", t->curve);
         tone.stops = t->exposure;
         tone.curve = filmic ? TONE_FILMIC : TONE_NONE;
     }
@@ -31,7 +32,7 @@ static bool read_tone(const struct tone_options *t, const struct texts *names, s
         shown = shown || image_is_8_bit(names->item[i]);
     *out = tone;
     return shown || tone_is_plain(&tone) ||
-           error_set(err, "--exposure and --tonemap are for 8-bit pictures (.png, .ppm); none is written");
+           error_usage(err, "--exposure and --tonemap are for 8-bit pictures (.png, .ppm); none is written");
 }
 
 bool outputs_is_part(const char *name)
@@ -44,7 +45,7 @@ bool outputs_add(struct outputs *out, const char *name, bool is_part, struct err
 {
     struct output o = {.is_part = is_part};
     if (!is_part && !image_writable(name))
-        return error_set(err, "-o %s: pictures are written as " IMAGE_WRITTEN "; end the name in one of these", name);
+        return error_usage(err, "-o %s: pictures are written as " IMAGE_WRITTEN "; end the name in one of these", name);
     if (is_part ? !file_create(name, &o.file, err) : !image_create(name, &o.file, err))
         return false;
     out->item = mem_grow(out->item, &out->capacity, (size_t)out->n + 1, sizeof *out->item);
@@ -70,6 +71,13 @@ bool outputs_open(const struct texts *names, const struct tone_options *tone, en
 static bool write_one(struct outputs *o, struct output *one, int width, int height, const float *pixels,
                       struct error *err)
 {
+    if (one->plane > 0) {
+        float *own = mem_alloc((size_t)width * (size_t)height * 3, sizeof *own);
+        film_develop_plane(o->film, one->plane, o->part->scale, own);
+        bool ok = image_finish(&one->file, &(struct raster){o->place, width, height, own, NULL, 0}, err);
+        free(own);
+        return ok;
+    }
     if (one->missing != NULL) {
         error_set(err, "%s: not written: %s", one->file.path, one->missing);
         file_abandon(&one->file);

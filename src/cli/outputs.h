@@ -19,6 +19,7 @@ enum outputs_parts { PARTS_NONE, PARTS_NAMED /* NAME.part */, PARTS_OTHERS /* al
 struct output {
     struct file_output file;
     bool is_part;
+    int plane;           /* of the film, which they are where it is not 0 */
     const float *pixels; /* where they are others than the picture's, else NULL; borrowed */
     const char *missing; /* why there is nothing to write after all, or NULL */
 };

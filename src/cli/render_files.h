@@ -38,13 +38,12 @@ void aov_free(struct aov_files *f);
 
 /* --- --lights: a directory, or NULL: nothing is done (light_files.c) -------------------------------------- */
 
-/* lights_possible: make the directory; can files be made in it? lights_check: once the scene is loaded: are there not
- * too many groups of lights (scene/light.h), and none of their pictures another file? lights_write: of a film that has
- * kept them. False with a message.
- *   all  the files of the command; in-out */
-bool lights_possible(const char *directory, struct error *err);
-bool lights_check(const char *directory, const struct scene *scene, struct names *all, struct error *err);
-bool lights_write(const char *directory, const struct scene *scene, const struct film *film, struct error *err);
+/* lights_open: make the directory, and begin to write a picture of each group of lights (scene/light.h) of a film that
+ * keeps them. False with a message.
+ *   all  the files of the command; in-out
+ *   out  the pictures of the command; in-out */
+bool lights_open(const char *directory, const struct scene *scene, struct names *all, struct outputs *out,
+                 struct error *err);
 
 /* --- --stats (stats_file.c) ------------------------------------------------------------------------------ */
 

@@ -11,8 +11,10 @@
 #include "geometry/kd_plane.h"
 #include "geometry/kdtree.h"
 
-/* References per item at most. Meshes need 2 to 4; a heap of long needles would ask for ever more. */
-static const double MAX_REFERENCES = 32;
+/* References per item at most. Meshes need 2 to 4; a heap of long needles would ask for ever more. And of all, so that
+ * blocks and nodes can be numbered. */
+static const double MAX_REFERENCES = 32, MOST_REFERENCES = 1u << 31;
+enum { MOST_NODES = 1 << 30 };
 
 /* Items are the triangles, then the quadrics, numbered without a gap. */
 struct builder {
@@ -81,7 +83,7 @@ static void make_leaf(struct builder *b, uint32_t node, const struct kd_cell *ce
     kd->node[node].word = (uint32_t)(n / KD_LANES) << 2 | KD_LEAF;
     kd->node[node].at.first = (uint32_t)(first / KD_LANES);
     b->n_leaf_items += n;
-    kd->n_items += (int)cell->n;
+    kd->n_items += cell->n;
 }
 
 /* Two neighbouring nodes; returns the first. */
@@ -100,7 +102,7 @@ static uint32_t add_children(struct builder *b, uint32_t parent, const struct kd
 static bool cut_cell(struct builder *b, const struct kd_cell *cell, struct kd_plane *p, struct kd_cell part[2])
 {
     size_t n[2] = {0, 0};
-    if (cell->depth >= b->max_depth)
+    if (cell->depth >= b->max_depth || b->kd->n_nodes >= MOST_NODES)
         return false;
     *p = kd_best_plane(cell->ref, cell->n, &cell->box);
     if (p->axis < 0)
@@ -165,7 +167,7 @@ static struct kd_cell root_cell(const struct geometry *geo, bool see_through)
         }
         root.n++;
     }
-    root.room = MAX_REFERENCES * (double)root.n;
+    root.room = fmin(MAX_REFERENCES * (double)root.n, MOST_REFERENCES);
     return root;
 }
 

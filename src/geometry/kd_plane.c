@@ -67,7 +67,7 @@ static void axis_start(struct axis_bins *a, int k, const struct box *cell, const
         a->begin[i] = a->end[i] = 0;
 }
 
-/* lo - a->lo is within [0, hi - lo], finite because shapes lie within 1e18 (shape.c), and scale is below 1e30: a bin's
+/* lo - a->lo is within [0, hi - lo], finite because shapes lie within 1e12 (shape.c), and scale is below 1e30: a bin's
  * number is 0 to n_bins - 1. */
 static void axis_fill(struct axis_bins *a, const struct kd_ref *ref, size_t n)
 {

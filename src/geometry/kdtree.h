@@ -24,7 +24,7 @@ struct kdtree {
     struct kd_node *node;   /* [n_nodes], root first, owned */
     struct kd_block *block; /* [n_blocks] what the leaves refer to, owned */
     int n_nodes, n_blocks;
-    int n_items;        /* references to primitives in all leaves */
+    size_t n_items;     /* references to primitives in all leaves */
     float lo[3], hi[3]; /* bounds of everything; lo > hi for an empty tree */
     double reach;       /* largest absolute coordinate of the bounds */
     int depth;          /* deepest leaf, the root being at 0 */

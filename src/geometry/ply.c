@@ -196,11 +196,13 @@ static bool check_counts(struct ply *r)
 
 static bool next_ascii(struct ply *r, double *out)
 {
-    char word[64], *end;
+    char word[512], *end; /* a double has up to 767 digits that count, but nobody writes so many */
     size_t n = 0;
     while (r->pos < r->size && isspace(r->data[r->pos]))
         r->pos++;
-    while (r->pos + n < r->size && !isspace(r->data[r->pos + n]) && n < sizeof word - 1) {
+    while (r->pos + n < r->size && !isspace(r->data[r->pos + n])) {
+        if (n == sizeof word - 1)
+            return false;
         word[n] = (char)r->data[r->pos + n];
         n++;
     }

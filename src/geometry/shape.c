@@ -16,6 +16,7 @@ void mesh_free(struct mesh *m)
 {
     free(m->P);
     free(m->N);
+    free(m->S);
     free(m->UV);
     free(m->index);
     struct mesh empty = {0};
@@ -44,6 +45,7 @@ void geometry_free(struct geometry *geo)
 {
     free(geo->P);
     free(geo->N);
+    free(geo->S);
     free(geo->UV);
     free(geo->index);
     free(geo->group_of_triangle);
@@ -60,14 +62,16 @@ static int add_group(struct geometry *geo, struct shape_group group)
     return geo->n_groups++;
 }
 
-/* Room for more vertices in the three arrays that share one capacity. */
-static void reserve_vertices(struct geometry *geo, size_t need)
+/* Room for more vertices in the three arrays that share one capacity, and for tangents, which are rare. */
+static void reserve_vertices(struct geometry *geo, size_t need, bool tangents)
 {
     size_t cap_p = geo->vertex_capacity, cap_n = cap_p, cap_uv = cap_p;
     geo->P = mem_grow(geo->P, &cap_p, need, 3 * sizeof *geo->P);
     geo->N = mem_grow(geo->N, &cap_n, need, 3 * sizeof *geo->N);
     geo->UV = mem_grow(geo->UV, &cap_uv, need, 2 * sizeof *geo->UV);
     geo->vertex_capacity = cap_p;
+    if (tangents)
+        geo->S = mem_grow(geo->S, &geo->tangent_capacity, need, 3 * sizeof *geo->S);
 }
 
 static void reserve_triangles(struct geometry *geo, size_t need)
@@ -78,20 +82,28 @@ static void reserve_triangles(struct geometry *geo, size_t need)
     geo->triangle_capacity = cap_index;
 }
 
-/* The world normal of a vertex, of any length; 0 if there is none. */
+/* The world normal of a vertex, or its tangent, of any length; 0 if there is none. */
+typedef vec3 direction_of(const struct mesh *m, const struct transform *to_world, size_t i);
+
 static vec3 vertex_normal(const struct mesh *m, const struct transform *to_world, size_t i)
 {
     vec3 n = m->N != NULL ? transform_normal(to_world, load3(m->N, i)) : vec(0, 0, 0);
     return is_finite3(n) ? n : vec(0, 0, 0);
 }
 
-/* As in pbrt-v3, longer normals count for more where they are interpolated. A factor common to all of a mesh changes
+static vec3 vertex_tangent(const struct mesh *m, const struct transform *to_world, size_t i)
+{
+    vec3 s = m->S != NULL ? transform_vector(to_world, load3(m->S, i)) : vec(0, 0, 0);
+    return is_finite3(s) ? s : vec(0, 0, 0);
+}
+
+/* As in pbrt-v3, longer ones count for more where they are interpolated. A factor common to all of a mesh changes
  * nothing, so the longest is made 1, which fits a float. */
-static double normal_scale(const struct mesh *m, const struct transform *to_world)
+static double scale_of(direction_of *direction, const struct mesh *m, const struct transform *to_world)
 {
     double longest = 0;
-    for (size_t i = 0; i < (size_t)m->n_vertices && m->N != NULL; i++)
-        longest = fmax(longest, length(vertex_normal(m, to_world, i)));
+    for (size_t i = 0; i < (size_t)m->n_vertices; i++)
+        longest = fmax(longest, length(direction(m, to_world, i)));
     return longest > 0 ? 1 / longest : 1;
 }
 
@@ -99,15 +111,18 @@ static bool add_vertices(struct geometry *geo, const struct mesh *m, const struc
                          struct error *err)
 {
     size_t base = (size_t)geo->n_vertices;
-    double scale = reverse ? -normal_scale(m, to_world) : normal_scale(m, to_world);
-    reserve_vertices(geo, base + (size_t)m->n_vertices);
+    double scale = (reverse ? -1 : 1) * scale_of(vertex_normal, m, to_world);
+    double scale_s = m->S != NULL ? scale_of(vertex_tangent, m, to_world) : 1;
+    reserve_vertices(geo, base + (size_t)m->n_vertices, m->S != NULL);
     for (size_t i = 0; i < (size_t)m->n_vertices; i++) {
         vec3 p = transform_point(to_world, load3(m->P, i));
         if (!is_place(p))
-            return error_set(err, "vertex %lu of the mesh lies at (%g, %g, %g) in the world: not a usable position",
+            return error_set(err, "vertex %lu of the mesh lies at (%g, %g, %g) in the world: places go up to 1e12",
                              (unsigned long)i, p.x, p.y, p.z);
         store3(geo->P, base + i, p);
         store3(geo->N, base + i, mul(vertex_normal(m, to_world, i), scale));
+        if (m->S != NULL)
+            store3(geo->S, base + i, mul(vertex_tangent(m, to_world, i), scale_s));
         for (size_t k = 0; k < 2; k++)
             geo->UV[2 * (base + i) + k] = m->UV != NULL ? m->UV[2 * i + k] : 0;
     }
@@ -124,13 +139,14 @@ int shape_add_mesh(struct geometry *geo, const struct mesh *m, const struct tran
     if (!add_vertices(geo, m, to_world, reverse_orientation, err))
         return -1;
     reserve_triangles(geo, (size_t)geo->n_triangles + (size_t)m->n_triangles);
-    for (int i = 0; i < 3 * m->n_triangles; i++)
-        geo->index[3 * (size_t)geo->n_triangles + (size_t)i] = m->index[i] + (uint32_t)geo->n_vertices;
+    for (size_t i = 0; i < 3 * (size_t)m->n_triangles; i++)
+        geo->index[3 * (size_t)geo->n_triangles + i] = m->index[i] + (uint32_t)geo->n_vertices;
     for (int i = 0; i < m->n_triangles; i++)
         geo->group_of_triangle[geo->n_triangles + i] = geo->n_groups;
     group.first_prim = geo->n_triangles;
     group.flip = reverse_orientation != transform_swaps_handedness(to_world);
     group.has_n = m->N != NULL;
+    group.has_s = m->S != NULL;
     group.has_uv = m->UV != NULL;
     geo->n_vertices += m->n_vertices;
     geo->n_triangles += m->n_triangles;
@@ -144,14 +160,14 @@ int shape_add_quadric(struct geometry *geo, struct quadric q, struct shape_group
     quadric_normalise(&q);
     quadric_bounds(&q, &lo, &hi);
     if (!is_place(lo) || !is_place(hi)) {
-        error_set(err, "this shape reaches from (%g, %g, %g) to (%g, %g, %g) in the world: not a usable position", lo.x,
+        error_set(err, "this shape reaches from (%g, %g, %g) to (%g, %g, %g) in the world: places go up to 1e12", lo.x,
                   lo.y, lo.z, hi.x, hi.y, hi.z);
         return -1;
     }
     q.group = geo->n_groups;
     group.first_prim = FIRST_QUADRIC + geo->n_quadrics;
     group.flip = reverse_orientation;
-    group.has_n = false;
+    group.has_n = group.has_s = false;
     group.has_uv = true;
     geo->quadric = mem_append(geo->quadric, (size_t)geo->n_quadrics, sizeof *geo->quadric);
     geo->quadric[geo->n_quadrics++] = q;
@@ -172,7 +188,7 @@ void shape_vertices(const struct geometry *geo, int triangle, float v[9])
     }
 }
 
-/* Positions or normals at the corners of a triangle. */
+/* Positions, normals or tangents at the corners of a triangle. */
 static void load_corners(const float *v, const uint32_t index[3], vec3 corner[3])
 {
     for (size_t i = 0; i < 3; i++)
@@ -188,10 +204,13 @@ static struct triangle triangle_of(const struct geometry *geo, int prim)
     load_corners(geo->P, index, tri.p);
     if (group->has_n)
         load_corners(geo->N, index, tri.n);
+    if (group->has_s)
+        load_corners(geo->S, index, tri.s);
     for (size_t i = 0; i < 3; i++)
         for (size_t k = 0; k < 2; k++)
             tri.uv[i][k] = group->has_uv ? geo->UV[2 * (size_t)index[i] + k] : default_uv[i][k];
     tri.has_n = group->has_n;
+    tri.has_s = group->has_s;
     tri.flip = group->flip;
     tri.skip_partials = group->skip_partials;
     return tri;

@@ -32,6 +32,7 @@ struct shape_group {
     bool flip;        /* quadric: ReverseOrientation; triangle without N: whether its normal is negated, which is that
                        * xor the transform swaps handedness */
     bool has_n;       /* vertex normals given (already negated under ReverseOrientation): they orient ng as well */
+    bool has_s;       /* vertex tangents given */
     bool has_uv;
     bool skip_partials; /* leave partial derivatives zero: nobody reads them (scene_prepare finds out) */
 };
@@ -40,13 +41,14 @@ struct geometry {
     /* Triangle meshes, all concatenated. Vertex arrays share one numbering. */
     float *P;         /* [n_vertices*3] world positions */
     float *N;         /* [n_vertices*3] world normals, at most 1 long; zeros where a group has none */
+    float *S;         /* the same of tangents; NULL if no group has any */
     float *UV;        /* [n_vertices*2] */
     uint32_t *index;  /* [n_triangles*3] */
     int32_t *group_of_triangle; /* [n_triangles] */
     struct quadric *quadric;    /* [n_quadrics] */
     struct shape_group *group;  /* [n_groups] */
     int n_vertices, n_triangles, n_quadrics, n_groups;
-    size_t vertex_capacity, triangle_capacity;
+    size_t vertex_capacity, tangent_capacity, triangle_capacity;
 
     /* Alpha textures: asked at a hit of a group with alpha or shadow_alpha >= 0. Returns true where the
      * surface is there. Set by scene.c; NULL means everything is opaque. */
@@ -62,6 +64,7 @@ struct mesh {
     int n_thin, n_wide; /* faces of the file of fewer than 3 corners, which are left out, and of more than 4 */
     uint64_t content;   /* hash_content of the file it was read from; 0: none */
     size_t file_size;   /* bytes of it */
+    float *S;           /* [n_vertices*3] tangents; or NULL */
 };
 
 /* mesh_free: release its arrays; the mesh is empty then. geometry_free: the same of a geometry. */
@@ -72,8 +75,8 @@ void mesh_free(struct mesh *m);
 void mesh_grid(struct mesh *m, int columns, int rows, bool has_n);
 
 /* shape_add_mesh: transform a mesh to world space and append it as one group.
- *   group  material, alpha and light fields to use; first_prim, flip (from reverse_orientation), has_n and
- *          has_uv are filled in here
+ *   group  material, alpha and light fields to use; first_prim, flip (from reverse_orientation), has_n, has_s
+ *          and has_uv are filled in here
  * Degenerate triangles (zero area) are kept: they are never hit. Returns the group's number, or -1 with a
  * message when a world position is no place (vec.h) or there would be more than 2^30 triangles. */
 int shape_add_mesh(struct geometry *geo, const struct mesh *m, const struct transform *to_world,

@@ -54,6 +54,18 @@ static void partials_by_vertex_normals(const struct triangle *tri, double size, 
     }
 }
 
+/* As pbrt-v3's "S": where its mean is 0, or along ns, all stays. Lengths stay, by which bumps are as high. */
+static void turn_tangents(vec3 s, struct surface *out)
+{
+    double handed = dot(cross(out->dpdu, out->dpdv), out->ns) < 0 ? -1 : 1;
+    s = reject(s, out->ns);
+    if (!(length2(s) > 0))
+        return;
+    s = normalize(s);
+    out->dpdu = mul(s, length(out->dpdu));
+    out->dpdv = mul(cross(out->ns, s), handed * length(out->dpdv));
+}
+
 void triangle_surface(const struct triangle *tri, double b1, double b2, struct surface *out)
 {
     vec3 normal = cross(sub(tri->p[1], tri->p[0]), sub(tri->p[2], tri->p[0]));
@@ -77,4 +89,6 @@ void triangle_surface(const struct triangle *tri, double b1, double b2, struct s
         tangents_of(neg(normal), &out->dpdu, &out->dpdv);
     if (size > 0)
         partials_by_vertex_normals(tri, size, out);
+    if (tri->has_s)
+        turn_tangents(barycentric3(tri->s, b1, b2), out);
 }

@@ -70,9 +70,9 @@ static inline bool triangle_hit(const struct triangle_ray *r, const float v[9], 
 /* What the shading of a triangle is computed from. */
 struct triangle {
     vec3 p[3];       /* world positions */
-    vec3 n[3];       /* vertex normals; read only if has_n */
+    vec3 n[3], s[3]; /* vertex normals and tangents; read only if has_n, has_s */
     double uv[3][2]; /* (0,0) (1,0) (1,1) where the mesh has none */
-    bool has_n;
+    bool has_n, has_s;
     bool flip;          /* turns the normal of a triangle without vertex normals */
     bool skip_partials; /* leave the partial derivatives zero */
 };
@@ -80,8 +80,8 @@ struct triangle {
 /* triangle_surface: position, normals, texture coordinates and partial derivatives at barycentric coordinates
  * (1-b1-b2, b1, b2); material and light are left alone. With vertex normals, ns is their normalised mean, ng lies on
  * its side, and dpdu, dpdv are the derivatives by (u,v) projected to be orthogonal to ns; without, ns = ng and they are
- * the derivatives as they are. Where (u,v) do not span the triangle they are any unit tangents. All are zero if
- * skip_partials is set. */
+ * the derivatives as they are. Where (u,v) do not span the triangle they are any unit tangents. With vertex tangents
+ * dpdu and dpdv are turned about ns until dpdu is along their mean. All are zero if skip_partials is set. */
 void triangle_surface(const struct triangle *tri, double b1, double b2, struct surface *out);
 
 double triangle_area(const struct triangle *tri); /* m^2 */

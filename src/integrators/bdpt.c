@@ -44,7 +44,7 @@ static void prepare_pt(const struct render_job *job, struct preparation *out)
 static void prepare_lt(const struct render_job *job, struct preparation *out)
 {
     struct frozen *f = out->state;
-    struct mis_counts counts = {.splat = f->counts.splat, .power = f->counts.power, .extra = f->counts.extra};
+    struct mis_counts counts = {.splat = f->counts.splat, .power = f->counts.power};
     (void)job;
     f->counts = counts;
 }

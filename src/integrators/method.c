@@ -6,9 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "caustics/caustic.h"
-#include "caustics/regularise.h"
-
 static const char *const SWITCH[] = {"off", "on", NULL};
 
 #define AT(member) offsetof(struct frozen, services.member)
@@ -61,12 +58,6 @@ bool method_check(const struct method *m, const struct settings *s, struct error
     return ok;
 }
 
-static void add_note(char note[FILM_NOTE_SIZE], const char *text)
-{
-    size_t n = strlen(note);
-    snprintf(note + n, FILM_NOTE_SIZE - n, "%s%s", n > 0 ? "; " : "", text);
-}
-
 bool method_prepare(const struct method *m, const struct render_job *job, struct preparation *out, struct error *err)
 {
     struct preparation standard = {.method = m, .state = mem_alloc(1, m->state_size),
@@ -86,21 +77,8 @@ bool method_prepare(const struct method *m, const struct render_job *job, struct
         out->size.tile = f->services.tile;
         out->size.spread = f->services.spread;
     }
-    if (job->caustics > 0)
-        out->extra = caustics_new(job->scene, job->caustics);
-    else if (job->regularise > 0)
-        out->extra = regularise_new(job->regularise);
-    f->counts.extra = out->extra;
     if (m->prepare != NULL)
         m->prepare(job, out);
-    if (out->extra != NULL && f->counts.extra != out->extra) {
-        method_release(out);
-        return error_set(err, "%s makes such paths its own way, without \"caustics\" and \"regularise\"", m->name);
-    }
-    if (job->caustics > 0 && out->extra != NULL)
-        f->counts.extra = out->extra = caustics_settle(out->extra, job, &f->counts);
-    if (job->regularise > 0)
-        add_note(out->note, "biased: mirrors and glass are blurred where nothing else finds a light");
     return true;
 }
 
@@ -110,8 +88,6 @@ void method_release(struct preparation *p)
         p->method->release(p->state);
     tables_free(&((struct frozen *)p->state)->tables);
     free(p->state);
-    if (p->extra != NULL)
-        p->extra->release(p->extra);
 }
 
 void *method_scratch(const struct preparation *p)

@@ -61,17 +61,18 @@ void candidates_find(struct candidates *c, const struct light_pool *pool)
     }
 }
 
-/* t = 1 for sub-path k. The weights count one in path_pixels for the whole film; the tile has `n`, rounded up. */
-static void splat(const struct light_pool *pool, const struct tile_pass *pass, struct pixel_sample *sample,
-                  int path_pixels, int k)
+void pooled_fill(const struct preparation *m, const struct tile_pass *pass, long iteration)
 {
-    double pixels = (double)rect_width(pass->rect) * rect_height(pass->rect);
-    pixel_splat_path(sample, light_pool_path(pool, k), pool->length[k], pixels / ((double)pool->n * path_pixels));
+    const struct frozen *f = m->state;
+    if (f->path_pixels == 0)
+        return;
+    light_pool_fill(pass->work->scratch, pass, f, iteration);
+    if (m->method->begin != NULL)
+        m->method->begin(pass->work->scratch, f, pass, iteration);
 }
 
-/* Trace the eye sub-path. */
-static struct pooled_pixel begin_pixel(const struct preparation *m, const struct tile_pass *pass, int x, int y,
-                                       int number, long iteration)
+struct pooled_pixel pooled_begin(const struct preparation *m, const struct tile_pass *pass, int x, int y, int number,
+                                 long iteration)
 {
     const struct frozen *f = m->state;
     struct pooled_pixel p = {.eye = pass->work->eye, .number = number};
@@ -82,19 +83,12 @@ static struct pooled_pixel begin_pixel(const struct preparation *m, const struct
     return p;
 }
 
-static void end_pixel(const struct preparation *m, const struct tile_pass *pass, struct pooled_pixel *p)
-{
-    const struct frozen *f = m->state;
-    if (f->path_pixels > 0 && p->number % f->path_pixels == 0)
-        splat(pass->work->scratch, pass, &p->sample, f->path_pixels, p->number / f->path_pixels);
-    pixel_sample_end(&p->sample);
-}
-
-/* What the light sub-paths bring to the pixel. */
-static void use_pool(const struct preparation *m, const struct tile_pass *pass, struct pooled_pixel *p)
+void pooled_connect(const struct preparation *m, const struct tile_pass *pass, struct pooled_pixel *p)
 {
     const struct method *method = m->method;
     const struct frozen *f = m->state;
+    if (f->path_pixels == 0)
+        return;
     if (method->connect != NULL)
         method->connect(pass->work->scratch, f, p);
     for (int t = 2; method->draw != NULL && t <= p->n && t <= f->max_depth; t++)
@@ -102,16 +96,28 @@ static void use_pool(const struct preparation *m, const struct tile_pass *pass, 
             method->draw(pass->work->scratch, f, p, &p->eye[t - 1], t);
 }
 
-static void render_pixel(const struct preparation *m, const struct tile_pass *pass, int x, int y, int number,
-                         long iteration)
+/* The weights count one sub-path in path_pixels for the whole film; the tile has pool->n, rounded up. */
+const struct vertex *pooled_splatted(const struct preparation *m, const struct tile_pass *pass,
+                                     const struct pooled_pixel *p, int *n, double *scale)
 {
-    const struct frozen *f = m->state;
-    arena_reset(&pass->work->arena);
-    struct pooled_pixel p = begin_pixel(m, pass, x, y, number, iteration);
-    pixel_sum_eye(&p.sample, p.eye, p.n);
-    if (f->path_pixels > 0)
-        use_pool(m, pass, &p);
-    end_pixel(m, pass, &p);
+    const struct light_pool *pool = pass->work->scratch;
+    int path_pixels = ((const struct frozen *)m->state)->path_pixels;
+    if (path_pixels == 0 || p->number % path_pixels != 0)
+        return NULL;
+    int k = p->number / path_pixels;
+    *n = pool->length[k];
+    *scale = (double)rect_pixels(pass->rect) / ((double)pool->n * path_pixels);
+    return light_pool_path(pool, k);
+}
+
+void pooled_end(const struct preparation *m, const struct tile_pass *pass, struct pooled_pixel *p)
+{
+    double scale;
+    int n;
+    const struct vertex *light = pooled_splatted(m, pass, p, &n, &scale);
+    if (light != NULL)
+        pixel_splat_path(&p->sample, light, n, scale);
+    pixel_sample_end(&p->sample);
 }
 
 /* All eye sub-paths of the tile are traced before the first is connected. */
@@ -122,27 +128,27 @@ static void render_together(const struct preparation *m, const struct tile_pass 
     arena_reset(arena);
     struct pooled_pixel *all = arena_alloc(arena, (size_t)n * sizeof *all);
     for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
-        all[i] = begin_pixel(m, pass, x, y, i, iteration);
+        all[i] = pooled_begin(m, pass, x, y, i, iteration);
         size_t size = (size_t)all[i].n * sizeof *all[i].eye;
         all[i].eye = memcpy(arena_alloc(arena, size), all[i].eye, size);
     }
     m->method->connect_all(pass->work->scratch, m->state, pass, all, n);
     for (int i = 0; i < n; i++)
-        end_pixel(m, pass, &all[i]);
+        pooled_end(m, pass, &all[i]);
 }
 
 void pooled_render(const struct preparation *m, const struct tile_pass *pass)
 {
-    const struct method *method = m->method;
-    const struct frozen *f = m->state;
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
-        if (f->path_pixels > 0)
-            light_pool_fill(pass->work->scratch, pass, f, iteration);
-        if (f->path_pixels > 0 && method->begin != NULL)
-            method->begin(pass->work->scratch, m->state, pass, iteration);
-        if (method->connect_all != NULL)
+        pooled_fill(m, pass, iteration);
+        if (m->method->connect_all != NULL)
             render_together(m, pass, iteration);
-        for (int i = 0, x, y; method->connect_all == NULL && pass_pixel(pass, i, &x, &y); i++)
-            render_pixel(m, pass, x, y, i, iteration);
+        for (int i = 0, x, y; m->method->connect_all == NULL && pass_pixel(pass, i, &x, &y); i++) {
+            arena_reset(&pass->work->arena);
+            struct pooled_pixel p = pooled_begin(m, pass, x, y, i, iteration);
+            pixel_sum_eye(&p.sample, p.eye, p.n);
+            pooled_connect(m, pass, &p);
+            pooled_end(m, pass, &p);
+        }
     }
 }

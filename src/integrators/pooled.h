@@ -89,6 +89,17 @@ static inline void pooled_join(struct pooled_pixel *p, const struct candidate *c
         pixel_sum_pair(&p->sample, c->y, c->s, z, t, choice);
 }
 
+/* What pooled_render does, step by step: fill the pool for an iteration; trace a pixel's eye sub-path; sum s >= 2,
+ * t >= 2 with what the method draws; say which light sub-path the pixel is to splat, how long it is and by what scale,
+ * NULL if none; splat it, and end the sample. */
+void pooled_fill(const struct preparation *m, const struct tile_pass *pass, long iteration);
+struct pooled_pixel pooled_begin(const struct preparation *m, const struct tile_pass *pass, int x, int y, int number,
+                                 long iteration);
+void pooled_connect(const struct preparation *m, const struct tile_pass *pass, struct pooled_pixel *p);
+const struct vertex *pooled_splatted(const struct preparation *m, const struct tile_pass *pass,
+                                     const struct pooled_pixel *p, int *n, double *scale);
+void pooled_end(const struct preparation *m, const struct tile_pass *pass, struct pooled_pixel *p);
+
 /* pooled_render: the `render` of a pooled method. */
 void pooled_render(const struct preparation *m, const struct tile_pass *pass);
 

@@ -173,7 +173,7 @@ static bool light(struct parser *p)
     item.group = group(p);
     vec3 position = item.frame.position;
     if (!is_place(position))
-        type_error(q, "this light would stand at (%g %g %g); places go up to 1e18", position.x, position.y, position.z);
+        type_error(q, "this light would stand at (%g %g %g); places go up to 1e12", position.x, position.y, position.z);
     if (item.light.kind == LIGHT_INFINITE && ++p->n_infinite > LIGHT_MAX_INFINITE)
         type_error(q, "more than %d infinite lights; use fewer", LIGHT_MAX_INFINITE);
     if (!parse_done(p))

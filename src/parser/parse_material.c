@@ -85,16 +85,21 @@ bool parse_make_material(struct parser *p, struct material_source *out)
     return ok;
 }
 
+static int n_unused(const struct params *q)
+{
+    int n = 0;
+    for (int i = 0; i < q->n; i++)
+        n += !q->item[i].used;
+    return n;
+}
+
 int parse_changed_material(struct parser *p)
 {
     struct params *q = &p->params;
     struct object_type shape = p->type;
     const char *directive = q->directive, *type = q->type;
-    int id = p->state.material.id;
-    bool changes = false;
-    for (int i = 0; i < q->n; i++)
-        changes |= !q->item[i].used;
-    if (q->failed || !changes || id == MATERIAL_NONE)
+    int id = p->state.material.id, before = n_unused(q), n_materials = p->scene->n_materials;
+    if (q->failed || before == 0 || id == MATERIAL_NONE)
         return id;
     q->directive = "Material";
     q->type = p->state.material.type;
@@ -104,6 +109,10 @@ int parse_changed_material(struct parser *p)
     q->directive = directive;
     q->type = type;
     p->type = shape;
+    if (n_unused(q) == before) { /* none was the material's */
+        p->scene->n_materials = n_materials;
+        id = p->state.material.id;
+    }
     return id;
 }
 

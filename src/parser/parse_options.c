@@ -26,7 +26,7 @@ static void framing(struct parser *p, void *object)
     struct camera prepared = *c;
     camera_prepare(&prepared, 1, 1);
     if (!camera_is_usable(&prepared))
-        type_error(q, "this camera is not usable: its place must be within 1e18, and its view at distance 1 "
+        type_error(q, "this camera is not usable: its place must be within 1e12, and its view at distance 1 "
                    "from 1e-12 to 1e12 wide and high; change transform, field of view or window");
 }
 

@@ -29,7 +29,7 @@ static float *floats(const double *number, int n)
     return out;
 }
 
-/* Data per vertex beside P: where there is less of it than of P, or of N more, pbrt-v3 goes on without it. */
+/* Data per vertex beside P: where there is less of it than of P, or of N or S more, pbrt-v3 goes on without it. */
 static float *vertex_data(struct params *q, const char *name, unsigned types, int width, int n_vertices)
 {
     int n;
@@ -98,6 +98,7 @@ static void trianglemesh(struct parser *p, void *object)
     const unsigned uv_types = 1u << PARAM_FLOAT | 1u << PARAM_POINT2;
     points(q, m);
     m->N = vertex_data(q, "N", 1u << PARAM_NORMAL, 3, m->n_vertices);
+    m->S = vertex_data(q, "S", 1u << PARAM_VECTOR, 3, m->n_vertices);
     m->UV = vertex_data(q, "uv", uv_types, 2, m->n_vertices);
     if (m->UV == NULL)
         m->UV = vertex_data(q, "st", uv_types, 2, m->n_vertices);
@@ -322,7 +323,7 @@ static const struct field HYPERBOLOID[] = {
     {.name = NULL}};
 
 static const struct field TRIANGLEMESH[] = {
-    {.name = "P"}, {.name = "N"}, {.name = "uv"}, {.name = "st"}, {.name = "indices"},
+    {.name = "P"}, {.name = "N"}, {.name = "S"}, {.name = "uv"}, {.name = "st"}, {.name = "indices"},
     {"faceIndices", .kind = FIELD_IGNORED}, /* for Ptex only */
     {.name = "alpha"}, {.name = "shadowalpha"},
     {.name = NULL}};

@@ -93,11 +93,18 @@ static bool look_at(struct parser *p)
     return apply(p, t);
 }
 
+/* Numbers as lists of columns: the last row is what points are divided by. It may be a number for all; pbrt-v3 lets it
+ * turn parallels into rays that meet, of meshes but not of quadrics. */
 static bool parse_matrix(struct parser *p, struct transform *out)
 {
     double x[16];
     if (!read_numbers(p, x, 16))
         return false;
+    if (x[3] != 0 || x[7] != 0 || x[11] != 0)
+        return directive_error(p, "the last row of this matrix, its numbers 4, 8, 12 and 16, is %g %g %g %g; only the "
+                               "last of them may be other than 0", x[3], x[7], x[11], x[15]);
+    for (int i = 0; i < 16; i++)
+        x[i] /= x[15];
     *out = SINGULAR;
     transform_from_matrix(x, out);
     return true;

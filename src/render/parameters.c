@@ -7,15 +7,12 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "caustics/caustic.h"
 #include "parser/symbols.h"
-
-static bool is_of_file(const struct setting *item) { return strcmp(item->origin, "-P") != 0; }
 
 /* What all integrators have. */
 struct common {
-    int max_depth, heuristic, strategy, caustics;
-    double rr_threshold, regularise;
+    int max_depth, heuristic, strategy;
+    double rr_threshold;
 };
 enum { DEFAULT_MAX_DEPTH = 5 }; /* pbrt-v3's */
 static const char *const HEURISTICS[] = {"balance", "power", NULL};
@@ -30,10 +27,6 @@ static const struct field COMMON[] = {
      "relative throughput at which Russian roulette begins, 0: never; asbdpt's bins: 0", NULL},
     {"lightsamplestrategy", FIELD_WORD, AT(strategy), 0, 0, 0,
      "asbdpt: s = 1 picks lights by what is seen, or by power", STRATEGIES},
-    {"caustics", FIELD_INTEGER, AT(caustics), 0, 0, CAUSTIC_LONGEST,
-     "most mirrors or glass surfaces between a first hit and a light that are joined, if it pays; 0: none", NULL},
-    {"regularise", FIELD_NUMBER, AT(regularise), 0, 0, 1,
-     "biased: angle by which mirrors and glass are blurred where nothing else finds a light; 0: none", NULL},
     {.name = NULL}};
 
 const struct field *parameters_common(void) { return COMMON; }
@@ -78,7 +71,7 @@ static void adapt_strategy(struct settings *s, const struct setting *item, const
     bool known = settings_choice(s, item->name, 0, STRATEGIES, &which, NULL);
     if (known && which == 2)
         replace(s, item, "power", sink, "is \"power\" instead of \"uniform\", which only has more noise");
-    else if (!known && is_of_file(item))
+    else if (!known && setting_is_of_file(item))
         replace(s, item, "spatial", sink, "is \"spatial\": its value is unknown");
 }
 
@@ -89,7 +82,7 @@ static void adapt_integer(struct settings *s, const struct setting *item, const 
     double number = strtod(item->value, NULL), used = trunc(number);
     if (strcmp(item->name, "maxdepth") == 0)
         used = fmin(used, PATH_MAX_DEPTH);
-    if (!is_of_file(item) || used == number || !(fabs(used) <= 1e15))
+    if (!setting_is_of_file(item) || used == number || !(fabs(used) <= 1e15))
         return;
     snprintf(text, sizeof text, "is %.12g, which counts as %.12g", number, used);
     snprintf(value, sizeof value, "%.0f", used + 0.0);
@@ -114,7 +107,7 @@ static bool passed_over(const struct scene *scene, const struct setting *item, c
     const struct field *found;
     const struct method *has = owner(method_rows, item->name, &found);
     char text[128];
-    if (!is_of_file(item))
+    if (!setting_is_of_file(item))
         return false;
     if (has == NULL)
         snprintf(text, sizeof text, "is not used: no integrator here has such a parameter");
@@ -133,7 +126,8 @@ static bool passed_over(const struct scene *scene, const struct setting *item, c
 /* pbrt-v3's number of samples for its mlt. True if it is to be taken out. */
 static bool adapt_mutations(struct scene *scene, const struct setting *item, const struct method *reader)
 {
-    if (strcmp(item->name, "mutationsperpixel") != 0 || !is_of_file(item) || !reader->chain || item->n_values != 1)
+    if (strcmp(item->name, "mutationsperpixel") != 0 || !setting_is_of_file(item) || !reader->chain ||
+        item->n_values != 1)
         return false;
     scene->spp = int_within(strtod(item->value, NULL), 1, 1 << 30);
     return true;
@@ -185,7 +179,7 @@ static bool unknown(const struct setting *item, struct error *err)
         offer(&s, all);
     }
     bool near = s.name != NULL;
-    return error_set(err, "%s: no integrator has a parameter \"%s\"%s%s%s; asbdpt help integrators lists them",
+    return error_usage(err, "%s: no integrator has a parameter \"%s\"%s%s%s; asbdpt help integrators lists them",
                      item->origin, item->name, near ? " (did you mean " : "", near ? s.name : "", near ? "?)" : "");
 }
 
@@ -202,13 +196,14 @@ bool parameters_belong(const struct scene *scene, const struct method *const *re
         const struct setting *item = &scene->settings.item[i];
         const struct method *has = owner(method_rows, item->name, NULL);
         char whose[64], here[64];
-        if (is_of_file(item) || owner(readers, item->name, NULL) != NULL)
+        if (setting_is_of_file(item) || owner(readers, item->name, NULL) != NULL)
             continue;
         if (has == NULL)
             return unknown(item, err);
         name_method(has, item->name, whose, sizeof whose);
         name_method(readers[0], item->name, here, sizeof here);
-        return error_set(err, "-P: \"%s\" is a parameter of %s, not of %s; see --integrator", item->name, whose, here);
+        return error_usage(err, "-P: \"%s\" is a parameter of %s, not of %s; see --integrator", item->name, whose,
+                           here);
     }
     return true;
 }
@@ -223,12 +218,6 @@ bool parameters_read(const struct scene *scene, const struct method *m, int max_
         return false;
     job->max_depth = max_depth > 0 ? max_depth : c.max_depth;
     job->rr_threshold = settings_text(s, "rrthreshold", NULL) != NULL ? c.rr_threshold : m->rr_threshold;
-    job->caustics = c.caustics;
-    job->regularise = c.regularise;
-    if (c.caustics > 0 && c.regularise > 0)
-        return error_set(err, "\"caustics\" and \"regularise\" make the same paths; choose one");
-    if (m->chain && (c.caustics > 0 || c.regularise > 0))
-        return error_set(err, "%s is a Markov chain, which has no \"caustics\" and no \"regularise\"", m->name);
     job->power_heuristic = c.heuristic == 1;
     job->spatial_lights = c.strategy == 0;
     return true;

@@ -179,12 +179,6 @@ bool part_write(struct file_output *file, const struct part *p, const struct fil
     return file_commit(file, err);
 }
 
-bool part_save(const char *path, const struct part *p, const struct film *film, struct error *err)
-{
-    struct file_output file;
-    return file_create(path, &file, err) && part_write(&file, p, film, err);
-}
-
 /* --- reading ----------------------------------------------------------------------------------------- */
 
 /* The lines up to the one that checks them, and this one, to be given to free(); NULL if there is none. */

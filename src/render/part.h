@@ -59,9 +59,6 @@ void part_free(struct part *p);
 /* part_write: the film into a file that was begun. Returns false with a message; the file is finished or gone then. */
 bool part_write(struct file_output *file, const struct part *p, const struct film *film, struct error *err);
 
-/* part_save: the same into a new file of this name, which replaces an old one when it is complete. */
-bool part_save(const char *path, const struct part *p, const struct film *film, struct error *err);
-
 /* part_open: read what a file says of itself.
  *   out  to be released with part_free after success
  * Returns the file, open behind the text, or NULL with a message. */

@@ -270,7 +270,10 @@ bool render_scene(const struct scene *scene, const struct render_options *option
     memcpy(film->number, r.prepared.number, sizeof film->number);
     bool ok = check_range(&r, err) && cut(&r, err);
     bool in_haste = r.stopping && begun(film); /* samples by what was learnt so are none of the film's */
-    if (ok && options->end > options->first && !in_haste && !good_enough(&r)) /* what is resumed may be */
+    if (ok && scene->lights.n == 0 && !film->planes.alpha) { /* all samples are black */
+        film->block.iterations = options->end - options->first;
+        film_end_block(film);
+    } else if (ok && options->end > options->first && !in_haste && !good_enough(&r)) /* what is resumed may be */
         run_all(&r);
     method_release(&r.prepared);
     return ok;

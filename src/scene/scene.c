@@ -77,6 +77,12 @@ void scene_bounds(const struct scene *s, vec3 *lo, vec3 *hi)
     widen(&s->kd_lamps, lo, hi);
 }
 
+void scene_resize(struct scene *s, int width, int height)
+{
+    s->height = height > 0 ? height : int_within((double)width * s->height / s->width + 0.5, 1, 1 << 30);
+    s->width = width;
+}
+
 void scene_prepare(struct scene *s)
 {
     s->geo.opaque = opaque_at;

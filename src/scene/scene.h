@@ -58,6 +58,9 @@ void scene_free(struct scene *s);
 /* scene_add_material: append a material, settle and own it; returns its number. */
 int scene_add_material(struct scene *s, struct material *m);
 
+/* scene_resize: another size of the film, before it is prepared; height 0: of the same shape, 2^30 at most. */
+void scene_resize(struct scene *s, int width, int height);
+
 /* scene_prepare: build the kd-tree, light tables, camera and filter for the final resolution. Call once; from then on
  * the scene stays where it is in memory. */
 void scene_prepare(struct scene *s);

@@ -83,6 +83,14 @@ const char *settings_text(const struct settings *s, const char *name, const char
     return item != NULL ? item->value : fallback;
 }
 
+/* Was it the user's own? */
+static bool blame(const struct setting *item, struct error *err)
+{
+    if (err != NULL)
+        err->usage = !setting_is_of_file(item);
+    return false;
+}
+
 static bool number(const struct settings *s, const struct field *f, double *out, struct error *err)
 {
     const struct setting *item = find(s, f->name);
@@ -94,8 +102,9 @@ static bool number(const struct settings *s, const struct field *f, double *out,
     *out = strtod(item->value, &end);
     if (end != item->value && *end == '\0' && *out >= f->low && *out <= f->high && (!whole || *out == floor(*out)))
         return true;
-    return error_set(err, "%s: %s = \"%s\": give a %snumber from %.15g to %.15g", item->origin, f->name, item->value,
-                     whole ? "whole " : "", f->low, f->high);
+    error_set(err, "%s: %s = \"%s\": give a %snumber from %.15g to %.15g", item->origin, f->name, item->value,
+              whole ? "whole " : "", f->low, f->high);
+    return blame(item, err);
 }
 
 bool settings_choice(const struct settings *s, const char *name, int fallback, const char *const *names, int *out,
@@ -114,7 +123,8 @@ bool settings_choice(const struct settings *s, const char *name, int fallback, c
         const char *join = i == 0 ? "" : names[i + 1] == NULL ? " or " : ", ";
         snprintf(list + used, sizeof list - used, "%s\"%s\"", join, names[i]);
     }
-    return error_set(err, "%s: %s = \"%s\" is unknown: give %s", item->origin, name, item->value, list);
+    error_set(err, "%s: %s = \"%s\" is unknown: give %s", item->origin, name, item->value, list);
+    return blame(item, err);
 }
 
 static bool set(const struct settings *s, const struct field *f, char *into, struct error *err)

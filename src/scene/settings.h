@@ -9,6 +9,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <string.h>
 
 #include "base/error.h"
 #include "base/field.h"
@@ -19,6 +20,9 @@ struct setting {
     const char *type;   /* that a scene file declares, like "integer"; NULL: none does */
     int n_values;       /* of such a declaration */
 };
+
+/* setting_is_of_file: or of -P? */
+static inline bool setting_is_of_file(const struct setting *s) { return strcmp(s->origin, "-P") != 0; }
 
 struct settings {
     struct setting *item; /* [n], owned */

@@ -6,7 +6,7 @@
 
 static struct connection nothing(void)
 {
-    struct connection c = {{0, 0, 0}, 0, 0, 0, 0, {0, 0, 0}, -1, -1, 0, 0};
+    struct connection c = {{0, 0, 0}, 0, 0, 0, 0, {0, 0, 0}, -1, -1, 0};
     return c;
 }
 

@@ -25,7 +25,6 @@ struct connection {
     vec3 end;        /* connect_direct: the point on the light, at infinity its direction; connect_lens: on the lens */
     int light, cell; /* connect_direct: which, and the light cell of the point; connect_hit: one of its group */
     double pdf;      /* connect_direct: of the point, see light.h */
-    int passed;      /* delta vertices between the two ends: of struct extra's, else 0 */
 };
 
 /* connect_hit: z, the last of t >= 2 eye vertices, is on a light, or its walk met a see-through lamp on the way there,

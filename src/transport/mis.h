@@ -43,7 +43,6 @@
 
 #include <stdbool.h>
 
-struct extra;
 struct tables;
 
 /* Which eye vertex a strategy with t >= 2 ends at: what the camera sees, itself or by way of delta lobes alone, or a
@@ -81,7 +80,6 @@ struct mis_counts {
     double splat;              /* s >= 2, t = 1: light sub-paths connected to the lens: how many per iteration */
     const struct tables *tables;     /* what is known about places: factors of connect and direct, and of the density
                                       * of the light walk's first ray (counts.h, emit.h); NULL: nothing */
-    const struct extra *extra;       /* one more strategy (pixel_sample.h); NULL: none */
     bool power;                /* power heuristic instead of the balance heuristic */
     const struct weigher *weigher; /* of strategies with t >= 2, in place of the recursion; NULL: the recursion */
 };

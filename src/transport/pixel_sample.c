@@ -80,6 +80,10 @@ void pixel_add(struct pixel_sample *sample, const struct connection *c, int s, i
     bool black = rgb_is_black(c->value);
     double scale = choice.scale * sample->filter_weight;
     rgb added = black ? rgb_black() : rgb_scale(rgb_scale(c->value, scale), c->weight);
+    if (!black && !rgb_is_finite(added)) { /* which would take the rest of the sample with it */
+        sample->tile->nonfinite++;
+        return;
+    }
     if (sample->observer != NULL) {
         const struct joined path = {s, t, y, z, c, choice.pmf, scale, added};
         tell_joined(sample, &path);
@@ -90,15 +94,6 @@ void pixel_add(struct pixel_sample *sample, const struct connection *c, int s, i
         sample->before = rgb_add(sample->before, added);
 }
 
-/* What s <= 1 or t = 1 makes, if another strategy makes it, too. */
-static void weigh_again(const struct pixel_sample *sample, const struct vertex *path, int s, int t,
-                        struct connection *c)
-{
-    const struct extra *extra = sample->counts->extra;
-    if (extra != NULL && extra->weigh != NULL && !rgb_is_black(c->value))
-        extra->weigh(extra, sample, path, s, t, c);
-}
-
 static void sum_direct(struct pixel_sample *sample, const struct vertex *eye, int t)
 {
     const struct vertex *z = &eye[t - 1];
@@ -106,7 +101,6 @@ static void sum_direct(struct pixel_sample *sample, const struct vertex *eye, in
     const struct choice each = {1, 1.0 / n};
     for (int i = 0; i < n; i++) {
         struct connection c = connect_direct(sample->scene, sample->counts, z, &sample->sampler, i, n);
-        weigh_again(sample, eye, 1, t, &c);
         pixel_add(sample, &c, 1, t, NULL, z, each);
     }
 }
@@ -114,32 +108,17 @@ static void sum_direct(struct pixel_sample *sample, const struct vertex *eye, in
 static void sum_hit(struct pixel_sample *sample, const struct vertex *eye, int t)
 {
     struct connection c = connect_hit(sample->scene, sample->counts, &eye[t - 2], &eye[t - 1], t);
-    weigh_again(sample, eye, 0, t, &c);
     pixel_add(sample, &c, 0, t, NULL, &eye[t - 1], NO_CHOICE);
-}
-
-static void sum_extra(struct pixel_sample *sample, const struct vertex *eye, int t)
-{
-    const struct extra *extra = sample->counts->extra;
-    struct connection made[EXTRA_MOST];
-    int n = extra->connect(extra, sample, eye, t, made);
-    for (int i = 0; i < n; i++)
-        pixel_add(sample, &made[i], 1, t + made[i].passed, NULL, &eye[t - 1], NO_CHOICE);
 }
 
 void pixel_sum_eye(struct pixel_sample *sample, const struct vertex *eye, int n)
 {
     for (int t = 2; t <= n; t++) {
-        const struct vertex *z = &eye[t - 1];
         if (t == 2 || sample->counts->hit[LATER_HIT] > 0)
             sum_hit(sample, eye, t);
         bool wanted = sample->counts->direct[FIRST_HIT] > 0 && (t > 2 || sample->lights > 0);
-        if (z->kind != VERTEX_SURFACE || t > sample->max_depth + 1)
-            continue;
-        if (wanted)
+        if (wanted && eye[t - 1].kind == VERTEX_SURFACE && t <= sample->max_depth + 1)
             sum_direct(sample, eye, t);
-        if (sample->counts->extra != NULL)
-            sum_extra(sample, eye, t);
     }
 }
 
@@ -188,7 +167,6 @@ void pixel_splat_path(struct pixel_sample *sample, const struct vertex *light, i
     tell_walked(sample, IMPORTANCE, light, n_light);
     for (int s = 2; s <= n_light && s <= sample->max_depth + 1; s++) {
         struct connection c = connect_lens(sample->scene, sample->counts, light, s, &sample->sampler);
-        weigh_again(sample, light, s, 1, &c);
         pixel_splat(sample, &c, s, &light[s - 1], each);
     }
 }

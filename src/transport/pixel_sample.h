@@ -12,7 +12,6 @@
 #include "transport/observer.h"
 #include "transport/tile_pass.h"
 
-enum { EXTRA_MOST = 4 };
 
 /* One pixel of one iteration. */
 struct pixel_sample {
@@ -29,19 +28,6 @@ struct pixel_sample {
     rgb until, before;      /* what paths with t >= 2 have brought so far that are shorter than the gate's end, or its
                              * beginning (film.h): without a gate all, and none */
     struct arena *arena;    /* for what does not outlive the sample */
-};
-
-/* A strategy besides those of connect.h, by a room above: what describes it begins with this. It joins eye vertices to
- * light points, and of what it makes and others make as well it knows the weights. */
-struct extra {
-    /* What it makes of the eye sub-path's first t vertices; returns how many. */
-    int (*connect)(const struct extra *self, struct pixel_sample *sample, const struct vertex *eye, int t,
-                   struct connection out[EXTRA_MOST]);
-    /* c->weight of a path that it makes, too: by s <= 1 from t eye vertices, or by t = 1 from s light vertices. NULL:
-     * it makes no such paths. */
-    void (*weigh)(const struct extra *self, const struct pixel_sample *sample, const struct vertex *path, int s, int t,
-                  struct connection *c);
-    void (*release)(struct extra *self); /* all of it */
 };
 
 /* --- sub-paths --------------------------------------------------------------------------------------- */

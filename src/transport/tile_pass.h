@@ -20,8 +20,6 @@ struct render_job {
     int n_threads;
     bool power_heuristic;
     double rr_threshold; /* of Russian roulette, see path.h */
-    int caustics;        /* longest chain of caustic connections (caustics), 0: none are made */
-    double regularise;   /* angle of the cones of regularisation (caustics), 0: there are none */
     bool spatial_lights; /* pbrt's lightsamplestrategy asks for lights by what is seen; else they are picked by power */
     /* Called now and then, one call at a time, while a method prepares itself: how many sub-paths it has traced for
      * that. False: it is to come to an end, with what it has. NULL: nobody watches. */

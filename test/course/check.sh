@@ -20,6 +20,10 @@ check() {
     for name in $(asked); do
         [ -n "$(get "$name" answer)" ] || wrong "the exercise with the mutant $name has no answer"
     done
+    for word in . '[0-9]*' 1-a ''; do # no assignment's name
+        sh test/course.sh start "$word" "$dir/none" >/dev/null 2>&1 || continue
+        wrong "'$word' is taken for the name of an assignment"
+    done
     [ $bad -eq 0 ] && say "course: $(names assignment | grep -c .) assignments, $(asked | grep -c .) exercises"
     return $bad
 }

@@ -61,7 +61,7 @@ static void read_picture(picture_reader read, const uint8_t *data, size_t size, 
 {
     static const char *const FORMATS[] = {"o.pfm", "o.exr", "o.ppm", "o.png"};
     struct image img;
-    struct error err = {""};
+    struct error err = {.text = ""};
     memset(&img, 0, sizeof img);
     if (!read(data, size, &img, &err)) {
         if (err.text[0] == '\0' || img.u8 != NULL || img.f32 != NULL)
@@ -157,7 +157,7 @@ static void fuzz_ply(const uint8_t *data, size_t size, const char *directory)
 {
     char *path = put_file(directory, "m.ply", data, size);
     struct mesh m;
-    struct error err = {""};
+    struct error err = {.text = ""};
     if (ply_read(path, &m, &err)) {
         for (int i = 0; i < 3 * m.n_triangles; i++)
             if (m.index[i] >= (uint32_t)m.n_vertices)
@@ -203,7 +203,7 @@ static void fuzz_part(const uint8_t *data, size_t size, const char *directory)
     char *path = put_file(directory, "x.part", bytes, size);
     struct part part;
     struct film film;
-    struct error err = {""};
+    struct error err = {.text = ""};
     FILE *f = part_open(path, &part, &err);
     if (f != NULL && (int64_t)part.width * part.height <= (int64_t)size) {
         struct pixel_rect all = {0, 0, part.width, part.height, 0, 0};
@@ -236,7 +236,7 @@ static void render(const struct scene *scene, const char *integrator)
 {
     struct render_options o = {.integrator = integrator, .end = SAMPLES, .n_threads = 1, .max_depth = DEPTH};
     struct film film;
-    struct error err = {""};
+    struct error err = {.text = ""};
     float pixels[3 * WIDTH * HEIGHT];
     film_init(&film, render_crop(scene), scene->width, scene->height);
     if (render_scene(scene, &o, &film, &err)) {
@@ -282,7 +282,7 @@ static void fuzz_scene(const uint8_t *data, size_t size, const char *directory)
     char *path = put_file(directory, "scene.pbrt", data, size);
     struct message_sink sink = {hear, hear, NULL};
     struct scene scene;
-    struct error err = {""};
+    struct error err = {.text = ""};
     if (parse_scene(path, &scene, &sink, &err)) {
         render_all(&scene);
         scene_free(&scene);

@@ -198,7 +198,7 @@ static bool measure_scene(const char *path, const struct bench_options *o, doubl
     value[BUILD] = os_cpu_seconds() - start;
     value[TRIANGLES] = scene.geo.n_triangles;
     value[NODES] = scene.kd.n_nodes;
-    value[REFERENCES] = scene.kd.n_items;
+    value[REFERENCES] = (double)scene.kd.n_items;
     value[COST] = scene.kd.cost;
     measure_rays(&scene, value);
     bool ok = measure_renders(&scene, o, value, err);

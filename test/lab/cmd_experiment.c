@@ -29,7 +29,7 @@ static const char *const PUBLISHED[] = {
 /* What the options say; 0 and NULL: what the preset says. */
 struct plan_options {
     struct texts scenes, sweeps;
-    const char *directory, *reference, *methods;
+    const char *directory, *reference, *methods, *half;
     bool quick, full, quiet;
     double seconds;
     int spp, reference_spp, seeds, max_depth, n_threads, res[2];
@@ -66,7 +66,8 @@ static const struct option EXPERIMENT[] = {
 static const struct option EQUAL_TIME[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes), .help = "scene files (default: eleven of scenes/)"},
     {"-o", "DIR", OPTION_TEXT, AT(directory), 1, .help = "a directory for its results"},
-    {"--methods", "LIST", OPTION_TEXT, AT(methods), .fallback = METHODS_EQUAL_TIME, .help = METHODS_HELP},
+    {"--methods", "LIST", OPTION_TEXT, AT(methods), .help = METHODS_HELP " (default: " METHODS_DEMO
+     "; of eleven scenes more)"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20, .fallback = "32",
      .help = "samples per pixel of the first method; the others are given its CPU time"},
     {"--seconds", "T", OPTION_NUMBER, AT(seconds), 0.001, 1e6, .help = "instead: the CPU time that all are given"},
@@ -83,6 +84,8 @@ static const struct option FAMILY[] = {
      .help = "samples per pixel of the first method (default: 64; --quick: 16); the others are given its CPU time"},
     {"--seeds", "N", OPTION_INTEGER, AT(seeds), 1, PLAN_MAX_SEEDS,
      .help = "renders per method (default: 5; --quick: 3)"},
+    {"--half", "HALF", OPTION_TEXT, AT(half), .fallback = "both",
+     .help = "choice: all services off; services: each method with all it can have; or both"},
     {"--quick", NULL, OPTION_ON, AT(quick), .help = "at the sizes of stored references, not 160 pixels wide"},
     {.others = SHARED},
 };
@@ -129,7 +132,7 @@ static bool plan_experiment(struct plan_options *o, char command[COMMAND], struc
     static const char *const sweeps[2][2] = {{SWEEPS_QUICK}, {SWEEPS_FULL}};
     char how[64];
     if (o->quick && o->full)
-        return error_set(err, "--quick and --full exclude each other");
+        return error_usage(err, "--quick and --full exclude each other");
     long first = o->full ? 32 : 8, last = o->spp > 0 ? o->spp : o->full ? 512 : 64;
     if (o->methods == NULL && o->sweeps.n == 0)
         for (int i = 0; i < 2; i++)
@@ -152,6 +155,8 @@ static bool plan_experiment(struct plan_options *o, char command[COMMAND], struc
 static bool plan_equal_time(struct plan_options *o, char command[COMMAND], struct plan *p, struct error *err)
 {
     char how[64];
+    if (o->methods == NULL) /* of one's own scene one asks which of the two to use */
+        o->methods = o->scenes.n > 0 ? METHODS_DEMO : METHODS_EQUAL_TIME;
     if (o->reference_spp == 0)
         o->reference_spp = 256;
     snprintf(how, sizeof how, "equal-time --spp %d", o->spp);
@@ -179,7 +184,9 @@ static bool plan_family(struct plan_options *o, char command[COMMAND], struct pl
     o->res[0] = o->res[0] > 0 || o->quick ? o->res[0] : 160;
     o->reference_spp = o->reference_spp > 0 ? o->reference_spp : o->quick ? 512 : 2048;
     snprintf(how, sizeof how, "family%s --spp %d", o->quick ? " --quick" : "", o->spp);
-    bool ok = begin_plan(o, N_SCENES, how, command, p, err) && plan_set_spp(p, o->spp, o->spp, err);
+    bool ok = begin_plan(o, N_SCENES, how, command, p, err) && plan_set_spp(p, o->spp, o->spp, err) &&
+              methods_add_halves(o->methods, o->half[0] == 'c' ? 1 : o->half[0] == 's' ? 2 : 3, &p->methods, err);
+    p->n_compared = p->methods.n;
     p->n_own = scenes_given ? 0 : N_SCENES;
     p->equal = true;
     return ok;

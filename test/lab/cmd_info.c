@@ -53,7 +53,7 @@ static void print_scene(const struct scene *s, const struct method *m, double se
     vec3 lo, hi;
     scene_bounds(s, &lo, &hi);
     printf("bounds        (%g, %g, %g) to (%g, %g, %g)\n", lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
-    printf("kd-tree       %d nodes, %d references, depth %d, expected cost %.1f\n", kd->n_nodes, kd->n_items,
+    printf("kd-tree       %d nodes, %zu references, depth %d, expected cost %.1f\n", kd->n_nodes, kd->n_items,
            kd->depth, kd->cost);
     printf("loaded in     %.2f s\n", seconds);
 }
@@ -137,7 +137,7 @@ static bool print_picture(const struct info_options *o, struct error *err)
     char more;
     struct image about;
     if (o->pixel != NULL && (sscanf(o->pixel, "%5d,%5d%c", &x, &y, &more) != 2 || x < 0 || y < 0))
-        return error_set(err, "--pixel %s: two numbers are wanted, as in 20,10", o->pixel);
+        return error_usage(err, "--pixel %s: two numbers are wanted, as in 20,10", o->pixel);
     float *value = image_read_linear(o->job.scene_path, &width, &height, &about, err);
     if (value == NULL)
         return false;
@@ -153,7 +153,7 @@ static bool print_picture(const struct info_options *o, struct error *err)
             print_channel(value, c, (long)width * height);
     }
     free(value);
-    return ok || error_set(err, "--pixel %s: the picture is %dx%d, and 0,0 at its top left", o->pixel, width, height);
+    return ok || error_usage(err, "--pixel %s: the picture is %dx%d, and 0,0 at its top left", o->pixel, width, height);
 }
 
 /* --- the command --------------------------------------------------------------------------------------- */

@@ -69,11 +69,14 @@ static int run(void *options)
     struct scene scene;
     const struct method *m;
     struct error err;
-    int status = file_make_directory(o->directory, &err) ? job_load(&o->job, &scene, &m) : fail(&err);
+    int status = job_load(&o->job, &scene, &m);
     if (status != EXIT_OK)
         return status;
-    bool ok = render(&scene, job_render(&o->job, &scene, m), o->directory, &err);
+    bool ok = file_make_directory(o->directory, &err) &&
+              render(&scene, job_render(&o->job, &scene, m), o->directory, &err);
     scene_free(&scene);
+    if (ok && !o->job.quiet)
+        fprintf(stderr, "wrote the pictures of all strategies, and pyramid.png, into %s\n", o->directory);
     return ok ? EXIT_OK : fail(&err);
 }
 

@@ -10,7 +10,7 @@
 struct trace_options {
     struct job_options job;
     int pixel[2], sample, worst; /* worst 0: the one of the pixel */
-    bool json;
+    bool json, all;
     const char *svg; /* NULL: no drawing */
 };
 
@@ -19,8 +19,9 @@ static const struct option OPTIONS[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .file = FILE_READ, .help = "a scene file"},
     {"--pixel", "X,Y", OPTION_INTEGER, AT(pixel), 0, 65535, .fallback = "0,0", .help = "of the film, 0,0 top left"},
     {"--sample", "K", OPTION_INTEGER, AT(sample), 0, 1 << 30, .fallback = "0", .help = "which, from 0"},
-    {"--worst", "N", OPTION_INTEGER, AT(worst), 1, WORST_MOST,
+    {"--worst", "N", OPTION_INTEGER, AT(worst), 1, WORST_MOST, .without = "--pixel --sample",
      .help = "instead, the N samples of a render that bring most to a pixel, found by rendering"},
+    {"--all", NULL, OPTION_ON, AT(all), .help = "every vertex, density and connection, and what the columns mean"},
     {"--json", NULL, OPTION_ON, AT(json), .help = "print an object of JSON"},
     {"--svg", "FILE", OPTION_TEXT, AT(svg), .file = FILE_WRITTEN, .help = "also draw the paths within the scene"},
     {.others = RUN_OPTIONS},
@@ -70,7 +71,7 @@ static bool tell(const struct trace_options *o, const struct render_options *ren
     if (ok && o->json)
         trace_json(stdout, story);
     else if (ok)
-        trace_text(stdout, story);
+        trace_tell(stdout, story, o->all);
     if (ok && svg != NULL)
         trace_svg(svg, story);
     trace_free(&trace);
@@ -115,7 +116,8 @@ static int run(void *options)
 }
 
 const struct command command_trace = {
-    "trace", "one sample of a pixel, told in full: sub-paths, choices, connections, weights",
-    {"SCENE.pbrt --pixel X,Y [--sample K] [--json] [--svg FILE] [options]", "SCENE.pbrt --worst N [--json] [options]"},
+    "trace", "one sample of a pixel, told in ten lines or in full: sub-paths, choices, connections, weights",
+    {"SCENE.pbrt --pixel X,Y [--sample K] [--all] [--json] [--svg FILE] [options]",
+     "SCENE.pbrt --worst N [--all] [--json] [options]"},
     OPTIONS, sizeof(struct trace_options), run, true,
     "trace scenes/bathroom.pbrt --pixel 150,120 --svg paths.svg"};

@@ -103,16 +103,19 @@ static int run(void *options)
     struct scene scene;
     const struct method *method;
     struct error err;
-    int status = file_make_directory(o->directory, &err) ? job_load(&o->job, &scene, &method) : fail(&err);
+    int status = job_load(&o->job, &scene, &method);
     if (status != EXIT_OK)
         return status;
     struct pixel_rect r = render_crop(&scene);
     struct render_options by = job_render(&o->job, &scene, method);
-    bool ok = o->range[1] > 0 || find_range(&scene, by, &gates, &err);
+    bool ok = file_make_directory(o->directory, &err) &&
+              (o->range[1] > 0 || find_range(&scene, by, &gates, &err));
     float *pictures = ok ? render(&scene, &by, gates, &err) : NULL;
     ok = pictures != NULL && write_all(o->directory, gates, pictures, rect_width(r), rect_height(r), &err);
     free(pictures);
     scene_free(&scene);
+    if (ok && !o->job.quiet)
+        fprintf(stderr, "wrote %d pictures, and transient.png, into %s\n", gates.n, o->directory);
     return ok ? EXIT_OK : fail(&err);
 }
 

@@ -100,7 +100,7 @@ static bool choose_methods(struct verify_options *o, struct error *err)
 
 static bool complete(struct verify_options *o)
 {
-    struct error err = {""};
+    struct error err = {.text = ""};
     bool scene = o->job.scene_path != NULL, both = o->files.n + o->images.n > 0;
     if (choose_pictures(o, &err) && (both ? scene || o->store == NULL : scene && o->store == NULL)) {
         if (choose_methods(o, &err))

@@ -2,10 +2,12 @@
 #include "lab/equal.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/maths.h"
 #include "base/number.h"
+#include "base/progress.h"
 #include "base/rng.h"
 #include "lab/stats.h"
 
@@ -138,32 +140,57 @@ struct interval equal_bootstrap(const struct results *r, int method, int over, e
     return out;
 }
 
-/* --- the sentence ------------------------------------------------------------------------------------ */
+/* --- the words --------------------------------------------------------------------------------------- */
 
-static void say(FILE *f, struct interval r, const char *what)
+double equal_seconds(const struct scene_results *s)
 {
-    bool gain = r.high < 1, loss = r.low > 1;
-    if (!isfinite(r.value))
-        fprintf(f, "unknown %s, as the time is too short for it (more --spp)", what);
-    else
-        fprintf(f, "%.3g [%.3g, %.3g] %s, %s", r.value, r.low, r.high, what,
-                gain ? "a gain" : loss ? "a loss" : "undecided (more --seeds, or more --spp)");
+    double sum = 0;
+    for (int v = 0; v < s->plan->methods.n; v++)
+        sum += s->price[v].before + (double)equal_samples(s, v) * s->price[v].each;
+    return sum * s->seconds;
+}
+
+double equal_seeds_wanted(struct interval r, int n)
+{
+    return ceil(n * sqr((m_log(r.high) - m_log(r.low)) / (2 * m_log(r.value))));
+}
+
+/* "0.8 (95 %: 0.6 to 1.1): undecided; --seeds 12 may decide, some 40 s of CPU more". */
+static void say(FILE *f, const struct results *all, struct interval r)
+{
+    bool decided = r.high < 1 || r.low > 1;
+    int n = all->plan->n_seeds;
+    double seeds = equal_seeds_wanted(r, n), seconds = 0;
+    char more[32];
+    if (!isfinite(r.value)) {
+        fputs("unknown, as the time is too short for it: more --spp.\n", f);
+        return;
+    }
+    fprintf(f, "%.3g (95 %%: %.3g to %.3g): %s", r.value, r.low, r.high,
+            !decided ? "undecided" : r.high < 1 ? "a gain" : "a loss");
+    for (int i = 0; i < all->plan->n_scenes; i++)
+        seconds += equal_seconds(&all->scene[i]);
+    if (!decided && seeds <= PLAN_MAX_SEEDS) {
+        progress_duration((seeds - n) * seconds, more, sizeof more);
+        fprintf(f, "; --seeds %.0f may decide, some %s of CPU more", seeds, more);
+    } else if (!decided)
+        fputs("; it is so near 1 that only a larger --res, or more --spp, will tell", f);
+    fputs(".\n", f);
 }
 
 void equal_verdict(FILE *f, const struct results *r)
 {
     const struct plan *p = r->plan;
     int n;
-    fputs("Verdict:", f);
     for (int v = 1; v < p->methods.n; v++) {
-        fprintf(f, "%s squared error of %s over that of %s after the same time: ", v > 1 ? ";" : "",
-                p->methods.item[v].text, p->methods.item[0].text);
-        say(f, equal_bootstrap(r, v, 0, SQUARE_RELMSE, NULL, &n), "per pixel");
-        fputs("; ", f);
-        say(f, equal_bootstrap(r, v, 0, SQUARE_BLOCKS, NULL, &n), "in means over 8x8");
+        fprintf(f, "Squared error of %s over that of %s after the same time, per pixel: ", p->methods.item[v].text,
+                p->methods.item[0].text);
+        say(f, r, equal_bootstrap(r, v, 0, SQUARE_RELMSE, NULL, &n));
+        fputs("In means over 8x8 pixels, where errors that neighbours share do not hide: ", f);
+        say(f, r, equal_bootstrap(r, v, 0, SQUARE_BLOCKS, NULL, &n));
     }
-    fputs(p->n_scenes == 1 ? "; picture of" : "; pictures of", f);
+    fprintf(f, "Measured with %d seed%s on", p->n_seeds, p->n_seeds == 1 ? "" : "s");
     for (int i = 0; i < p->n_scenes; i++)
         fprintf(f, "%s %s %dx%d", i > 0 ? "," : "", r->scene[i].name, r->scene[i].width, r->scene[i].height);
-    fputs(" pixels.\n", f);
+    fputs(".\n", f);
 }

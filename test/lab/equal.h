@@ -41,7 +41,15 @@ double equal_price(const struct results *r, int method);
 struct interval equal_bootstrap(const struct results *r, int method, int over, enum square which, const char *wanted,
                                 int *n);
 
-/* equal_verdict: one sentence: is the first method beaten? */
+/* equal_seconds: CPU seconds of one seed of all methods, by their prices. */
+double equal_seconds(const struct scene_results *s);
+
+/* equal_seeds_wanted: how many seeds may make the interval of r, which has n, leave 1: it shrinks as one over the
+ * root. */
+double equal_seeds_wanted(struct interval r, int n);
+
+/* equal_verdict: is the first method beaten? Two lines for each other, and one; where that is undecided, what would
+ * decide it and how long that takes. */
 void equal_verdict(FILE *f, const struct results *r);
 
 #endif

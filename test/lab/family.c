@@ -7,6 +7,7 @@
 #include "base/maths.h"
 #include "base/number.h"
 #include "image/image.h"
+#include "lab/claims.h"
 #include "lab/equal.h"
 #include "lab/figures.h"
 #include "lab/markup.h"
@@ -14,11 +15,29 @@
 #include "lab/sheet.h"
 #include "lab/table.h"
 
-/* "subspaces" of "asbdpt:select=subspaces". */
-static const char *short_name(const struct results *e, int method)
+/* The methods that a table or figure shows, the first of them that which all are compared with. */
+struct view {
+    int method[METHODS_MAX], n;
+};
+
+/* Those of a half, or all where there are no halves. */
+static struct view view_of(const struct results *e, enum half half)
 {
-    const char *text = e->plan->methods.item[method].text, *select = strstr(text, "select=");
-    return select != NULL ? select + strlen("select=") : text;
+    struct view v = {.n = 0};
+    for (int i = 0; i < e->plan->methods.n; i++)
+        if (e->plan->methods.item[i].halves == 0 || (e->plan->methods.item[i].halves >> half & 1) != 0)
+            v.method[v.n++] = i;
+    return v;
+}
+
+static const char *label(const struct results *e, int method) { return e->plan->methods.item[method].label; }
+
+static bool has_halves(const struct results *e)
+{
+    unsigned all = 0;
+    for (int i = 0; i < e->plan->methods.n; i++)
+        all |= e->plan->methods.item[i].halves;
+    return all == 3;
 }
 
 /* --- tables ------------------------------------------------------------------------------------------ */
@@ -32,23 +51,24 @@ static void add_of(struct table *t, double ratio, const char *of)
         table_add_missing(t, 1);
 }
 
-static void summary_table(FILE *f, const struct results *e)
+static void summary_table(FILE *f, const struct results *e, enum half half)
 {
+    struct view view = view_of(e, half);
     struct table t;
     table_begin(&t, "Squared error over that of %s after the same CPU time: geometric mean over %d scene%s with "
                     "its 95 %% interval, and the ends of relmse; below 1 is a gain. Price: time of a sample over that "
                     "of %s",
-                short_name(e, 0), e->plan->n_scenes, e->plan->n_scenes == 1 ? "" : "s", short_name(e, 0));
+                label(e, 0), e->plan->n_scenes, e->plan->n_scenes == 1 ? "" : "s", label(e, 0));
     table_column(&t, "method");
     table_column(&t, "price");
     for (int k = 0; k < N_SQUARES; k++)
         table_column(&t, "%s", EQUAL_NAMES[k]);
     table_column(&t, "best");
     table_column(&t, "worst");
-    for (int v = 1; v < e->plan->methods.n; v++) {
+    for (int i = 1; i < view.n; i++) {
+        int v = view.method[i], n;
         struct equal_summary s = equal_summarize(e, v, SQUARE_RELMSE);
-        int n;
-        table_add(&t, NAN, "%s", short_name(e, v));
+        table_add(&t, NAN, "%s", label(e, v));
         table_add(&t, equal_price(e, v), "%.2f", equal_price(e, v));
         for (int k = 0; k < N_SQUARES; k++)
             table_add_interval(&t, equal_bootstrap(e, v, 0, (enum square)k, NULL, &n));
@@ -59,18 +79,19 @@ static void summary_table(FILE *f, const struct results *e)
     table_free(&t);
 }
 
-static void ratio_table(FILE *f, const struct results *e, enum square which)
+static void ratio_table(FILE *f, const struct results *e, enum half half, enum square which)
 {
+    struct view view = view_of(e, half);
     struct table t;
     table_begin(&t, "%s: squared error over that of %s, with its 95 %% interval over %d seed%s", EQUAL_NAMES[which],
-                short_name(e, 0), e->plan->n_seeds, e->plan->n_seeds == 1 ? "" : "s");
+                label(e, 0), e->plan->n_seeds, e->plan->n_seeds == 1 ? "" : "s");
     table_column(&t, "method");
     for (int i = 0; i < e->plan->n_scenes; i++)
         table_column(&t, "%s, %dx%d", e->scene[i].name, e->scene[i].width, e->scene[i].height);
-    for (int v = 1; v < e->plan->methods.n; v++) {
-        table_add(&t, NAN, "%s", short_name(e, v));
+    for (int v = 1; v < view.n; v++) {
+        table_add(&t, NAN, "%s", label(e, view.method[v]));
         for (int i = 0; i < e->plan->n_scenes; i++)
-            table_add_interval(&t, equal_ratio(&e->scene[i], v, 0, which));
+            table_add_interval(&t, equal_ratio(&e->scene[i], view.method[v], 0, which));
     }
     table_markdown(f, &t);
     table_free(&t);
@@ -107,12 +128,50 @@ static void write_notes(FILE *f, const struct results *e)
     plan_write_command(f, e->plan);
 }
 
+/* What services bring to each method that has any: with them over without. */
+static void services_table(FILE *f, const struct results *e)
+{
+    const struct methods *m = &e->plan->methods;
+    struct table t;
+    int n;
+    table_begin(&t, "What services bring: squared error of a method with all of them over that of the same without, "
+                    "after the same CPU time, geometric mean over scenes with its 95 %% interval");
+    table_column(&t, "method");
+    for (int k = 0; k < N_SQUARES; k++)
+        table_column(&t, "%s", EQUAL_NAMES[k]);
+    for (int v = 1; v < m->n; v++)
+        for (int with = v + 1; with < m->n; with++)
+            if (strcmp(m->item[v].label, m->item[with].label) == 0) {
+                table_add(&t, NAN, "%s", m->item[v].label);
+                for (int k = 0; k < N_SQUARES; k++)
+                    table_add_interval(&t, equal_bootstrap(e, with, v, (enum square)k, NULL, &n));
+            }
+    table_markdown(f, &t);
+    table_free(&t);
+}
+
+static void write_half(FILE *f, const struct results *e, enum half half, const char *figure)
+{
+    summary_table(f, e, half);
+    fprintf(f, "![Squared error over that of %s, methods in rows, scenes in columns, with intervals](%s)\n\n",
+            label(e, 0), figure);
+    for (int k = 0; k < N_SQUARES; k++)
+        ratio_table(f, e, half, (enum square)k);
+}
+
 void family_tables(FILE *f, const struct results *e)
 {
-    summary_table(f, e);
-    fputs("![Ratios of all methods in all scenes](family.svg)\n\n![Crops of all pictures](family.png)\n\n", f);
-    for (int k = 0; k < N_SQUARES; k++)
-        ratio_table(f, e, (enum square)k);
+    bool both = has_halves(e);
+    for (int h = 0; both && h < N_HALVES; h++) {
+        fprintf(f, "## %s\n\n", HALVES[h]);
+        write_half(f, e, (enum half)h, h == HALF_CHOICE ? "family-choice.svg" : "family.svg");
+        claims_table(f, e, (enum half)h);
+    }
+    if (both)
+        services_table(f, e);
+    else
+        write_half(f, e, HALF_SERVICES, "family.svg");
+    fputs("![The middle of each picture](family.png)\n\n", f);
     write_notes(f, e);
 }
 
@@ -144,11 +203,11 @@ static void write_panel(FILE *f, const struct results *e, const struct plot_axis
 }
 
 /* A method in a scene: its interval, its ratio, and hollow that of means over 8x8 pixels. */
-static void write_ratio(FILE *f, const struct results *e, const struct plot_axis *a, int column, int method)
+static void write_ratio(FILE *f, const struct scene_results *s, const struct plot_axis *a, int column, int row,
+                        int method)
 {
-    const struct scene_results *s = &e->scene[column];
     struct interval r = equal_ratio(s, method, 0, SQUARE_RELMSE);
-    double blocks = equal_ratio(s, method, 0, SQUARE_BLOCKS).value, y = TOP + ROW * (method - 0.5);
+    double blocks = equal_ratio(s, method, 0, SQUARE_BLOCKS).value, y = TOP + ROW * (row - 0.5);
     const char *class = r.high < 1 ? "gain" : r.low > 1 ? "loss" : "open";
     if (isfinite(r.value) && isfinite(r.high))
         fprintf(f, "<path class=\"%s\" d=\"M%.1f %.1fH%.1f\"/>\n", class, place(a, column, r.low), y,
@@ -160,16 +219,17 @@ static void write_ratio(FILE *f, const struct results *e, const struct plot_axis
         fprintf(f, "<path class=\"blocks\" d=\"M%.1f %.1fl4 4l-4 4l-4 -4z\"/>\n", place(a, column, blocks), y - 4);
 }
 
-void family_figure(FILE *f, const struct results *e)
+static void write_figure(FILE *f, const struct results *e, enum half half)
 {
+    struct view view = view_of(e, half);
     struct plot_axis axis = axis_make(true, LEAST, MOST);
-    int methods = e->plan->methods.n, bottom = TOP + ROW * (methods - 1);
+    int bottom = TOP + ROW * (view.n - 1);
     int width = LEFT + 110 + COLUMN * e->plan->n_scenes;
     width = width < LEAST_WIDTH ? LEAST_WIDTH : width;
     xml_print(f, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" height=\"%d\" "
               "role=\"img\" aria-labelledby=\"t\" font-family=\"system-ui,sans-serif\" font-size=\"12\">\n<title "
               "id=\"t\">Squared error over that of %s after the same CPU time</title>\n", width, bottom + BELOW, width,
-              bottom + BELOW, short_name(e, 0));
+              bottom + BELOW, label(e, 0));
     fputs("<style>path{fill:none;stroke-width:1.6}.grid{stroke:#ddd;stroke-width:1}.one{stroke:#555;stroke-width:1}"
           ".n{font-size:9px;text-anchor:middle}circle.gain{fill:#0b62a8}path.gain{stroke:#0b62a8}"
           "circle.loss{fill:#b3400a}path.loss{stroke:#b3400a}circle.open{fill:#3d444d}path.open{stroke:#3d444d}"
@@ -177,16 +237,20 @@ void family_figure(FILE *f, const struct results *e)
           "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n", f);
     for (int c = 0; c < e->plan->n_scenes; c++)
         write_panel(f, e, &axis, c, bottom);
-    for (int v = 1; v < methods; v++) {
-        xml_print(f, "<text class=\"m\" x=\"%d\" y=\"%d\">%s</text>\n", LEFT - 8, TOP + ROW * v - 6, short_name(e, v));
+    for (int v = 1; v < view.n; v++) {
+        xml_print(f, "<text class=\"m\" x=\"%d\" y=\"%d\">%s</text>\n", LEFT - 8, TOP + ROW * v - 6,
+                  label(e, view.method[v]));
         for (int c = 0; c < e->plan->n_scenes; c++)
-            write_ratio(f, e, &axis, c, v);
+            write_ratio(f, &e->scene[c], &axis, c, v, view.method[v]);
     }
     xml_print(f, "<text x=\"8\" y=\"%d\">Squared error over that of %s after the same CPU time: left of the line is a "
               "gain.</text>\n<text x=\"8\" y=\"%d\">Dot and bar: relmse, its 95 %s interval; diamond: means over 8x8 "
-              "pixels; what is beyond stands at the edge.</text>\n</svg>\n", bottom + 34, short_name(e, 0),
+              "pixels; what is beyond stands at the edge.</text>\n</svg>\n", bottom + 34, label(e, 0),
               bottom + 50, "%");
 }
+
+static void family_choice_figure(FILE *f, const struct results *e) { write_figure(f, e, HALF_CHOICE); }
+void family_figure(FILE *f, const struct results *e) { write_figure(f, e, HALF_SERVICES); }
 
 /* --- the strip of crops ------------------------------------------------------------------------------ */
 
@@ -208,16 +272,17 @@ static bool write_strip(const struct results *e, struct error *err)
 {
     struct sheet sheet;
     char path[4096];
-    int methods = e->plan->methods.n, row = CROP * SCALE + NAMES;
-    sheet_init(&sheet, GAP + (methods + 1) * (CROP * SCALE + GAP), NAMES + row * e->plan->n_scenes, SHEET_PAPER);
-    for (int v = -1; v < methods; v++)
+    struct view view = view_of(e, HALF_SERVICES);
+    int row = CROP * SCALE + NAMES;
+    sheet_init(&sheet, GAP + (view.n + 1) * (CROP * SCALE + GAP), NAMES + row * e->plan->n_scenes, SHEET_PAPER);
+    for (int v = -1; v < view.n; v++)
         sheet_text(&sheet, GAP + (v + 1) * (CROP * SCALE + GAP), GAP, 1, SHEET_INK,
-                   v < 0 ? "reference" : short_name(e, v));
+                   v < 0 ? "reference" : label(e, view.method[v]));
     for (int i = 0; i < e->plan->n_scenes; i++) {
         const struct scene_results *s = &e->scene[i];
         sheet_text(&sheet, GAP, NAMES + row * i + GAP, 1, SHEET_INK, s->name);
-        for (int v = -1; v < methods; v++)
-            paste_crop(v < 0 ? s->reference.pixels : s->image[v], s->width, s->height, &sheet, v + 1,
+        for (int v = -1; v < view.n; v++)
+            paste_crop(v < 0 ? s->reference.pixels : s->image[view.method[v]], s->width, s->height, &sheet, v + 1,
                        2 * NAMES + row * i);
     }
     snprintf(path, sizeof path, "%s/family.png", e->plan->directory);
@@ -230,5 +295,6 @@ bool family_write(const struct results *r, const char *page, void (*write)(FILE 
                   struct error *err)
 {
     return results_write(r, "runs.csv", results_runs_csv, err) && results_write(r, page, write, err) &&
-           results_write(r, "family.svg", family_figure, err) && write_strip(r, err);
+           results_write(r, "family.svg", family_figure, err) &&
+           (!has_halves(r) || results_write(r, "family-choice.svg", family_choice_figure, err)) && write_strip(r, err);
 }

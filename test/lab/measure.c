@@ -403,6 +403,18 @@ static bool enlarge(struct subject *s)
     return true;
 }
 
+/* What is about to take long. */
+static void announce(struct subject *s)
+{
+    const struct plan *p = s->whole->plan;
+    double seed = equal_seconds(s->out);
+    char all[32];
+    progress_duration(p->n_seeds * seed, all, sizeof all);
+    progress_end(&s->whole->bar);
+    fprintf(stderr, "%s, %dx%d: %d renders of %.2g s each: some %s of CPU, less what is kept from before\n",
+            s->out->name, s->out->width, s->out->height, p->n_seeds * p->methods.n, seed / p->methods.n, all);
+}
+
 /* Seeds come before methods, so that a machine that slows down in between slows down all alike. */
 static bool measure_methods(struct subject *s)
 {
@@ -410,6 +422,8 @@ static bool measure_methods(struct subject *s)
     bool ok = true;
     for (int v = 0; ok && p->equal && v < p->methods.n; v++)
         ok = read_or_measure_price(s, v);
+    if (ok && p->equal && !p->quiet)
+        announce(s);
     for (int seed = 1; ok && seed <= p->n_seeds; seed++)
         for (int v = 0; ok && v < p->methods.n; v++)
             ok = seed > plan_seeds(p, v) || read_or_render_run(s, v, seed);
@@ -438,23 +452,6 @@ static void judge(struct subject *s)
     compare_all_pairs(s);
 }
 
-static bool measure_scene(struct measuring *m, struct scene_results *out)
-{
-    struct subject s = {.whole = m, .out = out};
-    if (!load_scene(&s))
-        return false;
-    bool ok = make_reference(&s) && enlarge(&s) && measure_methods(&s);
-    if (ok)
-        judge(&s);
-    for (int v = 0; v < METHODS_MAX; v++)
-        for (int i = 0; i < PLAN_MAX_SEEDS; i++)
-            free(s.picture[v][i]);
-    scene_free(&s.scene);
-    return ok;
-}
-
-/* --- the whole --------------------------------------------------------------------------------------- */
-
 static bool make_directories(const struct plan *p, struct error *err)
 {
     static const char *const names[] = {"store", "images", "plots"};
@@ -467,12 +464,29 @@ static bool make_directories(const struct plan *p, struct error *err)
     return ok;
 }
 
+static bool measure_scene(struct measuring *m, struct scene_results *out)
+{
+    struct subject s = {.whole = m, .out = out};
+    if (!load_scene(&s))
+        return false;
+    bool ok = make_directories(m->plan, m->err) && make_reference(&s) && enlarge(&s) && measure_methods(&s);
+    if (ok)
+        judge(&s);
+    for (int v = 0; v < METHODS_MAX; v++)
+        for (int i = 0; i < PLAN_MAX_SEEDS; i++)
+            free(s.picture[v][i]);
+    scene_free(&s.scene);
+    return ok;
+}
+
+/* --- the whole --------------------------------------------------------------------------------------- */
+
 bool measure(const struct plan *plan, struct results *out, struct error *err)
 {
     struct measuring m = {.plan = plan, .err = err};
     out->plan = plan;
     out->scene = mem_alloc((size_t)plan->n_scenes, sizeof *out->scene);
-    if (!plan_names_differ(plan, err) || !make_directories(plan, err))
+    if (!plan_names_differ(plan, err))
         return false;
     for (int v = 0; v < plan->methods.n; v++)
         m.total += plan->n_scenes * plan_seeds(plan, v);

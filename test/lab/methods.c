@@ -63,6 +63,8 @@ static bool add_one(struct methods *list, const char *text, struct error *err)
     if (list->n == METHODS_MAX)
         return error_set(err, "more than %d methods", METHODS_MAX);
     struct measured *m = &list->item[list->n];
+    m->halves = 0;
+    snprintf(m->label, sizeof m->label, "%s", method_short(text));
     snprintf(m->text, sizeof m->text, "%s", text);
     snprintf(m->file, sizeof m->file, "%s", text);
     snprintf(m->integrator, sizeof m->integrator, "%.*s", (int)strcspn(text, ":"), text);
@@ -116,6 +118,64 @@ void methods_all(char out[METHODS_TEXT])
         if (strcmp((*m)->name, METHOD_REFERENCE) != 0)
             n += snprintf(out + n, (size_t)(METHODS_TEXT - n), ",%s%s%s", (*m)->name,
                           (*m)->select != NULL ? ":select=" : "", (*m)->select != NULL ? (*m)->select : "");
+}
+
+/* Services are parameters that several methods have: what they are called, and how they are off and on. */
+static const struct {
+    const char *name, *value[N_HALVES];
+} SERVICES[] = {{"no-such", {"0", "1"}}};
+
+const char *const HALVES[N_HALVES] = {"The choice alone", "With all services"};
+
+/* A method as it is in a half: its text, and each service that it has and that was not given. */
+static void in_half(const char *text, enum half half, char out[METHOD_TEXT])
+{
+    struct settings s = {0};
+    char integrator[32];
+    snprintf(integrator, sizeof integrator, "%.*s", (int)strcspn(text, ":"), text);
+    set_pairs(text, &s, NULL);
+    const struct method *row = method_find(integrator, &s, NULL);
+    int n = snprintf(out, METHOD_TEXT, "%s", text);
+    for (size_t i = 0; row != NULL && i < sizeof SERVICES / sizeof SERVICES[0]; i++)
+        if (method_has(row, SERVICES[i].name) != NULL && settings_text(&s, SERVICES[i].name, NULL) == NULL &&
+            n < METHOD_TEXT)
+            n += snprintf(out + n, (size_t)(METHOD_TEXT - n), ":%s=%s", SERVICES[i].name, SERVICES[i].value[half]);
+    settings_clear(&s);
+}
+
+bool methods_add_halves(const char *text, unsigned halves, struct methods *out, struct error *err)
+{
+    struct methods given;
+    out->n = 0;
+    if (!methods_read(text, &given, err))
+        return false;
+    for (int h = 0; h < N_HALVES; h++)
+        for (int i = 0; i < given.n; i++) {
+            char own[METHOD_TEXT];
+            in_half(given.item[i].text, (enum half)h, own);
+            int known = methods_find(out, own);
+            if ((halves >> h & 1) == 0)
+                continue;
+            if (known < 0 && !add_one(out, own, err))
+                return false;
+            struct measured *m = &out->item[known < 0 ? out->n - 1 : known];
+            m->halves |= 1u << h;
+            snprintf(m->label, sizeof m->label, "%s", given.item[i].label);
+        }
+    return true;
+}
+
+int methods_find_half(const struct methods *list, const char *text, enum half half)
+{
+    char own[METHOD_TEXT];
+    in_half(text, half, own);
+    return methods_find(list, own);
+}
+
+const char *method_short(const char *text)
+{
+    const char *select = strstr(text, "select=");
+    return select != NULL ? select + strlen("select=") : text;
 }
 
 int methods_find(const struct methods *list, const char *text)

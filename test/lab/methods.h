@@ -18,8 +18,10 @@ enum { METHODS_MAX = 64, METHOD_TEXT = 128 };
 
 struct measured {
     char text[METHOD_TEXT];
-    char file[METHOD_TEXT]; /* the same for names of files: "asbdpt-select-bins" */
+    char file[METHOD_TEXT];  /* the same for names of files: "asbdpt-select-bins" */
     char integrator[32];
+    char label[METHOD_TEXT]; /* the same for people: "bins", and in the family without what is on or off */
+    unsigned halves;         /* bits of the halves of the family that it belongs to; 0: of none */
 };
 
 struct methods {
@@ -47,6 +49,18 @@ bool methods_read(const char *text, struct methods *out, struct error *err);
 /* methods_all: such a list of all there are, METHOD_REFERENCE first. */
 enum { METHODS_TEXT = 8192 };
 void methods_all(char out[METHODS_TEXT]);
+
+/* The family has two halves: methods that differ in the choice alone, all services off; and each with every service
+ * that it can have. methods_add_halves: a list as methods_read takes it, each of its methods as it is in these halves
+ * (a method without services is the same in both); false with a message. methods_find_half: the number of the method
+ * that is this one in a half, or -1. */
+enum half { HALF_CHOICE, HALF_SERVICES, N_HALVES };
+extern const char *const HALVES[N_HALVES];
+bool methods_add_halves(const char *text, unsigned halves, struct methods *out, struct error *err);
+int methods_find_half(const struct methods *list, const char *text, enum half half);
+
+/* method_short: "subspaces" of "asbdpt:select=subspaces". */
+const char *method_short(const char *text);
 
 /* methods_find: the number of the method of that text, or -1. */
 int methods_find(const struct methods *list, const char *text);

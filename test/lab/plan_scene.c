@@ -32,11 +32,8 @@ bool plan_scene_read(const char *path, int width, int height, int max_depth, str
     parameters_adapt(scene, method_rows, NULL);
     if (width == 0)
         width = scene->width < WIDTH_WITHOUT_REFERENCE ? scene->width : WIDTH_WITHOUT_REFERENCE;
-    /* Widths of plans go up to 8192 and films up to 65536 a side: below 2^30. */
-    int by_aspect = (int)(0.5 + (double)width * scene->height / scene->width);
     memcpy(scene->crop, whole, sizeof whole);
-    scene->width = width;
-    scene->height = height > 0 ? height : by_aspect > 1 ? by_aspect : 1;
+    scene_resize(scene, width, height);
     filter_default("box", &scene->filter);
     if (!parameters_max_depth(scene, max_depth, depth, err)) {
         scene_free(scene);
@@ -69,7 +66,7 @@ static void warn(const struct plan *p, const struct scene *scene, const char *pa
 bool plan_scene_load(const struct plan *p, const char *path, const char *name, struct scene *scene, int *depth,
                      struct reference *stored, struct error *err)
 {
-    struct error why = {"there is no stored reference"};
+    struct error why = {.text = "there is no stored reference"};
     bool given = p->reference != NULL;
     if (!reference_find(p->reference, path, name, stored, err) || !read_planned(p, path, stored, scene, depth, err))
         return false;

@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/os.h"
 #include "image/image.h"
+#include "image/zlib.h"
 #include "lab/timed.h"
 
 enum { PATH_SIZE = 4096 };
@@ -18,9 +19,14 @@ static void path_of(const char *directory, const char *name, const char *extensi
     snprintf(out, PATH_SIZE, "%s/%s.%s", directory, name, extension);
 }
 
-static unsigned long crc_of(const struct record *r) { return timed_checksum(r->pixels, r->width, r->height); }
+/* Of the picture and the numbers. */
+static unsigned long crc_of(const struct record *r)
+{
+    unsigned long picture = r->pixels != NULL ? timed_checksum(r->pixels, r->width, r->height) : 0;
+    return checksum_crc32((uint32_t)picture, (const uint8_t *)r->number, sizeof r->number);
+}
 
-/* Three lines: the key, the numbers, the picture's size and checksum. */
+/* Three lines: the key, the numbers, the picture's size and the checksum of both. */
 static bool read_text(FILE *f, const char *key, struct record *out, unsigned long *crc)
 {
     char line[STORE_KEY + 4] = "", end = 0;
@@ -46,8 +52,9 @@ bool store_read(const char *directory, const char *name, const char *key, struct
     if (ok && width > 0) {
         path_of(directory, name, "pfm", path);
         in.pixels = image_read_linear(path, &in.width, &in.height, NULL, NULL);
-        ok = in.pixels != NULL && in.width == width && in.height == height && crc_of(&in) == crc;
+        ok = in.pixels != NULL && in.width == width && in.height == height;
     }
+    ok = ok && crc_of(&in) == crc;
     if (ok)
         *out = in;
     else
@@ -70,6 +77,6 @@ bool store_write(const char *directory, const char *name, const char *key, const
     fprintf(f.stream, "%s\n", key);
     for (int i = 0; i < STORE_NUMBERS; i++)
         fprintf(f.stream, "%.17g%s", r->number[i], i + 1 < STORE_NUMBERS ? " " : "\n");
-    fprintf(f.stream, "%d x %d %08lx\n", r->width, r->height, r->pixels != NULL ? crc_of(r) : 0);
+    fprintf(f.stream, "%d x %d %08lx\n", r->width, r->height, crc_of(r));
     return file_commit(&f, err);
 }

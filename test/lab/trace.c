@@ -102,10 +102,10 @@ static bool check_sample(const struct render_options *o, struct pixel_rect film,
                          struct error *err)
 {
     if (t->x < film.x0 || t->x >= film.x1 || t->y < film.y0 || t->y >= film.y1)
-        return error_set(err, "--pixel %d,%d is not rendered: x is %d to %d here, y is %d to %d", t->x, t->y, film.x0,
+        return error_usage(err, "--pixel %d,%d is not rendered: x is %d to %d here, y is %d to %d", t->x, t->y, film.x0,
                          film.x1 - 1, film.y0, film.y1 - 1);
     return (t->iteration >= 0 && t->iteration < o->end) ||
-           error_set(err, "--sample %ld is not taken: they are numbered 0 to %ld, see --spp", t->iteration,
+           error_usage(err, "--sample %ld is not taken: they are numbered 0 to %ld, see --spp", t->iteration,
                      o->end - 1);
 }
 

@@ -18,9 +18,15 @@ struct trace_story {
     const struct trace *trace;
 };
 
-/* trace_text: a page to read. trace_json: one JSON object with every number; doc/trace.md names its keys. */
+/* trace_tell: some ten lines, and with `all` trace_text after them, a page to read. trace_json: one JSON object with
+ * every number; doc/tour/trace.md names its keys. */
+void trace_tell(FILE *f, const struct trace_story *story, bool all);
 void trace_text(FILE *f, const struct trace_story *story);
 void trace_json(FILE *f, const struct trace_story *story);
+
+/* trace_name_joined: what a connection joins: "y_2 - z_1", or "y_2(5) - z_1" of the fifth light sub-path. */
+enum { TRACE_JOINED = 64 };
+void trace_name_joined(const struct trace *trace, const struct trace_connection *c, char out[TRACE_JOINED]);
 
 /* trace_what: what a vertex is, in a word or two. trace_measure: what its densities are per: "m^2", "sr", or "" where
  * they are probabilities, of lights that are a point or a direction; NULL for the lens. */

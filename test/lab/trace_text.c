@@ -48,8 +48,9 @@ static void name_y(const struct trace *t, int light, int i, char *out, size_t si
         snprintf(out, size, "y_%d", i);
 }
 
-static void name_joined(const struct trace *t, const struct trace_connection *c, char *out, size_t size)
+void trace_name_joined(const struct trace *t, const struct trace_connection *c, char out[TRACE_JOINED])
 {
+    const size_t size = TRACE_JOINED;
     char y[32];
     if (c->s > 1)
         name_y(t, c->light, c->s - 1, y, sizeof y);
@@ -122,9 +123,9 @@ static void print_paths(FILE *f, const struct trace_story *s)
 
 static void print_connection(FILE *f, const struct trace *t, const struct trace_connection *c)
 {
-    char strategy[32], joined[64], chance[16] = "";
+    char strategy[32], joined[TRACE_JOINED], chance[16] = "";
     snprintf(strategy, sizeof strategy, "(%d,%d)", c->s, c->t);
-    name_joined(t, c, joined, sizeof joined);
+    trace_name_joined(t, c, joined);
     if (c->pmf < 1)
         snprintf(chance, sizeof chance, "%.3g", c->pmf);
     fprintf(f, "  %-7s %-15s %-9s", strategy, joined, chance);
@@ -184,8 +185,6 @@ void trace_text(FILE *f, const struct trace_story *s)
 {
     const struct trace *t = s->trace;
     rgb sum = trace_sum(t);
-    fprintf(f, "%s, pixel %d,%d, sample %ld: %s, seed %llu\n", s->scene_path, t->x, t->y, t->iteration,
-            s->integrator->name, (unsigned long long)s->seed);
     fprintf(f, "\n(s,t): a path of s vertices from the light, y_0 ... y_{s-1}, and t from the eye, z_{t-1} ... z_0.\n");
     print_paths(f, s);
     if (t->why != NULL)

@@ -87,7 +87,7 @@ static bool fill(struct view *v, int x, int y, struct error *err)
     if (v->tables == NULL || v->tables->pairs.h == NULL)
         return error_set(err, "this selection learns nothing about pairs of places; select=subspaces does");
     if (x < 0 || y < 0 || x >= s->width || y >= s->height)
-        return error_set(err, "--pixel %d,%d lies outside the film of %dx%d", x, y, s->width, s->height);
+        return error_usage(err, "--pixel %d,%d lies outside the film of %dx%d", x, y, s->width, s->height);
     if (!look(v, x, y))
         return error_set(err, "no surface that can be connected to is seen through pixel %d,%d", x, y);
     v->h = pairs_row(&v->tables->pairs, v->work->eye[1].eye_region);

@@ -7,16 +7,16 @@
  *     b / M sum f / I,   b = mean of I over independent states, luminance per unit of raster area,
  * times the area of the raster that states lie on, over P: filters reach beyond the picture.
  *
- * No start-up bias [V97 11.3.1]: of N independent states, the starts are drawn with probability I / sum I and all count
- * by the mean I of the same N: the expectation of b f(X_m) / I(X_m) is right for any m, whatever the chain does. What
- * remains is an error of b, the same for the whole picture, which is printed; `bootstrapsamples` lowers it. [V97]'s
- * other use of the independent states, as samples of the picture, and [Kelemen 2002]'s, where they go on with the
- * chains, are left out: the second is unbiased only in the limit.
+ * No start-up bias [V97 11.3.1]: of N independent states, the start is drawn with probability I / sum I and the chain
+ * counts by the mean I of the same N: the expectation of b f(X_m) / I(X_m) is right for any m, whatever the chain does.
+ * Every chain has N states of its own, some hundred, so that more samples are more starts, too: chains that all started
+ * from one pool, however large, would never see what it has missed, and a picture would not converge. [V97]'s other use
+ * of the independent states, as samples of the picture, and [Kelemen 2002]'s, where they go on with the chains, are
+ * left out: the second is unbiased only in the limit.
  *
  * A chain is a tile pass: it has as many mutations as the pass has samples of pixels,
  * though it wanders over the whole picture. So bytes do not depend on threads, parts are whole chains, and a render
- * ends or goes on as that of any other method. The starts of a block of iterations are drawn systematically: tiles are
- * intervals of [0,1) as long as they have pixels, and the starts of all lie evenly in them.
+ * ends or goes on as that of any other method.
  *
  * Tests: test_chains.c.
  */
@@ -43,14 +43,12 @@ struct chain_rules;
 /* Frozen state of a method. */
 struct chains {
     struct frozen frozen;   /* counts.splat is the area of the raster: one light sub-path for one eye sub-path on it */
-    int bootstrap;          /* parameters; 0: as chain_prepare thinks best */
+    int starts;             /* parameters; 0: as chain_prepare thinks best */
     double sigma, large_step;
     const struct chain_rules *rules;
     double x, y, width, height; /* the raster: the film, and as far around it as the filter reaches */
     double scale;               /* raster area for each pixel */
     int lengths, each;          /* independent states: so many of each of so many lengths, from 2 vertices on */
-    double *before;             /* [lengths * each + 1], sums of their I; owned */
-    double b;
 };
 
 /* The memory of one thread. */
@@ -60,6 +58,9 @@ struct chain {
     struct workspace *work;
     struct rng rng; /* of this chain */
     struct gate gate; /* what goes into the picture; a chain goes by all light, so it is the same for all gates */
+    uint64_t pass;  /* a number that no other chain has */
+    double *before; /* [lengths * each + 1], sums of the I of its independent states; owned */
+    double b;       /* the sum of the means of all lengths */
     long candidate; /* >= 0: `next` is to be this independent state of its length; -1: the chain is under way */
     struct chain_state now, next;
 };
@@ -80,7 +81,7 @@ struct chain_rules {
 /* Of a row of the table. */
 #define CHAIN_ROW                                                                                                      \
     .chain = true, .state_size = sizeof(struct chains), .scratch_size = sizeof(struct chain),                          \
-    .render = chain_render, .release = chain_release, .scratch_init = chain_scratch, .scratch_free = chain_scratch_free
+    .render = chain_render, .scratch_init = chain_scratch, .scratch_free = chain_scratch_free
 
 /* chain_propose: what is proposed, by the rules. chain_swap: go there. */
 double chain_propose(struct chain *c);
@@ -89,14 +90,13 @@ void chain_swap(struct chain *c);
 /* chain_candidate: make `next` independent state number i of all. */
 void chain_candidate(struct chain *c, long i);
 
-/* chain_position: where in [0,1) the chain of a pass takes its start from the running sum of the independent states:
- * somewhere in an interval that the tile has to itself and that is as long as it has pixels. */
-double chain_position(const struct preparation *m, const struct tile_pass *pass);
+/* chain_start: make the chain's independent states, and `now` the one that u in [0,1) finds in the running sum of their
+ * I. Returns b; 0: they were all dark, and there is no chain. */
+double chain_start(struct chain *c, double u);
 
 /* For rows of the table: prepare with these rules, render, and give back. The scratch of a method is a struct chain. */
 void chain_prepare(const struct chain_rules *rules, const struct render_job *job, struct preparation *out);
 void chain_render(const struct preparation *m, const struct tile_pass *pass);
-void chain_release(void *state);
 void chain_scratch(void *scratch, const void *state);
 void chain_scratch_free(void *scratch);
 

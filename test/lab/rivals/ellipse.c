@@ -21,12 +21,12 @@
 
 #include "base/alias.h"
 #include "base/maths.h"
-#include "integrators/method.h"
+#include "caustics/one_more.h"
 
 extern const struct method method_pt, method_ellipse;
 
 struct ellipse {
-    struct extra extra;
+    struct one_more more;
     struct alias_table by_area; /* of triangles */
 };
 
@@ -166,8 +166,8 @@ static bool arrive(const struct pixel_sample *sample, const struct vertex *z, in
     return vertex_connectible(out);
 }
 
-static int connect(const struct extra *self, struct pixel_sample *sample, const struct vertex *eye, int t,
-                   struct connection out[EXTRA_MOST])
+static int connect(const struct one_more *self, struct pixel_sample *sample, const struct vertex *eye, int t,
+                   struct one_more_path out[ONE_MORE_MOST])
 {
     const struct ellipse *own = (const void *)self;
     const struct scene *scene = sample->scene;
@@ -196,15 +196,15 @@ static int connect(const struct extra *self, struct pixel_sample *sample, const 
     if (!ellipse_draw(y.p, z->p, corner, tau, most - least, v[1], &x, &pdf) ||
         !arrive(sample, z, triangle, x, corner, P * pdf, &at))
         return 0;
-    out[0] = connect_point(scene, sample->counts, &at, &y, y.pdf);
-    out[0].weight = 1;
+    out[0].c = connect_point(scene, sample->counts, &at, &y, y.pdf);
+    out[0].c.weight = 1;
     out[0].passed = 1;
     return 1;
 }
 
 /* Of others' paths those that are its own count for nothing. */
-static void weigh(const struct extra *self, const struct pixel_sample *sample, const struct vertex *path, int s, int t,
-                  struct connection *c)
+static void weigh(const struct one_more *self, const struct pixel_sample *sample, const struct vertex *path, int s,
+                  int t, struct connection *c)
 {
     (void)self;
     const struct vertex *x = &path[t - 2 + s], *z = x - 1, *end = x + 1;
@@ -228,9 +228,8 @@ static void prepare(const struct render_job *job, struct preparation *out)
         area[i] = shape_area(geo, i);
     alias_build(&s->own.by_area, area, geo->n_triangles);
     free(area);
-    s->own.extra.connect = connect;
-    s->own.extra.weigh = weigh;
-    s->frozen.counts.extra = &s->own.extra;
+    s->own.more.connect = connect;
+    s->own.more.weigh = weigh;
 }
 
 static void release(void *state)
@@ -239,7 +238,11 @@ static void release(void *state)
     alias_free(&s->own.by_area);
 }
 
-static void render(const struct preparation *m, const struct tile_pass *pass) { method_pt.render(m, pass); }
+static void render(const struct preparation *m, const struct tile_pass *pass)
+{
+    const struct ellipse_state *s = m->state;
+    one_more_render(m, &s->own.more, pass);
+}
 
 const struct method method_ellipse = {
     .name = "ellipse", .help = "ellipsoidal connections [Pediredla 2019]: for narrow gates; else pt",

@@ -236,24 +236,19 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
     const struct pathgraph_state *s = state;
     struct arena *arena = &pass->work->arena;
     struct node **of = arena_alloc(arena, (size_t)n * sizeof *of);
-    bool whole = pass->job->caustics > 0 || pass->job->regularise > 0;
     int longest = 0;
     (void)scratch;
     for (int i = 0; i < n; i++) {
         struct pooled_pixel *p = &pixel[i];
-        if (whole)
-            pixel_sum_eye(&p->sample, p->eye, p->n);
         of[i] = arena_alloc(arena, (size_t)p->n * sizeof **of);
         for (int t = 1; t <= p->n; t++) {
             struct node node = {.z = &p->eye[t - 1], .ends = t == p->n, .number = i};
-            if (!whole && node.z->kind == VERTEX_SURFACE && t <= p->sample.max_depth + 1)
+            if (node.z->kind == VERTEX_SURFACE && t <= p->sample.max_depth + 1)
                 draw_light(&p->sample, &node);
             of[i][t - 1] = node;
         }
         longest = p->n > longest ? p->n : longest;
     }
-    if (whole)
-        return;
     vec3 shift;
     shift.x = sampler_number(&pixel[0].draws, DRAW_ORDER);
     shift.y = sampler_number(&pixel[0].draws, DRAW_ORDER);

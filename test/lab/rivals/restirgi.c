@@ -204,14 +204,13 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
                         int n)
 {
     const struct restirgi_state *s = state;
-    bool whole = pass->job->caustics > 0 || pass->job->regularise > 0; /* which add to whole eye sub-paths */
     struct arena *arena = &pass->work->arena;
     struct reservoir *all = arena_alloc(arena, (size_t)n * sizeof *all);
     int *near = arena_alloc(arena, (size_t)n * (size_t)(s->neighbours + 1) * sizeof *near);
     int *found = arena_alloc(arena, (size_t)n * sizeof *found);
     (void)scratch;
     for (int i = 0; i < n; i++) {
-        found[i] = reuse_neighbours(pixel, n, i, whole ? 0 : s->neighbours, &near[i * (s->neighbours + 1)]);
+        found[i] = reuse_neighbours(pixel, n, i, s->neighbours, &near[i * (s->neighbours + 1)]);
         all[i] = resample(&pixel[i], found[i] > 1);
     }
     for (int i = 0; i < n; i++)

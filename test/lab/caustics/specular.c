@@ -9,7 +9,7 @@ int specular_group(const struct scene *scene, const struct surface *at)
 }
 
 /* The ray arrives at a surface: its point moves by dp along that. */
-static void transfer(struct chain *c, const struct surface *at)
+static void transfer(struct specular_chain *c, const struct surface *at)
 {
     double t = length(sub(at->p, c->p));
     for (int i = 0; i < 2; i++) {
@@ -23,8 +23,8 @@ static void transfer(struct chain *c, const struct surface *at)
 
 /* The ray goes on in direction s->wi. Reflection is d - 2 (d.n) n, refraction eta d + mu n with n on the side that the
  * ray comes from, mu = eta c - c_t. */
-static void turn(struct chain *c, const struct scene *scene, const struct surface *at, const struct bsdf_sample *s,
-                 bool transmit)
+static void turn(struct specular_chain *c, const struct scene *scene, const struct surface *at,
+                 const struct bsdf_sample *s, bool transmit)
 {
     vec3 n = dot(c->d, at->ns) > 0 ? neg(at->ns) : at->ns;
     double cosine = -dot(c->d, n), eta = 1 / s->eta, cos_t = abs_dot(s->wi, n);
@@ -42,7 +42,7 @@ static void turn(struct chain *c, const struct scene *scene, const struct surfac
 }
 
 /* Scatter by the delta lobes of the surface; false where they, or the derivatives, do not do as the chain wants. */
-static bool scatter(const struct quest *q, struct chain *c, const struct surface *at)
+static bool scatter(const struct quest *q, struct specular_chain *c, const struct surface *at)
 {
     struct bsdf bsdf;
     struct bsdf_sample s;
@@ -59,10 +59,10 @@ static bool scatter(const struct quest *q, struct chain *c, const struct surface
     return true;
 }
 
-bool specular_trace(const struct quest *q, vec3 w, struct chain *c)
+bool specular_trace(const struct quest *q, vec3 w, struct specular_chain *c)
 {
     const struct frame f = frame_from_normal(w);
-    struct chain start = {.w = w, .p = q->z->p, .d = w, .dd = {f.s, f.t}, .prim_id = q->z->prim_id,
+    struct specular_chain start = {.w = w, .p = q->z->p, .d = w, .dd = {f.s, f.t}, .prim_id = q->z->prim_id,
                           .kappa = rgb_grey(1), .choice = 1, .eta = 1};
     *c = start;
     for (int i = 0; i < q->k; i++) {
@@ -83,7 +83,7 @@ bool specular_trace(const struct quest *q, vec3 w, struct chain *c)
 /* --- the search -------------------------------------------------------------------------------------- */
 
 /* How far the last edge misses y: d - u and its derivatives; the distance to y, at infinity 1. */
-static double misses(const struct quest *q, const struct chain *c, vec3 *miss, vec3 change[2])
+static double misses(const struct quest *q, const struct specular_chain *c, vec3 *miss, vec3 change[2])
 {
     vec3 to = q->parallel ? q->y->w : sub(q->y->p, c->p);
     double r = length(to);
@@ -96,20 +96,20 @@ static double misses(const struct quest *q, const struct chain *c, vec3 *miss, v
     return r;
 }
 
-double specular_area(const struct quest *q, const struct chain *c)
+double specular_area(const struct quest *q, const struct specular_chain *c)
 {
     vec3 miss, change[2];
     double r = misses(q, c, &miss, change);
     return r * r * fabs(dot(cross(change[0], change[1]), c->d));
 }
 
-bool specular_search(const struct quest *q, vec3 w, struct chain *c)
+bool specular_search(const struct quest *q, vec3 w, struct specular_chain *c)
 {
     enum { SHOTS = 16 };
     const double near = 1e-9, least = 1.0 / 16;
     double missed = INFINITY;
     vec3 miss, change[2], step = vec(0, 0, 0);
-    struct chain next;
+    struct specular_chain next;
     double size = 1;
     for (int i = 0; i < SHOTS && size >= least; i++) {
         bool better = specular_trace(q, normalize(sub(w, mul(step, size))), &next);

@@ -35,16 +35,15 @@
 #ifndef ASBDPT_CAUSTIC_H
 #define ASBDPT_CAUSTIC_H
 
+#include "caustics/one_more.h"
 #include "caustics/specular.h"
-#include "transport/pixel_sample.h"
-
-enum { CAUSTIC_LONGEST = SPECULAR_LONGEST };
 
 /* caustics_new: chains of at most `longest` vertices; NULL if nothing in the scene is specular. */
-struct extra *caustics_new(const struct scene *scene, int longest);
+struct one_more *caustics_new(const struct scene *scene, int longest);
+void caustics_free(struct one_more *self); /* NULL: nothing */
 
-/* caustics_settle: leave to s = 0 and t = 1 what they make well enough by the counts that the method has settled;
- * nothing that they cannot make. Returns `self`, or, where that leaves nothing, NULL: it is released. */
-struct extra *caustics_settle(struct extra *self, const struct render_job *job, const struct mis_counts *counts);
+/* caustics_pay: leave to s = 0 and t = 1 what they make well enough by the counts that the method has settled; nothing
+ * that they cannot make. False if that leaves nothing. */
+bool caustics_pay(struct one_more *self, const struct render_job *job, const struct mis_counts *counts);
 
 #endif

@@ -5,7 +5,6 @@
 
 #include "base/cumulative.h"
 #include "base/number.h"
-#include "caustics/specular.h"
 #include "transport/emit.h"
 
 /* What of a shape group chains may go by. */
@@ -16,10 +15,10 @@ struct caster {
     bool lets_through; /* it has a refracting lobe */
 };
 
-enum { STARTS = EXTRA_MOST - 1 };
+enum { STARTS = ONE_MORE_MOST - 1 };
 
 struct caustics {
-    struct extra extra;
+    struct one_more more;
     int longest;           /* K */
     struct caster *caster; /* [groups of the geometry], owned */
     double *mirror; /* [groups + 1], owned: sums of the probabilities with which those before are looked at; the last
@@ -103,7 +102,7 @@ static struct quest quest_for(const struct pixel_sample *sample, const struct ve
     return q;
 }
 
-static bool same_chain(vec3 from, const vec3 *x, int k, const struct chain *c)
+static bool same_chain(vec3 from, const vec3 *x, int k, const struct specular_chain *c)
 {
     for (int i = 0; i < k; i++) {
         vec3 p = x[i];
@@ -115,7 +114,7 @@ static bool same_chain(vec3 from, const vec3 *x, int k, const struct chain *c)
 }
 
 /* Psi: the chains through, at most STARTS of them; or that by way of a group. */
-static int psi_through(const struct caustics *all, struct quest *q, struct chain found[STARTS])
+static int psi_through(const struct caustics *all, struct quest *q, struct specular_chain found[STARTS])
 {
     int group, n = 0;
     vec3 p;
@@ -136,7 +135,7 @@ static int psi_through(const struct caustics *all, struct quest *q, struct chain
     return n;
 }
 
-static int psi_mirror(const struct caustics *all, struct quest *q, int group, struct chain *found)
+static int psi_mirror(const struct caustics *all, struct quest *q, int group, struct specular_chain *found)
 {
     q->group = group;
     q->chosen = all->mirror[group + 1] - all->mirror[group];
@@ -159,7 +158,7 @@ struct arrival {
 };
 
 /* J is the same both ways but for the squared ratio of the refractive indices at the ends. */
-static struct makers makers_of(const struct mis_counts *n, const struct quest *q, const struct chain *c,
+static struct makers makers_of(const struct mis_counts *n, const struct quest *q, const struct specular_chain *c,
                                struct arrival at)
 {
     const struct light_set *lights = &q->scene->lights;
@@ -184,14 +183,13 @@ static double share(const struct mis_counts *n, double own, struct makers m)
     return all > 0 ? mis_raise(n, own) / all : 0;
 }
 
-static struct connection contribution(const struct mis_counts *counts, const struct quest *q, const struct chain *c,
-                                      double pdf)
+static struct connection contribution(const struct mis_counts *counts, const struct quest *q,
+                                      const struct specular_chain *c, double pdf)
 {
     const struct scene *scene = q->scene;
     const struct light_point *y = q->y;
     const struct vertex *z = q->z;
-    struct connection out = {.light = y->light, .cell = y->cell, .end = q->parallel ? y->w : y->p, .pdf = y->pdf,
-                             .passed = q->k};
+    struct connection out = {.light = y->light, .cell = y->cell, .end = q->parallel ? y->w : y->p, .pdf = y->pdf};
     bool area = scene->lights.light[y->light].kind == LIGHT_AREA;
     double cosines = scatter_cosine(z, c->w, RADIANCE) * (area ? abs_dot(y->n, c->d) : 1);
     rgb Le = light_Le(&scene->lights, y, neg(c->d)), f = bsdf_eval(&z->bsdf, z->wo, c->w, RADIANCE).f;
@@ -209,15 +207,22 @@ static struct connection contribution(const struct mis_counts *counts, const str
     return out;
 }
 
-static int connect(const struct extra *self, struct pixel_sample *sample, const struct vertex *eye, int t,
-                   struct connection out[EXTRA_MOST])
+static struct one_more_path made(const struct mis_counts *counts, const struct quest *q,
+                                 const struct specular_chain *c, double pdf)
+{
+    const struct one_more_path out = {contribution(counts, q, c, pdf), q->k};
+    return out;
+}
+
+static int connect(const struct one_more *self, struct pixel_sample *sample, const struct vertex *eye, int t,
+                   struct one_more_path out[ONE_MORE_MOST])
 {
     const struct caustics *all = (const void *)self;
     const struct scene *scene = sample->scene;
     const struct vertex *z = &eye[t - 1];
     double u[3], pdf = t == 2 ? z->pdf_fwd : 0;
     struct light_point y;
-    struct chain c[EXTRA_MOST];
+    struct specular_chain c[ONE_MORE_MOST];
     if (z->eye_end != FIRST_HIT || !vertex_connectible(z) || all->left[t > 2])
         return 0;
     u[0] = sampler_number(&sample->sampler, DRAW_LIGHT);
@@ -227,12 +232,12 @@ static int connect(const struct extra *self, struct pixel_sample *sample, const 
     struct quest q = quest_for(sample, z, &y);
     int n = 0, room = sample->max_depth + 1 - t, through = psi_through(all, &q, c);
     for (int i = 0; i < through && q.k <= room; i++)
-        out[n++] = contribution(sample->counts, &q, &c[i], pdf);
+        out[n++] = made(sample->counts, &q, &c[i], pdf);
     double which = sampler_number(&sample->sampler, DRAW_LIGHT_END);
     int groups = scene->geo.n_groups;
     if (room >= 1 && which < all->mirror[groups] &&
         psi_mirror(all, &q, cumulative_find(all->mirror, groups, which), c) > 0)
-        out[n++] = contribution(sample->counts, &q, c, pdf);
+        out[n++] = made(sample->counts, &q, c, pdf);
     return n;
 }
 
@@ -241,7 +246,7 @@ static bool in_psi(const struct caustics *all, const struct pixel_sample *sample
                    int k, const struct light_point *y, struct arrival at, struct makers *out)
 {
     struct quest q = quest_for(sample, z, y);
-    struct chain found[STARTS];
+    struct specular_chain found[STARTS];
     vec3 p[SPECULAR_LONGEST];
     if (k < 1 || k > all->longest || all->left[!(at.pdf > 0)])
         return false;
@@ -295,8 +300,8 @@ static void weigh_lens(const struct caustics *all, const struct pixel_sample *sa
         *weight = share(sample->counts, m.splat, m);
 }
 
-static void weigh(const struct extra *self, const struct pixel_sample *sample, const struct vertex *path, int s, int t,
-                  struct connection *c)
+static void weigh(const struct one_more *self, const struct pixel_sample *sample, const struct vertex *path, int s,
+                  int t, struct connection *c)
 {
     if (s == 0)
         weigh_hit((const void *)self, sample, path, t, &c->weight);
@@ -304,24 +309,25 @@ static void weigh(const struct extra *self, const struct pixel_sample *sample, c
         weigh_lens((const void *)self, sample, path, s, c->end, &c->weight);
 }
 
-/* --- the row ----------------------------------------------------------------------------------------- */
+/* --- what chains can go by --------------------------------------------------------------------------- */
 
-static void release(struct extra *self)
+void caustics_free(struct one_more *self)
 {
     struct caustics *all = (void *)self;
+    if (all == NULL)
+        return;
     free(all->caster);
     free(all->mirror);
     free(all);
 }
 
-struct extra *caustics_new(const struct scene *scene, int longest)
+struct one_more *caustics_new(const struct scene *scene, int longest)
 {
     const int n = scene->geo.n_groups;
     struct caustics *all = mem_alloc(1, sizeof *all);
     struct arena arena = {NULL, NULL};
-    all->extra.connect = connect;
-    all->extra.weigh = weigh;
-    all->extra.release = release;
+    all->more.connect = connect;
+    all->more.weigh = weigh;
     all->longest = longest;
     all->caster = mem_alloc((size_t)n, sizeof *all->caster);
     all->mirror = mem_alloc((size_t)n + 1, sizeof *all->mirror);
@@ -337,8 +343,8 @@ struct extra *caustics_new(const struct scene *scene, int longest)
     for (int g = 0; sum > 1 && g <= n; g++)
         all->mirror[g] /= sum;
     if (any)
-        return &all->extra;
-    release(&all->extra);
+        return &all->more;
+    caustics_free(&all->more);
     return NULL;
 }
 
@@ -352,14 +358,15 @@ struct trial {
 
 /* Without a chain of weight w, which brings X, the second moment is larger by X^2 / (1 - w); and others bring the rest
  * of what the chain found, t = 1 with them, which is not tried. */
-static struct trial try_chains(const struct extra *self, struct pixel_sample *sample, const struct vertex *eye, int n)
+static struct trial try_chains(const struct one_more *self, struct pixel_sample *sample, const struct vertex *eye,
+                               int n)
 {
     const double MOST = 100; /* chance decides whether more is seen */
-    struct connection made[EXTRA_MOST];
+    struct one_more_path more[ONE_MORE_MOST];
     struct trial out = {rgb_luminance(sample->until), {0, 0}};
     for (int t = 2; t <= n; t++)
-        for (int i = eye[t - 1].kind == VERTEX_SURFACE ? connect(self, sample, eye, t, made) : 0; i-- > 0;) {
-            double C = rgb_luminance(made[i].value), w = made[i].weight;
+        for (int i = eye[t - 1].kind == VERTEX_SURFACE ? connect(self, sample, eye, t, more) : 0; i-- > 0;) {
+            double C = rgb_luminance(more[i].c.value), w = more[i].c.weight;
             out.brings += C * (1 - w);
             out.tail[t > 2] += sqr(C * w) * fmin(1 / (1 - w), MOST);
         }
@@ -377,7 +384,7 @@ static double relative_tail(const struct trial *trial, int n, int which)
     return sum;
 }
 
-struct extra *caustics_settle(struct extra *self, const struct render_job *job, const struct mis_counts *counts)
+bool caustics_pay(struct one_more *self, const struct render_job *job, const struct mis_counts *counts)
 {
     const double LEAST = 0.5; /* chains make a sample several times as dear */
     struct caustics *all = (void *)self;
@@ -398,8 +405,8 @@ struct extra *caustics_settle(struct extra *self, const struct render_job *job, 
         arena_reset(&work->arena);
         struct pixel_sample sample = pixel_sample_begin(&pass, counts, x, y, i);
         int length = pixel_eye_path(&pass, &sample, i, work->eye, job->max_depth + 2);
-        pixel_sum_eye(&sample, work->eye, length);
-        trial[i] = try_chains(self, &sample, work->eye, length);
+        one_more_sum_eye(&sample, &all->more, work->eye, length);
+        trial[i] = try_chains(&all->more, &sample, work->eye, length);
     }
     tile_free(&tile);
     workspaces_free(work, 1);
@@ -408,8 +415,5 @@ struct extra *caustics_settle(struct extra *self, const struct render_job *job, 
     for (int i = 0; i < 2; i++)
         all->left[i] = !(relative_tail(trial, n, i) > LEAST) && !(delta && (i > 0 || counts->splat == 0));
     free(trial);
-    if (!all->left[0] || !all->left[1])
-        return self;
-    release(self);
-    return NULL;
+    return !all->left[0] || !all->left[1];
 }

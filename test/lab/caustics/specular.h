@@ -28,7 +28,7 @@ struct quest {
 };
 
 /* A ray through the chain. */
-struct chain {
+struct specular_chain {
     vec3 w;                 /* unit, in which z was left */
     vec3 at[SPECULAR_LONGEST];
     vec3 p, d, dp[2], dd[2]; /* the last edge, and its derivatives */
@@ -40,14 +40,14 @@ struct chain {
 };
 
 /* specular_trace: the chain that leaves z in direction w, unit; false if there is none. */
-bool specular_trace(const struct quest *q, vec3 w, struct chain *out);
+bool specular_trace(const struct quest *q, vec3 w, struct specular_chain *out);
 
 /* specular_search: the chain from direction w on; false if none is found. */
-bool specular_search(const struct quest *q, vec3 w, struct chain *out);
+bool specular_search(const struct quest *q, vec3 w, struct specular_chain *out);
 
 /* specular_area: |det J|, the area of light per solid angle at z, across the last edge, m^2; of light from infinity the
  * solid angle. */
-double specular_area(const struct quest *q, const struct chain *c);
+double specular_area(const struct quest *q, const struct specular_chain *c);
 
 /* specular_group: the group that a surface point is of. */
 int specular_group(const struct scene *scene, const struct surface *at);

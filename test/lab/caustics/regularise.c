@@ -1,0 +1,111 @@
+/* regularise.c: paths that no strategy makes, made by widening their last delta lobe: biased.       [Kaplanyan 2013]
+ *
+ * A light without extent is never hit (s = 0), and a delta vertex z cannot be joined to it (s = 1). If light sub-paths
+ * cannot make the path either, since before z no two of its vertices in sequence scatter by other lobes (the lens
+ * counts as one that does), z is joined to the light all the same: its lobes' deltas are spread evenly over cones,
+ *     f |cos| = kappa K(angle between w and the lobe's direction),   K = 1 / (2 pi (1 - cos eps)) within eps, else 0.
+ * Such a path has no rival, so its weight is 1; all others are as they were. Light seen directly in mirrors, with no
+ * vertex before z that scatters by other lobes, stays invisible.
+ *
+ * Bias falls as eps^2, variance grows as 1/(n eps^2): iteration n = 1, 2 ... has eps = eps_1 n^(-1/6), so that the
+ * picture converges, more slowly than others do, to one without bias.
+ *
+ * Tests: test_caustic.c.
+ */
+#include "caustics/one_more.h"
+
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+struct regularise {
+    struct one_more more;
+    double eps_1;
+};
+
+/* Is there no strategy for the path of which z = eye[t-1], left by a delta lobe, is the last vertex before its light? A
+ * vertex can be joined to where it was left by another lobe. */
+static bool without_rival(const struct mis_counts *counts, const struct vertex *eye, int t)
+{
+    bool scattered = false, light_paths = counts->splat > 0;
+    for (int i = 1; i < t - 1; i++) {
+        bool here = !eye[i + 1].prev_delta;
+        if (here && light_paths && !eye[i].prev_delta)
+            return false;
+        scattered |= here;
+    }
+    return scattered;
+}
+
+/* Both cones' kappa K towards w. */
+static rgb spread(const struct vertex *z, vec3 w, double eps)
+{
+    rgb sum = rgb_black();
+    double cos_eps = m_cos(eps), K = 1 / (2 * PI * (1 - cos_eps));
+    for (int transmit = 0; transmit < 2; transmit++) {
+        struct bsdf_sample s;
+        if (bsdf_delta(&z->bsdf, z->wo, transmit, RADIANCE, &s) && dot(s.wi, w) > cos_eps)
+            sum = rgb_add(sum, rgb_scale(s.f, K));
+    }
+    return sum;
+}
+
+/* By a copy of the sampler: what other strategies draw is the same as without. */
+static int connect(const struct one_more *self, struct pixel_sample *sample, const struct vertex *eye, int t,
+                   struct one_more_path out[ONE_MORE_MOST])
+{
+    const struct regularise *r = (const void *)self;
+    const struct scene *scene = sample->scene;
+    const struct vertex *z = &eye[t - 1];
+    struct sampler draws = sample->sampler;
+    struct light_point y;
+    double u[3];
+    if (z->bsdf.n_lobes == z->bsdf.n_smooth || !without_rival(sample->counts, eye, t))
+        return 0;
+    u[0] = sampler_number(&draws, DRAW_LIGHT);
+    sampler_pair(&draws, DRAW_LIGHT_POINT, &u[1]);
+    if (!light_sample_point(&scene->lights, &scene->geo, u, &y) || !light_is_delta(&scene->lights.light[y.light]))
+        return 0;
+    bool parallel = light_at_infinity(&scene->lights.light[y.light]);
+    vec3 d = parallel ? y.w : sub(y.p, z->p), w = normalize(d);
+    rgb f = spread(z, w, r->eps_1 * m_pow((double)sample->iteration + 1, -1.0 / 6));
+    rgb value = rgb_scale(rgb_mul(rgb_mul(z->beta, f), light_Le(&scene->lights, &y, neg(w))),
+                          1 / (y.pdf * (parallel ? 1 : length2(d))));
+    if (rgb_is_black(value) || !rgb_is_finite(value) ||
+        !(parallel ? scene_lit_from(scene, z->p, z->prim_id, w) : scene_lit(scene, z->p, z->prim_id, y.p, y.prim_id)))
+        return 0;
+    double edge = parallel ? light_distance(&scene->lights, z->p, w) : length(d);
+    const struct one_more_path made = {{.value = value, .weight = 1, .length = z->length + edge,
+                                        .end = parallel ? w : y.p, .light = y.light, .cell = y.cell, .pdf = y.pdf}, 0};
+    out[0] = made;
+    return 1;
+}
+
+/* --- the row ----------------------------------------------------------------------------------------- */
+
+struct regularise_state {
+    struct one_more_state base;
+    struct regularise own;
+};
+
+static void prepare(const struct render_job *job, struct preparation *out)
+{
+    struct regularise_state *s = out->state;
+    one_more_prepare(job, out);
+    s->own.more.connect = connect;
+    s->base.more = &s->own.more;
+    size_t n = strlen(out->note);
+    snprintf(out->note + n, sizeof out->note - n,
+             "%sbiased: mirrors and glass are blurred where nothing else finds a light", n > 0 ? "; " : "");
+}
+
+static const struct field PARAMETERS[] = {
+    ONE_MORE_WITH(regularise_state),
+    {"angle", FIELD_NUMBER, offsetof(struct regularise_state, own.eps_1), 0.1, 1e-6, 1,
+     "by which mirrors and glass are blurred, in radians, at first", NULL},
+    {.name = NULL}};
+
+const struct method method_regularise = {
+    .name = "regularise", .help = "mirrors and glass are blurred where nothing else finds a light; biased",
+    .parameters = PARAMETERS, .state_size = sizeof(struct regularise_state), .prepare = prepare,
+    .release = one_more_release, ONE_MORE_ROW};

@@ -1,0 +1,36 @@
+/* claims.h: what the papers claim of their methods, and whether it is so here: verdicts that are computed.
+ *
+ * A claim says that the squared error of a method after the same CPU time is below so much of another's, in all scenes
+ * or in those of a name. It is
+ *     found        if the 95 % interval (equal_bootstrap: over scenes and seeds) of the ratio lies below, by rmse8, by
+ *                  relmse and by 8x8,
+ *     not found    if one of the three lies above,
+ *     cannot tell  otherwise.
+ * Three intervals are looked at and all must agree, so a false `found` is rarer than one in forty.
+ *
+ * Tests: test_equal_time.c.
+ */
+#ifndef ASBDPT_LAB_CLAIMS_H
+#define ASBDPT_LAB_CLAIMS_H
+
+#include "lab/results.h"
+
+struct claim {
+    const char *method, *over; /* as methods_all names them */
+    double below;
+    const char *where; /* scenes whose names begin so; NULL: all */
+    const char *text;  /* what is claimed, and by whom */
+};
+
+enum verdict_of { CLAIM_FOUND, CLAIM_NOT_FOUND, CLAIM_OPEN, CLAIM_UNMEASURED };
+
+/* claim_judge: one claim, in one half of the family (methods.h).
+ *   ratio  out: by rmse8, relmse, 8x8;  n  out: scenes
+ * CLAIM_UNMEASURED where a method or a scene is not among the results. */
+enum verdict_of claim_judge(const struct results *r, const struct claim *c, enum half half,
+                            struct interval ratio[N_SQUARES], int *n);
+
+/* claims_table: all claims that were measured, as Markdown: criterion, numbers, verdict. */
+void claims_table(FILE *f, const struct results *r, enum half half);
+
+#endif
