@@ -5,6 +5,7 @@
 
 #include "base/rng.h"
 #include "geometry/nurbs.h"
+#include "geometry/mesh.h"
 #include "geometry/subdivide.h"
 #include "tests.h"
 
@@ -15,7 +16,7 @@ static struct mesh mesh_of(struct test *t, const struct curve *c)
 {
     struct mesh m = {0};
     struct error err = {.text = ""};
-    CHECK(t, curve_mesh(c, &m, SUBDIVIDE_MAX_TRIANGLES, &err), "%s", err.text);
+    CHECK(t, curve_mesh(c, &m, MESH_MAX_SUBDIVIDED, &err), "%s", err.text);
     return m;
 }
 

@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/mem.h"
 #include "base/rng.h"
+#include "lab/claims.h"
 #include "helpers.h"
 #include "lab/equal.h"
 #include "lab/family.h"
@@ -159,6 +160,34 @@ static void check_coverage(struct test *t)
     CHECK(t, wrong <= 0.2 * TRIALS, "%d of %d intervals hold twice the truth", wrong, TRIALS);
     free(r.scene);
     free(p.scene);
+}
+
+/* lvc has a quarter of bdpt's error everywhere; asbdpt half, four times and as much. */
+static void check_claims(struct test *t, struct results *r)
+{
+    static const struct {
+        struct claim claim;
+        enum verdict_of verdict;
+        int scenes;
+    } cases[] = {{{"lvc", "bdpt", 0.5, NULL, ""}, CLAIM_FOUND, 3},
+                 {{"lvc", "bdpt", 0.1, NULL, ""}, CLAIM_NOT_FOUND, 3},
+                 {{"asbdpt", "bdpt", 1, NULL, ""}, CLAIM_OPEN, 3},
+                 {{"asbdpt", "bdpt", 1, "b", ""}, CLAIM_NOT_FOUND, 1},
+                 {{"asbdpt", "bdpt", 1, "a", ""}, CLAIM_FOUND, 1},
+                 {{"pt", "bdpt", 1, NULL, ""}, CLAIM_UNMEASURED, 0},
+                 {{"lvc", "bdpt", 1, "no-such", ""}, CLAIM_UNMEASURED, 0}};
+    struct interval ratio[N_SQUARES];
+    int n;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        enum verdict_of v = claim_judge(r, &cases[i].claim, HALF_CHOICE, ratio, &n);
+        CHECK(t, v == cases[i].verdict && n == cases[i].scenes, "claim %d: verdict %d, %d scenes", (int)i, (int)v, n);
+    }
+    for (int k = 0; k < SEEDS; k++) /* what one of the three says against is not found */
+        r->scene[0].run[1][k].step[0].square[SQUARE_BLOCKS] *= 8;
+    CHECK(t, claim_judge(r, &cases[4].claim, HALF_CHOICE, ratio, &n) == CLAIM_NOT_FOUND, "8x8 does not count");
+    for (int k = 0; k < SEEDS; k++)
+        r->scene[0].run[1][k].step[0].square[SQUARE_BLOCKS] /= 4;
+    CHECK(t, claim_judge(r, &cases[4].claim, HALF_CHOICE, ratio, &n) == CLAIM_OPEN, "two of three are enough");
 }
 
 /* --- what is written ----------------------------------------------------------------------------------- */
@@ -368,6 +397,7 @@ void test_equal_time(struct test *t)
     check_tables(t, &r);
     check_ratios(t, &r);
     check_time(t, &r);
+    check_claims(t, &r);
     results_free(&r);
     free(p.scene);
     check_coverage(t);

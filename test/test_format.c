@@ -93,10 +93,11 @@ void test_format(struct test *t)
     if (!CHECK(t, page != NULL, "run the tests at the top of the tree"))
         return;
     check_directives(t, page, "\n## Options\n", OPTION_DIRECTIVES);
-    check_directives(t, page, "\n## Shapes\n", SHAPE_DIRECTIVES);
-    struct object_type materials[MOST_TYPES];
-    parse_material_types(materials);
-    check_types(t, page, "\n## Materials\n", materials);
+    struct object_type types[MOST_TYPES];
+    parse_shape_types(types);
+    check_types(t, page, "\n## Shapes\n", types);
+    parse_material_types(types);
+    check_types(t, page, "\n## Materials\n", types);
     check_types(t, page, "\n## Textures\n", TEXTURE_TYPES);
     check_directives(t, page, "\n## Lights\n", LIGHT_DIRECTIVES);
     free(page);

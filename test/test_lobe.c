@@ -389,8 +389,29 @@ static void facets_as_printed(struct test *t)
     CHECK(t, total > 200 && met > 200, "%d are totally reflected, %d come through", total, met);
 }
 
+/* The two layers of a substrate as printed [Ashikhmin & Shirley 2000], on facets as above. */
+static void substrate_as_printed(struct test *t)
+{
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 24, 0);
+    for (int i = 0; i < 500; i++) {
+        double alpha = 0.1 + 0.6 * rng_uniform(&r), Rd = rng_uniform(&r), Rs = rng_uniform(&r);
+        struct lobe l = facet_lobe(LOBE_FRESNEL_BLEND, alpha, alpha);
+        l.R = rgb_grey(Rd);
+        l.T = rgb_grey(Rs);
+        double side = i % 2 == 0 ? 1 : -1, o = 0.05 + 0.9 * rng_uniform(&r), in = 0.05 + 0.9 * rng_uniform(&r);
+        vec3 wo = direction(side * o, 7 * rng_uniform(&r)), wi = direction(side * in, 7 * rng_uniform(&r));
+        vec3 h = normalize(add(wo, wi));
+        double c = dot(wi, h), below = 1 - pow(1 - in / 2, 5), above = 1 - pow(1 - o / 2, 5);
+        double want = 28 * Rd / (23 * PI) * (1 - Rs) * below * above +
+                      facets_at(h, alpha) / (4 * c * fmax(o, in)) * (Rs + (1 - Rs) * pow(1 - c, 5));
+        double f = lobe_eval(&l, wo, wi, true, RADIANCE).f.g;
+        CHECK(t, near(f, want, 1e-9 * (1 + want)), "substrate: %.12g, printed form %.12g", f, want);
+    }
+}
+
 void test_lobe(struct test *t)
 {
+    substrate_as_printed(t);
     facets_as_printed(t);
     fresnel_values(t);
     snell(t);

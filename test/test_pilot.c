@@ -117,7 +117,7 @@ static void test_credit(struct test *t)
 /* --- plans --------------------------------------------------------------------------------------------- */
 
 /* Pure functions: what noise of one pixel leads to which numbers, none being 0 or beyond its bounds. */
-static void test_plan(struct test *t)
+static void test_plans(struct test *t)
 {
     const struct costs costs = {10, {1, 4, 1, 8}}; /* rays */
     static const struct {
@@ -144,7 +144,7 @@ static void test_plan(struct test *t)
 
 void test_pilot(struct test *t)
 {
-    test_plan(t);
+    test_plans(t);
     test_where_they_pay(t);
     test_where_nothing_else_does(t);
     test_wishes(t);

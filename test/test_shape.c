@@ -29,7 +29,7 @@ static uint32_t corner_index[] = {0, 1, 2};
 static int add_triangle(struct test *t, struct geometry *geo, bool with_n, bool with_uv, struct transform to_world,
                         bool reverse)
 {
-    struct mesh m = {corner, with_n ? corner_normal : NULL, with_uv ? corner_uv : NULL, corner_index, 3, 1, 0, 0, 0, 0,
+    struct mesh m = {corner, with_n ? corner_normal : NULL, with_uv ? corner_uv : NULL, corner_index, 3, 1, 0, 0, 0,
                      NULL};
     struct error err = {.text = ""};
     int group = shape_add_mesh(geo, &m, &to_world, group_of(7, 40), reverse, &err);
@@ -138,7 +138,7 @@ static void check_vertex_normals(struct test *t, struct rng *r)
         vec3 n[3];
         for (int k = 0; k < 9; k++)
             normal[k] = corner_normal[k] * (float)(k / 3 + 1);
-        struct mesh mesh = {corner, normal, corner_uv, corner_index, 3, 1, 0, 0, 0, 0, NULL};
+        struct mesh mesh = {corner, normal, corner_uv, corner_index, 3, 1, 0, 0, 0, NULL};
         CHECK(t, shape_add_mesh(&geo, &mesh, &m, group_of(7, 40), false, &err) == 0, "%s", err.text);
         for (size_t k = 0; k < 3; k++)
             n[k] = load3(normal, k);
@@ -170,7 +170,7 @@ static void check_vertex_tangents(struct test *t, struct rng *r)
             store3(tangent, (size_t)k, v);
             s[k] = load3(tangent, (size_t)k);
         }
-        struct mesh mesh = {corner, i % 2 ? corner_normal : NULL, corner_uv, corner_index, 3, 1, 0, 0, 0, 0, NULL};
+        struct mesh mesh = {corner, i % 2 ? corner_normal : NULL, corner_uv, corner_index, 3, 1, 0, 0, 0, NULL};
         CHECK(t, shape_add_mesh(&geo, &mesh, &m, group_of(7, 40), i % 3 == 0, &err) == 0, "%s", err.text);
         mesh.S = tangent;
         CHECK(t, shape_add_mesh(&geo, &mesh, &m, group_of(7, 40), i % 3 == 0, &err) == 1, "%s", err.text);
@@ -196,7 +196,7 @@ static void check_degenerate_uv(struct test *t)
     struct geometry geo = {0};
     struct transform id = transform_identity();
     float same[] = {0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f};
-    struct mesh m = {corner, corner_normal, same, corner_index, 3, 1, 0, 0, 0, 0, NULL};
+    struct mesh m = {corner, corner_normal, same, corner_index, 3, 1, 0, 0, 0, NULL};
     for (int i = 0; i < 2; i++, m.N = NULL) {
         shape_add_mesh(&geo, &m, &id, group_of(0, -1), false, NULL);
         struct surface at = surface_at(&geo, i, 0.3, 0.3);
@@ -351,7 +351,7 @@ static void check_refused(struct test *t)
     for (size_t i = 0; i < sizeof q / sizeof q[0]; i++)
         CHECK(t, shape_add_quadric(&geo, q[i], group_of(0, -1), false, &err) == -1 && geo.n_quadrics == 0 &&
                      strstr(err.text, "places go up to 1e12") != NULL, "quadric %d: \"%s\"", (int)i, err.text);
-    struct mesh m = {corner, NULL, NULL, corner_index, 3, 1, 0, 0, 0, 0, NULL};
+    struct mesh m = {corner, NULL, NULL, corner_index, 3, 1, 0, 0, 0, NULL};
     struct transform far = transform_translate(vec(1e30, 0, 0));
     CHECK(t, shape_add_mesh(&geo, &m, &far, group_of(0, -1), false, &err) == -1 && geo.n_triangles == 0 &&
                  geo.n_groups == 0 && strstr(err.text, "vertex 0") != NULL, "a vertex at 1e30: %s", err.text);

@@ -1,5 +1,6 @@
 /* test_subdivide.c: Loop subdivision: where its limit is known, that levels agree on it, topology, normals and what is
  * refused. */
+#include "geometry/mesh.h"
 #include "geometry/subdivide.h"
 
 #include <stdlib.h>
@@ -41,7 +42,7 @@ static struct mesh spindle(int n)
 static struct mesh subdivided(struct test *t, struct mesh m, int levels)
 {
     struct error err = {.text = ""};
-    CHECK(t, mesh_subdivide(&m, levels, SUBDIVIDE_MAX_TRIANGLES, &err), "%s", err.text);
+    CHECK(t, mesh_subdivide(&m, levels, MESH_MAX_SUBDIVIDED, &err), "%s", err.text);
     return m;
 }
 
@@ -124,7 +125,7 @@ static void refuse(struct test *t, const uint32_t *index, int n_triangles, int l
     static const float P[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1};
     struct mesh m = mesh_of(P, 5, index, n_triangles);
     struct error err = {.text = ""};
-    CHECK(t, !mesh_subdivide(&m, levels, SUBDIVIDE_MAX_TRIANGLES, &err) && strstr(err.text, why) != NULL,
+    CHECK(t, !mesh_subdivide(&m, levels, MESH_MAX_SUBDIVIDED, &err) && strstr(err.text, why) != NULL,
           "\"%s\", not \"%s\"", err.text, why);
     CHECK(t, m.n_vertices == 5 && m.n_triangles == n_triangles && m.N == NULL, "a refused mesh has changed");
     mesh_free(&m);

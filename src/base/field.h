@@ -21,6 +21,9 @@ enum field_kind {
     FIELD_VALUE,         /* rgb: a value of that type */
     FIELD_MATERIAL,      /* int: a material made before */
     FIELD_FOURIER_TABLE, /* int: of the texture set, from a file */
+    FIELD_FILE,          /* const char *: a path that may be read, or NULL; borrowed */
+    FIELD_FLOATS,        /* struct field_list, and the next, too: `low` of them make an entry */
+    FIELD_INDICES, FIELD_POINTS, FIELD_VECTORS, FIELD_NORMALS, FIELD_PAIRS, /* entries of three, and of two */
     FIELD_IGNORED        /* nothing depends on it */
 };
 
@@ -33,7 +36,14 @@ struct field {
     const char *const *words;   /* words: all there are, ended by NULL */
 };
 
-#define FIELD_KEPT ((double)NAN) /* the fallback is what stands there already; of numbers, points and textures */
+/* Numbers of a scene file. */
+struct field_list {
+    const double *number; /* those of [n] entries, each within NUMBER_MAX; NULL: there are none */
+    int n;
+};
+
+#define FIELD_KEPT ((double)NAN) /* the fallback is what stands there already; of numbers, points and textures; */
+#define FIELD_NONE INFINITY       /* or is what no number can be */
 
 /* field_find: the one of that name in a table, which ends with one without, or NULL. */
 const struct field *field_find(const struct field *table, const char *name);

@@ -2,7 +2,8 @@
 #include "geometry/curve.h"
 
 #include "base/frame.h"
-#include "geometry/subdivide.h"
+#include "base/number.h"
+#include "geometry/mesh.h"
 
 enum { SIDES = 8, MOST_PIECES = 1024 }; /* of the tube's cross section; of a segment */
 
@@ -114,7 +115,7 @@ bool curve_mesh(const struct curve *c, struct mesh *m, int most, struct error *e
         return true;
     if (2 * rows * (columns - 1) > most)
         return error_set(err, "curves and other subdivided surfaces have more than %d triangles in all; leave some out",
-                         SUBDIVIDE_MAX_TRIANGLES);
+                         MESH_MAX_SUBDIVIDED);
     mesh_grid(m, columns, (int)rows, true);
     for (int s = 0; s < segments; s++) {
         bezier(c, s, b);
@@ -132,3 +133,51 @@ bool curve_mesh(const struct curve *c, struct mesh *m, int most, struct error *e
     }
     return true;
 }
+
+/* --- the row ------------------------------------------------------------------------------------------ */
+
+enum { FLAT, RIBBON, CYLINDER };
+static const char *const TYPES[] = {"flat", "ribbon", "cylinder", NULL}, *const BASES[] = {"bezier", "bspline", NULL};
+
+struct curve_fields {
+    int degree, basis, type;
+    double width[2];
+    struct field_list P, N;
+};
+
+/* What turns to each ray in pbrt-v3 is drawn as a tube, of which "cylinder" has the normals already. */
+static bool mesh(const void *fields, struct mesh_task *task, struct mesh *out)
+{
+    const struct curve_fields *f = fields;
+    struct curve c = {f->P.number, f->P.n, f->degree, f->basis == 1, {f->width[0], f->width[1]},
+                      f->type == RIBBON ? f->N.number : NULL};
+    int segments = curve_segments(&c);
+    if (segments == 0)
+        return error_set(&task->err, "%d points \"P\" are no curve of degree %d: of a bezier one there are 1 + a "
+                         "multiple of it, of a bspline more than it", c.n, c.degree);
+    if (f->type == RIBBON && (c.N == NULL || f->N.n != segments + 1))
+        return error_set(&task->err, "this ribbon needs %d normals \"N\", one at each end of a segment", segments + 1);
+    if (!curve_mesh(&c, out, task->room, &task->err))
+        return false;
+    task->room -= out->n_triangles;
+    if (f->type == FLAT)
+        task->warn(task, "a flat curve turns to whoever looks, which no surface does: it is drawn as the tube that "
+                   "looks as wide");
+    return true;
+}
+
+#define AT(member) offsetof(struct curve_fields, member)
+static const struct field FIELDS[] = {{"P", .kind = FIELD_POINTS, .place = AT(P)},
+                                      {"N", .kind = FIELD_NORMALS, .place = AT(N)},
+                                      {"width", FIELD_NUMBER, AT(width[0]), 1, 0, .high = NUMBER_MAX},
+                                      {"width", FIELD_NUMBER, AT(width[1]), 1, 0, .high = NUMBER_MAX},
+                                      {"width0", FIELD_NUMBER, AT(width[0]), FIELD_KEPT, 0, .high = NUMBER_MAX},
+                                      {"width1", FIELD_NUMBER, AT(width[1]), FIELD_KEPT, 0, .high = NUMBER_MAX},
+                                      {"degree", FIELD_INTEGER, AT(degree), 3, 2, .high = 3},
+                                      {"basis", FIELD_WORD, AT(basis), .words = BASES},
+                                      {"type", FIELD_WORD, AT(type), .words = TYPES},
+                                      {"splitdepth", .kind = FIELD_IGNORED},
+                                      {.name = NULL}};
+
+const struct shape_row shape_curve = {
+    .name = "curve", .fields = FIELDS, .size = sizeof(struct curve_fields), .mesh = mesh};

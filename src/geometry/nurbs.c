@@ -1,7 +1,10 @@
 /* nurbs.c: see nurbs.h. */
 #include "geometry/nurbs.h"
 
-#include "geometry/subdivide.h"
+#include <stdlib.h>
+
+#include "base/mem.h"
+#include "geometry/mesh.h"
 
 bool nurbs_is_usable(const struct nurbs_axis *a)
 {
@@ -74,7 +77,7 @@ bool nurbs_mesh(const struct nurbs_axis *u, const struct nurbs_axis *v, const do
     vec3 p, n;
     if (most < 2 * (NURBS_DICE - 1) * (NURBS_DICE - 1))
         return error_set(err, "curves and other subdivided surfaces have more than %d triangles in all; leave some out",
-                         SUBDIVIDE_MAX_TRIANGLES);
+                         MESH_MAX_SUBDIVIDED);
     mesh_grid(m, NURBS_DICE, NURBS_DICE, true);
     for (int i = 0; i < NURBS_DICE * NURBS_DICE; i++) {
         double s = (i % NURBS_DICE) / (NURBS_DICE - 1.0), t = (i / NURBS_DICE) / (NURBS_DICE - 1.0);
@@ -91,3 +94,65 @@ bool nurbs_mesh(const struct nurbs_axis *u, const struct nurbs_axis *v, const do
     }
     return true;
 }
+
+/* --- the row ------------------------------------------------------------------------------------------ */
+
+struct axis_fields {
+    int n, order;
+    double from, to;
+    struct field_list knots;
+};
+
+struct nurbs {
+    struct axis_fields u, v;
+    struct field_list P, Pw;
+};
+
+static bool axis(const struct axis_fields *f, char name, struct mesh_task *task, struct nurbs_axis *out)
+{
+    const double *knot = f->knots.number;
+    bool ok = knot != NULL && f->order >= 2 && f->n >= f->order && f->knots.n == f->n + f->order;
+    struct nurbs_axis a = {f->n, f->order, knot, ok && f->from == FIELD_NONE ? knot[f->order - 1] : f->from,
+                           ok && f->to == FIELD_NONE ? knot[f->n] : f->to};
+    *out = a;
+    return (ok && nurbs_is_usable(&a)) ||
+           error_set(&task->err, "a nurbs needs \"%corder\" from 2 to %d, \"n%c\" not less than that, as many numbers "
+                     "as both together in \"%cknots\" that never fall, and \"%c0\" < \"%c1\" within the inner ones",
+                     name, NURBS_MOST_ORDER, name, name, name, name);
+}
+
+static bool mesh(const void *fields, struct mesh_task *task, struct mesh *out)
+{
+    const struct nurbs *f = fields;
+    struct nurbs_axis u, v;
+    if (!axis(&f->u, 'u', task, &u) || !axis(&f->v, 'v', task, &v))
+        return false;
+    int n = f->P.number != NULL ? f->P.n : f->Pw.n;
+    if (n != u.n * v.n)
+        return error_set(&task->err, "a nurbs needs nu nv = %d points \"P\" or \"Pw\", not %d", u.n * v.n, n);
+    double *Pw = mem_alloc((size_t)n, 4 * sizeof *Pw);
+    for (int i = 0; i < 4 * n; i++)
+        Pw[i] = f->P.number == NULL ? f->Pw.number[i] : i % 4 == 3 ? 1 : f->P.number[i / 4 * 3 + i % 4];
+    bool ok = nurbs_mesh(&u, &v, Pw, out, task->room, &task->err);
+    free(Pw);
+    task->room -= out->n_triangles;
+    return ok;
+}
+
+#define AT(member) offsetof(struct nurbs, member)
+static const struct field FIELDS[] = {{"P", .kind = FIELD_POINTS, .place = AT(P)},
+                                      {"Pw", FIELD_FLOATS, AT(Pw), .low = 4},
+                                      {"nu", FIELD_INTEGER, AT(u.n), 0, 0, .high = 1 << 14},
+                                      {"nv", FIELD_INTEGER, AT(v.n), 0, 0, .high = 1 << 14},
+                                      {"uorder", FIELD_INTEGER, AT(u.order), 0, 0, .high = NURBS_MOST_ORDER},
+                                      {"vorder", FIELD_INTEGER, AT(v.order), 0, 0, .high = NURBS_MOST_ORDER},
+                                      {"uknots", FIELD_FLOATS, AT(u.knots), .low = 1},
+                                      {"vknots", FIELD_FLOATS, AT(v.knots), .low = 1},
+                                      {"u0", FIELD_NUMBER, AT(u.from), .fallback = FIELD_NONE},
+                                      {"u1", FIELD_NUMBER, AT(u.to), .fallback = FIELD_NONE},
+                                      {"v0", FIELD_NUMBER, AT(v.from), .fallback = FIELD_NONE},
+                                      {"v1", FIELD_NUMBER, AT(v.to), .fallback = FIELD_NONE},
+                                      {.name = NULL}};
+
+const struct shape_row shape_nurbs = {.name = "nurbs", .fields = FIELDS, .size = sizeof(struct nurbs), .mesh = mesh,
+                                      .may_shine = true};

@@ -11,6 +11,7 @@
 #include "base/bits.h"
 #include "base/file.h"
 #include "base/mem.h"
+#include "geometry/mesh.h"
 
 enum encoding { NO_ENCODING, ENCODING_ASCII, ENCODING_LITTLE, ENCODING_BIG };
 enum scalar { INT8, UINT8, INT16, UINT16, INT32, UINT32, FLOAT32, FLOAT64, N_SCALARS };
@@ -274,7 +275,6 @@ static bool read_list(struct ply *r, const struct ply_property *p)
     if (!next_count(r, p, &count))
         return false;
     r->mesh->n_thin += p->role == POLYGON && count < 3;
-    r->mesh->n_wide += p->role == POLYGON && count > 4;
     for (double k = 0; k < count; k++) {
         if (!next_number(r, p->type, &value))
             return false;
@@ -393,3 +393,28 @@ bool ply_read(const char *path, struct mesh *out, struct error *err)
         mesh_free(out);
     return ok;
 }
+
+/* --- the row ------------------------------------------------------------------------------------------ */
+
+struct plymesh {
+    const char *path;
+};
+
+static bool mesh(const void *fields, struct mesh_task *task, struct mesh *out)
+{
+    const struct plymesh *p = fields;
+    if (p->path == NULL)
+        return error_set(&task->err, "a plymesh needs its file: add \"string filename\" \"...\"");
+    task->about = "filename";
+    if (!ply_read(p->path, out, &task->err))
+        return false;
+    if (out->n_thin > 0)
+        task->warn(task, "%d faces of fewer than 3 corners are left out", out->n_thin);
+    return true;
+}
+
+static const struct field FIELDS[] = {{"filename", .kind = FIELD_FILE, .place = offsetof(struct plymesh, path)},
+                                      {.name = "alpha"}, {.name = "shadowalpha"}, {.name = NULL}};
+
+const struct shape_row shape_plymesh = {.name = "plymesh", .fields = FIELDS, .size = sizeof(struct plymesh),
+                                        .may_shine = true, .may_have_holes = true, .mesh = mesh};

@@ -61,7 +61,7 @@ struct mesh {
     float *P, *N, *UV;  /* [n_vertices * 3, 3, 2]; N and UV may be NULL */
     uint32_t *index;    /* [n_triangles*3], every entry < n_vertices */
     int n_vertices, n_triangles;
-    int n_thin, n_wide; /* faces of the file of fewer than 3 corners, which are left out, and of more than 4 */
+    int n_thin;         /* faces of the file of fewer than 3 corners, which are left out */
     uint64_t content;   /* hash_content of the file it was read from; 0: none */
     size_t file_size;   /* bytes of it */
     float *S;           /* [n_vertices*3] tangents; or NULL */

@@ -7,6 +7,7 @@
 
 #include "base/maths.h"
 #include "base/mem.h"
+#include "geometry/mesh.h"
 
 /* A level of the mesh. */
 struct level {
@@ -280,7 +281,7 @@ bool mesh_subdivide(struct mesh *m, int levels, int most, struct error *err)
     double triangles = m->n_triangles * m_pow(4, levels);
     if (triangles > most)
         return error_set(err, "%d levels would make %.3g triangles of %d; %s%d are made: lower the levels", levels,
-                         triangles, m->n_triangles, most < SUBDIVIDE_MAX_TRIANGLES ? "of this scene yet " : "at most ",
+                         triangles, m->n_triangles, most < MESH_MAX_SUBDIVIDED ? "of this scene yet " : "at most ",
                          most);
     struct level l = control_level(m);
     struct ring ring = {0};
@@ -298,3 +299,32 @@ bool mesh_subdivide(struct mesh *m, int levels, int most, struct error *err)
     free(ring.p);
     return ok;
 }
+
+/* --- the row ------------------------------------------------------------------------------------------ */
+
+struct loopsubdiv {
+    int levels;
+    struct field_list P, indices;
+};
+
+static bool mesh(const void *fields, struct mesh_task *task, struct mesh *out)
+{
+    const struct loopsubdiv *s = fields;
+    mesh_triangles(s->P, s->indices, task, out);
+    if (out->n_triangles > 0 && !mesh_subdivide(out, s->levels, task->room, &task->err))
+        return false;
+    task->room -= out->n_triangles;
+    return true;
+}
+
+/* As in pbrt-v3 "levels" wins. */
+#define AT(member) offsetof(struct loopsubdiv, member)
+static const struct field FIELDS[] = {{"nlevels", FIELD_INTEGER, AT(levels), 3, 0, .high = 30},
+                                      {"levels", FIELD_INTEGER, AT(levels), FIELD_KEPT, 0, .high = 30},
+                                      {"P", .kind = FIELD_POINTS, .place = AT(P)},
+                                      {"indices", .kind = FIELD_INDICES, .place = AT(indices)},
+                                      {"scheme", .kind = FIELD_IGNORED}, /* there is but one */
+                                      {.name = NULL}};
+
+const struct shape_row shape_loopsubdiv = {
+    .name = "loopsubdiv", .fields = FIELDS, .size = sizeof(struct loopsubdiv), .may_shine = true, .mesh = mesh};

@@ -10,8 +10,6 @@
 
 #include "geometry/shape.h"
 
-enum { SUBDIVIDE_MAX_TRIANGLES = 1 << 23 }; /* of a scene */
-
 /* mesh_subdivide: replace the control mesh, of which N and UV are not looked at, by its surface after so many levels,
  * >= 0. Normals point as in pbrt-v3: to the side from which the corners of a triangle run clockwise. Points that no
  * triangle uses stay where they are. Returns false with a message, and the mesh as it was, when an edge has more than

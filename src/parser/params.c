@@ -157,14 +157,11 @@ int params_choice(struct params *p, const char *name, const char *const *choices
     return 0;
 }
 
-const double *params_list(struct params *p, const char *name, unsigned types, int group, int *n,
-                          const struct param **found)
+const double *params_list(struct params *p, const char *name, unsigned types, int group, int *n)
 {
     const struct param *item = find(p, name, types);
     bool usable = item != NULL && !p->failed && numbers_usable(p, item);
     *n = usable && !item->is_text ? item->n / group : 0;
-    if (found != NULL)
-        *found = usable ? item : NULL;
     if (usable && (*n == 0 || item->n % group != 0))
         source_warn(p->messages, item->position,
                     "parameter \"%s %s\" wants its numbers in groups of %d, but there are %d; the rest is passed over",

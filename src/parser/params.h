@@ -104,10 +104,8 @@ bool params_numbers(struct params *p, const char *name, double *out, int n);
 
 /* params_list: numbers of a parameter of one of the types in the mask (1u << PARAM_FLOAT | ...), in groups of
  * `group`; NULL if there is none.
- *   n      out: number of groups
- *   found  out, may be NULL: the parameter */
-const double *params_list(struct params *p, const char *name, unsigned types, int group, int *n,
-                          const struct param **found);
+ *   n  out: number of groups */
+const double *params_list(struct params *p, const char *name, unsigned types, int group, int *n);
 
 /* params_text: the one value of a parameter of type PARAM_STRING or PARAM_TEXTURE, or NULL; *at is where it is
  * declared. */

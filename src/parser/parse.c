@@ -3,6 +3,7 @@
 #include "parser/parse.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/bits.h"
@@ -188,6 +189,23 @@ static int rgb_texture(struct parser *p, const struct field *f, int kept)
     return checked(p, f, id);
 }
 
+static struct field_list list_of(struct params *q, const char *name, unsigned types, int group)
+{
+    struct field_list list;
+    list.number = params_list(q, name, types, group, &list.n);
+    return list;
+}
+
+/* A path that lives as long as the parser. */
+static const char *path_of(struct parser *p, const char *name)
+{
+    struct source_position at;
+    char *path = params_file(&p->params, name, &at);
+    const char *kept = path == NULL ? NULL : strcpy(arena_alloc(&p->arena, strlen(path) + 1), path);
+    free(path);
+    return kept;
+}
+
 static void read_field(struct parser *p, const struct field *f, void *place)
 {
     struct params *q = &p->params;
@@ -197,7 +215,7 @@ static void read_field(struct parser *p, const struct field *f, void *place)
     double x = f->fallback;
     bool is_float = p->texture_is_float;
     switch (f->kind) {
-    case FIELD_INTEGER: *whole = params_int(q, f->name, (int)x, (int)f->low, (int)f->high); break;
+    case FIELD_INTEGER: *whole = params_int(q, f->name, isnan(x) ? *whole : (int)x, (int)f->low, (int)f->high); break;
     case FIELD_NUMBER:
         *number = params_number(q, f->name, isnan(x) ? *number : x, least(f), most(f));
         break;
@@ -213,6 +231,15 @@ static void read_field(struct parser *p, const struct field *f, void *place)
         break;
     case FIELD_MATERIAL: *whole = parse_part(p, f->name); break;
     case FIELD_FOURIER_TABLE: *whole = parse_fourier_table(p, f->name); break;
+    case FIELD_FILE: *(const char **)place = path_of(p, f->name); break;
+    case FIELD_FLOATS: *(struct field_list *)place = list_of(q, f->name, 1u << PARAM_FLOAT, (int)f->low); break;
+    case FIELD_INDICES: *(struct field_list *)place = list_of(q, f->name, 1u << PARAM_INTEGER, 3); break;
+    case FIELD_POINTS: *(struct field_list *)place = list_of(q, f->name, 1u << PARAM_POINT, 3); break;
+    case FIELD_VECTORS: *(struct field_list *)place = list_of(q, f->name, 1u << PARAM_VECTOR, 3); break;
+    case FIELD_NORMALS: *(struct field_list *)place = list_of(q, f->name, 1u << PARAM_NORMAL, 3); break;
+    case FIELD_PAIRS:
+        *(struct field_list *)place = list_of(q, f->name, 1u << PARAM_FLOAT | 1u << PARAM_POINT2, 2);
+        break;
     case FIELD_IGNORED: params_ignore(q, f->name); break;
     case FIELD_OTHER: break;
     }

@@ -120,7 +120,7 @@ struct parser {
     uint64_t copied_bytes; /* of all instances */
     int n_infinite;        /* lights, */
     int infinite_group;    /* all of one group */
-    int n_subdivided;      /* triangles of all subdivision surfaces and curves, at most SUBDIVIDE_MAX_TRIANGLES */
+    int n_subdivided;      /* triangles of all subdivision surfaces and curves, at most MESH_MAX_SUBDIVIDED */
 
     bool texture_is_float;   /* of the Texture directive being carried out */
     int constant[CONSTANTS]; /* textures made for numbers, by hash, plus 1: equal ones are shared */
@@ -193,8 +193,9 @@ extern const struct directive STATE_DIRECTIVES[], OPTION_DIRECTIVES[], TEXTURE_D
     LIGHT_DIRECTIVES[], SHAPE_DIRECTIVES[], INSTANCE_DIRECTIVES[];
 
 /* parse_part: the material that a parameter names. parse_fourier_table: that of the file that a parameter names.
- * parse_material_types: the rows of materials as types, ended by one without a name. */
+ * parse_material_types, parse_shape_types: rows, of shapes the quadrics, too, as types, ended by one without a name. */
 enum { MOST_TYPES = 32 };
+void parse_shape_types(struct object_type out[MOST_TYPES]);
 int parse_part(struct parser *p, const char *field);
 int parse_fourier_table(struct parser *p, const char *field);
 void parse_material_types(struct object_type out[MOST_TYPES]);

@@ -37,10 +37,11 @@ int parse_fourier_table(struct parser *p, const char *field)
 void parse_material_types(struct object_type out[MOST_TYPES])
 {
     for (int i = 0; i < MOST_TYPES; i++) {
-        const struct material_row *row = material_rows[i];
-        out[i] = (struct object_type){row != NULL ? row->name : NULL, row != NULL ? row->fields : NULL, i, NULL};
-        if (row == NULL)
+        out[i] = (struct object_type){.kind = i};
+        if (material_rows[i] == NULL)
             break;
+        out[i].name = material_rows[i]->name;
+        out[i].fields = material_rows[i]->fields;
     }
 }
 
@@ -110,7 +111,8 @@ int parse_changed_material(struct parser *p)
     q->type = type;
     p->type = shape;
     if (n_unused(q) == before) { /* none was the material's */
-        p->scene->n_materials = n_materials;
+        while (p->scene->n_materials > n_materials)
+            free(p->scene->material[--p->scene->n_materials]);
         id = p->state.material.id;
     }
     return id;

@@ -6,7 +6,8 @@
  *                  relmse and by 8x8,
  *     not found    if one of the three lies above,
  *     cannot tell  otherwise.
- * Three intervals are looked at and all must agree, so a false `found` is rarer than one in forty.
+ * Three intervals are looked at and all must agree, so a false `found` is rarer than one in forty. [Popov 2015] has no
+ * verdict: its bound of the variance is missing here.
  *
  * Tests: test_equal_time.c.
  */

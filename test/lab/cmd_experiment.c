@@ -178,6 +178,7 @@ static bool plan_family(struct plan_options *o, char command[COMMAND], struct pl
         if (file_exists(PUBLISHED[i]))
             texts_add(&o->scenes, PUBLISHED[i]);
     methods_all(all);
+    strcat(all, METHODS_ALSO);
     o->methods = o->methods != NULL ? o->methods : all;
     o->spp = o->spp > 0 ? o->spp : o->quick ? 16 : 64;
     o->seeds = o->seeds > 0 ? o->seeds : o->quick ? 3 : 5;

@@ -9,15 +9,17 @@
  *
  * Tests: test_asbdpt.c.
  */
+#include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
 
+#include "base/number.h"
 #include "integrators/services.h"
 #include "rivals/records.h"
 
 struct lvc_state {
     struct frozen frozen;
-    int connections; /* C */
+    int connections; /* C; 0, the parameter: as many as a light sub-path has vertices */
 };
 
 struct lvc {
@@ -61,6 +63,8 @@ static void prepare(const struct render_job *job, struct preparation *out)
 {
     struct lvc_state *s = out->state;
     double l = light_vertices_expected(job);
+    if (s->connections == 0)
+        s->connections = int_within(ceil(l), 1, 1024);
     for (int end = 0; end < EYE_ENDS; end++) {
         s->frozen.draws[end] = s->connections;
         s->frozen.counts.connect[end] = l > 0 ? s->connections / l : s->connections;
@@ -70,7 +74,8 @@ static void prepare(const struct render_job *job, struct preparation *out)
 
 #define AT(member) offsetof(struct lvc_state, member)
 static const struct field PARAMETERS[] = {
-    {"connections", FIELD_INTEGER, AT(connections), 1, 1, 1024, "light vertices drawn for each eye vertex", NULL},
+    {"connections", FIELD_INTEGER, AT(connections), 1, 0, 1024,
+     "light vertices drawn for each eye vertex; 0, as in the paper: as many as a light sub-path has on average", NULL},
     {"pathpixels", FIELD_INTEGER, AT(frozen.path_pixels), 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
      "pixels for each light sub-path", NULL},
     {.name = NULL}};

@@ -2,8 +2,9 @@
  *
  * Of the N eye and K light sub-paths of a tile and iteration, every pair joined by strategy (s,t) is an element of an
  * N x K matrix, whose mean is what the pixels are to receive together [Chaitanya 2018]. Its rows are sorted by the
- * lengths of the eye sub-paths' first t vertices, its columns by those of the light sub-paths' first s, so that
- * neighbouring elements are alike, and a stratified choice is good for something. Chosen are the N elements
+ * eye sub-paths' first t vertices, its columns by the light sub-paths' first s, either by the length of these or by
+ * the throughput at the last of them, which what a pair brings is proportional to, so that neighbouring elements are
+ * alike, and a stratified choice is good for something. Chosen are the N elements
  *     row i,  column floor(K frac(i A / N + U)),    A prime to N, near N times the golden section,
  * a lattice [Roberts 2018] shifted at random: one in every row; with K = N one in every column, too. Given its row, a
  * column is uniform since U is, so each pixel is joined with one light sub-path, any equally likely, as in BDPT: its
@@ -24,14 +25,21 @@
 
 /* A sub-path in order of its first vertices. */
 struct ranked {
-    double length; /* of those; infinite if it has fewer, so that these gather at the end */
+    double key; /* infinite if it has fewer, so that these gather at the end */
     int number;
 };
 
-static int by_length(const void *a, const void *b)
+static const char *const KEYS[] = {"length", "throughput", NULL};
+
+struct mbdpt_state {
+    struct frozen frozen;
+    int throughput; /* number of the key */
+};
+
+static int by_key(const void *a, const void *b)
 {
     const struct ranked *x = a, *y = b;
-    return x->length != y->length ? (x->length > y->length) - (x->length < y->length)
+    return x->key != y->key ? (x->key > y->key) - (x->key < y->key)
                                   : (x->number > y->number) - (x->number < y->number);
 }
 
@@ -44,9 +52,9 @@ static double length_of(const struct vertex *path, int n, int m, bool far)
     return m <= n ? sum : INFINITY;
 }
 
-static void rank(struct ranked *r, int i, const struct vertex *path, int n, int m, bool far)
+static void rank(struct ranked *r, int i, const struct vertex *path, int n, int m, bool far, bool throughput)
 {
-    r[i].length = length_of(path, n, m, far);
+    r[i].key = !throughput || m > n ? length_of(path, n, m, far) : rgb_luminance(path[m - 1].beta);
     r[i].number = i;
 }
 
@@ -65,14 +73,14 @@ static int lattice_step(int n)
 
 /* All strategies of eye sub-paths of t vertices, each with a shift of its own. */
 static void connect_length(const struct light_pool *pool, struct ranked **column, struct pooled_pixel *pixel, int n,
-                           struct ranked *row, int t, const double *shift)
+                           struct ranked *row, int t, const double *shift, bool throughput)
 {
     const struct choice choice = {1.0 / pool->n, 1};
     int step = lattice_step(n), most = pixel[0].sample.max_depth + 2 - t;
     for (int i = 0; i < n; i++)
-        rank(row, i, pixel[i].eye, pixel[i].n, t, false);
-    qsort(row, (size_t)n, sizeof *row, by_length);
-    for (int i = 0; i < n && row[i].length < INFINITY; i++)
+        rank(row, i, pixel[i].eye, pixel[i].n, t, false, throughput);
+    qsort(row, (size_t)n, sizeof *row, by_key);
+    for (int i = 0; i < n && row[i].key < INFINITY; i++)
         for (int s = 2; s <= most; s++) {
             double u = (double)((long)i * step % n) / n + shift[s];
             int j = (int)((u - floor(u)) * pool->n), k = column[s][j < pool->n ? j : pool->n - 1].number;
@@ -88,6 +96,7 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
     const struct light_pool *pool = scratch;
     struct arena *arena = &pass->work->arena;
     int depth = ((const struct frozen *)state)->max_depth;
+    bool throughput = ((const struct mbdpt_state *)state)->throughput;
     struct ranked *row = arena_alloc(arena, (size_t)n * sizeof *row);
     struct ranked **column = arena_alloc(arena, (size_t)(depth + 1) * sizeof *column);
     double *shift = arena_alloc(arena, (size_t)(depth + 1) * sizeof *shift);
@@ -98,27 +107,29 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
         for (int k = 0; k < pool->n; k++) {
             const struct vertex *path = light_pool_path(pool, k);
             int length = pool->length[k];
-            rank(column[s], k, path, length, s, length > 0 && vertex_at_infinity(pass->job->scene, path));
+            rank(column[s], k, path, length, s, length > 0 && vertex_at_infinity(pass->job->scene, path),
+                 throughput);
         }
-        qsort(column[s], (size_t)pool->n, sizeof *column[s], by_length);
+        qsort(column[s], (size_t)pool->n, sizeof *column[s], by_key);
     }
     for (int t = 2; t <= depth; t++) {
         for (int s = 2; s <= depth; s++)
             shift[s] = sampler_number(&pixel[0].draws, DRAW_LIGHT_END);
-        connect_length(pool, column, pixel, n, row, t, shift);
+        connect_length(pool, column, pixel, n, row, t, shift, throughput);
     }
 }
 
 static const struct field PARAMETERS[] = {
     {"pathpixels", FIELD_INTEGER, offsetof(struct frozen, path_pixels), 1, 1,
      DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE, "pixels for each light sub-path", NULL},
+    {"key", FIELD_WORD, offsetof(struct mbdpt_state, throughput), 0, 0, 0, "what sub-paths are sorted by", KEYS},
     {.name = NULL}};
 
 const struct method method_mbdpt = {
     .name = "mbdpt", .help = "matrix BDPT [Chaitanya 2018]: pairs of sorted sub-paths, stratified",
     .why = "one of the tile's K light sub-paths for each strategy, by a shifted lattice over eye and light sub-paths "
-           "sorted by length, each equally likely; scale 1",
+           "sorted by length or throughput, each equally likely; scale 1",
     .parameters = PARAMETERS, .services = {.emission = 1, .tile = DEFAULT_TILE_SIZE, .spread = 1},
-    .prepare = services_prepare, .state_size = sizeof(struct frozen), .scratch_size = sizeof(struct light_pool),
+    .prepare = services_prepare, .state_size = sizeof(struct mbdpt_state), .scratch_size = sizeof(struct light_pool),
     .rr_threshold = DEFAULT_RR_THRESHOLD, .render = pooled_render, .scratch_free = light_pool_free,
     .connect_all = connect_all};
