@@ -397,7 +397,7 @@ static void substrate_as_printed(struct test *t)
         double alpha = 0.1 + 0.6 * rng_uniform(&r), Rd = rng_uniform(&r), Rs = rng_uniform(&r);
         struct lobe l = facet_lobe(LOBE_FRESNEL_BLEND, alpha, alpha);
         l.R = rgb_grey(Rd);
-        l.T = rgb_grey(Rs);
+        l.of.coat = rgb_grey(Rs);
         double side = i % 2 == 0 ? 1 : -1, o = 0.05 + 0.9 * rng_uniform(&r), in = 0.05 + 0.9 * rng_uniform(&r);
         vec3 wo = direction(side * o, 7 * rng_uniform(&r)), wi = direction(side * in, 7 * rng_uniform(&r));
         vec3 h = normalize(add(wo, wi));

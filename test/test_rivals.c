@@ -334,7 +334,7 @@ static double sum_weights(struct ris *r, const struct vertex *light, int s, stru
             if (!connect_join(&light[s - 1], z, &j))
                 return NAN;
             r->own = r->all = ris_worth(r, &light[s - 1], z);
-            c = connect_joint(r->scene, &r->counts, &j);
+            c = ris_joint(r, &j);
             eye[t] = as_eye_vertex(&light[s - 1], z, j.pdf_z);
             z->pdf_rev = j.pdf_rev_z;
             eye[t].pdf_rev = 0;
@@ -344,11 +344,11 @@ static double sum_weights(struct ris *r, const struct vertex *light, int s, stru
             at.pdf = at.pdf_cell = light->pdf_fwd;
             if (!connect_light(r->scene, z, &at, at.pdf, &l))
                 return NAN;
-            c = connect_lit(r->scene, &r->counts, &l);
+            c = ris_lit(r, &l);
             eye[t] = as_eye_vertex(light, z, l.pdf_z);
             z->pdf_rev = l.pdf_rev_z;
         } else {
-            c = connect_hit(r->scene, &r->counts, &eye[t - 2], z, t);
+            c = ris_hit(r, &eye[t - 2], z, t);
         }
         sum += rgb_is_black(c.value) ? NAN : c.weight;
     }
@@ -393,7 +393,7 @@ static void check_draws(struct test *t, struct ris *r, const struct method *meth
         r->own = r->all = ris_worth(r, c->y, &eye[1]);
         if (c->s + 2 > sample.max_depth + 2 || !connect_join(c->y, &eye[1], &j))
             continue;
-        struct connection k = connect_joint(r->scene, &r->counts, &j);
+        struct connection k = ris_joint(r, &j);
         expected += rgb_is_black(k.value) ? 0 : rgb_luminance(k.value) * k.weight * (r->u != NULL ? r->u[v] : 1) / r->K;
     }
     for (int b = 0; b < BATCHES; b++) {
@@ -449,12 +449,10 @@ static void test_weights(struct test *t, const char *path, const char *method)
             const struct vertex *light = light_pool_path(&r->pool, k);
             if (light[s - 1].prev_delta)
                 break;
-            struct mis_counts plain = r->counts;
-            struct pixel_sample sample = pixel_sample_begin(&pass, &r->counts, x, y, 3);
+            struct pixel_sample sample = pixel_sample_begin(&pass, r->counts, x, y, 3);
             struct vertex eye[16];
-            plain.weigher = NULL;
             if (pixel_eye_path(&pass, &sample, 3, eye, 2) < 2 ||
-                !oracle_weights(&scene, &plain, light, s, eye, 2, weight))
+                !oracle_weights(&scene, r->counts, light, s, eye, 2, weight))
                 continue;
             if (s == 2)
                 check_mixture(t, r, &eye[1]);

@@ -82,13 +82,9 @@ struct method {
      * that is all; */
     void (*begin)(void *scratch, const void *state, const struct tile_pass *pass, long iteration);
     /* add the strategies s >= 2, t >= 2 to p->sample, of all the pixel's eye sub-path or, called for every eye vertex
-     * that can be connected to, those of z = z_{t-1}, */
+     * that can be connected to, those of z = z_{t-1}. One of the two is NULL. */
     void (*connect)(void *scratch, const void *state, struct pooled_pixel *p);
     void (*draw)(void *scratch, const void *state, struct pooled_pixel *p, const struct vertex *z, int t);
-    /* or, when all eye sub-paths of the tile have been traced, all strategies t >= 2 of all n pixels. Two of the three
-     * are NULL. */
-    void (*connect_all)(void *scratch, const void *state, const struct tile_pass *pass, struct pooled_pixel *pixel,
-                        int n);
 };
 
 /* method_fields: the table of all parameters of a row, its own and services, ended by one without name. */

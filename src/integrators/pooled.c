@@ -2,7 +2,6 @@
 #include "integrators/pooled.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 const char *const METRICS[] = {"constant", "throughput", "importance", NULL};
 
@@ -11,11 +10,6 @@ void light_pool_free(void *scratch)
     struct light_pool *pool = scratch;
     arena_free(&pool->arena);
     free(pool->vertex);
-}
-
-static const struct mis_counts *counts_of(const struct light_pool *pool, const struct frozen *f)
-{
-    return pool->counts != NULL ? pool->counts : &f->counts;
 }
 
 void light_pool_fill(struct light_pool *pool, const struct tile_pass *pass, const struct frozen *f, long iteration)
@@ -27,7 +21,7 @@ void light_pool_fill(struct light_pool *pool, const struct tile_pass *pass, cons
     for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i += f->path_pixels) {
         pool->vertex = mem_grow(pool->vertex, &pool->capacity, pool->used + longest, sizeof *pool->vertex);
         struct vertex *path = &pool->vertex[pool->used];
-        int length = pixel_light_path(pass, counts_of(pool, f), x, y, (uint64_t)iteration, &pool->arena, path);
+        int length = pixel_light_path(pass, &f->counts, x, y, (uint64_t)iteration, &pool->arena, path);
         pool->start[pool->n] = pool->used;
         pool->length[pool->n++] = length;
         pool->used += (size_t)length;
@@ -76,7 +70,7 @@ struct pooled_pixel pooled_begin(const struct preparation *m, const struct tile_
 {
     const struct frozen *f = m->state;
     struct pooled_pixel p = {.eye = pass->work->eye, .number = number};
-    p.sample = pixel_sample_begin(pass, counts_of(pass->work->scratch, f), x, y, iteration);
+    p.sample = pixel_sample_begin(pass, &f->counts, x, y, iteration);
     p.sample.lights = f->lights;
     p.n = pixel_eye_path(pass, &p.sample, iteration, pass->work->eye, f->max_depth + 2);
     p.draws = pixel_sampler(pass, RNG_SELECT, x, y, iteration);
@@ -120,30 +114,11 @@ void pooled_end(const struct preparation *m, const struct tile_pass *pass, struc
     pixel_sample_end(&p->sample);
 }
 
-/* All eye sub-paths of the tile are traced before the first is connected. */
-static void render_together(const struct preparation *m, const struct tile_pass *pass, long iteration)
-{
-    struct arena *arena = &pass->work->arena;
-    int n = rect_width(pass->rect) * rect_height(pass->rect);
-    arena_reset(arena);
-    struct pooled_pixel *all = arena_alloc(arena, (size_t)n * sizeof *all);
-    for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
-        all[i] = pooled_begin(m, pass, x, y, i, iteration);
-        size_t size = (size_t)all[i].n * sizeof *all[i].eye;
-        all[i].eye = memcpy(arena_alloc(arena, size), all[i].eye, size);
-    }
-    m->method->connect_all(pass->work->scratch, m->state, pass, all, n);
-    for (int i = 0; i < n; i++)
-        pooled_end(m, pass, &all[i]);
-}
-
 void pooled_render(const struct preparation *m, const struct tile_pass *pass)
 {
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
         pooled_fill(m, pass, iteration);
-        if (m->method->connect_all != NULL)
-            render_together(m, pass, iteration);
-        for (int i = 0, x, y; m->method->connect_all == NULL && pass_pixel(pass, i, &x, &y); i++) {
+        for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
             arena_reset(&pass->work->arena);
             struct pooled_pixel p = pooled_begin(m, pass, x, y, i, iteration);
             pixel_sum_eye(&p.sample, p.eye, p.n);

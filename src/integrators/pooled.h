@@ -24,7 +24,6 @@ struct light_pool {
     size_t start[MAX_TILE_SIZE * MAX_TILE_SIZE]; /* first vertex of path k */
     int length[MAX_TILE_SIZE * MAX_TILE_SIZE];   /* vertices of path k */
     int n;                                       /* K */
-    const struct mis_counts *counts; /* of this thread's samples, if the method has set it; NULL: the frozen ones */
 };
 
 /* light_pool_free: release what the pool owns. A pool starts as zeros. The `scratch_free` of methods whose scratch owns

@@ -63,9 +63,6 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
     double pdf_emit = emit_pdf(counts, lights, &at, start, z->wo);
     double eye_side = mis_side(counts, z->pdf_origin, z->pdf_fwd, before, pdf_emit, z->mis);
     c.weight = mis_weight(counts, counts->hit[prev->eye_end], 0, eye_side);
-    const struct path_end end = {z, prev, z->pdf_origin, pdf_emit};
-    if (counts->weigher != NULL)
-        c.weight = counts->weigher->weigh(counts->weigher->context, 0, NULL, &end);
     return c;
 }
 
@@ -114,7 +111,7 @@ bool connect_light_point(const struct scene *scene, const struct mis_counts *cou
     return connect_light(scene, z, &at, pmf * at.pdf_cell, out);
 }
 
-bool lit_visible(const struct scene *scene, const struct lit *l)
+static bool lit_visible(const struct scene *scene, const struct lit *l)
 {
     return light_at_infinity(&scene->lights.light[l->at.light])
                ? scene_lit_from(scene, l->z->p, l->z->prim_id, l->at.w)
@@ -144,9 +141,6 @@ struct connection connect_lit(const struct scene *scene, const struct mis_counts
     c.value = l->value;
     c.length = z->length + (parallel ? light_distance(lights, z->p, w) : distance);
     c.weight = mis_weight(counts, count, light, eye);
-    const struct path_end end_y = {&y, NULL, l->pdf_z * l->at_light, 0}, end_z = {z, z - 1, pdf_z, l->pdf_rev_z};
-    if (counts->weigher != NULL)
-        c.weight = counts->weigher->weigh(counts->weigher->context, 1, &end_y, &end_z);
     c.end = parallel ? at->w : at->p;
     c.light = at->light;
     c.cell = at->cell;
@@ -201,10 +195,6 @@ struct connection connect_joint(const struct scene *scene, const struct mis_coun
     c.value = j->value;
     c.length = y->length + j->length + z->length;
     c.weight = mis_weight(counts, n_connect(counts, y->light_region, z->eye_region, z->eye_end), light, eye);
-    const struct path_end end_y = {y, y - 1, j->pdf_z * j->area_y, j->pdf_rev_y};
-    const struct path_end end_z = {z, z - 1, j->pdf_y * j->area_z, j->pdf_rev_z};
-    if (counts->weigher != NULL)
-        c.weight = counts->weigher->weigh(counts->weigher->context, 2, &end_y, &end_z);
     return c;
 }
 

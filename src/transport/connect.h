@@ -55,7 +55,6 @@ bool connect_light(const struct scene *scene, const struct vertex *z, const stru
 bool connect_light_point(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
                          struct sampler *sampler, int i, int n, struct lit *out);
 struct connection connect_lit(const struct scene *scene, const struct mis_counts *counts, const struct lit *l);
-bool lit_visible(const struct scene *scene, const struct lit *l);
 
 /* connect_point: connect_direct for a point that is known, found with that density. */
 struct connection connect_point(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,

@@ -49,22 +49,6 @@ struct tables;
  * later one. */
 enum eye_end { FIRST_HIT, LATER_HIT, EYE_ENDS };
 
-struct vertex;
-
-/* Where two sub-paths are joined: the last vertex of one, the vertex before it, and what of the former the other end
- * decides: its density in the other walk, measured as its pdf_fwd, and that, 1/sr, of going on to the vertex before. */
-struct path_end {
-    const struct vertex *v, *before;
-    double pdf_other, pdf_rev;
-};
-
-/* Weights that are no O(1) recursion: whoever computes them sees all of the path.
- *   s  0: y is NULL, z is on the light; 1: y is y_0; else 2: of s >= 2 */
-struct weigher {
-    void *context;
-    double (*weigh)(void *context, int s, const struct path_end *y, const struct path_end *z);
-};
-
 /* How many samples each kind of strategy takes per pixel and iteration; 0: the method does not use it. A method may
  * count a strategy for more than it takes: the weights still add up to 1. The balance heuristic goes by second moments,
  * so a strategy whose samples are better spread than independent ones, and whose variance is therefore smaller,
@@ -81,7 +65,6 @@ struct mis_counts {
     const struct tables *tables;     /* what is known about places: factors of connect and direct, and of the density
                                       * of the light walk's first ray (counts.h, emit.h); NULL: nothing */
     bool power;                /* power heuristic instead of the balance heuristic */
-    const struct weigher *weigher; /* of strategies with t >= 2, in place of the recursion; NULL: the recursion */
 };
 
 /* mis_raise: the heuristic's power of a density or count. */

@@ -6,19 +6,10 @@
 #include "transport/counts.h"
 #include "transport/emit.h"
 
-/* How the walk left its last vertex. */
-struct departure {
-    struct ray ray;
-    rgb beta;
-    double pdf;     /* of the direction, 1/sr; of parallel rays from a light or the lens: of the origin, 1/m^2 */
-    double pdf_rev; /* 1/sr, of going from that vertex to the one before it */
-    bool delta;
-};
-
 /* Density per area of the vertex at distance^2 d2 [PBRT3 5.5.3], and the mis recursion; `prev` is where the walk came
  * from. */
-static void measure(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
-                    double d2)
+void walk_measure(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
+                  double d2)
 {
     bool parallel = vertex_at_infinity(w->scene, prev); /* rays of a light at infinity do not spread */
     double spread = prev->kind == VERTEX_LENS ? camera_spread(&w->scene->camera, d2) : parallel ? 1 : 1 / d2;
@@ -67,7 +58,7 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
     v->beta = from->beta;
     v->pdf_origin = mode == RADIANCE && at->light >= 0 ? light_pdf_surface(&w->scene->lights, &w->scene->geo, at) : 0;
     v->length = prev->length + sqrt(d2);
-    measure(w, v, prev, from, d2);
+    walk_measure(w, v, prev, from, d2);
     return true;
 }
 
@@ -113,9 +104,7 @@ static bool survives(const struct walk *w, double kept, rgb *beta)
     return sampler_number(w->sampler, DRAW_ROULETTE) < q;
 }
 
-/* Leave the surface vertex by sampling its BSDF: beta takes up f cos / pdf. [V97 10.2]
- * False if the walk is absorbed. */
-static bool depart(const struct walk *w, const struct vertex *v, enum transport mode, struct departure *out)
+bool walk_leave(const struct walk *w, const struct vertex *v, enum transport mode, struct departure *out)
 {
     double u[3];
     u[0] = sampler_number(w->sampler, DRAW_LOBE);
@@ -134,9 +123,8 @@ static bool depart(const struct walk *w, const struct vertex *v, enum transport 
     return true;
 }
 
-/* The random walk: n vertices are made, `from` says how the last was left. Returns the number of vertices. */
-static int random_walk(const struct walk *w, struct departure from, struct vertex *path, int n, int max_vertices,
-                       enum transport mode)
+int walk_on(const struct walk *w, struct departure from, struct vertex *path, int n, int max_vertices,
+            enum transport mode)
 {
     double first = rgb_max(from.beta);
     while (n < max_vertices) {
@@ -156,7 +144,7 @@ static int random_walk(const struct walk *w, struct departure from, struct verte
             break;
         path[n].lamp = lamp;
         n++;
-        if (n == max_vertices || !depart(w, &path[n - 1], mode, &from))
+        if (n == max_vertices || !walk_leave(w, &path[n - 1], mode, &from))
             break;
         path[n - 1].pdf_rev = from.pdf_rev;
         if (n > 2 && !survives(w, rgb_max(from.beta) / first, &from.beta))
@@ -182,7 +170,7 @@ int path_eye(const struct walk *w, double px, double py, struct vertex *path, in
      * [PBRT3 16.1.1] */
     double x, y;
     from.pdf = camera_project(camera, from.ray.o, from.ray.d, &x, &y);
-    return random_walk(w, from, path, 1, max_vertices, RADIANCE);
+    return walk_on(w, from, path, 1, max_vertices, RADIANCE);
 }
 
 int path_eye_pixel(const struct walk *w, int x, int y, struct vertex *path, int max_vertices,
@@ -210,64 +198,5 @@ int path_light(const struct walk *w, struct vertex *path, int max_vertices)
     path[0].beta = light_Le(&w->scene->lights, &at, from.ray.d); /* not a throughput: nothing connects to this y_0 */
     from.beta = rgb_scale(emitted, 1 / (at.pdf * pdf)); /* alpha_2 of [V97 eq. 10.6] */
     from.ray.tmin = ray_margin(from.ray.o);
-    return random_walk(w, from, path, 1, max_vertices, IMPORTANCE);
-}
-
-/* --- light sub-paths on given vertices --------------------------------------------------------------- */
-
-/* Leave y_0, or a surface by a lobe that is not delta, in a given direction. */
-static bool depart_towards(const struct walk *w, struct vertex *v, vec3 wi, struct departure *out)
-{
-    const struct light_set *lights = &w->scene->lights;
-    struct departure from = {.ray = {v->p, wi, ray_margin(v->p), INFINITY, v->prim_id, 0}};
-    if (v->kind == VERTEX_LIGHT) {
-        struct light_point at = vertex_light_point(v);
-        bool area = lights->light[v->light].kind == LIGHT_AREA;
-        v->beta = light_Le(lights, &at, wi);
-        from.pdf = light_pdf_emission(lights, &at, wi);
-        from.beta = rgb_scale(v->beta, (area ? abs_dot(v->ng, wi) : 1) / (v->pdf_fwd * from.pdf));
-    } else {
-        struct bsdf_value b = bsdf_eval(&v->bsdf, v->wo, wi, IMPORTANCE);
-        from.pdf = b.pdf;
-        from.pdf_rev = v->pdf_rev = b.pdf_rev;
-        from.beta = rgb_mul(v->beta, rgb_scale(b.f, scatter_cosine(v, wi, IMPORTANCE) / b.pdf));
-    }
-    *out = from;
-    return from.pdf > 0 && !rgb_is_black(from.beta) && rgb_is_finite(from.beta);
-}
-
-int path_light_follow(const struct walk *w, const struct path_stop *stop, int n, struct vertex *path)
-{
-    struct departure from;
-    path[0] = stop[0].v;
-    for (int i = 1; i < n; i++) {
-        struct vertex *prev = &path[i - 1], *v = &path[i];
-        bool parallel = vertex_at_infinity(w->scene, prev);
-        vec3 d = parallel ? neg(prev->wo) : sub(stop[i].v.p, prev->p);
-        double d2 = length2(d);
-        d = mul(d, 1 / sqrt(d2));
-        if (!(stop[i - 1].delta ? depart(w, prev, IMPORTANCE, &from) : depart_towards(w, prev, d, &from)))
-            return i;
-        prev->pdf_rev = from.pdf_rev;
-        from.ray.d = d;
-        *v = stop[i].v;
-        v->prev_delta = from.delta;
-        v->wo = neg(d);
-        v->beta = from.beta;
-        v->pdf_rev = 0;
-        v->length = prev->length + (parallel ? light_distance(&w->scene->lights, v->p, prev->wo) : sqrt(d2));
-        measure(w, v, prev, &from, d2);
-        v->eye_end = LATER_HIT;
-        v->mis_c = n_before(w->counts, &w->scene->lights, prev, v, LATER_HIT);
-    }
-    return n;
-}
-
-int path_light_on(const struct walk *w, struct vertex *path, int n, vec3 wi, int max_vertices, double *pdf)
-{
-    struct departure from;
-    if (!depart_towards(w, &path[n - 1], wi, &from))
-        return n;
-    *pdf = from.pdf;
-    return random_walk(w, from, path, n, max_vertices, IMPORTANCE);
+    return walk_on(w, from, path, 1, max_vertices, IMPORTANCE);
 }

@@ -48,19 +48,27 @@ int path_eye_pixel(const struct walk *w, int x, int y, struct vertex *path, int 
 /* path_light: choose a light, emit, and walk. Returns the number of vertices; 0 when nothing is emitted. */
 int path_light(const struct walk *w, struct vertex *path, int max_vertices);
 
-/* A vertex that a sub-path is to go through again. */
-struct path_stop {
-    struct vertex v; /* its place, and how it scatters */
-    bool delta;      /* it is left by a delta lobe: the one that these numbers choose */
-    double u[3];     /* as the walk draws them: lobe and direction */
+/* --- the walk itself, step by step -------------------------------------------------------------------- */
+
+/* How a walk left its last vertex. */
+struct departure {
+    struct ray ray;
+    rgb beta;       /* throughput on arrival */
+    double pdf;     /* of the direction, 1/sr; of parallel rays from a light or the lens: of the origin, 1/m^2 */
+    double pdf_rev; /* 1/sr, of going from that vertex to the one before it */
+    bool delta;
 };
 
-/* path_light_follow: the light sub-path of n >= 1 vertices on these places, with throughput, densities and weights as
- * if a walk had come there. Visibility is not asked. stop[0] is as vertex_light_end fills it in; of delta lobes the
- * numbers come from the sampler. Returns how many vertices light comes to.
- * path_light_on: go on from n vertices, leaving the last (y_0, no light at infinity, or a surface by a lobe that is
- * not delta) in direction wi, *pdf being that direction's density, 1/sr. Returns the number of vertices. */
-int path_light_follow(const struct walk *w, const struct path_stop *stop, int n, struct vertex *path);
-int path_light_on(const struct walk *w, struct vertex *path, int n, vec3 wi, int max_vertices, double *pdf);
+/* walk_on: go on from n vertices, the last of which has been left. Returns the number of vertices. */
+int walk_on(const struct walk *w, struct departure from, struct vertex *path, int n, int max_vertices,
+            enum transport mode);
+
+/* walk_leave: leave a surface vertex by sampling its BSDF: beta takes up f cos / pdf [V97 10.2]. False if the walk is
+ * absorbed. */
+bool walk_leave(const struct walk *w, const struct vertex *v, enum transport mode, struct departure *out);
+
+/* walk_measure: pdf_fwd of a vertex at distance^2 d2 from `prev`, which was left so, and its mis (mis.h). */
+void walk_measure(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
+                  double d2);
 
 #endif

@@ -163,7 +163,7 @@ static bool remake_lens(struct primary *p, const struct mlt_path *path, const st
         *out = connect_hit(scene, counts, z - 1, z, t);
         return true;
     }
-    if (z->kind != VERTEX_SURFACE || path_light_follow(&w, path->x, s, light) < s)
+    if (z->kind != VERTEX_SURFACE || follow_light(&w, path->x, s, light) < s)
         return false;
     struct light_point at = vertex_light_point(&path->x[0].v);
     at.pdf = path->x[0].v.pdf_fwd;
@@ -180,7 +180,7 @@ static bool remake_caustic(struct primary *p, const struct mlt_path *path, const
     int k = to->s = path->k, n = path->l + 1;
     to->t = 1;
     put(p, LENS_NUMBERS, path->lens, 2);
-    if (path_light_follow(&w, path->x, n, light) < n || path_light_on(&w, light, n, move->wi, k, pdf) < k ||
+    if (follow_light(&w, path->x, n, light) < n || follow_on(&w, light, n, move->wi, k, pdf) < k ||
         !all_delta(light, n + 1, k))
         return false;
     *out = connect_lens(p->chain->job->scene, &p->chain->all->frozen.counts, light, k, &p->sampler[LENS_NUMBERS]);

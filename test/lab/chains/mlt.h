@@ -2,6 +2,7 @@
 #ifndef ASBDPT_MLT_H
 #define ASBDPT_MLT_H
 
+#include "chains/follow.h"
 #include "chains/primary.h"
 
 enum mlt_perturbation { LENS_PERTURBATION, CAUSTIC_PERTURBATION, MLT_PERTURBATIONS };

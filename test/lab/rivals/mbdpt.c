@@ -20,8 +20,8 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-#include "integrators/pooled.h"
 #include "integrators/services.h"
+#include "rivals/together.h"
 
 /* A sub-path in order of its first vertices. */
 struct ranked {
@@ -125,11 +125,15 @@ static const struct field PARAMETERS[] = {
     {"key", FIELD_WORD, offsetof(struct mbdpt_state, throughput), 0, 0, 0, "what sub-paths are sorted by", KEYS},
     {.name = NULL}};
 
+static void render(const struct preparation *m, const struct tile_pass *pass)
+{
+    together_render(m, pass, connect_all);
+}
+
 const struct method method_mbdpt = {
     .name = "mbdpt", .help = "matrix BDPT [Chaitanya 2018]: pairs of sorted sub-paths, stratified",
     .why = "one of the tile's K light sub-paths for each strategy, by a shifted lattice over eye and light sub-paths "
            "sorted by length or throughput, each equally likely; scale 1",
     .parameters = PARAMETERS, .services = {.emission = 1, .tile = DEFAULT_TILE_SIZE, .spread = 1},
     .prepare = services_prepare, .state_size = sizeof(struct mbdpt_state), .scratch_size = sizeof(struct light_pool),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .render = pooled_render, .scratch_free = light_pool_free,
-    .connect_all = connect_all};
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .render = render, .scratch_free = light_pool_free};

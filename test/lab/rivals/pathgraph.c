@@ -23,6 +23,7 @@
 #include <stdlib.h>
 
 #include "rivals/reuse.h"
+#include "rivals/together.h"
 
 enum { LARGEST_CLUSTER = 64, ALONE = 6 };
 
@@ -74,7 +75,7 @@ static void draw_light(struct pixel_sample *sample, struct node *node)
     double at_light = (light->kind == LIGHT_AREA ? abs_dot(l.at.n, node->w) : 1) / (parallel ? 1 : d2);
     double density = pmf * l.at.pdf_cell / at_light;
     if (rgb_is_black(Le) || !(at_light > 0) || !bsdf_may_scatter(&z->bsdf, z->wo, node->w) ||
-        !lit_visible(sample->scene, &l))
+        !reuse_sees(sample->scene, &l))
         return;
     bool delta = light_is_delta(light);
     node->length = z->length + (parallel ? light_distance(lights, z->p, node->w) : sqrt(d2));
@@ -266,9 +267,13 @@ static const struct field PARAMETERS[] = {
     {"radius", FIELD_NUMBER, AT(radius), 0.05, 1e-6, 10, "how far apart they may be, in radii of the scene", NULL},
     {.name = NULL}};
 
+static void render(const struct preparation *m, const struct tile_pass *pass)
+{
+    together_render(m, pass, connect_all);
+}
+
 const struct method method_pathgraph = {
     .name = "pathgraph", .merges = true,
     .help = "path graphs [Deng 2021]: pt whose vertices share what lights them with others; biased",
     .parameters = PARAMETERS, .state_size = sizeof(struct pathgraph_state), .scratch_size = sizeof(struct light_pool),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = reuse_prepare, .render = pooled_render,
-    .connect_all = connect_all};
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = reuse_prepare, .render = render};

@@ -21,6 +21,7 @@
 #include <stddef.h>
 
 #include "rivals/reuse.h"
+#include "rivals/together.h"
 
 struct restir_state {
     struct frozen frozen;
@@ -56,7 +57,7 @@ static struct reservoir resample(struct pooled_pixel *p, int M)
             own = f;
         }
     }
-    if (own > 0 && lit_visible(p->sample.scene, &r.y))
+    if (own > 0 && reuse_sees(p->sample.scene, &r.y))
         r.weight = sum / (M * own);
     return r;
 }
@@ -83,7 +84,7 @@ static void reuse(struct pooled_pixel *pixel, const struct reservoir *all, const
         return;
     for (int k = 0; k < n; k++) {
         double f = value_at(scene, &pixel[near[k]].eye[1], &all[near[from]], &l);
-        others += f > 0 && lit_visible(scene, &l) ? f : 0;
+        others += f > 0 && reuse_sees(scene, &l) ? f : 0;
     }
     double m = value_at(scene, &pixel[near[from]].eye[1], &all[near[from]], &l) / others;
     struct connection made = connect_lit(scene, c->sample.counts, &kept);
@@ -126,8 +127,12 @@ static const struct field PARAMETERS[] = {
     {"credit", FIELD_NUMBER, AT(credit), 4, 1e-3, 1e6, "samples that one kept counts for in the weights", NULL},
     {.name = NULL}};
 
+static void render(const struct preparation *m, const struct tile_pass *pass)
+{
+    together_render(m, pass, connect_all);
+}
+
 const struct method method_restir = {
     .name = "restir", .help = "reservoirs [Bitterli 2020]: light points resampled, and shared with pixels nearby",
     .parameters = PARAMETERS, .state_size = sizeof(struct restir_state), .scratch_size = sizeof(struct light_pool),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render, .scratch_free = light_pool_free,
-    .connect_all = connect_all};
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = render, .scratch_free = light_pool_free};

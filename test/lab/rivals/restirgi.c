@@ -23,6 +23,7 @@
 #include <stddef.h>
 
 #include "rivals/reuse.h"
+#include "rivals/together.h"
 
 struct restirgi_state {
     struct frozen frozen;
@@ -96,7 +97,7 @@ static void offer_point(struct pooled_pixel *p, struct reservoir *r, const struc
     const struct scene *scene = p->sample.scene;
     struct lit l;
     if (p->sample.max_depth < 2 ||
-        !connect_light_point(scene, p->sample.counts, z, &p->sample.sampler, 0, 1, &l) || !lit_visible(scene, &l))
+        !connect_light_point(scene, p->sample.counts, z, &p->sample.sampler, 0, 1, &l) || !reuse_sees(scene, &l))
         return;
     const struct light *light = &scene->lights.light[l.at.light];
     bool parallel = light_at_infinity(light), delta = light_is_delta(light);
@@ -223,8 +224,12 @@ static const struct field PARAMETERS[] = {
      "pixels whose second vertices it shares", NULL},
     {.name = NULL}};
 
+static void render(const struct preparation *m, const struct tile_pass *pass)
+{
+    together_render(m, pass, connect_all);
+}
+
 const struct method method_restirgi = {
     .name = "restirgi", .help = "reservoirs [Ouyang 2021]: second vertices resampled, and shared with pixels nearby",
     .parameters = PARAMETERS, .state_size = sizeof(struct restirgi_state), .scratch_size = sizeof(struct light_pool),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = reuse_prepare, .render = pooled_render,
-    .connect_all = connect_all};
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = reuse_prepare, .render = render};

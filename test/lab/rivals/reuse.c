@@ -57,6 +57,13 @@ struct connection reuse_hit(const struct pixel_sample *sample, const struct vert
     return connect_hit(sample->scene, sample->counts, prev, &at, t);
 }
 
+bool reuse_sees(const struct scene *scene, const struct lit *l)
+{
+    return light_at_infinity(&scene->lights.light[l->at.light])
+               ? scene_lit_from(scene, l->z->p, l->z->prim_id, l->at.w)
+               : scene_lit(scene, l->z->p, l->z->prim_id, l->at.p, l->at.prim_id);
+}
+
 void reuse_prepare(const struct render_job *job, struct preparation *out)
 {
     struct frozen *f = out->state;

@@ -35,6 +35,9 @@ static inline double reuse_hit_density(const struct vertex *z)
     return z->pdf_origin / z->pdf_fwd;
 }
 
+/* reuse_sees: does z see the light's point? */
+bool reuse_sees(const struct scene *scene, const struct lit *l);
+
 /* reuse_add: a connection, s <= 1, that others' sub-paths have part in, times `scale`. */
 static inline void reuse_add(struct pixel_sample *sample, const struct connection *c, int s, int t, double scale)
 {

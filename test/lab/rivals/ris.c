@@ -27,6 +27,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "transport/emit.h"
+
 const char *const RIS_WEIGHTS[] = {"counts", "nabata", NULL};
 static const double EPSILON = 1e-3; /* no draw counts for more than a thousand */
 
@@ -118,6 +120,13 @@ static double to_area(const struct scene *scene, const struct vertex *before, co
     return v->kind == VERTEX_ESCAPED ? cosine : cosine / length2(sub(v->p, before->p));
 }
 
+/* Where two sub-paths are joined: the last vertex of one, the vertex before it, and what of the former the other end
+ * decides: its density in the other walk, measured as its pdf_fwd, and that, 1/sr, of going on to the vertex before. */
+struct path_end {
+    const struct vertex *v, *before;
+    double pdf_other, pdf_rev;
+};
+
 /* Sums over the strategies of one side, relative to one sample of the own. */
 struct sums {
     double plain, lens; /* by the counts of mis.h: all but t = 1, and t = 1 */
@@ -126,7 +135,7 @@ struct sums {
 
 static void count(const struct ris *r, struct sums *a, double ratio, double plain, double N)
 {
-    a->plain += mis_raise(&r->counts, ratio * plain);
+    a->plain += mis_raise(r->counts, ratio * plain);
     a->N += ratio * N;
 }
 
@@ -142,7 +151,7 @@ static void sum_light_side(const struct ris *r, const struct path_end *end, stru
         }
         bool direct = v[-1].kind == VERTEX_LIGHT;
         if (!passed && !v->prev_delta)
-            count(r, a, ratio, direct ? 1 : r->counts.connect[LATER_HIT], direct ? 1 : r->light_n[v - r->pool.vertex]);
+            count(r, a, ratio, direct ? 1 : r->counts->connect[LATER_HIT], direct ? 1 : r->light_n[v - r->pool.vertex]);
         passed = v->prev_delta;
         pdf_other = pdf_rev * to_area(r->scene, &v[-1], v);
         pdf_rev = v[-1].pdf_rev;
@@ -159,7 +168,7 @@ static void sum_eye_side(struct ris *r, int s, const struct path_end *end, doubl
         ratio *= pdf_other / v->pdf_fwd;
         if (before->kind == VERTEX_LENS) {
             if (!passed && !v->prev_delta)
-                a->lens = mis_raise(&r->counts, ratio * r->counts.splat);
+                a->lens = mis_raise(r->counts, ratio * r->counts->splat);
             return;
         }
         if (!passed && !v->prev_delta && light)
@@ -171,7 +180,7 @@ static void sum_eye_side(struct ris *r, int s, const struct path_end *end, doubl
             struct sight *known = &r->sight[before - lens];
             if (memcmp(&known->x, &before->p, sizeof known->x) != 0 || memcmp(&known->y, &v->p, sizeof known->y) != 0)
                 *known = look(r, before, v);
-            count(r, a, ratio, r->counts.connect[LATER_HIT], worth_edge(r, known, L, v, wo));
+            count(r, a, ratio, r->counts->connect[LATER_HIT], worth_edge(r, known, L, v, wo));
         }
         if (light)
             L = emitted(r->scene, v, v->wo);
@@ -184,9 +193,9 @@ static void sum_eye_side(struct ris *r, int s, const struct path_end *end, doubl
     }
 }
 
-static double weigh(void *context, int s, const struct path_end *y, const struct path_end *z)
+/*   s  0: y is NULL, z is on the light; 1: y is y_0; else 2: of s >= 2 */
+static double weigh(struct ris *r, int s, const struct path_end *y, const struct path_end *z)
 {
-    struct ris *r = context;
     struct sums a = {0, 0, 0};
     double own = s == 2 ? r->own : 1, all = s == 2 ? r->all : 1, L = 0;
     vec3 w = neg(z->v->wo);
@@ -196,8 +205,55 @@ static double weigh(void *context, int s, const struct path_end *y, const struct
         L = s == 1 ? emitted(r->scene, y->v, w) : r->light_L[y->v - r->pool.vertex] * kept(y->v, y->v->wo, w);
     }
     sum_eye_side(r, s, z, L, neg(w), &a);
-    a.plain += mis_raise(&r->counts, s == 2 ? r->counts.connect[LATER_HIT] : 1);
+    a.plain += mis_raise(r->counts, s == 2 ? r->counts->connect[LATER_HIT] : 1);
     return own / (all + a.N) * a.plain / (a.plain + a.lens);
+}
+
+struct connection ris_hit(struct ris *r, const struct vertex *prev, const struct vertex *z, int t)
+{
+    struct connection c = connect_hit(r->scene, r->counts, prev, z, t);
+    if (t == 2 || rgb_is_black(c.value))
+        return c;
+    const struct vertex *end = z->lamp != NULL ? z->lamp : z;
+    bool escaped = end->kind == VERTEX_ESCAPED;
+    struct light_point at = vertex_light_point(end);
+    if (escaped) {
+        at.light = -1;
+        at.w = neg(end->wo);
+    }
+    double pdf_emit = emit_pdf(r->counts, &r->scene->lights, &at, escaped ? prev->p : end->p, end->wo);
+    const struct path_end z_end = {end, prev, end->pdf_origin, pdf_emit};
+    c.weight = weigh(r, 0, NULL, &z_end);
+    return c;
+}
+
+struct connection ris_lit(struct ris *r, const struct lit *l)
+{
+    const struct vertex *z = l->z;
+    const struct light_set *lights = &r->scene->lights;
+    struct connection c = connect_lit(r->scene, r->counts, l);
+    struct vertex y;
+    if (rgb_is_black(c.value))
+        return c;
+    bool parallel = light_at_infinity(&lights->light[l->at.light]);
+    vec3 d = parallel ? l->at.w : sub(l->at.p, z->p);
+    double d2 = length2(d);
+    vec3 w = mul(d, 1 / sqrt(d2));
+    vertex_light_end(r->scene, r->counts, &l->at, &y);
+    double pdf_z = emit_pdf(r->counts, lights, &l->at, z->p, neg(w)) * abs_dot(z->ng, w) * (parallel ? 1 : 1 / d2);
+    const struct path_end y_end = {&y, NULL, l->pdf_z * l->at_light, 0}, z_end = {z, z - 1, pdf_z, l->pdf_rev_z};
+    c.weight = weigh(r, 1, &y_end, &z_end);
+    return c;
+}
+
+struct connection ris_joint(struct ris *r, const struct joint *j)
+{
+    struct connection c = connect_joint(r->scene, r->counts, j);
+    const struct path_end y_end = {j->y, j->y - 1, j->pdf_z * j->area_y, j->pdf_rev_y};
+    const struct path_end z_end = {j->z, j->z - 1, j->pdf_y * j->area_z, j->pdf_rev_z};
+    if (!rgb_is_black(c.value))
+        c.weight = weigh(r, 2, &y_end, &z_end);
+    return c;
 }
 
 /* --- an iteration ------------------------------------------------------------------------------------ */
@@ -270,6 +326,18 @@ void ris_begin(void *scratch, const void *state, const struct tile_pass *pass, l
     weigh_light_paths(r);
 }
 
+static void join(struct ris *r, struct pooled_pixel *p, const struct candidate *c, const struct vertex *z, int t,
+                 struct choice choice)
+{
+    struct joint j;
+    struct connection made = {.weight = 0};
+    if (c->s + t > p->sample.max_depth + 2)
+        return;
+    if (connect_join(c->y, z, &j))
+        made = ris_joint(r, &j);
+    pixel_add(&p->sample, &made, c->s, t, c->y, z, choice);
+}
+
 /* One draw; N of its technique, and of all of its strategy, are left for `weigh`. */
 void ris_draw(void *scratch, const void *state, struct pooled_pixel *pixel, const struct vertex *z, int t)
 {
@@ -291,8 +359,45 @@ void ris_draw(void *scratch, const void *state, struct pooled_pixel *pixel, cons
         P = each * (which < m.m ? m.record[which]->h[v] / m.record[which]->sum : 1.0 / V);
     }
     const struct choice choice = {P, u / (P * r->K)};
-    if (P > 0) /* a record that met nothing has nothing to offer */
+    if (P > 0 && s->nabata)
+        join(r, pixel, c, z, t, choice);
+    else if (P > 0) /* a record that met nothing has nothing to offer */
         pooled_join(pixel, c, z, t, choice);
+}
+
+/* As pixel_sum_eye. */
+static void sum_eye(struct ris *r, struct pooled_pixel *p)
+{
+    for (int t = 2; t <= p->n; t++) {
+        const struct vertex *z = &p->eye[t - 1];
+        struct connection hit = ris_hit(r, z - 1, z, t), lit = {.weight = 0};
+        struct lit l;
+        pixel_add(&p->sample, &hit, 0, t, NULL, z, NO_CHOICE);
+        if (z->kind != VERTEX_SURFACE || t > p->sample.max_depth + 1)
+            continue;
+        if (connect_light_point(r->scene, r->counts, z, &p->sample.sampler, 0, 1, &l))
+            lit = ris_lit(r, &l);
+        pixel_add(&p->sample, &lit, 1, t, NULL, z, NO_CHOICE);
+    }
+}
+
+void ris_render(const struct preparation *m, const struct tile_pass *pass)
+{
+    struct ris *r = pass->work->scratch;
+    if (!r->state->nabata) {
+        pooled_render(m, pass);
+        return;
+    }
+    for (long iteration = pass->first; iteration < pass->end; iteration++) {
+        pooled_fill(m, pass, iteration);
+        for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
+            arena_reset(&pass->work->arena);
+            struct pooled_pixel p = pooled_begin(m, pass, x, y, i, iteration);
+            sum_eye(r, &p);
+            pooled_connect(m, pass, &p);
+            pooled_end(m, pass, &p);
+        }
+    }
 }
 
 /* --- the row ----------------------------------------------------------------------------------------- */
@@ -302,11 +407,7 @@ void ris_scratch_init(void *scratch, const void *state)
     struct ris *r = scratch;
     r->state = state;
     r->sight = mem_alloc((size_t)r->state->frozen.max_depth + 2, sizeof *r->sight);
-    r->counts = r->state->frozen.counts;
-    r->weigher.context = r;
-    r->weigher.weigh = weigh;
-    r->counts.weigher = r->state->nabata ? &r->weigher : NULL;
-    r->pool.counts = &r->counts;
+    r->counts = &r->state->frozen.counts;
 }
 
 void ris_scratch_free(void *scratch)
@@ -345,5 +446,5 @@ const struct method method_ris = {
     .why = "one draw for each eye vertex from the tile's light vertices, by one of the records nearby or uniformly; "
            "scale 1 / (K P)",
     .parameters = PARAMETERS, .state_size = sizeof(struct ris_state), .scratch_size = sizeof(struct ris),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = ris_prepare, .render = pooled_render,
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = ris_prepare, .render = ris_render,
     .scratch_init = ris_scratch_init, .scratch_free = ris_scratch_free, .begin = ris_begin, .draw = ris_draw};

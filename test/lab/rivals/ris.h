@@ -26,8 +26,7 @@ struct ris {
     struct records records, previous;
     struct arena arena;      /* of the first stage, and of the light sub-paths' L and n */
     double *light_L, *light_n; /* [pool.used] see ris.c; of these K */
-    struct mis_counts counts;
-    struct weigher weigher;
+    const struct mis_counts *counts;
     double own, all; /* n of the technique, and of all techniques of the strategy, that is being taken */
     struct sight *sight; /* [max_depth + 2] */
 };
@@ -37,6 +36,15 @@ void ris_scratch_free(void *scratch);
 void ris_prepare(const struct render_job *job, struct preparation *out);
 void ris_begin(void *scratch, const void *state, const struct tile_pass *pass, long iteration);
 void ris_draw(void *scratch, const void *state, struct pooled_pixel *pixel, const struct vertex *z, int t);
+
+/* ris_hit, ris_lit, ris_joint: as connect_hit, connect_lit and connect_joint, with the weights of ris.c; ris_joint
+ * takes r->own and r->all for n. */
+struct connection ris_hit(struct ris *r, const struct vertex *prev, const struct vertex *z, int t);
+struct connection ris_lit(struct ris *r, const struct lit *l);
+struct connection ris_joint(struct ris *r, const struct joint *j);
+
+/* ris_render: the `render` of ris and ris2. */
+void ris_render(const struct preparation *m, const struct tile_pass *pass);
 
 /* ris_worth: the sum of N of all techniques that join light vertex y of the pool to z. */
 double ris_worth(const struct ris *r, const struct vertex *y, const struct vertex *z);
