@@ -122,7 +122,7 @@ static void test_plans(struct test *t)
     const struct costs costs = {10, {1, 4, 1, 8}}; /* rays */
     static const struct {
         const char *name;
-        struct noise noise; /* total, given_eye, blocks, splats, tail, spread of draws at the first hit, later, lights */
+        struct noise noise; /* total, given_eye, blocks, splats, tail, {draws at the first hit, later, light points} */
         double n[N_KINDS];
         bool pay;
     } cases[] = {

@@ -21,8 +21,8 @@
 
 struct method;
 
-/* What makes any choice among a tile's light sub-paths better, whichever it is (services.h). Each is a parameter of every
- * pooled method, so that it can be said what the choice alone brings. */
+/* What makes any choice among a tile's light sub-paths better, whichever it is (services.h). Each is a parameter of
+ * every pooled method, so that it can be said what the choice alone brings. */
 struct services {
     int guide, credit, pilot; /* off or on */
     double emission;          /* share of rays from lights that go by power alone; 1: all */

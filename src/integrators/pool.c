@@ -77,7 +77,8 @@ static void connect(void *scratch, const void *state, struct pooled_pixel *p)
 static void prepare(const struct render_job *job, struct preparation *out)
 {
     const struct pool_state *s = out->state;
-    const struct learn_options own = {.importance = s->metric == METRIC_IMPORTANCE, .light_cells = s->grid, .levels = 1};
+    const struct learn_options own = {.importance = s->metric == METRIC_IMPORTANCE, .light_cells = s->grid,
+                                      .levels = 1};
     services_learn(job, out, own);
     services_settle(job, out);
 }
@@ -95,6 +96,7 @@ const struct method method_pool = {
     .why = "alias table over the K light sub-paths of the tile, one bin for each pixel; q_k = (1 - delta) I_k / sum I "
            "+ delta / K, I the sub-path's importance; scale 1 / (K q)",
     .parameters = PARAMETERS,
-    .services = {.guide = true, .emission = 1, .tile = DEFAULT_TILE_SIZE, .spread = POOL_SPREAD}, .state_size = sizeof(struct pool_state), .scratch_size = sizeof(struct pool),
+    .services = {.guide = true, .emission = 1, .tile = DEFAULT_TILE_SIZE, .spread = POOL_SPREAD},
+    .state_size = sizeof(struct pool_state), .scratch_size = sizeof(struct pool),
     .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
     .render = pooled_render, .scratch_free = free_scratch, .begin = begin, .connect = connect};

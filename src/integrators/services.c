@@ -51,7 +51,8 @@ static void set_numbers(const struct render_job *job, struct frozen *f, const st
     f->path_pixels = f->given.path_pixels > 0 ? f->given.path_pixels : paths > 0 ? (int)(1 / paths + 0.5) : 0;
     c->splat = f->path_pixels > 0 ? pixel_light_count(job) / f->path_pixels : 0;
     for (int end = 0; end < EYE_ENDS; end++) {
-        f->draws[end] = f->given.connections > 0 ? f->given.connections : p->n[end == FIRST_HIT ? DRAW_FIRST : DRAW_LATER];
+        f->draws[end] = f->given.connections > 0 ? f->given.connections
+                                                 : p->n[end == FIRST_HIT ? DRAW_FIRST : DRAW_LATER];
         c->connect[end] = f->path_pixels > 0 ? b->counts.connect[end] * f->draws[end] / b->draws[end] : 0;
     }
 }

@@ -111,7 +111,8 @@ static void prepare(const struct render_job *job, struct preparation *out)
 {
     const struct vertices_state *s = out->state;
     struct frozen *f = out->state;
-    const struct learn_options own = {.importance = s->metric == METRIC_IMPORTANCE, .light_cells = s->grid, .levels = 1};
+    const struct learn_options own = {.importance = s->metric == METRIC_IMPORTANCE, .light_cells = s->grid,
+                                      .levels = 1};
     services_learn(job, out, own);
     int C = f->given.connections > 0 ? f->given.connections
             : own.importance         ? choose_connections(&f->tables.importance)
@@ -144,6 +145,7 @@ const struct method method_vertices = {
     .why = "C draws for each eye vertex from an alias table over the connectible vertices of the tile's K light "
            "sub-paths, q in proportion to luminance(beta) n(x); scale 1 / (C K q)",
     .parameters = PARAMETERS,
-    .services = {.guide = true, .emission = 1, .tile = DEFAULT_TILE_SIZE, .spread = POOL_SPREAD}, .state_size = sizeof(struct vertices_state), .scratch_size = sizeof(struct vertices),
+    .services = {.guide = true, .emission = 1, .tile = DEFAULT_TILE_SIZE, .spread = POOL_SPREAD},
+    .state_size = sizeof(struct vertices_state), .scratch_size = sizeof(struct vertices),
     .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
     .render = pooled_render, .scratch_free = free_scratch, .begin = begin, .draw = draw};

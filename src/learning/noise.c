@@ -249,7 +249,8 @@ static bool add_tile(void *context, int64_t number, int slot)
     m->sums.tail += s->tail;
     for (int k = 0; k < LIGHT_PATH; k++)
         m->sums.spread[k] += s->spread[k];
-    m->stopped = job->watch != NULL && !job->watch(job->watch_context, RENDERS * (double)(number + 1) * sqr(m->probe->size.tile));
+    double traced = RENDERS * (double)(number + 1) * sqr(m->probe->size.tile);
+    m->stopped = job->watch != NULL && !job->watch(job->watch_context, traced);
     return !m->stopped;
 }
 

@@ -5,8 +5,8 @@
  * and A is the variance that the eye sub-path brings. The product of both, which is the squared error at equal time, is
  * smallest for
  *     n_c = sqrt(b_c / k_c) sqrt(k / A).
- * Costs are counted in rays, not in seconds: the choice must be the same on every machine. The same product says whether
- * light sub-paths pay at all. [Grittmann 2022] chooses among given candidates by it.
+ * Costs are counted in rays, not in seconds: the choice must be the same on every machine. The same product says
+ * whether light sub-paths pay at all. [Grittmann 2022] chooses among given candidates by it.
  *
  * Pure functions: of numbers, to numbers. Tests: test_pilot.c.
  */
