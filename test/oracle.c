@@ -1,6 +1,7 @@
-/* oracle.c: see oracle.h. Densities p_i = n_i prod (densities of light vertices) prod (densities of eye vertices), each
- * per unit area, multiplied out one strategy at a time; nothing is shared with mis.h but the sample counts.
- * [V97 10.2] */
+/* oracle.c: the balance heuristic as it is defined: w_s = p_s / sum_i p_i, with
+ *     p_i = n_i prod (densities of light vertices) prod (densities of eye vertices),                       [V97 10.2]
+ * each per unit area, multiplied out one strategy at a time. What mis.h computes in O(1) is this; nothing is shared
+ * with it but the sample counts. */
 #include "oracle.h"
 
 #include "transport/counts.h"

@@ -2,6 +2,7 @@
 #include "geometry/shape.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/mem.h"
 #include "base/warp.h"
@@ -206,9 +207,9 @@ static struct triangle triangle_of(const struct geometry *geo, int prim)
         load_corners(geo->N, index, tri.n);
     if (group->has_s)
         load_corners(geo->S, index, tri.s);
-    for (size_t i = 0; i < 3; i++)
-        for (size_t k = 0; k < 2; k++)
-            tri.uv[i][k] = group->has_uv ? geo->UV[2 * (size_t)index[i] + k] : default_uv[i][k];
+    memcpy(tri.uv, default_uv, sizeof tri.uv);
+    for (size_t i = 0; group->has_uv && i < 6; i++)
+        tri.uv[i / 2][i % 2] = geo->UV[2 * (size_t)index[i / 2] + i % 2];
     tri.has_n = group->has_n;
     tri.has_s = group->has_s;
     tri.flip = group->flip;

@@ -113,10 +113,12 @@ bool scene_intersect(const struct scene *s, const struct ray *ray, struct surfac
 bool scene_lamp(const struct scene *s, const struct ray *ray, const struct surface *end, struct surface *out)
 {
     struct hit hit;
+    if (s->kd_lamps.n_nodes == 0)
+        return false;
     struct ray before = *ray;
     if (end != NULL)
         before.tmax = length(sub(end->p, ray->o)) + ray_margin(end->p);
-    if (s->kd_lamps.n_nodes == 0 || !kd_closest(&s->kd_lamps, &s->geo, &before, &hit))
+    if (!kd_closest(&s->kd_lamps, &s->geo, &before, &hit))
         return false;
     shape_surface(&s->geo, &hit, ray, out);
     return true;
@@ -124,9 +126,11 @@ bool scene_lamp(const struct scene *s, const struct ray *ray, const struct surfa
 
 bool scene_lamp_stops(const struct scene *s, const struct ray *ray, const struct surface *end)
 {
+    if (s->kd_lamps.n_nodes == 0)
+        return false;
     struct ray before = *ray;
     before.tmax = length(sub(end->p, ray->o)) - ray_margin(end->p);
-    return s->kd_lamps.n_nodes > 0 && kd_occluded(&s->kd_lamps, &s->geo, &before);
+    return kd_occluded(&s->kd_lamps, &s->geo, &before);
 }
 
 /* Is a surface on the ray, or, if the light is `emitted`, a see-through lamp? */

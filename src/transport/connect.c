@@ -45,7 +45,7 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
         return nothing();
     }
     struct connection c = nothing();
-    c.value = rgb_mul(z->beta, Le);
+    c.value = rgb_mul(z->beta, Le); /* C* = alpha_t Le [V97 10.2] */
     c.length = z->length;
     c.light = at.light < 0 ? lights->infinite[0] : at.light;
     if (rgb_is_black(c.value))
@@ -61,8 +61,8 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
         before = n_direct(counts, lights, prev->eye_region, prev->eye_end, z->cell, neg(z->wo));
     /* density of the light sub-path's direction (or origin, at infinity) from here */
     double pdf_emit = emit_pdf(counts, lights, &at, start, z->wo);
-    double eye_side = mis_side(counts, z->pdf_origin, z->pdf_fwd, before, pdf_emit, z->mis);
-    c.weight = mis_weight(counts, counts->hit[prev->eye_end], 0, eye_side);
+    double eye_side = mis_side(counts, z->pdf_origin, z->pdf_fwd, before, pdf_emit, z->mis); /* mis.h (5) */
+    c.weight = mis_weight(counts, counts->hit[prev->eye_end], 0, eye_side); /* mis.h (7), A_light being 0 */
     return c;
 }
 
@@ -86,6 +86,7 @@ bool connect_light(const struct scene *scene, const struct vertex *z, const stru
     double spread = parallel ? 1 : 1 / d2;
     /* area or solid angle at y_0 per steradian at z */
     double at_light = light->kind == LIGHT_AREA ? abs_dot(at->n, w) * spread : spread;
+    /* C* = (Le / pdf) c alpha_t, c = G f: the cosine at z is in the factor [V97 10.2] */
     rgb value = rgb_mul(rgb_mul(z->beta, at_z.factor), rgb_scale(Le, at_light / pdf));
     struct lit l = {z, *at, pdf, value, at_z.pdf, at_z.pdf_rev, at_light};
     *out = l;
@@ -133,7 +134,7 @@ struct connection connect_lit(const struct scene *scene, const struct mis_counts
     struct vertex y;
     vertex_light_end(scene, counts, at, &y);
     double hit = light_is_delta(&lights->light[at->light]) ? 0 : counts->hit[z->eye_end];
-    double light = mis_side(counts, l->pdf_z * l->at_light, y.pdf_fwd, hit, 0, 0);
+    double light = mis_side(counts, l->pdf_z * l->at_light, y.pdf_fwd, hit, 0, 0); /* mis.h (5): of s = 0 alone */
     double pdf_z = emit_pdf(counts, lights, at, z->p, neg(w)) * abs_dot(z->ng, w) * (parallel ? 1 : 1 / d2);
     double eye = mis_side(counts, pdf_z, z->pdf_fwd, z->mis_c, l->pdf_rev_z, z->mis);
     double count = n_direct(counts, lights, z->eye_region, z->eye_end, at->cell, at->w);
@@ -177,10 +178,10 @@ bool connect_join(const struct vertex *y, const struct vertex *z, struct joint *
     if (rgb_is_black(at_z.factor))
         return false;
     struct scatter at_y = scatter_towards(y, neg(w), IMPORTANCE);
+    /* C* = alpha_s c alpha_t, c = f G f: both cosines are in the factors [V97 10.2] */
     rgb value = rgb_mul(rgb_mul(y->beta, at_y.factor), rgb_scale(rgb_mul(z->beta, at_z.factor), 1 / d2));
-    struct joint j = {y, z, value, at_y.pdf, at_z.pdf, at_y.pdf_rev, at_z.pdf_rev, distance,
-                      abs_dot(y->ng, w) / d2, abs_dot(z->ng, w) / d2};
-    *out = j;
+    *out = (struct joint){y, z, value, at_y.pdf, at_z.pdf, at_y.pdf_rev, at_z.pdf_rev, distance,
+                          abs_dot(y->ng, w) / d2, abs_dot(z->ng, w) / d2};
     return !rgb_is_black(value);
 }
 
@@ -190,6 +191,7 @@ struct connection connect_joint(const struct scene *scene, const struct mis_coun
     struct connection c = nothing();
     if (rgb_is_black(j->value) || !scene_visible(scene, z->p, z->prim_id, y->p, y->prim_id))
         return c;
+    /* mis.h (5), of both sides, and (7) */
     double light = mis_side(counts, j->pdf_z * j->area_y, y->pdf_fwd, y->mis_c, j->pdf_rev_y, y->mis);
     double eye = mis_side(counts, j->pdf_y * j->area_z, z->pdf_fwd, z->mis_c, j->pdf_rev_z, z->mis);
     c.value = j->value;
@@ -228,7 +230,7 @@ struct connection connect_lens(const struct scene *scene, const struct mis_count
     if (J == 0 || c.px < -rx || c.py < -ry || c.px > scene->width + rx || c.py > scene->height + ry)
         return nothing();
     struct scatter at_y = scatter_towards(y, neg(w), IMPORTANCE);
-    /* We cos / (lens density) = J, see camera.h. */
+    /* C* = alpha_s f (We cos / lens density) [V97 10.2], and We cos / (lens density) = J, see camera.h. */
     double density = J * camera_spread(&scene->camera, d2);
     c.value = rgb_mul(y->beta, rgb_scale(at_y.factor, density));
     if (rgb_is_black(c.value) || !scene_visible(scene, lens, 0, y->p, y->prim_id))

@@ -1,27 +1,30 @@
 /* mis.h: multiple importance sampling weights of bidirectional path tracing in O(1) per connection.
  *
- * The problem. A path x_0 ... x_k (x_0 on a light, x_k on the lens) can be made by strategies (s,t), s + t = k + 1: its
- * first s vertices come from a light sub-path, the rest from an eye sub-path. With p_s the density of strategy s times
- * the number of samples it takes, the balance heuristic weighs it with w_s = p_s / sum_i p_i           [V97 9.2.2]
+ * The definition. A path x_0 ... x_k (x_0 on a light, x_k on the lens) can be made by strategies (s,t), s + t = k + 1:
+ * its first s vertices come from a light sub-path, the rest from an eye sub-path. With p_s the density of strategy s
+ * times the number of samples it takes, the balance heuristic weighs it with
+ *     (1)  w_s = p_s / sum_i p_i.                                                                      [V97 9.2.2]
+ * test/oracle.c is that definition, slow and plain: each p_i multiplied out, one strategy after the other. Read it
+ * first. This file is its fast form.
  *
  * Ratios. p_i and p_{i+1} differ in one vertex: x_i is sampled from the eye in p_i and from the light in p_{i+1}. So
- *     p_i / p_s = (n_i / n_s) prod_{j=i}^{s-1} R_j / F_j        for i < s,                           [V97 eq. 10.9]
+ *     (2)  p_i / p_s = (n_i / n_s) prod_{j=i}^{s-1} R_j / F_j        for i < s,                   [V97 eq. 10.9]
  * where F_j is the density of x_j in its own (light) walk, R_j the density the other (eye) walk would have, both per
  * area, and n_i the number of samples of strategy i (0 if it cannot make the path, because it would have to connect
  * at a delta vertex [V97 10.3.5]). The eye side, i > s, is the same with the roles exchanged. Over one side the
  * sum obeys
- *     A_e = R_e/F_e (c_e + A_{e-1}),   A_{-1} = 0,
+ *     (3)  A_e = R_e/F_e (c_e + A_{e-1}),   A_{-1} = 0,
  * c_e being the n of the strategy whose sub-path of this side ends just *before* vertex e.
  *
  * Accumulation. When a walk arrives at vertex e, F_e is known but R_e and R_{e-1} depend on what e is connected to. All
  * older terms are known, so a vertex stores
- *     mis_e = g (c_{e-1} + A_{e-2}) / F_{e-1},   g: turns a density per steradian at e into one per area at e-1,
+ *     (4)  mis_e = g (c_{e-1} + A_{e-2}) / F_{e-1},   g: turns a density per steradian at e into one per area at e-1,
  * and a connection to vertex e, with pdf_rev the density per steradian of continuing from e to e-1, needs only
- *     A_e = R_e/F_e (c_e + pdf_rev mis_e).
+ *     (5)  A_e = R_e/F_e (c_e + pdf_rev mis_e).
  * With A_{e-1} = pdf_rev mis_e the walk's own recursion is
- *     mis_{e+1} = g (c_e + pdf_rev mis_e) / F_e,   c_e = 0 if the walk scattered at e by a delta lobe.
+ *     (6)  mis_{e+1} = g (c_e + pdf_rev mis_e) / F_e,   c_e = 0 if the walk scattered at e by a delta lobe.
  * A_e is relative to one sample of strategy s, hence, at the ends of the connection or where the walk ended,
- *     w_s = n_s / (n_s + A_light + A_eye).
+ *     (7)  w_s = n_s / (n_s + A_light + A_eye).
  *
  * Delta lobes have, instead of densities, coefficients of the same delta; they cancel in R/F as densities do (bsdf.h).
  *
@@ -70,7 +73,7 @@ struct mis_counts {
 /* mis_raise: the heuristic's power of a density or count. */
 static inline double mis_raise(const struct mis_counts *c, double x) { return c->power ? x * x : x; }
 
-/* mis_step: the recursion above, from vertex e to e+1.
+/* mis_step: (6), from vertex e to e+1.
  *   c        c_e, or 0 after a delta lobe
  *   pdf_rev  1/sr, continuing from e to e-1
  *   mis, F   of vertex e
@@ -80,14 +83,14 @@ static inline double mis_step(const struct mis_counts *m, double c, double pdf_r
     return mis_raise(m, g) * (mis_raise(m, c) + mis_raise(m, pdf_rev) * mis) / mis_raise(m, F);
 }
 
-/* mis_side: A_e, the sum over the strategies of one side, relative to one sample of strategy s.
+/* mis_side: (5): A_e, the sum over the strategies of one side, relative to one sample of strategy s.
  *   R        density of vertex e in the other walk, same measure as F */
 static inline double mis_side(const struct mis_counts *m, double R, double F, double c, double pdf_rev, double mis)
 {
     return mis_raise(m, R) / mis_raise(m, F) * (mis_raise(m, c) + mis_raise(m, pdf_rev) * mis);
 }
 
-/* mis_weight: w_s from the two sides' sums and the strategy's own count n. */
+/* mis_weight: (7): w_s from the two sides' sums and the strategy's own count n. */
 static inline double mis_weight(const struct mis_counts *m, double n, double light_side, double eye_side)
 {
     double own = mis_raise(m, n);

@@ -6,14 +6,14 @@
 #include "transport/counts.h"
 #include "transport/emit.h"
 
-/* Density per area of the vertex at distance^2 d2 [PBRT3 5.5.3], and the mis recursion; `prev` is where the walk came
- * from. */
+/* Density per area, F_e of mis.h, by the cosine over distance^2 that turns it from one per steradian [PBRT3 5.5.3]; and
+ * equation (6) there. */
 void walk_measure(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
                   double d2)
 {
     bool parallel = vertex_at_infinity(w->scene, prev); /* rays of a light at infinity do not spread */
     double spread = prev->kind == VERTEX_LENS ? camera_spread(&w->scene->camera, d2) : parallel ? 1 : 1 / d2;
-    double at_prev = parallel || prev->kind == VERTEX_LENS ? 1 : abs_dot(prev->ng, from->ray.d) * spread;
+    double at_prev = parallel || prev->kind == VERTEX_LENS ? 1 : abs_dot(prev->ng, from->ray.d) * spread; /* g */
     v->pdf_fwd = from->pdf * abs_dot(v->ng, from->ray.d) * spread;
     v->mis = mis_step(w->counts, from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, at_prev);
 }
@@ -94,12 +94,13 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
     return true;
 }
 
-/* Russian roulette: `kept` is the fraction of the walk's first throughput that is left. False if the walk ends. */
-static bool survives(const struct walk *w, double kept, rgb *beta)
+/* Russian roulette: `left` is the fraction of the walk's first throughput that is left. False if the walk ends.
+ *                                                                                    [Arvo & Kirk 1990], see path.h */
+static bool survives(const struct walk *w, double left, rgb *beta)
 {
-    if (kept >= w->rr_threshold)
+    if (left >= w->rr_threshold)
         return true;
-    double q = sqrt(kept / w->rr_threshold);
+    double q = sqrt(left / w->rr_threshold);
     *beta = rgb_scale(*beta, 1 / q);
     return sampler_number(w->sampler, DRAW_ROULETTE) < q;
 }
@@ -112,6 +113,7 @@ bool walk_leave(const struct walk *w, const struct vertex *v, enum transport mod
     struct bsdf_sample s;
     if (v->bsdf.n_lobes == 0 || !bsdf_sample(&v->bsdf, v->wo, u, mode, &s))
         return false;
+    /* alpha_{i+1} = alpha_i f |cos| / pdf: [V97 eq. 10.6], from the eye [V97 eq. 10.7] */
     out->beta = rgb_mul(v->beta, rgb_scale(s.f, scatter_cosine(v, s.wi, mode) / s.pdf));
     if (rgb_is_black(out->beta) || !rgb_is_finite(out->beta))
         return false;

@@ -149,6 +149,8 @@ void pixel_splat(struct pixel_sample *sample, const struct connection *c, int s,
     const double *radius = sample->scene->filter.radius;
     bool seen = !rgb_is_black(c->value) && gate_holds(sample->tile->gate, c->length);
     rgb added = seen ? rgb_scale(c->value, scale * c->weight) : rgb_black();
+    if (!seen && sample->observer == NULL)
+        return;
     int group = sample->scene->lights.light[y[1 - s].light].group;
     for (int i = 0, n = seen ? camera_images(&sample->scene->camera, radius) : 1; i < n; i++) {
         struct connection image = *c;
