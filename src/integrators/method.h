@@ -87,6 +87,8 @@ struct method {
     void (*draw)(void *scratch, const void *state, struct pooled_pixel *p, const struct vertex *z, int t);
 };
 
+extern const struct method method_bdpt; /* what the others differ from */
+
 /* method_fields: the table of all parameters of a row, its own and services, ended by one without name. */
 enum { METHOD_FIELDS = 24 };
 void method_fields(const struct method *m, struct field out[METHOD_FIELDS]);

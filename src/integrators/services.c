@@ -100,12 +100,41 @@ static void tell(struct preparation *out)
                  f->path_pixels == 1 ? "" : "s");
 }
 
+/* May there be no light sub-paths? */
+static bool free_choice(const struct render_job *job, const struct frozen *f)
+{
+    return f->given.connections == 0 && f->given.path_pixels == 0 && paths_suffice(job->scene);
+}
+
+bool services_paths_matter(const struct render_job *job, struct preparation *out)
+{
+    const double SAMPLES = 0.2; /* of each pixel, by each of the probe's renders */
+    const double LEAST = 0.3;   /* of the variance, what light sub-paths are to save before they are looked into */
+    const double ONE[N_KINDS] = {1, 1, 1, 1};
+    struct frozen *f = out->state;
+    struct preparation bdpt;
+    struct error none;
+    if (!f->services.pilot || !free_choice(job, f) || !method_prepare(&method_bdpt, job, &bdpt, &none))
+        return true;
+    struct workspace *work = workspaces_new(job->n_threads, job->max_depth);
+    const struct probe probe = {job, work, &bdpt, render_with, &((struct frozen *)bdpt.state)->counts, out->size};
+    struct noise noise = noise_measure(&probe, ONE, SAMPLES);
+    bool matter = !(noise.tail < LEAST * noise.total);
+    workspaces_free(work, job->n_threads);
+    method_release(&bdpt);
+    if (!matter) {
+        f->path_pixels = 0;
+        f->counts.connect[FIRST_HIT] = f->counts.connect[LATER_HIT] = f->counts.splat = 0;
+        tell(out);
+    }
+    return matter;
+}
+
 /* Probe, plan. */
 void services_settle(const struct render_job *job, struct preparation *out)
 {
     const double SAMPLES = 1.28; /* of each pixel, by the pilot's renders each */
     struct frozen *f = out->state;
-    bool free_choice = f->given.connections == 0 && f->given.path_pixels == 0 && paths_suffice(job->scene);
     struct probe probe = {job, workspaces_new(job->n_threads, job->max_depth), out, render_with, &f->counts, out->size};
     struct base base = {f->counts, {f->draws[FIRST_HIT], f->draws[LATER_HIT]}, NULL};
     struct credit credit;
@@ -123,7 +152,7 @@ void services_settle(const struct render_job *job, struct preparation *out)
         for (int i = 0; i < job->n_threads; i++)
             method_scratch_free(out, probe.work[i].scratch);
         as_it_is = plan_numbers(&costs, &noise);
-        if (noise.total > 0 && free_choice && !plan_paths_pay(&costs, &noise, &as_it_is))
+        if (noise.total > 0 && free_choice(job, f) && !plan_paths_pay(&costs, &noise, &as_it_is))
             as_it_is.n[LIGHT_PATH] = 0;
         set_numbers(job, f, &base, &as_it_is);
         tell(out);

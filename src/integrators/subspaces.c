@@ -173,13 +173,15 @@ enum { LIGHT_CELLS = 16 }; /* light regions along the diagonal */
 /* Draws are stratified over the pool: the weights count them for more than as many independent samples. */
 static const double DRAW_CREDIT = 2;
 
-/* Learn, probe, plan; then the render. */
+/* Learn, probe, plan; then the render. But first it is asked whether any of that can pay. */
 static void prepare(const struct render_job *job, struct preparation *out)
 {
     const struct subspaces_state *s = out->state;
     struct frozen *f = out->state;
     const struct learn_options own = {.importance = true, .pairs = true, .light_cells = LIGHT_CELLS,
                                       .levels = REGION_LEVELS, .delta = s->delta};
+    if (!services_paths_matter(job, out))
+        return;
     services_learn(job, out, own);
     for (int end = 0; end < EYE_ENDS; end++) {
         f->draws[end] = f->given.connections > 0 ? f->given.connections : end == FIRST_HIT ? 3 : 1;
