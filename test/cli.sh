@@ -41,7 +41,7 @@ refuse() { # PATTERN WORDS...: wrong usage of the program; test_options.c has wh
     expect 2 "$pattern" "$program" "$@"
 }
 # What only the laboratory has is said to be there: all its commands and integrators, as it lists them itself.
-"$lab" --help | sed -n 's/^    \([a-z-]*\)  .*/\1/p' >theirs.list
+"$lab" --help | sed -n 's/^    \([a-z][a-z-]*\)  .*/\1/p' >theirs.list
 check [ "$(wc -l <theirs.list)" = 15 ]
 for command in $(grep -Ev '^(render|merge|convert)$' theirs.list); do
     refuse "^asbdpt: $command is a command of asbdpt-lab; try" $command
@@ -191,7 +191,7 @@ fi
 for wrong in no/such/dir/x.pfm /proc/x.pfm stdout.txt/x.pfm; do
     expect 1 "^asbdpt: $wrong: cannot be created" "$program" render nothing.pbrt -o good.pfm -o $wrong
 done
-expect 1 '^asbdpt: good.ppm/s/probe: cannot be created' "$program" render nothing.pbrt --lights good.ppm/s
+expect 1 '^asbdpt: good.ppm/s/light00_area.pfm: cannot be created' "$program" render "$box" --lights good.ppm/s
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt -o good.pfm
 expect 1 'is odd' "$program" render "$box" $small -P select=bins -P binpaths=7 --integrator asbdpt -o good.pfm
 check [ ! -e good.pfm ]
@@ -312,7 +312,7 @@ check cmp -s scale.pfm s/d00_s00_t02_weighted.pfm
 
 # --- aov
 # --aov: a picture each beside the first, the same for any number of threads and whatever is rendered.
-expect 0 'wrote aov.png, .*, aov.variance.pfm$' "$program" render "$box" --res 16x16 --spp 2 -j 1 \
+expect 0 '^wrote aov.albedo.pfm, .*, aov.variance.pfm$' "$program" render "$box" --res 16x16 --spp 2 -j 1 \
     --aov variance,albedo,normal,depth,position -o aov.png
 expect 0 '' "$program" render "$box" $small --integrator pt -j 3 --aov depth,albedo,depth -o two.x.pfm -o a.png
 check cmp -s aov.depth.pfm two.x.depth.pfm
@@ -659,6 +659,32 @@ END
 done
 expect 0 '' "$program" convert maps.x.float.exr -o maps.exr.pfm
 check cmp -s maps.light.pfm maps.exr.pfm
+# What it does not keep is said, of whatever file, and info counts it.
+dropped() { # FILE NUMBER
+    expect 0 '' "$program" convert "$1" -o dropped.pfm
+    said=$(sed -n "s|^asbdpt: warning: $1: \([0-9]*\) channels* beside its colours.*|\1|p" stderr.txt)
+    check [ "${said:-0}" = "$2" ]
+    expect 0 '' "$program" convert "$1" "$1" -o dropped.pfm
+    check [ "$(grep -c "warning: $1:" stderr.txt)" = $((2 * ($2 > 0))) ]
+    expect 0 '' "$lab" info "$1"
+    said=$(sed -n 's/^channels .*; \([0-9]*\) more .alpha, layers., not read$/\1/p' stdout.txt)
+    check [ "${said:-0}" = "$2" ]
+}
+expect 0 '' "$program" render maps.pbrt $small --alpha -o alpha.png -o alpha.exr -o none.ppm
+expect 0 '' "$program" render maps.pbrt $small --alpha --aov depth,normal --layers -o layers.exr
+dropped light.png 0
+dropped light.pfm 0
+dropped x.exr 0
+dropped alpha.png 1
+dropped alpha.exr 1
+dropped layers.exr 5
+printf '\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\40\0abcd' >alpha.tga
+printf '\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\30\0abc' >plain.tga
+dropped alpha.tga 1
+dropped plain.tga 0
+printf 'P5 1 1 255 a' >grey.pgm
+expect 0 '' "$lab" info grey.pgm
+check grep -q '^channels  *1, grey$' stdout.txt
 expect 1 'nothing.exr' "$program" convert nothing.exr -o x.png
 
 # --exposure and --tonemap: of 8-bit pictures alone, the same in render and convert; without them nothing changes.

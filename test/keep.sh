@@ -234,6 +234,20 @@ if heard TERM; then
     check grep -Eq 'stopped by SIGTERM, at [0-9]+ of 1000000' stderr.txt
     check [ -s learning.pfm ]
     no_temporaries "after a signal before the first pass"
+    # The picture is there before --aov is made, which ends at a signal, too.
+    rm -f first.*
+    "$program" render "$box" --integrator pt --res 160x160 --spp 64 --maxdepth 1 --quiet --aov albedo,variance --seen \
+        -o first.pfm 2>stderr.txt &
+    wait_until [ -s first.pfm ]
+    cp first.pfm early.pfm
+    kill -s TERM $!
+    wait $!
+    got=$?
+    [ $got = 143 ] || fault "a signal while --aov is made: status $got"
+    check grep -q 'asbdpt: stopping' stderr.txt
+    same first.pfm early.pfm "written before --aov and after a signal"
+    grep -q 'aov: not written' stderr.txt || check [ -s first.albedo.pfm ]
+    no_temporaries "after a signal while --aov is made"
     # In a long tile pass the first signal is answered at once, and lets it go on; the second ends the program.
     rm -f state caught.pfm
     "$program" render "$box" --integrator asbdpt -P select=bins -P restart=0 --res 96x96 --spp 2000 --maxdepth 3 \

@@ -236,6 +236,60 @@ static void test_variance(struct test *t)
     film_free(&film);
 }
 
+/* Who watches, and what they say after so many rows. */
+struct watcher {
+    int rows, patience;
+    double last;
+    enum render_wish then;
+};
+
+static enum render_wish watch(void *context, double done)
+{
+    struct watcher *w = context;
+    w->rows++;
+    w->last = done;
+    return w->rows > w->patience ? w->then : RENDER_GO_ON;
+}
+
+/* There are as many samples as the render has, at most; when time is over as many as there are, but one; at a signal
+ * the rest is black. */
+static void test_ends(struct test *t)
+{
+    static const struct {
+        long end;
+        bool seen;
+        int patience;
+        enum render_wish then;
+        int rows, like; /* asked so often; the same as with so many samples; 0: not whole */
+    } CASES[] = {
+        {3, false, 1000, RENDER_STOP, 3 * H, 3},    {3, true, 1000, RENDER_STOP, 3 * H, 3},
+        {99, false, 9999, RENDER_STOP, 64 * H, 64}, {9999, true, 9999, RENDER_STOP, 256 * H, 256},
+        {9, false, 2, RENDER_END_BLOCK, H, 1},      {9, true, H, RENDER_STOP, H + 1, -1},
+        {9, false, 2, RENDER_STOP, 3, 0}};
+    struct scene scene;
+    if (!wall_scene(t, "Material \"matte\" \"rgb Kd\" [.25 .5 .75]", 2, &scene))
+        return;
+    for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
+        struct watcher w = {0, CASES[i].patience, 0, CASES[i].then};
+        struct render_options o = {.seed = 5, .end = CASES[i].end, .n_threads = 1, .progress = watch,
+                                   .progress_context = &w};
+        struct pictures p;
+        for (int k = 0; k < N_FIRST_HIT; k++)
+            p.of[k] = mem_alloc(VALUES, sizeof *p.of[k]);
+        bool whole = aov_render(&scene, &o, CASES[i].seen, p.of);
+        CHECK(t, whole == (CASES[i].like != 0) && w.rows == CASES[i].rows, "case %d: asked %d times", (int)i, w.rows);
+        CHECK(t, w.last <= 1 && (w.last == 1) == (CASES[i].like > 1), "case %d: %g is done", (int)i, w.last);
+        struct pictures q = render_seen(&scene, CASES[i].like > 0 ? CASES[i].like : 1, 2, CASES[i].seen);
+        for (int k = 0; k < N_FIRST_HIT && CASES[i].like > 0; k++)
+            CHECK(t, memcmp(p.of[k], q.of[k], VALUES * sizeof(float)) == 0, "case %d, picture %d", (int)i, k);
+        for (int k = 3 * 3 * W; k < VALUES && CASES[i].like == 0; k++)
+            CHECK(t, p.of[AOV_ALBEDO][k] == 0, "case %d: rows that were not looked at", (int)i);
+        pictures_free(&p);
+        pictures_free(&q);
+    }
+    scene_free(&scene);
+}
+
 void test_aov(struct test *t)
 {
     test_wall(t);
@@ -245,4 +299,5 @@ void test_aov(struct test *t)
     test_same(t);
     test_path(t);
     test_variance(t);
+    test_ends(t);
 }

@@ -20,7 +20,7 @@ struct target {
 };
 
 static const struct option SHARED[] = {
-    {"--list", "FILE...", OPTION_TEXTS, offsetof(struct target, list), .help = "a list"},
+    {"--list", "FILE...", OPTION_LIST, offsetof(struct target, list), .help = "a list"},
     {"--seed", "N", OPTION_SEED, offsetof(struct target, seed), .fallback = "7", .help = "a seed"},
     {.name = NULL},
 };
@@ -31,14 +31,14 @@ static const struct option TABLE[] = {
     {"--on", NULL, OPTION_ON, offsetof(struct target, on), .help = "on"},
     {"--integer", "N", OPTION_INTEGER, offsetof(struct target, integer), 2, 1 << 30, .alias = "-i", .help = "integer"},
     {"--number", "X", OPTION_NUMBER, offsetof(struct target, number), -0.5, 2, .fallback = "1.5", .help = "a number"},
-    {"--time", "TIME", OPTION_NUMBER, offsetof(struct target, time), 0.5, 7200, .with = "--on", .help = "a duration"},
-    {"--window", "X0 X1 Y0 Y1", OPTION_NUMBER, offsetof(struct target, window), 0, 1, .help = "a window"},
-    {"--range", "FIRST:END", OPTION_INTEGER, offsetof(struct target, range), 0, 100, .help = "a range"},
-    {"--size", "WIDTHxHEIGHT", OPTION_INTEGER, offsetof(struct target, size), 1, 65536, .help = "a size"},
-    {"--width", "WIDTH[xHEIGHT]", OPTION_INTEGER, offsetof(struct target, width), 1, 65536, .help = "a width"},
+    {"--time", "TIME", OPTION_TIME, offsetof(struct target, time), 0.5, 7200, .with = "--on", .help = "a duration"},
+    {"--window", "X0 X1 Y0 Y1", OPTION_WINDOW, offsetof(struct target, window), 0, 1, .help = "a window"},
+    {"--range", "FIRST:END", OPTION_RANGE, offsetof(struct target, range), 0, 100, .help = "a range"},
+    {"--size", "WIDTHxHEIGHT", OPTION_SIZE, offsetof(struct target, size), 1, 65536, .help = "a size"},
+    {"--width", "WIDTH[xHEIGHT]", OPTION_WIDTH, offsetof(struct target, width), 1, 65536, .help = "a width"},
     {"--text", "TEXT", OPTION_TEXT, offsetof(struct target, text), .alias = "-t", .help = "a text"},
     {"--texts", "TEXT", OPTION_TEXTS, offsetof(struct target, texts), .help = "texts"},
-    {"-P", "NAME=VALUE", OPTION_TEXTS, offsetof(struct target, pairs), .help = "pairs"},
+    {"-P", "NAME=VALUE", OPTION_PAIRS, offsetof(struct target, pairs), .help = "pairs"},
     {.others = SHARED},
 };
 
@@ -167,21 +167,23 @@ static void check_required(struct test *t)
 /* How many bytes the reader may write, and a value that it takes. */
 static size_t target_size(const struct option *o, char *value, size_t size)
 {
-    static const char *const SEVERAL[][2] = {{"x", "4x3"}, {":", "3:7"}, {",", "4,3"}, {" ", "0.5 1 0 1"}};
-    size_t n = 1;
     snprintf(value, size, "%.10g", o->high);
-    for (int i = 0; i < 4; i++)
-        if (o->value != NULL && strstr(o->value, SEVERAL[i][0]) != NULL) {
-            strcpy(value, SEVERAL[i][1]);
-            n = i < 3 ? 2 : 4;
-        }
     switch (o->kind) {
     case OPTION_ON: value[0] = '\0'; return sizeof(bool);
-    case OPTION_INTEGER: return n * sizeof(int);
+    case OPTION_INTEGER: return sizeof(int);
+    case OPTION_NUMBER:
+    case OPTION_TIME: return sizeof(double);
+    case OPTION_PIXEL: strcpy(value, "4,3"); return 2 * sizeof(int);
+    case OPTION_SIZE:
+    case OPTION_WIDTH: strcpy(value, "4x3"); return 2 * sizeof(int);
+    case OPTION_RANGE: strcpy(value, "3:7"); return 2 * sizeof(int);
+    case OPTION_LENGTHS: strcpy(value, "3:7"); return 2 * sizeof(double);
+    case OPTION_WINDOW: strcpy(value, "0.5 1 0 1"); return 4 * sizeof(double);
     case OPTION_SEED: strcpy(value, "5"); return sizeof(uint64_t);
-    case OPTION_NUMBER: return n * sizeof(double);
     case OPTION_TEXT: strcpy(value, "x"); return sizeof(const char *);
-    case OPTION_TEXTS: strcpy(value, "x=y"); return sizeof(struct texts);
+    case OPTION_TEXTS:
+    case OPTION_LIST:
+    case OPTION_PAIRS: strcpy(value, "x=y"); return sizeof(struct texts);
     }
     return 0;
 }

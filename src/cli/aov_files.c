@@ -40,26 +40,28 @@ static bool open_one(const char *picture, enum aov which, struct names *all, str
     return ok;
 }
 
-static bool has_exr(const struct outputs *out, struct error *err)
-{
-    for (int i = 0; i < out->n; i++)
-        if (!out->item[i].is_part && image_keeps_place(out->item[i].file.path))
-            return true;
-    return error_usage(err, "--layers: no other format has them than .exr; name one by -o");
-}
-
-bool aov_open(struct aov_files *f, bool layers, struct names *all, struct outputs *out, struct error *err)
+/* Every .exr a second time: it is whole without layers while these are made. */
+static bool open_layers(struct aov_files *f, const struct outputs *pictures, struct error *err)
 {
     bool ok = true;
-    f->first = out->n;
+    for (int i = 0; ok && i < pictures->n; i++)
+        if (!pictures->item[i].is_part && image_keeps_place(pictures->item[i].file.path))
+            ok = outputs_add(&f->out, pictures->item[i].file.path, false, err);
+    return ok && (f->out.n > 0 ||
+                  error_usage(err, "--layers: no other format has them than .exr; name one by -o"));
+}
+
+bool aov_open(struct aov_files *f, bool layers, struct names *all, const struct outputs *pictures, struct error *err)
+{
+    bool ok = true;
     f->layers = layers;
     if (layers)
-        return has_exr(out, err);
+        return open_layers(f, pictures, err);
     for (int i = 0; ok && i < N_AOVS; i++) {
-        const char *picture = out->item[0].file.path;
+        const char *picture = pictures->item[0].file.path;
         if (f->wanted[i] && strcmp(picture, "-") == 0)
             return error_usage(err, "--aov needs a picture with a name (-o), to write beside it");
-        ok = !f->wanted[i] || open_one(picture, (enum aov)i, all, out, err);
+        ok = !f->wanted[i] || open_one(picture, (enum aov)i, all, &f->out, err);
     }
     return ok;
 }
@@ -76,16 +78,12 @@ static void add_layer(struct outputs *out, enum aov which, const float *picture)
         out->layer[out->n_layers++] = (struct channel){NAMES[which][c], picture + c, 3, true};
 }
 
-void aov_make(struct aov_files *f, const struct scene *scene, const struct render_options *options,
-              const struct film *film, bool seen, struct outputs *out)
+/* Say where each comes from; of one sample there is no variance. */
+static void place(struct aov_files *f, bool has_variance)
 {
-    bool first_hit = false;
-    if (f->first == out->n && !f->layers)
-        return;
-    for (int i = 0, at = f->first; i < N_AOVS; i++) {
-        f->picture[i] = mem_alloc(rect_pixels(film->rect) * 3, sizeof *f->picture[i]);
-        first_hit |= i < N_FIRST_HIT && f->wanted[i];
-        bool missing = i == AOV_VARIANCE && film->iterations < 2;
+    struct outputs *out = &f->out;
+    for (int i = 0, at = 0; i < N_AOVS; i++) {
+        bool missing = i == AOV_VARIANCE && !has_variance;
         if (f->wanted[i] && f->layers && missing) {
             fprintf(stderr, "asbdpt: warning: %s, so there is no such layer\n", NO_VARIANCE);
         } else if (f->wanted[i] && f->layers) {
@@ -95,14 +93,29 @@ void aov_make(struct aov_files *f, const struct scene *scene, const struct rende
             out->item[at++].pixels = f->picture[i];
         }
     }
-    if (first_hit)
-        aov_render(scene, options, seen, f->picture);
-    if (f->wanted[AOV_VARIANCE])
-        aov_variance(film, scene->film_scale, f->picture[AOV_VARIANCE]);
 }
 
-void aov_free(struct aov_files *f)
+bool aov_write(struct aov_files *f, const struct scene *scene, const struct render_options *options,
+               const struct film *film, bool seen, const float *pixels, bool quiet, struct error *err)
 {
+    struct render_options first = *options;
+    bool first_hit = false, ok = true;
+    if (f->out.n == 0)
+        return true;
+    first.end = film->iterations > 0 ? film->iterations : 1;
+    for (int i = 0; i < N_AOVS; i++) {
+        f->picture[i] = mem_alloc(rect_pixels(film->rect) * 3, sizeof *f->picture[i]);
+        first_hit |= i < N_FIRST_HIT && f->wanted[i];
+    }
+    if (f->wanted[AOV_VARIANCE])
+        aov_variance(film, scene->film_scale, f->picture[AOV_VARIANCE]);
+    if (!first_hit || aov_render(scene, &first, seen, f->picture)) {
+        place(f, film->iterations > 1);
+        ok = outputs_write(&f->out, rect_width(film->rect), rect_height(film->rect), pixels, quiet, err);
+    } else {
+        fprintf(stderr, "asbdpt: --aov: not written, for there are pixels that have not been looked at\n");
+    }
     for (int i = 0; i < N_AOVS; i++)
         free(f->picture[i]);
+    return ok;
 }

@@ -40,6 +40,13 @@ static void warn_of_place(const struct convert_options *o, const struct placemen
                     o->in.item[0], at->x, at->y, at->width, at->height, o->out.item[i]);
 }
 
+static void warn_of_channels(const char *path, const struct image *about)
+{
+    if (about->dropped > 0)
+        fprintf(stderr, "asbdpt: warning: %s: %d channel%s beside its colours, alpha or layers, %s not kept\n", path,
+                about->dropped, about->dropped > 1 ? "s" : "", about->dropped > 1 ? "are" : "is");
+}
+
 /* A weight of the list at *text, which moves behind it. */
 static bool next_weight(const char **text, bool last, double *out)
 {
@@ -55,9 +62,12 @@ static bool add_picture(const char *path, double weight, double **sum, int *widt
                         struct error *err)
 {
     int w, h;
-    float *pixels = image_read_linear(path, &w, &h, *sum == NULL ? about : NULL, err);
+    struct image this;
+    float *pixels = image_read_linear(path, &w, &h, &this, err);
     if (pixels == NULL)
         return false;
+    warn_of_channels(path, &this);
+    *about = *sum == NULL ? this : *about;
     size_t n = 3 * (size_t)w * (size_t)h;
     bool fits = *sum == NULL || (w == *width && h == *height);
     if (*sum == NULL)
@@ -104,6 +114,8 @@ static int run(void *options)
                         : add_up(o, &width, &height, &about, &err);
     bool ok = pixels != NULL;
     if (ok) {
+        if (one)
+            warn_of_channels(o->in.item[0], &about);
         out.place = about.place;
         warn_of_place(o, &about.place, width, height);
         ok = outputs_write(&out, width, height, pixels, o->quiet, &err);

@@ -32,9 +32,9 @@ static const struct option OPTIONS[] = {
      .help = "write a picture of what each light brings, see convert --weights; or each \"string group\" of lights"},
     {"--alpha", NULL, OPTION_ON, AT(alpha),
      .help = ".exr and .png with alpha: 0 where the lens sees nothing, lights of \"bool visible\" \"false\" among it"},
-    {"--gate", "L0:L1", OPTION_NUMBER, AT(gate), 0, INFINITY,
+    {"--gate", "L0:L1", OPTION_LENGTHS, AT(gate), 0, INFINITY,
      .help = "only light whose way from lamp to lens is from L0 to below L1 long, in scene units; L1 may be inf"},
-    {"--time", "TIME", OPTION_NUMBER, AT(keep.time), 1e-9, 1e9,
+    {"--time", "TIME", OPTION_TIME, AT(keep.time), 1e-9, 1e9,
      .help = "stop after so long, and write what there is"},
     {"--noise", "X", OPTION_NUMBER, AT(keep.noise[NOISE_RELATIVE]), 1e-9, 1e9,
      .help = "stop when the noise is below X of the brightness around, e.g. 0.05; asked every 64 samples"},
@@ -42,10 +42,10 @@ static const struct option OPTIONS[] = {
      .help = "the same in levels of the 255 that 8-bit pictures have; with both, when both are so"},
     {"--checkpoint", "FILE", OPTION_TEXT, AT(keep.checkpoint), .file = FILE_KEPT,
      .help = "save the render now and then, and at signals"},
-    {"--interval", "TIME", OPTION_NUMBER, AT(keep.interval), 0, 1e9, .with = "--checkpoint", .fallback = "60",
+    {"--interval", "TIME", OPTION_TIME, AT(keep.interval), 0, 1e9, .with = "--checkpoint", .fallback = "60",
      .help = "between checkpoints"},
     {"--resume", "FILE", OPTION_TEXT, AT(keep.resume), .file = FILE_KEPT, .help = "go on from a checkpoint"},
-    {"--samples", "FIRST:END", OPTION_INTEGER, AT(keep.samples), 0, 1 << 30, .with = "-o",
+    {"--samples", "FIRST:END", OPTION_RANGE, AT(keep.samples), 0, 1 << 30, .with = "-o",
      .help = "only the samples FIRST to END-1, for merge: -o NAME.part"},
     {"--stats", "FILE", OPTION_TEXT, AT(stats), .file = FILE_WRITTEN, .help = "JSON: parameters, times, memory"},
     {.others = RUN_OPTIONS},
@@ -79,6 +79,7 @@ struct files {
 static void abandon(struct files *f)
 {
     outputs_abandon(&f->pictures);
+    outputs_abandon(&f->aov.out);
     if (f->stats.stream != NULL)
         file_abandon(&f->stats);
     if (f->made != NULL)
@@ -153,17 +154,18 @@ static void report(const struct job_options *o, const char *integrator, const st
         fprintf(stderr, "%s: %s\n", integrator, film->note);
 }
 
-/* Pictures, and when all are complete the statistics. `ok`: nothing has failed yet. */
-static bool write_files(const struct job_options *o, const struct scene *scene, const struct render_options *options,
-                        const struct film *film, struct files *f, bool ok, struct error *err)
+/* Pictures, then what can only be made now, and when all are complete the statistics. `ok`: nothing has failed yet. */
+static bool write_files(const struct job_options *o, const struct scene *scene, struct render_options *options,
+                        const struct film *film, struct keep *keep, struct files *f, bool ok, struct error *err)
 {
     float *pixels = mem_alloc(rect_pixels(film->rect) * 3, sizeof *pixels), *alpha = film_alpha(film);
     film_warn(film, film_develop(film, scene->film_scale, pixels));
-    f->pictures.alpha = alpha;
-    aov_make(&f->aov, scene, options, film, o->seen, &f->pictures);
+    f->pictures.alpha = f->aov.out.alpha = alpha;
     ok = outputs_write(&f->pictures, rect_width(film->rect), rect_height(film->rect), pixels, o->quiet,
                        ok ? err : NULL) && ok;
-    aov_free(&f->aov);
+    keep_after(keep, options);
+    ok = aov_write(&f->aov, scene, options, film, o->seen, pixels, o->quiet, ok ? err : NULL) && ok;
+    progress_end(&keep->bar);
     free(alpha);
     free(pixels);
     if (ok && f->stats.stream != NULL)
@@ -187,8 +189,8 @@ static bool run_and_write(const struct job_options *o, const struct scene *scene
         return false;
     report(o, options->integrator, film, &times);
     if (files->stats.stream != NULL)
-        stats_write(files->stats.stream, o, scene, options, film, &files->pictures, &times);
-    return write_files(o, scene, options, film, files, kept, err);
+        stats_write(files->stats.stream, o, scene, options, film, &files->pictures, &files->aov.out, &times);
+    return write_files(o, scene, options, film, keep, files, kept, err);
 }
 
 static bool render(const struct job_options *o, const struct scene *scene, const struct method *m, double load_seconds,
@@ -205,7 +207,7 @@ static bool render(const struct job_options *o, const struct scene *scene, const
     if (ok) {
         if (files->aov.wanted[AOV_VARIANCE])
             film_keep_errors(&film);
-        files->pictures.place = keep.part.place;
+        files->pictures.place = files->aov.out.place = keep.part.place;
         files->pictures.part = &keep.part;
         files->pictures.film = &film;
         ok = run_and_write(o, scene, &options, load_seconds, &film, &keep, files, err);

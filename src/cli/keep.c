@@ -161,8 +161,25 @@ bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const 
     render->progress = watch;
     render->progress_context = k;
     progress_start(&k->bar, quiet);
-    k->saved = k->bar.start;
+    k->begun = k->saved = k->bar.start;
     return true;
+}
+
+static enum render_wish watch_after(void *context, double done)
+{
+    struct keep *k = context;
+    double limit = k->options->time;
+    progress_update(&k->bar, done);
+    return interrupt_caught() != 0                              ? RENDER_STOP
+           : limit > 0 && os_wall_seconds() - k->begun >= limit ? RENDER_END_BLOCK
+                                                                : RENDER_GO_ON;
+}
+
+void keep_after(struct keep *k, struct render_options *render)
+{
+    render->progress = watch_after;
+    progress_start(&k->bar, !k->bar.shown);
+    strcpy(k->bar.note, " of --aov");
 }
 
 static void say_noise(const struct keep *k)

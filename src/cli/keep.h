@@ -19,7 +19,7 @@ struct keep {
     struct film *film;
     struct progress bar;
     struct os_identity own; /* the checkpoint's file, if this render has resumed or made it */
-    double saved;  /* time of the last checkpoint, seconds of os_wall_seconds */
+    double begun, saved; /* when the render was, and the last checkpoint: seconds of os_wall_seconds */
     bool late;     /* the time is over */
 };
 
@@ -37,5 +37,9 @@ bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const 
  * `ok`. False with a message where it cannot be written; err may be NULL. The caller releases
  * k->part. */
 bool keep_end(struct keep *k, bool ok, struct error *err);
+
+/* keep_after: the render's progress from now on is that of what is made when it is done, --aov; it, too, ends at a
+ * signal and in time. progress_end(&k->bar) must follow. */
+void keep_after(struct keep *k, struct render_options *render);
 
 #endif

@@ -31,6 +31,7 @@ const struct option *options_next(const struct option *option)
 
 static bool is_operand(const struct option *o) { return o->name[0] != '-'; }
 static void *target_of(const struct option *o, void *target) { return (char *)target + o->offset; }
+static bool is_texts(const struct option *o) { return o->kind >= OPTION_TEXTS; }
 static bool looks_like_option(const char *text) { return text[0] == '-' && text[1] != '\0'; }
 
 void texts_add(struct texts *texts, const char *text)
@@ -63,88 +64,90 @@ static double scan_unit(const char **text)
     return unit != NULL ? SECONDS[unit - UNITS] : 1;
 }
 
+/* Kinds of numbers: how many, how many of them at least, and what stands between them. */
+struct numbers {
+    int n, least;
+    char between;
+    bool real, rising; /* rising: of two each the first is less */
+};
+enum { MOST_NUMBERS = 4 };
+static const struct numbers NUMBERS[] = {
+    [OPTION_INTEGER] = {1, 1, '\0', false, false}, [OPTION_NUMBER] = {1, 1, '\0', true, false},
+    [OPTION_TIME] = {1, 1, '\0', true, false},     [OPTION_PIXEL] = {2, 2, ',', false, false},
+    [OPTION_SIZE] = {2, 2, 'x', false, false},     [OPTION_WIDTH] = {2, 1, 'x', false, false},
+    [OPTION_RANGE] = {2, 2, ':', false, true},     [OPTION_LENGTHS] = {2, 2, ':', true, true},
+    [OPTION_WINDOW] = {4, 4, ',', true, true}};
+
 /* The number at the beginning of *text, which moves behind it. False if there is none, or if it is out of range, as NaN
  * is of every range, and what overflows of every one with an end. */
 static bool scan_number(const char **text, const struct option *o, double *out)
 {
-    bool real = o->kind == OPTION_NUMBER;
-    bool begins = real || isdigit((unsigned char)**text); /* strtoull takes signs too */
+    bool real = NUMBERS[o->kind].real, begins = real || isdigit((unsigned char)**text); /* strtoull takes signs too */
     char *end;
     *out = real ? strtod(*text, &end) : (double)strtoull(*text, &end, 10);
     bool found = begins && end != *text;
     *text = end;
-    if (found && strcmp(o->value, "TIME") == 0)
+    if (found && o->kind == OPTION_TIME)
         *out *= scan_unit(text);
     return found && *out >= o->low && *out <= o->high;
 }
 
-static bool expected(struct reader *r, const char *text, bool several)
+static bool expected(struct reader *r, const char *text)
 {
     const struct option *o = r->option;
-    const char *one = o->kind == OPTION_INTEGER ? "an integer" : "a number", *kind = strchr(one, ' ') + 1;
-    bool time = strcmp(o->value, "TIME") == 0;
-    return error_set(r->err, "%s %s: expected %s%s%s%s from %.10g to %.10g%s", o->name, text, several ? o->value : one,
-                     several ? ", " : "", several ? kind : "", several ? "s" : "", o->low, o->high,
-                     time ? ", of seconds, or with a unit: 90s, 5m, 1h" : "");
+    bool several = NUMBERS[o->kind].n > 1, real = NUMBERS[o->kind].real;
+    return error_set(r->err, "%s %s: expected %s%s from %.10g to %.10g%s", o->name, text, several ? o->value : "",
+                     several ? real ? ", numbers" : ", integers" : real ? "a number" : "an integer", o->low, o->high,
+                     o->kind == OPTION_TIME ? ", of seconds, or with a unit: 90s, 5m, 1h" : "");
 }
 
-enum { MOST_NUMBERS = 4 };
-static const char CAPITALS[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
-
-/* As many numbers as the value's name has words, *n; separators stand as they do there. */
-static bool scan_numbers(struct reader *r, double *out, int *n)
+/* What is not there but need not be is 0. */
+static bool scan_numbers(struct reader *r, double out[MOST_NUMBERS])
 {
-    const char *shape = r->option->value, *text, *at;
-    bool several = shape[strspn(shape, CAPITALS)] != '\0', ok = true;
+    const struct numbers *shape = &NUMBERS[r->option->kind];
+    const char *text, *at;
     if (!next_value(r, &text))
         return false;
     at = text;
-    for (*n = 0; ok; shape++) {
-        ok = scan_number(&at, r->option, &out[(*n)++]);
-        shape += strspn(shape, CAPITALS);
-        bool optional = *shape == '[';
-        shape += optional;
-        if (*shape == '\0' || *shape == ']' || !ok)
-            break;
-        if (optional && *at == '\0') {
-            out[(*n)++] = 0;
+    bool ok = scan_number(&at, r->option, &out[0]);
+    for (int i = 1; i < shape->n && ok; i++) {
+        out[i] = 0;
+        if (*at == '\0' && i >= shape->least)
             return true;
-        }
-        if (*shape == ' ' && *at == '\0') {
+        if (*at == '\0' && r->option->kind == OPTION_WINDOW) {
             if (!next_value(r, &text))
                 return false;
             at = text;
         } else {
-            ok = *at == (*shape == ' ' ? ',' : *shape);
+            ok = *at == shape->between;
             at += ok;
         }
+        ok = ok && scan_number(&at, r->option, &out[i]);
     }
-    return (ok && *at == '\0') || expected(r, text, several);
+    return (ok && *at == '\0') || expected(r, text);
 }
 
-/* What must hold of several numbers: see the names of values in options.h. */
-static bool fit_together(const struct option *o, const double *v, int n, struct error *err)
+static bool fit_together(const struct option *o, const double *v, struct error *err)
 {
+    const struct numbers *shape = &NUMBERS[o->kind];
     struct error why;
-    bool pairs = strpbrk(o->value, ": ") != NULL, size = strchr(o->value, 'x') != NULL;
-    for (int i = 1; pairs && i < n; i += 2)
+    for (int i = 1; shape->rising && i < shape->n; i += 2)
         if (!(v[i - 1] < v[i]))
             return error_set(err, "%s: there is nothing between %.10g and %.10g", o->name, v[i - 1], v[i]);
-    return !size || v[1] == 0 || picture_size_ok((uint64_t)v[0], (uint64_t)v[1], &why) ||
+    return shape->between != 'x' || v[1] == 0 || picture_size_ok((uint64_t)v[0], (uint64_t)v[1], &why) ||
            error_set(err, "%s: %s", o->name, why.text);
 }
 
 static bool read_numbers(struct reader *r, void *target)
 {
     double v[MOST_NUMBERS];
-    int n;
-    if (!scan_numbers(r, v, &n) || !fit_together(r->option, v, n, r->err))
+    if (!scan_numbers(r, v) || !fit_together(r->option, v, r->err))
         return false;
-    for (int i = 0; i < n; i++)
-        if (r->option->kind == OPTION_INTEGER)
-            ((int *)target)[i] = (int)v[i];
-        else
+    for (int i = 0; i < NUMBERS[r->option->kind].n; i++)
+        if (NUMBERS[r->option->kind].real)
             ((double *)target)[i] = v[i];
+        else
+            ((int *)target)[i] = (int)v[i];
     return true;
 }
 
@@ -162,16 +165,15 @@ static bool read_seed(struct reader *r, uint64_t *out)
 
 static bool read_texts(struct reader *r, struct texts *texts)
 {
-    const char *text, *shape = r->option->value;
-    bool pair = shape != NULL && strchr(shape, '=') != NULL, list = shape != NULL && strstr(shape, "...") != NULL;
+    const char *text;
     do {
         if (!next_value(r, &text))
             return false;
         const char *equals = strchr(text, '=');
-        if (pair && (equals == NULL || equals == text))
+        if (r->option->kind == OPTION_PAIRS && (equals == NULL || equals == text))
             return error_set(r->err, "%s %s: expected name=value", r->option->name, text);
         texts_add(texts, text);
-    } while (list && r->at + 1 < r->argc && !looks_like_option(r->argv[r->at + 1]));
+    } while (r->option->kind == OPTION_LIST && r->at + 1 < r->argc && !looks_like_option(r->argv[r->at + 1]));
     return true;
 }
 
@@ -180,10 +182,19 @@ static bool read_value(struct reader *r, void *target)
     switch (r->option->kind) {
     case OPTION_ON: *(bool *)target = true; return true;
     case OPTION_INTEGER:
-    case OPTION_NUMBER: return read_numbers(r, target);
+    case OPTION_NUMBER:
+    case OPTION_TIME:
+    case OPTION_PIXEL:
+    case OPTION_SIZE:
+    case OPTION_WIDTH:
+    case OPTION_RANGE:
+    case OPTION_LENGTHS:
+    case OPTION_WINDOW: return read_numbers(r, target);
     case OPTION_SEED: return read_seed(r, target);
     case OPTION_TEXT: return next_value(r, target);
-    case OPTION_TEXTS: return read_texts(r, target);
+    case OPTION_TEXTS:
+    case OPTION_PAIRS:
+    case OPTION_LIST: return read_texts(r, target);
     }
     return false;
 }
@@ -233,8 +244,8 @@ const char *const *options_texts(const struct option *o, void *target, int *n)
 {
     const struct texts *texts = target_of(o, target);
     const char *const *one = target_of(o, target);
-    *n = o->kind == OPTION_TEXTS ? texts->n : *one != NULL;
-    return o->kind == OPTION_TEXTS ? (const char *const *)texts->item : one;
+    *n = is_texts(o) ? texts->n : *one != NULL;
+    return is_texts(o) ? (const char *const *)texts->item : one;
 }
 
 static bool is_given(const struct option *o, void *target)
@@ -248,7 +259,7 @@ static bool is_given(const struct option *o, void *target)
 static bool read_operand(struct reader *r, void *target)
 {
     const struct option *o = r->table;
-    while (o != NULL && !(is_operand(o) && (o->kind == OPTION_TEXTS || !is_given(o, target))))
+    while (o != NULL && !(is_operand(o) && (is_texts(o) || !is_given(o, target))))
         o = options_next(o);
     if (o == NULL)
         return error_set(r->err, "%s is one argument too many", r->argv[r->at]);
@@ -269,7 +280,7 @@ static bool was_seen(const struct reader *r, const char *name)
 static bool is_complete(const struct reader *r, void *target)
 {
     for (const struct option *o = r->table; o != NULL; o = options_next(o))
-        if ((o->kind == OPTION_TEXTS || o->kind == OPTION_TEXT) && o->low > 0 && !is_given(o, target))
+        if ((is_texts(o) || o->kind == OPTION_TEXT) && o->low > 0 && !is_given(o, target))
             return error_set(r->err, "%s needs %s (%s)", r->argv[0], o->help, o->name);
     for (int i = 0; i < r->n_seen; i++)
         if (r->seen[i]->with != NULL && !was_seen(r, r->seen[i]->with))
@@ -301,7 +312,7 @@ bool options_read(const struct option *table, int argc, char **argv, void *targe
 void options_free(const struct option *table, void *target)
 {
     for (const struct option *o = table; o != NULL; o = options_next(o))
-        if (o->kind == OPTION_TEXTS)
+        if (is_texts(o))
             free(((struct texts *)target_of(o, target))->item);
 }
 

@@ -7,16 +7,6 @@
  *     --name VALUE, --name=VALUE, -n VALUE, -nVALUE    an option; given twice, the later one counts
  *     WORD                                             an operand: a row whose name has no dash in front
  *
- * How a value is called says how it is read: words in capitals are numbers, with what stands between them.
- *
- *     WIDTHxHEIGHT, X,Y     several numbers, up to four
- *     FIRST:END             the first less than the second
- *     X0 X1 Y0 Y1           a blank is the next argument, or a comma; pairs, each the lesser first
- *     WIDTH[xHEIGHT]        what is in brackets may be left out, and is 0 then
- *     TIME                  seconds, or with a unit: 90s, 5m, 1h
- *     NAME=VALUE            of texts: something, = and anything
- *     FILE...               of texts: all arguments up to the next option
- *
  * An empty value is always a mistake, of a script for example whose variable is not set.
  *
  * Tests: test_options.c, test/cli.sh.
@@ -29,13 +19,23 @@
 
 #include "base/error.h"
 
-enum option_kind {  /* type of the target */
+/* What a value is, and what it becomes. Numbers are from low to high. */
+enum option_kind {
     OPTION_ON,      /* bool: becomes true; no value */
-    OPTION_INTEGER, /* int, or int[]; each from low to high */
-    OPTION_NUMBER,  /* double, or double[]; each from low to high */
+    OPTION_INTEGER, /* int */
+    OPTION_NUMBER,  /* double */
+    OPTION_TIME,    /* double: seconds, or with a unit: 90s, 5m, 1h */
+    OPTION_PIXEL,   /* int[2]: X,Y */
+    OPTION_SIZE,    /* int[2]: WIDTHxHEIGHT, of a picture that can be */
+    OPTION_WIDTH,   /* int[2]: the same, but xHEIGHT may be left out, and is 0 then */
+    OPTION_RANGE,   /* int[2]: FIRST:END, the first less than the second */
+    OPTION_LENGTHS, /* double[2]: so, too */
+    OPTION_WINDOW,  /* double[4]: X0 X1 Y0 Y1 in four arguments, or with commas between; pairs, each the lesser first */
     OPTION_SEED,    /* uint64_t, any */
     OPTION_TEXT,    /* const char *, borrowed from the arguments */
-    OPTION_TEXTS    /* struct texts: one more each time */
+    OPTION_TEXTS,   /* struct texts: one more each time; */
+    OPTION_PAIRS,   /* so, too: something, = and anything */
+    OPTION_LIST     /* so, too: all arguments up to the next option */
 };
 
 /* What is done with a file that a text names (names.h); FILE_KEPT: it is read if it is there, and written. */
@@ -49,8 +49,8 @@ struct texts {
 };
 
 struct option {
-    const char *name;            /* "--spp"; without a dash an operand, then of kind OPTION_TEXT or OPTION_TEXTS */
-    const char *value;           /* what the help calls its value, see above; NULL: it has none */
+    const char *name;            /* "--spp"; without a dash an operand, then OPTION_TEXT or OPTION_TEXTS */
+    const char *value;           /* what the help calls its value; NULL: it has none */
     enum option_kind kind;
     size_t offset;               /* of the target in the subcommand's struct */
     double low, high;            /* range of numbers; of texts: low 1 if one must be given */

@@ -16,7 +16,7 @@
 struct aov_files {
     bool wanted[N_AOVS];
     bool layers;
-    int first;              /* else: of the outputs that are theirs, in this order */
+    struct outputs out;     /* of each that is wanted, in this order; as layers: the .exr once more */
     float *picture[N_AOVS]; /* owned, NULL before aov_make */
 };
 
@@ -24,17 +24,18 @@ struct aov_files {
 bool aov_read(const char *list, struct aov_files *out, struct error *err);
 
 /* aov_open: begin to write them beside the first of the pictures; as layers: is one of these an .exr?
- *   all  the files of the command; in-out
- *   out  the pictures of the command; in-out
+ *   all       the files of the command; in-out
+ *   pictures  those of the command
  * Returns false with a message. */
-bool aov_open(struct aov_files *f, bool layers, struct names *all, struct outputs *out, struct error *err);
+bool aov_open(struct aov_files *f, bool layers, struct names *all, const struct outputs *pictures, struct error *err);
 
-/* aov_make: make them, for outputs_write; aov_free after that.
- *   options, film  of the render that is done; for the variance the film must have kept errors
- *   seen           see aov.h */
-void aov_make(struct aov_files *f, const struct scene *scene, const struct render_options *options,
-              const struct film *film, bool seen, struct outputs *out);
-void aov_free(struct aov_files *f);
+/* aov_write: make them when all pictures are written, which may be later overtaken by a signal, and write them.
+ *   options, film  of the render that is done, and its progress; for the variance the film must have kept errors
+ *   seen           see aov.h
+ *   pixels         the picture
+ * False with a message. */
+bool aov_write(struct aov_files *f, const struct scene *scene, const struct render_options *options,
+               const struct film *film, bool seen, const float *pixels, bool quiet, struct error *err);
 
 /* --- --lights: a directory, or NULL: nothing is done (light_files.c) -------------------------------------- */
 
@@ -57,8 +58,9 @@ struct render_times {
 double render_us_per_path(const struct film *film, const struct render_times *times);
 
 /* stats_write: what a render was of and how it went, as one object of JSON for programs.
- *   outputs  all files that are about to be written */
+ *   pictures, features  all files that are about to be written */
 void stats_write(FILE *f, const struct job_options *o, const struct scene *scene, const struct render_options *render,
-                 const struct film *film, const struct outputs *outputs, const struct render_times *times);
+                 const struct film *film, const struct outputs *pictures, const struct outputs *features,
+                 const struct render_times *times);
 
 #endif

@@ -65,15 +65,18 @@ static void put_film(struct json *j, const struct scene *scene, const struct fil
 }
 
 void stats_write(FILE *f, const struct job_options *o, const struct scene *scene, const struct render_options *render,
-                 const struct film *film, const struct outputs *outputs, const struct render_times *times)
+                 const struct film *film, const struct outputs *pictures, const struct outputs *features,
+                 const struct render_times *times)
 {
     struct json json = json_start(f), *j = &json;
     json_open(j, NULL, '{');
     json_text(j, "version", VERSION);
     json_text(j, "scene", o->scene_path);
     json_open(j, "files", '[');
-    for (int i = 0; i < outputs->n; i++)
-        json_text(j, NULL, outputs->item[i].file.path);
+    for (int i = 0; i < pictures->n; i++)
+        json_text(j, NULL, pictures->item[i].file.path);
+    for (int i = 0; i < features->n && !o->layers; i++)
+        json_text(j, NULL, features->item[i].file.path);
     json_close(j);
     json_text(j, "lights", o->lights); /* a directory, or null */
     json_text(j, "checkpoint", o->keep.checkpoint);

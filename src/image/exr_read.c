@@ -100,6 +100,9 @@ static bool read_blocks(const struct exr *e, size_t n_blocks, const struct exr_c
         return false;
     uint8_t *bytes = mem_alloc(pixels, e->pixel_bytes), *scratch = mem_alloc(pixels, e->pixel_bytes);
     picture_alloc_f32(out, e->width, e->height, grey ? 1 : 3);
+    out->dropped = (int)e->n_channels;
+    for (int c = 0; c < COLOURS; c++)
+        out->dropped -= colour[c] != NULL && (c == GREY) == grey;
     for (size_t i = 0; ok && i < n_blocks; i++) {
         struct block b = block_at(e, i);
         ok = read_block(e, i, &b, scratch, bytes) ||

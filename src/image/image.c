@@ -154,8 +154,11 @@ float *image_read_linear(const char *path, int *width, int *height, struct image
             out[3 * i + c] = linear_value(&img, img.channels == 3 ? 3 * i + c : i);
     *width = img.width;
     *height = img.height;
-    image_free(&img);
-    if (about != NULL)
+    if (about != NULL) {
         *about = img;
+        about->u8 = NULL;
+        about->f32 = NULL;
+    }
+    image_free(&img);
     return out;
 }

@@ -233,6 +233,7 @@ static bool place_pixels(const struct png *p, const struct adam7_pass *pass, int
     else
         picture_alloc_u8(out, p->width, p->height, channels);
     out->linear = false;
+    out->dropped = p->colour == GREY_ALPHA || p->colour == RGB_ALPHA;
     for (int i = 0; i < passes; i++) {
         size_t n = pass_bytes(p, &pass[i]);
         if (n > 0 && !read_pass(p, &pass[i], zeros, bytes, out)) {

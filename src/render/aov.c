@@ -18,23 +18,18 @@ const char *aov_name(enum aov which)
     return names[which];
 }
 
-/* Rows of the picture are the jobs. */
-struct rows {
+/* A sample of each pixel; rows of the picture are the jobs. */
+struct pass {
     const struct scene *scene;
+    const struct render_options *options;
     struct pixel_rect rect;
-    uint64_t seed;
     int samples, surfaces; /* of a pixel; of an eye sub-path that are looked at */
+    int sample;            /* this one */
+    int *done;             /* [rows] samples that are in */
+    bool stopped;
     double draw[ALBEDO_DRAWS][3];
-    float *const *out;   /* [N_FIRST_HIT] */
+    float *const *out;   /* [N_FIRST_HIT], sums so far; for the depth's that of hits is behind it */
     struct arena *arena; /* [n_threads] */
-};
-
-/* Sums over the samples of a pixel. */
-struct sums {
-    rgb albedo;
-    vec3 normal, position;
-    double depth;
-    int hits;
 };
 
 /* The integral of f |cos| over all directions wi, for light that leaves in direction wo: the mean of f |cos| / pdf.
@@ -64,12 +59,19 @@ static const struct vertex *seen_surface(const struct vertex *eye, int n)
 /* What the way from the first surface to another leaves of light. */
 static double left_of(double to, double from) { return from > 0 ? to / from : 0; }
 
-/* What the eye sub-path of this iteration meets first. */
-static void add_sample(const struct rows *r, struct arena *arena, int x, int y, int iteration, struct sums *sums)
+static void add_values(float *sum, double a, double b, double c)
+{
+    sum[0] = float_within((double)sum[0] + a);
+    sum[1] = float_within((double)sum[1] + b);
+    sum[2] = float_within((double)sum[2] + c);
+}
+
+/* What the eye sub-path of this sample meets first, to the sums of its pixel. */
+static void add_sample(const struct pass *r, struct arena *arena, int x, int y, size_t at)
 {
     const struct scene *scene = r->scene;
     uint64_t pixel = (uint64_t)y * (uint64_t)scene->width + (uint64_t)x;
-    struct sampler sampler = sampler_start(r->seed, RNG_EYE, pixel, (uint64_t)iteration);
+    struct sampler sampler = sampler_start(r->options->seed, RNG_EYE, pixel, (uint64_t)r->sample);
     struct mis_counts counts = {.hit = {1, 1}}; /* nobody asks for weights */
     struct walk walk = {scene, &counts, arena, &sampler, 0};
     struct vertex eye[1 + AOV_SEEN_DEPTH], *first = &eye[1];
@@ -78,56 +80,68 @@ static void add_sample(const struct rows *r, struct arena *arena, int x, int y, 
     if (n > 1 && first->kind == VERTEX_SURFACE) {
         const struct vertex *z = seen_surface(eye, n);
         vec3 normal = z->bsdf.shading.n, seen = sub(first->p, scene->camera.position);
+        normal = dot(normal, z->wo) < 0 ? neg(normal) : normal;
         rgb a = albedo(&z->bsdf, z->wo, r->draw), to = z->beta, from = first->beta;
-        sums->hits++;
-        sums->albedo.r += a.r * clamp(left_of(to.r, from.r), 0, 1);
-        sums->albedo.g += a.g * clamp(left_of(to.g, from.g), 0, 1);
-        sums->albedo.b += a.b * clamp(left_of(to.b, from.b), 0, 1);
-        sums->normal = add(sums->normal, dot(normal, z->wo) < 0 ? neg(normal) : normal);
-        sums->position = add(sums->position, first->p);
-        sums->depth += scene->camera.kind == CAMERA_ENVIRONMENT ? length(seen) : dot(seen, scene->camera.forward);
+        double depth = scene->camera.kind == CAMERA_ENVIRONMENT ? length(seen) : dot(seen, scene->camera.forward);
+        add_values(r->out[AOV_ALBEDO] + at, a.r * clamp(left_of(to.r, from.r), 0, 1),
+            a.g * clamp(left_of(to.g, from.g), 0, 1), a.b * clamp(left_of(to.b, from.b), 0, 1));
+        add_values(r->out[AOV_NORMAL] + at, normal.x, normal.y, normal.z);
+        add_values(r->out[AOV_POSITION] + at, first->p.x, first->p.y, first->p.z);
+        add_values(r->out[AOV_DEPTH] + at, depth, 1, 0);
     }
     arena_reset(arena);
 }
 
-static void put(float *out, double a, double b, double c)
-{
-    out[0] = float_within(a);
-    out[1] = float_within(b);
-    out[2] = float_within(c);
-}
+static size_t row_begin(const struct pass *r, int64_t row) { return 3 * (size_t)row * (size_t)rect_width(r->rect); }
 
 static void do_row(void *context, int64_t row, int slot, int thread)
 {
-    const struct rows *r = context;
+    const struct pass *r = context;
     (void)slot; /* a row is nobody else's: it is written where it belongs */
-    for (int x = r->rect.x0; x < r->rect.x1; x++) {
-        struct sums s = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0, 0};
-        for (int i = 0; i < r->samples; i++)
-            add_sample(r, &r->arena[thread], x, r->rect.y0 + (int)row, i, &s);
-        size_t at = 3 * ((size_t)row * (size_t)rect_width(r->rect) + (size_t)(x - r->rect.x0));
-        double all = 1.0 / r->samples, hits = s.hits > 0 ? 1.0 / s.hits : 0;
-        put(r->out[AOV_ALBEDO] + at, s.albedo.r * all, s.albedo.g * all, s.albedo.b * all);
-        put(r->out[AOV_NORMAL] + at, s.normal.x * all, s.normal.y * all, s.normal.z * all);
-        put(r->out[AOV_DEPTH] + at, s.depth * hits, s.depth * hits, s.depth * hits);
-        put(r->out[AOV_POSITION] + at, s.position.x * hits, s.position.y * hits, s.position.z * hits);
-    }
+    for (int x = r->rect.x0; x < r->rect.x1; x++)
+        add_sample(r, &r->arena[thread], x, r->rect.y0 + (int)row, row_begin(r, row) + 3 * (size_t)(x - r->rect.x0));
+    r->done[row]++;
 }
 
+/* Once all have a sample the end of a block is wherever one likes. */
 static bool row_done(void *context, int64_t row, int slot)
 {
-    (void)context;
-    (void)row;
+    struct pass *r = context;
+    const struct render_options *o = r->options;
+    double done = r->sample + (double)(row + 1) / rect_height(r->rect);
+    enum render_wish wish = o->progress != NULL ? o->progress(o->progress_context, done / r->samples) : RENDER_GO_ON;
     (void)slot;
-    return true;
+    r->stopped = wish == RENDER_STOP || (wish == RENDER_END_BLOCK && done >= 1);
+    return !r->stopped;
 }
 
-void aov_render(const struct scene *scene, const struct render_options *options, bool seen,
+/* From sums to means. False where a row has nothing. */
+static bool divide(const struct pass *r)
+{
+    bool all = true;
+    for (int row = 0; row < rect_height(r->rect); row++) {
+        double samples = most_of(r->done[row], 1);
+        all = all && r->done[row] > 0;
+        for (size_t i = row_begin(r, row); i < row_begin(r, row + 1); i++) {
+            size_t pixel = i / 3 * 3;
+            double hits = most_of((double)r->out[AOV_DEPTH][pixel + 1], 1);
+            r->out[AOV_ALBEDO][i] = float_within((double)r->out[AOV_ALBEDO][i] / samples);
+            r->out[AOV_NORMAL][i] = float_within((double)r->out[AOV_NORMAL][i] / samples);
+            r->out[AOV_POSITION][i] = float_within((double)r->out[AOV_POSITION][i] / hits);
+            if (i == pixel + 2)
+                for (size_t c = 3; c-- > 0;)
+                    r->out[AOV_DEPTH][pixel + c] = float_within((double)r->out[AOV_DEPTH][pixel] / hits);
+        }
+    }
+    return all;
+}
+
+bool aov_render(const struct scene *scene, const struct render_options *options, bool seen,
                 float *const out[N_FIRST_HIT])
 {
-    struct rows r = {.scene = scene, .rect = render_crop(scene), .seed = options->seed, .out = out};
-    int threads = options->n_threads < 1 ? os_cores() : options->n_threads;
-    r.samples = seen ? AOV_SEEN_SAMPLES : options->end < AOV_SAMPLES ? (int)options->end : AOV_SAMPLES;
+    struct pass r = {.scene = scene, .rect = render_crop(scene), .options = options, .out = out};
+    int threads = options->n_threads < 1 ? os_cores() : options->n_threads, rows = rect_height(r.rect);
+    r.samples = int_within((double)options->end, 1, seen ? AOV_SEEN_SAMPLES : AOV_SAMPLES);
     r.surfaces = seen ? AOV_SEEN_DEPTH : 1;
     for (int i = 0; i < ALBEDO_DRAWS; i++) {
         struct sampler sampler = sampler_start(0, RNG_SELECT, 0, (uint64_t)i);
@@ -135,11 +149,16 @@ void aov_render(const struct scene *scene, const struct render_options *options,
         sampler_pair(&sampler, DRAW_SCATTERING, &r.draw[i][1]);
     }
     r.arena = mem_alloc((size_t)threads, sizeof *r.arena);
-    struct parallel_jobs jobs = {rect_height(r.rect), threads, 2 * threads, &r, do_row, row_done, NULL};
-    parallel_run(&jobs);
+    r.done = mem_alloc((size_t)rows, sizeof *r.done);
+    struct parallel_jobs jobs = {rows, threads, 2 * threads, &r, do_row, row_done, NULL};
+    for (; !r.stopped && r.sample < r.samples; r.sample++)
+        parallel_run(&jobs);
+    bool all = divide(&r);
     for (int i = 0; i < threads; i++)
         arena_free(&r.arena[i]);
     free(r.arena);
+    free(r.done);
+    return all;
 }
 
 void aov_variance(const struct film *film, double scale, float *out)

@@ -7,14 +7,14 @@
  *   position  in world space
  *   variance  of the rendered pixel itself, the mean of its samples: the square of its standard error
  *
- * The first four are means over the first AOV_SAMPLES samples of a pixel, through the very points of pixel and lens
- * that the render draws, so that their edges are smooth where the picture's are. Depth and position are means over
- * those that hit something. Where nothing is hit all are 0.
+ * The first four are means over the first AOV_SAMPLES samples of a pixel, if the render has so many, through the very
+ * points of pixel and lens that it draws, so that their edges are smooth where the picture's are. Depth and position
+ * are means over those that hit something. Where nothing is hit all are 0.
  *
  * Denoisers want albedo and normal to show what the picture does, in mirrors and behind glass, too. On request these
  * are those of the first surface on the eye sub-path that does not only mirror and refract, or else of the last that it
  * meets; the albedo times what the way there leaves of light. Glass lets chance choose the way: so there are
- * AOV_SEEN_SAMPLES then, whatever the render has.
+ * up to AOV_SEEN_SAMPLES then.
  *
  * Tests: test_aov.c.
  */
@@ -31,11 +31,12 @@ const char *aov_name(enum aov which);
 
 /* aov_render: the first-hit pictures.
  *   scene    prepared
- *   options  of the render: its seed, its threads, and the samples [0, end)
+ *   options  of the render: its seed, its threads, the samples [0, end), at least 1, and its progress: asked after
+ *            each row; RENDER_END_BLOCK ends it as soon as every pixel has a sample, RENDER_STOP at once
  *   seen     albedo and normal of what is seen in mirrors and through glass
- *   out      [N_FIRST_HIT] pictures of render_crop's size, each [height*width*3], filled
- * The same numbers for any number of threads. */
-void aov_render(const struct scene *scene, const struct render_options *options, bool seen,
+ *   out      [N_FIRST_HIT] pictures of render_crop's size, each [height*width*3], black
+ * Returns false if there are pixels without a sample, which stay black. The same numbers for any number of threads. */
+bool aov_render(const struct scene *scene, const struct render_options *options, bool seen,
                 float *const out[N_FIRST_HIT]);
 
 /* aov_variance: of each value of film_develop at this scale, [height*width*3]; two iterations at least. The

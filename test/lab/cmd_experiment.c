@@ -40,7 +40,7 @@ struct plan_options {
 #define AT(member) offsetof(struct plan_options, member)
 static const struct option SHARED[] = {
     {"--maxdepth", "N", OPTION_INTEGER, AT(max_depth), 1, PATH_MAX_DEPTH, .help = "longest path, 1 = direct light"},
-    {"--res", "WIDTH[xHEIGHT]", OPTION_INTEGER, AT(res), 1, 8192, .help = "size, or width alone"},
+    {"--res", "WIDTH[xHEIGHT]", OPTION_WIDTH, AT(res), 1, 8192, .help = "size, or width alone"},
     {"--reference", "PATH", OPTION_TEXT, AT(reference),
      .help = "picture, or directory of NAME.pfm (default: ref/ beside the scene if of it, else rendered)"},
     {"--reference-spp", "N", OPTION_INTEGER, AT(reference_spp), 4, 1 << 24, .help = "samples of one rendered here"},

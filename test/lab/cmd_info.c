@@ -146,9 +146,12 @@ static bool print_picture(const struct info_options *o, struct error *err)
         const float *p = value + 3 * ((size_t)y * (size_t)width + (size_t)x);
         printf("%.9g %.9g %.9g\n", (double)p[0], (double)p[1], (double)p[2]);
     } else if (ok) {
-        printf("format        %s, %s\nsize          %dx%d\nchannels      %s\n", image_extension(o->job.scene_path),
+        printf("format        %s, %s\nsize          %dx%d\nchannels      %s", image_extension(o->job.scene_path),
                about.linear ? "linear" : "sRGB, here made linear", width, height,
                about.channels == 1 ? "1, grey" : "3, RGB");
+        if (about.dropped > 0)
+            printf("; %d more (alpha, layers), not read", about.dropped);
+        printf("\n");
         for (int c = 0; c < 3; c++)
             print_channel(value, c, (long)width * height);
     }
