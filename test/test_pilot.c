@@ -52,6 +52,23 @@ static void test_where_they_pay(struct test *t)
     }
 }
 
+/* Under an open sky nothing is learnt, and a path tracer renders. */
+static void test_where_nothing_pays(struct test *t)
+{
+    static const char *const scenes[] = {"scenes/forest.pbrt", "scenes/sky.pbrt"};
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        struct scene scene;
+        struct frozen f;
+        if (!scene_from_file(t, scenes[i], 48, 32, &scene))
+            continue;
+        if (settle(t, &scene, &f))
+            CHECK(t, f.tables.eye.n == 0 && f.path_pixels == 0 && f.counts.splat == 0 &&
+                         f.counts.connect[FIRST_HIT] == 0 && f.counts.connect[LATER_HIT] == 0,
+                  "%s: %d regions, %d pixels for a light sub-path", scenes[i], f.tables.eye.n, f.path_pixels);
+        scene_free(&scene);
+    }
+}
+
 /* Paths that only light sub-paths find keep these alive, whatever was measured. */
 static void test_where_nothing_else_does(struct test *t)
 {
@@ -104,6 +121,7 @@ static void test_credit(struct test *t)
         struct frozen f;
         if (!scene_from_file(t, scenes[i], 32, 32, &scene))
             continue;
+        settings_set(&scene.settings, "pathpixels", "4", "test"); /* or a path tracer would do */
         if (settle(t, &scene, &f)) {
             double credit = f.counts.hit[FIRST_HIT];
             CHECK(t, (credit > 4) == (i == 0) && fabs(f.counts.direct[FIRST_HIT] / f.lights / credit - 1) < 1e-12,
@@ -146,6 +164,7 @@ void test_pilot(struct test *t)
 {
     test_plans(t);
     test_where_they_pay(t);
+    test_where_nothing_pays(t);
     test_where_nothing_else_does(t);
     test_wishes(t);
     test_credit(t);

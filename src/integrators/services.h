@@ -17,9 +17,9 @@
 #include "integrators/method.h"
 #include "learning/options.h"
 
-/* services_paths_matter: is anything to be gained by light sub-paths, and so by learning? Asked of a few samples by BDPT
- * before anything is learnt, where the pilot is on and the user has not asked for them. If not, *out is settled: a path
- * tracer. */
+/* services_paths_matter: is anything to be gained by light sub-paths, and so by learning? Asked of a few samples by
+ * BDPT before anything is learnt, where the pilot is on and the user has not asked for them. If not, *out is settled: a
+ * path tracer. */
 bool services_paths_matter(const struct render_job *job, struct preparation *out);
 
 /* services_learn: fill the tables with what services need and what the method itself wants, if that is anything; counts
