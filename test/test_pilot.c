@@ -83,7 +83,7 @@ static void test_where_nothing_else_does(struct test *t)
         if (settle(t, &scene, &f)) {
             CHECK(t, (f.path_pixels > 0) == (i > 0), "a point light beside %s: %d", materials[i], f.path_pixels);
             double delta = f.counts.delta[FIRST_HIT];
-            CHECK(t, delta >= 16, "a point light's samples count for %g", delta);
+            CHECK(t, i == 0 || delta >= 16, "a point light's samples count for %g", delta);
         }
         scene_free(&scene);
     }

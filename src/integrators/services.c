@@ -114,7 +114,8 @@ bool services_paths_matter(const struct render_job *job, struct preparation *out
     struct frozen *f = out->state;
     struct preparation bdpt;
     struct error none;
-    if (!f->services.pilot || !free_choice(job, f) || !method_prepare(&method_bdpt, job, &bdpt, &none))
+    bool goes_on = job->watch == NULL || job->watch(job->watch_context, 1);
+    if (!goes_on || !f->services.pilot || !free_choice(job, f) || !method_prepare(&method_bdpt, job, &bdpt, &none))
         return true;
     struct workspace *work = workspaces_new(job->n_threads, job->max_depth);
     const struct probe probe = {job, work, &bdpt, render_with, &((struct frozen *)bdpt.state)->counts, out->size};
