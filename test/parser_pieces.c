@@ -1,4 +1,4 @@
-/* parser_pieces.c: what the parser is made of: names, numbers against strtod, spectra against known colours, messages. */
+/* parser_pieces.c: what the parser is made of: names, numbers against strtod, spectra, messages. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
