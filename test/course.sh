@@ -4,14 +4,16 @@
 #   sh test/course.sh start N [DIR]        a copy of the tree without the functions of assignment N
 #   sh test/course.sh grade N [DIR]        build the copy, run its tests, measure, and explain what is still wrong
 #   sh test/course.sh exercise MUTANT      what the fault of an exercise does: pictures, the mean, tests, reasoning
+#   sh test/course.sh grade-all DIR        grade every folder of DIR, a student's files each: DIR/grades.csv
 #   sh test/course.sh check                does every hole apply, has every exercise an answer? (seconds)
-#   sh test/course.sh prove                does every assignment fail with its hole and pass without? (minutes)
+#   sh test/course.sh prove [N]            is every hole, and every step that is left out, found and named? (an hour)
 # DIR is ../asbdpt-course/N if none is named. What is known of an assignment or exercise is in test/course/list.txt.
 set -u
 list=test/course/list.txt
-work=build-course
+work=$PWD/build-course
 SEEDS="1 2 3 4 5 6 7 8" # pictures of each side that are compared
-limit=$(command -v timeout || command -v gtimeout) && limit="$limit 600" # seconds; else there is none
+watch=$(command -v timeout || command -v gtimeout) # ends a whole process group; else only CPU time is limited
+SANE="-g -fsanitize=address,undefined -fno-sanitize-recover=undefined" # for what is changed
 
 say() { printf '%s\n' "$@"; }
 die() { say "course: $*" >&2; exit 2; }
@@ -24,12 +26,25 @@ names() { awk -v kind="$1" '$1 == kind { print $2 }' $list; }
 fault() { awk -v name="$1" '!/^[-+]/ { here = $1 == name } here' test/mutants/list.txt; }
 
 # ---- copies of the tree ----
-# build TREE [TARGET]: a dot for each file, and what the compiler says. -O1: it is the compiler one waits for here.
+# build TREE [TARGET]: a dot for each file, and what the compiler says. -O1: it is the compiler one waits for here. What
+# is changed in a copy is built with sanitizers: they say the line in which an index leaves its array.
 build() {
+    extra=
+    [ "$1" = $work/original ] || extra=$(sane)
     (cd "$1" && MAKEFLAGS='' ${MAKE:-make} -s -j2 CC="${CC:-cc}" BUILD=build LTO= OPT=-O1 \
-        CFLAGS='-Wno-unused-parameter -Wno-unused-function' ${2-asbdpt-lab build/test} 2>&1 || echo "no build") |
+        CFLAGS="-Wno-unused-parameter -Wno-unused-function $extra" ${2-asbdpt-lab build/test} 2>&1 || echo "no build") |
         awk '/^  (build|asbdpt)/ { printf "."; dots++; next } /^no build$/ { bad = 1; next } { print }
             END { if (dots) print ""; exit bad }'
+}
+
+# sane: the sanitizers' options, if programs with them can be made and run here.
+sane() {
+    if [ ! -f $work/sane ]; then
+        echo 'int main(void) { return 0; }' >$work/sane.c
+        ${CC:-cc} $SANE -o $work/sane.out $work/sane.c 2>/dev/null && $work/sane.out && echo "$SANE" >$work/sane ||
+            echo "" >$work/sane
+    fi
+    cat $work/sane
 }
 
 # original: a copy of all that is needed, built. Others are copies of it, and compared with it.
@@ -57,20 +72,91 @@ dig() {
     done || die "assignment $1: a function is not in its file, or twice"
 }
 
+# ---- programs that may not end ----
+# run SECONDS OUT COMMAND...: with so much CPU time. It and all it starts end when this does.
+export ASAN_OPTIONS=detect_leaks=0:exitcode=86 UBSAN_OPTIONS=print_stacktrace=1:exitcode=86
+guard() {
+    child=
+    trap '[ -n "$child" ] && kill "$child" 2>/dev/null' EXIT
+    trap 'exit 130' INT TERM HUP
+}
+run() {
+    (ulimit -t "$1" && out=$2 wall=$((20 * $1 + 60)) && shift 2 && exec ${watch:+$watch -k 2 $wall} "$@") >"$2" 2>&1 &
+    child=$!
+    wait $child
+    status=$?
+    child=
+    return $status
+}
+
+# cost FILE COMMAND...: CPU seconds, rounded up, that the original takes; asked once, and kept in FILE.
+cost() {
+    file=$1
+    shift
+    [ -s "$file" ] || (cd $work/original && "$@" >/dev/null 2>&1
+        spent >"$file")
+    cat "$file"
+}
+
+# spent: CPU seconds, rounded up, of all that this shell has waited for. (No pipe: its shell has waited for nothing.)
+spent() {
+    times >$work/times
+    awk 'NR == 2 { for (i = 1; i <= 2; i++) { split($i, t, /[ms]/); sum += 60 * t[1] + t[2] }; print int(sum) + 1 }' \
+        $work/times
+}
+
+# told STATUS: what it means, for people.
+told() {
+    case $1 in
+    124 | 137 | 152) say "It does not end: stopped after ten times the time of the original. Which loop never ends?" ;;
+    86) say "It reads, writes or computes what it must not:" ;;
+    132 | 134) say "It stopped itself (an assertion, or memory that was damaged before):" ;;
+    136) say "It divides a whole number by zero." ;;
+    138 | 139) say "It crashes: an index or a pointer leads outside." ;;
+    127) say "It cannot be started." ;;
+    *) say "It ends with status $1:" ;;
+    esac
+}
+
+# place NAME TREE LOG: the first line of the student's files that the log names, and what stands there.
+place() {
+    for file in $(get "$1" hole | sed 's/ .*//' | sort -u); do
+        line=$(grep -o "${file#src/}:[0-9]*" "$3" | head -n 1 | sed 's/.*://')
+        [ -n "$line" ] && say "    $file, line $line: $(sed -n "${line}s/^ *//p" "$2/$file")" && break
+    done
+    grep -oE 'runtime error: .*|ERROR: AddressSanitizer: [a-z-]*' "$3" | head -n 1 | sed 's/^[^:]*: //; s/^/    /'
+}
+
 # ---- what differs ----
 # shot TREE SEED OUT: a picture of the view, by the program of that tree.
 shot() {
     case $view in
-    mini*) $limit "$1/mini" "${view#mini }" 4 "$3" "$2" ;;
-    *) $limit "$1/asbdpt-lab" render $view --quiet --seed "$2" -o "$3" ;; # the words of the view are arguments
+    mini*) set -- "$3" "$1/mini" "${view#mini }" 4 "$3" "$2" ;;
+    *) set -- "$3" "$1/asbdpt-lab" render $view --quiet --seed "$2" -o "$3" ;; # the words of the view are arguments
     esac
+    out=$1
+    shift
+    run "${pictures_cost:-600}" "$out.said" "$@"
 }
 
-# noise DIR SIDE: the root mean square difference of two pictures of one side, over four pairs.
+# noise SIDE...: the root mean square difference of two pictures of one side, NAME-1.pfm ..., over four pairs.
 noise() {
     for pair in "1 2" "3 4" "5 6" "7 8"; do
-        $work/original/asbdpt-lab compare "$1/$2-${pair% *}.pfm" "$1/$2-${pair#* }.pfm"
+        $work/original/asbdpt-lab compare "$1-${pair% *}.pfm" "$1-${pair#* }.pfm"
     done | awk '$1 == "rmse" { sum += $2 * $2 } END { print sqrt(sum / 4) }'
+}
+
+# pictures NAME: those of the original, made once, in $kept; how long they may take goes to $pictures_cost.
+pictures() {
+    kept=$work/kept/$(echo "$view" | tr ' /' '__')
+    mkdir -p "$kept"
+    [ -s "$kept/cost" ] && pictures_cost=$((10 * $(cat "$kept/cost") + 5)) && return
+    say "Rendering what the original makes of it ..."
+    pictures_cost=
+    for k in $SEEDS; do shot $work/original "1$k" "$kept/original-$k.pfm" || return; done
+    shot $work/original 1 "$kept/before.pfm" || return # of the same seed: what differs is the change, not noise
+    (shot $work/original 1 "$kept/before.pfm"; spent >"$kept/cost")
+    pictures_cost=$((10 * $(cat "$kept/cost") + 5))
 }
 
 # measure NAME TREE DIR: pictures of the original and of TREE, and in words how they differ. Status 0: they agree.
@@ -82,19 +168,20 @@ measure() {
             ${CC:-cc} -std=c99 -O2 -o "$tree/mini" "$tree/doc/mini/asbdpt.c" -lm || return
         done ;;
     esac
-    printf 'Rendering %s, original and changed:' "$view"
+    pictures "$1" || { say "The original does not render."; return 1; }
+    printf 'Rendering %s:' "$view"
     for k in $SEEDS; do
         printf ' %s' "$k"
-        shot $work/original "1$k" "$3/original-$k.pfm" && shot "$2" "$k" "$3/yours-$k.pfm" ||
-            { say "" "The changed program does not render (status $?)."; return 1; }
+        shot "$2" "$k" "$3/yours-$k.pfm" && continue
+        say "" "$(told $status)" "$(place "$1" "$2" "$3/yours-$k.pfm.said")" "$(head -n 2 "$3/yours-$k.pfm.said")"
+        return 1
     done
-    shot $work/original 1 "$3/before.pfm" # of the same seed: what differs is the change, and little of it noise
-    $work/original/asbdpt-lab compare "$3/yours-1.pfm" "$3/before.pfm" --heatmap "$3/difference.png" >/dev/null
-    $work/original/asbdpt-lab convert "$3/before.pfm" -o "$3/original.png"
+    $work/original/asbdpt-lab compare "$3/yours-1.pfm" "$kept/before.pfm" --heatmap "$3/difference.png" >/dev/null
+    $work/original/asbdpt-lab convert "$kept/before.pfm" -o "$3/original.png"
     $work/original/asbdpt-lab convert "$3/yours-1.pfm" -o "$3/changed.png"
     $work/original/asbdpt-lab verify doc/mini/rooms.pbrt --tile 8 --quiet \
-        --files "$3"/yours-*.pfm --against "$3"/original-*.pfm >"$3/verify.txt" 2>&1
-    awk -v before="$(noise "$3" original)" -v after="$(noise "$3" yours)" '
+        --files "$3"/yours-?.pfm --against "$kept"/original-?.pfm >"$3/verify.txt" 2>&1
+    awk -v before="$(noise "$kept/original")" -v after="$(noise "$3/yours")" '
         /^ratio of the means/ { ratio = $5; error = $7 }
         /^p, smallest/ { place = $0; sub(/^.*tile/, "tile", place) }
         /^verdict:/ { verdict = $2 }
@@ -109,25 +196,60 @@ measure() {
             exit verdict != "agree" }' "$3/verify.txt"
 }
 
-# suites NAME TREE DIR LIST: tests of the tree, up to the first that fails, and what that means. Status 0: all pass.
+# suites NAME TREE DIR LIST: tests of the tree, up to the first that fails, and what that means. Status 0: all pass;
+# else $failed is that test, and $3/failed.txt what it says.
 suites() {
+    failed=
     for suite in $4; do
         printf 'Test %s ... ' "$suite"
         command="build/test $suite"
         [ -f "$2/test/$suite.sh" ] && command="sh test/$suite.sh ./asbdpt" && build "$2" asbdpt
-        (cd "$2" && $limit $command) >"$3/$suite.txt" 2>&1 && say "passed" && continue
-        say "FAILED:"
-        grep -E 'FAIL|^ *p = ' "$3/$suite.txt" | head -n 3 | sed 's/^\(.\{150\}\).*/\1 .../; s/^ */    /'
+        mkdir -p $work/kept
+        (cd $work/original && [ ! -f "test/$suite.sh" ] || build . asbdpt) >/dev/null
+        seconds=$(cost "$work/kept/$suite.cost" $command)
+        here=$PWD
+        cd "$2" && run $((10 * seconds + 5)) "$3/$suite.txt" $command
+        cd "$here" || exit
+        [ $status -eq 0 ] && say "passed" && continue
+        failed=$suite
+        grep -E 'FAIL|^ *p = ' "$3/$suite.txt" >"$3/failed.txt"
+        say "FAILED."
+        if [ $status -ne 1 ] || [ ! -s "$3/failed.txt" ]; then
+            told $status
+            place "$1" "$2" "$3/$suite.txt"
+        fi
+        head -n 3 "$3/failed.txt" | sed 's/^\(.\{150\}\).*/\1 .../; s/^ */    /'
         get "$1" "$suite"
         return 1
     done
 }
 
-# answer NAME TREE TESTS: measure and test a built tree. Status 0: all is well.
+# hints NAME CHECK FILE: what to think of if CHECK (a test, or "picture") fails and says what is in FILE: the hints
+# whose pattern is there; if there is none, those without one.
+hints() {
+    get "$1" hint | awk -v check="$2" -v said="$3" '
+        BEGIN { while ((getline line < said) > 0) text = text line "\n" }
+        { split($1, wanted, "/"); if (wanted[1] != check) next }
+        {
+            step = $2
+            sub(/^[^ ]+ [^ ]+ /, "")
+            line = "- Step " step ": " $0
+            if (wanted[2] == "") general = general line "\n"
+            else if (match(text, wanted[2])) special = special line "\n"
+        }
+        END { printf "%s", special != "" ? special : general }'
+}
+
+# answer NAME TREE TESTS: test and measure a built tree. Status 0: all is well; else the hints.
 answer() {
-    measure "$1" "$2" "$2/report"
-    agree=$?
-    suites "$1" "$2" "$2/report" "$3" && [ $agree -eq 0 ]
+    : >"$2/report/failed.txt"
+    tested=0
+    suites "$1" "$2" "$2/report" "$3" || tested=1
+    [ $tested -ne 0 ] && [ -n "${QUICK-}" ] || measure "$1" "$2" "$2/report" || tested=$((tested + 2))
+    [ $tested -eq 0 ] && return
+    say "" "What to think of:"
+    if [ -n "$failed" ]; then hints "$1" "$failed" "$2/report/failed.txt"; else hints "$1" picture /dev/null; fi
+    return 1
 }
 
 # page DIR TITLE: DIR/index.html has the pictures and the words of DIR/report.txt.
@@ -158,17 +280,16 @@ start() {
 grade() {
     [ -d "$2/src" ] || die "there is no $2: sh test/course.sh start ${1%%-*} $2"
     original
+    set -- "$1" "$(cd "$2" && pwd)"
     rm -rf "$2/report" && mkdir "$2/report" || exit
     {
+        guard
         say "Building $2 ..."
         if ! build "$2"; then
             say "It does not compile yet."
         elif answer "$1" "$2" "$(get "$1" tests)"; then
             say "All is well: the first part is done. The page doc/course/$1.md has a second."
             touch "$2/report/passed"
-        else
-            say "" "What to think of:"
-            get "$1" hint | sed 's/^/- /'
         fi
     } | tee "$2/report/report.txt"
     page "$2/report" "$(get "$1" title)"
@@ -182,6 +303,7 @@ exercise() {
     rm -rf "$tree" && cp -Rp $work/original "$tree" && mkdir "$tree/report" || exit
     sh test/mutants/apply.sh test/mutants/list.txt "$1" "$tree" || exit
     {
+        guard
         fault "$1" | awk 'NR == 1 { file = $2; $1 = $2 = $3 = ""; sub(/ */, ""); $0 = "In " file ": " $0 } { print }'
         build "$tree" && answer "$1" "$tree" "$(fault "$1" | awk 'NR == 1 { gsub(/,/, " ", $3); print $3 }')"
         say "" "Is it biased, how much, and where would one see it?" "$(get "$1" answer)"
@@ -194,7 +316,8 @@ start | grade) name=$(names assignment | awk -v word="${2:-none}" '$0 == word ||
     [ -n "$name" ] || die "the assignments are $(names assignment | tr '\n' ' ')"
     "$1" "$name" "${3:-../asbdpt-course/$2}" ;;
 exercise) exercise "${2-}" ;;
-check | prove) . test/course/check.sh && "$1" ;;
+grade-all) . test/course/grade_all.sh && grade_all "${2:?"grade-all DIR"}" ;;
+check | prove) . test/course/check.sh && "$1" "${2-}" ;;
 list) for name in $(names assignment); do say "$name: $(get "$name" title)"; done; names exercise ;;
-*) sed -n '2,9s/^# \{0,1\}//p' "$0"; exit 2 ;;
+*) sed -n '2,10s/^# \{0,1\}//p' "$0"; exit 2 ;;
 esac

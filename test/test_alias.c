@@ -48,6 +48,22 @@ static double mass_error(const struct alias_table *t, const double *weight, int 
     return most_of(worst, fabs(sum - 1) / n);
 }
 
+/* Bins that say of their other element what is not so: its probability; that it is their own, or none, while they are
+ * not full, or that they are more than full. */
+static int wrong_bins(const struct alias_table *t, bool probability)
+{
+    int wrong = 0;
+    for (int i = 0; i < t->n; i++) {
+        const struct alias_bin *b = &t->bin[i];
+        bool other = b->alias < (uint32_t)t->n && b->alias != (uint32_t)i;
+        if (!(b->threshold >= 0 && b->threshold <= 1))
+            wrong += !probability;
+        else if (b->threshold < 1)
+            wrong += probability ? other && b->alias_pmf != alias_pmf(t, (int)b->alias) : !other;
+    }
+    return wrong;
+}
+
 /* p-value of n_draws indices against the table's probabilities; NaN if a draw tells another one. */
 static double draw_p(const struct alias_table *t, int n, int n_draws, struct rng *r)
 {
@@ -119,6 +135,13 @@ static void every_shape(struct test *t)
             make_weights((enum shape_of_weights)shape, w, n, &r);
             w[n - 1] += shape == HOLES; /* not all of them zero */
             if (!CHECK(t, alias_build(&table, w, n), "%s, n %d: builds", SHAPE_NAME[shape], n))
+                continue;
+            int alone = wrong_bins(&table, false), told = wrong_bins(&table, true);
+            CHECK(t, alone == 0, "%s, n %d: %d bins have a threshold above 1, or one below and no other item as alias",
+                  SHAPE_NAME[shape], n, alone);
+            CHECK(t, told == 0, "%s, n %d: %d bins have an alias_pmf that is not their alias' probability",
+                  SHAPE_NAME[shape], n, told);
+            if (alone > 0)
                 continue;
             double e = mass_error(&table, w, n);
             CHECK(t, e < 1e-12, "%s, n %d: relative mass error %g", SHAPE_NAME[shape], n, e);

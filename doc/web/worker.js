@@ -1,41 +1,15 @@
 // worker.js: runs the renderer, a WebAssembly program for WASI preview 1, with files that lie in memory. Only what the
 // program asks for is here; everything else answers "no such function".
 //
-// In:  { wasm, files: { path: bytes }, call: "web_render" or "web_command", words: [...], gates: [URL ...] }, once.
+// In:  { wasm, files: { path: bytes }, call: "web_render" or "web_command", words: [...] }, once.
 // Out: { picture, pixels, width, height, iterations, seconds, rmse8, ratio } after every iteration of web_render;
 //      { status, out, err, files: those written } at the end.
-// A worker that computes hears no message. What it can ask, at once, is whether a URL still leads somewhere: the page
-// revokes the first of `gates` to let it wait, the second to let it go on, and so forth.
 'use strict';
 
 const SUCCESS = 0, BADF = 8, EXIST = 20, INVAL = 28, NOENT = 44, NOSYS = 52;
 const CHARACTERS = 2, DIRECTORY = 3, REGULAR = 4;
 
-function openGate(url) {
-  const request = new XMLHttpRequest();
-  try {
-    request.open('GET', url, false);
-    request.send();
-    return true;
-  } catch {
-    return false;
-  }
-}
-
-let gate = 0, asked = 0;
-function waitAtGate(gates) {
-  if (!gates || performance.now() - asked < 100)
-    return;
-  const clock = new Int32Array(new WebAssembly.Memory({ initial: 1, maximum: 1, shared: true }).buffer);
-  while (gate < gates.length && (gate % 2 === 1 || !openGate(gates[gate])))
-    if (gate % 2 === 0 || !openGate(gates[gate]))
-      gate++;
-    else
-      Atomics.wait(clock, 0, 0, 50); // nobody wakes it
-  asked = performance.now();
-}
-
-function run({ wasm, files, call, words, gates }, show) {
+function run({ wasm, files, call, words }, show) {
   let memory;
   const view = () => new DataView(memory.buffer);
   const bytes = (at, n) => new Uint8Array(memory.buffer, at, n);
@@ -185,7 +159,6 @@ function run({ wasm, files, call, words, gates }, show) {
         const n = width * height;
         show({ picture: bytes(rgba, 4 * n).slice(), pixels: bytes(pixels, 12 * n).slice(), width, height, iterations,
                seconds, rmse8, ratio });
-        waitAtGate(gates);
         return 1;
       },
     },

@@ -24,8 +24,36 @@ check() {
         sh test/course.sh start "$word" "$dir/none" >/dev/null 2>&1 || continue
         wrong "'$word' is taken for the name of an assignment"
     done
-    [ $bad -eq 0 ] && say "course: $(names assignment | grep -c .) assignments, $(asked | grep -c .) exercises"
+    for n in $(names assignment); do
+        for step in $(steps "$n"); do
+            grep -q "^${n%%-*}-[^ ]* [^ ]* $step " $plants || wrong "no plant leaves out step $step of assignment $n"
+            get "$n" hint | grep -q "^[^ ]* $step " || wrong "assignment $n has no hint of step $step"
+        done
+    done
+    [ -z "$(plants_of "$dir")" ] || wrong "$(plants_of "$dir")"
+    [ $bad -eq 0 ] && say "course: $(names assignment | grep -c .) assignments, $(planted | grep -c .) steps left out, \
+$(asked | grep -c .) exercises"
     return $bad
+}
+
+plants=test/course/plants.txt
+planted() { awk '/^[1-9]/ { print $1 }' $plants; }
+
+# plants_of DIR: those that do not apply.
+plants_of() {
+    for plant in $(planted); do
+        rm -rf "$1/plant" && mkdir "$1/plant" && cp -R src "$1/plant/"
+        sh test/mutants/apply.sh $plants "$plant" "$1/plant"
+    done
+}
+
+# steps NAME: the numbered steps of an assignment's page, as hints and plants call them.
+steps() {
+    awk '/^## / {
+            on = /^## Step by step|^## `walk_measure`/
+            prefix = /walk_leave/ ? "d" : /walk_on/ ? "w" : /walk_measure/ ? "measure-" : ""
+        }
+        on && /^[1-9]\. / { sub(/\..*/, ""); print prefix $0 }' "doc/course/$1.md"
 }
 
 # asked: the mutants of the tour's exercises.
@@ -36,19 +64,33 @@ asked() {
         doc/tour/[01]*.md
 }
 
-# prove: every assignment fails with its hole, and passes with the original in it.
+# prove [N]: every assignment (or assignment N) fails with its hole and passes with the original; every step that is
+# left out is found, and named.
 prove() {
     bad=0
-    for n in $(names assignment); do
+    for n in $(names assignment | grep "^${1-}"); do
         tree=$work/prove-$n
         rm -rf "$tree"
         (start "$n" "$tree") >/dev/null
-        (grade "$n" "$tree") >"$tree/hole.txt" 2>&1 && say "course: $n passes with its hole" && bad=1
+        (QUICK=1; grade "$n" "$tree") >"$tree/hole.txt" 2>&1 && say "course: $n passes with its hole" && bad=1
         for file in $(get "$n" hole | sed 's/ .*//' | sort -u); do cat "$file" >"$tree/$file"; done
-        (grade "$n" "$tree") >"$tree/solution.txt" 2>&1 && continue
-        say "course: $n fails with the original: $tree/solution.txt"
-        bad=1
+        (grade "$n" "$tree") >"$tree/solution.txt" 2>&1 ||
+            { say "course: $n fails with the original: $tree/solution.txt"; bad=1; }
+        for plant in $(planted | grep "^${n%%-*}-"); do
+            for file in $(get "$n" hole | sed 's/ .*//' | sort -u); do cat "$file" >"$tree/$file"; done
+            sh test/mutants/apply.sh $plants "$plant" "$tree" || exit
+            step=$(awk -v plant="$plant" '$1 == plant { print $3 }' $plants)
+            if (QUICK=1; grade "$n" "$tree") >"$tree/$plant.txt" 2>&1; then
+                say "course: $plant is not found"
+            elif grep -q "^- Step $step: " "$tree/$plant.txt"; then
+                say "course: $plant: step $step is named"
+                continue
+            else
+                say "course: $plant is found, but step $step is not named: $tree/$plant.txt"
+            fi
+            bad=1
+        done
     done
-    [ $bad -eq 0 ] && say "course: every assignment fails with its hole and passes without"
+    [ $bad -eq 0 ] && say "course: every hole and every step left out is found and named, and every original passes"
     return $bad
 }

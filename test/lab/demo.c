@@ -31,9 +31,9 @@ void demo_draw(const struct results *r, struct sheet *sheet)
                     k);
     }
     if (scale > 1)
-        snprintf(cost, sizeof cost, "%.13s; %d x %d in one", s->reference.origin, scale, scale);
+        snprintf(cost, sizeof cost, "%.14s; %d x %d in one", s->reference.origin, scale, scale);
     else
-        snprintf(cost, sizeof cost, "%.13s", s->reference.origin);
+        snprintf(cost, sizeof cost, "%.14s", s->reference.origin);
     draw_column(sheet, n, "reference", "noise", s->reference.noise8, cost, s->reference.pixels, s->width, s->height,
                 k * scale);
 }
