@@ -241,11 +241,11 @@ static void test_heatmap(struct test *t)
     for (int i = 0; i < N; i++)
         CHECK(t, fabs((double)error[i] - i) < 1e-4, "error of pixel %d is %g", i, (double)error[i]);
     for (int percent = 1; percent <= 100; percent += 9) {
-        double p = compare_percentile(error, N, percent); /* N errors 0, 1 ... : rank ceil(1.01 percent) */
+        double p = picture_percentile(error, N, percent); /* N errors 0, 1 ... : rank ceil(1.01 percent) */
         CHECK(t, fabs(p - (ceil(1.01 * percent) - 1)) < 1e-4, "percentile %d is %g", percent, p);
     }
     for (int percent = 1; percent <= 100; percent++) {
-        double p = compare_percentile(error, 100, percent);
+        double p = picture_percentile(error, 100, percent);
         CHECK(t, fabs(p - (percent - 1)) < 1e-4, "percentile %d of a hundred errors 0, 1 ... 99 is %g", percent, p);
     }
     compare_heatmap(error, N, 50, map);
@@ -256,7 +256,7 @@ static void test_heatmap(struct test *t)
     }
     x[3 * 100] = NAN; /* is shown as the largest, and does not set the scale */
     compare_errors(x, r, N, error);
-    double largest = compare_percentile(error, N, 100);
+    double largest = picture_percentile(error, N, 100);
     CHECK(t, isinf((double)error[100]) && fabs(largest - 99) < 1e-4, "largest: %g, for NaN %g", largest,
           (double)error[100]);
     compare_heatmap(error, N, 98, map);
@@ -264,7 +264,7 @@ static void test_heatmap(struct test *t)
     compare_heatmap(error, 1, 0, map);
     viridis(0, stop);
     CHECK(t, memcmp(map, stop, sizeof stop) == 0, "without any error all is dark");
-    CHECK(t, compare_percentile(error + 100, 1, 99) == 0, "percentile where nothing is finite");
+    CHECK(t, picture_percentile(error + 100, 1, 99) == 0, "percentile where nothing is finite");
 }
 
 void test_verify(struct test *t)

@@ -59,7 +59,7 @@ static bool write_heatmap(const struct compare_options *o, struct file_output *f
     long pixels = (long)width * height;
     float *error = mem_alloc((size_t)pixels, sizeof *error), *map = mem_alloc((size_t)pixels * 3, sizeof *map);
     compare_errors(x, r, pixels, error);
-    double most = o->most > 0 ? o->most : compare_percentile(error, pixels, o->percentile > 0 ? o->percentile : 99);
+    double most = o->most > 0 ? o->most : picture_percentile(error, pixels, o->percentile > 0 ? o->percentile : 99);
     compare_heatmap(error, pixels, most, map);
     const struct raster picture = {{0, 0, 0, 0}, width, height, map, NULL, 0};
     bool ok = image_finish(f, &picture, err);

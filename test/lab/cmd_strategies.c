@@ -5,8 +5,8 @@
 
 #include "cli/job_options.h"
 #include "image/image.h"
-#include "lab/commands.h"
 #include "lab/directory.h"
+#include "lab/commands.h"
 #include "lab/pyramid.h"
 #include "render/parameters.h"
 
@@ -73,7 +73,7 @@ static int run(void *options)
     int status = job_load(&o->job, &scene, &m);
     if (status != EXIT_OK)
         return status;
-    bool ok = directory_make(o->directory, &err) &&
+    bool ok = file_make_directory(o->directory, &err) &&
               render(&scene, job_render(&o->job, &scene, m), o->directory, &err);
     scene_free(&scene);
     if (ok && !o->job.quiet)

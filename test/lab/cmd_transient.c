@@ -8,8 +8,8 @@
 #include "cli/job_options.h"
 #include "image/image.h"
 #include "lab/compare.h"
-#include "lab/commands.h"
 #include "lab/directory.h"
+#include "lab/commands.h"
 #include "lab/gates.h"
 #include "lab/sheet.h"
 
@@ -73,7 +73,7 @@ static bool write_all(const char *directory, struct gates g, const float *pixels
 {
     enum { COLUMNS = 4, CELL = 240, GAP = 8, LABEL = 20, PERCENTILE = 99 };
     size_t n = 3 * (size_t)w * (size_t)h;
-    double white = fmax(compare_percentile(pixels, (long)n * g.n, PERCENTILE), 1e-30);
+    double white = fmax(picture_percentile(pixels, (long)n * g.n, PERCENTILE), 1e-30);
     int shrink = int_within(w / CELL, 1, h), k = int_within(CELL / w, 1, CELL);
     int width = w / shrink * k + GAP, height = h / shrink * k + GAP + LABEL;
     char text[4096];
@@ -110,7 +110,7 @@ static int run(void *options)
         return status;
     struct pixel_rect r = render_crop(&scene);
     struct render_options by = job_render(&o->job, &scene, method);
-    bool ok = directory_make(o->directory, &err) &&
+    bool ok = file_make_directory(o->directory, &err) &&
               (o->range[1] > 0 || find_range(&scene, by, &gates, &err));
     float *pictures = ok ? render(&scene, &by, gates, &err) : NULL;
     ok = pictures != NULL && write_all(o->directory, gates, pictures, rect_width(r), rect_height(r), &err);

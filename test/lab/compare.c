@@ -133,7 +133,7 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-double compare_percentile(const float *error, long n, double percent)
+double picture_percentile(const float *error, long n, double percent)
 {
     float *sorted = mem_alloc((size_t)n, sizeof *sorted);
     memcpy(sorted, error, (size_t)n * sizeof *sorted);

@@ -6,7 +6,7 @@
 #include "base/mem.h"
 #include "base/os.h"
 
-bool directory_make(const char *path, struct error *err)
+bool file_make_directory(const char *path, struct error *err)
 {
     char *above = mem_copy_text(path);
     for (size_t i = 1; path[0] != '\0' && path[i] != '\0'; i++)

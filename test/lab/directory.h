@@ -1,10 +1,10 @@
-/* directory.h: where reports and their pictures go. */
-#ifndef LAB_DIRECTORY_H
-#define LAB_DIRECTORY_H
+/* directory.h: directories for what the laboratory writes. */
+#ifndef ASBDPT_DIRECTORY_H
+#define ASBDPT_DIRECTORY_H
 
 #include "base/error.h"
 
-/* directory_make: a directory and those above it, unless they are there. Returns false with a message. */
-bool directory_make(const char *path, struct error *err);
+/* file_make_directory: a directory and those above it, unless they are there. Returns false with a message. */
+bool file_make_directory(const char *path, struct error *err);
 
 #endif

@@ -1,4 +1,5 @@
 /* measure.c: see measure.h. */
+#include "lab/directory.h"
 #include "lab/measure.h"
 
 #include <inttypes.h>
@@ -11,7 +12,6 @@
 #include "base/number.h"
 #include "base/os.h"
 #include "base/progress.h"
-#include "lab/directory.h"
 #include "lab/equal.h"
 #include "lab/plan_scene.h"
 #include "lab/sheet.h"
@@ -457,10 +457,10 @@ static bool make_directories(const struct plan *p, struct error *err)
 {
     static const char *const names[] = {"store", "images", "plots"};
     char path[4096];
-    bool ok = p->directory == NULL || directory_make(p->directory, err);
+    bool ok = p->directory == NULL || file_make_directory(p->directory, err);
     for (size_t i = 0; ok && p->directory != NULL && i < sizeof names / sizeof names[0]; i++) {
         snprintf(path, sizeof path, "%s/%s", p->directory, names[i]);
-        ok = directory_make(path, err);
+        ok = file_make_directory(path, err);
     }
     return ok;
 }

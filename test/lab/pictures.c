@@ -42,7 +42,7 @@ double pictures_error_scale(const struct scene_results *s)
 {
     long n;
     float *error = display_errors(s, &n);
-    double most = compare_percentile(error, n, PICTURES_PERCENTILE);
+    double most = picture_percentile(error, n, PICTURES_PERCENTILE);
     free(error);
     return most;
 }
@@ -74,7 +74,7 @@ bool pictures_write(const struct scene_results *s, struct error *err)
     long n;
     struct sheet sheet;
     float *error = display_errors(s, &n), *heat = mem_alloc((size_t)n * 3, sizeof *heat);
-    compare_heatmap(error, n, compare_percentile(error, n, PICTURES_PERCENTILE), heat);
+    compare_heatmap(error, n, picture_percentile(error, n, PICTURES_PERCENTILE), heat);
     draw(s, heat, &sheet);
     snprintf(path, sizeof path, "%s/images/%s.png", s->plan->directory, s->name);
     bool ok = image_write(path, sheet.width, sheet.height, sheet.pixels, err);

@@ -1,4 +1,5 @@
 /* pyramid.c: see pyramid.h. */
+#include "lab/compare.h"
 #include "lab/pyramid.h"
 
 #include <math.h>
@@ -9,7 +10,6 @@
 #include "base/mem.h"
 #include "base/number.h"
 #include "image/image.h"
-#include "lab/compare.h"
 #include "lab/sheet.h"
 
 enum { GAP = 4, LEFT = 64, TOP = 40, SHEET_WIDTH = 1024, CELL_MIN = 48, CELL_MAX = 192 };
@@ -49,7 +49,7 @@ static double row_exposure(const struct layout *l, const struct strategy_images 
             total[i] += share[i];
         free(share);
     }
-    double bright = compare_percentile(total, (long)n, PERCENTILE);
+    double bright = picture_percentile(total, (long)n, PERCENTILE);
     free(total);
     return bright > 0 && bright < 1 ? ldexp(1, int_within(floor(-m_log2(bright)), 0, 16)) : 1;
 }

@@ -1,4 +1,5 @@
 /* reference.c: see reference.h. */
+#include "lab/directory.h"
 #include "lab/reference.h"
 
 #include <inttypes.h>
@@ -12,7 +13,6 @@
 #include "base/os.h"
 #include "base/rng.h"
 #include "image/image.h"
-#include "lab/directory.h"
 #include "lab/sheet.h"
 #include "lab/sides.h"
 #include "lab/timed.h"
@@ -199,7 +199,7 @@ bool reference_make(const struct scene *scene, const struct render_options *opti
     if (strcmp(text.origin, key) == 0 && load(path, out, &text, NULL))
         return true;
     o.end = spp / (2 * BATCHES) > 1 ? spp / (2 * BATCHES) : 1;
-    bool ok = directory_make(directory, err) && side_render(scene, &o, 0, BATCHES, true, &a, err) &&
+    bool ok = file_make_directory(directory, err) && side_render(scene, &o, 0, BATCHES, true, &a, err) &&
               side_render(scene, &o, 1, BATCHES, true, &b, err);
     if (ok) {
         struct provenance from = {key, "here", scene->content, options->max_depth, NULL};
