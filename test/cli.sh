@@ -41,7 +41,7 @@ refuse() { # PATTERN WORDS...: wrong usage of the program; test_options.c has wh
     expect 2 "$pattern" "$program" "$@"
 }
 # What only the laboratory has is said to be there: all its commands and integrators, as it lists them itself.
-"$lab" --help | sed -n 's/^    \([a-z-]*\)  .*/\1/p' >theirs.list
+"$lab" --help | sed -n 's/^    \([a-z][a-z-]*\)  .*/\1/p' >theirs.list
 check [ "$(wc -l <theirs.list)" = 15 ]
 for command in $(grep -Ev '^(render|merge|convert)$' theirs.list); do
     refuse "^asbdpt: $command is a command of asbdpt-lab; try" $command
@@ -191,7 +191,7 @@ fi
 for wrong in no/such/dir/x.pfm /proc/x.pfm stdout.txt/x.pfm; do
     expect 1 "^asbdpt: $wrong: cannot be created" "$program" render nothing.pbrt -o good.pfm -o $wrong
 done
-expect 1 '^asbdpt: good.ppm/s/probe: cannot be created' "$program" render nothing.pbrt --lights good.ppm/s
+expect 1 '^asbdpt: good.ppm/s/light00_area.pfm: cannot be created' "$program" render "$box" --lights good.ppm/s
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt -o good.pfm
 expect 1 'is odd' "$program" render "$box" $small -P select=bins -P binpaths=7 --integrator asbdpt -o good.pfm
 check [ ! -e good.pfm ]
@@ -302,6 +302,7 @@ expect 1 'rmse [0-9.e-]+ is more than 1e-09' "$lab" compare a.png a.pfm --max-rm
 expect 0 '' "$program" render "$box" --res 8x8 --spp 1 --quiet -o c.pfm
 expect 1 'equal size' "$lab" compare a.pfm c.pfm
 expect 1 cornell-box.pbrt "$lab" compare "$box" a.pfm
+expect 2 'asbdpt-lab strategies SCENE.pbrt -o s makes these' "$program" render "$box" --strategies s
 expect 0 '' "$lab" strategies "$box" $small --maxdepth 2 -o s
 check [ -s s/d02_s02_t02_weighted.pfm ]
 check [ -s s/pyramid.png ]

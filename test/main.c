@@ -1,5 +1,6 @@
-/* main.c: the test runner: build/test [-l] [--slow] [--seed N] [--scenes FIRST:END] [NAME...]
- * or build/test --scene N, which prints random scene N; --evil N prints it with numbers that no scene should have.
+/* main.c: the test runner: build/test [-l] [--slow] [--once] [--seed N] [--scenes FIRST:END] [NAME...]
+ * (--once: doubtful hypotheses fail at once), or build/test --scene N, which prints random scene N; --evil N prints it
+ * with numbers that no scene should have.
  * Exit status 0 only if every check and every hypothesis came out as it must. The last line is
  * "N passed, N failed". */
 #include <stdio.h>
@@ -34,7 +35,7 @@ static const struct test_entry ENTRIES[] = {
     {"emission", test_emission, false},
     {"learning", test_learning, false},
     {"options", test_options, false}, {"render", test_render, false}, {"asbdpt", test_asbdpt, false},
-    {"rivals", test_rivals, false},   {"ellipse", test_ellipse, false},
+    {"rivals", test_rivals, false},   {"vcm", test_vcm, false},   {"ellipse", test_ellipse, false},
     {"chains", test_chains, false},
     {"part", test_part, false}, {"trace", test_trace, false},
     {"report", test_report, false}, {"pictures", test_pictures, false},
@@ -81,6 +82,8 @@ int main(int argc, char **argv)
             return 0;
         } else if (strcmp(argv[first], "--slow") == 0) {
             slow = true;
+        } else if (strcmp(argv[first], "--once") == 0) {
+            setting.once = true;
         } else if (strcmp(argv[first], "--seed") == 0 && first + 1 < argc) {
             setting.seed = strtoull(argv[++first], NULL, 10);
         } else if (strcmp(argv[first], "--scenes") == 0 && first + 1 < argc) {
@@ -94,7 +97,7 @@ int main(int argc, char **argv)
             free(scene.text);
             return 0;
         } else {
-            fprintf(stderr, "usage: build/test [-l] [--slow] [--seed N] [--scenes FIRST:END] [NAME...]\n"
+            fprintf(stderr, "usage: build/test [-l] [--slow] [--once] [--seed N] [--scenes FIRST:END] [NAME...]\n"
                             "       build/test --scene N | --evil N\n");
             return 2;
         }

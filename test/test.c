@@ -84,7 +84,7 @@ static size_t judge(struct test *t)
     size_t doubts = 0;
     for (size_t i = 0; i < t->n; i++) {
         const struct hypothesis *h = &t->hypothesis[i];
-        if (doubtful(h)) {
+        if (doubtful(h) && !t->set.once) {
             doubts++;
             fprintf(t->set.out, "  doubtful: %s: p = %.3g\n", h->text, h->p);
         } else if (h->must_hold && !(h->p >= LEVEL)) {

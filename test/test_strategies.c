@@ -152,7 +152,7 @@ static void test_strategy_numbers(struct test *t)
 /* Unweighted, a strategy has a variance that hides small faults. What strategy i makes of f w_i w_j, the weights being
  * the oracle's, is what strategy j makes of it, and both have little variance, for a weight is small where its density
  * is: a bridge between the two. A hundred times fewer samples find the same fault. */
-enum { VERTICES = DEPTH + 2, BRIDGE_BATCHES = 16, BRIDGE_SPP = 64 };
+enum { VERTICES = DEPTH + 2, BRIDGE_BATCHES = 64, BRIDGE_SPP = 64 };
 
 struct bridges {
     const struct scene *scene;
@@ -296,7 +296,7 @@ void test_strategies(struct test *t)
     }
     for (int kind = 0; kind < KINDS; kind++) {
         judge_bridges(t, "all scenes", KIND[kind], &all[kind]);
-        double plant = kind == 3 ? 0.04 : 0.02;
+        double plant = 0.02;
         for (int k = 0; k < BRIDGE_BATCHES; k++)
             all[kind].more[k] += plant * all[kind].made[k];
         const struct batches more = {BRIDGE_BATCHES, 1, all[kind].more, NULL};
