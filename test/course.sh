@@ -32,9 +32,9 @@ fault() { awk -v name="$1" '!/^[-+]/ { here = $1 == name } here' test/mutants/li
 build() {
     extra=
     [ "$1" = $work/original ] || extra=$(sane)
-    (cd "$1" && MAKEFLAGS='' ${MAKE:-make} -s -j2 CC="${CC:-cc}" BUILD=build LTO= OPT=-O1 \
-        CFLAGS="-Wno-unused-parameter -Wno-unused-function $extra" ${2-asbdpt-lab build/test} 2>&1 ||
-        echo "no build") |
+    extra="-Wno-unused-parameter -Wno-unused-function $extra"
+    (cd "$1" && MAKEFLAGS='' ${MAKE:-make} -s -j2 CC="${CC:-cc}" BUILD=build LTO= OPT=-O1 CFLAGS="$extra" \
+        ${2-asbdpt-lab build/test} 2>&1 || echo "no build") |
         awk '/^  (build|asbdpt)/ { printf "."; dots++; next } /^no build$/ { bad = 1; next } { print }
             END { if (dots) print ""; exit bad }'
 }
@@ -321,7 +321,8 @@ variant() {
     awk -v number="$1" '!/^#/ {
         while (match($0, /[{][^}]*[}]/)) {
             n = split(substr($0, RSTART + 1, RLENGTH - 2), part, ";")
-            $0 = substr($0, 1, RSTART - 1) part[(number + 7 * int(number / n) + NR) % n + 1] substr($0, RSTART + RLENGTH)
+            choice = part[(number + 7 * int(number / n) + NR) % n + 1]
+            $0 = substr($0, 1, RSTART - 1) choice substr($0, RSTART + RLENGTH)
         }
         print
     }' test/course/variants.txt
