@@ -85,7 +85,8 @@ guard() {
     trap 'exit 130' INT TERM HUP
 }
 run() {
-    (ulimit -t "$1" && out=$2 wall=$((20 * $1 + 60)) && shift 2 && exec ${watch:+$watch -k 2 $wall} $away "$@") >"$2" 2>&1 &
+    wall=$((20 * $1 + 60)) # where it does not compute but waits
+    (ulimit -t "$1" && shift 2 && exec ${watch:+$watch -k 2 $wall} $away "$@") >"$2" 2>&1 &
     child=$!
     wait $child
     status=$?
