@@ -12,8 +12,8 @@
 #include "transport/observer.h"
 #include "transport/tile_pass.h"
 
-/* What every method has settled before the first sample: its own state begins with it. All 0 but the counts, which are
- * BDPT's, when it is to be prepared. */
+/* What every method has settled before the first sample; the state of a method begins with it. Before the method
+ * prepares itself the counts are BDPT's, lights and path_pixels 1. */
 struct frozen {
     struct mis_counts counts;
     int max_depth;
@@ -33,8 +33,9 @@ struct pixel_sample {
     double filter_weight;   /* of its eye sample, see path_eye_pixel */
     int lights;             /* samples of s = 1 for t = 2, 0: left to the method; 1 for t > 2 */
     struct sampler sampler; /* for light and lens points */
-    rgb until, before;      /* what paths with t >= 2 have brought so far that are shorter than the gate's end, or its
-                             * beginning (film.h): without a gate all, and none */
+    rgb until, before;      /* sums of what paths with t >= 2 have brought so far: of those shorter than the end of the
+                             * film's gate, and of those shorter than its beginning (scene/tile.h). Without a gate
+                             * `until` is the sample's value, and `before` 0 */
     struct arena *arena;    /* for what does not outlive the sample */
 };
 
