@@ -12,17 +12,6 @@
 #include "transport/observer.h"
 #include "transport/tile_pass.h"
 
-<<<<<<< HEAD
-/* What every method has settled before the first sample; the state of a method begins with it. Before the method
- * prepares itself the counts are BDPT's, lights and path_pixels 1. */
-struct frozen {
-    struct mis_counts counts;
-    int max_depth;
-    int lights;      /* samples of s = 1 at the first hit, 0: left to the method; 1 */
-    int path_pixels; /* pooled methods: pixels for each light sub-path, 0: there are none; 1 */
-};
-=======
->>>>>>> main
 
 /* One pixel of one iteration. */
 struct pixel_sample {
