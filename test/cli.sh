@@ -302,6 +302,7 @@ expect 1 'rmse [0-9.e-]+ is more than 1e-09' "$lab" compare a.png a.pfm --max-rm
 expect 0 '' "$program" render "$box" --res 8x8 --spp 1 --quiet -o c.pfm
 expect 1 'equal size' "$lab" compare a.pfm c.pfm
 expect 1 cornell-box.pbrt "$lab" compare "$box" a.pfm
+expect 2 'asbdpt-lab strategies SCENE.pbrt -o s makes these' "$program" render "$box" --strategies s
 expect 0 '' "$lab" strategies "$box" $small --maxdepth 2 -o s
 check [ -s s/d02_s02_t02_weighted.pfm ]
 check [ -s s/pyramid.png ]

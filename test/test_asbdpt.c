@@ -28,6 +28,11 @@ static void test_bias(struct test *t)
                                        "asbdpt select=vertices metric=constant connections=2",
                                        "asbdpt select=subspaces",
                                        "asbdpt select=subspaces connections=2",
+                                       "asbdpt guide=off emission=1 credit=off pilot=off tile=16 spread=1",
+                                       "asbdpt select=pool emission=0.2 credit=on pilot=on",
+                                       "asbdpt select=vertices emission=0.2 credit=on pilot=on tile=32",
+                                       "mbdpt emission=0.2 credit=on pilot=on spread=2",
+                                       "cbdpt connections=3 emission=0.2 credit=on",
                                        "lvc connections=1",
                                        "cbdpt connections=3"};
     struct scene scene;
@@ -224,6 +229,23 @@ static void test_every_scene(struct test *t)
     }
 }
 
+/* --- services ----------------------------------------------------------------------------------------- */
+
+/* Each alone, on a method whose choice learns nothing, among many lamps behind walls. */
+static void test_services(struct test *t)
+{
+    static const char *const ways[] = {"lvc guide=on", "lvc emission=0.2", "lvc credit=on", "lvc pilot=on",
+                                       "lvc tile=5 spread=3", "asbdpt select=pool guide=off credit=on"};
+    struct scene scene;
+    if (!scene_from_file(t, "scenes/many-lights.pbrt", 18, 12, &scene))
+        return;
+    struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 8, 16, 8, 53);
+    for (size_t i = 0; i < sizeof ways / sizeof ways[0]; i++)
+        agrees(t, &scene, "many-lights", ways[i], 8, 8, &bdpt);
+    batches_free(&bdpt);
+    scene_free(&scene);
+}
+
 /* --- the weights know what samples are worth ---------------------------------------------------------- */
 
 /* Mean over pixels of the variance between batches. */
@@ -258,5 +280,6 @@ void test_asbdpt(struct test *t)
     test_one_path(t);
     test_expected_vertices(t);
     test_every_scene(t);
+    test_services(t);
     test_even_sky(t);
 }

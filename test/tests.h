@@ -53,6 +53,7 @@ void test_references(struct test *t);
 void test_references_long(struct test *t);
 void test_report(struct test *t);
 void test_rivals(struct test *t);
+void test_vcm(struct test *t);
 void test_scenes(struct test *t);
 void test_scenes_long(struct test *t);
 void test_family_long(struct test *t);

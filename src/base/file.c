@@ -61,19 +61,6 @@ bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err
 
 bool file_exists(const char *path) { return os_kind_of(path) != OS_NOTHING; }
 
-bool file_make_directory(const char *path, struct error *err)
-{
-    char *above = mem_copy_text(path);
-    for (size_t i = 1; path[0] != '\0' && path[i] != '\0'; i++)
-        if (os_separator(path[i])) {
-            above[i] = '\0';
-            os_make_directory(above); /* if that fails, the last one says so */
-            above[i] = path[i];
-        }
-    free(above);
-    return os_make_directory(path) || error_set(err, "%s: cannot make this directory", path);
-}
-
 /* --- names ------------------------------------------------------------------------------------------- */
 
 char *file_beside(const char *path, const char *name)

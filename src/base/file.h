@@ -27,9 +27,6 @@ bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err
 /* file_exists: is there anything of this name? */
 bool file_exists(const char *path);
 
-/* file_make_directory: a directory and those above it, unless they are there. Returns false with a message. */
-bool file_make_directory(const char *path, struct error *err);
-
 /* file_beside: where a file is that another one names: a relative name starts in the directory of `path`; never "-",
  * which only whoever runs the program may mean. To be given to free(). */
 char *file_beside(const char *path, const char *name);

@@ -8,6 +8,6 @@
 #define ASBDPT_VERSION_H
 
 #define VERSION "asbdpt 0.1"
-#define ESTIMATOR 6
+#define ESTIMATOR 7
 
 #endif

@@ -30,6 +30,7 @@ static const struct option OPTIONS[] = {
      .help = "albedo and normal of what is seen in mirrors and through glass, as denoisers want them"},
     {"--lights", "DIR", OPTION_TEXT, AT(lights),
      .help = "write a picture of what each light brings, see convert --weights; or each \"string group\" of lights"},
+    {"--strategies", "DIR", OPTION_TEXT, AT(strategies), .help = "in asbdpt-lab: pictures of single strategies"},
     {"--alpha", NULL, OPTION_ON, AT(alpha),
      .help = ".exr and .png with alpha: 0 where the lens sees nothing, lights of \"bool visible\" \"false\" among it"},
     {"--gate", "L0:L1", OPTION_LENGTHS, AT(gate), 0, INFINITY,
@@ -91,6 +92,9 @@ static void abandon(struct files *f)
 static bool check_options(const struct job_options *o, struct files *f, struct error *err)
 {
     memset(f, 0, sizeof *f);
+    if (o->strategies != NULL)
+        return error_usage(err, "--strategies %s: asbdpt-lab strategies SCENE.pbrt -o %s makes these", o->strategies,
+                           o->strategies);
     if (!aov_read(o->aov, &f->aov, err))
         return false;
     if (o->keep.resume != NULL && f->aov.wanted[AOV_VARIANCE])

@@ -59,7 +59,7 @@ static void print_parameters(const struct field *p)
 {
     enum { HELP = 36 };
     char fallback[64];
-    for (; p != NULL && p->name != NULL; p++) {
+    for (; p->name != NULL; p++) {
         field_fallback(p, fallback, sizeof fallback);
         printf("    %-20s %-10s ", p->name, fallback);
         print_wrapped(p->help, HELP, HELP);
@@ -81,7 +81,9 @@ static void print_integrators(void)
             printf("  -P select=%s\n", (*m)->select);
         printf("    ");
         print_wrapped((*m)->help, 4, 4);
-        print_parameters((*m)->parameters);
+        struct field all[METHOD_FIELDS];
+        method_fields(*m, all);
+        print_parameters(all);
     }
 }
 

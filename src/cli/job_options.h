@@ -43,6 +43,7 @@ struct job_options {
     struct texts output; /* of render and worth */
     /* Of render alone: */
     const char *lights; /* directory or NULL */
+    const char *strategies; /* likewise; what the laboratory makes */
     bool alpha;
     double gate[2];         /* lengths of paths, the second excluded; 0, 0: all */
     const char *aov;        /* list or NULL */

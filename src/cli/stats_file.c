@@ -29,7 +29,7 @@ static void put_value(struct json *j, const char *name, const char *text)
 static void put_table(struct json *j, const struct scene *scene, const struct field *p)
 {
     char fallback[64];
-    for (; p != NULL && p->name != NULL; p++) {
+    for (; p->name != NULL; p++) {
         field_fallback(p, fallback, sizeof fallback);
         put_value(j, p->name, settings_text(&scene->settings, p->name, fallback));
     }
@@ -49,7 +49,10 @@ static void put_parameters(struct json *j, const struct scene *scene, const stru
     }
     if (m != NULL && m->select != NULL)
         json_text(j, "select", m->select);
-    put_table(j, scene, m != NULL ? m->parameters : NULL);
+    struct field all[METHOD_FIELDS] = {{.name = NULL}};
+    if (m != NULL)
+        method_fields(m, all);
+    put_table(j, scene, all);
     json_close(j);
 }
 

@@ -87,24 +87,3 @@ uint8_t srgb_byte(double linear)
         return 0;
     return linear >= 1 ? 255 : (uint8_t)(255 * srgb_encode(linear) + 0.5);
 }
-
-static int by_size(const void *a, const void *b)
-{
-    float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
-
-double picture_percentile(const float *error, long n, double percent)
-{
-    float *sorted = mem_alloc((size_t)n, sizeof *sorted);
-    memcpy(sorted, error, (size_t)n * sizeof *sorted);
-    qsort(sorted, (size_t)n, sizeof *sorted, by_size);
-    /* The nearest rank, from 1; n at most. Divided last: 7 % of 100 are 7.000000000000001 the other way round. */
-    long rank = (long)ceil(percent * (double)n / 100);
-    long at = rank > 0 ? rank - 1 : 0;
-    while (at > 0 && isinf(sorted[at]))
-        at--;
-    double found = n > 0 && isfinite(sorted[at]) ? (double)sorted[at] : 0;
-    free(sorted);
-    return found;
-}

@@ -92,8 +92,4 @@ double srgb_decode(double encoded);
 /* srgb_byte: the 8-bit value written for a linear number: clamp(255 encode(x) + 0.5); NaN gives 0. */
 uint8_t srgb_byte(double linear);
 
-/* picture_percentile: the smallest of n errors that at least `percent` % of them, 0 to 100, do not exceed. Infinite
- * ones count as the largest finite one. 0 if there is none. */
-double picture_percentile(const float *error, long n, double percent);
-
 #endif

@@ -14,11 +14,35 @@
 
 #include "base/error.h"
 #include "base/field.h"
+#include "tables/tables.h"
 #include "transport/pixel_sample.h"
 
 #define DEFAULT_RR_THRESHOLD 0.5
 
 struct method;
+
+/* What makes any choice among a tile's light sub-paths better, whichever it is (services.h). Each is a parameter of
+ * every pooled method, so that it can be said what the choice alone brings. */
+struct services {
+    int guide, credit, pilot; /* off or on */
+    double emission;          /* share of rays from lights that go by power alone; 1: all */
+    int tile, spread;         /* of struct pass_size */
+};
+
+/* What every method has settled before the first sample: its own state begins with it. All 0 but the counts, which are
+ * BDPT's, when it is to be prepared. */
+struct frozen {
+    struct mis_counts counts;
+    int max_depth;
+    int lights;             /* samples of s = 1 at the first hit, 0: left to the method; 1 */
+    int path_pixels;        /* pooled methods: pixels for each light sub-path, 0: there are none; 1 */
+    double draws[EYE_ENDS]; /* methods that draw light vertices: for each eye vertex, on average; else 0 */
+    struct {
+        int connections, path_pixels; /* by the user, instead of `draws` and `path_pixels`; 0: to be chosen */
+    } given;
+    struct services services;
+    struct tables tables; /* owned */
+};
 
 /* What `prepare` has settled. */
 struct preparation {
@@ -39,6 +63,7 @@ struct method {
     bool merges;        /* what it adds to a pixel is of many paths at once, of any length */
     const char *why;    /* for trace: how what an eye sub-path is joined to is chosen; NULL: it is not */
     const struct field *parameters; /* of the state; NULL: none */
+    struct services services;       /* of pooled methods: their defaults; else all 0 */
     size_t state_size, scratch_size;    /* scratch_size 0: none; else all zeros at first */
     double rr_threshold;                /* of Russian roulette unless the user gives one (path.h) */
 
@@ -61,6 +86,12 @@ struct method {
     void (*connect)(void *scratch, const void *state, struct pooled_pixel *p);
     void (*draw)(void *scratch, const void *state, struct pooled_pixel *p, const struct vertex *z, int t);
 };
+
+extern const struct method method_bdpt; /* what the others differ from */
+
+/* method_fields: the table of all parameters of a row, its own and services, ended by one without name. */
+enum { METHOD_FIELDS = 24 };
+void method_fields(const struct method *m, struct field out[METHOD_FIELDS]);
 
 /* method_has: the parameter of that name that a row has, or NULL; `select` is one, where rows share a name. */
 const struct field *method_has(const struct method *m, const char *name);

@@ -16,13 +16,13 @@
 
 #include "base/alias.h"
 #include "base/number.h"
-#include "integrators/asbdpt.h"
+#include "integrators/pooled.h"
+#include "integrators/services.h"
 
 struct pool_state {
     struct frozen frozen;
     int metric, grid;
     double delta;
-    struct tables tables;
 };
 
 struct pool {
@@ -43,7 +43,7 @@ static double importance_of(const struct pool_state *s, const struct vertex *pat
 {
     return s->metric == METRIC_CONSTANT     ? 1
            : s->metric == METRIC_THROUGHPUT ? path_throughput(path, n)
-                                            : path_importance(&s->tables.importance, path, n);
+                                            : path_importance(&s->frozen.tables.importance, path, n);
 }
 
 static void begin(void *scratch, const void *state, const struct tile_pass *pass, long iteration)
@@ -76,15 +76,11 @@ static void connect(void *scratch, const void *state, struct pooled_pixel *p)
 
 static void prepare(const struct render_job *job, struct preparation *out)
 {
-    struct pool_state *s = out->state;
-    out->size.spread = POOL_SPREAD;
-    asbdpt_learn(job, s->metric == METRIC_IMPORTANCE, s->grid, &s->tables, &s->frozen);
-}
-
-static void release(void *state)
-{
-    struct pool_state *s = state;
-    tables_free(&s->tables);
+    const struct pool_state *s = out->state;
+    const struct learn_options own = {.importance = s->metric == METRIC_IMPORTANCE, .light_cells = s->grid,
+                                      .levels = 1};
+    services_learn(job, out, own);
+    services_settle(job, out);
 }
 
 #define AT(member) offsetof(struct pool_state, member)
@@ -99,6 +95,8 @@ const struct method method_pool = {
     .help = "one alias table over the light sub-paths of a tile, weighted: unbiased",
     .why = "alias table over the K light sub-paths of the tile, one bin for each pixel; q_k = (1 - delta) I_k / sum I "
            "+ delta / K, I the sub-path's importance; scale 1 / (K q)",
-    .parameters = PARAMETERS, .state_size = sizeof(struct pool_state), .scratch_size = sizeof(struct pool),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .release = release,
+    .parameters = PARAMETERS,
+    .services = {.guide = true, .emission = 1, .tile = DEFAULT_TILE_SIZE, .spread = POOL_SPREAD},
+    .state_size = sizeof(struct pool_state), .scratch_size = sizeof(struct pool),
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
     .render = pooled_render, .scratch_free = free_scratch, .begin = begin, .connect = connect};

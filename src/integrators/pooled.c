@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+const char *const METRICS[] = {"constant", "throughput", "importance", NULL};
+
 void light_pool_free(void *scratch)
 {
     struct light_pool *pool = scratch;

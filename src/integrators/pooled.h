@@ -65,6 +65,21 @@ struct pooled_pixel {
     struct sampler draws;     /* random numbers for the choice */
 };
 
+/* What light sub-paths and vertices are chosen by in `pool` and `vertices`. */
+enum metric {
+    METRIC_CONSTANT,   /* every sub-path alike: `pool` is BDPT then */
+    METRIC_THROUGHPUT, /* the dissertation's: mean over RGB of beta at the furthest vertex; of a vertex, its own */
+    METRIC_IMPORTANCE  /* what the camera can use of it, importance.h */
+};
+extern const char *const METRICS[];
+
+/* pooled_draws: how many draws an eye vertex has, C on average. */
+static inline int pooled_draws(struct pooled_pixel *p, double C)
+{
+    double whole = floor(C);
+    return (int)whole + (C > whole && sampler_number(&p->draws, DRAW_HOW_MANY) < C - whole);
+}
+
 /* pooled_join: the pixel's eye vertex z = z_{t-1} and a candidate, unless the path would be too long. */
 static inline void pooled_join(struct pooled_pixel *p, const struct candidate *c, const struct vertex *z, int t,
                                struct choice choice)

@@ -10,7 +10,7 @@
  * met would have to list all vertices; the sums of a region e list only the regions that hold any.)
  *
  * The MIS weights know it: the strategies count as 2 C h(e(z), l(y)) samples, a function of the two surface points at
- * the ends of the edge; 2 is what a draw is worth beside an independent sample (mis.h, pilot.c).
+ * the ends of the edge; 2 is what a draw is worth beside an independent sample (mis.h, DRAW_CREDIT).
  * [Su 2022] has subspaces of both kinds and a matrix of probabilities between them; here the regions are cells of
  * grids, and the table is learnt from trial connections.
  *
@@ -22,8 +22,13 @@
 #include <string.h>
 
 #include "base/cumulative.h"
-#include "integrators/asbdpt.h"
-#include "pilot/pilot.h"
+#include "integrators/pooled.h"
+#include "integrators/services.h"
+
+struct subspaces_state {
+    struct frozen frozen;
+    double delta;
+};
 
 /* The candidates that lie in one region. */
 struct group {
@@ -50,8 +55,8 @@ static void init_scratch(void *scratch, const void *state)
 {
     const struct subspaces_state *s = state;
     struct subspaces *v = scratch;
-    v->group_of = mem_alloc((size_t)s->tables.light.n, sizeof *v->group_of);
-    v->row_of = mem_alloc((size_t)s->tables.eye.n, sizeof *v->row_of);
+    v->group_of = mem_alloc((size_t)s->frozen.tables.light.n, sizeof *v->group_of);
+    v->row_of = mem_alloc((size_t)s->frozen.tables.eye.n, sizeof *v->row_of);
 }
 
 static void free_scratch(void *scratch)
@@ -95,7 +100,7 @@ static void begin(void *scratch, const void *state, const struct tile_pass *pass
     (void)pass;
     (void)iteration;
     candidates_find(&v->found, &v->pool);
-    make_groups(v, s->tables.light.n);
+    make_groups(v, s->frozen.tables.light.n);
     size_t n = (size_t)v->found.n;
     v->candidate = mem_grow(v->candidate, &v->candidate_capacity, n, sizeof *v->candidate);
     v->before = mem_grow(v->before, &v->before_capacity, n, sizeof *v->before);
@@ -109,7 +114,7 @@ static void begin(void *scratch, const void *state, const struct tile_pass *pass
         g->L += c.L;
     }
     v->n_rows = 0;
-    for (int e = 0; e < s->tables.eye.n; e++)
+    for (int e = 0; e < s->frozen.tables.eye.n; e++)
         v->row_of[e] = -1;
 }
 
@@ -150,9 +155,9 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *p, const
     const struct subspaces_state *s = state;
     if (v->n_groups == 0)
         return;
-    double C = s->draws[z->eye_end], whole = floor(C);
-    int n = (int)whole + (C > whole && sampler_number(&p->draws, DRAW_HOW_MANY) < C - whole);
-    const double *row = n > 0 ? row_of_region(v, &s->tables, z->eye_region) : NULL;
+    double C = s->frozen.draws[z->eye_end];
+    int n = pooled_draws(p, C);
+    const double *row = n > 0 ? row_of_region(v, &s->frozen.tables, z->eye_region) : NULL;
     for (int c = 0; c < n; c++) {
         struct choice choice;
         const struct candidate *y = find(v, row, (c + sampler_number(&p->draws, DRAW_LIGHT_END)) / n, &choice.pmf);
@@ -165,87 +170,44 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *p, const
 
 enum { LIGHT_CELLS = 16 }; /* light regions along the diagonal */
 
-static void tell(const struct subspaces_state *s, struct preparation *out)
-{
-    const struct frozen *f = &s->frozen;
-    const struct film_number numbers[] = {
-        {"draws_first_hit", s->draws[FIRST_HIT]}, {"draws_after", s->draws[LATER_HIT]},
-        {"light_points_first_hit", f->lights}, {"pixels_per_light_path", f->path_pixels},
-        {"eye_regions", s->tables.eye.n}, {"light_regions", s->tables.light.n}};
-    memcpy(out->number, numbers, sizeof numbers); /* fewer than there is room for: a NULL name stays behind them */
-    if (f->path_pixels == 0)
-        snprintf(out->note, sizeof out->note, "chosen: no light sub-paths; %d light point%s at the first hit",
-                 f->lights, f->lights == 1 ? "" : "s");
-    else
-        snprintf(out->note, sizeof out->note,
-             "chosen per eye vertex: %.2f draws at the first hit, %.2f after; %d light point%s at the first hit; and "
-             "%d pixel%s per light sub-path",
-             s->draws[FIRST_HIT], s->draws[LATER_HIT], f->lights, f->lights == 1 ? "" : "s", f->path_pixels,
-             f->path_pixels == 1 ? "" : "s");
-}
+/* Draws are stratified over the pool: the weights count them for more than as many independent samples. */
+static const double DRAW_CREDIT = 2;
 
-/* The pilot renders by this method, its numbers being others. */
-static void render_for_pilot(const void *method, struct subspaces_state *s, const struct tile_pass *pass)
-{
-    struct preparation p = *(const struct preparation *)method;
-    p.state = s;
-    pooled_render(&p, pass);
-}
-
-static void run_pilot(const struct render_job *job, bool free_choice, const struct preparation *p)
-{
-    struct pilot_method method = {render_for_pilot, p, workspaces_new(job->n_threads, job->max_depth)};
-    for (int i = 0; i < job->n_threads; i++)
-        method.work[i].scratch = method_scratch(p);
-    pilot_run(job, &method, free_choice, p->state);
-    for (int i = 0; i < job->n_threads; i++)
-        method_scratch_free(p, method.work[i].scratch);
-    workspaces_free(method.work, job->n_threads);
-}
-
-/* What the user gave is kept; the pilot chooses the rest. */
+/* Learn, probe, plan; then the render. But first it is asked whether any of that can pay. */
 static void prepare(const struct render_job *job, struct preparation *out)
 {
-    struct subspaces_state *s = out->state;
-    struct frozen *f = &s->frozen;
-    int path_pixels = f->path_pixels;
-    const struct learn_options options = {.importance = true, .guide = asbdpt_guided(job), .pairs = true,
-                              .eye_cells = GUIDE_CELLS, .light_cells = LIGHT_CELLS, .levels = REGION_LEVELS,
-                              .delta = s->delta, .emission = s->emission};
-    out->size.tile = MAX_TILE_SIZE; /* a larger pool */
-    out->size.spread = POOL_SPREAD;
-    s->tables = learn(job, &options);
-    f->counts.tables = &s->tables;
-    run_pilot(job, path_pixels == 0 && s->connections == 0, out);
-    if (s->connections > 0)
-        pilot_set_draws(s, s->connections);
-    if (path_pixels > 0)
-        f->path_pixels = path_pixels;
-    f->counts.splat = f->path_pixels > 0 ? pixel_light_count(job) / f->path_pixels : 0;
-    tell(s, out);
-}
-
-static void release(void *state)
-{
-    struct subspaces_state *s = state;
-    tables_free(&s->tables);
+    const struct subspaces_state *s = out->state;
+    struct frozen *f = out->state;
+    const struct learn_options own = {.importance = true, .pairs = true, .light_cells = LIGHT_CELLS,
+                                      .levels = REGION_LEVELS, .delta = s->delta};
+    if (!services_paths_matter(job, out))
+        return;
+    services_learn(job, out, own);
+    for (int end = 0; end < EYE_ENDS; end++) {
+        f->draws[end] = f->given.connections > 0 ? f->given.connections : end == FIRST_HIT ? 3 : 1;
+        f->counts.connect[end] = DRAW_CREDIT * f->draws[end];
+    }
+    f->path_pixels = f->given.path_pixels > 0 ? f->given.path_pixels : 4;
+    f->counts.splat = pixel_light_count(job) / f->path_pixels;
+    services_settle(job, out);
 }
 
 #define AT(member) offsetof(struct subspaces_state, member)
 static const struct field PARAMETERS[] = {
-    {"connections", FIELD_INTEGER, AT(connections), 0, 0, 1024,
+    {"connections", FIELD_INTEGER, AT(frozen.given.connections), 0, 0, 1024,
      "light vertices drawn for each eye vertex; 0: chosen", NULL},
-    {"pathpixels", FIELD_INTEGER, AT(frozen.path_pixels), 0, 0, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
+    {"pathpixels", FIELD_INTEGER, AT(frozen.given.path_pixels), 0, 0, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
      "pixels for each light sub-path; 0: chosen", NULL},
     {"delta", FIELD_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore what was learnt", NULL},
-    {"emission", FIELD_NUMBER, AT(emission), 0.2, 1e-6, 1,
-     "share of light sub-paths that leave lights as if nothing were learnt", NULL},
     {.name = NULL}};
 
 const struct method method_subspaces = {
     .name = "asbdpt", .select = "subspaces", .help = "light vertices by what they are worth where the eye vertex is",
     .why = "C draws for each eye vertex from the connectible vertices of the tile's K light sub-paths, in proportion "
            "to h(e,l) luminance(beta), by the regions of both; scale 1 / (C K P)",
-    .parameters = PARAMETERS, .state_size = sizeof(struct subspaces_state), .scratch_size = sizeof(struct subspaces),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .release = release,
+    .parameters = PARAMETERS,
+    .services = {.guide = true, .credit = true, .pilot = true, .emission = 0.2, .tile = MAX_TILE_SIZE,
+                 .spread = POOL_SPREAD},
+    .state_size = sizeof(struct subspaces_state), .scratch_size = sizeof(struct subspaces),
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
     .render = pooled_render, .scratch_init = init_scratch, .scratch_free = free_scratch, .begin = begin, .draw = draw};

@@ -22,14 +22,14 @@
 
 #include "base/alias.h"
 #include "base/number.h"
-#include "integrators/asbdpt.h"
+#include "integrators/pooled.h"
+#include "integrators/services.h"
 #include "transport/counts.h"
 
 struct vertices_state {
-    struct frozen frozen; /* path_pixels 0, connections 0: chosen */
-    int metric, grid, connections;
+    struct frozen frozen;
+    int metric, grid;
     double delta;
-    struct tables tables;
 };
 
 struct vertices {
@@ -74,10 +74,11 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *p, const
 {
     const struct vertices *v = scratch;
     const struct vertices_state *s = state;
-    int C = v->table.n > 0 ? s->connections : 0;
-    for (int c = 0; c < C; c++) {
+    double C = s->frozen.draws[z->eye_end];
+    int n = v->table.n > 0 ? pooled_draws(p, C) : 0;
+    for (int c = 0; c < n; c++) {
         struct choice choice;
-        int i = alias_sample(&v->table, (c + sampler_number(&p->draws, DRAW_LIGHT_END)) / C, &choice.pmf, NULL);
+        int i = alias_sample(&v->table, (c + sampler_number(&p->draws, DRAW_LIGHT_END)) / n, &choice.pmf, NULL);
         choice.scale = 1 / (C * choice.pmf * v->pool.n);
         pooled_join(p, &v->found.item[i], z, t, choice);
     }
@@ -98,47 +99,41 @@ static int choose_connections(const struct importance *importance)
 }
 
 /* h(l) = (1 - delta) E(l) / mean + delta, for every eye vertex alike. */
-static void pairs_from_importance(struct vertices_state *s)
+static struct pairs pairs_from_importance(const struct tables *t, double delta)
 {
-    struct tables *t = &s->tables;
     double *row = mem_alloc((size_t)t->light.n, sizeof *row);
     for (int y = 0; y < t->light.n; y++)
-        row[y] = (1 - s->delta) * importance_in(&t->importance, y) / t->importance.mean + s->delta;
-    t->pairs = pairs_from_row(row, t->light.n);
+        row[y] = (1 - delta) * importance_in(&t->importance, y) / t->importance.mean + delta;
+    return pairs_from_row(row, t->light.n);
 }
 
 static void prepare(const struct render_job *job, struct preparation *out)
 {
-    struct vertices_state *s = out->state;
-    struct frozen *f = &s->frozen;
-    bool importance = s->metric == METRIC_IMPORTANCE;
-    out->size.spread = POOL_SPREAD;
-    asbdpt_learn(job, importance, s->grid, &s->tables, f);
-    if (s->connections == 0)
-        s->connections = importance ? choose_connections(&s->tables.importance) : 4;
-    if (f->path_pixels == 0) {
-        f->path_pixels = 2;
-        f->counts.splat /= 2;
-    }
+    const struct vertices_state *s = out->state;
+    struct frozen *f = out->state;
+    const struct learn_options own = {.importance = s->metric == METRIC_IMPORTANCE, .light_cells = s->grid,
+                                      .levels = 1};
+    services_learn(job, out, own);
+    int C = f->given.connections > 0 ? f->given.connections
+            : own.importance         ? choose_connections(&f->tables.importance)
+                                     : 4;
+    f->path_pixels = f->given.path_pixels > 0 ? f->given.path_pixels : 2;
+    f->counts.splat = pixel_light_count(job) / f->path_pixels;
     for (int end = 0; end < EYE_ENDS; end++) {
-        f->counts.connect[end] = CREDIT * s->connections;
+        f->draws[end] = C;
+        f->counts.connect[end] = CREDIT * C;
         f->counts.direct[end] = f->counts.delta[end] = CREDIT;
     }
-    if (importance && s->tables.importance.mean > 0)
-        pairs_from_importance(s);
-}
-
-static void release(void *state)
-{
-    struct vertices_state *s = state;
-    tables_free(&s->tables);
+    if (own.importance && f->tables.importance.mean > 0)
+        f->tables.pairs = pairs_from_importance(&f->tables, s->delta);
+    services_settle(job, out);
 }
 
 #define AT(member) offsetof(struct vertices_state, member)
 static const struct field PARAMETERS[] = {
-    {"connections", FIELD_INTEGER, AT(connections), 0, 0, 1024,
+    {"connections", FIELD_INTEGER, AT(frozen.given.connections), 0, 0, 1024,
      "light vertices drawn for each eye vertex; 0: chosen", NULL},
-    {"pathpixels", FIELD_INTEGER, AT(frozen.path_pixels), 0, 0, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
+    {"pathpixels", FIELD_INTEGER, AT(frozen.given.path_pixels), 0, 0, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
      "pixels for each light sub-path; 0: 2", NULL},
     {"metric", FIELD_WORD, AT(metric), METRIC_IMPORTANCE, 0, 0, "what a light vertex is chosen by", METRICS},
     {"delta", FIELD_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore it", NULL},
@@ -149,6 +144,8 @@ const struct method method_vertices = {
     .name = "asbdpt", .select = "vertices", .help = "one alias table over the light vertices of a tile",
     .why = "C draws for each eye vertex from an alias table over the connectible vertices of the tile's K light "
            "sub-paths, q in proportion to luminance(beta) n(x); scale 1 / (C K q)",
-    .parameters = PARAMETERS, .state_size = sizeof(struct vertices_state), .scratch_size = sizeof(struct vertices),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .release = release,
+    .parameters = PARAMETERS,
+    .services = {.guide = true, .emission = 1, .tile = DEFAULT_TILE_SIZE, .spread = POOL_SPREAD},
+    .state_size = sizeof(struct vertices_state), .scratch_size = sizeof(struct vertices),
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
     .render = pooled_render, .scratch_free = free_scratch, .begin = begin, .draw = draw};

@@ -164,7 +164,7 @@ bool parameters_max_depth(const struct scene *scene, int wanted, int *out, struc
 
 static void offer(struct suggestion *s, const struct field *p)
 {
-    for (; p != NULL && p->name != NULL; p++)
+    for (; p->name != NULL; p++)
         suggest_offer(s, p->name);
 }
 
@@ -173,8 +173,11 @@ static bool unknown(const struct setting *item, struct error *err)
     struct suggestion s = suggest_start(item->name);
     suggest_offer(&s, "select");
     offer(&s, COMMON);
-    for (const struct method *const *m = method_rows; *m != NULL; m++)
-        offer(&s, (*m)->parameters);
+    for (const struct method *const *m = method_rows; *m != NULL; m++) {
+        struct field all[METHOD_FIELDS];
+        method_fields(*m, all);
+        offer(&s, all);
+    }
     bool near = s.name != NULL;
     return error_usage(err, "%s: no integrator has a parameter \"%s\"%s%s%s; asbdpt help integrators lists them",
                      item->origin, item->name, near ? " (did you mean " : "", near ? s.name : "", near ? "?)" : "");
@@ -211,7 +214,7 @@ bool parameters_read(const struct scene *scene, const struct method *m, int max_
     const struct settings *s = &scene->settings;
     struct common c;
     if (!settings_fields(s, COMMON, &c, err) ||
-        (m->parameters != NULL && !method_check(m, s, err)))
+        !method_check(m, s, err))
         return false;
     job->max_depth = max_depth > 0 ? max_depth : c.max_depth;
     job->rr_threshold = settings_text(s, "rrthreshold", NULL) != NULL ? c.rr_threshold : m->rr_threshold;

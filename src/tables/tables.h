@@ -6,8 +6,8 @@
  * (guide), light vertices (pairs) and rays from lights (emission). One of all zeros knows nothing: draws go by power
  * alone, and the factors are 1. learning/learn.h fills them.
  */
-#ifndef ASBDPT_TABLES_H
-#define ASBDPT_TABLES_H
+#ifndef ASBDPT_TABLES_TABLES_H
+#define ASBDPT_TABLES_TABLES_H
 
 #include "tables/emission.h"
 #include "tables/guide.h"

@@ -12,14 +12,6 @@
 #include "transport/observer.h"
 #include "transport/tile_pass.h"
 
-/* What every method has settled before the first sample: its own state begins with it. All 0 but the counts, which are
- * BDPT's, when it is to be prepared. */
-struct frozen {
-    struct mis_counts counts;
-    int max_depth;
-    int lights;      /* samples of s = 1 at the first hit, 0: left to the method; 1 */
-    int path_pixels; /* pooled methods: pixels for each light sub-path, 0: there are none; 1 */
-};
 
 /* One pixel of one iteration. */
 struct pixel_sample {

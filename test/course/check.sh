@@ -10,7 +10,7 @@ check() {
         [ -f "doc/course/$n.md" ] || wrong "there is no doc/course/$n.md"
         dig "$n" "$dir"
         for file in $(get "$n" hole | sed 's/ .*//' | sort -u); do
-            case $file in *.h) file=src/transport/connect.c ;; esac
+            case $file in src/geometry/*.h) file=src/geometry/shape.c ;; *.h) file=src/transport/connect.c ;; esac
             ${CC:-cc} -std=c99 -I"$dir/src" -c -o "$dir/object.o" "$dir/$file" || wrong "$file has no body left"
         done
     done
@@ -37,7 +37,7 @@ $(asked | grep -c .) exercises"
 }
 
 plants=test/course/plants.txt
-planted() { awk '/^[1-9]/ { print $1 }' $plants; }
+planted() { awk '/^[0-9a-z]+-/ { print $1 }' $plants; }
 
 # plants_of DIR: those that do not apply.
 plants_of() {
@@ -51,7 +51,7 @@ plants_of() {
 steps() {
     awk '/^## / {
             on = /^## Step by step|^## `walk_measure`/
-            prefix = /walk_leave/ ? "d" : /walk_on/ ? "w" : /walk_measure/ ? "measure-" : ""
+            prefix = /to_leaf/ ? "v" : /walk_leave/ ? "d" : /walk_on/ ? "w" : /walk_measure/ ? "measure-" : ""
         }
         on && /^[1-9]\. / { sub(/\..*/, ""); print prefix $0 }' "doc/course/$1.md"
 }

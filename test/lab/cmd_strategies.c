@@ -5,6 +5,7 @@
 
 #include "cli/job_options.h"
 #include "image/image.h"
+#include "lab/directory.h"
 #include "lab/commands.h"
 #include "lab/pyramid.h"
 #include "render/parameters.h"

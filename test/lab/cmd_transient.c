@@ -7,6 +7,8 @@
 #include "base/number.h"
 #include "cli/job_options.h"
 #include "image/image.h"
+#include "lab/compare.h"
+#include "lab/directory.h"
 #include "lab/commands.h"
 #include "lab/gates.h"
 #include "lab/sheet.h"

@@ -126,3 +126,24 @@ void compare_heatmap(const float *error, long pixels, double most, float *out)
     for (long i = 0; i < pixels; i++)
         viridis(most > 0 ? (double)error[i] / most : 0, out + 3 * i);
 }
+
+static int by_size(const void *a, const void *b)
+{
+    float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+double picture_percentile(const float *error, long n, double percent)
+{
+    float *sorted = mem_alloc((size_t)n, sizeof *sorted);
+    memcpy(sorted, error, (size_t)n * sizeof *sorted);
+    qsort(sorted, (size_t)n, sizeof *sorted, by_size);
+    /* The nearest rank, from 1; n at most. Divided last: 7 % of 100 are 7.000000000000001 the other way round. */
+    long rank = (long)ceil(percent * (double)n / 100);
+    long at = rank > 0 ? rank - 1 : 0;
+    while (at > 0 && isinf(sorted[at]))
+        at--;
+    double found = n > 0 && isfinite(sorted[at]) ? (double)sorted[at] : 0;
+    free(sorted);
+    return found;
+}

@@ -50,4 +50,8 @@ void compare_errors(const float *x, const float *r, long pixels, float *out);
  *   out  [pixels*3], linear values ready for image_write */
 void compare_heatmap(const float *error, long pixels, double most, float *out);
 
+/* picture_percentile: the smallest of n errors that at least `percent` % of them, 0 to 100, do not exceed. Infinite
+ * ones count as the largest finite one. 0 if there is none. */
+double picture_percentile(const float *error, long n, double percent);
+
 #endif

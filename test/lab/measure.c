@@ -1,4 +1,5 @@
 /* measure.c: see measure.h. */
+#include "lab/directory.h"
 #include "lab/measure.h"
 
 #include <inttypes.h>

@@ -32,7 +32,7 @@ struct settings measured_settings(const struct measured *m, const struct setting
 
 bool measured_biased(const struct measured *m)
 {
-    static const char *const biased[] = {"select=bins", "pathgraph", "vcm", "regularise="};
+    static const char *const biased[] = {"select=bins", "pathgraph", "vcm", "regularise"};
     bool found = false;
     for (size_t i = 0; i < sizeof biased / sizeof biased[0]; i++)
         found = found || strstr(m->text, biased[i]) != NULL;
@@ -120,10 +120,11 @@ void methods_all(char out[METHODS_TEXT])
                           (*m)->select != NULL ? ":select=" : "", (*m)->select != NULL ? (*m)->select : "");
 }
 
-/* Services are parameters that several methods have: what they are called, and how they are off and on. */
+/* Services are parameters that several methods have, all of them or none: how they are off and on. */
 static const struct {
     const char *name, *value[N_HALVES];
-} SERVICES[] = {{"no-such", {"0", "1"}}};
+} SERVICES[] = {{"guide", {"off", "on"}}, {"emission", {"1", "0.2"}}, {"credit", {"off", "on"}},
+                {"pilot", {"off", "on"}}, {"tile", {"16", "32"}},     {"spread", {"1", "4"}}};
 
 const char *const HALVES[N_HALVES] = {"The choice alone", "With all services"};
 
@@ -136,7 +137,8 @@ static void in_half(const char *text, enum half half, char out[METHOD_TEXT])
     set_pairs(text, &s, NULL);
     const struct method *row = method_find(integrator, &s, NULL);
     int n = snprintf(out, METHOD_TEXT, "%s", text);
-    for (size_t i = 0; row != NULL && i < sizeof SERVICES / sizeof SERVICES[0]; i++)
+    bool serves = row != NULL && method_has(row, "guide") != NULL;
+    for (size_t i = 0; serves && i < sizeof SERVICES / sizeof SERVICES[0]; i++)
         if (method_has(row, SERVICES[i].name) != NULL && settings_text(&s, SERVICES[i].name, NULL) == NULL &&
             n < METHOD_TEXT)
             n += snprintf(out + n, (size_t)(METHOD_TEXT - n), ":%s=%s", SERVICES[i].name, SERVICES[i].value[half]);

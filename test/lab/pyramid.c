@@ -1,4 +1,5 @@
 /* pyramid.c: see pyramid.h. */
+#include "lab/compare.h"
 #include "lab/pyramid.h"
 
 #include <math.h>

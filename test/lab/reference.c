@@ -1,4 +1,5 @@
 /* reference.c: see reference.h. */
+#include "lab/directory.h"
 #include "lab/reference.h"
 
 #include <inttypes.h>

@@ -18,6 +18,7 @@
 #include <stddef.h>
 
 #include "integrators/pooled.h"
+#include "integrators/services.h"
 
 struct cbdpt_state {
     struct frozen frozen;
@@ -53,8 +54,8 @@ static void connect(void *scratch, const void *state, struct pooled_pixel *p)
 static void prepare(const struct render_job *job, struct preparation *out)
 {
     struct cbdpt_state *s = out->state;
-    (void)job;
     s->frozen.counts.connect[FIRST_HIT] = s->frozen.counts.connect[LATER_HIT] = s->connections;
+    services_prepare(job, out);
 }
 
 #define AT(member) offsetof(struct cbdpt_state, member)
@@ -67,6 +68,7 @@ static const struct field PARAMETERS[] = {
 const struct method method_cbdpt = {
     .name = "cbdpt", .help = "combinatorial BDPT [Pajot 2011]: all pairs with M of a tile's light sub-paths",
     .why = "M of the tile's K light sub-paths, in random order, all used equally often; scale 1 / M",
-    .parameters = PARAMETERS, .state_size = sizeof(struct cbdpt_state), .scratch_size = sizeof(struct cbdpt),
+    .parameters = PARAMETERS, .services = {.emission = 1, .tile = DEFAULT_TILE_SIZE, .spread = 1},
+    .state_size = sizeof(struct cbdpt_state), .scratch_size = sizeof(struct cbdpt),
     .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render, .scratch_free = light_pool_free,
     .begin = begin, .connect = connect};

@@ -14,6 +14,7 @@
 #include <stdlib.h>
 
 #include "base/number.h"
+#include "integrators/services.h"
 #include "rivals/records.h"
 
 struct lvc_state {
@@ -47,11 +48,12 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *p, const
 {
     const struct lvc *v = scratch;
     const struct lvc_state *s = state;
-    int C = s->connections, V = v->found.n;
+    double C = s->frozen.draws[z->eye_end];
+    int V = v->found.n, n = V > 0 ? pooled_draws(p, C) : 0;
     const struct choice choice = {1.0 / V, 1 / (C * (1.0 / V) * v->pool.n)};
-    for (int c = 0; V > 0 && c < C; c++) {
+    for (int c = 0; c < n; c++) {
         /* below V, since what is drawn is a multiple of 2^-32 */
-        int i = (int)((c + sampler_number(&p->draws, DRAW_LIGHT_END)) / C * V);
+        int i = (int)((c + sampler_number(&p->draws, DRAW_LIGHT_END)) / n * V);
         pooled_join(p, &v->found.item[i < V ? i : V - 1], z, t, choice);
     }
 }
@@ -63,8 +65,11 @@ static void prepare(const struct render_job *job, struct preparation *out)
     double l = light_vertices_expected(job);
     if (s->connections == 0)
         s->connections = int_within(ceil(l), 1, 1024);
-    for (int end = 0; end < EYE_ENDS; end++)
+    for (int end = 0; end < EYE_ENDS; end++) {
+        s->frozen.draws[end] = s->connections;
         s->frozen.counts.connect[end] = l > 0 ? s->connections / l : s->connections;
+    }
+    services_prepare(job, out);
 }
 
 #define AT(member) offsetof(struct lvc_state, member)
@@ -79,6 +84,7 @@ const struct method method_lvc = {
     .name = "lvc", .help = "light vertex cache [Davidovic 2014]: light vertices drawn uniformly from a tile's",
     .why = "C draws for each eye vertex from the V connectible vertices of the tile's K light sub-paths, all equally "
            "likely; scale V / (C K)",
-    .parameters = PARAMETERS, .state_size = sizeof(struct lvc_state), .scratch_size = sizeof(struct lvc),
+    .parameters = PARAMETERS, .services = {.emission = 1, .tile = DEFAULT_TILE_SIZE, .spread = 1},
+    .state_size = sizeof(struct lvc_state), .scratch_size = sizeof(struct lvc),
     .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render, .scratch_free = free_scratch,
     .begin = begin, .draw = draw};

@@ -1,0 +1,45 @@
+#!/bin/sh
+# slides.sh OUT.html: the figures of the tour as slides in one file, with each page's question. Arrow keys, space or a
+# click turn. Run from the top.
+out=$1
+mkdir -p "$(dirname "$out")" || exit 1
+{
+    cat <<'HEAD'
+<!doctype html><meta charset=utf-8><meta name=viewport content="width=device-width"><title>The tour, in slides</title>
+<style>
+body { margin: 0; background: #fff; color: #222; font: 3vmin/1.4 system-ui, sans-serif; }
+section { display: none; box-sizing: border-box; height: 100vh; padding: 4vmin; flex-direction: column; align-items: center; gap: 2vmin; }
+section.on { display: flex; justify-content: center; }
+h1 { font-size: 5vmin; margin: 0; } p { margin: 0; }
+img { flex: 1; min-height: 0; max-width: 92vw; object-fit: contain; image-rendering: auto; width: 92vw; }
+</style>
+HEAD
+    for page in doc/tour/[01]*.md; do
+        title=$(sed -n 's/^# //p;/^# /q' "$page")
+        question=$(sed -n 's/^\*\*Question: \(.*\)\*\*$/\1/p' "$page" | head -n 1)
+        printf '<section><h1>%s</h1><p>%s</p></section>\n' "$title" "$question"
+        grep -o '!\[[^]]*\](figures/[^)]*)' "$page" | sed 's/^!\[\(.*\)\](\(.*\))$/\2|\1/' |
+            while IFS='|' read -r file words; do
+                case $file in *.svg) type=svg+xml ;; *) type=png ;; esac
+                printf '<section><p>%s</p><img alt="" src="data:image/%s;base64,%s"></section>\n' "$words" $type \
+                    "$(base64 <"doc/tour/$file" | tr -d '\n')"
+            done
+    done
+    cat <<'TAIL'
+<script>
+const all = [...document.querySelectorAll('section')];
+let at = Math.min(all.length - 1, Number(location.hash.slice(1)) || 0);
+function turn(by) {
+  all[at].className = '';
+  at = Math.max(0, Math.min(all.length - 1, at + by));
+  all[at].className = 'on';
+  history.replaceState(null, '', '#' + at);
+}
+addEventListener('keydown', e => turn(['ArrowRight', 'ArrowDown', ' ', 'PageDown'].includes(e.key) ? 1 :
+  ['ArrowLeft', 'ArrowUp', 'PageUp'].includes(e.key) ? -1 : 0));
+addEventListener('click', () => turn(1));
+turn(0);
+</script>
+TAIL
+} >"$out"
+echo "wrote $out, $(grep -c '<section>' "$out") slides"

@@ -1,0 +1,170 @@
+/* services.c: see services.h. */
+#include "integrators/services.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "learning/learn.h"
+#include "learning/plan.h"
+
+/* --- tables ------------------------------------------------------------------------------------------ */
+
+enum {
+    MIN_GUIDED_CELLS = 4, /* light cells; with fewer there is nothing for a guide to choose among */
+    EYE_CELLS = 8,        /* eye regions along the diagonal */
+    IMPORTANCE_CELLS = 64 /* light regions, likewise, of a method that looks at none */
+};
+
+void services_learn(const struct render_job *job, struct preparation *out, struct learn_options own)
+{
+    struct frozen *f = out->state;
+    own.guide = f->services.guide && job->spatial_lights && job->scene->lights.n_cells >= MIN_GUIDED_CELLS;
+    own.emission = f->services.emission;
+    own.importance |= own.emission < 1;
+    own.eye_cells = EYE_CELLS;
+    if (own.importance || own.guide || own.pairs)
+        f->tables = learn(job, &own);
+    f->counts.tables = &f->tables;
+}
+
+/* --- numbers ----------------------------------------------------------------------------------------- */
+
+/* What is settled before numbers are. */
+struct base {
+    struct mis_counts counts;
+    double draws[EYE_ENDS];
+    const struct credit *credit; /* NULL: not measured */
+};
+
+static void set_numbers(const struct render_job *job, struct frozen *f, const struct base *b, const struct plan *p)
+{
+    struct mis_counts *c = &f->counts;
+    f->lights = (int)(p->n[LIGHT_FIRST] + 0.5);
+    c->hit[FIRST_HIT] = b->credit != NULL ? b->credit->broad : b->counts.hit[FIRST_HIT];
+    c->direct[FIRST_HIT] = f->lights * (b->credit != NULL ? b->credit->broad : b->counts.direct[FIRST_HIT]);
+    c->delta[FIRST_HIT] = f->lights * (b->credit != NULL ? b->credit->delta : b->counts.delta[FIRST_HIT]);
+    if (!(b->draws[FIRST_HIT] > 0))
+        return;
+    double paths = p->n[LIGHT_PATH];
+    f->path_pixels = f->given.path_pixels > 0 ? f->given.path_pixels : paths > 0 ? (int)(1 / paths + 0.5) : 0;
+    c->splat = f->path_pixels > 0 ? pixel_light_count(job) / f->path_pixels : 0;
+    for (int end = 0; end < EYE_ENDS; end++) {
+        f->draws[end] = f->given.connections > 0 ? f->given.connections
+                                                 : p->n[end == FIRST_HIT ? DRAW_FIRST : DRAW_LATER];
+        c->connect[end] = f->path_pixels > 0 ? b->counts.connect[end] * f->draws[end] / b->draws[end] : 0;
+    }
+}
+
+/* Can a path tracer find all light? What a delta light sends by way of a delta lobe it cannot. */
+static bool paths_suffice(const struct scene *scene)
+{
+    bool delta_light = false, delta_lobe = false;
+    for (int i = 0; i < scene->lights.n; i++)
+        delta_light |= light_is_delta(&scene->lights.light[i]);
+    for (int i = 0; i < scene->n_materials; i++)
+        delta_lobe |= scene->material[i]->row->may_be_delta;
+    return !(delta_light && delta_lobe);
+}
+
+/* The method, with other counts. */
+static void render_with(const void *method, const struct mis_counts *counts, const struct tile_pass *pass)
+{
+    struct preparation p = *(const struct preparation *)method;
+    struct frozen *f = mem_alloc(1, p.method->state_size);
+    memcpy(f, p.state, p.method->state_size);
+    f->counts = *counts;
+    p.state = f;
+    p.method->render(&p, pass);
+    free(f);
+}
+
+static void tell(struct preparation *out)
+{
+    const struct frozen *f = out->state;
+    const struct film_number numbers[] = {
+        {"draws_first_hit", f->draws[FIRST_HIT]}, {"draws_after", f->draws[LATER_HIT]},
+        {"light_points_first_hit", f->lights}, {"pixels_per_light_path", f->path_pixels},
+        {"eye_regions", f->tables.eye.n}, {"light_regions", f->tables.light.n}};
+    const char *s = f->lights == 1 ? "" : "s";
+    memcpy(out->number, numbers, sizeof numbers); /* fewer than there is room for: a NULL name stays behind them */
+    if (f->path_pixels == 0)
+        snprintf(out->note, sizeof out->note, "chosen: no light sub-paths; %d light point%s at the first hit",
+                 f->lights, s);
+    else
+        snprintf(out->note, sizeof out->note,
+                 "chosen per eye vertex: %.2f draws at the first hit, %.2f after; %d light point%s at the first hit; "
+                 "and %d pixel%s per light sub-path",
+                 f->draws[FIRST_HIT], f->draws[LATER_HIT], f->lights, s, f->path_pixels,
+                 f->path_pixels == 1 ? "" : "s");
+}
+
+/* May there be no light sub-paths? */
+static bool free_choice(const struct render_job *job, const struct frozen *f)
+{
+    return f->given.connections == 0 && f->given.path_pixels == 0 && paths_suffice(job->scene);
+}
+
+bool services_paths_matter(const struct render_job *job, struct preparation *out)
+{
+    const double SAMPLES = 0.2; /* of each pixel, by each of the probe's renders */
+    const double LEAST = 0.3;   /* of the variance, what light sub-paths are to save before they are looked into */
+    const double ONE[N_KINDS] = {1, 1, 1, 1};
+    struct frozen *f = out->state;
+    struct preparation bdpt;
+    struct error none;
+    bool goes_on = job->watch == NULL || job->watch(job->watch_context, 1);
+    if (!goes_on || !f->services.pilot || !free_choice(job, f) || !method_prepare(&method_bdpt, job, &bdpt, &none))
+        return true;
+    struct workspace *work = workspaces_new(job->n_threads, job->max_depth);
+    const struct probe probe = {job, work, &bdpt, render_with, &((struct frozen *)bdpt.state)->counts, out->size};
+    struct noise noise = noise_measure(&probe, ONE, SAMPLES);
+    bool matter = !(noise.tail < LEAST * noise.total);
+    workspaces_free(work, job->n_threads);
+    method_release(&bdpt);
+    if (!matter) {
+        f->path_pixels = 0;
+        f->counts.connect[FIRST_HIT] = f->counts.connect[LATER_HIT] = f->counts.splat = 0;
+        tell(out);
+    }
+    return matter;
+}
+
+/* Probe, plan. */
+void services_settle(const struct render_job *job, struct preparation *out)
+{
+    const double SAMPLES = 1.28; /* of each pixel, by the pilot's renders each */
+    struct frozen *f = out->state;
+    struct probe probe = {job, workspaces_new(job->n_threads, job->max_depth), out, render_with, &f->counts, out->size};
+    struct base base = {f->counts, {f->draws[FIRST_HIT], f->draws[LATER_HIT]}, NULL};
+    struct credit credit;
+    struct plan as_it_is = {{f->draws[FIRST_HIT], f->draws[LATER_HIT], f->lights, 1.0 / f->path_pixels}};
+    if (f->services.credit) {
+        credit = credit_measure(&probe, &f->tables);
+        base.credit = &credit;
+    }
+    if (f->services.pilot) {
+        struct costs costs = plan_costs(&f->tables.importance);
+        for (int i = 0; i < job->n_threads; i++)
+            probe.work[i].scratch = method_scratch(out);
+        set_numbers(job, f, &base, &PLAN_TRIED);
+        struct noise noise = noise_measure(&probe, PLAN_TRIED.n, SAMPLES);
+        for (int i = 0; i < job->n_threads; i++)
+            method_scratch_free(out, probe.work[i].scratch);
+        as_it_is = plan_numbers(&costs, &noise);
+        if (noise.total > 0 && free_choice(job, f) && !plan_paths_pay(&costs, &noise, &as_it_is))
+            as_it_is.n[LIGHT_PATH] = 0;
+        set_numbers(job, f, &base, &as_it_is);
+        tell(out);
+    } else if (f->services.credit)
+        set_numbers(job, f, &base, &as_it_is);
+    workspaces_free(probe.work, job->n_threads);
+}
+
+void services_prepare(const struct render_job *job, struct preparation *out)
+{
+    const struct learn_options nothing = {.importance = false, .light_cells = IMPORTANCE_CELLS, .levels = 1};
+    services_learn(job, out, nothing);
+    services_settle(job, out);
+}

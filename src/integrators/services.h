@@ -1,0 +1,37 @@
+/* services.h: what makes any choice of light sub-paths better, whichever it is. Each is a parameter, and has one
+ * implementation that all pooled methods share:
+ *
+ *   guide     s = 1 chooses lights by what a region sees (guide.h)
+ *   emission  light sub-paths leave lights where the camera can use them (emission.h)
+ *   credit    light that comes straight to the first hit counts for as much as it is worth (probe.h)
+ *   pilot     how many samples of what is chosen by what a few tiles show (plan.h)
+ *   tile, spread  how many pixels share a pool, and how far apart they lie (tile_pass.h)
+ *
+ * A method's `prepare` first has the tables filled, then settles its own counts, and then has the numbers chosen.
+ *
+ * Tests: test_asbdpt.c, test_pilot.c.
+ */
+#ifndef ASBDPT_SERVICES_H
+#define ASBDPT_SERVICES_H
+
+#include "integrators/method.h"
+#include "learning/options.h"
+
+/* services_paths_matter: is anything to be gained by light sub-paths, and so by learning? Asked of a few samples by
+ * BDPT before anything is learnt, where the pilot is on and the user has not asked for them. If not, *out is settled: a
+ * path tracer. */
+bool services_paths_matter(const struct render_job *job, struct preparation *out);
+
+/* services_learn: fill the tables with what services need and what the method itself wants, if that is anything; counts
+ * go by them from then on.
+ *   own  without guide and emission; eye_cells 0: the usual ones, on `levels` levels */
+void services_learn(const struct render_job *job, struct preparation *out, struct learn_options own);
+
+/* services_settle: credits and numbers, all else being settled. Of methods that draw (frozen.draws) draws and light
+ * sub-paths are chosen, unless given; of all of them the light points. */
+void services_settle(const struct render_job *job, struct preparation *out);
+
+/* services_prepare: both, for methods whose own choice learns nothing. */
+void services_prepare(const struct render_job *job, struct preparation *out);
+
+#endif
