@@ -603,7 +603,7 @@ check [ "$(grep -c ', seed ' stderr.txt)" = 0 ]
 mkdir -p bathroom/ref
 cp "$box" bathroom/scene.pbrt
 cp "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.txt" bathroom/ref
-tiny="--seeds 1 --spp 1 --reference-spp 4"
+tiny="--seeds 1 --spp 1 --reference-spp 4 --methods bdpt"
 expect 0 'bathroom.pfm.* is of another scene: measured at 160x160 pixels' \
     "$lab" equal-time bathroom/scene.pbrt $tiny -o foreign
 expect 1 'bathroom.pfm.* is of another scene$' \

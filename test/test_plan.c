@@ -41,6 +41,23 @@ static void test_methods(struct test *t)
               err.text);
 }
 
+/* A method with services is another in each half, under one label; one without is the same in both. */
+static void test_halves_of_family(struct test *t)
+{
+    struct methods m = {.n = 0};
+    struct error err = {.text = ""};
+    CHECK(t, methods_add_halves("bdpt,lvc:guide=on,restir", 3, &m, &err) && m.n == 4, "%d methods: %s", m.n, err.text);
+    int with = methods_find_half(&m, "lvc:guide=on", HALF_SERVICES);
+    int without = methods_find_half(&m, "lvc:guide=on", HALF_CHOICE);
+    CHECK(t, with >= 0 && without >= 0 && with != without && m.item[with].halves == 2 && m.item[without].halves == 1 &&
+          strcmp(m.item[with].label, m.item[without].label) == 0, "lvc is number %d with services, %d without", with,
+          without);
+    CHECK(t, strstr(m.item[without].text, "guide=on:emission=1:") != NULL, "what was given stays: %s",
+          m.item[without].text);
+    CHECK(t, m.item[0].halves == 3 && methods_find_half(&m, "restir", HALF_SERVICES) == 2, "bdpt and restir in both");
+    CHECK(t, methods_add_halves("bdpt,lvc", 1, &m, &err) && m.n == 2, "one half: %d methods", m.n);
+}
+
 static void test_lists(struct test *t)
 {
     struct plan p = {0};
@@ -119,6 +136,7 @@ static void test_stored(struct test *t)
 void test_plan(struct test *t)
 {
     test_methods(t);
+    test_halves_of_family(t);
     test_lists(t);
     test_stored(t);
     test_planned_scene(t);

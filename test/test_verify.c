@@ -6,8 +6,8 @@
 #include "base/rng.h"
 #include "lab/colormap.h"
 #include "image/picture.h"
-#include "lab/stats.h"
 #include "lab/compare.h"
+#include "lab/stats.h"
 #include "helpers.h"
 #include "tests.h"
 

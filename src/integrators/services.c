@@ -126,6 +126,8 @@ bool services_paths_matter(const struct render_job *job, struct preparation *out
     if (!matter) {
         f->path_pixels = 0;
         f->counts.connect[FIRST_HIT] = f->counts.connect[LATER_HIT] = f->counts.splat = 0;
+        out->size.tile = DEFAULT_TILE_SIZE; /* pixels share nothing but what is in the cache */
+        out->size.spread = 1;
         tell(out);
     }
     return matter;

@@ -55,9 +55,4 @@ struct bsdf_value bsdf_eval(const struct bsdf *b, vec3 wo, vec3 wi, enum transpo
  * bsdf_eval's for the same pair; for a delta lobe see struct bsdf_sample. */
 bool bsdf_sample(const struct bsdf *b, vec3 wo, const double u[3], enum transport mode, struct bsdf_sample *out);
 
-/* bsdf_delta: what the delta lobes send to one side: in the direction of the mirror, or of refraction. As bsdf_sample
- * returns it, but that f is the coefficient of the delta itself, of all lobes with that direction.
- * Returns false if there are none, or nothing is sent. */
-bool bsdf_delta(const struct bsdf *b, vec3 wo, bool transmit, enum transport mode, struct bsdf_sample *out);
-
 #endif

@@ -25,8 +25,9 @@ struct pixel_sample {
     double filter_weight;   /* of its eye sample, see path_eye_pixel */
     int lights;             /* samples of s = 1 for t = 2, 0: left to the method; 1 for t > 2 */
     struct sampler sampler; /* for light and lens points */
-    rgb until, before;      /* what paths with t >= 2 have brought so far that are shorter than the gate's end, or its
-                             * beginning (film.h): without a gate all, and none */
+    rgb until, before;      /* sums of what paths with t >= 2 have brought so far: of those shorter than the end of the
+                             * film's gate, and of those shorter than its beginning (scene/tile.h). Without a gate
+                             * `until` is the sample's value, and `before` 0 */
     struct arena *arena;    /* for what does not outlive the sample */
 };
 

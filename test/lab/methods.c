@@ -171,7 +171,8 @@ int methods_find_half(const struct methods *list, const char *text, enum half ha
 {
     char own[METHOD_TEXT];
     in_half(text, half, own);
-    return methods_find(list, own);
+    int found = methods_find(list, own), as_given = methods_find(list, text);
+    return found < 0 && as_given >= 0 && list->item[as_given].halves == 0 ? as_given : found;
 }
 
 const char *method_short(const char *text)

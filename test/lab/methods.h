@@ -54,7 +54,7 @@ void methods_all(char out[METHODS_TEXT]);
 /* The family has two halves: methods that differ in the choice alone, all services off; and each with every service
  * that it can have. methods_add_halves: a list as methods_read takes it, each of its methods as it is in these halves
  * (a method without services is the same in both); false with a message. methods_find_half: the number of the method
- * that is this one in a half, or -1. */
+ * that is this one in a half, or as it was given in a list without halves, or -1. */
 enum half { HALF_CHOICE, HALF_SERVICES, N_HALVES };
 extern const char *const HALVES[N_HALVES];
 bool methods_add_halves(const char *text, unsigned halves, struct methods *out, struct error *err);

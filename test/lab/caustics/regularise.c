@@ -12,6 +12,7 @@
  *
  * Tests: test_caustic.c.
  */
+#include "caustics/delta.h"
 #include "caustics/one_more.h"
 
 #include <stddef.h>

@@ -1,5 +1,6 @@
 /* specular.c: see specular.h. */
 #include "caustics/specular.h"
+#include "caustics/delta.h"
 
 /* --- a ray and its derivatives ------------------------------------------------------------------------- */
 

@@ -1,5 +1,6 @@
 /* reuse.c: see reuse.h. */
 #include "rivals/reuse.h"
+#include "caustics/delta.h"
 
 /* Normals within 25 degrees, depths within a tenth. */
 static bool alike(const struct vertex *a, const struct vertex *b)

@@ -1,0 +1,219 @@
+/* parser_limits.c: what a scene may repeat, and how often: copies, files, pictures, errors. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/os.h"
+#include "base/rng.h"
+#include "helpers.h"
+#include "parser/lexer.h"
+#include "parser/parse.h"
+#include "parser/parser.h"
+#include "parser/scene_files.h"
+#include "parser/spectrum.h"
+#include "parser/symbols.h"
+#include "parser_parts.h"
+#include "tests.h"
+
+/* What is no parameter of a shape is none of its material either, of whatever kind that is: no copy is made. What is
+ * one makes one. */
+static void check_copies(struct test *t)
+{
+    static const char *const KINDS[] = {"matte", "mirror", "glass", "metal", "plastic", "substrate", "uber",
+                                        "translucent", "subsurface", "kdsubsurface", "disney", "mix", "none", "matte"};
+    enum { LAST = sizeof KINDS / sizeof KINDS[0] - 1, SHAPES = 20 };
+    for (int k = 0; k <= LAST; k++) {
+        char text[4 * TEXT];
+        struct scene s;
+        int n = snprintf(text, sizeof text, "WorldBegin MakeNamedMaterial \"a\" \"string type\" \"matte\"\nMaterial "
+                         "\"%s\" \"string namedmaterial1\" \"a\" \"string namedmaterial2\" \"a\"\n", KINDS[k]);
+        for (int i = 0; i < SHAPES; i++)
+            n += snprintf(text + n, sizeof text - (size_t)n, "Shape \"sphere\" \"float %s\" .%d\n",
+                          k == LAST ? "sigma" : "nosuchthing", i + 1);
+        snprintf(text + n, sizeof text - (size_t)n, "WorldEnd");
+        if (!scene_from_text(t, text, &s))
+            continue;
+        CHECK(t, k == LAST ? s.n_materials > SHAPES : s.n_materials <= 3, "%s: %d materials", KINDS[k], s.n_materials);
+        scene_free(&s);
+    }
+}
+
+/* A matrix may be given times any number. */
+static void check_matrices(struct test *t, struct rng *r)
+{
+    static const char THINGS[] = "Shape \"sphere\" Shape \"trianglemesh\" \"integer indices\" [0 1 2] "
+                                 "\"point P\" [0 0 0 1 0 0 0 1 0] WorldEnd";
+    for (int i = 0; i < 50; i++) {
+        struct scene s[2];
+        struct transform m = random_affine(r);
+        double w = i % 3 == 0 ? -0.5 : exp(8 * rng_uniform(r) - 4);
+        for (int k = 0; k < 2; k++) {
+            char text[4 * TEXT];
+            int n = snprintf(text, sizeof text, "WorldBegin %s [", i % 2 ? "Transform" : "ConcatTransform");
+            for (int c = 0; c < 16; c++)
+                n += snprintf(text + n, sizeof text - (size_t)n, "%.17g ", m.m[c % 4][c / 4] * (k == 0 ? 1 : w));
+            snprintf(text + n, sizeof text - (size_t)n, "] %s", THINGS);
+            if (!scene_from_text(t, text, &s[k]))
+                return;
+        }
+        for (int prim = 0; prim < 2; prim++) {
+            float lo[2][3], hi[2][3];
+            for (int k = 0; k < 2; k++)
+                shape_bounds(&s[k].geo, prim ? FIRST_QUADRIC : 0, lo[k], hi[k]);
+            for (int k = 0; k < 3; k++)
+                CHECK(t, fabsf(lo[0][k] - lo[1][k]) + fabsf(hi[0][k] - hi[1][k]) < 1e-5f * (hi[0][k] - lo[0][k] + 1),
+                      "a matrix times %g: %s from %g to %g, not from %g to %g", w, prim ? "sphere" : "mesh",
+                      (double)lo[1][k], (double)hi[1][k], (double)lo[0][k], (double)hi[0][k]);
+        }
+        scene_free(&s[0]);
+        scene_free(&s[1]);
+    }
+}
+
+/* A world of n times `line`, in which "@" stands for another way each to write "", is parsed. */
+static bool parse_repeated(struct test *t, const char *line, int n, struct error *err)
+{
+    char path[TEXT];
+    size_t room = 64 + (size_t)n * (strlen(line) + 2 * (size_t)n);
+    char *text = mem_alloc(room, 1);
+    size_t used = (size_t)sprintf(text, "WorldBegin\n");
+    for (int i = 0; i < n; i++) {
+        for (const char *p = line; *p != '\0'; p++)
+            if (*p != '@')
+                text[used++] = *p;
+            else
+                for (int k = 0; k < i; k++)
+                    used += (size_t)sprintf(text + used, "./");
+        text[used++] = '\n';
+    }
+    used += (size_t)sprintf(text + used, "WorldEnd\n");
+    snprintf(path, sizeof path, "%s/repeated.pbrt", test_tmp(t));
+    write_bytes(path, text, used);
+    free(text);
+    struct scene s;
+    bool ok = parse_scene(path, &s, NULL, err);
+    if (ok)
+        scene_free(&s);
+    return ok;
+}
+
+/* What comes first of a file, and a comment that makes it a megabyte. */
+static void put_megabyte(struct test *t, const char *name, const char *begin)
+{
+    enum { MEGABYTE = 1 << 20 };
+    char path[TEXT], *text = mem_alloc(MEGABYTE, 1);
+    memset(text, '#', MEGABYTE);
+    memcpy(text, begin, strlen(begin));
+    snprintf(path, sizeof path, "%s/%s", test_tmp(t), name);
+    write_bytes(path, text, MEGABYTE);
+    free(text);
+}
+
+/* A megabyte may be read 64 times again; so may what it holds, under whatever name. */
+static void check_repeated(struct test *t)
+{
+    static const char LIGHTS[] = "more than 4096 infinite lights", AGAIN[] = "more than 64 MB have been read again";
+    static const struct {
+        const char *line;
+        int most;
+        const char *want;
+    } CASE[] = {
+        {"LightSource \"infinite\"", 4096, LIGHTS},
+        {"Include \"text\"", 65, AGAIN},
+        {"Include \"@text\"", 65, AGAIN},
+        {"LightSource \"point\" \"spectrum I\" \"@spectrum\"", 65, AGAIN},
+        {"Shape \"plymesh\" \"string filename\" \"mesh\"", 65, AGAIN},
+        {"Texture \"t\" \"float\" \"imagemap\" \"string filename\" \"@picture\"", 65, AGAIN}};
+    put_megabyte(t, "text", "");
+    put_megabyte(t, "spectrum", "500 1\n");
+    put_megabyte(t, "picture", "P5 1024 1023 255 ");
+    put_megabyte(t, "mesh",
+                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                 "element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0 1 0 0 0 1 0 3 0 1 2 ");
+    for (size_t i = 0; i < sizeof CASE / sizeof CASE[0]; i++) {
+        struct error err = {.text = ""};
+        CHECK(t, parse_repeated(t, CASE[i].line, CASE[i].most, &err), "%s: %s", CASE[i].line, err.text);
+        CHECK(t, !parse_repeated(t, CASE[i].line, CASE[i].most + 1, &err), "%s is accepted",
+              CASE[i].line);
+        CHECK(t, strstr(err.text, CASE[i].want) != NULL, "%s: %s", CASE[i].line, err.text);
+    }
+}
+
+/* Pictures of small files may take so much together, those of large ones anything; what is too much is the end. */
+static void check_unpacked(struct test *t)
+{
+    uint8_t pixel = 0;
+    uint64_t content = 0;
+    struct scene_files f = {.scene_path = "", .content = &content};
+    struct image small = {.width = 8192, .height = 8192, .channels = 1, .u8 = &pixel, .content = 1};
+    struct image large = small;
+    large.content = 2;
+    large.file_size = 1 << 21;
+    struct error err = {.text = ""};
+    bool ok = true;
+    for (int i = 0; i < 3; i++) {
+        small.content = 3 + (uint64_t)i;
+        ok = ok && scene_files_picture(&f, &small, 0, &err);
+    }
+    ok = ok && scene_files_picture(&f, &large, 0, &err);
+    CHECK(t, ok, "192 MB of pictures: %s", err.text);
+    small.content++;
+    CHECK(t, !scene_files_picture(&f, &small, 0, &err) && strstr(err.text, "more than 192 MB") != NULL, "%s", err.text);
+    CHECK(t, scene_files_path(&f, "a.png", &err) == NULL && strstr(err.text, "a.png: not read") != NULL, "%s",
+          err.text);
+    symbols_free(&f.known);
+}
+
+/* No more errors than are told are looked for. */
+static void check_many_errors(struct test *t)
+{
+    struct hearing *heard = mem_alloc(1, sizeof *heard);
+    struct message_sink sink = {hear_warning, hear_error, heard};
+    struct error err = {.text = ""};
+    char path[TEXT];
+    parse_repeated(t, "Shpae", 1000, &err);
+    snprintf(path, sizeof path, "%s/repeated.pbrt", test_tmp(t));
+    struct scene s;
+    CHECK(t, !parse_scene(path, &s, &sink, &err), "unknown directives are accepted");
+    CHECK(t, strstr(heard->errors.text[heard->errors.n - 1], "and 19 more errors") != NULL, "the last error is %s",
+          heard->errors.text[heard->errors.n - 1]);
+    free(heard);
+}
+
+/* A scene names files: not standard input, no pipe and no device. */
+static void check_no_files(struct test *t)
+{
+    static const char *const NAMES[][2] = {
+        {"fifo", "scenes name files, not devices or pipes"}, {"/dev/null", "scenes name files, not devices or pipes"},
+        {"directory", "scenes name files, not directories"}, {"-", "No such file"}};
+    char path[TEXT], line[TEXT];
+    snprintf(path, sizeof path, "%s/fifo", test_tmp(t));
+    CHECK(t, mkfifo(path, 0600) == 0, "cannot make a pipe");
+    snprintf(path, sizeof path, "%s/directory", test_tmp(t));
+    CHECK(t, os_make_directory(path), "cannot make a directory");
+    static const char *const LINES[] = {"Include \"%s\"", "LightSource \"infinite\" \"string mapname\" \"%s\"",
+                                        "LightSource \"point\" \"spectrum I\" \"%s\"",
+                                        "Shape \"plymesh\" \"string filename\" \"%s\""};
+    for (int i = 0; i < 16; i++) {
+        struct error err = {.text = ""};
+        snprintf(line, sizeof line, LINES[i / 4], NAMES[i % 4][0]);
+        CHECK(t, !parse_repeated(t, line, 1, &err) && strstr(err.text, NAMES[i % 4][1]) != NULL, "%s: %s", line,
+              err.text);
+    }
+}
+
+void check_parser_limits(struct test *t)
+{
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 0, 0);
+    check_copies(t);
+    check_matrices(t, &r);
+    check_repeated(t);
+    check_unpacked(t);
+    check_many_errors(t);
+    check_no_files(t);
+}

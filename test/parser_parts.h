@@ -1,0 +1,31 @@
+/* parser_parts.h: the parts of the suite `parser`: test_parser.c has the fixtures and damaged copies of them,
+ * parser_words.c what scenes hold, parser_pieces.c numbers, names, spectra and messages, parser_limits.c what a scene
+ * may repeat.
+ */
+#ifndef TEST_PARSER_PARTS_H
+#define TEST_PARSER_PARTS_H
+
+#include "scene/scene.h"
+#include "test.h"
+
+enum { MAX_WARNINGS = 32, TEXT = 512 };
+
+/* Messages as they come. */
+struct heard {
+    char text[MAX_WARNINGS][TEXT];
+    int n;
+};
+
+struct hearing {
+    struct heard warnings, errors;
+};
+
+/* Sinks of messages whose context is a struct hearing. */
+void hear_warning(void *context, const char *text);
+void hear_error(void *context, const char *text);
+
+void check_contents(struct test *t, const char *name, const char *text, const struct scene *s);
+void check_parser_pieces(struct test *t);
+void check_parser_limits(struct test *t);
+
+#endif

@@ -1,0 +1,182 @@
+/* parser_words.c: a scene in words, and what its comments say that it holds. */
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "parser/parse.h"
+#include "parser_parts.h"
+#include "tests.h"
+
+/* A scene in words, as far as these tests look at it. */
+struct words {
+    char text[16384];
+    size_t n;
+};
+
+static void put(struct words *w, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    int n = vsnprintf(w->text + w->n, sizeof w->text - w->n, format, args);
+    va_end(args);
+    w->n = w->n + (size_t)n < sizeof w->text ? w->n + (size_t)n : sizeof w->text - 1;
+}
+
+/* To nine digits behind the point, and no number is -0. */
+static void put3(struct words *w, const char *name, double x, double y, double z)
+{
+    put(w, " %s %g %g %g", name, rint(x * 1e9) / 1e9 + 0, rint(y * 1e9) / 1e9 + 0, rint(z * 1e9) / 1e9 + 0);
+}
+
+/* A texture parameter: its value if that is constant, else the texture's number; nothing for -1. */
+static void put_texture(struct words *w, const struct scene *s, const char *name, int id)
+{
+    const struct texture *t = &s->textures.texture[id];
+    if (id >= 0 && t->kind == TEXTURE_CONSTANT)
+        put3(w, name, t->constant.r, t->constant.g, t->constant.b);
+    else if (id >= 0)
+        put(w, " %s texture %d", name, id);
+}
+
+static const char *kind_name(const struct object_type *types, int kind, const char *fallback)
+{
+    while (types->name != NULL && types->kind != kind)
+        types++;
+    return types->name != NULL ? types->name : fallback;
+}
+
+static void put_options(struct words *w, const struct scene *s)
+{
+    const struct camera *c = &s->camera;
+    const struct filter *f = &s->filter;
+    put(w, "film %dx%d scale %g crop %g %g %g %g file %s\n", s->width, s->height, s->film_scale, s->crop[0], s->crop[1],
+        s->crop[2], s->crop[3], s->film_filename != NULL ? s->film_filename : "none");
+    vec3 world = transform_point(&c->world_to_camera, vec(0, 0, 0));
+    put(w, "camera %d fov %g aspect %g lens %g %g window %d %g %g %g %g", (int)c->kind, c->fov, c->frame_aspect_ratio,
+        c->lens_radius, c->focal_distance, c->has_screen_window, c->screen_window[0], c->screen_window[1],
+        c->screen_window[2], c->screen_window[3]);
+    put3(w, "world at", world.x, world.y, world.z);
+    put(w, "\nfilter %d radius %g %g alpha %g B %g C %g tau %g\n", (int)f->kind, f->radius[0], f->radius[1], f->alpha,
+        f->B, f->C, f->tau);
+    put(w, "spp %d integrator %s\n", s->spp, s->integrator != NULL ? s->integrator : "none");
+    for (int i = 0; i < s->settings.n; i++)
+        put(w, "setting %s %s %s\n", s->settings.item[i].name, s->settings.item[i].value, s->settings.item[i].origin);
+}
+
+static void put_textures(struct words *w, const struct scene *s)
+{
+    for (int i = 0; i < s->textures.n_textures; i++) {
+        const struct texture *t = &s->textures.texture[i];
+        if (t->kind == TEXTURE_CONSTANT)
+            continue;
+        put(w, "texture %d %s", i, kind_name(TEXTURE_TYPES, (int)t->kind, "cubes"));
+        if (t->kind == TEXTURE_IMAGEMAP)
+            put(w, " image %d wrap %d scale %g gamma %d", t->image, (int)t->wrap, t->scale, t->gamma);
+        else if (t->kind == TEXTURE_BILERP) {
+            const rgb v[4] = {t->v00, t->v01, t->v10, t->v11};
+            for (int k = 0; k < 4; k++)
+                put3(w, k == 0 ? "values" : "and", v[k].r, v[k].g, v[k].b);
+        } else {
+            put_texture(w, s, "tex1", t->tex1);
+            put_texture(w, s, "tex2", t->tex2);
+        }
+        if (t->kind == TEXTURE_MIX)
+            put_texture(w, s, "amount", t->amount);
+        put(w, " mapping %d %g %g %g %g\n", (int)t->map.kind, t->map.su, t->map.sv, t->map.du, t->map.dv);
+    }
+}
+
+static const struct field *first_at(const struct field *f, size_t place)
+{
+    while (f->place != place)
+        f++;
+    return f;
+}
+
+static void put_material(struct words *w, const struct scene *s, int i)
+{
+    const struct material *m = s->material[i];
+    put(w, "material %d %s", i, m->row->name);
+    for (const struct field *f = m->row->fields; f->name != NULL; f++) {
+        if (first_at(m->row->fields, f->place) != f) /* another name of what is there already */
+            continue;
+        const void *place = (const char *)m + f->place;
+        if (f->kind == FIELD_FLOAT_TEXTURE || f->kind == FIELD_RGB_TEXTURE)
+            put_texture(w, s, f->name, *(const int *)place);
+        else if (f->kind == FIELD_MATERIAL)
+            put(w, " %s %d", f->name, *(const int *)place);
+        else if (f->kind == FIELD_SWITCH)
+            put(w, " %s %d", f->name, *(const bool *)place);
+    }
+    put(w, "\n");
+}
+
+static void put_shapes(struct words *w, const struct scene *s)
+{
+    const struct geometry *geo = &s->geo;
+    for (int i = 0; i < geo->n_groups; i++) {
+        const struct shape_group *g = &geo->group[i];
+        put(w, "group of material %d light %d flip %d N %d uv %d", g->material, g->first_light, g->flip, g->has_n,
+            g->has_uv);
+        put_texture(w, s, "alpha", g->alpha);
+        put_texture(w, s, "shadow", g->shadow_alpha);
+        put(w, "\n");
+    }
+    for (int i = 0; i < geo->n_quadrics; i++) {
+        const struct quadric *q = &geo->quadric[i];
+        vec3 at = transform_point(&q->to_world, vec(0, 0, 0));
+        put(w, "quadric %d radius %g inner %g z %g %g phi %g", (int)q->kind, q->radius, q->inner_radius, q->zmin,
+            q->zmax, q->phi_max);
+        put3(w, "at", at.x, at.y, at.z);
+        put3(w, "from", q->p1.x, q->p1.y, q->p1.z);
+        put3(w, "to", q->p2.x, q->p2.y, q->p2.z);
+        put(w, "\n");
+    }
+    put(w, "%d triangles of %d points\n", geo->n_triangles, geo->n_vertices);
+    for (int i = 0; i < geo->n_vertices; i++) {
+        const float *P = geo->P + 3 * i, *uv = geo->UV + 2 * i;
+        put(w, "point %d: %.9g %.9g %.9g uv %g %g\n", i, (double)P[0], (double)P[1], (double)P[2], (double)uv[0],
+            (double)uv[1]);
+    }
+    for (const uint32_t *k = geo->index; k < geo->index + 3 * geo->n_triangles; k += 3)
+        put(w, "triangle %d %d %d\n", (int)k[0], (int)k[1], (int)k[2]);
+}
+
+static void put_lights(struct words *w, const struct scene *s)
+{
+    for (int i = 0; i < s->lights.n; i++) {
+        const struct light *l = &s->lights.light[i];
+        const struct light_frame none = {.to_world = transform_identity()}, *f = l->frame != NULL ? l->frame : &none;
+        vec3 axis = transform_vector(&f->to_world, vec(0, 0, 1));
+        put(w, "light %d %s", i, kind_name(LIGHT_DIRECTIVES[1].types, (int)l->kind, "area"));
+        put3(w, "L", l->L.r, l->L.g, l->L.b);
+        put3(w, "at", f->position.x, f->position.y, f->position.z);
+        put3(w, "towards", f->direction.x, f->direction.y, f->direction.z);
+        put3(w, "axis", axis.x, axis.y, axis.z);
+        put(w, " cosines %.4f %.4f tan %.4f two-sided %d prim %d picture %d\n", f->cos_total, f->cos_falloff,
+            f->tan_half, l->two_sided, l->prim, f->env != NULL || f->slide != NULL);
+    }
+}
+
+/* "# has: ..." in a scene's comments are parts of its words, in their order. */
+void check_contents(struct test *t, const char *name, const char *text, const struct scene *s)
+{
+    struct words *w = mem_alloc(1, sizeof *w);
+    put_options(w, s);
+    put_textures(w, s);
+    for (int i = 0; i < s->n_materials; i++)
+        put_material(w, s, i);
+    put_shapes(w, s);
+    put_lights(w, s);
+    const char *from = w->text;
+    for (const char *p = strstr(text, "# has: "); p != NULL; p = strstr(p + 1, "# has: ")) {
+        char want[TEXT];
+        snprintf(want, sizeof want, "%.*s", (int)strcspn(p + 7, "\n"), p + 7);
+        const char *found = strstr(from, want);
+        if (CHECK(t, found != NULL, "%s: no \"%s\" in\n%s", name, want, from))
+            from = found + strlen(want);
+    }
+    free(w);
+}
