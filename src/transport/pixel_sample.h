@@ -12,7 +12,6 @@
 #include "transport/observer.h"
 #include "transport/tile_pass.h"
 
-
 /* One pixel of one iteration. */
 struct pixel_sample {
     const struct scene *scene;
