@@ -137,7 +137,7 @@ check [ ! -e x.pfm ]
 no_temporaries "after errors"
 
 # ---- a checkpoint that somebody else has made while this render was under way is not replaced ----
-for interval in 0.01 3600; do # it is asked at each save, and in the end
+for interval in 0.2 3600; do # it is asked at each save, and in the end
     rm -f state
     "$program" render "$box" --integrator bdpt --res 200x200 --spp 8 --maxdepth 3 --quiet -j 1 --checkpoint state \
         --interval $interval -o kept.pfm 2>stderr.txt &

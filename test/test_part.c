@@ -47,8 +47,9 @@ static uint8_t *bytes_of(struct test *t, const struct fixture *f, size_t *n)
     uint8_t *data = NULL;
     struct error err = {.text = ""};
     struct file_output file;
-    CHECK(t, file_create(f->path, &file, &err) && part_write(&file, &f->part, &f->film, &err) &&
-             file_read(f->path, &data, n, &err), "%s", err.text);
+    CHECK(t, file_create(f->path, &file, &err), "%s", err.text);
+    part_write(&file, &f->part, &f->film);
+    CHECK(t, file_commit(&file, &err) && file_read(f->path, &data, n, &err), "%s", err.text);
     return data;
 }
 

@@ -68,19 +68,23 @@ static bool save_film(struct keep *k, struct error *err)
     const char *name = k->options->checkpoint;
     struct film none = {.rect = f->rect};
     struct file_output file;
-    struct os_identity there = os_identify(name);
-    if (there.kind != OS_NOTHING && (there.device != k->own.device || there.number != k->own.number))
-        return error_set(err, "%s: somebody else has made this file meanwhile: it is not replaced", name);
     if (!file_create(name, &file, err))
         return false;
-    k->own = os_identify_stream(file.stream); /* a new name does not change that */
     if (f->learnt_short) {
         film_init(&none, f->rect, f->full_width, f->full_height);
         film_keep_planes(&none, f->planes);
     }
-    bool ok = part_write(&file, &k->part, f->learnt_short ? &none : f, err);
+    part_write(&file, &k->part, f->learnt_short ? &none : f);
     film_free(&none);
-    return ok;
+    if (fflush(file.stream) == 0)
+        os_store(file.stream); /* what takes time comes before the question */
+    struct os_identity there = os_identify(name), own = k->own;
+    if (there.kind != OS_NOTHING && (there.device != own.device || there.number != own.number)) {
+        file_abandon(&file);
+        return error_set(err, "%s: somebody else has made this file meanwhile: it is not replaced", name);
+    }
+    k->own = os_identify_stream(file.stream); /* a new name does not change that */
+    return file_commit(&file, err);
 }
 
 /* The share of the work, where noise ends it: its square falls with the samples. */

@@ -83,8 +83,10 @@ static bool write_one(struct outputs *o, struct output *one, int width, int heig
         file_abandon(&one->file);
         return false;
     }
-    if (one->is_part)
-        return part_write(&one->file, o->part, o->film, err);
+    if (one->is_part) {
+        part_write(&one->file, o->part, o->film);
+        return file_commit(&one->file, err);
+    }
     struct channel more[1 + OUTPUTS_LAYERS] = {{"A", o->alpha, 3, false}};
     memcpy(more + 1, o->layer, sizeof o->layer);
     int first = o->alpha != NULL ? 0 : 1, n = one->pixels == NULL ? 1 + o->n_layers - first : 0;

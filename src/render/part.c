@@ -154,7 +154,7 @@ static char *header_text(const struct part *p)
     return text;
 }
 
-bool part_write(struct file_output *file, const struct part *p, const struct film *film, struct error *err)
+void part_write(struct file_output *file, const struct part *p, const struct film *film)
 {
     struct part now = *p; /* its identity is borrowed */
     now.done = film->iterations;
@@ -176,7 +176,6 @@ bool part_write(struct file_output *file, const struct part *p, const struct fil
     fwrite(end, 1, sizeof end, s->file);
     free(s);
     free(text);
-    return file_commit(file, err);
 }
 
 /* --- reading ----------------------------------------------------------------------------------------- */

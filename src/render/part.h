@@ -56,8 +56,8 @@ struct part {
 struct part part_describe(const struct scene *scene, const struct render_options *options);
 void part_free(struct part *p);
 
-/* part_write: the film into a file that was begun. Returns false with a message; the file is finished or gone then. */
-bool part_write(struct file_output *file, const struct part *p, const struct film *film, struct error *err);
+/* part_write: the film into a file that was begun; file_commit or file_abandon is to follow. */
+void part_write(struct file_output *file, const struct part *p, const struct film *film);
 
 /* part_open: read what a file says of itself.
  *   out  to be released with part_free after success
