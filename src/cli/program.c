@@ -9,4 +9,4 @@ const struct program program = {
     "adds up and converts pictures. What describes, compares, explains and measures is asbdpt-lab.", COMMANDS,
     &command_render,
     " info compare trace worth strategies verify demo equal-time experiment family transient bench "
-    "lvc cbdpt mbdpt pcbdpt ris ris2 restir restirgi pathgraph pssmlt mmlt mlt ellipse regularise caustics "};
+    "lvc cbdpt mbdpt pcbdpt ris ris2 restir restirgi pathgraph pssmlt mmlt mlt ellipse regularise caustics vcm "};
