@@ -78,6 +78,9 @@ static void test_method(struct test *t, const char *name)
         return;
     snprintf(way, sizeof way, "%s", name);
     o.integrator = set_method(&scene, way);
+    struct error err;
+    if (method_find(o.integrator, &scene.settings, &err)->chain) /* 8 iterations have so few that a gate may be empty */
+        o.end = 64;
     test_sum(t, &scene, &o, way);
     scene_free(&scene);
 }
