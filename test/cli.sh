@@ -595,7 +595,8 @@ expect 0 '' "$lab" equal-time "$box" --methods bdpt,asbdpt:select=pool --seconds
 check grep -q -e 'equal-time --seconds 0.01 --methods bdpt,asbdpt:select=pool --seeds 2' stdout.txt
 check [ "$(grep -c '^cornell-box,asbdpt:select=pool,' equal/runs.csv)" = 2 ]
 # family: once more, nothing is measured again.
-expect 0 'cornell-box, lvc:.*, seed' "$lab" family "$box" --methods bdpt,lvc --quick --spp 2 --res 8x8 --seeds 3 -o family
+expect 0 'cornell-box, lvc:.*, seed' \
+    "$lab" family "$box" --methods bdpt,lvc --quick --spp 2 --res 8x8 --seeds 3 -o family
 check grep -q '^| lvc |' family/family.md
 expect 0 '' "$lab" family "$box" --methods bdpt,lvc --quick --spp 2 --res 8x8 --seeds 3 -o family
 check [ "$(grep -c ', seed ' stderr.txt)" = 0 ]
