@@ -227,8 +227,8 @@ static void test_variance(struct test *t)
     float variance[3];
     film_init(&film, one, 1, 1);
     film_keep_errors(&film);
-    memcpy(film.errors->eye, sum, sizeof sum);
-    memcpy(film.errors->square, square, sizeof square);
+    memcpy(film.eye, sum, sizeof sum);
+    memcpy(film.square, square, sizeof square);
     film.iterations = 2;
     aov_variance(&film, 3, variance);
     CHECK(t, fabs((double)variance[0] - 9) < 1e-5 && variance[1] == 0 && fabs((double)variance[2] - 36) < 1e-4,

@@ -8,7 +8,6 @@
 #include "base/rng.h"
 #include "base/vec.h"
 #include "lab/stats.h"
-#include "scene/develop.h"
 #include "transport/pixel_sample.h"
 #include "tests.h"
 

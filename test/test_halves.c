@@ -10,7 +10,6 @@
 #include "base/rng.h"
 #include "helpers.h"
 #include "render/halves.h"
-#include "scene/develop.h"
 #include "tests.h"
 
 /* Pixels of uniform numbers and splats, some 20 deviations of the estimate's own error apart from a noise that lacks

@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "base/os.h"
-#include "scene/develop.h"
 #include "helpers.h"
 #include "tests.h"
 

@@ -10,7 +10,6 @@
 #include "base/mem.h"
 #include "lab/stats.h"
 #include "image/image.h"
-#include "scene/develop.h"
 #include "lab/compare.h"
 #include "lab/figures.h"
 #include "lab/markup.h"

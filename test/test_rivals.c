@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "render/render.h"
-#include "scene/develop.h"
 #include "rivals/ris.h"
 #include "helpers.h"
 #include "oracle.h"

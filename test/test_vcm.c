@@ -5,7 +5,6 @@
 
 #include "lab/compare.h"
 #include "render/render.h"
-#include "scene/develop.h"
 #include "helpers.h"
 #include "tests.h"
 

@@ -19,7 +19,6 @@
 #include "lab/compare.h"
 #include "lab/sheet.h"
 #include "render/parameters.h"
-#include "scene/develop.h"
 
 char *web_words(int size);
 int web_command(int n);

@@ -7,7 +7,6 @@
 #include "cli/command.h"
 #include "cli/outputs.h"
 #include "render/part.h"
-#include "scene/develop.h"
 
 struct merge_options {
     struct texts output, part;

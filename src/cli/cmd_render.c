@@ -15,7 +15,6 @@
 #include "cli/render_files.h"
 #include "image/image.h"
 #include "render/parameters.h"
-#include "scene/develop.h"
 
 #define AT(member) offsetof(struct job_options, member)
 static const struct option OPTIONS[] = {

@@ -8,7 +8,6 @@
 #include "base/mem.h"
 #include "base/os.h"
 #include "image/image.h"
-#include "scene/develop.h"
 
 /* A group is called by its name, or by what it is. */
 static char *picture_path(const char *directory, const struct light_set *lights, int i)

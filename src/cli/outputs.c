@@ -7,7 +7,6 @@
 
 #include "base/mem.h"
 #include "image/image.h"
-#include "scene/develop.h"
 
 static void release(struct outputs *o)
 {

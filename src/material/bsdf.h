@@ -1,14 +1,7 @@
-/* bsdf.h: how a surface point scatters light, and how to sample that.
+/* bsdf.h: how a surface point scatters light, and how to sample that: a sum of lobes (lobe.h) in a shading frame.
  *
- * A BSDF is a sum of lobes in a shading frame. wo and wi are unit vectors pointing away from the surface; wo is
- * the direction the walk came from, wi the one it goes to. As in pbrt-v3, the *geometric* normal decides
- * whether a pair is reflection or transmission, the *shading* normal enters the lobes' formulas.
- *
- * Transport mode: refraction compresses radiance by (eta_i/eta_t)^2 but not importance [V97 5.2], so lobes
- * that transmit need to know which of the two is carried. RADIANCE: walking from the eye; IMPORTANCE: walking
- * from a light. The factor for shading normals is applied in path.c, not here.
- *
- * Delta lobes (mirror, smooth glass) have no density: bsdf_eval leaves them out and bsdf_sample marks them.
+ * Delta lobes (mirror, smooth glass) have no density: bsdf_eval leaves them out and bsdf_sample marks them. The factor
+ * for shading normals is applied in path.c, not here.
  *
  * Tests: test_bsdf.c.
  */

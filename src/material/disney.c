@@ -74,13 +74,6 @@ static void lobes(struct lobe_list *list, const struct material *m)
         lobe_add(list, LOBE_LAMBERT_TRANSMISSION, none, rgb_scale(c, behind));
 }
 
-static bool is_brushed(const struct material *m, const struct texture_set *textures)
-{
-    (void)m;
-    (void)textures;
-    return true;
-}
-
 static bool is_deep(const struct material *m, const struct texture_set *textures)
 {
     const struct disney *d = (const struct disney *)m;
@@ -90,7 +83,7 @@ static bool is_deep(const struct material *m, const struct texture_set *textures
 
 #define AT(member) offsetof(struct disney, member)
 static const struct field FIELDS[] = {
-    {"color", FIELD_RGB_TEXTURE, AT(colour), 0.5, -MATERIAL_MAX_COLOUR, .high = MATERIAL_MAX_COLOUR},
+    COLOUR_FIELD("color", AT(colour), 0.5),
     {"eta", FIELD_FLOAT_TEXTURE, AT(index), 1.5, MATERIAL_MIN_INDEX, .high = MATERIAL_MAX_INDEX},
     {"roughness", FIELD_FLOAT_TEXTURE, AT(roughness), 0.5, .high = MATERIAL_MAX_ROUGHNESS},
     {"metallic", FIELD_FLOAT_TEXTURE, AT(metallic), 0, .high = 1},
@@ -105,9 +98,8 @@ static const struct field FIELDS[] = {
     {"thin", .kind = FIELD_SWITCH, .place = AT(thin)},
     {"flatness", FIELD_FLOAT_TEXTURE, AT(flatness), 0, .high = 1},
     {"difftrans", FIELD_FLOAT_TEXTURE, AT(diffuse_transmission), 1, .high = 2},
-    {"bumpmap", FIELD_FLOAT_TEXTURE, AT(is.bump), .fallback = FIELD_KEPT},
-    {.name = NULL}};
+    LAST_FIELDS};
 
 const struct material_row material_disney = {.name = "disney", .fields = FIELDS, .size = sizeof(struct disney),
                                              .most_lobes = 5, .may_be_delta = true, .lobes = lobes,
-                                             .is_brushed = is_brushed, .is_deep = is_deep};
+                                             .may_be_brushed = true, .is_deep = is_deep};

@@ -1,6 +1,4 @@
 /* fourier.c: a layered material that is a table (fourier_table.h). */
-#include <stddef.h>
-
 #include "material/lobe_list.h"
 
 struct fourier {
@@ -17,8 +15,7 @@ static void lobes(struct lobe_list *list, const struct material *m)
 #define AT(member) offsetof(struct fourier, member)
 static const struct field FIELDS[] = {
     {"bsdffile", .kind = FIELD_FOURIER_TABLE, .place = AT(table)},
-    {"bumpmap", FIELD_FLOAT_TEXTURE, AT(is.bump), .fallback = FIELD_KEPT},
-    {.name = NULL}};
+    LAST_FIELDS};
 
 const struct material_row material_fourier = {
     .name = "fourier", .fields = FIELDS, .size = sizeof(struct fourier), .most_lobes = 1, .lobes = lobes};

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/bits.h"
+#include "base/cumulative.h"
 #include "base/file.h"
 #include "base/maths.h"
 #include "base/mem.h"
@@ -39,14 +40,10 @@ static void series(const struct fourier_table *t, int o, int i, double cos_phi, 
 /* The interval that a cosine is in, never one without width, or -1, and where in it. */
 static int interval(const struct fourier_table *t, double mu, double *where)
 {
-    int low = 0, high = t->n_mu - 1;
     mu = clamp(mu, -1, 1);
-    if (!(mu >= t->mu[low] && mu <= t->mu[high]))
+    if (!(mu >= t->mu[0] && mu <= t->mu[t->n_mu - 1]))
         return -1;
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        *(t->mu[middle] <= mu ? &low : &high) = middle;
-    }
+    int low = cumulative_find(t->mu, t->n_mu - 1, mu);
     *where = (mu - t->mu[low]) / (t->mu[low + 1] - t->mu[low]);
     return low;
 }

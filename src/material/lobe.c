@@ -48,10 +48,11 @@ double lobe_albedo_guess(const struct lobe *l)
 
 /* --- diffuse lobes ----------------------------------------------------------------------------------- */
 
-static struct bsdf_value diffuse(rgb f, vec3 wo, vec3 wi)
+/* NOTHING unless the directions are on the sides that the lobe is for. */
+static struct bsdf_value diffuse(bool there, rgb f, vec3 wo, vec3 wi)
 {
     struct bsdf_value v = {f, fabs(wi.z) * INV_PI, fabs(wo.z) * INV_PI};
-    return v;
+    return there ? v : NOTHING;
 }
 
 /* The original has sin(alpha) tan(beta) with alpha the larger and beta the smaller of the two angles, and the
@@ -182,9 +183,8 @@ static rgb fresnel_blend(const struct lobe *l, vec3 wo, vec3 wi, vec3 wh)
 /* Half of the samples come from each of the two layers. */
 static struct bsdf_value substrate(const struct lobe *l, vec3 wo, vec3 wi, bool reflect)
 {
-    struct bsdf_value v = NOTHING, coat = microfacet_reflection(l, wo, wi, false);
-    if (reflect)
-        v = diffuse(fresnel_blend(l, wo, wi, normalize(add(wo, wi))), wo, wi);
+    struct bsdf_value coat = microfacet_reflection(l, wo, wi, false);
+    struct bsdf_value v = diffuse(reflect, fresnel_blend(l, wo, wi, normalize(add(wo, wi))), wo, wi);
     v.pdf = 0.5 * (v.pdf + coat.pdf);
     v.pdf_rev = 0.5 * (v.pdf_rev + coat.pdf_rev);
     return v;
@@ -217,25 +217,15 @@ struct bsdf_value lobe_eval(const struct lobe *l, vec3 wo, vec3 wi, bool reflect
 {
     struct bsdf_value v = NOTHING;
     switch (l->kind) {
-    case LOBE_LAMBERT_REFLECTION:
-        if (reflect)
-            v = diffuse(rgb_scale(l->R, INV_PI), wo, wi);
-        break;
-    case LOBE_LAMBERT_TRANSMISSION:
-        if (!reflect)
-            v = diffuse(rgb_scale(l->T, INV_PI), wo, wi);
-        break;
-    case LOBE_OREN_NAYAR:
-        if (reflect)
-            v = diffuse(oren_nayar(l, wo, wi), wo, wi);
-        break;
+    case LOBE_LAMBERT_REFLECTION: v = diffuse(reflect, rgb_scale(l->R, INV_PI), wo, wi); break;
+    case LOBE_LAMBERT_TRANSMISSION: v = diffuse(!reflect, rgb_scale(l->T, INV_PI), wo, wi); break;
+    case LOBE_OREN_NAYAR: v = diffuse(reflect, oren_nayar(l, wo, wi), wo, wi); break;
     case LOBE_MICROFACET_REFLECTION: v = microfacet_reflection(l, wo, wi, reflect); break;
     case LOBE_MICROFACET_TRANSMISSION: v = microfacet_transmission(l, wo, wi, reflect, mode); break;
     case LOBE_FRESNEL_BLEND: v = substrate(l, wo, wi, reflect); break;
     case LOBE_DISNEY_DIFFUSE:
-        if (reflect)
-            v = diffuse(disney_diffuse(l->R, l->of.disney.flat, l->of.disney.retro, l->of.disney.sheen,
-                                       l->of.disney.roughness, wo, wi), wo, wi);
+        v = diffuse(reflect, disney_diffuse(l->R, l->of.disney.flat, l->of.disney.retro, l->of.disney.sheen,
+                                            l->of.disney.roughness, wo, wi), wo, wi);
         break;
     case LOBE_CLEARCOAT: v = clearcoat(l, wo, wi, reflect); break;
     case LOBE_FOURIER:

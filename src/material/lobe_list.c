@@ -40,19 +40,6 @@ double roughness_to_alpha(double roughness)
     return 1.62142 + x * (0.819955 + x * (0.1734 + x * (0.0171201 + x * 0.000640711)));
 }
 
-static int v_of(const struct roughness *r) { return r->v >= 0 ? r->v : r->u; }
-
-bool roughness_differs(const struct roughness *r, const struct texture_set *textures)
-{
-    const struct texture *u = &textures->texture[r->u], *v = &textures->texture[v_of(r)];
-    return u != v && (u->kind != TEXTURE_CONSTANT || v->kind != TEXTURE_CONSTANT || u->constant.r != v->constant.r);
-}
-
-bool roughness_is_zero(const struct lobe_list *list, const struct roughness *r)
-{
-    return number_at(list, r->u) == 0 && number_at(list, v_of(r)) == 0;
-}
-
 struct lobe *lobe_add(struct lobe_list *list, enum lobe_kind kind, rgb R, rgb T)
 {
     struct lobe *l = &list->lobe[list->n++];
@@ -68,11 +55,11 @@ struct lobe *lobe_dielectric(struct lobe *l, double eta_a, double eta_b)
     return l;
 }
 
-struct lobe *lobe_rough(struct lobe *l, const struct lobe_list *list, const struct roughness *r)
+struct lobe *lobe_rough(struct lobe *l, const struct lobe_list *list, const struct material *m)
 {
     const double least = 1e-3; /* below, facets are a mirror to any purpose and their density overflows squares */
-    double u = roughness_at(list, r->u), v = roughness_at(list, v_of(r));
-    l->alpha_x = fmax(least, r->remap ? roughness_to_alpha(u) : u);
-    l->alpha_y = fmax(least, r->remap ? roughness_to_alpha(v) : v);
+    double u = roughness_at(list, m->rough.u), v = roughness_at(list, m->rough.v);
+    l->alpha_x = fmax(least, m->rough.remap ? roughness_to_alpha(u) : u);
+    l->alpha_y = fmax(least, m->rough.remap ? roughness_to_alpha(v) : v);
     return l;
 }

@@ -9,7 +9,7 @@ struct material *material_new(const struct material_row *row)
 {
     struct material *m = mem_alloc(1, row->size);
     m->row = row;
-    m->bump = -1;
+    m->bump = m->rough.u = m->rough.v = -1;
     for (const struct field *f = row->fields; f->name != NULL; f++)
         if (f->kind == FIELD_FLOAT_TEXTURE || f->kind == FIELD_RGB_TEXTURE)
             *place_of(m, f) = -1;
@@ -29,11 +29,22 @@ void material_settle(struct material *m, struct material *const *materials)
         }
     if (first != NULL)
         m->bump = first->bump;
+    if (m->rough.v < 0)
+        m->rough.v = m->rough.u;
+}
+
+/* Is, or may it be, another along u than along v? */
+static bool is_brushed(const struct material *m, const struct texture_set *textures)
+{
+    if (m->row->may_be_brushed || m->rough.u == m->rough.v)
+        return m->row->may_be_brushed;
+    const struct texture *u = &textures->texture[m->rough.u], *v = &textures->texture[m->rough.v];
+    return u->kind != TEXTURE_CONSTANT || v->kind != TEXTURE_CONSTANT || u->constant.r != v->constant.r;
 }
 
 bool material_reads_partials(const struct material *m, const struct texture_set *textures)
 {
-    return m->bump >= 0 || (m->row->is_brushed != NULL && m->row->is_brushed(m, textures));
+    return m->bump >= 0 || is_brushed(m, textures);
 }
 
 void material_bsdf(struct material *const *materials, int id, const struct texture_set *textures,

@@ -21,6 +21,10 @@ struct material {
     const struct material_row *row;
     int bump;       /* float texture of displacement along the normal, in world units; -1: none */
     int most_lobes; /* of its BSDF, counted over all branches of nested mixes */
+    struct {
+        int u, v;   /* float textures, -1: it has none; v -1 where a field says so: as u */
+        bool remap; /* they are what artists call rough, see roughness_to_alpha */
+    } rough;
 };
 
 /* The lobes of a BSDF in the making. */
@@ -38,10 +42,9 @@ struct material_row {
     size_t size;                /* of the struct to be filled */
     int most_lobes;             /* that it has itself, beside those of its FIELD_MATERIALs */
     bool may_be_delta;          /* may one of these be a mirror, or smooth glass? */
+    bool may_be_brushed;        /* may they depend on where u and v run, be `rough` as it may? */
     /* Add the lobes; a black one may be among them. */
     void (*lobes)(struct lobe_list *list, const struct material *m);
-    /* Does it depend on where u and v run? May say so of one that does not. NULL: it does not. */
-    bool (*is_brushed)(const struct material *m, const struct texture_set *textures);
     /* Would light go on beneath its surface, where none goes here? The parser says so. NULL: it would not. */
     bool (*is_deep)(const struct material *m, const struct texture_set *textures);
 };
@@ -62,8 +65,8 @@ enum { MATERIAL_MAX_LOBES = 16 };
 /* material_new: a material whose fields are to be filled in, its textures -1; to be given to free(). */
 struct material *material_new(const struct material_row *row);
 
-/* material_settle: to be called when they are: what follows from the materials that it is made of. A mix shades with
- * the frame of its first one, as in pbrt-v3. */
+/* material_settle: to be called when they are: what follows from them, and from the materials that it is made of. A mix
+ * shades with the frame of its first one, as in pbrt-v3. */
 void material_settle(struct material *m, struct material *const *materials);
 
 /* material_reads_partials: whether its BSDFs depend on dpdu, dpdv, dndu or dndv: by a bump map, or by a roughness that

@@ -1,6 +1,4 @@
 /* matte.c: a diffuse surface: Lambert's, or a rough one by Oren and Nayar. [PBRT3 9.2.1] */
-#include <stddef.h>
-
 #include "material/lobe_list.h"
 
 struct matte {
@@ -20,10 +18,9 @@ static void lobes(struct lobe_list *list, const struct material *m)
 
 #define AT(member) offsetof(struct matte, member)
 static const struct field FIELDS[] = {
-    {"Kd", FIELD_RGB_TEXTURE, AT(Kd), 0.5, -MATERIAL_MAX_COLOUR, .high = MATERIAL_MAX_COLOUR},
+    COLOUR_FIELD("Kd", AT(Kd), 0.5),
     {"sigma", .kind = FIELD_FLOAT_TEXTURE, .place = AT(sigma)},
-    {"bumpmap", FIELD_FLOAT_TEXTURE, AT(is.bump), .fallback = FIELD_KEPT},
-    {.name = NULL}};
+    LAST_FIELDS};
 
 const struct material_row material_matte = {
     .name = "matte", .fields = FIELDS, .size = sizeof(struct matte), .most_lobes = 1, .lobes = lobes};

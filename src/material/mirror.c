@@ -1,6 +1,4 @@
 /* mirror.c: a smooth mirror of one reflectance at all angles. */
-#include <stddef.h>
-
 #include "material/lobe_list.h"
 
 struct mirror {
@@ -15,9 +13,8 @@ static void lobes(struct lobe_list *list, const struct material *m)
 
 #define AT(member) offsetof(struct mirror, member)
 static const struct field FIELDS[] = {
-    {"Kr", FIELD_RGB_TEXTURE, AT(Kr), 0.9, -MATERIAL_MAX_COLOUR, .high = MATERIAL_MAX_COLOUR},
-    {"bumpmap", FIELD_FLOAT_TEXTURE, AT(is.bump), .fallback = FIELD_KEPT},
-    {.name = NULL}};
+    COLOUR_FIELD("Kr", AT(Kr), 0.9),
+    LAST_FIELDS};
 
 const struct material_row material_mirror = {.name = "mirror", .fields = FIELDS, .size = sizeof(struct mirror),
                                              .most_lobes = 1, .may_be_delta = true, .lobes = lobes};

@@ -1,6 +1,4 @@
 /* mix.c: the lobes of two materials, those of the first times `amount`, those of the second times the rest. */
-#include <stddef.h>
-
 #include "material/lobe_list.h"
 
 struct mix {
@@ -23,19 +21,12 @@ static void lobes(struct lobe_list *list, const struct material *m)
     }
 }
 
-static bool is_brushed(const struct material *m, const struct texture_set *textures)
-{
-    (void)m;
-    (void)textures;
-    return true;
-}
-
 #define AT(member) offsetof(struct mix, member)
 static const struct field FIELDS[] = {
     {"namedmaterial1", .kind = FIELD_MATERIAL, .place = AT(part[0])},
     {"namedmaterial2", .kind = FIELD_MATERIAL, .place = AT(part[1])},
-    {"amount", FIELD_RGB_TEXTURE, AT(amount), 0.5, -MATERIAL_MAX_COLOUR, .high = MATERIAL_MAX_COLOUR},
+    COLOUR_FIELD("amount", AT(amount), 0.5),
     {.name = NULL}};
 
 const struct material_row material_mix = {
-    .name = "mix", .fields = FIELDS, .size = sizeof(struct mix), .lobes = lobes, .is_brushed = is_brushed};
+    .name = "mix", .fields = FIELDS, .size = sizeof(struct mix), .lobes = lobes, .may_be_brushed = true};

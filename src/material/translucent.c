@@ -1,11 +1,8 @@
 /* translucent.c: diffuse and glossy on both sides. */
-#include <stddef.h>
-
 #include "material/lobe_list.h"
 
 struct translucent {
     struct material is;
-    struct roughness rough;
     int Kd, Ks, reflect, transmit;
 };
 
@@ -18,22 +15,16 @@ static void lobes(struct lobe_list *list, const struct material *m)
     lobe_add(list, LOBE_LAMBERT_REFLECTION, rgb_mul(up, Kd), none);
     lobe_add(list, LOBE_LAMBERT_TRANSMISSION, none, rgb_mul(down, Kd));
     struct lobe *above = lobe_add(list, LOBE_MICROFACET_REFLECTION, rgb_mul(up, Ks), none);
-    lobe_rough(lobe_dielectric(above, 1, eta), list, &t->rough);
+    lobe_rough(lobe_dielectric(above, 1, eta), list, m);
     struct lobe *below = lobe_add(list, LOBE_MICROFACET_TRANSMISSION, none, rgb_mul(down, Ks));
-    lobe_rough(lobe_dielectric(below, 1, eta), list, &t->rough);
+    lobe_rough(lobe_dielectric(below, 1, eta), list, m);
 }
 
 #define AT(member) offsetof(struct translucent, member)
 static const struct field FIELDS[] = {
-    {"Kd", FIELD_RGB_TEXTURE, AT(Kd), 0.25, -MATERIAL_MAX_COLOUR, .high = MATERIAL_MAX_COLOUR},
-    {"Ks", FIELD_RGB_TEXTURE, AT(Ks), 0.25, -MATERIAL_MAX_COLOUR, .high = MATERIAL_MAX_COLOUR},
-    {"reflect", FIELD_RGB_TEXTURE, AT(reflect), 0.5, -MATERIAL_MAX_COLOUR, .high = MATERIAL_MAX_COLOUR},
-    {"transmit", FIELD_RGB_TEXTURE, AT(transmit), 0.5, -MATERIAL_MAX_COLOUR, .high = MATERIAL_MAX_COLOUR},
-    {"roughness", FIELD_FLOAT_TEXTURE, AT(rough.u), 0.1, .high = MATERIAL_MAX_ROUGHNESS},
-    {"roughness", FIELD_FLOAT_TEXTURE, AT(rough.v), 0.1, .high = MATERIAL_MAX_ROUGHNESS},
-    {"remaproughness", FIELD_SWITCH, AT(rough.remap), .fallback = 1},
-    {"bumpmap", FIELD_FLOAT_TEXTURE, AT(is.bump), .fallback = FIELD_KEPT},
-    {.name = NULL}};
+    COLOUR_FIELD("Kd", AT(Kd), 0.25), COLOUR_FIELD("Ks", AT(Ks), 0.25),
+    COLOUR_FIELD("reflect", AT(reflect), 0.5), COLOUR_FIELD("transmit", AT(transmit), 0.5),
+    ROUGHNESS_FIELDS(0.1), REMAP_FIELD, LAST_FIELDS};
 
 const struct material_row material_translucent = {
     .name = "translucent", .fields = FIELDS, .size = sizeof(struct translucent), .most_lobes = 4, .lobes = lobes};

@@ -8,7 +8,6 @@
 #include "base/os.h"
 #include "base/parallel.h"
 #include "base/sampler.h"
-#include "scene/develop.h"
 
 enum { ALBEDO_DRAWS = 32 };
 

@@ -1,8 +1,11 @@
 /* film.c: see film.h. */
 #include "scene/film.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/number.h"
 
 void film_init(struct film *f, struct pixel_rect rect, int full_width, int full_height)
 {
@@ -20,11 +23,8 @@ void film_free(struct film *f)
     free(f->block.in);
     free(f->block.splat);
     free(f->half);
-    if (f->errors != NULL) {
-        free(f->errors->eye);
-        free(f->errors->square);
-        free(f->errors);
-    }
+    free(f->eye);
+    free(f->square);
     memset(f, 0, sizeof *f);
 }
 
@@ -39,9 +39,8 @@ void film_keep_planes(struct film *f, struct planes planes)
 
 void film_keep_errors(struct film *f)
 {
-    f->errors = mem_alloc(1, sizeof *f->errors);
-    f->errors->eye = mem_alloc(rect_pixels(f->rect) * 3, sizeof(double));
-    f->errors->square = mem_alloc(rect_pixels(f->rect) * 3, sizeof(double));
+    f->eye = mem_alloc(rect_pixels(f->rect) * 3, sizeof *f->eye);
+    f->square = mem_alloc(rect_pixels(f->rect) * 3, sizeof *f->square);
 }
 
 void film_keep_halves(struct film *f)
@@ -78,8 +77,8 @@ static void add_splat(struct film *f, const struct splat *s, const struct filter
                     exact_add(&f->half[at + c], (double)part[c]);
                 if (f->planes.lights > 0)
                     add_to_plane(f, plane + at + c, part[c]);
-                if (f->errors != NULL)
-                    f->errors->square[at + c] += sqr((double)part[c]);
+                if (f->square != NULL)
+                    f->square[at + c] += sqr((double)part[c]);
             }
         }
 }
@@ -101,9 +100,9 @@ void film_merge_tile(struct film *f, struct tile *t)
                     f->nonfinite += !exact_join(&f->sum[p * film_plane + to], &t->sum[p * tile_plane + from]);
                 if (f->half != NULL && t->first_half) /* part of the sum: it cannot overflow before it */
                     exact_join(&f->half[to], &t->sum[from]);
-                if (f->errors != NULL) {
-                    f->errors->eye[to] += exact_value(&t->sum[from]);
-                    f->errors->square[to] += t->square[from];
+                if (f->square != NULL) {
+                    f->eye[to] += exact_value(&t->sum[from]);
+                    f->square[to] += t->square[from];
                 }
             }
     film_take_splats(f, t);
@@ -134,4 +133,62 @@ double film_samples(const struct film *f)
     return (double)f->iterations + share * (double)f->block.iterations;
 }
 
-double film_value(const struct film *f, size_t i) { return exact_value(&f->sum[i]); }
+/* --- pictures ---------------------------------------------------------------------------------------- */
+
+long film_develop(const struct film *f, double scale, float *out) { return film_develop_plane(f, 0, scale, out); }
+
+static long samples_of(const struct film *f, size_t pixel)
+{
+    return f->iterations + (f->block.in[pixel] ? f->block.iterations : 0);
+}
+
+/* A pixel's value in a plane. Of a block under way pixels that are in have their own samples, but every pixel has the
+ * splats of all that are in: where its samples count these are made to stand for the splats of all, else taken out. */
+static double mean_in_plane(const struct film *f, size_t plane, size_t i, double scale)
+{
+    size_t n = rect_pixels(f->rect);
+    long iterations = samples_of(f, i / 3);
+    double sum = film_value(f, plane * 3 * n + i), all = f->block.in[i / 3] ? (double)n / (double)f->block.n_in : 0;
+    if (f->block.n_in > 0 && plane <= (size_t)f->planes.lights)
+        sum += (all - 1) * (double)f->block.splat[plane * 3 * n + i];
+    return iterations > 0 ? sum * (scale / (double)iterations) : 0;
+}
+
+long film_develop_plane(const struct film *f, int plane, double scale, float *out)
+{
+    long cut = 0;
+    for (size_t i = 0; i < rect_pixels(f->rect) * 3; i++) {
+        double value = mean_in_plane(f, (size_t)plane, i, scale);
+        cut += !fits_float(value);
+        out[i] = float_within(value);
+    }
+    return cut;
+}
+
+float *film_alpha(const struct film *f)
+{
+    if (!f->planes.alpha)
+        return NULL;
+    float *out = mem_alloc(rect_pixels(f->rect) * 3, sizeof *out);
+    film_develop_plane(f, 1 + f->planes.lights, 1, out);
+    return out;
+}
+
+void film_warn(const struct film *f, long cut)
+{
+    if (f->nonfinite > 0)
+        fprintf(stderr, "asbdpt: warning: %ld contributions were not finite, or too large, and were left out\n",
+                f->nonfinite);
+    if (cut > 0)
+        fprintf(stderr, "asbdpt: warning: %ld pixel values were beyond 3.4e38 and were cut to it\n", cut);
+}
+
+void film_standard_error(const struct film *f, double scale, float *out)
+{
+    size_t n = rect_pixels(f->rect) * 3;
+    for (size_t i = 0; i < n; i++) {
+        double k = (double)samples_of(f, i / 3);
+        double variance = (f->square[i] - sqr(f->eye[i]) / k) / (k * (k - 1));
+        out[i] = k < 2 ? INFINITY : float_within(scale * sqrt(fmax(variance, 0)));
+    }
+}

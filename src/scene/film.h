@@ -1,4 +1,4 @@
-/* film.h: where estimates of pixels are summed.
+/* film.h: where estimates of pixels are summed, and pictures are made of the sums.
  *
  * Tile passes fill tiles (tile.h), and the film takes them in. The sums are exact (exact_sum.h): they depend on which
  * values came in, not on their order, nor on how the iterations were cut into blocks or parts. What else is kept on
@@ -16,11 +16,6 @@
 #include <stdint.h>
 
 #include "scene/tile.h"
-
-/* What standard errors are made of, [pixels*3]. */
-struct film_errors {
-    double *eye, *square; /* sums of eye values, and of squares of these and of splats; owned */
-};
 
 /* The block of iterations under way, for a picture that is wanted before it is complete. */
 struct film_block {
@@ -54,7 +49,8 @@ struct film {
     struct exact_sum *half;      /* [pixels*3], the picture's of every other `run` iterations, or NULL; owned */
     int run;                     /* set when the render begins */
     struct noise_estimate noise[N_NOISE_SCALES]; /* when the halves were of one size the last time */
-    struct film_errors *errors;  /* NULL unless asked for; owned */
+    double *eye, *square;        /* for standard errors, [pixels*3] sums of eye values, and of squares of these and of
+                                  * splats; NULL unless asked for; owned */
     long nonfinite;
     char note[FILM_NOTE_SIZE]; /* what the method chose for itself, for people */
     struct film_number number[FILM_NUMBERS]; /* and for programs, ended by a NULL name */
@@ -90,9 +86,27 @@ static inline size_t film_splat_sums(const struct film *f)
 }
 
 /* film_value: the sum so far in place i of [planes][pixels*3]. */
-double film_value(const struct film *f, size_t i);
+static inline double film_value(const struct film *f, size_t i) { return exact_value(&f->sum[i]); }
 
 /* film_samples: per pixel, in the mean. */
 double film_samples(const struct film *f);
+
+/* --- pictures ---------------------------------------------------------------------------------------- */
+
+/* film_develop: the image so far: [height*width*3] linear floats, top row first, each pixel times `scale`, the mean of
+ * all samples that it has; black if that is none. Values that no float holds are cut to FLT_MAX; returns how many.
+ * film_develop_plane: the same of another plane than the picture. */
+long film_develop(const struct film *f, double scale, float *out);
+long film_develop_plane(const struct film *f, int plane, double scale, float *out);
+
+/* film_alpha: the plane of alpha, grey, [height*width*3], to be given to free(); NULL if there is none. */
+float *film_alpha(const struct film *f);
+
+/* film_warn: say on stderr how many contributions were left out and how many values film_develop cut, if any. */
+void film_warn(const struct film *f, long cut);
+
+/* film_standard_error: of each value of film_develop; infinite with fewer than two iterations. The film must have been
+ * asked to keep errors. */
+void film_standard_error(const struct film *f, double scale, float *out);
 
 #endif

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/cumulative.h"
 #include "base/maths.h"
 #include "base/vec.h"
 
@@ -96,16 +97,9 @@ double filter_eval(const struct filter *f, double dx, double dy)
 static double sample_table(const struct filter *f, int axis, double u, double *x)
 {
     const double *cdf = f->cdf[axis];
-    int lo = 0, hi = FILTER_STEPS; /* cdf[lo] <= u < cdf[hi] */
-    while (hi - lo > 1) {
-        int mid = (lo + hi) / 2;
-        if (cdf[mid] <= u)
-            lo = mid;
-        else
-            hi = mid;
-    }
-    double r = f->radius[axis], step = 2 * r / FILTER_STEPS, mass = cdf[hi] - cdf[lo];
-    *x = -r + (lo + (u - cdf[lo]) / mass) * step;
+    int i = cumulative_find(cdf, FILTER_STEPS, u);
+    double r = f->radius[axis], step = 2 * r / FILTER_STEPS, mass = cdf[i + 1] - cdf[i];
+    *x = -r + (i + (u - cdf[i]) / mass) * step;
     return profile(f, axis, *x) * f->norm[axis] * step / mass;
 }
 

@@ -18,10 +18,45 @@
 #ifndef ASBDPT_TILE_H
 #define ASBDPT_TILE_H
 
+#include <math.h>
+#include <stdbool.h>
+
 #include "base/exact_sum.h"
 #include "base/mem.h"
-#include "scene/gate.h"
-#include "scene/splat.h"
+#include "base/number.h"
+#include "base/rgb.h"
+#include "scene/filter.h"
+#include "scene/pixel_rect.h"
+
+/* Of a path's length, in scene units (vertex.h): all from `begin` to below `end`. An infinite end takes in all that is
+ * not below `begin`. */
+struct gate {
+    double begin, end;
+};
+
+/* gate_before: is a length below a bound of a gate? */
+static inline bool gate_before(double length, double bound) { return bound == INFINITY || length < bound; }
+static inline bool gate_holds(struct gate g, double length)
+{
+    return gate_before(length, g.end) && !gate_before(length, g.begin);
+}
+
+/* What a light sub-path sent to a raster point. */
+struct splat {
+    double px, py;
+    rgb value;
+    double length; /* of its path */
+    int lights;    /* the group of lights it comes from */
+};
+
+/* rgb_fits_float: NaN, infinities and values beyond FLT_MAX have no place in a picture; squares of all others stay far
+ * from overflow. */
+static inline bool rgb_fits_float(rgb c) { return fits_float(c.r) && fits_float(c.g) && fits_float(c.b); }
+
+/* splat_pixels: those of `within` whose filter covers the splat; none when x1 <= x0 or y1 <= y0.
+ * splat_part: what it adds to one of them, as floats; false if no float holds it. */
+struct pixel_rect splat_pixels(const struct splat *s, const struct filter *filter, struct pixel_rect within);
+bool splat_part(const struct splat *s, const struct filter *filter, int x, int y, float out[3]);
 
 /* What a film, or a tile, has beside the picture. Planes are numbered: the picture, groups of lights, alpha. */
 struct planes {

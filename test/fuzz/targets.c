@@ -22,7 +22,6 @@
 #include "render/parameters.h"
 #include "render/part.h"
 #include "render/render.h"
-#include "scene/develop.h"
 
 /* A broken promise: whoever runs the target reports it with the input. */
 static void broken(const char *what)

@@ -1,4 +1,4 @@
-/* gates.h: pictures of light in flight, by neighbouring gates (scene/gate.h), all from one render.
+/* gates.h: pictures of light in flight, by neighbouring gates (scene/tile.h), all from one render.
  *
  * Tests: test_gates.c.
  */

@@ -13,7 +13,6 @@
 #include "base/progress.h"
 #include "base/rng.h"
 #include "image/image.h"
-#include "scene/develop.h"
 #include "lab/timed.h"
 #include "lab/compare.h"
 

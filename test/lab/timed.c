@@ -7,7 +7,6 @@
 #include "base/mem.h"
 #include "base/os.h"
 #include "image/zlib.h"
-#include "scene/develop.h"
 
 bool timed_film(const struct scene *scene, const struct render_options *o, struct film *film, struct timed *out,
                 struct error *err)
