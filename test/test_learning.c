@@ -8,30 +8,38 @@
 #include "base/mem.h"
 #include "helpers.h"
 #include "learning/learn.h"
+#include "render/methods.h"
 #include "render/render.h"
 #include "tests.h"
 
 static const struct learn_options ALL = {.importance = true, .guide = true, .pairs = true, .eye_cells = 8,
                                          .light_cells = 16, .levels = REGION_LEVELS, .delta = 0.1, .emission = 0.2};
 
-/* Who watches: how much was traced, and when to say stop. */
+/* Who watches: how much was traced, and when to say stop; how often that may be asked, 0: at will. */
 struct watcher {
     double traced, patience;
+    int most, asked;
 };
 
 static bool watch(void *context, double traced)
 {
     struct watcher *w = context;
     w->traced = traced;
-    return traced < w->patience;
+    return traced < w->patience && (++w->asked < w->most || w->most == 0);
+}
+
+static struct render_job job_of(const struct scene *scene, struct watcher *w, int n_threads)
+{
+    struct render_job job = {.scene = scene, .film_rect = render_crop(scene), .seed = 3, .eye_seed = 3, .max_depth = 4,
+                             .n_threads = n_threads, .rr_threshold = 0.5, .spatial_lights = true, .watch = watch,
+                             .watch_context = w};
+    return job;
 }
 
 static struct tables *learn_scene(const struct scene *scene, struct watcher *w, int n_threads)
 {
     struct tables *l = mem_alloc(1, sizeof *l);
-    struct render_job job = {.scene = scene, .film_rect = render_crop(scene), .seed = 3, .eye_seed = 3, .max_depth = 4,
-                             .n_threads = n_threads, .rr_threshold = 0.5, .spatial_lights = true, .watch = watch,
-                             .watch_context = w};
+    struct render_job job = job_of(scene, w, n_threads);
     *l = learn(&job, &ALL);
     return l;
 }
@@ -62,7 +70,7 @@ static void test_budget(struct test *t)
     if (!scene_from_file(t, "scenes/many-lights.pbrt", 24, 16, &small) ||
         !scene_from_file(t, "scenes/many-lights.pbrt", 96, 64, &large))
         return;
-    struct watcher w[4] = {{0, INFINITY}, {0, INFINITY}, {0, INFINITY}, {0, 300}};
+    struct watcher w[4] = {{.patience = INFINITY}, {.patience = INFINITY}, {.patience = INFINITY}, {.patience = 300}};
     struct tables *l[4] = {learn_scene(&small, &w[0], 1), learn_scene(&small, &w[1], 3), learn_scene(&large, &w[2], 2),
                            learn_scene(&large, &w[3], 2)};
     CHECK(t, w[0].traced > 1000 && w[0].traced < 8000, "%g sub-paths for a small picture", w[0].traced);
@@ -87,7 +95,7 @@ static void test_bounds(struct test *t)
     double traced[3];
     for (int i = 0; i < 3; i++) {
         struct scene scene;
-        struct watcher w = {0, INFINITY};
+        struct watcher w = {.patience = INFINITY};
         if (!scene_from_text(t, "Camera \"perspective\" WorldBegin LightSource \"point\" WorldEnd", &scene))
             return;
         scene.width = scene.height = sides[i];
@@ -99,6 +107,37 @@ static void test_bounds(struct test *t)
     CHECK(t, traced[0] > 4000 && traced[2] == traced[1], "%g sub-paths for one pixel, %g for 182^2, %g for 1024^2",
           traced[0], traced[1], traced[2]);
     CHECK(t, fabs(traced[2] / (65 * 1024) - 1) < 0.03, "the budget is %g sub-paths at most", traced[2]);
+}
+
+/* Where a ray asks thousands of spheres, somebody is asked between paths, and not only when many are traced: while
+ * tables are filled, and by a probe, whose tile is rendered by a method. */
+static void test_dear_paths(struct test *t)
+{
+    enum { SPHERES = 3000 };
+    static const char HEAD[] = "Camera \"perspective\" WorldBegin LightSource \"point\"\n",
+                      SPHERE[] = "Shape \"sphere\"\n";
+    char *text = mem_alloc(sizeof HEAD + SPHERES * sizeof SPHERE + sizeof "WorldEnd", 1), *end = text;
+    struct scene scene;
+    end += sprintf(end, "%s", HEAD);
+    for (int i = 0; i < SPHERES; i++)
+        end += sprintf(end, "%s", SPHERE);
+    strcpy(end, "WorldEnd");
+    if (scene_from_text(t, text, &scene)) {
+        struct watcher w[2] = {{.patience = INFINITY, .most = 4}, {.patience = INFINITY, .most = 4}};
+        struct render_job job = job_of(&scene, &w[1], 1);
+        struct preparation p;
+        struct error err;
+        scene.width = scene.height = 16;
+        camera_prepare(&scene.camera, 16, 16);
+        job.film_rect = render_crop(&scene);
+        drop(learn_scene(&scene, &w[0], 1));
+        CHECK(t, w[0].traced == 0, "filling tables asks every %g paths", w[0].traced / (w[0].asked - 1));
+        CHECK(t, method_prepare(method_find("asbdpt", &scene.settings, &err), &job, &p, &err), "%s", err.text);
+        method_release(&p);
+        CHECK(t, w[1].traced < 2, "a probe has traced %g when asked %d times", w[1].traced, w[1].asked);
+        scene_free(&scene);
+    }
+    free(text);
 }
 
 /* A render whose time is over while it learns has a picture of one block all the same. */
@@ -149,7 +188,7 @@ static void test_far_triangle(struct test *t)
     for (int i = 0; i < WAYS; i++) {
         char text[1024];
         struct scene scene;
-        struct watcher w = {0, INFINITY};
+        struct watcher w = {.patience = INFINITY};
         snprintf(text, sizeof text, scene_text, far[i]);
         if (!scene_from_text(t, text, &scene))
             return;
@@ -172,6 +211,7 @@ void test_learning(struct test *t)
 {
     test_budget(t);
     test_bounds(t);
+    test_dear_paths(t);
     test_early_end(t);
     test_far_triangle(t);
 }

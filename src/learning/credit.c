@@ -4,6 +4,7 @@
 
 #include "base/number.h"
 #include "base/parallel.h"
+#include "learning/patience.h"
 #include "learning/probe.h"
 
 enum { SEQUENCE = 16, MOST_PIXELS = 1024 };
@@ -19,6 +20,7 @@ struct pixel_sums {
 struct measure {
     const struct probe *probe;
     struct mis_counts counts;
+    struct patience patience;
     struct tile *tile;        /* [n_threads] */
     struct pixel_sums *pixel; /* [n] */
     int64_t n;
@@ -56,11 +58,11 @@ static void measure_pixel(void *context, int64_t number, int slot, int thread)
     struct measure *m = context;
     struct pixel_rect all = m->probe->job->film_rect;
     struct pixel_sums *sums = &m->pixel[number];
-    double u, v, value[N_SUMS];
+    double u, v, value[N_SUMS], asked = 0;
     (void)slot;
     sampler_r2(number, &u, &v);
     int x = all.x0 + (int)(u * rect_width(all)), y = all.y0 + (int)(v * rect_height(all));
-    for (int k = 0; k < 2 * SEQUENCE; k++) {
+    for (int k = 0; k < 2 * SEQUENCE && patience_lasts(&m->patience, &asked); k++) {
         const struct render_job job = probe_job(m->probe->job, (uint64_t)(2 * number + k / SEQUENCE));
         take_sample(m, &job, x, y, k % SEQUENCE, thread, value);
         for (int i = 0; i < N_SUMS; i++) {
@@ -72,9 +74,9 @@ static void measure_pixel(void *context, int64_t number, int slot, int thread)
 
 static bool commit(void *context, int64_t number, int slot)
 {
-    const struct render_job *job = ((struct measure *)context)->probe->job;
+    (void)number;
     (void)slot;
-    return job->watch == NULL || job->watch(job->watch_context, 2.0 * SEQUENCE * (double)(number + 1));
+    return patience_count(&((struct measure *)context)->patience, 2 * SEQUENCE);
 }
 
 /* From moments that are means over pixels, relative to their brightness. */
@@ -91,7 +93,8 @@ static double credit_of(const struct measure *m, enum sum i, double all)
 
 struct credit credit_measure(const struct probe *p, const struct tables *tables)
 {
-    struct measure m = {.probe = p, .counts = {{1, 1}, {1, 1}, {1, 1}, .tables = tables}};
+    struct measure m = {.probe = p, .counts = {{1, 1}, {1, 1}, {1, 1}, .tables = tables},
+                        .patience = patience_begin(p->job)};
     double all = 0;
     m.n = int_within(SAMPLES_PER_PIXEL * pixel_light_count(p->job) / (2 * SEQUENCE), 64, MOST_PIXELS);
     m.tile = mem_alloc((size_t)p->job->n_threads, sizeof *m.tile);
@@ -103,6 +106,7 @@ struct credit credit_measure(const struct probe *p, const struct tables *tables)
     struct credit c = {credit_of(&m, BROAD, all), credit_of(&m, DELTA, all)};
     for (int i = 0; i < p->job->n_threads; i++)
         tile_free(&m.tile[i]);
+    patience_end(&m.patience);
     free(m.tile);
     free(m.pixel);
     return c;

@@ -25,7 +25,8 @@ static struct tables lay_grids(struct training *t)
 
 struct tables learn(const struct render_job *job, const struct learn_options *options)
 {
-    struct training t = {.job = job, .options = options, .work = workspaces_new(job->n_threads, job->max_depth)};
+    struct training t = {.job = job, .options = options, .work = workspaces_new(job->n_threads, job->max_depth),
+                         .patience = patience_begin(job)};
     struct tables tables = NO_TABLES;
     double pixels = (double)rect_width(job->film_rect) * rect_height(job->film_rect);
     long n = int_within(LEARN_PER_PIXEL * pixels, LEARN_LEAST, LEARN_MOST), n_light = n < LIGHT_MOST ? n : LIGHT_MOST;
@@ -39,6 +40,7 @@ struct tables learn(const struct render_job *job, const struct learn_options *op
         tables = train_vertices(&t, tables, aiming, places ? n_light - aiming : COUNTED);
     if (options->pairs)
         tables = train_pairs(&t, tables, n / 2, n / 2);
+    patience_end(&t.patience);
     workspaces_free(t.work, job->n_threads);
     return tables;
 }

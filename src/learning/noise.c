@@ -4,6 +4,7 @@
 
 #include "base/number.h"
 #include "base/parallel.h"
+#include "learning/patience.h"
 #include "learning/probe.h"
 
 enum { MOST_SAMPLES = 8 * 1024, BLOCK = 8 };
@@ -24,6 +25,8 @@ struct pixel {
 struct tile_noise {
     struct pixel_rect rect;
     const double *tried;
+    struct patience *patience;
+    double asked;
     struct pixel pixel[MAX_TILE_SIZE * MAX_TILE_SIZE]; /* row by row */
     int render;                      /* which of them */
     double tail, mean_scale;         /* tail: of t = 1 */
@@ -186,8 +189,14 @@ struct measure {
     struct tile *tile;       /* [n_threads] */
     struct noise *found;     /* [n_slots] */
     struct noise sums;
-    bool stopped;
+    struct patience patience;
 };
+
+static bool enough(void *context)
+{
+    struct tile_noise *t = context;
+    return !patience_lasts(t->patience, &t->asked);
+}
 
 /* On one axis of n pixels: as many as a tile has, as far apart as the render's, around point u. */
 static void lay(const struct pass_size *size, int n, double u, int *begin, int *end, int *skip)
@@ -218,9 +227,12 @@ static void render_tile(void *context, int64_t number, int slot, int thread)
     const struct observer observer = {.context = t, .joined = note};
     t->rect = rect_of(p, number);
     t->tried = m->tried;
+    t->patience = &m->patience;
     t->kind = -1;
     for (t->render = 0; t->render < RENDERS; t->render++) {
         struct render_job job = probe_job(p->job, (uint64_t)(t->render % INDEPENDENT));
+        job.enough = enough;
+        job.enough_context = t;
         job.eye_seed = probe_job(p->job, INDEPENDENT + (t->render == OTHER)).seed;
         struct tile_pass pass = {&job, t->rect, (long)number, (long)number + 1, tile, &p->work[thread], &observer};
         tile_start(tile, t->rect, job.film_rect, &job.scene->filter);
@@ -241,7 +253,7 @@ static bool add_tile(void *context, int64_t number, int slot)
 {
     struct measure *m = context;
     const struct noise *s = &m->found[slot];
-    const struct render_job *job = m->probe->job;
+    (void)number;
     m->sums.total += s->total + s->splats;
     m->sums.given_eye += s->given_eye + s->splats;
     m->sums.blocks += s->blocks + s->splats;
@@ -249,15 +261,14 @@ static bool add_tile(void *context, int64_t number, int slot)
     m->sums.tail += s->tail;
     for (int k = 0; k < LIGHT_PATH; k++)
         m->sums.spread[k] += s->spread[k];
-    double traced = RENDERS * (double)(number + 1) * sqr(m->probe->size.tile);
-    m->stopped = job->watch != NULL && !job->watch(job->watch_context, traced);
-    return !m->stopped;
+    return patience_count(&m->patience, RENDERS * sqr(m->probe->size.tile));
 }
 
 struct noise noise_measure(const struct probe *p, const double *tried, double samples)
 {
     const struct noise nothing = {0, 0, 0, 0, 0, {0}};
-    struct measure m = {.probe = p, .tried = tried, .again = *p->counts};
+    struct measure m = {.probe = p, .tried = tried, .again = *p->counts,
+                        .patience = patience_begin(p->job)};
     struct pixel_rect rect = rect_of(p, 0);
     int tile = rect_width(rect) * rect_height(rect), n_slots = 2 * p->job->n_threads;
     int n = int_within(samples * pixel_light_count(p->job) / tile + 0.75, 1, MOST_SAMPLES / tile);
@@ -272,7 +283,8 @@ struct noise noise_measure(const struct probe *p, const double *tried, double sa
     parallel_run(&jobs);
     for (int i = 0; i < p->job->n_threads; i++)
         tile_free(&m.tile[i]);
+    patience_end(&m.patience);
     free(m.tile);
     free(m.found);
-    return m.stopped ? nothing : m.sums;
+    return m.patience.over ? nothing : m.sums;
 }

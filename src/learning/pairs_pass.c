@@ -57,10 +57,11 @@ static void fill_pool(const struct pass *p, int thread, long chunk)
     const struct pairs_pass *t = p->context;
     struct trial_pool *pool = &t->pool[thread];
     int longest = p->training->job->max_depth + 1;
+    double asked = 0;
     arena_reset(&pool->arena);
     pool->n = 0;
     pool->total = 0;
-    for (long k = 0; k < POOL; k++) {
+    for (long k = 0; k < POOL && patience_lasts(&p->training->patience, &asked); k++) {
         struct vertex *path = &pool->vertex[k * longest];
         int n = pass_light(p, &pool->arena, chunk * POOL + k, STREAM_POOL, path);
         for (int i = 1; i < n; i++)

@@ -25,11 +25,12 @@ static void trace_chunk(void *context, int64_t job, int slot, int thread)
 {
     struct run *r = context;
     const struct pass *p = r->pass;
+    double asked = 0;
     long first = p->first + (long)job * CHUNK, end = first + CHUNK < p->end ? first + CHUNK : p->end;
     r->found[slot].n = 0;
     if (p->begin != NULL)
         p->begin(p, thread, first);
-    for (long i = first; i < end; i++) {
+    for (long i = first; i < end && patience_lasts(&p->training->patience, &asked); i++) {
         arena_reset(&p->training->work[thread].arena);
         p->trace(p, thread, i, &r->found[slot]);
     }
@@ -38,13 +39,10 @@ static void trace_chunk(void *context, int64_t job, int slot, int thread)
 static bool take_chunk(void *context, int64_t job, int slot)
 {
     struct run *r = context;
-    struct training *t = r->pass->training;
     (void)job;
     for (size_t i = 0; i < r->found[slot].n; i++)
         r->pass->take(r->pass->context, &r->found[slot].item[i]);
-    t->traced += CHUNK;
-    t->stopped = t->job->watch != NULL && !t->job->watch(t->job->watch_context, (double)t->traced);
-    return !t->stopped;
+    return patience_count(&r->pass->training->patience, CHUNK);
 }
 
 void pass_run(const struct pass *p)
@@ -53,8 +51,6 @@ void pass_run(const struct pass *p)
     int n_threads = p->training->job->n_threads, n_slots = 4 * n_threads;
     struct parallel_jobs jobs = {(p->end - p->first + CHUNK - 1) / CHUNK, n_threads, n_slots, &r, trace_chunk,
                                  take_chunk, NULL};
-    if (p->training->stopped)
-        return;
     r.found = mem_alloc((size_t)n_slots, sizeof *r.found);
     parallel_run(&jobs);
     for (int i = 0; i < n_slots; i++)

@@ -8,6 +8,7 @@
 #define ASBDPT_TRAINING_H
 
 #include "learning/options.h"
+#include "learning/patience.h"
 #include "tables/tables.h"
 #include "transport/tile_pass.h"
 
@@ -37,8 +38,7 @@ struct training {
     const struct render_job *job;
     const struct learn_options *options;
     struct workspace *work; /* [n_threads] */
-    long traced;            /* sub-paths so far, for job->watch */
-    bool stopped;
+    struct patience patience;
 };
 
 /* A pass over sub-paths first .. end-1, whose walks know `known`. */
@@ -53,7 +53,7 @@ struct pass {
     void (*take)(void *context, const struct finding *f);
 };
 
-/* pass_run: all of it, unless job->watch ends it. */
+/* pass_run: all of it, unless patience ends. */
 void pass_run(const struct pass *p);
 
 /* pass_eye: eye sub-path number i, through point i of an even sequence over the film, into the thread's workspace;
