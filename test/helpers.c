@@ -51,6 +51,36 @@ bool accepts(reader *read, const uint8_t *data, size_t n, struct error *err)
     return ok;
 }
 
+struct shape_fields shape_fields_of(const char *shape)
+{
+    const struct shape_row *const *row = shape_rows;
+    while (strcmp((*row)->name, shape) != 0)
+        row++;
+    struct shape_fields f = {*row, mem_alloc(1, (*row)->size)};
+    return f;
+}
+
+void shape_fields_set(struct shape_fields *f, const char *name, const void *value, size_t size)
+{
+    memcpy(f->fields + field_find(f->row->fields, name)->place, value, size);
+}
+
+static void ignore_warning(const struct mesh_task *task, const char *format, ...)
+{
+    (void)task;
+    (void)format;
+}
+
+bool shape_fields_mesh(struct shape_fields *f, int room, struct mesh *out, struct error *err)
+{
+    struct mesh_task task = {.shape = f->row->name, .room = room, .warn = ignore_warning};
+    memset(out, 0, sizeof *out);
+    bool ok = f->row->mesh(f->fields, &task, out);
+    *err = task.err;
+    free(f->fields);
+    return ok;
+}
+
 bool near3(vec3 a, vec3 b, double tolerance) { return length(sub(a, b)) <= tolerance; }
 
 vec3 on_sphere(struct rng *r)

@@ -4,6 +4,7 @@
 
 #include "base/file.h"
 #include "base/rng.h"
+#include "geometry/mesh.h"
 #include "image/image.h"
 #include "integrators/method.h"
 #include "lab/sides.h"
@@ -36,6 +37,17 @@ bool scene_from_text(struct test *t, const char *text, struct scene *out);
 
 /* scene_from_file: the same for a file, at the given resolution (0: as it is) with a box filter. */
 bool scene_from_file(struct test *t, const char *path, int width, int height, struct scene *out);
+
+/* What a Shape directive says of a shape of triangles, all zeros at first.
+ * shape_fields_set: the field of that name, of so many bytes. shape_fields_mesh: its mesh, with room for so many
+ * triangles of subdivided surfaces; releases the fields. */
+struct shape_fields {
+    const struct shape_row *row;
+    char *fields;
+};
+struct shape_fields shape_fields_of(const char *shape);
+void shape_fields_set(struct shape_fields *f, const char *name, const void *value, size_t size);
+bool shape_fields_mesh(struct shape_fields *f, int room, struct mesh *out, struct error *err);
 
 /* near3: are two points, or directions, no farther from each other? on_sphere: a direction, uniform. */
 bool near3(vec3 a, vec3 b, double tolerance);

@@ -1,16 +1,39 @@
 /* test_curve.c: curves and NURBS as triangles: points and normals against closed forms. */
-#include "geometry/curve.h"
-
 #include <math.h>
+#include <string.h>
 
 #include "base/rng.h"
-#include "geometry/nurbs.h"
 #include "geometry/mesh.h"
-#include "geometry/subdivide.h"
+#include "helpers.h"
 #include "tests.h"
 
 enum { MOST = 2 * 29 * 29 }; /* triangles of a NURBS surface */
 enum { RING = 9 }; /* points of a tube's row; the first and the last are one */
+
+/* What a scene file says of a curve; a ribbon if it has normals. */
+struct curve {
+    const double *P;
+    int n, degree;
+    bool bspline;
+    double width[2];
+    const double *N;
+};
+
+/* By the row of "curve", with room for so many triangles. */
+static bool curve_mesh(const struct curve *c, struct mesh *m, int most, struct error *err)
+{
+    struct shape_fields f = shape_fields_of("curve");
+    struct field_list P = {c->P, c->n}, N = {c->N, (c->n - 1) / c->degree + 1};
+    int basis = c->bspline, type = c->N != NULL ? 1 : 2;
+    shape_fields_set(&f, "P", &P, sizeof P);
+    shape_fields_set(&f, "N", &N, sizeof N);
+    shape_fields_set(&f, "degree", &c->degree, sizeof c->degree);
+    shape_fields_set(&f, "basis", &basis, sizeof basis);
+    shape_fields_set(&f, "type", &type, sizeof type);
+    shape_fields_set(&f, "width0", &c->width[0], sizeof c->width[0]);
+    shape_fields_set(&f, "width1", &c->width[1], sizeof c->width[1]);
+    return shape_fields_mesh(&f, most, m, err);
+}
 
 static struct mesh mesh_of(struct test *t, const struct curve *c)
 {
@@ -76,8 +99,11 @@ static void bases(struct test *t)
                  {2, 4, 2, true, {0.5, 0.5, 0, 0}, {0.125, 0.75, 0.125, 0}}};
     for (int k = 0; k < 4; k++) {
         struct curve c = {P, CASES[k].n, CASES[k].degree, CASES[k].bspline, {0.01, 0.01}, NULL};
-        CHECK(t, curve_segments(&c) == CASES[k].segments, "case %d: %d segments", k, curve_segments(&c));
         struct mesh m = mesh_of(t, &c);
+        int segments = 0;
+        for (int i = 0; i < m.n_vertices; i += RING)
+            segments += m.UV[2 * i] == 0;
+        CHECK(t, segments == CASES[k].segments, "case %d: %d segments", k, segments);
         int pieces = 0;
         while (m.UV[2 * RING * pieces] < 1)
             pieces++;
@@ -96,7 +122,11 @@ static void bases(struct test *t)
         mesh_free(&m);
     }
     struct curve short_one = {P, 3, 3, true, {1, 1}, NULL}, uneven = {P, 6, 3, false, {1, 1}, NULL};
-    CHECK(t, curve_segments(&short_one) == 0 && curve_segments(&uneven) == 0, "points that make no whole segments");
+    struct mesh none;
+    struct error err;
+    CHECK(t, !curve_mesh(&short_one, &none, MESH_MAX_SUBDIVIDED, &err) && strstr(err.text, "are no curve") != NULL &&
+              !curve_mesh(&uneven, &none, MESH_MAX_SUBDIVIDED, &err) && strstr(err.text, "are no curve") != NULL,
+          "points that make no whole segments: %s", err.text);
 }
 
 /* How large a mesh looks from far away in the direction x. */
@@ -145,6 +175,30 @@ static void ribbon(struct test *t)
     CHECK(t, curve_mesh(&c, &m, most, &err) && m.n_triangles == 0, "no width, no triangles");
 }
 
+struct nurbs_axis {
+    int n, order;
+    const double *knot; /* [n + order] */
+    double from, to;
+};
+
+static bool nurbs_mesh(const struct nurbs_axis *u, const struct nurbs_axis *v, const double *Pw, struct mesh *m,
+                       int most, struct error *err)
+{
+    struct shape_fields f = shape_fields_of("nurbs");
+    struct field_list points = {Pw, u->n * v->n};
+    shape_fields_set(&f, "Pw", &points, sizeof points);
+    for (int i = 0; i < 2; i++) {
+        const struct nurbs_axis *a = i == 0 ? u : v;
+        struct field_list knots = {a->knot, a->n + a->order};
+        shape_fields_set(&f, i == 0 ? "nu" : "nv", &a->n, sizeof a->n);
+        shape_fields_set(&f, i == 0 ? "uorder" : "vorder", &a->order, sizeof a->order);
+        shape_fields_set(&f, i == 0 ? "uknots" : "vknots", &knots, sizeof knots);
+        shape_fields_set(&f, i == 0 ? "u0" : "v0", &a->from, sizeof a->from);
+        shape_fields_set(&f, i == 0 ? "u1" : "v1", &a->to, sizeof a->to);
+    }
+    return shape_fields_mesh(&f, most, m, err);
+}
+
 /* A quarter of a cone, exact as a rational surface: points, normals, parameters. */
 static void rational(struct test *t)
 {
@@ -153,7 +207,7 @@ static void rational(struct test *t)
     struct nurbs_axis u = {3, 3, uk, 0, 1}, v = {2, 2, vk, 2, 3};
     struct mesh m = {0};
     struct error err = {.text = ""};
-    CHECK(t, nurbs_is_usable(&u) && nurbs_is_usable(&v) && nurbs_mesh(&u, &v, Pw, &m, MOST, &err), "%s", err.text);
+    CHECK(t, nurbs_mesh(&u, &v, Pw, &m, MOST, &err), "%s", err.text);
     for (size_t i = 0; i < (size_t)m.n_vertices; i++) {
         vec3 p = load3(m.P, i), n = load3(m.N, i), want = normalize(vec(p.x, p.y, -sqrt(p.x * p.x + p.y * p.y)));
         CHECK(t, fabs(sqrt(p.x * p.x + p.y * p.y) - 1 - p.z) < 1e-6, "a cone: %g %g %g", p.x, p.y, p.z);
@@ -179,7 +233,7 @@ static void knots(struct test *t)
     struct nurbs_axis u = {POINTS, ORDER, k, 0, 7}, v = {2, 2, line, 0, 1};
     struct mesh m = {0};
     struct error err = {.text = ""};
-    CHECK(t, nurbs_is_usable(&u) && nurbs_mesh(&u, &v, Pw, &m, MOST, &err), "%s", err.text);
+    CHECK(t, nurbs_mesh(&u, &v, Pw, &m, MOST, &err), "%s", err.text);
     for (size_t i = 0; i < (size_t)m.n_vertices; i++)
         CHECK(t, fabs(m.P[3 * i] - m.UV[2 * i]) < 1e-5 && m.N[3 * i + 2] > 0.9999, "at %g: %g", m.UV[2 * i],
               m.P[3 * i]);
@@ -193,7 +247,11 @@ static void knots(struct test *t)
     wide.to = 7.1;
     empty.to = 0;
     falling.knot = fall;
-    CHECK(t, !nurbs_is_usable(&wide) && !nurbs_is_usable(&empty) && !nurbs_is_usable(&falling), "axes of no use");
+    Pw[4 * 2 + 3] = 1;
+    const struct nurbs_axis *const useless[] = {&wide, &empty, &falling};
+    for (int i = 0; i < 3; i++)
+        CHECK(t, !nurbs_mesh(useless[i], &v, Pw, &m, MOST, &err) && strstr(err.text, "a nurbs needs") != NULL,
+              "axis %d is of no use: %s", i, err.text);
 }
 
 void test_curve(struct test *t)

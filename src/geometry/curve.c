@@ -1,31 +1,49 @@
-/* curve.c: see curve.h. */
-#include "geometry/curve.h"
-
+/* curve.c: pbrt-v3's curves as triangles.
+ *
+ * A curve is a row of segments with a width: a strip that turns to each ray ("flat", or "cylinder" with the normals of
+ * a tube), or one that follows normals ("ribbon"). What turns to each ray is no surface on which light could go both
+ * ways, so both of the former become the tube that looks as wide. u runs along each segment, v around the tube or
+ * across the ribbon.
+ *
+ * Tests: test_curve.c.
+ */
 #include "base/frame.h"
 #include "base/number.h"
 #include "geometry/mesh.h"
 
 enum { SIDES = 8, MOST_PIECES = 1024 }; /* of the tube's cross section; of a segment */
+enum { BEZIER, BSPLINE };
+enum { FLAT, RIBBON, CYLINDER };
 
-int curve_segments(const struct curve *c)
+struct curve {
+    int degree, basis, type; /* degree 2 or 3; segments of a BEZIER share their end points, a BSPLINE is uniform */
+    double width[2];         /* at both ends, >= 0 */
+    struct field_list P, N;  /* control points; of a ribbon the normals at the ends of segments */
+};
+
+/* How many the control points make; 0 if they are too few or too many for whole ones. */
+static int segments_of(const struct curve *c)
 {
-    if (c->n < c->degree + 1)
+    if (c->P.n < c->degree + 1)
         return 0;
-    if (c->bspline)
-        return c->n - c->degree;
-    return (c->n - 1) % c->degree == 0 ? (c->n - 1) / c->degree : 0;
+    if (c->basis == BSPLINE)
+        return c->P.n - c->degree;
+    return (c->P.n - 1) % c->degree == 0 ? (c->P.n - 1) / c->degree : 0;
 }
 
-static vec3 point(const struct curve *c, int i) { return vec(c->P[3 * i], c->P[3 * i + 1], c->P[3 * i + 2]); }
+static vec3 entry(struct field_list list, int i)
+{
+    return vec(list.number[3 * i], list.number[3 * i + 1], list.number[3 * i + 2]);
+}
 
 /* The Bezier points of a segment: of a B-spline its blossom at the knots around; a quadratic is a cubic, too. */
 static void bezier(const struct curve *c, int segment, vec3 b[4])
 {
-    int first = c->bspline ? segment : segment * c->degree;
+    int first = c->basis == BSPLINE ? segment : segment * c->degree;
     vec3 p[4];
     for (int i = 0; i <= c->degree; i++)
-        p[i] = point(c, first + i);
-    if (c->bspline && c->degree == 3) {
+        p[i] = entry(c->P, first + i);
+    if (c->basis == BSPLINE && c->degree == 3) {
         b[1] = lerp3(1.0 / 3, p[1], p[2]);
         b[2] = lerp3(2.0 / 3, p[1], p[2]);
         b[0] = lerp3(0.5, lerp3(2.0 / 3, p[0], p[1]), b[1]);
@@ -34,8 +52,8 @@ static void bezier(const struct curve *c, int segment, vec3 b[4])
         for (int i = 0; i < 4; i++)
             b[i] = p[i];
     } else {
-        b[0] = c->bspline ? lerp3(0.5, p[0], p[1]) : p[0];
-        b[3] = c->bspline ? lerp3(0.5, p[1], p[2]) : p[2];
+        b[0] = c->basis == BSPLINE ? lerp3(0.5, p[0], p[1]) : p[0];
+        b[3] = c->basis == BSPLINE ? lerp3(0.5, p[1], p[2]) : p[2];
         b[1] = lerp3(2.0 / 3, b[0], p[1]);
         b[2] = lerp3(2.0 / 3, b[3], p[1]);
     }
@@ -58,11 +76,9 @@ static vec3 evaluate(const vec3 b[4], double u, vec3 *tangent)
 /* A ribbon's normals at both ends of a segment, and the angle between them; that of a tube is 0. */
 static double ribbon_turn(const struct curve *c, int segment, vec3 n[2])
 {
-    for (int i = 0; i < 2 && c->N != NULL; i++) {
-        const double *at = c->N + 3 * (segment + i);
-        n[i] = normalize(vec(at[0], at[1], at[2]));
-    }
-    return c->N != NULL ? m_acos(fmin(fmax(dot(n[0], n[1]), 0), 1)) : 0;
+    for (int i = 0; i < 2 && c->type == RIBBON; i++)
+        n[i] = normalize(entry(c->N, segment + i));
+    return c->type == RIBBON ? m_acos(fmin(fmax(dot(n[0], n[1]), 0), 1)) : 0;
 }
 
 /* So many straight pieces stay within a twentieth of the width. [PBRT3 3.7] Where a ribbon turns by a tenth, what is
@@ -101,9 +117,11 @@ static vec3 ribbon_normal(const vec3 n[2], double angle, double u)
     return add(mul(n[0], m_sin((1 - u) * angle)), mul(n[1], m_sin(u * angle)));
 }
 
-bool curve_mesh(const struct curve *c, struct mesh *m, int most, struct error *err)
+/* Within about a twentieth of its width, as pbrt-v3 refines it. Without width it leaves the mesh empty. */
+static bool make(const struct curve *c, int segments, struct mesh_task *task, struct mesh *m)
 {
-    int segments = curve_segments(c), columns = c->N == NULL ? SIDES + 1 : 2, row = 0;
+    bool tube = c->type != RIBBON;
+    int columns = tube ? SIDES + 1 : 2, row = 0;
     double widest = fmax(c->width[0], c->width[1]);
     vec3 b[4], ends[2], tangent, x = vec(0, 0, 0);
     int64_t rows = 0; /* of which a curve may have more than an int */
@@ -113,9 +131,8 @@ bool curve_mesh(const struct curve *c, struct mesh *m, int most, struct error *e
     }
     if (widest == 0)
         return true;
-    if (2 * rows * (columns - 1) > most)
-        return error_set(err, "curves and other subdivided surfaces have more than %d triangles in all; leave some out",
-                         MESH_MAX_SUBDIVIDED);
+    if (!mesh_take_room(task, 2 * rows * (columns - 1)))
+        return false;
     mesh_grid(m, columns, (int)rows, true);
     for (int s = 0; s < segments; s++) {
         bezier(c, s, b);
@@ -125,48 +142,35 @@ bool curve_mesh(const struct curve *c, struct mesh *m, int most, struct error *e
             double u = (double)i / n, along = (s + u) / segments;
             vec3 p = evaluate(b, u, &tangent);
             /* The tube's frame is the one before, turned as little as can be. */
-            x = frame_from_tangent(tangent, c->N != NULL ? ribbon_normal(ends, turn, u) : x).s;
+            x = frame_from_tangent(tangent, tube ? x : ribbon_normal(ends, turn, u)).s;
             for (int k = 0; k < columns; k++)
                 m->UV[2 * (row * columns + k)] = (float)u;
-            put_row(m, row++, c->N == NULL, p, x, cross(x, tangent), (1 - along) * c->width[0] + along * c->width[1]);
+            put_row(m, row++, tube, p, x, cross(x, tangent), (1 - along) * c->width[0] + along * c->width[1]);
         }
     }
     return true;
 }
 
-/* --- the row ------------------------------------------------------------------------------------------ */
-
-enum { FLAT, RIBBON, CYLINDER };
-static const char *const TYPES[] = {"flat", "ribbon", "cylinder", NULL}, *const BASES[] = {"bezier", "bspline", NULL};
-
-struct curve_fields {
-    int degree, basis, type;
-    double width[2];
-    struct field_list P, N;
-};
-
 /* What turns to each ray in pbrt-v3 is drawn as a tube, of which "cylinder" has the normals already. */
 static bool mesh(const void *fields, struct mesh_task *task, struct mesh *out)
 {
-    const struct curve_fields *f = fields;
-    struct curve c = {f->P.number, f->P.n, f->degree, f->basis == 1, {f->width[0], f->width[1]},
-                      f->type == RIBBON ? f->N.number : NULL};
-    int segments = curve_segments(&c);
+    const struct curve *c = fields;
+    int segments = segments_of(c);
     if (segments == 0)
         return error_set(&task->err, "%d points \"P\" are no curve of degree %d: of a bezier one there are 1 + a "
-                         "multiple of it, of a bspline more than it", c.n, c.degree);
-    if (f->type == RIBBON && (c.N == NULL || f->N.n != segments + 1))
+                         "multiple of it, of a bspline more than it", c->P.n, c->degree);
+    if (c->type == RIBBON && (c->N.number == NULL || c->N.n != segments + 1))
         return error_set(&task->err, "this ribbon needs %d normals \"N\", one at each end of a segment", segments + 1);
-    if (!curve_mesh(&c, out, task->room, &task->err))
+    if (!make(c, segments, task, out))
         return false;
-    task->room -= out->n_triangles;
-    if (f->type == FLAT)
+    if (c->type == FLAT)
         task->warn(task, "a flat curve turns to whoever looks, which no surface does: it is drawn as the tube that "
                    "looks as wide");
     return true;
 }
 
-#define AT(member) offsetof(struct curve_fields, member)
+static const char *const TYPES[] = {"flat", "ribbon", "cylinder", NULL}, *const BASES[] = {"bezier", "bspline", NULL};
+#define AT(member) offsetof(struct curve, member)
 static const struct field FIELDS[] = {{"P", .kind = FIELD_POINTS, .place = AT(P)},
                                       {"N", .kind = FIELD_NORMALS, .place = AT(N)},
                                       {"width", FIELD_NUMBER, AT(width[0]), 1, 0, .high = NUMBER_MAX},
@@ -180,4 +184,4 @@ static const struct field FIELDS[] = {{"P", .kind = FIELD_POINTS, .place = AT(P)
                                       {.name = NULL}};
 
 const struct shape_row shape_curve = {
-    .name = "curve", .fields = FIELDS, .size = sizeof(struct curve_fields), .mesh = mesh};
+    .name = "curve", .fields = FIELDS, .size = sizeof(struct curve), .mesh = mesh};

@@ -38,4 +38,7 @@ extern const struct shape_row *const shape_rows[];
  * warning. */
 void mesh_triangles(struct field_list P, struct field_list indices, struct mesh_task *task, struct mesh *out);
 
+/* mesh_take_room: so many triangles of the task's room; false with a message if there are none. */
+bool mesh_take_room(struct mesh_task *task, int64_t triangles);
+
 #endif

@@ -1,8 +1,13 @@
-/* subdivide.c: see subdivide.h.
+/* subdivide.c: Loop subdivision of triangle meshes, as pbrt-v3's "loopsubdiv" defines it.
  *
- * A mesh is its half-edges: half-edge h = 3 f + k of triangle f runs from corner k to the next. */
-#include "geometry/subdivide.h"
-
+ * Each level cuts every triangle in four and moves the vertices; at the end they are moved to where infinitely many
+ * levels would take them, and get the normals of that limit surface, on the side from which the corners of a triangle
+ * run clockwise. Points that no triangle uses stay where they are. [Loop 1987] [PBRT3 3.8]
+ *
+ * A mesh is its half-edges: half-edge h = 3 f + k of triangle f runs from corner k to the next.
+ *
+ * Tests: test_subdivide.c.
+ */
 #include <stdlib.h>
 
 #include "base/maths.h"
@@ -276,16 +281,22 @@ static struct level control_level(const struct mesh *m)
     return l;
 }
 
-bool mesh_subdivide(struct mesh *m, int levels, int most, struct error *err)
+struct loopsubdiv {
+    int levels;
+    struct field_list P, indices;
+};
+
+/* Put the surface in the place of its control mesh. */
+static bool subdivide(struct mesh *m, int levels, struct mesh_task *task)
 {
     double triangles = m->n_triangles * m_pow(4, levels);
-    if (triangles > most)
-        return error_set(err, "%d levels would make %.3g triangles of %d; %s%d are made: lower the levels", levels,
-                         triangles, m->n_triangles, most < MESH_MAX_SUBDIVIDED ? "of this scene yet " : "at most ",
-                         most);
+    if (triangles > task->room)
+        return error_set(&task->err, "%d levels would make %.3g triangles of %d; %s%d are made: lower the levels",
+                         levels, triangles, m->n_triangles,
+                         task->room < MESH_MAX_SUBDIVIDED ? "of this scene yet " : "at most ", task->room);
     struct level l = control_level(m);
     struct ring ring = {0};
-    bool ok = join_edges(&l, err);
+    bool ok = join_edges(&l, &task->err);
     for (int i = 0; i < levels && ok; i++) {
         struct level finer = refine(&l, &ring);
         level_free(&l);
@@ -294,27 +305,18 @@ bool mesh_subdivide(struct mesh *m, int levels, int most, struct error *err)
     if (ok) {
         mesh_free(m);
         *m = limit_mesh(&l, &ring);
+        task->room -= m->n_triangles;
     }
     level_free(&l);
     free(ring.p);
     return ok;
 }
 
-/* --- the row ------------------------------------------------------------------------------------------ */
-
-struct loopsubdiv {
-    int levels;
-    struct field_list P, indices;
-};
-
 static bool mesh(const void *fields, struct mesh_task *task, struct mesh *out)
 {
     const struct loopsubdiv *s = fields;
     mesh_triangles(s->P, s->indices, task, out);
-    if (out->n_triangles > 0 && !mesh_subdivide(out, s->levels, task->room, &task->err))
-        return false;
-    task->room -= out->n_triangles;
-    return true;
+    return out->n_triangles == 0 || subdivide(out, s->levels, task);
 }
 
 /* As in pbrt-v3 "levels" wins. */

@@ -54,6 +54,15 @@ void mesh_triangles(struct field_list P, struct field_list indices, struct mesh_
                    task->shape);
 }
 
+bool mesh_take_room(struct mesh_task *task, int64_t triangles)
+{
+    if (triangles > task->room)
+        return error_set(&task->err, "curves and other subdivided surfaces have more than %d triangles in all; leave "
+                         "some out", MESH_MAX_SUBDIVIDED);
+    task->room -= (int)triangles;
+    return true;
+}
+
 static bool mesh(const void *fields, struct mesh_task *task, struct mesh *out)
 {
     const struct trianglemesh *t = fields;
