@@ -172,6 +172,7 @@ measure() {
     mini*) for tree in $work/original "$2"; do
             ${CC:-cc} -std=c99 -O2 -o "$tree/mini" "$tree/doc/mini/asbdpt.c" -lm || return
         done ;;
+    *) build "$2" asbdpt-lab || return ;;
     esac
     pictures "$1" || { say "The original does not render."; return 1; }
     printf 'Rendering %s:' "$view"
@@ -290,7 +291,7 @@ grade() {
     {
         guard
         say "Building $2 ..."
-        if ! build "$2"; then
+        if ! build "$2" build/test; then
             say "It does not compile yet."
         elif answer "$1" "$2" "$(get "$1" tests)"; then
             say "All is well: the first part is done. The page doc/course/$1.md has a second."

@@ -196,7 +196,7 @@ void test_joint(struct test *t)
                 const struct vertex *y = &light[s - 1], *z = &eye[k - 1];
                 if (dot(y->ng, sub(z->p, y->p)) * dot(y->ng, y->wo) <= 1e-9) /* one side of the box has both */
                     continue;
-                if (CHECK(t, connect_join(y, z, &j), "value: two that face each other are not joined"))
+                if (CHECK(t, connect_join(y, z, &j), "refused: two that face each other are not joined"))
                     check_joint(t, y, z, &j);
                 joined++;
             }

@@ -91,16 +91,22 @@ async function rendered(settings) {
   await rendered([['binpaths', 4], ['restart', 0]]);
   check(sum(sides[1].last.pixels) !== bins, 'restart changes nothing');
 
-  // Pause: the pictures stand still, and then show what has come.
-  turn('spp', 9);
+  // Pause: the pictures stand still, and no more come, until it ends; then they go on, and the pause is no time.
+  await rendered([['spp', 2], ['select', 'vertices']]);
+  turn('spp', 12);
   await sleep(300);
-  await until(() => sides.every(s => s.points.length > 2), 'a long render');
+  await until(() => sides.every(s => s.points.length > 2 && !s.done), 'a long render');
   $('pause').click();
-  const said = $('caption0').textContent, then = sides[0].points.length;
-  await until(() => sides[0].points.length > then, 'a picture that is not shown');
+  const said = $('caption0').textContent;
+  await sleep(2000); // a picture that was under way
+  const then = sides.map(s => s.points.length);
+  await sleep(3000);
+  check(sides.every((s, i) => s.points.length === then[i]), 'a pause does not stop: ' + then);
   check($('caption0').textContent === said, 'a pause does not hold: ' + said);
   $('pause').click();
+  await until(() => sides.every((s, i) => s.points.length > then[i] + 1), 'the render after a pause');
   check($('caption0').textContent !== said, 'after a pause nothing new');
+  check(sides[0].points[then[0]][0] - sides[0].points[then[0] - 1][0] < 3, 'a pause is counted as time');
 
   // A link sets controls. The means that leave the plot are not drawn at its edge.
   location.hash = '#scene=rooms&select=bins&spp=5&scale=2';

@@ -2,7 +2,9 @@
  *
  *   web_words    where the page puts words: the words of a command line, each ended by a zero byte
  *   web_command  run them as asbdpt would
- *   web_render   render with the options of `asbdpt render`, and show the page the picture after every iteration
+ *   web_begin    load and learn for a render with the options of `asbdpt render`
+ *   web_step     render one block of iterations more, and show the page the picture: a worker that is to be paused must
+ *                return between them, since it hears nothing while it computes
  *
  * The page gives web_show. All files are the page's: scenes, references, and what is written.
  */
@@ -18,19 +20,21 @@
 #include "image/picture.h"
 #include "lab/compare.h"
 #include "lab/sheet.h"
-#include "render/parameters.h"
+#include "render/render.h"
+#include "render/tiling.h"
 
 char *web_words(int size);
 int web_command(int n);
-int web_render(int n);
+int web_begin(int n);
+int web_step(void);
 
-/* web_show: the page's. A picture as it is now; it returns whether to go on.
+/* web_show: the page's. A picture as it is now.
  *   rgba     [height*width*4] 8-bit sRGB, as a PNG of it would have it
  *   pixels   [height*width*3] linear
- *   seconds  since the render began, without those spent here
+ *   seconds  that the render has taken, learning included
  *   rmse8, mean_ratio  against the reference, see compare.h; NaN without one */
-extern int web_show(const uint8_t *rgba, const float *pixels, int width, int height, int iterations, double seconds,
-                    double rmse8, double mean_ratio);
+extern void web_show(const uint8_t *rgba, const float *pixels, int width, int height, int iterations, double seconds,
+                     double rmse8, double mean_ratio);
 
 static const struct command *const COMMANDS[] = {&command_trace, NULL};
 const struct program program = {"asbdpt", "the page that renders", "Renders, and tells of a sample.", COMMANDS, NULL};
@@ -64,22 +68,28 @@ int web_command(int n)
 
 /* --- a render that is watched ------------------------------------------------------------------------ */
 
-struct watch {
-    const struct scene *scene;
-    struct film *film;
-    long shown; /* iterations */
-    double start, lost;
+static struct watch {
+    struct job_options asked;
+    struct scene scene;
+    struct render_options options;
+    struct render_job job;
+    struct preparation prepared;
+    struct tiling tiling;
+    struct tile tile;
+    struct workspace *work;
+    struct film film;
+    double seconds;
     float *reference; /* NULL: none; of a k-th of the picture's width and height */
     int k;
     float *pixels;
     uint8_t *rgba;
-};
+} watched; /* one to a worker, which ends with it */
 
 /* Squares of k x k pixels are compared with one of the reference. */
 static struct difference compare(const struct watch *w)
 {
     struct difference none = {.rmse8 = NAN, .mean_ratio = NAN};
-    int width = w->scene->width, height = w->scene->height;
+    int width = w->scene.width, height = w->scene.height;
     if (w->reference == NULL)
         return none;
     float *small = sheet_shrink(w->pixels, width, height, w->k);
@@ -88,26 +98,17 @@ static struct difference compare(const struct watch *w)
     return d;
 }
 
-static enum render_wish show(void *context, double done)
+static void show(struct watch *w)
 {
-    struct watch *w = context;
-    double now = os_wall_seconds();
-    (void)done;
-    if (w->film->passes > 0 || w->film->iterations == w->shown)
-        return RENDER_GO_ON;
-    w->shown = w->film->iterations;
-    film_develop(w->film, w->scene->film_scale, w->pixels);
-    int width = w->scene->width, height = w->scene->height;
+    int width = w->scene.width, height = w->scene.height;
+    film_develop(&w->film, w->scene.film_scale, w->pixels);
     for (int i = 0; i < width * height; i++) {
         for (int c = 0; c < 3; c++)
             w->rgba[4 * i + c] = srgb_byte((double)w->pixels[3 * i + c]);
         w->rgba[4 * i + 3] = 255;
     }
     struct difference d = compare(w);
-    bool go_on = web_show(w->rgba, w->pixels, width, height, (int)w->shown, now - w->start - w->lost, d.rmse8,
-                          d.mean_ratio);
-    w->lost += os_wall_seconds() - now;
-    return go_on ? RENDER_GO_ON : RENDER_END_BLOCK;
+    web_show(w->rgba, w->pixels, width, height, (int)w->film.iterations, w->seconds, d.rmse8, d.mean_ratio);
 }
 
 static bool read_reference(struct watch *w, const char *path, struct error *err)
@@ -118,31 +119,61 @@ static bool read_reference(struct watch *w, const char *path, struct error *err)
     w->reference = image_read_linear(path, &width, &height, NULL, err);
     if (w->reference == NULL)
         return false;
-    w->k = w->scene->width / width;
-    return (w->k > 0 && w->k * width == w->scene->width && w->k * height == w->scene->height) ||
+    w->k = w->scene.width / width;
+    return (w->k > 0 && w->k * width == w->scene.width && w->k * height == w->scene.height) ||
            error_set(err, "%s: the picture is no whole number of times as large", path);
 }
 
-static bool render(const struct job_options *o, const struct scene *scene, const struct method *integrator,
-                   const char *reference, struct error *err)
+static bool begin(struct watch *w, const struct method *integrator, const char *reference, struct error *err)
 {
-    struct film film;
-    struct watch w = {.scene = scene, .film = &film, .start = os_wall_seconds()};
-    struct render_options options = job_render(o, scene, integrator);
-    size_t n = (size_t)scene->width * (size_t)scene->height;
-    options.block = 1;
-    options.n_threads = 1;
-    options.progress = show;
-    options.progress_context = &w;
-    film_init(&film, render_crop(scene), scene->width, scene->height);
-    w.pixels = mem_alloc(3 * n, sizeof *w.pixels);
-    w.rgba = mem_alloc(4 * n, sizeof *w.rgba);
-    bool ok = read_reference(&w, reference, err) && render_scene(scene, &options, &film, err);
-    film_free(&film);
-    free(w.reference);
-    free(w.pixels);
-    free(w.rgba);
-    return ok;
+    double start = os_wall_seconds();
+    size_t n = (size_t)w->scene.width * (size_t)w->scene.height;
+    struct pixel_rect rect = render_crop(&w->scene);
+    w->options = job_render(&w->asked, &w->scene, integrator);
+    w->options.n_threads = 1;
+    if (!read_reference(w, reference, err) ||
+        !render_prepare(&w->scene, &w->options, rect, &w->job, &w->prepared, err))
+        return false;
+    if (w->prepared.size.block == 0)
+        w->prepared.size.block = 1;
+    w->tiling = tiling_of(rect, &w->prepared.size);
+    w->work = workspaces_new(1, w->job.max_depth);
+    w->work->scratch = method_scratch(&w->prepared);
+    film_init(&w->film, rect, w->scene.width, w->scene.height);
+    w->tile.planes = w->film.planes;
+    w->pixels = mem_alloc(3 * n, sizeof *w->pixels);
+    w->rgba = mem_alloc(4 * n, sizeof *w->rgba);
+    w->seconds = os_wall_seconds() - start;
+    return true;
+}
+
+/* More splats than a tile holds. */
+static void take_splats(void *film, struct tile *tile)
+{
+    film_take_splats(film, tile);
+    tile->n_splats = 0;
+}
+
+int web_step(void)
+{
+    struct watch *w = &watched;
+    double start = os_wall_seconds();
+    struct tile_pass pass = {.job = &w->job, .tile = &w->tile, .work = w->work, .first = w->film.iterations};
+    long left = w->options.end - pass.first, block = w->prepared.size.block;
+    pass.end = pass.first + (left < block ? left : block);
+    w->film.block.iterations = pass.end - pass.first;
+    for (int64_t i = 0; i < tiling_count(&w->tiling); i++) {
+        pass.rect = tiling_rect(&w->tiling, i);
+        tile_start(&w->tile, pass.rect, w->job.film_rect, &w->scene.filter);
+        w->tile.full = take_splats;
+        w->tile.context = &w->film;
+        w->prepared.method->render(&w->prepared, &pass);
+        film_merge_tile(&w->film, &w->tile);
+    }
+    film_end_block(&w->film);
+    w->seconds += os_wall_seconds() - start;
+    show(w);
+    return w->film.iterations < w->options.end;
 }
 
 static const struct option OPTIONS[] = {
@@ -152,21 +183,16 @@ static const struct option OPTIONS[] = {
 
 /* The first word is the reference, or empty; those after it are as for `asbdpt render`: its name, the scene, options
  * but for outputs and --cropwindow. */
-int web_render(int n)
+int web_begin(int n)
 {
     char **argv = arguments(n);
-    struct job_options o = {0};
-    struct scene scene;
+    struct watch *w = &watched;
     const struct method *integrator;
     struct error err;
-    bool ok = options_read(OPTIONS, n - 1, argv + 1, &o, &err);
-    int status = !ok ? usage_error(NULL, "%s", err.text) : job_load(&o, &scene, &integrator);
-    if (status == EXIT_OK) {
-        if (!render(&o, &scene, integrator, argv[0], &err))
-            status = fail(&err);
-        scene_free(&scene);
-    }
-    options_free(OPTIONS, &o);
+    bool ok = options_read(OPTIONS, n - 1, argv + 1, &w->asked, &err);
+    int status = !ok ? usage_error(NULL, "%s", err.text) : job_load(&w->asked, &w->scene, &integrator);
+    if (status == EXIT_OK && !begin(w, integrator, argv[0], &err))
+        status = fail(&err);
     free(argv);
     return status;
 }

@@ -1,15 +1,29 @@
 // worker.js: runs the renderer, a WebAssembly program for WASI preview 1, with files that lie in memory. Only what the
 // program asks for is here; everything else answers "no such function".
 //
-// In:  { wasm, files: { path: bytes }, call: "web_render" or "web_command", words: [...] }, once.
-// Out: { picture, pixels, width, height, iterations, seconds, rmse8, ratio } after every iteration of web_render;
+// In:  { wasm, files: { path: bytes }, call: "web_begin" or "web_command", words: [...] }, once;
+//      { held: whether to compute no further }, at any time of a render that has begun.
+// Out: { picture, pixels, width, height, iterations, seconds, rmse8, ratio } after every web_step;
 //      { status, out, err, files: those written } at the end.
 'use strict';
 
 const SUCCESS = 0, BADF = 8, EXIST = 20, INVAL = 28, NOENT = 44, NOSYS = 52;
 const CHARACTERS = 2, DIRECTORY = 3, REGULAR = 4;
 
-function run({ wasm, files, call, words }, show) {
+let held = false, awake = null; // what a render that is held waits for
+const hold = on => {
+  held = on;
+  if (!held && awake)
+    awake();
+};
+// To hear messages a worker must return to its events.
+const listen = async () => {
+  await new Promise(done => setTimeout(done));
+  while (held)
+    await new Promise(done => { awake = done; });
+};
+
+async function run({ wasm, files, call, words }, show) {
   let memory;
   const view = () => new DataView(memory.buffer);
   const bytes = (at, n) => new Uint8Array(memory.buffer, at, n);
@@ -159,7 +173,6 @@ function run({ wasm, files, call, words }, show) {
         const n = width * height;
         show({ picture: bytes(rgba, 4 * n).slice(), pixels: bytes(pixels, 12 * n).slice(), width, height, iterations,
                seconds, rmse8, ratio });
-        return 1;
       },
     },
   };
@@ -173,6 +186,14 @@ function run({ wasm, files, call, words }, show) {
     const at = c.web_words(line.length); // may move the memory
     bytes(at, line.length).set(line);
     status = c[call](words.length);
+    if (call === 'web_begin' && status === 0) {
+      await listen();
+      for (let heard = Date.now(); c.web_step();)
+        if (Date.now() - heard > 50) {
+          await listen();
+          heard = Date.now();
+        }
+    }
   } catch (e) {
     if (e.exit === undefined) said[2] += String(e);
     status = e.exit === undefined ? 1 : e.exit;
@@ -182,4 +203,5 @@ function run({ wasm, files, call, words }, show) {
 }
 
 if (typeof onmessage !== 'undefined')
-  onmessage = event => postMessage(run(event.data, state => postMessage(state)));
+  onmessage = async ({ data }) => data.held !== undefined ? hold(data.held)
+    : postMessage(await run(data, state => postMessage(state)));
