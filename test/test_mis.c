@@ -100,8 +100,7 @@ static struct tables learn_nothing(const struct scene *scene)
         int region = regions_add(&l.eye, regions_key(&l.eye, p, n));
         guide_sums_add(&seen, &l.eye, region, cell, 1 + cell % 3 + i % 5);
     }
-    l.guide = guide_build(&seen, &l.eye, lights, 0.1);
-    guide_sums_free(&seen);
+    l.guide = guide_build(&seen, &l.eye, 0.1);
     l.pairs.n_eye = l.eye.n;
     l.pairs.n_light = l.light.n;
     l.pairs.h = mem_alloc((size_t)l.eye.n * (size_t)l.light.n, sizeof *l.pairs.h);
@@ -113,8 +112,7 @@ static struct tables learn_nothing(const struct scene *scene)
         const double u[2] = {rng_uniform(&r), rng_uniform(&r)};
         emission_sums_add(&rays, (int)rng_below(&r, (uint32_t)lights->n_cells), u, exp(4 * (u[0] - u[1])) + i % 3);
     }
-    l.emission = emission_build(&rays, lights, 5000, 0.1);
-    emission_sums_free(&rays);
+    l.emission = emission_build(&rays, 5000, 0.1);
     return l;
 }
 

@@ -63,7 +63,6 @@ static void learn(struct rng *r, struct regions *eye, struct regions *light, int
         pair_sums_add(&l, eye, light, region_at(eye, e, up), region_at(light, y, up), x, 0.5 + rng_uniform(r));
     }
     *out = pairs_build(&l, eye, light, vertices, 0.1);
-    pair_sums_free(&l);
 }
 
 /* Root mean square of the relative error of h, and, in *planted, of h as seen from the other side. */
@@ -109,7 +108,7 @@ static void test_worth_learnt(struct test *t, struct rng *r, int trials, double 
     double planted, error = error_of(r, &eye, &light, &p, &planted);
     CHECK(t, error < bound, "%d trials: the worth of pairs is off by %.0f %%", trials, 100 * error);
     CHECK(t, planted > 0.5, "%d trials: seen from the wrong side the worth passes: %.0f %%", trials, 100 * planted);
-    pairs_free(&p);
+    free(p.h);
     free(vertices.x);
     regions_free(&eye);
     regions_free(&light);

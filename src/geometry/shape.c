@@ -291,22 +291,6 @@ void shape_surface(const struct geometry *geo, const struct hit *hit, const stru
     }
 }
 
-vec3 shape_normal_change(const struct geometry *geo, const struct surface *at, vec3 dp)
-{
-    int prim = (int)(at->prim_id - 1);
-    double u, v, b1, b2;
-    if (is_quadric(prim))
-        return combination(at->dpdu, at->dpdv, dp, &u, &v) ? add(mul(at->dndu, u), mul(at->dndv, v)) : vec(0, 0, 0);
-    struct triangle tri = triangle_of(geo, prim);
-    vec3 e1 = sub(tri.p[1], tri.p[0]), e2 = sub(tri.p[2], tri.p[0]);
-    if (!tri.has_n || !combination(e1, e2, dp, &u, &v) ||
-        !combination(e1, e2, sub(at->p, tri.p[0]), &b1, &b2))
-        return vec(0, 0, 0);
-    vec3 d = add(mul(sub(tri.n[1], tri.n[0]), u), mul(sub(tri.n[2], tri.n[0]), v));
-    double size = length(barycentric3(tri.n, b1, b2));
-    return size > 0 ? mul(sub(d, mul(at->ns, dot(at->ns, d))), 1 / size) : vec(0, 0, 0);
-}
-
 double shape_area(const struct geometry *geo, int prim)
 {
     if (is_quadric(prim))

@@ -112,10 +112,6 @@ static inline uint32_t shape_prim_id(int prim) { return (uint32_t)prim + 1; }
  * refined onto the surface for quadrics). Shading normal and partials as pbrt-v3 defines them. */
 void shape_surface(const struct geometry *geo, const struct hit *hit, const struct ray *ray, struct surface *out);
 
-/* shape_normal_change: the derivative of the shading normal ns at a surface point that moves by dp along its
- * primitive. */
-vec3 shape_normal_change(const struct geometry *geo, const struct surface *at, vec3 dp);
-
 /* shape_area: world area of a primitive in m^2 (quadrics: exact under similarity transforms, otherwise by
  * numerical integration). */
 double shape_area(const struct geometry *geo, int prim);

@@ -13,8 +13,7 @@
 
 enum {
     MIN_GUIDED_CELLS = 4, /* light cells; with fewer there is nothing for a guide to choose among */
-    EYE_CELLS = 8,        /* eye regions along the diagonal */
-    IMPORTANCE_CELLS = 64 /* light regions, likewise, of a method that looks at none */
+    EYE_CELLS = 8         /* eye regions along the diagonal */
 };
 
 void services_learn(const struct render_job *job, struct preparation *out, struct learn_options own)
@@ -162,11 +161,4 @@ void services_settle(const struct render_job *job, struct preparation *out)
     } else if (f->services.credit)
         set_numbers(job, f, &base, &as_it_is);
     workspaces_free(probe.work, job->n_threads);
-}
-
-void services_prepare(const struct render_job *job, struct preparation *out)
-{
-    const struct learn_options nothing = {.importance = false, .light_cells = IMPORTANCE_CELLS, .levels = 1};
-    services_learn(job, out, nothing);
-    services_settle(job, out);
 }

@@ -31,7 +31,4 @@ void services_learn(const struct render_job *job, struct preparation *out, struc
  * sub-paths are chosen, unless given; of all of them the light points. */
 void services_settle(const struct render_job *job, struct preparation *out);
 
-/* services_prepare: both, for methods whose own choice learns nothing. */
-void services_prepare(const struct render_job *job, struct preparation *out);
-
 #endif

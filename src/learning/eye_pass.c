@@ -54,14 +54,13 @@ static void take(void *context, const struct finding *f)
 
 struct tables train_importance(struct training *t, struct tables known, long n)
 {
-    const struct light_set *lights = &t->job->scene->lights;
     struct eye_pass e = {.tables = known, .guide = t->options->guide, .importance = t->options->importance, .n = n};
     struct pass pass = {t, &NO_TABLES, 0, n, &e, NULL, trace, take};
     e.tables.importance.E.columns = 1;
-    guide_sums_init(&e.lights, lights);
+    if (e.guide)
+        guide_sums_init(&e.lights, &t->job->scene->lights);
     pass_run(&pass);
     if (e.guide)
-        e.tables.guide = guide_build(&e.lights, &e.tables.eye, lights, GUIDE_DELTA);
-    guide_sums_free(&e.lights);
+        e.tables.guide = guide_build(&e.lights, &e.tables.eye, GUIDE_DELTA);
     return e.tables;
 }

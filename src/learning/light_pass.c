@@ -34,8 +34,7 @@ struct tables train_emission(struct training *t, struct tables known, long n)
         return known;
     emission_sums_init(&sums, lights);
     pass_run(&pass);
-    known.emission = emission_build(&sums, lights, (double)n, t->options->emission);
-    emission_sums_free(&sums);
+    known.emission = emission_build(&sums, (double)n, t->options->emission);
     return known;
 }
 

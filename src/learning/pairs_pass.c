@@ -128,8 +128,6 @@ struct tables train_pairs(struct training *t, struct tables known, long first, l
         free(pool->before);
     }
     free(p.pool);
-    known.pairs = pairs_build(&p.sums, &known.eye, &known.light, &known.importance.vertices,
-                              t->options->delta);
-    pair_sums_free(&p.sums);
+    known.pairs = pairs_build(&p.sums, &known.eye, &known.light, &known.importance.vertices, t->options->delta);
     return known;
 }

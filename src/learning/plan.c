@@ -4,7 +4,8 @@
 #include "base/maths.h"
 #include "base/number.h"
 
-const struct plan PLAN_TRIED = {{4, 4, 4, 0.25}}, PLAN_USUAL = {{3, 1, 2, 1}};
+const struct plan PLAN_TRIED = {{4, 4, 4, 0.25}};
+static const struct plan PLAN_USUAL = {{3, 1, 2, 1}};
 
 /* The choice moves from the usual numbers by BOLDNESS of the way, on a logarithmic scale: more samples of a kind also
  * take over weight from others, so its variance falls more slowly than 1/n. */

@@ -21,7 +21,7 @@ struct plan {
     double n[N_KINDS]; /* LIGHT_PATH 0: there are no light sub-paths, and no draws */
 };
 
-extern const struct plan PLAN_TRIED, PLAN_USUAL; /* while a probe looks on, and where none did */
+extern const struct plan PLAN_TRIED; /* while a probe looks on */
 
 /* In units of a ray that looks for the closest hit. */
 struct costs {

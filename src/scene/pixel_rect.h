@@ -2,7 +2,6 @@
 #ifndef ASBDPT_PIXEL_RECT_H
 #define ASBDPT_PIXEL_RECT_H
 
-#include <stdbool.h>
 #include <stddef.h>
 
 /* Pixels [x0,x1) x [y0,y1), but that after each column skip_x others are left out, and skip_y after each row. */
@@ -11,14 +10,9 @@ struct pixel_rect {
     int skip_x, skip_y; /* 0 unless said otherwise */
 };
 
-/* rect_width, rect_height: columns and rows that are not left out. rect_has: is a pixel one of them? */
+/* rect_width, rect_height: columns and rows that are not left out. */
 static inline int rect_width(struct pixel_rect r) { return (r.x1 - r.x0 + r.skip_x) / (r.skip_x + 1); }
 static inline int rect_height(struct pixel_rect r) { return (r.y1 - r.y0 + r.skip_y) / (r.skip_y + 1); }
-static inline bool rect_has(struct pixel_rect r, int x, int y)
-{
-    return x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1 && (x - r.x0) % (r.skip_x + 1) == 0 &&
-           (y - r.y0) % (r.skip_y + 1) == 0;
-}
 static inline size_t rect_pixels(struct pixel_rect r) { return (size_t)rect_width(r) * (size_t)rect_height(r); }
 
 #endif

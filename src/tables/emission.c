@@ -23,12 +23,6 @@ void emission_sums_init(struct emission_sums *s, const struct light_set *lights)
     s->square = mem_alloc((size_t)s->columns.n * BINS, sizeof *s->square);
 }
 
-void emission_sums_free(struct emission_sums *s)
-{
-    light_columns_free(&s->columns);
-    free(s->square);
-}
-
 void emission_sums_add(struct emission_sums *s, int cell, const double u[2], double I)
 {
     s->square[(size_t)(cell / s->columns.cells_each) * BINS + (size_t)bin_of(u)] += I * I;
@@ -68,10 +62,9 @@ static void sum_up(struct emission *e)
         e->before[c + 1] = e->before[c] + sum_of(&e->row[c * SIDE], SIDE);
 }
 
-struct emission emission_build(const struct emission_sums *s, const struct light_set *lights, double rays,
-                               double delta)
+struct emission emission_build(struct emission_sums *s, double rays, double delta)
 {
-    struct emission e = {.columns = light_columns_new(lights, EMISSION_COLUMNS)};
+    struct emission e = {.columns = s->columns};
     int n = e.columns.n;
     double m[BINS] = {0}, total = 0, all = n * BINS > 0 ? sum_of(s->square, n * BINS) / rays : 0;
     e.q = mem_alloc((size_t)n * BINS, sizeof *e.q);
@@ -85,6 +78,7 @@ struct emission emission_build(const struct emission_sums *s, const struct light
         e.q[i] = total > 0 ? delta * even + (1 - delta) * e.q[i] / total : even;
     }
     sum_up(&e);
+    free(s->square);
     return e;
 }
 
@@ -94,7 +88,6 @@ void emission_free(struct emission *e)
     free(e->q);
     free(e->row);
     free(e->before);
-    memset(e, 0, sizeof *e);
 }
 
 /* --- use --------------------------------------------------------------------------------------------- */

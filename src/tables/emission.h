@@ -29,8 +29,8 @@ struct emission_sums {
     double *square; /* [columns.n * EMISSION_BINS] sums of I^2, owned */
 };
 
+/* emission_sums_init: nothing yet; emission_build releases them. */
 void emission_sums_init(struct emission_sums *s, const struct light_set *lights);
-void emission_sums_free(struct emission_sums *s);
 
 /* emission_sums_add: a ray that light_sample_emission drew with u from a point of `cell` was worth I >= 0. */
 void emission_sums_add(struct emission_sums *s, int cell, const double u[2], double I);
@@ -44,8 +44,7 @@ struct emission {
 };
 
 /* emission_build: the table after `rays` rays, drawn by power, with `delta` in (0,1]; emission_free releases it. */
-struct emission emission_build(const struct emission_sums *s, const struct light_set *lights, double rays,
-                               double delta);
+struct emission emission_build(struct emission_sums *s, double rays, double delta);
 void emission_free(struct emission *e);
 
 /* emission_draw: a light cell by the uniform number u, and what light_sample_emission is to be given. The scene has a

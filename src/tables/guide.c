@@ -16,12 +16,6 @@ void guide_sums_init(struct guide_sums *s, const struct light_set *lights)
     s->arrived.columns = s->columns.n + 1;
 }
 
-void guide_sums_free(struct guide_sums *s)
-{
-    light_columns_free(&s->columns);
-    free(s->arrived.x);
-}
-
 void guide_sums_add(struct guide_sums *s, const struct regions *regions, int region, int cell, double value)
 {
     for (int r = region; r >= 0; r = regions->region[r].above) {
@@ -59,10 +53,9 @@ static double *shares_of_regions(struct guide_sums *s, const struct regions *reg
     return shares;
 }
 
-struct guide guide_build(struct guide_sums *s, const struct regions *regions, const struct light_set *lights,
-                         double delta)
+struct guide guide_build(struct guide_sums *s, const struct regions *regions, double delta)
 {
-    struct guide g = {light_columns_new(lights, GUIDE_COLUMNS), NULL, regions->n};
+    struct guide g = {s->columns, NULL, regions->n};
     int n = g.columns.n;
     double *t = shares_of_regions(s, regions);
     g.before = mem_alloc((size_t)g.n * (size_t)(n + 1), sizeof *g.before);
@@ -73,6 +66,7 @@ struct guide guide_build(struct guide_sums *s, const struct regions *regions, co
                 before[c] + delta * g.columns.power[c] + (1 - delta) * t[(size_t)i * (size_t)n + (size_t)c];
     }
     free(t);
+    free(s->arrived.x);
     return g;
 }
 
@@ -80,7 +74,6 @@ void guide_free(struct guide *g)
 {
     free(g->before);
     light_columns_free(&g->columns);
-    memset(g, 0, sizeof *g);
 }
 
 /* --- use --------------------------------------------------------------------------------------------- */

@@ -32,9 +32,8 @@ struct guide_sums {
     struct row_sums arrived; /* contributions (luminance) by region and column, and last how many there were; owned */
 };
 
-/* guide_sums_init: nothing yet. */
+/* guide_sums_init: nothing yet; guide_build releases them. */
 void guide_sums_init(struct guide_sums *s, const struct light_set *lights);
-void guide_sums_free(struct guide_sums *s);
 
 /* guide_sums_add: a light point of `cell` brought `value` > 0 to a vertex of the region, and of all above. */
 void guide_sums_add(struct guide_sums *s, const struct regions *regions, int region, int cell, double value);
@@ -47,8 +46,7 @@ struct guide {
 };
 
 /* guide_build: the tables of these regions, with `delta` in (0,1]; guide_free releases them. */
-struct guide guide_build(struct guide_sums *s, const struct regions *regions, const struct light_set *lights,
-                         double delta);
+struct guide guide_build(struct guide_sums *s, const struct regions *regions, double delta);
 void guide_free(struct guide *g);
 
 /* guide_draw: draw a light cell for an eye vertex of `region` with the uniform number u; *pmf is its probability.

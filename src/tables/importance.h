@@ -20,8 +20,6 @@ struct importance {
     double useful; /* share of light vertices that carries I: (mean I)^2 / mean(I^2), (0,1] */
 };
 
-void importance_free(struct importance *importance);
-
 /* importance_in: E of a region, >= 0; 0 where no eye sub-path came. */
 static inline double importance_in(const struct importance *importance, int region)
 {

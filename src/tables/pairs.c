@@ -16,12 +16,6 @@ void pair_sums_init(struct pair_sums *s, const struct regions *eye, const struct
     sums_row(&s->weight, eye->n - 1);
 }
 
-void pair_sums_free(struct pair_sums *s)
-{
-    free(s->worth.x);
-    free(s->weight.x);
-}
-
 /* The pair above: both one level up, or the finer one alone until they are of the same level. False at the top. */
 static bool pair_above(const struct regions *eye, const struct regions *light, int *e, int *y)
 {
@@ -71,6 +65,8 @@ struct pairs pairs_build(struct pair_sums *s, const struct regions *eye, const s
         for (int y = 0; y < light->n; y++)
             row[y] = mean > 0 ? (1 - delta) * row[y] / mean + delta / all : all > 0 ? 1 / all : 1;
     }
+    free(s->worth.x);
+    free(s->weight.x);
     struct pairs p = {eye->n, light->n, m.x};
     return p;
 }
@@ -79,10 +75,4 @@ struct pairs pairs_from_row(double *row, int n_light)
 {
     struct pairs p = {1, n_light, row};
     return p;
-}
-
-void pairs_free(struct pairs *p)
-{
-    free(p->h);
-    memset(p, 0, sizeof *p);
 }

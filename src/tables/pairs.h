@@ -29,9 +29,8 @@ struct pair_sums {
     double trials;
 };
 
-/* pair_sums_init: for these regions; none may be added afterwards. */
+/* pair_sums_init: for these regions; none may be added afterwards. pairs_build releases the sums. */
 void pair_sums_init(struct pair_sums *s, const struct regions *eye, const struct regions *light);
-void pair_sums_free(struct pair_sums *s);
 
 /* pair_sums_add: a trial between regions e and y of worth x >= 0 and weight w > 0. */
 void pair_sums_add(struct pair_sums *s, const struct regions *eye, const struct regions *light, int e, int y, double x,
@@ -43,7 +42,7 @@ struct pairs {
     double *h; /* [n_eye * n_light], > 0; NULL: nothing is known; owned */
 };
 
-/* pairs_build: the table; pairs_free releases it.
+/* pairs_build: the table; free(p.h) releases it.
  *   vertices  N(l) by light region, those of a region counted in the finest region they lie in
  *   delta     (0,1] */
 struct pairs pairs_build(struct pair_sums *s, const struct regions *eye, const struct regions *light,
@@ -52,7 +51,6 @@ struct pairs pairs_build(struct pair_sums *s, const struct regions *eye, const s
 /* pairs_from_row: a table that does not look at the eye vertex: h(e,l) = row[l].
  *   row  [n_light], handed over */
 struct pairs pairs_from_row(double *row, int n_light);
-void pairs_free(struct pairs *p);
 
 /* pairs_row: h(e,.), [n_light]. pairs_worth: h(e,l). */
 static inline const double *pairs_row(const struct pairs *p, int e)

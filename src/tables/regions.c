@@ -36,7 +36,6 @@ void regions_free(struct regions *r)
 {
     free(r->slot);
     free(r->region);
-    memset(r, 0, sizeof *r);
 }
 
 /* 1..6, the axis and sign a unit normal is nearest to. */

@@ -1,6 +1,7 @@
 /* tables.c: see tables.h. */
 #include "tables/tables.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 const struct tables NO_TABLES = {.guide = {.n = 0}};
@@ -9,9 +10,10 @@ void tables_free(struct tables *t)
 {
     regions_free(&t->eye);
     regions_free(&t->light);
-    importance_free(&t->importance);
+    free(t->importance.E.x);
+    free(t->importance.vertices.x);
     guide_free(&t->guide);
     emission_free(&t->emission);
-    pairs_free(&t->pairs);
+    free(t->pairs.h);
     memset(t, 0, sizeof *t);
 }

@@ -109,6 +109,13 @@ static bool check_sample(const struct render_options *o, struct pixel_rect film,
                      o->end - 1);
 }
 
+/* Is a pixel one of those that are not left out? */
+static bool rect_has(struct pixel_rect r, int x, int y)
+{
+    return x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1 && (x - r.x0) % (r.skip_x + 1) == 0 &&
+           (y - r.y0) % (r.skip_y + 1) == 0;
+}
+
 /* The tile pass that holds the sample, from where what it depends on begins: in blocks of a length that the integrator
  * has chosen one iteration builds on another. */
 static void render_pass(const struct render_job *job, const struct preparation *prepared, struct trace *trace)

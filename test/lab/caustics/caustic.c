@@ -55,7 +55,7 @@ static double classify(const struct scene *scene, struct arena *arena, const str
     if (group->material < 0)
         return 0;
     shape_surface(&scene->geo, &hit, &ray, &at);
-    c->curved = length2(shape_normal_change(&scene->geo, &at, frame_from_normal(at.ng).s)) > 0;
+    c->curved = length2(specular_normal_change(&scene->geo, &at, frame_from_normal(at.ng).s)) > 0;
     material_bsdf(scene->material, group->material, &scene->textures, &at, arena, &bsdf);
     for (int i = 0; i < bsdf.n_lobes; i++) {
         enum lobe_kind kind = bsdf.lobe[i].kind;

@@ -9,6 +9,29 @@ int specular_group(const struct scene *scene, const struct surface *at)
     return (int)(shape_group_of(&scene->geo, (int)(at->prim_id - 1)) - scene->geo.group);
 }
 
+static vec3 along(const struct surface *at, double u, double v) { return add(mul(at->dndu, u), mul(at->dndv, v)); }
+
+vec3 specular_normal_change(const struct geometry *geo, const struct surface *at, vec3 dp)
+{
+    int prim = (int)(at->prim_id - 1);
+    double u, v, b1, b2;
+    if (prim >= FIRST_QUADRIC)
+        return combination(at->dpdu, at->dpdv, dp, &u, &v) ? along(at, u, v) : vec(0, 0, 0);
+    vec3 p[3], n[3];
+    for (size_t i = 0; i < 3; i++) {
+        size_t vertex = geo->index[3 * (size_t)prim + i];
+        p[i] = load3(geo->P, vertex);
+        n[i] = load3(geo->N, vertex);
+    }
+    vec3 e1 = sub(p[1], p[0]), e2 = sub(p[2], p[0]);
+    if (!shape_group_of(geo, prim)->has_n || !combination(e1, e2, dp, &u, &v) ||
+        !combination(e1, e2, sub(at->p, p[0]), &b1, &b2))
+        return vec(0, 0, 0);
+    vec3 d = add(mul(sub(n[1], n[0]), u), mul(sub(n[2], n[0]), v));
+    double size = length(barycentric3(n, b1, b2));
+    return size > 0 ? mul(sub(d, mul(at->ns, dot(at->ns, d))), 1 / size) : vec(0, 0, 0);
+}
+
 /* The ray arrives at a surface: its point moves by dp along that. */
 static void transfer(struct specular_chain *c, const struct surface *at)
 {
@@ -30,7 +53,7 @@ static void turn(struct specular_chain *c, const struct scene *scene, const stru
     vec3 n = dot(c->d, at->ns) > 0 ? neg(at->ns) : at->ns;
     double cosine = -dot(c->d, n), eta = 1 / s->eta, cos_t = abs_dot(s->wi, n);
     for (int i = 0; i < 2; i++) {
-        vec3 dn = shape_normal_change(&scene->geo, at, c->dp[i]);
+        vec3 dn = specular_normal_change(&scene->geo, at, c->dp[i]);
         dn = dot(c->d, at->ns) > 0 ? neg(dn) : dn;
         double dc = -(dot(c->dd[i], n) + dot(c->d, dn));
         if (transmit)

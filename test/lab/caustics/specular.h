@@ -49,6 +49,10 @@ bool specular_search(const struct quest *q, vec3 w, struct specular_chain *out);
  * solid angle. */
 double specular_area(const struct quest *q, const struct specular_chain *c);
 
+/* specular_normal_change: the derivative of the shading normal ns at a surface point that moves by dp along its
+ * primitive. */
+vec3 specular_normal_change(const struct geometry *geo, const struct surface *at, vec3 dp);
+
 /* specular_group: the group that a surface point is of. */
 int specular_group(const struct scene *scene, const struct surface *at);
 

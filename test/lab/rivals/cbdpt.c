@@ -18,7 +18,7 @@
 #include <stddef.h>
 
 #include "integrators/pooled.h"
-#include "integrators/services.h"
+#include "rivals/plain.h"
 
 struct cbdpt_state {
     struct frozen frozen;
@@ -55,7 +55,7 @@ static void prepare(const struct render_job *job, struct preparation *out)
 {
     struct cbdpt_state *s = out->state;
     s->frozen.counts.connect[FIRST_HIT] = s->frozen.counts.connect[LATER_HIT] = s->connections;
-    services_prepare(job, out);
+    plain_prepare(job, out);
 }
 
 #define AT(member) offsetof(struct cbdpt_state, member)

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 
 #include "base/number.h"
-#include "integrators/services.h"
+#include "rivals/plain.h"
 #include "rivals/records.h"
 
 struct lvc_state {
@@ -69,7 +69,7 @@ static void prepare(const struct render_job *job, struct preparation *out)
         s->frozen.draws[end] = s->connections;
         s->frozen.counts.connect[end] = l > 0 ? s->connections / l : s->connections;
     }
-    services_prepare(job, out);
+    plain_prepare(job, out);
 }
 
 #define AT(member) offsetof(struct lvc_state, member)

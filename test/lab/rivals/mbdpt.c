@@ -20,7 +20,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-#include "integrators/services.h"
+#include "rivals/plain.h"
 #include "rivals/together.h"
 
 /* A sub-path in order of its first vertices. */
@@ -135,5 +135,5 @@ const struct method method_mbdpt = {
     .why = "one of the tile's K light sub-paths for each strategy, by a shifted lattice over eye and light sub-paths "
            "sorted by length or throughput, each equally likely; scale 1",
     .parameters = PARAMETERS, .services = {.emission = 1, .tile = DEFAULT_TILE_SIZE, .spread = 1},
-    .prepare = services_prepare, .state_size = sizeof(struct mbdpt_state), .scratch_size = sizeof(struct light_pool),
+    .prepare = plain_prepare, .state_size = sizeof(struct mbdpt_state), .scratch_size = sizeof(struct light_pool),
     .rr_threshold = DEFAULT_RR_THRESHOLD, .render = render, .scratch_free = light_pool_free};
