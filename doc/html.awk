@@ -11,9 +11,14 @@ function formula(s, inline,    out, base, index_, mark) {
     gsub(/&lt;=/, "\\&le;", s); gsub(/&gt;=/, "\\&ge;", s)
     if (!inline) {
         gsub(/\.\.\./, "\\&hellip;", s)
-        s = word(s, "integral", "\\&int;"); s = word(s, "delta", "\\&delta;"); s = word(s, "kappa", "\\&kappa;")
+        s = word(s, "integral", "\\&int;")
         gsub(/sqrt\(/, "\\&radic;(", s)
+    } else { # a mirror's density is a word
+        gsub(/a delta/, "a del\003ta", s); gsub(/called delta/, "called del\003ta", s); gsub(/<em>delta/, "<em>del\003ta", s)
+        gsub(/<strong>delta/, "<strong>del\003ta", s)
     }
+    s = word(s, "delta", "\\&delta;"); s = word(s, "kappa", "\\&kappa;")
+    gsub(/\003/, "", s)
     s = word(s, "sum_", "\\&Sigma;_"); s = word(s, "beta", "\\&beta;"); s = word(s, "theta", "\\&theta;")
     s = word(s, "eta", "\\&eta;"); s = word(s, "pi", "\\&pi;")
     while (match(s, /[A-Za-z*;)][_^](\([^()]*\)|[A-Za-z0-9]+)/)) {

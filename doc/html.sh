@@ -79,7 +79,7 @@ page() {
     root=$(dirname "$1" | sed 's/[^/]\{1,\}/../g; s/^\.$/./; s/^\.\.$/../')
     [ "$(dirname "$1")" = . ] && root=.
     case $1 in
-    *.md) math=0 && case $1 in doc/tour/* | doc/course/* | doc/selection.md | doc/add-a-method.md) math=1 ;; esac
+    *.md) math=0 && case $1 in README.md | doc/tour/* | doc/course/* | doc/selection.md | doc/add-a-method.md) math=1 ;; esac
         awk -v root="$root" -v math=$math -v title="$(sed -n 's/^# //p;/^# /q' "$1")" -f doc/math.awk -f doc/html.awk "$1" \
             >"$out/${1%.md}.html" ;;
     *.png | *.svg | *.html) cp "$1" "$out/$1" ;;
