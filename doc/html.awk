@@ -2,7 +2,8 @@
 #   awk -v root=../.. -v title=NAME [-v math=1] [-v source=1] [-v nav=0] -f doc/math.awk -f doc/html.awk FILE >FILE.html
 # root is the way from the page to the top of the HTML tree. The subset of Markdown is that of this tree's documents:
 # headings, paragraphs, lists of one level, tables, indented and fenced code, pictures, links, emphasis, code.
-# With math, plain-text formulas are typeset: those of a line of text by indices and Greek letters, blocks by math.awk.
+# With math, plain-text formulas are typeset: those of a line of text by indices and Greek letters, blocks by
+# math.awk (not with math=2).
 
 function escape(s) { gsub(/&/, "\\&amp;", s); gsub(/</, "\\&lt;", s); gsub(/>/, "\\&gt;", s); return s }
 
@@ -155,7 +156,7 @@ function keywords(s,    out, name) {
 
 # A block of indented lines: a formula unless it looks like commands or a listing.
 function block(text,    is_code) {
-    is_code = !math || text ~ /(^|\n) *(\.\/|make|cc |sh |build\/|WHOLE=|asbdpt|static |extern )/
+    is_code = math != 1 || text ~ /(^|\n) *(\.\/|make|cc |sh |build\/|WHOLE=|asbdpt|static |extern )/
     sub(/\n$/, "", text); sub(/^ /, "", text) # a numbered item's block stands a blank further in
     print is_code ? "<pre>" escape(text) "</pre>" : math_block(text)
 }

@@ -23,6 +23,8 @@ pre { overflow-x: auto; padding: 0.7em 1em; background: #8881; border-radius: 4p
 math { font-size: 1.08em; margin: 0; }
 .wide { overflow-x: auto; }
 .wide td, .wide th { font-size: 0.92em; }
+.wide:has(td > img) table { table-layout: fixed; width: 100%; }
+.wide:has(td > img) code { white-space: normal; }
 pre i { color: #487; font-style: normal; }
 pre b { color: #a26; font-weight: normal; }
 aside { display: none; }
@@ -79,7 +81,8 @@ page() {
     root=$(dirname "$1" | sed 's/[^/]\{1,\}/../g; s/^\.$/./; s/^\.\.$/../')
     [ "$(dirname "$1")" = . ] && root=.
     case $1 in
-    *.md) math=0 && case $1 in README.md | doc/tour/* | doc/course/* | doc/selection.md | doc/add-a-method.md) math=1 ;; esac
+    *.md) math=0 && case $1 in README.md) math=2 ;;
+        doc/tour/* | doc/course/* | doc/selection.md | doc/add-a-method.md) math=1 ;; esac
         awk -v root="$root" -v math=$math -v title="$(sed -n 's/^# //p;/^# /q' "$1")" -f doc/math.awk -f doc/html.awk "$1" \
             >"$out/${1%.md}.html" ;;
     *.png | *.svg | *.html) cp "$1" "$out/$1" ;;

@@ -31,7 +31,8 @@ for page in $(code doc/tour); do
     wrong "doc/tour/$page shows other code than the sources have: sh doc/tour/code.sh"
 done
 grep -L '^```c$' doc/tour/[01]*.md | while read -r page; do echo "$page shows no code"; done | grep . && bad=1
-cp -R doc/tour "$dir/damaged" && sed 's/poor->alias = rich_index/poor->alias = 0/' doc/tour/03-alias.md >"$dir/damaged/03-alias.md"
+cp -R doc/tour "$dir/damaged" &&
+    sed 's/poor->alias = rich_index/poor->alias = 0/' doc/tour/03-alias.md >"$dir/damaged/03-alias.md"
 [ "$(code "$dir/damaged")" = 03-alias.md ] || wrong "other code in a page is not noticed"
 
 # The path that page 7 works out: its command, then lines that the program must print.
@@ -43,5 +44,5 @@ if [ -x asbdpt-lab ]; then
         grep -qF -e "$line" "$dir/told" || wrong "trace does not print what page 7 has: $line"
     done <"$dir/worked"
 fi
-[ $bad -eq 0 ] && echo "pages: the programs of doc/mini, the code of the tour and the path of page 7 are what they are made of"
+[ $bad -eq 0 ] && echo "pages: programs of doc/mini, code of the tour and page 7's path are what they are made of"
 exit $bad
