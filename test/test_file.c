@@ -12,7 +12,7 @@
 #include "base/os.h"
 #include "base/json.h"
 #include "base/progress.h"
-#include "image/half.h"
+#include "image/exr.h"
 #include "image/image.h"
 #include "base/mem.h"
 #include "base/rng.h"

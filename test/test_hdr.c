@@ -12,7 +12,6 @@
 #include "base/mem.h"
 #include "image/exr.h"
 #include "image/formats.h"
-#include "image/half.h"
 #include "image/image.h"
 #include "image/tone.h"
 #include "image/zlib.h"

@@ -5,30 +5,16 @@
 #include <stdint.h>
 #include <stdio.h>
 
-static void fill(struct error *err, bool usage, const char *format, va_list args)
+bool error_write(struct error *err, bool usage, const char *format, ...)
 {
+    va_list args;
     if (err == NULL)
-        return;
-    err->usage = usage;
+        return false;
+    va_start(args, format);
     vsnprintf(err->text, sizeof err->text, format, args);
+    va_end(args);
+    err->usage = usage;
     error_clean(err->text);
-}
-
-bool error_set(struct error *err, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    fill(err, false, format, args);
-    va_end(args);
-    return false;
-}
-
-bool error_usage(struct error *err, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    fill(err, true, format, args);
-    va_end(args);
     return false;
 }
 

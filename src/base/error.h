@@ -16,13 +16,12 @@ struct error {
     bool usage;                 /* it is about a word of the command line */
 };
 
-/* error_set: write a message of one line, printf style, cleaned (see below), cutting it at the buffer's end.
- *   err  out, may be NULL (then nothing is written)
- * Returns false, always, so that a failing function can `return error_set(err, ...)`. */
-bool error_set(struct error *err, const char *format, ...);
-
-/* error_usage: the same about a word of the command line. */
-bool error_usage(struct error *err, const char *format, ...);
+/* error_set: write a message of one line, printf style, cleaned (see below) and cut at the buffer's end; `err` may be
+ * NULL. error_usage: the same about a word of the command line. Both return false, always, so that a failing function
+ * can `return error_set(err, ...)`. */
+#define error_set(err, ...) error_write(err, false, __VA_ARGS__)
+#define error_usage(err, ...) error_write(err, true, __VA_ARGS__)
+bool error_write(struct error *err, bool usage, const char *format, ...);
 
 /* error_clean: make text that may come from a damaged or hostile file fit for a terminal, in place: every byte that is
  * no part of a printable character becomes '?'. */

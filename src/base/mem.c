@@ -15,9 +15,7 @@ static void die(size_t count, size_t size)
 
 void *mem_alloc(size_t count, size_t size)
 {
-    if (size != 0 && count > SIZE_MAX / size)
-        die(count, size);
-    void *p = calloc(count * size != 0 ? count : 1, count * size != 0 ? size : 1);
+    void *p = calloc(count > 0 ? count : 1, size > 0 ? size : 1); /* which sees to overflow */
     if (p == NULL)
         die(count, size);
     return p;
@@ -28,16 +26,11 @@ void *mem_grow(void *array, size_t *capacity, size_t need, size_t size)
     if (need <= *capacity)
         return array;
     size_t larger = *capacity < 16 ? 16 : *capacity;
-    while (larger < need) {
-        if (larger > SIZE_MAX / 2)
-            die(need, size);
+    while (larger < need && larger <= SIZE_MAX / 2)
         larger *= 2;
-    }
-    if (size != 0 && larger > SIZE_MAX / size)
-        die(larger, size);
-    void *p = realloc(array, larger * size);
+    void *p = larger >= need && larger <= SIZE_MAX / size ? realloc(array, larger * size) : NULL;
     if (p == NULL)
-        die(larger, size);
+        die(need, size);
     *capacity = larger;
     return p;
 }

@@ -1,4 +1,4 @@
-/* os.c: see os.h. What a system has is asked for by its own name, once per section. */
+/* os.c: see os.h. What a system has is asked for by its own name; Windows is to have POSIX's names where it can. */
 
 /* Which names headers show: those of glibc and musl, with -std=c99, what is asked for; others all, unless some is. */
 #if defined __linux__ || defined __CYGWIN__ || defined __wasi__
@@ -27,10 +27,33 @@
 #include <io.h>
 #include <process.h>
 #include <psapi.h>
+#include <pthread_time.h>
+
+#define access _access
+#define close _close
+#define fdopen _fdopen
+#define fileno _fileno
+#define fsync _commit
+#define getpid _getpid
+#define isatty _isatty
+#define mkdir(path, rights) _mkdir(path)
+#define open _open
+#define unlink _unlink
+#define write _write
+#define W_OK 2
+enum { WINDOWS = 1, BYTES = _O_BINARY };
 #else
 #include <unistd.h>
+enum { WINDOWS = 0, BYTES = 0 };
 #endif
-#if !defined _WIN32 && !defined __wasi__
+#if defined _WIN32 || defined __wasi__
+#define fchmod(fd, rights) ((void)(fd)) /* there are none */
+#endif
+#ifdef __wasi__
+#define getpid() 0
+#undef CLOCK_PROCESS_CPUTIME_ID
+#define CLOCK_PROCESS_CPUTIME_ID CLOCK_MONOTONIC
+#elif !defined _WIN32
 #include <sys/mman.h>
 #include <sys/resource.h>
 #endif
@@ -38,43 +61,6 @@
 #include "base/bits.h"
 
 /* ---- time and memory ---- */
-
-#ifdef _WIN32
-
-double os_wall_seconds(void)
-{
-    LARGE_INTEGER now, unit;
-    QueryPerformanceCounter(&now);
-    QueryPerformanceFrequency(&unit);
-    return (double)now.QuadPart / (double)unit.QuadPart;
-}
-
-static double file_time(FILETIME t) { return 1e-7 * (4294967296.0 * t.dwHighDateTime + t.dwLowDateTime); }
-
-double os_cpu_seconds(void)
-{
-    FILETIME born, ended, kernel, user;
-    bool ok = GetProcessTimes(GetCurrentProcess(), &born, &ended, &kernel, &user) != 0;
-    return ok ? file_time(kernel) + file_time(user) : 0;
-}
-
-double os_peak_memory(void)
-{
-    PROCESS_MEMORY_COUNTERS counters;
-    return GetProcessMemoryInfo(GetCurrentProcess(), &counters, sizeof counters)
-        ? (double)counters.PeakWorkingSetSize : 0;
-}
-
-void os_limit_memory(void) {}
-
-uint64_t os_unique(void)
-{
-    LARGE_INTEGER now;
-    QueryPerformanceCounter(&now);
-    return hash_combine(hash_combine((uint64_t)time(NULL), (uint64_t)now.QuadPart), (uint64_t)_getpid());
-}
-
-#else
 
 static double seconds_of(clockid_t id)
 {
@@ -84,20 +70,24 @@ static double seconds_of(clockid_t id)
 }
 
 double os_wall_seconds(void) { return seconds_of(CLOCK_MONOTONIC); }
-
-#ifdef __wasi__
-
-double os_cpu_seconds(void) { return os_wall_seconds(); }
-double os_peak_memory(void) { return 0; }
-void os_limit_memory(void) {}
-static uint64_t process(void) { return 0; }
-
-#else
-
 double os_cpu_seconds(void) { return seconds_of(CLOCK_PROCESS_CPUTIME_ID); }
+
+uint64_t os_unique(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    return hash_combine(hash_combine((uint64_t)now.tv_sec, (uint64_t)now.tv_nsec), (uint64_t)getpid());
+}
 
 double os_peak_memory(void)
 {
+#ifdef _WIN32
+    PROCESS_MEMORY_COUNTERS counters;
+    bool known = GetProcessMemoryInfo(GetCurrentProcess(), &counters, sizeof counters) != 0;
+    return known ? (double)counters.PeakWorkingSetSize : 0;
+#elif defined __wasi__
+    return 0;
+#else
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
 #ifdef __APPLE__
@@ -105,9 +95,10 @@ double os_peak_memory(void)
 #else
     return 1024 * (double)usage.ru_maxrss;
 #endif
+#endif
 }
 
-static uint64_t process(void) { return (uint64_t)getpid(); }
+#if defined _SC_PHYS_PAGES && defined RLIMIT_DATA
 
 /* Can memory still be had? Not where more than the limit is mapped already, as sanitizers do. */
 static bool can_map(void)
@@ -134,7 +125,6 @@ static rlim_t swap_size(void)
 
 void os_limit_memory(void)
 {
-#if defined _SC_PHYS_PAGES && defined RLIMIT_DATA
     struct rlimit old, limit;
     long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
     if (pages <= 0 || page <= 0 || getrlimit(RLIMIT_DATA, &old) != 0)
@@ -145,18 +135,10 @@ void os_limit_memory(void)
         return;
     if (setrlimit(RLIMIT_DATA, &limit) == 0 && !can_map())
         setrlimit(RLIMIT_DATA, &old);
-#endif
 }
 
-#endif
-
-uint64_t os_unique(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_REALTIME, &now);
-    return hash_combine(hash_combine((uint64_t)now.tv_sec, (uint64_t)now.tv_nsec), process());
-}
-
+#else
+void os_limit_memory(void) {}
 #endif
 
 /* ---- signals ---- */
@@ -177,14 +159,11 @@ static const struct {
 };
 enum { N_SIGNALS = sizeof SIGNALS / sizeof SIGNALS[0] };
 
-#if defined _WIN32 || defined __wasi__
-
-static void catch(int number, void (*handler)(int)) { signal(number, handler); }
-
-#else
-
 static void catch(int number, void (*handler)(int))
 {
+#if defined _WIN32 || defined __wasi__
+    signal(number, handler);
+#else
     struct sigaction old, action;
     if (sigaction(number, NULL, &old) != 0 || old.sa_handler == SIG_IGN)
         return;
@@ -192,9 +171,8 @@ static void catch(int number, void (*handler)(int))
     action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);
     sigaction(number, &action, NULL);
-}
-
 #endif
+}
 
 void os_catch_signals(void (*handler)(int number))
 {
@@ -218,22 +196,11 @@ const char *os_signal_name(int number) { return SIGNALS[find_signal(number)].nam
 bool os_signal_repeats(int number) { return SIGNALS[find_signal(number)].repeats; }
 
 /* Safe in a handler [POSIX 2.4.3]. */
-void os_remove_at_once(const char *path)
-{
-#ifdef _WIN32
-    DeleteFileA(path);
-#else
-    unlink(path);
-#endif
-}
+void os_remove_at_once(const char *path) { unlink(path); }
 
 void os_say_at_once(const char *text)
 {
-#ifdef _WIN32
-    if (_write(2, text, (unsigned)strlen(text)) < 0)
-#else
-    if (write(2, text, strlen(text)) < 0)
-#endif
+    if (write(2, text, (unsigned)strlen(text)) < 0)
         return; /* there is nobody else to tell */
 }
 
@@ -250,9 +217,58 @@ enum os_kind os_kind_of(const char *path)
     return stat(path, &info) == 0 ? kind_of(&info) : OS_NOTHING;
 }
 
+bool os_terminal(FILE *f) { return isatty(fileno(f)) != 0; }
+bool os_may_write(const char *path) { return access(path, W_OK) == 0; }
+bool os_make_directory(const char *path) { return mkdir(path, 0777) == 0 || os_kind_of(path) == OS_DIRECTORY; }
+
+FILE *os_create_new(const char *path, const char *like)
+{
+    struct stat info;
+    int fd = open(path, O_WRONLY | O_CREAT | O_EXCL | BYTES, 0666);
+    FILE *f = fd >= 0 ? fdopen(fd, "wb") : NULL;
+    if (f == NULL && fd >= 0)
+        close(fd);
+    if (f != NULL && stat(like, &info) == 0)
+        fchmod(fd, info.st_mode & 0777);
+    return f;
+}
+
+bool os_store(FILE *f)
+{
+#ifdef F_FULLFSYNC /* macOS, whose fsync leaves bytes in the drive's memory */
+    if (fcntl(fileno(f), F_FULLFSYNC) == 0)
+        return true;
+#endif
+    return fsync(fileno(f)) == 0 || errno == EINVAL || errno == ENOSYS || errno == ENOTSUP;
+}
+
+bool os_separator(char c) { return c == '/' || (WINDOWS && c == '\\'); }
+
+bool os_absolute(const char *path)
+{
+    return os_separator(path[0]) || (WINDOWS && path[0] != '\0' && path[1] == ':');
+}
+
+const char *os_last_separator(const char *path)
+{
+    const char *last = NULL;
+    for (; *path != '\0'; path++)
+        if (os_separator(*path))
+            last = path;
+    return last;
+}
+
 #ifdef _WIN32
 
 void os_open_standard(void) {} /* its C library opens nothing in their place */
+void os_binary(FILE *f) { _setmode(fileno(f), _O_BINARY); }
+FILE *os_open_input(const char *path) { return fopen(path, "rb"); }
+
+bool os_read_link(const char *path, char *out, size_t size)
+{
+    (void)path, (void)out, (void)size;
+    return false;
+}
 
 static struct os_identity identity(HANDLE handle)
 {
@@ -279,45 +295,12 @@ struct os_identity os_identify(const char *path)
     return out;
 }
 
-struct os_identity os_identify_stream(FILE *f) { return identity((HANDLE)_get_osfhandle(_fileno(f))); }
-
-bool os_terminal(FILE *f) { return _isatty(_fileno(f)) != 0; }
-void os_binary(FILE *f) { _setmode(_fileno(f), _O_BINARY); }
-
-FILE *os_open_input(const char *path) { return fopen(path, "rb"); }
-bool os_may_write(const char *path) { return _access(path, 2) == 0; }
-
-bool os_read_link(const char *path, char *out, size_t size)
-{
-    (void)path, (void)out, (void)size;
-    return false;
-}
-
-FILE *os_create_new(const char *path, const char *like)
-{
-    (void)like;
-    int fd = _open(path, _O_WRONLY | _O_CREAT | _O_EXCL | _O_BINARY, _S_IREAD | _S_IWRITE);
-    FILE *f = fd >= 0 ? _fdopen(fd, "wb") : NULL;
-    if (f == NULL && fd >= 0)
-        _close(fd);
-    return f;
-}
-
-bool os_store(FILE *f) { return _commit(_fileno(f)) == 0 || errno == EINVAL; }
+struct os_identity os_identify_stream(FILE *f) { return identity((HANDLE)_get_osfhandle(fileno(f))); }
 
 bool os_rename(const char *from, const char *to)
 {
     errno = EACCES;
     return MoveFileExA(from, to, MOVEFILE_REPLACE_EXISTING) != 0;
-}
-
-bool os_make_directory(const char *path) { return _mkdir(path) == 0 || os_kind_of(path) == OS_DIRECTORY; }
-
-bool os_separator(char c) { return c == '/' || c == '\\'; }
-
-bool os_absolute(const char *path)
-{
-    return os_separator(path[0]) || (path[0] != '\0' && path[1] == ':');
 }
 
 #else
@@ -330,31 +313,6 @@ void os_open_standard(void)
             return; /* nothing to be had: the next could not take the right number */
 }
 
-static struct os_identity identity(bool known, const struct stat *info)
-{
-    struct os_identity out = {OS_NOTHING, 0, 0, 0};
-    if (known) {
-        out.kind = kind_of(info);
-        out.size = out.kind == OS_FILE ? (uint64_t)info->st_size : 0;
-        out.device = (uint64_t)info->st_dev;
-        out.number = (uint64_t)info->st_ino;
-    }
-    return out;
-}
-
-struct os_identity os_identify(const char *path)
-{
-    struct stat info;
-    return identity(stat(path, &info) == 0, &info);
-}
-
-struct os_identity os_identify_stream(FILE *f)
-{
-    struct stat info;
-    return identity(fstat(fileno(f), &info) == 0, &info);
-}
-
-bool os_terminal(FILE *f) { return isatty(fileno(f)) != 0; }
 void os_binary(FILE *f) { (void)f; }
 
 FILE *os_open_input(const char *path)
@@ -372,8 +330,6 @@ FILE *os_open_input(const char *path)
     return f;
 }
 
-bool os_may_write(const char *path) { return access(path, W_OK) == 0; }
-
 bool os_read_link(const char *path, char *out, size_t size)
 {
     ssize_t n = readlink(path, out, size - 1);
@@ -381,43 +337,27 @@ bool os_read_link(const char *path, char *out, size_t size)
     return n >= 0;
 }
 
-FILE *os_create_new(const char *path, const char *like)
+static struct os_identity identity(bool known, const struct stat *info)
 {
-    struct stat info;
-    int fd = open(path, O_WRONLY | O_CREAT | O_EXCL, 0666);
-    FILE *f = fd >= 0 ? fdopen(fd, "wb") : NULL;
-    if (f == NULL && fd >= 0)
-        close(fd);
-#ifndef __wasi__
-    if (f != NULL && stat(like, &info) == 0)
-        fchmod(fd, info.st_mode & 0777);
-#else
-    (void)like, (void)info;
-#endif
-    return f;
+    if (!known)
+        return (struct os_identity){OS_NOTHING, 0, 0, 0};
+    enum os_kind kind = kind_of(info);
+    return (struct os_identity){kind, kind == OS_FILE ? (uint64_t)info->st_size : 0, (uint64_t)info->st_dev,
+                                (uint64_t)info->st_ino};
 }
 
-bool os_store(FILE *f)
+struct os_identity os_identify(const char *path)
 {
-#ifdef F_FULLFSYNC /* macOS, whose fsync leaves bytes in the drive's memory */
-    if (fcntl(fileno(f), F_FULLFSYNC) == 0)
-        return true;
-#endif
-    return fsync(fileno(f)) == 0 || errno == EINVAL || errno == ENOSYS || errno == ENOTSUP;
+    struct stat info;
+    return identity(stat(path, &info) == 0, &info);
+}
+
+struct os_identity os_identify_stream(FILE *f)
+{
+    struct stat info;
+    return identity(fstat(fileno(f), &info) == 0, &info);
 }
 
 bool os_rename(const char *from, const char *to) { return rename(from, to) == 0; }
-bool os_make_directory(const char *path) { return mkdir(path, 0777) == 0 || os_kind_of(path) == OS_DIRECTORY; }
-bool os_separator(char c) { return c == '/'; }
-bool os_absolute(const char *path) { return path[0] == '/'; }
 
 #endif
-
-const char *os_last_separator(const char *path)
-{
-    const char *last = NULL;
-    for (; *path != '\0'; path++)
-        if (os_separator(*path))
-            last = path;
-    return last;
-}

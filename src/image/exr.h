@@ -1,15 +1,16 @@
-/* exr.h: what the files about OpenEXR share: exr_header.c, exr_read.c, exr_pack.c, piz.c, piz_huffman.c, exr_write.c.
+/* exr.h: what the files about OpenEXR share: exr_read.c, piz.c, exr_write.c.
  *
  * A file is a magic number, a version, a header of attributes, a table of offsets, and blocks: rows of the picture, or
  * tiles of it. In a block come row after row; in a row channel after channel, in the order of the header, all samples
  * of one before the next; every number is little-endian. Blocks are compressed one by one; where that saves nothing,
  * they are stored as they are. [OpenEXR]
  *
- * Tests: test_hdr.c (files of another program, round trips, damaged files).
+ * Tests: test_hdr.c (files of another program, round trips, damaged files, all 65536 halfs).
  */
 #ifndef ASBDPT_EXR_H
 #define ASBDPT_EXR_H
 
+#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -53,30 +54,44 @@ static inline int64_t exr_i32(const uint8_t *p)
     return value < 0x80000000 ? value : value - 0x100000000;
 }
 
-/* exr_read_header: fill *e, whose data, size and err are set, up to the table of offsets. Returns false with a message
- * on damage and on kinds of files that are not read. Either way e->channel is to be given to free(). */
-bool exr_read_header(struct exr *e);
-
-/* exr_unpack: the bytes of a compressed block, [size] to out.
- *   in       [n], as stored
- *   scratch  [size]
- *   width, height  pixels of the block: size = width height e->pixel_bytes
- * Returns false on damage; never writes elsewhere. */
-bool exr_unpack(const struct exr *e, const uint8_t *in, size_t n, size_t width, size_t height, uint8_t *scratch,
-                uint8_t *out, size_t size);
-
-/* exr_pack_zip: a block compressed as EXR_ZIP, to be given to free().
- *   in       [n]
- *   scratch  [n]
- *   size     out, its length, which may be larger than n */
-uint8_t *exr_pack_zip(const uint8_t *in, size_t n, uint8_t *scratch, size_t *size);
-
-/* piz_unpack: the same as exr_unpack for EXR_PIZ alone. */
+/* piz_unpack: the bytes of a block compressed as EXR_PIZ, of [n] bytes, [size] to out. False on damage; never writes
+ * elsewhere.
+ *   width, height  pixels of the block: size = width height e->pixel_bytes */
 bool piz_unpack(const struct exr *e, const uint8_t *in, size_t n, size_t width, size_t height, uint8_t *out,
                 size_t size);
 
-/* piz_huffman_unpack: the 16-bit numbers of a Huffman-coded stream, [count] to out. Returns false on
- * damage. */
-bool piz_huffman_unpack(const uint8_t *in, size_t n, uint16_t *out, size_t count);
+/* --- halfs: 16-bit floating point numbers, binary16 [IEEE 754 3.6]: a sign, 5 bits of exponent (bias 15), 10 of
+ * fraction ---------------------------------------------------------------------------------------------- */
+
+/* The largest finite half. */
+#define HALF_MAX 65504
+
+/* half_to_float: exact; a NaN stays one. */
+static inline float half_to_float(uint16_t h)
+{
+    unsigned exponent = h >> 10 & 31, fraction = h & 1023;
+    if (exponent == 0) { /* 0 and subnormal numbers: multiples of 2^-24 */
+        float small = (float)fraction * (1.0f / (1 << 24));
+        return (h & 0x8000) != 0 ? -small : small;
+    }
+    return float_of_bits((uint32_t)(h & 0x8000) << 16 | (exponent == 31 ? 255 : exponent + 112) << 23 | fraction << 13);
+}
+
+/* float_to_half: the nearest half, of two equally near ones the even. What is finite stays finite: at most HALF_MAX in
+ * magnitude. */
+static inline uint16_t float_to_half(float x)
+{
+    uint32_t bits = bits_of_float(x);
+    uint16_t sign = (uint16_t)(bits >> 16 & 0x8000);
+    uint32_t size = bits & 0x7fffffff;
+    if (size >= 0x7f800000) /* infinity, NaN */
+        return (uint16_t)(sign | (size > 0x7f800000 ? 0x7e00 : 0x7c00));
+    if (size >= 0x477fe000) /* HALF_MAX */
+        return (uint16_t)(sign | 0x7bff);
+    if (size < 0x38800000) /* below 2^-14: a multiple of 2^-24, which rounding to an integer finds */
+        return (uint16_t)(sign | (uint16_t)lrintf(fabsf(x) * (1 << 24)));
+    size += 0xfff + (size >> 13 & 1); /* round to even; a carry into the exponent is right */
+    return (uint16_t)(sign | (size - 0x38000000) >> 13);
+}
 
 #endif

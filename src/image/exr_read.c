@@ -1,12 +1,190 @@
-/* exr_read.c: OpenEXR files, from blocks to pixels; see exr.h and formats.h. [OpenEXR] */
+/* exr_read.c: OpenEXR files read, see exr.h and formats.h. [OpenEXR]
+ *
+ * Read are single pictures with full-resolution channels. Of the attributes only those that say where the pixels are
+ * matter here. Like pbrt-v3, this program takes the data window for the picture; the display window is the whole of
+ * which that is a part. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/mem.h"
 #include "image/exr.h"
 #include "image/formats.h"
-#include "image/half.h"
 #include "image/zlib.h"
+
+/* --- the header --------------------------------------------------------------------------------------- */
+
+static const uint8_t MAGIC[4] = {0x76, 0x2f, 0x31, 0x01};
+enum { VERSION = 2, TILED = 0x200, LONG_NAMES = 0x400 };
+
+bool exr_matches(const uint8_t *data, size_t size)
+{
+    return size >= sizeof MAGIC && memcmp(data, MAGIC, sizeof MAGIC) == 0;
+}
+
+static bool damaged(const struct exr *e) { return error_set(e->err, "the OpenEXR header is damaged or truncated"); }
+
+static bool read_version(struct exr *e)
+{
+    if (!exr_matches(e->data, e->size) || e->size < 8)
+        return damaged(e);
+    uint32_t version = exr_u32(e->data + 4);
+    e->at = 8;
+    e->tiled = (version & TILED) != 0;
+    return (version & ~(uint32_t)(TILED | LONG_NAMES)) == VERSION ||
+           error_set(e->err, "OpenEXR files of several parts, deep ones and other versions than 2 are not read (this "
+                             "is of kind %lx); save it as one flat picture", (unsigned long)version);
+}
+
+/* The next text before `end`, stepping over it; NULL if it has no end. */
+static const char *next_text(struct exr *e, size_t end)
+{
+    const uint8_t *text = e->data + e->at, *zero = memchr(text, 0, end - e->at);
+    if (zero == NULL)
+        return NULL;
+    e->at += (size_t)(zero - text) + 1;
+    return (const char *)text;
+}
+
+/* The list of channels, which ends at `end`: name, type, 4 bytes of no matter here, sampling in x and y. */
+static bool read_channels(struct exr *e, size_t end)
+{
+    e->n_channels = 0;
+    e->pixel_bytes = 0;
+    for (;;) {
+        const char *name = next_text(e, end);
+        if (name != NULL && name[0] == '\0')
+            return true;
+        if (name == NULL || end - e->at < 16 || exr_u32(e->data + e->at) > EXR_FLOAT)
+            return damaged(e);
+        const uint8_t *p = e->data + e->at;
+        e->at += 16;
+        if (exr_u32(p + 8) != 1 || exr_u32(p + 12) != 1)
+            return error_set(e->err, "channel \"%s\" is subsampled, which is not read (luminance and chroma?); save it "
+                                     "as R, G, B", name);
+        e->channel = mem_grow(e->channel, &e->capacity, e->n_channels + 1, sizeof *e->channel);
+        struct exr_channel c = {name, (enum exr_type)exr_u32(p), e->pixel_bytes};
+        e->channel[e->n_channels++] = c;
+        e->pixel_bytes += exr_type_bytes(c.type);
+    }
+}
+
+static bool read_compression(struct exr *e, unsigned number)
+{
+    e->compression = number < EXR_READ ? (enum exr_compression)number : EXR_READ;
+    return number < EXR_READ || error_set(e->err, "OpenEXR compression %u (PXR24, B44, DWA or the like) is not read; "
+                                                  "save it with ZIP or PIZ", number);
+}
+
+/* The value of an attribute, n bytes at e->at. */
+static bool read_value(struct exr *e, const char *name, size_t n)
+{
+    const uint8_t *p = e->data + e->at;
+    if (strcmp(name, "channels") == 0)
+        return read_channels(e, e->at + n);
+    if (strcmp(name, "compression") == 0 && n == 1)
+        return read_compression(e, p[0]);
+    int64_t *window = strcmp(name, "dataWindow") == 0 ? e->data_window : e->display;
+    if ((window == e->data_window || strcmp(name, "displayWindow") == 0) && n == 16)
+        for (size_t i = 0; i < 4; i++)
+            window[i] = exr_i32(p + 4 * i);
+    for (size_t i = 0; i < 2 && e->tiled && strcmp(name, "tiles") == 0 && n == 9; i++)
+        e->block[i] = exr_u32(p + 4 * i);
+    return true;
+}
+
+/* Attributes, each a name, a type, a size and a value, up to an empty name. */
+static bool read_attributes(struct exr *e)
+{
+    for (;;) {
+        const char *name = next_text(e, e->size);
+        if (name != NULL && name[0] == '\0')
+            return true;
+        if (name == NULL || next_text(e, e->size) == NULL || e->size - e->at < 4)
+            return damaged(e);
+        size_t n = exr_u32(e->data + e->at);
+        e->at += 4;
+        if (n > e->size - e->at)
+            return damaged(e);
+        size_t end = e->at + n;
+        if (!read_value(e, name, n))
+            return false;
+        e->at = end;
+    }
+}
+
+static bool read_header(struct exr *e)
+{
+    static const int64_t EMPTY[4] = {0, 0, -1, -1};
+    memcpy(e->data_window, EMPTY, sizeof EMPTY);
+    memcpy(e->display, EMPTY, sizeof EMPTY);
+    e->compression = EXR_READ;
+    if (!read_version(e) || !read_attributes(e))
+        return false;
+    const int64_t *w = e->data_window;
+    int64_t width = w[2] - w[0] + 1, height = w[3] - w[1] + 1;
+    if (!picture_size_ok(width > 0 ? (uint64_t)width : 0, height > 0 ? (uint64_t)height : 0, e->err))
+        return false;
+    e->width = (size_t)width;
+    e->height = (size_t)height;
+    if (!e->tiled) {
+        e->block[0] = e->width;
+        e->block[1] = e->compression == EXR_ZIP ? EXR_ZIP_ROWS : e->compression == EXR_PIZ ? EXR_PIZ_ROWS : 1;
+    }
+    if (e->n_channels == 0 || e->compression == EXR_READ || e->block[0] == 0 || e->block[1] == 0)
+        return damaged(e);
+    e->block[0] = e->block[0] < e->width ? e->block[0] : e->width;
+    e->block[1] = e->block[1] < e->height ? e->block[1] : e->height;
+    return true;
+}
+
+/* --- compressed blocks -------------------------------------------------------------------------------- */
+
+/* From in[n], which is destroyed, to out[n]. */
+static void undo_differences(uint8_t *in, size_t n, uint8_t *out)
+{
+    for (size_t i = 1; i < n; i++)
+        in[i] = (uint8_t)(in[i - 1] + in[i] - 128);
+    for (size_t i = 0; i < n; i++)
+        out[i] = in[i / 2 + (i % 2 != 0 ? (n + 1) / 2 : 0)];
+}
+
+/* Runs: a count 0..127 and a byte that occurs once more than that, or 256 minus a count of bytes that follow. */
+static bool undo_runs(const uint8_t *in, size_t n, uint8_t *out, size_t size)
+{
+    size_t at = 0, done = 0;
+    while (at < n) {
+        unsigned head = in[at++];
+        bool same = head < 128;
+        size_t count = same ? head + 1 : 256 - head, stored = same ? 1 : count;
+        if (stored > n - at || count > size - done)
+            return false;
+        if (same)
+            memset(out + done, in[at], count);
+        else
+            memcpy(out + done, in + at, count);
+        at += stored;
+        done += count;
+    }
+    return done == size;
+}
+
+/* The [size] bytes of a compressed block of [n], to out; scratch is as large. False on damage. */
+static bool unpack(const struct exr *e, const uint8_t *in, size_t n, size_t width, size_t height, uint8_t *scratch,
+                   uint8_t *out, size_t size)
+{
+    bool ok = false;
+    switch (e->compression) {
+    case EXR_RLE: ok = undo_runs(in, n, scratch, size); break;
+    case EXR_ZIPS:
+    case EXR_ZIP: ok = inflate_zlib(in, n, scratch, size, NULL); break;
+    case EXR_PIZ: return piz_unpack(e, in, n, width, height, out, size);
+    case EXR_NONE:
+    case EXR_READ: break;
+    }
+    if (ok)
+        undo_differences(scratch, size, out);
+    return ok;
+}
 
 enum { RED, GREEN, BLUE, GREY, COLOURS }; /* channels "R", "G", "B", "Y" */
 
@@ -65,7 +243,7 @@ static bool read_block(const struct exr *e, size_t i, const struct block *b, uin
     if (!names_block(e, p, b) || n > left || n > bytes || (n < bytes && e->compression == EXR_NONE))
         return false;
     if (n < bytes)
-        return exr_unpack(e, p + head, n, b->width, b->height, scratch, out, bytes);
+        return unpack(e, p + head, n, b->width, b->height, scratch, out, bytes);
     memcpy(out, p + head, n);
     return true;
 }
@@ -122,7 +300,7 @@ static bool read_blocks(const struct exr *e, size_t n_blocks, const struct exr_c
 static bool read_picture(struct exr *e, struct image *out)
 {
     const struct exr_channel *colour[COLOURS];
-    if (!exr_read_header(e) || !find_colours(e, colour))
+    if (!read_header(e) || !find_colours(e, colour))
         return false;
     size_t left = e->size - e->at;
     uint64_t blocks = (uint64_t)ceil_div(e->width, e->block[0]) * ceil_div(e->height, e->block[1]);
