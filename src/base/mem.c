@@ -87,6 +87,8 @@ void *arena_alloc(struct arena *a, size_t size)
     return p;
 }
 
+char *arena_text(struct arena *a, const char *text) { return strcpy(arena_alloc(a, strlen(text) + 1), text); }
+
 void arena_reset(struct arena *a)
 {
     for (struct arena_block *b = a->first; b != NULL; b = b->next)

@@ -44,6 +44,9 @@ struct arena {
 /* arena_alloc: `size` bytes, aligned for any type, not cleared. Valid until arena_reset or arena_free. */
 void *arena_alloc(struct arena *a, size_t size);
 
+/* arena_text: a copy of a string. */
+char *arena_text(struct arena *a, const char *text);
+
 /* arena_reset: give everything back to the arena (keeps its blocks). */
 void arena_reset(struct arena *a);
 

@@ -39,18 +39,16 @@ struct lexer lexer_start(const struct source_file *file, struct arena *arena, st
 
 /* lexer_next: take one token. False with a message on an unterminated string, an unknown escape or character, or a
  * malformed or too large number; the rest of the line is then passed over. At the end of the file: TOKEN_END, again and
- * again. */
+ * again. lexer_peek: the kind of the next token, judged by its first character, without taking it. */
 bool lexer_next(struct lexer *l, struct token *out);
-
-/* lexer_peek: the kind of the next token, judged by its first character, without taking it. */
 enum token_kind lexer_peek(struct lexer *l);
+
+/* lexer_number: a fast path for long lists: take a number and return true, or take nothing, also where it is
+ * malformed. */
+bool lexer_number(struct lexer *l, double *out);
 
 /* lexer_resume: after an error, pass over what is no directive: those are words that begin with a capital letter. */
 void lexer_resume(struct lexer *l);
-
-/* lexer_number: a fast path for long lists: if a number comes next, take it and return true; otherwise (also where
- * it is malformed) take nothing and return false. */
-bool lexer_number(struct lexer *l, double *out);
 
 /* token_text: what the user wrote, for messages: a number, word or string in quotes, a bracket or "the end of the
  * file". The buffer should have 64 bytes; long ones are cut. */

@@ -157,16 +157,17 @@ int params_choice(struct params *p, const char *name, const char *const *choices
     return 0;
 }
 
-const double *params_list(struct params *p, const char *name, unsigned types, int group, int *n)
+struct field_list params_list(struct params *p, const char *name, unsigned types, int group)
 {
     const struct param *item = find(p, name, types);
-    bool usable = item != NULL && !p->failed && numbers_usable(p, item);
-    *n = usable && !item->is_text ? item->n / group : 0;
-    if (usable && (*n == 0 || item->n % group != 0))
+    if (item == NULL || p->failed || !numbers_usable(p, item))
+        return (struct field_list){NULL, 0};
+    int n = item->is_text ? 0 : item->n / group;
+    if (n == 0 || item->n % group != 0)
         source_warn(p->messages, item->position,
                     "parameter \"%s %s\" wants its numbers in groups of %d, but there are %d; the rest is passed over",
                     params_type_name(item->type), name, group, item->n);
-    return *n > 0 ? item->number : NULL;
+    return (struct field_list){n > 0 ? item->number : NULL, n};
 }
 
 /* --- files and colours -------------------------------------------------------------------------------- */
@@ -216,8 +217,8 @@ static rgb rgb_from_file(struct params *p, const struct param *item)
     struct error inner;
     size_t size;
     char *path = scene_files_path(p->files, item->text[0], &inner);
-    char *text = path != NULL ? text_read(path, &size, &inner) : NULL;
-    if (text != NULL && scene_files_count(p->files, hash_content(text, size), size, &inner)) {
+    char *text = path != NULL ? scene_files_read(p->files, path, &size, &inner) : NULL;
+    if (text != NULL) {
         const struct source_file file = {path, text, text + size, item->position, false};
         colour = rgb_from_pairs(p, &file);
     } else {

@@ -11,6 +11,7 @@
 #define ASBDPT_PARAMS_H
 
 #include "base/bits.h"
+#include "base/field.h"
 #include "base/rgb.h"
 #include "base/vec.h"
 #include "parser/lexer.h"
@@ -53,15 +54,16 @@ struct param_list {
     int n;
 };
 
+/* Reused from list to list; zero-initialised before the first and released by params_free after the last. */
 struct params {
-    /* What the list belongs to, for messages: directive "Shape", type "sphere". */
+    /* To be set. What the list belongs to, for messages: directive "Shape", type "sphere". */
     const char *directive, *type;
     struct source_position position; /* of the type */
     struct messages *messages;
     struct scene_files *files;
-    struct arena *arena;   /* for what outlives the list */
-    bool failed;           /* there was an error */
-
+    struct arena *arena; /* for what outlives the list */
+    /* Set by params_read: */
+    bool failed;                      /* there was an error */
     struct param item[MAX_PARAMETERS]; /* [n] */
     int n;
     struct param_list behind; /* another list that is asked for what this one does not have */
@@ -71,15 +73,9 @@ struct params {
 };
 
 /* params_read: read the list that starts at the lexer's position, up to the first token that is not a declaration.
- *   p  directive, type, position, messages, files and arena set; reused from list to list; zero-initialised before
- *      the first and released by params_free after the last
- * Returns false with a message. */
+ * False with a message. params_keep: a copy of the list, in the arena. */
 bool params_read(struct params *p, struct lexer *l);
-
-/* params_keep: a copy of the list, in the arena. */
 struct param_list params_keep(const struct params *p);
-
-/* params_free: release all lists. */
 void params_free(struct params *p);
 
 /* params_fail: an error, unless there is one already. Returns false. */
@@ -88,36 +84,30 @@ bool params_fail(struct params *p, struct source_position at, const char *format
 /* params_ignore: accept a parameter of any type without using it. Returns it, or NULL. */
 const struct param *params_ignore(struct params *p, const char *name);
 
-/* One value, or the default. All questions refuse numbers beyond NUMBER_MAX (number.h). */
+/* One value, or the default. All questions refuse numbers beyond NUMBER_MAX (number.h). Of params_int and params_number
+ * the default need not lie from low to high; whole numbers are rounded towards 0. */
 bool params_bool(struct params *p, const char *name, bool fallback);
+int params_int(struct params *p, const char *name, int fallback, int low, int high);
+double params_number(struct params *p, const char *name, double fallback, double low, double high);
 vec3 params_vec3(struct params *p, const char *name, enum param_type type, vec3 fallback); /* point, vector, normal */
 rgb params_rgb(struct params *p, const char *name, rgb fallback); /* rgb, xyz, blackbody or spectrum */
 
-/* params_int: a whole number from low to high; others are rounded towards 0. */
-int params_int(struct params *p, const char *name, int fallback, int low, int high);
-
-/* params_number: a number from low to high; the default need not lie within. params_numbers: n of them into out; false
- * if there are not as many. */
-double params_number(struct params *p, const char *name, double fallback, double low, double high);
-
+/* params_numbers: n numbers into out; false if there are not as many. */
 bool params_numbers(struct params *p, const char *name, double *out, int n);
 
-/* params_list: numbers of a parameter of one of the types in the mask (1u << PARAM_FLOAT | ...), in groups of
- * `group`; NULL if there is none.
- *   n  out: number of groups */
-const double *params_list(struct params *p, const char *name, unsigned types, int group, int *n);
+/* params_list: numbers of a parameter of one of the types in the mask (1u << PARAM_FLOAT | ...), in groups of `group`. */
+struct field_list params_list(struct params *p, const char *name, unsigned types, int group);
 
 /* params_text: the one value of a parameter of type PARAM_STRING or PARAM_TEXTURE, or NULL; *at is where it is
- * declared. */
+ * declared. params_file: that of a "string NAME" as a path (scene_files_path), to be given to free(); NULL if it is
+ * absent, "" or, with an error, refused. */
 const char *params_text(struct params *p, const char *name, enum param_type type, struct source_position *at);
-
-/* params_type_name: as scene files have it: "integer", "rgb" ... */
-const char *params_type_name(enum param_type type);
-
-/* params_file: a "string NAME" as a path (scene_files_path), to be given to free(); *at is where it is declared. NULL
- * if absent, "" or, with an error, refused. */
 char *params_file(struct params *p, const char *name, struct source_position *at);
 
 /* params_choice: a string that should be one of a NULL-terminated list; returns its index (0 = default if absent). */
 int params_choice(struct params *p, const char *name, const char *const *choices);
+
+/* params_type_name: as scene files have it: "integer", "rgb" ... */
+const char *params_type_name(enum param_type type);
+
 #endif

@@ -31,7 +31,7 @@ const char *params_type_name(enum param_type type)
  * used. */
 static void read_declaration(struct params *p, const struct token *t, struct param *item)
 {
-    char *text = strcpy(arena_alloc(p->arena, strlen(t->text) + 1), t->text);
+    char *text = arena_text(p->arena, t->text);
     const char *type = strtok(text, " \t"), *name = strtok(NULL, " \t");
     item->type = PARAM_TYPES;
     item->name = name != NULL ? name : t->text;

@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/bits.h"
 
 /* --- arguments of directives -------------------------------------------------------------------------- */
 
@@ -39,12 +38,6 @@ bool parse_typed(struct parser *p)
     return parse_string(p, &type, "a type") && parse_list(p, p->directive.text, &type);
 }
 
-void parse_no_such(struct parser *p, struct source_position at, const char *name, const char *what,
-                   const char *instead)
-{
-    source_warn(&p->messages, at, "there is no %s \"%.60s\"; %s", what, name, instead);
-}
-
 bool parse_newer(struct parser *p, struct source_position at, const char *name)
 {
     static const char *const NEWER[] = {
@@ -69,7 +62,7 @@ int parse_named(struct parser *p, struct token *name, const struct symbols *tabl
         return -1;
     int i = symbols_find(table, name->text);
     if (i < 0)
-        parse_no_such(p, name->position, name->text, what, instead);
+        source_warn(&p->messages, name->position, "there is no %s \"%.60s\"; %s", what, name->text, instead);
     return i;
 }
 
@@ -116,14 +109,7 @@ bool parse_done(struct parser *p)
 
 /* --- textures and pictures ----------------------------------------------------------------------------- */
 
-int parse_constant(struct parser *p, rgb value)
-{
-    int *slot = &p->constant[hash_content(&value, sizeof value) % CONSTANTS];
-    const struct texture *known = *slot > 0 ? &p->scene->textures.texture[*slot - 1] : NULL;
-    if (known == NULL || memcmp(&known->constant, &value, sizeof value) != 0)
-        *slot = texture_add_constant(&p->scene->textures, value) + 1;
-    return *slot - 1;
-}
+int parse_constant(struct parser *p, rgb value) { return texture_add_constant(&p->scene->textures, value); }
 
 int parse_named_texture(struct parser *p, const char *name, bool is_float)
 {
@@ -135,7 +121,8 @@ int parse_named_texture(struct parser *p, const char *name, bool is_float)
         return -1;
     int id = symbols_find(table, texture);
     if (id < 0)
-        parse_no_such(p, at, texture, is_float ? "float texture" : "spectrum texture", "the default is taken");
+        source_warn(&p->messages, at, "there is no %s texture \"%.60s\"; the default is taken",
+                    is_float ? "float" : "spectrum", texture);
     return id;
 }
 
@@ -189,19 +176,12 @@ static int rgb_texture(struct parser *p, const struct field *f, int kept)
     return checked(p, f, id);
 }
 
-static struct field_list list_of(struct params *q, const char *name, unsigned types, int group)
-{
-    struct field_list list;
-    list.number = params_list(q, name, types, group, &list.n);
-    return list;
-}
-
 /* A path that lives as long as the parser. */
 static const char *path_of(struct parser *p, const char *name)
 {
     struct source_position at;
     char *path = params_file(&p->params, name, &at);
-    const char *kept = path == NULL ? NULL : strcpy(arena_alloc(&p->arena, strlen(path) + 1), path);
+    const char *kept = path == NULL ? NULL : arena_text(&p->arena, path);
     free(path);
     return kept;
 }
@@ -212,13 +192,12 @@ static void read_field(struct parser *p, const struct field *f, void *place)
     double *number = place;
     int *whole = place;
     vec3 *point = place;
+    struct field_list *list = place;
     double x = f->fallback;
     bool is_float = p->texture_is_float;
     switch (f->kind) {
     case FIELD_INTEGER: *whole = params_int(q, f->name, isnan(x) ? *whole : (int)x, (int)f->low, (int)f->high); break;
-    case FIELD_NUMBER:
-        *number = params_number(q, f->name, isnan(x) ? *number : x, least(f), most(f));
-        break;
+    case FIELD_NUMBER: *number = params_number(q, f->name, isnan(x) ? *number : x, least(f), most(f)); break;
     case FIELD_WORD: *whole = params_choice(q, f->name, f->words); break;
     case FIELD_SWITCH: *(bool *)place = params_bool(q, f->name, x != 0); break;
     case FIELD_POINT: *point = params_vec3(q, f->name, PARAM_POINT, isnan(x) ? *point : vec(x, x, x)); break;
@@ -232,14 +211,12 @@ static void read_field(struct parser *p, const struct field *f, void *place)
     case FIELD_MATERIAL: *whole = parse_part(p, f->name); break;
     case FIELD_FOURIER_TABLE: *whole = parse_fourier_table(p, f->name); break;
     case FIELD_FILE: *(const char **)place = path_of(p, f->name); break;
-    case FIELD_FLOATS: *(struct field_list *)place = list_of(q, f->name, 1u << PARAM_FLOAT, (int)f->low); break;
-    case FIELD_INDICES: *(struct field_list *)place = list_of(q, f->name, 1u << PARAM_INTEGER, 3); break;
-    case FIELD_POINTS: *(struct field_list *)place = list_of(q, f->name, 1u << PARAM_POINT, 3); break;
-    case FIELD_VECTORS: *(struct field_list *)place = list_of(q, f->name, 1u << PARAM_VECTOR, 3); break;
-    case FIELD_NORMALS: *(struct field_list *)place = list_of(q, f->name, 1u << PARAM_NORMAL, 3); break;
-    case FIELD_PAIRS:
-        *(struct field_list *)place = list_of(q, f->name, 1u << PARAM_FLOAT | 1u << PARAM_POINT2, 2);
-        break;
+    case FIELD_FLOATS: *list = params_list(q, f->name, 1u << PARAM_FLOAT, (int)f->low); break;
+    case FIELD_INDICES: *list = params_list(q, f->name, 1u << PARAM_INTEGER, 3); break;
+    case FIELD_POINTS: *list = params_list(q, f->name, 1u << PARAM_POINT, 3); break;
+    case FIELD_VECTORS: *list = params_list(q, f->name, 1u << PARAM_VECTOR, 3); break;
+    case FIELD_NORMALS: *list = params_list(q, f->name, 1u << PARAM_NORMAL, 3); break;
+    case FIELD_PAIRS: *list = params_list(q, f->name, 1u << PARAM_FLOAT | 1u << PARAM_POINT2, 2); break;
     case FIELD_IGNORED: params_ignore(q, f->name); break;
     case FIELD_OTHER: break;
     }

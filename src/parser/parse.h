@@ -1,12 +1,9 @@
 /* parse.h: what the files of the parser share: the state between two directives, the tables that say what each type of
  * object is made of, and one function per directive.
  *
- * parser.c reads files and directives; parse.c reads their arguments, and objects by their tables; parse_state.c keeps
- * the graphics state; parse_options.c makes camera, film, filter and settings; parse_texture.c, parse_material.c,
- * parse_light.c and parse_shape.c what the world is made of; parse_instance.c puts shapes where they belong. Each
- * function finds its parameter list in p->params, type included, and returns false where it gives up its directive,
- * with an error or, where pbrt-v3 goes on, a warning in p->messages. What has failed is still there under its name, as
- * something plain, so that one error does not bring others. Private to this room.
+ * A directive finds its parameter list in p->params, type included, and returns false where it gives up, with an error
+ * or, where pbrt-v3 goes on, a warning in p->messages. What has failed is still there under its name, as something
+ * plain, so that one error does not bring others. Private to this room.
  */
 #ifndef ASBDPT_PARSE_H
 #define ASBDPT_PARSE_H
@@ -35,8 +32,7 @@ struct material_source {
 
 /* What every block saves. */
 struct transform_state {
-    struct transform ctm; /* current transformation matrix: object to world, before WorldBegin world to camera; whether
-                           * it is of use, parse_placed tells */
+    struct transform ctm; /* object to world, before WorldBegin world to camera; of use where parse_placed says so */
     bool start_active;    /* ActiveTransform: transforms act on the start of the shutter interval */
 };
 
@@ -74,7 +70,7 @@ struct shape_list {
     int n;
 };
 
-enum { CONSTANTS = 256, MAX_INCLUDE_DEPTH = 32 };
+enum { MAX_INCLUDE_DEPTH = 32 };
 
 /* Where a directive may stand. */
 enum phase { BEFORE_WORLD = 1, IN_WORLD = 2, AFTER_WORLD = 4, GIVEN_UP = 8, ANYWHERE = BEFORE_WORLD | IN_WORLD };
@@ -122,18 +118,14 @@ struct parser {
     int infinite_group;    /* all of one group */
     int n_subdivided;      /* triangles of all subdivision surfaces and curves, at most MESH_MAX_SUBDIVIDED */
 
-    bool texture_is_float;   /* of the Texture directive being carried out */
-    int constant[CONSTANTS]; /* textures made for numbers, by hash, plus 1: equal ones are shared */
+    bool texture_is_float; /* of the Texture directive being carried out */
 };
 
-/* --- tables: which types a directive knows, and which parameters each has ------------------------------- */
-
-/* parse_type: find params.type in a table and set p->type. Returns false with a message. */
-bool parse_type(struct parser *p, const struct object_type *types);
-
-/* parse_fields: read the parameters of p->type into *object, in the table's order, and build the rest of it.
+/* parse_type: find params.type in a table and set p->type. False with a message.
+ * parse_fields: read the parameters of p->type into *object, in the table's order, and build the rest of it.
  * parse_done: warn of the parameters that nobody has asked for. False if anything failed.
  * parse_object: both. */
+bool parse_type(struct parser *p, const struct object_type *types);
 void parse_fields(struct parser *p, void *object);
 bool parse_done(struct parser *p);
 bool parse_object(struct parser *p, void *object);
@@ -142,34 +134,26 @@ bool parse_object(struct parser *p, void *object);
 #define directive_error(p, ...) source_error(&(p)->messages, (p)->directive.position, __VA_ARGS__)
 #define type_error(q, ...) params_fail(q, (q)->position, __VA_ARGS__)
 
-/* --- what stands in a directive ------------------------------------------------------------------------- */
-
 /* The arguments of the current directive. parse_string: one quoted string, `what` says which. parse_list: the
- * parameter list of an object of the given type, into p->params. parse_typed: "type" and its list. All return false
- * with a message of what was wanted. */
+ * parameter list of an object of the given type, into p->params. parse_typed: "type" and its list. parse_named: the
+ * number of what the one argument names, *name; -1 if there is no WHAT of this name, and what is done instead. All say
+ * what was wanted where they fail. */
 bool parse_string(struct parser *p, struct token *out, const char *what);
 bool parse_list(struct parser *p, const char *directive, const struct token *type);
 bool parse_typed(struct parser *p);
-
-/* parse_no_such: warn that there is no WHAT of this name, and what is done instead. */
-void parse_no_such(struct parser *p, struct source_position at, const char *name, const char *what,
-                   const char *instead);
+int parse_named(struct parser *p, struct token *name, const struct symbols *table, const char *what,
+                const char *instead);
 
 /* parse_newer: whether this name, unknown here, is one of pbrt-v4. If so, that is said and reading ends: whatever else
  * stands in the file is not meant for us either. */
 bool parse_newer(struct parser *p, struct source_position at, const char *name);
 
-/* parse_named: the number of what the directive's one argument names; *name is that argument. -1 with a message. */
-int parse_named(struct parser *p, struct token *name, const struct symbols *table, const char *what,
-                const char *instead);
-
 /* parse_placed: can anything stand where the current transform puts it? False with a message if not. */
 bool parse_placed(struct parser *p);
 
-/* parse_constant: a constant texture. */
+/* parse_constant: a constant texture. parse_named_texture: that of "texture NAME"; -1 without such a parameter or, with
+ * a warning, such a texture. */
 int parse_constant(struct parser *p, rgb value);
-
-/* parse_named_texture: that of "texture NAME"; -1 without such a parameter or, with a warning, such a texture. */
 int parse_named_texture(struct parser *p, const char *name, bool is_float);
 
 /* parse_picture: a picture has been loaded, or, for the reason in *why, not (NULL). Counts it if it is new, with
@@ -177,7 +161,27 @@ int parse_named_texture(struct parser *p, const char *name, bool is_float);
 bool parse_picture(struct params *q, struct source_position at, const struct image *image, bool is_new, uint64_t tables,
                    struct error *why);
 
-/* --- directives ----------------------------------------------------------------------------------------- */
+/* parse_part: the material that a parameter names. parse_fourier_table: that of the file that a parameter names. */
+int parse_part(struct parser *p, const char *field);
+int parse_fourier_table(struct parser *p, const char *field);
+
+/* parse_make_material: a material of kind params.type.
+ * parse_changed_material: the number of the current material, or, if the shape in p->params has parameters that it has
+ * no use for, of one like it that looks up its parameters in the shape's list and then in the material's, as pbrt-v3
+ * does. */
+bool parse_make_material(struct parser *p, struct material_source *out);
+int parse_changed_material(struct parser *p);
+
+/* parse_state_reset: the transform as a file or its world begins. parse_name_system: name a coordinate system.
+ * parse_open_block, parse_close_block: save the graphics state and restore it; false, with a warning, if nothing was
+ * saved. parse_close_all: warn of blocks that are still open. */
+void parse_state_reset(struct parser *p);
+void parse_name_system(struct parser *p, const char *name, struct transform t);
+bool parse_open_block(struct parser *p, enum block_kind kind);
+bool parse_close_block(struct parser *p, enum block_kind kind);
+void parse_close_all(struct parser *p);
+
+void shape_list_free(struct shape_list *list);
 
 /* One directive. A table of them ends with one without a name. */
 struct directive {
@@ -188,37 +192,13 @@ struct directive {
                                       * all of it */
 };
 
-extern const struct object_type TEXTURE_TYPES[]; /* whose directive reads more than type and list */
 extern const struct directive STATE_DIRECTIVES[], OPTION_DIRECTIVES[], TEXTURE_DIRECTIVES[], MATERIAL_DIRECTIVES[],
-    LIGHT_DIRECTIVES[], SHAPE_DIRECTIVES[], INSTANCE_DIRECTIVES[];
+    LIGHT_DIRECTIVES[], SHAPE_DIRECTIVES[];
+extern const struct object_type TEXTURE_TYPES[]; /* whose directive reads more than type and list */
 
-/* parse_part: the material that a parameter names. parse_fourier_table: that of the file that a parameter names.
- * parse_material_types, parse_shape_types: rows, of shapes the quadrics, too, as types, ended by one without a name. */
+/* parse_material_types, parse_shape_types: rows, of shapes the quadrics, too, as types, ended by one without a name. */
 enum { MOST_TYPES = 32 };
-void parse_shape_types(struct object_type out[MOST_TYPES]);
-int parse_part(struct parser *p, const char *field);
-int parse_fourier_table(struct parser *p, const char *field);
 void parse_material_types(struct object_type out[MOST_TYPES]);
-
-/* parse_make_material: make a material of kind params.type. */
-bool parse_make_material(struct parser *p, struct material_source *out);
-
-/* parse_changed_material: the number of the current material, or, if the shape in p->params has parameters that it has
- * no use for, of one like it that looks up its parameters in the shape's list and then in the material's, as pbrt-v3
- * does. */
-int parse_changed_material(struct parser *p);
-
-/* parse_place_shape: put a shape into the object that is open, else into the scene. Takes over its mesh. */
-bool parse_place_shape(struct parser *p, struct shape_item *item);
-void shape_list_free(struct shape_list *list);
-
-/* parse_state_reset: the transform as a file or its world begins. parse_name_system: name a coordinate system.
- * parse_open_block, parse_close_block: save the graphics state and restore it; false, with a warning, if nothing was
- * saved. parse_close_all: warn of blocks that are still open. */
-void parse_state_reset(struct parser *p);
-void parse_name_system(struct parser *p, const char *name, struct transform t);
-bool parse_open_block(struct parser *p, enum block_kind kind);
-bool parse_close_block(struct parser *p, enum block_kind kind);
-void parse_close_all(struct parser *p);
+void parse_shape_types(struct object_type out[MOST_TYPES]);
 
 #endif

@@ -175,7 +175,8 @@ static bool integrator(struct parser *p)
     settings_clear(&s->settings);
     for (struct param *item = q->item; item < q->item + q->n; item++) {
         char origin[512], number[32] = "";
-        source_position_text(item->position, origin, sizeof origin);
+        snprintf(origin, sizeof origin, "%s:%d:%d", item->position.file->path, item->position.line,
+                 item->position.column);
         if (item->n > 0 && !item->is_text)
             snprintf(number, sizeof number, "%.15g", item->number[0]); /* what was written, if it had no more digits */
         settings_declare(&s->settings, item->name, item->is_text ? item->text[0] : number, origin,

@@ -68,9 +68,9 @@ static const struct directive FILE_DIRECTIVES[] = {{"Include", ANYWHERE, include
                                                    {.name = NULL}};
 
 /* All directives, the commonest first. */
-static const struct directive *const TABLES[] = {SHAPE_DIRECTIVES,    MATERIAL_DIRECTIVES, STATE_DIRECTIVES,
-                                                 INSTANCE_DIRECTIVES, LIGHT_DIRECTIVES,    TEXTURE_DIRECTIVES,
-                                                 FILE_DIRECTIVES,     OPTION_DIRECTIVES,   NULL};
+static const struct directive *const TABLES[] = {SHAPE_DIRECTIVES,   MATERIAL_DIRECTIVES, STATE_DIRECTIVES,
+                                                 LIGHT_DIRECTIVES,   TEXTURE_DIRECTIVES,  FILE_DIRECTIVES,
+                                                 OPTION_DIRECTIVES,  NULL};
 
 /* The directive of this name, or NULL. Every name passed on the way is offered to *near, unless that is NULL. */
 static const struct directive *find_directive(const char *name, struct suggestion *near)
@@ -152,15 +152,12 @@ static void run_source(struct parser *p)
 static bool run_file(struct parser *p, const char *path, struct source_position included_at, struct error *err)
 {
     size_t size;
-    char *text = text_read(path, &size, err);
-    if (text == NULL || !scene_files_count(&p->named, hash_content(text, size), size, err)) {
-        free(text);
+    char *text = scene_files_read(&p->named, path, &size, err);
+    if (text == NULL)
         return false;
-    }
     struct source_file *source = arena_alloc(&p->arena, sizeof *source);
-    struct source_file opened = {strcpy(arena_alloc(&p->arena, strlen(path) + 1), path), text, text + size,
-                                 included_at, included_at.file == NULL};
-    *source = opened;
+    *source = (struct source_file){arena_text(&p->arena, path), text, text + size, included_at,
+                                   included_at.file == NULL};
     struct lexer outer = p->lexer;
     p->lexer = lexer_start(source, &p->arena, &p->messages);
     p->source[p->n_sources++] = source;

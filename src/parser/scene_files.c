@@ -1,12 +1,27 @@
 /* scene_files.c: see scene_files.h. */
 #include "parser/scene_files.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/bits.h"
 #include "base/file.h"
 #include "base/os.h"
+
+char *text_read(const char *path, size_t *size, struct error *err)
+{
+    uint8_t *data;
+    bool ok = file_read(path, &data, size, NULL);
+    int reason = ok ? 0 : errno;
+    if (ok && *size < INT32_MAX)
+        return (char *)data;
+    free(data);
+    error_set(err, "%s: cannot %s the file: %s", path, reason != 0 && reason != EISDIR ? "open" : "read",
+              reason != 0 ? strerror(reason) : "it is larger than 2 GiB");
+    return NULL;
+}
 
 char *scene_files_path(const struct scene_files *f, const char *name, struct error *err)
 {
@@ -43,6 +58,15 @@ static bool count(struct scene_files *f, uint64_t content, uint64_t size, uint64
 bool scene_files_count(struct scene_files *f, uint64_t content, uint64_t size, struct error *err)
 {
     return count(f, content, size, size, err);
+}
+
+char *scene_files_read(struct scene_files *f, const char *path, size_t *size, struct error *err)
+{
+    char *text = text_read(path, size, err);
+    if (text == NULL || scene_files_count(f, hash_content(text, *size), *size, err))
+        return text;
+    free(text);
+    return NULL;
 }
 
 bool scene_files_picture(struct scene_files *f, const struct image *img, uint64_t tables, struct error *err)

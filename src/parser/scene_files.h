@@ -30,12 +30,18 @@ struct scene_files {
     bool full;              /* it was too much: nothing more is read */
 };
 
+/* text_read: a whole file as a zero-terminated text, to be given to free(); NULL with a message (path and reason).
+ *   size  out: bytes without the zero */
+char *text_read(const char *path, size_t *size, struct error *err);
+
 /* scene_files_path: where a file of this name is, to be given to free(); NULL with a message if there is something
  * that is no regular file, or once there was too much. */
 char *scene_files_path(const struct scene_files *f, const char *name, struct error *err);
 
-/* scene_files_count: a file of that hash_content and size has been read. scene_files_picture: a picture, for which
- * `tables` bytes more have been made. Both return false with a message where that is too much. */
+/* scene_files_read: text_read, counted. scene_files_count: a file of that hash_content and size has been read.
+ * scene_files_picture: a picture, for which `tables` bytes more have been made. NULL, or false, with a message where
+ * that is too much. */
+char *scene_files_read(struct scene_files *f, const char *path, size_t *size, struct error *err);
 bool scene_files_count(struct scene_files *f, uint64_t content, uint64_t size, struct error *err);
 bool scene_files_picture(struct scene_files *f, const struct image *img, uint64_t tables, struct error *err);
 

@@ -41,8 +41,7 @@ struct message_sink {
 
 enum { MOST_ERRORS = 20, MOST_WARNINGS = 100 };
 
-/* The different sentences that have been given, and how many messages were not: their sentence had been, or there were
- * enough. */
+/* The different sentences that have been given, and how many messages were not. */
 struct given {
     char *sentence[MOST_WARNINGS]; /* [n], owned */
     int n;
@@ -54,27 +53,18 @@ struct given {
 struct messages {
     struct error *err;               /* the first error; may be NULL */
     const struct message_sink *sink; /* may be NULL */
-    struct given errors, warnings;
+    struct given errors, warnings;   /* all zeros at first */
 };
 
 /* source_error: "FILE:LINE:COL: message", the line, a caret under the column, and from where the file was included.
- * Returns false, always. */
+ * Returns false, always. source_warn: the first line of such a message. */
 bool source_error(struct messages *m, struct source_position at, const char *format, ...);
-
-/* source_warn: the first line of such a message. */
 void source_warn(struct messages *m, struct source_position at, const char *format, ...);
 
 /* messages_report: an error that has been put into m->err already, without a place of its own, goes to the sink. */
 void messages_report(struct messages *m);
 
-/* source_position_text: "FILE:LINE:COL" into the buffer, cut at its end. */
-void source_position_text(struct source_position at, char *buffer, size_t size);
-
 /* messages_end: say how many more there were, and release what is owned. */
 void messages_end(struct messages *m);
-
-/* text_read: a whole file as a zero-terminated text, to be given to free(); NULL with a message (path and reason).
- *   size  out: bytes without the zero */
-char *text_read(const char *path, size_t *size, struct error *err);
 
 #endif

@@ -24,10 +24,9 @@ struct suggestion {
     int distance;       /* its distance; before the first near one: one more than may be called near */
 };
 
-/* suggest_start: a name of n letters may be off by about a third of them. Nothing is near "". */
+/* suggest_start: a name of n letters may be off by about a third of them. Nothing is near "".
+ * suggest_offer: consider one known name; the string must outlive the suggestion. */
 struct suggestion suggest_start(const char *wanted);
-
-/* suggest_offer: consider one known name; the string must outlive the suggestion. */
 void suggest_offer(struct suggestion *s, const char *known);
 
 /* --- the table ---------------------------------------------------------------------------------------- */
@@ -47,15 +46,11 @@ struct symbols {
     int newest[SYMBOL_CHAINS]; /* first entry of each chain plus 1; 0: empty. All zeros is an empty table. */
 };
 
-/* symbols_add: append a name, which is copied, with its value, >= 0. */
+/* symbols_add: append a name, which is copied, with its value, >= 0. symbols_find: the value of the newest entry of
+ * this name, or -1. symbols_forget: remove all entries but the first n. */
 void symbols_add(struct symbols *t, const char *name, int value);
-
-/* symbols_find: the value of the newest entry of this name, or -1. */
 int symbols_find(const struct symbols *t, const char *name);
-
-/* symbols_forget: remove all entries but the first n. */
 void symbols_forget(struct symbols *t, int n);
-
 void symbols_free(struct symbols *t);
 
 #endif
