@@ -37,11 +37,10 @@ static void put_attribute(struct bytes *b, const char *name, const char *type, s
 
 static void put_window(struct bytes *b, const char *name, int x, int y, int width, int height)
 {
+    const int corner[4] = {x, y, x + width - 1, y + height - 1};
     put_attribute(b, name, "box2i", 16);
-    put_number(b, (uint64_t)x, 4);
-    put_number(b, (uint64_t)y, 4);
-    put_number(b, (uint64_t)(x + width - 1), 4);
-    put_number(b, (uint64_t)(y + height - 1), 4);
+    for (int i = 0; i < 4; i++)
+        put_number(b, (uint64_t)corner[i], 4);
 }
 
 static enum exr_type type_of(const struct channel *c, enum exr_type type) { return c->exact ? EXR_FLOAT : type; }
@@ -105,14 +104,10 @@ static void put_block(struct bytes *b, const struct raster *r, const struct chan
     size_t size;
     make_differences(raw.data, raw.n, scratch);
     uint8_t *packed = deflate_zlib(scratch, raw.n, &size);
+    bool smaller = size < raw.n;
     put_number(b, first, 4);
-    if (size < raw.n) {
-        put_number(b, size, 4);
-        put(b, packed, size);
-    } else {
-        put_number(b, raw.n, 4);
-        put(b, raw.data, raw.n);
-    }
+    put_number(b, smaller ? size : raw.n, 4);
+    put(b, smaller ? packed : raw.data, smaller ? size : raw.n);
     free(packed);
     free(scratch);
     free(raw.data);

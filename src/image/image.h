@@ -21,23 +21,25 @@
  * Returns false with a message "PATH: what is wrong" on a missing, truncated, absurdly large or unknown file. */
 bool image_read(const char *path, struct image *out, struct error *err);
 
-/* The extensions that image_write knows, for messages. */
-#define IMAGE_WRITTEN ".pfm, .exr, .png or .ppm"
-
-/* image_write: write linear RGB as the format named by the extension; to standard output, -, as PFM.
- *   pixels  [height*width*3] floats, top row first, linear; .ppm and .png are clamped to [0,1] and sRGB encoded;
- *           .exr has halfs, like pbrt-v3's, .float.exr has floats
- * The file appears whole or not at all: it is written beside its name and renamed. Returns false with a message on an
- * unknown extension or any I/O error (full disk), leaving no file behind. */
-bool image_write(const char *path, int width, int height, const float *pixels, struct error *err);
-
-/* image_create, image_finish: the same in two steps. The first says what is wrong with the name or the place, as of
- * a terminal, and is to be followed by image_finish or file_abandon; the second may come hours later. */
-bool image_create(const char *path, struct file_output *out, struct error *err);
-bool image_finish(struct file_output *f, const struct raster *r, struct error *err);
+/* image_read_linear: any picture as linear RGB floats [height*width*3], top row first, to be freed. 8-bit files are
+ * decoded from sRGB. NULL with a message.
+ *   about  becomes what image_read says of the file, without its pixels; may be NULL */
+float *image_read_linear(const char *path, int *width, int *height, struct image *about, struct error *err);
 
 /* image_mend: make samples that are NaN or infinite 0, and negative ones too if asked; `replaced` counts them. */
 void image_mend(struct image *img, bool negative_too);
+
+/* The extensions of what is written, for messages. */
+#define IMAGE_WRITTEN ".pfm, .exr, .png or .ppm"
+
+/* image_create, image_finish: write a picture in the format named by the extension; to standard output, -, as PFM.
+ * .ppm and .png are clamped to [0,1] and sRGB encoded; .exr has halfs, like pbrt-v3's, .float.exr has floats. The file
+ * appears whole or not at all. The first says what is wrong with the name or the place, as of a terminal, and is to be
+ * followed by image_finish or file_abandon; the second, which may come hours later, fails on any I/O error.
+ * image_write: both, of linear RGB [height*width*3], top row first. */
+bool image_create(const char *path, struct file_output *out, struct error *err);
+bool image_finish(struct file_output *f, const struct raster *r, struct error *err);
+bool image_write(const char *path, int width, int height, const float *pixels, struct error *err);
 
 /* image_extension: that of a format of pictures that `path` ends in, or NULL.
  * image_writable: does it end in an extension image_write knows? image_is_8_bit: in one of 8-bit sRGB pictures?
@@ -46,10 +48,5 @@ const char *image_extension(const char *path);
 bool image_writable(const char *path);
 bool image_is_8_bit(const char *path);
 bool image_keeps_place(const char *path);
-
-/* image_read_linear: any picture as linear RGB floats [height*width*3], top row first, to be freed. 8-bit files are
- * decoded from sRGB. NULL with a message.
- *   about  becomes what image_read says of the file, without its pixels; may be NULL */
-float *image_read_linear(const char *path, int *width, int *height, struct image *about, struct error *err);
 
 #endif

@@ -55,11 +55,6 @@ static bool next_word(struct netpbm *r, char *word, size_t room)
     return n > 0 && r->at < r->size && isspace(r->data[r->at++]);
 }
 
-static float to_float(const uint8_t *byte, bool big_endian)
-{
-    return float_of_bits((uint32_t)bits_of_bytes(byte, 4, big_endian));
-}
-
 bool pfm_read(const uint8_t *data, size_t size, struct image *out, struct error *err)
 {
     if (!pfm_matches(data, size))
@@ -81,8 +76,10 @@ bool pfm_read(const uint8_t *data, size_t size, struct image *out, struct error 
     picture_alloc_f32(out, width, height, channels);
     float factor = (float)fabs(scale);
     for (size_t y = 0; y < height; y++)
-        for (size_t i = 0; i < row; i++)
-            out->f32[(height - 1 - y) * row + i] = factor * to_float(data + r.at + (y * row + i) * 4, scale > 0);
+        for (size_t i = 0; i < row; i++) {
+            uint32_t bits = (uint32_t)bits_of_bytes(data + r.at + (y * row + i) * 4, 4, scale > 0);
+            out->f32[(height - 1 - y) * row + i] = factor * float_of_bits(bits);
+        }
     return true;
 }
 

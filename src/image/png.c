@@ -31,27 +31,31 @@ static uint8_t paeth(int a, int b, int c)
     return (uint8_t)(pa <= pb && pa <= pc ? a : pb <= pc ? b : c);
 }
 
-/* What a filter predicts for a byte from its neighbours; bytes outside the picture are 0. */
-static uint8_t predict(enum row_filter f, uint8_t left, uint8_t above, uint8_t above_left)
+/* What a filter predicts for byte i of a row from its neighbours, a pixel having `step` bytes, at least 1; bytes outside
+ * the picture are 0. */
+static inline uint8_t predict(enum row_filter f, const uint8_t *row, const uint8_t *above, size_t i, size_t step)
 {
+    int left = i < step ? 0 : row[i - step], above_left = i < step ? 0 : above[i - step];
     switch (f) {
-    case FILTER_NONE: return 0;
-    case FILTER_SUB: return left;
-    case FILTER_UP: return above;
-    case FILTER_AVERAGE: return (uint8_t)((left + above) / 2);
-    case FILTER_PAETH: return paeth(left, above, above_left);
+    case FILTER_SUB: return (uint8_t)left;
+    case FILTER_UP: return above[i];
+    case FILTER_AVERAGE: return (uint8_t)((left + above[i]) / 2);
+    case FILTER_PAETH: return paeth(left, above[i], above_left);
+    case FILTER_NONE:
     case FILTERS: break;
     }
     return 0;
 }
 
-/* The same for byte i of a row, `step` being the bytes of a pixel, at least 1. */
-static inline uint8_t predict_at(enum row_filter f, const uint8_t *row, const uint8_t *above, size_t i, size_t step)
-{
-    return i < step ? predict(f, 0, above[i], 0) : predict(f, row[i - step], above[i], above[i - step]);
-}
-
 /* --- reading ----------------------------------------------------------------------------------------- */
+
+/* A picture, or one of the seven reduced pictures of an interlaced one: the pixels x0 + i dx, y0 + j dy [PNG 8.2]. */
+struct adam7_pass {
+    size_t x0, y0, dx, dy;
+};
+static const struct adam7_pass WHOLE[1] = {{0, 0, 1, 1}};
+static const struct adam7_pass ADAM7[7] = {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},
+                                           {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}};
 
 struct png {
     const uint8_t *data;
@@ -60,7 +64,8 @@ struct png {
     unsigned depth; /* bits of a sample */
     enum colour colour;
     unsigned samples; /* of a pixel as stored */
-    bool interlaced;
+    const struct adam7_pass *pass; /* [passes] */
+    int passes;
     const uint8_t *palette; /* [n_palette][3], or NULL */
     size_t n_palette;
     uint8_t *packed; /* [n_packed] the zlib stream; owned */
@@ -73,14 +78,6 @@ struct png_chunk {
     const uint8_t *data; /* [size] */
     size_t size;
 };
-
-/* A picture, or one of the seven reduced pictures of an interlaced one: the pixels x0 + i dx, y0 + j dy [PNG 8.2]. */
-struct adam7_pass {
-    size_t x0, y0, dx, dy;
-};
-static const struct adam7_pass WHOLE[1] = {{0, 0, 1, 1}};
-static const struct adam7_pass ADAM7[7] = {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},
-                                     {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}};
 
 static uint32_t u32(const uint8_t *p) { return (uint32_t)bits_of_bytes(p, 4, true); }
 
@@ -103,15 +100,11 @@ static bool next_chunk(struct png *p, struct png_chunk *c)
 /* Samples of a pixel; 0 for a colour type or depth that does not exist [PNG 11.2.2]. */
 static unsigned samples_of(unsigned colour, unsigned depth)
 {
-    bool whole = depth == 8 || depth == 16, part = depth == 1 || depth == 2 || depth == 4;
-    switch (colour) {
-    case GREY: return whole || part ? 1 : 0;
-    case RGB: return whole ? 3 : 0;
-    case PALETTE: return depth == 8 || part ? 1 : 0;
-    case GREY_ALPHA: return whole ? 2 : 0;
-    case RGB_ALPHA: return whole ? 4 : 0;
-    default: return 0; /* a number from the file, not one of a closed set */
-    }
+    static const unsigned SAMPLES[] = {[GREY] = 1, [RGB] = 3, [PALETTE] = 1, [GREY_ALPHA] = 2, [RGB_ALPHA] = 4};
+    unsigned n = colour <= RGB_ALPHA ? SAMPLES[colour] : 0;
+    bool exists = depth == 8 || (depth == 16 && colour != PALETTE) ||
+                  (n == 1 && (depth == 1 || depth == 2 || depth == 4));
+    return exists ? n : 0;
 }
 
 static bool read_header(struct png *p)
@@ -128,7 +121,8 @@ static bool read_header(struct png *p)
     if (p->samples == 0 || c.data[10] != 0 || c.data[11] != 0 || c.data[12] > 1)
         return error_set(p->err, "unknown kind of PNG file (colour type %u, %u bits)", (unsigned)c.data[9], p->depth);
     p->colour = (enum colour)c.data[9];
-    p->interlaced = c.data[12] == 1;
+    p->pass = c.data[12] == 1 ? ADAM7 : WHOLE;
+    p->passes = c.data[12] == 1 ? 7 : 1;
     return picture_size_ok(p->width, p->height, p->err);
 }
 
@@ -214,7 +208,7 @@ static bool read_pass(const struct png *p, const struct adam7_pass *s, const uin
             return damaged(p);
         enum row_filter f = (enum row_filter)*row++;
         for (size_t i = 0; i < n; i++)
-            row[i] = (uint8_t)(row[i] + predict_at(f, row, above, i, step));
+            row[i] = (uint8_t)(row[i] + predict(f, row, above, i, step));
         above = row;
         for (size_t x = 0; x < width; x++)
             if (!put_pixel(p, row, x, out, (s->y0 + y * s->dy) * p->width + s->x0 + x * s->dx))
@@ -224,8 +218,7 @@ static bool read_pass(const struct png *p, const struct adam7_pass *s, const uin
 }
 
 /* Put all unpacked pixels in place. */
-static bool place_pixels(const struct png *p, const struct adam7_pass *pass, int passes, const uint8_t *zeros,
-                         uint8_t *bytes, struct image *out)
+static bool place_pixels(const struct png *p, const uint8_t *zeros, uint8_t *bytes, struct image *out)
 {
     int channels = p->colour == GREY || p->colour == GREY_ALPHA ? 1 : 3;
     if (p->depth == 16)
@@ -234,9 +227,9 @@ static bool place_pixels(const struct png *p, const struct adam7_pass *pass, int
         picture_alloc_u8(out, p->width, p->height, channels);
     out->linear = false;
     out->dropped = p->colour == GREY_ALPHA || p->colour == RGB_ALPHA;
-    for (int i = 0; i < passes; i++) {
-        size_t n = pass_bytes(p, &pass[i]);
-        if (n > 0 && !read_pass(p, &pass[i], zeros, bytes, out)) {
+    for (int i = 0; i < p->passes; i++) {
+        size_t n = pass_bytes(p, &p->pass[i]);
+        if (n > 0 && !read_pass(p, &p->pass[i], zeros, bytes, out)) {
             image_free(out);
             return false;
         }
@@ -247,19 +240,16 @@ static bool place_pixels(const struct png *p, const struct adam7_pass *pass, int
 
 static bool read_pixels(const struct png *p, struct image *out)
 {
-    const struct adam7_pass *pass = p->interlaced ? ADAM7 : WHOLE;
-    int passes = p->interlaced ? 7 : 1;
     size_t total = 0;
-    for (int i = 0; i < passes; i++)
-        total += pass_bytes(p, &pass[i]);
+    for (int i = 0; i < p->passes; i++)
+        total += pass_bytes(p, &p->pass[i]);
     if (total / INFLATE_MAX_RATIO > p->n_packed)
         return picture_truncated(p->width, p->height, p->err);
     uint64_t samples = (uint64_t)p->width * p->height * 3;
     if (!picture_memory_ok(total + samples * (p->depth == 16 ? sizeof *out->f32 : 1), p->size, p->err))
         return false;
     uint8_t *bytes = mem_alloc(total, 1), *zeros = mem_alloc(row_bytes(p, p->width), 1);
-    bool ok = inflate_zlib(p->packed, p->n_packed, bytes, total, p->err) &&
-              place_pixels(p, pass, passes, zeros, bytes, out);
+    bool ok = inflate_zlib(p->packed, p->n_packed, bytes, total, p->err) && place_pixels(p, zeros, bytes, out);
     free(zeros);
     free(bytes);
     return ok;
@@ -298,7 +288,7 @@ static uint64_t filter_row(enum row_filter f, const uint8_t *row, const uint8_t 
     uint64_t sum = 0;
     *out++ = (uint8_t)f;
     for (size_t i = 0; i < n; i++) {
-        out[i] = (uint8_t)(row[i] - predict_at(f, row, above, i, step));
+        out[i] = (uint8_t)(row[i] - predict(f, row, above, i, step));
         sum += out[i] < 128 ? out[i] : 256u - out[i];
     }
     return sum;
