@@ -4,8 +4,7 @@
  * each: the small one gets a bin of its own, which it does not fill; the large one fills it up and keeps the
  * rest, with which it goes back to the list it now belongs to. When one list runs dry, all that is left on
  * the other would weigh exactly 1 if sums were exact; it does up to rounding, so its threshold *is* 1.
- * Dropping either list instead is the classical slip: such a bin would hand its mass to an arbitrary element.
- */
+ * Dropping either list instead is the classical slip: such a bin would hand its mass to an arbitrary element. */
 #include "base/alias.h"
 
 #include <stdlib.h>

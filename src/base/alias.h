@@ -1,12 +1,9 @@
 /* alias.h: draw an index with a given probability in constant time.                      [Walker 1977] [Vose 1991]
  *
- * The mass of n weights is cut into n bins of equal mass 1/n. Each bin holds at most two elements: its own
- * index, with probability `threshold`, and one other index, `alias`, with the rest. A uniform number picks the
- * bin, another (what is left of the first) picks the element. The dissertation's bins of two light sub-paths
- * are named after this table.
- *
- * Tests: test_alias.c (exact mass to 1e-12, chi-square, degenerate weights).
- */
+ * The mass of n weights is cut into n bins of equal mass 1/n. Each bin holds at most two elements: its own index, with
+ * probability `threshold`, and one other index, `alias`, with the rest. A uniform number picks the bin, another (what
+ * is left of the first) picks the element. The dissertation's bins of two light sub-paths are named after this table.
+ * Tests: test_alias.c (exact mass to 1e-12, chi-square, degenerate weights). */
 #ifndef ASBDPT_ALIAS_H
 #define ASBDPT_ALIAS_H
 

@@ -1,7 +1,5 @@
 /* bits.h: words of bits mixed, hashed, reversed, and the bytes and floats that they are in files.
- *
- * Tests: test_vec.c; test_image.c and test_ply.c read every byte order.
- */
+ * Tests: test_vec.c; test_image.c and test_ply.c read every byte order. */
 #ifndef ASBDPT_BITS_H
 #define ASBDPT_BITS_H
 

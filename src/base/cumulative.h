@@ -1,8 +1,6 @@
 /* cumulative.h: drawing by cumulative sums: slower than an alias table (alias.h), but what lies side by side stays so,
  * and so do the strata of a low-discrepancy sequence.
- *
- * Tests: test_alias.c.
- */
+ * Tests: test_alias.c. */
 #ifndef ASBDPT_CUMULATIVE_H
 #define ASBDPT_CUMULATIVE_H
 

@@ -2,8 +2,7 @@
  *
  * A function that can fail because of what the user gave it (a file, a scene, a number) returns bool and
  * takes a `struct error *err`; on false it has filled err. Only main.c prints it and leaves the program, so
- * every such function can be tested in-process. Tests: test_file.c, test_parser.c.
- */
+ * every such function can be tested in-process. Tests: test_file.c, test_parser.c. */
 #ifndef ASBDPT_ERROR_H
 #define ASBDPT_ERROR_H
 

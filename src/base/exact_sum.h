@@ -11,9 +11,7 @@
  * At least 48 bits below the leading one of the largest term are kept, and 2^38 terms may be added to any sum of sums
  * before a digit overflows. What is not a number or not below 2^144 is no term, and nothing is left of what is below
  * 2^-216.
- *
- * Tests: test_film.c.
- */
+ * Tests: test_film.c. */
 #ifndef ASBDPT_EXACT_SUM_H
 #define ASBDPT_EXACT_SUM_H
 

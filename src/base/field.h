@@ -1,8 +1,6 @@
 /* field.h: the parameters of a method, a material, a shape or any other object of a scene as one table, from which
  * help, scene files, -P and tests take all they know, and in which alone a default stands.
- *
- * Tests: test_options.c, test_parser.c, test_format.c.
- */
+ * Tests: test_options.c, test_parser.c, test_format.c. */
 #ifndef ASBDPT_FIELD_H
 #define ASBDPT_FIELD_H
 

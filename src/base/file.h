@@ -4,9 +4,7 @@
  * any size written in it. Writing goes to a temporary file beside the target that takes the target's name only when
  * every byte is on the disk: a full disk or an interrupted run leaves the old file, never half a new one. A target that
  * is a symbolic link stays one: the file it leads to is replaced. The name - is standard input or output.
- *
- * Tests: test_file.c.
- */
+ * Tests: test_file.c. */
 #ifndef ASBDPT_FILE_H
 #define ASBDPT_FILE_H
 

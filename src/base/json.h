@@ -5,9 +5,7 @@
  *     json_text(&j, "name", name);
  *     json_open(&j, "seeds", '[');  json_count(&j, NULL, 3);  json_count(&j, NULL, 4);  json_close(&j);
  *     json_close(&j);
- *
- * Tests: test_file.c.
- */
+ * Tests: test_file.c. */
 #ifndef ASBDPT_JSON_H
 #define ASBDPT_JSON_H
 

@@ -3,8 +3,7 @@
  * are carried along as the low part of a pair.
  *
  * The number of terms follows from the largest reduced argument: the first term left out is below 1/16 ulp. Rests on
- * every operation being rounded to double at once: no fused multiply-add (-ffp-contract=off), no x87.
- */
+ * every operation being rounded to double at once: no fused multiply-add (-ffp-contract=off), no x87. */
 #include "base/maths.h"
 
 #include "base/number.h"

@@ -7,8 +7,7 @@
  *
  * Errors are bounds in units of the last place of the result (ulp), where it is a normal number. A result too large
  * is infinite, one too small is 0 or subnormal, NaN gives NaN. Cannot fail, thread-safe.
- * Tests: test_maths.c, against series in twice the precision.
- */
+ * Tests: test_maths.c, against series in twice the precision. */
 #ifndef ASBDPT_MATHS_H
 #define ASBDPT_MATHS_H
 

@@ -1,9 +1,7 @@
 /* mem.h: checked allocation, growing arrays, and the arena that holds what a path needs.
  *
- * Running out of memory is handled in one place: one line on stderr and exit status 1. Callers therefore
- * never test for NULL. Sizes that come from a file must be checked against the file's length before they
- * reach this module.
- */
+ * Running out of memory is handled in one place: one line on stderr and exit status 1. Callers therefore never test for
+ * NULL. Sizes that come from a file must be checked against the file's length before they reach this module. */
 #ifndef ASBDPT_MEM_H
 #define ASBDPT_MEM_H
 

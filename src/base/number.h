@@ -2,9 +2,7 @@
  *
  * C leaves open what becomes of a double that does not fit where it is converted to, and a NaN fits nowhere. Numbers of
  * scene files are checked where they are read; these conversions are for those that are computed.
- *
- * Tests: test_vec.c.
- */
+ * Tests: test_vec.c. */
 #ifndef ASBDPT_NUMBER_H
 #define ASBDPT_NUMBER_H
 

@@ -3,8 +3,7 @@
  * are no threads, there is one, and locks do nothing.
  *
  * Paths: '/' separates directories everywhere, on Windows '\' too. Tests: test_threads.c, test_file.c, test/cli.sh;
- * `make portability` builds and runs it on other systems.
- */
+ * `make portability` builds and runs it on other systems. */
 #ifndef ASBDPT_OS_H
 #define ASBDPT_OS_H
 

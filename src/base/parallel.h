@@ -4,8 +4,7 @@
  * of their numbers, one at a time. What a commit does therefore cannot depend on the number of threads: this is
  * where the promise "same bytes for any -j" is kept. A result waits for its turn in one of a fixed number of slots,
  * so memory stays bounded; a thread that finds none free waits too. doc/cluster.md says how long, by simulation.
- * Tests: test_threads.c.
- */
+ * Tests: test_threads.c. */
 #ifndef ASBDPT_PARALLEL_H
 #define ASBDPT_PARALLEL_H
 

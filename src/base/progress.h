@@ -1,9 +1,7 @@
 /* progress.h: how far a long job is and how long it will still take, on stderr.
  *
  * On a terminal a bar that is redrawn, narrow enough for 50 columns; in a file one line a minute.
- *
- * Tests: test_file.c.
- */
+ * Tests: test_file.c. */
 #ifndef ASBDPT_PROGRESS_H
 #define ASBDPT_PROGRESS_H
 

@@ -1,8 +1,7 @@
 /* rgb.h: a colour or any three-channel quantity, linear, with the primaries of sRGB.
  *
  * Radiance in W/(sr m^2), power in W, reflectance dimensionless: the name of the variable says which.
- * A type of its own, though its operations look like those of vec3: a compiler then tells light from directions.
- */
+ * A type of its own, though its operations look like those of vec3: a compiler then tells light from directions. */
 #ifndef ASBDPT_RGB_H
 #define ASBDPT_RGB_H
 

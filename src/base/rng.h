@@ -3,9 +3,7 @@
  * A stream is named by (seed, purpose, pixel, iteration); the same name gives the same numbers whatever
  * thread draws them and in whatever order, which is what makes an image reproducible to the byte. The
  * generator is PCG-XSH-RR 64/32 [O'Neill 2014]; names are mixed into its state by SplitMix64 [Steele 2014].
- *
- * Tests: test_vec.c (published numbers), test_streams.c (no two streams meet).
- */
+ * Tests: test_vec.c (published numbers), test_streams.c (no two streams meet). */
 #ifndef ASBDPT_RNG_H
 #define ASBDPT_RNG_H
 

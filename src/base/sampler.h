@@ -13,9 +13,7 @@
  *
  * Any other number of samples is made of several nets, 48 of those of 32 and 16, and is about as good as independent
  * ones: 20 samples of a smooth integrand (x y) have twice the squared error of 16, 40 of 32. Choose powers of two.
- *
- * Tests: test_sampler.c (also of the points as sub-paths and connections have used them), test_streams.c.
- */
+ * Tests: test_sampler.c (also of the points as sub-paths and connections have used them), test_streams.c. */
 #ifndef ASBDPT_SAMPLER_H
 #define ASBDPT_SAMPLER_H
 

@@ -1,6 +1,5 @@
 /* transform.h: affine and projective 4x4 transforms with their inverses, in pbrt's conventions
- * (left-handed world, column vectors, angles in degrees). Tests: test_vec.c.
- */
+ * (left-handed world, column vectors, angles in degrees). Tests: test_vec.c. */
 #ifndef ASBDPT_TRANSFORM_H
 #define ASBDPT_TRANSFORM_H
 

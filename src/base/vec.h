@@ -6,9 +6,7 @@
  *
  * Points, vectors and normals share one type; what a value is, its name says: p a point, n a normal, w a
  * direction of length 1. Values are passed by value; nothing here can fail.
- *
- * Tests: test_vec.c.
- */
+ * Tests: test_vec.c. */
 #ifndef ASBDPT_VEC_H
 #define ASBDPT_VEC_H
 

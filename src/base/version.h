@@ -2,8 +2,7 @@
  *
  * ESTIMATOR is raised by every change that is meant to give other pictures of the same scene: films of programs with
  * another number are not continued or added up, see render/part.h. `make hashes` sees to it: it writes no other
- * checksums of pictures under the same number.
- */
+ * checksums of pictures under the same number. */
 #ifndef ASBDPT_VERSION_H
 #define ASBDPT_VERSION_H
 

@@ -26,9 +26,7 @@ static const struct option OPTIONS[] = {
      .help = "a picture to write: linear .pfm .exr, sRGB .png .ppm; repeatable"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
-    {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "do not say what was written"},
-    {.name = NULL},
-};
+    {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "do not say what was written"}, {.name = NULL}};
 
 /* Of a part of a whole only some formats say where it lies. */
 static void warn_of_place(const struct convert_options *o, const struct placement *at, int width, int height)

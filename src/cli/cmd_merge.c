@@ -23,9 +23,7 @@ static const struct option OPTIONS[] = {
     {"--partial", NULL, OPTION_ON, AT(partial), .help = "make a picture even where samples are missing"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
-    {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "do not say what was written"},
-    {.name = NULL},
-};
+    {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "do not say what was written"}, {.name = NULL}};
 
 struct named {
     const char *path;
@@ -83,8 +81,9 @@ static void read_headers(struct merge *m, const struct texts *names)
     qsort(m->part, (size_t)m->n, sizeof *m->part, by_first);
 }
 
-/* Samples twice, and samples between `first` and `end` in no part unless that is allowed. */
-static void check_ranges(struct merge *m, long first, long end, bool gaps)
+/* Samples twice, and samples between `first` and `end` in no part unless that is allowed. Returns the end of the last
+ * samples that there are. */
+static long check_ranges(struct merge *m, long first, long end, bool gaps)
 {
     long reached = first;
     for (int i = 0; i < m->n; i++) {
@@ -98,17 +97,7 @@ static void check_ranges(struct merge *m, long first, long end, bool gaps)
     }
     if (reached < end && !gaps)
         wrong_range(m, "", "missing are the", reached, end);
-}
-
-/* The end of the last samples that there are. */
-static long reached(const struct merge *m)
-{
-    long end = 0;
-    for (int i = 0; i < m->n; i++) {
-        long here = m->part[i].part.first + m->part[i].part.done;
-        end = here > end ? here : end;
-    }
-    return end;
+    return reached;
 }
 
 /* Is the part what it was when it was opened first? */
@@ -125,28 +114,25 @@ static void add_parts(struct merge *m, struct film *film)
     struct error err;
     for (int i = 0; i < m->n && m->n_wrong == 0; i++) {
         struct part again;
-        FILE *f = part_open(m->part[i].path, &again, &err);
-        if (f == NULL) {
+        const char *path = m->part[i].path;
+        FILE *f = part_open(path, &again, &err);
+        bool same = f != NULL && unchanged(&again, path, &m->part[i].part, &err);
+        if (!same || !part_add(f, path, &again, film, &err))
             wrong(m, err.text);
-            continue;
-        }
-        if (!unchanged(&again, m->part[i].path, &m->part[i].part, &err)) {
-            wrong(m, err.text);
+        if (f != NULL && !same)
             fclose(f);
-        } else if (!part_add(f, m->part[i].path, &again, film, &err)) {
-            wrong(m, err.text);
-        }
-        part_free(&again);
+        if (f != NULL)
+            part_free(&again);
     }
 }
 
-static bool write_film(const struct merge_options *o, struct merge *m, struct film *film, struct outputs *out,
+static bool write_film(const struct merge_options *o, struct merge *m, long end, struct film *film, struct outputs *out,
                        struct error *err)
 {
     struct part whole = m->part[0].part; /* its identity is borrowed */
     float *pixels = mem_alloc((size_t)whole.width * (size_t)whole.height * 3, sizeof *pixels);
     float *alpha = film_alpha(film);
-    whole.end = reached(m);
+    whole.end = end;
     film_warn(film, film_develop(film, whole.scale, pixels));
     out->place = whole.place;
     out->alpha = alpha;
@@ -167,11 +153,11 @@ static bool merge(const struct merge_options *o, struct merge *m, bool picture, 
         struct film film;
         const struct part *first = &m->part[0].part;
         struct pixel_rect rect = {0, 0, first->width, first->height, 0, 0};
-        check_ranges(m, picture ? 0 : first->first, picture ? first->planned : 0, o->partial);
+        long end = check_ranges(m, picture ? 0 : first->first, picture ? first->planned : 0, o->partial);
         film_init(&film, rect, rect.x1, rect.y1);
         film_keep_planes(&film, first->planes);
         add_parts(m, &film);
-        ok = m->n_wrong == 0 && write_film(o, m, &film, out, err);
+        ok = m->n_wrong == 0 && write_film(o, m, end, &film, out, err);
         film_free(&film);
     }
     if (m->n_wrong > 0) {

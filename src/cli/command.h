@@ -1,8 +1,7 @@
 /* command.h: what a subcommand of the command line is, and a program that is made of some.
  *
  * A subcommand names its options (options.h) and does its work on the struct that they fill. Its exit status is the
- * program's. Messages go to stderr through the helpers here.
- */
+ * program's. Messages go to stderr through the helpers here. */
 #ifndef ASBDPT_COMMAND_H
 #define ASBDPT_COMMAND_H
 

@@ -35,9 +35,7 @@ const struct option JOB_OPTIONS[] = {
     {"--cropwindow", "X0 X1 Y0 Y1", OPTION_WINDOW, AT(crop), 0, 1,
      .help = "render a part of the film, as fractions (default: the scene's)"},
     {"--strict", NULL, OPTION_ON, AT(strict), .help = "warnings of the scene are errors"},
-    {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "no progress, no warnings"},
-    {.name = NULL},
-};
+    {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "no progress, no warnings"}, {.name = NULL}};
 
 /* Who hears of warnings, and how many there were. */
 struct listener {

@@ -62,8 +62,7 @@ int job_load(const struct job_options *o, struct scene *scene, const struct meth
  *   choose  says which: one or two, at m[0] and m[1]; false with a message if there is none such; NULL: that one */
 typedef bool job_readers(const struct job_options *o, const struct scene *scene, const struct method *found,
                          const struct method **m, struct error *err);
-int job_load_for(const struct job_options *o, job_readers *choose, struct scene *scene,
-                 const struct method **method);
+int job_load_for(const struct job_options *o, job_readers *choose, struct scene *scene, const struct method **method);
 
 /* job_render: what a render is to be by these options, all its samples at once. */
 struct render_options job_render(const struct job_options *o, const struct scene *scene, const struct method *m);

@@ -175,8 +175,7 @@ static enum render_wish watch_after(void *context, double done)
     double limit = k->options->time;
     progress_update(&k->bar, done);
     return interrupt_caught() != 0                              ? RENDER_STOP
-           : limit > 0 && os_wall_seconds() - k->begun >= limit ? RENDER_END_BLOCK
-                                                                : RENDER_GO_ON;
+           : limit > 0 && os_wall_seconds() - k->begun >= limit ? RENDER_END_BLOCK : RENDER_GO_ON;
 }
 
 void keep_after(struct keep *k, struct render_options *render)

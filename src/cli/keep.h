@@ -34,8 +34,7 @@ bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const 
                 struct render_options *render, struct film *film, struct error *err);
 
 /* keep_end: remove the progress bar, say on stderr if and why the render has stopped early, save the last checkpoint if
- * `ok`. False with a message where it cannot be written; err may be NULL. The caller releases
- * k->part. */
+ * `ok`. False with a message where it cannot be written; err may be NULL. The caller releases k->part. */
 bool keep_end(struct keep *k, bool ok, struct error *err);
 
 /* keep_after: the render's progress from now on is that of what is made when it is done, --aov; it, too, ends at a

@@ -70,7 +70,7 @@ bool names_add(struct names *all, enum option_file use, const char *what, const 
             release(&n);
             return false;
         }
-    all->item = mem_grow(all->item, &all->capacity, (size_t)all->n + 1, sizeof *all->item);
+    all->item = mem_append(all->item, (size_t)all->n, sizeof *all->item);
     all->item[all->n++] = n;
     return true;
 }

@@ -3,9 +3,7 @@
  * Names are compared by what they lead to, not by how they are spelled: a file that is there by its device and number,
  * one that is not by its directory and its name in that. Devices and pipes may have several names; standard input can
  * be read by one only, and standard output written by one, which a command that prints is itself.
- *
- * Tests: test/outputs.sh.
- */
+ * Tests: test/outputs.sh. */
 #ifndef ASBDPT_NAMES_H
 #define ASBDPT_NAMES_H
 
@@ -15,7 +13,6 @@
 struct names {
     struct name *item; /* [n], owned */
     int n;
-    size_t capacity;
 };
 
 /* names_add: one more.

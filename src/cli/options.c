@@ -36,7 +36,7 @@ static bool looks_like_option(const char *text) { return text[0] == '-' && text[
 
 void texts_add(struct texts *texts, const char *text)
 {
-    texts->item = mem_grow(texts->item, &texts->capacity, (size_t)texts->n + 1, sizeof *texts->item);
+    texts->item = mem_append(texts->item, (size_t)texts->n, sizeof *texts->item);
     texts->item[texts->n++] = text;
 }
 

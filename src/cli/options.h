@@ -8,9 +8,7 @@
  *     WORD                                             an operand: a row whose name has no dash in front
  *
  * An empty value is always a mistake, of a script for example whose variable is not set.
- *
- * Tests: test_options.c, test/cli.sh.
- */
+ * Tests: test_options.c, test/cli.sh. */
 #ifndef ASBDPT_OPTIONS_H
 #define ASBDPT_OPTIONS_H
 
@@ -45,7 +43,6 @@ enum option_file { FILE_NONE, FILE_READ, FILE_WRITTEN, FILE_KEPT };
 struct texts {
     const char **item; /* [n], owned array of borrowed strings */
     int n;
-    size_t capacity;
 };
 
 struct option {

@@ -13,7 +13,6 @@ static void release(struct outputs *o)
     free(o->item);
     o->item = NULL;
     o->n = 0;
-    o->capacity = 0;
 }
 
 static bool read_tone(const struct tone_options *t, const struct texts *names, struct tone *out, struct error *err)
@@ -47,7 +46,7 @@ bool outputs_add(struct outputs *out, const char *name, bool is_part, struct err
         return error_usage(err, "-o %s: pictures are written as " IMAGE_WRITTEN "; end the name in one of these", name);
     if (is_part ? !file_create(name, &o.file, err) : !image_create(name, &o.file, err))
         return false;
-    out->item = mem_grow(out->item, &out->capacity, (size_t)out->n + 1, sizeof *out->item);
+    out->item = mem_append(out->item, (size_t)out->n, sizeof *out->item);
     out->item[out->n++] = o;
     return true;
 }

@@ -1,8 +1,7 @@
 /* outputs.h: the pictures that a subcommand is to write, opened before the work begins.
  *
  * What is wrong with a name, a directory or its rights is thus said at once. Files that the work does not come to
- * write are removed. Tests: test/cli.sh.
- */
+ * write are removed. Tests: test/cli.sh. */
 #ifndef ASBDPT_OUTPUTS_H
 #define ASBDPT_OUTPUTS_H
 
@@ -29,7 +28,6 @@ enum { OUTPUTS_LAYERS = 16 };
 struct outputs {
     struct output *item; /* [n], owned */
     int n;
-    size_t capacity;
     struct tone tone; /* of 8-bit pictures */
     /* Set before outputs_write: */
     struct placement place;  /* where the pictures lie in their whole */
@@ -40,9 +38,6 @@ struct outputs {
     const struct film *film;
 };
 
-/* outputs_is_part: does the name end in .part? */
-bool outputs_is_part(const char *name);
-
 /* What the options --exposure and --tonemap say, and their help. */
 struct tone_options {
     double exposure;
@@ -50,6 +45,11 @@ struct tone_options {
 };
 #define EXPOSURE_HELP "8-bit pictures: brighter by so many stops, of a factor of two each"
 #define TONEMAP_HELP "8-bit pictures: none, or the curve of film: filmic"
+
+/* outputs_is_part: does the name end in .part? outputs_possible: can a file of this name be made? False with a
+ * message. */
+bool outputs_is_part(const char *name);
+bool outputs_possible(const char *name, struct error *err);
 
 /* outputs_open: begin to write pictures of these names, that names.h has found to be different files.
  *   tone  of the 8-bit pictures, or NULL: as they are; if it changes anything, one of the pictures must be such
@@ -66,8 +66,5 @@ bool outputs_write(struct outputs *o, int width, int height, const float *pixels
 
 /* outputs_abandon: remove what outputs_write has not written. */
 void outputs_abandon(struct outputs *o);
-
-/* outputs_possible: can a file of this name be made? False with a message. */
-bool outputs_possible(const char *name, struct error *err);
 
 #endif

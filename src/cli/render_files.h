@@ -1,7 +1,5 @@
 /* render_files.h: what asbdpt render writes beside its picture: first-hit pictures, lights, how it went.
- *
- * Tests: test/cli.sh, test/outputs.sh.
- */
+ * Tests: test/cli.sh, test/outputs.sh. */
 #ifndef ASBDPT_RENDER_FILES_H
 #define ASBDPT_RENDER_FILES_H
 
@@ -10,23 +8,22 @@
 #include "cli/outputs.h"
 #include "render/aov.h"
 
-/* --- --aov: beside NAME.png lie NAME.albedo.pfm, NAME.normal.pfm, ..., or NAME.exr has them as layers, with the
- * channels albedo.R, .G, .B, normal.X, .Y, .Z, depth.Z and so on, as compositors name them (aov_files.c) ---- */
-
+/* --aov: beside NAME.png lie NAME.albedo.pfm, NAME.normal.pfm, ..., or NAME.exr has them as layers, with the channels
+ * albedo.R, .G, .B, normal.X, .Y, .Z, depth.Z and so on, as compositors name them. */
 struct aov_files {
     bool wanted[N_AOVS];
     bool layers;
     struct outputs out;     /* of each that is wanted, in this order; as layers: the .exr once more */
-    float *picture[N_AOVS]; /* owned, NULL before aov_make */
+    float *picture[N_AOVS]; /* owned, NULL before aov_write */
 };
 
 /* aov_read: names of aov_name with commas between them; NULL: none. False with a message. */
 bool aov_read(const char *list, struct aov_files *out, struct error *err);
 
-/* aov_open: begin to write them beside the first of the pictures; as layers: is one of these an .exr?
+/* aov_open: begin to write them beside the first of the pictures; as layers: is one of these an .exr? False with a
+ * message.
  *   all       the files of the command; in-out
- *   pictures  those of the command
- * Returns false with a message. */
+ *   pictures  those of the command */
 bool aov_open(struct aov_files *f, bool layers, struct names *all, const struct outputs *pictures, struct error *err);
 
 /* aov_write: make them when all pictures are written, which may be later overtaken by a signal, and write them.
@@ -37,16 +34,10 @@ bool aov_open(struct aov_files *f, bool layers, struct names *all, const struct 
 bool aov_write(struct aov_files *f, const struct scene *scene, const struct render_options *options,
                const struct film *film, bool seen, const float *pixels, bool quiet, struct error *err);
 
-/* --- --lights: a directory, or NULL: nothing is done (light_files.c) -------------------------------------- */
-
-/* lights_open: make the directory, and begin to write a picture of each group of lights (scene/light.h) of a film that
- * keeps them. False with a message.
- *   all  the files of the command; in-out
- *   out  the pictures of the command; in-out */
+/* lights_open: make the directory of --lights, NULL: nothing is done, and begin to write a picture of each group of
+ * lights (scene/light.h) of a film that keeps them. False with a message. */
 bool lights_open(const char *directory, const struct scene *scene, struct names *all, struct outputs *out,
                  struct error *err);
-
-/* --- --stats (stats_file.c) ------------------------------------------------------------------------------ */
 
 /* How long a render took, and how many samples per pixel in that time. */
 struct render_times {

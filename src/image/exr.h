@@ -4,9 +4,7 @@
  * tiles of it. In a block come row after row; in a row channel after channel, in the order of the header, all samples
  * of one before the next; every number is little-endian. Blocks are compressed one by one; where that saves nothing,
  * they are stored as they are. [OpenEXR]
- *
- * Tests: test_hdr.c (files of another program, round trips, damaged files, all 65536 halfs).
- */
+ * Tests: test_hdr.c (files of another program, round trips, damaged files, all 65536 halfs). */
 #ifndef ASBDPT_EXR_H
 #define ASBDPT_EXR_H
 

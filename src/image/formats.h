@@ -3,9 +3,7 @@
  * Readers take a file that is in memory. X_matches tells by the content whether it is one of theirs. X_read fills
  * *out, to be released with image_free; on failure it returns false with a message and *out holds nothing to be
  * released. Writers take linear RGB, top row first; errors stick to the stream.
- *
- * Tests: test_image.c, test_hdr.c (pictures of other programs, truncations, changed bytes, absurd sizes).
- */
+ * Tests: test_image.c, test_hdr.c (pictures of other programs, truncations, changed bytes, absurd sizes). */
 #ifndef ASBDPT_FORMATS_H
 #define ASBDPT_FORMATS_H
 

@@ -3,9 +3,7 @@
  * Formats are rows of one table in image.c: PFM, OpenEXR and Radiance (linear RGB), PPM, PNG and TGA (8-bit sRGB when
  * written; read as stored). Radiance and TGA are only read. The pixels in memory are picture.h's, the formats
  * formats.h's.
- *
- * Tests: test_image.c, test_hdr.c.
- */
+ * Tests: test_image.c, test_hdr.c. */
 #ifndef ASBDPT_IMAGE_H
 #define ASBDPT_IMAGE_H
 

@@ -1,8 +1,6 @@
 /* picture.h: pixels in memory, as the image formats fill and textures read them, and the transfer function of sRGB
  * between linear light and the numbers of 8-bit pictures.
- *
- * Tests: test_image.c.
- */
+ * Tests: test_image.c. */
 #ifndef ASBDPT_PICTURE_H
 #define ASBDPT_PICTURE_H
 

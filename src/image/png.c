@@ -31,8 +31,8 @@ static uint8_t paeth(int a, int b, int c)
     return (uint8_t)(pa <= pb && pa <= pc ? a : pb <= pc ? b : c);
 }
 
-/* What a filter predicts for byte i of a row from its neighbours, a pixel having `step` bytes, at least 1; bytes outside
- * the picture are 0. */
+/* What a filter predicts for byte i of a row from its neighbours; bytes outside the picture are 0.
+ *   step  bytes of a pixel, at least 1 */
 static inline uint8_t predict(enum row_filter f, const uint8_t *row, const uint8_t *above, size_t i, size_t step)
 {
     int left = i < step ? 0 : row[i - step], above_left = i < step ? 0 : above[i - step];

@@ -1,7 +1,5 @@
 /* tone.h: what is done to linear light before it becomes an 8-bit picture, on demand.
- *
- * Tests: test_hdr.c.
- */
+ * Tests: test_hdr.c. */
 #ifndef ASBDPT_TONE_H
 #define ASBDPT_TONE_H
 

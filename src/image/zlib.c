@@ -2,8 +2,7 @@
  *
  * A stream is a row of blocks: stored bytes, or symbols in Huffman codes that are either fixed or stated at the
  * block's head. A symbol is a byte to append, or a length, which with the distance after it says what to repeat of
- * the output so far. Codes are read most significant bit first, everything else least significant bit first.
- */
+ * the output so far. Codes are read most significant bit first, everything else least significant bit first. */
 #include "image/zlib.h"
 
 #include <assert.h>

@@ -1,6 +1,5 @@
 /* zlib.h: packs and unpacks zlib data [RFC 1950] [RFC 1951], and the checksums inside a PNG file.
- * Tests: test_zlib.c (published check values, streams of another program, round trips, damaged streams).
- */
+ * Tests: test_zlib.c (published check values, streams of another program, round trips, damaged streams). */
 #ifndef ASBDPT_ZLIB_H
 #define ASBDPT_ZLIB_H
 
@@ -14,9 +13,8 @@
  * takes 1 + 1 bits. */
 enum { INFLATE_MAX_RATIO = 1032 };
 
-/* inflate_zlib: unpack a zlib stream [n], to whose end bytes may be added, to out [out_size]. False with a message on
- * malformed or truncated data, on a wrong checksum, and when the data unpack to another length than out_size; out may be
- * partly filled then. */
+/* inflate_zlib: unpack a zlib stream [n], behind whose end there may be more, to out [out_size]. False with a message,
+ * and `out` partly filled, on malformed or truncated data, a wrong checksum, and another length than out_size. */
 bool inflate_zlib(const uint8_t *in, size_t n, uint8_t *out, size_t out_size, struct error *err);
 
 /* deflate_zlib: a zlib stream [size] that unpacks to the n bytes at `in`, n below 2^32 - 1; to be given to free(). The

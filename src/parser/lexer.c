@@ -43,8 +43,7 @@ static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c 
 /* Characters that may follow a number or a word. */
 static bool is_separator(char c)
 {
-    return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\0' || c == '[' || c == ']' || c == '"' ||
-           c == '#';
+    return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\0' || c == '[' || c == ']' || c == '"' || c == '#';
 }
 
 /* Powers of ten that a double holds exactly. */

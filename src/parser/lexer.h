@@ -3,9 +3,7 @@
  * Blanks and comments (from # to the end of the line) separate tokens; brackets and quotes may touch their
  * neighbours. Speed matters here: a large scene is millions of numbers. They are read by an exact short path and
  * by strtod where that does not apply.
- *
- * Tests: test_parser.c.
- */
+ * Tests: test_parser.c. */
 #ifndef ASBDPT_LEXER_H
 #define ASBDPT_LEXER_H
 

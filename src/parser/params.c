@@ -111,8 +111,7 @@ int params_int(struct params *p, const char *name, int fallback, int low, int hi
         source_warn(p->messages, item->position, "\"%s\" is %.12g, which counts as %.12g", name, number, whole);
     if (whole >= low && whole <= high)
         return (int)whole;
-    params_fail(p, item->position, "\"%s\" is %.12g; it must be a whole number from %d to %d", name, number, low,
-                high);
+    params_fail(p, item->position, "\"%s\" is %.12g; it must be a whole number from %d to %d", name, number, low, high);
     return fallback;
 }
 

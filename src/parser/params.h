@@ -4,9 +4,7 @@
  * reads like its documentation. Nothing is passed over in silence: where pbrt-v3 goes on with the default (a type that
  * does not fit, too few values) there is a warning. What cannot be meant (a number out of range, a file that is not
  * there) is an error: the first is reported and noted in `failed`, and later questions are answered with defaults.
- *
- * Tests: test_parser.c.
- */
+ * Tests: test_parser.c. */
 #ifndef ASBDPT_PARAMS_H
 #define ASBDPT_PARAMS_H
 
@@ -95,7 +93,7 @@ rgb params_rgb(struct params *p, const char *name, rgb fallback); /* rgb, xyz, b
 /* params_numbers: n numbers into out; false if there are not as many. */
 bool params_numbers(struct params *p, const char *name, double *out, int n);
 
-/* params_list: numbers of a parameter of one of the types in the mask (1u << PARAM_FLOAT | ...), in groups of `group`. */
+/* params_list: numbers of a parameter of one of the types in the mask (1u << PARAM_FLOAT | ...), in groups. */
 struct field_list params_list(struct params *p, const char *name, unsigned types, int group);
 
 /* params_text: the one value of a parameter of type PARAM_STRING or PARAM_TEXTURE, or NULL; *at is where it is

@@ -3,8 +3,7 @@
  *
  * A directive finds its parameter list in p->params, type included, and returns false where it gives up, with an error
  * or, where pbrt-v3 goes on, a warning in p->messages. What has failed is still there under its name, as something
- * plain, so that one error does not bring others. Private to this room.
- */
+ * plain, so that one error does not bring others. Private to this room. */
 #ifndef ASBDPT_PARSE_H
 #define ASBDPT_PARSE_H
 

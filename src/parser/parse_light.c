@@ -67,8 +67,7 @@ static void spot_light(struct parser *p, void *object)
 static void distant_light(struct parser *p, void *object)
 {
     struct light_item *item = object;
-    item->frame.direction =
-        direction(&p->params, transform_vector(&item->frame.to_world, sub(item->from, item->to)));
+    item->frame.direction = direction(&p->params, transform_vector(&item->frame.to_world, sub(item->from, item->to)));
 }
 
 /* The picture of a light, if it names one. */
@@ -127,29 +126,23 @@ static int group(struct parser *p)
 /* "group" and "visible" are no parameters of pbrt-v3; its "samples" say how often it samples a light per hit. */
 #define AT(member) offsetof(struct light_item, member)
 static const struct field POINT_LIGHT[] = {
-    {.name = "I"}, {.name = "scale"}, {.name = "group"},
-    {"from", .kind = FIELD_POINT, .place = AT(from)},
+    {.name = "I"}, {.name = "scale"}, {.name = "group"}, {"from", .kind = FIELD_POINT, .place = AT(from)},
     {.name = NULL}};
 static const struct field SPOT_LIGHT[] = {
     {.name = "I"}, {.name = "scale"}, {.name = "group"},
     {"coneangle", FIELD_NUMBER, AT(cone), 30, NUMBER_MIN, .high = 180},
     {"conedeltaangle", FIELD_NUMBER, AT(edge), 5, 0, .high = NUMBER_MAX},
     {"from", .kind = FIELD_POINT, .place = AT(from)},
-    {"to", FIELD_POINT, AT(to), .fallback = FIELD_KEPT},
-    {.name = NULL}};
+    {"to", FIELD_POINT, AT(to), .fallback = FIELD_KEPT}, {.name = NULL}};
 static const struct field DISTANT_LIGHT[] = {
-    {.name = "L"}, {.name = "scale"}, {.name = "group"},
-    {"from", .kind = FIELD_POINT, .place = AT(from)},
-    {"to", FIELD_POINT, AT(to), .fallback = FIELD_KEPT},
-    {.name = NULL}};
+    {.name = "L"}, {.name = "scale"}, {.name = "group"}, {"from", .kind = FIELD_POINT, .place = AT(from)},
+    {"to", FIELD_POINT, AT(to), .fallback = FIELD_KEPT}, {.name = NULL}};
 static const struct field INFINITE_LIGHT[] = {
     {.name = "L"}, {.name = "scale"}, {.name = "group"}, {.name = "mapname"}, {.name = "visible"},
-    {"samples", .kind = FIELD_IGNORED}, {"nsamples", .kind = FIELD_IGNORED},
-    {.name = NULL}};
+    {"samples", .kind = FIELD_IGNORED}, {"nsamples", .kind = FIELD_IGNORED}, {.name = NULL}};
 static const struct field SLIDE[] = {
     {"fov", FIELD_NUMBER, AT(fov), 45, NUMBER_MIN, .high = 179.999}, /* of a projection alone */
-    {.name = "I"}, {.name = "scale"}, {.name = "group"}, {.name = "mapname"},
-    {.name = NULL}};
+    {.name = "I"}, {.name = "scale"}, {.name = "group"}, {.name = "mapname"}, {.name = NULL}};
 
 static const struct object_type LIGHTS[] = {
     {"point", POINT_LIGHT, LIGHT_POINT, point_light},
@@ -158,8 +151,7 @@ static const struct object_type LIGHTS[] = {
     {"infinite", INFINITE_LIGHT, LIGHT_INFINITE, infinite_light},
     {"exinfinite", INFINITE_LIGHT, LIGHT_INFINITE, infinite_light},
     {"goniometric", SLIDE + 1, LIGHT_GONIOMETRIC, slide_light},
-    {"projection", SLIDE, LIGHT_PROJECTION, slide_light},
-    {.name = NULL}};
+    {"projection", SLIDE, LIGHT_PROJECTION, slide_light}, {.name = NULL}};
 
 static bool light(struct parser *p)
 {
@@ -200,8 +192,7 @@ static void emitter(struct parser *p, void *object)
 static const struct field AREA_LIGHT[] = {
     {"twosided", .kind = FIELD_SWITCH, .place = offsetof(struct area_light, two_sided)},
     {.name = "L"}, {.name = "scale"}, {.name = "visible"}, {.name = "group"},
-    {"samples", .kind = FIELD_IGNORED}, {"nsamples", .kind = FIELD_IGNORED},
-    {.name = NULL}};
+    {"samples", .kind = FIELD_IGNORED}, {"nsamples", .kind = FIELD_IGNORED}, {.name = NULL}};
 
 static const struct object_type AREA_LIGHTS[] = {
     {"diffuse", AREA_LIGHT, LIGHT_AREA, emitter}, {"area", AREA_LIGHT, LIGHT_AREA, emitter}, {.name = NULL}};
@@ -209,5 +200,4 @@ static const struct object_type AREA_LIGHTS[] = {
 static bool area_light(struct parser *p) { return parse_object(p, &p->state.area); }
 
 const struct directive LIGHT_DIRECTIVES[] = {{"AreaLightSource", IN_WORLD, area_light, AREA_LIGHTS},
-                                             {"LightSource", IN_WORLD, light, LIGHTS},
-                                             {.name = NULL}};
+                                             {"LightSource", IN_WORLD, light, LIGHTS}, {.name = NULL}};

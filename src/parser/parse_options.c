@@ -39,20 +39,17 @@ static const struct field PERSPECTIVE[] = {
     {"lensradius", FIELD_NUMBER, AT(lens_radius), 0, 0, .high = NUMBER_MAX},
     {"focaldistance", FIELD_NUMBER, AT(focal_distance), 1e6, NUMBER_MIN, .high = NUMBER_MAX},
     {.name = "screenwindow"},
-    {"shutteropen", .kind = FIELD_IGNORED}, {"shutterclose", .kind = FIELD_IGNORED},
-    {.name = NULL}};
+    {"shutteropen", .kind = FIELD_IGNORED}, {"shutterclose", .kind = FIELD_IGNORED}, {.name = NULL}};
 static const struct field ENVIRONMENT[] = {
     {"frameaspectratio", .kind = FIELD_IGNORED}, {"lensradius", .kind = FIELD_IGNORED},
     {"focaldistance", .kind = FIELD_IGNORED}, {"screenwindow", .kind = FIELD_IGNORED},
-    {"shutteropen", .kind = FIELD_IGNORED}, {"shutterclose", .kind = FIELD_IGNORED},
-    {.name = NULL}};
+    {"shutteropen", .kind = FIELD_IGNORED}, {"shutterclose", .kind = FIELD_IGNORED}, {.name = NULL}};
 #undef AT
 
 static const struct object_type CAMERA_TYPES[] = {
     {"perspective", PERSPECTIVE, CAMERA_PERSPECTIVE, framing},
     {"orthographic", PERSPECTIVE + 2, CAMERA_ORTHOGRAPHIC, framing}, /* all but the two of the angle */
-    {"environment", ENVIRONMENT, CAMERA_ENVIRONMENT, framing},
-    {.name = NULL}};
+    {"environment", ENVIRONMENT, CAMERA_ENVIRONMENT, framing}, {.name = NULL}};
 
 static bool camera(struct parser *p)
 {
@@ -106,21 +103,14 @@ static const struct object_type FILM_TYPES[] = {{"image", IMAGE_FILM, 0, image_f
 
 /* Within these limits the table of a profile (filter.c) is fine enough for it, and its integral is far from 0. */
 #define OF(member) offsetof(struct filter, member)
-static const struct field BOX[] = {{"xwidth", FIELD_NUMBER, OF(radius[0]), FIELD_KEPT, 1e-3, .high = 64},
-                                   {"ywidth", FIELD_NUMBER, OF(radius[1]), FIELD_KEPT, 1e-3, .high = 64},
-                                   {.name = NULL}};
-static const struct field GAUSSIAN[] = {{"xwidth", FIELD_NUMBER, OF(radius[0]), FIELD_KEPT, 1e-3, .high = 64},
-                                        {"ywidth", FIELD_NUMBER, OF(radius[1]), FIELD_KEPT, 1e-3, .high = 64},
-                                        {"alpha", FIELD_NUMBER, OF(alpha), FIELD_KEPT, 1e-6, .high = 1e3},
+#define WIDTHS {"xwidth", FIELD_NUMBER, OF(radius[0]), FIELD_KEPT, 1e-3, .high = 64}, \
+    {"ywidth", FIELD_NUMBER, OF(radius[1]), FIELD_KEPT, 1e-3, .high = 64}
+static const struct field BOX[] = {WIDTHS, {.name = NULL}};
+static const struct field GAUSSIAN[] = {WIDTHS, {"alpha", FIELD_NUMBER, OF(alpha), FIELD_KEPT, 1e-6, .high = 1e3},
                                         {.name = NULL}};
-static const struct field MITCHELL[] = {{"xwidth", FIELD_NUMBER, OF(radius[0]), FIELD_KEPT, 1e-3, .high = 64},
-                                        {"ywidth", FIELD_NUMBER, OF(radius[1]), FIELD_KEPT, 1e-3, .high = 64},
-                                        {"B", FIELD_NUMBER, OF(B), FIELD_KEPT, -100, .high = 100},
-                                        {"C", FIELD_NUMBER, OF(C), FIELD_KEPT, -100, .high = 100},
-                                        {.name = NULL}};
-static const struct field SINC[] = {{"xwidth", FIELD_NUMBER, OF(radius[0]), FIELD_KEPT, 1e-3, .high = 64},
-                                    {"ywidth", FIELD_NUMBER, OF(radius[1]), FIELD_KEPT, 1e-3, .high = 64},
-                                    {"tau", FIELD_NUMBER, OF(tau), FIELD_KEPT, 0.1, .high = 1e6},
+static const struct field MITCHELL[] = {WIDTHS, {"B", FIELD_NUMBER, OF(B), FIELD_KEPT, -100, .high = 100},
+                                        {"C", FIELD_NUMBER, OF(C), FIELD_KEPT, -100, .high = 100}, {.name = NULL}};
+static const struct field SINC[] = {WIDTHS, {"tau", FIELD_NUMBER, OF(tau), FIELD_KEPT, 0.1, .high = 1e6},
                                     {.name = NULL}};
 
 static const struct object_type FILTER_TYPES[] = {
@@ -128,8 +118,7 @@ static const struct object_type FILTER_TYPES[] = {
     {"triangle", BOX, FILTER_TRIANGLE, NULL},
     {"gaussian", GAUSSIAN, FILTER_GAUSSIAN, NULL},
     {"mitchell", MITCHELL, FILTER_MITCHELL, NULL},
-    {"sinc", SINC, FILTER_SINC, NULL},
-    {.name = NULL}};
+    {"sinc", SINC, FILTER_SINC, NULL}, {.name = NULL}};
 
 static bool filter(struct parser *p)
 {
@@ -156,8 +145,7 @@ static const struct object_type SAMPLER_TYPES[] = {
     {"stratified", STRATIFIED, 0, stratified},
     {"02sequence", SEQUENCE, 0, NULL},
     {"lowdiscrepancy", SEQUENCE, 0, NULL},
-    {"maxmindist", SEQUENCE, 0, NULL},
-    {.name = NULL}};
+    {"maxmindist", SEQUENCE, 0, NULL}, {.name = NULL}};
 
 /* Film and sampler are fields of the scene itself. */
 static bool of_scene(struct parser *p) { return parse_object(p, p->scene); }
@@ -190,5 +178,4 @@ const struct directive OPTION_DIRECTIVES[] = {{"Camera", BEFORE_WORLD, camera, C
                                               {"PixelFilter", BEFORE_WORLD, filter, FILTER_TYPES},
                                               {"Sampler", BEFORE_WORLD, of_scene, SAMPLER_TYPES},
                                               {"Accelerator", BEFORE_WORLD, parse_typed, NULL},
-                                              {"Integrator", BEFORE_WORLD, integrator, NULL},
-                                              {.name = NULL}};
+                                              {"Integrator", BEFORE_WORLD, integrator, NULL}, {.name = NULL}};

@@ -83,27 +83,20 @@ static void hyperboloid(struct parser *p, void *object)
 }
 
 #define AT(member) offsetof(struct shape_item, quadric.member)
-static const struct field SPHERE[] = {
-    {"radius", FIELD_NUMBER, AT(radius), 1, NUMBER_MIN, .high = NUMBER_MAX},
-    {"phimax", FIELD_NUMBER, AT(phi_max), 360, NUMBER_MIN, .high = NUMBER_MAX}, /* degrees */
-    {.name = "zmin"}, {.name = "zmax"},
-    {.name = NULL}};
+#define RADIUS {"radius", FIELD_NUMBER, AT(radius), 1, NUMBER_MIN, .high = NUMBER_MAX}
+#define PHI_MAX {"phimax", FIELD_NUMBER, AT(phi_max), 360, NUMBER_MIN, .high = NUMBER_MAX} /* degrees */
+static const struct field SPHERE[] = {RADIUS, PHI_MAX, {.name = "zmin"}, {.name = "zmax"}, {.name = NULL}};
 static const struct field DISK[] = {
-    {"radius", FIELD_NUMBER, AT(radius), 1, NUMBER_MIN, .high = NUMBER_MAX},
-    {"phimax", FIELD_NUMBER, AT(phi_max), 360, NUMBER_MIN, .high = NUMBER_MAX}, /* degrees */
+    RADIUS, PHI_MAX,
     {"innerradius", FIELD_NUMBER, AT(inner_radius), 0, 0, .high = NUMBER_MAX},
-    {"height", .kind = FIELD_NUMBER, .place = AT(zmin)},
-    {.name = NULL}};
+    {"height", .kind = FIELD_NUMBER, .place = AT(zmin)}, {.name = NULL}};
 static const struct field CONE[] = {
-    {"radius", FIELD_NUMBER, AT(radius), 1, NUMBER_MIN, .high = NUMBER_MAX},
-    {"phimax", FIELD_NUMBER, AT(phi_max), 360, NUMBER_MIN, .high = NUMBER_MAX}, /* degrees */
-    {"height", FIELD_NUMBER, AT(zmax), 1, NUMBER_MIN, .high = NUMBER_MAX},
-    {.name = NULL}};
+    RADIUS, PHI_MAX,
+    {"height", FIELD_NUMBER, AT(zmax), 1, NUMBER_MIN, .high = NUMBER_MAX}, {.name = NULL}};
 static const struct field HYPERBOLOID[] = {
     {"p1", .kind = FIELD_POINT, .place = AT(p1)},
     {"p2", FIELD_POINT, AT(p2), .fallback = 1},
-    {"phimax", FIELD_NUMBER, AT(phi_max), 360, NUMBER_MIN, .high = NUMBER_MAX}, /* degrees */
-    {.name = NULL}};
+    PHI_MAX, {.name = NULL}};
 
 static const struct object_type QUADRICS[] = {
     {"sphere", SPHERE, QUADRIC_SPHERE, sphere},
@@ -339,5 +332,4 @@ static bool object_instance(struct parser *p)
 const struct directive SHAPE_DIRECTIVES[] = {{"Shape", IN_WORLD, shape, NULL},
                                              {"ObjectInstance", IN_WORLD, object_instance, NULL},
                                              {"ObjectBegin", IN_WORLD, object_begin, NULL},
-                                             {"ObjectEnd", IN_WORLD, object_end, NULL},
-                                             {.name = NULL}};
+                                             {"ObjectEnd", IN_WORLD, object_end, NULL}, {.name = NULL}};

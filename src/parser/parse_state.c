@@ -238,5 +238,4 @@ const struct directive STATE_DIRECTIVES[] = {
     {"CoordSysTransform", ANYWHERE, coord_sys_transform, NULL},
     {"ActiveTransform", ANYWHERE, active_transform, NULL},
     {"TransformTimes", BEFORE_WORLD, transform_times, NULL},
-    {"ReverseOrientation", IN_WORLD, reverse_orientation, NULL},
-    {.name = NULL}};
+    {"ReverseOrientation", IN_WORLD, reverse_orientation, NULL}, {.name = NULL}};

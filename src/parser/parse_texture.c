@@ -78,63 +78,49 @@ static void imagemap(struct parser *p, void *object)
     free(path);
 }
 
+#define MAPPING {.name = "mapping"}, {.name = "uscale"}, {.name = "vscale"}, {.name = "udelta"}, {.name = "vdelta"}, \
+    {.name = "v1"}, {.name = "v2"}
 #define AT(member) offsetof(struct texture, member)
 static const struct field CONSTANT[] = {{"value", FIELD_VALUE, AT(constant), .fallback = 1}, {.name = NULL}};
 static const struct field SCALE[] = {
     {"tex1", FIELD_OPERAND, AT(tex1), .fallback = 1},
-    {"tex2", FIELD_OPERAND, AT(tex2), .fallback = 1},
-    {.name = NULL}};
+    {"tex2", FIELD_OPERAND, AT(tex2), .fallback = 1}, {.name = NULL}};
 static const struct field MIX[] = {
     {"tex1", FIELD_OPERAND, AT(tex1), .fallback = 0},
     {"tex2", FIELD_OPERAND, AT(tex2), .fallback = 1},
-    {"amount", FIELD_FLOAT_TEXTURE, AT(amount), .fallback = 0.5},
-    {.name = NULL}};
+    {"amount", FIELD_FLOAT_TEXTURE, AT(amount), .fallback = 0.5}, {.name = NULL}};
 static const struct field CHECKERBOARD[] = {
     {"tex1", FIELD_OPERAND, AT(tex1), .fallback = 1},
     {"tex2", FIELD_OPERAND, AT(tex2), .fallback = 0},
-    {.name = "dimension"}, {.name = "mapping"}, {.name = "uscale"}, {.name = "vscale"}, {.name = "udelta"},
-    {.name = "vdelta"}, {.name = "v1"}, {.name = "v2"},
+    {.name = "dimension"}, MAPPING,
     {"aamode", .kind = FIELD_IGNORED}, /* pixel samples do the filtering */
     {.name = NULL}};
 static const struct field IMAGEMAP[] = {
-    {.name = "mapping"}, {.name = "uscale"}, {.name = "vscale"}, {.name = "udelta"}, {.name = "vdelta"},
-    {.name = "v1"}, {.name = "v2"},
-    {"scale", FIELD_NUMBER, AT(scale), .fallback = 1},
-    {.name = "wrap"},
+    MAPPING,
+    {"scale", FIELD_NUMBER, AT(scale), .fallback = 1}, {.name = "wrap"}, {.name = "filename"}, {.name = "gamma"},
     {"trilinear", .kind = FIELD_IGNORED}, /* choices of pbrt's texture filter; here pixel samples filter */
-    {"maxanisotropy", .kind = FIELD_IGNORED},
-    {.name = "filename"}, {.name = "gamma"},
-    {.name = NULL}};
+    {"maxanisotropy", .kind = FIELD_IGNORED}, {.name = NULL}};
 static const struct field BILERP[] = {
-    {.name = "mapping"}, {.name = "uscale"}, {.name = "vscale"}, {.name = "udelta"}, {.name = "vdelta"},
-    {.name = "v1"}, {.name = "v2"},
+    MAPPING,
     {"v00", FIELD_VALUE, AT(v00), .fallback = 0},
     {"v01", FIELD_VALUE, AT(v01), .fallback = 1},
     {"v10", FIELD_VALUE, AT(v10), .fallback = 0},
-    {"v11", FIELD_VALUE, AT(v11), .fallback = 1},
-    {.name = NULL}};
-static const struct field UV[] = {
-    {.name = "mapping"}, {.name = "uscale"}, {.name = "vscale"}, {.name = "udelta"}, {.name = "vdelta"},
-    {.name = "v1"}, {.name = "v2"},
-    {.name = NULL}};
+    {"v11", FIELD_VALUE, AT(v11), .fallback = 1}, {.name = NULL}};
+static const struct field UV[] = {MAPPING, {.name = NULL}};
 /* pbrt-v3 paints the dots with "outside" and what is around them with "inside". */
 static const struct field DOTS[] = {
-    {.name = "mapping"}, {.name = "uscale"}, {.name = "vscale"}, {.name = "udelta"}, {.name = "vdelta"},
-    {.name = "v1"}, {.name = "v2"},
+    MAPPING,
     {"inside", FIELD_OPERAND, AT(tex2), .fallback = 1},
-    {"outside", FIELD_OPERAND, AT(tex1), .fallback = 0},
-    {.name = NULL}};
+    {"outside", FIELD_OPERAND, AT(tex1), .fallback = 0}, {.name = NULL}};
 static const struct field OCTAVES[] = {
     {"octaves", FIELD_INTEGER, AT(octaves), 8, 0, .high = NOISE_MAX_OCTAVES},
-    {"roughness", FIELD_NUMBER, AT(omega), .fallback = 0.5},
-    {.name = NULL}};
+    {"roughness", FIELD_NUMBER, AT(omega), .fallback = 0.5}, {.name = NULL}};
 static const struct field WINDY[] = {{.name = NULL}};
 static const struct field MARBLE[] = {
     {"octaves", FIELD_INTEGER, AT(octaves), 8, 0, .high = NOISE_MAX_OCTAVES},
     {"roughness", FIELD_NUMBER, AT(omega), .fallback = 0.5},
     {"scale", FIELD_NUMBER, AT(scale), .fallback = 1},
-    {"variation", FIELD_NUMBER, AT(variation), .fallback = 0.2},
-    {.name = NULL}};
+    {"variation", FIELD_NUMBER, AT(variation), .fallback = 0.2}, {.name = NULL}};
 
 const struct object_type TEXTURE_TYPES[] = {
     {"constant", CONSTANT, TEXTURE_CONSTANT, NULL},
@@ -148,8 +134,7 @@ const struct object_type TEXTURE_TYPES[] = {
     {"fbm", OCTAVES, TEXTURE_FBM, noise_texture},
     {"wrinkled", OCTAVES, TEXTURE_WRINKLED, noise_texture},
     {"windy", WINDY, TEXTURE_WINDY, noise_texture},
-    {"marble", MARBLE, TEXTURE_MARBLE, noise_texture},
-    {.name = NULL}};
+    {"marble", MARBLE, TEXTURE_MARBLE, noise_texture}, {.name = NULL}};
 
 /* The texture of params.type, or -1. */
 static int make(struct parser *p)

@@ -1,6 +1,5 @@
 /* parser.c: files and directives. A directive is a row of a table with a function; those that change the graphics
- * state are in parse_state.c, what the others make is made in parse_*.c. See parser.h, and parse.h for the state.
- */
+ * state are in parse_state.c, what the others make is made in parse_*.c. See parser.h, and parse.h for the state. */
 #include "parser/parser.h"
 
 #include <stdlib.h>
@@ -64,8 +63,7 @@ static const struct directive FILE_DIRECTIVES[] = {{"Include", ANYWHERE, include
                                                    {"MediumInterface", ANYWHERE, medium_interface, NULL},
                                                    {"MakeNamedMedium", ANYWHERE, parse_typed, NULL},
                                                    {"WorldBegin", BEFORE_WORLD, world_begin, NULL},
-                                                   {"WorldEnd", IN_WORLD, world_end, NULL},
-                                                   {.name = NULL}};
+                                                   {"WorldEnd", IN_WORLD, world_end, NULL}, {.name = NULL}};
 
 /* All directives, the commonest first. */
 static const struct directive *const TABLES[] = {SHAPE_DIRECTIVES,   MATERIAL_DIRECTIVES, STATE_DIRECTIVES,

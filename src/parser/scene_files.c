@@ -50,8 +50,7 @@ static bool count(struct scene_files *f, uint64_t content, uint64_t size, uint64
         symbols_add(&f->known, name, 0);
     *(known ? &f->again : &f->first) += known ? taken : size;
     f->full |= f->again > MAX_READ_AGAIN && f->again / READ_AGAIN_PER_BYTE > f->first;
-    return !f->full ||
-           error_set(err, "with this file, more than %d MB have been read again; use ObjectInstance",
+    return !f->full || error_set(err, "with this file, more than %d MB have been read again; use ObjectInstance",
                      MAX_READ_AGAIN >> 20);
 }
 

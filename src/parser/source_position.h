@@ -2,9 +2,7 @@
  *
  * Every token knows its position, so every message can say FILE:LINE:COL, show the line and put a caret under the
  * column. It points into the text of the file, which is there while the file is read.
- *
- * Tests: test_parser.c.
- */
+ * Tests: test_parser.c. */
 #ifndef ASBDPT_SOURCE_POSITION_H
 #define ASBDPT_SOURCE_POSITION_H
 

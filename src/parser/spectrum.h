@@ -3,9 +3,7 @@
  * The renderer works in RGB; spectra of a scene file are reduced to it once, as pbrt-v3 does when it is built for
  * RGB: integrate against the CIE 1931 matching functions, then the matrix of sRGB's primaries. The matching
  * functions are sums of a few Gaussians with unequal flanks [Wyman 2013], within about 1 % of the tables.
- *
- * Tests: test_parser.c.
- */
+ * Tests: test_parser.c. */
 #ifndef ASBDPT_SPECTRUM_H
 #define ASBDPT_SPECTRUM_H
 

@@ -4,9 +4,7 @@
  * AttributeEnd forgets the textures and materials named since its AttributeBegin: what was added after a mark can be
  * forgotten again. A later name hides an earlier equal one. Hash chains are kept newest first, so that forgetting is
  * popping.
- *
- * Tests: test_parser.c.
- */
+ * Tests: test_parser.c. */
 #ifndef ASBDPT_SYMBOLS_H
 #define ASBDPT_SYMBOLS_H
 
