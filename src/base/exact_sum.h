@@ -26,14 +26,10 @@ struct exact_sum {
     int top;                     /* 0 .. EXACT_PLACES - 1 */
 };
 
-/* exact_add: one term more. */
+/* exact_add: one term more. exact_join: all terms of another sum more; false, and the sum stays as it was, if a digit
+ * would go beyond 2^62. exact_value: the sum, rounded. */
 void exact_add(struct exact_sum *sum, double term);
-
-/* exact_join: all terms of another sum more. Returns false, and leaves the sum as it was, if a digit would go
- * beyond 2^62. */
 bool exact_join(struct exact_sum *sum, const struct exact_sum *other);
-
-/* exact_value: the sum, rounded. */
 double exact_value(const struct exact_sum *sum);
 
 #endif

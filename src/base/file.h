@@ -22,22 +22,19 @@
  * says why, 0 for a file that is too long. */
 bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err);
 
-/* file_exists: is there anything of this name? */
+/* file_exists: is there anything of this name? file_has_extension: does a path end in this extension (lower case, with
+ * its dot), in whatever case? */
 bool file_exists(const char *path);
-
-/* file_beside: where a file is that another one names: a relative name starts in the directory of `path`; never "-",
- * which only whoever runs the program may mean. To be given to free(). */
-char *file_beside(const char *path, const char *name);
-
-/* file_follow: where a path leads if symbolic links are followed, whether or not there is a file; to be given to
- * free(). Links to devices and pipes stay: those of /dev/fd name nothing. NULL, and errno, if links go in a circle. */
-char *file_follow(const char *path);
-
-/* file_has_extension: does a path end in this extension (lower case, with its dot), in whatever case? */
 bool file_has_extension(const char *path, const char *extension);
 
-/* file_meant: the name of the file that is there if the extension is added to one that is not, to be given to free();
- * else NULL. */
+/* Names, to be given to free().
+ * file_beside: where a file is that another one names: a relative name starts in the directory of `path`; never "-",
+ * which only whoever runs the program may mean.
+ * file_follow: where a path leads if symbolic links are followed, whether or not there is a file. Links to devices and
+ * pipes stay: those of /dev/fd name nothing. NULL, and errno, if links go in a circle.
+ * file_meant: of the file that is there if the extension is added to one that is not; else NULL. */
+char *file_beside(const char *path, const char *name);
+char *file_follow(const char *path);
 char *file_meant(const char *path, const char *extension);
 
 /* A file being written. */
@@ -49,14 +46,12 @@ struct file_output {
 };
 
 /* file_create: begin to write `path`. Returns false with a message when that is impossible, for want of a directory or
- * of rights; *out is then empty. After success exactly one of file_commit and file_abandon must follow. */
+ * of rights; *out is then empty. After success exactly one of the others must follow.
+ * file_commit: flush, wait for the disk, check, close, rename. Returns false with a message, leaving no file behind,
+ * when any write since file_create has failed.
+ * file_abandon: close and remove what was written. */
 bool file_create(const char *path, struct file_output *out, struct error *err);
-
-/* file_commit: flush, wait for the disk, check, close, rename. Returns false with a message, leaving no file behind,
- * when any write since file_create has failed. */
 bool file_commit(struct file_output *out, struct error *err);
-
-/* file_abandon: close and remove what was written. */
 void file_abandon(struct file_output *out);
 
 #endif

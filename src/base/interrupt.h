@@ -14,10 +14,9 @@
  * (nohup) stay ignored; SIGXFSZ and SIGPIPE are too, so that the write that caused one fails and is reported. */
 void interrupt_init(void);
 
-/* interrupt_defer: from now on the first signal is only noted, and this said on stderr at once; borrowed for ever. */
+/* interrupt_defer: from now on the first signal is only noted, and this said on stderr at once; borrowed for ever.
+ * interrupt_caught: the signal noted, or 0. Thread-safe. */
 void interrupt_defer(const char *notice);
-
-/* interrupt_caught: the signal noted, or 0. Thread-safe. */
 int interrupt_caught(void);
 
 /* temporary_add: a file, which need not be there yet, to be removed if the program ends; `path` must stay valid until

@@ -24,15 +24,13 @@ struct json {
 
 struct json json_start(FILE *file);
 
-/* json_open: begin an object '{' or an array '['.
- *   name  within an object, else NULL
- * json_close ends the innermost one; the last ends the line. */
+/* json_open: begin an object '{' or an array '['; `name` is NULL but within an object. json_close ends the innermost
+ * one; the last ends the line. */
 void json_open(struct json *j, const char *name, char kind);
 void json_close(struct json *j);
 
-/* json_number: with 17 digits, so that it is read back as it was; null if it is not finite.
- * json_numbers: an array [n] of such numbers, on one line.
- * json_text: quoted; a byte that is no part of UTF-8 becomes U+FFFD. NULL becomes null. */
+/* json_number: with 17 digits, so that it is read back as it was; null if it is not finite. json_numbers: an array [n]
+ * of these on one line. json_text: quoted; a byte that is no part of UTF-8 becomes U+FFFD. NULL becomes null. */
 void json_number(struct json *j, const char *name, double value);
 void json_numbers(struct json *j, const char *name, const double *values, int n);
 void json_count(struct json *j, const char *name, uint64_t value); /* with all its digits */

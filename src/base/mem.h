@@ -8,28 +8,26 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* mem_alloc: room for `count` objects of `size` bytes, filled with zeros.
- * Returns a pointer to be given to free(); never NULL (a count of 0 gives a valid one-byte block).
- * Ends the program with a message when count * size overflows or memory is exhausted. */
+/* mem_alloc: room for `count` objects of `size` bytes, filled with zeros, to be given to free(). */
 void *mem_alloc(size_t count, size_t size);
 
 /* mem_grow: make sure a growing array can hold at least `need` objects; capacity doubles.
  *   array     the block so far (may be NULL), owned by the caller; invalid after the call
  *   capacity  in-out, objects the block can hold
- * Returns the (possibly moved) block. New objects are not cleared. Ends the program like mem_alloc. */
+ * Returns the (possibly moved) block. New objects are not cleared.
+ * mem_append: the same for one object more of n, for arrays that only ever grow by one: their room is kept nowhere, it
+ * is a power of two, doubled when n reaches it. */
 void *mem_grow(void *array, size_t *capacity, size_t need, size_t size);
+void *mem_append(void *array, size_t n, size_t size);
+
+/* mem_copy_text: a heap copy of a string, to be given to free(). */
+char *mem_copy_text(const char *text);
 
 /* Bytes in memory. */
 struct bytes {
     uint8_t *data; /* [n], owned */
     size_t n, capacity;
 };
-/* mem_append: make sure a growing array that holds n objects can hold one more. Its room is kept nowhere: it is a power
- * of two, doubled when n reaches it. For arrays that only ever grow by one; the rest is as mem_grow's. */
-void *mem_append(void *array, size_t n, size_t size);
-
-/* mem_copy_text: a heap copy of a string, to be given to free(). */
-char *mem_copy_text(const char *text);
 
 /* An arena hands out memory that is all given back at once. Blocks are kept after arena_reset, so a steady
  * state allocates nothing. One owner, one thread. */
@@ -39,16 +37,12 @@ struct arena {
     struct arena_block *current; /* block being filled, NULL before the first allocation */
 };
 
-/* arena_alloc: `size` bytes, aligned for any type, not cleared. Valid until arena_reset or arena_free. */
+/* arena_alloc: `size` bytes, aligned for any type, not cleared. Valid until arena_reset or arena_free. arena_text: a
+ * copy of a string. arena_reset: give everything back to the arena (keeps its blocks), arena_free: to the system; the
+ * arena is usable again. */
 void *arena_alloc(struct arena *a, size_t size);
-
-/* arena_text: a copy of a string. */
 char *arena_text(struct arena *a, const char *text);
-
-/* arena_reset: give everything back to the arena (keeps its blocks). */
 void arena_reset(struct arena *a);
-
-/* arena_free: give everything back to the system; the arena is empty and usable again. */
 void arena_free(struct arena *a);
 
 #endif

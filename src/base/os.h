@@ -35,14 +35,12 @@ void os_lock_wake_all(struct os_lock *lock); /* everybody who waits */
 double os_wall_seconds(void); /* a steady clock; only differences mean something */
 double os_cpu_seconds(void);  /* of all threads of this process; does not wrap. On WASI: wall time */
 double os_peak_memory(void);  /* bytes this process has held at most, 0 where that is not told */
+uint64_t os_unique(void);     /* what no other process, and no other moment of this one, is likely to have */
 
 /* os_limit_memory: from now on allocations fail once this process has as much as the machine, swap with it, so that a
  * scene that wants more ends with a message instead of bringing the machine down. A lower limit (ulimit -d) stays.
  * Where the system cannot do that, nothing happens. */
 void os_limit_memory(void);
-
-/* os_unique: a number that no other process, and no other moment of this one, is likely to have. */
-uint64_t os_unique(void);
 
 /* ---- signals ---- */
 
@@ -50,11 +48,9 @@ uint64_t os_unique(void);
  * ignore them; ignore those that a failed write causes, so that the write is reported. Without signals: nothing. */
 void os_catch_signals(void (*handler)(int number));
 const char *os_signal_name(int number); /* "SIGINT" and so on */
+bool os_signal_repeats(int number);     /* does it come again and again by itself? */
 
-/* os_signal_repeats: does it come again and again by itself? */
-bool os_signal_repeats(int number);
-
-/* os_remove_at_once, os_say_at_once: remove a file, write to standard error; a handler may do that. */
+/* What a handler may do: remove a file, write to standard error. */
 void os_remove_at_once(const char *path);
 void os_say_at_once(const char *text);
 
@@ -64,20 +60,14 @@ void os_say_at_once(const char *text);
  * that is opened would come to be it, and messages would go into a picture. A stream that fails takes its place. */
 void os_open_standard(void);
 
-/* os_terminal: is the stream one? */
-bool os_terminal(FILE *f);
-
-/* os_binary: have standard input or output carry bytes, not lines. */
-void os_binary(FILE *f);
+bool os_terminal(FILE *f); /* is it one? */
+void os_binary(FILE *f);   /* have standard input or output carry bytes, not lines */
 
 /* os_open_input: a file or a pipe for reading bytes. It does not wait for somebody to write to a pipe: where nobody
  * does, it is empty. Devices, which may never end, are refused with EPERM. NULL, and errno. */
 FILE *os_open_input(const char *path);
 
 enum os_kind { OS_NOTHING, OS_FILE, OS_DIRECTORY, OS_OTHER /* a device, a pipe */ };
-
-/* os_kind_of: what a path leads to, links followed; for OS_NOTHING errno says why. */
-enum os_kind os_kind_of(const char *path);
 
 /* What a file is, however it is called: two names with the same numbers are one file. */
 struct os_identity {
@@ -86,12 +76,10 @@ struct os_identity {
     uint64_t device, number; /* number 0: the system does not say */
 };
 
-/* os_identify: what a path leads to, links followed; os_identify_stream: an open file. */
+/* What a path leads to, links followed, or an open file. For OS_NOTHING of os_kind_of errno says why. */
+enum os_kind os_kind_of(const char *path);
 struct os_identity os_identify(const char *path);
 struct os_identity os_identify_stream(FILE *f);
-
-/* os_may_write: may this process write an existing file? errno says why not. */
-bool os_may_write(const char *path);
 
 /* os_read_link: where a symbolic link points, as it is written there; false if `path` is none. */
 bool os_read_link(const char *path, char *out, size_t size);
@@ -100,19 +88,14 @@ bool os_read_link(const char *path, char *out, size_t size);
  * `like` if that exists. NULL, and errno, where it does (EEXIST) or it cannot be. */
 FILE *os_create_new(const char *path, const char *like);
 
-/* os_store: have everything that was written to the file on the disk. False, and errno, if that fails. */
-bool os_store(FILE *f);
-
-/* os_rename: `from` takes the name `to`, at once, in place of a file that may have it. False, and errno. */
-bool os_rename(const char *from, const char *to);
-
-/* os_make_directory: false if there is none afterwards. Those above it must exist. */
+/* All false, and errno, if that fails. os_make_directory: is it there afterwards? Those above it must exist. */
+bool os_may_write(const char *path);                    /* an existing file */
+bool os_store(FILE *f);                                 /* have everything that was written on the disk */
+bool os_rename(const char *from, const char *to);       /* at once, in place of a file that may have the name `to` */
 bool os_make_directory(const char *path);
 
-/* os_separator: does this character separate directories? os_last_separator: the last one of a path, or NULL.
- * os_absolute: does a path start from no other directory? */
-bool os_separator(char c);
-const char *os_last_separator(const char *path);
-bool os_absolute(const char *path);
+bool os_separator(char c);                       /* of directories */
+const char *os_last_separator(const char *path); /* or NULL */
+bool os_absolute(const char *path);              /* does it start from no other directory? */
 
 #endif

@@ -14,13 +14,10 @@ struct progress {
     double start, last; /* seconds of os_wall_seconds */
 };
 
-/* progress_start: show nothing yet; nothing at all if `quiet`. */
+/* progress_start: show nothing yet; nothing at all if `quiet`. progress_update: redraw, at most ten times a second;
+ * `done` in [0,1]. progress_end: remove the bar. */
 void progress_start(struct progress *p, bool quiet);
-
-/* progress_update: redraw, at most ten times a second; `done` in [0,1]. */
 void progress_update(struct progress *p, double done);
-
-/* progress_end: remove the bar. */
 void progress_end(struct progress *p);
 
 /* progress_duration: "12 s", "3 min 20 s", "2 h 05 min" or "3 days 4 h" into text [size]; seconds >= 0, others count

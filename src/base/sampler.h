@@ -67,10 +67,8 @@ struct sampler {
  * first coordinates, and with them whatever depends on no others.) */
 struct sampler sampler_start(uint64_t seed, enum rng_purpose purpose, uint64_t pixel, uint64_t iteration);
 
-/* sampler_pair: the next point u of the unit square [0,1)^2 for a decision. */
+/* The next point u of the unit square [0,1)^2, or number in [0,1), for a decision. */
 void sampler_pair(struct sampler *s, enum decision d, double u[2]);
-
-/* sampler_number: the next number in [0,1) for a decision. */
 double sampler_number(struct sampler *s, enum decision d);
 
 /* sampler_r2: point i >= 0 of the sequence R2, which fills the unit square [0,1)^2 evenly [Roberts 2018]. */

@@ -10,21 +10,15 @@ struct transform {
     double m[4][4], inv[4][4];
 };
 
-/* transform_identity: what leaves all as it is. */
 struct transform transform_identity(void);
 
 /* transform_from_matrix: from 16 numbers as a scene file lists them, column by column.
  * Returns false, leaving *out alone, when the matrix is singular or not finite. */
 bool transform_from_matrix(const double columns[16], struct transform *out);
 
-/* transform_translate: points move by delta. */
 struct transform transform_translate(vec3 delta);
-
-/* transform_scale: all three factors must be non-zero. */
-struct transform transform_scale(double x, double y, double z);
-
-/* transform_rotate: by `degrees` around the axis (need not be unit, must not be zero). */
-struct transform transform_rotate(double degrees, vec3 axis);
+struct transform transform_scale(double x, double y, double z);     /* none of them 0 */
+struct transform transform_rotate(double degrees, vec3 axis);       /* which need not be unit, but not zero */
 
 /* transform_look_at: world-to-camera as pbrt's LookAt. Returns false when up is parallel to the view. */
 bool transform_look_at(vec3 eye, vec3 look, vec3 up, struct transform *out);
@@ -33,28 +27,22 @@ bool transform_look_at(vec3 eye, vec3 look, vec3 up, struct transform *out);
 struct transform transform_compose(struct transform a, struct transform b);
 struct transform transform_inverse(struct transform t);
 
-/* transform_point: with the translation, and the division that projective matrices ask for. transform_vector: by the
- * upper left 3x3 part alone; not normalised. */
+/* A point: with the translation, and the division that projective matrices ask for. A vector: by the upper left 3x3
+ * part alone. A normal: by the inverse transpose. The last two are not normalised. _back: the same by the inverse. */
 vec3 transform_point(const struct transform *t, vec3 p);
 vec3 transform_vector(const struct transform *t, vec3 v);
-
-/* transform_point_back, transform_vector_back: the same by the inverse. */
+vec3 transform_normal(const struct transform *t, vec3 n);
 vec3 transform_point_back(const struct transform *t, vec3 p);
 vec3 transform_vector_back(const struct transform *t, vec3 v);
-
-/* transform_normal, transform_normal_back: by the inverse transpose, by the transpose; not normalised. */
-vec3 transform_normal(const struct transform *t, vec3 n);
 vec3 transform_normal_back(const struct transform *t, vec3 n);
 
-/* transform_determinant: of the upper left 3x3 part. */
+/* transform_determinant: of the upper left 3x3 part. transform_swaps_handedness: is it negative? */
 double transform_determinant(const struct transform *t);
+bool transform_swaps_handedness(const struct transform *t);
 
 /* transform_is_usable: are all numbers finite, those that directions meet at most NUMBER_MAX, and is `inv` the inverse
  * in fact and not only in name? Then a direction stays a direction, both ways. Where points come to lie, whoever
  * places them has to look at (is_place). */
 bool transform_is_usable(const struct transform *t);
-
-/* transform_swaps_handedness: true where that determinant is negative. */
-bool transform_swaps_handedness(const struct transform *t);
 
 #endif

@@ -64,10 +64,9 @@ typedef bool job_readers(const struct job_options *o, const struct scene *scene,
                          const struct method **m, struct error *err);
 int job_load_for(const struct job_options *o, job_readers *choose, struct scene *scene, const struct method **method);
 
-/* job_render: what a render is to be by these options, all its samples at once. */
+/* job_render: what a render is to be by these options, all its samples at once.
+ * job_spp: samples per pixel in force: option, 1 if quick, scene, else 16. */
 struct render_options job_render(const struct job_options *o, const struct scene *scene, const struct method *m);
-
-/* job_spp: samples per pixel in force: option, 1 if quick, scene, else 16. */
 long job_spp(const struct job_options *o, const struct scene *scene);
 
 /* integrator_unknown: the rest of a message about an integrator that does not exist: the nearest and all. */

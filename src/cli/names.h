@@ -15,14 +15,10 @@ struct names {
     int n;
 };
 
-/* names_add: one more.
- *   what  who gives the name, an option for example; borrowed for the call
- * Returns false with a message if another one of the table is the same file, and one of the two is written. Files that
- * are read and written in turn (FILE_KEPT) may be the same. */
+/* names_add: one more, given by `what`, an option for example. False with a message if another one of the table is the
+ * same file, and one of the two is written. Files that are read and written in turn (FILE_KEPT) may be the same.
+ * names_add_options: all that the rows of a table of options say are files, of a target after options_read. */
 bool names_add(struct names *all, enum option_file use, const char *what, const char *path, struct error *err);
-
-/* names_add_options: all that the rows of a table of options say are files.
- *   target  the subcommand's struct, after options_read */
 bool names_add_options(struct names *all, const struct option *table, void *target, struct error *err);
 void names_free(struct names *all);
 

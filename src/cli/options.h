@@ -71,14 +71,11 @@ const struct option *options_next(const struct option *option);
 bool options_read(const struct option *table, int argc, char **argv, void *target, struct error *err);
 void options_free(const struct option *table, void *target);
 
-/* options_texts: the texts that an option has in `target`, *n of them. */
+/* options_texts: the texts that an option has in `target`, *n of them. options_print: the help of every row. */
 const char *const *options_texts(const struct option *option, void *target, int *n);
-
-/* options_print: the help of every row. */
 void options_print(const struct option *table);
 
-/* print_wrapped: words in lines of at most 100 columns, all but the first moved in by `indent`.
- *   column  where the first line is */
+/* print_wrapped: words in lines of at most 100 columns; the first begins at `column`, the others at `indent`. */
 void print_wrapped(const char *text, int column, int indent);
 
 void texts_add(struct texts *texts, const char *text);
