@@ -16,9 +16,8 @@ static inline struct frame frame_from_normal(vec3 n)
     double sign = copysign(1.0, n.z);
     double a = -1 / (sign + n.z);
     double b = n.x * n.y * a;
-    struct frame f = {vec(1 + sign * n.x * n.x * a, sign * b, -sign * n.x),
-                      vec(b, sign + n.y * n.y * a, -n.y), n};
-    return f;
+    return (struct frame){vec(1 + sign * n.x * n.x * a, sign * b, -sign * n.x),
+                          vec(b, sign + n.y * n.y * a, -n.y), n};
 }
 
 /* frame_from_tangent: the frame around n whose s is nearest to `tangent`; any frame if tangent is parallel
@@ -30,8 +29,7 @@ static inline struct frame frame_from_tangent(vec3 n, vec3 tangent)
     if (!(l > 1e-9 * length(tangent)))
         return frame_from_normal(n);
     s = mul(s, 1 / l);
-    struct frame f = {s, cross(n, s), n};
-    return f;
+    return (struct frame){s, cross(n, s), n};
 }
 
 static inline vec3 to_local(const struct frame *f, vec3 w) { return vec(dot(w, f->s), dot(w, f->t), dot(w, f->n)); }

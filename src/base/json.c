@@ -7,11 +7,7 @@
 
 #include "base/error.h"
 
-struct json json_start(FILE *file)
-{
-    struct json j = {.file = file, .empty = true};
-    return j;
-}
+struct json json_start(FILE *file) { return (struct json){.file = file, .empty = true}; }
 
 static void quote(struct json *j, const char *text)
 {

@@ -37,10 +37,7 @@ static inline double safe_sqrt(double x) { return x > 0 ? sqrt(x) : 0; }
 static inline double below_one(double u) { return u < 1 ? u : 1 - DBL_EPSILON / 2; }
 
 /* int_within: x without its fraction, brought into [low, high]; low for NaN. low >= 0, or x a whole number. */
-static inline int int_within(double x, int low, int high)
-{
-    return x > low ? (x < high ? (int)x : high) : low;
-}
+static inline int int_within(double x, int low, int high) { return x > low ? (x < high ? (int)x : high) : low; }
 
 /* fits_float: whether a float can hold x; false for NaN and infinities. */
 static inline bool fits_float(double x) { return x >= -(double)FLT_MAX && x <= (double)FLT_MAX; }

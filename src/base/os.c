@@ -244,10 +244,7 @@ bool os_store(FILE *f)
 
 bool os_separator(char c) { return c == '/' || (WINDOWS && c == '\\'); }
 
-bool os_absolute(const char *path)
-{
-    return os_separator(path[0]) || (WINDOWS && path[0] != '\0' && path[1] == ':');
-}
+bool os_absolute(const char *path) { return os_separator(path[0]) || (WINDOWS && path[0] != '\0' && path[1] == ':'); }
 
 const char *os_last_separator(const char *path)
 {

@@ -12,11 +12,7 @@ typedef struct {
     double r, g, b;
 } rgb;
 
-static inline rgb rgb_make(double r, double g, double b)
-{
-    rgb c = {r, g, b};
-    return c;
-}
+static inline rgb rgb_make(double r, double g, double b) { return (rgb){r, g, b}; }
 
 static inline rgb rgb_of_floats(const float c[3]) { return rgb_make((double)c[0], (double)c[1], (double)c[2]); }
 static inline rgb rgb_grey(double v) { return rgb_make(v, v, v); }

@@ -9,9 +9,8 @@
 
 struct transform transform_identity(void)
 {
-    struct transform t = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}},
-                          {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
-    return t;
+    return (struct transform){{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}},
+                              {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
 }
 
 static void multiply(const double a[4][4], const double b[4][4], double out[4][4])
@@ -91,16 +90,14 @@ bool transform_from_matrix(const double columns[16], struct transform *out)
 
 struct transform transform_translate(vec3 delta)
 {
-    struct transform t = {{{1, 0, 0, delta.x}, {0, 1, 0, delta.y}, {0, 0, 1, delta.z}, {0, 0, 0, 1}},
-                          {{1, 0, 0, -delta.x}, {0, 1, 0, -delta.y}, {0, 0, 1, -delta.z}, {0, 0, 0, 1}}};
-    return t;
+    return (struct transform){{{1, 0, 0, delta.x}, {0, 1, 0, delta.y}, {0, 0, 1, delta.z}, {0, 0, 0, 1}},
+                              {{1, 0, 0, -delta.x}, {0, 1, 0, -delta.y}, {0, 0, 1, -delta.z}, {0, 0, 0, 1}}};
 }
 
 struct transform transform_scale(double x, double y, double z)
 {
-    struct transform t = {{{x, 0, 0, 0}, {0, y, 0, 0}, {0, 0, z, 0}, {0, 0, 0, 1}},
-                          {{1 / x, 0, 0, 0}, {0, 1 / y, 0, 0}, {0, 0, 1 / z, 0}, {0, 0, 0, 1}}};
-    return t;
+    return (struct transform){{{x, 0, 0, 0}, {0, y, 0, 0}, {0, 0, z, 0}, {0, 0, 0, 1}},
+                              {{1 / x, 0, 0, 0}, {0, 1 / y, 0, 0}, {0, 0, 1 / z, 0}, {0, 0, 0, 1}}};
 }
 
 struct transform transform_rotate(double degrees, vec3 axis)

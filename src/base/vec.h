@@ -19,11 +19,7 @@ typedef struct {
     double x, y, z;
 } vec3;
 
-static inline vec3 vec(double x, double y, double z)
-{
-    vec3 v = {x, y, z};
-    return v;
-}
+static inline vec3 vec(double x, double y, double z) { return (vec3){x, y, z}; }
 
 /* load3, store3: number i of an array of vectors, three floats each. What is stored must fit a float. */
 static inline vec3 load3(const float *v, size_t i) { return vec(v[3 * i], v[3 * i + 1], v[3 * i + 2]); }

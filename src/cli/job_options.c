@@ -184,10 +184,9 @@ int job_load_for(const struct job_options *o, job_readers *choose, struct scene 
 
 struct render_options job_render(const struct job_options *o, const struct scene *scene, const struct method *m)
 {
-    struct render_options render = {.integrator = m->name, .seed = o->seed, .end = job_spp(o, scene),
-                                    .n_threads = o->n_threads, .max_depth = o->max_depth,
-                                    .gate = {o->gate[0], o->gate[1]}};
-    return render;
+    return (struct render_options){.integrator = m->name, .seed = o->seed, .end = job_spp(o, scene),
+                                   .n_threads = o->n_threads, .max_depth = o->max_depth,
+                                   .gate = {o->gate[0], o->gate[1]}};
 }
 
 long job_spp(const struct job_options *o, const struct scene *scene)

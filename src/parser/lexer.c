@@ -9,14 +9,12 @@
 
 struct lexer lexer_start(const struct source_file *file, struct arena *arena, struct messages *messages)
 {
-    struct lexer l = {file, file->text, file->text, 1, arena, messages};
-    return l;
+    return (struct lexer){file, file->text, file->text, 1, arena, messages};
 }
 
 static struct source_position position_of(const struct lexer *l, const char *at)
 {
-    struct source_position p = {l->file, l->line_start, l->line, (int)(at - l->line_start) + 1};
-    return p;
+    return (struct source_position){l->file, l->line_start, l->line, (int)(at - l->line_start) + 1};
 }
 
 /* To the first character of the next token. Every file text ends in a zero byte, which stops all loops. */

@@ -38,10 +38,7 @@ static void sphere(struct parser *p, void *object)
     heights(&p->params, s, -s->radius, s->radius);
 }
 
-static void cylinder(struct parser *p, void *object)
-{
-    heights(&p->params, quadric_of(p, object), -1, 1);
-}
+static void cylinder(struct parser *p, void *object) { heights(&p->params, quadric_of(p, object), -1, 1); }
 
 static void disk(struct parser *p, void *object)
 {

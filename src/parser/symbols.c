@@ -38,8 +38,7 @@ static int distance(const char *a, const char *b)
 
 struct suggestion suggest_start(const char *wanted)
 {
-    struct suggestion s = {wanted, NULL, (smaller((int)strlen(wanted), LONGEST) + 5) / 3};
-    return s;
+    return (struct suggestion){wanted, NULL, (smaller((int)strlen(wanted), LONGEST) + 5) / 3};
 }
 
 void suggest_offer(struct suggestion *s, const char *known)
