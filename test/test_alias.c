@@ -10,7 +10,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/cumulative.h"
 #include "base/mem.h"
 #include "base/number.h"
 #include "base/rng.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/cumulative.h"
+#include "base/alias.h"
 #include "base/mem.h"
 #include "base/number.h"
 #include "chains/mlt.h"

@@ -2,7 +2,6 @@
 #include "base/vec.h"
 
 #include "base/bits.h"
-#include "base/frame.h"
 #include "base/number.h"
 #include "base/rng.h"
 #include "base/transform.h"

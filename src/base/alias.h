@@ -48,4 +48,30 @@ int alias_sample_bin(const struct alias_table *t, int bin, double u, double *pmf
 /* alias_pmf: probability of index i; 0 for an empty table. */
 double alias_pmf(const struct alias_table *t, int i);
 
+/* Drawing by cumulative sums: slower than an alias table, but what lies side by side stays so, and so do the strata of a
+ * low-discrepancy sequence. */
+
+/* cumulative_find: the last i in [0, n) with before[i] <= target; 0 if there is none.
+ *   before  [n] rising: before[i] is the sum of what stands before i. n >= 1 */
+static inline int cumulative_find(const double *before, int n, double target)
+{
+    int low = 0, high = n;
+    while (high - low > 1) {
+        int middle = low + (high - low) / 2;
+        if (before[middle] <= target)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static inline double sum_of(const double *x, int n)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += x[i];
+    return sum;
+}
+
 #endif

@@ -38,9 +38,8 @@ struct merge {
 static int by_first(const void *a, const void *b)
 {
     const struct named *x = a, *y = b;
-    if (x->part.first != y->part.first)
-        return x->part.first < y->part.first ? -1 : 1;
-    return strcmp(x->path, y->path);
+    bool same = x->part.first == y->part.first;
+    return same ? strcmp(x->path, y->path) : x->part.first < y->part.first ? -1 : 1;
 }
 
 /* All that is wrong is said, not only the first. */

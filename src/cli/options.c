@@ -179,24 +179,14 @@ static bool read_texts(struct reader *r, struct texts *texts)
 
 static bool read_value(struct reader *r, void *target)
 {
-    switch (r->option->kind) {
-    case OPTION_ON: *(bool *)target = true; return true;
-    case OPTION_INTEGER:
-    case OPTION_NUMBER:
-    case OPTION_TIME:
-    case OPTION_PIXEL:
-    case OPTION_SIZE:
-    case OPTION_WIDTH:
-    case OPTION_RANGE:
-    case OPTION_LENGTHS:
-    case OPTION_WINDOW: return read_numbers(r, target);
-    case OPTION_SEED: return read_seed(r, target);
-    case OPTION_TEXT: return next_value(r, target);
-    case OPTION_TEXTS:
-    case OPTION_PAIRS:
-    case OPTION_LIST: return read_texts(r, target);
-    }
-    return false;
+    enum option_kind kind = r->option->kind;
+    if (kind == OPTION_ON)
+        return *(bool *)target = true;
+    if (kind == OPTION_SEED)
+        return read_seed(r, target);
+    if (kind == OPTION_TEXT)
+        return next_value(r, target);
+    return is_texts(r->option) ? read_texts(r, target) : read_numbers(r, target);
 }
 
 /* --- options ------------------------------------------------------------------------------------------ */
@@ -221,9 +211,8 @@ static bool unknown_option(const struct option *table, const char *argument, str
     for (const struct option *o = table; o != NULL; o = options_next(o))
         if (o->name[1] == '-')
             suggest_offer(&s, o->name);
-    if (s.name == NULL)
-        return error_set(err, "unknown option %s", argument);
-    return error_set(err, "unknown option %s (did you mean %s?)", argument, s.name);
+    return s.name == NULL ? error_set(err, "unknown option %s", argument)
+                          : error_set(err, "unknown option %s (did you mean %s?)", argument, s.name);
 }
 
 static bool read_option(struct reader *r, void *target)

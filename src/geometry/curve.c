@@ -7,8 +7,8 @@
  *
  * Tests: test_curve.c.
  */
-#include "base/frame.h"
 #include "base/number.h"
+#include "base/vec.h"
 #include "geometry/mesh.h"
 
 enum { SIDES = 8, MOST_PIECES = 1024 }; /* of the tube's cross section; of a segment */

@@ -21,7 +21,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/cumulative.h"
+#include "base/alias.h"
 #include "integrators/pooled.h"
 #include "integrators/services.h"
 

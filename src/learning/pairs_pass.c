@@ -5,7 +5,7 @@
  */
 #include <stdlib.h>
 
-#include "base/cumulative.h"
+#include "base/alias.h"
 #include "base/number.h"
 #include "learning/training.h"
 #include "transport/connect.h"

@@ -10,7 +10,6 @@
 
 #include <stdbool.h>
 
-#include "base/frame.h"
 #include "base/rgb.h"
 #include "base/vec.h"
 #include "material/lobe.h"

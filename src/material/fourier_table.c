@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/bits.h"
-#include "base/cumulative.h"
+#include "base/alias.h"
 #include "base/file.h"
 #include "base/maths.h"
 #include "base/mem.h"

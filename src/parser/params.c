@@ -138,9 +138,7 @@ const char *params_text(struct params *p, const char *name, enum param_type type
 vec3 params_vec3(struct params *p, const char *name, enum param_type type, vec3 fallback)
 {
     const struct param *item = find_n(p, name, 1u << type, 3);
-    if (item == NULL)
-        return fallback;
-    return vec(item->number[0], item->number[1], item->number[2]);
+    return item == NULL ? fallback : vec(item->number[0], item->number[1], item->number[2]);
 }
 
 int params_choice(struct params *p, const char *name, const char *const *choices)
@@ -250,11 +248,6 @@ static rgb rgb_from_numbers(enum param_type type, double *x, int n)
 }
 
 /* Numbers of a colour can be summed, and those of a file are not checked one by one, so what comes out is. */
-static bool colour_usable(rgb c)
-{
-    return fabs(c.r) <= NUMBER_MAX && fabs(c.g) <= NUMBER_MAX && fabs(c.b) <= NUMBER_MAX;
-}
-
 rgb params_rgb(struct params *p, const char *name, rgb fallback)
 {
     const unsigned types = 1u << PARAM_RGB | 1u << PARAM_XYZ | 1u << PARAM_BLACKBODY | 1u << PARAM_SPECTRUM;
@@ -262,12 +255,8 @@ rgb params_rgb(struct params *p, const char *name, rgb fallback)
     int n = item == NULL ? 0 : colour_values(item);
     if (item == NULL || (item = find_n(p, name, 1u << item->type, n)) == NULL)
         return fallback;
-    rgb colour;
-    if (item->is_text)
-        colour = rgb_from_file(p, item);
-    else
-        colour = rgb_from_numbers(item->type, item->number, n);
-    if (colour_usable(colour))
+    rgb colour = item->is_text ? rgb_from_file(p, item) : rgb_from_numbers(item->type, item->number, n);
+    if (fabs(colour.r) <= NUMBER_MAX && fabs(colour.g) <= NUMBER_MAX && fabs(colour.b) <= NUMBER_MAX)
         return colour;
     params_fail(p, item->position, "parameter \"%s\" gives the colour (%g %g %g); its numbers go up to %g here", name,
                 colour.r, colour.g, colour.b, NUMBER_MAX);

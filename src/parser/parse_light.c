@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/frame.h"
+#include "base/vec.h"
 #include "base/maths.h"
 
 /* A light in the making. */

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/cumulative.h"
+#include "base/alias.h"
 #include "base/maths.h"
 #include "base/vec.h"
 

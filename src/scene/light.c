@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/frame.h"
+#include "base/vec.h"
 #include "base/mem.h"
 #include "base/number.h"
 #include "base/warp.h"

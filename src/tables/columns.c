@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "base/cumulative.h"
+#include "base/alias.h"
 #include "base/mem.h"
 
 struct light_columns light_columns_new(const struct light_set *lights, int most)

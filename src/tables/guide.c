@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/cumulative.h"
+#include "base/alias.h"
 #include "base/mem.h"
 
 /* --- sums -------------------------------------------------------------------------------------------- */

@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-#include "base/cumulative.h"
+#include "base/alias.h"
 
 static const double KAPPA = 4; /* trials of mean weight that the pair above counts for */
 

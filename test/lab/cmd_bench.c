@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "base/file.h"
-#include "base/frame.h"
+#include "base/vec.h"
 #include "base/json.h"
 #include "base/mem.h"
 #include "base/os.h"

@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "base/cumulative.h"
+#include "base/alias.h"
 #include "base/number.h"
 
 enum {

@@ -24,7 +24,7 @@
 
 #include <string.h>
 
-#include "base/frame.h"
+#include "base/vec.h"
 #include "base/maths.h"
 #include "base/number.h"
 

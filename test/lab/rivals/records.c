@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "base/cumulative.h"
+#include "base/alias.h"
 #include "learning/learn.h"
 
 void records_free(struct records *r) { arena_free(&r->arena); }

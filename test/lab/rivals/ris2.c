@@ -12,7 +12,7 @@
  */
 #include <stddef.h>
 
-#include "base/cumulative.h"
+#include "base/alias.h"
 #include "rivals/ris.h"
 
 void ris2_presample(struct ris *r, const struct tile_pass *pass, long iteration)
