@@ -33,23 +33,22 @@ struct alias_table {
 bool alias_build(struct alias_table *t, const double *weight, int n);
 void alias_free(struct alias_table *t);
 
-/* alias_sample: draw one index with probability proportional to its weight.               [Vose 1991]
+/* alias_sample: draw one index with probability proportional to its weight.
  *   u      uniform number in [0,1); if it is a multiple of 2^-32, probabilities are met up to 2^-32
  *   pmf    out, may be NULL: probability of the returned index, (0,1]
  *   u_out  out, may be NULL: what is left of u, again uniform in [0,1) and independent of the index; it has
  *          log2(n) bits fewer than u
- * Returns the index, 0 <= i < t->n, never one of weight 0. t->n >= 1. Cannot fail. O(1). */
+ * Returns the index, 0 <= i < t->n, never one of weight 0. t->n >= 1. Cannot fail. O(1).
+ * alias_sample_bin: its second half alone: choose one of the two elements of the given bin. Visiting every bin once
+ * draws n elements, stratified. */
 int alias_sample(const struct alias_table *t, double u, double *pmf, double *u_out);
-
-/* alias_sample_bin: the second half of alias_sample alone: choose one of the two elements of the given bin
- * with the uniform number u. Visiting every bin once draws n elements, stratified. */
 int alias_sample_bin(const struct alias_table *t, int bin, double u, double *pmf, double *u_out);
 
 /* alias_pmf: probability of index i; 0 for an empty table. */
 double alias_pmf(const struct alias_table *t, int i);
 
-/* Drawing by cumulative sums: slower than an alias table, but what lies side by side stays so, and so do the strata of a
- * low-discrepancy sequence. */
+/* Drawing by cumulative sums: slower than an alias table, but what lies side by side stays so, and so do the strata of
+ * a low-discrepancy sequence. */
 
 /* cumulative_find: the last i in [0, n) with before[i] <= target; 0 if there is none.
  *   before  [n] rising: before[i] is the sum of what stands before i. n >= 1 */

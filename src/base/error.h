@@ -23,10 +23,9 @@ struct error {
 bool error_write(struct error *err, bool usage, const char *format, ...);
 
 /* error_clean: make text that may come from a damaged or hostile file fit for a terminal, in place: every byte that is
- * no part of a printable character becomes '?'. */
+ * no part of a printable character becomes '?'. printable_length: bytes of the printable character, in UTF-8, that a
+ * text begins with; 0 if there is none. */
 void error_clean(char *text);
-
-/* printable_length: bytes of the printable character, in UTF-8, that a text begins with; 0 if there is none. */
 int printable_length(const char *text);
 
 #endif

@@ -31,12 +31,11 @@ struct parallel_jobs {
 };
 
 /* parallel_run: run all jobs. Returns the number of jobs committed (n_jobs unless a commit said stop). If threads
- * cannot be created it goes on with those it has. */
-int64_t parallel_run(struct parallel_jobs *jobs);
-
-/* parallel_await: for a job under way whose result has grown too large to wait in its slot. Returns when all jobs
+ * cannot be created it goes on with those it has.
+ * parallel_await: for a job under way whose result has grown too large to wait in its slot. Returns when all jobs
  * before it are committed: nobody commits before it does, so it may take in what it has. False if a commit has said
  * stop and nothing of this job is wanted. */
+int64_t parallel_run(struct parallel_jobs *jobs);
 bool parallel_await(const struct parallel_jobs *jobs, int64_t job);
 
 #endif

@@ -53,18 +53,16 @@ bool outputs_possible(const char *name, struct error *err);
 
 /* outputs_open: begin to write pictures of these names, that names.h has found to be different files.
  *   tone  of the 8-bit pictures, or NULL: as they are; if it changes anything, one of the pictures must be such
- * Returns false with a message; nothing is open then. After success outputs_abandon must follow in the end. */
+ * Returns false with a message; nothing is open then. After success outputs_abandon must follow in the end.
+ * outputs_add: one more. False with a message. */
 bool outputs_open(const struct texts *names, const struct tone_options *tone, enum outputs_parts parts,
                   struct outputs *out, struct error *err);
-
-/* outputs_add: one more. False with a message. */
 bool outputs_add(struct outputs *out, const char *name, bool is_part, struct error *err);
 
 /* outputs_write: the picture into all of them; unless `quiet` a last line on stderr names them. One that fails does not
- * keep the others from being written: the first message is kept and false returned. */
+ * keep the others from being written: the first message is kept and false returned.
+ * outputs_abandon: remove what outputs_write has not written. */
 bool outputs_write(struct outputs *o, int width, int height, const float *pixels, bool quiet, struct error *err);
-
-/* outputs_abandon: remove what outputs_write has not written. */
 void outputs_abandon(struct outputs *o);
 
 #endif

@@ -94,9 +94,7 @@ static bool read_text(struct params *p, struct lexer *l, struct param *item)
 static bool read_value(struct params *p, struct lexer *l, struct param *item)
 {
     double number;
-    if (item->is_text || !lexer_number(l, &number))
-        return read_text(p, l, item);
-    return add_number(p, item, number);
+    return item->is_text || !lexer_number(l, &number) ? read_text(p, l, item) : add_number(p, item, number);
 }
 
 static bool read_values(struct params *p, struct lexer *l, struct param *item)
@@ -157,16 +155,12 @@ bool params_read(struct params *p, struct lexer *l)
     p->n_number = p->n_string = 0;
     p->failed = false;
     bool ok = read_items(p, l);
-    double *number = p->number;
-    const char **text = p->string;
-    for (struct param *item = p->item; item < p->item + p->n; item++) /* the arrays do not move any more */
-        if (item->is_text) {
-            item->text = text;
-            text += item->n;
-        } else {
-            item->number = number;
-            number += item->n;
-        }
+    size_t numbers = 0, texts = 0;
+    for (struct param *item = p->item; item < p->item + p->n; item++) { /* the arrays do not move any more */
+        item->number = item->is_text ? NULL : p->number + numbers;
+        item->text = item->is_text ? p->string + texts : NULL;
+        *(item->is_text ? &texts : &numbers) += (size_t)item->n;
+    }
     return ok;
 }
 

@@ -212,7 +212,6 @@ bool parse_close_block(struct parser *p, enum block_kind kind)
 
 static bool attribute_begin(struct parser *p) { return parse_open_block(p, BLOCK_ATTRIBUTE); }
 static bool attribute_end(struct parser *p) { return parse_close_block(p, BLOCK_ATTRIBUTE); }
-
 static bool transform_begin(struct parser *p) { return parse_open_block(p, BLOCK_TRANSFORM); }
 static bool transform_end(struct parser *p) { return parse_close_block(p, BLOCK_TRANSFORM); }
 
