@@ -215,6 +215,12 @@ static int by_value(const void *a, const void *b)
 
 void stats_sort(double *x, size_t n) { qsort(x, n, sizeof *x, by_value); }
 
+double stats_median(double *x, size_t n)
+{
+    stats_sort(x, n);
+    return n % 2 == 1 ? x[n / 2] : 0.5 * (x[n / 2 - 1] + x[n / 2]);
+}
+
 double stats_ks_distance(double *x, size_t n)
 {
     double d = 0, count = (double)n;

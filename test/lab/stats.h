@@ -49,7 +49,8 @@ double stats_ks_uniform_p(double *x, size_t n);
  * of m: the level of one of m tests that keeps the family at level p. */
 double stats_sidak(double p, double m);
 
-/* stats_sort: by rising value, NaN last. */
+/* stats_sort: by rising value, NaN last. stats_median: of n >= 1 numbers, which it sorts. */
 void stats_sort(double *x, size_t n);
+double stats_median(double *x, size_t n);
 
 #endif

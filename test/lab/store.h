@@ -27,4 +27,7 @@ struct record {
 bool store_read(const char *directory, const char *name, const char *key, struct record *out);
 bool store_write(const char *directory, const char *name, const char *key, const struct record *r, struct error *err);
 
+/* store_checksum: of a picture. */
+unsigned long store_checksum(const float *pixels, int width, int height);
+
 #endif

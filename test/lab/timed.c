@@ -2,11 +2,9 @@
 #include "lab/timed.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/mem.h"
 #include "base/os.h"
-#include "image/zlib.h"
 
 bool timed_film(const struct scene *scene, const struct render_options *o, struct film *film, struct timed *out,
                 struct error *err)
@@ -39,22 +37,16 @@ bool timed_render(const struct scene *scene, const struct render_options *o, str
     return ok;
 }
 
-unsigned long timed_checksum(const float *pixels, int width, int height)
+bool timed_prepare(const struct scene *scene, const struct render_options *o, double *seconds, int *block,
+                   struct error *err)
 {
-    return checksum_crc32(0, (const uint8_t *)pixels, (size_t)width * (size_t)height * 3 * sizeof *pixels);
-}
-
-unsigned long timed_probe(const struct scene *scene, const struct render_options *o)
-{
-    struct render_options first = *o;
-    struct timed picture;
-    unsigned long crc = 0;
-    first.seed = 0;
-    first.first = 0;
-    first.end = 1;
-    if (timed_render(scene, &first, &picture, NULL)) {
-        crc = timed_checksum(picture.pixels, scene->width, scene->height);
-        free(picture.pixels);
-    }
-    return crc;
+    struct render_job job;
+    struct preparation prepared;
+    double start = os_cpu_seconds();
+    if (!render_prepare(scene, o, render_crop(scene), &job, &prepared, err))
+        return false;
+    *block = prepared.size.block;
+    method_release(&prepared);
+    *seconds = os_cpu_seconds() - start;
+    return true;
 }

@@ -19,13 +19,10 @@ bool timed_film(const struct scene *scene, const struct render_options *o, struc
                 struct error *err);
 bool timed_render(const struct scene *scene, const struct render_options *o, struct timed *out, struct error *err);
 
-/* timed_probe: checksum of a picture of one sample per pixel: it changes when the scene, its files or the program do,
- * so that kept results of another scene or another version of a method are not taken for this one's. 0 when it cannot
- * be rendered. */
-unsigned long timed_probe(const struct scene *scene, const struct render_options *o);
-
-/* timed_checksum: of a picture. */
-unsigned long timed_checksum(const float *pixels, int width, int height);
+/* timed_prepare: CPU seconds that preparing the method takes, and the length of the blocks that its samples come in; 0:
+ * any. False with a message. */
+bool timed_prepare(const struct scene *scene, const struct render_options *o, double *seconds, int *block,
+                   struct error *err);
 
 /* timed_develop: the film's picture, to be freed. */
 float *timed_develop(const struct scene *scene, const struct film *film);
