@@ -112,6 +112,21 @@ int check_spoilt(struct test *t, const char *what, reader *read, const uint8_t *
     return accepted;
 }
 
+struct shape_group group_of(int material, int first_light)
+{
+    struct shape_group g = {.material = material, .alpha = -1, .shadow_alpha = -1, .first_light = first_light};
+    return g;
+}
+
+struct surface surface_at(const struct geometry *geo, int prim, double b1, double b2)
+{
+    struct hit hit = {0, b1, b2, prim};
+    struct ray ray = {vec(0, 0, 0), vec(0, 0, 1), 0, 1, 0, 0};
+    struct surface at;
+    shape_surface(geo, &hit, &ray, &at);
+    return at;
+}
+
 struct transform random_affine(struct rng *r)
 {
     struct transform out;

@@ -53,6 +53,10 @@ bool shape_fields_mesh(struct shape_fields *f, int room, struct mesh *out, struc
 bool near3(vec3 a, vec3 b, double tolerance);
 vec3 on_sphere(struct rng *r);
 
+/* group_of: what shapes of this material have in common. surface_at: a point of a triangle or quadric. */
+struct shape_group group_of(int material, int first_light);
+struct surface surface_at(const struct geometry *geo, int prim, double b1, double b2);
+
 /* random_affine: a transform of uneven scale and shear, half of them mirrors, with some translation; no direction
  * becomes more than some ten times as long as another. */
 struct transform random_affine(struct rng *r);

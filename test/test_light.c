@@ -11,7 +11,6 @@
 #include "image/image.h"
 #include "lab/stats.h"
 #include "helpers.h"
-#include "random_writer.h"
 #include "tests.h"
 
 enum { ROWS = 24, COLUMNS = 32, CELLS = ROWS * COLUMNS, SAMPLES = 60000, SUB = 8 };
@@ -415,57 +414,8 @@ static void test_spot(struct test *t)
     }
 }
 
-/* --- what many lights cost ---------------------------------------------------------------------------- */
-
-/* CPU seconds of a picture under two skies beside a mesh that shines, or as many lights without extent.
- *   n  triangles or lights */
-static double cost_beside(struct test *t, enum light_kind kind, int n, const char *integrator)
-{
-    static const char *const NAMES[] = {"", "point", "spot", "goniometric", "projection", "distant"};
-    struct writer w = {.top = ""};
-    struct scene scene;
-    struct film film;
-    double start = 0;
-    put(&w, "LookAt 0 0 -5 0 0 0 0 1 0 Camera \"perspective\" PixelFilter \"box\"\n"
-            "Film \"image\" \"integer xresolution\" 24 \"integer yresolution\" 24 WorldBegin\n"
-            "LightSource \"infinite\" LightSource \"infinite\" Shape \"sphere\"\n");
-    if (kind == LIGHT_AREA)
-        put(&w, "AreaLightSource \"diffuse\" Shape \"trianglemesh\" \"point P\" [0 2 0 1 2 0 0 2 1]\n"
-                "\"integer indices\" [");
-    for (int i = 0; i < n; i++)
-        if (kind == LIGHT_AREA)
-            put(&w, "0 1 2 ");
-        else
-            put(&w, "LightSource \"%s\" ", NAMES[kind]);
-    put(&w, kind == LIGHT_AREA ? "]\nWorldEnd" : "WorldEnd");
-    if (scene_from_text(t, w.text, &scene)) {
-        struct render_options o = {.integrator = integrator, .end = 64, .max_depth = 3, .n_threads = 1};
-        start = os_cpu_seconds();
-        render_film(t, &scene, &o, &film);
-        start = os_cpu_seconds() - start;
-        film_free(&film);
-        scene_free(&scene);
-    }
-    free(w.text);
-    return start;
-}
-
-/* A ray that leaves the scene asks the skies, not all lights: a hundred times as many are no tenth as dear. */
-static void test_many_lights(struct test *t)
-{
-    for (int kind = LIGHT_AREA; kind <= LIGHT_DISTANT; kind++)
-        for (int i = 0; i < 2; i++) {
-            const char *name = i == 0 ? "pt" : "bdpt";
-            double few = cost_beside(t, (enum light_kind)kind, 100, name);
-            double many = cost_beside(t, (enum light_kind)kind, 10000, name);
-            CHECK(t, many < 4 * few + 0.05, "%s: %.3f s beside 10000 lights of kind %d, %.3f s beside 100", name, many,
-kind, few);
-        }
-}
-
 void test_light(struct test *t)
 {
-    test_many_lights(t);
     test_emitted(t);
     test_slide_places(t);
     test_transformed(t);

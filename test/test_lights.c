@@ -1,6 +1,7 @@
 /* Lights apart, and what the lens does not see. The planes of all lights are the picture, to the bit, by every method
  * and within gates; each is what a render by that light alone expects. Alpha: 0 of an empty scene, 1 of a closed one,
- * else what is covered; a light that is hidden is missing where the lens meets it first, and nowhere else. */
+ * else what is covered; a light that is hidden is missing where the lens meets it first, and nowhere else. And what many
+ * lights cost. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,6 +9,7 @@
 
 #include "base/os.h"
 #include "helpers.h"
+#include "random_writer.h"
 #include "tests.h"
 
 enum { SIDE = 16, PIXELS = SIDE * SIDE, SUMS = 3 * PIXELS };
@@ -266,6 +268,54 @@ static void test_unseen(struct test *t)
                 "Translate 0 0 1 " HALF "WorldEnd", once);
 }
 
+/* --- what many lights cost ---------------------------------------------------------------------------- */
+
+/* CPU seconds of a picture under two skies beside a mesh that shines, or as many lights without extent.
+ *   n  triangles or lights */
+static double cost_beside(struct test *t, enum light_kind kind, int n, const char *integrator)
+{
+    static const char *const NAMES[] = {"", "point", "spot", "goniometric", "projection", "distant"};
+    struct writer w = {.top = ""};
+    struct scene scene;
+    struct film film;
+    double start = 0;
+    put(&w, "LookAt 0 0 -5 0 0 0 0 1 0 Camera \"perspective\" PixelFilter \"box\"\n"
+            "Film \"image\" \"integer xresolution\" 24 \"integer yresolution\" 24 WorldBegin\n"
+            "LightSource \"infinite\" LightSource \"infinite\" Shape \"sphere\"\n");
+    if (kind == LIGHT_AREA)
+        put(&w, "AreaLightSource \"diffuse\" Shape \"trianglemesh\" \"point P\" [0 2 0 1 2 0 0 2 1]\n"
+                "\"integer indices\" [");
+    for (int i = 0; i < n; i++)
+        if (kind == LIGHT_AREA)
+            put(&w, "0 1 2 ");
+        else
+            put(&w, "LightSource \"%s\" ", NAMES[kind]);
+    put(&w, kind == LIGHT_AREA ? "]\nWorldEnd" : "WorldEnd");
+    if (scene_from_text(t, w.text, &scene)) {
+        struct render_options o = {.integrator = integrator, .end = 64, .max_depth = 3, .n_threads = 1};
+        start = os_cpu_seconds();
+        render_film(t, &scene, &o, &film);
+        start = os_cpu_seconds() - start;
+        film_free(&film);
+        scene_free(&scene);
+    }
+    free(w.text);
+    return start;
+}
+
+/* A ray that leaves the scene asks the skies, not all lights: a hundred times as many are no tenth as dear. */
+static void test_many_lights(struct test *t)
+{
+    for (int kind = LIGHT_AREA; kind <= LIGHT_DISTANT; kind++)
+        for (int i = 0; i < 2; i++) {
+            const char *name = i == 0 ? "pt" : "bdpt";
+            double few = cost_beside(t, (enum light_kind)kind, 100, name);
+            double many = cost_beside(t, (enum light_kind)kind, 10000, name);
+            CHECK(t, many < 4 * few + 0.05, "%s: %.3f s beside 10000 lights of kind %d, %.3f s beside 100", name, many,
+                  kind, few);
+        }
+}
+
 void test_lights(struct test *t)
 {
     static const char *const WAYS[] = {"pt", "lt", "bdpt", "asbdpt select=subspaces"};
@@ -275,4 +325,5 @@ void test_lights(struct test *t)
         test_alone(t, WAYS[i]);
     test_alpha(t);
     test_unseen(t);
+    test_many_lights(t);
 }

@@ -53,6 +53,7 @@ void test_references(struct test *t);
 void test_references_long(struct test *t);
 void test_report(struct test *t);
 void test_rivals(struct test *t);
+void test_ris(struct test *t); /* part of test_rivals */
 void test_vcm(struct test *t);
 void test_scenes(struct test *t);
 void test_scenes_long(struct test *t);
@@ -65,6 +66,7 @@ void test_verify(struct test *t);
 void test_sampler(struct test *t);
 void test_sheet(struct test *t);
 void test_shape(struct test *t);
+void test_smooth(struct test *t); /* part of test_shape */
 void test_stats(struct test *t);
 void test_subdivide(struct test *t);
 void test_curve(struct test *t);

@@ -5,6 +5,7 @@
 
 #include "base/alias.h"
 #include "base/number.h"
+#include "caustics/lamp.h"
 #include "transport/emit.h"
 
 /* What of a shape group chains may go by. */
@@ -220,14 +221,12 @@ static int connect(const struct one_more *self, struct pixel_sample *sample, con
     const struct caustics *all = (const void *)self;
     const struct scene *scene = sample->scene;
     const struct vertex *z = &eye[t - 1];
-    double u[3], pdf = t == 2 ? z->pdf_fwd : 0;
+    double pdf = t == 2 ? z->pdf_fwd : 0;
     struct light_point y;
     struct specular_chain c[ONE_MORE_MOST];
     if (z->eye_end != FIRST_HIT || !vertex_connectible(z) || all->left[t > 2])
         return 0;
-    u[0] = sampler_number(&sample->sampler, DRAW_LIGHT);
-    sampler_pair(&sample->sampler, DRAW_LIGHT_POINT, &u[1]);
-    if (!light_sample_point(&scene->lights, &scene->geo, u, &y) || !(y.pdf > 0))
+    if (!lamp_draw(scene, &sample->sampler, &y) || !(y.pdf > 0))
         return 0;
     struct quest q = quest_for(sample, z, &y);
     int n = 0, room = sample->max_depth + 1 - t, through = psi_through(all, &q, c);

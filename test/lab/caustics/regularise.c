@@ -13,6 +13,7 @@
  * Tests: test_caustic.c.
  */
 #include "caustics/delta.h"
+#include "caustics/lamp.h"
 #include "caustics/one_more.h"
 
 #include <stddef.h>
@@ -60,24 +61,19 @@ static int connect(const struct one_more *self, struct pixel_sample *sample, con
     const struct vertex *z = &eye[t - 1];
     struct sampler draws = sample->sampler;
     struct light_point y;
-    double u[3];
     if (z->bsdf.n_lobes == z->bsdf.n_smooth || !without_rival(sample->counts, eye, t))
         return 0;
-    u[0] = sampler_number(&draws, DRAW_LIGHT);
-    sampler_pair(&draws, DRAW_LIGHT_POINT, &u[1]);
-    if (!light_sample_point(&scene->lights, &scene->geo, u, &y) || !light_is_delta(&scene->lights.light[y.light]))
+    if (!lamp_draw(scene, &draws, &y) || !light_is_delta(&scene->lights.light[y.light]))
         return 0;
-    bool parallel = light_at_infinity(&scene->lights.light[y.light]);
-    vec3 d = parallel ? y.w : sub(y.p, z->p), w = normalize(d);
-    rgb f = spread(z, w, r->eps_1 * m_pow((double)sample->iteration + 1, -1.0 / 6));
-    rgb value = rgb_scale(rgb_mul(rgb_mul(z->beta, f), light_Le(&scene->lights, &y, neg(w))),
-                          1 / (y.pdf * (parallel ? 1 : length2(d))));
-    if (rgb_is_black(value) || !rgb_is_finite(value) ||
-        !(parallel ? scene_lit_from(scene, z->p, z->prim_id, w) : scene_lit(scene, z->p, z->prim_id, y.p, y.prim_id)))
+    const struct lamp_way way = lamp_way(scene, z->p, &y);
+    rgb f = spread(z, way.w, r->eps_1 * m_pow((double)sample->iteration + 1, -1.0 / 6));
+    rgb value = rgb_scale(rgb_mul(rgb_mul(z->beta, f), light_Le(&scene->lights, &y, neg(way.w))),
+                          1 / (y.pdf * way.d2));
+    if (rgb_is_black(value) || !rgb_is_finite(value) || !lamp_seen(scene, z->p, z->prim_id, &y))
         return 0;
-    double edge = parallel ? light_distance(&scene->lights, z->p, w) : length(d);
-    const struct one_more_path made = {{.value = value, .weight = 1, .length = z->length + edge,
-                                        .end = parallel ? w : y.p, .light = y.light, .cell = y.cell, .pdf = y.pdf}, 0};
+    const struct one_more_path made = {{.value = value, .weight = 1, .length = z->length + way.length,
+                                        .end = way.parallel ? y.w : y.p, .light = y.light, .cell = y.cell,
+                                        .pdf = y.pdf}, 0};
     out[0] = made;
     return 1;
 }

@@ -21,6 +21,7 @@
 
 #include "base/alias.h"
 #include "base/maths.h"
+#include "caustics/lamp.h"
 #include "caustics/one_more.h"
 
 extern const struct method method_pt, method_ellipse;
@@ -173,18 +174,17 @@ static int connect(const struct one_more *self, struct pixel_sample *sample, con
     const struct scene *scene = sample->scene;
     const struct gate gate = sample->tile->gate;
     const struct vertex *z = &eye[t - 1];
-    double u[3], v[2], P, pdf;
+    double v[2], P, pdf;
     float P9[9];
     struct light_point y;
     struct vertex at;
     vec3 corner[3], x;
     if (!isfinite(gate.end) || t > sample->max_depth || !vertex_connectible(z) || own->by_area.n == 0)
         return 0;
-    u[0] = sampler_number(&sample->sampler, DRAW_LIGHT);
-    sampler_pair(&sample->sampler, DRAW_LIGHT_POINT, &u[1]);
+    bool lit = lamp_draw(scene, &sample->sampler, &y);
     sampler_pair(&sample->sampler, DRAW_SCATTERING, v);
     int triangle = alias_sample(&own->by_area, sampler_number(&sample->sampler, DRAW_LIGHT_END), &P, NULL);
-    if (!light_sample_point(&scene->lights, &scene->geo, u, &y) || light_at_infinity(&scene->lights.light[y.light]))
+    if (!lit || light_at_infinity(&scene->lights.light[y.light]))
         return 0;
     double apart = length(sub(y.p, z->p)), least = fmax(gate.begin - z->length, apart), most = gate.end - z->length;
     double tau = least + (most - least) * v[0];

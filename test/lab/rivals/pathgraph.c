@@ -22,7 +22,6 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-#include "rivals/reuse.h"
 #include "rivals/together.h"
 
 enum { LARGEST_CLUSTER = 64, ALONE = 6 };
@@ -65,20 +64,18 @@ static void draw_light(struct pixel_sample *sample, struct node *node)
     if (!light_sample_cell(lights, &sample->scene->geo, l.at.cell, u[1], u[2], &l.at) || !(l.at.pdf > 0))
         return;
     const struct light *light = &lights->light[l.at.light];
-    bool parallel = light_at_infinity(light);
-    vec3 d = parallel ? l.at.w : sub(l.at.p, z->p);
-    double d2 = length2(d);
-    if (!(d2 > 0))
+    const struct lamp_way way = lamp_way(sample->scene, z->p, &l.at);
+    if (!(way.d2 > 0))
         return;
-    node->w = mul(d, 1 / sqrt(d2));
+    node->w = way.w;
     rgb Le = light_Le(lights, &l.at, neg(node->w));
-    double at_light = (light->kind == LIGHT_AREA ? abs_dot(l.at.n, node->w) : 1) / (parallel ? 1 : d2);
+    double at_light = (light->kind == LIGHT_AREA ? abs_dot(l.at.n, node->w) : 1) / way.d2;
     double density = pmf * l.at.pdf_cell / at_light;
     if (rgb_is_black(Le) || !(at_light > 0) || !bsdf_may_scatter(&z->bsdf, z->wo, node->w) ||
         !reuse_sees(sample->scene, &l))
         return;
     bool delta = light_is_delta(light);
-    node->length = z->length + (parallel ? light_distance(lights, z->p, node->w) : sqrt(d2));
+    node->length = z->length + way.length;
     node->Le = delta ? rgb_scale(Le, 1 / density) : Le;
     node->q = delta ? 0 : density;
 }

@@ -20,7 +20,6 @@
  */
 #include <stddef.h>
 
-#include "rivals/reuse.h"
 #include "rivals/together.h"
 
 struct restir_state {

@@ -22,7 +22,6 @@
  */
 #include <stddef.h>
 
-#include "rivals/reuse.h"
 #include "rivals/together.h"
 
 struct restirgi_state {
@@ -99,13 +98,11 @@ static void offer_point(struct pooled_pixel *p, struct reservoir *r, const struc
     if (p->sample.max_depth < 2 ||
         !connect_light_point(scene, p->sample.counts, z, &p->sample.sampler, 0, 1, &l) || !reuse_sees(scene, &l))
         return;
-    const struct light *light = &scene->lights.light[l.at.light];
-    bool parallel = light_at_infinity(light), delta = light_is_delta(light);
-    vec3 d = parallel ? l.at.w : sub(l.at.p, z->p);
-    double distance = length(d), density = l.pdf / l.at_light;
-    vec3 w = mul(d, 1 / distance);
-    struct tail x = {delta ? LATER : POINT, z, w, light_Le(&scene->lights, &l.at, neg(w)), delta ? 1 : density,
-                     parallel ? light_distance(&scene->lights, z->p, w) : distance, 1, 3, l.at.light};
+    const struct lamp_way way = lamp_way(scene, z->p, &l.at);
+    bool delta = light_is_delta(&scene->lights.light[l.at.light]);
+    double density = l.pdf / l.at_light;
+    struct tail x = {delta ? LATER : POINT, z, way.w, light_Le(&scene->lights, &l.at, neg(way.w)), delta ? 1 : density,
+                     way.length, 1, 3, l.at.light};
     offer(p, r, &x, z->pdf_fwd * density, sum);
 }
 

@@ -19,9 +19,10 @@
  *
  * `weights = counts` draws the same and has the weights of pcbdpt.c, whose draws by place alone it is to the byte.
  *
- * Tests: test_rivals.c.
+ * Tests: test_ris.c, test_rivals.c.
  */
 #include "rivals/ris.h"
+#include "rivals/together.h"
 
 #include <stddef.h>
 #include <stdlib.h>
@@ -111,15 +112,6 @@ static double emitted(const struct scene *scene, const struct vertex *x0, vec3 w
     return pdf > 0 ? rgb_luminance(light_Le(lights, &at, w)) * cosine / pdf : 0;
 }
 
-/* What turns a density per steradian at v into one per area at `before`. */
-static double to_area(const struct scene *scene, const struct vertex *before, const struct vertex *v)
-{
-    if (before->kind == VERTEX_LENS || vertex_at_infinity(scene, before))
-        return 1;
-    double cosine = abs_dot(before->ng, v->wo);
-    return v->kind == VERTEX_ESCAPED ? cosine : cosine / length2(sub(v->p, before->p));
-}
-
 /* Where two sub-paths are joined: the last vertex of one, the vertex before it, and what of the former the other end
  * decides: its density in the other walk, measured as its pdf_fwd, and that, 1/sr, of going on to the vertex before. */
 struct path_end {
@@ -153,7 +145,7 @@ static void sum_light_side(const struct ris *r, const struct path_end *end, stru
         if (!passed && !v->prev_delta)
             count(r, a, ratio, direct ? 1 : r->counts->connect[LATER_HIT], direct ? 1 : r->light_n[v - r->pool.vertex]);
         passed = v->prev_delta;
-        pdf_other = pdf_rev * to_area(r->scene, &v[-1], v);
+        pdf_other = pdf_rev * area_before(r->scene, &v[-1], v);
         pdf_rev = v[-1].pdf_rev;
     }
 }
@@ -188,7 +180,7 @@ static void sum_eye_side(struct ris *r, int s, const struct path_end *end, doubl
             L *= kept(v, wo, v->wo);
         passed = v->prev_delta;
         wo = neg(v->wo);
-        pdf_other = pdf_rev * to_area(r->scene, before, v);
+        pdf_other = pdf_rev * area_before(r->scene, before, v);
         pdf_rev = before->pdf_rev;
     }
 }
@@ -230,17 +222,14 @@ struct connection ris_hit(struct ris *r, const struct vertex *prev, const struct
 struct connection ris_lit(struct ris *r, const struct lit *l)
 {
     const struct vertex *z = l->z;
-    const struct light_set *lights = &r->scene->lights;
     struct connection c = connect_lit(r->scene, r->counts, l);
     struct vertex y;
     if (rgb_is_black(c.value))
         return c;
-    bool parallel = light_at_infinity(&lights->light[l->at.light]);
-    vec3 d = parallel ? l->at.w : sub(l->at.p, z->p);
-    double d2 = length2(d);
-    vec3 w = mul(d, 1 / sqrt(d2));
+    const struct lamp_way way = lamp_way(r->scene, z->p, &l->at);
     vertex_light_end(r->scene, r->counts, &l->at, &y);
-    double pdf_z = emit_pdf(r->counts, lights, &l->at, z->p, neg(w)) * abs_dot(z->ng, w) * (parallel ? 1 : 1 / d2);
+    double pdf_z = emit_pdf(r->counts, &r->scene->lights, &l->at, z->p, neg(way.w)) * abs_dot(z->ng, way.w) *
+                   (1 / way.d2);
     const struct path_end y_end = {&y, NULL, l->pdf_z * l->at_light, 0}, z_end = {z, z - 1, pdf_z, l->pdf_rev_z};
     c.weight = weigh(r, 1, &y_end, &z_end);
     return c;

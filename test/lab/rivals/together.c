@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "caustics/delta.h"
+
 static void render_iteration(const struct preparation *m, const struct tile_pass *pass, connect_all_fn *connect_all,
                              long iteration)
 {
@@ -26,4 +28,79 @@ void together_render(const struct preparation *m, const struct tile_pass *pass, 
         pooled_fill(m, pass, iteration);
         render_iteration(m, pass, connect_all, iteration);
     }
+}
+
+double area_before(const struct scene *scene, const struct vertex *before, const struct vertex *v)
+{
+    if (before->kind == VERTEX_LENS || vertex_at_infinity(scene, before))
+        return 1;
+    double cosine = abs_dot(before->ng, v->wo);
+    return v->kind == VERTEX_ESCAPED ? cosine : cosine / length2(sub(v->p, before->p));
+}
+
+/* --- what others have found -------------------------------------------------------------------------- */
+
+/* Normals within 25 degrees, depths within a tenth. */
+static bool alike(const struct vertex *a, const struct vertex *b)
+{
+    double da = length(sub(a[1].p, a[0].p)), db = length(sub(b[1].p, b[0].p));
+    return dot(a[1].ng, b[1].ng) > 0.9063 && fabs(da - db) < 0.1 * fmax(da, db);
+}
+
+int reuse_neighbours(struct pooled_pixel *pixel, int n, int i, int tries, int *near)
+{
+    int found = 0;
+    if (!reuse_first(&pixel[i]))
+        return 0;
+    near[found++] = i;
+    for (int k = 0; k < tries; k++) {
+        int j = (int)(sampler_number(&pixel[i].draws, DRAW_LIGHT_END) * n);
+        if (j != i && reuse_first(&pixel[j]) && alike(pixel[i].eye, pixel[j].eye))
+            near[found++] = j;
+    }
+    return found;
+}
+
+/* Of a delta step: channels to which nothing has come so far have what all delta lobes of that side make of the
+ * direction; to that, too, the walk's roulette belongs. */
+static rgb delta_step(const struct vertex *z, const struct vertex *next)
+{
+    const rgb *b = &z->beta, *a = &next->beta;
+    bool passed = dot(next->wo, z->bsdf.shading.n) * dot(z->wo, z->bsdf.shading.n) > 0;
+    struct bsdf_sample s;
+    rgb guess = bsdf_delta(&z->bsdf, z->wo, passed, RADIANCE, &s) ? s.f : rgb_black();
+    double most = rgb_max(rgb_mul(*b, guess));
+    guess = rgb_scale(guess, most > 0 ? rgb_max(*a) / most : 0);
+    rgb factor = {b->r > 0 ? a->r / b->r : guess.r, b->g > 0 ? a->g / b->g : guess.g, b->b > 0 ? a->b / b->b : guess.b};
+    return factor;
+}
+
+rgb reuse_step(const struct vertex *z, const struct vertex *next, double *roulette)
+{
+    vec3 w = neg(next->wo);
+    *roulette = 1;
+    if (next->prev_delta)
+        return delta_step(z, next);
+    struct bsdf_value b = bsdf_eval(&z->bsdf, z->wo, w, RADIANCE);
+    rgb factor = rgb_scale(b.f, scatter_cosine(z, w, RADIANCE) / b.pdf);
+    *roulette = rgb_max(next->beta) / rgb_max(rgb_mul(z->beta, factor));
+    return rgb_scale(factor, *roulette);
+}
+
+struct connection reuse_hit(const struct pixel_sample *sample, const struct vertex *prev, const struct vertex *z, int t,
+                            rgb beta)
+{
+    struct vertex at = z->lamp != NULL ? *z->lamp : *z;
+    at.lamp = NULL;
+    at.beta = beta;
+    return connect_hit(sample->scene, sample->counts, prev, &at, t);
+}
+
+void reuse_prepare(const struct render_job *job, struct preparation *out)
+{
+    struct frozen *f = out->state;
+    (void)job;
+    out->size.tile = MAX_TILE_SIZE;
+    f->path_pixels = 0;
+    f->counts.connect[FIRST_HIT] = f->counts.connect[LATER_HIT] = f->counts.splat = 0;
 }

@@ -42,22 +42,13 @@ struct vcm {
 
 /* --- merging as a strategy --------------------------------------------------------------------------- */
 
-/* What turns a density per steradian at v into one per area at `before`. */
-static double to_area(const struct scene *scene, const struct vertex *before, const struct vertex *v)
-{
-    if (before->kind == VERTEX_LENS || vertex_at_infinity(scene, before))
-        return 1;
-    double cosine = abs_dot(before->ng, v->wo);
-    return v->kind == VERTEX_ESCAPED ? cosine : cosine / length2(sub(v->p, before->p));
-}
-
 static bool can_merge(const struct vertex *v) { return v->kind == VERTEX_SURFACE && vertex_connectible(v); }
 
 /* mis_{e+1} of `v`, which follows vertex e, with the merge at e. */
 static double stepped(const struct scene *scene, const struct mis_counts *counts, const struct vertex *e,
                       const struct vertex *v)
 {
-    return mis_step(counts, v->prev_delta ? 0 : e->mis_c, e->pdf_rev, e->mis, e->pdf_fwd, to_area(scene, e, v));
+    return mis_step(counts, v->prev_delta ? 0 : e->mis_c, e->pdf_rev, e->mis, e->pdf_fwd, area_before(scene, e, v));
 }
 
 /* Give all vertices of a walk c_e' and what follows from it. Vertices 0 and 1 have no merge before them. */

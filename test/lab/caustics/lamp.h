@@ -1,0 +1,27 @@
+/* lamp.h: a point drawn on a light, as a vertex sees it: what strategies begin with that join vertices to lights in ways
+ * of their own.
+ *
+ * Tests: test_caustic.c, test_ellipse.c, test_rivals.c.
+ */
+#ifndef CAUSTICS_LAMP_H
+#define CAUSTICS_LAMP_H
+
+#include "base/sampler.h"
+#include "transport/vertex.h"
+
+/* lamp_draw: light_sample_point with numbers of the sampler. */
+bool lamp_draw(const struct scene *scene, struct sampler *sampler, struct light_point *out);
+
+/* The way from a point of the scene to one on a light. */
+struct lamp_way {
+    vec3 w;        /* unit */
+    double d2;     /* distance squared, by which densities per area differ from those of directions; at infinity 1 */
+    double length; /* of a path's edge */
+    bool parallel; /* at infinity */
+};
+struct lamp_way lamp_way(const struct scene *scene, vec3 p, const struct light_point *at);
+
+/* lamp_seen: does light from there come to a point of a primitive? */
+bool lamp_seen(const struct scene *scene, vec3 p, uint32_t prim_id, const struct light_point *at);
+
+#endif
