@@ -1,7 +1,7 @@
 /* Lights apart, and what the lens does not see. The planes of all lights are the picture, to the bit, by every method
  * and within gates; each is what a render by that light alone expects. Alpha: 0 of an empty scene, 1 of a closed one,
- * else what is covered; a light that is hidden is missing where the lens meets it first, and nowhere else. And what many
- * lights cost. */
+ * else what is covered; a light that is hidden is missing where the lens meets it first, and nowhere else. And what
+ * many lights cost. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -6,8 +6,8 @@
 
 #include "image/image.h"
 #include "lab/compare.h"
-#include "lab/demo.h"
 #include "lab/measure.h"
+#include "lab/pictures.h"
 #include "lab/pyramid.h"
 #include "lab/worth.h"
 #include "parser/parser.h"
@@ -51,7 +51,7 @@ static void test_pyramid(struct test *t)
     CHECK(t, one[0] == 0.09375f && one[95] == 0.09375f, "the image of (2,2) holds %g", (double)one[0]);
     free(one);
     snprintf(path, sizeof path, "%s/pyramid.png", test_tmp(t));
-    bool ok = CHECK(t, pyramid_write(path, &images, 2, &err), "%s", err.text) &&
+    bool ok = CHECK(t, pyramid_write(test_tmp(t), &images, 2, &err), "%s", err.text) &&
               CHECK(t, image_read(path, &img, &err), "%s", err.text);
     strategies_free(&images);
     if (!ok)

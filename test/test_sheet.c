@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "lab/colormap.h"
 #include "image/picture.h"
 #include "lab/sheet.h"
 #include "tests.h"

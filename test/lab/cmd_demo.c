@@ -1,10 +1,10 @@
-/* cmd_demo.c: asbdpt-lab demo: methods at equal time in one labelled picture. See demo.h. */
+/* cmd_demo.c: asbdpt-lab demo: methods at equal time in one labelled picture. See pictures.h. */
 #include <stdio.h>
 
 #include "cli/outputs.h"
 #include "lab/commands.h"
-#include "lab/demo.h"
 #include "lab/measure.h"
+#include "lab/pictures.h"
 
 struct demo_options {
     struct plan plan;

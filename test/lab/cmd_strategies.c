@@ -1,13 +1,12 @@
 /* cmd_strategies.c: asbdpt-lab strategies: a picture of every strategy (s,t) alone, unweighted and weighted, all from
  * one render, and all of them on one sheet. */
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "cli/job_options.h"
-#include "image/image.h"
 #include "lab/directory.h"
 #include "lab/commands.h"
 #include "lab/pyramid.h"
+#include "lab/sheet.h"
 #include "render/parameters.h"
 
 /* Two pictures of each: (d + 1) (d + 4) for paths of up to d + 1 edges. */
@@ -29,25 +28,21 @@ static const struct option OPTIONS[] = {
 static bool write_picture(const char *directory, const struct strategy_images *images, double scale, int s, int t,
                           bool weighted, struct error *err)
 {
-    char path[4096];
-    float *pixels = strategies_picture(images, scale, s, t, weighted);
-    snprintf(path, sizeof path, "%s/d%02d_s%02d_t%02d_%s.pfm", directory, s + t - 2, s, t,
-             weighted ? "weighted" : "unweighted");
-    bool ok = image_write(path, rect_width(images->rect), rect_height(images->rect), pixels, err);
-    free(pixels);
-    return ok;
+    char name[64];
+    struct sheet picture = {rect_width(images->rect), rect_height(images->rect),
+                            strategies_picture(images, scale, s, t, weighted)};
+    snprintf(name, sizeof name, "d%02d_s%02d_t%02d_%s.pfm", s + t - 2, s, t, weighted ? "weighted" : "unweighted");
+    return sheet_write(&picture, directory, name, err);
 }
 
 static bool write_all(const char *directory, const struct strategy_images *images, double scale, struct error *err)
 {
     bool ok = true;
-    char path[4096];
     for (int edges = 1; edges <= images->max_depth + 1; edges++)
         for (int s = 0; ok && s <= edges; s++)
             ok = write_picture(directory, images, scale, s, edges + 1 - s, false, err) &&
                  write_picture(directory, images, scale, s, edges + 1 - s, true, err);
-    snprintf(path, sizeof path, "%s/pyramid.png", directory);
-    return ok && pyramid_write(path, images, scale, err);
+    return ok && pyramid_write(directory, images, scale, err);
 }
 
 static bool render(const struct scene *scene, struct render_options o, const char *directory, struct error *err)

@@ -92,10 +92,10 @@ static bool write_all(const char *directory, struct gates g, const float *pixels
         snprintf(text, sizeof text, "%s/gate%03d.pfm", directory, i);
         ok = image_write(text, w, h, pixels, err);
     }
-    snprintf(text, sizeof text, "%s/transient.png", directory);
-    ok = ok && image_write(text, sheet.width, sheet.height, sheet.pixels, err);
+    if (ok)
+        return sheet_write(&sheet, directory, "transient.png", err);
     sheet_free(&sheet);
-    return ok;
+    return false;
 }
 
 static int run(void *options)

@@ -1,9 +1,11 @@
-/* colormap.c: see colormap.h. */
-#include "lab/colormap.h"
+/* colormap.c: colours for numbers; see sheet.h. */
+#include "lab/sheet.h"
 
 #include "image/picture.h"
 
-const uint8_t VIRIDIS[VIRIDIS_STOPS][3] = {{68, 1, 84},    {72, 40, 120},  {62, 73, 137},  {49, 104, 142},
+/* At equal distances, sRGB bytes; between two of them the map is linear in these. */
+enum { VIRIDIS_STOPS = 10 };
+static const uint8_t VIRIDIS[VIRIDIS_STOPS][3] = {{68, 1, 84},    {72, 40, 120},  {62, 73, 137},  {49, 104, 142},
                                            {38, 130, 142}, {31, 158, 137}, {53, 183, 121}, {110, 206, 88},
                                            {181, 222, 43}, {253, 231, 37}};
 

@@ -7,7 +7,6 @@
 
 #include "base/maths.h"
 #include "base/mem.h"
-#include "lab/colormap.h"
 #include "image/image.h"
 #include "lab/sheet.h"
 
@@ -100,13 +99,6 @@ double compare_shown_blocks(const float *x, const float *r, int width, int heigh
     free(shown_x);
     free(shown_r);
     return rmse8;
-}
-
-double compare_blocks(const float *x, const float *r, int width, int height)
-{
-    double square[N_SQUARES];
-    compare_squares(x, r, r, width, height, square);
-    return square[SQUARE_BLOCKS];
 }
 
 void compare_errors(const float *x, const float *r, long pixels, float *out)

@@ -24,19 +24,16 @@ struct difference {
 /* compare_pixels: x and r are [n] linear values. */
 struct difference compare_pixels(const float *x, const float *r, long n);
 
-/* compare_blocks: the relative squared error of means over blocks of 8x8 pixels, or in smaller pictures of the largest
- * that fit: errors that pixels nearby share stay, those that they do not are divided by 64. What is left at the right
- * and lower edge does not count.
- *   x, r  [height*width*3] linear values */
+/* Blocks of 8x8 pixels, or in smaller pictures of the largest that fit: of their means errors that pixels nearby share
+ * stay, those that they do not are divided by 64. What is left at the right and lower edge does not count. */
 enum { COMPARE_BLOCK = 8 };
-double compare_blocks(const float *x, const float *r, int width, int height);
 
-/* compare_shown_blocks: rmse8 of such means, of what a screen shows: light beyond white, which an 8-bit reference has
+/* compare_shown_blocks: rmse8 of their means, of what a screen shows: light beyond white, which an 8-bit reference has
  * not, counts as white. */
 double compare_shown_blocks(const float *x, const float *r, int width, int height);
 
 /* compare_squares: squared differences of two pictures: of 8-bit values; relative, of linear values; the same of means
- * over blocks of 8x8 pixels. Half of them are the squared errors of two independent renders of one expectation.
+ * over blocks. Half of them are the squared errors of two independent renders of one expectation.
  *   r  what they are relative to */
 enum square { SQUARE_RMSE8, SQUARE_RELMSE, SQUARE_BLOCKS, N_SQUARES };
 void compare_squares(const float *x, const float *y, const float *r, int width, int height, double out[N_SQUARES]);

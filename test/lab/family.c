@@ -6,7 +6,6 @@
 
 #include "base/maths.h"
 #include "base/number.h"
-#include "image/image.h"
 #include "lab/claims.h"
 #include "lab/equal.h"
 #include "lab/figures.h"
@@ -271,7 +270,6 @@ static void paste_crop(const float *pixels, int width, int height, struct sheet 
 static bool write_strip(const struct results *e, struct error *err)
 {
     struct sheet sheet;
-    char path[4096];
     struct view view = view_of(e, HALF_SERVICES);
     int row = CROP * SCALE + NAMES;
     sheet_init(&sheet, GAP + (view.n + 1) * (CROP * SCALE + GAP), NAMES + row * e->plan->n_scenes, SHEET_PAPER);
@@ -285,10 +283,7 @@ static bool write_strip(const struct results *e, struct error *err)
             paste_crop(v < 0 ? s->reference.pixels : s->image[view.method[v]], s->width, s->height, &sheet, v + 1,
                        2 * NAMES + row * i);
     }
-    snprintf(path, sizeof path, "%s/family.png", e->plan->directory);
-    bool ok = image_write(path, sheet.width, sheet.height, sheet.pixels, err);
-    sheet_free(&sheet);
-    return ok;
+    return sheet_write(&sheet, e->plan->directory, "family.png", err);
 }
 
 bool family_write(const struct results *r, const char *page, void (*write)(FILE *, const struct results *),

@@ -1,5 +1,5 @@
-/* font.c: see font.h. */
-#include "lab/font.h"
+/* font.c: letters, drawn as they look; see sheet.h. */
+#include "lab/sheet.h"
 
 #include <string.h>
 

@@ -4,7 +4,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-void xml_text(FILE *f, const char *text)
+static void xml_text(FILE *f, const char *text)
 {
     for (; *text != '\0'; text++)
         switch (*text) {

@@ -7,9 +7,6 @@
 
 #include <stdio.h>
 
-/* xml_text: text with the characters that XML reserves escaped. */
-void xml_text(FILE *f, const char *text);
-
 /* xml_print: printf for markup: what stands for %s is escaped, the format is not. Beside %s it knows %d, %ld, %f, %g
  * with flags, width and precision, and no %%. */
 void xml_print(FILE *f, const char *format, ...);

@@ -33,8 +33,6 @@ static enum render_wish show_progress(void *context, double done)
     return RENDER_GO_ON;
 }
 
-static int scale_of(const struct plan *p) { return p->scale > 1 ? p->scale : 1; }
-
 /* --- one run ----------------------------------------------------------------------------------------- */
 
 static void picture_key(struct subject *s, int method, uint64_t seed, long spp, char name[STORE_NAME],
@@ -72,7 +70,7 @@ static void take_step(struct subject *s, int method, int seed, int step, long sp
     float **picture = &s->picture[method][seed - 1], **image = &s->out->image[method];
     bool shown = method < s->plan->n_compared && seed == 1;
     free(*picture);
-    *picture = sheet_shrink(r->pixels, s->scene.width, s->scene.height, scale_of(s->plan));
+    *picture = sheet_shrink(r->pixels, s->scene.width, s->scene.height, plan_scale(s->plan));
     to->spp = spp;
     to->value[Q_SECONDS] = r->number[0];
     to->nonfinite = (long)r->number[1];
@@ -252,7 +250,7 @@ static bool make_reference(struct subject *s)
 /* From the size of its errors to that of its pictures. */
 static bool enlarge(struct subject *s)
 {
-    int k = scale_of(s->plan);
+    int k = plan_scale(s->plan);
     if (!picture_size_ok((uint64_t)s->out->width * (uint64_t)k, (uint64_t)s->out->height * (uint64_t)k, s->err))
         return false;
     s->scene.width = s->out->width * k;

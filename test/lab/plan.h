@@ -59,6 +59,9 @@ bool plan_add_sweep(struct plan *p, const char *list, struct error *err);
 static inline int plan_last_step(const struct plan *p) { return p->n_steps - 1; }
 static inline long plan_last_spp(const struct plan *p) { return p->spp[p->n_steps - 1]; }
 
+/* plan_scale: so many times as wide and high are pictures. */
+static inline int plan_scale(const struct plan *p) { return p->scale > 1 ? p->scale : 1; }
+
 /* plan_seeds: how often the plan renders a method. plan_seed: the seed of repetition i = 1, 2, ... Methods have seeds
  * of their own, so that their errors are independent, whatever else is measured. */
 int plan_seeds(const struct plan *p, int method);

@@ -1,5 +1,4 @@
 /* pyramid.c: see pyramid.h. */
-#include "lab/compare.h"
 #include "lab/pyramid.h"
 
 #include <math.h>
@@ -9,7 +8,7 @@
 #include "base/maths.h"
 #include "base/mem.h"
 #include "base/number.h"
-#include "image/image.h"
+#include "lab/compare.h"
 #include "lab/sheet.h"
 
 enum { GAP = 4, LEFT = 64, TOP = 40, SHEET_WIDTH = 1024, CELL_MIN = 48, CELL_MAX = 192 };
@@ -90,7 +89,7 @@ static void draw_pyramid(struct sheet *sheet, const struct layout *l, const stru
     }
 }
 
-bool pyramid_write(const char *path, const struct strategy_images *images, double scale, struct error *err)
+bool pyramid_write(const char *directory, const struct strategy_images *images, double scale, struct error *err)
 {
     struct layout l = lay_out(images, scale);
     struct sheet sheet;
@@ -98,7 +97,5 @@ bool pyramid_write(const char *path, const struct strategy_images *images, doubl
     sheet_init(&sheet, LEFT + l.columns * (l.width + GAP), 2 * half, SHEET_PAPER);
     draw_pyramid(&sheet, &l, images, 0, false);
     draw_pyramid(&sheet, &l, images, half, true);
-    bool ok = image_write(path, sheet.width, sheet.height, sheet.pixels, err);
-    sheet_free(&sheet);
-    return ok;
+    return sheet_write(&sheet, directory, "pyramid.png", err);
 }

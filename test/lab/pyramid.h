@@ -13,9 +13,8 @@
 
 enum { PYRAMID_DEPTH = 15 }; /* longer paths are left out */
 
-/* pyramid_write: as a picture whose extension image_write knows.
- *   scale  as film_develop takes it
- * Returns false with a message. */
-bool pyramid_write(const char *path, const struct strategy_images *images, double scale, struct error *err);
+/* pyramid_write: as DIRECTORY/pyramid.png. False with a message.
+ *   scale  as film_develop takes it */
+bool pyramid_write(const char *directory, const struct strategy_images *images, double scale, struct error *err);
 
 #endif

@@ -1,11 +1,10 @@
 /* results.c: see results.h. */
 #include "lab/results.h"
 
-#include "lab/csv.h"
-
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/file.h"
 #include "base/maths.h"
@@ -25,6 +24,16 @@ void results_free(struct results *r)
 }
 
 /* --- files ------------------------------------------------------------------------------------------- */
+
+/* A field of a line of comma-separated values: in quotes where it has to be, whatever a scene is called. */
+static void write_text(FILE *f, const char *text)
+{
+    const char *quote = strpbrk(text, ",\"\r\n") != NULL ? "\"" : "";
+    fputs(quote, f);
+    for (; *text != '\0'; text++)
+        fputs(*text == '"' ? "\"\"" : (const char[]){*text, '\0'}, f);
+    fputs(quote, f);
+}
 
 static void write_number(FILE *f, double v)
 {
@@ -50,7 +59,7 @@ void results_csv(FILE *f, const struct results *r)
     for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++)
         for (int v = 0; v < r->plan->methods.n; v++)
             for (int step = 0; step < r->plan->n_steps; step++) {
-                csv_text(f, s->name);
+                write_text(f, s->name);
                 fprintf(f, ",%s,%ld,%d", r->plan->methods.item[v].text, r->plan->spp[step],
                         plan_seeds(r->plan, v));
                 for (int q = 0; q < N_QUANTITIES; q++) {
@@ -58,8 +67,8 @@ void results_csv(FILE *f, const struct results *r)
                     write_number(f, e.mean);
                     write_number(f, e.error);
                 }
-                write_interval(f, results_rmse_ratio(s, v, step));
-                write_interval(f, results_cost_ratio(s, v, step));
+                write_interval(f, results_over_first(s, v, step, false));
+                write_interval(f, results_over_first(s, v, step, true));
                 fputc('\n', f);
             }
 }
@@ -84,7 +93,7 @@ void results_runs_csv(FILE *f, const struct results *r)
         for (int v = 0; v < r->plan->methods.n; v++)
             for (int i = 0; i < plan_seeds(r->plan, v); i++)
                 for (int step = 0; step < s->run[v][i].n; step++) {
-                    csv_text(f, s->name);
+                    write_text(f, s->name);
                     fprintf(f, ",%s,%" PRIu64 ",", r->plan->methods.item[v].text, plan_seed(r->plan, v, i + 1));
                     write_step(f, &s->run[v][i].step[step]);
                 }
@@ -182,8 +191,7 @@ struct interval results_ratio(const double *a, int na, const double *b, int nb)
     return out;
 }
 
-/* The ratio of a method's mean to the first one's: of its errors, or of squared error times seconds. */
-static struct interval over_first(const struct scene_results *s, int method, int step, bool paid)
+struct interval results_over_first(const struct scene_results *s, int method, int step, bool paid)
 {
     double x[2][PLAN_MAX_SEEDS];
     int compared[2] = {method, 0}, n[2];
@@ -195,16 +203,6 @@ static struct interval over_first(const struct scene_results *s, int method, int
         }
     }
     return results_ratio(x[0], n[0], x[1], n[1]);
-}
-
-struct interval results_rmse_ratio(const struct scene_results *s, int method, int step)
-{
-    return over_first(s, method, step, false);
-}
-
-struct interval results_cost_ratio(const struct scene_results *s, int method, int step)
-{
-    return over_first(s, method, step, true);
 }
 
 double results_bias_p(const struct scene_results *s, int method, int step)

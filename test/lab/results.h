@@ -21,7 +21,7 @@ enum quantity {
     Q_RMSE,       /* linear */
     Q_RMSE8,      /* 8-bit sRGB */
     Q_RELMSE,     /* relative squared error */
-    Q_BLOCKS,     /* the same of means over blocks of 8x8 pixels, see compare_blocks */
+    Q_BLOCKS,     /* the same of means over blocks of 8x8 pixels, see compare.h */
     Q_MEAN_ERROR, /* mean of image over mean of reference, less 1 */
     N_QUANTITIES
 };
@@ -99,11 +99,10 @@ bool results_write(const struct results *r, const char *name, void (*write)(FILE
  * on the logarithm of the ratio. */
 struct interval results_ratio(const double *a, int na, const double *b, int nb);
 
-/* results_rmse_ratio: rmse8 of a method over the first one's after the same number of samples, the dissertation's
- * comparison. results_cost_ratio: the same of squared error times seconds: what a method pays for the inverse of its
- * variance, as the squared error falls as one over the time. */
-struct interval results_rmse_ratio(const struct scene_results *s, int method, int step);
-struct interval results_cost_ratio(const struct scene_results *s, int method, int step);
+/* results_over_first: a method over the first after the same number of samples: rmse8, the dissertation's comparison;
+ * or squared error times seconds, what a method has paid for the inverse of its variance, as the squared error falls as
+ * one over the time. */
+struct interval results_over_first(const struct scene_results *s, int method, int step, bool paid);
 
 /* results_bias_p: p-value of "the signed mean error is 0" by Student's t, from the seeds' scatter and the error of the
  * reference's mean. (The variances of pixels over samples are no estimate of it: samples that are spread evenly err

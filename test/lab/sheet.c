@@ -2,12 +2,13 @@
 #include "lab/sheet.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/number.h"
 #include "base/mem.h"
-#include "image/picture.h"
+#include "image/image.h"
 
 static float *pixel_at(struct sheet *s, int x, int y)
 {
@@ -37,6 +38,15 @@ void sheet_free(struct sheet *s)
 {
     free(s->pixels);
     s->pixels = NULL;
+}
+
+bool sheet_write(struct sheet *s, const char *directory, const char *name, struct error *err)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s", directory, name);
+    bool ok = image_write(path, s->width, s->height, s->pixels, err);
+    sheet_free(s);
+    return ok;
 }
 
 void sheet_paste(struct sheet *s, int x, int y, const float *pixels, int width, int height, int k)

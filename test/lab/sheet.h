@@ -1,11 +1,14 @@
-/* sheet.h: a sheet that pictures are pasted on and labels written on: figures as one file.
+/* sheet.h: a sheet that pictures are pasted on and labels written on: figures as one file; its letters (font.c) and
+ * colours (colormap.c).
  *
  * Tests: test_sheet.c.
  */
 #ifndef ASBDPT_SHEET_H
 #define ASBDPT_SHEET_H
 
-#include "lab/font.h"
+#include <stdbool.h>
+
+#include "base/error.h"
 
 struct sheet {
     int width, height;
@@ -34,5 +37,17 @@ int sheet_text_width(const char *text, int size);
 /* sheet_shrink: average squares of k x k pixels, k not above width or height; what is left at the right and lower edge
  * is cut off. [(height/k)*(width/k)*3], to be freed. */
 float *sheet_shrink(const float *pixels, int width, int height, int k);
+
+/* sheet_write: as DIRECTORY/NAME, a picture; the sheet is freed. False with a message. */
+bool sheet_write(struct sheet *s, const char *directory, const char *name, struct error *err);
+
+/* font_pixel: is pixel (x,y) of a letter ink? Letters are 5 x 7 pixels and a row for descenders; (0,0) is the top left
+ * one. Others than printable ASCII are drawn as '?'. */
+enum { FONT_WIDTH = 5, FONT_HEIGHT = 8, FONT_ADVANCE = FONT_WIDTH + 1 };
+bool font_pixel(char letter, int x, int y);
+
+/* viridis: the colour of t in a map that rises evenly in lightness and reads the same without one kind of cone
+ * [Smith 2015], as linear light; below 0 and NaN are as 0, above 1 as 1. */
+void viridis(double t, float out[3]);
 
 #endif

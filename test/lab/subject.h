@@ -21,9 +21,9 @@ struct subject {
 /* subject_options: how a method is rendered; the scene's settings become the method's. */
 struct render_options subject_options(struct subject *s, const struct measured *m, uint64_t seed, int n_threads);
 
-/* subject_probe: checksum of a small picture of one sample per pixel by a method of the plan: it changes when the scene,
- * its files or the program do, so that what is kept of another scene or version is not taken for this one's. 0 when it
- * cannot be rendered. */
+/* subject_probe: checksum of a small picture of one sample per pixel by a method of the plan: it changes when the
+ * scene, its files or the program do, so that what is kept of another scene or version is not taken for this one's. 0
+ * when it cannot be rendered. */
 unsigned long subject_probe(struct subject *s, int method);
 
 /* subject_key: all that a method's measurements depend on but seed and samples, at the beginning of a key; returns its

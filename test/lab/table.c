@@ -62,8 +62,6 @@ void table_free(struct table *t)
     memset(t, 0, sizeof *t);
 }
 
-size_t table_rows(const struct table *t) { return t->n_cells / t->columns; }
-
 /* A bar or a backslash of the text is no end of the cell. */
 static void markdown_text(FILE *f, const char *text)
 {

@@ -39,8 +39,6 @@ void table_free(struct table *t);
 void table_add_missing(struct table *t, int n);
 void table_add_interval(struct table *t, struct interval i);
 
-size_t table_rows(const struct table *t);
-
 /* table_markdown: the caption is the paragraph before the table. */
 void table_markdown(FILE *f, const struct table *t);
 

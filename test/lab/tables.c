@@ -2,11 +2,32 @@
 #include "lab/tables.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/maths.h"
-#include "lab/published.h"
 
 #define PLUS_MINUS "\xc2\xb1" /* U+00B1 in UTF-8 */
+
+/* --- what was printed -------------------------------------------------------------------------------- */
+
+static const struct published PRINTED[] = {
+    {"veach-ajar", {28.3020, 19.1206, 13.2645, 9.4453, 6.9799}, {28.7123, 20.1449, 14.2145, 10.1481, 7.2419}},
+    {"cornell-box", {2.8022, 2.2055, 1.9630, 1.8629, 1.8169}, {2.7836, 1.9842, 1.4369, 1.0609, 0.8086}},
+    {"cornell-box-modified", {3.3398, 2.4268, 1.8763, 1.5464, 1.3567}, {3.3369, 2.3851, 1.7241, 1.2604, 0.9453}},
+    {"bathroom", {17.3230, 13.8195, 11.7632, 10.6083, 10.0122}, {17.3743, 13.9254, 11.8313, 10.6455, 10.0004}},
+    {"living-room", {8.2173, 5.8870, 4.3207, 3.2946, 2.6155}, {8.2646, 5.9254, 4.2720, 3.0800, 2.2604}},
+};
+
+/* Samples per pixel of entry i. */
+static long published_spp(int i) { return 32L << i; }
+
+const struct published *published_find(const char *scene)
+{
+    for (size_t i = 0; i < sizeof PRINTED / sizeof PRINTED[0]; i++)
+        if (strcmp(PRINTED[i].scene, scene) == 0)
+            return &PRINTED[i];
+    return NULL;
+}
 
 /* --- columns and cells ------------------------------------------------------------------------------- */
 
@@ -55,7 +76,7 @@ static void add_means(struct table *t, const struct scene_results *s, int step, 
 static void add_costs(struct table *t, const struct scene_results *s, int step)
 {
     for (int v = 1; v < s->plan->n_compared; v++)
-        table_add_interval(t, results_cost_ratio(s, v, step));
+        table_add_interval(t, results_over_first(s, v, step, true));
 }
 
 /* --- tables of a scene ------------------------------------------------------------------------------- */
@@ -84,7 +105,7 @@ static void add_ours(struct table *t, const struct scene_results *s, int step)
     int bins = find_printed(s->plan);
     add_mean(t, s, 0, step, Q_RMSE8, 1);
     add_mean(t, s, bins, step, Q_RMSE8, 1);
-    table_add_interval(t, results_rmse_ratio(s, bins, step));
+    table_add_interval(t, results_over_first(s, bins, step, false));
 }
 
 /* The dissertation's step i beside ours of as many samples, if we have it. */
@@ -209,7 +230,7 @@ static void all_rmse_table(const struct results *r, struct table *t)
         add_scene(t, s);
         add_means(t, s, plan_last_step(r->plan), Q_RMSE8);
         if (bins >= 0) {
-            table_add_interval(t, results_rmse_ratio(s, bins, plan_last_step(r->plan)));
+            table_add_interval(t, results_over_first(s, bins, plan_last_step(r->plan), false));
             table_add_interval(t, alone);
         }
     }

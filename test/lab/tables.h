@@ -26,4 +26,15 @@ bool table_make(const struct results *r, const struct scene_results *s, int whic
 /* tables_write: all tables of a scene, or of all scenes for NULL, as Markdown. */
 void tables_write(FILE *f, const struct results *r, const struct scene_results *s);
 
+/* Root mean square errors that the dissertation printed of one scene, on the 8-bit scale, against 16384 samples of
+ * pbrt-v3's bdpt, in Bitterli's models, after 32, 64 ... 512 samples per pixel.                              [S24 4] */
+enum { PUBLISHED_STEPS = 5 };
+struct published {
+    const char *scene; /* our name of the same situation */
+    double asbdpt[PUBLISHED_STEPS], bdpt[PUBLISHED_STEPS];
+};
+
+/* published_find: by scene name; NULL for a scene the dissertation does not have. */
+const struct published *published_find(const char *scene);
+
 #endif

@@ -8,7 +8,6 @@
 #include "base/maths.h"
 #include "base/mem.h"
 #include "base/number.h"
-#include "lab/colormap.h"
 #include "tables/tables.h"
 #include "render/aov.h"
 #include "transport/pixel_sample.h"

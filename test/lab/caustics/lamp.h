@@ -1,5 +1,5 @@
-/* lamp.h: a point drawn on a light, as a vertex sees it: what strategies begin with that join vertices to lights in ways
- * of their own.
+/* lamp.h: a point drawn on a light, as a vertex sees it: what strategies begin with that join vertices to lights in
+ * ways of their own.
  *
  * Tests: test_caustic.c, test_ellipse.c, test_rivals.c.
  */
