@@ -171,6 +171,25 @@ static struct kd_cell root_cell(const struct geometry *geo, bool see_through)
     return root;
 }
 
+/* n <= KD_LANES primitives, all triangles or all quadrics. */
+static void fill_block(struct kd_block *b, const struct geometry *geo, const int *prim, int n)
+{
+    const struct kd_block empty = {{{{0}}}, {KD_NONE, KD_NONE, KD_NONE, KD_NONE}};
+    *b = empty;
+    for (int lane = 0; lane < n; lane++) {
+        b->prim[lane] = (uint32_t)prim[lane];
+        if (prim[lane] >= FIRST_QUADRIC)
+            continue;
+        const struct shape_group *group = shape_group_of(geo, prim[lane]);
+        if (geo->opaque != NULL && (group->alpha >= 0 || group->shadow_alpha >= 0))
+            b->prim[lane] |= KD_ALPHA;
+        float v[9];
+        shape_vertices(geo, prim[lane], v);
+        for (int i = 0; i < 9; i++)
+            b->v[i / 3][i % 3][lane] = v[i];
+    }
+}
+
 static void fill_blocks(struct builder *b)
 {
     struct kdtree *kd = b->kd;
@@ -182,17 +201,16 @@ static void fill_blocks(struct builder *b)
             prim[n] = prim_of_item(b->geo, b->leaf_item[i + (size_t)n]);
             n++;
         }
-        kd_block_fill(&kd->block[i / KD_LANES], b->geo, prim, n);
+        fill_block(&kd->block[i / KD_LANES], b->geo, prim, n);
     }
 }
 
 void kd_build(struct kdtree *kd, const struct geometry *geo, bool see_through)
 {
-    struct kdtree empty = {0};
     struct builder b = {.geo = geo, .kd = kd};
     struct kd_cell root = root_cell(geo, see_through);
     struct box bounds = root.box;
-    *kd = empty;
+    memset(kd, 0, sizeof *kd);
     if (root.n > 0) {
         /* n is 1 to 2^31, so this is 8 to KD_MAX_DEPTH. */
         b.max_depth = (int)fmin(KD_MAX_DEPTH, 8 + 2.0 * m_log2((double)root.n));

@@ -9,7 +9,10 @@
  */
 #include "geometry/kdtree.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "geometry/kd_block.h"
 
@@ -17,9 +20,116 @@ void kd_free(struct kdtree *kd)
 {
     free(kd->node);
     free(kd->block);
-    struct kdtree empty = {0};
-    *kd = empty;
+    memset(kd, 0, sizeof *kd);
 }
+
+/* --- a ray and a block ------------------------------------------------------------------------------- */
+
+/* Up to four triangles are tested in one loop, whose arithmetic a compiler can do on all lanes at once. It is done in
+ * float and only sorts out: a triangle stays in unless the ray certainly misses it, and those that stay are tested in
+ * double by triangle_hit, which alone decides. With s the largest coordinate of scene and origin and u = 2^-24, a
+ * sheared coordinate in float is off by at most 14 u s, and an edge function by at most 64 u s times the sum S of the
+ * six coordinates' absolute values (were S itself below 16 u s, the edge function would be smaller than that). This is
+ * the slack an edge function is given; FLT_MIN covers what underflows. */
+
+/* A ray and what the test needs of it. */
+struct block_ray {
+    struct triangle_ray exact;
+    float ox, oy, oz, sx, sy; /* of exact, in float */
+    float slack;              /* 64 u s */
+    uint32_t from, to;        /* primitive numbers of the triangles it begins and ends on, KD_NONE: on none */
+};
+
+/* The number of a primitive that is a triangle, KD_NONE of another: quadrics see to themselves. */
+static uint32_t own_triangle(uint32_t id) { return id - 1 < FIRST_QUADRIC ? id - 1 : KD_NONE; }
+
+/* For the scene whose largest absolute coordinate, or the ray's origin's, is `size`. */
+static void prepare_ray(struct block_ray *r, const struct ray *ray, double size)
+{
+    r->exact = triangle_ray(ray);
+    r->ox = (float)r->exact.ox;
+    r->oy = (float)r->exact.oy;
+    r->oz = (float)r->exact.oz;
+    r->sx = (float)r->exact.sx;
+    r->sy = (float)r->exact.sy;
+    r->slack = (float)(64 * 0x1p-24 * size);
+    r->from = own_triangle(ray->from);
+    r->to = own_triangle(ray->to);
+}
+
+/* Which lanes may the ray hit? Sets near[i] to 1 or 0 and returns whether any is 1. A quadric's zeros always may. The
+ * names are those of triangle_hit. */
+static inline bool block_near(const struct kd_block *b, const struct block_ray *r, int near[KD_LANES])
+{
+    const float *a_x = b->v[0][r->exact.kx], *a_y = b->v[0][r->exact.ky], *a_z = b->v[0][r->exact.kz];
+    const float *b_x = b->v[1][r->exact.kx], *b_y = b->v[1][r->exact.ky], *b_z = b->v[1][r->exact.kz];
+    const float *c_x = b->v[2][r->exact.kx], *c_y = b->v[2][r->exact.ky], *c_z = b->v[2][r->exact.kz];
+    const float ox = r->ox, oy = r->oy, oz = r->oz, sx = r->sx, sy = r->sy, factor = r->slack;
+    const uint32_t *prim = b->prim, from = r->from, to = r->to;
+    int any = 0;
+    for (int i = 0; i < KD_LANES; i++) {
+        float az = a_z[i] - oz, bz = b_z[i] - oz, cz = c_z[i] - oz;
+        float ax = (a_x[i] - ox) - sx * az, ay = (a_y[i] - oy) - sy * az;
+        float bx = (b_x[i] - ox) - sx * bz, by = (b_y[i] - oy) - sy * bz;
+        float cx = (c_x[i] - ox) - sx * cz, cy = (c_y[i] - oy) - sy * cz;
+        float ea = cx * by - cy * bx, eb = ax * cy - ay * cx, ec = bx * ay - by * ax;
+        float sum = fabsf(ax) + fabsf(ay) + fabsf(bx) + fabsf(by) + fabsf(cx) + fabsf(cy);
+        float slack = factor * sum + FLT_MIN;
+        float least = ea < eb ? ea : eb, most = ea > eb ? ea : eb;
+        least = ec < least ? ec : least;
+        most = ec > most ? ec : most;
+        near[i] = (prim[i] != KD_NONE) & (prim[i] != from) & (prim[i] != to) & !((least < -slack) & (most > slack));
+        any |= near[i];
+    }
+    return any != 0;
+}
+
+static bool lane_hit(const struct kd_block *b, int lane, const struct geometry *geo, const struct block_ray *r,
+                     double tmax, bool shadow, struct hit *hit)
+{
+    float v[9];
+    struct hit h;
+    for (int i = 0; i < 9; i++)
+        v[i] = b->v[i / 3][i % 3][lane];
+    if (!triangle_hit(&r->exact, v, tmax, &h))
+        return false;
+    h.prim = (int)(b->prim[lane] & ~KD_ALPHA);
+    if ((b->prim[lane] & KD_ALPHA) && !geo->opaque(geo->opaque_context, geo, &h, shadow))
+        return false;
+    *hit = h;
+    return true;
+}
+
+static bool quadrics_hit(const struct kd_block *b, const struct geometry *geo, const struct ray *ray, double tmax,
+                         struct hit *hit)
+{
+    struct hit h;
+    bool found = false;
+    for (int i = 0; i < KD_LANES && b->prim[i] != KD_NONE; i++)
+        if (shape_intersect(geo, (int)b->prim[i], ray, &h) && h.t < tmax) {
+            *hit = h;
+            tmax = h.t;
+            found = true;
+        }
+    return found;
+}
+
+/* The first hit within (ray->tmin, tmax) among the near lanes, honouring alpha; false, with *hit untouched, if none. */
+static bool block_hit(const struct kd_block *b, const int near[KD_LANES], const struct geometry *geo,
+                      const struct block_ray *r, double tmax, bool shadow, struct hit *hit)
+{
+    bool found = false;
+    if ((b->prim[0] & ~KD_ALPHA) >= FIRST_QUADRIC)
+        return quadrics_hit(b, geo, r->exact.ray, tmax, hit);
+    for (int i = 0; i < KD_LANES; i++)
+        if (near[i] && lane_hit(b, i, geo, r, tmax, shadow, hit)) {
+            tmax = hit->t;
+            found = true;
+        }
+    return found;
+}
+
+/* --- the way through the tree ------------------------------------------------------------------------ */
 
 /* A cell to visit and the stretch of the ray in it. */
 struct kd_visit {
@@ -32,7 +142,7 @@ struct traversal {
     double before[3], after[3]; /* origin moved by the slab's half width, so that t_lo = (split - before) inverse */
     double inverse[3];          /* 1/d, finite */
     uint32_t near_child[3];     /* 0: the ray goes up the axis, the lower cell comes first; 1: down */
-    struct kd_block_ray ray;
+    struct block_ray ray;
     struct kd_visit cell;
     int waiting;
     struct kd_visit stack[KD_MAX_DEPTH];
@@ -71,7 +181,7 @@ static bool traversal_start(struct traversal *w, const struct kdtree *kd, const 
     w->waiting = 0;
     if (kd->n_nodes == 0 || !(tmin <= tmax))
         return false;
-    kd_block_ray(&w->ray, ray, size);
+    prepare_ray(&w->ray, ray, size);
     return true;
 }
 
@@ -128,8 +238,8 @@ static inline bool traverse(const struct kdtree *kd, const struct geometry *geo,
         struct kd_node leaf = traversal_to_leaf(&w, kd->node);
         const struct kd_block *block = kd->block + leaf.at.first, *end = block + kd_blocks(leaf);
         for (; block < end; block++)
-            if (kd_block_near(block, &w.ray, near) &&
-                kd_block_hit(block, near, geo, &w.ray, nearest, shadow, hit)) {
+            if (block_near(block, &w.ray, near) &&
+                block_hit(block, near, geo, &w.ray, nearest, shadow, hit)) {
                 if (shadow)
                     return true;
                 nearest = hit->t;

@@ -377,12 +377,8 @@ static bool check_mesh(struct ply *r)
 
 bool ply_read(const char *path, struct mesh *out, struct error *err)
 {
-    struct mesh empty = {0};
-    struct ply r = {0};
-    *out = empty;
-    r.path = path;
-    r.mesh = out;
-    r.err = err;
+    struct ply r = {.path = path, .mesh = out, .err = err};
+    memset(out, 0, sizeof *out);
     bool ok = file_read(path, &r.data, &r.size, err) && read_header(&r) && check_counts(&r) && read_body(&r) &&
               check_mesh(&r);
     out->content = hash_content(r.data, r.size);

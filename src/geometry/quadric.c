@@ -220,82 +220,78 @@ bool quadric_intersect(const struct quadric *q, const struct ray *ray, bool begi
 
 /* --- the surface -------------------------------------------------------------------------------------- */
 
-/* A surface point in object space, zeros at first. n is of any length. */
-struct object_point {
-    vec3 n, dpdu, dpdv, dndu, dndv;
-    double u, v;
-};
+/* What follows fills a surface point in object space, whose dndu and dndv are zero at first; ng is of any length. */
 
 /* Derivatives by u shrink towards the axis, where they would be no tangents; of the radius, they stop at this. */
 static const double LEAST_RING = 1e-5;
 
 /* theta runs from acos(zmin/r), where v = 0, to acos(zmax/r). On the axis phi is taken as 0. */
-static void sphere_point(const struct quadric *q, vec3 p, struct object_point *at)
+static void sphere_point(const struct quadric *q, vec3 p, struct surface *at)
 {
     double r = q->radius, ring = ring_of(p);
     double theta0 = m_acos(clamp(q->zmin / r, -1, 1)), theta1 = m_acos(clamp(q->zmax / r, -1, 1));
     vec3 out = outwards(p);
     ring = fmax(ring, LEAST_RING * r);
     at->v = (m_acos(clamp(p.z / r, -1, 1)) - theta0) / (theta1 - theta0);
-    at->n = mul(p, 1 / r);
+    at->ng = mul(p, 1 / r);
     at->dpdu = mul(vec(-out.y, out.x, 0), q->phi_max * ring);
     at->dpdv = mul(vec(p.z * out.x, p.z * out.y, -ring), theta1 - theta0);
     at->dndu = mul(at->dpdu, 1 / r);
     at->dndv = mul(at->dpdv, 1 / r);
 }
 
-static void disk_point(const struct quadric *q, vec3 p, struct object_point *at)
+static void disk_point(const struct quadric *q, vec3 p, struct surface *at)
 {
     double r = fmax(ring_of(p), LEAST_RING * q->radius), width = q->radius - q->inner_radius;
     vec3 out = outwards(p);
     at->v = (q->radius - r) / width;
-    at->n = vec(0, 0, 1);
+    at->ng = vec(0, 0, 1);
     at->dpdu = mul(vec(-out.y, out.x, 0), q->phi_max * r);
     at->dpdv = mul(out, -width);
 }
 
-static void cylinder_point(const struct quadric *q, vec3 p, struct object_point *at)
+static void cylinder_point(const struct quadric *q, vec3 p, struct surface *at)
 {
     at->v = (p.z - q->zmin) / (q->zmax - q->zmin);
-    at->n = vec(p.x / q->radius, p.y / q->radius, 0);
+    at->ng = vec(p.x / q->radius, p.y / q->radius, 0);
     at->dpdu = mul(vec(-p.y, p.x, 0), q->phi_max);
     at->dpdv = vec(0, 0, q->zmax - q->zmin);
     at->dndu = mul(at->dpdu, 1 / q->radius);
 }
 
 /* The normal does not change along the slope. */
-static void cone_point(const struct quadric *q, vec3 p, struct object_point *at)
+static void cone_point(const struct quadric *q, vec3 p, struct surface *at)
 {
     vec3 out = outwards(p), along = vec(-out.y, out.x, 0);
     at->v = p.z / q->zmax;
-    at->n = vec(out.x * q->zmax, out.y * q->zmax, q->radius);
+    at->ng = vec(out.x * q->zmax, out.y * q->zmax, q->radius);
     at->dpdu = mul(along, q->phi_max * fmax(ring_of(p), LEAST_RING * q->radius));
     at->dpdv = vec(-out.x * q->radius, -out.y * q->radius, q->zmax);
     at->dndu = mul(along, q->phi_max * q->zmax);
 }
 
 /* n is half the gradient of x^2 + y^2 - k z, k = radius^2 / zmax. */
-static void paraboloid_point(const struct quadric *q, vec3 p, struct object_point *at)
+static void paraboloid_point(const struct quadric *q, vec3 p, struct surface *at)
 {
     double k = sqr(q->radius) / q->zmax, r = fmax(ring_of(p), LEAST_RING * q->radius), height = q->zmax - q->zmin;
     vec3 out = outwards(p);
     at->v = (p.z - q->zmin) / height;
-    at->n = vec(p.x, p.y, -0.5 * k);
+    at->ng = vec(p.x, p.y, -0.5 * k);
     at->dpdu = at->dndu = mul(vec(-out.y, out.x, 0), q->phi_max * r);
     at->dndv = mul(out, height * k / (2 * r)); /* the ring grows by k / 2r with z */
     at->dpdv = vec(at->dndv.x, at->dndv.y, height);
 }
 
 /* n is half the gradient, turned the way of dpdu x dpdv. Where segment and axis meet any direction will do. */
-static void hyperboloid_point(const struct quadric *q, vec3 p, struct object_point *at)
+static void hyperboloid_point(const struct quadric *q, vec3 p, struct surface *at)
 {
     struct profile f = profile_of(q);
     double phi = azimuth(q, p), c = m_cos(phi), s = m_sin(phi), side = q->p2.z > q->p1.z ? 1 : -1;
     vec3 d = sub(q->p2, q->p1);
     at->v = (p.z - q->p1.z) / d.z;
-    at->n = mul(vec(p.x, p.y, -0.5 * f.c1 - f.c2 * (p.z - f.z0)), side);
-    if (length2(at->n) == 0)
-        at->n = vec(side, 0, 0);
+    at->ng = mul(vec(p.x, p.y, -0.5 * f.c1 - f.c2 * (p.z - f.z0)), side);
+    if (length2(at->ng) == 0)
+        at->ng = vec(side, 0, 0);
     at->dpdu = mul(vec(-p.y, p.x, 0), q->phi_max);
     at->dpdv = vec(d.x * c - d.y * s, d.x * s + d.y * c, d.z);
     at->dndu = mul(at->dpdu, side);
@@ -312,27 +308,25 @@ static vec3 normal_derivative(const struct quadric *q, vec3 d, vec3 n, double sc
 
 void quadric_surface_at(const struct quadric *q, bool reverse_orientation, vec3 p, struct surface *out)
 {
-    struct object_point at = {0};
     p = project(q, p);
-    at.u = azimuth(q, p) / q->phi_max;
+    out->dndu = out->dndv = vec(0, 0, 0);
+    out->u = azimuth(q, p) / q->phi_max;
     switch (q->kind) {
-    case QUADRIC_SPHERE: sphere_point(q, p, &at); break;
-    case QUADRIC_DISK: disk_point(q, p, &at); break;
-    case QUADRIC_CYLINDER: cylinder_point(q, p, &at); break;
-    case QUADRIC_CONE: cone_point(q, p, &at); break;
-    case QUADRIC_PARABOLOID: paraboloid_point(q, p, &at); break;
-    case QUADRIC_HYPERBOLOID: hyperboloid_point(q, p, &at); break;
+    case QUADRIC_SPHERE: sphere_point(q, p, out); break;
+    case QUADRIC_DISK: disk_point(q, p, out); break;
+    case QUADRIC_CYLINDER: cylinder_point(q, p, out); break;
+    case QUADRIC_CONE: cone_point(q, p, out); break;
+    case QUADRIC_PARABOLOID: paraboloid_point(q, p, out); break;
+    case QUADRIC_HYPERBOLOID: hyperboloid_point(q, p, out); break;
     }
-    vec3 normal = transform_normal(&q->to_world, at.n);
+    vec3 normal = transform_normal(&q->to_world, out->ng);
     double scale = (reverse_orientation ? -1 : 1) / length(normal);
     out->p = transform_point(&q->to_world, p);
     out->ng = out->ns = mul(normal, scale);
-    out->dpdu = transform_vector(&q->to_world, at.dpdu);
-    out->dpdv = transform_vector(&q->to_world, at.dpdv);
-    out->dndu = normal_derivative(q, at.dndu, out->ng, scale);
-    out->dndv = normal_derivative(q, at.dndv, out->ng, scale);
-    out->u = at.u;
-    out->v = at.v;
+    out->dpdu = transform_vector(&q->to_world, out->dpdu);
+    out->dpdv = transform_vector(&q->to_world, out->dpdv);
+    out->dndu = normal_derivative(q, out->dndu, out->ng, scale);
+    out->dndv = normal_derivative(q, out->dndv, out->ng, scale);
 }
 
 /* --- sampling ------------------------------------------------------------------------------------------ */

@@ -20,8 +20,7 @@ void mesh_free(struct mesh *m)
     free(m->S);
     free(m->UV);
     free(m->index);
-    struct mesh empty = {0};
-    *m = empty;
+    memset(m, 0, sizeof *m);
 }
 
 void mesh_grid(struct mesh *m, int columns, int rows, bool has_n)
@@ -52,8 +51,7 @@ void geometry_free(struct geometry *geo)
     free(geo->group_of_triangle);
     free(geo->quadric);
     free(geo->group);
-    struct geometry empty = {0};
-    *geo = empty;
+    memset(geo, 0, sizeof *geo);
 }
 
 static int add_group(struct geometry *geo, struct shape_group group)
@@ -84,27 +82,19 @@ static void reserve_triangles(struct geometry *geo, size_t need)
 }
 
 /* The world normal of a vertex, or its tangent, of any length; 0 if there is none. */
-typedef vec3 direction_of(const struct mesh *m, const struct transform *to_world, size_t i);
-
-static vec3 vertex_normal(const struct mesh *m, const struct transform *to_world, size_t i)
+static vec3 direction(const float *d, bool normal, const struct transform *to_world, size_t i)
 {
-    vec3 n = m->N != NULL ? transform_normal(to_world, load3(m->N, i)) : vec(0, 0, 0);
-    return is_finite3(n) ? n : vec(0, 0, 0);
+    vec3 v = d == NULL ? vec(0, 0, 0) : (normal ? transform_normal : transform_vector)(to_world, load3(d, i));
+    return is_finite3(v) ? v : vec(0, 0, 0);
 }
 
-static vec3 vertex_tangent(const struct mesh *m, const struct transform *to_world, size_t i)
-{
-    vec3 s = m->S != NULL ? transform_vector(to_world, load3(m->S, i)) : vec(0, 0, 0);
-    return is_finite3(s) ? s : vec(0, 0, 0);
-}
-
-/* As in pbrt-v3, longer ones count for more where they are interpolated. A factor common to all of a mesh changes
+/* As in pbrt-v3, longer ones count for more where they are interpolated. A factor common to all n of a mesh changes
  * nothing, so the longest is made 1, which fits a float. */
-static double scale_of(direction_of *direction, const struct mesh *m, const struct transform *to_world)
+static double scale_of(const float *d, bool normal, const struct transform *to_world, int n)
 {
     double longest = 0;
-    for (size_t i = 0; i < (size_t)m->n_vertices; i++)
-        longest = fmax(longest, length(direction(m, to_world, i)));
+    for (size_t i = 0; d != NULL && i < (size_t)n; i++)
+        longest = fmax(longest, length(direction(d, normal, to_world, i)));
     return longest > 0 ? 1 / longest : 1;
 }
 
@@ -112,8 +102,8 @@ static bool add_vertices(struct geometry *geo, const struct mesh *m, const struc
                          struct error *err)
 {
     size_t base = (size_t)geo->n_vertices;
-    double scale = (reverse ? -1 : 1) * scale_of(vertex_normal, m, to_world);
-    double scale_s = m->S != NULL ? scale_of(vertex_tangent, m, to_world) : 1;
+    double scale = (reverse ? -1 : 1) * scale_of(m->N, true, to_world, m->n_vertices);
+    double scale_s = scale_of(m->S, false, to_world, m->n_vertices);
     reserve_vertices(geo, base + (size_t)m->n_vertices, m->S != NULL);
     for (size_t i = 0; i < (size_t)m->n_vertices; i++) {
         vec3 p = transform_point(to_world, load3(m->P, i));
@@ -121,9 +111,9 @@ static bool add_vertices(struct geometry *geo, const struct mesh *m, const struc
             return error_set(err, "vertex %lu of the mesh lies at (%g, %g, %g) in the world: places go up to 1e12",
                              (unsigned long)i, p.x, p.y, p.z);
         store3(geo->P, base + i, p);
-        store3(geo->N, base + i, mul(vertex_normal(m, to_world, i), scale));
+        store3(geo->N, base + i, mul(direction(m->N, true, to_world, i), scale));
         if (m->S != NULL)
-            store3(geo->S, base + i, mul(vertex_tangent(m, to_world, i), scale_s));
+            store3(geo->S, base + i, mul(direction(m->S, false, to_world, i), scale_s));
         for (size_t k = 0; k < 2; k++)
             geo->UV[2 * (base + i) + k] = m->UV != NULL ? m->UV[2 * i + k] : 0;
     }
@@ -257,38 +247,27 @@ bool shape_intersect(const struct geometry *geo, int prim, const struct ray *ray
     return true;
 }
 
-/* What a surface point has from its primitive, wherever it is on it. */
-static void set_primitive(const struct geometry *geo, int prim, struct surface *out)
+/* Of a triangle at b1 and b2, of a quadric at the object-space position p. */
+static void surface_at(const struct geometry *geo, int prim, double b1, double b2, vec3 p, struct surface *out)
 {
     const struct shape_group *group = shape_group_of(geo, prim);
+    if (is_quadric(prim)) {
+        quadric_surface_at(quadric_of(geo, prim), group->flip, p, out);
+    } else {
+        struct triangle tri = triangle_of(geo, prim);
+        triangle_surface(&tri, b1, b2, out);
+    }
     out->material = group->material;
     out->prim_id = shape_prim_id(prim);
     out->light = group->first_light >= 0 ? group->first_light + prim - group->first_prim : -1;
 }
 
-/* Surface point of a quadric at an object-space position. */
-static void quadric_point(const struct geometry *geo, int prim, vec3 p, struct surface *out)
-{
-    quadric_surface_at(quadric_of(geo, prim), shape_group_of(geo, prim)->flip, p, out);
-    set_primitive(geo, prim, out);
-}
-
-static void triangle_point(const struct geometry *geo, int prim, double b1, double b2, struct surface *out)
-{
-    struct triangle tri = triangle_of(geo, prim);
-    triangle_surface(&tri, b1, b2, out);
-    set_primitive(geo, prim, out);
-}
-
 void shape_surface(const struct geometry *geo, const struct hit *hit, const struct ray *ray, struct surface *out)
 {
-    if (is_quadric(hit->prim)) {
-        const struct quadric *q = quadric_of(geo, hit->prim);
-        vec3 p = transform_point_back(&q->to_world, add(ray->o, mul(ray->d, hit->t)));
-        quadric_point(geo, hit->prim, p, out);
-    } else {
-        triangle_point(geo, hit->prim, hit->b1, hit->b2, out);
-    }
+    vec3 p = add(ray->o, mul(ray->d, hit->t));
+    if (is_quadric(hit->prim))
+        p = transform_point_back(&quadric_of(geo, hit->prim)->to_world, p);
+    surface_at(geo, hit->prim, hit->b1, hit->b2, p, out);
 }
 
 double shape_area(const struct geometry *geo, int prim)
@@ -302,12 +281,12 @@ double shape_area(const struct geometry *geo, int prim)
 bool shape_sample(const struct geometry *geo, int prim, double u1, double u2, struct surface *out, double *pdf_a)
 {
     struct hit hit = {.prim = prim};
-    if (is_quadric(prim)) {
-        quadric_point(geo, prim, quadric_sample(quadric_of(geo, prim), u1, u2), out);
-    } else {
+    vec3 p = vec(0, 0, 0);
+    if (is_quadric(prim))
+        p = quadric_sample(quadric_of(geo, prim), u1, u2);
+    else
         warp_triangle(u1, u2, &hit.b1, &hit.b2);
-        triangle_point(geo, prim, hit.b1, hit.b2, out);
-    }
+    surface_at(geo, prim, hit.b1, hit.b2, p, out);
     *pdf_a = shape_pdf_a(geo, prim, out);
     return is_quadric(prim) || shape_group_of(geo, prim)->alpha < 0 || geo->opaque == NULL ||
            geo->opaque(geo->opaque_context, geo, &hit, false);

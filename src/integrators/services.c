@@ -30,21 +30,15 @@ void services_learn(const struct render_job *job, struct preparation *out, struc
 
 /* --- numbers ----------------------------------------------------------------------------------------- */
 
-/* What is settled before numbers are. */
-struct base {
-    struct mis_counts counts;
-    double draws[EYE_ENDS];
-    const struct credit *credit; /* NULL: not measured */
-};
-
-static void set_numbers(const struct render_job *job, struct frozen *f, const struct base *b, const struct plan *p)
+/* `one` has the counts of one light point, and those of its own draws. */
+static void set_numbers(const struct render_job *job, struct frozen *f, const struct frozen *one, const struct plan *p)
 {
     struct mis_counts *c = &f->counts;
     f->lights = (int)(p->n[LIGHT_FIRST] + 0.5);
-    c->hit[FIRST_HIT] = b->credit != NULL ? b->credit->broad : b->counts.hit[FIRST_HIT];
-    c->direct[FIRST_HIT] = f->lights * (b->credit != NULL ? b->credit->broad : b->counts.direct[FIRST_HIT]);
-    c->delta[FIRST_HIT] = f->lights * (b->credit != NULL ? b->credit->delta : b->counts.delta[FIRST_HIT]);
-    if (!(b->draws[FIRST_HIT] > 0))
+    c->hit[FIRST_HIT] = one->counts.hit[FIRST_HIT];
+    c->direct[FIRST_HIT] = f->lights * one->counts.direct[FIRST_HIT];
+    c->delta[FIRST_HIT] = f->lights * one->counts.delta[FIRST_HIT];
+    if (!(one->draws[FIRST_HIT] > 0))
         return;
     double paths = p->n[LIGHT_PATH];
     f->path_pixels = f->given.path_pixels > 0 ? f->given.path_pixels : paths > 0 ? (int)(1 / paths + 0.5) : 0;
@@ -52,7 +46,7 @@ static void set_numbers(const struct render_job *job, struct frozen *f, const st
     for (int end = 0; end < EYE_ENDS; end++) {
         f->draws[end] = f->given.connections > 0 ? f->given.connections
                                                  : p->n[end == FIRST_HIT ? DRAW_FIRST : DRAW_LATER];
-        c->connect[end] = f->path_pixels > 0 ? b->counts.connect[end] * f->draws[end] / b->draws[end] : 0;
+        c->connect[end] = f->path_pixels > 0 ? one->counts.connect[end] * f->draws[end] / one->draws[end] : 0;
     }
 }
 
@@ -138,27 +132,28 @@ void services_settle(const struct render_job *job, struct preparation *out)
     const double SAMPLES = 1.28; /* of each pixel, by the pilot's renders each */
     struct frozen *f = out->state;
     struct probe probe = {job, workspaces_new(job->n_threads, job->max_depth), out, render_with, &f->counts, out->size};
-    struct base base = {f->counts, {f->draws[FIRST_HIT], f->draws[LATER_HIT]}, NULL};
-    struct credit credit;
-    struct plan as_it_is = {{f->draws[FIRST_HIT], f->draws[LATER_HIT], f->lights, 1.0 / f->path_pixels}};
+    struct frozen one = *f;
+    struct plan plan = {{f->draws[FIRST_HIT], f->draws[LATER_HIT], f->lights, 1.0 / f->path_pixels}};
     if (f->services.credit) {
-        credit = credit_measure(&probe, &f->tables);
-        base.credit = &credit;
+        struct credit credit = credit_measure(&probe, &f->tables);
+        one.counts.hit[FIRST_HIT] = one.counts.direct[FIRST_HIT] = credit.broad;
+        one.counts.delta[FIRST_HIT] = credit.delta;
     }
     if (f->services.pilot) {
         struct costs costs = plan_costs(&f->tables.importance);
         for (int i = 0; i < job->n_threads; i++)
             probe.work[i].scratch = method_scratch(out);
-        set_numbers(job, f, &base, &PLAN_TRIED);
+        set_numbers(job, f, &one, &PLAN_TRIED);
         struct noise noise = noise_measure(&probe, PLAN_TRIED.n, SAMPLES);
         for (int i = 0; i < job->n_threads; i++)
             method_scratch_free(out, probe.work[i].scratch);
-        as_it_is = plan_numbers(&costs, &noise);
-        if (noise.total > 0 && free_choice(job, f) && !plan_paths_pay(&costs, &noise, &as_it_is))
-            as_it_is.n[LIGHT_PATH] = 0;
-        set_numbers(job, f, &base, &as_it_is);
+        plan = plan_numbers(&costs, &noise);
+        if (noise.total > 0 && free_choice(job, f) && !plan_paths_pay(&costs, &noise, &plan))
+            plan.n[LIGHT_PATH] = 0;
+    }
+    if (f->services.pilot || f->services.credit)
+        set_numbers(job, f, &one, &plan);
+    if (f->services.pilot)
         tell(out);
-    } else if (f->services.credit)
-        set_numbers(job, f, &base, &as_it_is);
     workspaces_free(probe.work, job->n_threads);
 }

@@ -227,9 +227,8 @@ static bool read_table(const uint8_t *byte, size_t size, struct fourier_table *t
 
 bool fourier_read(const char *path, struct fourier_table *out, struct error *err)
 {
-    struct fourier_table empty = {0};
     uint8_t *byte;
-    *out = empty;
+    memset(out, 0, sizeof *out);
     if (!file_read(path, &byte, &out->file_size, err))
         return false;
     out->content = hash_content(byte, out->file_size);
@@ -244,12 +243,11 @@ bool fourier_read(const char *path, struct fourier_table *out, struct error *err
 
 void fourier_free(struct fourier_table *t)
 {
-    struct fourier_table empty = {0};
     free(t->path);
     free(t->mu);
     free(t->first);
     free(t->length);
     free(t->a);
     free(t->cdf);
-    *t = empty;
+    memset(t, 0, sizeof *t);
 }

@@ -1,7 +1,8 @@
-/* planes.c: see planes.h. */
-#include "render/planes.h"
-
-#include "transport/pixel_sample.h"
+/* planes.c: what films have beside the picture (scene/tile.h), by an observer: groups of lights, and alpha.
+ *
+ * Tests: test_lights.c.
+ */
+#include "render/render.h"
 
 /* Of the steps that the sample's two sums are about to take the light's group has its share. A splat tells the film its
  * group itself. */

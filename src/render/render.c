@@ -9,8 +9,6 @@
 #include "base/parallel.h"
 #include "render/halves.h"
 #include "render/parameters.h"
-#include "render/planes.h"
-#include "render/tiling.h"
 
 /* Fractions lie within [0,1]: readers of scenes and options see to it. */
 struct pixel_rect render_crop(const struct scene *scene)

@@ -70,6 +70,20 @@ bool render_scene(const struct scene *scene, const struct render_options *option
 bool render_prepare(const struct scene *scene, const struct render_options *options, struct pixel_rect rect,
                     struct render_job *job, struct preparation *out, struct error *err);
 
+/* planes_observer: what adds to the tile of a sample the planes that it has; all NULL if there are none. */
+struct observer planes_observer(struct planes planes);
+
+/* tiling_of: a film in tiles as a method wants them. tiling_count: how many; tiling_rect: number 0 <= i < count, row by
+ * row. */
+struct tiling {
+    struct pixel_rect film;
+    struct pass_size size;
+    int nx, ny; /* tiles */
+};
+struct tiling tiling_of(struct pixel_rect film, const struct pass_size *size);
+static inline int64_t tiling_count(const struct tiling *t) { return (int64_t)t->nx * t->ny; }
+struct pixel_rect tiling_rect(const struct tiling *t, int64_t i);
+
 /* identity_text: what a picture by these options is of, whatever its number of samples; lines, each a word and what it
  * says, to be given to free(). Threads, names of files and what is written do not belong to it; what the scene's files
  * hold does. */

@@ -1,5 +1,5 @@
-/* tiling.c: see tiling.h. */
-#include "render/tiling.h"
+/* tiling.c: how a film is cut into tiles: squares, or squares of pixels that are interleaved with those of others. */
+#include "render/render.h"
 
 struct tiling tiling_of(struct pixel_rect film, const struct pass_size *size)
 {

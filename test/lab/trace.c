@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/tiling.h"
 
 void trace_free(struct trace *trace)
 {
