@@ -1,7 +1,5 @@
-/* kd_build.c: the kd-tree's builder: cells are cut where the surface-area heuristic says so (see kd_plane.h), until a
- * leaf is cheaper. A triangle that the plane cuts is clipped to both parts [Wald & Havran 2006], so that a cell
- * holds only what really passes through it.
- */
+/* kd_build.c: the kd-tree's builder: cells are cut where the surface-area heuristic says so (kd_plane.h), until a leaf
+ * is cheaper. A triangle that the plane cuts is clipped to both parts, so that a cell holds only what really passes. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,9 +1,5 @@
 /* kd_plane.h: where is a cell of the kd-tree best cut, and what of a triangle lies on each side of the cut?
  *
- * The plane is chosen by the surface-area heuristic. Triangles that it cuts are clipped, "perfect splits" of
- * [Wald & Havran 2006]: a triangle belongs to a cell only where it really passes, not where merely its bounding box
- * does.
- *
  * Tests: test_kdtree.c.
  */
 #ifndef ASBDPT_KD_PLANE_H

@@ -1,11 +1,7 @@
-/* kdtree.h: which primitive does a ray meet first?
+/* kdtree.h: which primitive does a ray meet first? A kd-tree over triangles and quadrics [Wald & Havran 2006].
  *
- * A kd-tree over triangles and quadrics: surface-area heuristic over clipped triangles [Wald & Havran 2006], 8-byte
- * nodes, leaves of triangles in blocks of four, iterative traversal.
- *
- * Precision: nodes hold float planes, traversal and intersection are computed in double from exact float
- * vertices. A point found on a surface is therefore within about 1e-15 of the scene's size of it; a ray leaving it does
- * not meet that primitive again, and others from ray_margin on.
+ * Nodes hold float planes; traversal and intersection are computed in double from exact float vertices. A point found
+ * on a surface is therefore within about 1e-15 of the scene's size of it.
  *
  * Tests: test_kdtree.c (against brute force, degenerate meshes).
  */

@@ -245,16 +245,6 @@ static bool next_number(struct ply *r, enum scalar type, double *out)
     return true;
 }
 
-/* A list's length: a whole number, 0 or more. */
-static bool next_count(struct ply *r, const struct ply_property *p, double *count)
-{
-    if (!next_number(r, p->count_type, count))
-        return false;
-    if (!(*count >= 0 && *count <= FIRST_QUADRIC) || *count != floor(*count))
-        return fail(r, "not a list length", "");
-    return true;
-}
-
 /* --- elements ----------------------------------------------------------------------------------------- */
 
 static void add_triangle(struct ply *r, uint32_t a, uint32_t b, uint32_t c)
@@ -272,8 +262,10 @@ static bool read_list(struct ply *r, const struct ply_property *p)
 {
     double count, value;
     uint32_t first = 0, previous = 0;
-    if (!next_count(r, p, &count))
+    if (!next_number(r, p->count_type, &count))
         return false;
+    if (!(count >= 0 && count <= FIRST_QUADRIC) || count != floor(count))
+        return fail(r, "not a list length", "");
     r->mesh->n_thin += p->role == POLYGON && count < 3;
     for (double k = 0; k < count; k++) {
         if (!next_number(r, p->type, &value))

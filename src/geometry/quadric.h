@@ -1,12 +1,9 @@
 /* quadric.h: spheres, disks, cylinders, cones, paraboloids and hyperboloids, whole or cut, with pbrt-v3's parameters
- * and (u,v).
+ * and (u,v), each in an object space of its own and placed by an affine transform.
  *
- * A quadric is defined in its object space and placed by an affine transform; rays are taken to object space
- * without rescaling t. The outside, the +z side of a disk, and of a hyperboloid whose p2 is below p1 the inside, is
- * where the normal points; ReverseOrientation turns it. A mirroring transform does not: emitters and hits follow the
- * one rule.
- *
- * As in pbrt-v3, points are sampled only on spheres, disks and cylinders: the others cannot be lights.
+ * The normal points to the outside, the +z side of a disk, and of a hyperboloid whose p2 is below p1 to the inside;
+ * ReverseOrientation turns it, a mirroring transform does not. As in pbrt-v3, points are sampled only on spheres, disks
+ * and cylinders: the others cannot be lights.
  *
  * Tests: test_shape.c.
  */

@@ -78,7 +78,7 @@ struct triangle {
 };
 
 /* triangle_surface: position, normals, texture coordinates and partial derivatives at barycentric coordinates
- * (1-b1-b2, b1, b2); material and light are left alone. With vertex normals, ns is their normalised mean, ng lies on
+ * (1-b1-b2, b1, b2). With vertex normals, ns is their normalised mean, ng lies on
  * its side, and dpdu, dpdv are the derivatives by (u,v) projected to be orthogonal to ns; without, ns = ng and they are
  * the derivatives as they are. Where (u,v) do not span the triangle they are any unit tangents. With vertex tangents
  * dpdu and dpdv are turned about ns until dpdu is along their mean. All are zero if skip_partials is set. */

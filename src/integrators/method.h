@@ -1,11 +1,9 @@
 /* method.h: a method is one file and one row.
  *
- * A row says all that anybody needs to know of a method: what --help, -P, scene files, experiments, trace and tests ask
- * for stands here and nowhere else. The table of all rows is render/methods.h.
- *
- * A render asks a method to prepare its state once, parameters being read already, and then to render tile passes
- * (tile_pass.h) on as many threads as there are, each with scratch memory of its own. Methods whose pixels share the
- * light sub-paths of their tile leave the rendering to pooled_render and say what they draw (pooled.h).
+ * A row says all that anybody needs to know of a method; the table of all rows is render/methods.h. A render asks a
+ * method to prepare its state once, parameters being read already, and then to render tile passes (tile_pass.h) on as
+ * many threads as there are, each with scratch memory of its own. Methods whose pixels share the light sub-paths of
+ * their tile leave the rendering to pooled_render and say what they draw (pooled.h).
  *
  * doc/add-a-method.md adds one. Tests: test_render.c, test_options.c, test/add_method.sh.
  */

@@ -1,10 +1,4 @@
-/* pooled.h: methods whose pixels choose from the light sub-paths of their tile.
- *
- *   pool       asbdpt: one alias table over the sub-paths, one bin per pixel, weighted: the smallest unbiased repair of
- *              the dissertation's bins
- *   vertices   asbdpt: one alias table over light *vertices*, C draws per eye vertex, known to the MIS weights
- *   subspaces  asbdpt, its default: the same, but what is drawn depends on where the eye vertex is too
- *   and all of rivals/
+/* pooled.h: methods whose pixels choose from the light sub-paths of their tile: pool, vertices, subspaces, and others.
  *
  * In every iteration the pixels of a tile trace light sub-paths, one for every path_pixels of them; each pixel traces
  * its eye sub-path, takes the strategies s = 0 and s = 1 as BDPT does, and is joined to what its method draws; every

@@ -7,8 +7,6 @@
  *   pilot     how many samples of what is chosen by what a few tiles show (plan.h)
  *   tile, spread  how many pixels share a pool, and how far apart they lie (tile_pass.h)
  *
- * A method's `prepare` first has the tables filled, then settles its own counts, and then has the numbers chosen.
- *
  * Tests: test_asbdpt.c, test_pilot.c.
  */
 #ifndef ASBDPT_SERVICES_H

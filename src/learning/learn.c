@@ -10,19 +10,6 @@ static const double LEARN_PER_PIXEL = 4;
 
 enum { MAX_EYE_REGIONS = 1024, MAX_LIGHT_REGIONS = 2048, MAX_IMPORTANCE_REGIONS = 1 << 17 };
 
-/* Grids, where vertices are, and nothing else. */
-static struct tables lay_grids(struct training *t)
-{
-    struct tables grids = NO_TABLES;
-    const struct learn_options *o = t->options;
-    vec3 low, high;
-    train_extent(t, &low, &high);
-    regions_init(&grids.eye, low, high, o->eye_cells, o->levels, MAX_EYE_REGIONS);
-    regions_init(&grids.light, low, high, o->light_cells, o->levels,
-                 o->pairs ? MAX_LIGHT_REGIONS : MAX_IMPORTANCE_REGIONS);
-    return grids;
-}
-
 struct tables learn(const struct render_job *job, const struct learn_options *options)
 {
     struct training t = {.job = job, .options = options, .work = workspaces_new(job->n_threads, job->max_depth),
@@ -32,8 +19,14 @@ struct tables learn(const struct render_job *job, const struct learn_options *op
     long n = int_within(LEARN_PER_PIXEL * pixels, LEARN_LEAST, LEARN_MOST), n_light = n < LIGHT_MOST ? n : LIGHT_MOST;
     bool places = options->importance || options->guide || options->pairs;
     long aiming = options->importance && options->emission < 1 ? n_light / 2 : 0;
-    if (places)
-        tables = train_importance(&t, lay_grids(&t), options->pairs ? n / 2 : n);
+    if (places) {
+        vec3 low, high;
+        train_extent(&t, &low, &high);
+        regions_init(&tables.eye, low, high, options->eye_cells, options->levels, MAX_EYE_REGIONS);
+        regions_init(&tables.light, low, high, options->light_cells, options->levels,
+                     options->pairs ? MAX_LIGHT_REGIONS : MAX_IMPORTANCE_REGIONS);
+        tables = train_importance(&t, tables, options->pairs ? n / 2 : n);
+    }
     if (aiming > 0)
         tables = train_emission(&t, tables, aiming);
     if (!places || options->importance)

@@ -7,9 +7,7 @@
  * and may end it: then there is what was found so far, which is a valid, if poor, thing to have learnt. Tables are not
  * stored: every render learns them anew.
  *
- * Passes, each over sub-paths of its own: extent (where vertices are, so that the grid lies there), importance (where
- * the camera can use light, and which lights are seen from where), emission (which light sub-paths go there: half of
- * them), vertices (where those of the others, which know that, are), pairs (what regions are worth to each other).
+ * Passes, each over sub-paths of its own, are in training.h.
  *
  * Tests: test_asbdpt.c (same result for any number of threads, unbiased renders), test_learning.c.
  */

@@ -1,7 +1,6 @@
 /* material.h: from a material and a surface point to a BSDF. Parameters, defaults and formulas are pbrt-v3's.
  *
- * A material is one file and one row: what scene files, the parser, trace and tests ask for stands there and nowhere
- * else. The table of all rows is rows.c. lobe_list.h has what rows make their lobes with.
+ * A material is one file and one row of rows.c; lobe_list.h has what rows make their lobes with.
  *
  * Tests: test_material.c, test_format.c.
  */

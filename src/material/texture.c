@@ -169,38 +169,26 @@ rgb image_bilinear(const struct image *img, double s, double t, enum texture_wra
 
 /* --- mappings ---------------------------------------------------------------------------------------- */
 
-/* May be NaN where coordinates are. */
-struct st {
-    double s, t;
-};
-
-static struct st st_of(double s, double t)
-{
-    struct st st = {s, t};
-    return st;
-}
-
-static struct st map_point(const struct texture_set *set, const struct mapping *m, const struct surface *at)
+/* (s, t, 0); may be NaN where coordinates are. */
+static vec3 map_point(const struct texture_set *set, const struct mapping *m, const struct surface *at)
 {
     switch (m->kind) {
-    case MAPPING_UV: return st_of(m->su * at->u + m->du, m->sv * at->v + m->dv);
+    case MAPPING_UV: return vec(m->su * at->u + m->du, m->sv * at->v + m->dv, 0);
     case MAPPING_SPHERICAL: {
         vec3 w = normalize(transform_point_back(&set->space[m->space], at->p));
         double turns = m_atan2(w.y, w.x) / (2 * PI);
-        return st_of(m_acos(clamp(w.z, -1, 1)) / PI, turns < 0 ? turns + 1 : turns);
+        return vec(m_acos(clamp(w.z, -1, 1)) / PI, turns < 0 ? turns + 1 : turns, 0);
     }
     case MAPPING_CYLINDRICAL: {
         vec3 w = normalize(transform_point_back(&set->space[m->space], at->p));
-        return st_of(0.5 + m_atan2(w.y, w.x) / (2 * PI), w.z);
+        return vec(0.5 + m_atan2(w.y, w.x) / (2 * PI), w.z, 0);
     }
-    case MAPPING_PLANAR: return st_of(dot(at->p, m->v1) + m->du, dot(at->p, m->v2) + m->dv);
+    case MAPPING_PLANAR: return vec(dot(at->p, m->v1) + m->du, dot(at->p, m->v2) + m->dv, 0);
     }
-    return st_of(0, 0);
+    return vec(0, 0, 0);
 }
 
 /* --- values ------------------------------------------------------------------------------------------ */
-
-static bool is_even(double whole) { return fmod(whole, 2) == 0; }
 
 static rgb mix(rgb a, rgb b, double amount) { return rgb_add(rgb_scale(a, 1 - amount), rgb_scale(b, amount)); }
 
@@ -234,32 +222,28 @@ static rgb evaluate(const struct texture_set *set, int id, const struct surface 
     case TEXTURE_MIX:
         return mix(evaluate(set, t->tex1, at, read), evaluate(set, t->tex2, at, read),
                    texture_float(set, t->amount, at));
-    case TEXTURE_CHECKERBOARD: {
-        struct st st = map_point(set, &t->map, at);
-        bool even = is_even(floor(st.s) + floor(st.t));
-        return evaluate(set, even ? t->tex1 : t->tex2, at, read);
-    }
+    case TEXTURE_CHECKERBOARD:
     case TEXTURE_CUBES: {
-        vec3 p = in_space(set, t->space, at);
-        bool even = is_even(floor(p.x) + floor(p.y) + floor(p.z));
+        vec3 p = t->kind == TEXTURE_CUBES ? in_space(set, t->space, at) : map_point(set, &t->map, at);
+        bool even = fmod(floor(p.x) + floor(p.y) + floor(p.z), 2) == 0;
         return evaluate(set, even ? t->tex1 : t->tex2, at, read);
     }
     case TEXTURE_DOTS: {
-        struct st st = map_point(set, &t->map, at);
-        return evaluate(set, noise_in_dot(st.s, st.t) ? t->tex1 : t->tex2, at, read);
+        vec3 st = map_point(set, &t->map, at);
+        return evaluate(set, noise_in_dot(st.x, st.y) ? t->tex1 : t->tex2, at, read);
     }
     case TEXTURE_IMAGEMAP: {
-        struct st st = map_point(set, &t->map, at);
+        vec3 st = map_point(set, &t->map, at);
         const struct image *img = &set->image[t->image];
-        return rgb_scale(bilinear(img, st.s, st.t, t->wrap, t->gamma, read), t->scale);
+        return rgb_scale(bilinear(img, st.x, st.y, t->wrap, t->gamma, read), t->scale);
     }
     case TEXTURE_BILERP: {
-        struct st st = map_point(set, &t->map, at);
-        return mix(mix(t->v00, t->v10, st.s), mix(t->v01, t->v11, st.s), st.t);
+        vec3 st = map_point(set, &t->map, at);
+        return mix(mix(t->v00, t->v10, st.x), mix(t->v01, t->v11, st.x), st.y);
     }
     case TEXTURE_UV: {
-        struct st st = map_point(set, &t->map, at);
-        return rgb_make(st.s - floor(st.s), st.t - floor(st.t), 0);
+        vec3 st = map_point(set, &t->map, at);
+        return rgb_make(st.x - floor(st.x), st.y - floor(st.y), 0);
     }
     case TEXTURE_FBM:
     case TEXTURE_WRINKLED:

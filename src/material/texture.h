@@ -1,8 +1,7 @@
 /* texture.h: numbers and colours that vary over a surface.
  *
- * Every material parameter is a texture, most of them constant. Float textures use the red channel of the same
- * struct. Image maps are looked up bilinearly in the finest level: pixel samples do the filtering. Textures of space
- * (fbm, wrinkled, windy, marble, the checkerboard of cubes) and some mappings see a point through the current transform
+ * Every material parameter is a texture, most of them constant. Image maps are looked up bilinearly in the finest
+ * level: pixel samples do the filtering. Textures of space and some mappings see a point through the current transform
  * at the texture's definition.
  *
  * Tests: test_texture.c.

@@ -1,7 +1,7 @@
 /* parameters.h: what the settings of a scene say to every integrator.
  *
- * Settings come from a scene file or from -P. Those of a file are for pbrt-v3, whose integrators have others than ours:
- * what has no effect here is said and taken out. Those of -P must be right.
+ * Those of a scene file are for pbrt-v3, whose integrators have others than ours: what has no effect here is said and
+ * taken out. Those of -P must be right.
  *
  * Tests: test_render.c, test/cli.sh.
  */

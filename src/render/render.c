@@ -138,20 +138,6 @@ static bool merge_pass(void *context, int64_t job, int slot)
     return !(r->stopping && (r->film->passes == 0 || r->at_once));
 }
 
-static void make_workspaces(struct run *r)
-{
-    r->work = workspaces_new(r->job.n_threads, r->job.max_depth);
-    for (int i = 0; i < r->job.n_threads; i++)
-        r->work[i].scratch = method_scratch(&r->prepared);
-}
-
-static void free_workspaces(struct run *r)
-{
-    for (int i = 0; i < r->job.n_threads; i++)
-        method_scratch_free(&r->prepared, r->work[i].scratch);
-    workspaces_free(r->work, r->job.n_threads);
-}
-
 static void run_all(struct run *r)
 {
     const struct render_options *o = r->options;
@@ -165,9 +151,13 @@ static void run_all(struct run *r)
     r->tile = mem_alloc((size_t)n_slots, sizeof *r->tile);
     for (int i = 0; i < n_slots; i++)
         r->tile[i].planes = r->film->planes;
-    make_workspaces(r);
+    r->work = workspaces_new(r->job.n_threads, r->job.max_depth);
+    for (int i = 0; i < r->job.n_threads; i++)
+        r->work[i].scratch = method_scratch(&r->prepared);
     parallel_run(&r->jobs);
-    free_workspaces(r);
+    for (int i = 0; i < r->job.n_threads; i++)
+        method_scratch_free(&r->prepared, r->work[i].scratch);
+    workspaces_free(r->work, r->job.n_threads);
     for (int i = 0; i < n_slots; i++)
         tile_free(&r->tile[i]);
     free(r->tile);

@@ -8,13 +8,6 @@
 #include "base/number.h"
 #include "material/texture.h"
 
-/* Light of texel (x,y), at its own area of the sphere up to a constant. */
-static rgb texel(const struct envmap *e, int x, int y)
-{
-    double s = (x + 0.5) / e->image.width, v = (y + 0.5) / e->image.height;
-    return image_bilinear(&e->image, s, 1 - v, WRAP_REPEAT, false);
-}
-
 /* The lookup interpolates between texels, so a texel holds light of its eight neighbours too. Its weight is the
  * integral of the interpolated luminance over it: the kernel (1 6 1)/8 on both axes. */
 static double texel_weight(const double *luminance, int width, int height, int x, int y)
@@ -68,7 +61,7 @@ static void build_tables(struct envmap *e)
     for (int y = 0; y < height; y++) {
         double sin_theta = m_sin(PI * (y + 0.5) / height);
         for (int x = 0; x < width; x++) {
-            rgb c = texel(e, x, y);
+            rgb c = image_bilinear(&e->image, (x + 0.5) / width, 1 - (y + 0.5) / height, WRAP_REPEAT, false);
             double l = rgb_luminance(c);
             luminance[(size_t)y * (size_t)width + (size_t)x] = l > 0 ? l : 0;
             sum = rgb_add(sum, rgb_scale(c, sin_theta));

@@ -2,11 +2,8 @@
  *
  * Tile passes fill tiles (tile.h), and the film takes them in. The sums are exact (exact_sum.h): they depend on which
  * values came in, not on their order, nor on how the iterations were cut into blocks or parts. What else is kept on
- * request is summed in a fixed order, whatever the number of threads.
- *
- * Standard errors: eye values of different iterations are independent draws; splats are many rare events, whose
- * variance is the sum of their squares. Halves of the samples say the same of the picture as a whole, and nothing is
- * left out of them (render/halves.h).
+ * request is summed in a fixed order. Standard errors: eye values of different iterations are independent draws; splats
+ * are many rare events, whose variance is the sum of their squares.
  *
  * Tests: test_film.c.
  */

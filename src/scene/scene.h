@@ -1,7 +1,4 @@
-/* scene.h: everything a scene file describes; it owns all of it.
- *
- * Objects refer to each other by index. The parser fills a scene in, scene_prepare makes it ready to render,
- * scene_free releases everything. After scene_prepare a scene is read-only and shared by all threads.
+/* scene.h: everything a scene file describes; it owns all of it. Objects refer to each other by index.
  *
  * A see-through lamp is an area light without material. Rays pass it; light obeys one rule:
  *

@@ -7,11 +7,10 @@
  * running sums of a pixel's sample hold, and splats: so films of gates that follow each other add up to the ungated
  * film, to the bit.
  *
- * On request there are more planes than the picture: one for what each group of lights (light.h) brings, and one for
- * alpha. They are sums of the same kind, so that whatever is done with films is done with all of them. A sample's value
- * grows from 0 by what its paths bring, one after the other; to the plane of its light every step brings two terms, the
- * value after it less the value before it. Added up, all but the last value cancel: so the planes of all lights
- * together are the picture, to the bit.
+ * On request there are planes for what each group of lights (light.h) brings, and for alpha. A sample's value grows
+ * from 0 by what its paths bring, one after the other; to the plane of its light every step brings two terms, the value
+ * after it less the value before it. Added up, all but the last value cancel: so the planes of all lights together are
+ * the picture, to the bit.
  *
  * Tests: test_film.c, test_gates.c, test_lights.c.
  */

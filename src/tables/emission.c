@@ -50,18 +50,6 @@ static void mean_squares(const double *square, double n, double above, double *m
     }
 }
 
-/* The sums that draws go by. */
-static void sum_up(struct emission *e)
-{
-    int n = e->columns.n;
-    e->row = mem_alloc((size_t)n * SIDE, sizeof *e->row);
-    e->before = mem_alloc((size_t)n + 1, sizeof *e->before);
-    for (int i = 0; i < n * SIDE; i++)
-        e->row[i] = sum_of(&e->q[i * SIDE], SIDE);
-    for (int c = 0; c < n; c++)
-        e->before[c + 1] = e->before[c] + sum_of(&e->row[c * SIDE], SIDE);
-}
-
 struct emission emission_build(struct emission_sums *s, double rays, double delta)
 {
     struct emission e = {.columns = s->columns};
@@ -77,7 +65,12 @@ struct emission emission_build(struct emission_sums *s, double rays, double delt
         double even = e.columns.power[i / BINS] / BINS;
         e.q[i] = total > 0 ? delta * even + (1 - delta) * e.q[i] / total : even;
     }
-    sum_up(&e);
+    e.row = mem_alloc((size_t)n * SIDE, sizeof *e.row);
+    e.before = mem_alloc((size_t)n + 1, sizeof *e.before);
+    for (int i = 0; i < n * SIDE; i++)
+        e.row[i] = sum_of(&e.q[i * SIDE], SIDE);
+    for (int c = 0; c < n; c++)
+        e.before[c + 1] = e.before[c] + sum_of(&e.row[c * SIDE], SIDE);
     free(s->square);
     return e;
 }
