@@ -1,14 +1,15 @@
 /* lobe.h: one way of scattering, in the shading frame (the normal is z, on the eta_a side).
  *
  * wo and wi are unit vectors pointing away from the surface; wo is the direction the walk came from, wi the one it goes
- * to. Formulas are pbrt-v3's; sampling is our own where it can be better. Two planes decide on which side a direction
- * is. The *geometric* one says whether a pair (wo, wi) is reflection or transmission (`reflect` below, found by
- * bsdf.c); the *shading* one enters the formulas. Where they disagree   - diffuse lobes have the value they have
- * everywhere, and a sample that falls on the wrong side of the     geometric plane is turned round to -wi: that keeps
- * its density |cos|/pi, loses no energy and reaches     every direction in which the lobe is not black;   - facets are
- * only met by pairs that lie on the right sides of the shading plane too, and whose facet faces     both directions;
- * other pairs are black. (pbrt-v3 evaluates its formulas there although it never samples     such pairs, so that its
- * own integrators disagree: by 1 % on glass of alpha 0.7, not visibly below 0.1.)
+ * to. Formulas are pbrt-v3's, so that images agree; sampling is our own where it can be better.
+ *
+ * Two planes decide on which side a direction is. The *geometric* one says whether a pair (wo, wi) is reflection or
+ * transmission (`reflect` below, found by bsdf.c); the *shading* one enters the formulas. Where they disagree
+ *   - diffuse lobes have the value they have everywhere, and a sample that falls on the wrong side of the geometric
+ *     plane is turned round to -wi: that keeps its density |cos|/pi and reaches all directions where it is not black;
+ *   - facets are only met by pairs that lie on the right sides of the shading plane too, and whose facet faces both
+ *     directions; other pairs are black. (pbrt-v3 evaluates its formulas there although it never samples such pairs, so
+ *     that its own integrators disagree: by 1 % on glass of alpha 0.7, not visibly below 0.1.)
  *
  * Tests: test_lobe.c, test_bsdf.c.
  */

@@ -54,14 +54,9 @@ static void add_settings(struct lines *l, const struct settings *s)
     free(item);
 }
 
-static void add_filter(struct lines *l, const struct filter *f)
-{
-    add_line(l, "filter %d %.17g %.17g %.17g %.17g %.17g %.17g", (int)f->kind, f->radius[0], f->radius[1], f->alpha,
-             f->B, f->C, f->tau);
-}
-
 char *identity_text(const struct scene *scene, const struct render_options *o)
 {
+    const struct filter *f = &scene->filter;
     struct lines l = {0};
     add_line(&l, "version %s, estimator %d", VERSION, ESTIMATOR);
     add_line(&l, "scene %016" PRIx64, scene->content);
@@ -69,7 +64,8 @@ char *identity_text(const struct scene *scene, const struct render_options *o)
     add_line(&l, "maxdepth %d", o->max_depth);
     add_settings(&l, &scene->settings);
     add_line(&l, "seed %" PRIu64, o->seed);
-    add_filter(&l, &scene->filter);
+    add_line(&l, "filter %d %.17g %.17g %.17g %.17g %.17g %.17g", (int)f->kind, f->radius[0], f->radius[1], f->alpha,
+             f->B, f->C, f->tau);
     if (o->gate.begin > 0 || (o->gate.end > 0 && o->gate.end < INFINITY))
         add_line(&l, "gate %.17g %.17g", o->gate.begin, fmin(o->gate.end, DBL_MAX));
     return l.text;

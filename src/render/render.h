@@ -1,10 +1,9 @@
 /* render.h: from a prepared scene to a film: cut the work into tile passes and run them on threads.
  *
- * The frame (or its crop) is cut into tiles, the iterations into blocks, of sizes the method may choose. Tile
- * passes are started in the order block by block, tile by tile, and merged into the film in that order (parallel.h).
- * They depend on nothing but the pixel and the iteration (of `bins`: the block), and the film's sums are exact, so the
- * same scene, seed and range of iterations give the same bytes for any number of threads, stopped and continued
- * anywhere or in parts.
+ * The frame (or its crop) is cut into tiles, the iterations into blocks, of sizes the method may choose. Tile passes
+ * depend on nothing but the pixel and the iteration (of `bins`: the block), and the film's sums are exact, so the same
+ * scene, seed and range of iterations give the same bytes for any number of threads, stopped and continued anywhere or
+ * in parts.
  *
  * Tests: test_render.c.
  */

@@ -7,6 +7,12 @@
 
 #include "base/number.h"
 
+/* Places of block.splat. */
+static size_t film_splat_sums(const struct film *f)
+{
+    return (size_t)(1 + f->planes.lights) * rect_pixels(f->rect) * 3;
+}
+
 void film_init(struct film *f, struct pixel_rect rect, int full_width, int full_height)
 {
     memset(f, 0, sizeof *f);

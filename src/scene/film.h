@@ -58,13 +58,10 @@ struct film {
 void film_init(struct film *f, struct pixel_rect rect, int full_width, int full_height);
 void film_free(struct film *f);
 
-/* film_keep_planes: of a film that has nothing in it yet. */
+/* film_keep_planes: of a film that has nothing in it yet. From now on keep, film_keep_errors: what film_standard_error
+ * needs; film_keep_halves: the sums of every other run of iterations, too. */
 void film_keep_planes(struct film *f, struct planes planes);
-
-/* film_keep_errors: from now on keep what film_standard_error needs. */
 void film_keep_errors(struct film *f);
-
-/* film_keep_halves: from now on sum every other run of iterations on its own, too. */
 void film_keep_halves(struct film *f);
 
 /* film_take_splats: add a tile's splats, and empty its list. */
@@ -75,12 +72,6 @@ void film_take_splats(struct film *f, struct tile *t);
 void film_merge_tile(struct film *f, struct tile *t);
 void film_mark(struct film *f, struct pixel_rect tile);
 void film_end_block(struct film *f);
-
-/* film_splat_sums: places of block.splat. */
-static inline size_t film_splat_sums(const struct film *f)
-{
-    return (size_t)(1 + f->planes.lights) * rect_pixels(f->rect) * 3;
-}
 
 /* film_value: the sum so far in place i of [planes][pixels*3]. */
 static inline double film_value(const struct film *f, size_t i) { return exact_value(&f->sum[i]); }
