@@ -380,9 +380,14 @@ static void facets_as_printed(struct test *t)
             want = F * DG / (4 * fabs(wo.z * wi.z));
         else if (o * wo.z > 0 && in * wi.z > 0) /* for importance; eq. 21 is for radiance that goes the other way */
             want = fabs(o * in / (wo.z * wi.z)) * ni * ni * (1 - F) * DG / sqr(no * o + ni * in);
-        double f = lobe_eval(&l, wo, wi, !through, IMPORTANCE).f.g;
+        struct bsdf_value here = lobe_eval(&l, wo, wi, !through, IMPORTANCE);
+        double f = here.f.g;
         CHECK(t, near(f, 0.7 * want, 1e-9 * (1 + want)), "%s, %s: %.12g, printed form %.12g",
               through ? "transmission" : "reflection", side > 0 ? "above" : "below", f, 0.7 * want);
+        struct bsdf_value not = lobe_eval(&l, wo, wi, through, IMPORTANCE);
+        CHECK(t, rgb_is_black(not.f) && near(not.pdf, here.pdf, 1e-12 * here.pdf),
+              "absorbed: where the geometric normal says otherwise f is %g, pdf %g, not 0 and %g", not.f.g, not.pdf,
+              here.pdf);
         total += !through && side < 0 && F >= 1;
         met += through && want > 0;
     }
