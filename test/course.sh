@@ -88,7 +88,7 @@ run() {
     wall=$((20 * $1 + 60)) # where it does not compute but waits
     (ulimit -t "$1" && shift 2 && exec ${watch:+$watch -k 2 $wall} $away "$@") >"$2" 2>&1 &
     child=$!
-    wait $child
+    { wait $child; } 2>/dev/null # no "Killed": told says it
     status=$?
     child=
     return $status
@@ -254,7 +254,9 @@ answer() {
     : >"$2/report/failed.txt"
     tested=0
     suites "$1" "$2" "$2/report" "$3" || tested=1
-    [ $tested -ne 0 ] && [ -n "${QUICK-}" ] || measure "$1" "$2" "$2/report" || tested=$((tested + 2))
+    if [ $tested -eq 0 ] || { [ -z "${QUICK-}" ] && [ $status -eq 1 ]; }; then # what crashes or never ends draws nothing
+        measure "$1" "$2" "$2/report" || tested=$((tested + 2))
+    fi
     [ $tested -eq 0 ] && return
     say "" "What to think of:"
     if [ -n "$failed" ]; then hints "$1" "$failed" "$2/report/failed.txt"; else hints "$1" picture /dev/null; fi

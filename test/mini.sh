@@ -24,8 +24,8 @@ for step in $steps; do
         made=-fsyntax-only
     done
     lines=$(wc -l <"$mini/$step.c" | tr -d ' ')
-    more=$((lines - before))
-    { [ $more -ge 35 ] && [ $more -le 105 ]; } || fault "$step.c has $more lines more than the one before it"
+    more=$((lines - before)) # doc/mini/README.md says how many
+    { [ $more -ge 38 ] && [ $more -le 102 ]; } || fault "$step.c has $more lines more than the one before it"
     grep -q "($step.c).* | $lines |$" "$mini/README.md" || fault "doc/mini/README.md: $step.c has $lines lines"
     before=$lines
 done
