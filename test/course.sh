@@ -183,8 +183,8 @@ measure() {
         return 1
     done
     $work/original/asbdpt-lab compare "$3/yours-1.pfm" "$kept/before.pfm" --heatmap "$3/difference.png" >/dev/null
-    $work/original/asbdpt-lab convert "$kept/before.pfm" -o "$3/original.png"
-    $work/original/asbdpt-lab convert "$3/yours-1.pfm" -o "$3/changed.png"
+    $work/original/asbdpt-lab convert "$kept/before.pfm" -o "$3/original.png" >/dev/null
+    $work/original/asbdpt-lab convert "$3/yours-1.pfm" -o "$3/changed.png" >/dev/null
     $work/original/asbdpt-lab verify doc/mini/rooms.pbrt --tile 8 --quiet \
         --files "$3"/yours-?.pfm --against "$kept"/original-?.pfm >"$3/verify.txt" 2>&1
     awk -v before="$(noise "$kept/original")" -v after="$(noise "$3/yours")" '
@@ -224,10 +224,9 @@ suites() {
         grep -E 'FAIL|^ *p = ' "$3/$suite.txt" | kinds >"$3/failed.txt"
         say "FAILED."
         if [ $status -ne 1 ] || [ ! -s "$3/failed.txt" ]; then
-            told $status
-            place "$1" "$2" "$3/$suite.txt"
+            { told $status; place "$1" "$2" "$3/$suite.txt"; } | tee -a "$3/failed.txt"
         fi
-        head -n 3 "$3/failed.txt" | sed 's/^\(.\{150\}\).*/\1 .../; s/^ */    /'
+        grep -E '^ *(FAIL|p = )' "$3/failed.txt" | head -n 3 | sed 's/^\(.\{150\}\).*/\1 .../; s/^ */    /'
         get "$1" "$suite"
         return 1
     done
