@@ -74,8 +74,10 @@ static bool doubtful(const struct hypothesis *h) { return h->must_hold && h->p <
 static void fail(struct test *t, const struct hypothesis *h, const char *must_be, double level)
 {
     t->failures++;
-    fprintf(t->set.out, "  FAIL %s\n       p = %.3g, must be %s %.3g\n       repeat with: build/test --seed %llu %s\n",
-            h->text, h->p, must_be, level, (unsigned long long)t->set.seed, t->name);
+    fprintf(t->set.out, "  FAIL %s\n       p = %.3g, must be %s %.3g%s\n       repeat with: build/test --seed %llu %s\n",
+            h->text, h->p, must_be, level,
+            h->must_hold ? "" : ": a fault that the test itself has planted, and must notice, is not noticed",
+            (unsigned long long)t->set.seed, t->name);
 }
 
 /* Fails what is certain already; returns the number of doubtful hypotheses. NaN is neither small nor large enough. */
