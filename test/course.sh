@@ -129,7 +129,7 @@ place() {
         line=$(grep -o "${file#src/}:[0-9]*" "$3" | head -n 1 | sed 's/.*://')
         [ -n "$line" ] && say "    $file, line $line: $(sed -n "${line}s/^ *//p" "$2/$file")" && break
     done
-    grep -oE 'runtime error: .*|ERROR: AddressSanitizer: [a-z-]*' "$3" | head -n 1 | sed 's/^[^:]*: //; s/^/    /'
+    grep -oE 'runtime error: .*|ERROR: AddressSanitizer: [A-Za-z-]*' "$3" | head -n 1 | sed 's/^[^:]*: //; s/^/    /'
 }
 
 # ---- what differs ----
@@ -253,7 +253,8 @@ answer() {
     : >"$2/report/failed.txt"
     tested=0
     suites "$1" "$2" "$2/report" "$3" || tested=1
-    if [ $tested -eq 0 ] || { [ -z "${QUICK-}" ] && [ $status -eq 1 ]; }; then # what crashes or never ends draws nothing
+    # What crashes or never ends draws nothing.
+    if [ $tested -eq 0 ] || { [ -z "${QUICK-}" ] && [ $status -eq 1 ]; }; then
         measure "$1" "$2" "$2/report" || tested=$((tested + 2))
     fi
     [ $tested -eq 0 ] && return

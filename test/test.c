@@ -74,10 +74,9 @@ static bool doubtful(const struct hypothesis *h) { return h->must_hold && h->p <
 static void fail(struct test *t, const struct hypothesis *h, const char *must_be, double level)
 {
     t->failures++;
-    fprintf(t->set.out, "  FAIL %s\n       p = %.3g, must be %s %.3g%s\n       repeat with: build/test --seed %llu %s\n",
-            h->text, h->p, must_be, level,
-            h->must_hold ? "" : ": a fault that the test itself has planted, and must notice, is not noticed",
-            (unsigned long long)t->set.seed, t->name);
+    const char *planted = h->must_hold ? "" : ": a fault that the test has planted, and must notice, is not noticed";
+    fprintf(t->set.out, "  FAIL %s\n       p = %.3g, must be %s %.3g%s\n", h->text, h->p, must_be, level, planted);
+    fprintf(t->set.out, "       repeat with: build/test --seed %llu %s\n", (unsigned long long)t->set.seed, t->name);
 }
 
 /* Fails what is certain already; returns the number of doubtful hypotheses. NaN is neither small nor large enough. */
