@@ -125,6 +125,12 @@ static void ends(struct test *t)
         CHECK(t, n == 2, "black: a walk that meets a black ball has %d vertices, not 2", n);
         tear_down(&r);
     }
+    if (build(t, OPEN, "Material \"matte\" \"rgb Kd\" [0 1 0] Shape \"sphere\" \"float radius\" 50 "
+              "Material \"matte\" \"rgb Kd\" [1 0 0] Translate 0 0 5 Shape \"sphere\" \"float radius\" 3", &r)) {
+        n = walk_eye(t, &r, 1, 0, path, MAX);
+        CHECK(t, n == 3, "throughput: of red and then green nothing is left, but the walk has %d vertices, not 3", n);
+        tear_down(&r);
+    }
     if (build(t, OPEN, "Material \"mirror\" \"rgb Kr\" [1 1 1] Translate 0 0 5 Shape \"sphere\" \"float radius\" 3",
               &r)) {
         n = walk_eye(t, &r, 1, 0, path, MAX);
