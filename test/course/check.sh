@@ -83,6 +83,8 @@ prove() {
             if (QUICK=1; grade "$n" "$tree") >"$tree/$plant.txt" 2>&1; then
                 grep -q "^$plant .* unseen: " $plants && say "course: $plant passes, as it must" && continue
                 say "course: $plant is not found"
+            elif grep -q "does not compile" "$tree/$plant.txt"; then
+                say "course: $plant does not compile: $tree/$plant.txt"
             elif grep -q "^- Step $step: " "$tree/$plant.txt"; then
                 say "course: $plant: step $step is named"
                 continue
