@@ -207,9 +207,17 @@ bool films_equal(const struct film *a, const struct film *b)
 struct batches render_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth, int spp,
                               int n_batches, int tile, uint64_t seed)
 {
+    const struct gate all = {0, 0};
+    return render_gated(t, scene, integrator, max_depth, all, spp, n_batches, tile, seed);
+}
+
+struct batches render_gated(struct test *t, const struct scene *scene, const char *integrator, int max_depth,
+                            struct gate gate, int spp, int n_batches, int tile, uint64_t seed)
+{
     struct pixel_rect crop = render_crop(scene);
     struct batches pixels = batches_new(n_batches, 3L * rect_width(crop) * rect_height(crop), false);
-    struct render_options o = {.integrator = integrator, .max_depth = max_depth, .n_threads = os_cores()};
+    struct render_options o = {.integrator = integrator, .max_depth = max_depth, .n_threads = os_cores(),
+                               .gate = gate};
     o.seed = test_seed(t) * 1000003 + seed;
     for (int k = 0; k < n_batches; k++) {
         struct film film;

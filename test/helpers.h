@@ -80,6 +80,10 @@ bool films_equal(const struct film *a, const struct film *b);
 struct batches render_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth, int spp,
                               int n_batches, int tile, uint64_t seed);
 
+/* render_gated: the same, of what comes through a gate. */
+struct batches render_gated(struct test *t, const struct scene *scene, const char *integrator, int max_depth,
+                            struct gate gate, int spp, int n_batches, int tile, uint64_t seed);
+
 /* independent_batches: the same by renders with seeds of their own, which share nothing that was found before the first
  * sample either: the brightness of a chain's picture, above all. */
 struct batches independent_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth,

@@ -94,12 +94,12 @@ static void begin(struct writer *w, const struct view *v, int max_depth)
 /* Mostly 1; else anything from a hundredth of a millimetre to a hundred kilometres. */
 static double unit(struct writer *w) { return chance(w, 0.6) ? 1 : across(w, 1e-5, 1e5); }
 
-static void seen_by(struct writer *w, struct view *v, double distance)
+static void seen_by(struct writer *w, struct random_scene *s, struct view *v, double distance)
 {
     v->look = mul(direction(w), 0.2);
     v->eye = mul(direction(w), distance);
     v->fov = between(w, 25, 45);
-    v->unit = unit(w);
+    v->unit = s->unit = unit(w);
 }
 
 /* --- furnaces ------------------------------------------------------------------------------------------- */
@@ -110,7 +110,7 @@ static void closed_furnace(struct writer *w, struct random_scene *s)
 {
     struct view v;
     double a = between(w, 0.2, 0.6), e = between(w, 0.5, 2);
-    seen_by(w, &v, 2);
+    seen_by(w, s, &v, 2);
     v.plain = chance(w, 0.4);
     s->max_depth = 1 + pick(w, 5);
     s->known = true;
@@ -144,7 +144,7 @@ static void open_furnace(struct writer *w, struct random_scene *s)
 {
     struct view v;
     struct map m = map_random(w);
-    seen_by(w, &v, 4);
+    seen_by(w, s, &v, 4);
     v.plain = chance(w, 0.4);
     s->max_depth = 1 + pick(w, 3);
     s->known = true;
@@ -363,7 +363,7 @@ static void surroundings(struct writer *w, vec3 eye, bool walls)
 static void anything(struct writer *w, struct random_scene *s)
 {
     struct view v = {.plain = false};
-    seen_by(w, &v, between(w, 4.5, 5.5));
+    seen_by(w, s, &v, between(w, 4.5, 5.5));
     s->max_depth = 1 + pick(w, 4);
     begin(w, &v, s->max_depth);
     put_textures(w);

@@ -23,6 +23,7 @@ struct random_scene {
     char *text; /* owned */
     const char *family;
     int max_depth;
+    double unit;      /* how long a unit is in the world: things lie within 8 of them, about the eye */
     bool known;       /* does every pixel show a value from low to high? */
     bool one_ray;     /* family "direct": all rays hit the same place, and path tracing alone has a chance */
     double low, high;

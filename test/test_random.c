@@ -1,7 +1,8 @@
 /* test_random.c: random scenes (random_scene.h): all methods must see the same, and what is known if anything is.
  *
- * bdpt is compared with one other method and some of its parameters, drawn from the number as the heuristic is, each by
- * itself; with pt where no delta light could be behind a specular surface, and with lt where no specular surface is.
+ * bdpt is compared with one other method and some of its parameters, drawn from the number as the heuristic and the
+ * gate are, each by itself; with pt where no delta light could be behind a specular surface, and with lt where no
+ * specular surface is.
  * Renders are made in independent batches; Welch's test compares the means of the picture and of its tiles. Where light
  * is found rarely such p-values are too small (doc/evidence.md), so the comparison goes by stages: if p is below CUTOFF
  * the scene is rendered again, with new seeds and ten times the samples, and what comes out then counts alone. Of true
@@ -79,6 +80,7 @@ struct subject {
     uint64_t number;
     double samples; /* of a render at the first stage */
     bool power;     /* heuristic, for balance */
+    struct gate gate; /* its end 0: all light */
 };
 
 static struct batches render(struct subject *s, const struct way *m, int stage)
@@ -92,7 +94,7 @@ static struct batches render(struct subject *s, const struct way *m, int stage)
         seed = hash_combine(seed, (uint64_t)*c);
     const char *integrator = set_method(&s->scene, m->text);
     settings_set(&s->scene.settings, "heuristic", s->power ? "power" : "balance", "test");
-    return render_batches(s->t, &s->scene, integrator, s->made.max_depth, spp, BATCHES, TILE, seed);
+    return render_gated(s->t, &s->scene, integrator, s->made.max_depth, s->gate, spp, BATCHES, TILE, seed);
 }
 
 /* --- p-values ------------------------------------------------------------------------------------------- */
@@ -177,9 +179,9 @@ static void compare(struct subject *s, const struct way *a, const struct way *b)
         if (p >= CUTOFF || (stage > 0 && p < BEYOND_DOUBT))
             break;
     }
-    char what[300];
-    snprintf(what, sizeof what, "%s against %s%s:", a->text, b != NULL ? b->text : "the truth",
-             s->power ? ", power" : "");
+    char what[400];
+    snprintf(what, sizeof what, "%s against %s%s, gate %g:%g:", a->text, b != NULL ? b->text : "the truth",
+             s->power ? ", power" : "", s->gate.begin, s->gate.end);
     report(s, p, what, found, expected);
 }
 
@@ -225,6 +227,14 @@ static struct way draw_other(struct rng *r)
     return way;
 }
 
+/* Mostly none; else short paths, or long ones. */
+static struct gate draw_gate(struct rng *r, double unit)
+{
+    double length = unit * (6 + 10 * rng_uniform(r));
+    struct gate gate[] = {{0, 0}, {0, 0}, {0, length}, {length, INFINITY}};
+    return gate[rng_below(r, 4)];
+}
+
 static void look_at(struct subject *s)
 {
     struct rng r = rng_stream(s->number, RNG_TEST, 8, 0);
@@ -235,6 +245,7 @@ static void look_at(struct subject *s)
         compare(s, &PT, NULL);
     if (s->made.one_ray)
         return;
+    s->gate = draw_gate(&r, s->made.unit);
     /* One strategy more finds what others do not where a delta light is behind a specular surface; restirgi shares pt's
      * paths. */
     if (pt || strstr(other.text, " with=") == NULL)

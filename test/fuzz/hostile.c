@@ -69,8 +69,8 @@ static void numbers(struct writer *w, unsigned n)
 
 /* --- objects -------------------------------------------------------------------------------------------- */
 
-/* Parameters are "type name" with bars between. Behind the name may stand, after *, how many numbers it wants, and
- * after a colon the strings it may be. */
+/* Parameters are "type name" with bars between, ! before those without which the object would be refused. Behind the
+ * name may stand, after *, how many numbers it wants, and after a colon what it may be, the first mostly. */
 struct object {
     const char *directive, *type, *parameters;
 };
@@ -85,12 +85,16 @@ struct object {
 #define MAPPED "string mapping:uv,planar,spherical,cylindrical|vector v1|vector v2|float udelta|float vdelta|" \
                "float uscale|float vscale|"
 #define PAIR "float tex1|float tex2|texture tex1|texture tex2|rgb tex1|rgb tex2|float amount|texture amount|"
-#define PICTURE "string filename:parts/grey.tga,parts/map.pfm,missing.png,.|string wrap:repeat,black,clamp|float scale|"
+#define PICTURE \
+    "!string filename:parts/grey.tga,parts/map.pfm,missing.png,.|string wrap:repeat,black,clamp|float scale|"
 
 static const struct object OPTIONS[] = {
     {"Camera", "perspective",
-     "float fov|float lensradius|float focaldistance|float frameaspectratio|float screenwindow*4"},
-    {"Film", "image", "integer xresolution|integer yresolution|float scale|float cropwindow*4|string filename:x.png,/"},
+     "float fov|float lensradius|float focaldistance|float frameaspectratio|"
+     "float screenwindow:-1 1 -1 1,0 1e-30 0 1,1 0 0 1,-1e30 1e30 0 1"},
+    {"Film", "image",
+     "integer xresolution|integer yresolution|float scale|"
+     "float cropwindow:0 1 0 1,0.4 0.6 0 1,0.9 0.1 0 1,0 1e-30 0 1|string filename:x.png,/"},
     {"PixelFilter", "box", "float xwidth|float ywidth"},
     {"PixelFilter", "gaussian", "float xwidth|float ywidth|float alpha"},
     {"PixelFilter", "mitchell", "float xwidth|float ywidth|float B|float C"},
@@ -108,15 +112,16 @@ static const struct object WORLD[] = {
     {"Shape", "cone", "float radius|float height|float phimax"},
     {"Shape", "paraboloid", CUT},
     {"Shape", "hyperboloid", "point p1|point p2|float phimax"},
-    {"Shape", "trianglemesh", "integer indices*3|point P*9|normal N*9|float uv*6|float alpha|texture shadowalpha"},
-    {"Shape", "trianglemesh", "integer indices*6|point P*12|float uv*8|texture alpha"},
-    {"Shape", "loopsubdiv", "integer levels|integer indices*6|point P*12"},
-    {"Shape", "heightfield", "integer nu|integer nv|float Pz*4"},
-    {"Shape", "curve", "point P*12|normal N*6|float width0|integer degree|string type:flat,ribbon,cylinder|"
+    {"Shape", "trianglemesh", "!integer indices*3|!point P*9|normal N*9|float uv*6|float alpha|texture shadowalpha"},
+    {"Shape", "trianglemesh", "!integer indices*6|!point P*12|float uv*8|texture alpha"},
+    {"Shape", "loopsubdiv", "integer levels|!integer indices*6|!point P*12"},
+    {"Shape", "heightfield", "!integer nu:2,1|!integer nv:2|!float Pz*4"},
+    {"Shape", "curve", "!point P*12|normal N*6|float width0|integer degree|string type:flat,ribbon,cylinder|"
                        "string basis:bspline"},
-    {"Shape", "nurbs", "integer nu|integer nv|integer uorder|integer vorder|float uknots*4|float vknots*4|float Pw*16|"
-                       "point P*12|float u0|float v1"},
-    {"Shape", "plymesh", "string filename:parts/triangle.ply,parts/broken.ply|texture alpha"},
+    {"Shape", "nurbs", "!integer nu:2|!integer nv:2|!integer uorder:2|!integer vorder:2,1|"
+                       "!float uknots:0 0 1 1,0 1 2 3,0 1e-30 1e30 1e30|!float vknots:0 0 1 1,0 1e-30 1e30 1e30|"
+                       "!float Pw*16|float u0|float v1"},
+    {"Shape", "plymesh", "!string filename:parts/triangle.ply,parts/broken.ply|texture alpha"},
     {"Material", "matte", REFLECT BUMP},
     {"Material", "mirror", "rgb Kr|" BUMP},
     {"Material", "glass", "rgb Kr|rgb Kt|" ROUGH GLASS BUMP},
@@ -129,7 +134,7 @@ static const struct object WORLD[] = {
     {"Material", "disney", "rgb color|float roughness|float eta|float metallic|float speculartint|float anisotropic|"
                            "float sheen|float sheentint|float clearcoat|float clearcoatgloss|float spectrans|"
                            "rgb scatterdistance|bool thin:true,false|float flatness|float difftrans|" BUMP},
-    {"Material", "fourier", "string bsdffile:../../scenes/features/layered.bsdf,parts/broken.ply|" BUMP},
+    {"Material", "fourier", "!string bsdffile:../../scenes/features/layered.bsdf,parts/broken.ply|" BUMP},
     {"Material", "none", ""},
     {"Material", "", ""},
     {"AreaLightSource", "diffuse", LIT "bool twosided:true,false"},
@@ -149,10 +154,10 @@ static const struct object WORLD[] = {
 
 static const struct object NAMED[] = {
     {"MakeNamedMaterial \"m0\" \"string type\"", "mix",
-     "string namedmaterial1:m0,m1|string namedmaterial2:m0,m1|float amount|rgb amount"},
+     "!string namedmaterial1:m1,m0|!string namedmaterial2:m1,m0|float amount|rgb amount"},
     {"MakeNamedMaterial \"m1\" \"string type\"", "matte", REFLECT BUMP},
     {"MakeNamedMaterial \"m1\" \"string type\"", "mix",
-     "string namedmaterial1:m0,m1|string namedmaterial2:m0,m1|texture amount"},
+     "!string namedmaterial1:m1,m0|!string namedmaterial2:m1,m0|texture amount"},
     {"Texture \"t0\" \"spectrum\"", "scale", PAIR},
     {"Texture \"t0\" \"float\"", "mix", PAIR},
     {"Texture \"t1\" \"spectrum\"", "checkerboard", PAIR MAPPED "integer dimension|string aamode:none"},
@@ -170,7 +175,7 @@ enum { N_OPTIONS = sizeof OPTIONS / sizeof OPTIONS[0], N_WORLD = sizeof WORLD / 
        N_NAMED = sizeof NAMED / sizeof NAMED[0] };
 
 /* One of the values behind the colon. */
-static void word(struct writer *w, const char *values, size_t n)
+static void word(struct writer *w, const char *values, size_t n, bool quoted)
 {
     const char *at = values, *end = values + n;
     for (unsigned k = rarely(w, 4) ? choose(w, 4) : 0; k > 0; k--) {
@@ -178,7 +183,7 @@ static void word(struct writer *w, const char *values, size_t n)
         at = comma != NULL ? comma + 1 : values;
     }
     const char *comma = memchr(at, ',', (size_t)(end - at));
-    put(w, "\"%.*s\" ", (int)((comma != NULL ? comma : end) - at), at);
+    put(w, quoted ? "\"%.*s\" " : "%.*s ", (int)((comma != NULL ? comma : end) - at), at);
 }
 
 /* How many numbers a parameter wants. */
@@ -201,7 +206,7 @@ static void parameter(struct writer *w, const char *p, size_t n)
     if (strncmp(p, "texture", 7) == 0)
         put(w, "\"t%u\" ", choose(w, 3));
     else if (colon != NULL)
-        word(w, colon + 1, n - name - 1);
+        word(w, colon + 1, n - name - 1, strncmp(p, "string", 6) == 0 || strncmp(p, "bool", 4) == 0);
     else if (strncmp(p, "integer indices", 15) == 0)
         for (unsigned i = 0; i < wanted; i++)
             put(w, "%d ", rarely(w, 32) ? (int)choose(w, 5) - 1 : QUAD[i % 6]);
@@ -215,10 +220,9 @@ static void object(struct writer *w, const struct object *o)
     put(w, "%s \"%s\" ", o->directive, o->type);
     for (const char *p = o->parameters; p != NULL && *p != '\0';) {
         size_t n = strcspn(p, "|");
-        bool needed =
-            strncmp(p, "point P", 7) == 0 || strncmp(p, "integer i", 9) == 0 || strncmp(p, "string f", 8) == 0;
+        bool needed = *p == '!';
         if (needed || choose(w, 3) == 1)
-            parameter(w, p, n);
+            parameter(w, p + needed, n - needed);
         p += n + (p[n] == '|');
     }
     put(w, "\n");
@@ -261,7 +265,7 @@ char *hostile_scene(const uint8_t *bytes, size_t n, size_t *length)
     struct writer w = {.bytes = bytes, .n = n};
     for (unsigned i = choose(&w, 4); i > 0; i--)
         object(&w, &OPTIONS[choose(&w, N_OPTIONS)]);
-    put(&w, "WorldBegin\nTranslate 0 0 3\n");
+    put(&w, "WorldBegin\nMakeNamedMaterial \"m1\" \"string type\" \"matte\"\nTranslate 0 0 3\n");
     while (w.at < w.n) {
         size_t from = w.used;
         unsigned kind = choose(&w, 16);
