@@ -414,8 +414,90 @@ static void test_spot(struct test *t)
     }
 }
 
+/* --- densities, as facts ------------------------------------------------------------------------------- */
+
+/* What a light makes of two random numbers: its point or direction of this cell, or, if y0 is given, what it sends from
+ * there: a direction, or a place on the disk by which parallel rays enter. */
+static vec3 made_of(const struct scene *s, int cell, const struct light_point *y0, double u1, double u2, double *pdf)
+{
+    const struct light_set *lights = &s->lights;
+    struct light_point at;
+    if (y0 == NULL) {
+        light_sample_cell(lights, &s->geo, cell, u1, u2, &at);
+        *pdf = at.pdf_cell;
+        return lights->light[at.light].kind == LIGHT_INFINITE ? at.w : at.p;
+    }
+    const double u[2] = {u1, u2};
+    enum light_kind kind = lights->light[y0->light].kind;
+    struct ray ray;
+    light_sample_emission(lights, y0, u, &ray, pdf);
+    return kind == LIGHT_INFINITE || kind == LIGHT_DISTANT ? ray.o : ray.d;
+}
+
+/* Around almost any point (maps have edges) the area that a small square is drawn as, times the density, is its own. */
+static void check_area(struct test *t, const struct scene *s, struct rng *r, int cell, const struct light_point *y0)
+{
+    enum { TRIED = 40 };
+    const double h = 1e-6;
+    double worst = 0, none;
+    int right = 0;
+    for (int i = 0; i < TRIED; i++) {
+        double u = 0.01 + 0.98 * rng_uniform(r), v = 0.01 + 0.98 * rng_uniform(r), pdf;
+        vec3 a = sub(made_of(s, cell, y0, u + h, v, &none), made_of(s, cell, y0, u - h, v, &none));
+        vec3 b = sub(made_of(s, cell, y0, u, v + h, &none), made_of(s, cell, y0, u, v - h, &none));
+        made_of(s, cell, y0, u, v, &pdf);
+        double error = fabs(pdf * length(cross(a, b)) / (4 * h * h) - 1);
+        worst = fmax(worst, error);
+        right += error < 1e-4;
+    }
+    CHECK(t, right >= 0.9 * TRIED, "light %d, %s: %d of %d densities are wrong, by %g at most",
+          s->lights.light_of_cell[cell], y0 != NULL ? "what it sends" : "its points", TRIED - right, TRIED, worst);
+}
+
+static void test_densities(struct test *t)
+{
+    enum { W = 16, H = 8 };
+    static const char WORLD[] =
+        "WorldBegin Rotate 50 1 2 3 AreaLightSource \"diffuse\" \"rgb L\" [1 2 3] Shape \"trianglemesh\"\n"
+        "\"integer indices\" [0 1 2] \"point P\" [0 0 1  2 0 1  0 3 1] Shape \"sphere\" AreaLightSource \"diffuse\"\n"
+        "\"bool twosided\" \"true\" Shape \"disk\" LightSource \"point\" LightSource \"spot\" LightSource \"distant\"\n"
+        "LightSource \"infinite\" Scale 1 2 3 Rotate 40 3 1 2 LightSource \"spot\"\n"
+        "LightSource \"infinite\" \"string mapname\" \"%s\" LightSource \"goniometric\" \"string mapname\" \"%s\"\n"
+        "LightSource \"projection\" \"string mapname\" \"%s\" WorldEnd\n";
+    static float pixels[W * H * 3];
+    char path[256], text[2048];
+    struct error err = {.text = ""};
+    struct scene s;
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 9, 0);
+    for (int i = 0; i < W * H * 3; i++)
+        pixels[i] = (float)(1 + (i / 3) % 5);
+    snprintf(path, sizeof path, "%s/densities.pfm", test_tmp(t));
+    snprintf(text, sizeof text, WORLD, path, path, path);
+    if (!CHECK(t, image_write(path, W, H, pixels, &err), "%s", err.text) || !scene_from_text(t, text, &s))
+        return;
+    CHECK(t, s.lights.n == 11, "%d lights", s.lights.n);
+    for (int i = 0; i < s.lights.n; i++) {
+        const struct light *l = &s.lights.light[i];
+        int cell = l->first_cell + (int)rng_below(&r, (uint32_t)l->n_cells), found = -1;
+        struct light_point at;
+        if (!CHECK(t, light_sample_cell(&s.lights, &s.geo, cell, 0.3, 0.6, &at), "light %d: no point", i))
+            continue;
+        double pmf = alias_pmf(&s.lights.choice, cell);
+        CHECK(t, fabs(at.pdf / (at.pdf_cell * pmf) - 1) < 1e-12, "light %d: its choice does not count", i);
+        if (l->kind == LIGHT_INFINITE) {
+            double pdf = light_pdf_towards(&s.lights, i, at.w, &found);
+            CHECK(t, fabs(pdf / at.pdf - 1) < 1e-9 && found == cell, "light %d: density %g, not %g", i, pdf, at.pdf);
+        }
+        if (l->kind == LIGHT_INFINITE || l->kind == LIGHT_AREA)
+            check_area(t, &s, &r, cell, NULL);
+        check_area(t, &s, &r, cell, &at);
+    }
+    scene_free(&s);
+}
+
 void test_light(struct test *t)
 {
+    test_densities(t);
     test_emitted(t);
     test_slide_places(t);
     test_transformed(t);
