@@ -488,6 +488,14 @@ static void test_densities(struct test *t)
             double pdf = light_pdf_towards(&s.lights, i, at.w, &found);
             CHECK(t, fabs(pdf / at.pdf - 1) < 1e-9 && found == cell, "light %d: density %g, not %g", i, pdf, at.pdf);
         }
+        if (l->kind == LIGHT_AREA) {
+            struct surface on;
+            double pdf;
+            CHECK(t, shape_sample(&s.geo, l->prim, 0.3, 0.6, &on, &pdf), "light %d: no point", i);
+            on.light = i;
+            pdf = light_pdf_surface(&s.lights, &s.geo, &on);
+            CHECK(t, fabs(pdf / at.pdf - 1) < 1e-9, "light %d: density %g, not %g", i, pdf, at.pdf);
+        }
         if (l->kind == LIGHT_INFINITE || l->kind == LIGHT_AREA)
             check_area(t, &s, &r, cell, NULL);
         check_area(t, &s, &r, cell, &at);
