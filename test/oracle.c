@@ -203,6 +203,39 @@ bool oracle_weights(const struct scene *scene, const struct mis_counts *counts, 
     return sum > 0;
 }
 
+/* f of the path, as the eye sees it: each surface scatters radiance that comes from the light's side. The lens counts
+ * as the walk from it does, by its density. */
+static rgb contribution(const struct full_path *f)
+{
+    const struct light_set *lights = &f->scene->lights;
+    struct light_point y0 = vertex_light_point(f->x[0]);
+    y0.w = at_infinity(f, 0) ? direction(f, 1, 0) : y0.w;
+    rgb all = f->x[0]->kind == VERTEX_ESCAPED ? light_Le_environment(lights, direction(f, 1, 0), false)
+                                              : light_Le(lights, &y0, direction(f, 0, 1));
+    for (int i = 1; i < f->n - 1; i++) {
+        vec3 w = direction(f, i, i - 1);
+        rgb scattered = bsdf_eval(&f->x[i]->bsdf, direction(f, i, i + 1), w, RADIANCE).f;
+        all = rgb_mul(all, rgb_scale(scattered, abs_dot(f->x[i]->bsdf.shading.n, w) * per_area(f, i, i - 1, 1)));
+    }
+    return rgb_scale(all, eye_density(f, f->n - 2));
+}
+
+bool oracle_value(const struct scene *scene, const struct mis_counts *counts, const struct vertex *light, int s,
+                  const struct vertex *eye, int t, rgb *value)
+{
+    struct full_path f = {.scene = scene, .counts = counts};
+    if (!join(&f, light, s, eye, t) || scene->lights.n_infinite > 1 || counts->tables != NULL)
+        return false;
+    double p = 1;
+    for (int i = 0; i < f.n; i++) {
+        if (f.delta[i])
+            return false;
+        p *= i < s ? light_density(&f, i) : eye_density(&f, i);
+    }
+    *value = rgb_scale(contribution(&f), 1 / p);
+    return p > 0;
+}
+
 double oracle_length(const struct scene *scene, const struct vertex *light, int s, const struct vertex *eye, int t)
 {
     struct full_path f = {.scene = scene};

@@ -1,4 +1,4 @@
-/* oracle.h: the MIS weight computed the slow and plain way, from all p_i of a path; and the path's length. */
+/* oracle.h: the MIS weight computed the slow and plain way, from all p_i of a path; the path's value and length. */
 #ifndef ASBDPT_TEST_ORACLE_H
 #define ASBDPT_TEST_ORACLE_H
 
@@ -10,6 +10,12 @@
  * Returns false for paths the oracle does not cover: delta vertices other than a mirror or smooth glass. */
 bool oracle_weights(const struct scene *scene, const struct mis_counts *counts, const struct vertex *light, int s,
                     const struct vertex *eye, int t, double *weight);
+
+/* oracle_value: what the path brings by the strategy (s,t), unweighted, counts being without tables: the measurement
+ * contribution over the strategy's own density. [V97 8.7, 10.2] False for paths it does not cover: those with delta
+ * vertices or under several infinite lights. */
+bool oracle_value(const struct scene *scene, const struct mis_counts *counts, const struct vertex *light, int s,
+                  const struct vertex *eye, int t, rgb *value);
 
 /* oracle_length: of the same path: all its edges measured anew, what comes from infinity from the plane that touches
  * the scene's sphere; meaningless for a path that the oracle does not cover. */

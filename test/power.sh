@@ -2,6 +2,7 @@
 # power.sh: how small a fault does a suite find? Plants those of power.txt, in some sizes, in a copy of the tree.
 #   sh test/power.sh          prints the table of doc/evidence.md, section Power
 #   sh test/power.sh renew    writes it there
+# The list may name slow suites, too. All must pass without any fault: one that does not would seem to find them all.
 # A suite that checks facts finds a size or does not. One that tests hypotheses finds an error e if its p is below 1e-4,
 # which is |z| > 3.89; z is normal about e / sigma. So one planted error that is found, though not by far, tells sigma,
 # and with probability 0.95 what is found is (3.89 + 1.64) sigma.
@@ -26,7 +27,7 @@ plant() {
 
 # judge SUITE: with what z it finds what is planted; "exact" if a fact fails, 0 if nothing does.
 judge() {
-    (cd $work/tree && build/test --once "$1") >$work/output.txt 2>&1 && echo 0 && return
+    (cd $work/tree && build/test --slow --once "$1") >$work/output.txt 2>&1 && echo 0 && return
     awk '/p = .*, must be >=/ {
              sub(/,/, "", $3)
              if (!($3 > 0)) { most = 0; exit } # too small for a number: as good as a fact
@@ -84,6 +85,10 @@ row() {
 mkdir -p $work/tree
 cp -Rp Makefile src test scenes ref doc $work/tree/
 make -s -j2 -C $work/tree ${CC:+"CC=$CC"} LTO= build/test || exit 1
+for suite in $(for n in $(faults); do field "$n" 3; done | tr , '\n' | sort -u); do
+    (cd $work/tree && build/test --slow "$suite") >$work/output.txt 2>&1 ||
+        { echo "$suite fails without any fault: $work/output.txt"; exit 1; }
+done
 {
     printf '| class | what is wrong | suite | finds, per cent |\n|---|---|---|---:|\n'
     for n in $(faults); do

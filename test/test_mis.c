@@ -1,6 +1,6 @@
-/* test_mis.c: the O(1) weights of mis.h against all p_i multiplied out (oracle.h), on random paths over every kind of
- * vertex, light and integrator. The bound: 1e-9 relative to the weight, plus 1e-12. A path's oracle weights sum to 1 by
- * construction, so agreement for every strategy is the partition of unity. */
+/* test_mis.c: the O(1) weights of mis.h, and the values of connections, against densities multiplied out (oracle.h), on
+ * random paths over every kind of vertex, light and integrator. The bound: 1e-9 relative to the weight, plus 1e-12. A
+ * path's oracle weights sum to 1 by construction, so agreement for every strategy is the partition of unity. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -121,10 +121,25 @@ struct comparison {
     const char *name;
     const struct scene *scene;
     const struct mis_counts *counts;
-    double worst; /* largest relative difference */
+    double worst, worst_value; /* largest relative differences */
     long compared, lamps; /* weights, and of those how many of s = 0 on see-through lamps */
-    double skew; /* the planted fault: production weights are multiplied by it */
+    long values[4];       /* of s = 0, s = 1, t = 1, pairs */
+    double skew; /* the planted fault: production weights and values are multiplied by it */
 };
+
+static void compare_value(struct comparison *c, rgb got, const struct vertex *light, int s, const struct vertex *eye,
+                          int t)
+{
+    rgb value;
+    if (!oracle_value(c->scene, c->counts, light, s, eye, t, &value))
+        return;
+    double most = fmax(fmax(value.r, value.g), value.b);
+    double difference = fmax(fmax(fabs(got.r * c->skew - value.r), fabs(got.g * c->skew - value.g)),
+                             fabs(got.b * c->skew - value.b)) / most;
+    if (!(difference <= c->worst_value))
+        c->worst_value = difference;
+    c->values[t == 1 ? 2 : s < 2 ? s : 3]++;
+}
 
 static void compare(struct comparison *c, struct connection got, const struct vertex *light, int s,
                     const struct vertex *eye, int t)
@@ -138,6 +153,7 @@ static void compare(struct comparison *c, struct connection got, const struct ve
     double expected = oracle_length(c->scene, light, s, eye, t);
     CHECK(c->t, fabs(got.length - expected) < 1e-9 * expected, "%s: a path by (%d,%d) is %.12g long, not %.12g",
           c->name, s, t, got.length, expected);
+    compare_value(c, got.value, light, s, eye, t);
     c->compared++;
 }
 
@@ -232,6 +248,7 @@ void test_mis(struct test *t)
         const struct mis_counts *counts;
     } sets[] = {{"bdpt", &all}, {"pt", &pt}, {"lt", &lt}, {"power", &power}, {"uneven counts", &uneven},
                 {"uneven counts, power", &both}};
+    long values[4] = {0};
 
     for (size_t v = 0; v < sizeof VARIANTS / sizeof VARIANTS[0]; v++) {
         char text[8192];
@@ -248,19 +265,27 @@ void test_mis(struct test *t)
             known.pairs = pairs ? all_known.pairs : NO_TABLES.pairs;
             known.emission = emission ? all_known.emission : NO_TABLES.emission;
             counts.tables = k % 8 > 0 ? &known : NULL;
-            struct comparison c = {t, VARIANTS[v].name, &scene, &counts, 0, 0, 0, 1};
+            struct comparison c = {.t = t, .name = VARIANTS[v].name, .scene = &scene, .counts = &counts, .skew = 1};
             compare_paths(&c, 400);
             CHECK(t, c.worst < bound && c.compared > 100,
                   "%s, %s%s%s%s: %ld weights, largest difference %.3g (bound %g)", VARIANTS[v].name, sets[k / 8].name,
                   guide ? ", guide" : "", pairs ? ", pairs" : "", emission ? ", emission" : "",
                   c.compared, c.worst, bound);
+            CHECK(t, c.worst_value < bound, "%s, %s: values differ by %.3g", VARIANTS[v].name, sets[k / 8].name,
+                  c.worst_value);
+            for (int i = 0; i < 4; i++)
+                values[i] += c.values[i];
             CHECK(t, c.lamps > 100 || scene.kd_lamps.n_nodes == 0 || counts.hit[LATER_HIT] == 0,
                   "%s: only %ld of see-through lamps", VARIANTS[v].name, c.lamps);
         }
-        struct comparison planted = {t, VARIANTS[v].name, &scene, &all, 0, 0, 0, 1 + 1e-8};
+        struct comparison planted = {.t = t, .name = VARIANTS[v].name, .scene = &scene, .counts = &all,
+                                     .skew = 1 + 1e-8};
         compare_paths(&planted, 50);
         CHECK(t, planted.worst > bound, "a weight wrong by 1e-8 was not noticed");
+        CHECK(t, planted.worst_value > bound || scene.lights.n_infinite > 1, "a value wrong by 1e-8 was not noticed");
         tables_free(&all_known);
         scene_free(&scene);
     }
+    for (int i = 0; i < 4; i++)
+        CHECK(t, values[i] > 1000, "only %ld values of kind %d", values[i], i);
 }
