@@ -38,6 +38,7 @@ bool test_check(struct test *t, const char *file, int line, bool ok, const char 
     vfprintf(t->set.out, format, args);
     fprintf(t->set.out, "\n       repeat with: build/test --seed %llu %s\n", (unsigned long long)t->set.seed, t->name);
     va_end(args);
+    fflush(t->set.out); /* before a crash that may come of it */
     return false;
 }
 

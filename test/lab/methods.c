@@ -87,7 +87,9 @@ static bool add_all(struct methods *list, const char *text, struct error *err)
     end = begin + strcspn(begin, ":");
     for (const char *value = begin; value < end; value += strcspn(value, "/:") + 1) {
         char one[METHOD_TEXT];
-        snprintf(one, sizeof one, "%.*s%.*s%s", (int)(begin - text), text, (int)strcspn(value, "/:"), value, end);
+        size_t before = (size_t)(begin - text);
+        memcpy(one, text, before);
+        snprintf(one + before, sizeof one - before, "%.*s%s", (int)strcspn(value, "/:"), value, end);
         if (!add_all(list, one, err))
             return false;
     }

@@ -1,9 +1,10 @@
 #!/bin/sh
 # run.sh: apply the faults of list.txt one by one to a copy of the tree; every one must be caught by the test suite.
 #   sh test/mutants/run.sh [WORKERS [NAME...]]      `make mutants` calls it; results in build-mutants/table.txt
-# A fault is caught when a test fails or crashes; one that keeps a test running for TIMEOUT seconds is reported as an
-# error. What is doubtful fails at once, as in one suite of three hundred something does without a fault. With WHOLE=no
-# only the named tests are run. With SOUND=no the tests are known to pass without any fault.
+# A fault is caught when a test fails, or crashes, which the table says then; one that keeps a test running for TIMEOUT
+# seconds is reported as an error. What is doubtful fails at once, as in one suite of three hundred something does
+# without a fault. With WHOLE=no only the named tests are run. With SOUND=no the tests are known to pass without any
+# fault.
 #   sh test/mutants/run.sh choose COUNT WORD    prints the names of so many, chosen by the word
 # Exit status 0 only if all faults are caught.
 set -u
@@ -43,6 +44,9 @@ try() {
     fi >"$1/output.txt" 2>&1
 }
 
+# crashed TREE STATUS: did the test end by a signal, with no failure said before? A failing assert is one that is said.
+crashed() { [ "$2" -gt 128 ] && ! grep -Eq 'FAIL|Assertion' "$1/output.txt"; }
+
 # one NAME TREE: the mutant's line of the table.
 one() {
     file=$(field "$1" 2)
@@ -61,6 +65,7 @@ one() {
                 verdict=$test
                 [ "$test" = all ] &&
                     verdict="all: $(sed -n 's/.*repeat with: .* //p' "$2/output.txt" | sort -u | tr '\n' ' ')"
+                crashed "$2" $status && verdict="$verdict crash"
                 break
             fi
         done
@@ -122,5 +127,6 @@ done >$work/table.txt
 cat $work/table.txt
 awk -v wanted="$(names | wc -l)" '
     $2 == "SURVIVED" || $2 == "ERROR" { bad++ }
-    END { printf "%d mutants, %d caught\n", wanted, NR - bad
+    $NF == "crash" { crashed++ }
+    END { printf "%d mutants, %d caught, of these %d by a crash\n", wanted, NR - bad, crashed
           exit (bad > 0 || NR != wanted || NR == 0) }' $work/table.txt
