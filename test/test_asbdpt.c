@@ -1,8 +1,12 @@
 /* test_asbdpt.c: selection of light sub-paths: the unbiased ways agree with path tracing, the dissertation's does
  * not. */
+#include <limits.h>
+#include <math.h>
 #include <stdio.h>
 
 #include "helpers.h"
+#include "render/render.h"
+#include "transport/pixel_sample.h"
 #include "tests.h"
 
 /* Is the method's picture the one that bdpt makes of the same eye sub-paths? */
@@ -271,8 +275,81 @@ static void test_even_sky(struct test *t)
     scene_free(&scene);
 }
 
+/* --- what draws count for ------------------------------------------------------------------------------ */
+
+/* Draws of one tile pass: divided by the probability, their number and that of the light sub-paths, as a fact. */
+struct draws {
+    double number, paths; /* C and K */
+    long told;
+    double worst; /* largest relative difference */
+    /* Of the eye region that is looked at, -1: any: */
+    const struct vertex *drawn[64]; /* [n] unlike ones, whose probabilities sum to: */
+    int n, region;
+    double sum;
+};
+
+static void note_draw(void *context, const struct pixel_sample *sample, const struct joined *path)
+{
+    struct draws *d = context;
+    int i = 0;
+    (void)sample;
+    if (path->s < 2 || path->t < 2)
+        return;
+    d->told++;
+    d->worst = fmax(d->worst, fabs(path->scale * path->pmf * d->number * d->paths - 1));
+    d->region = d->region < 0 ? path->z->eye_region : d->region;
+    while (i < d->n && d->drawn[i] != path->y)
+        i++;
+    if (i < d->n || i == 64 || d->region != path->z->eye_region)
+        return;
+    d->drawn[d->n++] = path->y;
+    d->sum += path->pmf;
+}
+
+static void check_draws(struct test *t, struct scene *scene, const char *way, struct draws d, double least)
+{
+    struct render_options o = {.integrator = set_method(scene, way), .seed = 1, .max_depth = 4, .n_threads = 1};
+    struct render_job job;
+    struct error err;
+    struct preparation p;
+    if (!CHECK(t, render_prepare(scene, &o, render_crop(scene), &job, &p, &err), "%s", err.text))
+        return;
+    struct tile tile = {.rect = job.film_rect};
+    const struct observer observer = {.context = &d, .joined = note_draw};
+    struct workspace *work = workspaces_new(1, job.max_depth);
+    struct tile_pass pass = {&job, job.film_rect, 0, 1, &tile, work, &observer};
+    work->scratch = method_scratch(&p);
+    tile_start(&tile, job.film_rect, job.film_rect, &scene->filter);
+    p.method->render(&p, &pass);
+    CHECK(t, d.told > 100 && d.worst < 1e-9, "%s: %ld draws, what they count for is off by %g", way, d.told, d.worst);
+    CHECK(t, d.sum < 1 + 1e-9 && d.sum > least, "%s: probabilities of %d vertices sum to %g", way, d.n, d.sum);
+    tile_free(&tile);
+    method_scratch_free(&p, work->scratch);
+    workspaces_free(work, 1);
+    method_release(&p);
+}
+
+/* 256 pixels. Where they share one light sub-path, whatever can be drawn is drawn soon. */
+static void test_counts(struct test *t)
+{
+    struct scene scene;
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 16, 16, &scene))
+        return;
+    check_draws(t, &scene, "asbdpt select=pool", (struct draws){.number = 1, .paths = 256, .region = INT_MAX}, -1);
+    check_draws(t, &scene, "asbdpt select=vertices connections=3 pathpixels=4",
+                (struct draws){.number = 3, .paths = 64, .region = -1}, 0);
+    check_draws(t, &scene, "asbdpt select=vertices connections=3 pathpixels=256",
+                (struct draws){.number = 3, .paths = 1, .region = -1}, 0.999);
+    check_draws(t, &scene, "asbdpt connections=3 pathpixels=4",
+                (struct draws){.number = 3, .paths = 64, .region = -1}, 0);
+    check_draws(t, &scene, "asbdpt connections=3 pathpixels=256",
+                (struct draws){.number = 3, .paths = 1, .region = -1}, 0.999);
+    scene_free(&scene);
+}
+
 void test_asbdpt(struct test *t)
 {
+    test_counts(t);
     test_bias(t);
     test_constant_pool(t);
     test_age(t);

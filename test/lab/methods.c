@@ -79,17 +79,16 @@ static bool add_one(struct methods *list, const char *text, struct error *err)
 /* One method for each of the values that slashes divide; the first such list leads on to the others. */
 static bool add_all(struct methods *list, const char *text, struct error *err)
 {
-    const char *begin = strchr(text, '/'), *end;
-    if (begin == NULL)
+    size_t begin = strcspn(text, "/"), end, n;
+    if (text[begin] == '\0')
         return add_one(list, text, err);
-    while (begin > text && strchr(":=", begin[-1]) == NULL)
+    while (begin > 0 && strchr(":=", text[begin - 1]) == NULL)
         begin--;
-    end = begin + strcspn(begin, ":");
-    for (const char *value = begin; value < end; value += strcspn(value, "/:") + 1) {
+    end = begin + strcspn(text + begin, ":");
+    for (size_t at = begin; at < end; at += n + 1) {
         char one[METHOD_TEXT];
-        size_t before = (size_t)(begin - text);
-        memcpy(one, text, before);
-        snprintf(one + before, sizeof one - before, "%.*s%s", (int)strcspn(value, "/:"), value, end);
+        n = strcspn(text + at, "/:");
+        snprintf(one, sizeof one, "%.*s%.*s%s", (int)begin, text, (int)n, text + at, text + end);
         if (!add_all(list, one, err))
             return false;
     }
