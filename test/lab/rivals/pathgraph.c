@@ -15,7 +15,7 @@
  * The grid lies elsewhere in every iteration.
  *
  * Light that comes over an edge has the length of the path that found it. To strategies and trace the first vertex is a
- * lamp. Where caustics or cones are asked for, which are made of whole paths, the method is `pt`.
+ * lamp.
  *
  * Tests: test_rivals.c.
  */
