@@ -12,7 +12,7 @@ bool oracle_weights(const struct scene *scene, const struct mis_counts *counts, 
                     const struct vertex *eye, int t, double *weight);
 
 /* oracle_value: what the path brings by the strategy (s,t), unweighted, counts being without tables: the measurement
- * contribution over the strategy's own density. [V97 8.7, 10.2] False for paths it does not cover: those with delta
+ * contribution over the strategy's own density. [V97 10.2] False for paths it does not cover: those with delta
  * vertices or under several infinite lights. */
 bool oracle_value(const struct scene *scene, const struct mis_counts *counts, const struct vertex *light, int s,
                   const struct vertex *eye, int t, rgb *value);
