@@ -496,6 +496,10 @@ static void test_densities(struct test *t)
             pdf = light_pdf_surface(&s.lights, &s.geo, &on);
             CHECK(t, fabs(pdf / at.pdf - 1) < 1e-9, "light %d: density %g, not %g", i, pdf, at.pdf);
         }
+        if (l->kind == LIGHT_AREA || (l->kind == LIGHT_INFINITE && l->frame->env == NULL)) {
+            double sent = light_Le(&s.lights, &at, l->kind == LIGHT_AREA ? at.n : neg(at.w)).r;
+            CHECK(t, sent == 1, "light %d sends %g, not 1", i, sent);
+        }
         if (l->kind == LIGHT_INFINITE || l->kind == LIGHT_AREA)
             check_area(t, &s, &r, cell, NULL);
         check_area(t, &s, &r, cell, &at);
