@@ -326,7 +326,7 @@ static void check_resumed(struct test *t)
     snprintf(directory, sizeof directory, "%s/family", test_tmp(t));
     small_plan(&p, scenes, directory, "bdpt,lvc");
     small_plan(&more, scenes, directory, "bdpt,pt,lvc");
-    if (!CHECK(t, measure(&p, &first, &err) && family_write(&first, "family.md", family_tables, &err), "%s", err.text))
+    if (!CHECK(t, measure(&p, &first, &err) && family_write(&first, "family.md", &err), "%s", err.text))
         return;
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
         snprintf(path, sizeof path, "%s/%s", directory, files[i]);

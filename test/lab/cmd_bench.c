@@ -163,14 +163,15 @@ static bool measure_renders(const struct scene *s, const struct bench_options *o
 {
     static const char *const NAMES[] = {METHODS_BENCH};
     double paths = (double)o->spp * rect_width(render_crop(s)) * rect_height(render_crop(s));
+    double wall[3], cpu[3];
     for (int i = 0; i < 3; i++) {
-        double wall, cpu;
-        if (!render_once(s, o, NAMES[i], 1, &wall, &cpu, err))
+        if (!render_once(s, o, NAMES[i], 1, &wall[i], &cpu[i], err))
             return false;
-        value[PT + i] = cpu > 0 ? paths / cpu : 0;
+        value[PT + i] = paths / cpu[i];
     }
-    return render_once(s, o, METHOD_REFERENCE, 1, &value[WALL_1], &value[CPU_1], err) &&
-           render_once(s, o, METHOD_REFERENCE, o->n_threads, &value[WALL_N], &value[CPU_N], err);
+    value[WALL_1] = wall[BDPT - PT];
+    value[CPU_1] = cpu[BDPT - PT];
+    return render_once(s, o, METHOD_REFERENCE, o->n_threads, &value[WALL_N], &value[CPU_N], err);
 }
 
 /* --- one scene ---------------------------------------------------------------------------------------- */

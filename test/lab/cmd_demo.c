@@ -45,7 +45,7 @@ static int run(void *options)
     p->scene = &o->scene;
     p->n_scenes = p->n_seeds = 1;
     p->equal = true;
-    p->reference_spp = (long)REFERENCE_TIMES * o->spp;
+    p->reference_spp = REFERENCE_TIMES * o->spp;
     if (!plan_set_methods(p, o->methods, &err) || !plan_set_spp(p, o->spp, o->spp, &err))
         return usage_error(&command_demo, "--methods: %s", err.text);
     if (!outputs_open(&o->output, NULL, PARTS_NONE, &out, &err))

@@ -28,30 +28,32 @@ static const char *const PUBLISHED[] = {
 
 /* What the options say; 0 and NULL: what the preset says. */
 struct plan_options {
+    struct plan plan;
     struct texts scenes, sweeps;
-    const char *directory, *reference, *methods, *half;
-    bool quick, full, quiet;
-    double seconds;
-    int spp, reference_spp, seeds, max_depth, n_threads, res[2];
+    const char *methods, *half;
+    bool quick, full;
+    int spp, res[2];
 };
 
 /* --- options ----------------------------------------------------------------------------------------- */
 
 #define AT(member) offsetof(struct plan_options, member)
 static const struct option SHARED[] = {
-    {"--maxdepth", "N", OPTION_INTEGER, AT(max_depth), 1, PATH_MAX_DEPTH, .help = "longest path, 1 = direct light"},
+    {"--maxdepth", "N", OPTION_INTEGER, AT(plan.max_depth), 1, PATH_MAX_DEPTH,
+     .help = "longest path, 1 = direct light"},
     {"--res", "WIDTH[xHEIGHT]", OPTION_WIDTH, AT(res), 1, 8192, .help = "size, or width alone"},
-    {"--reference", "PATH", OPTION_TEXT, AT(reference),
+    {"--reference", "PATH", OPTION_TEXT, AT(plan.reference),
      .help = "picture, or directory of NAME.pfm (default: ref/ beside the scene if of it, else rendered)"},
-    {"--reference-spp", "N", OPTION_INTEGER, AT(reference_spp), 4, 1 << 24, .help = "samples of one rendered here"},
-    {"--nthreads", "N", OPTION_INTEGER, AT(n_threads), 1, 1024, .alias = "-j", .help = "threads (default: all)"},
-    {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "no progress, no warnings"},
+    {"--reference-spp", "N", OPTION_INTEGER, AT(plan.reference_spp), 4, 1 << 24,
+     .help = "samples of one rendered here"},
+    {"--nthreads", "N", OPTION_INTEGER, AT(plan.n_threads), 1, 1024, .alias = "-j", .help = "threads (default: all)"},
+    {"--quiet", NULL, OPTION_ON, AT(plan.quiet), .help = "no progress, no warnings"},
     {.name = NULL},
 };
 
 static const struct option EXPERIMENT[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes), .help = "scene files (default: five of scenes/)"},
-    {"-o", "DIR", OPTION_TEXT, AT(directory), 1,
+    {"-o", "DIR", OPTION_TEXT, AT(plan.directory), 1,
      .help = "a directory for its results; started again with the same, it goes on"},
     {"--methods", "LIST", OPTION_TEXT, AT(methods), .help = METHODS_HELP " (default: " METHODS_EXPERIMENT ")"},
     {"--sweep", "LIST", OPTION_TEXTS, AT(sweeps),
@@ -59,30 +61,32 @@ static const struct option EXPERIMENT[] = {
     {"--quick", NULL, OPTION_ON, AT(quick), .help = "at the sizes of the references, 8 to 64 spp (default)"},
     {"--full", NULL, OPTION_ON, AT(full), .help = "320 pixels wide, 32 to 512 spp, and longer sweeps"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20, .help = "most samples per pixel"},
-    {"--seeds", "N", OPTION_INTEGER, AT(seeds), 1, PLAN_MAX_SEEDS, .fallback = "3", .help = "renders per method"},
+    {"--seeds", "N", OPTION_INTEGER, AT(plan.n_seeds), 1, PLAN_MAX_SEEDS, .fallback = "3",
+     .help = "renders per method"},
     {.others = SHARED},
 };
 
 static const struct option EQUAL_TIME[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes), .help = "scene files (default: eleven of scenes/)"},
-    {"-o", "DIR", OPTION_TEXT, AT(directory), 1, .help = "a directory for its results"},
+    {"-o", "DIR", OPTION_TEXT, AT(plan.directory), 1, .help = "a directory for its results"},
     {"--methods", "LIST", OPTION_TEXT, AT(methods), .help = METHODS_HELP " (default: " METHODS_DEMO
      "; of eleven scenes more)"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20, .fallback = "32",
      .help = "samples per pixel of the first method; the others are given its CPU time"},
-    {"--seconds", "T", OPTION_NUMBER, AT(seconds), 0.001, 1e6, .help = "instead: the CPU time that all are given"},
-    {"--seeds", "N", OPTION_INTEGER, AT(seeds), 1, PLAN_MAX_SEEDS, .fallback = "5", .help = "renders per method"},
+    {"--seconds", "T", OPTION_NUMBER, AT(plan.seconds), 0.001, 1e6, .help = "instead: the CPU time that all are given"},
+    {"--seeds", "N", OPTION_INTEGER, AT(plan.n_seeds), 1, PLAN_MAX_SEEDS, .fallback = "5",
+     .help = "renders per method"},
     {.others = SHARED},
 };
 
 static const struct option FAMILY[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes), .help = "scene files (default: eleven of scenes/, five published)"},
-    {"-o", "DIR", OPTION_TEXT, AT(directory), 1,
+    {"-o", "DIR", OPTION_TEXT, AT(plan.directory), 1,
      .help = "a directory for its results; started again with the same, it goes on"},
     {"--methods", "LIST", OPTION_TEXT, AT(methods), .help = METHODS_HELP " (default: all there are)"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20,
      .help = "samples per pixel of the first method (default: 64; --quick: 16); the others are given its CPU time"},
-    {"--seeds", "N", OPTION_INTEGER, AT(seeds), 1, PLAN_MAX_SEEDS,
+    {"--seeds", "N", OPTION_INTEGER, AT(plan.n_seeds), 1, PLAN_MAX_SEEDS,
      .help = "renders per method (default: 5; --quick: 3)"},
     {"--half", "HALF", OPTION_TEXT, AT(half), .fallback = "both",
      .help = "choice: all services off; services: each method with all it can have; or both"},
@@ -92,27 +96,19 @@ static const struct option FAMILY[] = {
 
 /* --- the plan ---------------------------------------------------------------------------------------- */
 
-/* What both commands have in common. `command` becomes the command that carries the plan out again, after `how`. */
-static bool begin_plan(struct plan_options *o, int n_scenes, const char *how, char command[COMMAND], struct plan *p,
-                       struct error *err)
+/* What all commands have in common. `command` becomes the command that carries the plan out again, after `how`. */
+static bool begin_plan(struct plan_options *o, int n_scenes, const char *how, char command[COMMAND], struct error *err)
 {
-    memset(p, 0, sizeof *p);
+    struct plan *p = &o->plan;
     if (o->scenes.n == 0)
         for (int i = 0; i < n_scenes; i++)
             texts_add(&o->scenes, SCENES[i]);
     p->scene = o->scenes.item;
     p->n_scenes = o->scenes.n;
-    p->directory = o->directory;
-    p->reference = o->reference;
-    p->reference_spp = o->reference_spp;
-    p->quiet = o->quiet;
-    p->n_threads = o->n_threads;
-    p->max_depth = o->max_depth;
-    p->n_seeds = o->seeds;
     p->width = o->res[0];
     p->height = o->res[1];
     p->command = command;
-    int n = snprintf(command, COMMAND, "%s --methods %s --seeds %d --reference-spp %ld", how, o->methods, p->n_seeds,
+    int n = snprintf(command, COMMAND, "%s --methods %s --seeds %d --reference-spp %d", how, o->methods, p->n_seeds,
                      p->reference_spp);
     if (p->width > 0)
         n += snprintf(command + n, COMMAND - (size_t)n, p->height > 0 ? " --res %dx%d" : " --res %d", p->width,
@@ -126,70 +122,70 @@ static bool begin_plan(struct plan_options *o, int n_scenes, const char *how, ch
     return plan_set_methods(p, o->methods, err);
 }
 
+/* What is 0 becomes the preset's. */
+static void preset(int *value, int otherwise) { *value = *value > 0 ? *value : otherwise; }
+
 /* The steps of the samples are doublings of the preset's first, up to --spp. */
-static bool plan_experiment(struct plan_options *o, char command[COMMAND], struct plan *p, struct error *err)
+static bool plan_experiment(struct plan_options *o, char command[COMMAND], struct error *err)
 {
     static const char *const sweeps[2][2] = {{SWEEPS_QUICK}, {SWEEPS_FULL}};
     char how[64];
+    struct plan *p = &o->plan;
+    int first = o->full ? 32 : 8;
     if (o->quick && o->full)
         return error_usage(err, "--quick and --full exclude each other");
-    long first = o->full ? 32 : 8, last = o->spp > 0 ? o->spp : o->full ? 512 : 64;
-    if (o->methods == NULL && o->sweeps.n == 0)
-        for (int i = 0; i < 2; i++)
-            texts_add(&o->sweeps, sweeps[o->full][i]);
+    for (int i = 0, usual = o->methods == NULL && o->sweeps.n == 0; i < 2 && usual; i++)
+        texts_add(&o->sweeps, sweeps[o->full][i]);
     if (o->methods == NULL)
         o->methods = METHODS_EXPERIMENT;
-    if (o->reference_spp == 0)
-        o->reference_spp = o->full ? 4096 : 256;
-    if (o->full && o->res[0] == 0)
-        o->res[0] = 320;
-    snprintf(how, sizeof how, "experiment --%s --spp %ld", o->full ? "full" : "quick", last);
-    bool ok = begin_plan(o, N_PUBLISHED, how, command, p, err) &&
-              plan_set_spp(p, last < first ? last : first, last, err);
+    preset(&o->spp, o->full ? 512 : 64);
+    preset(&p->reference_spp, o->full ? 4096 : 256);
+    preset(&o->res[0], o->full ? 320 : 0);
+    snprintf(how, sizeof how, "experiment --%s --spp %d", o->full ? "full" : "quick", o->spp);
+    bool ok = begin_plan(o, N_PUBLISHED, how, command, err) &&
+              plan_set_spp(p, o->spp < first ? o->spp : first, o->spp, err);
     p->no_roulette = true;
     for (int i = 0; ok && i < o->sweeps.n; i++)
         ok = plan_add_sweep(p, o->sweeps.item[i], err);
     return ok;
 }
 
-static bool plan_equal_time(struct plan_options *o, char command[COMMAND], struct plan *p, struct error *err)
+static bool plan_equal_time(struct plan_options *o, char command[COMMAND], struct error *err)
 {
     char how[64];
     if (o->methods == NULL) /* of one's own scene one asks which of the two to use */
         o->methods = o->scenes.n > 0 ? METHODS_DEMO : METHODS_EQUAL_TIME;
-    if (o->reference_spp == 0)
-        o->reference_spp = 256;
+    preset(&o->plan.reference_spp, 256);
+    o->plan.equal = true;
     snprintf(how, sizeof how, "equal-time --spp %d", o->spp);
-    if (o->seconds > 0)
-        snprintf(how, sizeof how, "equal-time --seconds %g", o->seconds);
-    bool ok = begin_plan(o, N_SCENES, how, command, p, err) && plan_set_spp(p, o->spp, o->spp, err);
-    p->equal = true;
-    p->seconds = o->seconds;
-    return ok;
+    if (o->plan.seconds > 0)
+        snprintf(how, sizeof how, "equal-time --seconds %g", o->plan.seconds);
+    return begin_plan(o, N_SCENES, how, command, err) && plan_set_spp(&o->plan, o->spp, o->spp, err);
 }
 
-static bool plan_family(struct plan_options *o, char command[COMMAND], struct plan *p, struct error *err)
+static bool plan_family(struct plan_options *o, char command[COMMAND], struct error *err)
 {
     char how[64], all[METHODS_TEXT];
-    bool scenes_given = o->scenes.n > 0;
-    for (size_t i = 0; !scenes_given && i < N_SCENES; i++)
+    struct plan *p = &o->plan;
+    p->n_own = o->scenes.n > 0 ? 0 : N_SCENES;
+    p->equal = true;
+    for (int i = 0; i < p->n_own; i++)
         texts_add(&o->scenes, SCENES[i]);
-    for (size_t i = 0; !scenes_given && i < N_PUBLISHED; i++)
+    for (int i = 0; p->n_own > 0 && i < N_PUBLISHED; i++)
         if (file_exists(PUBLISHED[i]))
             texts_add(&o->scenes, PUBLISHED[i]);
     methods_all(all);
     strcat(all, METHODS_ALSO);
     o->methods = o->methods != NULL ? o->methods : all;
-    o->spp = o->spp > 0 ? o->spp : o->quick ? 16 : 64;
-    o->seeds = o->seeds > 0 ? o->seeds : o->quick ? 3 : 5;
-    o->res[0] = o->res[0] > 0 || o->quick ? o->res[0] : 160;
-    o->reference_spp = o->reference_spp > 0 ? o->reference_spp : o->quick ? 512 : 2048;
+    preset(&o->spp, o->quick ? 16 : 64);
+    preset(&p->n_seeds, o->quick ? 3 : 5);
+    preset(&o->res[0], o->quick ? 0 : 160);
+    preset(&p->reference_spp, o->quick ? 512 : 2048);
     snprintf(how, sizeof how, "family%s --spp %d", o->quick ? " --quick" : "", o->spp);
-    bool ok = begin_plan(o, N_SCENES, how, command, p, err) && plan_set_spp(p, o->spp, o->spp, err) &&
-              methods_add_halves(o->methods, o->half[0] == 'c' ? 1 : o->half[0] == 's' ? 2 : 3, &p->methods, err);
+    unsigned halves = o->half[0] == 'c' ? 1 : o->half[0] == 's' ? 2 : 3;
+    bool ok = begin_plan(o, N_SCENES, how, command, err) && plan_set_spp(p, o->spp, o->spp, err) &&
+              methods_add_halves(o->methods, halves, &p->methods, err);
     p->n_compared = p->methods.n;
-    p->n_own = scenes_given ? 0 : N_SCENES;
-    p->equal = true;
     return ok;
 }
 
@@ -197,7 +193,7 @@ static bool plan_family(struct plan_options *o, char command[COMMAND], struct pl
 
 static bool write_equal(const struct results *r, struct error *err)
 {
-    bool ok = family_write(r, "equal-time.md", family_tables, err);
+    bool ok = family_write(r, "equal-time.md", err);
     for (int i = 0; ok && i < r->plan->n_scenes; i++)
         ok = pictures_write(&r->scene[i], err);
     if (ok) {
@@ -210,7 +206,7 @@ static bool write_equal(const struct results *r, struct error *err)
 
 static bool write_family(const struct results *r, struct error *err)
 {
-    bool ok = family_write(r, "family.md", family_tables, err);
+    bool ok = family_write(r, "family.md", err);
     if (ok && !r->plan->quiet)
         printf("%s/family.md\n", r->plan->directory);
     return ok;
@@ -226,16 +222,15 @@ static bool write_experiment(const struct results *r, struct error *err)
 
 /* Plan, measure, write. */
 static int run(struct plan_options *o, const struct command *c,
-               bool (*make_plan)(struct plan_options *, char command[COMMAND], struct plan *, struct error *),
+               bool (*make_plan)(struct plan_options *, char command[COMMAND], struct error *),
                bool (*write)(const struct results *, struct error *))
 {
-    struct plan plan;
     struct results results = {0};
     struct error err;
     char command[COMMAND];
-    if (!make_plan(o, command, &plan, &err))
+    if (!make_plan(o, command, &err))
         return usage_error(c, "%s", err.text);
-    bool ok = measure(&plan, &results, &err) && write(&results, &err);
+    bool ok = measure(&o->plan, &results, &err) && write(&results, &err);
     results_free(&results);
     return ok ? EXIT_OK : fail(&err);
 }

@@ -286,10 +286,9 @@ static bool write_strip(const struct results *e, struct error *err)
     return sheet_write(&sheet, e->plan->directory, "family.png", err);
 }
 
-bool family_write(const struct results *r, const char *page, void (*write)(FILE *, const struct results *),
-                  struct error *err)
+bool family_write(const struct results *r, const char *page, struct error *err)
 {
-    return results_write(r, "runs.csv", results_runs_csv, err) && results_write(r, page, write, err) &&
+    return results_write(r, "runs.csv", results_runs_csv, err) && results_write(r, page, family_tables, err) &&
            results_write(r, "family.svg", family_figure, err) &&
            (!has_halves(r) || results_write(r, "family-choice.svg", family_choice_figure, err)) && write_strip(r, err);
 }

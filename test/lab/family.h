@@ -14,8 +14,7 @@
 void family_tables(FILE *f, const struct results *r); /* Markdown */
 void family_figure(FILE *f, const struct results *r); /* SVG: a row for each method, a column for each scene */
 
-/* family_write: all files, into the plan's directory; `page` is what `write` writes. False with a message. */
-bool family_write(const struct results *r, const char *page, void (*write)(FILE *, const struct results *),
-                  struct error *err);
+/* family_write: all files, into the plan's directory, the tables by the name of `page`. False with a message. */
+bool family_write(const struct results *r, const char *page, struct error *err);
 
 #endif

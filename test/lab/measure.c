@@ -240,7 +240,7 @@ static bool make_reference(struct subject *s)
     if (r->reference.pixels != NULL || !needs_reference(p))
         return true;
     snprintf(directory, sizeof directory, "%s/reference", p->directory != NULL ? p->directory : "");
-    snprintf(key, sizeof key, "%s %016" PRIx64 " %08lx %dx%d maxdepth=%d %s spp=%ld", r->name, s->scene.content,
+    snprintf(key, sizeof key, "%s %016" PRIx64 " %08lx %dx%d maxdepth=%d %s spp=%d", r->name, s->scene.content,
              subject_probe(s, 0), r->width, r->height, r->max_depth, m.text, p->reference_spp);
     struct render_options o = subject_options(s, &m, ~p->seed - REFERENCE_SEED, p->n_threads);
     return reference_make(&s->scene, &o, p->reference_spp, p->directory != NULL ? directory : NULL, r->name, key,

@@ -38,7 +38,7 @@ struct plan {
     int max_depth;            /* 0: the stored reference's if the width is 0 too, else the scene's */
     int scale;                /* pictures are so many times as wide and high, and their errors of means; 0: 1 */
     uint64_t seed;            /* 0, or another set of random numbers */
-    long reference_spp;       /* of a reference made here */
+    int reference_spp;        /* of a reference made here */
     int n_threads;
     bool quiet;
     const char *directory; /* where everything is written; NULL: nothing is kept */

@@ -1,5 +1,4 @@
 /* reference.c: see reference.h. */
-#include "lab/directory.h"
 #include "lab/reference.h"
 
 #include <inttypes.h>
@@ -13,6 +12,7 @@
 #include "base/os.h"
 #include "base/rng.h"
 #include "image/image.h"
+#include "lab/directory.h"
 #include "lab/sheet.h"
 #include "lab/sides.h"
 #include "lab/timed.h"
@@ -22,34 +22,27 @@ enum { PATH_SIZE = 4096 };
 void reference_free(struct reference *r)
 {
     free(r->pixels);
-    r->pixels = NULL;
+    memset(r, 0, sizeof *r);
 }
 
 /* --- the text beside the picture --------------------------------------------------------------------- */
 
-struct reference_text {
-    long max_depth;   /* 0: not said */
-    uint64_t content; /* 0: not said */
-    double noise8, mean_error;
-    char origin[1200];
-};
-
-static void read_line(char *line, struct reference_text *s)
+static void read_line(char *line, struct reference *r)
 {
-    sscanf(line, "maxdepth %ld", &s->max_depth);
-    sscanf(line, "content %" SCNx64, &s->content);
-    sscanf(line, "noise8 %lf", &s->noise8);
-    sscanf(line, "mean_error %lf", &s->mean_error);
+    sscanf(line, "maxdepth %ld", &r->max_depth);
+    sscanf(line, "content %" SCNx64, &r->content);
+    sscanf(line, "noise8 %lf", &r->noise8);
+    sscanf(line, "mean_error %lf", &r->mean_error);
     if (strncmp(line, "origin ", 7) == 0)
-        snprintf(s->origin, sizeof s->origin, "%.1199s", line + 7);
+        snprintf(r->origin, sizeof r->origin, "%.1199s", line + 7);
 }
 
-/* Read NAME.txt beside NAME.pfm; a missing file says nothing. */
-static void read_text(const char *picture, struct reference_text *s)
+/* What NAME.txt beside NAME.pfm says; a missing file says nothing. */
+static void read_text(const char *picture, struct reference *r)
 {
     char path[PATH_SIZE], line[2048];
-    memset(s, 0, sizeof *s);
-    s->noise8 = s->mean_error = NAN;
+    memset(r, 0, sizeof *r);
+    r->noise8 = r->mean_error = NAN;
     const char *dot = strrchr(picture, '.');
     snprintf(path, sizeof path, "%.*s.txt", (int)(dot != NULL ? dot - picture : (long)strlen(picture)), picture);
     FILE *f = os_open_input(path);
@@ -57,7 +50,7 @@ static void read_text(const char *picture, struct reference_text *s)
         return;
     while (fgets(line, sizeof line, f) != NULL) {
         line[strcspn(line, "\r\n")] = '\0';
-        read_line(line, s);
+        read_line(line, r);
     }
     fclose(f);
 }
@@ -72,7 +65,6 @@ static void read_noise(const char *path, struct reference *r)
     int width, height;
     snprintf(stem, sizeof stem, "%.*s", (int)(strrchr(path, '.') != NULL ? strrchr(path, '.') - path : 0), path);
     snprintf(errors, sizeof errors, "%s.error.pfm", stem);
-    memset(r->noise, 0, sizeof r->noise);
     float *shifted = image_read_linear(errors, &width, &height, NULL, NULL);
     if (shifted != NULL && width == r->width && height == r->height) {
         for (size_t i = 0; i < 3 * (size_t)width * (size_t)height; i++)
@@ -84,17 +76,13 @@ static void read_noise(const char *path, struct reference *r)
     free(shifted);
 }
 
-/* Read one picture, and *text beside it. */
-static bool load(const char *path, struct reference *out, struct reference_text *text, struct error *err)
+/* Read one picture, and the text beside it. */
+static bool load(const char *path, struct reference *out, struct error *err)
 {
+    read_text(path, out);
     out->pixels = image_read_linear(path, &out->width, &out->height, NULL, err);
     if (out->pixels == NULL)
         return false;
-    read_text(path, text);
-    out->max_depth = text->max_depth;
-    out->content = text->content;
-    out->noise8 = text->noise8;
-    out->mean_error = text->mean_error;
     read_noise(path, out);
     snprintf(out->origin, sizeof out->origin, "stored picture %.1000s of %dx%d pixels", path, out->width, out->height);
     return true;
@@ -153,15 +141,14 @@ bool reference_find(const char *given, const char *scene_path, const char *name,
                     struct error *err)
 {
     char path[PATH_SIZE];
-    struct reference_text text;
     bool found = false;
     if (given != NULL) {
         given_path(given, name, path);
-        return load(path, out, &text, err);
+        return load(path, out, err);
     }
     for (int i = 0; !found && i < N_PLACES; i++) {
         place_path(i, scene_path, name, path);
-        found = load(path, out, &text, NULL);
+        found = load(path, out, NULL);
     }
     return true;
 }
@@ -188,22 +175,21 @@ bool reference_make(const struct scene *scene, const struct render_options *opti
                     const char *name, const char *key, struct reference *out, struct error *err)
 {
     char stem[PATH_SIZE - 4], path[PATH_SIZE];
-    struct reference_text text;
     struct render_options o = *options;
     struct side a = {0}, b = {0};
     if (directory == NULL)
         return render_unkept(scene, options, spp, out, err);
     snprintf(stem, sizeof stem, "%s/%s", directory, name);
     snprintf(path, sizeof path, "%s.pfm", stem);
-    read_text(path, &text);
-    if (strcmp(text.origin, key) == 0 && load(path, out, &text, NULL))
+    read_text(path, out);
+    if (strcmp(out->origin, key) == 0 && load(path, out, NULL))
         return true;
     o.end = spp / (2 * BATCHES) > 1 ? spp / (2 * BATCHES) : 1;
     bool ok = file_make_directory(directory, err) && side_render(scene, &o, 0, BATCHES, true, &a, err) &&
               side_render(scene, &o, 1, BATCHES, true, &b, err);
     if (ok) {
         struct provenance from = {key, "here", scene->content, options->max_depth, NULL};
-        ok = sides_store(stem, &a, &b, &from, err) && load(path, out, &text, err);
+        ok = sides_store(stem, &a, &b, &from, err) && load(path, out, err);
     }
     batches_free(&a.pixels);
     batches_free(&b.pixels);
