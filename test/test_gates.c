@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/os.h"
-#include "lab/gates.h"
+#include "lab/paths.h"
 #include "helpers.h"
 #include "tests.h"
 

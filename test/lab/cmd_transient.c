@@ -1,5 +1,5 @@
 /* cmd_transient.c: asbdpt-lab transient: light in flight: a picture for each of some gates that follow each other
- * (gates.h), all from one render, and a contact sheet. */
+ * (paths.h), all from one render, and a contact sheet. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -10,7 +10,7 @@
 #include "lab/compare.h"
 #include "lab/directory.h"
 #include "lab/commands.h"
-#include "lab/gates.h"
+#include "lab/paths.h"
 #include "lab/sheet.h"
 
 struct transient_options {

@@ -1,5 +1,5 @@
 /* paths.h: every weighted path of a render, pixel by pixel, in an order that does not depend on threads: what pictures
- * of single strategies (strategies.h) and of gates (gates.h) are summed up from.
+ * of single strategies (strategies.h) and of light in flight are summed up from.
  *
  * Tests: test_strategies.c, test_gates.c.
  */
@@ -27,5 +27,16 @@ struct path_taker {
 /* paths_render: render_scene, all paths being handed to `taker`. */
 bool paths_render(const struct scene *scene, const struct render_options *options, struct film *film,
                   const struct path_taker *taker, struct error *err);
+
+/* Gates of one width: number i is [begin + i width, begin + (i + 1) width). */
+struct gates {
+    double begin, width; /* width > 0 */
+    int n;
+};
+
+/* gates_render: add to sum, [n][pixels*3], what comes by each of neighbouring gates (scene/gate.h), all from one
+ * render; the film is rendered as ever. False with a message. */
+bool gates_render(const struct scene *scene, const struct render_options *options, const struct gates *gates,
+                  struct film *film, double *sum, struct error *err);
 
 #endif
