@@ -81,14 +81,10 @@ static bool write_all(const char *directory, struct gates g, const float *pixels
     sheet_init(&sheet, COLUMNS * width + GAP, (g.n + COLUMNS - 1) / COLUMNS * height + GAP, SHEET_PAPER);
     bool ok = true;
     for (int i = 0; ok && i < g.n; i++, pixels += n) {
-        float *cell = sheet_shrink(pixels, w, h, shrink);
         int x = GAP + i % COLUMNS * width, y = GAP + i / COLUMNS * height;
-        for (int c = 0; c < 3 * (w / shrink) * (h / shrink); c++)
-            cell[c] = float_within((double)cell[c] / white);
         snprintf(text, sizeof text, "%.4g to %.4g", g.begin + i * g.width, g.begin + (i + 1) * g.width);
         sheet_text(&sheet, x, y, 2, SHEET_INK, text);
-        sheet_paste(&sheet, x, y + LABEL, cell, w / shrink, h / shrink, k);
-        free(cell);
+        sheet_cell(&sheet, x, y + LABEL, pixels, w, h, shrink, k, 1 / white);
         snprintf(text, sizeof text, "%s/gate%03d.pfm", directory, i);
         ok = image_write(text, w, h, pixels, err);
     }

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/alias.h"
 #include "base/maths.h"
 #include "base/number.h"
 #include "base/progress.h"
@@ -47,15 +48,13 @@ struct interval equal_ratio(const struct scene_results *s, int method, int over,
     return results_ratio(x, s->plan->n_seeds, y, s->plan->n_seeds);
 }
 
-struct equal_summary equal_summarize(const struct results *r, int method, enum square which)
+struct equal_ends equal_ends(const struct results *r, int method, enum square which)
 {
-    struct equal_summary out = {NAN, NAN, NAN, "-", "-", 0};
-    double log_sum = 0;
+    struct equal_ends out = {NAN, NAN, "-", "-"};
     for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++) {
         double ratio = equal_ratio(s, method, 0, which).value;
         if (!isfinite(ratio))
             continue;
-        log_sum += m_log(ratio);
         if (!(out.best <= ratio)) {
             out.best = ratio;
             out.best_scene = s->name;
@@ -64,9 +63,7 @@ struct equal_summary equal_summarize(const struct results *r, int method, enum s
             out.worst = ratio;
             out.worst_scene = s->name;
         }
-        out.n++;
     }
-    out.mean = out.n > 0 ? m_exp(log_sum / out.n) : NAN;
     return out;
 }
 
@@ -80,23 +77,13 @@ double equal_price(const struct results *r, int method)
 
 /* --- the bootstrap ----------------------------------------------------------------------------------- */
 
-static int draw(struct rng *rng, int n) { return (int)(((uint64_t)rng_u32(rng) * (uint64_t)n) >> 32); }
-
 /* The logarithm of the mean of n seeds drawn from n, never far below that of all. */
 static double drawn_log(struct rng *rng, const double *x, int n, double all)
 {
     double sum = 0;
     for (int i = 0; i < n; i++)
-        sum += x[draw(rng, n)];
+        sum += x[rng_below(rng, (uint32_t)n)];
     return m_log(fmax(sum / n, 1e-3 * all));
-}
-
-static double mean(const double *x, int n)
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += x[i] / n;
-    return sum;
 }
 
 struct interval equal_bootstrap(const struct results *r, int method, int over, enum square which, const char *wanted,
@@ -113,7 +100,7 @@ struct interval equal_bootstrap(const struct results *r, int method, int over, e
             continue;
         for (int side = 0; side < 2; side++) {
             equal_squares(s, side == 0 ? method : over, which, x[k][side]);
-            all[k][side] = mean(x[k][side], seeds);
+            all[k][side] = sum_of(x[k][side], seeds) / seeds;
         }
         value += m_log(all[k][0] / all[k][1]);
         one = s;
@@ -128,7 +115,7 @@ struct interval equal_bootstrap(const struct results *r, int method, int over, e
     for (int d = 0; d < DRAWS; d++) {
         double sum = 0;
         for (int i = 0; i < k; i++) {
-            int at = draw(&rng, k);
+            uint32_t at = rng_below(&rng, (uint32_t)k);
             sum += drawn_log(&rng, x[at][0], seeds, all[at][0]) - drawn_log(&rng, x[at][1], seeds, all[at][1]);
         }
         deviation[d] = sum / k - value;

@@ -23,13 +23,13 @@ extern const char *const EQUAL_NAMES[N_SQUARES];
 void equal_squares(const struct scene_results *s, int method, enum square which, double *out);
 struct interval equal_ratio(const struct scene_results *s, int method, int over, enum square which);
 
-/* equal_summarize: a method over the first in all scenes together; those without a ratio are left out. */
-struct equal_summary {
-    double mean, best, worst;             /* geometric mean; smallest and largest ratio */
-    const char *best_scene, *worst_scene; /* "-" if there is none */
-    int n;                                /* scenes with a ratio */
+/* equal_ends: the smallest and the largest ratio of a method over the first, and their scenes; NaN and "-" if there is
+ * none. */
+struct equal_ends {
+    double best, worst;
+    const char *best_scene, *worst_scene;
 };
-struct equal_summary equal_summarize(const struct results *r, int method, enum square which);
+struct equal_ends equal_ends(const struct results *r, int method, enum square which);
 
 /* equal_price: of a sample over one of the first, geometric mean over scenes. */
 double equal_price(const struct results *r, int method);

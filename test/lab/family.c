@@ -66,7 +66,7 @@ static void summary_table(FILE *f, const struct results *e, enum half half)
     table_column(&t, "worst");
     for (int i = 1; i < view.n; i++) {
         int v = view.method[i], n;
-        struct equal_summary s = equal_summarize(e, v, SQUARE_RELMSE);
+        struct equal_ends s = equal_ends(e, v, SQUARE_RELMSE);
         table_add(&t, NAN, "%s", label(e, v));
         table_add(&t, equal_price(e, v), "%.2f", equal_price(e, v));
         for (int k = 0; k < N_SQUARES; k++)

@@ -53,20 +53,6 @@ static double row_exposure(const struct layout *l, const struct strategy_images 
     return bright > 0 && bright < 1 ? ldexp(1, int_within(floor(-m_log2(bright)), 0, 16)) : 1;
 }
 
-static void paste_strategy(struct sheet *sheet, const struct layout *l, const struct strategy_images *images, int x,
-                           int y, int s, int t, bool weighted, double exposure)
-{
-    int w = rect_width(images->rect), h = rect_height(images->rect);
-    float *whole = strategies_picture(images, l->scale, s, t, weighted), *cell = sheet_shrink(whole, w, h, l->shrink);
-    w /= l->shrink;
-    h /= l->shrink;
-    for (size_t i = 0; i < (size_t)w * (size_t)h * 3; i++)
-        cell[i] = float_within((double)cell[i] * exposure);
-    sheet_paste(sheet, x, y, cell, w, h, l->enlarge);
-    free(whole);
-    free(cell);
-}
-
 /* One pyramid, its top left at (0,y). */
 static void draw_pyramid(struct sheet *sheet, const struct layout *l, const struct strategy_images *images, int y,
                          bool weighted)
@@ -84,8 +70,12 @@ static void draw_pyramid(struct sheet *sheet, const struct layout *l, const stru
         sheet_text(sheet, GAP, top, 1, SHEET_INK, text);
         snprintf(text, sizeof text, "x%.0f", exposure);
         sheet_text(sheet, GAP, top + FONT_HEIGHT + GAP, 1, SHEET_INK, text);
-        for (int s = 0; s <= depth + 1; s++)
-            paste_strategy(sheet, l, images, LEFT + s * (l->width + GAP), top, s, depth + 2 - s, weighted, exposure);
+        for (int s = 0; s <= depth + 1; s++) {
+            float *whole = strategies_picture(images, l->scale, s, depth + 2 - s, weighted);
+            sheet_cell(sheet, LEFT + s * (l->width + GAP), top, whole, rect_width(images->rect),
+                       rect_height(images->rect), l->shrink, l->enlarge, exposure);
+            free(whole);
+        }
     }
 }
 

@@ -56,6 +56,17 @@ void sheet_paste(struct sheet *s, int x, int y, const float *pixels, int width, 
             fill(s, x + i * k, y + j * k, k, pixels + 3 * ((size_t)j * (size_t)width + (size_t)i));
 }
 
+void sheet_cell(struct sheet *s, int x, int y, const float *pixels, int width, int height, int shrink, int k,
+                double exposure)
+{
+    int w = width / shrink, h = height / shrink;
+    float *cell = sheet_shrink(pixels, width, height, shrink);
+    for (size_t i = 0; i < (size_t)w * (size_t)h * 3; i++)
+        cell[i] = float_within((double)cell[i] * exposure);
+    sheet_paste(s, x, y, cell, w, h, k);
+    free(cell);
+}
+
 static void blend(struct sheet *s, int x, int y, float value, float share)
 {
     if (x < 0 || x >= s->width || y < 0 || y >= s->height)

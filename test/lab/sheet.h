@@ -26,9 +26,12 @@ void sheet_free(struct sheet *s);
 /* What is drawn beyond the sheet's edges is cut off.
  * sheet_paste: a picture, its top left pixel at (x,y), each pixel a square of k x k.
  *   pixels  [height*width*3] linear
+ * sheet_cell: the same of a picture whose squares of shrink x shrink pixels are averaged first, times `exposure`.
  * sheet_text: one line of letters of this grey, in round strokes, `size` pixels wide as one of the font's; its top left
  * is (x,y). */
 void sheet_paste(struct sheet *s, int x, int y, const float *pixels, int width, int height, int k);
+void sheet_cell(struct sheet *s, int x, int y, const float *pixels, int width, int height, int shrink, int k,
+                double exposure);
 void sheet_text(struct sheet *s, int x, int y, int size, double grey, const char *text);
 
 /* sheet_text_width: of a line, in pixels. */
