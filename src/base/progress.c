@@ -39,7 +39,7 @@ void progress_update(struct progress *p, double done)
         return;
     p->last = now;
     char left[32] = "?";
-    if (done > 0)
+    if (done >= 0.01) /* of less it would be a guess */
         progress_duration(elapsed / done - elapsed, left, sizeof left);
     int bar = p->note[0] != '\0' ? BAR / 4 : BAR;
     if (p->bar)
