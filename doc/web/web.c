@@ -21,7 +21,6 @@
 #include "lab/compare.h"
 #include "lab/sheet.h"
 #include "render/render.h"
-#include "render/tiling.h"
 
 char *web_words(int size);
 int web_command(int n);
