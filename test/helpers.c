@@ -218,10 +218,15 @@ struct batches render_gated(struct test *t, const struct scene *scene, const cha
     struct batches pixels = batches_new(n_batches, 3L * rect_width(crop) * rect_height(crop), false);
     struct render_options o = {.integrator = integrator, .max_depth = max_depth, .n_threads = os_cores(),
                                .gate = gate};
+    struct render_job job;
+    struct preparation prepared;
+    struct error err;
     o.seed = test_seed(t) * 1000003 + seed;
+    if (!CHECK(t, render_prepare(scene, &o, crop, &job, &prepared, &err), "%s", err.text))
+        return pixels;
+    o.prepared = &prepared;
     for (int k = 0; k < n_batches; k++) {
         struct film film;
-        struct error err;
         o.first = (long)k * SAMPLER_POINTS;
         o.end = o.first + spp * test_effort(t);
         film_init(&film, crop, scene->width, scene->height);
@@ -231,6 +236,7 @@ struct batches render_gated(struct test *t, const struct scene *scene, const cha
             pixels.value[pixels.n * k + i] = film_value(&film, (size_t)i) / (double)film.iterations;
         film_free(&film);
     }
+    method_release(&prepared);
     struct batches tiles = batches_tiles(&pixels, rect_width(crop), rect_height(crop), tile);
     batches_free(&pixels);
     return tiles;

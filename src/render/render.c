@@ -213,7 +213,11 @@ static bool prepare(struct run *r, struct error *err)
         return false;
     r->job.watch = r->options->progress != NULL ? watch : NULL;
     r->job.watch_context = r;
-    bool ok = method_prepare(m, &r->job, &r->prepared, err);
+    bool ok = true;
+    if (r->options->prepared != NULL)
+        r->prepared = *r->options->prepared;
+    else
+        ok = method_prepare(m, &r->job, &r->prepared, err);
     r->film->learnt_short = r->stopping && !begun(r->film);
     return ok;
 }
@@ -263,6 +267,7 @@ bool render_scene(const struct scene *scene, const struct render_options *option
         film_end_block(film);
     } else if (ok && options->end > options->first && !in_haste && !good_enough(&r)) /* what is resumed may be */
         run_all(&r);
-    method_release(&r.prepared);
+    if (options->prepared == NULL)
+        method_release(&r.prepared);
     return ok;
 }
