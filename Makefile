@@ -98,7 +98,7 @@ ref: asbdpt asbdpt-lab ## render the stored references of ref/ again (an hour; g
 	sh ref/make-ref.sh $(PROGRAM)
 
 # ---- what proves it ----
-test: asbdpt asbdpt-lab $(BUILD)/test layers standard references columns faults links limits ## build and run the test suite (four minutes; ten on a slow machine)
+test: asbdpt asbdpt-lab $(BUILD)/test layers standard references columns faults links limits ## build and run the test suite (two minutes; six on a slow machine)
 	sh test/cli.sh $(PROGRAM)
 	sh test/outputs.sh $(PROGRAM)
 	sh test/install.sh $(PROGRAM)

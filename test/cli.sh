@@ -406,11 +406,12 @@ check [ ! -e stats.json -a ! -e made.png ]
 
 # --- demo
 # demo: one picture of two methods, wherever a reference is stored.
-cp "$box" known.pbrt
+printf 'Film "image" "integer xresolution" 48 "integer yresolution" 32 Translate 0 0 4 Camera "perspective"
+WorldBegin LightSource "point" "point from" [0 0 -3] Shape "sphere" WorldEnd\n' >small.pbrt
 expect 0 '' "$lab" demo "$box" --spp 1 --quiet -o demo.png
 check grep -q '^asbdpt .* spp .* s of CPU   rmse8' stdout.txt
 check [ -s demo.png ]
-expect 0 '' "$lab" demo known.pbrt --spp 1 --quiet -o demo.png # whose reference is rendered
+expect 0 '' "$lab" demo small.pbrt --spp 1 --quiet -o demo.png # whose reference is rendered
 expect 2 'there is no method bdtp; did you mean bdpt' "$lab" demo "$box" --methods bdtp,asbdpt -o demo.png
 
 # --- gates
@@ -602,7 +603,8 @@ expect 0 '' "$lab" family "$box" --methods bdpt,lvc --quick --spp 2 --res 8x8 --
 check [ "$(grep -c ', seed ' stderr.txt)" = 0 ]
 # A reference is of the scene, or it is none: another's of the same name is refused, and no reference is not kept quiet.
 mkdir -p bathroom/ref
-cp "$box" bathroom/scene.pbrt
+printf 'Film "image" "integer xresolution" 160 "integer yresolution" 160 WorldBegin\n' >bathroom/scene.pbrt
+echo 'LightSource "point" "point from" [0 0 -3] Shape "sphere" WorldEnd' >>bathroom/scene.pbrt
 cp "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.txt" bathroom/ref
 tiny="--seeds 1 --spp 1 --reference-spp 4 --methods bdpt"
 expect 0 'bathroom.pfm.* is of another scene: measured at 160x160 pixels' \

@@ -279,7 +279,7 @@ check grep -q 'asbdpt: -: cannot be written' stderr.txt
 no_temporaries "after failed writes"
 
 # ---- killed again and again ----
-slow="--integrator asbdpt --res 200x200 --spp 8 --maxdepth 3 --quiet"
+slow="--integrator asbdpt --res 100x100 --spp 8 --maxdepth 3 --quiet"
 check "$program" render "$box" $slow -o unbroken.pfm
 rm -f state
 echo old >killed.pfm

@@ -269,8 +269,8 @@ static double luminance(struct test *t, const struct scene *scene, const char *i
 }
 
 /* Every chain begins anew: a lamp of which one state in some thousand sees anything is bright enough for a third of the
- * light. A picture of 4096 samples has found it and converges, as a pool of the states of one chain never could. */
-static void test_converges(struct test *t, const char *integrator)
+ * light. A picture of 2048 samples has found it and converges, as a pool of the states of one chain never could. */
+static void test_converges(struct test *t, const char *const *methods, long spp)
 {
     static const char room[] =
         "LookAt 0 0 -.9 0 0 0 0 1 0\nCamera \"perspective\" \"float fov\" 80\n"
@@ -289,47 +289,58 @@ static void test_converges(struct test *t, const char *integrator)
     fclose(f);
     if (!scene_from_file(t, path, 8, 8, &scene))
         return;
-    double truth = luminance(t, &scene, "bdpt", 4096), found = luminance(t, &scene, integrator, 4096);
-    CHECK(t, fabs(found / truth - 1) < 0.05, "%s: after 4096 samples the picture has %g, bdpt's %g", integrator, found,
-          truth);
+    double truth = luminance(t, &scene, "bdpt", 1024);
+    for (; *methods != NULL; methods++) {
+        double found = luminance(t, &scene, *methods, spp);
+        CHECK(t, fabs(found / truth - 1) < 0.05, "%s: after %ld samples the picture has %g, bdpt's %g", *methods, spp,
+              found, truth);
+    }
     scene_free(&scene);
 }
 
-static void agree(struct test *t, struct scene *scene, const char *what, const char *integrator)
+static void agree(struct test *t, struct scene *scene, const char *what, const char *const *methods, int more)
 {
     settings_clear(&scene->settings);
     settings_set(&scene->settings, "starts", "512", "test");
-    struct batches one = independent_batches(t, scene, integrator, BENCH_DEPTH, 64, 20, 8, 61),
-                   two = render_batches(t, scene, "bdpt", BENCH_DEPTH, 16, 8, 8, 62);
-    double ratio, p = batches_p(&one, &two, &ratio);
-    TEST_ACCEPT(t, p, "%s: %s is %.5f of bdpt", what, integrator, ratio);
-    batches_scale(&one, 1.3);
-    TEST_REJECT(t, batches_p(&one, &two, &ratio), "%s: %s times 1.3 is %.5f of bdpt", what, integrator, ratio);
-    batches_free(&one);
+    struct batches two = render_batches(t, scene, "bdpt", BENCH_DEPTH, 16, 8 * more, 8, 62);
+    for (; *methods != NULL; methods++) {
+        struct batches one = independent_batches(t, scene, *methods, BENCH_DEPTH, 64 * more, 20, 8, 61);
+        double ratio, p = batches_p(&one, &two, &ratio);
+        TEST_ACCEPT(t, p, "%s: %s is %.5f of bdpt", what, *methods, ratio);
+        batches_scale(&one, 1.3);
+        TEST_REJECT(t, batches_p(&one, &two, &ratio), "%s: %s times 1.3 is %.5f of bdpt", what, *methods, ratio);
+        batches_free(&one);
+    }
     batches_free(&two);
 }
 
-static void test_means(struct test *t, const char *integrator)
+static void test_means(struct test *t, const char *const *methods, int more)
 {
     struct scene scene;
     if (bench_room(t, 16, 16, "\"float lensradius\" .05 \"float focaldistance\" 4", "gaussian", &scene)) {
-        agree(t, &scene, "room", integrator);
+        agree(t, &scene, "room", methods, more);
         scene_free(&scene);
     }
-    if (scene_from_file(t, "scenes/cornell-box.pbrt", 16, 16, &scene)) {
-        agree(t, &scene, "cornell", integrator);
+    if (more > 1 && scene_from_file(t, "scenes/cornell-box.pbrt", 16, 16, &scene)) {
+        agree(t, &scene, "cornell", methods, more);
         scene_free(&scene);
     }
 }
 
+static const char *const METHODS[] = {"pssmlt", "mmlt", "mlt", NULL};
+
 void test_chains(struct test *t)
 {
-    static const char *const METHODS[] = {"pssmlt", "mmlt", "mlt"};
     test_steps(t);
     test_samples(t);
-    for (size_t i = 0; i < sizeof METHODS / sizeof METHODS[0]; i++) {
+    for (int i = 0; METHODS[i] != NULL; i++)
         test_stays(t, METHODS[i]);
-        test_converges(t, METHODS[i]);
-        test_means(t, METHODS[i]);
-    }
+    test_converges(t, METHODS, 2048);
+    test_means(t, METHODS, 1);
+}
+
+void test_chains_long(struct test *t)
+{
+    test_converges(t, METHODS, 16384);
+    test_means(t, METHODS, 8);
 }

@@ -200,7 +200,8 @@ static void test_ring(struct test *t, const char *what, const char *text, double
     if (!scene_from_text(t, text, &scene))
         return;
     for (int i = 0; i < 3; i++) {
-        struct render_options o = {.integrator = METHODS[i], .n_threads = 1, .end = 64, .max_depth = 1};
+        struct render_options o = {.integrator = METHODS[i], .n_threads = 1, .end = i == 1 ? 64 : 8,
+                                   .max_depth = 1}; /* by lt a pixel's number of samples is a matter of chance */
         render_film(t, &scene, &o, &whole);
         for (int k = 0; k < 3; k++) {
             double begin = length_at(0.8 * k), end = length_at(0.8 * (k + 1));
@@ -272,7 +273,7 @@ static void test_mirror(struct test *t)
     for (int i = 0; i < 4; i++) {
         double wanted = i == 0 ? 0 : i == 3 ? 1 : direct / (direct + image);
         double chains = share(t, MIRROR, "caustics with=pt longest=1", 4, END[i]);
-        double cones = share(t, MIRROR, "regularise with=pt angle=.2", 2048, END[i]);
+        double cones = share(t, MIRROR, "regularise with=pt angle=.2", 512, END[i]);
         CHECK(t, fabs(chains - wanted) < 1e-3 && fabs(cones - wanted) < 0.06,
               "shorter than %g: %g by chains, %g by cones, not %g", END[i], chains, cones, wanted);
     }
@@ -305,8 +306,8 @@ static void agrees_with_pt(struct test *t, const char *text, double begin, doubl
     struct scene scene;
     if (!scene_from_text(t, text, &scene))
         return;
-    struct batches a = gated_batches(t, &scene, "ellipse", 128, 100 * test_seed(t), gate), b =
-                       gated_batches(t, &scene, "pt", 256, 100 * test_seed(t) + 50, gate);
+    struct batches a = gated_batches(t, &scene, "ellipse", 64, 100 * test_seed(t), gate), b =
+                       gated_batches(t, &scene, "pt", 128, 100 * test_seed(t) + 50, gate);
     double ratio, p = batches_p(&a, &b, &ratio);
     TEST_ACCEPT(t, p, "ellipse against pt, %g to %g: ratio %.4f", begin, end, ratio);
     batches_scale(&a, brighter);

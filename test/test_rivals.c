@@ -51,7 +51,7 @@ static void all_agree(struct test *t, struct scene *scene, const char *what, con
 
 /* Two rooms, where connections matter most, as one tile of 3x3 pixels, with one, two and four or five light sub-paths;
  * a third of the pixels have records. */
-static void test_small_pools(struct test *t)
+static void test_small_pools(struct test *t, int more)
 {
     static const char *const cases[] = {"mbdpt pathpixels=9", "mbdpt pathpixels=5 key=throughput", "lvc connections=0",
                                         "pcbdpt records=.3 subpaths=1", "pcbdpt records=.3 subpaths=4 connections=2",
@@ -63,8 +63,8 @@ static void test_small_pools(struct test *t)
     struct scene scene;
     if (!scene_from_file(t, "doc/mini/rooms.pbrt", 3, 3, &scene))
         return;
-    const struct plan right = {2048, 32, 1, 163}, plan = {256, 32, 1, 164};
-    all_agree(t, &scene, "rooms in 9 pixels, against pt", "pt", right, cases, plan);
+    const struct plan plan = {64 * more, 32, 1, 164};
+    all_agree(t, &scene, "rooms in 9 pixels, against bdpt", "bdpt", plan, cases, plan);
     scene_free(&scene);
 }
 
@@ -81,7 +81,7 @@ static void test_three_pixels(struct test *t)
 }
 
 /* The two rooms with pools of a hundred light vertices, in which records differ. */
-static void test_rooms(struct test *t)
+static void test_rooms(struct test *t, int more)
 {
     static const char *const ways[] = {"pcbdpt records=.02", "ris records=.02 subpaths=30",
                                        "ris2 records=.02 presampled=30", "restir neighbours=20",
@@ -89,7 +89,7 @@ static void test_rooms(struct test *t)
     struct scene scene;
     if (!scene_from_file(t, "doc/mini/rooms.pbrt", 16, 16, &scene))
         return;
-    const struct plan plan = {16, 16, 8, 191};
+    const struct plan plan = {8 * more, 16, 8, 191};
     all_agree(t, &scene, "rooms, against bdpt", "bdpt", plan, ways, plan);
     scene_free(&scene);
 }
@@ -111,13 +111,13 @@ static void test_scenes_by(struct test *t, const char *other, const char *const 
 }
 
 /* Paths that pt does not make, of delta lights behind specular surfaces, those that share its eye sub-paths do not. */
-static void test_every_scene(struct test *t)
+static void test_every_scene(struct test *t, int more)
 {
     static const char *const ways[] = {"mbdpt", "pcbdpt connections=2", "ris", "ris subpaths=20 records=.01",
                                        "ris2 presampled=20 records=.01", "restir neighbours=20", NULL};
     static const char *const shared[] = {"restirgi", "restirgi neighbours=20", NULL};
-    test_scenes_by(t, "bdpt", ways, 4);
-    test_scenes_by(t, "pt", shared, 8);
+    test_scenes_by(t, "bdpt", ways, 2 * more);
+    test_scenes_by(t, "pt", shared, 4 * more);
 }
 
 /* A slope beside the wall that lights it, and behind a low fence, from above: what comes from there, and the density of
@@ -133,26 +133,26 @@ static const char SLOPE[] =
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [0 0 -2  0 0 2  0 1 2  0 1 -2]\n"
     "WorldEnd\n";
 
-static void test_gradient(struct test *t)
+static void test_gradient(struct test *t, int more)
 {
     static const char *const ways[] = {"restirgi neighbours=8", NULL};
     struct scene scene;
     if (!scene_from_text(t, SLOPE, &scene))
         return;
-    const struct plan right = {4096, 16, 1, 231}, plan = {4096, 16, 1, 232};
+    const struct plan right = {1024 * more, 16, 1, 231}, plan = {1024 * more, 16, 1, 232};
     all_agree(t, &scene, "a slope beside a wall", "pt", right, ways, plan);
     scene_free(&scene);
 }
 
 /* The bias of pathgraph falls with the radius: it is seen where vertices share across half a room, and not with the
  * same samples where they share nearby. */
-static void test_bias(struct test *t)
+static void test_bias(struct test *t, int more)
 {
     struct scene scene;
     if (!scene_from_file(t, "doc/mini/rooms.pbrt", 16, 16, &scene))
         return;
-    struct batches pt = render_batches(t, &scene, "pt", 4, 128, 16, 4, 211);
-    const struct plan plan = {128, 16, 4, 212};
+    struct batches pt = render_batches(t, &scene, "pt", 4, 48 * more, 16, 4, 211);
+    const struct plan plan = {48 * more, 16, 4, 212};
     agree(t, &scene, "rooms, against pt", "pathgraph radius=.1", plan, &pt);
     struct batches far = render_batches(t, &scene, set_method(&scene, "pathgraph radius=.5 cluster=64"), 4, plan.spp,
                                         plan.batches, plan.tile, plan.seed);
@@ -172,7 +172,7 @@ static const char CORNER[] =
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-4 0 0  4 0 0  4 4 0  -4 4 0]\n"
     "WorldEnd\n";
 
-static void test_furnace(struct test *t)
+static void test_furnace(struct test *t, int more)
 {
     static const char *const ways[] = {"pathgraph radius=1 cluster=64", "pathgraph radius=.1 heuristic=power",
                                        "restirgi neighbours=20"};
@@ -181,7 +181,7 @@ static void test_furnace(struct test *t)
         return;
     for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++) {
         const char *integrator = set_method(&scene, ways[k]);
-        struct batches b = render_batches(t, &scene, integrator, 30, 64, 16, 16, 221);
+        struct batches b = render_batches(t, &scene, integrator, 30, 24 * more, 16, 16, 221);
         double error, mean = batches_mean(&b, &error);
         TEST_ACCEPT(t, mean_p(&b, 1), "furnace by %s: %.5f +- %.5f", ways[k], mean, error);
         batches_scale(&b, 1.01);
@@ -301,16 +301,23 @@ static void test_useless(struct test *t)
     scene_free(&scene);
 }
 
+static void test_expectations(struct test *t, int more)
+{
+    test_small_pools(t, more);
+    test_rooms(t, more);
+    test_every_scene(t, more);
+    test_gradient(t, more);
+    test_bias(t, more);
+    test_furnace(t, more);
+}
+
+void test_rivals_long(struct test *t) { test_expectations(t, 8); }
+
 void test_rivals(struct test *t)
 {
     test_ris(t);
-    test_small_pools(t);
+    test_expectations(t, 1);
     test_three_pixels(t);
-    test_rooms(t);
-    test_every_scene(t);
-    test_gradient(t);
-    test_bias(t);
-    test_furnace(t);
     test_limits(t);
     test_useless(t);
 }

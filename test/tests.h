@@ -10,6 +10,7 @@ void test_aov(struct test *t);
 void test_alias(struct test *t);
 void test_bsdf(struct test *t);
 void test_chains(struct test *t);
+void test_chains_long(struct test *t);
 void test_camera(struct test *t);
 void test_caustic(struct test *t);
 void test_devices(struct test *t);
@@ -54,6 +55,7 @@ void test_references_long(struct test *t);
 void test_report(struct test *t);
 void test_rivals(struct test *t);
 void test_ris(struct test *t); /* part of test_rivals */
+void test_rivals_long(struct test *t);
 void test_vcm(struct test *t);
 void test_scenes(struct test *t);
 void test_scenes_long(struct test *t);
