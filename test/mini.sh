@@ -2,10 +2,11 @@
 # mini.sh PROGRAM [CC...]: do the eight programs of doc/mini compile without a warning under every compiler at hand,
 # draw the pictures of their page, and have the expectation that PROGRAM has of the same scene?
 #
-# Each side renders 8 pictures with seeds of their own, 4 where one takes long or less would show; `verify` (test/lab/verify.h) tests the mean, every block of 8x8
-# pixels and the uniformity of the p-values, corrected for their number. LEVEL makes one false alarm in 1,000 of all 16
-# comparisons. What is unbiased must agree with PROGRAM's bdpt; bins, which is biased, must differ from it and agree
-# with PROGRAM's own bins; light tracing, which sees nothing in a mirror, must differ.
+# Each side renders 8 pictures with seeds of their own, or 4 that take long; `verify` (test/lab/verify.h) tests the
+# mean, every block of 8x8 pixels and the uniformity of the p-values, corrected for their number. LEVEL makes one
+# false alarm in 1,000 of all 16 comparisons. What is unbiased must agree with PROGRAM's bdpt; bins, which is
+# biased, must differ from it and agree with PROGRAM's own bins; light tracing, which sees nothing in a mirror, must
+# differ.
 . test/expect.sh
 [ $# -gt 0 ] && shift
 mini=$top/doc/mini scene=$top/doc/mini/rooms.pbrt
@@ -37,7 +38,8 @@ done
 {
     ./1-rays p1.png && ./2-paths 64 p2.png && ./3-lamp 64 p3.png &&
         { [ -z "${PICTURES-}" ] || { ./4-light lt 64 p4.png && ./5-bdpt bdpt 64 p5.png && ./6-choice pool 64 p6.png &&
-            ./7-vertices vertices 64 p7.png && ./asbdpt subspaces 64 p8.png; }; } || fault "a program ends with an error"
+            ./7-vertices vertices 64 p7.png && ./asbdpt subspaces 64 p8.png; }; } ||
+        fault "a program ends with an error"
 } 2>/dev/null
 for picture in p?.png; do
     k=${picture#p}
