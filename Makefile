@@ -108,7 +108,7 @@ test: asbdpt asbdpt-lab $(BUILD)/test layers standard references columns faults 
 	sh test/hashes.sh $(PROGRAM)
 	LIST=test/lab/hashes.txt sh test/hashes.sh $(LAB)
 	sh test/readme.sh $(PROGRAM) doc/scene-format.md doc/tour/trace.md
-	$(BUILD)/test
+	sh test/suites.sh $(BUILD)/test
 
 check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject ## the tests that take longer
 	$(BUILD)/test --slow
@@ -162,7 +162,7 @@ links: ## check that links, functions, tests and mutants named in the documents 
 
 san: ## run the tests (or SUITES="...") under the address and undefined-behaviour sanitizers
 	$(MAKE) BUILD=build-san OPT="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all" build-san/test
-	build-san/test $(SUITES)
+	sh test/suites.sh build-san/test $(SUITES)
 
 INJECTED = calloc realloc fwrite fprintf fputs fputc fclose fsync fdopen rename pthread_create
 .PHONY: inject
