@@ -33,15 +33,67 @@ static vec3 direction(const struct full_path *f, int i, int j)
     return normalize(sub(f->x[j]->p, f->x[i]->p));
 }
 
-/* Density per area (at infinity: per steradian) of vertex j, reached from its neighbour i with density pdf_w. */
+/* exp(-sigma d) of one channel; or, of channel ALL, the mean of it, of the light that is scattered times sigma. */
+enum { ALL = 3 };
+static double left_of(const struct medium *m, double d, bool scattered, int channel)
+{
+    const double sigma[3] = {m->sigma_t.r, m->sigma_t.g, m->sigma_t.b};
+    double sum = 0;
+    if (channel < ALL)
+        return sigma[channel] > 0 ? exp(-sigma[channel] * d) : 1;
+    for (int c = 0; c < 3; c++)
+        sum += (scattered ? sigma[c] : 1) * (sigma[c] > 0 ? exp(-sigma[c] * d) : 1) / 3;
+    return sum;
+}
+
+/* Density with which a walk that goes from vertex i towards its neighbour j gets there, and, if that is within a
+ * medium, is scattered there, 1/m: of the pieces that interfaces cut. Or a channel's share that is left. */
+static double flight(const struct full_path *f, int i, int j, int channel)
+{
+    const struct scene *s = f->scene;
+    int a = at_infinity(f, i) ? j : i, b = i + j - a; /* it is as likely both ways, but for the ends */
+    const struct vertex *v = f->x[a];
+    vec3 w = direction(f, a, b);
+    struct ray ray = {v->p, w, ray_margin(v->p), INFINITY, v->prim_id, f->x[b]->prim_id};
+    int medium = v->medium;
+    double q = 1;
+    if (s->media.n == 0)
+        return 1;
+    if (v->prim_id != 0 && v->prim_id != WITHIN_MEDIUM) {
+        const struct shape_group *g = shape_group_of(&s->geo, (int)v->prim_id - 1);
+        medium = g->medium[0] != g->medium[1] ? g->medium[dot(v->ng, w) > 0] : medium;
+    }
+    for (bool first = true, last = false; !last; first = false) {
+        struct hit hit;
+        struct surface at;
+        if (!at_infinity(f, b))
+            ray.tmax = length(sub(f->x[b]->p, ray.o));
+        last = !kd_closest(&s->media.interfaces, &s->geo, &ray, &hit);
+        bool scattered = f->x[j]->kind == VERTEX_MEDIUM && (a == j ? first : last);
+        if (medium > 0)
+            q *= left_of(&s->media.medium[medium - 1], last ? ray.tmax : hit.t, scattered, channel);
+        if (last)
+            break;
+        shape_surface(&s->geo, &hit, &ray, &at);
+        medium = shape_group_of(&s->geo, hit.prim)->medium[dot(w, at.ng) > 0];
+        ray.o = at.p;
+        ray.from = at.prim_id;
+        ray.tmin = ray_margin(at.p);
+    }
+    return q;
+}
+
+/* Density per area (at infinity: per steradian, within a medium: per volume) of vertex j, reached from its neighbour i
+ * with density pdf_w. */
 static double per_area(const struct full_path *f, int i, int j, double pdf_w)
 {
+    pdf_w *= flight(f, i, j, ALL);
     if (at_infinity(f, j))
         return pdf_w;
     vec3 w = direction(f, i, j);
-    double cosine = f->x[j]->kind == VERTEX_LENS ? 1 : f->x[j]->kind == VERTEX_LIGHT && length2(f->x[j]->ng) == 0
-                                                            ? 1
-                                                            : abs_dot(f->x[j]->ng, w);
+    bool across = f->x[j]->kind == VERTEX_LENS || f->x[j]->kind == VERTEX_MEDIUM ||
+                  (f->x[j]->kind == VERTEX_LIGHT && length2(f->x[j]->ng) == 0);
+    double cosine = across ? 1 : abs_dot(f->x[j]->ng, w);
     return at_infinity(f, i) ? pdf_w * cosine : pdf_w * cosine / length2(sub(f->x[j]->p, f->x[i]->p));
 }
 
@@ -111,7 +163,8 @@ static double eye_density(const struct full_path *f, int j)
         double px, py;
         double J = camera_project(&f->scene->camera, f->x[last]->p, direction(f, last, j), &px, &py);
         if (f->scene->camera.parallel) /* J is per area across the ray already */
-            return at_infinity(f, j) ? J : J * abs_dot(f->x[j]->ng, direction(f, last, j));
+            return flight(f, last, j, ALL) *
+                   (at_infinity(f, j) ? J : J * vertex_cosine(f->x[j], direction(f, last, j)));
         return per_area(f, last, j, J);
     }
     const struct vertex *v = f->x[j + 1];
@@ -203,6 +256,13 @@ bool oracle_weights(const struct scene *scene, const struct mis_counts *counts, 
     return sum > 0;
 }
 
+/* What is left of light on the edge from i to j, over the density of the flight. */
+static rgb left_over(const struct full_path *f, int i, int j)
+{
+    rgb left = rgb_make(flight(f, i, j, 0), flight(f, i, j, 1), flight(f, i, j, 2));
+    return rgb_scale(left, 1 / flight(f, i, j, ALL));
+}
+
 /* f of the path, as the eye sees it: each surface scatters radiance that comes from the light's side. The lens counts
  * as the walk from it does, by its density. */
 static rgb contribution(const struct full_path *f)
@@ -215,9 +275,13 @@ static rgb contribution(const struct full_path *f)
     for (int i = 1; i < f->n - 1; i++) {
         vec3 w = direction(f, i, i - 1);
         rgb scattered = bsdf_eval(&f->x[i]->bsdf, direction(f, i, i + 1), w, RADIANCE).f;
-        all = rgb_mul(all, rgb_scale(scattered, abs_dot(f->x[i]->bsdf.shading.n, w) * per_area(f, i, i - 1, 1)));
+        bool medium = f->x[i]->kind == VERTEX_MEDIUM;
+        double cosine = medium ? 1 : abs_dot(f->x[i]->bsdf.shading.n, w);
+        all = rgb_mul(all, rgb_scale(scattered, cosine * per_area(f, i, i - 1, 1)));
+        all = rgb_mul(all, left_over(f, i, i - 1));
+        all = medium ? rgb_mul(all, f->scene->media.medium[f->x[i]->medium - 1].sigma_s) : all;
     }
-    return rgb_scale(all, eye_density(f, f->n - 2));
+    return rgb_scale(rgb_mul(all, left_over(f, f->n - 1, f->n - 2)), eye_density(f, f->n - 2));
 }
 
 bool oracle_value(const struct scene *scene, const struct mis_counts *counts, const struct vertex *light, int s,

@@ -113,6 +113,17 @@ static void put_material(struct words *w, const struct scene *s, int i)
     put(w, "\n");
 }
 
+static void put_media(struct words *w, const struct scene *s)
+{
+    put(w, "the lens is in medium %d\n", s->camera.medium);
+    for (const struct medium *m = s->media.medium; m < s->media.medium + s->media.n; m++) {
+        put(w, "medium of material %d", m->material);
+        put3(w, "s", m->sigma_s.r, m->sigma_s.g, m->sigma_s.b);
+        put3(w, "t", m->sigma_t.r, m->sigma_t.g, m->sigma_t.b);
+        put(w, "\n");
+    }
+}
+
 static void put_shapes(struct words *w, const struct scene *s)
 {
     const struct geometry *geo = &s->geo;
@@ -122,7 +133,7 @@ static void put_shapes(struct words *w, const struct scene *s)
             g->has_uv);
         put_texture(w, s, "alpha", g->alpha);
         put_texture(w, s, "shadow", g->shadow_alpha);
-        put(w, "\n");
+        put(w, " media %d %d\n", g->medium[0], g->medium[1]);
     }
     for (int i = 0; i < geo->n_quadrics; i++) {
         const struct quadric *q = &geo->quadric[i];
@@ -155,8 +166,8 @@ static void put_lights(struct words *w, const struct scene *s)
         put3(w, "at", f->position.x, f->position.y, f->position.z);
         put3(w, "towards", f->direction.x, f->direction.y, f->direction.z);
         put3(w, "axis", axis.x, axis.y, axis.z);
-        put(w, " cosines %.4f %.4f tan %.4f two-sided %d prim %d picture %d\n", f->cos_total, f->cos_falloff,
-            f->tan_half, l->two_sided, l->prim, f->env != NULL || f->slide != NULL);
+        put(w, " cosines %.4f %.4f tan %.4f two-sided %d prim %d picture %d medium %d\n", f->cos_total, f->cos_falloff,
+            f->tan_half, l->two_sided, l->prim, f->env != NULL || f->slide != NULL, l->medium);
     }
 }
 
@@ -168,6 +179,7 @@ void check_contents(struct test *t, const char *name, const char *text, const st
     put_textures(w, s);
     for (int i = 0; i < s->n_materials; i++)
         put_material(w, s, i);
+    put_media(w, s);
     put_shapes(w, s);
     put_lights(w, s);
     const char *from = w->text;

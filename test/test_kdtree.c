@@ -231,7 +231,7 @@ static void compare(struct test *t, const char *name, const struct geometry *geo
 {
     struct kdtree kd;
     int wrong = 0, hits = 0;
-    kd_build(&kd, geo, see_through);
+    kd_build(&kd, geo, see_through ? KD_LAMPS : KD_SURFACES);
     double size = 0;
     for (int k = 0; k < 3; k++)
         size = fmax(size, (double)kd.hi[k] - (double)kd.lo[k]);
@@ -307,7 +307,7 @@ static void check_empty(struct test *t)
     struct kdtree kd;
     struct ray ray = {vec(0, 0, 0), vec(0, 0, 1), 0, HUGE_VAL, 0, 0};
     struct hit hit;
-    kd_build(&kd, &geo, false);
+    kd_build(&kd, &geo, KD_SURFACES);
     CHECK(t, !kd_closest(&kd, &geo, &ray, &hit) && !kd_occluded(&kd, &geo, &ray) && kd.lo[0] > kd.hi[0],
           "a hit in an empty scene, or bounds of nothing that are not inside out");
     kd_free(&kd);
@@ -321,7 +321,7 @@ static void check_nonsense_rays(struct test *t, struct rng *r)
     struct geometry geo = geometry_of(t, &s);
     struct kdtree kd;
     struct hit hit;
-    kd_build(&kd, &geo, false);
+    kd_build(&kd, &geo, KD_SURFACES);
     vec3 odd[4] = {{NAN, 0, 0}, {HUGE_VAL, 0, 0}, {0, 0, 0}, {0, -HUGE_VAL, NAN}};
     for (int i = 0; i < 16; i++) {
         struct ray ray = {odd[i / 4], odd[i % 4], 0, HUGE_VAL, 0, 0};
@@ -367,7 +367,7 @@ static void check_watertight(struct test *t, struct rng *r)
         make_ball(&s, r, 60, 90, radius, CENTRE[i]);
         s.n_triangles -= i == 3 ? 9 : 0;
         struct geometry geo = geometry_of(t, &s);
-        kd_build(&kd, &geo, false);
+        kd_build(&kd, &geo, KD_SURFACES);
         int escaped = count_escapes(&kd, &geo, CENTRE[i], radius, 40000, r);
         CHECK(t, (escaped > 0) == (i == 3), "ball %d: %d of 40000 rays got out", i, escaped);
         CHECK(t, kd.cost < 80 && kd.n_nodes > 1000, "a cost of %g with %d nodes is no good tree", kd.cost, kd.n_nodes);
@@ -403,7 +403,7 @@ static void check_alpha(struct test *t, struct rng *r)
     geo.opaque = half_open;
     geo.opaque_context = &counter;
     struct kdtree kd;
-    kd_build(&kd, &geo, false);
+    kd_build(&kd, &geo, KD_SURFACES);
     for (int i = 0; i < 2000; i++) {
         struct ray ray = {in_cube(r), on_sphere(r), 1e-6, HUGE_VAL, 0, 0};
         struct hit a = {0}, b = {0};

@@ -43,7 +43,8 @@ enum decision {
     /* single numbers that are plain random ones */
     DRAW_LOBE,
     DRAW_ROULETTE,
-    DRAW_ORDER /* of a permutation */
+    DRAW_ORDER, /* of a permutation */
+    DRAW_FLIGHT /* how far light goes in a medium */
 };
 
 /* Numbers from elsewhere: the next one that a sampler gives is number[at], if there is one; else its own, which is

@@ -11,6 +11,7 @@
 #include "parser/parser.h"
 #include "parser/symbols.h"
 #include "render/parameters.h"
+#include "render/strays.h"
 
 #define AT(member) offsetof(struct job_options, member)
 const struct option RUN_OPTIONS[] = {
@@ -116,6 +117,15 @@ static void warn(struct listener *to, const char *format, const char *what)
     print_warning(to, line.text);
 }
 
+static void warn_of_strays(const struct scene *scene, struct listener *to)
+{
+    int n = strays_count(scene);
+    char text[32];
+    snprintf(text, sizeof text, "%d of %d", n, 2 * STRAYS_PATHS);
+    if (n > 0)
+        warn(to, "%s paths leave a medium that they are not in: what MediumInterfaces say does not fit together", text);
+}
+
 /* What a file calls mlt is pbrt-v3's: mmlt. */
 static const char *name_in_file(const struct scene *scene)
 {
@@ -172,13 +182,16 @@ int job_load_for(const struct job_options *o, job_readers *choose, struct scene 
     }
     if (ok && scene->lights.n == 0)
         warn(&listener, "%s", "there are no lights, so the picture is black");
+    if (ok) {
+        scene_prepare(scene);
+        warn_of_strays(scene, &listener);
+    }
     if (ok && o->strict && listener.n_warnings > 0)
         ok = error_set(&err, "%s: refused for what is said above, by --strict", o->scene_path);
     if (!ok) {
         scene_free(scene);
         return fail(&err);
     }
-    scene_prepare(scene);
     return EXIT_OK;
 }
 

@@ -147,14 +147,21 @@ static int prim_of_item(const struct geometry *geo, uint32_t item)
     return item < (uint32_t)geo->n_triangles ? (int)item : FIRST_QUADRIC + (int)item - geo->n_triangles;
 }
 
+enum kd_of kd_kind(const struct shape_group *group)
+{
+    if (group->material >= 0)
+        return KD_SURFACES;
+    return group->first_light < 0 && group->medium[0] != group->medium[1] ? KD_INTERFACES : KD_LAMPS;
+}
+
 /* The cell of everything. */
-static struct kd_cell root_cell(const struct geometry *geo, bool see_through)
+static struct kd_cell root_cell(const struct geometry *geo, enum kd_of kind)
 {
     size_t most = (size_t)geometry_primitives(geo);
     struct kd_cell root = {.box = {{1, 1, 1}, {-1, -1, -1}}, .ref = mem_alloc(most, sizeof *root.ref)};
     for (size_t i = 0; i < most; i++) {
         int prim = prim_of_item(geo, (uint32_t)i);
-        if ((shape_group_of(geo, prim)->material < 0) != see_through)
+        if (kd_kind(shape_group_of(geo, prim)) != kind)
             continue;
         struct box *all = &root.box, *box = &root.ref[root.n].box;
         root.ref[root.n].item = (uint32_t)i;
@@ -203,10 +210,10 @@ static void fill_blocks(struct builder *b)
     }
 }
 
-void kd_build(struct kdtree *kd, const struct geometry *geo, bool see_through)
+void kd_build(struct kdtree *kd, const struct geometry *geo, enum kd_of kind)
 {
     struct builder b = {.geo = geo, .kd = kd};
-    struct kd_cell root = root_cell(geo, see_through);
+    struct kd_cell root = root_cell(geo, kind);
     struct box bounds = root.box;
     memset(kd, 0, sizeof *kd);
     if (root.n > 0) {

@@ -27,10 +27,13 @@ struct kdtree {
     double cost;        /* expected cost of a ray by the surface-area heuristic, in tests of a block of triangles */
 };
 
-/* kd_build: build the tree of all primitives that have a material, or, if `see_through`, of those that have none;
- * kd_free releases it. Cannot fail (memory: see mem.h). The result depends on the geometry alone. The geometry must not
- * change afterwards. */
-void kd_build(struct kdtree *kd, const struct geometry *geo, bool see_through);
+/* Which primitives: those with a material; those without, but for those that bound media and no more. */
+enum kd_of { KD_SURFACES, KD_LAMPS, KD_INTERFACES };
+enum kd_of kd_kind(const struct shape_group *group);
+
+/* kd_build: build the tree of all primitives of one kind; kd_free releases it. Cannot fail (memory: see mem.h). The
+ * result depends on the geometry alone. The geometry must not change afterwards. */
+void kd_build(struct kdtree *kd, const struct geometry *geo, enum kd_of kind);
 void kd_free(struct kdtree *kd);
 
 /* kd_closest: the first hit in (tmin, tmax), honouring alpha. Returns false if there is none. Thread-safe. */

@@ -29,6 +29,7 @@ struct shape_group {
     int shadow_alpha; /* the same for shadow rays only */
     int first_light;  /* area light of primitive first_prim, the others follow; -1 if none */
     int first_prim;   /* first primitive of the group */
+    int medium[2];    /* against its normal, and along it (scene/medium.h); if they differ it bounds them */
     bool flip;        /* quadric: ReverseOrientation; triangle without N: whether its normal is negated, which is that
                        * xor the transform swaps handedness */
     bool has_n;       /* vertex normals given (already negated under ReverseOrientation): they orient ng as well */

@@ -58,6 +58,7 @@ struct method {
     const char *select; /* asbdpt alone, whose rows share a name: the value of its parameter `select` */
     const char *help;   /* one line */
     bool chain;         /* its samples are mutations of others, of no pixel and not independent: see chains/chain.h */
+    bool surfaces;      /* it knows of them alone, not of media (scene/medium.h) */
     bool merges;        /* what it adds to a pixel is of many paths at once, of any length */
     const char *why;    /* for trace: how what an eye sub-path is joined to is chosen; NULL: it is not */
     const struct field *parameters; /* of the state; NULL: none */

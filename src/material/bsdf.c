@@ -19,7 +19,7 @@ void bsdf_make(struct bsdf *b, struct frame shading, vec3 ng, struct lobe *lobe,
         total += guess;
         b->n_smooth += !lobe_is_delta(lobe[i].kind);
         b->transmits |= lobe[i].kind == LOBE_LAMBERT_TRANSMISSION || lobe[i].kind == LOBE_MICROFACET_TRANSMISSION ||
-                        lobe[i].kind == LOBE_FOURIER;
+                        lobe[i].kind == LOBE_FOURIER || lobe[i].kind == LOBE_PHASE;
         if (i > b->n_lobes)
             lobe[b->n_lobes] = lobe[i];
         b->n_lobes++;

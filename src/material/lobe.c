@@ -29,6 +29,7 @@ double lobe_albedo_guess(const struct lobe *l)
     double r = rgb_mean(rgb_mul(l->scale, l->R)), t = rgb_mean(rgb_mul(l->scale, l->T));
     switch (l->kind) {
     case LOBE_LAMBERT_REFLECTION:
+    case LOBE_PHASE:
     case LOBE_OREN_NAYAR: return r;
     case LOBE_LAMBERT_TRANSMISSION:
     case LOBE_SPECULAR_TRANSMISSION:
@@ -211,6 +212,24 @@ static bool sample_clearcoat(const struct lobe *l, vec3 wo, double u1, double u2
     return wo.z * wi->z > 0;
 }
 
+/* --- media -------------------------------------------------------------------------------------------- */
+
+/* [PBRT3 11.2] [PBRT3 15.2]; wo and wi point away, so that straight on is -1. */
+static struct bsdf_value phase(double g, double cosine)
+{
+    double d = 1 + g * g + 2 * g * cosine, p = INV_PI / 4 * (1 - g * g) / (d * sqrt(d));
+    struct bsdf_value v = {rgb_grey(p), p, p};
+    return v;
+}
+
+static vec3 sample_phase(double g, vec3 wo, double u1, double u2)
+{
+    double s = (1 - g * g) / (1 - g + 2 * g * u1);
+    double c = fabs(g) < 1e-6 ? 1 - 2 * u1 : clamp((1 + g * g - s * s) / (2 * g), -1, 1);
+    struct frame f = frame_from_normal(neg(wo));
+    return to_world(&f, cylindrical(safe_sqrt(1 - c * c), 2 * PI * u2, c));
+}
+
 /* --- all lobes that are not delta -------------------------------------------------------------------- */
 
 struct bsdf_value lobe_eval(const struct lobe *l, vec3 wo, vec3 wi, bool reflect, enum transport mode)
@@ -233,6 +252,7 @@ struct bsdf_value lobe_eval(const struct lobe *l, vec3 wo, vec3 wi, bool reflect
         v.pdf = fourier_pdf(l->of.table, wo, wi);
         v.pdf_rev = fourier_pdf(l->of.table, wi, wo);
         break;
+    case LOBE_PHASE: v = phase(l->of.g, dot(wo, wi)); break;
     case LOBE_SPECULAR_REFLECTION:
     case LOBE_SPECULAR_TRANSMISSION:
     case LOBE_FRESNEL_SPECULAR: break;
@@ -250,6 +270,7 @@ bool lobe_sample(const struct lobe *l, vec3 wo, vec3 ng, const double u[3], vec3
     case LOBE_LAMBERT_TRANSMISSION: *wi = sample_diffuse(wo, ng, false, u[1], u[2]); return true;
     case LOBE_MICROFACET_REFLECTION: return sample_microfacet_reflection(l, wo, u[1], u[2], wi);
     case LOBE_FOURIER: return fourier_sample(l->of.table, wo, u, wi);
+    case LOBE_PHASE: *wi = sample_phase(l->of.g, wo, u[1], u[2]); return true;
     case LOBE_CLEARCOAT: return sample_clearcoat(l, wo, u[1], u[2], wi);
     case LOBE_MICROFACET_TRANSMISSION: return sample_microfacet_transmission(l, wo, u[1], u[2], wi);
     case LOBE_FRESNEL_BLEND:

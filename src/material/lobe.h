@@ -37,7 +37,8 @@ enum lobe_kind {
     LOBE_FRESNEL_BLEND, /* pbrt's substrate [Ashikhmin & Shirley 2000] */
     LOBE_DISNEY_DIFFUSE, /* see burley.h, as of the next */
     LOBE_CLEARCOAT,
-    LOBE_FOURIER /* see fourier_table.h */
+    LOBE_FOURIER, /* see fourier_table.h */
+    LOBE_PHASE /* of a medium, in no plane: the frame does not matter */
 };
 
 enum fresnel_kind { FRESNEL_NONE, FRESNEL_DIELECTRIC, FRESNEL_CONDUCTOR, FRESNEL_DISNEY };
@@ -71,6 +72,7 @@ struct lobe {
             double roughness;
         } disney;     /* of LOBE_DISNEY_DIFFUSE */
         double gloss; /* alpha of LOBE_CLEARCOAT's own distribution */
+        double g;     /* of LOBE_PHASE */
         const struct fourier_table *table;
     } of;
 };

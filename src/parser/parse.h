@@ -40,6 +40,7 @@ struct graphics_state {
     struct material_source material;
     bool reverse; /* ReverseOrientation */
     struct area_light area;
+    int medium[2]; /* of MediumInterface: inside, outside */
 };
 
 enum block_kind { BLOCK_ATTRIBUTE, BLOCK_TRANSFORM, BLOCK_OBJECT };
@@ -110,7 +111,12 @@ struct parser {
     struct transform *system;                                    /* [systems.n], owned */
     struct symbols objects;    /* -> object[] */
     struct shape_list *object; /* [objects.n], owned */
-    struct source_position medium; /* the last that a MediumInterface names; no file: none */
+    struct {
+        struct symbols known;           /* -> scene->media.medium[], from 1; 0: not known here */
+        struct source_position used_at; /* the last that a MediumInterface names; no file: none */
+        struct source_position bad_at;  /* why they cannot be rendered; no file: they can */
+        char bad[ERROR_TEXT_SIZE / 2];
+    } media;
     int current_object; /* between ObjectBegin and ObjectEnd, else -1 */
     uint64_t copied_bytes; /* of all instances */
     int n_infinite;        /* lights, */
@@ -171,6 +177,11 @@ int parse_fourier_table(struct parser *p, const char *field);
 bool parse_make_material(struct parser *p, struct material_source *out);
 int parse_changed_material(struct parser *p);
 
+/* parse_media_not: this keeps media from being rendered, should they have to be. parse_settle_media: the world
+ * is complete: are there media, and can they be rendered? False with a message. */
+void parse_media_not(struct parser *p, struct source_position at, const char *format, ...);
+bool parse_settle_media(struct parser *p);
+
 /* parse_state_reset: the transform as a file or its world begins. parse_name_system: name a coordinate system.
  * parse_open_block, parse_close_block: save the graphics state and restore it; false, with a warning, if nothing was
  * saved. parse_close_all: warn of blocks that are still open. */
@@ -192,7 +203,7 @@ struct directive {
 };
 
 extern const struct directive STATE_DIRECTIVES[], OPTION_DIRECTIVES[], TEXTURE_DIRECTIVES[], MATERIAL_DIRECTIVES[],
-    LIGHT_DIRECTIVES[], SHAPE_DIRECTIVES[];
+    LIGHT_DIRECTIVES[], SHAPE_DIRECTIVES[], MEDIUM_DIRECTIVES[];
 extern const struct object_type TEXTURE_TYPES[]; /* whose directive reads more than type and list */
 
 /* parse_material_types, parse_shape_types: rows, of shapes the quadrics, too, as types, ended by one without a name. */

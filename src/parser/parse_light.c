@@ -156,7 +156,8 @@ static const struct object_type LIGHTS[] = {
 static bool light(struct parser *p)
 {
     struct params *q = &p->params;
-    struct light_item item = {.light = {.kind = (enum light_kind)p->type.kind, .prim = -1},
+    struct light_item item = {.light = {.kind = (enum light_kind)p->type.kind, .prim = -1,
+                                        .medium = p->state.medium[1]},
                               .frame.to_world = p->place.ctm, .to = {0, 0, 1}};
     if (!parse_placed(p))
         return false;
@@ -168,6 +169,9 @@ static bool light(struct parser *p)
         type_error(q, "this light would stand at (%g %g %g); places go up to 1e12", position.x, position.y, position.z);
     if (item.light.kind == LIGHT_INFINITE && ++p->n_infinite > LIGHT_MAX_INFINITE)
         type_error(q, "more than %d infinite lights; use fewer", LIGHT_MAX_INFINITE);
+    if (light_at_infinity(&item.light) && item.light.medium > 0)
+        parse_media_not(p, q->position,
+                        "this light is at infinity, and so is the end of the medium before it: bound that by a shape");
     if (!parse_done(p))
         return false;
     struct light_set *set = &p->scene->lights;

@@ -176,7 +176,7 @@ void parse_shape_types(struct object_type out[MOST_TYPES])
 static void add_lights(struct scene *s, int group, int n, const struct area_light *area)
 {
     struct light l = {.kind = LIGHT_AREA, .L = area->L, .two_sided = area->two_sided, .hidden = area->hidden,
-                      .group = area->group};
+                      .medium = s->geo.group[group].medium[1], .group = area->group};
     for (int i = 0; i < n; i++) {
         l.prim = s->geo.group[group].first_prim + i;
         light_add(&s->lights, l, NULL);
@@ -228,11 +228,12 @@ static bool place_shape(struct parser *p, struct shape_item *item)
     return ok;
 }
 
-/* Is there anything to be seen of it? What has no material bounds media, of which there are none here. */
+/* Is there anything to be seen of it, or does it bound a medium? */
 static bool is_seen(const struct shape_item *item)
 {
     bool empty = item->is_mesh && item->mesh.n_triangles == 0;
-    return !empty && (item->group.material != MATERIAL_NONE || item->area.on);
+    bool bounds = item->group.medium[0] != item->group.medium[1];
+    return !empty && (item->group.material != MATERIAL_NONE || item->area.on || bounds);
 }
 
 static bool shape(struct parser *p)
@@ -243,6 +244,7 @@ static bool shape(struct parser *p)
         return false;
     struct shape_item item = {.to_world = p->place.ctm, .reverse = p->state.reverse, .area = p->state.area};
     item.group.alpha = item.group.shadow_alpha = item.group.first_light = -1;
+    memcpy(item.group.medium, p->state.medium, sizeof item.group.medium);
     if (p->type.kind < N_QUADRICS)
         parse_fields(p, &item);
     else

@@ -21,54 +21,23 @@ static bool world_begin(struct parser *p)
     return true;
 }
 
-/* What is in a medium does not matter: nothing of it can be rendered. */
-static bool medium_interface(struct parser *p)
-{
-    struct token name;
-    for (int i = 0; i < 2 && (i == 0 || lexer_peek(&p->lexer) == TOKEN_STRING); i++) {
-        if (!parse_string(p, &name, "a medium"))
-            return false;
-        if (name.text[0] != '\0')
-            p->medium = name.position;
-    }
-    return true;
-}
-
-/* Is it an integrator of pbrt-v3 that sees no media? NULL is its default, "path". */
-static bool is_blind(const char *integrator)
-{
-    static const char *const BLIND[] = {"path", "directlighting", "whitted", "ambientocclusion", "sppm", NULL};
-    for (int i = 0; integrator != NULL && BLIND[i] != NULL; i++)
-        if (strcmp(integrator, BLIND[i]) == 0)
-            return true;
-    return integrator == NULL;
-}
-
 static bool world_end(struct parser *p)
 {
     p->phase = AFTER_WORLD;
     parse_close_all(p);
-    if (p->medium.file == NULL)
-        return true;
-    if (!is_blind(p->scene->integrator))
-        return source_error(&p->messages, p->medium,
-                            "participating media are not supported; remove this MediumInterface");
-    source_warn(&p->messages, p->medium, "media are left out, as by pbrt-v3's \"path\"");
-    return true;
+    return parse_settle_media(p);
 }
 
 static bool include(struct parser *p);
 
 static const struct directive FILE_DIRECTIVES[] = {{"Include", ANYWHERE, include, NULL},
-                                                   {"MediumInterface", ANYWHERE, medium_interface, NULL},
-                                                   {"MakeNamedMedium", ANYWHERE, parse_typed, NULL},
                                                    {"WorldBegin", BEFORE_WORLD, world_begin, NULL},
                                                    {"WorldEnd", IN_WORLD, world_end, NULL}, {.name = NULL}};
 
 /* All directives, the commonest first. */
 static const struct directive *const TABLES[] = {SHAPE_DIRECTIVES,   MATERIAL_DIRECTIVES, STATE_DIRECTIVES,
-                                                 LIGHT_DIRECTIVES,   TEXTURE_DIRECTIVES,  FILE_DIRECTIVES,
-                                                 OPTION_DIRECTIVES,  NULL};
+                                                 LIGHT_DIRECTIVES,   TEXTURE_DIRECTIVES,  MEDIUM_DIRECTIVES,
+                                                 FILE_DIRECTIVES,    OPTION_DIRECTIVES,   NULL};
 
 /* The directive of this name, or NULL. Every name passed on the way is offered to *near, unless that is NULL. */
 static const struct directive *find_directive(const char *name, struct suggestion *near)
@@ -212,8 +181,8 @@ static void finish(struct parser *p)
 {
     for (int i = 0; i < p->objects.n; i++)
         shape_list_free(&p->object[i]);
-    struct symbols *const tables[] = {&p->float_textures, &p->spectrum_textures, &p->materials,
-                                      &p->systems,        &p->objects,           &p->named.known};
+    struct symbols *const tables[] = {&p->float_textures, &p->spectrum_textures, &p->materials, &p->systems,
+                                      &p->media.known,    &p->objects,           &p->named.known};
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++)
         symbols_free(tables[i]);
     free(p->object);

@@ -25,7 +25,7 @@ static bool covered(const struct scene *scene, const struct vertex *eye, int n)
 {
     const struct light_set *lights = &scene->lights;
     const struct vertex *z = n > 1 ? &eye[1] : NULL;
-    return z != NULL && (z->kind == VERTEX_SURFACE || (z->lamp != NULL && !lights->light[z->lamp->light].hidden) ||
+    return z != NULL && (z->kind != VERTEX_ESCAPED || (z->lamp != NULL && !lights->light[z->lamp->light].hidden) ||
                          (z->lamp == NULL && lights->seen_infinite));
 }
 

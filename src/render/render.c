@@ -168,6 +168,10 @@ static const struct method *begin_job(const struct scene *scene, const struct re
 {
     const struct method *m = method_find(options->integrator, &scene->settings, err);
     memset(job, 0, sizeof *job);
+    if (m != NULL && m->surfaces && scene->media.n > 0) {
+        error_set(err, "%s knows of surfaces alone, and this scene has media; bdpt can render it", m->name);
+        return NULL;
+    }
     job->scene = scene;
     job->film_rect = rect;
     job->seed = job->eye_seed = options->seed;

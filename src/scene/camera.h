@@ -36,6 +36,7 @@ struct camera {
     double screen_window[4]; /* xmin, xmax, ymin, ymax; valid if has_screen_window */
     double lens_radius;      /* 0: pinhole */
     double focal_distance;   /* to the plane of focus, > 0 */
+    int medium;              /* that the lens is in */
     /* filled by camera_prepare */
     struct transform camera_to_world;
     int width, height;              /* of the full film */

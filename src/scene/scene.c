@@ -21,6 +21,8 @@ void scene_free(struct scene *s)
 {
     kd_free(&s->kd);
     kd_free(&s->kd_lamps);
+    kd_free(&s->media.interfaces);
+    free(s->media.medium);
     geometry_free(&s->geo);
     texture_set_free(&s->textures);
     for (int i = 0; i < s->n_materials; i++)
@@ -75,6 +77,7 @@ void scene_bounds(const struct scene *s, vec3 *lo, vec3 *hi)
     *hi = neg(*lo);
     widen(&s->kd, lo, hi);
     widen(&s->kd_lamps, lo, hi);
+    widen(&s->media.interfaces, lo, hi);
 }
 
 void scene_resize(struct scene *s, int width, int height)
@@ -91,8 +94,9 @@ void scene_prepare(struct scene *s)
         s->geo.group[i].skip_partials =
             s->geo.group[i].material < 0 ||
             !material_reads_partials(s->material[s->geo.group[i].material], &s->textures);
-    kd_build(&s->kd, &s->geo, false);
-    kd_build(&s->kd_lamps, &s->geo, true);
+    kd_build(&s->kd, &s->geo, KD_SURFACES);
+    kd_build(&s->kd_lamps, &s->geo, KD_LAMPS);
+    kd_build(&s->media.interfaces, &s->geo, KD_INTERFACES);
     vec3 lo, hi;
     scene_bounds(s, &lo, &hi);
     double radius = length(sub(hi, lo)) / 2;

@@ -23,6 +23,7 @@
 #include "scene/camera.h"
 #include "scene/filter.h"
 #include "scene/light.h"
+#include "scene/medium.h"
 #include "scene/settings.h"
 
 struct scene {
@@ -33,6 +34,7 @@ struct scene {
     struct material **material; /* [n_materials], owned with what they point to */
     int n_materials;
     struct light_set lights;
+    struct medium_set media;
 
     struct camera camera;
     struct filter filter;

@@ -10,7 +10,7 @@
  *     m = (sum of I^2 + K m_above) / (n + K).
  * The density of a ray is then rho = B q / e times that of light.h; where it begins is not looked at.
  *
- * The table is frozen before the render, so any is unbiased, and the weights know rho (transport/emit.h). More than
+ * The table is frozen before the render, so any is unbiased, and the weights know rho (emit.h). More than
  * EMISSION_COLUMNS cells share columns. Drawn by inversion, cell, row and bin in turn, so that strata remain strata.
  * [Grittmann 2018] has such tables for photons; that squares are to be learnt is from [Rath 2020].
  *

@@ -38,12 +38,12 @@ void regions_free(struct regions *r)
     free(r->region);
 }
 
-/* 1..6, the axis and sign a unit normal is nearest to. */
+/* 1..6, the axis and sign a unit normal is nearest to; 7 of none. */
 static uint64_t face_of(vec3 n)
 {
     double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);
     if (x >= y && x >= z)
-        return n.x > 0 ? 1 : 2;
+        return n.x > 0 ? 1 : n.x < 0 ? 2 : 7;
     if (y >= z)
         return n.y > 0 ? 3 : 4;
     return n.z > 0 ? 5 : 6;

@@ -45,7 +45,8 @@ enum { REGION_LEVELS = 4 };
 void regions_init(struct regions *r, vec3 low, vec3 high, int cells, int n_levels, int limit);
 void regions_free(struct regions *r);
 
-/* regions_key: names the region of level 0 of a surface point, `side` being the unit normal of the side it is on. */
+/* regions_key: names the region of level 0 of a surface point, `side` being the unit normal of the side it is on, or,
+ * 0, of a point within a medium, which has none. */
 uint64_t regions_key(const struct regions *r, vec3 p, vec3 side);
 
 /* regions_add: the number of a region of level 0, a new one, with those that hold it, if it was never met; beyond the

@@ -1,8 +1,8 @@
 /* connect.c: see connect.h. */
 #include "transport/connect.h"
 
+#include "tables/emit.h"
 #include "transport/counts.h"
-#include "transport/emit.h"
 
 static struct connection nothing(void)
 {
@@ -23,6 +23,20 @@ static struct scatter scatter_towards(const struct vertex *v, vec3 wi, enum tran
     if (!rgb_is_black(b.f))
         s.factor = rgb_scale(b.f, scatter_cosine(v, wi, mode));
     return s;
+}
+
+/* The weight of a connection of a to something on primitive `to`, in direction w so far away; sides: the sums of mis.h.
+ * Media on the way count for the value, and for the densities of either end. */
+static inline void weigh(const struct scene *scene, const struct mis_counts *counts, struct connection *c, double n,
+                         const struct vertex *a, vec3 w, double distance, uint32_t to, double side_a, double side_b)
+{
+    if (scene->media.n > 0) {
+        struct passage way = vertex_pass(scene, a, w, distance, to);
+        c->value = rgb_mul(c->value, way.left);
+        side_a *= mis_raise(counts, way.density[0]);
+        side_b *= mis_raise(counts, way.density[1]);
+    }
+    c->weight = mis_weight(counts, n, side_b, side_a);
 }
 
 struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *prev,
@@ -60,7 +74,7 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
     if (!z->prev_delta)
         before = n_direct(counts, lights, prev->eye_region, prev->eye_end, z->cell, neg(z->wo));
     /* density of the light sub-path's direction (or origin, at infinity) from here */
-    double pdf_emit = emit_pdf(counts, lights, &at, start, z->wo);
+    double pdf_emit = emit_pdf(&counts_tables(counts)->emission, lights, &at, start, z->wo);
     double eye_side = mis_side(counts, z->pdf_origin, z->pdf_fwd, before, pdf_emit, z->mis); /* mis.h (5) */
     c.weight = mis_weight(counts, counts->hit[prev->eye_end], 0, eye_side); /* mis.h (7), A_light being 0 */
     return c;
@@ -135,13 +149,14 @@ struct connection connect_lit(const struct scene *scene, const struct mis_counts
     vertex_light_end(scene, counts, at, &y);
     double hit = light_is_delta(&lights->light[at->light]) ? 0 : counts->hit[z->eye_end];
     double light = mis_side(counts, l->pdf_z * l->at_light, y.pdf_fwd, hit, 0, 0); /* mis.h (5): of s = 0 alone */
-    double pdf_z = emit_pdf(counts, lights, at, z->p, neg(w)) * abs_dot(z->ng, w) * (parallel ? 1 : 1 / d2);
+    double pdf_emit = emit_pdf(&counts_tables(counts)->emission, lights, at, z->p, neg(w));
+    double pdf_z = pdf_emit * vertex_cosine(z, w) * (parallel ? 1 : 1 / d2);
     double eye = mis_side(counts, pdf_z, z->pdf_fwd, z->mis_c, l->pdf_rev_z, z->mis);
     double count = n_direct(counts, lights, z->eye_region, z->eye_end, at->cell, at->w);
     struct connection c = nothing();
     c.value = l->value;
     c.length = z->length + (parallel ? light_distance(lights, z->p, w) : distance);
-    c.weight = mis_weight(counts, count, light, eye);
+    weigh(scene, counts, &c, count, z, w, parallel ? INFINITY : distance, at->prim_id, eye, light);
     c.end = parallel ? at->w : at->p;
     c.light = at->light;
     c.cell = at->cell;
@@ -181,7 +196,7 @@ bool connect_join(const struct vertex *y, const struct vertex *z, struct joint *
     /* C* = alpha_s c alpha_t, c = f G f: both cosines are in the factors [V97 10.2] */
     rgb value = rgb_mul(rgb_mul(y->beta, at_y.factor), rgb_scale(rgb_mul(z->beta, at_z.factor), 1 / d2));
     *out = (struct joint){y, z, value, at_y.pdf, at_z.pdf, at_y.pdf_rev, at_z.pdf_rev, distance,
-                          abs_dot(y->ng, w) / d2, abs_dot(z->ng, w) / d2};
+                          vertex_cosine(y, w) / d2, vertex_cosine(z, w) / d2};
     return !rgb_is_black(value);
 }
 
@@ -196,7 +211,8 @@ struct connection connect_joint(const struct scene *scene, const struct mis_coun
     double eye = mis_side(counts, j->pdf_y * j->area_z, z->pdf_fwd, z->mis_c, j->pdf_rev_z, z->mis);
     c.value = j->value;
     c.length = y->length + j->length + z->length;
-    c.weight = mis_weight(counts, n_connect(counts, y->light_region, z->eye_region, z->eye_end), light, eye);
+    double n = n_connect(counts, y->light_region, z->eye_region, z->eye_end);
+    weigh(scene, counts, &c, n, z, mul(sub(y->p, z->p), 1 / j->length), j->length, y->prim_id, eye, light);
     return c;
 }
 
@@ -241,8 +257,8 @@ struct connection connect_lens(const struct scene *scene, const struct mis_count
     double mis = y->mis;
     if (s == 2 && mis > 0)
         mis *= mis_raise(counts, counts->hit[FIRST_HIT]) / mis_raise(counts, counts->hit[LATER_HIT]);
-    double light_side = mis_side(counts, density * abs_dot(y->ng, w), y->pdf_fwd, before, at_y.pdf_rev, mis);
-    c.weight = mis_weight(counts, counts->splat, light_side, 0);
+    double light_side = mis_side(counts, density * vertex_cosine(y, w), y->pdf_fwd, before, at_y.pdf_rev, mis);
+    weigh(scene, counts, &c, counts->splat, y, neg(w), distance, 0, light_side, 0);
     c.end = lens;
     return c;
 }

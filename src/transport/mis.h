@@ -66,7 +66,7 @@ struct mis_counts {
     double connect[EYE_ENDS];  /* s >= 2, t >= 2: connection to light vertices */
     double splat;              /* s >= 2, t = 1: light sub-paths connected to the lens: how many per iteration */
     const struct tables *tables;     /* what is known about places: factors of connect and direct, and of the density
-                                      * of the light walk's first ray (counts.h, emit.h); NULL: nothing */
+                                      * of the light walk's first ray (counts.h); NULL: nothing */
     bool power;                /* power heuristic instead of the balance heuristic */
 };
 

@@ -3,8 +3,8 @@
 
 #include <string.h>
 
+#include "tables/emit.h"
 #include "transport/counts.h"
-#include "transport/emit.h"
 
 /* Density per area, F_e of mis.h, by the cosine over distance^2 that turns it from one per steradian [PBRT3 5.5.3]; and
  * equation (6) there. */
@@ -13,9 +13,21 @@ void walk_measure(const struct walk *w, struct vertex *v, const struct vertex *p
 {
     bool parallel = vertex_at_infinity(w->scene, prev); /* rays of a light at infinity do not spread */
     double spread = prev->kind == VERTEX_LENS ? camera_spread(&w->scene->camera, d2) : parallel ? 1 : 1 / d2;
-    double at_prev = parallel || prev->kind == VERTEX_LENS ? 1 : abs_dot(prev->ng, from->ray.d) * spread; /* g */
-    v->pdf_fwd = from->pdf * abs_dot(v->ng, from->ray.d) * spread;
+    double at_prev = parallel || prev->kind == VERTEX_LENS ? 1 : vertex_cosine(prev, from->ray.d) * spread; /* g */
+    v->pdf_fwd = from->pdf * vertex_cosine(v, from->ray.d) * spread;
     v->mis = mis_step(w->counts, from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, at_prev);
+}
+
+/* The same of one that media may have kept the walk from. */
+static void measure(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
+                    double d2)
+{
+    walk_measure(w, v, prev, from, d2);
+    if (w->scene->media.n > 0) {
+        v->pdf_fwd *= from->way->density[1];
+        v->mis *= mis_raise(w->counts, from->way->density[0]); /* of g */
+        v->medium = from->way->medium;
+    }
 }
 
 /* The ray met no surface: if there are infinite lights, or a see-through lamp, the eye sub-path ends on them. Density
@@ -32,11 +44,9 @@ static bool escape(const struct walk *w, struct vertex *v, const struct vertex *
     v->prev_delta = from->delta;
     v->wo = neg(from->ray.d);
     v->beta = from->beta;
-    v->pdf_fwd = from->pdf;
     v->length = prev->length + light_distance(&w->scene->lights, from->ray.o, from->ray.d);
     v->pdf_origin = light_pdf_environment(&w->scene->lights, from->ray.d);
-    double at_prev = prev->kind == VERTEX_LENS ? 1 : abs_dot(prev->ng, from->ray.d);
-    v->mis = mis_step(w->counts, from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, at_prev);
+    measure(w, v, prev, from, 1); /* per steradian, as if at distance 1 */
     return true;
 }
 
@@ -45,20 +55,20 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
                  const struct surface *at, enum transport mode)
 {
     double d2 = length2(sub(at->p, from->ray.o));
-    if (dot(at->ng, from->ray.d) == 0 || d2 == 0)
+    if (d2 == 0 || (dot(at->ng, from->ray.d) == 0 && at->prim_id != WITHIN_MEDIUM))
         return false;
-    v->kind = VERTEX_SURFACE;
+    v->kind = at->prim_id == WITHIN_MEDIUM ? VERTEX_MEDIUM : VERTEX_SURFACE;
+    v->ng = at->ng;
     v->prev_delta = from->delta;
     v->light = at->light;
     v->cell = at->light < 0 ? -1 : w->scene->lights.light[at->light].first_cell;
     v->p = at->p;
-    v->ng = at->ng;
     v->prim_id = at->prim_id;
     v->wo = neg(from->ray.d);
     v->beta = from->beta;
     v->pdf_origin = mode == RADIANCE && at->light >= 0 ? light_pdf_surface(&w->scene->lights, &w->scene->geo, at) : 0;
     v->length = prev->length + sqrt(d2);
-    walk_measure(w, v, prev, from, d2);
+    measure(w, v, prev, from, d2);
     return true;
 }
 
@@ -92,6 +102,16 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
     v->mis_c = mode == RADIANCE ? n_behind(w->counts, prev, v)
                                 : n_before(w->counts, &w->scene->lights, prev, v, LATER_HIT);
     return true;
+}
+
+/* Go on as far as media let it: *at becomes where it is scattered, if that is before. False if it meets nothing. */
+static bool fly(const struct walk *w, const struct vertex *prev, struct departure *from, bool meets,
+                struct surface *at)
+{
+    from->way = arena_alloc(w->arena, sizeof *from->way);
+    meets = medium_fly(w->scene, &from->ray, prev->ng, prev->medium, w->sampler, meets, at, from->way);
+    from->beta = rgb_mul(from->beta, rgb_scale(from->way->left, 1 / from->way->density[1]));
+    return meets;
 }
 
 /* Russian roulette: `left` is the fraction of the walk's first throughput that is left. False if the walk ends.
@@ -133,6 +153,8 @@ int walk_on(const struct walk *w, struct departure from, struct vertex *path, in
         struct surface at;
         const struct vertex *lamp = NULL;
         bool met = scene_intersect(w->scene, &from.ray, &at);
+        if (w->scene->media.n > 0)
+            met = fly(w, &path[n - 1], &from, met, &at);
         if (mode == RADIANCE)
             lamp = meet_lamp(w, &path[n - 1], &from, met ? &at : NULL);
         else if (n == 1 && met && scene_lamp_stops(w->scene, &from.ray, &at))
@@ -167,6 +189,7 @@ int path_eye(const struct walk *w, double px, double py, struct vertex *path, in
     path[0].light = path[0].cell = -1;
     path[0].p = from.ray.o;
     path[0].beta = rgb_grey(1);
+    path[0].medium = camera->medium;
     path[0].pdf_fwd = 1; /* never enters a weight: no strategy samples the lens from the light */
     /* Eye rays have density 1 per raster area, J per steradian (or per m^2); We J^-1 = 1, so beta stays 1 (camera.h).
      * [PBRT3 16.1.1] */
@@ -193,7 +216,8 @@ int path_light(const struct walk *w, struct vertex *path, int max_vertices)
     struct light_point at;
     struct departure from = {.pdf = 0};
     double pdf;
-    rgb emitted = emit_sample(w->scene, w->counts, u, direction, &at, &from.ray, &pdf, &from.pdf);
+    rgb emitted = emit_sample(&counts_tables(w->counts)->emission, &w->scene->lights, &w->scene->geo, u, direction, &at,
+                              &from.ray, &pdf, &from.pdf);
     if (max_vertices < 1 || !(pdf > 0) || rgb_is_black(emitted))
         return 0;
     vertex_light_end(w->scene, w->counts, &at, &path[0]);

@@ -57,6 +57,7 @@ struct departure {
     double pdf;     /* of the direction, 1/sr; of parallel rays from a light or the lens: of the origin, 1/m^2 */
     double pdf_rev; /* 1/sr, of going from that vertex to the one before it */
     bool delta;
+    struct passage *way; /* to the next vertex, where there are media; in the walk's arena */
 };
 
 /* walk_on: go on from n vertices, the last of which has been left. Returns the number of vertices. */

@@ -117,7 +117,7 @@ void pixel_sum_eye(struct pixel_sample *sample, const struct vertex *eye, int n)
         if (t == 2 || sample->counts->hit[LATER_HIT] > 0)
             sum_hit(sample, eye, t);
         bool wanted = sample->counts->direct[FIRST_HIT] > 0 && (t > 2 || sample->lights > 0);
-        if (wanted && eye[t - 1].kind == VERTEX_SURFACE && t <= sample->max_depth + 1)
+        if (wanted && eye[t - 1].kind != VERTEX_ESCAPED && t <= sample->max_depth + 1)
             sum_direct(sample, eye, t);
     }
 }

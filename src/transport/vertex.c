@@ -18,14 +18,17 @@ double path_importance(const struct importance *importance, const struct vertex 
     return sum;
 }
 
-bool vertex_at_infinity(const struct scene *scene, const struct vertex *v)
+struct passage vertex_pass(const struct scene *scene, const struct vertex *v, vec3 w, double distance, uint32_t to)
 {
-    return v->kind == VERTEX_LIGHT && light_at_infinity(&scene->lights.light[v->light]);
+    const struct ray ray = {v->p, w, ray_margin(v->p), distance, v->prim_id, to};
+    return medium_pass(scene, &ray, v->ng, v->medium);
 }
 
 double scatter_cosine(const struct vertex *v, vec3 wi, enum transport mode)
 {
     vec3 ns = v->bsdf.shading.n;
+    if (v->kind == VERTEX_MEDIUM)
+        return 1;
     if (mode == RADIANCE)
         return abs_dot(wi, ns);
     double wo_ng = abs_dot(v->wo, v->ng);
@@ -43,6 +46,7 @@ void vertex_light_end(const struct scene *scene, const struct mis_counts *counts
     out->p = at->p;
     out->ng = at->n;
     out->prim_id = at->prim_id;
+    out->medium = l->medium;
     out->wo = at->w;
     out->beta = rgb_grey(1 / at->pdf);
     /* An escaping eye ray cannot tell infinite lights apart, so their densities are added up for the weight.

@@ -7,7 +7,7 @@
 
 #include "material/bsdf.h"
 #include "scene/light.h"
-#include "scene/scene.h"
+#include "scene/passage.h"
 #include "tables/importance.h"
 #include "transport/mis.h"
 
@@ -15,6 +15,8 @@ enum vertex_kind {
     VERTEX_LENS,    /* z_0 */
     VERTEX_LIGHT,   /* y_0 */
     VERTEX_SURFACE, /* a scattering point, possibly on an area light */
+    /* without a normal: */
+    VERTEX_MEDIUM,  /* one within a medium */
     VERTEX_ESCAPED  /* end of an eye sub-path that left the scene: a direction, where infinite lights are or a `lamp` */
 };
 
@@ -43,6 +45,9 @@ enum vertex_kind {
  * light_distance (light.h) says. By the length of a whole path, from light to lens, gates choose (film.h). It is of
  * space alone: glass does not make it longer.
  *
+ * A vertex within a medium (scene/medium.h) is as one on a surface, with ng 0, prim_id WITHIN_MEDIUM and pdf_fwd per
+ * volume, 1/m^3.
+ *
  * See-through lamps (scene.h) scatter nothing, so no walk has vertices there, but that one may start on them. The first
  * that an eye walk meets on its way from one vertex to the next is the `lamp` of the next: the last vertex of a path of
  * its own, and in no sub-path. Its kind is SURFACE, it has what connect_hit needs, and no scattering.
@@ -59,6 +64,7 @@ struct vertex {
     rgb beta;
     double pdf_fwd, pdf_origin, pdf_rev;
     int material; /* of the surface, index into scene->material */
+    int medium;   /* what it was reached through; LENS, LIGHT: what they stand in */
     double mis;   /* mis_e of mis.h */
     double mis_c; /* c_e of mis.h, supposing this vertex is not left by a delta lobe */
     int eye_region, light_region;
@@ -85,7 +91,10 @@ void vertex_light_end(const struct scene *scene, const struct mis_counts *counts
 struct light_point vertex_light_point(const struct vertex *v);
 
 /* vertex_at_infinity: y_0 of an infinite or distant light. */
-bool vertex_at_infinity(const struct scene *scene, const struct vertex *v);
+static inline bool vertex_at_infinity(const struct scene *scene, const struct vertex *v)
+{
+    return v->kind == VERTEX_LIGHT && light_at_infinity(&scene->lights.light[v->light]);
+}
 
 /* vertex_connectible: can a connection end at this vertex? */
 static inline bool vertex_connectible(const struct vertex *v)
@@ -93,11 +102,21 @@ static inline bool vertex_connectible(const struct vertex *v)
     return v->kind == VERTEX_SURFACE ? v->bsdf.n_smooth > 0 : v->kind != VERTEX_ESCAPED;
 }
 
+/* vertex_cosine: what turns a density across direction w, unit, into one at the vertex; 1 without a normal. */
+static inline double vertex_cosine(const struct vertex *v, vec3 w)
+{
+    return v->kind >= VERTEX_MEDIUM ? 1 : abs_dot(v->ng, w);
+}
+
+/* vertex_pass: the way from it in direction w, unit, so far, to primitive `to`. */
+struct passage vertex_pass(const struct scene *scene, const struct vertex *v, vec3 w, double distance, uint32_t to);
+
 /* vertex_side: the normal by which a surface point is sorted into regions: ng, turned to where the walk came from,
  * since the two sides of a sheet have nothing in common. The other walk through the same points comes from the next
  * vertex. It finds the same region, and the weights the same counts, if both neighbours lie on one side; they do where
  * no lobe transmits, for the geometric normal decides on that (bsdf.h), whatever the shading normal is. Elsewhere ng
- * stays as it is. (Delta lobes may transmit: nothing is connected where a path passes by them.) */
+ * stays as it is: it is 0 within a medium. (Delta lobes may transmit: nothing is connected where a path passes by
+ * them.) */
 static inline vec3 vertex_side(const struct vertex *v)
 {
     return v->bsdf.transmits || dot(v->ng, v->wo) >= 0 ? v->ng : neg(v->ng);

@@ -15,6 +15,7 @@ const char *trace_what(const struct scene *scene, const struct vertex *v)
     case VERTEX_LENS: return "lens";
     case VERTEX_LIGHT: return lights[scene->lights.light[v->light].kind];
     case VERTEX_SURFACE: return v->light >= 0 ? "area light" : scene->material[v->material]->row->name;
+    case VERTEX_MEDIUM: return "medium";
     case VERTEX_ESCAPED: return "escaped";
     }
     return "";
@@ -27,6 +28,7 @@ const char *trace_measure(const struct scene *scene, const struct vertex *v)
     case VERTEX_LIGHT:
         return light_is_delta(&scene->lights.light[v->light]) ? "" : vertex_at_infinity(scene, v) ? "sr" : "m^2";
     case VERTEX_SURFACE: return "m^2";
+    case VERTEX_MEDIUM: return "m^3";
     case VERTEX_ESCAPED: return "sr";
     }
     return NULL;

@@ -6,7 +6,8 @@
 #include "base/alias.h"
 #include "base/number.h"
 #include "caustics/lamp.h"
-#include "transport/emit.h"
+#include "tables/emit.h"
+#include "transport/counts.h"
 
 /* What of a shape group chains may go by. */
 struct caster {
@@ -174,7 +175,7 @@ static struct makers makers_of(const struct mis_counts *n, const struct quest *q
         m.hit = n->hit[LATER_HIT] * walked * c->choice * cos_y * bsdf_eval(&q->z->bsdf, at.wo, c->w, RADIANCE).pdf;
     if (at.pdf > 0)
         m.splat = n->splat * pdf_y * c->choice * abs_dot(q->z->ng, c->w) / sqr(c->eta) *
-                  emit_pdf(n, lights, y, c->p, neg(c->d));
+                  emit_pdf(&counts_tables(n)->emission, lights, y, c->p, neg(c->d));
     return m;
 }
 

@@ -35,6 +35,7 @@ static const struct field PARAMETERS[] = {
     {.name = NULL}};
 
 const struct method method_caustics = {
-    .name = "caustics", .help = "another method with caustic connections [Hanika 2015], through mirrors and glass",
+    .name = "caustics", .surfaces = true,
+    .help = "another method with caustic connections [Hanika 2015], through mirrors and glass",
     .parameters = PARAMETERS, .state_size = sizeof(struct caustics_state), .prepare = prepare, .release = release,
     ONE_MORE_ROW};

@@ -103,6 +103,7 @@ static const struct field PARAMETERS[] = {
     {.name = NULL}};
 
 const struct method method_regularise = {
-    .name = "regularise", .help = "mirrors and glass are blurred where nothing else finds a light; biased",
+    .name = "regularise", .surfaces = true,
+    .help = "mirrors and glass are blurred where nothing else finds a light; biased",
     .parameters = PARAMETERS, .state_size = sizeof(struct regularise_state), .prepare = prepare,
     .release = one_more_release, ONE_MORE_ROW};

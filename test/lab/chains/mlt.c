@@ -333,5 +333,6 @@ static const struct chain_rules RULES = {.by_length = true, .own_size = sizeof(s
 static void prepare(const struct render_job *job, struct preparation *out) { chain_prepare(&RULES, job, out); }
 
 const struct method method_mlt = {
-    .name = "mlt", .help = "a Markov chain over paths: new ones, lens and caustic perturbations [Veach 1997]",
+    .name = "mlt", .surfaces = true,
+    .help = "a Markov chain over paths: new ones, lens and caustic perturbations [Veach 1997]",
     .parameters = &CHAIN_PARAMETERS[1], .rr_threshold = 0, .prepare = prepare, CHAIN_ROW};

@@ -121,7 +121,7 @@ static struct connection join(struct primary *p, int s, int t)
     if (s == 0)
         return connect_hit(scene, counts, z - 1, z, t);
     if (s == 1)
-        return z->kind == VERTEX_SURFACE ? connect_direct(scene, counts, z, &p->sampler[POINT_NUMBERS], 0, 1) : NOTHING;
+        return z->kind != VERTEX_ESCAPED ? connect_direct(scene, counts, z, &p->sampler[POINT_NUMBERS], 0, 1) : NOTHING;
     if (t == 1)
         return connect_lens(scene, counts, p->chain->work->light, s, &p->sampler[LENS_NUMBERS]);
     return connect_pair(scene, counts, y, z);

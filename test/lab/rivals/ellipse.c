@@ -245,6 +245,6 @@ static void render(const struct preparation *m, const struct tile_pass *pass)
 }
 
 const struct method method_ellipse = {
-    .name = "ellipse", .help = "ellipsoidal connections [Pediredla 2019]: for narrow gates; else pt",
+    .name = "ellipse", .surfaces = true, .help = "ellipsoidal connections [Pediredla 2019]: for narrow gates; else pt",
     .state_size = sizeof(struct ellipse_state), .rr_threshold = DEFAULT_RR_THRESHOLD,
     .prepare = prepare, .release = release, .render = render};

@@ -270,7 +270,7 @@ static void render(const struct preparation *m, const struct tile_pass *pass)
 }
 
 const struct method method_pathgraph = {
-    .name = "pathgraph", .merges = true,
+    .name = "pathgraph", .surfaces = true, .merges = true,
     .help = "path graphs [Deng 2021]: pt whose vertices share what lights them with others; biased",
     .parameters = PARAMETERS, .state_size = sizeof(struct pathgraph_state), .scratch_size = sizeof(struct light_pool),
     .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = reuse_prepare, .render = render};

@@ -48,7 +48,8 @@ static const struct field PARAMETERS[] = {
     {.name = NULL}};
 
 const struct method method_pcbdpt = {
-    .name = "pcbdpt", .help = "probabilistic connections [Popov 2015]: light vertices drawn by records nearby",
+    .name = "pcbdpt", .surfaces = true,
+    .help = "probabilistic connections [Popov 2015]: light vertices drawn by records nearby",
     .why = "C draws for each eye vertex from the tile's light vertices, P the mean of the PMFs of the records nearby "
            "and of the uniform choice; scale 1 / (C K P)",
     .parameters = PARAMETERS, .state_size = sizeof(struct pcbdpt_state), .scratch_size = sizeof(struct ris),

@@ -132,6 +132,7 @@ static void render(const struct preparation *m, const struct tile_pass *pass)
 }
 
 const struct method method_restir = {
-    .name = "restir", .help = "reservoirs [Bitterli 2020]: light points resampled, and shared with pixels nearby",
+    .name = "restir", .surfaces = true,
+    .help = "reservoirs [Bitterli 2020]: light points resampled, and shared with pixels nearby",
     .parameters = PARAMETERS, .state_size = sizeof(struct restir_state), .scratch_size = sizeof(struct light_pool),
     .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = render, .scratch_free = light_pool_free};

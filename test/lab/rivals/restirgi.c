@@ -227,6 +227,7 @@ static void render(const struct preparation *m, const struct tile_pass *pass)
 }
 
 const struct method method_restirgi = {
-    .name = "restirgi", .help = "reservoirs [Ouyang 2021]: second vertices resampled, and shared with pixels nearby",
+    .name = "restirgi", .surfaces = true,
+    .help = "reservoirs [Ouyang 2021]: second vertices resampled, and shared with pixels nearby",
     .parameters = PARAMETERS, .state_size = sizeof(struct restirgi_state), .scratch_size = sizeof(struct light_pool),
     .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = reuse_prepare, .render = render};

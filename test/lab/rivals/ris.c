@@ -28,7 +28,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "transport/emit.h"
+#include "tables/emit.h"
+#include "transport/counts.h"
 
 const char *const RIS_WEIGHTS[] = {"counts", "nabata", NULL};
 static const double EPSILON = 1e-3; /* no draw counts for more than a thousand */
@@ -213,7 +214,8 @@ struct connection ris_hit(struct ris *r, const struct vertex *prev, const struct
         at.light = -1;
         at.w = neg(end->wo);
     }
-    double pdf_emit = emit_pdf(r->counts, &r->scene->lights, &at, escaped ? prev->p : end->p, end->wo);
+    double pdf_emit = emit_pdf(&counts_tables(r->counts)->emission, &r->scene->lights, &at,
+                               escaped ? prev->p : end->p, end->wo);
     const struct path_end z_end = {end, prev, end->pdf_origin, pdf_emit};
     c.weight = weigh(r, 0, NULL, &z_end);
     return c;
@@ -228,8 +230,8 @@ struct connection ris_lit(struct ris *r, const struct lit *l)
         return c;
     const struct lamp_way way = lamp_way(r->scene, z->p, &l->at);
     vertex_light_end(r->scene, r->counts, &l->at, &y);
-    double pdf_z = emit_pdf(r->counts, &r->scene->lights, &l->at, z->p, neg(way.w)) * abs_dot(z->ng, way.w) *
-                   (1 / way.d2);
+    double pdf_emit = emit_pdf(&counts_tables(r->counts)->emission, &r->scene->lights, &l->at, z->p, neg(way.w));
+    double pdf_z = pdf_emit * abs_dot(z->ng, way.w) * (1 / way.d2);
     const struct path_end y_end = {&y, NULL, l->pdf_z * l->at_light, 0}, z_end = {z, z - 1, pdf_z, l->pdf_rev_z};
     c.weight = weigh(r, 1, &y_end, &z_end);
     return c;
@@ -431,7 +433,8 @@ static const struct field PARAMETERS[] = {
     {.name = NULL}};
 
 const struct method method_ris = {
-    .name = "ris", .help = "resampling [Nabata 2020a]: light vertices drawn by a record nearby, with weights to suit",
+    .name = "ris", .surfaces = true,
+    .help = "resampling [Nabata 2020a]: light vertices drawn by a record nearby, with weights to suit",
     .why = "one draw for each eye vertex from the tile's light vertices, by one of the records nearby or uniformly; "
            "scale 1 / (K P)",
     .parameters = PARAMETERS, .state_size = sizeof(struct ris_state), .scratch_size = sizeof(struct ris),

@@ -47,7 +47,8 @@ static const struct field PARAMETERS[] = {
     {.name = NULL}};
 
 const struct method method_ris2 = {
-    .name = "ris2", .help = "two-stage resampling [Nabata 2020b]: by power first, then by a record nearby",
+    .name = "ris2", .surfaces = true,
+    .help = "two-stage resampling [Nabata 2020b]: by power first, then by a record nearby",
     .why = "one draw for each eye vertex, by one of the records nearby or uniformly, from light vertices drawn before "
            "in proportion to luminance(beta), which have a factor u for that; scale u / (K P)",
     .parameters = PARAMETERS, .state_size = sizeof(struct ris_state), .scratch_size = sizeof(struct ris),

@@ -225,7 +225,8 @@ static const struct field PARAMETERS[] = {
     {.name = NULL}};
 
 const struct method method_vcm = {
-    .name = "vcm", .help = "vertex connection and merging [Georgiev 2012c]: bdpt, and vertices that meet; biased",
+    .name = "vcm", .surfaces = true,
+    .help = "vertex connection and merging [Georgiev 2012c]: bdpt, and vertices that meet; biased",
     .why = "the pixel's own light sub-path, and all of the tile's light vertices within the radius; scale 1, of merges "
            "1 / (K pi r^2)",
     .parameters = PARAMETERS, .state_size = sizeof(struct vcm_state), .scratch_size = sizeof(struct vcm),

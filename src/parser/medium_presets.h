@@ -1,0 +1,13 @@
+/* medium_presets.h: media that have been measured, by the names that pbrt-v3 knows them by. */
+#ifndef ASBDPT_MEDIUM_PRESETS_H
+#define ASBDPT_MEDIUM_PRESETS_H
+
+#include <stdbool.h>
+
+#include "base/rgb.h"
+
+/* medium_preset: its coefficients, 1/mm, of scattering as if it were even. False, with nothing changed, if the name is
+ * of none. */
+bool medium_preset(const char *name, rgb *sigma_s, rgb *sigma_a);
+
+#endif

@@ -1,0 +1,108 @@
+/* parse_medium.c: participating media, with pbrt-v3's parameters and defaults [pbrt-v3 core/api.cpp]. See parse.h. */
+#include "parser/parse.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "material/phase.h"
+#include "parser/medium_presets.h"
+
+void parse_media_not(struct parser *p, struct source_position at, const char *format, ...)
+{
+    va_list args;
+    if (p->media.bad_at.file != NULL)
+        return;
+    p->media.bad_at = at;
+    va_start(args, format);
+    vsnprintf(p->media.bad, sizeof p->media.bad, format, args);
+    va_end(args);
+}
+
+static void add_medium(struct parser *p, const char *name, const struct medium *m, double g)
+{
+    struct medium_set *media = &p->scene->media;
+    media->medium = mem_append(media->medium, (size_t)media->n, sizeof *media->medium);
+    media->medium[media->n] = *m;
+    media->medium[media->n].material = scene_add_material(p->scene, phase_new(g));
+    symbols_add(&p->media.known, name, ++media->n);
+}
+
+static bool make_named_medium(struct parser *p)
+{
+    struct params *q = &p->params;
+    struct token name;
+    struct source_position at;
+    if (!parse_string(p, &name, "a name") || !parse_list(p, "MakeNamedMedium", &name))
+        return false;
+    const char *type = params_text(q, "type", PARAM_STRING, &at);
+    if (type == NULL || strcmp(type, "homogeneous") != 0) {
+        symbols_add(&p->media.known, name.text, 0);
+        return true;
+    }
+    rgb sigma_a = {0.0011, 0.0024, 0.014}, sigma_s = {2.55, 3.21, 3.77};
+    const char *preset = params_text(q, "preset", PARAM_STRING, &at);
+    if (preset != NULL && preset[0] != '\0' && !medium_preset(preset, &sigma_s, &sigma_a))
+        source_warn(&p->messages, at, "there is no preset \"%.60s\"; the defaults are taken", preset);
+    double scale = params_number(q, "scale", 1, 0, NUMBER_MAX), g = params_number(q, "g", 0, -0.999, 0.999);
+    sigma_a = rgb_scale(params_rgb(q, "sigma_a", sigma_a), scale);
+    sigma_s = rgb_scale(params_rgb(q, "sigma_s", sigma_s), scale);
+    const struct medium m = {sigma_s, rgb_add(sigma_a, sigma_s), -1};
+    bool positive = rgb_max(rgb_scale(sigma_a, -1)) <= 0 && rgb_max(rgb_scale(sigma_s, -1)) <= 0;
+    if (!(positive && rgb_max(m.sigma_t) <= NUMBER_MAX))
+        return type_error(q, "\"sigma_a\" and \"sigma_s\" times \"scale\" go from 0 to %g", NUMBER_MAX);
+    add_medium(p, name.text, &m, g);
+    return parse_done(p);
+}
+
+/* One name stands for both sides, as in pbrt-v3; the empty one for none. */
+static bool medium_interface(struct parser *p)
+{
+    for (int i = 0; i < 2 && (i == 0 || lexer_peek(&p->lexer) == TOKEN_STRING); i++) {
+        struct token name;
+        if (!parse_string(p, &name, "a medium"))
+            return false;
+        int medium = name.text[0] == '\0' ? 0 : symbols_find(&p->media.known, name.text);
+        p->state.medium[1] = medium < 0 ? 0 : medium;
+        if (i == 0)
+            p->state.medium[0] = p->state.medium[1];
+        if (name.text[0] != '\0')
+            p->media.used_at = name.position;
+        if (medium < 0)
+            parse_media_not(p, name.position, "there is no medium \"%.60s\"", name.text);
+        else if (medium == 0 && name.text[0] != '\0')
+            parse_media_not(p, name.position, "medium \"%.60s\" is not \"homogeneous\": others are not known",
+                            name.text);
+    }
+    return true;
+}
+
+/* Is it an integrator of pbrt-v3 that sees no media? NULL is its default, "path". */
+static bool is_blind(const char *integrator)
+{
+    static const char *const BLIND[] = {"path", "directlighting", "whitted", "ambientocclusion", "sppm", NULL};
+    for (int i = 0; integrator != NULL && BLIND[i] != NULL; i++)
+        if (strcmp(integrator, BLIND[i]) == 0)
+            return true;
+    return integrator == NULL;
+}
+
+bool parse_settle_media(struct parser *p)
+{
+    struct scene *s = p->scene;
+    struct source_position used = p->media.used_at;
+    if (used.file == NULL || is_blind(s->integrator)) { /* none is anywhere, or is to be seen */
+        s->media.n = 0;
+        if (used.file != NULL)
+            source_warn(&p->messages, used, "media are left out, as by pbrt-v3's \"path\"");
+        return true;
+    }
+    for (int i = 0; i < s->geo.n_groups; i++)
+        if (s->geo.group[i].material < 0 && s->geo.group[i].first_light >= 0)
+            parse_media_not(p, used, "where media are an area light needs a material");
+    return p->media.bad_at.file == NULL || source_error(&p->messages, p->media.bad_at, "%s", p->media.bad);
+}
+
+const struct directive MEDIUM_DIRECTIVES[] = {{"MediumInterface", ANYWHERE, medium_interface, NULL},
+                                              {"MakeNamedMedium", ANYWHERE, make_named_medium, NULL},
+                                              {.name = NULL}};

@@ -1,0 +1,24 @@
+/* medium.h: what fills space: homogeneous media. passage.h says what becomes of light in them.
+ *
+ * Media are numbered from 1; 0 is none. A surface without material whose sides are in different media is an interface
+ * of these, and nothing else. A medium that has no bounds lets nothing in from infinity.
+ */
+#ifndef ASBDPT_MEDIUM_H
+#define ASBDPT_MEDIUM_H
+
+#include "base/rgb.h"
+#include "geometry/kdtree.h"
+
+struct medium {
+    rgb sigma_s, sigma_t; /* scattered, and scattered or absorbed, 1/m */
+    int material;         /* its phase function, index into scene->material */
+};
+
+/* All media of a scene. */
+struct medium_set {
+    struct medium *medium; /* [n], owned */
+    int n;
+    struct kdtree interfaces;
+};
+
+#endif
