@@ -73,7 +73,7 @@ static void check_triangle_random(struct test *t, struct rng *r)
             transform_compose(transform_rotate(77, on_sphere(r)), transform_scale(size, size * rng_uniform(r), 1)));
         add_triangle(t, &geo, false, false, place, false);
         struct surface target, at;
-        struct hit hit;
+        struct hit hit = {0};
         double pdf, u1 = rng_uniform(r), u2 = rng_uniform(r);
         shape_sample(&geo, 0, u1, u2, &target, &pdf);
         struct ray ray = ray_at(add(target.p, mul(on_sphere(r), 20 * size)), target.p);

@@ -308,6 +308,7 @@ static void judge(struct subject *s)
     compare_all_pairs(s);
 }
 
+/* Not before a scene has been read: what is refused leaves nothing behind. */
 static bool make_directories(const struct plan *p, struct error *err)
 {
     static const char *const names[] = {"store", "images", "plots"};
@@ -327,7 +328,7 @@ static bool measure_scene(struct pace *pace, struct scene_results *out, struct e
         return false;
     out->width = s.scene.width;
     out->height = s.scene.height;
-    bool ok = make_reference(&s) && enlarge(&s) && measure_methods(&s);
+    bool ok = make_directories(s.plan, err) && make_reference(&s) && enlarge(&s) && measure_methods(&s);
     if (ok)
         judge(&s);
     for (int v = 0; v < METHODS_MAX; v++)
@@ -344,7 +345,7 @@ bool measure(const struct plan *plan, struct results *out, struct error *err)
     struct pace pace = {.total = 0};
     out->plan = plan;
     out->scene = mem_alloc((size_t)plan->n_scenes, sizeof *out->scene);
-    bool ok = plan_names_differ(plan, err) && make_directories(plan, err);
+    bool ok = plan_names_differ(plan, err);
     for (int v = 0; v < plan->methods.n; v++)
         pace.total += plan->n_scenes * plan_seeds(plan, v);
     progress_start(&pace.bar, plan->quiet);
