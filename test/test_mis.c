@@ -44,13 +44,15 @@ static const char ROOM[] =
     "TransformBegin Translate -.8 .5 .5 Shape \"sphere\" \"float radius\" .4 TransformEnd\n"
     "WorldEnd\n";
 
-/* A ball of fog, in it one of milk, among all that. */
+/* A ball of fog, in it one of milk, among all that; and milk in a lampshade. */
 static const char MEDIA[] =
     "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [.1 .2 0] \"rgb sigma_s\" [1 .7 0]\n"
     "MakeNamedMedium \"milk\" \"string type\" \"homogeneous\" \"rgb sigma_s\" [3 4 5] \"float g\" -.4\n"
     "AttributeBegin Material \"\" Translate 0 .9 -.6 MediumInterface \"fog\" \"\"\n"
     "Shape \"sphere\" \"float radius\" .8\n"
-    "MediumInterface \"milk\" \"fog\" Translate -.2 .2 0 Shape \"sphere\" \"float radius\" .3 AttributeEnd\n";
+    "MediumInterface \"milk\" \"fog\" Translate -.2 .2 0 Shape \"sphere\" \"float radius\" .3 AttributeEnd\n"
+    "AttributeBegin Material \"translucent\" MediumInterface \"milk\" \"\" Translate 1 1.9 -.5\n"
+    "Shape \"sphere\" \"float radius\" .3 AttributeEnd\n";
 
 struct variant {
     const char *name, *camera, *lights;
