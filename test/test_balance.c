@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "caustics/lamp.h"
 #include "chains/mlt.h"
 #include "chain_bench.h"
 #include "helpers.h"
@@ -79,7 +80,7 @@ static double contribution(struct chain *c, const struct mlt_path *path, enum ml
     at.pdf = path->x[0].v.pdf_fwd;
     if (which == LENS_PERTURBATION) {
         struct connection c2 = s == 0   ? connect_hit(scene, counts, &eye[n - 2], &eye[n - 1], n)
-                               : s == 1 ? connect_point(scene, counts, &eye[n - 1], &at, at.pdf)
+                               : s == 1 ? lamp_connect(scene, counts, &eye[n - 1], &at, at.pdf)
                                         : connect_pair(scene, counts, &light[s - 1], &eye[n - 1]);
         return rgb_luminance(c2.value);
     }

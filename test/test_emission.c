@@ -8,6 +8,7 @@
 
 #include "base/mem.h"
 #include "base/rng.h"
+#include "caustics/lamp.h"
 #include "lab/stats.h"
 #include "tables/tables.h"
 #include "transport/path.h"
@@ -45,7 +46,7 @@ static bool lights(struct test *t, int skies, struct scene *out)
 static bool sample_point(const struct scene *s, struct rng *r, struct light_point *at)
 {
     const double u[3] = {rng_uniform(r), rng_uniform(r), rng_uniform(r)};
-    return light_sample_point(&s->lights, &s->geo, u, at);
+    return lamp_point(&s->lights, &s->geo, u, at);
 }
 
 /* --- numbers of rays --------------------------------------------------------------------------------- */

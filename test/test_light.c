@@ -8,6 +8,7 @@
 #include "base/os.h"
 #include "base/rng.h"
 #include "base/warp.h"
+#include "caustics/lamp.h"
 #include "image/image.h"
 #include "lab/stats.h"
 #include "helpers.h"
@@ -48,7 +49,7 @@ static vec3 draw(const struct direction_source *s, struct rng *r)
         return ray.d;
     }
     struct light_point at;
-    return light_sample_point(s->set, s->geo, u, &at) ? at.w : vec(0, 0, 1);
+    return lamp_point(s->set, s->geo, u, &at) ? at.w : vec(0, 0, 1);
 }
 
 static double directions_p(const struct direction_source *s, struct rng *r, double *integral)
@@ -107,7 +108,7 @@ static void test_emitted(struct test *t)
     for (int i = 0; i < 20000; i++) {
         double u[3] = {rng_uniform(&r), rng_uniform(&r), rng_uniform(&r)};
         struct light_point at;
-        CHECK(t, light_sample_point(&scene.lights, &scene.geo, u, &at), "no light point");
+        CHECK(t, lamp_point(&scene.lights, &scene.geo, u, &at), "no light point");
         counts[at.light]++;
         if (seen[at.light])
             continue;
@@ -322,7 +323,7 @@ static double light_along(const struct scene *s, const struct light_point *at, v
     return rgb_luminance(Le);
 }
 
-/* Light that comes from all directions of a map, drawn by light_sample_point, against the sum over a fine grid. */
+/* Light that comes from all directions of a map, drawn by lamp_point, against the sum over a fine grid. */
 static void check_sky(struct test *t, const struct scene *s, struct rng *r)
 {
     enum { N = 300 };
@@ -337,7 +338,7 @@ static void check_sky(struct test *t, const struct scene *s, struct rng *r)
     for (int i = 0; i < DRAWS; i++) {
         struct light_point at;
         double u[3] = {rng_uniform(r), rng_uniform(r), rng_uniform(r)};
-        if (!light_sample_point(&s->lights, &s->geo, u, &at))
+        if (!lamp_point(&s->lights, &s->geo, u, &at))
             continue;
         double pdf = light_pdf_environment(&s->lights, at.w), value = light_along(s, NULL, at.w) / at.pdf;
         CHECK(t, fabs(pdf / at.pdf - 1) < 1e-6, "a direction of density %g was drawn with %g", pdf, at.pdf);
@@ -374,7 +375,7 @@ static void test_transformed(struct test *t)
         const double u[3] = {0.5, 0.5, 0.5};
         if (!light_under(t, lights[i % N], path, &id, &plain) || !light_under(t, lights[i % N], path, &m, &moved))
             return;
-        CHECK(t, light_sample_point(&moved.lights, &moved.geo, u, &at), "light %d: no point", i);
+        CHECK(t, lamp_point(&moved.lights, &moved.geo, u, &at), "light %d: no point", i);
         double worst = 0;
         for (int k = 0; k < 1000; k++) {
             vec3 v = warp_sphere(rng_uniform(&r), rng_uniform(&r)), w = normalize(transform_vector(&m, v));

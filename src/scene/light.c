@@ -237,14 +237,6 @@ bool light_sample_cell(const struct light_set *set, const struct geometry *geo, 
     return pdf > 0;
 }
 
-bool light_sample_point(const struct light_set *set, const struct geometry *geo, const double u[3],
-                        struct light_point *out)
-{
-    if (set->choice.n == 0)
-        return false;
-    return light_sample_cell(set, geo, alias_sample(&set->choice, u[0], NULL, NULL), u[1], u[2], out);
-}
-
 /* --- emission ---------------------------------------------------------------------------------------- */
 
 static rgb area_Le(const struct light *l, vec3 n, vec3 w)

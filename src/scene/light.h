@@ -163,12 +163,8 @@ struct light_point {
     double pdf_cell, pdf;
 };
 
-/* light_sample_point: choose a light and a point (or direction) on it. False if the scene has no light, or the area
- * light a hole at that point (its alpha texture is 0): nothing is emitted there, and the sample counts as black. */
-bool light_sample_point(const struct light_set *set, const struct geometry *geo, const double u[3],
-                        struct light_point *out);
-
-/* light_sample_cell: the same from a given cell. False where nothing can be drawn. */
+/* light_sample_cell: draw a light point from a cell. False where none can be drawn, or where an area light has a hole
+ * (its alpha texture is 0): nothing is emitted there, and the sample counts as black. */
 bool light_sample_cell(const struct light_set *set, const struct geometry *geo, int cell, double u1, double u2,
                        struct light_point *out);
 
@@ -195,14 +191,14 @@ rgb light_Le(const struct light_set *set, const struct light_point *y0, vec3 w);
  * scene in unit direction w. */
 rgb light_Le_environment(const struct light_set *set, vec3 w, bool seen);
 
-/* light_pdf_towards: density with which light_sample_point returns infinite light number i and direction w (from the
- * scene towards the light), 1/sr.  cell: out, the one it lies in */
+/* light_pdf_towards: density of the light point of infinite light number i in direction w (from the scene towards the
+ * light), cells being chosen by power, 1/sr.  cell: out, the one it lies in */
 double light_pdf_towards(const struct light_set *set, int i, vec3 w, int *cell);
 
 /* light_pdf_environment: the same by any infinite light: the sum over them. */
 double light_pdf_environment(const struct light_set *set, vec3 w);
 
-/* light_pdf_surface: density with which light_sample_point returns this point of an area light, 1/m^2. */
+/* light_pdf_surface: the same of this point of an area light, 1/m^2. */
 double light_pdf_surface(const struct light_set *set, const struct geometry *geo, const struct surface *at);
 
 #endif

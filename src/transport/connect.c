@@ -25,18 +25,17 @@ static struct scatter scatter_towards(const struct vertex *v, vec3 wi, enum tran
     return s;
 }
 
-/* The weight of a connection of a to something on primitive `to`, in direction w so far away; sides: the sums of mis.h.
- * Media on the way count for the value, and for the densities of either end. */
-static inline void weigh(const struct scene *scene, const struct mis_counts *counts, struct connection *c, double n,
-                         const struct vertex *a, vec3 w, double distance, uint32_t to, double side_a, double side_b)
+/* What media do between vertex a and a point on primitive `to`, in direction w so far away: they take a share of the
+ * value, and the densities of both ends, and with them the sums (5) of mis.h, have the passage's as factors. */
+static inline void pass_media(const struct scene *scene, const struct mis_counts *counts, const struct vertex *a,
+                              vec3 w, double distance, uint32_t to, rgb *value, double *side_a, double *side_b)
 {
-    if (scene->media.n > 0) {
-        struct passage way = vertex_pass(scene, a, w, distance, to);
-        c->value = rgb_mul(c->value, way.left);
-        side_a *= mis_raise(counts, way.density[0]);
-        side_b *= mis_raise(counts, way.density[1]);
-    }
-    c->weight = mis_weight(counts, n, side_b, side_a);
+    if (scene->media.n == 0)
+        return;
+    struct passage way = vertex_pass(scene, a, w, distance, to);
+    *value = rgb_mul(*value, way.left);
+    *side_a *= mis_raise(counts, way.density[0]);
+    *side_b *= mis_raise(counts, way.density[1]);
 }
 
 struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *prev,
@@ -68,14 +67,12 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
         c.weight = 1;
         return c;
     }
-    /* The strategy one shorter on the eye side is s = 1, so c_e is its count, whatever the vertex would have as a
-     * surface. */
-    double before = 0;
+    double c_e = 0; /* of s = 1, the strategy one shorter on the eye side; z->mis_c is that of z as a light end */
     if (!z->prev_delta)
-        before = n_direct(counts, lights, prev->eye_region, prev->eye_end, z->cell, neg(z->wo));
+        c_e = n_direct(counts, lights, prev->eye_region, prev->eye_end, z->cell, neg(z->wo));
     /* density of the light sub-path's direction (or origin, at infinity) from here */
     double pdf_emit = emit_pdf(&counts_tables(counts)->emission, lights, &at, start, z->wo);
-    double eye_side = mis_side(counts, z->pdf_origin, z->pdf_fwd, before, pdf_emit, z->mis); /* mis.h (5) */
+    double eye_side = mis_side(counts, z->pdf_origin, z->pdf_fwd, c_e, pdf_emit, z->mis); /* mis.h (5) */
     c.weight = mis_weight(counts, counts->hit[prev->eye_end], 0, eye_side); /* mis.h (7), A_light being 0 */
     return c;
 }
@@ -156,19 +153,13 @@ struct connection connect_lit(const struct scene *scene, const struct mis_counts
     struct connection c = nothing();
     c.value = l->value;
     c.length = z->length + (parallel ? light_distance(lights, z->p, w) : distance);
-    weigh(scene, counts, &c, count, z, w, parallel ? INFINITY : distance, at->prim_id, eye, light);
+    pass_media(scene, counts, z, w, parallel ? INFINITY : distance, at->prim_id, &c.value, &eye, &light);
+    c.weight = mis_weight(counts, count, light, eye); /* mis.h (7) */
     c.end = parallel ? at->w : at->p;
     c.light = at->light;
     c.cell = at->cell;
     c.pdf = l->pdf;
     return c;
-}
-
-struct connection connect_point(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
-                                const struct light_point *at, double pdf)
-{
-    struct lit l;
-    return vertex_connectible(z) && connect_light(scene, z, at, pdf, &l) ? connect_lit(scene, counts, &l) : nothing();
 }
 
 struct connection connect_direct(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
@@ -206,13 +197,15 @@ struct connection connect_joint(const struct scene *scene, const struct mis_coun
     struct connection c = nothing();
     if (rgb_is_black(j->value) || !scene_visible(scene, z->p, z->prim_id, y->p, y->prim_id))
         return c;
-    /* mis.h (5), of both sides, and (7) */
+    /* mis.h (5), of both sides */
     double light = mis_side(counts, j->pdf_z * j->area_y, y->pdf_fwd, y->mis_c, j->pdf_rev_y, y->mis);
     double eye = mis_side(counts, j->pdf_y * j->area_z, z->pdf_fwd, z->mis_c, j->pdf_rev_z, z->mis);
     c.value = j->value;
     c.length = y->length + j->length + z->length;
     double n = n_connect(counts, y->light_region, z->eye_region, z->eye_end);
-    weigh(scene, counts, &c, n, z, mul(sub(y->p, z->p), 1 / j->length), j->length, y->prim_id, eye, light);
+    vec3 w = mul(sub(y->p, z->p), 1 / j->length);
+    pass_media(scene, counts, z, w, j->length, y->prim_id, &c.value, &eye, &light);
+    c.weight = mis_weight(counts, n, light, eye); /* mis.h (7) */
     return c;
 }
 
@@ -251,14 +244,15 @@ struct connection connect_lens(const struct scene *scene, const struct mis_count
     c.value = rgb_mul(y->beta, rgb_scale(at_y.factor, density));
     if (rgb_is_black(c.value) || !scene_visible(scene, lens, 0, y->p, y->prim_id))
         return nothing();
-    /* The strategy one shorter on the light side has t = 2, which the light walk could not know; of s = 2 nor could it
-     * the one before, s = 0. */
-    double before = n_before(counts, &scene->lights, &light[s - 2], y, FIRST_HIT);
-    double mis = y->mis;
+    /* The light walk took y for a later hit, but next to the lens it is the first: c_e is of another count than
+     * y->mis_c, and so is, if s = 2, the count of s = 0 in y->mis. */
+    double c_e = c_light(counts, &scene->lights, &light[s - 2], y, FIRST_HIT);
+    double mis = y->mis, eye_side = 0;
     if (s == 2 && mis > 0)
         mis *= mis_raise(counts, counts->hit[FIRST_HIT]) / mis_raise(counts, counts->hit[LATER_HIT]);
-    double light_side = mis_side(counts, density * vertex_cosine(y, w), y->pdf_fwd, before, at_y.pdf_rev, mis);
-    weigh(scene, counts, &c, counts->splat, y, neg(w), distance, 0, light_side, 0);
+    double light_side = mis_side(counts, density * vertex_cosine(y, w), y->pdf_fwd, c_e, at_y.pdf_rev, mis);
+    pass_media(scene, counts, y, neg(w), distance, 0, &c.value, &light_side, &eye_side);
+    c.weight = mis_weight(counts, counts->splat, light_side, eye_side); /* mis.h (7) */
     c.end = lens;
     return c;
 }

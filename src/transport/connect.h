@@ -56,10 +56,6 @@ bool connect_light_point(const struct scene *scene, const struct mis_counts *cou
                          struct sampler *sampler, int i, int n, struct lit *out);
 struct connection connect_lit(const struct scene *scene, const struct mis_counts *counts, const struct lit *l);
 
-/* connect_point: connect_direct for a point that is known, found with that density. */
-struct connection connect_point(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
-                                const struct light_point *at, double pdf);
-
 /* connect_pair: y is a light vertex (s >= 2), z an eye vertex (t >= 2). */
 struct connection connect_pair(const struct scene *scene, const struct mis_counts *counts, const struct vertex *y,
                                const struct vertex *z);

@@ -1,8 +1,8 @@
 /* counts.c: see counts.h. */
 #include "transport/counts.h"
 
-double n_before(const struct mis_counts *c, const struct light_set *lights, const struct vertex *prev,
-                const struct vertex *y, enum eye_end end)
+double c_light(const struct mis_counts *c, const struct light_set *lights, const struct vertex *prev,
+               const struct vertex *y, enum eye_end end)
 {
     if (y->prev_delta)
         return 0;
@@ -10,7 +10,7 @@ double n_before(const struct mis_counts *c, const struct light_set *lights, cons
                                       : n_connect(c, prev->light_region, y->eye_region, end);
 }
 
-double n_behind(const struct mis_counts *c, const struct vertex *prev, const struct vertex *z)
+double c_eye(const struct mis_counts *c, const struct vertex *prev, const struct vertex *z)
 {
     if (z->prev_delta)
         return 0;

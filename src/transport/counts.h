@@ -29,11 +29,11 @@ static inline double n_direct(const struct mis_counts *c, const struct light_set
     return n > 0 ? n * guide_density(&counts_tables(c)->guide, lights, e, cell, w) : 0;
 }
 
-/* n_before: c_e of mis.h (3), of a light sub-path's vertex y with prev before it: n of the strategy that joins prev to
- * y, y being an eye end of the given kind; 0 after a delta lobe. n_behind: c_e of an eye sub-path's vertex z: n of the
- * strategy that joins z, as its light end, to prev. */
-double n_before(const struct mis_counts *c, const struct light_set *lights, const struct vertex *prev,
-                const struct vertex *y, enum eye_end end);
-double n_behind(const struct mis_counts *c, const struct vertex *prev, const struct vertex *z);
+/* c_light: c_e of mis.h (3) for y, a light sub-path's vertex after prev: n of the strategy that joins prev to y, an eye
+ * end of the given kind; 0 after a delta lobe.
+ * c_eye: the same for z, an eye sub-path's: n of the strategy that joins z, then the light end, to prev. */
+double c_light(const struct mis_counts *c, const struct light_set *lights, const struct vertex *prev,
+               const struct vertex *y, enum eye_end end);
+double c_eye(const struct mis_counts *c, const struct vertex *prev, const struct vertex *z);
 
 #endif

@@ -57,21 +57,21 @@ enum eye_end { FIRST_HIT, LATER_HIT, EYE_ENDS };
  * so a strategy whose samples are better spread than independent ones, and whose variance is therefore smaller,
  * deserves such a credit [Grittmann 2019].
  *
- * A light side has no FIRST_HIT but at its last vertex, when the lens is next (connect_lens): a delta lobe between the
- * two leaves no other strategy that makes the path. */
+ * A light walk cannot know which eye vertex it is at, and takes all for later ones. It errs at its last alone, when the
+ * lens is next (connect_lens): between any other first hit and the lens it meets delta lobes, which end no strategy. */
 struct mis_counts {
-    double hit[EYE_ENDS];      /* s = 0, t >= 3: the eye walk finds a light. (t = 2, a light seen directly: weight 1) */
+    double hit[EYE_ENDS];      /* s = 0, t >= 3, by z_{t-2}: the eye walk finds a light. (t = 2: weight 1) */
     double direct[EYE_ENDS];   /* s = 1: connection to fresh points on a light that s = 0 can find */
     double delta[EYE_ENDS];    /* s = 1: connection to a light that it cannot, without extent or of one direction */
     double connect[EYE_ENDS];  /* s >= 2, t >= 2: connection to light vertices */
-    double splat;              /* s >= 2, t = 1: light sub-paths connected to the lens: how many per iteration */
+    double splat;              /* s >= 2, t = 1: light sub-paths joined to the lens, of the whole film's pixels */
     const struct tables *tables;     /* what is known about places: factors of connect and direct, and of the density
                                       * of the light walk's first ray (counts.h); NULL: nothing */
     bool power;                /* power heuristic instead of the balance heuristic */
 };
 
 /* mis_raise: the heuristic's power of a density or count. */
-static inline double mis_raise(const struct mis_counts *c, double x) { return c->power ? x * x : x; }
+static inline double mis_raise(const struct mis_counts *m, double x) { return m->power ? x * x : x; }
 
 /* mis_step: (6), from vertex e to e+1.
  *   c        c_e, or 0 after a delta lobe

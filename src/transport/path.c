@@ -99,8 +99,8 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
     material_bsdf(w->scene->material, at->material, &w->scene->textures, at, w->arena, &v->bsdf);
     v->eye_region = region_at(&tables->eye, v->p, vertex_side(v));
     v->light_region = region_at(&tables->light, v->p, vertex_side(v));
-    v->mis_c = mode == RADIANCE ? n_behind(w->counts, prev, v)
-                                : n_before(w->counts, &w->scene->lights, prev, v, LATER_HIT);
+    v->mis_c = mode == RADIANCE ? c_eye(w->counts, prev, v)
+                                : c_light(w->counts, &w->scene->lights, prev, v, LATER_HIT);
     return true;
 }
 

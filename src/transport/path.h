@@ -2,7 +2,6 @@
  *
  * An eye sub-path z_0 z_1 ... starts on the lens, a light sub-path y_0 y_1 ... on a light. Each vertex carries what a
  * connection ending there needs: its throughput, its scattering function and its part of the MIS weight (mis.h).
- * Vertices are read-only once walked, so any number of connections may share them.
  *
  * The throughput beta of a vertex is the product of the factors of the measurement up to the *arrival* at the vertex,
  * divided by the density of having sampled it, alpha of [V97 eq. 10.6] [V97 eq. 10.7]; the vertex' own BSDF is not in

@@ -37,9 +37,10 @@ struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struc
                                        long iteration)
 {
     const struct render_job *job = pass->job;
-    struct sampler points = stream(job, job->seed, RNG_CONNECT, x, y, (uint64_t)iteration);
-    struct pixel_sample sample = {job->scene, counts, pass->tile, pass->observer, job->max_depth, x, y, iteration, 1, 1,
-                                  points, rgb_black(), rgb_black(), &pass->work->arena};
+    struct pixel_sample sample = {.scene = job->scene, .counts = counts, .tile = pass->tile, .observer = pass->observer,
+                                  .max_depth = job->max_depth, .x = x, .y = y, .iteration = iteration,
+                                  .filter_weight = 1, .lights = 1, .arena = &pass->work->arena};
+    sample.sampler = stream(job, job->seed, RNG_CONNECT, x, y, (uint64_t)iteration);
     return sample;
 }
 
@@ -127,12 +128,6 @@ void pixel_sum_pair(struct pixel_sample *sample, const struct vertex *y, int s, 
 {
     struct connection c = connect_pair(sample->scene, sample->counts, y, z);
     pixel_add(sample, &c, s, t, y, z, choice);
-}
-
-void pixel_sum_joint(struct pixel_sample *sample, const struct joint *j, int s, int t, struct choice choice)
-{
-    struct connection c = connect_joint(sample->scene, sample->counts, j);
-    pixel_add(sample, &c, s, t, j->y, j->z, choice);
 }
 
 void pixel_sum_pairs(struct pixel_sample *sample, const struct vertex *eye, int n_eye, const struct vertex *light,

@@ -22,7 +22,7 @@ struct pixel_sample {
     int x, y;               /* the pixel */
     long iteration;
     double filter_weight;   /* of its eye sample, see path_eye_pixel */
-    int lights;             /* samples of s = 1 for t = 2, 0: left to the method; 1 for t > 2 */
+    int lights;             /* samples of s = 1 at a first hit, else 1; 0: the method's own for t = 2, else 1 */
     struct sampler sampler; /* for light and lens points */
     rgb until, before;      /* sums of what paths with t >= 2 have brought so far: of those shorter than the end of the
                              * film's gate, and of those shorter than its beginning (scene/tile.h). Without a gate
@@ -64,11 +64,9 @@ struct choice {
 };
 static const struct choice NO_CHOICE = {1, 1};
 
-/* pixel_sum_pair: one strategy s >= 2, t >= 2, joining the light vertex y = y_{s-1} to the eye vertex z = z_{t-1}.
- * pixel_sum_joint: the same where its value has been found before. */
+/* pixel_sum_pair: one strategy s >= 2, t >= 2, joining the light vertex y = y_{s-1} to the eye vertex z = z_{t-1}. */
 void pixel_sum_pair(struct pixel_sample *sample, const struct vertex *y, int s, const struct vertex *z, int t,
                     struct choice choice);
-void pixel_sum_joint(struct pixel_sample *sample, const struct joint *j, int s, int t, struct choice choice);
 
 /* pixel_sum_pairs: s >= 2, t >= 2 for every pair of vertices of the two sub-paths. */
 void pixel_sum_pairs(struct pixel_sample *sample, const struct vertex *eye, int n_eye, const struct vertex *light,

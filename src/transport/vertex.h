@@ -1,6 +1,5 @@
-/* vertex.h: a vertex of a sub-path: what a connection that ends there needs to know.
- *
- * Vertices are read-only once walked (path.h), so any number of connections may share them.
+/* vertex.h: a vertex of a sub-path: what a connection that ends there needs to know. Read-only once walked (path.h), so
+ * any number of connections may share it.
  */
 #ifndef ASBDPT_VERTEX_H
 #define ASBDPT_VERTEX_H
@@ -33,17 +32,17 @@ enum vertex_kind {
  *   beta         1            radiance or intensity emitted;    throughput on arrival        throughput on arrival
  *                             as a connection's end 1/density
  *   pdf_fwd      1, unused    1/m^2; at infinity 1/sr           1/m^2                        1/sr
- *   pdf_origin   -            -                                 eye walk, on a light: of     1/sr, likewise
- *                                                               light_sample_point, 1/m^2
- *   pdf_rev      -            -                                 1/sr: of the other walk's    -
- *                                                               going back, if this went on
+ *   pdf_origin   -            -                                 eye walk, on a light: that   1/sr, likewise
+ *                                                               of y_0 there, 1/m^2
+ *   pdf_rev      -            -                                 1/sr, the other walk's, of   -
+ *                                                               going on from here to the
+ *                                                               vertex before; 0 at the end
  *   regions      -            -                                 by tables.h                  -
  *   bsdf         -            -                                 its scattering               -
  *   lamp         -            -                                 eye walk: see below              likewise
  *
  * The length of a sub-path is that of its edges together, as far as this vertex; light from infinity begins where
- * light_distance (light.h) says. By the length of a whole path, from light to lens, gates choose (film.h). It is of
- * space alone: glass does not make it longer.
+ * light_distance (light.h) says. Glass does not make it longer. Gates (tile.h) take paths by their whole length.
  *
  * A vertex within a medium (scene/medium.h) is as one on a surface, with ng 0, prim_id WITHIN_MEDIUM and pdf_fwd per
  * volume, 1/m^3.
@@ -83,7 +82,7 @@ static inline double path_throughput(const struct vertex *light, int n)
  * vertices y_1 .. */
 double path_importance(const struct importance *importance, const struct vertex *light, int n);
 
-/* vertex_light_end: fill in a y_0 for a point drawn by light_sample_point; its beta is 1/density. */
+/* vertex_light_end: fill in a y_0 for a point drawn on a light (light.h); its beta is 1/density. */
 void vertex_light_end(const struct scene *scene, const struct mis_counts *counts, const struct light_point *at,
                       struct vertex *out);
 

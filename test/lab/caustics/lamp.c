@@ -1,12 +1,27 @@
 /* lamp.c: see lamp.h. */
 #include "caustics/lamp.h"
 
+bool lamp_point(const struct light_set *lights, const struct geometry *geo, const double u[3], struct light_point *out)
+{
+    const struct alias_table *choice = &lights->choice;
+    return choice->n > 0 && light_sample_cell(lights, geo, alias_sample(choice, u[0], NULL, NULL), u[1], u[2], out);
+}
+
 bool lamp_draw(const struct scene *scene, struct sampler *sampler, struct light_point *out)
 {
     double u[3];
     u[0] = sampler_number(sampler, DRAW_LIGHT);
     sampler_pair(sampler, DRAW_LIGHT_POINT, &u[1]);
-    return light_sample_point(&scene->lights, &scene->geo, u, out);
+    return lamp_point(&scene->lights, &scene->geo, u, out);
+}
+
+struct connection lamp_connect(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
+                               const struct light_point *at, double pdf)
+{
+    struct lit l = {.value = rgb_black()};
+    if (vertex_connectible(z))
+        connect_light(scene, z, at, pdf, &l);
+    return connect_lit(scene, counts, &l);
 }
 
 struct lamp_way lamp_way(const struct scene *scene, vec3 p, const struct light_point *at)

@@ -7,10 +7,16 @@
 #define CAUSTICS_LAMP_H
 
 #include "base/sampler.h"
-#include "transport/vertex.h"
+#include "transport/connect.h"
 
-/* lamp_draw: light_sample_point with numbers of the sampler. */
+/* lamp_point: a light point, its cell chosen by power, by three uniform numbers. False if there is no light, or nothing
+ * is emitted there. lamp_draw: the same with numbers of the sampler. */
+bool lamp_point(const struct light_set *lights, const struct geometry *geo, const double u[3], struct light_point *out);
 bool lamp_draw(const struct scene *scene, struct sampler *sampler, struct light_point *out);
+
+/* lamp_connect: connect_direct for a point that is known, found with that density. */
+struct connection lamp_connect(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
+                               const struct light_point *at, double pdf);
 
 /* The way from a point of the scene to one on a light. */
 struct lamp_way {

@@ -46,7 +46,7 @@ int follow_light(const struct walk *w, const struct path_stop *stop, int n, stru
         v->length = prev->length + (parallel ? light_distance(&w->scene->lights, v->p, prev->wo) : sqrt(d2));
         walk_measure(w, v, prev, &from, d2);
         v->eye_end = LATER_HIT;
-        v->mis_c = n_before(w->counts, &w->scene->lights, prev, v, LATER_HIT);
+        v->mis_c = c_light(w->counts, &w->scene->lights, prev, v, LATER_HIT);
     }
     return n;
 }

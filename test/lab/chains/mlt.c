@@ -27,6 +27,7 @@
 #include "base/vec.h"
 #include "base/maths.h"
 #include "base/number.h"
+#include "caustics/lamp.h"
 
 /* --- a state's path ---------------------------------------------------------------------------------- */
 
@@ -62,7 +63,7 @@ static void light_end(const struct chain *c, const struct vertex *z, const doubl
     const struct light_set *lights = &scene->lights;
     struct light_point at = {.light = 0};
     if (z == NULL) {
-        light_sample_point(lights, &scene->geo, u, &at);
+        lamp_point(lights, &scene->geo, u, &at);
     } else if (z->lamp == NULL && z->kind == VERTEX_ESCAPED) {
         at.light = lights->infinite[0];
         at.w = neg(z->wo);
@@ -167,7 +168,7 @@ static bool remake_lens(struct primary *p, const struct mlt_path *path, const st
         return false;
     struct light_point at = vertex_light_point(&path->x[0].v);
     at.pdf = path->x[0].v.pdf_fwd;
-    *out = s == 1 ? connect_point(scene, counts, z, &at, at.pdf) : connect_pair(scene, counts, &light[s - 1], z);
+    *out = s == 1 ? lamp_connect(scene, counts, z, &at, at.pdf) : connect_pair(scene, counts, &light[s - 1], z);
     return true;
 }
 

@@ -196,7 +196,7 @@ static int connect(const struct one_more *self, struct pixel_sample *sample, con
     if (!ellipse_draw(y.p, z->p, corner, tau, most - least, v[1], &x, &pdf) ||
         !arrive(sample, z, triangle, x, corner, P * pdf, &at))
         return 0;
-    out[0].c = connect_point(scene, sample->counts, &at, &y, y.pdf);
+    out[0].c = lamp_connect(scene, sample->counts, &at, &y, y.pdf);
     out[0].c.weight = 1;
     out[0].passed = 1;
     return 1;
