@@ -32,6 +32,7 @@ void test_image(struct test *t);
 void test_kdtree(struct test *t);
 void test_learning(struct test *t);
 void test_light(struct test *t);
+void test_light_sent(struct test *t); /* part of test_light */
 void test_lights(struct test *t);
 void test_lobe(struct test *t);
 void test_material(struct test *t);

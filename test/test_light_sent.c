@@ -1,0 +1,258 @@
+/* test_light_sent.c: what lights send: under transforms, by the cone of a spot, and every density of a draw as a fact,
+ * by the area that a small square of random numbers becomes. */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/alias.h"
+#include "base/rng.h"
+#include "base/warp.h"
+#include "caustics/lamp.h"
+#include "image/image.h"
+#include "lab/stats.h"
+#include "helpers.h"
+#include "tests.h"
+
+/* Is the mean of DRAWS values what it should be? */
+enum { DRAWS = 20000 };
+
+static void check_mean(struct test *t, const char *name, double sum, double square, double expected)
+{
+    double mean = sum / DRAWS, error = sqrt((square / DRAWS - mean * mean) / DRAWS);
+    TEST_ACCEPT(t, stats_student_p((mean - expected) / error, DRAWS - 1), "%s: %g, not %g", name, mean, expected);
+    TEST_REJECT(t, stats_student_p((mean - 1.1 * expected) / error, DRAWS - 1), "%s with 10 %% more", name);
+}
+
+/* What a light emits by light_sample_emission, against the sum of its intensity over a fine grid of directions. */
+static void check_energy(struct test *t, const struct light_set *lights, const struct light_point *at,
+                         const char *name)
+{
+    enum { N = 600 };
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 7, (uint64_t)name[0]);
+    double total = 0, sum = 0, square = 0;
+    for (int i = 0; i < N; i++)
+        for (int k = 0; k < 2 * N; k++)
+            total += rgb_luminance(light_Le(lights, at, warp_sphere((i + 0.5) / N, (k + 0.5) / (2 * N))));
+    total *= 4 * PI / (2.0 * N * N);
+    for (int i = 0; i < DRAWS; i++) {
+        double u[2] = {rng_uniform(&r), rng_uniform(&r)}, pdf;
+        struct ray ray;
+        double value = rgb_luminance(light_sample_emission(lights, at, u, &ray, &pdf)) / pdf;
+        CHECK(t, pdf > 0 && fabs(length(ray.d) - 1) < 1e-12, "%s: pdf %g", name, pdf);
+        sum += value;
+        square += value * value;
+    }
+    check_mean(t, name, sum, square, total);
+}
+
+/* One light around the origin, first in a space of its own, then with that space transformed. */
+static bool light_under(struct test *t, const char *light, const char *path, const struct transform *m,
+                        struct scene *out)
+{
+    char text[2048];
+    int n = snprintf(text, sizeof text, "WorldBegin ConcatTransform [");
+    for (int i = 0; i < 16; i++)
+        n += snprintf(text + n, sizeof text - (size_t)n, " %.17g", i >= 12 ? i == 15 : m->m[i % 4][i / 4]);
+    n += snprintf(text + n, sizeof text - (size_t)n, "]\n");
+    n += snprintf(text + n, sizeof text - (size_t)n, light, path);
+    snprintf(text + n, sizeof text - (size_t)n, "\nWorldEnd");
+    return scene_from_text(t, text, out);
+}
+
+/* What the light sends in direction w, or what comes from there. */
+static double light_along(const struct scene *s, const struct light_point *at, vec3 w)
+{
+    rgb Le = s->lights.n_infinite > 0 ? light_Le_environment(&s->lights, w, true) : light_Le(&s->lights, at, w);
+    return rgb_luminance(Le);
+}
+
+/* Light that comes from all directions of a map, drawn by lamp_point, against the sum over a fine grid. */
+static void check_sky(struct test *t, const struct scene *s, struct rng *r)
+{
+    enum { N = 300 };
+    double total = 0, sum = 0, square = 0, integral = 0;
+    for (int i = 0; i < N; i++)
+        for (int k = 0; k < 2 * N; k++) {
+            vec3 w = warp_sphere((i + 0.5) / N, (k + 0.5) / (2 * N));
+            total += light_along(s, NULL, w) * 4 * PI / (2.0 * N * N);
+            integral += light_pdf_environment(&s->lights, w) * 4 * PI / (2.0 * N * N);
+        }
+    CHECK(t, fabs(integral - 1) < 0.01, "the density of a transformed map integrates to %g", integral);
+    for (int i = 0; i < DRAWS; i++) {
+        struct light_point at;
+        double u[3] = {rng_uniform(r), rng_uniform(r), rng_uniform(r)};
+        if (!lamp_point(&s->lights, &s->geo, u, &at))
+            continue;
+        double pdf = light_pdf_environment(&s->lights, at.w), value = light_along(s, NULL, at.w) / at.pdf;
+        CHECK(t, fabs(pdf / at.pdf - 1) < 1e-6, "a direction of density %g was drawn with %g", pdf, at.pdf);
+        sum += value;
+        square += value * value;
+    }
+    check_mean(t, "a transformed map", sum, square, total);
+}
+
+/* Lights of which light space matters, under random transforms: a direction of it gets what it got without them, and
+ * all of it is drawn with the density stated. */
+static void test_transformed(struct test *t)
+{
+    enum { W = 16, H = 8, N = 4 };
+    static const char *const lights[N] = {
+        "LightSource \"spot\" \"float coneangle\" 40 \"float conedeltaangle\" 25 \"point to\" [1 2 -1] # %s\n",
+        "LightSource \"projection\" \"float fov\" 70 \"string mapname\" \"%s\"",
+        "LightSource \"goniometric\" \"string mapname\" \"%s\"",
+        "LightSource \"infinite\" \"string mapname\" \"%s\""};
+    static float pixels[W * H * 3];
+    char path[256];
+    struct error err = {.text = ""};
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 8, 0);
+    struct transform id = transform_identity();
+    for (int i = 0; i < W * H * 3; i++)
+        pixels[i] = (float)(1 + (i / 3) % 5);
+    snprintf(path, sizeof path, "%s/slide.pfm", test_tmp(t));
+    if (!CHECK(t, image_write(path, W, H, pixels, &err), "%s", err.text))
+        return;
+    for (int i = 0; i < 2 * N; i++) {
+        struct scene plain, moved;
+        struct transform m = random_affine(&r);
+        struct light_point at;
+        const double u[3] = {0.5, 0.5, 0.5};
+        if (!light_under(t, lights[i % N], path, &id, &plain) || !light_under(t, lights[i % N], path, &m, &moved))
+            return;
+        CHECK(t, lamp_point(&moved.lights, &moved.geo, u, &at), "light %d: no point", i);
+        double worst = 0;
+        for (int k = 0; k < 1000; k++) {
+            vec3 v = warp_sphere(rng_uniform(&r), rng_uniform(&r)), w = normalize(transform_vector(&m, v));
+            worst = fmax(worst, fabs(light_along(&plain, &at, v) - light_along(&moved, &at, w)));
+        }
+        CHECK(t, worst < 1e-9, "light %d: its space is off by %g", i, worst);
+        if (moved.lights.n_infinite > 0)
+            check_sky(t, &moved, &r);
+        else
+            check_energy(t, &moved.lights, &at, "a transformed light");
+        scene_free(&plain);
+        scene_free(&moved);
+    }
+}
+
+/* A spot is full inside the inner cone, nothing outside the outer one, and the fourth power of a ramp of the cosine
+ * between, as in pbrt-v3; so too if the inner angle is negative. */
+static void test_spot(struct test *t)
+{
+    static const double cases[][2] = {{40, 20}, {3, 5}, {1, 5}}; /* degrees: cone and edge */
+    for (int i = 0; i < 3; i++) {
+        char text[256];
+        struct scene s;
+        double cone = cases[i][0], inner = cos((cone - cases[i][1]) * PI / 180), outer = cos(cone * PI / 180);
+        snprintf(text, sizeof text, "WorldBegin LightSource \"spot\" \"float coneangle\" %g "
+                 "\"float conedeltaangle\" %g WorldEnd", cone, cases[i][1]);
+        if (!scene_from_text(t, text, &s))
+            return;
+        for (int k = 0; k < 40; k++) {
+            struct light_point at = {0};
+            double angle = cone * PI / 180 * (k + 0.5) / 30, c = cos(angle);
+            double ramp = c < outer ? 0 : c >= inner ? 1 : (c - outer) / (inner - outer);
+            double got = light_along(&s, &at, vec(sin(angle), 0, c));
+            CHECK(t, fabs(got - pow(ramp, 4)) < 1e-6, "spot %d: step %d has %g, not %g", i, k, got, pow(ramp, 4));
+        }
+        scene_free(&s);
+    }
+}
+
+/* --- densities, as facts ------------------------------------------------------------------------------- */
+
+/* What a light makes of two random numbers: its point or direction of this cell, or, if y0 is given, what it sends from
+ * there: a direction, or a place on the disk by which parallel rays enter. */
+static vec3 made_of(const struct scene *s, int cell, const struct light_point *y0, double u1, double u2, double *pdf)
+{
+    const struct light_set *lights = &s->lights;
+    struct light_point at;
+    if (y0 == NULL) {
+        light_sample_cell(lights, &s->geo, cell, u1, u2, &at);
+        *pdf = at.pdf_cell;
+        return lights->light[at.light].kind == LIGHT_INFINITE ? at.w : at.p;
+    }
+    const double u[2] = {u1, u2};
+    enum light_kind kind = lights->light[y0->light].kind;
+    struct ray ray;
+    light_sample_emission(lights, y0, u, &ray, pdf);
+    return kind == LIGHT_INFINITE || kind == LIGHT_DISTANT ? ray.o : ray.d;
+}
+
+/* Around almost any point (maps have edges) the area that a small square is drawn as, times the density, is its own. */
+static void check_area(struct test *t, const struct scene *s, struct rng *r, int cell, const struct light_point *y0)
+{
+    enum { TRIED = 40 };
+    const double h = 1e-6;
+    double worst = 0, none;
+    int right = 0;
+    for (int i = 0; i < TRIED; i++) {
+        double u = 0.01 + 0.98 * rng_uniform(r), v = 0.01 + 0.98 * rng_uniform(r), pdf;
+        vec3 a = sub(made_of(s, cell, y0, u + h, v, &none), made_of(s, cell, y0, u - h, v, &none));
+        vec3 b = sub(made_of(s, cell, y0, u, v + h, &none), made_of(s, cell, y0, u, v - h, &none));
+        made_of(s, cell, y0, u, v, &pdf);
+        double error = fabs(pdf * length(cross(a, b)) / (4 * h * h) - 1);
+        worst = fmax(worst, error);
+        right += error < 1e-4;
+    }
+    CHECK(t, right >= 0.9 * TRIED, "light %d, %s: %d of %d densities are wrong, by %g at most",
+          s->lights.light_of_cell[cell], y0 != NULL ? "what it sends" : "its points", TRIED - right, TRIED, worst);
+}
+
+static void test_densities(struct test *t)
+{
+    enum { W = 16, H = 8 };
+    static const char WORLD[] =
+        "WorldBegin Rotate 50 1 2 3 AreaLightSource \"diffuse\" \"rgb L\" [1 2 3] Shape \"trianglemesh\"\n"
+        "\"integer indices\" [0 1 2] \"point P\" [0 0 1  2 0 1  0 3 1] Shape \"sphere\" AreaLightSource \"diffuse\"\n"
+        "\"bool twosided\" \"true\" Shape \"disk\" LightSource \"point\" LightSource \"spot\" LightSource \"distant\"\n"
+        "LightSource \"infinite\" Scale 1 2 3 Rotate 40 3 1 2 LightSource \"spot\"\n"
+        "LightSource \"infinite\" \"string mapname\" \"%s\" LightSource \"goniometric\" \"string mapname\" \"%s\"\n"
+        "LightSource \"projection\" \"string mapname\" \"%s\" WorldEnd\n";
+    static float pixels[W * H * 3];
+    char path[256], text[2048];
+    struct error err = {.text = ""};
+    struct scene s;
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 9, 0);
+    for (int i = 0; i < W * H * 3; i++)
+        pixels[i] = (float)(1 + (i / 3) % 5);
+    snprintf(path, sizeof path, "%s/densities.pfm", test_tmp(t));
+    snprintf(text, sizeof text, WORLD, path, path, path);
+    if (!CHECK(t, image_write(path, W, H, pixels, &err), "%s", err.text) || !scene_from_text(t, text, &s))
+        return;
+    CHECK(t, s.lights.n == 11, "%d lights", s.lights.n);
+    for (int i = 0; i < s.lights.n; i++) {
+        const struct light *l = &s.lights.light[i];
+        int cell = l->first_cell + (int)rng_below(&r, (uint32_t)l->n_cells), found = -1;
+        struct light_point at;
+        if (!CHECK(t, light_sample_cell(&s.lights, &s.geo, cell, 0.3, 0.6, &at), "light %d: no point", i))
+            continue;
+        double pmf = alias_pmf(&s.lights.choice, cell);
+        CHECK(t, fabs(at.pdf / (at.pdf_cell * pmf) - 1) < 1e-12, "light %d: its choice does not count", i);
+        if (l->kind == LIGHT_INFINITE) {
+            double pdf = light_pdf_towards(&s.lights, i, at.w, &found);
+            CHECK(t, fabs(pdf / at.pdf - 1) < 1e-9 && found == cell, "light %d: density %g, not %g", i, pdf, at.pdf);
+        }
+        if (l->kind == LIGHT_AREA) {
+            struct surface on;
+            double pdf;
+            CHECK(t, shape_sample(&s.geo, l->prim, 0.3, 0.6, &on, &pdf), "light %d: no point", i);
+            on.light = i;
+            pdf = light_pdf_surface(&s.lights, &s.geo, &on);
+            CHECK(t, fabs(pdf / at.pdf - 1) < 1e-9, "light %d: density %g, not %g", i, pdf, at.pdf);
+        }
+        if (l->kind == LIGHT_AREA || (l->kind == LIGHT_INFINITE && l->frame->env == NULL)) {
+            double sent = light_Le(&s.lights, &at, l->kind == LIGHT_AREA ? at.n : neg(at.w)).r;
+            CHECK(t, sent == 1, "light %d sends %g, not 1", i, sent);
+        }
+        if (l->kind == LIGHT_INFINITE || l->kind == LIGHT_AREA)
+            check_area(t, &s, &r, cell, NULL);
+        check_area(t, &s, &r, cell, &at);
+    }
+    scene_free(&s);
+}
+
+void test_light_sent(struct test *t)
+{
+    test_densities(t);
+    test_transformed(t);
+    test_spot(t);
+}
