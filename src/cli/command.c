@@ -81,9 +81,7 @@ static void print_integrators(void)
             printf("  -P select=%s\n", (*m)->select);
         printf("    ");
         print_wrapped((*m)->help, 4, 4);
-        struct field all[METHOD_FIELDS];
-        method_fields(*m, all);
-        print_parameters(all);
+        print_parameters(method_parameters(*m));
     }
 }
 

@@ -201,10 +201,8 @@ static void put_parameters(struct json *j, const struct scene *scene, const stru
     }
     if (m != NULL && m->select != NULL)
         json_text(j, "select", m->select);
-    struct field all[METHOD_FIELDS] = {{.name = NULL}};
     if (m != NULL)
-        method_fields(m, all);
-    put_table(j, scene, all);
+        put_table(j, scene, method_parameters(m));
     json_close(j);
 }
 

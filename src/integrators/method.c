@@ -1,53 +1,24 @@
 /* method.c: what is done with a row; see method.h. */
 #include "integrators/method.h"
 
-#include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const SWITCH[] = {"off", "on", NULL};
-
-#define AT(member) offsetof(struct frozen, services.member)
-/* In the order of method_fields. */
-static const struct field SERVICES[] = {
-    {"guide", FIELD_WORD, AT(guide), 0, 0, 0, "choose lights by what a region sees, where there are several", SWITCH},
-    {"emission", FIELD_NUMBER, AT(emission), 1, 1e-6, 1,
-     "share of light sub-paths that leave lights as if nothing were learnt", NULL},
-    {"credit", FIELD_WORD, AT(credit), 0, 0, 0, "measure what light that comes straight counts for", SWITCH},
-    {"pilot", FIELD_WORD, AT(pilot), 0, 0, 0, "choose numbers of samples by what some tiles show", SWITCH},
-    {"tile", FIELD_INTEGER, AT(tile), 0, 1, MAX_TILE_SIZE, "pixels along a side of those that share a pool", NULL},
-    {"spread", FIELD_INTEGER, AT(spread), 0, 1, 64, "tiles that are interleaved along each axis", NULL},
-    {.name = NULL}};
+const struct field *method_parameters(const struct method *m)
+{
+    static const struct field NONE = {.name = NULL};
+    return m->parameters != NULL ? m->parameters : &NONE;
+}
 
 const struct field *method_has(const struct method *m, const char *name)
 {
     static const struct field select = {"select", FIELD_WORD, 0, 0, 0, 0, "", NULL};
-    if (m->select != NULL && strcmp(name, select.name) == 0)
-        return &select;
-    const struct field *own = m->parameters != NULL ? field_find(m->parameters, name) : NULL;
-    return own != NULL || m->services.tile == 0 ? own : field_find(SERVICES, name);
-}
-
-void method_fields(const struct method *m, struct field out[METHOD_FIELDS])
-{
-    const struct field *own = m->parameters;
-    const struct services *d = &m->services;
-    const double fallback[] = {d->guide, d->emission, d->credit, d->pilot, d->tile, d->spread};
-    while (own != NULL && own->name != NULL)
-        *out++ = *own++;
-    for (int i = 0; m->services.tile > 0 && SERVICES[i].name != NULL; i++) {
-        *out = SERVICES[i];
-        (*out++).fallback = fallback[i];
-    }
-    out->name = NULL;
+    return m->select != NULL && strcmp(name, select.name) == 0 ? &select : field_find(method_parameters(m), name);
 }
 
 static bool read(const struct method *m, const struct settings *s, void *state, struct error *err)
 {
-    struct field all[METHOD_FIELDS];
-    method_fields(m, all);
-    return settings_fields(s, all, state, err) && (m->check == NULL || m->check(state, err));
+    return settings_fields(s, method_parameters(m), state, err) && (m->check == NULL || m->check(state, err));
 }
 
 bool method_check(const struct method *m, const struct settings *s, struct error *err)

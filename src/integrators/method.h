@@ -19,24 +19,23 @@
 
 struct method;
 
-/* What makes any choice among a tile's light sub-paths better, whichever it is (services.h). Each is a parameter of
- * every pooled method, so that it can be said what the choice alone brings. */
+/* What makes any choice among a tile's light sub-paths better, whichever it is: parameters (services.h). */
 struct services {
     int guide, credit, pilot; /* off or on */
     double emission;          /* share of rays from lights that go by power alone; 1: all */
     int tile, spread;         /* of struct pass_size */
 };
 
-/* What every method has settled before the first sample: its own state begins with it. All 0 but the counts, which are
- * BDPT's, when it is to be prepared. */
+/* What is settled before the first sample and stays as it is, for weights go by it. The state of every method begins
+ * with it. Before `prepare` the counts are BDPT's; other numbers are 0 unless said. */
 struct frozen {
     struct mis_counts counts;
     int max_depth;
-    int lights;             /* samples of s = 1 at the first hit, 0: left to the method; 1 */
-    int path_pixels;        /* pooled methods: pixels for each light sub-path, 0: there are none; 1 */
-    double draws[EYE_ENDS]; /* methods that draw light vertices: for each eye vertex, on average; else 0 */
+    int lights;             /* samples of s = 1 at the first hit, 1 at first; 0: the method sees to them */
+    int path_pixels;        /* pooled methods: pixels for each light sub-path, 1 at first; 0: there are none */
+    double draws[EYE_ENDS]; /* methods that draw light vertices: how many for each eye vertex, on average */
     struct {
-        int connections, path_pixels; /* by the user, instead of `draws` and `path_pixels`; 0: to be chosen */
+        int connections, path_pixels; /* what the user wants `draws` and `path_pixels` to be; 0: chosen */
     } given;
     struct services services;
     struct tables tables; /* owned */
@@ -57,19 +56,20 @@ struct method {
     const char *name;   /* --integrator NAME */
     const char *select; /* asbdpt alone, whose rows share a name: the value of its parameter `select` */
     const char *help;   /* one line */
-    bool chain;         /* its samples are mutations of others, of no pixel and not independent: see chains/chain.h */
-    bool surfaces;      /* it knows of them alone, not of media (scene/medium.h) */
-    bool merges;        /* what it adds to a pixel is of many paths at once, of any length */
     const char *why;    /* for trace: how what an eye sub-path is joined to is chosen; NULL: it is not */
-    const struct field *parameters; /* of the state; NULL: none */
-    struct services services;       /* of pooled methods: their defaults; else all 0 */
-    size_t state_size, scratch_size;    /* scratch_size 0: none; else all zeros at first */
-    double rr_threshold;                /* of Russian roulette unless the user gives one (path.h) */
 
-    /* Is each parameter right beside the others? False with a message if not. NULL: all are. */
+    /* Of the laboratory alone. chain: samples are mutations of others, of no pixel and not independent. merges: what is
+     * added to a pixel is of many paths at once, of any length, as by density estimation. surfaces: it knows of them
+     * alone, not of media (scene/medium.h). */
+    bool chain, merges, surfaces;
+
+    const struct field *parameters;  /* of the state; NULL: none */
+    size_t state_size, scratch_size; /* scratch_size 0: none; else all zeros at first */
+    double rr_threshold;             /* of Russian roulette unless the user gives one (path.h) */
+
+    /* Do the parameters, each right in itself, fit each other? False with a message if not. NULL: they do. */
     bool (*check)(const void *state, struct error *err);
-    /* Settle counts and whatever is frozen; out->state is zero but for struct frozen and the parameters. NULL: all is
-     * settled. */
+    /* Settle what differs from BDPT; out->state is zero but for struct frozen and the parameters. NULL: nothing. */
     void (*prepare)(const struct render_job *job, struct preparation *out);
     void (*release)(void *state); /* what the state owns, but not the state; NULL: nothing */
 
@@ -77,22 +77,19 @@ struct method {
     void (*scratch_init)(void *scratch, const void *state); /* NULL: zeros will do */
     void (*scratch_free)(void *scratch);                    /* what the scratch owns; NULL: nothing */
 
-    /* For pooled_render, whose scratch begins with struct light_pool: the pool of an iteration has been filled; NULL:
-     * that is all; */
+    /* What pooled_render calls; `scratch` begins with struct light_pool. begin, or NULL: an iteration's pool has been
+     * filled. Then for each pixel one of two adds the strategies s >= 2, t >= 2 to p->sample, the other being NULL:
+     * connect, called once, or draw, for every eye vertex z = z_{t-1} that can be connected to. */
     void (*begin)(void *scratch, const void *state, const struct tile_pass *pass, long iteration);
-    /* add the strategies s >= 2, t >= 2 to p->sample, of all the pixel's eye sub-path or, called for every eye vertex
-     * that can be connected to, those of z = z_{t-1}. One of the two is NULL. */
     void (*connect)(void *scratch, const void *state, struct pooled_pixel *p);
     void (*draw)(void *scratch, const void *state, struct pooled_pixel *p, const struct vertex *z, int t);
 };
 
 extern const struct method method_bdpt; /* what the others differ from */
 
-/* method_fields: the table of all parameters of a row, its own and services, ended by one without name. */
-enum { METHOD_FIELDS = 24 };
-void method_fields(const struct method *m, struct field out[METHOD_FIELDS]);
-
-/* method_has: the parameter of that name that a row has, or NULL; `select` is one, where rows share a name. */
+/* method_parameters: the table of a row's parameters, never NULL. method_has: the one of that name, or NULL; `select`
+ * is one, too, where rows share a name. */
+const struct field *method_parameters(const struct method *m);
 const struct field *method_has(const struct method *m, const char *name);
 
 /* method_check: are the settings right that are the method's own? False with a message if not. */

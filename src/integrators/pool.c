@@ -88,6 +88,7 @@ static const struct field PARAMETERS[] = {
     {"metric", FIELD_WORD, AT(metric), METRIC_IMPORTANCE, 0, 0, "what a light sub-path is chosen by", METRICS},
     {"delta", FIELD_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore it", NULL},
     {"grid", FIELD_INTEGER, AT(grid), 64, 1, 100000, "cells of the importance along the scene's diagonal", NULL},
+    SERVICES(true, 1, false, false, DEFAULT_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
 const struct method method_pool = {
@@ -96,7 +97,6 @@ const struct method method_pool = {
     .why = "alias table over the K light sub-paths of the tile, one bin for each pixel; q_k = (1 - delta) I_k / sum I "
            "+ delta / K, I the sub-path's importance; scale 1 / (K q)",
     .parameters = PARAMETERS,
-    .services = {.guide = true, .emission = 1, .tile = DEFAULT_TILE_SIZE, .spread = POOL_SPREAD},
     .state_size = sizeof(struct pool_state), .scratch_size = sizeof(struct pool),
     .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
     .render = pooled_render, .scratch_free = free_scratch, .begin = begin, .connect = connect};

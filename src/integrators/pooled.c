@@ -40,19 +40,16 @@ void light_pool_shuffle(const struct light_pool *pool, const struct tile_pass *p
     }
 }
 
-void candidates_find(struct candidates *c, const struct light_pool *pool)
+struct candidates candidates_find(struct light_pool *pool)
 {
-    c->n = 0;
+    struct candidates c = {arena_alloc(&pool->arena, pool->used * sizeof *c.item), 0};
     for (int k = 0; k < pool->n; k++) {
         const struct vertex *path = light_pool_path(pool, k);
-        for (int i = 1; i < pool->length[k]; i++) {
-            if (!vertex_connectible(&path[i]))
-                continue;
-            struct candidate found = {&path[i], i + 1, rgb_luminance(path[i].beta)};
-            c->item = mem_grow(c->item, &c->capacity, (size_t)c->n + 1, sizeof *c->item);
-            c->item[c->n++] = found;
-        }
+        for (int i = 1; i < pool->length[k]; i++)
+            if (vertex_connectible(&path[i]))
+                c.item[c.n++] = (struct candidate){&path[i], i + 1, rgb_luminance(path[i].beta)};
     }
+    return c;
 }
 
 void pooled_fill(const struct preparation *m, const struct tile_pass *pass, long iteration)
@@ -65,6 +62,7 @@ void pooled_fill(const struct preparation *m, const struct tile_pass *pass, long
         m->method->begin(pass->work->scratch, f, pass, iteration);
 }
 
+/* The weights count one sub-path in path_pixels for the whole film; the tile has pool->n, rounded up. */
 struct pooled_pixel pooled_begin(const struct preparation *m, const struct tile_pass *pass, int x, int y, int number,
                                  long iteration)
 {
@@ -74,6 +72,12 @@ struct pooled_pixel pooled_begin(const struct preparation *m, const struct tile_
     p.sample.lights = f->lights;
     p.n = pixel_eye_path(pass, &p.sample, iteration, pass->work->eye, f->max_depth + 2);
     p.draws = pixel_sampler(pass, RNG_SELECT, x, y, iteration);
+    if (f->path_pixels > 0 && number % f->path_pixels == 0) {
+        const struct light_pool *pool = pass->work->scratch;
+        p.light = light_pool_path(pool, number / f->path_pixels);
+        p.n_light = pool->length[number / f->path_pixels];
+        p.scale = (double)rect_pixels(pass->rect) / ((double)pool->n * f->path_pixels);
+    }
     return p;
 }
 
@@ -90,27 +94,10 @@ void pooled_connect(const struct preparation *m, const struct tile_pass *pass, s
             method->draw(pass->work->scratch, f, p, &p->eye[t - 1], t);
 }
 
-/* The weights count one sub-path in path_pixels for the whole film; the tile has pool->n, rounded up. */
-const struct vertex *pooled_splatted(const struct preparation *m, const struct tile_pass *pass,
-                                     const struct pooled_pixel *p, int *n, double *scale)
+void pooled_end(struct pooled_pixel *p)
 {
-    const struct light_pool *pool = pass->work->scratch;
-    int path_pixels = ((const struct frozen *)m->state)->path_pixels;
-    if (path_pixels == 0 || p->number % path_pixels != 0)
-        return NULL;
-    int k = p->number / path_pixels;
-    *n = pool->length[k];
-    *scale = (double)rect_pixels(pass->rect) / ((double)pool->n * path_pixels);
-    return light_pool_path(pool, k);
-}
-
-void pooled_end(const struct preparation *m, const struct tile_pass *pass, struct pooled_pixel *p)
-{
-    double scale;
-    int n;
-    const struct vertex *light = pooled_splatted(m, pass, p, &n, &scale);
-    if (light != NULL)
-        pixel_splat_path(&p->sample, light, n, scale);
+    if (p->light != NULL)
+        pixel_splat_path(&p->sample, p->light, p->n_light, p->scale);
     pixel_sample_end(&p->sample);
 }
 
@@ -123,7 +110,7 @@ void pooled_render(const struct preparation *m, const struct tile_pass *pass)
             struct pooled_pixel p = pooled_begin(m, pass, x, y, i, iteration);
             pixel_sum_eye(&p.sample, p.eye, p.n);
             pooled_connect(m, pass, &p);
-            pooled_end(m, pass, &p);
+            pooled_end(&p);
         }
     }
 }

@@ -12,7 +12,7 @@
 /* The light sub-paths of one tile and iteration, in row order of their pixels, packed one behind the other. The scratch
  * of a pooled method begins with it. */
 struct light_pool {
-    struct arena arena;                  /* their lobes */
+    struct arena arena;                  /* their lobes, and what a method makes of them: until the next are traced */
     struct vertex *vertex;               /* [used], grows to the longest need; owned */
     size_t used, capacity;
     size_t start[MAX_TILE_SIZE * MAX_TILE_SIZE]; /* first vertex of path k */
@@ -20,8 +20,8 @@ struct light_pool {
     int n;                                       /* K */
 };
 
-/* light_pool_free: release what the pool owns. A pool starts as zeros. The `scratch_free` of methods whose scratch owns
- * nothing else. */
+/* light_pool_free: release what the pool owns, which starts as zeros: the `scratch_free` where it is all that is owned.
+ */
 void light_pool_free(void *pool);
 
 /* light_pool_fill: trace the sub-paths of the tile's pixels 0, path_pixels, 2 path_pixels ... for one iteration. */
@@ -43,19 +43,21 @@ struct candidate {
 };
 
 struct candidates {
-    struct candidate *item; /* [n], in the order they were traced; owned */
+    struct candidate *item; /* [n], in the order they were traced; the pool's */
     int n;
-    size_t capacity;
 };
 
-/* candidates_find: all connectible y_1, y_2 ... of the pool. c starts as zeros; free(c->item) releases it. */
-void candidates_find(struct candidates *c, const struct light_pool *pool);
+/* candidates_find: all connectible y_1, y_2 ... of the pool. */
+struct candidates candidates_find(struct light_pool *pool);
 
 /* A pixel of a tile and iteration, its eye sub-path traced. */
 struct pooled_pixel {
     struct pixel_sample sample;
     const struct vertex *eye; /* [n] */
     int n, number;            /* which pixel of the tile, in row order */
+    const struct vertex *light; /* [n_light] the light sub-path that it is to splat, times `scale`; NULL: none */
+    int n_light;
+    double scale;
     struct sampler draws;     /* random numbers for the choice */
 };
 
@@ -83,15 +85,12 @@ static inline void pooled_join(struct pooled_pixel *p, const struct candidate *c
 }
 
 /* What pooled_render does, step by step: fill the pool for an iteration; trace a pixel's eye sub-path; sum s >= 2,
- * t >= 2 with what the method draws; say which light sub-path the pixel is to splat, how long it is and by what scale,
- * NULL if none; splat it, and end the sample. */
+ * t >= 2 with what the method draws; splat the pixel's light sub-path, and end the sample. */
 void pooled_fill(const struct preparation *m, const struct tile_pass *pass, long iteration);
 struct pooled_pixel pooled_begin(const struct preparation *m, const struct tile_pass *pass, int x, int y, int number,
                                  long iteration);
 void pooled_connect(const struct preparation *m, const struct tile_pass *pass, struct pooled_pixel *p);
-const struct vertex *pooled_splatted(const struct preparation *m, const struct tile_pass *pass,
-                                     const struct pooled_pixel *p, int *n, double *scale);
-void pooled_end(const struct preparation *m, const struct tile_pass *pass, struct pooled_pixel *p);
+void pooled_end(struct pooled_pixel *p);
 
 /* pooled_render: the `render` of a pooled method. */
 void pooled_render(const struct preparation *m, const struct tile_pass *pass);

@@ -9,6 +9,8 @@
 #include "learning/learn.h"
 #include "learning/plan.h"
 
+const char *const OFF_ON[] = {"off", "on", NULL};
+
 /* --- tables ------------------------------------------------------------------------------------------ */
 
 enum {
@@ -30,15 +32,16 @@ void services_learn(const struct render_job *job, struct preparation *out, struc
 
 /* --- numbers ----------------------------------------------------------------------------------------- */
 
-/* `one` has the counts of one light point, and those of its own draws. */
-static void set_numbers(const struct render_job *job, struct frozen *f, const struct frozen *one, const struct plan *p)
+/* Take the plan's numbers of samples, and count them as `usual` does its own: one light point, and its draws. */
+static void set_numbers(const struct render_job *job, struct frozen *f, const struct frozen *usual,
+                        const struct plan *p)
 {
     struct mis_counts *c = &f->counts;
     f->lights = (int)(p->n[LIGHT_FIRST] + 0.5);
-    c->hit[FIRST_HIT] = one->counts.hit[FIRST_HIT];
-    c->direct[FIRST_HIT] = f->lights * one->counts.direct[FIRST_HIT];
-    c->delta[FIRST_HIT] = f->lights * one->counts.delta[FIRST_HIT];
-    if (!(one->draws[FIRST_HIT] > 0))
+    c->hit[FIRST_HIT] = usual->counts.hit[FIRST_HIT];
+    c->direct[FIRST_HIT] = f->lights * usual->counts.direct[FIRST_HIT];
+    c->delta[FIRST_HIT] = f->lights * usual->counts.delta[FIRST_HIT];
+    if (!(usual->draws[FIRST_HIT] > 0))
         return;
     double paths = p->n[LIGHT_PATH];
     f->path_pixels = f->given.path_pixels > 0 ? f->given.path_pixels : paths > 0 ? (int)(1 / paths + 0.5) : 0;
@@ -46,7 +49,7 @@ static void set_numbers(const struct render_job *job, struct frozen *f, const st
     for (int end = 0; end < EYE_ENDS; end++) {
         f->draws[end] = f->given.connections > 0 ? f->given.connections
                                                  : p->n[end == FIRST_HIT ? DRAW_FIRST : DRAW_LATER];
-        c->connect[end] = f->path_pixels > 0 ? one->counts.connect[end] * f->draws[end] / one->draws[end] : 0;
+        c->connect[end] = f->path_pixels > 0 ? usual->counts.connect[end] * f->draws[end] / usual->draws[end] : 0;
     }
 }
 
@@ -61,7 +64,7 @@ static bool paths_suffice(const struct scene *scene)
     return !(delta_light && delta_lobe);
 }
 
-/* The method, with other counts. */
+/* What a probe renders by: the method (a preparation), with other counts. */
 static void render_with(const void *method, const struct mis_counts *counts, const struct tile_pass *pass)
 {
     struct preparation p = *(const struct preparation *)method;
@@ -93,7 +96,7 @@ static void tell(struct preparation *out)
                  f->path_pixels == 1 ? "" : "s");
 }
 
-/* May there be no light sub-paths? */
+/* Is it free to have no light sub-paths? Neither by the user's wish nor for what only they can find. */
 static bool free_choice(const struct render_job *job, const struct frozen *f)
 {
     return f->given.connections == 0 && f->given.path_pixels == 0 && paths_suffice(job->scene);
@@ -132,18 +135,18 @@ void services_settle(const struct render_job *job, struct preparation *out)
     const double SAMPLES = 1.28; /* of each pixel, by the pilot's renders each */
     struct frozen *f = out->state;
     struct probe probe = {job, workspaces_new(job->n_threads, job->max_depth), out, render_with, &f->counts, out->size};
-    struct frozen one = *f;
+    struct frozen usual = *f;
     struct plan plan = {{f->draws[FIRST_HIT], f->draws[LATER_HIT], f->lights, 1.0 / f->path_pixels}};
     if (f->services.credit) {
         struct credit credit = credit_measure(&probe, &f->tables);
-        one.counts.hit[FIRST_HIT] = one.counts.direct[FIRST_HIT] = credit.broad;
-        one.counts.delta[FIRST_HIT] = credit.delta;
+        usual.counts.hit[FIRST_HIT] = usual.counts.direct[FIRST_HIT] = credit.broad;
+        usual.counts.delta[FIRST_HIT] = credit.delta;
     }
     if (f->services.pilot) {
         struct costs costs = plan_costs(&f->tables.importance);
         for (int i = 0; i < job->n_threads; i++)
             probe.work[i].scratch = method_scratch(out);
-        set_numbers(job, f, &one, &PLAN_TRIED);
+        set_numbers(job, f, &usual, &PLAN_TRIED);
         struct noise noise = noise_measure(&probe, PLAN_TRIED.n, SAMPLES);
         for (int i = 0; i < job->n_threads; i++)
             method_scratch_free(out, probe.work[i].scratch);
@@ -152,7 +155,7 @@ void services_settle(const struct render_job *job, struct preparation *out)
             plan.n[LIGHT_PATH] = 0;
     }
     if (f->services.pilot || f->services.credit)
-        set_numbers(job, f, &one, &plan);
+        set_numbers(job, f, &usual, &plan);
     if (f->services.pilot)
         tell(out);
     workspaces_free(probe.work, job->n_threads);

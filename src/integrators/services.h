@@ -1,5 +1,5 @@
-/* services.h: what makes any choice of light sub-paths better, whichever it is. Each is a parameter, and has one
- * implementation that all pooled methods share:
+/* services.h: what makes any choice of light sub-paths better, whichever it is. Each is a parameter, so that
+ * it can be measured what the choice alone brings, and has one implementation that all pooled methods share:
  *
  *   guide     s = 1 chooses lights by what a region sees (guide.h)
  *   emission  light sub-paths leave lights where the camera can use them (emission.h)
@@ -12,8 +12,26 @@
 #ifndef ASBDPT_SERVICES_H
 #define ASBDPT_SERVICES_H
 
+#include <stddef.h>
+
 #include "integrators/method.h"
 #include "learning/options.h"
+
+/* SERVICES: their rows in a method's table of parameters, with these defaults. */
+#define SERVICES(GUIDE, EMISSION, CREDIT, PILOT, TILE, SPREAD) \
+    {"guide", FIELD_WORD, offsetof(struct frozen, services.guide), GUIDE, 0, 0, \
+     "choose lights by what a region sees, where there are several", OFF_ON}, \
+    {"emission", FIELD_NUMBER, offsetof(struct frozen, services.emission), EMISSION, 1e-6, 1, \
+     "share of light sub-paths that leave lights as if nothing were learnt", NULL}, \
+    {"credit", FIELD_WORD, offsetof(struct frozen, services.credit), CREDIT, 0, 0, \
+     "measure what light that comes straight counts for", OFF_ON}, \
+    {"pilot", FIELD_WORD, offsetof(struct frozen, services.pilot), PILOT, 0, 0, \
+     "choose numbers of samples by what some tiles show", OFF_ON}, \
+    {"tile", FIELD_INTEGER, offsetof(struct frozen, services.tile), TILE, 1, MAX_TILE_SIZE, \
+     "pixels along a side of those that share a pool", NULL}, \
+    {"spread", FIELD_INTEGER, offsetof(struct frozen, services.spread), SPREAD, 1, 64, \
+     "tiles that are interleaved along each axis", NULL}
+extern const char *const OFF_ON[];
 
 /* services_paths_matter: is anything to be gained by light sub-paths, and so by learning? Asked of a few samples by
  * BDPT before anything is learnt, where the pilot is on and the user has not asked for them. If not, *out is settled: a

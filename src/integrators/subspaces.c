@@ -17,8 +17,6 @@
  * Tests: test_asbdpt.c.
  */
 #include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/alias.h"
@@ -36,59 +34,32 @@ struct group {
     double L; /* sum over them */
 };
 
+/* All but the pool itself lasts an iteration, and is the pool's. */
 struct subspaces {
-    struct light_pool pool;        /* the first, see pooled.h */
-    struct candidates found;       /* as traced */
-    struct candidate *candidate;   /* [found.n], sorted by region; owned */
-    double *before;                /* [found.n], sum of L before it in its group; owned */
-    size_t candidate_capacity, before_capacity;
-    struct group *group; /* [n_groups], in the order of their regions; owned */
-    size_t group_capacity;
-    int *group_of; /* [light regions], owned */
-    double *row;   /* [n_rows * (n_groups + 1)] sums of h(e,.) L of the groups before, and of all; owned */
-    size_t row_capacity;
-    int *row_of; /* [eye regions], row of a region, -1 if it was not met since the pool was filled; owned */
-    int n_groups, n_rows;
+    struct light_pool pool;      /* the first, see pooled.h */
+    struct candidate *candidate; /* [n], sorted by region */
+    double *before;              /* [n], sum of L before it in its group */
+    struct group *group;         /* [n_groups], in the order of their regions */
+    int n_groups;
+    double **row; /* [eye regions][n_groups + 1] sums of h(e,.) L of the groups before, and of all; NULL: not met */
 };
-
-static void init_scratch(void *scratch, const void *state)
-{
-    const struct subspaces_state *s = state;
-    struct subspaces *v = scratch;
-    v->group_of = mem_alloc((size_t)s->frozen.tables.light.n, sizeof *v->group_of);
-    v->row_of = mem_alloc((size_t)s->frozen.tables.eye.n, sizeof *v->row_of);
-}
-
-static void free_scratch(void *scratch)
-{
-    struct subspaces *v = scratch;
-    light_pool_free(&v->pool);
-    free(v->found.item);
-    free(v->candidate);
-    free(v->before);
-    free(v->group);
-    free(v->group_of);
-    free(v->row);
-    free(v->row_of);
-}
 
 /* --- the pool's vertices by region ------------------------------------------------------------------- */
 
-/* Count the candidates of every region; room for each region's in turn. */
-static void make_groups(struct subspaces *v, int n_regions)
+/* The groups, without members yet, but with room for them in turn; group_of: [n_regions] out, where there is any. */
+static void make_groups(struct subspaces *v, const struct candidates *found, int *group_of, int n_regions)
 {
-    memset(v->group_of, 0, (size_t)n_regions * sizeof *v->group_of);
-    for (int i = 0; i < v->found.n; i++)
-        v->group_of[v->found.item[i].y->light_region] += v->found.item[i].L > 0;
+    memset(group_of, 0, (size_t)n_regions * sizeof *group_of);
+    for (int i = 0; i < found->n; i++)
+        group_of[found->item[i].y->light_region] += found->item[i].L > 0;
+    v->group = arena_alloc(&v->pool.arena, (size_t)n_regions * sizeof *v->group);
     v->n_groups = 0;
     for (int region = 0, first = 0; region < n_regions; region++) {
-        int n = v->group_of[region];
+        int n = group_of[region];
         if (n == 0)
             continue;
-        v->group = mem_grow(v->group, &v->group_capacity, (size_t)v->n_groups + 1, sizeof *v->group);
-        struct group g = {region, first, 0, 0};
-        v->group_of[region] = v->n_groups;
-        v->group[v->n_groups++] = g;
+        group_of[region] = v->n_groups;
+        v->group[v->n_groups++] = (struct group){region, first, 0, 0};
         first += n;
     }
 }
@@ -96,26 +67,27 @@ static void make_groups(struct subspaces *v, int n_regions)
 static void begin(void *scratch, const void *state, const struct tile_pass *pass, long iteration)
 {
     struct subspaces *v = scratch;
-    const struct subspaces_state *s = state;
+    const struct tables *tables = &((const struct subspaces_state *)state)->frozen.tables;
+    struct arena *arena = &v->pool.arena;
+    const struct candidates found = candidates_find(&v->pool);
+    int *group_of = arena_alloc(arena, (size_t)tables->light.n * sizeof *group_of);
     (void)pass;
     (void)iteration;
-    candidates_find(&v->found, &v->pool);
-    make_groups(v, s->frozen.tables.light.n);
-    size_t n = (size_t)v->found.n;
-    v->candidate = mem_grow(v->candidate, &v->candidate_capacity, n, sizeof *v->candidate);
-    v->before = mem_grow(v->before, &v->before_capacity, n, sizeof *v->before);
-    for (int i = 0; i < v->found.n; i++) {
-        struct candidate c = v->found.item[i];
+    make_groups(v, &found, group_of, tables->light.n);
+    v->candidate = arena_alloc(arena, (size_t)found.n * sizeof *v->candidate);
+    v->before = arena_alloc(arena, (size_t)found.n * sizeof *v->before);
+    for (int i = 0; i < found.n; i++) {
+        struct candidate c = found.item[i];
         if (!(c.L > 0))
             continue; /* it carries nothing */
-        struct group *g = &v->group[v->group_of[c.y->light_region]];
+        struct group *g = &v->group[group_of[c.y->light_region]];
         v->candidate[g->first + g->n] = c;
         v->before[g->first + g->n++] = g->L;
         g->L += c.L;
     }
-    v->n_rows = 0;
-    for (int e = 0; e < s->frozen.tables.eye.n; e++)
-        v->row_of[e] = -1;
+    v->row = arena_alloc(arena, (size_t)tables->eye.n * sizeof *v->row);
+    for (int e = 0; e < tables->eye.n; e++)
+        v->row[e] = NULL;
 }
 
 /* --- drawing ----------------------------------------------------------------------------------------- */
@@ -123,17 +95,14 @@ static void begin(void *scratch, const void *state, const struct tile_pass *pass
 /* The cumulative sums of an eye region, made when it is first met. */
 static const double *row_of_region(struct subspaces *v, const struct tables *tables, int e)
 {
-    size_t n = (size_t)v->n_groups;
-    if (v->row_of[e] < 0) {
-        const double *h = pairs_row(&tables->pairs, e);
-        v->row = mem_grow(v->row, &v->row_capacity, (size_t)(v->n_rows + 1) * (n + 1), sizeof *v->row);
-        double *row = &v->row[(size_t)v->n_rows * (n + 1)];
-        row[0] = 0;
-        for (size_t g = 0; g < n; g++)
-            row[g + 1] = row[g] + h[v->group[g].region] * v->group[g].L;
-        v->row_of[e] = v->n_rows++;
-    }
-    return &v->row[(size_t)v->row_of[e] * (n + 1)];
+    if (v->row[e] != NULL)
+        return v->row[e];
+    const double *h = pairs_row(&tables->pairs, e);
+    double *row = v->row[e] = arena_alloc(&v->pool.arena, ((size_t)v->n_groups + 1) * sizeof *row);
+    row[0] = 0;
+    for (int g = 0; g < v->n_groups; g++)
+        row[g + 1] = row[g] + h[v->group[g].region] * v->group[g].L;
+    return row;
 }
 
 /* Region, then vertex, with the number u. */
@@ -199,6 +168,7 @@ static const struct field PARAMETERS[] = {
     {"pathpixels", FIELD_INTEGER, AT(frozen.given.path_pixels), 0, 0, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
      "pixels for each light sub-path; 0: chosen", NULL},
     {"delta", FIELD_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore what was learnt", NULL},
+    SERVICES(true, 0.2, true, true, MAX_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
 const struct method method_subspaces = {
@@ -206,8 +176,6 @@ const struct method method_subspaces = {
     .why = "C draws for each eye vertex from the connectible vertices of the tile's K light sub-paths, in proportion "
            "to h(e,l) luminance(beta), by the regions of both; scale 1 / (C K P)",
     .parameters = PARAMETERS,
-    .services = {.guide = true, .credit = true, .pilot = true, .emission = 0.2, .tile = MAX_TILE_SIZE,
-                 .spread = POOL_SPREAD},
     .state_size = sizeof(struct subspaces_state), .scratch_size = sizeof(struct subspaces),
     .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
-    .render = pooled_render, .scratch_init = init_scratch, .scratch_free = free_scratch, .begin = begin, .draw = draw};
+    .render = pooled_render, .scratch_free = light_pool_free, .begin = begin, .draw = draw};

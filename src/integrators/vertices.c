@@ -18,7 +18,6 @@
  * Tests: test_asbdpt.c.
  */
 #include <stddef.h>
-#include <stdlib.h>
 
 #include "base/alias.h"
 #include "base/number.h"
@@ -35,8 +34,6 @@ struct vertices_state {
 struct vertices {
     struct light_pool pool; /* the first, see pooled.h */
     struct candidates found;
-    double *q;              /* [found.n], weights of the table; owned */
-    size_t q_capacity;
     struct alias_table table;
 };
 
@@ -44,8 +41,6 @@ static void free_scratch(void *scratch)
 {
     struct vertices *v = scratch;
     light_pool_free(&v->pool);
-    free(v->found.item);
-    free(v->q);
     alias_free(&v->table);
 }
 
@@ -57,16 +52,16 @@ static void begin(void *scratch, const void *state, const struct tile_pass *pass
     struct vertices *v = scratch;
     const struct vertices_state *s = state;
     (void)iteration;
-    candidates_find(&v->found, &v->pool);
-    v->q = mem_grow(v->q, &v->q_capacity, (size_t)v->found.n, sizeof *v->q);
+    v->found = candidates_find(&v->pool);
+    double *weight = arena_alloc(&v->pool.arena, (size_t)v->found.n * sizeof *weight);
     for (int i = 0; i < v->found.n; i++) {
         const struct candidate *c = &v->found.item[i];
         double q = c->L * n_connect(&s->frozen.counts, c->y->light_region, 0, FIRST_HIT);
         bool usable = q >= 0 && fits_float(q);
-        v->q[i] = usable ? q : 0;
+        weight[i] = usable ? q : 0;
         pass->tile->nonfinite += !usable;
     }
-    alias_build(&v->table, v->q, v->found.n);
+    alias_build(&v->table, weight, v->found.n);
 }
 
 /* C draws for one eye vertex, stratified over the table. */
@@ -138,6 +133,7 @@ static const struct field PARAMETERS[] = {
     {"metric", FIELD_WORD, AT(metric), METRIC_IMPORTANCE, 0, 0, "what a light vertex is chosen by", METRICS},
     {"delta", FIELD_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore it", NULL},
     {"grid", FIELD_INTEGER, AT(grid), 64, 1, 100000, "cells of the importance along the scene's diagonal", NULL},
+    SERVICES(true, 1, false, false, DEFAULT_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
 const struct method method_vertices = {
@@ -145,7 +141,6 @@ const struct method method_vertices = {
     .why = "C draws for each eye vertex from an alias table over the connectible vertices of the tile's K light "
            "sub-paths, q in proportion to luminance(beta) n(x); scale 1 / (C K q)",
     .parameters = PARAMETERS,
-    .services = {.guide = true, .emission = 1, .tile = DEFAULT_TILE_SIZE, .spread = POOL_SPREAD},
     .state_size = sizeof(struct vertices_state), .scratch_size = sizeof(struct vertices),
     .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
     .render = pooled_render, .scratch_free = free_scratch, .begin = begin, .draw = draw};

@@ -173,11 +173,8 @@ static bool unknown(const struct setting *item, struct error *err)
     struct suggestion s = suggest_start(item->name);
     suggest_offer(&s, "select");
     offer(&s, COMMON);
-    for (const struct method *const *m = method_rows; *m != NULL; m++) {
-        struct field all[METHOD_FIELDS];
-        method_fields(*m, all);
-        offer(&s, all);
-    }
+    for (const struct method *const *m = method_rows; *m != NULL; m++)
+        offer(&s, method_parameters(*m));
     bool near = s.name != NULL;
     return error_usage(err, "%s: no integrator has a parameter \"%s\"%s%s%s; asbdpt help integrators lists them",
                      item->origin, item->name, near ? " (did you mean " : "", near ? s.name : "", near ? "?)" : "");

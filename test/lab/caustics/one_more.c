@@ -85,13 +85,10 @@ static void render_shared(const struct preparation *m, const struct one_more *mo
 {
     arena_reset(&pass->work->arena);
     struct pooled_pixel p = pooled_begin(m, pass, x, y, number, iteration);
-    double scale;
-    int n;
     one_more_sum_eye(&p.sample, more, p.eye, p.n);
     pooled_connect(m, pass, &p);
-    const struct vertex *light = pooled_splatted(m, pass, &p, &n, &scale);
-    if (light != NULL)
-        splat(&p.sample, more, light, n, scale);
+    if (p.light != NULL)
+        splat(&p.sample, more, p.light, p.n_light, p.scale);
     pixel_sample_end(&p.sample);
 }
 

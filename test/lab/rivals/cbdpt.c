@@ -63,12 +63,13 @@ static const struct field PARAMETERS[] = {
     {"connections", FIELD_INTEGER, AT(connections), 8, 1, 1024, "light sub-paths for each pixel", NULL},
     {"pathpixels", FIELD_INTEGER, AT(frozen.path_pixels), 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
      "pixels for each light sub-path", NULL},
+    SERVICES(false, 1, false, false, DEFAULT_TILE_SIZE, 1),
     {.name = NULL}};
 
 const struct method method_cbdpt = {
     .name = "cbdpt", .help = "combinatorial BDPT [Pajot 2011]: all pairs with M of a tile's light sub-paths",
     .why = "M of the tile's K light sub-paths, in random order, all used equally often; scale 1 / M",
-    .parameters = PARAMETERS, .services = {.emission = 1, .tile = DEFAULT_TILE_SIZE, .spread = 1},
+    .parameters = PARAMETERS,
     .state_size = sizeof(struct cbdpt_state), .scratch_size = sizeof(struct cbdpt),
     .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render, .scratch_free = light_pool_free,
     .begin = begin, .connect = connect};

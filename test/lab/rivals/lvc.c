@@ -27,20 +27,13 @@ struct lvc {
     struct candidates found;
 };
 
-static void free_scratch(void *scratch)
-{
-    struct lvc *v = scratch;
-    light_pool_free(&v->pool);
-    free(v->found.item);
-}
-
 static void begin(void *scratch, const void *state, const struct tile_pass *pass, long iteration)
 {
     struct lvc *v = scratch;
     (void)state;
     (void)pass;
     (void)iteration;
-    candidates_find(&v->found, &v->pool);
+    v->found = candidates_find(&v->pool);
 }
 
 /* C draws for one eye vertex, stratified over the pool. */
@@ -78,13 +71,14 @@ static const struct field PARAMETERS[] = {
      "light vertices drawn for each eye vertex; 0, as in the paper: as many as a light sub-path has on average", NULL},
     {"pathpixels", FIELD_INTEGER, AT(frozen.path_pixels), 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
      "pixels for each light sub-path", NULL},
+    SERVICES(false, 1, false, false, DEFAULT_TILE_SIZE, 1),
     {.name = NULL}};
 
 const struct method method_lvc = {
     .name = "lvc", .help = "light vertex cache [Davidovic 2014]: light vertices drawn uniformly from a tile's",
     .why = "C draws for each eye vertex from the V connectible vertices of the tile's K light sub-paths, all equally "
            "likely; scale V / (C K)",
-    .parameters = PARAMETERS, .services = {.emission = 1, .tile = DEFAULT_TILE_SIZE, .spread = 1},
+    .parameters = PARAMETERS,
     .state_size = sizeof(struct lvc_state), .scratch_size = sizeof(struct lvc),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render, .scratch_free = free_scratch,
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render, .scratch_free = light_pool_free,
     .begin = begin, .draw = draw};

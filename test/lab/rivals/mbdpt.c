@@ -123,6 +123,7 @@ static const struct field PARAMETERS[] = {
     {"pathpixels", FIELD_INTEGER, offsetof(struct frozen, path_pixels), 1, 1,
      DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE, "pixels for each light sub-path", NULL},
     {"key", FIELD_WORD, offsetof(struct mbdpt_state, throughput), 0, 0, 0, "what sub-paths are sorted by", KEYS},
+    SERVICES(false, 1, false, false, DEFAULT_TILE_SIZE, 1),
     {.name = NULL}};
 
 static void render(const struct preparation *m, const struct tile_pass *pass)
@@ -134,6 +135,6 @@ const struct method method_mbdpt = {
     .name = "mbdpt", .help = "matrix BDPT [Chaitanya 2018]: pairs of sorted sub-paths, stratified",
     .why = "one of the tile's K light sub-paths for each strategy, by a shifted lattice over eye and light sub-paths "
            "sorted by length or throughput, each equally likely; scale 1",
-    .parameters = PARAMETERS, .services = {.emission = 1, .tile = DEFAULT_TILE_SIZE, .spread = 1},
+    .parameters = PARAMETERS,
     .prepare = plain_prepare, .state_size = sizeof(struct mbdpt_state), .scratch_size = sizeof(struct light_pool),
     .rr_threshold = DEFAULT_RR_THRESHOLD, .render = render, .scratch_free = light_pool_free};

@@ -254,7 +254,7 @@ static void gather(struct ris *r, const struct tile_pass *pass, long iteration)
 {
     arena_reset(&r->arena);
     r->K = r->state->sub_paths < r->pool.n ? r->state->sub_paths : r->pool.n;
-    candidates_find(&r->found, &r->pool);
+    r->found = candidates_find(&r->pool);
     while (r->K < r->pool.n && r->found.n > 0 &&
            r->found.item[r->found.n - 1].y >= light_pool_path(&r->pool, r->K))
         r->found.n--;
@@ -386,7 +386,7 @@ void ris_render(const struct preparation *m, const struct tile_pass *pass)
             struct pooled_pixel p = pooled_begin(m, pass, x, y, i, iteration);
             sum_eye(r, &p);
             pooled_connect(m, pass, &p);
-            pooled_end(m, pass, &p);
+            pooled_end(&p);
         }
     }
 }
@@ -405,7 +405,6 @@ void ris_scratch_free(void *scratch)
 {
     struct ris *r = scratch;
     light_pool_free(&r->pool);
-    free(r->found.item);
     records_free(&r->records);
     records_free(&r->previous);
     arena_free(&r->arena);

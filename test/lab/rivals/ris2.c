@@ -17,21 +17,20 @@
 
 void ris2_presample(struct ris *r, const struct tile_pass *pass, long iteration)
 {
-    int V = r->found.n, M2 = r->state->presampled;
+    const struct candidates all = r->found;
+    int M2 = r->state->presampled;
     struct sampler sampler = pixel_sampler(pass, RNG_SHUFFLE, pass->rect.x0, pass->rect.y0, iteration);
-    double *before = arena_alloc(&r->arena, (size_t)V * sizeof *before), S = 0;
-    struct candidate *all = arena_alloc(&r->arena, (size_t)V * sizeof *all);
+    double *before = arena_alloc(&r->arena, (size_t)all.n * sizeof *before), S = 0;
     r->u = arena_alloc(&r->arena, (size_t)M2 * sizeof *r->u);
-    for (int v = 0; v < V; v++) {
-        all[v] = r->found.item[v];
+    for (int v = 0; v < all.n; v++) {
         before[v] = S;
-        S += all[v].L;
+        S += all.item[v].L;
     }
     r->found.n = 0;
-    r->found.item = mem_grow(r->found.item, &r->found.capacity, (size_t)M2, sizeof *r->found.item);
+    r->found.item = arena_alloc(&r->arena, (size_t)M2 * sizeof *r->found.item);
     for (int i = 0; S > 0 && S < INFINITY && i < M2; i++) {
         double at = (i + sampler_number(&sampler, DRAW_ORDER)) / M2;
-        const struct candidate *v = &all[cumulative_find(before, V, at * S)];
+        const struct candidate *v = &all.item[cumulative_find(before, all.n, at * S)];
         r->u[r->found.n] = S / (M2 * v->L);
         if (v->L > 0)
             r->found.item[r->found.n++] = *v;

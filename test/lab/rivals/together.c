@@ -19,7 +19,7 @@ static void render_iteration(const struct preparation *m, const struct tile_pass
     }
     connect_all(pass->work->scratch, m->state, pass, all, n);
     for (int i = 0; i < n; i++)
-        pooled_end(m, pass, &all[i]);
+        pooled_end(&all[i]);
 }
 
 void together_render(const struct preparation *m, const struct tile_pass *pass, connect_all_fn *connect_all)

@@ -173,7 +173,7 @@ static void begin(void *scratch, const void *state, const struct tile_pass *pass
     m->eta = m->pool.n * PI * sqr(m->r);
     for (int k = 0; k < m->pool.n; k++)
         know_merges(m, &sample, &m->pool.vertex[m->pool.start[k]], m->pool.length[k]);
-    candidates_find(&m->found, &m->pool);
+    m->found = candidates_find(&m->pool);
     fill_grid(m);
 }
 
@@ -207,7 +207,6 @@ static void free_scratch(void *scratch)
 {
     struct vcm *m = scratch;
     light_pool_free(&m->pool);
-    free(m->found.item);
     free(m->first);
     free(m->next);
 }
