@@ -25,9 +25,10 @@ struct pass {
     int samples, surfaces; /* of a pixel; of an eye sub-path that are looked at */
     int sample;            /* this one */
     int *done;             /* [rows] samples that are in */
+    int *hits;             /* [rows * columns] of a pixel's samples those that have hit something */
     bool stopped;
     double draw[ALBEDO_DRAWS][3];
-    float *const *out;   /* [N_FIRST_HIT], sums so far; for the depth's that of hits is behind it */
+    float *const *out;   /* [N_FIRST_HIT], sums so far */
     struct arena *arena; /* [n_threads] */
 };
 
@@ -86,7 +87,8 @@ static void add_sample(const struct pass *r, struct arena *arena, int x, int y, 
             a.g * clamp(left_of(to.g, from.g), 0, 1), a.b * clamp(left_of(to.b, from.b), 0, 1));
         add_values(r->out[AOV_NORMAL] + at, normal.x, normal.y, normal.z);
         add_values(r->out[AOV_POSITION] + at, first->p.x, first->p.y, first->p.z);
-        add_values(r->out[AOV_DEPTH] + at, depth, 1, 0);
+        add_values(r->out[AOV_DEPTH] + at, depth, depth, depth);
+        r->hits[at / 3]++;
     }
     arena_reset(arena);
 }
@@ -119,18 +121,13 @@ static bool divide(const struct pass *r)
 {
     bool all = true;
     for (int row = 0; row < rect_height(r->rect); row++) {
-        double samples = most_of(r->done[row], 1);
         all = all && r->done[row] > 0;
-        for (size_t i = row_begin(r, row); i < row_begin(r, row + 1); i++) {
-            size_t pixel = i / 3 * 3;
-            double hits = most_of((double)r->out[AOV_DEPTH][pixel + 1], 1);
-            r->out[AOV_ALBEDO][i] = float_within((double)r->out[AOV_ALBEDO][i] / samples);
-            r->out[AOV_NORMAL][i] = float_within((double)r->out[AOV_NORMAL][i] / samples);
-            r->out[AOV_POSITION][i] = float_within((double)r->out[AOV_POSITION][i] / hits);
-            if (i == pixel + 2)
-                for (size_t c = 3; c-- > 0;)
-                    r->out[AOV_DEPTH][pixel + c] = float_within((double)r->out[AOV_DEPTH][pixel] / hits);
-        }
+        for (size_t i = row_begin(r, row); i < row_begin(r, row + 1); i++)
+            for (int k = 0; k < N_FIRST_HIT; k++) {
+                bool of_hits = k == AOV_DEPTH || k == AOV_POSITION;
+                double n = most_of(of_hits ? r->hits[i / 3] : r->done[row], 1);
+                r->out[k][i] = float_within((double)r->out[k][i] / n);
+            }
     }
     return all;
 }
@@ -149,6 +146,7 @@ bool aov_render(const struct scene *scene, const struct render_options *options,
     }
     r.arena = mem_alloc((size_t)threads, sizeof *r.arena);
     r.done = mem_alloc((size_t)rows, sizeof *r.done);
+    r.hits = mem_alloc(rect_pixels(r.rect), sizeof *r.hits);
     struct parallel_jobs jobs = {rows, threads, 2 * threads, &r, do_row, row_done, NULL};
     for (; !r.stopped && r.sample < r.samples; r.sample++)
         parallel_run(&jobs);
@@ -157,6 +155,7 @@ bool aov_render(const struct scene *scene, const struct render_options *options,
         arena_free(&r.arena[i]);
     free(r.arena);
     free(r.done);
+    free(r.hits);
     return all;
 }
 

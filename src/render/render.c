@@ -29,9 +29,8 @@ struct run {
     struct preparation prepared; /* blocks begin at multiples of their length, maybe INT_MAX: counted in 64 bits */
     int64_t begun;  /* tile passes of the first block that the film holds already */
     int64_t n_jobs; /* all tile passes, with these */
-    bool stopping;  /* progress, or the noise, said so: stop when the block is complete */
-    bool at_once;   /* or before */
-    double learning; /* share of all work that learning has been */
+    enum render_wish wish; /* the most urgent so far, of progress and of the noise */
+    double learning;       /* share of all work that learning has been */
     struct workspace *work; /* [n_threads] */
     struct tile *tile;      /* [n_slots] */
     struct parallel_jobs jobs;
@@ -79,8 +78,7 @@ static void ask_progress(struct run *r, double share)
 {
     const struct render_options *o = r->options;
     enum render_wish wish = o->progress != NULL ? o->progress(o->progress_context, share) : RENDER_GO_ON;
-    r->at_once = r->at_once || wish == RENDER_STOP;
-    r->stopping = r->stopping || wish != RENDER_GO_ON;
+    r->wish = wish > r->wish ? wish : r->wish;
 }
 
 /* More splats than a tile holds go into the film before their pass is complete, when it is the next to do so. */
@@ -132,10 +130,11 @@ static bool merge_pass(void *context, int64_t job, int slot)
     r->film->passes++;
     if (r->film->passes == tiles_per_block(r)) {
         film_end_block(r->film);
-        r->stopping = r->stopping || good_enough(r);
+        if (good_enough(r) && r->wish == RENDER_GO_ON)
+            r->wish = RENDER_END_BLOCK;
     }
     ask_progress(r, r->learning + (1 - r->learning) * (double)done / (double)r->n_jobs);
-    return !(r->stopping && (r->film->passes == 0 || r->at_once));
+    return r->wish != RENDER_STOP && !(r->wish == RENDER_END_BLOCK && r->film->passes == 0);
 }
 
 static void run_all(struct run *r)
@@ -205,7 +204,7 @@ static bool watch(void *context, double traced)
     double samples = pixel_light_count(&r->job) * (double)(o->end - o->first);
     r->learning = fmax(r->learning, traced / (traced + samples)); /* each pass counts its own; a bar never goes back */
     ask_progress(r, r->learning);
-    return !r->stopping;
+    return r->wish == RENDER_GO_ON;
 }
 
 static bool begun(const struct film *film) { return film->iterations > 0 || film->passes > 0; }
@@ -222,7 +221,7 @@ static bool prepare(struct run *r, struct error *err)
         r->prepared = *r->options->prepared;
     else
         ok = method_prepare(m, &r->job, &r->prepared, err);
-    r->film->learnt_short = r->stopping && !begun(r->film);
+    r->film->learnt_short = r->wish != RENDER_GO_ON && !begun(r->film);
     return ok;
 }
 
@@ -265,7 +264,7 @@ bool render_scene(const struct scene *scene, const struct render_options *option
     memcpy(film->note, r.prepared.note, sizeof film->note);
     memcpy(film->number, r.prepared.number, sizeof film->number);
     bool ok = check_range(&r, err) && cut(&r, err);
-    bool in_haste = r.stopping && begun(film); /* samples by what was learnt so are none of the film's */
+    bool in_haste = r.wish != RENDER_GO_ON && begun(film); /* samples by what was learnt so are none of the film's */
     if (ok && scene->lights.n == 0 && !film->planes.alpha) { /* all samples are black */
         film->block.iterations = options->end - options->first;
         film_end_block(film);

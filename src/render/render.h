@@ -28,7 +28,8 @@ struct observers {
     void (*end)(void *context, int slot);
 };
 
-/* Go on, stop when the block of iterations under way is complete, stop at once, between two tile passes. */
+/* Go on; stop when the block of iterations under way is complete; stop at once, between two tile passes. The later the
+ * more urgent. */
 enum render_wish { RENDER_GO_ON, RENDER_END_BLOCK, RENDER_STOP };
 
 struct render_options {
