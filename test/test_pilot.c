@@ -140,16 +140,16 @@ static void test_plans(struct test *t)
     const struct costs costs = {10, {1, 4, 1, 8}}; /* rays */
     static const struct {
         const char *name;
-        struct noise noise; /* total, given_eye, blocks, splats, tail, {draws at the first hit, later, light points} */
+        struct noise noise; /* total, given_eye, blocks, tail, {draws at the first hit, later, light points} */
         double n[N_KINDS];
         bool pay;
     } cases[] = {
-        {"nothing measured", {0, 0, 0, 0, 0, {0, 0, 0}}, {3, 1, 2, 1}, false},
+        {"nothing measured", {0, 0, 0, 0, {0, 0, 0}}, {3, 1, 2, 1}, false},
         /* n = usual^(1/3) best^(2/3), best = sqrt(b tried / cost * 10 / A), A = 1 */
-        {"all alike", {2, 1, 0.25, 0, 0, {0.25, 0.25, 0.25}}, {3.1072, 1.3572, 2.7144, 0.4275}, false},
-        {"draws alone", {2, 1, 0, 0, 0, {1, 0, 0}}, {4.9324, 0.125, 1, 0.2321}, false},
-        {"blocks share noise", {2, 1, 4, 0, 0, {0, 0, 0}}, {0.25, 0.125, 1, 1}, false},
-        {"fireflies else", {2, 1, 0.25, 0, 50, {0.25, 0.25, 0.25}}, {3.1072, 1.3572, 2.7144, 0.4275}, true}};
+        {"all alike", {2, 1, 0.25, 0, {0.25, 0.25, 0.25}}, {3.1072, 1.3572, 2.7144, 0.4275}, false},
+        {"draws alone", {2, 1, 0, 0, {1, 0, 0}}, {4.9324, 0.125, 1, 0.2321}, false},
+        {"blocks share noise", {2, 1, 4, 0, {0, 0, 0}}, {0.25, 0.125, 1, 1}, false},
+        {"fireflies else", {2, 1, 0.25, 50, {0.25, 0.25, 0.25}}, {3.1072, 1.3572, 2.7144, 0.4275}, true}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct plan p = plan_numbers(&costs, &cases[i].noise);
         for (int k = 0; k < N_KINDS; k++)

@@ -21,7 +21,6 @@ struct measure {
     const struct probe *probe;
     struct mis_counts counts;
     struct patience patience;
-    struct tile *tile;        /* [n_threads] */
     struct pixel_sums *pixel; /* [n] */
     int64_t n;
 };
@@ -39,18 +38,18 @@ static void add_path(void *context, const struct pixel_sample *sample, const str
 }
 
 /* One sample of a pixel by path tracing. */
-static void take_sample(const struct measure *m, const struct render_job *job, int x, int y, long iteration, int thread,
-                        double *value)
+static void take_sample(const struct measure *m, const struct render_job *job, int x, int y, long iteration,
+                        struct workspace *work, struct tile *tile, double *value)
 {
     const struct observer observer = {.context = value, .joined = add_path};
     struct pixel_rect rect = {x, y, x + 1, y + 1, 0, 0};
-    struct tile_pass pass = {job, rect, iteration, iteration + 1, &m->tile[thread], &m->probe->work[thread], &observer};
-    tile_start(pass.tile, rect, job->film_rect, &job->scene->filter);
+    struct tile_pass pass = {job, rect, iteration, iteration + 1, tile, work, &observer};
+    tile_start(tile, rect, job->film_rect, &job->scene->filter);
     memset(value, 0, N_SUMS * sizeof *value);
-    arena_reset(&pass.work->arena);
+    arena_reset(&work->arena);
     struct pixel_sample sample = pixel_sample_begin(&pass, &m->counts, x, y, iteration);
-    int n = pixel_eye_path(&pass, &sample, iteration, pass.work->eye, job->max_depth + 2);
-    pixel_sum_eye(&sample, pass.work->eye, n);
+    int n = pixel_eye_path(&pass, &sample, iteration, work->eye, job->max_depth + 2);
+    pixel_sum_eye(&sample, work->eye, n);
 }
 
 static void measure_pixel(void *context, int64_t number, int slot, int thread)
@@ -58,18 +57,20 @@ static void measure_pixel(void *context, int64_t number, int slot, int thread)
     struct measure *m = context;
     struct pixel_rect all = m->probe->job->film_rect;
     struct pixel_sums *sums = &m->pixel[number];
+    struct tile tile = {.n_splats = 0};
     double u, v, value[N_SUMS], asked = 0;
     (void)slot;
     sampler_r2(number, &u, &v);
     int x = all.x0 + (int)(u * rect_width(all)), y = all.y0 + (int)(v * rect_height(all));
     for (int k = 0; k < 2 * SEQUENCE && patience_lasts(&m->patience, &asked); k++) {
         const struct render_job job = probe_job(m->probe->job, (uint64_t)(2 * number + k / SEQUENCE));
-        take_sample(m, &job, x, y, k % SEQUENCE, thread, value);
+        take_sample(m, &job, x, y, k % SEQUENCE, &m->probe->work[thread], &tile, value);
         for (int i = 0; i < N_SUMS; i++) {
             sums->mean[k / SEQUENCE][i] += value[i] / SEQUENCE;
             sums->square[i] += sqr(value[i]) / (2 * SEQUENCE);
         }
     }
+    tile_free(&tile);
 }
 
 static bool commit(void *context, int64_t number, int slot)
@@ -97,17 +98,13 @@ struct credit credit_measure(const struct probe *p, const struct tables *tables)
                         .patience = patience_begin(p->job)};
     double all = 0;
     m.n = int_within(SAMPLES_PER_PIXEL * pixel_light_count(p->job) / (2 * SEQUENCE), 64, MOST_PIXELS);
-    m.tile = mem_alloc((size_t)p->job->n_threads, sizeof *m.tile);
     m.pixel = mem_alloc((size_t)m.n, sizeof *m.pixel);
     struct parallel_jobs jobs = {m.n, p->job->n_threads, (int)m.n, &m, measure_pixel, commit, NULL};
     m.n = parallel_run(&jobs);
     for (int64_t k = 0; k < m.n; k++)
         all += (m.pixel[k].mean[0][ALL] + m.pixel[k].mean[1][ALL]) / (2 * (double)m.n);
     struct credit c = {credit_of(&m, BROAD, all), credit_of(&m, DELTA, all)};
-    for (int i = 0; i < p->job->n_threads; i++)
-        tile_free(&m.tile[i]);
     patience_end(&m.patience);
-    free(m.tile);
     free(m.pixel);
     return c;
 }

@@ -1,6 +1,7 @@
-/* noise.c: see probe.h. */
+/* noise.c: see probe.h. The probe renders tiles, each four times; an observer notes what the paths of a tile bring to
+ * each of its pixels; the notes are reduced to variances, and those of all tiles are added up.
+ */
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/number.h"
 #include "base/parallel.h"
@@ -9,40 +10,52 @@
 
 enum { MOST_SAMPLES = 8 * 1024, BLOCK = 8 };
 
-/* Renders of a tile: the second shares nothing with the first, the third its eye sub-paths, the last all but the
- * counts. */
-enum { FIRST, OTHER, SAME_EYE, INDEPENDENT, AGAIN = INDEPENDENT, RENDERS };
+/* Renders of a tile, by the random numbers that each shares with the first. SHARES_ALL has other counts, and serves the
+ * tail alone; of the COMPARED before it the values count. */
+enum { FIRST, SHARES_NOTHING, SHARES_EYE, SHARES_ALL, RENDERS, COMPARED = SHARES_ALL };
 
 static const double CLIP_TAIL = 1e4; /* what the path tracer would bring has more leave: nothing else warns of it */
 
-/* Where a tile's pixels lie; what is known of one of them before it is known how bright it is. */
-struct pixel {
-    double value[INDEPENDENT]; /* luminance of what t >= 2 brings */
-    double spread[LIGHT_PATH], tail, scale;
+struct measure {
+    const struct probe *probe;
+    const double *tried;     /* [N_KINDS] */
+    struct mis_counts again; /* of SHARES_ALL: those of s <= 1 are twice as large */
+    struct noise *found;     /* [n_slots], of a tile */
+    struct noise sums;
+    struct patience patience;
 };
 
-/* A tile, being measured. */
-struct tile_noise {
-    struct pixel_rect rect;
-    const double *tried;
-    struct patience *patience;
-    double asked;
-    struct pixel pixel[MAX_TILE_SIZE * MAX_TILE_SIZE]; /* row by row */
-    int render;                      /* which of them */
-    double tail, mean_scale;         /* tail: of t = 1 */
-    float *weight;                   /* [n_weights] of the first's paths, in their order; owned */
-    size_t n_weights, capacity, next;
-    /* The samples of one eye vertex and kind, which stand in a row; those that brought nothing are not told of: */
+/* --- the observer: notes of one tile ----------------------------------------------------------------- */
+
+struct pixel {
+    double value[COMPARED];          /* luminance of what t >= 2 brings */
+    double spread[LIGHT_PATH], tail; /* as in struct noise, not yet divided by: */
+    double scale;                    /* probe_scale, known when two renders are */
+};
+
+/* Samples of one eye vertex and one kind, which are told of in a row; those that brought nothing are not told of. */
+struct row {
     int kind, t;
     struct pixel *of;
-    double x, x2;
-    struct noise found;
+    double x, x2; /* sums of what they brought, and of its squares */
 };
 
-static struct pixel *pixel_at(struct tile_noise *m, int x, int y)
+struct notes {
+    struct measure *m;
+    struct pixel_rect rect;
+    struct tile tile;
+    int width, height, render;
+    struct pixel pixel[MAX_TILE_SIZE * MAX_TILE_SIZE]; /* [width * height], row by row */
+    double mean_scale, tail; /* tail: of t = 1, which is of no pixel */
+    struct row row;
+    float *weight; /* [n_weights] of the FIRST's paths, in their order; SHARES_ALL has come to number `next`; owned */
+    size_t n_weights, next;
+    double asked; /* see patience_lasts */
+};
+
+static struct pixel *pixel_at(struct notes *n, int x, int y)
 {
-    int i = (x - m->rect.x0) / (m->rect.skip_x + 1), j = (y - m->rect.y0) / (m->rect.skip_y + 1);
-    return &m->pixel[j * rect_width(m->rect) + i];
+    return &n->pixel[(y - n->rect.y0) / (n->rect.skip_y + 1) * n->width + (x - n->rect.x0) / (n->rect.skip_x + 1)];
 }
 
 /* -1: a strategy whose number of samples is not free, or whose samples are not those of one eye vertex. */
@@ -53,93 +66,99 @@ static int kind_of(const struct joined *p)
     return p->s < 2 ? -1 : p->t == 2 ? DRAW_FIRST : DRAW_LATER;
 }
 
-/* The variance of the sum of n samples of one eye vertex, when all have been told of. */
-static void end_vertex(struct tile_noise *m)
+/* The row is complete. Of n samples it has the variance of the sum: n/(n-1) (sum of x^2 - (sum of x)^2 / n). */
+static void end_row(struct notes *notes)
 {
-    double n = m->kind >= 0 ? m->tried[m->kind] : 1;
-    if (m->kind >= 0 && n > 1)
-        m->of->spread[m->kind] += (m->x2 - m->x * m->x / n) * n / (n - 1) / INDEPENDENT;
-    m->kind = -1;
-    m->x = m->x2 = 0;
+    struct row *r = &notes->row;
+    double n = r->kind >= 0 ? notes->m->tried[r->kind] : 1;
+    if (n > 1)
+        r->of->spread[r->kind] += (r->x2 - r->x * r->x / n) * n / (n - 1) / COMPARED;
+    *r = (struct row){.kind = -1};
 }
 
-static void add_sample(struct tile_noise *m, struct pixel *of, const struct joined *path, double x)
+static void add_to_row(struct notes *n, struct pixel *of, const struct joined *path, double x)
 {
+    struct row *r = &n->row;
     int kind = kind_of(path);
-    if (kind != m->kind || path->t != m->t || of != m->of)
-        end_vertex(m);
-    m->kind = kind;
-    m->t = path->t;
-    m->of = of;
-    m->x += x;
-    m->x2 += x * x;
+    if (kind != r->kind || path->t != r->t || of != r->of) {
+        end_row(n);
+        *r = (struct row){kind, path->t, of, 0, 0};
+    }
+    r->x += x;
+    r->x2 += x * x;
 }
 
-/* What the path tracer would bring more: from the path's weight before, and now. */
-static void add_tail(struct tile_noise *m, struct pixel *of, const struct joined *path, double x)
+/* X^2 (1/P - 1) of probe.h. With counts of s <= 1 twice as large the weights of a path grow by 2 / (1 + P) if it is of
+ * those itself, else by 1 / (1 + P): `before` and now give P. */
+static void add_tail(struct notes *n, struct pixel *of, const struct joined *path, double x)
 {
-    double before = m->next < m->n_weights ? (double)m->weight[m->next++] : 0, w = path->c->weight;
-    if (path->s + path->t < 4 || !(before > 0) || !(w > 0))
+    double before = n->next < n->n_weights ? (double)n->weight[n->next++] : 0, now = path->c->weight;
+    if (path->s + path->t < 4 || !(before > 0) || !(now > 0))
         return; /* light that comes straight to the first hit has credits of its own */
-    double P = clamp((path->s <= 1 ? 2 : 1) * before / w - 1, 1e-6, 1);
-    *(path->t == 1 ? &m->tail : &of->tail) += sqr(x * before / w) * (1 / P - 1);
+    double P = clamp((path->s <= 1 ? 2 : 1) * before / now - 1, 1e-6, 1);
+    *(path->t == 1 ? &n->tail : &of->tail) += sqr(x * before / now) * (1 / P - 1);
 }
 
 static void note(void *context, const struct pixel_sample *sample, const struct joined *path)
 {
-    struct tile_noise *m = context;
+    struct notes *n = context;
+    struct pixel *of = pixel_at(n, sample->x, sample->y);
     double C = rgb_luminance(path->c->value) * path->scale, x = C * path->c->weight;
-    struct pixel *of = pixel_at(m, sample->x, sample->y);
     if (!(C > 0) || !fits_float(C))
         return;
-    if (m->render == AGAIN) {
-        add_tail(m, of, path, x);
+    if (n->render == SHARES_ALL) {
+        add_tail(n, of, path, x);
         return;
     }
-    if (m->render == FIRST) {
-        m->weight = mem_grow(m->weight, &m->capacity, m->n_weights + 1, sizeof *m->weight);
-        m->weight[m->n_weights++] = (float)path->c->weight;
+    if (n->render == FIRST) {
+        n->weight = mem_append(n->weight, n->n_weights, sizeof *n->weight);
+        n->weight[n->n_weights++] = (float)path->c->weight;
     }
     if (path->t > 1) {
-        of->value[m->render] += x;
-        add_sample(m, of, path, x);
+        of->value[n->render] += x;
+        add_to_row(n, of, path, x);
     }
 }
 
-/* What squares are divided by, by pixel, from what is around it. */
-static void find_scales(struct tile_noise *m)
+/* --- the reducer: from notes to variances ------------------------------------------------------------ */
+
+/* Mean light of pixels x0 .. x1-1 of rows y0 .. y1-1. */
+static double mean_light(const struct notes *n, int x0, int y0, int x1, int y1)
+{
+    double sum = 0;
+    for (int y = y0; y < y1; y++)
+        for (const struct pixel *p = &n->pixel[y * n->width + x0]; p < &n->pixel[y * n->width + x1]; p++)
+            sum += p->value[FIRST] + p->value[SHARES_NOTHING];
+    return sum / (2.0 * (x1 - x0) * (y1 - y0));
+}
+
+/* The light around a pixel is that of a square of 4x4 that it lies in. */
+static void find_scales(struct notes *n)
 {
     enum { AROUND = 4 };
-    int width = rect_width(m->rect), height = rect_height(m->rect);
-    double all = 0;
-    for (int i = 0; i < width * height; i++)
-        all += (m->pixel[i].value[FIRST] + m->pixel[i].value[OTHER]) / (2.0 * width * height);
-    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++) {
-            int x0 = x / AROUND * AROUND, y0 = y / AROUND * AROUND, n = 0;
-            double sum = 0;
-            for (int j = y0; j < height && j < y0 + AROUND; j++)
-                for (int i = x0; i < width && i < x0 + AROUND; i++, n += 2)
-                    sum += m->pixel[j * width + i].value[FIRST] + m->pixel[j * width + i].value[OTHER];
-            m->pixel[y * width + x].scale = probe_scale(sum / n, all);
-            m->mean_scale += m->pixel[y * width + x].scale / (width * height);
+    double all = mean_light(n, 0, 0, n->width, n->height);
+    for (int y = 0; y < n->height; y++)
+        for (int x = 0; x < n->width; x++) {
+            int x0 = x / AROUND * AROUND, x1 = x0 + AROUND < n->width ? x0 + AROUND : n->width;
+            int y0 = y / AROUND * AROUND, y1 = y0 + AROUND < n->height ? y0 + AROUND : n->height;
+            double scale = probe_scale(mean_light(n, x0, y0, x1, y1), all);
+            n->pixel[y * n->width + x].scale = scale;
+            n->mean_scale += scale / (n->width * n->height);
         }
 }
 
-static double clip(double square, double scale) { return fmin(square / scale, PROBE_CLIP); }
-
-/* Half the squared differences of what the tile has in the film's blocks. */
-static double of_blocks(const struct tile_noise *m)
+/* Half the squared differences of means over blocks of the film, times their pixels; a block holds w x h of the
+ * tile's. */
+static double variance_of_blocks(const struct notes *n)
 {
-    int width = rect_width(m->rect), height = rect_height(m->rect);
-    int w = (BLOCK + m->rect.skip_x) / (m->rect.skip_x + 1), h = (BLOCK + m->rect.skip_y) / (m->rect.skip_y + 1);
+    int w = (BLOCK + n->rect.skip_x) / (n->rect.skip_x + 1), h = (BLOCK + n->rect.skip_y) / (n->rect.skip_y + 1);
     double all = 0;
-    for (int y = 0; y + h <= height; y += h)
-        for (int x = 0; x + w <= width; x += w) {
+    for (int y = 0; y + h <= n->height; y += h)
+        for (int x = 0; x + w <= n->width; x += w) {
             double difference = 0, scale = 0;
             for (int i = 0; i < w * h; i++) {
-                const struct pixel *p = &m->pixel[(y + i / w) * width + x + i % w];
-                difference += p->value[FIRST] - p->value[SAME_EYE];
+                const struct pixel *p = &n->pixel[(y + i / w) * n->width + x + i % w];
+                difference += p->value[FIRST] - p->value[SHARES_EYE];
                 scale += p->scale;
             }
             all += fmin(sqr(difference) / 2 * (w * h) / scale, PROBE_CLIP * w * h);
@@ -147,56 +166,44 @@ static double of_blocks(const struct tile_noise *m)
     return all;
 }
 
-/* Splats land on the tile's pixels, between them, or elsewhere. */
-static double of_splats(struct tile_noise *m, const struct tile *tile)
+static double clip(double square, double scale) { return fmin(square / scale, PROBE_CLIP); }
+
+/* Squares of what splats bring: to the tile's pixels, between them, or elsewhere. */
+static double squares_of_splats(struct notes *n)
 {
-    struct pixel_rect r = m->rect;
+    const struct tile *tile = &n->tile;
+    struct pixel_rect r = n->rect;
     double sum = 0;
     for (const struct splat *s = tile->splat; s < tile->splat + tile->n_splats; s++) {
         struct pixel_rect range = splat_pixels(s, tile->filter, tile->film_rect);
         float part[3];
         for (int y = range.y0; y < range.y1; y++)
-            for (int x = range.x0; x < range.x1; x++)
-                if (splat_part(s, tile->filter, x, y, part)) {
-                    bool near = x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1;
+            for (int x = range.x0; x < range.x1; x++) {
+                bool inside = x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1;
+                if (splat_part(s, tile->filter, x, y, part))
                     sum += clip(sqr(rgb_luminance(rgb_of_floats(part))),
-                                near ? pixel_at(m, x, y)->scale : m->mean_scale);
-                }
+                                inside ? pixel_at(n, x, y)->scale : n->mean_scale);
+            }
     }
     return sum;
 }
 
-static void reduce(struct tile_noise *m)
+static struct noise reduce(const struct notes *n, double splats)
 {
-    struct noise *n = &m->found;
-    n->tail = fmin(m->tail / m->mean_scale, CLIP_TAIL);
-    n->blocks = of_blocks(m);
-    for (const struct pixel *p = m->pixel; p < m->pixel + rect_width(m->rect) * rect_height(m->rect); p++) {
-        n->total += clip(sqr(p->value[FIRST] - p->value[OTHER]) / 2, p->scale);
-        n->given_eye += clip(sqr(p->value[FIRST] - p->value[SAME_EYE]) / 2, p->scale);
-        n->tail += fmin(p->tail / p->scale, CLIP_TAIL);
+    struct noise found = {.blocks = variance_of_blocks(n) + splats, .tail = fmin(n->tail / n->mean_scale, CLIP_TAIL)};
+    for (const struct pixel *p = n->pixel; p < n->pixel + n->width * n->height; p++) {
+        found.total += clip(sqr(p->value[FIRST] - p->value[SHARES_NOTHING]) / 2, p->scale);
+        found.given_eye += clip(sqr(p->value[FIRST] - p->value[SHARES_EYE]) / 2, p->scale);
+        found.tail += fmin(p->tail / p->scale, CLIP_TAIL);
         for (int k = 0; k < LIGHT_PATH; k++)
-            n->spread[k] += clip(p->spread[k], p->scale);
+            found.spread[k] += clip(p->spread[k], p->scale);
     }
+    found.total += splats;
+    found.given_eye += splats;
+    return found;
 }
 
-/* --- tiles ------------------------------------------------------------------------------------------- */
-
-struct measure {
-    const struct probe *probe;
-    const double *tried;
-    struct mis_counts again; /* with the counts of s <= 1 twice as large */
-    struct tile *tile;       /* [n_threads] */
-    struct noise *found;     /* [n_slots] */
-    struct noise sums;
-    struct patience patience;
-};
-
-static bool enough(void *context)
-{
-    struct tile_noise *t = context;
-    return !patience_lasts(t->patience, &t->asked);
-}
+/* --- the probe: tiles over the film ------------------------------------------------------------------ */
 
 /* On one axis of n pixels: as many as a tile has, as far apart as the render's, around point u. */
 static void lay(const struct pass_size *size, int n, double u, int *begin, int *end, int *skip)
@@ -218,35 +225,42 @@ static struct pixel_rect rect_of(const struct probe *p, int64_t k)
     return r;
 }
 
+static bool enough(void *context)
+{
+    struct notes *n = context;
+    return !patience_lasts(&n->m->patience, &n->asked);
+}
+
 static void render_tile(void *context, int64_t number, int slot, int thread)
 {
     struct measure *m = context;
     const struct probe *p = m->probe;
-    struct tile_noise *t = mem_alloc(1, sizeof *t);
-    struct tile *tile = &m->tile[thread];
-    const struct observer observer = {.context = t, .joined = note};
-    t->rect = rect_of(p, number);
-    t->tried = m->tried;
-    t->patience = &m->patience;
-    t->kind = -1;
-    for (t->render = 0; t->render < RENDERS; t->render++) {
-        struct render_job job = probe_job(p->job, (uint64_t)(t->render % INDEPENDENT));
+    struct notes *n = mem_alloc(1, sizeof *n);
+    const struct observer observer = {.context = n, .joined = note};
+    double splats = 0;
+    n->m = m;
+    n->rect = rect_of(p, number);
+    n->width = rect_width(n->rect);
+    n->height = rect_height(n->rect);
+    n->row.kind = -1;
+    for (n->render = FIRST; n->render < RENDERS; n->render++) {
+        struct render_job job = probe_job(p->job, (uint64_t)(n->render % COMPARED));
+        job.eye_seed = probe_job(p->job, COMPARED + (n->render == SHARES_NOTHING)).seed;
         job.enough = enough;
-        job.enough_context = t;
-        job.eye_seed = probe_job(p->job, INDEPENDENT + (t->render == OTHER)).seed;
-        struct tile_pass pass = {&job, t->rect, (long)number, (long)number + 1, tile, &p->work[thread], &observer};
-        tile_start(tile, t->rect, job.film_rect, &job.scene->filter);
-        p->render(p->method, t->render == AGAIN ? &m->again : p->counts, &pass);
-        end_vertex(t);
-        if (t->render == OTHER)
-            find_scales(t);
-        if (t->render == SAME_EYE)
-            t->found.splats = of_splats(t, tile);
+        job.enough_context = n;
+        struct tile_pass pass = {&job, n->rect, (long)number, (long)number + 1, &n->tile, &p->work[thread], &observer};
+        tile_start(&n->tile, n->rect, job.film_rect, &job.scene->filter);
+        p->render(p->method, n->render == SHARES_ALL ? &m->again : p->counts, &pass);
+        end_row(n);
+        if (n->render == SHARES_EYE) {
+            find_scales(n);
+            splats = squares_of_splats(n);
+        }
     }
-    reduce(t);
-    m->found[slot] = t->found;
-    free(t->weight);
-    free(t);
+    m->found[slot] = reduce(n, splats);
+    tile_free(&n->tile);
+    free(n->weight);
+    free(n);
 }
 
 static bool add_tile(void *context, int64_t number, int slot)
@@ -254,10 +268,9 @@ static bool add_tile(void *context, int64_t number, int slot)
     struct measure *m = context;
     const struct noise *s = &m->found[slot];
     (void)number;
-    m->sums.total += s->total + s->splats;
-    m->sums.given_eye += s->given_eye + s->splats;
-    m->sums.blocks += s->blocks + s->splats;
-    m->sums.splats += s->splats;
+    m->sums.total += s->total;
+    m->sums.given_eye += s->given_eye;
+    m->sums.blocks += s->blocks;
     m->sums.tail += s->tail;
     for (int k = 0; k < LIGHT_PATH; k++)
         m->sums.spread[k] += s->spread[k];
@@ -266,25 +279,19 @@ static bool add_tile(void *context, int64_t number, int slot)
 
 struct noise noise_measure(const struct probe *p, const double *tried, double samples)
 {
-    const struct noise nothing = {0, 0, 0, 0, 0, {0}};
-    struct measure m = {.probe = p, .tried = tried, .again = *p->counts,
-                        .patience = patience_begin(p->job)};
-    struct pixel_rect rect = rect_of(p, 0);
-    int tile = rect_width(rect) * rect_height(rect), n_slots = 2 * p->job->n_threads;
+    const struct noise nothing = {.total = 0};
+    struct measure m = {.probe = p, .tried = tried, .again = *p->counts, .patience = patience_begin(p->job)};
+    int tile = (int)rect_pixels(rect_of(p, 0)), n_slots = 2 * p->job->n_threads;
     int n = int_within(samples * pixel_light_count(p->job) / tile + 0.75, 1, MOST_SAMPLES / tile);
     for (int end = 0; end < EYE_ENDS; end++) {
         m.again.hit[end] *= 2;
         m.again.direct[end] *= 2;
         m.again.delta[end] *= 2;
     }
-    m.tile = mem_alloc((size_t)p->job->n_threads, sizeof *m.tile);
     m.found = mem_alloc((size_t)n_slots, sizeof *m.found);
     struct parallel_jobs jobs = {n, p->job->n_threads, n_slots, &m, render_tile, add_tile, NULL};
     parallel_run(&jobs);
-    for (int i = 0; i < p->job->n_threads; i++)
-        tile_free(&m.tile[i]);
     patience_end(&m.patience);
-    free(m.tile);
     free(m.found);
     return m.patience.over ? nothing : m.sums;
 }

@@ -60,12 +60,14 @@ struct credit credit_measure(const struct probe *p, const struct tables *tables)
 /* The kinds of samples whose number is free: draws and light points for one eye vertex, light sub-paths. */
 enum kind { DRAW_FIRST, DRAW_LATER, LIGHT_FIRST, LIGHT_PATH, N_KINDS };
 
-/* Variances of one iteration, added up over the pixels of some tiles. Every tile is rendered three times with random
- * numbers of its own, the third with the eye sub-paths of the first: the pixels' differences say what varies with the
- * eye sub-path and what does not.
+/* Variances of one iteration, added up over the pixels of some tiles. Half the squared difference of two renders of a
+ * pixel is the variance of what they do not share. Every tile is rendered three times: with random numbers of its own,
+ * with others, and with others but for the eye sub-paths.
  *
  * Light sub-paths are shared by a tile, so what is due to them does not vanish in the mean over many pixels, as other
  * noise does. It is measured on blocks of 8x8 pixels, too: a picture that is even in each block is not yet a good one.
+ * Splats (t = 1) are rare and independent, their variance is their square; what the tile's sub-paths bring, wherever it
+ * lands, stands for what all sub-paths bring to the tile.
  *
  * What if there were no light sub-paths? The second moment of the path tracer's estimate is larger than that of all
  * strategies' by the sum of
@@ -76,8 +78,6 @@ enum kind { DRAW_FIRST, DRAW_LATER, LIGHT_FIRST, LIGHT_PATH, N_KINDS };
 struct noise {
     double total, given_eye; /* of a pixel; of one whose eye sub-path is given */
     double blocks;           /* the latter of means over blocks, times their pixels */
-    double splats;           /* of t = 1, in all three: what the tile's sub-paths bring, wherever it lands, for what
-                              * all sub-paths bring to the tile */
     double tail;             /* what there would be more without light sub-paths */
     double spread[LIGHT_PATH]; /* variance of the sum of the samples of one eye vertex */
 };
