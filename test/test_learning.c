@@ -56,8 +56,7 @@ static bool same_learnt(const struct tables *a, const struct tables *b)
 {
     int n_guide = a->guide.n * (a->guide.columns.n + 1), n_pairs = a->pairs.n_eye * a->pairs.n_light;
     return a->guide.n == b->guide.n && a->pairs.n_eye == b->pairs.n_eye && a->pairs.n_light == b->pairs.n_light &&
-           a->importance.E.rows == b->importance.E.rows &&
-           same(a->importance.E.x, b->importance.E.x, a->importance.E.rows) &&
+           a->light.n == b->light.n && same(a->importance.E, b->importance.E, a->light.n) &&
            same(a->guide.before, b->guide.before, n_guide) && same(a->pairs.h, b->pairs.h, n_pairs) &&
            same(a->emission.q, b->emission.q, a->emission.columns.n * EMISSION_BINS);
 }

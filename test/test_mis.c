@@ -101,7 +101,7 @@ static struct tables learn_nothing(const struct scene *scene)
     const vec3 low = vec(-2, 0, -2), high = vec(2, 3, 2);
     regions_init(&l.eye, low, high, 4, 2, 1000);
     regions_init(&l.light, low, high, 9, REGION_LEVELS, 1000);
-    guide_sums_init(&seen, lights);
+    guide_sums_init(&seen, lights, &l.eye);
     for (int i = 0; i < 2000; i++) {
         vec3 p = vec(4 * rng_uniform(&r) - 2, 3 * rng_uniform(&r), 4 * rng_uniform(&r) - 2);
         vec3 n = warp_sphere(rng_uniform(&r), rng_uniform(&r));

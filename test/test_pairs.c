@@ -48,13 +48,13 @@ static double true_worth(vec3 e, vec3 y) { return 1 + (e.x > 0) + 2 * (y.x > 0) 
 /* Learn from `trials` between points of the sides x < 0 and x > 0; each trial brings k times its worth with
  * probability 1/k. */
 static void learn(struct rng *r, struct regions *eye, struct regions *light, int trials,
-                  struct row_sums *vertices, struct pairs *out)
+                  double *vertices, struct pairs *out)
 {
     struct pair_sums l;
     const vec3 up = vec(0, 0, 1);
     for (int i = 0; i < POINTS; i++) {
         regions_add(eye, regions_key(eye, random_point(r), up));
-        *sums_row(vertices, regions_add(light, regions_key(light, random_point(r), up))) += 3.0 / POINTS;
+        vertices[regions_add(light, regions_key(light, random_point(r), up))] += 3.0 / POINTS;
     }
     pair_sums_init(&l, eye, light);
     for (int i = 0; i < trials; i++) {
@@ -95,21 +95,21 @@ static void test_worth_learnt(struct test *t, struct rng *r, int trials, double 
 {
     struct regions eye, light;
     struct pairs p;
-    struct row_sums vertices = {.columns = 1};
-    centred_grid(&eye, 4);
+        centred_grid(&eye, 4);
     centred_grid(&light, CELLS);
-    learn(r, &eye, &light, trials, &vertices, &p);
+    double *vertices = mem_alloc((size_t)light.limit, sizeof *vertices);
+    learn(r, &eye, &light, trials, vertices, &p);
     for (int e = 0; e < p.n_eye; e++) {
         double sum = 0;
         for (int y = 0; y < p.n_light; y++)
-            sum += *sums_row(&vertices, y) * pairs_row(&p, e)[y];
+            sum += vertices[y] * pairs_row(&p, e)[y];
         CHECK(t, fabs(sum - 1) < 1e-9, "worth of region %d over a light sub-path is %.12f", e, sum);
     }
     double planted, error = error_of(r, &eye, &light, &p, &planted);
     CHECK(t, error < bound, "%d trials: the worth of pairs is off by %.0f %%", trials, 100 * error);
     CHECK(t, planted > 0.5, "%d trials: seen from the wrong side the worth passes: %.0f %%", trials, 100 * planted);
     free(p.h);
-    free(vertices.x);
+    free(vertices);
     regions_free(&eye);
     regions_free(&light);
 }

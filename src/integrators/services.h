@@ -15,7 +15,7 @@
 #include <stddef.h>
 
 #include "integrators/method.h"
-#include "learning/options.h"
+#include "learning/learn.h"
 
 /* SERVICES: their rows in a method's table of parameters, with these defaults. */
 #define SERVICES(GUIDE, EMISSION, CREDIT, PILOT, TILE, SPREAD) \

@@ -8,7 +8,7 @@ static const double OUTSIDE = 0.01; /* share of vertices beyond either side of t
 
 struct extent {
     double *along[3]; /* [n] coordinates of vertices, owned */
-    size_t n, capacity[3];
+    size_t n;
 };
 
 static void trace(const struct pass *p, int thread, long i, struct findings *out)
@@ -28,7 +28,7 @@ static void take(void *context, const struct finding *f)
     struct extent *e = context;
     const double p[3] = {f->p.x, f->p.y, f->p.z};
     for (int k = 0; k < 3; k++) {
-        e->along[k] = mem_grow(e->along[k], &e->capacity[k], e->n + 1, sizeof *e->along[k]);
+        e->along[k] = mem_append(e->along[k], e->n, sizeof *e->along[k]);
         e->along[k][e->n] = p[k];
     }
     e->n++;
@@ -40,21 +40,25 @@ static int by_size(const void *a, const void *b)
     return (*x > *y) - (*x < *y);
 }
 
+/* Between which coordinates on one axis most vertices are; as they were if there are none. */
+static void find_ends(double *x, size_t n, double *low, double *high)
+{
+    size_t outside = (size_t)(OUTSIDE * (double)n);
+    if (n > 0) {
+        qsort(x, n, sizeof *x, by_size);
+        *low = x[outside];
+        *high = x[n - 1 - outside];
+    }
+    free(x);
+}
+
 void train_extent(struct training *t, vec3 *low, vec3 *high)
 {
     struct extent e = {.n = 0};
-    const struct light_set *lights = &t->job->scene->lights;
-    struct pass pass = {t, &NO_TABLES, 0, EXTENT_PATHS, &e, NULL, trace, take};
-    double side[2][3];
+    struct pass pass = {t, any_counts(&NO_TABLES), 0, EXTENT_PATHS, &e, trace, take};
     pass_run(&pass);
-    size_t outside = (size_t)(OUTSIDE * (double)e.n);
-    for (int k = 0; k < 3 && e.n > 0; k++) {
-        qsort(e.along[k], e.n, sizeof *e.along[k], by_size);
-        side[0][k] = e.along[k][outside];
-        side[1][k] = e.along[k][e.n - 1 - outside];
-    }
-    for (int k = 0; k < 3; k++)
-        free(e.along[k]);
-    *low = e.n > 0 ? vec(side[0][0], side[0][1], side[0][2]) : lights->center;
-    *high = e.n > 0 ? vec(side[1][0], side[1][1], side[1][2]) : lights->center;
+    *low = *high = t->job->scene->lights.center;
+    find_ends(e.along[0], e.n, &low->x, &high->x);
+    find_ends(e.along[1], e.n, &low->y, &high->y);
+    find_ends(e.along[2], e.n, &low->z, &high->z);
 }

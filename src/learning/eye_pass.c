@@ -9,7 +9,7 @@ static const double GUIDE_DELTA = 0.2; /* share of s = 1 samples that choose lig
 struct eye_pass {
     struct tables tables; /* so far */
     struct guide_sums lights;
-    bool guide, importance;
+    bool guide;
     long n;
 };
 
@@ -18,7 +18,6 @@ static void trace(const struct pass *p, int thread, long i, struct findings *out
     const struct eye_pass *e = p->context;
     struct training *l = p->training;
     struct sampler sampler;
-    const struct mis_counts counts = {.direct = {1, 1}, .delta = {1, 1}};
     int n = pass_eye(p, thread, i, STREAM_EYE, &sampler);
     for (const struct vertex *z = l->work[thread].eye + 1; z < l->work[thread].eye + n; z++) {
         if (!vertex_connectible(z))
@@ -29,7 +28,7 @@ static void trace(const struct pass *p, int thread, long i, struct findings *out
         findings_add(out, f);
         f.kind = LIGHT_SEEN;
         for (int j = 0; e->guide && j < LIGHTS_PER_VERTEX; j++) {
-            struct connection light = connect_direct(l->job->scene, &counts, z, &sampler, j, LIGHTS_PER_VERTEX);
+            struct connection light = connect_direct(l->job->scene, &p->counts, z, &sampler, j, LIGHTS_PER_VERTEX);
             f.cell = light.cell;
             f.x = rgb_luminance(light.value);
             findings_add(out, f);
@@ -48,19 +47,18 @@ static void take(void *context, const struct finding *f)
     }
     t->importance.eye_vertices += 1.0 / (double)e->n;
     t->importance.first_vertices += f->first / (double)e->n;
-    if (e->importance)
-        *sums_row(&t->importance.E, regions_add(&t->light, f->light)) += f->x;
+    if (t->importance.E != NULL)
+        t->importance.E[regions_add(&t->light, f->light)] += f->x;
 }
 
-struct tables train_importance(struct training *t, struct tables known, long n)
+struct tables train_importance(struct training *t, struct tables known, long n, bool guide)
 {
-    struct eye_pass e = {.tables = known, .guide = t->options->guide, .importance = t->options->importance, .n = n};
-    struct pass pass = {t, &NO_TABLES, 0, n, &e, NULL, trace, take};
-    e.tables.importance.E.columns = 1;
-    if (e.guide)
-        guide_sums_init(&e.lights, &t->job->scene->lights);
+    struct eye_pass e = {.tables = known, .guide = guide, .n = n};
+    struct pass pass = {t, any_counts(&NO_TABLES), 0, n, &e, trace, take};
+    if (guide)
+        guide_sums_init(&e.lights, &t->job->scene->lights, &known.eye);
     pass_run(&pass);
-    if (e.guide)
+    if (guide)
         e.tables.guide = guide_build(&e.lights, &e.tables.eye, GUIDE_DELTA);
     return e.tables;
 }

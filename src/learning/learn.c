@@ -12,7 +12,7 @@ enum { MAX_EYE_REGIONS = 1024, MAX_LIGHT_REGIONS = 2048, MAX_IMPORTANCE_REGIONS 
 
 struct tables learn(const struct render_job *job, const struct learn_options *options)
 {
-    struct training t = {.job = job, .options = options, .work = workspaces_new(job->n_threads, job->max_depth),
+    struct training t = {.job = job, .work = workspaces_new(job->n_threads, job->max_depth),
                          .patience = patience_begin(job)};
     struct tables tables = NO_TABLES;
     double pixels = (double)rect_width(job->film_rect) * rect_height(job->film_rect);
@@ -25,14 +25,18 @@ struct tables learn(const struct render_job *job, const struct learn_options *op
         regions_init(&tables.eye, low, high, options->eye_cells, options->levels, MAX_EYE_REGIONS);
         regions_init(&tables.light, low, high, options->light_cells, options->levels,
                      options->pairs ? MAX_LIGHT_REGIONS : MAX_IMPORTANCE_REGIONS);
-        tables = train_importance(&t, tables, options->pairs ? n / 2 : n);
+        if (options->importance)
+            tables.importance.E = mem_alloc((size_t)tables.light.limit, sizeof(double));
+        if (options->pairs)
+            tables.importance.vertices = mem_alloc((size_t)tables.light.limit, sizeof(double));
+        tables = train_importance(&t, tables, options->pairs ? n / 2 : n, options->guide);
     }
     if (aiming > 0)
-        tables = train_emission(&t, tables, aiming);
+        tables = train_emission(&t, tables, aiming, options->emission);
     if (!places || options->importance)
         tables = train_vertices(&t, tables, aiming, places ? n_light - aiming : COUNTED);
     if (options->pairs)
-        tables = train_pairs(&t, tables, n / 2, n / 2);
+        tables = train_pairs(&t, tables, n / 2, n / 2, options->delta);
     patience_end(&t.patience);
     workspaces_free(t.work, job->n_threads);
     return tables;

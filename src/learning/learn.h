@@ -14,9 +14,17 @@
 #ifndef ASBDPT_LEARN_H
 #define ASBDPT_LEARN_H
 
-#include "learning/options.h"
 #include "tables/tables.h"
 #include "transport/tile_pass.h"
+
+/* What is to be learnt. Light vertices are counted in any case. */
+struct learn_options {
+    bool importance, guide, pairs;
+    double emission; /* delta of emission, which needs importance; 1: it is not to be learnt */
+    int eye_cells, light_cells; /* regions along the diagonal of where vertices are */
+    int levels;                 /* of regions */
+    double delta;               /* of the pairs, and of what guides their trials */
+};
 
 /* learn: the tables; tables_free releases them. */
 struct tables learn(const struct render_job *job, const struct learn_options *options);

@@ -10,7 +10,7 @@ static const double FIRST_VERTEX = 0.2; /* what the first vertex of a light sub-
  * what s = 1 finds as well. */
 static void trace_emission(const struct pass *p, int thread, long i, struct findings *out)
 {
-    const struct importance *importance = &p->known->importance;
+    const struct importance *importance = &p->counts.tables->importance;
     struct workspace *work = &p->training->work[thread];
     int n = pass_light(p, &work->arena, i, STREAM_LIGHT, work->light);
     if (n < 2)
@@ -25,16 +25,16 @@ static void trace_emission(const struct pass *p, int thread, long i, struct find
 
 static void take_emission(void *context, const struct finding *f) { emission_sums_add(context, f->cell, f->u, f->x); }
 
-struct tables train_emission(struct training *t, struct tables known, long n)
+struct tables train_emission(struct training *t, struct tables known, long n, double delta)
 {
     struct emission_sums sums;
     const struct light_set *lights = &t->job->scene->lights;
-    struct pass pass = {t, &known, 0, n, &sums, NULL, trace_emission, take_emission};
+    struct pass pass = {t, any_counts(&known), 0, n, &sums, trace_emission, take_emission};
     if (lights->choice.n == 0)
         return known;
     emission_sums_init(&sums, lights);
     pass_run(&pass);
-    known.emission = emission_build(&sums, (double)n, t->options->emission);
+    known.emission = emission_build(&sums, (double)n, delta);
     return known;
 }
 
@@ -43,7 +43,6 @@ struct tables train_emission(struct training *t, struct tables known, long n)
 /* Sums over the connectible vertices of light sub-paths; I = luminance(beta) E. */
 struct light_pass {
     struct tables tables; /* so far */
-    bool pairs;           /* are there to be any? */
     double vertices, E, I, square; /* square: of I */
     long n;                        /* sub-paths */
 };
@@ -67,24 +66,23 @@ static void take_vertex(void *context, const struct finding *f)
     struct light_pass *l = context;
     struct importance *importance = &l->tables.importance;
     struct regions *light = &l->tables.light;
-    int region = l->pairs ? regions_add(light, f->light) : regions_find(light, f->light);
+    int region = importance->vertices != NULL ? regions_add(light, f->light) : regions_find(light, f->light);
     double E = importance_in(importance, region), I = f->x * E;
     l->vertices++;
     l->E += E;
     l->I += I;
     l->square += I * I;
-    if (l->pairs)
-        *sums_row(&importance->vertices, region) += 1.0 / (double)l->n;
+    if (importance->vertices != NULL)
+        importance->vertices[region] += 1.0 / (double)l->n;
 }
 
 /* Walks need not know regions here, which are added meanwhile. */
 struct tables train_vertices(struct training *t, struct tables known, long first, long n)
 {
-    struct light_pass l = {.tables = known, .pairs = t->options->pairs, .n = n};
+    struct light_pass l = {.tables = known, .n = n};
     struct importance *importance = &l.tables.importance;
     const struct tables aim = {.emission = known.emission};
-    struct pass pass = {t, &aim, first, first + n, &l, NULL, trace_vertices, take_vertex};
-    importance->vertices.columns = 1;
+    struct pass pass = {t, any_counts(&aim), first, first + n, &l, trace_vertices, take_vertex};
     pass_run(&pass);
     importance->light_vertices = l.vertices / (double)n;
     importance->mean = l.E / (double)n;

@@ -21,27 +21,28 @@ struct end {
     double L, useful; /* luminance(beta); (1 - delta) E / mean + delta, see importance.h */
 };
 
-/* Memory of one thread for the light sub-paths of a chunk. */
+/* What the trials of a chunk draw from. */
 struct trial_pool {
-    struct arena arena;
-    struct vertex *vertex; /* POOL times max_depth + 1 of them; owned */
-    struct end *end;       /* [n], owned */
-    double *before;        /* [n] sum of L useful of the ends before it; owned */
+    struct arena arena; /* of all that follows */
+    struct vertex *vertex;
+    struct end *end;
+    double *before; /* [n] sum of L useful of the ends before it */
     int n;
     double total;
 };
 
 struct pairs_pass {
     struct trial_pool *pool; /* [n_threads], owned */
-    const struct tables *tables;
+    struct regions eye, light;
     struct pair_sums sums;
+    double delta;
 };
 
 static void add_end(const struct pass *p, struct trial_pool *pool, const struct vertex *y)
 {
-    const struct importance *importance = &p->known->importance;
+    const struct importance *importance = &p->counts.tables->importance;
     double L = rgb_luminance(y->beta), E = importance_in(importance, y->light_region);
-    double delta = p->training->options->delta;
+    double delta = ((const struct pairs_pass *)p->context)->delta;
     double useful = (1 - delta) * (importance->mean > 0 ? E / importance->mean : 0) + delta;
     if (!vertex_connectible(y) || !(L * useful > 1e-290) || !fits_float(L * useful))
         return;
@@ -52,13 +53,15 @@ static void add_end(const struct pass *p, struct trial_pool *pool, const struct 
 }
 
 /* The light sub-paths of the chunk whose first eye sub-path is number `chunk`: a name no other chunk has. */
-static void fill_pool(const struct pass *p, int thread, long chunk)
+static void fill_pool(const struct pass *p, struct trial_pool *pool, long chunk)
 {
-    const struct pairs_pass *t = p->context;
-    struct trial_pool *pool = &t->pool[thread];
+    size_t most = POOL * ((size_t)p->training->job->max_depth + 1);
     int longest = p->training->job->max_depth + 1;
     double asked = 0;
     arena_reset(&pool->arena);
+    pool->vertex = arena_alloc(&pool->arena, most * sizeof *pool->vertex);
+    pool->end = arena_alloc(&pool->arena, most * sizeof *pool->end);
+    pool->before = arena_alloc(&pool->arena, most * sizeof *pool->before);
     pool->n = 0;
     pool->total = 0;
     for (long k = 0; k < POOL && patience_lasts(&p->training->patience, &asked); k++) {
@@ -74,14 +77,13 @@ static void fill_pool(const struct pass *p, int thread, long chunk)
 static void try_vertex(const struct pass *p, const struct trial_pool *pool, const struct vertex *z,
                        struct sampler *sampler, struct findings *out)
 {
-    const struct mis_counts counts = {.direct = {1, 1}};
-    const struct tables *tables = p->known;
+    const struct tables *tables = p->counts.tables;
     double near2 = sqr(0.25 / tables->eye.per_metre), beta = rgb_luminance(z->beta);
     for (int i = 0; i < TRIALS && pool->n > 0 && beta > 0; i++) {
         double u = (i + sampler_number(sampler, DRAW_LIGHT_END)) / TRIALS;
         const struct end *end = &pool->end[cumulative_find(pool->before, pool->n, u * pool->total)];
         const struct vertex *y = end->y;
-        struct connection found = connect_pair(p->training->job->scene, &counts, y, z);
+        struct connection found = connect_pair(p->training->job->scene, &p->counts, y, z);
         double d2 = length2(sub(y->p, z->p));
         struct finding f = {.kind = TRIAL, .w = beta / end->useful};
         f.eye = regions_key(&tables->eye, z->p, vertex_side(z));
@@ -96,6 +98,8 @@ static void trace(const struct pass *p, int thread, long i, struct findings *out
     const struct pairs_pass *t = p->context;
     const struct vertex *eye = p->training->work[thread].eye;
     struct sampler sampler;
+    if ((i - p->first) % CHUNK == 0)
+        fill_pool(p, &t->pool[thread], i);
     int n = pass_eye(p, thread, i, STREAM_EYE, &sampler);
     for (int k = 1; k < n; k++)
         if (vertex_connectible(&eye[k]))
@@ -105,29 +109,19 @@ static void trace(const struct pass *p, int thread, long i, struct findings *out
 static void take(void *context, const struct finding *f)
 {
     struct pairs_pass *t = context;
-    const struct regions *eye = &t->tables->eye, *light = &t->tables->light;
-    pair_sums_add(&t->sums, eye, light, regions_find(eye, f->eye), regions_find(light, f->light), f->x, f->w);
+    int e = regions_find(&t->eye, f->eye), y = regions_find(&t->light, f->light);
+    pair_sums_add(&t->sums, &t->eye, &t->light, e, y, f->x, f->w);
 }
 
-struct tables train_pairs(struct training *t, struct tables known, long first, long n)
+struct tables train_pairs(struct training *t, struct tables known, long first, long n, double delta)
 {
-    struct pairs_pass p = {.pool = mem_alloc((size_t)t->job->n_threads, sizeof *p.pool), .tables = &known};
-    size_t vertices = POOL * ((size_t)t->job->max_depth + 1);
-    struct pass pass = {t, &known, first, first + n, &p, fill_pool, trace, take};
-    for (struct trial_pool *pool = p.pool; pool < p.pool + t->job->n_threads; pool++) {
-        pool->vertex = mem_alloc(vertices, sizeof *pool->vertex);
-        pool->end = mem_alloc(vertices, sizeof *pool->end);
-        pool->before = mem_alloc(vertices, sizeof *pool->before);
-    }
+    struct pairs_pass p = {mem_alloc((size_t)t->job->n_threads, sizeof *p.pool), known.eye, known.light, {0}, delta};
+    struct pass pass = {t, any_counts(&known), first, first + n, &p, trace, take};
     pair_sums_init(&p.sums, &known.eye, &known.light);
     pass_run(&pass);
-    for (struct trial_pool *pool = p.pool; pool < p.pool + t->job->n_threads; pool++) {
-        arena_free(&pool->arena);
-        free(pool->vertex);
-        free(pool->end);
-        free(pool->before);
-    }
+    for (int i = 0; i < t->job->n_threads; i++)
+        arena_free(&p.pool[i].arena);
     free(p.pool);
-    known.pairs = pairs_build(&p.sums, &known.eye, &known.light, &known.importance.vertices, t->options->delta);
+    known.pairs = pairs_build(&p.sums, &known.eye, &known.light, known.importance.vertices, delta);
     return known;
 }

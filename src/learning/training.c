@@ -28,8 +28,6 @@ static void trace_chunk(void *context, int64_t job, int slot, int thread)
     double asked = 0;
     long first = p->first + (long)job * CHUNK, end = first + CHUNK < p->end ? first + CHUNK : p->end;
     r->found[slot].n = 0;
-    if (p->begin != NULL)
-        p->begin(p, thread, first);
     for (long i = first; i < end && patience_lasts(&p->training->patience, &asked); i++) {
         arena_reset(&p->training->work[thread].arena);
         p->trace(p, thread, i, &r->found[slot]);
@@ -58,19 +56,11 @@ void pass_run(const struct pass *p)
     free(r.found);
 }
 
-/* The weights are not used here: any counts will do. */
-static struct mis_counts counts_of(const struct pass *p)
-{
-    struct mis_counts counts = {.direct = {1, 1}, .delta = {1, 1}, .tables = p->known};
-    return counts;
-}
-
 int pass_eye(const struct pass *p, int thread, long i, enum stream stream, struct sampler *sampler)
 {
     const struct render_job *job = p->training->job;
     struct workspace *work = &p->training->work[thread];
-    const struct mis_counts counts = counts_of(p);
-    const struct walk w = {job->scene, &counts, &work->arena, sampler, job->rr_threshold};
+    const struct walk w = {job->scene, &p->counts, &work->arena, sampler, job->rr_threshold};
     double u, v;
     *sampler = sampler_start(job->seed, RNG_LEARN, (uint64_t)i, (uint64_t)stream);
     sampler_r2(i, &u, &v);
@@ -81,8 +71,7 @@ int pass_eye(const struct pass *p, int thread, long i, enum stream stream, struc
 int pass_light(const struct pass *p, struct arena *arena, long i, enum stream stream, struct vertex *path)
 {
     const struct render_job *job = p->training->job;
-    const struct mis_counts counts = counts_of(p);
     struct sampler sampler = sampler_start(job->seed, RNG_LEARN, (uint64_t)i, (uint64_t)stream);
-    const struct walk w = {job->scene, &counts, arena, &sampler, job->rr_threshold};
+    const struct walk w = {job->scene, &p->counts, arena, &sampler, job->rr_threshold};
     return path_light(&w, path, job->max_depth + 1);
 }

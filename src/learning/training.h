@@ -7,7 +7,6 @@
 #ifndef ASBDPT_TRAINING_H
 #define ASBDPT_TRAINING_H
 
-#include "learning/options.h"
 #include "learning/patience.h"
 #include "tables/tables.h"
 #include "transport/tile_pass.h"
@@ -36,22 +35,25 @@ enum { CHUNK = 256 }; /* sub-paths per chunk */
 
 struct training {
     const struct render_job *job;
-    const struct learn_options *options;
     struct workspace *work; /* [n_threads] */
     struct patience patience;
 };
 
-/* A pass over sub-paths first .. end-1, whose walks know `known`. */
+/* A pass over sub-paths first .. end-1. */
 struct pass {
     struct training *training;
-    const struct tables *known;
+    struct mis_counts counts; /* any, for no weights are used; and what walks and connections know, counts.tables */
     long first, end;
-    void *context; /* of the pass, for the functions below */
-    /* Sub-path number i; thread: whose. `begin`, unless NULL, is called first for each chunk. */
-    void (*begin)(const struct pass *p, int thread, long chunk);
+    void *context; /* of the pass, for: */
+    /* list what sub-path number i finds, in the thread's workspace; */
     void (*trace)(const struct pass *p, int thread, long i, struct findings *out);
+    /* take in a finding. */
     void (*take)(void *context, const struct finding *f);
 };
+static inline struct mis_counts any_counts(const struct tables *known)
+{
+    return (struct mis_counts){.direct = {1, 1}, .delta = {1, 1}, .tables = known};
+}
 
 /* pass_run: all of it, unless patience ends. */
 void pass_run(const struct pass *p);
@@ -68,15 +70,18 @@ int pass_light(const struct pass *p, struct arena *arena, long i, enum stream st
 /* train_extent: the box in which most eye vertices are. */
 void train_extent(struct training *t, vec3 *low, vec3 *high);
 
-/* train_importance: regions and importance by n eye sub-paths, and the guide if it is wanted. */
-struct tables train_importance(struct training *t, struct tables known, long n);
+/* train_importance: regions and means by n eye sub-paths; importance if there is room for E, the guide if it is
+ * wanted. */
+struct tables train_importance(struct training *t, struct tables known, long n, bool guide);
 
-/* train_emission: by light sub-paths 0 .. n-1. train_vertices: the light regions' vertices, and the means over them, by
- * n more from number `first` on. */
-struct tables train_emission(struct training *t, struct tables known, long n);
+/* train_emission: by light sub-paths 0 .. n-1; delta of emission_build. train_vertices: means over light vertices, by n
+ * more from number `first` on; if there is room for them, also the vertices of each light region, new ones among
+ * them. */
+struct tables train_emission(struct training *t, struct tables known, long n, double delta);
 struct tables train_vertices(struct training *t, struct tables known, long first, long n);
 
-/* train_pairs: by connections tried from eye sub-paths first .. first+n-1. */
-struct tables train_pairs(struct training *t, struct tables known, long first, long n);
+/* train_pairs: by connections tried from eye sub-paths first .. first+n-1; delta of pairs_build, and the share of
+ * trials that do not look at importance. */
+struct tables train_pairs(struct training *t, struct tables known, long first, long n, double delta);
 
 #endif

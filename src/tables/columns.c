@@ -5,6 +5,7 @@
 
 #include "base/alias.h"
 #include "base/mem.h"
+#include "base/number.h"
 
 struct light_columns light_columns_new(const struct light_set *lights, int most)
 {
@@ -26,13 +27,19 @@ void light_columns_free(struct light_columns *c)
     free(c->before);
 }
 
-/* The last one that begins at or before u times the column's probability. */
-int light_columns_cell(const struct light_columns *c, const struct light_set *lights, int column, double u)
+/* Rounding may carry a target to or past the end of what it is to be found in: there the last of power > 0 is meant. */
+int light_columns_draw(const struct light_columns *c, const struct light_set *lights, const double *before, double u,
+                       int *column)
 {
-    int low = column * c->cells_each, high = low + c->cells_each;
-    high = high < lights->n_cells ? high : lights->n_cells;
-    low += cumulative_find(&c->before[low], high - low, u * c->power[column]);
-    while (low > column * c->cells_each && alias_pmf(&lights->choice, low) == 0)
-        low--; /* rounding at the end of the column */
-    return low;
+    double target = u * before[c->n];
+    int k = cumulative_find(before, c->n, target);
+    while (c->power[k] == 0)
+        k--;
+    double within = below_one((target - before[k]) / (before[k + 1] - before[k]));
+    int first = k * c->cells_each, left = lights->n_cells - first, n = left < c->cells_each ? left : c->cells_each;
+    int cell = first + cumulative_find(&c->before[first], n, within * c->power[k]);
+    while (cell > first && alias_pmf(&lights->choice, cell) == 0)
+        cell--;
+    *column = k;
+    return cell;
 }

@@ -19,7 +19,9 @@ struct light_columns {
 struct light_columns light_columns_new(const struct light_set *lights, int most);
 void light_columns_free(struct light_columns *c);
 
-/* light_columns_cell: a cell of a column of power > 0, by power, with the uniform number u. */
-int light_columns_cell(const struct light_columns *c, const struct light_set *lights, int column, double u);
+/* light_columns_draw: *column by a table, and a cell of it by power, both with the uniform number u.
+ *   before  [n + 1] of the table: sums over the columns before each, and over all; > 0 for each column of power > 0 */
+int light_columns_draw(const struct light_columns *c, const struct light_set *lights, const double *before, double u,
+                       int *column);
 
 #endif

@@ -50,11 +50,19 @@ static void mean_squares(const double *square, double n, double above, double *m
     }
 }
 
+/* The sums of a column's rows; their sum is returned. */
+static double sum_rows(const double *q, double row[SIDE])
+{
+    for (int i = 0; i < SIDE; i++)
+        row[i] = sum_of(&q[i * SIDE], SIDE);
+    return sum_of(row, SIDE);
+}
+
 struct emission emission_build(struct emission_sums *s, double rays, double delta)
 {
     struct emission e = {.columns = s->columns};
     int n = e.columns.n;
-    double m[BINS] = {0}, total = 0, all = n * BINS > 0 ? sum_of(s->square, n * BINS) / rays : 0;
+    double m[BINS] = {0}, row[SIDE], total = 0, all = n * BINS > 0 ? sum_of(s->square, n * BINS) / rays : 0;
     e.q = mem_alloc((size_t)n * BINS, sizeof *e.q);
     for (int c = 0; c < n; c++) {
         mean_squares(&s->square[c * BINS], rays * e.columns.power[c], all, m);
@@ -65,12 +73,9 @@ struct emission emission_build(struct emission_sums *s, double rays, double delt
         double even = e.columns.power[i / BINS] / BINS;
         e.q[i] = total > 0 ? delta * even + (1 - delta) * e.q[i] / total : even;
     }
-    e.row = mem_alloc((size_t)n * SIDE, sizeof *e.row);
     e.before = mem_alloc((size_t)n + 1, sizeof *e.before);
-    for (int i = 0; i < n * SIDE; i++)
-        e.row[i] = sum_of(&e.q[i * SIDE], SIDE);
     for (int c = 0; c < n; c++)
-        e.before[c + 1] = e.before[c] + sum_of(&e.row[c * SIDE], SIDE);
+        e.before[c + 1] = e.before[c] + sum_rows(&e.q[c * BINS], row);
     free(s->square);
     return e;
 }
@@ -79,7 +84,6 @@ void emission_free(struct emission *e)
 {
     light_columns_free(&e->columns);
     free(e->q);
-    free(e->row);
     free(e->before);
 }
 
@@ -105,19 +109,16 @@ static double per_q(const struct emission *e, int column)
 int emission_draw(const struct emission *e, const struct light_set *lights, double u, double direction[2],
                   double *rho)
 {
-    int n = e->columns.n;
     *rho = 1;
     if (e->q == NULL)
         return alias_sample(&lights->choice, u, NULL, NULL);
-    double target = u * e->before[n];
-    int column = cumulative_find(e->before, n, target);
-    while (e->columns.power[column] == 0)
-        column--; /* rounding at the end */
-    double within = (target - e->before[column]) / (e->before[column + 1] - e->before[column]);
-    const double *row = &e->row[column * SIDE], *q = &e->q[column * BINS];
+    int column, cell = light_columns_draw(&e->columns, lights, e->before, u, &column);
+    const double *q = &e->q[column * BINS];
+    double row[SIDE];
+    sum_rows(q, row);
     q += SIDE * fall(row, &direction[0]);
     *rho = per_q(e, column) * q[fall(q, &direction[1])];
-    return light_columns_cell(&e->columns, lights, column, below_one(within));
+    return cell;
 }
 
 static double ratio_of_cell(const struct emission *e, const struct light_set *lights, const struct light_point *y0,

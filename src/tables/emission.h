@@ -39,7 +39,6 @@ void emission_sums_add(struct emission_sums *s, int cell, const double u[2], dou
 struct emission {
     struct light_columns columns;
     double *q;      /* [columns.n * EMISSION_BINS], > 0 where the column's power is; NULL: nothing is known; owned */
-    double *row;    /* [columns.n * EMISSION_SIDE] sums of rows; owned */
     double *before; /* [columns.n + 1] sums of the columns before, and of all; owned */
 };
 

@@ -2,24 +2,27 @@
 #include "tables/guide.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/alias.h"
 #include "base/mem.h"
 
 /* --- sums -------------------------------------------------------------------------------------------- */
 
-void guide_sums_init(struct guide_sums *s, const struct light_set *lights)
+void guide_sums_init(struct guide_sums *s, const struct light_set *lights, const struct regions *regions)
 {
-    memset(s, 0, sizeof *s);
     s->columns = light_columns_new(lights, GUIDE_COLUMNS);
-    s->arrived.columns = s->columns.n + 1;
+    s->arrived = mem_alloc((size_t)regions->limit * ((size_t)s->columns.n + 1), sizeof *s->arrived);
+}
+
+static double *arrived_in(const struct guide_sums *s, int region)
+{
+    return &s->arrived[(size_t)region * ((size_t)s->columns.n + 1)];
 }
 
 void guide_sums_add(struct guide_sums *s, const struct regions *regions, int region, int cell, double value)
 {
     for (int r = region; r >= 0; r = regions->region[r].above) {
-        double *arrived = sums_row(&s->arrived, r);
+        double *arrived = arrived_in(s, r);
         arrived[cell / s->columns.cells_each] += value;
         arrived[s->columns.n]++;
     }
@@ -27,46 +30,42 @@ void guide_sums_add(struct guide_sums *s, const struct regions *regions, int reg
 
 /* --- the tables -------------------------------------------------------------------------------------- */
 
-/* t of every region, each from that of the region above it, region 0 from its own sums. K is SMOOTHING times the
- * number of columns that the region above effectively has [Kish 1965]: the more there are, the more contributions it
- * takes to tell them apart. */
-static double *shares_of_regions(struct guide_sums *s, const struct regions *regions)
+/* t of every region in place of its sums, each from that of the region above it, region 0 from its own. K is SMOOTHING
+ * times the number of columns that the region above effectively has [Kish 1965]: the more there are, the more
+ * contributions it takes to tell them apart. */
+static void find_shares(const struct guide_sums *s, const struct regions *regions)
 {
     const double SMOOTHING = 16;
     int n = s->columns.n;
-    double *shares = mem_alloc((size_t)regions->n * (size_t)n, sizeof *shares);
     for (int i = 0; i < regions->n; i++) {
-        const double *arrived = sums_row(&s->arrived, i), samples = arrived[n], sum = sum_of(arrived, n);
-        double *t = &shares[(size_t)i * (size_t)n], square = 0;
+        double *t = arrived_in(s, i), samples = t[n], sum = sum_of(t, n), square = 0;
         if (i == 0) {
             for (int c = 0; c < n; c++)
-                t[c] = sum > 0 ? arrived[c] / sum : s->columns.power[c];
+                t[c] = sum > 0 ? t[c] / sum : s->columns.power[c];
             continue;
         }
-        const double *above = &shares[(size_t)regions->region[i].above * (size_t)n];
+        const double *above = arrived_in(s, regions->region[i].above);
         for (int c = 0; c < n; c++)
             square += above[c] * above[c];
         double K = SMOOTHING / square, own = sum > 0 ? samples / (samples + K) / sum : 0, others = K / (samples + K);
         for (int c = 0; c < n; c++)
-            t[c] = own * arrived[c] + others * above[c];
+            t[c] = own * t[c] + others * above[c];
     }
-    return shares;
 }
 
 struct guide guide_build(struct guide_sums *s, const struct regions *regions, double delta)
 {
     struct guide g = {s->columns, NULL, regions->n};
     int n = g.columns.n;
-    double *t = shares_of_regions(s, regions);
+    find_shares(s, regions);
     g.before = mem_alloc((size_t)g.n * (size_t)(n + 1), sizeof *g.before);
     for (int i = 0; i < g.n; i++) {
+        const double *t = arrived_in(s, i);
         double *before = &g.before[(size_t)i * (size_t)(n + 1)];
         for (int c = 0; c < n; c++)
-            before[c + 1] =
-                before[c] + delta * g.columns.power[c] + (1 - delta) * t[(size_t)i * (size_t)n + (size_t)c];
+            before[c + 1] = before[c] + delta * g.columns.power[c] + (1 - delta) * t[c];
     }
-    free(t);
-    free(s->arrived.x);
+    free(s->arrived);
     return g;
 }
 
@@ -99,16 +98,8 @@ int guide_draw(const struct guide *g, const struct light_set *lights, int region
         return -1;
     if (before == NULL)
         return alias_sample(&lights->choice, u, pmf, NULL);
-    double target = u * before[g->columns.n];
-    int column = cumulative_find(before, g->columns.n, target);
-    double q = pmf_of_column(g, before, column);
-    if (g->columns.cells_each == 1) {
-        *pmf = q;
-        return column;
-    }
-    double rest = below_one((target - before[column]) / (before[column + 1] - before[column]));
-    int cell = light_columns_cell(&g->columns, lights, column, rest);
-    *pmf = q * alias_pmf(&lights->choice, cell) / g->columns.power[column];
+    int column, cell = light_columns_draw(&g->columns, lights, before, u, &column);
+    *pmf = pmf_of_column(g, before, column) * (alias_pmf(&lights->choice, cell) / g->columns.power[column]);
     return cell;
 }
 

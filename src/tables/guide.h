@@ -22,18 +22,18 @@
 
 #include "tables/columns.h"
 #include "tables/regions.h"
-#include "tables/sums.h"
 
 enum { GUIDE_COLUMNS = 256 };
 
 /* What has been found so far. */
 struct guide_sums {
     struct light_columns columns;
-    struct row_sums arrived; /* contributions (luminance) by region and column, and last how many there were; owned */
+    double *arrived; /* [regions->limit * (columns.n + 1)], per region: contributions (luminance) by column, and last
+                      * how many there were; owned */
 };
 
-/* guide_sums_init: nothing yet; guide_build releases them. */
-void guide_sums_init(struct guide_sums *s, const struct light_set *lights);
+/* guide_sums_init: nothing yet, of regions known or to come; guide_build releases them. */
+void guide_sums_init(struct guide_sums *s, const struct light_set *lights, const struct regions *regions);
 
 /* guide_sums_add: a light point of `cell` brought `value` > 0 to a vertex of the region, and of all above. */
 void guide_sums_add(struct guide_sums *s, const struct regions *regions, int region, int cell, double value);

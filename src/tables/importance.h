@@ -8,11 +8,12 @@
 #ifndef ASBDPT_IMPORTANCE_H
 #define ASBDPT_IMPORTANCE_H
 
-#include "tables/sums.h"
+#include <stddef.h>
 
 struct importance {
-    struct row_sums E;        /* by light region; owned */
-    struct row_sums vertices; /* connectible vertices y_1, y_2 ... of a light sub-path in each light region; owned */
+    /* [limit of the light regions], owned; NULL: not looked for */
+    double *E;
+    double *vertices; /* connectible vertices y_1, y_2 ... of a light sub-path in each, met in no smaller one */
     /* Means over sub-paths: */
     double light_vertices;               /* connectible vertices of a light sub-path altogether */
     double eye_vertices, first_vertices; /* of an eye sub-path, and first hits among them */
@@ -23,7 +24,7 @@ struct importance {
 /* importance_in: E of a region, >= 0; 0 where no eye sub-path came. */
 static inline double importance_in(const struct importance *importance, int region)
 {
-    return region < importance->E.rows ? importance->E.x[region] : 0;
+    return importance->E != NULL ? importance->E[region] : 0;
 }
 
 #endif

@@ -5,16 +5,19 @@
 #include <stdlib.h>
 
 #include "base/alias.h"
+#include "base/mem.h"
 
 static const double KAPPA = 4; /* trials of mean weight that the pair above counts for */
 
 void pair_sums_init(struct pair_sums *s, const struct regions *eye, const struct regions *light)
 {
-    memset(s, 0, sizeof *s);
-    s->worth.columns = s->weight.columns = light->n;
-    sums_row(&s->worth, eye->n - 1);
-    sums_row(&s->weight, eye->n - 1);
+    size_t n = (size_t)eye->n * (size_t)light->n;
+    s->worth = mem_alloc(n, sizeof *s->worth);
+    s->weight = mem_alloc(n, sizeof *s->weight);
+    s->trials = 0;
 }
+
+static size_t number_of(const struct regions *light, int e, int y) { return (size_t)e * (size_t)light->n + (size_t)y; }
 
 /* The pair above: both one level up, or the finer one alone until they are of the same level. False at the top. */
 static bool pair_above(const struct regions *eye, const struct regions *light, int *e, int *y)
@@ -34,40 +37,38 @@ void pair_sums_add(struct pair_sums *s, const struct regions *eye, const struct 
 {
     s->trials++;
     do {
-        sums_row(&s->worth, e)[y] += w * x;
-        sums_row(&s->weight, e)[y] += w;
+        s->worth[number_of(light, e, y)] += w * x;
+        s->weight[number_of(light, e, y)] += w;
     } while (pair_above(eye, light, &e, &y));
 }
 
-/* m(e,l) of all pairs into `m`, by eye and light region. A pair comes after the one above it. */
-static void shrink(struct pair_sums *s, const struct regions *eye, const struct regions *light, struct row_sums *m)
+/* m(e,l) of all pairs in place of the sums of w x. A pair comes after the one above it. */
+static void find_means(const struct pair_sums *s, const struct regions *eye, const struct regions *light)
 {
-    sums_row(m, eye->n - 1);
-    double prior = s->trials > 0 ? KAPPA * s->weight.x[0] / s->trials : 1; /* all trials count in the pair on top */
+    double *m = s->worth, prior = s->trials > 0 ? KAPPA * s->weight[0] / s->trials : 1; /* all count in the top pair */
     for (int e = 0; e < eye->n; e++)
         for (int y = 0; y < light->n; y++) {
             int e_above = e, y_above = y;
-            double above = pair_above(eye, light, &e_above, &y_above) ? sums_row(m, e_above)[y_above] : 0;
-            sums_row(m, e)[y] = (sums_row(&s->worth, e)[y] + prior * above) / (sums_row(&s->weight, e)[y] + prior);
+            size_t i = number_of(light, e, y);
+            double above = pair_above(eye, light, &e_above, &y_above) ? m[number_of(light, e_above, y_above)] : 0;
+            m[i] = (s->worth[i] + prior * above) / (s->weight[i] + prior);
         }
 }
 
 struct pairs pairs_build(struct pair_sums *s, const struct regions *eye, const struct regions *light,
-                         const struct row_sums *vertices, double delta)
+                         const double *vertices, double delta)
 {
-    struct row_sums m = {.columns = light->n};
-    double all = sum_of(vertices->x, vertices->rows);
-    shrink(s, eye, light, &m);
+    double all = sum_of(vertices, light->n);
+    find_means(s, eye, light);
     for (int e = 0; e < eye->n; e++) {
-        double *row = sums_row(&m, e), mean = 0;
-        for (int y = 0; y < vertices->rows; y++)
-            mean += vertices->x[y] * row[y];
+        double *row = &s->worth[number_of(light, e, 0)], mean = 0;
+        for (int y = 0; y < light->n; y++)
+            mean += vertices[y] * row[y];
         for (int y = 0; y < light->n; y++)
             row[y] = mean > 0 ? (1 - delta) * row[y] / mean + delta / all : all > 0 ? 1 / all : 1;
     }
-    free(s->worth.x);
-    free(s->weight.x);
-    struct pairs p = {eye->n, light->n, m.x};
+    free(s->weight);
+    struct pairs p = {eye->n, light->n, s->worth};
     return p;
 }
 

@@ -21,12 +21,11 @@
 #define ASBDPT_TABLES_PAIRS_H
 
 #include "tables/regions.h"
-#include "tables/sums.h"
 
 /* Sums over trials, for pairs of regions of the same level. */
 struct pair_sums {
-    struct row_sums worth, weight; /* by eye and light region, of w x and of w; owned */
-    double trials;
+    double *worth, *weight; /* [eye->n * light->n] of w x and of w; owned */
+    double trials;          /* how many */
 };
 
 /* pair_sums_init: for these regions; none may be added afterwards. pairs_build releases the sums. */
@@ -43,10 +42,10 @@ struct pairs {
 };
 
 /* pairs_build: the table; free(p.h) releases it.
- *   vertices  N(l) by light region, those of a region counted in the finest region they lie in
+ *   vertices  [light->n] N(l), those of a region counted in the finest region they lie in
  *   delta     (0,1] */
 struct pairs pairs_build(struct pair_sums *s, const struct regions *eye, const struct regions *light,
-                         const struct row_sums *vertices, double delta);
+                         const double *vertices, double delta);
 
 /* pairs_from_row: a table that does not look at the eye vertex: h(e,l) = row[l].
  *   row  [n_light], handed over */

@@ -9,8 +9,8 @@
 #include "base/number.h"
 #include "base/rng.h"
 
-/* A key: level (2 bits), x, y, z (19 bits each), face (3 bits, never 0). */
-enum { FACE_BITS = 3, AXIS_BITS = 19, LEVEL_SHIFT = FACE_BITS + 3 * AXIS_BITS };
+/* A key: level (2 bits), face (3 bits, never 0), x, y, z (19 bits each). */
+enum { AXIS_BITS = 19, FACE_SHIFT = 3 * AXIS_BITS, LEVEL_SHIFT = FACE_SHIFT + 3 };
 
 void regions_init(struct regions *r, vec3 low, vec3 high, int cells, int n_levels, int limit)
 {
@@ -26,10 +26,11 @@ void regions_init(struct regions *r, vec3 low, vec3 high, int cells, int n_level
     r->last[2] = int_within((size.z + shift) * r->per_metre, 0, cells);
     r->n_levels = n_levels;
     r->limit = limit;
-    r->region = mem_grow(r->region, &r->capacity, 1, sizeof *r->region);
-    r->region[0].above = -1;
-    r->region[0].level = n_levels;
-    r->n = 1;
+    for (r->n_slots = 1; r->n_slots < 2 * (size_t)limit; r->n_slots *= 2)
+        ;
+    r->slot = mem_alloc(r->n_slots, sizeof *r->slot);
+    r->region = mem_alloc((size_t)limit, sizeof *r->region);
+    r->region[r->n++] = (struct region){.above = -1, .level = n_levels};
 }
 
 void regions_free(struct regions *r)
@@ -54,17 +55,15 @@ uint64_t regions_key(const struct regions *r, vec3 p, vec3 side)
     vec3 c = mul(sub(p, r->origin), r->per_metre);
     uint64_t x = (uint64_t)int_within(c.x, 0, r->last[0]), y = (uint64_t)int_within(c.y, 0, r->last[1]);
     uint64_t z = (uint64_t)int_within(c.z, 0, r->last[2]);
-    return x << (FACE_BITS + 2 * AXIS_BITS) | y << (FACE_BITS + AXIS_BITS) | z << FACE_BITS | face_of(side);
+    return face_of(side) << FACE_SHIFT | x << 2 * AXIS_BITS | y << AXIS_BITS | z;
 }
 
 /* The region of the next level that holds it: all coordinates halved. */
 static uint64_t key_above(uint64_t key)
 {
-    const uint64_t axis = ((uint64_t)1 << (AXIS_BITS - 1)) - 1;
-    const uint64_t halves =
-        (axis << FACE_BITS) | (axis << (FACE_BITS + AXIS_BITS)) | (axis << (FACE_BITS + 2 * AXIS_BITS));
-    const uint64_t face = (1 << FACE_BITS) - 1, level = (uint64_t)3 << LEVEL_SHIFT;
-    return ((key >> 1) & halves) | (key & face) | ((key & level) + ((uint64_t)1 << LEVEL_SHIFT));
+    const uint64_t HALF = ((uint64_t)1 << (AXIS_BITS - 1)) - 1, XYZ = ((uint64_t)1 << FACE_SHIFT) - 1;
+    const uint64_t HALVES = HALF << 2 * AXIS_BITS | HALF << AXIS_BITS | HALF;
+    return (key >> 1 & HALVES) | ((key & ~XYZ) + ((uint64_t)1 << LEVEL_SHIFT));
 }
 
 /* The slot that holds the key, or the free one where it belongs. */
@@ -76,34 +75,17 @@ static struct region_slot *slot_of(const struct regions *r, uint64_t key)
     return &r->slot[i];
 }
 
-static void grow(struct regions *r)
-{
-    struct regions old = *r;
-    r->n_slots = old.n_slots == 0 ? 1024 : 2 * old.n_slots;
-    r->slot = mem_alloc(r->n_slots, sizeof *r->slot);
-    for (size_t i = 0; i < old.n_slots; i++)
-        if (old.slot[i].key != 0)
-            *slot_of(r, old.slot[i].key) = old.slot[i];
-    free(old.slot);
-}
-
 /* A region of the given level, after those that hold it. */
 static int add_region(struct regions *r, uint64_t key, int level)
 {
-    if (r->n_slots > 0 && slot_of(r, key)->key == key)
+    if (slot_of(r, key)->key == key)
         return slot_of(r, key)->number;
     int above = level + 1 < r->n_levels ? add_region(r, key_above(key), level + 1) : 0;
     if (r->n >= r->limit)
         return above;
-    if (2 * (size_t)r->n >= r->n_slots)
-        grow(r);
-    r->region = mem_grow(r->region, &r->capacity, (size_t)r->n + 1, sizeof *r->region);
-    r->region[r->n].above = above;
-    r->region[r->n].level = level;
-    struct region_slot *s = slot_of(r, key);
-    s->key = key;
-    s->number = r->n++;
-    return s->number;
+    *slot_of(r, key) = (struct region_slot){key, r->n};
+    r->region[r->n] = (struct region){above, level};
+    return r->n++;
 }
 
 int regions_add(struct regions *r, uint64_t key) { return add_region(r, key, 0); }

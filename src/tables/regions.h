@@ -31,10 +31,9 @@ struct regions {
     int n_levels;             /* 1 .. REGION_LEVELS */
     int limit;                /* no more regions than these */
     struct region_slot *slot; /* [n_slots], owned */
-    size_t n_slots;           /* a power of 2, or 0 */
-    struct region *region;    /* [n], owned */
-    size_t capacity;
-    int n; /* regions known, of all levels, >= 1 */
+    size_t n_slots;           /* a power of 2, at least 2 limit; 0: no regions, region 0 stands for all */
+    struct region *region;    /* [limit], owned */
+    int n;                    /* regions known, of all levels, >= 1 */
 };
 
 enum { REGION_LEVELS = 4 };

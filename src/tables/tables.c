@@ -10,8 +10,8 @@ void tables_free(struct tables *t)
 {
     regions_free(&t->eye);
     regions_free(&t->light);
-    free(t->importance.E.x);
-    free(t->importance.vertices.x);
+    free(t->importance.E);
+    free(t->importance.vertices);
     guide_free(&t->guide);
     emission_free(&t->emission);
     free(t->pairs.h);
