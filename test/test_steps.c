@@ -173,6 +173,7 @@ static void check_joint(struct test *t, const struct vertex *y, const struct ver
     CHECK(t, close_to(j->area_y, at_y / d2) && close_to(j->area_z, at_z / d2), "area_y %g, area_z %g, not %g, %g",
           j->area_y, j->area_z, at_y / d2, at_z / d2);
     CHECK(t, close_to(j->length, sqrt(d2)), "length: %g, not %g", j->length, sqrt(d2));
+    CHECK(t, length(sub(j->w, w)) < 1e-9, "w: not the direction from z to y");
     CHECK(t, j->y == y && j->z == z, "value: of other vertices");
 }
 

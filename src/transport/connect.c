@@ -88,8 +88,8 @@ bool connect_light(const struct scene *scene, const struct vertex *z, const stru
     out->value = rgb_black();
     if (!(d2 > 0) || !bsdf_may_scatter(&z->bsdf, z->wo, d))
         return false;
+    double distance = parallel ? INFINITY : sqrt(d2);
     vec3 w = mul(d, 1 / sqrt(d2));
-
     rgb Le = light_Le(lights, at, neg(w));
     if (rgb_is_black(Le))
         return false;
@@ -99,8 +99,7 @@ bool connect_light(const struct scene *scene, const struct vertex *z, const stru
     double at_light = light->kind == LIGHT_AREA ? abs_dot(at->n, w) * spread : spread;
     /* C* = (Le / pdf) c alpha_t, c = G f: the cosine at z is in the factor [V97 10.2] */
     rgb value = rgb_mul(rgb_mul(z->beta, at_z.factor), rgb_scale(Le, at_light / pdf));
-    struct lit l = {z, *at, pdf, value, at_z.pdf, at_z.pdf_rev, at_light};
-    *out = l;
+    *out = (struct lit){z, *at, pdf, value, at_z.pdf, at_z.pdf_rev, at_light, w, distance, spread};
     return !rgb_is_black(value);
 }
 
@@ -138,22 +137,18 @@ struct connection connect_lit(const struct scene *scene, const struct mis_counts
     if (rgb_is_black(l->value) || !lit_visible(scene, l))
         return nothing();
     bool parallel = light_at_infinity(&lights->light[at->light]);
-    vec3 d = parallel ? at->w : sub(at->p, z->p);
-    double d2 = length2(d);
-    double distance = sqrt(d2);
-    vec3 w = mul(d, 1 / distance);
     struct vertex y;
     vertex_light_end(scene, counts, at, &y);
     double hit = light_is_delta(&lights->light[at->light]) ? 0 : counts->hit[z->eye_end];
     double light = mis_side(counts, l->pdf_z * l->at_light, y.pdf_fwd, hit, 0, 0); /* mis.h (5): of s = 0 alone */
-    double pdf_emit = emit_pdf(&counts_tables(counts)->emission, lights, at, z->p, neg(w));
-    double pdf_z = pdf_emit * vertex_cosine(z, w) * (parallel ? 1 : 1 / d2);
+    double pdf_emit = emit_pdf(&counts_tables(counts)->emission, lights, at, z->p, neg(l->w));
+    double pdf_z = pdf_emit * vertex_cosine(z, l->w) * l->spread;
     double eye = mis_side(counts, pdf_z, z->pdf_fwd, z->mis_c, l->pdf_rev_z, z->mis);
     double count = n_direct(counts, lights, z->eye_region, z->eye_end, at->cell, at->w);
     struct connection c = nothing();
     c.value = l->value;
-    c.length = z->length + (parallel ? light_distance(lights, z->p, w) : distance);
-    pass_media(scene, counts, z, w, parallel ? INFINITY : distance, at->prim_id, &c.value, &eye, &light);
+    c.length = z->length + (parallel ? light_distance(lights, z->p, l->w) : l->distance);
+    pass_media(scene, counts, z, l->w, l->distance, at->prim_id, &c.value, &eye, &light);
     c.weight = mis_weight(counts, count, light, eye); /* mis.h (7) */
     c.end = parallel ? at->w : at->p;
     c.light = at->light;
@@ -186,7 +181,7 @@ bool connect_join(const struct vertex *y, const struct vertex *z, struct joint *
     struct scatter at_y = scatter_towards(y, neg(w), IMPORTANCE);
     /* C* = alpha_s c alpha_t, c = f G f: both cosines are in the factors [V97 10.2] */
     rgb value = rgb_mul(rgb_mul(y->beta, at_y.factor), rgb_scale(rgb_mul(z->beta, at_z.factor), 1 / d2));
-    *out = (struct joint){y, z, value, at_y.pdf, at_z.pdf, at_y.pdf_rev, at_z.pdf_rev, distance,
+    *out = (struct joint){y, z, value, at_y.pdf, at_z.pdf, at_y.pdf_rev, at_z.pdf_rev, distance, w,
                           vertex_cosine(y, w) / d2, vertex_cosine(z, w) / d2};
     return !rgb_is_black(value);
 }
@@ -203,8 +198,7 @@ struct connection connect_joint(const struct scene *scene, const struct mis_coun
     c.value = j->value;
     c.length = y->length + j->length + z->length;
     double n = n_connect(counts, y->light_region, z->eye_region, z->eye_end);
-    vec3 w = mul(sub(y->p, z->p), 1 / j->length);
-    pass_media(scene, counts, z, w, j->length, y->prim_id, &c.value, &eye, &light);
+    pass_media(scene, counts, z, j->w, j->length, y->prim_id, &c.value, &eye, &light);
     c.weight = mis_weight(counts, n, light, eye); /* mis.h (7) */
     return c;
 }

@@ -46,6 +46,8 @@ struct lit {
     rgb value;
     double pdf_z, pdf_rev_z; /* 1/sr, at z: of the direction to the light, of going on to the vertex before */
     double at_light; /* what turns that of the direction into a density of the point */
+    vec3 w;          /* unit, from z to the point */
+    double distance, spread; /* of the point, and 1/distance^2; at infinity infinite, and 1 */
 };
 
 /* connect_light: false if nothing can arrive from that point, found with that density; out->value is black then.
@@ -68,6 +70,7 @@ struct joint {
     double pdf_y, pdf_z;         /* 1/sr, at y and at z, of the direction to the other */
     double pdf_rev_y, pdf_rev_z; /* 1/sr, of going on from there to the vertex before */
     double length;               /* of the edge */
+    vec3 w;                      /* its direction, unit, from z to y */
     double area_y, area_z;       /* what turns a density per steradian at the other end into one per area here */
 };
 

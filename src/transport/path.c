@@ -158,7 +158,7 @@ int walk_on(const struct walk *w, struct departure from, struct vertex *path, in
         if (mode == RADIANCE)
             lamp = meet_lamp(w, &path[n - 1], &from, met ? &at : NULL);
         else if (n == 1 && met && scene_lamp_stops(w->scene, &from.ray, &at))
-            break;
+            break; /* emitted light does not pass lamps */
         if (!met) {
             if (mode == RADIANCE && escape(w, &path[n], &path[n - 1], &from, lamp))
                 n++;
@@ -225,4 +225,13 @@ int path_light(const struct walk *w, struct vertex *path, int max_vertices)
     from.beta = rgb_scale(emitted, 1 / (at.pdf * pdf)); /* alpha_2 of [V97 eq. 10.6] */
     from.ray.tmin = ray_margin(from.ray.o);
     return walk_on(w, from, path, 1, max_vertices, IMPORTANCE);
+}
+
+double path_importance(const struct importance *importance, const struct vertex *light, int n)
+{
+    double sum = 0;
+    for (int i = 1; i < n; i++)
+        if (vertex_connectible(&light[i]))
+            sum += rgb_luminance(light[i].beta) * importance_in(importance, light[i].light_region);
+    return sum;
 }

@@ -21,6 +21,7 @@
 
 #include "base/mem.h"
 #include "base/sampler.h"
+#include "tables/importance.h"
 #include "transport/vertex.h"
 
 enum { PATH_MAX_DEPTH = 1000 }; /* largest maxdepth accepted */
@@ -46,6 +47,17 @@ int path_eye_pixel(const struct walk *w, int x, int y, struct vertex *path, int 
 
 /* path_light: choose a light, emit, and walk. Returns the number of vertices; 0 when nothing is emitted. */
 int path_light(const struct walk *w, struct vertex *path, int max_vertices);
+
+/* path_throughput: beta of [S24]: mean over RGB at the furthest vertex of a light sub-path; 0 if it is empty. One of
+ * y_0 alone, which met no surface, has the emitted radiance there, as in pbrt-v3, where [S24] was implemented. */
+static inline double path_throughput(const struct vertex *light, int n)
+{
+    return n < 1 ? 0 : rgb_mean(light[n - 1].beta);
+}
+
+/* path_importance: what the camera can use of a light sub-path: the sum of I (importance.h) over its connectible
+ * vertices y_1 .. */
+double path_importance(const struct importance *importance, const struct vertex *light, int n);
 
 /* --- the walk itself, step by step -------------------------------------------------------------------- */
 

@@ -9,15 +9,6 @@ struct light_point vertex_light_point(const struct vertex *v)
     return at;
 }
 
-double path_importance(const struct importance *importance, const struct vertex *light, int n)
-{
-    double sum = 0;
-    for (int i = 1; i < n; i++)
-        if (vertex_connectible(&light[i]))
-            sum += rgb_luminance(light[i].beta) * importance_in(importance, light[i].light_region);
-    return sum;
-}
-
 struct passage vertex_pass(const struct scene *scene, const struct vertex *v, vec3 w, double distance, uint32_t to)
 {
     const struct ray ray = {v->p, w, ray_margin(v->p), distance, v->prim_id, to};

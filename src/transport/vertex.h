@@ -7,7 +7,6 @@
 #include "material/bsdf.h"
 #include "scene/light.h"
 #include "scene/passage.h"
-#include "tables/importance.h"
 #include "transport/mis.h"
 
 enum vertex_kind {
@@ -47,9 +46,9 @@ enum vertex_kind {
  * A vertex within a medium (scene/medium.h) is as one on a surface, with ng 0, prim_id WITHIN_MEDIUM and pdf_fwd per
  * volume, 1/m^3.
  *
- * See-through lamps (scene.h) scatter nothing, so no walk has vertices there, but that one may start on them. The first
- * that an eye walk meets on its way from one vertex to the next is the `lamp` of the next: the last vertex of a path of
- * its own, and in no sub-path. Its kind is SURFACE, it has what connect_hit needs, and no scattering.
+ * Walks may start on see-through lamps (scene.h), and pass them without a vertex. The first that an eye walk passes on
+ * an edge is the `lamp` of the vertex at the edge's end: the last vertex of a path of its own, and of no sub-path. Its
+ * kind is SURFACE, it has what connect_hit needs, and no scattering.
  */
 struct vertex {
     enum vertex_kind kind;
@@ -71,17 +70,6 @@ struct vertex {
     const struct vertex *lamp; /* above; NULL: none */
 };
 
-/* path_throughput: beta of [S24]: mean over RGB at the furthest vertex of a light sub-path; 0 if it is empty. One of
- * y_0 alone, which met no surface, has the emitted radiance there, as in pbrt-v3, where [S24] was implemented. */
-static inline double path_throughput(const struct vertex *light, int n)
-{
-    return n < 1 ? 0 : rgb_mean(light[n - 1].beta);
-}
-
-/* path_importance: what the camera can use of a light sub-path: the sum of I (importance.h) over its connectible
- * vertices y_1 .. */
-double path_importance(const struct importance *importance, const struct vertex *light, int n);
-
 /* vertex_light_end: fill in a y_0 for a point drawn on a light (light.h); its beta is 1/density. */
 void vertex_light_end(const struct scene *scene, const struct mis_counts *counts, const struct light_point *at,
                       struct vertex *out);
@@ -101,21 +89,19 @@ static inline bool vertex_connectible(const struct vertex *v)
     return v->kind == VERTEX_SURFACE ? v->bsdf.n_smooth > 0 : v->kind != VERTEX_ESCAPED;
 }
 
-/* vertex_cosine: what turns a density across direction w, unit, into one at the vertex; 1 without a normal. */
+/* vertex_cosine: what turns a density across direction w, unit, into one at the vertex: |cos(w, ng)|; 1 without ng. */
 static inline double vertex_cosine(const struct vertex *v, vec3 w)
 {
     return v->kind >= VERTEX_MEDIUM ? 1 : abs_dot(v->ng, w);
 }
 
-/* vertex_pass: the way from it in direction w, unit, so far, to primitive `to`. */
+/* vertex_pass: what media do from v on, along unit direction w, as far as `distance`, where primitive `to` is. */
 struct passage vertex_pass(const struct scene *scene, const struct vertex *v, vec3 w, double distance, uint32_t to);
 
-/* vertex_side: the normal by which a surface point is sorted into regions: ng, turned to where the walk came from,
- * since the two sides of a sheet have nothing in common. The other walk through the same points comes from the next
- * vertex. It finds the same region, and the weights the same counts, if both neighbours lie on one side; they do where
- * no lobe transmits, for the geometric normal decides on that (bsdf.h), whatever the shading normal is. Elsewhere ng
- * stays as it is: it is 0 within a medium. (Delta lobes may transmit: nothing is connected where a path passes by
- * them.) */
+/* vertex_side: the normal by which a surface point is sorted into regions: ng, turned to where its walk came
+ * from. The other walk through the same points comes from the other neighbour, and must find the same region, lest the
+ * weights count differently. It does where no lobe transmits, for then both neighbours lie on one side of ng (bsdf.h).
+ * Elsewhere ng stays as it is: it is 0 within a medium. (Delta lobes may transmit: nothing is connected there.) */
 static inline vec3 vertex_side(const struct vertex *v)
 {
     return v->bsdf.transmits || dot(v->ng, v->wo) >= 0 ? v->ng : neg(v->ng);

@@ -228,10 +228,9 @@ struct connection ris_lit(struct ris *r, const struct lit *l)
     struct vertex y;
     if (rgb_is_black(c.value))
         return c;
-    const struct lamp_way way = lamp_way(r->scene, z->p, &l->at);
     vertex_light_end(r->scene, r->counts, &l->at, &y);
-    double pdf_emit = emit_pdf(&counts_tables(r->counts)->emission, &r->scene->lights, &l->at, z->p, neg(way.w));
-    double pdf_z = pdf_emit * abs_dot(z->ng, way.w) * (1 / way.d2);
+    double pdf_emit = emit_pdf(&counts_tables(r->counts)->emission, &r->scene->lights, &l->at, z->p, neg(l->w));
+    double pdf_z = pdf_emit * abs_dot(z->ng, l->w) * l->spread;
     const struct path_end y_end = {&y, NULL, l->pdf_z * l->at_light, 0}, z_end = {z, z - 1, pdf_z, l->pdf_rev_z};
     c.weight = weigh(r, 1, &y_end, &z_end);
     return c;
